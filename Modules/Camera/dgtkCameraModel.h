@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkCameraModel_h
+#define dgtkCameraModel_h
+
+#include "dgtkCameraModule.h"
+#include "dgtkRigid3.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace dgtk
+{
+
+// Conventions, written once for the whole library.
+// Camera frame: x right, y down, z forward (OpenCV). x_camera = R * x_world + t.
+// Pixels: the image's top-left corner is (0, 0); the centre of the pixel in column i, row j is (i + 0.5, j + 0.5).
+
+/// A half line in the camera frame: x(t) = origin + t * direction, t >= 0. Directions are not normalised.
+struct CameraRay
+{
+  Eigen::Vector3d origin;
+  Eigen::Vector3d direction;
+};
+
+/// Projections that a 3x3 matrix describes, which OpenGL can draw and for which depth has a closed form per triangle.
+/// perspective: pixel = (K x / z); otherwise (orthographic): pixel = K * (x, y, 1), K in pixels per scene unit.
+/// K is [fx s cx; 0 fy cy; 0 0 1].
+struct LinearProjection
+{
+  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+  bool perspective = true;
+};
+
+/// How image points and rays of a camera belong together. Immutable. Everything that is derived from a camera asks
+/// for rays and projections here; nothing else in the library assumes a kind of lens.
+class DGTKCAMERA_EXPORT CameraModel
+{
+public:
+  virtual ~CameraModel() = default;
+  CameraModel(const CameraModel&) = delete;
+  CameraModel& operator=(const CameraModel&) = delete;
+
+  /// Name as written in scene files and cameras.json: "pinhole", "orthographic".
+  virtual std::string name() const = 0;
+  int width() const { return this->Width; }   ///< pixels
+  int height() const { return this->Height; } ///< pixels
+
+  /// The ray through an image point (pixels), in the camera frame. For the models with a linear() projection
+  /// direction.z is 1 and origin.z is 0, so that the ray's parameter is the depth.
+  virtual CameraRay rayThrough(const Eigen::Vector2d& pixel) const = 0;
+
+  /// Image point of a point in the camera frame (scene units), also outside the image. False, and `pixel`
+  /// untouched, when the point has none (behind a pinhole).
+  virtual bool project(const Eigen::Vector3d& x_in_camera, Eigen::Vector2d& pixel) const = 0;
+
+  /// The projection's matrix where it is linear, nothing otherwise.
+  virtual std::optional<LinearProjection> linear() const { return std::nullopt; }
+
+protected:
+  CameraModel(int width, int height)
+    : Width(width)
+    , Height(height)
+  {
+  }
+
+private:
+  int Width;
+  int Height;
+};
+
+/// A camera at one instant, as the ground truth needs it.
+struct View
+{
+  std::string name;
+  std::shared_ptr<const CameraModel> model;
+  Rigid3 camera_from_world;
+  double near = 0.1;   ///< smallest depth that is seen, scene units, > 0
+  double far = 1000.0; ///< largest depth that is seen, scene units, > near
+};
+
+/// [fx 0 cx; 0 fy cy; 0 0 1], pixels. Throws UsageError unless 1 <= width, height <= 2^20, fx, fy finite and > 0.
+DGTKCAMERA_EXPORT std::shared_ptr<const CameraModel> makePinhole(int width, int height, const Eigen::Matrix3d& K);
+
+/// gluPerspective's camera: vertical field of view in degrees (0, 180); aspect = width / height of the *view*. fy = H/2
+/// / tan(fovY/2), fx = W/2 / (aspect * tan(fovY/2)), principal point (W/2, H/2). aspect <= 0 means square pixels.
+DGTKCAMERA_EXPORT std::shared_ptr<const CameraModel> makePinholeFromFov(
+  int width, int height, double fovYDegrees, double aspect);
+
+/// Parallel projection; `viewHeight` is the height of the image in scene units; square pixels unless aspect > 0.
+DGTKCAMERA_EXPORT std::shared_ptr<const CameraModel> makeOrthographic(
+  int width, int height, double viewHeight, double aspect);
+
+/// camera_from_world of a camera at `eye` that looks at `lookAt` with `up` upwards in the image (gluLookAt).
+/// Throws UsageError when eye and lookAt coincide or up is parallel to the view.
+DGTKCAMERA_EXPORT Rigid3 lookAtPose(
+  const Eigen::Vector3d& eye, const Eigen::Vector3d& lookAt, const Eigen::Vector3d& up);
+
+/// World units per pixel by the thesis's equations 4.1 and 4.2, per axis with the field of view of that axis:
+/// 2 (far - near) tan(fov / 2) / pixels; and the same at the far plane: 2 far tan(fov / 2) / pixels.
+struct WorldResolution
+{
+  Eigen::Vector2d thesis;
+  Eigen::Vector2d farPlane;
+};
+DGTKCAMERA_EXPORT WorldResolution worldResolution(const View& view);
+
+/// OpenGL matrices of a linear view, for files that hold them (column vectors, clip z in [-w, w], y up).
+/// projection: 4x4; modelView: 4x4 = diag(1,-1,-1,1) * [R|t]. Throws UsageError for a camera that is not linear.
+struct OpenGLMatrices
+{
+  Eigen::Matrix4d projection;
+  Eigen::Matrix4d modelView;
+};
+DGTKCAMERA_EXPORT OpenGLMatrices openGLMatrices(const View& view);
+
+} // namespace dgtk
+
+#endif

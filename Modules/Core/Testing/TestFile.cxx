@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkHash.h"
+#include "dgtkTestSupport.h"
+#include "dgtkThreadPool.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+
+using dgtk::test::contentsOf;
+using dgtk::test::TemporaryFolder;
+
+TEST(Hash, PublishedVectors) // FIPS 180-4 examples
+{
+  dgtk::Sha256 empty;
+  EXPECT_EQ(empty.hex(), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  dgtk::Sha256 abc;
+  abc.update("a", 1);
+  abc.update("bc", 2);
+  EXPECT_EQ(abc.hex(), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+TEST(AtomicFile, AppearsOnlyWhenWhole)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.path("x.txt");
+  dgtk::writeFile(path, "before");
+  {
+    dgtk::AtomicFile file(path);
+    file.write("half");
+  }
+  EXPECT_EQ(contentsOf(path), "before");
+  dgtk::writeFile(path, "after");
+  EXPECT_EQ(contentsOf(path), "after");
+  EXPECT_EQ(
+    std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()), 1);
+}
+
+TEST(AtomicFile, WritesAtOffsets)
+{
+  const TemporaryFolder folder;
+  dgtk::AtomicFile file(folder.path("x"));
+  file.write("abcdef");
+  file.writeAt(2, "XY", 2);
+  file.write("g");
+  file.commit();
+  EXPECT_EQ(contentsOf(folder.path("x")), "abXYefg");
+}
+
+TEST(AtomicFile, FailureNamesTheFile)
+{
+  try
+  {
+    dgtk::writeFile("/proc/nowhere/x", "");
+    FAIL();
+  }
+  catch (const dgtk::MachineError& error)
+  {
+    EXPECT_THAT(error.what(), testing::HasSubstr("/proc/nowhere/x: cannot be written"));
+  }
+}
+
+TEST(ReadFile, RefusesFoldersAndMissingFiles)
+{
+  EXPECT_THROW(dgtk::readFile("/tmp"), dgtk::InputError);
+  EXPECT_THROW(dgtk::readFile("/no/such/file"), dgtk::InputError);
+}
+
+TEST(InputError, SaysWhereAndWhat)
+{
+  EXPECT_STREQ(dgtk::InputError("a.ac", 3, "bad number", "a float", dgtk::quoted("x\n")).what(),
+    "a.ac:3: bad number (expected a float, found 'x\\x0a')");
+  EXPECT_STREQ(dgtk::InputError("a.ac", 0, "is empty").what(), "a.ac: is empty");
+}
+
+TEST(ThreadPool, RunsEveryIndexOnceAlsoFromAJob)
+{
+  dgtk::ThreadPool pool(2);
+  std::atomic<int> sum{ 0 };
+  pool.submit([&] { pool.parallelFor(1000, [&](int i) { sum += i; }); }).get();
+  EXPECT_EQ(sum, 499500);
+}
+
+TEST(ThreadPool, RethrowsTheFirstFailure)
+{
+  dgtk::ThreadPool pool(2);
+  EXPECT_THROW(pool.parallelFor(10,
+                 [](int i)
+                 {
+                   if (i % 2)
+                     throw dgtk::UsageError("odd");
+                 }),
+    dgtk::UsageError);
+}

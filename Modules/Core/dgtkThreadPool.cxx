@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkThreadPool.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace dgtk
+{
+
+struct ThreadPool::Impl
+{
+  std::mutex mutex;
+  std::condition_variable wake;
+  std::deque<std::packaged_task<void()>> queue;
+  bool closing = false;
+  std::vector<std::thread> workers;
+
+  void work()
+  {
+    for (;;)
+    {
+      std::packaged_task<void()> task;
+      {
+        std::unique_lock<std::mutex> lock(this->mutex);
+        this->wake.wait(lock, [this] { return this->closing || !this->queue.empty(); });
+        if (this->queue.empty())
+        {
+          return;
+        }
+        task = std::move(this->queue.front());
+        this->queue.pop_front();
+      }
+      task();
+    }
+  }
+};
+
+ThreadPool::ThreadPool(int threads)
+  : Self(new Impl)
+{
+  for (int i = 0; i < threads; ++i)
+  {
+    this->Self->workers.emplace_back([this] { this->Self->work(); });
+  }
+}
+
+ThreadPool::~ThreadPool()
+{
+  {
+    const std::lock_guard<std::mutex> lock(this->Self->mutex);
+    this->Self->closing = true;
+  }
+  this->Self->wake.notify_all();
+  for (std::thread& worker : this->Self->workers)
+  {
+    worker.join();
+  }
+}
+
+int ThreadPool::threads() const { return static_cast<int>(this->Self->workers.size()); }
+
+std::future<void> ThreadPool::submit(std::function<void()> job)
+{
+  std::packaged_task<void()> task(std::move(job));
+  std::future<void> future = task.get_future();
+  {
+    const std::lock_guard<std::mutex> lock(this->Self->mutex);
+    this->Self->queue.push_back(std::move(task));
+  }
+  this->Self->wake.notify_one();
+  return future;
+}
+
+namespace
+{
+// Shared by the caller and its helpers; helpers that wake after the last index find nothing to do.
+struct LoopState
+{
+  std::atomic<int> next{ 0 };
+  int count = 0;
+  std::function<void(int)> body;
+  std::mutex mutex;
+  std::condition_variable done;
+  int finished = 0;
+  int failedIndex = -1;
+  std::exception_ptr failure;
+
+  void run()
+  {
+    for (int i = this->next++; i < this->count; i = this->next++)
+    {
+      std::exception_ptr caught;
+      try
+      {
+        this->body(i);
+      }
+      catch (...)
+      {
+        caught = std::current_exception();
+      }
+      const std::lock_guard<std::mutex> lock(this->mutex);
+      if (caught && (this->failedIndex < 0 || i < this->failedIndex))
+      {
+        this->failedIndex = i;
+        this->failure = caught;
+      }
+      if (++this->finished == this->count)
+      {
+        this->done.notify_all();
+      }
+    }
+  }
+};
+} // namespace
+
+void ThreadPool::parallelFor(int count, const std::function<void(int)>& body)
+{
+  if (count <= 0)
+  {
+    return;
+  }
+  const auto state = std::make_shared<LoopState>();
+  state->count = count;
+  state->body = body;
+  for (int i = 1; i < count && i < this->threads(); ++i)
+  {
+    this->submit([state] { state->run(); });
+  }
+  state->run();
+  std::unique_lock<std::mutex> lock(state->mutex);
+  state->done.wait(lock, [&] { return state->finished == state->count; });
+  if (state->failure)
+  {
+    std::rethrow_exception(state->failure);
+  }
+}
+
+} // namespace dgtk

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkModel_h
+#define dgtkModel_h
+
+#include "dgtkModelIOModule.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// A decoded picture: RGBA, 8 bits, sRGB, rows top to bottom.
+struct Image
+{
+  int width = 0;
+  int height = 0;
+  bool hasAlpha = false; ///< some texel has alpha < 255
+  std::vector<std::uint8_t> rgba;
+};
+
+/// A texture as the model names it. `image` is null when it was not found or cannot be decoded; a warning of the
+/// model says what was tried. Texture coordinates: (0, 0) is the lower left corner of the picture, (1, 1) the upper
+/// right; outside [0, 1] the picture repeats.
+struct Texture
+{
+  std::string name; ///< as written in the model
+  std::string path; ///< file that was found, or empty
+  std::shared_ptr<const Image> image;
+};
+
+/// Colours are display-referred (sRGB) in [0, 1], multiplied with the texture's.
+struct Material
+{
+  std::string name;
+  Eigen::Vector3d ambient{ 0.2, 0.2, 0.2 };
+  Eigen::Vector3d diffuse{ 0.8, 0.8, 0.8 };
+  Eigen::Vector3d specular{ 0, 0, 0 };
+  Eigen::Vector3d emission{ 0, 0, 0 };
+  double shininess = 0;  ///< Phong exponent, [0, 128]
+  double opacity = 1;    ///< 1 opaque; below 1 translucent for colour only
+  bool twoSided = false; ///< as the file says; every surface is hit and drawn from both sides regardless
+  int texture = -1;      ///< index into Model::textures, or -1
+  /// Texels of `texture` with alpha below 0.5 are not there.
+  bool cutOut = false;
+};
+
+/// Triangles [firstTriangle, firstTriangle + triangles) of the model, all of one material.
+struct Part
+{
+  std::string name;
+  int material = 0; ///< index into Model::materials
+  std::uint32_t firstTriangle = 0;
+  std::uint32_t triangles = 0;
+};
+
+/// One named motion of a model, in the model's own frames.
+struct Animation
+{
+  std::string name;
+  int first = 0;   ///< first frame
+  int last = 0;    ///< last frame, included
+  double fps = 10; ///< frames a second
+};
+
+/// Positions of the vertices of a model over time. The topology never changes.
+class DGTKMODELIO_EXPORT Deformation
+{
+public:
+  virtual ~Deformation() = default;
+  /// Writes the position of every vertex of the file (Model::sourceVertices of them), in the model's axes, at a model
+  /// frame; fractions interpolate between neighbouring frames of the same animation, values outside are clamped to
+  /// [first, last]. `animation` indexes Model::animations. Thread-safe.
+  virtual void positionsAt(int animation, double frame, std::vector<Eigen::Vector3d>& sourcePositions) const = 0;
+};
+
+/// Geometry of a model at one instant. Vertices are split so that each has one normal and one texture coordinate.
+struct Geometry
+{
+  std::vector<Eigen::Vector3d> positions; ///< model axes, file units
+  std::vector<Eigen::Vector3f> normals;   ///< unit length, one per position; the shading normal
+};
+
+/// What a reader returns. Immutable once loaded and shared by all instances.
+struct Model
+{
+  std::string format; ///< "ac3d", "md2", "3ds", "pov", "obj", "stl", "ply", "gltf", "collada", "fbx", "off"
+  std::string path;
+  std::vector<std::string> warnings; ///< one line each
+
+  std::vector<Material> materials; ///< never empty when there are parts
+  std::vector<Texture> textures;
+  std::vector<Part> parts;
+  std::vector<std::array<std::uint32_t, 3>> triangles; ///< indices of split vertices, counter-clockwise from outside
+
+  std::shared_ptr<const Geometry> rest;    ///< geometry of the first frame; never null
+  std::vector<Eigen::Vector2d> uvs;        ///< one per split vertex, or empty when no part has a texture coordinate
+  std::vector<std::uint32_t> sourceVertex; ///< split vertex -> vertex of the file
+  std::size_t sourceVertices = 0;          ///< vertices of the file: what `dgtk info` counts
+  /// Split vertex -> smoothing group; on deformation a group's normal is the normalised sum of its triangles'
+  /// area-weighted normals. Empty for models without deformation.
+  std::vector<std::uint32_t> normalGroup;
+
+  std::shared_ptr<const Deformation> deformation; ///< null for rigid models
+  std::vector<Animation> animations;
+  int frames = 1; ///< number of frames in the file
+
+  // Counted as `dgtk info` prints them.
+  std::size_t lines = 0;             ///< line segments of the file; they are not surfaces and not drawn
+  std::size_t twoSidedTriangles = 0; ///< triangles marked two-sided
+  std::size_t twoSidedSurfaces = 0;  ///< surfaces (polygons) marked two-sided, where the format has them
+  std::size_t declaredMaterials = 0; ///< materials defined in the file, used or not
+  /// [min, max] of the referenced vertices at the first frame, file axes; an empty model has min > max. Lines count.
+  Eigen::Vector3d boundsMin{ 1, 1, 1 };
+  Eigen::Vector3d boundsMax{ -1, -1, -1 };
+
+  /// Part of a triangle of the model, by binary search. triangle < triangles.size().
+  DGTKMODELIO_EXPORT std::uint32_t partOf(std::uint32_t triangle) const;
+};
+
+/// Geometry of a deforming model at a model frame; `model.rest` for a rigid one.
+DGTKMODELIO_EXPORT std::shared_ptr<const Geometry> geometryAt(const Model& model, int animation, double frame);
+
+} // namespace dgtk
+
+#endif

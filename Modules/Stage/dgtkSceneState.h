@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkSceneState_h
+#define dgtkSceneState_h
+
+#include "dgtkStageModule.h"
+
+#include "dgtkCameraModel.h"
+#include "dgtkModel.h"
+#include "dgtkRigid3.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// One object of the scene at one instant. Its object id is its index in SceneState::instances plus 1.
+struct Instance
+{
+  std::string name;
+  std::string className;
+  std::shared_ptr<const Model> model;       ///< shared by all instances of one file
+  std::shared_ptr<const Geometry> geometry; ///< model->rest, or the deformed vertices at this instant
+  std::shared_ptr<const std::vector<Material>>
+    materials;               ///< model's, or overridden by the scene; one per Model::materials
+  Affine3 world_from_object; ///< includes scale and parents; may mirror
+};
+
+/// A light at one instant, world frame. Attenuation: 1 / (constant + linear d + quadratic d^2).
+struct LightState
+{
+  enum class Kind
+  {
+    Head,        ///< at the camera, along its view
+    Point,       ///< at `position`
+    Directional, ///< from `position` towards `target`, infinitely far
+    Spot         ///< at `position`, cone towards `target`
+  };
+  std::string name;
+  Kind kind = Kind::Point;
+  Eigen::Vector3d position{ 0, 0, 0 };
+  Eigen::Vector3d target{ 0, 0, 0 };
+  Eigen::Vector3d ambient{ 0, 0, 0 };
+  Eigen::Vector3d diffuse{ 1, 1, 1 };
+  Eigen::Vector3d specular{ 1, 1, 1 };
+  Eigen::Vector3d attenuation{ 1, 0, 0 };
+  double coneAngle = 30; ///< degrees, half the opening
+  double exponent = 1;   ///< fall-off inside the cone
+  double intensity = 1;
+};
+
+/// Everything of a scene at one instant. Immutable and safe to share between threads.
+struct SceneState
+{
+  double frame = 0;
+  std::vector<Instance> instances;       ///< objects with geometry, in the scene's order; object id = index + 1
+  std::vector<LightState> lights;        ///< enabled ones; a single Head light when the scene has none
+  Eigen::Vector3d background{ 0, 0, 0 }; ///< sRGB in [0, 1]
+};
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,21 @@
+# Everything comes from Debian 12's packages; Utilities/Setup/packages.txt is the list.
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(OpenSSL REQUIRED)
+find_package(embree 3.13 REQUIRED)
+find_package(assimp 5.2 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)
+find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonMath CommonTransforms RenderingCore
+  RenderingOpenGL2 glew WrappingPythonCore Python)
+
+# dgtk_find_library(<target> <header> <library>): libraries whose own CMake packages ask for programs we do not need.
+function(dgtk_find_library target header library)
+  find_path(${target}_INCLUDE_DIR ${header} REQUIRED)
+  find_library(${target}_LIBRARY ${library} REQUIRED)
+  add_library(DGTkThirdParty::${target} INTERFACE IMPORTED GLOBAL)
+  target_include_directories(DGTkThirdParty::${target} SYSTEM INTERFACE "${${target}_INCLUDE_DIR}")
+  target_link_libraries(DGTkThirdParty::${target} INTERFACE "${${target}_LIBRARY}")
+endfunction()
+dgtk_find_library(OpenImageIO OpenImageIO/imageio.h OpenImageIO)
+dgtk_find_library(Deflate libdeflate.h deflate)

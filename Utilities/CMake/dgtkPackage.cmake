@@ -1,0 +1,1 @@
+# find_package(DGTk) for other projects: see Testing/Consumer.

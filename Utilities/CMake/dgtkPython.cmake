@@ -1,0 +1,1 @@
+# Python wrapping of the dgtk* classes by VTK's wrapper.

@@ -1,0 +1,53 @@
+# Registration tables: one row a newcomer. `dgtk_reader(Ac3d EXTENSIONS ac acc FORMAT ac3d DESCRIPTION "AC3D")` declares
+# that <prefix>Ac3d.cxx defines the factory of that name; the tables are generated, there are no static initialisers.
+#
+#   dgtk_registry_begin(<kind>)            kind: reader, representation, writer
+#   dgtk_<kind>(<Name> KEY value... )
+#   dgtk_registry_end(<kind> <output.cxx>) configures <kind>Registry.cxx.in in the module's folder; @DGTK_DECLARATIONS@ and
+#                                          @DGTK_ROWS@ are replaced.
+
+macro(dgtk_registry_begin kind)
+  set(_dgtk_${kind}_declarations "")
+  set(_dgtk_${kind}_rows "")
+  set(_dgtk_${kind}_sources "")
+endmacro()
+
+function(_dgtk_quote_list out)
+  set(text "")
+  foreach(item IN LISTS ARGN)
+    string(APPEND text "\"${item}\", ")
+  endforeach()
+  set(${out} "${text}" PARENT_SCOPE)
+endfunction()
+
+macro(dgtk_reader name)
+  cmake_parse_arguments(_row "" "FORMAT;DESCRIPTION" "EXTENSIONS" ${ARGN})
+  _dgtk_quote_list(_extensions ${_row_EXTENSIONS})
+  string(APPEND _dgtk_reader_declarations
+    "std::shared_ptr<Model> read${name}(const std::string& path, const ReadOptions& options);\n")
+  string(APPEND _dgtk_reader_rows
+    "  { { \"${name}\", \"${_row_FORMAT}\", \"${_row_DESCRIPTION}\", { ${_extensions}} }, &read${name} },\n")
+  list(APPEND _dgtk_reader_sources "dgtk${name}Reader.cxx")
+endmacro()
+
+macro(dgtk_representation name)
+  cmake_parse_arguments(_row "" "LAYER;DESCRIPTION" "" ${ARGN})
+  string(APPEND _dgtk_representation_declarations "std::unique_ptr<Representation> make${name}();\n")
+  string(APPEND _dgtk_representation_rows
+    "  { { \"${name}\", \"${_row_LAYER}\", \"${_row_DESCRIPTION}\" }, &make${name} },\n")
+  list(APPEND _dgtk_representation_sources "dgtk${name}.cxx")
+endmacro()
+
+macro(dgtk_writer name)
+  cmake_parse_arguments(_row "" "FORMAT;EXTENSION;DESCRIPTION" "" ${ARGN})
+  string(APPEND _dgtk_writer_declarations "extern const WriterEntry writer${name};\n")
+  string(APPEND _dgtk_writer_rows
+    "  { { \"${name}\", \"${_row_FORMAT}\", \"${_row_EXTENSION}\", \"${_row_DESCRIPTION}\" }, &writer${name} },\n")
+  list(APPEND _dgtk_writer_sources "dgtk${name}Writer.cxx")
+endmacro()
+
+macro(dgtk_registry_end kind template output)
+  set(DGTK_DECLARATIONS "${_dgtk_${kind}_declarations}")
+  set(DGTK_ROWS "${_dgtk_${kind}_rows}")
+  configure_file("${CMAKE_CURRENT_SOURCE_DIR}/${template}" "${CMAKE_CURRENT_BINARY_DIR}/${output}" @ONLY)
+endmacro()
