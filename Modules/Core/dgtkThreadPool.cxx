@@ -2,6 +2,7 @@
 #include "dgtkThreadPool.h"
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -20,6 +21,18 @@ struct ThreadPool::Impl
   bool closing = false;
   std::vector<std::thread> workers;
 
+  // Takes the oldest job; false when there is none.
+  bool take(std::packaged_task<void()>& task)
+  {
+    if (this->queue.empty())
+    {
+      return false;
+    }
+    task = std::move(this->queue.front());
+    this->queue.pop_front();
+    return true;
+  }
+
   void work()
   {
     for (;;)
@@ -28,12 +41,10 @@ struct ThreadPool::Impl
       {
         std::unique_lock<std::mutex> lock(this->mutex);
         this->wake.wait(lock, [this] { return this->closing || !this->queue.empty(); });
-        if (this->queue.empty())
+        if (!this->take(task))
         {
           return;
         }
-        task = std::move(this->queue.front());
-        this->queue.pop_front();
       }
       task();
     }
@@ -43,7 +54,7 @@ struct ThreadPool::Impl
 ThreadPool::ThreadPool(int threads)
   : Self(new Impl)
 {
-  for (int i = 0; i < threads; ++i)
+  for (int i = 1; i < threads; ++i)
   {
     this->Self->workers.emplace_back([this] { this->Self->work(); });
   }
@@ -62,18 +73,46 @@ ThreadPool::~ThreadPool()
   }
 }
 
-int ThreadPool::threads() const { return static_cast<int>(this->Self->workers.size()); }
+int ThreadPool::threads() const { return static_cast<int>(this->Self->workers.size()) + 1; }
 
 std::future<void> ThreadPool::submit(std::function<void()> job)
 {
   std::packaged_task<void()> task(std::move(job));
   std::future<void> future = task.get_future();
+  if (this->Self->workers.empty())
+  {
+    task();
+    return future;
+  }
   {
     const std::lock_guard<std::mutex> lock(this->Self->mutex);
     this->Self->queue.push_back(std::move(task));
   }
   this->Self->wake.notify_one();
   return future;
+}
+
+void ThreadPool::wait(std::future<void>& job)
+{
+  using namespace std::chrono_literals;
+  while (job.wait_for(0s) != std::future_status::ready)
+  {
+    std::packaged_task<void()> task;
+    bool taken = false;
+    {
+      const std::lock_guard<std::mutex> lock(this->Self->mutex);
+      taken = this->Self->take(task);
+    }
+    if (taken)
+    {
+      task();
+    }
+    else
+    {
+      job.wait(); // every queued job is running somewhere, this one too
+    }
+  }
+  job.get();
 }
 
 namespace

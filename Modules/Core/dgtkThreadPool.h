@@ -11,11 +11,12 @@
 namespace dgtk
 {
 
-/// A fixed number of worker threads and one queue, first in, first out.
+/// A fixed number of threads, the calling one counted, and one queue, first in, first out. With one thread everything
+/// runs in the caller.
 class DGTKCORE_EXPORT ThreadPool
 {
 public:
-  /// `threads` >= 1 workers.
+  /// `threads` >= 1; threads - 1 workers are started.
   explicit ThreadPool(int threads);
   /// Waits for every submitted job.
   ~ThreadPool();
@@ -24,8 +25,11 @@ public:
 
   int threads() const;
 
-  /// Runs `job` on a worker; the future carries its exception.
+  /// Runs `job` on a worker (at once, in the caller, when there is none); the future carries its exception.
   std::future<void> submit(std::function<void()> job);
+
+  /// Waits for a submitted job, running queued jobs meanwhile; rethrows its exception.
+  void wait(std::future<void>& job);
 
   /// Calls body(i) for i in [0, count) on the workers and the calling thread; returns when all are done and
   /// rethrows the exception of the lowest i that failed. May be called from a job: the caller works too, so it
