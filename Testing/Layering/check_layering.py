@@ -1,0 +1,95 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks the structure of the library against the table of Documentation/DeveloperGuide/architecture.md.
+
+usage: check_layering.py SOURCE_FOLDER
+
+* every dependency between modules in Modules/*/vtk.module is allowed by the table, and the table has no cycle;
+* no public header names a type or header of a third-party library other than Eigen and VTK;
+* modules that must be independent of VTK's rendering name no VTK module.
+"""
+import os
+import re
+import sys
+
+# module -> modules that it may use directly; what those use comes along.
+ALLOWED = {
+    "Core": [],
+    "Camera": ["Core"],
+    "Scene": ["Core", "Camera"],
+    "ModelIO": ["Core"],
+    "Stage": ["Scene", "ModelIO"],
+    "Visibility": ["Stage"],
+    "RenderGL": ["Visibility"],
+    "RayTrace": ["Visibility"],
+    "GroundTruth": ["Visibility"],
+    "Export": ["Stage"],
+    "DatasetIO": ["Core"],
+    "Pipeline": ["GroundTruth", "DatasetIO", "RenderGL", "RayTrace"],
+    "Verification": ["Stage", "RayTrace", "DatasetIO"],
+    "Widgets": ["Pipeline", "RenderGL"],
+}
+USES_VTK = {"RenderGL", "Pipeline", "Widgets"}
+PRIVATE_LIBRARIES = re.compile(
+    r"#\s*include\s*[<\"](GL/|EGL/|embree|assimp|opencv|OpenImageIO|OpenEXR|nlohmann|openssl|libdeflate|zlib|vtkgl|vtk_glew)")
+
+
+def closure(module, seen=()):
+    """All modules that `module` may see; raises on a cycle."""
+    if module in seen:
+        raise SystemExit("the table has a cycle: " + " -> ".join(seen + (module,)))
+    found = set()
+    for used in ALLOWED[module]:
+        found |= {used} | closure(used, seen + (module,))
+    return found
+
+
+def dependencies(path):
+    text = re.sub(r"#.*", "", open(path, encoding="utf-8").read())
+    key, names = None, []
+    for word in text.split():
+        if re.fullmatch(r"[A-Z_]+", word) and not word.startswith("DGTk"):
+            key = word
+        elif key in ("DEPENDS", "PRIVATE_DEPENDS", "OPTIONAL_DEPENDS"):
+            names.append(word)
+    return names
+
+
+def check(source):
+    problems = []
+    modules = os.path.join(source, "Modules")
+    for module in sorted(os.listdir(modules)):
+        declaration = os.path.join(modules, module, "vtk.module")
+        if not os.path.exists(declaration):
+            continue
+        if module not in ALLOWED:
+            problems.append(f"Modules/{module}: not in the table of modules")
+            continue
+        may_see = closure(module)
+        for name in dependencies(declaration):
+            package, _, used = name.partition("::")
+            if package == "DGTk" and used not in may_see:
+                problems.append(f"Modules/{module}/vtk.module: {module} may not use {used}")
+            if package == "VTK" and module not in USES_VTK:
+                problems.append(f"Modules/{module}/vtk.module: {module} may not use VTK")
+        lists = open(os.path.join(modules, module, "CMakeLists.txt"), encoding="utf-8").read()
+        for header in sorted(h for h in os.listdir(os.path.join(modules, module)) if h.endswith(".h")):
+            text = open(os.path.join(modules, module, header), encoding="utf-8").read()
+            public = re.search(r"\b" + re.escape(header) + r"\b", lists)
+            if public and PRIVATE_LIBRARIES.search(text):
+                problems.append(f"Modules/{module}/{header}: a public header includes a private library")
+        for name in sorted(os.listdir(os.path.join(modules, module))):
+            if not name.endswith((".h", ".cxx")):
+                continue
+            text = open(os.path.join(modules, module, name), encoding="utf-8").read()
+            for included in re.findall(r'#\s*include\s*"(dgtk\w+\.h)"', text):
+                owner = next((m for m in ALLOWED if os.path.exists(os.path.join(modules, m, included))), module)
+                if owner != module and owner not in may_see:
+                    problems.append(f"Modules/{module}/{name}: includes {included} of {owner}")
+    return problems
+
+
+if __name__ == "__main__":
+    found = check(sys.argv[1])
+    print("\n".join(found) or "the modules keep to the table")
+    sys.exit(1 if found else 0)
