@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkModel.h"
+
+#include "dgtkModelBuilder.h"
+
+#include <algorithm>
+
+namespace dgtk
+{
+
+std::uint32_t Model::partOf(std::uint32_t triangle) const
+{
+  const auto after = std::upper_bound(this->parts.begin(), this->parts.end(), triangle,
+    [](std::uint32_t value, const Part& part) { return value < part.firstTriangle; });
+  return static_cast<std::uint32_t>(after - this->parts.begin()) - 1;
+}
+
+std::shared_ptr<const Geometry> geometryAt(const Model& model, int animation, double frame)
+{
+  if (!model.deformation)
+  {
+    return model.rest;
+  }
+  std::vector<Eigen::Vector3d> source;
+  model.deformation->positionsAt(animation, frame, source);
+  auto geometry = std::make_shared<Geometry>();
+  geometry->positions.reserve(model.sourceVertex.size());
+  for (const std::uint32_t vertex : model.sourceVertex)
+  {
+    geometry->positions.push_back(source[vertex]);
+  }
+  areaNormals(model, geometry->positions, model.rest ? &model.rest->normals : nullptr, geometry->normals);
+  return geometry;
+}
+
+} // namespace dgtk

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkModelBuilder_h
+#define dgtkModelBuilder_h
+
+#include "dgtkModelReader.h"
+#include "dgtkTextureFile.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// A corner of a surface as a file gives it.
+struct Corner
+{
+  std::uint32_t vertex = 0; ///< as returned by ModelBuilder::addVertex, of the current object
+  std::int32_t normal = -1; ///< as returned by ModelBuilder::addNormal, of the current object; -1: computed
+  float u = 0;
+  float v = 0;
+};
+
+/// How the normals of a surface are computed where its corners name none.
+enum class Shading : std::uint8_t
+{
+  Flat,   ///< the surface's own
+  Crease, ///< mean of the object's Crease surfaces at the vertex whose normals differ by at most the crease angle
+  Groups, ///< area-weighted mean of the object's surfaces at the vertex that share a bit of the smoothing mask
+  Area    ///< area-weighted mean of all Area surfaces of the object at the vertex
+};
+
+/// What every triangle of a surface shares.
+struct SurfaceStyle
+{
+  int material = 0; ///< as returned by ModelBuilder::addMaterial
+  Shading shading = Shading::Flat;
+  std::uint32_t groups = 0; ///< smoothing mask of Shading::Groups; 0 is flat
+  bool twoSided = false;    ///< the file marks the surface as two-sided
+};
+
+/// Collects what a reader finds, and makes a Model of it: triangulates polygons, computes normals, splits vertices,
+/// groups triangles into parts by (object, material) in file order, and fills counts and bounds.
+///
+///   ModelBuilder builder(path, "ac3d", bytes, options);
+///   const int material = builder.addMaterial(m);
+///   builder.beginObject("hull");
+///   const std::uint32_t v = builder.addVertex(p); ...
+///   builder.addSurface({ { v, -1, 0, 0 }, ... }, style);
+///   builder.endObject();
+///   return builder.finish();
+///
+/// Surfaces that cannot be drawn (fewer than three corners, a vertex that does not exist or is not finite) are left
+/// out and counted in a warning. Working memory is that of the current object.
+class ModelBuilder
+{
+public:
+  /// `fileBytes`: size of everything that was read, for the bound on memory.
+  ModelBuilder(const std::string& path, const std::string& format, std::size_t fileBytes, const ReadOptions& options);
+  ~ModelBuilder();
+  ModelBuilder(const ModelBuilder&) = delete;
+  ModelBuilder& operator=(const ModelBuilder&) = delete;
+
+  /// The model under construction; for format-specific fields and counts.
+  Model& model() { return *this->Result; }
+  /// One line; at most 50 are kept, the rest is counted.
+  void warn(const std::string& text);
+
+  /// Adds a material and returns its index. Colours are clamped to [0, 1], values that are not finite replaced.
+  int addMaterial(const Material& material);
+  std::size_t materials() const { return this->Result->materials.size(); }
+  /// Index of the texture of that name in Model::textures (found and decoded at the first call), or -1 for "".
+  int addTexture(const std::string& name);
+  /// Index of a material that is `material` with that texture: shared by all calls with the same arguments.
+  int withTexture(int material, int texture);
+  /// Index of a grey material for surfaces that name none.
+  int defaultMaterial();
+
+  void beginObject(const std::string& name);
+  std::uint32_t addVertex(const Eigen::Vector3d& position);
+  std::int32_t addNormal(const Eigen::Vector3d& normal);
+  /// A planar polygon, convex or not, counter-clockwise; n corners make n - 2 triangles. False when it is left out.
+  bool addSurface(const Corner* corners, std::size_t count, const SurfaceStyle& style);
+  bool addSurface(const std::vector<Corner>& corners, const SurfaceStyle& style)
+  {
+    return this->addSurface(corners.data(), corners.size(), style);
+  }
+  /// A line segment between two vertices of the object: counts for Model::lines and the bounds.
+  void addLine(std::uint32_t a, std::uint32_t b);
+  void setCrease(double degrees); ///< of the current object; default 61
+  /// Makes the current object's surfaces part of the model. `keepEmptyUvs`: see finish().
+  void endObject();
+
+  /// Counts a surface that the reader itself left out; a warning says how many.
+  void countBadSurface() { ++this->BadIndexSurfaces; }
+
+  /// Makes the model deform: vertices are the file's vertices in the order of addVertex.
+  void setDeformation(std::shared_ptr<const Deformation> deformation)
+  {
+    this->Result->deformation = std::move(deformation);
+  }
+  /// Call when some corner has a texture coordinate; without it Model::uvs stays empty.
+  void setHasUvs() { this->HasUvs = true; }
+
+  /// The finished model; the builder is empty afterwards.
+  std::shared_ptr<Model> finish();
+
+private:
+  struct Object;
+  void emit();
+  std::uint32_t split(const Corner& corner, const Eigen::Vector3f& normal);
+  void growBounds(std::uint32_t vertex);
+  bool usable(std::uint32_t vertex) const;
+
+  std::shared_ptr<Model> Result;
+  std::shared_ptr<Geometry> Rest;
+  TextureCache Textures;
+  std::unique_ptr<Object> Current;
+  std::size_t MemoryLimit;
+  std::uint64_t Work = 0; ///< steps spent on ear clipping and smoothing, bounded for the whole file
+  std::size_t SourceVertices = 0;
+  std::size_t DroppedWarnings = 0;
+  std::size_t BadIndexSurfaces = 0;
+  std::size_t NotFiniteSurfaces = 0;
+  std::size_t SmallSurfaces = 0;
+  int DefaultMaterial = -1;
+  bool HasUvs = false;
+  bool GaveUpFlat = false;
+  bool GaveUpShape = false;
+  std::vector<std::array<int, 3>> Textured; ///< material, texture -> material
+};
+
+/// Splits a polygon in space into count - 2 triangles of indices into `points`, keeping its direction. Concave polygons
+/// are ear-clipped; what has no ear (self-crossing, degenerate) is cut as it comes. `work` is increased by the steps
+/// spent; above `workLimit` polygons are cut into fans and false is returned.
+bool triangulate(const std::vector<Eigen::Vector3d>& points, std::vector<std::array<std::uint32_t, 3>>& triangles,
+  std::uint64_t& work, std::uint64_t workLimit);
+
+/// Newell's normal of a polygon: twice its area long.
+Eigen::Vector3d polygonNormal(const std::vector<Eigen::Vector3d>& points);
+
+/// Unit normals of split vertices from area-weighted triangle normals summed over groups (Model::normalGroup; one group
+/// a vertex when it is empty). Vertices without an area get `fallback`'s normal, or +z.
+void areaNormals(const Model& model, const std::vector<Eigen::Vector3d>& positions,
+  const std::vector<Eigen::Vector3f>* fallback, std::vector<Eigen::Vector3f>& normals);
+
+} // namespace dgtk
+
+#endif

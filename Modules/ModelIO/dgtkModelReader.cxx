@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkModelReader.h"
+
+#include "dgtkError.h"
+#include "dgtkReaderRegistry.h"
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+
+namespace dgtk
+{
+
+namespace
+{
+std::string extensionOf(const std::string& path)
+{
+  const std::size_t dot = path.find_last_of("./");
+  if (dot == std::string::npos || path[dot] == '/')
+  {
+    return {};
+  }
+  std::string extension = path.substr(dot + 1);
+  for (char& c : extension)
+  {
+    c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+  }
+  return extension;
+}
+
+std::string knownExtensions()
+{
+  std::string known;
+  for (const ReaderRow& row : readerRows())
+  {
+    for (const std::string& extension : row.info.extensions)
+    {
+      known += (known.empty() ? "." : " .") + extension;
+    }
+  }
+  return known;
+}
+} // namespace
+
+const std::vector<ReaderInfo>& modelReaders()
+{
+  static const std::vector<ReaderInfo> infos = []
+  {
+    std::vector<ReaderInfo> all;
+    for (const ReaderRow& row : readerRows())
+    {
+      all.push_back(row.info);
+    }
+    return all;
+  }();
+  return infos;
+}
+
+std::shared_ptr<const Model> readModel(const std::string& path, const ReadOptions& options)
+{
+  const std::string extension = extensionOf(path);
+  for (const ReaderRow& row : readerRows())
+  {
+    const std::vector<std::string>& known = row.info.extensions;
+    if (std::find(known.begin(), known.end(), extension) != known.end())
+    {
+      try
+      {
+        return row.read(path, options);
+      }
+      catch (const std::bad_alloc&)
+      {
+        throw InputError(path, 0, "is too large for the memory of this machine");
+      }
+    }
+  }
+  throw InputError(path, 0, "is not a model file that can be read", "one of " + knownExtensions(),
+    extension.empty() ? "no extension" : quoted("." + extension));
+}
+
+} // namespace dgtk

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkTextureFile.h"
+
+namespace dgtk
+{
+
+} // namespace dgtk

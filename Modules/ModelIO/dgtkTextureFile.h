@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkTextureFile_h
+#define dgtkTextureFile_h
+
+#include "dgtkModelReader.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// Finds the picture that a model names: as written, relative to the model; its base name beside the model;
+/// case-insensitively; same stem with another image extension; stems equal in 8.3 names; the same in ../textures.
+/// Returns "" when there is none. `tried` receives a short text of what was tried. Absolute names count by their base
+/// name. Only regular files are found.
+std::string locateTexture(const std::string& modelPath, const std::string& name, std::string* tried = nullptr);
+
+/// Decodes a picture to RGBA, rows top to bottom. Null, and `problem` set, when it cannot be decoded or is larger than
+/// 16384 a side. An alpha channel that is 0 everywhere is taken as absent.
+std::shared_ptr<const Image> decodeTexture(const std::string& path, std::string& problem);
+
+/// Whether a picture is a cut-out: some texels have alpha below 0.5 and some do not.
+bool isCutOut(const Image& image);
+
+/// The textures of one model: each name is looked up once, each file decoded once.
+class TextureCache
+{
+public:
+  TextureCache(const std::string& modelPath, const ReadOptions& options)
+    : ModelPath(modelPath)
+    , Options(options)
+  {
+  }
+  /// Appends the texture to `textures` unless it is there; returns its index. `warning` is set when it was not found or
+  /// not decoded.
+  int add(std::vector<Texture>& textures, const std::string& name, std::string& warning);
+  /// The same for a file that is known to be at `path`.
+  int addFile(std::vector<Texture>& textures, const std::string& name, const std::string& path, std::string& warning);
+
+private:
+  std::string ModelPath;
+  ReadOptions Options;
+  std::map<std::string, int> ByName;
+  std::map<std::string, std::shared_ptr<const Image>> ByPath;
+};
+
+} // namespace dgtk
+
+#endif
