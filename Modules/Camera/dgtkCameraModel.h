@@ -53,7 +53,7 @@ public:
   virtual CameraRay rayThrough(const Eigen::Vector2d& pixel) const = 0;
 
   /// Image point of a point in the camera frame (scene units), also outside the image. False, and `pixel`
-  /// untouched, when the point has none (behind a pinhole).
+  /// untouched, when the point lies on no ray (behind the camera: pinhole z <= 0, orthographic z < 0).
   virtual bool project(const Eigen::Vector3d& x_in_camera, Eigen::Vector2d& pixel) const = 0;
 
   /// The projection's matrix where it is linear, nothing otherwise.
@@ -81,15 +81,18 @@ struct View
   double far = 1000.0; ///< largest depth that is seen, scene units, > near
 };
 
-/// [fx 0 cx; 0 fy cy; 0 0 1], pixels. Throws UsageError unless 1 <= width, height <= 2^20, fx, fy finite and > 0.
+/// K = [fx s cx; 0 fy cy; 0 0 1], pixels. Throws UsageError unless 1 <= width, height <= 2^20, K has that form, all its
+/// values are finite and fx, fy > 0.
 DGTKCAMERA_EXPORT std::shared_ptr<const CameraModel> makePinhole(int width, int height, const Eigen::Matrix3d& K);
 
 /// gluPerspective's camera: vertical field of view in degrees (0, 180); aspect = width / height of the *view*. fy = H/2
 /// / tan(fovY/2), fx = W/2 / (aspect * tan(fovY/2)), principal point (W/2, H/2). aspect <= 0 means square pixels.
+/// Throws UsageError outside these ranges.
 DGTKCAMERA_EXPORT std::shared_ptr<const CameraModel> makePinholeFromFov(
   int width, int height, double fovYDegrees, double aspect);
 
 /// Parallel projection; `viewHeight` is the height of the image in scene units; square pixels unless aspect > 0.
+/// Throws UsageError unless viewHeight is finite and > 0.
 DGTKCAMERA_EXPORT std::shared_ptr<const CameraModel> makeOrthographic(
   int width, int height, double viewHeight, double aspect);
 
@@ -99,7 +102,10 @@ DGTKCAMERA_EXPORT Rigid3 lookAtPose(
   const Eigen::Vector3d& eye, const Eigen::Vector3d& lookAt, const Eigen::Vector3d& up);
 
 /// World units per pixel by the thesis's equations 4.1 and 4.2, per axis with the field of view of that axis:
-/// 2 (far - near) tan(fov / 2) / pixels; and the same at the far plane: 2 far tan(fov / 2) / pixels.
+/// 2 (far - near) tan(fov / 2) / pixels; and the same at the far plane: 2 far tan(fov / 2) / pixels. 2 tan(fov / 2) of
+/// a pinhole is the full extent of the image at depth 1, W / fx, wherever its principal point is; of a lens, fov is the
+/// angle between the rays through the middles of opposite sides. Orthographic: the size of a pixel, at any depth.
+/// Throws UsageError unless 0 < near < far.
 struct WorldResolution
 {
   Eigen::Vector2d thesis;
@@ -108,7 +114,8 @@ struct WorldResolution
 DGTKCAMERA_EXPORT WorldResolution worldResolution(const View& view);
 
 /// OpenGL matrices of a linear view, for files that hold them (column vectors, clip z in [-w, w], y up).
-/// projection: 4x4; modelView: 4x4 = diag(1,-1,-1,1) * [R|t]. Throws UsageError for a camera that is not linear.
+/// projection: 4x4; modelView: 4x4 = diag(1,-1,-1,1) * [R|t]. Throws UsageError for a camera that is not linear, and
+/// unless 0 < near < far.
 struct OpenGLMatrices
 {
   Eigen::Matrix4d projection;
