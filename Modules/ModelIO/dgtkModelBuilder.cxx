@@ -1,2 +1,306 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkModelBuilder.h"
+
+#include "dgtkError.h"
+#include "dgtkModelObject.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr std::size_t mostWarnings = 50;
+constexpr std::size_t mostMaterials = 65536;
+constexpr std::uint32_t none = 0xffffffffu;
+
+double clamped(double value, double low, double high, double fallback)
+{
+  return std::isnan(value) ? fallback : std::min(std::max(value, low), high);
+}
+
+Eigen::Vector3d clampedColor(const Eigen::Vector3d& color)
+{
+  return { clamped(color[0], 0, 1, 0), clamped(color[1], 0, 1, 0), clamped(color[2], 0, 1, 0) };
+}
+
+std::string counted(std::size_t count, const char* what, const char* whats)
+{
+  return std::to_string(count) + ' ' + (count == 1 ? what : whats);
+}
+} // namespace
+
+ModelBuilder::ModelBuilder(
+  const std::string& path, const std::string& format, std::size_t fileBytes, const ReadOptions& options)
+  : Result(std::make_shared<Model>())
+  , Rest(std::make_shared<Geometry>())
+  , Textures(path, options)
+  , MemoryLimit((std::uint64_t(48) << 20) + std::uint64_t(8) * fileBytes)
+  , WorkLimit(50'000'000 + std::uint64_t(40) * fileBytes)
+{
+  this->Result->format = format;
+  this->Result->path = path;
+}
+
+ModelBuilder::~ModelBuilder() = default;
+
+void ModelBuilder::warn(const std::string& text)
+{
+  if (this->Result->warnings.size() < mostWarnings)
+  {
+    this->Result->warnings.push_back(text);
+  }
+  else
+  {
+    ++this->DroppedWarnings;
+  }
+}
+
+int ModelBuilder::addMaterial(const Material& material)
+{
+  std::vector<Material>& materials = this->Result->materials;
+  if (materials.size() >= mostMaterials)
+  {
+    throw InputError(this->Result->path, 0, "has too many materials", "at most " + std::to_string(mostMaterials));
+  }
+  materials.push_back(material);
+  Material& m = materials.back();
+  m.ambient = clampedColor(m.ambient);
+  m.diffuse = clampedColor(m.diffuse);
+  m.specular = clampedColor(m.specular);
+  m.emission = clampedColor(m.emission);
+  m.shininess = clamped(m.shininess, 0, 128, 0);
+  m.opacity = clamped(m.opacity, 0, 1, 1);
+  return static_cast<int>(materials.size()) - 1;
+}
+
+int ModelBuilder::addTexture(const std::string& name)
+{
+  if (name.empty())
+  {
+    return -1;
+  }
+  std::string warning;
+  const int index = this->Textures.add(this->Result->textures, name, warning);
+  if (!warning.empty())
+  {
+    this->warn(warning);
+  }
+  return index;
+}
+
+int ModelBuilder::withTexture(int material, int texture)
+{
+  const std::size_t index = static_cast<std::size_t>(material);
+  if (texture < 0 || index >= this->materials())
+  {
+    return material;
+  }
+  const auto known = this->Textured.find({ material, texture });
+  if (known != this->Textured.end())
+  {
+    return known->second;
+  }
+  Material textured = this->Result->materials[index];
+  textured.texture = texture;
+  const std::shared_ptr<const Image>& image = this->Result->textures[static_cast<std::size_t>(texture)].image;
+  textured.cutOut = image && isCutOut(*image);
+  const int made = this->addMaterial(textured);
+  this->Textured[{ material, texture }] = made;
+  return made;
+}
+
+int ModelBuilder::defaultMaterial()
+{
+  if (this->DefaultMaterial < 0)
+  {
+    this->DefaultMaterial = this->addMaterial({});
+  }
+  return this->DefaultMaterial;
+}
+
+void ModelBuilder::beginObject(const std::string& name)
+{
+  this->Current = std::make_unique<Object>();
+  this->Current->name = name;
+  this->Current->firstVertex = static_cast<std::uint32_t>(this->SourceVertices);
+}
+
+void ModelBuilder::reserve(std::size_t vertices, std::size_t surfaces, std::size_t corners)
+{
+  this->Current->positions.reserve(vertices);
+  this->Current->surfaces.reserve(surfaces);
+  this->Current->corners.reserve(corners);
+}
+
+std::uint32_t ModelBuilder::addVertex(const Eigen::Vector3d& position)
+{
+  if (this->SourceVertices >= none)
+  {
+    throw InputError(this->Result->path, 0, "has too many vertices", "fewer than 4294967295");
+  }
+  this->Current->positions.push_back(position);
+  return static_cast<std::uint32_t>(this->SourceVertices++);
+}
+
+std::int32_t ModelBuilder::addNormal(const Eigen::Vector3d& normal)
+{
+  const double length = normal.stableNorm();
+  if (!(length > 0 && std::isfinite(length)) || this->Current->normals.size() >= 0x7fffffff)
+  {
+    return -1;
+  }
+  this->Current->normals.push_back((normal / length).cast<float>());
+  return static_cast<std::int32_t>(this->Current->normals.size()) - 1;
+}
+
+bool ModelBuilder::usable(const Corner* corners, std::size_t count)
+{
+  const Object& object = *this->Current;
+  if (count < 3)
+  {
+    ++this->SmallSurfaces;
+    return false;
+  }
+  bool finite = true;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::uint32_t index = corners[i].vertex - object.firstVertex;
+    if (corners[i].vertex < object.firstVertex || index >= object.positions.size() ||
+        corners[i].normal >= static_cast<std::int32_t>(object.normals.size()))
+    {
+      ++this->BadIndexSurfaces;
+      return false;
+    }
+    finite = finite && isDrawable(object.positions[index]);
+  }
+  this->NotFiniteSurfaces += finite ? 0 : 1;
+  return finite;
+}
+
+bool ModelBuilder::addSurface(const Corner* corners, std::size_t count, const SurfaceStyle& style)
+{
+  if (!this->usable(corners, count))
+  {
+    return false;
+  }
+  Object& object = *this->Current;
+  if (object.corners.size() + count >= none)
+  {
+    throw InputError(this->Result->path, 0, "has too many surfaces in one object");
+  }
+  Object::Surface surface;
+  surface.firstCorner = static_cast<std::uint32_t>(object.corners.size());
+  surface.corners = static_cast<std::uint32_t>(count);
+  surface.firstTriangle = static_cast<std::uint32_t>(object.triangles.size());
+  surface.style = style;
+  if (style.material < 0 || static_cast<std::size_t>(style.material) >= this->materials())
+  {
+    surface.style.material = this->defaultMaterial();
+  }
+  object.polygon.clear();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    Corner corner = corners[i];
+    corner.u = std::isfinite(corner.u) ? corner.u : 0;
+    corner.v = std::isfinite(corner.v) ? corner.v : 0;
+    this->HasUvs = this->HasUvs || corner.u != 0 || corner.v != 0;
+    object.corners.push_back(corner);
+    object.polygon.push_back(object.positions[object.local(corner)]);
+  }
+  surface.normal = polygonNormal(object.polygon);
+  if (!triangulate(object.polygon, object.cut, this->Work, this->WorkLimit))
+  {
+    this->GaveUpShape = true;
+  }
+  for (const std::array<std::uint32_t, 3>& t : object.cut)
+  {
+    object.triangles.push_back({ surface.firstCorner + t[0], surface.firstCorner + t[1], surface.firstCorner + t[2] });
+  }
+  surface.triangles = static_cast<std::uint32_t>(object.cut.size());
+  object.surfaces.push_back(surface);
+  if (style.twoSided)
+  {
+    this->Result->materials[static_cast<std::size_t>(surface.style.material)].twoSided = true;
+    this->Result->twoSidedTriangles += object.cut.size();
+  }
+  return true;
+}
+
+void ModelBuilder::growBounds(const Eigen::Vector3d& position)
+{
+  Model& model = *this->Result;
+  if (model.boundsMin.x() > model.boundsMax.x())
+  {
+    model.boundsMin = model.boundsMax = position;
+  }
+  model.boundsMin = model.boundsMin.cwiseMin(position);
+  model.boundsMax = model.boundsMax.cwiseMax(position);
+}
+
+void ModelBuilder::addLine(std::uint32_t a, std::uint32_t b)
+{
+  const Corner ends[3] = { { a, -1, 0, 0 }, { b, -1, 0, 0 }, { b, -1, 0, 0 } };
+  if (this->usable(ends, 3))
+  {
+    ++this->Result->lines;
+    this->growBounds(this->Current->positions[this->Current->local(ends[0])]);
+    this->growBounds(this->Current->positions[this->Current->local(ends[1])]);
+  }
+}
+
+void ModelBuilder::setCrease(double degrees) { this->Current->crease = clamped(degrees, 0, 180, 61); }
+
+void ModelBuilder::endObject()
+{
+  std::vector<Eigen::Vector3f> normals;
+  if (!this->Current->surfaces.empty())
+  {
+    this->smooth(normals);
+    this->emit(normals);
+  }
+  this->Current.reset();
+}
+
+std::shared_ptr<Model> ModelBuilder::finish()
+{
+  Model& model = *this->Result;
+  model.sourceVertices = this->SourceVertices;
+  if (this->HasUvs)
+  {
+    model.uvs.resize(this->Rest->positions.size(), Eigen::Vector2d(0, 0));
+  }
+  model.rest = this->Rest;
+  if (model.deformation)
+  {
+    groupNormals(model);
+    model.rest = geometryAt(model, 0, model.animations.empty() ? 0 : model.animations.front().first);
+  }
+  const auto report = [this](std::size_t count, const char* why)
+  {
+    if (count > 0)
+    {
+      this->warn(counted(count, "surface", "surfaces") + " left out: " + why);
+    }
+  };
+  report(this->SmallSurfaces, "fewer than three corners");
+  report(this->BadIndexSurfaces, "a vertex that does not exist");
+  report(this->NotFiniteSurfaces, "a coordinate that is not a finite number");
+  if (this->GaveUpFlat)
+  {
+    this->warn("flat surfaces are drawn smooth: there are too many for the memory allowed for a file of this size");
+  }
+  if (this->GaveUpShape)
+  {
+    this->warn("some surfaces are triangulated or smoothed in a simple way: their shape would take too long to settle");
+  }
+  if (this->DroppedWarnings > 0)
+  {
+    model.warnings.push_back("and " + counted(this->DroppedWarnings, "more warning", "more warnings"));
+  }
+  return std::move(this->Result);
+}
+
+} // namespace dgtk

@@ -7,9 +7,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dgtk
@@ -80,6 +81,8 @@ public:
   int defaultMaterial();
 
   void beginObject(const std::string& name);
+  /// Room for what the current object is going to hold; the caller has checked the numbers against the file's size.
+  void reserve(std::size_t vertices, std::size_t surfaces, std::size_t corners);
   std::uint32_t addVertex(const Eigen::Vector3d& position);
   std::int32_t addNormal(const Eigen::Vector3d& normal);
   /// A planar polygon, convex or not, counter-clockwise; n corners make n - 2 triangles. False when it is left out.
@@ -91,7 +94,7 @@ public:
   /// A line segment between two vertices of the object: counts for Model::lines and the bounds.
   void addLine(std::uint32_t a, std::uint32_t b);
   void setCrease(double degrees); ///< of the current object; default 61
-  /// Makes the current object's surfaces part of the model. `keepEmptyUvs`: see finish().
+  /// Makes the current object's surfaces part of the model.
   void endObject();
 
   /// Counts a surface that the reader itself left out; a warning says how many.
@@ -102,7 +105,7 @@ public:
   {
     this->Result->deformation = std::move(deformation);
   }
-  /// Call when some corner has a texture coordinate; without it Model::uvs stays empty.
+  /// Makes Model::uvs be filled also when all texture coordinates are 0.
   void setHasUvs() { this->HasUvs = true; }
 
   /// The finished model; the builder is empty afterwards.
@@ -110,17 +113,18 @@ public:
 
 private:
   struct Object;
-  void emit();
-  std::uint32_t split(const Corner& corner, const Eigen::Vector3f& normal);
-  void growBounds(std::uint32_t vertex);
-  bool usable(std::uint32_t vertex) const;
+  void smooth(std::vector<Eigen::Vector3f>& normals);
+  void emit(const std::vector<Eigen::Vector3f>& normals);
+  void growBounds(const Eigen::Vector3d& position);
+  bool usable(const Corner* corners, std::size_t count);
 
   std::shared_ptr<Model> Result;
   std::shared_ptr<Geometry> Rest;
   TextureCache Textures;
   std::unique_ptr<Object> Current;
-  std::size_t MemoryLimit;
-  std::uint64_t Work = 0; ///< steps spent on ear clipping and smoothing, bounded for the whole file
+  std::uint64_t MemoryLimit;
+  std::uint64_t WorkLimit; ///< of ear clipping and smoothing together
+  std::uint64_t Work = 0;
   std::size_t SourceVertices = 0;
   std::size_t DroppedWarnings = 0;
   std::size_t BadIndexSurfaces = 0;
@@ -130,7 +134,7 @@ private:
   bool HasUvs = false;
   bool GaveUpFlat = false;
   bool GaveUpShape = false;
-  std::vector<std::array<int, 3>> Textured; ///< material, texture -> material
+  std::map<std::pair<int, int>, int> Textured; ///< (material, texture) -> material
 };
 
 /// Splits a polygon in space into count - 2 triangles of indices into `points`, keeping its direction. Concave polygons
@@ -141,6 +145,9 @@ bool triangulate(const std::vector<Eigen::Vector3d>& points, std::vector<std::ar
 
 /// Newell's normal of a polygon: twice its area long.
 Eigen::Vector3d polygonNormal(const std::vector<Eigen::Vector3d>& points);
+
+/// Fills Model::normalGroup: split vertices of one file vertex that have the same normal at rest share a group.
+void groupNormals(Model& model);
 
 /// Unit normals of split vertices from area-weighted triangle normals summed over groups (Model::normalGroup; one group
 /// a vertex when it is empty). Vertices without an area get `fallback`'s normal, or +z.

@@ -18,6 +18,22 @@ namespace dgtk
 /// name. Only regular files are found.
 std::string locateTexture(const std::string& modelPath, const std::string& name, std::string* tried = nullptr);
 
+/// The same for many names of one model: folders are listed once.
+class TextureFinder
+{
+public:
+  explicit TextureFinder(const std::string& modelPath)
+    : ModelPath(modelPath)
+  {
+  }
+  std::string find(const std::string& name, std::string* tried = nullptr);
+
+private:
+  const std::vector<std::string>& pictures(const std::string& folder);
+  std::string ModelPath;
+  std::map<std::string, std::vector<std::string>> Listings;
+};
+
 /// Decodes a picture to RGBA, rows top to bottom. Null, and `problem` set, when it cannot be decoded or is larger than
 /// 16384 a side. An alpha channel that is 0 everywhere is taken as absent.
 std::shared_ptr<const Image> decodeTexture(const std::string& path, std::string& problem);
@@ -30,7 +46,7 @@ class TextureCache
 {
 public:
   TextureCache(const std::string& modelPath, const ReadOptions& options)
-    : ModelPath(modelPath)
+    : Finder(modelPath)
     , Options(options)
   {
   }
@@ -41,7 +57,7 @@ public:
   int addFile(std::vector<Texture>& textures, const std::string& name, const std::string& path, std::string& warning);
 
 private:
-  std::string ModelPath;
+  TextureFinder Finder;
   ReadOptions Options;
   std::map<std::string, int> ByName;
   std::map<std::string, std::shared_ptr<const Image>> ByPath;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkModelObject_h
+#define dgtkModelObject_h
+
+#include "dgtkModelBuilder.h"
+
+#include <cfloat>
+
+namespace dgtk
+{
+
+/// False for NaN and for what single precision cannot hold.
+inline bool isDrawable(const Eigen::Vector3d& v)
+{
+  return v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= double(FLT_MAX);
+}
+
+/// The object that a ModelBuilder is collecting.
+struct ModelBuilder::Object
+{
+  struct Surface
+  {
+    std::uint32_t firstCorner;
+    std::uint32_t corners;
+    std::uint32_t firstTriangle;
+    std::uint32_t triangles;
+    SurfaceStyle style;
+    Eigen::Vector3d normal; ///< twice the area long
+  };
+  std::string name;
+  std::uint32_t firstVertex = 0;
+  double crease = 61;
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Eigen::Vector3f> normals;
+  std::vector<Corner> corners;
+  std::vector<std::array<std::uint32_t, 3>> triangles; ///< indices into corners
+  std::vector<Surface> surfaces;
+  std::vector<Eigen::Vector3d> polygon;          ///< scratch
+  std::vector<std::array<std::uint32_t, 3>> cut; ///< scratch
+
+  std::uint32_t local(const Corner& corner) const { return corner.vertex - this->firstVertex; }
+};
+
+} // namespace dgtk
+
+#endif
