@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkSceneDescription_h
+#define dgtkSceneDescription_h
+
+#include "dgtkSceneModule.h"
+
+#include "dgtkTrack.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// Frame numbers in files: 0 to largestFrame.
+constexpr int largestFrame = 999999;
+
+/// Numbers of a .scene key-frame line that have no effect on what the line stands for (the rotation of a light, of a
+/// camera's look-at point); kept so that the scene can be written back.
+struct UnusedKeys
+{
+  Track<Quaternion> orientation;
+  Track<Eigen::Vector3d> scale{ Eigen::Vector3d(1, 1, 1) };
+};
+
+/// What replaces properties of a model's material. Colours sRGB in [0, 1].
+struct MaterialOverride
+{
+  std::string material; ///< name of a material of the model, or "*": all of them
+  std::optional<Eigen::Vector3d> ambient;
+  std::optional<Eigen::Vector3d> diffuse;
+  std::optional<Eigen::Vector3d> specular;
+  std::optional<Eigen::Vector3d> emission;
+  std::optional<double> shininess;    ///< Phong exponent, [0, 128]
+  std::optional<double> opacity;      ///< [0, 1]
+  std::optional<std::string> texture; ///< picture file relative to the scene's folder; "": none
+};
+
+/// Which motion of its model an object shows. With these defaults a model that has a motion plays its first one from
+/// frame 0 on, over and over; a model without motion is not affected.
+/// Model frame at scene frame f: first(sequence) + offset + max(0, f - start) / scene fps * sequence fps * rate.
+struct AnimationDescription
+{
+  std::string sequence; ///< name, or number from 0 when no sequence has that name; "": the first
+  double start = 0;     ///< scene frame at which it begins; before, it stands at its first shown frame
+  double offset = 0;    ///< model frames after the sequence's first, >= 0
+  double rate = 1;      ///< speed; 1 is the model's own, 0 stands still; >= 0
+  bool loop = true;     ///< begin again at the end; otherwise hold the last frame
+};
+
+/// A model placed in the scene. world_from_object = world_from_parent * T(position) * R(orientation) * S(scale).
+struct ObjectDescription
+{
+  std::string name;      ///< unique among objects
+  std::string className; ///< semantic class, free text; may be empty
+  std::string model;     ///< path as written, relative to the scene's folder
+  std::string parent;    ///< name of an object; "": the world
+  bool visible = true;   ///< an invisible object is not there, and has no id, but still carries its children
+  Track<Eigen::Vector3d> position{ Eigen::Vector3d(0, 0, 0) };
+  Track<Quaternion> orientation;
+  Track<Eigen::Vector3d> scale{ Eigen::Vector3d(1, 1, 1) }; ///< no component 0
+  AnimationDescription animation;
+  std::vector<MaterialOverride> materials; ///< applied in this order
+  /// Texture variant: name (with or without folder and extension) or number from 0 of one of the model's textures,
+  /// which then replaces the texture of all its textured materials; "": as the model says.
+  std::string skin;
+  long line = 0; ///< in the file it was read from; 0 unknown
+};
+
+enum class LightKind
+{
+  Head,
+  Point,
+  Directional,
+  Spot
+};
+
+/// Meanings as in LightState.
+struct LightDescription
+{
+  std::string name; ///< unique among lights
+  LightKind kind = LightKind::Point;
+  bool enabled = true;
+  Track<Eigen::Vector3d> position{ Eigen::Vector3d(0, 0, 0) };
+  Track<Eigen::Vector3d> target{ Eigen::Vector3d(0, 0, 0) };
+  Eigen::Vector3d ambient{ 0, 0, 0 };
+  Eigen::Vector3d diffuse{ 1, 1, 1 };
+  Eigen::Vector3d specular{ 1, 1, 1 };
+  Eigen::Vector3d attenuation{ 1, 0, 0 }; ///< constant, linear, quadratic; >= 0, not all 0
+  double coneAngle = 30;                  ///< degrees, half the opening, (0, 90]
+  double exponent = 1;                    ///< [0, 128]
+  double intensity = 1;                   ///< >= 0
+  UnusedKeys unused;
+  long line = 0;
+};
+
+enum class CameraKind
+{
+  Pinhole,
+  Orthographic
+};
+
+/// A camera. Poses are given either by eye, lookAt and up, or, when `posed`, by position and orientation.
+struct CameraDescription
+{
+  std::string name; ///< unique among cameras; fit for a folder's name
+  CameraKind kind = CameraKind::Pinhole;
+  int width = 0;                    ///< own image size, pixels; 0: the request's, or 640 x 480
+  int height = 0;                   ///< 0 exactly when width is
+  double aspect = 0;                ///< width / height of the view as of gluPerspective; 0: square pixels. Not with K
+  Track<double> fovY{ 60 };         ///< pinhole without K: vertical field of view, degrees, (0, 180)
+  std::optional<Eigen::Matrix3d> K; ///< pinhole: pixels of the own image size, which must then be given
+  Track<double> viewHeight{ 2 };    ///< orthographic: height of the image in scene units, > 0
+  double near = 0.1;                ///< > 0
+  double far = 1000;                ///< > near
+  Track<Eigen::Vector3d> eye{ Eigen::Vector3d(0, 0, 10) };
+  Track<Eigen::Vector3d> lookAt{ Eigen::Vector3d(0, 0, 0) };
+  Track<Eigen::Vector3d> up{ Eigen::Vector3d(0, 1, 0) };
+  bool posed = false;
+  Track<Eigen::Vector3d> position{ Eigen::Vector3d(0, 0, 0) };
+  Track<Quaternion> orientation; ///< world_from_camera; camera axes x right, y down, z forward
+  UnusedKeys unusedEye;
+  UnusedKeys unusedLookAt;
+  long line = 0;
+};
+
+/// One entry of the list of things in the order of the file.
+struct SceneItem
+{
+  enum class Kind
+  {
+    Object,
+    Light,
+    Camera
+  };
+  Kind kind = Kind::Object;
+  std::size_t index = 0; ///< into objects, lights or cameras
+  bool operator==(const SceneItem& o) const { return this->kind == o.kind && this->index == o.index; }
+};
+
+enum class UpAxis
+{
+  Y,
+  Z
+};
+
+/// A scene as written. The world is right-handed; upAxis changes nothing but the `up` that a camera has by default.
+struct DGTKSCENE_EXPORT SceneDescription
+{
+  std::string file;   ///< where it was read from; "" when made by program
+  std::string folder; ///< relative paths start here; "": the current folder
+
+  std::vector<ObjectDescription> objects;
+  std::vector<LightDescription> lights;
+  std::vector<CameraDescription> cameras;
+  std::vector<SceneItem> order; ///< as the file lists them; empty: objects, lights, cameras
+
+  std::vector<int> extraKeyFrames;       ///< ascending; key frames at which no track has a key
+  double fps = 25;                       ///< scene frames a second, > 0
+  Eigen::Vector3d background{ 0, 0, 0 }; ///< sRGB in [0, 1]
+  std::string units;                     ///< name of the unit of length, free text
+  UpAxis upAxis = UpAxis::Y;
+  std::uint64_t seed = 0; ///< below 2^53
+
+  /// Every key frame of every track and extraKeyFrames, ascending, without repetition.
+  std::vector<int> keyFrames() const;
+  int firstFrame() const; ///< first key frame; 0 without key frames
+  int lastFrame() const;  ///< last key frame; 0 without key frames
+  /// `order`, filled in.
+  std::vector<SceneItem> items() const;
+  /// `path` (of a model or texture) as it can be opened: absolute ones as they are, others below `folder`.
+  std::string resolve(const std::string& path) const;
+};
+
+/// Reads a .scene or .json file, by extension (case-insensitive), and validates it. Models are not opened. Throws
+/// InputError with file, line and key path.
+DGTKSCENE_EXPORT SceneDescription readScene(const std::string& path);
+
+/// Writes a scene, by extension, atomically; relative paths are rewritten relative to the new file's folder. Throws
+/// InputError for what the format cannot say or what is not valid, naming object and property, and MachineError; what
+/// stood under the name before is then untouched.
+DGTKSCENE_EXPORT void writeScene(const SceneDescription& scene, const std::string& path);
+
+/// The canonical .json text: keys in a fixed order, only values that are not the default, shortest numbers that read
+/// back the same; ends with a newline. Relative paths are rewritten relative to `newFolder` ("" is the current one).
+DGTKSCENE_EXPORT std::string toJson(const SceneDescription& scene, const std::string& newFolder);
+
+/// The .scene text. Throws InputError for what .scene cannot say.
+DGTKSCENE_EXPORT std::string toThesisScene(const SceneDescription& scene, const std::string& newFolder);
+
+/// Throws InputError, with scene.file and the line where known, unless every value is in its range, names are unique,
+/// parents exist without cycle, and `order` lists everything once. Names must be present.
+DGTKSCENE_EXPORT void validate(const SceneDescription& scene);
+
+/// Gives every object, light and camera without a name one of its own: <stem of the model>-<n>, Light<n>, Camera<n>.
+DGTKSCENE_EXPORT void nameAll(SceneDescription& scene);
+
+} // namespace dgtk
+
+#endif

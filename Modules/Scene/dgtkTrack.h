@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkTrack_h
+#define dgtkTrack_h
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
+namespace dgtk
+{
+
+/// A rotation as unit quaternion w + xi + yj + zk. Values read from a file are kept as written, so that they can be
+/// written back; whoever computes with one normalises it.
+struct Quaternion
+{
+  double w = 1;
+  double x = 0;
+  double y = 0;
+  double z = 0;
+
+  double norm() const
+  {
+    return std::sqrt(this->w * this->w + this->x * this->x + this->y * this->y + this->z * this->z);
+  }
+  double dot(const Quaternion& o) const { return this->w * o.w + this->x * o.x + this->y * o.y + this->z * o.z; }
+  Quaternion scaled(double s) const { return { s * this->w, s * this->x, s * this->y, s * this->z }; }
+  Quaternion operator+(const Quaternion& o) const
+  {
+    return { this->w + o.w, this->x + o.x, this->y + o.y, this->z + o.z };
+  }
+  bool operator==(const Quaternion& o) const
+  {
+    return this->w == o.w && this->x == o.x && this->y == o.y && this->z == o.z;
+  }
+  bool operator!=(const Quaternion& o) const { return !(*this == o); }
+
+  /// Rotation matrix of the normalised quaternion; norm() > 0.
+  Eigen::Matrix3d matrix() const
+  {
+    const Quaternion q = this->scaled(1 / this->norm());
+    Eigen::Matrix3d m;
+    m << 1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y - q.w * q.z), 2 * (q.x * q.z + q.w * q.y), //
+      2 * (q.x * q.y + q.w * q.z), 1 - 2 * (q.x * q.x + q.z * q.z), 2 * (q.y * q.z - q.w * q.x),    //
+      2 * (q.x * q.z - q.w * q.y), 2 * (q.y * q.z + q.w * q.x), 1 - 2 * (q.x * q.x + q.y * q.y);
+    return m;
+  }
+};
+
+/// Spherical linear interpolation along the shorter arc (Shoemake 1985), u in [0, 1]; unit length.
+inline Quaternion slerp(Quaternion a, Quaternion b, double u)
+{
+  a = a.scaled(1 / a.norm());
+  b = b.scaled(1 / b.norm());
+  if (a.dot(b) < 0)
+  {
+    b = b.scaled(-1);
+  }
+  // The half angle from the chord: exact also where the cosine is nearly 1.
+  const double chord = (b + a.scaled(-1)).norm();
+  const double angle = 2 * std::asin(std::min(1.0, chord / 2));
+  const double sine = std::sin(angle);
+  const Quaternion q = sine < 1e-9 ? a.scaled(1 - u) + b.scaled(u)
+                                   : a.scaled(std::sin((1 - u) * angle) / sine) + b.scaled(std::sin(u * angle) / sine);
+  return q.scaled(1 / q.norm());
+}
+
+enum class Interpolation
+{
+  Linear, ///< thesis equation 4.13; slerp for rotations
+  Step,   ///< the value of the last key frame
+  Smooth  ///< Catmull-Rom through the keys, tangents scaled to uneven key frames; rotations: as Linear with eased ends
+};
+
+template <typename T>
+struct Key
+{
+  int frame = 0;
+  T value;
+  bool operator==(const Key& o) const { return this->frame == o.frame && this->value == o.value; }
+};
+
+/// A value over time. Without keys it is `value` at every frame; with keys `value` has no effect (it is kept because a
+/// .scene camera has both). Keys ascend strictly. Outside of them the nearest key's value holds; at a key frame at()
+/// is exactly that key's value.
+template <typename T>
+struct Track
+{
+  T value;
+  std::vector<Key<T>> keys;
+  Interpolation interpolation = Interpolation::Linear;
+
+  Track() = default;
+  Track(const T& v)
+    : value(v)
+  {
+  }
+
+  bool animated() const { return !this->keys.empty(); }
+  T at(double frame) const;
+};
+
+namespace detail
+{
+/// Catmull-Rom with one-sided tangents at the ends; i is the index of the key before.
+template <typename T>
+T smooth(const std::vector<Key<T>>& keys, std::size_t i, double u)
+{
+  const double h = keys[i + 1].frame - keys[i].frame;
+  const auto tangent = [&keys](std::size_t k) -> T
+  {
+    const std::size_t before = k == 0 ? 0 : k - 1;
+    const std::size_t after = std::min(k + 1, keys.size() - 1);
+    return (keys[after].value - keys[before].value) / double(keys[after].frame - keys[before].frame);
+  };
+  const T m0 = tangent(i) * h;
+  const T m1 = tangent(i + 1) * h;
+  const T d = keys[i + 1].value - keys[i].value;
+  return keys[i].value + u * (m0 + u * ((3 * d - 2 * m0 - m1) + u * (m0 + m1 - 2 * d)));
+}
+} // namespace detail
+
+template <typename T>
+T Track<T>::at(double frame) const
+{
+  if (this->keys.empty())
+  {
+    return this->value;
+  }
+  const auto after = std::upper_bound(
+    this->keys.begin(), this->keys.end(), frame, [](double f, const Key<T>& key) { return f < key.frame; });
+  if (after == this->keys.begin())
+  {
+    return this->keys.front().value;
+  }
+  const std::size_t i = std::size_t(after - this->keys.begin()) - 1;
+  const Key<T>& a = this->keys[i];
+  if (after == this->keys.end() || frame == a.frame || this->interpolation == Interpolation::Step)
+  {
+    return a.value;
+  }
+  const double u = (frame - a.frame) / (double(after->frame) - a.frame);
+  if constexpr (std::is_same_v<T, Quaternion>)
+  {
+    return slerp(a.value, after->value, this->interpolation == Interpolation::Smooth ? u * u * (3 - 2 * u) : u);
+  }
+  else
+  {
+    return this->interpolation == Interpolation::Smooth ? detail::smooth(this->keys, i, u)
+                                                        : T(a.value + (after->value - a.value) * u);
+  }
+}
+
+} // namespace dgtk
+
+#endif

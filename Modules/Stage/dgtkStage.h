@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkStage_h
+#define dgtkStage_h
+
+#include "dgtkStageModule.h"
+
+#include "dgtkSceneDescription.h"
+#include "dgtkSceneState.h"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// A scene with everything that it names loaded. Immutable; all members are thread-safe.
+class DGTKSTAGE_EXPORT Stage
+{
+public:
+  /// Called with one line for each warning.
+  using WarningSink = std::function<void(const std::string&)>;
+
+  /// Validates the scene and reads each model file once, however its path is spelled, and each replacing texture.
+  /// Throws InputError, with the scene's file and line, for a model that is missing or cannot be used, an unknown
+  /// sequence or skin, and cameras or objects that are invalid at a key frame. Missing textures are warnings.
+  static std::shared_ptr<const Stage> load(SceneDescription scene, const WarningSink& warning = {});
+
+  ~Stage();
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  const SceneDescription& description() const;
+
+  /// The scene at a frame; fractions lie between frames. Rigid instances share their model's rest geometry, deforming
+  /// ones that show the same model frame share one Geometry, also between states while it is in use.
+  std::shared_ptr<const SceneState> at(double frame) const;
+
+  /// A camera at a frame. 0, 0: the camera's own size, or 640 x 480. K of another size is scaled per axis.
+  /// Throws UsageError for an index or a size out of range, InputError where the pose is undefined (eye = look-at).
+  View view(std::size_t camera, double frame, int width = 0, int height = 0) const;
+
+  std::vector<std::string> cameraNames() const;
+  /// Names of the objects with an id, in the order of the ids: objectNames()[id - 1].
+  std::vector<std::string> objectNames() const;
+
+  /// Models in the order of their first use, each once.
+  std::vector<std::shared_ptr<const Model>> models() const;
+  /// Every file that was read, without repetition: scene, models, textures (in order of first use).
+  std::vector<std::string> inputFiles() const;
+
+private:
+  struct Impl;
+  explicit Stage(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> Self;
+};
+
+} // namespace dgtk
+
+#endif
