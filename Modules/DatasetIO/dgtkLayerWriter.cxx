@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkLayerWriter.h"
+
+#include "dgtkError.h"
+#include "dgtkWriterEntry.h"
+
+namespace dgtk
+{
+
+namespace
+{
+const WriterRow* findWriter(const std::string& format)
+{
+  for (const WriterRow& row : writerRows())
+  {
+    if (row.info.format == format)
+    {
+      return &row;
+    }
+  }
+  return nullptr;
+}
+
+std::string formatList()
+{
+  std::string list;
+  for (const WriterRow& row : writerRows())
+  {
+    list += (list.empty() ? "" : ", ") + row.info.format;
+  }
+  return list;
+}
+} // namespace
+
+const std::vector<WriterInfo>& layerWriters()
+{
+  static const std::vector<WriterInfo> infos = []
+  {
+    std::vector<WriterInfo> all;
+    for (const WriterRow& row : writerRows())
+    {
+      all.push_back(row.info);
+    }
+    return all;
+  }();
+  return infos;
+}
+
+bool canWrite(const std::string& format, const LayerSpec& spec)
+{
+  const WriterRow* row = findWriter(format);
+  return row && spec.channels >= 1 && row->entry->canWrite(spec);
+}
+
+std::unique_ptr<LayerWriter> makeLayerWriter(const std::string& format, const std::string& path, const LayerSpec& spec,
+  int width, int height, const LayerWriterContext& context)
+{
+  const WriterRow* row = findWriter(format);
+  if (!row)
+  {
+    throw UsageError("no such format: " + quoted(format) + " (there are " + formatList() + ")");
+  }
+  if (!canWrite(format, spec))
+  {
+    throw UsageError("layer " + quoted(spec.name) + " (" + std::to_string(spec.channels) + " x " + nameOf(spec.type) +
+                     ") cannot be written as " + format);
+  }
+  if (width < 1 || height < 1)
+  {
+    throw UsageError(
+      path + ": an image of " + std::to_string(width) + " x " + std::to_string(height) + " pixels cannot be written");
+  }
+  return row->entry->open(path, spec, width, height, context);
+}
+
+} // namespace dgtk

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkLayerFile.h"
+#include "dgtkWriterEntry.h"
+
+namespace dgtk
+{
+
+namespace
+{
+const char* descriptorOf(PixelType type)
+{
+  switch (type)
+  {
+    case PixelType::UInt8:
+      return "|u1";
+    case PixelType::UInt16:
+      return "<u2";
+    case PixelType::UInt32:
+      return "<u4";
+    case PixelType::Float32:
+      return "<f4";
+    case PixelType::Float64:
+      return "<f8";
+  }
+  return "";
+}
+
+/// NPY format 1.0: magic, version, header length, a Python dictionary padded so that the data start at a multiple
+/// of 64.
+class NpyWriter : public LayerFileWriter
+{
+public:
+  NpyWriter(const std::string& path, const LayerSpec& spec, int width, int height)
+    : LayerFileWriter(path, spec, width, height)
+  {
+    std::string text = std::string("{'descr': '") + descriptorOf(spec.type) + "', 'fortran_order': False, 'shape': (" +
+                       std::to_string(height) + ", " + std::to_string(width) +
+                       (spec.channels > 1 ? ", " + std::to_string(spec.channels) : std::string()) + "), }";
+    constexpr std::size_t prefix = 10;
+    text.append(63 - (prefix + text.size()) % 64, ' ');
+    text += '\n';
+    std::string header("\x93NUMPY\x01\x00", 8);
+    putLittle(header, static_cast<std::uint16_t>(text.size()));
+    this->append(header + text);
+  }
+
+protected:
+  void writeRows(const Rows& rows) override { this->append(rows.data(), rows.bytes()); }
+};
+
+bool canWriteNpy(const LayerSpec&) { return true; }
+
+std::unique_ptr<LayerWriter> openNpy(
+  const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext&)
+{
+  return std::make_unique<NpyWriter>(path, spec, width, height);
+}
+} // namespace
+
+extern const WriterEntry writerNpy;
+const WriterEntry writerNpy = { &canWriteNpy, &openNpy };
+
+} // namespace dgtk

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkWriterEntry_h
+#define dgtkWriterEntry_h
+
+#include "dgtkLayerWriter.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// What the file of a format defines: `const WriterEntry writer<Name>`.
+struct WriterEntry
+{
+  bool (*canWrite)(const LayerSpec& spec);
+  /// Called with a size of at least 1 x 1 and a specification that canWrite() accepts.
+  std::unique_ptr<LayerWriter> (*open)(
+    const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context);
+};
+
+struct WriterRow
+{
+  WriterInfo info;
+  const WriterEntry* entry;
+};
+
+const std::vector<WriterRow>& writerRows();
+
+} // namespace dgtk
+
+#endif
