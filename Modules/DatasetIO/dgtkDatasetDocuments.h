@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkDatasetDocuments_h
+#define dgtkDatasetDocuments_h
+
+#include "dgtkDatasetIOModule.h"
+
+#include "dgtkLayer.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+// The text documents of a dataset. Every `...Text` function is a pure function of its argument: lists are sorted where
+// their order means nothing, numbers are the shortest that read back to the same double, nothing depends on clock,
+// machine or locale. Every `read...` function throws an InputError that names the file and the place.
+
+namespace dgtk
+{
+
+/// One camera at one frame, as in cameras.json.
+struct CameraRecord
+{
+  std::string name;
+  int frame = 0;
+  int width = 0; ///< pixels
+  int height = 0;
+  /// Pixels from camera axes (x right, y down, z forward); pixel centres are at + 0.5.
+  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity(); ///< x_camera = R x_world + t
+  Eigen::Vector3d t = Eigen::Vector3d::Zero();     ///< scene units
+  std::string model = "pinhole";
+  std::vector<double> distortion; ///< the model's coefficients; empty: none
+  double near = 0;                ///< scene units, camera z
+  double far = 0;
+};
+
+/// One object, as in objects.json.
+struct ObjectRecord
+{
+  std::uint32_t id = 0; ///< value of the `objects` layer, >= 1
+  std::string name;
+  std::string objectClass; ///< "class" in the file; may be empty
+  std::string model;       ///< path relative to the dataset, or the name of a built-in model
+  std::uint64_t triangles = 0;
+};
+
+/// A file that the dataset was made from.
+struct InputRecord
+{
+  std::string path; ///< relative to the dataset
+  std::uint64_t bytes = 0;
+  std::string sha256; ///< 64 hexadecimal digits
+};
+
+/// A file of the dataset.
+struct DatasetFile
+{
+  std::string path; ///< relative to the dataset, with '/'
+  std::uint64_t bytes = 0;
+  std::string sha256; ///< 64 hexadecimal digits
+  std::string layer;  ///< "" for documents such as cameras.json
+  std::string camera; ///< "" likewise
+  int frame = -1;     ///< -1 likewise
+};
+
+/// A layer and a format that it was written in.
+struct LayerRecord
+{
+  LayerSpec spec;
+  std::string format;
+};
+
+struct Manifest
+{
+  std::string version;                                      ///< of DGTk
+  std::string requestHash;                                  ///< the one that Journal was given
+  std::vector<std::pair<std::string, std::string>> request; ///< option and value, in this order
+  std::string units;                                        ///< of the scene; "" when it does not say
+  std::vector<InputRecord> inputs;
+  std::vector<LayerRecord> layers;
+  std::vector<DatasetFile> files; ///< written sorted by path
+};
+
+DGTKDATASETIO_EXPORT std::string camerasText(std::vector<CameraRecord> cameras);
+DGTKDATASETIO_EXPORT std::string objectsText(std::vector<ObjectRecord> objects);
+DGTKDATASETIO_EXPORT std::string manifestText(Manifest manifest);
+
+DGTKDATASETIO_EXPORT std::vector<CameraRecord> readCameras(const std::string& path);
+DGTKDATASETIO_EXPORT std::vector<ObjectRecord> readObjects(const std::string& path);
+DGTKDATASETIO_EXPORT Manifest readManifest(const std::string& path);
+
+/// Writes DIR/`name` atomically and describes it for the manifest (layer, camera and frame as given).
+DGTKDATASETIO_EXPORT DatasetFile writeDocument(const std::string& folder, const std::string& name,
+  const std::string& text, const std::string& layer = {}, const std::string& camera = {}, int frame = -1);
+
+/// The thesis's calibration of an image (section 4.3.1).
+struct Calibration
+{
+  Eigen::Matrix3d K = Eigen::Matrix3d::Identity(); ///< from unit cube, homogeneous, from camera (OpenGL axes)
+  Eigen::Matrix<double, 3, 4> Rt = Eigen::Matrix<double, 3, 4>::Zero(); ///< from world
+  int x = 0;                                                            ///< viewport, pixels
+  int y = 0;
+  int width = 0;
+  int height = 0;
+
+  /// Pixels from world, homogeneous, y up from the bottom edge: viewport matrix * K * [R|t] (equation 4.5).
+  Eigen::Matrix<double, 3, 4> cameraMatrix() const;
+};
+
+/// K is the projection without its third row and fourth column, [R|t] the viewing matrix without its last row. An
+/// orthographic projection, whose homogeneous coordinate is constant, keeps the form: K then has the fourth column in
+/// place of the third, and [R|t] the viewing matrix's last row in place of its third.
+DGTKDATASETIO_EXPORT Calibration makeCalibration(
+  const Eigen::Matrix4d& projection, const Eigen::Matrix4d& modelView, int width, int height);
+DGTKDATASETIO_EXPORT std::string calibrationText(const Calibration& calibration);
+DGTKDATASETIO_EXPORT Calibration readCalibration(const std::string& path);
+
+} // namespace dgtk
+
+#endif
