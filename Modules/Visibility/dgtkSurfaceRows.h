@@ -35,12 +35,24 @@ DGTKVISIBILITY_EXPORT void computeSurfaceRows(const SceneState& state, const Vie
 /// World position of the corners of the triangle of `hit` (object != 0).
 DGTKVISIBILITY_EXPORT void triangleInWorld(const SceneState& state, const Hit& hit, Eigen::Vector3d corners[3]);
 
-/// Settles pixels whose recorded triangle does not contain the pixel's centre in exact arithmetic, from the triangles
-/// of the neighbouring pixels of the buffer. `grazingOnly`: only those where the plane of the triangle would give a
-/// depth outside the triangle's own range; used for raster buffers, whose colours are to stay with their labels.
-/// Returns how many pixels changed.
+/// Whether a point of a triangle of the instance is a missing texel: its material is cut out and the texel in column
+/// floor(u w) mod w and, from the bottom, row floor(v h) mod h has alpha below 128. `barycentrics` of the second and
+/// third corner. The one rule of all engines. Thread-safe.
+DGTKVISIBILITY_EXPORT bool isCutOut(
+  const Instance& instance, std::uint32_t triangle, const Eigen::Vector2d& barycentrics);
+
+/// Settles pixels whose recorded triangle does not contain the pixel's centre in exact arithmetic, or contains it
+/// within 1/64 pixel of its edge, and background pixels beside a surface: of the triangles recorded in the 3 x 3
+/// neighbourhood inside the buffer, those that contain the centre (edges included) within near and far, at a texel that
+/// is there, the nearest is taken (nearest within a relative 1e-12: the lowest object, then triangle). When there is
+/// none the pixel keeps its hit, unless the plane of its triangle would give a depth outside the triangle's own range:
+/// then nothing is there. Triangles without area are never hit. `grazingOnly`: only pixels whose triangle does not
+/// contain the centre and whose plane would give a depth outside the triangle's own range; used for raster buffers,
+/// whose colours are to stay with their labels. Every decision reads the buffer as it came in; the result does not
+/// depend on the order of pixels or on `pool`, whose threads share the work when it is given. Returns how many pixels
+/// changed.
 DGTKVISIBILITY_EXPORT std::size_t settleEdges(
-  const SceneState& state, const View& view, VisibilityBuffer& buffer, bool grazingOnly);
+  const SceneState& state, const View& view, VisibilityBuffer& buffer, bool grazingOnly, ThreadPool* pool = nullptr);
 
 } // namespace dgtk
 

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSurfaceRows.h"
+
+#include "dgtkTriangleSolver.h"
+
+namespace dgtk
+{
+
+namespace
+{
+
+/// A row of a linear lens: affine directions, no virtual call.
+template <LensKind Kind, bool WithBarycentrics>
+void linearRow(TriangleSolver& solver, const PixelRect& rect, int row, const Hit* hits, double* t, double* barycentrics)
+{
+  const Lens& lens = solver.lens();
+  const double v = row + 0.5;
+  const double dy = lens.directionY(v);
+  const double skew = lens.Skew * dy;
+  const double skewX = std::abs(skew * lens.InverseFx);
+  const Plane* plane = nullptr;
+  for (int i = 0; i < rect.width; ++i)
+  {
+    PlanePoint point;
+    if (hits[i].object != 0)
+    {
+      if (!plane || plane->hit != hits[i])
+      {
+        plane = &solver.plane(hits[i]);
+      }
+      const double u = rect.x + i + 0.5;
+      if (plane->state != Plane::State::None &&
+          !evaluate<Kind, WithBarycentrics>(*plane, lens.directionX(u, skew), dy, skewX, point))
+      {
+        point = solver.exactPoint(hits[i], u, v);
+      }
+    }
+    t[i] = point.t;
+    if (WithBarycentrics)
+    {
+      barycentrics[2 * i] = point.second;
+      barycentrics[2 * i + 1] = point.third;
+    }
+  }
+}
+
+void generalRow(
+  TriangleSolver& solver, const PixelRect& rect, int row, const Hit* hits, double* t, double* barycentrics)
+{
+  for (int i = 0; i < rect.width; ++i)
+  {
+    PlanePoint point;
+    if (hits[i].object != 0)
+    {
+      point = solver.point(hits[i], rect.x + i + 0.5, row + 0.5, barycentrics != nullptr);
+    }
+    t[i] = point.t;
+    if (barycentrics)
+    {
+      barycentrics[2 * i] = point.second;
+      barycentrics[2 * i + 1] = point.third;
+    }
+  }
+}
+
+} // namespace
+
+void computeSurfaceRows(const SceneState& state, const View& view, const PixelRect& rect, const Hit* hits,
+  bool barycentrics, SurfaceRows& rows)
+{
+  const std::size_t pixels = std::size_t(rect.width) * rect.height;
+  rows.state = &state;
+  rows.view = &view;
+  rows.rect = rect;
+  rows.hits = hits;
+  rows.t.resize(pixels);
+  rows.barycentrics.resize(barycentrics ? 2 * pixels : 0);
+  TriangleSolver solver(state, view);
+  const LensKind kind = solver.lens().Kind;
+  const auto body =
+    kind == LensKind::General ? generalRow
+    : kind == LensKind::Perspective
+      ? (barycentrics ? linearRow<LensKind::Perspective, true> : linearRow<LensKind::Perspective, false>)
+      : (barycentrics ? linearRow<LensKind::Parallel, true> : linearRow<LensKind::Parallel, false>);
+  for (int y = 0; y < rect.height; ++y)
+  {
+    const std::size_t first = std::size_t(y) * rect.width;
+    body(solver, rect, rect.y + y, hits + first, rows.t.data() + first,
+      barycentrics ? rows.barycentrics.data() + 2 * first : nullptr);
+  }
+}
+
+} // namespace dgtk

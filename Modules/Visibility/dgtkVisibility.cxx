@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkVisibility.h"
+
+#include "dgtkError.h"
+#include "dgtkSurfaceRows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr int MaximumSide = 1 << 20;
+constexpr int SingleTileSide = 4096;
+constexpr long SingleTilePixels = 4L << 20;
+constexpr int LargeTileWidth = 2048;
+constexpr int LargeTileHeight = 512;
+constexpr int HalfAlpha = 128;
+
+/// floor(coordinate * size) mod size.
+int texelIndex(double coordinate, int size)
+{
+  const double index = std::fmod(std::floor(coordinate * size), size);
+  return std::isfinite(index) ? int(index < 0 ? index + size : index) : 0;
+}
+
+} // namespace
+
+TileGrid::TileGrid(int width, int height)
+  : Width(width)
+  , Height(height)
+{
+  if (width < 1 || height < 1 || width > MaximumSide || height > MaximumSide)
+  {
+    throw UsageError("image size out of range (expected 1 to " + std::to_string(MaximumSide) +
+                     " pixels a side, found " + std::to_string(width) + " x " + std::to_string(height) + ")");
+  }
+  const bool single = width <= SingleTileSide && height <= SingleTileSide && long(width) * height <= SingleTilePixels;
+  this->TileWidth = single ? width : LargeTileWidth;
+  this->TileHeight = single ? height : LargeTileHeight;
+  this->Columns = (width + this->TileWidth - 1) / this->TileWidth;
+  this->RowCount = (height + this->TileHeight - 1) / this->TileHeight;
+}
+
+PixelRect TileGrid::tile(int column, int row) const
+{
+  if (column < 0 || row < 0 || column >= this->Columns || row >= this->RowCount)
+  {
+    throw UsageError("no tile " + std::to_string(column) + ", " + std::to_string(row) + " in a grid of " +
+                     std::to_string(this->Columns) + " x " + std::to_string(this->RowCount));
+  }
+  const int x = column * this->TileWidth;
+  const int y = row * this->TileHeight;
+  return { x, y, std::min(this->TileWidth, this->Width - x), std::min(this->TileHeight, this->Height - y) };
+}
+
+void triangleInWorld(const SceneState& state, const Hit& hit, Eigen::Vector3d corners[3])
+{
+  const Instance& instance = state.instances.at(std::size_t(hit.object) - 1);
+  const auto& triangle = instance.model->triangles.at(hit.triangle);
+  for (int i = 0; i < 3; ++i)
+  {
+    corners[i] = instance.world_from_object * instance.geometry->positions[triangle[i]];
+  }
+}
+
+bool isCutOut(const Instance& instance, std::uint32_t triangle, const Eigen::Vector2d& barycentrics)
+{
+  const Model& model = *instance.model;
+  const std::vector<Material>& materials = instance.materials ? *instance.materials : model.materials;
+  if (model.uvs.empty() || materials.empty())
+  {
+    return false;
+  }
+  const Material& material = materials[model.parts[model.partOf(triangle)].material];
+  if (!material.cutOut || material.texture < 0 || !model.textures[material.texture].image)
+  {
+    return false;
+  }
+  const Image& image = *model.textures[material.texture].image;
+  const auto& corners = model.triangles[triangle];
+  const Eigen::Vector2d& first = model.uvs[corners[0]];
+  const Eigen::Vector2d uv =
+    first + barycentrics.x() * (model.uvs[corners[1]] - first) + barycentrics.y() * (model.uvs[corners[2]] - first);
+  if (!uv.allFinite() || image.width < 1 || image.height < 1)
+  {
+    return false;
+  }
+  const int column = texelIndex(uv.x(), image.width);
+  const int row = image.height - 1 - texelIndex(uv.y(), image.height);
+  return image.rgba[(std::size_t(row) * image.width + column) * 4 + 3] < HalfAlpha;
+}
+
+} // namespace dgtk
