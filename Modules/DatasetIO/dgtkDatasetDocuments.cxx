@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkDatasetDocuments.h"
+
+#include "dgtkFile.h"
+#include "dgtkHash.h"
+#include "dgtkJsonText.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace dgtk
+{
+
+namespace
+{
+std::string cameraText(const CameraRecord& camera)
+{
+  std::string distortion;
+  for (const double value : camera.distortion)
+  {
+    distortion += (distortion.empty() ? "" : ", ") + jsonNumber(value);
+  }
+  return JsonObject(6)
+    .text("name", camera.name)
+    .integer("frame", camera.frame)
+    .integer("width", camera.width)
+    .integer("height", camera.height)
+    .raw("K", jsonMatrix(camera.K))
+    .raw("R", jsonMatrix(camera.R))
+    .raw("t", jsonMatrix(camera.t))
+    .text("model", camera.model)
+    .raw("distortion", "[" + distortion + "]")
+    .number("near", camera.near)
+    .number("far", camera.far)
+    .block();
+}
+
+std::string layerText(const LayerRecord& layer)
+{
+  const LayerSpec& spec = layer.spec;
+  return JsonObject(6)
+    .text("name", spec.name)
+    .text("format", layer.format)
+    .text("type", nameOf(spec.type))
+    .integer("channels", spec.channels)
+    .text("unit", spec.unit)
+    .text("frame", spec.frame)
+    .text("invalid", spec.invalid)
+    .text("description", spec.description)
+    .line();
+}
+
+std::string fileText(const DatasetFile& file)
+{
+  JsonObject object(6);
+  object.text("path", file.path).integer("bytes", static_cast<std::int64_t>(file.bytes)).text("sha256", file.sha256);
+  if (!file.layer.empty())
+  {
+    object.text("layer", file.layer);
+  }
+  if (!file.camera.empty())
+  {
+    object.text("camera", file.camera);
+  }
+  if (file.frame >= 0 || !file.camera.empty())
+  {
+    object.integer("frame", file.frame);
+  }
+  return object.line();
+}
+
+template <typename T, typename F>
+std::string arrayText(const std::vector<T>& items, F text)
+{
+  JsonArray array(4);
+  for (const T& item : items)
+  {
+    array.add(text(item));
+  }
+  return array.block();
+}
+} // namespace
+
+std::string camerasText(std::vector<CameraRecord> cameras)
+{
+  std::stable_sort(cameras.begin(), cameras.end(),
+    [](const CameraRecord& a, const CameraRecord& b) { return std::tie(a.name, a.frame) < std::tie(b.name, b.frame); });
+  return JsonObject(2).raw("cameras", arrayText(cameras, cameraText)).block() + "\n";
+}
+
+std::string objectsText(std::vector<ObjectRecord> objects)
+{
+  std::stable_sort(
+    objects.begin(), objects.end(), [](const ObjectRecord& a, const ObjectRecord& b) { return a.id < b.id; });
+  const auto text = [](const ObjectRecord& object)
+  {
+    return JsonObject(6)
+      .integer("id", object.id)
+      .text("name", object.name)
+      .text("class", object.objectClass)
+      .text("model", object.model)
+      .integer("triangles", static_cast<std::int64_t>(object.triangles))
+      .line();
+  };
+  return JsonObject(2).raw("objects", arrayText(objects, text)).block() + "\n";
+}
+
+std::string manifestText(Manifest manifest)
+{
+  std::sort(manifest.files.begin(), manifest.files.end(),
+    [](const DatasetFile& a, const DatasetFile& b) { return a.path < b.path; });
+  std::sort(manifest.inputs.begin(), manifest.inputs.end(),
+    [](const InputRecord& a, const InputRecord& b) { return a.path < b.path; });
+  JsonObject request(4);
+  for (const auto& [key, value] : manifest.request)
+  {
+    request.text(key, value);
+  }
+  const auto input = [](const InputRecord& file)
+  {
+    return JsonObject(6)
+      .text("path", file.path)
+      .integer("bytes", static_cast<std::int64_t>(file.bytes))
+      .text("sha256", file.sha256)
+      .line();
+  };
+  return JsonObject(2)
+           .text("format", "DGTk dataset")
+           .integer("format_version", 1)
+           .text("version", manifest.version)
+           .text("request_hash", manifest.requestHash)
+           .raw("request", manifest.request.empty() ? "{}" : request.block())
+           .text("units", manifest.units)
+           .raw("inputs", arrayText(manifest.inputs, input))
+           .raw("layers", arrayText(manifest.layers, layerText))
+           .raw("files", arrayText(manifest.files, fileText))
+           .block() +
+         "\n";
+}
+
+DatasetFile writeDocument(const std::string& folder, const std::string& name, const std::string& text,
+  const std::string& layer, const std::string& camera, int frame)
+{
+  writeFile(folder + '/' + name, text);
+  Sha256 hash;
+  hash.update(text.data(), text.size());
+  return { name, text.size(), hash.hex(), layer, camera, frame };
+}
+
+} // namespace dgtk

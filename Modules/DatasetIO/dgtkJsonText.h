@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkJsonText_h
+#define dgtkJsonText_h
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+namespace dgtk
+{
+
+/// Shortest text that reads back to the same double; "inf", "-inf" and "nan" for what is not a number.
+std::string shortest(double value);
+
+/// A JSON string with its quotes. Bytes that are not UTF-8 become U+FFFD.
+std::string jsonString(const std::string& text);
+
+/// A JSON number; null for what is not finite.
+std::string jsonNumber(double value);
+
+/// Rows in brackets; a vector (one column) in one pair of brackets.
+std::string jsonMatrix(const Eigen::Ref<const Eigen::MatrixXd>& matrix);
+
+/// Joins `"key": value` members of one object over lines indented by `indent` spaces.
+class JsonObject
+{
+public:
+  explicit JsonObject(int indent)
+    : Indent(indent)
+  {
+  }
+  JsonObject& raw(const std::string& key, const std::string& value);
+  JsonObject& text(const std::string& key, const std::string& value) { return this->raw(key, jsonString(value)); }
+  JsonObject& number(const std::string& key, double value) { return this->raw(key, jsonNumber(value)); }
+  JsonObject& integer(const std::string& key, std::int64_t value) { return this->raw(key, std::to_string(value)); }
+  JsonObject& boolean(const std::string& key, bool value) { return this->raw(key, value ? "true" : "false"); }
+  /// On several lines.
+  std::string block() const;
+  /// On one line.
+  std::string line() const;
+
+private:
+  int Indent;
+  std::string Block;
+  std::string Line;
+};
+
+/// Items over lines indented by `indent` spaces.
+class JsonArray
+{
+public:
+  explicit JsonArray(int indent)
+    : Indent(indent)
+  {
+  }
+  void add(const std::string& item);
+  std::string block() const;
+
+private:
+  int Indent;
+  std::string Items;
+};
+
+} // namespace dgtk
+
+#endif
