@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkAppCommands_h
+#define dgtkAppCommands_h
+
+#include "Options.h"
+
+namespace dgtk::app
+{
+
+// One file a command; each returns the process's exit status or throws an Error.
+Command renderCommand();
+Command infoCommand();
+Command convertCommand();
+Command compareCommand();
+Command listCommand();
+
+/// Text on standard output; MachineError when it cannot be written (a full disk behind a redirection).
+void print(const std::string& text);
+
+/// Gets the process ready for OpenGL before anything uses it; may start the program anew (OSMesa needs a preload).
+void prepareGL(const std::string& backend, int threads);
+
+} // namespace dgtk::app
+
+#endif

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkAppInfo_h
+#define dgtkAppInfo_h
+
+#include "Options.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+namespace dgtk::app
+{
+
+using Json = nlohmann::ordered_json;
+
+/// What `dgtk info` prints of a scene (options --size and --surfaces) and of a dataset's folder.
+Json infoOfScene(const std::string& path, const Arguments& arguments);
+Json infoOfDataset(const std::string& folder);
+
+} // namespace dgtk::app
+
+#endif

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands.h"
+#include "Info.h"
+
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkModelReader.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+namespace dgtk::app
+{
+
+namespace
+{
+Json vector(const Eigen::Vector3d& v) { return Json::array({ v.x(), v.y(), v.z() }); }
+
+Json infoOfModel(const std::string& path)
+{
+  ReadOptions options;
+  options.decodeTextures = false;
+  const std::shared_ptr<const Model> model = readModel(path, options);
+  Json info;
+  info["file"] = path;
+  info["format"] = model->format;
+  info["triangles"] = model->triangles.size();
+  info["vertices"] = model->sourceVertices;
+  info["parts"] = model->parts.size();
+  info["materials"] = model->declaredMaterials;
+  info["textures"] = Json::array();
+  for (const Texture& texture : model->textures)
+  {
+    info["textures"].push_back({ { "name", texture.name }, { "found", !texture.path.empty() } });
+  }
+  const bool empty = (model->boundsMin.array() > model->boundsMax.array()).any();
+  info["bounds"] = empty ? Json(nullptr) : Json::array({ vector(model->boundsMin), vector(model->boundsMax) });
+  info["two_sided_triangles"] = model->twoSidedTriangles;
+  info["two_sided_surfaces"] = model->twoSidedSurfaces;
+  info["lines"] = model->lines;
+  info["frames"] = model->frames;
+  info["animations"] = Json::array();
+  for (const Animation& animation : model->animations)
+  {
+    info["animations"].push_back({ { "name", animation.name }, { "first", animation.first }, { "last", animation.last },
+      { "fps", animation.fps } });
+  }
+  info["warnings"] = model->warnings;
+  return info;
+}
+
+std::string extension(const std::string& path)
+{
+  std::string text = std::filesystem::path(path).extension().string();
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+// "key: value" lines; lists of objects become indented blocks.
+void describe(const Json& value, const std::string& indent, std::string& text)
+{
+  for (const auto& [key, item] : value.items())
+  {
+    const bool blocks = item.is_object() || (item.is_array() && !item.empty() && item[0].is_object());
+    if (!blocks)
+    {
+      text += indent + key + ": " + (item.is_string() ? item.get<std::string>() : item.dump()) + '\n';
+      continue;
+    }
+    text += indent + key + ":\n";
+    if (item.is_object())
+    {
+      describe(item, indent + "  ", text);
+      continue;
+    }
+    for (const Json& entry : item)
+    {
+      std::string block;
+      describe(entry, indent + "    ", block);
+      block.replace(indent.size() + 2, 1, "-");
+      text += block;
+    }
+  }
+}
+
+Json infoOf(const Arguments& arguments)
+{
+  const std::string& path = arguments.positional()[0];
+  const bool folder = std::filesystem::is_directory(path);
+  if (folder && std::filesystem::exists(path + "/manifest.json"))
+  {
+    return infoOfDataset(path);
+  }
+  if (std::filesystem::path(path).filename() == "manifest.json")
+  {
+    return infoOfDataset(std::filesystem::path(path).parent_path().string());
+  }
+  if (extension(path) == ".scene" || extension(path) == ".json")
+  {
+    return infoOfScene(path, arguments);
+  }
+  if (folder)
+  {
+    throw InputError(path, 0, "is a folder without a dataset", "a scene, a model or a folder with manifest.json");
+  }
+  return infoOfModel(path);
+}
+
+int run(const Arguments& arguments)
+{
+  const Json info = infoOf(arguments);
+  std::string text;
+  if (arguments.has("--json"))
+  {
+    text = info.dump(2) + '\n';
+  }
+  else
+  {
+    describe(info, "", text);
+  }
+  print(text);
+  return 0;
+}
+} // namespace
+
+Command infoCommand()
+{
+  return { "info", "FILE", 1, 1, "Tells what a scene, a model or a dataset holds.",
+    { { "--json", "", "", "print one JSON object" },
+      { "--size", "WxH", "", "of a scene: size of the images (default: the camera's own, else 640x480)" },
+      { "--surfaces", "", "", "of a scene: world units per pixel over what each camera sees at its first frame" } },
+    &run };
+}
+
+} // namespace dgtk::app

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Info.h"
+
+#include "dgtkDatasetDocuments.h"
+
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <set>
+
+namespace dgtk::app
+{
+
+Json infoOfDataset(const std::string& folder)
+{
+  const Manifest manifest = readManifest(folder + "/manifest.json");
+  std::set<std::string> cameras;
+  std::set<int> frames;
+  std::map<std::string, std::size_t> files;
+  std::uint64_t bytes = 0;
+  for (const DatasetFile& file : manifest.files)
+  {
+    bytes += file.bytes;
+    if (!file.camera.empty())
+    {
+      cameras.insert(file.camera);
+      frames.insert(file.frame);
+      ++files[file.layer];
+    }
+  }
+  Json info;
+  info["dataset"] = folder;
+  info["version"] = manifest.version;
+  info["cameras"] = cameras;
+  info["first_frame"] = frames.empty() ? Json(nullptr) : Json(*frames.begin());
+  info["last_frame"] = frames.empty() ? Json(nullptr) : Json(*frames.rbegin());
+  info["frames"] = frames.size();
+  info["files"] = manifest.files.size();
+  info["bytes"] = bytes;
+  info["units"] = manifest.units;
+  info["layers"] = Json::array();
+  for (const LayerRecord& layer : manifest.layers)
+  {
+    info["layers"].push_back(
+      { { "name", layer.spec.name }, { "format", layer.format }, { "type", nameOf(layer.spec.type) },
+        { "channels", layer.spec.channels }, { "unit", layer.spec.unit }, { "files", files[layer.spec.name] } });
+  }
+  Json request = Json::object();
+  for (const auto& [key, value] : manifest.request)
+  {
+    request[key] = value;
+  }
+  info["request"] = request;
+  return info;
+}
+
+} // namespace dgtk::app

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkAppOptions_h
+#define dgtkAppOptions_h
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dgtk::app
+{
+
+/// One row of a command's table of options.
+struct Option
+{
+  std::string name;     ///< with its dashes: "--size"
+  std::string value;    ///< what stands for the value in the help, "" for a switch: "WxH"
+  std::string fallback; ///< shown as the default; "" for none
+  std::string help;     ///< one line
+};
+
+/// A command: what it is called, what it takes, what it does.
+struct Command
+{
+  std::string name;
+  std::string arguments; ///< "SCENE"
+  std::size_t least;     ///< number of arguments
+  std::size_t most;
+  std::string help; ///< one line
+  std::vector<Option> options;
+  int (*run)(const class Arguments&);
+};
+
+/// The parsed command line of one command.
+class Arguments
+{
+public:
+  /// Throws UsageError for an unknown option (with the nearest known one), a missing or superfluous value, or a wrong
+  /// number of arguments.
+  Arguments(const Command& command, const std::vector<std::string>& words);
+
+  const std::vector<std::string>& positional() const { return this->Positional; }
+  bool has(const std::string& name) const { return this->Values.count(name) > 0; }
+  /// The value given, or the option's fallback.
+  std::string text(const std::string& name) const;
+  /// An integer in [least, most]; UsageError otherwise.
+  int integer(const std::string& name, int least, int most) const;
+  /// "WxH", each in [1, most].
+  void size(const std::string& name, int most, int& width, int& height) const;
+  /// Comma-separated; empty parts are refused.
+  std::vector<std::string> list(const std::string& name) const;
+
+private:
+  const Command& Self;
+  std::vector<std::string> Positional;
+  std::map<std::string, std::string> Values;
+};
+
+/// The page that `dgtk COMMAND --help` prints.
+std::string helpPage(const Command& command);
+
+/// The candidate nearest to `word` by edit distance, or "" when none is near.
+std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
+
+/// An integer written in full; UsageError naming `what` otherwise.
+int parseInteger(const std::string& text, const std::string& what, int least, int most);
+
+} // namespace dgtk::app
+
+#endif

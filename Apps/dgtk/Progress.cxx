@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Progress.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <unistd.h>
+
+namespace dgtk::app
+{
+
+namespace
+{
+constexpr std::chrono::milliseconds barInterval{ 100 };
+constexpr std::chrono::seconds lineInterval{ 5 };
+
+std::string duration(double seconds)
+{
+  const long s = static_cast<long>(seconds + 0.5);
+  char text[32];
+  if (s >= 3600)
+  {
+    std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
+  }
+  else
+  {
+    std::snprintf(text, sizeof text, "%ld:%02ld", s / 60, s % 60);
+  }
+  return text;
+}
+} // namespace
+
+Progress::Progress(bool quiet)
+  : Quiet(quiet)
+  , Terminal(::isatty(STDERR_FILENO) == 1)
+  , Start(std::chrono::steady_clock::now())
+  , Last(Start)
+{
+}
+
+Progress::~Progress()
+{
+  if (this->Drawn)
+  {
+    std::fputc('\n', stderr);
+  }
+}
+
+double Progress::seconds() const
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
+}
+
+void Progress::clear()
+{
+  if (this->Drawn)
+  {
+    std::fputs("\r\033[K", stderr);
+    this->Drawn = false;
+  }
+}
+
+void Progress::message(const std::string& line)
+{
+  if (!this->Quiet)
+  {
+    this->clear();
+    std::fprintf(stderr, "%s\n", line.c_str());
+  }
+}
+
+void Progress::update(std::size_t done, std::size_t total)
+{
+  const auto now = std::chrono::steady_clock::now();
+  const auto interval = this->Terminal ? std::chrono::nanoseconds(barInterval) : std::chrono::nanoseconds(lineInterval);
+  if (this->Quiet || total == 0 || (now - this->Last < interval && (done < total || !this->Terminal)))
+  {
+    return;
+  }
+  this->Last = now;
+  const double rate = done / std::max(this->seconds(), 1e-9);
+  const std::string state = std::to_string(done) + '/' + std::to_string(total) + " pictures, " +
+                            std::to_string(rate).substr(0, 5) + "/s, " +
+                            (done ? duration((total - done) / rate) : std::string("?")) + " left";
+  if (!this->Terminal)
+  {
+    std::fprintf(stderr, "%s\n", state.c_str());
+    return;
+  }
+  constexpr std::size_t cells = 24;
+  const std::size_t filled = cells * done / total;
+  std::fprintf(stderr, "\r\033[K[%s%s] %s", std::string(filled, '#').c_str(), std::string(cells - filled, '.').c_str(),
+    state.c_str());
+  std::fflush(stderr);
+  this->Drawn = true;
+}
+
+} // namespace dgtk::app

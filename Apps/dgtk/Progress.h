@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkAppProgress_h
+#define dgtkAppProgress_h
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace dgtk::app
+{
+
+/// Progress of long work on standard error: a bar that is redrawn on a terminal, a plain line now and then otherwise.
+class Progress
+{
+public:
+  explicit Progress(bool quiet);
+  ~Progress(); ///< ends the bar's line
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void update(std::size_t done, std::size_t total);
+  /// A line that does not disturb the bar.
+  void message(const std::string& line);
+  double seconds() const;
+
+private:
+  void clear();
+  bool Quiet;
+  bool Terminal;
+  bool Drawn = false;
+  std::chrono::steady_clock::time_point Start;
+  std::chrono::steady_clock::time_point Last;
+};
+
+} // namespace dgtk::app
+
+#endif

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands.h"
+#include "Progress.h"
+
+#include "dgtkError.h"
+#include "dgtkGenerator.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+
+#include <signal.h>
+#include <sys/resource.h>
+
+namespace dgtk::app
+{
+
+namespace
+{
+constexpr int largestImage = 1 << 20;
+std::atomic<bool> interrupted{ false };
+
+void onInterrupt(int signal)
+{
+  interrupted = true;
+  ::signal(signal, SIG_DFL); // a second one ends the program at once
+}
+
+// Tiles of one row are open together.
+void allowManyFiles()
+{
+  struct rlimit limit = {};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) == 0)
+  {
+    limit.rlim_cur = limit.rlim_max;
+    ::setrlimit(RLIMIT_NOFILE, &limit);
+  }
+}
+
+FrameRange parseFrames(const std::string& text)
+{
+  constexpr int most = 1 << 30;
+  std::vector<int> numbers;
+  for (std::size_t begin = 0; begin <= text.size();)
+  {
+    const std::size_t colon = std::min(text.find(':', begin), text.size());
+    numbers.push_back(parseInteger(text.substr(begin, colon - begin), "--frames", -most, most));
+    begin = colon + 1;
+  }
+  if (numbers.size() > 3)
+  {
+    throw UsageError("--frames: expected A[:B[:STEP]], found " + quoted(text));
+  }
+  FrameRange range;
+  range.first = numbers[0];
+  range.last = numbers.size() > 1 ? numbers[1] : numbers[0];
+  range.step = numbers.size() > 2 ? numbers[2] : 1;
+  if (range.last < range.first || range.step < 1)
+  {
+    throw UsageError("--frames: expected A <= B and STEP >= 1, found " + quoted(text));
+  }
+  return range;
+}
+
+std::string oneOf(const Arguments& arguments, const std::string& option, const std::vector<std::string>& allowed)
+{
+  const std::string value = arguments.text(option);
+  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end())
+  {
+    std::string names;
+    for (const std::string& name : allowed)
+    {
+      names += (names.empty() ? "" : ", ") + name;
+    }
+    throw UsageError(option + ": expected one of " + names + ", found " + quoted(value));
+  }
+  return value;
+}
+
+// --depth-format npy,dgd and the like: one option a layer that can be written in more than one way.
+std::string formatOption(const LayerInfo& layer) { return "--" + layer.layer + "-format"; }
+
+GeneratorRequest parseRequest(const Arguments& arguments)
+{
+  GeneratorRequest request;
+  request.scene = arguments.positional()[0];
+  request.folder = arguments.text("--output");
+  if (request.folder.empty())
+  {
+    throw UsageError("render needs a folder for the dataset: -o DIR");
+  }
+  request.layers = arguments.list("--layers");
+  request.cameras = arguments.list("--cameras");
+  if (arguments.has("--frames"))
+  {
+    request.frames = parseFrames(arguments.text("--frames"));
+  }
+  if (arguments.has("--size"))
+  {
+    arguments.size("--size", largestImage, request.width, request.height);
+  }
+  arguments.size("--tile", largestImage, request.tileWidth, request.tileHeight);
+  request.samples = arguments.integer("--samples", 1, 16);
+  oneOf(arguments, "--color-bits", { "8", "16" });
+  request.colorBits = arguments.integer("--color-bits", 8, 16);
+  request.visibility = oneOf(arguments, "--visibility", { "auto", "raster", "ray" });
+  request.gl = oneOf(arguments, "--gl", { "auto", "egl", "osmesa", "glx" });
+  request.threads = arguments.integer("--threads", 0, 256);
+  request.seed = arguments.integer("--seed", 0, 2147483647);
+  request.resume = arguments.has("--resume");
+  request.contactSheet = arguments.has("--contact-sheet");
+  for (const LayerInfo& layer : generatorLayers())
+  {
+    if (layer.formats.size() > 1 && arguments.has(formatOption(layer)))
+    {
+      request.formats[layer.layer] = arguments.list(formatOption(layer));
+    }
+  }
+  return request;
+}
+
+int run(const Arguments& arguments)
+{
+  const GeneratorRequest request = parseRequest(arguments);
+  prepareGL(request.gl, request.threads);
+  allowManyFiles();
+  struct sigaction action = {};
+  action.sa_handler = &onInterrupt;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+
+  Progress progress(arguments.has("--quiet"));
+  GeneratorCallbacks callbacks;
+  callbacks.cancel = &interrupted;
+  callbacks.progress = [&](const GeneratorProgress& state) { progress.update(state.done, state.total); };
+  callbacks.message = [&](const std::string& line) { progress.message(line); };
+  const GeneratorResult result = generate(request, callbacks);
+  if (result.interrupted)
+  {
+    throw MachineError("interrupted; the same command with --resume completes " + request.folder);
+  }
+  char seconds[32];
+  std::snprintf(seconds, sizeof seconds, "%.1f s", progress.seconds());
+  progress.message(std::to_string(result.pictures) + " pictures, " + std::to_string(result.files) + " files in " +
+                   request.folder + ", " + seconds);
+  return 0;
+}
+} // namespace
+
+Command renderCommand()
+{
+  Command command{ "render", "SCENE", 1, 1, "Renders images and ground truth of a scene into a folder.", {}, &run };
+  command.options = { { "--output", "DIR", "", "folder of the dataset" },
+    { "--layers", "NAMES|all", "color,depth,objects,calibration", "what to write; see dgtk list layers" },
+    { "--cameras", "NAMES", "", "some of the cameras (default: all)" },
+    { "--frames", "A[:B[:STEP]]", "", "some of the frames (default: all)" },
+    { "--size", "WxH", "", "size of the images in pixels (default: the camera's own, else 640x480)" },
+    { "--tile", "WxH", "640x480", "size of the images of the tiles layer" },
+    { "--samples", "N", "1", "colour is the mean of N x N points a pixel" },
+    { "--color-bits", "8|16", "8", "bits a channel of colour PNG files" } };
+  for (const LayerInfo& layer : generatorLayers())
+  {
+    if (layer.formats.size() > 1)
+    {
+      std::string formats;
+      for (const std::string& format : layer.formats)
+      {
+        formats += (formats.empty() ? "" : ",") + format;
+      }
+      command.options.push_back(
+        { formatOption(layer), "NAMES", layer.formats.front(), "files of the layer, of " + formats });
+    }
+  }
+  const std::vector<Option> last = { { "--visibility", "auto|raster|ray", "auto",
+                                       "engine of the ids: OpenGL, Embree, or by the request" },
+    { "--gl", "auto|egl|osmesa|glx", "auto", "way to OpenGL" },
+    { "--threads", "N", "0", "threads; 0: as many as the machine has cores" },
+    { "--resume", "", "", "continue an interrupted run of the same request" },
+    { "--seed", "N", "0", "seed of random numbers" },
+    { "--contact-sheet", "", "", "also write DIR/contact.png: cameras and frames by layer" },
+    { "--quiet", "", "", "no progress and no messages" } };
+  command.options.insert(command.options.end(), last.begin(), last.end());
+  return command;
+}
+
+} // namespace dgtk::app

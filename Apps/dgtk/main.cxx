@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands.h"
+
+#include "dgtkError.h"
+#include "dgtkGLContext.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+
+namespace
+{
+using namespace dgtk::app;
+
+std::vector<Command> commands()
+{
+  return { renderCommand(), infoCommand(), convertCommand(), compareCommand(), listCommand() };
+}
+
+std::string overview()
+{
+  std::string text = "usage: dgtk COMMAND [arguments] [options]\n\n"
+                     "Images and exact ground truth from described 3D scenes.\n\n";
+  for (const Command& command : commands())
+  {
+    text += "  " + command.name + std::string(10 - command.name.size(), ' ') + command.help + '\n';
+  }
+  return text + "\ndgtk COMMAND --help tells more; dgtk --version prints the version.\n";
+}
+
+int dispatch(const std::vector<std::string>& words)
+{
+  if (words.empty())
+  {
+    throw dgtk::UsageError("a command is missing (see dgtk --help)");
+  }
+  if (words[0] == "--help" || words[0] == "-h" || words[0] == "help")
+  {
+    print(overview());
+    return 0;
+  }
+  if (words[0] == "--version")
+  {
+    print("dgtk " DGTK_VERSION "\n");
+    return 0;
+  }
+  const std::vector<Command> all = commands();
+  const auto command = std::find_if(all.begin(), all.end(), [&](const Command& c) { return c.name == words[0]; });
+  if (command == all.end())
+  {
+    std::vector<std::string> names;
+    std::transform(all.begin(), all.end(), std::back_inserter(names), [](const Command& c) { return c.name; });
+    const std::string near = nearest(words[0], names);
+    throw dgtk::UsageError("unknown command " + dgtk::quoted(words[0]) +
+                           (near.empty() ? "" : ", did you mean " + near + "?") + " (see dgtk --help)");
+  }
+  const Arguments arguments(*command, { words.begin() + 1, words.end() });
+  if (arguments.has("--help"))
+  {
+    print(helpPage(*command));
+    return 0;
+  }
+  return command->run(arguments);
+}
+} // namespace
+
+void dgtk::app::print(const std::string& text)
+{
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+  {
+    throw MachineError(std::string("standard output cannot be written: ") + std::strerror(errno));
+  }
+}
+
+namespace
+{
+char** processArguments = nullptr;
+}
+
+void dgtk::app::prepareGL(const std::string& backend, int threads)
+{
+  prepareProcess(glBackendFromName(backend), processArguments, threads);
+}
+
+int main(int argc, char** argv)
+{
+  processArguments = argv;
+  try
+  {
+    return dispatch({ argv + 1, argv + argc });
+  }
+  catch (const dgtk::Error& error)
+  {
+    std::fprintf(stderr, "dgtk: %s\n", error.what());
+    return static_cast<int>(error.code());
+  }
+  catch (const std::bad_alloc&)
+  {
+    std::fprintf(stderr, "dgtk: the memory of this machine is not enough\n");
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "dgtk: %s\n", error.what());
+  }
+  return static_cast<int>(dgtk::ExitCode::Machine);
+}

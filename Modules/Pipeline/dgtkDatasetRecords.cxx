@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkDatasetRecords.h"
+
+#include "dgtkHash.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace dgtk
+{
+
+std::vector<InputRecord> inputsOf(const Stage& stage, const std::string& folder)
+{
+  namespace fs = std::filesystem;
+  std::vector<InputRecord> inputs;
+  for (const std::string& file : stage.inputFiles())
+  {
+    InputRecord record;
+    record.path = fs::relative(fs::absolute(file), fs::absolute(folder)).generic_string();
+    record.bytes = fs::file_size(file);
+    record.sha256 = Sha256::ofFile(file);
+    inputs.push_back(record);
+  }
+  return inputs;
+}
+
+std::vector<CameraRecord> cameraRecords(const WorkPlan& plan, const Stage& stage)
+{
+  std::vector<Job> jobs = plan.jobs;
+  std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.camera < b.camera; });
+  std::vector<CameraRecord> records;
+  for (const Job& job : jobs)
+  {
+    const View view = stage.view(job.camera, job.frame, plan.request.width, plan.request.height);
+    CameraRecord record;
+    record.name = view.name;
+    record.frame = job.frame;
+    record.width = view.model->width();
+    record.height = view.model->height();
+    if (const auto linear = view.model->linear())
+    {
+      record.K = linear->K;
+    }
+    record.R = view.camera_from_world.rotation;
+    record.t = view.camera_from_world.translation;
+    record.model = view.model->name();
+    record.near = view.near;
+    record.far = view.far;
+    records.push_back(record);
+  }
+  return records;
+}
+
+std::vector<ObjectRecord> objectRecords(const Stage& stage, int frame, const std::string& folder)
+{
+  namespace fs = std::filesystem;
+  const std::shared_ptr<const SceneState> state = stage.at(frame);
+  std::vector<ObjectRecord> records;
+  for (std::size_t i = 0; i < state->instances.size(); ++i)
+  {
+    const Instance& instance = state->instances[i];
+    ObjectRecord record;
+    record.id = static_cast<std::uint32_t>(i + 1);
+    record.name = instance.name;
+    record.objectClass = instance.className;
+    record.model = fs::relative(fs::absolute(instance.model->path), fs::absolute(folder)).generic_string();
+    record.triangles = instance.model->triangles.size();
+    records.push_back(record);
+  }
+  return records;
+}
+
+} // namespace dgtk

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkFrameOutput.h"
+
+#include "dgtkOutputLanes.h"
+
+namespace dgtk
+{
+
+FrameOutput::FrameOutput(const WorkPlan& plan, const Job& job, const std::string& camera,
+  std::shared_ptr<const SceneState> state, const View& view, ThreadPool& pool)
+  : Pool(pool)
+{
+  for (const std::string& format : plan.colorFormats)
+  {
+    this->addLane(makeColorLane(plan, job, camera, view, format));
+  }
+  if (plan.tiles)
+  {
+    this->addLane(makeTilesLane(plan, job, camera, view));
+  }
+  if (!plan.representations.empty())
+  {
+    this->addLane(makeGeometryLane(plan, job, camera, std::move(state), view, pool));
+  }
+}
+
+void FrameOutput::addLane(std::unique_ptr<OutputLane> lane)
+{
+  this->Lanes.push_back(std::move(lane));
+  this->Queues.push_back(std::make_unique<SerialQueue>(this->Pool));
+}
+
+void FrameOutput::submit(const std::shared_ptr<const Band>& band)
+{
+  for (std::size_t i = 0; i < this->Lanes.size(); ++i)
+  {
+    OutputLane* lane = this->Lanes[i].get();
+    this->Queues[i]->submit([lane, band] { lane->write(*band); });
+  }
+}
+
+void FrameOutput::wait()
+{
+  for (const auto& queue : this->Queues)
+  {
+    queue->wait();
+  }
+}
+
+std::vector<FinishedFile> FrameOutput::finish()
+{
+  // the last encoding (PNG compresses at the end) is work for the pool as well
+  std::vector<std::vector<FinishedFile>> finished(this->Lanes.size());
+  for (std::size_t i = 0; i < this->Lanes.size(); ++i)
+  {
+    OutputLane* lane = this->Lanes[i].get();
+    this->Queues[i]->submit([lane, out = &finished[i]] { *out = lane->finish(); });
+  }
+  this->wait();
+  std::vector<FinishedFile> all;
+  for (std::vector<FinishedFile>& files : finished)
+  {
+    all.insert(all.end(), files.begin(), files.end());
+  }
+  return all;
+}
+
+} // namespace dgtk

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkFrameOutput_h
+#define dgtkFrameOutput_h
+
+#include "dgtkSerialQueue.h"
+#include "dgtkWorkPlan.h"
+
+#include "dgtkLayerWriter.h"
+#include "dgtkVisibility.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// A horizontal band of an image: one row of canonical tiles, full width.
+struct Band
+{
+  PixelRect rect;
+  std::vector<Hit> hits;  ///< empty when no representation is asked for
+  std::vector<float> rgb; ///< empty when no colour is asked for; display-referred
+};
+
+/// A file of the dataset that is complete.
+struct FinishedFile
+{
+  FileRecord record; ///< its path is relative to the dataset's folder
+  std::string layer;
+};
+
+/// The files of one lane: layers that are written by one job at a time.
+class OutputLane
+{
+public:
+  virtual ~OutputLane() = default;
+  virtual void write(const Band& band) = 0;
+  virtual std::vector<FinishedFile> finish() = 0;
+};
+
+/// Derives and writes all image files of one job while its bands arrive, top to bottom. The work is done by the pool;
+/// submit() returns at once.
+class FrameOutput
+{
+public:
+  FrameOutput(const WorkPlan& plan, const Job& job, const std::string& camera, std::shared_ptr<const SceneState> state,
+    const View& view, ThreadPool& pool);
+
+  void submit(const std::shared_ptr<const Band>& band);
+  /// Waits for everything submitted; rethrows what failed.
+  void wait();
+  /// Waits and completes the files. To be called once, after the last band.
+  std::vector<FinishedFile> finish();
+
+private:
+  void addLane(std::unique_ptr<OutputLane> lane);
+  ThreadPool& Pool;
+  std::vector<std::unique_ptr<OutputLane>> Lanes;
+  std::vector<std::unique_ptr<SerialQueue>> Queues; // one a lane; destroyed first: they wait for their jobs
+};
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkFrameSource_h
+#define dgtkFrameSource_h
+
+#include "dgtkFrameOutput.h"
+
+#include "dgtkVisibility.h"
+
+#include <memory>
+#include <string>
+
+namespace dgtk
+{
+
+/// What is drawn, and by which engine.
+struct FrameSourceOptions
+{
+  bool hits = true;   ///< the visibility buffer is wanted
+  bool color = false; ///< colours are wanted
+  bool raster = false;
+  int samples = 1;
+  std::string gl = "auto";
+};
+
+/// Draws the bands of pictures with the engines that the options need. To be used from one thread: that of OpenGL.
+class FrameSource
+{
+public:
+  /// Starts OpenGL when colours or the raster engine are wanted; throws MachineError when it cannot.
+  FrameSource(const FrameSourceOptions& options, ThreadPool& pool);
+  ~FrameSource();
+
+  void setScene(const std::shared_ptr<const SceneState>& state, const View& view);
+  int bands() const;
+  /// Draws band `row`, 0 <= row < bands().
+  void draw(int row, Band& band);
+  /// How OpenGL was reached, one line; empty when it is not used.
+  const std::string& glDescription() const { return this->Description; }
+
+private:
+  void drawTile(const PixelRect& rect, Band& tile);
+  FrameSourceOptions Options;
+  std::unique_ptr<VisibilitySource> Ray;
+  std::unique_ptr<ColorSource> Raster;
+  std::unique_ptr<TileGrid> Grid;
+  std::string Description;
+};
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkGenerator.h"
+
+#include "dgtkDatasetRecords.h"
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkFrameOutput.h"
+#include "dgtkFrameSource.h"
+#include "dgtkHash.h"
+#include "dgtkThreadPool.h"
+#include "dgtkWorkPlan.h"
+
+#include "dgtkContactSheet.h"
+#include "dgtkDatasetDocuments.h"
+#include "dgtkJournal.h"
+
+#include <algorithm>
+#include <deque>
+#include <thread>
+
+namespace dgtk
+{
+
+namespace
+{
+// Bands that wait for their encoders, before drawing pauses.
+constexpr std::size_t mostPendingBytes = std::size_t(384) << 20;
+
+std::string hashOf(const std::vector<std::pair<std::string, std::string>>& pairs)
+{
+  Sha256 hash;
+  for (const auto& [key, value] : pairs)
+  {
+    hash.update(key.data(), key.size() + 1);
+    hash.update(value.data(), value.size() + 1);
+  }
+  return hash.hex();
+}
+
+class Run
+{
+public:
+  Run(const GeneratorRequest& request, const GeneratorCallbacks& callbacks);
+  GeneratorResult execute();
+
+private:
+  // A job whose last band is drawn and whose files are being completed.
+  struct Open
+  {
+    Job job;
+    std::unique_ptr<FrameOutput> output;
+  };
+
+  std::shared_ptr<const SceneState> stateAt(int frame);
+  void render(const Job& job);
+  void drawBand(int row, FrameOutput& output);
+  void completeOldest();
+  void add(const DatasetFile& file);
+  bool keep(const Job& job);
+  void writeDocuments();
+  bool cancelled() const { return this->Callbacks.cancel && *this->Callbacks.cancel; }
+  void say(const std::string& line) const
+  {
+    if (this->Callbacks.message)
+    {
+      this->Callbacks.message(line);
+    }
+  }
+  const std::string& cameraName(const Job& job) const { return this->Scene->description().cameras[job.camera].name; }
+  View viewOf(const Job& job) const
+  {
+    return this->Scene->view(job.camera, job.frame, this->Plan.request.width, this->Plan.request.height);
+  }
+
+  GeneratorCallbacks Callbacks;
+  GeneratorResult Result;
+  std::shared_ptr<const Stage> Scene;
+  WorkPlan Plan;
+  int Threads;
+  std::vector<InputRecord> Inputs;
+  std::string RequestHash;
+  std::unique_ptr<Journal> Log;
+  std::vector<DatasetFile> Files;
+  std::unique_ptr<ThreadPool> Pool;
+  std::unique_ptr<FrameSource> Source;
+  std::atomic<std::size_t> PendingBytes{ 0 };
+  std::deque<Open> Opened;
+  std::shared_ptr<const SceneState> State;
+  std::size_t Done = 0;
+};
+
+Run::Run(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
+  : Callbacks(callbacks)
+  , Scene(Stage::load(readScene(request.scene),
+      [this](const std::string& line)
+      {
+        this->Result.warnings.push_back(line);
+        this->say("warning: " + line);
+      }))
+  , Plan(makeWorkPlan(request, *this->Scene))
+  , Threads(request.threads > 0 ? request.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())))
+{
+}
+
+GeneratorResult Run::execute()
+{
+  const GeneratorRequest& request = this->Plan.request;
+  FrameSourceOptions options;
+  options.hits = !this->Plan.representations.empty();
+  options.color = this->Plan.drawsColor();
+  options.raster = this->Plan.raster;
+  options.samples = request.samples;
+  options.gl = request.gl;
+  this->Pool = std::make_unique<ThreadPool>(this->Threads);
+  this->Source = std::make_unique<FrameSource>(options, *this->Pool);
+  this->Result.glDescription = this->Source->glDescription();
+  this->Result.visibility = this->Plan.raster ? "raster" : "ray";
+  std::vector<std::pair<std::string, std::string>> identity = describeRequest(this->Plan);
+  this->Inputs = inputsOf(*this->Scene, request.folder);
+  for (const InputRecord& input : this->Inputs)
+  {
+    identity.emplace_back(input.path, input.sha256);
+  }
+  this->RequestHash = hashOf(identity);
+  this->Log = std::make_unique<Journal>(request.folder, this->RequestHash, request.resume);
+
+  if (!this->Result.glDescription.empty())
+  {
+    this->say(this->Result.glDescription);
+  }
+
+  for (const Job& job : this->Plan.jobs)
+  {
+    if (this->cancelled())
+    {
+      this->Result.interrupted = true;
+      break;
+    }
+    if (this->keep(job))
+    {
+      ++this->Result.kept;
+      ++this->Done;
+      continue;
+    }
+    this->render(job);
+    if (this->Callbacks.progress)
+    {
+      this->Callbacks.progress({ this->Done, this->Plan.jobs.size() });
+    }
+  }
+  while (!this->Opened.empty())
+  {
+    this->completeOldest();
+  }
+  this->Source.reset();
+  this->Result.pictures = this->Done;
+  if (!this->Result.interrupted)
+  {
+    this->writeDocuments();
+    if (this->Callbacks.progress)
+    {
+      this->Callbacks.progress({ this->Done, this->Plan.jobs.size() });
+    }
+  }
+  this->Result.files = this->Files.size();
+  return this->Result;
+}
+
+std::shared_ptr<const SceneState> Run::stateAt(int frame)
+{
+  if (!this->State || this->State->frame != frame)
+  {
+    this->State = this->Scene->at(frame);
+  }
+  return this->State;
+}
+
+void Run::render(const Job& job)
+{
+  const View view = this->viewOf(job);
+  const std::shared_ptr<const SceneState> state = this->stateAt(job.frame);
+  const std::string folder = this->Plan.request.folder + '/' + this->cameraName(job) + '/';
+  for (const std::string& layer : this->Plan.layers)
+  {
+    makeFolders(folder + layer);
+  }
+  auto output = std::make_unique<FrameOutput>(this->Plan, job, this->cameraName(job), state, view, *this->Pool);
+  if (!this->Plan.representations.empty() || this->Plan.drawsColor())
+  {
+    this->Source->setScene(state, view);
+    for (int row = 0; row < this->Source->bands(); ++row)
+    {
+      if (this->PendingBytes > mostPendingBytes)
+      {
+        output->wait();
+      }
+      this->drawBand(row, *output);
+    }
+  }
+  this->Opened.push_back({ job, std::move(output) });
+  while (this->Opened.size() > static_cast<std::size_t>(this->Threads))
+  {
+    this->completeOldest();
+  }
+}
+
+void Run::drawBand(int row, FrameOutput& output)
+{
+  auto band = std::make_unique<Band>();
+  this->Source->draw(row, *band);
+  const std::size_t bytes = band->hits.size() * sizeof(Hit) + band->rgb.size() * sizeof(float);
+  this->PendingBytes += bytes;
+  output.submit({ band.release(), [this, bytes](const Band* done)
+    {
+      this->PendingBytes -= bytes;
+      delete done;
+    } });
+}
+
+void Run::completeOldest()
+{
+  Open open = std::move(this->Opened.front());
+  this->Opened.pop_front();
+  std::vector<FinishedFile> files = open.output->finish();
+  for (const FinishedFile& file : files)
+  {
+    this->add({ file.record.path, file.record.bytes, file.record.sha256, file.layer, this->cameraName(open.job),
+      open.job.frame });
+  }
+  if (this->Plan.calibration)
+  {
+    const View view = this->viewOf(open.job);
+    const OpenGLMatrices matrices = openGLMatrices(view);
+    const std::string name = WorkPlan::fileName(this->cameraName(open.job), "calibration", open.job.frame, "txt");
+    this->add(writeDocument(this->Plan.request.folder, name,
+      calibrationText(
+        makeCalibration(matrices.projection, matrices.modelView, view.model->width(), view.model->height())),
+      "calibration", this->cameraName(open.job), open.job.frame));
+  }
+  ++this->Done;
+}
+
+void Run::add(const DatasetFile& file)
+{
+  this->Log->add(file);
+  this->Files.push_back(file);
+}
+
+// A picture is kept when every file that it consists of is in the journal; files of the tiles layer follow from the
+// sizes.
+bool Run::keep(const Job& job)
+{
+  std::vector<std::string> names;
+  const std::string& camera = this->cameraName(job);
+  for (const std::string& format : this->Plan.colorFormats)
+  {
+    names.push_back(WorkPlan::fileName(camera, "color", job.frame, extensionOf(format)));
+  }
+  for (const PlannedLayer& layer : this->Plan.representations)
+  {
+    for (const std::string& format : layer.formats)
+    {
+      names.push_back(WorkPlan::fileName(camera, layer.spec.name, job.frame, extensionOf(format)));
+    }
+  }
+  if (this->Plan.tiles)
+  {
+    const View view = this->viewOf(job);
+    const std::vector<std::string> tiles = this->Plan.tileNames(camera, job.frame, *view.model);
+    names.insert(names.end(), tiles.begin(), tiles.end());
+  }
+  if (this->Plan.calibration)
+  {
+    names.push_back(WorkPlan::fileName(camera, "calibration", job.frame, "txt"));
+  }
+  std::vector<DatasetFile> files;
+  for (const std::string& name : names)
+  {
+    const DatasetFile* file = this->Log->find(name);
+    if (!file)
+    {
+      return false;
+    }
+    files.push_back(*file);
+  }
+  this->Files.insert(this->Files.end(), files.begin(), files.end());
+  return true;
+}
+
+void Run::writeDocuments()
+{
+  const GeneratorRequest& request = this->Plan.request;
+  Manifest manifest;
+  manifest.version = DGTK_VERSION;
+  manifest.requestHash = this->RequestHash;
+  manifest.request = describeRequest(this->Plan);
+  manifest.units = this->Scene->description().units;
+  manifest.inputs = this->Inputs;
+  for (const std::string& format : this->Plan.colorFormats)
+  {
+    manifest.layers.push_back({ this->Plan.colorSpec(format), format });
+  }
+  for (const PlannedLayer& layer : this->Plan.representations)
+  {
+    for (const std::string& format : layer.formats)
+    {
+      manifest.layers.push_back({ layer.spec, format });
+    }
+  }
+  this->Files.push_back(
+    writeDocument(request.folder, "cameras.json", camerasText(cameraRecords(this->Plan, *this->Scene))));
+  this->Files.push_back(writeDocument(request.folder, "objects.json",
+    objectsText(objectRecords(*this->Scene, this->Plan.jobs.front().frame, request.folder))));
+  this->Files.push_back(
+    writeDocument(request.folder, "scene.json", toJson(this->Scene->description(), request.folder)));
+  manifest.files = this->Files;
+  if (request.contactSheet)
+  {
+    manifest.files.push_back(writeContactSheet(request.folder, manifest, "contact.png"));
+    this->Files.push_back(manifest.files.back());
+  }
+  this->Log->close(manifest);
+}
+} // namespace
+
+GeneratorResult generate(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
+{
+  return Run(request, callbacks).execute();
+}
+
+} // namespace dgtk

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkGenerator_h
+#define dgtkGenerator_h
+
+#include "dgtkPipelineModule.h"
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// Frames first, first + step, ... up to last, included.
+struct FrameRange
+{
+  int first = 0;
+  int last = 0;
+  int step = 1; ///< >= 1
+};
+
+/// What a dataset is to hold. Everything that decides its bytes; threads and OpenGL backend do not.
+struct GeneratorRequest
+{
+  std::string scene;               ///< path of a .scene or .json file
+  std::string folder;              ///< where the dataset goes
+  std::vector<std::string> layers; ///< names of generatorLayers(); empty: color, depth, objects, calibration
+  /// File formats of a layer, by layer name; a layer that is not named here has its default format.
+  std::map<std::string, std::vector<std::string>> formats;
+  std::vector<std::string> cameras; ///< names; empty: all
+  std::optional<FrameRange> frames; ///< none: every frame of the scene
+  int width = 0;                    ///< pixels; 0: the camera's own size, or 640 x 480
+  int height = 0;
+  int tileWidth = 640; ///< of the `tiles` layer; may exceed the image and need not divide it
+  int tileHeight = 480;
+  int seed = 0;                    ///< of random numbers
+  int samples = 1;                 ///< colour is the mean of samples x samples points a pixel, 1 to 16
+  int colorBits = 8;               ///< of colour in PNG: 8 or 16
+  std::string visibility = "auto"; ///< auto, raster or ray
+  std::string gl = "auto";         ///< auto, egl, osmesa or glx
+  int threads = 0;                 ///< 0: as many as the machine has cores
+  bool resume = false;             ///< keep the finished files of an interrupted run of the same request
+  bool contactSheet = false;       ///< write contact.png
+};
+
+/// State of a run, reported after every finished picture (one camera at one frame).
+struct GeneratorProgress
+{
+  std::size_t done = 0;
+  std::size_t total = 0;
+};
+
+struct GeneratorResult
+{
+  std::size_t pictures = 0; ///< camera x frame
+  std::size_t files = 0;
+  std::size_t kept = 0;      ///< pictures kept from an interrupted run
+  std::string visibility;    ///< engine used: "raster" or "ray"
+  std::string glDescription; ///< one line, empty when OpenGL was not used
+  bool interrupted = false;  ///< stopped by `cancel`; a run with resume completes the dataset
+  std::vector<std::string> warnings;
+};
+
+/// One row of the list of layers.
+struct LayerInfo
+{
+  std::string layer;
+  std::vector<std::string> formats; ///< the first is the default
+  std::string description;
+};
+/// Every layer that can be asked for, in the order of `--layers all`.
+DGTKPIPELINE_EXPORT std::vector<LayerInfo> generatorLayers();
+
+struct GeneratorCallbacks
+{
+  std::function<void(const GeneratorProgress&)> progress; ///< called from the calling thread
+  std::function<void(const std::string&)> message;        ///< one line: engine chosen, warnings
+  const std::atomic<bool>* cancel = nullptr;              ///< checked between pictures
+};
+
+/// Renders the dataset. Throws UsageError, InputError or MachineError; what was finished before stays and can be
+/// resumed.
+DGTKPIPELINE_EXPORT GeneratorResult generate(const GeneratorRequest& request, const GeneratorCallbacks& callbacks = {});
+
+} // namespace dgtk
+
+#endif

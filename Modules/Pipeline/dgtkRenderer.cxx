@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkRenderer.h"
+
+#include "dgtkError.h"
+#include "dgtkFrameSource.h"
+#include "dgtkOutputLanes.h"
+#include "dgtkScene.h"
+#include "dgtkSurfaceRows.h"
+#include "dgtkThreadPool.h"
+#include "dgtkWorkPlan.h"
+
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkObjectFactory.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnsignedIntArray.h"
+#include "vtkUnsignedShortArray.h"
+
+#include <algorithm>
+#include <cstring>
+#include <thread>
+
+vtkStandardNewMacro(dgtkRenderer);
+
+struct dgtkRenderer::Internal
+{
+  vtkSmartPointer<dgtkScene> scene;
+  dgtk::GeneratorRequest request;
+  std::string camera;
+  int frame = 0;
+  bool frameSet = false;
+  std::string errorMessage;
+  int width = 0;
+  int height = 0;
+  dgtk::ThreadPool pool{ std::max(1, static_cast<int>(std::thread::hardware_concurrency())) };
+  std::string sourceKey; // options that `source` was made for
+  std::unique_ptr<dgtk::FrameSource> source;
+  vtkSmartPointer<vtkDataArray> result;
+
+  dgtk::FrameSource& sourceFor(const dgtk::WorkPlan& plan);
+  dgtk::Rows draw(const std::string& layer);
+};
+
+namespace
+{
+vtkSmartPointer<vtkDataArray> arrayFor(dgtk::PixelType type)
+{
+  switch (type)
+  {
+    case dgtk::PixelType::UInt8:
+      return vtkSmartPointer<vtkUnsignedCharArray>::New();
+    case dgtk::PixelType::UInt16:
+      return vtkSmartPointer<vtkUnsignedShortArray>::New();
+    case dgtk::PixelType::UInt32:
+      return vtkSmartPointer<vtkUnsignedIntArray>::New();
+    case dgtk::PixelType::Float32:
+      return vtkSmartPointer<vtkFloatArray>::New();
+    default:
+      return vtkSmartPointer<vtkDoubleArray>::New();
+  }
+}
+} // namespace
+
+dgtk::FrameSource& dgtkRenderer::Internal::sourceFor(const dgtk::WorkPlan& plan)
+{
+  dgtk::FrameSourceOptions options;
+  options.hits = !plan.representations.empty();
+  options.color = plan.drawsColor();
+  options.raster = plan.raster;
+  options.samples = plan.request.samples;
+  options.gl = plan.request.gl;
+  const std::string key = std::to_string(options.hits) + std::to_string(options.color) +
+                          std::to_string(options.raster) + ' ' + std::to_string(options.samples) + ' ' + options.gl;
+  if (!this->source || key != this->sourceKey)
+  {
+    this->source.reset();
+    this->source = std::make_unique<dgtk::FrameSource>(options, this->pool);
+    this->sourceKey = key;
+  }
+  return *this->source;
+}
+
+dgtk::Rows dgtkRenderer::Internal::draw(const std::string& layer)
+{
+  using namespace dgtk;
+  if (!this->scene || !this->scene->GetStage())
+  {
+    throw UsageError("no scene is set");
+  }
+  const Stage& stage = *this->scene->GetStage();
+  this->request.layers = { layer };
+  this->request.cameras.clear();
+  if (!this->camera.empty())
+  {
+    this->request.cameras = { this->camera };
+  }
+  const int at = this->frameSet ? this->frame : stage.description().firstFrame();
+  this->request.frames = FrameRange{ at, at, 1 };
+  const WorkPlan plan = makeWorkPlan(this->request, stage);
+  if (plan.calibration || plan.tiles)
+  {
+    throw UsageError("layer " + layer + " is a file, not an image");
+  }
+  const Job& job = plan.jobs.front();
+  const View view = stage.view(job.camera, job.frame, this->request.width, this->request.height);
+  const std::shared_ptr<const SceneState> state = stage.at(job.frame);
+  FrameSource& frames = this->sourceFor(plan);
+  frames.setScene(state, view);
+  this->width = view.model->width();
+  this->height = view.model->height();
+
+  const bool color = plan.representations.empty();
+  const LayerSpec spec = color ? plan.colorSpec("png") : plan.representations.front().spec;
+  Rows image(spec.type, spec.channels, this->width, 0, this->height);
+  for (int row = 0; row < frames.bands(); ++row)
+  {
+    Band band;
+    frames.draw(row, band);
+    Rows part;
+    if (color)
+    {
+      part = quantise(band, spec, band.rect.y, band.rect.height);
+    }
+    else
+    {
+      const Representation& representation = *plan.representations.front().representation;
+      SurfaceRows surface;
+      computeSurfaceRows(*state, view, band.rect, band.hits.data(), representation.needsBarycentrics(), surface);
+      part = Rows(spec.type, spec.channels, this->width, band.rect.y, band.rect.height);
+      representation.compute(surface, part);
+    }
+    std::copy_n(part.data(), part.bytes(), image.data() + band.rect.y * image.rowBytes());
+  }
+  return image;
+}
+
+dgtkRenderer::dgtkRenderer()
+  : Self(new Internal)
+{
+}
+
+dgtkRenderer::~dgtkRenderer() = default;
+
+void dgtkRenderer::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Camera: " << this->Self->camera << "\n";
+  os << indent << "Frame: " << this->Self->frame << "\n";
+  os << indent << "Size: " << this->Self->request.width << " x " << this->Self->request.height << "\n";
+}
+
+void dgtkRenderer::SetScene(dgtkScene* scene)
+{
+  this->Self->scene = scene;
+  this->Modified();
+}
+
+void dgtkRenderer::SetCamera(const std::string& name)
+{
+  this->Self->camera = name;
+  this->Modified();
+}
+
+void dgtkRenderer::SetFrame(int frame)
+{
+  this->Self->frame = frame;
+  this->Self->frameSet = true;
+  this->Modified();
+}
+
+void dgtkRenderer::SetSize(int width, int height)
+{
+  this->Self->request.width = width;
+  this->Self->request.height = height;
+  this->Modified();
+}
+
+void dgtkRenderer::SetSamples(int samples)
+{
+  this->Self->request.samples = samples;
+  this->Modified();
+}
+
+void dgtkRenderer::SetVisibility(const std::string& engine)
+{
+  this->Self->request.visibility = engine;
+  this->Modified();
+}
+
+void dgtkRenderer::SetGL(const std::string& backend)
+{
+  this->Self->request.gl = backend;
+  this->Modified();
+}
+
+vtkDataArray* dgtkRenderer::Render(const std::string& layer)
+{
+  this->Self->errorMessage.clear();
+  this->Self->result = nullptr;
+  try
+  {
+    const dgtk::Rows image = this->Self->draw(layer);
+    const vtkSmartPointer<vtkDataArray> array = arrayFor(image.type());
+    array->SetName(layer.c_str());
+    array->SetNumberOfComponents(image.channels());
+    array->SetNumberOfTuples(static_cast<vtkIdType>(image.width()) * image.height());
+    std::memcpy(array->GetVoidPointer(0), image.data(), image.bytes());
+    this->Self->result = array;
+  }
+  catch (const std::exception& error)
+  {
+    this->Self->errorMessage = error.what();
+  }
+  return this->Self->result;
+}
+
+int dgtkRenderer::GetWidth() const { return this->Self->width; }
+
+int dgtkRenderer::GetHeight() const { return this->Self->height; }
+
+std::string dgtkRenderer::GetErrorMessage() const { return this->Self->errorMessage; }

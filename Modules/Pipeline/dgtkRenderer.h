@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class dgtkRenderer
+ * @brief Renders layers of one camera at one frame into arrays.
+ *
+ * The arrays hold exactly what `dgtk render` writes: rows from top to bottom, one tuple a pixel.
+ */
+#ifndef dgtkRenderer_h
+#define dgtkRenderer_h
+
+#include "dgtkPipelineModule.h"
+#include "vtkObject.h"
+
+#include <memory> // private state
+#include <string> // names
+
+class dgtkScene;
+class vtkDataArray;
+
+class DGTKPIPELINE_EXPORT dgtkRenderer : public vtkObject
+{
+public:
+  static dgtkRenderer* New();
+  vtkTypeMacro(dgtkRenderer, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * The scene to render; kept until another one is set.
+   */
+  void SetScene(dgtkScene* scene);
+
+  ///@{
+  /**
+   * Camera by name (default: the first one) and frame (default: the first one).
+   */
+  void SetCamera(const std::string& name);
+  void SetFrame(int frame);
+  ///@}
+
+  /**
+   * Size of the image in pixels; 0, 0 (the default) is the camera's own, or 640 x 480.
+   */
+  void SetSize(int width, int height);
+  /**
+   * Colour is the mean of samples x samples points a pixel (1 to 16; default 1).
+   */
+  void SetSamples(int samples);
+  /**
+   * "auto" (default), "raster" or "ray".
+   */
+  void SetVisibility(const std::string& engine);
+  /**
+   * "auto" (default), "egl", "osmesa" or "glx". Read when OpenGL is first needed.
+   */
+  void SetGL(const std::string& backend);
+
+  /**
+   * The layer ("color", "depth", "objects", ...): GetWidth() x GetHeight() tuples, rows top to bottom. Colour is
+   * unsigned char, 3 components, sRGB. The array belongs to the caller's reference; null on failure, see
+   * GetErrorMessage().
+   */
+  vtkDataArray* Render(const std::string& layer);
+
+  ///@{
+  /**
+   * Size of the last rendered image, pixels.
+   */
+  int GetWidth() const;
+  int GetHeight() const;
+  ///@}
+
+  /**
+   * What went wrong last, one line; empty after success.
+   */
+  std::string GetErrorMessage() const;
+
+protected:
+  dgtkRenderer();
+  ~dgtkRenderer() override;
+
+private:
+  dgtkRenderer(const dgtkRenderer&) = delete;
+  void operator=(const dgtkRenderer&) = delete;
+
+  struct Internal;
+  std::unique_ptr<Internal> Self;
+};
+
+#endif

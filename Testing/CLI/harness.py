@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the whole-program cases share: running dgtk, temporary folders, comparing datasets byte by byte."""
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+DGTK = os.environ["DGTK"]
+SOURCE = os.environ["DGTK_SOURCE"]
+SCENES = os.path.join(SOURCE, "Data", "Scenes")
+EXTRA = os.environ.get("DGTK_EXTRA_MODELS", "")
+
+
+class Case(unittest.TestCase):
+    """A test case with a folder of its own, removed afterwards."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="dgtk-cli-")
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def write(self, name, text):
+        with open(self.path(name), "w" if isinstance(text, str) else "wb") as file:
+            file.write(text)
+        return self.path(name)
+
+    def dgtk(self, *arguments, status=0, environment=None, timeout=600):
+        """Runs dgtk; returns the finished process. Fails unless it exits with `status`."""
+        done = subprocess.run([DGTK, *map(str, arguments)], capture_output=True, text=True, timeout=timeout,
+                              env={**os.environ, **(environment or {})})
+        self.assertEqual(done.returncode, status, f"dgtk {' '.join(map(str, arguments))}\n{done.stdout}\n{done.stderr}")
+        return done
+
+    def refused(self, *arguments, status, says=()):
+        """Runs dgtk, which must fail with `status` and one line on standard error that holds every text of `says`."""
+        done = self.dgtk(*arguments, status=status)
+        lines = [line for line in done.stderr.splitlines() if line]
+        self.assertEqual(len(lines), 1, done.stderr)
+        self.assertTrue(lines[0].startswith("dgtk: "), lines[0])
+        for text in [says] if isinstance(says, str) else says:
+            self.assertIn(text, lines[0])
+        return lines[0]
+
+    def assert_same_files(self, first, second, ignore=()):
+        """Both folders hold the same files with the same bytes."""
+        one, two = digests(first), digests(second)
+        for name in ignore:
+            one.pop(name, None)
+            two.pop(name, None)
+        self.assertEqual(sorted(one), sorted(two))
+        differing = [name for name in one if one[name] != two[name]]
+        self.assertEqual(differing, [], f"{first} and {second} differ")
+        self.assertGreater(len(one), 0)
+
+
+def digests(folder):
+    """Relative path -> SHA-256 of every file below a folder."""
+    found = {}
+    for root, _, names in os.walk(folder):
+        for name in names:
+            path = os.path.join(root, name)
+            with open(path, "rb") as file:
+                found[os.path.relpath(path, folder)] = hashlib.sha256(file.read()).hexdigest()
+    return found
+
+
+def load_json(path):
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def main():
+    unittest.main()

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`dgtk info` of models, compared with counts made by independent parsers, and of scenes."""
+import json
+import math
+import os
+
+from harness import EXTRA, SCENES, SOURCE, Case, load_json, main
+
+TRUTH = os.path.join(EXTRA, "TRUTH.json")
+
+
+def rounded(value):
+    return float(f"{value:.4g}")
+
+
+class Models(Case):
+    def info(self, path):
+        return json.loads(self.dgtk("info", path, "--json").stdout)
+
+    def check_against_truth(self, name, truth):
+        found = self.info(os.path.join(EXTRA, name))
+        self.assertEqual(found["format"], truth["format"])
+        self.assertEqual(found["triangles"], truth["triangles"])
+        for key in ("materials", "lines", "frames"):
+            if key in truth:
+                self.assertEqual(found[key], truth[key], key)
+        bounds = truth.get("bounds", truth.get("bounds_frame0"))
+        if bounds:
+            size = max(abs(v) for corner in bounds for v in corner)
+            for mine, theirs in zip(found["bounds"], bounds):
+                for a, b in zip(mine, theirs):
+                    self.assertLessEqual(abs(a - b), 6e-4 * max(abs(b), 1e-2 * size), f"{found['bounds']} {bounds}")
+        if "sequences" in truth:
+            sequences = ",".join(f"{a['name']}:{a['last'] - a['first'] + 1}" for a in found["animations"])
+            expected = [entry.rsplit(":", 1) for entry in truth["sequences"].split(",")]
+            self.assertEqual([int(a["last"]) - int(a["first"]) + 1 for a in found["animations"]],
+                             [int(count) for _, count in expected], sequences)
+
+    def test_counts_equal_those_of_independent_parsers(self):
+        if not os.path.exists(TRUTH):
+            return  # own models are covered below
+        skipped_pov = {"pov/asteroids/aster3.pov", "pov/povray-examples/chesmsh.pov"}  # counted there without their includes
+        for name, truth in load_json(TRUTH).items():
+            with self.subTest(name):
+                if os.path.getsize(os.path.join(EXTRA, name)) == 0:
+                    self.refused("info", os.path.join(EXTRA, name), "--json", status=3, says=os.path.basename(name))
+                elif name not in skipped_pov:
+                    self.check_against_truth(name, truth)
+
+    def test_included_triangles_are_drawn(self):
+        for name, included in (("pov/asteroids/aster3.pov", 1536),):
+            if os.path.exists(os.path.join(EXTRA, name)):
+                self.assertEqual(self.info(os.path.join(EXTRA, name))["triangles"], included)
+
+    def test_textures_are_found_where_they_exist(self):
+        own = os.path.join(SOURCE, "Data", "Models")
+        for root, _, names in os.walk(own):
+            for name in names:
+                if name.rsplit(".", 1)[-1] in ("ac", "md2", "3ds", "pov", "obj", "gltf"):
+                    with self.subTest(name):
+                        found = self.info(os.path.join(root, name))
+                        self.assertGreater(found["triangles"], 0)
+                        self.assertEqual([t["name"] for t in found["textures"] if not t["found"]], [])
+                        self.assertEqual(found["warnings"], [])
+
+
+class Scenes(Case):
+    def test_resolution_by_equations_4_1_and_4_2(self):
+        scene = self.write("s.json", json.dumps({"objects": [], "cameras": [
+            {"name": "c", "fovY": 60, "near": 0.5, "far": 100.5, "size": [640, 480],
+             "eye": [0, 0, 5], "lookAt": [0, 0, 0], "up": [0, 1, 0]}]}))
+        camera = json.loads(self.dgtk("info", scene, "--json").stdout)["cameras"][0]
+        expected = 2 * 100 * math.tan(math.radians(30)) / 480
+        self.assertAlmostEqual(camera["resolution"]["x"], expected, delta=1e-12)
+        self.assertAlmostEqual(camera["resolution"]["y"], expected, delta=1e-12)
+        self.assertAlmostEqual(camera["resolution"]["far_plane"]["y"], 2 * 100.5 * math.tan(math.radians(30)) / 480, delta=1e-12)
+        self.assertAlmostEqual(camera["K"][0][0], 240 / math.tan(math.radians(30)), delta=1e-9)
+        self.assertEqual(camera["K"][0][2], 320)
+        self.assertEqual(camera["t"], [0, 0, 5])
+
+    def test_surfaces_of_a_plane_seen_squarely(self):
+        scene = self.write("plane.obj", "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3 4\n") and self.write(
+            "s.json", json.dumps({"objects": [{"name": "p", "model": "plane.obj"}], "cameras": [
+                {"name": "c", "fovY": 60, "near": 0.5, "far": 100, "size": [64, 48],
+                 "eye": [0, 0, 5], "lookAt": [0, 0, 0], "up": [0, 1, 0]}]}))
+        camera = json.loads(self.dgtk("info", scene, "--json", "--surfaces").stdout)["cameras"][0]
+        pixel = 2 * 5 * math.tan(math.radians(30)) / 48
+        for key in ("smallest", "median", "largest"):
+            self.assertAlmostEqual(camera["surfaces"][key], pixel, delta=1e-9 * pixel)
+
+    def test_every_scene_of_the_toolkit(self):
+        for name in sorted(os.listdir(SCENES)):
+            if name.endswith((".scene", ".json")):
+                with self.subTest(name):
+                    found = json.loads(self.dgtk("info", os.path.join(SCENES, name), "--json").stdout)
+                    for key in ("objects", "cameras", "lights", "first_frame", "last_frame", "key_frames"):
+                        self.assertIn(key, found)
+                    self.assertTrue(self.dgtk("info", os.path.join(SCENES, name)).stdout)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every sample model renders: something is seen, and raster and ray agree on the object but at edges."""
+import json
+import os
+
+from harness import EXTRA, SOURCE, Case, main
+
+MODEL_FORMATS = ("ac", "acc", "md2", "3ds", "pov", "obj", "gltf", "glb", "ply", "stl")
+
+
+def sample_models():
+    for base in (os.path.join(SOURCE, "Data", "Models"), EXTRA):
+        for root, _, names in os.walk(base):
+            for name in sorted(names):
+                if name.rsplit(".", 1)[-1].lower() in MODEL_FORMATS:
+                    yield os.path.join(root, name)
+
+
+class Models(Case):
+    def framed(self, model, info):
+        """A scene that shows the whole model from a corner."""
+        low, high = info["bounds"]
+        centre = [(a + b) / 2 for a, b in zip(low, high)]
+        size = max(max(b - a for a, b in zip(low, high)), 1e-6)
+        z_up = info["format"] in ("md2", "3ds")
+        offset = [1.1, -1.3, 0.9] if z_up else [1.1, 0.9, 1.3]
+        return {"objects": [{"name": "model", "model": model}],
+                "background": [0.2, 0.25, 0.3],
+                "cameras": [{"name": "view", "fovY": 40, "near": 0.01 * size, "far": 100 * size,
+                             "eye": [c + size * o for c, o in zip(centre, offset)], "lookAt": centre,
+                             "up": [0, 0, 1] if z_up else [0, 1, 0]}]}
+
+    def test_every_model_renders(self):
+        import numpy
+
+        rendered = 0
+        for model in sample_models():
+            if os.path.getsize(model) == 0:
+                continue
+            info = json.loads(self.dgtk("info", model, "--json").stdout)
+            if info["triangles"] == 0:
+                continue
+            with self.subTest(model):
+                scene = self.write("model.json", json.dumps(self.framed(model, info)))
+                seen = {}
+                for engine in ("raster", "ray"):
+                    self.dgtk("render", scene, "-o", self.path(engine), "--quiet", "--size", "200x200", "--visibility", engine,
+                              "--layers", "color,depth,objects", "--objects-format", "npy")
+                    seen[engine] = numpy.load(self.path(engine, "view", "objects", "000000.npy"))
+                self.assertGreater((seen["ray"] > 0).sum(), 40, "hardly anything is seen")
+                self.assertLess((seen["raster"] != seen["ray"]).sum(), 60)
+                rendered += 1
+        self.assertGreater(rendered, 5)
+
+
+if __name__ == "__main__":
+    main()

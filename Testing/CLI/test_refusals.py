@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bad scenes and a machine that cannot: one line, the right status, and nothing harmed."""
+import json
+import os
+import subprocess
+
+from harness import DGTK, SCENES, Case, digests, main
+
+QUAD = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n"
+CAMERA = {"name": "c", "fovY": 60, "near": 0.1, "far": 100, "eye": [0, 0, 5], "lookAt": [0, 0, 0], "up": [0, 1, 0]}
+
+
+def scene(**changes):
+    return {"objects": [{"name": "quad", "model": "quad.obj"}], "cameras": [CAMERA], **changes}
+
+
+class BadScenes(Case):
+    def setUp(self):
+        super().setUp()
+        self.write("quad.obj", QUAD)
+
+    def bad(self, text, says, name="bad.json"):
+        path = self.write(name, text if isinstance(text, (str, bytes)) else json.dumps(text, indent=1))
+        self.refused("render", path, "-o", self.path("out"), "--quiet", status=3, says=says)
+        self.assertFalse(os.path.exists(self.path("out")), "nothing may be left behind")
+
+    def test_unknown_key_has_line_and_path_and_suggestion(self):
+        self.bad(scene(camera=[]), ["bad.json:", "camera", "cameras"])
+
+    def test_missing_model(self):
+        self.bad(scene(objects=[{"name": "o", "model": "no.obj"}]), ["bad.json", "no.obj"])
+
+    def test_not_a_number(self):
+        self.bad('{"objects":[],"cameras":[{"name":"c","fovY":NaN}]}', "bad.json:1")
+        self.bad('{"objects":[],"cameras":[{"name":"c","fovY":1e999,"near":1,"far":2,"eye":[0,0,1],"lookAt":[0,0,0]}]}', "bad.json:1")
+
+    def test_zero_quaternion(self):
+        self.bad(scene(objects=[{"name": "o", "model": "quad.obj", "orientation": [0, 0, 0, 0]}]), "orientation")
+
+    def test_recursive_parents(self):
+        self.bad(scene(objects=[{"name": "a", "model": "quad.obj", "parent": "b"},
+                                {"name": "b", "model": "quad.obj", "parent": "a"}]), "parent")
+
+    def test_many_objects_claimed(self):
+        self.bad("1000000000\nglObject_AC: a.ac\n", "bad.scene", name="bad.scene")
+
+    def test_key_frames_out_of_order(self):
+        text = "1\nglObject_Camera: ( 60, 0.1, 100, 1.33 )\n[ 0 0 5, 0 0 0, 0 1 0 ]\n2\n5\n< 0 0 5 > { 1, <0,0,0> }\n" \
+               "< 0 0 0 > { 1, <0,0,0> }\n2\n< 0 0 5 > { 1, <0,0,0> }\n< 0 0 0 > { 1, <0,0,0> }\n"
+        self.bad(text, "bad.scene:7", name="bad.scene")
+
+    def test_rubbish(self):
+        self.bad(b"\x00\xff\x80" * 99, "bad.json", name="bad.json")
+        self.bad("", "bad.json")
+        self.bad("[" * 100000, "bad.json")
+
+    def test_a_directory(self):
+        os.mkdir(self.path("folder.json"))
+        self.refused("render", self.path("folder.json"), "-o", self.path("out"), status=3, says="a directory")
+        self.refused("info", self.path("nothing.json"), status=3, says="nothing.json")
+
+    def test_scene_without_cameras(self):
+        self.bad(scene(cameras=[]), "no camera")
+
+
+class Machine(Case):
+    def test_output_that_cannot_be_made(self):
+        blocked = self.write("file", "kept")
+        self.refused("render", os.path.join(SCENES, "demo.json"), "-o", os.path.join(blocked, "x"), "--quiet", status=4, says="file")
+        with open(blocked, encoding="utf-8") as file:
+            self.assertEqual(file.read(), "kept")
+
+    def test_full_disk(self):
+        os.mkdir(self.path("small"))
+        if os.geteuid() != 0 or subprocess.run(
+                ["mount", "-t", "tmpfs", "-o", "size=256k", "none", self.path("small")], capture_output=True).returncode:
+            self.limited_file_size()
+            return
+        try:
+            line = self.refused("render", os.path.join(SCENES, "demo.json"), "-o", self.path("small", "out"), "--quiet",
+                                "--layers", "depth", "--frames", "0", "--size", "640x480", status=4, says="No space left")
+            self.assertIn(".npy", line)
+            left = [n for n in digests(self.path("small")) if n.endswith((".npy", "manifest.json"))]
+            self.assertEqual(left, [], "half-written files")
+        finally:
+            subprocess.run(["umount", self.path("small")], check=True)
+
+    def limited_file_size(self):
+        """Without the right to mount: files larger than 64 KiB fail."""
+        done = subprocess.run(["bash", "-c", f"trap '' XFSZ; ulimit -f 64; exec {DGTK} render {SCENES}/demo.json -o "
+                               f"{self.path('out')} --quiet --layers depth --frames 0 --size 640x480"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("too large", done.stderr)
+
+    def test_no_opengl(self):
+        broken = {"__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent", "LIBGL_DRIVERS_PATH": "/nonexistent", "DISPLAY": ""}
+        done = self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", self.path("x"), "--quiet", "--gl", "egl",
+                         status=4, environment=broken)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        fallback = self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", self.path("y"), "--frames", "0", "--size", "64x48",
+                             "--layers", "color", environment={**broken, "LIBGL_DRIVERS_PATH": ""})
+        self.assertIn("OSMesa", fallback.stderr)
+
+    def test_no_opengl_is_needed_without_colour(self):
+        broken = {"__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent", "LIBGL_DRIVERS_PATH": "/nonexistent", "DISPLAY": ""}
+        self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", self.path("x"), "--quiet", "--layers", "depth,objects",
+                  "--size", "64x48", environment=broken)
+
+
+if __name__ == "__main__":
+    main()

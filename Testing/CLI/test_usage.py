@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Help, version, and wrong usage."""
+import os
+
+from harness import SCENES, Case, main
+
+SCENE = os.path.join(SCENES, "demo.json")
+
+
+class Usage(Case):
+    def test_help_of_every_command(self):
+        overview = self.dgtk("--help").stdout
+        for command in ("render", "info", "convert", "compare", "list"):
+            self.assertIn(f"\n  {command} ", overview)
+            page = self.dgtk(command, "--help").stdout
+            self.assertIn(f"usage: dgtk {command}", page)
+            self.assertIn("--help", page)
+
+    def test_version(self):
+        self.assertRegex(self.dgtk("--version").stdout, r"^dgtk \d+\.\d+\.\d+\n$")
+
+    def test_wrong_usage_is_one_line_and_status_2(self):
+        self.refused(status=2, says="a command is missing")
+        self.refused("rendr", status=2, says="did you mean render?")
+        self.refused("render", SCENE, "-o", self.path("x"), "--sice", "4x4", status=2, says="did you mean --size?")
+        self.refused("render", SCENE, status=2, says="-o DIR")
+        self.refused("render", status=2, says="too few arguments")
+        self.refused("render", SCENE, "-o", self.path("x"), "--size", "640", status=2, says="expected WxH")
+        self.refused("render", SCENE, "-o", self.path("x"), "--size", "0x10", status=2, says="--size width")
+        self.refused("render", SCENE, "-o", self.path("x"), "--samples", "17", status=2, says="1 to 16")
+        self.refused("render", SCENE, "-o", self.path("x"), "--layers", "depht", status=2, says="unknown layer 'depht'")
+        self.refused("render", SCENE, "-o", self.path("x"), "--cameras", "nobody", status=2, says="no camera 'nobody'")
+        self.refused("render", SCENE, "-o", self.path("x"), "--frames", "3:1", status=2, says="A <= B")
+        self.refused("render", SCENE, "-o", self.path("x"), "--frames", "0:100000", status=2, says="the scene has frames")
+        self.refused("render", SCENE, "-o", self.path("x"), "--gl", "metal", status=2, says="expected one of")
+        self.refused("render", SCENE, "-o", self.path("x"), "--depth-format", "jpg", status=2, says="cannot be written")
+        self.refused("list", "nothing", status=2, says="expected one of readers")
+        self.assertFalse(os.path.exists(self.path("x")))
+
+    def test_lists(self):
+        for what, word in (("readers", "md2"), ("layers", "depth"), ("writers", "npy"), ("cameras", "orthographic"), ("gl", "egl")):
+            self.assertIn(word, self.dgtk("list", what).stdout)
+        everything = self.dgtk("list").stdout
+        for word in ("readers:", "layers:", "writers:", "cameras:", "gl:"):
+            self.assertIn(word, everything)
+
+
+if __name__ == "__main__":
+    main()
