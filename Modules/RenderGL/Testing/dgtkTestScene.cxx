@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkTestScene.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+namespace dgtk::test
+{
+namespace
+{
+constexpr double Pi = 3.14159265358979323846;
+
+double distanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+  const Eigen::Vector2d ab = b - a;
+  const double t = std::clamp((p - a).dot(ab) / std::max(ab.squaredNorm(), 1e-300), 0.0, 1.0);
+  return (p - a - t * ab).norm();
+}
+} // namespace
+
+ModelBuilder::ModelBuilder()
+  : Made(std::make_shared<Model>())
+  , Rest(std::make_shared<Geometry>())
+{
+}
+
+Material& ModelBuilder::part(const Material& material)
+{
+  Part part;
+  part.name = "part";
+  part.material = int(this->Made->materials.size());
+  part.firstTriangle = std::uint32_t(this->Made->triangles.size());
+  this->Made->parts.push_back(part);
+  this->Made->materials.push_back(material);
+  return this->Made->materials.back();
+}
+
+int ModelBuilder::texture(std::shared_ptr<const Image> image)
+{
+  Texture texture;
+  texture.image = std::move(image);
+  this->Made->textures.push_back(texture);
+  return int(this->Made->textures.size()) - 1;
+}
+
+void ModelBuilder::triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+{
+  const auto first = std::uint32_t(this->Rest->positions.size());
+  const Eigen::Vector3f normal = (b - a).cross(c - a).normalized().cast<float>();
+  const Eigen::Vector3d* corners[3] = { &a, &b, &c };
+  const double uvs[3][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 } };
+  for (int i = 0; i < 3; ++i)
+  {
+    this->Rest->positions.push_back(*corners[i]);
+    this->Rest->normals.push_back(normal);
+    this->Made->uvs.emplace_back(uvs[i][0], uvs[i][1]);
+  }
+  this->Made->triangles.push_back({ first, first + 1, first + 2 });
+  ++this->Made->parts.back().triangles;
+}
+
+void ModelBuilder::quad(
+  const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d, double repeat)
+{
+  const auto first = std::uint32_t(this->Rest->positions.size());
+  const Eigen::Vector3f normal = (b - a).cross(c - a).normalized().cast<float>();
+  for (const Eigen::Vector3d& x : { a, b, c, d })
+  {
+    this->Rest->positions.push_back(x);
+    this->Rest->normals.push_back(normal);
+  }
+  for (const auto& uv : { Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 0), Eigen::Vector2d(1, 1), Eigen::Vector2d(0, 1) })
+  {
+    this->Made->uvs.push_back(uv * repeat);
+  }
+  this->Made->triangles.push_back({ first, first + 1, first + 2 });
+  this->Made->triangles.push_back({ first, first + 2, first + 3 });
+  this->Made->parts.back().triangles += 2;
+}
+
+void ModelBuilder::box(const Eigen::Vector3d& l, const Eigen::Vector3d& h)
+{
+  const auto at = [&](int x, int y, int z)
+  { return Eigen::Vector3d(x ? h.x() : l.x(), y ? h.y() : l.y(), z ? h.z() : l.z()); };
+  this->quad(at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1));
+  this->quad(at(1, 0, 0), at(0, 0, 0), at(0, 1, 0), at(1, 1, 0));
+  this->quad(at(1, 0, 1), at(1, 0, 0), at(1, 1, 0), at(1, 1, 1));
+  this->quad(at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0));
+  this->quad(at(0, 1, 1), at(1, 1, 1), at(1, 1, 0), at(0, 1, 0));
+  this->quad(at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1));
+}
+
+void ModelBuilder::sphere(int steps)
+{
+  const auto first = std::uint32_t(this->Rest->positions.size());
+  for (int i = 0; i <= steps; ++i)
+  {
+    for (int j = 0; j <= 2 * steps; ++j)
+    {
+      const double theta = Pi * i / steps;
+      const double phi = Pi * j / steps;
+      const Eigen::Vector3d x(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi));
+      this->Rest->positions.push_back(x);
+      this->Rest->normals.push_back(x.cast<float>());
+      this->Made->uvs.emplace_back(0.5 * j / steps, 1 - double(i) / steps);
+    }
+  }
+  const std::uint32_t stride = 2 * std::uint32_t(steps) + 1;
+  for (std::uint32_t i = 0; i < std::uint32_t(steps); ++i)
+  {
+    for (std::uint32_t j = 0; j + 1 < stride; ++j)
+    {
+      const std::uint32_t a = first + i * stride + j;
+      this->Made->triangles.push_back({ a, a + stride, a + stride + 1 });
+      this->Made->triangles.push_back({ a, a + stride + 1, a + 1 });
+      this->Made->parts.back().triangles += 2;
+    }
+  }
+}
+
+std::shared_ptr<const Model> ModelBuilder::finish(bool uvs)
+{
+  if (!uvs)
+  {
+    this->Made->uvs.clear();
+  }
+  this->Made->rest = this->Rest;
+  return this->Made;
+}
+
+Instance instanceOf(std::shared_ptr<const Model> model, const Eigen::Vector3d& at, const Eigen::Matrix3d& linear)
+{
+  Instance instance;
+  instance.geometry = model->rest;
+  instance.materials = std::shared_ptr<const std::vector<Material>>(model, &model->materials);
+  instance.model = std::move(model);
+  instance.world_from_object.linear = linear;
+  instance.world_from_object.translation = at;
+  return instance;
+}
+
+Material flat(const Eigen::Vector3d& color)
+{
+  Material material;
+  material.ambient = color;
+  material.diffuse.setZero();
+  return material;
+}
+
+Material matte(const Eigen::Vector3d& color)
+{
+  Material material;
+  material.ambient.setZero();
+  material.diffuse = color;
+  return material;
+}
+
+View viewOf(std::shared_ptr<const CameraModel> model, const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
+  double near, double far)
+{
+  View view;
+  view.name = "camera";
+  view.model = std::move(model);
+  view.camera_from_world = lookAtPose(eye, target, Eigen::Vector3d(0, 1, 0));
+  view.near = near;
+  view.far = far;
+  return view;
+}
+
+PixelRect whole(const View& view) { return { 0, 0, view.model->width(), view.model->height() }; }
+
+Reference castRay(const SceneState& state, const View& view, int x, int y)
+{
+  const Eigen::Vector2d pixel(x + 0.5, y + 0.5);
+  const CameraRay ray = view.model->rayThrough(pixel);
+  Reference best;
+  best.depth = std::numeric_limits<double>::infinity();
+  best.margin = std::numeric_limits<double>::infinity();
+  for (std::size_t o = 0; o < state.instances.size(); ++o)
+  {
+    const Instance& instance = state.instances[o];
+    const Affine3 camera_from_object = view.camera_from_world * instance.world_from_object;
+    for (std::size_t t = 0; t < instance.model->triangles.size(); ++t)
+    {
+      Eigen::Vector3d c[3];
+      for (int i = 0; i < 3; ++i)
+      {
+        c[i] = camera_from_object * instance.geometry->positions[instance.model->triangles[t][std::size_t(i)]];
+      }
+      Eigen::Matrix3d m;
+      m << c[1] - c[0], c[2] - c[0], -ray.direction;
+      const double determinant = m.determinant();
+      if (std::abs(determinant) < 1e-30)
+      {
+        continue;
+      }
+      const Eigen::Vector3d s = m.inverse() * (ray.origin - c[0]);
+      if (s.z() < view.near || s.z() > view.far)
+      {
+        continue;
+      }
+      // Distance to the edges where the plane is met: clipped to what is in front of the camera.
+      double margin = std::numeric_limits<double>::infinity();
+      for (int i = 0; i < 3; ++i)
+      {
+        Eigen::Vector3d a = c[i];
+        Eigen::Vector3d b = c[(i + 1) % 3];
+        const double least = 0.5 * view.near;
+        if (a.z() < least && b.z() < least)
+        {
+          continue;
+        }
+        const Eigen::Vector3d a0 = a;
+        a = a.z() < least ? Eigen::Vector3d(a + (b - a) * ((least - a.z()) / (b.z() - a.z()))) : a;
+        b = b.z() < least ? Eigen::Vector3d(b + (a0 - b) * ((least - b.z()) / (a0.z() - b.z()))) : b;
+        Eigen::Vector2d pa;
+        Eigen::Vector2d pb;
+        if (view.model->project(a, pa) && view.model->project(b, pb))
+        {
+          margin = std::min(margin, distanceToSegment(pixel, pa, pb));
+        }
+      }
+      const bool inside = s.x() >= 0 && s.y() >= 0 && s.x() + s.y() <= 1;
+      if (inside || margin < 0.1)
+      {
+        best.margin = std::min(best.margin, margin);
+      }
+      if (inside && s.z() < best.depth)
+      {
+        best.depth = s.z();
+        best.hit = { std::uint32_t(o + 1), std::uint32_t(t) };
+      }
+    }
+  }
+  return best;
+}
+
+namespace
+{
+void save(const std::string& name, int width, int height, const std::vector<unsigned char>& rgb)
+{
+  if (std::getenv("DGTK_SAVE_PICTURES"))
+  {
+    std::ofstream file(std::filesystem::temp_directory_path() / (name + ".ppm"), std::ios::binary);
+    file << "P6\n" << width << ' ' << height << "\n255\n";
+    file.write(reinterpret_cast<const char*>(rgb.data()), std::streamsize(rgb.size()));
+  }
+}
+} // namespace
+
+void savePicture(const std::string& name, const ColorBuffer& colors)
+{
+  std::vector<unsigned char> rgb;
+  for (const float value : colors.rgb)
+  {
+    rgb.push_back(static_cast<unsigned char>(std::lround(value * 255)));
+  }
+  save(name, colors.rect.width, colors.rect.height, rgb);
+}
+
+void savePicture(const std::string& name, const VisibilityBuffer& hits)
+{
+  std::vector<unsigned char> rgb;
+  for (const Hit& hit : hits.hits)
+  {
+    const std::uint32_t mixed = hit.object == 0 ? 0 : (hit.object * 2654435761u) ^ (hit.triangle * 40503u + 1);
+    for (int c = 0; c < 3; ++c)
+    {
+      rgb.push_back(static_cast<unsigned char>(mixed >> (8 * c)));
+    }
+  }
+  save(name, hits.rect.width, hits.rect.height, rgb);
+}
+
+} // namespace dgtk::test

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkGLWindow.h"
+
+#include "dgtkError.h"
+
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLState.h>
+#include <vtkOutputWindow.h>
+#include <vtk_glew.h>
+
+#include <mutex>
+
+namespace dgtk
+{
+namespace
+{
+
+/// Keeps what VTK would print, for our own message.
+class CollectingOutput : public vtkOutputWindow
+{
+public:
+  static CollectingOutput* New();
+  vtkTypeMacro(CollectingOutput, vtkOutputWindow);
+  void DisplayText(const char* text) override { this->collect(text); }
+  void DisplayErrorText(const char* text) override { this->collect(text); }
+  void DisplayWarningText(const char* text) override { this->collect(text); }
+  void DisplayGenericWarningText(const char* text) override { this->collect(text); }
+  void DisplayDebugText(const char*) override {}
+
+  std::string take()
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    return std::exchange(this->Collected, {});
+  }
+
+private:
+  void collect(const char* text)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    for (const char* c = text; c && *c && this->Collected.size() < 500; ++c)
+    {
+      const bool space = *c == '\n' || *c == '\t' || *c == ' ';
+      if (!space || (!this->Collected.empty() && this->Collected.back() != ' '))
+      {
+        this->Collected += space ? ' ' : *c;
+      }
+    }
+  }
+  std::mutex Mutex;
+  std::string Collected;
+};
+vtkStandardNewMacro(CollectingOutput);
+
+CollectingOutput* output()
+{
+  static vtkSmartPointer<CollectingOutput> instance;
+  if (!instance)
+  {
+    instance = vtkSmartPointer<CollectingOutput>::New();
+  }
+  if (vtkOutputWindow::GetInstance() != instance)
+  {
+    vtkOutputWindow::SetInstance(instance);
+  }
+  return instance;
+}
+
+constexpr unsigned int GlewNoGlxDisplay = 4; // GLEW_ERROR_NO_GLX_DISPLAY; everything else is initialised then
+
+/// A render window on a context that was made elsewhere. It never has a framebuffer of its own.
+class SurfacelessWindow : public vtkGenericOpenGLRenderWindow
+{
+public:
+  static SurfacelessWindow* New();
+  vtkTypeMacro(SurfacelessWindow, vtkGenericOpenGLRenderWindow);
+
+  void adopt(std::unique_ptr<NativeContext> context)
+  {
+    this->Native = std::move(context);
+    this->SetOffScreenRendering(1);
+    this->SetMultiSamples(0);
+    this->SetSize(16, 16);
+    this->OpenGLInit();
+  }
+  bool initialised() const { return this->Initialized; }
+
+  void MakeCurrent() override
+  {
+    if (this->Native && !this->Native->isCurrent())
+    {
+      this->Native->makeCurrent();
+    }
+  }
+  bool IsCurrent() override { return this->Native && this->Native->isCurrent(); }
+  int SupportsOpenGL() override { return 1; }
+  void* GetGenericContext() override { return this->Native.get(); }
+
+  void OpenGLInitContext() override
+  {
+    this->ContextCreationTime.Modified();
+    if (this->Initialized)
+    {
+      return;
+    }
+    const unsigned int result = glewInit();
+    this->GlewInitValid = (result == GLEW_OK || result == GlewNoGlxDisplay) && GLEW_VERSION_3_2;
+    this->Initialized = this->GlewInitValid;
+    this->MaximumHardwareLineWidth = 1.0;
+  }
+
+protected:
+  SurfacelessWindow() = default;
+  ~SurfacelessWindow() override
+  {
+    this->MakeCurrent();
+    this->Finalize();
+  }
+
+private:
+  std::unique_ptr<NativeContext> Native;
+};
+vtkStandardNewMacro(SurfacelessWindow);
+
+struct Process
+{
+  vtkSmartPointer<vtkOpenGLRenderWindow> window;
+  GLChoice choice;
+};
+
+Process& process()
+{
+  // Never destroyed: drivers take themselves down at exit in an order that is not ours.
+  static Process* one = new Process;
+  return *one;
+}
+
+const char* titleOf(GLBackend backend)
+{
+  switch (backend)
+  {
+    case GLBackend::Egl:
+      return "EGL";
+    case GLBackend::Osmesa:
+      return "OSMesa";
+    case GLBackend::Glx:
+      return "GLX";
+    case GLBackend::Auto:
+      break;
+  }
+  return "auto";
+}
+
+void make(GLBackend backend, Process& made)
+{
+  output();
+  if (backend == GLBackend::Glx)
+  {
+    made.window = makeGlxWindow();
+    if (!GLEW_VERSION_3_2)
+    {
+      made.window = nullptr;
+      throw MachineError("no OpenGL 3.2; " + takeVTKErrors());
+    }
+  }
+  else
+  {
+    if (backend == GLBackend::Egl && osmesaPreloaded())
+    {
+      throw MachineError("the process was started for OSMesa");
+    }
+    auto window = vtkSmartPointer<SurfacelessWindow>::New();
+    window->adopt(backend == GLBackend::Egl ? makeEglContext() : makeOsmesaContext(true));
+    if (!window->initialised())
+    {
+      throw MachineError("no OpenGL 3.2 core context");
+    }
+    made.window = window;
+  }
+  made.window->MakeCurrent();
+  const GLubyte* name = glGetString(GL_RENDERER);
+  made.choice.backend = backend;
+  made.choice.description = std::string(titleOf(backend)) + ", " + (name ? reinterpret_cast<const char*>(name) : "?");
+  if (!GLEW_ARB_clip_control)
+  {
+    made.choice.description += ", without clip control (less exact order of far surfaces)";
+  }
+}
+
+} // namespace
+
+std::string takeVTKErrors() { return output()->take(); }
+
+std::string rendererName(const NativeContext& context)
+{
+  using GetString = const GLubyte* (*)(GLenum);
+  const auto get = reinterpret_cast<GetString>(context.lookUp("glGetString"));
+  const GLubyte* name = get ? get(GL_RENDERER) : nullptr;
+  return name ? reinterpret_cast<const char*>(name) : "";
+}
+
+vtkOpenGLRenderWindow* currentGLWindow(GLBackend backend, GLChoice& choice)
+{
+  Process& one = process();
+  if (!one.window)
+  {
+    std::string said = inheritedReason();
+    const std::vector<GLBackend> wanted =
+      backend == GLBackend::Auto ? std::vector<GLBackend>{ GLBackend::Egl, GLBackend::Osmesa, GLBackend::Glx }
+                                 : std::vector<GLBackend>{ backend };
+    for (const GLBackend each : wanted)
+    {
+      if (backend == GLBackend::Auto && each == GLBackend::Egl && !said.empty())
+      {
+        continue; // tried before the process was started anew
+      }
+      try
+      {
+        make(each, one);
+        break;
+      }
+      catch (const MachineError& error)
+      {
+        said += (said.empty() ? "" : "; ") + std::string(titleOf(each)) + ": " + error.what();
+      }
+    }
+    if (!one.window)
+    {
+      throw MachineError("no OpenGL: " + said);
+    }
+    if (!said.empty())
+    {
+      one.choice.description += " (" + said + ")";
+    }
+  }
+  else if (backend != GLBackend::Auto && backend != one.choice.backend)
+  {
+    throw UsageError(std::string("OpenGL is in use through ") + titleOf(one.choice.backend) + " and cannot change to " +
+                     titleOf(backend));
+  }
+  one.window->MakeCurrent();
+  choice = one.choice;
+  return one.window;
+}
+
+} // namespace dgtk

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkIdPrograms_h
+#define dgtkIdPrograms_h
+
+// Private to RenderGL.
+
+#include "dgtkRasterShaders.h"
+
+#include <array>
+
+namespace dgtk
+{
+
+/// The programs that draw ids alone. The context must be current.
+class IdPrograms
+{
+public:
+  IdPrograms() = default;
+  ~IdPrograms();
+  IdPrograms(const IdPrograms&) = delete;
+  IdPrograms& operator=(const IdPrograms&) = delete;
+
+  struct Program
+  {
+    unsigned int name = 0;
+    int matrix = -1;  ///< MCDCMatrix
+    int draw = -1;    ///< dgtkDraw
+    int picture = -1; ///< actortexture
+    int layer = -1;   ///< dgtkLayer
+  };
+  /// Of `variant`, cutOut, pieces and peel count. Throws MachineError with the compiler's words.
+  const Program& program(const ShaderVariant& variant);
+  /// A vertex array of our own.
+  unsigned int vertexArray();
+
+private:
+  std::array<Program, 8> All;
+  unsigned int VertexArray = 0;
+};
+
+} // namespace dgtk
+
+#endif

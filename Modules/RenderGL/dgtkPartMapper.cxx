@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPartMapper.h"
+
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLHelper.h>
+#include <vtkOpenGLIndexBufferObject.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLVertexBufferObject.h>
+#include <vtkOpenGLVertexBufferObjectGroup.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+#include <vtkShader.h>
+#include <vtkShaderProgram.h>
+#include <vtk_glew.h>
+
+namespace dgtk
+{
+
+vtkStandardNewMacro(PartActor);
+vtkStandardNewMacro(PartMapper);
+
+PartMapper::PartMapper()
+{
+  this->SetStatic(1); // the input is data, not a pipeline
+  this->ScalarVisibilityOff();
+  this->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
+}
+
+void PartMapper::configure(RasterFrame* frame, const ShaderVariant& material, std::vector<unsigned int> indices)
+{
+  this->Frame = frame;
+  this->Material = material;
+  this->Indices = std::move(indices);
+}
+
+void PartMapper::prepare(vtkRenderer* renderer, vtkActor* actor)
+{
+  this->Preparing = true;
+  this->RenderPiece(renderer, actor);
+  this->Preparing = false;
+}
+
+void PartMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
+{
+  if (!this->Preparing)
+  {
+    this->Superclass::RenderPieceDraw(renderer, actor);
+  }
+}
+
+void PartMapper::BuildIBO(vtkRenderer*, vtkActor*, vtkPolyData*)
+{
+  if (this->Indices.empty())
+  {
+    return;
+  }
+  vtkOpenGLIndexBufferObject* buffer = this->Primitives[PrimitiveTris].IBO;
+  buffer->Upload(this->Indices, vtkOpenGLBufferObject::ElementArrayBuffer);
+  buffer->IndexCount = this->Indices.size();
+  std::vector<unsigned int>().swap(this->Indices);
+}
+
+void PartMapper::bindAttribute(const char* name, unsigned int location)
+{
+  vtkOpenGLVertexBufferObject* buffer = this->VBOs->GetVBO(name);
+  glBindBuffer(GL_ARRAY_BUFFER, GLuint(buffer->GetHandle()));
+  glEnableVertexAttribArray(location);
+  const GLint components = this->VBOs->GetNumberOfComponents(name);
+  glVertexAttribPointer(
+    location, components, GL_FLOAT, GL_FALSE, GLsizei(std::size_t(components) * sizeof(float)), nullptr);
+}
+
+void PartMapper::drawBare()
+{
+  vtkOpenGLIndexBufferObject* indices = this->Primitives[PrimitiveTris].IBO;
+  this->bindAttribute("vertexMC", 0);
+  if (this->Material.cutOut)
+  {
+    this->bindAttribute("tcoord", 1);
+  }
+  if (this->Material.pieces)
+  {
+    this->bindAttribute("dgtkTriangle", 2);
+  }
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, GLuint(indices->GetHandle()));
+  glDrawRangeElements(GL_TRIANGLES, 0, GLuint(this->VBOs->GetNumberOfTuples("vertexMC") - 1),
+    GLsizei(indices->IndexCount), GL_UNSIGNED_INT, nullptr);
+}
+
+ShaderVariant PartMapper::currentVariant() const
+{
+  ShaderVariant variant = this->Material;
+  variant.directional = this->Frame->lights.directional;
+  variant.points = this->Frame->lights.points;
+  variant.spots = this->Frame->lights.spots;
+  variant.lightTexture = this->Frame->lights.count() > this->Frame->maxUniformLights;
+  variant.peel = this->Frame->peel;
+  return variant;
+}
+
+bool PartMapper::GetNeedToRebuildShaders(vtkOpenGLHelper& cell, vtkRenderer* renderer, vtkActor* actor)
+{
+  const ShaderVariant wanted = this->currentVariant();
+  const bool changed = !(wanted == this->Built);
+  this->Built = wanted;
+  return this->Superclass::GetNeedToRebuildShaders(cell, renderer, actor) || changed;
+}
+
+void PartMapper::ReplaceShaderValues(
+  std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor)
+{
+  std::string vertex = shaders[vtkShader::Vertex]->GetSource();
+  std::string fragment = shaders[vtkShader::Fragment]->GetSource();
+  substituteColor(this->Built, vertex, fragment);
+  shaders[vtkShader::Vertex]->SetSource(vertex);
+  shaders[vtkShader::Fragment]->SetSource(fragment);
+  this->Superclass::ReplaceShaderValues(shaders, renderer, actor);
+}
+
+void PartMapper::SetCameraShaderParameters(vtkOpenGLHelper& cell, vtkRenderer*, vtkActor* actor)
+{
+  auto* part = static_cast<PartActor*>(actor);
+  cell.Program->SetUniformMatrix4x4("MCDCMatrix", part->clip_from_object.data());
+  cell.Program->SetUniformMatrix4x4("MCVCMatrix", part->view_from_object.data());
+  cell.Program->SetUniformMatrix3x3("normalMatrix", part->normal_view_from_object.data());
+  cell.Program->SetUniformi("cameraParallel", this->Frame->parallel ? 1 : 0);
+  const float draw[2] = { part->number, part->mirrored ? 1.0f : 0.0f };
+  cell.Program->SetUniform2f("dgtkDraw", draw);
+  if (this->Built.peel)
+  {
+    cell.Program->SetUniformi("dgtkLayer", this->Frame->layerUnit);
+  }
+}
+
+void PartMapper::SetPropertyShaderParameters(vtkOpenGLHelper& cell, vtkRenderer* renderer, vtkActor* actor)
+{
+  this->Superclass::SetPropertyShaderParameters(cell, renderer, actor);
+  cell.Program->SetUniform3f("dgtkEmission", static_cast<PartActor*>(actor)->emission.data());
+}
+
+void PartMapper::SetLightingShaderParameters(vtkOpenGLHelper& cell, vtkRenderer*, vtkActor*)
+{
+  std::uint64_t& has = this->Frame->uploaded[cell.Program];
+  if (has == this->Frame->lightsVersion || this->Frame->lights.count() == 0)
+  {
+    return;
+  }
+  has = this->Frame->lightsVersion;
+  if (this->Built.lightTexture)
+  {
+    cell.Program->SetUniformi("dgtkLights", this->Frame->lightsUnit);
+    return;
+  }
+  const auto& values = this->Frame->lights.values;
+  cell.Program->SetUniform4fv("dgtkLights", int(values.size()), reinterpret_cast<const float(*)[4]>(values.data()));
+}
+
+} // namespace dgtk

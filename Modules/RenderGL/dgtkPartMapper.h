@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkPartMapper_h
+#define dgtkPartMapper_h
+
+// Private to RenderGL.
+
+#include "dgtkRasterLights.h"
+#include "dgtkRasterShaders.h"
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+#include <vtkOpenGLActor.h>
+#include <vtkOpenGLPolyDataMapper.h>
+
+namespace dgtk
+{
+
+/// What all draws of a frame share.
+struct RasterFrame
+{
+  RasterLights lights;
+  std::uint64_t lightsVersion = 1; ///< changes with `lights`
+  bool parallel = false;
+  bool peel = false;
+  int lightsUnit = 0; ///< texture unit of the buffer texture with the lights
+  int layerUnit = 0;  ///< texture unit of the layer before, when peeling
+  int maxUniformLights = UniformLights;
+  std::unordered_map<vtkShaderProgram*, std::uint64_t> uploaded; ///< version of the lights that a program has
+};
+
+/// An instance's part, with the matrices of the current frame as OpenGL takes them (by columns).
+class PartActor : public vtkOpenGLActor
+{
+public:
+  static PartActor* New();
+  vtkTypeMacro(PartActor, vtkOpenGLActor);
+
+  std::array<float, 16> clip_from_object{};
+  std::array<float, 16> view_from_object{};
+  std::array<float, 9> normal_view_from_object{};
+  std::array<float, 3> emission{};
+  float number = 0; ///< of the draw, from 1
+  bool mirrored = false;
+
+protected:
+  PartActor() = default;
+};
+
+/// VTK's mapper for triangles of one material. Differences to VTK's: triangles without area keep their place (and so
+/// every triangle its number), lights and ids are ours, and the shader is rebuilt only when it must be.
+class PartMapper : public vtkOpenGLPolyDataMapper
+{
+public:
+  static PartMapper* New();
+  vtkTypeMacro(PartMapper, vtkOpenGLPolyDataMapper);
+
+  /// `indices`: three per triangle, into the points of the input.
+  void configure(RasterFrame* frame, const ShaderVariant& material, std::vector<unsigned int> indices);
+  const ShaderVariant& material() const { return this->Material; }
+
+  /// Uploads what is not in OpenGL's memory yet.
+  void prepare(vtkRenderer* renderer, vtkActor* actor);
+  /// Binds vertices (attribute 0, and texture coordinates as attribute 1 for cut-outs, the triangle's number as
+  /// attribute 2 for pieces) and indices to the bound vertex array, and draws. prepare() comes before.
+  void drawBare();
+
+protected:
+  PartMapper();
+  void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override;
+  void BuildIBO(vtkRenderer* renderer, vtkActor* actor, vtkPolyData* poly) override;
+  bool GetNeedToRebuildShaders(vtkOpenGLHelper& cell, vtkRenderer* renderer, vtkActor* actor) override;
+  void ReplaceShaderValues(
+    std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor) override;
+  void SetCameraShaderParameters(vtkOpenGLHelper& cell, vtkRenderer* renderer, vtkActor* actor) override;
+  void SetPropertyShaderParameters(vtkOpenGLHelper& cell, vtkRenderer* renderer, vtkActor* actor) override;
+  void SetLightingShaderParameters(vtkOpenGLHelper& cell, vtkRenderer* renderer, vtkActor* actor) override;
+
+private:
+  void bindAttribute(const char* name, unsigned int location);
+  ShaderVariant currentVariant() const;
+
+  RasterFrame* Frame = nullptr;
+  bool Preparing = false;
+  ShaderVariant Material;
+  ShaderVariant Built;
+  std::vector<unsigned int> Indices; // until they are uploaded
+};
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkRasterScene.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <cmath>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLRenderer.h>
+#include <vtkOpenGLShaderCache.h>
+#include <vtkOpenGLState.h>
+#include <vtkOpenGLTexture.h>
+#include <vtk_glew.h>
+
+namespace dgtk
+{
+namespace
+{
+
+constexpr int LayerUnit = 14; // VTK hands out units from 0
+constexpr int LightsUnit = 15;
+
+Eigen::Matrix4d matrixOf(const Affine3& transform, const Eigen::Vector3d& origin)
+{
+  Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
+  m.topLeftCorner<3, 3>() = transform.linear;
+  m.topRightCorner<3, 1>() = transform * origin;
+  return m;
+}
+
+/// False when the box is wholly outside one plane of the frustum.
+bool maySee(const Eigen::Matrix4d& clip_from_object, const Eigen::Vector3d& low, const Eigen::Vector3d& high)
+{
+  unsigned int outsideAll = 63;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Eigen::Vector4d x(
+      (corner & 1 ? high : low).x(), (corner & 2 ? high : low).y(), (corner & 4 ? high : low).z(), 1);
+    const Eigen::Vector4d clip = clip_from_object * x;
+    const double w = clip.w() + std::abs(clip.w()) * 1e-6;
+    const double back = -std::abs(clip.w()) * 1e-6 - std::abs(w); // [-1, 1] or [0, 1]: not sharper than needed
+    outsideAll &= (clip.x() > w ? 1u : 0u) | (-clip.x() > w ? 2u : 0u) | (clip.y() > w ? 4u : 0u) |
+                  (-clip.y() > w ? 8u : 0u) | (clip.z() > w ? 16u : 0u) | (clip.z() < back ? 32u : 0u);
+  }
+  return outsideAll == 0;
+}
+
+/// Normals' matrix: the cofactors, which also exist where the matrix has no inverse; scaled to about 1.
+Eigen::Matrix3d normalMatrix(const Eigen::Matrix3d& m)
+{
+  Eigen::Matrix3d cofactors;
+  for (int c = 0; c < 3; ++c)
+  {
+    cofactors.col(c) = m.col((c + 1) % 3).cross(m.col((c + 2) % 3));
+  }
+  const double size = cofactors.cwiseAbs().maxCoeff();
+  return cofactors * ((m.determinant() < 0 ? -1.0 : 1.0) / (size > 0 ? size : 1.0));
+}
+
+template <typename Array, typename Matrix>
+void store(Array& target, const Matrix& source)
+{
+  for (std::size_t i = 0; i < target.size(); ++i)
+  {
+    target[i] = float(source.data()[i]);
+  }
+}
+
+} // namespace
+
+void RasterScene::aim(const RasterCamera& camera)
+{
+  for (Draw& draw : this->Draws)
+  {
+    const Instance& instance = this->State->instances[draw.instance];
+    const Eigen::Matrix4d world_from_local = matrixOf(instance.world_from_object, draw.variant->shared->origin);
+    const Eigen::Matrix4d view_from_local = camera.view_from_world * world_from_local;
+    const Eigen::Matrix4d clip_from_local = camera.clip_from_view * view_from_local;
+    draw.visible = maySee(clip_from_local, draw.chunk->boxMin, draw.chunk->boxMax);
+    store(draw.actor->clip_from_object, clip_from_local);
+    store(draw.actor->view_from_object, view_from_local);
+    store(draw.actor->normal_view_from_object, normalMatrix(view_from_local.topLeftCorner<3, 3>()));
+  }
+  this->Frame.parallel = !camera.perspective;
+  this->Frame.lights = rasterLights(this->State->lights, camera.view_from_world);
+  ++this->Frame.lightsVersion;
+}
+
+void RasterScene::peelBehind(unsigned int layer)
+{
+  this->Layer = layer;
+  this->Frame.peel = layer != 0;
+  this->Frame.layerUnit = LayerUnit;
+}
+
+void RasterScene::uploadLights()
+{
+  if (this->Frame.lights.count() <= this->Frame.maxUniformLights)
+  {
+    return;
+  }
+  if (!this->LightTexture)
+  {
+    glGenBuffers(1, &this->LightBuffer);
+    glGenTextures(1, &this->LightTexture);
+  }
+  const auto& values = this->Frame.lights.values;
+  glBindBuffer(GL_TEXTURE_BUFFER, this->LightBuffer);
+  glBufferData(GL_TEXTURE_BUFFER, GLsizeiptr(values.size() * sizeof(values[0])), values.data(), GL_STREAM_DRAW);
+  glActiveTexture(GL_TEXTURE0 + LightsUnit);
+  glBindTexture(GL_TEXTURE_BUFFER, this->LightTexture);
+  glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, this->LightBuffer);
+  this->Frame.lightsUnit = LightsUnit;
+}
+
+/// What VTK's cache of OpenGL's state must know is set through it.
+void RasterScene::setUpState()
+{
+  vtkOpenGLState* state = this->Window->GetState();
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  state->vtkglDisable(GL_CULL_FACE);
+  state->vtkglDisable(GL_MULTISAMPLE);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDepthFunc(GL_GREATER);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  if (this->Layer)
+  {
+    glActiveTexture(GL_TEXTURE0 + LayerUnit);
+    glBindTexture(GL_TEXTURE_2D, this->Layer);
+  }
+  this->uploadLights();
+  glActiveTexture(GL_TEXTURE0);
+  state->ResetGLActiveTexture();
+}
+
+void RasterScene::drawColor(Surfaces surfaces)
+{
+  this->setUpState();
+  this->Frame.uploaded.clear();
+  for (Draw& draw : this->Draws)
+  {
+    if (draw.visible && (surfaces == Surfaces::All || draw.chunk->translucent == (surfaces == Surfaces::Translucent)))
+    {
+      draw.actor->RenderOpaqueGeometry(this->Renderer);
+    }
+  }
+}
+
+void RasterScene::drawIds()
+{
+  this->setUpState();
+  this->Window->GetShaderCache()->ReleaseCurrentShader();
+  const IdPrograms::Program* current = nullptr;
+  for (Draw& draw : this->Draws)
+  {
+    if (!draw.visible)
+    {
+      continue;
+    }
+    PartMapper& mapper = *draw.chunk->mapper;
+    mapper.prepare(this->Renderer, draw.actor);
+    ShaderVariant variant = mapper.material();
+    variant.peel = this->Frame.peel;
+    const IdPrograms::Program& program = this->Ids.program(variant);
+    if (&program != current)
+    {
+      glUseProgram(program.name);
+      current = &program;
+      glUniform1i(program.layer, this->Frame.layerUnit);
+    }
+    glBindVertexArray(this->Ids.vertexArray());
+    glUniformMatrix4fv(program.matrix, 1, GL_FALSE, draw.actor->clip_from_object.data());
+    glUniform2f(program.draw, draw.actor->number, 0);
+    if (variant.cutOut)
+    {
+      draw.chunk->texture->Render(this->Renderer);
+      glUniform1i(program.picture, draw.chunk->texture->GetTextureUnit());
+    }
+    mapper.drawBare();
+    if (variant.cutOut)
+    {
+      draw.chunk->texture->PostRender(this->Renderer);
+    }
+  }
+  glBindVertexArray(0);
+  glUseProgram(0);
+}
+
+} // namespace dgtk

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkRasterLights.h"
+
+#include <cmath>
+
+namespace dgtk
+{
+namespace
+{
+
+constexpr double Pi = 3.14159265358979323846;
+
+std::array<float, 4> pack(const Eigen::Vector3d& xyz, double w = 0)
+{
+  return { float(xyz.x()), float(xyz.y()), float(xyz.z()), float(w) };
+}
+
+bool directional(const LightState& light)
+{
+  return light.kind == LightState::Kind::Head || light.kind == LightState::Kind::Directional;
+}
+
+/// A cone of 90 degrees and more is no cone, as in VTK.
+bool spot(const LightState& light) { return light.kind == LightState::Kind::Spot && light.coneAngle < 90; }
+
+void append(RasterLights& lights, const LightState& light, const Eigen::Matrix4d& view_from_world)
+{
+  const Eigen::Matrix3d rotation = view_from_world.topLeftCorner<3, 3>();
+  const Eigen::Vector3d axis = (rotation * (light.target - light.position)).normalized();
+  Eigen::Vector3d position = rotation * light.position + view_from_world.topRightCorner<3, 1>();
+  if (light.kind == LightState::Kind::Head)
+  {
+    position = Eigen::Vector3d(0, 0, 1);
+  }
+  else if (light.kind == LightState::Kind::Directional)
+  {
+    position = -axis;
+  }
+  lights.values.push_back(pack(position, std::cos(light.coneAngle * Pi / 180)));
+  lights.values.push_back(pack(axis, light.exponent));
+  lights.values.push_back(pack(light.attenuation));
+  lights.values.push_back(pack(light.ambient * light.intensity));
+  lights.values.push_back(pack(light.diffuse * light.intensity));
+  lights.values.push_back(pack(light.specular * light.intensity));
+}
+
+} // namespace
+
+RasterLights rasterLights(const std::vector<LightState>& lights, const Eigen::Matrix4d& view_from_world)
+{
+  RasterLights result;
+  for (int group = 0; group < 3; ++group)
+  {
+    for (const LightState& light : lights)
+    {
+      const int own = directional(light) ? 0 : spot(light) ? 2 : 1;
+      if (own == group)
+      {
+        append(result, light, view_from_world);
+        ++(group == 0 ? result.directional : group == 1 ? result.points : result.spots);
+      }
+    }
+  }
+  return result;
+}
+
+} // namespace dgtk

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkRasterLights_h
+#define dgtkRasterLights_h
+
+// Private to RenderGL.
+
+#include "dgtkSceneState.h"
+
+#include <array>
+#include <vector>
+
+namespace dgtk
+{
+
+/// Lights in view coordinates, as the fragment shader reads them: first the directional ones (head lights among them),
+/// then the points, then the spots.
+struct RasterLights
+{
+  static constexpr int Stride = 6;
+  /// Per light: position (directional: towards the light) and cosine of the cone; axis and exponent; attenuation;
+  /// ambient; diffuse; specular. Colours are multiplied by the intensity.
+  std::vector<std::array<float, 4>> values;
+  int directional = 0;
+  int points = 0;
+  int spots = 0;
+
+  int count() const { return this->directional + this->points + this->spots; }
+  bool sameKinds(const RasterLights& o) const
+  {
+    return this->directional == o.directional && this->points == o.points && this->spots == o.spots;
+  }
+};
+
+RasterLights rasterLights(const std::vector<LightState>& lights, const Eigen::Matrix4d& view_from_world);
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkRasterScene_h
+#define dgtkRasterScene_h
+
+// Private to RenderGL.
+
+#include "dgtkIdPrograms.h"
+#include "dgtkPartMapper.h"
+#include "dgtkRasterCamera.h"
+#include "dgtkVisibility.h"
+
+#include <map>
+#include <memory>
+#include <vector>
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+class vtkFloatArray;
+class vtkOpenGLProperty;
+class vtkOpenGLRenderer;
+class vtkOpenGLRenderWindow;
+class vtkOpenGLShaderProperty;
+class vtkOpenGLTexture;
+class vtkPolyData;
+
+namespace dgtk
+{
+
+/// Which draws.
+enum class Surfaces
+{
+  All,
+  Opaque,
+  Translucent
+};
+
+/// VTK's objects for a scene state. Geometry, textures and materials are made once for all instances of a model and
+/// kept from state to state; an instance that moves only gets other matrices.
+class RasterScene
+{
+public:
+  explicit RasterScene(vtkOpenGLRenderWindow* window);
+  ~RasterScene();
+  RasterScene(const RasterScene&) = delete;
+  RasterScene& operator=(const RasterScene&) = delete;
+
+  void setState(std::shared_ptr<const SceneState> state);
+  const SceneState& state() const { return *this->State; }
+  bool hasTranslucent() const { return this->Translucent; }
+
+  /// Sets the matrices and lights of the draws to come.
+  void aim(const RasterCamera& camera);
+  /// Draws colour and ids to the bound framebuffer.
+  void drawColor(Surfaces surfaces);
+  /// Draws ids only, at the same positions.
+  void drawIds();
+  /// Draws only what lies behind the layer in texture `layer` (0: everything).
+  void peelBehind(unsigned int layer);
+
+  /// A fragment's id as it was drawn.
+  Hit hit(float number, float triangle) const;
+  bool translucent(float number) const;
+
+private:
+  /// Geometry of a model at an instant.
+  struct Shared
+  {
+    std::shared_ptr<const Model> model;
+    std::shared_ptr<const Geometry> geometry;
+    Eigen::Vector3d origin; ///< subtracted from the positions before they become float
+    vtkSmartPointer<vtkFloatArray> points;
+    vtkSmartPointer<vtkFloatArray> normals;
+    vtkSmartPointer<vtkPolyData> data;
+  };
+  /// Part of a model, or a piece of a part of more triangles than ids count.
+  struct Chunk
+  {
+    std::uint32_t firstTriangle = 0;
+    std::uint32_t triangles = 0;
+    Eigen::Vector3d boxMin; ///< relative to Shared::origin
+    Eigen::Vector3d boxMax;
+    std::array<float, 3> emission{};
+    bool translucent = false;
+    vtkSmartPointer<PartMapper> mapper;
+    vtkSmartPointer<vtkOpenGLProperty> property;
+    vtkSmartPointer<vtkOpenGLTexture> texture;
+  };
+  /// A geometry with a set of materials.
+  struct Variant
+  {
+    std::shared_ptr<Shared> shared;
+    std::shared_ptr<const std::vector<Material>> materials;
+    std::vector<Chunk> chunks;
+    bool used = false;
+  };
+  /// A chunk of an instance.
+  struct Draw
+  {
+    std::size_t instance = 0;
+    const Variant* variant = nullptr;
+    const Chunk* chunk = nullptr;
+    vtkSmartPointer<PartActor> actor;
+    bool visible = false;
+  };
+
+  std::shared_ptr<Shared> sharedOf(const Instance& instance);
+  Variant& variantOf(const Instance& instance);
+  std::unique_ptr<Variant> makeVariant(const Instance& instance);
+  Chunk makeChunk(const Variant& variant, const Part& part, std::uint32_t first, std::uint32_t count);
+  static void fill(Shared& shared, std::shared_ptr<const Geometry> geometry);
+  static void measure(const Shared& shared, Chunk& chunk);
+  vtkSmartPointer<vtkOpenGLTexture> textureOf(const std::shared_ptr<const Image>& image, bool cutOut);
+  void dropUnused();
+  void makeDraws();
+  void setUpState();
+  void uploadLights();
+
+  vtkOpenGLRenderWindow* Window;
+  vtkNew<vtkOpenGLRenderer> Renderer;
+  vtkNew<vtkOpenGLShaderProperty> ShaderProperty;
+  RasterFrame Frame;
+  std::shared_ptr<const SceneState> State;
+  std::vector<std::unique_ptr<Variant>> Variants;
+  std::map<std::pair<std::shared_ptr<const Image>, bool>, vtkSmartPointer<vtkOpenGLTexture>> Textures;
+  std::vector<Draw> Draws;
+  IdPrograms Ids;
+  unsigned int LightBuffer = 0;
+  unsigned int LightTexture = 0;
+  unsigned int Layer = 0;
+  bool Translucent = false;
+};
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkRasterShaders.h"
+
+#include <vtkShaderProgram.h>
+
+namespace dgtk
+{
+namespace
+{
+
+void put(std::string& source, const char* tag, const std::string& text)
+{
+  vtkShaderProgram::Substitute(source, tag, text, true);
+}
+
+/// The texel whose alpha decides: repeated, at full resolution, (0, 0) the lower left one.
+constexpr const char* Gone = R"(
+bool dgtkGone(sampler2D picture, vec2 uv)
+{
+  ivec2 size = textureSize(picture, 0);
+  vec2 texel = floor(uv * vec2(size));
+  texel -= vec2(size) * floor(texel / vec2(size));
+  return texelFetch(picture, clamp(ivec2(texel), ivec2(0), size - 1), 0).a < 0.5;
+}
+)";
+
+constexpr const char* Peel = R"(
+uniform sampler2D dgtkLayer; // draw, triangle and depth of the layer before; depth 2 before the first
+bool dgtkPeeled(vec2 id)
+{
+  vec3 before = texelFetch(dgtkLayer, ivec2(gl_FragCoord.xy), 0).xyz;
+  if (gl_FragCoord.z != before.z) { return gl_FragCoord.z > before.z; }
+  return id.x < before.x || (id.x == before.x && id.y <= before.y);
+}
+)";
+
+std::string identity(const ShaderVariant& variant)
+{
+  return variant.pieces ? "vec2(dgtkDraw.x, dgtkTriangleVSOutput)"
+                        : "vec2(dgtkDraw.x, float(gl_PrimitiveID + PrimitiveIDOffset))";
+}
+
+std::string lightValue(const ShaderVariant& variant, int slot)
+{
+  const std::string index = "i * " + std::to_string(RasterLights::Stride) + " + " + std::to_string(slot);
+  return variant.lightTexture ? "texelFetch(dgtkLights, " + index + ")" : "dgtkLights[" + index + "]";
+}
+
+/// Adds one light, whose unit vector towards it is L and whose strength at the surface is s.
+std::string addLight(const ShaderVariant& variant)
+{
+  std::string text = "    float df = s * dot(normalVC, L);\n"
+                     "    dgtkAmbient += s * " +
+                     lightValue(variant, 3) +
+                     ".rgb;\n"
+                     "    dgtkDiffuse += max(df, 0.0) * " +
+                     lightValue(variant, 4) + ".rgb;\n";
+  if (variant.specular)
+  {
+    text += "    if (df > 0.0)\n"
+            "    {\n"
+            "      float toViewer = max(0.0, dot(reflect(-L, normalVC), dgtkViewer));\n"
+            "      dgtkSpecular += s * pow(toViewer, specularPower) * " +
+            lightValue(variant, 5) +
+            ".rgb;\n"
+            "    }\n";
+  }
+  return text;
+}
+
+std::string loop(int from, int count, const std::string& body)
+{
+  return count == 0 ? std::string()
+                    : "  for (int i = " + std::to_string(from) + "; i < " + std::to_string(from + count) +
+                        "; ++i)\n  {\n" + body + "  }\n";
+}
+
+std::string lighting(const ShaderVariant& variant)
+{
+  const std::string toPoint = "    vec3 away = " + lightValue(variant, 0) +
+                              ".xyz - vertexVC.xyz;\n"
+                              "    float d = length(away);\n"
+                              "    vec3 L = away / max(d, 1e-30);\n"
+                              "    vec3 k = " +
+                              lightValue(variant, 2) +
+                              ".xyz;\n"
+                              "    float s = 1.0 / (k.x + k.y * d + k.z * d * d);\n";
+  const std::string cone = "    vec4 axis = " + lightValue(variant, 1) +
+                           ";\n"
+                           "    float inside = dot(-L, axis.xyz);\n"
+                           "    s = inside >= " +
+                           lightValue(variant, 0) + ".w ? s * pow(inside, axis.w) : 0.0;\n";
+  const std::string far = "    vec3 L = " + lightValue(variant, 0) + ".xyz;\n    float s = 1.0;\n";
+  std::string text = "  vec3 dgtkAmbient = vec3(1.0);\n"
+                     "  vec3 dgtkDiffuse = vec3(0.0);\n";
+  if (variant.specular)
+  {
+    text += "  vec3 dgtkSpecular = vec3(0.0);\n"
+            "  vec3 dgtkViewer = cameraParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-vertexVC.xyz);\n";
+  }
+  const std::string add = addLight(variant);
+  text += loop(0, variant.directional, far + add);
+  text += loop(variant.directional, variant.points, toPoint + add);
+  text += loop(variant.directional + variant.points, variant.spots, toPoint + cone + add);
+  text += "  vec3 dgtkColor = dgtkAmbient * ambientColor + dgtkEmission + dgtkDiffuse * diffuseColor";
+  text += variant.specular ? " + dgtkSpecular * specularColor;\n" : ";\n";
+  return text;
+}
+
+} // namespace
+
+void substituteColor(const ShaderVariant& variant, std::string& vertex, std::string& fragment)
+{
+  std::string declarations = "uniform vec2 dgtkDraw; // number of the draw; 1 when its instance is mirrored\n"
+                             "uniform vec3 dgtkEmission;\n";
+  const int lights = variant.directional + variant.points + variant.spots;
+  if (lights > 0)
+  {
+    declarations += variant.lightTexture
+                      ? std::string("uniform samplerBuffer dgtkLights;\n")
+                      : "uniform vec4 dgtkLights[" + std::to_string(lights * RasterLights::Stride) + "];\n";
+  }
+  if (variant.pieces)
+  {
+    declarations += "flat in float dgtkTriangleVSOutput;\n";
+    put(vertex, "//VTK::ValuePass::Dec", "in float dgtkTriangle;\nflat out float dgtkTriangleVSOutput;\n");
+    put(vertex, "//VTK::ValuePass::Impl", "  dgtkTriangleVSOutput = dgtkTriangle;\n");
+  }
+  declarations += variant.cutOut ? Gone : "";
+  declarations += variant.peel ? Peel : "";
+  put(fragment, "//VTK::ValuePass::Dec", declarations);
+  // Everything is two-sided: the normal points to where the surface is seen from.
+  put(fragment, "//VTK::Normal::Impl",
+    "  vec3 normalVC = normalVCVSOutput * inversesqrt(max(dot(normalVCVSOutput, normalVCVSOutput), 1e-30));\n"
+    "  if (gl_FrontFacing == (dgtkDraw.y > 0.5)) { normalVC = -normalVC; }\n");
+  put(fragment, "//VTK::Light::Impl", lighting(variant));
+  std::string finish = variant.textured ? "  dgtkColor *= texture(actortexture, tcoordVCVSOutput).rgb;\n" : "";
+  finish += "  vec2 dgtkId = " + identity(variant) + ";\n";
+  if (variant.cutOut)
+  {
+    finish += "  if (dgtkGone(actortexture, tcoordVCVSOutput)) { discard; }\n";
+  }
+  if (variant.peel)
+  {
+    finish += "  if (dgtkPeeled(dgtkId)) { discard; }\n";
+  }
+  finish += "  gl_FragData[0] = vec4(dgtkColor, opacity);\n"
+            "  gl_FragData[1] = vec4(dgtkId, gl_FragCoord.z, 1.0);\n";
+  put(fragment, "//VTK::TCoord::Impl", finish);
+  // VTK's test of alpha would cost the early depth test.
+  put(fragment, "if (gl_FragData[0].a <= 0.0)\n    {\n    discard;\n    }", "");
+}
+
+std::string idVertexShader(const ShaderVariant& variant)
+{
+  std::string text = "#version 150\n"
+                     "in vec4 vertexMC;\n"
+                     "uniform mat4 MCDCMatrix;\n";
+  text += variant.cutOut ? "in vec2 tcoord;\nout vec2 tcoordVCVSOutput;\n" : "";
+  text += variant.pieces ? "in float dgtkTriangle;\nflat out float dgtkTriangleVSOutput;\n" : "";
+  text += "void main()\n{\n";
+  text += variant.cutOut ? "  tcoordVCVSOutput = tcoord;\n" : "";
+  text += variant.pieces ? "  dgtkTriangleVSOutput = dgtkTriangle;\n" : "";
+  return text + "  gl_Position = MCDCMatrix * vertexMC;\n}\n";
+}
+
+std::string idFragmentShader(const ShaderVariant& variant)
+{
+  std::string text = "#version 150\n"
+                     "uniform vec2 dgtkDraw;\n"
+                     "uniform int PrimitiveIDOffset;\n"
+                     "out vec4 dgtkOutput;\n";
+  text += variant.cutOut ? "uniform sampler2D actortexture;\nin vec2 tcoordVCVSOutput;\n" : "";
+  text += variant.pieces ? "flat in float dgtkTriangleVSOutput;\n" : "";
+  text += variant.cutOut ? Gone : "";
+  text += variant.peel ? Peel : "";
+  text += "void main()\n{\n  vec2 dgtkId = " + identity(variant) + ";\n";
+  text += variant.cutOut ? "  if (dgtkGone(actortexture, tcoordVCVSOutput)) { discard; }\n" : "";
+  text += variant.peel ? "  if (dgtkPeeled(dgtkId)) { discard; }\n" : "";
+  return text + "  dgtkOutput = vec4(dgtkId, gl_FragCoord.z, 1.0);\n}\n";
+}
+
+} // namespace dgtk

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkRasterShaders_h
+#define dgtkRasterShaders_h
+
+// Private to RenderGL.
+
+#include "dgtkRasterLights.h"
+
+#include <string>
+
+namespace dgtk
+{
+
+/// What a fragment shader has to do.
+struct ShaderVariant
+{
+  int directional = 0; ///< lights of each kind
+  int points = 0;
+  int spots = 0;
+  bool lightTexture = false; ///< lights come from a buffer texture: more than fit in uniforms
+  bool specular = false;
+  bool textured = false;
+  bool cutOut = false;
+  bool pieces = false; ///< the triangle comes from a vertex attribute
+  bool peel = false;   ///< fragments up to those of the layer before are not there
+
+  bool operator==(const ShaderVariant& o) const
+  {
+    return this->directional == o.directional && this->points == o.points && this->spots == o.spots &&
+           this->lightTexture == o.lightTexture && this->specular == o.specular && this->textured == o.textured &&
+           this->cutOut == o.cutOut && this->pieces == o.pieces && this->peel == o.peel;
+  }
+};
+
+/// Lights that are held in uniforms; OpenGL 3.2 promises 1024 components.
+constexpr int UniformLights = 32;
+
+/// Substitutes our parts into VTK's templates, before VTK does. Output 0 is the colour, output 1 the number of the
+/// draw, the triangle and the depth.
+void substituteColor(const ShaderVariant& variant, std::string& vertex, std::string& fragment);
+
+/// A whole program that writes output 1 only. `vertexMC` and, for cut-outs, `tcoord` are its attributes.
+std::string idVertexShader(const ShaderVariant& variant);
+std::string idFragmentShader(const ShaderVariant& variant);
+
+} // namespace dgtk
+
+#endif
