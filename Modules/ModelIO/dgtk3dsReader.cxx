@@ -1,14 +1,467 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkByteReader.h"
 #include "dgtkError.h"
+#include "dgtkFile.h"
 #include "dgtkModelBuilder.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
 
 namespace dgtk
 {
 
-std::shared_ptr<Model> read3ds(const std::string& path, const ReadOptions&);
-std::shared_ptr<Model> read3ds(const std::string& path, const ReadOptions&)
+namespace
 {
-  throw InputError(path, 0, "cannot be read");
+enum ChunkId : std::uint16_t
+{
+  ColorFloat = 0x0010,
+  ColorByte = 0x0011,
+  ColorByteLinear = 0x0012,
+  ColorFloatLinear = 0x0013,
+  PercentInt = 0x0030,
+  PercentFloat = 0x0031,
+  Editor = 0x3d3d,
+  NamedObject = 0x4000,
+  Mesh = 0x4100,
+  Vertices = 0x4110,
+  Faces = 0x4120,
+  FaceMaterial = 0x4130,
+  TextureCoordinates = 0x4140,
+  SmoothingGroups = 0x4150,
+  Main = 0x4d4d,
+  MaterialName = 0xa000,
+  Ambient = 0xa010,
+  Diffuse = 0xa020,
+  Specular = 0xa030,
+  Shininess = 0xa040,
+  ShininessStrength = 0xa041,
+  Transparency = 0xa050,
+  TwoSided = 0xa081,
+  SelfIllumination = 0xa084,
+  TextureMap = 0xa200,
+  TextureName = 0xa300,
+  TextureScaleV = 0xa354,
+  TextureScaleU = 0xa356,
+  TextureOffsetU = 0xa358,
+  TextureOffsetV = 0xa35a,
+  MaterialBlock = 0xafff
+};
+
+constexpr std::size_t chunkHeader = 6;
+
+struct Chunk
+{
+  std::uint16_t id = 0;
+  std::size_t at = 0;    ///< of its header
+  std::size_t begin = 0; ///< of its contents
+  std::size_t end = 0;
+};
+
+/// A material and how its texture lies on the surface.
+struct MappedMaterial
+{
+  int material = -1;
+  Eigen::Vector2d scale{ 1, 1 };
+  Eigen::Vector2d offset{ 0, 0 };
+};
+
+class Reader3ds
+{
+public:
+  Reader3ds(const std::string& path, const std::string& bytes, const ReadOptions& options)
+    : In(path, bytes)
+    , Builder(path, "3ds", bytes.size(), options)
+  {
+  }
+
+  std::shared_ptr<Model> read()
+  {
+    const Chunk main = this->chunkAt(0, this->In.size());
+    // materials first: objects name them, whatever the order in the file
+    this->forEach(main.begin, main.end,
+      [this](const Chunk& editor)
+      {
+        if (editor.id == Editor)
+        {
+          this->HasEditor = true;
+          this->forEach(editor.begin, editor.end,
+            [this](const Chunk& c)
+            {
+              if (c.id == MaterialBlock)
+              {
+                this->material(c);
+              }
+            });
+        }
+      });
+    this->forEach(main.begin, main.end,
+      [this](const Chunk& editor)
+      {
+        if (editor.id == Editor)
+        {
+          this->forEach(editor.begin, editor.end,
+            [this](const Chunk& c)
+            {
+              if (c.id == NamedObject)
+              {
+                this->namedObject(c);
+              }
+            });
+        }
+      });
+    if (!this->HasEditor)
+    {
+      this->In.fail(main.begin, "no model in the file", "a chunk 3D3D");
+    }
+    this->report();
+    return this->Builder.finish();
+  }
+
+private:
+  /// The chunk at `at` inside a parent that ends at `end`; one that is longer than its parent is cut there.
+  Chunk chunkAt(std::size_t at, std::size_t end)
+  {
+    this->In.need(at, chunkHeader, "the header of a chunk");
+    const std::uint32_t length = this->In.u32(at + 2);
+    if (length < chunkHeader)
+    {
+      this->In.fail(at, "bad chunk", "a length of at least 6", std::to_string(length));
+    }
+    this->CutChunks += length > end - at ? 1 : 0;
+    return { this->In.u16(at), at, at + chunkHeader, length > end - at ? end : at + length };
+  }
+
+  template <typename Function>
+  void forEach(std::size_t begin, std::size_t end, Function function)
+  {
+    // fewer bytes than a header are padding
+    for (std::size_t at = begin; at + chunkHeader <= end;)
+    {
+      const Chunk chunk = this->chunkAt(at, end);
+      function(chunk);
+      at = chunk.end;
+    }
+  }
+
+  /// Throws unless `count` bytes of `what` lie in the chunk at `at`.
+  void need(const Chunk& chunk, std::size_t at, std::uint64_t count, const char* what)
+  {
+    if (at > chunk.end || count > chunk.end - at)
+    {
+      this->In.fail(at, std::string(what) + " are cut short", std::to_string(count) + " bytes",
+        std::to_string(at > chunk.end ? 0 : chunk.end - at));
+    }
+  }
+
+  /// A text that ends with a zero byte; `at` moves behind it.
+  std::string text(const Chunk& chunk, std::size_t& at)
+  {
+    std::size_t length = 0;
+    while (at + length < chunk.end && this->In.u8(at + length) != 0)
+    {
+      ++length;
+    }
+    const std::string out = this->In.text(at, length);
+    at += length + 1;
+    if (at > chunk.end)
+    {
+      this->In.fail(chunk.begin, "a name does not end in its chunk");
+    }
+    return out;
+  }
+
+  Eigen::Vector3d color(const Chunk& parent, const Eigen::Vector3d& otherwise)
+  {
+    Eigen::Vector3d out = otherwise;
+    bool done = false;
+    this->forEach(parent.begin, parent.end,
+      [&](const Chunk& c)
+      {
+        const bool isFloat = c.id == ColorFloat || c.id == ColorFloatLinear;
+        const bool isByte = c.id == ColorByte || c.id == ColorByteLinear;
+        if (done || (!isFloat && !isByte))
+        {
+          return; // the first one is the one that artists see
+        }
+        done = true;
+        this->need(c, c.begin, isFloat ? 12 : 3, "colours");
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+          out[static_cast<Eigen::Index>(i)] =
+            isFloat ? double(this->In.f32(c.begin + 4 * i)) : this->In.u8(c.begin + i) / 255.0;
+        }
+      });
+    return out;
+  }
+
+  /// In [0, 1].
+  double percent(const Chunk& parent, double otherwise)
+  {
+    double out = otherwise;
+    this->forEach(parent.begin, parent.end,
+      [&](const Chunk& c)
+      {
+        if (c.id == PercentInt)
+        {
+          this->need(c, c.begin, 2, "percentages");
+          out = this->In.i16(c.begin) / 100.0;
+        }
+        else if (c.id == PercentFloat)
+        {
+          this->need(c, c.begin, 4, "percentages");
+          out = double(this->In.f32(c.begin)) / (std::abs(this->In.f32(c.begin)) > 1 ? 100.0 : 1.0);
+        }
+      });
+    return std::isfinite(out) ? out : otherwise;
+  }
+
+  double scalar(const Chunk& chunk, double otherwise)
+  {
+    this->need(chunk, chunk.begin, 4, "texture placements");
+    const double value = double(this->In.f32(chunk.begin));
+    return std::isfinite(value) ? value : otherwise;
+  }
+
+  void material(const Chunk& block)
+  {
+    Material m;
+    MappedMaterial mapped;
+    std::string texture;
+    double strength = 1;
+    double selfIllumination = 0;
+    this->forEach(block.begin, block.end,
+      [&](const Chunk& c)
+      {
+        std::size_t at = c.begin;
+        switch (c.id)
+        {
+          case MaterialName:
+            m.name = this->text(c, at);
+            break;
+          case Ambient:
+            m.ambient = this->color(c, m.ambient);
+            break;
+          case Diffuse:
+            m.diffuse = this->color(c, m.diffuse);
+            break;
+          case Specular:
+            m.specular = this->color(c, m.specular);
+            break;
+          case Shininess:
+            m.shininess = 128 * this->percent(c, 0);
+            break;
+          case ShininessStrength:
+            strength = this->percent(c, 1);
+            break;
+          case Transparency:
+            m.opacity = 1 - this->percent(c, 0);
+            break;
+          case TwoSided:
+            m.twoSided = true;
+            break;
+          case SelfIllumination:
+            selfIllumination = this->percent(c, 0);
+            break;
+          case TextureMap:
+            texture = this->textureMap(c, mapped);
+            break;
+          default:
+            break;
+        }
+      });
+    m.specular *= strength;
+    m.emission = m.diffuse * selfIllumination;
+    m.texture = this->Builder.addTexture(texture);
+    mapped.material = this->Builder.addMaterial(m);
+    ++this->Builder.model().declaredMaterials;
+    this->Materials.emplace(m.name, mapped); // of two with one name the first is meant
+  }
+
+  std::string textureMap(const Chunk& map, MappedMaterial& mapped)
+  {
+    std::string name;
+    this->forEach(map.begin, map.end,
+      [&](const Chunk& c)
+      {
+        std::size_t at = c.begin;
+        switch (c.id)
+        {
+          case TextureName:
+            name = this->text(c, at);
+            break;
+          case TextureScaleU:
+            mapped.scale[0] = this->scalar(c, 1);
+            break;
+          case TextureScaleV:
+            mapped.scale[1] = this->scalar(c, 1);
+            break;
+          case TextureOffsetU:
+            mapped.offset[0] = this->scalar(c, 0);
+            break;
+          case TextureOffsetV:
+            mapped.offset[1] = this->scalar(c, 0);
+            break;
+          default:
+            break;
+        }
+      });
+    return name;
+  }
+
+  void namedObject(const Chunk& object)
+  {
+    std::size_t at = object.begin;
+    const std::string name = this->text(object, at);
+    this->forEach(at, object.end,
+      [&](const Chunk& c)
+      {
+        if (c.id == Mesh)
+        {
+          this->mesh(c, name);
+        }
+      });
+  }
+
+  /// Number of records of `bytes` at the start of a chunk, all of which lie in it.
+  std::size_t counted(const Chunk& chunk, std::size_t bytes, const char* what)
+  {
+    this->need(chunk, chunk.begin, 2, what);
+    const std::size_t count = this->In.u16(chunk.begin);
+    this->need(chunk, chunk.begin + 2, std::uint64_t(count) * bytes, what);
+    return count;
+  }
+
+  void mesh(const Chunk& mesh, const std::string& name)
+  {
+    Chunk vertices;
+    Chunk faces;
+    Chunk uvs;
+    this->forEach(mesh.begin, mesh.end,
+      [&](const Chunk& c) {
+        (c.id == Vertices ? vertices : c.id == Faces ? faces : c.id == TextureCoordinates ? uvs : this->Ignored) = c;
+      });
+    this->Builder.beginObject(name);
+    const std::size_t vertexCount = vertices.id ? this->counted(vertices, 12, "vertices") : 0;
+    const std::size_t faceCount = faces.id ? this->counted(faces, 8, "faces") : 0;
+    const std::size_t uvCount = uvs.id ? this->counted(uvs, 8, "texture coordinates") : 0;
+    this->Builder.reserve(vertexCount, faceCount, faceCount * 3);
+    std::uint32_t first = 0;
+    for (std::size_t v = 0; v < vertexCount; ++v)
+    {
+      const std::size_t p = vertices.begin + 2 + 12 * v;
+      const std::uint32_t index =
+        this->Builder.addVertex({ double(this->In.f32(p)), double(this->In.f32(p + 4)), double(this->In.f32(p + 8)) });
+      first = v == 0 ? index : first;
+    }
+    std::vector<const MappedMaterial*> materialOf(faceCount, nullptr);
+    std::vector<std::uint32_t> groupsOf(faceCount, 0);
+    if (faces.id)
+    {
+      this->forEach(faces.begin + 2 + 8 * faceCount, faces.end,
+        [&](const Chunk& c)
+        {
+          if (c.id == FaceMaterial)
+          {
+            this->faceMaterial(c, materialOf);
+          }
+          else if (c.id == SmoothingGroups)
+          {
+            for (std::size_t f = 0; f < faceCount && c.begin + 4 * f + 4 <= c.end; ++f)
+            {
+              groupsOf[f] = this->In.u32(c.begin + 4 * f);
+            }
+          }
+        });
+    }
+    for (std::size_t f = 0; f < faceCount; ++f)
+    {
+      Corner corners[3];
+      const MappedMaterial* mapped = materialOf[f];
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const std::size_t index = this->In.u16(faces.begin + 2 + 8 * f + 2 * i);
+        corners[i].vertex =
+          index < vertexCount ? first + static_cast<std::uint32_t>(index) : std::numeric_limits<std::uint32_t>::max();
+        if (index < uvCount)
+        {
+          const Eigen::Vector2d uv(this->In.f32(uvs.begin + 2 + 8 * index), this->In.f32(uvs.begin + 6 + 8 * index));
+          const Eigen::Vector2d placed = mapped ? Eigen::Vector2d(uv.cwiseProduct(mapped->scale) + mapped->offset) : uv;
+          corners[i].u = static_cast<float>(placed[0]);
+          corners[i].v = static_cast<float>(placed[1]);
+        }
+      }
+      SurfaceStyle style;
+      style.material = mapped ? mapped->material : this->Builder.defaultMaterial();
+      style.shading = groupsOf[f] != 0 ? Shading::Groups : Shading::Flat;
+      style.groups = groupsOf[f];
+      style.twoSided = mapped && this->Builder.model().materials[static_cast<std::size_t>(style.material)].twoSided;
+      this->Builder.addSurface(corners, 3, style);
+    }
+    this->Builder.endObject();
+  }
+
+  void faceMaterial(const Chunk& c, std::vector<const MappedMaterial*>& materialOf)
+  {
+    std::size_t at = c.begin;
+    const auto known = this->Materials.find(this->text(c, at));
+    this->need(c, at, 2, "the faces of a material");
+    const std::size_t count = this->In.u16(at);
+    this->need(c, at + 2, std::uint64_t(count) * 2, "the faces of a material");
+    this->UnknownMaterials += known == this->Materials.end() ? 1 : 0;
+    for (std::size_t i = 0; i < count && known != this->Materials.end(); ++i)
+    {
+      const std::size_t face = this->In.u16(at + 2 + 2 * i);
+      if (face < materialOf.size())
+      {
+        materialOf[face] = &known->second;
+      }
+      else
+      {
+        ++this->BadFaces;
+      }
+    }
+  }
+
+  void report()
+  {
+    const auto warn = [this](std::size_t count, const char* text)
+    {
+      if (count > 0)
+      {
+        this->Builder.warn(std::to_string(count) + text);
+      }
+    };
+    warn(this->CutChunks, " chunk(s) are longer than the chunk or file that they are in");
+    warn(this->UnknownMaterials, " list(s) of faces name a material that does not exist");
+    warn(this->BadFaces, " entries of materials name a face that does not exist");
+  }
+
+  ByteReader In;
+  ModelBuilder Builder;
+  std::map<std::string, MappedMaterial> Materials;
+  Chunk Ignored;
+  std::size_t CutChunks = 0;
+  std::size_t UnknownMaterials = 0;
+  std::size_t BadFaces = 0;
+  bool HasEditor = false;
+};
+} // namespace
+
+std::shared_ptr<Model> read3ds(const std::string& path, const ReadOptions& options);
+std::shared_ptr<Model> read3ds(const std::string& path, const ReadOptions& options)
+{
+  const std::string bytes = readFile(path);
+  if (bytes.empty())
+  {
+    throw InputError(path, 0, "is empty", "a 3DS file", "0 bytes");
+  }
+  const ByteReader in(path, bytes);
+  if (bytes.size() < chunkHeader || in.u16(0) != Main)
+  {
+    throw InputError(path, 0, "is not a 3DS file", "a chunk 4D4D at its start");
+  }
+  return Reader3ds(path, bytes, options).read();
 }
 
 } // namespace dgtk

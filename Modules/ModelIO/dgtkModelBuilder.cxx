@@ -65,25 +65,35 @@ int ModelBuilder::addMaterial(const Material& material)
   {
     throw InputError(this->Result->path, 0, "has too many materials", "at most " + std::to_string(mostMaterials));
   }
-  materials.push_back(material);
-  Material& m = materials.back();
+  materials.emplace_back();
+  this->setMaterial(static_cast<int>(materials.size()) - 1, material);
+  return static_cast<int>(materials.size()) - 1;
+}
+
+void ModelBuilder::setMaterial(int index, const Material& material)
+{
+  Material& m = this->Result->materials[static_cast<std::size_t>(index)];
+  m = material;
   m.ambient = clampedColor(m.ambient);
   m.diffuse = clampedColor(m.diffuse);
   m.specular = clampedColor(m.specular);
   m.emission = clampedColor(m.emission);
   m.shininess = clamped(m.shininess, 0, 128, 0);
   m.opacity = clamped(m.opacity, 0, 1, 1);
-  return static_cast<int>(materials.size()) - 1;
+  m.texture = m.texture < static_cast<int>(this->Result->textures.size()) ? m.texture : -1;
+  const Image* image =
+    m.texture < 0 ? nullptr : this->Result->textures[static_cast<std::size_t>(m.texture)].image.get();
+  m.cutOut = image && isCutOut(*image);
 }
 
-int ModelBuilder::addTexture(const std::string& name)
+int ModelBuilder::addTexture(const std::string& name, const std::string& alternative)
 {
   if (name.empty())
   {
     return -1;
   }
   std::string warning;
-  const int index = this->Textures.add(this->Result->textures, name, warning);
+  const int index = this->Textures.add(this->Result->textures, name, warning, alternative);
   if (!warning.empty())
   {
     this->warn(warning);
@@ -105,8 +115,6 @@ int ModelBuilder::withTexture(int material, int texture)
   }
   Material textured = this->Result->materials[index];
   textured.texture = texture;
-  const std::shared_ptr<const Image>& image = this->Result->textures[static_cast<std::size_t>(texture)].image;
-  textured.cutOut = image && isCutOut(*image);
   const int made = this->addMaterial(textured);
   this->Textured[{ material, texture }] = made;
   return made;
@@ -250,6 +258,8 @@ void ModelBuilder::addLine(std::uint32_t a, std::uint32_t b)
     this->growBounds(this->Current->positions[this->Current->local(ends[1])]);
   }
 }
+
+void ModelBuilder::setObjectName(const std::string& name) { this->Current->name = name; }
 
 void ModelBuilder::setCrease(double degrees) { this->Current->crease = clamped(degrees, 0, 180, 61); }
 

@@ -70,11 +70,15 @@ public:
   /// One line; at most 50 are kept, the rest is counted.
   void warn(const std::string& text);
 
-  /// Adds a material and returns its index. Colours are clamped to [0, 1], values that are not finite replaced.
+  /// Adds a material and returns its index. Colours are clamped to [0, 1], values that are not finite replaced, and
+  /// `cutOut` is settled by its texture.
   int addMaterial(const Material& material);
+  /// Changes a material that addMaterial returned and nothing uses yet.
+  void setMaterial(int index, const Material& material);
   std::size_t materials() const { return this->Result->materials.size(); }
-  /// Index of the texture of that name in Model::textures (found and decoded at the first call), or -1 for "".
-  int addTexture(const std::string& name);
+  /// Index of the texture of that name in Model::textures (found and decoded at the first call), or -1 for "". When it
+  /// is not found, `alternative` is looked for.
+  int addTexture(const std::string& name, const std::string& alternative = {});
   /// Index of a material that is `material` with that texture: shared by all calls with the same arguments.
   int withTexture(int material, int texture);
   /// Index of a grey material for surfaces that name none.
@@ -93,7 +97,8 @@ public:
   }
   /// A line segment between two vertices of the object: counts for Model::lines and the bounds.
   void addLine(std::uint32_t a, std::uint32_t b);
-  void setCrease(double degrees); ///< of the current object; default 61
+  void setObjectName(const std::string& name); ///< of the current object, for files that name it late
+  void setCrease(double degrees);              ///< of the current object; default 61
   /// Makes the current object's surfaces part of the model.
   void endObject();
 

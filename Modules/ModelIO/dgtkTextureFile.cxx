@@ -288,7 +288,8 @@ bool isCutOut(const Image& image)
   return holes && solid;
 }
 
-int TextureCache::add(std::vector<Texture>& textures, const std::string& name, std::string& warning)
+int TextureCache::add(
+  std::vector<Texture>& textures, const std::string& name, std::string& warning, const std::string& alternative)
 {
   const auto known = this->ByName.find(name);
   if (known != this->ByName.end())
@@ -301,7 +302,12 @@ int TextureCache::add(std::vector<Texture>& textures, const std::string& name, s
     return -1;
   }
   std::string tried;
-  const std::string path = this->Finder.find(name, &tried);
+  std::string path = this->Finder.find(name, &tried);
+  if (path.empty() && !alternative.empty())
+  {
+    path = this->Finder.find(alternative);
+    tried += ", and " + quoted(alternative);
+  }
   const int index = this->addFile(textures, name, path, warning);
   if (path.empty())
   {

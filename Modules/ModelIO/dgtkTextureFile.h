@@ -50,9 +50,10 @@ public:
     , Options(options)
   {
   }
-  /// Appends the texture to `textures` unless it is there; returns its index. `warning` is set when it was not found or
-  /// not decoded.
-  int add(std::vector<Texture>& textures, const std::string& name, std::string& warning);
+  /// Appends the texture to `textures` unless it is there; returns its index, or -1 when there are too many. `warning`
+  /// is set when neither it nor `alternative` was found, or it was not decoded.
+  int add(
+    std::vector<Texture>& textures, const std::string& name, std::string& warning, const std::string& alternative = {});
   /// The same for a file that is known to be at `path`.
   int addFile(std::vector<Texture>& textures, const std::string& name, const std::string& path, std::string& warning);
 

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Real files against counts and bounds that independent parsers found; runs where the folder of models is.
+#include "dgtkError.h"
+#include "dgtkModelReader.h"
+#include "dgtkTestSupport.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+
+namespace
+{
+/// Four significant digits, as the reference has them: half a unit of the last digit and a little for its rounding.
+void expectFourDigits(double expected, double found, const std::string& what)
+{
+  const double unit = expected == 0 ? 0 : std::pow(10.0, std::floor(std::log10(std::abs(expected))) - 3);
+  EXPECT_NEAR(expected, found, 0.51 * unit + 1e-9) << what;
+}
+
+std::string sequencesText(const dgtk::Model& model)
+{
+  std::string text;
+  int next = 0;
+  for (const dgtk::Animation& a : model.animations)
+  {
+    if (a.first != next)
+    {
+      break; // animations of a text file beside the model follow the frames' own
+    }
+    text += (text.empty() ? "" : ",") + a.name + ":" + std::to_string(a.last - a.first + 1);
+    next = a.last + 1;
+    if (next == model.frames)
+    {
+      break;
+    }
+  }
+  return text;
+}
+
+void expectBounds(const dgtk::Model& model, const nlohmann::json& bounds, const std::string& name)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    expectFourDigits(bounds[0][static_cast<std::size_t>(axis)], model.boundsMin[axis], name);
+    expectFourDigits(bounds[1][static_cast<std::size_t>(axis)], model.boundsMax[axis], name);
+  }
+}
+
+void expectConsistent(const dgtk::Model& model, const std::string& name)
+{
+  const std::size_t vertices = model.rest->positions.size();
+  EXPECT_EQ(model.rest->normals.size(), vertices) << name;
+  EXPECT_EQ(model.sourceVertex.size(), vertices) << name;
+  EXPECT_TRUE(model.uvs.empty() || model.uvs.size() == vertices) << name;
+  std::uint32_t next = 0;
+  for (const dgtk::Part& part : model.parts)
+  {
+    EXPECT_EQ(part.firstTriangle, next) << name;
+    EXPECT_GT(part.triangles, 0u) << name;
+    ASSERT_LT(static_cast<std::size_t>(part.material), model.materials.size()) << name;
+    EXPECT_EQ(&part - model.parts.data(), std::ptrdiff_t(model.partOf(next))) << name;
+    next += part.triangles;
+    EXPECT_EQ(&part - model.parts.data(), std::ptrdiff_t(model.partOf(next - 1))) << name;
+  }
+  EXPECT_EQ(next, model.triangles.size()) << name;
+  for (const auto& triangle : model.triangles)
+  {
+    for (const std::uint32_t v : triangle)
+    {
+      ASSERT_LT(v, vertices) << name;
+    }
+  }
+  for (std::size_t v = 0; v < vertices; ++v)
+  {
+    ASSERT_NEAR(model.rest->normals[v].norm(), 1, 1e-5) << name;
+    ASSERT_LT(model.sourceVertex[v], model.sourceVertices) << name;
+  }
+}
+} // namespace
+
+TEST(ModelTruth, CountsAndBounds)
+{
+  const std::string folder = dgtk::test::extraModels();
+  if (folder.empty() || !std::filesystem::exists(folder + "/TRUTH.json"))
+  {
+    GTEST_SKIP() << "no folder of models";
+  }
+  const nlohmann::json truth = nlohmann::json::parse(dgtk::test::contentsOf(folder + "/TRUTH.json"));
+  int compared = 0;
+  for (const auto& [name, t] : truth.items())
+  {
+    const std::string format = t["format"];
+    const std::string path = folder + "/" + name;
+    if (format != "ac3d" && format != "md2" && format != "3ds")
+    {
+      continue;
+    }
+    ++compared;
+    if (std::filesystem::file_size(path) == 0)
+    {
+      EXPECT_THROW(dgtk::readModel(path), dgtk::InputError) << name;
+      continue;
+    }
+    const std::shared_ptr<const dgtk::Model> model = dgtk::readModel(path);
+    EXPECT_EQ(model->format, format);
+    EXPECT_EQ(model->triangles.size(), t["triangles"]) << name;
+    expectConsistent(*model, name);
+    if (t.contains("materials"))
+    {
+      EXPECT_EQ(model->declaredMaterials, t["materials"]) << name;
+    }
+    if (t.contains("lines"))
+    {
+      EXPECT_EQ(model->lines, t["lines"]) << name;
+      EXPECT_EQ(model->twoSidedSurfaces, t["surfaces_two_sided"]) << name;
+    }
+    if (t.contains("frames"))
+    {
+      EXPECT_EQ(model->frames, t["frames"]) << name;
+      EXPECT_EQ(sequencesText(*model), t["sequences"]) << name;
+    }
+    const char* key = t.contains("bounds_frame0") ? "bounds_frame0" : "bounds";
+    if (t.contains(key))
+    {
+      expectBounds(*model, t[key], name);
+    }
+    else
+    {
+      EXPECT_GT(model->boundsMin[0], model->boundsMax[0]) << name;
+    }
+    if (std::getenv("DGTK_TEST_VERBOSE"))
+    {
+      for (const dgtk::Texture& x : model->textures)
+      {
+        std::cout << name << ": " << x.name << " -> " << x.path << (x.image ? "" : " (no picture)") << '\n';
+      }
+      for (const std::string& warning : model->warnings)
+      {
+        std::cout << name << ": warning: " << warning << '\n';
+      }
+    }
+  }
+  EXPECT_GE(compared, 30);
+}
