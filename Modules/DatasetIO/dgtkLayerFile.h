@@ -31,6 +31,8 @@ protected:
   void append(const std::string& text) { this->append(text.data(), text.size()); }
   /// Writes anywhere in the file. Once used, the hash is taken from the finished file instead.
   void writeAt(std::uint64_t offset, const void* data, std::size_t bytes);
+  /// Says that writeAt() will be used, so that nothing is hashed twice.
+  void hashAtEnd() { this->Sequential = false; }
 
   const LayerSpec Spec;
   const int Width;

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkDepthPicture.h"
+#include "dgtkError.h"
+#include "dgtkLayerFile.h"
+#include "dgtkPngEncoder.h"
+#include "dgtkWriterEntry.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace dgtk
+{
+
+namespace
+{
+bool isFloat(PixelType type) { return type == PixelType::Float32 || type == PixelType::Float64; }
+
+PngEncoder::Header headerOf(const LayerSpec& spec, int width, int height)
+{
+  PngEncoder::Header header;
+  header.width = width;
+  header.height = height;
+  header.bitDepth = spec.type == PixelType::UInt16 || spec.type == PixelType::UInt32 ? 16 : 8;
+  header.channels = spec.channels;
+  header.srgb = spec.name.rfind("color", 0) == 0;
+  // numbers that name things have no smooth areas
+  header.prediction =
+    spec.type == PixelType::UInt32 || spec.unit == "id" || spec.unit == "class" || spec.name == "alpha"
+      ? PngPrediction::Labels
+      : PngPrediction::Smooth;
+  return header;
+}
+
+/// 8 and 16 bits as they are; uint32 as 16-bit gray when every value fits; depth as an 8-bit picture.
+class PngWriter : public LayerFileWriter
+{
+public:
+  PngWriter(const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
+    : LayerFileWriter(path, spec, width, height)
+    , Encoder(headerOf(spec, width, height), [this](const void* data, std::size_t n) { this->append(data, n); })
+    , Row(Encoder.rowBytes())
+  {
+    if (isFloat(spec.type))
+    {
+      this->Picture.emplace(context.near, context.far, path);
+    }
+  }
+
+protected:
+  void writeRows(const Rows& rows) override
+  {
+    for (int y = rows.y(); y < rows.y() + rows.height(); ++y)
+    {
+      switch (rows.type())
+      {
+        case PixelType::UInt8:
+          this->Encoder.row(rows.row<unsigned char>(y));
+          continue;
+        case PixelType::UInt16:
+          this->packWords(rows.row<std::uint16_t>(y));
+          break;
+        case PixelType::UInt32:
+          this->packIds(rows.row<std::uint32_t>(y));
+          break;
+        case PixelType::Float32:
+          std::transform(rows.row<float>(y), rows.row<float>(y) + this->Width, this->Row.begin(), *this->Picture);
+          break;
+        case PixelType::Float64:
+          std::transform(rows.row<double>(y), rows.row<double>(y) + this->Width, this->Row.begin(), *this->Picture);
+          break;
+      }
+      this->Encoder.row(this->Row.data());
+    }
+  }
+
+  void complete() override { this->Encoder.finish(); }
+
+private:
+  void packWords(const std::uint16_t* from)
+  {
+    for (std::size_t i = 0; i < this->Row.size() / 2; ++i)
+    {
+      putBig16(&this->Row[i * 2], from[i]);
+    }
+  }
+
+  void packIds(const std::uint32_t* from)
+  {
+    std::uint32_t all = 0;
+    for (std::size_t i = 0; i < std::size_t(this->Width); ++i)
+    {
+      all |= from[i];
+      putBig16(&this->Row[i * 2], from[i]);
+    }
+    if (all >> 16)
+    {
+      refuseIds(from, std::size_t(this->Width), 0xffff, "a 16-bit .png", this->Spec.name);
+    }
+  }
+
+  PngEncoder Encoder;
+  std::vector<unsigned char> Row;
+  std::optional<DepthPicture> Picture;
+};
+
+bool canWritePng(const LayerSpec& spec)
+{
+  if (isFloat(spec.type))
+  {
+    return spec.channels == 1 && (spec.name == "depth" || spec.name == "distance");
+  }
+  return spec.type == PixelType::UInt32 ? spec.channels == 1 : spec.channels <= 4;
+}
+
+std::unique_ptr<LayerWriter> openPng(
+  const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
+{
+  return std::make_unique<PngWriter>(path, spec, width, height, context);
+}
+} // namespace
+
+extern const WriterEntry writerPng;
+const WriterEntry writerPng = { &canWritePng, &openPng };
+
+} // namespace dgtk
