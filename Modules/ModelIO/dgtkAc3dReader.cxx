@@ -176,6 +176,7 @@ private:
   {
     this->finishObject();
     this->InObject = true;
+    this->HasObjects = true;
     this->Object.begin(this->Levels.empty() ? Affine3() : this->Levels.back().root_from_object,
       this->Levels.empty() ? std::string() : this->Levels.back().texture);
   }
@@ -230,6 +231,10 @@ private:
         this->Builder.warn(std::to_string(count) + text);
       }
     };
+    if (!this->HasObjects)
+    {
+      this->Builder.warn("no OBJECT in the file");
+    }
     warn(this->MissingKids, " object(s) promise more kids than follow");
     warn(this->ObjectsWithoutKids, " object(s) end without 'kids'");
     warn(this->Lines.shortLists(), " list(s) of vertices or corners are shorter than their count");
@@ -243,6 +248,7 @@ private:
   Ac3dObject Object;
   bool InObject = false;
   bool KnowsKids = false;
+  bool HasObjects = false;
   std::size_t MissingKids = 0;
   std::size_t ObjectsWithoutKids = 0;
 };

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the tests of all readers share.
+#ifndef dgtkModelChecks_h
+#define dgtkModelChecks_h
+
+#include "dgtkModelReader.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dgtk::test
+{
+
+/// Empty when the model keeps every promise of dgtkModel.h; otherwise the first that it breaks.
+std::string brokenPromise(const Model& model);
+
+/// Writes `bytes` to a file with that extension in a fresh folder and reads it without decoding textures.
+std::shared_ptr<const Model> readBytes(const std::string& extension, const std::string& bytes);
+
+/// The text of the InputError that reading throws, without the folder of the file; "" when it does not throw.
+std::string refusal(const std::string& extension, const std::string& bytes);
+
+/// Reads at least `variants` truncated and mutated copies of the seeds (seeded, always the same) and fails the running
+/// test for anything but a consistent model or an InputError of one line, for more than 2 s, for a partial model of
+/// a truncated file without a warning, and for more memory than 10 times the file and 64 MiB.
+void fuzzReader(const std::string& extension, const std::vector<std::string>& seeds, int variants = 2000);
+
+/// Contents of the further models with that extension that are at most `limit` bytes long.
+std::vector<std::string> extraSeeds(const std::string& extension, std::size_t limit = 40000);
+
+/// Bytes handed out by operator new and not yet given back: now, and the most since resetPeak().
+std::size_t liveBytes();
+std::size_t peakBytes();
+void resetPeak();
+
+} // namespace dgtk::test
+
+#endif
