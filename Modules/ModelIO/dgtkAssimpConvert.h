@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkAssimpConvert_h
+#define dgtkAssimpConvert_h
+
+#include "dgtkAssimpStream.h"
+
+struct aiScene;
+
+namespace dgtk::import
+{
+
+/// Everything of Assimp's scene that a Model can hold. `unit`: scale that the importer put into the root node, taken
+/// out again.
+void convert(const aiScene& from, bool gltf, double unit, Scene& to);
+
+/// Materials and embedded pictures.
+void convertMaterials(const aiScene& from, bool gltf, Scene& to);
+
+/// Channel of texture coordinates that a material's picture uses.
+unsigned uvChannel(const aiScene& from, unsigned material);
+
+} // namespace dgtk::import
+
+#endif

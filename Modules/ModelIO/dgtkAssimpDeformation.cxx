@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkAssimpDeformation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+Eigen::Affine3d affine(const import::Matrix& m)
+{
+  Eigen::Affine3d result;
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      result(row, column) = m[static_cast<std::size_t>(row * 4 + column)];
+    }
+  }
+  result.makeAffine();
+  return result;
+}
+
+/// Key before `time`, and how far it is to the next one, in [0, 1).
+struct Between
+{
+  std::size_t key = 0;
+  double fraction = 0;
+};
+
+Between find(const std::vector<double>& times, double time, bool step)
+{
+  const auto after = std::upper_bound(times.begin(), times.end(), time);
+  if (after == times.begin())
+  {
+    return {};
+  }
+  const auto key = static_cast<std::size_t>(after - times.begin()) - 1;
+  if (after == times.end() || step)
+  {
+    return { key, 0 };
+  }
+  return { key, (time - times[key]) / (times[key + 1] - times[key]) };
+}
+
+Eigen::Vector3d vectorAt(const import::Keys<3>& keys, double time)
+{
+  const Between at = find(keys.times, time, keys.step != 0);
+  const Eigen::Vector3d value(keys.values[at.key].data());
+  return at.fraction == 0 ? value : value + at.fraction * (Eigen::Vector3d(keys.values[at.key + 1].data()) - value);
+}
+
+Eigen::Quaterniond quaternion(const std::array<double, 4>& q)
+{
+  const Eigen::Quaterniond value(q[0], q[1], q[2], q[3]);
+  const double length = value.norm();
+  return length > 0 ? Eigen::Quaterniond(value.coeffs() / length) : Eigen::Quaterniond::Identity();
+}
+
+Eigen::Quaterniond rotationAt(const import::Keys<4>& keys, double time)
+{
+  const Between at = find(keys.times, time, keys.step != 0);
+  const Eigen::Quaterniond value = quaternion(keys.values[at.key]);
+  return at.fraction == 0 ? value : value.slerp(at.fraction, quaternion(keys.values[at.key + 1]));
+}
+
+/// The node's own transform where an animation gives some of translation, rotation, scale: what it does not give is
+/// taken from the node at rest.
+Eigen::Affine3d animated(const import::Channel& channel, const Eigen::Affine3d& rest, double time)
+{
+  Eigen::Vector3d scale = rest.linear().colwise().norm().transpose();
+  Eigen::Matrix3d rotation = rest.linear();
+  for (int i = 0; i < 3; ++i)
+  {
+    rotation.col(i) /= scale[i] > 0 ? scale[i] : 1;
+  }
+  if (!channel.rotation.times.empty())
+  {
+    rotation = rotationAt(channel.rotation, time).toRotationMatrix();
+  }
+  if (!channel.scale.times.empty())
+  {
+    scale = vectorAt(channel.scale, time);
+  }
+  Eigen::Affine3d result = rest;
+  result.linear() = rotation * scale.asDiagonal();
+  if (!channel.translation.times.empty())
+  {
+    result.translation() = vectorAt(channel.translation, time);
+  }
+  return result;
+}
+
+Eigen::Vector3d point(const import::Float3& p) { return { p[0], p[1], p[2] }; }
+} // namespace
+
+AssimpDeformation::AssimpDeformation(std::shared_ptr<const import::Scene> scene, std::vector<PosedMesh> meshes)
+  : Scene(std::move(scene))
+  , Meshes(std::move(meshes))
+{
+  for (const import::Mesh& mesh : this->Scene->meshes)
+  {
+    this->Skins.emplace_back();
+    Skin& skin = this->Skins.back();
+    if (mesh.bones.empty())
+    {
+      continue;
+    }
+    skin.first.assign(mesh.positions.size() + 1, 0);
+    for (const import::Bone& bone : mesh.bones)
+    {
+      for (const std::uint32_t vertex : bone.vertices)
+      {
+        ++skin.first[vertex + 1];
+      }
+    }
+    for (std::size_t i = 1; i < skin.first.size(); ++i)
+    {
+      skin.first[i] += skin.first[i - 1];
+    }
+    skin.list.resize(skin.first.back());
+    std::vector<std::uint32_t> next = skin.first;
+    for (std::size_t b = 0; b < mesh.bones.size(); ++b)
+    {
+      for (std::size_t i = 0; i < mesh.bones[b].vertices.size(); ++i)
+      {
+        skin.list[next[mesh.bones[b].vertices[i]]++] = { static_cast<std::uint32_t>(b), mesh.bones[b].weights[i] };
+      }
+    }
+  }
+}
+
+double AssimpDeformation::timeOf(int animation, double frame) const
+{
+  if (animation < 0 || static_cast<std::size_t>(animation) >= this->Scene->animations.size())
+  {
+    return 0;
+  }
+  const double duration = this->Scene->animations[static_cast<std::size_t>(animation)].duration;
+  return std::isnan(frame) ? 0 : std::clamp(frame / fps, 0.0, duration);
+}
+
+std::vector<Eigen::Affine3d> AssimpDeformation::pose(int animation, double time) const
+{
+  const std::vector<import::Node>& nodes = this->Scene->nodes;
+  std::vector<Eigen::Affine3d> pose;
+  pose.reserve(nodes.size());
+  for (const import::Node& node : nodes)
+  {
+    pose.push_back(affine(node.parent_from_node));
+  }
+  if (animation >= 0 && static_cast<std::size_t>(animation) < this->Scene->animations.size())
+  {
+    for (const import::Channel& channel : this->Scene->animations[static_cast<std::size_t>(animation)].channels)
+    {
+      if (channel.node >= 0)
+      {
+        Eigen::Affine3d& own = pose[static_cast<std::size_t>(channel.node)];
+        own = animated(channel, own, time);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    if (nodes[i].parent >= 0)
+    {
+      pose[i] = pose[static_cast<std::size_t>(nodes[i].parent)] * pose[i];
+    }
+  }
+  return pose;
+}
+
+std::vector<double> AssimpDeformation::weightsAt(const PosedMesh& posed, int animation, double time) const
+{
+  const import::Mesh& mesh = this->Scene->meshes[posed.mesh];
+  std::vector<double> weights;
+  for (const import::Target& target : mesh.targets)
+  {
+    weights.push_back(target.weight);
+  }
+  if (animation < 0 || static_cast<std::size_t>(animation) >= this->Scene->animations.size())
+  {
+    return weights;
+  }
+  for (const import::MorphChannel& morph : this->Scene->animations[static_cast<std::size_t>(animation)].morphs)
+  {
+    if (morph.node != static_cast<std::int32_t>(posed.node) || morph.times.empty())
+    {
+      continue;
+    }
+    const Between at = find(morph.times, time, morph.step != 0);
+    for (std::size_t i = 0; i < std::min<std::size_t>(weights.size(), morph.targets); ++i)
+    {
+      const double* row = &morph.weights[at.key * morph.targets];
+      weights[i] = at.fraction == 0 ? row[i] : row[i] + at.fraction * (row[i + morph.targets] - row[i]);
+    }
+  }
+  return weights;
+}
+
+void AssimpDeformation::positionsOf(const PosedMesh& posed, const std::vector<Eigen::Affine3d>& pose, int animation,
+  double time, std::vector<Eigen::Vector3d>& positions) const
+{
+  const import::Mesh& mesh = this->Scene->meshes[posed.mesh];
+  const Skin& skin = this->Skins[posed.mesh];
+  const std::vector<double> weights = this->weightsAt(posed, animation, time);
+  const Eigen::Affine3d& model_from_mesh = pose[posed.node];
+  std::vector<Eigen::Affine3d> model_from_bind;
+  for (const import::Bone& bone : mesh.bones)
+  {
+    model_from_bind.push_back(
+      bone.node >= 0 ? pose[static_cast<std::size_t>(bone.node)] * affine(bone.bone_from_mesh) : model_from_mesh);
+  }
+  for (const std::uint32_t vertex : posed.vertices)
+  {
+    const Eigen::Vector3d rest = point(mesh.positions[vertex]);
+    Eigen::Vector3d p = rest;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+    {
+      if (weights[i] != 0)
+      {
+        p += weights[i] * (point(mesh.targets[i].positions[vertex]) - rest);
+      }
+    }
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double total = 0;
+    for (std::size_t i = skin.first.empty() ? 0 : skin.first[vertex]; !skin.first.empty() && i < skin.first[vertex + 1];
+         ++i)
+    {
+      sum += double(skin.list[i].weight) * (model_from_bind[skin.list[i].bone] * p);
+      total += double(skin.list[i].weight);
+    }
+    positions.push_back(total > 0 ? Eigen::Vector3d(sum / total) : model_from_mesh * p);
+  }
+}
+
+std::vector<Eigen::Matrix3d> AssimpDeformation::linearOf(
+  std::uint32_t mesh, std::uint32_t node, const std::vector<Eigen::Affine3d>& pose) const
+{
+  const Skin& skin = this->Skins[mesh];
+  if (skin.first.empty())
+  {
+    return { pose[node].linear() };
+  }
+  std::vector<Eigen::Matrix3d> model_from_bind;
+  for (const import::Bone& bone : this->Scene->meshes[mesh].bones)
+  {
+    model_from_bind.push_back(bone.node >= 0 ? Eigen::Matrix3d(pose[static_cast<std::size_t>(bone.node)].linear() *
+                                                               affine(bone.bone_from_mesh).linear())
+                                             : Eigen::Matrix3d(pose[node].linear()));
+  }
+  std::vector<Eigen::Matrix3d> linear;
+  for (std::size_t v = 0; v + 1 < skin.first.size(); ++v)
+  {
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (std::size_t i = skin.first[v]; i < skin.first[v + 1]; ++i)
+    {
+      sum += double(skin.list[i].weight) * model_from_bind[skin.list[i].bone];
+    }
+    linear.push_back(skin.first[v] == skin.first[v + 1] ? Eigen::Matrix3d(pose[node].linear()) : sum);
+  }
+  return linear;
+}
+
+void AssimpDeformation::positionsAt(int animation, double frame, std::vector<Eigen::Vector3d>& sourcePositions) const
+{
+  sourcePositions.clear();
+  const double time = this->timeOf(animation, frame);
+  const std::vector<Eigen::Affine3d> all = this->pose(animation, time);
+  for (const PosedMesh& mesh : this->Meshes)
+  {
+    this->positionsOf(mesh, all, animation, time, sourcePositions);
+  }
+}
+
+bool AssimpDeformation::moves() const
+{
+  std::vector<char> drawn(this->Scene->nodes.size(), 0);
+  for (const PosedMesh& posed : this->Meshes)
+  {
+    drawn[posed.node] = 1;
+    for (const import::Bone& bone : this->Scene->meshes[posed.mesh].bones)
+    {
+      drawn[bone.node >= 0 ? static_cast<std::size_t>(bone.node) : 0] = 1;
+    }
+  }
+  for (std::size_t i = this->Scene->nodes.size(); i-- > 1;)
+  {
+    const std::int32_t parent = this->Scene->nodes[i].parent;
+    drawn[parent >= 0 ? static_cast<std::size_t>(parent) : 0] |= drawn[i];
+  }
+  for (const import::Animation& animation : this->Scene->animations)
+  {
+    for (const import::Channel& channel : animation.channels)
+    {
+      if (channel.node >= 0 && drawn[static_cast<std::size_t>(channel.node)])
+      {
+        return true;
+      }
+    }
+    for (const import::MorphChannel& morph : animation.morphs)
+    {
+      if (morph.node >= 0 && drawn[static_cast<std::size_t>(morph.node)])
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+} // namespace dgtk

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkAssimpConvert.h"
+
+#include <assimp/GltfMaterial.h>
+#include <assimp/material.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk::import
+{
+
+namespace
+{
+/// Largest side of an uncompressed embedded picture.
+constexpr unsigned largestSide = 16384;
+
+const aiTextureType pictureTypes[] = { aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE };
+
+/// IEC 61966-2-1
+double displayed(double linear)
+{
+  const double x = std::clamp(linear, 0.0, 1.0);
+  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+}
+
+std::array<double, 3> rgb(const aiColor4D& color) { return { color.r, color.g, color.b }; }
+
+void readColor(const aiMaterial& from, const char* key, std::array<double, 3>& to)
+{
+  aiColor4D color;
+  if (from.Get(key, 0, 0, color) == aiReturn_SUCCESS)
+  {
+    to = rgb(color);
+  }
+}
+
+double number(const aiMaterial& from, const char* key, double otherwise)
+{
+  ai_real value = 0;
+  return from.Get(key, 0, 0, value) == aiReturn_SUCCESS ? static_cast<double>(value) : otherwise;
+}
+
+void readPicture(const aiMaterial& from, Material& to)
+{
+  for (const aiTextureType type : pictureTypes)
+  {
+    aiString name;
+    if (to.texture.empty() && from.GetTexture(type, 0, &name) == aiReturn_SUCCESS)
+    {
+      to.texture = name.C_Str();
+    }
+  }
+}
+
+/// Metal and roughness as a Phong material: reflectance at normal incidence 0.04 for what is not metal, exponent
+/// 2 / roughness^4 - 2 (Karis 2013, of the microfacet distribution), highlights fading with roughness.
+void fromMetalRoughness(const aiMaterial& from, Material& to)
+{
+  aiColor4D base(1, 1, 1, 1);
+  from.Get(AI_MATKEY_BASE_COLOR, base);
+  aiColor3D emission(0, 0, 0);
+  from.Get(AI_MATKEY_COLOR_EMISSIVE, emission);
+  const double metal = std::clamp(number(from, "$mat.metallicFactor", 1), 0.0, 1.0);
+  const double rough = std::clamp(number(from, "$mat.roughnessFactor", 1), 0.0, 1.0);
+  const double color[3] = { base.r, base.g, base.b };
+  const double light[3] = { emission.r, emission.g, emission.b };
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    to.diffuse[i] = displayed(color[i]);
+    to.ambient[i] = 0.2 * to.diffuse[i];
+    to.specular[i] = displayed((0.04 + (color[i] - 0.04) * metal) * (1 - rough));
+    to.emission[i] = displayed(light[i]);
+  }
+  const double alpha = std::max(rough * rough, 0.1);
+  to.shininess = std::clamp(2 / (alpha * alpha) - 2, 0.0, 128.0);
+  to.opacity = base.a;
+}
+
+void readAlpha(const aiMaterial& from, Material& to)
+{
+  aiString mode;
+  to.alpha = AlphaMode::Opaque;
+  if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == aiReturn_SUCCESS)
+  {
+    const std::string text = mode.C_Str();
+    to.alpha = text == "MASK" ? AlphaMode::Mask : text == "BLEND" ? AlphaMode::Blend : AlphaMode::Opaque;
+  }
+  to.alphaCutoff = number(from, "$mat.gltf.alphaCutoff", 0.5);
+}
+
+Material converted(const aiMaterial& from, bool gltf)
+{
+  Material to;
+  to.name = from.GetName().C_Str();
+  int twoSided = 0;
+  from.Get(AI_MATKEY_TWOSIDED, twoSided);
+  to.twoSided = twoSided != 0 ? 1 : 0;
+  readPicture(from, to);
+  if (gltf)
+  {
+    fromMetalRoughness(from, to);
+    readAlpha(from, to);
+    return to;
+  }
+  readColor(from, "$clr.ambient", to.ambient);
+  readColor(from, "$clr.diffuse", to.diffuse);
+  readColor(from, "$clr.specular", to.specular);
+  readColor(from, "$clr.emissive", to.emission);
+  to.shininess = number(from, "$mat.shininess", 0);
+  to.opacity = number(from, "$mat.opacity", 1);
+  if (!(to.shininess > 0))
+  {
+    to.specular = { 0, 0, 0 }; // an exponent of 0 would shine everywhere
+  }
+  return to;
+}
+
+Texture converted(const aiTexture& from)
+{
+  Texture to;
+  to.name = from.mFilename.C_Str();
+  to.type = from.achFormatHint;
+  if (from.mHeight == 0)
+  {
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(from.pcData);
+    to.data.assign(bytes, bytes + from.mWidth);
+    return to;
+  }
+  if (from.mWidth > largestSide || from.mHeight > largestSide)
+  {
+    return to;
+  }
+  to.width = static_cast<std::int32_t>(from.mWidth);
+  to.height = static_cast<std::int32_t>(from.mHeight);
+  for (std::size_t i = 0; i < std::size_t(from.mWidth) * from.mHeight; ++i)
+  {
+    const aiTexel& texel = from.pcData[i];
+    to.data.insert(to.data.end(), { texel.r, texel.g, texel.b, texel.a });
+  }
+  return to;
+}
+} // namespace
+
+unsigned uvChannel(const aiScene& from, unsigned material)
+{
+  if (material >= from.mNumMaterials)
+  {
+    return 0;
+  }
+  for (const aiTextureType type : pictureTypes)
+  {
+    int channel = 0;
+    if (from.mMaterials[material]->GetTextureCount(type) > 0)
+    {
+      from.mMaterials[material]->Get(AI_MATKEY_UVWSRC(type, 0), channel);
+      return channel > 0 && channel < AI_MAX_NUMBER_OF_TEXTURECOORDS ? static_cast<unsigned>(channel) : 0;
+    }
+  }
+  return 0;
+}
+
+void convertMaterials(const aiScene& from, bool gltf, Scene& to)
+{
+  for (unsigned i = 0; i < from.mNumMaterials; ++i)
+  {
+    to.materials.push_back(converted(*from.mMaterials[i], gltf));
+  }
+  for (unsigned i = 0; i < from.mNumTextures; ++i)
+  {
+    to.textures.push_back(converted(*from.mTextures[i]));
+    // pictures that the file holds are also named by their file name
+    for (Material& material : to.materials)
+    {
+      if (!material.texture.empty() && material.texture == to.textures.back().name)
+      {
+        material.texture = "*" + std::to_string(i);
+      }
+    }
+  }
+}
+
+} // namespace dgtk::import

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkAssimpModel.h"
+
+#include "dgtkAssimpCheck.h"
+#include "dgtkAssimpDeformation.h"
+#include "dgtkAssimpProcess.h"
+#include "dgtkAssimpTexture.h"
+#include "dgtkError.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr std::uint64_t mostCorners = 8'000'000;
+constexpr double mostFrames = 1e9;
+
+/// One number for each vertex of a mesh; the same for vertices that are at the same place and move alike.
+std::vector<std::uint32_t> weld(const import::Mesh& mesh)
+{
+  std::vector<std::vector<std::pair<std::uint32_t, float>>> influences(mesh.bones.empty() ? 0 : mesh.positions.size());
+  for (std::size_t b = 0; b < mesh.bones.size(); ++b)
+  {
+    for (std::size_t i = 0; i < mesh.bones[b].vertices.size(); ++i)
+    {
+      influences[mesh.bones[b].vertices[i]].emplace_back(static_cast<std::uint32_t>(b), mesh.bones[b].weights[i]);
+    }
+  }
+  const auto compare = [](const import::Float3& a, const import::Float3& b)
+  {
+    const import::Float3 p{ a[0] + 0.f, a[1] + 0.f, a[2] + 0.f }; // -0 is 0
+    const import::Float3 q{ b[0] + 0.f, b[1] + 0.f, b[2] + 0.f };
+    return std::memcmp(p.data(), q.data(), sizeof p);
+  };
+  const auto order = [&](std::uint32_t a, std::uint32_t b)
+  {
+    int difference = compare(mesh.positions[a], mesh.positions[b]);
+    for (std::size_t i = 0; difference == 0 && i < mesh.targets.size(); ++i)
+    {
+      difference = compare(mesh.targets[i].positions[a], mesh.targets[i].positions[b]);
+    }
+    if (difference == 0 && !influences.empty() && influences[a] != influences[b])
+    {
+      difference = influences[a] < influences[b] ? -1 : 1;
+    }
+    return difference;
+  };
+  std::vector<std::uint32_t> sorted(mesh.positions.size());
+  std::iota(sorted.begin(), sorted.end(), 0u);
+  std::sort(sorted.begin(), sorted.end(),
+    [&](std::uint32_t a, std::uint32_t b)
+    {
+      const int difference = order(a, b);
+      return difference != 0 ? difference < 0 : a < b;
+    });
+  std::vector<std::uint32_t> first(sorted.size());
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+  {
+    const bool same = i > 0 && order(sorted[i - 1], sorted[i]) == 0;
+    first[sorted[i]] = same ? first[sorted[i - 1]] : sorted[i];
+  }
+  return first;
+}
+
+class Assembly
+{
+public:
+  Assembly(const std::string& path, const std::string& format, const ReadOptions& options)
+    : Path(path)
+    , Format(format)
+    , Scene(std::make_shared<import::Scene>(importModel(path, format)))
+    , Builder(path, format, this->Scene->bytesRead, options)
+    , Materials(*this->Scene, this->Builder, options)
+  {
+  }
+
+  std::shared_ptr<Model> run()
+  {
+    try
+    {
+      checkScene(*this->Scene);
+    }
+    catch (const std::runtime_error& error)
+    {
+      throw InputError(this->Path, 0, std::string("is damaged: ") + error.what());
+    }
+    for (const std::string& warning : this->Scene->warnings)
+    {
+      this->Builder.warn(warning);
+    }
+    this->collect();
+    const AssimpDeformation whole(this->Scene, this->Posed);
+    const bool moves = whole.moves();
+    if (this->Format != "gltf" || moves)
+    {
+      this->weldVertices();
+    }
+    auto deformation = std::make_shared<AssimpDeformation>(this->Scene, this->Posed);
+    const std::vector<Eigen::Affine3d> pose = deformation->pose(moves ? 0 : -1, 0);
+    for (std::size_t i = 0; i < this->Posed.size(); ++i)
+    {
+      this->add(*deformation, i, pose, moves ? 0 : -1);
+    }
+    this->declare();
+    if (moves)
+    {
+      this->addAnimations();
+      this->Builder.setDeformation(deformation);
+    }
+    return this->Builder.finish();
+  }
+
+private:
+  void collect()
+  {
+    std::uint64_t corners = 0;
+    for (std::size_t n = 0; n < this->Scene->nodes.size(); ++n)
+    {
+      for (const std::uint32_t m : this->Scene->nodes[n].meshes)
+      {
+        corners += this->Scene->meshes[m].faceVertices.size() + this->Scene->meshes[m].positions.size() + 1;
+        const std::uint64_t most = mostCorners + 2 * this->Scene->bytesRead;
+        if (corners > most)
+        {
+          throw InputError(
+            this->Path, 0, "repeats its meshes too often", "at most " + std::to_string(most) + " corners");
+        }
+        PosedMesh posed{ static_cast<std::uint32_t>(n), m, {} };
+        posed.vertices.resize(this->Scene->meshes[m].positions.size());
+        std::iota(posed.vertices.begin(), posed.vertices.end(), 0u);
+        this->Posed.push_back(std::move(posed));
+      }
+    }
+  }
+
+  void weldVertices()
+  {
+    this->First.resize(this->Scene->meshes.size());
+    for (PosedMesh& posed : this->Posed)
+    {
+      std::vector<std::uint32_t>& first = this->First[posed.mesh];
+      if (first.empty())
+      {
+        first = weld(this->Scene->meshes[posed.mesh]);
+      }
+      posed.vertices.clear();
+      for (std::uint32_t i = 0; i < first.size(); ++i)
+      {
+        if (first[i] == i)
+        {
+          posed.vertices.push_back(i);
+        }
+      }
+    }
+  }
+
+  /// Vertex of the mesh -> vertex of the model.
+  std::vector<std::uint32_t> addVertices(const AssimpDeformation& deformation, const PosedMesh& posed,
+    const std::vector<Eigen::Affine3d>& pose, int animation)
+  {
+    std::vector<Eigen::Vector3d> positions;
+    deformation.positionsOf(posed, pose, animation, 0, positions);
+    std::vector<std::uint32_t> model(this->Scene->meshes[posed.mesh].positions.size(), 0);
+    for (std::size_t i = 0; i < positions.size(); ++i)
+    {
+      model[posed.vertices[i]] = this->Builder.addVertex(positions[i]);
+    }
+    if (!this->First.empty())
+    {
+      const std::vector<std::uint32_t>& first = this->First[posed.mesh];
+      for (std::size_t i = 0; i < first.size(); ++i)
+      {
+        model[i] = model[first[i]];
+      }
+    }
+    return model;
+  }
+
+  Corner corner(const import::Mesh& mesh, const std::vector<std::uint32_t>& model,
+    const std::vector<std::int32_t>& normals, std::uint32_t vertex) const
+  {
+    Corner corner;
+    corner.vertex = model[vertex];
+    corner.normal = normals.empty() ? -1 : normals[vertex];
+    if (!mesh.uvs.empty())
+    {
+      corner.u = mesh.uvs[vertex][0];
+      corner.v = mesh.uvs[vertex][1];
+    }
+    return corner;
+  }
+
+  void add(
+    const AssimpDeformation& deformation, std::size_t index, const std::vector<Eigen::Affine3d>& pose, int animation)
+  {
+    const PosedMesh& posed = this->Posed[index];
+    const import::Mesh& mesh = this->Scene->meshes[posed.mesh];
+    const import::Node& node = this->Scene->nodes[posed.node];
+    this->Builder.beginObject(node.name.empty() || node.name[0] == '<' ? mesh.name : node.name);
+    const std::vector<std::uint32_t> model = this->addVertices(deformation, posed, pose, animation);
+    const std::vector<Eigen::Matrix3d> linear = deformation.linearOf(posed.mesh, posed.node, pose);
+    std::vector<std::int32_t> normals;
+    for (std::size_t i = 0; i < mesh.normals.size() && this->Format != "stl"; ++i)
+    {
+      const Eigen::Matrix3d& m = linear[linear.size() == 1 ? 0 : i];
+      const Eigen::Vector3d n(mesh.normals[i][0], mesh.normals[i][1], mesh.normals[i][2]);
+      // cofactors turn normals as the inverse transpose does, also where a scale is 0
+      normals.push_back(this->Builder.addNormal(
+        m.col(1).cross(m.col(2)) * n.x() + m.col(2).cross(m.col(0)) * n.y() + m.col(0).cross(m.col(1)) * n.z()));
+    }
+    this->addSurfaces(mesh, model, normals, mesh.bones.empty() && pose[posed.node].linear().determinant() < 0);
+    this->Builder.endObject();
+  }
+
+  void addSurfaces(const import::Mesh& mesh, const std::vector<std::uint32_t>& model,
+    const std::vector<std::int32_t>& normals, bool mirrored)
+  {
+    SurfaceStyle style;
+    // these formats have no materials; the importer makes one up
+    const bool plain = this->Format == "stl" || this->Format == "off";
+    style.material = plain ? this->Builder.defaultMaterial() : this->Materials.add(mesh.material);
+    style.twoSided = this->Builder.model().materials[static_cast<std::size_t>(style.material)].twoSided;
+    const bool smooth = this->Format == "obj" || this->Format == "off" || this->Format == "collada";
+    style.shading = smooth ? Shading::Crease : Shading::Flat;
+    if (!mesh.uvs.empty())
+    {
+      this->Builder.setHasUvs();
+    }
+    std::vector<Corner> corners;
+    const std::uint32_t* at = mesh.faceVertices.data();
+    for (const std::uint32_t size : mesh.faceSizes)
+    {
+      corners.clear();
+      for (std::uint32_t i = 0; i < size; ++i)
+      {
+        corners.push_back(this->corner(mesh, model, normals, at[mirrored ? size - 1 - i : i]));
+      }
+      at += size;
+      if (size == 2)
+      {
+        this->Builder.addLine(corners[0].vertex, corners[1].vertex);
+      }
+      else if (size == 1)
+      {
+        ++this->Points;
+      }
+      else
+      {
+        this->Builder.addSurface(corners, style);
+      }
+    }
+  }
+
+  void declare()
+  {
+    std::size_t declared = 0;
+    for (const import::Material& material : this->Scene->materials)
+    {
+      declared += this->Format != "stl" && this->Format != "off" && material.name != "DefaultMaterial" ? 1 : 0;
+    }
+    this->Builder.model().declaredMaterials = declared;
+    if (this->Points > 0)
+    {
+      this->Builder.warn(
+        std::to_string(this->Points) + (this->Points == 1 ? " point is" : " points are") + " not drawn");
+    }
+  }
+
+  void addAnimations()
+  {
+    Model& model = this->Builder.model();
+    for (const import::Animation& from : this->Scene->animations)
+    {
+      Animation to;
+      to.name = from.name.empty() ? "animation" + std::to_string(model.animations.size()) : from.name;
+      to.fps = AssimpDeformation::fps;
+      to.last = static_cast<int>(std::lround(std::min(from.duration * to.fps, mostFrames)));
+      model.animations.push_back(to);
+      model.frames = std::max(model.frames, to.last + 1);
+    }
+  }
+
+  std::string Path;
+  std::string Format;
+  std::shared_ptr<import::Scene> Scene;
+  ModelBuilder Builder;
+  AssimpMaterials Materials;
+  std::vector<PosedMesh> Posed;
+  std::vector<std::vector<std::uint32_t>> First; ///< by mesh; empty when nothing is welded
+  std::size_t Points = 0;
+};
+} // namespace
+
+std::shared_ptr<Model> readThroughAssimp(const std::string& path, const std::string& format, const ReadOptions& options)
+{
+  return Assembly(path, format, options).run();
+}
+
+} // namespace dgtk

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkAssimpStream_h
+#define dgtkAssimpStream_h
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/// What the helper program dgtk-import hands to the library: plain values, in the byte order of the machine, every list
+/// preceded by its count. One function for each structure both writes and reads it.
+namespace dgtk::import
+{
+
+using Matrix = std::array<double, 16>; ///< row-major, target_from_source on column vectors
+using Float3 = std::array<float, 3>;
+
+constexpr std::int32_t noIndex = -1;
+
+enum class AlphaMode : std::int32_t
+{
+  Unsaid,
+  Opaque,
+  Mask,
+  Blend
+};
+
+struct Material
+{
+  std::string name;
+  std::array<double, 3> ambient{ 0.2, 0.2, 0.2 };
+  std::array<double, 3> diffuse{ 0.8, 0.8, 0.8 };
+  std::array<double, 3> specular{ 0, 0, 0 };
+  std::array<double, 3> emission{ 0, 0, 0 };
+  double shininess = 0;
+  double opacity = 1;
+  std::int32_t twoSided = 0;
+  AlphaMode alpha = AlphaMode::Unsaid;
+  double alphaCutoff = 0.5;
+  std::string texture; ///< file name, "*N" for embedded texture N, or ""
+};
+
+/// `height` is 0 for an encoded picture (PNG, JPEG), whose bytes are `data`; else RGBA rows, top to bottom.
+struct Texture
+{
+  std::string name;
+  std::string type; ///< "png", "jpg", or ""
+  std::int32_t width = 0;
+  std::int32_t height = 0;
+  std::vector<std::uint8_t> data;
+};
+
+struct Bone
+{
+  std::int32_t node = noIndex;
+  Matrix bone_from_mesh{};
+  std::vector<std::uint32_t> vertices;
+  std::vector<float> weights;
+};
+
+/// A morph target: positions that replace the mesh's at weight 1.
+struct Target
+{
+  double weight = 0; ///< when no animation says otherwise
+  std::vector<Float3> positions;
+};
+
+struct Mesh
+{
+  std::string name;
+  std::int32_t material = 0;
+  std::vector<Float3> positions;
+  std::vector<Float3> normals;             ///< one per position, or none
+  std::vector<std::array<float, 2>> uvs;   ///< one per position, or none; origin lower left
+  std::vector<std::uint32_t> faceSizes;    ///< corners of each face: 1 point, 2 line, 3 or more polygon
+  std::vector<std::uint32_t> faceVertices; ///< all faces, one after the other
+  std::vector<Bone> bones;
+  std::vector<Target> targets;
+};
+
+/// Parents stand before their children; node 0 is the root.
+struct Node
+{
+  std::string name;
+  std::int32_t parent = noIndex;
+  Matrix parent_from_node{};
+  std::vector<std::uint32_t> meshes;
+};
+
+template <std::size_t N>
+struct Keys
+{
+  std::vector<double> times; ///< seconds, not decreasing
+  std::vector<std::array<double, N>> values;
+  std::int32_t step = 0; ///< 1: a value holds until the next key
+};
+
+struct Channel
+{
+  std::int32_t node = noIndex;
+  Keys<3> translation;
+  Keys<4> rotation; ///< w, x, y, z
+  Keys<3> scale;
+};
+
+/// Weights of the morph targets of all meshes of a node.
+struct MorphChannel
+{
+  std::int32_t node = noIndex;
+  std::vector<double> times; ///< seconds
+  std::uint32_t targets = 0;
+  std::vector<double> weights; ///< times.size() rows of `targets`
+  std::int32_t step = 0;
+};
+
+struct Animation
+{
+  std::string name;
+  double duration = 0; ///< seconds
+  std::vector<Channel> channels;
+  std::vector<MorphChannel> morphs;
+};
+
+struct Scene
+{
+  std::uint64_t bytesRead = 0; ///< of all files
+  std::string error;           ///< when not empty, nothing else counts
+  std::vector<std::string> warnings;
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<Mesh> meshes;
+  std::vector<Node> nodes;
+  std::vector<Animation> animations;
+};
+
+template <class A>
+void io(A& a, Material& m)
+{
+  a(m.name), a(m.ambient), a(m.diffuse), a(m.specular), a(m.emission), a(m.shininess), a(m.opacity), a(m.twoSided);
+  a(m.alpha), a(m.alphaCutoff), a(m.texture);
+}
+template <class A>
+void io(A& a, Texture& t)
+{
+  a(t.name), a(t.type), a(t.width), a(t.height), a(t.data);
+}
+template <class A>
+void io(A& a, Bone& b)
+{
+  a(b.node), a(b.bone_from_mesh), a(b.vertices), a(b.weights);
+}
+template <class A>
+void io(A& a, Target& t)
+{
+  a(t.weight), a(t.positions);
+}
+template <class A>
+void io(A& a, Mesh& m)
+{
+  a(m.name), a(m.material), a(m.positions), a(m.normals), a(m.uvs), a(m.faceSizes), a(m.faceVertices);
+  a(m.bones), a(m.targets);
+}
+template <class A>
+void io(A& a, Node& n)
+{
+  a(n.name), a(n.parent), a(n.parent_from_node), a(n.meshes);
+}
+template <class A, std::size_t N>
+void io(A& a, Keys<N>& k)
+{
+  a(k.times), a(k.values), a(k.step);
+}
+template <class A>
+void io(A& a, Channel& c)
+{
+  a(c.node), a(c.translation), a(c.rotation), a(c.scale);
+}
+template <class A>
+void io(A& a, MorphChannel& c)
+{
+  a(c.node), a(c.times), a(c.targets), a(c.weights), a(c.step);
+}
+template <class A>
+void io(A& a, Animation& n)
+{
+  a(n.name), a(n.duration), a(n.channels), a(n.morphs);
+}
+constexpr std::uint32_t streamBegin = 0x31494744;
+constexpr std::uint32_t streamEnd = 0x45494744;
+template <class A>
+void io(A& a, Scene& s)
+{
+  a.mark(streamBegin);
+  a(s.bytesRead), a(s.error), a(s.warnings), a(s.materials), a(s.textures), a(s.meshes), a(s.nodes), a(s.animations);
+  a.mark(streamEnd);
+}
+
+/// Types whose bytes are the stream's.
+template <class T>
+struct IsPlain : std::integral_constant<bool, std::is_arithmetic_v<T> || std::is_enum_v<T>>
+{
+};
+template <class T, std::size_t N>
+struct IsPlain<std::array<T, N>> : IsPlain<T>
+{
+};
+
+/// Writes to `put(const void*, size_t)`.
+template <class Put>
+class StreamWriter
+{
+public:
+  explicit StreamWriter(Put put)
+    : Out(put)
+  {
+  }
+  void mark(std::uint32_t value) { (*this)(value); }
+  template <class T>
+  void operator()(T& value)
+  {
+    if constexpr (IsPlain<T>::value)
+    {
+      this->Out(&value, sizeof value);
+    }
+    else
+    {
+      io(*this, value);
+    }
+  }
+  void operator()(std::string& text) { this->block(text); }
+  template <class T>
+  void operator()(std::vector<T>& list)
+  {
+    if constexpr (IsPlain<T>::value)
+    {
+      this->block(list);
+    }
+    else
+    {
+      std::uint64_t count = list.size();
+      this->Out(&count, sizeof count);
+      for (T& item : list)
+      {
+        (*this)(item);
+      }
+    }
+  }
+
+private:
+  template <class L>
+  void block(L& list)
+  {
+    std::uint64_t count = list.size();
+    this->Out(&count, sizeof count);
+    this->Out(list.data(), list.size() * sizeof(typename L::value_type));
+  }
+  Put Out;
+};
+
+/// Reads what StreamWriter wrote; a count is believed only when as many bytes follow. Throws std::runtime_error.
+class StreamReader
+{
+public:
+  StreamReader(const char* data, std::size_t size)
+    : At(data)
+    , Left(size)
+  {
+  }
+  void mark(std::uint32_t expected)
+  {
+    std::uint32_t found = 0;
+    (*this)(found);
+    if (found != expected)
+    {
+      throw std::runtime_error("mark");
+    }
+  }
+  template <class T>
+  void operator()(T& value)
+  {
+    if constexpr (IsPlain<T>::value)
+    {
+      this->take(&value, sizeof value);
+    }
+    else
+    {
+      io(*this, value);
+    }
+  }
+  void operator()(std::string& text)
+  {
+    text.resize(this->count(1));
+    this->take(text.data(), text.size());
+  }
+  template <class T>
+  void operator()(std::vector<T>& list)
+  {
+    if constexpr (IsPlain<T>::value)
+    {
+      list.resize(this->count(sizeof(T)));
+      this->take(list.data(), list.size() * sizeof(T));
+    }
+    else
+    {
+      // every structure of the stream takes at least eight bytes
+      const std::size_t items = this->count(8);
+      for (std::size_t i = 0; i < items; ++i)
+      {
+        list.emplace_back();
+        (*this)(list.back());
+      }
+    }
+  }
+
+private:
+  std::size_t count(std::size_t itemBytes)
+  {
+    std::uint64_t value = 0;
+    this->take(&value, sizeof value);
+    if (value > this->Left / itemBytes)
+    {
+      throw std::runtime_error("count");
+    }
+    return static_cast<std::size_t>(value);
+  }
+  void take(void* to, std::size_t bytes)
+  {
+    if (bytes > this->Left)
+    {
+      throw std::runtime_error("end");
+    }
+    if (bytes > 0)
+    {
+      std::memcpy(to, this->At, bytes);
+    }
+    this->At += bytes;
+    this->Left -= bytes;
+  }
+  const char* At;
+  std::size_t Left;
+};
+
+} // namespace dgtk::import
+
+#endif

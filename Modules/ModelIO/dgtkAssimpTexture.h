@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkAssimpTexture_h
+#define dgtkAssimpTexture_h
+
+#include "dgtkAssimpStream.h"
+#include "dgtkModelBuilder.h"
+
+#include <map>
+#include <string>
+#include <tuple>
+
+namespace dgtk
+{
+
+/// A picture held by a model file. Null, and `problem` set, when it cannot be decoded.
+std::shared_ptr<const Image> decodeEmbedded(const import::Texture& texture, std::string& problem);
+
+/// Makes the model's materials and textures of the importer's.
+class AssimpMaterials
+{
+public:
+  AssimpMaterials(const import::Scene& scene, ModelBuilder& builder, const ReadOptions& options)
+    : Scene(scene)
+    , Builder(builder)
+    , Options(options)
+  {
+  }
+  /// Index in the model of material `index` of the scene, which may be out of range.
+  int add(std::int32_t index);
+
+private:
+  int textureOf(const std::string& name);
+  int fileTexture(const std::string& name);
+  int embeddedTexture(const std::string& name);
+  void settleAlpha(const import::Material& from, Material& to);
+
+  const import::Scene& Scene;
+  ModelBuilder& Builder;
+  ReadOptions Options;
+  std::map<std::int32_t, int> Known;
+  std::map<std::string, int> Named;
+  std::map<std::tuple<int, double, double>, int> Remade; ///< (texture, cut-off, opacity)
+};
+
+} // namespace dgtk
+
+#endif

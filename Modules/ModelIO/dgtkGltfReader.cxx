@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkAssimpModel.h"
+
+namespace dgtk
+{
+
+std::shared_ptr<Model> readGltf(const std::string& path, const ReadOptions& options);
+std::shared_ptr<Model> readGltf(const std::string& path, const ReadOptions& options)
+{
+  return readThroughAssimp(path, "gltf", options);
+}
+
+} // namespace dgtk

@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkModelBuilder.h"
+#include "dgtkPlyHeader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+namespace dgtk
+{
+
+namespace
+{
+/// Reads the numbers of the body, whatever their encoding.
+class PlyBody
+{
+public:
+  PlyBody(const std::string& path, const std::string& contents, const PlyHeader& header)
+    : Path(path)
+    , Contents(contents)
+    , Encoding(header.encoding)
+    , At(header.bodyAt)
+  {
+  }
+
+  std::size_t at() const { return this->At; }
+  void seek(std::size_t at) { this->At = at; }
+
+  double number(PlyType type)
+  {
+    return this->Encoding == PlyHeader::Encoding::Ascii ? this->text() : this->binary(type);
+  }
+
+  /// Number of items of a list; refused when they cannot follow.
+  std::uint64_t listCount(const PlyProperty& property)
+  {
+    const double count = this->number(property.countType);
+    const bool ascii = this->Encoding == PlyHeader::Encoding::Ascii;
+    const std::uint64_t most = (this->Contents.size() - this->At + 1) / (ascii ? 2 : bytesOf(property.type));
+    if (!(count >= 0) || count > static_cast<double>(most) || count != std::floor(count))
+    {
+      this->fail("list " + quoted(property.name) + " has an impossible count", "at most " + std::to_string(most),
+        std::isfinite(count) && std::fabs(count) < 1e15 ? std::to_string(static_cast<long long>(count)) : "no number");
+    }
+    return static_cast<std::uint64_t>(count);
+  }
+
+  void skip(const PlyElement& element)
+  {
+    for (std::uint64_t i = 0; i < element.count; ++i)
+    {
+      for (const PlyProperty& property : element.properties)
+      {
+        this->skip(property);
+      }
+    }
+  }
+
+  void skip(const PlyProperty& property)
+  {
+    const std::uint64_t count = property.isList ? this->listCount(property) : 1;
+    for (std::uint64_t i = 0; i < count; ++i)
+    {
+      this->number(property.type);
+    }
+  }
+
+private:
+  [[noreturn]] void fail(const std::string& what, const std::string& expected, const std::string& found)
+  {
+    long line = 0;
+    if (this->Encoding == PlyHeader::Encoding::Ascii)
+    {
+      const auto end = this->Contents.begin() + static_cast<std::ptrdiff_t>(std::min(this->At, this->Contents.size()));
+      line = 1 + static_cast<long>(std::count(this->Contents.begin(), end, '\n'));
+    }
+    throw InputError(this->Path, line, what + (line ? "" : " at byte " + std::to_string(this->At)), expected, found);
+  }
+
+  double text()
+  {
+    const char* const begin = this->Contents.data();
+    const char* const end = begin + this->Contents.size();
+    const char* p = begin + this->At;
+    while (p < end && (*p == ' ' || *p == '\t' || *p == '\n' || *p == '\r'))
+    {
+      ++p;
+    }
+    this->At = static_cast<std::size_t>(p - begin);
+    if (p == end)
+    {
+      this->fail("ends too soon", "a number", "end of file");
+    }
+    p += *p == '+' ? 1 : 0;
+    double value = 0;
+    const auto parsed = std::from_chars(p, end, value);
+    const bool separated = parsed.ptr == end || std::strchr(" \t\r\n", *parsed.ptr) != nullptr;
+    if (parsed.ec == std::errc::invalid_argument || !separated)
+    {
+      const char* word = p;
+      while (word < end && std::strchr(" \t\r\n", *word) == nullptr)
+      {
+        ++word;
+      }
+      this->fail("is no number", "a number", quoted(std::string(p, std::min<std::ptrdiff_t>(word - p, 60))));
+    }
+    this->At = static_cast<std::size_t>(parsed.ptr - begin);
+    return value;
+  }
+
+  template <class T>
+  double binaryOf()
+  {
+    unsigned char bytes[sizeof(T)];
+    if (this->Contents.size() - this->At < sizeof(T))
+    {
+      this->fail("ends too soon", "a number of " + std::to_string(sizeof(T)) + " bytes", "end of file");
+    }
+    std::memcpy(bytes, this->Contents.data() + this->At, sizeof(T));
+    this->At += sizeof(T);
+    const std::uint16_t probe = 1;
+    const bool machineIsLittle = *reinterpret_cast<const unsigned char*>(&probe) == 1;
+    if ((this->Encoding == PlyHeader::Encoding::Little) != machineIsLittle)
+    {
+      std::reverse(bytes, bytes + sizeof(T));
+    }
+    T value;
+    std::memcpy(&value, bytes, sizeof(T));
+    return static_cast<double>(value);
+  }
+
+  double binary(PlyType type)
+  {
+    switch (type)
+    {
+      case PlyType::Int8:
+        return this->binaryOf<std::int8_t>();
+      case PlyType::UInt8:
+        return this->binaryOf<std::uint8_t>();
+      case PlyType::Int16:
+        return this->binaryOf<std::int16_t>();
+      case PlyType::UInt16:
+        return this->binaryOf<std::uint16_t>();
+      case PlyType::Int32:
+        return this->binaryOf<std::int32_t>();
+      case PlyType::UInt32:
+        return this->binaryOf<std::uint32_t>();
+      case PlyType::Float32:
+        return this->binaryOf<float>();
+      default:
+        return this->binaryOf<double>();
+    }
+  }
+
+  const std::string& Path;
+  const std::string& Contents;
+  PlyHeader::Encoding Encoding;
+  std::size_t At;
+};
+
+/// Largest value of an unsigned colour; 1 for floating point.
+double white(PlyType type)
+{
+  const bool real = type == PlyType::Float32 || type == PlyType::Float64;
+  return real ? 1 : bytesOf(type) == 1 ? 255 : bytesOf(type) == 2 ? 65535 : 4294967295.0;
+}
+
+class PlyAssembly
+{
+public:
+  PlyAssembly(const std::string& path, const std::string& contents, const ReadOptions& options)
+    : Header(readPlyHeader(path, contents))
+    , Body(path, contents, this->Header)
+    , Builder(path, "ply", contents.size(), options)
+  {
+  }
+
+  std::shared_ptr<Model> run(const std::string& path)
+  {
+    std::vector<std::pair<const PlyElement*, std::size_t>> later;
+    bool vertices = false;
+    this->Builder.beginObject("mesh");
+    for (const PlyElement& element : this->Header.elements)
+    {
+      if (element.name == "vertex")
+      {
+        this->readVertices(element);
+        vertices = true;
+      }
+      else if (this->isSurface(element) && vertices)
+      {
+        this->readSurfaces(element);
+      }
+      else
+      {
+        later.emplace_back(&element, this->Body.at());
+        this->Body.skip(element);
+      }
+    }
+    if (!vertices)
+    {
+      throw InputError(path, 0, "has no vertices", "element vertex", "none");
+    }
+    for (const auto& [element, at] : later)
+    {
+      if (this->isSurface(*element))
+      {
+        this->Body.seek(at);
+        this->readSurfaces(*element);
+      }
+    }
+    return this->finish();
+  }
+
+private:
+  static bool isSurface(const PlyElement& element)
+  {
+    return element.name == "face" || element.name == "tristrips" || element.name == "edge";
+  }
+
+  void readVertices(const PlyElement& element)
+  {
+    const int axes[3] = { element.find({ "x" }), element.find({ "y" }), element.find({ "z" }) };
+    const int normals[3] = { element.find({ "nx" }), element.find({ "ny" }), element.find({ "nz" }) };
+    const int colors[3] = { element.find({ "red", "diffuse_red", "r" }),
+      element.find({ "green", "diffuse_green", "g" }), element.find({ "blue", "diffuse_blue", "b" }) };
+    const int uvs[2] = { element.find({ "s", "u", "texture_u", "texture_s" }),
+      element.find({ "t", "v", "texture_v", "texture_t" }) };
+    this->HasUvs = uvs[0] >= 0 && uvs[1] >= 0;
+    const bool hasNormals = normals[0] >= 0 && normals[1] >= 0 && normals[2] >= 0;
+    const bool hasColors = colors[0] >= 0 && colors[1] >= 0 && colors[2] >= 0;
+    std::vector<double> row(element.properties.size() + 1, 0);
+    const auto at = [&row](int property) { return property < 0 ? 0.0 : row[static_cast<std::size_t>(property)]; };
+    this->Builder.reserve(static_cast<std::size_t>(element.count), 0, 0);
+    for (std::uint64_t i = 0; i < element.count; ++i)
+    {
+      for (std::size_t p = 0; p < element.properties.size(); ++p)
+      {
+        if (element.properties[p].isList)
+        {
+          this->Body.skip(element.properties[p]);
+        }
+        else
+        {
+          row[p] = this->Body.number(element.properties[p].type);
+        }
+      }
+      this->Builder.addVertex({ at(axes[0]), at(axes[1]), at(axes[2]) });
+      if (hasNormals)
+      {
+        this->Normals.push_back(this->Builder.addNormal({ at(normals[0]), at(normals[1]), at(normals[2]) }));
+      }
+      if (this->HasUvs)
+      {
+        this->Uvs.push_back({ static_cast<float>(at(uvs[0])), static_cast<float>(at(uvs[1])) });
+      }
+      if (hasColors)
+      {
+        const double scale = white(element.properties[static_cast<std::size_t>(colors[0])].type);
+        const Eigen::Vector3d color = Eigen::Vector3d(at(colors[0]), at(colors[1]), at(colors[2])) / scale;
+        this->ColorsVary = this->ColorsVary || (i > 0 && color != this->Color);
+        this->Color = color;
+        this->HasColors = true;
+      }
+    }
+    this->Vertices = element.count;
+  }
+
+  Corner corner(double index) const
+  {
+    Corner corner;
+    const bool known = index >= 0 && index < static_cast<double>(this->Vertices);
+    corner.vertex = known ? static_cast<std::uint32_t>(index) : 0xffffffffu;
+    if (known && !this->Normals.empty())
+    {
+      corner.normal = this->Normals[corner.vertex];
+    }
+    if (known && this->HasUvs)
+    {
+      corner.u = this->Uvs[corner.vertex][0];
+      corner.v = this->Uvs[corner.vertex][1];
+    }
+    return corner;
+  }
+
+  /// The one material: a picture that the header names, and the vertices' colour when it is the same everywhere.
+  int material()
+  {
+    if (this->Material < 0)
+    {
+      dgtk::Material made;
+      made.name = "ply";
+      if (this->HasColors && !this->ColorsVary && this->Color.allFinite())
+      {
+        made.diffuse = this->Color;
+        made.ambient = 0.2 * this->Color;
+      }
+      this->Material = this->Builder.addMaterial(made);
+      if (!this->Header.texture.empty())
+      {
+        this->Material = this->Builder.withTexture(this->Material, this->Builder.addTexture(this->Header.texture));
+      }
+    }
+    return this->Material;
+  }
+
+  void readSurfaces(const PlyElement& element)
+  {
+    const int indices = element.find({ "vertex_indices", "vertex_index" });
+    const int wedges = element.find({ "texcoord" });
+    const int ends[2] = { element.find({ "vertex1" }), element.find({ "vertex2" }) };
+    std::vector<double> row(element.properties.size() + 1, 0);
+    std::vector<double> list;
+    std::vector<double> uvs;
+    for (std::uint64_t i = 0; i < element.count; ++i)
+    {
+      list.clear();
+      uvs.clear();
+      for (std::size_t p = 0; p < element.properties.size(); ++p)
+      {
+        const PlyProperty& property = element.properties[p];
+        if (!property.isList)
+        {
+          row[p] = this->Body.number(property.type);
+          continue;
+        }
+        std::vector<double>* to = static_cast<int>(p) == indices  ? &list
+                                  : static_cast<int>(p) == wedges ? &uvs
+                                                                  : nullptr;
+        for (std::uint64_t left = this->Body.listCount(property); left > 0; --left)
+        {
+          const double value = this->Body.number(property.type);
+          if (to)
+          {
+            to->push_back(value);
+          }
+        }
+      }
+      if (element.name == "face")
+      {
+        this->addFace(list, uvs);
+      }
+      else if (element.name == "tristrips")
+      {
+        this->addStrips(list);
+      }
+      else if (ends[0] >= 0 && ends[1] >= 0)
+      {
+        this->Builder.addLine(this->corner(row[static_cast<std::size_t>(ends[0])]).vertex,
+          this->corner(row[static_cast<std::size_t>(ends[1])]).vertex);
+      }
+    }
+  }
+
+  void addFace(const std::vector<double>& list, const std::vector<double>& uvs)
+  {
+    SurfaceStyle style;
+    style.material = this->material();
+    style.shading = Shading::Crease;
+    this->Corners.clear();
+    for (std::size_t i = 0; i < list.size(); ++i)
+    {
+      this->Corners.push_back(this->corner(list[i]));
+      if (uvs.size() == 2 * list.size())
+      {
+        this->Corners.back().u = static_cast<float>(uvs[2 * i]);
+        this->Corners.back().v = static_cast<float>(uvs[2 * i + 1]);
+        this->HasWedges = true;
+      }
+    }
+    this->Builder.addSurface(this->Corners, style);
+  }
+
+  /// -1 ends a strip; every second triangle of a strip turns the other way.
+  void addStrips(const std::vector<double>& list)
+  {
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < list.size(); ++i)
+    {
+      if (list[i] < 0)
+      {
+        begin = i + 1;
+      }
+      else if (i >= begin + 2)
+      {
+        const bool odd = (i - begin) % 2 != 0;
+        const std::vector<double> triangle = { list[odd ? i - 1 : i - 2], list[odd ? i - 2 : i - 1], list[i] };
+        if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
+        {
+          this->addFace(triangle, {});
+        }
+      }
+    }
+  }
+
+  std::shared_ptr<Model> finish()
+  {
+    if (this->HasUvs || this->HasWedges)
+    {
+      this->Builder.setHasUvs();
+    }
+    this->Builder.endObject();
+    Model& model = this->Builder.model();
+    if (model.triangles.empty())
+    {
+      this->Builder.warn("has no surfaces: points are not drawn");
+    }
+    if (this->ColorsVary)
+    {
+      this->Builder.warn("colours of vertices are not drawn");
+    }
+    return this->Builder.finish();
+  }
+
+  PlyHeader Header;
+  PlyBody Body;
+  ModelBuilder Builder;
+  std::vector<std::int32_t> Normals;
+  std::vector<std::array<float, 2>> Uvs;
+  std::vector<Corner> Corners;
+  std::uint64_t Vertices = 0;
+  Eigen::Vector3d Color{ 0.8, 0.8, 0.8 };
+  int Material = -1;
+  bool HasUvs = false;
+  bool HasWedges = false;
+  bool HasColors = false;
+  bool ColorsVary = false;
+};
+} // namespace
+
+std::shared_ptr<Model> readPly(const std::string& path, const ReadOptions& options);
+std::shared_ptr<Model> readPly(const std::string& path, const ReadOptions& options)
+{
+  const std::string contents = readFile(path);
+  return PlyAssembly(path, contents, options).run(path);
+}
+
+} // namespace dgtk
