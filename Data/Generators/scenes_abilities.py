@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenes that show one ability each, and the example of the thesis's appendix B.3."""
+
+import math
+
+from scene_text import product, quaternion, standing
+from scenes import SUN, base, camera, model, upright
+
+APPENDIX_B3 = """3
+glObject_AC: tuxedo.ac
+glObject_AC: world.ac
+glObject_Camera: ( 60, 0.1, 1000, 1.33 )
+[ 2.45 0 -7.24999, -4.5 0 4.09998, 0 1 0 ]
+2
+0
+< 0 0 0 > { 1.00 , < 0, 0, 0 > }
+< 0 0 0 > { 1.00 , < 0, 0, 0 > }
+< 2.45 0 -7.24999 > { 1.0000 , < 0, 0, 0 > }
+< -4.5 0 4.09998 > { 1.00000 ,< 0, 0, 0 > }
+2
+< 0 0 0 > { 1.00 , < 0, 0, 0 > }
+< 0 0 0 > { 1.00 , < 0, 0, 0 > }
+< 2.45 0 -7.24999 > { 1.0000 , < 0, 0, 0 > }
+< -4.5 0 4.09998 > { 1.00000 ,< 0, 0, 0 > }
+"""
+
+
+def ground_behind():
+    """A plane of 2 km that passes under and behind the camera, cutting its plane z = 0."""
+    objects = [model("ground", "ground.ac"), model("house", "house.ac", (-4, 0, -9), turn=30),
+               model("column", "column.obj", (1.4, 0, -2.5)), model("crate", "crate.ac", (-1.0, 0, -3.2), turn=25),
+               model("crate behind", "crate.ac", (0.5, 0, 3.0))]
+    cameras = [camera("level", (0, 1.5, 1.0), (0, 1.2, -5), fov=60, far=2000),
+               camera("down", (0, 2.5, 1.0), (0.2, 0, -1.2), fov=75, far=2000),
+               camera("grazing", (0.3, 0.05, 1.0), (0.3, 0.05, -9), fov=50, near=0.02, far=5000)]
+    return base(objects, cameras)
+
+
+def many_lights():
+    """Twelve lights: one at the camera, one directional, four points with fall-off, six coloured spots."""
+    objects = [model("floor", "floor.ac", scale=[2, 1, 2])]
+    for k in range(5):
+        angle = math.radians(-60 + 30 * k)
+        objects.append(model(f"column {k + 1}", "column.obj", (4 * math.sin(angle), 0, -3.4 * math.cos(angle))))
+    objects += [model("vase", "vase.pov", (0, 0, -0.4), scale=[3] * 3), model("ball", "ball.ac", (1.3, 0.3, 0.6), scale=[2.5] * 3),
+                model("crate", "crate.ac", (-1.4, 0, 0.2), turn=20, scale=[0.8] * 3),
+                upright("creature", "creature.md2", (0.1, 0, 1.3), -85, 0.013)]
+    lights = [{"name": "camera light", "kind": "head", "diffuse": [0.10, 0.10, 0.12], "specular": [0, 0, 0]},
+              {"name": "moon", "kind": "directional", "position": [4, 8, -6], "target": [0, 0, 0], "diffuse": [0.12, 0.15, 0.25],
+               "ambient": [0.06, 0.06, 0.08]}]
+    for k, colour in enumerate(([0.9, 0.5, 0.2], [0.9, 0.6, 0.3], [0.9, 0.5, 0.2], [0.9, 0.6, 0.3])):
+        angle = math.radians(-45 + 30 * k)
+        lights.append({"name": f"lantern {k + 1}", "kind": "point", "position": [3.2 * math.sin(angle), 0.5, -2.7 * math.cos(angle)],
+                       "diffuse": colour, "attenuation": [0.5, 0.3, 1.2]})
+    for k, colour in enumerate(([1, 0.15, 0.1], [0.1, 1, 0.2], [0.15, 0.3, 1], [1, 0.9, 0.1], [1, 0.1, 0.9], [0.1, 0.95, 1])):
+        angle = 2 * math.pi * k / 6
+        lights.append({"name": f"spot {k + 1}", "kind": "spot", "position": [2.4 * math.sin(angle), 4.5, 2.4 * math.cos(angle)],
+                       "target": [1.2 * math.sin(angle), 0, 1.2 * math.cos(angle)], "diffuse": colour, "coneAngle": 17, "exponent": 6})
+    return base(objects, [camera("camera", (0, 2.6, 7.2), (0, 0.9, 0), fov=46)], lights, background=[0.02, 0.02, 0.05])
+
+
+def parenting():
+    """A mobile: a crate turns; what stands on it turns with it, five deep, one of the carriers invisible."""
+    objects = [model("floor", "floor.ac"),
+               model("turntable", "crate.ac", (0, 0, 0), scale=[1.6, 0.35, 1.6]) | {
+                   "orientation": {"keys": [[f, list(quaternion("y", 3 * f))] for f in (0, 30, 60)]}},
+               model("axle", "ball.ac", (0.0, 1.0, 0.0), parent="turntable", visible=False, scale=[0.625, 2.857, 0.625]),
+               model("table", "table.ac", (0, 0, 0), parent="axle"),
+               model("vase", "vase.pov", (0.5, 0.75, 0), parent="table"),
+               model("ball", "ball.ac", (0, 0, 0), parent="vase") | {
+                   "position": {"keys": [[0, [0, 0.49, 0]], [30, [0, 0.9, 0]], [60, [0, 0.49, 0]]], "interpolation": "smooth"}},
+               upright("creature", "creature.md2", (-0.45, 0.75, 0), 0, 0.008, parent="table", animation={"sequence": "jump", "rate": 1.5}),
+               model("flag", "flag.md2", (12, 0, 44), parent="creature", scale=[0.3] * 3, animation={"sequence": "storm", "start": 10})]
+    return base(objects, [camera("camera", (0.4, 2.5, 4.2), (0, 1.05, 0), fov=40)])
+
+
+def all_cameras():
+    """Every kind of camera: K with its centre aside and fx unlike fy, orthographic, animated field of view, a moving pose."""
+    objects = [model("terrain", "terrain.acc"), model("house", "house.ac", (0, 0, -2)), model("tree", "tree.ac", (4.3, 0, 0.6)),
+               model("crate", "crate.ac", (-3, 0, 2), turn=20), upright("creature", "creature.md2", (0.8, 0, 2.4), -90, 0.02),
+               model("column", "column.obj", (-1.9, 0, 2.6))]
+    cameras = [
+        {"name": "matrix", "width": 640, "height": 400, "K": [[700, 0, 250], [0, 560, 260], [0, 0, 1]], "near": 0.1, "far": 200,
+         "eye": [3, 2.2, 9], "lookAt": [0, 1.4, 0]},
+        {"name": "orthographic", "model": "orthographic", "width": 480, "height": 480, "viewHeight": 9, "near": 0.1, "far": 200,
+         "eye": [8, 8, 10], "lookAt": [0, 1.5, 0]},
+        camera("zoom", (-4, 2.5, 10), (0, 1.5, 0)) | {"fovY": {"keys": [[0, 60], [8, 18]]}},
+        camera("wide pixels", (0, 2, 10), (0, 1.5, 0), 360, 480) | {"aspect": 1.2},
+        {"name": "flight", "width": 640, "height": 480, "fovY": 50, "near": 0.1, "far": 200,
+         "position": {"keys": [[0, [0, 3, 11]], [4, [5, 3, 10]], [8, [9, 3, 5]]], "interpolation": "smooth"},
+         "orientation": {"keys": [[f, list(product(quaternion("y", d), product(quaternion("x", -8), quaternion("x", 180))))]
+                                  for f, d in ((0, 0), (4, 27), (8, 60))]}}]
+    return base(objects, cameras)
+
+
+FILES = {"appendix_b3.scene": lambda: APPENDIX_B3, "ground_plane_behind.json": ground_behind, "lights_many.json": many_lights,
+         "parenting.json": parenting, "cameras_all_kinds.json": all_cameras}
