@@ -72,10 +72,11 @@ struct ObjectDescription
   long line = 0; ///< in the file it was read from; 0 unknown
 };
 
+/// Meanings as in LightState::Kind.
 enum class LightKind
 {
-  Head,
   Point,
+  Head,
   Directional,
   Spot
 };

@@ -32,6 +32,8 @@ struct Quaternion
   {
     return { this->w + o.w, this->x + o.x, this->y + o.y, this->z + o.z };
   }
+  Quaternion operator-(const Quaternion& o) const { return *this + o.scaled(-1); }
+  Quaternion operator*(double s) const { return this->scaled(s); }
   bool operator==(const Quaternion& o) const
   {
     return this->w == o.w && this->x == o.x && this->y == o.y && this->z == o.z;
@@ -60,7 +62,7 @@ inline Quaternion slerp(Quaternion a, Quaternion b, double u)
     b = b.scaled(-1);
   }
   // The half angle from the chord: exact also where the cosine is nearly 1.
-  const double chord = (b + a.scaled(-1)).norm();
+  const double chord = (b - a).norm();
   const double angle = 2 * std::asin(std::min(1.0, chord / 2));
   const double sine = std::sin(angle);
   const Quaternion q = sine < 1e-9 ? a.scaled(1 - u) + b.scaled(u)
@@ -72,7 +74,7 @@ enum class Interpolation
 {
   Linear, ///< thesis equation 4.13; slerp for rotations
   Step,   ///< the value of the last key frame
-  Smooth  ///< Catmull-Rom through the keys, tangents scaled to uneven key frames; rotations: as Linear with eased ends
+  Smooth  ///< Catmull-Rom through the keys, tangents by uneven key frames; of rotations the components, normalised
 };
 
 template <typename T>
@@ -105,21 +107,29 @@ struct Track
 
 namespace detail
 {
-/// Catmull-Rom with one-sided tangents at the ends; i is the index of the key before.
+inline void alignTo(const Quaternion& reference, Quaternion& q)
+{
+  q = q.scaled((reference.dot(q) < 0 ? -1 : 1) / q.norm());
+}
+template <typename T>
+void alignTo(const T&, T&)
+{
+}
+
+/// Cubic Hermite between keys i and i + 1 with Catmull-Rom tangents, one-sided at the ends.
 template <typename T>
 T smooth(const std::vector<Key<T>>& keys, std::size_t i, double u)
 {
-  const double h = keys[i + 1].frame - keys[i].frame;
-  const auto tangent = [&keys](std::size_t k) -> T
+  Key<T> k[4] = { keys[i == 0 ? 0 : i - 1], keys[i], keys[i + 1], keys[std::min(i + 2, keys.size() - 1)] };
+  for (const int j : { 1, 0, 2, 3 })
   {
-    const std::size_t before = k == 0 ? 0 : k - 1;
-    const std::size_t after = std::min(k + 1, keys.size() - 1);
-    return (keys[after].value - keys[before].value) / double(keys[after].frame - keys[before].frame);
-  };
-  const T m0 = tangent(i) * h;
-  const T m1 = tangent(i + 1) * h;
-  const T d = keys[i + 1].value - keys[i].value;
-  return keys[i].value + u * (m0 + u * ((3 * d - 2 * m0 - m1) + u * (m0 + m1 - 2 * d)));
+    alignTo(k[j == 3 ? 2 : 1].value, k[j].value);
+  }
+  const double h = double(k[2].frame) - k[1].frame;
+  const T m0 = (k[2].value - k[0].value) * (h / (double(k[2].frame) - k[0].frame));
+  const T m1 = (k[3].value - k[1].value) * (h / (double(k[3].frame) - k[1].frame));
+  const T d = k[2].value - k[1].value;
+  return k[1].value + (m0 + (d * 3.0 - m0 * 2.0 - m1 + (m0 + m1 - d * 2.0) * u) * u) * u;
 }
 } // namespace detail
 
@@ -145,7 +155,9 @@ T Track<T>::at(double frame) const
   const double u = (frame - a.frame) / (double(after->frame) - a.frame);
   if constexpr (std::is_same_v<T, Quaternion>)
   {
-    return slerp(a.value, after->value, this->interpolation == Interpolation::Smooth ? u * u * (3 - 2 * u) : u);
+    const Quaternion q =
+      this->interpolation == Interpolation::Smooth ? detail::smooth(this->keys, i, u) : slerp(a.value, after->value, u);
+    return q.scaled(1 / q.norm());
   }
   else
   {

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSceneDescription.h"
+
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkSceneJson.h"
+#include "dgtkSceneText.h"
+#include "dgtkThesisScene.h"
+
+#include <filesystem>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr std::uint64_t largestFile = std::uint64_t(256) << 20;
+
+std::string folderOf(const std::string& path) { return std::filesystem::path(path).parent_path().string(); }
+} // namespace
+
+SceneDescription readScene(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  const std::string contents = readFile(path, largestFile);
+  if (extension == "scene")
+  {
+    return readThesisScene(path, folderOf(path), contents);
+  }
+  if (extension == "json")
+  {
+    return readJsonScene(path, folderOf(path), contents);
+  }
+  throw InputError(path, 0, "is no scene", "a name in .scene or .json", extension.empty() ? "none" : '.' + extension);
+}
+
+void writeScene(const SceneDescription& scene, const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  if (extension != "scene" && extension != "json")
+  {
+    throw UsageError("a scene cannot be written as " + quoted(path) + " (expected a name in .scene or .json)");
+  }
+  writeFile(path, extension == "json" ? toJson(scene, folderOf(path)) : toThesisScene(scene, folderOf(path)));
+}
+
+} // namespace dgtk

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkSceneJson_h
+#define dgtkSceneJson_h
+
+// Private to Scene (and its tests).
+
+#include "dgtkJsonCursor.h"
+#include "dgtkSceneDescription.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// One row a key: how it is read, range-checked, and written when it is not the default. The order of the rows is that
+/// of the canonical text.
+template <typename T>
+struct JsonField
+{
+  const char* key;
+  void (*read)(const JsonCursor& at, T& into);
+  void (*write)(const T& from, const char* key, JsonNode& object);
+};
+
+const std::vector<JsonField<ObjectDescription>>& objectFields();
+const std::vector<JsonField<AnimationDescription>>& animationFields();
+const std::vector<JsonField<MaterialOverride>>& materialFields();
+const std::vector<JsonField<LightDescription>>& lightFields();
+const std::vector<JsonField<CameraDescription>>& cameraFields();
+const std::vector<JsonField<UnusedKeys>>& unusedFields();
+const std::vector<JsonField<SceneDescription>>& sceneFields();
+
+template <typename T>
+std::vector<std::string> keysOf(const std::vector<JsonField<T>>& fields)
+{
+  std::vector<std::string> keys;
+  for (const JsonField<T>& field : fields)
+  {
+    keys.emplace_back(field.key);
+  }
+  return keys;
+}
+
+/// Reads the members of an object by a table; an unknown key is an error.
+template <typename T>
+void readFields(const JsonCursor& at, const std::vector<JsonField<T>>& fields, T& into)
+{
+  for (std::size_t i = 0, n = at.memberCount(); i < n; ++i)
+  {
+    const JsonField<T>* field = nullptr;
+    for (const JsonField<T>& candidate : fields)
+    {
+      field = at.key(i) == candidate.key ? &candidate : field;
+    }
+    if (!field)
+    {
+      at.failKey(i, keysOf(fields));
+    }
+    field->read(at.member(i), into);
+  }
+}
+
+template <typename T>
+JsonNode writeFields(const T& from, const std::vector<JsonField<T>>& fields)
+{
+  JsonNode object(JsonNode::Type::Object);
+  for (const JsonField<T>& field : fields)
+  {
+    field.write(from, field.key, object);
+  }
+  return object;
+}
+
+void readCamera(const JsonCursor& at, UpAxis upAxis, CameraDescription& camera);
+JsonNode writeCamera(const CameraDescription& camera, UpAxis upAxis);
+
+/// Reads the contents of a .json scene; names are given, relations are checked.
+SceneDescription readJsonScene(const std::string& file, const std::string& folder, const std::string& contents);
+
+/// The keys that the reader knows, by the name of the definition in the published schema.
+DGTKSCENE_EXPORT std::map<std::string, std::vector<std::string>> jsonSceneKeys();
+
+// Values shared by the tables.
+
+JsonNode writeValue(const Eigen::Vector3d& v);
+JsonNode writeValue(const Quaternion& q);
+/// The words of Interpolation, in the order of its values.
+const std::vector<std::string>& interpolationWords();
+
+inline double readValue(const JsonCursor& at, const Range& range, const double*) { return at.number(range); }
+inline Eigen::Vector3d readValue(const JsonCursor& at, const Range& range, const Eigen::Vector3d*)
+{
+  return &range == &rules::scale ? at.scale() : at.vector(range);
+}
+inline Quaternion readValue(const JsonCursor& at, const Range&, const Quaternion*) { return at.quaternion(); }
+inline JsonNode writeValue(double v) { return JsonNode::of(v); }
+inline JsonNode writeValue(const std::string& v) { return JsonNode::of(v); }
+/// [frame, value]; frames must ascend.
+template <typename T>
+void readKeys(const JsonCursor& at, const Range& range, std::vector<Key<T>>& keys)
+{
+  const std::size_t n = at.listSize();
+  keys.reserve(n);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const JsonCursor pair = at.element(i);
+    if (pair.node().type != JsonNode::Type::Array || pair.node().children.size() != 2)
+    {
+      pair.failType("[frame, value]");
+    }
+    const JsonCursor frame = pair.element(0);
+    Key<T> key;
+    key.frame = static_cast<int>(frame.wholeNumber(rules::frame));
+    if (!keys.empty() && key.frame <= keys.back().frame)
+    {
+      frame.fail(key.frame == keys.back().frame ? "is a key frame twice" : "is out of order",
+        "more than " + std::to_string(keys.back().frame), std::to_string(key.frame));
+    }
+    key.value = readValue(pair.element(1), range, static_cast<const T*>(nullptr));
+    keys.push_back(key);
+  }
+}
+
+/// A constant, or {"value", "keys", "interpolation"}.
+template <typename T>
+void readTrack(const JsonCursor& at, const Range& range, Track<T>& track)
+{
+  if (at.node().type != JsonNode::Type::Object)
+  {
+    track.value = readValue(at, range, static_cast<const T*>(nullptr));
+    return;
+  }
+  bool hasValue = false;
+  for (std::size_t i = 0, n = at.memberCount(); i < n; ++i)
+  {
+    const JsonCursor member = at.member(i);
+    if (at.key(i) == "value")
+    {
+      track.value = readValue(member, range, static_cast<const T*>(nullptr));
+      hasValue = true;
+    }
+    else if (at.key(i) == "keys")
+    {
+      readKeys(member, range, track.keys);
+    }
+    else if (at.key(i) == "interpolation")
+    {
+      track.interpolation = static_cast<Interpolation>(member.oneOf(interpolationWords()));
+    }
+    else
+    {
+      at.failKey(i, { "value", "keys", "interpolation" });
+    }
+  }
+  if (track.keys.empty())
+  {
+    at.fail("has no key frames", "a list of [frame, value] under \"keys\"");
+  }
+  if (!hasValue)
+  {
+    track.value = track.keys.front().value;
+  }
+}
+
+template <typename T>
+JsonNode writeTrack(const Track<T>& track)
+{
+  if (!track.animated())
+  {
+    return writeValue(track.value);
+  }
+  JsonNode object(JsonNode::Type::Object);
+  if (!(track.value == track.keys.front().value))
+  {
+    object.add("value", writeValue(track.value));
+  }
+  JsonNode keys(JsonNode::Type::Array);
+  for (const Key<T>& key : track.keys)
+  {
+    JsonNode pair(JsonNode::Type::Array);
+    pair.children.push_back(JsonNode::of(double(key.frame)));
+    pair.children.push_back(writeValue(key.value));
+    keys.children.push_back(std::move(pair));
+  }
+  object.add("keys", std::move(keys));
+  if (track.interpolation != Interpolation::Linear)
+  {
+    object.add("interpolation", JsonNode::of(interpolationWords()[static_cast<std::size_t>(track.interpolation)]));
+  }
+  return object;
+}
+
+template <typename T>
+bool isConstant(const Track<T>& track, const T& value)
+{
+  return !track.animated() && track.value == value;
+}
+
+} // namespace dgtk
+
+#endif

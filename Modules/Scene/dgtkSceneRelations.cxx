@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSceneRules.h"
+
+#include "dgtkCameraModel.h"
+#include "dgtkError.h"
+#include "dgtkSceneText.h"
+
+#include <algorithm>
+#include <set>
+#include <unordered_map>
+
+namespace dgtk
+{
+
+namespace
+{
+using Kind = SceneItem::Kind;
+
+class Relations
+{
+public:
+  Relations(const SceneDescription& scene, const Locator& locate)
+    : Scene(scene)
+    , Locate(locate)
+  {
+  }
+
+  void checkAll() const
+  {
+    this->checkNames(Kind::Object, this->Scene.objects);
+    this->checkNames(Kind::Light, this->Scene.lights);
+    this->checkNames(Kind::Camera, this->Scene.cameras);
+    this->checkParents();
+    for (std::size_t i = 0; i < this->Scene.lights.size(); ++i)
+    {
+      this->checkLight(i);
+    }
+    for (std::size_t i = 0; i < this->Scene.cameras.size(); ++i)
+    {
+      this->checkCamera(i);
+    }
+    this->checkOrder();
+  }
+
+private:
+  [[noreturn]] void fail(Kind kind, std::size_t index, const std::string& property, const std::string& what,
+    const std::string& expected = {}, const std::string& found = {}) const
+  {
+    const Place place = this->Locate(kind, index, property);
+    throw InputError(this->Scene.file, place.line, place.what + ' ' + what, expected, found);
+  }
+
+  template <typename Item>
+  void checkNames(Kind kind, const std::vector<Item>& items) const
+  {
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < items.size(); ++i)
+    {
+      if (!seen.insert(items[i].name).second)
+      {
+        this->fail(kind, i, "name", "is taken", "a name that no other has", quoted(items[i].name));
+      }
+    }
+  }
+
+  void checkParents() const
+  {
+    const std::vector<ObjectDescription>& objects = this->Scene.objects;
+    std::unordered_map<std::string, std::size_t> index;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < objects.size(); ++i)
+    {
+      index[objects[i].name] = i;
+      names.push_back(objects[i].name);
+    }
+    // 0 not yet seen, 1 on the way up, 2 known to end at the world
+    std::vector<char> state(objects.size(), 0);
+    for (std::size_t i = 0; i < objects.size(); ++i)
+    {
+      std::vector<std::size_t> chain;
+      std::size_t at = i;
+      while (state[at] == 0)
+      {
+        state[at] = 1;
+        chain.push_back(at);
+        if (objects[at].parent.empty())
+        {
+          break;
+        }
+        const auto parent = index.find(objects[at].parent);
+        if (parent == index.end())
+        {
+          const std::string near = nearest(objects[at].parent, names);
+          this->fail(Kind::Object, at, "parent", "is no object of the scene",
+            near.empty() ? "the name of an object" : "perhaps " + quoted(near), quoted(objects[at].parent));
+        }
+        at = parent->second;
+        if (state[at] == 1)
+        {
+          this->fail(Kind::Object, chain.back(), "parent", "leads back to the object itself",
+            "parents that end at the world", quoted(objects[chain.back()].parent));
+        }
+      }
+      for (const std::size_t c : chain)
+      {
+        state[c] = 2;
+      }
+    }
+    for (std::size_t i = 0; i < objects.size(); ++i)
+    {
+      std::set<std::string> seen;
+      for (const MaterialOverride& material : objects[i].materials)
+      {
+        if (!seen.insert(material.material).second)
+        {
+          this->fail(Kind::Object, i, "materials", "names " + quoted(material.material) + " twice");
+        }
+      }
+    }
+  }
+
+  void checkLight(std::size_t i) const
+  {
+    const LightDescription& light = this->Scene.lights[i];
+    if (light.attenuation.isZero(0))
+    {
+      this->fail(Kind::Light, i, "attenuation", "is zero", "a constant, linear or quadratic part above 0");
+    }
+    if (light.kind == LightKind::Directional || light.kind == LightKind::Spot)
+    {
+      for (const int frame : framesOf(light.position, light.target))
+      {
+        if (light.position.at(frame) == light.target.at(frame))
+        {
+          this->fail(Kind::Light, i, "target", "is the light's own position at frame " + std::to_string(frame),
+            "another point", "no direction");
+        }
+      }
+    }
+  }
+
+  template <typename A, typename B>
+  static std::vector<int> framesOf(const Track<A>& a, const Track<B>& b)
+  {
+    std::vector<int> frames{ 0 };
+    for (const Key<A>& key : a.keys)
+    {
+      frames.push_back(key.frame);
+    }
+    for (const Key<B>& key : b.keys)
+    {
+      frames.push_back(key.frame);
+    }
+    std::sort(frames.begin(), frames.end());
+    frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+    return frames;
+  }
+
+  void checkCamera(std::size_t i) const
+  {
+    const CameraDescription& camera = this->Scene.cameras[i];
+    if (!(camera.far > camera.near))
+    {
+      this->fail(
+        Kind::Camera, i, "far", "is not beyond near", "more than " + numberText(camera.near), numberText(camera.far));
+    }
+    if ((camera.width == 0) != (camera.height == 0))
+    {
+      this->fail(
+        Kind::Camera, i, camera.width == 0 ? "width" : "height", "is missing", "both width and height, or neither");
+    }
+    if (camera.K && camera.width == 0)
+    {
+      this->fail(Kind::Camera, i, "K", "has no image size to which it belongs", "width and height");
+    }
+    if (camera.K && camera.kind != CameraKind::Pinhole)
+    {
+      this->fail(Kind::Camera, i, "K", "is not for this camera", "model pinhole");
+    }
+    if (camera.K && camera.aspect != 0)
+    {
+      this->fail(Kind::Camera, i, "aspect", "is said by K already", "one of them");
+    }
+    if (!camera.posed)
+    {
+      this->checkPose(i, camera);
+    }
+  }
+
+  void checkPose(std::size_t i, const CameraDescription& camera) const
+  {
+    std::vector<int> frames = framesOf(camera.eye, camera.lookAt);
+    for (const Key<Eigen::Vector3d>& key : camera.up.keys)
+    {
+      frames.push_back(key.frame);
+    }
+    for (const int frame : frames)
+    {
+      const Eigen::Vector3d eye = camera.eye.at(frame);
+      const Eigen::Vector3d lookAt = camera.lookAt.at(frame);
+      const std::string when = camera.eye.animated() || camera.lookAt.animated() || camera.up.animated()
+                                 ? " at frame " + std::to_string(frame)
+                                 : std::string();
+      try
+      {
+        lookAtPose(eye, lookAt, camera.up.at(frame));
+      }
+      catch (const UsageError&)
+      {
+        if ((lookAt - eye).isZero(0))
+        {
+          this->fail(Kind::Camera, i, "lookAt", "is the eye itself" + when, "another point");
+        }
+        this->fail(Kind::Camera, i, "up", "is zero or along the view" + when, "a direction across the view");
+      }
+    }
+  }
+
+  void checkOrder() const
+  {
+    if (this->Scene.order.empty())
+    {
+      return;
+    }
+    const std::size_t counts[3] = { this->Scene.objects.size(), this->Scene.lights.size(), this->Scene.cameras.size() };
+    std::vector<char> seen[3];
+    for (int kind = 0; kind < 3; ++kind)
+    {
+      seen[kind].assign(counts[kind], 0);
+    }
+    bool good = this->Scene.order.size() == counts[0] + counts[1] + counts[2];
+    for (const SceneItem& item : this->Scene.order)
+    {
+      std::vector<char>& list = seen[static_cast<int>(item.kind)];
+      good = good && item.index < list.size() && !list[item.index]++;
+    }
+    if (!good)
+    {
+      throw InputError(this->Scene.file, 0, "order does not list every object, light and camera once");
+    }
+  }
+
+  const SceneDescription& Scene;
+  const Locator& Locate;
+};
+} // namespace
+
+Locator locateByName(const SceneDescription& scene)
+{
+  return [&scene](Kind kind, std::size_t index, const std::string& property) -> Place
+  {
+    switch (kind)
+    {
+      case Kind::Object:
+        return { scene.objects[index].line, "object " + quoted(scene.objects[index].name) + ": " + property };
+      case Kind::Light:
+        return { scene.lights[index].line, "light " + quoted(scene.lights[index].name) + ": " + property };
+      default:
+        return { scene.cameras[index].line, "camera " + quoted(scene.cameras[index].name) + ": " + property };
+    }
+  };
+}
+
+void validateRelations(const SceneDescription& scene, const Locator& locate) { Relations(scene, locate).checkAll(); }
+
+} // namespace dgtk

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSceneRules.h"
+
+#include "dgtkError.h"
+#include "dgtkSceneJson.h"
+#include "dgtkSceneText.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace dgtk
+{
+
+std::string faultOf(const Quaternion& q)
+{
+  const double length = q.norm();
+  return std::abs(length - 1) <= rules::quaternionTolerance ? "" : "a quaternion (w, x, y, z) of length 1";
+}
+
+std::string faultOf(const Eigen::Matrix3d& K)
+{
+  const bool good =
+    K(0, 0) > 0 && K(1, 1) > 0 && K(1, 0) == 0 && K(2, 0) == 0 && K(2, 1) == 0 && K(2, 2) == 1 && K.allFinite();
+  return good ? "" : "[[fx, s, cx], [0, fy, cy], [0, 0, 1]] with fx and fy above 0";
+}
+
+std::string faultOfText(const std::string& text, bool mayBeEmpty)
+{
+  if (text.empty())
+  {
+    return mayBeEmpty ? "" : "a text that is not empty";
+  }
+  const bool control =
+    std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+  return control || text.size() > 4096 ? "at most 4096 bytes without control characters" : "";
+}
+
+std::string faultOfCameraName(const std::string& name)
+{
+  static const std::set<std::string> taken{ "manifest.json", "cameras.json", "objects.json", "scene.json",
+    "contact.png" };
+  const bool good = name.size() <= 128 && name.find_first_of("/\\,@:") == std::string::npos && name[0] != '.' &&
+                    name[0] != ' ' && name[0] != '-' && name.back() != ' ' && taken.count(name) == 0;
+  return good
+           ? ""
+           : "a name fit for a folder: at most 128 bytes, none of / \\ , @ :, not starting with a dot, dash or space";
+}
+
+namespace
+{
+std::string freeName(const std::string& stem, int& number, std::set<std::string>& taken)
+{
+  std::string name;
+  do
+  {
+    name = stem + std::to_string(number++);
+  } while (!taken.insert(name).second);
+  return name;
+}
+
+template <typename Item, typename StemOf>
+void nameItems(std::vector<Item>& items, int first, const StemOf& stemOfItem)
+{
+  std::set<std::string> taken;
+  for (const Item& item : items)
+  {
+    taken.insert(item.name);
+  }
+  std::map<std::string, int> next;
+  for (Item& item : items)
+  {
+    if (item.name.empty())
+    {
+      const std::string stem = stemOfItem(item);
+      item.name = freeName(stem, next.emplace(stem, first).first->second, taken);
+    }
+  }
+}
+} // namespace
+
+void nameAll(SceneDescription& scene)
+{
+  nameItems(scene.objects, 1, [](const ObjectDescription& object) { return stemOf(object.model) + '-'; });
+  nameItems(scene.lights, 0, [](const LightDescription&) { return std::string("Light"); });
+  nameItems(scene.cameras, 0, [](const CameraDescription&) { return std::string("Camera"); });
+}
+
+// A scene made by program obeys the rules of the .json reader: each item is put into its tree and read back.
+void validate(const SceneDescription& scene)
+{
+  for (const ObjectDescription& object : scene.objects)
+  {
+    const std::string label = "object " + quoted(object.name) + ": ";
+    const JsonNode node = writeFields(object, objectFields());
+    ObjectDescription read;
+    readFields(JsonCursor(node, scene.file, label, object.line), objectFields(), read);
+  }
+  for (const LightDescription& light : scene.lights)
+  {
+    const std::string label = "light " + quoted(light.name) + ": ";
+    const JsonNode node = writeFields(light, lightFields());
+    LightDescription read;
+    readFields(JsonCursor(node, scene.file, label, light.line), lightFields(), read);
+  }
+  for (const CameraDescription& camera : scene.cameras)
+  {
+    const std::string label = "camera " + quoted(camera.name) + ": ";
+    const JsonNode node = writeCamera(camera, scene.upAxis);
+    CameraDescription read;
+    readCamera(JsonCursor(node, scene.file, label, camera.line), scene.upAxis, read);
+  }
+  SceneDescription rest;
+  rest.units = scene.units;
+  rest.upAxis = scene.upAxis;
+  rest.fps = scene.fps;
+  rest.background = scene.background;
+  rest.seed = scene.seed;
+  rest.extraKeyFrames = scene.extraKeyFrames;
+  const JsonNode node = writeFields(rest, sceneFields());
+  const std::string label = "scene: ";
+  SceneDescription read;
+  readFields(JsonCursor(node, scene.file, label, 0), sceneFields(), read);
+  validateRelations(scene, locateByName(scene));
+}
+
+} // namespace dgtk

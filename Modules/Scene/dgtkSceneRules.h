@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkSceneRules_h
+#define dgtkSceneRules_h
+
+// Private to Scene: what values may be, said once for the readers and for scenes made by program.
+
+#include "dgtkSceneDescription.h"
+
+#include <functional>
+#include <string>
+
+namespace dgtk
+{
+
+/// An interval. `text` says it in an error: "a number from 0 to 1".
+struct Range
+{
+  double least;
+  double most;
+  bool openLeast;
+  bool openMost;
+  const char* text;
+  bool holds(double v) const
+  {
+    return (this->openLeast ? v > this->least : v >= this->least) &&
+           (this->openMost ? v < this->most : v <= this->most);
+  }
+};
+
+namespace rules
+{
+inline constexpr Range none{ 0, 0, false, false, "" }; ///< for values without a range
+inline constexpr Range coordinate{ -1e15, 1e15, false, false, "a number from -1e15 to 1e15" };
+inline constexpr Range scale{ -1e12, 1e12, false, false, "a number other than 0, from -1e12 to 1e12" };
+inline constexpr Range unit{ 0, 1, false, false, "a number from 0 to 1" };
+inline constexpr Range exponent{ 0, 128, false, false, "a number from 0 to 128" };
+inline constexpr Range light{ 0, 1e6, false, false, "a number from 0 to 1e6" };
+inline constexpr Range coneAngle{ 0, 90, true, false, "degrees above 0, up to 90" };
+inline constexpr Range fovY{ 0, 180, true, true, "degrees above 0 and below 180" };
+inline constexpr Range length{ 0, 1e15, true, false, "a number above 0, up to 1e15" };
+inline constexpr Range aspect{ 0, 1e6, false, false, "a number from 0 to 1e6" };
+inline constexpr Range fps{ 0, 1e6, true, false, "a number above 0, up to 1e6" };
+inline constexpr Range rate{ 0, 1e6, false, false, "a number from 0 to 1e6" };
+inline constexpr Range modelFrame{ 0, 1e9, false, false, "a number from 0 to 1e9" };
+inline constexpr Range startFrame{ -1e9, 1e9, false, false, "a number from -1e9 to 1e9" };
+inline constexpr Range frame{ 0, largestFrame, false, false, "a whole number from 0 to 999999" };
+inline constexpr Range size{ 0, 1 << 20, false, false, "a whole number from 0 to 1048576" };
+inline constexpr Range seed{ 0, 9007199254740991.0, false, false, "a whole number from 0 to 2^53 - 1" };
+inline constexpr double quaternionTolerance =
+  0.01; ///< of the norm: numbers with two decimals, as the thesis prints them
+} // namespace rules
+
+/// What is wrong with a value ("" when nothing is): the text says what is expected.
+std::string faultOf(const Quaternion& q);
+std::string faultOf(const Eigen::Matrix3d& K);
+std::string faultOfCameraName(const std::string& name);
+std::string faultOfText(const std::string& text, bool mayBeEmpty);
+
+/// Where a property of an item stands, and how an error names it: "cameras[0].near" or "camera 'Camera0': near".
+struct Place
+{
+  long line = 0;
+  std::string what;
+};
+using Locator = std::function<Place(SceneItem::Kind kind, std::size_t index, const std::string& property)>;
+/// By the items' names and lines.
+Locator locateByName(const SceneDescription& scene);
+
+/// Rules between values: unique names, parents, near < far, poses, sizes, order.
+void validateRelations(const SceneDescription& scene, const Locator& locate);
+
+} // namespace dgtk
+
+#endif
