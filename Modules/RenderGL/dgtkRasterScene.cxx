@@ -123,6 +123,7 @@ void RasterScene::setState(std::shared_ptr<const SceneState> state)
 void RasterScene::makeDraws()
 {
   this->Translucent = false;
+  this->FirstHits.assign(1, Hit{});
   std::size_t count = 0;
   for (std::size_t i = 0; i < this->State->instances.size(); ++i)
   {
@@ -147,6 +148,7 @@ void RasterScene::makeDraws()
       draw.actor->number = float(count);
       draw.actor->emission = chunk.emission;
       draw.actor->mirrored = instance.world_from_object.linear.determinant() < 0;
+      this->FirstHits.push_back({ std::uint32_t(i + 1), chunk.firstTriangle });
       this->Translucent = this->Translucent || chunk.translucent;
     }
   }
@@ -337,21 +339,6 @@ vtkSmartPointer<vtkOpenGLTexture> RasterScene::textureOf(const std::shared_ptr<c
     texture = makeTexture(*image, cutOut);
   }
   return texture;
-}
-
-Hit RasterScene::hit(float number, float triangle) const
-{
-  if (!(number >= 1) || number > float(this->Draws.size()))
-  {
-    return {};
-  }
-  const Draw& draw = this->Draws[std::size_t(number) - 1];
-  return { std::uint32_t(draw.instance + 1), draw.chunk->firstTriangle + std::uint32_t(triangle) };
-}
-
-bool RasterScene::translucent(float number) const
-{
-  return number >= 1 && this->Draws[std::size_t(number) - 1].chunk->translucent;
 }
 
 } // namespace dgtk

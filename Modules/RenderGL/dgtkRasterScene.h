@@ -58,8 +58,16 @@ public:
   void peelBehind(unsigned int layer);
 
   /// A fragment's id as it was drawn.
-  Hit hit(float number, float triangle) const;
-  bool translucent(float number) const;
+  Hit hit(float number, float triangle) const
+  {
+    Hit result = this->FirstHits[std::size_t(number)];
+    result.triangle += std::uint32_t(triangle);
+    return result;
+  }
+  bool translucent(float number) const
+  {
+    return number != 0 && this->Draws[std::size_t(number) - 1].chunk->translucent;
+  }
 
 private:
   /// Geometry of a model at an instant.
@@ -123,6 +131,7 @@ private:
   std::vector<std::unique_ptr<Variant>> Variants;
   std::map<std::pair<std::shared_ptr<const Image>, bool>, vtkSmartPointer<vtkOpenGLTexture>> Textures;
   std::vector<Draw> Draws;
+  std::vector<Hit> FirstHits; // by number of the draw; 0: nothing
   IdPrograms Ids;
   unsigned int LightBuffer = 0;
   unsigned int LightTexture = 0;

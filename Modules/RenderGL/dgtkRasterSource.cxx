@@ -5,7 +5,9 @@
 #include "dgtkGLWindow.h"
 #include "dgtkRasterScene.h"
 #include "dgtkRasterTarget.h"
+#include "dgtkSurfaceRows.h"
 
+#include <algorithm>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
 #include <vtk_glew.h>
@@ -15,14 +17,24 @@ namespace dgtk
 namespace
 {
 
+constexpr int MaxSamples = 64;
+constexpr int MaxPiece = 2048;  // side of what is drawn at once with several samples a pixel
+constexpr int MaxLayers = 4096; // of translucent surfaces; a safeguard
+
 float clamped(float value) { return value > 0 ? (value < 1 ? value : 1.0f) : 0.0f; }
+
+/// Row `y` from the top of a picture that OpenGL gives from the bottom.
+const float* rowFromTop(const std::vector<float>& values, const PixelRect& rect, int y, int channels)
+{
+  return values.data() + std::size_t(rect.height - 1 - y) * rect.width * channels;
+}
 
 class VtkRasterSource : public RasterSource
 {
 public:
   explicit VtkRasterSource(GLBackend backend)
     : Window(currentGLWindow(backend, this->Choice))
-    , Scene(std::make_unique<RasterScene>(this->Window))
+    , Scene(this->Window)
     , ClipControl(GLEW_ARB_clip_control)
   {
     if (this->ClipControl)
@@ -34,103 +46,282 @@ public:
 
   std::string name() const override { return "raster"; }
   GLChoice choice() const override { return this->Choice; }
-
-  void setScene(std::shared_ptr<const SceneState> state, const View& view) override
-  {
-    this->Window->MakeCurrent();
-    this->View_ = view;
-    this->Scene->setState(std::move(state));
-  }
-
-  void render(const PixelRect& rect, VisibilityBuffer& hits) override
-  {
-    this->begin(this->Main, rect, 1);
-    this->Main.bind(false, true);
-    this->Main.clear({});
-    this->Scene->drawIds();
-    this->takeHits(rect, hits);
-    this->check();
-  }
-
-  void renderColor(const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits) override
-  {
-    if (samples < 1 || samples > 64)
-    {
-      throw UsageError("samples must be between 1 and 64 (found " + std::to_string(samples) + ")");
-    }
-    this->begin(this->Main, rect, 1);
-    this->Main.bind(true, true);
-    const Eigen::Vector3f background = this->Scene->state().background.cast<float>();
-    this->Main.clear({ background.x(), background.y(), background.z(), 1 });
-    this->Scene->drawColor(Surfaces::All);
-    this->Main.readColor(this->Pixels);
-    colors.resize(rect);
-    for (int y = 0; y < rect.height; ++y)
-    {
-      const float* source = this->Pixels.data() + std::size_t(rect.height - 1 - y) * rect.width * 4;
-      float* target = colors.rgb.data() + std::size_t(y) * rect.width * 3;
-      for (int x = 0; x < rect.width; ++x, source += 4, target += 3)
-      {
-        target[0] = clamped(source[0]);
-        target[1] = clamped(source[1]);
-        target[2] = clamped(source[2]);
-      }
-    }
-    if (hits)
-    {
-      this->takeHits(rect, *hits);
-    }
-    this->check();
-  }
-
-  void peel(const PixelRect&, const std::function<bool(const SurfaceLayer&)>&) override {}
+  void setScene(std::shared_ptr<const SceneState> state, const View& view) override;
+  void render(const PixelRect& rect, VisibilityBuffer& hits) override;
+  void renderColor(const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits) override;
+  void peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit) override;
 
 private:
-  void begin(RasterTarget& target, const PixelRect& rect, int samples)
-  {
-    if (!this->Scene)
-    {
-      throw UsageError("no scene was set");
-    }
-    this->Window->MakeCurrent();
-    target.resize(rect.width, rect.height);
-    this->Window->GetState()->vtkglViewport(0, 0, rect.width, rect.height);
-    this->Scene->aim(rasterCamera(this->View_, rect, samples, this->ClipControl));
-  }
-
-  void takeHits(const PixelRect& rect, VisibilityBuffer& hits)
-  {
-    this->Main.readIds(this->Ids);
-    hits.resize(rect);
-    for (int y = 0; y < rect.height; ++y)
-    {
-      const float* source = this->Ids.data() + std::size_t(rect.height - 1 - y) * rect.width * 2;
-      Hit* target = hits.hits.data() + std::size_t(y) * rect.width;
-      for (int x = 0; x < rect.width; ++x, source += 2)
-      {
-        target[x] = this->Scene->hit(source[0], source[1]);
-      }
-    }
-  }
-
-  void check()
-  {
-    const std::string said = takeVTKErrors();
-    if (!said.empty())
-    {
-      throw MachineError("VTK: " + said);
-    }
-  }
+  void aim(RasterTarget& target, const PixelRect& rect, int samples);
+  void drawSamples(const PixelRect& rect, int samples, VisibilityBuffer* hits);
+  void blendTranslucent();
+  bool drawLayer(int rank, Surfaces surfaces, const RasterTarget* base);
+  bool firstHitsTranslucent() const;
+  void takeHits(const PixelRect& rect, std::vector<Hit>& hits);
+  void average(const PixelRect& piece, int samples, ColorBuffer& colors) const;
+  static void check();
 
   GLChoice Choice;
   vtkOpenGLRenderWindow* Window;
-  std::unique_ptr<RasterScene> Scene;
+  RasterScene Scene;
   RasterTarget Main{ false };
-  View View_;
+  RasterTarget Layers[2]{ RasterTarget{ true }, RasterTarget{ true } };
+  std::shared_ptr<const SceneState> State;
+  View Camera;
   bool ClipControl;
-  std::vector<float> Pixels;
+  std::vector<float> Pixels; // RGBA, bottom to top
   std::vector<float> Ids;
+  std::vector<float> LayerPixels;
 };
+
+void VtkRasterSource::setScene(std::shared_ptr<const SceneState> state, const View& view)
+{
+  this->Window->MakeCurrent();
+  this->Camera = view;
+  this->State = state;
+  this->Scene.setState(std::move(state));
+}
+
+void VtkRasterSource::aim(RasterTarget& target, const PixelRect& rect, int samples)
+{
+  if (!this->State)
+  {
+    throw UsageError("no scene was set");
+  }
+  this->Window->MakeCurrent();
+  target.resize(rect.width, rect.height);
+  this->Window->GetState()->vtkglViewport(0, 0, rect.width, rect.height);
+  this->Scene.aim(rasterCamera(this->Camera, rect, samples, this->ClipControl));
+  this->Scene.peelBehind(0);
+}
+
+void VtkRasterSource::render(const PixelRect& rect, VisibilityBuffer& hits)
+{
+  this->aim(this->Main, rect, 1);
+  this->Main.bind(false, true);
+  this->Main.clear({});
+  this->Scene.drawIds();
+  this->Main.readIds(this->Ids);
+  hits.resize(rect);
+  this->takeHits(rect, hits.hits);
+  check();
+  settleEdges(*this->State, this->Camera, hits, true);
+}
+
+void VtkRasterSource::renderColor(const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits)
+{
+  if (samples < 1 || samples > MaxSamples)
+  {
+    throw UsageError(
+      "samples must be between 1 and " + std::to_string(MaxSamples) + " (found " + std::to_string(samples) + ")");
+  }
+  colors.resize(rect);
+  const int side = samples == 1 ? std::max(rect.width, rect.height) : std::max(1, MaxPiece / samples);
+  for (int y = 0; y < rect.height; y += side)
+  {
+    for (int x = 0; x < rect.width; x += side)
+    {
+      const PixelRect piece{ rect.x + x, rect.y + y, std::min(side, rect.width - x), std::min(side, rect.height - y) };
+      this->drawSamples(piece, samples, samples == 1 ? hits : nullptr);
+      this->average(piece, samples, colors);
+    }
+  }
+  check();
+  if (hits && samples > 1)
+  {
+    this->render(rect, *hits);
+  }
+  else if (hits)
+  {
+    settleEdges(*this->State, this->Camera, *hits, true);
+  }
+}
+
+/// Leaves the samples of a piece of the image in Pixels.
+void VtkRasterSource::drawSamples(const PixelRect& piece, int samples, VisibilityBuffer* hits)
+{
+  const PixelRect rect{ piece.x * samples, piece.y * samples, piece.width * samples, piece.height * samples };
+  this->aim(this->Main, rect, samples);
+  const Eigen::Vector3f background = this->State->background.cast<float>();
+  const std::array<float, 4> clear{ background.x(), background.y(), background.z(), 1 };
+  const bool ids = hits || this->Scene.hasTranslucent();
+  this->Main.bind(true, ids);
+  this->Main.clear(clear);
+  this->Scene.drawColor(Surfaces::All);
+  if (ids)
+  {
+    this->Main.readIds(this->Ids);
+  }
+  if (hits)
+  {
+    hits->resize(piece);
+    this->takeHits(piece, hits->hits);
+  }
+  if (ids && this->firstHitsTranslucent())
+  {
+    this->Main.bind(true, false);
+    this->Main.clear(clear);
+    this->Scene.drawColor(Surfaces::Opaque);
+    this->Main.readColor(this->Pixels);
+    this->blendTranslucent();
+  }
+  else
+  {
+    this->Main.readColor(this->Pixels);
+  }
+}
+
+bool VtkRasterSource::firstHitsTranslucent() const
+{
+  for (std::size_t i = 0; i < this->Ids.size() && this->Scene.hasTranslucent(); i += 2)
+  {
+    if (this->Scene.translucent(this->Ids[i]))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Draws the surfaces of a rank to Layers[rank % 2] and reads them; false when there are none.
+bool VtkRasterSource::drawLayer(int rank, Surfaces surfaces, const RasterTarget* base)
+{
+  RasterTarget& target = this->Layers[rank % 2];
+  RasterTarget& before = this->Layers[(rank + 1) % 2];
+  if (rank == 0)
+  {
+    before.resize(this->Main.width(), this->Main.height());
+    before.bind(true, true);
+    before.clear({}, 2); // nearer than everything
+  }
+  target.resize(this->Main.width(), this->Main.height());
+  target.bind(true, true);
+  target.clear({}, 0);
+  if (base)
+  {
+    target.copyDepthFrom(*base);
+  }
+  this->Scene.peelBehind(before.idTexture());
+  this->Scene.drawColor(surfaces);
+  this->Scene.peelBehind(0);
+  target.readColor(this->LayerPixels);
+  target.readIds(this->Ids);
+  for (std::size_t i = 0; i < this->Ids.size(); i += 2)
+  {
+    if (this->Ids[i] != 0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Puts the translucent surfaces in front of the opaque ones in Main over Pixels, nearest first.
+void VtkRasterSource::blendTranslucent()
+{
+  const std::size_t count = this->Pixels.size() / 4;
+  std::vector<float> over(count * 3, 0.0f);
+  std::vector<float> through(count, 1.0f);
+  for (int rank = 0; rank < MaxLayers && this->drawLayer(rank, Surfaces::Translucent, &this->Main); ++rank)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (this->Ids[i * 2] != 0)
+      {
+        const float* layer = this->LayerPixels.data() + i * 4;
+        const float opacity = clamped(layer[3]);
+        for (std::size_t c = 0; c < 3; ++c)
+        {
+          over[i * 3 + c] += through[i] * opacity * clamped(layer[c]);
+        }
+        through[i] *= 1 - opacity;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      float& value = this->Pixels[i * 4 + c];
+      value = over[i * 3 + c] + through[i] * clamped(value);
+    }
+  }
+}
+
+void VtkRasterSource::takeHits(const PixelRect& rect, std::vector<Hit>& hits)
+{
+  for (int y = 0; y < rect.height; ++y)
+  {
+    const float* source = rowFromTop(this->Ids, rect, y, 2);
+    Hit* target = hits.data() + std::size_t(y) * rect.width;
+    for (int x = 0; x < rect.width; ++x, source += 2)
+    {
+      target[x] = this->Scene.hit(source[0], source[1]);
+    }
+  }
+}
+
+/// Box average of the samples in Pixels into the piece of `colors`.
+void VtkRasterSource::average(const PixelRect& piece, int samples, ColorBuffer& colors) const
+{
+  const PixelRect rect{ 0, 0, piece.width * samples, piece.height * samples };
+  const float weight = 1.0f / float(samples * samples);
+  for (int y = 0; y < piece.height; ++y)
+  {
+    float* target =
+      colors.rgb.data() +
+      (std::size_t(piece.y - colors.rect.y + y) * colors.rect.width + std::size_t(piece.x - colors.rect.x)) * 3;
+    std::fill_n(target, std::size_t(piece.width) * 3, 0.0f);
+    for (int row = 0; row < samples; ++row)
+    {
+      const float* source = rowFromTop(this->Pixels, rect, y * samples + row, 4);
+      for (int x = 0; x < rect.width; ++x, source += 4)
+      {
+        float* pixel = target + x / samples * 3;
+        pixel[0] += clamped(source[0]);
+        pixel[1] += clamped(source[1]);
+        pixel[2] += clamped(source[2]);
+      }
+    }
+    for (int i = 0; i < piece.width * 3 && samples > 1; ++i)
+    {
+      target[i] *= weight;
+    }
+  }
+}
+
+void VtkRasterSource::peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit)
+{
+  this->aim(this->Main, rect, 1);
+  SurfaceLayer layer;
+  layer.rect = rect;
+  for (int rank = 0; rank < MaxLayers && this->drawLayer(rank, Surfaces::All, nullptr); ++rank)
+  {
+    layer.hits.resize(std::size_t(rect.width) * rect.height);
+    this->takeHits(rect, layer.hits);
+    layer.rgba.resize(layer.hits.size() * 4);
+    for (int y = 0; y < rect.height; ++y)
+    {
+      const float* source = rowFromTop(this->LayerPixels, rect, y, 4);
+      std::transform(
+        source, source + std::size_t(rect.width) * 4, layer.rgba.data() + std::size_t(y) * rect.width * 4, clamped);
+    }
+    check();
+    if (!visit(layer))
+    {
+      return;
+    }
+  }
+}
+
+void VtkRasterSource::check()
+{
+  const std::string said = takeVTKErrors();
+  if (!said.empty())
+  {
+    throw MachineError("VTK: " + said);
+  }
+}
 
 } // namespace
 

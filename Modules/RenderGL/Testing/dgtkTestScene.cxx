@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -240,6 +242,55 @@ Reference castRay(const SceneState& state, const View& view, int x, int y)
     }
   }
   return best;
+}
+
+RasterSource& source()
+{
+  static std::unique_ptr<RasterSource> one = makeRasterSource();
+  return *one;
+}
+
+VisibilityBuffer render(std::shared_ptr<const SceneState> state, const View& view)
+{
+  VisibilityBuffer hits;
+  source().setScene(std::move(state), view);
+  source().render(whole(view), hits);
+  return hits;
+}
+
+ColorBuffer renderColor(std::shared_ptr<const SceneState> state, const View& view, int samples, VisibilityBuffer* hits)
+{
+  ColorBuffer colors;
+  source().setScene(std::move(state), view);
+  source().renderColor(whole(view), samples, colors, hits);
+  return colors;
+}
+
+Eigen::Vector3d colorAt(const ColorBuffer& colors, int x, int y)
+{
+  const float* rgb = colors.rgb.data() + (std::size_t(y) * std::size_t(colors.rect.width) + std::size_t(x)) * 3;
+  return { rgb[0], rgb[1], rgb[2] };
+}
+
+int comparedWithRays(const SceneState& state, const View& view, const VisibilityBuffer& hits, int step)
+{
+  int differing = 0;
+  for (int y = 0; y < hits.rect.height; y += step)
+  {
+    for (int x = 0; x < hits.rect.width; x += step)
+    {
+      const Reference expected = castRay(state, view, hits.rect.x + x, hits.rect.y + y);
+      const Hit found = hits.at(hits.rect.x + x, hits.rect.y + y);
+      if (found != expected.hit)
+      {
+        ++differing;
+        EXPECT_LT(expected.margin, EdgeTolerance)
+          << "pixel " << x << ", " << y << ": object " << found.object << " triangle " << found.triangle
+          << ", expected " << expected.hit.object << ' ' << expected.hit.triangle << " at depth " << expected.depth;
+      }
+    }
+  }
+  return differing;
 }
 
 namespace

@@ -2,7 +2,7 @@
 #ifndef dgtkTestScene_h
 #define dgtkTestScene_h
 
-#include "dgtkVisibility.h"
+#include "dgtkRasterSource.h"
 
 #include <memory>
 #include <string>
@@ -52,6 +52,20 @@ struct Reference
   double margin = 0;
 };
 Reference castRay(const SceneState& state, const View& view, int x, int y);
+
+/// One engine for all tests of the process.
+RasterSource& source();
+VisibilityBuffer render(std::shared_ptr<const SceneState> state, const View& view);
+ColorBuffer renderColor(
+  std::shared_ptr<const SceneState> state, const View& view, int samples = 1, VisibilityBuffer* hits = nullptr);
+Eigen::Vector3d colorAt(const ColorBuffer& colors, int x, int y);
+
+/// Ids differ from the exact ones only where an edge passes within 1/128 pixel of the centre: rasterizers round
+/// vertices to 1/256 pixel.
+constexpr double EdgeTolerance = 1.0 / 128;
+/// Compares every `step`th pixel with castRay(); returns how many differ and fails where that is not explained by
+/// EdgeTolerance.
+int comparedWithRays(const SceneState& state, const View& view, const VisibilityBuffer& hits, int step = 1);
 
 /// Saves a picture under the system's temporary folder when DGTK_SAVE_PICTURES is set.
 void savePicture(const std::string& name, const ColorBuffer& colors);

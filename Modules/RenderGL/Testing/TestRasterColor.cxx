@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkTestScene.h"
+
+#include "dgtkError.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace dgtk;
+using namespace dgtk::test;
+
+namespace
+{
+
+constexpr double FloatTolerance = 2e-5; // sums of a few products in single precision
+
+constexpr double TexelTolerance = 0.3; // Mesa's anisotropic filter blurs a little where it magnifies
+
+void expectColor(const Eigen::Vector3d& found, const Eigen::Vector3d& expected, double tolerance = FloatTolerance)
+{
+  EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), tolerance)
+    << "found " << found.transpose() << ", expected " << expected.transpose();
+}
+
+/// A square of side 2 in the plane z = `z`, facing +z.
+std::shared_ptr<const Model> square(const Material& material, double z = 0, double size = 1)
+{
+  ModelBuilder model;
+  model.part(material);
+  model.quad({ -size, -size, z }, { size, -size, z }, { size, size, z }, { -size, size, z });
+  return model.finish();
+}
+
+std::shared_ptr<SceneState> stateOf(std::vector<std::shared_ptr<const Model>> models)
+{
+  auto state = std::make_shared<SceneState>();
+  for (auto& model : models)
+  {
+    state->instances.push_back(instanceOf(std::move(model)));
+  }
+  return state;
+}
+
+View frontView(int width = 64, int height = 48) // sees [-4/3, 4/3] x [-1, 1] of z = 0 at 64 x 48
+{
+  return viewOf(makeOrthographic(width, height, 2, 0), { 0, 0, 10 }, { 0, 0, 0 }, 0.1, 100);
+}
+
+/// Point seen in the middle of a pixel of frontView().
+Eigen::Vector3d pointAt(const View& view, int x, int y)
+{
+  const double scale = 2.0 / view.model->height();
+  return { (x + 0.5 - view.model->width() / 2.0) * scale, (view.model->height() / 2.0 - y - 0.5) * scale, 0 };
+}
+
+std::shared_ptr<Image> picture(int width, int height, const std::vector<std::array<int, 4>>& texels)
+{
+  auto image = std::make_shared<Image>();
+  image->width = width;
+  image->height = height;
+  for (const auto& texel : texels)
+  {
+    for (const int value : texel)
+    {
+      image->rgba.push_back(std::uint8_t(value));
+      image->hasAlpha = image->hasAlpha || (&value == &texel[3] && value < 255);
+    }
+  }
+  return image;
+}
+
+} // namespace
+
+TEST(RasterColor, FlatColorAndBackground)
+{
+  auto state = stateOf({ square(flat({ 0.25, 0.5, 0.75 }), 0, 0.5) });
+  state->background = { 0.1, 0.2, 0.3 };
+  const ColorBuffer colors = renderColor(state, frontView());
+  expectColor(colorAt(colors, 32, 24), { 0.25, 0.5, 0.75 });
+  expectColor(colorAt(colors, 1, 1), { 0.1, 0.2, 0.3 });
+}
+
+TEST(RasterColor, ImagesTopLeftIsUpAndLeft)
+{
+  ModelBuilder model;
+  model.part(flat({ 1, 0, 0 }));
+  model.quad({ -1.3, 0.5, 0 }, { -0.8, 0.5, 0 }, { -0.8, 0.9, 0 }, { -1.3, 0.9, 0 });
+  const ColorBuffer colors = renderColor(stateOf({ model.finish() }), frontView());
+  expectColor(colorAt(colors, 5, 6), { 1, 0, 0 });
+  expectColor(colorAt(colors, 58, 6), { 0, 0, 0 });
+  expectColor(colorAt(colors, 5, 41), { 0, 0, 0 });
+}
+
+TEST(RasterColor, TextureStandsUpright)
+{
+  // Rows from the top: red, green / blue, white.
+  ModelBuilder model;
+  Material material = flat({ 1, 1, 1 });
+  material.texture = model.texture(
+    picture(2, 2, { { 255, 0, 0, 255 }, { 0, 255, 0, 255 }, { 0, 0, 255, 255 }, { 255, 255, 255, 255 } }));
+  model.part(material);
+  model.quad({ -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 });
+  const ColorBuffer colors = renderColor(stateOf({ model.finish() }), frontView());
+  expectColor(colorAt(colors, 20, 12), { 1, 0, 0 }, TexelTolerance);
+  expectColor(colorAt(colors, 44, 12), { 0, 1, 0 }, TexelTolerance);
+  expectColor(colorAt(colors, 20, 36), { 0, 0, 1 }, TexelTolerance);
+  expectColor(colorAt(colors, 44, 36), { 1, 1, 1 }, TexelTolerance);
+}
+
+TEST(RasterColor, TextureTimesMaterialAndNoTextureWithoutCoordinates)
+{
+  for (const bool coordinates : { true, false })
+  {
+    ModelBuilder model;
+    Material material = flat({ 0.5, 0.5, 1 });
+    material.texture = model.texture(picture(1, 3, { { 255, 51, 0, 255 }, { 255, 51, 0, 255 }, { 255, 51, 0, 255 } }));
+    model.part(material);
+    model.quad({ -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 });
+    const ColorBuffer colors = renderColor(stateOf({ model.finish(coordinates) }), frontView());
+    expectColor(colorAt(colors, 32, 24), coordinates ? Eigen::Vector3d(0.5, 0.1, 0) : Eigen::Vector3d(0.5, 0.5, 1));
+  }
+}
+
+TEST(RasterColor, SumOfTwelveLightsOfEveryKind)
+{
+  const View view = frontView();
+  auto state = stateOf({ square(matte({ 0.5, 0.4, 0.3 }), 0, 2) });
+  for (int i = 0; i < 12; ++i)
+  {
+    LightState light;
+    light.kind = std::array{ LightState::Kind::Head, LightState::Kind::Point, LightState::Kind::Directional,
+      LightState::Kind::Spot }[std::size_t(i % 4)];
+    light.position = { std::cos(i) * 2, std::sin(i) * 2, 1.0 + i % 3 };
+    light.target = { 0.2 * i - 1, 0, 0 };
+    light.diffuse = { 0.02 * i, 0.1, 0.2 - 0.01 * i };
+    light.attenuation = { 1, 0.1 * (i % 3), 0.05 };
+    light.coneAngle = 40;
+    light.exponent = 2;
+    light.intensity = 0.5 + 0.1 * i;
+    state->lights.push_back(light);
+  }
+  const ColorBuffer colors = renderColor(state, view);
+  for (const int x : { 5, 20, 33, 50, 61 })
+  {
+    const int y = 7 + x / 2;
+    const Eigen::Vector3d p = pointAt(view, x, y);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const LightState& light : state->lights)
+    {
+      Eigen::Vector3d towards(0, 0, 1);
+      double strength = 1;
+      const Eigen::Vector3d axis = (light.target - light.position).normalized();
+      if (light.kind == LightState::Kind::Directional)
+      {
+        towards = -axis;
+      }
+      else if (light.kind != LightState::Kind::Head)
+      {
+        const double d = (light.position - p).norm();
+        towards = (light.position - p) / d;
+        strength = 1 / (light.attenuation.x() + light.attenuation.y() * d + light.attenuation.z() * d * d);
+        const double inside = -towards.dot(axis);
+        if (light.kind == LightState::Kind::Spot)
+        {
+          strength *= inside >= std::cos(40 * M_PI / 180) ? inside * inside : 0;
+        }
+      }
+      sum += light.diffuse * (light.intensity * strength * std::max(0.0, towards.z()));
+    }
+    expectColor(colorAt(colors, x, y), sum.cwiseProduct(Eigen::Vector3d(0.5, 0.4, 0.3)).cwiseMin(1.0));
+  }
+}
+
+TEST(RasterColor, MoreLightsThanUniforms)
+{
+  auto state = stateOf({ square(matte({ 1, 1, 1 }), 0, 2) });
+  for (int i = 0; i < 100; ++i)
+  {
+    LightState light;
+    light.kind = i % 2 ? LightState::Kind::Point : LightState::Kind::Head;
+    light.position = { 0, 0, 1e6 };
+    light.diffuse = Eigen::Vector3d(0.005, 0.002, 0.001);
+    state->lights.push_back(light);
+  }
+  expectColor(colorAt(renderColor(state, frontView()), 32, 24), { 0.5, 0.2, 0.1 });
+}
+
+TEST(RasterColor, AmbientSpecularAndEmission)
+{
+  Material material = matte({ 0.2, 0.2, 0.2 });
+  material.ambient = { 0.1, 0.05, 0 };
+  material.specular = { 0.3, 0.2, 0.1 };
+  material.emission = { 0, 0.1, 0.2 };
+  material.shininess = 8;
+  auto state = stateOf({ square(material) });
+  LightState light;
+  light.kind = LightState::Kind::Directional;
+  light.position = { 1, 0, 2 };
+  light.ambient = { 0.5, 0.5, 0.5 };
+  state->lights.push_back(light);
+  const double cosine = 2 / std::sqrt(5.0);
+  const Eigen::Vector3d expected =
+    material.ambient * 1.5 + material.emission + material.diffuse * cosine + material.specular * std::pow(cosine, 8);
+  expectColor(colorAt(renderColor(state, frontView()), 32, 24), expected);
+}
+
+TEST(RasterColor, BothSidesAndMirroredInstancesAreLitAlike)
+{
+  auto state = stateOf({ square(matte({ 1, 1, 1 })) });
+  LightState light;
+  light.kind = LightState::Kind::Directional;
+  light.position = { 1, 2, 3 };
+  light.diffuse = { 0.9, 0.9, 0.9 };
+  state->lights.push_back(light);
+  const double expected = 0.9 * 3 / std::sqrt(14.0);
+  const std::array<Eigen::Vector3d, 5> scales{ Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(-1, 1, 1),
+    Eigen::Vector3d(1, 1, -1), Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, -2, 3) };
+  for (const Eigen::Vector3d& scale : scales)
+  {
+    auto mirrored = std::make_shared<SceneState>(*state);
+    mirrored->instances[0].world_from_object.linear = scale.asDiagonal();
+    expectColor(colorAt(renderColor(mirrored, frontView()), 32, 24), Eigen::Vector3d::Constant(expected));
+  }
+  // From behind, the light lies behind the surface as it is seen.
+  const View behind = viewOf(makeOrthographic(64, 48, 2, 0), { 0, 0, -10 }, { 0, 0, 0 }, 0.1, 100);
+  expectColor(colorAt(renderColor(state, behind), 32, 24), { 0, 0, 0 });
+}
+
+TEST(RasterColor, CutOutTexelsAreNotThere)
+{
+  // A 4 x 2 picture, repeated 3 times each way; alpha 127 is cut out, 128 is not.
+  std::vector<std::array<int, 4>> texels;
+  const int alpha[8] = { 255, 0, 128, 127, 0, 200, 60, 255 };
+  for (const int a : alpha)
+  {
+    texels.push_back({ 200, a < 128 ? 0 : 200, 0, a });
+  }
+  ModelBuilder front;
+  Material material = flat({ 1, 1, 1 });
+  material.texture = front.texture(picture(4, 2, texels));
+  material.cutOut = true;
+  front.part(material);
+  front.quad({ -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 }, 3);
+  auto state = stateOf({ front.finish(), square(flat({ 0, 0, 1 }), -1, 3) });
+  const View view = frontView(256, 192);
+  VisibilityBuffer hits;
+  const ColorBuffer colors = renderColor(state, view, 1, &hits);
+  savePicture("dgtk-cutout", colors);
+  EXPECT_EQ(hits.hits, render(state, view).hits);
+  for (int y = 0; y < 192; ++y)
+  {
+    for (int x = 0; x < 256; ++x)
+    {
+      const Eigen::Vector3d p = pointAt(view, x, y);
+      const double u = (p.x() + 1) / 2 * 3;
+      const double v = (p.y() + 1) / 2 * 3;
+      const int column = int(std::floor(u * 4)) & 3;
+      const int rowFromBottom = int(std::floor(v * 2)) & 1;
+      const bool there = std::abs(p.x()) < 1 && alpha[(1 - rowFromBottom) * 4 + column] >= 128;
+      ASSERT_EQ(hits.at(x, y).object, there ? 1u : 2u) << x << ' ' << y;
+      if (there) // no fringe from the colour of what is cut out
+      {
+        EXPECT_GT(colorAt(colors, x, y).y(), 0.77);
+      }
+    }
+  }
+}
+
+TEST(RasterColor, TranslucentSurfacesBlendInOrder)
+{
+  Material red = flat({ 1, 0, 0 });
+  red.opacity = 0.25;
+  Material green = flat({ 0, 1, 0 });
+  green.opacity = 0.5;
+  // The nearer one is listed last; opaque blue lies behind, white covers all on the right side.
+  ModelBuilder cover;
+  cover.part(flat({ 1, 1, 1 }));
+  cover.quad({ 0.5, -1, 3 }, { 1, -1, 3 }, { 1, 1, 3 }, { 0.5, 1, 3 });
+  auto state = stateOf({ square(flat({ 0, 0, 1 }), -1), square(green, 0), square(red, 1), cover.finish() });
+  VisibilityBuffer hits;
+  const ColorBuffer colors = renderColor(state, frontView(), 1, &hits);
+  expectColor(colorAt(colors, 30, 24), { 0.25, 0.75 * 0.5, 0.75 * 0.5 });
+  expectColor(colorAt(colors, 50, 24), { 1, 1, 1 });
+  expectColor(colorAt(colors, 2, 24), { 0, 0, 0 });
+  EXPECT_EQ(hits.at(30, 24).object, 3u); // glass is a surface for labels
+  EXPECT_EQ(hits.at(50, 24).object, 4u);
+}
+
+TEST(RasterColor, CoincidentTranslucentSurfacesAllCount)
+{
+  Material half = flat({ 1, 1, 1 });
+  half.opacity = 0.5;
+  const auto model = square(half);
+  auto state = stateOf({ model, model, model });
+  expectColor(colorAt(renderColor(state, frontView()), 30, 24), Eigen::Vector3d::Constant(0.875));
+}
+
+TEST(RasterColor, PeeledLayersAreAllSurfacesInOrder)
+{
+  Material glass = flat({ 0, 1, 0 });
+  glass.opacity = 0.5;
+  auto state = stateOf({ square(flat({ 0, 0, 1 }), -1), square(glass, 0), square(flat({ 1, 0, 0 }), 0, 0.5) });
+  const View view = frontView();
+  source().setScene(state, view);
+  std::vector<SurfaceLayer> layers;
+  source().peel(whole(view),
+    [&layers](const SurfaceLayer& layer)
+    {
+      layers.push_back(layer);
+      return true;
+    });
+  ASSERT_EQ(layers.size(), 3u);
+  const std::size_t middle = 30 + 24 * 64;
+  const std::size_t side = 12 + 24 * 64;
+  EXPECT_EQ(layers[0].hits[middle].object, 2u);
+  EXPECT_EQ(layers[1].hits[middle].object, 3u); // coincident with the first
+  EXPECT_EQ(layers[2].hits[middle].object, 1u);
+  EXPECT_EQ(layers[0].hits[side].object, 2u);
+  EXPECT_EQ(layers[1].hits[side].object, 1u);
+  EXPECT_EQ(layers[2].hits[side].object, 0u);
+  EXPECT_FLOAT_EQ(layers[0].rgba[middle * 4 + 3], 0.5f);
+  EXPECT_FLOAT_EQ(layers[1].rgba[middle * 4], 1.0f);
+  EXPECT_FLOAT_EQ(layers[2].rgba[side * 4 + 3], 0.0f);
+  EXPECT_EQ(layers[0].hits, render(state, view).hits);
+}
+
+TEST(RasterColor, SamplesAverageAnEdge)
+{
+  // An upright edge 0.3 pixels right of a pixel's left side; 10 x 10 samples, of whose columns 3 are covered.
+  const View view = frontView();
+  ModelBuilder model;
+  model.part(flat({ 1, 1, 1 }));
+  const double edge = (20.3 - 32) * 2.0 / 48;
+  model.quad({ -3, -3, 0 }, { edge, -3, 0 }, { edge, 3, 0 }, { -3, 3, 0 });
+  VisibilityBuffer hits;
+  const ColorBuffer colors = renderColor(stateOf({ model.finish() }), view, 10, &hits);
+  expectColor(colorAt(colors, 19, 11), { 1, 1, 1 });
+  expectColor(colorAt(colors, 20, 11), { 0.3, 0.3, 0.3 });
+  expectColor(colorAt(colors, 21, 11), { 0, 0, 0 });
+  EXPECT_EQ(hits.at(19, 11).object, 1u);
+  EXPECT_EQ(hits.at(20, 11).object, 0u); // the pixel's centre
+  EXPECT_THROW(renderColor(stateOf({}), view, 0), UsageError);
+}
+
+TEST(RasterColor, ManySamplesAreDrawnInPieces)
+{
+  const View view = frontView(300, 200);
+  auto state = stateOf({ square(flat({ 0.5, 0.5, 0.5 }), 0, 0.5) });
+  const ColorBuffer colors = renderColor(state, view, 16); // 4800 x 3200 samples
+  double sum = 0;
+  for (const float value : colors.rgb)
+  {
+    sum += value;
+  }
+  EXPECT_NEAR(sum / 3, 0.5 * 100 * 100, 1);
+  expectColor(colorAt(colors, 150, 100), { 0.5, 0.5, 0.5 });
+}
+
+TEST(RasterColor, AnEmptySceneIsBackground)
+{
+  auto state = std::make_shared<SceneState>();
+  state->background = { 0.25, 0.5, 1 };
+  VisibilityBuffer hits;
+  const ColorBuffer colors = renderColor(state, frontView(), 1, &hits);
+  expectColor(colorAt(colors, 3, 3), { 0.25, 0.5, 1 });
+  EXPECT_EQ(hits.at(3, 3).object, 0u);
+}
