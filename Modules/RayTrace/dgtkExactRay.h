@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkExactRay_h
+#define dgtkExactRay_h
+
+#include <Eigen/Core>
+
+#include <cmath>
+
+namespace dgtk
+{
+
+/// A ray in the camera frame with the range of its parameter, ends included.
+struct ExactRay
+{
+  Eigen::Vector3d origin;
+  Eigen::Vector3d direction;
+  double least = 0;
+  double most = 0;
+};
+
+/// Where a ray meets a triangle, in double precision.
+struct ExactHit
+{
+  bool inside = false;
+  bool marginal = false; ///< closer to an edge than single precision can tell
+  double t = 0;
+  Eigen::Vector2d barycentrics{ 0, 0 }; ///< of the second and third corner
+};
+
+/// The error of a position in single precision: of `distance` from the ray's origin, and of the sizes that took part.
+constexpr double RayPrecision = 1e-6;
+
+namespace exact
+{
+
+inline Eigen::Vector3d cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+  return { a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x() };
+}
+
+/// Side of the line on which the direction passes. Of a direction on the line, the side to which an infinitely small
+/// turn towards x, else y, else z moves it: two triangles that share the edge see opposite sides, so one is met.
+inline int side(double value, const Eigen::Vector3d& line)
+{
+  for (const double v : { value, line.x(), line.y(), line.z() })
+  {
+    if (v != 0)
+    {
+      return v > 0 ? 1 : -1;
+    }
+  }
+  return 0;
+}
+
+} // namespace exact
+
+/// `slack`: distance from an edge, in units of the scene at the surface, below which a hit is marginal; it applies to a
+/// ray through the camera's neighbourhood.
+inline ExactHit intersectExactly(
+  const ExactRay& ray, const Eigen::Vector3d corners[3], double slackPerLength, double slackOfInstance)
+{
+  const Eigen::Vector3d x[3] = { corners[0] - ray.origin, corners[1] - ray.origin, corners[2] - ray.origin };
+  ExactHit hit;
+  double value[3];
+  int sides = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    const Eigen::Vector3d line = exact::cross(x[(i + 1) % 3], x[(i + 2) % 3]);
+    value[i] = line.dot(ray.direction);
+    sides += exact::side(value[i], line);
+  }
+  const double sum = value[0] + value[1] + value[2];
+  const double square = ray.direction.squaredNorm();
+  hit.inside = (sides == 3 || sides == -3) && sum != 0;
+  const double along =
+    value[0] * x[0].dot(ray.direction) + value[1] * x[1].dot(ray.direction) + value[2] * x[2].dot(ray.direction);
+  hit.t = along / (sum * square);
+  hit.barycentrics = { value[1] / sum, value[2] / sum };
+  const double length = std::sqrt(square);
+  const double slack = (slackPerLength * std::abs(hit.t) * length + slackOfInstance) * length;
+  for (int i = 0; i < 3; ++i)
+  {
+    const double edge = (x[(i + 2) % 3] - x[(i + 1) % 3]).norm();
+    hit.marginal |= !(std::abs(value[i]) > slack * edge);
+  }
+  return hit;
+}
+
+} // namespace dgtk
+
+#endif

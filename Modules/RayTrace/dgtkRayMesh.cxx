@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkRayMesh.h"
+
+#include "dgtkError.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace dgtk
+{
+
+namespace
+{
+/// A matrix with a larger condition number loses too much when Embree inverts it in single precision.
+constexpr double LargestCondition = 1e4;
+/// Sine of the angle at the first corner below which a triangle has no area.
+constexpr double DegenerateSine = 1e-12;
+
+bool needsBaking(const Eigen::Matrix3d& linear)
+{
+  const double determinant = linear.determinant();
+  if (!(std::abs(determinant) > 0))
+  {
+    return true;
+  }
+  const double condition = linear.norm() * linear.inverse().norm();
+  return !(condition < LargestCondition);
+}
+
+RayMeshKey keyOf(const Instance& instance, RTCFilterFunctionN filter)
+{
+  const Model& model = *instance.model;
+  RayMeshKey key;
+  key.geometry = instance.geometry.get();
+  key.model = &model;
+  key.filter = filter;
+  const std::vector<Material>& materials = instance.materials ? *instance.materials : model.materials;
+  bool any = false;
+  for (const Part& part : model.parts)
+  {
+    const Image* image = nullptr;
+    if (filter && !model.uvs.empty() && !materials.empty())
+    {
+      const Material& material = materials[part.material];
+      image = material.cutOut && material.texture >= 0 ? model.textures[material.texture].image.get() : nullptr;
+    }
+    key.cutOuts.push_back(image);
+    any |= image != nullptr;
+  }
+  if (!any)
+  {
+    key.cutOuts.clear();
+  }
+  const Eigen::Matrix3d& linear = instance.world_from_object.linear;
+  if (needsBaking(linear))
+  {
+    key.bake.assign(linear.data(), linear.data() + 9);
+  }
+  return key;
+}
+
+void measure(RayMesh& mesh)
+{
+  const std::vector<Eigen::Vector3d>& positions = mesh.geometry->positions;
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY);
+  Eigen::Vector3d high = -low;
+  for (const auto& triangle : mesh.model->triangles)
+  {
+    for (const std::uint32_t corner : triangle)
+    {
+      if (positions[corner].allFinite())
+      {
+        low = low.cwiseMin(positions[corner]);
+        high = high.cwiseMax(positions[corner]);
+      }
+    }
+  }
+  if (low.x() <= high.x())
+  {
+    mesh.centre = 0.5 * low + 0.5 * high;
+  }
+}
+
+RTCBuffer makeVertices(RayMesh& mesh, const Eigen::Matrix3d* bake)
+{
+  const std::vector<Eigen::Vector3d>& positions = mesh.geometry->positions;
+  // Embree reads 16 bytes a vertex: one float of padding at the end.
+  RTCBuffer buffer = rtcNewBuffer(mesh.device->handle(), (positions.size() * 3 + 1) * sizeof(float));
+  mesh.device->check();
+  float* out = static_cast<float*>(rtcGetBufferData(buffer));
+  double radius = 0;
+  for (const Eigen::Vector3d& position : positions)
+  {
+    Eigen::Vector3d x = position - mesh.centre;
+    x = bake ? Eigen::Vector3d(*bake * x) : x;
+    radius = std::max(radius, std::isfinite(x.squaredNorm()) ? x.squaredNorm() : 0);
+    *out++ = float(x.x());
+    *out++ = float(x.y());
+    *out++ = float(x.z());
+  }
+  mesh.radius = float(std::sqrt(radius));
+  return buffer;
+}
+
+bool hasArea(const RayMesh& mesh, const std::array<std::uint32_t, 3>& triangle)
+{
+  const std::vector<Eigen::Vector3d>& positions = mesh.geometry->positions;
+  const Eigen::Vector3d e1 = positions[triangle[1]] - positions[triangle[0]];
+  const Eigen::Vector3d e2 = positions[triangle[2]] - positions[triangle[0]];
+  const Eigen::Vector3d n(
+    e1.y() * e2.z() - e1.z() * e2.y(), e1.z() * e2.x() - e1.x() * e2.z(), e1.x() * e2.y() - e1.y() * e2.x());
+  return n.squaredNorm() > DegenerateSine * DegenerateSine * e1.squaredNorm() * e2.squaredNorm();
+}
+
+void attach(
+  RayMesh& mesh, RTCBuffer vertices, std::uint32_t first, std::uint32_t count, bool cutOut, RTCFilterFunctionN filter)
+{
+  RTCGeometry geometry = rtcNewGeometry(mesh.device->handle(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  rtcSetGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0, 3 * sizeof(float),
+    mesh.geometry->positions.size());
+  auto* indices = static_cast<std::uint32_t*>(
+    rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
+  mesh.device->check();
+  const float* x = static_cast<const float*>(rtcGetBufferData(vertices));
+  for (std::uint32_t i = first; i < first + count; ++i)
+  {
+    const auto& triangle = mesh.model->triangles[i];
+    const bool solid = hasArea(mesh, triangle);
+    float longest = 0;
+    for (int k = 0; k < 3; ++k)
+    {
+      const float* a = x + std::size_t(3) * triangle[k];
+      const float* b = x + std::size_t(3) * triangle[(k + 1) % 3];
+      const float square =
+        (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]) + (b[2] - a[2]) * (b[2] - a[2]);
+      longest = std::max(longest, square);
+      *indices++ = solid ? triangle[k] : triangle[0];
+    }
+    mesh.longestEdge[i] = std::sqrt(longest);
+  }
+  rtcSetGeometryUserData(geometry, &mesh);
+  if (filter)
+  {
+    rtcSetGeometryIntersectFilterFunction(geometry, filter);
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(mesh.scene, geometry);
+  rtcReleaseGeometry(geometry);
+  mesh.firstTriangle.push_back(first);
+  mesh.cutOut.push_back(cutOut);
+}
+
+/// Runs of parts without cut-out textures become one Embree geometry, every other part its own.
+void attachAll(RayMesh& mesh, const RayMeshKey& key, RTCBuffer vertices)
+{
+  const std::uint32_t count = std::uint32_t(mesh.model->triangles.size());
+  std::uint32_t first = 0;
+  for (std::size_t i = 0; i < key.cutOuts.size(); ++i)
+  {
+    const Part& part = mesh.model->parts[i];
+    if (key.cutOuts[i] && part.triangles > 0)
+    {
+      if (part.firstTriangle > first)
+      {
+        attach(mesh, vertices, first, part.firstTriangle - first, false, key.filter);
+      }
+      attach(mesh, vertices, part.firstTriangle, part.triangles, true, key.filter);
+      first = part.firstTriangle + part.triangles;
+    }
+  }
+  if (first < count)
+  {
+    attach(mesh, vertices, first, count - first, false, key.filter);
+  }
+}
+
+} // namespace
+
+bool RayMeshKey::operator<(const RayMeshKey& o) const
+{
+  return std::tie(this->geometry, this->model, this->filter, this->cutOuts, this->bake) <
+         std::tie(o.geometry, o.model, o.filter, o.cutOuts, o.bake);
+}
+
+RayMesh::~RayMesh()
+{
+  if (this->scene)
+  {
+    rtcReleaseScene(this->scene);
+  }
+}
+
+RayDevice::RayDevice()
+  : Handle(rtcNewDevice(nullptr))
+{
+  if (!this->Handle)
+  {
+    throw MachineError("Embree does not start (error " + std::to_string(int(rtcGetDeviceError(nullptr))) + ")");
+  }
+}
+
+RayDevice::~RayDevice() { rtcReleaseDevice(this->Handle); }
+
+std::shared_ptr<RayDevice> RayDevice::shared()
+{
+  static std::mutex lock;
+  static std::weak_ptr<RayDevice> current;
+  const std::lock_guard<std::mutex> guard(lock);
+  std::shared_ptr<RayDevice> device = current.lock();
+  if (!device)
+  {
+    device = std::make_shared<RayDevice>();
+    current = device;
+  }
+  return device;
+}
+
+void RayDevice::check() const
+{
+  const RTCError error = rtcGetDeviceError(this->Handle);
+  if (error == RTC_ERROR_OUT_OF_MEMORY)
+  {
+    throw MachineError("not enough memory for the ray tracer's copy of the scene");
+  }
+  if (error != RTC_ERROR_NONE)
+  {
+    throw MachineError("Embree failed (error " + std::to_string(int(error)) + ")");
+  }
+}
+
+std::shared_ptr<const RayMesh> RayDevice::mesh(const Instance& instance, RTCFilterFunctionN filter)
+{
+  if (!instance.model || !instance.geometry || instance.model->triangles.empty() ||
+      !instance.world_from_object.linear.allFinite() || !instance.world_from_object.translation.allFinite())
+  {
+    return nullptr;
+  }
+  RayMeshKey key = keyOf(instance, filter);
+  const std::lock_guard<std::mutex> guard(this->Lock);
+  std::weak_ptr<const RayMesh>& known = this->Meshes[key];
+  if (std::shared_ptr<const RayMesh> mesh = known.lock())
+  {
+    return mesh;
+  }
+  const auto mesh = std::make_shared<RayMesh>();
+  mesh->device = this->shared_from_this();
+  mesh->geometry = instance.geometry;
+  mesh->model = instance.model;
+  mesh->baked = !key.bake.empty();
+  mesh->longestEdge.resize(instance.model->triangles.size());
+  measure(*mesh);
+  mesh->scene = rtcNewScene(this->Handle);
+  rtcSetSceneFlags(mesh->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(mesh->scene, RTC_BUILD_QUALITY_MEDIUM);
+  RTCBuffer vertices = makeVertices(*mesh, mesh->baked ? &instance.world_from_object.linear : nullptr);
+  attachAll(*mesh, key, vertices);
+  rtcReleaseBuffer(vertices);
+  rtcCommitScene(mesh->scene);
+  this->check();
+  known = mesh;
+  for (auto it = this->Meshes.begin(); it != this->Meshes.end();)
+  {
+    it = it->second.expired() ? this->Meshes.erase(it) : std::next(it);
+  }
+  return mesh;
+}
+
+} // namespace dgtk

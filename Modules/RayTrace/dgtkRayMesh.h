@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkRayMesh_h
+#define dgtkRayMesh_h
+
+#include "dgtkSceneState.h"
+
+#include <embree3/rtcore.h>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace dgtk
+{
+
+class RayDevice;
+
+/// Embree's tree of one geometry, shared by all instances that have the geometry and the same cut-out textures.
+/// Vertices are float32: bake * (position - centre).
+struct RayMesh
+{
+  ~RayMesh();
+
+  std::shared_ptr<RayDevice> device;
+  std::shared_ptr<const Geometry> geometry;
+  std::shared_ptr<const Model> model;
+  RTCScene scene = nullptr;
+  Eigen::Vector3d centre{ 0, 0, 0 };        ///< object frame
+  bool baked = false;                       ///< vertices are in the axes and scale of the world, for singular matrices
+  float radius = 0;                         ///< of the vertices around the centre
+  std::vector<std::uint32_t> firstTriangle; ///< of the model, by Embree geometry id
+  std::vector<std::uint8_t> cutOut;         ///< whether a texture may cut holes, by Embree geometry id
+  std::vector<float> longestEdge;           ///< by triangle of the model, in units of the vertices
+};
+
+/// What makes meshes different.
+struct RayMeshKey
+{
+  const Geometry* geometry = nullptr;
+  const Model* model = nullptr;
+  RTCFilterFunctionN filter = nullptr;
+  std::vector<const Image*> cutOuts; ///< by part; empty when there are none
+  std::vector<double> bake;          ///< 9 values or none
+  bool operator<(const RayMeshKey& o) const;
+};
+
+/// One Embree device for the process while anything uses it, and the meshes in use.
+class RayDevice : public std::enable_shared_from_this<RayDevice>
+{
+public:
+  static std::shared_ptr<RayDevice> shared();
+  RayDevice();
+  ~RayDevice();
+  RayDevice(const RayDevice&) = delete;
+  RayDevice& operator=(const RayDevice&) = delete;
+
+  RTCDevice handle() const { return this->Handle; }
+  /// The mesh of an instance, made when nobody has it. `filter` sees every hit of a triangle, or is null.
+  /// Thread-safe. Null when there is nothing to hit.
+  std::shared_ptr<const RayMesh> mesh(const Instance& instance, RTCFilterFunctionN filter);
+  /// Throws MachineError when Embree reported an error.
+  void check() const;
+
+private:
+  RTCDevice Handle = nullptr;
+  std::mutex Lock;
+  std::map<RayMeshKey, std::weak_ptr<const RayMesh>> Meshes;
+};
+
+} // namespace dgtk
+
+#endif

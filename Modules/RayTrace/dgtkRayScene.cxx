@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkRayScene.h"
+
+#include "dgtkSurfaceRows.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dgtk
+{
+
+namespace
+{
+/// Part of t by which equally near surfaces may differ: a few roundings of vertices far from the origin.
+constexpr double SameDistance = 1e-9;
+} // namespace
+
+RayScene::RayScene(std::shared_ptr<RayDevice> device, RTCFilterFunctionN filter)
+  : Device(std::move(device))
+  , Filter(filter)
+  , Scene(rtcNewScene(this->Device->handle()))
+{
+  this->Device->check();
+  rtcSetSceneFlags(this->Scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
+  rtcSetSceneBuildQuality(this->Scene, RTC_BUILD_QUALITY_MEDIUM);
+}
+
+RayScene::~RayScene()
+{
+  for (const Placed& placed : this->Instances)
+  {
+    if (placed.geometry)
+    {
+      rtcReleaseGeometry(placed.geometry);
+    }
+  }
+  rtcReleaseScene(this->Scene);
+}
+
+void RayScene::place(std::shared_ptr<const SceneState> state, const Rigid3& camera_from_world)
+{
+  const bool newState = state != this->State;
+  if (!newState && camera_from_world.rotation == this->Pose.rotation &&
+      camera_from_world.translation == this->Pose.translation)
+  {
+    return;
+  }
+  const std::shared_ptr<const SceneState> kept = std::exchange(this->State, std::move(state));
+  this->Pose = camera_from_world;
+  while (this->Instances.size() > this->State->instances.size())
+  {
+    if (this->Instances.back().geometry)
+    {
+      rtcDetachGeometry(this->Scene, unsigned(this->Instances.size() - 1));
+      rtcReleaseGeometry(this->Instances.back().geometry);
+    }
+    this->Instances.pop_back();
+  }
+  this->Instances.resize(this->State->instances.size());
+  this->Reach = 0;
+  for (std::size_t i = 0; i < this->Instances.size(); ++i)
+  {
+    this->placeInstance(i, newState);
+    this->Reach = std::max(this->Reach, this->Instances[i].reach);
+  }
+  rtcCommitScene(this->Scene);
+  this->Device->check();
+}
+
+void RayScene::placeInstance(std::size_t index, bool newState)
+{
+  const Instance& instance = this->State->instances[index];
+  Placed& placed = this->Instances[index];
+  if (newState)
+  {
+    std::shared_ptr<const RayMesh> mesh = this->Device->mesh(instance, this->Filter);
+    if (!mesh && placed.geometry)
+    {
+      rtcDetachGeometry(this->Scene, unsigned(index));
+      rtcReleaseGeometry(placed.geometry);
+      placed.geometry = nullptr;
+    }
+    if (mesh && mesh != placed.mesh)
+    {
+      if (!placed.geometry)
+      {
+        placed.geometry = rtcNewGeometry(this->Device->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcAttachGeometryByID(this->Scene, placed.geometry, unsigned(index));
+      }
+      rtcSetGeometryInstancedScene(placed.geometry, mesh->scene);
+    }
+    placed.mesh = std::move(mesh);
+  }
+  if (!placed.mesh)
+  {
+    placed.reach = 0;
+    return;
+  }
+  placed.camera_from_object = this->Pose * instance.world_from_object;
+  const Eigen::Matrix3d linear = placed.mesh->baked ? this->Pose.rotation : placed.camera_from_object.linear;
+  const Eigen::Vector3d translation = placed.camera_from_object * placed.mesh->centre;
+  float matrix[12];
+  for (int i = 0; i < 12; ++i)
+  {
+    matrix[i] = float(i < 9 ? linear.data()[i] : translation[i - 9]);
+  }
+  rtcSetGeometryTransform(placed.geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix);
+  rtcCommitGeometry(placed.geometry);
+  const Eigen::Matrix3d inverse = linear.inverse();
+  for (int i = 0; i < 9; ++i)
+  {
+    placed.mesh_from_camera[i] = float(inverse(i / 3, i % 3));
+  }
+  placed.sizes = float((inverse * translation).norm()) + placed.mesh->radius;
+  placed.reach = translation.norm() + linear.norm() * placed.mesh->radius;
+}
+
+ExactHit RayScene::intersectTriangle(const ExactRay& ray, const Hit& hit) const
+{
+  const Placed& placed = this->Instances[hit.object - 1];
+  const std::vector<Eigen::Vector3d>& positions = placed.mesh->geometry->positions;
+  const auto& triangle = placed.mesh->model->triangles[hit.triangle];
+  const Eigen::Vector3d corners[3] = { placed.camera_from_object * positions[triangle[0]],
+    placed.camera_from_object * positions[triangle[1]], placed.camera_from_object * positions[triangle[2]] };
+  return intersectExactly(ray, corners, RayPrecision, RayPrecision * placed.reach);
+}
+
+ExactHit RayScene::intersect(const ExactRay& ray, const Hit& hit) const
+{
+  ExactHit exact = this->intersectTriangle(ray, hit);
+  exact.inside = exact.inside && exact.t >= ray.least && exact.t <= ray.most &&
+                 !isCutOut(this->State->instances[hit.object - 1], hit.triangle, exact.barycentrics);
+  return exact;
+}
+
+ExactRay rayOf(const View& view, const Eigen::Vector2d& pixel)
+{
+  const CameraRay ray = view.model->rayThrough(pixel);
+  return { ray.origin, ray.direction, view.near, view.far };
+}
+
+bool comesBefore(double ta, const Hit& a, double tb, const Hit& b)
+{
+  if (std::abs(ta - tb) > SameDistance * std::min(ta, tb))
+  {
+    return ta < tb;
+  }
+  return a.object != b.object ? a.object < b.object : a.triangle < b.triangle;
+}
+
+RTCRayHit makeQuery(const ExactRay& ray)
+{
+  RTCRayHit query{};
+  query.ray.org_x = float(ray.origin.x());
+  query.ray.org_y = float(ray.origin.y());
+  query.ray.org_z = float(ray.origin.z());
+  query.ray.dir_x = float(ray.direction.x());
+  query.ray.dir_y = float(ray.direction.y());
+  query.ray.dir_z = float(ray.direction.z());
+  query.ray.tnear = float(ray.least) * (1 - NearTie);
+  query.ray.tfar = float(ray.most) * (1 + NearTie);
+  query.ray.mask = ~0U;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return query;
+}
+
+namespace
+{
+
+/// Sorts by t, then each group of equally near surfaces by (object, triangle).
+void sortHits(std::vector<RayHit>& hits)
+{
+  const auto lower = [](const RayHit& a, const RayHit& b)
+  { return a.hit.object != b.hit.object ? a.hit.object < b.hit.object : a.hit.triangle < b.hit.triangle; };
+  std::sort(
+    hits.begin(), hits.end(), [&](const RayHit& a, const RayHit& b) { return a.t != b.t ? a.t < b.t : lower(a, b); });
+  for (auto first = hits.begin(); first != hits.end();)
+  {
+    const double limit = first->t * (1 + SameDistance);
+    const auto last = std::find_if(first, hits.end(), [&](const RayHit& h) { return h.t > limit; });
+    std::sort(first, last, lower);
+    first = last;
+  }
+}
+
+void trace(const RayScene& scene, const ExactRay& ray, std::vector<Hit>& found)
+{
+  RayContext context;
+  rtcInitIntersectContext(&context.context);
+  context.scene = &scene;
+  context.mode = RayContext::Mode::Collect;
+  context.found = &found;
+  alignas(16) RTCRayHit query = makeQuery(ray);
+  rtcIntersect1(scene.handle(), &context.context, &query);
+}
+
+/// Traces rays around `ray`, `offset` away at the origin and `turn` per unit of t.
+void traceAround(const RayScene& scene, const ExactRay& ray, double offset, double turn, std::vector<Hit>& found)
+{
+  const Eigen::Vector3d d = ray.direction.normalized();
+  const Eigen::Vector3d axis = std::abs(d.x()) < 0.6 ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
+  const Eigen::Vector3d u = exact::cross(d, axis).normalized();
+  const Eigen::Vector3d v = exact::cross(d, u);
+  for (const Eigen::Vector3d& side : { u, v, Eigen::Vector3d(-u), Eigen::Vector3d(-v) })
+  {
+    ExactRay beside = ray;
+    beside.origin += offset * side;
+    beside.direction += turn * side;
+    trace(scene, beside, found);
+  }
+}
+
+} // namespace
+
+void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::vector<RayHit>& hits)
+{
+  thread_local std::vector<Hit> found;
+  found.clear();
+  hits.clear();
+  trace(scene, ray, found);
+  for (const Hit& hit : found)
+  {
+    const ExactHit exactly = scene.intersect(ray, hit);
+    nearby |= exactly.marginal;
+    if (exactly.inside)
+    {
+      hits.push_back({ exactly.t, hit });
+    }
+  }
+  if (nearby)
+  {
+    const double turn = 4 * RayPrecision * ray.direction.norm();
+    traceAround(scene, ray, 0, turn, found);
+    traceAround(scene, ray, 4 * RayPrecision * scene.reach(), turn, found);
+    std::sort(found.begin(), found.end(),
+      [](const Hit& a, const Hit& b) { return a.object != b.object ? a.object < b.object : a.triangle < b.triangle; });
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    hits.clear();
+    for (const Hit& hit : found)
+    {
+      const ExactHit exactly = scene.intersect(ray, hit);
+      if (exactly.inside)
+      {
+        hits.push_back({ exactly.t, hit });
+      }
+    }
+  }
+  sortHits(hits);
+}
+
+} // namespace dgtk

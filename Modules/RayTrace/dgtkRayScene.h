@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkRayScene_h
+#define dgtkRayScene_h
+
+#include "dgtkExactRay.h"
+#include "dgtkRayMesh.h"
+#include "dgtkVisibility.h"
+
+#include <memory>
+#include <vector>
+
+namespace dgtk
+{
+
+/// A scene state in the frame of one camera: instances are placed relative to the camera in double precision before
+/// they are rounded, so that scenes far from the origin lose nothing.
+class RayScene
+{
+public:
+  struct Placed
+  {
+    std::shared_ptr<const RayMesh> mesh; ///< null: nothing to hit
+    RTCGeometry geometry = nullptr;
+    Affine3 camera_from_object;
+    float mesh_from_camera[9]; ///< linear part, row by row
+    float sizes = 0;           ///< largest coordinates that take part in single precision, units of the mesh
+    double reach = 0;          ///< the same in the camera frame
+  };
+
+  /// `filter` of the meshes; null for bare tracing.
+  RayScene(std::shared_ptr<RayDevice> device, RTCFilterFunctionN filter);
+  ~RayScene();
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
+
+  /// Places the instances; what did not change is kept.
+  void place(std::shared_ptr<const SceneState> state, const Rigid3& camera_from_world);
+
+  RTCScene handle() const { return this->Scene; }
+  const SceneState& state() const { return *this->State; }
+  const Rigid3& pose() const { return this->Pose; }
+  const Placed& placed(std::size_t instance) const { return this->Instances[instance]; }
+  /// Largest `reach` of all instances.
+  double reach() const { return this->Reach; }
+
+  Hit hit(unsigned int instance, unsigned int geometry, unsigned int primitive) const
+  {
+    return { instance + 1, this->Instances[instance].mesh->firstTriangle[geometry] + primitive };
+  }
+  /// Exact intersection with a triangle; inside is false outside the ray's range and at missing texels.
+  ExactHit intersect(const ExactRay& ray, const Hit& hit) const;
+  /// The same without the range and the texels.
+  ExactHit intersectTriangle(const ExactRay& ray, const Hit& hit) const;
+
+private:
+  void placeInstance(std::size_t index, bool newState);
+
+  std::shared_ptr<RayDevice> Device;
+  RTCFilterFunctionN Filter;
+  RTCScene Scene = nullptr;
+  std::shared_ptr<const SceneState> State;
+  Rigid3 Pose;
+  std::vector<Placed> Instances;
+  double Reach = 0;
+};
+
+/// The ray through an image point with the view's near and far.
+ExactRay rayOf(const View& view, const Eigen::Vector2d& pixel);
+
+/// Whether `a` at `ta` comes before `b` at `tb` on a ray: nearer, or equally near and of the lower object, then
+/// triangle.
+bool comesBefore(double ta, const Hit& a, double tb, const Hit& b);
+
+/// A surface along a ray.
+struct RayHit
+{
+  double t = 0;
+  Hit hit;
+};
+
+/// All surfaces along a ray in exact order. `nearby`: looks also beside the ray, for surfaces that single precision
+/// misses by a rounding; otherwise only when some surface is marginal.
+void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::vector<RayHit>& hits);
+
+/// The filter of meshes of scenes that collectHits or RayPacket traces.
+void rayFilter(const RTCFilterFunctionNArguments* arguments);
+
+/// Embree's context with what the filter needs, first member first.
+struct RayContext
+{
+  RTCIntersectContext context;
+  const RayScene* scene = nullptr;
+  enum class Mode
+  {
+    Nearest, ///< the nearest surface of each lane
+    Checked, ///< the nearest surface that is exactly inside the range of `ray` and is not `skip`
+    Collect  ///< all candidates
+  } mode = Mode::Nearest;
+  // Nearest: rays by lane (RTCRay::id), and what was accepted.
+  const View* view = nullptr;    ///< rays through pixels (x[lane], y[lane]) of a view ...
+  const ExactRay* ray = nullptr; ///< ... or one given ray
+  int x[16];                     ///< image pixels
+  int y[16];
+  float t[16];
+  Hit best[16];
+  Hit skip;                          ///< Checked: a triangle that is not there
+  bool marginal = false;             ///< Checked: single precision may have missed or mistaken something
+  std::vector<Hit>* found = nullptr; ///< Collect
+};
+
+/// Embree's ray of an exact one, its range a little wider.
+RTCRayHit makeQuery(const ExactRay& ray);
+
+/// Surfaces whose single-precision distances differ by less than this part are compared exactly.
+constexpr float NearTie = 1e-5F;
+
+} // namespace dgtk
+
+#endif
