@@ -13,7 +13,7 @@ namespace dgtk
 
 namespace
 {
-constexpr int compressionLevel = 2; // libdeflate
+constexpr int compressionLevel = 1; // libdeflate
 constexpr int chunkRows = 16;       // of ZIP compression
 
 std::vector<std::string> channelNames(const LayerSpec& spec)

@@ -15,7 +15,7 @@ namespace dgtk
 
 namespace
 {
-constexpr int wholeLevel = 2;  // libdeflate
+constexpr int wholeLevel = 1;  // libdeflate
 constexpr int streamLevel = 1; // zlib
 constexpr std::size_t chunkBytes = std::size_t(1) << 20;
 
