@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSurfaceLoop.h"
+
+#include <cstring>
+
+namespace dgtk
+{
+
+namespace
+{
+class Depth final : public Representation
+{
+public:
+  LayerSpec spec() const override
+  {
+    return { "depth", PixelType::Float64, 1, "scene units", "camera", "+inf",
+      "z in the camera frame, positive forward, of the surface at the pixel's centre" };
+  }
+  std::vector<std::string> formats() const override { return { "npy", "dgd", "exr", "pfm", "png" }; }
+
+  void compute(const SurfaceRows& in, Rows& out) const override
+  {
+    if (in.view->model->linear())
+    {
+      if (!in.t.empty())
+      {
+        std::memcpy(out.data(), in.t.data(), in.t.size() * sizeof(double));
+      }
+      return;
+    }
+    const PixelRays rays(*in.view->model);
+    forSurface<double, 1>(in, out, std::numeric_limits<double>::infinity(),
+      [&](std::size_t i, int x, int y, double* value) { *value = rays.point(x, y, in.t[i]).z(); });
+  }
+};
+} // namespace
+
+std::unique_ptr<Representation> makeDepth();
+std::unique_ptr<Representation> makeDepth() { return std::make_unique<Depth>(); }
+
+} // namespace dgtk

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSurfaceLoop.h"
+
+namespace dgtk
+{
+
+namespace
+{
+class Parts final : public Representation
+{
+public:
+  LayerSpec spec() const override
+  {
+    return { "parts", PixelType::UInt32, 1, "id", "", "4294967295",
+      "part within the object at the pixel's centre, from 0 in file order" };
+  }
+  std::vector<std::string> formats() const override { return { "npy", "png" }; }
+
+  void compute(const SurfaceRows& in, Rows& out) const override
+  {
+    auto partOf = cachePerTriangle<std::uint32_t>(
+      [&](const Hit& hit) { return in.state->instances[hit.object - 1].model->partOf(hit.triangle); });
+    forSurface<std::uint32_t, 1>(
+      in, out, NoId, [&](std::size_t i, int, int, std::uint32_t* value) { *value = partOf(in.hits[i]); });
+  }
+};
+} // namespace
+
+std::unique_ptr<Representation> makeParts();
+std::unique_ptr<Representation> makeParts() { return std::make_unique<Parts>(); }
+
+} // namespace dgtk

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkSurfaceLoop_h
+#define dgtkSurfaceLoop_h
+
+#include "dgtkRepresentation.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+namespace dgtk
+{
+
+/// Value of `parts` and `triangles` where there is nothing.
+constexpr std::uint32_t NoId = 0xFFFFFFFFu;
+
+/// Calls body(index, x, y, value) for every pixel with a surface, in rows top to bottom; `index` into SurfaceRows::t
+/// and hits, `value` the pixel's channels. The others get `invalid` in all channels.
+template <typename T, int Channels, typename Body>
+void forSurface(const SurfaceRows& in, Rows& out, T invalid, const Body& body)
+{
+  std::size_t index = 0;
+  for (int y = in.rect.y; y < in.rect.y + in.rect.height; ++y)
+  {
+    T* value = out.row<T>(y);
+    for (int x = in.rect.x; x < in.rect.x + in.rect.width; ++x, ++index, value += Channels)
+    {
+      if (in.t[index] < std::numeric_limits<double>::infinity())
+      {
+        body(index, x, y, value);
+      }
+      else
+      {
+        std::fill(value, value + Channels, invalid);
+      }
+    }
+  }
+}
+
+/// What a representation derives once per triangle, kept for the triangles of a strip. A value depends on its triangle
+/// only.
+template <typename Value, typename Make>
+class TriangleCache
+{
+public:
+  explicit TriangleCache(const Make& make)
+    : MakeValue(make)
+    , Entries(Count)
+  {
+  }
+  const Value& operator()(const Hit& hit)
+  {
+    Entry& entry = this->Entries[(std::size_t(hit.triangle * 0x9E3779B1u ^ hit.object * 0x85EBCA77u) >> 7) % Count];
+    if (entry.hit != hit)
+    {
+      entry.hit = hit;
+      entry.value = this->MakeValue(hit);
+    }
+    return entry.value;
+  }
+
+private:
+  static constexpr std::size_t Count = 256;
+  struct Entry
+  {
+    Hit hit;
+    Value value;
+  };
+  Make MakeValue;
+  std::vector<Entry> Entries;
+};
+
+template <typename Value, typename Make>
+TriangleCache<Value, Make> cachePerTriangle(const Make& make)
+{
+  return TriangleCache<Value, Make>(make);
+}
+
+/// Rays through the centres of pixels without a virtual call where the lens is linear.
+class PixelRays
+{
+public:
+  explicit PixelRays(const CameraModel& model)
+    : Model(model)
+    , Linear(model.linear())
+  {
+    if (this->Linear)
+    {
+      this->K = this->Linear->K;
+      this->Perspective = this->Linear->perspective;
+    }
+  }
+
+  /// The point at parameter t of the ray through the centre of pixel (x, y), camera frame.
+  Eigen::Vector3d point(int x, int y, double t) const
+  {
+    if (!this->Linear)
+    {
+      const CameraRay ray = this->Model.rayThrough({ x + 0.5, y + 0.5 });
+      return ray.origin + t * ray.direction;
+    }
+    const double v = (y + 0.5 - this->K(1, 2)) / this->K(1, 1);
+    const double u = (x + 0.5 - this->K(0, 2) - this->K(0, 1) * v) / this->K(0, 0);
+    return this->Perspective ? Eigen::Vector3d(u * t, v * t, t) : Eigen::Vector3d(u, v, t);
+  }
+
+private:
+  const CameraModel& Model;
+  std::optional<LinearProjection> Linear;
+  Eigen::Matrix3d K;
+  bool Perspective = false;
+};
+
+} // namespace dgtk
+
+#endif

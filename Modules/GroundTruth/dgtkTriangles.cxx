@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSurfaceLoop.h"
+
+namespace dgtk
+{
+
+namespace
+{
+class Triangles final : public Representation
+{
+public:
+  LayerSpec spec() const override
+  {
+    return { "triangles", PixelType::UInt32, 1, "id", "", "4294967295",
+      "triangle within the part at the pixel's centre, from 0 in file order" };
+  }
+  std::vector<std::string> formats() const override { return { "npy", "png" }; }
+
+  void compute(const SurfaceRows& in, Rows& out) const override
+  {
+    auto first = cachePerTriangle<std::uint32_t>(
+      [&](const Hit& hit)
+      {
+        const Model& model = *in.state->instances[hit.object - 1].model;
+        return model.parts[model.partOf(hit.triangle)].firstTriangle;
+      });
+    forSurface<std::uint32_t, 1>(in, out, NoId,
+      [&](std::size_t i, int, int, std::uint32_t* value) { *value = in.hits[i].triangle - first(in.hits[i]); });
+  }
+};
+} // namespace
+
+std::unique_ptr<Representation> makeTriangles();
+std::unique_ptr<Representation> makeTriangles() { return std::make_unique<Triangles>(); }
+
+} // namespace dgtk
