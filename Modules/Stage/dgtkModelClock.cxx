@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkModelClock.h"
+
+#include "dgtkError.h"
+#include "dgtkStageModels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+std::shared_ptr<const Geometry> blended(const Geometry& a, const Geometry& b, double u)
+{
+  auto geometry = std::make_shared<Geometry>();
+  geometry->positions.reserve(a.positions.size());
+  geometry->normals.reserve(a.normals.size());
+  for (std::size_t i = 0; i < a.positions.size(); ++i)
+  {
+    geometry->positions.push_back(a.positions[i] + (b.positions[i] - a.positions[i]) * u);
+  }
+  for (std::size_t i = 0; i < a.normals.size(); ++i)
+  {
+    const Eigen::Vector3f normal = a.normals[i] + (b.normals[i] - a.normals[i]) * float(u);
+    const float length = normal.norm();
+    geometry->normals.push_back(length > 1e-6f ? Eigen::Vector3f(normal / length) : a.normals[i]);
+  }
+  return geometry;
+}
+
+std::shared_ptr<const Geometry> compute(const Model& model, const ModelMoment& moment)
+{
+  const std::shared_ptr<const Geometry> here = geometryAt(model, moment.animation, moment.frame);
+  if (moment.wrap == 0)
+  {
+    return here;
+  }
+  const double first = model.animations[std::size_t(moment.animation)].first;
+  return blended(*here, *geometryAt(model, moment.animation, first), moment.wrap);
+}
+} // namespace
+
+int findAnimation(const SceneDescription& scene, const ObjectDescription& object, const Model& model)
+{
+  const std::string& wanted = object.animation.sequence;
+  const int count = static_cast<int>(model.animations.size());
+  if (wanted.empty())
+  {
+    return count == 0 ? -1 : 0;
+  }
+  std::string names;
+  for (int i = 0; i < count; ++i)
+  {
+    const std::string& name = model.animations[std::size_t(i)].name;
+    if (name == wanted)
+    {
+      return i;
+    }
+    names += i >= 40 ? "" : (i == 0 ? "" : ", ") + name;
+  }
+  if (wanted.size() <= 6 && wanted.find_first_not_of("0123456789") == std::string::npos && std::stoi(wanted) < count)
+  {
+    return std::stoi(wanted);
+  }
+  failObject(scene, object, "animation.sequence is no sequence of " + object.model,
+    count == 0 ? "none" : "one of " + names, quoted(wanted));
+}
+
+ModelMoment momentAt(
+  const AnimationDescription& description, const Model& model, int animation, double frame, double sceneFps)
+{
+  const Animation& sequence = model.animations[std::size_t(animation)];
+  const double span = std::max(0, sequence.last - sequence.first);
+  const double seconds = std::max(0.0, frame - description.start) / sceneFps;
+  double position = description.offset + seconds * sequence.fps * description.rate;
+  ModelMoment moment;
+  moment.animation = animation;
+  if (description.loop && span > 0)
+  {
+    position = std::fmod(position, model.format == "md2" ? span + 1 : span);
+    moment.wrap = std::max(0.0, position - span);
+  }
+  moment.frame = sequence.first + std::min(position, span);
+  return moment;
+}
+
+std::shared_ptr<const Geometry> GeometryCache::get(const Model& model, const ModelMoment& moment)
+{
+  const Key key{ &model, moment.animation, moment.frame, moment.wrap };
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    const auto found = this->Entries.find(key);
+    const std::shared_ptr<const Geometry> known = found == this->Entries.end() ? nullptr : found->second.lock();
+    if (known)
+    {
+      return known;
+    }
+  }
+  std::shared_ptr<const Geometry> made = compute(model, moment);
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
+  {
+    entry = entry->second.expired() ? this->Entries.erase(entry) : std::next(entry);
+  }
+  std::weak_ptr<const Geometry>& entry = this->Entries[key];
+  const std::shared_ptr<const Geometry> other = entry.lock(); // another thread was faster
+  if (other)
+  {
+    return other;
+  }
+  entry = made;
+  return made;
+}
+
+} // namespace dgtk

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkModelClock_h
+#define dgtkModelClock_h
+
+// Private to Stage.
+
+#include "dgtkModel.h"
+#include "dgtkSceneDescription.h"
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <tuple>
+
+namespace dgtk
+{
+
+/// A moment of a deforming model: `frame` of one of its animations. wrap > 0: on the way from the last frame to the
+/// first, that part of it.
+struct ModelMoment
+{
+  int animation = 0;
+  double frame = 0;
+  double wrap = 0;
+};
+
+/// The animation that a description names; -1 when the model has none. Throws InputError.
+int findAnimation(const SceneDescription& scene, const ObjectDescription& object, const Model& model);
+
+/// The moment of a model at a scene frame, see AnimationDescription. Files with one pose a frame (MD2) pass from the
+/// last frame to the first in the time of one frame when they loop; in others the last frame is the first again.
+ModelMoment momentAt(
+  const AnimationDescription& description, const Model& model, int animation, double frame, double sceneFps);
+
+/// Shared geometries of deforming models; an entry lives as long as somebody uses it.
+class GeometryCache
+{
+public:
+  std::shared_ptr<const Geometry> get(const Model& model, const ModelMoment& moment);
+
+private:
+  using Key = std::tuple<const Model*, int, double, double>;
+  std::mutex Mutex;
+  std::map<Key, std::weak_ptr<const Geometry>> Entries;
+};
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkStage.h"
+
+#include "dgtkError.h"
+#include "dgtkModelClock.h"
+#include "dgtkStageModels.h"
+
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <mutex>
+#include <unordered_map>
+#include <utility>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr int usualWidth = 640;
+constexpr int usualHeight = 480;
+constexpr std::size_t keptStates = 4;
+constexpr std::size_t noParent = std::numeric_limits<std::size_t>::max();
+
+/// What stays the same about an object at all frames.
+struct Actor
+{
+  std::size_t parent = noParent; ///< index of an object
+  bool moves = false;            ///< it or one of its ancestors has key frames
+  bool present = false;          ///< has an id
+  int animation = -1;            ///< of a deforming model; -1 rigid
+  Affine3 world_from_object;     ///< of one that does not move
+};
+
+LightState::Kind kindOf(LightKind kind)
+{
+  switch (kind)
+  {
+    case LightKind::Head:
+      return LightState::Kind::Head;
+    case LightKind::Directional:
+      return LightState::Kind::Directional;
+    case LightKind::Spot:
+      return LightState::Kind::Spot;
+    default:
+      return LightState::Kind::Point;
+  }
+}
+
+LightState lightAt(const LightDescription& light, double frame)
+{
+  LightState state;
+  state.name = light.name;
+  state.kind = kindOf(light.kind);
+  state.position = light.position.at(frame);
+  state.target = light.target.at(frame);
+  state.ambient = light.ambient;
+  state.diffuse = light.diffuse;
+  state.specular = light.specular;
+  state.attenuation = light.attenuation;
+  state.coneAngle = light.coneAngle;
+  state.exponent = light.exponent;
+  state.intensity = light.intensity;
+  return state;
+}
+
+std::vector<LightState> lightsAt(const SceneDescription& scene, double frame)
+{
+  std::vector<LightState> lights;
+  for (const LightDescription& light : scene.lights)
+  {
+    if (light.enabled)
+    {
+      lights.push_back(lightAt(light, frame));
+    }
+  }
+  if (scene.lights.empty())
+  {
+    LightState head;
+    head.name = "head";
+    head.kind = LightState::Kind::Head;
+    lights.push_back(head);
+  }
+  return lights;
+}
+
+Rigid3 poseAt(const CameraDescription& camera, double frame)
+{
+  if (!camera.posed)
+  {
+    return lookAtPose(camera.eye.at(frame), camera.lookAt.at(frame), camera.up.at(frame));
+  }
+  return Rigid3{ camera.orientation.at(frame).matrix(), camera.position.at(frame) }.inverse();
+}
+
+std::shared_ptr<const CameraModel> lensAt(const CameraDescription& camera, double frame, int width, int height)
+{
+  if (camera.kind == CameraKind::Orthographic)
+  {
+    return makeOrthographic(width, height, camera.viewHeight.at(frame), camera.aspect);
+  }
+  if (!camera.K)
+  {
+    return makePinholeFromFov(width, height, camera.fovY.at(frame), camera.aspect);
+  }
+  Eigen::Matrix3d K = *camera.K;
+  K.row(0) *= double(width) / camera.width;
+  K.row(1) *= double(height) / camera.height;
+  return makePinhole(width, height, K);
+}
+} // namespace
+
+struct Stage::Impl
+{
+  Impl(SceneDescription scene, const WarningSink& warning)
+    : Scene(std::move(scene))
+    , Files(this->Scene, warning)
+  {
+    this->makeActors();
+  }
+
+  void makeActors();
+  Affine3 localAt(std::size_t object, double frame) const;
+  std::shared_ptr<const SceneState> compute(double frame);
+
+  SceneDescription Scene;
+  StageModels Files;
+  std::vector<Actor> Actors;
+  std::vector<std::size_t> ParentsFirst; ///< objects, each after its parent
+  GeometryCache Geometries;
+
+  // The latest states: the cameras of a frame, and what looks a frame ahead and back, ask for the same ones.
+  std::mutex Mutex;
+  std::deque<std::shared_ptr<const SceneState>> Latest;
+};
+
+void Stage::Impl::makeActors()
+{
+  std::unordered_map<std::string, std::size_t> index;
+  for (std::size_t i = 0; i < this->Scene.objects.size(); ++i)
+  {
+    index[this->Scene.objects[i].name] = i;
+  }
+  this->Actors.resize(this->Scene.objects.size());
+  std::vector<char> done(this->Actors.size(), 0);
+  for (std::size_t i = 0; i < this->Actors.size(); ++i)
+  {
+    // Up to an ancestor that is placed already, then back down.
+    std::vector<std::size_t> chain;
+    for (std::size_t at = i; at != noParent && !done[at]; at = this->Actors[at].parent)
+    {
+      const std::string& parent = this->Scene.objects[at].parent;
+      this->Actors[at].parent = parent.empty() ? noParent : index.at(parent);
+      chain.push_back(at);
+      done[at] = 1;
+    }
+    this->ParentsFirst.insert(this->ParentsFirst.end(), chain.rbegin(), chain.rend());
+  }
+  for (const std::size_t i : this->ParentsFirst)
+  {
+    const ObjectDescription& object = this->Scene.objects[i];
+    const Model& model = *this->Files.modelOf(i);
+    Actor& actor = this->Actors[i];
+    const bool root = actor.parent == noParent;
+    actor.moves = object.position.animated() || object.orientation.animated() || object.scale.animated() ||
+                  (!root && this->Actors[actor.parent].moves);
+    actor.present = object.visible && !model.triangles.empty();
+    const int animation = findAnimation(this->Scene, object, model);
+    actor.animation = model.deformation ? animation : -1;
+    if (!actor.moves)
+    {
+      const Affine3 local = this->localAt(i, 0);
+      actor.world_from_object = root ? local : this->Actors[actor.parent].world_from_object * local;
+    }
+  }
+}
+
+Affine3 Stage::Impl::localAt(std::size_t index, double frame) const
+{
+  const ObjectDescription& object = this->Scene.objects[index];
+  const Eigen::Vector3d scale = object.scale.at(frame);
+  if ((scale.array() == 0).any())
+  {
+    failObject(
+      this->Scene, object, "scale passes through 0", "another interpolation", "frame " + std::to_string(frame));
+  }
+  return { object.orientation.at(frame).matrix() * scale.asDiagonal(), object.position.at(frame) };
+}
+
+std::shared_ptr<const SceneState> Stage::Impl::compute(double frame)
+{
+  std::vector<Affine3> world(this->Actors.size());
+  for (const std::size_t i : this->ParentsFirst)
+  {
+    const Actor& actor = this->Actors[i];
+    if (!actor.moves)
+    {
+      world[i] = actor.world_from_object;
+      continue;
+    }
+    const Affine3 local = this->localAt(i, frame);
+    world[i] = actor.parent == noParent ? local : world[actor.parent] * local;
+  }
+  auto state = std::make_shared<SceneState>();
+  state->frame = frame;
+  state->background = this->Scene.background;
+  state->lights = lightsAt(this->Scene, frame);
+  for (const SceneItem& item : this->Scene.items())
+  {
+    if (item.kind != SceneItem::Kind::Object || !this->Actors[item.index].present)
+    {
+      continue;
+    }
+    const ObjectDescription& object = this->Scene.objects[item.index];
+    const Actor& actor = this->Actors[item.index];
+    Instance instance;
+    instance.name = object.name;
+    instance.className = object.className;
+    instance.model = this->Files.modelOf(item.index);
+    instance.geometry = actor.animation < 0
+                          ? instance.model->rest
+                          : this->Geometries.get(*instance.model,
+                              momentAt(object.animation, *instance.model, actor.animation, frame, this->Scene.fps));
+    instance.materials = this->Files.materialsOf(item.index);
+    instance.world_from_object = world[item.index];
+    state->instances.push_back(std::move(instance));
+  }
+  return state;
+}
+
+Stage::Stage(std::unique_ptr<Impl> impl)
+  : Self(std::move(impl))
+{
+}
+
+Stage::~Stage() = default;
+
+std::shared_ptr<const Stage> Stage::load(SceneDescription scene, const WarningSink& warning)
+{
+  nameAll(scene);
+  validate(scene);
+  return std::shared_ptr<const Stage>(new Stage(std::make_unique<Impl>(std::move(scene), warning)));
+}
+
+const SceneDescription& Stage::description() const { return this->Self->Scene; }
+
+std::shared_ptr<const SceneState> Stage::at(double frame) const
+{
+  if (!std::isfinite(frame))
+  {
+    throw UsageError("frame is not a finite number");
+  }
+  {
+    const std::lock_guard<std::mutex> lock(this->Self->Mutex);
+    for (const std::shared_ptr<const SceneState>& state : this->Self->Latest)
+    {
+      if (state->frame == frame)
+      {
+        return state;
+      }
+    }
+  }
+  std::shared_ptr<const SceneState> state = this->Self->compute(frame);
+  const std::lock_guard<std::mutex> lock(this->Self->Mutex);
+  this->Self->Latest.push_back(state);
+  if (this->Self->Latest.size() > keptStates)
+  {
+    this->Self->Latest.pop_front();
+  }
+  return state;
+}
+
+View Stage::view(std::size_t index, double frame, int width, int height) const
+{
+  const SceneDescription& scene = this->Self->Scene;
+  if (index >= scene.cameras.size())
+  {
+    throw UsageError("camera " + std::to_string(index) + " does not exist (the scene has " +
+                     std::to_string(scene.cameras.size()) + ')');
+  }
+  if (!std::isfinite(frame))
+  {
+    throw UsageError("frame is not a finite number");
+  }
+  const CameraDescription& camera = scene.cameras[index];
+  if (width == 0 && height == 0)
+  {
+    width = camera.width > 0 ? camera.width : usualWidth;
+    height = camera.height > 0 ? camera.height : usualHeight;
+  }
+  View view;
+  view.name = camera.name;
+  view.near = camera.near;
+  view.far = camera.far;
+  view.model = lensAt(camera, frame, width, height);
+  try
+  {
+    view.camera_from_world = poseAt(camera, frame);
+  }
+  catch (const UsageError& error)
+  {
+    throw InputError(scene.file, camera.line,
+      "camera " + quoted(camera.name) + " at frame " + std::to_string(frame) + ": " + error.what());
+  }
+  return view;
+}
+
+std::vector<std::string> Stage::cameraNames() const
+{
+  std::vector<std::string> names;
+  for (const CameraDescription& camera : this->Self->Scene.cameras)
+  {
+    names.push_back(camera.name);
+  }
+  return names;
+}
+
+std::vector<std::string> Stage::objectNames() const
+{
+  std::vector<std::string> names;
+  for (const SceneItem& item : this->Self->Scene.items())
+  {
+    if (item.kind == SceneItem::Kind::Object && this->Self->Actors[item.index].present)
+    {
+      names.push_back(this->Self->Scene.objects[item.index].name);
+    }
+  }
+  return names;
+}
+
+std::vector<std::shared_ptr<const Model>> Stage::models() const { return this->Self->Files.models(); }
+
+std::vector<std::string> Stage::inputFiles() const { return this->Self->Files.files(); }
+
+} // namespace dgtk

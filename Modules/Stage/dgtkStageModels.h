@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkStageModels_h
+#define dgtkStageModels_h
+
+// Private to Stage.
+
+#include "dgtkModelReader.h"
+#include "dgtkStage.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+using MaterialList = std::shared_ptr<const std::vector<Material>>;
+
+/// Everything that the objects of a scene need from files, each file read once.
+class StageModels
+{
+public:
+  /// Throws InputError with the scene's file and the line of the object that wants the model.
+  StageModels(const SceneDescription& scene, const Stage::WarningSink& warning);
+
+  /// By index of the object in the scene.
+  const std::shared_ptr<const Model>& modelOf(std::size_t object) const { return this->Models[this->Uses[object]]; }
+  const MaterialList& materialsOf(std::size_t object) const { return this->Materials[object]; }
+  const std::vector<std::shared_ptr<const Model>>& models() const { return this->Models; }
+  const std::vector<std::string>& files() const { return this->Files; }
+
+private:
+  void readModels();
+  void addTextures();
+  int addTexture(Model& model, const std::string& written);
+  MaterialList makeMaterials(std::size_t object) const;
+  void applySkin(const ObjectDescription& object, const Model& model, std::vector<Material>& materials) const;
+  void applyOverride(const ObjectDescription& object, const Model& model, const MaterialOverride& change,
+    std::vector<Material>& materials) const;
+  void addFile(const std::string& path);
+  void warn(const std::string& line) const;
+
+  const SceneDescription& Scene;
+  const Stage::WarningSink& Warning;
+  std::vector<std::shared_ptr<const Model>> Models;
+  std::vector<std::size_t> Uses; ///< object -> model
+  std::vector<MaterialList> Materials;
+  std::map<std::pair<const Model*, std::string>, int> Textures; ///< texture of the scene -> index in the model
+  std::vector<std::string> Files;
+};
+
+/// Throws InputError at an object: FILE:LINE: object 'name': what.
+[[noreturn]] void failObject(const SceneDescription& scene, const ObjectDescription& object, const std::string& what,
+  const std::string& expected = {}, const std::string& found = {});
+
+} // namespace dgtk
+
+#endif
