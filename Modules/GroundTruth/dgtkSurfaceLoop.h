@@ -88,6 +88,8 @@ public:
     {
       this->K = this->Linear->K;
       this->Perspective = this->Linear->perspective;
+      this->InverseFx = 1 / this->K(0, 0);
+      this->InverseFy = 1 / this->K(1, 1);
     }
   }
 
@@ -99,15 +101,27 @@ public:
       const CameraRay ray = this->Model.rayThrough({ x + 0.5, y + 0.5 });
       return ray.origin + t * ray.direction;
     }
-    const double v = (y + 0.5 - this->K(1, 2)) / this->K(1, 1);
-    const double u = (x + 0.5 - this->K(0, 2) - this->K(0, 1) * v) / this->K(0, 0);
+    const double v = (y + 0.5 - this->K(1, 2)) * this->InverseFy;
+    const double u = (x + 0.5 - this->K(0, 2) - this->K(0, 1) * v) * this->InverseFx;
     return this->Perspective ? Eigen::Vector3d(u * t, v * t, t) : Eigen::Vector3d(u, v, t);
+  }
+
+  /// The direction of the ray through the centre of pixel (x, y), camera frame, not normalised.
+  Eigen::Vector3d direction(int x, int y) const
+  {
+    if (!this->Linear)
+    {
+      return this->Model.rayThrough({ x + 0.5, y + 0.5 }).direction;
+    }
+    return this->Perspective ? this->point(x, y, 1) : Eigen::Vector3d(0, 0, 1);
   }
 
 private:
   const CameraModel& Model;
   std::optional<LinearProjection> Linear;
-  Eigen::Matrix3d K;
+  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+  double InverseFx = 1;
+  double InverseFy = 1;
   bool Perspective = false;
 };
 
