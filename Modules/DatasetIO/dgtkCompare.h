@@ -30,21 +30,25 @@ struct CompareResult
 
 struct DatasetComparison
 {
-  bool equal = false;
-  std::uint64_t files = 0;              ///< in either dataset
-  std::vector<CompareResult> differing; ///< rows of the files that are not equal, or not identical, by path
+  bool equal = false;      ///< every file is equal
+  std::uint64_t files = 0; ///< in either dataset, without the manifests
+  /// The files that are not equal, or not identical, by path.
+  std::vector<CompareResult> differing;
+  /// Parts of the manifests that differ ("version", "request: tile"); they alone make no dataset differ.
+  std::vector<std::string> manifest;
 };
 
 /// Two image files of any readable formats; their types may differ as long as the channels agree. Other files are
 /// compared byte by byte. Throws InputError for a file that cannot be read.
 DGTKDATASETIO_EXPORT CompareResult compareFiles(const std::string& a, const std::string& b);
 
-/// Two datasets by their manifests, file by file: first by hash and size, then pixel by pixel where those differ. The
-/// manifests themselves are compared last.
+/// Two datasets, file by file: those of their manifests, or of the folders where one has none. What is on the disk is
+/// compared, whatever a manifest says about it. Throws InputError for a folder that cannot be read.
 DGTKDATASETIO_EXPORT DatasetComparison compareDatasets(const std::string& a, const std::string& b);
 
 /// One line for people, without a line break.
 DGTKDATASETIO_EXPORT std::string describe(const CompareResult& result);
+/// The members of the structure under the same names. An infinite difference is null.
 DGTKDATASETIO_EXPORT std::string compareJson(const CompareResult& result);
 DGTKDATASETIO_EXPORT std::string compareJson(const DatasetComparison& result);
 

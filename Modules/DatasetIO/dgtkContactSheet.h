@@ -22,7 +22,8 @@ struct ContactSheetOptions
 
 /// Draws the images of the dataset in `folder` into one PNG: a row for each camera and frame, a column for each layer.
 /// Depth is drawn in colours from near (bright) to far, ids in distinct colours, vectors as red, green and blue.
-/// Returns the file's record; its path is `path`. Throws InputError for a file that cannot be read.
+/// `path` is relative to the folder, as in the returned record, or absolute. Throws InputError for a file that cannot
+/// be read.
 DGTKDATASETIO_EXPORT DatasetFile writeContactSheet(const std::string& folder, const Manifest& manifest,
   const std::string& path, const ContactSheetOptions& options = {});
 /// The same by the folder's manifest.json.

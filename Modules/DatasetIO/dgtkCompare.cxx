@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCompare.h"
+
+#include "dgtkDatasetDocuments.h"
+#include "dgtkError.h"
+#include "dgtkInputFile.h"
+#include "dgtkJournal.h"
+#include "dgtkJsonText.h"
+#include "dgtkLayerReader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace dgtk
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr std::size_t blockBytes = std::size_t(4) << 20;
+
+bool sameContents(const std::string& a, const std::string& b)
+{
+  const InputFile first(a);
+  const InputFile second(b);
+  if (first.size() != second.size())
+  {
+    return false;
+  }
+  std::vector<char> one(blockBytes);
+  std::vector<char> other(blockBytes);
+  for (std::uint64_t at = 0; at < first.size(); at += blockBytes)
+  {
+    const std::size_t n = static_cast<std::size_t>(std::min<std::uint64_t>(blockBytes, first.size() - at));
+    first.read(at, one.data(), n);
+    second.read(at, other.data(), n);
+    if (std::memcmp(one.data(), other.data(), n) != 0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+double differenceOf(double a, double b)
+{
+  if (a == b || (std::isnan(a) && std::isnan(b)))
+  {
+    return 0;
+  }
+  const double difference = std::abs(a - b);
+  return std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference;
+}
+
+template <typename A, typename B>
+void compareValues(const Rows& a, const Rows& b, CompareResult& result)
+{
+  const int channels = a.channels();
+  for (int y = a.y(); y < a.y() + a.height(); ++y)
+  {
+    const A* left = a.row<A>(y);
+    const B* right = b.row<B>(y);
+    for (int x = 0; x < a.width(); ++x, left += channels, right += channels)
+    {
+      double largest = 0;
+      for (int c = 0; c < channels; ++c)
+      {
+        largest = std::max(largest, differenceOf(static_cast<double>(left[c]), static_cast<double>(right[c])));
+      }
+      if (largest > 0)
+      {
+        if (result.differing++ == 0)
+        {
+          result.firstX = x;
+          result.firstY = y;
+        }
+        if (largest > result.largest)
+        {
+          result.largest = largest;
+          result.worstX = x;
+          result.worstY = y;
+        }
+      }
+    }
+  }
+}
+
+template <typename A>
+void compareTo(const Rows& a, const Rows& b, CompareResult& result)
+{
+  switch (b.type())
+  {
+    case PixelType::UInt8:
+      return compareValues<A, std::uint8_t>(a, b, result);
+    case PixelType::UInt16:
+      return compareValues<A, std::uint16_t>(a, b, result);
+    case PixelType::UInt32:
+      return compareValues<A, std::uint32_t>(a, b, result);
+    case PixelType::Float32:
+      return compareValues<A, float>(a, b, result);
+    case PixelType::Float64:
+      return compareValues<A, double>(a, b, result);
+  }
+}
+
+void compareRows(const Rows& a, const Rows& b, CompareResult& result)
+{
+  if (a.type() == b.type() && std::memcmp(a.data(), b.data(), a.bytes()) == 0)
+  {
+    return;
+  }
+  switch (a.type())
+  {
+    case PixelType::UInt8:
+      return compareTo<std::uint8_t>(a, b, result);
+    case PixelType::UInt16:
+      return compareTo<std::uint16_t>(a, b, result);
+    case PixelType::UInt32:
+      return compareTo<std::uint32_t>(a, b, result);
+    case PixelType::Float32:
+      return compareTo<float>(a, b, result);
+    case PixelType::Float64:
+      return compareTo<double>(a, b, result);
+  }
+}
+
+std::string shapeOf(const ImageInfo& info)
+{
+  return std::to_string(info.width) + " x " + std::to_string(info.height) + " pixels of " +
+         std::to_string(info.channels) + " x " + nameOf(info.type);
+}
+
+void comparePixels(const std::string& a, const std::string& b, CompareResult& result)
+{
+  const std::unique_ptr<RowReader> left = openLayerFile(a);
+  const std::unique_ptr<RowReader> right = openLayerFile(b);
+  const ImageInfo& one = left->info();
+  const ImageInfo& other = right->info();
+  if (one.width != other.width || one.height != other.height || one.channels != other.channels)
+  {
+    result.problem = shapeOf(one) + " against " + shapeOf(other);
+    return;
+  }
+  const std::size_t rowBytes = std::size_t(one.pixelBytes() / std::uint64_t(one.height));
+  const int rows = static_cast<int>(std::max<std::size_t>(1, blockBytes / std::max<std::size_t>(1, rowBytes)));
+  for (int y = 0; y < one.height; y += rows)
+  {
+    compareRows(left->read(rows), right->read(rows), result);
+  }
+  result.pixels = std::uint64_t(one.width) * static_cast<std::uint64_t>(one.height);
+  result.equal = result.differing == 0;
+}
+
+/// The files of a dataset by its manifest, else those below the folder.
+std::set<std::string> filesOf(const std::string& folder)
+{
+  std::set<std::string> names;
+  std::error_code code;
+  const fs::path manifest = fs::path(folder) / manifestName;
+  if (fs::exists(manifest, code))
+  {
+    for (const DatasetFile& file : readManifest(manifest.string()).files)
+    {
+      names.insert(file.path);
+    }
+    return names;
+  }
+  fs::recursive_directory_iterator it(folder, code);
+  for (const fs::recursive_directory_iterator end; !code && it != end; it.increment(code))
+  {
+    const std::string name = it->path().lexically_relative(folder).generic_string();
+    if (it->is_regular_file(code) && name != journalName)
+    {
+      names.insert(name);
+    }
+  }
+  if (code)
+  {
+    throw InputError(folder, 0, "cannot be read: " + code.message());
+  }
+  return names;
+}
+
+std::vector<std::string> manifestDifferences(const std::string& a, const std::string& b)
+{
+  const fs::path paths[] = { fs::path(a) / manifestName, fs::path(b) / manifestName };
+  std::error_code code;
+  if (!fs::exists(paths[0], code) || !fs::exists(paths[1], code))
+  {
+    return {};
+  }
+  const Manifest one = readManifest(paths[0].string());
+  const Manifest other = readManifest(paths[1].string());
+  std::vector<std::string> names;
+  if (one.version != other.version)
+  {
+    names.emplace_back("version");
+  }
+  std::map<std::string, std::string> left(one.request.begin(), one.request.end());
+  std::map<std::string, std::string> right(other.request.begin(), other.request.end());
+  std::set<std::string> keys;
+  for (const auto* request : { &left, &right })
+  {
+    for (const auto& entry : *request)
+    {
+      keys.insert(entry.first);
+    }
+  }
+  for (const std::string& key : keys)
+  {
+    if (left.count(key) != right.count(key) || left[key] != right[key])
+    {
+      names.push_back("request: " + key);
+    }
+  }
+  return names;
+}
+
+JsonObject members(const CompareResult& result, int indent)
+{
+  JsonObject object(indent);
+  object.text("path", result.path)
+    .boolean("equal", result.equal)
+    .boolean("same_bytes", result.sameBytes)
+    .text("problem", result.problem)
+    .integer("pixels", static_cast<std::int64_t>(result.pixels))
+    .integer("differing", static_cast<std::int64_t>(result.differing))
+    .number("largest", result.largest);
+  if (result.differing > 0)
+  {
+    object.raw("first", "[" + std::to_string(result.firstX) + ", " + std::to_string(result.firstY) + "]")
+      .raw("worst", "[" + std::to_string(result.worstX) + ", " + std::to_string(result.worstY) + "]");
+  }
+  return object;
+}
+} // namespace
+
+CompareResult compareFiles(const std::string& a, const std::string& b)
+{
+  CompareResult result;
+  result.sameBytes = sameContents(a, b);
+  const bool images = isLayerFile(a) && isLayerFile(b);
+  if (images && result.sameBytes)
+  {
+    const std::unique_ptr<RowReader> reader = openLayerFile(a);
+    result.pixels = std::uint64_t(reader->info().width) * static_cast<std::uint64_t>(reader->info().height);
+  }
+  else if (images)
+  {
+    comparePixels(a, b, result);
+    return result;
+  }
+  result.equal = result.sameBytes;
+  result.problem = result.sameBytes ? "" : "the bytes differ";
+  return result;
+}
+
+DatasetComparison compareDatasets(const std::string& a, const std::string& b)
+{
+  const std::set<std::string> left = filesOf(a);
+  const std::set<std::string> right = filesOf(b);
+  std::set<std::string> all = left;
+  all.insert(right.begin(), right.end());
+  DatasetComparison comparison;
+  comparison.equal = true;
+  comparison.files = all.size();
+  for (const std::string& name : all)
+  {
+    const std::string paths[] = { (fs::path(a) / name).string(), (fs::path(b) / name).string() };
+    std::error_code code;
+    const bool there[] = { fs::exists(paths[0], code), fs::exists(paths[1], code) };
+    CompareResult result;
+    if (there[0] && there[1])
+    {
+      result = compareFiles(paths[0], paths[1]);
+    }
+    else
+    {
+      result.problem = "is missing in " + (there[0] ? b : there[1] ? a : a + " and " + b);
+    }
+    result.path = name;
+    comparison.equal = comparison.equal && result.equal;
+    if (!result.sameBytes)
+    {
+      comparison.differing.push_back(result);
+    }
+  }
+  comparison.manifest = manifestDifferences(a, b);
+  return comparison;
+}
+
+std::string describe(const CompareResult& result)
+{
+  const std::string name = result.path.empty() ? "" : result.path + ": ";
+  if (!result.problem.empty())
+  {
+    return name + result.problem;
+  }
+  if (result.differing == 0)
+  {
+    return name + (result.sameBytes ? "identical" : "the same pixels in other bytes");
+  }
+  const auto place = [](int x, int y) { return "(" + std::to_string(x) + ", " + std::to_string(y) + ")"; };
+  return name + std::to_string(result.differing) + " of " + std::to_string(result.pixels) +
+         " pixels differ, the first at " + place(result.firstX, result.firstY) + "; largest difference " +
+         shortest(result.largest) + " at " + place(result.worstX, result.worstY);
+}
+
+std::string compareJson(const CompareResult& result) { return members(result, 2).block() + "\n"; }
+
+std::string compareJson(const DatasetComparison& result)
+{
+  JsonArray rows(4);
+  for (const CompareResult& row : result.differing)
+  {
+    rows.add(members(row, 6).line());
+  }
+  JsonArray manifest(4);
+  for (const std::string& name : result.manifest)
+  {
+    manifest.add(jsonString(name));
+  }
+  return JsonObject(2)
+           .boolean("equal", result.equal)
+           .integer("files", static_cast<std::int64_t>(result.files))
+           .raw("differing", rows.block())
+           .raw("manifest", manifest.block())
+           .block() +
+         "\n";
+}
+
+} // namespace dgtk
