@@ -40,6 +40,13 @@ void uncounted(void* p) noexcept
 
 void* operator new(std::size_t bytes) { return counted(bytes); }
 void* operator new[](std::size_t bytes) { return counted(bytes); }
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept
+{
+  void* p = std::malloc(bytes ? bytes : 1);
+  live += p ? ::malloc_usable_size(p) : 0;
+  return p;
+}
+void operator delete(void* p, const std::nothrow_t&) noexcept { uncounted(p); }
 void operator delete(void* p) noexcept { uncounted(p); }
 void operator delete[](void* p) noexcept { uncounted(p); }
 void operator delete(void* p, std::size_t) noexcept { uncounted(p); }
