@@ -34,7 +34,7 @@ public:
   ColorLane(
     const WorkPlan& plan, const Job& job, const std::string& camera, const View& view, const std::string& format)
     : Spec(plan.colorSpec(format))
-    , Name(WorkPlan::fileName(camera, "color", job.frame, extensionOf(format)))
+    , Name(WorkPlan::fileName(camera, "color", job.frame, formatExtension(format)))
     , Writer(makeLayerWriter(
         format, plan.request.folder + '/' + this->Name, this->Spec, view.model->width(), view.model->height()))
   {

@@ -254,13 +254,13 @@ bool Run::keep(const Job& job)
   const std::string& camera = this->cameraName(job);
   for (const std::string& format : this->Plan.colorFormats)
   {
-    names.push_back(WorkPlan::fileName(camera, "color", job.frame, extensionOf(format)));
+    names.push_back(WorkPlan::fileName(camera, "color", job.frame, formatExtension(format)));
   }
   for (const PlannedLayer& layer : this->Plan.representations)
   {
     for (const std::string& format : layer.formats)
     {
-      names.push_back(WorkPlan::fileName(camera, layer.spec.name, job.frame, extensionOf(format)));
+      names.push_back(WorkPlan::fileName(camera, layer.spec.name, job.frame, formatExtension(format)));
     }
   }
   if (this->Plan.tiles)

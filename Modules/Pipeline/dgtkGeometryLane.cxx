@@ -37,7 +37,7 @@ public:
       this->Barycentrics = this->Barycentrics || planned.representation->needsBarycentrics();
       for (const std::string& format : planned.formats)
       {
-        const std::string name = WorkPlan::fileName(camera, planned.spec.name, job.frame, extensionOf(format));
+        const std::string name = WorkPlan::fileName(camera, planned.spec.name, job.frame, formatExtension(format));
         layer.files.push_back({ makeLayerWriter(format, plan.request.folder + '/' + name, planned.spec,
                                   view.model->width(), view.model->height(), context),
           name });

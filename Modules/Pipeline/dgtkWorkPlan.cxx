@@ -134,7 +134,7 @@ std::vector<LayerInfo> generatorLayers()
   return layers;
 }
 
-std::string extensionOf(const std::string& format)
+std::string formatExtension(const std::string& format)
 {
   for (const WriterInfo& info : layerWriters())
   {

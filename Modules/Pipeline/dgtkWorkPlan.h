@@ -60,7 +60,7 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage);
 std::vector<std::pair<std::string, std::string>> describeRequest(const WorkPlan& plan);
 
 /// File name extension of a format, without the dot.
-std::string extensionOf(const std::string& format);
+std::string formatExtension(const std::string& format);
 
 } // namespace dgtk
 

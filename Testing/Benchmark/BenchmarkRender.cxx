@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whole-work timings as ratios against references of the same run; see Documentation/DeveloperGuide/performance.md.
+//
+//   BenchmarkRender [--triangles N] [--size WxH] [--frames N] [--threads N]
+//
+// Each row is a process of its own (its peak memory is its own, and no two OpenGL contexts meet). Times are per frame,
+// in milliseconds, without loading: (time of all frames - time of the first) / (frames - 1).
+#include "BenchmarkScene.h"
+#include "StockVTK.h"
+
+#include "dgtkFile.h"
+#include "dgtkGenerator.h"
+#include "dgtkLayerWriter.h"
+#include "dgtkRaySource.h"
+#include "dgtkStage.h"
+#include "dgtkThreadPool.h"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace
+{
+using namespace dgtk;
+using Clock = std::chrono::steady_clock;
+
+struct Settings
+{
+  bench::SceneOptions scene;
+  int width = 640;
+  int height = 480;
+  int threads = 2;
+  std::string folder;
+  std::string scenePath;
+};
+
+double milliseconds(Clock::time_point since)
+{
+  return std::chrono::duration<double, std::milli>(Clock::now() - since).count();
+}
+
+// Calls frame(0) as warm-up, then the others; milliseconds a frame.
+double timeFrames(int frames, const std::function<void(int)>& frame)
+{
+  frame(0);
+  const Clock::time_point start = Clock::now();
+  for (int f = 1; f < frames; ++f)
+  {
+    frame(f);
+  }
+  return milliseconds(start) / (frames - 1);
+}
+
+double stockColor(const Settings& s, bool everything)
+{
+  const auto stage = Stage::load(readScene(s.scenePath));
+  bench::StockVTK stock(*stage->at(0), s.width, s.height);
+  LayerSpec color;
+  color.name = "color";
+  color.channels = 3;
+  LayerSpec depth;
+  depth.name = "depth";
+  depth.type = PixelType::Float64;
+  LayerSpec objects;
+  objects.name = "objects";
+  objects.type = PixelType::UInt32;
+  const std::string out = s.folder + "/stock";
+  makeFolders(out);
+  bench::StockVTK::Truth truth;
+  const auto write = [&](
+                       const char* format, const LayerSpec& spec, const std::string& name, const void* data, int frame)
+  {
+    Rows rows(spec.type, spec.channels, s.width, 0, s.height);
+    for (int y = 0; y < s.height; ++y) // bottom to top in VTK
+    {
+      std::copy_n(static_cast<const std::byte*>(data) + (s.height - 1 - y) * rows.rowBytes(), rows.rowBytes(),
+        rows.data() + y * rows.rowBytes());
+    }
+    const auto writer = makeLayerWriter(format, out + '/' + name + std::to_string(frame), spec, s.width, s.height);
+    writer->write(rows);
+    writer->finish();
+  };
+  return timeFrames(s.scene.frames,
+    [&](int f)
+    {
+      const View view = stage->view(0, f, s.width, s.height);
+      stock.render(view);
+      if (everything)
+      {
+        stock.capture(view, truth);
+        write("png", color, "color", truth.rgb.data(), f);
+        write("npy", depth, "depth", truth.depth.data(), f);
+        write("ppm", objects, "objects", truth.object.data(), f);
+        write("npy", objects, "triangles", truth.triangle.data(), f);
+      }
+    });
+}
+
+// `render` of the product, everything on disk. The first frame's time is measured by a run of its own.
+double product(const Settings& s, const std::vector<std::string>& layers, const std::string& engine)
+{
+  GeneratorRequest request;
+  request.scene = s.scenePath;
+  request.width = s.width;
+  request.height = s.height;
+  request.layers = layers;
+  request.visibility = engine;
+  request.threads = s.threads;
+  const auto run = [&](int last)
+  {
+    request.folder = s.folder + "/out" + std::to_string(last);
+    request.frames = FrameRange{ 0, last, 1 };
+    const Clock::time_point start = Clock::now();
+    generate(request);
+    return milliseconds(start);
+  };
+  run(0);
+  const double one = run(0);
+  return (run(s.scene.frames - 1) - one) / (s.scene.frames - 1);
+}
+
+double rays(const Settings& s, bool bare)
+{
+  const auto stage = Stage::load(readScene(s.scenePath));
+  ThreadPool pool(s.threads);
+  const auto source = bare ? makeBareRaySource(pool) : makeRaySource(pool);
+  const TileGrid grid(s.width, s.height);
+  const auto state = stage->at(0);
+  VisibilityBuffer hits;
+  return timeFrames(s.scene.frames,
+    [&](int f)
+    {
+      source->setScene(state, stage->view(0, f, s.width, s.height));
+      for (int row = 0; row < grid.rows(); ++row)
+      {
+        for (int column = 0; column < grid.columns(); ++column)
+        {
+          source->render(grid.tile(column, row), hits);
+        }
+      }
+    });
+}
+
+const std::vector<std::string> truth = { "depth", "distance", "objects", "parts", "triangles", "calibration" };
+const std::vector<std::string> base = { "color", "depth", "objects", "triangles", "calibration" };
+
+struct Row
+{
+  const char* name;
+  std::function<double(const Settings&)> run;
+};
+
+const std::vector<Row>& rows()
+{
+  static const std::vector<Row> all = {
+    { "A  stock VTK, colour only, nothing written", [](const Settings& s) { return stockColor(s, false); } },
+    { "B  stock VTK, colour + z-buffer + selector, written", [](const Settings& s) { return stockColor(s, true); } },
+    { "C  dgtk raster: colour, depth, ids, calibration, written",
+      [](const Settings& s) { return product(s, base, "raster"); } },
+    { "D  dgtk ray: colour, depth, ids, calibration, written",
+      [](const Settings& s) { return product(s, base, "ray"); } },
+    { "E  dgtk: colour only, written", [](const Settings& s) { return product(s, { "color" }, "auto"); } },
+    { "F  Embree, bare primary rays in packets of 16", [](const Settings& s) { return rays(s, true); } },
+    { "G  dgtk ray visibility, nothing written", [](const Settings& s) { return rays(s, false); } },
+    { "H  dgtk ray: depth, distance, all ids, calibration, written",
+      [](const Settings& s) { return product(s, truth, "ray"); } },
+  };
+  return all;
+}
+
+struct Measured
+{
+  double milliseconds = 0;
+  double mebibytes = 0;
+};
+
+Measured inChild(const Settings& settings, const Row& row)
+{
+  int ends[2] = {};
+  if (::pipe(ends) != 0)
+  {
+    std::perror("pipe");
+    std::exit(1);
+  }
+  const pid_t child = ::fork();
+  if (child == 0)
+  {
+    double time = -1;
+    try
+    {
+      time = row.run(settings);
+    }
+    catch (const std::exception& error)
+    {
+      std::fprintf(stderr, "%s: %s\n", row.name, error.what());
+    }
+    ::_exit(::write(ends[1], &time, sizeof time) == sizeof time && time >= 0 ? 0 : 1);
+  }
+  ::close(ends[1]);
+  Measured measured;
+  const bool read = ::read(ends[0], &measured.milliseconds, sizeof(double)) == sizeof(double);
+  ::close(ends[0]);
+  int status = 0;
+  struct rusage usage = {};
+  ::wait4(child, &status, 0, &usage);
+  measured.mebibytes = usage.ru_maxrss / 1024.0;
+  measured.milliseconds = read && status == 0 ? measured.milliseconds : -1;
+  return measured;
+}
+
+Settings parse(int argc, char** argv)
+{
+  Settings settings;
+  for (int i = 1; i + 1 < argc; i += 2)
+  {
+    const std::string key = argv[i];
+    const std::string value = argv[i + 1];
+    if (key == "--triangles")
+    {
+      settings.scene.triangles = std::stoi(value);
+    }
+    else if (key == "--frames")
+    {
+      settings.scene.frames = std::stoi(value);
+    }
+    else if (key == "--threads")
+    {
+      settings.threads = std::stoi(value);
+    }
+    else if (key == "--size")
+    {
+      settings.width = std::stoi(value);
+      settings.height = std::stoi(value.substr(value.find('x') + 1));
+    }
+  }
+  return settings;
+}
+} // namespace
+
+int main(int argc, char** argv)
+{
+  Settings settings = parse(argc, argv);
+  settings.folder =
+    (std::filesystem::temp_directory_path() / ("dgtk-benchmark-" + std::to_string(::getpid()))).string();
+  settings.scenePath = bench::writeBenchmarkScene(settings.folder, settings.scene);
+  std::printf("%d triangles in %d objects, %d x %d, %d frames, %d threads\n", settings.scene.triangles,
+    settings.scene.objects, settings.width, settings.height, settings.scene.frames, settings.threads);
+  std::fflush(stdout);
+  std::vector<Measured> measured;
+  for (const Row& row : rows())
+  {
+    measured.push_back(inChild(settings, row));
+    std::printf("  %-62s %8.1f ms %7.0f MiB\n", row.name, measured.back().milliseconds, measured.back().mebibytes);
+    std::fflush(stdout);
+  }
+  const auto ratio = [&](int a, int b) { return measured[a].milliseconds / measured[b].milliseconds; };
+  std::printf("  raster against bare colour      C/A %5.2f  (aim: at most 2)\n", ratio(2, 0));
+  std::printf("  ray against bare colour         D/A %5.2f  (aim: at most 1.5)\n", ratio(3, 0));
+  std::printf("  stock VTK's way against raster  B/C %5.2f  (aim: at least 3)\n", ratio(1, 2));
+  std::printf("  all but colour against bare rays H/F %4.2f  (aim: at most 3)\n", ratio(7, 5));
+  std::filesystem::remove_all(settings.folder);
+  return 0;
+}
