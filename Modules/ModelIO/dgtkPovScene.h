@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkPovScene_h
+#define dgtkPovScene_h
+
+#include "dgtkPovTokenizer.h"
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// What a pigment and a finish say, as far as a Material can hold it.
+struct PovTexture
+{
+  Eigen::Vector3d color{ 1, 1, 1 };
+  double filter = 0;
+  double transmit = 0;
+  bool hasColor = false;
+  std::string image; ///< of an image_map, or ""
+  bool uvMapping = false;
+  int mapType = 0; ///< of the image_map; 0 is planar
+  /// Where the image lies: point of the pattern from a point of the object (or from (u, v, 0)).
+  Eigen::Affine3d object_from_pattern = Eigen::Affine3d::Identity();
+
+  double ambient = -1; ///< finish; below 0: not said
+  double diffuse = -1;
+  double specular = 0;
+  double roughness = 0.05;
+  double phong = 0;
+  double phongSize = 40;
+  double emission = 0;
+  std::string name;
+};
+using PovTexturePointer = std::shared_ptr<const PovTexture>;
+
+/// Triangles of a mesh, a mesh2, or a run of bare triangles.
+struct PovMesh
+{
+  struct Face
+  {
+    std::array<std::uint32_t, 3> vertex{};
+    std::array<std::int32_t, 3> normal{ -1, -1, -1 };
+    std::array<std::int32_t, 3> uv{ -1, -1, -1 };
+    std::int32_t texture = -1; ///< index of `textures`, or -1: the object's
+  };
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Eigen::Vector3f> normals;
+  std::vector<Eigen::Vector2f> uvs;
+  std::vector<Face> faces;
+  std::vector<PovTexturePointer> textures;
+};
+
+/// A mesh where it stands.
+struct PovInstance
+{
+  std::shared_ptr<const PovMesh> mesh;
+  Eigen::Affine3d scene_from_mesh = Eigen::Affine3d::Identity();
+  Eigen::Affine3d texture_from_mesh = Eigen::Affine3d::Identity(); ///< what happened before its texture was given
+  PovTexturePointer texture;                                       ///< null: the default texture
+  std::string name;
+};
+using PovShape = std::vector<PovInstance>;
+
+/// A value of the language.
+struct PovValue
+{
+  enum class Kind : std::uint8_t
+  {
+    Unknown, ///< needs evaluation that is not done here: `text` says what, `place` where
+    Number,  ///< a float or vector
+    Color,
+    Text,
+    Texture, ///< texture, pigment, finish, material
+    Transform,
+    Shape, ///< meshes; may be empty
+    Camera,
+    Other ///< anything without a surface of triangles: primitives, lights, ...
+  };
+  Kind kind = Kind::Unknown;
+  PovPlace place;
+  std::string text;
+  std::array<double, 5> number{}; ///< colour: r, g, b, filter, transmit
+  int size = 1;
+  PovTexturePointer texture;
+  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+  PovShape shape;
+  double right = 1; ///< Camera: sign of the x of `right`
+  bool used = false;
+  std::size_t order = 0; ///< of declaration
+
+  bool isNumeric() const { return this->kind == Kind::Number || this->kind == Kind::Color; }
+};
+
+/// What a scene file leaves.
+struct PovScene
+{
+  PovShape shape;
+  PovTexturePointer defaultTexture;
+  bool rightHanded = false; ///< the camera's `right` has a negative x
+  std::vector<std::string> warnings;
+  std::uint64_t bytesRead = 0;
+};
+
+/// Reads a scene. Throws InputError for what would leave a mesh incomplete.
+PovScene readPovScene(const std::string& path);
+
+} // namespace dgtk
+
+#endif
