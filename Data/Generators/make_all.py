@@ -34,7 +34,7 @@ def products():
     yield "Models/rocket.png", pictures.png(models_other.rocket_skin())
     yield "Models/flag.pcx", pictures.pcx(models_moving.flag_skin())
     for make in (models_still.table, models_still.crate, models_still.ball, models_still.house, models_still.ground, models_still.floor,
-                 models_plants.tree, models_plants.fir, models_plants.grass, models_plants.reeds):
+                 models_still.room, models_plants.tree, models_plants.fir, models_plants.grass, models_plants.reeds):
         yield f"Models/{make.__name__}.ac", make()
     yield "Models/terrain.acc", models_still.terrain()
     for make in (models_moving.creature, models_moving.flag):

@@ -62,7 +62,7 @@ def _point(a, e):
         back = 0.5 - 0.5 * math.cos(ar)
         t = smoothstep(-44 + 8 * back, NECK, e)
         sink = -0.80 - 0.55 * smoothstep(-44, NECK, e)
-        wide = 0.52 + 0.10 * smoothstep(-50, NECK, e)
+        wide = 0.50 + 0.06 * smoothstep(-50, NECK, e)
         x, y, z = mix((x, y, z), (wide * math.sin(ar), sink, wide * math.cos(ar) - 0.2), t)
     return (x, y * 1.16, z)
 
@@ -94,7 +94,7 @@ def _ear(side):
     if side > 0:
         for f in mesh.faces:
             f.corners.reverse()
-    return mesh.moved(lambda p: tuple(c + d for c, d in zip(turned(turned(p, "y", -26 * side), "x", 10), (0.845 * side, 0.08, -0.09))))
+    return mesh.moved(lambda p: tuple(0.85 * c + d for c, d in zip(turned(turned(p, "y", -26 * side), "x", 10), (0.835 * side, 0.06, -0.10))))
 
 
 def head_mesh():

@@ -55,8 +55,8 @@ def rocket():
 def chair():
     """Seat at 0.45 m, facing +z in a scene with Y up (-Y in the file)."""
     names = ["WOOD", "CLOTH"]
-    materials = [tds.material("WOOD", (0.85, 0.75, 0.65), 0.2, 0.3, texture="WOOD.PNG"),
-                 tds.material("CLOTH", (1, 1, 1), texture="FABRIC.PNG")]
+    materials = [tds.material("WOOD", (0.85, 0.75, 0.65), 0.2, 0.3, texture="../Textures/wood.png"),
+                 tds.material("CLOTH", (1, 1, 1), texture="../Textures/fabric.png")]
     frame = Mesh()
     for x in (-0.2, 0.2):
         frame.append(tube([(x, 0, 0.2), (x, 0.43, 0.19)], [0.017, 0.024], 8, 0, 0.3))

@@ -119,6 +119,26 @@ def floor():
     return ac3d.document([WHITE], [ac3d.Node("boards", boards, "../Textures/wood.png"), ac3d.Node("rim", rim, "../Textures/stone.png")])
 
 
+def room():
+    """A room of 5 x 4.4 x 2.8 m, open towards +z: tiles, plaster, a skirting and a striped back wall."""
+    materials = [WHITE, ac3d.material("plaster", (0.88, 0.84, 0.74)), ac3d.material("skirting", (0.95, 0.94, 0.9))]
+    w, h, d = 2.5, 2.8, 2.2
+    tiles, walls = Mesh(), Mesh()
+    tiles.polygon([(-w, 0, d), (w, 0, d), (w, 0, -d), (-w, 0, -d)], [(0, 0), (w / 2, 0), (w / 2, d / 2), (0, d / 2)])
+    for points in ([(-w, 0, -d), (w, 0, -d), (w, h, -d), (-w, h, -d)], [(-w, 0, d), (-w, 0, -d), (-w, h, -d), (-w, h, d)],
+                   [(w, 0, -d), (w, 0, d), (w, h, d), (w, h, -d)]):
+        walls.polygon(points, material=1)
+    walls.append(box((-w, 0, -d), (w, 0.1, -d + 0.02), 2)).append(box((-w, 0, -d), (-w + 0.02, 0.1, d), 2))
+    walls.append(box((w - 0.02, 0, -d), (w, 0.1, d), 2)).append(box((-w, h - 0.06, -d), (w, h, -d + 0.04), 2))
+    picture = Mesh()
+    picture.append(box((0.55, 1.3, -d), (1.75, 2.15, -d + 0.03), 2))
+    view = Mesh()
+    view.polygon([(0.62, 1.37, -d + 0.035), (1.68, 1.37, -d + 0.035), (1.68, 2.08, -d + 0.035), (0.62, 2.08, -d + 0.035)],
+                 [(0.05, 0.03), (0.6, 0.03), (0.6, 0.8), (0.05, 0.8)])
+    return ac3d.document(materials, [ac3d.Node("tiles", tiles, "../Textures/checker.png"), ac3d.Node("walls", walls),
+                                     ac3d.Node("frame", picture, "../Textures/wood.png"), ac3d.Node("picture", view, "../Textures/sky.png")])
+
+
 def ball():
     """Radius 0.12 m around the origin."""
     mesh = ellipsoid((0, 0, 0), (0.12, 0.12, 0.12), 32, 20)

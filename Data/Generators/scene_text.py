@@ -71,6 +71,11 @@ class ThesisScene:
         self.count += 1
         self.tracks.append(track)
 
+    def light(self, name, diffuse, specular, ambient, position):
+        self.definitions.append(f"glObject_Light: {name} ( {_three(diffuse)}, {_three(specular)}, {_three(ambient)} )")
+        self.count += 1
+        self.tracks.append(lambda frame: (position, (1, 0, 0, 0)))
+
     def camera(self, fov, near, far, aspect, eye, look_at, up=(0, 1, 0)):
         self.definitions.append(f"glObject_Camera: ( {number(fov)}, {number(near)}, {number(far)}, {number(aspect, 6)} )")
         self.definitions.append(f"[ {_three(eye)}, {_three(look_at)}, {_three(up)} ]")

@@ -51,10 +51,10 @@ def demo():
     baseline = 0.2
     objects = [
         model("terrain", "terrain.acc", class_name="ground"),
-        model("house", "house.ac", (-3.4, 0, -6.2), turn=24, class_name="building"),
-        model("windmill", "windmill.gltf", on_land(6.5, -13.5), turn=-20, class_name="building", animation={"rate": 0.6}),
-        model("tree", "tree.ac", (3.6, 0, -3.2), class_name="plant"),
-        model("fir", "fir.ac", on_land(0.4, -9.5), class_name="plant"),
+        model("house", "house.ac", (-4.3, 0, -6.6), turn=24, class_name="building"),
+        model("windmill", "windmill.gltf", on_land(3.6, -15.5), turn=-12, scale=[0.8] * 3, class_name="building", animation={"rate": 0.6}),
+        model("tree", "tree.ac", (4.2, 0, -3.4), class_name="plant"),
+        model("fir", "fir.ac", on_land(0.2, -9.5), class_name="plant"),
         model("table", "table.ac", (0.35, 0, 0.2), turn=-8, class_name="furniture"),
         upright("chair", "chair.3ds", (0.9, 0, -0.75), 20, 1, class_name="furniture"),
         model("vase", "vase.pov", (0.85, 0.75, 0.0), class_name="vessel"),
@@ -76,7 +76,7 @@ def demo():
                "attenuation": [1, 0.1, 0.05]},
               {"name": "spot", "kind": "spot", "position": [-0.5, 4.0, 3.0], "target": [0.6, 0.8, 0.1],
                "diffuse": [0.5, 0.5, 0.45], "coneAngle": 16, "exponent": 8}]
-    cameras = [camera(name, (x, 1.75, 5.3), (x, 0.95, 0), fov=42) for name, x in (("left", 0.0), ("right", baseline))]
+    cameras = [camera(name, (x, 1.75, 5.4), (x, 1.1, 0), fov=44) for name, x in (("left", 0.0), ("right", baseline))]
     return base(objects, cameras, lights, seed=1)
 
 
@@ -86,9 +86,9 @@ def tiles():
     objects = [model("terrain", "terrain.acc"), model("house", "house.ac", (0, 0, -3), turn=-28),
                model("tree left", "tree.ac", (-5.2, 0, -1.5)), model("tree right", "tree.ac", (5.6, 0, -3.4), turn=120, scale=[1.15] * 3),
                model("fir", "fir.ac", on_land(-7.5, -8)), model("fir two", "fir.ac", on_land(8.5, -11), turn=50),
-               model("windmill", "windmill.gltf", on_land(-3.5, -16), turn=10),
+               model("windmill", "windmill.gltf", on_land(-7.2, -13), turn=10),
                model("crate", "crate.ac", (3.0, 0, 1.2), turn=20), model("crate top", "crate.ac", (3.1, 1, 1.15), turn=-12, scale=[0.6] * 3),
-               upright("flag", "flag.md2", (-2.9, 0, 1.4), -70, 0.032),
+               upright("flag", "flag.md2", (-2.6, 0, 2.2), 155, 0.03),
                upright("creature", "creature.md2", (0.9, 0, 2.3), -75, 0.022)]
     for k in range(24):
         x, z = random.between(-6, 6), random.between(1.5, 4.8)
@@ -98,21 +98,20 @@ def tiles():
 
 def stereo():
     """Figure 4.7: two parallel cameras 0.12 m apart along x, above a table's still life."""
-    objects = [model("floor", "ground.ac", scale=[0.12, 1, 0.12]), model("table", "table.ac"),
+    objects = [model("room", "room.ac"), model("table", "table.ac"),
                model("vase", "vase.pov", (-0.42, 0.75, -0.12)),
                model("ball", "ball.ac", (0.08, 0.87, 0.16), orientation=list(product(quaternion("z", 25), quaternion("x", 60)))),
-               model("crate", "crate.ac", (0.45, 0.75, -0.15), turn=35, scale=[0.26] * 3),
+               model("crate", "crate.ac", (0.52, 0.75, -0.12), turn=35, scale=[0.22] * 3),
                upright("creature", "creature.md2", (-0.12, 0.75, -0.2), -80, 0.007),
-               upright("rocket", "rocket.3ds", (-1.25, 0, -0.9), 30, 1),
-               upright("chair", "chair.3ds", (0.55, 0, -0.85), -15, 1),
-               model("column", "column.obj", (1.5, 0, -1.7)), model("column two", "column.obj", (-0.4, 0, -2.6))]
+               upright("rocket", "rocket.3ds", (-1.35, 0, -1.3), 30, 0.85),
+               upright("chair", "chair.3ds", (0.2, 0, -0.85), -15, 1),
+               model("column", "column.obj", (1.75, 0, -1.35)), model("column two", "column.obj", (-0.75, 0, -1.6))]
     lights = [{"name": "key", "kind": "point", "position": [-2.5, 4, 3], "diffuse": [0.95, 0.9, 0.82], "ambient": [0.2, 0.2, 0.22]},
               {"name": "fill", "kind": "directional", "position": [3, 2, 2], "target": [0, 0, 0], "diffuse": [0.28, 0.3, 0.36]}]
     cameras = [camera(name, (x, 1.55, 2.1), (x, 0.85, 0), fov=44, near=0.1, far=100) for name, x in (("left", -0.06), ("right", 0.06))]
     return base(objects, cameras, lights, background=[0.30, 0.33, 0.38])
 
 
-BOUNCES = ((0, 12, 0.0), (12, 32, 10.0), (32, 53, 8.0))
 BALL_KEYS = (0, 3, 6, 8, 10, 12, 14, 17, 20, 22, 24, 27, 30, 32, 34, 37, 40, 43, 46, 48, 50, 53)
 
 
@@ -131,12 +130,13 @@ def ball_at(frame):
 def bouncing_ball():
     """Figures 4.14 (a) and 5.4: 54 frames of a ball that bounces off a table."""
     scene, still = ThesisScene(), (1, 0, 0, 0)
-    scene.model("AC", "../Models/floor.ac", lambda frame: ((0, 0, 0), still))
+    scene.model("AC", "../Models/room.ac", lambda frame: ((0, 0, 0), still))
     scene.model("AC", "../Models/table.ac", lambda frame: ((0, 0, 0), still))
     scene.model("AC", "../Models/vase.pov", lambda frame: ((-0.55, 0.75, -0.25), still))
     scene.model("3DS", "../Models/chair.3ds", lambda frame: ((1.0, 0, -0.8), standing(-35)))
     scene.model("AC", "../Models/ball.ac", ball_at)
-    scene.camera(45, 0.1, 100, 4 / 3, (0.35, 1.65, 3.0), (0.1, 0.85, 0))
+    scene.light("lamp", (0.85, 0.82, 0.75), (0.6, 0.6, 0.6), (0.3, 0.3, 0.32), (-1.2, 2.6, 2.4))
+    scene.camera(45, 0.1, 100, 4 / 3, (0.45, 1.6, 3.1), (0.12, 0.98, 0))
     return scene.text(BALL_KEYS)
 
 
@@ -173,22 +173,22 @@ def outdoor():
     """Figure B.2: a single camera before a wood of 240 trees around a house."""
     random = Lcg(2)
     objects = [model("terrain", "terrain.acc", class_name="ground"), model("house", "house.ac", (-1.2, 0, -1.5), turn=22, class_name="building"),
-               model("windmill", "windmill.gltf", on_land(9.5, -13.5, 0.2), turn=-15, class_name="building"),
+               model("windmill", "windmill.gltf", on_land(5.0, -11.5, 0.2), turn=-5, class_name="building"),
                upright("creature", "creature.md2", (2.2, 0, 3.3), -60, 0.024, class_name="animal"),
-               upright("flag", "flag.md2", (3.2, 0, 0.4), -60, 0.036, class_name="flag"),
+               upright("flag", "flag.md2", (4.0, 0, 0.6), 10, 0.036, class_name="flag"),
                model("crate", "crate.ac", (-4.4, 0, 2.3), turn=30, class_name="box"),
                model("crate two", "crate.ac", (-3.3, 0, 2.6), turn=-15, scale=[0.7] * 3, class_name="box")]
     placed = []
     while len(placed) < 240:
         x, z = random.between(-19, 19), random.between(-19, 9)
-        if math.hypot(x + 0.5, z - 1.5) < 7.2 or math.hypot(x - 9.5, z + 13.5) < 3 or (abs(x) < 2.6 + 0.35 * z and z > 3):
+        if math.hypot(x + 0.5, z - 1.5) < 7.2 or math.hypot(x - 5, z + 11.5) < 2.4 or (abs(x) < 2.6 + 0.35 * z and z > 3):
             continue
         if any(math.hypot(x - a, z - b) < 0.9 for a, b in placed):
             continue
         placed.append((x, z))
         file, size = ("fir.ac", random.between(0.6, 1.15)) if random.unit() < 0.55 else ("tree.ac", random.between(0.6, 1.05))
         objects.append(model(f"tree {len(placed)}", file, on_land(x, z, 0.05), turn=random.between(0, 360), scale=[size] * 3, class_name="tree"))
-    return base(objects, [camera("camera", (4.6, 4.4, 14.0), (0.3, 1.8, 0), fov=48)])
+    return base(objects, [camera("camera", (2.6, 4.8, 14.0), (0.3, 2.0, 0), fov=48)])
 
 
 FILES = {"demo.json": demo, "fig_4_3_tiles.json": tiles, "fig_4_7_stereo.json": stereo, "fig_4_14_bouncing_ball.scene": bouncing_ball,
