@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 namespace
@@ -228,4 +228,4 @@ std::size_t JsonCursor::oneOf(const std::vector<std::string>& words) const
   this->fail("is not known", "one of " + listed(words), this->Node->described());
 }
 
-} // namespace dgtk
+} // namespace dgtk::scenefile

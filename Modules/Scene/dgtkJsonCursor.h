@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 /// A value of a JSON document together with the way to it, for typed reading and for errors.
@@ -61,6 +61,6 @@ private:
   long Line;
 };
 
-} // namespace dgtk
+} // namespace dgtk::scenefile
 
 #endif

@@ -12,7 +12,7 @@
 #include <iterator>
 #include <unordered_set>
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 namespace
@@ -321,4 +321,4 @@ std::string printJson(const JsonNode& root)
   return out + '\n';
 }
 
-} // namespace dgtk
+} // namespace dgtk::scenefile

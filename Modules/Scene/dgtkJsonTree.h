@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 /// A JSON value that knows its line. Members of an object keep their order: children are key, value, key, value, ...
@@ -54,6 +54,6 @@ JsonNode parseJson(const std::string& file, const std::string& contents);
 /// Text of a tree, two spaces an indentation, arrays of scalars and short arrays on one line; ends with a newline.
 std::string printJson(const JsonNode& root);
 
-} // namespace dgtk
+} // namespace dgtk::scenefile
 
 #endif

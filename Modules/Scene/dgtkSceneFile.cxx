@@ -12,6 +12,8 @@
 namespace dgtk
 {
 
+using namespace scenefile;
+
 namespace
 {
 constexpr std::uint64_t largestFile = std::uint64_t(256) << 20;

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <utility>
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 namespace
@@ -339,9 +339,30 @@ SceneDescription readJsonScene(const std::string& file, const std::string& folde
   return scene;
 }
 
+std::map<std::string, std::vector<std::string>> jsonSceneKeys()
+{
+  return {
+    { "scene", keysOf(sceneFields()) },
+    { "object", keysOf(objectFields()) },
+    { "animation", keysOf(animationFields()) },
+    { "material", keysOf(materialFields()) },
+    { "light", keysOf(lightFields()) },
+    { "camera", keysOf(cameraFields()) },
+    { "unused", keysOf(unusedFields()) },
+    { "keys", { "value", "keys", "interpolation" } },
+  };
+}
+
+} // namespace dgtk::scenefile
+
+namespace dgtk
+{
+
+using namespace scenefile;
+
 std::string toJson(const SceneDescription& scene, const std::string& newFolder)
 {
-  Scene moved = scene;
+  SceneDescription moved = scene;
   nameAll(moved);
   validate(moved);
   for (ObjectDescription& object : moved.objects)
@@ -356,20 +377,6 @@ std::string toJson(const SceneDescription& scene, const std::string& newFolder)
     }
   }
   return printJson(writeFields(moved, sceneFields()));
-}
-
-std::map<std::string, std::vector<std::string>> jsonSceneKeys()
-{
-  return {
-    { "scene", keysOf(sceneFields()) },
-    { "object", keysOf(objectFields()) },
-    { "animation", keysOf(animationFields()) },
-    { "material", keysOf(materialFields()) },
-    { "light", keysOf(lightFields()) },
-    { "camera", keysOf(cameraFields()) },
-    { "unused", keysOf(unusedFields()) },
-    { "keys", { "value", "keys", "interpolation" } },
-  };
 }
 
 } // namespace dgtk

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 /// One row a key: how it is read, range-checked, and written when it is not the default. The order of the rows is that
@@ -198,6 +198,6 @@ bool isConstant(const Track<T>& track, const T& value)
   return !track.animated() && track.value == value;
 }
 
-} // namespace dgtk
+} // namespace dgtk::scenefile
 
 #endif

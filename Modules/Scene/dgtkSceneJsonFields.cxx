@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSceneJson.h"
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 namespace
@@ -329,4 +329,4 @@ const std::vector<JsonField<Camera>>& cameraFields()
   return fields;
 }
 
-} // namespace dgtk
+} // namespace dgtk::scenefile

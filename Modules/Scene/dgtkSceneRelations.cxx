@@ -9,7 +9,7 @@
 #include <set>
 #include <unordered_map>
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 namespace
@@ -128,32 +128,33 @@ private:
     }
     if (light.kind == LightKind::Directional || light.kind == LightKind::Spot)
     {
-      for (const int frame : framesOf(light.position, light.target))
+      for (const int frame : orAnyFrame(keyFramesOf({ &light.position, &light.target })))
       {
         if (light.position.at(frame) == light.target.at(frame))
         {
-          this->fail(Kind::Light, i, "target", "is the light's own position at frame " + std::to_string(frame),
-            "another point", "no direction");
+          this->fail(
+            Kind::Light, i, "target", "is the light's own position at frame " + std::to_string(frame), "another point");
         }
       }
     }
   }
 
-  template <typename A, typename B>
-  static std::vector<int> framesOf(const Track<A>& a, const Track<B>& b)
+  static std::vector<int> keyFramesOf(std::initializer_list<const Track<Eigen::Vector3d>*> tracks)
   {
-    std::vector<int> frames{ 0 };
-    for (const Key<A>& key : a.keys)
+    std::set<int> frames;
+    for (const Track<Eigen::Vector3d>* track : tracks)
     {
-      frames.push_back(key.frame);
+      for (const Key<Eigen::Vector3d>& key : track->keys)
+      {
+        frames.insert(key.frame);
+      }
     }
-    for (const Key<B>& key : b.keys)
-    {
-      frames.push_back(key.frame);
-    }
-    std::sort(frames.begin(), frames.end());
-    frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
-    return frames;
+    return { frames.begin(), frames.end() };
+  }
+
+  static std::vector<int> orAnyFrame(const std::vector<int>& frames)
+  {
+    return frames.empty() ? std::vector<int>{ 0 } : frames;
   }
 
   void checkCamera(std::size_t i) const
@@ -189,18 +190,12 @@ private:
 
   void checkPose(std::size_t i, const CameraDescription& camera) const
   {
-    std::vector<int> frames = framesOf(camera.eye, camera.lookAt);
-    for (const Key<Eigen::Vector3d>& key : camera.up.keys)
-    {
-      frames.push_back(key.frame);
-    }
-    for (const int frame : frames)
+    const std::vector<int> keys = keyFramesOf({ &camera.eye, &camera.lookAt, &camera.up });
+    for (const int frame : orAnyFrame(keys))
     {
       const Eigen::Vector3d eye = camera.eye.at(frame);
       const Eigen::Vector3d lookAt = camera.lookAt.at(frame);
-      const std::string when = camera.eye.animated() || camera.lookAt.animated() || camera.up.animated()
-                                 ? " at frame " + std::to_string(frame)
-                                 : std::string();
+      const std::string when = keys.empty() ? std::string() : " at frame " + std::to_string(frame);
       try
       {
         lookAtPose(eye, lookAt, camera.up.at(frame));
@@ -263,4 +258,4 @@ Locator locateByName(const SceneDescription& scene)
 
 void validateRelations(const SceneDescription& scene, const Locator& locate) { Relations(scene, locate).checkAll(); }
 
-} // namespace dgtk
+} // namespace dgtk::scenefile

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <set>
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 std::string faultOf(const Quaternion& q)
@@ -78,6 +78,13 @@ void nameItems(std::vector<Item>& items, int first, const StemOf& stemOfItem)
   }
 }
 } // namespace
+
+} // namespace dgtk::scenefile
+
+namespace dgtk
+{
+
+using namespace scenefile;
 
 void nameAll(SceneDescription& scene)
 {

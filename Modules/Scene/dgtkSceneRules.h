@@ -9,7 +9,7 @@
 #include <functional>
 #include <string>
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 /// An interval. `text` says it in an error: "a number from 0 to 1".
@@ -69,6 +69,6 @@ Locator locateByName(const SceneDescription& scene);
 /// Rules between values: unique names, parents, near < far, poses, sizes, order.
 void validateRelations(const SceneDescription& scene, const Locator& locate);
 
-} // namespace dgtk
+} // namespace dgtk::scenefile
 
 #endif

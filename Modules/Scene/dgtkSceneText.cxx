@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 namespace fs = std::filesystem;
@@ -135,4 +135,4 @@ std::string extensionOf(const std::string& path)
   return extension.empty() ? extension : extension.substr(1);
 }
 
-} // namespace dgtk
+} // namespace dgtk::scenefile

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 /// The shortest decimal number that reads back as the same double; never an exponent where plain digits are as short.
@@ -29,6 +29,6 @@ std::string stemOf(const std::string& path);
 /// Extension in lower case, without dot.
 std::string extensionOf(const std::string& path);
 
-} // namespace dgtk
+} // namespace dgtk::scenefile
 
 #endif

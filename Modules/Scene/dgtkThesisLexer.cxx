@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <charconv>
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 namespace
@@ -146,4 +146,4 @@ std::string ThesisLexer::restOfLine(char stop)
   return std::string(rest);
 }
 
-} // namespace dgtk
+} // namespace dgtk::scenefile

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 /// Words of a .scene file. Blanks, line ends and commas separate; brackets stand for themselves.
@@ -46,6 +46,6 @@ private:
   long Line = 1;
 };
 
-} // namespace dgtk
+} // namespace dgtk::scenefile
 
 #endif

@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 /// Reads the contents of a .scene file (thesis, appendix B); names are given, relations are checked.
@@ -17,6 +17,6 @@ SceneDescription readThesisScene(const std::string& file, const std::string& fol
 /// The tag of a model's line by its extension, or "" when .scene has none.
 std::string thesisTag(const std::string& model);
 
-} // namespace dgtk
+} // namespace dgtk::scenefile
 
 #endif

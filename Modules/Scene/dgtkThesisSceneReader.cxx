@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 namespace
@@ -323,4 +323,4 @@ SceneDescription readThesisScene(const std::string& file, const std::string& fol
   return Reader(file, folder, contents).read();
 }
 
-} // namespace dgtk
+} // namespace dgtk::scenefile

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace dgtk
+namespace dgtk::scenefile
 {
 
 namespace
@@ -274,6 +274,13 @@ std::string thesisTag(const std::string& model)
   }
   return extension == "3ds" ? "glObject_3DS" : extension == "md2" ? "glObject_Md2" : "";
 }
+
+} // namespace dgtk::scenefile
+
+namespace dgtk
+{
+
+using namespace scenefile;
 
 std::string toThesisScene(const SceneDescription& scene, const std::string& newFolder)
 {

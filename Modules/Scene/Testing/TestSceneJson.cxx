@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSceneSamples.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+using namespace dgtk;
+using namespace dgtk::test;
+using Vector = Eigen::Vector3d;
+
+TEST(SceneJson, ReadsEveryKey)
+{
+  const TemporaryFolder folder;
+  const SceneDescription scene = readText(folder, "rich.json", richJson);
+  EXPECT_EQ(scene.units, "m");
+  EXPECT_EQ(scene.upAxis, UpAxis::Z);
+  EXPECT_EQ(scene.fps, 12.5);
+  EXPECT_EQ(scene.background, Vector(0.25, 0.5, 1));
+  EXPECT_EQ(scene.seed, 9007199254740991u);
+  EXPECT_EQ(scene.keyFrames(), (std::vector<int>{ 0, 3, 4, 9, 10, 30, 50 }));
+  ASSERT_EQ(scene.objects.size(), 2u);
+  const ObjectDescription& table = scene.objects[0];
+  EXPECT_EQ(table.className, "furniture");
+  EXPECT_FALSE(table.visible);
+  EXPECT_EQ(table.scale.at(0), Vector(2, 2, 2));
+  EXPECT_EQ(table.line, 12);
+  const ObjectDescription& orc = scene.objects[1];
+  EXPECT_EQ(orc.name, "orc-1");
+  EXPECT_EQ(orc.parent, "table");
+  EXPECT_EQ(orc.position.interpolation, Interpolation::Smooth);
+  EXPECT_EQ(orc.position.at(10), Vector(1, 0, 0));
+  EXPECT_EQ(orc.orientation.at(3.9), (Quaternion{ 1, 0, 0, 0 }));
+  EXPECT_EQ(orc.scale.value, Vector(1, 2, 3));
+  EXPECT_EQ(orc.scale.at(0), Vector(1, 1, 1));
+  EXPECT_EQ(orc.animation.sequence, "run");
+  EXPECT_EQ(orc.animation.start, 2.5);
+  EXPECT_EQ(orc.animation.rate, 0.5);
+  EXPECT_FALSE(orc.animation.loop);
+  ASSERT_EQ(orc.materials.size(), 2u);
+  EXPECT_EQ(orc.materials[0].material, "*");
+  EXPECT_EQ(*orc.materials[0].diffuse, Vector(1, 0, 0));
+  EXPECT_EQ(*orc.materials[1].opacity, 0.5);
+  EXPECT_EQ(*orc.materials[1].texture, "textures/a.png");
+  EXPECT_EQ(orc.skin, "2");
+  ASSERT_EQ(scene.lights.size(), 4u);
+  EXPECT_EQ(scene.lights[0].kind, LightKind::Directional);
+  EXPECT_EQ(scene.lights[1].name, "Light0");
+  EXPECT_EQ(scene.lights[1].attenuation, Vector(1, 0.5, 0.25));
+  EXPECT_FALSE(scene.lights[1].enabled);
+  ASSERT_EQ(scene.cameras.size(), 3u);
+  EXPECT_TRUE(scene.cameras[0].posed);
+  EXPECT_EQ((*scene.cameras[0].K)(1, 2), 480.25);
+  EXPECT_EQ(scene.cameras[1].fovY.at(25), 40);
+  EXPECT_EQ(scene.cameras[1].up.at(0), Vector(0, 1, 0));
+  EXPECT_EQ(scene.cameras[2].kind, CameraKind::Orthographic);
+  EXPECT_EQ(scene.cameras[2].up.at(0), Vector(0, 0, 1)); // the default of a z-up scene
+  EXPECT_EQ(scene.items()[0].kind, SceneItem::Kind::Camera);
+}
+
+TEST(SceneJson, CanonicalTextIsAFixedPoint)
+{
+  const TemporaryFolder folder;
+  const std::string once = toJson(readText(folder, "rich.json", richJson), folder.path());
+  EXPECT_EQ(once.back(), '\n');
+  EXPECT_EQ(once[once.size() - 2], '}');
+  EXPECT_EQ(toJson(readText(folder, "again.json", once), folder.path()), once);
+}
+
+TEST(SceneJson, WritesOnlyWhatIsNotTheDefault)
+{
+  SceneDescription scene;
+  EXPECT_EQ(toJson(scene, ""), "{\n  \"version\": 1\n}\n");
+  scene.cameras.resize(1);
+  EXPECT_EQ(toJson(scene, ""),
+    "{\n  \"version\": 1,\n  \"cameras\": [\n    {\n      \"name\": \"Camera0\",\n      \"eye\": [0, 0, 10],\n"
+    "      \"lookAt\": [0, 0, 0]\n    }\n  ]\n}\n");
+}
+
+TEST(SceneJson, NumbersAreTheShortestThatReadBack)
+{
+  const TemporaryFolder folder;
+  SceneDescription scene;
+  scene.objects.resize(1);
+  scene.objects[0].model = "a.ac";
+  const Vector values(0.1 + 0.2, 1.0 / 3, -5e-324);
+  scene.objects[0].position.value = values;
+  scene.objects[0].scale.value = Vector(1e-7, 123456789012, 100000);
+  const std::string text = toJson(scene, "");
+  EXPECT_NE(text.find("[0.30000000000000004, 0.3333333333333333, -5e-324]"), std::string::npos) << text;
+  EXPECT_NE(text.find("[1e-07, 123456789012, 100000]"), std::string::npos) << text;
+  EXPECT_EQ(readText(folder, "a.json", text).objects[0].position.value, values);
+}
+
+TEST(SceneJson, RewritesRelativePaths)
+{
+  const TemporaryFolder folder;
+  makeFolders(folder.path("deep/er"));
+  SceneDescription scene = readText(folder, "a.json",
+    R"({"objects": [{"model": "models/a.ac"}, {"model": "/abs/b.ac"},
+      {"model": "../c.ac", "materials": {"*": {"texture": "t/x.png"}}}]})");
+  writeScene(scene, folder.path("deep/er/b.json"));
+  const SceneDescription moved = readScene(folder.path("deep/er/b.json"));
+  EXPECT_EQ(moved.objects[0].model, "../../models/a.ac");
+  EXPECT_EQ(moved.objects[1].model, "/abs/b.ac");
+  EXPECT_EQ(moved.objects[2].model, "../../../c.ac");
+  EXPECT_EQ(*moved.objects[2].materials[0].texture, "../../t/x.png");
+  writeScene(moved, folder.path("c.json"));
+  EXPECT_EQ(readScene(folder.path("c.json")).objects[2].model, "../c.ac");
+}
+
+TEST(SceneJson, ANameIsFoundForEverything)
+{
+  const TemporaryFolder folder;
+  const SceneDescription scene = readText(folder, "a.json",
+    R"({"objects": [{"model": "m/tree.ac"}, {"model": "tree.ac", "name": "tree-1"}, {"model": "tree.ac"}]})");
+  EXPECT_EQ(scene.objects[0].name, "tree-2");
+  EXPECT_EQ(scene.objects[1].name, "tree-1");
+  EXPECT_EQ(scene.objects[2].name, "tree-3");
+}
+
+TEST(SceneJson, ARefusedWriteLeavesWhatWasThere)
+{
+  const TemporaryFolder folder;
+  writeFile(folder.path("a.json"), "precious");
+  SceneDescription scene;
+  scene.objects.resize(1);
+  scene.objects[0].model = "a.ac";
+  scene.objects[0].scale.value = Vector(1, 0, 1);
+  EXPECT_THROW(writeScene(scene, folder.path("a.json")), InputError);
+  EXPECT_EQ(contentsOf(folder.path("a.json")), "precious");
+  EXPECT_THROW(writeScene(SceneDescription(), folder.path("a.txt")), UsageError);
+  EXPECT_THROW(writeScene(SceneDescription(), folder.path("no/such/a.json")), MachineError);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSceneSamples.h"
+
+#include "dgtkSceneJson.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <set>
+
+using namespace dgtk;
+using namespace dgtk::test;
+
+namespace
+{
+std::set<std::string> asSet(const std::vector<std::string>& keys) { return { keys.begin(), keys.end() }; }
+
+std::set<std::string> keysOfSchema(const nlohmann::json& definition)
+{
+  std::set<std::string> keys;
+  for (const auto& property : definition.at("properties").items())
+  {
+    keys.insert(property.key());
+  }
+  return keys;
+}
+
+/// The text between the first fence of this kind after a heading and its end.
+std::string fenced(const std::string& page, const std::string& heading, const std::string& kind)
+{
+  const std::size_t section = page.find("\n" + heading + "\n");
+  const std::size_t fence = page.find("```" + kind + "\n", section);
+  if (section == std::string::npos || fence == std::string::npos)
+  {
+    ADD_FAILURE() << heading << ' ' << kind;
+    return {};
+  }
+  const std::size_t start = fence + 4 + kind.size();
+  return page.substr(start, page.find("```", start) - start);
+}
+} // namespace
+
+TEST(SceneSchema, HasTheKeysOfTheReader)
+{
+  const nlohmann::json schema =
+    nlohmann::json::parse(contentsOf(sourceFile("Documentation/Formats/scene.schema.json")));
+  for (const auto& [name, keys] : scenefile::jsonSceneKeys())
+  {
+    SCOPED_TRACE(name);
+    if (name == "keys") // one definition a type of value
+    {
+      for (const char* type : { "numberTrack", "vectorTrack", "scaleTrack", "rotationTrack" })
+      {
+        EXPECT_EQ(keysOfSchema(schema.at("$defs").at(type).at("anyOf").at(1)), asSet(keys)) << type;
+      }
+      continue;
+    }
+    const nlohmann::json& definition = name == "scene" ? schema : schema.at("$defs").at(name);
+    EXPECT_EQ(keysOfSchema(definition), asSet(keys));
+    EXPECT_FALSE(definition.at("additionalProperties").get<bool>());
+  }
+}
+
+TEST(SceneSchema, EveryReferenceHasADefinition)
+{
+  const nlohmann::json schema =
+    nlohmann::json::parse(contentsOf(sourceFile("Documentation/Formats/scene.schema.json")));
+  EXPECT_EQ(schema.at("$schema"), "https://json-schema.org/draft/2020-12/schema");
+  const nlohmann::json flat = schema.flatten();
+  for (const auto& [path, value] : flat.items())
+  {
+    if (path.size() > 5 && path.substr(path.size() - 5) == "/$ref")
+    {
+      const std::string reference = value.get<std::string>();
+      EXPECT_TRUE(schema.contains(nlohmann::json::json_pointer(reference.substr(1)))) << reference;
+    }
+  }
+}
+
+TEST(SceneSchema, TheExamplesOfTheDocumentationAreRead)
+{
+  const std::string page = contentsOf(sourceFile("Documentation/Formats/scene.md"));
+  const TemporaryFolder folder;
+  const SceneDescription json = readText(folder, "a.json", fenced(page, "## `.json`", "jsonc"));
+  EXPECT_EQ(json.objects.size(), 3u);
+  EXPECT_EQ(json.cameras.size(), 3u);
+  EXPECT_NO_THROW(toJson(json, folder.path()));
+  const SceneDescription thesis = readText(folder, "a.scene", fenced(page, "## `.scene`", "text"));
+  EXPECT_EQ(thesis.objects.size(), 1u);
+  EXPECT_EQ(thesis.lights.size(), 1u);
+  EXPECT_EQ(thesis.cameras.size(), 1u);
+}
+
+TEST(SceneSchema, TheDocumentationNamesEveryKey)
+{
+  const std::string page = contentsOf(sourceFile("Documentation/Formats/scene.md"));
+  for (const auto& [name, keys] : scenefile::jsonSceneKeys())
+  {
+    for (const std::string& key : keys)
+    {
+      EXPECT_NE(page.find('`' + key + '`'), std::string::npos) << name << ' ' << key;
+    }
+  }
+}

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkTrack.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+using namespace dgtk;
+using Vector = Eigen::Vector3d;
+
+namespace
+{
+constexpr double pi = 3.14159265358979323846;
+constexpr double rounding = 4e-15; // a dozen operations on numbers of size 1
+
+Quaternion aboutZ(double angle) { return { std::cos(angle / 2), 0, 0, std::sin(angle / 2) }; }
+
+double distance(const Quaternion& a, const Quaternion& b) { return (a - b).norm(); }
+} // namespace
+
+TEST(Track, IsConstantWithoutKeys)
+{
+  const Track<Vector> track(Vector(1, 2, 3));
+  EXPECT_EQ(track.at(-5), Vector(1, 2, 3));
+  EXPECT_EQ(track.at(1e9), Vector(1, 2, 3));
+}
+
+TEST(Track, InterpolatesAsEquation413)
+{
+  Track<Vector> track;
+  track.keys = { { 2, Vector(1, -3, 7) }, { 12, Vector(6, 2, 7) } };
+  for (int frame = 2; frame <= 12; ++frame)
+  {
+    const Vector expected = Vector(1, -3, 7) + (Vector(6, 2, 7) - Vector(1, -3, 7)) / (12 - 2) * (frame - 2);
+    EXPECT_LE((track.at(frame) - expected).norm(), rounding) << frame;
+    EXPECT_EQ(track.at(frame)[2], 7); // what does not move stays the same to the bit
+  }
+}
+
+TEST(Track, HoldsOutsideAndReproducesKeysExactly)
+{
+  Track<double> track;
+  track.keys = { { 0, 0.1 }, { 3, 0.7 }, { 10, -0.3 } };
+  for (const Interpolation how : { Interpolation::Linear, Interpolation::Step, Interpolation::Smooth })
+  {
+    track.interpolation = how;
+    EXPECT_EQ(track.at(-7), 0.1);
+    EXPECT_EQ(track.at(99), -0.3);
+    for (const Key<double>& key : track.keys)
+    {
+      EXPECT_EQ(track.at(key.frame), key.value);
+    }
+  }
+}
+
+TEST(Track, StepsToTheLastKey)
+{
+  Track<double> track;
+  track.keys = { { 0, 1 }, { 3, 2 } };
+  track.interpolation = Interpolation::Step;
+  EXPECT_EQ(track.at(2.999), 1);
+  EXPECT_EQ(track.at(3), 2);
+}
+
+TEST(Track, SmoothReproducesALineAndHasNoKinks)
+{
+  Track<Vector> line;
+  line.keys = { { 0, Vector(0, 0, 0) }, { 2, Vector(2, 4, 0) }, { 10, Vector(10, 20, 0) } };
+  line.interpolation = Interpolation::Smooth;
+  for (double frame = 0; frame <= 10; frame += 0.25)
+  {
+    EXPECT_LE((line.at(frame) - Vector(frame, 2 * frame, 0)).norm(), 1e-13) << frame;
+  }
+  Track<double> bend;
+  bend.keys = { { 0, 0 }, { 4, 1 }, { 10, -2 } };
+  bend.interpolation = Interpolation::Smooth;
+  const double h = 1e-5;
+  const double before = (bend.at(4) - bend.at(4 - h)) / h;
+  const double after = (bend.at(4 + h) - bend.at(4)) / h;
+  EXPECT_NEAR(before, after, 1e-4);
+  EXPECT_NEAR(before, (-2 - 0) / 10.0, 1e-4); // Catmull-Rom's tangent
+}
+
+TEST(Track, SlerpTurnsAtConstantSpeed)
+{
+  for (const double angle : { 1e-12, 1e-4, 0.3, 1.5, 3.1 })
+  {
+    Track<Quaternion> track;
+    track.keys = { { 0, aboutZ(0.2) }, { 10, aboutZ(0.2 + angle) } };
+    for (double frame = 0; frame <= 10; frame += 0.5)
+    {
+      EXPECT_LE(distance(track.at(frame), aboutZ(0.2 + angle * frame / 10)), rounding) << angle << ' ' << frame;
+    }
+  }
+}
+
+TEST(Track, SlerpTakesTheShorterArc)
+{
+  Track<Quaternion> track;
+  track.keys = { { 0, aboutZ(0) }, { 2, aboutZ(2 * pi - 0.4).scaled(1) } }; // -0.4 the short way
+  const Quaternion half = track.at(1);
+  EXPECT_LE((half.matrix() - aboutZ(-0.2).matrix()).norm(), rounding);
+  track.keys[1].value = aboutZ(-0.4);
+  EXPECT_LE((track.at(1).matrix() - half.matrix()).norm(), rounding);
+}
+
+TEST(Track, QuaternionKeysAreReturnedAsWritten)
+{
+  Track<Quaternion> track;
+  const Quaternion written{ 0.7071, 0, 0.7071, 0 };
+  track.keys = { { 0, written }, { 4, aboutZ(1) } };
+  EXPECT_EQ(track.at(0), written);
+  EXPECT_NEAR(track.at(1).norm(), 1, rounding);
+  const Eigen::Matrix3d R = written.matrix();
+  EXPECT_LE((R * R.transpose() - Eigen::Matrix3d::Identity()).norm(), rounding);
+}
+
+TEST(Track, SmoothRotationsPassThroughTheirKeysWithoutKinks)
+{
+  Track<Quaternion> track;
+  track.interpolation = Interpolation::Smooth;
+  track.keys = { { 0, aboutZ(0) }, { 5, aboutZ(1).scaled(-1) },
+    { 10, Quaternion{ std::cos(0.4), std::sin(0.4), 0, 0 } } };
+  const double h = 1e-5;
+  const Eigen::Matrix3d before = (track.at(5).matrix() - track.at(5 - h).matrix()) / h;
+  const Eigen::Matrix3d after = (track.at(5 + h).matrix() - track.at(5).matrix()) / h;
+  EXPECT_LE((before - after).norm(), 1e-3);
+  EXPECT_NEAR(track.at(2.5).norm(), 1, rounding);
+}
+
+TEST(Track, RotationMatrixIsTheUsualOne)
+{
+  const Vector turned = aboutZ(pi / 2).matrix() * Vector(1, 0, 0);
+  EXPECT_LE((turned - Vector(0, 1, 0)).norm(), rounding);
+  // Rodrigues' formula about another axis
+  const Vector axis = Vector(1, 2, -2) / 3;
+  const double angle = 0.9;
+  const Quaternion q{ std::cos(angle / 2), std::sin(angle / 2) * axis[0], std::sin(angle / 2) * axis[1],
+    std::sin(angle / 2) * axis[2] };
+  const Vector v(0.3, -1, 2);
+  const Vector expected =
+    v * std::cos(angle) + axis.cross(v) * std::sin(angle) + axis * axis.dot(v) * (1 - std::cos(angle));
+  EXPECT_LE((q.matrix() * v - expected).norm(), rounding);
+}
