@@ -71,7 +71,7 @@ std::string jsonString(const std::string& text)
     const std::size_t length = sequenceAt(text, i);
     if (length == 0)
     {
-      out += "\\ufffd";
+      out += "\xef\xbf\xbd";
     }
     else if (c == '"' || c == '\\')
     {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkError.h"
 #include "dgtkInputFile.h"
 
-#include <OpenImageIO/imageio.h>
+#include <libdeflate.h>
+#include <zlib.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
 
 namespace dgtk
 {
@@ -12,81 +15,294 @@ namespace dgtk
 namespace
 {
 constexpr std::uint64_t largestRatio = 1032; // of deflate
+constexpr std::size_t windowBytes = std::size_t(1) << 18;
 
-std::uint32_t big32(const InputFile& file, std::uint64_t offset)
+/// The compressed data: the contents of the IDAT chunks, one behind the other, their checksums checked.
+class ImageBytes
 {
-  unsigned char bytes[4];
-  file.read(offset, bytes, 4);
-  return std::uint32_t(bytes[0]) << 24 | std::uint32_t(bytes[1]) << 16 | std::uint32_t(bytes[2]) << 8 | bytes[3];
+public:
+  explicit ImageBytes(const InputFile& file)
+    : File(file)
+  {
+  }
+
+  /// The length of the next chunk and its type; `at()` is its data.
+  std::uint32_t nextChunk(char (&type)[5])
+  {
+    const std::uint32_t length = this->big32(this->Position);
+    this->File.read(this->Position + 4, type, 4);
+    type[4] = '\0';
+    this->Position += 8;
+    if (length > this->File.size() - this->Position || this->File.size() - this->Position - length < 4)
+    {
+      this->File.fail(this->Position - 8, "a chunk ends beyond the end of the file");
+    }
+    this->Checksum = libdeflate_crc32(0, type, 4);
+    this->Left = length;
+    return length;
+  }
+  std::uint64_t at() const { return this->Position; }
+  void skip()
+  {
+    this->Position += this->Left + std::uint64_t(4);
+    this->Left = 0;
+  }
+
+  /// Reads the next bytes of the chunk, at most `bytes`; checks it at its end.
+  std::size_t read(unsigned char* to, std::size_t bytes)
+  {
+    const std::size_t n = std::min<std::size_t>(bytes, this->Left);
+    this->File.read(this->Position, to, n);
+    this->Checksum = libdeflate_crc32(this->Checksum, to, n);
+    this->Position += n;
+    this->Left -= static_cast<std::uint32_t>(n);
+    if (this->Left == 0)
+    {
+      if (this->big32(this->Position) != this->Checksum)
+      {
+        this->File.fail(this->Position, "the checksum of a chunk is wrong");
+      }
+      this->Position += 4;
+    }
+    return n;
+  }
+  bool chunkDone() const { return this->Left == 0; }
+
+  std::uint32_t big32(std::uint64_t offset) const
+  {
+    unsigned char b[4];
+    this->File.read(offset, b, 4);
+    return std::uint32_t(b[0]) << 24 | std::uint32_t(b[1]) << 16 | std::uint32_t(b[2]) << 8 | b[3];
+  }
+
+private:
+  const InputFile& File;
+  std::uint64_t Position = 8;
+  std::uint32_t Left = 0;
+  std::uint32_t Checksum = 0;
+};
+
+inline unsigned char paeth(int a, int b, int c)
+{
+  const int pa = std::abs(b - c);
+  const int pb = std::abs(a - c);
+  const int pc = std::abs(a + b - 2 * c);
+  return static_cast<unsigned char>(pa <= pb && pa <= pc ? a : pb <= pc ? b : c);
 }
 
-/// Checks the header against the file's size before a library allocates on its word.
-void checkHeader(const InputFile& file)
-{
-  if (file.head(8) != std::string("\x89PNG\r\n\x1a\n", 8))
-  {
-    file.fail(0, "is not a PNG file");
-  }
-  if (big32(file, 8) != 13 || big32(file, 12) != 0x49484452)
-  {
-    file.fail(8, "the header is missing", "IHDR");
-  }
-  const std::int64_t width = big32(file, 16);
-  const std::int64_t height = big32(file, 20);
-  checkImageSize(file, 16, width, height);
-  const auto depth = file.value<std::uint8_t>(24);
-  const auto type = file.value<std::uint8_t>(25);
-  const std::uint64_t samples = type == 2 ? 3 : type == 4 ? 2 : type == 6 ? 4 : 1;
-  const std::uint64_t raw = (std::uint64_t(width) * samples * depth + 7) / 8 * std::uint64_t(height);
-  if (raw / largestRatio > file.size())
-  {
-    file.fail(
-      16, "more pixels than a file of this size can hold", {}, std::to_string(width) + " x " + std::to_string(height));
-  }
-}
-
+/// 8 and 16 bits, gray to RGBA, without palette and interlace: what DGTk writes.
 class PngReader : public RowReader
 {
 public:
   explicit PngReader(const std::string& path)
-    : Path(path)
+    : File(path)
+    , Data(File)
+    , Window(windowBytes)
   {
-    checkHeader(InputFile(path));
-    this->Input = OIIO::ImageInput::create("png");
-    OIIO::ImageSpec config;
-    config["oiio:UnassociatedAlpha"] = 1;
-    OIIO::ImageSpec spec;
-    if (!this->Input || !this->Input->open(path, spec, config))
+    this->readHeader();
+    // in front of both rows stand zeros: the pixel to the left of the first
+    this->Row.resize(this->RowBytes + 8);
+    this->Above.resize(this->RowBytes + 8);
+    if (inflateInit(&this->Stream) != Z_OK)
     {
-      this->fail(this->Input ? this->Input->geterror() : OIIO::geterror());
+      this->File.fail(0, "cannot be decompressed: out of memory");
     }
-    this->Info.format = "png";
-    this->Info.type = spec.format == OIIO::TypeDesc::UINT16 ? PixelType::UInt16 : PixelType::UInt8;
-    this->Info.channels = spec.nchannels;
-    this->Info.width = spec.width;
-    this->Info.height = spec.height;
   }
+  ~PngReader() override { inflateEnd(&this->Stream); }
 
 protected:
   void readRows(Rows& rows) override
   {
-    const auto type = rows.type() == PixelType::UInt16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
-    if (!this->Input->read_scanlines(
-          0, 0, rows.y(), rows.y() + rows.height(), 0, 0, rows.channels(), type, rows.data()))
+    for (int y = rows.y(); y < rows.y() + rows.height(); ++y)
     {
-      this->fail(this->Input->geterror());
+      unsigned char filter = 0;
+      this->unpack(&filter, 1);
+      this->unpack(this->Row.data() + 8, this->RowBytes);
+      this->reconstruct(filter);
+      if (rows.type() == PixelType::UInt8)
+      {
+        std::memcpy(rows.row<unsigned char>(y), this->Row.data() + 8, this->RowBytes);
+      }
+      else
+      {
+        std::uint16_t* to = rows.row<std::uint16_t>(y);
+        for (std::size_t i = 8; i < this->Row.size(); i += 2)
+        {
+          *to++ = static_cast<std::uint16_t>(this->Row[i] << 8 | this->Row[i + 1]);
+        }
+      }
+      this->Row.swap(this->Above);
+    }
+    if (rows.y() + rows.height() == this->Info.height)
+    {
+      this->checkEnd();
     }
   }
 
 private:
-  [[noreturn]] void fail(std::string message) const
+  void readHeader()
   {
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    throw InputError(this->Path, 0, "is damaged: " + (message.empty() ? std::string("no reason given") : message));
+    if (this->File.head(8) != std::string("\x89PNG\r\n\x1a\n", 8))
+    {
+      this->File.fail(0, "is not a PNG file");
+    }
+    char type[5];
+    unsigned char head[13];
+    if (this->Data.nextChunk(type) != sizeof head || std::strcmp(type, "IHDR") != 0)
+    {
+      this->File.fail(8, "the header is missing", "IHDR", quotedType(type));
+    }
+    this->Data.read(head, sizeof head);
+    const std::int64_t width = this->Data.big32(16);
+    const std::int64_t height = this->Data.big32(20);
+    checkImageSize(this->File, 16, width, height);
+    constexpr int channelsOf[] = { 1, 0, 3, 0, 2, 0, 4 };
+    const bool known = head[9] < 7 && channelsOf[head[9]] > 0;
+    if (!known || (head[8] != 8 && head[8] != 16) || head[10] != 0 || head[11] != 0 || head[12] != 0)
+    {
+      this->File.fail(24, "unsupported kind of PNG file", "8 or 16 bits, no palette, not interlaced",
+        std::to_string(head[8]) + " bits, color type " + std::to_string(head[9]) + ", interlace " +
+          std::to_string(head[12]));
+    }
+    this->Info.format = "png";
+    this->Info.type = head[8] == 8 ? PixelType::UInt8 : PixelType::UInt16;
+    this->Info.channels = channelsOf[head[9]];
+    this->Info.width = static_cast<int>(width);
+    this->Info.height = static_cast<int>(height);
+    this->PixelBytes = std::size_t(this->Info.channels) * (head[8] / 8);
+    this->RowBytes = std::size_t(width) * this->PixelBytes;
+    if (this->Info.pixelBytes() / largestRatio > this->File.size())
+    {
+      this->File.fail(16, "more pixels than a file of this size can hold", {},
+        std::to_string(width) + " x " + std::to_string(height));
+    }
   }
 
-  std::string Path;
-  std::unique_ptr<OIIO::ImageInput> Input;
+  static std::string quotedType(const char* type) { return "'" + std::string(type, 4) + "'"; }
+
+  /// Fills the window with compressed bytes.
+  void refill()
+  {
+    while (this->Data.chunkDone())
+    {
+      char type[5];
+      const std::uint64_t at = this->Data.at();
+      const std::uint32_t length = this->Data.nextChunk(type);
+      if (std::strcmp(type, "IDAT") != 0)
+      {
+        if (this->Started || std::strcmp(type, "IEND") == 0)
+        {
+          this->File.fail(at, "the pixels end too early");
+        }
+        this->Data.skip();
+      }
+      else if (length == 0)
+      {
+        this->Data.skip();
+      }
+      else
+      {
+        this->Started = true;
+      }
+    }
+    this->Stream.avail_in = static_cast<uInt>(this->Data.read(this->Window.data(), this->Window.size()));
+    this->Stream.next_in = this->Window.data();
+  }
+
+  void unpack(unsigned char* to, std::size_t bytes)
+  {
+    this->Stream.next_out = to;
+    this->Stream.avail_out = static_cast<uInt>(bytes);
+    while (this->Stream.avail_out > 0)
+    {
+      if (this->Ended)
+      {
+        this->File.fail(this->Data.at(), "the pixels end too early");
+      }
+      this->step();
+    }
+  }
+
+  void step()
+  {
+    if (this->Stream.avail_in == 0)
+    {
+      this->refill();
+    }
+    const int state = inflate(&this->Stream, Z_NO_FLUSH);
+    this->Ended = state == Z_STREAM_END;
+    if (state != Z_OK && state != Z_STREAM_END && state != Z_BUF_ERROR)
+    {
+      this->File.fail(this->Data.at(), "damaged compressed data");
+    }
+  }
+
+  /// Behind the last row the stream ends, with its checksum.
+  void checkEnd()
+  {
+    unsigned char extra = 0;
+    this->Stream.next_out = &extra;
+    this->Stream.avail_out = 1;
+    while (!this->Ended && this->Stream.avail_out > 0)
+    {
+      this->step();
+    }
+    if (this->Stream.avail_out == 0)
+    {
+      this->File.fail(this->Data.at(), "more pixels than the header says");
+    }
+  }
+
+  void reconstruct(unsigned char filter)
+  {
+    unsigned char* const row = this->Row.data() + 8;
+    const unsigned char* const above = this->Above.data() + 8;
+    const unsigned char* const left = row - this->PixelBytes;
+    const unsigned char* const corner = above - this->PixelBytes;
+    const std::size_t n = this->RowBytes;
+    switch (filter)
+    {
+      case 0:
+        break;
+      case 1:
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          row[i] = static_cast<unsigned char>(row[i] + left[i]);
+        }
+        break;
+      case 2:
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          row[i] = static_cast<unsigned char>(row[i] + above[i]);
+        }
+        break;
+      case 3:
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          row[i] = static_cast<unsigned char>(row[i] + (left[i] + above[i]) / 2);
+        }
+        break;
+      case 4:
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          row[i] = static_cast<unsigned char>(row[i] + paeth(left[i], above[i], corner[i]));
+        }
+        break;
+      default:
+        this->File.fail(this->Data.at(), "unknown filter of a row", "0 to 4", std::to_string(filter));
+    }
+  }
+
+  InputFile File;
+  ImageBytes Data;
+  std::vector<unsigned char> Window;
+  std::vector<unsigned char> Row;
+  std::vector<unsigned char> Above;
+  z_stream Stream = {};
+  std::size_t PixelBytes = 0;
+  std::size_t RowBytes = 0;
+  bool Started = false;
+  bool Ended = false;
 };
 } // namespace
 

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCompare.h"
+
+#include "dgtkDatasetDocuments.h"
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkTestImages.h"
+#include "dgtkTestSupport.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+using namespace dgtk;
+using namespace dgtk::test;
+using testing::HasSubstr;
+
+namespace
+{
+constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+void writeValues(const std::string& path, const std::vector<double>& values, int width)
+{
+  Rows rows(PixelType::Float64, 1, width, 0, int(values.size()) / width);
+  std::copy(values.begin(), values.end(), rows.row<double>(0));
+  writeImage("npy", path, specOf(PixelType::Float64, 1), rows, 1, {});
+}
+} // namespace
+
+TEST(Compare, CountsAndPlacesDifferences)
+{
+  const TemporaryFolder folder;
+  writeValues(folder.path("a.npy"), { notANumber, infinite, 1, 2, 3, 4 }, 3);
+  writeValues(folder.path("b.npy"), { notANumber, infinite, 1.5, 2, 7, 8 }, 3);
+  const CompareResult result = compareFiles(folder.path("a.npy"), folder.path("b.npy"));
+  EXPECT_FALSE(result.equal);
+  EXPECT_EQ(result.pixels, 6u);
+  EXPECT_EQ(result.differing, 3u);
+  EXPECT_EQ(result.largest, 4);
+  EXPECT_EQ(result.firstX, 2);
+  EXPECT_EQ(result.firstY, 0);
+  EXPECT_EQ(result.worstX, 1);
+  EXPECT_EQ(result.worstY, 1);
+  EXPECT_EQ(describe(result), "3 of 6 pixels differ, the first at (2, 0); largest difference 4 at (1, 1)");
+  EXPECT_THAT(compareJson(result), HasSubstr("\"largest\": 4,\n  \"first\": [2, 0],\n  \"worst\": [1, 1]\n}"));
+}
+
+TEST(Compare, InvalidAgainstValidIsInfinite)
+{
+  const TemporaryFolder folder;
+  writeValues(folder.path("a.npy"), { notANumber, infinite, 0 }, 3);
+  writeValues(folder.path("b.npy"), { 1, -infinite, -0.0 }, 3);
+  const CompareResult result = compareFiles(folder.path("a.npy"), folder.path("b.npy"));
+  EXPECT_EQ(result.differing, 2u);
+  EXPECT_EQ(result.largest, infinite);
+  EXPECT_EQ(result.worstX, 0);
+  EXPECT_THAT(compareJson(result), HasSubstr("\"largest\": null"));
+}
+
+TEST(Compare, OtherFormatsAndTypesByValue)
+{
+  const TemporaryFolder folder;
+  const LayerSpec wide = specOf(PixelType::Float64, 1);
+  const Rows image = testImage(wide, 20, 10);
+  writeImage("npy", folder.path("a.npy"), wide, image, 4, {});
+  writeImage("dgd", folder.path("a.dgd"), wide, image, 4, {});
+  writeImage("exr", folder.path("a.exr"), wide, image, 4, {});
+  const CompareResult same = compareFiles(folder.path("a.npy"), folder.path("a.dgd"));
+  EXPECT_TRUE(same.equal);
+  EXPECT_FALSE(same.sameBytes);
+  EXPECT_EQ(describe(same), "the same pixels in other bytes");
+  EXPECT_LT(compareFiles(folder.path("a.npy"), folder.path("a.exr")).largest, 1e-4);
+  writeImage("npy", folder.path("b.npy"), wide, testImage(wide, 10, 20), 4, {});
+  EXPECT_EQ(compareFiles(folder.path("a.npy"), folder.path("b.npy")).problem,
+    "20 x 10 pixels of 1 x float64 against 10 x 20 pixels of 1 x float64");
+  EXPECT_THROW(compareFiles(folder.path("a.npy"), folder.path("none.npy")), InputError);
+}
+
+TEST(Compare, DatasetsFileByFile)
+{
+  const TemporaryFolder folder;
+  for (const char* name : { "one", "two" })
+  {
+    const std::string dir = folder.path(name);
+    makeFolders(dir);
+    Manifest manifest;
+    manifest.request = { { "tile", name } };
+    for (const char* file : { "a.npy", "b.npy", "c.txt" })
+    {
+      manifest.files.push_back({ file, 0, std::string(64, '0'), "", "", -1 });
+    }
+    writeValues(dir + "/a.npy", { 1, 2 }, 2);
+    writeValues(dir + "/b.npy", { 1, 2 }, 2);
+    writeFile(dir + "/c.txt", "text");
+    writeFile(dir + "/manifest.json", manifestText(manifest));
+  }
+  const auto compare = [&] { return compareDatasets(folder.path("one"), folder.path("two")); };
+  DatasetComparison result = compare();
+  EXPECT_TRUE(result.equal);
+  EXPECT_EQ(result.files, 3u);
+  EXPECT_TRUE(result.differing.empty());
+  EXPECT_EQ(result.manifest, std::vector<std::string>{ "request: tile" });
+
+  writeValues(folder.path("two/b.npy"), { 1, 2.5 }, 2);
+  writeFile(folder.path("two/c.txt"), "test");
+  std::filesystem::remove(folder.path("one/a.npy"));
+  result = compare();
+  EXPECT_FALSE(result.equal);
+  ASSERT_EQ(result.differing.size(), 3u);
+  EXPECT_EQ(describe(result.differing[0]), "a.npy: is missing in " + folder.path("one"));
+  EXPECT_EQ(result.differing[1].largest, 0.5);
+  EXPECT_EQ(describe(result.differing[2]), "c.txt: the bytes differ");
+  EXPECT_THAT(compareJson(result), HasSubstr("\"equal\": false"));
+  EXPECT_THROW(compareDatasets(folder.path("one"), folder.path("none")), InputError);
+}

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkContactSheet.h"
+
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkHash.h"
+#include "dgtkTestImages.h"
+#include "dgtkTestSupport.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+using namespace dgtk;
+using namespace dgtk::test;
+
+namespace
+{
+/// A sphere over a floor, as the layers of a dataset.
+Manifest makeDataset(const std::string& folder, int frames)
+{
+  constexpr int w = 160;
+  constexpr int h = 120;
+  Manifest manifest;
+  const struct
+  {
+    const char* name;
+    const char* format;
+    PixelType type;
+    int channels;
+  } layers[] = { { "color", "png", PixelType::UInt8, 3 }, { "depth", "npy", PixelType::Float64, 1 },
+    { "objects", "ppm", PixelType::UInt32, 1 }, { "normal", "exr", PixelType::Float32, 3 },
+    { "uv", "npy", PixelType::Float32, 2 } };
+  for (const auto& layer : layers)
+  {
+    const LayerSpec spec = specOf(layer.type, layer.channels, layer.name);
+    manifest.layers.push_back({ spec, layer.format });
+    for (int frame = 0; frame < frames; ++frame)
+    {
+      Rows rows(spec.type, spec.channels, w, 0, h);
+      for (int y = 0; y < h; ++y)
+      {
+        for (int x = 0; x < w; ++x)
+        {
+          const double nx = (x - 80 - 5 * frame) / 45.0;
+          const double ny = (y - 60) / 45.0;
+          const double r2 = nx * nx + ny * ny;
+          const bool sphere = r2 < 1;
+          const bool floor = !sphere && y > 80;
+          const double nz = sphere ? -std::sqrt(1 - r2) : 0;
+          const int i = (x * spec.channels);
+          const double far = std::numeric_limits<double>::infinity();
+          const float none = std::numeric_limits<float>::quiet_NaN();
+          if (layer.type == PixelType::Float64)
+          {
+            rows.row<double>(y)[x] = sphere ? 5 + nz : floor ? 200.0 / (y - 60) : far;
+          }
+          for (int c = 0; c < spec.channels && layer.type == PixelType::UInt8; ++c)
+          {
+            rows.row<std::uint8_t>(y)[i + c] = std::uint8_t(sphere ? -nz * (c == 0 ? 250 : 90) : floor ? 120 : 200);
+          }
+          if (layer.type == PixelType::UInt32)
+          {
+            rows.row<std::uint32_t>(y)[x] = sphere ? 2 : floor ? 1 : 0;
+          }
+          for (int c = 0; c < spec.channels && layer.type == PixelType::Float32; ++c)
+          {
+            rows.row<float>(y)[i + c] = sphere ? float(c == 0 ? nx : c == 1 ? ny : nz) : none;
+          }
+        }
+      }
+      makeFolders(folder + "/left/" + layer.name);
+      const std::string name =
+        std::string("left/") + layer.name + "/00000" + std::to_string(frame) + "." + layer.format;
+      const FileRecord record = writeImage(layer.format, folder + '/' + name, spec, rows, 50, {});
+      manifest.files.push_back({ name, record.bytes, record.sha256, layer.name, "left", frame });
+    }
+  }
+  return manifest;
+}
+} // namespace
+
+TEST(ContactSheet, RowsAreFramesColumnsAreLayers)
+{
+  const TemporaryFolder folder;
+  const Manifest manifest = makeDataset(folder.path(), 3);
+  writeFile(folder.path("manifest.json"), manifestText(manifest));
+  const DatasetFile file = writeContactSheet(folder.path(), "contact.png");
+  EXPECT_EQ(file.path, "contact.png");
+  EXPECT_EQ(file.sha256, Sha256::ofFile(folder.path("contact.png")));
+  const ImageData sheet = readLayerFile(folder.path("contact.png"));
+  // 5 columns of 200 pixels, 3 rows of 150, gaps of 6, room for the names
+  EXPECT_EQ(sheet.info.width, 6 + 36 + 6 + 5 * 206);
+  EXPECT_EQ(sheet.info.height, 13 + 6 + 3 * 156);
+  // every cell shows something: more than one colour
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 5; ++column)
+    {
+      std::set<std::uint32_t> colors;
+      for (int y = 0; y < 150; y += 7)
+      {
+        for (int x = 0; x < 200; x += 7)
+        {
+          const std::uint8_t* p =
+            sheet.pixels.row<std::uint8_t>(19 + row * 156 + y) + 3 * std::size_t(48 + column * 206 + x);
+          colors.insert(std::uint32_t(p[0]) << 16 | std::uint32_t(p[1]) << 8 | p[2]);
+        }
+      }
+      EXPECT_GT(colors.size(), 2u) << row << ' ' << column;
+    }
+  }
+  if (const char* keep = std::getenv("DGTK_KEEP_SHEET"))
+  {
+    writeFile(keep, contentsOf(folder.path("contact.png")));
+  }
+}
+
+TEST(ContactSheet, FramesAreChosenEvenly)
+{
+  const TemporaryFolder folder;
+  const Manifest manifest = makeDataset(folder.path(), 9);
+  ContactSheetOptions options;
+  options.maxFrames = 3;
+  options.thumbnailWidth = 80;
+  writeContactSheet(folder.path(), manifest, "contact.png", options);
+  EXPECT_EQ(readLayerFile(folder.path("contact.png")).info.height, 13 + 6 + 3 * 66);
+}
+
+TEST(ContactSheet, PictureSheet)
+{
+  const TemporaryFolder folder;
+  makeDataset(folder.path(), 2);
+  const std::vector<std::pair<std::string, std::string>> pictures(
+    5, { "Ball & table (frame 0)", folder.path("left/color/000000.png") });
+  const DatasetFile file = writePictureSheet(pictures, folder.path("sheet.png"), 0, 100);
+  EXPECT_EQ(file.path, folder.path("sheet.png"));
+  const ImageInfo info = readLayerFile(folder.path("sheet.png")).info;
+  EXPECT_EQ(info.width, 6 + 3 * 106);
+  EXPECT_EQ(info.height, 6 + 2 * (75 + 13 + 6));
+}
+
+TEST(ContactSheet, Refusals)
+{
+  const TemporaryFolder folder;
+  EXPECT_THROW(writeContactSheet(folder.path(), Manifest{}, "contact.png"), UsageError);
+  EXPECT_THROW(writeContactSheet(folder.path(), "contact.png"), InputError);
+  EXPECT_THROW(writePictureSheet({}, folder.path("x.png")), UsageError);
+}

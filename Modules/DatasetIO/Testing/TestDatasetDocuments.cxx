@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkDatasetDocuments.h"
+
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkHash.h"
+#include "dgtkTestImages.h"
+#include "dgtkTestSupport.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <clocale>
+
+using namespace dgtk;
+using namespace dgtk::test;
+using testing::HasSubstr;
+
+namespace
+{
+// Pixels; rounding of numbers of the size of an image.
+constexpr double pixelTolerance = 1e-9;
+
+Eigen::Matrix4d perspective(double f, double aspect, double near, double far)
+{
+  Eigen::Matrix4d p = Eigen::Matrix4d::Zero(); // gluPerspective, f = cot(fovY / 2)
+  p(0, 0) = f / aspect;
+  p(1, 1) = f;
+  p(2, 2) = (far + near) / (near - far);
+  p(2, 3) = 2 * far * near / (near - far);
+  p(3, 2) = -1;
+  return p;
+}
+
+template <typename F>
+std::string messageOf(F f)
+{
+  try
+  {
+    f();
+  }
+  catch (const InputError& error)
+  {
+    return error.what();
+  }
+  return {};
+}
+} // namespace
+
+// Section 4.3: viewport matrix * K * [R|t] takes world points to pixels with y up.
+TEST(Calibration, CameraMatrixGivesPixelsWithYUp)
+{
+  Eigen::Matrix4d view = Eigen::Matrix4d::Identity(); // a quarter turn about y, then moved
+  view.topLeftCorner<3, 3>() << 0, 0, 1, 0, 1, 0, -1, 0, 0;
+  view.topRightCorner<3, 1>() << 0.25, -0.5, -7;
+  const Eigen::Matrix4d projection = perspective(1.75, 4.0 / 3, 0.1, 1000);
+  const TemporaryFolder folder;
+  writeFile(folder.path("c.txt"), calibrationText(makeCalibration(projection, view, 640, 480)));
+  const Calibration read = readCalibration(folder.path("c.txt"));
+  for (const Eigen::Vector3d& world :
+    { Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(-0.3, 0.7, 0.1), Eigen::Vector3d(0, 0, 0) })
+  {
+    const Eigen::Vector3d pixel = read.cameraMatrix() * Eigen::Vector4d(world.x(), world.y(), world.z(), 1);
+    // the same by hand, with equations 4.6 and OpenGL's viewport
+    const Eigen::Vector3d eye = view.topLeftCorner<3, 3>() * world + view.topRightCorner<3, 1>();
+    const double x = 320 + 320 * (1.75 / (4.0 / 3)) * eye.x() / -eye.z();
+    const double y = 240 + 240 * 1.75 * eye.y() / -eye.z();
+    EXPECT_NEAR(pixel.x() / pixel.z(), x, pixelTolerance);
+    EXPECT_NEAR(pixel.y() / pixel.z(), y, pixelTolerance);
+    EXPECT_NEAR(pixel.z(), -eye.z(), pixelTolerance);
+  }
+}
+
+TEST(Calibration, OrthographicCamerasKeepTheForm)
+{
+  Eigen::Matrix4d projection = Eigen::Matrix4d::Identity(); // glOrtho(-1, 3, -2, 2, 0, 10)
+  projection.topRows<3>() << 0.5, 0, 0, -0.5, 0, 0.5, 0, 0, 0, 0, -0.2, -1;
+  Eigen::Matrix4d view = Eigen::Matrix4d::Identity();
+  view.topRightCorner<3, 1>() << 1, 2, -5;
+  const Calibration calibration = makeCalibration(projection, view, 400, 200);
+  const Eigen::Vector3d world(0.5, -1, 2);
+  const Eigen::Vector3d pixel = calibration.cameraMatrix() * Eigen::Vector4d(world.x(), world.y(), world.z(), 1);
+  EXPECT_DOUBLE_EQ(pixel.z(), 1);
+  EXPECT_DOUBLE_EQ(pixel.x(), 200 + 200 * (0.5 * 1.5 - 0.5));
+  EXPECT_DOUBLE_EQ(pixel.y(), 100 + 100 * (0.5 * 1.0));
+}
+
+TEST(Calibration, TextIsTheThesisForm)
+{
+  const Calibration calibration = makeCalibration(perspective(2, 2, 1, 3), Eigen::Matrix4d::Identity(), 8, 4);
+  EXPECT_EQ(
+    calibrationText(calibration), "K\n1 0 0\n0 2 0\n0 0 -1\nR|t\n1 0 0 0\n0 1 0 0\n0 0 1 0\nViewport\n0 0 8 4\n");
+}
+
+TEST(Calibration, NumbersReadBackExactlyInAnyLocale)
+{
+  const TemporaryFolder folder;
+  Calibration calibration = makeCalibration(testContext().projection, testContext().modelView, 3, 2);
+  calibration.K(0, 0) = 0.1 + 0.2;
+  calibration.K(1, 2) = 1e-300;
+  calibration.Rt(2, 3) = -1.0 / 3;
+  const char* const changed = std::setlocale(LC_ALL, "de_DE.UTF-8"); // where it is installed
+  writeFile(folder.path("c.txt"), calibrationText(calibration));
+  const Calibration read = readCalibration(folder.path("c.txt"));
+  std::setlocale(LC_ALL, "C");
+  (void)changed;
+  EXPECT_EQ(read.K, calibration.K);
+  EXPECT_EQ(read.Rt, calibration.Rt);
+}
+
+TEST(Calibration, RefusalsNameTheLine)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.path("c.txt");
+  const auto message = [&](const std::string& text)
+  {
+    writeFile(path, text);
+    return messageOf([&] { readCalibration(path); });
+  };
+  EXPECT_EQ(message("K\n1 2 3\n4 x 6\n"), path + ":3: is not a calibration (expected a number, found 'x')");
+  EXPECT_EQ(message("K\n1 2 3\n4 nan 6\n"), path + ":3: is not a calibration (expected a number, found 'nan')");
+  EXPECT_EQ(message(""), path + ":1: is not a calibration (expected 'K', found the end of the file)");
+}
+
+TEST(Cameras, RoundTripIsExactAndSorted)
+{
+  const TemporaryFolder folder;
+  CameraRecord a;
+  a.name = "a \"quoted\"\n";
+  a.frame = 2;
+  a.width = 640;
+  a.height = 480;
+  a.K << 500.1, 0, 320, 0, 1.0 / 3, 240, 0, 0, 1;
+  a.R = Eigen::Matrix3d::Identity();
+  a.R(0, 1) = -0.0;
+  a.t << 1e-17, 2.5, -3;
+  a.model = "brown";
+  a.distortion = { 0.1, -0.02 };
+  a.near = 0.1;
+  a.far = std::numeric_limits<double>::infinity();
+  CameraRecord b = a;
+  b.frame = -1;
+  const std::string text = camerasText({ a, b });
+  EXPECT_EQ(text, camerasText({ b, a }));
+  writeFile(folder.path("cameras.json"), text);
+  const std::vector<CameraRecord> read = readCameras(folder.path("cameras.json"));
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_EQ(read[0].frame, -1);
+  EXPECT_EQ(read[1].name, a.name);
+  EXPECT_EQ(read[1].K, a.K);
+  EXPECT_EQ(read[1].R, a.R);
+  EXPECT_EQ(read[1].t, a.t);
+  EXPECT_EQ(read[1].distortion, a.distortion);
+  EXPECT_EQ(read[1].far, a.far);
+  EXPECT_EQ(camerasText(read), text);
+}
+
+TEST(Objects, RoundTrip)
+{
+  const TemporaryFolder folder;
+  const std::string text = objectsText({ { 2, "b\xff", "", "m.obj", 7 }, { 1, "\xc3\xa4", "tree", "t.ac", 12 } });
+  EXPECT_EQ(text,
+    "{\n  \"objects\": [\n"
+    "    {\"id\": 1, \"name\": \"\xc3\xa4\", \"class\": \"tree\", \"model\": \"t.ac\", \"triangles\": 12},\n"
+    "    {\"id\": 2, \"name\": \"b\xef\xbf\xbd\", \"class\": \"\", \"model\": \"m.obj\", \"triangles\": 7}\n"
+    "  ]\n}\n");
+  writeFile(folder.path("objects.json"), text);
+  EXPECT_EQ(objectsText(readObjects(folder.path("objects.json"))), text);
+}
+
+TEST(ManifestDocument, RoundTrip)
+{
+  Manifest manifest;
+  manifest.version = "0.1.0";
+  manifest.requestHash = "abc";
+  manifest.request = { { "scene", "a.scene" }, { "layers", "depth" } };
+  manifest.units = "metres";
+  manifest.inputs = { { "b.ac", 5, std::string(64, 'b') }, { "a.scene", 9, std::string(64, 'a') } };
+  manifest.layers = { { specOf(PixelType::Float64, 1), "npy" } };
+  manifest.files = { { "z/depth/000001.npy", 1, std::string(64, '1'), "depth", "z", 1 },
+    { "cameras.json", 2, std::string(64, '2'), "", "", -1 } };
+  const std::string text = manifestText(manifest);
+  const TemporaryFolder folder;
+  writeFile(folder.path("manifest.json"), text);
+  const Manifest read = readManifest(folder.path("manifest.json"));
+  EXPECT_EQ(manifestText(read), text);
+  EXPECT_EQ(read.request, manifest.request);
+  ASSERT_EQ(read.files.size(), 2u);
+  EXPECT_EQ(read.files[0].path, "cameras.json");
+  EXPECT_EQ(read.files[1].frame, 1);
+  EXPECT_EQ(read.layers[0].spec.type, PixelType::Float64);
+  EXPECT_EQ(read.inputs[0].path, "a.scene");
+}
+
+TEST(Documents, RefusalsNameThePlace)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.path("x.json");
+  const auto cameras = [&](const std::string& text)
+  {
+    writeFile(path, text);
+    return messageOf([&] { readCameras(path); });
+  };
+  EXPECT_EQ(cameras("{\n\n["), path + ":3: is not JSON");
+  EXPECT_EQ(cameras("{}"), path + ": cameras: is missing");
+  EXPECT_EQ(cameras("[1]"), path + ": has the wrong type or value (expected an object, found '[1]')");
+  EXPECT_EQ(cameras("{\"cameras\": [{\"name\": 3}]}"),
+    path + ": cameras[0].name: has the wrong type or value (expected a text, found '3')");
+  EXPECT_THAT(cameras("{\"cameras\": [{\"name\": \"a\", \"frame\": 99999999999}]}"),
+    HasSubstr("cameras[0].frame: has the wrong type or value (expected an integer from -2147483648 to 2147483647"));
+  writeFile(path, "{}");
+  EXPECT_EQ(messageOf([&] { readManifest(path); }), path + ": is not the manifest of a DGTk dataset");
+  EXPECT_THAT(messageOf([&] { readObjects("/no/such"); }), HasSubstr("/no/such: cannot be read"));
+}
+
+TEST(Documents, WritingDescribesTheFile)
+{
+  const TemporaryFolder folder;
+  const DatasetFile file = writeDocument(folder.path(), "a.txt", "hello", "calibration", "left", 4);
+  EXPECT_EQ(contentsOf(folder.path("a.txt")), "hello");
+  EXPECT_EQ(file.path, "a.txt");
+  EXPECT_EQ(file.bytes, 5u);
+  EXPECT_EQ(file.sha256, Sha256::ofFile(folder.path("a.txt")));
+  EXPECT_EQ(file.frame, 4);
+}
