@@ -5,6 +5,7 @@
 #include "dgtkModelClock.h"
 #include "dgtkStageModels.h"
 
+#include <charconv>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -31,6 +32,12 @@ struct Actor
   int animation = -1;            ///< of a deforming model; -1 rigid
   Affine3 world_from_object;     ///< of one that does not move
 };
+
+std::string textOf(double frame)
+{
+  char text[32];
+  return std::string(text, std::to_chars(text, text + sizeof text, frame).ptr);
+}
 
 LightState::Kind kindOf(LightKind kind)
 {
@@ -181,8 +188,7 @@ Affine3 Stage::Impl::localAt(std::size_t index, double frame) const
   const Eigen::Vector3d scale = object.scale.at(frame);
   if ((scale.array() == 0).any())
   {
-    failObject(
-      this->Scene, object, "scale passes through 0", "another interpolation", "frame " + std::to_string(frame));
+    failObject(this->Scene, object, "scale passes through 0", "another interpolation", "frame " + textOf(frame));
   }
   return { object.orientation.at(frame).matrix() * scale.asDiagonal(), object.position.at(frame) };
 }
@@ -299,8 +305,8 @@ View Stage::view(std::size_t index, double frame, int width, int height) const
   }
   catch (const UsageError& error)
   {
-    throw InputError(scene.file, camera.line,
-      "camera " + quoted(camera.name) + " at frame " + std::to_string(frame) + ": " + error.what());
+    throw InputError(
+      scene.file, camera.line, "camera " + quoted(camera.name) + " at frame " + textOf(frame) + ": " + error.what());
   }
   return view;
 }

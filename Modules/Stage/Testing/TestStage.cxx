@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkStageSamples.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+using namespace dgtk;
+using namespace dgtk::test;
+using testing::HasSubstr;
+using Vector = Eigen::Vector3d;
+
+namespace
+{
+constexpr double rounding = 1e-14; // of a few products of numbers of size 1 to 10
+}
+
+TEST(Stage, ParentsCarryTheirChildren)
+{
+  const ModelFolder folder;
+  // child is listed before its parent; a turn of 90 degrees about z takes x to y.
+  const auto stage = folder.load(R"({"objects": [
+    {"name": "child", "model": "models/square.ac", "parent": "arm", "position": [1, 0, 0], "scale": [1, 2, -3]},
+    {"name": "arm", "model": "models/empty.ac", "parent": "root", "visible": false, "scale": 2,
+     "orientation": {"keys": [[0, [1, 0, 0, 0]], [10, [0.7071067811865476, 0, 0, 0.7071067811865476]]]}},
+    {"name": "root", "model": "models/square.ac", "position": [10, 20, 30]}]})");
+  EXPECT_EQ(stage->objectNames(), (std::vector<std::string>{ "child", "root" }));
+  const auto before = stage->at(0);
+  ASSERT_EQ(before->instances.size(), 2u);
+  EXPECT_LE((before->instances[0].world_from_object * Vector(1, 1, 1) - Vector(14, 24, 24)).norm(), rounding);
+  const auto after = stage->at(10);
+  EXPECT_LE((after->instances[0].world_from_object * Vector(1, 1, 1) - Vector(6, 24, 24)).norm(), 4 * rounding);
+  EXPECT_EQ(after->instances[1].world_from_object * Vector(0, 0, 0), Vector(10, 20, 30));
+  EXPECT_EQ(before->frame, 0);
+  EXPECT_EQ(after->frame, 10);
+}
+
+TEST(Stage, ViewsOfAFieldOfView)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"cameras": [
+    {"fovY": {"keys": [[0, 90], [10, 60]]}, "eye": {"keys": [[0, [0, 0, 5]], [10, [0, 0, 15]]]}, "lookAt": [0, 0, 0],
+     "near": 0.5, "far": 9},
+    {"aspect": 2, "fovY": 90, "width": 100, "height": 50, "eye": [0, 0, 5], "lookAt": [0, 0, 0]}]})");
+  EXPECT_EQ(stage->cameraNames(), (std::vector<std::string>{ "Camera0", "Camera1" }));
+  const View view = stage->view(0, 0);
+  EXPECT_EQ(view.model->width(), 640);
+  EXPECT_EQ(view.model->height(), 480);
+  EXPECT_EQ(view.near, 0.5);
+  EXPECT_EQ(view.far, 9);
+  const Eigen::Matrix3d K = view.model->linear()->K;
+  EXPECT_NEAR(K(0, 0), 240, 1e-12 * 240);
+  EXPECT_NEAR(K(1, 1), 240, 1e-12 * 240);
+  EXPECT_LE((view.camera_from_world * Vector(1, 1, 0) - Vector(1, -1, 5)).norm(), rounding);
+  EXPECT_LE((stage->view(0, 5).camera_from_world * Vector(0, 0, 0) - Vector(0, 0, 10)).norm(), rounding);
+  EXPECT_NEAR(stage->view(0, 10).model->linear()->K(1, 1), 240 / std::tan(3.14159265358979323846 / 6), 1e-9);
+  EXPECT_EQ(stage->view(1, 0).model->width(), 100);
+  EXPECT_NEAR(stage->view(1, 0, 200, 100).model->linear()->K(0, 0), 50, 1e-12 * 50);
+  EXPECT_THROW(stage->view(2, 0), UsageError);
+  EXPECT_THROW(stage->view(0, 0, -1, 5), UsageError);
+  EXPECT_THROW(stage->view(0, 0, 0, 5), UsageError);
+  EXPECT_THROW(stage->view(0, std::nan("")), UsageError);
+  EXPECT_THROW(stage->at(std::nan("")), UsageError);
+}
+
+TEST(Stage, CalibratedCamerasScaleWithTheImage)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"cameras": [{"width": 100, "height": 50, "K": [[80, 0.5, 40], [0, 90, 20],
+    [0, 0, 1]], "position": [1, 2, 3], "orientation": [0, 1, 0, 0]}]})");
+  const View own = stage->view(0, 0);
+  EXPECT_EQ(own.model->width(), 100);
+  const Vector point(1.5, 2.5, -1);
+  // The camera looks along -z with +y up: x right, y down.
+  EXPECT_LE((own.camera_from_world * point - Vector(0.5, -0.5, 4)).norm(), rounding);
+  Eigen::Vector2d small, large;
+  ASSERT_TRUE(own.model->project(own.camera_from_world * point, small));
+  const View twice = stage->view(0, 0, 200, 150);
+  ASSERT_TRUE(twice.model->project(twice.camera_from_world * point, large));
+  EXPECT_NEAR(large[0], 2 * small[0], 1e-12);
+  EXPECT_NEAR(large[1], 3 * small[1], 1e-12);
+}
+
+TEST(Stage, OrthographicViews)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"cameras": [{"model": "orthographic", "viewHeight": 4, "eye": [0, 0, 9],
+    "lookAt": [0, 0, 0]}]})");
+  const View view = stage->view(0, 0, 400, 200);
+  Eigen::Vector2d pixel;
+  ASSERT_TRUE(view.model->project(view.camera_from_world * Vector(1, 1, 3), pixel));
+  EXPECT_LE((pixel - Eigen::Vector2d(250, 50)).norm(), 1e-12);
+}
+
+TEST(Stage, Lights)
+{
+  const ModelFolder folder;
+  const auto none = folder.load("{}")->at(0);
+  ASSERT_EQ(none->lights.size(), 1u);
+  EXPECT_EQ(none->lights[0].kind, LightState::Kind::Head);
+  const auto some = folder
+                      .load(R"({"background": [0.1, 0.2, 0.3], "lights": [
+    {"enabled": false}, {"name": "s", "kind": "spot", "position": {"keys": [[0, [0, 0, 0]], [4, [4, 0, 0]]]},
+    "target": [0, 0, 5], "intensity": 3, "coneAngle": 20}]})")
+                      ->at(1);
+  ASSERT_EQ(some->lights.size(), 1u);
+  EXPECT_EQ(some->lights[0].kind, LightState::Kind::Spot);
+  EXPECT_EQ(some->lights[0].position, Vector(1, 0, 0));
+  EXPECT_EQ(some->lights[0].intensity, 3);
+  EXPECT_EQ(some->lights[0].coneAngle, 20);
+  EXPECT_EQ(some->background, Vector(0.1, 0.2, 0.3));
+  EXPECT_TRUE(folder.load(R"({"lights": [{"enabled": false}]})")->at(0)->lights.empty());
+}
+
+TEST(Stage, IsTheSameFromManyThreads)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"objects": [{"model": "models/runner.md2", "position": {"keys": [[0, [0, 0, 0]],
+    [100, [1, 2, 3]]]}}]})");
+  std::vector<Vector> alone;
+  for (int frame = 0; frame < 100; ++frame)
+  {
+    const auto state = folder.load(contentsOf(folder.path("scene.json")))->at(frame);
+    alone.push_back(state->instances[0].world_from_object * state->instances[0].geometry->positions[0]);
+    if (frame == 9)
+    {
+      break;
+    }
+  }
+  std::vector<std::thread> threads;
+  std::vector<int> wrong(4, 0);
+  for (std::size_t t = 0; t < wrong.size(); ++t)
+  {
+    threads.emplace_back(
+      [&, t]
+      {
+        for (std::size_t i = 0; i < 200; ++i)
+        {
+          const std::size_t frame = (i * (t + 1)) % alone.size();
+          const auto state = stage->at(double(frame));
+          const Instance& it = state->instances[0];
+          wrong[t] += it.world_from_object * it.geometry->positions[0] != alone[frame];
+        }
+      });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  EXPECT_EQ(wrong, std::vector<int>(4, 0));
+}
+
+TEST(Stage, UndefinedMomentsAreRefused)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"objects": [
+    {"name": "flat", "model": "models/square.ac", "scale": {"keys": [[0, -1], [2, 1]]}}],
+    "cameras": [{"eye": {"keys": [[0, [0, 0, 5]], [2, [0, 0, -5]]]}, "lookAt": [0, 0, 0]}]})");
+  EXPECT_NO_THROW(stage->at(0));
+  try
+  {
+    stage->at(1);
+    FAIL();
+  }
+  catch (const InputError& error)
+  {
+    EXPECT_THAT(error.what(), HasSubstr("scene.json:2: object 'flat': scale passes through 0"));
+  }
+  try
+  {
+    stage->view(0, 1);
+    FAIL();
+  }
+  catch (const InputError& error)
+  {
+    EXPECT_THAT(error.what(), HasSubstr("scene.json:3: camera 'Camera0' at frame 1: eye and look-at"));
+  }
+}

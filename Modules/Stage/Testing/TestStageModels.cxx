@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkStageSamples.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+using namespace dgtk;
+using namespace dgtk::test;
+using testing::HasSubstr;
+using Vector = Eigen::Vector3d;
+
+namespace
+{
+/// How far the runner is from where it is at frame 0.
+double advance(const Stage& stage, double frame)
+{
+  const auto first = stage.at(0)->instances[0].geometry;
+  const auto here = stage.at(frame)->instances[0].geometry;
+  return (here->positions[0] - first->positions[0]).norm();
+}
+
+std::string runner(const std::string& animation)
+{
+  return "{\"fps\": 20, \"objects\": [{\"model\": \"models/runner.md2\", \"animation\": {" + animation + "}}]}";
+}
+} // namespace
+
+TEST(StageModels, AreLoadedOnceAndShared)
+{
+  const ModelFolder folder;
+  std::filesystem::create_symlink(folder.path("models"), folder.path("link"));
+  const auto stage = folder.load(R"({"objects": [{"model": "models/square.ac"}, {"model": "models/../models/square.ac"},
+    {"model": "link/square.ac"}, {"model": ")" +
+                                 folder.path("models/square.ac") + R"("}, {"model": "models/empty.ac"}]})");
+  EXPECT_EQ(stage->models().size(), 2u);
+  const auto state = stage->at(0);
+  ASSERT_EQ(state->instances.size(), 4u);
+  for (const Instance& instance : state->instances)
+  {
+    EXPECT_EQ(instance.model, state->instances[0].model);
+    EXPECT_EQ(instance.geometry, instance.model->rest);
+    EXPECT_EQ(instance.materials, state->instances[0].materials);
+  }
+  const auto next = stage->at(1);
+  EXPECT_EQ(next->instances[0].geometry, state->instances[0].geometry);
+  EXPECT_EQ(stage->at(1), next);
+}
+
+TEST(StageModels, FilesAreListed)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"objects": [{"model": "models/square.ac",
+    "materials": {"red": {"texture": "models/other.ppm"}}}, {"model": "models/square.ac"}]})");
+  EXPECT_EQ(stage->inputFiles(), (std::vector<std::string>{ folder.path("scene.json"), folder.path("models/square.ac"),
+                                   folder.path("models/red.ppm"), folder.path("models/other.ppm") }));
+}
+
+TEST(StageModels, ObjectsWithoutSurfacesHaveNoId)
+{
+  const ModelFolder folder;
+  std::vector<std::string> warnings;
+  const auto stage = folder.load(
+    R"({"objects": [{"model": "models/empty.ac"}, {"model": "models/square.ac", "class": "wall", "name": "w"}]})",
+    [&](const std::string& line) { warnings.push_back(line); });
+  EXPECT_EQ(stage->objectNames(), std::vector<std::string>{ "w" });
+  EXPECT_EQ(stage->at(0)->instances[0].className, "wall");
+  EXPECT_THAT(warnings, testing::Contains(HasSubstr("has no surfaces")));
+}
+
+TEST(StageModels, IdsFollowTheOrderOfTheScene)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"objects": [{"name": "a", "model": "models/square.ac"},
+    {"name": "b", "model": "models/square.ac"}], "lights": [{}], "order": ["object", "light", "object"]})");
+  EXPECT_EQ(stage->objectNames(), (std::vector<std::string>{ "a", "b" }));
+}
+
+TEST(StageModels, MaterialsAreReplaced)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"objects": [
+    {"model": "models/square.ac"},
+    {"model": "models/square.ac", "materials": {"*": {"diffuse": [0, 0, 1], "opacity": 0.5}, "red": {"shininess": 3}}},
+    {"model": "models/square.ac", "materials": {"red": {"texture": ""}}},
+    {"model": "models/square.ac", "materials": {"*": {"texture": "models/other.ppm"}}}]})");
+  const auto state = stage->at(0);
+  ASSERT_EQ(state->instances.size(), 4u);
+  const auto material = [&](std::size_t i) { return state->instances[i].materials->at(0); };
+  EXPECT_EQ(material(0).diffuse, Vector(1, 0, 0));
+  EXPECT_EQ(material(1).diffuse, Vector(0, 0, 1));
+  EXPECT_EQ(material(1).opacity, 0.5);
+  EXPECT_EQ(material(1).shininess, 3);
+  EXPECT_EQ(material(1).specular, material(0).specular);
+  EXPECT_EQ(material(2).texture, -1);
+  const Model& model = *state->instances[3].model;
+  EXPECT_EQ(model.textures.at(std::size_t(material(3).texture)).path, folder.path("models/other.ppm"));
+  EXPECT_NE(model.textures.at(std::size_t(material(3).texture)).image, nullptr);
+  EXPECT_EQ(state->instances[3].model, state->instances[0].model);
+}
+
+TEST(StageModels, AMissingTextureIsAWarning)
+{
+  const ModelFolder folder;
+  std::vector<std::string> warnings;
+  folder.load(R"({"objects": [{"model": "models/square.ac", "materials": {"*": {"texture": "no.png"}}}]})",
+    [&](const std::string& line) { warnings.push_back(line); });
+  EXPECT_THAT(warnings, testing::Contains(HasSubstr("texture 'no.png': not found")));
+}
+
+TEST(StageModels, SkinsAreTexturesOfTheModel)
+{
+  const ModelFolder folder;
+  for (const char* skin : { "two.ppm", "two", "1" })
+  {
+    const auto stage =
+      folder.load(std::string(R"({"objects": [{"model": "models/runner.md2", "skin": ")") + skin + "\"}]}");
+    const Instance& instance = stage->at(0)->instances[0];
+    const int texture = instance.materials->at(0).texture;
+    ASSERT_GE(texture, 0);
+    EXPECT_EQ(instance.model->textures[std::size_t(texture)].name, "two.ppm") << skin;
+  }
+  EXPECT_THAT(folder.refusalOf("{\"objects\": [\n{\"model\": \"models/runner.md2\", \"skin\": \"three\"}]}"),
+    HasSubstr("scene.json:2: object 'runner-1': skin is no texture of models/runner.md2 (expected one of one.ppm, "
+              "two.ppm, found 'three')"));
+}
+
+// MD2 plays 10 frames a second: at 20 scene frames a second, half a model frame each.
+TEST(StageModels, AnimationsFollowTheirClock)
+{
+  const ModelFolder folder;
+  const auto looped = folder.load(runner(""));
+  for (const auto& [frame, expected] : std::vector<std::pair<double, double>>{
+         { 0, 0 }, { 1, 0.5 }, { 2, 1 }, { 6, 3 }, { 7, 1.5 }, { 8, 0 }, { 9, 0.5 } })
+  {
+    EXPECT_NEAR(advance(*looped, frame), expected, 1e-12) << frame;
+  }
+  const auto held = folder.load(runner(R"("loop": false, "start": 4, "rate": 2)"));
+  for (const auto& [frame, expected] :
+    std::vector<std::pair<double, double>>{ { 0, 0 }, { 4, 0 }, { 5, 1 }, { 7, 3 }, { 8, 3 }, { 1e6, 3 } })
+  {
+    EXPECT_NEAR(advance(*held, frame), expected, 1e-12) << frame;
+  }
+  const auto still = folder.load(runner(R"("rate": 0, "offset": 2)"));
+  EXPECT_EQ(advance(*still, 50), 0);
+  const auto other = folder.load(runner(R"("sequence": "rest")"));
+  const auto number = folder.load(runner(R"("sequence": "1")"));
+  const Vector moved =
+    other->at(0)->instances[0].geometry->positions[0] - looped->at(0)->instances[0].geometry->positions[0];
+  EXPECT_NEAR(moved.norm(), 10, 1e-12);
+  EXPECT_EQ(number->at(0)->instances[0].geometry->positions[0], other->at(0)->instances[0].geometry->positions[0]);
+}
+
+TEST(StageModels, InstancesInTheSamePoseShareIt)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"objects": [{"model": "models/runner.md2"}, {"model": "models/runner.md2"},
+    {"model": "models/runner.md2", "animation": {"offset": 1}},
+    {"model": "models/runner.md2", "animation": {"rate": 0}}]})");
+  const auto state = stage->at(1);
+  EXPECT_EQ(state->instances[0].geometry, state->instances[1].geometry);
+  EXPECT_NE(state->instances[0].geometry, state->instances[2].geometry);
+  EXPECT_EQ(state->instances[3].geometry, stage->at(2)->instances[3].geometry);
+}
+
+TEST(StageModels, RefusalsNameTheSceneAndTheObject)
+{
+  const ModelFolder folder;
+  EXPECT_EQ(folder.refusalOf("{\"objects\": [\n{\"name\": \"x\", \"model\": \"models/none.ac\"}]}"),
+    "scene.json:2: object 'x': model: models/none.ac: cannot be read: No such file or directory");
+  EXPECT_THAT(folder.refusalOf("{\"objects\": [\n{\"model\": \"scene.json\"}]}"),
+    HasSubstr("scene.json:2: object 'scene-1': model: scene.json: "));
+  EXPECT_THAT(folder.refusalOf("{\"objects\": [{\"model\": \"models\"}]}"), HasSubstr("scene.json:1: object"));
+  EXPECT_THAT(
+    folder.refusalOf("{\"objects\": [{\"model\": \"models/square.ac\", \"animation\": {\"sequence\": \"run\"}}]}"),
+    HasSubstr("animation.sequence is no sequence of models/square.ac (expected none, found 'run')"));
+  EXPECT_THAT(
+    folder.refusalOf("{\"objects\": [{\"model\": \"models/runner.md2\", \"animation\": {\"sequence\": \"run\"}}]}"),
+    HasSubstr("(expected one of go, rest, found 'run')"));
+  EXPECT_THAT(folder.refusalOf("{\"objects\": [{\"model\": \"models/square.ac\", \"materials\": {\"blue\": {}}}]}"),
+    HasSubstr("materials: no material of models/square.ac has this name (expected * or one of red, found 'blue')"));
+}
+
+TEST(StageModels, ThesisScenesLoad)
+{
+  const ModelFolder folder;
+  writeFile(folder.path("a.scene"),
+    "3\nglObject_AC: models/square.ac\nglObject_Light:\nglObject_Camera: ( 60, 0.1, 1000, 1.33 )\n"
+    "[ 0 0 5, 0 0 0, 0 1 0 ]\n2\n0\n< 0 0 0 > { 1, < 0, 0, 0 > }\n< 0 9 0 > { 1, < 0, 0, 0 > }\n"
+    "< 0 0 5 > { 1, < 0, 0, 0 > }\n< 0 0 0 > { 1, < 0, 0, 0 > }\n4\n< 4 0 0 > { 1, < 0, 0, 0 > } [ 3 1 1 ]\n"
+    "< 0 9 0 > { 1, < 0, 0, 0 > }\n< 0 0 5 > { 1, < 0, 0, 0 > }\n< 0 0 0 > { 1, < 0, 0, 0 > }\n");
+  const auto stage = Stage::load(readScene(folder.path("a.scene")));
+  const auto state = stage->at(2);
+  EXPECT_EQ(state->instances.at(0).world_from_object * Vector(1, 1, 0), Vector(4, 1, 0));
+  EXPECT_EQ(state->lights.at(0).position, Vector(0, 9, 0));
+  // gluPerspective's aspect: fx differs from fy a little at 640 x 480.
+  const Eigen::Matrix3d K = stage->view(0, 0).model->linear()->K;
+  EXPECT_NEAR(K(0, 0) / K(1, 1), 640.0 / 480 / 1.33, 1e-12);
+}
