@@ -32,6 +32,23 @@ std::vector<std::string> channelNames(const LayerSpec& spec)
   }
 }
 
+/// As OpenEXR's ZIP: even bytes, then odd bytes (`split`), as differences (`delta`).
+void predict(const unsigned char* __restrict raw, std::size_t bytes, unsigned char* __restrict split,
+  unsigned char* __restrict delta)
+{
+  unsigned char* const odd = split + (bytes + 1) / 2;
+  for (std::size_t i = 0; i < bytes / 2; ++i)
+  {
+    split[i] = raw[2 * i];
+    odd[i] = raw[2 * i + 1];
+  }
+  delta[0] = split[0];
+  for (std::size_t i = 1; i < bytes; ++i)
+  {
+    delta[i] = static_cast<unsigned char>(split[i] - split[i - 1] + 128);
+  }
+}
+
 /// OpenEXR 2 scan lines with ZIP compression and nothing in the header but what the format requires.
 class ExrWriter : public LayerFileWriter
 {
@@ -69,10 +86,12 @@ protected:
       unsigned char* to = &this->Chunk[start];
       for (const int channel : this->Order)
       {
-        for (std::size_t x = 0; x < width; ++x, to += 4)
+        const float* from = row + channel;
+        for (std::size_t x = 0; x < width; ++x)
         {
-          std::memcpy(to, row + x * channels + std::size_t(channel), 4);
+          std::memcpy(to + x * 4, from + x * channels, 4);
         }
+        to += width * 4;
       }
       if (this->Chunk.size() == this->ChunkBytes)
       {
@@ -138,21 +157,9 @@ private:
   void writeChunk()
   {
     const std::size_t raw = this->Chunk.size();
-    // as OpenEXR's ZIP: even bytes, then odd bytes, as differences
     this->Split.resize(raw);
-    unsigned char* even = this->Split.data();
-    unsigned char* odd = even + (raw + 1) / 2;
-    for (std::size_t i = 0; i < raw / 2; ++i)
-    {
-      even[i] = this->Chunk[2 * i];
-      odd[i] = this->Chunk[2 * i + 1];
-    }
     this->Delta.resize(raw);
-    this->Delta[0] = this->Split[0];
-    for (std::size_t i = 1; i < raw; ++i)
-    {
-      this->Delta[i] = static_cast<unsigned char>(this->Split[i] - this->Split[i - 1] + 128);
-    }
+    predict(this->Chunk.data(), raw, this->Split.data(), this->Delta.data());
     this->Packed.resize(raw);
     // a chunk that does not shrink is stored as it is
     const std::size_t packed =

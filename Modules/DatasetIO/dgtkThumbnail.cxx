@@ -105,20 +105,25 @@ double encoded(double linear) // IEC 61966-2-1
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-/// Range of the finite values of one channel; empty: 0 to 1.
-std::pair<double, double> rangeOf(const Samples& samples, int channel)
+/// Range of the finite values of one channel, without the outermost hundredth on either side when there are many;
+/// 0 to 1 when there is none.
+std::pair<double, double> rangeOf(const Samples& samples, int channel, bool robust)
 {
-  double least = std::numeric_limits<double>::infinity();
-  double most = -least;
+  std::vector<double> values;
   for (std::size_t i = std::size_t(channel); i < samples.values.size(); i += std::size_t(samples.channels))
   {
     if (std::isfinite(samples.values[i]))
     {
-      least = std::min(least, samples.values[i]);
-      most = std::max(most, samples.values[i]);
+      values.push_back(samples.values[i]);
     }
   }
-  return most >= least ? std::make_pair(least, most) : std::make_pair(0.0, 1.0);
+  if (values.empty())
+  {
+    return { 0.0, 1.0 };
+  }
+  std::sort(values.begin(), values.end());
+  const std::size_t cut = robust ? values.size() / 100 : 0;
+  return { values[cut], values[values.size() - 1 - cut] };
 }
 
 constexpr Rgb nothing = { 40, 40, 44 };
@@ -140,7 +145,7 @@ Canvas paint(const Samples& samples, F colorOf)
 
 Canvas paintDepth(const Samples& samples)
 {
-  const auto [near, far] = rangeOf(samples, 0);
+  const auto [near, far] = rangeOf(samples, 0, false);
   const bool logarithmic = near > 0;
   const double low = logarithmic ? portableLog(near) : near;
   const double high = logarithmic ? portableLog(far) : far;
@@ -158,7 +163,7 @@ Canvas paintRanges(const Samples& samples)
   std::vector<std::pair<double, double>> ranges;
   for (int c = 0; c < samples.channels; ++c)
   {
-    ranges.push_back(rangeOf(samples, c));
+    ranges.push_back(rangeOf(samples, c, true));
   }
   const auto unit = [ranges](const double* v, std::size_t c)
   {
@@ -189,19 +194,35 @@ Canvas paintColor(const Samples& samples, const ImageInfo& info)
     });
 }
 
-Canvas paintIds(const Samples& samples, bool coverage)
+/// Ids start at 0 where another value stands for nothing.
+Canvas paintIds(const Samples& samples, const LayerSpec& spec)
 {
   const int channels = samples.channels;
+  const bool coverage = spec.name == "alpha" && channels == 4;
+  const bool fromZero = !spec.invalid.empty() && spec.invalid != "0";
   return paint(samples,
-    [=](const double* v)
+    [&](const double* v)
     {
       const auto id = static_cast<std::uint32_t>(channels >= 3 ? v[0] * 65536 + v[1] * 256 + v[2] : v[0]);
-      Rgb color = idColor(id);
-      for (std::size_t c = 0; coverage && channels == 4 && c < 3; ++c)
+      if (fromZero && std::to_string(id) == spec.invalid)
+      {
+        return nothing;
+      }
+      Rgb color = idColor(fromZero ? id + 1 : id);
+      for (std::size_t c = 0; coverage && c < 3; ++c)
       {
         color[c] = static_cast<std::uint8_t>(color[c] * v[3] / 255);
       }
       return color;
+    });
+}
+
+/// Texture coordinates repeat: their fractions.
+Canvas paintFractions(const Samples& samples)
+{
+  return paint(samples,
+    [](const double* v) {
+      return Rgb{ byteOf(v[0] - std::floor(v[0])), byteOf(v[1] - std::floor(v[1])), std::uint8_t(64) };
     });
 }
 
@@ -228,11 +249,15 @@ Canvas makeThumbnail(const std::string& path, const LayerSpec& spec, int width, 
   }
   if (integers)
   {
-    return paintIds(samples, spec.name == "alpha");
+    return paintIds(samples, spec);
   }
   if (spec.name == "depth" || spec.name == "distance")
   {
     return paintDepth(samples);
+  }
+  if (spec.name == "uv" && info.channels == 2)
+  {
+    return paintFractions(samples);
   }
   return spec.name == "normal" && info.channels == 3 ? paintNormals(samples) : paintRanges(samples);
 }
