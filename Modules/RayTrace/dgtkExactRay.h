@@ -22,7 +22,6 @@ struct ExactRay
 struct ExactHit
 {
   bool inside = false;
-  bool marginal = false; ///< closer to an edge than single precision can tell
   double t = 0;
   Eigen::Vector2d barycentrics{ 0, 0 }; ///< of the second and third corner
 };
@@ -54,10 +53,7 @@ inline int side(double value, const Eigen::Vector3d& line)
 
 } // namespace exact
 
-/// `slack`: distance from an edge, in units of the scene at the surface, below which a hit is marginal; it applies to a
-/// ray through the camera's neighbourhood.
-inline ExactHit intersectExactly(
-  const ExactRay& ray, const Eigen::Vector3d corners[3], double slackPerLength, double slackOfInstance)
+inline ExactHit intersectExactly(const ExactRay& ray, const Eigen::Vector3d corners[3])
 {
   const Eigen::Vector3d x[3] = { corners[0] - ray.origin, corners[1] - ray.origin, corners[2] - ray.origin };
   ExactHit hit;
@@ -70,20 +66,27 @@ inline ExactHit intersectExactly(
     sides += exact::side(value[i], line);
   }
   const double sum = value[0] + value[1] + value[2];
-  const double square = ray.direction.squaredNorm();
   hit.inside = (sides == 3 || sides == -3) && sum != 0;
-  const double along =
-    value[0] * x[0].dot(ray.direction) + value[1] * x[1].dot(ray.direction) + value[2] * x[2].dot(ray.direction);
-  hit.t = along / (sum * square);
+  const Eigen::Vector3d point = value[0] * x[0] + value[1] * x[1] + value[2] * x[2];
+  hit.t = point.dot(ray.direction) / (sum * ray.direction.squaredNorm());
   hit.barycentrics = { value[1] / sum, value[2] / sum };
-  const double length = std::sqrt(square);
-  const double slack = (slackPerLength * std::abs(hit.t) * length + slackOfInstance) * length;
+  return hit;
+}
+
+/// Whether a ray passes an edge at a distance below `slack`, in units of the scene at t.
+inline bool isMarginal(const ExactRay& ray, const Eigen::Vector3d corners[3], double slack)
+{
+  const double length = ray.direction.norm();
   for (int i = 0; i < 3; ++i)
   {
-    const double edge = (x[(i + 2) % 3] - x[(i + 1) % 3]).norm();
-    hit.marginal |= !(std::abs(value[i]) > slack * edge);
+    const Eigen::Vector3d a = corners[i] - ray.origin;
+    const Eigen::Vector3d b = corners[(i + 1) % 3] - ray.origin;
+    if (!(std::abs(exact::cross(a, b).dot(ray.direction)) > slack * length * (b - a).norm()))
+    {
+      return true;
+    }
   }
-  return hit;
+  return false;
 }
 
 } // namespace dgtk

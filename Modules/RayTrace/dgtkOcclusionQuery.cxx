@@ -38,7 +38,7 @@ public:
     std::vector<std::shared_ptr<const RayMesh>> meshes;
     for (const Instance& instance : state->instances)
     {
-      meshes.push_back(this->Device->mesh(instance, rayFilter));
+      meshes.push_back(this->Device->mesh(instance, false));
     }
     this->Meshes.swap(meshes);
     this->Scenes.clear();
@@ -84,6 +84,7 @@ private:
     rtcInitIntersectContext(&context.context);
     context.scene = &scene;
     context.mode = RayContext::Mode::Checked;
+    context.context.filter = rayFilter;
     context.ray = &ray;
     context.skip = skip;
     context.t[0] = INFINITY;
@@ -119,7 +120,7 @@ private:
     {
       return known;
     }
-    const auto placed = std::make_shared<RayScene>(this->Device, rayFilter);
+    const auto placed = std::make_shared<RayScene>(this->Device, false);
     placed->place(this->State, pose);
     if (this->Scenes.size() == MostPoses)
     {

@@ -3,6 +3,8 @@
 
 #include "dgtkSurfaceRows.h"
 
+#include <emmintrin.h>
+
 namespace dgtk
 {
 
@@ -11,8 +13,9 @@ namespace
 
 ExactRay rayOfLane(const RayContext& context, unsigned int lane)
 {
-  return context.ray ? *context.ray
-                     : rayOf(*context.view, Eigen::Vector2d(context.x[lane] + 0.5, context.y[lane] + 0.5));
+  return context.ray
+           ? *context.ray
+           : rayOf(*context.view, Eigen::Vector2d(context.x + int(lane % 4) + 0.5, context.y + int(lane / 4) + 0.5));
 }
 
 /// Of two hits at nearly the same distance, whether `a` is the one to keep.
@@ -28,6 +31,69 @@ bool isBetter(const RayContext& context, unsigned int lane, const Hit& a, const 
   return comesBefore(first.t, a, second.t, b);
 }
 
+/// Whether there is no texel where the ray meets a triangle.
+bool isMissing(const RayContext& context, unsigned int lane, const Hit& hit)
+{
+  return isCutOut(context.scene->state().instances[hit.object - 1], hit.triangle,
+    context.scene->intersectTriangle(rayOfLane(context, lane), hit).barycentrics);
+}
+
+/// One bit a lane that is not 0.
+unsigned int activeLanes(const int* valid, unsigned int count)
+{
+  unsigned int lanes = 0;
+  if (count == 16)
+  {
+    const __m128i zero = _mm_setzero_si128();
+    const auto load = [&](int i)
+    { return _mm_cmpeq_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(valid) + i), zero); };
+    const __m128i low = _mm_packs_epi32(load(0), load(1));
+    const __m128i high = _mm_packs_epi32(load(2), load(3));
+    return ~unsigned(_mm_movemask_epi8(_mm_packs_epi16(low, high))) & 0xFFFFU;
+  }
+  for (unsigned int i = 0; i < count; ++i)
+  {
+    lanes |= unsigned(valid[i] != 0) << i;
+  }
+  return lanes;
+}
+
+Hit hitOf(const RayMesh& mesh, const RTCFilterFunctionNArguments& arguments, unsigned int i)
+{
+  return { RTCHitN_instID(arguments.hit, arguments.N, i, 0) + 1,
+    mesh.firstTriangle[RTCHitN_geomID(arguments.hit, arguments.N, i)] + RTCHitN_primID(arguments.hit, arguments.N, i) };
+}
+
+/// Whether the hit at `t` becomes the nearest of its lane; never when all hits are collected.
+bool accept(RayContext& context, const RayMesh& mesh, unsigned int geometry, unsigned int lane, const Hit& hit, float t)
+{
+  switch (context.mode)
+  {
+    case RayContext::Mode::Collect:
+      context.found->push_back(hit);
+      return false;
+    case RayContext::Mode::Checked:
+    {
+      const ExactHit exactly = context.scene->intersect(*context.ray, hit);
+      context.marginal = context.marginal || context.scene->isUncertain(*context.ray, hit, exactly.t);
+      if (hit == context.skip || !exactly.inside)
+      {
+        return false;
+      }
+      break;
+    }
+    case RayContext::Mode::Plain:
+    case RayContext::Mode::Nearest:
+      if (mesh.cutOut[geometry] && isCutOut(context.scene->state().instances[hit.object - 1], hit.triangle,
+                                     context.scene->intersectTriangle(rayOfLane(context, lane), hit).barycentrics))
+      {
+        return false;
+      }
+      break;
+  }
+  return !(t > context.t[lane] * (1 - NearTie)) || isBetter(context, lane, hit, context.best[lane]);
+}
+
 } // namespace
 
 void rayFilter(const RTCFilterFunctionNArguments* arguments)
@@ -35,40 +101,14 @@ void rayFilter(const RTCFilterFunctionNArguments* arguments)
   auto& context = *reinterpret_cast<RayContext*>(arguments->context);
   const auto* mesh = static_cast<const RayMesh*>(arguments->geometryUserPtr);
   const unsigned int count = arguments->N;
-  for (unsigned int i = 0; i < count; ++i)
+  for (unsigned int lanes = activeLanes(arguments->valid, count); lanes != 0; lanes &= lanes - 1)
   {
-    if (arguments->valid[i] == 0)
-    {
-      continue;
-    }
+    const unsigned int i = unsigned(__builtin_ctz(lanes));
     const unsigned int geometry = RTCHitN_geomID(arguments->hit, count, i);
-    const Hit hit{ RTCHitN_instID(arguments->hit, count, i, 0) + 1,
-      mesh->firstTriangle[geometry] + RTCHitN_primID(arguments->hit, count, i) };
-    if (context.mode == RayContext::Mode::Collect)
-    {
-      context.found->push_back(hit);
-      arguments->valid[i] = 0;
-      continue;
-    }
+    const Hit hit = hitOf(*mesh, *arguments, i);
     const unsigned int lane = RTCRayN_id(arguments->ray, count, i);
-    if (context.mode == RayContext::Mode::Checked)
-    {
-      const ExactHit exactly = context.scene->intersect(*context.ray, hit);
-      context.marginal |= exactly.marginal;
-      if (hit == context.skip || !exactly.inside)
-      {
-        arguments->valid[i] = 0;
-        continue;
-      }
-    }
-    else if (mesh->cutOut[geometry] && isCutOut(context.scene->state().instances[hit.object - 1], hit.triangle,
-                                         context.scene->intersectTriangle(rayOfLane(context, lane), hit).barycentrics))
-    {
-      arguments->valid[i] = 0;
-      continue;
-    }
     float& tfar = RTCRayN_tfar(arguments->ray, count, i);
-    if (tfar > context.t[lane] * (1 - NearTie) && !isBetter(context, lane, hit, context.best[lane]))
+    if (!accept(context, *mesh, geometry, lane, hit, tfar))
     {
       arguments->valid[i] = 0;
       continue;
@@ -76,6 +116,25 @@ void rayFilter(const RTCFilterFunctionNArguments* arguments)
     context.t[lane] = tfar;
     context.best[lane] = hit;
     tfar *= 1 + NearTie;
+  }
+}
+
+void cutOutFilter(const RTCFilterFunctionNArguments* arguments)
+{
+  const auto& context = *reinterpret_cast<const RayContext*>(arguments->context);
+  if (context.mode != RayContext::Mode::Plain)
+  {
+    return; // rayFilter does it
+  }
+  const auto* mesh = static_cast<const RayMesh*>(arguments->geometryUserPtr);
+  const unsigned int count = arguments->N;
+  for (unsigned int lanes = activeLanes(arguments->valid, count); lanes != 0; lanes &= lanes - 1)
+  {
+    const unsigned int i = unsigned(__builtin_ctz(lanes));
+    if (isMissing(context, RTCRayN_id(arguments->ray, count, i), hitOf(*mesh, *arguments, i)))
+    {
+      arguments->valid[i] = 0;
+    }
   }
 }
 

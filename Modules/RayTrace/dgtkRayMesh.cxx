@@ -30,19 +30,19 @@ bool needsBaking(const Eigen::Matrix3d& linear)
   return !(condition < LargestCondition);
 }
 
-RayMeshKey keyOf(const Instance& instance, RTCFilterFunctionN filter)
+RayMeshKey keyOf(const Instance& instance, bool bare)
 {
   const Model& model = *instance.model;
   RayMeshKey key;
   key.geometry = instance.geometry.get();
   key.model = &model;
-  key.filter = filter;
+  key.bare = bare;
   const std::vector<Material>& materials = instance.materials ? *instance.materials : model.materials;
   bool any = false;
   for (const Part& part : model.parts)
   {
     const Image* image = nullptr;
-    if (filter && !model.uvs.empty() && !materials.empty())
+    if (!bare && !model.uvs.empty() && !materials.empty())
     {
       const Material& material = materials[part.material];
       image = material.cutOut && material.texture >= 0 ? model.textures[material.texture].image.get() : nullptr;
@@ -115,8 +115,7 @@ bool hasArea(const RayMesh& mesh, const std::array<std::uint32_t, 3>& triangle)
   return n.squaredNorm() > DegenerateSine * DegenerateSine * e1.squaredNorm() * e2.squaredNorm();
 }
 
-void attach(
-  RayMesh& mesh, RTCBuffer vertices, std::uint32_t first, std::uint32_t count, bool cutOut, RTCFilterFunctionN filter)
+void attach(RayMesh& mesh, RTCBuffer vertices, std::uint32_t first, std::uint32_t count, bool cutOut)
 {
   RTCGeometry geometry = rtcNewGeometry(mesh.device->handle(), RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0, 3 * sizeof(float),
@@ -139,12 +138,12 @@ void attach(
       longest = std::max(longest, square);
       *indices++ = solid ? triangle[k] : triangle[0];
     }
-    mesh.longestEdge[i] = std::sqrt(longest);
+    mesh.inverseEdge[i] = solid && longest > 0 ? 1 / std::sqrt(longest) : 0;
   }
   rtcSetGeometryUserData(geometry, &mesh);
-  if (filter)
+  if (cutOut)
   {
-    rtcSetGeometryIntersectFilterFunction(geometry, filter);
+    rtcSetGeometryIntersectFilterFunction(geometry, cutOutFilter);
   }
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(mesh.scene, geometry);
@@ -165,15 +164,15 @@ void attachAll(RayMesh& mesh, const RayMeshKey& key, RTCBuffer vertices)
     {
       if (part.firstTriangle > first)
       {
-        attach(mesh, vertices, first, part.firstTriangle - first, false, key.filter);
+        attach(mesh, vertices, first, part.firstTriangle - first, false);
       }
-      attach(mesh, vertices, part.firstTriangle, part.triangles, true, key.filter);
+      attach(mesh, vertices, part.firstTriangle, part.triangles, true);
       first = part.firstTriangle + part.triangles;
     }
   }
   if (first < count)
   {
-    attach(mesh, vertices, first, count - first, false, key.filter);
+    attach(mesh, vertices, first, count - first, false);
   }
 }
 
@@ -181,8 +180,8 @@ void attachAll(RayMesh& mesh, const RayMeshKey& key, RTCBuffer vertices)
 
 bool RayMeshKey::operator<(const RayMeshKey& o) const
 {
-  return std::tie(this->geometry, this->model, this->filter, this->cutOuts, this->bake) <
-         std::tie(o.geometry, o.model, o.filter, o.cutOuts, o.bake);
+  return std::tie(this->geometry, this->model, this->bare, this->cutOuts, this->bake) <
+         std::tie(o.geometry, o.model, o.bare, o.cutOuts, o.bake);
 }
 
 RayMesh::~RayMesh()
@@ -231,14 +230,14 @@ void RayDevice::check() const
   }
 }
 
-std::shared_ptr<const RayMesh> RayDevice::mesh(const Instance& instance, RTCFilterFunctionN filter)
+std::shared_ptr<const RayMesh> RayDevice::mesh(const Instance& instance, bool bare)
 {
   if (!instance.model || !instance.geometry || instance.model->triangles.empty() ||
       !instance.world_from_object.linear.allFinite() || !instance.world_from_object.translation.allFinite())
   {
     return nullptr;
   }
-  RayMeshKey key = keyOf(instance, filter);
+  RayMeshKey key = keyOf(instance, bare);
   const std::lock_guard<std::mutex> guard(this->Lock);
   std::weak_ptr<const RayMesh>& known = this->Meshes[key];
   if (std::shared_ptr<const RayMesh> mesh = known.lock())
@@ -249,11 +248,13 @@ std::shared_ptr<const RayMesh> RayDevice::mesh(const Instance& instance, RTCFilt
   mesh->device = this->shared_from_this();
   mesh->geometry = instance.geometry;
   mesh->model = instance.model;
+  mesh->hasCutOuts = !key.cutOuts.empty();
   mesh->baked = !key.bake.empty();
-  mesh->longestEdge.resize(instance.model->triangles.size());
+  mesh->inverseEdge.resize(instance.model->triangles.size());
   measure(*mesh);
   mesh->scene = rtcNewScene(this->Handle);
-  rtcSetSceneFlags(mesh->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(
+    mesh->scene, bare ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   rtcSetSceneBuildQuality(mesh->scene, RTC_BUILD_QUALITY_MEDIUM);
   RTCBuffer vertices = makeVertices(*mesh, mesh->baked ? &instance.world_from_object.linear : nullptr);
   attachAll(*mesh, key, vertices);

@@ -27,20 +27,24 @@ struct RayMesh
   std::shared_ptr<const Geometry> geometry;
   std::shared_ptr<const Model> model;
   RTCScene scene = nullptr;
-  Eigen::Vector3d centre{ 0, 0, 0 };        ///< object frame
+  Eigen::Vector3d centre{ 0, 0, 0 }; ///< object frame
+  bool hasCutOuts = false;
   bool baked = false;                       ///< vertices are in the axes and scale of the world, for singular matrices
   float radius = 0;                         ///< of the vertices around the centre
   std::vector<std::uint32_t> firstTriangle; ///< of the model, by Embree geometry id
   std::vector<std::uint8_t> cutOut;         ///< whether a texture may cut holes, by Embree geometry id
-  std::vector<float> longestEdge;           ///< by triangle of the model, in units of the vertices
+  std::vector<float> inverseEdge; ///< 1 / longest edge by triangle of the model, units of the vertices; 0 without area
 };
+
+/// Filter of geometries with a cut-out texture (dgtkRayFilter.cxx).
+void cutOutFilter(const RTCFilterFunctionNArguments* arguments);
 
 /// What makes meshes different.
 struct RayMeshKey
 {
   const Geometry* geometry = nullptr;
   const Model* model = nullptr;
-  RTCFilterFunctionN filter = nullptr;
+  bool bare = false;
   std::vector<const Image*> cutOuts; ///< by part; empty when there are none
   std::vector<double> bake;          ///< 9 values or none
   bool operator<(const RayMeshKey& o) const;
@@ -57,9 +61,9 @@ public:
   RayDevice& operator=(const RayDevice&) = delete;
 
   RTCDevice handle() const { return this->Handle; }
-  /// The mesh of an instance, made when nobody has it. `filter` sees every hit of a triangle, or is null.
+  /// The mesh of an instance, made when nobody has it; `bare` ones know no cut-out textures and call no filters.
   /// Thread-safe. Null when there is nothing to hit.
-  std::shared_ptr<const RayMesh> mesh(const Instance& instance, RTCFilterFunctionN filter);
+  std::shared_ptr<const RayMesh> mesh(const Instance& instance, bool bare);
   /// Throws MachineError when Embree reported an error.
   void check() const;
 

@@ -7,129 +7,235 @@
 namespace dgtk
 {
 
-namespace
-{
-constexpr int Lanes = 16;
-constexpr int Side = 4;
-
-/// Whether a hit is too close to an edge, seen too much edge-on, or too close to the ends of the range for single
-/// precision. In the axes of the mesh: u, v of the hit have the error (error of a position) * (longest edge) *
-/// |direction| / |normal * direction|, with Embree's normal of twice the triangle's area.
-bool isDoubtful(
-  const RayScene::Placed& placed, const RTCRayHit16& packet, int lane, std::uint32_t triangle, float least, float most)
-{
-  const float* m = placed.mesh_from_camera;
-  const float dx = packet.ray.dir_x[lane];
-  const float dy = packet.ray.dir_y[lane];
-  const float dz = packet.ray.dir_z[lane];
-  const float x = m[0] * dx + m[1] * dy + m[2] * dz;
-  const float y = m[3] * dx + m[4] * dy + m[5] * dz;
-  const float z = m[6] * dx + m[7] * dy + m[8] * dz;
-  const float length = std::sqrt(x * x + y * y + z * z);
-  const float along = std::abs(x * packet.hit.Ng_x[lane] + y * packet.hit.Ng_y[lane] + z * packet.hit.Ng_z[lane]);
-  const float u = packet.hit.u[lane];
-  const float v = packet.hit.v[lane];
-  const float t = packet.ray.tfar[lane];
-  const float position = float(RayPrecision) * (t * length + placed.sizes);
-  const bool clear =
-    std::min(std::min(u, v), 1 - u - v) * along > position * placed.mesh->longestEdge[triangle] * length;
-  return !(clear && t > least && t < most);
-}
-
-} // namespace
-
-PacketRays::PacketRays(const dgtk::View& view)
-  : TheView(view)
+PacketTracer::PacketTracer(const RayScene& scene, const View& view)
+  : Scene(scene)
+  , TheView(view)
   , Linear(view.model->linear().has_value())
+  , Near(float(view.near))
+  , Far(float(view.far))
 {
+  rtcInitIntersectContext(&this->Context.context);
+  this->Context.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  this->Context.scene = &scene;
+  this->Context.view = &view;
+  RTCRay16& ray = this->Packet.ray;
+  for (int lane = 0; lane < Lanes; ++lane)
+  {
+    ray.org_x[lane] = ray.org_y[lane] = ray.org_z[lane] = 0;
+    ray.dir_x[lane] = ray.dir_y[lane] = 0;
+    ray.dir_z[lane] = 1;
+    ray.tnear[lane] = this->Near * (1 - NearTie);
+    ray.time[lane] = 0;
+    ray.mask[lane] = ~0U;
+    ray.id[lane] = unsigned(lane);
+    ray.flags[lane] = 0;
+  }
   if (this->Linear)
   {
-    this->Perspective = view.model->linear()->perspective;
-    this->First = view.model->rayThrough({ 0.5, 0.5 });
-    const CameraRay right = view.model->rayThrough({ 1.5, 0.5 });
-    const CameraRay below = view.model->rayThrough({ 0.5, 1.5 });
-    this->AlongX = { right.origin - this->First.origin, right.direction - this->First.direction };
-    this->AlongY = { below.origin - this->First.origin, below.direction - this->First.direction };
+    const bool perspective = view.model->linear()->perspective;
+    this->VaryingX = perspective ? ray.dir_x : ray.org_x;
+    this->VaryingY = perspective ? ray.dir_y : ray.org_y;
+    const auto at = [&](double x, double y)
+    {
+      const CameraRay r = view.model->rayThrough({ x, y });
+      return perspective ? r.direction : r.origin;
+    };
+    const Eigen::Vector3d first = at(0.5, 0.5);
+    const Eigen::Vector3d right = at(1.5, 0.5);
+    const Eigen::Vector3d below = at(0.5, 1.5);
+    this->FirstX = first.x();
+    this->StepX = right.x() - first.x();
+    this->Skew = below.x() - first.x();
+    this->FirstY = first.y();
+    this->StepY = below.y() - first.y();
   }
 }
 
-void PacketRays::set(RTCRayHit16& packet, int lane, int x, int y) const
+void PacketTracer::setLinear(const PixelRect& block)
 {
-  CameraRay ray;
-  if (this->Linear)
+  for (int j = 0; j < Side; ++j)
   {
-    ray.origin = this->First.origin + x * this->AlongX.origin + y * this->AlongY.origin;
-    ray.direction = this->First.direction + x * this->AlongX.direction + y * this->AlongY.direction;
+    const double y = std::min(block.y + j, block.y + block.height - 1);
+    const double skew = this->FirstX + this->Skew * y;
+    const float row = float(this->FirstY + this->StepY * y);
+    for (int i = 0; i < Side; ++i)
+    {
+      const double x = std::min(block.x + i, block.x + block.width - 1);
+      this->VaryingX[Side * j + i] = float(skew + this->StepX * x);
+      this->VaryingY[Side * j + i] = row;
+    }
   }
-  else
-  {
-    ray = this->TheView.model->rayThrough({ x + 0.5, y + 0.5 });
-  }
-  packet.ray.org_x[lane] = float(ray.origin.x());
-  packet.ray.org_y[lane] = float(ray.origin.y());
-  packet.ray.org_z[lane] = float(ray.origin.z());
-  packet.ray.dir_x[lane] = float(ray.direction.x());
-  packet.ray.dir_y[lane] = float(ray.direction.y());
-  packet.ray.dir_z[lane] = float(ray.direction.z());
 }
 
-template <bool Exact>
-void tracePacket(
-  const RayScene& scene, const PacketRays& rays, const PixelRect& block, VisibilityBuffer& buffer, RayMarks& marks)
+void PacketTracer::setGeneral(const PixelRect& block)
 {
-  RayContext context;
-  rtcInitIntersectContext(&context.context);
-  context.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  context.scene = &scene;
-  context.view = &rays.view();
-  const float near = float(rays.view().near);
-  const float far = float(rays.view().far);
-  alignas(64) RTCRayHit16 packet;
-  alignas(64) int valid[Lanes];
+  RTCRay16& out = this->Packet.ray;
   for (int lane = 0; lane < Lanes; ++lane)
   {
     const int x = block.x + std::min(lane % Side, block.width - 1);
     const int y = block.y + std::min(lane / Side, block.height - 1);
-    valid[lane] = lane % Side < block.width && lane / Side < block.height ? -1 : 0;
-    rays.set(packet, lane, x, y);
-    packet.ray.tnear[lane] = near * (1 - NearTie);
-    packet.ray.tfar[lane] = far * (1 + NearTie);
-    packet.ray.time[lane] = 0;
-    packet.ray.mask[lane] = ~0U;
-    packet.ray.id[lane] = unsigned(lane);
-    packet.ray.flags[lane] = 0;
-    packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-    packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
-    if (Exact)
-    {
-      context.x[lane] = x;
-      context.y[lane] = y;
-      context.t[lane] = INFINITY;
-    }
+    const CameraRay ray = this->TheView.model->rayThrough({ x + 0.5, y + 0.5 });
+    out.org_x[lane] = float(ray.origin.x());
+    out.org_y[lane] = float(ray.origin.y());
+    out.org_z[lane] = float(ray.origin.z());
+    out.dir_x[lane] = float(ray.direction.x());
+    out.dir_y[lane] = float(ray.direction.y());
+    out.dir_z[lane] = float(ray.direction.z());
   }
-  rtcIntersect16(valid, scene.handle(), &context.context, &packet);
-  const float least = near * (1 + NearTie);
-  const float most = far * (1 - NearTie);
+}
+
+/// Directions of the lanes in the axes of their mesh, what else takes part in the error, and 1 / (longest edge) of the
+/// triangles. Lanes without a hit get anything finite.
+void PacketTracer::toMesh(MeshLanes& out) const
+{
+  const RTCRay16& ray = this->Packet.ray;
+  const RTCHit16& hit = this->Packet.hit;
+  unsigned int instance = RTC_INVALID_GEOMETRY_ID;
+  for (int i = 0; i < Lanes; ++i)
+  {
+    instance = std::min(instance, hit.instID[0][i]);
+  }
+  unsigned int others = 0;
+  for (int i = 0; i < Lanes; ++i)
+  {
+    others |= unsigned(hit.instID[0][i] != instance) & unsigned(hit.instID[0][i] != RTC_INVALID_GEOMETRY_ID);
+  }
+  const RayScene::Placed& placed = this->Scene.placed(instance);
+  if (others == 0 && placed.mesh->firstTriangle.size() == 1)
+  {
+    float m[9];
+    std::copy(placed.mesh_from_camera, placed.mesh_from_camera + 9, m);
+    const float sizes = placed.sizes;
+    alignas(64) unsigned int triangle[Lanes];
+    for (int i = 0; i < Lanes; ++i)
+    {
+      out.x[i] = m[0] * ray.dir_x[i] + m[1] * ray.dir_y[i] + m[2] * ray.dir_z[i];
+      out.y[i] = m[3] * ray.dir_x[i] + m[4] * ray.dir_y[i] + m[5] * ray.dir_z[i];
+      out.z[i] = m[6] * ray.dir_x[i] + m[7] * ray.dir_y[i] + m[8] * ray.dir_z[i];
+      out.sizes[i] = sizes;
+      triangle[i] = hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? 0 : hit.primID[i];
+    }
+    const float* inverse = placed.mesh->inverseEdge.data();
+    for (int i = 0; i < Lanes; ++i)
+    {
+      out.inverseEdge[i] = inverse[triangle[i]];
+    }
+    return;
+  }
+  for (int i = 0; i < Lanes; ++i)
+  {
+    const bool any = hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+    const RayScene::Placed& own = this->Scene.placed(any ? hit.instID[0][i] : instance);
+    const float* m = own.mesh_from_camera;
+    out.x[i] = m[0] * ray.dir_x[i] + m[1] * ray.dir_y[i] + m[2] * ray.dir_z[i];
+    out.y[i] = m[3] * ray.dir_x[i] + m[4] * ray.dir_y[i] + m[5] * ray.dir_z[i];
+    out.z[i] = m[6] * ray.dir_x[i] + m[7] * ray.dir_y[i] + m[8] * ray.dir_z[i];
+    out.sizes[i] = own.sizes;
+    out.inverseEdge[i] = any ? own.mesh->inverseEdge[own.mesh->firstTriangle[hit.geomID[i]] + hit.primID[i]] : 0;
+  }
+}
+
+/// Whether each hit is far enough from the edges of its triangle, not too edge-on and far enough from the ends of the
+/// range for single precision. In the axes of the mesh: u, v of a hit have the error (error of a position) * (longest
+/// edge) * |direction| / |normal * direction|, with Embree's normal of twice the triangle's area.
+void PacketTracer::findClear(int clear[Lanes]) const
+{
+  const RTCRay16& ray = this->Packet.ray;
+  const RTCHit16& hit = this->Packet.hit;
+  const float least = this->Near * (1 + NearTie);
+  const float most = this->Far * (1 - NearTie);
+  constexpr float precision = float(2 * RayPrecision * RayPrecision); // (a + b)^2 <= 2 (a^2 + b^2)
+  MeshLanes lanes;
+  this->toMesh(lanes);
+  for (int i = 0; i < Lanes; ++i)
+  {
+    const float x = lanes.x[i];
+    const float y = lanes.y[i];
+    const float z = lanes.z[i];
+    const float t = ray.tfar[i];
+    const float square = x * x + y * y + z * z;
+    const float along = (x * hit.Ng_x[i] + y * hit.Ng_y[i] + z * hit.Ng_z[i]) * lanes.inverseEdge[i];
+    const float u = hit.u[i];
+    const float v = hit.v[i];
+    const float w = 1 - u - v;
+    const float error = precision * (t * t * square + lanes.sizes[i] * lanes.sizes[i]) * square;
+    const float distance = along * along;
+    clear[i] = (u > 0) & (v > 0) & (w > 0) & (u * u * distance > error) & (v * v * distance > error) &
+               (w * w * distance > error) & (t > least) & (t < most);
+  }
+}
+
+bool PacketTracer::anyHit() const
+{
+  unsigned int all = RTC_INVALID_GEOMETRY_ID;
+  for (const unsigned int geometry : this->Packet.hit.geomID)
+  {
+    all &= geometry;
+  }
+  return all != RTC_INVALID_GEOMETRY_ID;
+}
+
+void PacketTracer::mark(const PixelRect& block, const VisibilityBuffer& buffer, RayMarks& marks)
+{
+  int clear[Lanes];
+  if (this->anyHit())
+  {
+    this->findClear(clear);
+  }
   for (int y = 0; y < block.height; ++y)
   {
     const std::size_t row = std::size_t(block.y - buffer.rect.y + y) * buffer.rect.width + (block.x - buffer.rect.x);
     for (int x = 0; x < block.width; ++x)
     {
       const int lane = y * Side + x;
-      const bool any = packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
-      const unsigned int instance = packet.hit.instID[0][lane];
-      const Hit hit = any ? scene.hit(instance, packet.hit.geomID[lane], packet.hit.primID[lane]) : Hit{};
-      buffer.hits[row + x] = hit;
-      if (Exact)
-      {
-        marks.nearness[row + x] = any ? 1 / packet.ray.tfar[lane] : 0;
-        marks.doubtful[row + x] = any && isDoubtful(scene.placed(instance), packet, lane, hit.triangle, least, most);
-      }
+      const bool any = this->Packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
+      marks.nearness[row + x] = any ? 1 / this->Packet.ray.tfar[lane] : 0;
+      marks.doubtful[row + x] = any && clear[lane] == 0;
     }
   }
 }
 
-template void tracePacket<true>(const RayScene&, const PacketRays&, const PixelRect&, VisibilityBuffer&, RayMarks&);
-template void tracePacket<false>(const RayScene&, const PacketRays&, const PixelRect&, VisibilityBuffer&, RayMarks&);
+template <bool Exact>
+void PacketTracer::trace(const PixelRect& block, VisibilityBuffer& buffer, RayMarks& marks)
+{
+  if (this->Linear)
+  {
+    this->setLinear(block);
+  }
+  else
+  {
+    this->setGeneral(block);
+  }
+  RTCHit16& hit = this->Packet.hit;
+  for (int lane = 0; lane < Lanes; ++lane)
+  {
+    this->Valid[lane] = lane % Side < block.width && lane / Side < block.height ? -1 : 0;
+    this->Packet.ray.tfar[lane] = this->Far * (1 + NearTie);
+    hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+    hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+    this->Context.t[lane] = INFINITY;
+  }
+  this->Context.x = block.x;
+  this->Context.y = block.y;
+  rtcIntersect16(this->Valid, this->Scene.handle(), &this->Context.context, &this->Packet);
+  for (int y = 0; y < block.height; ++y)
+  {
+    Hit* row = &buffer.at(block.x, block.y + y);
+    for (int x = 0; x < block.width; ++x)
+    {
+      const int lane = y * Side + x;
+      row[x] = hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID
+                 ? this->Scene.hit(hit.instID[0][lane], hit.geomID[lane], hit.primID[lane])
+                 : Hit{};
+    }
+  }
+  if (Exact)
+  {
+    this->mark(block, buffer, marks);
+  }
+}
+
+template void PacketTracer::trace<true>(const PixelRect&, VisibilityBuffer&, RayMarks&);
+template void PacketTracer::trace<false>(const PixelRect&, VisibilityBuffer&, RayMarks&);
 
 } // namespace dgtk

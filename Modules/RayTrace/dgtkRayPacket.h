@@ -4,6 +4,7 @@
 
 #include "dgtkRayScene.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace dgtk
@@ -21,27 +22,47 @@ struct RayMarks
   }
 };
 
-/// Rays of the pixels of a view, affine in the pixel for linear cameras.
-class PacketRays
+/// Traces the primary rays of a view, 4 x 4 pixels at a time. One thread.
+class PacketTracer
 {
 public:
-  explicit PacketRays(const dgtk::View& view);
-  const dgtk::View& view() const { return this->TheView; }
-  /// Fills lane `lane` for pixel (x, y).
-  void set(RTCRayHit16& packet, int lane, int x, int y) const;
-  bool perspective() const { return this->Linear && this->Perspective; }
+  static constexpr int Lanes = 16;
+  static constexpr int Side = 4;
+
+  PacketTracer(const RayScene& scene, const View& view);
+
+  /// Records the hits of `block`, at most Side x Side pixels inside buffer.rect; with `Exact` the marks, too.
+  template <bool Exact>
+  void trace(const PixelRect& block, VisibilityBuffer& buffer, RayMarks& marks);
 
 private:
-  const dgtk::View& TheView;
-  bool Linear;
-  bool Perspective = true;
-  CameraRay First, AlongX, AlongY; ///< pixel (0, 0) and the steps to its neighbours
-};
+  struct MeshLanes
+  {
+    alignas(64) float x[Lanes];
+    alignas(64) float y[Lanes];
+    alignas(64) float z[Lanes];
+    alignas(64) float sizes[Lanes];
+    alignas(64) float inverseEdge[Lanes];
+  };
+  void setLinear(const PixelRect& block);
+  void setGeneral(const PixelRect& block);
+  void mark(const PixelRect& block, const VisibilityBuffer& buffer, RayMarks& marks);
+  bool anyHit() const;
+  void toMesh(MeshLanes& out) const;
+  void findClear(int clear[Lanes]) const;
 
-/// Traces the rays of `block`, at most 4 x 4 pixels inside buffer.rect. Without `Exact`, `marks` is not touched.
-template <bool Exact>
-void tracePacket(
-  const RayScene& scene, const PacketRays& rays, const PixelRect& block, VisibilityBuffer& buffer, RayMarks& marks);
+  const RayScene& Scene;
+  const View& TheView;
+  bool Linear;
+  float* VaryingX = nullptr; ///< linear: what of the rays differs between pixels, x components
+  float* VaryingY = nullptr;
+  double FirstX = 0, StepX = 0, Skew = 0, FirstY = 0, StepY = 0;
+  float Near;
+  float Far;
+  RayContext Context;
+  alignas(64) RTCRayHit16 Packet;
+  alignas(64) int Valid[Lanes];
+};
 
 } // namespace dgtk
 

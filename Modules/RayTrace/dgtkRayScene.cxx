@@ -18,13 +18,14 @@ namespace
 constexpr double SameDistance = 1e-9;
 } // namespace
 
-RayScene::RayScene(std::shared_ptr<RayDevice> device, RTCFilterFunctionN filter)
+RayScene::RayScene(std::shared_ptr<RayDevice> device, bool bare)
   : Device(std::move(device))
-  , Filter(filter)
+  , Bare(bare)
   , Scene(rtcNewScene(this->Device->handle()))
 {
   this->Device->check();
-  rtcSetSceneFlags(this->Scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
+  rtcSetSceneFlags(
+    this->Scene, bare ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   rtcSetSceneBuildQuality(this->Scene, RTC_BUILD_QUALITY_MEDIUM);
 }
 
@@ -76,7 +77,7 @@ void RayScene::placeInstance(std::size_t index, bool newState)
   Placed& placed = this->Instances[index];
   if (newState)
   {
-    std::shared_ptr<const RayMesh> mesh = this->Device->mesh(instance, this->Filter);
+    std::shared_ptr<const RayMesh> mesh = this->Device->mesh(instance, this->Bare);
     if (!mesh && placed.geometry)
     {
       rtcDetachGeometry(this->Scene, unsigned(index));
@@ -118,22 +119,39 @@ void RayScene::placeInstance(std::size_t index, bool newState)
   placed.reach = translation.norm() + linear.norm() * placed.mesh->radius;
 }
 
-ExactHit RayScene::intersectTriangle(const ExactRay& ray, const Hit& hit) const
+void RayScene::corners(const Hit& hit, Eigen::Vector3d out[3]) const
 {
   const Placed& placed = this->Instances[hit.object - 1];
-  const std::vector<Eigen::Vector3d>& positions = placed.mesh->geometry->positions;
+  const Eigen::Vector3d* positions = placed.mesh->geometry->positions.data();
   const auto& triangle = placed.mesh->model->triangles[hit.triangle];
-  const Eigen::Vector3d corners[3] = { placed.camera_from_object * positions[triangle[0]],
-    placed.camera_from_object * positions[triangle[1]], placed.camera_from_object * positions[triangle[2]] };
-  return intersectExactly(ray, corners, RayPrecision, RayPrecision * placed.reach);
+  for (int i = 0; i < 3; ++i)
+  {
+    out[i] = placed.camera_from_object * positions[triangle[i]];
+  }
+}
+
+ExactHit RayScene::intersectTriangle(const ExactRay& ray, const Hit& hit) const
+{
+  Eigen::Vector3d x[3];
+  this->corners(hit, x);
+  return intersectExactly(ray, x);
 }
 
 ExactHit RayScene::intersect(const ExactRay& ray, const Hit& hit) const
 {
   ExactHit exact = this->intersectTriangle(ray, hit);
   exact.inside = exact.inside && exact.t >= ray.least && exact.t <= ray.most &&
-                 !isCutOut(this->State->instances[hit.object - 1], hit.triangle, exact.barycentrics);
+                 !(this->Instances[hit.object - 1].mesh->hasCutOuts &&
+                   isCutOut(this->State->instances[hit.object - 1], hit.triangle, exact.barycentrics));
   return exact;
+}
+
+bool RayScene::isUncertain(const ExactRay& ray, const Hit& hit, double t) const
+{
+  Eigen::Vector3d x[3];
+  this->corners(hit, x);
+  return isMarginal(
+    ray, x, RayPrecision * (std::abs(t) * ray.direction.norm() + this->Instances[hit.object - 1].reach));
 }
 
 ExactRay rayOf(const View& view, const Eigen::Vector2d& pixel)
@@ -193,6 +211,7 @@ void trace(const RayScene& scene, const ExactRay& ray, std::vector<Hit>& found)
   rtcInitIntersectContext(&context.context);
   context.scene = &scene;
   context.mode = RayContext::Mode::Collect;
+  context.context.filter = rayFilter;
   context.found = &found;
   alignas(16) RTCRayHit query = makeQuery(ray);
   rtcIntersect1(scene.handle(), &context.context, &query);
@@ -225,7 +244,7 @@ void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::v
   for (const Hit& hit : found)
   {
     const ExactHit exactly = scene.intersect(ray, hit);
-    nearby |= exactly.marginal;
+    nearby = nearby || scene.isUncertain(ray, hit, exactly.t);
     if (exactly.inside)
     {
       hits.push_back({ exactly.t, hit });

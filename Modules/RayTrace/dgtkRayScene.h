@@ -27,8 +27,7 @@ public:
     double reach = 0;          ///< the same in the camera frame
   };
 
-  /// `filter` of the meshes; null for bare tracing.
-  RayScene(std::shared_ptr<RayDevice> device, RTCFilterFunctionN filter);
+  RayScene(std::shared_ptr<RayDevice> device, bool bare);
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
@@ -51,12 +50,15 @@ public:
   ExactHit intersect(const ExactRay& ray, const Hit& hit) const;
   /// The same without the range and the texels.
   ExactHit intersectTriangle(const ExactRay& ray, const Hit& hit) const;
+  /// Whether single precision cannot tell on which side of an edge the ray passes, which meets the triangle at t.
+  bool isUncertain(const ExactRay& ray, const Hit& hit, double t) const;
 
 private:
+  void corners(const Hit& hit, Eigen::Vector3d out[3]) const;
   void placeInstance(std::size_t index, bool newState);
 
   std::shared_ptr<RayDevice> Device;
-  RTCFilterFunctionN Filter;
+  bool Bare;
   RTCScene Scene = nullptr;
   std::shared_ptr<const SceneState> State;
   Rigid3 Pose;
@@ -82,7 +84,7 @@ struct RayHit
 /// misses by a rounding; otherwise only when some surface is marginal.
 void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::vector<RayHit>& hits);
 
-/// The filter of meshes of scenes that collectHits or RayPacket traces.
+/// Embree's filter of all modes but Plain, set in the context.
 void rayFilter(const RTCFilterFunctionNArguments* arguments);
 
 /// Embree's context with what the filter needs, first member first.
@@ -92,15 +94,16 @@ struct RayContext
   const RayScene* scene = nullptr;
   enum class Mode
   {
-    Nearest, ///< the nearest surface of each lane
+    Plain,   ///< the nearest surface in single precision; only cut-out textures are looked at
+    Nearest, ///< the nearest surface of each lane, near ties decided exactly
     Checked, ///< the nearest surface that is exactly inside the range of `ray` and is not `skip`
     Collect  ///< all candidates
-  } mode = Mode::Nearest;
+  } mode = Mode::Plain;
   // Nearest: rays by lane (RTCRay::id), and what was accepted.
-  const View* view = nullptr;    ///< rays through pixels (x[lane], y[lane]) of a view ...
+  const View* view = nullptr;    ///< rays through 4 x 4 pixels of a view, the first one at (x, y) ...
   const ExactRay* ray = nullptr; ///< ... or one given ray
-  int x[16];                     ///< image pixels
-  int y[16];
+  int x = 0;
+  int y = 0;
   float t[16];
   Hit best[16];
   Hit skip;                          ///< Checked: a triangle that is not there

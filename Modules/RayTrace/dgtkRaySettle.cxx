@@ -34,16 +34,13 @@ public:
   {
     const int width = this->Buffer.rect.width;
     const std::size_t start = std::size_t(y) * width;
+    this->findSuspects(y);
     for (int x = 0; x < width; ++x)
     {
       const std::size_t i = start + x;
-      const bool wrong = (this->Marks.doubtful[i] && !this->isMet(this->Buffer.hits[i], i)) ||
-                         (x > 0 && this->isCovered(i, i - 1, x > 1 ? i - 2 : i - 1)) ||
-                         (x + 1 < width && this->isCovered(i, i + 1, x + 2 < width ? i + 2 : i + 1)) ||
-                         (y > 0 && this->isCovered(i, i - width, y > 1 ? i - 2 * width : i - width)) ||
-                         (y + 1 < this->Buffer.rect.height &&
-                           this->isCovered(i, i + width, y + 2 < this->Buffer.rect.height ? i + 2 * width : i + width));
-      if (wrong)
+      const bool doubtful = this->Marks.doubtful[i] != 0;
+      if ((doubtful && !this->isMet(this->Buffer.hits[i], i)) ||
+          (this->Suspects[x] != 0 && this->isCovered(this->Suspects[x], i)))
       {
         this->decide(i, changes);
       }
@@ -60,24 +57,95 @@ private:
 
   bool isMet(const Hit& hit, std::size_t i) const { return this->Scene.intersect(this->rayAt(i), hit).inside; }
 
-  /// Whether a nearer surface of the neighbour contains the pixel's centre although something else is recorded there.
-  /// `beyond` is the neighbour's neighbour on the same line.
-  bool isCovered(std::size_t i, std::size_t neighbour, std::size_t beyond) const
+  /// Whether a neighbour's surface is met before the recorded one.
+  bool comesFirst(std::size_t neighbour, std::size_t i) const
   {
+    const Hit& own = this->Buffer.hits[i];
     const Hit& other = this->Buffer.hits[neighbour];
-    if (other == this->Buffer.hits[i] || other.object == 0)
+    if (other.object == 0 || other == own)
     {
       return false;
     }
-    const float own = this->Marks.nearness[i];
-    const float next = this->Marks.nearness[neighbour];
-    if (next < own)
+    const ExactRay ray = this->rayAt(i);
+    const ExactHit first = this->Scene.intersect(ray, other);
+    return first.inside &&
+           (own.object == 0 || comesBefore(first.t, other, this->Scene.intersectTriangle(ray, own).t, own));
+  }
+
+  /// A row of the buffer with its first and last pixel doubled.
+  struct Row
+  {
+    std::vector<float> nearness;
+    std::vector<std::uint32_t> objects;
+  };
+  static constexpr int Pad = 2;
+
+  void load(int y, Row& row) const
+  {
+    const int width = this->Buffer.rect.width;
+    const int clamped = std::clamp(y, 0, this->Buffer.rect.height - 1);
+    const std::size_t start = std::size_t(clamped) * width;
+    row.nearness.resize(std::size_t(width) + 2 * Pad);
+    row.objects.resize(std::size_t(width) + 2 * Pad);
+    std::copy_n(this->Marks.nearness.begin() + start, width, row.nearness.begin() + Pad);
+    const Hit* hits = this->Buffer.hits.data() + start;
+    std::uint32_t* objects = row.objects.data() + Pad;
+    for (int x = 0; x < width; ++x)
     {
-      return false;
+      objects[x] = hits[x].object;
     }
-    // The surface that goes on evenly has no silhouette here.
-    const bool even = next - own <= JumpFactor * std::abs(this->Marks.nearness[beyond] - next);
-    return !(even && other.object == this->Buffer.hits[i].object) && this->isMet(other, i);
+    for (int i = 0; i < Pad; ++i)
+    {
+      row.nearness[i] = row.nearness[Pad];
+      row.objects[i] = row.objects[Pad];
+      row.nearness[std::size_t(width) + Pad + i] = row.nearness[std::size_t(width) + Pad - 1];
+      row.objects[std::size_t(width) + Pad + i] = row.objects[std::size_t(width) + Pad - 1];
+    }
+  }
+
+  /// Marks the pixels, and on which side, beside a nearer surface that may have an edge there: of another object, or
+  /// one whose 1 / t changes by much more than it does beyond. (On a plane 1 / t changes evenly.)
+  void findSuspects(int y)
+  {
+    const int width = this->Buffer.rect.width;
+    for (int i = 0; i < 5; ++i)
+    {
+      this->load(y + i - 2, this->Rows[i]);
+    }
+    this->Suspects.assign(width, 0);
+    const Row& row = this->Rows[2];
+    this->compare(row, row, 1, row, 2, Right);
+    this->compare(row, row, -1, row, -2, Left);
+    this->compare(row, this->Rows[1], 0, this->Rows[0], 0, Above);
+    this->compare(row, this->Rows[3], 0, this->Rows[4], 0, Below);
+  }
+
+  void compare(const Row& own, const Row& next, int nextShift, const Row& beyond, int beyondShift, int side)
+  {
+    const int width = this->Buffer.rect.width;
+    const float* a = own.nearness.data() + Pad;
+    const float* b = next.nearness.data() + Pad + nextShift;
+    const float* c = beyond.nearness.data() + Pad + beyondShift;
+    const std::uint32_t* p = own.objects.data() + Pad;
+    const std::uint32_t* q = next.objects.data() + Pad + nextShift;
+    int* out = this->Suspects.data();
+    for (int x = 0; x < width; ++x)
+    {
+      const float jump = b[x] - a[x];
+      const int steep = jump > JumpFactor * std::abs(c[x] - b[x]);
+      const int other = (p[x] != q[x]) & (jump >= 0);
+      out[x] |= -(steep | other) & side;
+    }
+  }
+
+  /// Whether the surface of a neighbour on one of the sides is met before what is recorded.
+  bool isCovered(int sides, std::size_t i) const
+  {
+    const std::size_t width = std::size_t(this->Buffer.rect.width);
+    return ((sides & Right) != 0 && this->comesFirst(i + 1, i)) ||
+           ((sides & Left) != 0 && this->comesFirst(i - 1, i)) ||
+           ((sides & Above) != 0 && this->comesFirst(i - width, i)) ||
+           ((sides & Below) != 0 && this->comesFirst(i + width, i));
   }
 
   void decide(std::size_t i, std::vector<Change>& changes)
@@ -91,12 +159,21 @@ private:
   }
 
   static constexpr float JumpFactor = 2;
+  enum Side
+  {
+    Right = 1,
+    Left = 2,
+    Above = 4,
+    Below = 8
+  };
 
   const RayScene& Scene;
   const dgtk::View& TheView;
   const RayMarks& Marks;
   const VisibilityBuffer& Buffer;
   std::vector<RayHit> Found;
+  Row Rows[5]; ///< from two above to two below
+  std::vector<int> Suspects;
 };
 
 } // namespace

@@ -13,8 +13,8 @@ namespace dgtk
 
 namespace
 {
-constexpr int BandRows = 8;  ///< rows that are traced as one job
-constexpr int BlockSide = 4; ///< pixels of a packet
+constexpr int BandRows = 8; ///< rows that are traced as one job
+constexpr int BlockSide = PacketTracer::Side;
 
 /// Primary rays in packets; `Exact` chooses between the engine and its yardstick.
 template <bool Exact>
@@ -23,7 +23,7 @@ class RaySource final : public VisibilitySource
 public:
   explicit RaySource(ThreadPool& pool)
     : Pool(pool)
-    , Scene(RayDevice::shared(), Exact ? rayFilter : nullptr)
+    , Scene(RayDevice::shared(), !Exact)
   {
   }
   std::string name() const override { return "ray"; }
@@ -41,20 +41,20 @@ public:
     {
       this->Marks.resize(rect);
     }
-    const PacketRays rays(this->CurrentView);
     const int bands = (rect.height + BandRows - 1) / BandRows;
     this->Pool.parallelFor(bands,
       [&](int band)
       {
         const int first = band * BandRows;
         const int last = std::min(rect.height, first + BandRows);
+        PacketTracer tracer(this->Scene, this->CurrentView);
         for (int x = 0; x < rect.width; x += BlockSide)
         {
           for (int y = first; y < last; y += BlockSide)
           {
             const PixelRect block{ rect.x + x, rect.y + y, std::min(BlockSide, rect.width - x),
               std::min(BlockSide, last - y) };
-            tracePacket<Exact>(this->Scene, rays, block, hits, this->Marks);
+            tracer.template trace<Exact>(block, hits, this->Marks);
           }
         }
       });
