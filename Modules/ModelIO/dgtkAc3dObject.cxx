@@ -184,7 +184,10 @@ Corner Ac3dObject::corner(const Words& words)
 
 void Ac3dObject::refs(long long number)
 {
-  this->Corners.clear();
+  // a corner has at least two characters
+  this->Corners = std::vector<Corner>();
+  this->Corners.reserve(static_cast<std::size_t>(
+    std::min<unsigned long long>(static_cast<unsigned long long>(number), this->Lines.remaining() / 2 + 1)));
   for (long long i = 0; i < number && this->Lines.nextEntry("corners", i, number); ++i)
   {
     this->Corners.push_back(this->corner(this->Lines.words()));

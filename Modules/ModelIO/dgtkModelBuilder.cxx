@@ -14,6 +14,8 @@ namespace
 {
 constexpr std::size_t mostWarnings = 50;
 constexpr std::size_t mostMaterials = 65536;
+/// Corners from which on scratch memory is given back after use.
+constexpr std::size_t largeSurface = 10000;
 constexpr std::uint32_t none = 0xffffffffu;
 
 double clamped(double value, double low, double high, double fallback)
@@ -38,7 +40,7 @@ ModelBuilder::ModelBuilder(
   , Rest(std::make_shared<Geometry>())
   , Textures(path, options)
   , MemoryLimit((std::uint64_t(48) << 20) + std::uint64_t(8) * fileBytes)
-  , WorkLimit(50'000'000 + std::uint64_t(40) * fileBytes)
+  , WorkLimit(30'000'000 + std::uint64_t(20) * fileBytes)
 {
   this->Result->format = format;
   this->Result->path = path;
@@ -209,6 +211,9 @@ bool ModelBuilder::addSurface(const Corner* corners, std::size_t count, const Su
     surface.style.material = this->defaultMaterial();
   }
   object.polygon.clear();
+  object.polygon.reserve(count);
+  object.cut.reserve(count - 2);
+  makeRoom(object.corners, count);
   for (std::size_t i = 0; i < count; ++i)
   {
     Corner corner = corners[i];
@@ -219,20 +224,28 @@ bool ModelBuilder::addSurface(const Corner* corners, std::size_t count, const Su
     object.polygon.push_back(object.positions[object.local(corner)]);
   }
   surface.normal = polygonNormal(object.polygon);
+  surface.area = surface.normal.stableNorm();
+  surface.normal = surface.area > 0 ? Eigen::Vector3d(surface.normal / surface.area) : Eigen::Vector3d(0, 0, 0);
   if (!triangulate(object.polygon, object.cut, this->Work, this->WorkLimit))
   {
     this->GaveUpShape = true;
   }
+  makeRoom(object.triangles, object.cut.size());
   for (const std::array<std::uint32_t, 3>& t : object.cut)
   {
     object.triangles.push_back({ surface.firstCorner + t[0], surface.firstCorner + t[1], surface.firstCorner + t[2] });
   }
   surface.triangles = static_cast<std::uint32_t>(object.cut.size());
   object.surfaces.push_back(surface);
+  if (count > largeSurface)
+  {
+    std::vector<Eigen::Vector3d>().swap(object.polygon);
+    std::vector<std::array<std::uint32_t, 3>>().swap(object.cut);
+  }
   if (style.twoSided)
   {
     this->Result->materials[static_cast<std::size_t>(surface.style.material)].twoSided = true;
-    this->Result->twoSidedTriangles += object.cut.size();
+    this->Result->twoSidedTriangles += surface.triangles;
   }
   return true;
 }

@@ -4,6 +4,7 @@
 
 #include "dgtkModelBuilder.h"
 
+#include <algorithm>
 #include <cfloat>
 
 namespace dgtk
@@ -13,6 +14,16 @@ namespace dgtk
 inline bool isDrawable(const Eigen::Vector3d& v)
 {
   return v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= double(FLT_MAX);
+}
+
+/// Makes room for `more` elements: exactly, when there is one object, and geometrically for many.
+template <typename T>
+void makeRoom(std::vector<T>& v, std::size_t more)
+{
+  if (v.capacity() - v.size() < more)
+  {
+    v.reserve(std::max(v.size() + more, v.capacity() + v.capacity() / 2));
+  }
 }
 
 /// The object that a ModelBuilder is collecting.
@@ -25,7 +36,8 @@ struct ModelBuilder::Object
     std::uint32_t firstTriangle;
     std::uint32_t triangles;
     SurfaceStyle style;
-    Eigen::Vector3d normal; ///< twice the area long
+    Eigen::Vector3d normal; ///< unit length, or 0 for a surface without area
+    double area;            ///< twice its area
   };
   std::string name;
   std::uint32_t firstVertex = 0;

@@ -14,7 +14,20 @@ namespace dgtk
 namespace
 {
 constexpr double pi = 3.14159265358979323846;
+
+/// Calls `function` for each of the surfaces around a vertex; one that meets the vertex twice counts once.
+template <typename Object, typename Function>
+void forEachSurface(const Object& object, const std::uint32_t* around, std::uint32_t count, Function function)
+{
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    if (i == 0 || around[i] != around[i - 1])
+    {
+      function(object.surfaces[around[i]]);
+    }
+  }
 }
+} // namespace
 
 void ModelBuilder::smooth(std::vector<Eigen::Vector3f>& normals)
 {
@@ -61,14 +74,30 @@ void ModelBuilder::smooth(std::vector<Eigen::Vector3f>& normals)
     }
   }
 
-  const std::uint64_t finalBytes = std::uint64_t(100) * (this->Rest->positions.size() + corners);
-  const bool neverFlat = finalBytes > this->MemoryLimit;
+  const std::uint64_t splits = this->Rest->positions.size() + corners;
+  const std::uint64_t triangles = this->Result->triangles.size() + object.triangles.size();
+  const bool neverFlat = 110 * splits + 20 * triangles + 64 * corners > this->MemoryLimit;
+  const auto shadingOf = [neverFlat](const Object::Surface& s)
+  { return neverFlat && s.style.shading == Shading::Flat ? Shading::Area : s.style.shading; };
+
+  std::vector<Eigen::Vector3d> areas; ///< of each vertex, for Shading::Area
+  if (std::any_of(object.surfaces.begin(), object.surfaces.end(),
+        [&](const Object::Surface& s) { return shadingOf(s) == Shading::Area; }))
+  {
+    areas.assign(object.positions.size(), Eigen::Vector3d::Zero());
+    for (std::size_t v = 0; v < areas.size(); ++v)
+    {
+      forEachSurface(object, &around[first[v]], first[v + 1] - first[v],
+        [&](const Object::Surface& s) { areas[v] += s.area * s.normal; });
+    }
+  }
+
   const double cosine = std::cos(object.crease * pi / 180) - 1e-9;
   normals.reserve(corners);
   for (const Object::Surface& surface : object.surfaces)
   {
-    const Shading shading = neverFlat && surface.style.shading == Shading::Flat ? Shading::Area : surface.style.shading;
-    const Eigen::Vector3d own = surface.normal.stableNormalized();
+    const Shading shading = shadingOf(surface);
+    this->GaveUpFlat = this->GaveUpFlat || shading != surface.style.shading;
     for (std::uint32_t c = 0; c < surface.corners; ++c)
     {
       const Corner& corner = object.corners[surface.firstCorner + c];
@@ -78,40 +107,33 @@ void ModelBuilder::smooth(std::vector<Eigen::Vector3f>& normals)
         continue;
       }
       const std::uint32_t v = place[object.local(corner)];
-      Eigen::Vector3d sum = own;
-      if (shading != Shading::Flat && this->Work < this->WorkLimit)
+      const std::uint32_t count = first[v + 1] - first[v];
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      if (shading == Shading::Area)
       {
-        this->GaveUpFlat = this->GaveUpFlat || shading != surface.style.shading;
-        sum.setZero();
-        this->Work += first[v + 1] - first[v];
-        for (std::uint32_t i = first[v]; i < first[v + 1]; ++i)
-        {
-          const Object::Surface& other = object.surfaces[around[i]];
-          if (i > first[v] && around[i] == around[i - 1])
-          {
-            continue; // a surface that meets the vertex twice counts once
-          }
-          const bool same = &other == &surface;
-          if (shading == Shading::Crease)
-          {
-            const Eigen::Vector3d n = other.normal.stableNormalized();
-            if (same || (other.style.shading == Shading::Crease && n.dot(own) >= cosine))
-            {
-              sum += n;
-            }
-          }
-          else if (same || shading == Shading::Area || (other.style.groups & surface.style.groups) != 0)
-          {
-            sum += other.normal;
-          }
-        }
+        sum = areas[v];
       }
-      else if (shading != Shading::Flat)
+      else if (shading != Shading::Flat && this->Work + count <= this->WorkLimit)
       {
-        this->GaveUpShape = true;
+        this->Work += count;
+        forEachSurface(object, &around[first[v]], count,
+          [&](const Object::Surface& other)
+          {
+            const bool joins = shading == Shading::Crease
+                                 ? other.style.shading == Shading::Crease && other.normal.dot(surface.normal) >= cosine
+                                 : (other.style.groups & surface.style.groups) != 0;
+            if (joins || &other == &surface)
+            {
+              sum += shading == Shading::Crease ? other.normal : Eigen::Vector3d(other.area * other.normal);
+            }
+          });
+      }
+      else
+      {
+        this->GaveUpShape = this->GaveUpShape || shading != Shading::Flat;
       }
       const double length = sum.stableNorm();
-      const Eigen::Vector3d unit = length > 0 ? Eigen::Vector3d(sum / length) : own;
+      const Eigen::Vector3d unit = length > 0 ? Eigen::Vector3d(sum / length) : surface.normal;
       normals.push_back(unit.isZero(0) ? Eigen::Vector3f(0, 0, 1) : Eigen::Vector3f(unit.cast<float>()));
     }
   }

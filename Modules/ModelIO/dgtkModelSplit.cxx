@@ -3,6 +3,7 @@
 #include "dgtkModelObject.h"
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <numeric>
 
@@ -12,18 +13,69 @@ namespace dgtk
 namespace
 {
 constexpr std::uint32_t none = 0xffffffffu;
-/// Split vertices of a file vertex that are looked through for one to share; further ones are not shared.
-constexpr int longestChain = 32;
 
-/// Makes room for `more` elements: exactly, when there is one object, and geometrically for many.
-template <typename T>
-void makeRoom(std::vector<T>& v, std::size_t more)
+/// The split vertices of an object, found by what they consist of: open addressing with linear probing.
+class SplitTable
 {
-  if (v.capacity() - v.size() < more)
+public:
+  SplitTable(const std::vector<Corner>& corners, const std::vector<Eigen::Vector3f>& normals)
+    : Corners(corners)
+    , Normals(normals)
   {
-    v.reserve(std::max(v.size() + more, v.capacity() + v.capacity() / 2));
+    std::size_t size = 16;
+    while (size < corners.size() + corners.size() / 4)
+    {
+      size *= 2;
+    }
+    this->Slots.assign(size, none);
   }
-}
+  /// The corner whose split vertex corner `c` shares: an earlier one that is equal, or itself.
+  std::uint32_t find(std::uint32_t c)
+  {
+    const std::size_t mask = this->Slots.size() - 1;
+    std::size_t at = this->hash(c) & mask;
+    // beyond this many steps a vertex is not shared
+    for (int steps = 0; steps < 256 && this->Slots[at] != none; ++steps, at = (at + 1) & mask)
+    {
+      if (this->same(this->Slots[at], c))
+      {
+        return this->Slots[at];
+      }
+    }
+    if (this->Slots[at] == none)
+    {
+      this->Slots[at] = c;
+    }
+    return c;
+  }
+
+private:
+  bool same(std::uint32_t a, std::uint32_t b) const
+  {
+    const Corner& x = this->Corners[a];
+    const Corner& y = this->Corners[b];
+    return x.vertex == y.vertex && x.u == y.u && x.v == y.v && this->Normals[a] == this->Normals[b];
+  }
+  std::size_t hash(std::uint32_t c) const
+  {
+    const Corner& corner = this->Corners[c];
+    const Eigen::Vector3f& n = this->Normals[c];
+    std::uint64_t h = corner.vertex;
+    for (const float value : { corner.u, corner.v, n[0], n[1], n[2] })
+    {
+      const float positive = value + 0.0f; // -0 equals 0
+      std::uint32_t bits = 0;
+      std::memcpy(&bits, &positive, sizeof bits);
+      h = (h ^ bits) * 0x9e3779b97f4a7c15ull;
+      h ^= h >> 29;
+    }
+    return static_cast<std::size_t>(h);
+  }
+
+  const std::vector<Corner>& Corners;
+  const std::vector<Eigen::Vector3f>& Normals;
+  std::vector<std::uint32_t> Slots;
+};
 } // namespace
 
 void ModelBuilder::emit(const std::vector<Eigen::Vector3f>& normals)
@@ -32,33 +84,20 @@ void ModelBuilder::emit(const std::vector<Eigen::Vector3f>& normals)
   Model& model = *this->Result;
   const std::size_t base = this->Rest->positions.size();
 
-  // corner -> split vertex, found through a chain of the split vertices of each file vertex
-  std::vector<std::uint32_t> head(object.positions.size(), none);
-  std::vector<std::uint32_t> chain;
+  // corner -> split vertex, and the first corner of each split vertex
   std::vector<std::uint32_t> cornerOf;
   std::vector<std::uint32_t> splitOf(object.corners.size());
-  for (std::uint32_t c = 0; c < object.corners.size(); ++c)
   {
-    const Corner& corner = object.corners[c];
-    std::uint32_t& start = head[object.local(corner)];
-    std::uint32_t found = start;
-    int steps = 0;
-    for (; found != none && steps < longestChain; found = chain[found], ++steps)
+    SplitTable table(object.corners, normals);
+    for (std::uint32_t c = 0; c < object.corners.size(); ++c)
     {
-      const Corner& other = object.corners[cornerOf[found]];
-      if (other.u == corner.u && other.v == corner.v && normals[cornerOf[found]] == normals[c])
+      const std::uint32_t shared = table.find(c);
+      splitOf[c] = shared == c ? static_cast<std::uint32_t>(cornerOf.size()) : splitOf[shared];
+      if (shared == c)
       {
-        break;
+        cornerOf.push_back(c);
       }
     }
-    if (found == none || steps == longestChain)
-    {
-      found = static_cast<std::uint32_t>(cornerOf.size());
-      cornerOf.push_back(c);
-      chain.push_back(start);
-      start = found;
-    }
-    splitOf[c] = found;
   }
   if (base + cornerOf.size() >= none || model.triangles.size() + object.triangles.size() >= none)
   {

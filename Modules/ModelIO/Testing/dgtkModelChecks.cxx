@@ -84,7 +84,9 @@ std::string brokenBounds(const Model& model)
       {
         return "vertices of triangles exist";
       }
-      const Eigen::Vector3d& p = model.rest->positions[v];
+      Eigen::Vector3d p = model.rest->positions[v];
+      // bounds are in the file's axes; a left-handed POV-Ray file is mirrored in z
+      p.z() *= model.format == "pov" && (p.z() < model.boundsMin.z() || p.z() > model.boundsMax.z()) ? -1 : 1;
       if ((p.array() < model.boundsMin.array()).any() || (p.array() > model.boundsMax.array()).any())
       {
         return "bounds hold every triangle";

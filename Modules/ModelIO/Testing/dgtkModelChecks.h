@@ -22,9 +22,13 @@ std::shared_ptr<const Model> readBytes(const std::string& extension, const std::
 std::string refusal(const std::string& extension, const std::string& bytes);
 
 /// Reads at least `variants` truncated and mutated copies of the seeds (seeded, always the same) and fails the running
-/// test for anything but a consistent model or an InputError of one line, for more than 2 s, for a partial model of
-/// a truncated file without a warning, and for more memory than 10 times the file and 64 MiB.
+/// test for anything but a consistent model or an InputError of one line, for more than 2 s of the processor, for a
+/// partial model of a truncated file without a warning, and for more memory than 10 times the file and 64 MiB.
 void fuzzReader(const std::string& extension, const std::vector<std::string>& seeds, int variants = 2000);
+
+/// Reads a file of these bytes once, with the same limits of time and memory and the same checks; prints both. Returns
+/// the model, or null when it is refused.
+std::shared_ptr<const Model> readWithinLimits(const std::string& extension, const std::string& bytes);
 
 /// Contents of the further models with that extension that are at most `limit` bytes long.
 std::vector<std::string> extraSeeds(const std::string& extension, std::size_t limit = 40000);

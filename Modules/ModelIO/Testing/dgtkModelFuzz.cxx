@@ -8,8 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
 #include <cstdlib>
+#include <ctime>
+#include <iostream>
 #include <new>
 
 #include <malloc.h>
@@ -140,14 +141,26 @@ void mutateOnce(std::string& bytes, Dice& dice)
   }
 }
 
+/// Of this process; other programs on the machine do not count.
+double processorSeconds()
+{
+  timespec now = {};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 struct Outcome
 {
+  std::shared_ptr<const Model> model;
   bool refused = false;
   std::size_t triangles = 0;
   bool warned = false;
+  double seconds = 0;
+  std::size_t bytes = 0; ///< at most in use
 };
 
-Outcome readOnce(const std::string& path, const std::string& bytes, const std::string& what)
+/// `keep`: the outcome keeps the model.
+Outcome readOnce(const std::string& path, const std::string& bytes, const std::string& what, bool keep = false)
 {
   writeFile(path, bytes);
   ReadOptions options;
@@ -155,10 +168,13 @@ Outcome readOnce(const std::string& path, const std::string& bytes, const std::s
   Outcome outcome;
   const std::size_t before = liveBytes();
   resetPeak();
-  const auto start = std::chrono::steady_clock::now();
+  const double start = processorSeconds();
   try
   {
     const std::shared_ptr<const Model> model = readModel(path, options);
+    outcome.model = keep ? model : nullptr;
+    outcome.bytes = peakBytes() - before;
+    outcome.seconds = processorSeconds() - start;
     outcome.triangles = model->triangles.size();
     outcome.warned = !model->warnings.empty();
     EXPECT_EQ(brokenPromise(*model), "") << what;
@@ -174,12 +190,26 @@ Outcome readOnce(const std::string& path, const std::string& bytes, const std::s
   {
     ADD_FAILURE() << what << ": " << error.what();
   }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  EXPECT_LT(seconds.count(), longestSeconds) << what;
-  EXPECT_LT(peakBytes() - before, memoryFactor * bytes.size() + memorySlack) << what;
+  if (outcome.bytes == 0)
+  {
+    outcome.bytes = peakBytes() - before;
+    outcome.seconds = processorSeconds() - start;
+  }
+  EXPECT_LT(outcome.seconds, longestSeconds) << what;
+  EXPECT_LT(outcome.bytes, memoryFactor * bytes.size() + memorySlack) << what;
   return outcome;
 }
 } // namespace
+
+std::shared_ptr<const Model> readWithinLimits(const std::string& extension, const std::string& bytes)
+{
+  const TemporaryFolder folder;
+  const Outcome outcome = readOnce(folder.path("limits." + extension), bytes, extension, true);
+  std::cout << extension << ": " << bytes.size() / 1024 << " KiB read in " << outcome.seconds << " s and "
+            << outcome.bytes / 1024 << " KiB, " << double(outcome.bytes) / double(bytes.size()) << " times the file; "
+            << (outcome.refused ? "refused" : std::to_string(outcome.triangles) + " triangles") << '\n';
+  return outcome.model;
+}
 
 void fuzzReader(const std::string& extension, const std::vector<std::string>& seeds, int variants)
 {

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkModelChecks.h"
+#include "dgtkModelSeeds.h"
+
+#include <Eigen/Geometry>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace dgtk::test;
+using dgtk::Model;
+using testing::Contains;
+using testing::HasSubstr;
+
+namespace
+{
+std::string text(const std::string& value) { return value + std::string(1, '\0'); }
+
+/// A file of one object with these chunks in its mesh.
+std::string meshFile(const std::string& chunks, const std::string& materials = {})
+{
+  return chunk3ds(0x4d4d, chunk3ds(0x3d3d, materials + chunk3ds(0x4000, text("thing") + chunk3ds(0x4100, chunks))));
+}
+
+std::string vertices(const std::vector<float>& values)
+{
+  std::string out = u16(static_cast<unsigned>(values.size() / 3));
+  for (const float v : values)
+  {
+    out += f32(v);
+  }
+  return chunk3ds(0x4110, out);
+}
+
+std::string faces(const std::vector<unsigned>& indices, const std::string& more = {})
+{
+  std::string out = u16(static_cast<unsigned>(indices.size() / 3));
+  for (std::size_t i = 0; i < indices.size(); ++i)
+  {
+    out += u16(indices[i]) + (i % 3 == 2 ? u16(0) : "");
+  }
+  return chunk3ds(0x4120, out + more);
+}
+
+const std::vector<float> roof = { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 1, 0, -1, 1, 1, -1 };
+const std::vector<unsigned> roofFaces = { 0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2 };
+} // namespace
+
+TEST(Studio3ds, Seed)
+{
+  const std::shared_ptr<const Model> model = readBytes("3ds", seed3ds());
+  EXPECT_EQ(model->format, "3ds");
+  ASSERT_EQ(model->triangles.size(), 6u);
+  EXPECT_EQ(model->declaredMaterials, 2u);
+  EXPECT_EQ(model->twoSidedTriangles, 2u);
+  EXPECT_EQ(model->boundsMax, Eigen::Vector3d(2, 1, 6)) << "the vertex at 2e35 is not referenced";
+  EXPECT_EQ(model->sourceVertices, 9u);
+  ASSERT_EQ(model->parts.size(), 3u);
+  EXPECT_EQ(model->parts[0].name, "quad");
+  const dgtk::Material& wall = model->materials[static_cast<std::size_t>(model->parts[0].material)];
+  EXPECT_EQ(wall.name, "wall");
+  EXPECT_TRUE(wall.twoSided);
+  EXPECT_DOUBLE_EQ(wall.opacity, 0.75);
+  EXPECT_DOUBLE_EQ(wall.diffuse[1], 128 / 255.0);
+  EXPECT_DOUBLE_EQ(wall.specular[0], 0.4);
+  EXPECT_DOUBLE_EQ(wall.shininess, 64);
+  EXPECT_EQ(model->textures.at(0).name, "WALL.TGA");
+  EXPECT_EQ(model->uvs[2], Eigen::Vector2d(1, 1));
+  // faces 0 to 2 of the solid name no material, the last one names "plain"
+  EXPECT_EQ(model->parts[1].triangles, 3u);
+  EXPECT_EQ(model->materials[static_cast<std::size_t>(model->parts[2].material)].name, "plain");
+  EXPECT_THAT(model->warnings, testing::ElementsAre(HasSubstr("texture 'WALL.TGA' not found")));
+}
+
+TEST(Studio3ds, VerticesAreDrawnAsTheyAre)
+{
+  std::string matrix;
+  for (int i = 0; i < 12; ++i)
+  {
+    matrix += f32(i == 0 ? -3.0f : static_cast<float>(i));
+  }
+  const auto model = readBytes("3ds", meshFile(vertices(roof) + chunk3ds(0x4160, matrix) + faces(roofFaces)));
+  EXPECT_EQ(model->boundsMin, Eigen::Vector3d(0, 0, -1));
+  EXPECT_EQ(model->boundsMax, Eigen::Vector3d(1, 1, 0));
+  const auto& p = model->rest->positions;
+  const auto& t = model->triangles[0];
+  EXPECT_EQ((p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]), Eigen::Vector3d(0, 0, 1));
+}
+
+TEST(Studio3ds, SmoothingGroups)
+{
+  const auto normals = [](const std::vector<unsigned long>& groups)
+  {
+    std::string chunk;
+    for (const unsigned long g : groups)
+    {
+      chunk += u32(g);
+    }
+    return readBytes("3ds", meshFile(vertices(roof) + faces(roofFaces, chunk3ds(0x4150, chunk))))->rest->normals;
+  };
+  EXPECT_EQ(normals({ 1, 1, 1, 1 }).size(), 6u);
+  EXPECT_EQ(normals({ 1, 1, 2, 2 }).size(), 8u);
+  // at vertex 2 the triangle of both groups joins with each of the other two, which do not join
+  EXPECT_EQ(normals({ 1, 3, 2, 2 }).size(), 9u);
+  EXPECT_EQ(normals({ 0, 0, 0, 0 }).size(), 8u) << "flat, but coplanar triangles share corners";
+  const float h = std::sqrt(0.5f);
+  // at vertex 1 one triangle of the first square and two of the second
+  EXPECT_LT((normals({ 1, 1, 1, 1 })[1] - Eigen::Vector3f(2, 0, 1).normalized()).norm(), 1e-6f);
+  EXPECT_LT((normals({ 1, 1, 1, 1 })[2] - Eigen::Vector3f(h, 0, h)).norm(), 0.4f);
+}
+
+TEST(Studio3ds, SmoothingJoinsVerticesAtOnePlace)
+{
+  // the same roof with its own vertices for each square, as along a seam of the texture
+  std::vector<float> split = roof;
+  split.insert(split.end(), { 1, 0, 0, 1, 1, 0 });
+  const std::string groups = chunk3ds(0x4150, u32(1) + u32(1) + u32(1) + u32(1));
+  const auto model =
+    readBytes("3ds", meshFile(vertices(split) + faces({ 0, 1, 2, 0, 2, 3, 6, 4, 5, 6, 5, 7 }, groups)));
+  ASSERT_EQ(model->rest->normals.size(), 8u);
+  for (std::size_t a = 0; a < 8; ++a)
+  {
+    for (std::size_t b = 0; b < 8; ++b)
+    {
+      EXPECT_TRUE(
+        model->rest->positions[a] != model->rest->positions[b] || model->rest->normals[a] == model->rest->normals[b]);
+    }
+  }
+}
+
+TEST(Studio3ds, TexturesAreScaledAndMoved)
+{
+  const std::string map =
+    chunk3ds(0xa300, text("T.PNG")) + chunk3ds(0xa356, f32(2)) + chunk3ds(0xa354, f32(3)) + chunk3ds(0xa358, f32(0.5f));
+  const std::string material = chunk3ds(0xafff, chunk3ds(0xa000, text("m")) + chunk3ds(0xa200, map));
+  const std::string uvs = chunk3ds(0x4140, u16(3) + f32(0) + f32(0) + f32(1) + f32(0) + f32(1) + f32(1));
+  const std::string use = chunk3ds(0x4130, text("m") + u16(1) + u16(0));
+  const auto model =
+    readBytes("3ds", meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }) + uvs + faces({ 0, 1, 2 }, use), material));
+  EXPECT_EQ(model->uvs[0], Eigen::Vector2d(0.5, 0));
+  EXPECT_EQ(model->uvs[2], Eigen::Vector2d(2.5, 3));
+}
+
+TEST(Studio3ds, DamageThatRealFilesHave)
+{
+  const auto badIndex = readBytes("3ds", meshFile(vertices(roof) + faces({ 0, 1, 2, 0, 1, 99 })));
+  EXPECT_EQ(badIndex->triangles.size(), 1u);
+  EXPECT_THAT(badIndex->warnings, Contains(HasSubstr("1 surface left out: a vertex that does not exist")));
+
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto notFinite =
+    readBytes("3ds", meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0, nan, 0, 0 }) + faces({ 0, 1, 2, 0, 1, 3 })));
+  EXPECT_EQ(notFinite->triangles.size(), 1u);
+  EXPECT_THAT(notFinite->warnings, Contains(HasSubstr("not a finite number")));
+
+  std::string longer = seed3ds();
+  longer.replace(2, 4, u32(longer.size() + 100));
+  const auto cut = readBytes("3ds", longer);
+  EXPECT_EQ(cut->triangles.size(), 6u);
+  EXPECT_THAT(cut->warnings, Contains(HasSubstr("1 chunk(s) are longer")));
+
+  EXPECT_EQ(readBytes("3ds", seed3ds() + "trailing")->triangles.size(), 6u);
+  EXPECT_EQ(readBytes("3ds", chunk3ds(0x4d4d, chunk3ds(0x3d3d, "")))->triangles.size(), 0u);
+  EXPECT_THAT(
+    readBytes("3ds", meshFile(vertices(roof) + faces({ 0, 1, 2 }, chunk3ds(0x4130, text("no") + u16(1) + u16(0)))))
+      ->warnings,
+    Contains(HasSubstr("name a material that does not exist")));
+}
+
+TEST(Studio3ds, Refusals)
+{
+  EXPECT_EQ(refusal("3ds", ""), "model.3ds: is empty (expected a 3DS file, found 0 bytes)");
+  EXPECT_EQ(refusal("3ds", "PK\x03\x04zzzz"), "model.3ds: is not a 3DS file (expected a chunk 4D4D at its start)");
+  EXPECT_THAT(refusal("3ds", chunk3ds(0x4d4d, "")), HasSubstr("no model in the file at byte 6"));
+  EXPECT_THAT(refusal("3ds", chunk3ds(0x4d4d, u16(0x3d3d) + u32(2))),
+    HasSubstr("bad chunk at byte 6 (expected a length of at least 6, found 2)"));
+  EXPECT_THAT(
+    refusal("3ds", meshFile(chunk3ds(0x4110, u16(1000) + f32(0)))), HasSubstr("vertices are cut short at byte"));
+  EXPECT_THAT(
+    refusal("3ds", meshFile(vertices(roof) + chunk3ds(0x4120, u16(9)))), HasSubstr("faces are cut short at byte"));
+  EXPECT_THAT(refusal("3ds", chunk3ds(0x4d4d, chunk3ds(0x3d3d, chunk3ds(0x4000, "no end")))),
+    HasSubstr("a name does not end in its chunk at byte"));
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkModelReader.h"
+#include "dgtkModelSeeds.h"
+#include "dgtkTestSupport.h"
+#include "dgtkTextLines.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+using dgtk::InputError;
+using dgtk::readModel;
+using testing::HasSubstr;
+
+namespace
+{
+std::string message(const std::string& path)
+{
+  try
+  {
+    readModel(path);
+  }
+  catch (const InputError& error)
+  {
+    return error.what();
+  }
+  return {};
+}
+} // namespace
+
+TEST(ModelReader, RowsAreUniqueAndComplete)
+{
+  std::set<std::string> extensions;
+  for (const dgtk::ReaderInfo& info : dgtk::modelReaders())
+  {
+    EXPECT_FALSE(info.name.empty());
+    EXPECT_FALSE(info.format.empty());
+    EXPECT_FALSE(info.description.empty());
+    for (const std::string& extension : info.extensions)
+    {
+      EXPECT_TRUE(extensions.insert(extension).second) << extension;
+    }
+  }
+  for (const char* own : { "ac", "acc", "md2", "3ds" })
+  {
+    EXPECT_EQ(extensions.count(own), 1u) << own;
+  }
+}
+
+TEST(ModelReader, ExtensionsInAnyCase)
+{
+  const dgtk::test::TemporaryFolder folder;
+  for (const char* name : { "a.ac", "a.AC", "a.acc", "a.b.Acc" })
+  {
+    dgtk::writeFile(folder.path(name), dgtk::test::ac3dSeed());
+    EXPECT_EQ(readModel(folder.path(name))->format, "ac3d") << name;
+    EXPECT_EQ(readModel(folder.path(name))->path, folder.path(name));
+  }
+}
+
+TEST(ModelReader, Refusals)
+{
+  EXPECT_THAT(
+    message("/x/tree.lwo"), HasSubstr("/x/tree.lwo: is not a model file that can be read (expected one of .ac .acc"));
+  EXPECT_THAT(message("/x/tree.lwo"), HasSubstr("found '.lwo')"));
+  EXPECT_THAT(message("/x.ac/tree"), HasSubstr("found no extension)"));
+  for (const dgtk::ReaderInfo& info : dgtk::modelReaders())
+  {
+    const dgtk::test::TemporaryFolder folder;
+    const std::string missing = folder.path("missing." + info.extensions[0]);
+    EXPECT_THAT(message(missing), HasSubstr(missing)) << info.name;
+    const std::string directory = folder.path("folder." + info.extensions[0]);
+    dgtk::makeFolders(directory);
+    EXPECT_THAT(message(directory), HasSubstr(directory)) << info.name;
+    const std::string empty = folder.path("empty." + info.extensions[0]);
+    dgtk::writeFile(empty, "");
+    EXPECT_THAT(message(empty), HasSubstr(empty)) << info.name;
+  }
+}
+
+TEST(TextLines, Numbers)
+{
+  EXPECT_EQ(dgtk::parseNumber("1.5"), 1.5);
+  EXPECT_EQ(dgtk::parseNumber("+2e-3"), 2e-3);
+  EXPECT_EQ(dgtk::parseNumber("1e-999"), 0.0);
+  EXPECT_EQ(dgtk::parseNumber("-1e999"), -HUGE_VAL);
+  EXPECT_TRUE(std::isnan(*dgtk::parseNumber("-nan(ind)")));
+  EXPECT_TRUE(std::isnan(*dgtk::parseNumber("1.#QNAN0")));
+  for (const char* bad : { "", "x", "1,5", "1.5f", "--1", "+" })
+  {
+    EXPECT_FALSE(dgtk::parseNumber(bad)) << bad;
+  }
+  EXPECT_EQ(dgtk::parseInteger("0x21"), 33);
+  EXPECT_EQ(dgtk::parseInteger("-7"), -7);
+  for (const char* bad : { "", "0x", "1.0", "99999999999999999999" })
+  {
+    EXPECT_FALSE(dgtk::parseInteger(bad)) << bad;
+  }
+}
+
+TEST(TextLines, WordsAndLines)
+{
+  const std::string text = "a  \"b c\"\td\r\n\r\n\"open\rlast";
+  dgtk::TextLines lines(text);
+  ASSERT_TRUE(lines.next());
+  EXPECT_THAT(lines.words(), testing::ElementsAre("a", "b c", "d"));
+  ASSERT_TRUE(lines.next());
+  EXPECT_TRUE(lines.words().empty());
+  ASSERT_TRUE(lines.next());
+  EXPECT_THAT(lines.words(), testing::ElementsAre("open"));
+  EXPECT_EQ(lines.lineNumber(), 3);
+  lines.again();
+  ASSERT_TRUE(lines.next());
+  EXPECT_EQ(lines.lineNumber(), 3);
+  ASSERT_TRUE(lines.next());
+  EXPECT_EQ(lines.line(), "last");
+  EXPECT_FALSE(lines.next());
+}

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkFile.h"
+#include "dgtkModelReader.h"
+#include "dgtkModelSeeds.h"
+#include "dgtkTestSupport.h"
+#include "dgtkTextureFile.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+using dgtk::decodeTexture;
+using dgtk::locateTexture;
+using dgtk::writeFile;
+using dgtk::test::TemporaryFolder;
+using dgtk::test::u16;
+using testing::HasSubstr;
+
+namespace
+{
+/// 24- or 32-bit uncompressed TGA; pixels are given top to bottom as r g b (a).
+std::string tga(int width, int height, int channels, const std::vector<std::uint8_t>& pixels)
+{
+  std::string out = { 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0 };
+  out += u16(static_cast<unsigned>(width)) + u16(static_cast<unsigned>(height));
+  out += static_cast<char>(channels * 8);
+  out += static_cast<char>(channels == 4 ? 0x28 : 0x20); // rows top to bottom
+  for (std::size_t i = 0; i < pixels.size(); i += static_cast<std::size_t>(channels))
+  {
+    out += { static_cast<char>(pixels[i + 2]), static_cast<char>(pixels[i + 1]), static_cast<char>(pixels[i]) };
+    if (channels == 4)
+    {
+      out += static_cast<char>(pixels[i + 3]);
+    }
+  }
+  return out;
+}
+
+/// 8-bit PCX whose palette entry i is (i, 255 - i, 7); rows are padded by a byte.
+std::string pcx(int width, int height, const std::string& packed)
+{
+  std::string out(128, '\0');
+  out[0] = 10;
+  out[1] = 5;
+  out[2] = 1;
+  out[3] = 8;
+  out.replace(8, 4, u16(static_cast<unsigned>(width - 1)) + u16(static_cast<unsigned>(height - 1)));
+  out[65] = 1;
+  out.replace(66, 2, u16(static_cast<unsigned>(width + 1)));
+  out += packed + '\x0c';
+  for (int i = 0; i < 256; ++i)
+  {
+    out += { static_cast<char>(i), static_cast<char>(255 - i), '\x07' };
+  }
+  return out;
+}
+
+std::vector<int> texel(const dgtk::Image& image, int x, int y)
+{
+  const std::uint8_t* p = &image.rgba[static_cast<std::size_t>(y * image.width + x) * 4];
+  return { p[0], p[1], p[2], p[3] };
+}
+
+std::shared_ptr<const dgtk::Image> decoded(
+  const std::string& name, const std::string& bytes, std::string* problem = nullptr)
+{
+  const TemporaryFolder folder;
+  writeFile(folder.path(name), bytes);
+  std::string why;
+  auto image = decodeTexture(folder.path(name), why);
+  if (problem)
+  {
+    *problem = why;
+  }
+  return image;
+}
+} // namespace
+
+TEST(TextureFile, NamesAreResolvedInOrder)
+{
+  const TemporaryFolder folder;
+  const std::string model = folder.path("models/car.ac");
+  std::filesystem::create_directories(folder.path("models/skins"));
+  std::filesystem::create_directories(folder.path("textures"));
+  const auto put = [&](const std::string& name) { writeFile(folder.path(name), "x"); };
+  const auto find = [&](const std::string& name)
+  {
+    const std::string path = locateTexture(model, name);
+    return path.empty() ? path : std::filesystem::relative(path, folder.path()).string();
+  };
+  EXPECT_EQ(find("skins/Paint.PNG"), "");
+  put("textures/paint.jpg");
+  EXPECT_EQ(find("skins/Paint.PNG"), "textures/paint.jpg");
+  put("models/paint.tga");
+  EXPECT_EQ(find("skins/Paint.PNG"), "models/paint.tga");
+  put("models/paint.jpg"); // of several extensions the order is fixed
+  EXPECT_EQ(find("skins/Paint.PNG"), "models/paint.jpg");
+  put("models/PAINT.png");
+  EXPECT_EQ(find("skins/Paint.PNG"), "models/PAINT.png");
+  put("models/Paint.PNG");
+  EXPECT_EQ(find("skins/Paint.PNG"), "models/Paint.PNG");
+  EXPECT_EQ(find("C:\\art\\Paint.PNG"), "models/Paint.PNG");
+  EXPECT_EQ(find("/somewhere/else/Paint.PNG"), "models/Paint.PNG");
+  put("models/skins/Paint.PNG");
+  EXPECT_EQ(find("skins/Paint.PNG"), "models/skins/Paint.PNG");
+  EXPECT_EQ(find("skins\\Paint.PNG"), "models/skins/Paint.PNG");
+  EXPECT_EQ(find("../textures/paint.jpg"), "textures/paint.jpg");
+}
+
+TEST(TextureFile, ShortNames)
+{
+  const TemporaryFolder folder;
+  writeFile(folder.path("brickwall_large.jpg"), "x");
+  const auto find = [&](const std::string& name) { return !locateTexture(folder.path("m.3ds"), name).empty(); };
+  EXPECT_TRUE(find("BRICKWAL.TGA"));
+  EXPECT_TRUE(find("BRICKW~1.TGA"));
+  EXPECT_TRUE(find("brickwall_old.png")) << "equal in their first eight letters";
+  EXPECT_FALSE(find("BRICK.TGA"));
+  EXPECT_FALSE(find("BRICKWOR.TGA"));
+  EXPECT_FALSE(find(""));
+  EXPECT_FALSE(find(".."));
+}
+
+TEST(TextureFile, OnlyFilesAreFound)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path("wood.png"));
+  std::string tried;
+  EXPECT_EQ(locateTexture(folder.path("m.ac"), "wood.png", &tried), "");
+  EXPECT_THAT(tried, HasSubstr("'wood.png' beside the model"));
+}
+
+TEST(TextureFile, RowsRunFromTheTop)
+{
+  const auto image = decoded("a.tga", tga(1, 2, 3, { 255, 0, 0, 0, 0, 255 }));
+  ASSERT_TRUE(image);
+  EXPECT_EQ(image->width, 1);
+  EXPECT_EQ(image->height, 2);
+  EXPECT_EQ(texel(*image, 0, 0), (std::vector<int>{ 255, 0, 0, 255 }));
+  EXPECT_EQ(texel(*image, 0, 1), (std::vector<int>{ 0, 0, 255, 255 }));
+  EXPECT_FALSE(image->hasAlpha);
+}
+
+TEST(TextureFile, AlphaIsNotMultipliedIntoColours)
+{
+  const auto image = decoded("a.tga", tga(2, 1, 4, { 200, 100, 50, 128, 1, 2, 3, 127 }));
+  ASSERT_TRUE(image);
+  EXPECT_EQ(texel(*image, 0, 0), (std::vector<int>{ 200, 100, 50, 128 }));
+  EXPECT_EQ(texel(*image, 1, 0), (std::vector<int>{ 1, 2, 3, 127 }));
+  EXPECT_TRUE(image->hasAlpha);
+  EXPECT_TRUE(dgtk::isCutOut(*image)); // 128 / 255 is there, 127 / 255 is not
+}
+
+TEST(TextureFile, WhatIsACutOut)
+{
+  EXPECT_FALSE(dgtk::isCutOut(*decoded("a.tga", tga(2, 1, 4, { 1, 1, 1, 255, 1, 1, 1, 255 }))));
+  EXPECT_FALSE(dgtk::isCutOut(*decoded("a.tga", tga(2, 1, 4, { 1, 1, 1, 255, 1, 1, 1, 130 }))));
+  EXPECT_FALSE(dgtk::isCutOut(*decoded("a.tga", tga(2, 1, 4, { 1, 1, 1, 90, 1, 1, 1, 10 }))));
+  const auto unused = decoded("a.tga", tga(2, 1, 4, { 1, 1, 1, 0, 1, 1, 1, 0 }));
+  EXPECT_FALSE(unused->hasAlpha);
+  EXPECT_EQ(texel(*unused, 0, 0)[3], 255) << "an alpha channel that was never painted";
+}
+
+TEST(TextureFile, GreyPictures)
+{
+  const auto image = decoded("a.pgm", "P5 2 1 255\n" + std::string("\x10\xf0"));
+  ASSERT_TRUE(image);
+  EXPECT_EQ(texel(*image, 0, 0), (std::vector<int>{ 16, 16, 16, 255 }));
+  EXPECT_EQ(texel(*image, 1, 0), (std::vector<int>{ 240, 240, 240, 255 }));
+}
+
+TEST(TextureFile, Pcx)
+{
+  // row 1: 5, 5, 200 and padding; row 2: a run of 3 times 9 and padding
+  const auto image = decoded("skin.PCX", pcx(3, 2, std::string("\xc2\x05\xc1\xc8\x01\xc3\x09\x01")));
+  ASSERT_TRUE(image);
+  EXPECT_EQ(image->width, 3);
+  EXPECT_EQ(texel(*image, 1, 0), (std::vector<int>{ 5, 250, 7, 255 }));
+  EXPECT_EQ(texel(*image, 2, 0), (std::vector<int>{ 200, 55, 7, 255 }));
+  EXPECT_EQ(texel(*image, 2, 1), (std::vector<int>{ 9, 246, 7, 255 }));
+}
+
+TEST(TextureFile, RefusedPictures)
+{
+  std::string problem;
+  EXPECT_FALSE(decoded("a.png", "no picture at all", &problem));
+  EXPECT_NE(problem, "");
+  EXPECT_EQ(problem.find('\n'), std::string::npos);
+  EXPECT_FALSE(decoded("a.pgm", "P5 16385 1 255\n" + std::string(16385, 'x'), &problem));
+  EXPECT_EQ(problem, "is 16385 x 1 pixels, at most 16384 a side");
+  EXPECT_FALSE(decoded("a.pcx", pcx(3, 2, "").substr(0, 100), &problem));
+  EXPECT_THAT(problem, HasSubstr("is not an 8-bit"));
+  EXPECT_FALSE(decoded("a.pcx", pcx(3, 2, "\x01").substr(0, 300), &problem));
+  EXPECT_THAT(problem, HasSubstr("palette"));
+  EXPECT_FALSE(decoded("a.pcx", pcx(16384, 16384, "\x01"), &problem));
+  EXPECT_THAT(problem, HasSubstr("cut short"));
+}
+
+TEST(TextureFile, OneFileIsDecodedOnce)
+{
+  const TemporaryFolder folder;
+  writeFile(folder.path("leaf.tga"), tga(2, 1, 4, { 1, 1, 1, 255, 1, 1, 1, 0 }));
+  const std::string object =
+    "OBJECT poly\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0\nmat 0\nrefs 3\n0 0 0\n1 1 0\n2 0 "
+    "1\nkids 0\n";
+  std::string text = "AC3Db\nMATERIAL \"a\" rgb 1 1 1\nOBJECT world\nkids 3\n";
+  for (const std::string name : { "leaf.tga", "LEAF.TGA", "leaf.tga" })
+  {
+    text += object;
+    text.insert(text.rfind("numvert"), "texture \"" + name + "\"\n");
+  }
+  writeFile(folder.path("m.ac"), text);
+  const auto model = dgtk::readModel(folder.path("m.ac"));
+  ASSERT_EQ(model->textures.size(), 2u);
+  EXPECT_EQ(model->textures[0].image, model->textures[1].image);
+  ASSERT_EQ(model->parts.size(), 3u);
+  EXPECT_EQ(model->parts[0].material, model->parts[2].material);
+  EXPECT_TRUE(model->materials[static_cast<std::size_t>(model->parts[0].material)].cutOut);
+  dgtk::ReadOptions options;
+  options.decodeTextures = false;
+  const auto located = dgtk::readModel(folder.path("m.ac"), options);
+  EXPECT_FALSE(located->textures[0].image);
+  EXPECT_EQ(located->textures[0].path, model->textures[0].path);
+}
