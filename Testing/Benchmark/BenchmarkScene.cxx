@@ -103,8 +103,8 @@ std::string writeBenchmarkScene(const std::string& folder, const SceneOptions& o
   for (int f = 0; f < options.frames; ++f)
   {
     const double angle = 0.05 * f;
-    scene += std::string(f ? ", " : "") + "{\"frame\": " + std::to_string(f) + ", \"value\": [" +
-             line("%.6f, %.6f, %.6f]}", 17 * std::cos(angle), 7, 17 * std::sin(angle));
+    scene += std::string(f ? ", " : "") + "[" + std::to_string(f) + ", [" +
+             line("%.6f, %.6f, %.6f]]", 17 * std::cos(angle), 7, 17 * std::sin(angle));
   }
   writeFile(folder + "/scene.json", scene + "]}}]\n}\n");
   return folder + "/scene.json";

@@ -28,6 +28,7 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -44,13 +45,24 @@ class EglWindow : public vtkGenericOpenGLRenderWindow
 public:
   static EglWindow* New();
   vtkTypeMacro(EglWindow, vtkGenericOpenGLRenderWindow);
+  void MakeCurrent() override {} // the context stays current
+  bool IsCurrent() override { return true; }
+  int SupportsOpenGL() override { return 1; }
+  int GetColorBufferSizes(int* rgba) override
+  {
+    std::fill_n(rgba, 4, 8);
+    return 32;
+  }
   void OpenGLInitContext() override
   {
+    this->ContextCreationTime.Modified();
     if (!this->Initialized)
     {
+      constexpr unsigned int noGlxDisplay = 4;
       glewExperimental = GL_TRUE;
-      glewInit(); // reports a missing GLX display, which is not used
-      this->Initialized = GLEW_VERSION_3_2;
+      const unsigned int result = glewInit();
+      this->GlewInitValid = (result == GLEW_OK || result == noGlxDisplay) && GLEW_VERSION_3_2;
+      this->Initialized = this->GlewInitValid;
     }
   }
   void WaitForCompletion() override { glFinish(); }
@@ -153,6 +165,7 @@ StockVTK::StockVTK(const SceneState& state, int width, int height)
   this->Self->window->SetOffScreenRendering(true);
   this->Self->window->SetMultiSamples(0);
   this->Self->window->SetSize(width, height);
+  this->Self->window->OpenGLInit();
   this->Self->window->AddRenderer(this->Self->renderer);
   std::map<const Part*, vtkSmartPointer<vtkPolyDataMapper>> mappers;
   std::map<const Image*, vtkSmartPointer<vtkTexture>> textures;
