@@ -77,6 +77,7 @@ const IdPrograms::Program& IdPrograms::program(const ShaderVariant& variant)
   wanted.matrix = glGetUniformLocation(name, "MCDCMatrix");
   wanted.draw = glGetUniformLocation(name, "dgtkDraw");
   wanted.picture = glGetUniformLocation(name, "actortexture");
+  wanted.first = glGetUniformLocation(name, "dgtkFirstTriangle");
   wanted.layer = glGetUniformLocation(name, "dgtkLayer");
   return wanted;
 }

@@ -27,6 +27,7 @@ public:
     int draw = -1;    ///< dgtkDraw
     int picture = -1; ///< actortexture
     int layer = -1;   ///< dgtkLayer
+    int first = -1;   ///< dgtkFirstTriangle
   };
   /// Of `variant`, cutOut, pieces and peel count. Throws MachineError with the compiler's words.
   const Program& program(const ShaderVariant& variant);

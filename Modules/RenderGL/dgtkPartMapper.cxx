@@ -26,8 +26,10 @@ PartMapper::PartMapper()
   this->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
 }
 
-void PartMapper::configure(RasterFrame* frame, const ShaderVariant& material, std::vector<unsigned int> indices)
+void PartMapper::configure(
+  RasterFrame* frame, const ShaderVariant& material, int firstTriangle, std::vector<unsigned int> indices)
 {
+  this->FirstTriangle = firstTriangle;
   this->Frame = frame;
   this->Material = material;
   this->Indices = std::move(indices);
@@ -93,6 +95,7 @@ ShaderVariant PartMapper::currentVariant() const
   variant.directional = this->Frame->lights.directional;
   variant.points = this->Frame->lights.points;
   variant.spots = this->Frame->lights.spots;
+  variant.headOnly = this->Frame->lights.headOnly;
   variant.lightTexture = this->Frame->lights.count() > this->Frame->maxUniformLights;
   variant.peel = this->Frame->peel;
   return variant;
@@ -126,6 +129,10 @@ void PartMapper::SetCameraShaderParameters(vtkOpenGLHelper& cell, vtkRenderer*, 
   cell.Program->SetUniformi("cameraParallel", this->Frame->parallel ? 1 : 0);
   const float draw[2] = { part->number, part->mirrored ? 1.0f : 0.0f };
   cell.Program->SetUniform2f("dgtkDraw", draw);
+  if (!this->Built.pieces)
+  {
+    cell.Program->SetUniformi("dgtkFirstTriangle", this->FirstTriangle);
+  }
   if (this->Built.peel)
   {
     cell.Program->SetUniformi("dgtkLayer", this->Frame->layerUnit);

@@ -48,16 +48,19 @@ protected:
   PartActor() = default;
 };
 
-/// VTK's mapper for triangles of one material. Differences to VTK's: triangles without area keep their place (and so
-/// every triangle its number), lights and ids are ours, and the shader is rebuilt only when it must be.
+/// VTK's mapper for triangles of one material. Differences to VTK's: triangles without area keep their place, lights
+/// and ids are ours, and the shader is rebuilt only when it must be.
 class PartMapper : public vtkOpenGLPolyDataMapper
 {
 public:
   static PartMapper* New();
   vtkTypeMacro(PartMapper, vtkOpenGLPolyDataMapper);
 
-  /// `indices`: three per triangle, into the points of the input.
-  void configure(RasterFrame* frame, const ShaderVariant& material, std::vector<unsigned int> indices);
+  /// `indices`: three per triangle, into the points of the input. A triangle's number is that of its last vertex, from
+  /// `firstTriangle`.
+  void configure(
+    RasterFrame* frame, const ShaderVariant& material, int firstTriangle, std::vector<unsigned int> indices);
+  int firstTriangle() const { return this->FirstTriangle; }
   const ShaderVariant& material() const { return this->Material; }
 
   /// Uploads what is not in OpenGL's memory yet.
@@ -83,6 +86,7 @@ private:
 
   RasterFrame* Frame = nullptr;
   bool Preparing = false;
+  int FirstTriangle = 0;
   ShaderVariant Material;
   ShaderVariant Built;
   std::vector<unsigned int> Indices; // until they are uploaded

@@ -173,6 +173,7 @@ void RasterScene::drawIds()
     glBindVertexArray(this->Ids.vertexArray());
     glUniformMatrix4fv(program.matrix, 1, GL_FALSE, draw.actor->clip_from_object.data());
     glUniform2f(program.draw, draw.actor->number, 0);
+    glUniform1i(program.first, mapper.firstTriangle());
     if (variant.cutOut)
     {
       draw.chunk->texture->Render(this->Renderer);

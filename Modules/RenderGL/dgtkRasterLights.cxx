@@ -61,6 +61,7 @@ RasterLights rasterLights(const std::vector<LightState>& lights, const Eigen::Ma
       }
     }
   }
+  result.headOnly = lights.size() == 1 && lights[0].kind == LightState::Kind::Head;
   return result;
 }
 

@@ -23,12 +23,9 @@ struct RasterLights
   int directional = 0;
   int points = 0;
   int spots = 0;
+  bool headOnly = false; ///< a single head light
 
   int count() const { return this->directional + this->points + this->spots; }
-  bool sameKinds(const RasterLights& o) const
-  {
-    return this->directional == o.directional && this->points == o.points && this->spots == o.spots;
-  }
 };
 
 RasterLights rasterLights(const std::vector<LightState>& lights, const Eigen::Matrix4d& view_from_world);

@@ -217,6 +217,7 @@ std::shared_ptr<RasterScene::Shared> RasterScene::sharedOf(const Instance& insta
   }
   auto shared = std::make_shared<Shared>();
   shared->model = instance.model;
+  shared->topology = this->topologyOf(instance.model);
   shared->origin = middleOf(instance.model->rest->positions);
   shared->points = vtkSmartPointer<vtkFloatArray>::New();
   shared->points->SetNumberOfComponents(3);
@@ -231,12 +232,12 @@ std::shared_ptr<RasterScene::Shared> RasterScene::sharedOf(const Instance& insta
   {
     vtkNew<vtkFloatArray> uvs;
     uvs->SetNumberOfComponents(2);
-    uvs->SetNumberOfTuples(vtkIdType(instance.model->uvs.size()));
+    uvs->SetNumberOfTuples(vtkIdType(shared->topology->source.size()));
     float* target = uvs->GetPointer(0);
-    for (const Eigen::Vector2d& uv : instance.model->uvs)
+    for (const std::uint32_t vertex : shared->topology->source)
     {
-      *target++ = float(uv.x());
-      *target++ = float(uv.y());
+      *target++ = float(instance.model->uvs[vertex].x());
+      *target++ = float(instance.model->uvs[vertex].y());
     }
     shared->data->GetPointData()->SetTCoords(uvs);
   }
@@ -244,20 +245,32 @@ std::shared_ptr<RasterScene::Shared> RasterScene::sharedOf(const Instance& insta
   return shared;
 }
 
+std::shared_ptr<const RasterTopology> RasterScene::topologyOf(const std::shared_ptr<const Model>& model)
+{
+  for (const auto& variant : this->Variants)
+  {
+    if (variant->shared->model == model)
+    {
+      return variant->shared->topology;
+    }
+  }
+  return std::make_shared<const RasterTopology>(rasterTopology(*model));
+}
+
 void RasterScene::fill(Shared& shared, std::shared_ptr<const Geometry> geometry)
 {
-  const std::size_t count = geometry->positions.size();
+  const std::size_t count = shared.topology->source.size();
   shared.points->SetNumberOfTuples(vtkIdType(count));
   shared.normals->SetNumberOfTuples(vtkIdType(count));
   float* point = shared.points->GetPointer(0);
   float* normal = shared.normals->GetPointer(0);
-  for (std::size_t i = 0; i < count; ++i)
+  for (const std::uint32_t vertex : shared.topology->source)
   {
-    const Eigen::Vector3d x = geometry->positions[i] - shared.origin;
+    const Eigen::Vector3d x = geometry->positions[vertex] - shared.origin;
     for (int c = 0; c < 3; ++c)
     {
       *point++ = float(x[c]);
-      *normal++ = geometry->normals[i][c];
+      *normal++ = geometry->normals[vertex][c];
     }
   }
   shared.points->Modified();
@@ -322,11 +335,12 @@ RasterScene::Chunk RasterScene::makeChunk(
   indices.reserve(std::size_t(count) * 3);
   for (std::uint32_t t = first; t < first + count; ++t)
   {
-    indices.insert(indices.end(), model.triangles[t].begin(), model.triangles[t].end());
+    const auto& corners = variant.shared->topology->triangles[t];
+    indices.insert(indices.end(), corners.begin(), corners.end());
   }
   chunk.property = makeProperty(material);
   chunk.mapper = vtkSmartPointer<PartMapper>::New();
-  chunk.mapper->configure(&this->Frame, shader, std::move(indices));
+  chunk.mapper->configure(&this->Frame, shader, int(first), std::move(indices));
   chunk.mapper->SetInputData(variant.shared->data);
   return chunk;
 }

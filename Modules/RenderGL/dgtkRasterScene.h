@@ -26,6 +26,15 @@ class vtkPolyData;
 namespace dgtk
 {
 
+/// A model's triangles, renumbered so that vertex t is the last vertex of triangle t and of no other; in this way a
+/// triangle's number reaches the fragments.
+struct RasterTopology
+{
+  std::vector<std::uint32_t> source; ///< vertex -> vertex of the model
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+RasterTopology rasterTopology(const Model& model);
+
 /// Which draws.
 enum class Surfaces
 {
@@ -74,6 +83,7 @@ private:
   struct Shared
   {
     std::shared_ptr<const Model> model;
+    std::shared_ptr<const RasterTopology> topology;
     std::shared_ptr<const Geometry> geometry;
     Eigen::Vector3d origin; ///< subtracted from the positions before they become float
     vtkSmartPointer<vtkFloatArray> points;
@@ -112,6 +122,7 @@ private:
   };
 
   std::shared_ptr<Shared> sharedOf(const Instance& instance);
+  std::shared_ptr<const RasterTopology> topologyOf(const std::shared_ptr<const Model>& model);
   Variant& variantOf(const Instance& instance);
   std::unique_ptr<Variant> makeVariant(const Instance& instance);
   Chunk makeChunk(const Variant& variant, const Part& part, std::uint32_t first, std::uint32_t count);

@@ -34,11 +34,22 @@ bool dgtkPeeled(vec2 id)
 }
 )";
 
-std::string identity(const ShaderVariant& variant)
+/// Flat: of the triangle's last vertex. gl_PrimitiveID would cost Mesa's slow path for every triangle.
+constexpr const char* TriangleIn = "flat in float dgtkTriangleVSOutput;\n";
+
+std::string triangleOut(const ShaderVariant& variant)
 {
-  return variant.pieces ? "vec2(dgtkDraw.x, dgtkTriangleVSOutput)"
-                        : "vec2(dgtkDraw.x, float(gl_PrimitiveID + PrimitiveIDOffset))";
+  return std::string(variant.pieces ? "in float dgtkTriangle;\n" : "uniform int dgtkFirstTriangle;\n") +
+         "flat out float dgtkTriangleVSOutput;\n";
 }
+
+std::string triangleCode(const ShaderVariant& variant)
+{
+  return std::string("  dgtkTriangleVSOutput = ") +
+         (variant.pieces ? "dgtkTriangle;\n" : "float(gl_VertexID - dgtkFirstTriangle);\n");
+}
+
+constexpr const char* Identity = "  vec2 dgtkId = vec2(dgtkDraw.x, dgtkTriangleVSOutput);\n";
 
 std::string lightValue(const ShaderVariant& variant, int slot)
 {
@@ -75,8 +86,21 @@ std::string loop(int from, int count, const std::string& body)
                         "; ++i)\n  {\n" + body + "  }\n";
 }
 
+/// VTK's own formula for a single head light, which takes the viewer to be where the light is.
+std::string headLighting(const ShaderVariant& variant)
+{
+  std::string text = "  float df = max(0.0, normalVC.z);\n"
+                     "  vec3 dgtkColor = (1.0 + dgtkLights[3].rgb) * ambientColor + dgtkEmission + df * diffuseColor * "
+                     "dgtkLights[4].rgb";
+  return text + (variant.specular ? " + pow(df, specularPower) * specularColor * dgtkLights[5].rgb;\n" : ";\n");
+}
+
 std::string lighting(const ShaderVariant& variant)
 {
+  if (variant.headOnly)
+  {
+    return headLighting(variant);
+  }
   const std::string toPoint = "    vec3 away = " + lightValue(variant, 0) +
                               ".xyz - vertexVC.xyz;\n"
                               "    float d = length(away);\n"
@@ -120,12 +144,9 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
                       ? std::string("uniform samplerBuffer dgtkLights;\n")
                       : "uniform vec4 dgtkLights[" + std::to_string(lights * RasterLights::Stride) + "];\n";
   }
-  if (variant.pieces)
-  {
-    declarations += "flat in float dgtkTriangleVSOutput;\n";
-    put(vertex, "//VTK::ValuePass::Dec", "in float dgtkTriangle;\nflat out float dgtkTriangleVSOutput;\n");
-    put(vertex, "//VTK::ValuePass::Impl", "  dgtkTriangleVSOutput = dgtkTriangle;\n");
-  }
+  declarations += TriangleIn;
+  put(vertex, "//VTK::ValuePass::Dec", triangleOut(variant));
+  put(vertex, "//VTK::ValuePass::Impl", triangleCode(variant));
   declarations += variant.cutOut ? Gone : "";
   declarations += variant.peel ? Peel : "";
   put(fragment, "//VTK::ValuePass::Dec", declarations);
@@ -135,7 +156,7 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
     "  if (gl_FrontFacing == (dgtkDraw.y > 0.5)) { normalVC = -normalVC; }\n");
   put(fragment, "//VTK::Light::Impl", lighting(variant));
   std::string finish = variant.textured ? "  dgtkColor *= texture(actortexture, tcoordVCVSOutput).rgb;\n" : "";
-  finish += "  vec2 dgtkId = " + identity(variant) + ";\n";
+  finish += Identity;
   if (variant.cutOut)
   {
     finish += "  if (dgtkGone(actortexture, tcoordVCVSOutput)) { discard; }\n";
@@ -157,10 +178,10 @@ std::string idVertexShader(const ShaderVariant& variant)
                      "in vec4 vertexMC;\n"
                      "uniform mat4 MCDCMatrix;\n";
   text += variant.cutOut ? "in vec2 tcoord;\nout vec2 tcoordVCVSOutput;\n" : "";
-  text += variant.pieces ? "in float dgtkTriangle;\nflat out float dgtkTriangleVSOutput;\n" : "";
+  text += triangleOut(variant);
   text += "void main()\n{\n";
   text += variant.cutOut ? "  tcoordVCVSOutput = tcoord;\n" : "";
-  text += variant.pieces ? "  dgtkTriangleVSOutput = dgtkTriangle;\n" : "";
+  text += triangleCode(variant);
   return text + "  gl_Position = MCDCMatrix * vertexMC;\n}\n";
 }
 
@@ -168,13 +189,13 @@ std::string idFragmentShader(const ShaderVariant& variant)
 {
   std::string text = "#version 150\n"
                      "uniform vec2 dgtkDraw;\n"
-                     "uniform int PrimitiveIDOffset;\n"
                      "out vec4 dgtkOutput;\n";
   text += variant.cutOut ? "uniform sampler2D actortexture;\nin vec2 tcoordVCVSOutput;\n" : "";
-  text += variant.pieces ? "flat in float dgtkTriangleVSOutput;\n" : "";
+  text += TriangleIn;
   text += variant.cutOut ? Gone : "";
   text += variant.peel ? Peel : "";
-  text += "void main()\n{\n  vec2 dgtkId = " + identity(variant) + ";\n";
+  text += "void main()\n{\n";
+  text += Identity;
   text += variant.cutOut ? "  if (dgtkGone(actortexture, tcoordVCVSOutput)) { discard; }\n" : "";
   text += variant.peel ? "  if (dgtkPeeled(dgtkId)) { discard; }\n" : "";
   return text + "  dgtkOutput = vec4(dgtkId, gl_FragCoord.z, 1.0);\n}\n";

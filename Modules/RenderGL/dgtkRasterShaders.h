@@ -17,6 +17,7 @@ struct ShaderVariant
   int directional = 0; ///< lights of each kind
   int points = 0;
   int spots = 0;
+  bool headOnly = false;     ///< one head light and nothing else: VTK's short form
   bool lightTexture = false; ///< lights come from a buffer texture: more than fit in uniforms
   bool specular = false;
   bool textured = false;

@@ -229,7 +229,7 @@ TEST(RasterIds, InstancesShareTheirGeometry)
   ball.part(matte({ 0, 1, 0 }));
   ball.sphere(100); // 40,000 triangles: about 1.1 MB as floats
   const auto model = ball.finish();
-  const View view = viewOf(makePinholeFromFov(64, 48, 45, 0), { 0, 0, 200 }, { 0, 0, 0 });
+  const View view = viewOf(makePinholeFromFov(64, 48, 45, 0), { 0, 0, 8 }, { 0, 0, 0 });
   auto few = emptyState();
   few->instances = { instanceOf(model) };
   renderColor(few, view);
@@ -237,7 +237,7 @@ TEST(RasterIds, InstancesShareTheirGeometry)
   auto many = emptyState();
   for (int i = 0; i < 1000; ++i)
   {
-    many->instances.push_back(instanceOf(model, { i % 32 * 3.0 - 48, i / 32 * 3.0 - 48, 500 }));
+    many->instances.push_back(instanceOf(model, { i % 32 * 3.0 - 48, i / 32 * 3.0 - 48, -100 }));
   }
   many->instances.push_back(instanceOf(model, { 0, 0, 0 }));
   const VisibilityBuffer hits = render(many, view);

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkRasterScene.h"
+
+#include <limits>
+
+namespace dgtk
+{
+
+RasterTopology rasterTopology(const Model& model)
+{
+  constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
+  const std::size_t count = model.triangles.size();
+  RasterTopology result;
+  result.source.resize(count);
+  result.triangles.resize(count);
+  std::vector<std::uint32_t> renumbered(model.rest->positions.size(), None); // vertex of the model -> vertex
+
+  // Each triangle claims a corner that no other has claimed, or a copy of its last one.
+  std::vector<std::uint8_t> claimed(count);
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    for (std::uint8_t k = 0; k < 3; ++k)
+    {
+      const std::uint8_t corner = std::uint8_t((k + 2) % 3);
+      std::uint32_t& vertex = renumbered[model.triangles[t][corner]];
+      if (vertex == None || k == 2)
+      {
+        claimed[t] = vertex == None ? corner : 2;
+        result.source[t] = model.triangles[t][claimed[t]];
+        if (vertex == None)
+        {
+          vertex = std::uint32_t(t);
+        }
+        break;
+      }
+    }
+  }
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const std::uint32_t original = model.triangles[t][(claimed[t] + 1 + k) % 3];
+      if (renumbered[original] == None)
+      {
+        renumbered[original] = std::uint32_t(result.source.size());
+        result.source.push_back(original);
+      }
+      result.triangles[t][k] = k == 2 ? std::uint32_t(t) : renumbered[original];
+    }
+  }
+  return result;
+}
+
+} // namespace dgtk
