@@ -22,7 +22,7 @@ const aiTextureType pictureTypes[] = { aiTextureType_BASE_COLOR, aiTextureType_D
 double displayed(double linear)
 {
   const double x = std::clamp(linear, 0.0, 1.0);
-  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+  return x >= 1 ? 1 : x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
 }
 
 std::array<double, 3> rgb(const aiColor4D& color) { return { color.r, color.g, color.b }; }

@@ -101,14 +101,15 @@ std::shared_ptr<const Image> decodeEmbedded(const import::Texture& texture, std:
     OIIO::ImageSpec config;
     config["oiio:UnassociatedAlpha"] = 1;
     OIIO::Filesystem::IOMemReader memory(const_cast<std::uint8_t*>(texture.data.data()), texture.data.size());
-    const auto input = OIIO::ImageInput::open(jpeg ? "embedded.jpg" : "embedded.png", &config, &memory);
-    if (input)
+    const auto input = OIIO::ImageInput::create(jpeg ? "jpeg" : "png");
+    OIIO::ImageSpec spec;
+    if (input && input->set_ioproxy(&memory) && input->open(jpeg ? "embedded.jpg" : "embedded.png", spec, config))
     {
       image = decode(*input, problem);
     }
     else
     {
-      problem = OIIO::geterror();
+      problem = input ? input->geterror() : OIIO::geterror();
     }
   }
   if (!image)

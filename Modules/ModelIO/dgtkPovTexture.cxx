@@ -183,6 +183,12 @@ void PovParser::pigment(PovTexture& to)
     else
     {
       this->take();
+      // the language's own words are in lower case
+      if (token.kind == PovToken::Kind::Word && known == this->Names.end() && token.text[0] >= 'A' &&
+          token.text[0] <= 'Z')
+      {
+        this->warn(token.place, quoted(token.text) + " is not declared: drawn without");
+      }
     }
   }
   if (colors > 0)

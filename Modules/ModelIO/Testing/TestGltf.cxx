@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkFile.h"
+#include "dgtkGltfMaker.h"
+#include "dgtkModelChecks.h"
+#include "dgtkTestSupport.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace dgtk::test;
+using Json = nlohmann::json;
+
+namespace
+{
+/// Keys are 32-bit floats.
+constexpr double floatTolerance = 1e-6;
+
+Json sampler(int input, int output, const char* interpolation = "LINEAR")
+{
+  return { { "input", input }, { "output", output }, { "interpolation", interpolation } };
+}
+
+Json channel(int index, int node, const char* path)
+{
+  return { { "sampler", index }, { "target", { { "node", node }, { "path", path } } } };
+}
+
+/// Node 0 moves, turns and changes shape; node 1 is bent by joints 2 and 3, of which 3 turns about its own end.
+GltfMaker animated()
+{
+  GltfMaker maker;
+  const int positions = maker.floats("VEC3", { 0, 0, 0, 1, 0, 0, 0, 1, 0 });
+  const int strip = maker.floats("VEC3", { 0, 0, 0, 1, 0, 0, 0, 2, 0 });
+  const int uvs = maker.floats("VEC2", { 0, 0, 1, 0, 0, 1 });
+  const int indices = maker.shorts("SCALAR", { 0, 1, 2 });
+  const int target = maker.floats("VEC3", { 0, 0, 1, 0, 0, 2, 0, 0, 3 });
+  const int joints = maker.bytes("VEC4", { 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0 });
+  const int weights = maker.floats("VEC4", { 1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 0, 1, 0, 0 });
+  const int inverse = maker.floats(
+    "MAT4", { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1 });
+  const int times = maker.floats("SCALAR", { 0, 1, 2 });
+  const int moves = maker.floats("VEC3", { 0, 0, 0, 2, 0, 0, 2, 4, 0 });
+  const auto half = static_cast<float>(std::sqrt(0.5));
+  const int turns = maker.floats("VEC4", { 0, 0, 0, 1, 0, 0, half, half, 0, 0, 1, 0 });
+  const int shapes = maker.floats("SCALAR", { 0, 1, 0.5f });
+  maker.json["scenes"] = { { { "nodes", { 0, 1, 2 } } } };
+  maker.json["nodes"] = { { { "name", "Mover" }, { "mesh", 0 } }, { { "name", "Bent" }, { "mesh", 1 }, { "skin", 0 } },
+    { { "name", "Root" }, { "children", { 3 } } }, { { "name", "Tip" }, { "translation", { 0, 1, 0 } } } };
+  maker.json["meshes"] = {
+    { { "name", "Triangle" }, { "weights", { 0 } },
+      { "primitives", { { { "attributes", { { "POSITION", positions }, { "TEXCOORD_0", uvs } } },
+                        { "indices", indices }, { "targets", { { { "POSITION", target } } } } } } } },
+    { { "name", "Strip" },
+      { "primitives", { { { "attributes", { { "POSITION", strip }, { "JOINTS_0", joints }, { "WEIGHTS_0", weights } } },
+                        { "indices", indices } } } } }
+  };
+  maker.json["skins"] = { { { "joints", { 2, 3 } }, { "inverseBindMatrices", inverse } } };
+  maker.json["animations"] = { { { "name", "Dance" },
+    { "channels", { channel(0, 0, "translation"), channel(1, 0, "weights"), channel(2, 3, "rotation") } },
+    { "samplers", { sampler(times, moves), sampler(times, shapes), sampler(times, turns) } } } };
+  return maker;
+}
+
+std::vector<Eigen::Vector3d> at(const dgtk::Model& model, double frame)
+{
+  std::vector<Eigen::Vector3d> positions;
+  model.deformation->positionsAt(0, frame, positions);
+  return positions;
+}
+
+void expectNear(const Eigen::Vector3d& expected, const Eigen::Vector3d& found)
+{
+  EXPECT_LT((expected - found).norm(), floatTolerance) << expected.transpose() << " against " << found.transpose();
+}
+
+/// One triangle with a material.
+GltfMaker plain(const Json& material)
+{
+  GltfMaker maker;
+  const int positions = maker.floats("VEC3", { 0, 0, 0, 1, 0, 0, 0, 1, 0 });
+  const int uvs = maker.floats("VEC2", { 0, 0, 1, 0, 0, 1 });
+  maker.json["scenes"] = { { { "nodes", { 0 } } } };
+  maker.json["nodes"] = { { { "name", "Parent" }, { "scale", { 2, 2, -2 } }, { "children", { 1 } } },
+    { { "name", "Child" }, { "mesh", 0 }, { "translation", { 0, 0, 3 } } } };
+  maker.json["meshes"] = { { { "name", "Triangle" },
+    { "primitives",
+      { { { "attributes", { { "POSITION", positions }, { "TEXCOORD_0", uvs } } }, { "material", 0 } } } } } };
+  maker.json["materials"] = { material };
+  return maker;
+}
+
+/// A 2 x 1 PNG: opaque red, and green of alpha 102 (0.4).
+const unsigned char tinyPng[] = { 0x89, 0x50, 0x4e, 0x47, 0xd, 0xa, 0x1a, 0xa, 0x0, 0x0, 0x0, 0xd, 0x49, 0x48, 0x44,
+  0x52, 0x0, 0x0, 0x0, 0x2, 0x0, 0x0, 0x0, 0x1, 0x8, 0x6, 0x0, 0x0, 0x0, 0xf4, 0x22, 0x7f, 0x8a, 0x0, 0x0, 0x0, 0xf,
+  0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0xf8, 0xcf, 0xc0, 0xf0, 0x1f, 0x8, 0xd3, 0x0, 0x10, 0x5f, 0x3, 0x64, 0x41,
+  0x7a, 0x91, 0x26, 0x0, 0x0, 0x0, 0x0, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82 };
+} // namespace
+
+TEST(Gltf, NodesMorphTargetsAndSkinsMoveExactly)
+{
+  const GltfMaker maker = animated();
+  for (const auto& [extension, bytes] : { std::pair{ "gltf", maker.gltf() }, std::pair{ "glb", maker.glb() } })
+  {
+    const auto model = readBytes(extension, bytes);
+    EXPECT_EQ(brokenPromise(*model), "");
+    EXPECT_EQ(model->format, "gltf");
+    ASSERT_EQ(model->triangles.size(), 2u);
+    ASSERT_EQ(model->animations.size(), 1u);
+    EXPECT_EQ(model->animations[0].name, "Dance");
+    EXPECT_EQ(model->animations[0].last, 60);
+    EXPECT_EQ(model->animations[0].fps, 30);
+    EXPECT_EQ(model->frames, 61);
+    ASSERT_EQ(model->sourceVertices, 6u);
+    for (const double frame : { 0.0, 7.5, 15.0, 30.0, 44.25, 60.0, 1000.0 })
+    {
+      const double time = std::min(frame / 30, 2.0);
+      const std::vector<Eigen::Vector3d> p = at(*model, frame);
+      ASSERT_EQ(p.size(), 6u);
+      const Eigen::Vector3d move(time < 1 ? 2 * time : 2, time < 1 ? 0 : 4 * (time - 1), 0);
+      const double shape = time < 1 ? time : 1 - 0.5 * (time - 1);
+      expectNear(move + Eigen::Vector3d(0, 0, shape), p[0]);
+      expectNear(move + Eigen::Vector3d(1, 0, 2 * shape), p[1]);
+      expectNear(move + Eigen::Vector3d(0, 1, 3 * shape), p[2]);
+      // the tip turns about (0, 1, 0), a quarter turn a second
+      const double angle = time * 1.57079632679489661923;
+      const auto bent = [angle](double x, double y)
+      {
+        return Eigen::Vector3d(
+          x * std::cos(angle) - (y - 1) * std::sin(angle), 1 + x * std::sin(angle) + (y - 1) * std::cos(angle), 0);
+      };
+      expectNear({ 0, 0, 0 }, p[3]);
+      expectNear(0.5 * Eigen::Vector3d(1, 0, 0) + 0.5 * bent(1, 0), p[4]);
+      expectNear(bent(0, 2), p[5]);
+    }
+  }
+}
+
+TEST(Gltf, HalfAQuarterTurnIsAnEighth)
+{
+  const auto model = readBytes("gltf", animated().gltf());
+  // slerp, not a normalised blend: a third of the way is 30 degrees
+  const std::vector<Eigen::Vector3d> p = at(*model, 10);
+  expectNear({ -0.5, 1 + std::sqrt(3) / 2, 0 }, p[5]);
+}
+
+TEST(Gltf, NodeTransformsAndMirrorsTurnTheWinding)
+{
+  const auto model = readBytes("gltf", plain({ { "name", "m" } }).gltf());
+  EXPECT_EQ(brokenPromise(*model), "");
+  EXPECT_FALSE(model->deformation);
+  EXPECT_EQ(model->boundsMin, Eigen::Vector3d(0, 0, -6));
+  EXPECT_EQ(model->boundsMax, Eigen::Vector3d(2, 2, -6));
+  EXPECT_EQ(model->parts[0].name, "Child");
+  EXPECT_EQ(model->rest->normals[0], Eigen::Vector3f(0, 0, -1));
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const Eigen::Vector3d& p = model->rest->positions[i];
+    EXPECT_EQ(model->uvs[i], Eigen::Vector2d(p.x() / 2, 1 - p.y() / 2)); // glTF's v runs down, the model's up
+  }
+}
+
+TEST(Gltf, MetalRoughnessMaterial)
+{
+  const auto model = readBytes("gltf",
+    plain({ { "name", "m" }, { "doubleSided", true }, { "alphaMode", "BLEND" }, { "emissiveFactor", { 0, 1, 0 } },
+            { "pbrMetallicRoughness",
+              { { "baseColorFactor", { 1, 0.5, 0, 0.25 } }, { "metallicFactor", 0 }, { "roughnessFactor", 1 } } } })
+      .gltf());
+  const dgtk::Material& m = model->materials[0];
+  EXPECT_NEAR(m.diffuse[1], 0.735357, 1e-6); // sRGB of 0.5
+  EXPECT_EQ(m.diffuse[0], 1);
+  EXPECT_EQ(m.emission, Eigen::Vector3d(0, 1, 0));
+  EXPECT_EQ(m.specular, Eigen::Vector3d(0, 0, 0)); // fully rough
+  EXPECT_DOUBLE_EQ(m.opacity, 0.25);
+  EXPECT_TRUE(m.twoSided);
+  EXPECT_EQ(model->twoSidedTriangles, 1u);
+}
+
+TEST(Gltf, AlphaOfAnEmbeddedPicture)
+{
+  const std::string png(reinterpret_cast<const char*>(tinyPng), sizeof tinyPng);
+  const auto read = [&png](const Json& mode)
+  {
+    Json material = mode;
+    material["pbrMetallicRoughness"] = { { "baseColorTexture", { { "index", 0 } } } };
+    GltfMaker maker = plain(material);
+    maker.json["images"] = { { { "name", "picture" }, { "mimeType", "image/png" },
+      { "bufferView", maker.view(png) } } };
+    maker.json["textures"] = { { { "source", 0 } } };
+    const TemporaryFolder folder;
+    dgtk::writeFile(folder.path("m.glb"), maker.glb());
+    return dgtk::readModel(folder.path("m.glb"));
+  };
+  const auto alphas = [](const dgtk::Model& model)
+  {
+    const dgtk::Material& m = model.materials[0];
+    const auto& image = model.textures.at(static_cast<std::size_t>(m.texture)).image;
+    return image ? std::pair<int, int>(image->rgba[3], image->rgba[7]) : std::pair<int, int>(-1, -1);
+  };
+  ASSERT_THAT(read({})->warnings, testing::IsEmpty());
+  const auto opaque = read({ { "alphaMode", "OPAQUE" } });
+  EXPECT_EQ(alphas(*opaque), std::pair(255, 255));
+  EXPECT_FALSE(opaque->materials[0].cutOut);
+  const auto mask = read({ { "alphaMode", "MASK" } });
+  EXPECT_EQ(alphas(*mask), std::pair(255, 102));
+  EXPECT_TRUE(mask->materials[0].cutOut);
+  const auto low = read({ { "alphaMode", "MASK" }, { "alphaCutoff", 0.25 } });
+  EXPECT_EQ(alphas(*low), std::pair(255, 255)); // 0.4 is above the file's cut-off: it stays
+}

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkModelChecks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+using namespace dgtk::test;
+using testing::HasSubstr;
+
+namespace
+{
+const char* const asciiQuad = "ply\nformat ascii 1.0\ncomment made by a test\n"
+                              "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                              "property float nx\nproperty float ny\nproperty float nz\n"
+                              "property float s\nproperty float t\n"
+                              "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                              "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                              "0 0 2 0 0 1 0 0 255 51 0\n1 0 2 0 0 1 1 0 255 51 0\n"
+                              "1 1 2 0 0 1 1 1 255 51 0\n0 1 2 0 0 1 0 1 255 51 0\n4 0 1 2 3\n";
+
+template <class T>
+void put(std::string& to, T value, bool big)
+{
+  char bytes[sizeof value];
+  std::memcpy(bytes, &value, sizeof value);
+  if (big)
+  {
+    std::reverse(bytes, bytes + sizeof value);
+  }
+  to.append(bytes, sizeof value);
+}
+
+/// The same quad with other types, another order of properties, and an element nobody knows, on a little-endian
+/// machine.
+std::string binaryQuad(bool big)
+{
+  std::string text = std::string("ply\r\nformat binary_") + (big ? "big" : "little") +
+                     "_endian 1.0\r\nelement face 1\r\nproperty uchar flags\r\n"
+                     "property list uint ushort vertex_index\r\nelement camera 1\r\nproperty list uchar short odd\r\n"
+                     "element vertex 4\r\nproperty double z\r\nproperty short x\r\nproperty int8 y\r\n"
+                     "property float texture_u\r\nproperty float texture_v\r\nend_header\r\n";
+  put<std::uint8_t>(text, 7, big);
+  put<std::uint32_t>(text, 4, big);
+  for (std::uint16_t i = 0; i < 4; ++i)
+  {
+    put(text, i, big);
+  }
+  put<std::uint8_t>(text, 2, big);
+  put<std::int16_t>(text, 5, big);
+  put<std::int16_t>(text, -5, big);
+  const std::int16_t corners[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
+  for (const auto& corner : corners)
+  {
+    put<double>(text, 2, big);
+    put<std::int16_t>(text, corner[0], big);
+    put<std::int8_t>(text, static_cast<std::int8_t>(corner[1]), big);
+    put<float>(text, corner[0], big);
+    put<float>(text, corner[1], big);
+  }
+  return text;
+}
+
+void expectQuad(const dgtk::Model& model)
+{
+  EXPECT_EQ(brokenPromise(model), "");
+  ASSERT_EQ(model.triangles.size(), 2u);
+  EXPECT_EQ(model.sourceVertices, 4u);
+  EXPECT_EQ(model.boundsMin, Eigen::Vector3d(0, 0, 2));
+  EXPECT_EQ(model.boundsMax, Eigen::Vector3d(1, 1, 2));
+  ASSERT_EQ(model.uvs.size(), model.rest->positions.size());
+  for (std::size_t i = 0; i < model.uvs.size(); ++i)
+  {
+    EXPECT_EQ(model.uvs[i], Eigen::Vector2d(model.rest->positions[i].head<2>()));
+    EXPECT_EQ(model.rest->normals[i], Eigen::Vector3f(0, 0, 1));
+  }
+}
+
+std::string changed(std::string text, const std::string& from, const std::string& to)
+{
+  const std::size_t at = text.find(from);
+  return at == std::string::npos ? "" : text.replace(at, from.size(), to);
+}
+} // namespace
+
+TEST(Ply, AsciiWithNormalsUvsAndOneColour)
+{
+  const auto model = readBytes("ply", asciiQuad);
+  expectQuad(*model);
+  EXPECT_EQ(model->materials[0].diffuse, Eigen::Vector3d(1, 0.2, 0));
+  EXPECT_TRUE(model->warnings.empty());
+}
+
+TEST(Ply, BinaryOfBothByteOrdersWithFacesFirst)
+{
+  expectQuad(*readBytes("ply", binaryQuad(false)));
+  expectQuad(*readBytes("ply", binaryQuad(true)));
+}
+
+TEST(Ply, ColoursThatVaryAreReported)
+{
+  const auto model = readBytes("ply", changed(asciiQuad, "1 0 255 51 0", "1 0 0 51 0"));
+  EXPECT_THAT(model->warnings, testing::ElementsAre("colours of vertices are not drawn"));
+  EXPECT_EQ(model->materials[0].diffuse, Eigen::Vector3d(0.8, 0.8, 0.8));
+}
+
+TEST(Ply, PointsAloneAreAModelWithoutTriangles)
+{
+  const auto model = readBytes("ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+                                      "property float z\nend_header\n1 2 3\n4 5 6");
+  EXPECT_EQ(model->triangles.size(), 0u);
+  EXPECT_EQ(model->sourceVertices, 2u);
+  EXPECT_THAT(model->warnings, testing::ElementsAre(HasSubstr("points are not drawn")));
+}
+
+TEST(Ply, StripsEdgesAndWedges)
+{
+  const auto model = readBytes("ply",
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "element tristrips 1\nproperty list int int vertex_indices\nelement edge 1\nproperty int vertex1\n"
+    "property int vertex2\nelement face 1\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+    "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 1 2 3\n0 3\n3 0 1 3 6 0 0 .5 0 .5 .25\n");
+  EXPECT_EQ(brokenPromise(*model), "");
+  ASSERT_EQ(model->triangles.size(), 3u);
+  EXPECT_EQ(model->lines, 1u);
+  for (const Eigen::Vector3f& normal : model->rest->normals)
+  {
+    EXPECT_EQ(normal, Eigen::Vector3f(0, 0, 1)); // both triangles of the strip face the same way
+  }
+  EXPECT_EQ(model->uvs[model->triangles[2][2]], Eigen::Vector2d(0.5, 0.25));
+}
+
+TEST(Ply, FacesThatNameNoVertexAreCounted)
+{
+  const auto model = readBytes("ply", changed(asciiQuad, "4 0 1 2 3", "4 0 1 2 9"));
+  EXPECT_EQ(model->triangles.size(), 0u);
+  EXPECT_THAT(model->warnings, testing::Contains("1 surface left out: a vertex that does not exist"));
+}
+
+TEST(Ply, LyingCountsAreRefusedBeforeAnythingIsAllocated)
+{
+  resetPeak();
+  const std::size_t before = peakBytes();
+  EXPECT_THAT(refusal("ply", changed(asciiQuad, "vertex 4", "vertex 4000000000")),
+    HasSubstr("has fewer bytes than element 'vertex' needs (expected 4000000000 times at least 22, found "));
+  EXPECT_THAT(refusal("ply", changed(asciiQuad, "vertex 4", "vertex 99999999999999999999")),
+    HasSubstr(":4: element has no count"));
+  EXPECT_THAT(refusal("ply", changed(asciiQuad, "4 0 1 2 3", "2000000000 0 1")),
+    HasSubstr(":23: list 'vertex_indices' has an impossible count"));
+  EXPECT_LT(peakBytes() - before, 1u << 20);
+}
+
+TEST(Ply, RefusalsNameTheLine)
+{
+  EXPECT_THAT(refusal("ply", "plx\n"), HasSubstr(":1: is not a PLY file (expected ply, found 'plx')"));
+  EXPECT_THAT(refusal("ply", ""), HasSubstr("is not a PLY file"));
+  EXPECT_THAT(refusal("ply", "ply\nformat ascii 1.0\nelement vertex 1\n"),
+    HasSubstr("header ends too soon (expected end_header, found end of file)"));
+  EXPECT_THAT(refusal("ply", changed(asciiQuad, "format ascii", "format utf8")), HasSubstr(":2: unknown format"));
+  EXPECT_THAT(refusal("ply", changed(asciiQuad, "float x", "quad x")), HasSubstr(":5: unknown type"));
+  EXPECT_THAT(refusal("ply", changed(asciiQuad, "1 1 2", "1 one 2")), HasSubstr(":21: is no number"));
+  EXPECT_THAT(refusal("ply", changed(asciiQuad, "4 0 1 2 3", "3 0 1 ")), HasSubstr(":24: ends too soon"));
+  EXPECT_THAT(refusal("ply", "ply\nformat ascii 1.0\nend_header\n"), HasSubstr("has no vertices"));
+  const std::string binary = binaryQuad(false);
+  EXPECT_THAT(refusal("ply", binary.substr(0, binary.size() - 1)), HasSubstr("found end of file"));
+}
+
+TEST(Ply, FuzzAscii) { fuzzReader("ply", { asciiQuad }); }
+TEST(Ply, FuzzBinary) { fuzzReader("ply", { binaryQuad(false), binaryQuad(true) }); }

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkModelChecks.h"
+#include "dgtkTestSupport.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+using namespace dgtk::test;
+using testing::Contains;
+using testing::HasSubstr;
+
+namespace
+{
+const std::string rightHanded = "camera { location <0,0,5> right <-1.33,0,0> look_at 0 }\n";
+const std::string oneTriangle = "triangle { <0,0,1>, <2,0,1>, <0,3,1> }\n";
+
+const char* const mesh2Scene = R"pov(
+#version 3.7;
+#declare Half = 0.5;  // a comment
+#declare Skin = texture { pigment { color rgbt <1, Half, 0.25, 0.2> } finish { ambient 0.1 diffuse 0.8 specular 0.4 roughness 0.05 } }
+/* nested /* comment */ */
+#declare Body = mesh2 {
+  vertex_vectors { 4, <0,0,0>, <1,0,0>, x+y, -1*-y }
+  normal_vectors { 1, <0,0,1> }
+  uv_vectors { 4, <0,0>, <1,0>, <1,1>, <0,1> }
+  texture_list { 2, texture { Skin } texture { pigment { rgb 0.5 } } }
+  face_indices { 2, <0,1,2>, 0, <0,2,3>, 1 }
+  normal_indices { 2, <0,0,0>, <0,0,0> }
+  inside_vector <0,0,1>
+}
+light_source { <0,10,0> color rgb 1 }
+object { Body scale 2 rotate <0,0,90> translate <10,0,0> }
+)pov";
+
+Eigen::Vector3d corner(const dgtk::Model& model, std::size_t triangle, std::size_t i)
+{
+  return model.rest->positions[model.triangles[triangle][i]];
+}
+
+void expectNear(const Eigen::Vector3d& expected, const Eigen::Vector3d& found)
+{
+  EXPECT_LT((expected - found).norm(), 1e-12) << found.transpose();
+}
+
+std::string writeFiles(const TemporaryFolder& folder, const std::map<std::string, std::string>& files)
+{
+  for (const auto& [name, text] : files)
+  {
+    std::filesystem::create_directories(std::filesystem::path(folder.path(name)).parent_path());
+    dgtk::writeFile(folder.path(name), text);
+  }
+  return folder.path("scene.pov");
+}
+} // namespace
+
+TEST(Pov, BareTrianglesAreDrawnMirrored)
+{
+  const auto model = readBytes("pov", oneTriangle);
+  EXPECT_EQ(brokenPromise(*model), "");
+  ASSERT_EQ(model->triangles.size(), 1u);
+  EXPECT_EQ(model->twoSidedTriangles, 1u);
+  expectNear({ 0, 0, -1 }, corner(*model, 0, 0));
+  expectNear({ 0, 3, -1 }, corner(*model, 0, 1)); // the winding turns with the mirror
+  EXPECT_EQ(model->rest->normals[0], Eigen::Vector3f(0, 0, -1));
+  // bounds are in the file's axes
+  EXPECT_EQ(model->boundsMin, Eigen::Vector3d(0, 0, 1));
+  EXPECT_EQ(model->boundsMax, Eigen::Vector3d(2, 3, 1));
+}
+
+TEST(Pov, CameraWithNegativeRightIsRightHanded)
+{
+  const auto model = readBytes("pov", rightHanded + oneTriangle);
+  expectNear({ 2, 0, 1 }, corner(*model, 0, 1));
+  EXPECT_EQ(model->rest->normals[0], Eigen::Vector3f(0, 0, 1));
+  const auto declared =
+    readBytes("pov", "#declare C = camera { right -x*image_width/image_height }\ncamera { C }" + oneTriangle);
+  expectNear({ 2, 0, 1 }, corner(*declared, 0, 1));
+}
+
+TEST(Pov, Mesh2WithTexturesNormalsAndTransforms)
+{
+  const auto model = readBytes("pov", rightHanded + mesh2Scene);
+  EXPECT_EQ(brokenPromise(*model), "");
+  ASSERT_EQ(model->triangles.size(), 2u);
+  EXPECT_EQ(model->sourceVertices, 4u);
+  ASSERT_EQ(model->parts.size(), 2u);
+  EXPECT_EQ(model->parts[0].name, "Body");
+  // scale, then a quarter turn about z, then the translation: (x, y) -> (10 - 2 y, 2 x)
+  expectNear({ 10, 0, 0 }, corner(*model, 0, 0));
+  expectNear({ 10, 2, 0 }, corner(*model, 0, 1));
+  expectNear({ 8, 2, 0 }, corner(*model, 0, 2));
+  expectNear({ 8, 0, 0 }, corner(*model, 1, 2));
+  const dgtk::Material& skin = model->materials[static_cast<std::size_t>(model->parts[0].material)];
+  EXPECT_EQ(skin.name, "Skin");
+  EXPECT_EQ(skin.diffuse, Eigen::Vector3d(0.8, 0.4, 0.2));
+  expectNear({ 0.1, 0.05, 0.025 }, skin.ambient);
+  expectNear({ 0.4, 0.4, 0.4 }, skin.specular);
+  EXPECT_DOUBLE_EQ(skin.shininess, 20);
+  EXPECT_DOUBLE_EQ(skin.opacity, 0.8);
+  EXPECT_EQ(
+    model->materials[static_cast<std::size_t>(model->parts[1].material)].diffuse, Eigen::Vector3d(0.5, 0.5, 0.5));
+  // without indices of their own, texture coordinates follow the vertices
+  EXPECT_EQ(model->uvs[model->triangles[1][2]], Eigen::Vector2d(0, 1));
+}
+
+TEST(Pov, NormalsDecideWhichSideIsOutside)
+{
+  const auto model = readBytes("pov", rightHanded + "mesh { smooth_triangle { <0,0,0>,<0,0,-2>, <1,0,0>,<0,0,-2>, "
+                                                    "<0,1,0>,<0,0,-2> } texture { pigment { rgb 1 } } }");
+  ASSERT_EQ(model->triangles.size(), 1u);
+  expectNear({ 0, 1, 0 }, corner(*model, 0, 1));
+  EXPECT_EQ(model->rest->normals[0], Eigen::Vector3f(0, 0, -1));
+}
+
+TEST(Pov, TransformsMultiplyInTheOrderWritten)
+{
+  const auto at = [](const std::string& transforms)
+  {
+    return corner(
+      *readBytes("pov", rightHanded + "mesh { triangle { <1,2,3>, <1,0,0>, <0,1,0> } " + transforms + " }"), 0, 0);
+  };
+  expectNear({ 11, 2, 3 }, at("translate 10*x"));
+  expectNear({ 22, 4, 6 }, at("translate <10,0,0> scale 2"));
+  expectNear({ 12, 4, 6 }, at("scale 2 translate 10*x"));
+  expectNear({ 1, -3, 2 }, at("rotate 90*x"));
+  expectNear({ 3, 2, -1 }, at("rotate <0,90,0>"));
+  expectNear({ -2, 1, 3 }, at("rotate z*90"));
+  // rows of the matrix are the images of x, y, z and the translation
+  expectNear({ 1 * 1 + 2 * 4 + 3 * 7 + 10, 1 * 2 + 2 * 5 + 3 * 8 + 11, 1 * 3 + 2 * 6 + 3 * 9 + 12 },
+    at("matrix <1,2,3, 4,5,6, 7,8,9, 10,11,12>"));
+  const double c = std::cos(0.5235987755982988);
+  expectNear({ 1 * c - 2 * 0.5, 1 * 0.5 + 2 * c, 3 }, at("transform { rotate 30*z }"));
+  expectNear({ 1, 2, 3 }, at("rotate 30*z transform { rotate 30*z inverse }"));
+}
+
+TEST(Pov, DeclaredMeshesOnlyAreDrawnOnce)
+{
+  const auto model = readBytes(
+    "pov", "#declare A = mesh { " + oneTriangle + "}\n#declare B = union { object { A } object { A translate 5*x } }");
+  ASSERT_EQ(model->triangles.size(), 2u);
+  EXPECT_EQ(model->parts.size(), 2u);
+  EXPECT_EQ(model->boundsMax.x(), 7);
+}
+
+TEST(Pov, DeclarationsSeeOnlyWhatStandsBeforeThem)
+{
+  const auto model = readBytes("pov", "#declare A = 1 #declare B = A + 1\n#local A = 5;\n"
+                                      "triangle { <0,0,0>, <B,0,0>, <0,A,0> }");
+  EXPECT_EQ(model->boundsMax, Eigen::Vector3d(2, 5, 0));
+}
+
+TEST(Pov, ConditionsAreFollowed)
+{
+  const auto model = readBytes("pov", "#ifndef (Size) #declare Size = 3; #else #declare Size = 4; #end\n"
+                                      "#if (Size > 2 & Size != 4) #declare Far = Size*2; #else #error \"no\" #end\n"
+                                      "#ifdef (Nothing) #while (1) mesh { #end #end\n"
+                                      "triangle { 0, Far*x, Size*y }");
+  EXPECT_EQ(model->boundsMax, Eigen::Vector3d(6, 3, 0));
+}
+
+TEST(Pov, IncludesAreFoundBesideTheFileThenInTheLibrary)
+{
+  const TemporaryFolder folder;
+  const std::string scene = writeFiles(folder,
+    { { "scene.pov",
+        "#include \"sub/a.inc\"\n#include \"lib.inc\"\n#include \"gone.inc\"\nobject { Inner pigment { White } }" },
+      { "sub/a.inc", "#include \"b.inc\"\n" }, { "sub/b.inc", "#declare Inner = mesh { #include \"c.inc\" }" },
+      { "sub/c.inc", oneTriangle }, { "library/lib.inc", "#declare White = rgb 1;" } });
+  const auto without = dgtk::readModel(scene);
+  EXPECT_THAT(without->warnings, Contains(HasSubstr("scene.pov:2: #include 'lib.inc' not found")));
+  EXPECT_THAT(without->warnings, Contains(HasSubstr("scene.pov:4: 'White' is not declared: drawn without")));
+  ::setenv("POVINC", ("/nowhere:" + folder.path("library")).c_str(), 1);
+  const auto model = dgtk::readModel(scene);
+  ::unsetenv("POVINC");
+  EXPECT_EQ(model->triangles.size(), 1u);
+  EXPECT_EQ(model->materials[0].diffuse, Eigen::Vector3d(1, 1, 1));
+  EXPECT_THAT(model->warnings, Contains(HasSubstr("scene.pov:3: #include 'gone.inc' not found")));
+}
+
+TEST(Pov, WhatAMeshDoesNotDependOnIsSkippedWithAWarning)
+{
+  const auto model =
+    readBytes("pov", "#macro Lamp(P) light_source { P color rgb 1 } #end\n"
+                     "#declare i = 0;\n#while (i < 3) light_source { <i,0,0> } #declare i = i + 1; #end\n"
+                     "Lamp(<1,2,3>)\nsphere { 0, 1 }\ndifference { box { 0, 1 } sphere { 0, 1 } }\n"
+                     "#declare Ball = sphere { 0, 1 };\nobject { Ball translate Foo(1) }\nbackground { rgb 1 }\n" +
+                       oneTriangle);
+  EXPECT_EQ(model->triangles.size(), 1u);
+  const std::vector<std::string>& warnings = model->warnings;
+  EXPECT_THAT(warnings, Contains(HasSubstr(":3: #while is not evaluated: left out")));
+  EXPECT_THAT(warnings, Contains(HasSubstr(":4: macro 'Lamp' is not evaluated: left out")));
+  EXPECT_THAT(warnings, Contains(HasSubstr(":5: sphere is not made of triangles: left out")));
+  EXPECT_THAT(warnings, Contains(HasSubstr(":6: difference is not evaluated: left out")));
+  EXPECT_THAT(warnings, Contains(HasSubstr("no part of the model, left out: background")));
+}
+
+TEST(Pov, WhatAMeshDependsOnIsRefusedWithItsPlace)
+{
+  const auto expectRefusal = [](const std::string& text, const std::string& what)
+  { EXPECT_THAT(refusal("pov", text), HasSubstr(what)); };
+  expectRefusal("\n#declare i=0; #while (i<2) " + oneTriangle + "#declare i=i+1; #end",
+    ":2: #while is not evaluated, and a mesh depends on it ('triangle', line 2)");
+  expectRefusal(
+    "#macro M()\n" + oneTriangle + "#end\n\nM()", ":5: macro 'M' is not evaluated, and a mesh depends on it");
+  expectRefusal("triangle { <0,0,0>, <sin(1),0,0>, <0,1,0> }", ":1: function or macro 'sin' is not evaluated");
+  expectRefusal("mesh { " + oneTriangle + "\n translate Away }", ":3: undeclared name 'Away'");
+  expectRefusal("#declare i=0; #while (i<2) #declare i=i+1; #end\nmesh { " + oneTriangle + " translate i*x }",
+    ":1: #while is not evaluated, and a mesh depends on it");
+  expectRefusal("difference { mesh { " + oneTriangle + " }\n sphere { 0, 1 } }",
+    ":1: difference is not evaluated, and it stands in one object with a mesh");
+  expectRefusal("union { mesh { " + oneTriangle + " }\n sphere { 0, 1 } }",
+    ":3: sphere is not made of triangles, and it stands in one object with a mesh");
+  expectRefusal("mesh { " + oneTriangle + " clipped_by { plane { x, 0 } } }", ":2: clipped_by is not evaluated");
+  expectRefusal("\nsphere { 0, 1 }", ":2: sphere is not made of triangles, and the file has no mesh");
+  expectRefusal("camera { location 0 }", "has no mesh");
+  expectRefusal("mesh {\n#include \"none.inc\"\n}", ":2: #include 'none.inc' not found");
+  expectRefusal("#if (rand(S) > 0.5) " + oneTriangle + "#end", ":1: #if is not evaluated");
+}
+
+TEST(Pov, DamageIsRefusedWithItsPlace)
+{
+  const auto expectRefusal = [](const std::string& text, const std::string& what)
+  { EXPECT_THAT(refusal("pov", text), HasSubstr(what)); };
+  const std::string vertices = "mesh2 { vertex_vectors { 3, <0,0,0>, <1,0,0>, <0,1,0> } ";
+  expectRefusal(
+    "mesh2 {\nvertex_vectors { 4, <0,0,0>, <1,0,0> } }", ":2: vertex_vectors has a wrong count (expected 4, found 2)");
+  expectRefusal(vertices + "face_indices { 1, <0,1,3> } }",
+    "face_indices point outside vertex_vectors (expected below 3, found 3)");
+  expectRefusal(vertices + "face_indices { 1, <0,1,2>, 0 } }", "face_indices point outside texture_list");
+  expectRefusal(vertices + "face_indices { 1, <0,1,-2> } }", "is no index or count");
+  expectRefusal(vertices + "face_indices { 4000000000, <0,1,2> } }", "is no index or count");
+  expectRefusal("mesh { triangle { <0,0,0>, <1,0",
+    ":1: cannot understand a value (expected a number or vector, found end of file)");
+  expectRefusal("mesh { triangle { <0,0,0>, <1,0,0>, }", "ends inside triangle");
+  expectRefusal("/* open", ":1: comment is not closed");
+  expectRefusal("#declare A = \"open", ":1: text is not closed");
+  expectRefusal(std::string(100000, '('), "cannot be understood here");
+  std::string deep;
+  for (int i = 0; i < 100000; ++i)
+  {
+    deep += "union{";
+  }
+  expectRefusal(deep, "nests too deeply");
+  deep = "#declare A = ";
+  deep.append(100000, '(');
+  expectRefusal(deep, "nests too deeply");
+}
+
+TEST(Pov, RepetitionIsBounded)
+{
+  std::string text = "#declare A0 = mesh { " + oneTriangle + "}\n";
+  for (int i = 1; i < 40; ++i)
+  {
+    const std::string before = "A" + std::to_string(i - 1);
+    text += "#declare A" + std::to_string(i) + " = union { object { " + before + " } object { " + before + " } }\n";
+  }
+  EXPECT_THAT(refusal("pov", text), HasSubstr("has too many objects"));
+  const TemporaryFolder folder;
+  const std::string scene = writeFiles(folder, { { "scene.pov", "#include \"scene.pov\"\n" } });
+  try
+  {
+    dgtk::readModel(scene);
+    FAIL();
+  }
+  catch (const dgtk::InputError& error)
+  {
+    EXPECT_THAT(error.what(), HasSubstr("scene.pov:1: #include nests too deeply"));
+  }
+}
+
+TEST(Pov, ImageMapsGiveTextureCoordinates)
+{
+  const auto planar = readBytes("pov",
+    rightHanded +
+      "mesh { triangle { <0,0,0>, <4,0,0>, <0,4,0> } pigment { image_map { png \"a.png\" } scale 4 } translate 7*z }");
+  ASSERT_EQ(planar->textures.size(), 1u);
+  EXPECT_EQ(planar->textures[0].name, "a.png");
+  EXPECT_EQ(planar->uvs[planar->triangles[0][1]], Eigen::Vector2d(1, 0));
+  EXPECT_EQ(planar->uvs[planar->triangles[0][2]], Eigen::Vector2d(0, 1));
+  const auto mapped = readBytes(
+    "pov", rightHanded + "mesh { triangle { <0,0,0>, <4,0,0>, <0,4,0> uv_vectors <0.5,0>, <1,0>, <1,0.25> } uv_mapping "
+                         "texture { uv_mapping pigment { image_map { jpeg \"b.jpg\" interpolate 2 } } } }");
+  EXPECT_EQ(mapped->uvs[mapped->triangles[0][2]], Eigen::Vector2d(1, 0.25));
+}
+
+/// Triangles as drawn: what a file includes is counted with it, and an object placed twice counts twice.
+TEST(Pov, RealFilesHaveTheTrianglesThatAreDrawn)
+{
+  const std::string folder = extraModels();
+  if (folder.empty() || !std::filesystem::exists(folder + "/TRUTH.json"))
+  {
+    GTEST_SKIP() << "no folder of models";
+  }
+  // the reference counts the words in each file: nothing for scenes that only include, two meshes that are placed twice
+  const std::map<std::string, std::size_t> drawn = { { "aster3.pov", 1536 }, { "chesmsh.pov", 737 },
+    { "mesh2.pov", 96 } };
+  const nlohmann::json truth = nlohmann::json::parse(contentsOf(folder + "/TRUTH.json"));
+  int compared = 0;
+  for (const auto& [name, t] : truth.items())
+  {
+    if (t["format"] == "pov")
+    {
+      const auto model = dgtk::readModel(folder + "/" + name);
+      EXPECT_EQ(brokenPromise(*model), "") << name;
+      const auto special = drawn.find(name.substr(name.find_last_of('/') + 1));
+      EXPECT_EQ(model->triangles.size(), special == drawn.end() ? t["triangles"].get<std::size_t>() : special->second)
+        << name;
+      ++compared;
+    }
+  }
+  EXPECT_GE(compared, 5);
+}
+
+TEST(Pov, Fuzz)
+{
+  fuzzReader("pov",
+    { mesh2Scene,
+      rightHanded + "mesh { smooth_triangle { <0,0,0>,<0,0,-2>, <1,0,0>,<0,0,-2>, <0,1,0>,<0,0,-2> } }\nunion { " +
+        oneTriangle + "rotate 30*x }\n#if (1) #declare A = mesh { " + oneTriangle + "} #end object { A }" });
+}
+TEST(Pov, FuzzReal)
+{
+  std::vector<std::string> seeds = { mesh2Scene };
+  for (const std::string& seed : extraSeeds("pov"))
+  {
+    if (refusal("pov", seed).empty()) // some need a file that they include
+    {
+      seeds.push_back(seed);
+    }
+  }
+  fuzzReader("pov", seeds);
+}
