@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkModelObject.h"
+#include "dgtkTextLines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,32 @@ double clamped(double value, double low, double high, double fallback)
 Eigen::Vector3d clampedColor(const Eigen::Vector3d& color)
 {
   return { clamped(color[0], 0, 1, 0), clamped(color[1], 0, 1, 0), clamped(color[2], 0, 1, 0) };
+}
+
+/// Names are printed as JSON and written into manifests: valid UTF-8 whatever the file has.
+void makeTextsValid(Model& model)
+{
+  const auto fix = [](std::string& text) { text = validUtf8(text); };
+  for (Part& part : model.parts)
+  {
+    fix(part.name);
+  }
+  for (Material& material : model.materials)
+  {
+    fix(material.name);
+  }
+  for (Texture& texture : model.textures)
+  {
+    fix(texture.name);
+  }
+  for (Animation& animation : model.animations)
+  {
+    fix(animation.name);
+  }
+  for (std::string& warning : model.warnings)
+  {
+    fix(warning);
+  }
 }
 
 std::string counted(std::size_t count, const char* what, const char* whats)
@@ -323,6 +350,7 @@ std::shared_ptr<Model> ModelBuilder::finish()
   {
     model.warnings.push_back("and " + counted(this->DroppedWarnings, "more warning", "more warnings"));
   }
+  makeTextsValid(model);
   return std::move(this->Result);
 }
 

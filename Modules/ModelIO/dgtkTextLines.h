@@ -13,6 +13,9 @@ namespace dgtk
 /// Text in UTF-8 without byte order mark, from UTF-8 or UTF-16 of either byte order.
 std::string toUtf8(std::string bytes);
 
+/// A short text as it is when it is valid UTF-8, otherwise taken as Latin-1.
+std::string validUtf8(const std::string& text);
+
 /// The number that a whole token spells, in any locale; not-a-number and infinities as C libraries print them ("nan",
 /// "-nan(ind)", "1.#QNAN", "inf") and numbers beyond a double are returned as NaN or infinity. Nothing for other text.
 std::optional<double> parseNumber(std::string_view token);

@@ -102,6 +102,18 @@ TEST(TextLines, Numbers)
   }
 }
 
+TEST(TextLines, TextsBecomeValidUtf8)
+{
+  for (const char* valid : { "", "plain", "caf\xc3\xa9", "\xe4\xb8\xad", "\xf0\x9f\x8c\xb3" })
+  {
+    EXPECT_EQ(dgtk::validUtf8(valid), valid);
+  }
+  EXPECT_EQ(dgtk::validUtf8("caf\xe9"), "caf\xc3\xa9");
+  EXPECT_EQ(dgtk::validUtf8("\xc0\xaf"), "\xc3\x80\xc2\xaf");             // overlong
+  EXPECT_EQ(dgtk::validUtf8("\xed\xa0\x80"), "\xc3\xad\xc2\xa0\xc2\x80"); // a surrogate
+  EXPECT_EQ(dgtk::validUtf8("\xe4\xb8"), "\xc3\xa4\xc2\xb8");             // cut short
+}
+
 TEST(TextLines, WordsAndLines)
 {
   const std::string text = "a  \"b c\"\td\r\n\r\n\"open\rlast";
