@@ -67,7 +67,7 @@ ModelBuilder::ModelBuilder(
   , Rest(std::make_shared<Geometry>())
   , Textures(path, options)
   , MemoryLimit((std::uint64_t(48) << 20) + std::uint64_t(8) * fileBytes)
-  , WorkLimit(30'000'000 + std::uint64_t(20) * fileBytes)
+  , WorkLimit(20'000'000 + std::uint64_t(20) * fileBytes)
 {
   this->Result->format = format;
   this->Result->path = path;
