@@ -16,7 +16,7 @@ def material(name, colour, specular=0.0, shine=10, opacity=1.0, ambient=None, em
     def three(c):
         return " ".join(number(v, 3) for v in c)
 
-    return (f'MATERIAL "{name}" rgb {three(colour)} amb {three(ambient or colour)} emis {three(emission)} '
+    return (f'MATERIAL "{name}" rgb {three(colour)} amb {three(ambient or tuple(0.3 * c for c in colour))} emis {three(emission)} '
             f"spec {three((specular,) * 3)} shi {shine} trans {number(1 - opacity, 3)}")
 
 

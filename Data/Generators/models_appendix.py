@@ -77,7 +77,7 @@ def tuxedo():
 
 def world():
     """A disc of ground, 90 units in radius, rising into hills, under a dome of sky of 100 units."""
-    materials = [ac3d.material("ground", (1, 1, 1)),
+    materials = [ac3d.material("ground", (1, 1, 1), ambient=(0.7, 0.7, 0.7)),
                  ac3d.material("sky", (0, 0, 0), ambient=(0, 0, 0), emission=(1, 1, 1))]
     hills = fractal_noise(72, 24, 6, 2, 419, 3)
 

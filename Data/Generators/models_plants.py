@@ -8,7 +8,7 @@ from geometry import Mesh, add, card, cross, times, tube, turned, unit
 from random_numbers import Lcg
 
 WOOD = ac3d.material("bark", (1, 1, 1))
-LEAF = ac3d.material("leaves", (1, 1, 1), ambient=(1, 1, 1))
+LEAF = ac3d.material("leaves", (1, 1, 1), ambient=(0.45, 0.45, 0.45))
 
 
 def tree(seed=307):

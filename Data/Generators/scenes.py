@@ -9,8 +9,8 @@ from random_numbers import Lcg
 from scene_text import ThesisScene, product, quaternion, scene_json, standing
 
 SKY = [0.62, 0.78, 0.94]
-SUN = {"name": "sun", "kind": "directional", "position": [-6.0, 10.0, 8.0], "target": [0, 0, 0], "diffuse": [1.0, 0.96, 0.88],
-       "ambient": [0.30, 0.33, 0.38]}
+SUN = {"name": "sun", "kind": "directional", "position": [-6.0, 10.0, 8.0], "target": [0, 0, 0], "diffuse": [0.95, 0.91, 0.82],
+       "ambient": [0.20, 0.22, 0.26]}
 
 
 def model(name, file, position=(0, 0, 0), **more):
@@ -24,7 +24,9 @@ def model(name, file, position=(0, 0, 0), **more):
 
 
 def upright(name, file, position, degrees, size, **more):
-    """A model with z up."""
+    """A model with z up. MD2 has no colours of its own: how much of the light is ambient is said here."""
+    if file.endswith(".md2"):
+        more["materials"] = {"*": {"ambient": [0.3] * 3, "diffuse": [0.9] * 3}}
     return model(name, file, position, orientation=list(standing(degrees)), scale=[size] * 3, **more)
 
 
@@ -72,10 +74,10 @@ def demo():
         model("grass two", "grass.ac", (-2.9, 0, 1.1), turn=70, class_name="plant"),
     ]
     lights = [SUN,
-              {"name": "lamp", "kind": "point", "position": [2.6, 2.2, 2.4], "diffuse": [0.55, 0.42, 0.28],
+              {"name": "lamp", "kind": "point", "position": [2.6, 2.2, 2.4], "diffuse": [0.30, 0.22, 0.14],
                "attenuation": [1, 0.1, 0.05]},
               {"name": "spot", "kind": "spot", "position": [-0.5, 4.0, 3.0], "target": [0.6, 0.8, 0.1],
-               "diffuse": [0.5, 0.5, 0.45], "coneAngle": 16, "exponent": 8}]
+               "diffuse": [0.30, 0.29, 0.25], "coneAngle": 16, "exponent": 8}]
     cameras = [camera(name, (x, 1.75, 5.4), (x, 1.1, 0), fov=44) for name, x in (("left", 0.0), ("right", baseline))]
     return base(objects, cameras, lights, seed=1)
 
@@ -106,8 +108,8 @@ def stereo():
                upright("rocket", "rocket.3ds", (-1.35, 0, -1.3), 30, 0.85),
                upright("chair", "chair.3ds", (0.2, 0, -0.85), -15, 1),
                model("column", "column.obj", (1.75, 0, -1.35)), model("column two", "column.obj", (-0.75, 0, -1.6))]
-    lights = [{"name": "key", "kind": "point", "position": [-2.5, 4, 3], "diffuse": [0.95, 0.9, 0.82], "ambient": [0.2, 0.2, 0.22]},
-              {"name": "fill", "kind": "directional", "position": [3, 2, 2], "target": [0, 0, 0], "diffuse": [0.28, 0.3, 0.36]}]
+    lights = [{"name": "key", "kind": "point", "position": [-2.5, 4, 3], "diffuse": [0.72, 0.68, 0.62], "ambient": [0.2, 0.2, 0.22]},
+              {"name": "fill", "kind": "directional", "position": [3, 2, 2], "target": [0, 0, 0], "diffuse": [0.20, 0.22, 0.27]}]
     cameras = [camera(name, (x, 1.55, 2.1), (x, 0.85, 0), fov=44, near=0.1, far=100) for name, x in (("left", -0.06), ("right", 0.06))]
     return base(objects, cameras, lights, background=[0.30, 0.33, 0.38])
 
@@ -135,7 +137,7 @@ def bouncing_ball():
     scene.model("AC", "../Models/vase.pov", lambda frame: ((-0.55, 0.75, -0.25), still))
     scene.model("3DS", "../Models/chair.3ds", lambda frame: ((1.0, 0, -0.8), standing(-35)))
     scene.model("AC", "../Models/ball.ac", ball_at)
-    scene.light("lamp", (0.85, 0.82, 0.75), (0.6, 0.6, 0.6), (0.3, 0.3, 0.32), (-1.2, 2.6, 2.4))
+    scene.light("lamp", (0.72, 0.69, 0.63), (0.6, 0.6, 0.6), (0.2, 0.2, 0.22), (-1.2, 2.6, 2.4))
     scene.camera(45, 0.1, 100, 4 / 3, (0.45, 1.6, 3.1), (0.12, 0.98, 0))
     return scene.text(BALL_KEYS)
 

@@ -38,15 +38,17 @@ def ground_behind():
 
 def many_lights():
     """Twelve lights: one at the camera, one directional, four points with fall-off, six coloured spots."""
-    objects = [model("floor", "floor.ac", scale=[2, 1, 2])]
+    dim = {"*": {"ambient": [0.05] * 3}}
+    objects = [model("floor", "floor.ac", scale=[2, 1, 2], materials=dim)]
     for k in range(5):
         angle = math.radians(-60 + 30 * k)
-        objects.append(model(f"column {k + 1}", "column.obj", (4 * math.sin(angle), 0, -3.4 * math.cos(angle))))
-    objects += [model("vase", "vase.pov", (0, 0, -0.4), scale=[3] * 3), model("ball", "ball.ac", (1.3, 0.3, 0.6), scale=[2.5] * 3),
-                model("crate", "crate.ac", (-1.4, 0, 0.2), turn=20, scale=[0.8] * 3),
+        objects.append(model(f"column {k + 1}", "column.obj", (4 * math.sin(angle), 0, -3.4 * math.cos(angle)), materials=dim))
+    objects += [model("vase", "vase.pov", (0, 0, -0.4), scale=[3] * 3, materials=dim),
+                model("ball", "ball.ac", (1.3, 0.3, 0.6), scale=[2.5] * 3, materials=dim),
+                model("crate", "crate.ac", (-1.4, 0, 0.2), turn=20, scale=[0.8] * 3, materials=dim),
                 upright("creature", "creature.md2", (0.1, 0, 1.3), -85, 0.013)]
     lights = [{"name": "camera light", "kind": "head", "diffuse": [0.10, 0.10, 0.12], "specular": [0, 0, 0]},
-              {"name": "moon", "kind": "directional", "position": [4, 8, -6], "target": [0, 0, 0], "diffuse": [0.12, 0.15, 0.25],
+              {"name": "moon", "kind": "directional", "position": [4, 8, -6], "target": [0, 0, 0], "diffuse": [0.25, 0.30, 0.45],
                "ambient": [0.06, 0.06, 0.08]}]
     for k, colour in enumerate(([0.9, 0.5, 0.2], [0.9, 0.6, 0.3], [0.9, 0.5, 0.2], [0.9, 0.6, 0.3])):
         angle = math.radians(-45 + 30 * k)
