@@ -103,7 +103,9 @@ void prepareProcess(GLBackend backend, char** argv, int threads)
     }
     catch (const Error& error)
     {
-      startAnew(argv, error.what());
+      std::string why = error.what();
+      const std::string prefix = "no OpenGL: ";
+      startAnew(argv, why.compare(0, prefix.size(), prefix) == 0 ? why.substr(prefix.size()) : why);
     }
   }
 }

@@ -35,6 +35,8 @@ void PartMapper::configure(
   this->Indices = std::move(indices);
 }
 
+void PartMapper::setIndices(std::vector<unsigned int> indices) { this->Indices = std::move(indices); }
+
 void PartMapper::prepare(vtkRenderer* renderer, vtkActor* actor)
 {
   this->Preparing = true;
@@ -44,10 +46,17 @@ void PartMapper::prepare(vtkRenderer* renderer, vtkActor* actor)
 
 void PartMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
 {
-  if (!this->Preparing)
+  vtkOpenGLHelper& triangles = this->Primitives[PrimitiveTris];
+  if (this->Preparing || triangles.IBO->IndexCount == 0)
   {
-    this->Superclass::RenderPieceDraw(renderer, actor);
+    return;
   }
+  this->DrawingVertices = false;
+  this->DrawingSelection = false;
+  this->UpdateShaders(triangles, renderer, actor);
+  triangles.IBO->Bind();
+  this->drawElements(*static_cast<PartActor*>(actor));
+  triangles.IBO->Release();
 }
 
 void PartMapper::BuildIBO(vtkRenderer*, vtkActor*, vtkPolyData*)
@@ -72,7 +81,7 @@ void PartMapper::bindAttribute(const char* name, unsigned int location)
     location, components, GL_FLOAT, GL_FALSE, GLsizei(std::size_t(components) * sizeof(float)), nullptr);
 }
 
-void PartMapper::drawBare()
+void PartMapper::drawBare(const PartActor& actor)
 {
   vtkOpenGLIndexBufferObject* indices = this->Primitives[PrimitiveTris].IBO;
   this->bindAttribute("vertexMC", 0);
@@ -85,8 +94,23 @@ void PartMapper::drawBare()
     this->bindAttribute("dgtkTriangle", 2);
   }
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, GLuint(indices->GetHandle()));
-  glDrawRangeElements(GL_TRIANGLES, 0, GLuint(this->VBOs->GetNumberOfTuples("vertexMC") - 1),
-    GLsizei(indices->IndexCount), GL_UNSIGNED_INT, nullptr);
+  this->drawElements(actor);
+}
+
+void PartMapper::drawElements(const PartActor& actor)
+{
+  const auto last = GLuint(this->VBOs->GetNumberOfTuples("vertexMC") - 1);
+  if (actor.runs.empty())
+  {
+    glDrawRangeElements(
+      GL_TRIANGLES, 0, last, GLsizei(this->Primitives[PrimitiveTris].IBO->IndexCount), GL_UNSIGNED_INT, nullptr);
+  }
+  for (const auto& run : actor.runs)
+  {
+    const std::uintptr_t offset = std::uintptr_t(run.first) * 3 * sizeof(unsigned int);
+    glDrawRangeElements(
+      GL_TRIANGLES, 0, last, GLsizei(run.second * 3), GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
+  }
 }
 
 ShaderVariant PartMapper::currentVariant() const

@@ -41,6 +41,9 @@ public:
   std::array<float, 16> view_from_object{};
   std::array<float, 9> normal_view_from_object{};
   std::array<float, 3> emission{};
+  /// The triangles to draw: first and count; everything when empty and not `nothing`.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> runs;
+  bool nothing = false;
   float number = 0; ///< of the draw, from 1
   bool mirrored = false;
 
@@ -61,13 +64,15 @@ public:
   void configure(
     RasterFrame* frame, const ShaderVariant& material, int firstTriangle, std::vector<unsigned int> indices);
   int firstTriangle() const { return this->FirstTriangle; }
+  /// Other indices, for pieces.
+  void setIndices(std::vector<unsigned int> indices);
   const ShaderVariant& material() const { return this->Material; }
 
   /// Uploads what is not in OpenGL's memory yet.
   void prepare(vtkRenderer* renderer, vtkActor* actor);
   /// Binds vertices (attribute 0, and texture coordinates as attribute 1 for cut-outs, the triangle's number as
   /// attribute 2 for pieces) and indices to the bound vertex array, and draws. prepare() comes before.
-  void drawBare();
+  void drawBare(const PartActor& actor);
 
 protected:
   PartMapper();
@@ -81,6 +86,7 @@ protected:
   void SetLightingShaderParameters(vtkOpenGLHelper& cell, vtkRenderer* renderer, vtkActor* actor) override;
 
 private:
+  void drawElements(const PartActor& actor);
   void bindAttribute(const char* name, unsigned int location);
   ShaderVariant currentVariant() const;
 

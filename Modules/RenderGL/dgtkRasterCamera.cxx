@@ -3,6 +3,8 @@
 
 #include "dgtkError.h"
 
+#include <algorithm>
+
 namespace dgtk
 {
 
@@ -35,6 +37,9 @@ RasterCamera rasterCamera(const View& view, const PixelRect& rect, int samples, 
   const Eigen::Vector4d flip(1, -1, -1, 1); // OpenCV's camera axes and OpenGL's
   RasterCamera camera;
   camera.perspective = linear->perspective;
+  camera.near = view.near;
+  camera.far = view.far;
+  camera.focal = samples * std::max(K(0, 0), K(1, 1));
   camera.clip_from_view = clip_from_camera * flip.asDiagonal();
   camera.view_from_world.setIdentity();
   camera.view_from_world.topLeftCorner<3, 3>() = view.camera_from_world.rotation;

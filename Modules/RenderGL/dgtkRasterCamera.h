@@ -18,6 +18,9 @@ struct RasterCamera
   Eigen::Matrix4d clip_from_view;
   Eigen::Matrix4d view_from_world;
   bool perspective = true;
+  double near = 0; ///< depths that are seen
+  double far = 0;
+  double focal = 0; ///< the larger focal length, pixels (parallel projection: pixels per scene unit)
 };
 
 /// The frustum of `rect` of the view's image enlarged `samples` times in each direction, for a viewport of the size of

@@ -80,6 +80,13 @@ void RasterScene::aim(const RasterCamera& camera)
     store(draw.actor->clip_from_object, clip_from_local);
     store(draw.actor->view_from_object, view_from_local);
     store(draw.actor->normal_view_from_object, normalMatrix(view_from_local.topLeftCorner<3, 3>()));
+    draw.cut = false;
+    draw.actor->runs.clear();
+    draw.actor->nothing = false;
+    if (draw.visible)
+    {
+      this->cutDraw(draw, camera, view_from_local);
+    }
   }
   this->Frame.parallel = !camera.perspective;
   this->Frame.lights = rasterLights(this->State->lights, camera.view_from_world);
@@ -143,7 +150,14 @@ void RasterScene::drawColor(Surfaces surfaces)
   {
     if (draw.visible && (surfaces == Surfaces::All || draw.chunk->translucent == (surfaces == Surfaces::Translucent)))
     {
-      draw.actor->RenderOpaqueGeometry(this->Renderer);
+      if (!draw.actor->nothing)
+      {
+        draw.actor->RenderOpaqueGeometry(this->Renderer);
+      }
+      if (draw.cut)
+      {
+        draw.pieces->actor->RenderOpaqueGeometry(this->Renderer);
+      }
     }
   }
 }
@@ -152,41 +166,48 @@ void RasterScene::drawIds()
 {
   this->setUpState();
   this->Window->GetShaderCache()->ReleaseCurrentShader();
-  const IdPrograms::Program* current = nullptr;
+  this->CurrentIds = nullptr;
   for (Draw& draw : this->Draws)
   {
-    if (!draw.visible)
+    if (draw.visible && !draw.actor->nothing)
     {
-      continue;
+      this->drawIdsOf(*draw.chunk->mapper, *draw.actor, *draw.chunk);
     }
-    PartMapper& mapper = *draw.chunk->mapper;
-    mapper.prepare(this->Renderer, draw.actor);
-    ShaderVariant variant = mapper.material();
-    variant.peel = this->Frame.peel;
-    const IdPrograms::Program& program = this->Ids.program(variant);
-    if (&program != current)
+    if (draw.visible && draw.cut)
     {
-      glUseProgram(program.name);
-      current = &program;
-      glUniform1i(program.layer, this->Frame.layerUnit);
-    }
-    glBindVertexArray(this->Ids.vertexArray());
-    glUniformMatrix4fv(program.matrix, 1, GL_FALSE, draw.actor->clip_from_object.data());
-    glUniform2f(program.draw, draw.actor->number, 0);
-    glUniform1i(program.first, mapper.firstTriangle());
-    if (variant.cutOut)
-    {
-      draw.chunk->texture->Render(this->Renderer);
-      glUniform1i(program.picture, draw.chunk->texture->GetTextureUnit());
-    }
-    mapper.drawBare();
-    if (variant.cutOut)
-    {
-      draw.chunk->texture->PostRender(this->Renderer);
+      this->drawIdsOf(*draw.pieces->mapper, *draw.pieces->actor, *draw.chunk);
     }
   }
   glBindVertexArray(0);
   glUseProgram(0);
+}
+
+void RasterScene::drawIdsOf(PartMapper& mapper, PartActor& actor, const Chunk& chunk)
+{
+  mapper.prepare(this->Renderer, &actor);
+  ShaderVariant variant = mapper.material();
+  variant.peel = this->Frame.peel;
+  const IdPrograms::Program& program = this->Ids.program(variant);
+  if (&program != this->CurrentIds)
+  {
+    glUseProgram(program.name);
+    this->CurrentIds = &program;
+    glUniform1i(program.layer, this->Frame.layerUnit);
+  }
+  glBindVertexArray(this->Ids.vertexArray());
+  glUniformMatrix4fv(program.matrix, 1, GL_FALSE, actor.clip_from_object.data());
+  glUniform2f(program.draw, actor.number, 0);
+  glUniform1i(program.first, mapper.firstTriangle());
+  if (variant.cutOut)
+  {
+    chunk.texture->Render(this->Renderer);
+    glUniform1i(program.picture, chunk.texture->GetTextureUnit());
+  }
+  mapper.drawBare(actor);
+  if (variant.cutOut)
+  {
+    chunk.texture->PostRender(this->Renderer);
+  }
 }
 
 } // namespace dgtk

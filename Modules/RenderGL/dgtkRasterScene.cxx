@@ -82,6 +82,10 @@ RasterScene::~RasterScene()
   for (const Draw& draw : this->Draws)
   {
     draw.actor->SetMapper(nullptr);
+    if (draw.pieces)
+    {
+      draw.pieces->mapper->ReleaseGraphicsResources(this->Window);
+    }
   }
   this->Draws.clear();
   for (const auto& variant : this->Variants)
@@ -139,6 +143,11 @@ void RasterScene::makeDraws()
         this->Draws.back().actor->ForceOpaqueOn();
       }
       Draw& draw = this->Draws[count++];
+      if (draw.pieces && draw.chunk != &chunk)
+      {
+        draw.pieces->mapper->ReleaseGraphicsResources(this->Window);
+        draw.pieces.reset();
+      }
       draw.instance = i;
       draw.variant = &variant;
       draw.chunk = &chunk;
@@ -150,6 +159,13 @@ void RasterScene::makeDraws()
       draw.actor->mirrored = instance.world_from_object.linear.determinant() < 0;
       this->FirstHits.push_back({ std::uint32_t(i + 1), chunk.firstTriangle });
       this->Translucent = this->Translucent || chunk.translucent;
+    }
+  }
+  for (std::size_t i = count; i < this->Draws.size(); ++i)
+  {
+    if (this->Draws[i].pieces)
+    {
+      this->Draws[i].pieces->mapper->ReleaseGraphicsResources(this->Window);
     }
   }
   this->Draws.resize(count);

@@ -6,6 +6,7 @@
 
 #include "dgtkIdPrograms.h"
 #include "dgtkPartMapper.h"
+#include "dgtkPieces.h"
 #include "dgtkRasterCamera.h"
 #include "dgtkVisibility.h"
 
@@ -111,6 +112,13 @@ private:
     std::vector<Chunk> chunks;
     bool used = false;
   };
+  /// What draws the cut triangles of a chunk.
+  struct PieceDraw
+  {
+    vtkSmartPointer<vtkPolyData> data;
+    vtkSmartPointer<PartMapper> mapper;
+    vtkSmartPointer<PartActor> actor;
+  };
   /// A chunk of an instance.
   struct Draw
   {
@@ -118,7 +126,9 @@ private:
     const Variant* variant = nullptr;
     const Chunk* chunk = nullptr;
     vtkSmartPointer<PartActor> actor;
+    std::unique_ptr<PieceDraw> pieces;
     bool visible = false;
+    bool cut = false; ///< `pieces` are to be drawn
   };
 
   std::shared_ptr<Shared> sharedOf(const Instance& instance);
@@ -130,6 +140,9 @@ private:
   static void measure(const Shared& shared, Chunk& chunk);
   vtkSmartPointer<vtkOpenGLTexture> textureOf(const std::shared_ptr<const Image>& image, bool cutOut);
   void dropUnused();
+  void cutDraw(Draw& draw, const RasterCamera& camera, const Eigen::Matrix4d& view_from_local);
+  void fillPieces(Draw& draw, const RasterCamera& camera);
+  void drawIdsOf(PartMapper& mapper, PartActor& actor, const Chunk& chunk);
   void makeDraws();
   void setUpState();
   void uploadLights();
@@ -142,6 +155,8 @@ private:
   std::vector<std::unique_ptr<Variant>> Variants;
   std::map<std::pair<std::shared_ptr<const Image>, bool>, vtkSmartPointer<vtkOpenGLTexture>> Textures;
   std::vector<Draw> Draws;
+  Pieces Cut; // of the draw at hand
+  const IdPrograms::Program* CurrentIds = nullptr;
   std::vector<Hit> FirstHits; // by number of the draw; 0: nothing
   IdPrograms Ids;
   unsigned int LightBuffer = 0;
