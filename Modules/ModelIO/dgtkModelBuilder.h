@@ -102,9 +102,6 @@ public:
   /// Makes the current object's surfaces part of the model.
   void endObject();
 
-  /// Counts a surface that the reader itself left out; a warning says how many.
-  void countBadSurface() { ++this->BadIndexSurfaces; }
-
   /// Makes the model deform: vertices are the file's vertices in the order of addVertex.
   void setDeformation(std::shared_ptr<const Deformation> deformation)
   {

@@ -54,10 +54,9 @@ public:
   /// is set when neither it nor `alternative` was found, or it was not decoded.
   int add(
     std::vector<Texture>& textures, const std::string& name, std::string& warning, const std::string& alternative = {});
-  /// The same for a file that is known to be at `path`.
-  int addFile(std::vector<Texture>& textures, const std::string& name, const std::string& path, std::string& warning);
 
 private:
+  int addFile(std::vector<Texture>& textures, const std::string& name, const std::string& path, std::string& warning);
   TextureFinder Finder;
   ReadOptions Options;
   std::map<std::string, int> ByName;

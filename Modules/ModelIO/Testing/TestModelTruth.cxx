@@ -51,6 +51,59 @@ void expectBounds(const dgtk::Model& model, const nlohmann::json& bounds, const 
 }
 } // namespace
 
+namespace
+{
+std::string lowerStem(const std::filesystem::path& path)
+{
+  std::string stem = path.stem().string();
+  for (char& c : stem)
+  {
+    c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+  }
+  return stem;
+}
+
+/// What a listing of the model's folder has under the texture's name, whatever its case and extension.
+std::string pictureBeside(const std::string& model, std::string name)
+{
+  name = name.substr(name.find_last_of("/\\") + 1);
+  const std::string wanted = lowerStem(name[0] == '.' ? name.substr(1) : name);
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(model).parent_path()))
+  {
+    const std::string extension = entry.path().extension().string();
+    if (lowerStem(entry.path()) == wanted && extension != ".md2" && extension != ".anm" && extension != ".txt")
+    {
+      return entry.path().filename().string();
+    }
+  }
+  return {};
+}
+} // namespace
+
+TEST(ModelTruth, TexturesThatAreThereAreFoundAndDecoded)
+{
+  int found = 0;
+  for (const std::string extension : { "ac", "acc", "md2", "3ds", "3DS" })
+  {
+    for (const std::string& path : dgtk::test::extraPaths(extension))
+    {
+      const std::shared_ptr<const dgtk::Model> model = dgtk::readModel(path);
+      for (const dgtk::Texture& texture : model->textures)
+      {
+        EXPECT_EQ(texture.path.empty(), texture.image == nullptr) << path << ": " << texture.name;
+        EXPECT_TRUE(!texture.path.empty() || pictureBeside(path, texture.name).empty())
+          << path << ": " << texture.name << " not found, but " << pictureBeside(path, texture.name) << " is there";
+        found += texture.path.empty() ? 0 : 1;
+      }
+    }
+  }
+  if (dgtk::test::extraModels().empty())
+  {
+    GTEST_SKIP() << "no folder of models";
+  }
+  EXPECT_GE(found, 28);
+}
+
 TEST(ModelTruth, CountsAndBounds)
 {
   const std::string folder = dgtk::test::extraModels();

@@ -159,26 +159,40 @@ std::string refusal(const std::string& extension, const std::string& bytes)
   return {};
 }
 
-std::vector<std::string> extraSeeds(const std::string& extension, std::size_t limit)
+std::vector<std::string> extraPaths(const std::string& extension)
 {
   std::vector<std::string> paths;
   if (!extraModels().empty() && std::filesystem::is_directory(extraModels()))
   {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(extraModels()))
     {
-      std::string found = entry.path().extension().string();
-      std::transform(found.begin(), found.end(), found.begin(), [](unsigned char c) { return std::tolower(c); });
-      if (found == "." + extension && entry.file_size() > 0 && entry.file_size() <= limit)
+      if (entry.path().extension() == "." + extension && entry.file_size() > 0)
       {
         paths.push_back(entry.path().string());
       }
     }
   }
   std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+std::vector<std::string> extraSeeds(const std::string& extension, std::size_t limit)
+{
+  std::string capitals = extension;
+  std::transform(extension.begin(), extension.end(), capitals.begin(),
+    [](char c) { return c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c; });
+  std::vector<std::string> paths = extraPaths(extension);
+  for (const std::string& path : extraPaths(capitals))
+  {
+    paths.push_back(path);
+  }
   std::vector<std::string> seeds;
   for (const std::string& path : paths)
   {
-    seeds.push_back(contentsOf(path));
+    if (std::filesystem::file_size(path) <= limit)
+    {
+      seeds.push_back(contentsOf(path));
+    }
   }
   return seeds;
 }

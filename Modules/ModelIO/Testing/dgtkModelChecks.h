@@ -30,7 +30,10 @@ void fuzzReader(const std::string& extension, const std::vector<std::string>& se
 /// the model, or null when it is refused.
 std::shared_ptr<const Model> readWithinLimits(const std::string& extension, const std::string& bytes);
 
-/// Contents of the further models with that extension that are at most `limit` bytes long.
+/// Paths of the further models with exactly that extension and at least a byte, sorted.
+std::vector<std::string> extraPaths(const std::string& extension);
+
+/// Contents of those, of either case, that are at most `limit` bytes long.
 std::vector<std::string> extraSeeds(const std::string& extension, std::size_t limit = 40000);
 
 /// Bytes handed out by operator new and not yet given back: now, and the most since resetPeak().
