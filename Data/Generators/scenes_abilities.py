@@ -72,7 +72,7 @@ def parenting():
                model("ball", "ball.ac", (0, 0, 0), parent="vase") | {
                    "position": {"keys": [[0, [0, 0.49, 0]], [30, [0, 0.9, 0]], [60, [0, 0.49, 0]]], "interpolation": "smooth"}},
                upright("creature", "creature.md2", (-0.45, 0.75, 0), 0, 0.008, parent="table", animation={"sequence": "jump", "rate": 1.5}),
-               model("flag", "flag.md2", (12, 0, 44), parent="creature", scale=[0.3] * 3, animation={"sequence": "storm", "start": 10})]
+               model("flag", "flag.md2", (9, -22, 0), parent="creature", scale=[0.7] * 3, animation={"sequence": "storm", "start": 10})]
     return base(objects, [camera("camera", (0.4, 2.5, 4.2), (0, 1.05, 0), fov=40)])
 
 
