@@ -201,7 +201,8 @@ void PngEncoder::chunk(const char* type, const void* data, std::size_t bytes)
   putBig32(head, static_cast<std::uint32_t>(bytes));
   std::memcpy(head + 4, type, 4);
   unsigned char tail[4];
-  putBig32(tail, libdeflate_crc32(libdeflate_crc32(0, type, 4), data, bytes));
+  const std::uint32_t crc = libdeflate_crc32(0, type, 4);
+  putBig32(tail, bytes > 0 ? libdeflate_crc32(crc, data, bytes) : crc); // a null pointer would start over
   this->Out(head, 8);
   this->Out(data, bytes);
   this->Out(tail, 4);
