@@ -5,6 +5,7 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <dlfcn.h>
 #include <vector>
@@ -187,6 +188,7 @@ std::unique_ptr<NativeContext> deviceContext()
 
 std::unique_ptr<NativeContext> makeEglContext()
 {
+  ::setenv("EGL_LOG_LEVEL", "fatal", 0); // what fails is told in our own words
   const char* extensions = egl().queryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   if (!extensions || !egl().getPlatformDisplay)
   {

@@ -46,7 +46,7 @@ bool restoreEnvironment()
 void startAnew(char** argv, const std::string& why)
 {
   const std::string library = preloadLibrary();
-  if (library.empty())
+  if (library.empty() || !::dlopen("libOSMesa.so.8", RTLD_LAZY | RTLD_LOCAL))
   {
     return;
   }

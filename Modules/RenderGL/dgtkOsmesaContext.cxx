@@ -79,6 +79,7 @@ private:
 
 std::unique_ptr<NativeContext> makeOsmesaContext(bool preloadNeeded)
 {
+  osmesa();
   if (preloadNeeded && !osmesaPreloaded())
   {
     const std::string library = preloadLibrary();

@@ -24,6 +24,9 @@ bool dgtkGone(sampler2D picture, vec2 uv)
 }
 )";
 
+/// Ambient light of the world, as VTK's renderer has it; lights add theirs.
+#define DGTK_WORLD_AMBIENT "1.0"
+
 constexpr const char* Peel = R"(
 uniform sampler2D dgtkLayer; // draw, triangle and depth of the layer before; depth 2 before the first
 bool dgtkPeeled(vec2 id)
@@ -90,7 +93,8 @@ std::string loop(int from, int count, const std::string& body)
 std::string headLighting(const ShaderVariant& variant)
 {
   std::string text = "  float df = max(0.0, normalVC.z);\n"
-                     "  vec3 dgtkColor = (1.0 + dgtkLights[3].rgb) * ambientColor + dgtkEmission + df * diffuseColor * "
+                     "  vec3 dgtkColor = (" DGTK_WORLD_AMBIENT
+                     " + dgtkLights[3].rgb) * ambientColor + dgtkEmission + df * diffuseColor * "
                      "dgtkLights[4].rgb";
   return text + (variant.specular ? " + pow(df, specularPower) * specularColor * dgtkLights[5].rgb;\n" : ";\n");
 }
@@ -115,7 +119,7 @@ std::string lighting(const ShaderVariant& variant)
                            "    s = inside >= " +
                            lightValue(variant, 0) + ".w ? s * pow(inside, axis.w) : 0.0;\n";
   const std::string far = "    vec3 L = " + lightValue(variant, 0) + ".xyz;\n    float s = 1.0;\n";
-  std::string text = "  vec3 dgtkAmbient = vec3(1.0);\n"
+  std::string text = "  vec3 dgtkAmbient = vec3(" DGTK_WORLD_AMBIENT ");\n"
                      "  vec3 dgtkDiffuse = vec3(0.0);\n";
   if (variant.specular)
   {
