@@ -91,7 +91,7 @@ bool accept(RayContext& context, const RayMesh& mesh, unsigned int geometry, uns
       }
       break;
   }
-  return !(t > context.t[lane] * (1 - NearTie)) || isBetter(context, lane, hit, context.best[lane]);
+  return !(t > context.t[lane] - context.scene->slack(t)) || isBetter(context, lane, hit, context.best[lane]);
 }
 
 } // namespace
@@ -115,7 +115,7 @@ void rayFilter(const RTCFilterFunctionNArguments* arguments)
     }
     context.t[lane] = tfar;
     context.best[lane] = hit;
-    tfar *= 1 + NearTie;
+    tfar += context.scene->slack(tfar);
   }
 }
 

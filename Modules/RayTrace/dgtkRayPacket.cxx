@@ -24,7 +24,7 @@ PacketTracer::PacketTracer(const RayScene& scene, const View& view)
     ray.org_x[lane] = ray.org_y[lane] = ray.org_z[lane] = 0;
     ray.dir_x[lane] = ray.dir_y[lane] = 0;
     ray.dir_z[lane] = 1;
-    ray.tnear[lane] = this->Near * (1 - NearTie);
+    ray.tnear[lane] = this->Near * (1 - RangeSlack);
     ray.time[lane] = 0;
     ray.mask[lane] = ~0U;
     ray.id[lane] = unsigned(lane);
@@ -142,8 +142,8 @@ void PacketTracer::findClear(int clear[Lanes]) const
 {
   const RTCRay16& ray = this->Packet.ray;
   const RTCHit16& hit = this->Packet.hit;
-  const float least = this->Near * (1 + NearTie);
-  const float most = this->Far * (1 - NearTie);
+  const float least = this->Near * (1 + RangeSlack);
+  const float most = this->Far * (1 - RangeSlack);
   constexpr float precision = float(2 * RayPrecision * RayPrecision); // (a + b)^2 <= 2 (a^2 + b^2)
   MeshLanes lanes;
   this->toMesh(lanes);
@@ -195,7 +195,7 @@ void PacketTracer::mark(const PixelRect& block, const VisibilityBuffer& buffer, 
   }
 }
 
-template <bool Exact>
+template <TraceMode Mode>
 void PacketTracer::trace(const PixelRect& block, VisibilityBuffer& buffer, RayMarks& marks)
 {
   if (this->Linear)
@@ -210,11 +210,13 @@ void PacketTracer::trace(const PixelRect& block, VisibilityBuffer& buffer, RayMa
   for (int lane = 0; lane < Lanes; ++lane)
   {
     this->Valid[lane] = lane % Side < block.width && lane / Side < block.height ? -1 : 0;
-    this->Packet.ray.tfar[lane] = this->Far * (1 + NearTie);
+    this->Packet.ray.tfar[lane] = this->Far * (1 + RangeSlack);
     hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
     hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     this->Context.t[lane] = INFINITY;
   }
+  this->Context.mode = Mode == TraceMode::Ties ? RayContext::Mode::Nearest : RayContext::Mode::Plain;
+  this->Context.context.filter = Mode == TraceMode::Ties ? rayFilter : nullptr;
   this->Context.x = block.x;
   this->Context.y = block.y;
   rtcIntersect16(this->Valid, this->Scene.handle(), &this->Context.context, &this->Packet);
@@ -229,13 +231,14 @@ void PacketTracer::trace(const PixelRect& block, VisibilityBuffer& buffer, RayMa
                  : Hit{};
     }
   }
-  if (Exact)
+  if (Mode != TraceMode::Bare)
   {
     this->mark(block, buffer, marks);
   }
 }
 
-template void PacketTracer::trace<true>(const PixelRect&, VisibilityBuffer&, RayMarks&);
-template void PacketTracer::trace<false>(const PixelRect&, VisibilityBuffer&, RayMarks&);
+template void PacketTracer::trace<TraceMode::Ties>(const PixelRect&, VisibilityBuffer&, RayMarks&);
+template void PacketTracer::trace<TraceMode::Plain>(const PixelRect&, VisibilityBuffer&, RayMarks&);
+template void PacketTracer::trace<TraceMode::Bare>(const PixelRect&, VisibilityBuffer&, RayMarks&);
 
 } // namespace dgtk

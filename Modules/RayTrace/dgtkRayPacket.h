@@ -22,6 +22,14 @@ struct RayMarks
   }
 };
 
+/// What is done beside the tracing.
+enum class TraceMode
+{
+  Bare,  ///< nothing; for scenes made for it
+  Plain, ///< marks are set
+  Ties   ///< marks are set, and surfaces close together are ordered exactly
+};
+
 /// Traces the primary rays of a view, 4 x 4 pixels at a time. One thread.
 class PacketTracer
 {
@@ -31,8 +39,8 @@ public:
 
   PacketTracer(const RayScene& scene, const View& view);
 
-  /// Records the hits of `block`, at most Side x Side pixels inside buffer.rect; with `Exact` the marks, too.
-  template <bool Exact>
+  /// Records the hits of `block`, at most Side x Side pixels inside buffer.rect; unless Bare, the marks, too.
+  template <TraceMode Mode>
   void trace(const PixelRect& block, VisibilityBuffer& buffer, RayMarks& marks);
 
 private:

@@ -12,12 +12,6 @@
 namespace dgtk
 {
 
-namespace
-{
-/// Part of t by which equally near surfaces may differ: a few roundings of vertices far from the origin.
-constexpr double SameDistance = 1e-9;
-} // namespace
-
 RayScene::RayScene(std::shared_ptr<RayDevice> device, bool bare)
   : Device(std::move(device))
   , Bare(bare)
@@ -178,8 +172,8 @@ RTCRayHit makeQuery(const ExactRay& ray)
   query.ray.dir_x = float(ray.direction.x());
   query.ray.dir_y = float(ray.direction.y());
   query.ray.dir_z = float(ray.direction.z());
-  query.ray.tnear = float(ray.least) * (1 - NearTie);
-  query.ray.tfar = float(ray.most) * (1 + NearTie);
+  query.ray.tnear = float(ray.least) * (1 - RangeSlack);
+  query.ray.tfar = float(ray.most) * (1 + RangeSlack);
   query.ray.mask = ~0U;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -198,7 +192,7 @@ void sortHits(std::vector<RayHit>& hits)
     hits.begin(), hits.end(), [&](const RayHit& a, const RayHit& b) { return a.t != b.t ? a.t < b.t : lower(a, b); });
   for (auto first = hits.begin(); first != hits.end();)
   {
-    const double limit = first->t * (1 + SameDistance);
+    const double limit = first->t + SameDistance * std::abs(first->t);
     const auto last = std::find_if(first, hits.end(), [&](const RayHit& h) { return h.t > limit; });
     std::sort(first, last, lower);
     first = last;
@@ -234,6 +228,22 @@ void traceAround(const RayScene& scene, const ExactRay& ray, double offset, doub
 }
 
 } // namespace
+
+bool hasNearTie(const RayScene& scene, const ExactRay& ray, float t)
+{
+  thread_local std::vector<Hit> found;
+  found.clear();
+  ExactRay window = ray;
+  window.least = double(t) - scene.slack(t);
+  window.most = double(t) + scene.slack(t);
+  trace(scene, window, found);
+  if (found.size() < 2)
+  {
+    return false;
+  }
+  return 1 <
+         std::count_if(found.begin(), found.end(), [&](const Hit& hit) { return scene.intersect(ray, hit).inside; });
+}
 
 void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::vector<RayHit>& hits)
 {

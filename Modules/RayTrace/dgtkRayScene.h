@@ -41,6 +41,8 @@ public:
   const Placed& placed(std::size_t instance) const { return this->Instances[instance]; }
   /// Largest `reach` of all instances.
   double reach() const { return this->Reach; }
+  /// Surfaces whose single-precision t differ by less are compared exactly.
+  float slack(float t) const { return float(2 * RayPrecision) * (t + float(this->Reach)); }
 
   Hit hit(unsigned int instance, unsigned int geometry, unsigned int primitive) const
   {
@@ -84,6 +86,12 @@ struct RayHit
 /// misses by a rounding; otherwise only when some surface is marginal.
 void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::vector<RayHit>& hits);
 
+/// Whether two surfaces are too close together along a ray, near t, for single precision to order.
+bool hasNearTie(const RayScene& scene, const ExactRay& ray, float t);
+
+/// Part of t by which equally near surfaces may differ: a few roundings of vertices far from the origin.
+constexpr double SameDistance = 1e-9;
+
 /// Embree's filter of all modes but Plain, set in the context.
 void rayFilter(const RTCFilterFunctionNArguments* arguments);
 
@@ -114,8 +122,8 @@ struct RayContext
 /// Embree's ray of an exact one, its range a little wider.
 RTCRayHit makeQuery(const ExactRay& ray);
 
-/// Surfaces whose single-precision distances differ by less than this part are compared exactly.
-constexpr float NearTie = 1e-5F;
+/// Part of near and far by which Embree's range is wider than the exact one.
+constexpr float RangeSlack = 1e-5F;
 
 } // namespace dgtk
 

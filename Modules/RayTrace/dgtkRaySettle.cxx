@@ -4,6 +4,7 @@
 #include "dgtkThreadPool.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace dgtk
@@ -45,6 +46,28 @@ public:
         this->decide(i, changes);
       }
     }
+  }
+
+  /// Whether a decided pixel had coincident surfaces.
+  bool hasTie() const { return this->Tie; }
+
+  /// Looks for surfaces close together at one pixel of each square of rows [first, last).
+  bool samplesHaveTie(int first, int last) const
+  {
+    const PixelRect& rect = this->Buffer.rect;
+    for (int x = 0; x < rect.width; x += ChunkRows)
+    {
+      // A different place in each square, so that no regular pattern of the scene escapes.
+      const int square = x / ChunkRows + 37 * (first / ChunkRows);
+      const int column = std::min(x + square * 7 % ChunkRows, rect.width - 1);
+      const int row = std::min(first + square * 11 % ChunkRows, last - 1);
+      const std::size_t i = std::size_t(row) * rect.width + column;
+      if (this->Buffer.hits[i].object != 0 && hasNearTie(this->Scene, this->rayAt(i), 1 / this->Marks.nearness[i]))
+      {
+        return true;
+      }
+    }
+    return false;
   }
 
 private:
@@ -152,6 +175,7 @@ private:
   {
     collectHits(this->Scene, this->rayAt(i), true, this->Found);
     const Hit hit = this->Found.empty() ? Hit{} : this->Found.front().hit;
+    this->Tie |= this->Found.size() > 1 && this->Found[1].t <= this->Found[0].t * (1 + SameDistance);
     if (hit != this->Buffer.hits[i])
     {
       changes.push_back({ i, hit });
@@ -172,36 +196,42 @@ private:
   const RayMarks& Marks;
   const VisibilityBuffer& Buffer;
   std::vector<RayHit> Found;
+  bool Tie = false;
   Row Rows[5]; ///< from two above to two below
   std::vector<int> Suspects;
 };
 
 } // namespace
 
-std::size_t settleMarked(
+bool settleMarked(
   const RayScene& scene, const View& view, const RayMarks& marks, VisibilityBuffer& buffer, ThreadPool& pool)
 {
   const int height = buffer.rect.height;
-  std::vector<std::vector<Change>> changes(std::size_t((height + ChunkRows - 1) / ChunkRows));
-  pool.parallelFor(int(changes.size()),
+  const int chunks = (height + ChunkRows - 1) / ChunkRows;
+  std::vector<std::vector<Change>> changes(static_cast<std::size_t>(chunks));
+  std::atomic<bool> ordered{ true };
+  pool.parallelFor(chunks,
     [&](int chunk)
     {
       Settler settler(scene, view, marks, buffer);
-      for (int y = chunk * ChunkRows; y < std::min(height, (chunk + 1) * ChunkRows); ++y)
+      const int first = chunk * ChunkRows;
+      for (int y = first; y < std::min(height, first + ChunkRows); ++y)
       {
         settler.row(y, changes[chunk]);
       }
+      if (settler.hasTie() || settler.samplesHaveTie(first, std::min(height, first + ChunkRows)))
+      {
+        ordered = false;
+      }
     });
-  std::size_t changed = 0;
   for (const std::vector<Change>& part : changes)
   {
     for (const Change& change : part)
     {
       buffer.hits[change.index] = change.hit;
     }
-    changed += part.size();
   }
-  return changed;
+  return ordered;
 }
 
 } // namespace dgtk

@@ -14,16 +14,16 @@ namespace dgtk
 namespace
 {
 constexpr int BandRows = 8; ///< rows that are traced as one job
-constexpr int BlockSide = PacketTracer::Side;
+constexpr int Side = PacketTracer::Side;
 
-/// Primary rays in packets; `Exact` chooses between the engine and its yardstick.
-template <bool Exact>
+/// Primary rays in packets; `Bare` is the yardstick.
+template <bool Bare>
 class RaySource final : public VisibilitySource
 {
 public:
   explicit RaySource(ThreadPool& pool)
     : Pool(pool)
-    , Scene(RayDevice::shared(), !Exact)
+    , Scene(RayDevice::shared(), Bare)
   {
   }
   std::string name() const override { return "ray"; }
@@ -37,34 +37,42 @@ public:
   void render(const PixelRect& rect, VisibilityBuffer& hits) override
   {
     hits.resize(rect);
-    if (Exact)
+    if (Bare)
     {
-      this->Marks.resize(rect);
+      this->trace<TraceMode::Bare>(hits);
+      return;
     }
-    const int bands = (rect.height + BandRows - 1) / BandRows;
-    this->Pool.parallelFor(bands,
-      [&](int band)
-      {
-        const int first = band * BandRows;
-        const int last = std::min(rect.height, first + BandRows);
-        PacketTracer tracer(this->Scene, this->CurrentView);
-        for (int x = 0; x < rect.width; x += BlockSide)
-        {
-          for (int y = first; y < last; y += BlockSide)
-          {
-            const PixelRect block{ rect.x + x, rect.y + y, std::min(BlockSide, rect.width - x),
-              std::min(BlockSide, last - y) };
-            tracer.template trace<Exact>(block, hits, this->Marks);
-          }
-        }
-      });
-    if (Exact)
+    this->Marks.resize(rect);
+    this->trace<TraceMode::Plain>(hits);
+    if (!settleMarked(this->Scene, this->CurrentView, this->Marks, hits, this->Pool))
     {
+      this->trace<TraceMode::Ties>(hits);
       settleMarked(this->Scene, this->CurrentView, this->Marks, hits, this->Pool);
     }
   }
 
 private:
+  template <TraceMode Mode>
+  void trace(VisibilityBuffer& hits)
+  {
+    const PixelRect& rect = hits.rect;
+    this->Pool.parallelFor((rect.height + BandRows - 1) / BandRows,
+      [&](int band)
+      {
+        const int first = band * BandRows;
+        const int last = std::min(rect.height, first + BandRows);
+        PacketTracer tracer(this->Scene, this->CurrentView);
+        for (int x = 0; x < rect.width; x += Side)
+        {
+          for (int y = first; y < last; y += Side)
+          {
+            tracer.template trace<Mode>(
+              { rect.x + x, rect.y + y, std::min(Side, rect.width - x), std::min(Side, last - y) }, hits, this->Marks);
+          }
+        }
+      });
+  }
+
   ThreadPool& Pool;
   RayScene Scene;
   View CurrentView;
@@ -73,11 +81,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<VisibilitySource> makeRaySource(ThreadPool& pool) { return std::make_unique<RaySource<true>>(pool); }
+std::unique_ptr<VisibilitySource> makeRaySource(ThreadPool& pool) { return std::make_unique<RaySource<false>>(pool); }
 
 std::unique_ptr<VisibilitySource> makeBareRaySource(ThreadPool& pool)
 {
-  return std::make_unique<RaySource<false>>(pool);
+  return std::make_unique<RaySource<true>>(pool);
 }
 
 } // namespace dgtk
