@@ -74,6 +74,8 @@ int SceneDescription::lastFrame() const
   return frames.empty() ? 0 : frames.back();
 }
 
+std::string SceneDescription::title() const { return this->file.empty() ? "scene" : this->file; }
+
 std::vector<SceneItem> SceneDescription::items() const
 {
   if (!this->order.empty())

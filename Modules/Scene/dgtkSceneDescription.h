@@ -159,7 +159,8 @@ struct DGTKSCENE_EXPORT SceneDescription
   std::vector<ObjectDescription> objects;
   std::vector<LightDescription> lights;
   std::vector<CameraDescription> cameras;
-  std::vector<SceneItem> order; ///< as the file lists them; empty: objects, lights, cameras
+  /// As the file lists them, those of each kind in their own order; empty: objects, lights, cameras.
+  std::vector<SceneItem> order;
 
   std::vector<int> extraKeyFrames;       ///< ascending; key frames at which no track has a key
   double fps = 25;                       ///< scene frames a second, > 0
@@ -172,6 +173,8 @@ struct DGTKSCENE_EXPORT SceneDescription
   std::vector<int> keyFrames() const;
   int firstFrame() const; ///< first key frame; 0 without key frames
   int lastFrame() const;  ///< last key frame; 0 without key frames
+  /// `file`, or "scene" for one that is in no file: what errors begin with.
+  std::string title() const;
   /// `order`, filled in.
   std::vector<SceneItem> items() const;
   /// `path` (of a model or texture) as it can be opened: absolute ones as they are, others below `folder`.

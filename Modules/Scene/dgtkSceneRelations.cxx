@@ -47,7 +47,7 @@ private:
     const std::string& expected = {}, const std::string& found = {}) const
   {
     const Place place = this->Locate(kind, index, property);
-    throw InputError(this->Scene.file, place.line, place.what + ' ' + what, expected, found);
+    throw InputError(this->Scene.title(), place.line, place.what + ' ' + what, expected, found);
   }
 
   template <typename Item>
@@ -217,21 +217,16 @@ private:
     {
       return;
     }
-    const std::size_t counts[3] = { this->Scene.objects.size(), this->Scene.lights.size(), this->Scene.cameras.size() };
-    std::vector<char> seen[3];
-    for (int kind = 0; kind < 3; ++kind)
-    {
-      seen[kind].assign(counts[kind], 0);
-    }
-    bool good = this->Scene.order.size() == counts[0] + counts[1] + counts[2];
+    std::size_t next[3] = { 0, 0, 0 };
+    bool good = true;
     for (const SceneItem& item : this->Scene.order)
     {
-      std::vector<char>& list = seen[static_cast<int>(item.kind)];
-      good = good && item.index < list.size() && !list[item.index]++;
+      good = good && item.index == next[static_cast<std::size_t>(item.kind)]++;
     }
-    if (!good)
+    if (!good || next[0] != this->Scene.objects.size() || next[1] != this->Scene.lights.size() ||
+        next[2] != this->Scene.cameras.size())
     {
-      throw InputError(this->Scene.file, 0, "order does not list every object, light and camera once");
+      throw InputError(this->Scene.title(), 0, "order does not list every object, light and camera once, in turn");
     }
   }
 

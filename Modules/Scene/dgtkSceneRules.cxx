@@ -96,26 +96,27 @@ void nameAll(SceneDescription& scene)
 // A scene made by program obeys the rules of the .json reader: each item is put into its tree and read back.
 void validate(const SceneDescription& scene)
 {
+  const std::string title = scene.title();
   for (const ObjectDescription& object : scene.objects)
   {
     const std::string label = "object " + quoted(object.name) + ": ";
     const JsonNode node = writeFields(object, objectFields());
     ObjectDescription read;
-    readFields(JsonCursor(node, scene.file, label, object.line), objectFields(), read);
+    readFields(JsonCursor(node, title, label, object.line), objectFields(), read);
   }
   for (const LightDescription& light : scene.lights)
   {
     const std::string label = "light " + quoted(light.name) + ": ";
     const JsonNode node = writeFields(light, lightFields());
     LightDescription read;
-    readFields(JsonCursor(node, scene.file, label, light.line), lightFields(), read);
+    readFields(JsonCursor(node, title, label, light.line), lightFields(), read);
   }
   for (const CameraDescription& camera : scene.cameras)
   {
     const std::string label = "camera " + quoted(camera.name) + ": ";
     const JsonNode node = writeCamera(camera, scene.upAxis);
     CameraDescription read;
-    readCamera(JsonCursor(node, scene.file, label, camera.line), scene.upAxis, read);
+    readCamera(JsonCursor(node, title, label, camera.line), scene.upAxis, read);
   }
   SceneDescription rest;
   rest.units = scene.units;
@@ -125,9 +126,9 @@ void validate(const SceneDescription& scene)
   rest.seed = scene.seed;
   rest.extraKeyFrames = scene.extraKeyFrames;
   const JsonNode node = writeFields(rest, sceneFields());
-  const std::string label = "scene: ";
+  const std::string label;
   SceneDescription read;
-  readFields(JsonCursor(node, scene.file, label, 0), sceneFields(), read);
+  readFields(JsonCursor(node, title, label, 0), sceneFields(), read);
   validateRelations(scene, locateByName(scene));
 }
 

@@ -72,7 +72,7 @@ private:
     if (!sayable)
     {
       const Place place = this->Locate(item.kind, item.index, property);
-      throw InputError(this->Scene.file, place.line, place.what + " cannot be said in .scene", expected);
+      throw InputError(this->Scene.title(), place.line, place.what + " cannot be said in .scene", expected);
     }
   }
 
@@ -87,7 +87,7 @@ private:
   {
     if (!sayable)
     {
-      throw InputError(this->Scene.file, 0, "scene: " + property + " cannot be said in .scene");
+      throw InputError(this->Scene.title(), 0, property + " cannot be said in .scene");
     }
   }
 

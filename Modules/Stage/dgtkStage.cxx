@@ -306,7 +306,7 @@ View Stage::view(std::size_t index, double frame, int width, int height) const
   catch (const UsageError& error)
   {
     throw InputError(
-      scene.file, camera.line, "camera " + quoted(camera.name) + " at frame " + textOf(frame) + ": " + error.what());
+      scene.title(), camera.line, "camera " + quoted(camera.name) + " at frame " + textOf(frame) + ": " + error.what());
   }
   return view;
 }

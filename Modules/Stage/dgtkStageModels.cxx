@@ -46,7 +46,7 @@ std::string namesOf(const std::vector<Texture>& textures)
 void failObject(const SceneDescription& scene, const ObjectDescription& object, const std::string& what,
   const std::string& expected, const std::string& found)
 {
-  throw InputError(scene.file, object.line, "object " + quoted(object.name) + ": " + what, expected, found);
+  throw InputError(scene.title(), object.line, "object " + quoted(object.name) + ": " + what, expected, found);
 }
 
 StageModels::StageModels(const SceneDescription& scene, const Stage::WarningSink& warning)
@@ -165,11 +165,12 @@ int StageModels::addTexture(Model& model, const std::string& written)
   }
   if (!texture.image)
   {
-    this->warn(this->Scene.file + ": texture " + quoted(written) + ": " + problem);
+    this->warn(this->Scene.title() + ": texture " + quoted(written) + ": " + problem);
   }
   else if (model.uvs.empty())
   {
-    this->warn(this->Scene.file + ": texture " + quoted(written) + ": " + model.path + " has no texture coordinates");
+    this->warn(
+      this->Scene.title() + ": texture " + quoted(written) + ": " + model.path + " has no texture coordinates");
   }
   model.textures.push_back(texture);
   return static_cast<int>(model.textures.size()) - 1;

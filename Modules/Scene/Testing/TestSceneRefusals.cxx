@@ -361,3 +361,21 @@ TEST(SceneRefusals, ScenesMadeByProgramObeyTheSameRules)
   scene.extraKeyFrames = { 3, 2 };
   EXPECT_THROW(validate(scene), InputError);
 }
+
+TEST(SceneRefusals, ScenesWithoutAFileAreCalledScene)
+{
+  SceneDescription scene;
+  scene.objects.resize(1);
+  scene.objects[0].model = "a.ac";
+  scene.objects[0].parent = "b";
+  try
+  {
+    toJson(scene, "");
+    FAIL();
+  }
+  catch (const InputError& error)
+  {
+    EXPECT_STREQ(error.what(),
+      "scene: object 'a-1': parent is no object of the scene (expected the name of an object, found 'b')");
+  }
+}

@@ -7,6 +7,7 @@
 #include "dgtkSceneDescription.h"
 #include "dgtkTestSupport.h"
 
+#include <cstdio>
 #include <fstream>
 #include <string>
 
@@ -123,7 +124,9 @@ inline const std::string richJson = R"({
 /// Reads a scene from text under a name in a temporary folder.
 inline SceneDescription readText(const TemporaryFolder& folder, const std::string& name, const std::string& text)
 {
-  std::ofstream(folder.path(name), std::ios::binary) << text; // quicker than writeFile(), which waits for the disk
+  // Quicker than writeFile() and than overwriting, which both wait for the disk.
+  std::remove(folder.path(name).c_str());
+  std::ofstream(folder.path(name), std::ios::binary) << text;
   return readScene(folder.path(name));
 }
 
