@@ -15,7 +15,7 @@ namespace
 constexpr double MaxDepthRatio = 4;    // largest to smallest depth on an edge that is not cut
 constexpr double CutRatio = 2;         // depths of neighbouring cuts
 constexpr double RoundingPixels = 2e4; // extent * focal length / depth: above it, rounding exceeds 1/512 pixel
-constexpr double LeastReach = 8;       // extent / depth that is always left to OpenGL
+constexpr double LeastReach = 2;       // extent / depth that is always left to OpenGL
 
 struct Corner
 {

@@ -252,5 +252,6 @@ TEST(RasterIds, InstancesShareTheirGeometry)
   few->instances.push_back(many->instances[0]);
   const VisibilityBuffer hits = render(many, view);
   EXPECT_EQ(hits.at(32, 24).object, 1001u);
-  EXPECT_LT(double(residentBytes()) - double(before), 100e6); // not a thousand times 0.3 MB
+  // Mesa takes about 100 MB to sort six million triangles; a thousand copies would be 300 MB more.
+  EXPECT_LT(double(residentBytes()) - double(before), 200e6);
 }
