@@ -27,7 +27,8 @@ Json infoOfModel(const std::string& path)
   Json info;
   info["file"] = path;
   info["format"] = model->format;
-  info["triangles"] = model->triangles.size();
+  info["triangles"] = model->declaredTriangles > 0 ? model->declaredTriangles : model->triangles.size();
+  info["drawn_triangles"] = model->triangles.size();
   info["vertices"] = model->sourceVertices;
   info["parts"] = model->parts.size();
   info["materials"] = model->declaredMaterials;

@@ -237,8 +237,11 @@ void addAnm(const std::string& path, int frames, std::vector<Animation>& animati
     return;
   }
   std::vector<std::string> warnings;
-  const std::vector<Animation> named = parseAnm(toUtf8(readFile(anm, std::uint64_t(1) << 20)), anm, frames, warnings);
-  animations.insert(animations.end(), named.begin(), named.end());
+  for (Animation& named : parseAnm(toUtf8(readFile(anm, std::uint64_t(1) << 20)), anm, frames, warnings))
+  {
+    named.beside = true;
+    animations.push_back(std::move(named));
+  }
   for (const std::string& warning : warnings)
   {
     builder.warn(warning);

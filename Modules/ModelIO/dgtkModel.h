@@ -66,6 +66,8 @@ struct Animation
   int first = 0;   ///< first frame
   int last = 0;    ///< last frame, included
   double fps = 10; ///< frames a second
+  /// Named in a file beside the model (.anm), not in the model itself.
+  bool beside = false;
 };
 
 /// Positions of the vertices of a model over time. The topology never changes.
@@ -111,7 +113,9 @@ struct Model
   int frames = 1; ///< number of frames in the file
 
   // Counted as `dgtk info` prints them.
-  std::size_t lines = 0;             ///< line segments of the file; they are not surfaces and not drawn
+  std::size_t lines = 0; ///< line segments of the file; they are not surfaces and not drawn
+  /// Triangles of the meshes as written, each once, where a file draws a mesh more than once; else 0.
+  std::size_t declaredTriangles = 0;
   std::size_t twoSidedTriangles = 0; ///< triangles marked two-sided
   std::size_t twoSidedSurfaces = 0;  ///< surfaces (polygons) marked two-sided, where the format has them
   std::size_t declaredMaterials = 0; ///< materials defined in the file, used or not

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include <set>
+
 namespace dgtk
 {
 
@@ -35,6 +37,7 @@ public:
     }
     Model& model = this->Builder.model();
     model.declaredMaterials = this->Materials.size();
+    model.declaredTriangles = this->trianglesOfRepeatedMeshes();
     std::shared_ptr<Model> result = this->Builder.finish();
     if (!this->Scene.rightHanded && result->boundsMin.z() <= result->boundsMax.z())
     {
@@ -47,6 +50,18 @@ public:
   }
 
 private:
+  /// Triangles as written when some mesh is drawn more than once, else 0.
+  std::size_t trianglesOfRepeatedMeshes() const
+  {
+    std::set<const PovMesh*> meshes;
+    std::size_t triangles = 0;
+    for (const PovInstance& instance : this->Scene.shape)
+    {
+      triangles += meshes.insert(instance.mesh.get()).second ? instance.mesh->faces.size() : 0;
+    }
+    return meshes.size() < this->Scene.shape.size() ? triangles : 0;
+  }
+
   void checkSize()
   {
     std::uint64_t corners = 0;

@@ -6,14 +6,19 @@
 
 #include <cstdlib>
 #include <dlfcn.h>
+#include <memory>
+#include <string>
 
 namespace dgtk
 {
 namespace
 {
 
-/// VTK aborts the process when the X server cannot be reached, so that is tried before.
-void checkDisplay()
+using Connection = std::unique_ptr<void, int (*)(void*)>;
+
+/// VTK aborts the process when the X server cannot be reached, so that is tried before. The connection is to stay open
+/// until VTK has its own: a server may start over when its last client leaves.
+Connection checkDisplay()
 {
   const char* display = std::getenv("DISPLAY");
   if (!display || !*display)
@@ -31,18 +36,18 @@ void checkDisplay()
   {
     throw MachineError("libX11.so.6 cannot be loaded");
   }
-  void* connection = open(display);
+  Connection connection(open(display), close);
   if (!connection)
   {
     throw MachineError(std::string("no X server at DISPLAY ") + display);
   }
   int numbers[3];
-  const bool glx = query(connection, "GLX", &numbers[0], &numbers[1], &numbers[2]) != 0;
-  close(connection);
+  const bool glx = query(connection.get(), "GLX", &numbers[0], &numbers[1], &numbers[2]) != 0;
   if (!glx)
   {
     throw MachineError(std::string("the X server ") + display + " has no GLX");
   }
+  return connection;
 }
 
 } // namespace
@@ -53,7 +58,7 @@ vtkSmartPointer<vtkOpenGLRenderWindow> makeGlxWindow()
   {
     throw MachineError("the process was started for OSMesa");
   }
-  checkDisplay();
+  const Connection connection = checkDisplay();
   auto window = vtkSmartPointer<vtkXOpenGLRenderWindow>::New();
   window->SetShowWindow(false);
   window->SetUseOffScreenBuffers(true);

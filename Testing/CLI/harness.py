@@ -11,7 +11,7 @@ import unittest
 DGTK = os.environ["DGTK"]
 SOURCE = os.environ["DGTK_SOURCE"]
 SCENES = os.path.join(SOURCE, "Data", "Scenes")
-EXTRA = os.environ.get("DGTK_EXTRA_MODELS", "")
+EXTRA = os.environ.get("DGTK_EXTRA_MODELS", os.environ.get("DGTK_EXTRA_MODELS_DEFAULT", ""))
 
 
 class Case(unittest.TestCase):

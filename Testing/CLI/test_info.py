@@ -31,10 +31,11 @@ class Models(Case):
                 for a, b in zip(mine, theirs):
                     self.assertLessEqual(abs(a - b), 6e-4 * max(abs(b), 1e-2 * size), f"{found['bounds']} {bounds}")
         if "sequences" in truth:
-            sequences = ",".join(f"{a['name']}:{a['last'] - a['first'] + 1}" for a in found["animations"])
+            sequences = [(a["name"], a["last"] - a["first"] + 1) for a in found["animations"]]
             expected = [entry.rsplit(":", 1) for entry in truth["sequences"].split(",")]
-            self.assertEqual([int(a["last"]) - int(a["first"]) + 1 for a in found["animations"]],
-                             [int(count) for _, count in expected], sequences)
+            self.assertEqual([count for _, count in sequences], [int(count) for _, count in expected])
+            for (mine, _), (theirs, _) in zip(sequences, expected):  # the parser kept separators at the end of a name
+                self.assertEqual(mine.rstrip("_. "), theirs.rstrip("_. "))
 
     def test_counts_equal_those_of_independent_parsers(self):
         if not os.path.exists(TRUTH):
@@ -67,7 +68,7 @@ class Models(Case):
 class Scenes(Case):
     def test_resolution_by_equations_4_1_and_4_2(self):
         scene = self.write("s.json", json.dumps({"objects": [], "cameras": [
-            {"name": "c", "fovY": 60, "near": 0.5, "far": 100.5, "size": [640, 480],
+            {"name": "c", "fovY": 60, "near": 0.5, "far": 100.5, "width": 640, "height": 480,
              "eye": [0, 0, 5], "lookAt": [0, 0, 0], "up": [0, 1, 0]}]}))
         camera = json.loads(self.dgtk("info", scene, "--json").stdout)["cameras"][0]
         expected = 2 * 100 * math.tan(math.radians(30)) / 480
@@ -81,7 +82,7 @@ class Scenes(Case):
     def test_surfaces_of_a_plane_seen_squarely(self):
         scene = self.write("plane.obj", "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3 4\n") and self.write(
             "s.json", json.dumps({"objects": [{"name": "p", "model": "plane.obj"}], "cameras": [
-                {"name": "c", "fovY": 60, "near": 0.5, "far": 100, "size": [64, 48],
+                {"name": "c", "fovY": 60, "near": 0.5, "far": 100, "width": 64, "height": 48,
                  "eye": [0, 0, 5], "lookAt": [0, 0, 0], "up": [0, 1, 0]}]}))
         camera = json.loads(self.dgtk("info", scene, "--json", "--surfaces").stdout)["cameras"][0]
         pixel = 2 * 5 * math.tan(math.radians(30)) / 48

@@ -15,7 +15,7 @@ class ClosedForms(Case):
     def render_plane(self, **camera):
         self.write("plane.obj", PLANE)
         scene = {"objects": [{"name": "ground", "model": "plane.obj"}],
-                 "cameras": [{"name": "c", "near": 0.1, "far": 1e5, "size": [160, 120], "eye": [0, 1.6, 0],
+                 "cameras": [{"name": "c", "near": 0.1, "far": 1e5, "width": 160, "height": 120, "eye": [0, 1.6, 0],
                               "lookAt": [0, 1.6, -1], "up": [0, 1, 0], "fovY": 60, **camera}]}
         self.write("s.json", json.dumps(scene))
         self.dgtk("render", self.path("s.json"), "-o", self.path("out"), "--quiet", "--layers",
@@ -98,14 +98,14 @@ class Dataset(Case):
         self.write("q.obj", "mtllib q.mtl\nusemtl red\nv -3 1 0\nv -1 1 0\nv -1 2 0\nv -3 2 0\nf 1 2 3 4\n")
         self.write("q.mtl", "newmtl red\nKd 1 0 0\nKa 1 0 0\n")
         self.write("s.json", json.dumps({"objects": [{"name": "q", "model": "q.obj"}], "cameras": [
-            {"name": "c", "fovY": 60, "near": 0.1, "far": 100, "size": [120, 120], "eye": [0, 0, 5], "lookAt": [0, 0, 0],
+            {"name": "c", "fovY": 60, "near": 0.1, "far": 100, "width": 120, "height": 120, "eye": [0, 0, 5], "lookAt": [0, 0, 0],
              "up": [0, 1, 0]}]}))
         self.dgtk("render", self.path("s.json"), "-o", self.path("out"), "--quiet", "--objects-format", "npy")
         import numpy
 
         rows, columns = numpy.nonzero(numpy.load(self.path("out", "c", "objects", "000000.npy")))
         f = 60 / math.tan(math.radians(30))
-        self.assertEqual((columns.min(), columns.max()), (math.ceil(60 - 3 * f / 5 - 0.5), math.floor(60 - f / 5 - 0.5)))
+        self.assertEqual((columns.min(), columns.max()), (max(0, math.ceil(60 - 3 * f / 5 - 0.5)), math.floor(60 - f / 5 - 0.5)))
         self.assertEqual((rows.min(), rows.max()), (math.ceil(60 - 2 * f / 5 - 0.5), math.floor(60 - f / 5 - 0.5)))
 
 

@@ -47,7 +47,7 @@ class BadScenes(Case):
     def test_key_frames_out_of_order(self):
         text = "1\nglObject_Camera: ( 60, 0.1, 100, 1.33 )\n[ 0 0 5, 0 0 0, 0 1 0 ]\n2\n5\n< 0 0 5 > { 1, <0,0,0> }\n" \
                "< 0 0 0 > { 1, <0,0,0> }\n2\n< 0 0 5 > { 1, <0,0,0> }\n< 0 0 0 > { 1, <0,0,0> }\n"
-        self.bad(text, "bad.scene:7", name="bad.scene")
+        self.bad(text, "bad.scene:8", name="bad.scene")
 
     def test_rubbish(self):
         self.bad(b"\x00\xff\x80" * 99, "bad.json", name="bad.json")

@@ -42,11 +42,12 @@ class Resume(Case):
                 kept = [n for n, t in before.items() if os.stat(os.path.join(folder, n)).st_mtime_ns == t]
                 self.assertGreater(len(kept), 0, "nothing was kept")
 
-    def test_resume_of_another_request_starts_anew(self):
+    def test_another_request_is_not_mixed_in(self):
         folder = self.path("mixed")
         self.interrupted(folder, signal.SIGKILL)
         other = ("--quiet", "--layers", "depth", "--size", "64x48", "--frames", "0:3")
-        self.dgtk("render", SCENE, "-o", folder, *other, "--resume")
+        self.refused("render", SCENE, "-o", folder, *other, "--resume", status=2, says="another request")
+        self.dgtk("render", SCENE, "-o", folder, *other)
         self.dgtk("render", SCENE, "-o", self.path("clean"), *other)
         self.assert_same_files(self.path("clean"), folder)
 
