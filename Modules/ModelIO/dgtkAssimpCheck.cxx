@@ -68,9 +68,12 @@ void check(const import::Keys<N>& keys)
 {
   checkTimes(keys.times);
   require(keys.values.size() == keys.times.size(), "times and values of keys do not match");
-  for (const std::array<double, N>& value : keys.values)
+  const bool cubic = keys.interpolation == import::Interpolation::Cubic;
+  require(keys.in.size() == (cubic ? keys.times.size() : 0) && keys.out.size() == keys.in.size(),
+    "times and tangents of keys do not match");
+  for (const auto* list : { &keys.values, &keys.in, &keys.out })
   {
-    require(finite(value), "a key's value is not finite");
+    require(std::all_of(list->begin(), list->end(), finite<std::array<double, N>>), "a key's value is not finite");
   }
 }
 
@@ -92,6 +95,10 @@ void check(const import::Animation& animation, std::size_t nodes)
     checkTimes(morph.times);
     require(finite(morph.weights) && morph.weights.size() == morph.times.size() * std::size_t(morph.targets),
       "times and weights of morph targets do not match");
+    const bool cubic = morph.interpolation == import::Interpolation::Cubic;
+    require(morph.in.size() == (cubic ? morph.weights.size() : 0) && morph.out.size() == morph.in.size() &&
+              finite(morph.in) && finite(morph.out),
+      "times and tangents of morph targets do not match");
   }
 }
 } // namespace

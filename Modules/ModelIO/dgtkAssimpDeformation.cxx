@@ -23,47 +23,86 @@ Eigen::Affine3d affine(const import::Matrix& m)
   return result;
 }
 
-/// Key before `time`, and how far it is to the next one, in [0, 1).
+/// How the values of the key at or before a time and of the next one make the value at it: sums of values and tangents
+/// with these factors.
 struct Between
 {
   std::size_t key = 0;
-  double fraction = 0;
+  bool atKey = true;   ///< the key's value as it is
+  double fraction = 0; ///< of the way to the next key, in (0, 1)
+  double value[2] = { 1, 0 };
+  double tangent[2] = { 0, 0 }; ///< of this key's `out` and the next key's `in`
 };
 
-Between find(const std::vector<double>& times, double time, bool step)
+Between find(const std::vector<double>& times, double time, import::Interpolation interpolation)
 {
+  Between at;
   const auto after = std::upper_bound(times.begin(), times.end(), time);
-  if (after == times.begin())
+  at.key = after == times.begin() ? 0 : static_cast<std::size_t>(after - times.begin()) - 1;
+  if (after == times.begin() || after == times.end() || times[at.key] == time ||
+      interpolation == import::Interpolation::Step)
   {
-    return {};
+    return at;
   }
-  const auto key = static_cast<std::size_t>(after - times.begin()) - 1;
-  if (after == times.end() || step)
+  const double length = times[at.key + 1] - times[at.key];
+  const double s = (time - times[at.key]) / length;
+  at.atKey = false;
+  at.fraction = s;
+  at.value[0] = 1 - s;
+  at.value[1] = s;
+  if (interpolation == import::Interpolation::Cubic)
   {
-    return { key, 0 };
+    // glTF 2.0, appendix C.5
+    at.value[0] = 2 * s * s * s - 3 * s * s + 1;
+    at.value[1] = -2 * s * s * s + 3 * s * s;
+    at.tangent[0] = length * (s * s * s - 2 * s * s + s);
+    at.tangent[1] = length * (s * s * s - s * s);
   }
-  return { key, (time - times[key]) / (times[key + 1] - times[key]) };
+  return at;
+}
+
+template <int N>
+using Value = Eigen::Matrix<double, N, 1>;
+
+template <std::size_t N>
+Value<int(N)> blend(const import::Keys<N>& keys, const Between& at)
+{
+  using Map = Eigen::Map<const Value<int(N)>>;
+  if (at.atKey)
+  {
+    return Map(keys.values[at.key].data());
+  }
+  Value<int(N)> result =
+    at.value[0] * Map(keys.values[at.key].data()) + at.value[1] * Map(keys.values[at.key + 1].data());
+  if (!keys.in.empty())
+  {
+    result += at.tangent[0] * Map(keys.out[at.key].data()) + at.tangent[1] * Map(keys.in[at.key + 1].data());
+  }
+  return result;
 }
 
 Eigen::Vector3d vectorAt(const import::Keys<3>& keys, double time)
 {
-  const Between at = find(keys.times, time, keys.step != 0);
-  const Eigen::Vector3d value(keys.values[at.key].data());
-  return at.fraction == 0 ? value : value + at.fraction * (Eigen::Vector3d(keys.values[at.key + 1].data()) - value);
+  return blend(keys, find(keys.times, time, keys.interpolation));
 }
 
-Eigen::Quaterniond quaternion(const std::array<double, 4>& q)
+/// `q`: w, x, y, z.
+Eigen::Quaterniond quaternion(const Eigen::Vector4d& q)
 {
-  const Eigen::Quaterniond value(q[0], q[1], q[2], q[3]);
-  const double length = value.norm();
-  return length > 0 ? Eigen::Quaterniond(value.coeffs() / length) : Eigen::Quaterniond::Identity();
+  const double length = q.norm();
+  return length > 0 ? Eigen::Quaterniond(q[0] / length, q[1] / length, q[2] / length, q[3] / length)
+                    : Eigen::Quaterniond::Identity();
 }
 
 Eigen::Quaterniond rotationAt(const import::Keys<4>& keys, double time)
 {
-  const Between at = find(keys.times, time, keys.step != 0);
-  const Eigen::Quaterniond value = quaternion(keys.values[at.key]);
-  return at.fraction == 0 ? value : value.slerp(at.fraction, quaternion(keys.values[at.key + 1]));
+  const Between at = find(keys.times, time, keys.interpolation);
+  if (at.atKey || keys.interpolation == import::Interpolation::Cubic)
+  {
+    return quaternion(blend(keys, at));
+  }
+  const auto key = [&keys](std::size_t i) { return quaternion(Eigen::Vector4d(keys.values[i].data())); };
+  return key(at.key).slerp(at.fraction, key(at.key + 1));
 }
 
 /// The node's own transform where an animation gives some of translation, rotation, scale: what it does not give is
@@ -190,11 +229,17 @@ std::vector<double> AssimpDeformation::weightsAt(const PosedMesh& posed, int ani
     {
       continue;
     }
-    const Between at = find(morph.times, time, morph.step != 0);
+    const Between at = find(morph.times, time, morph.interpolation);
+    const std::size_t row = at.key * morph.targets;
     for (std::size_t i = 0; i < std::min<std::size_t>(weights.size(), morph.targets); ++i)
     {
-      const double* row = &morph.weights[at.key * morph.targets];
-      weights[i] = at.fraction == 0 ? row[i] : row[i] + at.fraction * (row[i + morph.targets] - row[i]);
+      weights[i] = at.value[0] * morph.weights[row + i];
+      if (!at.atKey)
+      {
+        weights[i] += at.value[1] * morph.weights[row + morph.targets + i];
+        weights[i] +=
+          morph.in.empty() ? 0 : at.tangent[0] * morph.out[row + i] + at.tangent[1] * morph.in[row + morph.targets + i];
+      }
     }
   }
   return weights;

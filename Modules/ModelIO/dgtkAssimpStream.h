@@ -89,12 +89,22 @@ struct Node
   std::vector<std::uint32_t> meshes;
 };
 
+/// What happens between two keys.
+enum class Interpolation : std::int32_t
+{
+  Linear, ///< rotations: slerp
+  Step,   ///< a value holds until the next key
+  Cubic   ///< Hermite spline with the keys' tangents
+};
+
 template <std::size_t N>
 struct Keys
 {
-  std::vector<double> times; ///< seconds, not decreasing
+  std::vector<double> times; ///< seconds, increasing
   std::vector<std::array<double, N>> values;
-  std::int32_t step = 0; ///< 1: a value holds until the next key
+  Interpolation interpolation = Interpolation::Linear;
+  std::vector<std::array<double, N>> in;  ///< tangents, one a key, when cubic
+  std::vector<std::array<double, N>> out; ///< the same on the other side
 };
 
 struct Channel
@@ -112,7 +122,9 @@ struct MorphChannel
   std::vector<double> times; ///< seconds
   std::uint32_t targets = 0;
   std::vector<double> weights; ///< times.size() rows of `targets`
-  std::int32_t step = 0;
+  Interpolation interpolation = Interpolation::Linear;
+  std::vector<double> in; ///< tangents, as many as weights, when cubic
+  std::vector<double> out;
 };
 
 struct Animation
@@ -170,7 +182,7 @@ void io(A& a, Node& n)
 template <class A, std::size_t N>
 void io(A& a, Keys<N>& k)
 {
-  a(k.times), a(k.values), a(k.step);
+  a(k.times), a(k.values), a(k.interpolation), a(k.in), a(k.out);
 }
 template <class A>
 void io(A& a, Channel& c)
@@ -180,7 +192,7 @@ void io(A& a, Channel& c)
 template <class A>
 void io(A& a, MorphChannel& c)
 {
-  a(c.node), a(c.times), a(c.targets), a(c.weights), a(c.step);
+  a(c.node), a(c.times), a(c.targets), a(c.weights), a(c.interpolation), a(c.in), a(c.out);
 }
 template <class A>
 void io(A& a, Animation& n)

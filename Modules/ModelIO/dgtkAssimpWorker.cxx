@@ -2,6 +2,7 @@
 // dgtk-import FILE FORMAT: reads a model with Assimp and writes it to standard output (dgtkAssimpStream.h). A program
 // of its own, so that an assertion, an endless loop or a flood of memory in an importer ends here.
 #include "dgtkAssimpConvert.h"
+#include "dgtkAssimpGltf.h"
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
@@ -160,6 +161,10 @@ void read(const std::string& path, const std::string& format, Scene& scene)
     scene.warnings.push_back("file " + name.substr(0, 200) + " not found");
   }
   dgtk::import::convert(*found, format == "gltf", format == "collada" ? colladaUnit(path) : 1, scene);
+  if (format == "gltf")
+  {
+    dgtk::import::repairGltf(path, scene);
+  }
 }
 
 bool send(Scene& scene)

@@ -392,6 +392,7 @@ PovValue PovParser::value()
   else if (known != this->Names.end() && !known->second.isNumeric() && known->second.kind != PovValue::Kind::Unknown)
   {
     known->second.used = true;
+    this->countInstances(known->second.shape.size(), token.place);
     value = known->second;
     this->take();
   }

@@ -11,6 +11,7 @@ namespace dgtk
 
 namespace
 {
+constexpr std::size_t mostReasons = 1000;
 constexpr double pi = 3.14159265358979323846;
 
 /// Names that POV-Ray itself gives a value; those of the command line have its defaults.
@@ -41,13 +42,15 @@ PovParser::Number PovParser::unknown(const PovPlace& place, const std::string& w
 {
   Number number;
   number.unknown = static_cast<int>(this->Reasons.size());
-  if (this->Reasons.size() < 1'000)
+  if (this->Reasons.size() < mostReasons)
   {
     this->Reasons.emplace_back(place, what);
   }
   else
   {
-    number.unknown = 999; // enough to tell one
+    // only the last is ever told of that many
+    number.unknown = static_cast<int>(mostReasons) - 1;
+    this->Reasons.back() = { place, what };
   }
   return number;
 }

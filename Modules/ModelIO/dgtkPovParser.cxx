@@ -21,7 +21,7 @@ const Words primitiveWords = { "bicubic_patch", "blob", "box", "cone", "cubic", 
 /// Statements about everything but shapes.
 const Words sceneryWords = { "atmosphere", "background", "fog", "global_settings", "light_source", "looks_like",
   "media", "photons", "radiosity", "rainbow", "sky_sphere", "interior", "density", "atmospheric_media" };
-constexpr std::size_t mostInstances = 200'000;
+constexpr std::size_t mostInstances = 50'000; ///< and one for every hundred bytes read
 } // namespace
 
 PovParser::PovParser(const std::string& path)
@@ -209,9 +209,10 @@ void PovParser::macroCall(const PovToken& word)
 void PovParser::countInstances(std::size_t more, const PovPlace& place)
 {
   this->Instances += more;
-  if (this->Instances > mostInstances)
+  const std::size_t most = mostInstances + static_cast<std::size_t>(this->Tokens.bytesRead() / 100);
+  if (this->Instances > most)
   {
-    this->fail(place, "has too many objects", "at most " + std::to_string(mostInstances));
+    this->fail(place, "has too many objects", "at most " + std::to_string(most));
   }
 }
 

@@ -145,6 +145,39 @@ TEST(Gltf, HalfAQuarterTurnIsAnEighth)
   expectNear({ -0.5, 1 + std::sqrt(3) / 2, 0 }, p[5]);
 }
 
+TEST(Gltf, StepsSplinesAndNegativeWeights)
+{
+  GltfMaker maker = animated();
+  maker.json["nodes"][2].erase("name"); // joints without a name, and two nodes of one name
+  maker.json["nodes"][3].erase("name");
+  maker.json["nodes"][1]["name"] = "Mover";
+  const int times = maker.floats("SCALAR", { 0, 2 });
+  const int moves = maker.floats("VEC3", { 0, 0, 0, 0, 0, 0, 1, 2, 3, /**/ -1, 0, 0, 4, 0, 0, 0, 0, 0 });
+  const int weights = maker.floats("SCALAR", { -1, 1 });
+  const auto half = static_cast<float>(std::sqrt(0.5));
+  const int turns = maker.floats("VEC4", { 0, 0, 0, 1, 0, 0, half, half });
+  maker.json["animations"][0]["samplers"] = { sampler(times, moves, "CUBICSPLINE"), sampler(times, weights),
+    sampler(times, turns, "STEP") };
+  const auto model = readBytes("gltf", maker.gltf());
+  EXPECT_EQ(brokenPromise(*model), "");
+  EXPECT_THAT(model->warnings, testing::IsEmpty());
+  // p(s) of the Hermite spline at s = 1/4, over 2 seconds
+  const double s = 0.25;
+  const double h00 = 2 * s * s * s - 3 * s * s + 1;
+  const Eigen::Vector3d out(1, 2, 3);
+  const Eigen::Vector3d in(-1, 0, 0);
+  const Eigen::Vector3d move =
+    (1 - h00) * Eigen::Vector3d(4, 0, 0) + 2 * (s * s * s - 2 * s * s + s) * out + 2 * (s * s * s - s * s) * in;
+  std::vector<Eigen::Vector3d> p = at(*model, 15);
+  expectNear(move + Eigen::Vector3d(0, 0, -0.5), p[0]);
+  expectNear({ 0, 2, 0 }, p[5]);
+  p = at(*model, 59.9);
+  expectNear({ 0, 2, 0 }, p[5]); // still the first key's rotation
+  p = at(*model, 60);
+  expectNear({ 4, 0, 1 }, p[0]);
+  expectNear({ -1, 1, 0 }, p[5]);
+}
+
 TEST(Gltf, NodeTransformsAndMirrorsTurnTheWinding)
 {
   const auto model = readBytes("gltf", plain({ { "name", "m" } }).gltf());

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkAssimpGltf_h
+#define dgtkAssimpGltf_h
+
+#include "dgtkAssimpStream.h"
+
+#include <string>
+
+namespace dgtk::import
+{
+
+/// Reads animations and the joints of skins from a glTF file again, where Assimp 5.2 loses something: steps and splines
+/// between keys become lines, weights below 0 become 0, nodes of equal names are confused, and joints without a name
+/// are not found. What cannot be read is left as Assimp has it, with a warning.
+void repairGltf(const std::string& path, Scene& scene);
+
+} // namespace dgtk::import
+
+#endif
