@@ -18,6 +18,12 @@ constexpr std::size_t MostPoses = 16;
 /// Part of the distance that keeps the surface around a point from hiding it.
 constexpr double PointSlack = 1e-9;
 
+/// Pixels: with a larger error of single precision, rays are looked around at once; an image that needs it is 30,000
+/// pixels wide.
+constexpr double CoarseError = 1.0 / 16;
+
+bool isCoarse(const RayScene& scene, const View& view) { return scene.errorInPixels(view) > CoarseError; }
+
 bool samePose(const Rigid3& a, const Rigid3& b) { return a.rotation == b.rotation && a.translation == b.translation; }
 
 class EmbreeQuery final : public OcclusionQuery
@@ -49,7 +55,7 @@ public:
   {
     const std::shared_ptr<const RayScene> scene = this->scene(view.camera_from_world);
     std::vector<RayHit> found;
-    collectHits(*scene, rayOf(view, pixel), false, found);
+    collectHits(*scene, rayOf(view, pixel), isCoarse(*scene, view), found);
     hits.clear();
     for (const RayHit& hit : found)
     {
@@ -74,11 +80,11 @@ public:
       return {};
     }
     const std::shared_ptr<const RayScene> scene = this->scene(view.camera_from_world);
-    return nearest(*scene, ray, target);
+    return nearest(*scene, ray, target, isCoarse(*scene, view));
   }
 
 private:
-  static Hit nearest(const RayScene& scene, const ExactRay& ray, const Hit& skip)
+  static Hit nearest(const RayScene& scene, const ExactRay& ray, const Hit& skip, bool nearby)
   {
     RayContext context;
     rtcInitIntersectContext(&context.context);
@@ -87,6 +93,7 @@ private:
     context.context.filter = rayFilter;
     context.ray = &ray;
     context.skip = skip;
+    context.marginal = nearby;
     context.t[0] = INFINITY;
     alignas(16) RTCRayHit query = makeQuery(ray);
     rtcIntersect1(scene.handle(), &context.context, &query);

@@ -148,6 +148,16 @@ bool RayScene::isUncertain(const ExactRay& ray, const Hit& hit, double t) const
     ray, x, RayPrecision * (std::abs(t) * ray.direction.norm() + this->Instances[hit.object - 1].reach));
 }
 
+double RayScene::errorInPixels(const View& view) const
+{
+  const Eigen::Vector2d middle(0.5 * view.model->width(), 0.5 * view.model->height());
+  const CameraRay ray = view.model->rayThrough(middle);
+  const CameraRay next = view.model->rayThrough({ middle.x() + 1, middle.y() });
+  const double pixel =
+    (next.origin - ray.origin).norm() + this->Reach * (next.direction - ray.direction).norm() / ray.direction.norm();
+  return this->Reach > 0 ? 2 * RayPrecision * this->Reach / pixel : 0;
+}
+
 ExactRay rayOf(const View& view, const Eigen::Vector2d& pixel)
 {
   const CameraRay ray = view.model->rayThrough(pixel);

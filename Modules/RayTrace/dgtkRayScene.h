@@ -41,6 +41,9 @@ public:
   const Placed& placed(std::size_t instance) const { return this->Instances[instance]; }
   /// Largest `reach` of all instances.
   double reach() const { return this->Reach; }
+  /// Pixels: a bound of the error of single precision in the middle of an image, at distances of about the scene's
+  /// size.
+  double errorInPixels(const View& view) const;
   /// Surfaces whose single-precision t differ by less are compared exactly.
   float slack(float t) const { return float(2 * RayPrecision) * (t + float(this->Reach)); }
 

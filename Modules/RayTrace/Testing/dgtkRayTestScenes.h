@@ -111,6 +111,12 @@ inline std::vector<RayCase> rayCases()
   soup.add(makeSoup({ 500, 1.5, 0.1, 4 }), placement({ 0.2, 0.1, 0.3 }, 0.9, { 1, 0, 1 }, 0.5));
   add("soup", soup.state(), view);
 
+  // Rounding errors of single precision are a hundredth of a pixel here.
+  SceneBuilder afar;
+  afar.add(makeSoup({ 300, 1, 0.5, 6 }), placement({ 0, 0, 0 }, 1.5e-3));
+  afar.add(makeSphere({ { 0, 0, 0 }, 1, 12, 20 }), placement({ 0, 0, 0 }, 0.9e-3));
+  add("tiny from afar", afar.state(), makeView({ 64, 48, 0.03, { 1, 2, 4.5 }, { 0, 0, 0 }, { 0, 1, 0 }, 0.1, 1000 }));
+
   SceneBuilder terrain;
   terrain.add(makeTerrain({ 24, 100, 4, 5 }));
   add("terrain", terrain.state(), makeView({ 64, 48, 60, { 0, 6, 30 }, { 0, 2, 0 }, { 0, 1, 0 }, 0.1, 1000 }));
