@@ -44,10 +44,11 @@ Json infoOfModel(const std::string& path)
   info["lines"] = model->lines;
   info["frames"] = model->frames;
   info["animations"] = Json::array();
+  info["animations_beside"] = Json::array(); // of files that accompany the model
   for (const Animation& animation : model->animations)
   {
-    info["animations"].push_back({ { "name", animation.name }, { "first", animation.first }, { "last", animation.last },
-      { "fps", animation.fps } });
+    info[animation.beside ? "animations_beside" : "animations"].push_back({ { "name", animation.name },
+      { "first", animation.first }, { "last", animation.last }, { "fps", animation.fps } });
   }
   info["warnings"] = model->warnings;
   return info;

@@ -54,8 +54,17 @@ Json infoOfCamera(const Stage& stage, std::size_t index, int width, int height, 
 
 const char* nameOf(LightKind kind)
 {
-  constexpr const char* names[] = { "head", "point", "directional", "spot" };
-  return names[static_cast<int>(kind)];
+  switch (kind)
+  {
+    case LightKind::Head:
+      return "head";
+    case LightKind::Point:
+      return "point";
+    case LightKind::Directional:
+      return "directional";
+    default:
+      return "spot";
+  }
 }
 } // namespace
 

@@ -24,8 +24,9 @@ bool dgtkGone(sampler2D picture, vec2 uv)
 }
 )";
 
-/// Ambient light of the world, as VTK's renderer has it; lights add theirs.
-#define DGTK_WORLD_AMBIENT "1.0"
+/// Ambient light of the world, lights add theirs. 0.2 is OpenGL's light model, for which the ambient colours of AC3D, 3DS
+/// and MD2 models are made: they are mostly the diffuse colour over again.
+#define DGTK_WORLD_AMBIENT "0.2"
 
 constexpr const char* Peel = R"(
 uniform sampler2D dgtkLayer; // draw, triangle and depth of the layer before; depth 2 before the first

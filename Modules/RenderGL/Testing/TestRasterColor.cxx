@@ -202,7 +202,7 @@ TEST(RasterColor, AmbientSpecularAndEmission)
   state->lights.push_back(light);
   const double cosine = 2 / std::sqrt(5.0);
   const Eigen::Vector3d expected =
-    material.ambient * 1.5 + material.emission + material.diffuse * cosine + material.specular * std::pow(cosine, 8);
+    material.ambient * 0.7 + material.emission + material.diffuse * cosine + material.specular * std::pow(cosine, 8);
   expectColor(colorAt(renderColor(state, frontView()), 32, 24), expected);
 }
 

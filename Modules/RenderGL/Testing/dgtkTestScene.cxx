@@ -151,7 +151,8 @@ Instance instanceOf(std::shared_ptr<const Model> model, const Eigen::Vector3d& a
 Material flat(const Eigen::Vector3d& color)
 {
   Material material;
-  material.ambient = color;
+  material.emission = color;
+  material.ambient.setZero();
   material.diffuse.setZero();
   return material;
 }
