@@ -131,6 +131,8 @@ private:
     }
   }
 
+  Row& ringRow(int y) { return this->Rows[(y + 10) % 5]; }
+
   /// Marks the pixels, and on which side, beside a nearer surface that may have an edge there: of another object, or
   /// one whose 1 / t changes by much more than it does beyond. (On a plane 1 / t changes evenly.)
   void findSuspects(int y)
@@ -143,16 +145,18 @@ private:
       this->Suspects.back() &= ~Right;
       return;
     }
-    for (int i = 0; i < 5; ++i)
+    // Rows go round: of the next one only the last is new.
+    for (int i = y == this->Loaded ? 2 : -2; i <= 2; ++i)
     {
-      this->load(y + i - 2, this->Rows[i]);
+      this->load(y + i, this->ringRow(y + i));
     }
+    this->Loaded = y + 1;
     this->Suspects.assign(width, 0);
-    const Row& row = this->Rows[2];
+    const Row& row = this->ringRow(y);
     this->compare(row, row, 1, row, 2, Right);
     this->compare(row, row, -1, row, -2, Left);
-    this->compare(row, this->Rows[1], 0, this->Rows[0], 0, Above);
-    this->compare(row, this->Rows[3], 0, this->Rows[4], 0, Below);
+    this->compare(row, this->ringRow(y - 1), 0, this->ringRow(y - 2), 0, Above);
+    this->compare(row, this->ringRow(y + 1), 0, this->ringRow(y + 2), 0, Below);
   }
 
   void compare(const Row& own, const Row& next, int nextShift, const Row& beyond, int beyondShift, int side)
@@ -210,7 +214,8 @@ private:
   bool EveryEdge; ///< of every triangle is looked at, not only where the depth jumps
   std::vector<RayHit> Found;
   bool Tie = false;
-  Row Rows[5]; ///< from two above to two below
+  Row Rows[5];
+  int Loaded = -1; ///< the row around which all but the last of Rows are loaded
   std::vector<int> Suspects;
 };
 
