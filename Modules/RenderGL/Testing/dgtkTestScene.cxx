@@ -179,67 +179,97 @@ View viewOf(std::shared_ptr<const CameraModel> model, const Eigen::Vector3d& eye
 
 PixelRect whole(const View& view) { return { 0, 0, view.model->width(), view.model->height() }; }
 
-Reference castRay(const SceneState& state, const View& view, int x, int y)
+RayCaster::RayCaster(const SceneState& state, const View& view)
+  : Seen(view)
 {
-  const Eigen::Vector2d pixel(x + 0.5, y + 0.5);
-  const CameraRay ray = view.model->rayThrough(pixel);
-  Reference best;
-  best.depth = std::numeric_limits<double>::infinity();
-  best.margin = std::numeric_limits<double>::infinity();
   for (std::size_t o = 0; o < state.instances.size(); ++o)
   {
     const Instance& instance = state.instances[o];
     const Affine3 camera_from_object = view.camera_from_world * instance.world_from_object;
     for (std::size_t t = 0; t < instance.model->triangles.size(); ++t)
     {
-      Eigen::Vector3d c[3];
-      for (int i = 0; i < 3; ++i)
+      Corners corners;
+      corners.hit = { std::uint32_t(o + 1), std::uint32_t(t) };
+      corners.low.setConstant(1e300);
+      corners.high.setConstant(-1e300);
+      corners.boxed = true;
+      for (std::size_t i = 0; i < 3; ++i)
       {
-        c[i] = camera_from_object * instance.geometry->positions[instance.model->triangles[t][std::size_t(i)]];
+        corners.at[i] = camera_from_object * instance.geometry->positions[instance.model->triangles[t][i]];
+        Eigen::Vector2d pixel(0, 0);
+        corners.boxed = corners.boxed && corners.at[i].z() > view.near && view.model->project(corners.at[i], pixel);
+        corners.low = corners.low.cwiseMin(pixel);
+        corners.high = corners.high.cwiseMax(pixel);
       }
-      Eigen::Matrix3d m;
-      m << c[1] - c[0], c[2] - c[0], -ray.direction;
-      const double determinant = m.determinant();
-      if (std::abs(determinant) < 1e-30)
-      {
-        continue;
-      }
-      const Eigen::Vector3d s = m.inverse() * (ray.origin - c[0]);
-      if (s.z() < view.near || s.z() > view.far)
-      {
-        continue;
-      }
-      // Distance to the edges where the plane is met: clipped to what is in front of the camera.
-      double margin = std::numeric_limits<double>::infinity();
-      for (int i = 0; i < 3; ++i)
-      {
-        Eigen::Vector3d a = c[i];
-        Eigen::Vector3d b = c[(i + 1) % 3];
-        const double least = 0.5 * view.near;
-        if (a.z() < least && b.z() < least)
-        {
-          continue;
-        }
-        const Eigen::Vector3d a0 = a;
-        a = a.z() < least ? Eigen::Vector3d(a + (b - a) * ((least - a.z()) / (b.z() - a.z()))) : a;
-        b = b.z() < least ? Eigen::Vector3d(b + (a0 - b) * ((least - b.z()) / (a0.z() - b.z()))) : b;
-        Eigen::Vector2d pa;
-        Eigen::Vector2d pb;
-        if (view.model->project(a, pa) && view.model->project(b, pb))
-        {
-          margin = std::min(margin, distanceToSegment(pixel, pa, pb));
-        }
-      }
-      const bool inside = s.x() >= 0 && s.y() >= 0 && s.x() + s.y() <= 1;
-      if (inside || margin < 0.1)
-      {
-        best.margin = std::min(best.margin, margin);
-      }
-      if (inside && s.z() < best.depth)
-      {
-        best.depth = s.z();
-        best.hit = { std::uint32_t(o + 1), std::uint32_t(t) };
-      }
+      this->Triangles.push_back(corners);
+    }
+  }
+}
+
+namespace
+{
+/// Distance of a pixel from the triangle's outline, where that is in front of the camera.
+double marginOf(const View& view, const Eigen::Vector2d& pixel, const Eigen::Vector3d (&corners)[3])
+{
+  double margin = std::numeric_limits<double>::infinity();
+  const double least = 0.5 * view.near;
+  for (int i = 0; i < 3; ++i)
+  {
+    Eigen::Vector3d a = corners[i];
+    Eigen::Vector3d b = corners[(i + 1) % 3];
+    if (a.z() < least && b.z() < least)
+    {
+      continue;
+    }
+    const Eigen::Vector3d a0 = a;
+    a = a.z() < least ? Eigen::Vector3d(a + (b - a) * ((least - a.z()) / (b.z() - a.z()))) : a;
+    b = b.z() < least ? Eigen::Vector3d(b + (a0 - b) * ((least - b.z()) / (a0.z() - b.z()))) : b;
+    Eigen::Vector2d pa;
+    Eigen::Vector2d pb;
+    if (view.model->project(a, pa) && view.model->project(b, pb))
+    {
+      margin = std::min(margin, distanceToSegment(pixel, pa, pb));
+    }
+  }
+  return margin;
+}
+} // namespace
+
+Reference RayCaster::cast(int x, int y) const
+{
+  const Eigen::Vector2d pixel(x + 0.5, y + 0.5);
+  const CameraRay ray = this->Seen.model->rayThrough(pixel);
+  Reference best;
+  best.depth = std::numeric_limits<double>::infinity();
+  best.margin = std::numeric_limits<double>::infinity();
+  for (const Corners& corners : this->Triangles)
+  {
+    if (corners.boxed &&
+        ((pixel.array() < corners.low.array() - 1).any() || (pixel.array() > corners.high.array() + 1).any()))
+    {
+      continue;
+    }
+    Eigen::Matrix3d m;
+    m << corners.at[1] - corners.at[0], corners.at[2] - corners.at[0], -ray.direction;
+    if (std::abs(m.determinant()) < 1e-30)
+    {
+      continue;
+    }
+    const Eigen::Vector3d s = m.inverse() * (ray.origin - corners.at[0]);
+    if (s.z() < this->Seen.near || s.z() > this->Seen.far)
+    {
+      continue;
+    }
+    const double margin = marginOf(this->Seen, pixel, corners.at);
+    const bool inside = s.x() >= 0 && s.y() >= 0 && s.x() + s.y() <= 1;
+    if (inside || margin < 0.1)
+    {
+      best.margin = std::min(best.margin, margin);
+    }
+    if (inside && s.z() < best.depth)
+    {
+      best.depth = s.z();
+      best.hit = corners.hit;
     }
   }
   return best;
@@ -276,11 +306,12 @@ Eigen::Vector3d colorAt(const ColorBuffer& colors, int x, int y)
 int comparedWithRays(const SceneState& state, const View& view, const VisibilityBuffer& hits, int step)
 {
   int differing = 0;
+  const RayCaster rays(state, view);
   for (int y = 0; y < hits.rect.height; y += step)
   {
     for (int x = 0; x < hits.rect.width; x += step)
     {
-      const Reference expected = castRay(state, view, hits.rect.x + x, hits.rect.y + y);
+      const Reference expected = rays.cast(hits.rect.x + x, hits.rect.y + y);
       const Hit found = hits.at(hits.rect.x + x, hits.rect.y + y);
       if (found != expected.hit)
       {

@@ -51,7 +51,26 @@ struct Reference
   double depth = 0;
   double margin = 0;
 };
-Reference castRay(const SceneState& state, const View& view, int x, int y);
+
+/// The triangles of a scene in the camera frame.
+class RayCaster
+{
+public:
+  RayCaster(const SceneState& state, const View& view);
+  Reference cast(int x, int y) const;
+
+private:
+  struct Corners
+  {
+    Hit hit;
+    Eigen::Vector3d at[3];
+    Eigen::Vector2d low; ///< box in the image, where all corners are in front of the camera
+    Eigen::Vector2d high;
+    bool boxed = false;
+  };
+  View Seen;
+  std::vector<Corners> Triangles;
+};
 
 /// One engine for all tests of the process.
 RasterSource& source();
@@ -63,7 +82,7 @@ Eigen::Vector3d colorAt(const ColorBuffer& colors, int x, int y);
 /// Ids differ from the exact ones only where an edge passes within 1/128 pixel of the centre: rasterizers round
 /// vertices to 1/256 pixel.
 constexpr double EdgeTolerance = 1.0 / 128;
-/// Compares every `step`th pixel with castRay(); returns how many differ and fails where that is not explained by
+/// Compares every `step`th pixel with RayCaster; returns how many differ and fails where that is not explained by
 /// EdgeTolerance.
 int comparedWithRays(const SceneState& state, const View& view, const VisibilityBuffer& hits, int step = 1);
 
