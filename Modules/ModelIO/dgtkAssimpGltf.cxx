@@ -364,9 +364,9 @@ void fill(Keys<N>& to, const Json& node, const char* name, std::array<double, N>
   {
     value = node.at(name).get<std::array<double, N>>();
   }
-  if (N == 4)
+  if constexpr (N == 4)
   {
-    std::rotate(value.begin(), value.end() - 1, value.end()); // x, y, z, w -> w, x, y, z
+    value = { value[3], value[0], value[1], value[2] }; // the file's order is x, y, z, w
   }
   to.times.push_back(0);
   to.values.push_back(value);
