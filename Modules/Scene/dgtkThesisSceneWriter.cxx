@@ -173,11 +173,13 @@ private:
     if (this->LightNames.empty())
     {
       SceneDescription nameless = this->Scene;
+      std::vector<bool> own; // names that the reader would not give
       for (LightDescription& light : nameless.lights)
       {
         const bool usual = light.name.substr(0, 5) == "Light" &&
                            light.name.find_first_not_of("0123456789", 5) == std::string::npos && light.name.size() > 5;
         light.name = usual ? std::string() : light.name;
+        own.push_back(!usual);
       }
       nameAll(nameless);
       for (const LightDescription& light : nameless.lights)
@@ -188,6 +190,10 @@ private:
             [](const std::string& name, const LightDescription& light) { return name == light.name; }))
       {
         std::fill(this->LightNames.begin(), this->LightNames.end(), std::string()); // then all are written
+      }
+      for (std::size_t i = 0; i < own.size(); ++i)
+      {
+        this->LightNames[i] = own[i] ? std::string() : this->LightNames[i];
       }
     }
     return this->LightNames[index];

@@ -38,6 +38,17 @@ class Scenes(Case):
                     self.dgtk("convert", self.path("x.json"), self.path("x.scene"))
                     self.assertEqual(numbers(os.path.join(SCENES, name)), numbers(self.path("x.scene")))
 
+    def test_a_light_keeps_its_name(self):
+        keys = "".join(f"{frame}\n< 0 1 0 > {{ 1, < 0 0 0 > }}\n< 0 2 0 > {{ 1, < 0 0 0 > }}\n" for frame in (0, 1))
+        self.write("x.scene", "2\nglObject_Light: lamp\nglObject_Light:\n2\n" + keys)
+        self.dgtk("convert", self.path("x.scene"), self.path("x.json"))
+        self.dgtk("convert", self.path("x.json"), self.path("y.scene"))
+        self.dgtk("convert", self.path("y.scene"), self.path("y.json"))
+        with open(self.path("x.json")) as one, open(self.path("y.json")) as two:
+            names = [[light["name"] for light in json.load(file)["lights"]] for file in (one, two)]
+        self.assertEqual(names[0], names[1])
+        self.assertEqual(names[0][0], "lamp")
+
     def test_what_a_scene_file_cannot_say_is_refused_by_name(self):
         self.refused("convert", os.path.join(SCENES, "lights_many.json"), self.path("x.scene"), status=3, says="light")
         self.assertFalse(os.path.exists(self.path("x.scene")))
