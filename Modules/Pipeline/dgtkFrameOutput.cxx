@@ -30,12 +30,12 @@ void FrameOutput::addLane(std::unique_ptr<OutputLane> lane)
   this->Queues.push_back(std::make_unique<SerialQueue>(this->Pool));
 }
 
-void FrameOutput::submit(const std::shared_ptr<const Band>& band)
+void FrameOutput::submit(const std::shared_ptr<DrawnBand>& band)
 {
   for (std::size_t i = 0; i < this->Lanes.size(); ++i)
   {
     OutputLane* lane = this->Lanes[i].get();
-    this->Queues[i]->submit([lane, band] { lane->write(*band); });
+    this->Queues[i]->submit([lane, band] { lane->write(band->whole()); });
   }
 }
 

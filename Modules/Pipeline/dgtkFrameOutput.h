@@ -8,7 +8,9 @@
 #include "dgtkLayerWriter.h"
 #include "dgtkVisibility.h"
 
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,24 @@ struct Band
   PixelRect rect;
   std::vector<Hit> hits;  ///< empty when no representation is asked for
   std::vector<float> rgb; ///< empty when no colour is asked for; display-referred
+};
+
+/// A band as drawing leaves it.
+class DrawnBand
+{
+public:
+  Band band;
+  std::function<void()> rest = [] {}; ///< to be done until `band` is whole; waits for no other job
+
+  /// Does the rest when it is called first, in whichever thread.
+  const Band& whole()
+  {
+    std::call_once(this->Once, this->rest);
+    return this->band;
+  }
+
+private:
+  std::once_flag Once;
 };
 
 /// A file of the dataset that is complete.
@@ -47,7 +67,7 @@ public:
   FrameOutput(const WorkPlan& plan, const Job& job, const std::string& camera, std::shared_ptr<const SceneState> state,
     const View& view, ThreadPool& pool);
 
-  void submit(const std::shared_ptr<const Band>& band);
+  void submit(const std::shared_ptr<DrawnBand>& band);
   /// Waits for everything submitted; rethrows what failed.
   void wait();
   /// Waits and completes the files. To be called once, after the last band.

@@ -4,14 +4,18 @@
 #include "dgtkError.h"
 #include "dgtkRasterSource.h"
 #include "dgtkRaySource.h"
+#include "dgtkThreadPool.h"
 
 #include <algorithm>
+#include <deque>
+#include <future>
 
 namespace dgtk
 {
 
 FrameSource::FrameSource(const FrameSourceOptions& options, ThreadPool& pool)
   : Options(options)
+  , Pool(pool)
 {
   if (options.hits && !options.raster)
   {
@@ -42,26 +46,49 @@ void FrameSource::setScene(const std::shared_ptr<const SceneState>& state, const
 
 int FrameSource::bands() const { return this->Grid->rows(); }
 
-void FrameSource::drawTile(const PixelRect& rect, Band& tile)
+/// What is drawn of a canonical tile.
+struct FrameSource::Tile
 {
-  tile.rect = rect;
   VisibilityBuffer hits;
   ColorBuffer colors;
+  std::function<void()> rest = [] {}; ///< to be done before the buffers are whole
+};
+
+std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect)
+{
+  auto tile = std::make_shared<Tile>();
   const bool rasterHits = this->Options.hits && this->Options.raster;
-  if (this->Options.color)
-  {
-    this->Raster->renderColor(rect, this->Options.samples, colors, rasterHits ? &hits : nullptr);
-    tile.rgb = std::move(colors.rgb);
-  }
-  else if (rasterHits)
-  {
-    this->Raster->render(rect, hits);
-  }
+  // Software OpenGL leaves cores idle while it transforms vertices; rays are traced meanwhile.
+  std::future<void> traced;
   if (this->Ray)
   {
-    this->Ray->render(rect, hits);
+    traced = this->Pool.submit([this, &rect, &tile] { this->Ray->render(rect, tile->hits); });
   }
-  tile.hits = std::move(hits.hits);
+  try
+  {
+    if (this->Options.color)
+    {
+      tile->rest =
+        this->Raster->drawColor(rect, this->Options.samples, tile->colors, rasterHits ? &tile->hits : nullptr);
+    }
+    else if (rasterHits)
+    {
+      this->Raster->render(rect, tile->hits);
+    }
+  }
+  catch (...)
+  {
+    if (traced.valid())
+    {
+      traced.wait();
+    }
+    throw;
+  }
+  if (traced.valid())
+  {
+    this->Pool.wait(traced);
+  }
+  return tile;
 }
 
 namespace
@@ -69,7 +96,6 @@ namespace
 template <typename T>
 void place(const std::vector<T>& from, const PixelRect& tile, int channels, const PixelRect& band, std::vector<T>& to)
 {
-  to.resize(std::size_t(band.width) * band.height * channels);
   const std::size_t row = std::size_t(tile.width) * channels;
   for (int y = 0; y < tile.height; ++y)
   {
@@ -78,28 +104,63 @@ void place(const std::vector<T>& from, const PixelRect& tile, int channels, cons
 }
 } // namespace
 
-void FrameSource::draw(int row, Band& band)
+void FrameSource::draw(int row, DrawnBand& drawn)
 {
+  Band& band = drawn.band;
   const int columns = this->Grid->columns();
   if (columns == 1)
   {
-    this->drawTile(this->Grid->tile(0, row), band);
+    band.rect = this->Grid->tile(0, row);
+    drawn.rest = [&band, tile = this->drawTile(band.rect)]
+    {
+      tile->rest();
+      band.rgb = std::move(tile->colors.rgb);
+      band.hits = std::move(tile->hits.hits);
+    };
     return;
   }
   const PixelRect last = this->Grid->tile(columns - 1, row);
   band.rect = { 0, last.y, last.x + last.width, last.height };
-  for (int column = 0; column < columns; ++column)
+  const std::size_t pixels = std::size_t(band.rect.width) * band.rect.height;
+  band.hits.resize(this->Options.hits ? pixels : 0);
+  band.rgb.resize(this->Options.color ? pixels * 3 : 0);
+  std::deque<std::future<void>> placed;
+  const auto waitFor = [&](std::size_t most)
   {
-    Band tile;
-    this->drawTile(this->Grid->tile(column, row), tile);
-    if (this->Options.hits)
+    for (; placed.size() > most; placed.pop_front())
     {
-      place(tile.hits, tile.rect, 1, band.rect, band.hits);
+      this->Pool.wait(placed.front());
     }
-    if (this->Options.color)
+  };
+  try
+  {
+    for (int column = 0; column < columns; ++column)
     {
-      place(tile.rgb, tile.rect, 3, band.rect, band.rgb);
+      const PixelRect rect = this->Grid->tile(column, row);
+      placed.push_back(this->Pool.submit(
+        [this, &band, rect, tile = this->drawTile(rect)]
+        {
+          tile->rest();
+          if (this->Options.hits)
+          {
+            place(tile->hits.hits, rect, 1, band.rect, band.hits);
+          }
+          if (this->Options.color)
+          {
+            place(tile->colors.rgb, rect, 3, band.rect, band.rgb);
+          }
+        }));
+      waitFor(static_cast<std::size_t>(this->Pool.threads()));
     }
+    waitFor(0);
+  }
+  catch (...)
+  {
+    for (const std::future<void>& rest : placed)
+    {
+      rest.valid() ? rest.wait() : void();
+    }
+    throw;
   }
 }
 

@@ -32,14 +32,16 @@ public:
 
   void setScene(const std::shared_ptr<const SceneState>& state, const View& view);
   int bands() const;
-  /// Draws band `row`, 0 <= row < bands().
-  void draw(int row, Band& band);
+  /// Draws band `row`, 0 <= row < bands(); what needs neither OpenGL nor this source may be left to drawn.rest.
+  void draw(int row, DrawnBand& drawn);
   /// How OpenGL was reached, one line; empty when it is not used.
   const std::string& glDescription() const { return this->Description; }
 
 private:
-  void drawTile(const PixelRect& rect, Band& tile);
+  struct Tile;
+  std::shared_ptr<Tile> drawTile(const PixelRect& rect);
   FrameSourceOptions Options;
+  ThreadPool& Pool;
   std::unique_ptr<VisibilitySource> Ray;
   std::unique_ptr<ColorSource> Raster;
   std::unique_ptr<TileGrid> Grid;

@@ -206,11 +206,12 @@ void Run::render(const Job& job)
 
 void Run::drawBand(int row, FrameOutput& output)
 {
-  auto band = std::make_unique<Band>();
+  auto band = std::make_unique<DrawnBand>();
   this->Source->draw(row, *band);
-  const std::size_t bytes = band->hits.size() * sizeof(Hit) + band->rgb.size() * sizeof(float);
+  const std::size_t bytes = std::size_t(band->band.rect.width) * band->band.rect.height * 2 *
+                            (sizeof(Hit) + 3 * sizeof(float)); // as drawn, and whole
   this->PendingBytes += bytes;
-  output.submit({ band.release(), [this, bytes](const Band* done)
+  output.submit({ band.release(), [this, bytes](DrawnBand* done)
     {
       this->PendingBytes -= bytes;
       delete done;

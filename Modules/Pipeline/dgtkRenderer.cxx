@@ -116,8 +116,9 @@ dgtk::Rows dgtkRenderer::Internal::draw(const std::string& layer)
   Rows image(spec.type, spec.channels, this->width, 0, this->height);
   for (int row = 0; row < frames.bands(); ++row)
   {
-    Band band;
-    frames.draw(row, band);
+    DrawnBand drawn;
+    frames.draw(row, drawn);
+    const Band& band = drawn.whole();
     Rows part;
     if (color)
     {

@@ -127,7 +127,7 @@ void RasterScene::setState(std::shared_ptr<const SceneState> state)
 void RasterScene::makeDraws()
 {
   this->Translucent = false;
-  this->FirstHits.assign(1, Hit{});
+  this->FirstHits = std::make_shared<std::vector<Hit>>(1);
   std::size_t count = 0;
   for (std::size_t i = 0; i < this->State->instances.size(); ++i)
   {
@@ -157,7 +157,7 @@ void RasterScene::makeDraws()
       draw.actor->number = float(count);
       draw.actor->emission = chunk.emission;
       draw.actor->mirrored = instance.world_from_object.linear.determinant() < 0;
-      this->FirstHits.push_back({ std::uint32_t(i + 1), chunk.firstTriangle });
+      this->FirstHits->push_back({ std::uint32_t(i + 1), chunk.firstTriangle });
       this->Translucent = this->Translucent || chunk.translucent;
     }
   }

@@ -67,13 +67,9 @@ public:
   /// Draws only what lies behind the layer in texture `layer` (0: everything).
   void peelBehind(unsigned int layer);
 
-  /// A fragment's id as it was drawn.
-  Hit hit(float number, float triangle) const
-  {
-    Hit result = this->FirstHits[std::size_t(number)];
-    result.triangle += std::uint32_t(triangle);
-    return result;
-  }
+  /// First triangle of each draw by its number, nothing for number 0: with a fragment's number of the triangle added,
+  /// the fragment's hit. Valid also when the scene has changed.
+  std::shared_ptr<const std::vector<Hit>> firstHits() const { return this->FirstHits; }
   bool translucent(float number) const
   {
     return number != 0 && this->Draws[std::size_t(number) - 1].chunk->translucent;
@@ -157,7 +153,7 @@ private:
   std::vector<Draw> Draws;
   Pieces Cut; // of the draw at hand
   const IdPrograms::Program* CurrentIds = nullptr;
-  std::vector<Hit> FirstHits; // by number of the draw; 0: nothing
+  std::shared_ptr<std::vector<Hit>> FirstHits;
   IdPrograms Ids;
   unsigned int LightBuffer = 0;
   unsigned int LightTexture = 0;

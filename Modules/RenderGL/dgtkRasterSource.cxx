@@ -29,6 +29,51 @@ const float* rowFromTop(const std::vector<float>& values, const PixelRect& rect,
   return values.data() + std::size_t(rect.height - 1 - y) * rect.width * channels;
 }
 
+/// Ids of `rect` as they were drawn, bottom to top.
+void takeHits(
+  const std::vector<Hit>& firstHits, const std::vector<float>& ids, const PixelRect& rect, std::vector<Hit>& hits)
+{
+  for (int y = 0; y < rect.height; ++y)
+  {
+    const float* source = rowFromTop(ids, rect, y, 2);
+    Hit* target = hits.data() + std::size_t(y) * rect.width;
+    for (int x = 0; x < rect.width; ++x, source += 2)
+    {
+      target[x] = firstHits[std::size_t(source[0])];
+      target[x].triangle += std::uint32_t(source[1]);
+    }
+  }
+}
+
+/// Box average of the samples in `pixels` (RGBA, bottom to top) into the piece of `colors`.
+void average(const std::vector<float>& pixels, const PixelRect& piece, int samples, ColorBuffer& colors)
+{
+  const PixelRect rect{ 0, 0, piece.width * samples, piece.height * samples };
+  const float weight = 1.0f / float(samples * samples);
+  for (int y = 0; y < piece.height; ++y)
+  {
+    float* target =
+      colors.rgb.data() +
+      (std::size_t(piece.y - colors.rect.y + y) * colors.rect.width + std::size_t(piece.x - colors.rect.x)) * 3;
+    std::fill_n(target, std::size_t(piece.width) * 3, 0.0f);
+    for (int row = 0; row < samples; ++row)
+    {
+      const float* source = rowFromTop(pixels, rect, y * samples + row, 4);
+      for (int x = 0; x < rect.width; ++x, source += 4)
+      {
+        float* pixel = target + x / samples * 3;
+        pixel[0] += clamped(source[0]);
+        pixel[1] += clamped(source[1]);
+        pixel[2] += clamped(source[2]);
+      }
+    }
+    for (int i = 0; i < piece.width * 3 && samples > 1; ++i)
+    {
+      target[i] *= weight;
+    }
+  }
+}
+
 class VtkRasterSource : public RasterSource
 {
 public:
@@ -48,17 +93,16 @@ public:
   GLChoice choice() const override { return this->Choice; }
   void setScene(std::shared_ptr<const SceneState> state, const View& view) override;
   void render(const PixelRect& rect, VisibilityBuffer& hits) override;
-  void renderColor(const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits) override;
+  std::function<void()> drawColor(
+    const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits) override;
   void peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit) override;
 
 private:
   void aim(RasterTarget& target, const PixelRect& rect, int samples);
-  void drawSamples(const PixelRect& rect, int samples, VisibilityBuffer* hits);
+  void drawSamples(const PixelRect& rect, int samples, bool hits);
   void blendTranslucent();
   bool drawLayer(int rank, Surfaces surfaces, const RasterTarget* base);
   bool firstHitsTranslucent() const;
-  void takeHits(const PixelRect& rect, std::vector<Hit>& hits);
-  void average(const PixelRect& piece, int samples, ColorBuffer& colors) const;
   static void check();
 
   GLChoice Choice;
@@ -72,6 +116,7 @@ private:
   std::vector<float> Pixels; // RGBA, bottom to top
   std::vector<float> Ids;
   std::vector<float> LayerPixels;
+  std::vector<float> LayerIds;
 };
 
 void VtkRasterSource::setScene(std::shared_ptr<const SceneState> state, const View& view)
@@ -103,12 +148,13 @@ void VtkRasterSource::render(const PixelRect& rect, VisibilityBuffer& hits)
   this->Scene.drawIds();
   this->Main.readIds(this->Ids);
   hits.resize(rect);
-  this->takeHits(rect, hits.hits);
+  takeHits(*this->Scene.firstHits(), this->Ids, rect, hits.hits);
   check();
   settleEdges(*this->State, this->Camera, hits, true);
 }
 
-void VtkRasterSource::renderColor(const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits)
+std::function<void()> VtkRasterSource::drawColor(
+  const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits)
 {
   if (samples < 1 || samples > MaxSamples)
   {
@@ -116,29 +162,42 @@ void VtkRasterSource::renderColor(const PixelRect& rect, int samples, ColorBuffe
       "samples must be between 1 and " + std::to_string(MaxSamples) + " (found " + std::to_string(samples) + ")");
   }
   colors.resize(rect);
-  const int side = samples == 1 ? std::max(rect.width, rect.height) : std::max(1, MaxPiece / samples);
+  if (samples == 1)
+  {
+    this->drawSamples(rect, 1, hits != nullptr);
+    check();
+    return [state = this->State, view = this->Camera, first = this->Scene.firstHits(), pixels = std::move(this->Pixels),
+             ids = std::move(this->Ids), rect, &colors, hits]
+    {
+      average(pixels, rect, 1, colors);
+      if (hits)
+      {
+        hits->resize(rect);
+        takeHits(*first, ids, rect, hits->hits);
+        settleEdges(*state, view, *hits, true);
+      }
+    };
+  }
+  const int side = std::max(1, MaxPiece / samples);
   for (int y = 0; y < rect.height; y += side)
   {
     for (int x = 0; x < rect.width; x += side)
     {
       const PixelRect piece{ rect.x + x, rect.y + y, std::min(side, rect.width - x), std::min(side, rect.height - y) };
-      this->drawSamples(piece, samples, samples == 1 ? hits : nullptr);
-      this->average(piece, samples, colors);
+      this->drawSamples(piece, samples, false);
+      average(this->Pixels, piece, samples, colors);
     }
   }
   check();
-  if (hits && samples > 1)
+  if (hits)
   {
     this->render(rect, *hits);
   }
-  else if (hits)
-  {
-    settleEdges(*this->State, this->Camera, *hits, true);
-  }
+  return [] {};
 }
 
 /// Leaves the samples of a piece of the image in Pixels.
-void VtkRasterSource::drawSamples(const PixelRect& piece, int samples, VisibilityBuffer* hits)
+void VtkRasterSource::drawSamples(const PixelRect& piece, int samples, bool hits)
 {
   const PixelRect rect{ piece.x * samples, piece.y * samples, piece.width * samples, piece.height * samples };
   this->aim(this->Main, rect, samples);
@@ -152,12 +211,7 @@ void VtkRasterSource::drawSamples(const PixelRect& piece, int samples, Visibilit
   {
     this->Main.readIds(this->Ids);
   }
-  if (hits)
-  {
-    hits->resize(piece);
-    this->takeHits(piece, hits->hits);
-  }
-  if (ids && this->firstHitsTranslucent())
+  if (this->Scene.hasTranslucent() && this->firstHitsTranslucent())
   {
     this->Main.bind(true, false);
     this->Main.clear(clear);
@@ -173,7 +227,7 @@ void VtkRasterSource::drawSamples(const PixelRect& piece, int samples, Visibilit
 
 bool VtkRasterSource::firstHitsTranslucent() const
 {
-  for (std::size_t i = 0; i < this->Ids.size() && this->Scene.hasTranslucent(); i += 2)
+  for (std::size_t i = 0; i < this->Ids.size(); i += 2)
   {
     if (this->Scene.translucent(this->Ids[i]))
     {
@@ -205,10 +259,10 @@ bool VtkRasterSource::drawLayer(int rank, Surfaces surfaces, const RasterTarget*
   this->Scene.drawColor(surfaces);
   this->Scene.peelBehind(0);
   target.readColor(this->LayerPixels);
-  target.readIds(this->Ids);
-  for (std::size_t i = 0; i < this->Ids.size(); i += 2)
+  target.readIds(this->LayerIds);
+  for (std::size_t i = 0; i < this->LayerIds.size(); i += 2)
   {
-    if (this->Ids[i] != 0)
+    if (this->LayerIds[i] != 0)
     {
       return true;
     }
@@ -226,7 +280,7 @@ void VtkRasterSource::blendTranslucent()
   {
     for (std::size_t i = 0; i < count; ++i)
     {
-      if (this->Ids[i * 2] != 0)
+      if (this->LayerIds[i * 2] != 0)
       {
         const float* layer = this->LayerPixels.data() + i * 4;
         const float opacity = clamped(layer[3]);
@@ -248,48 +302,6 @@ void VtkRasterSource::blendTranslucent()
   }
 }
 
-void VtkRasterSource::takeHits(const PixelRect& rect, std::vector<Hit>& hits)
-{
-  for (int y = 0; y < rect.height; ++y)
-  {
-    const float* source = rowFromTop(this->Ids, rect, y, 2);
-    Hit* target = hits.data() + std::size_t(y) * rect.width;
-    for (int x = 0; x < rect.width; ++x, source += 2)
-    {
-      target[x] = this->Scene.hit(source[0], source[1]);
-    }
-  }
-}
-
-/// Box average of the samples in Pixels into the piece of `colors`.
-void VtkRasterSource::average(const PixelRect& piece, int samples, ColorBuffer& colors) const
-{
-  const PixelRect rect{ 0, 0, piece.width * samples, piece.height * samples };
-  const float weight = 1.0f / float(samples * samples);
-  for (int y = 0; y < piece.height; ++y)
-  {
-    float* target =
-      colors.rgb.data() +
-      (std::size_t(piece.y - colors.rect.y + y) * colors.rect.width + std::size_t(piece.x - colors.rect.x)) * 3;
-    std::fill_n(target, std::size_t(piece.width) * 3, 0.0f);
-    for (int row = 0; row < samples; ++row)
-    {
-      const float* source = rowFromTop(this->Pixels, rect, y * samples + row, 4);
-      for (int x = 0; x < rect.width; ++x, source += 4)
-      {
-        float* pixel = target + x / samples * 3;
-        pixel[0] += clamped(source[0]);
-        pixel[1] += clamped(source[1]);
-        pixel[2] += clamped(source[2]);
-      }
-    }
-    for (int i = 0; i < piece.width * 3 && samples > 1; ++i)
-    {
-      target[i] *= weight;
-    }
-  }
-}
-
 void VtkRasterSource::peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit)
 {
   this->aim(this->Main, rect, 1);
@@ -298,7 +310,7 @@ void VtkRasterSource::peel(const PixelRect& rect, const std::function<bool(const
   for (int rank = 0; rank < MaxLayers && this->drawLayer(rank, Surfaces::All, nullptr); ++rank)
   {
     layer.hits.resize(std::size_t(rect.width) * rect.height);
-    this->takeHits(rect, layer.hits);
+    takeHits(*this->Scene.firstHits(), this->LayerIds, rect, layer.hits);
     layer.rgba.resize(layer.hits.size() * 4);
     for (int y = 0; y < rect.height; ++y)
     {

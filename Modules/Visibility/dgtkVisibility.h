@@ -8,6 +8,7 @@
 #include "dgtkSceneState.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -79,7 +80,14 @@ public:
   /// Fills `colors` with `samples` x `samples` samples a pixel averaged by a box. With hits != nullptr and samples ==
   /// 1, colour and hits come from the same pass, so that a pixel's colour and its labels cannot disagree. (With samples
   /// > 1 the hits are those of the pixel's centre.)
-  virtual void renderColor(const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits) = 0;
+  void renderColor(const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits)
+  {
+    this->drawColor(rect, samples, colors, hits)();
+  }
+  /// renderColor() in two steps: draws, and returns what remains to be done until `colors` and `hits` are filled. That
+  /// may be called once on any thread, while this source draws other things; the buffers must live until then.
+  virtual std::function<void()> drawColor(
+    const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits) = 0;
 };
 
 /// Asks whether something stands between two points. Thread-safe after setScene.

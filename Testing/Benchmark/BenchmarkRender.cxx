@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whole-work timings as ratios against references of the same run; see Documentation/DeveloperGuide/performance.md.
 //
-//   BenchmarkRender [--triangles N] [--size WxH] [--frames N] [--threads N]
+//   BenchmarkRender [--triangles N] [--size WxH] [--frames N] [--threads N] [--rounds N]
 //
 // Each row is a process of its own (its peak memory is its own, and no two OpenGL contexts meet). Times are per frame,
-// in milliseconds, without loading: (time of all frames - time of the first) / (frames - 1).
+// in milliseconds, without loading: (time of all frames - time of the first) / (frames - 1). All rows are run once a
+// round, one after another, and each row's median over the rounds is printed: machines have moods.
 #include "BenchmarkScene.h"
 #include "StockVTK.h"
 
@@ -15,6 +16,7 @@
 #include "dgtkStage.h"
 #include "dgtkThreadPool.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -38,6 +40,7 @@ struct Settings
   int width = 640;
   int height = 480;
   int threads = 2;
+  int rounds = 3;
   std::string folder;
   std::string scenePath;
 };
@@ -235,6 +238,10 @@ Settings parse(int argc, char** argv)
     {
       settings.threads = std::stoi(value);
     }
+    else if (key == "--rounds")
+    {
+      settings.rounds = std::stoi(value);
+    }
     else if (key == "--size")
     {
       settings.width = std::stoi(value);
@@ -251,17 +258,29 @@ int main(int argc, char** argv)
   settings.folder =
     (std::filesystem::temp_directory_path() / ("dgtk-benchmark-" + std::to_string(::getpid()))).string();
   settings.scenePath = bench::writeBenchmarkScene(settings.folder, settings.scene);
-  std::printf("%d triangles in %d objects, %d x %d, %d frames, %d threads\n", settings.scene.triangles,
-    settings.scene.objects, settings.width, settings.height, settings.scene.frames, settings.threads);
+  std::printf("%d triangles in %d objects, %d x %d, %d frames, %d threads, %d rounds\n", settings.scene.triangles,
+    settings.scene.objects, settings.width, settings.height, settings.scene.frames, settings.threads, settings.rounds);
   std::fflush(stdout);
-  std::vector<Measured> measured;
-  for (const Row& row : rows())
+  std::vector<std::vector<double>> times(rows().size());
+  std::vector<double> memory(rows().size(), 0.0);
+  for (int round = 0; round < settings.rounds; ++round)
   {
-    measured.push_back(inChild(settings, row));
-    std::printf("  %-62s %8.1f ms %7.0f MiB\n", row.name, measured.back().milliseconds, measured.back().mebibytes);
-    std::fflush(stdout);
+    for (std::size_t i = 0; i < rows().size(); ++i)
+    {
+      const Measured measured = inChild(settings, rows()[i]);
+      times[i].push_back(measured.milliseconds);
+      memory[i] = std::max(memory[i], measured.mebibytes);
+    }
   }
-  const auto ratio = [&](int a, int b) { return measured[a].milliseconds / measured[b].milliseconds; };
+  std::vector<double> median;
+  for (std::size_t i = 0; i < rows().size(); ++i)
+  {
+    std::sort(times[i].begin(), times[i].end());
+    median.push_back(times[i][times[i].size() / 2]);
+    std::printf("  %-62s %8.1f ms (%.1f to %.1f) %7.0f MiB\n", rows()[i].name, median[i], times[i].front(),
+      times[i].back(), memory[i]);
+  }
+  const auto ratio = [&](int a, int b) { return median[a] / median[b]; };
   std::printf("  raster against bare colour      C/A %5.2f  (aim: at most 2)\n", ratio(2, 0));
   std::printf("  ray against bare colour         D/A %5.2f  (aim: at most 1.5)\n", ratio(3, 0));
   std::printf("  stock VTK's way against raster  B/C %5.2f  (aim: at least 3)\n", ratio(1, 2));
