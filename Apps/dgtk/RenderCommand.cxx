@@ -106,6 +106,10 @@ GeneratorRequest parseRequest(const Arguments& arguments)
   request.visibility = oneOf(arguments, "--visibility", { "auto", "raster", "ray" });
   request.gl = oneOf(arguments, "--gl", { "auto", "egl", "osmesa", "glx" });
   request.threads = arguments.integer("--threads", 0, 256);
+  if (arguments.has("--pairs"))
+  {
+    request.pairs = arguments.list("--pairs");
+  }
   request.seed = arguments.integer("--seed", 0, 2147483647);
   request.resume = arguments.has("--resume");
   request.contactSheet = arguments.has("--contact-sheet");
@@ -156,6 +160,7 @@ Command renderCommand()
     { "--frames", "A[:B[:STEP]]", "", "some of the frames (default: all)" },
     { "--size", "WxH", "", "size of the images in pixels (default: the camera's own, else 640x480)" },
     { "--tile", "WxH", "640x480", "size of the images of the tiles layer" },
+    { "--pairs", "A:B,...", "", "camera pairs of the correspondence layer; A:B+1 one frame later (default: all pairs)" },
     { "--samples", "N", "1", "colour is the mean of N x N points a pixel" },
     { "--color-bits", "8|16", "8", "bits a channel of colour PNG files" } };
   for (const LayerInfo& layer : generatorLayers())

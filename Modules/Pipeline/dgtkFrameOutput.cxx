@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkFrameOutput.h"
 
+#include "dgtkFrameLayers.h"
 #include "dgtkOutputLanes.h"
 
 namespace dgtk
 {
 
-FrameOutput::FrameOutput(const WorkPlan& plan, const Job& job, const std::string& camera,
-  std::shared_ptr<const SceneState> state, const View& view, ThreadPool& pool)
-  : Pool(pool)
+FrameOutput::FrameOutput(const JobContext& context)
+  : Pool(context.pool)
 {
+  const WorkPlan& plan = context.plan;
+  const Job& job = context.job;
+  const std::string& camera = context.camera;
+  const View& view = context.view;
   for (const std::string& format : plan.colorFormats)
   {
     this->addLane(makeColorLane(plan, job, camera, view, format));
@@ -20,7 +24,14 @@ FrameOutput::FrameOutput(const WorkPlan& plan, const Job& job, const std::string
   }
   if (!plan.representations.empty())
   {
-    this->addLane(makeGeometryLane(plan, job, camera, std::move(state), view, pool));
+    this->addLane(makeGeometryLane(plan, job, camera, context.state, view, context.pool));
+  }
+  for (const PlannedFrameLayer& planned : plan.frameLayers)
+  {
+    if (!planned.layer->files(plan, context.queries.stage(), job).empty())
+    {
+      this->addLane(planned.layer->makeLane(context));
+    }
   }
 }
 

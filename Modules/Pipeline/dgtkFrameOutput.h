@@ -6,6 +6,7 @@
 #include "dgtkWorkPlan.h"
 
 #include "dgtkLayerWriter.h"
+#include "dgtkRasterSource.h"
 #include "dgtkVisibility.h"
 
 #include <functional>
@@ -23,6 +24,9 @@ struct Band
   PixelRect rect;
   std::vector<Hit> hits;  ///< empty when no representation is asked for
   std::vector<float> rgb; ///< empty when no colour is asked for; display-referred
+  /// Surfaces behind one another as OpenGL peels them, for each tile from left to right the ranks from near to far;
+  /// empty unless asked for.
+  std::vector<std::vector<SurfaceLayer>> peeled;
 };
 
 /// A band as drawing leaves it.
@@ -64,8 +68,7 @@ public:
 class FrameOutput
 {
 public:
-  FrameOutput(const WorkPlan& plan, const Job& job, const std::string& camera, std::shared_ptr<const SceneState> state,
-    const View& view, ThreadPool& pool);
+  explicit FrameOutput(const struct JobContext& context);
 
   void submit(const std::shared_ptr<DrawnBand>& band);
   /// Waits for everything submitted; rethrows what failed.

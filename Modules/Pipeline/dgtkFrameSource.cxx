@@ -21,7 +21,7 @@ FrameSource::FrameSource(const FrameSourceOptions& options, ThreadPool& pool)
   {
     this->Ray = makeRaySource(pool);
   }
-  if (options.color || (options.hits && options.raster))
+  if (options.color || options.peel || (options.hits && options.raster))
   {
     std::unique_ptr<RasterSource> raster = makeRasterSource(glBackendFromName(options.gl));
     this->Description = raster->choice().description;
@@ -51,6 +51,7 @@ struct FrameSource::Tile
 {
   VisibilityBuffer hits;
   ColorBuffer colors;
+  std::vector<SurfaceLayer> ranks;
   std::function<void()> rest = [] {}; ///< to be done before the buffers are whole
 };
 
@@ -74,6 +75,15 @@ std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect)
     else if (rasterHits)
     {
       this->Raster->render(rect, tile->hits);
+    }
+    if (this->Options.peel)
+    {
+      const auto keep = [&tile](const SurfaceLayer& rank)
+      {
+        tile->ranks.push_back(rank);
+        return true;
+      };
+      this->Raster->peel(rect, keep);
     }
   }
   catch (...)
@@ -116,6 +126,7 @@ void FrameSource::draw(int row, DrawnBand& drawn)
       tile->rest();
       band.rgb = std::move(tile->colors.rgb);
       band.hits = std::move(tile->hits.hits);
+      band.peeled.push_back(std::move(tile->ranks));
     };
     return;
   }
@@ -137,8 +148,10 @@ void FrameSource::draw(int row, DrawnBand& drawn)
     for (int column = 0; column < columns; ++column)
     {
       const PixelRect rect = this->Grid->tile(column, row);
+      std::shared_ptr<Tile> tile = this->drawTile(rect);
+      band.peeled.push_back(std::move(tile->ranks));
       placed.push_back(this->Pool.submit(
-        [this, &band, rect, tile = this->drawTile(rect)]
+        [this, &band, rect, tile = std::move(tile)]
         {
           tile->rest();
           if (this->Options.hits)

@@ -17,6 +17,7 @@ struct FrameSourceOptions
 {
   bool hits = true;   ///< the visibility buffer is wanted
   bool color = false; ///< colours are wanted
+  bool peel = false;  ///< all surfaces are wanted
   bool raster = false;
   int samples = 1;
   std::string gl = "auto";
@@ -43,7 +44,7 @@ private:
   FrameSourceOptions Options;
   ThreadPool& Pool;
   std::unique_ptr<VisibilitySource> Ray;
-  std::unique_ptr<ColorSource> Raster;
+  std::unique_ptr<RasterSource> Raster;
   std::unique_ptr<TileGrid> Grid;
   std::string Description;
 };

@@ -4,6 +4,7 @@
 #include "dgtkDatasetRecords.h"
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkFrameLayers.h"
 #include "dgtkFrameOutput.h"
 #include "dgtkFrameSource.h"
 #include "dgtkHash.h"
@@ -57,6 +58,7 @@ private:
   void completeOldest();
   void add(const DatasetFile& file);
   bool keep(const Job& job);
+  std::vector<std::string> filesOf(const Job& job) const;
   void writeDocuments();
   bool cancelled() const { return this->Callbacks.cancel && *this->Callbacks.cancel; }
   void say(const std::string& line) const
@@ -83,6 +85,7 @@ private:
   std::vector<DatasetFile> Files;
   std::unique_ptr<ThreadPool> Pool;
   std::unique_ptr<FrameSource> Source;
+  SceneQueries Queries;
   std::atomic<std::size_t> PendingBytes{ 0 };
   std::deque<Open> Opened;
   std::shared_ptr<const SceneState> State;
@@ -99,6 +102,7 @@ Run::Run(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
       }))
   , Plan(makeWorkPlan(request, *this->Scene))
   , Threads(request.threads > 0 ? request.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())))
+  , Queries(this->Scene)
 {
 }
 
@@ -106,9 +110,11 @@ GeneratorResult Run::execute()
 {
   const GeneratorRequest& request = this->Plan.request;
   FrameSourceOptions options;
-  options.hits = !this->Plan.representations.empty();
+  options.hits = this->Plan.needsHits();
   options.color = this->Plan.drawsColor();
   options.raster = this->Plan.raster;
+  options.peel = std::any_of(this->Plan.frameLayers.begin(), this->Plan.frameLayers.end(),
+    [](const PlannedFrameLayer& planned) { return planned.layer->needsPeeling(); });
   options.samples = request.samples;
   options.gl = request.gl;
   this->Pool = std::make_unique<ThreadPool>(this->Threads);
@@ -179,13 +185,13 @@ void Run::render(const Job& job)
 {
   const View view = this->viewOf(job);
   const std::shared_ptr<const SceneState> state = this->stateAt(job.frame);
-  const std::string folder = this->Plan.request.folder + '/' + this->cameraName(job) + '/';
-  for (const std::string& layer : this->Plan.layers)
+  for (const std::string& name : this->filesOf(job))
   {
-    makeFolders(folder + layer);
+    makeFolders(this->Plan.request.folder + '/' + name.substr(0, name.rfind('/')));
   }
-  auto output = std::make_unique<FrameOutput>(this->Plan, job, this->cameraName(job), state, view, *this->Pool);
-  if (!this->Plan.representations.empty() || this->Plan.drawsColor())
+  auto output = std::make_unique<FrameOutput>(
+    JobContext{ this->Plan, job, this->cameraName(job), state, view, this->Queries, *this->Pool });
+  if (this->Plan.needsHits() || this->Plan.drawsColor())
   {
     this->Source->setScene(state, view);
     for (int row = 0; row < this->Source->bands(); ++row)
@@ -251,6 +257,22 @@ void Run::add(const DatasetFile& file)
 // sizes.
 bool Run::keep(const Job& job)
 {
+  std::vector<DatasetFile> files;
+  for (const std::string& name : this->filesOf(job))
+  {
+    const DatasetFile* file = this->Log->find(name);
+    if (!file)
+    {
+      return false;
+    }
+    files.push_back(*file);
+  }
+  this->Files.insert(this->Files.end(), files.begin(), files.end());
+  return true;
+}
+
+std::vector<std::string> Run::filesOf(const Job& job) const
+{
   std::vector<std::string> names;
   const std::string& camera = this->cameraName(job);
   for (const std::string& format : this->Plan.colorFormats)
@@ -274,18 +296,12 @@ bool Run::keep(const Job& job)
   {
     names.push_back(WorkPlan::fileName(camera, "calibration", job.frame, "txt"));
   }
-  std::vector<DatasetFile> files;
-  for (const std::string& name : names)
+  for (const PlannedFrameLayer& planned : this->Plan.frameLayers)
   {
-    const DatasetFile* file = this->Log->find(name);
-    if (!file)
-    {
-      return false;
-    }
-    files.push_back(*file);
+    const std::vector<std::string> files = planned.layer->files(this->Plan, *this->Scene, job);
+    names.insert(names.end(), files.begin(), files.end());
   }
-  this->Files.insert(this->Files.end(), files.begin(), files.end());
-  return true;
+  return names;
 }
 
 void Run::writeDocuments()
@@ -306,6 +322,14 @@ void Run::writeDocuments()
     for (const std::string& format : layer.formats)
     {
       manifest.layers.push_back({ layer.spec, format });
+    }
+  }
+  for (const PlannedFrameLayer& planned : this->Plan.frameLayers)
+  {
+    for (const std::string& format : planned.formats)
+    {
+      const std::vector<LayerRecord> records = planned.layer->specs(format);
+      manifest.layers.insert(manifest.layers.end(), records.begin(), records.end());
     }
   }
   this->Files.push_back(

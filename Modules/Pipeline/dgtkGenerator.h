@@ -37,6 +37,11 @@ struct GeneratorRequest
   int height = 0;
   int tileWidth = 640; ///< of the `tiles` layer; may exceed the image and need not divide it
   int tileHeight = 480;
+  /// Pairs of the correspondence layer: "A:B", "A:B+1" (camera B one frame later); empty: every ordered pair of the
+  /// cameras asked for.
+  std::vector<std::string> pairs;
+  std::vector<std::string> matte;  ///< names of the objects of the matting layer
+  int pointsStep = 4;              ///< pixels between the samples of the points layer, >= 1
   int seed = 0;                    ///< of random numbers
   int samples = 1;                 ///< colour is the mean of samples x samples points a pixel, 1 to 16
   int colorBits = 8;               ///< of colour in PNG: 8 or 16

@@ -2,6 +2,7 @@
 #include "dgtkWorkPlan.h"
 
 #include "dgtkError.h"
+#include "dgtkFrameLayers.h"
 #include "dgtkLayerWriter.h"
 
 #include <algorithm>
@@ -129,6 +130,10 @@ std::vector<LayerInfo> generatorLayers()
   {
     layers.push_back({ info.layer, makeRepresentation(info.layer)->formats(), info.description });
   }
+  for (const auto& layer : frameLayers())
+  {
+    layers.push_back(layer->info());
+  }
   layers.push_back({ "calibration", { "txt" }, "projection and pose of the camera, as the thesis writes them" });
   layers.push_back({ "tiles", { "png" }, "the picture cut into tiles" });
   return layers;
@@ -193,6 +198,19 @@ std::vector<std::string> WorkPlan::tileNames(const std::string& camera, int fram
   return names;
 }
 
+bool WorkPlan::has(const std::string& layer) const { return contains(this->layers, layer); }
+
+namespace
+{
+std::shared_ptr<const FrameLayer> frameLayerOf(const std::string& name)
+{
+  const auto& all = frameLayers();
+  const auto found =
+    std::find_if(all.begin(), all.end(), [&](const auto& layer) { return layer->info().layer == name; });
+  return found == all.end() ? nullptr : *found;
+}
+} // namespace
+
 WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
 {
   const SceneDescription& scene = stage.description();
@@ -213,6 +231,10 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
     {
       (info.layer == "tiles" ? plan.tiles : plan.calibration) = true;
     }
+    else if (const auto frameLayer = frameLayerOf(info.layer))
+    {
+      plan.frameLayers.push_back({ frameLayer, resolveFormats(info, request) });
+    }
     else
     {
       std::shared_ptr<const Representation> representation = makeRepresentation(info.layer);
@@ -220,13 +242,19 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
     }
   }
   const std::string& engine = request.visibility;
-  plan.raster = engine == "raster" || (engine == "auto" && plan.drawsColor() && request.samples == 1);
+  const bool peels = std::any_of(plan.frameLayers.begin(), plan.frameLayers.end(),
+    [](const PlannedFrameLayer& planned) { return planned.layer->needsPeeling(); });
+  plan.raster = engine == "raster" || (engine == "auto" && (peels || (plan.drawsColor() && request.samples == 1)));
   for (const int frame : resolveFrames(request.frames, scene))
   {
     for (const std::size_t camera : resolveCameras(request.cameras, scene))
     {
       plan.jobs.push_back({ camera, frame });
     }
+  }
+  for (const PlannedFrameLayer& planned : plan.frameLayers)
+  {
+    planned.layer->check(plan, stage);
   }
   return plan;
 }
@@ -256,6 +284,12 @@ std::vector<std::pair<std::string, std::string>> describeRequest(const WorkPlan&
   for (const PlannedLayer& layer : plan.representations)
   {
     pairs.emplace_back(layer.spec.name + "_format", joined(layer.formats));
+  }
+  for (const PlannedFrameLayer& planned : plan.frameLayers)
+  {
+    pairs.emplace_back(planned.layer->info().layer + "_format", joined(planned.formats));
+    const auto options = planned.layer->options(request);
+    pairs.insert(pairs.end(), options.begin(), options.end());
   }
   pairs.emplace_back("visibility", plan.raster ? "raster" : "ray");
   pairs.emplace_back("seed", std::to_string(request.seed));

@@ -31,12 +31,22 @@ struct PlannedLayer
   std::vector<std::string> formats;
 };
 
+class FrameLayer;
+
+/// A frame layer and its file formats.
+struct PlannedFrameLayer
+{
+  std::shared_ptr<const FrameLayer> layer;
+  std::vector<std::string> formats;
+};
+
 /// A request, checked and resolved against its scene. Depends on nothing else.
 struct WorkPlan
 {
   GeneratorRequest request;
   std::vector<std::string> layers; ///< in the order of generatorLayers()
   std::vector<PlannedLayer> representations;
+  std::vector<PlannedFrameLayer> frameLayers;
   std::vector<std::string> colorFormats; ///< "png", "exr"; empty when no colour is written
   bool tiles = false;
   bool calibration = false;
@@ -44,6 +54,9 @@ struct WorkPlan
   std::vector<Job> jobs;
 
   bool drawsColor() const { return !this->colorFormats.empty() || this->tiles; }
+  bool needsHits() const { return !this->representations.empty() || !this->frameLayers.empty(); }
+  /// Whether a layer is among those asked for.
+  bool has(const std::string& layer) const;
   /// Specification of the colour layer in a format.
   LayerSpec colorSpec(const std::string& format) const;
   /// Relative paths of the files of the tiles layer, in the order in which they are completed.

@@ -65,6 +65,13 @@ void generalRow(
 
 } // namespace
 
+SurfacePoint surfacePointAt(const SceneState& state, const View& view, const Eigen::Vector2d& pixel, const Hit& hit)
+{
+  TriangleSolver solver(state, view);
+  const PlanePoint point = solver.point(hit, pixel.x(), pixel.y(), true);
+  return { point.t, { point.second, point.third } };
+}
+
 void computeSurfaceRows(const SceneState& state, const View& view, const PixelRect& rect, const Hit* hits,
   bool barycentrics, SurfaceRows& rows)
 {

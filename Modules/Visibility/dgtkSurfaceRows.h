@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <vector>
 
 namespace dgtk
@@ -31,6 +32,19 @@ struct SurfaceRows
 /// Computes `t`, and `barycentrics` when wanted, of rows. Thread-safe.
 DGTKVISIBILITY_EXPORT void computeSurfaceRows(const SceneState& state, const View& view, const PixelRect& rect,
   const Hit* hits, bool barycentrics, SurfaceRows& rows);
+
+/// Where the ray through an image point meets the plane of a triangle.
+struct SurfacePoint
+{
+  /// As SurfaceRows::t; +inf where the ray misses the plane.
+  double t = std::numeric_limits<double>::infinity();
+  Eigen::Vector2d barycentrics{ 0, 0 }; ///< of the second and third corner
+};
+
+/// The same as computeSurfaceRows() for one image point (pixels, need not be a pixel's centre). hit.object != 0.
+/// Thread-safe.
+DGTKVISIBILITY_EXPORT SurfacePoint surfacePointAt(
+  const SceneState& state, const View& view, const Eigen::Vector2d& pixel, const Hit& hit);
 
 /// World position of the corners of the triangle of `hit` (object != 0).
 DGTKVISIBILITY_EXPORT void triangleInWorld(const SceneState& state, const Hit& hit, Eigen::Vector3d corners[3]);

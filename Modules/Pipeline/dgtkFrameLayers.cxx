@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkFrameLayers.h"
+
+namespace dgtk
+{
+
+// One file each defines its maker.
+std::shared_ptr<const FrameLayer> makeCorrespondenceLayer();
+std::shared_ptr<const FrameLayer> makeDisparityLayer();
+std::shared_ptr<const FrameLayer> makeFlowForwardLayer();
+std::shared_ptr<const FrameLayer> makeFlowBackwardLayer();
+std::shared_ptr<const FrameLayer> makeSceneFlowLayer();
+
+const std::vector<std::shared_ptr<const FrameLayer>>& frameLayers()
+{
+  static const std::vector<std::shared_ptr<const FrameLayer>> all{
+    makeCorrespondenceLayer(),
+    makeDisparityLayer(),
+    makeFlowForwardLayer(),
+    makeFlowBackwardLayer(),
+    makeSceneFlowLayer(),
+  };
+  return all;
+}
+
+} // namespace dgtk

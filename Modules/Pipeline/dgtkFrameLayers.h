@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkFrameLayers_h
+#define dgtkFrameLayers_h
+
+#include "dgtkFrameOutput.h"
+#include "dgtkSceneQueries.h"
+
+#include "dgtkDatasetDocuments.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// What the lanes of a job may use. What it refers to outlives them.
+struct JobContext
+{
+  const WorkPlan& plan;
+  Job job;
+  std::string camera; ///< its name
+  std::shared_ptr<const SceneState> state;
+  View view;
+  SceneQueries& queries; ///< other frames and cameras
+  ThreadPool& pool;
+
+  /// Absolute or working-directory path of a file of the dataset.
+  std::string path(const std::string& name) const { return this->plan.request.folder + '/' + name; }
+};
+
+/// A layer that needs more than a pixel of one visibility buffer: neighbours, other views, samples, objects. Stateless;
+/// one row of the table in dgtkFrameLayers.cxx.
+class FrameLayer
+{
+public:
+  virtual ~FrameLayer() = default;
+  /// Name, file formats (the first is the default) and one sentence.
+  virtual LayerInfo info() const = 0;
+  /// Throws UsageError for a request that it cannot fulfil.
+  virtual void check(const WorkPlan&, const Stage&) const {}
+  /// What the manifest says of its files in a format; several where a layer has several images.
+  virtual std::vector<LayerRecord> specs(const std::string& format) const = 0;
+  /// Options of the request that decide its files, for the manifest and for resuming.
+  virtual std::vector<std::pair<std::string, std::string>> options(const GeneratorRequest&) const { return {}; }
+  /// Whether its lane reads Band::peeled.
+  virtual bool needsPeeling() const { return false; }
+  /// Every file that a job writes, relative to the dataset; empty when the job has none.
+  virtual std::vector<std::string> files(const WorkPlan&, const Stage&, const Job&) const = 0;
+  /// The lane that writes them; called for jobs that have files.
+  virtual std::unique_ptr<OutputLane> makeLane(const JobContext&) const = 0;
+};
+
+/// All frame layers, in the order of `--layers all`.
+const std::vector<std::shared_ptr<const FrameLayer>>& frameLayers();
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The layers that relate a view with another: correspondence, disparity, optical flow and scene flow.
+#include "dgtkError.h"
+#include "dgtkPairLane.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace dgtk
+{
+
+namespace
+{
+LayerSpec positionSpec()
+{
+  return { "correspondence", PixelType::Float64, 2, "pixels", "image of the other camera", "nan",
+    "(x', y') of the pixel's surface point in the other image; pixel centres are at + 0.5" };
+}
+
+LayerSpec disparitySpec()
+{
+  return { "disparity", PixelType::Float64, 1, "pixels", "image", "nan",
+    "x_left - x_right of the pixel's surface point in the two images of a rectified pair" };
+}
+
+LayerSpec flowSpec(bool forward)
+{
+  return { forward ? "flow_forward" : "flow_backward", PixelType::Float64, 2, "pixels", "image", "nan",
+    std::string("(x' - x, y' - y) of the pixel's surface point one frame ") + (forward ? "later" : "earlier") };
+}
+
+LayerSpec motionSpec()
+{
+  return { "sceneflow", PixelType::Float64, 3, "scene units", "camera", "nan",
+    "motion of the pixel's surface point in the world until the next frame, in the axes of this frame's camera" };
+}
+
+/// A layer of targets; what differs is which targets a job has.
+class PairLayer : public FrameLayer
+{
+public:
+  std::vector<LayerRecord> specs(const std::string& format) const override
+  {
+    std::vector<LayerRecord> records{ { this->valueSpec(), format } };
+    if (this->hasClasses())
+    {
+      records.push_back({ classSpec(this->valueSpec().name), "png" });
+    }
+    return records;
+  }
+
+  std::vector<std::string> files(const WorkPlan& plan, const Stage& stage, const Job& job) const override
+  {
+    std::vector<std::string> names;
+    for (const PairTarget& target : this->completeTargets(plan, stage, job))
+    {
+      const std::vector<std::string> own = pairFiles(target, stage.cameraNames()[job.camera], job.frame);
+      names.insert(names.end(), own.begin(), own.end());
+    }
+    return names;
+  }
+
+  std::unique_ptr<OutputLane> makeLane(const JobContext& context) const override
+  {
+    return makePairLane(context, this->completeTargets(context.plan, context.queries.stage(), context.job));
+  }
+
+protected:
+  virtual LayerSpec valueSpec() const = 0;
+  virtual bool hasClasses() const { return true; }
+  /// The targets of a job: camera, frame, value and, where it is not the layer's name, folder.
+  virtual std::vector<PairTarget> targets(const WorkPlan& plan, const Stage& stage, const Job& job) const = 0;
+
+private:
+  std::vector<PairTarget> completeTargets(const WorkPlan& plan, const Stage& stage, const Job& job) const
+  {
+    std::vector<PairTarget> all = this->targets(plan, stage, job);
+    const std::string name = this->valueSpec().name;
+    for (PairTarget& target : all)
+    {
+      target.spec = this->valueSpec();
+      target.folder = target.folder.empty() ? name : target.folder;
+      for (const PlannedFrameLayer& planned : plan.frameLayers)
+      {
+        if (planned.layer->info().layer == name)
+        {
+          target.formats = planned.formats;
+        }
+      }
+    }
+    return all;
+  }
+};
+
+/// Another camera and how many frames later.
+struct Pair
+{
+  std::size_t from = 0;
+  std::size_t to = 0;
+  int offset = 0;
+};
+
+/// "A:B", "A:B+1", "A:B-2"; names may hold colons and signs.
+bool parsePair(const std::string& text, const std::vector<std::string>& names, Pair& pair)
+{
+  for (pair.from = 0; pair.from < names.size(); ++pair.from)
+  {
+    const std::string& from = names[pair.from];
+    if (text.compare(0, from.size() + 1, from + ':') != 0)
+    {
+      continue;
+    }
+    for (pair.to = 0; pair.to < names.size(); ++pair.to)
+    {
+      const std::string& to = names[pair.to];
+      if (text.compare(from.size() + 1, to.size(), to) != 0)
+      {
+        continue;
+      }
+      const std::string rest = text.substr(from.size() + 1 + to.size());
+      const bool digits = rest.size() > 1 && rest.size() < 8 && (rest[0] == '+' || rest[0] == '-') &&
+                          rest.find_first_not_of("0123456789", 1) == std::string::npos;
+      pair.offset = digits ? std::stoi(rest) : 0;
+      if (rest.empty() || digits)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// The pairs of a request, without repetition, in its order.
+std::vector<Pair> pairsOf(const WorkPlan& plan, const Stage& stage)
+{
+  const std::vector<std::string> names = stage.cameraNames();
+  std::vector<Pair> pairs;
+  std::set<std::size_t> cameras;
+  for (const Job& job : plan.jobs)
+  {
+    cameras.insert(job.camera);
+  }
+  if (plan.request.pairs.empty())
+  {
+    for (const std::size_t from : cameras)
+    {
+      for (const std::size_t to : cameras)
+      {
+        if (from != to)
+        {
+          pairs.push_back({ from, to, 0 });
+        }
+      }
+    }
+    return pairs;
+  }
+  for (const std::string& text : plan.request.pairs)
+  {
+    Pair pair;
+    if (!parsePair(text, names, pair))
+    {
+      throw UsageError(
+        "--pairs: expected FROM:TO with names of cameras and maybe +N or -N frames, found " + quoted(text));
+    }
+    if (pair.from == pair.to && pair.offset == 0)
+    {
+      throw UsageError("--pairs: " + quoted(text) + " is a camera with itself at the same frame");
+    }
+    if (cameras.count(pair.from) == 0)
+    {
+      throw UsageError("--pairs: camera " + quoted(names[pair.from]) + " is not among those of --cameras");
+    }
+    pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+class CorrespondenceLayer final : public PairLayer
+{
+public:
+  LayerInfo info() const override
+  {
+    return { "correspondence", { "npy" }, "where each pixel's surface point is in other images, and its visibility" };
+  }
+  void check(const WorkPlan& plan, const Stage& stage) const override { pairsOf(plan, stage); }
+  std::vector<std::pair<std::string, std::string>> options(const GeneratorRequest& request) const override
+  {
+    std::string text;
+    for (const std::string& pair : request.pairs)
+    {
+      text += (text.empty() ? "" : ",") + pair;
+    }
+    return { { "pairs", text.empty() ? "all" : text } };
+  }
+
+protected:
+  LayerSpec valueSpec() const override { return positionSpec(); }
+  std::vector<PairTarget> targets(const WorkPlan& plan, const Stage& stage, const Job& job) const override
+  {
+    const std::vector<std::string> names = stage.cameraNames();
+    std::vector<PairTarget> all;
+    for (const Pair& pair : pairsOf(plan, stage))
+    {
+      const int frame = job.frame + pair.offset;
+      if (pair.from != job.camera || frame < stage.description().firstFrame() ||
+          frame > stage.description().lastFrame())
+      {
+        continue;
+      }
+      PairTarget target;
+      target.camera = pair.to;
+      target.frame = frame;
+      target.folder = "correspondence_" + names[pair.to];
+      if (pair.offset != 0)
+      {
+        target.folder += (pair.offset > 0 ? "+" : "") + std::to_string(pair.offset);
+      }
+      all.push_back(target);
+    }
+    return all;
+  }
+};
+
+/// Displacement of camera b along the x axis of camera a, when the two are a rectified pair; 0 otherwise.
+double rectifiedBaseline(const View& a, const View& b)
+{
+  const auto own = a.model->linear();
+  const auto other = b.model->linear();
+  if (!own || !other || !own->perspective || !other->perspective || a.model->width() != b.model->width() ||
+      a.model->height() != b.model->height())
+  {
+    return 0;
+  }
+  Eigen::Matrix3d difference = own->K - other->K;
+  difference(0, 2) = 0;
+  constexpr double same = 1e-9;
+  const Eigen::Matrix3d rotation = a.camera_from_world.rotation - b.camera_from_world.rotation;
+  // centre of b in the frame of a
+  const Eigen::Vector3d centre =
+    a.camera_from_world * Eigen::Vector3d(-b.camera_from_world.rotation.transpose() * b.camera_from_world.translation);
+  const bool rectified = difference.cwiseAbs().maxCoeff() <= same * own->K(0, 0) &&
+                         rotation.cwiseAbs().maxCoeff() <= same && std::abs(centre.x()) > 0 &&
+                         std::max(std::abs(centre.y()), std::abs(centre.z())) <= same * std::abs(centre.x());
+  return rectified ? centre.x() : 0;
+}
+
+struct Partner
+{
+  std::size_t camera = 0;
+  double baseline = 0; ///< its place on the x axis of the other
+};
+
+/// The nearest camera with which `camera` is a rectified pair at a frame.
+std::optional<Partner> rectifiedPartner(const WorkPlan& plan, const Stage& stage, std::size_t camera, int frame)
+{
+  const auto view = [&](std::size_t c) { return stage.view(c, frame, plan.request.width, plan.request.height); };
+  const View own = view(camera);
+  double nearest = std::numeric_limits<double>::infinity();
+  std::optional<Partner> partner;
+  for (std::size_t c = 0; c < stage.cameraNames().size(); ++c)
+  {
+    const double baseline = c == camera ? 0 : rectifiedBaseline(own, view(c));
+    if (baseline != 0 && std::abs(baseline) < nearest * (1 - 1e-9))
+    {
+      nearest = std::abs(baseline);
+      partner = Partner{ c, baseline };
+    }
+  }
+  return partner;
+}
+
+class DisparityLayer final : public PairLayer
+{
+public:
+  LayerInfo info() const override
+  {
+    return { "disparity", { "pfm", "npy", "exr" },
+      "x_left - x_right for cameras of rectified pairs, and visibility in the other image" };
+  }
+  void check(const WorkPlan& plan, const Stage& stage) const override
+  {
+    const bool any = std::any_of(plan.jobs.begin(), plan.jobs.end(),
+      [&](const Job& job) { return rectifiedPartner(plan, stage, job.camera, job.frame).has_value(); });
+    const auto& asked = plan.request.layers;
+    if (!any && std::find(asked.begin(), asked.end(), "disparity") != asked.end())
+    {
+      throw UsageError("layer disparity needs two cameras side by side: the same K but cx, the same orientation, "
+                       "displaced along the x axis; the scene has no such pair");
+    }
+  }
+
+protected:
+  LayerSpec valueSpec() const override { return disparitySpec(); }
+  std::vector<PairTarget> targets(const WorkPlan& plan, const Stage& stage, const Job& job) const override
+  {
+    const std::optional<Partner> partner = rectifiedPartner(plan, stage, job.camera, job.frame);
+    if (!partner)
+    {
+      return {};
+    }
+    PairTarget target;
+    target.camera = partner->camera;
+    target.frame = job.frame;
+    target.value = partner->baseline > 0 ? PairValue::FromLeft : PairValue::FromRight;
+    return { target };
+  }
+};
+
+/// The same camera at a neighbouring frame.
+class MotionLayer : public PairLayer
+{
+public:
+  MotionLayer(PairValue value, int step)
+    : Value(value)
+    , Step(step)
+  {
+  }
+  LayerInfo info() const override
+  {
+    if (this->Value == PairValue::Motion)
+    {
+      return { "sceneflow", { "npy", "exr" }, "3D motion of each pixel's surface point until the next frame" };
+    }
+    return { this->valueSpec().name, { "flo", "npy", "exr" },
+      this->Step > 0 ? "optical flow to the next frame, and visibility there"
+                     : "optical flow to the frame before, and visibility there" };
+  }
+
+protected:
+  LayerSpec valueSpec() const override
+  {
+    return this->Value == PairValue::Motion ? motionSpec() : flowSpec(this->Step > 0);
+  }
+  bool hasClasses() const override { return this->Value != PairValue::Motion; }
+  std::vector<PairTarget> targets(const WorkPlan&, const Stage& stage, const Job& job) const override
+  {
+    PairTarget target;
+    target.camera = job.camera;
+    target.frame = job.frame + this->Step;
+    target.value = this->Value;
+    if (target.frame < stage.description().firstFrame() || target.frame > stage.description().lastFrame())
+    {
+      return {};
+    }
+    return { target };
+  }
+
+private:
+  PairValue Value;
+  int Step;
+};
+} // namespace
+
+std::shared_ptr<const FrameLayer> makeCorrespondenceLayer();
+std::shared_ptr<const FrameLayer> makeCorrespondenceLayer() { return std::make_shared<CorrespondenceLayer>(); }
+
+std::shared_ptr<const FrameLayer> makeDisparityLayer();
+std::shared_ptr<const FrameLayer> makeDisparityLayer() { return std::make_shared<DisparityLayer>(); }
+
+std::shared_ptr<const FrameLayer> makeFlowForwardLayer();
+std::shared_ptr<const FrameLayer> makeFlowForwardLayer()
+{
+  return std::make_shared<MotionLayer>(PairValue::Displacement, 1);
+}
+
+std::shared_ptr<const FrameLayer> makeFlowBackwardLayer();
+std::shared_ptr<const FrameLayer> makeFlowBackwardLayer()
+{
+  return std::make_shared<MotionLayer>(PairValue::Displacement, -1);
+}
+
+std::shared_ptr<const FrameLayer> makeSceneFlowLayer();
+std::shared_ptr<const FrameLayer> makeSceneFlowLayer() { return std::make_shared<MotionLayer>(PairValue::Motion, 1); }
+
+} // namespace dgtk
