@@ -11,7 +11,9 @@ namespace dgtk::app
 Command renderCommand();
 Command infoCommand();
 Command convertCommand();
+Command correspondCommand();
 Command compareCommand();
+Command verifyCommand();
 Command listCommand();
 
 /// Text on standard output; MachineError when it cannot be written (a full disk behind a redirection).

@@ -16,7 +16,8 @@ using namespace dgtk::app;
 
 std::vector<Command> commands()
 {
-  return { renderCommand(), infoCommand(), convertCommand(), compareCommand(), listCommand() };
+  return { renderCommand(), infoCommand(), convertCommand(), verifyCommand(), correspondCommand(), compareCommand(),
+    listCommand() };
 }
 
 std::string overview()
@@ -25,7 +26,7 @@ std::string overview()
                      "Images and exact ground truth from described 3D scenes.\n\n";
   for (const Command& command : commands())
   {
-    text += "  " + command.name + std::string(10 - command.name.size(), ' ') + command.help + '\n';
+    text += "  " + command.name + std::string(12 - command.name.size(), ' ') + command.help + '\n';
   }
   return text + "\ndgtk COMMAND --help tells more; dgtk --version prints the version.\n";
 }

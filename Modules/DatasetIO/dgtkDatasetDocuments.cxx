@@ -98,6 +98,7 @@ std::string objectsText(std::vector<ObjectRecord> objects)
       .integer("id", object.id)
       .text("name", object.name)
       .text("class", object.objectClass)
+      .integer("class_id", object.classId)
       .text("model", object.model)
       .integer("triangles", static_cast<std::int64_t>(object.triangles))
       .line();

@@ -42,8 +42,9 @@ struct ObjectRecord
 {
   std::uint32_t id = 0; ///< value of the `objects` layer, >= 1
   std::string name;
-  std::string objectClass; ///< "class" in the file; may be empty
-  std::string model;       ///< path relative to the dataset, or the name of a built-in model
+  std::string objectClass;   ///< "class" in the file; may be empty
+  std::uint32_t classId = 0; ///< value of the `classes` layer, >= 1
+  std::string model;         ///< path relative to the dataset, or the name of a built-in model
   std::uint64_t triangles = 0;
 };
 

@@ -234,6 +234,7 @@ std::vector<ObjectRecord> readObjects(const std::string& path)
     object.id = std::uint32_t(item["id"].integer(1, std::numeric_limits<std::uint32_t>::max()));
     object.name = item["name"].text();
     object.objectClass = item["class"].text();
+    object.classId = std::uint32_t(item["class_id"].integer(1, std::numeric_limits<std::uint32_t>::max()));
     object.model = item["model"].text();
     object.triangles = item["triangles"].count();
     objects.push_back(object);

@@ -49,11 +49,13 @@ void predict(const unsigned char* __restrict raw, std::size_t bytes, unsigned ch
   }
 }
 
-/// OpenEXR 2 scan lines with ZIP compression and nothing in the header but what the format requires.
+/// OpenEXR 2 scan lines with ZIP compression and nothing in the header but what the format requires and
+/// LayerWriterContext::attributes.
 class ExrWriter : public LayerFileWriter
 {
 public:
-  ExrWriter(const std::string& path, const LayerSpec& spec, int width, int height)
+  ExrWriter(
+    const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
     : LayerFileWriter(path, spec, width, height)
     , Compressor(libdeflate_alloc_compressor(compressionLevel), &libdeflate_free_compressor)
     , Order(std::size_t(spec.channels))
@@ -64,11 +66,16 @@ public:
       throw MachineError(path + ": out of memory");
     }
     this->hashAtEnd();
-    const std::vector<std::string> names = channelNames(spec);
+    const std::vector<std::string> names = context.channels.empty() ? channelNames(spec) : context.channels;
+    if (names.size() != this->Order.size())
+    {
+      throw UsageError(path + ": " + std::to_string(names.size()) + " channel names for " +
+                       std::to_string(this->Order.size()) + " channels");
+    }
     std::iota(this->Order.begin(), this->Order.end(), 0);
     std::sort(this->Order.begin(), this->Order.end(),
       [&](int a, int b) { return names[std::size_t(a)] < names[std::size_t(b)]; });
-    this->writeHeader(names);
+    this->writeHeader(names, context.attributes);
     this->Chunk.reserve(this->ChunkBytes);
   }
 
@@ -118,7 +125,8 @@ private:
     header += value;
   }
 
-  void writeHeader(const std::vector<std::string>& names)
+  void writeHeader(
+    const std::vector<std::string>& names, const std::vector<std::pair<std::string, std::string>>& texts)
   {
     std::string channels;
     for (const int channel : this->Order)
@@ -146,6 +154,10 @@ private:
     attribute(header, "pixelAspectRatio", "float", one);
     attribute(header, "screenWindowCenter", "v2f", std::string(8, '\0'));
     attribute(header, "screenWindowWidth", "float", one);
+    for (const auto& [name, value] : texts)
+    {
+      attribute(header, name.c_str(), "string", value);
+    }
     header.push_back('\0');
     this->TableStart = header.size();
     // the offsets of the chunks are known at the end
@@ -192,13 +204,14 @@ private:
 
 bool canWriteExr(const LayerSpec& spec)
 {
-  return (spec.type == PixelType::Float32 || spec.type == PixelType::Float64) && spec.channels <= 4;
+  return (spec.type == PixelType::Float32 || spec.type == PixelType::Float64) &&
+         (spec.channels <= 4 || spec.name == "coverage");
 }
 
 std::unique_ptr<LayerWriter> openExr(
-  const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext&)
+  const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
 {
-  return std::make_unique<ExrWriter>(path, spec, width, height);
+  return std::make_unique<ExrWriter>(path, spec, width, height, context);
 }
 } // namespace
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dgtk
@@ -31,6 +32,8 @@ struct LayerWriterContext
   Eigen::Matrix4d modelView = Eigen::Matrix4d::Identity();  ///< OpenGL, for .dgd
   double near = 0;                                          ///< range of the 8-bit depth picture
   double far = 0;
+  std::vector<std::string> channels; ///< names of the channels in .exr, one a channel; empty: those of the layer
+  std::vector<std::pair<std::string, std::string>> attributes; ///< further text in the header of .exr
 };
 
 /// Writes one image file while it is produced. Rows come strictly top to bottom, in blocks of any height; memory stays

@@ -40,6 +40,10 @@ DGTKGROUNDTRUTH_EXPORT const std::vector<RepresentationInfo>& representations();
 /// The representation of a layer. Throws UsageError for an unknown one.
 DGTKGROUNDTRUTH_EXPORT std::unique_ptr<Representation> makeRepresentation(const std::string& layer);
 
+/// Class id of each object of a state, from 1 in the order in which the classes first appear; objects without a class
+/// share the class of the empty name.
+DGTKGROUNDTRUTH_EXPORT std::vector<std::uint32_t> classIds(const SceneState& state);
+
 } // namespace dgtk
 
 #endif

@@ -55,6 +55,7 @@ std::vector<ObjectRecord> objectRecords(const Stage& stage, int frame, const std
 {
   namespace fs = std::filesystem;
   const std::shared_ptr<const SceneState> state = stage.at(frame);
+  const std::vector<std::uint32_t> classes = classIds(*state);
   std::vector<ObjectRecord> records;
   for (std::size_t i = 0; i < state->instances.size(); ++i)
   {
@@ -63,6 +64,7 @@ std::vector<ObjectRecord> objectRecords(const Stage& stage, int frame, const std
     record.id = static_cast<std::uint32_t>(i + 1);
     record.name = instance.name;
     record.objectClass = instance.className;
+    record.classId = classes[i];
     record.model = fs::relative(fs::absolute(instance.model->path), fs::absolute(folder)).generic_string();
     record.triangles = instance.model->triangles.size();
     records.push_back(record);

@@ -7,18 +7,24 @@ namespace dgtk
 // One file each defines its maker.
 std::shared_ptr<const FrameLayer> makeCorrespondenceLayer();
 std::shared_ptr<const FrameLayer> makeDisparityLayer();
+std::shared_ptr<const FrameLayer> makeEdgesLayer();
 std::shared_ptr<const FrameLayer> makeFlowForwardLayer();
 std::shared_ptr<const FrameLayer> makeFlowBackwardLayer();
 std::shared_ptr<const FrameLayer> makeSceneFlowLayer();
+std::shared_ptr<const FrameLayer> makeAlphaLayer();
+std::shared_ptr<const FrameLayer> makeCoverageLayer();
 
 const std::vector<std::shared_ptr<const FrameLayer>>& frameLayers()
 {
   static const std::vector<std::shared_ptr<const FrameLayer>> all{
+    makeEdgesLayer(),
     makeCorrespondenceLayer(),
     makeDisparityLayer(),
     makeFlowForwardLayer(),
     makeFlowBackwardLayer(),
     makeSceneFlowLayer(),
+    makeAlphaLayer(),
+    makeCoverageLayer(),
   };
   return all;
 }

@@ -82,13 +82,7 @@ private:
     {
       target.spec = this->valueSpec();
       target.folder = target.folder.empty() ? name : target.folder;
-      for (const PlannedFrameLayer& planned : plan.frameLayers)
-      {
-        if (planned.layer->info().layer == name)
-        {
-          target.formats = planned.formats;
-        }
-      }
+      target.formats = plan.formatsOf(name);
     }
     return all;
   }

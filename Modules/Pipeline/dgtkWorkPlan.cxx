@@ -211,6 +211,18 @@ std::shared_ptr<const FrameLayer> frameLayerOf(const std::string& name)
 }
 } // namespace
 
+std::vector<std::string> WorkPlan::formatsOf(const std::string& frameLayer) const
+{
+  for (const PlannedFrameLayer& planned : this->frameLayers)
+  {
+    if (planned.layer->info().layer == frameLayer)
+    {
+      return planned.formats;
+    }
+  }
+  return {};
+}
+
 WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
 {
   const SceneDescription& scene = stage.description();

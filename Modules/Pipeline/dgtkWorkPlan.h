@@ -57,6 +57,8 @@ struct WorkPlan
   bool needsHits() const { return !this->representations.empty() || !this->frameLayers.empty(); }
   /// Whether a layer is among those asked for.
   bool has(const std::string& layer) const;
+  /// File formats of a frame layer; empty when it is not asked for.
+  std::vector<std::string> formatsOf(const std::string& frameLayer) const;
   /// Specification of the colour layer in a format.
   LayerSpec colorSpec(const std::string& format) const;
   /// Relative paths of the files of the tiles layer, in the order in which they are completed.

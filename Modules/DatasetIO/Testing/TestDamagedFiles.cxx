@@ -199,6 +199,7 @@ TEST(DamagedDocuments, AreRefusedOrRead)
   camera.far = 10;
   ObjectRecord object;
   object.id = 1;
+  object.classId = 1;
   Manifest manifest;
   manifest.request = { { "layers", "color" } };
   manifest.files = { { "cameras.json", 12, std::string(64, 'a'), "", "", -1 } };

@@ -158,12 +158,13 @@ TEST(Cameras, RoundTripIsExactAndSorted)
 TEST(Objects, RoundTrip)
 {
   const TemporaryFolder folder;
-  const std::string text = objectsText({ { 2, "b\xff", "", "m.obj", 7 }, { 1, "\xc3\xa4", "tree", "t.ac", 12 } });
-  EXPECT_EQ(text,
-    "{\n  \"objects\": [\n"
-    "    {\"id\": 1, \"name\": \"\xc3\xa4\", \"class\": \"tree\", \"model\": \"t.ac\", \"triangles\": 12},\n"
-    "    {\"id\": 2, \"name\": \"b\xef\xbf\xbd\", \"class\": \"\", \"model\": \"m.obj\", \"triangles\": 7}\n"
-    "  ]\n}\n");
+  const std::string text = objectsText({ { 2, "b\xff", "", 2, "m.obj", 7 }, { 1, "\xc3\xa4", "tree", 1, "t.ac", 12 } });
+  EXPECT_EQ(text, "{\n  \"objects\": [\n"
+                  "    {\"id\": 1, \"name\": \"\xc3\xa4\", \"class\": \"tree\", \"class_id\": 1, \"model\": \"t.ac\", "
+                  "\"triangles\": 12},\n"
+                  "    {\"id\": 2, \"name\": \"b\xef\xbf\xbd\", \"class\": \"\", \"class_id\": 2, \"model\": "
+                  "\"m.obj\", \"triangles\": 7}\n"
+                  "  ]\n}\n");
   writeFile(folder.path("objects.json"), text);
   EXPECT_EQ(objectsText(readObjects(folder.path("objects.json"))), text);
 }

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands.h"
+
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkSparseCorrespondence.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iostream>
+#include <iterator>
+
+namespace dgtk::app
+{
+
+namespace
+{
+constexpr int largestImage = 1 << 20;
+const char* const classNames[] = { "no surface", "visible", "occluded", "self-occluded", "outside", "behind" };
+
+/// "CAM" or "CAM@FRAME"; a name may hold an @.
+void parseView(const std::string& text, const std::string& option, const Stage& stage, std::size_t& camera, int& frame)
+{
+  const std::vector<std::string> names = stage.cameraNames();
+  const SceneDescription& scene = stage.description();
+  frame = scene.firstFrame();
+  auto found = std::find(names.begin(), names.end(), text);
+  const std::size_t at = text.rfind('@');
+  if (found == names.end() && at != std::string::npos)
+  {
+    found = std::find(names.begin(), names.end(), text.substr(0, at));
+    frame = parseInteger(text.substr(at + 1), option + ": frame", scene.firstFrame(), scene.lastFrame());
+  }
+  if (found == names.end())
+  {
+    throw UsageError(option + ": the scene has no camera " + quoted(text.substr(0, at)));
+  }
+  camera = static_cast<std::size_t>(found - names.begin());
+}
+
+bool isSeparator(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; }
+
+/// Two numbers a line, separated by blanks or a comma; empty lines and what follows a # do not count.
+std::vector<Eigen::Vector2d> parsePoints(const std::string& text, const std::string& name)
+{
+  std::vector<Eigen::Vector2d> points;
+  int number = 0;
+  for (std::size_t begin = 0; begin < text.size();)
+  {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string line = text.substr(begin, end - begin);
+    begin = end + 1;
+    ++number;
+    line = line.substr(0, line.find('#'));
+    std::vector<double> values;
+    const char* at = line.data();
+    const char* const stop = line.data() + line.size();
+    for (at = std::find_if_not(at, stop, isSeparator); at != stop; at = std::find_if_not(at, stop, isSeparator))
+    {
+      double value = 0;
+      const auto [next, error] = std::from_chars(at, stop, value);
+      if (error != std::errc() || !std::isfinite(value) || (next != stop && !isSeparator(*next)))
+      {
+        throw InputError(name, number, "is not a point (expected two numbers, found " + dgtk::quoted(line) + ')');
+      }
+      values.push_back(value);
+      at = next;
+    }
+    if (values.size() == 2)
+    {
+      points.emplace_back(values[0], values[1]);
+    }
+    else if (!values.empty())
+    {
+      throw InputError(
+        name, number, "is not a point (expected two numbers, found " + std::to_string(values.size()) + ')');
+    }
+  }
+  return points;
+}
+
+std::string shortest(double value)
+{
+  char text[32];
+  return std::isnan(value) ? "nan" : std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+
+std::string asText(const std::vector<SparseMatch>& matches)
+{
+  std::string text = "# x y x' y' class object\n";
+  for (const SparseMatch& match : matches)
+  {
+    text += shortest(match.from.x()) + ' ' + shortest(match.from.y()) + ' ' + shortest(match.to.pixel.x()) + ' ' +
+            shortest(match.to.pixel.y()) + ' ' + std::to_string(static_cast<int>(match.to.visibility)) + ' ' +
+            std::to_string(match.hit.object) + '\n';
+  }
+  return text;
+}
+
+std::string asJson(const std::vector<SparseMatch>& matches, const Stage& stage)
+{
+  const std::vector<std::string> objects = stage.objectNames();
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const SparseMatch& match : matches)
+  {
+    nlohmann::ordered_json item;
+    item["from"] = { match.from.x(), match.from.y() };
+    const bool somewhere = std::isfinite(match.to.pixel.x());
+    item["to"] = somewhere ? nlohmann::ordered_json{ match.to.pixel.x(), match.to.pixel.y() } : nullptr;
+    const int kind = static_cast<int>(match.to.visibility);
+    item["class"] = kind;
+    item["visibility"] = classNames[kind];
+    item["object"] = match.hit.object;
+    if (match.hit.object != 0)
+    {
+      item["name"] = objects[match.hit.object - 1];
+    }
+    list.push_back(item);
+  }
+  return nlohmann::ordered_json{ { "matches", list } }.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+         '\n';
+}
+
+int run(const Arguments& arguments)
+{
+  for (const char* const option : { "--from", "--to", "--points" })
+  {
+    if (!arguments.has(option))
+    {
+      throw UsageError(std::string("correspond needs ") + option + " (see dgtk correspond --help)");
+    }
+  }
+  const auto stage = Stage::load(readScene(arguments.positional()[0]),
+    [](const std::string& line) { std::cerr << "dgtk: warning: " << line << '\n'; });
+  SparseRequest request;
+  parseView(arguments.text("--from"), "--from", *stage, request.fromCamera, request.fromFrame);
+  parseView(arguments.text("--to"), "--to", *stage, request.toCamera, request.toFrame);
+  if (arguments.has("--size"))
+  {
+    arguments.size("--size", largestImage, request.width, request.height);
+  }
+  const std::string file = arguments.text("--points");
+  const std::string text = file == "-"
+                             ? std::string(std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>())
+                             : readFile(file);
+  const std::vector<SparseMatch> matches =
+    correspondPoints(*stage, request, parsePoints(text, file == "-" ? "standard input" : file));
+  print(arguments.has("--json") ? asJson(matches, *stage) : asText(matches));
+  return 0;
+}
+} // namespace
+
+Command correspondCommand()
+{
+  Command command{ "correspond", "SCENE", 1, 1,
+    "Finds where image points of one view are in another, and whether they are seen there.", {}, &run };
+  command.options = { { "--from", "CAM[@FRAME]", "", "first view (default frame: the scene's first)" },
+    { "--to", "CAM[@FRAME]", "", "second view" },
+    { "--points", "FILE|-", "", "image points x y, one a line, in pixels; - reads standard input" },
+    { "--size", "WxH", "", "size of the images in pixels (default: the camera's own, else 640x480)" },
+    { "--json", "", "", "print JSON" } };
+  return command;
+}
+
+} // namespace dgtk::app
