@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands.h"
+
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkVerification.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+namespace dgtk::app
+{
+
+namespace
+{
+constexpr int MostThreads = 1024;
+
+int run(const Arguments& arguments)
+{
+  std::string folder = arguments.positional()[0];
+  while (folder.size() > 1 && folder.back() == '/')
+  {
+    folder.pop_back();
+  }
+  const int threads = arguments.has("--threads") ? arguments.integer("--threads", 1, MostThreads)
+                                                 : std::max(1, int(std::thread::hardware_concurrency()));
+  if (!std::filesystem::exists(folder + "/manifest.json"))
+  {
+    throw InputError(folder, 0, "is not a dataset", "a folder with manifest.json");
+  }
+  const VerificationReport report = verifyDataset(folder, threads);
+  if (arguments.has("--write"))
+  {
+    writeFile(folder + "/verification.json", verificationText(report));
+  }
+  print(arguments.has("--json") ? verificationText(report) : verificationTable(report));
+  if (const Residual* breach = report.firstBreach())
+  {
+    std::fprintf(stderr, "dgtk: %s\n", (folder + '/' + describe(*breach)).c_str());
+  }
+  return static_cast<int>(report.passed() ? ExitCode::Done : ExitCode::Difference);
+}
+} // namespace
+
+Command verifyCommand()
+{
+  return { "verify", "DIR", 1, 1, "Derives anew what a dataset claims, prints residuals; exits with 1 on a breach.",
+    { { "--json", "", "", "print one JSON object" }, { "--write", "", "", "also write DIR/verification.json" },
+      { "--threads", "N", "all processors", "threads to work with" } },
+    &run };
+}
+
+} // namespace dgtk::app

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkCheck_h
+#define dgtkCheck_h
+
+// Private to Verification.
+
+#include "dgtkMeter.h"
+#include "dgtkPicture.h"
+
+namespace dgtk
+{
+
+/// One check: once for the dataset, or for each picture. Either function may be null. What throws an Error is a file
+/// that cannot be used.
+struct Check
+{
+  const char* name;
+  void (*ofDataset)(Dataset&, Results&);
+  void (*ofPicture)(Picture&, Results&);
+};
+
+void checkHashes(Dataset& dataset, Results& results);
+void checkCameras(Dataset& dataset, Results& results);
+void checkDepth(Picture& picture, Results& results);
+void checkObjects(Picture& picture, Results& results);
+void checkCalibration(Picture& picture, Results& results);
+void checkGeometry(Picture& picture, Results& results);
+
+} // namespace dgtk
+
+#endif

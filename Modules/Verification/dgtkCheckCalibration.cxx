@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCheck.h"
+
+#include "dgtkError.h"
+
+#include <opencv2/calib3d.hpp>
+
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+/// Pixels.
+constexpr double CalibrationTolerance = 1e-6;
+
+/// World points of the pixels of a row: the position of the file, or the depth unprojected.
+struct RowPoints
+{
+  std::vector<int> columns;
+  std::vector<cv::Point3d> points;
+};
+
+class Points
+{
+public:
+  explicit Points(Picture& picture)
+    : Owner(picture)
+    , Position(picture.quietly([&] { return picture.values("position"); }))
+    , Depth(picture.quietly([&] { return picture.values("depth"); }))
+  {
+    if (this->Position && this->Position->type() != PixelType::Float64)
+    {
+      this->Position = nullptr;
+    }
+    if (this->Depth && this->Depth->type() != PixelType::Float64)
+    {
+      this->Depth = nullptr;
+    }
+  }
+  const PictureFile* file() const { return this->Position ? this->Position.get() : this->Depth.get(); }
+  RowPoints row(int y) const
+  {
+    RowPoints row;
+    for (int x = 0; x < this->Owner.width(); ++x)
+    {
+      const Eigen::Vector3d X =
+        this->Position ? this->Position->at3(x, y)
+                       : this->Owner.eye().toWorld(this->Owner.eye().at(centreOf(x, y), this->Depth->at(x, y)));
+      if (X.allFinite())
+      {
+        row.columns.push_back(x);
+        row.points.emplace_back(X.x(), X.y(), X.z());
+      }
+    }
+    return row;
+  }
+
+private:
+  Picture& Owner;
+  PicturePointer Position;
+  PicturePointer Depth;
+};
+
+using Project = std::function<std::vector<cv::Point2d>(const std::vector<cv::Point3d>&)>;
+
+/// The points of each pixel, projected, must give its centre.
+Meter checkPoints(Picture& picture, const Points& points, const std::string& file, const Project& project)
+{
+  return meterRows(picture.pool(), picture.height(), CalibrationTolerance,
+    [&](int y, Meter& meter)
+    {
+      const RowPoints row = points.row(y);
+      if (row.points.empty())
+      {
+        return;
+      }
+      const std::vector<cv::Point2d> projected = project(row.points);
+      for (std::size_t i = 0; i < projected.size(); ++i)
+      {
+        const cv::Point2d centre(row.columns[i] + 0.5, y + 0.5);
+        meter.add(cv::norm(projected[i] - centre),
+          [&] {
+            return Offender{ file, row.columns[i], y, numbersText(&projected[i].x, 2), numbersText(&centre.x, 2) };
+          });
+      }
+    });
+}
+
+void checkOpenCV(Picture& picture, const Points& points, Results& results)
+{
+  const CameraRecord& camera = picture.eye().record();
+  cv::Matx33d K;
+  cv::Matx33d R;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      K(i, j) = camera.K(i, j);
+      R(i, j) = camera.R(i, j);
+    }
+  }
+  if (K(0, 1) != 0) // projectPoints knows no skew
+  {
+    return;
+  }
+  cv::Vec3d rotation;
+  cv::Rodrigues(R, rotation);
+  const cv::Vec3d translation(camera.t.x(), camera.t.y(), camera.t.z());
+  results.add("cv::projectPoints", "pixel",
+    checkPoints(picture, points, points.file()->file(),
+      [&](const std::vector<cv::Point3d>& world)
+      {
+        std::vector<cv::Point2d> projected;
+        cv::projectPoints(world, rotation, translation, K, cv::noArray(), projected);
+        return projected;
+      }));
+}
+
+void checkThesis(Picture& picture, const Points& points, const std::string& file, Results& results)
+{
+  const Calibration calibration = readCalibration(picture.dataset().absolute(file));
+  const Eigen::Matrix<double, 3, 4> matrix = calibration.cameraMatrix();
+  results.add("thesis", "pixel",
+    checkPoints(picture, points, file,
+      [&](const std::vector<cv::Point3d>& world)
+      {
+        std::vector<cv::Point2d> projected;
+        for (const cv::Point3d& X : world)
+        {
+          const Eigen::Vector3d p = matrix * Eigen::Vector4d(X.x, X.y, X.z, 1);
+          projected.emplace_back(p.x() / p.z(), picture.height() - p.y() / p.z());
+        }
+        return projected;
+      }));
+  // The same calibration as cameras.json, entry by entry.
+  Meter meter(1e-9);
+  const OpenGLMatrices matrices = openGLMatrices(picture.eye().view());
+  const Calibration expected =
+    makeCalibration(matrices.projection, matrices.modelView, picture.width(), picture.height());
+  const auto compare = [&](const auto& found, const auto& right)
+  {
+    int i = 0;
+    int j = 0;
+    const double error = (found - right).cwiseAbs().maxCoeff(&i, &j) / std::max(1.0, right.cwiseAbs().maxCoeff());
+    meter.add(error, [&] { return Offender{ file, -1, -1, numberText(found(i, j)), numberText(right(i, j)) }; });
+  };
+  compare(calibration.K, expected.K);
+  compare(calibration.Rt, expected.Rt);
+  const auto viewport = [](const Calibration& c) { return Eigen::Vector4d(c.x, c.y, c.width, c.height); };
+  compare(viewport(calibration), viewport(expected));
+  results.add("calibration", "relative", meter);
+}
+} // namespace
+
+void checkCalibration(Picture& picture, Results& results)
+{
+  const Points points(picture);
+  const std::string text = picture.dataset().find(picture.camera(), "calibration", picture.frame(), { ".txt" });
+  if (points.file() && picture.eye().pinhole())
+  {
+    checkOpenCV(picture, points, results);
+  }
+  if (points.file() && picture.eye().linear() && !text.empty())
+  {
+    checkThesis(picture, points, text, results);
+  }
+}
+
+} // namespace dgtk

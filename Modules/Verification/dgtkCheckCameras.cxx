@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCheck.h"
+
+#include <algorithm>
+
+namespace dgtk
+{
+
+namespace
+{
+/// Difference of matrices relative to the larger of 1 and the expected one's largest value.
+template <typename M>
+double relative(const M& found, const M& expected)
+{
+  return (found - expected).cwiseAbs().maxCoeff() / std::max(1.0, expected.cwiseAbs().maxCoeff());
+}
+
+/// cameras.json against the scene.
+class CameraCheck
+{
+public:
+  CameraCheck(const CameraRecord& record, const View& view, Meter& meter)
+    : Record(record)
+    , Scene(view)
+    , TheMeter(meter)
+  {
+  }
+  void run()
+  {
+    const auto linear = this->Scene.model->linear();
+    if (linear)
+    {
+      this->matrix("K", this->Record.K, linear->K);
+    }
+    this->matrix("R", this->Record.R, this->Scene.camera_from_world.rotation);
+    this->matrix("t", this->Record.t, this->Scene.camera_from_world.translation);
+    this->number("near", this->Record.near, this->Scene.near);
+    this->number("far", this->Record.far, this->Scene.far);
+    this->TheMeter.equal(this->Record.model == this->Scene.model->name(),
+      [&] { return this->offender("model", this->Record.model, this->Scene.model->name()); });
+    const Eigen::Matrix3d square = this->Record.R * this->Record.R.transpose();
+    this->matrix<Eigen::Matrix3d>("R R^T", square, Eigen::Matrix3d::Identity());
+  }
+
+private:
+  Offender offender(const char* key, const std::string& found, const std::string& expected) const
+  {
+    const std::string who = "camera '" + this->Record.name + "' frame " + std::to_string(this->Record.frame);
+    return { "cameras.json", -1, -1, who + ' ' + key + ' ' + found, expected };
+  }
+  template <typename M>
+  void matrix(const char* key, const M& found, const M& expected)
+  {
+    int i = 0;
+    int j = 0;
+    (found - expected).cwiseAbs().maxCoeff(&i, &j);
+    this->TheMeter.add(relative<M>(found, expected),
+      [&] { return this->offender(key, numberText(found(i, j)), numberText(expected(i, j))); });
+  }
+  void number(const char* key, double found, double expected)
+  {
+    this->TheMeter.add(found == expected ? 0 : (found - expected) / expected,
+      [&] { return this->offender(key, numberText(found), numberText(expected)); });
+  }
+
+  const CameraRecord& Record;
+  const View& Scene;
+  Meter& TheMeter;
+};
+
+void checkObjects(Dataset& dataset, Meter& meter)
+{
+  const int frame = dataset.cameras().empty() ? 0 : dataset.cameras().front().frame;
+  const std::vector<Instance>& instances = dataset.state(frame)->instances;
+  const std::vector<ObjectRecord>& objects = dataset.objects();
+  meter.equal(objects.size() == instances.size(),
+    [&]
+    {
+      return Offender{ "objects.json", -1, -1, std::to_string(objects.size()) + " objects",
+        std::to_string(instances.size()) };
+    });
+  for (std::size_t i = 0; i < std::min(objects.size(), instances.size()); ++i)
+  {
+    const auto text = [](std::uint64_t id, const std::string& name, const std::string& type, std::uint64_t triangles)
+    { return std::to_string(id) + " '" + name + "' '" + type + "' " + std::to_string(triangles) + " triangles"; };
+    const std::string found = text(objects[i].id, objects[i].name, objects[i].objectClass, objects[i].triangles);
+    const std::string expected =
+      text(i + 1, instances[i].name, instances[i].className, instances[i].model->triangles.size());
+    meter.equal(found == expected, [&] { return Offender{ "objects.json", -1, -1, found, expected }; });
+  }
+}
+} // namespace
+
+void checkCameras(Dataset& dataset, Results& results)
+{
+  Meter cameras(1e-9);
+  for (const CameraRecord& record : dataset.cameras())
+  {
+    CameraCheck(record, dataset.sceneView(record), cameras).run();
+  }
+  results.add("cameras", "relative", cameras);
+  Meter objects(0);
+  checkObjects(dataset, objects);
+  results.add("objects", "", objects);
+}
+
+} // namespace dgtk

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCheck.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr double Nan = std::numeric_limits<double>::quiet_NaN();
+
+/// A seen surface point.
+struct Point
+{
+  const Sight& sight;
+  Hit hit;
+  Eigen::Vector2d pixel;
+  Eigen::Vector3d x_in_camera;
+};
+
+/// Writes the expected channels and returns the residual of the found ones; negative: left open.
+using Measure = double (*)(const Point& point, const double* found, double* expected);
+
+struct GeometryLayer
+{
+  const char* name;
+  int channels;
+  double tolerance; ///< of float64 files
+  double narrow;    ///< of float32 files
+  const char* unit;
+  double invalid; ///< where there is no surface
+  Measure measure;
+};
+
+double largest(const double* found, const double* expected, int count)
+{
+  double most = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    const double difference = std::abs(found[i] - expected[i]);
+    most = difference <= most ? most : difference; // NaN stays
+  }
+  return most;
+}
+
+void put(const Eigen::Vector3d& value, double* to) { Eigen::Map<Eigen::Vector3d>(to, 3) = value; }
+
+double distanceOf(const Point& p, const double* found, double* expected)
+{
+  *expected = p.x_in_camera.norm();
+  return (*found - *expected) / *expected;
+}
+
+double inverseDepthOf(const Point& p, const double* found, double* expected)
+{
+  *expected = 1 / p.x_in_camera.z();
+  return (*found - *expected) / *expected;
+}
+
+double positionOf(const Point& p, const double* found, double* expected)
+{
+  const Eigen::Vector3d world = p.sight.eye().toWorld(p.x_in_camera);
+  put(world, expected);
+  return largest(found, expected, 3) /
+         std::max({ world.norm(), p.x_in_camera.norm(), p.sight.eye().record().t.norm() });
+}
+
+double objectCoordinatesOf(const Point& p, const double* found, double* expected)
+{
+  const Affine3& camera_from_object = p.sight.cameraFromObject(p.hit.object);
+  const Eigen::Matrix3d inverse = camera_from_object.linear.inverse();
+  const Eigen::Vector3d own = inverse * (p.x_in_camera - camera_from_object.translation);
+  put(own, expected);
+  if (!own.allFinite()) // a flattened object
+  {
+    return -1;
+  }
+  // Compared in the camera's frame, where the depth is known.
+  const Eigen::Vector3d back = camera_from_object * Eigen::Vector3d(found[0], found[1], found[2]);
+  return (back - p.x_in_camera).norm() / std::max(p.x_in_camera.norm(), camera_from_object.translation.norm());
+}
+
+/// Sine of the smallest angle of a triangle below which its normal has no digits to compare.
+constexpr double SliverSine = 1e-6;
+
+double normalOf(const Point& p, const double* found, double* expected)
+{
+  Eigen::Vector3d corner[3];
+  p.sight.corners(p.hit, corner);
+  const Eigen::Vector3d n = p.sight.normal(p.hit);
+  const double longest = std::max({ (corner[1] - corner[0]).squaredNorm(), (corner[2] - corner[0]).squaredNorm(),
+    (corner[2] - corner[1]).squaredNorm() });
+  const Eigen::Vector3d unit = n.stableNormalized();
+  const Eigen::Vector3d direction = p.sight.eye().ray(p.pixel).direction.normalized();
+  const double cosine = unit.dot(direction);
+  put(cosine > 0 ? Eigen::Vector3d(-unit) : unit, expected);
+  if (!(n.norm() > SliverSine * longest) || std::abs(cosine) < 1e-9)
+  {
+    return -1;
+  }
+  return largest(found, expected, 3);
+}
+
+double shadingNormalOf(const Point& p, const double* found, double* expected)
+{
+  const Instance& instance = p.sight.instance(p.hit.object);
+  const auto& triangle = instance.model->triangles[p.hit.triangle];
+  const Eigen::Vector3d weight = p.sight.weights(p.hit, p.x_in_camera);
+  Eigen::Vector3d sum(0, 0, 0);
+  for (int i = 0; i < 3; ++i)
+  {
+    sum += weight[i] * instance.geometry->normals[triangle[i]].cast<double>();
+  }
+  const Eigen::Matrix3d& linear = p.sight.cameraFromObject(p.hit.object).linear;
+  Eigen::Vector3d unit = (linear.inverse().transpose() * sum).stableNormalized();
+  const Eigen::Vector3d given(found[0], found[1], found[2]);
+  unit = unit.dot(given) < 0 ? Eigen::Vector3d(-unit) : unit;
+  put(unit, expected);
+  if (!(sum.norm() > 1e-3)) // normals that cancel each other
+  {
+    return -1;
+  }
+  return largest(found, expected, 3);
+}
+
+double uvOf(const Point& p, const double* found, double* expected)
+{
+  const Model& model = *p.sight.instance(p.hit.object).model;
+  if (model.uvs.empty())
+  {
+    expected[0] = expected[1] = Nan;
+    return std::isnan(found[0]) && std::isnan(found[1]) ? 0 : Infinite;
+  }
+  const auto& triangle = model.triangles[p.hit.triangle];
+  const Eigen::Vector3d weight = p.sight.weights(p.hit, p.x_in_camera);
+  const Eigen::Vector2d uv =
+    weight[0] * model.uvs[triangle[0]] + weight[1] * model.uvs[triangle[1]] + weight[2] * model.uvs[triangle[2]];
+  expected[0] = uv.x();
+  expected[1] = uv.y();
+  double size = 1;
+  for (const std::uint32_t corner : triangle)
+  {
+    size = std::max(size, model.uvs[corner].cwiseAbs().maxCoeff());
+  }
+  return largest(found, expected, 2) / size;
+}
+
+double barycentricsOf(const Point& p, const double* found, double* expected)
+{
+  put(p.sight.weights(p.hit, p.x_in_camera), expected);
+  Eigen::Vector3d corner[3];
+  p.sight.corners(p.hit, corner);
+  const Eigen::Vector3d point = found[0] * corner[0] + found[1] * corner[1] + found[2] * corner[2];
+  const double size = std::max({ p.x_in_camera.norm(), corner[0].norm(), corner[1].norm(), corner[2].norm() });
+  return std::max((point - p.x_in_camera).norm() / size, std::abs(found[0] + found[1] + found[2] - 1));
+}
+
+constexpr GeometryLayer Layers[] = {
+  { "distance", 1, 1e-9, 1e-6, "relative", Infinite, distanceOf },
+  { "inversedepth", 1, 1e-9, 1e-6, "relative", 0, inverseDepthOf },
+  { "position", 3, 1e-9, 1e-6, "relative", Nan, positionOf },
+  { "objectcoords", 3, 1e-9, 1e-6, "relative", Nan, objectCoordinatesOf },
+  { "normal", 3, 1e-6, 1e-6, "1", Nan, normalOf },
+  { "shadingnormal", 3, 1e-6, 1e-6, "1", Nan, shadingNormalOf },
+  { "uv", 2, 1e-6, 1e-6, "1", Nan, uvOf },
+  { "barycentrics", 3, 1e-9, 1e-6, "relative", Nan, barycentricsOf },
+};
+
+bool isInvalid(const double* found, const GeometryLayer& layer)
+{
+  for (int i = 0; i < layer.channels; ++i)
+  {
+    if (!(found[i] == layer.invalid || (std::isnan(found[i]) && std::isnan(layer.invalid))))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void checkPixel(Picture& picture, const Surfaces& surfaces, const PictureFile& file, const GeometryLayer& layer, int x,
+  int y, Meter& meter)
+{
+  const std::size_t i = surfaces.index(x, y);
+  double found[3] = { 0, 0, 0 };
+  double expected[3] = { layer.invalid, layer.invalid, layer.invalid };
+  for (int c = 0; c < layer.channels; ++c)
+  {
+    found[c] = file.at(x, y, c);
+  }
+  const auto where = [&]
+  { return file.offender(x, y, numbersText(found, layer.channels), numbersText(expected, layer.channels)); };
+  const Hit& hit = surfaces.hits[i];
+  if (hit.object == 0)
+  {
+    meter.equal(isInvalid(found, layer), where);
+    return;
+  }
+  const auto measure = [&](const Hit& surface) {
+    return layer.measure({ picture.sight(), surface, centreOf(x, y), picture.point(x, y) }, found, expected);
+  };
+  double error = measure(hit);
+  if (!(error <= meter.Tolerance) && meter.Bad < Patience)
+  {
+    // Beside an edge the files may show the neighbour.
+    for (const Hit& neighbour : picture.nearby(x, y))
+    {
+      error = neighbour.object == hit.object && measure(neighbour) <= meter.Tolerance ? -1 : error;
+    }
+    measure(hit);
+  }
+  if (error < 0)
+  {
+    meter.skip();
+    return;
+  }
+  meter.add(error, where);
+}
+} // namespace
+
+void checkGeometry(Picture& picture, Results& results)
+{
+  for (const GeometryLayer& layer : Layers)
+  {
+    for (const char* suffix : { ".npy", ".exr", ".pfm" })
+    {
+      const PicturePointer file = picture.image(layer.name, { suffix });
+      if (!file || file->channels() != layer.channels)
+      {
+        continue;
+      }
+      picture.preparePoints();
+      const Surfaces& surfaces = picture.surfaces();
+      const bool narrow = file->type() == PixelType::Float32;
+      const Meter meter = meterRows(picture.pool(), picture.height(), narrow ? layer.narrow : layer.tolerance,
+        [&](int y, Meter& row)
+        {
+          for (int x = 0; x < picture.width(); ++x)
+          {
+            checkPixel(picture, surfaces, *file, layer, x, y, row);
+          }
+        });
+      results.add(
+        std::string(layer.name) + (narrow && layer.narrow != layer.tolerance ? suffix : ""), layer.unit, meter);
+    }
+  }
+}
+
+} // namespace dgtk

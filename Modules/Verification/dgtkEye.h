@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkEye_h
+#define dgtkEye_h
+
+// Private to Verification.
+
+#include "dgtkCameraModel.h"
+#include "dgtkDatasetDocuments.h"
+
+#include <memory>
+
+namespace dgtk
+{
+
+/// A camera of cameras.json with arithmetic of its own for the linear models. Other models are asked for their rays
+/// and projections.
+class Eye
+{
+public:
+  /// `model` is used unless the record's model is "pinhole" or "orthographic". Throws UsageError for a K that no camera
+  /// has.
+  Eye(const CameraRecord& record, std::shared_ptr<const CameraModel> model);
+
+  const CameraRecord& record() const { return this->Record; }
+  int width() const { return this->Record.width; }
+  int height() const { return this->Record.height; }
+  bool linear() const { return this->Pinhole || this->Parallel; }
+  bool pinhole() const { return this->Pinhole; }
+
+  /// Origin and direction in the camera frame; direction.z is 1 for the linear models.
+  CameraRay ray(const Eigen::Vector2d& pixel) const;
+  /// The point of the pixel's ray at a depth, camera frame.
+  Eigen::Vector3d at(const Eigen::Vector2d& pixel, double depth) const;
+  Eigen::Vector3d toWorld(const Eigen::Vector3d& x_in_camera) const
+  {
+    return this->Record.R.transpose() * (x_in_camera - this->Record.t);
+  }
+  Eigen::Vector3d toCamera(const Eigen::Vector3d& x_in_world) const
+  {
+    return this->Record.R * x_in_world + this->Record.t;
+  }
+  /// False behind the camera.
+  bool project(const Eigen::Vector3d& x_in_camera, Eigen::Vector2d& pixel) const;
+  /// Inside the image, and between near and far.
+  bool sees(const Eigen::Vector2d& pixel, double depth) const;
+
+  /// For the ray engine.
+  const View& view() const { return this->TheView; }
+
+private:
+  CameraRecord Record;
+  bool Pinhole;
+  bool Parallel;
+  View TheView;
+};
+
+/// Centre of a pixel.
+inline Eigen::Vector2d centreOf(int x, int y) { return { x + 0.5, y + 0.5 }; }
+
+} // namespace dgtk
+
+#endif

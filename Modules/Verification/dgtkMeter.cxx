@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkMeter.h"
+
+#include <charconv>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr int ChunkRows = 16;
+}
+
+std::string numberText(double value)
+{
+  if (!std::isfinite(value))
+  {
+    return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+  }
+  char text[32];
+  return { text, std::to_chars(text, text + sizeof text, value).ptr };
+}
+
+std::string numbersText(const double* values, int count)
+{
+  if (count == 1)
+  {
+    return numberText(values[0]);
+  }
+  std::string text = "(";
+  for (int i = 0; i < count; ++i)
+  {
+    text += (i > 0 ? ", " : "") + numberText(values[i]);
+  }
+  return text + ')';
+}
+
+void Meter::merge(const Meter& later)
+{
+  this->Count += later.Count;
+  this->Skipped += later.Skipped;
+  this->Bad += later.Bad;
+  if (later.Largest > this->Largest)
+  {
+    this->Largest = later.Largest;
+    this->Worst = later.Worst;
+  }
+}
+
+void Results::startCheck(int index, const std::string& name)
+{
+  this->Index = index;
+  this->Check = name;
+}
+
+void Results::add(const std::string& layer, const std::string& unit, const Meter& meter)
+{
+  const auto [at, isNew] = this->Residuals.try_emplace({ this->Index, layer });
+  Residual& residual = at->second;
+  if (isNew)
+  {
+    residual.check = this->Check;
+    residual.layer = layer;
+    residual.unit = unit;
+    residual.tolerance = meter.Tolerance;
+  }
+  residual.count += meter.Count;
+  residual.skipped += meter.Skipped;
+  residual.bad += meter.Bad;
+  if (meter.Largest > residual.largest)
+  {
+    residual.largest = meter.Largest;
+    residual.worst = meter.Worst;
+  }
+}
+
+void Results::unusable(const std::string& layer, const std::string& file, const std::string& what)
+{
+  Meter meter(0);
+  meter.equal(false, [&] { return Offender{ file, -1, -1, what, "a file that can be used" }; });
+  this->add(layer, "", meter);
+}
+
+VerificationReport Results::report() const
+{
+  VerificationReport report;
+  for (const auto& [key, residual] : this->Residuals)
+  {
+    if (residual.count + residual.skipped > 0)
+    {
+      report.residuals.push_back(residual);
+    }
+  }
+  return report;
+}
+
+Meter meterRows(ThreadPool& pool, int height, double tolerance, const std::function<void(int, Meter&)>& body)
+{
+  const int chunks = (height + ChunkRows - 1) / ChunkRows;
+  std::vector<Meter> meters(static_cast<std::size_t>(chunks), Meter(tolerance));
+  pool.parallelFor(chunks,
+    [&](int chunk)
+    {
+      for (int y = chunk * ChunkRows; y < std::min(height, (chunk + 1) * ChunkRows); ++y)
+      {
+        body(y, meters[chunk]);
+      }
+    });
+  Meter total(tolerance);
+  for (const Meter& meter : meters)
+  {
+    total.merge(meter);
+  }
+  return total;
+}
+
+} // namespace dgtk

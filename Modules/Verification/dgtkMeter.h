@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkMeter_h
+#define dgtkMeter_h
+
+// Private to Verification.
+
+#include "dgtkThreadPool.h"
+#include "dgtkVerification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dgtk
+{
+
+constexpr double Infinite = std::numeric_limits<double>::infinity();
+
+/// Shortest text of a number; "inf", "nan".
+std::string numberText(double value);
+/// "(a, b, c)"
+std::string numbersText(const double* values, int count);
+
+/// Collects residuals; keeps the first of the largest.
+class Meter
+{
+public:
+  explicit Meter(double tolerance)
+    : Tolerance(tolerance)
+  {
+  }
+
+  /// `where()` makes the Offender and is called only for a new largest residual. NaN counts as infinite.
+  template <typename Where>
+  void add(double error, const Where& where)
+  {
+    error = std::isnan(error) ? Infinite : std::abs(error);
+    ++this->Count;
+    this->Bad += error > this->Tolerance;
+    if (error > this->Largest)
+    {
+      this->Largest = error;
+      this->Worst = where();
+    }
+  }
+  /// A value that is right or wrong.
+  template <typename Where>
+  void equal(bool same, const Where& where)
+  {
+    this->add(same ? 0 : Infinite, where);
+  }
+  void good(std::uint64_t count = 1) { this->Count += count; }
+  void skip(std::uint64_t count = 1) { this->Skipped += count; }
+  void merge(const Meter& later);
+
+  std::uint64_t Count = 0;
+  std::uint64_t Skipped = 0;
+  std::uint64_t Bad = 0;
+  double Tolerance;
+  double Largest = 0;
+  Offender Worst;
+};
+
+/// The residuals of all checks, in the order of checks, then layers.
+class Results
+{
+public:
+  void startCheck(int index, const std::string& name);
+  /// Adds what was measured of a layer by the current check.
+  void add(const std::string& layer, const std::string& unit, const Meter& meter);
+  /// A file that cannot be used at all.
+  void unusable(const std::string& layer, const std::string& file, const std::string& what);
+  VerificationReport report() const;
+
+private:
+  int Index = 0;
+  std::string Check;
+  std::map<std::pair<int, std::string>, Residual> Residuals;
+};
+
+/// Calls body(y, meter) for the rows [0, height) on the pool. The result does not depend on the threads.
+Meter meterRows(ThreadPool& pool, int height, double tolerance, const std::function<void(int, Meter&)>& body);
+
+} // namespace dgtk
+
+#endif

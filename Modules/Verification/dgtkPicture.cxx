@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPicture.h"
+
+#include "dgtkRaySource.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr int ChunkRows = 16;
+constexpr double Pi = 3.14159265358979323846;
+} // namespace
+
+/// What the files say about the surface of a pixel; null where there is no file.
+struct Picture::Claims
+{
+  PicturePointer depth;
+  PicturePointer objects;
+  PicturePointer parts;
+  PicturePointer triangles;
+};
+
+Picture::Picture(Dataset& dataset, const CameraRecord& record)
+  : Owner(dataset)
+  , Record(record)
+  , TheSight(dataset.sight(Eye(record, dataset.sceneView(record).model), record.frame))
+{
+}
+
+PicturePointer Picture::image(const std::string& layer, const std::vector<std::string>& suffixes)
+{
+  const std::string file = this->Owner.find(this->camera(), layer, this->frame(), suffixes);
+  if (file.empty())
+  {
+    return nullptr;
+  }
+  PicturePointer& known = this->Images[file];
+  if (!known)
+  {
+    known = std::make_shared<PictureFile>(this->Owner.folder(), file, this->width(), this->height());
+  }
+  return known;
+}
+
+PicturePointer Picture::values(const std::string& layer)
+{
+  return this->image(layer, { ".npy", ".dgd", ".exr", ".pfm", ".flo" });
+}
+
+PicturePointer Picture::ids(const std::string& layer) { return this->image(layer, { ".npy", ".png", ".ppm" }); }
+
+bool Picture::has(const std::string& layer) const
+{
+  return !this->Owner.suffixes(this->camera(), layer, this->frame()).empty();
+}
+
+bool Picture::agrees(const Claims& claims, const Hit& hit, int x, int y) const
+{
+  if (claims.objects && claims.objects->id(x, y) != hit.object)
+  {
+    return false;
+  }
+  if (claims.depth)
+  {
+    const double expected = this->TheSight->depthOf(hit, centreOf(x, y));
+    const double found = claims.depth->at(x, y);
+    if (found != expected && !(std::abs(found - expected) <= DepthTolerance * expected))
+    {
+      return false;
+    }
+  }
+  if (hit.object == 0)
+  {
+    return true;
+  }
+  const Model& model = *this->TheSight->instance(hit.object).model;
+  const std::uint32_t part = model.partOf(hit.triangle);
+  return (!claims.parts || claims.parts->id(x, y) == part) &&
+         (!claims.triangles || claims.triangles->id(x, y) == hit.triangle - model.parts[part].firstTriangle);
+}
+
+std::vector<Hit> Picture::nearby(int x, int y) const
+{
+  std::vector<Hit> found;
+  const auto add = [&](const Hit& hit)
+  {
+    if (std::find(found.begin(), found.end(), hit) == found.end())
+    {
+      found.push_back(hit);
+    }
+  };
+  std::vector<Hit> hits;
+  std::vector<double> depths;
+  for (int i = 0; i <= 32; ++i)
+  {
+    const double radius = i == 0 ? 0 : i <= 16 ? EdgeReach : EdgeReach / 4;
+    const double angle = i * Pi / 8;
+    this->TheSight->surfaces(centreOf(x, y) + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)), hits, depths);
+    if (hits.empty())
+    {
+      add({});
+    }
+    for (std::size_t k = 0; k < hits.size() && depths[k] <= depths[0] * (1 + DepthTolerance); ++k)
+    {
+      add(hits[k]);
+    }
+  }
+  return found;
+}
+
+bool Picture::findNearby(const Claims& claims, int x, int y, Hit& hit) const
+{
+  const std::vector<Hit> candidates = this->nearby(x, y);
+  const auto found = std::find_if(
+    candidates.begin(), candidates.end(), [&](const Hit& candidate) { return this->agrees(claims, candidate, x, y); });
+  if (found == candidates.end())
+  {
+    return false;
+  }
+  hit = *found;
+  return true;
+}
+
+void Picture::resolveRow(const Claims& claims, int y, int& patience)
+{
+  Surfaces& s = *this->TheSurfaces;
+  for (int x = 0; x < s.width; ++x)
+  {
+    const std::size_t i = s.index(x, y);
+    if (this->agrees(claims, s.own[i], x, y))
+    {
+      continue;
+    }
+    s.marks[i] = patience > 0 && this->findNearby(claims, x, y, s.hits[i]) ? Mark::Edge : Mark::Wrong;
+    patience -= s.marks[i] == Mark::Wrong;
+  }
+}
+
+const Surfaces& Picture::surfaces()
+{
+  if (this->TheSurfaces)
+  {
+    return *this->TheSurfaces;
+  }
+  this->TheSurfaces = std::make_unique<Surfaces>();
+  Surfaces& s = *this->TheSurfaces;
+  VisibilityBuffer buffer;
+  const std::unique_ptr<VisibilitySource> rays = makeRaySource(this->pool());
+  rays->setScene(this->TheSight->statePointer(), this->eye().view());
+  rays->render({ 0, 0, this->width(), this->height() }, buffer);
+  s.width = this->width();
+  s.own = std::move(buffer.hits);
+  s.hits = s.own;
+  s.marks.assign(s.own.size(), Mark::Same);
+  Claims claims;
+  claims.depth = this->quietly([&] { return this->values("depth"); });
+  claims.objects = this->quietly([&] { return this->ids("objects"); });
+  claims.parts = this->quietly([&] { return this->ids("parts"); });
+  claims.triangles = this->quietly([&] { return this->ids("triangles"); });
+  this->pool().parallelFor((this->height() + ChunkRows - 1) / ChunkRows,
+    [&](int chunk)
+    {
+      int patience = static_cast<int>(Patience);
+      for (int y = chunk * ChunkRows; y < std::min(this->height(), (chunk + 1) * ChunkRows); ++y)
+      {
+        this->resolveRow(claims, y, patience);
+      }
+    });
+  return s;
+}
+
+void Picture::preparePoints()
+{
+  this->surfaces();
+  this->Depth = this->quietly([&] { return this->values("depth"); });
+  if (this->Depth && this->Depth->type() != PixelType::Float64)
+  {
+    this->Depth = nullptr;
+  }
+}
+
+Eigen::Vector3d Picture::point(int x, int y) const
+{
+  const std::size_t i = this->TheSurfaces->index(x, y);
+  const double depth = this->Depth && this->TheSurfaces->marks[i] != Mark::Wrong
+                         ? this->Depth->at(x, y)
+                         : this->TheSight->depthOf(this->TheSurfaces->hits[i], centreOf(x, y));
+  return this->eye().at(centreOf(x, y), depth);
+}
+
+} // namespace dgtk

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkPicture_h
+#define dgtkPicture_h
+
+// Private to Verification.
+
+#include "dgtkDataset.h"
+#include "dgtkMeter.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// Pixels: as close to an edge, either of two surfaces may have been recorded.
+constexpr double EdgeReach = 1.0 / 64;
+/// Part of the depth by which a depth may differ from Embree's triangle.
+constexpr double DepthTolerance = 1e-5;
+
+/// Wrong values of a few rows after which no pixel is looked around any more: the layer is wrong as a whole.
+constexpr std::uint64_t Patience = 256;
+
+/// How the surface of a pixel was found.
+enum class Mark : std::uint8_t
+{
+  Same, ///< Embree's own hit agrees with the files
+  Edge, ///< a surface within EdgeReach, or coincident with Embree's, agrees
+  Wrong ///< none does
+};
+
+/// The surfaces at the centres of a picture's pixels.
+struct Surfaces
+{
+  int width = 0;
+  std::vector<Hit> own;  ///< Embree's
+  std::vector<Hit> hits; ///< what agrees with depth, objects, parts and triangles of the files
+  std::vector<Mark> marks;
+  std::size_t index(int x, int y) const { return std::size_t(y) * this->width + x; }
+};
+
+/// One camera at one frame.
+class Picture
+{
+public:
+  Picture(Dataset& dataset, const CameraRecord& record);
+
+  Dataset& dataset() const { return this->Owner; }
+  const std::string& camera() const { return this->Record.name; }
+  int frame() const { return this->Record.frame; }
+  int width() const { return this->Record.width; }
+  int height() const { return this->Record.height; }
+  const Sight& sight() const { return *this->TheSight; }
+  const Eye& eye() const { return this->TheSight->eye(); }
+  ThreadPool& pool() const { return this->Owner.pool(); }
+
+  /// The first of the suffixes that exists, null for none. Throws InputError for a damaged file.
+  PicturePointer image(const std::string& layer, const std::vector<std::string>& suffixes);
+  /// Values of a layer: .npy, else .exr, .pfm or .dgd.
+  PicturePointer values(const std::string& layer);
+  /// Ids of a layer: .npy, else .png or .ppm.
+  PicturePointer ids(const std::string& layer);
+  bool has(const std::string& layer) const;
+  /// A layer that is not the subject of the check: null also where it is damaged.
+  template <typename Read>
+  PicturePointer quietly(const Read& read)
+  {
+    try
+    {
+      return read();
+    }
+    catch (const std::exception&)
+    {
+      return nullptr;
+    }
+  }
+
+  const Surfaces& surfaces();
+  /// The point seen by a pixel, camera frame: at the file's depth where it is float64, else at the triangle's. Only
+  /// where surfaces().hits has an object.
+  Eigen::Vector3d point(int x, int y) const;
+  /// Surfaces first met within EdgeReach of a pixel's centre, or coincident with those; object 0 for none.
+  std::vector<Hit> nearby(int x, int y) const;
+  /// To be called before point() is used by several threads.
+  void preparePoints();
+
+private:
+  struct Claims;
+  bool agrees(const Claims& claims, const Hit& hit, int x, int y) const;
+  bool findNearby(const Claims& claims, int x, int y, Hit& hit) const;
+  void resolveRow(const Claims& claims, int y, int& patience);
+
+  Dataset& Owner;
+  CameraRecord Record;
+  std::shared_ptr<const Sight> TheSight;
+  std::map<std::string, PicturePointer> Images;
+  std::unique_ptr<Surfaces> TheSurfaces;
+  PicturePointer Depth;
+};
+
+} // namespace dgtk
+
+#endif

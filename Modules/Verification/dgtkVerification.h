@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkVerification_h
+#define dgtkVerification_h
+
+#include "dgtkVerificationModule.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// A value of a file that is farthest from what it should be.
+struct Offender
+{
+  std::string file; ///< relative to the dataset; "" for none
+  int x = -1;       ///< pixel, from the top-left corner; -1 where the value belongs to no pixel
+  int y = -1;
+  std::string value;    ///< as in the file
+  std::string expected; ///< as derived anew
+};
+
+/// What one check found in one layer, over all cameras and frames.
+struct Residual
+{
+  std::string check;         ///< name of the check, as in the table of verification.md
+  std::string layer;         ///< "" for the dataset as a whole
+  std::string unit;          ///< of largest and tolerance
+  std::uint64_t count = 0;   ///< values compared
+  std::uint64_t skipped = 0; ///< values that the check leaves open: near an edge, at coincident surfaces, ...
+  std::uint64_t bad = 0;     ///< values beyond the tolerance
+  double largest = 0;        ///< largest residual; +inf for a value of the wrong kind
+  double tolerance = 0;
+  Offender worst; ///< where `largest` is
+  bool breach() const { return this->bad > 0; }
+};
+
+struct VerificationReport
+{
+  std::vector<Residual> residuals; ///< in the order of the checks; only of layers that the dataset has
+  /// No breach, and something was checked.
+  bool passed() const;
+  /// The residual to name first: the first breach, as later checks build upon earlier ones. Null when there is none.
+  const Residual* firstBreach() const;
+};
+
+/// Derives everything a dataset claims anew from its files, its scene and models, with Embree, OpenCV and own
+/// arithmetic; none of the code that wrote it takes part. A damaged or missing file is a breach. `threads` >= 1; the
+/// report does not depend on it. Throws InputError when `folder` is not a dataset: no readable manifest.json.
+DGTKVERIFICATION_EXPORT VerificationReport verifyDataset(const std::string& folder, int threads);
+
+/// One line a residual, for people; ends with a newline.
+DGTKVERIFICATION_EXPORT std::string verificationTable(const VerificationReport& report);
+/// The contents of verification.json; ends with a newline. Numbers that are not finite are texts.
+DGTKVERIFICATION_EXPORT std::string verificationText(const VerificationReport& report);
+/// "FILE: pixel (x, y): found V, expected E (check depth, layer depth: residual R unit, tolerance T)".
+DGTKVERIFICATION_EXPORT std::string describe(const Residual& residual);
+
+} // namespace dgtk
+
+#endif

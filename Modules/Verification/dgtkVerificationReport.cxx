@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkMeter.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace dgtk
+{
+
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+Json numberJson(double value) { return std::isfinite(value) ? Json(value) : Json(numberText(value)); }
+
+/// Three digits, for people.
+std::string brief(double value)
+{
+  if (!std::isfinite(value) || value == 0)
+  {
+    return numberText(value);
+  }
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2e", value);
+  return text;
+}
+
+Json residualJson(const Residual& residual)
+{
+  Json json;
+  json["check"] = residual.check;
+  json["layer"] = residual.layer;
+  json["count"] = residual.count;
+  json["skipped"] = residual.skipped;
+  json["bad"] = residual.bad;
+  json["largest"] = numberJson(residual.largest);
+  json["tolerance"] = residual.tolerance;
+  json["unit"] = residual.unit;
+  json["breach"] = residual.breach();
+  if (!residual.worst.file.empty())
+  {
+    Json& worst = json["worst"];
+    worst["file"] = residual.worst.file;
+    worst["pixel"] = residual.worst.x < 0 ? Json(nullptr) : Json::array({ residual.worst.x, residual.worst.y });
+    worst["value"] = residual.worst.value;
+    worst["expected"] = residual.worst.expected;
+  }
+  return json;
+}
+
+std::vector<std::string> cellsOf(const Residual& residual)
+{
+  return { residual.check, residual.layer, std::to_string(residual.count), std::to_string(residual.skipped),
+    brief(residual.largest), brief(residual.tolerance), residual.unit,
+    residual.breach() ? "BREACH (" + std::to_string(residual.bad) + ")" : "ok" };
+}
+} // namespace
+
+bool VerificationReport::passed() const { return !this->firstBreach() && !this->residuals.empty(); }
+
+const Residual* VerificationReport::firstBreach() const
+{
+  const auto found = std::find_if(
+    this->residuals.begin(), this->residuals.end(), [](const Residual& residual) { return residual.breach(); });
+  return found == this->residuals.end() ? nullptr : &*found;
+}
+
+std::string verificationTable(const VerificationReport& report)
+{
+  std::vector<std::vector<std::string>> rows{ { "check", "layer", "values", "open", "largest", "tolerance", "unit",
+    "" } };
+  for (const Residual& residual : report.residuals)
+  {
+    rows.push_back(cellsOf(residual));
+  }
+  std::vector<std::size_t> widths(rows[0].size(), 0);
+  for (const auto& row : rows)
+  {
+    for (std::size_t i = 0; i < row.size(); ++i)
+    {
+      widths[i] = std::max(widths[i], row[i].size());
+    }
+  }
+  std::string text;
+  for (const auto& row : rows)
+  {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i)
+    {
+      const std::string pad(widths[i] - row[i].size(), ' ');
+      const bool number = i >= 2 && i <= 5;
+      line += (i > 0 ? "  " : "") + (number ? pad + row[i] : row[i] + pad);
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+  }
+  return text;
+}
+
+std::string verificationText(const VerificationReport& report)
+{
+  Json json;
+  json["format"] = "DGTk verification";
+  json["format_version"] = 1;
+  json["passed"] = report.passed();
+  json["residuals"] = Json::array();
+  for (const Residual& residual : report.residuals)
+  {
+    json["residuals"].push_back(residualJson(residual));
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string describe(const Residual& residual)
+{
+  const Offender& worst = residual.worst;
+  std::string text = worst.file.empty() ? "dataset" : worst.file;
+  if (worst.x >= 0)
+  {
+    text += ": pixel (" + std::to_string(worst.x) + ", " + std::to_string(worst.y) + ")";
+  }
+  text += ": found " + worst.value + ", expected " + worst.expected + " (check " + residual.check;
+  text += residual.layer.empty() ? "" : ", layer " + residual.layer;
+  if (std::isfinite(residual.largest) && residual.largest > 0)
+  {
+    text += ", residual " + brief(residual.largest) + ' ' + residual.unit + " against " + brief(residual.tolerance);
+  }
+  return text + ')';
+}
+
+} // namespace dgtk
