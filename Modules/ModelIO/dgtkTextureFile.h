@@ -2,6 +2,7 @@
 #ifndef dgtkTextureFile_h
 #define dgtkTextureFile_h
 
+#include "dgtkModelIOModule.h"
 #include "dgtkModelReader.h"
 
 #include <map>
@@ -16,10 +17,11 @@ namespace dgtk
 /// case-insensitively; same stem with another image extension; stems equal in 8.3 names; the same in ../textures.
 /// Returns "" when there is none. `tried` receives a short text of what was tried. Absolute names count by their base
 /// name. Only regular files are found.
-std::string locateTexture(const std::string& modelPath, const std::string& name, std::string* tried = nullptr);
+DGTKMODELIO_EXPORT std::string locateTexture(
+  const std::string& modelPath, const std::string& name, std::string* tried = nullptr);
 
 /// The same for many names of one model: folders are listed once.
-class TextureFinder
+class DGTKMODELIO_EXPORT TextureFinder
 {
 public:
   explicit TextureFinder(const std::string& modelPath)
@@ -36,13 +38,13 @@ private:
 
 /// Decodes a picture to RGBA, rows top to bottom. Null, and `problem` set, when it cannot be decoded or is larger than
 /// 16384 a side. An alpha channel that is 0 everywhere is taken as absent.
-std::shared_ptr<const Image> decodeTexture(const std::string& path, std::string& problem);
+DGTKMODELIO_EXPORT std::shared_ptr<const Image> decodeTexture(const std::string& path, std::string& problem);
 
 /// Whether a picture is a cut-out: some texels have alpha below 0.5 and some do not.
-bool isCutOut(const Image& image);
+DGTKMODELIO_EXPORT bool isCutOut(const Image& image);
 
 /// The textures of one model: each name is looked up once, each file decoded once.
-class TextureCache
+class DGTKMODELIO_EXPORT TextureCache
 {
 public:
   TextureCache(const std::string& modelPath, const ReadOptions& options)

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The engines against one another and against bare Embree, on every sample model and scene.
+#include "dgtkRasterSource.h"
+#include "dgtkRaySource.h"
+#include "dgtkStage.h"
+#include "dgtkSurfaceRows.h"
+#include "dgtkSyntheticScene.h"
+#include "dgtkTestSupport.h"
+#include "dgtkThreadPool.h"
+
+#include "dgtkError.h"
+#include "dgtkModelReader.h"
+
+#include <Eigen/LU>
+
+#include <embree3/rtcore.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+namespace
+{
+using namespace dgtk;
+using namespace dgtk::test;
+
+constexpr double nearEdge = 1.0 / 128; // pixels
+/// Relative difference of depth below which the raster engine's float depth cannot tell surfaces apart.
+constexpr double coincident = 1e-6;
+constexpr int width = 320;
+constexpr int height = 240;
+
+struct Case
+{
+  std::string name;
+  std::shared_ptr<const SceneState> state;
+  View view;
+};
+
+std::vector<std::string> filesBelow(const std::string& folder, const std::vector<std::string>& extensions)
+{
+  std::vector<std::string> files;
+  if (!folder.empty() && std::filesystem::exists(folder))
+  {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    {
+      const std::string extension = entry.path().extension().string();
+      if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end())
+      {
+        files.push_back(entry.path().string());
+      }
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// A model alone, seen as a whole from a corner; nothing for files that are no models.
+bool caseOfModel(const std::string& path, Case& result)
+{
+  std::shared_ptr<const Model> model;
+  try
+  {
+    model = readModel(path);
+  }
+  catch (const Error&)
+  {
+    return false; // damaged samples; the readers' tests are about them
+  }
+  if (model->triangles.empty())
+  {
+    return false;
+  }
+  auto state = std::make_shared<SceneState>();
+  Instance instance;
+  instance.model = model;
+  instance.geometry = model->rest;
+  instance.materials = std::make_shared<std::vector<Material>>(model->materials);
+  state->instances.push_back(instance);
+  state->lights.emplace_back();
+  state->lights.back().kind = LightState::Kind::Head;
+  const Eigen::Vector3d centre = (model->boundsMin + model->boundsMax) / 2;
+  const double size = std::max((model->boundsMax - model->boundsMin).maxCoeff(), 1e-6);
+  result.name = std::filesystem::path(path).filename().string();
+  result.view.model = makePinholeFromFov(width, height, 40, 0);
+  result.view.camera_from_world = lookAtPose(centre + size * Eigen::Vector3d(1.1, 0.9, 1.3), centre, { 0, 1, 0 });
+  result.view.near = 0.01 * size;
+  result.view.far = 100 * size;
+  result.state = state;
+  return true;
+}
+
+std::vector<Case> sampleModels()
+{
+  std::vector<Case> cases;
+  const std::vector<std::string> extensions = { ".ac", ".acc", ".md2", ".3ds", ".pov", ".obj", ".gltf", ".glb", ".ply",
+    ".stl", ".off", ".dae" };
+  for (const std::string& folder : { sourceFile("Data/Models"), extraModels() })
+  {
+    for (const std::string& path : filesBelow(folder, extensions))
+    {
+      Case found;
+      if (caseOfModel(path, found))
+      {
+        cases.push_back(found);
+      }
+    }
+  }
+  return cases;
+}
+
+/// First and middle frame of each scene, every camera that OpenGL can draw (three at most).
+std::vector<Case> sampleScenes()
+{
+  std::vector<Case> cases;
+  for (const std::string& path : filesBelow(sourceFile("Data/Scenes"), { ".json", ".scene" }))
+  {
+    const auto stage = Stage::load(readScene(path));
+    const int first = stage->description().firstFrame();
+    const int middle = (first + stage->description().lastFrame()) / 2;
+    const std::size_t cameras = std::min<std::size_t>(3, stage->cameraNames().size());
+    for (std::size_t camera = 0; camera < cameras; ++camera)
+    {
+      const int frame = camera == 0 ? first : middle;
+      cases.push_back({ std::filesystem::path(path).filename().string() + '/' + stage->cameraNames()[camera],
+        stage->at(frame), stage->view(camera, frame, width, height) });
+    }
+  }
+  return cases;
+}
+
+struct Counts
+{
+  std::size_t pixels = 0;
+  std::size_t differing = 0;
+  std::size_t onEdges = 0;
+  std::size_t coinciding = 0;
+  std::size_t onTexels = 0; ///< border of a texel that a cut-out removes: the silhouette of such a surface
+  void operator+=(const Counts& other)
+  {
+    this->pixels += other.pixels;
+    this->differing += other.differing;
+    this->onEdges += other.onEdges;
+    this->coinciding += other.coinciding;
+    this->onTexels += other.onTexels;
+  }
+};
+
+double depthAt(const Case& c, const Hit& hit, const Eigen::Vector2d& pixel)
+{
+  return hit.object == 0 ? INFINITY : surfacePointAt(*c.state, c.view, pixel, hit).t;
+}
+
+/// Whether a cut-out is there at some points within 1/128 pixel and not at others.
+bool isOnTexelBorder(const Case& c, const Hit& hit, const Eigen::Vector2d& pixel)
+{
+  if (hit.object == 0)
+  {
+    return false;
+  }
+  int gone = 0;
+  for (int i = 0; i < 9; ++i)
+  {
+    const Eigen::Vector2d offset(i % 3 - 1, i / 3 - 1);
+    const SurfacePoint point = surfacePointAt(*c.state, c.view, pixel + nearEdge * offset, hit);
+    gone += isCutOut(c.state->instances[hit.object - 1], hit.triangle, point.barycentrics);
+  }
+  return gone > 0 && gone < 9;
+}
+
+Counts compareEngines(const Case& c, VisibilitySource& raster, VisibilitySource& ray)
+{
+  VisibilityBuffer one, two;
+  raster.setScene(c.state, c.view);
+  raster.render({ 0, 0, width, height }, one);
+  ray.setScene(c.state, c.view);
+  ray.render({ 0, 0, width, height }, two);
+  Counts counts;
+  counts.pixels = one.hits.size();
+  for (int y = 0; y < height; ++y)
+  {
+    for (int x = 0; x < width; ++x)
+    {
+      const Hit hits[2] = { one.at(x, y), two.at(x, y) };
+      if (hits[0] == hits[1])
+      {
+        continue;
+      }
+      ++counts.differing;
+      const Eigen::Vector2d centre(x + 0.5, y + 0.5);
+      double distance = INFINITY;
+      for (const Hit& hit : hits)
+      {
+        distance = hit.object == 0 ? distance : std::min(distance, edgeDistance(*c.state, c.view, hit, centre));
+      }
+      const double depths[2] = { depthAt(c, hits[0], centre), depthAt(c, hits[1], centre) };
+      const bool same = std::abs(depths[0] - depths[1]) <= coincident * std::min(depths[0], depths[1]);
+      if (distance <= nearEdge)
+      {
+        ++counts.onEdges;
+      }
+      else if (same)
+      {
+        ++counts.coinciding;
+      }
+      else if (isOnTexelBorder(c, hits[0], centre) || isOnTexelBorder(c, hits[1], centre))
+      {
+        ++counts.onTexels;
+      }
+      else
+      {
+        ADD_FAILURE() << c.name << " at " << x << ", " << y << ": raster " << hits[0].object << ':' << hits[0].triangle
+                      << " at " << depths[0] << ", ray " << hits[1].object << ':' << hits[1].triangle << " at "
+                      << depths[1] << ", " << distance << " pixels from an edge";
+      }
+    }
+  }
+  return counts;
+}
+
+void compareAll(const std::vector<Case>& cases)
+{
+  ThreadPool pool(2);
+  const auto raster = makeRasterSource();
+  const auto ray = makeRaySource(pool);
+  Counts all;
+  for (const Case& c : cases)
+  {
+    all += compareEngines(c, *raster, *ray);
+  }
+  std::printf("%zu cases, %zu pixels: %zu differ, %zu of them within 1/128 pixel of an edge, %zu on coincident "
+              "surfaces, %zu on borders of cut-out texels\n",
+    cases.size(), all.pixels, all.differing, all.onEdges, all.coinciding, all.onTexels);
+  EXPECT_GT(cases.size(), 5U);
+  EXPECT_LT(all.differing, all.pixels / 100);
+}
+
+/// Embree without anything of ours: float triangles relative to the camera, in its frame.
+class BareEmbree
+{
+public:
+  explicit BareEmbree(const Case& c)
+    : Device(rtcNewDevice(nullptr))
+    , Scene(rtcNewScene(this->Device))
+  {
+    for (const Instance& instance : c.state->instances)
+    {
+      RTCGeometry mesh = rtcNewGeometry(this->Device, RTC_GEOMETRY_TYPE_TRIANGLE);
+      const auto& points = instance.geometry->positions;
+      const auto& triangles = instance.model->triangles;
+      auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+        3 * sizeof(float), std::max<std::size_t>(1, points.size())));
+      for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        Eigen::Map<Eigen::Vector3f> target(vertices + 3 * i);
+        target = (c.view.camera_from_world * (instance.world_from_object * points[i])).cast<float>();
+      }
+      auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0,
+        RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), std::max<std::size_t>(1, triangles.size())));
+      for (std::size_t i = 0; i < triangles.size(); ++i)
+      {
+        std::copy(triangles[i].begin(), triangles[i].end(), indices + 3 * i);
+      }
+      rtcCommitGeometry(mesh);
+      rtcAttachGeometry(this->Scene, mesh);
+      rtcReleaseGeometry(mesh);
+    }
+    rtcSetSceneFlags(this->Scene, RTC_SCENE_FLAG_ROBUST);
+    rtcCommitScene(this->Scene);
+  }
+  ~BareEmbree()
+  {
+    rtcReleaseScene(this->Scene);
+    rtcReleaseDevice(this->Device);
+  }
+  BareEmbree(const BareEmbree&) = delete;
+  BareEmbree& operator=(const BareEmbree&) = delete;
+
+  /// Depth along the ray through an image point; the triangle goes to `hit`.
+  double depth(const View& view, const Eigen::Vector2d& pixel, Hit& hit) const
+  {
+    const CameraRay ray = view.model->rayThrough(pixel);
+    RTCRayHit query = {};
+    query.ray.org_x = float(ray.origin.x());
+    query.ray.org_y = float(ray.origin.y());
+    query.ray.org_z = float(ray.origin.z());
+    query.ray.dir_x = float(ray.direction.x());
+    query.ray.dir_y = float(ray.direction.y());
+    query.ray.dir_z = float(ray.direction.z());
+    query.ray.tnear = float(view.near);
+    query.ray.tfar = float(view.far);
+    query.ray.mask = 0xFFFFFFFFu;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(this->Scene, &context, &query);
+    hit = query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? Hit{} : Hit{ query.hit.geomID + 1, query.hit.primID };
+    return double(query.ray.tfar);
+  }
+
+private:
+  RTCDevice Device;
+  RTCScene Scene;
+};
+} // namespace
+
+TEST(Engines, RasterAndRayAgreeOnEverySampleModel) { compareAll(sampleModels()); }
+
+TEST(Engines, RasterAndRayAgreeOnEveryScene) { compareAll(sampleScenes()); }
+
+TEST(Engines, DepthIsThatOfBareEmbree)
+{
+  ThreadPool pool(2);
+  const auto source = makeRaySource(pool);
+  double largest = 0;
+  std::size_t compared = 0, other = 0;
+  for (const Case& c : sampleModels())
+  {
+    VisibilityBuffer buffer;
+    source->setScene(c.state, c.view);
+    source->render({ 0, 0, width, height }, buffer);
+    SurfaceRows rows;
+    computeSurfaceRows(*c.state, c.view, buffer.rect, buffer.hits.data(), false, rows);
+    const BareEmbree embree(c);
+    for (std::size_t i = 0; i < rows.t.size(); ++i)
+    {
+      Hit hit;
+      const double depth = embree.depth(c.view, { double(i % width) + 0.5, double(i / width) + 0.5 }, hit);
+      if (hit.object == 0 || hit != buffer.hits[i])
+      {
+        other += hit != buffer.hits[i]; // edges, coincident surfaces, cut-outs
+        continue;
+      }
+      ++compared;
+      const double error = std::abs(depth - rows.t[i]) / rows.t[i];
+      largest = std::max(largest, error);
+      EXPECT_LT(error, 1e-5) << c.name << " at " << i % width << ", " << i / width;
+    }
+  }
+  std::printf("%zu depths compared, largest relative difference %.2g; %zu pixels see another triangle\n", compared,
+    largest, other);
+  EXPECT_GT(compared, 20000U);
+  EXPECT_LT(other, compared / 10); // cut-outs and coincident surfaces
+}
