@@ -25,6 +25,11 @@ void checkDepth(Picture& picture, Results& results);
 void checkObjects(Picture& picture, Results& results);
 void checkCalibration(Picture& picture, Results& results);
 void checkGeometry(Picture& picture, Results& results);
+void checkMotion(Picture& picture, Results& results);
+void checkClass(Picture& picture, Results& results);
+void checkEpipolar(Picture& picture, Results& results);
+void checkTriangulation(Picture& picture, Results& results);
+void checkForwardBackward(Picture& picture, Results& results);
 
 } // namespace dgtk
 

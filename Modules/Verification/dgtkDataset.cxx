@@ -191,7 +191,7 @@ View Dataset::sceneView(const CameraRecord& record) const
   return this->TheStage->view(static_cast<std::size_t>(index), record.frame, record.width, record.height);
 }
 
-std::optional<Eye> Dataset::eye(const std::string& name, int frame)
+std::optional<Eye> Dataset::eye(const std::string& name, int frame, const CameraRecord& like)
 {
   if (const CameraRecord* record = this->camera(name, frame))
   {
@@ -202,8 +202,11 @@ std::optional<Eye> Dataset::eye(const std::string& name, int frame)
   {
     return std::nullopt;
   }
-  int width = 0;
-  int height = 0;
+  const auto& request = this->TheManifest.request;
+  const bool sized = std::any_of(request.begin(), request.end(),
+    [](const auto& option) { return option.first == "size" && option.second.find('x') != std::string::npos; });
+  int width = sized ? like.width : 0;
+  int height = sized ? like.height : 0;
   for (const CameraRecord& record : this->Cameras)
   {
     if (record.name == name)

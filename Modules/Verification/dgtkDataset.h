@@ -89,8 +89,9 @@ public:
   const CameraRecord* camera(const std::string& name, int frame) const;
   /// Index of a camera in the scene; -1 for none.
   int cameraIndex(const std::string& name) const;
-  /// From cameras.json, or from the scene for what the dataset does not show. Nothing for an unknown camera.
-  std::optional<Eye> eye(const std::string& name, int frame);
+  /// From cameras.json, or from the scene for what the dataset does not show: in the size that its other pictures have,
+  /// or that of `like` where all pictures were asked for in one size. Nothing for an unknown camera.
+  std::optional<Eye> eye(const std::string& name, int frame, const CameraRecord& like);
   /// The scene's own camera in the size of a record.
   View sceneView(const CameraRecord& record) const;
   std::shared_ptr<const SceneState> state(int frame);

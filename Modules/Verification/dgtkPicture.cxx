@@ -12,6 +12,9 @@ namespace dgtk
 namespace
 {
 constexpr int ChunkRows = 16;
+/// Part of the depth by which two computations of one point in double precision may differ; a neighbouring triangle
+/// that is closer to a file's value is the one it shows.
+constexpr double CloseDepth = 1e-10;
 constexpr double Pi = 3.14159265358979323846;
 } // namespace
 
@@ -22,6 +25,7 @@ struct Picture::Claims
   PicturePointer objects;
   PicturePointer parts;
   PicturePointer triangles;
+  double tolerance = DepthTolerance; ///< part of the depth
 };
 
 Picture::Picture(Dataset& dataset, const CameraRecord& record)
@@ -68,7 +72,7 @@ bool Picture::agrees(const Claims& claims, const Hit& hit, int x, int y) const
   {
     const double expected = this->TheSight->depthOf(hit, centreOf(x, y));
     const double found = claims.depth->at(x, y);
-    if (found != expected && !(std::abs(found - expected) <= DepthTolerance * expected))
+    if (found != expected && !(std::abs(found - expected) <= claims.tolerance * expected))
     {
       return false;
     }
@@ -85,6 +89,21 @@ bool Picture::agrees(const Claims& claims, const Hit& hit, int x, int y) const
 
 std::vector<Hit> Picture::nearby(int x, int y) const
 {
+  constexpr int Probes = 33;
+  std::vector<Hit> hits[Probes];
+  std::vector<double> depths[Probes];
+  for (int i = 0; i < Probes; ++i)
+  {
+    const double radius = i == 0 ? 0 : i <= 16 ? EdgeReach : EdgeReach / 4;
+    const Eigen::Vector2d offset(std::cos(i * Pi / 8), std::sin(i * Pi / 8));
+    this->TheSight->surfaces(centreOf(x, y) + radius * offset, hits[i], depths[i]);
+  }
+  // A surface that some probe misses has an edge here, and may or may not hide what is behind.
+  const auto hasEdge = [&](const Hit& hit)
+  {
+    return std::any_of(std::begin(hits), std::end(hits),
+      [&](const std::vector<Hit>& probe) { return std::find(probe.begin(), probe.end(), hit) == probe.end(); });
+  };
   std::vector<Hit> found;
   const auto add = [&](const Hit& hit)
   {
@@ -93,20 +112,17 @@ std::vector<Hit> Picture::nearby(int x, int y) const
       found.push_back(hit);
     }
   };
-  std::vector<Hit> hits;
-  std::vector<double> depths;
-  for (int i = 0; i <= 32; ++i)
+  for (int i = 0; i < Probes; ++i)
   {
-    const double radius = i == 0 ? 0 : i <= 16 ? EdgeReach : EdgeReach / 4;
-    const double angle = i * Pi / 8;
-    this->TheSight->surfaces(centreOf(x, y) + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)), hits, depths);
-    if (hits.empty())
+    double solid = Infinite; // depth of the first surface without an edge
+    for (std::size_t k = 0; k < hits[i].size() && depths[i][k] <= solid * (1 + DepthTolerance); ++k)
+    {
+      add(hits[i][k]);
+      solid = std::isinf(solid) && !hasEdge(hits[i][k]) ? depths[i][k] : solid;
+    }
+    if (std::isinf(solid))
     {
       add({});
-    }
-    for (std::size_t k = 0; k < hits.size() && depths[k] <= depths[0] * (1 + DepthTolerance); ++k)
-    {
-      add(hits[k]);
     }
   }
   return found;
@@ -117,26 +133,89 @@ bool Picture::findNearby(const Claims& claims, int x, int y, Hit& hit) const
   const std::vector<Hit> candidates = this->nearby(x, y);
   const auto found = std::find_if(
     candidates.begin(), candidates.end(), [&](const Hit& candidate) { return this->agrees(claims, candidate, x, y); });
-  if (found == candidates.end())
+  if (found != candidates.end())
+  {
+    hit = *found;
+  }
+  return found != candidates.end() || this->findCutOut(claims, x, y, hit);
+}
+
+bool Picture::findCutOut(const Claims& claims, int x, int y, Hit& hit) const
+{
+  const std::size_t objects = this->TheSight->state().instances.size();
+  const std::size_t claimed = claims.objects ? claims.objects->id(x, y) : 0;
+  for (std::size_t object = 1; object <= objects; ++object)
+  {
+    const Instance& instance = this->TheSight->instance(static_cast<std::uint32_t>(object));
+    for (const Part& part : instance.model->parts)
+    {
+      const bool mayBe = (!claims.objects || object == claimed) && (*instance.materials)[part.material].cutOut;
+      for (std::uint32_t i = 0; i < (mayBe ? part.triangles : 0); ++i)
+      {
+        const Hit candidate{ static_cast<std::uint32_t>(object), part.firstTriangle + i };
+        if (this->isOnEdge(candidate, x, y) && this->agrees(claims, candidate, x, y))
+        {
+          hit = candidate;
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+bool Picture::isOnEdge(const Hit& hit, int x, int y) const
+{
+  Eigen::Vector3d corner[3];
+  Eigen::Vector2d p[3];
+  this->TheSight->corners(hit, corner);
+  for (int i = 0; i < 3; ++i)
+  {
+    if (!this->eye().project(corner[i], p[i]))
+    {
+      return false;
+    }
+  }
+  double nearest = Infinite;
+  for (int i = 0; i < 3; ++i)
+  {
+    const Eigen::Vector2d edge = p[(i + 1) % 3] - p[i];
+    const Eigen::Vector2d from = centreOf(x, y) - p[i];
+    const double along = std::clamp(from.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    nearest = std::min(nearest, (from - along * edge).norm());
+  }
+  if (nearest > EdgeReach)
   {
     return false;
   }
-  hit = *found;
-  return true;
+  std::vector<Hit> hits;
+  std::vector<double> depths;
+  this->TheSight->surfaces(centreOf(x, y), hits, depths);
+  const double before = depths.empty() ? Infinite : depths.front();
+  return this->TheSight->depthOf(hit, centreOf(x, y)) <= before * (1 + DepthTolerance);
 }
 
 void Picture::resolveRow(const Claims& claims, int y, int& patience)
 {
   Surfaces& s = *this->TheSurfaces;
+  Claims close = claims;
+  close.tolerance = claims.depth && claims.depth->type() == PixelType::Float64 ? CloseDepth : DepthTolerance;
   for (int x = 0; x < s.width; ++x)
   {
     const std::size_t i = s.index(x, y);
-    if (this->agrees(claims, s.own[i], x, y))
+    if (this->agrees(close, s.own[i], x, y))
     {
       continue;
     }
-    s.marks[i] = patience > 0 && this->findNearby(claims, x, y, s.hits[i]) ? Mark::Edge : Mark::Wrong;
-    patience -= s.marks[i] == Mark::Wrong;
+    const bool own = this->agrees(claims, s.own[i], x, y);
+    if (patience > 0 &&
+        (this->findNearby(close, x, y, s.hits[i]) || (!own && this->findNearby(claims, x, y, s.hits[i]))))
+    {
+      s.marks[i] = Mark::Edge;
+      continue;
+    }
+    s.marks[i] = own ? Mark::Same : Mark::Wrong;
+    --patience;
   }
 }
 

@@ -90,6 +90,10 @@ private:
   struct Claims;
   bool agrees(const Claims& claims, const Hit& hit, int x, int y) const;
   bool findNearby(const Claims& claims, int x, int y, Hit& hit) const;
+  /// A triangle with a cut-out texture whose edge runs here: rays fall on either side of it in a texture that repeats.
+  bool findCutOut(const Claims& claims, int x, int y, Hit& hit) const;
+  /// Whether a triangle that nothing hides ends within EdgeReach of a pixel's centre.
+  bool isOnEdge(const Hit& hit, int x, int y) const;
   void resolveRow(const Claims& claims, int y, int& patience);
 
   Dataset& Owner;

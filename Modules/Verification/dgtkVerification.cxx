@@ -19,6 +19,11 @@ constexpr Check Checks[] = {
   { "objects", nullptr, checkObjects },
   { "calibration", nullptr, checkCalibration },
   { "geometry", nullptr, checkGeometry },
+  { "motion", nullptr, checkMotion },
+  { "class", nullptr, checkClass },
+  { "epipolar", nullptr, checkEpipolar },
+  { "triangulation", nullptr, checkTriangulation },
+  { "forward-backward", nullptr, checkForwardBackward },
 };
 
 /// Runs one function of a check; a file that cannot be used becomes a residual.

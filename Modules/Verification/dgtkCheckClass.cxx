@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCheck.h"
+#include "dgtkPair.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+/// Visibility classes of CONVENTIONS.
+enum Class
+{
+  Nothing,
+  Visible,
+  OtherObject,
+  OwnObject,
+  Outside,
+  Behind
+};
+
+/// Directions, and parts of the depth, that a ray may pass by a silhouette.
+constexpr double SilhouetteReach = 1e-4;
+/// Part of the depth within which a surface is the point's own: the rounding of its place.
+constexpr double SurfaceSlack = 1e-9;
+/// Pixels: as near to the image's border, inside and outside are a matter of rounding.
+constexpr double BorderSlack = 1e-6;
+constexpr double Pi = 3.14159265358979323846;
+
+class ClassCheck
+{
+public:
+  ClassCheck(Picture& picture, const Pair& pair, const PictureFile& file)
+    : Owner(picture)
+    , Other(*pair.other)
+    , File(file)
+    , Targets(picture, pair)
+  {
+  }
+
+  void pixel(int x, int y, Meter& meter) const
+  {
+    const int found = static_cast<int>(this->File.at(x, y));
+    const Hit& hit = this->Targets.hit(x, y);
+    const Target target = this->Targets.at(x, y);
+    const int expected = this->classOf(target, hit, target.pixel, SurfaceSlack);
+    if (found == expected)
+    {
+      meter.good();
+      return;
+    }
+    if (meter.Bad < Patience && this->isOpen(x, y, target, hit, found))
+    {
+      meter.skip();
+      return;
+    }
+    meter.equal(false, [&] { return this->File.offender(x, y, std::to_string(found), std::to_string(expected)); });
+  }
+
+private:
+  /// By the ray through `pixel`, on which the point has the same depth as on its own.
+  int classOf(const Target& target, const Hit& hit, const Eigen::Vector2d& pixel, double slack) const
+  {
+    if (!target.surface)
+    {
+      return Nothing;
+    }
+    if (!target.projects)
+    {
+      return Behind;
+    }
+    if (!this->Other.eye().sees(target.pixel, target.there.z()))
+    {
+      return Outside;
+    }
+    std::vector<Hit> hits;
+    std::vector<double> depths;
+    this->Other.surfaces(pixel, hits, depths);
+    for (std::size_t i = 0; i < hits.size(); ++i)
+    {
+      if (hits[i] != hit && depths[i] < target.there.z() * (1 - slack))
+      {
+        return hits[i].object == hit.object ? OwnObject : OtherObject;
+      }
+    }
+    return Visible;
+  }
+
+  /// Whether another class is as right: beside a silhouette, an edge, the border or the limits of depth.
+  bool isOpen(int x, int y, const Target& target, const Hit& hit, int found) const
+  {
+    if (!target.surface || !target.ok)
+    {
+      return !target.ok && target.surface;
+    }
+    if (std::abs(target.there.z()) <= SurfaceSlack * target.here.norm())
+    {
+      return true;
+    }
+    if (target.projects && this->isAtLimit(target))
+    {
+      return true;
+    }
+    if (!target.projects || found == Nothing || found == Outside || found == Behind)
+    {
+      return false;
+    }
+    if (this->classOf(target, hit, target.pixel, SilhouetteReach) == found)
+    {
+      return true;
+    }
+    const CameraRecord& camera = this->Other.eye().record();
+    const double unit = this->Other.eye().pinhole() ? 1 : target.there.z();
+    const Eigen::Vector2d reach = SilhouetteReach * unit * camera.K.diagonal().head<2>();
+    for (int i = 0; i < 32; ++i)
+    {
+      const Eigen::Vector2d direction(std::cos(i * Pi / 8), std::sin(i * Pi / 8));
+      const Eigen::Vector2d pixel = target.pixel + (i < 16 ? 1.0 : 0.25) * reach.cwiseProduct(direction);
+      if (this->classOf(target, hit, pixel, SurfaceSlack) == found ||
+          this->classOf(target, hit, pixel, SilhouetteReach) == found)
+      {
+        return true;
+      }
+    }
+    return this->isOtherSurface(x, y, hit, found);
+  }
+
+  /// Beside an edge the file may follow the neighbour of the same object and depth.
+  bool isOtherSurface(int x, int y, const Hit& hit, int found) const
+  {
+    const std::vector<Hit> nearby = this->Owner.nearby(x, y);
+    return std::any_of(nearby.begin(), nearby.end(),
+      [&](const Hit& other)
+      {
+        const Target target = other.object == hit.object ? this->Targets.at(x, y, other) : Target{};
+        return target.ok && this->classOf(target, other, target.pixel, SurfaceSlack) == found;
+      });
+  }
+
+  bool isAtLimit(const Target& target) const
+  {
+    const Eye& eye = this->Other.eye();
+    const auto near = [](double a, double b, double slack) { return std::abs(a - b) <= slack; };
+    const double z = target.there.z();
+    return near(target.pixel.x(), 0, BorderSlack) || near(target.pixel.x(), eye.width(), BorderSlack) ||
+           near(target.pixel.y(), 0, BorderSlack) || near(target.pixel.y(), eye.height(), BorderSlack) ||
+           near(z, eye.record().near, SurfaceSlack * z) || near(z, eye.record().far, SurfaceSlack * z);
+  }
+
+  Picture& Owner;
+  const Sight& Other;
+  const PictureFile& File;
+  PairTargets Targets;
+};
+} // namespace
+
+void checkClass(Picture& picture, Results& results)
+{
+  for (const Pair& pair : pairsOf(picture))
+  {
+    const PicturePointer classes = pairClasses(picture, pair);
+    if (!classes)
+    {
+      continue;
+    }
+    const ClassCheck check(picture, pair, *classes);
+    const Meter meter = meterRows(picture.pool(), picture.height(), 0,
+      [&](int y, Meter& row)
+      {
+        for (int x = 0; x < picture.width(); ++x)
+        {
+          check.pixel(x, y, row);
+        }
+      });
+    results.add(pair.layer, "", meter);
+  }
+}
+
+} // namespace dgtk

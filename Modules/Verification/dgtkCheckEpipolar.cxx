@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCheck.h"
+#include "dgtkPair.h"
+
+#include <Eigen/Geometry>
+
+#include <opencv2/calib3d.hpp>
+
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+/// Pixels.
+constexpr double EpipolarTolerance = 1e-6;
+/// Of the scene's size.
+constexpr double TriangulationTolerance = 1e-9;
+/// Radians: below this angle between the rays, rounding of pixels alone moves a point farther than the tolerance.
+constexpr double LeastAngle = 1e-3;
+constexpr int LastInside = 3; ///< visible, or hidden inside the image
+
+/// Image of a homogeneous point of the first camera's frame in the second image.
+Eigen::Vector3d imageOf(const Eye& first, const Eye& second, const Eigen::Vector3d& x, double w)
+{
+  const Rigid3 second_from_first = second.view().camera_from_world * first.view().camera_from_world.inverse();
+  const Eigen::Vector3d y = second_from_first.rotation * x + w * second_from_first.translation;
+  return second.record().K * (second.pinhole() ? y : Eigen::Vector3d(y.x(), y.y(), w));
+}
+
+/// F x of both calibrations: the line through the epipole and the image of the ray's direction.
+Eigen::Vector3d epipolarLine(const Eye& first, const Eye& second, const Eigen::Vector2d& pixel)
+{
+  const CameraRay ray = first.ray(pixel);
+  return imageOf(first, second, ray.origin, 1)
+    .normalized()
+    .cross(imageOf(first, second, ray.direction, 0).normalized());
+}
+
+/// Pixels whose correspondence holds an inside point; only between cameras of one frame, apart from each other.
+struct PairImages
+{
+  PicturePointer values;
+  PicturePointer classes;
+  bool usable(int x, int y) const
+  {
+    const double kind = this->classes ? this->classes->at(x, y) : 1;
+    return kind >= 1 && kind <= LastInside && std::isfinite(this->values->at(x, y, 0));
+  }
+};
+
+bool isApart(const Eye& a, const Eye& b)
+{
+  return a.linear() && b.linear() &&
+         (a.toCamera(b.toWorld(Eigen::Vector3d::Zero())).norm() > 0 || a.pinhole() != b.pinhole());
+}
+
+PairImages imagesOf(Picture& picture, const Pair& pair)
+{
+  if (pair.kind != PairKind::Place || !pair.sameFrame || !isApart(picture.eye(), pair.other->eye()))
+  {
+    return {};
+  }
+  return { pairValues(picture, pair), picture.quietly([&] { return pairClasses(picture, pair); }) };
+}
+
+double sizeOf(const SceneState& state)
+{
+  Eigen::Vector3d least(Infinite, Infinite, Infinite);
+  Eigen::Vector3d most = -least;
+  for (const Instance& instance : state.instances)
+  {
+    for (const Eigen::Vector3d& p : instance.geometry->positions)
+    {
+      const Eigen::Vector3d world = instance.world_from_object * p;
+      least = least.cwiseMin(world);
+      most = most.cwiseMax(world);
+    }
+  }
+  return (most - least).norm();
+}
+
+cv::Matx34d projectionOf(const Rigid3& pose)
+{
+  cv::Matx34d P;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      P(i, j) = pose.rotation(i, j);
+    }
+    P(i, 3) = pose.translation[i];
+  }
+  return P;
+}
+
+/// cv::triangulatePoints for the pixels of a row, in the first camera's frame and in units of depth 1.
+class Triangulation
+{
+public:
+  Triangulation(Picture& picture, const Pair& pair, const PairImages& images)
+    : Owner(picture)
+    , Other(pair.other->eye())
+    , Images(images)
+    , Targets(picture, pair)
+    , Second_from_first(this->Other.view().camera_from_world * picture.eye().view().camera_from_world.inverse())
+    , Size(sizeOf(picture.sight().state()))
+  {
+  }
+
+  void row(int y, Meter& meter) const
+  {
+    std::vector<int> columns;
+    std::vector<cv::Point2d> first;
+    std::vector<cv::Point2d> second;
+    for (int x = 0; x < this->Owner.width(); ++x)
+    {
+      if (!this->Images.usable(x, y) || this->Targets.hit(x, y).object == 0)
+      {
+        continue;
+      }
+      const Eigen::Vector3d a = this->Owner.eye().ray(centreOf(x, y)).direction;
+      const Eigen::Vector3d b = this->Other.ray(this->Images.values->at2(x, y)).direction;
+      const Eigen::Vector3d turned = this->Second_from_first.rotation * a;
+      if (std::atan2(turned.cross(b).norm(), turned.dot(b)) < LeastAngle)
+      {
+        meter.skip();
+        continue;
+      }
+      columns.push_back(x);
+      first.emplace_back(a.x(), a.y());
+      second.emplace_back(b.x(), b.y());
+    }
+    if (!columns.empty())
+    {
+      this->compare(y, columns, first, second, meter);
+    }
+  }
+
+private:
+  void compare(int y, const std::vector<int>& columns, const std::vector<cv::Point2d>& first,
+    const std::vector<cv::Point2d>& second, Meter& meter) const
+  {
+    cv::Mat points;
+    cv::triangulatePoints(projectionOf({}), projectionOf(this->Second_from_first), first, second, points);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+    {
+      const int column = static_cast<int>(i);
+      const double w = points.at<double>(3, column);
+      const Eigen::Vector3d found(
+        points.at<double>(0, column) / w, points.at<double>(1, column) / w, points.at<double>(2, column) / w);
+      const Eigen::Vector3d expected = this->Owner.point(columns[i], y);
+      meter.add((found - expected).norm() / this->Size,
+        [&]
+        {
+          const Eigen::Vector3d from = this->Owner.eye().toWorld(found);
+          const Eigen::Vector3d to = this->Owner.eye().toWorld(expected);
+          return this->Images.values->offender(
+            columns[i], y, "the point " + numbersText(from.data(), 3), numbersText(to.data(), 3));
+        });
+    }
+  }
+
+  Picture& Owner;
+  const Eye& Other;
+  const PairImages& Images;
+  PairTargets Targets;
+  Rigid3 Second_from_first;
+  double Size;
+};
+} // namespace
+
+void checkEpipolar(Picture& picture, Results& results)
+{
+  for (const Pair& pair : pairsOf(picture))
+  {
+    const PairImages images = imagesOf(picture, pair);
+    if (!images.values)
+    {
+      continue;
+    }
+    const Meter meter = meterRows(picture.pool(), picture.height(), EpipolarTolerance,
+      [&](int y, Meter& row)
+      {
+        for (int x = 0; x < picture.width(); ++x)
+        {
+          if (!images.usable(x, y))
+          {
+            continue;
+          }
+          const Eigen::Vector3d line = epipolarLine(picture.eye(), pair.other->eye(), centreOf(x, y));
+          const Eigen::Vector2d p = images.values->at2(x, y);
+          const double distance = line.dot(Eigen::Vector3d(p.x(), p.y(), 1)) / line.head<2>().norm();
+          row.add(distance,
+            [&] { return images.values->offender(x, y, numbersText(p.data(), 2), "a point of the epipolar line"); });
+        }
+      });
+    results.add(pair.layer, "pixel", meter);
+  }
+}
+
+void checkTriangulation(Picture& picture, Results& results)
+{
+  for (const Pair& pair : pairsOf(picture))
+  {
+    const PairImages images = imagesOf(picture, pair);
+    if (!images.values || !picture.eye().pinhole() || !pair.other->eye().pinhole())
+    {
+      continue;
+    }
+    const Triangulation triangulation(picture, pair, images);
+    results.add(pair.layer, "scene size",
+      meterRows(picture.pool(), picture.height(), TriangulationTolerance,
+        [&](int y, Meter& row) { triangulation.row(y, row); }));
+  }
+}
+
+} // namespace dgtk

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCheck.h"
+#include "dgtkPair.h"
+
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+/// Pixels.
+constexpr double MotionTolerance = 1e-6;
+/// Part of the depth: nearer to the plane of the other camera, whether a point projects is a matter of rounding.
+constexpr double PlaneSlack = 1e-9;
+
+int channelsOf(PairKind kind)
+{
+  return kind == PairKind::Motion ? 3 : kind == PairKind::Place || kind == PairKind::Displacement ? 2 : 1;
+}
+
+class MotionCheck
+{
+public:
+  MotionCheck(Picture& picture, const Pair& pair, const PictureFile& file)
+    : Owner(picture)
+    , ThePair(pair)
+    , File(file)
+    , Targets(picture, pair)
+    , Channels(channelsOf(pair.kind))
+  {
+  }
+
+  void pixel(int x, int y, Meter& meter) const
+  {
+    double found[3] = { 0, 0, 0 };
+    double expected[3] = { 0, 0, 0 };
+    for (int c = 0; c < this->Channels; ++c)
+    {
+      found[c] = this->File.at(x, y, c);
+    }
+    const Hit& own = this->Targets.hit(x, y);
+    double error = this->measure(x, y, own, found, expected);
+    if (!(error <= meter.Tolerance) && own.object != 0 && meter.Bad < Patience)
+    {
+      // Beside an edge of a deforming model the files may follow the neighbour.
+      for (const Hit& neighbour : this->Owner.nearby(x, y))
+      {
+        const bool follows =
+          neighbour.object == own.object && this->measure(x, y, neighbour, found, expected) <= meter.Tolerance;
+        error = follows ? -1 : error;
+      }
+      this->measure(x, y, own, found, expected);
+    }
+    if (error < 0)
+    {
+      meter.skip();
+      return;
+    }
+    meter.add(error, [&]
+      { return this->File.offender(x, y, numbersText(found, this->Channels), numbersText(expected, this->Channels)); });
+  }
+
+private:
+  /// The residual in pixels, beyond the rounding of the file's type; negative: open.
+  double measure(int x, int y, const Hit& hit, const double* found, double* expected) const
+  {
+    const Target target = this->Targets.at(x, y, hit);
+    const bool exists = target.surface && (this->ThePair.kind == PairKind::Motion || target.projects);
+    if (target.surface && !target.ok)
+    {
+      return -1;
+    }
+    if (!exists)
+    {
+      std::fill(expected, expected + 3, std::nan(""));
+      const bool near = target.surface && std::abs(target.there.z()) <= PlaneSlack * target.here.z();
+      return near                                                                                 ? -1
+             : std::all_of(found, found + this->Channels, [](double v) { return std::isnan(v); }) ? 0
+                                                                                                  : Infinite;
+    }
+    this->derive(x, y, target, expected);
+    double error = 0;
+    for (int c = 0; c < this->Channels; ++c)
+    {
+      const double difference = std::abs(found[c] - expected[c]);
+      error = std::isnan(difference) ? Infinite : std::max(error, difference - this->File.rounding(found[c]));
+    }
+    return error / this->scale(target);
+  }
+
+  void derive(int x, int y, const Target& target, double* expected) const
+  {
+    const Eigen::Vector2d centre = centreOf(x, y);
+    Eigen::Map<Eigen::Vector2d> two(expected);
+    switch (this->ThePair.kind)
+    {
+      case PairKind::Place:
+        two = target.pixel;
+        break;
+      case PairKind::Displacement:
+        two = target.pixel - centre;
+        break;
+      case PairKind::FromLeft:
+        *expected = centre.x() - target.pixel.x();
+        break;
+      case PairKind::FromRight:
+        *expected = target.pixel.x() - centre.x();
+        break;
+      case PairKind::Motion:
+        Eigen::Map<Eigen::Vector3d>(expected, 3) =
+          this->Owner.eye().record().R * (target.world - this->Owner.eye().toWorld(target.here));
+        break;
+    }
+  }
+
+  /// What a unit of the residual is worth in pixels. Beside the image, where a point nears the camera's plane, its
+  /// place grows with the square of 1 / depth, and so does every rounding.
+  double scale(const Target& target) const
+  {
+    if (this->ThePair.kind == PairKind::Motion)
+    {
+      const Eye& eye = this->Owner.eye();
+      return (eye.pinhole() ? target.here.z() : 1) / eye.record().K.topLeftCorner<2, 2>().diagonal().maxCoeff();
+    }
+    const double size = std::max(this->ThePair.other->eye().width(), this->ThePair.other->eye().height());
+    const double far = target.pixel.cwiseAbs().maxCoeff() / size;
+    return std::max(1.0, far * far);
+  }
+
+  Picture& Owner;
+  const Pair& ThePair;
+  const PictureFile& File;
+  PairTargets Targets;
+  int Channels;
+};
+} // namespace
+
+void checkMotion(Picture& picture, Results& results)
+{
+  for (const Pair& pair : pairsOf(picture))
+  {
+    for (const char* suffix : { ".npy", ".flo", ".pfm", ".exr" })
+    {
+      const PicturePointer file = picture.image(pair.layer, { suffix });
+      if (!file || file->channels() < channelsOf(pair.kind))
+      {
+        continue;
+      }
+      const MotionCheck check(picture, pair, *file);
+      const Meter meter = meterRows(picture.pool(), picture.height(), MotionTolerance,
+        [&](int y, Meter& row)
+        {
+          for (int x = 0; x < picture.width(); ++x)
+          {
+            check.pixel(x, y, row);
+          }
+        });
+      results.add(pair.layer, "pixel", meter);
+    }
+  }
+}
+
+} // namespace dgtk

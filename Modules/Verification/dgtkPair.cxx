@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPair.h"
+
+#include "dgtkError.h"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace dgtk
+{
+
+namespace
+{
+/// Part by which K, rotation and displacement of a rectified pair may differ.
+constexpr double RectifiedTolerance = 1e-9;
+
+/// Displacement of camera b along the x axis of camera a; 0 unless they differ in nothing else but cx.
+double rectifiedBaseline(const Eye& a, const Eye& b)
+{
+  if (!a.pinhole() || !b.pinhole() || a.width() != b.width() || a.height() != b.height())
+  {
+    return 0;
+  }
+  Eigen::Matrix3d K = a.record().K - b.record().K;
+  K(0, 2) = 0;
+  const Eigen::Vector3d centre = a.toCamera(b.toWorld(Eigen::Vector3d::Zero()));
+  const bool same = K.cwiseAbs().maxCoeff() <= RectifiedTolerance * a.record().K(0, 0) &&
+                    (a.record().R - b.record().R).cwiseAbs().maxCoeff() <= RectifiedTolerance &&
+                    centre.tail<2>().cwiseAbs().maxCoeff() <= RectifiedTolerance * std::abs(centre.x());
+  return same ? centre.x() : 0;
+}
+
+/// The nearest camera of the scene that is a rectified pair with the picture's.
+std::optional<Pair> disparityPair(Picture& picture)
+{
+  Dataset& dataset = picture.dataset();
+  std::optional<Pair> best;
+  double nearest = Infinite;
+  for (const std::string& name : dataset.stage().cameraNames())
+  {
+    const std::optional<Eye> eye =
+      name == picture.camera() ? std::nullopt : dataset.eye(name, picture.frame(), picture.eye().record());
+    const double baseline = eye ? rectifiedBaseline(picture.eye(), *eye) : 0;
+    if (baseline != 0 && std::abs(baseline) < nearest * (1 - RectifiedTolerance))
+    {
+      nearest = std::abs(baseline);
+      best = Pair{ "disparity", baseline > 0 ? PairKind::FromLeft : PairKind::FromRight, name, picture.frame(), nullptr,
+        true };
+    }
+  }
+  return best;
+}
+
+/// correspondence_<camera>, with +N or -N frames.
+std::optional<Pair> correspondencePair(Picture& picture, const std::string& layer)
+{
+  const std::string rest = layer.substr(std::string("correspondence_").size());
+  for (const std::string& name : picture.dataset().stage().cameraNames())
+  {
+    if (rest.compare(0, name.size(), name) != 0)
+    {
+      continue;
+    }
+    const char* begin = rest.data() + name.size();
+    const char* end = rest.data() + rest.size();
+    int offset = 0;
+    begin += begin != end && *begin == '+';
+    const auto [stop, error] = std::from_chars(begin, end, offset);
+    if (rest.size() == name.size() || (error == std::errc() && stop == end))
+    {
+      return Pair{ layer, PairKind::Place, name, picture.frame() + offset, nullptr, offset == 0 };
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Pair> pairOf(Picture& picture, const std::string& layer)
+{
+  if (layer == "flow_forward" || layer == "flow_backward")
+  {
+    const int step = layer == "flow_forward" ? 1 : -1;
+    return Pair{ layer, PairKind::Displacement, picture.camera(), picture.frame() + step, nullptr, false };
+  }
+  if (layer == "sceneflow")
+  {
+    return Pair{ layer, PairKind::Motion, picture.camera(), picture.frame() + 1, nullptr, false };
+  }
+  if (layer == "disparity")
+  {
+    return disparityPair(picture);
+  }
+  if (layer.compare(0, 15, "correspondence_") == 0)
+  {
+    return correspondencePair(picture, layer);
+  }
+  return std::nullopt;
+}
+
+bool isPairLayer(const std::string& layer)
+{
+  return layer == "flow_forward" || layer == "flow_backward" || layer == "sceneflow" || layer == "disparity" ||
+         layer.compare(0, 15, "correspondence_") == 0;
+}
+} // namespace
+
+std::vector<Pair> pairsOf(Picture& picture)
+{
+  Dataset& dataset = picture.dataset();
+  std::vector<Pair> pairs;
+  for (const std::string& layer : dataset.layers(picture.camera(), picture.frame()))
+  {
+    if (!isPairLayer(layer))
+    {
+      continue;
+    }
+    std::optional<Pair> pair = pairOf(picture, layer);
+    const std::optional<Eye> eye = pair && dataset.hasFrame(pair->frame)
+                                     ? dataset.eye(pair->camera, pair->frame, picture.eye().record())
+                                     : std::nullopt;
+    if (!eye)
+    {
+      const std::vector<std::string> suffixes = dataset.suffixes(picture.camera(), layer, picture.frame());
+      throw InputError(dataset.absolute(dataset.find(picture.camera(), layer, picture.frame(), suffixes)), 0,
+        "there is no other view for layer " + quoted(layer) + " in the scene");
+    }
+    pair->other = dataset.sight(*eye, pair->frame);
+    pairs.push_back(*pair);
+  }
+  return pairs;
+}
+
+PicturePointer pairValues(Picture& picture, const Pair& pair)
+{
+  return picture.image(pair.layer, { ".npy", ".flo", ".pfm", ".exr" });
+}
+
+PicturePointer pairClasses(Picture& picture, const Pair& pair) { return picture.image(pair.layer, { ".png" }); }
+
+PairTargets::PairTargets(Picture& picture, const Pair& pair)
+  : Owner(picture)
+  , Seen(picture.surfaces())
+  , Other(*pair.other)
+  , Carry(picture.sight(), pair.other->statePointer())
+{
+  picture.preparePoints();
+}
+
+Target PairTargets::at(int x, int y, const Hit& hit) const
+{
+  Target target;
+  target.surface = hit.object != 0;
+  if (!target.surface)
+  {
+    return target;
+  }
+  target.here = this->Owner.point(x, y);
+  const Carried carried = this->Carry(hit, target.here);
+  target.ok = carried.ok;
+  target.world = carried.x_in_world;
+  target.there = this->Other.eye().toCamera(carried.x_in_world);
+  target.projects = this->Other.eye().project(target.there, target.pixel);
+  return target;
+}
+
+} // namespace dgtk

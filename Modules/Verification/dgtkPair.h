@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkPair_h
+#define dgtkPair_h
+
+// Private to Verification.
+
+#include "dgtkPicture.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// What the values of a layer between two views mean.
+enum class PairKind
+{
+  Place,        ///< (x', y')
+  Displacement, ///< (x' - x, y' - y)
+  FromLeft,     ///< x - x'
+  FromRight,    ///< x' - x
+  Motion        ///< of the point in the world, in the axes of the first camera
+};
+
+/// A layer of a picture that relates it to another view.
+struct Pair
+{
+  std::string layer; ///< its folder
+  PairKind kind = PairKind::Place;
+  std::string camera; ///< the other one
+  int frame = 0;      ///< the other one
+  std::shared_ptr<const Sight> other;
+  /// Fundamental matrices and triangulation hold: nothing moves in between.
+  bool sameFrame = false;
+};
+
+/// The layers of a picture that relate it to other views, of those that the dataset has.
+std::vector<Pair> pairsOf(Picture& picture);
+
+/// The values of a pair, and its class image; null where there is none.
+PicturePointer pairValues(Picture& picture, const Pair& pair);
+PicturePointer pairClasses(Picture& picture, const Pair& pair);
+
+/// Where the surface point of a pixel is seen in the other view, derived anew.
+struct Target
+{
+  bool surface = false;             ///< the pixel shows something
+  bool ok = false;                  ///< its object can be carried
+  bool projects = false;            ///< not behind the other camera
+  Eigen::Vector3d here{ 0, 0, 0 };  ///< the point at this frame, this camera
+  Eigen::Vector3d world{ 0, 0, 0 }; ///< the point at the other frame
+  Eigen::Vector3d there{ 0, 0, 0 }; ///< the point at the other frame, other camera
+  Eigen::Vector2d pixel{ 0, 0 };    ///< its projection, where it projects
+};
+
+class PairTargets
+{
+public:
+  /// Prepares the picture's surfaces and points.
+  PairTargets(Picture& picture, const Pair& pair);
+  Target at(int x, int y) const { return this->at(x, y, this->hit(x, y)); }
+  Target at(int x, int y, const Hit& hit) const;
+  const Hit& hit(int x, int y) const { return this->Seen.hits[this->Seen.index(x, y)]; }
+
+private:
+  Picture& Owner;
+  const Surfaces& Seen;
+  const Sight& Other;
+  Carrier Carry;
+};
+
+} // namespace dgtk
+
+#endif
