@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkObjectTruth.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Cosine between axes up to which they count as perpendicular.
+constexpr double perpendicular = 1e-9;
+
+/// Positions of toggles, in pixels column by column, between the runs of two successive rows.
+void addToggles(std::vector<int>& ends, int y, int height, std::vector<std::uint64_t>& toggles)
+{
+  std::sort(ends.begin(), ends.end());
+  for (std::size_t i = 0; i + 1 < ends.size(); i += 2)
+  {
+    for (int x = ends[i]; x < ends[i + 1]; ++x)
+    {
+      toggles.push_back(std::uint64_t(x) * height + y);
+    }
+  }
+  ends.clear();
+}
+} // namespace
+
+void ObjectPixels::append(const ObjectPixels& below)
+{
+  if (below.count == 0)
+  {
+    return;
+  }
+  if (this->count == 0)
+  {
+    *this = below;
+    return;
+  }
+  this->count += below.count;
+  this->x0 = std::min(this->x0, below.x0);
+  this->x1 = std::max(this->x1, below.x1);
+  this->y1 = below.y1;
+  this->runs.insert(this->runs.end(), below.runs.begin(), below.runs.end());
+}
+
+std::vector<std::uint64_t> columnRunLengths(const std::vector<PixelRun>& runs, int width, int height)
+{
+  // a column is left and entered where a row and the one above differ
+  std::vector<std::uint64_t> toggles;
+  std::vector<int> ends;
+  std::size_t above = 0; // runs [above, i) are of row runs[above].y
+  for (std::size_t i = 0; i < runs.size();)
+  {
+    const int y = runs[i].y;
+    if (i > 0 && runs[above].y != y - 1)
+    {
+      for (std::size_t k = above; k < i; ++k)
+      {
+        ends.insert(ends.end(), { runs[k].x0, runs[k].x1 });
+      }
+      addToggles(ends, runs[above].y + 1, height, toggles);
+      above = i;
+    }
+    for (; above < i; ++above)
+    {
+      ends.insert(ends.end(), { runs[above].x0, runs[above].x1 });
+    }
+    for (; i < runs.size() && runs[i].y == y; ++i)
+    {
+      ends.insert(ends.end(), { runs[i].x0, runs[i].x1 });
+    }
+    addToggles(ends, y, height, toggles);
+  }
+  for (; above < runs.size(); ++above)
+  {
+    ends.insert(ends.end(), { runs[above].x0, runs[above].x1 });
+  }
+  addToggles(ends, runs.empty() ? 0 : runs.back().y + 1, height, toggles);
+  std::sort(toggles.begin(), toggles.end());
+  std::vector<std::uint64_t> lengths;
+  std::uint64_t last = 0;
+  for (std::size_t i = 0; i < toggles.size(); ++i)
+  {
+    if (i + 1 < toggles.size() && toggles[i] == toggles[i + 1])
+    {
+      ++i; // the foot of a column is the head of the next
+      continue;
+    }
+    lengths.push_back(toggles[i] - last);
+    last = toggles[i];
+  }
+  const std::uint64_t rest = std::uint64_t(width) * height - last;
+  if (rest > 0 || lengths.empty())
+  {
+    lengths.push_back(rest);
+  }
+  return lengths;
+}
+
+namespace
+{
+void decompose(const Eigen::Matrix3d& linear, ObjectPose& pose)
+{
+  pose.scale = linear.colwise().norm().transpose();
+  if (!(pose.scale.minCoeff() > 0))
+  {
+    return;
+  }
+  pose.rotation = linear * pose.scale.cwiseInverse().asDiagonal();
+  const Eigen::Matrix3d& r = pose.rotation;
+  const double cosine =
+    std::max({ std::abs(r.col(0).dot(r.col(1))), std::abs(r.col(1).dot(r.col(2))), std::abs(r.col(2).dot(r.col(0))) });
+  if (!(cosine <= perpendicular))
+  {
+    return;
+  }
+  const Eigen::Vector3d a = r.col(0);
+  const Eigen::Vector3d b = r.col(1);
+  const Eigen::Vector3d third(
+    a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x());
+  if (third.dot(r.col(2)) < 0)
+  {
+    pose.rotation.col(0) *= -1;
+    pose.scale.x() *= -1;
+  }
+  pose.rigid = true;
+}
+} // namespace
+
+ObjectPose objectPose(const Instance& instance, const View& view)
+{
+  ObjectPose pose;
+  const Affine3 camera_from_object = view.camera_from_world * instance.world_from_object;
+  pose.matrix << camera_from_object.linear, camera_from_object.translation;
+  pose.translation = camera_from_object.translation;
+  decompose(camera_from_object.linear, pose);
+  Eigen::Vector3d least = Eigen::Vector3d::Constant(infinite);
+  Eigen::Vector3d most = -least;
+  Eigen::Vector4d projected(infinite, infinite, -infinite, -infinite);
+  const std::vector<Eigen::Vector3d>& positions = instance.geometry->positions;
+  std::vector<char> used(positions.size(), 0);
+  for (const auto& triangle : instance.model->triangles)
+  {
+    for (const std::uint32_t corner : triangle)
+    {
+      used[corner] = 1;
+    }
+  }
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    if (!used[i])
+    {
+      continue;
+    }
+    least = least.cwiseMin(positions[i]);
+    most = most.cwiseMax(positions[i]);
+    Eigen::Vector2d pixel;
+    if (view.model->project(camera_from_object * positions[i], pixel))
+    {
+      projected.head<2>() = projected.head<2>().cwiseMin(pixel);
+      projected.tail<2>() = projected.tail<2>().cwiseMax(pixel);
+    }
+  }
+  if (projected[0] <= projected[2])
+  {
+    pose.projected = projected;
+  }
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Eigen::Vector3d x(
+      (corner & 1 ? most : least).x(), (corner & 2 ? most : least).y(), (corner & 4 ? most : least).z());
+    pose.corners.row(corner) = (camera_from_object * x).transpose();
+  }
+  return pose;
+}
+
+BlockObjects::BlockObjects(const SceneState& state, const View& view)
+  : Columns((view.model->width() >> Shift) + 1)
+  , RowCount((view.model->height() >> Shift) + 1)
+  , Blocks(std::size_t(this->Columns) * this->RowCount, 0)
+{
+  for (std::size_t i = 0; i < state.instances.size(); ++i)
+  {
+    this->markObject(static_cast<std::uint32_t>(i + 1), state.instances[i], view);
+  }
+}
+
+void BlockObjects::mark(std::uint32_t object, double x0, double y0, double x1, double y1)
+{
+  const auto block = [](double at, int count)
+  { return static_cast<int>(std::clamp(std::floor(at / (1 << Shift)), -1.0, double(count))); };
+  const int left = std::max(0, block(x0, this->Columns));
+  const int right = std::min(this->Columns - 1, block(x1, this->Columns));
+  const int bottom = std::min(this->RowCount - 1, block(y1, this->RowCount));
+  for (int y = std::max(0, block(y0, this->RowCount)); y <= bottom; ++y)
+  {
+    std::uint32_t* row = this->Blocks.data() + std::size_t(y) * this->Columns;
+    for (int x = left; x <= right; ++x)
+    {
+      row[x] = row[x] == 0 || row[x] == object ? object : Several;
+    }
+  }
+}
+
+void BlockObjects::markObject(std::uint32_t object, const Instance& instance, const View& view)
+{
+  constexpr double margin = 0.5; // pixels
+  struct Projected
+  {
+    Eigen::Vector2d pixel;
+    double z;
+  };
+  const bool linear = view.model->linear().has_value();
+  const Affine3 camera_from_object = view.camera_from_world * instance.world_from_object;
+  const std::vector<Eigen::Vector3d>& positions = instance.geometry->positions;
+  std::vector<Projected> vertices(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    const Eigen::Vector3d x = camera_from_object * positions[i];
+    vertices[i].z = x.z() >= view.near && view.model->project(x, vertices[i].pixel) ? x.z() : -infinite;
+  }
+  for (const auto& corners : instance.model->triangles)
+  {
+    const Projected* v[3] = { &vertices[corners[0]], &vertices[corners[1]], &vertices[corners[2]] };
+    const int before = (v[0]->z > 0) + (v[1]->z > 0) + (v[2]->z > 0);
+    if (before == 0)
+    {
+      continue;
+    }
+    if (before < 3 || !linear)
+    {
+      // lines of a lens are curved, and those through the near plane have no end in the image
+      this->mark(object, 0, 0, view.model->width(), view.model->height());
+      return;
+    }
+    this->mark(object, std::min({ v[0]->pixel.x(), v[1]->pixel.x(), v[2]->pixel.x() }) - margin,
+      std::min({ v[0]->pixel.y(), v[1]->pixel.y(), v[2]->pixel.y() }) - margin,
+      std::max({ v[0]->pixel.x(), v[1]->pixel.x(), v[2]->pixel.x() }) + margin,
+      std::max({ v[0]->pixel.y(), v[1]->pixel.y(), v[2]->pixel.y() }) + margin);
+  }
+}
+
+void collectObjects(const SceneState& state, const View& view, const OcclusionQuery& occlusion,
+  const BlockObjects& blocks, const PixelRect& rect, const Hit* hits, bool amodalRuns, ObjectRows& rows)
+{
+  const std::size_t objects = state.instances.size();
+  rows.visible.assign(objects, {});
+  rows.amodal.assign(objects, {});
+  std::vector<Hit> all;
+  std::vector<std::size_t> seen(objects, 0); // 1 + the pixel at which an object was met last
+  std::size_t pixel = 0;
+  for (int y = rect.y; y < rect.y + rect.height; ++y)
+  {
+    for (int x = rect.x; x < rect.x + rect.width; ++x, ++pixel)
+    {
+      const std::uint32_t first = hits[pixel].object;
+      if (first == 0)
+      {
+        continue; // the ray meets nothing
+      }
+      rows.visible[first - 1].add(x, y, false);
+      rows.amodal[first - 1].add(x, y, amodalRuns);
+      if (!blocks.mayHideOthers(x, y, first))
+      {
+        continue;
+      }
+      seen[first - 1] = pixel + 1;
+      occlusion.allHits(view, { x + 0.5, y + 0.5 }, all);
+      for (const Hit& hit : all)
+      {
+        if (seen[hit.object - 1] != pixel + 1)
+        {
+          seen[hit.object - 1] = pixel + 1;
+          rows.amodal[hit.object - 1].add(x, y, amodalRuns);
+        }
+      }
+    }
+  }
+}
+
+} // namespace dgtk
