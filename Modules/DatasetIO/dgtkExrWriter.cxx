@@ -54,8 +54,7 @@ void predict(const unsigned char* __restrict raw, std::size_t bytes, unsigned ch
 class ExrWriter : public LayerFileWriter
 {
 public:
-  ExrWriter(
-    const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
+  ExrWriter(const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
     : LayerFileWriter(path, spec, width, height)
     , Compressor(libdeflate_alloc_compressor(compressionLevel), &libdeflate_free_compressor)
     , Order(std::size_t(spec.channels))
@@ -125,8 +124,7 @@ private:
     header += value;
   }
 
-  void writeHeader(
-    const std::vector<std::string>& names, const std::vector<std::pair<std::string, std::string>>& texts)
+  void writeHeader(const std::vector<std::string>& names, const std::vector<std::pair<std::string, std::string>>& texts)
   {
     std::string channels;
     for (const int channel : this->Order)

@@ -35,8 +35,8 @@ void rankCoverages(const std::uint32_t* ids, int samples, std::vector<SampleCoun
       ++known->count;
     }
   }
-  std::sort(coverages.begin(), coverages.end(), [](const SampleCount& a, const SampleCount& b)
-    { return a.count != b.count ? a.count > b.count : a.id < b.id; });
+  std::sort(coverages.begin(), coverages.end(),
+    [](const SampleCount& a, const SampleCount& b) { return a.count != b.count ? a.count > b.count : a.id < b.id; });
 }
 
 } // namespace dgtk

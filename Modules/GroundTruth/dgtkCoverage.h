@@ -25,8 +25,7 @@ DGTKGROUNDTRUTH_EXPORT SampleCount nearestCoverage(const std::uint32_t* ids, con
 
 /// The counts of all ids among `samples` samples, background included, the largest first, equal ones by id. They sum
 /// to `samples`.
-DGTKGROUNDTRUTH_EXPORT void rankCoverages(
-  const std::uint32_t* ids, int samples, std::vector<SampleCount>& coverages);
+DGTKGROUNDTRUTH_EXPORT void rankCoverages(const std::uint32_t* ids, int samples, std::vector<SampleCount>& coverages);
 
 /// Displacement, in pixels, of sample `index` of `count` evenly spaced ones from the pixel's centre: (index + 0.5) /
 /// count - 0.5. 0 for the middle one of an odd count.
