@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkAlbedo.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+int texelIndex(double coordinate, int size)
+{
+  const double index = std::fmod(std::floor(coordinate * size), size);
+  return std::isfinite(index) ? int(index < 0 ? index + size : index) : 0;
+}
+
+Eigen::Vector3d texelAt(const Model& model, const Image& image, std::uint32_t triangle, const Eigen::Vector2d& at)
+{
+  const auto& corners = model.triangles[triangle];
+  const Eigen::Vector2d& first = model.uvs[corners[0]];
+  const Eigen::Vector2d uv =
+    first + at.x() * (model.uvs[corners[1]] - first) + at.y() * (model.uvs[corners[2]] - first);
+  if (!uv.allFinite() || image.width < 1 || image.height < 1)
+  {
+    return Eigen::Vector3d::Ones();
+  }
+  const int column = texelIndex(uv.x(), image.width);
+  const int row = image.height - 1 - texelIndex(uv.y(), image.height);
+  const std::uint8_t* texel = &image.rgba[(std::size_t(row) * image.width + column) * 4];
+  return Eigen::Vector3d(texel[0], texel[1], texel[2]) / 255;
+}
+} // namespace
+
+std::array<std::uint8_t, 3> albedoAt(
+  const Instance& instance, std::uint32_t triangle, const Eigen::Vector2d& barycentrics)
+{
+  const Model& model = *instance.model;
+  const std::vector<Material>& materials = instance.materials ? *instance.materials : model.materials;
+  Eigen::Vector3d color = Eigen::Vector3d::Ones();
+  if (!materials.empty())
+  {
+    const Material& material = materials[model.parts[model.partOf(triangle)].material];
+    color = material.diffuse;
+    if (material.texture >= 0 && !model.uvs.empty() && model.textures[material.texture].image)
+    {
+      color = color.cwiseProduct(texelAt(model, *model.textures[material.texture].image, triangle, barycentrics));
+    }
+  }
+  std::array<std::uint8_t, 3> rounded;
+  for (int i = 0; i < 3; ++i)
+  {
+    rounded[i] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[i], 0.0, 1.0)));
+  }
+  return rounded;
+}
+
+} // namespace dgtk

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkAlbedo_h
+#define dgtkAlbedo_h
+
+#include "dgtkGroundTruthModule.h"
+
+#include "dgtkVisibility.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+
+namespace dgtk
+{
+
+/// Colour of a surface point without light: the material's diffuse colour times its texture's nearest texel (as
+/// isCutOut() finds it), sRGB, 8 bits. `barycentrics` of the second and third corner. Thread-safe.
+DGTKGROUNDTRUTH_EXPORT std::array<std::uint8_t, 3> albedoAt(
+  const Instance& instance, std::uint32_t triangle, const Eigen::Vector2d& barycentrics);
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The layer of all cameras of a frame: a fused point cloud with tracks.
+#include "dgtkAlbedo.h"
+#include "dgtkCorrespondence.h"
+#include "dgtkError.h"
+#include "dgtkFrameLayers.h"
+#include "dgtkObjectDocuments.h"
+#include "dgtkRaySource.h"
+#include "dgtkSamples.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace dgtk
+{
+
+namespace
+{
+LayerSpec pointsSpec()
+{
+  return { "points", PixelType::Float64, 3, "scene units", "world", "none",
+    "surface points seen by the cameras, each once, with normal, albedo, object and triangle; .json: the pixels that "
+    "see each" };
+}
+
+std::vector<std::string> pointsFiles(int frame)
+{
+  char number[16];
+  std::snprintf(number, sizeof number, "%06d", frame);
+  return { std::string("points/") + number + ".ply", std::string("points/") + number + ".json" };
+}
+
+/// The cameras of the request, in its order.
+std::vector<std::size_t> camerasOf(const WorkPlan& plan)
+{
+  std::vector<std::size_t> cameras;
+  for (const Job& job : plan.jobs)
+  {
+    if (std::find(cameras.begin(), cameras.end(), job.camera) == cameras.end())
+    {
+      cameras.push_back(job.camera);
+    }
+  }
+  return cameras;
+}
+
+/// A view of every step-th pixel of another: pixels step / 2, step / 2 + step, ...; none where there is no such pixel.
+View sparseView(const View& view, int step)
+{
+  View sparse = view;
+  const int first = step / 2;
+  const int columns = (view.model->width() - first + step - 1) / step;
+  const int rows = (view.model->height() - first + step - 1) / step;
+  const double offset = first + 0.5 - 0.5 * step;
+  sparse.model = resampledCamera(view.model, std::max(1, columns), std::max(1, rows), step, { offset, offset });
+  return sparse;
+}
+
+class PointsLane : public OutputLane
+{
+public:
+  explicit PointsLane(const JobContext& context)
+    : Context(context)
+    , Step(context.plan.request.pointsStep)
+  {
+    const SceneQueries::Moment moment = context.queries.at(context.job.frame);
+    this->Occlusion = moment.occlusion;
+    for (const std::size_t camera : camerasOf(context.plan))
+    {
+      const GeneratorRequest& request = context.plan.request;
+      this->Views.push_back(
+        { context.state.get(), context.queries.stage().view(camera, context.job.frame, request.width, request.height),
+          this->Occlusion.get() });
+    }
+  }
+
+  void write(const Band&) override {}
+
+  std::vector<FinishedFile> finish() override
+  {
+    std::vector<PointRecord> points;
+    for (std::size_t camera = 0; camera < this->Views.size(); ++camera)
+    {
+      std::vector<PointRecord> own = this->pointsOf(camera);
+      points.insert(points.end(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
+    }
+    std::vector<std::string> names;
+    for (const OtherView& view : this->Views)
+    {
+      names.push_back(view.view.name);
+    }
+    const std::vector<std::string> paths = pointsFiles(this->Context.job.frame);
+    std::vector<FinishedFile> files;
+    for (std::size_t i = 0; i < paths.size(); ++i)
+    {
+      const DatasetFile file = writeDocument(this->Context.plan.request.folder, paths[i],
+        i == 0 ? pointsPly(points) : pointsText(this->Context.job.frame, names, points));
+      files.push_back({ { file.path, file.bytes, file.sha256 }, "points" });
+    }
+    return files;
+  }
+
+private:
+  /// Points of a camera's grid that no earlier camera sees.
+  std::vector<PointRecord> pointsOf(std::size_t camera) const
+  {
+    const View& view = this->Views[camera].view;
+    if (view.model->width() <= this->Step / 2 || view.model->height() <= this->Step / 2)
+    {
+      return {};
+    }
+    const View sparse = sparseView(view, this->Step);
+    const PixelRect rect{ 0, 0, sparse.model->width(), sparse.model->height() };
+    VisibilityBuffer buffer;
+    const std::unique_ptr<VisibilitySource> source = makeRaySource(this->Context.pool);
+    source->setScene(this->Context.state, sparse);
+    source->render(rect, buffer);
+    std::vector<std::vector<PointRecord>> rows(rect.height);
+    this->Context.pool.parallelFor(rect.height,
+      [&](int y)
+      {
+        SurfaceRows surface;
+        computeSurfaceRows(*this->Context.state, sparse, { 0, y, rect.width, 1 },
+          buffer.hits.data() + std::size_t(y) * rect.width, true, surface);
+        for (int x = 0; x < rect.width; ++x)
+        {
+          PointRecord point;
+          const Eigen::Vector2d barycentrics(surface.barycentrics[2 * x], surface.barycentrics[2 * x + 1]);
+          if (std::isfinite(surface.t[x]) && this->track(camera, x, y, surface.hits[x], barycentrics, point))
+          {
+            this->describe(view, surface.hits[x], barycentrics, point);
+            rows[y].push_back(std::move(point));
+          }
+        }
+      });
+    std::vector<PointRecord> points;
+    for (std::vector<PointRecord>& row : rows)
+    {
+      points.insert(points.end(), std::make_move_iterator(row.begin()), std::make_move_iterator(row.end()));
+    }
+    return points;
+  }
+
+  /// False when an earlier camera sees the point.
+  bool track(
+    std::size_t own, int x, int y, const Hit& hit, const Eigen::Vector2d& barycentrics, PointRecord& point) const
+  {
+    for (std::size_t camera = 0; camera < this->Views.size(); ++camera)
+    {
+      const auto index = static_cast<std::uint32_t>(camera);
+      if (camera == own)
+      {
+        const double first = this->Step / 2 + 0.5;
+        point.track.push_back({ index, first + double(x) * this->Step, first + double(y) * this->Step });
+        continue;
+      }
+      const Correspondence seen = correspond(this->Views[camera], hit, barycentrics);
+      if (seen.visibility == VisibilityClass::Visible)
+      {
+        if (camera < own)
+        {
+          return false;
+        }
+        point.track.push_back({ index, seen.pixel.x(), seen.pixel.y() });
+      }
+    }
+    return true;
+  }
+
+  void describe(const View& view, const Hit& hit, const Eigen::Vector2d& barycentrics, PointRecord& point) const
+  {
+    const SceneState& state = *this->Context.state;
+    point.x = carriedPoint(state, hit, barycentrics);
+    point.object = hit.object;
+    point.triangle = hit.triangle;
+    const std::array<std::uint8_t, 3> color = albedoAt(state.instances[hit.object - 1], hit.triangle, barycentrics);
+    std::copy(color.begin(), color.end(), point.color);
+    Eigen::Vector3d corners[3];
+    triangleInWorld(state, hit, corners);
+    const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+    const Eigen::Vector3d x_in_camera = view.camera_from_world * point.x;
+    Eigen::Vector2d pixel;
+    view.model->project(x_in_camera, pixel);
+    const Eigen::Vector3d direction =
+      view.camera_from_world.rotation.transpose() * view.model->rayThrough(pixel).direction;
+    point.normal = (normal.dot(direction) > 0 ? Eigen::Vector3d(-normal) : normal).cast<float>();
+  }
+
+  JobContext Context;
+  int Step;
+  std::shared_ptr<const OcclusionQuery> Occlusion;
+  std::vector<OtherView> Views; ///< in the order of the cameras of the file
+};
+
+class PointsLayer final : public FrameLayer
+{
+public:
+  LayerInfo info() const override
+  {
+    return { "points", { "ply" }, "point cloud fused over the cameras, and the pixels that see each point" };
+  }
+  void check(const WorkPlan& plan, const Stage&) const override
+  {
+    if (plan.request.pointsStep < 1)
+    {
+      throw UsageError("--points-step: expected at least 1, found " + std::to_string(plan.request.pointsStep));
+    }
+  }
+  std::vector<LayerRecord> specs(const std::string& format) const override { return { { pointsSpec(), format } }; }
+  std::vector<std::pair<std::string, std::string>> options(const GeneratorRequest& request) const override
+  {
+    return { { "points_step", std::to_string(request.pointsStep) } };
+  }
+  std::vector<std::string> files(const WorkPlan& plan, const Stage&, const Job& job) const override
+  {
+    // the files of a frame belong to its first camera's job
+    return job.camera == plan.jobs.front().camera ? pointsFiles(job.frame) : std::vector<std::string>{};
+  }
+  std::unique_ptr<OutputLane> makeLane(const JobContext& context) const override
+  {
+    return std::make_unique<PointsLane>(context);
+  }
+};
+} // namespace
+
+std::shared_ptr<const FrameLayer> makePointsLayer();
+std::shared_ptr<const FrameLayer> makePointsLayer() { return std::make_shared<PointsLayer>(); }
+
+} // namespace dgtk
