@@ -2,6 +2,7 @@
 #ifndef dgtkFrameOutput_h
 #define dgtkFrameOutput_h
 
+#include "dgtkMattingSource.h"
 #include "dgtkSerialQueue.h"
 #include "dgtkWorkPlan.h"
 
@@ -27,6 +28,7 @@ struct Band
   /// Surfaces behind one another as OpenGL peels them, for each tile from left to right the ranks from near to far;
   /// empty unless asked for.
   std::vector<std::vector<SurfaceLayer>> peeled;
+  std::vector<MattePixels> mattes; ///< one for each of FrameSourceOptions::mattes
 };
 
 /// A band as drawing leaves it.

@@ -21,11 +21,15 @@ FrameSource::FrameSource(const FrameSourceOptions& options, ThreadPool& pool)
   {
     this->Ray = makeRaySource(pool);
   }
-  if (options.color || options.peel || (options.hits && options.raster))
+  if (options.color || options.peel || !options.mattes.empty() || (options.hits && options.raster))
   {
     std::unique_ptr<RasterSource> raster = makeRasterSource(glBackendFromName(options.gl));
     this->Description = raster->choice().description;
     this->Raster = std::move(raster);
+  }
+  if (!options.mattes.empty())
+  {
+    this->Matting = std::make_unique<MattingSource>(*this->Raster, options.mattes, options.samples);
   }
 }
 
@@ -41,6 +45,10 @@ void FrameSource::setScene(const std::shared_ptr<const SceneState>& state, const
   {
     this->Raster->setScene(state, view);
   }
+  if (this->Matting)
+  {
+    this->Matting->setScene(state, view);
+  }
   this->Grid = std::make_unique<TileGrid>(view.model->width(), view.model->height());
 }
 
@@ -52,6 +60,7 @@ struct FrameSource::Tile
   VisibilityBuffer hits;
   ColorBuffer colors;
   std::vector<SurfaceLayer> ranks;
+  std::vector<MattePixels> mattes;
   std::function<void()> rest = [] {}; ///< to be done before the buffers are whole
 };
 
@@ -84,6 +93,10 @@ std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect)
         return true;
       };
       this->Raster->peel(rect, keep);
+    }
+    if (this->Matting)
+    {
+      tile->mattes = this->Matting->draw(rect);
     }
   }
   catch (...)
@@ -127,6 +140,7 @@ void FrameSource::draw(int row, DrawnBand& drawn)
       band.rgb = std::move(tile->colors.rgb);
       band.hits = std::move(tile->hits.hits);
       band.peeled.push_back(std::move(tile->ranks));
+      band.mattes = std::move(tile->mattes);
     };
     return;
   }
@@ -135,6 +149,13 @@ void FrameSource::draw(int row, DrawnBand& drawn)
   const std::size_t pixels = std::size_t(band.rect.width) * band.rect.height;
   band.hits.resize(this->Options.hits ? pixels : 0);
   band.rgb.resize(this->Options.color ? pixels * 3 : 0);
+  band.mattes.resize(this->Options.mattes.size());
+  for (MattePixels& matte : band.mattes)
+  {
+    matte.count.resize(pixels);
+    matte.foreground.resize(pixels * 3);
+    matte.background.resize(pixels * 3);
+  }
   std::deque<std::future<void>> placed;
   const auto waitFor = [&](std::size_t most)
   {
@@ -161,6 +182,12 @@ void FrameSource::draw(int row, DrawnBand& drawn)
           if (this->Options.color)
           {
             place(tile->colors.rgb, rect, 3, band.rect, band.rgb);
+          }
+          for (std::size_t i = 0; i < tile->mattes.size(); ++i)
+          {
+            place(tile->mattes[i].count, rect, 1, band.rect, band.mattes[i].count);
+            place(tile->mattes[i].foreground, rect, 3, band.rect, band.mattes[i].foreground);
+            place(tile->mattes[i].background, rect, 3, band.rect, band.mattes[i].background);
           }
         }));
       waitFor(static_cast<std::size_t>(this->Pool.threads()));

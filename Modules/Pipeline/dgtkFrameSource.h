@@ -20,6 +20,7 @@ struct FrameSourceOptions
   bool peel = false;  ///< all surfaces are wanted
   bool raster = false;
   int samples = 1;
+  std::vector<std::uint32_t> mattes; ///< ids of the objects whose mattes are wanted
   std::string gl = "auto";
 };
 
@@ -45,6 +46,7 @@ private:
   ThreadPool& Pool;
   std::unique_ptr<VisibilitySource> Ray;
   std::unique_ptr<RasterSource> Raster;
+  std::unique_ptr<MattingSource> Matting;
   std::unique_ptr<TileGrid> Grid;
   std::string Description;
 };

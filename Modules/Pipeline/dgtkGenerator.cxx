@@ -116,6 +116,7 @@ GeneratorResult Run::execute()
   options.peel = std::any_of(this->Plan.frameLayers.begin(), this->Plan.frameLayers.end(),
     [](const PlannedFrameLayer& planned) { return planned.layer->needsPeeling(); });
   options.samples = request.samples;
+  options.mattes = matteObjects(this->Plan, *this->Scene);
   options.gl = request.gl;
   this->Pool = std::make_unique<ThreadPool>(this->Threads);
   this->Source = std::make_unique<FrameSource>(options, *this->Pool);

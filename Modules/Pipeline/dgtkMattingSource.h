@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkMattingSource_h
+#define dgtkMattingSource_h
+
+#include "dgtkRasterSource.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+class Stage;
+struct WorkPlan;
+
+/// What is drawn of an object for its matte, for the pixels of a rectangle.
+struct MattePixels
+{
+  std::vector<std::uint16_t> count; ///< samples that show the object, one a pixel
+  std::vector<float> foreground;    ///< mean colour of these samples, 3 a pixel; 0 where there is none
+  std::vector<float> background;    ///< mean colour of all samples without the object, 3 a pixel
+};
+
+/// Ids of the objects of `--matte`, each once, in its order; empty without the layer matting. Throws UsageError for a
+/// name that no object has.
+std::vector<std::uint32_t> matteObjects(const WorkPlan& plan, const Stage& stage);
+
+/// Draws what mattes are made of with samples x samples samples a pixel. Uses the raster engine in the calling thread.
+class MattingSource
+{
+public:
+  MattingSource(RasterSource& raster, std::vector<std::uint32_t> objects, int samples);
+
+  void setScene(const std::shared_ptr<const SceneState>& state, const View& view);
+  /// One for each object. Leaves the raster engine with the scene and view of setScene().
+  std::vector<MattePixels> draw(const PixelRect& rect);
+
+private:
+  void drawForegrounds(const PixelRect& rect, std::vector<MattePixels>& mattes);
+  std::shared_ptr<const SceneState> without(std::uint32_t object) const;
+  RasterSource& Raster;
+  std::vector<std::uint32_t> Objects;
+  int Samples;
+  std::shared_ptr<const SceneState> State;
+  View Camera;
+};
+
+} // namespace dgtk
+
+#endif
