@@ -110,6 +110,11 @@ GeneratorRequest parseRequest(const Arguments& arguments)
   {
     request.pairs = arguments.list("--pairs");
   }
+  if (arguments.has("--matte"))
+  {
+    request.matte = arguments.list("--matte");
+  }
+  request.pointsStep = arguments.integer("--points-step", 1, largestImage);
   request.seed = arguments.integer("--seed", 0, 2147483647);
   request.resume = arguments.has("--resume");
   request.contactSheet = arguments.has("--contact-sheet");
@@ -160,8 +165,11 @@ Command renderCommand()
     { "--frames", "A[:B[:STEP]]", "", "some of the frames (default: all)" },
     { "--size", "WxH", "", "size of the images in pixels (default: the camera's own, else 640x480)" },
     { "--tile", "WxH", "640x480", "size of the images of the tiles layer" },
-    { "--pairs", "A:B,...", "", "camera pairs of the correspondence layer; A:B+1 one frame later (default: all pairs)" },
-    { "--samples", "N", "1", "colour is the mean of N x N points a pixel" },
+    { "--pairs", "A:B,...", "",
+      "camera pairs of the correspondence layer; A:B+1 one frame later (default: all pairs)" },
+    { "--matte", "NAMES", "", "objects of the matting layer" },
+    { "--points-step", "N", "4", "pixels between the samples of the points layer" },
+    { "--samples", "N", "1", "N x N points a pixel: colour is their mean; alpha, coverage and matting count them" },
     { "--color-bits", "8|16", "8", "bits a channel of colour PNG files" } };
   for (const LayerInfo& layer : generatorLayers())
   {

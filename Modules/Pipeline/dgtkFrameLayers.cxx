@@ -11,7 +11,12 @@ std::shared_ptr<const FrameLayer> makeEdgesLayer();
 std::shared_ptr<const FrameLayer> makeFlowForwardLayer();
 std::shared_ptr<const FrameLayer> makeFlowBackwardLayer();
 std::shared_ptr<const FrameLayer> makeSceneFlowLayer();
+std::shared_ptr<const FrameLayer> makeLdiLayer();
 std::shared_ptr<const FrameLayer> makeAlphaLayer();
+std::shared_ptr<const FrameLayer> makeBoxesLayer();
+std::shared_ptr<const FrameLayer> makeAmodalLayer();
+std::shared_ptr<const FrameLayer> makePointsLayer();
+std::shared_ptr<const FrameLayer> makeMattingLayer();
 std::shared_ptr<const FrameLayer> makeCoverageLayer();
 
 const std::vector<std::shared_ptr<const FrameLayer>>& frameLayers()
@@ -23,8 +28,13 @@ const std::vector<std::shared_ptr<const FrameLayer>>& frameLayers()
     makeFlowForwardLayer(),
     makeFlowBackwardLayer(),
     makeSceneFlowLayer(),
+    makeLdiLayer(),
     makeAlphaLayer(),
     makeCoverageLayer(),
+    makeBoxesLayer(),
+    makeAmodalLayer(),
+    makePointsLayer(),
+    makeMattingLayer(),
   };
   return all;
 }
