@@ -37,10 +37,10 @@ void checkFile(
   meter.equal(hash == sha256, [&] { return Offender{ path, -1, -1, "SHA-256 " + hash, sha256 }; });
 }
 
-/// Files that the manifest does not list; partial files of a run are none of a dataset's either.
+/// Files that the manifest does not list.
 void checkUnlisted(const Dataset& dataset, Meter& meter)
 {
-  std::set<std::string> listed{ "manifest.json", "verification.json" };
+  std::set<std::string> listed;
   for (const DatasetFile& file : dataset.manifest().files)
   {
     listed.insert(file.path);
@@ -48,9 +48,10 @@ void checkUnlisted(const Dataset& dataset, Meter& meter)
   std::set<std::string> present;
   for (const auto& entry : fs::recursive_directory_iterator(dataset.folder()))
   {
-    if (!entry.is_directory())
+    const std::string path = entry.path().lexically_relative(dataset.folder()).generic_string();
+    if (!entry.is_directory() && path != "manifest.json" && path != "verification.json")
     {
-      present.insert(entry.path().lexically_relative(dataset.folder()).generic_string());
+      present.insert(path);
     }
   }
   for (const std::string& path : present)

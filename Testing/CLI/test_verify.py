@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""dgtk verify: datasets as rendered pass, and each planted error is found and named by its file."""
+import hashlib
+import json
+import os
+import shutil
+import struct
+
+import numpy
+
+from harness import SCENES, Case, load_json, main
+
+LAYERS = "color,depth,distance,position,normal,uv,objectcoords,objects,parts,triangles,calibration,classes"
+PAIRS = ",correspondence,disparity,flow_forward,flow_backward,sceneflow"
+
+
+def contents(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+class Planted(Case):
+    """One dataset of a moving stereo pair; each case spoils a copy of it."""
+
+    @classmethod
+    def setUpClass(cls):
+        import subprocess
+        import tempfile
+
+        cls.whole = tempfile.mkdtemp(prefix="dgtk-verify-")
+        done = subprocess.run([os.environ["DGTK"], "render", os.path.join(SCENES, "demo.json"), "-o", cls.whole, "--quiet",
+                               "--layers", LAYERS + PAIRS, "--pairs", "left:right,right:left+1", "--frames", "0:1",
+                               "--size", "160x120", "--objects-format", "npy,ppm"], capture_output=True, text=True)
+        if done.returncode:
+            raise RuntimeError(done.stderr)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.whole, ignore_errors=True)
+
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(self.whole, self.path("set"))
+        # Paths of models are relative to the dataset.
+        for name in ("scene.json", "manifest.json", "objects.json"):
+            text = contents(self.path("set", name)).decode()
+            there = os.path.relpath(SCENES, self.whole).replace("Scenes", "")
+            here = os.path.relpath(SCENES, self.path("set")).replace("Scenes", "")
+            self.write(os.path.join("set", name), text.replace(there, here))
+        self.accept("scene.json", "objects.json")
+
+    def accept(self, *names):
+        """Makes the manifest agree with files as they are, so that only what they say can betray them."""
+        manifest = load_json(self.path("set", "manifest.json"))
+        for entry in manifest["files"]:
+            if entry["path"] in names:
+                data = contents(self.path("set", entry["path"]))
+                entry["bytes"], entry["sha256"] = len(data), hashlib.sha256(data).hexdigest()
+        self.write(os.path.join("set", "manifest.json"), json.dumps(manifest))
+
+    def found(self, name, check, *says):
+        """verify fails, and names the file on standard error by the check that sees it."""
+        line = self.refused("verify", self.path("set"), status=1, says=[name, f"check {check}", *says])
+        return line
+
+    def change(self, name, edit):
+        """Replaces the values of a .npy file of the dataset."""
+        values = numpy.load(self.path("set", name))
+        numpy.save(self.path("set", name), edit(values))
+        self.accept(name)
+
+    def test_as_rendered(self):
+        done = self.dgtk("verify", self.path("set"), "--json", "--write", "--threads", 2)
+        report = json.loads(done.stdout)
+        self.assertTrue(report["passed"])
+        checks = {residual["check"] for residual in report["residuals"]}
+        self.assertLessEqual({"hashes", "cameras", "depth", "objects", "calibration", "geometry", "motion", "class",
+                              "forward-backward", "epipolar", "triangulation"}, checks)
+        for residual in report["residuals"]:
+            self.assertGreater(residual["count"], 0, residual)
+            self.assertLessEqual(residual["skipped"] if residual["check"] in ("depth", "objects", "class", "motion") else 0,
+                                 residual["count"] * 2e-3, residual)
+        self.assertEqual(load_json(self.path("set", "verification.json")), report)
+        # The report does not make the dataset another one, and does not depend on the threads.
+        again = self.dgtk("verify", self.path("set"), "--json", "--threads", 1)
+        self.assertEqual(again.stdout, done.stdout)
+        table = self.dgtk("verify", self.path("set")).stdout
+        self.assertIn("correspondence_right", table)
+        self.assertNotIn("BREACH", table)
+
+    def test_principal_point(self):
+        cameras = load_json(self.path("set", "cameras.json"))
+        cameras["cameras"][0]["K"][0][2] += 0.5
+        self.write(os.path.join("set", "cameras.json"), json.dumps(cameras))
+        self.accept("cameras.json")
+        self.found("cameras.json", "cameras", "80.5", "expected 80 ")
+        table = self.dgtk("verify", self.path("set"), status=1).stdout
+        row = next(line for line in table.splitlines() if "cv::projectPoints" in line)
+        self.assertIn("5.00e-01", row)
+
+    def test_distance_for_depth(self):
+        shutil.copy(self.path("set", "left", "distance", "000001.npy"), self.path("set", "left", "depth", "000001.npy"))
+        self.accept("left/depth/000001.npy")
+        self.found("left/depth/000001.npy", "depth")
+
+    def test_one_id(self):
+        def flip(ids):
+            ids[60, 80] ^= 3
+            return ids
+
+        self.change("right/objects/000000.npy", flip)
+        self.found("right/objects/000000.npy: pixel (80, 60)", "objects")
+
+    def test_flow_transposed(self):
+        name = self.path("set", "left", "flow_forward", "000000.flo")
+        data = contents(name)
+        flow = numpy.frombuffer(data, "<f4", offset=12).reshape(120, 160, 2)
+        with open(name, "wb") as file:
+            file.write(data[:12] + flow[..., ::-1].tobytes())
+        self.accept("left/flow_forward/000000.flo")
+        self.found("left/flow_forward/000000.flo: pixel", "motion")
+
+    def test_correspondence_by_half_a_pixel(self):
+        self.change("left/correspondence_right/000000.npy", lambda values: values + [0.0, 0.5])
+        self.found("left/correspondence_right/000000.npy: pixel", "motion", "5.00e-01 pixel")
+        table = self.dgtk("verify", self.path("set"), status=1).stdout
+        row = next(line for line in table.splitlines() if line.startswith("epipolar"))
+        self.assertIn("5.00e-01", row)
+        self.assertIn("BREACH", row)
+
+    def test_position_off_by_the_camera(self):
+        self.change("left/position/000000.npy", lambda values: values * (1 + 1e-6))
+        self.found("left/position/000000.npy", "calibration")
+
+    def test_normals_of_the_other_side(self):
+        self.change("left/normal/000000.npy", lambda values: -values)
+        self.found("left/normal/000000.npy: pixel", "geometry")
+
+    def test_truncated(self):
+        name = self.path("set", "left", "depth", "000000.npy")
+        data = contents(name)
+        with open(name, "wb") as file:
+            file.write(data[:-1000])
+        self.found("left/depth/000000.npy", "hashes", f"{len(data) - 1000} bytes")
+        self.accept("left/depth/000000.npy")
+        self.found("left/depth/000000.npy", "depth")
+
+    def test_one_byte(self):
+        name = self.path("set", "left", "color", "000000.png")
+        data = bytearray(contents(name))
+        data[len(data) // 2] ^= 1
+        with open(name, "wb") as file:
+            file.write(data)
+        self.found("left/color/000000.png", "hashes", "SHA-256")
+
+    def test_missing_and_unlisted(self):
+        os.remove(self.path("set", "right", "uv", "000001.npy"))
+        self.found("right/uv/000001.npy", "hashes", "no file")
+        shutil.copy(self.path("set", "right", "uv", "000000.npy"), self.path("set", "right", "uv", "000001.npy"))
+        self.accept("right/uv/000001.npy")
+        self.found("right/uv/000001.npy", "geometry")
+
+    def test_unlisted(self):
+        self.write(os.path.join("set", "left", "notes.txt"), "x")
+        self.found("left/notes.txt", "hashes", "does not list")
+
+    def test_another_scene(self):
+        scene = load_json(self.path("set", "scene.json"))
+        scene["objects"][1]["position"][0] += 0.01
+        self.write(os.path.join("set", "scene.json"), json.dumps(scene))
+        self.accept("scene.json")
+        self.found("/depth/00000", "depth")
+
+    def test_damaged_documents(self):
+        for name in ("cameras.json", "objects.json", "scene.json"):
+            with self.subTest(name):
+                text = contents(self.path("set", name)).decode()
+                self.write(os.path.join("set", name), text[:len(text) // 2])
+                self.accept(name)
+                self.found(name, "hashes")
+                self.write(os.path.join("set", name), text)
+                self.accept(name)
+
+    def test_class_image(self):
+        # Visible where the surface is hidden: an 8-bit gray PNG of ones.
+        import zlib
+
+        def chunk(kind, data):
+            return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+        raw = b"".join(b"\0" + b"\1" * 160 for _ in range(120))
+        png = (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 160, 120, 8, 0, 0, 0, 0)) +
+               chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b""))
+        self.write(os.path.join("set", "left", "correspondence_right", "000000.png"), png)
+        self.accept("left/correspondence_right/000000.png")
+        self.found("left/correspondence_right/000000.png: pixel", "class", "found 1")
+
+
+class Refusals(Case):
+    def test_not_a_dataset(self):
+        self.refused("verify", self.folder, status=3, says="is not a dataset")
+        self.refused("verify", self.path("none"), status=3, says="is not a dataset")
+        self.write("manifest.json", "{")
+        self.refused("verify", self.folder, status=3, says="manifest.json")
+
+    def test_usage(self):
+        self.refused("verify", status=2)
+        self.refused("verify", self.folder, "--threads", "0", status=2, says="--threads")
+
+
+if __name__ == "__main__":
+    main()
