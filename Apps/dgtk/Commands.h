@@ -14,6 +14,7 @@ Command convertCommand();
 Command correspondCommand();
 Command compareCommand();
 Command verifyCommand();
+Command warpCommand();
 Command listCommand();
 
 /// Text on standard output; MachineError when it cannot be written (a full disk behind a redirection).

@@ -17,7 +17,7 @@ using namespace dgtk::app;
 std::vector<Command> commands()
 {
   return { renderCommand(), infoCommand(), convertCommand(), verifyCommand(), correspondCommand(), compareCommand(),
-    listCommand() };
+    warpCommand(), listCommand() };
 }
 
 std::string overview()

@@ -67,8 +67,8 @@ struct LdiRow
   std::vector<LdiRecord> records;    ///< of all pixels in turn
 };
 
-/// Reads a .ldi file row by row from the top. A damaged file is an InputError that names the file and the offset; memory
-/// is bounded by the size of a row in the file.
+/// Reads a .ldi file row by row from the top. A damaged file is an InputError that names the file and the offset;
+/// memory is bounded by the size of a row in the file.
 class DGTKDATASETIO_EXPORT LdiReader
 {
 public:

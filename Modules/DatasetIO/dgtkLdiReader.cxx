@@ -32,8 +32,8 @@ struct LdiReader::Impl
     const std::uint64_t least = headerBytes + countBytes * std::uint64_t(this->Width) * std::uint64_t(this->Height);
     if (this->File.size() < least)
     {
-      this->File.fail(this->File.size(), "is too short for its size of " + std::to_string(this->Width) + " x " +
-                                           std::to_string(this->Height),
+      this->File.fail(this->File.size(),
+        "is too short for its size of " + std::to_string(this->Width) + " x " + std::to_string(this->Height),
         "at least " + std::to_string(least) + " bytes", std::to_string(this->File.size()) + " bytes");
     }
   }
@@ -41,11 +41,11 @@ struct LdiReader::Impl
   // The next bytes of the file, which stay valid until the next call.
   const unsigned char* take(std::uint64_t bytes)
   {
-    if (this->At + bytes > this->BlockStart + this->Block.size())
+    if (this->At < this->BlockStart || this->At + bytes > this->BlockStart + this->Block.size())
     {
       this->BlockStart = this->At;
-      this->Block.resize(std::size_t(std::min<std::uint64_t>(std::max<std::uint64_t>(blockBytes, bytes),
-        this->File.size() - std::min(this->At, this->File.size()))));
+      this->Block.resize(std::size_t(std::min<std::uint64_t>(
+        std::max<std::uint64_t>(blockBytes, bytes), this->File.size() - std::min(this->At, this->File.size()))));
       if (this->Block.size() < bytes)
       {
         this->File.fail(this->At, "is cut off", std::to_string(bytes) + " bytes", std::to_string(this->Block.size()));

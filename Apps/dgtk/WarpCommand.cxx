@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands.h"
+
+#include "dgtkDatasetDocuments.h"
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkLdi.h"
+#include "dgtkWarp.h"
+
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+namespace dgtk::app
+{
+
+namespace
+{
+constexpr std::uint64_t largestDocument = 1 << 20;
+constexpr int farthestFrame = 1 << 30;
+
+bool isFile(const std::string& name) { return name.size() > 5 && name.compare(name.size() - 5, 5, ".json") == 0; }
+
+/// Number `key` of a camera file; `fallback` when it is missing.
+double numberOf(const nlohmann::json& json, const char* key, const std::string& path, double fallback)
+{
+  const auto found = json.find(key);
+  if (found == json.end())
+  {
+    return fallback;
+  }
+  if (!found->is_number() || !std::isfinite(found->get<double>()))
+  {
+    throw InputError(path, 0, std::string(key) + " is not a number");
+  }
+  return found->get<double>();
+}
+
+/// A matrix of rows (a vector: of numbers) of a camera file.
+template <typename Matrix>
+Matrix matrixOf(const nlohmann::json& json, const char* key, const std::string& path)
+{
+  Matrix matrix;
+  const auto refuse = [&]
+  {
+    throw InputError(path, 0, std::string(key) + " is missing or not of numbers",
+      Matrix::ColsAtCompileTime == 1 ? "3 numbers" : "3 rows of 3 numbers");
+  };
+  const auto found = json.find(key);
+  if (found == json.end() || !found->is_array() || found->size() != 3)
+  {
+    refuse();
+  }
+  for (Eigen::Index r = 0; r < 3; ++r)
+  {
+    const nlohmann::json& row = (*found)[static_cast<std::size_t>(r)];
+    for (Eigen::Index c = 0; c < matrix.cols(); ++c)
+    {
+      const bool vector = Matrix::ColsAtCompileTime == 1;
+      if (!vector && (!row.is_array() || row.size() != 3))
+      {
+        refuse();
+      }
+      const nlohmann::json& value = vector ? row : row[static_cast<std::size_t>(c)];
+      if (!value.is_number() || !std::isfinite(value.get<double>()))
+      {
+        refuse();
+      }
+      matrix(r, c) = value.get<double>();
+    }
+  }
+  return matrix;
+}
+
+/// A camera file: K, R, t, width, height and, where given, model, near and far.
+CameraRecord readCameraFile(const std::string& path)
+{
+  const nlohmann::json json = nlohmann::json::parse(readFile(path, largestDocument), nullptr, false, true);
+  if (!json.is_object())
+  {
+    throw InputError(path, 0, "is not a camera", "a JSON object with K, R, t, width and height");
+  }
+  CameraRecord camera;
+  camera.name = path;
+  camera.K = matrixOf<Eigen::Matrix3d>(json, "K", path);
+  camera.R = matrixOf<Eigen::Matrix3d>(json, "R", path);
+  camera.t = matrixOf<Eigen::Vector3d>(json, "t", path);
+  const double width = numberOf(json, "width", path, 0);
+  const double height = numberOf(json, "height", path, 0);
+  if (!(width >= 1 && width <= 65536 && height >= 1 && height <= 65536))
+  {
+    throw InputError(path, 0, "width or height is missing or out of range", "1 to 65536");
+  }
+  camera.width = static_cast<int>(width);
+  camera.height = static_cast<int>(height);
+  camera.near = numberOf(json, "near", path, 1e-6);
+  camera.far = numberOf(json, "far", path, std::numeric_limits<double>::max());
+  if (json.contains("model"))
+  {
+    camera.model = json["model"].is_string() ? json["model"].get<std::string>() : "";
+  }
+  const Eigen::Matrix3d error = camera.R * camera.R.transpose() - Eigen::Matrix3d::Identity();
+  if (error.cwiseAbs().maxCoeff() > 1e-6 || camera.R.row(0).cross(camera.R.row(1)).dot(camera.R.row(2)) < 0)
+  {
+    throw InputError(path, 0, "R is not a rotation");
+  }
+  return camera;
+}
+
+View viewOf(const CameraRecord& camera, const std::string& file)
+{
+  View view;
+  view.name = camera.name;
+  view.camera_from_world = { camera.R, camera.t };
+  view.near = camera.near;
+  view.far = camera.far;
+  try
+  {
+    if (camera.model == "pinhole")
+    {
+      view.model = makePinhole(camera.width, camera.height, camera.K);
+    }
+    else if (camera.model == "orthographic")
+    {
+      const double height = camera.height / camera.K(1, 1);
+      view.model = makeOrthographic(camera.width, camera.height, height, camera.width / camera.K(0, 0) / height);
+    }
+  }
+  catch (const UsageError& error)
+  {
+    throw InputError(file, 0, "camera " + quoted(camera.name) + ": " + error.what());
+  }
+  if (!view.model || !camera.distortion.empty())
+  {
+    throw UsageError("camera " + quoted(camera.name) + " of " + file + " is a lens (" + quoted(camera.model) +
+                     "): only pinhole and orthographic cameras can be warped from and to");
+  }
+  return view;
+}
+
+/// A layered depth image and the dataset that it belongs to.
+struct Source
+{
+  std::string path;
+  std::string cameras; ///< cameras.json
+  std::string camera;  ///< name
+  int frame = 0;
+};
+
+/// DIR/<camera>/ldi/<frame>.ldi
+Source locate(const std::string& path)
+{
+  namespace fs = std::filesystem;
+  const fs::path layer = fs::absolute(path).lexically_normal().parent_path();
+  const std::string stem = fs::path(path).stem().string();
+  const bool digits = !stem.empty() && stem.size() < 10 &&
+                      stem.find_first_not_of("0123456789", stem[0] == '-' ? 1 : 0) == std::string::npos && stem != "-";
+  if (fs::path(path).extension() != ".ldi" || layer.filename() != "ldi" || !digits)
+  {
+    throw UsageError(path + " is not in a dataset (expected DIR/CAMERA/ldi/FRAME.ldi)");
+  }
+  const fs::path camera = layer.parent_path();
+  return { path, (camera.parent_path() / "cameras.json").string(), camera.filename().string(), std::stoi(stem) };
+}
+
+const CameraRecord& find(
+  const std::vector<CameraRecord>& cameras, const std::string& name, int frame, const std::string& file)
+{
+  const auto found = std::find_if(cameras.begin(), cameras.end(),
+    [&](const CameraRecord& camera) { return camera.name == name && camera.frame == frame; });
+  if (found == cameras.end())
+  {
+    throw UsageError(file + " has no camera " + quoted(name) + " at frame " + std::to_string(frame));
+  }
+  return *found;
+}
+
+/// NAME, NAME@FRAME or a camera file.
+View target(const std::string& text, const Source& source, const std::vector<CameraRecord>& cameras)
+{
+  const auto named = [&](const std::string& name)
+  {
+    return std::any_of(cameras.begin(), cameras.end(), [&](const CameraRecord& camera) { return camera.name == name; });
+  };
+  if (!named(text) && isFile(text))
+  {
+    return viewOf(readCameraFile(text), text);
+  }
+  const std::size_t at = text.rfind('@');
+  if (named(text) || at == std::string::npos)
+  {
+    return viewOf(find(cameras, text, source.frame, source.cameras), source.cameras);
+  }
+  const int frame = parseInteger(text.substr(at + 1), "--to: frame", -farthestFrame, farthestFrame);
+  return viewOf(find(cameras, text.substr(0, at), frame, source.cameras), source.cameras);
+}
+
+WarpedImage warp(LdiReader& file, std::uint32_t layers, const View& from, const View& to)
+{
+  const WarpSource source = [&](const std::function<void(int, int, const WarpSample&)>& visit)
+  {
+    file.rewind();
+    LdiRow row;
+    for (int y = 0; file.read(row); ++y)
+    {
+      const LdiRecord* record = row.records.data();
+      for (int x = 0; x < file.width(); ++x)
+      {
+        const std::uint32_t count = row.counts[static_cast<std::size_t>(x)];
+        for (std::uint32_t i = 0; i < std::min(count, layers); ++i)
+        {
+          visit(x, y, { record[i].rgba, record[i].depth, record[i].splatIndex });
+        }
+        record += count;
+      }
+    }
+  };
+  return warpLayeredDepth(source, from, to);
+}
+
+void save(const std::string& path, const WarpedImage& image, const std::vector<std::uint8_t>& pixels, int channels)
+{
+  LayerSpec spec;
+  spec.name = "color";
+  spec.channels = channels;
+  const auto writer = makeLayerWriter("png", path, spec, image.width, image.height);
+  Rows rows(PixelType::UInt8, channels, image.width, 0, image.height);
+  std::copy(pixels.begin(), pixels.end(), rows.row<std::uint8_t>(0));
+  writer->write(rows);
+  writer->finish();
+}
+
+int run(const Arguments& arguments)
+{
+  const std::string output = arguments.text("--output");
+  if (output.empty() || !arguments.has("--to"))
+  {
+    throw UsageError("warp needs a camera and a file for the picture: --to CAMERA -o FILE.png");
+  }
+  const int layers = arguments.integer("--layers", 0, 1 << 30);
+  const Source source = locate(arguments.positional()[0]);
+  LdiReader file(source.path);
+  const std::vector<CameraRecord> cameras = readCameras(source.cameras);
+  const View from = viewOf(find(cameras, source.camera, source.frame, source.cameras), source.cameras);
+  if (from.model->width() != file.width() || from.model->height() != file.height())
+  {
+    throw InputError(source.path, 0, "has another size than its camera",
+      std::to_string(from.model->width()) + " x " + std::to_string(from.model->height()),
+      std::to_string(file.width()) + " x " + std::to_string(file.height()));
+  }
+  const View to = target(arguments.text("--to"), source, cameras);
+  const std::uint32_t most =
+    layers == 0 ? std::numeric_limits<std::uint32_t>::max() : static_cast<std::uint32_t>(layers);
+  const WarpedImage image = warp(file, most, from, to);
+  save(output, image, image.rgb, 3);
+  if (arguments.has("--mask"))
+  {
+    save(arguments.text("--mask"), image, image.holes, 1);
+  }
+  print(std::to_string(image.holeCount) + " of " + std::to_string(image.holes.size()) +
+        " pixels without a sample (holes)\n");
+  return 0;
+}
+} // namespace
+
+Command warpCommand()
+{
+  return { "warp", "LDI", 1, 1, "Renders a novel view from a layered depth image of a dataset.",
+    { { "--output", "FILE.png", "", "the picture" },
+      { "--to", "CAMERA", "", "a camera of the dataset, NAME[@FRAME], or a .json file with K, R, t, width, height" },
+      { "--layers", "N", "0", "use the first N surfaces of each pixel (1: a depth map); 0: all" },
+      { "--mask", "FILE.png", "", "also write where no sample fell (255)" } },
+    &run };
+}
+
+} // namespace dgtk::app

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkError.h"
+#include "dgtkLayeredDepth.h"
+#include "dgtkSyntheticScene.h"
+#include "dgtkWarp.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace dgtk;
+using namespace dgtk::test;
+
+namespace
+{
+constexpr int width = 40;
+constexpr int height = 30;
+constexpr double focal = 50;
+
+View viewAt(const Eigen::Vector3d& centre, double angle = 0)
+{
+  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+  K(0, 0) = K(1, 1) = focal;
+  K(0, 2) = width / 2.0;
+  K(1, 2) = height / 2.0;
+  View view;
+  view.name = "camera";
+  view.model = makePinhole(width, height, K);
+  Eigen::Matrix3d& R = view.camera_from_world.rotation; // about the y axis
+  R(0, 0) = R(2, 2) = std::cos(angle);
+  R(2, 0) = std::sin(angle);
+  R(0, 2) = -std::sin(angle);
+  view.camera_from_world.translation = -(R * centre);
+  return view;
+}
+
+const std::uint32_t facing = splatIndex(1, { 0, 0, -1 }, 0.1, 1000);
+
+/// Calls with a colour of its own for each pixel of a wall at a depth.
+WarpSource wall(double depth, std::uint8_t alpha = 255)
+{
+  return [depth, alpha](const std::function<void(int, int, const WarpSample&)>& visit)
+  {
+    for (int y = 0; y < height; ++y)
+    {
+      for (int x = 0; x < width; ++x)
+      {
+        visit(x, y, { { std::uint8_t(x), std::uint8_t(y), 9, alpha }, depth, facing });
+      }
+    }
+  };
+}
+
+WarpSource both(const WarpSource& a, const WarpSource& b)
+{
+  return [a, b](const std::function<void(int, int, const WarpSample&)>& visit)
+  {
+    a(visit);
+    b(visit);
+  };
+}
+
+/// A square of 10 x 10 pixels in the middle, of one colour.
+WarpSource patch(double depth, std::uint8_t alpha = 255)
+{
+  return [depth, alpha](const std::function<void(int, int, const WarpSample&)>& visit)
+  {
+    for (int y = 10; y < 20; ++y)
+    {
+      for (int x = 15; x < 25; ++x)
+      {
+        visit(x, y, { { 200, 100, 0, alpha }, depth, facing });
+      }
+    }
+  };
+}
+
+/// The wall without what the patch hides.
+WarpSource wallBehindPatch(double depth)
+{
+  return [depth](const std::function<void(int, int, const WarpSample&)>& visit)
+  {
+    wall(depth)(
+      [&](int x, int y, const WarpSample& sample)
+      {
+        if (y < 10 || y >= 20 || x < 15 || x >= 25)
+        {
+          visit(x, y, sample);
+        }
+      });
+  };
+}
+} // namespace
+
+TEST(Warp, ToItsOwnCameraIsTheFirstLayer)
+{
+  const View view = viewAt({ 1, 2, 3 }, 0.3);
+  const WarpedImage image = warpLayeredDepth(both(patch(2), wall(5)), view, view);
+  EXPECT_EQ(image.holeCount, 0u);
+  for (int y = 0; y < height; ++y)
+  {
+    for (int x = 0; x < width; ++x)
+    {
+      const bool inside = y >= 10 && y < 20 && x >= 15 && x < 25;
+      ASSERT_EQ(image.rgb[(y * width + x) * 3], inside ? 200 : x);
+      ASSERT_EQ(image.rgb[(y * width + x) * 3 + 1], inside ? 100 : y);
+    }
+  }
+}
+
+TEST(Warp, AStepAsideShiftsByFocalLengthOverDepth)
+{
+  // 5 units deep, 0.3 to the right: 3 pixels to the left; three columns at the right have no sample
+  const WarpedImage image = warpLayeredDepth(wall(5), viewAt({ 0, 0, 0 }), viewAt({ 0.3, 0, 0 }));
+  EXPECT_EQ(image.holeCount, 3u * height);
+  for (int x = 0; x < width; ++x)
+  {
+    EXPECT_EQ(image.rgb[(12 * width + x) * 3], x < width - 3 ? x + 3 : 0) << x;
+    EXPECT_EQ(image.holes[12 * width + x], x < width - 3 ? 0 : 255) << x;
+  }
+}
+
+TEST(Warp, LayersFillWhatADepthMapLeavesOpen)
+{
+  // the patch moves by 10 pixels, the wall by 2
+  const View from = viewAt({ 0, 0, 0 });
+  const View to = viewAt({ 0.2, 0, 0 });
+  const WarpedImage map = warpLayeredDepth(both(patch(1), wallBehindPatch(5)), from, to);
+  const WarpedImage layers = warpLayeredDepth(both(patch(1), wall(5)), from, to);
+  EXPECT_EQ(map.holeCount, 2u * height + 8u * 10);
+  EXPECT_EQ(layers.holeCount, 2u * height);
+  EXPECT_EQ(layers.rgb[(15 * width + 10) * 3], 200); // the patch stands before the wall
+  EXPECT_EQ(layers.rgb[(15 * width + 20) * 3], 22);
+}
+
+TEST(Warp, OrderOfTheSamplesDoesNotDecideWhatIsInFront)
+{
+  const View from = viewAt({ 0, 0, 0 });
+  const View to = viewAt({ 0.11, 0.05, 0.2 }, 0.05);
+  EXPECT_EQ(
+    warpLayeredDepth(both(patch(1), wall(5)), from, to).rgb, warpLayeredDepth(both(wall(5), patch(1)), from, to).rgb);
+}
+
+TEST(Warp, SplatsGrowWithThePixel)
+{
+  // twice as near: each pixel becomes 2 x 2, nothing stays open
+  EXPECT_EQ(warpLayeredDepth(wall(6), viewAt({ 0, 0, 0 }), viewAt({ 0, 0, 3 })).holeCount, 0u);
+  EXPECT_EQ(warpLayeredDepth(wall(6), viewAt({ 0, 0, 0 }), viewAt({ 0, 0, 5.2 })).holeCount, 0u);
+}
+
+TEST(Warp, ASlantedPlaneStaysWhole)
+{
+  // A plane that runs away to the right, seen by a camera to which it turns its face: n.x = depth.
+  for (const double slant : { 0.2, 0.5, 0.8, 1.1 })
+  {
+    const Eigen::Vector3d normal(-std::sin(slant), 0, -std::cos(slant));
+    const View from = viewAt({ 0, 0, 0 });
+    const WarpSource plane = [&](const std::function<void(int, int, const WarpSample&)>& visit)
+    {
+      for (int y = 0; y < height; ++y)
+      {
+        for (int x = 0; x < width; ++x)
+        {
+          const Eigen::Vector3d ray = from.model->rayThrough({ x + 0.5, y + 0.5 }).direction;
+          const double depth = -5 * std::cos(slant) / normal.dot(ray);
+          if (depth > 0 && depth < 100)
+          {
+            visit(x, y, { { 1, 2, 3, 255 }, depth, splatIndex(depth * ray.norm(), normal, 0.1, 1000) });
+          }
+        }
+      }
+    };
+    // the camera goes round (0, 0, 5) towards the normal
+    const double turn = slant / 2;
+    const View to = viewAt({ -5 * std::sin(turn), 0, 5 - 5 * std::cos(turn) }, turn);
+    const WarpedImage image = warpLayeredDepth(plane, from, to);
+    std::uint64_t inside = 0;
+    for (int y = 8; y < height - 8; ++y)
+    {
+      for (int x = 14; x < width - 14; ++x)
+      {
+        inside += image.holes[y * width + x] != 0;
+      }
+    }
+    EXPECT_EQ(inside, 0u) << slant;
+  }
+}
+
+TEST(Warp, GlassIsLaidOverWhatIsBehind)
+{
+  const View view = viewAt({ 0, 0, 0 });
+  const WarpedImage image = warpLayeredDepth(both(patch(2, 51), wall(5)), view, view);
+  EXPECT_EQ(image.rgb[(15 * width + 20) * 3], 56); // 20 + (200 - 20) / 5
+  const WarpedImage alone = warpLayeredDepth(patch(2, 51), view, view);
+  EXPECT_EQ(alone.holeCount, std::uint64_t(width * height));
+  EXPECT_EQ(alone.rgb[(15 * width + 20) * 3], 40);
+}
+
+TEST(Warp, WhatIsBehindTheCameraIsGone)
+{
+  EXPECT_EQ(
+    warpLayeredDepth(wall(5), viewAt({ 0, 0, 0 }), viewAt({ 0, 0, 6 })).holeCount, std::uint64_t(width * height));
+}
+
+TEST(Warp, ALensIsRefused)
+{
+  View lens = viewAt({ 0, 0, 0 });
+  lens.model = hideLinear(lens.model);
+  EXPECT_THROW(warpLayeredDepth(wall(5), lens, viewAt({ 0, 0, 0 })), UsageError);
+}

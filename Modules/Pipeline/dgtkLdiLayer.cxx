@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Layered depth images: every surface along the ray through a pixel's centre.
+#include "dgtkError.h"
+#include "dgtkFrameLayers.h"
+#include "dgtkLayeredDepth.h"
+#include "dgtkLdi.h"
+
+#include <algorithm>
+
+namespace dgtk
+{
+
+namespace
+{
+// Pixels that are one job of the pool; the records of a batch of jobs are held at once.
+constexpr int stripPixels = 1 << 14;
+
+/// Full-width rows of the ranks of a band; ranks of several tiles are put side by side.
+class Ranks
+{
+public:
+  Ranks(const Band& band, const PixelRect& rows)
+  {
+    const bool whole = band.peeled.size() == 1;
+    std::size_t count = 0;
+    for (const auto& tile : band.peeled)
+    {
+      count = std::max(count, tile.size());
+    }
+    const std::size_t pixels = std::size_t(rows.width) * rows.height;
+    this->Hits.resize(whole ? 0 : count * pixels);
+    this->Colors.resize(whole ? 0 : count * pixels * 4);
+    for (std::size_t r = 0; r < count; ++r)
+    {
+      if (whole)
+      {
+        const SurfaceLayer& layer = band.peeled[0][r];
+        const std::size_t first = std::size_t(rows.y - layer.rect.y) * layer.rect.width;
+        this->Rows.push_back({ layer.hits.data() + first, layer.rgba.data() + 4 * first });
+      }
+      else
+      {
+        this->gather(band, rows, r, pixels);
+      }
+    }
+  }
+
+  const std::vector<PeeledRows>& rows() const { return this->Rows; }
+
+private:
+  void gather(const Band& band, const PixelRect& rows, std::size_t rank, std::size_t pixels)
+  {
+    Hit* hits = this->Hits.data() + rank * pixels;
+    float* colors = this->Colors.data() + rank * pixels * 4;
+    this->Rows.push_back({ hits, colors });
+    for (const auto& tile : band.peeled)
+    {
+      if (rank >= tile.size())
+      {
+        continue;
+      }
+      const PixelRect& rect = tile[rank].rect;
+      for (int y = 0; y < rows.height; ++y)
+      {
+        const std::size_t from = std::size_t(rows.y + y - rect.y) * rect.width;
+        const std::size_t to = std::size_t(y) * rows.width + rect.x;
+        std::copy_n(tile[rank].hits.data() + from, rect.width, hits + to);
+        std::copy_n(tile[rank].rgba.data() + 4 * from, 4 * std::size_t(rect.width), colors + 4 * to);
+      }
+    }
+  }
+
+  std::vector<PeeledRows> Rows;
+  std::vector<Hit> Hits;
+  std::vector<float> Colors;
+};
+
+class LdiLane : public OutputLane
+{
+public:
+  LdiLane(const JobContext& context, const std::vector<std::string>& formats)
+    : Context(context)
+  {
+    const CameraModel& model = *context.view.model;
+    for (const std::string& format : formats)
+    {
+      this->Names.push_back(WorkPlan::fileName(context.camera, "ldi", context.job.frame, format));
+      this->Writers.push_back(makeLdiWriter(format, context.path(this->Names.back()), model.width(), model.height()));
+    }
+  }
+
+  void write(const Band& band) override
+  {
+    const int stripRows = std::max(1, stripPixels / band.rect.width);
+    const int strips = (band.rect.height + stripRows - 1) / stripRows;
+    const int batch = std::max(1, 2 * this->Context.pool.threads());
+    for (int first = 0; first < strips; first += batch)
+    {
+      const int count = std::min(batch, strips - first);
+      std::vector<LdiRows> done(count);
+      this->Context.pool.parallelFor(
+        count, [&](int i) { done[i] = this->derive(band, (first + i) * stripRows, stripRows); });
+      for (const LdiRows& rows : done)
+      {
+        for (const auto& writer : this->Writers)
+        {
+          writer->write(rows);
+        }
+      }
+    }
+  }
+
+  std::vector<FinishedFile> finish() override
+  {
+    std::vector<FinishedFile> files;
+    for (std::size_t i = 0; i < this->Writers.size(); ++i)
+    {
+      FileRecord record = this->Writers[i]->finish();
+      record.path = this->Names[i];
+      files.push_back({ record, "ldi" });
+    }
+    return files;
+  }
+
+private:
+  LdiRows derive(const Band& band, int offset, int stripRows) const
+  {
+    LayeredInput in;
+    in.rect = band.rect;
+    in.rect.y += offset;
+    in.rect.height = std::min(stripRows, band.rect.height - offset);
+    const std::size_t first = std::size_t(offset) * in.rect.width;
+    in.first = band.hits.data() + first;
+    in.rgb = band.rgb.empty() || this->Context.plan.request.samples > 1 ? nullptr : band.rgb.data() + 3 * first;
+    const Ranks ranks(band, in.rect);
+    in.ranks = ranks.rows();
+    LayeredRows layered;
+    layeredDepthRows(*this->Context.state, this->Context.view, in, layered);
+
+    LdiRows rows;
+    rows.y = in.rect.y;
+    rows.height = in.rect.height;
+    rows.counts = std::move(layered.counts);
+    rows.surfaces.reserve(layered.surfaces.size());
+    for (const LayeredSurface& surface : layered.surfaces)
+    {
+      const Model& model = *this->Context.state->instances[surface.hit.object - 1].model;
+      const std::uint32_t part = model.partOf(surface.hit.triangle);
+      rows.surfaces.push_back({ surface.rgba, surface.depth, surface.splatIndex, surface.hit.object, part,
+        surface.hit.triangle - model.parts[part].firstTriangle });
+    }
+    return rows;
+  }
+
+  JobContext Context;
+  std::vector<std::string> Names;
+  std::vector<std::unique_ptr<LdiWriter>> Writers; // one a name
+};
+
+class LdiLayer final : public FrameLayer
+{
+public:
+  LayerInfo info() const override
+  {
+    return { "ldi", { "ldi", "exr" }, "layered depth image: every surface along each ray, with colour and depth" };
+  }
+
+  void check(const WorkPlan& plan, const Stage&) const override
+  {
+    const auto& asked = plan.request.layers;
+    if (!plan.raster && std::find(asked.begin(), asked.end(), "ldi") != asked.end())
+    {
+      throw UsageError("layer ldi is drawn with OpenGL: its first surface could differ from ids that rays decide; "
+                       "leave out --visibility ray, or ldi");
+    }
+  }
+
+  std::vector<LayerRecord> specs(const std::string& format) const override
+  {
+    if (format == "exr")
+    {
+      return { { { "ldi", PixelType::Float32, 8, "linear sRGB, scene units, id", "camera", "no sample",
+                   "deep image of every surface along the ray through the pixel's centre, near to far: R, G, B, A "
+                   "(premultiplied), Z (depth), id, part, triangle (uint32)" },
+        format } };
+    }
+    return { { { "ldi", PixelType::Float64, 1, "scene units", "camera", "no record",
+                 "for each pixel a count and for every surface along the ray through the pixel's centre, near to far, "
+                 "R, G, B, A (uint8, sRGB), depth (float64) and splat index (uint32)" },
+      format } };
+  }
+
+  bool needsPeeling() const override { return true; }
+
+  std::vector<std::string> files(const WorkPlan& plan, const Stage& stage, const Job& job) const override
+  {
+    std::vector<std::string> names;
+    for (const std::string& format : this->formatsOf(plan))
+    {
+      names.push_back(WorkPlan::fileName(stage.cameraNames()[job.camera], "ldi", job.frame, format));
+    }
+    return names;
+  }
+
+  std::unique_ptr<OutputLane> makeLane(const JobContext& context) const override
+  {
+    return std::make_unique<LdiLane>(context, this->formatsOf(context.plan));
+  }
+
+private:
+  /// None when rays decide the ids: `--layers all --visibility ray` goes without.
+  std::vector<std::string> formatsOf(const WorkPlan& plan) const
+  {
+    for (const PlannedFrameLayer& planned : plan.frameLayers)
+    {
+      if (plan.raster && planned.layer.get() == this)
+      {
+        return planned.formats;
+      }
+    }
+    return {};
+  }
+};
+} // namespace
+
+std::shared_ptr<const FrameLayer> makeLdiLayer();
+std::shared_ptr<const FrameLayer> makeLdiLayer() { return std::make_shared<LdiLayer>(); }
+
+} // namespace dgtk

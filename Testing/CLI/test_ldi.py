@@ -1,0 +1,285 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Layered depth images, read back from disk, and the views that `dgtk warp` makes of them."""
+import json
+import math
+import os
+import struct
+import zlib
+
+import numpy
+from harness import SCENES, Case, main
+
+RECORD = numpy.dtype([("rgba", "u1", 4), ("depth", "<f8"), ("splat", "<u4")])
+
+
+def read_ldi(path):
+    """Counts (H x W) and the records of all pixels in turn."""
+    with open(path, "rb") as file:
+        data = file.read()
+    width, height = struct.unpack_from("<ii", data)
+    counts, parts, at = numpy.zeros(width * height, int), [], 8
+    for i in range(width * height):
+        (counts[i],) = struct.unpack_from("<I", data, at)
+        parts.append(data[at + 4:at + 4 + 16 * counts[i]])
+        at += 4 + 16 * counts[i]
+    assert at == len(data)
+    return counts.reshape(height, width), numpy.frombuffer(b"".join(parts), RECORD)
+
+
+def unpack_zip(data, size):
+    """Undoes the ZIP compression of OpenEXR."""
+    if len(data) == size:
+        return data
+    raw = numpy.frombuffer(zlib.decompress(data), numpy.uint8).astype(int)
+    raw[1:] -= 128
+    raw = (numpy.cumsum(raw) % 256).astype(numpy.uint8)
+    out = numpy.empty(size, numpy.uint8)
+    out[0::2], out[1::2] = raw[:(size + 1) // 2], raw[(size + 1) // 2:]
+    return out.tobytes()
+
+
+def read_deep_exr(path):
+    """Counts (H x W) and channel name -> samples of all pixels in turn, by the format's description."""
+    with open(path, "rb") as file:
+        data = file.read()
+    magic, version = struct.unpack_from("<II", data)
+    assert magic == 20000630 and version & 0x800, "not a deep file of one part"
+    at, header = 8, {}
+    while data[at]:
+        name, kind = data[at:].split(b"\0", 2)[:2]
+        at += len(name) + len(kind) + 2
+        (size,) = struct.unpack_from("<I", data, at)
+        header[name.decode()] = data[at + 4:at + 4 + size]
+        at += 4 + size
+    x0, y0, x1, y1 = struct.unpack("<4i", header["dataWindow"])
+    width, height = x1 - x0 + 1, y1 - y0 + 1
+    channels, rest = [], header["channels"]
+    while rest[0]:
+        name, rest = rest.split(b"\0", 1)
+        channels.append((name.decode(), {0: "<u4", 1: "<f2", 2: "<f4"}[struct.unpack_from("<I", rest)[0]]))
+        rest = rest[16:]
+    counts, samples = numpy.zeros((height, width), int), {name: [] for name, _ in channels}
+    for offset in struct.unpack_from(f"<{height}Q", data, at + 1):
+        y, packed_table, packed, size = struct.unpack_from("<iQQQ", data, offset)
+        offset += 28
+        table = numpy.frombuffer(unpack_zip(data[offset:offset + packed_table], 4 * width), "<i4")
+        line = unpack_zip(data[offset + packed_table:offset + packed_table + packed], size)
+        counts[y] = numpy.diff(table, prepend=0)
+        begin = 0
+        for name, kind in channels:
+            samples[name].append(numpy.frombuffer(line, kind, table[-1], begin))
+            begin += table[-1] * numpy.dtype(kind).itemsize
+    return counts, {name: numpy.concatenate(lines) for name, lines in samples.items()}
+
+
+def read_png(path):
+    """8-bit gray or RGB without interlacing."""
+    with open(path, "rb") as file:
+        data = file.read()
+    at, body = 8, b""
+    while at < len(data):
+        (size,) = struct.unpack_from(">I", data, at)
+        kind, content = data[at + 4:at + 8], data[at + 8:at + 8 + size]
+        if kind == b"IHDR":
+            width, height, depth, color = struct.unpack_from(">IIBB", content)
+            assert depth == 8
+            channels = {0: 1, 2: 3}[color]
+        body += content if kind == b"IDAT" else b""
+        at += size + 12
+    lines = numpy.frombuffer(zlib.decompress(body), numpy.uint8).reshape(height, width * channels + 1)
+    out = numpy.zeros((height + 1, (width + 1) * channels), int)
+    for y in range(height):
+        rule, line = lines[y, 0], lines[y, 1:].astype(int)
+        row, above = out[y + 1], out[y]
+        if rule == 2:
+            row[channels:] = (line + above[channels:]) % 256
+            continue
+        for i in range(width * channels):
+            left, up, corner = row[i], above[i + channels], above[i]
+            guess = left + up - corner
+            near = min((abs(guess - left), 0, left), (abs(guess - up), 1, up), (abs(guess - corner), 2, corner))[2]
+            row[i + channels] = (line[i] + (0, left, up, (left + up) // 2, near)[rule]) % 256
+    return out[1:, channels:].reshape(height, width, channels)
+
+
+def read_ids(path, shape):
+    with open(path, "rb") as file:
+        rgb = numpy.frombuffer(file.read()[-3 * shape[0] * shape[1]:], numpy.uint8).reshape(*shape, 3).astype(int)
+    return (rgb[..., 0] << 16) + (rgb[..., 1] << 8) + rgb[..., 2]
+
+
+def firsts(counts):
+    """Mask of the pixels with a surface, index of their first record."""
+    flat = counts.reshape(-1)
+    begin = numpy.cumsum(flat) - flat
+    return counts > 0, begin[flat > 0]
+
+
+def turned(camera, degrees, depth):
+    """The camera, turned about the point at a depth on its axis."""
+    R, t = numpy.array(camera["R"]), numpy.array(camera["t"])
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    about_y = numpy.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
+    pivot = numpy.array([0, 0, depth])
+    return {"K": camera["K"], "R": (about_y @ R).tolist(), "t": (about_y @ (t - pivot) + pivot).tolist(),
+            "width": camera["width"], "height": camera["height"]}
+
+
+class Layers(Case):
+    def render(self, scene, name, *options, layers="color,depth,objects,parts,triangles,ldi"):
+        self.dgtk("render", os.path.join(SCENES, scene), "-o", self.path(name), "--quiet", "--layers", layers, *options)
+        return self.path(name)
+
+    def check_first(self, folder, frame):
+        """Record 0 of every pixel is what depth, objects, parts, triangles and color say. Returns the counts."""
+        file = lambda layer, extension: os.path.join(folder, layer, f"{frame:06d}.{extension}")
+        counts, records = read_ldi(file("ldi", "ldi"))
+        seen, first = firsts(counts)
+        depth = numpy.load(file("depth", "npy"))
+        self.assertTrue((seen == numpy.isfinite(depth)).all())
+        self.assertTrue((records["depth"][first] == depth[seen]).all())
+        same_pixel = numpy.diff(numpy.repeat(numpy.arange(counts.size), counts.reshape(-1))) == 0
+        self.assertTrue((numpy.diff(records["depth"])[same_pixel] >= 0).all())
+        deep_counts, deep = read_deep_exr(file("ldi", "exr"))
+        self.assertTrue((deep_counts == counts).all())
+        self.assertTrue((deep["Z"] == records["depth"].astype(numpy.float32)).all())
+        self.assertTrue((deep["id"][first] == read_ids(file("objects", "ppm"), depth.shape)[seen]).all())
+        self.assertTrue((deep["part"][first] == numpy.load(file("parts", "npy"))[seen]).all())
+        self.assertTrue((deep["triangle"][first] == numpy.load(file("triangles", "npy"))[seen]).all())
+        self.assertLess(records["splat"].max(), 2048)
+        if os.path.exists(file("color", "png")):
+            self.check_colors(counts, records, read_png(file("color", "png")), deep["A"])
+        return counts
+
+    def check_colors(self, counts, records, color, alpha):
+        seen, first = firsts(counts)
+        opaque = records["rgba"][first, 3] == 255
+        self.assertTrue((records["rgba"][first, :3] == color[seen])[opaque].all())
+        self.assertTrue((numpy.round(alpha * 255) == records["rgba"][:, 3]).all())
+        # through what is not opaque one sees the records behind it
+        rows, columns = numpy.nonzero(seen)
+        for i in numpy.nonzero(~opaque)[0]:
+            value, through = numpy.zeros(3), 1.0
+            for record in records[first[i]:first[i] + counts[rows[i], columns[i]]]:
+                opacity = record["rgba"][3] / 255
+                value += through * opacity * record["rgba"][:3]
+                through *= 1 - opacity
+            if through < 1e-6:
+                self.assertLess(abs(value - color[rows[i], columns[i]]).max(), 3)
+
+    def test_first_layer_is_what_the_other_layers_say(self):
+        for scene, camera, frame in (("demo.json", "left", 13), ("fig_5_2_trees_grass.json", "camera", 0),
+                                     ("fig_4_7_stereo.json", "left", 0)):
+            with self.subTest(scene=scene):
+                folder = self.render(scene, scene, "--cameras", camera, "--frames", frame, "--size", "200x150",
+                                     "--ldi-format", "ldi,exr", "--triangles-format", "npy")
+                counts = self.check_first(os.path.join(folder, camera), frame)
+                print(f"{scene}: {counts.sum()} surfaces, at most {counts.max()} in a pixel")
+                self.assertGreater(counts.max(), 3)
+
+    def test_images_of_several_canonical_tiles(self):
+        folder = self.render("fig_4_7_stereo.json", "wide", "--cameras", "left", "--size", "4200x24", "--ldi-format",
+                             "ldi,exr", layers="depth,objects,parts,triangles,ldi")
+        self.check_first(os.path.join(folder, "left"), 0)
+
+    def test_bytes_do_not_depend_on_threads_tiles_or_time(self):
+        options = ("--cameras", "left", "--frames", "4", "--size", "160x120", "--ldi-format", "ldi,exr")
+        one = self.render("demo.json", "one", "--threads", "1", *options, layers="ldi")
+        two = self.render("demo.json", "two", "--threads", "5", "--tile", "33x17", *options, layers="ldi")
+        self.assert_same_files(one, two)
+
+    def test_first_surface_is_exact_with_many_samples(self):
+        folder = self.render("demo.json", "s", "--cameras", "left", "--frames", "0", "--size", "120x90", "--samples", "3",
+                             layers="color,depth,ldi")
+        counts, records = read_ldi(os.path.join(folder, "left", "ldi", "000000.ldi"))
+        depth = numpy.load(os.path.join(folder, "left", "depth", "000000.npy"))
+        seen, first = firsts(counts)
+        self.assertTrue((records["depth"][first] == depth[seen]).all())
+
+    def test_rays_are_refused(self):
+        self.refused("render", os.path.join(SCENES, "demo.json"), "-o", self.path("d"), "--layers", "ldi", "--visibility",
+                     "ray", status=2, says=["ldi", "--visibility ray"])
+
+
+class Warp(Case):
+    def setUp(self):
+        super().setUp()
+        self.dgtk("render", os.path.join(SCENES, "fig_4_7_stereo.json"), "-o", self.path("d"), "--quiet", "--layers",
+                  "color,depth,ldi", "--size", "200x150")
+        self.ldi = self.path("d", "left", "ldi", "000000.ldi")
+
+    def warp(self, to, *options):
+        done = self.dgtk("warp", self.ldi, "--to", to, "-o", self.path("o.png"), *options)
+        holes, rest = done.stdout.split(" of ")
+        self.assertEqual(rest, "30000 pixels without a sample (holes)\n")
+        return int(holes), read_png(self.path("o.png"))
+
+    def camera(self, degrees):
+        with open(self.path("d", "cameras.json"), encoding="utf-8") as file:
+            cameras = json.load(file)
+        depth = numpy.load(self.path("d", "left", "depth", "000000.npy"))
+        left = self.find_left(cameras)
+        return self.write(f"turned{degrees}.json", json.dumps(turned(left, degrees, float(numpy.median(depth)))))
+
+    def find_left(self, value):
+        """The first camera of the file."""
+        if isinstance(value, dict):
+            if "K" in value:
+                return value
+            value = list(value.values())
+        for item in value if isinstance(value, list) else []:
+            found = self.find_left(item)
+            if found:
+                return found
+        return None
+
+    def test_to_its_own_camera_it_is_the_picture(self):
+        counts, records = read_ldi(self.ldi)
+        seen, first = firsts(counts)
+        holes, picture = self.warp("left", "--mask", self.path("m.png"))
+        color = read_png(self.path("d", "left", "color", "000000.png"))
+        opaque = numpy.zeros(seen.shape, bool)
+        opaque[seen] = records["rgba"][first, 3] == 255
+        self.assertGreater(opaque.mean(), 0.9)
+        self.assertLess((picture != color)[opaque].any(axis=1).mean(), 0.01)  # layers close behind one another blend
+        self.assertEqual(holes, (~seen).sum())
+        self.assertTrue(((read_png(self.path("m.png"))[..., 0] == 255) == ~seen).all())
+
+    def test_layers_leave_fewer_holes_than_a_depth_map(self):
+        to = self.camera(5)
+        layered, picture = self.warp(to)
+        single, _ = self.warp(to, "--layers", "1")
+        print(f"5 degrees away: {single} holes of the depth map, {layered} of the layered depth image")
+        self.assertLess(layered, 0.5 * single)
+        self.assertGreater(single, 300)
+
+    def test_the_other_camera_sees_what_is_rendered_there(self):
+        _, picture = self.warp("right@0")
+        holes = self.path("m.png")
+        self.warp("right", "--mask", holes)
+        color = read_png(self.path("d", "right", "color", "000000.png"))
+        filled = read_png(holes)[..., 0] == 0
+        difference = abs(picture - color).max(axis=2)[filled]
+        self.assertLess(numpy.median(difference), 6)
+        self.assertLess((difference > 60).mean(), 0.05)
+
+    def test_refusals(self):
+        out = ("-o", self.path("o.png"))
+        self.refused("warp", self.ldi, *out, status=2, says="--to")
+        self.refused("warp", self.ldi, "--to", "left", status=2, says="-o")
+        self.refused("warp", self.ldi, "--to", "middle", *out, status=2, says="middle")
+        self.refused("warp", self.ldi, "--to", "left@9", *out, status=2, says="frame 9")
+        self.refused("warp", self.write("x.ldi", ""), "--to", "left", *out, status=2, says="DIR/CAMERA/ldi/FRAME.ldi")
+        self.refused("warp", self.path("d", "left", "ldi", "000001.ldi"), "--to", "left", *out, status=3, says="000001.ldi")
+        for text, says in (("[]", "is not a camera"), ("{", "is not a camera"), ('{"K": 3}', "K"),
+                           (json.dumps({"K": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "R": [[2, 0, 0], [0, 2, 0], [0, 0, 2]],
+                                        "t": [0, 0, 0], "width": 4, "height": 4}), "not a rotation")):
+            self.refused("warp", self.ldi, "--to", self.write("c.json", text), *out, status=3, says=["c.json", says])
+        with open(self.ldi, "rb+") as file:
+            file.truncate(os.path.getsize(self.ldi) - 1)
+        self.refused("warp", self.ldi, "--to", "left", *out, status=3, says="000000.ldi")
+        self.assertFalse(os.path.exists(self.path("o.png")))
+
+
+if __name__ == "__main__":
+    main()
