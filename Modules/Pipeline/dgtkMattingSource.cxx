@@ -10,6 +10,11 @@
 namespace dgtk
 {
 
+namespace
+{
+constexpr int mostSide = 2048; // of a picture of samples
+}
+
 std::vector<std::uint32_t> matteObjects(const WorkPlan& plan, const Stage& stage)
 {
   std::vector<std::uint32_t> objects;
@@ -68,36 +73,60 @@ std::vector<MattePixels> MattingSource::draw(const PixelRect& rect)
   return mattes;
 }
 
+/// Draws the samples as pixels of a picture `Samples` times as large, in the pieces in which the engine draws them for
+/// their mean, so that both see the same textures.
 void MattingSource::drawForegrounds(const PixelRect& rect, std::vector<MattePixels>& mattes)
 {
-  std::vector<std::vector<double>> sums(mattes.size(), std::vector<double>(std::size_t(rect.width) * rect.height * 3));
-  for (int k = 0; k < this->Samples * this->Samples; ++k)
+  View large = this->Camera;
+  const CameraModel& model = *this->Camera.model;
+  large.model = resampledCamera(
+    this->Camera.model, model.width() * this->Samples, model.height() * this->Samples, 1.0 / this->Samples, { 0, 0 });
+  this->Raster.setScene(this->State, large);
+  const int side = std::max(1, mostSide / this->Samples);
+  for (int y = 0; y < rect.height; y += side)
   {
-    ColorBuffer colors;
-    VisibilityBuffer hits;
-    this->Raster.setScene(this->State, sampleView(this->Camera, k % this->Samples, k / this->Samples, this->Samples));
-    this->Raster.renderColor(rect, 1, colors, &hits);
-    for (std::size_t m = 0; m < mattes.size(); ++m)
+    for (int x = 0; x < rect.width; x += side)
     {
-      for (std::size_t i = 0; i < hits.hits.size(); ++i)
-      {
-        if (hits.hits[i].object == this->Objects[m])
-        {
-          ++mattes[m].count[i];
-          for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
-          {
-            sums[m][c] += colors.rgb[c];
-          }
-        }
-      }
+      this->drawPiece({ x, y, std::min(side, rect.width - x), std::min(side, rect.height - y) }, rect, mattes);
     }
   }
+}
+
+/// `piece` relative to `rect`.
+void MattingSource::drawPiece(const PixelRect& piece, const PixelRect& rect, std::vector<MattePixels>& mattes)
+{
+  ColorBuffer colors;
+  VisibilityBuffer hits;
+  const int n = this->Samples;
+  const PixelRect large{ (rect.x + piece.x) * n, (rect.y + piece.y) * n, piece.width * n, piece.height * n };
+  this->Raster.renderColor(large, 1, colors, &hits);
   for (std::size_t m = 0; m < mattes.size(); ++m)
   {
-    for (std::size_t c = 0; c < sums[m].size(); ++c)
+    for (int y = 0; y < piece.height; ++y)
     {
-      const int count = mattes[m].count[c / 3];
-      mattes[m].foreground[c] = count > 0 ? static_cast<float>(sums[m][c] / count) : 0.0f;
+      for (int x = 0; x < piece.width; ++x)
+      {
+        double sum[3] = {};
+        std::uint16_t count = 0;
+        for (int k = 0; k < n * n; ++k)
+        {
+          const std::size_t sample = (std::size_t(y) * n + k / n) * large.width + std::size_t(x) * n + k % n;
+          if (hits.hits[sample].object == this->Objects[m])
+          {
+            ++count;
+            for (int c = 0; c < 3; ++c)
+            {
+              sum[c] += colors.rgb[3 * sample + c];
+            }
+          }
+        }
+        const std::size_t pixel = std::size_t(piece.y + y) * rect.width + piece.x + x;
+        mattes[m].count[pixel] = count;
+        for (int c = 0; c < 3; ++c)
+        {
+          mattes[m].foreground[3 * pixel + c] = count > 0 ? static_cast<float>(sum[c] / count) : 0.0f;
+        }
+      }
     }
   }
 }

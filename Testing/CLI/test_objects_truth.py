@@ -68,8 +68,8 @@ def read_exr(path):
         size = struct.unpack("<i", data[end + 1:end + 5])[0]
         header[name] = data[end + 5:end + 5 + size]
         at = end + 5 + size
-    names = [n.split(b"\0")[-1].decode() for n in header["channels"].split(b"\2\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0")[:-1]]
-    names = [n.lstrip("\0") for n in names]
+    float_channel = b"\2\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0"
+    names = [n.rstrip(b"\0").decode() for n in header["channels"].split(float_channel)[:-1]]
     x0, y0, x1, y1 = struct.unpack("<4i", header["dataWindow"])
     width, height = x1 - x0 + 1, y1 - y0 + 1
     chunks = (height + 15) // 16
@@ -209,8 +209,10 @@ class ObjectsTruth(Case):
                 self.assertEqual(box, [x.min(), y.min(), x.max() + 1, y.max() + 1] if len(x) else None)
             if mask.any():
                 self.assertAlmostEqual(o["visible_fraction"], visible.sum() / mask.sum())
+            if mask.any() and np.array(o["box3d"])[:, 2].min() > 0:
                 clipped = np.clip(o["box_projected"], 0, [160, 120, 160, 120])
-                self.assertTrue((clipped[:2] <= o["box_amodal"][:2]).all() and (clipped[2:] >= o["box_amodal"][2:]).all())
+                self.assertTrue((clipped[:2] <= np.add(o["box_amodal"][:2], 0.5)).all())
+                self.assertTrue((clipped[2:] >= np.subtract(o["box_amodal"][2:], 0.5)).all())
             matrix = np.array(o["matrix"])
             if o["R"] is not None:
                 composed = np.array(o["R"]) @ np.diag(o["scale"])
@@ -230,16 +232,13 @@ class ObjectsTruth(Case):
         self.assertGreater(hidden, 1000)
         # each object by itself shows what is amodal; the terrain, the rigid and the deforming ones
         scene = load_json(DEMO)
-        for name in ("terrain", "house", "creature", "crate three", "windmill"):
+        for name in ("terrain", "house", "creature", "crate three"):
             alone = dict(scene, objects=[dict(o, model=os.path.join(SCENES, o["model"])) for o in scene["objects"]
                                          if o["name"] == name])
-            path = self.write(f"{name}.json", json.dumps(alone))
-            solo = self.render(f"only {name}", "--layers", "objects", "--size", "160x120", "--frames",
-                               "1" if "keys" in json.dumps(alone["objects"]) else "0", "--cameras", "right",
-                               "--visibility", "ray", scene=path) if name not in ("windmill",) else None
-            if solo is None:
-                continue
-            picture = read_ids(os.path.join(solo, "right/objects", sorted(os.listdir(os.path.join(solo, "right/objects")))[0]))
+            frame = 1 if "keys" in json.dumps(alone["objects"]) else 0  # what does not move has frame 0 only
+            solo = self.render(f"only {name}", "--layers", "objects", "--size", "160x120", "--frames", frame, "--cameras",
+                               "right", "--visibility", "ray", scene=self.write(f"{name}.json", json.dumps(alone)))
+            picture = read_ids(os.path.join(solo, f"right/objects/00000{frame}.ppm"))
             with self.subTest(name=name):
                 self.assertLessEqual(((picture > 0) != masks[names.index(name) + 1]).sum(), 2)
 
@@ -314,18 +313,19 @@ class ObjectsTruth(Case):
             # alpha is the coverage, but for the engines' opinion of edges
             _, channels = read_exr(os.path.join(folder, "left/coverage/000001.exr"))
             key = np.array([cryptomatte_hash(name)], np.uint32).view(np.float32)[0]
-            covered = sum(np.where(channels[c[:-1] + {"r": "r", "b": "b"}[c[-1]]] == key, channels[c[:-1] + {"r": "g", "b": "a"}[c[-1]]], 0)
+            covered = sum(np.where(channels[c] == key, channels[c[:-1] + {"r": "g", "b": "a"}[c[-1]]], 0)
                           for c in channels if c[-1] in "rb")
             self.assertLess(abs(covered - a[..., 0]).max(), 0.2)
             self.assertLess(abs(covered - a[..., 0]).mean(), 1e-3)
             # where the object is alone, foreground is the picture
             color = read_png(os.path.join(folder, "left/color/000001.png"))
             alone = alpha[..., 0] == 65535
-            self.assertLess(np.median(abs(F[alone] - color[alone])), 65535 * 0.002)
+            self.assertLessEqual(abs(F[alone] - color[alone]).max(), 1)
+            self.assertLessEqual(abs(C[alpha[..., 0] == 0] - B[alpha[..., 0] == 0]).max(), 0)
             # the background is the picture of the scene without the object
             rest = dict(scene, objects=[dict(o, model=os.path.join(SCENES, o["model"])) for o in scene["objects"] if o["name"] != name])
             path = self.write("rest.json", json.dumps(rest))
-            plate = self.render(f"without {name}", "--layers", "color", *(o if o != "1" else "1" for o in options), scene=path)
+            plate = self.render(f"without {name}", "--layers", "color", *options, scene=path)
             picture = read_png(os.path.join(plate, "left/color/000001.png"))
             self.assertLessEqual((abs(picture - B) > 1).sum(), 3)
 
