@@ -30,6 +30,11 @@ void checkClass(Picture& picture, Results& results);
 void checkEpipolar(Picture& picture, Results& results);
 void checkTriangulation(Picture& picture, Results& results);
 void checkForwardBackward(Picture& picture, Results& results);
+void checkPartition(Picture& picture, Results& results);
+void checkLdi(Picture& picture, Results& results);
+void checkAlpha(Picture& picture, Results& results);
+void checkMatting(Picture& picture, Results& results);
+void checkBoxes(Picture& picture, Results& results);
 
 } // namespace dgtk
 

@@ -24,6 +24,11 @@ constexpr Check Checks[] = {
   { "epipolar", nullptr, checkEpipolar },
   { "triangulation", nullptr, checkTriangulation },
   { "forward-backward", nullptr, checkForwardBackward },
+  { "partition", nullptr, checkPartition },
+  { "ldi", nullptr, checkLdi },
+  { "alpha", nullptr, checkAlpha },
+  { "matting", nullptr, checkMatting },
+  { "boxes", nullptr, checkBoxes },
 };
 
 /// Runs one function of a check; a file that cannot be used becomes a residual.

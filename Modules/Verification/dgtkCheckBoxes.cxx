@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCheck.h"
+#include "dgtkJsonFile.h"
+#include "dgtkMasks.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <set>
+
+namespace dgtk
+{
+
+namespace
+{
+using Json = nlohmann::json;
+using Box = std::array<double, 4>;
+/// Part of the largest number of a matrix or corner.
+constexpr double PoseTolerance = 1e-9;
+/// Pixels, or that part of a place far outside.
+constexpr double ProjectedTolerance = 1e-6;
+
+/// Pixels of a mask and the borders of the smallest box around them.
+struct Extent
+{
+  std::uint64_t pixels = 0;
+  Box box{ Infinite, Infinite, -Infinite, -Infinite };
+  void add(double x0, double y0, double x1, double y1)
+  {
+    this->box = { std::min(this->box[0], x0), std::min(this->box[1], y0), std::max(this->box[2], x1),
+      std::max(this->box[3], y1) };
+  }
+  void addPixel(int x, int y)
+  {
+    ++this->pixels;
+    this->add(x, y, x + 1, y + 1);
+  }
+  bool empty() const { return this->box[0] > this->box[2]; }
+};
+
+template <typename Inside>
+Extent extentOf(const Picture& picture, const Inside& inside)
+{
+  Extent extent;
+  for (int y = 0; y < picture.height(); ++y)
+  {
+    for (int x = 0; x < picture.width(); ++x)
+    {
+      if (inside(x, y))
+      {
+        extent.addPixel(x, y);
+      }
+    }
+  }
+  return extent;
+}
+
+Eigen::MatrixXd matrixOf(const Json& json)
+{
+  Eigen::MatrixXd matrix(json.size(), json.at(0).size());
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+  {
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+    {
+      matrix(i, j) = json.at(std::size_t(i)).at(std::size_t(j)).get<double>();
+    }
+  }
+  return matrix;
+}
+
+Eigen::Vector3d vectorOf(const Json& json)
+{
+  return { json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>() };
+}
+
+class BoxCheck
+{
+public:
+  BoxCheck(Picture& picture, const std::string& file)
+    : Owner(picture)
+    , File(file)
+    , Objects(picture.quietly([&] { return picture.ids("objects"); }))
+  {
+    const std::string masks = picture.dataset().find(picture.camera(), "amodal", picture.frame(), { ".json" });
+    if (!masks.empty())
+    {
+      this->Amodal = readMasks(picture.dataset().absolute(masks), picture.width(), picture.height());
+    }
+  }
+
+  void object(const Json& object)
+  {
+    this->Id = object.at("id").get<std::uint32_t>();
+    if (this->Id == 0 || this->Id > this->Owner.sight().state().instances.size())
+    {
+      this->Masks.equal(false,
+        [&] {
+          return Offender{ this->File, -1, -1, "object " + std::to_string(this->Id), "a known one" };
+        });
+      return;
+    }
+    const std::uint64_t visible = object.at("pixels_visible").get<std::uint64_t>();
+    const std::uint64_t amodal = object.at("pixels_amodal").get<std::uint64_t>();
+    if (this->Objects)
+    {
+      this->mask("visible", visible, object.at("box_visible"),
+        extentOf(this->Owner, [&](int x, int y) { return this->Objects->id(x, y) == this->Id; }));
+    }
+    if (this->Amodal)
+    {
+      this->mask("amodal", amodal, object.at("box_amodal"),
+        extentOf(this->Owner, [&](int x, int y) { return this->Amodal->inside(this->Id, x, y); }));
+    }
+    this->number(this->Masks, "visible_fraction", object.at("visible_fraction").get<double>(),
+      amodal > 0 ? double(visible) / double(amodal) : 0);
+    this->projected(object.at("box_projected"));
+    this->pose(object);
+  }
+
+  void finish(Results& results) const
+  {
+    results.add("masks", "", this->Masks);
+    results.add("projected", "pixel", this->Projected);
+    results.add("pose", "relative", this->Pose);
+  }
+
+private:
+  void number(Meter& meter, const std::string& key, double found, double expected, double scale = 1) const
+  {
+    meter.add(found == expected ? 0 : (found - expected) / scale,
+      [&]
+      {
+        return Offender{ this->File, -1, -1, "object " + std::to_string(this->Id) + ' ' + key + ' ' + numberText(found),
+          numberText(expected) };
+      });
+  }
+
+  void box(Meter& meter, const std::string& key, const Json& found, const Extent& expected) const
+  {
+    if (found.is_null() || expected.empty())
+    {
+      meter.equal(found.is_null() && expected.empty(),
+        [&]
+        {
+          return Offender{ this->File, -1, -1, "object " + std::to_string(this->Id) + ' ' + key + ' ' + found.dump(),
+            expected.empty() ? "null" : numbersText(expected.box.data(), 4) };
+        });
+      return;
+    }
+    const double size = std::max(this->Owner.width(), this->Owner.height());
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const double far = std::abs(expected.box[i]) / size;
+      this->number(meter, key, found.at(i).get<double>(), expected.box[i], std::max(1.0, far * far));
+    }
+  }
+
+  void mask(const std::string& name, std::uint64_t pixels, const Json& found, const Extent& expected)
+  {
+    this->number(this->Masks, "pixels_" + name, double(pixels), double(expected.pixels));
+    this->box(this->Masks, "box_" + name, found, expected);
+  }
+
+  /// Vertices that the object's triangles use.
+  template <typename Body>
+  void forVertices(const Body& body) const
+  {
+    const Instance& instance = this->Owner.sight().instance(this->Id);
+    for (const auto& triangle : instance.model->triangles)
+    {
+      for (const std::uint32_t corner : triangle)
+      {
+        body(instance.geometry->positions[corner]);
+      }
+    }
+  }
+
+  void projected(const Json& found)
+  {
+    Extent extent;
+    this->forVertices(
+      [&](const Eigen::Vector3d& vertex)
+      {
+        Eigen::Vector2d p;
+        if (this->Owner.eye().project(this->Owner.sight().cameraFromObject(this->Id) * vertex, p))
+        {
+          extent.add(p.x(), p.y(), p.x(), p.y());
+        }
+      });
+    this->box(this->Projected, "box_projected", found, extent);
+  }
+
+  void matrix(const char* key, const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected)
+  {
+    const double scale = std::max(expected.cwiseAbs().maxCoeff(), 1e-300);
+    if (found.rows() != expected.rows() || found.cols() != expected.cols())
+    {
+      throw InputError(this->Owner.dataset().absolute(this->File), 0, std::string(key) + " has another size");
+    }
+    for (Eigen::Index i = 0; i < found.size(); ++i)
+    {
+      this->number(this->Pose, key, found.data()[i], expected.data()[i], scale);
+    }
+  }
+
+  void pose(const Json& object)
+  {
+    const Affine3& camera_from_object = this->Owner.sight().cameraFromObject(this->Id);
+    Eigen::MatrixXd expected(3, 4);
+    expected << camera_from_object.linear, camera_from_object.translation;
+    this->matrix("matrix", matrixOf(object.at("matrix")), expected);
+    if (!object.at("R").is_null())
+    {
+      const Eigen::Matrix3d R = matrixOf(object.at("R"));
+      const Eigen::Vector3d scale = vectorOf(object.at("scale"));
+      this->matrix("R", R * R.transpose(), Eigen::Matrix3d::Identity());
+      this->matrix("R diag(scale)", R * scale.asDiagonal(), camera_from_object.linear);
+      this->matrix("t", vectorOf(object.at("t")), camera_from_object.translation);
+    }
+    Eigen::Vector3d least(Infinite, Infinite, Infinite);
+    Eigen::Vector3d most = -least;
+    this->forVertices(
+      [&](const Eigen::Vector3d& vertex)
+      {
+        least = least.cwiseMin(vertex);
+        most = most.cwiseMax(vertex);
+      });
+    Eigen::MatrixXd corners(8, 3);
+    for (int i = 0; i < 8; ++i)
+    {
+      const Eigen::Vector3d corner(
+        (i & 1) != 0 ? most.x() : least.x(), (i & 2) != 0 ? most.y() : least.y(), (i & 4) != 0 ? most.z() : least.z());
+      corners.row(i) = camera_from_object * corner;
+    }
+    this->matrix("box3d", matrixOf(object.at("box3d")), corners);
+  }
+
+  Picture& Owner;
+  std::string File;
+  PicturePointer Objects;
+  std::optional<dgtk::Masks> Amodal;
+  std::uint32_t Id = 0;
+  Meter Masks{ 0 };
+  Meter Projected{ ProjectedTolerance };
+  Meter Pose{ PoseTolerance };
+};
+} // namespace
+
+void checkBoxes(Picture& picture, Results& results)
+{
+  const Dataset& dataset = picture.dataset();
+  const std::string file = dataset.find(picture.camera(), "boxes", picture.frame(), { ".json" });
+  if (file.empty())
+  {
+    return;
+  }
+  const std::string path = dataset.absolute(file);
+  const Json document = readJsonFile(path);
+  BoxCheck check(picture, file);
+  useJson(path,
+    [&]
+    {
+      for (const Json& object : document.at("objects"))
+      {
+        check.object(object);
+      }
+      return 0;
+    });
+  check.finish(results);
+}
+
+} // namespace dgtk
