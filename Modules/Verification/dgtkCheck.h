@@ -35,6 +35,7 @@ void checkLdi(Picture& picture, Results& results);
 void checkAlpha(Picture& picture, Results& results);
 void checkMatting(Picture& picture, Results& results);
 void checkBoxes(Picture& picture, Results& results);
+void checkPoints(Dataset& dataset, Results& results);
 
 } // namespace dgtk
 

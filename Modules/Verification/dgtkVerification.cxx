@@ -29,6 +29,7 @@ constexpr Check Checks[] = {
   { "alpha", nullptr, checkAlpha },
   { "matting", nullptr, checkMatting },
   { "boxes", nullptr, checkBoxes },
+  { "points", checkPoints, nullptr },
 };
 
 /// Runs one function of a check; a file that cannot be used becomes a residual.

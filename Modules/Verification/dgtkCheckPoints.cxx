@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCheck.h"
+#include "dgtkJsonFile.h"
+
+#include <cmath>
+#include <cstring>
+#include <set>
+
+namespace dgtk
+{
+
+namespace
+{
+using Json = nlohmann::json;
+/// Pixels.
+constexpr double TrackTolerance = 1e-6;
+/// Part of the depth.
+constexpr double SurfaceTolerance = 1e-9;
+/// Part of the depth, and directions, within which a silhouette leaves visibility open.
+constexpr double SilhouetteReach = 1e-4;
+constexpr std::size_t PlyVertexBytes = 47;
+
+struct TrackPoint
+{
+  std::size_t camera = 0;
+  Eigen::Vector2d pixel{ 0, 0 };
+};
+struct CloudPoint
+{
+  Eigen::Vector3d x{ 0, 0, 0 };
+  Hit hit;
+  std::vector<TrackPoint> track;
+};
+
+std::vector<CloudPoint> readPoints(const Json& document)
+{
+  std::vector<CloudPoint> points;
+  for (const Json& entry : document.at("points"))
+  {
+    CloudPoint point;
+    const Json& x = entry.at("x");
+    point.x = { x.at(0).get<double>(), x.at(1).get<double>(), x.at(2).get<double>() };
+    point.hit = { entry.at("object").get<std::uint32_t>(), entry.at("triangle").get<std::uint32_t>() };
+    for (const Json& sight : entry.at("track"))
+    {
+      point.track.push_back(
+        { sight.at(0).get<std::size_t>(), { sight.at(1).get<double>(), sight.at(2).get<double>() } });
+    }
+    points.push_back(point);
+  }
+  return points;
+}
+
+class CloudCheck
+{
+public:
+  CloudCheck(Dataset& dataset, std::string file, int frame, const Json& document)
+    : File(std::move(file))
+    , Points(readPoints(document))
+  {
+    for (const Json& name : document.at("cameras"))
+    {
+      const std::string camera = name.get<std::string>();
+      const CameraRecord* record = dataset.camera(camera, frame);
+      if (!record)
+      {
+        throw InputError(dataset.absolute(this->File), 0, "names a camera that cameras.json lacks", {}, quoted(camera));
+      }
+      this->Sights.push_back(dataset.sight(Eye(*record, dataset.sceneView(*record).model), frame));
+    }
+  }
+  const std::vector<CloudPoint>& points() const { return this->Points; }
+
+  bool isSound(const CloudPoint& point) const
+  {
+    if (this->Sights.empty() || point.hit.object == 0 || point.hit.object > this->Sights[0]->state().instances.size() ||
+        point.hit.triangle >= this->Sights[0]->instance(point.hit.object).model->triangles.size() ||
+        point.track.empty())
+    {
+      return false;
+    }
+    return std::all_of(
+      point.track.begin(), point.track.end(), [&](const TrackPoint& t) { return t.camera < this->Sights.size(); });
+  }
+
+  /// The point projects where the track says; the first place is a pixel's centre on the point's triangle.
+  void reproject(std::size_t index, Meter& meter) const
+  {
+    const CloudPoint& point = this->Points[index];
+    if (!this->isSound(point))
+    {
+      meter.equal(false, [&] { return this->offender(index, "an unknown object, triangle or camera", "known ones"); });
+      return;
+    }
+    for (const TrackPoint& sight : point.track)
+    {
+      const Eye& eye = this->Sights[sight.camera]->eye();
+      Eigen::Vector2d expected(std::nan(""), std::nan(""));
+      eye.project(eye.toCamera(point.x), expected);
+      meter.add((expected - sight.pixel).norm(),
+        [&] { return this->offender(index, numbersText(sight.pixel.data(), 2), numbersText(expected.data(), 2)); });
+    }
+    const Eigen::Vector2d centre = point.track[0].pixel.array().floor() + 0.5;
+    meter.add((centre - point.track[0].pixel).norm(),
+      [&]
+      {
+        return this->offender(
+          index, "first seen at " + numbersText(point.track[0].pixel.data(), 2), "the centre of a pixel");
+      });
+  }
+
+  void onSurface(std::size_t index, Meter& meter) const
+  {
+    const CloudPoint& point = this->Points[index];
+    if (!this->isSound(point))
+    {
+      return;
+    }
+    const Sight& sight = *this->Sights[point.track[0].camera];
+    const double found = sight.eye().toCamera(point.x).z();
+    const double expected = sight.depthOf(point.hit, point.track[0].pixel);
+    meter.add((found - expected) / expected,
+      [&] { return this->offender(index, "depth " + numberText(found), numberText(expected)); });
+  }
+
+  void visible(std::size_t index, Meter& meter) const
+  {
+    const CloudPoint& point = this->Points[index];
+    for (const TrackPoint& track : this->isSound(point) ? point.track : std::vector<TrackPoint>{})
+    {
+      const Sight& sight = *this->Sights[track.camera];
+      const bool seen = this->isSeen(sight, point, track.pixel, SurfaceTolerance);
+      if (!seen && this->isOpen(sight, point, track.pixel))
+      {
+        meter.skip();
+        continue;
+      }
+      meter.equal(seen,
+        [&] {
+          return this->offender(index, "seen by camera '" + sight.eye().record().name + "'", "hidden or outside there");
+        });
+    }
+  }
+
+  /// The vertices of the .ply are the points.
+  void ply(const Dataset& dataset, const std::string& file, Meter& meter) const
+  {
+    const std::string bytes = readFile(dataset.absolute(file));
+    const std::string mark = "end_header\n";
+    const std::size_t header = bytes.find(mark);
+    const std::size_t expected = this->Points.size() * PlyVertexBytes;
+    const std::size_t start = header == std::string::npos ? bytes.size() : header + mark.size();
+    meter.equal(bytes.size() - start == expected,
+      [&]
+      {
+        return Offender{ file, -1, -1, std::to_string(bytes.size() - start) + " bytes of vertices",
+          std::to_string(expected) };
+      });
+    for (std::size_t i = 0; bytes.size() - start == expected && i < this->Points.size(); ++i)
+    {
+      const char* vertex = bytes.data() + start + i * PlyVertexBytes;
+      Eigen::Vector3d x;
+      Hit hit;
+      std::memcpy(x.data(), vertex, 24);
+      std::memcpy(&hit.object, vertex + 39, 4);
+      std::memcpy(&hit.triangle, vertex + 43, 4);
+      meter.equal(x == this->Points[i].x && hit == this->Points[i].hit,
+        [&]
+        {
+          return Offender{ file, -1, -1, "vertex " + std::to_string(i) + ' ' + numbersText(x.data(), 3),
+            numbersText(this->Points[i].x.data(), 3) };
+        });
+    }
+  }
+
+private:
+  Offender offender(std::size_t index, const std::string& found, const std::string& expected) const
+  {
+    return { this->File, -1, -1, "point " + std::to_string(index) + ' ' + found, expected };
+  }
+
+  bool isSeen(const Sight& sight, const CloudPoint& point, const Eigen::Vector2d& pixel, double slack) const
+  {
+    const double depth = sight.eye().toCamera(point.x).z();
+    if (!sight.eye().sees(pixel, depth))
+    {
+      return false;
+    }
+    std::vector<Hit> hits;
+    std::vector<double> depths;
+    sight.surfaces(pixel, hits, depths);
+    for (std::size_t i = 0; i < hits.size(); ++i)
+    {
+      if (hits[i] != point.hit && depths[i] < depth * (1 - slack))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  bool isOpen(const Sight& sight, const CloudPoint& point, const Eigen::Vector2d& pixel) const
+  {
+    const double unit = sight.eye().pinhole() ? 1 : sight.eye().toCamera(point.x).z();
+    const Eigen::Vector2d reach = SilhouetteReach * unit * sight.eye().record().K.diagonal().head<2>();
+    for (int i = 0; i <= 16; ++i)
+    {
+      constexpr double sixteenth = 0.39269908169872414;
+      const Eigen::Vector2d direction(std::cos(i * sixteenth), std::sin(i * sixteenth));
+      if (this->isSeen(sight, point, pixel + (i == 16 ? 0.0 : 1.0) * reach.cwiseProduct(direction), SilhouetteReach))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  std::string File;
+  std::vector<CloudPoint> Points;
+  std::vector<std::shared_ptr<const Sight>> Sights;
+};
+
+void checkCloud(Dataset& dataset, const std::string& file, int frame, Results& results)
+{
+  const std::string path = dataset.absolute(file);
+  const Json document = readJsonFile(path);
+  const CloudCheck check = useJson(path, [&] { return CloudCheck(dataset, file, frame, document); });
+  const int points = static_cast<int>(check.points().size());
+  const auto measure = [&](double tolerance, void (CloudCheck::*body)(std::size_t, Meter&) const)
+  {
+    return meterRows(dataset.pool(), points, tolerance,
+      [&](int i, Meter& meter) { (check.*body)(static_cast<std::size_t>(i), meter); });
+  };
+  results.add("tracks", "pixel", measure(TrackTolerance, &CloudCheck::reproject));
+  results.add("surface", "relative", measure(SurfaceTolerance, &CloudCheck::onSurface));
+  results.add("visible", "", measure(0, &CloudCheck::visible));
+  const std::string ply = dataset.find("", "points", frame, { ".ply" });
+  if (!ply.empty())
+  {
+    Meter meter(0);
+    check.ply(dataset, ply, meter);
+    results.add("ply", "", meter);
+  }
+}
+} // namespace
+
+void checkPoints(Dataset& dataset, Results& results)
+{
+  std::set<int> frames;
+  for (const CameraRecord& camera : dataset.cameras())
+  {
+    frames.insert(camera.frame);
+  }
+  for (const int frame : frames)
+  {
+    const std::string file = dataset.find("", "points", frame, { ".json" });
+    if (!file.empty())
+    {
+      checkCloud(dataset, file, frame, results);
+    }
+  }
+}
+
+} // namespace dgtk
