@@ -76,13 +76,16 @@ TEST(Cryptomatte, ReadBackByOpenImageIO)
   {
     std::vector<CoveredId> ranks;
     // the last pixel needs seven ranks
-    const std::uint32_t count = expected.size() + 1 == width * height ? 7 : 1 + random() % 3;
+    const auto count = static_cast<std::uint32_t>(expected.size() + 1 == width * height ? 7 : 1 + random() % 3);
     for (std::uint32_t i = 0; i < count; ++i)
     {
-      ranks.push_back({ i == 0 ? random() % 2 : i + 1, 1.0f / count });
+      const auto id = static_cast<std::uint32_t>(i == 0 ? random() % 2 : i + 1);
+      ranks.push_back({ id, 1.0f / static_cast<float>(count) });
     }
     const std::uint32_t pixels =
-      std::min<std::uint32_t>(1 + random() % 8, count == 7 ? 1 : width * height - 1 - expected.size());
+      count == 7
+        ? 1
+        : static_cast<std::uint32_t>(std::min<std::size_t>(1 + random() % 8, width * height - 1 - expected.size()));
     writer.add(ranks, pixels);
     expected.insert(expected.end(), pixels, ranks);
   }
