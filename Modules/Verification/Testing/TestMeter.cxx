@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkMeter.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+using namespace dgtk;
+
+Offender at(int x, int y) { return { "file", x, y, "v", "e" }; }
+
+TEST(Meter, KeepsTheFirstOfTheLargest)
+{
+  Meter meter(0.5);
+  meter.add(0.25, [] { return at(1, 0); });
+  meter.add(-2, [] { return at(2, 0); });
+  meter.add(2, [] { return at(3, 0); });
+  meter.skip(4);
+  EXPECT_EQ(meter.Count, 3u);
+  EXPECT_EQ(meter.Skipped, 4u);
+  EXPECT_EQ(meter.Bad, 2u);
+  EXPECT_EQ(meter.Largest, 2);
+  EXPECT_EQ(meter.Worst.x, 2);
+}
+
+TEST(Meter, WhatIsNoNumberIsInfinitelyWrong)
+{
+  Meter meter(1e300);
+  meter.add(std::nan(""), [] { return at(0, 0); });
+  EXPECT_EQ(meter.Bad, 1u);
+  EXPECT_EQ(meter.Largest, Infinite);
+}
+
+TEST(Meter, RowsAreTheSameForAnyThreads)
+{
+  // Equal residuals in all rows: the first one is the one to name.
+  const auto measure = [](int threads)
+  {
+    ThreadPool pool(threads);
+    return meterRows(
+      pool, 100, 0.5, [](int y, Meter& meter) { meter.add(y % 10 == 7 ? 3 : 0.1, [&] { return at(0, y); }); });
+  };
+  for (const int threads : { 1, 2, 5 })
+  {
+    const Meter meter = measure(threads);
+    EXPECT_EQ(meter.Count, 100u);
+    EXPECT_EQ(meter.Bad, 10u);
+    EXPECT_EQ(meter.Worst.y, 7);
+  }
+}
+
+TEST(Results, FirstBreachIsInTheOrderOfChecks)
+{
+  Results results;
+  Meter bad(0);
+  bad.equal(false, [] { return at(0, 0); });
+  Meter good(0);
+  good.good(5);
+  results.startCheck(3, "late");
+  results.add("a", "", bad);
+  results.startCheck(1, "early");
+  results.add("b", "", good);
+  results.add("c", "", bad);
+  results.add("empty", "", Meter(0));
+  const VerificationReport report = results.report();
+  ASSERT_EQ(report.residuals.size(), 3u);
+  ASSERT_NE(report.firstBreach(), nullptr);
+  EXPECT_EQ(report.firstBreach()->check, "early");
+  EXPECT_EQ(report.firstBreach()->layer, "c");
+  EXPECT_FALSE(report.passed());
+  EXPECT_FALSE(VerificationReport{}.passed()) << "nothing was checked";
+}
+} // namespace

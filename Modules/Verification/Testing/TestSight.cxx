@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkRaySource.h"
+#include "dgtkSight.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+using namespace dgtk;
+
+CameraRecord makeRecord(const char* model)
+{
+  CameraRecord record;
+  record.name = "c";
+  record.width = 64;
+  record.height = 48;
+  record.K << 80, 0, 30, 0, 70, 25, 0, 0, 1;
+  record.R << 0, 0, -1, 0, 1, 0, 1, 0, 0; // looks along +x
+  record.t << 0.5, -0.25, 2;
+  record.model = model;
+  record.near = 0.1;
+  record.far = 100;
+  return record;
+}
+
+TEST(Eye, UnprojectsWhatItProjects)
+{
+  for (const char* model : { "pinhole", "orthographic" })
+  {
+    const Eye eye(makeRecord(model), nullptr);
+    for (const double depth : { 0.5, 7.0 })
+    {
+      const Eigen::Vector2d pixel(11.25, 40.5);
+      const Eigen::Vector3d x = eye.at(pixel, depth);
+      EXPECT_EQ(x.z(), depth);
+      Eigen::Vector2d back;
+      ASSERT_TRUE(eye.project(x, back));
+      EXPECT_LT((back - pixel).norm(), 1e-12) << model;
+      EXPECT_LT((eye.toCamera(eye.toWorld(x)) - x).norm(), 1e-14);
+    }
+    Eigen::Vector2d none(-1, -1);
+    EXPECT_FALSE(eye.project({ 0, 0, -1 }, none));
+    EXPECT_EQ(none.x(), -1);
+  }
+}
+
+TEST(Eye, SkewAndOffsetByHand)
+{
+  CameraRecord record = makeRecord("pinhole");
+  record.K(0, 1) = 4;
+  const Eye eye(record, nullptr);
+  Eigen::Vector2d pixel;
+  ASSERT_TRUE(eye.project({ 1, -2, 4 }, pixel));
+  EXPECT_DOUBLE_EQ(pixel.x(), 80 * 0.25 + 4 * -0.5 + 30);
+  EXPECT_DOUBLE_EQ(pixel.y(), 70 * -0.5 + 25);
+}
+
+/// Two triangles that face a camera at the origin, the second one twice as far; either may move.
+std::shared_ptr<SceneState> makeState(bool deformed)
+{
+  auto model = std::make_shared<Model>();
+  auto rest = std::make_shared<Geometry>();
+  rest->positions = { { -1, -1, 2 }, { 1, -1, 2 }, { 0, 2, 2 }, { -1, -1, 4 }, { 1, -1, 4 }, { 0, 2, 4 } };
+  rest->normals.assign(6, Eigen::Vector3f(0, 0, -1));
+  model->rest = rest;
+  model->triangles = { { 0, 1, 2 }, { 3, 4, 5 } };
+  model->materials.resize(1);
+  model->parts = { { "p", 0, 0, 2 } };
+  auto geometry = std::make_shared<Geometry>(*rest);
+  if (deformed)
+  {
+    geometry->positions[2] = { 0, 4, 2 };
+  }
+  auto state = std::make_shared<SceneState>();
+  Instance instance;
+  instance.model = model;
+  instance.geometry = deformed ? geometry : rest;
+  instance.materials = std::make_shared<std::vector<Material>>(model->materials);
+  state->instances.push_back(instance);
+  return state;
+}
+
+Sight makeSight(const std::shared_ptr<SceneState>& state)
+{
+  CameraRecord record = makeRecord("pinhole");
+  record.R.setIdentity();
+  record.t.setZero();
+  std::unique_ptr<OcclusionQuery> query = makeOcclusionQuery();
+  query->setScene(state);
+  return Sight(Eye(record, nullptr), state, std::move(query));
+}
+
+TEST(Sight, DepthsOfAllSurfaces)
+{
+  const Sight sight = makeSight(makeState(false));
+  std::vector<Hit> hits;
+  std::vector<double> depths;
+  sight.surfaces({ 30, 25 }, hits, depths);
+  ASSERT_EQ(hits.size(), 2u);
+  EXPECT_EQ(hits[0], (Hit{ 1, 0 }));
+  EXPECT_DOUBLE_EQ(depths[0], 2);
+  EXPECT_DOUBLE_EQ(depths[1], 4);
+  EXPECT_TRUE(std::isinf(sight.depthOf({}, { 30, 25 })));
+  EXPECT_LT((sight.weights({ 1, 0 }, { 0, 0, 2 }) - Eigen::Vector3d(1, 1, 1) / 3).norm(), 1e-15);
+}
+
+TEST(Carrier, FollowsPlacementAndDeformation)
+{
+  const auto before = makeState(false);
+  const Sight sight = makeSight(before);
+  const Eigen::Vector3d point(0.25, 0.5, 2);
+
+  auto moved = std::make_shared<SceneState>(*before); // the same geometry, placed elsewhere
+  moved->instances[0].world_from_object.linear = Eigen::Vector3d(2, 3, -1).asDiagonal();
+  moved->instances[0].world_from_object.translation = { 0, 0, 5 };
+  const Carried rigid = Carrier(sight, moved)({ 1, 0 }, point);
+  ASSERT_TRUE(rigid.ok);
+  EXPECT_LT((rigid.x_in_world - Eigen::Vector3d(0.5, 1.5, 3)).norm(), 1e-14);
+
+  auto bent = makeState(true);
+  bent->instances[0].model = before->instances[0].model;
+  const Carried deformed = Carrier(sight, bent)({ 1, 0 }, point);
+  ASSERT_TRUE(deformed.ok);
+  // The top corner has weight 1/2 there and rises by 2.
+  EXPECT_LT((deformed.x_in_world - Eigen::Vector3d(0.25, 1.5, 2)).norm(), 1e-14);
+}
+} // namespace
