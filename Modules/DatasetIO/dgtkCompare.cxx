@@ -7,6 +7,7 @@
 #include "dgtkJournal.h"
 #include "dgtkJsonText.h"
 #include "dgtkLayerReader.h"
+#include "dgtkLdi.h"
 
 #include <algorithm>
 #include <cmath>
@@ -244,7 +245,7 @@ CompareResult compareFiles(const std::string& a, const std::string& b)
 {
   CompareResult result;
   result.sameBytes = sameContents(a, b);
-  const bool images = isLayerFile(a) && isLayerFile(b);
+  const bool images = isLayerFile(a) && isLayerFile(b) && !isDeepExr(a) && !isDeepExr(b);
   if (images && result.sameBytes)
   {
     const std::unique_ptr<RowReader> reader = openLayerFile(a);

@@ -91,6 +91,9 @@ private:
   std::unique_ptr<Impl> Self;
 };
 
+/// Whether a file is deep OpenEXR, which openLayerFile() does not read. False when it cannot be read.
+DGTKDATASETIO_EXPORT bool isDeepExr(const std::string& path);
+
 } // namespace dgtk
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 
 namespace dgtk
@@ -94,6 +95,16 @@ struct LdiReader::Impl
   std::uint64_t BlockStart = 0;
   std::vector<unsigned char> Block;
 };
+
+bool isDeepExr(const std::string& path)
+{
+  constexpr std::uint32_t exrMagic = 20000630;
+  constexpr std::uint32_t deepData = 0x800; // of the version field
+  std::uint32_t words[2] = {};
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(words), sizeof words);
+  return file && words[0] == exrMagic && (words[1] & deepData) != 0;
+}
 
 LdiReader::LdiReader(const std::string& path)
   : Self(std::make_unique<Impl>(path))

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCompare.h"
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkHash.h"
@@ -192,6 +193,8 @@ TEST(Ldi, DeepExrIsReadByOpenImageIO)
   EXPECT_EQ(record.bytes, std::filesystem::file_size(path));
   EXPECT_EQ(record.sha256, Sha256::ofFile(path));
   EXPECT_FALSE(std::filesystem::exists(path + ".partial"));
+  EXPECT_TRUE(isDeepExr(path));
+  EXPECT_FALSE(isDeepExr(folder.path("missing")));
   const auto input = OIIO::ImageInput::open(path);
   ASSERT_TRUE(input) << OIIO::geterror();
   ASSERT_TRUE(input->spec().deep);
@@ -212,6 +215,20 @@ TEST(Ldi, DeepExrIsReadByOpenImageIO)
       EXPECT_EQ(deep.deep_value_uint(i, channel("part"), s), surface->part);
       EXPECT_EQ(deep.deep_value_uint(i, channel("triangle"), s), surface->triangle);
     }
+  }
+}
+
+TEST(Ldi, FilesAreComparedByTheirBytes)
+{
+  const TemporaryFolder folder;
+  for (const std::string format : { "ldi", "exr" })
+  {
+    write(folder.path("a." + format), format, 1);
+    write(folder.path("b." + format), format, 2);
+    EXPECT_TRUE(compareFiles(folder.path("a." + format), folder.path("b." + format)).equal);
+    const std::string bytes = contentsOf(folder.path("b." + format));
+    writeFile(folder.path("b." + format), with(bytes, bytes.size() - 1, char(bytes.back() + 1)));
+    EXPECT_FALSE(compareFiles(folder.path("a." + format), folder.path("b." + format)).equal);
   }
 }
 
@@ -259,7 +276,7 @@ TEST(Ldi, DamagedFilesAreRefusedByName)
   EXPECT_THAT(says(good + "x"), HasSubstr("goes on behind its last pixel"));
   // the first record stands behind the counts of pixels 0 and 1
   EXPECT_THAT(says(with(good, 20, std::numeric_limits<double>::infinity())), HasSubstr("a depth that is not finite"));
-  EXPECT_THAT(says(with(good, 36 + 4 + 4, 1e9)), HasSubstr("nearer than the one before")); // of two records the first
+  EXPECT_THAT(says(with(good, 36 + 4, 1e9)), HasSubstr("nearer than the one before")); // of two records the first
   for (std::size_t bytes = 0; bytes < good.size(); ++bytes)
   {
     ASSERT_NE(says(good.substr(0, bytes)), "") << bytes;
