@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The layers of several samples a pixel: alpha and coverage. One lane traces the samples for both.
 #include "dgtkCryptomatte.h"
+#include "dgtkEmptyLane.h"
 #include "dgtkError.h"
 #include "dgtkFrameLayers.h"
 #include "dgtkSamples.h"
@@ -166,14 +167,6 @@ private:
   std::vector<CoveredId> Ranks;
   std::unique_ptr<LayerWriter> Alpha;
   std::unique_ptr<CryptomatteWriter> Coverage;
-};
-
-/// Of a layer whose files another layer's lane writes.
-class EmptyLane : public OutputLane
-{
-public:
-  void write(const Band&) override {}
-  std::vector<FinishedFile> finish() override { return {}; }
 };
 
 class SampledLayer : public FrameLayer

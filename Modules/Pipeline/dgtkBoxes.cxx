@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The layers of whole objects: boxes and amodal. One lane casts the rays for both.
+#include "dgtkEmptyLane.h"
 #include "dgtkFrameLayers.h"
 #include "dgtkObjectDocuments.h"
 #include "dgtkObjectTruth.h"
@@ -150,14 +151,6 @@ private:
   bool Amodal;
   std::optional<BlockObjects> Blocks;
   ObjectRows All;
-};
-
-/// Of a layer whose files another layer's lane writes.
-class EmptyLane : public OutputLane
-{
-public:
-  void write(const Band&) override {}
-  std::vector<FinishedFile> finish() override { return {}; }
 };
 
 class ObjectsLayer : public FrameLayer
