@@ -3,11 +3,14 @@
 import json
 import math
 import os
+import shutil
 import struct
+import subprocess
+import tempfile
 import zlib
 
 import numpy
-from harness import SCENES, Case, main
+from harness import DGTK, SCENES, Case, main
 
 RECORD = numpy.dtype([("rgba", "u1", 4), ("depth", "<f8"), ("splat", "<u4")])
 
@@ -171,7 +174,7 @@ class Layers(Case):
         for scene, camera, frame in (("demo.json", "left", 1), ("fig_5_2_trees_grass.json", "camera", 0),
                                      ("fig_4_7_stereo.json", "left", 0)):
             with self.subTest(scene=scene):
-                folder = self.render(scene, scene, "--cameras", camera, "--frames", frame, "--size", "200x150",
+                folder = self.render(scene, scene, "--cameras", camera, "--frames", frame, "--size", "160x120",
                                      "--ldi-format", "ldi,exr", "--triangles-format", "npy")
                 counts = self.check_first(os.path.join(folder, camera), frame)
                 print(f"{scene}: {counts.sum()} surfaces, at most {counts.max()} in a pixel")
@@ -216,10 +219,16 @@ class Layers(Case):
 
 
 class Warp(Case):
+    @classmethod
+    def setUpClass(cls):
+        cls.dataset = tempfile.mkdtemp(prefix="dgtk-cli-")
+        cls.addClassCleanup(shutil.rmtree, cls.dataset, ignore_errors=True)
+        subprocess.run([DGTK, "render", os.path.join(SCENES, "fig_4_7_stereo.json"), "-o", cls.dataset, "--quiet", "--layers",
+                        "color,depth,ldi", "--size", "200x150"], check=True, capture_output=True)
+
     def setUp(self):
         super().setUp()
-        self.dgtk("render", os.path.join(SCENES, "fig_4_7_stereo.json"), "-o", self.path("d"), "--quiet", "--layers",
-                  "color,depth,ldi", "--size", "200x150")
+        shutil.copytree(self.dataset, self.path("d"))
         self.ldi = self.path("d", "left", "ldi", "000000.ldi")
 
     def warp(self, to, *options):
