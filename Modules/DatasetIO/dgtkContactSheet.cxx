@@ -89,7 +89,8 @@ Contents contentsOf(const Manifest& manifest)
   std::vector<const DatasetFile*> files;
   for (const DatasetFile& file : manifest.files)
   {
-    if (!file.layer.empty() && file.layer != "tiles" && file.layer != "ldi" && !file.camera.empty() && isLayerFile(file.path))
+    if (!file.layer.empty() && file.layer != "tiles" && file.layer != "ldi" && !file.camera.empty() &&
+        isLayerFile(file.path))
     {
       files.push_back(&file);
     }
