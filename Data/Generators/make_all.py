@@ -15,10 +15,12 @@ import models_moving
 import models_other
 import models_plants
 import models_still
+import models_targets
 import models_windmill
 import pictures
 import scenes
 import scenes_abilities
+import scenes_datasets
 import textures
 
 DATA = pathlib.Path(__file__).resolve().parent.parent
@@ -30,11 +32,13 @@ def products():
         yield f"Textures/{name}", pictures.png(make())
     for name, make in (("tuxedo", models_appendix.tuxedo_skin), ("face", models_appendix.face_skin), ("head", models_head.head_skin)):
         yield f"Textures/{name}.png", pictures.png(make())
+    yield "Textures/speckles.png", pictures.png(models_targets.speckle_picture())
     yield "Models/creature.png", pictures.png(models_moving.creature_skin())
     yield "Models/rocket.png", pictures.png(models_other.rocket_skin())
     yield "Models/flag.pcx", pictures.pcx(models_moving.flag_skin())
     for make in (models_still.table, models_still.crate, models_still.ball, models_still.house, models_still.ground, models_still.floor,
-                 models_still.room, models_plants.tree, models_plants.fir, models_plants.grass, models_plants.reeds):
+                 models_still.room, models_plants.tree, models_plants.fir, models_plants.grass, models_plants.reeds, models_targets.chessboard,
+                 models_targets.speckled_wall, models_targets.speckled_box, models_targets.speckled_ball):
         yield f"Models/{make.__name__}.ac", make()
     yield "Models/terrain.acc", models_still.terrain()
     for make in (models_moving.creature, models_moving.flag):
@@ -49,7 +53,7 @@ def products():
     yield "Models/windmill.gltf", models_windmill.windmill()
     for make in (models_appendix.tuxedo, models_appendix.world):
         yield f"Scenes/{make.__name__}.ac", make()
-    for name, make in (scenes.FILES | scenes_abilities.FILES).items():
+    for name, make in (scenes.FILES | scenes_abilities.FILES | scenes_datasets.FILES).items():
         yield f"Scenes/{name}", make()
 
 

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// OpenCV as a user of rendered datasets: what its matchers and its calibration find from the colours alone must be what
+// the ground truth says. This catches wrong signs, axes and half pixels that agreement with ourselves would hide.
+//
+//   TestDatasetUsers stereo|flow|chessboard DIR
+#include "dgtkDatasetDocuments.h"
+#include "dgtkError.h"
+#include "dgtkLayerReader.h"
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace
+{
+using namespace dgtk;
+
+/// Largest difference in pixels that counts as agreement, and the part of the visible pixels that must agree.
+constexpr double agreement = 1.0;
+constexpr double wanted = 0.85;
+/// Pixels: how well the chessboard must recover fx, fy, cx and cy.
+constexpr double calibrated = 0.05;
+constexpr int border = 16; // pixels without a whole window around them
+
+/// All rows of an image file; CV_64F for float64, CV_32F for float32, CV_8U for uint8.
+cv::Mat load(const std::string& path)
+{
+  const std::unique_ptr<RowReader> reader = openLayerFile(path);
+  const ImageInfo& info = reader->info();
+  const Rows rows = reader->read(info.height);
+  const int depth = info.type == PixelType::Float64 ? CV_64F : info.type == PixelType::Float32 ? CV_32F : CV_8U;
+  if (bytesOf(info.type) != CV_ELEM_SIZE1(depth))
+  {
+    throw std::runtime_error(path + ": is of an unexpected type");
+  }
+  return cv::Mat(info.height, info.width, CV_MAKETYPE(depth, info.channels), const_cast<std::byte*>(rows.data()))
+    .clone();
+}
+
+cv::Mat gray(const std::string& path)
+{
+  cv::Mat result;
+  cv::cvtColor(load(path), result, cv::COLOR_RGB2GRAY);
+  return result;
+}
+
+int verdict(const char* what, std::size_t agreeing, std::size_t all)
+{
+  const double part = all ? double(agreeing) / double(all) : 0;
+  std::printf("%s: %zu of %zu visible pixels (%.1f %%) within %g pixel\n", what, agreeing, all, 100 * part, agreement);
+  return part >= wanted && all > 10000 ? 0 : 1;
+}
+
+int stereo(const std::string& folder)
+{
+  const cv::Mat left = gray(folder + "/left/color/000000.png");
+  const cv::Mat right = gray(folder + "/right/color/000000.png");
+  const auto matcher = cv::StereoSGBM::create(0, 64, 5, 8 * 25, 32 * 25, 1, 0, 5, 50, 2);
+  cv::Mat found;
+  matcher->compute(left, right, found); // 1/16 pixel
+  const cv::Mat truth = load(folder + "/left/disparity/000000.pfm");
+  const cv::Mat classes = load(folder + "/left/disparity/000000.png");
+  std::size_t all = 0, agreeing = 0;
+  for (int y = border; y < left.rows - border; ++y)
+  {
+    for (int x = 64 + border; x < left.cols - border; ++x)
+    {
+      if (classes.at<unsigned char>(y, x) == 1)
+      {
+        ++all;
+        agreeing += std::abs(found.at<short>(y, x) / 16.0 - double(truth.at<float>(y, x))) < agreement;
+      }
+    }
+  }
+  return verdict("StereoSGBM", agreeing, all);
+}
+
+int flowWith(const char* name, const cv::Mat& found, const cv::Mat& truth, const cv::Mat& classes)
+{
+  std::size_t all = 0, agreeing = 0;
+  for (int y = border; y < truth.rows - border; ++y)
+  {
+    for (int x = border; x < truth.cols - border; ++x)
+    {
+      if (classes.at<unsigned char>(y, x) == 1)
+      {
+        ++all;
+        agreeing += cv::norm(found.at<cv::Vec2f>(y, x) - truth.at<cv::Vec2f>(y, x)) < agreement;
+      }
+    }
+  }
+  return verdict(name, agreeing, all);
+}
+
+int flow(const std::string& folder)
+{
+  int failed = 0;
+  for (const int step : { 1, -1 })
+  {
+    const cv::Mat one = gray(folder + "/camera/color/000001.png");
+    const cv::Mat two = gray(folder + (step > 0 ? "/camera/color/000002.png" : "/camera/color/000000.png"));
+    const std::string layer = folder + (step > 0 ? "/camera/flow_forward" : "/camera/flow_backward");
+    const cv::Mat truth = load(layer + "/000001.flo");
+    const cv::Mat classes = load(layer + "/000001.png");
+    cv::Mat found;
+    cv::calcOpticalFlowFarneback(one, two, found, 0.5, 4, 13, 5, 7, 1.5, 0);
+    failed |= flowWith(step > 0 ? "Farneback, forward" : "Farneback, backward", found, truth, classes);
+    cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)->calc(one, two, found = cv::Mat());
+    failed |= flowWith(step > 0 ? "DIS, forward" : "DIS, backward", found, truth, classes);
+    double largest = 0;
+    cv::minMaxLoc(cv::abs(truth.reshape(1)), nullptr, &largest, nullptr, nullptr, truth.reshape(1) < 1e9);
+    std::printf("largest flow: %.1f pixels\n", largest);
+  }
+  return failed;
+}
+
+int chessboard(const std::string& folder)
+{
+  const cv::Size inner(9, 6);
+  constexpr float square = 0.03f;
+  std::vector<cv::Point3f> board;
+  for (int j = 0; j < inner.height; ++j)
+  {
+    for (int i = 0; i < inner.width; ++i)
+    {
+      board.emplace_back(square * float(i), square * float(j), 0.0f);
+    }
+  }
+  const std::vector<CameraRecord> cameras = readCameras(folder + "/cameras.json");
+  std::vector<std::vector<cv::Point3f>> points;
+  std::vector<std::vector<cv::Point2f>> corners;
+  cv::Size size;
+  for (const CameraRecord& camera : cameras)
+  {
+    char name[64];
+    std::snprintf(name, sizeof name, "/%s/color/%06d.png", camera.name.c_str(), camera.frame);
+    const cv::Mat picture = gray(folder + name);
+    size = picture.size();
+    std::vector<cv::Point2f> found;
+    if (cv::findChessboardCornersSB(picture, inner, found, cv::CALIB_CB_ACCURACY | cv::CALIB_CB_EXHAUSTIVE))
+    {
+      for (cv::Point2f& corner : found)
+      {
+        corner += cv::Point2f(0.5f, 0.5f); // OpenCV counts from the centre of the first pixel
+      }
+      points.push_back(board);
+      corners.push_back(found);
+    }
+  }
+  cv::Mat K = cv::Mat::eye(3, 3, CV_64F), distortion = cv::Mat::zeros(5, 1, CV_64F);
+  std::vector<cv::Mat> rotations, translations;
+  const double error = cv::calibrateCamera(points, corners, size, K, distortion, rotations, translations,
+    cv::CALIB_FIX_K1 | cv::CALIB_FIX_K2 | cv::CALIB_FIX_K3 | cv::CALIB_ZERO_TANGENT_DIST);
+  const Eigen::Matrix3d& truth = cameras.front().K;
+  double largest = 0;
+  const int places[4][2] = { { 0, 0 }, { 1, 1 }, { 0, 2 }, { 1, 2 } };
+  const char* const names[4] = { "fx", "fy", "cx", "cy" };
+  for (int k = 0; k < 4; ++k)
+  {
+    const double value = K.at<double>(places[k][0], places[k][1]);
+    const double expected = truth(places[k][0], places[k][1]);
+    std::printf("%s %.4f, truth %.4f, difference %+.4f\n", names[k], value, expected, value - expected);
+    largest = std::max(largest, std::abs(value - expected));
+  }
+  std::printf(
+    "chessboard found in %zu of %zu pictures, reprojection error %.4f pixel\n", corners.size(), cameras.size(), error);
+  return corners.size() >= 12 && largest <= calibrated ? 0 : 1;
+}
+} // namespace
+
+int main(int argc, char** argv)
+{
+  try
+  {
+    const std::string kind = argc == 3 ? argv[1] : "";
+    if (kind == "stereo" || kind == "flow" || kind == "chessboard")
+    {
+      return kind == "stereo" ? stereo(argv[2]) : kind == "flow" ? flow(argv[2]) : chessboard(argv[2]);
+    }
+    std::fprintf(stderr, "usage: TestDatasetUsers stereo|flow|chessboard DIR\n");
+    return 2;
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
