@@ -215,8 +215,15 @@ void Run::drawBand(int row, FrameOutput& output)
 {
   auto band = std::make_unique<DrawnBand>();
   this->Source->draw(row, *band);
-  const std::size_t bytes = std::size_t(band->band.rect.width) * band->band.rect.height * 2 *
-                            (sizeof(Hit) + 3 * sizeof(float)); // as drawn, and whole
+  std::size_t bytes = std::size_t(band->band.rect.width) * band->band.rect.height * 2 *
+                      (sizeof(Hit) + 3 * sizeof(float)); // as drawn, and whole
+  for (const std::vector<SurfaceLayer>& ranks : band->band.peeled)
+  {
+    for (const SurfaceLayer& rank : ranks)
+    {
+      bytes += rank.rgba.size() * sizeof(float) + rank.hits.size() * sizeof(Hit);
+    }
+  }
   this->PendingBytes += bytes;
   output.submit({ band.release(), [this, bytes](DrawnBand* done)
     {

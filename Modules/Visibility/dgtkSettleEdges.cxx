@@ -340,6 +340,32 @@ private:
     return best;
   }
 
+  /// The nearest surface at the centre of all triangles of the neighbourhood's objects; object 0 when there is none.
+  Hit nearestOfObjects(const Hit* at, int x, int y, const PixelPoint& p)
+  {
+    std::vector<std::uint32_t> objects;
+    this->forNeighbours(at, x, y, [&](const Hit& hit) { objects.push_back(hit.object); });
+    std::sort(objects.begin(), objects.end());
+    objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
+    Hit best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t object : objects)
+    {
+      const std::size_t count = object == 0 ? 0 : this->State.instances[object - 1].model->triangles.size();
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        const Hit hit{ object, std::uint32_t(i) };
+        const double t = this->candidate(hit, p);
+        if (t < least * (1 - SameDistance))
+        {
+          least = t;
+          best = hit;
+        }
+      }
+    }
+    return best;
+  }
+
   /// True when the pixel changes, to `settled`.
   bool settle(const Hit* at, int x, int y, Hit& settled)
   {
@@ -356,9 +382,10 @@ private:
       return false;
     }
     settled = this->nearest(at, x, y, p);
-    if (settled.object == 0 && this->isPlausible(own, p))
+    if (settled.object == 0)
     {
-      settled = own;
+      // A sliver that no neighbour shows: rare enough to look at every triangle.
+      settled = this->isPlausible(own, p) ? own : this->nearestOfObjects(at, x, y, p);
     }
     return settled != own;
   }

@@ -60,7 +60,8 @@ DGTKVISIBILITY_EXPORT bool isCutOut(
 /// neighbourhood inside the buffer, those that contain the centre (edges included) within near and far, at a texel that
 /// is there, the nearest is taken (nearest within a relative 1e-12: the lowest object, then triangle). When there is
 /// none the pixel keeps its hit, unless the plane of its triangle would give a depth outside the triangle's own range:
-/// then nothing is there. Triangles without area are never hit. `grazingOnly`: only pixels whose triangle does not
+/// then all triangles of the neighbourhood's objects are looked at, and where none contains the centre nothing is
+/// there. Triangles without area are never hit. `grazingOnly`: only pixels whose triangle does not
 /// contain the centre and whose plane would give a depth outside the triangle's own range; used for raster buffers,
 /// whose colours are to stay with their labels. Every decision reads the buffer as it came in; the result does not
 /// depend on the order of pixels or on `pool`, whose threads share the work when it is given. Returns how many pixels
