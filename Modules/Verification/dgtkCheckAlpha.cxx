@@ -2,8 +2,10 @@
 #include "dgtkCheck.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <map>
+#include <set>
 
 namespace dgtk
 {
@@ -137,6 +139,109 @@ void checkAlphaPixel(
   meter.add(std::max(0.0, std::abs(share - expected) - AlphaRounding),
     [&] { return alpha.offender(x, y, text(share), text(expected)); });
 }
+
+/// The samples a side of a pixel that the request asked for.
+int samplesOf(const Manifest& manifest)
+{
+  for (const auto& [option, value] : manifest.request)
+  {
+    const int samples = option == "samples" && value.size() < 4 ? std::atoi(value.c_str()) : 0;
+    if (samples > 0)
+    {
+      return samples;
+    }
+  }
+  return 1;
+}
+
+/// Coverage counted anew by rays through the samples.
+class SampleCheck
+{
+public:
+  SampleCheck(Picture& picture, const Coverage& coverage)
+    : Eyes(picture.sight())
+    , Shares(coverage)
+    , Samples(samplesOf(picture.dataset().manifest()))
+  {
+  }
+
+  /// All divided pixels, and some of the others.
+  void pixel(int x, int y, Meter& meter) const
+  {
+    constexpr int step = 4;
+    if (this->Shares.share(x, y, 0) == 1 && (x % step != 0 || y % step != 0))
+    {
+      return;
+    }
+    std::map<std::uint32_t, int> counts;
+    std::map<std::uint32_t, int> doubtful;
+    for (int j = 0; j < this->Samples; ++j)
+    {
+      for (int i = 0; i < this->Samples; ++i)
+      {
+        const Eigen::Vector2d place(x + (i + 0.5) / this->Samples, y + (j + 0.5) / this->Samples);
+        const std::uint32_t first = this->firstAt(place);
+        ++counts[first];
+        for (const std::uint32_t other : this->firstsAround(place))
+        {
+          doubtful[other] += other != first;
+          doubtful[first] += other != first;
+        }
+      }
+    }
+    for (const auto& [id, count] : doubtful)
+    {
+      counts[id]; // may show as well
+    }
+    for (const auto& [id, count] : counts)
+    {
+      this->compare(x, y, id, count, doubtful[id], meter);
+    }
+  }
+
+private:
+  void compare(int x, int y, std::uint32_t id, int count, int doubtful, Meter& meter) const
+  {
+    const double all = double(this->Samples) * this->Samples;
+    const double found = this->Shares.shareOf(id, x, y);
+    const double error = std::abs(found - count / all);
+    if (error > meter.Tolerance && error <= doubtful / all + meter.Tolerance)
+    {
+      meter.skip();
+      return;
+    }
+    meter.add(error,
+      [&]
+      {
+        return this->Shares.file().offender(
+          x, y, "object " + std::to_string(id) + ", coverage " + numberText(found), numberText(count / all));
+      });
+  }
+
+  std::uint32_t firstAt(const Eigen::Vector2d& place) const
+  {
+    std::vector<Hit> hits;
+    std::vector<double> depths;
+    this->Eyes.surfaces(place, hits, depths);
+    return hits.empty() ? 0 : hits.front().object;
+  }
+
+  /// Objects that are first within EdgeReach of a sample, each once.
+  std::set<std::uint32_t> firstsAround(const Eigen::Vector2d& place) const
+  {
+    std::set<std::uint32_t> ids;
+    for (const Eigen::Vector2d& offset :
+      { Eigen::Vector2d(1, 0), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, -1) })
+    {
+      ids.insert(this->firstAt(place + EdgeReach * offset));
+    }
+    return ids;
+  }
+
+  const Sight& Eyes;
+  const Coverage& Shares;
+  int Samples;
+};
 } // namespace
 
 void checkAlpha(Picture& picture, Results& results)
@@ -159,6 +264,8 @@ void checkAlpha(Picture& picture, Results& results)
   if (coverage)
   {
     measure("coverage", [&](int x, int y, Meter& row) { checkSums(*coverage, x, y, row); });
+    const SampleCheck samples(picture, *coverage);
+    measure("samples", [&](int x, int y, Meter& row) { samples.pixel(x, y, row); });
   }
   const PicturePointer alpha = picture.image("alpha", { ".png" });
   if (alpha && alpha->channels() == 4)

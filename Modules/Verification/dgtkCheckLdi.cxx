@@ -84,7 +84,7 @@ public:
     std::vector<double> depths;
     this->Owner.sight().surfaces(centreOf(x, y), hits, depths);
     const std::string problem = this->problem(x, y, depths);
-    if (!problem.empty() && meter.Bad < Patience && this->isOpen(x, y, hits, depths))
+    if (!problem.empty() && meter.Bad < Patience && this->isOpen(x, y))
     {
       meter.skip();
       return;
@@ -93,7 +93,7 @@ public:
       [&]
       {
         return Offender{ this->File, x, y, problem,
-          std::to_string(depths.size()) +
+          std::to_string(depths.size()) + " surfaces from depth " +
             numbersText(depths.data(), static_cast<int>(std::min<std::size_t>(4, depths.size()))) };
       });
   }
@@ -151,7 +151,7 @@ private:
     for (std::size_t i = 0; i < count; ++i)
     {
       const double found = this->Ldi.depth(x, y, i);
-      if (!(std::abs(found - depths[i]) <= DepthTolerance * depths[i]))
+      if (!isClose(found, depths[i]))
       {
         return "record " + std::to_string(i) + " at " + numberText(found);
       }
@@ -159,30 +159,59 @@ private:
     return {};
   }
 
-  /// An edge within EdgeReach, or surfaces that coincide.
-  bool isOpen(int x, int y, const std::vector<Hit>& hits, const std::vector<double>& depths) const
+  /// Whether the records differ from the surfaces only by some with an edge within EdgeReach, or coincident ones: each
+  /// record is a surface of some ray around, each surface of all these rays has a record.
+  bool isOpen(int x, int y) const
   {
-    for (std::size_t i = 1; i < depths.size(); ++i)
+    struct Nearby
     {
-      if (depths[i] - depths[i - 1] <= DepthTolerance * depths[i])
-      {
-        return true;
-      }
-    }
-    std::vector<Hit> others;
-    std::vector<double> otherDepths;
-    for (int i = 0; i < 16; ++i)
+      Hit hit;
+      int rays = 0;
+    };
+    constexpr int Rays = 17;
+    constexpr double sixteenth = 0.39269908169872414;
+    std::vector<Nearby> all;
+    std::vector<Hit> hits;
+    std::vector<double> depths;
+    for (int i = 0; i < Rays; ++i)
     {
-      constexpr double sixteenth = 0.39269908169872414;
       const Eigen::Vector2d offset(std::cos(i * sixteenth), std::sin(i * sixteenth));
-      this->Owner.sight().surfaces(centreOf(x, y) + EdgeReach * offset, others, otherDepths);
-      if (others != hits)
+      this->Owner.sight().surfaces(centreOf(x, y) + (i == 0 ? 0 : EdgeReach) * offset, hits, depths);
+      for (const Hit& hit : hits)
       {
-        return true;
+        auto known = std::find_if(all.begin(), all.end(), [&](const Nearby& n) { return n.hit == hit; });
+        known = known == all.end() ? all.insert(all.end(), { hit, 0 }) : known;
+        ++known->rays;
       }
     }
-    return false;
+    // What the other layers show, which may be the edge of a cut-out texture that rays pass on either side.
+    const Surfaces& seen = this->Owner.surfaces();
+    std::vector<double> possible{ this->Owner.sight().depthOf(seen.hits[seen.index(x, y)], centreOf(x, y)) };
+    bool complete = true;
+    for (const Nearby& nearby : all)
+    {
+      possible.push_back(this->Owner.sight().depthOf(nearby.hit, centreOf(x, y)));
+      complete = complete && (nearby.rays < Rays || this->hasRecord(x, y, possible.back()));
+    }
+    for (std::size_t i = 0; i < this->Ldi.count(x, y); ++i)
+    {
+      complete = complete && std::any_of(possible.begin(), possible.end(),
+                               [&](double depth) { return isClose(this->Ldi.depth(x, y, i), depth); });
+    }
+    return complete;
   }
+
+  bool hasRecord(int x, int y, double depth) const
+  {
+    bool found = false;
+    for (std::size_t i = 0; i < this->Ldi.count(x, y); ++i)
+    {
+      found = found || isClose(this->Ldi.depth(x, y, i), depth);
+    }
+    return found;
+  }
+
+  static bool isClose(double a, double b) { return std::abs(a - b) <= DepthTolerance * b; }
 
   Picture& Owner;
   std::string File;
@@ -204,6 +233,7 @@ void checkLdi(Picture& picture, Results& results)
   {
     return;
   }
+  picture.surfaces();
   const LdiCheck check(picture, file);
   const auto measure = [&](const auto& pixel)
   {
