@@ -140,12 +140,12 @@ void checkAlphaPixel(
     [&] { return alpha.offender(x, y, text(share), text(expected)); });
 }
 
-/// The samples a side of a pixel that the request asked for.
+/// The samples of coverage a side of a pixel that the request asked for.
 int samplesOf(const Manifest& manifest)
 {
   for (const auto& [option, value] : manifest.request)
   {
-    const int samples = option == "samples" && value.size() < 4 ? std::atoi(value.c_str()) : 0;
+    const int samples = option == "coverage_samples" && value.size() < 4 ? std::atoi(value.c_str()) : 0;
     if (samples > 0)
     {
       return samples;

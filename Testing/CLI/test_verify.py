@@ -5,6 +5,9 @@ import json
 import os
 import shutil
 import struct
+import subprocess
+import tempfile
+import zlib
 
 import numpy
 
@@ -19,18 +22,27 @@ def contents(path):
         return file.read()
 
 
-class Planted(Case):
-    """One dataset of a moving stereo pair; each case spoils a copy of it."""
+def gray_png(width, height, value):
+    """An 8-bit gray picture of one value."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    rows = zlib.compress((b"\0" + bytes([value]) * width) * height)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) +
+            chunk(b"IDAT", rows) + chunk(b"IEND", b""))
+
+
+class Spoiled(Case):
+    """One dataset, of which each case spoils a copy."""
+    scene, options = "", ()
 
     @classmethod
     def setUpClass(cls):
-        import subprocess
-        import tempfile
-
         cls.whole = tempfile.mkdtemp(prefix="dgtk-verify-")
-        done = subprocess.run([os.environ["DGTK"], "render", os.path.join(SCENES, "demo.json"), "-o", cls.whole, "--quiet",
-                               "--layers", LAYERS + PAIRS, "--pairs", "left:right,right:left+1", "--frames", "0:1",
-                               "--size", "160x120", "--objects-format", "npy,ppm"], capture_output=True, text=True)
+        if not cls.scene:
+            return
+        done = subprocess.run([os.environ["DGTK"], "render", os.path.join(SCENES, cls.scene), "-o", cls.whole, "--quiet",
+                               "--size", "160x120", *cls.options], capture_output=True, text=True)
         if done.returncode:
             raise RuntimeError(done.stderr)
 
@@ -68,6 +80,20 @@ class Planted(Case):
         values = numpy.load(self.path("set", name))
         numpy.save(self.path("set", name), edit(values))
         self.accept(name)
+
+    def edit(self, name, change):
+        """Replaces a document of the dataset by what `change` makes of its JSON."""
+        document = load_json(self.path("set", name))
+        change(document)
+        self.write(os.path.join("set", name), json.dumps(document))
+        self.accept(name)
+
+
+class Planted(Spoiled):
+    """A moving stereo pair: pictures, geometry, and what relates views."""
+    scene = "demo.json"
+    options = ("--layers", LAYERS + PAIRS, "--pairs", "left:right,right:left+1", "--frames", "0:1",
+               "--objects-format", "npy,ppm")
 
     def test_as_rendered(self):
         done = self.dgtk("verify", self.path("set"), "--json", "--write", "--threads", 2)
@@ -182,18 +208,141 @@ class Planted(Case):
                 self.accept(name)
 
     def test_class_image(self):
-        # Visible where the surface is hidden: an 8-bit gray PNG of ones.
-        import zlib
-
-        def chunk(kind, data):
-            return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-        raw = b"".join(b"\0" + b"\1" * 160 for _ in range(120))
-        png = (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 160, 120, 8, 0, 0, 0, 0)) +
-               chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b""))
+        # Visible where the surface is hidden.
+        png = gray_png(160, 120, 1)
         self.write(os.path.join("set", "left", "correspondence_right", "000000.png"), png)
         self.accept("left/correspondence_right/000000.png")
         self.found("left/correspondence_right/000000.png: pixel", "class", "found 1")
+
+
+class PlantedObjects(Spoiled):
+    """What belongs to rays and objects rather than to one pixel."""
+    scene = "fig_4_7_stereo.json"
+    options = ("--layers", "color,depth,objects,classes,ldi,boxes,amodal,points")
+
+    def test_as_rendered(self):
+        report = json.loads(self.dgtk("verify", self.path("set"), "--json").stdout)
+        counts = {(residual["check"], residual["layer"]): residual["count"] for residual in report["residuals"]}
+        for row in (("ldi", "surfaces"), ("ldi", "first = depth"), ("ldi", "first = color"), ("partition", "amodal"),
+                    ("boxes", "masks"),
+                    ("boxes", "pose"), ("points", "tracks"), ("points", "visible"), ("points", "ply")):
+            self.assertGreater(counts.get(row, 0), 0, row)
+
+    def ldi(self, change):
+        """Edits the records of the middle pixel: (count, offset of the first record) of a bytearray."""
+        name = self.path("set", "left", "ldi", "000000.ldi")
+        data, at = bytearray(contents(name)), 8
+        for _ in range(60 * 160 + 80):
+            at += 4 + 16 * struct.unpack_from("<I", data, at)[0]
+        change(data, struct.unpack_from("<I", data, at)[0], at + 4)
+        with open(name, "wb") as file:
+            file.write(data)
+        self.accept("left/ldi/000000.ldi")
+
+    def test_ldi_without_its_first_surface(self):
+        def drop(data, count, at):
+            self.assertGreater(count, 1)
+            struct.pack_into("<I", data, at - 4, count - 1)
+            del data[at:at + 16]
+
+        self.ldi(drop)
+        self.found("left/ldi/000000.ldi: pixel (80, 60)", "ldi")
+
+    def test_ldi_out_of_order(self):
+        def swap(data, _, at):
+            data[at:at + 16], data[at + 16:at + 32] = data[at + 16:at + 32], data[at:at + 16]
+
+        self.ldi(swap)
+        self.found("left/ldi/000000.ldi: pixel (80, 60)", "ldi")
+
+    def test_ldi_of_another_color(self):
+        def paint(data, _, at):
+            data[at] ^= 64
+
+        self.ldi(paint)
+        self.found("left/ldi/000000.ldi: pixel (80, 60)", "ldi", "first = color")
+
+    def test_ldi_truncated(self):
+        name = self.path("set", "left", "ldi", "000000.ldi")
+        data = contents(name)
+        with open(name, "wb") as file:
+            file.write(data[:-5])
+        self.accept("left/ldi/000000.ldi")
+        self.found("left/ldi/000000.ldi", "ldi", "ends at byte")
+
+    def test_classes_of_one_value(self):
+        self.write(os.path.join("set", "right", "classes", "000000.png"), gray_png(160, 120, 200))
+        self.accept("right/classes/000000.png")
+        self.found("right/classes/000000.png: pixel (0, 0)", "partition", "found 200")
+
+    def test_amodal_mask_moved(self):
+        def move(document):
+            counts = document["masks"][1]["counts"]
+            counts[0] += 3
+            counts[-1] -= 3
+
+        self.edit("left/amodal/000000.json", move)
+        self.found("left/amodal/000000.json: pixel", "partition", "object")
+
+    def test_boxes(self):
+        def grow(document):
+            document["objects"][2]["box_visible"][2] += 1
+
+        self.edit("left/boxes/000000.json", grow)
+        self.found("left/boxes/000000.json", "boxes", "object 3 box_visible")
+
+    def test_pose_of_the_other_camera(self):
+        other = load_json(self.path("set", "right", "boxes", "000000.json"))
+
+        def take(document):
+            document["objects"][2]["matrix"] = other["objects"][2]["matrix"]
+
+        self.edit("left/boxes/000000.json", take)
+        self.found("left/boxes/000000.json", "boxes", "object 3 matrix")
+
+    def test_track_by_half_a_pixel(self):
+        def shift(document):
+            document["points"][100]["track"][-1][1] += 0.5
+
+        self.edit("points/000000.json", shift)
+        self.found("points/000000.json", "points", "point 100")
+
+    def test_point_off_its_surface(self):
+        # Farther away on the ray of its first pixel.
+        def push(document):
+            point, camera = document["points"][100], load_json(self.path("set", "cameras.json"))["cameras"][0]
+            centre = -numpy.array(camera["R"]).T @ camera["t"]
+            point["x"] = list(centre + 1.2 * (numpy.array(point["x"]) - centre))
+            point["track"] = point["track"][:1]
+
+        self.edit("points/000000.json", push)
+        self.found("points/000000.ply", "points", "vertex 100")
+        table = self.dgtk("verify", self.path("set"), status=1).stdout
+        self.assertIn("BREACH (1)", next(row for row in table.splitlines() if row.startswith("points       surface")))
+
+
+class PlantedSamples(Spoiled):
+    """What several samples of a pixel give."""
+    scene = "fig_4_7_stereo.json"
+    options = ("--layers", "objects,alpha,coverage,matting", "--matte", "vase", "--samples", "3")
+
+    def test_as_rendered(self):
+        report = json.loads(self.dgtk("verify", self.path("set"), "--json").stdout)
+        counts = {(residual["check"], residual["layer"]): residual["count"] for residual in report["residuals"]}
+        for row in (("alpha", "coverage"), ("alpha", "samples"), ("alpha", "alpha"), ("matting", "matting_vase")):
+            self.assertGreater(counts.get(row, 0), 0, row)
+
+    def test_alpha_and_coverage_of_other_views(self):
+        name = os.path.join("coverage", "000000.exr")
+        shutil.copy(self.path("set", "left", name), self.path("set", "right", name))
+        self.accept("right/coverage/000000.exr")
+        self.found("right/alpha/000000.png: pixel", "alpha")
+
+    def test_composite_without_its_object(self):
+        folder = self.path("set", "left", "matting_vase")
+        shutil.copy(os.path.join(folder, "000000_background.png"), os.path.join(folder, "000000_composite.png"))
+        self.accept("left/matting_vase/000000_composite.png")
+        self.found("left/matting_vase/000000_composite.png: pixel", "matting")
 
 
 class Refusals(Case):
