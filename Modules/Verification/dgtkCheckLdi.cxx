@@ -168,7 +168,7 @@ private:
       Hit hit;
       int rays = 0;
     };
-    constexpr int Rays = 17;
+    constexpr int Rays = 81; // the centre's and five rings of 16: slivers are thinner than the reach
     constexpr double sixteenth = 0.39269908169872414;
     std::vector<Nearby> all;
     std::vector<Hit> hits;
@@ -176,7 +176,7 @@ private:
     for (int i = 0; i < Rays; ++i)
     {
       const Eigen::Vector2d offset(std::cos(i * sixteenth), std::sin(i * sixteenth));
-      this->Owner.sight().surfaces(centreOf(x, y) + (i == 0 ? 0 : EdgeReach) * offset, hits, depths);
+      this->Owner.sight().surfaces(centreOf(x, y) + EdgeReach * ((i + 15) / 16) / 5 * offset, hits, depths);
       for (const Hit& hit : hits)
       {
         auto known = std::find_if(all.begin(), all.end(), [&](const Nearby& n) { return n.hit == hit; });
