@@ -122,6 +122,7 @@ ShaderVariant PartMapper::currentVariant() const
   variant.headOnly = this->Frame->lights.headOnly;
   variant.lightTexture = this->Frame->lights.count() > this->Frame->maxUniformLights;
   variant.peel = this->Frame->peel;
+  variant.collect = this->Frame->collect;
   return variant;
 }
 

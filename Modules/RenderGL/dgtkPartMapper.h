@@ -24,6 +24,7 @@ struct RasterFrame
   std::uint64_t lightsVersion = 1; ///< changes with `lights`
   bool parallel = false;
   bool peel = false;
+  bool collect = false;
   int lightsUnit = 0; ///< texture unit of the buffer texture with the lights
   int layerUnit = 0;  ///< texture unit of the layer before, when peeling
   int maxUniformLights = UniformLights;

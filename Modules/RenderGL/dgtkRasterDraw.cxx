@@ -145,6 +145,11 @@ void RasterScene::setUpState()
 void RasterScene::drawColor(Surfaces surfaces)
 {
   this->setUpState();
+  this->drawAll(surfaces);
+}
+
+void RasterScene::drawAll(Surfaces surfaces)
+{
   this->Frame.uploaded.clear();
   for (Draw& draw : this->Draws)
   {
@@ -160,6 +165,22 @@ void RasterScene::drawColor(Surfaces surfaces)
       }
     }
   }
+}
+
+void RasterScene::drawFragments(int width, int first, int last)
+{
+  vtkOpenGLState* state = this->Window->GetState();
+  this->Frame.collect = true;
+  this->setUpState();
+  state->vtkglDisable(GL_DEPTH_TEST);
+  state->vtkglDepthMask(GL_FALSE);
+  state->vtkglEnable(GL_SCISSOR_TEST);
+  state->vtkglScissor(0, first, width, last - first);
+  this->drawAll(Surfaces::All);
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  this->Frame.collect = false;
 }
 
 void RasterScene::drawIds()

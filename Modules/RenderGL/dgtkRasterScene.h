@@ -64,6 +64,9 @@ public:
   void drawColor(Surfaces surfaces);
   /// Draws ids only, at the same positions.
   void drawIds();
+  /// Appends every fragment of all surfaces within rows [first, last) of the target, from the bottom, to the bound
+  /// FragmentList; writes nothing else.
+  void drawFragments(int width, int first, int last);
   /// Draws only what lies behind the layer in texture `layer` (0: everything).
   void peelBehind(unsigned int layer);
 
@@ -141,6 +144,7 @@ private:
   void drawIdsOf(PartMapper& mapper, PartActor& actor, const Chunk& chunk);
   void makeDraws();
   void setUpState();
+  void drawAll(Surfaces surfaces);
   void uploadLights();
 
   vtkOpenGLRenderWindow* Window;

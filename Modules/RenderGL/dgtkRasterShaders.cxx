@@ -24,8 +24,8 @@ bool dgtkGone(sampler2D picture, vec2 uv)
 }
 )";
 
-/// Ambient light of the world, lights add theirs. 0.2 is OpenGL's light model, for which the ambient colours of AC3D, 3DS
-/// and MD2 models are made: they are mostly the diffuse colour over again.
+/// Ambient light of the world, lights add theirs. 0.2 is OpenGL's light model, for which the ambient colours of AC3D,
+/// 3DS and MD2 models are made: they are mostly the diffuse colour over again.
 #define DGTK_WORLD_AMBIENT "0.2"
 
 constexpr const char* Peel = R"(
@@ -35,6 +35,28 @@ bool dgtkPeeled(vec2 id)
   vec3 before = texelFetch(dgtkLayer, ivec2(gl_FragCoord.xy), 0).xyz;
   if (gl_FragCoord.z != before.z) { return gl_FragCoord.z > before.z; }
   return id.x < before.x || (id.x == before.x && id.y <= before.y);
+}
+)";
+
+/// See FragmentList.
+constexpr const char* Collect = R"(
+layout(std430) buffer dgtkFragments
+{
+  uint dgtkCount;
+  uint dgtkCapacity;
+  uint dgtkWidth;
+  uint dgtkUnused;
+  vec4 dgtkData[];
+};
+void dgtkAppend(vec2 id, vec4 color)
+{
+  uint at = atomicAdd(dgtkCount, 1u);
+  if (at < dgtkCapacity)
+  {
+    uvec2 place = uvec2(gl_FragCoord.xy);
+    dgtkData[2u * at] = vec4(float(place.y * dgtkWidth + place.x), gl_FragCoord.z, id);
+    dgtkData[2u * at + 1u] = color;
+  }
 }
 )";
 
@@ -154,6 +176,12 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
   put(vertex, "//VTK::ValuePass::Impl", triangleCode(variant));
   declarations += variant.cutOut ? Gone : "";
   declarations += variant.peel ? Peel : "";
+  declarations += variant.collect ? Collect : "";
+  if (variant.collect)
+  {
+    put(
+      fragment, "//VTK::System::Dec", "//VTK::System::Dec\n#extension GL_ARB_shader_storage_buffer_object : require\n");
+  }
   put(fragment, "//VTK::ValuePass::Dec", declarations);
   // Everything is two-sided: the normal points to where the surface is seen from.
   put(fragment, "//VTK::Normal::Impl",
@@ -170,6 +198,7 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
   {
     finish += "  if (dgtkPeeled(dgtkId)) { discard; }\n";
   }
+  finish += variant.collect ? "  dgtkAppend(dgtkId, vec4(dgtkColor, opacity));\n" : "";
   finish += "  gl_FragData[0] = vec4(dgtkColor, opacity);\n"
             "  gl_FragData[1] = vec4(dgtkId, gl_FragCoord.z, 1.0);\n";
   put(fragment, "//VTK::TCoord::Impl", finish);

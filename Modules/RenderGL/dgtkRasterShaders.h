@@ -22,14 +22,16 @@ struct ShaderVariant
   bool specular = false;
   bool textured = false;
   bool cutOut = false;
-  bool pieces = false; ///< the triangle comes from a vertex attribute
-  bool peel = false;   ///< fragments up to those of the layer before are not there
+  bool pieces = false;  ///< the triangle comes from a vertex attribute
+  bool peel = false;    ///< fragments up to those of the layer before are not there
+  bool collect = false; ///< fragments are appended to a FragmentList
 
   bool operator==(const ShaderVariant& o) const
   {
     return this->directional == o.directional && this->points == o.points && this->spots == o.spots &&
-           this->lightTexture == o.lightTexture && this->specular == o.specular && this->textured == o.textured &&
-           this->cutOut == o.cutOut && this->pieces == o.pieces && this->peel == o.peel;
+           this->headOnly == o.headOnly && this->lightTexture == o.lightTexture && this->specular == o.specular &&
+           this->textured == o.textured && this->cutOut == o.cutOut && this->pieces == o.pieces &&
+           this->peel == o.peel && this->collect == o.collect;
   }
 };
 

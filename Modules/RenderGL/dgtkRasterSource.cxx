@@ -2,12 +2,14 @@
 #include "dgtkRasterSource.h"
 
 #include "dgtkError.h"
+#include "dgtkFragmentList.h"
 #include "dgtkGLWindow.h"
 #include "dgtkRasterScene.h"
 #include "dgtkRasterTarget.h"
 #include "dgtkSurfaceRows.h"
 
 #include <algorithm>
+#include <tuple>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
 #include <vtk_glew.h>
@@ -103,6 +105,8 @@ private:
   void blendTranslucent();
   bool drawLayer(int rank, Surfaces surfaces, const RasterTarget* base);
   bool firstHitsTranslucent() const;
+  void collect(int first, int last, std::vector<Fragment>& fragments);
+  void peelOneByOne(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit);
   static void check();
 
   GLChoice Choice;
@@ -117,6 +121,7 @@ private:
   std::vector<float> Ids;
   std::vector<float> LayerPixels;
   std::vector<float> LayerIds;
+  FragmentList Fragments;
 };
 
 void VtkRasterSource::setScene(std::shared_ptr<const SceneState> state, const View& view)
@@ -302,9 +307,93 @@ void VtkRasterSource::blendTranslucent()
   }
 }
 
+/// All fragments of rows [first, last), from the bottom; strips that are too much for the list are halved.
+void VtkRasterSource::collect(int first, int last, std::vector<Fragment>& fragments)
+{
+  this->Main.bind(false, false);
+  this->Fragments.begin(this->Main.width());
+  this->Scene.drawFragments(this->Main.width(), first, last);
+  std::vector<Fragment> found;
+  const std::size_t count = this->Fragments.end(found);
+  if (count > FragmentList::Capacity && last - first > 1)
+  {
+    const int middle = (first + last) / 2;
+    this->collect(first, middle, fragments);
+    this->collect(middle, last, fragments);
+    return;
+  }
+  if (count > FragmentList::Capacity)
+  {
+    throw MachineError("a row of the image has more than " + std::to_string(FragmentList::Capacity) + " surfaces");
+  }
+  fragments.insert(fragments.end(), found.begin(), found.end());
+}
+
+/// Sorts by pixel, then near to far, then by draw and triangle; drops what the far plane and cut pieces leave twice.
+void sortFragments(std::vector<Fragment>& fragments)
+{
+  const auto key = [](const Fragment& f) { return std::make_tuple(f.pixel, -f.depth, f.number, f.triangle); };
+  fragments.erase(std::remove_if(fragments.begin(), fragments.end(), [](const Fragment& f) { return !(f.depth > 0); }),
+    fragments.end());
+  std::sort(fragments.begin(), fragments.end(), [&](const Fragment& a, const Fragment& b) { return key(a) < key(b); });
+  fragments.erase(std::unique(fragments.begin(), fragments.end(),
+                    [&](const Fragment& a, const Fragment& b) { return key(a) == key(b); }),
+    fragments.end());
+}
+
 void VtkRasterSource::peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit)
 {
   this->aim(this->Main, rect, 1);
+  if (!FragmentList::supported())
+  {
+    this->peelOneByOne(rect, visit);
+    return;
+  }
+  std::vector<Fragment> fragments;
+  this->collect(0, rect.height, fragments);
+  check();
+  sortFragments(fragments);
+  const std::vector<Hit>& firstHits = *this->Scene.firstHits();
+  std::vector<std::size_t> begins; // of each pixel that still has surfaces
+  for (std::size_t i = 0; i < fragments.size(); ++i)
+  {
+    if (i == 0 || fragments[i].pixel != fragments[i - 1].pixel)
+    {
+      begins.push_back(i);
+    }
+  }
+  SurfaceLayer layer;
+  layer.rect = rect;
+  while (!begins.empty())
+  {
+    layer.hits.assign(std::size_t(rect.width) * rect.height, Hit{});
+    layer.rgba.assign(layer.hits.size() * 4, 0.0f);
+    std::size_t left = 0;
+    for (const std::size_t i : begins)
+    {
+      const Fragment& f = fragments[i];
+      const auto fromBottom = std::size_t(f.pixel);
+      const std::size_t row = std::size_t(rect.height) - 1 - fromBottom / rect.width;
+      const std::size_t at = row * rect.width + fromBottom % rect.width;
+      layer.hits[at] = firstHits[std::size_t(f.number)];
+      layer.hits[at].triangle += std::uint32_t(f.triangle);
+      std::transform(f.rgba.begin(), f.rgba.end(), layer.rgba.begin() + std::ptrdiff_t(4 * at), clamped);
+      if (i + 1 < fragments.size() && fragments[i + 1].pixel == f.pixel)
+      {
+        begins[left++] = i + 1;
+      }
+    }
+    begins.resize(left);
+    if (!visit(layer))
+    {
+      return;
+    }
+  }
+}
+
+/// For OpenGL without storage buffers: as many passes as there are ranks.
+void VtkRasterSource::peelOneByOne(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit)
+{
   SurfaceLayer layer;
   layer.rect = rect;
   for (int rank = 0; rank < MaxLayers && this->drawLayer(rank, Surfaces::All, nullptr); ++rank)

@@ -205,6 +205,15 @@ class Layers(Case):
         two = self.render("demo.json", "two", "--threads", "5", "--tile", "33x17", *options, layers="ldi")
         self.assert_same_files(one, two)
 
+    def test_one_pass_and_many_passes_give_the_same(self):
+        """OpenGL without storage buffers draws a rank at a time."""
+        options = ("render", os.path.join(SCENES, "demo.json"), "--quiet", "--cameras", "left", "--frames", "1", "--size", "160x120",
+                   "--layers", "ldi")
+        self.dgtk(*options, "-o", self.path("one"))
+        self.dgtk(*options, "-o", self.path("many"),
+                  environment={"MESA_EXTENSION_OVERRIDE": "-GL_ARB_shader_storage_buffer_object"})
+        self.assert_same_files(self.path("one"), self.path("many"))
+
     def test_first_surface_is_exact_with_many_samples(self):
         folder = self.render("demo.json", "s", "--cameras", "left", "--frames", "0", "--size", "120x90", "--samples", "3",
                              layers="color,depth,ldi")

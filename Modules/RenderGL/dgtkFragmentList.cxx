@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkFragmentList.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vtk_glew.h>
+
+namespace dgtk
+{
+
+namespace
+{
+/// Before the fragments in the buffer, as the shader declares it.
+struct Header
+{
+  std::uint32_t count;
+  std::uint32_t capacity;
+  std::uint32_t width;
+  std::uint32_t unused;
+};
+static_assert(sizeof(Header) == 16 && sizeof(Fragment) == 32, "std430 layout");
+} // namespace
+
+FragmentList::~FragmentList()
+{
+  if (this->Buffer)
+  {
+    glDeleteBuffers(1, &this->Buffer);
+  }
+}
+
+bool FragmentList::supported()
+{
+  GLint64 most = 0;
+  GLint blocks = 0;
+  if (GLEW_ARB_shader_storage_buffer_object)
+  {
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    glGetIntegerv(GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS, &blocks);
+  }
+  return blocks > 0 && std::uint64_t(most) >= sizeof(Header) + Capacity * sizeof(Fragment);
+}
+
+void FragmentList::begin(int width)
+{
+  const Header header{ 0, std::uint32_t(Capacity), std::uint32_t(width), 0 };
+  if (!this->Buffer)
+  {
+    glGenBuffers(1, &this->Buffer);
+    glBindBuffer(GL_SHADER_STORAGE_BUFFER, this->Buffer);
+    glBufferData(
+      GL_SHADER_STORAGE_BUFFER, GLsizeiptr(sizeof(Header) + Capacity * sizeof(Fragment)), nullptr, GL_DYNAMIC_READ);
+  }
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, this->Buffer);
+  glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof header, &header);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, this->Buffer);
+}
+
+std::size_t FragmentList::end(std::vector<Fragment>& fragments)
+{
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  Header header{};
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, this->Buffer);
+  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof header, &header);
+  fragments.resize(std::min<std::size_t>(header.count, Capacity));
+  if (!fragments.empty())
+  {
+    glGetBufferSubData(
+      GL_SHADER_STORAGE_BUFFER, sizeof header, GLsizeiptr(fragments.size() * sizeof(Fragment)), fragments.data());
+  }
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, 0);
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, 0);
+  return header.count;
+}
+
+} // namespace dgtk
