@@ -1,12 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The same request gives the same bytes: tile size, threads, order of frames, EGL or OSMesa, first or second run."""
 import os
+import shutil
 import subprocess
 
 from harness import DGTK, SCENES, Case, digests, main
 
 # One with cut-outs, textures and animation, one with a ground plane that passes under and behind the camera, one with many lights.
 SCENE_NAMES = ("demo.json", "ground_plane_behind.json", "lights_many.json")
+
+# What a pixel's own surface decides: cheap, so whole pictures of 640 x 480 in every scene.
+PIXEL_LAYERS = ("color,depth,distance,inversedepth,objects,classes,parts,triangles,normal,shadingnormal,position,objectcoords,"
+                "uv,barycentrics,calibration,tiles")
+# What needs neighbours, other views, every surface along the ray or many samples a pixel: small pictures of one scene.
+WIDE_LAYERS = ("edges,correspondence,disparity,flow_forward,flow_backward,sceneflow,ldi,alpha,coverage,boxes,amodal,points,"
+               "tiles")
 
 
 def available(backend):
@@ -27,15 +35,30 @@ class SameBytes(Case):
         tiles = ("640x480", "320x240", "160x120", "128x96", "97x61", "1000x1000")
         for scene in SCENE_NAMES:
             for gl in ("egl", "osmesa"):
-                whole = self.render(scene, f"{scene}-{gl}", "--layers", "all", "--gl", gl)
-                layers = {n: d for n, d in digests(whole).items() if "/tiles/" not in n and n != "manifest.json"}
-                for tile in tiles[1:] if gl == "egl" else tiles[4:5]:
+                whole = self.render(scene, f"{scene}-{gl}", "--layers", PIXEL_LAYERS, "--gl", gl)
+                layers = without_tiles(whole)
+                for tile in tiles[1:]:
                     with self.subTest(scene=scene, gl=gl, tile=tile):
-                        cut = self.render(scene, f"{scene}-{gl}-{tile}", "--layers", "all", "--gl", gl, "--tile", tile)
-                        self.assertEqual(layers, {n: d for n, d in digests(cut).items()
-                                                  if "/tiles/" not in n and n != "manifest.json"})
+                        cut = self.render(scene, f"{scene}-{gl}-{tile}", "--layers", PIXEL_LAYERS, "--gl", gl, "--tile", tile)
+                        self.assertEqual(layers, without_tiles(cut))
+                        shutil.rmtree(cut)
             with self.subTest(scene=scene):
                 self.assert_same_files(self.path(f"{scene}-egl"), self.path(f"{scene}-osmesa"))
+
+    def test_layers_that_need_more_than_their_pixel(self):
+        common = ("render", os.path.join(SCENES, "demo.json"), "--quiet", "--size", "160x120", "--frames", "0:1")
+        for samples, layers in ((1, WIDE_LAYERS), (2, "color,alpha,coverage,tiles")):
+            one = self.path(f"one{samples}")
+            self.dgtk(*common, "-o", one, "--layers", layers, "--samples", samples, "--threads", 1, "--gl", "egl")
+            for threads, gl, tile in ((2, "osmesa", "640x480"), (2, "egl", "97x61"), (5, "egl", "64x48")):
+                with self.subTest(samples=samples, threads=threads, gl=gl, tile=tile):
+                    other = self.path("other")
+                    self.dgtk(*common, "-o", other, "--layers", layers, "--samples", samples, "--threads", threads,
+                              "--gl", gl, "--tile", tile)
+                    self.assertEqual(without_tiles(one), without_tiles(other))
+                    if tile == "640x480":
+                        self.assert_same_files(one, other)
+                    shutil.rmtree(other)
 
     def test_tiles_put_together_are_the_picture(self):
         folder = self.render("demo.json", "tiled", "--layers", "color,tiles", "--tile", "97x61")
@@ -53,7 +76,7 @@ class SameBytes(Case):
     def test_threads_frames_and_repetition(self):
         scene = os.path.join(SCENES, "demo.json")
         for engine in ("raster", "ray"):
-            common = ("render", scene, "--quiet", "--layers", "all", "--size", "320x240", "--visibility", engine)
+            common = ("render", scene, "--quiet", "--layers", PIXEL_LAYERS, "--size", "320x240", "--visibility", engine)
             self.dgtk(*common, "-o", self.path(engine), "--threads", 1)
             for name, options in (("again", ()), ("two", ("--threads", 2)), ("five", ("--threads", 5))):
                 self.dgtk(*common, "-o", self.path(engine + name), *options)
@@ -73,6 +96,13 @@ class SameBytes(Case):
         self.dgtk(*common, "-o", self.path("one"), "--threads", 1)
         self.dgtk(*common, "-o", self.path("two"), "--threads", 2, "--gl", "osmesa")
         self.assert_same_files(self.path("one"), self.path("two"))
+
+
+def without_tiles(folder):
+    """Digests of what does not say how the picture was cut."""
+    found = {n: d for n, d in digests(folder).items() if "/tiles/" not in n and n != "manifest.json"}
+    assert found, folder
+    return found
 
 
 def read_png(path, zlib):
