@@ -7,6 +7,7 @@
 // in milliseconds, without loading: (time of all frames - time of the first) / (frames - 1). All rows are run once a
 // round, one after another, and each row's median over the rounds is printed: machines have moods.
 #include "BenchmarkScene.h"
+#include "Measure.h"
 #include "StockVTK.h"
 
 #include "dgtkFile.h"
@@ -17,7 +18,6 @@
 #include "dgtkThreadPool.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -25,14 +25,13 @@
 #include <string>
 #include <vector>
 
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 namespace
 {
 using namespace dgtk;
-using Clock = std::chrono::steady_clock;
+using bench::Clock;
+using bench::milliseconds;
 
 struct Settings
 {
@@ -44,11 +43,6 @@ struct Settings
   std::string folder;
   std::string scenePath;
 };
-
-double milliseconds(Clock::time_point since)
-{
-  return std::chrono::duration<double, std::milli>(Clock::now() - since).count();
-}
 
 // Calls frame(0) as warm-up, then the others; milliseconds a frame.
 double timeFrames(int frames, const std::function<void(int)>& frame)
@@ -179,46 +173,6 @@ const std::vector<Row>& rows()
   return all;
 }
 
-struct Measured
-{
-  double milliseconds = 0;
-  double mebibytes = 0;
-};
-
-Measured inChild(const Settings& settings, const Row& row)
-{
-  int ends[2] = {};
-  if (::pipe(ends) != 0)
-  {
-    std::perror("pipe");
-    std::exit(1);
-  }
-  const pid_t child = ::fork();
-  if (child == 0)
-  {
-    double time = -1;
-    try
-    {
-      time = row.run(settings);
-    }
-    catch (const std::exception& error)
-    {
-      std::fprintf(stderr, "%s: %s\n", row.name, error.what());
-    }
-    ::_exit(::write(ends[1], &time, sizeof time) == sizeof time && time >= 0 ? 0 : 1);
-  }
-  ::close(ends[1]);
-  Measured measured;
-  const bool read = ::read(ends[0], &measured.milliseconds, sizeof(double)) == sizeof(double);
-  ::close(ends[0]);
-  int status = 0;
-  struct rusage usage = {};
-  ::wait4(child, &status, 0, &usage);
-  measured.mebibytes = usage.ru_maxrss / 1024.0;
-  measured.milliseconds = read && status == 0 ? measured.milliseconds : -1;
-  return measured;
-}
-
 Settings parse(int argc, char** argv)
 {
   Settings settings;
@@ -267,7 +221,7 @@ int main(int argc, char** argv)
   {
     for (std::size_t i = 0; i < rows().size(); ++i)
     {
-      const Measured measured = inChild(settings, rows()[i]);
+      const bench::Measured measured = bench::inChild(rows()[i].name, [&] { return rows()[i].run(settings); });
       times[i].push_back(measured.milliseconds);
       memory[i] = std::max(memory[i], measured.mebibytes);
     }

@@ -76,6 +76,24 @@ void writeTexture(const std::string& path)
   writer->write(rows);
   writer->finish();
 }
+
+// Keys of a camera that turns around the objects, `right` units along its own x axis.
+std::string camera(const char* name, int frames, double right)
+{
+  std::string eye;
+  std::string lookAt;
+  for (int f = 0; f < frames; ++f)
+  {
+    const double c = std::cos(0.05 * f);
+    const double s = std::sin(0.05 * f);
+    const std::string key = std::string(f ? ", " : "") + "[" + std::to_string(f) + ", [";
+    eye += key + line("%.17g, %.17g, %.17g]]", 17 * c + right * s, 7, 17 * s - right * c);
+    lookAt += key + line("%.17g, %.17g, %.17g]]", right * s, 0.5, -right * c);
+  }
+  return std::string("{\"name\": \"") + name +
+         "\", \"fovY\": 50, \"near\": 0.5, \"far\": 100, \"up\": [0, 1, 0], \"eye\": {\"keys\": [" + eye +
+         "]}, \"lookAt\": {\"keys\": [" + lookAt + "]}}";
+}
 } // namespace
 
 std::string writeBenchmarkScene(const std::string& folder, const SceneOptions& options)
@@ -94,19 +112,13 @@ std::string writeBenchmarkScene(const std::string& folder, const SceneOptions& o
   {
     const double angle = 2.39996 * i; // golden angle: an even spread
     const double radius = 1.6 * std::sqrt(i + 0.5);
-    scene += std::string(i ? ",\n" : "") + "{\"model\": \"s" + std::to_string(i % shapes) + ".obj\", \"position\": [" +
+    scene += std::string(i ? ",\n" : "") + "{\"name\": \"o" + std::to_string(i) + "\", \"model\": \"s" +
+             std::to_string(i % shapes) + ".obj\", \"position\": [" +
              line("%.4f, %.4f, %.4f", radius * std::cos(angle), 0.3 * (i % 7), radius * std::sin(angle)) + "]}";
   }
-  scene +=
-    "\n],\n\"lights\": [{\"kind\": \"point\", \"position\": [20, 30, 20]}],\n\"cameras\": [{\"name\": \"c\", "
-    "\"fovY\": 50, \"near\": 0.5, \"far\": 100, \"lookAt\": [0, 0.5, 0], \"up\": [0, 1, 0], \"eye\": {\"keys\": [";
-  for (int f = 0; f < options.frames; ++f)
-  {
-    const double angle = 0.05 * f;
-    scene += std::string(f ? ", " : "") + "[" + std::to_string(f) + ", [" +
-             line("%.6f, %.6f, %.6f]]", 17 * std::cos(angle), 7, 17 * std::sin(angle));
-  }
-  writeFile(folder + "/scene.json", scene + "]}}]\n}\n");
+  scene += "\n],\n\"lights\": [{\"kind\": \"point\", \"position\": [20, 30, 20]}],\n\"cameras\": [";
+  scene += camera("c", options.frames, 0) + (options.stereo ? ",\n" + camera("r", options.frames, 0.3) : "");
+  writeFile(folder + "/scene.json", scene + "]\n}\n");
   return folder + "/scene.json";
 }
 

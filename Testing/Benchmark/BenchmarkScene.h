@@ -11,7 +11,8 @@ struct SceneOptions
 {
   int triangles = 200000; ///< in all objects together, about
   int objects = 50;       ///< instances of five textured bumpy spheres
-  int frames = 20;        ///< the camera turns around the objects
+  int frames = 20;        ///< camera "c" turns around the objects
+  bool stereo = false;    ///< with a camera "r", at the right of "c" and rectified with it
 };
 
 /// Writes models, a texture and the scene into `folder`; returns the scene's path.
