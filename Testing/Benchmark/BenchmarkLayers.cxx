@@ -2,11 +2,12 @@
 // What each layer costs, and whether all layers together stay within ten times the picture alone.
 //
 //   BenchmarkLayers [--triangles N] [--size WxH] [--frames N] [--threads N] [--rounds N] [--large]
-//                   [--only layers|pixels]
+//                   [--only layers|all|pixels]
 //
 // Times are per frame of one camera, in milliseconds, everything on disk, without loading: (time of N frames - time of
 // one) / (N - 1), each the median over the rounds; every run is a process of its own. The second part says how the
-// cost of a pixel depends on the size of the image; --large adds 8192 x 8192, which wants some 10 GiB of disk.
+// cost of a pixel depends on the size of the image; --large adds 8192 x 8192, which wants some 10 GiB of disk and is
+// timed by a single frame, loading included. --only all compares all layers with color and leaves out the rest.
 #include "BenchmarkScene.h"
 #include "Measure.h"
 
@@ -39,7 +40,7 @@ struct Settings
   int frames = 6;
   int threads = 2;
   int rounds = 3;
-  std::string only; // "layers", "pixels", or both when empty
+  std::string only; // "layers", "all", "pixels"; layers and pixels when empty
   std::string folder;
   std::string scenePath;
 };
@@ -111,6 +112,10 @@ bench::Measured perFrame(const Settings& s, const Row& row, Size size, int frame
     {
       render(s, row, { 64, 64 }, 1);
       const double one = render(s, row, size, 1);
+      if (frames == 1)
+      {
+        return one;
+      }
       return std::max(0.0, (render(s, row, size, frames) - one) / (frames - 1));
     });
 }
@@ -149,7 +154,11 @@ std::vector<Result> measure(const Settings& s, const std::vector<Row>& rows, Siz
 
 bool printLayers(const Settings& s)
 {
-  const std::vector<Row> rows = layerRows();
+  std::vector<Row> rows = layerRows();
+  if (s.only == "all")
+  {
+    rows.erase(rows.begin() + 1, rows.end() - 1);
+  }
   const std::vector<Result> results = measure(s, rows, s.size, s.frames);
   const double color = results.front().milliseconds;
   bool whole = true;
@@ -171,7 +180,7 @@ bool printPixels(const Settings& s)
   for (const Size size : s.pixels)
   {
     const double pixels = double(size.width) * size.height;
-    const std::vector<Result> results = measure(s, rows, size, pixels > 1e6 ? 2 : s.frames);
+    const std::vector<Result> results = measure(s, rows, size, pixels > 1e7 ? 1 : pixels > 1e6 ? 2 : s.frames);
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       const Result& r = results[i];
@@ -234,7 +243,7 @@ int main(int argc, char** argv)
   std::fflush(stdout);
   const bool layers = settings.only == "pixels" || printLayers(settings);
   std::fflush(stdout);
-  const bool pixels = settings.only == "layers" || printPixels(settings);
+  const bool pixels = settings.only == "layers" || settings.only == "all" || printPixels(settings);
   std::filesystem::remove_all(settings.folder);
   return layers && pixels ? 0 : 1;
 }
