@@ -53,12 +53,18 @@ bool contains(const std::vector<std::uint32_t>& ids, std::uint32_t id)
   return std::binary_search(ids.begin(), ids.end(), id);
 }
 
-/// A mask against all surfaces along the rays; where a silhouette is within EdgeReach, both are right.
-void checkMasks(Picture& picture, const std::string& file, const Masks& masks, Results& results)
+/// A mask against all surfaces along the rays; where a silhouette is within EdgeReach, both are right. What `labels`
+/// shows is inside by definition; whether the label is right is the check of the objects.
+void checkMasks(
+  Picture& picture, const std::string& file, const Masks& masks, const PicturePointer& labels, Results& results)
 {
   const std::size_t objects = picture.sight().state().instances.size();
   const auto isOpen = [&](int x, int y, std::uint32_t id, bool found)
   {
+    if (found && labels && labels->id(x, y) == id)
+    {
+      return true;
+    }
     for (int i = 0; i < 8; ++i)
     {
       constexpr double eighth = 0.78539816339744831;
@@ -143,7 +149,7 @@ void checkPartition(Picture& picture, Results& results)
             });
         }));
   }
-  checkMasks(picture, file, masks, results);
+  checkMasks(picture, file, masks, objects, results);
 }
 
 } // namespace dgtk

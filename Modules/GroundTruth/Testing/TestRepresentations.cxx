@@ -89,8 +89,8 @@ TEST(Registry, NamesAreUniqueAndComplete)
     EXPECT_FALSE(formats.empty());
     EXPECT_EQ(std::set<std::string>(formats.begin(), formats.end()).size(), formats.size());
   }
-  EXPECT_EQ(layers, (std::set<std::string>{ "depth", "distance", "objects", "parts", "triangles", "normal", "position",
-                      "objectcoords", "uv" }));
+  EXPECT_EQ(layers, (std::set<std::string>{ "depth", "distance", "inversedepth", "objects", "classes", "parts",
+                      "triangles", "normal", "shadingnormal", "position", "objectcoords", "uv", "barycentrics" }));
 }
 
 TEST(Registry, RefusesUnknownLayers)
@@ -103,8 +103,8 @@ TEST(Registry, RefusesUnknownLayers)
   catch (const dgtk::UsageError& error)
   {
     EXPECT_STREQ(error.what(),
-      "no such layer (expected one of depth, distance, objects, parts, triangles, normal, position, objectcoords, uv, "
-      "found 'depht')");
+      "no such layer (expected one of depth, distance, inversedepth, objects, classes, parts, triangles, normal, "
+      "shadingnormal, position, objectcoords, uv, barycentrics, found 'depht')");
   }
 }
 
