@@ -35,24 +35,30 @@ def read_png(path):
         elif kind == b"IDAT":
             packed += body
         at += 12 + length
-    raw = numpy.frombuffer(zlib.decompress(packed), numpy.uint8).reshape(height, 1 + width * channels)
-    rows = numpy.zeros((height + 1, width * channels + channels), numpy.int32)  # a row and a pixel of zeros around
+    raw, stride = zlib.decompress(packed), width * channels
+    above, rows = bytearray(stride), []
     for y in range(height):
-        kind, line = raw[y, 0], raw[y, 1:].astype(numpy.int32)
-        above, own = rows[y], rows[y + 1]
-        if kind in (0, 2):
-            own[channels:] = (line + (above[channels:] if kind == 2 else 0)) & 255
-            continue
-        for x in range(width * channels):
-            a, b, c = own[x], above[x + channels], above[x]
-            if kind == 4:
-                p = a + b - c
-                pa, pb, pc = abs(p - a), abs(p - b), abs(p - c)
-                guess = a if pa <= pb and pa <= pc else b if pb <= pc else c
-            else:
-                guess = a if kind == 1 else (a + b) // 2
-            own[x + channels] = (line[x] + guess) & 255
-    return rows[1:, channels:].reshape(height, width, channels)
+        kind, own = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        if kind == 2:
+            own = bytearray((a + b) & 255 for a, b in zip(own, above))
+        elif kind:
+            for x in range(stride):
+                left = own[x - channels] if x >= channels else 0
+                own[x] = (own[x] + predicted(kind, left, above[x], above[x - channels] if x >= channels else 0)) & 255
+        rows.append(bytes(own))
+        above = own
+    return numpy.frombuffer(b"".join(rows), numpy.uint8).reshape(height, width, channels).astype(numpy.int32)
+
+
+def predicted(kind, left, up, corner):
+    """PNG's filters Sub, Average and Paeth."""
+    if kind == 1:
+        return left
+    if kind == 3:
+        return (left + up) // 2
+    p = left + up - corner
+    to_left, to_up, to_corner = abs(p - left), abs(p - up), abs(p - corner)
+    return left if to_left <= to_up and to_left <= to_corner else up if to_up <= to_corner else corner
 
 
 def write_png(path, image):
