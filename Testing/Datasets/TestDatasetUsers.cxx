@@ -143,7 +143,7 @@ int chessboard(const std::string& folder)
     const cv::Mat picture = gray(folder + name);
     size = picture.size();
     std::vector<cv::Point2f> found;
-    if (cv::findChessboardCornersSB(picture, inner, found, cv::CALIB_CB_ACCURACY | cv::CALIB_CB_EXHAUSTIVE))
+    if (cv::findChessboardCornersSB(picture, inner, found, cv::CALIB_CB_ACCURACY))
     {
       for (cv::Point2f& corner : found)
       {
