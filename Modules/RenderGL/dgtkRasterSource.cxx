@@ -9,6 +9,7 @@
 #include "dgtkSurfaceRows.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
@@ -329,16 +330,37 @@ void VtkRasterSource::collect(int first, int last, std::vector<Fragment>& fragme
   fragments.insert(fragments.end(), found.begin(), found.end());
 }
 
-/// Sorts by pixel, then near to far, then by draw and triangle; drops what the far plane and cut pieces leave twice.
-void sortFragments(std::vector<Fragment>& fragments)
+/// Puts fragments of `pixels` pixels in the order of pixels, in each near to far, then by draw and triangle; drops what
+/// the far plane and cut pieces leave twice.
+void sortFragments(std::vector<Fragment>& fragments, std::size_t pixels)
 {
-  const auto key = [](const Fragment& f) { return std::make_tuple(f.pixel, -f.depth, f.number, f.triangle); };
-  fragments.erase(std::remove_if(fragments.begin(), fragments.end(), [](const Fragment& f) { return !(f.depth > 0); }),
-    fragments.end());
-  std::sort(fragments.begin(), fragments.end(), [&](const Fragment& a, const Fragment& b) { return key(a) < key(b); });
-  fragments.erase(std::unique(fragments.begin(), fragments.end(),
-                    [&](const Fragment& a, const Fragment& b) { return key(a) == key(b); }),
-    fragments.end());
+  const auto key = [](const Fragment& f) { return std::make_tuple(-f.depth, f.number, f.triangle); };
+  std::vector<std::uint32_t> begin(pixels + 1, 0);
+  for (const Fragment& f : fragments)
+  {
+    ++begin[std::size_t(f.pixel) + 1];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Fragment> sorted(fragments.size());
+  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+  for (const Fragment& f : fragments)
+  {
+    sorted[next[std::size_t(f.pixel)]++] = f;
+  }
+  fragments.clear();
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+  {
+    const auto first = sorted.begin() + begin[pixel];
+    const auto last = sorted.begin() + begin[pixel + 1];
+    std::sort(first, last, [&](const Fragment& a, const Fragment& b) { return key(a) < key(b); });
+    for (auto it = first; it != last; ++it)
+    {
+      if (it->depth > 0 && (it == first || key(*it) != key(*(it - 1))))
+      {
+        fragments.push_back(*it);
+      }
+    }
+  }
 }
 
 void VtkRasterSource::peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit)
@@ -352,7 +374,7 @@ void VtkRasterSource::peel(const PixelRect& rect, const std::function<bool(const
   std::vector<Fragment> fragments;
   this->collect(0, rect.height, fragments);
   check();
-  sortFragments(fragments);
+  sortFragments(fragments, std::size_t(rect.width) * rect.height);
   const std::vector<Hit>& firstHits = *this->Scene.firstHits();
   std::vector<std::size_t> begins; // of each pixel that still has surfaces
   for (std::size_t i = 0; i < fragments.size(); ++i)
