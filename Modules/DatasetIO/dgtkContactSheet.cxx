@@ -81,6 +81,9 @@ struct Contents
   std::map<Key, std::string> images;
 };
 
+/// Layers whose files are not one picture of the view.
+bool isPicture(const std::string& layer) { return layer != "tiles" && layer != "ldi" && layer != "coverage"; }
+
 Contents contentsOf(const Manifest& manifest)
 {
   Contents contents;
@@ -89,8 +92,7 @@ Contents contentsOf(const Manifest& manifest)
   std::vector<const DatasetFile*> files;
   for (const DatasetFile& file : manifest.files)
   {
-    if (!file.layer.empty() && file.layer != "tiles" && file.layer != "ldi" && !file.camera.empty() &&
-        isLayerFile(file.path))
+    if (!file.layer.empty() && isPicture(file.layer) && !file.camera.empty() && isLayerFile(file.path))
     {
       files.push_back(&file);
     }
