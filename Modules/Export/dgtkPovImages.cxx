@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPovImages.h"
+
+#include "dgtkFile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace dgtk
+{
+
+namespace
+{
+bool plain(char c)
+{
+  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || std::strchr("-_.,+ ()/", c);
+}
+
+/// A PNG whose header says gray, RGB or palette.
+bool isPlainPng(const std::string& path)
+{
+  char header[26] = {};
+  std::ifstream file(path, std::ios::binary);
+  return file.read(header, sizeof header) && std::memcmp(header, "\x89PNG\r\n\x1a\n", 8) == 0 &&
+         (header[25] == 0 || header[25] == 2 || header[25] == 3);
+}
+} // namespace
+
+PovImages::PovImages(const std::string& scene)
+{
+  const std::filesystem::path path(scene);
+  this->Folder = path.parent_path().string();
+  this->Stem = path.stem().string();
+  std::replace_if(
+    this->Stem.begin(), this->Stem.end(), [](char c) { return !plain(c) || c == '/'; }, '_');
+}
+
+/// The texture's own file, relative to the scene, or "" when it does not serve.
+std::string PovImages::own(const Texture& texture) const
+{
+  if (texture.path.empty() || texture.image->hasAlpha || !isPlainPng(texture.path))
+  {
+    return {};
+  }
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::absolute(this->Folder.empty() ? "." : this->Folder, error);
+  const std::string relative =
+    std::filesystem::relative(std::filesystem::absolute(texture.path, error), folder, error).generic_string();
+  return std::all_of(relative.begin(), relative.end(), plain) ? relative : std::string();
+}
+
+int PovImages::number(const Image& image, const Eigen::Vector3d& tint)
+{
+  const int next = static_cast<int>(this->Numbers.size());
+  return this->Numbers.try_emplace({ &image, tint.x(), tint.y(), tint.z() }, next).first->second;
+}
+
+std::string PovImages::write(
+  const Image& image, const std::string& end, int channels, const std::vector<std::uint8_t>& values)
+{
+  const std::string name = this->Stem + end;
+  const std::string path = (std::filesystem::path(this->Folder) / name).string();
+  AtomicFile file(path);
+  file.write(
+    (channels == 3 ? "P6\n" : "P5\n") + std::to_string(image.width) + ' ' + std::to_string(image.height) + "\n255\n");
+  file.write(values.data(), values.size());
+  file.commit();
+  this->Files.push_back(path);
+  return name;
+}
+
+std::string PovImages::color(const Texture& texture, const Eigen::Vector3d& tint)
+{
+  const Image& image = *texture.image;
+  const std::string relative = tint == Eigen::Vector3d(1, 1, 1) ? this->own(texture) : std::string();
+  if (!relative.empty())
+  {
+    return "png \"" + relative + '"';
+  }
+  const std::string end = '_' + std::to_string(this->number(image, tint)) + ".ppm";
+  std::string& reference = this->Written[end];
+  if (reference.empty())
+  {
+    std::vector<std::uint8_t> values;
+    values.reserve(image.rgba.size() / 4 * 3);
+    for (std::size_t i = 0; i < image.rgba.size(); ++i)
+    {
+      if (i % 4 != 3)
+      {
+        values.push_back(static_cast<std::uint8_t>(std::lround(image.rgba[i] * tint[Eigen::Index(i % 4)])));
+      }
+    }
+    reference = "ppm \"" + this->write(image, end, 3, values) + '"';
+  }
+  return reference;
+}
+
+std::string PovImages::mask(const Texture& texture)
+{
+  const Image& image = *texture.image;
+  const std::string end = '_' + std::to_string(this->number(image, Eigen::Vector3d(1, 1, 1))) + "_mask.pgm";
+  std::string& reference = this->Written[end];
+  if (reference.empty())
+  {
+    std::vector<std::uint8_t> values;
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+    {
+      values.push_back(image.rgba[i] < 128 ? 0 : 255);
+    }
+    reference = "pgm \"" + this->write(image, end, 1, values) + '"';
+  }
+  return reference;
+}
+
+} // namespace dgtk

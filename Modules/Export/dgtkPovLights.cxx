@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPovLights.h"
+
+#include "dgtkError.h"
+#include "dgtkPovText.h"
+
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+/// The built-in renderer's light of the world.
+constexpr double WorldAmbient = 0.2;
+/// Of the ball's radius: where a light that falls off from its position on begins to.
+constexpr double NearestFade = 1e-3;
+
+/// fade_power and fade_distance f give 2 / (1 + (d / f)^power): with `scale` on the colour, 1 / (c + l d + q d^2).
+struct Fade
+{
+  double scale = 1;
+  double distance = 0; ///< 0: none
+  int power = 0;
+};
+
+Fade fadeOf(const LightState& light, const PovBall& ball, std::vector<std::string>& warnings)
+{
+  double constant = light.attenuation[0];
+  double linear = light.attenuation[1];
+  double quadratic = light.attenuation[2];
+  if (linear <= 0 && quadratic <= 0)
+  {
+    return { 1 / constant, 0, 0 };
+  }
+  if (linear > 0 && quadratic > 0)
+  {
+    const double away = std::max((ball.centre - light.position).norm(), ball.radius * NearestFade);
+    quadratic += linear / away;
+    linear = 0;
+    warnings.push_back("light " + quoted(light.name) +
+                       ": linear and quadratic attenuation together are matched at the middle of the scene only");
+  }
+  const int power = linear > 0 ? 1 : 2;
+  const double factor = linear > 0 ? linear : quadratic;
+  constant = std::max(constant, factor * std::pow(ball.radius * NearestFade, power));
+  return { 0.5 / constant, std::pow(constant / factor, 1.0 / power), power };
+}
+
+std::string parallel(const Eigen::Vector3d& direction, const PovBall& ball)
+{
+  const Eigen::Vector3d from = ball.centre - direction * (4 * ball.radius);
+  return povVector(from) + " COLOR parallel point_at " + povVector(ball.centre);
+}
+
+std::string place(const LightState& light, const View& view, const PovBall& ball)
+{
+  const Eigen::Vector3d axis = (light.target - light.position).normalized();
+  switch (light.kind)
+  {
+    case LightState::Kind::Head:
+      return parallel(view.camera_from_world.rotation.row(2).transpose(), ball);
+    case LightState::Kind::Directional:
+      return parallel(axis, ball);
+    case LightState::Kind::Spot:
+      if (light.coneAngle < 90)
+      {
+        const std::string cone = povNumber(light.coneAngle);
+        return povVector(light.position) + " COLOR spotlight point_at " + povVector(light.target) + " radius " + cone +
+               " falloff " + cone + " tightness " + povNumber(light.exponent);
+      }
+      break;
+    case LightState::Kind::Point:
+      break;
+  }
+  return povVector(light.position) + " COLOR";
+}
+} // namespace
+
+Eigen::Vector3d povAmbient(const SceneState& state)
+{
+  Eigen::Vector3d sum(WorldAmbient, WorldAmbient, WorldAmbient);
+  for (const LightState& light : state.lights)
+  {
+    sum += light.ambient * light.intensity;
+  }
+  return sum;
+}
+
+std::string povLight(const LightState& light, const View& view, const PovBall& ball, std::vector<std::string>& warnings)
+{
+  const bool fades = light.kind == LightState::Kind::Point || light.kind == LightState::Kind::Spot;
+  const Fade fade = fades ? fadeOf(light, ball, warnings) : Fade();
+  std::string text = place(light, view, ball);
+  const std::string word = "COLOR";
+  text.replace(text.find(word), word.size(), povColor(light.diffuse * light.intensity * fade.scale));
+  if (fade.power > 0)
+  {
+    text += " fade_distance " + povNumber(fade.distance) + " fade_power " + std::to_string(fade.power);
+  }
+  if (fades && !light.ambient.isZero(0) && fade.power > 0)
+  {
+    warnings.push_back("light " + quoted(light.name) + ": its ambient light does not fall off");
+  }
+  return "light_source { " + text + " }\n";
+}
+
+} // namespace dgtk

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkPovLights_h
+#define dgtkPovLights_h
+
+// Private to Export.
+
+#include "dgtkSceneState.h"
+
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// A ball that holds all that is drawn, world frame.
+struct PovBall
+{
+  Eigen::Vector3d centre{ 0, 0, 0 };
+  double radius = 1;
+};
+
+/// Ambient light of the scene: that of the world, 0.2 as in the built-in renderer, and that of the lights.
+Eigen::Vector3d povAmbient(const SceneState& state);
+
+/// `light_source { ... }`; a warning is added for what POV-Ray computes otherwise.
+std::string povLight(
+  const LightState& light, const View& view, const PovBall& ball, std::vector<std::string>& warnings);
+
+} // namespace dgtk
+
+#endif

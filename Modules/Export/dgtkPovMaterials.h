@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkPovMaterials_h
+#define dgtkPovMaterials_h
+
+// Private to Export.
+
+#include "dgtkPovImages.h"
+
+#include <string>
+
+namespace dgtk
+{
+
+/// Whether texels of the material are missing.
+bool povCutOut(const Model& model, const Material& material);
+
+/// `texture { ... }` of a material: the built-in renderer's ambient, diffuse and Phong terms.
+std::string povMaterial(const Model& model, const Material& material, PovImages& images);
+
+/// `texture { ... }` that shines in the colour of an id, with the material's missing texels.
+std::string povFlatMaterial(const Model& model, const Material& material, std::uint32_t id, PovImages& images);
+/// The same for all surfaces without missing texels.
+std::string povFlatTexture(std::uint32_t id);
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPovMeshes.h"
+
+#include "dgtkError.h"
+#include "dgtkPovMaterials.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+namespace dgtk
+{
+
+namespace
+{
+/// Largest sine of the angle between a vertex's normal and its triangle's that counts as none.
+constexpr double FlatAngle = 1e-5;
+
+/// Whether all shading normals are their triangles' own.
+bool isFlat(const Model& model, const Geometry& geometry)
+{
+  return std::all_of(model.triangles.begin(), model.triangles.end(),
+    [&](const std::array<std::uint32_t, 3>& triangle)
+    {
+      const Eigen::Vector3d& a = geometry.positions[triangle[0]];
+      const Eigen::Vector3d normal =
+        (geometry.positions[triangle[1]] - a).cross(geometry.positions[triangle[2]] - a).normalized();
+      return std::all_of(triangle.begin(), triangle.end(),
+        [&](std::uint32_t vertex)
+        {
+          const Eigen::Vector3d own = geometry.normals[vertex].cast<double>();
+          return normal.dot(own) > 0 && normal.cross(own).norm() < FlatAngle;
+        });
+    });
+}
+
+template <class List, class Write>
+void writeList(PovText& text, const char* name, const List& list, Write write)
+{
+  text << std::string("  ") + name + " { " + std::to_string(list.size());
+  for (const auto& item : list)
+  {
+    text << ",\n    " + write(item);
+  }
+  text << "\n  }\n";
+}
+} // namespace
+
+const std::vector<Material>& PovMeshes::materialsOf(const Instance& instance) const
+{
+  return instance.materials ? *instance.materials : instance.model->materials;
+}
+
+void PovMeshes::writeVertices(const Instance& instance)
+{
+  const Model& model = *instance.model;
+  const Geometry& geometry = *instance.geometry;
+  const auto vector = [](const auto& v) { return povVector(v); };
+  writeList(this->Text, "vertex_vectors", geometry.positions, vector);
+  if (!isFlat(model, geometry))
+  {
+    writeList(this->Text, "normal_vectors", geometry.normals, vector);
+  }
+  if (!model.uvs.empty())
+  {
+    writeList(this->Text, "uv_vectors", model.uvs, vector);
+  }
+}
+
+/// Of the materials in use; returns material -> index of the list. Empty for a mesh of one flat colour.
+std::vector<int> PovMeshes::writeTextures(const Instance& instance, std::uint32_t id)
+{
+  const Model& model = *instance.model;
+  const std::vector<Material>& materials = this->materialsOf(instance);
+  if (this->Options.flatIds && id == 0)
+  {
+    return {};
+  }
+  std::vector<int> indices(materials.size(), -1);
+  std::vector<std::string> textures;
+  for (const Part& part : model.parts)
+  {
+    int& index = indices[static_cast<std::size_t>(part.material)];
+    if (index < 0 && part.triangles > 0)
+    {
+      const Material& material = materials[static_cast<std::size_t>(part.material)];
+      index = static_cast<int>(textures.size());
+      textures.push_back(this->Options.flatIds ? povFlatMaterial(model, material, id, this->Images)
+                                               : povMaterial(model, material, this->Images));
+    }
+  }
+  writeList(this->Text, "texture_list", textures, [](const std::string& texture) { return texture; });
+  return indices;
+}
+
+void PovMeshes::writeFaces(const Model& model, const std::vector<int>& textures)
+{
+  this->Text << "  face_indices { " + std::to_string(model.triangles.size());
+  for (const Part& part : model.parts)
+  {
+    const std::string end =
+      textures.empty() ? std::string() : ", " + std::to_string(textures[static_cast<std::size_t>(part.material)]);
+    for (std::uint32_t i = part.firstTriangle; i < part.firstTriangle + part.triangles; ++i)
+    {
+      const auto& triangle = model.triangles[i];
+      this->Text << ",\n    <" + std::to_string(triangle[0]) + ", " + std::to_string(triangle[1]) + ", " +
+                      std::to_string(triangle[2]) + '>' + end;
+    }
+  }
+  this->Text << "\n  }\n";
+}
+
+/// The name of the mesh, which is declared unless it was.
+std::string PovMeshes::declare(const Instance& instance, std::uint32_t id)
+{
+  const std::vector<Material>& materials = this->materialsOf(instance);
+  const bool cutOut = std::any_of(
+    materials.begin(), materials.end(), [&](const Material& material) { return povCutOut(*instance.model, material); });
+  const std::uint32_t own = this->Options.flatIds && cutOut ? id : 0;
+  const Key key(instance.model.get(), instance.geometry.get(), &materials, own);
+  const auto [known, isNew] = this->Names.try_emplace(key, "Mesh" + std::to_string(this->Names.size() + 1));
+  if (isNew)
+  {
+    this->Text << "#declare " + known->second + " = mesh2 {\n";
+    this->writeVertices(instance);
+    this->writeFaces(*instance.model, this->writeTextures(instance, own));
+    this->Text << "}\n\n";
+  }
+  return known->second;
+}
+
+void PovMeshes::add(const Instance& instance, std::uint32_t id)
+{
+  if (instance.model->triangles.empty())
+  {
+    return;
+  }
+  const std::string mesh = this->declare(instance, id);
+  this->Text << "// object " + std::to_string(id) + ": " + quoted(instance.name) + "\nobject {\n  " + mesh + '\n';
+  if (this->Options.flatIds)
+  {
+    this->Text << "  " + povFlatTexture(id) + '\n';
+  }
+  this->Text << (this->Options.shadows ? "" : "  no_shadow\n") + ("  " + povMatrix(instance.world_from_object)) +
+                  "\n}\n\n";
+}
+
+} // namespace dgtk
