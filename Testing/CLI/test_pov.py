@@ -99,7 +99,7 @@ class Pov(Case):
         self.assertGreater(len(numpy.unique(expected)), 4)
         self.assertLess(near.mean(), 0.2)
         far = differing & ~near
-        # At single pixels POV-Ray does not find the leaf behind a missing texel.
+        # POV-Ray goes on a fixed small length behind a missing texel, past leaves that cross there.
         leaves = [i + 1 for i, thing in enumerate(scene["objects"]) if thing["model"].endswith("tree.ac")]
         self.assertFalse((far & ~numpy.isin(expected, leaves)).any(), numpy.argwhere(far)[:8])
         self.assertLess(differing.mean(), MOST_DIFFERING)
