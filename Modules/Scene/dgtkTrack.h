@@ -95,7 +95,18 @@ struct Track
   std::vector<Key<T>> keys;
   Interpolation interpolation = Interpolation::Linear;
 
-  Track() = default;
+  /// 0, or the identity.
+  Track()
+  {
+    if constexpr (std::is_same_v<T, Eigen::Vector3d>)
+    {
+      this->value.setZero();
+    }
+    else
+    {
+      this->value = T();
+    }
+  }
   Track(const T& v)
     : value(v)
   {
