@@ -296,7 +296,7 @@ TEST(Pov, RealFilesHaveTheTrianglesThatAreDrawn)
   const std::string folder = extraModels();
   if (folder.empty() || !std::filesystem::exists(folder + "/TRUTH.json"))
   {
-    GTEST_SKIP() << "no folder of models";
+    GTEST_SKIP() << "the sample models and their TRUTH.json are not part of the source: set DGTK_EXTRA_MODELS";
   }
   // the reference counts the words in each file: nothing for scenes that only include, two meshes that are placed twice
   const std::map<std::string, std::size_t> drawn = { { "aster3.pov", 1536 }, { "chesmsh.pov", 737 },
