@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkPortableMath_h
+#define dgtkPortableMath_h
+
+#include "dgtkCoreModule.h"
+
+namespace dgtk::portable
+{
+
+// Elementary functions that give the same bits on every machine: only +, -, *, / and correctly rounded square roots,
+// in a fixed order. (The C library chooses among variants by the processor, and their last bits differ.) Relative
+// error below 1e-14 unless said otherwise.
+
+/// Natural logarithm; x > 0, finite.
+DGTKCORE_EXPORT double log(double x);
+/// e^x; 0 below -700, that of 700 above.
+DGTKCORE_EXPORT double exp(double x);
+/// x^y; 0 for x <= 0.
+DGTKCORE_EXPORT double pow(double x, double y);
+/// Arc cosine, radians, of c in [0, 1].
+DGTKCORE_EXPORT double acos(double c);
+/// Logarithm of n!, n >= 0; absolute error below 1e-10 and a relative 1e-15.
+DGTKCORE_EXPORT double logFactorial(double n);
+
+/// sRGB (IEC 61966-2-1), both ways, on [0, 1]; values outside are clamped.
+DGTKCORE_EXPORT double linearFromSrgb(double v);
+DGTKCORE_EXPORT double srgbFromLinear(double v);
+
+} // namespace dgtk::portable
+
+#endif
