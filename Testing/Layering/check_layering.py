@@ -25,7 +25,8 @@ ALLOWED = {
     "GroundTruth": ["Visibility"],
     "Export": ["Stage"],
     "DatasetIO": ["Core"],
-    "Pipeline": ["GroundTruth", "DatasetIO", "RenderGL", "RayTrace"],
+    "Sensor": ["Core"],
+    "Pipeline": ["GroundTruth", "DatasetIO", "RenderGL", "RayTrace", "Sensor"],
     "Verification": ["Stage", "RayTrace", "DatasetIO"],
     "Widgets": ["Pipeline", "RenderGL"],
 }
