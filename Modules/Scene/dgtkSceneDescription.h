@@ -4,6 +4,7 @@
 
 #include "dgtkSceneModule.h"
 
+#include "dgtkSensorParameters.h"
 #include "dgtkTrack.h"
 
 #include <Eigen/Core>
@@ -125,6 +126,7 @@ struct CameraDescription
   bool posed = false;
   Track<Eigen::Vector3d> position{ Eigen::Vector3d(0, 0, 0) };
   Track<Quaternion> orientation; ///< world_from_camera; camera axes x right, y down, z forward
+  std::optional<SensorParameters> sensor; ///< none: the default sensor
   UnusedKeys unusedEye;
   UnusedKeys unusedLookAt;
   long line = 0;
