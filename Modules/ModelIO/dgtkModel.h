@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,14 @@ struct Image
   int height = 0;
   bool hasAlpha = false; ///< some texel has alpha < 255
   std::vector<std::uint8_t> rgba;
+};
+
+/// A picture of light: linear radiance, R, G, B, rows top to bottom.
+struct RadianceImage
+{
+  int width = 0;
+  int height = 0;
+  std::vector<float> rgb; ///< finite, >= 0
 };
 
 /// A texture as the model names it. `image` is null when it was not found or cannot be decoded; a warning of the
@@ -48,6 +57,24 @@ struct Material
   int texture = -1;      ///< index into Model::textures, or -1
   /// Texels of `texture` with alpha below 0.5 are not there.
   bool cutOut = false;
+
+  /// Metal and roughness, as glTF 2 has them; `baseColor` takes the place of diffuse and specular.
+  struct Physical
+  {
+    double metallic = 0;  ///< [0, 1]
+    double roughness = 1; ///< [0, 1], perceptual
+    bool wanted = false;  ///< the scene asks for it; what a file says counts only in the light of an environment
+  };
+  std::optional<Physical> physical;
+  // Indices into Model::textures, or -1. All use the texture coordinates of `texture`.
+  int normalMap = -1;            ///< tangent-space normals, glTF's conventions (+y up in the picture)
+  int bumpMap = -1;              ///< heights, black low
+  int metallicRoughnessMap = -1; ///< blue times metallic, green times roughness
+  int emissionMap = -1;          ///< times the emission, sRGB
+  int occlusionMap = -1;         ///< red times the environment's light
+  double normalScale = 1;        ///< times the x and y of normalMap
+  double bumpScale = 1;          ///< scene units between black and white
+  double occlusionStrength = 1;  ///< [0, 1]
 };
 
 /// Triangles [firstTriangle, firstTriangle + triangles) of the model, all of one material.

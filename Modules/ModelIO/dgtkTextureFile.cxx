@@ -7,6 +7,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace dgtk
@@ -270,6 +271,52 @@ std::shared_ptr<const Image> decodeTexture(const std::string& path, std::string&
     return nullptr;
   }
   settleAlpha(*image);
+  return image;
+}
+
+std::shared_ptr<const RadianceImage> decodeRadiance(const std::string& path, std::string& problem)
+{
+  problem.clear();
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
+  if (!input)
+  {
+    problem = OIIO::geterror();
+    std::replace(problem.begin(), problem.end(), '\n', ' ');
+    return nullptr;
+  }
+  const OIIO::ImageSpec& spec = input->spec();
+  const int channels = std::min(spec.nchannels, 3);
+  if (spec.width < 1 || spec.height < 1 || spec.width > largestSide || spec.height > largestSide || spec.depth > 1 ||
+      channels < 1)
+  {
+    problem = "is not a picture of 1 to " + std::to_string(largestSide) + " pixels a side";
+    return nullptr;
+  }
+  const std::size_t pixels = std::size_t(spec.width) * static_cast<std::size_t>(spec.height);
+  std::vector<float> values(pixels * std::size_t(channels));
+  if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data()))
+  {
+    problem = input->geterror();
+    std::replace(problem.begin(), problem.end(), '\n', ' ');
+    return nullptr;
+  }
+  const std::string extension = extensionOf(baseName(path));
+  const bool linear = extension == "hdr" || extension == "exr" || spec.format.is_floating_point();
+  auto image = std::make_shared<RadianceImage>();
+  image->width = spec.width;
+  image->height = spec.height;
+  image->rgb.resize(pixels * 3);
+  for (std::size_t i = 0; i < image->rgb.size(); ++i)
+  {
+    float v = values[i / 3 * std::size_t(channels) + (channels == 3 ? i % 3 : 0)];
+    if (!std::isfinite(v))
+    {
+      problem = "has a value that is not finite";
+      return nullptr;
+    }
+    v = std::max(v, 0.0f);
+    image->rgb[i] = linear ? v : v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+  }
   return image;
 }
 

@@ -40,6 +40,10 @@ private:
 /// 16384 a side. An alpha channel that is 0 everywhere is taken as absent.
 DGTKMODELIO_EXPORT std::shared_ptr<const Image> decodeTexture(const std::string& path, std::string& problem);
 
+/// Decodes a picture of light: .hdr and .exr as they are, others from sRGB. Null, and `problem` set, as above; also
+/// where a value is not finite. Negative values become 0.
+DGTKMODELIO_EXPORT std::shared_ptr<const RadianceImage> decodeRadiance(const std::string& path, std::string& problem);
+
 /// Whether a picture is a cut-out: some texels have alpha below 0.5 and some do not.
 DGTKMODELIO_EXPORT bool isCutOut(const Image& image);
 

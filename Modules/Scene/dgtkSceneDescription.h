@@ -37,9 +37,17 @@ struct MaterialOverride
   std::optional<Eigen::Vector3d> diffuse;
   std::optional<Eigen::Vector3d> specular;
   std::optional<Eigen::Vector3d> emission;
-  std::optional<double> shininess;    ///< Phong exponent, [0, 128]
-  std::optional<double> opacity;      ///< [0, 1]
-  std::optional<std::string> texture; ///< picture file relative to the scene's folder; "": none
+  std::optional<double> shininess;      ///< Phong exponent, [0, 128]
+  std::optional<double> opacity;        ///< [0, 1]
+  std::optional<std::string> texture;   ///< picture file relative to the scene's folder; "": none
+  std::optional<double> metallic;       ///< [0, 1]; this or roughness makes the material a physically based one
+  std::optional<double> roughness;      ///< [0, 1], perceptual: the square root of the microfacets' width
+  std::optional<std::string> normalMap; ///< tangent-space normals as glTF has them; picture file or ""
+  std::optional<std::string> bump;      ///< heights, black low; picture file or ""
+  std::optional<double> bumpScale;      ///< scene units between black and white
+  std::optional<std::string> metallicRoughnessMap; ///< blue times metallic, green times roughness; picture file or ""
+  std::optional<std::string> emissionMap;          ///< times the emission, sRGB; picture file or ""
+  std::optional<std::string> occlusionMap;         ///< red times the light of the environment; picture file or ""
 };
 
 /// Which motion of its model an object shows. With these defaults a model that has a motion plays its first one from
@@ -97,8 +105,46 @@ struct LightDescription
   double coneAngle = 30;                  ///< degrees, half the opening, (0, 90]
   double exponent = 1;                    ///< [0, 128]
   double intensity = 1;                   ///< >= 0
+  bool shadows = false;                   ///< objects cast shadows
+  int shadowSize = 2048;                  ///< texels a side of its shadow map, [16, 16384]
   UnusedKeys unused;
   long line = 0;
+};
+
+/// Light that comes from everywhere. Of `image`, an equirectangular picture, the centre column lies towards -z (upAxis
+/// z: towards +y), columns to the right towards +x, the top row towards the up axis.
+struct EnvironmentDescription
+{
+  std::string image;      ///< path as written, relative to the scene's folder; "": there is no environment
+  double intensity = 1;   ///< times its radiance, >= 0
+  double rotation = 0;    ///< degrees, counter-clockwise about the up axis, seen from above
+  bool background = true; ///< it is seen where there is no object
+};
+
+/// exp(-density (distance - start)) of a surface's colour is left at a distance beyond `start`.
+struct FogDescription
+{
+  Eigen::Vector3d color{ 0.5, 0.5, 0.5 }; ///< sRGB in [0, 1]
+  double density = 0;                     ///< 1 / scene units; 0: there is no fog
+  double start = 0;                       ///< scene units from the camera
+};
+
+/// Motion blur: the colour of a frame is the mean over an interval of time.
+struct ShutterDescription
+{
+  double open = 0;    ///< frames relative to the frame, [-1000, 1000]
+  double close = 0;   ///< >= open
+  int exposures = 16; ///< pictures that are averaged, [1, 65536]
+  bool blurs() const { return this->close > this->open; }
+};
+
+/// Depth of field of a thin lens.
+struct LensDescription
+{
+  double aperture = 0;       ///< diameter of the entrance pupil, scene units; 0: a pinhole
+  Track<double> focus{ 10 }; ///< depth of the plane in focus, scene units, > 0
+  int exposures = 64;        ///< pictures that are averaged, [1, 65536]
+  bool blurs() const { return this->aperture > 0; }
 };
 
 enum class CameraKind
@@ -126,6 +172,8 @@ struct CameraDescription
   bool posed = false;
   Track<Eigen::Vector3d> position{ Eigen::Vector3d(0, 0, 0) };
   Track<Quaternion> orientation; ///< world_from_camera; camera axes x right, y down, z forward
+  ShutterDescription shutter;
+  LensDescription lens; ///< pinhole only
   std::optional<SensorParameters> sensor; ///< none: the default sensor
   UnusedKeys unusedEye;
   UnusedKeys unusedLookAt;
@@ -167,7 +215,9 @@ struct DGTKSCENE_EXPORT SceneDescription
   std::vector<int> extraKeyFrames;       ///< ascending; key frames at which no track has a key
   double fps = 25;                       ///< scene frames a second, > 0
   Eigen::Vector3d background{ 0, 0, 0 }; ///< sRGB in [0, 1]
-  std::string units;                     ///< name of the unit of length, free text
+  EnvironmentDescription environment;
+  FogDescription fog;
+  std::string units; ///< name of the unit of length, free text
   UpAxis upAxis = UpAxis::Y;
   std::uint64_t seed = 0; ///< below 2^53
 

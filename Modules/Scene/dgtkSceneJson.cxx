@@ -241,6 +241,8 @@ const std::vector<JsonField<Scene>>& sceneFields()
     { "upAxis", readUpAxis, writeUpAxis },
     { "fps", readFps, writeFps },
     { "background", readBackground, writeBackground },
+    environmentRow(),
+    fogRow(),
     { "seed", readSeed, writeSeed },
     { "keyFrames", readKeyFrames, writeKeyFrames },
     { "objects", readItems<&Scene::objects, readObject>, writeObjects },
@@ -348,6 +350,10 @@ std::map<std::string, std::vector<std::string>> jsonSceneKeys()
     { "material", keysOf(materialFields()) },
     { "light", keysOf(lightFields()) },
     { "camera", keysOf(cameraFields()) },
+    { "environment", keysOf(environmentFields()) },
+    { "fog", keysOf(fogFields()) },
+    { "shutter", keysOf(shutterFields()) },
+    { "lens", keysOf(lensFields()) },
     { "unused", keysOf(unusedFields()) },
     { "keys", { "value", "keys", "interpolation" } },
   };
@@ -370,12 +376,17 @@ std::string toJson(const SceneDescription& scene, const std::string& newFolder)
     object.model = relocate(object.model, scene.folder, newFolder);
     for (MaterialOverride& material : object.materials)
     {
-      if (material.texture)
+      for (std::optional<std::string>* picture : { &material.texture, &material.normalMap, &material.bump,
+             &material.metallicRoughnessMap, &material.emissionMap, &material.occlusionMap })
       {
-        material.texture = relocate(*material.texture, scene.folder, newFolder);
+        if (*picture)
+        {
+          *picture = relocate(**picture, scene.folder, newFolder);
+        }
       }
     }
   }
+  moved.environment.image = relocate(moved.environment.image, scene.folder, newFolder);
   return printJson(writeFields(moved, sceneFields()));
 }
 

@@ -31,6 +31,12 @@ const std::vector<JsonField<LightDescription>>& lightFields();
 const std::vector<JsonField<CameraDescription>>& cameraFields();
 const std::vector<JsonField<UnusedKeys>>& unusedFields();
 const std::vector<JsonField<SceneDescription>>& sceneFields();
+const std::vector<JsonField<EnvironmentDescription>>& environmentFields();
+const std::vector<JsonField<FogDescription>>& fogFields();
+const std::vector<JsonField<ShutterDescription>>& shutterFields();
+const std::vector<JsonField<LensDescription>>& lensFields();
+JsonField<SceneDescription> environmentRow();
+JsonField<SceneDescription> fogRow();
 
 template <typename T>
 std::vector<std::string> keysOf(const std::vector<JsonField<T>>& fields)

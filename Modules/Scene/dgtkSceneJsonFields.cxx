@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkSceneJson.h"
+#include "dgtkSceneJsonRows.h"
 
 namespace dgtk::scenefile
 {
@@ -10,125 +10,6 @@ using Object = ObjectDescription;
 using Animation = AnimationDescription;
 using Light = LightDescription;
 using Camera = CameraDescription;
-
-// How a member of each type is read.
-
-void readInto(const JsonCursor& at, const Range&, std::string& into) { into = at.string(); }
-void readInto(const JsonCursor& at, const Range&, bool& into) { into = at.boolean(); }
-void readInto(const JsonCursor& at, const Range& range, int& into) { into = static_cast<int>(at.wholeNumber(range)); }
-void readInto(const JsonCursor& at, const Range& range, double& into) { into = at.number(range); }
-void readInto(const JsonCursor& at, const Range& range, Eigen::Vector3d& into) { into = at.vector(range); }
-template <typename T>
-void readInto(const JsonCursor& at, const Range& range, Track<T>& into)
-{
-  readTrack(at, range, into);
-}
-template <typename T>
-void readInto(const JsonCursor& at, const Range& range, std::optional<T>& into)
-{
-  into.emplace();
-  readInto(at, range, *into);
-}
-
-// How it is written, and when it is its default.
-
-template <typename T>
-void add(JsonNode& object, const char* key, const T& value, const T& usual)
-{
-  if (!(value == usual))
-  {
-    object.add(key, writeValue(value));
-  }
-}
-void add(JsonNode& object, const char* key, const std::string& value, const std::string& usual)
-{
-  if (value != usual)
-  {
-    object.add(key, JsonNode::of(value));
-  }
-}
-void add(JsonNode& object, const char* key, bool value, bool usual)
-{
-  if (value != usual)
-  {
-    object.add(key, JsonNode::of(value));
-  }
-}
-template <typename T>
-void add(JsonNode& object, const char* key, const Track<T>& track, const Track<T>& usual)
-{
-  if (!isConstant(track, usual.value))
-  {
-    object.add(key, writeTrack(track));
-  }
-}
-template <typename T>
-void add(JsonNode& object, const char* key, const std::optional<T>& value, const std::optional<T>&)
-{
-  if (value)
-  {
-    object.add(key, writeValue(*value));
-  }
-}
-
-template <typename C, typename M>
-C classOf(M C::*);
-
-/// The row of a plain member; its default is that of the struct.
-template <auto Member, const Range& range = rules::none>
-auto row(const char* key)
-{
-  using T = decltype(classOf(Member));
-  return JsonField<T>{ key, [](const JsonCursor& at, T& into) { readInto(at, range, into.*Member); },
-    [](const T& from, const char* name, JsonNode& object)
-    {
-      static const T usual;
-      add(object, name, from.*Member, usual.*Member);
-    } };
-}
-
-/// The row of a text that is never empty and always written.
-template <auto Member>
-auto textRow(const char* key)
-{
-  using T = decltype(classOf(Member));
-  return JsonField<T>{ key, [](const JsonCursor& at, T& into) { into.*Member = at.string(false); },
-    [](const T& from, const char* name, JsonNode& object) { object.add(name, JsonNode::of(from.*Member)); } };
-}
-
-/// The row of one of several words; the first is the default.
-template <auto Member, const std::vector<std::string>& (*words)()>
-auto wordRow(const char* key)
-{
-  using T = decltype(classOf(Member));
-  return JsonField<T>{ key,
-    [](const JsonCursor& at, T& into)
-    { into.*Member = static_cast<std::decay_t<decltype(into.*Member)>>(at.oneOf(words())); },
-    [](const T& from, const char* name, JsonNode& object)
-    {
-      const auto index = static_cast<std::size_t>(from.*Member);
-      if (index != 0)
-      {
-        object.add(name, JsonNode::of(words()[index]));
-      }
-    } };
-}
-
-/// The row of a struct that has a table of its own.
-template <auto Member, auto fields>
-auto structRow(const char* key)
-{
-  using T = decltype(classOf(Member));
-  return JsonField<T>{ key, [](const JsonCursor& at, T& into) { readFields(at, fields(), into.*Member); },
-    [](const T& from, const char* name, JsonNode& object)
-    {
-      JsonNode child = writeFields(from.*Member, fields());
-      if (!child.children.empty())
-      {
-        object.add(name, std::move(child));
-      }
-    } };
-}
 
 /// The row of one half of a camera's pose; it is written when the camera is posed that way, default or not.
 template <auto Member, const Range& range, bool posed>
@@ -272,6 +153,14 @@ const std::vector<JsonField<MaterialOverride>>& materialFields()
     row<&MaterialOverride::shininess, rules::exponent>("shininess"),
     row<&MaterialOverride::opacity, rules::unit>("opacity"),
     row<&MaterialOverride::texture>("texture"),
+    row<&MaterialOverride::metallic, rules::unit>("metallic"),
+    row<&MaterialOverride::roughness, rules::unit>("roughness"),
+    row<&MaterialOverride::normalMap>("normalMap"),
+    row<&MaterialOverride::bump>("bump"),
+    row<&MaterialOverride::bumpScale, rules::coordinate>("bumpScale"),
+    row<&MaterialOverride::metallicRoughnessMap>("metallicRoughnessMap"),
+    row<&MaterialOverride::emissionMap>("emissionMap"),
+    row<&MaterialOverride::occlusionMap>("occlusionMap"),
   };
   return fields;
 }
@@ -300,6 +189,8 @@ const std::vector<JsonField<Light>>& lightFields()
     row<&Light::coneAngle, rules::coneAngle>("coneAngle"),
     row<&Light::exponent, rules::exponent>("exponent"),
     row<&Light::intensity, rules::light>("intensity"),
+    row<&Light::shadows>("shadows"),
+    row<&Light::shadowSize, rules::shadowSize>("shadowSize"),
     structRow<&Light::unused, unusedFields>("unused"),
   };
   return fields;
@@ -323,6 +214,8 @@ const std::vector<JsonField<Camera>>& cameraFields()
     poseRow<&Camera::up, rules::coordinate, false>("up"),
     poseRow<&Camera::position, rules::coordinate, true>("position"),
     poseRow<&Camera::orientation, rules::unit, true>("orientation"),
+    structRow<&Camera::shutter, shutterFields>("shutter"),
+    structRow<&Camera::lens, lensFields>("lens"),
     structRow<&Camera::unusedEye, unusedFields>("unusedEye"),
     structRow<&Camera::unusedLookAt, unusedFields>("unusedLookAt"),
   };

@@ -182,6 +182,14 @@ private:
     {
       this->fail(Kind::Camera, i, "aspect", "is said by K already", "one of them");
     }
+    if (camera.shutter.close < camera.shutter.open)
+    {
+      this->fail(Kind::Camera, i, "shutter", "closes before it opens", "close not below open");
+    }
+    if (camera.lens.blurs() && camera.kind != CameraKind::Pinhole)
+    {
+      this->fail(Kind::Camera, i, "lens", "is not for this camera", "model pinhole");
+    }
     if (!camera.posed)
     {
       this->checkPose(i, camera);

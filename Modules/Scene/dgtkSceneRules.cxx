@@ -123,6 +123,8 @@ void validate(const SceneDescription& scene)
   rest.upAxis = scene.upAxis;
   rest.fps = scene.fps;
   rest.background = scene.background;
+  rest.environment = scene.environment;
+  rest.fog = scene.fog;
   rest.seed = scene.seed;
   rest.extraKeyFrames = scene.extraKeyFrames;
   const JsonNode node = writeFields(rest, sceneFields());

@@ -45,6 +45,11 @@ inline constexpr Range modelFrame{ 0, 1e9, false, false, "a number from 0 to 1e9
 inline constexpr Range startFrame{ -1e9, 1e9, false, false, "a number from -1e9 to 1e9" };
 inline constexpr Range frame{ 0, largestFrame, false, false, "a whole number from 0 to 999999" };
 inline constexpr Range size{ 0, 1 << 20, false, false, "a whole number from 0 to 1048576" };
+inline constexpr Range degrees{ -36000, 36000, false, false, "degrees from -36000 to 36000" };
+inline constexpr Range shadowSize{ 16, 16384, false, false, "a whole number from 16 to 16384" };
+inline constexpr Range exposures{ 1, 65536, false, false, "a whole number from 1 to 65536" };
+inline constexpr Range shutter{ -1000, 1000, false, false, "frames from -1000 to 1000" };
+inline constexpr Range notNegative{ 0, 1e15, false, false, "a number from 0 to 1e15" };
 inline constexpr Range seed{ 0, 9007199254740991.0, false, false, "a whole number from 0 to 2^53 - 1" };
 inline constexpr double quaternionTolerance =
   0.01; ///< of the norm: numbers with two decimals, as the thesis prints them

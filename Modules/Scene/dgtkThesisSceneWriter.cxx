@@ -96,6 +96,8 @@ private:
     const SceneDescription usual;
     this->needScene(this->Scene.fps == usual.fps, "fps");
     this->needScene(this->Scene.background == usual.background, "background");
+    this->needScene(this->Scene.environment.image.empty(), "environment");
+    this->needScene(this->Scene.fog.density == 0, "fog");
     this->needScene(this->Scene.units.empty(), "units");
     this->needScene(this->Scene.upAxis == usual.upAxis, "upAxis");
     this->needScene(this->Scene.seed == 0, "seed");
@@ -151,6 +153,7 @@ private:
     this->need(light.coneAngle == usual.coneAngle, item, "coneAngle");
     this->need(light.exponent == usual.exponent, item, "exponent");
     this->need(light.intensity == usual.intensity, item, "intensity");
+    this->need(!light.shadows, item, "shadows");
     this->need(
       light.name.find('(') == std::string::npos && light.name.front() != ' ' && light.name.back() != ' ', item, "name");
     this->needLinear(light.position, item, "position");
@@ -205,6 +208,8 @@ private:
     this->need(!camera.K, item, "K");
     this->need(camera.width == 0, item, "width");
     this->need(camera.height == 0, item, "height");
+    this->need(!camera.shutter.blurs(), item, "shutter");
+    this->need(!camera.lens.blurs(), item, "lens");
     this->need(!camera.posed, item, "orientation", "eye and lookAt");
     this->need(!camera.fovY.animated(), item, "fovY", "one value for all frames");
     this->need(!camera.up.animated(), item, "up", "one value for all frames");

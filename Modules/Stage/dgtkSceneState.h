@@ -49,6 +49,26 @@ struct LightState
   double coneAngle = 30; ///< degrees, half the opening
   double exponent = 1;   ///< fall-off inside the cone
   double intensity = 1;
+  bool shadows = false;  ///< objects cast shadows in its light
+  int shadowSize = 2048; ///< texels a side of its shadow map
+};
+
+/// Light from everywhere.
+struct EnvironmentState
+{
+  std::shared_ptr<const RadianceImage> image; ///< equirectangular
+  double intensity = 1;
+  bool background = true; ///< seen where nothing is
+  /// A direction in the image's axes: its centre column is -z, its right quarter +x, its top row +y.
+  Eigen::Matrix3d image_from_world = Eigen::Matrix3d::Identity();
+};
+
+/// exp(-density (distance - start)) of a colour is left beyond `start`.
+struct FogState
+{
+  Eigen::Vector3d color{ 0.5, 0.5, 0.5 }; ///< sRGB in [0, 1]
+  double density = 0;                     ///< 0: there is none
+  double start = 0;
 };
 
 /// Everything of a scene at one instant. Immutable and safe to share between threads.
@@ -58,6 +78,8 @@ struct SceneState
   std::vector<Instance> instances;       ///< objects with geometry, in the scene's order; object id = index + 1
   std::vector<LightState> lights;        ///< enabled ones; a single Head light when the scene has none
   Eigen::Vector3d background{ 0, 0, 0 }; ///< sRGB in [0, 1]
+  std::shared_ptr<const EnvironmentState> environment; ///< null: there is none
+  FogState fog;
 };
 
 } // namespace dgtk

@@ -5,6 +5,7 @@
 #include "dgtkModelClock.h"
 #include "dgtkStageModels.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <deque>
@@ -68,6 +69,8 @@ LightState lightAt(const LightDescription& light, double frame)
   state.coneAngle = light.coneAngle;
   state.exponent = light.exponent;
   state.intensity = light.intensity;
+  state.shadows = light.shadows;
+  state.shadowSize = light.shadowSize;
   return state;
 }
 
@@ -89,6 +92,44 @@ std::vector<LightState> lightsAt(const SceneDescription& scene, double frame)
     lights.push_back(head);
   }
   return lights;
+}
+
+/// Points on the unit disc: Vogel's spiral, in bit-reversed order.
+std::vector<Eigen::Vector2d> lensPoints(int count)
+{
+  constexpr double goldenAngle = 2.39996322972865332; // pi (3 - sqrt 5)
+  std::uint32_t size = 1;
+  while (size < std::uint32_t(count))
+  {
+    size *= 2;
+  }
+  std::vector<Eigen::Vector2d> points;
+  for (std::uint32_t i = 0; i < size; ++i)
+  {
+    std::uint32_t place = 0;
+    for (std::uint32_t low = 1, high = size / 2; high > 0; low *= 2, high /= 2)
+    {
+      place |= (i & low) != 0 ? high : 0;
+    }
+    if (place < std::uint32_t(count))
+    {
+      const double radius = std::sqrt((place + 0.5) / count);
+      points.emplace_back(radius * std::cos(place * goldenAngle), radius * std::sin(place * goldenAngle));
+    }
+  }
+  return points;
+}
+
+/// The view through a point of the lens (camera axes, scene units from its centre): points at depth `focus` keep their
+/// place in the image.
+View throughLens(const View& view, const Eigen::Vector2d& point, double focus)
+{
+  Eigen::Matrix3d K = view.model->linear()->K;
+  K.topRightCorner<2, 1>() += K.topLeftCorner<2, 2>() * point / focus;
+  View moved = view;
+  moved.model = makePinhole(view.model->width(), view.model->height(), K);
+  moved.camera_from_world.translation -= Eigen::Vector3d(point.x(), point.y(), 0);
+  return moved;
 }
 
 Rigid3 poseAt(const CameraDescription& camera, double frame)
@@ -210,6 +251,8 @@ std::shared_ptr<const SceneState> Stage::Impl::compute(double frame)
   auto state = std::make_shared<SceneState>();
   state->frame = frame;
   state->background = this->Scene.background;
+  state->environment = this->Files.environment();
+  state->fog = { this->Scene.fog.color, this->Scene.fog.density, this->Scene.fog.start };
   state->lights = lightsAt(this->Scene, frame);
   for (const SceneItem& item : this->Scene.items())
   {
@@ -309,6 +352,35 @@ View Stage::view(std::size_t index, double frame, int width, int height) const
       scene.title(), camera.line, "camera " + quoted(camera.name) + " at frame " + textOf(frame) + ": " + error.what());
   }
   return view;
+}
+
+std::vector<Exposure> Stage::exposures(std::size_t index, int frame, int width, int height) const
+{
+  std::vector<Exposure> all{ { double(frame), this->view(index, frame, width, height) } };
+  const CameraDescription& camera = this->Self->Scene.cameras[index];
+  const bool moves = camera.shutter.blurs();
+  const bool blurs = camera.lens.blurs();
+  if (!moves && !blurs)
+  {
+    return all;
+  }
+  const int count = std::max(moves ? camera.shutter.exposures : 1, blurs ? camera.lens.exposures : 1);
+  const std::vector<Eigen::Vector2d> points = blurs ? lensPoints(count) : std::vector<Eigen::Vector2d>();
+  all.clear();
+  for (int i = 0; i < count; ++i)
+  {
+    Exposure one;
+    one.frame =
+      frame + (moves ? camera.shutter.open + (i + 0.5) / count * (camera.shutter.close - camera.shutter.open) : 0.0);
+    one.view = this->view(index, one.frame, width, height);
+    if (blurs)
+    {
+      one.view =
+        throughLens(one.view, points[std::size_t(i)] * (camera.lens.aperture / 2), camera.lens.focus.at(one.frame));
+    }
+    all.push_back(std::move(one));
+  }
+  return all;
 }
 
 std::vector<std::string> Stage::cameraNames() const

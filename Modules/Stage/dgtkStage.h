@@ -16,6 +16,14 @@
 namespace dgtk
 {
 
+/// One of the pictures whose mean, in linear light, is the colour of a frame: an instant, and a pinhole at a point of
+/// the lens.
+struct Exposure
+{
+  double frame = 0;
+  View view;
+};
+
 /// A scene with everything that it names loaded. Immutable; all members are thread-safe.
 class DGTKSTAGE_EXPORT Stage
 {
@@ -41,6 +49,11 @@ public:
   /// A camera at a frame. 0, 0: the camera's own size, or 640 x 480. K of another size is scaled per axis.
   /// Throws UsageError for an index or a size out of range, InputError where the pose is undefined (eye = look-at).
   View view(std::size_t camera, double frame, int width = 0, int height = 0) const;
+
+  /// The exposures of a frame, one for a camera without shutter and lens: that of view(). Exposure i of N is at the
+  /// frame plus open + (i + 1/2) / N (close - open). Points of the lens follow Vogel's spiral (1979), in bit-reversed
+  /// order, so that time and lens are independent; the plane in focus stays where it is in the image.
+  std::vector<Exposure> exposures(std::size_t camera, int frame, int width = 0, int height = 0) const;
 
   std::vector<std::string> cameraNames() const;
   /// Names of the objects with an id, in the order of the ids: objectNames()[id - 1].

@@ -5,6 +5,7 @@
 #include "dgtkTextureFile.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <system_error>
@@ -71,6 +72,41 @@ StageModels::StageModels(const SceneDescription& scene, const Stage::WarningSink
       this->addFile(texture.path);
     }
   }
+  this->readEnvironment();
+}
+
+void StageModels::readEnvironment()
+{
+  const EnvironmentDescription& from = this->Scene.environment;
+  if (from.image.empty())
+  {
+    return;
+  }
+  const std::string path = this->Scene.resolve(from.image);
+  std::string problem = "not found";
+  std::error_code error;
+  auto made = std::make_shared<EnvironmentState>();
+  if (fs::is_regular_file(path, error))
+  {
+    made->image = decodeRadiance(path, problem);
+  }
+  if (!made->image)
+  {
+    throw InputError(this->Scene.title(), 0, "environment: " + quoted(from.image) + ' ' + problem);
+  }
+  this->addFile(path);
+  made->intensity = from.intensity;
+  made->background = from.background;
+  const double angle = from.rotation * 3.14159265358979323846 / 180;
+  Eigen::Matrix3d unturn;
+  unturn << std::cos(angle), 0, -std::sin(angle), 0, 1, 0, std::sin(angle), 0, std::cos(angle);
+  Eigen::Matrix3d upright = Eigen::Matrix3d::Identity();
+  if (this->Scene.upAxis == UpAxis::Z)
+  {
+    upright << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  }
+  made->image_from_world = unturn * upright;
+  this->Environment = made;
 }
 
 void StageModels::warn(const std::string& line) const
@@ -129,16 +165,20 @@ void StageModels::addTextures()
   {
     for (const MaterialOverride& material : this->Scene.objects[i].materials)
     {
-      if (!material.texture || material.texture->empty())
+      for (const std::optional<std::string>* picture : { &material.texture, &material.normalMap, &material.bump,
+             &material.metallicRoughnessMap, &material.emissionMap, &material.occlusionMap })
       {
-        continue;
-      }
-      std::shared_ptr<Model>& copy = changed[this->Uses[i]];
-      copy = copy ? copy : std::make_shared<Model>(*this->modelOf(i));
-      const auto [entry, isNew] = this->Textures.emplace(std::make_pair(copy.get(), *material.texture), -1);
-      if (isNew)
-      {
-        entry->second = this->addTexture(*copy, *material.texture);
+        if (!*picture || (*picture)->empty())
+        {
+          continue;
+        }
+        std::shared_ptr<Model>& copy = changed[this->Uses[i]];
+        copy = copy ? copy : std::make_shared<Model>(*this->modelOf(i));
+        const auto [entry, isNew] = this->Textures.emplace(std::make_pair(copy.get(), **picture), -1);
+        if (isNew)
+        {
+          entry->second = this->addTexture(*copy, **picture);
+        }
       }
     }
   }
@@ -211,6 +251,11 @@ void StageModels::applySkin(const ObjectDescription& object, const Model& model,
   }
 }
 
+int StageModels::textureOf(const Model& model, const std::string& written) const
+{
+  return written.empty() ? -1 : this->Textures.at({ &model, written });
+}
+
 void StageModels::applyOverride(const ObjectDescription& object, const Model& model, const MaterialOverride& change,
   std::vector<Material>& materials) const
 {
@@ -230,7 +275,22 @@ void StageModels::applyOverride(const ObjectDescription& object, const Model& mo
     material.opacity = change.opacity.value_or(material.opacity);
     if (change.texture)
     {
-      setTexture(material, model, change.texture->empty() ? -1 : this->Textures.at({ &model, *change.texture }));
+      setTexture(material, model, this->textureOf(model, *change.texture));
+    }
+    if (change.metallic || change.roughness)
+    {
+      material.physical = material.physical.value_or(Material::Physical());
+      material.physical->metallic = change.metallic.value_or(material.physical->metallic);
+      material.physical->roughness = change.roughness.value_or(material.physical->roughness);
+      material.physical->wanted = true;
+    }
+    material.bumpScale = change.bumpScale.value_or(material.bumpScale);
+    const std::pair<const std::optional<std::string>*, int*> maps[] = { { &change.normalMap, &material.normalMap },
+      { &change.bump, &material.bumpMap }, { &change.metallicRoughnessMap, &material.metallicRoughnessMap },
+      { &change.emissionMap, &material.emissionMap }, { &change.occlusionMap, &material.occlusionMap } };
+    for (const auto& [picture, texture] : maps)
+    {
+      *texture = *picture ? this->textureOf(model, **picture) : *texture;
     }
   }
   if (!used && change.material != "*")

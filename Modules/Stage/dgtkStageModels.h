@@ -28,6 +28,8 @@ public:
   const std::shared_ptr<const Model>& modelOf(std::size_t object) const { return this->Models[this->Uses[object]]; }
   const MaterialList& materialsOf(std::size_t object) const { return this->Materials[object]; }
   const std::vector<std::shared_ptr<const Model>>& models() const { return this->Models; }
+  /// Null when the scene has none.
+  const std::shared_ptr<const EnvironmentState>& environment() const { return this->Environment; }
   const std::vector<std::string>& files() const { return this->Files; }
 
 private:
@@ -38,6 +40,8 @@ private:
   void applySkin(const ObjectDescription& object, const Model& model, std::vector<Material>& materials) const;
   void applyOverride(const ObjectDescription& object, const Model& model, const MaterialOverride& change,
     std::vector<Material>& materials) const;
+  int textureOf(const Model& model, const std::string& written) const;
+  void readEnvironment();
   void addFile(const std::string& path);
   void warn(const std::string& line) const;
 
@@ -46,6 +50,7 @@ private:
   std::vector<std::shared_ptr<const Model>> Models;
   std::vector<std::size_t> Uses; ///< object -> model
   std::vector<MaterialList> Materials;
+  std::shared_ptr<const EnvironmentState> Environment;
   std::map<std::pair<const Model*, std::string>, int> Textures; ///< texture of the scene -> index in the model
   std::vector<std::string> Files;
 };

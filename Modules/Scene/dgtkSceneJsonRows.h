@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkSceneJsonRows_h
+#define dgtkSceneJsonRows_h
+
+// Private to Scene: makes rows of the tables of dgtkSceneJson.h.
+
+#include "dgtkSceneJson.h"
+
+namespace dgtk::scenefile
+{
+
+// How a member of each type is read.
+
+inline void readInto(const JsonCursor& at, const Range&, std::string& into) { into = at.string(); }
+inline void readInto(const JsonCursor& at, const Range&, bool& into) { into = at.boolean(); }
+inline void readInto(const JsonCursor& at, const Range& range, int& into)
+{
+  into = static_cast<int>(at.wholeNumber(range));
+}
+inline void readInto(const JsonCursor& at, const Range& range, double& into) { into = at.number(range); }
+inline void readInto(const JsonCursor& at, const Range& range, Eigen::Vector3d& into) { into = at.vector(range); }
+template <typename T>
+inline void readInto(const JsonCursor& at, const Range& range, Track<T>& into)
+{
+  readTrack(at, range, into);
+}
+template <typename T>
+inline void readInto(const JsonCursor& at, const Range& range, std::optional<T>& into)
+{
+  into.emplace();
+  readInto(at, range, *into);
+}
+
+// How it is written, and when it is its default.
+
+template <typename T>
+inline void add(JsonNode& object, const char* key, const T& value, const T& usual)
+{
+  if (!(value == usual))
+  {
+    object.add(key, writeValue(value));
+  }
+}
+inline void add(JsonNode& object, const char* key, const std::string& value, const std::string& usual)
+{
+  if (value != usual)
+  {
+    object.add(key, JsonNode::of(value));
+  }
+}
+inline void add(JsonNode& object, const char* key, bool value, bool usual)
+{
+  if (value != usual)
+  {
+    object.add(key, JsonNode::of(value));
+  }
+}
+template <typename T>
+inline void add(JsonNode& object, const char* key, const Track<T>& track, const Track<T>& usual)
+{
+  if (!isConstant(track, usual.value))
+  {
+    object.add(key, writeTrack(track));
+  }
+}
+template <typename T>
+inline void add(JsonNode& object, const char* key, const std::optional<T>& value, const std::optional<T>&)
+{
+  if (value)
+  {
+    object.add(key, writeValue(*value));
+  }
+}
+
+template <typename C, typename M>
+C classOf(M C::*);
+
+/// The row of a plain member; its default is that of the struct.
+template <auto Member, const Range& range = rules::none>
+auto row(const char* key)
+{
+  using T = decltype(classOf(Member));
+  return JsonField<T>{ key, [](const JsonCursor& at, T& into) { readInto(at, range, into.*Member); },
+    [](const T& from, const char* name, JsonNode& object)
+    {
+      static const T usual;
+      add(object, name, from.*Member, usual.*Member);
+    } };
+}
+
+/// The row of a text that is never empty and always written.
+template <auto Member>
+auto textRow(const char* key)
+{
+  using T = decltype(classOf(Member));
+  return JsonField<T>{ key, [](const JsonCursor& at, T& into) { into.*Member = at.string(false); },
+    [](const T& from, const char* name, JsonNode& object) { object.add(name, JsonNode::of(from.*Member)); } };
+}
+
+/// The row of one of several words; the first is the default.
+template <auto Member, const std::vector<std::string>& (*words)()>
+auto wordRow(const char* key)
+{
+  using T = decltype(classOf(Member));
+  return JsonField<T>{ key,
+    [](const JsonCursor& at, T& into)
+    { into.*Member = static_cast<std::decay_t<decltype(into.*Member)>>(at.oneOf(words())); },
+    [](const T& from, const char* name, JsonNode& object)
+    {
+      const auto index = static_cast<std::size_t>(from.*Member);
+      if (index != 0)
+      {
+        object.add(name, JsonNode::of(words()[index]));
+      }
+    } };
+}
+
+/// The row of a struct that has a table of its own.
+template <auto Member, auto fields>
+auto structRow(const char* key)
+{
+  using T = decltype(classOf(Member));
+  return JsonField<T>{ key, [](const JsonCursor& at, T& into) { readFields(at, fields(), into.*Member); },
+    [](const T& from, const char* name, JsonNode& object)
+    {
+      JsonNode child = writeFields(from.*Member, fields());
+      if (!child.children.empty())
+      {
+        object.add(name, std::move(child));
+      }
+    } };
+}
+
+} // namespace dgtk::scenefile
+
+#endif
