@@ -2,6 +2,8 @@
 #include "dgtkPovExport.h"
 
 #include "dgtkError.h"
+#include "dgtkPovCamera.h"
+#include "dgtkPovLibrary.h"
 #include "dgtkPovLights.h"
 #include "dgtkPovMeshes.h"
 
@@ -17,6 +19,8 @@ namespace
 constexpr std::size_t MostIds = (1 << 24) - 1;
 /// POV-Ray's largest: surfaces that may lie behind one another where texels are missing.
 constexpr const char* TraceLevel = "256";
+/// Begins a line that names a file of the library.
+const std::string UsesLine = "// uses ";
 
 void checkName(const std::string& path)
 {
@@ -26,6 +30,15 @@ void checkName(const std::string& path)
   if (extension != ".pov")
   {
     throw InputError(path, 0, "is no POV-Ray scene", "a name in .pov", extension.empty() ? "none" : extension);
+  }
+}
+
+void checkCount(const SceneState& state, const std::string& path)
+{
+  if (state.instances.size() > MostIds)
+  {
+    throw InputError(path, 0, "cannot hold as many objects", "at most " + std::to_string(MostIds),
+      std::to_string(state.instances.size()));
   }
 }
 
@@ -51,77 +64,72 @@ PovBall ballOf(const SceneState& state)
   return ball;
 }
 
-/// A ray is location + direction + a right + b up; a from -1/2 at the image's left side to 1/2 at its right, b upwards.
-/// Written in axes x left, y up, z forward, which `matrix` turns into the world: a right-handed frame, in which `right`
-/// has a negative x, by which readers know that the world is right-handed.
-std::string cameraText(const View& view)
+std::string settings(const SceneState& state, const PovOptions& options)
 {
-  const auto linear = view.model->linear();
-  if (!linear)
-  {
-    throw UsageError("camera " + quoted(view.name) + " (" + view.model->name() + ") cannot be written for POV-Ray");
-  }
-  const double width = view.model->width();
-  const double height = view.model->height();
-  const auto at = [&](double u, double v) -> Eigen::Vector3d
-  {
-    const CameraRay ray = view.model->rayThrough({ u, v });
-    const Eigen::Vector3d& on = linear->perspective ? ray.direction : ray.origin;
-    return { -on.x(), -on.y(), on.z() };
-  };
-  const Eigen::Vector3d middle = at(width / 2, height / 2);
-  const Rigid3 world_from_camera = view.camera_from_world.inverse();
-  Affine3 world_from_pov{ world_from_camera.rotation, world_from_camera.translation };
-  world_from_pov.linear.leftCols<2>() *= -1;
-  const Eigen::Vector3d location = linear->perspective ? Eigen::Vector3d(0, 0, 0) : middle;
-  const Eigen::Vector3d direction = linear->perspective ? middle : Eigen::Vector3d(0, 0, 1);
-  return std::string("camera {\n  ") + (linear->perspective ? "perspective" : "orthographic") + "\n  location " +
-         povVector(location) + "\n  direction " + povVector(direction) + "\n  right " +
-         povVector(Eigen::Vector3d(at(width, height / 2) - at(0, height / 2))) + "\n  up " +
-         povVector(Eigen::Vector3d(at(width / 2, 0) - at(width / 2, height))) + "\n  " + povMatrix(world_from_pov) +
+  // Colours are computed with as they are shown: nothing is converted on the way in or out.
+  return "#version 3.7;\nglobal_settings {\n  assumed_gamma srgb\n  max_trace_level " + std::string(TraceLevel) +
+         "\n  ambient_light " + povColor(options.radiosity ? Eigen::Vector3d(0, 0, 0) : povAmbient(state)) +
+         (options.radiosity ? "\n  radiosity { count 150 nearest_count 10 error_bound 0.5 recursion_limit 2 }" : "") +
          "\n}\n";
 }
 
-std::string header(const SceneState& state, const View& view, const PovOptions& options)
+/// All but the objects.
+std::string head(
+  const SceneState& state, const PovLightContext& context, const PovRows& rows, std::vector<std::string>& warnings)
+{
+  const PovOptions& options = context.options;
+  const bool shines = options.flatIds || options.positionColors;
+  const Eigen::Vector3d background = shines ? Eigen::Vector3d(0, 0, 0) : state.background;
+  std::string text = settings(state, options) + "background { color " + povColor(background) + " }\n" +
+                     povCamera(context.view, rows, options.lens, context.scale);
+  for (const LightState& light : state.lights)
+  {
+    text += shines ? std::string() : povLight(light, context, warnings);
+  }
+  return text + '\n';
+}
+
+std::string firstLines(const SceneState& state, const View& view, double scale)
 {
   const std::string size = "+W" + std::to_string(view.model->width()) + " +H" + std::to_string(view.model->height());
-  std::string text = "// Camera " + quoted(view.name) + ", frame " + povNumber(state.frame) + ".\n// povray " + size +
-                     " -A +FN8 File_Gamma=sRGB Dither=off FILE\n\n#version 3.7;\n";
-  // Colours are computed with as they are shown: nothing is converted on the way in or out.
-  text += "global_settings {\n  assumed_gamma srgb\n  max_trace_level " + std::string(TraceLevel) +
-          "\n  ambient_light " + povColor(povAmbient(state)) + "\n}\n";
-  const Eigen::Vector3d background = options.flatIds ? Eigen::Vector3d(0, 0, 0) : state.background;
-  return text + "background { color " + povColor(background) + " }\n" + cameraText(view);
+  return "// Camera " + quoted(view.name) + ", frame " + povNumber(state.frame) + ".\n// povray " + size +
+         " -A +FN8 File_Gamma=sRGB Dither=off FILE\n" +
+         (scale == 1 ? "" : "// Everything is " + povNumber(scale) + " times as large as in the scene.\n");
+}
+
+PovLightContext contextOf(const SceneState& state, const View& view, const PovOptions& options)
+{
+  PovLightContext context{ view, options, ballOf(state), 1 };
+  context.scale = options.ownScale ? *options.ownScale : povSceneScale(view, context.ball);
+  return context;
+}
+
+void addObjects(const SceneState& state, PovObjects&& objects)
+{
+  std::uint32_t id = 0;
+  for (const Instance& instance : state.instances)
+  {
+    objects.add(instance, ++id);
+  }
 }
 } // namespace
 
 PovResult exportPov(const SceneState& state, const View& view, const std::string& path, const PovOptions& options)
 {
   checkName(path);
-  if (state.instances.size() > MostIds)
-  {
-    throw InputError(path, 0, "cannot hold as many objects", "at most " + std::to_string(MostIds),
-      std::to_string(state.instances.size()));
-  }
+  checkCount(state, path);
   PovResult result;
-  PovImages images(path);
-  std::string head = header(state, view, options);
-  const PovBall ball = ballOf(state);
-  for (const LightState& light : state.lights)
-  {
-    head += options.flatIds ? std::string() : povLight(light, view, ball, result.warnings);
-  }
+  PovImagesBeside images(path);
+  const PovLightContext context = contextOf(state, view, options);
+  const std::string begin = firstLines(state, view, context.scale) + '\n' + head(state, context, {}, result.warnings);
   PovText text(path);
-  text << head + '\n';
-  PovMeshes meshes(text, images, options);
-  std::uint32_t id = 0;
-  for (const Instance& instance : state.instances)
-  {
-    meshes.add(instance, ++id);
-  }
+  text << begin;
+  PovMeshesInside meshes(text, images, options);
+  addObjects(state, { text, meshes, view, options, context.scale });
   text.commit();
   result.files = images.files();
   result.files.push_back(path);
+  result.scale = context.scale;
   return result;
 }
 
@@ -142,7 +150,58 @@ PovResult exportPov(const std::shared_ptr<const Model>& model, const std::string
   view.model = makePinholeFromFov(640, 480, 45, 0);
   view.camera_from_world =
     lookAtPose(ball.centre + Eigen::Vector3d(0, 0, 2.8 * ball.radius), ball.centre, Eigen::Vector3d(0, 1, 0));
-  return exportPov(state, view, path);
+  view.near = ball.radius;
+  view.far = 5 * ball.radius;
+  PovOptions options;
+  options.ownScale = 1;
+  return exportPov(state, view, path, options);
+}
+
+PovScene makePovScene(
+  const SceneState& state, const View& view, const PovOptions& options, PovLibrary& library, const PovRows& rows)
+{
+  checkCount(state, view.name);
+  PovScene scene;
+  const PovLightContext context = contextOf(state, view, options);
+  scene.scale = context.scale;
+  PovText objects;
+  PovMeshesIncluded meshes(library.impl(), options);
+  addObjects(state, { objects, meshes, view, options, context.scale });
+  scene.uses = meshes.uses();
+  scene.text = firstLines(state, view, context.scale);
+  for (const PovFile& file : scene.uses)
+  {
+    scene.text += UsesLine + library.impl().reference + file.name + '\n';
+  }
+  const std::string begin = head(state, context, rows, scene.warnings);
+  for (const std::string& warning : scene.warnings)
+  {
+    scene.text += "// Note: " + warning + '\n';
+  }
+  scene.text += '\n' + begin;
+  for (const std::string& name : meshes.includes())
+  {
+    scene.text += "#include \"" + library.impl().reference + name + "\"\n";
+  }
+  scene.text += '\n' + objects.text();
+  return scene;
+}
+
+std::vector<std::string> povSceneUses(const std::string& path)
+{
+  std::vector<std::string> names;
+  const std::string text = readFile(path);
+  for (std::size_t begin = 0; text.compare(begin, 2, "//") == 0;)
+  {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (text.compare(begin, UsesLine.size(), UsesLine) == 0)
+    {
+      const std::string name = text.substr(begin + UsesLine.size(), end - begin - UsesLine.size());
+      names.push_back(name.substr(name.rfind('/') + 1));
+    }
+    begin = std::min(end + 1, text.size());
+  }
+  return names;
 }
 
 } // namespace dgtk

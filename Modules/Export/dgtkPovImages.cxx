@@ -27,21 +27,60 @@ bool isPlainPng(const std::string& path)
   return file.read(header, sizeof header) && std::memcmp(header, "\x89PNG\r\n\x1a\n", 8) == 0 &&
          (header[25] == 0 || header[25] == 2 || header[25] == 3);
 }
+
+std::string pnmHeader(const char* kind, const Image& image)
+{
+  return std::string(kind) + '\n' + std::to_string(image.width) + ' ' + std::to_string(image.height) + "\n255\n";
+}
 } // namespace
 
-PovImages::PovImages(const std::string& scene)
+std::string povPpm(const Image& image, const Eigen::Vector3d& tint)
+{
+  std::string text = pnmHeader("P6", image);
+  text.reserve(text.size() + image.rgba.size() / 4 * 3);
+  for (std::size_t i = 0; i < image.rgba.size(); ++i)
+  {
+    if (i % 4 != 3)
+    {
+      text += static_cast<char>(std::lround(image.rgba[i] * tint[Eigen::Index(i % 4)]));
+    }
+  }
+  return text;
+}
+
+std::string povMaskPgm(const Image& image)
+{
+  std::string text = pnmHeader("P5", image);
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+  {
+    text += image.rgba[i] < 128 ? '\0' : '\xff';
+  }
+  return text;
+}
+
+bool povReads(const Texture& texture)
+{
+  return !texture.path.empty() && !texture.image->hasAlpha && isPlainPng(texture.path);
+}
+
+std::string povPlainName(std::string name)
+{
+  std::replace_if(
+    name.begin(), name.end(), [](char c) { return !plain(c) || c == '/'; }, '_');
+  return name;
+}
+
+PovImagesBeside::PovImagesBeside(const std::string& scene)
 {
   const std::filesystem::path path(scene);
   this->Folder = path.parent_path().string();
-  this->Stem = path.stem().string();
-  std::replace_if(
-    this->Stem.begin(), this->Stem.end(), [](char c) { return !plain(c) || c == '/'; }, '_');
+  this->Stem = povPlainName(path.stem().string());
 }
 
 /// The texture's own file, relative to the scene, or "" when it does not serve.
-std::string PovImages::own(const Texture& texture) const
+std::string PovImagesBeside::own(const Texture& texture) const
 {
-  if (texture.path.empty() || texture.image->hasAlpha || !isPlainPng(texture.path))
+  if (!povReads(texture))
   {
     return {};
   }
@@ -52,27 +91,22 @@ std::string PovImages::own(const Texture& texture) const
   return std::all_of(relative.begin(), relative.end(), plain) ? relative : std::string();
 }
 
-int PovImages::number(const Image& image, const Eigen::Vector3d& tint)
+int PovImagesBeside::number(const Image& image, const Eigen::Vector3d& tint)
 {
   const int next = static_cast<int>(this->Numbers.size());
   return this->Numbers.try_emplace({ &image, tint.x(), tint.y(), tint.z() }, next).first->second;
 }
 
-std::string PovImages::write(
-  const Image& image, const std::string& end, int channels, const std::vector<std::uint8_t>& values)
+std::string PovImagesBeside::write(const std::string& end, const std::string& contents)
 {
   const std::string name = this->Stem + end;
   const std::string path = (std::filesystem::path(this->Folder) / name).string();
-  AtomicFile file(path);
-  file.write(
-    (channels == 3 ? "P6\n" : "P5\n") + std::to_string(image.width) + ' ' + std::to_string(image.height) + "\n255\n");
-  file.write(values.data(), values.size());
-  file.commit();
+  writeFile(path, contents);
   this->Files.push_back(path);
   return name;
 }
 
-std::string PovImages::color(const Texture& texture, const Eigen::Vector3d& tint)
+std::string PovImagesBeside::color(const Texture& texture, const Eigen::Vector3d& tint)
 {
   const Image& image = *texture.image;
   const std::string relative = tint == Eigen::Vector3d(1, 1, 1) ? this->own(texture) : std::string();
@@ -84,33 +118,19 @@ std::string PovImages::color(const Texture& texture, const Eigen::Vector3d& tint
   std::string& reference = this->Written[end];
   if (reference.empty())
   {
-    std::vector<std::uint8_t> values;
-    values.reserve(image.rgba.size() / 4 * 3);
-    for (std::size_t i = 0; i < image.rgba.size(); ++i)
-    {
-      if (i % 4 != 3)
-      {
-        values.push_back(static_cast<std::uint8_t>(std::lround(image.rgba[i] * tint[Eigen::Index(i % 4)])));
-      }
-    }
-    reference = "ppm \"" + this->write(image, end, 3, values) + '"';
+    reference = "ppm \"" + this->write(end, povPpm(image, tint)) + '"';
   }
   return reference;
 }
 
-std::string PovImages::mask(const Texture& texture)
+std::string PovImagesBeside::mask(const Texture& texture)
 {
   const Image& image = *texture.image;
   const std::string end = '_' + std::to_string(this->number(image, Eigen::Vector3d(1, 1, 1))) + "_mask.pgm";
   std::string& reference = this->Written[end];
   if (reference.empty())
   {
-    std::vector<std::uint8_t> values;
-    for (std::size_t i = 3; i < image.rgba.size(); i += 4)
-    {
-      values.push_back(image.rgba[i] < 128 ? 0 : 255);
-    }
-    reference = "pgm \"" + this->write(image, end, 1, values) + '"';
+    reference = "pgm \"" + this->write(end, povMaskPgm(image)) + '"';
   }
   return reference;
 }

@@ -15,24 +15,32 @@
 namespace dgtk
 {
 
-/// The pictures of a scene as POV-Ray reads them.
+/// The pictures of a scene as POV-Ray reads them. Textures must have an image.
 class PovImages
 {
 public:
-  /// `scene` is the path of the .pov file.
-  explicit PovImages(const std::string& scene);
-
-  /// `png "picture.png"`: the colours of a texture, times `tint`. Its own file when that is a PNG without alpha that
-  /// POV-Ray finds by its name relative to the scene; else a .ppm is written. The texture must have an image.
-  std::string color(const Texture& texture, const Eigen::Vector3d& tint);
+  virtual ~PovImages() = default;
+  /// `png "picture.png"`: the colours of a texture, times `tint`.
+  virtual std::string color(const Texture& texture, const Eigen::Vector3d& tint) = 0;
   /// `pgm "picture_mask.pgm"`: 255 where a texel is, 0 where it is missing.
-  std::string mask(const Texture& texture);
+  virtual std::string mask(const Texture& texture) = 0;
+};
 
+/// A texture's own file when that is a PNG without alpha that POV-Ray finds by its name relative to the scene; others
+/// are written beside the scene.
+class PovImagesBeside final : public PovImages
+{
+public:
+  /// `scene` is the path of the .pov file.
+  explicit PovImagesBeside(const std::string& scene);
+
+  std::string color(const Texture& texture, const Eigen::Vector3d& tint) override;
+  std::string mask(const Texture& texture) override;
   const std::vector<std::string>& files() const { return this->Files; }
 
 private:
   std::string own(const Texture& texture) const;
-  std::string write(const Image& image, const std::string& end, int channels, const std::vector<std::uint8_t>& values);
+  std::string write(const std::string& end, const std::string& contents);
   int number(const Image& image, const Eigen::Vector3d& tint);
 
   std::string Folder;
@@ -41,6 +49,15 @@ private:
   std::map<std::string, std::string> Written; ///< name -> reference
   std::vector<std::string> Files;
 };
+
+/// Contents of a .ppm with the colours of a picture times `tint`.
+std::string povPpm(const Image& image, const Eigen::Vector3d& tint);
+/// Contents of a .pgm: 255 where a texel is, 0 where it is missing.
+std::string povMaskPgm(const Image& image);
+/// Whether a texture's own file is a PNG whose colours POV-Ray reads as they are.
+bool povReads(const Texture& texture);
+/// A name with nothing in it that POV-Ray's strings or a file system may not hold.
+std::string povPlainName(std::string name);
 
 } // namespace dgtk
 

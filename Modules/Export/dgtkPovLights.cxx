@@ -15,6 +15,8 @@ namespace
 constexpr double WorldAmbient = 0.2;
 /// Of the ball's radius: where a light that falls off from its position on begins to.
 constexpr double NearestFade = 1e-3;
+/// Of the ball's radius: the width of an area light.
+constexpr double AreaWidth = 0.1;
 
 /// fade_power and fade_distance f give 2 / (1 + (d / f)^power): with `scale` on the colour, 1 / (c + l d + q d^2).
 struct Fade
@@ -87,22 +89,29 @@ Eigen::Vector3d povAmbient(const SceneState& state)
   return sum;
 }
 
-std::string povLight(const LightState& light, const View& view, const PovBall& ball, std::vector<std::string>& warnings)
+std::string povLight(const LightState& light, const PovLightContext& context, std::vector<std::string>& warnings)
 {
+  const PovBall& ball = context.ball;
   const bool fades = light.kind == LightState::Kind::Point || light.kind == LightState::Kind::Spot;
   const Fade fade = fades ? fadeOf(light, ball, warnings) : Fade();
-  std::string text = place(light, view, ball);
+  std::string text = place(light, context.view, ball);
   const std::string word = "COLOR";
   text.replace(text.find(word), word.size(), povColor(light.diffuse * light.intensity * fade.scale));
   if (fade.power > 0)
   {
-    text += " fade_distance " + povNumber(fade.distance) + " fade_power " + std::to_string(fade.power);
+    text += " fade_distance " + povNumber(fade.distance * context.scale) + " fade_power " + std::to_string(fade.power);
   }
   if (fades && !light.ambient.isZero(0) && fade.power > 0)
   {
     warnings.push_back("light " + quoted(light.name) + ": its ambient light does not fall off");
   }
-  return "light_source { " + text + " }\n";
+  if (context.options.shadows && context.options.areaLights > 1)
+  {
+    const std::string width = povNumber(AreaWidth * ball.radius);
+    const std::string points = std::to_string(context.options.areaLights);
+    text += " area_light " + width + " * x, " + width + " * y, " + points + ", " + points + " circular orient";
+  }
+  return "light_source { " + text + povScale(context.scale) + " }\n";
 }
 
 } // namespace dgtk

@@ -4,7 +4,7 @@
 
 // Private to Export.
 
-#include "dgtkSceneState.h"
+#include "dgtkPovExport.h"
 
 #include <string>
 #include <vector>
@@ -22,9 +22,17 @@ struct PovBall
 /// Ambient light of the scene: that of the world, 0.2 as in the built-in renderer, and that of the lights.
 Eigen::Vector3d povAmbient(const SceneState& state);
 
+/// What lights depend on beside themselves.
+struct PovLightContext
+{
+  const View& view;
+  const PovOptions& options;
+  PovBall ball;
+  double scale = 1; ///< of the scene as written
+};
+
 /// `light_source { ... }`; a warning is added for what POV-Ray computes otherwise.
-std::string povLight(
-  const LightState& light, const View& view, const PovBall& ball, std::vector<std::string>& warnings);
+std::string povLight(const LightState& light, const PovLightContext& context, std::vector<std::string>& warnings);
 
 } // namespace dgtk
 

@@ -34,7 +34,11 @@ std::string masked(const Model& model, const Material& material, PovImages& imag
          " gamma 1 } pigment_map { [0.5 rgbt <1, 1, 1, 1>] [0.5 " + inside + "] }";
 }
 
-std::string finish(const Material& material, const Eigen::Vector3d& tint, double diffuse, bool highlight)
+/// Largest Phong exponent of a material: a mirror.
+constexpr double MirrorShininess = 128;
+
+std::string finish(
+  const Material& material, const Eigen::Vector3d& tint, double diffuse, bool highlight, bool reflections)
 {
   std::string text =
     "finish { ambient " + povColor(material.ambient.cwiseQuotient(tint)) + " diffuse " + povNumber(diffuse);
@@ -47,13 +51,18 @@ std::string finish(const Material& material, const Eigen::Vector3d& tint, double
   {
     text += " phong " + povNumber(shine) + " phong_size " + povNumber(material.shininess);
   }
+  const double mirror = shine * std::min(material.shininess / MirrorShininess, 1.0);
+  if (reflections && highlight && mirror > 0)
+  {
+    text += " reflection { " + povNumber(mirror) + " }";
+  }
   return text + " }";
 }
 } // namespace
 
 bool povCutOut(const Model& model, const Material& material) { return material.cutOut && imageOf(model, material); }
 
-std::string povMaterial(const Model& model, const Material& material, PovImages& images)
+std::string povMaterial(const Model& model, const Material& material, const PovOptions& options, PovImages& images)
 {
   const double diffuse = material.diffuse.maxCoeff();
   Eigen::Vector3d tint(1, 1, 1);
@@ -75,7 +84,8 @@ std::string povMaterial(const Model& model, const Material& material, PovImages&
     pigment =
       transmit > 0 ? "rgbt " + povVector(Eigen::Vector4d(tint.x(), tint.y(), tint.z(), transmit)) : povColor(tint);
   }
-  return "texture { pigment { " + pigment + " } " + finish(material, tint, diffuse, !cutOut) + " }";
+  return "texture { pigment { " + pigment + " } " + finish(material, tint, diffuse, !cutOut, options.reflections) +
+         " }";
 }
 
 namespace
@@ -93,6 +103,19 @@ std::string povFlatMaterial(const Model& model, const Material& material, std::u
   return povCutOut(model, material)
            ? "texture { pigment { " + masked(model, material, images, idColor(id)) + " }" + FlatFinish + " }"
            : povFlatTexture(id);
+}
+
+std::string povPositionTexture(const PovBox& box)
+{
+  std::string pigments;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    // three pigments are averaged
+    pigments += std::string(" [1 gradient ") + "xyz"[axis] + " color_map { [0 rgb 0] [1 " +
+                povColor(3 * Eigen::Vector3d::Unit(axis)) + "] } scale " + povNumber(box.high[axis] - box.low[axis]) +
+                " translate " + povNumber(box.low[axis]) + " * " + "xyz"[axis] + ']';
+  }
+  return "texture { pigment { average pigment_map {" + pigments + " } }" + FlatFinish + " }";
 }
 
 } // namespace dgtk

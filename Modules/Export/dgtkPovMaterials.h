@@ -4,6 +4,7 @@
 
 // Private to Export.
 
+#include "dgtkPovExport.h"
 #include "dgtkPovImages.h"
 
 #include <string>
@@ -15,12 +16,15 @@ namespace dgtk
 bool povCutOut(const Model& model, const Material& material);
 
 /// `texture { ... }` of a material: the built-in renderer's ambient, diffuse and Phong terms.
-std::string povMaterial(const Model& model, const Material& material, PovImages& images);
+std::string povMaterial(const Model& model, const Material& material, const PovOptions& options, PovImages& images);
 
 /// `texture { ... }` that shines in the colour of an id, with the material's missing texels.
 std::string povFlatMaterial(const Model& model, const Material& material, std::uint32_t id, PovImages& images);
 /// The same for all surfaces without missing texels.
 std::string povFlatTexture(std::uint32_t id);
+
+/// `texture { ... }` that shines in the colour of the place, world frame.
+std::string povPositionTexture(const PovBox& box);
 
 } // namespace dgtk
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPovMeshes.h"
 
-#include "dgtkError.h"
 #include "dgtkPovMaterials.h"
 
 #include <Eigen/Geometry>
@@ -44,38 +43,33 @@ void writeList(PovText& text, const char* name, const List& list, Write write)
   }
   text << "\n  }\n";
 }
-} // namespace
 
-const std::vector<Material>& PovMeshes::materialsOf(const Instance& instance) const
-{
-  return instance.materials ? *instance.materials : instance.model->materials;
-}
-
-void PovMeshes::writeVertices(const Instance& instance)
+void writeVertices(PovText& text, const Instance& instance)
 {
   const Model& model = *instance.model;
   const Geometry& geometry = *instance.geometry;
   const auto vector = [](const auto& v) { return povVector(v); };
-  writeList(this->Text, "vertex_vectors", geometry.positions, vector);
+  writeList(text, "vertex_vectors", geometry.positions, vector);
   if (!isFlat(model, geometry))
   {
-    writeList(this->Text, "normal_vectors", geometry.normals, vector);
+    writeList(text, "normal_vectors", geometry.normals, vector);
   }
   if (!model.uvs.empty())
   {
-    writeList(this->Text, "uv_vectors", model.uvs, vector);
+    writeList(text, "uv_vectors", model.uvs, vector);
   }
 }
 
-/// Of the materials in use; returns material -> index of the list. Empty for a mesh of one flat colour.
-std::vector<int> PovMeshes::writeTextures(const Instance& instance, std::uint32_t id)
+/// Of the materials in use; returns material -> index of the list. Empty for a mesh without textures of its own.
+std::vector<int> writeTextures(
+  PovText& text, const Instance& instance, std::uint32_t ownId, const PovOptions& options, PovImages& images)
 {
-  const Model& model = *instance.model;
-  const std::vector<Material>& materials = this->materialsOf(instance);
-  if (this->Options.flatIds && id == 0)
+  if ((options.flatIds || options.positionColors) && ownId == 0)
   {
     return {};
   }
+  const Model& model = *instance.model;
+  const std::vector<Material>& materials = povMaterialsOf(instance);
   std::vector<int> indices(materials.size(), -1);
   std::vector<std::string> textures;
   for (const Part& part : model.parts)
@@ -85,17 +79,17 @@ std::vector<int> PovMeshes::writeTextures(const Instance& instance, std::uint32_
     {
       const Material& material = materials[static_cast<std::size_t>(part.material)];
       index = static_cast<int>(textures.size());
-      textures.push_back(this->Options.flatIds ? povFlatMaterial(model, material, id, this->Images)
-                                               : povMaterial(model, material, this->Images));
+      textures.push_back(options.flatIds ? povFlatMaterial(model, material, ownId, images)
+                                         : povMaterial(model, material, options, images));
     }
   }
-  writeList(this->Text, "texture_list", textures, [](const std::string& texture) { return texture; });
+  writeList(text, "texture_list", textures, [](const std::string& texture) { return texture; });
   return indices;
 }
 
-void PovMeshes::writeFaces(const Model& model, const std::vector<int>& textures)
+void writeFaces(PovText& text, const Model& model, const std::vector<int>& textures)
 {
-  this->Text << "  face_indices { " + std::to_string(model.triangles.size());
+  text << "  face_indices { " + std::to_string(model.triangles.size());
   for (const Part& part : model.parts)
   {
     const std::string end =
@@ -103,46 +97,48 @@ void PovMeshes::writeFaces(const Model& model, const std::vector<int>& textures)
     for (std::uint32_t i = part.firstTriangle; i < part.firstTriangle + part.triangles; ++i)
     {
       const auto& triangle = model.triangles[i];
-      this->Text << ",\n    <" + std::to_string(triangle[0]) + ", " + std::to_string(triangle[1]) + ", " +
-                      std::to_string(triangle[2]) + '>' + end;
+      text << ",\n    <" + std::to_string(triangle[0]) + ", " + std::to_string(triangle[1]) + ", " +
+                std::to_string(triangle[2]) + '>' + end;
     }
   }
-  this->Text << "\n  }\n";
+  text << "\n  }\n";
+}
+} // namespace
+
+const std::vector<Material>& povMaterialsOf(const Instance& instance)
+{
+  return instance.materials ? *instance.materials : instance.model->materials;
 }
 
-/// The name of the mesh, which is declared unless it was.
-std::string PovMeshes::declare(const Instance& instance, std::uint32_t id)
+std::uint32_t povOwnId(const Instance& instance, std::uint32_t id, const PovOptions& options)
 {
-  const std::vector<Material>& materials = this->materialsOf(instance);
+  const std::vector<Material>& materials = povMaterialsOf(instance);
   const bool cutOut = std::any_of(
     materials.begin(), materials.end(), [&](const Material& material) { return povCutOut(*instance.model, material); });
-  const std::uint32_t own = this->Options.flatIds && cutOut ? id : 0;
-  const Key key(instance.model.get(), instance.geometry.get(), &materials, own);
+  return options.flatIds && cutOut ? id : 0;
+}
+
+void povWriteMesh(
+  PovText& text, const Instance& instance, std::uint32_t ownId, const PovOptions& options, PovImages& images)
+{
+  text << "{\n";
+  writeVertices(text, instance);
+  writeFaces(text, *instance.model, writeTextures(text, instance, ownId, options, images));
+  text << "}\n";
+}
+
+std::string PovMeshesInside::declare(const Instance& instance, std::uint32_t id)
+{
+  const std::uint32_t own = povOwnId(instance, id, this->Options);
+  const Key key(instance.model.get(), instance.geometry.get(), &povMaterialsOf(instance), own);
   const auto [known, isNew] = this->Names.try_emplace(key, "Mesh" + std::to_string(this->Names.size() + 1));
   if (isNew)
   {
-    this->Text << "#declare " + known->second + " = mesh2 {\n";
-    this->writeVertices(instance);
-    this->writeFaces(*instance.model, this->writeTextures(instance, own));
-    this->Text << "}\n\n";
+    this->Text << "#declare " + known->second + " = mesh2 ";
+    povWriteMesh(this->Text, instance, own, this->Options, this->Images);
+    this->Text << "\n";
   }
   return known->second;
-}
-
-void PovMeshes::add(const Instance& instance, std::uint32_t id)
-{
-  if (instance.model->triangles.empty())
-  {
-    return;
-  }
-  const std::string mesh = this->declare(instance, id);
-  this->Text << "// object " + std::to_string(id) + ": " + quoted(instance.name) + "\nobject {\n  " + mesh + '\n';
-  if (this->Options.flatIds)
-  {
-    this->Text << "  " + povFlatTexture(id) + '\n';
-  }
-  this->Text << (this->Options.shadows ? "" : "  no_shadow\n") + ("  " + povMatrix(instance.world_from_object)) +
-                  "\n}\n\n";
 }
 
 } // namespace dgtk

@@ -14,31 +14,69 @@
 namespace dgtk
 {
 
-/// Writes instances; a mesh that several have is declared once.
+/// The materials of an instance: its own or its model's.
+const std::vector<Material>& povMaterialsOf(const Instance& instance);
+
+/// Id that a mesh of its own must know for its textures, or 0 when a mesh serves all objects.
+std::uint32_t povOwnId(const Instance& instance, std::uint32_t id, const PovOptions& options);
+
+/// `mesh2 { ... }` without its end: `{`, lists, `}`.
+void povWriteMesh(
+  PovText& text, const Instance& instance, std::uint32_t ownId, const PovOptions& options, PovImages& images);
+
+/// Where meshes are declared.
 class PovMeshes
 {
 public:
-  PovMeshes(PovText& text, PovImages& images, const PovOptions& options)
+  virtual ~PovMeshes() = default;
+  /// The name of an instance's mesh, which is declared unless it was.
+  virtual std::string declare(const Instance& instance, std::uint32_t id) = 0;
+};
+
+/// In the scene itself.
+class PovMeshesInside final : public PovMeshes
+{
+public:
+  PovMeshesInside(PovText& text, PovImages& images, const PovOptions& options)
     : Text(text)
     , Images(images)
     , Options(options)
   {
   }
-  void add(const Instance& instance, std::uint32_t id);
+  std::string declare(const Instance& instance, std::uint32_t id) override;
 
 private:
   using Key = std::tuple<const Model*, const Geometry*, const std::vector<Material>*, std::uint32_t>;
-
-  const std::vector<Material>& materialsOf(const Instance& instance) const;
-  std::string declare(const Instance& instance, std::uint32_t id);
-  void writeVertices(const Instance& instance);
-  std::vector<int> writeTextures(const Instance& instance, std::uint32_t id);
-  void writeFaces(const Model& model, const std::vector<int>& textures);
 
   PovText& Text;
   PovImages& Images;
   PovOptions Options;
   std::map<Key, std::string> Names;
+};
+
+/// `object { ... }` of each instance.
+class PovObjects
+{
+public:
+  PovObjects(PovText& text, PovMeshes& meshes, const View& view, const PovOptions& options, double scale)
+    : Text(text)
+    , Meshes(meshes)
+    , TheView(view)
+    , Options(options)
+    , Scale(scale)
+  {
+  }
+  void add(const Instance& instance, std::uint32_t id);
+
+private:
+  std::string clipping(const Instance& instance) const;
+  std::string texture(std::uint32_t id) const;
+
+  PovText& Text;
+  PovMeshes& Meshes;
+  const View& TheView;
+  PovOptions Options;
+  double Scale;
 };
 
 } // namespace dgtk

@@ -27,4 +27,6 @@ std::string povMatrix(const Affine3& target_from_source)
   return "matrix " + povVector(rows);
 }
 
+std::string povScale(double scale) { return scale == 1 ? std::string() : " scale " + povNumber(scale); }
+
 } // namespace dgtk

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <string>
 
 namespace dgtk
@@ -36,36 +37,40 @@ inline std::string povColor(const Eigen::Vector3d& color) { return "rgb " + povV
 /// "matrix <12 numbers>": the language multiplies row vectors, so that the columns of `linear` come one after another.
 std::string povMatrix(const Affine3& target_from_source);
 
-/// Text on its way into a file.
+/// " scale 64", or "" for 1.
+std::string povScale(double scale);
+
+/// Text in memory, or on its way into a file.
 class PovText
 {
 public:
-  explicit PovText(const std::string& path)
-    : File(path)
-  {
-  }
+  PovText() = default;
+  explicit PovText(const std::string& path) { this->File.emplace(path); }
   PovText& operator<<(const std::string& text)
   {
     this->Text += text;
-    if (this->Text.size() > (1 << 20))
+    if (this->File && this->Text.size() > (1 << 20))
     {
       this->flush();
     }
     return *this;
   }
+  /// Completes the file.
   void commit()
   {
     this->flush();
-    this->File.commit();
+    this->File->commit();
   }
+  /// Of one in memory.
+  const std::string& text() const { return this->Text; }
 
 private:
   void flush()
   {
-    this->File.write(this->Text);
+    this->File->write(this->Text);
     this->Text.clear();
   }
-  AtomicFile File;
+  std::optional<AtomicFile> File;
   std::string Text;
 };
 

@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkHash.h"
 #include "dgtkModelReader.h"
 #include "dgtkSyntheticScene.h"
 
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <unistd.h>
 
@@ -51,8 +53,8 @@ std::size_t count(const std::string& text, const std::string& word)
   return n;
 }
 
-/// Corners of all triangles, in order.
-std::vector<Eigen::Vector3d> corners(const SceneState& state)
+/// Corners of all triangles, in order, times `scale`.
+std::vector<Eigen::Vector3d> corners(const SceneState& state, double scale)
 {
   std::vector<Eigen::Vector3d> all;
   for (const Instance& instance : state.instances)
@@ -61,7 +63,7 @@ std::vector<Eigen::Vector3d> corners(const SceneState& state)
     {
       for (const std::uint32_t vertex : triangle)
       {
-        all.push_back(instance.world_from_object * instance.geometry->positions[vertex]);
+        all.push_back(scale * (instance.world_from_object * instance.geometry->positions[vertex]));
       }
     }
   }
@@ -82,7 +84,8 @@ std::vector<Eigen::Vector3d> corners(const Model& model)
 }
 
 /// Each triangle begins somewhere, and winding means nothing in the format: one of the six orders must agree.
-void expectSameTriangles(const std::vector<Eigen::Vector3d>& expected, const std::vector<Eigen::Vector3d>& found)
+void expectSameTriangles(
+  const std::vector<Eigen::Vector3d>& expected, const std::vector<Eigen::Vector3d>& found, double scale = 1)
 {
   ASSERT_EQ(expected.size(), found.size());
   for (std::size_t i = 0; i < expected.size(); i += 3)
@@ -98,7 +101,7 @@ void expectSameTriangles(const std::vector<Eigen::Vector3d>& expected, const std
       }
       least = std::min(least, largest);
     }
-    ASSERT_LE(least, RoundTrip) << "triangle " << i / 3;
+    ASSERT_LE(least, RoundTrip * scale) << "triangle " << i / 3;
   }
 }
 
@@ -115,7 +118,93 @@ TEST_F(PovExport, ReadBackHasTheSameTriangles)
   const PovResult result = exportPov(*state, this->V, this->path("s.pov"));
   EXPECT_EQ(result.files, std::vector<std::string>{ this->path("s.pov") });
   EXPECT_EQ(count(readFile(this->path("s.pov")), "mesh2"), 2u);
-  expectSameTriangles(corners(*state), corners(*readModel(this->path("s.pov"))));
+  EXPECT_GT(result.scale, 1);
+  expectSameTriangles(corners(*state, result.scale), corners(*readModel(this->path("s.pov"))), result.scale);
+}
+
+TEST_F(PovExport, IncludedMeshesReadBack)
+{
+  const auto sphere = test::makeSphere();
+  const auto state = test::SceneBuilder()
+                       .add(sphere, test::placement({ 0.3, 1, -2 }, 0.5, { 0, 1, 1 }, 1))
+                       .add(test::makeBox(), test::placement({ 2, 0, 0 }))
+                       .add(sphere, test::placement({ -2, 0, 0 }))
+                       .state();
+  std::filesystem::create_directories(this->path("pov"));
+  std::filesystem::create_directories(this->path("c/pov"));
+  PovLibrary library(this->path("pov"), "../../pov/");
+  const PovScene scene = makePovScene(*state, this->V, {}, library);
+  const PovScene again = makePovScene(*state, this->V, {}, library);
+  EXPECT_EQ(scene.text, again.text);
+  ASSERT_EQ(scene.uses.size(), 2u); // two meshes, three objects
+  writeFile(this->path("c/pov/0.pov"), scene.text);
+  EXPECT_EQ(
+    povSceneUses(this->path("c/pov/0.pov")), (std::vector<std::string>{ scene.uses[0].name, scene.uses[1].name }));
+  for (const PovFile& file : scene.uses)
+  {
+    EXPECT_EQ(Sha256::ofFile(this->path("pov/" + file.name)), file.sha256);
+    EXPECT_EQ(std::filesystem::file_size(this->path("pov/" + file.name)), file.bytes);
+    EXPECT_THAT(file.name, HasSubstr('_' + Sha256::ofFile(this->path("pov/" + file.name)).substr(0, 16)));
+  }
+  expectSameTriangles(corners(*state, scene.scale), corners(*readModel(this->path("c/pov/0.pov"))), scene.scale);
+}
+
+TEST_F(PovExport, LibraryNamesAreThoseOfTheContents)
+{
+  const auto quad = test::makeQuad();
+  test::addCutOut(*quad, 4, 1);
+  const auto state = test::SceneBuilder().add(quad).state();
+  std::vector<std::string> texts;
+  for (const char* folder : { "one", "two" })
+  {
+    std::filesystem::create_directories(this->path(folder));
+    PovLibrary library(this->path(folder), "");
+    const PovScene scene = makePovScene(*state, this->V, {}, library);
+    texts.push_back(scene.text);
+    EXPECT_EQ(scene.uses.size(), 3u); // mesh, colours, mask
+  }
+  EXPECT_EQ(texts[0], texts[1]);
+}
+
+/// The numbers of `<a, b, c>` after a word.
+Eigen::Vector3d vectorAfter(const std::string& text, const std::string& word)
+{
+  Eigen::Vector3d v(NAN, NAN, NAN);
+  const std::size_t at = text.find(word + " <");
+  std::sscanf(text.c_str() + (at == std::string::npos ? text.size() : at + word.size() + 2), "%lf, %lf, %lf", &v[0],
+    &v[1], &v[2]);
+  return v;
+}
+
+TEST_F(PovExport, RowsHaveTheRaysOfTheWhole)
+{
+  Eigen::Matrix3d K;
+  K << 70, 3, 20, 0, 55, 31, 0, 0, 1;
+  this->V.model = makePinhole(64, 48, K);
+  const auto state = test::SceneBuilder().add(test::makeBox()).state();
+  PovLibrary library(this->Folder.string(), "");
+  const auto rayAt = [&](const PovRows& rows, int height, double x, double y) -> Eigen::Vector3d
+  {
+    const std::string text = makePovScene(*state, this->V, {}, library, rows).text;
+    return vectorAfter(text, "direction") + (x / 64 - 0.5) * vectorAfter(text, "right") +
+           (0.5 - y / height) * vectorAfter(text, "up");
+  };
+  for (const double y : { 0.5, 7.5 })
+  {
+    EXPECT_LE((rayAt({ 16, 8 }, 8, 10.5, y) - rayAt({}, 48, 10.5, y + 16)).norm(), 1e-14);
+  }
+}
+
+TEST_F(PovExport, WhatCrossesTheNearPlaneIsCut)
+{
+  const auto state = test::SceneBuilder()
+                       .add(test::makeBox(), test::placement({ 0, 0, 0 }))
+                       .add(test::makeBox(), test::placement({ 1, 2, 8 }))
+                       .state();
+  exportPov(*state, this->V, this->path("n.pov"));
+  const std::string text = readFile(this->path("n.pov"));
+  EXPECT_EQ(count(text, "clipped_by"), 1u);
+  EXPECT_GT(text.find("clipped_by"), text.find("object 2"));
 }
 
 TEST_F(PovExport, ModelKeepsItsAxes)
@@ -150,13 +239,15 @@ TEST_F(PovExport, AttenuationIsThatOfTheFormula)
     state.lights[0].attenuation = k;
     exportPov(state, this->V, this->path("a.pov"));
     const std::string all = readFile(this->path("a.pov"));
-    const std::string light = all.substr(all.find("light_source"), all.find('\n', all.find("light_source")));
+    const std::size_t begin = all.find("light_source");
+    const std::string light = all.substr(begin, all.find('\n', begin) - begin);
     const double scale = after(light, "rgb <");
+    const double size = after(light, " scale "); // of the scene as written
     for (const double d : { 0.1, 1.0, 7.0 })
     {
       const bool fades = k[1] > 0 || k[2] > 0;
       const double fade =
-        fades ? 2 / (1 + std::pow(d / after(light, "fade_distance "), after(light, "fade_power "))) : 1;
+        fades ? 2 / (1 + std::pow(d * size / after(light, "fade_distance "), after(light, "fade_power "))) : 1;
       EXPECT_NEAR(scale * fade, 1 / (k[0] + k[1] * d + k[2] * d * d), 1e-12);
     }
   }

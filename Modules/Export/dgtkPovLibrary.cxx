@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPovLibrary.h"
+
+#include "dgtkFile.h"
+#include "dgtkHash.h"
+
+#include <filesystem>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr std::size_t HashDigits = 16;
+constexpr std::size_t LongestStem = 100;
+/// Forgotten meshes are looked for when so many are known.
+constexpr std::size_t ManyEntries = 256;
+
+std::string hashOf(const std::string& contents)
+{
+  Sha256 hash;
+  hash.update(contents.data(), contents.size());
+  return hash.hex();
+}
+
+std::string stemOf(const std::string& path, const char* fallback)
+{
+  const std::string stem = povPlainName(std::filesystem::path(path).stem().string());
+  return stem.empty() ? fallback : stem.substr(0, LongestStem);
+}
+
+/// Pictures of one mesh.
+class PovImagesIncluded final : public PovImages
+{
+public:
+  explicit PovImagesIncluded(PovLibrary::Impl& library)
+    : Library(library)
+  {
+  }
+
+  std::string color(const Texture& texture, const Eigen::Vector3d& tint) override
+  {
+    const bool whole = tint == Eigen::Vector3d(1, 1, 1) && povReads(texture);
+    const std::string stem = stemOf(texture.path, "texture");
+    return this->named(this->Library.image({ texture.image.get(), tint.x(), tint.y(), tint.z() },
+      [&]
+      {
+        return whole ? this->Library.add(stem, "png", readFile(texture.path))
+                     : this->Library.add(stem, "ppm", povPpm(*texture.image, tint));
+      }));
+  }
+
+  std::string mask(const Texture& texture) override
+  {
+    const std::string stem = stemOf(texture.path, "texture") + "_mask";
+    return this->named(this->Library.image(
+      { texture.image.get(), -1, -1, -1 }, [&] { return this->Library.add(stem, "pgm", povMaskPgm(*texture.image)); }));
+  }
+
+  const std::vector<std::string>& files() const { return this->Files; }
+
+private:
+  std::string named(const std::string& file)
+  {
+    this->Files.push_back(file);
+    return file.substr(file.size() - 3) + " \"" + this->Library.reference + file + '"';
+  }
+
+  PovLibrary::Impl& Library;
+  std::vector<std::string> Files;
+};
+} // namespace
+
+PovLibrary::PovLibrary(const std::string& folder, const std::string& reference)
+  : Self(new Impl)
+{
+  this->Self->folder = folder;
+  this->Self->reference = reference;
+}
+
+PovLibrary::~PovLibrary() = default;
+
+std::string PovLibrary::Impl::add(const std::string& stem, const std::string& extension, const std::string& contents)
+{
+  const std::string hash = hashOf(contents);
+  const std::string name = stem + '_' + hash.substr(0, HashDigits) + '.' + extension;
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  if (this->Written.try_emplace(name, PovFile{ name, contents.size(), hash }).second)
+  {
+    writeFile(this->folder + '/' + name, contents);
+  }
+  return name;
+}
+
+PovFile PovLibrary::Impl::describe(const std::string& name)
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  return this->Written.at(name);
+}
+
+template <class Make>
+std::string PovLibrary::Impl::image(const ImageKey& key, Make make)
+{
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    const auto known = this->Images.find(key);
+    if (known != this->Images.end())
+    {
+      return known->second;
+    }
+  }
+  const std::string name = make(); // twice the same when two threads come at once
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  return this->Images.try_emplace(key, name).first->second;
+}
+
+std::shared_ptr<PovLibrary::Impl::Entry> PovLibrary::Impl::entryOf(const Instance& instance, std::uint32_t ownId)
+{
+  const auto gone = [](const Entry& entry) { return entry.geometry.expired(); };
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  for (auto at = this->Entries.begin(); this->Entries.size() > ManyEntries && at != this->Entries.end();)
+  {
+    at = gone(*at->second) ? this->Entries.erase(at) : std::next(at);
+  }
+  std::shared_ptr<Entry>& entry =
+    this->Entries[{ instance.model.get(), instance.geometry.get(), &povMaterialsOf(instance), ownId }];
+  if (!entry || gone(*entry))
+  {
+    entry = std::make_shared<Entry>();
+    entry->geometry = instance.geometry;
+  }
+  return entry;
+}
+
+PovIncluded PovLibrary::Impl::write(const Instance& instance, std::uint32_t ownId, const PovOptions& options)
+{
+  PovText text;
+  PovImagesIncluded images(*this);
+  povWriteMesh(text, instance, ownId, options, images);
+  PovIncluded included;
+  included.name = "Mesh_" + hashOf(text.text()).substr(0, HashDigits);
+  included.file =
+    this->add(stemOf(instance.model->path, "mesh"), "inc", "#declare " + included.name + " = mesh2 " + text.text());
+  included.pictures = images.files();
+  return included;
+}
+
+PovIncluded PovLibrary::Impl::mesh(const Instance& instance, std::uint32_t ownId, const PovOptions& options)
+{
+  const std::shared_ptr<Entry> entry = this->entryOf(instance, ownId);
+  std::call_once(entry->once, [&] { entry->included = this->write(instance, ownId, options); });
+  return entry->included;
+}
+
+std::string PovMeshesIncluded::declare(const Instance& instance, std::uint32_t id)
+{
+  const PovIncluded mesh = this->Library.mesh(instance, povOwnId(instance, id, this->Options), this->Options);
+  if (this->Known.insert(mesh.file).second)
+  {
+    this->Includes.push_back(mesh.file);
+    this->Uses.push_back(this->Library.describe(mesh.file));
+  }
+  for (const std::string& picture : mesh.pictures)
+  {
+    if (this->Known.insert(picture).second)
+    {
+      this->Uses.push_back(this->Library.describe(picture));
+    }
+  }
+  return mesh.name;
+}
+
+} // namespace dgtk

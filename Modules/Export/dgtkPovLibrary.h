@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkPovLibrary_h
+#define dgtkPovLibrary_h
+
+// Private to Export.
+
+#include "dgtkPovExport.h"
+#include "dgtkPovMeshes.h"
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace dgtk
+{
+
+/// A mesh of the library.
+struct PovIncluded
+{
+  std::string name; ///< of the mesh
+  std::string file; ///< that declares it
+  std::vector<std::string> pictures;
+};
+
+struct PovLibrary::Impl
+{
+  std::string folder;
+  std::string reference;
+
+  PovIncluded mesh(const Instance& instance, std::uint32_t ownId, const PovOptions& options);
+  PovFile describe(const std::string& name);
+  /// Writes a file unless it is there; returns its name <stem>_<hash>.<extension>.
+  std::string add(const std::string& stem, const std::string& extension, const std::string& contents);
+
+  using ImageKey = std::tuple<const Image*, double, double, double>;
+  /// `make` gives the file's name when the image has none yet.
+  template <class Make>
+  std::string image(const ImageKey& key, Make make);
+
+private:
+  /// A mesh is known by addresses, as long as what stands there lives.
+  struct Entry
+  {
+    std::weak_ptr<const Geometry> geometry;
+    std::once_flag once;
+    PovIncluded included;
+  };
+  using MeshKey = std::tuple<const Model*, const Geometry*, const std::vector<Material>*, std::uint32_t>;
+  std::shared_ptr<Entry> entryOf(const Instance& instance, std::uint32_t ownId);
+  PovIncluded write(const Instance& instance, std::uint32_t ownId, const PovOptions& options);
+
+  std::mutex Mutex;
+  std::map<MeshKey, std::shared_ptr<Entry>> Entries;
+  std::map<ImageKey, std::string> Images;
+  std::map<std::string, PovFile> Written;
+};
+
+/// Meshes of a scene that includes them.
+class PovMeshesIncluded final : public PovMeshes
+{
+public:
+  PovMeshesIncluded(PovLibrary::Impl& library, const PovOptions& options)
+    : Library(library)
+    , Options(options)
+  {
+  }
+  std::string declare(const Instance& instance, std::uint32_t id) override;
+  const std::vector<std::string>& includes() const { return this->Includes; }
+  const std::vector<PovFile>& uses() const { return this->Uses; }
+
+private:
+  PovLibrary::Impl& Library;
+  PovOptions Options;
+  std::set<std::string> Known;
+  std::vector<std::string> Includes;
+  std::vector<PovFile> Uses;
+};
+
+} // namespace dgtk
+
+#endif
