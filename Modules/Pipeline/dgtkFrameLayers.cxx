@@ -18,6 +18,8 @@ std::shared_ptr<const FrameLayer> makeAmodalLayer();
 std::shared_ptr<const FrameLayer> makePointsLayer();
 std::shared_ptr<const FrameLayer> makeMattingLayer();
 std::shared_ptr<const FrameLayer> makeCoverageLayer();
+std::shared_ptr<const FrameLayer> makeNoisyColorLayer();
+std::shared_ptr<const FrameLayer> makeNoisyDepthLayer();
 
 const std::vector<std::shared_ptr<const FrameLayer>>& frameLayers()
 {
@@ -35,6 +37,8 @@ const std::vector<std::shared_ptr<const FrameLayer>>& frameLayers()
     makeAmodalLayer(),
     makePointsLayer(),
     makeMattingLayer(),
+    makeNoisyColorLayer(),
+    makeNoisyDepthLayer(),
   };
   return all;
 }

@@ -41,10 +41,17 @@ public:
   virtual void check(const WorkPlan&, const Stage&) const {}
   /// What the manifest says of its files in a format; several where a layer has several images.
   virtual std::vector<LayerRecord> specs(const std::string& format) const = 0;
+  /// The same, for a layer whose specification depends on the request.
+  virtual std::vector<LayerRecord> records(const WorkPlan&, const std::string& format) const
+  {
+    return this->specs(format);
+  }
   /// Options of the request that decide its files, for the manifest and for resuming.
   virtual std::vector<std::pair<std::string, std::string>> options(const GeneratorRequest&) const { return {}; }
   /// Whether its lane reads Band::peeled.
   virtual bool needsPeeling() const { return false; }
+  /// Whether its lane reads Band::rgb.
+  virtual bool needsColor() const { return false; }
   /// Every file that a job writes, relative to the dataset; empty when the job has none.
   virtual std::vector<std::string> files(const WorkPlan&, const Stage&, const Job&) const = 0;
   /// The lane that writes them; called for jobs that have files.

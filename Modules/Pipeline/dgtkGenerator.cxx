@@ -336,7 +336,7 @@ void Run::writeDocuments()
   {
     for (const std::string& format : planned.formats)
     {
-      const std::vector<LayerRecord> records = planned.layer->specs(format);
+      const std::vector<LayerRecord> records = planned.layer->records(this->Plan, format);
       manifest.layers.insert(manifest.layers.end(), records.begin(), records.end());
     }
   }

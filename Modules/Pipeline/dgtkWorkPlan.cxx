@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkFrameLayers.h"
 #include "dgtkLayerWriter.h"
+#include "dgtkNoisySensor.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -253,6 +254,8 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
       plan.representations.push_back({ representation, representation->spec(), resolveFormats(info, request) });
     }
   }
+  plan.layersReadColor = std::any_of(plan.frameLayers.begin(), plan.frameLayers.end(),
+    [](const PlannedFrameLayer& planned) { return planned.layer->needsColor(); });
   const std::string& engine = request.visibility;
   const bool peels = std::any_of(plan.frameLayers.begin(), plan.frameLayers.end(),
     [](const PlannedFrameLayer& planned) { return planned.layer->needsPeeling(); });
@@ -264,6 +267,7 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
       plan.jobs.push_back({ camera, frame });
     }
   }
+  plan.noise = describeNoise(plan, stage);
   for (const PlannedFrameLayer& planned : plan.frameLayers)
   {
     planned.layer->check(plan, stage);
@@ -305,6 +309,7 @@ std::vector<std::pair<std::string, std::string>> describeRequest(const WorkPlan&
   }
   pairs.emplace_back("visibility", plan.raster ? "raster" : "ray");
   pairs.emplace_back("seed", std::to_string(request.seed));
+  pairs.insert(pairs.end(), plan.noise.begin(), plan.noise.end());
   return pairs;
 }
 

@@ -51,9 +51,12 @@ struct WorkPlan
   bool tiles = false;
   bool calibration = false;
   bool raster = false; ///< engine of the visibility buffer: raster or ray
+  bool layersReadColor = false; ///< some frame layer needs Band::rgb
+  /// What decides the noise of the noisy layers, besides the scene.
+  std::vector<std::pair<std::string, std::string>> noise;
   std::vector<Job> jobs;
 
-  bool drawsColor() const { return !this->colorFormats.empty() || this->tiles; }
+  bool drawsColor() const { return !this->colorFormats.empty() || this->tiles || this->layersReadColor; }
   bool needsHits() const { return !this->representations.empty() || !this->frameLayers.empty(); }
   /// Whether a layer is among those asked for.
   bool has(const std::string& layer) const;

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkError.h"
+#include "dgtkFrameLayers.h"
+#include "dgtkNoisySensor.h"
+
+#include "dgtkDepthSensor.h"
+#include "dgtkRepresentation.h"
+#include "dgtkSurfaceRows.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr int stripPixels = 1 << 16; // whose surfaces are computed at once
+
+LayerSpec noisySpec()
+{
+  return { "depth_noisy", PixelType::Float64, 1, "scene units", "camera", "+inf",
+    "z in the camera frame as the camera's depth sensor measures it, positive forward" };
+}
+
+/// The same, as the writers know it: they tell depth by its name.
+LayerSpec writtenSpec()
+{
+  LayerSpec spec = noisySpec();
+  spec.name = "depth";
+  return spec;
+}
+
+/// fx in pixels; 0 for a camera that has none.
+double focalLengthOf(const CameraModel& model)
+{
+  const std::optional<LinearProjection> linear = model.linear();
+  return linear && linear->perspective ? linear->K(0, 0) : 0;
+}
+
+class NoisyDepthLane : public OutputLane
+{
+public:
+  explicit NoisyDepthLane(const JobContext& context)
+    : Context(context)
+    , Depth(makeRepresentation("depth"))
+    , Normal(makeRepresentation("normal"))
+  {
+    const View& view = context.view;
+    const Stage& stage = context.queries.stage();
+    DepthSensorSetup setup;
+    setup.parameters = depthSensorOf(stage, context.job.camera);
+    setup.width = view.model->width();
+    setup.height = view.model->height();
+    setup.key = noiseKey(context.plan.request, stage, context.job);
+    setup.focalLength = focalLengthOf(*view.model);
+    LayerWriterContext writerContext;
+    writerContext.near = view.near;
+    writerContext.far = view.far;
+    if (view.model->linear())
+    {
+      const OpenGLMatrices matrices = openGLMatrices(view);
+      writerContext.projection = matrices.projection;
+      writerContext.modelView = matrices.modelView;
+    }
+    for (const std::string& format : context.plan.formatsOf("depth_noisy"))
+    {
+      this->Names.push_back(
+        WorkPlan::fileName(context.camera, "depth_noisy", context.job.frame, formatExtension(format)));
+      this->Writers.push_back(makeLayerWriter(
+        format, context.path(this->Names.back()), writtenSpec(), setup.width, setup.height, writerContext));
+    }
+    this->Sensor = std::make_unique<DepthSensor>(
+      setup, [this](int y, const double* depth) { this->append(y, depth); }, &context.pool);
+  }
+
+  void write(const Band& band) override
+  {
+    const int stripRows = std::max(1, stripPixels / band.rect.width);
+    const int strips = (band.rect.height + stripRows - 1) / stripRows;
+    const int batch = std::max(1, this->Context.pool.threads());
+    for (int first = 0; first < strips; first += batch)
+    {
+      std::vector<Strip> done(static_cast<std::size_t>(std::min(batch, strips - first)));
+      this->Context.pool.parallelFor(static_cast<int>(done.size()),
+        [&](int i) { done[static_cast<std::size_t>(i)] = this->derive(band, (first + i) * stripRows, stripRows); });
+      for (const Strip& strip : done)
+      {
+        this->Sensor->write(strip.depth.height(), strip.depth.row<double>(strip.depth.y()), strip.cosines.data());
+      }
+    }
+  }
+
+  std::vector<FinishedFile> finish() override
+  {
+    std::vector<FinishedFile> files;
+    for (std::size_t i = 0; i < this->Writers.size(); ++i)
+    {
+      FileRecord record = this->Writers[i]->finish();
+      record.path = this->Names[i];
+      files.push_back({ record, "depth_noisy" });
+    }
+    return files;
+  }
+
+private:
+  struct Strip
+  {
+    Rows depth;
+    std::vector<float> cosines; // between normal and ray
+  };
+
+  Strip derive(const Band& band, int offset, int stripRows) const
+  {
+    const View& view = this->Context.view;
+    PixelRect rect = band.rect;
+    rect.y += offset;
+    rect.height = std::min(stripRows, band.rect.height - offset);
+    SurfaceRows surface;
+    computeSurfaceRows(
+      *this->Context.state, view, rect, band.hits.data() + std::size_t(offset) * rect.width, false, surface);
+    Strip strip;
+    strip.depth = Rows(PixelType::Float64, 1, rect.width, rect.y, rect.height);
+    this->Depth->compute(surface, strip.depth);
+    Rows normals(PixelType::Float32, 3, rect.width, rect.y, rect.height);
+    this->Normal->compute(surface, normals);
+    const float* n = normals.row<float>(rect.y);
+    strip.cosines.resize(surface.t.size());
+    for (std::size_t i = 0; i < surface.t.size(); ++i, n += 3)
+    {
+      if (std::isfinite(surface.t[i]))
+      {
+        const double x = rect.x + double(i % rect.width) + 0.5;
+        const double y = rect.y + double(i / rect.width) + 0.5;
+        const Eigen::Vector3d ray = view.model->rayThrough({ x, y }).direction;
+        strip.cosines[i] = static_cast<float>(std::abs(ray.dot(Eigen::Vector3d(n[0], n[1], n[2]))) / ray.norm());
+      }
+    }
+    return strip;
+  }
+
+  void append(int y, const double* depth)
+  {
+    const int width = this->Context.view.model->width();
+    Rows rows(PixelType::Float64, 1, width, y, 1);
+    std::copy_n(depth, width, rows.row<double>(y));
+    for (const auto& writer : this->Writers)
+    {
+      writer->write(rows);
+    }
+  }
+
+  JobContext Context;
+  std::unique_ptr<Representation> Depth;
+  std::unique_ptr<Representation> Normal;
+  std::vector<std::string> Names;
+  std::vector<std::unique_ptr<LayerWriter>> Writers;
+  std::unique_ptr<DepthSensor> Sensor;
+};
+
+class NoisyDepthLayer final : public FrameLayer
+{
+public:
+  LayerInfo info() const override
+  {
+    return { "depth_noisy", { "npy", "dgd", "exr", "pfm", "png" }, "depth as the camera's depth sensor measures it" };
+  }
+  void check(const WorkPlan& plan, const Stage& stage) const override
+  {
+    for (const Job& job : plan.jobs)
+    {
+      if (depthSensorOf(stage, job.camera).stereo.baseline > 0 &&
+          !(focalLengthOf(*stage.view(job.camera, job.frame, plan.request.width, plan.request.height).model) > 0))
+      {
+        throw UsageError("depth_noisy: the stereo sensor of camera " + quoted(stage.cameraNames()[job.camera]) +
+                         " needs a camera with a focal length (expected a pinhole)");
+      }
+    }
+  }
+  std::vector<LayerRecord> specs(const std::string& format) const override { return { { noisySpec(), format } }; }
+  std::vector<std::string> files(const WorkPlan& plan, const Stage& stage, const Job& job) const override
+  {
+    std::vector<std::string> names;
+    for (const std::string& format : plan.formatsOf("depth_noisy"))
+    {
+      names.push_back(
+        WorkPlan::fileName(stage.cameraNames()[job.camera], "depth_noisy", job.frame, formatExtension(format)));
+    }
+    return names;
+  }
+  std::unique_ptr<OutputLane> makeLane(const JobContext& context) const override
+  {
+    return std::make_unique<NoisyDepthLane>(context);
+  }
+};
+} // namespace
+
+std::shared_ptr<const FrameLayer> makeNoisyDepthLayer();
+std::shared_ptr<const FrameLayer> makeNoisyDepthLayer() { return std::make_shared<NoisyDepthLayer>(); }
+
+} // namespace dgtk

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkNoisySensor.h"
+
+#include "dgtkImageSensor.h"
+
+#include <set>
+
+namespace dgtk
+{
+
+namespace
+{
+const std::optional<SensorParameters>& sensorOf(const Stage& stage, std::size_t camera)
+{
+  return stage.description().cameras[camera].sensor;
+}
+} // namespace
+
+ColorSensorParameters colorSensorOf(const Stage& stage, std::size_t camera)
+{
+  const std::optional<SensorParameters>& sensor = sensorOf(stage, camera);
+  return sensor && sensor->color ? *sensor->color : defaultColorSensor();
+}
+
+DepthSensorParameters depthSensorOf(const Stage& stage, std::size_t camera)
+{
+  const std::optional<SensorParameters>& sensor = sensorOf(stage, camera);
+  return sensor && sensor->depth ? *sensor->depth : defaultDepthSensor();
+}
+
+std::uint64_t noiseSeed(const GeneratorRequest& request, const Stage& stage)
+{
+  return stage.description().seed + static_cast<std::uint64_t>(request.seed);
+}
+
+NoiseKey noiseKey(const GeneratorRequest& request, const Stage& stage, const Job& job)
+{
+  return { noiseSeed(request, stage), static_cast<std::uint32_t>(job.camera), job.frame };
+}
+
+std::vector<std::pair<std::string, std::string>> describeNoise(const WorkPlan& plan, const Stage& stage)
+{
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const char* layer : { "color_noisy", "depth_noisy" })
+  {
+    if (!plan.has(layer))
+    {
+      continue;
+    }
+    if (pairs.empty())
+    {
+      pairs.emplace_back("noise_seed", std::to_string(noiseSeed(plan.request, stage)));
+    }
+    const bool color = layer == std::string("color_noisy");
+    std::set<std::size_t> cameras;
+    for (const Job& job : plan.jobs)
+    {
+      const std::optional<SensorParameters>& sensor = sensorOf(stage, job.camera);
+      if (!sensor || !(color ? sensor->color.has_value() : sensor->depth.has_value()))
+      {
+        cameras.insert(job.camera);
+      }
+    }
+    std::string names;
+    for (const std::size_t camera : cameras)
+    {
+      names += (names.empty() ? "" : ",") + stage.description().cameras[camera].name;
+    }
+    pairs.emplace_back(std::string(layer) + "_default_sensor", names.empty() ? "none" : names);
+  }
+  return pairs;
+}
+
+} // namespace dgtk

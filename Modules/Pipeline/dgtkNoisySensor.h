@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkNoisySensor_h
+#define dgtkNoisySensor_h
+
+#include "dgtkNoiseKey.h"
+#include "dgtkSensorParameters.h"
+#include "dgtkWorkPlan.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dgtk
+{
+
+/// The sensor of a camera of the scene, or the default one.
+ColorSensorParameters colorSensorOf(const Stage& stage, std::size_t camera);
+DepthSensorParameters depthSensorOf(const Stage& stage, std::size_t camera);
+
+/// Seed of the noise: the scene's plus the request's, modulo 2^64.
+std::uint64_t noiseSeed(const GeneratorRequest& request, const Stage& stage);
+NoiseKey noiseKey(const GeneratorRequest& request, const Stage& stage, const Job& job);
+
+/// For the manifest and for resuming: the seed, and the cameras that have default sensors. Empty without a layer that
+/// is noisy.
+std::vector<std::pair<std::string, std::string>> describeNoise(const WorkPlan& plan, const Stage& stage);
+
+} // namespace dgtk
+
+#endif
