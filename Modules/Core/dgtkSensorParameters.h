@@ -73,12 +73,12 @@ struct ColorSensorParameters
   double blackLevel = 0;  ///< part of full scale that is added before the converter and stays
   BayerPattern bayer = BayerPattern::None;
   ResponseCurve response = ResponseCurve::Srgb;
-  double gamma = 2.2;         ///< of ResponseCurve::Gamma: value^(1 / gamma)
-  std::vector<double> table;  ///< of ResponseCurve::Table: output at equal steps of the input from 0 to 1
-  double salt = 0;            ///< probability that a pixel is 1
-  double pepper = 0;          ///< probability that a pixel is 0
-  int jpegQuality = 0;        ///< 1 to 100, 0: none
-  bool jpegSubsampled = true; ///< chroma 4:2:0, otherwise 4:4:4
+  double gamma = 2.2;          ///< of ResponseCurve::Gamma: value^(1 / gamma)
+  std::vector<double> table;   ///< of ResponseCurve::Table: output at equal steps of the input from 0 to 1
+  double salt = 0;             ///< probability that a pixel is 1
+  double pepper = 0;           ///< probability that a pixel is 0
+  int jpegQuality = 0;         ///< 1 to 100, 0: none
+  bool jpegFullChroma = false; ///< chroma 4:4:4, otherwise 4:2:0
 };
 
 /// Noise of a structured-light camera, Nguyen, Izadi and Lovell 2012.

@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkSceneText.h"
+#include "dgtkSensorDescription.h"
 
 #include <algorithm>
 #include <iterator>
@@ -343,7 +344,7 @@ SceneDescription readJsonScene(const std::string& file, const std::string& folde
 
 std::map<std::string, std::vector<std::string>> jsonSceneKeys()
 {
-  return {
+  std::map<std::string, std::vector<std::string>> keys{
     { "scene", keysOf(sceneFields()) },
     { "object", keysOf(objectFields()) },
     { "animation", keysOf(animationFields()) },
@@ -357,6 +358,8 @@ std::map<std::string, std::vector<std::string>> jsonSceneKeys()
     { "unused", keysOf(unusedFields()) },
     { "keys", { "value", "keys", "interpolation" } },
   };
+  keys.merge(sensorKeys());
+  return keys;
 }
 
 } // namespace dgtk::scenefile

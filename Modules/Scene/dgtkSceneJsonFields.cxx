@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSceneJsonRows.h"
+#include "dgtkSensorDescription.h"
 
 namespace dgtk::scenefile
 {
@@ -216,6 +217,7 @@ const std::vector<JsonField<Camera>>& cameraFields()
     poseRow<&Camera::orientation, rules::unit, true>("orientation"),
     structRow<&Camera::shutter, shutterFields>("shutter"),
     structRow<&Camera::lens, lensFields>("lens"),
+    sensorRow(),
     structRow<&Camera::unusedEye, unusedFields>("unusedEye"),
     structRow<&Camera::unusedLookAt, unusedFields>("unusedLookAt"),
   };

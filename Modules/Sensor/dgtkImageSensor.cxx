@@ -32,7 +32,7 @@ struct ImageSensor::Impl
   {
     if (setup.parameters.jpegQuality > 0)
     {
-      this->Jpeg.emplace(setup.parameters.jpegQuality, setup.parameters.jpegSubsampled);
+      this->Jpeg.emplace(setup.parameters.jpegQuality, !setup.parameters.jpegFullChroma);
     }
   }
 
