@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <cstdio>
 
 #include <signal.h>
@@ -77,6 +78,47 @@ std::string oneOf(const Arguments& arguments, const std::string& option, const s
   return value;
 }
 
+double positive(const std::string& text, const std::string& option)
+{
+  double value = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc() || end != text.data() + text.size() || !(value > 0) || value > 1e30)
+  {
+    throw UsageError(option + ": expected a number above 0, found " + quoted(text));
+  }
+  return value;
+}
+
+// What POV-Ray shall show. The options mean nothing when it does not draw and no scene is written for it.
+PovRenderOptions parsePov(const Arguments& arguments, const GeneratorRequest& request)
+{
+  PovRenderOptions pov;
+  pov.shadows = arguments.has("--pov-shadows");
+  pov.areaLights = arguments.has("--pov-area-lights") ? arguments.integer("--pov-area-lights", 2, 64) : 0;
+  pov.reflections = arguments.has("--pov-reflections");
+  pov.radiosity = arguments.has("--pov-radiosity");
+  pov.antialias = arguments.has("--pov-antialias") ? arguments.integer("--pov-antialias", 1, 9) : 0;
+  if (arguments.has("--pov-focal-blur"))
+  {
+    const std::vector<std::string> numbers = arguments.list("--pov-focal-blur");
+    if (numbers.size() != 2)
+    {
+      throw UsageError(
+        "--pov-focal-blur: expected APERTURE,DISTANCE, found " + quoted(arguments.text("--pov-focal-blur")));
+    }
+    pov.aperture = positive(numbers[0], "--pov-focal-blur aperture");
+    pov.focus = positive(numbers[1], "--pov-focal-blur distance");
+  }
+  const auto& layers = request.layers;
+  const bool scenes = std::any_of(
+    layers.begin(), layers.end(), [](const std::string& layer) { return layer == "pov" || layer == "all"; });
+  if (request.renderer != "povray" && !scenes && !pov.describe().empty())
+  {
+    throw UsageError("--pov-... options are for --renderer povray or the layer pov");
+  }
+  return pov;
+}
+
 // --depth-format npy,dgd and the like: one option a layer that can be written in more than one way.
 std::string formatOption(const LayerInfo& layer) { return "--" + layer.layer + "-format"; }
 
@@ -103,6 +145,8 @@ GeneratorRequest parseRequest(const Arguments& arguments)
   request.samples = arguments.integer("--samples", 1, 16);
   oneOf(arguments, "--color-bits", { "8", "16" });
   request.colorBits = arguments.integer("--color-bits", 8, 16);
+  request.renderer = oneOf(arguments, "--renderer", { "vtk", "povray" });
+  request.pov = parsePov(arguments, request);
   request.visibility = oneOf(arguments, "--visibility", { "auto", "raster", "ray" });
   request.gl = oneOf(arguments, "--gl", { "auto", "egl", "osmesa", "glx" });
   request.threads = arguments.integer("--threads", 0, 256);
@@ -170,7 +214,14 @@ Command renderCommand()
     { "--matte", "NAMES", "", "objects of the matting layer" },
     { "--points-step", "N", "4", "pixels between the samples of the points layer" },
     { "--samples", "N", "1", "N x N points a pixel: colour is their mean; alpha, coverage and matting count them" },
-    { "--color-bits", "8|16", "8", "bits a channel of colour PNG files" } };
+    { "--color-bits", "8|16", "8", "bits a channel of colour PNG files" },
+    { "--renderer", "vtk|povray", "vtk", "what draws colour; POV-Ray 3.7 must be installed" },
+    { "--pov-shadows", "", "", "POV-Ray: objects cast shadows" },
+    { "--pov-area-lights", "N", "", "POV-Ray: soft shadows, lights of N x N points" },
+    { "--pov-reflections", "", "", "POV-Ray: shiny materials reflect" },
+    { "--pov-radiosity", "", "", "POV-Ray: light between surfaces in place of ambient light" },
+    { "--pov-focal-blur", "APERTURE,DISTANCE", "", "POV-Ray: diameter of the lens, distance in focus, scene units" },
+    { "--pov-antialias", "N", "", "POV-Ray: N x N points a pixel (default: that of --samples)" } };
   for (const LayerInfo& layer : generatorLayers())
   {
     if (layer.formats.size() > 1)

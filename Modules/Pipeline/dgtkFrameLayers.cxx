@@ -20,6 +20,7 @@ std::shared_ptr<const FrameLayer> makeMattingLayer();
 std::shared_ptr<const FrameLayer> makeCoverageLayer();
 std::shared_ptr<const FrameLayer> makeNoisyColorLayer();
 std::shared_ptr<const FrameLayer> makeNoisyDepthLayer();
+std::shared_ptr<const FrameLayer> makePovLayer();
 
 const std::vector<std::shared_ptr<const FrameLayer>>& frameLayers()
 {
@@ -39,6 +40,7 @@ const std::vector<std::shared_ptr<const FrameLayer>>& frameLayers()
     makeMattingLayer(),
     makeNoisyColorLayer(),
     makeNoisyDepthLayer(),
+    makePovLayer(),
   };
   return all;
 }

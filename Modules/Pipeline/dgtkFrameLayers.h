@@ -54,6 +54,9 @@ public:
   virtual bool needsColor() const { return false; }
   /// Every file that a job writes, relative to the dataset; empty when the job has none.
   virtual std::vector<std::string> files(const WorkPlan&, const Stage&, const Job&) const = 0;
+  /// Files of the dataset that a finished file of the layer needs and that other jobs may need, too, relative to the
+  /// dataset.
+  virtual std::vector<std::string> sharedFiles(const std::string& /*path*/) const { return {}; }
   /// The lane that writes them; called for jobs that have files.
   virtual std::unique_ptr<OutputLane> makeLane(const JobContext&) const = 0;
 };

@@ -16,27 +16,28 @@ FrameOutput::FrameOutput(const JobContext& context)
   const View& view = context.view;
   for (const std::string& format : plan.colorFormats)
   {
-    this->addLane(makeColorLane(plan, job, camera, view, format));
+    this->addLane(makeColorLane(plan, job, camera, view, format), true);
   }
   if (plan.tiles)
   {
-    this->addLane(makeTilesLane(plan, job, camera, view));
+    this->addLane(makeTilesLane(plan, job, camera, view), true);
   }
   if (!plan.representations.empty())
   {
-    this->addLane(makeGeometryLane(plan, job, camera, context.state, view, context.pool));
+    this->addLane(makeGeometryLane(plan, job, camera, context.state, view, context.pool), false);
   }
   for (const PlannedFrameLayer& planned : plan.frameLayers)
   {
     if (!planned.layer->files(plan, context.queries.stage(), job).empty())
     {
-      this->addLane(planned.layer->makeLane(context));
+      this->addLane(planned.layer->makeLane(context), planned.layer->needsColor());
     }
   }
 }
 
-void FrameOutput::addLane(std::unique_ptr<OutputLane> lane)
+void FrameOutput::addLane(std::unique_ptr<OutputLane> lane, bool readsColor)
 {
+  this->ReadsColor.push_back(readsColor);
   this->Lanes.push_back(std::move(lane));
   this->Queues.push_back(std::make_unique<SerialQueue>(this->Pool));
 }
@@ -46,7 +47,7 @@ void FrameOutput::submit(const std::shared_ptr<DrawnBand>& band)
   for (std::size_t i = 0; i < this->Lanes.size(); ++i)
   {
     OutputLane* lane = this->Lanes[i].get();
-    this->Queues[i]->submit([lane, band] { lane->write(band->whole()); });
+    this->Queues[i]->submit([lane, band, colored = this->ReadsColor[i]] { lane->write(band->whole(colored)); });
   }
 }
 

@@ -38,15 +38,22 @@ public:
   Band band;
   std::function<void()> rest = [] {}; ///< to be done until `band` is whole; waits for no other job
 
-  /// Does the rest when it is called first, in whichever thread.
-  const Band& whole()
+  std::function<void()> color = [] {}; ///< to be done until Band::rgb is there, where that takes longer than the rest
+
+  /// Does the rest when it is called first, in whichever thread. With `colored`, Band::rgb is there as well.
+  const Band& whole(bool colored = true)
   {
     std::call_once(this->Once, this->rest);
+    if (colored)
+    {
+      std::call_once(this->ColorOnce, this->color);
+    }
     return this->band;
   }
 
 private:
   std::once_flag Once;
+  std::once_flag ColorOnce;
 };
 
 /// A file of the dataset that is complete.
@@ -54,6 +61,7 @@ struct FinishedFile
 {
   FileRecord record; ///< its path is relative to the dataset's folder
   std::string layer;
+  bool shared = false; ///< of no camera and frame; other jobs may have finished it, too
 };
 
 /// The files of one lane: layers that are written by one job at a time.
@@ -79,8 +87,9 @@ public:
   std::vector<FinishedFile> finish();
 
 private:
-  void addLane(std::unique_ptr<OutputLane> lane);
+  void addLane(std::unique_ptr<OutputLane> lane, bool readsColor);
   ThreadPool& Pool;
+  std::vector<bool> ReadsColor; // one a lane
   std::vector<std::unique_ptr<OutputLane>> Lanes;
   std::vector<std::unique_ptr<SerialQueue>> Queues; // one a lane; destroyed first: they wait for their jobs
 };

@@ -21,7 +21,11 @@ FrameSource::FrameSource(const FrameSourceOptions& options, ThreadPool& pool)
   {
     this->Ray = makeRaySource(pool);
   }
-  if (options.color || options.peel || !options.mattes.empty() || (options.hits && options.raster))
+  if (options.color && options.pov)
+  {
+    this->Pov = std::make_unique<PovColorSource>(*options.pov, pool);
+  }
+  if (this->rasterColor() || options.peel || !options.mattes.empty() || (options.hits && options.raster))
   {
     std::unique_ptr<RasterSource> raster = makeRasterSource(glBackendFromName(options.gl));
     this->Description = raster->choice().description;
@@ -48,6 +52,10 @@ void FrameSource::setScene(const std::shared_ptr<const SceneState>& state, const
   if (this->Matting)
   {
     this->Matting->setScene(state, view);
+  }
+  if (this->Pov)
+  {
+    this->Pov->setScene(state, view);
   }
   this->Grid = std::make_unique<TileGrid>(view.model->width(), view.model->height());
 }
@@ -76,7 +84,7 @@ std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect)
   }
   try
   {
-    if (this->Options.color)
+    if (this->rasterColor())
     {
       tile->rest =
         this->Raster->drawColor(rect, this->Options.samples, tile->colors, rasterHits ? &tile->hits : nullptr);
@@ -129,6 +137,15 @@ void place(const std::vector<T>& from, const PixelRect& tile, int channels, cons
 
 void FrameSource::draw(int row, DrawnBand& drawn)
 {
+  this->drawBand(row, drawn);
+  if (this->Pov)
+  {
+    drawn.color = [&band = drawn.band, draw = this->Pov->colorOf(drawn.band.rect)] { band.rgb = draw(); };
+  }
+}
+
+void FrameSource::drawBand(int row, DrawnBand& drawn)
+{
   Band& band = drawn.band;
   const int columns = this->Grid->columns();
   if (columns == 1)
@@ -148,7 +165,7 @@ void FrameSource::draw(int row, DrawnBand& drawn)
   band.rect = { 0, last.y, last.x + last.width, last.height };
   const std::size_t pixels = std::size_t(band.rect.width) * band.rect.height;
   band.hits.resize(this->Options.hits ? pixels : 0);
-  band.rgb.resize(this->Options.color ? pixels * 3 : 0);
+  band.rgb.resize(this->rasterColor() ? pixels * 3 : 0);
   band.mattes.resize(this->Options.mattes.size());
   for (MattePixels& matte : band.mattes)
   {
@@ -179,7 +196,7 @@ void FrameSource::draw(int row, DrawnBand& drawn)
           {
             place(tile->hits.hits, rect, 1, band.rect, band.hits);
           }
-          if (this->Options.color)
+          if (this->rasterColor())
           {
             place(tile->colors.rgb, rect, 3, band.rect, band.rgb);
           }

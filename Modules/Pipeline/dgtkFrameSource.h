@@ -3,10 +3,12 @@
 #define dgtkFrameSource_h
 
 #include "dgtkFrameOutput.h"
+#include "dgtkPovColorSource.h"
 
 #include "dgtkVisibility.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace dgtk
@@ -22,6 +24,7 @@ struct FrameSourceOptions
   int samples = 1;
   std::vector<std::uint32_t> mattes; ///< ids of the objects whose mattes are wanted
   std::string gl = "auto";
+  std::optional<PovColorSettings> pov; ///< colours are POV-Ray's
 };
 
 /// Draws the bands of pictures with the engines that the options need. To be used from one thread: that of OpenGL.
@@ -42,11 +45,15 @@ public:
 private:
   struct Tile;
   std::shared_ptr<Tile> drawTile(const PixelRect& rect);
+  void drawBand(int row, DrawnBand& drawn);
+  /// Whether the raster engine gives the colours.
+  bool rasterColor() const { return this->Options.color && !this->Pov; }
   FrameSourceOptions Options;
   ThreadPool& Pool;
   std::unique_ptr<VisibilitySource> Ray;
   std::unique_ptr<RasterSource> Raster;
   std::unique_ptr<MattingSource> Matting;
+  std::unique_ptr<PovColorSource> Pov;
   std::unique_ptr<TileGrid> Grid;
   std::string Description;
 };

@@ -8,12 +8,12 @@
 #include "dgtkFrameOutput.h"
 #include "dgtkFrameSource.h"
 #include "dgtkHash.h"
+#include "dgtkRunFiles.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWorkPlan.h"
 
 #include "dgtkContactSheet.h"
 #include "dgtkDatasetDocuments.h"
-#include "dgtkJournal.h"
 
 #include <algorithm>
 #include <deque>
@@ -53,10 +53,10 @@ private:
   };
 
   std::shared_ptr<const SceneState> stateAt(int frame);
+  void renderAll();
   void render(const Job& job);
   void drawBand(int row, FrameOutput& output);
   void completeOldest();
-  void add(const DatasetFile& file);
   bool keep(const Job& job);
   std::vector<std::string> filesOf(const Job& job) const;
   void writeDocuments();
@@ -81,8 +81,7 @@ private:
   int Threads;
   std::vector<InputRecord> Inputs;
   std::string RequestHash;
-  std::unique_ptr<Journal> Log;
-  std::vector<DatasetFile> Files;
+  std::unique_ptr<RunFiles> Files;
   std::unique_ptr<ThreadPool> Pool;
   std::unique_ptr<FrameSource> Source;
   SceneQueries Queries;
@@ -118,6 +117,10 @@ GeneratorResult Run::execute()
   options.samples = request.samples;
   options.mattes = matteObjects(this->Plan, *this->Scene);
   options.gl = request.gl;
+  if (request.renderer == "povray")
+  {
+    options.pov = PovColorSettings{ request.pov, request.folder, request.samples, this->Callbacks.cancel };
+  }
   this->Pool = std::make_unique<ThreadPool>(this->Threads);
   this->Source = std::make_unique<FrameSource>(options, *this->Pool);
   this->Result.glDescription = this->Source->glDescription();
@@ -129,13 +132,42 @@ GeneratorResult Run::execute()
     identity.emplace_back(input.path, input.sha256);
   }
   this->RequestHash = hashOf(identity);
-  this->Log = std::make_unique<Journal>(request.folder, this->RequestHash, request.resume);
+  this->Files = std::make_unique<RunFiles>(request.folder, this->RequestHash, request.resume);
 
   if (!this->Result.glDescription.empty())
   {
     this->say(this->Result.glDescription);
   }
 
+  try
+  {
+    this->renderAll();
+  }
+  catch (const Error&)
+  {
+    if (!this->cancelled())
+    {
+      throw;
+    }
+    this->Result.interrupted = true; // while POV-Ray was drawing
+    this->Opened.clear();
+  }
+  this->Source.reset();
+  this->Result.pictures = this->Done;
+  if (!this->Result.interrupted)
+  {
+    this->writeDocuments();
+    if (this->Callbacks.progress)
+    {
+      this->Callbacks.progress({ this->Done, this->Plan.jobs.size() });
+    }
+  }
+  this->Result.files += this->Files->files().size();
+  return this->Result;
+}
+
+void Run::renderAll()
+{
   for (const Job& job : this->Plan.jobs)
   {
     if (this->cancelled())
@@ -159,18 +191,6 @@ GeneratorResult Run::execute()
   {
     this->completeOldest();
   }
-  this->Source.reset();
-  this->Result.pictures = this->Done;
-  if (!this->Result.interrupted)
-  {
-    this->writeDocuments();
-    if (this->Callbacks.progress)
-    {
-      this->Callbacks.progress({ this->Done, this->Plan.jobs.size() });
-    }
-  }
-  this->Result.files = this->Files.size();
-  return this->Result;
 }
 
 std::shared_ptr<const SceneState> Run::stateAt(int frame)
@@ -236,18 +256,14 @@ void Run::completeOldest()
 {
   Open open = std::move(this->Opened.front());
   this->Opened.pop_front();
-  std::vector<FinishedFile> files = open.output->finish();
-  for (const FinishedFile& file : files)
-  {
-    this->add({ file.record.path, file.record.bytes, file.record.sha256, file.layer, this->cameraName(open.job),
-      open.job.frame });
-  }
+  const std::vector<FinishedFile> files = open.output->finish();
+  this->Files->add(files, this->cameraName(open.job), open.job.frame);
   if (this->Plan.calibration)
   {
     const View view = this->viewOf(open.job);
     const OpenGLMatrices matrices = openGLMatrices(view);
     const std::string name = WorkPlan::fileName(this->cameraName(open.job), "calibration", open.job.frame, "txt");
-    this->add(writeDocument(this->Plan.request.folder, name,
+    this->Files->add(writeDocument(this->Plan.request.folder, name,
       calibrationText(
         makeCalibration(matrices.projection, matrices.modelView, view.model->width(), view.model->height())),
       "calibration", this->cameraName(open.job), open.job.frame));
@@ -255,28 +271,25 @@ void Run::completeOldest()
   ++this->Done;
 }
 
-void Run::add(const DatasetFile& file)
-{
-  this->Log->add(file);
-  this->Files.push_back(file);
-}
-
 // A picture is kept when every file that it consists of is in the journal; files of the tiles layer follow from the
 // sizes.
 bool Run::keep(const Job& job)
 {
-  std::vector<DatasetFile> files;
-  for (const std::string& name : this->filesOf(job))
+  const std::vector<std::string> own = this->filesOf(job);
+  if (!this->Files->has(own))
   {
-    const DatasetFile* file = this->Log->find(name);
-    if (!file)
-    {
-      return false;
-    }
-    files.push_back(*file);
+    return false;
   }
-  this->Files.insert(this->Files.end(), files.begin(), files.end());
-  return true;
+  std::vector<std::string> shared;
+  for (const PlannedFrameLayer& planned : this->Plan.frameLayers)
+  {
+    for (const std::string& name : planned.layer->files(this->Plan, *this->Scene, job))
+    {
+      const std::vector<std::string> needed = planned.layer->sharedFiles(this->Plan.request.folder + '/' + name);
+      shared.insert(shared.end(), needed.begin(), needed.end());
+    }
+  }
+  return this->Files->keep(own, shared);
 }
 
 std::vector<std::string> Run::filesOf(const Job& job) const
@@ -340,19 +353,20 @@ void Run::writeDocuments()
       manifest.layers.insert(manifest.layers.end(), records.begin(), records.end());
     }
   }
-  this->Files.push_back(
+  manifest.files = this->Files->files();
+  const std::size_t pictures = manifest.files.size();
+  manifest.files.push_back(
     writeDocument(request.folder, "cameras.json", camerasText(cameraRecords(this->Plan, *this->Scene))));
-  this->Files.push_back(writeDocument(request.folder, "objects.json",
+  manifest.files.push_back(writeDocument(request.folder, "objects.json",
     objectsText(objectRecords(*this->Scene, this->Plan.jobs.front().frame, request.folder))));
-  this->Files.push_back(
+  manifest.files.push_back(
     writeDocument(request.folder, "scene.json", toJson(this->Scene->description(), request.folder)));
-  manifest.files = this->Files;
   if (request.contactSheet)
   {
     manifest.files.push_back(writeContactSheet(request.folder, manifest, "contact.png"));
-    this->Files.push_back(manifest.files.back());
   }
-  this->Log->close(manifest);
+  this->Result.files = manifest.files.size() - pictures;
+  this->Files->close(manifest);
 }
 } // namespace
 

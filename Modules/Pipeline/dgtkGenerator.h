@@ -4,6 +4,8 @@
 
 #include "dgtkPipelineModule.h"
 
+#include "dgtkPovRenderOptions.h"
+
 #include <atomic>
 #include <cstddef>
 #include <functional>
@@ -45,6 +47,8 @@ struct GeneratorRequest
   int seed = 0;                    ///< of random numbers
   int samples = 1;                 ///< colour is the mean of samples x samples points a pixel, 1 to 16
   int colorBits = 8;               ///< of colour in PNG: 8 or 16
+  std::string renderer = "vtk";    ///< of colour: vtk or povray
+  PovRenderOptions pov;            ///< of POV-Ray and of the layer pov
   std::string visibility = "auto"; ///< auto, raster or ray
   std::string gl = "auto";         ///< auto, egl, osmesa or glx
   int threads = 0;                 ///< 0: as many as the machine has cores
@@ -84,7 +88,7 @@ struct GeneratorCallbacks
 {
   std::function<void(const GeneratorProgress&)> progress; ///< called from the calling thread
   std::function<void(const std::string&)> message;        ///< one line: engine chosen, warnings
-  const std::atomic<bool>* cancel = nullptr;              ///< checked between pictures
+  const std::atomic<bool>* cancel = nullptr;              ///< checked between pictures, and while POV-Ray draws
 };
 
 /// Renders the dataset. Throws UsageError, InputError or MachineError; what was finished before stays and can be

@@ -126,7 +126,7 @@ std::vector<int> resolveFrames(const std::optional<FrameRange>& asked, const Sce
 
 std::vector<LayerInfo> generatorLayers()
 {
-  std::vector<LayerInfo> layers{ { "color", { "png", "exr" }, "the picture, by VTK" } };
+  std::vector<LayerInfo> layers{ { "color", { "png", "exr" }, "the picture, by VTK or POV-Ray" } };
   for (const RepresentationInfo& info : representations())
   {
     layers.push_back({ info.layer, makeRepresentation(info.layer)->formats(), info.description });
@@ -268,6 +268,10 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
     }
   }
   plan.noise = describeNoise(plan, stage);
+  if (plan.has("pov"))
+  {
+    plan.povLibrary = makePovLibrary(request.folder);
+  }
   for (const PlannedFrameLayer& planned : plan.frameLayers)
   {
     planned.layer->check(plan, stage);
@@ -307,6 +311,12 @@ std::vector<std::pair<std::string, std::string>> describeRequest(const WorkPlan&
     const auto options = planned.layer->options(request);
     pairs.insert(pairs.end(), options.begin(), options.end());
   }
+  if (request.renderer != "vtk")
+  {
+    pairs.emplace_back("renderer", request.renderer);
+  }
+  const auto povray = request.pov.describe();
+  pairs.insert(pairs.end(), povray.begin(), povray.end());
   pairs.emplace_back("visibility", plan.raster ? "raster" : "ray");
   pairs.emplace_back("seed", std::to_string(request.seed));
   pairs.insert(pairs.end(), plan.noise.begin(), plan.noise.end());

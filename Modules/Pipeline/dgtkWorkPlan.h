@@ -32,6 +32,7 @@ struct PlannedLayer
 };
 
 class FrameLayer;
+class PovLibrary;
 
 /// A frame layer and its file formats.
 struct PlannedFrameLayer
@@ -50,11 +51,12 @@ struct WorkPlan
   std::vector<std::string> colorFormats; ///< "png", "exr"; empty when no colour is written
   bool tiles = false;
   bool calibration = false;
-  bool raster = false; ///< engine of the visibility buffer: raster or ray
+  bool raster = false;          ///< engine of the visibility buffer: raster or ray
   bool layersReadColor = false; ///< some frame layer needs Band::rgb
   /// What decides the noise of the noisy layers, besides the scene.
   std::vector<std::pair<std::string, std::string>> noise;
   std::vector<Job> jobs;
+  std::shared_ptr<PovLibrary> povLibrary; ///< of the layer pov; null without it
 
   bool drawsColor() const { return !this->colorFormats.empty() || this->tiles || this->layersReadColor; }
   bool needsHits() const { return !this->representations.empty() || !this->frameLayers.empty(); }
@@ -76,6 +78,9 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage);
 
 /// The request as ordered key and value pairs: what the manifest records and what decides whether a run can be resumed.
 std::vector<std::pair<std::string, std::string>> describeRequest(const WorkPlan& plan);
+
+/// What the scenes of the layer pov share, in a dataset's folder.
+std::shared_ptr<PovLibrary> makePovLibrary(const std::string& folder);
 
 /// File name extension of a format, without the dot.
 std::string formatExtension(const std::string& format);

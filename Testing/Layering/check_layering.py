@@ -26,7 +26,7 @@ ALLOWED = {
     "Export": ["Stage"],
     "DatasetIO": ["Core"],
     "Sensor": ["Core"],
-    "Pipeline": ["GroundTruth", "DatasetIO", "RenderGL", "RayTrace", "Sensor"],
+    "Pipeline": ["GroundTruth", "DatasetIO", "RenderGL", "RayTrace", "Sensor", "Export"],
     "Verification": ["Stage", "RayTrace", "DatasetIO"],
     "Widgets": ["Pipeline", "RenderGL"],
 }
