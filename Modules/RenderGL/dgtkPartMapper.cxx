@@ -5,6 +5,7 @@
 #include <vtkOpenGLHelper.h>
 #include <vtkOpenGLIndexBufferObject.h>
 #include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
 #include <vtkOpenGLVertexBufferObject.h>
 #include <vtkOpenGLVertexBufferObjectGroup.h>
 #include <vtkPolyData.h>
@@ -123,6 +124,12 @@ ShaderVariant PartMapper::currentVariant() const
   variant.lightTexture = this->Frame->lights.count() > this->Frame->maxUniformLights;
   variant.peel = this->Frame->peel;
   variant.collect = this->Frame->collect;
+  variant.shadows = this->Frame->shadows;
+  variant.fog = this->Frame->fog;
+  variant.environment = this->Frame->environment;
+  variant.physical = this->Material.physical || this->Frame->environment;
+  variant.metallicRoughnessMap = variant.physical && variant.metallicRoughnessMap;
+  variant.occlusionMap = variant.physical && variant.occlusionMap;
   return variant;
 }
 
@@ -167,17 +174,87 @@ void PartMapper::SetCameraShaderParameters(vtkOpenGLHelper& cell, vtkRenderer*, 
 void PartMapper::SetPropertyShaderParameters(vtkOpenGLHelper& cell, vtkRenderer* renderer, vtkActor* actor)
 {
   this->Superclass::SetPropertyShaderParameters(cell, renderer, actor);
-  cell.Program->SetUniform3f("dgtkEmission", static_cast<PartActor*>(actor)->emission.data());
+  const auto* part = static_cast<PartActor*>(actor);
+  cell.Program->SetUniform3f("dgtkEmission", part->emission.data());
+  if (part->surface && (this->Built.physical || part->surface->hasMaps()))
+  {
+    this->setSurface(*cell.Program, *part->surface);
+    static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow())->GetState()->ResetGLActiveTexture();
+  }
+}
+
+/// Textures that the program does not read are bound without harm.
+void PartMapper::setSurface(vtkShaderProgram& program, const SurfaceParameters& surface) const
+{
+  const auto bind = [&program](bool used, const char* name, unsigned int texture, int unit)
+  {
+    if (used)
+    {
+      glActiveTexture(GLenum(GL_TEXTURE0 + unit));
+      glBindTexture(GL_TEXTURE_2D, texture);
+      program.SetUniformi(name, unit);
+    }
+  };
+  bind(this->Built.normalMap, "dgtkNormalMap", surface.normalMap, RasterUnits::Maps);
+  bind(this->Built.bumpMap, "dgtkBumpMap", surface.bumpMap, RasterUnits::Maps + 1);
+  bind(this->Built.metallicRoughnessMap, "dgtkMetalRoughMap", surface.metallicRoughnessMap, RasterUnits::Maps + 2);
+  bind(this->Built.emissionMap, "dgtkEmissionMap", surface.emissionMap, RasterUnits::Maps + 3);
+  bind(this->Built.occlusionMap, "dgtkOcclusionMap", surface.occlusionMap, RasterUnits::Maps + 4);
+  if (this->Built.normalMap)
+  {
+    program.SetUniformf("dgtkNormalScale", surface.normalScale);
+  }
+  if (this->Built.bumpMap)
+  {
+    program.SetUniformf("dgtkBumpScale", surface.bumpScale);
+  }
+  if (this->Built.occlusionMap)
+  {
+    program.SetUniformf("dgtkOcclusionStrength", surface.occlusionStrength);
+  }
+  if (this->Built.physical)
+  {
+    program.SetUniform2f("dgtkMetalRough", surface.metalRough.data());
+    program.SetUniform3f("dgtkF0", surface.f0.data());
+  }
+}
+
+void PartMapper::setEnvironment(vtkShaderProgram& program) const
+{
+  RasterFrame& frame = *this->Frame;
+  if (this->Built.shadows)
+  {
+    program.SetUniformi("dgtkShadowMaps", RasterUnits::ShadowMaps);
+    program.SetUniformi("dgtkShadowData", RasterUnits::ShadowData);
+    program.SetUniformMatrix3x3("dgtkWorldFromView", frame.worldFromView.data());
+  }
+  if (this->Built.environment)
+  {
+    program.SetUniformi("dgtkEnvironment", RasterUnits::Radiance);
+    program.SetUniformi("dgtkReflectance", RasterUnits::Reflectance);
+    program.SetUniformMatrix3x3("dgtkImageFromView", frame.imageFromView.data());
+    program.SetUniform3fv("dgtkIrradiance", 9, reinterpret_cast<const float(*)[3]>(frame.irradiance.data()));
+  }
+  if (this->Built.fog)
+  {
+    program.SetUniform3f("dgtkFog", frame.fogColor.data());
+    program.SetUniform2f("dgtkFogDensity", frame.fogDensity.data());
+  }
 }
 
 void PartMapper::SetLightingShaderParameters(vtkOpenGLHelper& cell, vtkRenderer*, vtkActor*)
 {
   std::uint64_t& has = this->Frame->uploaded[cell.Program];
-  if (has == this->Frame->lightsVersion || this->Frame->lights.count() == 0)
+  if (has == this->Frame->lightsVersion)
   {
     return;
   }
   has = this->Frame->lightsVersion;
+  this->setEnvironment(*cell.Program);
+  if (this->Frame->lights.count() == 0)
+  {
+    return;
+  }
   if (this->Built.lightTexture)
   {
     cell.Program->SetUniformi("dgtkLights", this->Frame->lightsUnit);

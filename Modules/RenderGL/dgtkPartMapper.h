@@ -4,6 +4,7 @@
 
 // Private to RenderGL.
 
+#include "dgtkMaterialMaps.h"
 #include "dgtkRasterLights.h"
 #include "dgtkRasterShaders.h"
 
@@ -17,6 +18,19 @@
 namespace dgtk
 {
 
+/// Texture units; VTK hands out those from 0.
+struct RasterUnits
+{
+  static constexpr int Maps = 4; ///< and the four after it
+  static constexpr int Radiance = 9;
+  static constexpr int Reflectance = 10;
+  static constexpr int ShadowMaps = 11;
+  static constexpr int ShadowData = 12;
+  static constexpr int Background = 13;
+  static constexpr int Layer = 14;
+  static constexpr int Lights = 15;
+};
+
 /// What all draws of a frame share.
 struct RasterFrame
 {
@@ -25,6 +39,15 @@ struct RasterFrame
   bool parallel = false;
   bool peel = false;
   bool collect = false;
+  // Light beyond VTK's model; matrices by columns.
+  bool shadows = false;
+  bool environment = false;
+  bool fog = false;
+  std::array<float, 3> fogColor{};
+  std::array<float, 2> fogDensity{}; ///< density and start
+  std::array<float, 9> worldFromView{};
+  std::array<float, 9> imageFromView{};
+  std::array<float, 27> irradiance{};
   int lightsUnit = 0; ///< texture unit of the buffer texture with the lights
   int layerUnit = 0;  ///< texture unit of the layer before, when peeling
   int maxUniformLights = UniformLights;
@@ -42,6 +65,7 @@ public:
   std::array<float, 16> view_from_object{};
   std::array<float, 9> normal_view_from_object{};
   std::array<float, 3> emission{};
+  const SurfaceParameters* surface = nullptr;
   /// The triangles to draw: first and count; everything when empty and not `nothing`.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> runs;
   bool nothing = false;
@@ -90,6 +114,8 @@ private:
   void drawElements(const PartActor& actor);
   void bindAttribute(const char* name, unsigned int location);
   ShaderVariant currentVariant() const;
+  void setSurface(vtkShaderProgram& program, const SurfaceParameters& surface) const;
+  void setEnvironment(vtkShaderProgram& program) const;
 
   RasterFrame* Frame = nullptr;
   bool Preparing = false;

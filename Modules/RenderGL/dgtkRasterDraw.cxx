@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLRenderer.h>
@@ -16,9 +17,6 @@ namespace dgtk
 {
 namespace
 {
-
-constexpr int LayerUnit = 14; // VTK hands out units from 0
-constexpr int LightsUnit = 15;
 
 Eigen::Matrix4d matrixOf(const Affine3& transform, const Eigen::Vector3d& origin)
 {
@@ -68,7 +66,7 @@ void store(Array& target, const Matrix& source)
 
 } // namespace
 
-void RasterScene::aim(const RasterCamera& camera)
+void RasterScene::place(const RasterCamera& camera)
 {
   for (Draw& draw : this->Draws)
   {
@@ -88,16 +86,88 @@ void RasterScene::aim(const RasterCamera& camera)
       this->cutDraw(draw, camera, view_from_local);
     }
   }
+}
+
+void RasterScene::aim(const RasterCamera& camera, int width, int height)
+{
+  this->place(camera);
+  this->Camera = camera;
+  this->Width = width;
+  this->Height = height;
   this->Frame.parallel = !camera.perspective;
-  this->Frame.lights = rasterLights(this->State->lights, camera.view_from_world);
+  this->Frame.lights = rasterLights(this->State->lights, camera.view_from_world, this->FirstShadows);
+  this->Shadows.aim(camera.view_from_world);
+  this->Environment.aim(camera.view_from_world);
+  this->Frame.shadows = !this->Shadows.empty();
+  this->Frame.environment = this->Environment.exists();
+  this->Frame.imageFromView = this->Environment.imageFromView();
+  this->Frame.irradiance = this->Environment.irradiance();
+  const Eigen::Matrix3d worldFromView = camera.view_from_world.topLeftCorner<3, 3>().transpose();
+  store(this->Frame.worldFromView, worldFromView);
+  const FogState& fog = this->State->fog;
+  this->Frame.fog = fog.density > 0;
+  store(this->Frame.fogColor, fog.color);
+  this->Frame.fogDensity = { float(fog.density), float(fog.start) };
   ++this->Frame.lightsVersion;
+}
+
+BoundingBall RasterScene::ball() const
+{
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300);
+  Eigen::Vector3d high = -low;
+  for (const Draw& draw : this->Draws)
+  {
+    const Instance& instance = this->State->instances[draw.instance];
+    for (int corner = 0; corner < 8 && draw.chunk->boxMin.x() <= draw.chunk->boxMax.x(); ++corner)
+    {
+      const Eigen::Vector3d local((corner & 1 ? draw.chunk->boxMax : draw.chunk->boxMin).x(),
+        (corner & 2 ? draw.chunk->boxMax : draw.chunk->boxMin).y(),
+        (corner & 4 ? draw.chunk->boxMax : draw.chunk->boxMin).z());
+      const Eigen::Vector3d x = instance.world_from_object * (local + draw.variant->shared->origin);
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+  }
+  return low.x() > high.x() ? BoundingBall() : BoundingBall{ (low + high) / 2, (high - low).norm() / 2 };
+}
+
+void RasterScene::prepareLight(bool zeroToOne)
+{
+  if (this->LightReady)
+  {
+    return;
+  }
+  this->LightReady = true;
+  this->Environment.set(this->State->environment);
+  std::vector<ShadowView> views;
+  this->FirstShadows.clear();
+  if (std::any_of(
+        this->State->lights.begin(), this->State->lights.end(), [](const LightState& light) { return light.shadows; }))
+  {
+    views = shadowViews(this->State->lights, this->ball(), zeroToOne, this->FirstShadows);
+  }
+  this->Shadows.update(
+    std::move(views), zeroToOne, [this](const RasterCamera& camera, int size) { this->drawShadows(camera, size); });
+}
+
+/// Depths of what is not translucent to the bound framebuffer.
+void RasterScene::drawShadows(const RasterCamera& camera, int size)
+{
+  this->Window->GetState()->vtkglViewport(0, 0, size, size);
+  this->place(camera);
+  this->Layer = 0;
+  this->Frame.peel = false;
+  this->setUpState();
+  const float farthest = 0;
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
+  this->drawAllIds(false);
 }
 
 void RasterScene::peelBehind(unsigned int layer)
 {
   this->Layer = layer;
   this->Frame.peel = layer != 0;
-  this->Frame.layerUnit = LayerUnit;
+  this->Frame.layerUnit = RasterUnits::Layer;
 }
 
 void RasterScene::uploadLights()
@@ -114,10 +184,10 @@ void RasterScene::uploadLights()
   const auto& values = this->Frame.lights.values;
   glBindBuffer(GL_TEXTURE_BUFFER, this->LightBuffer);
   glBufferData(GL_TEXTURE_BUFFER, GLsizeiptr(values.size() * sizeof(values[0])), values.data(), GL_STREAM_DRAW);
-  glActiveTexture(GL_TEXTURE0 + LightsUnit);
+  glActiveTexture(GL_TEXTURE0 + RasterUnits::Lights);
   glBindTexture(GL_TEXTURE_BUFFER, this->LightTexture);
   glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, this->LightBuffer);
-  this->Frame.lightsUnit = LightsUnit;
+  this->Frame.lightsUnit = RasterUnits::Lights;
 }
 
 /// What VTK's cache of OpenGL's state must know is set through it.
@@ -134,10 +204,18 @@ void RasterScene::setUpState()
   state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   if (this->Layer)
   {
-    glActiveTexture(GL_TEXTURE0 + LayerUnit);
+    glActiveTexture(GL_TEXTURE0 + RasterUnits::Layer);
     glBindTexture(GL_TEXTURE_2D, this->Layer);
   }
   this->uploadLights();
+  if (!this->Shadows.empty())
+  {
+    this->Shadows.bind(RasterUnits::ShadowMaps, RasterUnits::ShadowData);
+  }
+  if (this->Environment.exists())
+  {
+    this->Environment.bind(RasterUnits::Radiance, RasterUnits::Reflectance);
+  }
   glActiveTexture(GL_TEXTURE0);
   state->ResetGLActiveTexture();
 }
@@ -145,6 +223,15 @@ void RasterScene::setUpState()
 void RasterScene::drawColor(Surfaces surfaces)
 {
   this->setUpState();
+  if (surfaces != Surfaces::Translucent && this->Layer == 0 && this->Environment.background())
+  {
+    vtkOpenGLState* state = this->Window->GetState();
+    this->Window->GetShaderCache()->ReleaseCurrentShader();
+    state->vtkglDisable(GL_DEPTH_TEST);
+    this->Environment.drawBackground(this->Camera, this->Width, this->Height, RasterUnits::Background);
+    state->ResetGLActiveTexture();
+    state->vtkglEnable(GL_DEPTH_TEST);
+  }
   this->drawAll(surfaces);
 }
 
@@ -186,10 +273,19 @@ void RasterScene::drawFragments(int width, int first, int last)
 void RasterScene::drawIds()
 {
   this->setUpState();
+  this->drawAllIds(true);
+}
+
+void RasterScene::drawAllIds(bool translucent)
+{
   this->Window->GetShaderCache()->ReleaseCurrentShader();
   this->CurrentIds = nullptr;
   for (Draw& draw : this->Draws)
   {
+    if (draw.chunk->translucent && !translucent)
+    {
+      continue;
+    }
     if (draw.visible && !draw.actor->nothing)
     {
       this->drawIdsOf(*draw.chunk->mapper, *draw.actor, *draw.chunk);

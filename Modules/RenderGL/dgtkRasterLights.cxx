@@ -23,7 +23,7 @@ bool directional(const LightState& light)
 /// A cone of 90 degrees and more is no cone, as in VTK.
 bool spot(const LightState& light) { return light.kind == LightState::Kind::Spot && light.coneAngle < 90; }
 
-void append(RasterLights& lights, const LightState& light, const Eigen::Matrix4d& view_from_world)
+void append(RasterLights& lights, const LightState& light, const Eigen::Matrix4d& view_from_world, int map)
 {
   const Eigen::Matrix3d rotation = view_from_world.topLeftCorner<3, 3>();
   const Eigen::Vector3d axis = (rotation * (light.target - light.position)).normalized();
@@ -38,7 +38,7 @@ void append(RasterLights& lights, const LightState& light, const Eigen::Matrix4d
   }
   lights.values.push_back(pack(position, std::cos(light.coneAngle * Pi / 180)));
   lights.values.push_back(pack(axis, light.exponent));
-  lights.values.push_back(pack(light.attenuation));
+  lights.values.push_back(pack(light.attenuation, map + 1));
   lights.values.push_back(pack(light.ambient * light.intensity));
   lights.values.push_back(pack(light.diffuse * light.intensity));
   lights.values.push_back(pack(light.specular * light.intensity));
@@ -46,17 +46,19 @@ void append(RasterLights& lights, const LightState& light, const Eigen::Matrix4d
 
 } // namespace
 
-RasterLights rasterLights(const std::vector<LightState>& lights, const Eigen::Matrix4d& view_from_world)
+RasterLights rasterLights(
+  const std::vector<LightState>& lights, const Eigen::Matrix4d& view_from_world, const std::vector<int>& firstMaps)
 {
   RasterLights result;
   for (int group = 0; group < 3; ++group)
   {
-    for (const LightState& light : lights)
+    for (std::size_t i = 0; i < lights.size(); ++i)
     {
+      const LightState& light = lights[i];
       const int own = directional(light) ? 0 : spot(light) ? 2 : 1;
       if (own == group)
       {
-        append(result, light, view_from_world);
+        append(result, light, view_from_world, firstMaps.empty() ? -1 : firstMaps[i]);
         ++(group == 0 ? result.directional : group == 1 ? result.points : result.spots);
       }
     }

@@ -17,7 +17,8 @@ namespace dgtk
 struct RasterLights
 {
   static constexpr int Stride = 6;
-  /// Per light: position (directional: towards the light) and cosine of the cone; axis and exponent; attenuation;
+  /// Per light: position (directional: towards the light) and cosine of the cone; axis and exponent; attenuation and
+  /// number of its first shadow map, from 1, 0 for none;
   /// ambient; diffuse; specular. Colours are multiplied by the intensity.
   std::vector<std::array<float, 4>> values;
   int directional = 0;
@@ -28,7 +29,9 @@ struct RasterLights
   int count() const { return this->directional + this->points + this->spots; }
 };
 
-RasterLights rasterLights(const std::vector<LightState>& lights, const Eigen::Matrix4d& view_from_world);
+/// `firstMaps`: each light's first shadow map, -1 for none; empty: no light has one.
+RasterLights rasterLights(const std::vector<LightState>& lights, const Eigen::Matrix4d& view_from_world,
+  const std::vector<int>& firstMaps = {});
 
 } // namespace dgtk
 

@@ -127,6 +127,7 @@ void RasterScene::fillPieces(Draw& draw, const RasterCamera& camera)
   actor.SetTexture(draw.chunk->texture);
   actor.number = draw.actor->number;
   actor.emission = draw.actor->emission;
+  actor.surface = draw.actor->surface;
   actor.mirrored = draw.actor->mirrored;
   actor.normal_view_from_object = draw.actor->normal_view_from_object;
   const Eigen::Matrix4f clip = camera.clip_from_view.cast<float>();

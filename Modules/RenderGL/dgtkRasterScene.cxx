@@ -67,6 +67,10 @@ vtkSmartPointer<vtkOpenGLProperty> makeProperty(const Material& material)
 RasterScene::RasterScene(vtkOpenGLRenderWindow* window)
   : Window(window)
 {
+  auto white = std::make_shared<Image>();
+  white->width = white->height = 1;
+  white->rgba.assign(4, 255);
+  this->White = white;
   this->Window->AddRenderer(this->Renderer);
   vtkNew<vtkOpenGLCamera> camera;
   this->Renderer->SetActiveCamera(camera);
@@ -120,6 +124,7 @@ void RasterScene::setState(std::shared_ptr<const SceneState> state)
     }
   }
   this->State = std::move(state);
+  this->LightReady = false;
   this->makeDraws();
   this->dropUnused();
 }
@@ -156,6 +161,7 @@ void RasterScene::makeDraws()
       draw.actor->SetTexture(chunk.texture);
       draw.actor->number = float(count);
       draw.actor->emission = chunk.emission;
+      draw.actor->surface = &chunk.surface;
       draw.actor->mirrored = instance.world_from_object.linear.determinant() < 0;
       this->FirstHits->push_back({ std::uint32_t(i + 1), chunk.firstTriangle });
       this->Translucent = this->Translucent || chunk.translucent;
@@ -346,6 +352,19 @@ RasterScene::Chunk RasterScene::makeChunk(
     shader.textured = true;
     shader.cutOut = material.cutOut;
     chunk.texture = this->textureOf(model.textures[std::size_t(material.texture)].image, material.cutOut);
+  }
+  chunk.surface = this->Maps.parameters(model, material);
+  shader.physical = material.physical && material.physical->wanted;
+  shader.normalMap = chunk.surface.normalMap != 0;
+  shader.bumpMap = chunk.surface.bumpMap != 0;
+  shader.metallicRoughnessMap = chunk.surface.metallicRoughnessMap != 0;
+  shader.emissionMap = chunk.surface.emissionMap != 0;
+  shader.occlusionMap = chunk.surface.occlusionMap != 0;
+  if (chunk.surface.hasMaps() && !shader.textured)
+  {
+    // VTK passes texture coordinates on where there is a texture.
+    shader.textured = true;
+    chunk.texture = this->textureOf(this->White, false);
   }
   std::vector<unsigned int> indices;
   indices.reserve(std::size_t(count) * 3);

@@ -4,10 +4,13 @@
 
 // Private to RenderGL.
 
+#include "dgtkEnvironmentMap.h"
 #include "dgtkIdPrograms.h"
+#include "dgtkMaterialMaps.h"
 #include "dgtkPartMapper.h"
 #include "dgtkPieces.h"
 #include "dgtkRasterCamera.h"
+#include "dgtkShadowMaps.h"
 #include "dgtkVisibility.h"
 
 #include <map>
@@ -58,8 +61,11 @@ public:
   const SceneState& state() const { return *this->State; }
   bool hasTranslucent() const { return this->Translucent; }
 
-  /// Sets the matrices and lights of the draws to come.
-  void aim(const RasterCamera& camera);
+  /// Makes what colours need beside the draws: shadow maps and the environment. Binds other framebuffers. To be called
+  /// before aim() when colours are drawn; does nothing when all is there.
+  void prepareLight(bool zeroToOne);
+  /// Sets the matrices and lights of the draws to come, to a target of width x height pixels.
+  void aim(const RasterCamera& camera, int width, int height);
   /// Draws colour and ids to the bound framebuffer.
   void drawColor(Surfaces surfaces);
   /// Draws ids only, at the same positions.
@@ -98,6 +104,7 @@ private:
     Eigen::Vector3d boxMin; ///< relative to Shared::origin
     Eigen::Vector3d boxMax;
     std::array<float, 3> emission{};
+    SurfaceParameters surface;
     bool translucent = false;
     vtkSmartPointer<PartMapper> mapper;
     vtkSmartPointer<vtkOpenGLProperty> property;
@@ -141,6 +148,10 @@ private:
   void dropUnused();
   void cutDraw(Draw& draw, const RasterCamera& camera, const Eigen::Matrix4d& view_from_local);
   void fillPieces(Draw& draw, const RasterCamera& camera);
+  BoundingBall ball() const;
+  void place(const RasterCamera& camera);
+  void drawShadows(const RasterCamera& camera, int size);
+  void drawAllIds(bool translucent);
   void drawIdsOf(PartMapper& mapper, PartActor& actor, const Chunk& chunk);
   void makeDraws();
   void setUpState();
@@ -159,6 +170,15 @@ private:
   const IdPrograms::Program* CurrentIds = nullptr;
   std::shared_ptr<std::vector<Hit>> FirstHits;
   IdPrograms Ids;
+  EnvironmentMap Environment;
+  MaterialMaps Maps;
+  std::shared_ptr<const Image> White; // a picture of one texel
+  ShadowMaps Shadows;
+  std::vector<int> FirstShadows; // of each light
+  bool LightReady = false;
+  RasterCamera Camera;
+  int Width = 0;
+  int Height = 0;
   unsigned int LightBuffer = 0;
   unsigned int LightTexture = 0;
   unsigned int Layer = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRasterShaders.h"
 
+#include "dgtkSurfaceShaders.h"
+
 #include <vtkShaderProgram.h>
 
 namespace dgtk
@@ -86,20 +88,26 @@ std::string lightValue(const ShaderVariant& variant, int slot)
 /// Adds one light, whose unit vector towards it is L and whose strength at the surface is s.
 std::string addLight(const ShaderVariant& variant)
 {
-  std::string text = "    float df = s * dot(normalVC, L);\n"
-                     "    dgtkAmbient += s * " +
-                     lightValue(variant, 3) +
-                     ".rgb;\n"
-                     "    dgtkDiffuse += max(df, 0.0) * " +
-                     lightValue(variant, 4) + ".rgb;\n";
+  std::string text = "    float df = dot(normalVC, L);\n" + litPart(variant, lightValue(variant, 2) + ".w");
+  const std::string ambient = lightValue(variant, 3) + ".rgb";
+  const std::string diffuse = lightValue(variant, 4) + ".rgb";
+  const std::string specular = lightValue(variant, 5) + ".rgb";
+  if (variant.physical)
+  {
+    return text + (variant.shadows ? "" : "    float lit = 1.0;\n") + addPhysicalLight(ambient, diffuse, specular);
+  }
+  text += "    df *= s;\n"
+          "    dgtkAmbient += s * " +
+          ambient + ";\n" + (variant.shadows ? "    df *= lit;\n    s *= lit;\n" : "") +
+          "    dgtkDiffuse += max(df, 0.0) * " + diffuse + ";\n";
   if (variant.specular)
   {
     text += "    if (df > 0.0)\n"
             "    {\n"
             "      float toViewer = max(0.0, dot(reflect(-L, normalVC), dgtkViewer));\n"
             "      dgtkSpecular += s * pow(toViewer, specularPower) * " +
-            lightValue(variant, 5) +
-            ".rgb;\n"
+            specular +
+            ";\n"
             "    }\n";
   }
   return text;
@@ -115,16 +123,16 @@ std::string loop(int from, int count, const std::string& body)
 /// VTK's own formula for a single head light, which takes the viewer to be where the light is.
 std::string headLighting(const ShaderVariant& variant)
 {
-  std::string text = "  float df = max(0.0, normalVC.z);\n"
-                     "  vec3 dgtkColor = (" DGTK_WORLD_AMBIENT
-                     " + dgtkLights[3].rgb) * ambientColor + dgtkEmission + df * diffuseColor * "
-                     "dgtkLights[4].rgb";
+  const std::string text = "  float df = max(0.0, normalVC.z);\n"
+                           "  vec3 dgtkColor = (" DGTK_WORLD_AMBIENT
+                           " + dgtkLights[3].rgb) * ambientColor + dgtkEmission + df * diffuseColor * "
+                           "dgtkLights[4].rgb";
   return text + (variant.specular ? " + pow(df, specularPower) * specularColor * dgtkLights[5].rgb;\n" : ";\n");
 }
 
 std::string lighting(const ShaderVariant& variant)
 {
-  if (variant.headOnly)
+  if (variant.headOnly && !variant.physical)
   {
     return headLighting(variant);
   }
@@ -142,9 +150,10 @@ std::string lighting(const ShaderVariant& variant)
                            "    s = inside >= " +
                            lightValue(variant, 0) + ".w ? s * pow(inside, axis.w) : 0.0;\n";
   const std::string far = "    vec3 L = " + lightValue(variant, 0) + ".xyz;\n    float s = 1.0;\n";
-  std::string text = "  vec3 dgtkAmbient = vec3(" DGTK_WORLD_AMBIENT ");\n"
-                     "  vec3 dgtkDiffuse = vec3(0.0);\n";
-  if (variant.specular)
+  std::string text = variant.physical ? beginPhysical(variant)
+                                      : "  vec3 dgtkAmbient = vec3(" DGTK_WORLD_AMBIENT ");\n"
+                                        "  vec3 dgtkDiffuse = vec3(0.0);\n";
+  if (variant.specular && !variant.physical)
   {
     text += "  vec3 dgtkSpecular = vec3(0.0);\n"
             "  vec3 dgtkViewer = cameraParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-vertexVC.xyz);\n";
@@ -153,6 +162,10 @@ std::string lighting(const ShaderVariant& variant)
   text += loop(0, variant.directional, far + add);
   text += loop(variant.directional, variant.points, toPoint + add);
   text += loop(variant.directional + variant.points, variant.spots, toPoint + cone + add);
+  if (variant.physical)
+  {
+    return text + endPhysical(variant);
+  }
   text += "  vec3 dgtkColor = dgtkAmbient * ambientColor + dgtkEmission + dgtkDiffuse * diffuseColor";
   text += variant.specular ? " + dgtkSpecular * specularColor;\n" : ";\n";
   return text;
@@ -182,13 +195,25 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
     put(
       fragment, "//VTK::System::Dec", "//VTK::System::Dec\n#extension GL_ARB_shader_storage_buffer_object : require\n");
   }
+  declarations += "const float dgtkWorldAmbient = " DGTK_WORLD_AMBIENT ";\n" + surfaceDeclarations(variant);
   put(fragment, "//VTK::ValuePass::Dec", declarations);
   // Everything is two-sided: the normal points to where the surface is seen from.
   put(fragment, "//VTK::Normal::Impl",
     "  vec3 normalVC = normalVCVSOutput * inversesqrt(max(dot(normalVCVSOutput, normalVCVSOutput), 1e-30));\n"
-    "  if (gl_FrontFacing == (dgtkDraw.y > 0.5)) { normalVC = -normalVC; }\n");
-  put(fragment, "//VTK::Light::Impl", lighting(variant));
-  std::string finish = variant.textured ? "  dgtkColor *= texture(actortexture, tcoordVCVSOutput).rgb;\n" : "";
+    "  if (gl_FrontFacing == (dgtkDraw.y > 0.5)) { normalVC = -normalVC; }\n" +
+      perturbedNormal(variant));
+  std::string light = lighting(variant);
+  const bool ownEmission = variant.emissionMap && !variant.physical;
+  if (ownEmission)
+  {
+    const std::string plain = " + dgtkEmission";
+    light.erase(light.find(plain), plain.size());
+  }
+  put(fragment, "//VTK::Light::Impl", light);
+  std::string finish =
+    variant.textured && !variant.physical ? "  dgtkColor *= texture(actortexture, tcoordVCVSOutput).rgb;\n" : "";
+  finish += ownEmission ? "  dgtkColor += dgtkEmission * texture(dgtkEmissionMap, tcoordVCVSOutput).rgb;\n" : "";
+  finish += fogCode(variant);
   finish += Identity;
   if (variant.cutOut)
   {

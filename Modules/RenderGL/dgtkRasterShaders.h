@@ -6,6 +6,7 @@
 
 #include "dgtkRasterLights.h"
 
+#include <array>
 #include <string>
 
 namespace dgtk
@@ -25,14 +26,25 @@ struct ShaderVariant
   bool pieces = false;  ///< the triangle comes from a vertex attribute
   bool peel = false;    ///< fragments up to those of the layer before are not there
   bool collect = false; ///< fragments are appended to a FragmentList
+  bool shadows = false; ///< some light has a shadow map
+  bool fog = false;
+  bool environment = false; ///< light from everywhere; goes with `physical`
+  bool physical = false;    ///< computed in linear light from metal and roughness
+  bool normalMap = false;
+  bool bumpMap = false;
+  bool metallicRoughnessMap = false;
+  bool emissionMap = false;
+  bool occlusionMap = false;
 
-  bool operator==(const ShaderVariant& o) const
+  /// Everything above.
+  std::array<int, 20> key() const
   {
-    return this->directional == o.directional && this->points == o.points && this->spots == o.spots &&
-           this->headOnly == o.headOnly && this->lightTexture == o.lightTexture && this->specular == o.specular &&
-           this->textured == o.textured && this->cutOut == o.cutOut && this->pieces == o.pieces &&
-           this->peel == o.peel && this->collect == o.collect;
+    return { this->directional, this->points, this->spots, this->headOnly, this->lightTexture, this->specular,
+      this->textured, this->cutOut, this->pieces, this->peel, this->collect, this->shadows, this->fog,
+      this->environment, this->physical, this->normalMap, this->bumpMap, this->metallicRoughnessMap, this->emissionMap,
+      this->occlusionMap };
   }
+  bool operator==(const ShaderVariant& o) const { return this->key() == o.key(); }
 };
 
 /// Lights that are held in uniforms; OpenGL 3.2 promises 1024 components.

@@ -101,7 +101,7 @@ public:
   void peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit) override;
 
 private:
-  void aim(RasterTarget& target, const PixelRect& rect, int samples);
+  void aim(RasterTarget& target, const PixelRect& rect, int samples, bool color);
   void drawSamples(const PixelRect& rect, int samples, bool hits);
   void blendTranslucent();
   bool drawLayer(int rank, Surfaces surfaces, const RasterTarget* base);
@@ -133,22 +133,26 @@ void VtkRasterSource::setScene(std::shared_ptr<const SceneState> state, const Vi
   this->Scene.setState(std::move(state));
 }
 
-void VtkRasterSource::aim(RasterTarget& target, const PixelRect& rect, int samples)
+void VtkRasterSource::aim(RasterTarget& target, const PixelRect& rect, int samples, bool color)
 {
   if (!this->State)
   {
     throw UsageError("no scene was set");
   }
   this->Window->MakeCurrent();
+  if (color)
+  {
+    this->Scene.prepareLight(this->ClipControl);
+  }
   target.resize(rect.width, rect.height);
   this->Window->GetState()->vtkglViewport(0, 0, rect.width, rect.height);
-  this->Scene.aim(rasterCamera(this->Camera, rect, samples, this->ClipControl));
+  this->Scene.aim(rasterCamera(this->Camera, rect, samples, this->ClipControl), rect.width, rect.height);
   this->Scene.peelBehind(0);
 }
 
 void VtkRasterSource::render(const PixelRect& rect, VisibilityBuffer& hits)
 {
-  this->aim(this->Main, rect, 1);
+  this->aim(this->Main, rect, 1, false);
   this->Main.bind(false, true);
   this->Main.clear({});
   this->Scene.drawIds();
@@ -206,7 +210,7 @@ std::function<void()> VtkRasterSource::drawColor(
 void VtkRasterSource::drawSamples(const PixelRect& piece, int samples, bool hits)
 {
   const PixelRect rect{ piece.x * samples, piece.y * samples, piece.width * samples, piece.height * samples };
-  this->aim(this->Main, rect, samples);
+  this->aim(this->Main, rect, samples, true);
   const Eigen::Vector3f background = this->State->background.cast<float>();
   const std::array<float, 4> clear{ background.x(), background.y(), background.z(), 1 };
   const bool ids = hits || this->Scene.hasTranslucent();
@@ -365,7 +369,7 @@ void sortFragments(std::vector<Fragment>& fragments, std::size_t pixels)
 
 void VtkRasterSource::peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit)
 {
-  this->aim(this->Main, rect, 1);
+  this->aim(this->Main, rect, 1, true);
   if (!FragmentList::supported())
   {
     this->peelOneByOne(rect, visit);

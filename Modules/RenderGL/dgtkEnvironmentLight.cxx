@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkEnvironmentLight.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace dgtk
+{
+namespace
+{
+
+constexpr double Pi = 3.14159265358979323846;
+constexpr int Samples = 128;
+
+/// Equirectangular radiance at several resolutions.
+class Pyramid
+{
+public:
+  Pyramid(const RadianceImage& image, double intensity)
+  {
+    this->Levels.push_back(resampled(image, intensity));
+    while (this->Levels.back().width > 8)
+    {
+      this->Levels.push_back(halved(this->Levels.back()));
+    }
+  }
+  const RadianceImage& level(std::size_t i) const { return this->Levels[i]; }
+
+  /// Radiance along a direction, as seen with an aperture of `solidAngle`.
+  Eigen::Vector3f at(const Eigen::Vector3d& d, double solidAngle) const
+  {
+    const RadianceImage& finest = this->Levels[0];
+    const double texel = 4 * Pi / (double(finest.width) * finest.height);
+    const double lod =
+      std::clamp(0.5 * std::log2(std::max(solidAngle / texel, 1.0)), 0.0, double(this->Levels.size() - 1));
+    const auto low = std::min(std::size_t(lod), this->Levels.size() - 1);
+    const std::size_t high = std::min(low + 1, this->Levels.size() - 1);
+    const auto part = float(lod - double(low));
+    return bilinear(this->Levels[low], d) * (1 - part) + bilinear(this->Levels[high], d) * part;
+  }
+
+private:
+  static Eigen::Vector3f texelAt(const RadianceImage& image, int x, int y)
+  {
+    x = (x % image.width + image.width) % image.width;
+    y = std::clamp(y, 0, image.height - 1);
+    return Eigen::Vector3f(image.rgb.data() + (std::size_t(y) * image.width + x) * 3);
+  }
+
+  static Eigen::Vector3f bilinear(const RadianceImage& image, const Eigen::Vector3d& d)
+  {
+    const double x = (0.5 + std::atan2(d.x(), -d.z()) / (2 * Pi)) * image.width - 0.5;
+    const double y = std::acos(std::clamp(d.y(), -1.0, 1.0)) / Pi * image.height - 0.5;
+    const int column = int(std::floor(x));
+    const int row = int(std::floor(y));
+    const auto right = float(x - column);
+    const auto down = float(y - row);
+    return (texelAt(image, column, row) * (1 - right) + texelAt(image, column + 1, row) * right) * (1 - down) +
+           (texelAt(image, column, row + 1) * (1 - right) + texelAt(image, column + 1, row + 1) * right) * down;
+  }
+
+  /// To the size of level 0, by area; small pictures are interpolated.
+  static RadianceImage resampled(const RadianceImage& from, double intensity)
+  {
+    RadianceImage to;
+    to.width = EnvironmentLight::Width;
+    to.height = EnvironmentLight::Width / 2;
+    to.rgb.resize(std::size_t(to.width) * to.height * 3);
+    const auto factor = float(intensity);
+    for (int y = 0; y < to.height; ++y)
+    {
+      const int top = int(std::int64_t(y) * from.height / to.height);
+      const int bottom = std::max(top + 1, int(std::int64_t(y + 1) * from.height / to.height));
+      for (int x = 0; x < to.width; ++x)
+      {
+        const int left = int(std::int64_t(x) * from.width / to.width);
+        const int right = std::max(left + 1, int(std::int64_t(x + 1) * from.width / to.width));
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (int v = top; v < bottom; ++v)
+        {
+          for (int u = left; u < right; ++u)
+          {
+            sum += texelAt(from, u, v).cast<double>();
+          }
+        }
+        const Eigen::Vector3f mean = (sum / (double(bottom - top) * (right - left))).cast<float>() * factor;
+        std::copy_n(mean.data(), 3, to.rgb.data() + (std::size_t(y) * to.width + x) * 3);
+      }
+    }
+    return to;
+  }
+
+  static RadianceImage halved(const RadianceImage& from)
+  {
+    RadianceImage to;
+    to.width = from.width / 2;
+    to.height = from.height / 2;
+    for (int y = 0; y < to.height; ++y)
+    {
+      for (int x = 0; x < to.width; ++x)
+      {
+        const Eigen::Vector3f mean = (texelAt(from, 2 * x, 2 * y) + texelAt(from, 2 * x + 1, 2 * y) +
+                                       texelAt(from, 2 * x, 2 * y + 1) + texelAt(from, 2 * x + 1, 2 * y + 1)) /
+                                     4;
+        to.rgb.insert(to.rgb.end(), mean.data(), mean.data() + 3);
+      }
+    }
+    return to;
+  }
+
+  std::vector<RadianceImage> Levels;
+};
+
+/// Direction of a point of an equirectangular picture; x and y in [0, 1], y down.
+Eigen::Vector3d directionOf(double x, double y)
+{
+  const double around = (x - 0.5) * 2 * Pi;
+  const double down = y * Pi;
+  return { std::sin(down) * std::sin(around), std::cos(down), -std::sin(down) * std::cos(around) };
+}
+
+std::array<Eigen::Vector3d, 9> irradianceOf(const RadianceImage& image)
+{
+  // Of each: the harmonic's constant squared times the cosine lobe's coefficient over pi (1, 2/3, 1/4).
+  constexpr double weights[9] = { 0.25 / Pi, 0.75 / Pi * 2 / 3, 0.75 / Pi * 2 / 3, 0.75 / Pi * 2 / 3, 3.75 / Pi / 4,
+    3.75 / Pi / 4, 0.3125 / Pi / 4, 3.75 / Pi / 4, 0.9375 / Pi / 4 };
+  std::array<Eigen::Vector3d, 9> sums;
+  sums.fill(Eigen::Vector3d::Zero());
+  for (int row = 0; row < image.height; ++row)
+  {
+    const double solidAngle =
+      (std::cos(row * Pi / image.height) - std::cos((row + 1) * Pi / image.height)) * 2 * Pi / image.width;
+    for (int column = 0; column < image.width; ++column)
+    {
+      const Eigen::Vector3d d = directionOf((column + 0.5) / image.width, (row + 0.5) / image.height);
+      const Eigen::Vector3d light =
+        Eigen::Vector3f(image.rgb.data() + (std::size_t(row) * image.width + column) * 3).cast<double>() * solidAngle;
+      const double terms[9] = { 1, d.y(), d.z(), d.x(), d.x() * d.y(), d.y() * d.z(), 3 * d.z() * d.z() - 1,
+        d.x() * d.z(), d.x() * d.x() - d.y() * d.y() };
+      for (std::size_t i = 0; i < 9; ++i)
+      {
+        sums[i] += light * (terms[i] * weights[i]);
+      }
+    }
+  }
+  return sums;
+}
+
+/// Point i of Hammersley's set: van der Corput's sequence in base 2 is the second coordinate.
+Eigen::Vector2d hammersley(std::uint32_t i, std::uint32_t count)
+{
+  double inverse = 0;
+  double digit = 0.5;
+  for (std::uint32_t n = i; n != 0; n >>= 1, digit /= 2)
+  {
+    inverse += (n & 1u) != 0 ? digit : 0.0;
+  }
+  return { (i + 0.5) / count, inverse };
+}
+
+/// Half vector about +z distributed as the GGX microfacets times their cosine (Walter et al. 2007, eq. 35 and 36).
+Eigen::Vector3d halfVector(const Eigen::Vector2d& u, double alpha)
+{
+  const double cos2 = (1 - u.x()) / (1 + (alpha * alpha - 1) * u.x());
+  const double sine = std::sqrt(std::max(0.0, 1 - cos2));
+  const double around = 2 * Pi * u.y();
+  return { sine * std::cos(around), sine * std::sin(around), std::sqrt(cos2) };
+}
+
+/// A light direction about +z seen from +z, its weight, and the solid angle that it stands for.
+struct LobeSample
+{
+  Eigen::Vector3d direction;
+  double weight;
+  double solidAngle;
+};
+
+std::vector<LobeSample> lobe(double alpha)
+{
+  std::vector<LobeSample> samples;
+  for (std::uint32_t i = 0; i < std::uint32_t(Samples); ++i)
+  {
+    const Eigen::Vector3d h = halfVector(hammersley(i, std::uint32_t(Samples)), alpha);
+    const Eigen::Vector3d l(2 * h.z() * h.x(), 2 * h.z() * h.y(), 2 * h.z() * h.z() - 1);
+    if (l.z() <= 0)
+    {
+      continue;
+    }
+    const double a2 = alpha * alpha;
+    const double d = h.z() * h.z() * (a2 - 1) + 1;
+    const double density = a2 / (Pi * d * d) / 4; // of l: D (n h) / (4 (v h)), and v = n
+    samples.push_back({ l, l.z(), 1 / (Samples * density) });
+  }
+  return samples;
+}
+
+std::vector<float> filtered(const Pyramid& pyramid, int width, double roughness)
+{
+  const std::vector<LobeSample> samples = lobe(roughness * roughness);
+  double total = 0;
+  for (const LobeSample& sample : samples)
+  {
+    total += sample.weight;
+  }
+  std::vector<float> result;
+  const int height = width / 2;
+  result.reserve(std::size_t(width) * height * 3);
+  for (int y = 0; y < height; ++y)
+  {
+    for (int x = 0; x < width; ++x)
+    {
+      const Eigen::Vector3d n = directionOf((x + 0.5) / width, (y + 0.5) / height);
+      const Eigen::Vector3d side =
+        (std::abs(n.y()) < 0.9 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX()).cross(n).normalized();
+      const Eigen::Vector3d other = n.cross(side);
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (const LobeSample& s : samples)
+      {
+        const Eigen::Vector3d d = side * s.direction.x() + other * s.direction.y() + n * s.direction.z();
+        sum += pyramid.at(d, s.solidAngle).cast<double>() * s.weight;
+      }
+      const Eigen::Vector3f mean = (sum / total).cast<float>();
+      result.insert(result.end(), mean.data(), mean.data() + 3);
+    }
+  }
+  return result;
+}
+
+} // namespace
+
+EnvironmentLight environmentLight(const RadianceImage& image, double intensity)
+{
+  const Pyramid pyramid(image, intensity);
+  EnvironmentLight light;
+  light.irradiance = irradianceOf(pyramid.level(0));
+  light.radiance[0] = pyramid.level(0).rgb;
+  for (int i = 1; i < EnvironmentLight::Levels; ++i)
+  {
+    light.radiance[std::size_t(i)] =
+      filtered(pyramid, EnvironmentLight::Width >> i, double(i) / (EnvironmentLight::Levels - 1));
+  }
+  return light;
+}
+
+std::vector<float> reflectanceTable()
+{
+  constexpr int size = EnvironmentLight::ReflectanceSize;
+  constexpr std::uint32_t count = 256;
+  std::vector<float> table;
+  for (int row = 0; row < size; ++row)
+  {
+    const double rough = (row + 0.5) / size;
+    const double alpha = rough * rough;
+    const double a2 = alpha * alpha;
+    for (int column = 0; column < size; ++column)
+    {
+      const double nv = (column + 0.5) / size;
+      const Eigen::Vector3d v(std::sqrt(1 - nv * nv), 0, nv);
+      double scale = 0;
+      double bias = 0;
+      for (std::uint32_t i = 0; i < count; ++i)
+      {
+        const Eigen::Vector3d h = halfVector(hammersley(i, count), alpha);
+        const double vh = std::max(v.dot(h), 0.0);
+        const double nl = 2 * vh * h.z() - nv;
+        if (nl <= 0 || h.z() <= 0)
+        {
+          continue;
+        }
+        const double masking =
+          2 * nl * nv / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
+        const double weight = masking * vh / (h.z() * nv);
+        const double fresnel = std::pow(1 - vh, 5);
+        scale += weight * (1 - fresnel);
+        bias += weight * fresnel;
+      }
+      table.push_back(float(scale / count));
+      table.push_back(float(bias / count));
+    }
+  }
+  return table;
+}
+
+} // namespace dgtk

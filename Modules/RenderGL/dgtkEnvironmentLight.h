@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkEnvironmentLight_h
+#define dgtkEnvironmentLight_h
+
+// Private to RenderGL.
+
+#include "dgtkModel.h"
+#include "dgtkRenderGLModule.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace dgtk
+{
+
+/// What surfaces get from an environment, computed on the CPU in a fixed order. Linear light.
+struct DGTKRENDERGL_EXPORT EnvironmentLight
+{
+  /// Radiance filtered for roughness 0, 1/5, ... 1, each half the size of the one before.
+  static constexpr int Levels = 6;
+  static constexpr int Width = 512; ///< of level 0; height is half of it
+  static constexpr int ReflectanceSize = 64;
+
+  /// Irradiance divided by pi as a polynomial of the unit normal (x, y, z) in the image's axes, RGB:
+  /// 1, y, z, x, xy, yz, 3zz - 1, xz, xx - yy (Ramamoorthi and Hanrahan 2001).
+  std::array<Eigen::Vector3d, 9> irradiance;
+  /// RGB, equirectangular, rows top to bottom (Karis 2013: the lobe seen along the normal).
+  std::array<std::vector<float>, Levels> radiance;
+};
+
+DGTKRENDERGL_EXPORT EnvironmentLight environmentLight(const RadianceImage& image, double intensity);
+
+/// Scale and bias of the reflectance at normal incidence (Karis 2013), for the cosine of the viewer's angle (columns)
+/// and roughness (rows) at the centres of ReflectanceSize x ReflectanceSize cells.
+DGTKRENDERGL_EXPORT std::vector<float> reflectanceTable();
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkMaterialMaps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+#include <vtk_glew.h>
+
+namespace dgtk
+{
+namespace
+{
+
+constexpr float Anisotropy = 4; // as the base textures
+
+unsigned int uploaded(const Image& image)
+{
+  const std::size_t row = std::size_t(image.width) * 4;
+  std::vector<std::uint8_t> upwards(image.rgba.size());
+  for (int y = 0; y < image.height; ++y)
+  {
+    std::memcpy(&upwards[std::size_t(image.height - 1 - y) * row], &image.rgba[std::size_t(y) * row], row);
+  }
+  unsigned int name = 0;
+  glGenTextures(1, &name);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, name);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA, GL_UNSIGNED_BYTE, upwards.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
+  if (GLEW_EXT_texture_filter_anisotropic)
+  {
+    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, Anisotropy);
+  }
+  glBindTexture(GL_TEXTURE_2D, 0);
+  return name;
+}
+
+} // namespace
+
+MaterialMaps::~MaterialMaps()
+{
+  for (const auto& entry : this->Textures)
+  {
+    glDeleteTextures(1, &entry.second);
+  }
+}
+
+unsigned int MaterialMaps::textureOf(const Model& model, int index)
+{
+  if (index < 0 || model.uvs.empty() || !model.textures.at(std::size_t(index)).image)
+  {
+    return 0;
+  }
+  unsigned int& name = this->Textures[model.textures[std::size_t(index)].image];
+  name = name != 0 ? name : uploaded(*model.textures[std::size_t(index)].image);
+  return name;
+}
+
+SurfaceParameters MaterialMaps::parameters(const Model& model, const Material& material)
+{
+  constexpr double dielectric = 0.04; // reflectance of glass of index 1.5
+  SurfaceParameters to;
+  if (material.physical)
+  {
+    to.metalRough = { float(material.physical->metallic), float(material.physical->roughness) };
+    to.f0.fill(float(dielectric));
+  }
+  else
+  {
+    // The width of the GGX lobe that is as wide as Phong's.
+    to.metalRough = { 0, float(std::sqrt(std::sqrt(2 / (material.shininess + 2)))) };
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      to.f0[i] = float(dielectric * material.specular[Eigen::Index(i)]);
+    }
+  }
+  to.normalMap = this->textureOf(model, material.normalMap);
+  to.bumpMap = this->textureOf(model, material.bumpMap);
+  to.metallicRoughnessMap = this->textureOf(model, material.metallicRoughnessMap);
+  to.emissionMap = this->textureOf(model, material.emissionMap);
+  to.occlusionMap = this->textureOf(model, material.occlusionMap);
+  to.normalScale = float(material.normalScale);
+  to.bumpScale = float(material.bumpScale);
+  to.occlusionStrength = float(material.occlusionStrength);
+  return to;
+}
+
+} // namespace dgtk
