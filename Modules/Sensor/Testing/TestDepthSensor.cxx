@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSensorRuns.h"
+
+#include "dgtkError.h"
+#include "dgtkThreadPool.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <set>
+
+namespace dgtk::test
+{
+
+namespace
+{
+// A million pixels: a standard deviation has a relative standard error of 0.07 %.
+constexpr int side = 1000;
+constexpr double onePercent = 0.01;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double degree = 3.14159265358979 / 180;
+
+DepthSensorSetup setupOf(const DepthSensorParameters& parameters)
+{
+  DepthSensorSetup setup;
+  setup.parameters = parameters;
+  setup.width = side;
+  setup.height = side;
+  setup.key = { 12, 0, 0 };
+  setup.focalLength = 600;
+  return setup;
+}
+
+auto plane(double z)
+{
+  return [z](int, int) { return z; };
+}
+
+double validPart(const std::vector<double>& depth) { return statisticsOf(depth).count / double(depth.size()); }
+} // namespace
+
+TEST(DepthSensor, WithoutEffectsDepthStaysAsItIs)
+{
+  DepthSensorSetup setup = setupOf({});
+  setup.height = 10;
+  const auto ramp = [](int x, int y) { return x % 7 == 0 ? infinity : 1 + 0.1 * x + y; };
+  const std::vector<double> out = measure(setup, ramp);
+  ASSERT_EQ(out.size(), std::size_t(side * 10));
+  for (int i = 0; i < side * 10; ++i)
+  {
+    EXPECT_EQ(out[std::size_t(i)], ramp(i % side, i / side));
+  }
+}
+
+TEST(DepthSensor, GaussianNoiseGrowsWithDepth)
+{
+  DepthSensorParameters p;
+  p.gaussian = { 0.01, 0.002, 0.003 };
+  for (const double z : { 1.0, 4.0 })
+  {
+    const Statistics s = statisticsOf(measure(setupOf(p), plane(z)));
+    EXPECT_NEAR(s.mean / z, 1, onePercent);
+    EXPECT_NEAR(std::sqrt(s.variance) / (0.01 + 0.002 * z + 0.003 * z * z), 1, onePercent);
+  }
+}
+
+TEST(DepthSensor, AxialNoiseIsThatOfThePaper)
+{
+  DepthSensorParameters p;
+  p.kinect.axial = 1;
+  p.kinect.metres = 0.1; // decimetres
+  for (const double angle : { 0.0, 40.0, 70.0, 80.0 })
+  {
+    for (const double z : { 0.9, 3.0 })
+    {
+      const Statistics s = statisticsOf(measure(setupOf(p), plane(10 * z), angle * degree));
+      const double rest = (90 - angle) * degree;
+      const double steep = angle < 60 ? 0 : 0.0001 / std::sqrt(z) * std::pow(angle * degree / rest, 2);
+      EXPECT_NEAR(std::sqrt(s.variance) / (10 * (0.0012 + 0.0019 * std::pow(z - 0.4, 2) + steep)), 1, onePercent);
+      EXPECT_NEAR(s.mean / (10 * z), 1, 0.001);
+    }
+  }
+}
+
+TEST(DepthSensor, LateralNoiseMovesAnEdgeAsThePaperSays)
+{
+  DepthSensorParameters p;
+  p.kinect.lateral = 1;
+  const auto step = [](int x, int) { return x % 100 < 50 ? 1.0 : 2.0; };
+  for (const double angle : { 0.0, 75.0 })
+  {
+    const double sigma = 0.8 + 0.035 * angle / (90 - angle);
+    const std::vector<double> depth = measure(setupOf(p), step, angle * degree);
+    for (const int distance : { 0, 1, 2 }) // pixels left of the last near one
+    {
+      double far = 0;
+      double all = 0;
+      for (int y = 0; y < side; ++y)
+      {
+        for (int x = 49 - distance; x < side; x += 100)
+        {
+          far += depth[std::size_t(y) * side + x] == 2 ? 1 : 0;
+          all += 1;
+        }
+      }
+      const double expected = normalBelow(-(distance + 0.5) / sigma); // shift of at least distance + 1, rounded
+      // 10,000 pixels: the limit is five standard errors
+      EXPECT_NEAR(far / all, expected, 5 * std::sqrt(expected * (1 - expected) / all)) << distance;
+    }
+  }
+}
+
+TEST(DepthSensor, StereoDepthsAreThoseOfWholeSteps)
+{
+  DepthSensorParameters p;
+  p.stereo.baseline = 0.1;
+  p.stereo.subpixel = 0.125;
+  const auto ramp = [](int x, int) { return 1 + 0.004 * x; };
+  const std::vector<double> depth = measure(setupOf(p), ramp);
+  std::set<double> steps;
+  for (int x = 0; x < side; ++x)
+  {
+    const double disparity = 60 / depth[std::size_t(x)];
+    EXPECT_NEAR(disparity * 8, std::round(disparity * 8), 1e-9);
+    EXPECT_LE(std::abs(disparity - 60 / ramp(x, 0)), 0.0625 + 1e-12);
+    steps.insert(disparity);
+  }
+  EXPECT_GT(steps.size(), 300u);
+}
+
+TEST(DepthSensor, StereoNoiseIsOfTheDisparity)
+{
+  DepthSensorParameters p;
+  p.stereo.baseline = 0.1;
+  p.stereo.sigma = 0.2;
+  std::vector<double> disparity = measure(setupOf(p), plane(3));
+  for (double& d : disparity)
+  {
+    d = 60 / d;
+  }
+  const Statistics s = statisticsOf(disparity);
+  EXPECT_NEAR(s.mean, 20, 0.002);
+  EXPECT_NEAR(std::sqrt(s.variance) / 0.2, 1, onePercent);
+  p.stereo.subpixel = 0.25; // Sheppard: rounding adds step^2 / 12
+  disparity = measure(setupOf(p), plane(3));
+  for (double& d : disparity)
+  {
+    d = 60 / d;
+  }
+  EXPECT_NEAR(statisticsOf(disparity).variance / (0.2 * 0.2 + 0.25 * 0.25 / 12), 1, onePercent);
+  DepthSensorSetup parallel = setupOf(p);
+  parallel.focalLength = 0;
+  EXPECT_THROW(measure(parallel, plane(3)), UsageError);
+}
+
+TEST(DepthSensor, DropOutComesAtItsRates)
+{
+  DepthSensorParameters p;
+  p.dropout.random = 0.2;
+  EXPECT_NEAR((1 - validPart(measure(setupOf(p), plane(2)))) / 0.2, 1, onePercent);
+  p = {};
+  p.dropout.grazing = 0.3;
+  p.dropout.grazingAngle = 70;
+  EXPECT_NEAR((1 - validPart(measure(setupOf(p), plane(2), 70.5 * degree))) / 0.3, 1, onePercent);
+  EXPECT_EQ(validPart(measure(setupOf(p), plane(2), 69.5 * degree)), 1);
+  p.dropout.random = 0.2; // independent of one another
+  EXPECT_NEAR(validPart(measure(setupOf(p), plane(2), 80 * degree)) / (0.8 * 0.7), 1, onePercent);
+}
+
+TEST(DepthSensor, DropOutAtEdgesStaysWithinTheirRadius)
+{
+  DepthSensorParameters p;
+  p.dropout.edge = 0.4;
+  p.dropout.edgeRadius = 2;
+  p.dropout.edgeJump = 0.1;
+  const auto steps = [](int x, int) { return x % 10 < 5 ? 1.0 : 1.2; };
+  const std::vector<double> depth = measure(setupOf(p), steps);
+  double beside = 0;
+  double dropped = 0;
+  for (int y = 0; y < side; ++y)
+  {
+    for (int x = 0; x < side; ++x)
+    {
+      const bool near = (x % 5 != 2) && x > 1 && x < side - 2; // all but the middle of a step
+      beside += near ? 1 : 0;
+      const bool gone = !std::isfinite(depth[std::size_t(y) * side + x]);
+      dropped += gone ? 1 : 0;
+      ASSERT_TRUE(!gone || near) << x;
+    }
+  }
+  EXPECT_NEAR(dropped / beside / 0.4, 1, onePercent); // of 800,000 pixels: standard error 0.14 %
+  p.dropout.edgeJump = 0.3;
+  EXPECT_EQ(validPart(measure(setupOf(p), steps)), 1);
+}
+
+TEST(DepthSensor, RangeAndInvalidity)
+{
+  DepthSensorParameters p;
+  p.gaussian = { 0.5, 0, 0 };
+  p.least = 2;
+  p.most = 4;
+  const auto striped = [](int x, int) { return x % 2 == 0 ? 3.0 : infinity; };
+  const std::vector<double> depth = measure(setupOf(p), striped);
+  for (std::size_t i = 0; i < depth.size(); ++i)
+  {
+    ASSERT_TRUE(depth[i] == infinity || (i % 2 == 0 && depth[i] >= 2 && depth[i] <= 4));
+  }
+  EXPECT_NEAR(2 * validPart(depth) / (1 - 2 * normalBelow(-2)), 1, onePercent);
+}
+
+TEST(DepthSensor, RowsTogetherOrApartAndThreadsGiveTheSameBytes)
+{
+  DepthSensorParameters p = defaultDepthSensor();
+  p.stereo = { 0.1, 0.125, 0.1 };
+  p.dropout.edgeRadius = 3;
+  DepthSensorSetup setup = setupOf(p);
+  setup.width = 97;
+  setup.height = 61;
+  const auto steps = [](int x, int y) { return x / 9 % 3 == 0 ? infinity : 1 + 0.1 * (x / 10) + 0.01 * y; };
+  const std::vector<double> whole = measure(setup, steps, 0.5, setup.height);
+  ThreadPool pool(3);
+  for (const int rows : { 1, 10, 40 })
+  {
+    EXPECT_EQ(whole, measure(setup, steps, 0.5, rows, &pool)) << rows;
+  }
+}
+
+} // namespace dgtk::test

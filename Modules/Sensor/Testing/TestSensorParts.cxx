@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkGradientNoise.h"
+#include "dgtkJpegArtefacts.h"
+#include "dgtkSensorRuns.h"
+#include "dgtkTestSupport.h"
+
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+
+namespace dgtk::test
+{
+
+namespace
+{
+using Bytes = std::vector<unsigned char>;
+
+/// A smooth coloured picture with an edge and some noise.
+Bytes picture(int width, int height, bool grey)
+{
+  const CounterRandom random(1, 1, 0, 0);
+  Bytes bytes;
+  for (int y = 0; y < height; ++y)
+  {
+    for (int x = 0; x < width; ++x)
+    {
+      for (int c = 0; c < 3; ++c)
+      {
+        const int channel = grey ? 0 : c;
+        const double v = 90 + 60 * std::sin(x * 0.05 * (channel + 1)) + 50 * std::cos(y * 0.04 + channel) +
+                         (x + y > width ? 30 : 0) + 20 * random.uniform(x, y, channel);
+        bytes.push_back(static_cast<unsigned char>(std::min(std::max(v, 0.0), 255.0)));
+      }
+    }
+  }
+  return bytes;
+}
+
+Bytes throughLibjpeg(const Bytes& bytes, int width, int height, int quality, const std::string& chroma)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.path("a.jpg");
+  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("Compression", "jpeg:" + std::to_string(quality));
+  spec.attribute("jpeg:subsampling", chroma);
+  const auto out = OIIO::ImageOutput::create(path);
+  EXPECT_TRUE(out && out->open(path, spec) && out->write_image(OIIO::TypeDesc::UINT8, bytes.data()) && out->close());
+  Bytes read(bytes.size());
+  const auto in = OIIO::ImageInput::open(path);
+  EXPECT_TRUE(in && in->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, read.data()));
+  return read;
+}
+
+Bytes throughOwn(const Bytes& bytes, int width, int height, int quality, bool subsampled)
+{
+  const sensor::JpegArtefacts jpeg(quality, subsampled);
+  Bytes out;
+  for (int y = 0; y < height; y += jpeg.blockRows())
+  {
+    std::vector<std::vector<float>> rows;
+    for (int r = y; r < std::min(y + jpeg.blockRows(), height); ++r)
+    {
+      std::vector<float> row;
+      for (int i = 0; i < width * 3; ++i)
+      {
+        row.push_back(bytes[std::size_t(r) * width * 3 + i] / 255.0f);
+      }
+      rows.push_back(row);
+    }
+    jpeg.apply(rows);
+    for (const std::vector<float>& row : rows)
+    {
+      for (const float v : row)
+      {
+        out.push_back(static_cast<unsigned char>(v * 255 + 0.5f));
+      }
+    }
+  }
+  return out;
+}
+
+double meanDifference(const Bytes& a, const Bytes& b)
+{
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    sum += std::abs(int(a[i]) - int(b[i])) / double(a.size());
+  }
+  return sum;
+}
+
+double meanSquare(const Bytes& a, const Bytes& b)
+{
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    const double d = double(a[i]) - double(b[i]);
+    sum += d * d / double(a.size());
+  }
+  return sum;
+}
+} // namespace
+
+TEST(JpegArtefacts, AreThoseOfLibjpeg)
+{
+  constexpr int width = 203; // no multiple of a block
+  constexpr int height = 155;
+  const Bytes color = picture(width, height, false);
+  const Bytes grey = picture(width, height, true);
+  for (const int quality : { 20, 60, 90 })
+  {
+    SCOPED_TRACE(quality);
+    // libjpeg computes in whole numbers, so that coefficients near the middle between two levels fall to the other
+    // side: half a grey level on the mean. What is lost must be as much.
+    const Bytes full = throughOwn(color, width, height, quality, false);
+    const Bytes fullReference = throughLibjpeg(color, width, height, quality, "4:4:4");
+    EXPECT_LT(meanDifference(full, fullReference), 0.5);
+    EXPECT_NEAR(meanSquare(full, color) / meanSquare(fullReference, color), 1, 0.02);
+    const Bytes half = throughOwn(grey, width, height, quality, true);
+    const Bytes halfReference = throughLibjpeg(grey, width, height, quality, "4:2:0");
+    EXPECT_LT(meanDifference(half, halfReference), 0.5);
+    EXPECT_NEAR(meanSquare(half, grey) / meanSquare(halfReference, grey), 1, 0.02);
+    // libjpeg smooths the chroma between its samples, here they are repeated.
+    EXPECT_LT(meanDifference(throughOwn(color, width, height, quality, true),
+                throughLibjpeg(color, width, height, quality, "4:2:0")),
+      3);
+  }
+}
+
+TEST(GradientNoise, HasTheMeanAndVarianceOfItsGradients)
+{
+  TextureParameters p;
+  p.amplitude = 1;
+  p.period = 8;
+  double sum = 0, square = 0, expected = 0, largest = 0;
+  const int seeds = 16;
+  const int side = 256; // 1024 cells for each seed
+  for (int seed = 0; seed < seeds; ++seed)
+  {
+    const sensor::GradientNoise noise(p, CounterRandom(std::uint64_t(seed), 1, 0, 0));
+    for (int y = 0; y < side; ++y)
+    {
+      for (int x = 0; x < side; ++x)
+      {
+        const double v = noise.at(x, y);
+        sum += v / (seeds * side * side);
+        square += v * v / (seeds * side * side);
+        largest = std::max(largest, std::abs(v));
+      }
+    }
+  }
+  // Gradients of length sqrt(2) in random directions: the slope along d has the variance |d|^2.
+  const auto fade = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
+  for (int i = 0; i < 64; ++i)
+  {
+    const double u = (i % 8 + 0.5) / 8, v = (i / 8 + 0.5) / 8;
+    for (const double a : { 0.0, 1.0 })
+    {
+      for (const double b : { 0.0, 1.0 })
+      {
+        const double weight = (a == 0 ? 1 - fade(u) : fade(u)) * (b == 0 ? 1 - fade(v) : fade(v));
+        expected += weight * weight * ((u - a) * (u - a) + (v - b) * (v - b)) / 64;
+      }
+    }
+  }
+  EXPECT_NEAR(sum, 0, 0.01);
+  EXPECT_NEAR(square / expected, 1, 0.03); // 16,384 cells, each with few independent values
+  EXPECT_LE(largest, 1);
+  EXPECT_GT(largest, 0.7);
+}
+
+TEST(GradientNoise, OctavesAddUp)
+{
+  const CounterRandom random(1, 1, 0, 0);
+  TextureParameters p;
+  p.amplitude = 0.5;
+  p.octaves = 1;
+  const double first = sensor::GradientNoise(p, random).at(13, 21);
+  p.octaves = 2;
+  p.persistence = 0;
+  EXPECT_EQ(sensor::GradientNoise(p, random).at(13, 21), first);
+  p.persistence = 0.5;
+  EXPECT_NE(sensor::GradientNoise(p, random).at(13, 21), first);
+}
+
+} // namespace dgtk::test
