@@ -21,6 +21,7 @@ import pictures
 import scenes
 import scenes_abilities
 import scenes_datasets
+import scenes_noise
 import textures
 
 DATA = pathlib.Path(__file__).resolve().parent.parent
@@ -53,7 +54,7 @@ def products():
     yield "Models/windmill.gltf", models_windmill.windmill()
     for make in (models_appendix.tuxedo, models_appendix.world):
         yield f"Scenes/{make.__name__}.ac", make()
-    for name, make in (scenes.FILES | scenes_abilities.FILES | scenes_datasets.FILES).items():
+    for name, make in (scenes.FILES | scenes_abilities.FILES | scenes_datasets.FILES | scenes_noise.FILES).items():
         yield f"Scenes/{name}", make()
 
 
