@@ -6,8 +6,10 @@
 #include "dgtkGenerator.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 
 #include <signal.h>
@@ -78,15 +80,38 @@ std::string oneOf(const Arguments& arguments, const std::string& option, const s
   return value;
 }
 
-double positive(const std::string& text, const std::string& option)
+constexpr double largestNumber = 1e30;
+
+// As many numbers as `names` says, all above `least`.
+std::vector<double> numbers(
+  const Arguments& arguments, const std::string& option, std::size_t count, double least, const std::string& names)
 {
-  double value = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code != std::errc() || end != text.data() + text.size() || !(value > 0) || value > 1e30)
+  std::vector<double> values;
+  for (const std::string& word : arguments.list(option))
   {
-    throw UsageError(option + ": expected a number above 0, found " + quoted(text));
+    double value = 0;
+    const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const bool whole = code == std::errc() && end == word.data() + word.size();
+    values.push_back(whole && value > least && value < largestNumber ? value : NAN);
   }
-  return value;
+  if (values.size() != count ||
+      std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); }))
+  {
+    throw UsageError(option + ": expected " + names + ", found " + quoted(arguments.text(option)));
+  }
+  return values;
+}
+
+std::array<double, 6> parseBox(const Arguments& arguments, const std::string& option)
+{
+  const std::vector<double> values = numbers(arguments, option, 6, -largestNumber, "X0,Y0,Z0,X1,Y1,Z1");
+  std::array<double, 6> box{};
+  std::copy(values.begin(), values.end(), box.begin());
+  if (!(box[0] < box[3] && box[1] < box[4] && box[2] < box[5]))
+  {
+    throw UsageError(option + ": the first corner of the box must be below the second");
+  }
+  return box;
 }
 
 // What POV-Ray shall show. The options mean nothing when it does not draw and no scene is written for it.
@@ -100,14 +125,18 @@ PovRenderOptions parsePov(const Arguments& arguments, const GeneratorRequest& re
   pov.antialias = arguments.has("--pov-antialias") ? arguments.integer("--pov-antialias", 1, 9) : 0;
   if (arguments.has("--pov-focal-blur"))
   {
-    const std::vector<std::string> numbers = arguments.list("--pov-focal-blur");
-    if (numbers.size() != 2)
-    {
-      throw UsageError(
-        "--pov-focal-blur: expected APERTURE,DISTANCE, found " + quoted(arguments.text("--pov-focal-blur")));
-    }
-    pov.aperture = positive(numbers[0], "--pov-focal-blur aperture");
-    pov.focus = positive(numbers[1], "--pov-focal-blur distance");
+    const std::vector<double> lens = numbers(arguments, "--pov-focal-blur", 2, 0, "APERTURE,DISTANCE, both above 0");
+    pov.aperture = lens[0];
+    pov.focus = lens[1];
+  }
+  pov.flatIds = arguments.has("--pov-flat-ids");
+  if (arguments.has("--pov-position-colors"))
+  {
+    pov.positionColors = parseBox(arguments, "--pov-position-colors");
+  }
+  if (pov.flatIds && pov.positionColors)
+  {
+    throw UsageError("--pov-flat-ids and --pov-position-colors exclude one another");
   }
   const auto& layers = request.layers;
   const bool scenes = std::any_of(
@@ -143,6 +172,7 @@ GeneratorRequest parseRequest(const Arguments& arguments)
   }
   arguments.size("--tile", largestImage, request.tileWidth, request.tileHeight);
   request.samples = arguments.integer("--samples", 1, 16);
+  request.filter = oneOf(arguments, "--filter", { "box", "triangle", "gaussian", "mitchell", "lanczos" });
   oneOf(arguments, "--color-bits", { "8", "16" });
   request.colorBits = arguments.integer("--color-bits", 8, 16);
   request.renderer = oneOf(arguments, "--renderer", { "vtk", "povray" });
@@ -221,6 +251,9 @@ Command renderCommand()
     { "--pov-reflections", "", "", "POV-Ray: shiny materials reflect" },
     { "--pov-radiosity", "", "", "POV-Ray: light between surfaces in place of ambient light" },
     { "--pov-focal-blur", "APERTURE,DISTANCE", "", "POV-Ray: diameter of the lens, distance in focus, scene units" },
+    { "--filter", "NAME", "box", "how samples become a pixel's colour: box, triangle, gaussian, mitchell, lanczos" },
+    { "--pov-flat-ids", "", "", "POV-Ray: every object in the colour of its id, without light" },
+    { "--pov-position-colors", "X0,Y0,Z0,X1,Y1,Z1", "", "POV-Ray: surfaces in the colour of their place in that box" },
     { "--pov-antialias", "N", "", "POV-Ray: N x N points a pixel (default: that of --samples)" } };
   for (const LayerInfo& layer : generatorLayers())
   {

@@ -20,21 +20,17 @@ void round(const float* from, T* to, std::size_t count)
   }
 }
 
-float linearFromEncoded(float v) // IEC 61966-2-1
-{
-  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
-
 // Rows that are encoded at once.
 constexpr int blockPixels = 1 << 18;
 
 class ColorLane : public OutputLane
 {
 public:
-  ColorLane(
-    const WorkPlan& plan, const Job& job, const std::string& camera, const View& view, const std::string& format)
-    : Spec(plan.colorSpec(format))
-    , Name(WorkPlan::fileName(camera, "color", job.frame, formatExtension(format)))
+  ColorLane(const WorkPlan& plan, const LayerSpec& spec, const std::string& name, const View& view,
+    const std::string& format, std::vector<float> Band::*rgb)
+    : Spec(spec)
+    , Name(name)
+    , Rgb(rgb)
     , Writer(makeLayerWriter(
         format, plan.request.folder + '/' + this->Name, this->Spec, view.model->width(), view.model->height()))
   {
@@ -45,7 +41,7 @@ public:
     const int rows = std::max(1, blockPixels / band.rect.width);
     for (int y = 0; y < band.rect.height; y += rows)
     {
-      this->Writer->write(quantise(band, this->Spec, band.rect.y + y, std::min(rows, band.rect.height - y)));
+      this->Writer->write(quantise(band, this->Spec, band.rect.y + y, std::min(rows, band.rect.height - y), this->Rgb));
     }
   }
 
@@ -53,12 +49,13 @@ public:
   {
     FileRecord record = this->Writer->finish();
     record.path = this->Name;
-    return { { record, "color" } };
+    return { { record, this->Spec.name } };
   }
 
 private:
   LayerSpec Spec;
   std::string Name;
+  std::vector<float> Band::*Rgb;
   std::unique_ptr<LayerWriter> Writer;
 };
 
@@ -151,11 +148,15 @@ private:
 };
 } // namespace
 
-Rows quantise(const Band& band, const LayerSpec& spec, int y, int height)
+float linearFromEncoded(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
+
+float encodedFromLinear(float v) { return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f; }
+
+Rows quantise(const Band& band, const LayerSpec& spec, int y, int height, std::vector<float> Band::*rgb)
 {
   const std::size_t rowValues = std::size_t(band.rect.width) * 3;
   const std::size_t count = rowValues * height;
-  const float* from = band.rgb.data() + std::size_t(y - band.rect.y) * rowValues;
+  const float* from = (band.*rgb).data() + std::size_t(y - band.rect.y) * rowValues;
   Rows rows(spec.type, 3, band.rect.width, y, height);
   switch (spec.type)
   {
@@ -174,7 +175,14 @@ Rows quantise(const Band& band, const LayerSpec& spec, int y, int height)
 std::unique_ptr<OutputLane> makeColorLane(
   const WorkPlan& plan, const Job& job, const std::string& camera, const View& view, const std::string& format)
 {
-  return std::make_unique<ColorLane>(plan, job, camera, view, format);
+  return makePictureLane(plan, plan.colorSpec(format),
+    WorkPlan::fileName(camera, "color", job.frame, formatExtension(format)), view, format, &Band::rgb);
+}
+
+std::unique_ptr<OutputLane> makePictureLane(const WorkPlan& plan, const LayerSpec& spec, const std::string& name,
+  const View& view, const std::string& format, std::vector<float> Band::*rgb)
+{
+  return std::make_unique<ColorLane>(plan, spec, name, view, format, rgb);
 }
 
 std::unique_ptr<OutputLane> makeTilesLane(

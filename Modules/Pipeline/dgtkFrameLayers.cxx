@@ -7,6 +7,7 @@ namespace dgtk
 // One file each defines its maker.
 std::shared_ptr<const FrameLayer> makeCorrespondenceLayer();
 std::shared_ptr<const FrameLayer> makeDisparityLayer();
+std::shared_ptr<const FrameLayer> makeSharpColorLayer();
 std::shared_ptr<const FrameLayer> makeEdgesLayer();
 std::shared_ptr<const FrameLayer> makeFlowForwardLayer();
 std::shared_ptr<const FrameLayer> makeFlowBackwardLayer();
@@ -25,6 +26,7 @@ std::shared_ptr<const FrameLayer> makePovLayer();
 const std::vector<std::shared_ptr<const FrameLayer>>& frameLayers()
 {
   static const std::vector<std::shared_ptr<const FrameLayer>> all{
+    makeSharpColorLayer(),
     makeEdgesLayer(),
     makeCorrespondenceLayer(),
     makeDisparityLayer(),

@@ -52,6 +52,8 @@ public:
   virtual bool needsPeeling() const { return false; }
   /// Whether its lane reads Band::rgb.
   virtual bool needsColor() const { return false; }
+  /// Whether its lane reads Band::sharp.
+  virtual bool needsSharpColor() const { return false; }
   /// Every file that a job writes, relative to the dataset; empty when the job has none.
   virtual std::vector<std::string> files(const WorkPlan&, const Stage&, const Job&) const = 0;
   /// Files of the dataset that a finished file of the layer needs and that other jobs may need, too, relative to the

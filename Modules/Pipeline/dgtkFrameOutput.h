@@ -23,8 +23,9 @@ namespace dgtk
 struct Band
 {
   PixelRect rect;
-  std::vector<Hit> hits;  ///< empty when no representation is asked for
-  std::vector<float> rgb; ///< empty when no colour is asked for; display-referred
+  std::vector<Hit> hits;    ///< empty when no representation is asked for
+  std::vector<float> rgb;   ///< empty when no colour is asked for; display-referred
+  std::vector<float> sharp; ///< colours of the frame's own instant and the lens's centre; empty unless asked for
   /// Surfaces behind one another as OpenGL peels them, for each tile from left to right the ranks from near to far;
   /// empty unless asked for.
   std::vector<std::vector<SurfaceLayer>> peeled;

@@ -29,7 +29,9 @@ FrameSource::FrameSource(const FrameSourceOptions& options, ThreadPool& pool)
   {
     std::unique_ptr<RasterSource> raster = makeRasterSource(glBackendFromName(options.gl));
     this->Description = raster->choice().description;
+    raster->setFilter(options.filter);
     this->Raster = std::move(raster);
+    this->Exposed = std::make_unique<ExposedColor>(*this->Raster, pool);
   }
   if (!options.mattes.empty())
   {
@@ -41,6 +43,8 @@ FrameSource::~FrameSource() = default;
 
 void FrameSource::setScene(const std::shared_ptr<const SceneState>& state, const View& view)
 {
+  this->State = state;
+  this->Camera = view;
   if (this->Ray)
   {
     this->Ray->setScene(state, view);
@@ -48,6 +52,7 @@ void FrameSource::setScene(const std::shared_ptr<const SceneState>& state, const
   if (this->Raster)
   {
     this->Raster->setScene(state, view);
+    this->Exposed->set({}, {});
   }
   if (this->Matting)
   {
@@ -60,6 +65,14 @@ void FrameSource::setScene(const std::shared_ptr<const SceneState>& state, const
   this->Grid = std::make_unique<TileGrid>(view.model->width(), view.model->height());
 }
 
+void FrameSource::expose(std::vector<Exposure> exposures, ExposedColor::StateAt stateAt)
+{
+  if (this->Exposed)
+  {
+    this->Exposed->set(std::move(exposures), std::move(stateAt));
+  }
+}
+
 int FrameSource::bands() const { return this->Grid->rows(); }
 
 /// What is drawn of a canonical tile.
@@ -67,10 +80,40 @@ struct FrameSource::Tile
 {
   VisibilityBuffer hits;
   ColorBuffer colors;
+  ColorBuffer sharp;
   std::vector<SurfaceLayer> ranks;
   std::vector<MattePixels> mattes;
   std::function<void()> rest = [] {}; ///< to be done before the buffers are whole
 };
+
+/// Colours, and hits when they come from the raster engine.
+void FrameSource::drawColor(const PixelRect& rect, Tile& tile)
+{
+  VisibilityBuffer* hits = this->Options.hits && this->Options.raster ? &tile.hits : nullptr;
+  if (!this->Exposed->blurs())
+  {
+    tile.rest = this->Raster->drawColor(rect, this->Options.samples, tile.colors, hits);
+    if (this->Options.sharp)
+    {
+      tile.rest = [&tile, rest = std::move(tile.rest)]
+      {
+        rest();
+        tile.sharp = tile.colors;
+      };
+    }
+    return;
+  }
+  if (this->Options.sharp)
+  {
+    tile.rest = this->Raster->drawColor(rect, this->Options.samples, tile.sharp, hits);
+  }
+  else if (hits)
+  {
+    this->Raster->render(rect, *hits);
+  }
+  this->Exposed->draw(rect, this->Options.samples, tile.colors);
+  this->Raster->setScene(this->State, this->Camera);
+}
 
 std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect)
 {
@@ -86,8 +129,7 @@ std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect)
   {
     if (this->rasterColor())
     {
-      tile->rest =
-        this->Raster->drawColor(rect, this->Options.samples, tile->colors, rasterHits ? &tile->hits : nullptr);
+      this->drawColor(rect, *tile);
     }
     else if (rasterHits)
     {
@@ -155,6 +197,7 @@ void FrameSource::drawBand(int row, DrawnBand& drawn)
     {
       tile->rest();
       band.rgb = std::move(tile->colors.rgb);
+      band.sharp = std::move(tile->sharp.rgb);
       band.hits = std::move(tile->hits.hits);
       band.peeled.push_back(std::move(tile->ranks));
       band.mattes = std::move(tile->mattes);
@@ -166,6 +209,7 @@ void FrameSource::drawBand(int row, DrawnBand& drawn)
   const std::size_t pixels = std::size_t(band.rect.width) * band.rect.height;
   band.hits.resize(this->Options.hits ? pixels : 0);
   band.rgb.resize(this->rasterColor() ? pixels * 3 : 0);
+  band.sharp.resize(this->Options.sharp ? pixels * 3 : 0);
   band.mattes.resize(this->Options.mattes.size());
   for (MattePixels& matte : band.mattes)
   {
@@ -199,6 +243,10 @@ void FrameSource::drawBand(int row, DrawnBand& drawn)
           if (this->rasterColor())
           {
             place(tile->colors.rgb, rect, 3, band.rect, band.rgb);
+          }
+          if (this->Options.sharp)
+          {
+            place(tile->sharp.rgb, rect, 3, band.rect, band.sharp);
           }
           for (std::size_t i = 0; i < tile->mattes.size(); ++i)
           {

@@ -2,6 +2,7 @@
 #ifndef dgtkFrameSource_h
 #define dgtkFrameSource_h
 
+#include "dgtkExposures.h"
 #include "dgtkFrameOutput.h"
 #include "dgtkPovColorSource.h"
 
@@ -21,7 +22,9 @@ struct FrameSourceOptions
   bool color = false; ///< colours are wanted
   bool peel = false;  ///< all surfaces are wanted
   bool raster = false;
+  bool sharp = false; ///< colours without motion blur and depth of field are wanted
   int samples = 1;
+  PixelFilter filter = PixelFilter::Box;
   std::vector<std::uint32_t> mattes; ///< ids of the objects whose mattes are wanted
   std::string gl = "auto";
   std::optional<PovColorSettings> pov; ///< colours are POV-Ray's
@@ -35,7 +38,10 @@ public:
   FrameSource(const FrameSourceOptions& options, ThreadPool& pool);
   ~FrameSource();
 
+  /// The scene and view of ground truth.
   void setScene(const std::shared_ptr<const SceneState>& state, const View& view);
+  /// What colours are the mean of, from now to the next setScene(); one or none: of the view itself.
+  void expose(std::vector<Exposure> exposures, ExposedColor::StateAt stateAt);
   int bands() const;
   /// Draws band `row`, 0 <= row < bands(); what needs neither OpenGL nor this source may be left to drawn.rest.
   void draw(int row, DrawnBand& drawn);
@@ -45,6 +51,7 @@ public:
 private:
   struct Tile;
   std::shared_ptr<Tile> drawTile(const PixelRect& rect);
+  void drawColor(const PixelRect& rect, Tile& tile);
   void drawBand(int row, DrawnBand& drawn);
   /// Whether the raster engine gives the colours.
   bool rasterColor() const { return this->Options.color && !this->Pov; }
@@ -54,6 +61,9 @@ private:
   std::unique_ptr<RasterSource> Raster;
   std::unique_ptr<MattingSource> Matting;
   std::unique_ptr<PovColorSource> Pov;
+  std::unique_ptr<ExposedColor> Exposed;
+  std::shared_ptr<const SceneState> State;
+  View Camera;
   std::unique_ptr<TileGrid> Grid;
   std::string Description;
 };

@@ -115,6 +115,9 @@ GeneratorResult Run::execute()
   options.peel = std::any_of(this->Plan.frameLayers.begin(), this->Plan.frameLayers.end(),
     [](const PlannedFrameLayer& planned) { return planned.layer->needsPeeling(); });
   options.samples = request.samples;
+  options.filter = pixelFilterFromName(request.filter);
+  options.sharp = std::any_of(this->Plan.frameLayers.begin(), this->Plan.frameLayers.end(),
+    [](const PlannedFrameLayer& planned) { return planned.layer->needsSharpColor(); });
   options.mattes = matteObjects(this->Plan, *this->Scene);
   options.gl = request.gl;
   if (request.renderer == "povray")
@@ -204,6 +207,7 @@ std::shared_ptr<const SceneState> Run::stateAt(int frame)
 
 void Run::render(const Job& job)
 {
+  const GeneratorRequest& request = this->Plan.request;
   const View view = this->viewOf(job);
   const std::shared_ptr<const SceneState> state = this->stateAt(job.frame);
   for (const std::string& name : this->filesOf(job))
@@ -215,6 +219,11 @@ void Run::render(const Job& job)
   if (this->Plan.needsHits() || this->Plan.drawsColor())
   {
     this->Source->setScene(state, view);
+    if (this->Plan.drawsColor() && request.renderer == "vtk")
+    {
+      this->Source->expose(this->Scene->exposures(job.camera, job.frame, request.width, request.height),
+        [this](double frame) { return this->Scene->at(frame); });
+    }
     for (int row = 0; row < this->Source->bands(); ++row)
     {
       if (this->PendingBytes > mostPendingBytes)

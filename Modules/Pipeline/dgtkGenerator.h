@@ -46,6 +46,7 @@ struct GeneratorRequest
   int pointsStep = 4;              ///< pixels between the samples of the points layer, >= 1
   int seed = 0;                    ///< of random numbers
   int samples = 1;                 ///< colour is the mean of samples x samples points a pixel, 1 to 16
+  std::string filter = "box";      ///< of the samples of colour: box, triangle, gaussian, mitchell or lanczos
   int colorBits = 8;               ///< of colour in PNG: 8 or 16
   std::string renderer = "vtk";    ///< of colour: vtk or povray
   PovRenderOptions pov;            ///< of POV-Ray and of the layer pov

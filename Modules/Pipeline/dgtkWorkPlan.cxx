@@ -5,6 +5,7 @@
 #include "dgtkFrameLayers.h"
 #include "dgtkLayerWriter.h"
 #include "dgtkNoisySensor.h"
+#include "dgtkRasterSource.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -224,6 +225,30 @@ std::vector<std::string> WorkPlan::formatsOf(const std::string& frameLayer) cons
   return {};
 }
 
+namespace
+{
+/// What the renderer cannot do.
+void checkPictures(const WorkPlan& plan, const SceneDescription& scene)
+{
+  const GeneratorRequest& request = plan.request;
+  pixelFilterFromName(request.filter);
+  if (request.filter != "box" && (request.samples == 1 || request.renderer != "vtk"))
+  {
+    throw UsageError("the filter " + request.filter + " needs several samples a pixel (--samples 2 or more) and " +
+                     "the built-in renderer");
+  }
+  for (const Job& job : plan.jobs)
+  {
+    const CameraDescription& camera = scene.cameras[job.camera];
+    if (plan.drawsColor() && request.renderer != "vtk" && (camera.shutter.blurs() || camera.lens.blurs()))
+    {
+      throw UsageError("camera " + quoted(camera.name) + " has a " + (camera.lens.blurs() ? "lens" : "shutter") +
+                       ": only the built-in renderer averages exposures (POV-Ray has --pov-focal-blur)");
+    }
+  }
+}
+} // namespace
+
 WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
 {
   const SceneDescription& scene = stage.description();
@@ -267,6 +292,7 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
       plan.jobs.push_back({ camera, frame });
     }
   }
+  checkPictures(plan, scene);
   plan.noise = describeNoise(plan, stage);
   if (plan.has("pov"))
   {
@@ -298,6 +324,10 @@ std::vector<std::pair<std::string, std::string>> describeRequest(const WorkPlan&
   if (plan.drawsColor())
   {
     pairs.emplace_back("samples", std::to_string(request.samples));
+    if (request.filter != "box")
+    {
+      pairs.emplace_back("filter", request.filter);
+    }
     pairs.emplace_back("color_bits", std::to_string(request.colorBits));
     pairs.emplace_back("color_format", joined(plan.colorFormats));
   }

@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkFragmentList.h"
 #include "dgtkGLWindow.h"
+#include "dgtkPixelFilter.h"
 #include "dgtkRasterScene.h"
 #include "dgtkRasterTarget.h"
 #include "dgtkSurfaceRows.h"
@@ -48,31 +49,18 @@ void takeHits(
   }
 }
 
-/// Box average of the samples in `pixels` (RGBA, bottom to top) into the piece of `colors`.
-void average(const std::vector<float>& pixels, const PixelRect& piece, int samples, ColorBuffer& colors)
+/// The colours of pixels without averaging: `pixels` is RGBA, bottom to top.
+void take(const std::vector<float>& pixels, const PixelRect& rect, ColorBuffer& colors)
 {
-  const PixelRect rect{ 0, 0, piece.width * samples, piece.height * samples };
-  const float weight = 1.0f / float(samples * samples);
-  for (int y = 0; y < piece.height; ++y)
+  for (int y = 0; y < rect.height; ++y)
   {
-    float* target =
-      colors.rgb.data() +
-      (std::size_t(piece.y - colors.rect.y + y) * colors.rect.width + std::size_t(piece.x - colors.rect.x)) * 3;
-    std::fill_n(target, std::size_t(piece.width) * 3, 0.0f);
-    for (int row = 0; row < samples; ++row)
+    const float* source = rowFromTop(pixels, rect, y, 4);
+    float* target = colors.rgb.data() + std::size_t(y) * rect.width * 3;
+    for (int x = 0; x < rect.width; ++x, source += 4, target += 3)
     {
-      const float* source = rowFromTop(pixels, rect, y * samples + row, 4);
-      for (int x = 0; x < rect.width; ++x, source += 4)
-      {
-        float* pixel = target + x / samples * 3;
-        pixel[0] += clamped(source[0]);
-        pixel[1] += clamped(source[1]);
-        pixel[2] += clamped(source[2]);
-      }
-    }
-    for (int i = 0; i < piece.width * 3 && samples > 1; ++i)
-    {
-      target[i] *= weight;
+      target[0] = clamped(source[0]);
+      target[1] = clamped(source[1]);
+      target[2] = clamped(source[2]);
     }
   }
 }
@@ -94,6 +82,7 @@ public:
 
   std::string name() const override { return "raster"; }
   GLChoice choice() const override { return this->Choice; }
+  void setFilter(PixelFilter filter) override { this->Filter = filter; }
   void setScene(std::shared_ptr<const SceneState> state, const View& view) override;
   void render(const PixelRect& rect, VisibilityBuffer& hits) override;
   std::function<void()> drawColor(
@@ -118,6 +107,7 @@ private:
   std::shared_ptr<const SceneState> State;
   View Camera;
   bool ClipControl;
+  PixelFilter Filter = PixelFilter::Box;
   std::vector<float> Pixels; // RGBA, bottom to top
   std::vector<float> Ids;
   std::vector<float> LayerPixels;
@@ -179,7 +169,7 @@ std::function<void()> VtkRasterSource::drawColor(
     return [state = this->State, view = this->Camera, first = this->Scene.firstHits(), pixels = std::move(this->Pixels),
              ids = std::move(this->Ids), rect, &colors, hits]
     {
-      average(pixels, rect, 1, colors);
+      take(pixels, rect, colors);
       if (hits)
       {
         hits->resize(rect);
@@ -188,14 +178,15 @@ std::function<void()> VtkRasterSource::drawColor(
       }
     };
   }
-  const int side = std::max(1, MaxPiece / samples);
+  const SampleFilter filter(this->Filter, samples);
+  const int side = std::max(1, MaxPiece / samples - 2 * filter.margin());
   for (int y = 0; y < rect.height; y += side)
   {
     for (int x = 0; x < rect.width; x += side)
     {
       const PixelRect piece{ rect.x + x, rect.y + y, std::min(side, rect.width - x), std::min(side, rect.height - y) };
-      this->drawSamples(piece, samples, false);
-      average(this->Pixels, piece, samples, colors);
+      this->drawSamples(filter.drawn(piece), samples, false);
+      filter.apply(this->Pixels, piece, colors);
     }
   }
   check();

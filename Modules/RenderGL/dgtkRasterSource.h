@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace dgtk
@@ -23,12 +24,29 @@ struct SurfaceLayer
   std::vector<Hit> hits;   ///< object 0 where the ray meets no surface of this rank
 };
 
+/// How the samples of a neighbourhood become the colour of a pixel. Separable; the weights of the samples at hand sum
+/// to 1.
+enum class PixelFilter
+{
+  Box,      ///< the pixel itself, radius 0.5 pixel
+  Triangle, ///< radius 1
+  Gaussian, ///< of standard deviation 0.5, cut off at radius 1.5
+  Mitchell, ///< radius 2, B = C = 1/3 (Mitchell and Netravali 1988)
+  Lanczos   ///< radius 3 (Duchon 1979)
+};
+/// Throws UsageError for an unknown name: box, triangle, gaussian, mitchell, lanczos.
+DGTKRENDERGL_EXPORT PixelFilter pixelFilterFromName(const std::string& name);
+/// Weights of `samples` samples a pixel along one axis, from `margin` pixels before the pixel to `margin` after it.
+DGTKRENDERGL_EXPORT std::vector<double> pixelFilterWeights(PixelFilter filter, int samples, int& margin);
+
 /// The raster engine: draws with VTK. All calls come from one thread.
 class DGTKRENDERGL_EXPORT RasterSource : public ColorSource
 {
 public:
   /// The OpenGL that it draws with.
   virtual GLChoice choice() const = 0;
+  /// Of drawColor() with several samples a pixel; box unless set.
+  virtual void setFilter(PixelFilter filter) = 0;
   /// Peels all surfaces along the rays through the pixel centres of `rect` (as in render()), nearest first; surfaces at
   /// one depth in the order of (object, triangle). Calls `visit` for each rank until it returns false or no pixel has a
   /// surface of that rank.
