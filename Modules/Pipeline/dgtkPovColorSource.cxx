@@ -57,6 +57,12 @@ PovOptions povOptionsOf(const PovRenderOptions& options)
   pov.areaLights = options.areaLights;
   pov.reflections = options.reflections;
   pov.radiosity = options.radiosity;
+  pov.flatIds = options.flatIds;
+  if (options.positionColors)
+  {
+    const std::array<double, 6>& box = *options.positionColors;
+    pov.positionColors = PovBox{ { box[0], box[1], box[2] }, { box[3], box[4], box[5] } };
+  }
   if (options.aperture > 0)
   {
     pov.lens = PovLens{ options.aperture, options.focus };

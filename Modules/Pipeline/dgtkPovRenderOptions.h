@@ -2,6 +2,9 @@
 #ifndef dgtkPovRenderOptions_h
 #define dgtkPovRenderOptions_h
 
+#include <array>
+#include <charconv>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,8 +22,18 @@ struct PovRenderOptions
   bool radiosity = false;   ///< light between surfaces in place of ambient light
   double aperture = 0;      ///< diameter of the lens, scene units; 0: none
   double focus = 0;         ///< distance of the plane in focus, scene units, > 0 with an aperture
-  int antialias = 0;        ///< N x N points a pixel, on a grid, 1 to 9; 0: as many as `samples`
+  bool flatIds = false;     ///< objects in the colours of their ids, without light
+  /// Surfaces in the colours of their places in the world: black at (low), white at (high); x, y, z low, x, y, z high.
+  /// Not with flatIds.
+  std::optional<std::array<double, 6>> positionColors;
+  int antialias = 0; ///< N x N points a pixel, on a grid, 1 to 9; 0: as many as `samples`
 
+  /// Shortest text of a number that reads back the same.
+  static std::string number(double value)
+  {
+    char text[32];
+    return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
+  }
   /// What differs from the defaults, as keys and values of the manifest.
   std::vector<std::pair<std::string, std::string>> describe() const
   {
@@ -36,7 +49,14 @@ struct PovRenderOptions
     add(this->areaLights > 0, "pov_area_lights", std::to_string(this->areaLights));
     add(this->reflections, "pov_reflections", "on");
     add(this->radiosity, "pov_radiosity", "on");
-    add(this->aperture > 0, "pov_focal_blur", std::to_string(this->aperture) + ',' + std::to_string(this->focus));
+    add(this->aperture > 0, "pov_focal_blur", number(this->aperture) + ',' + number(this->focus));
+    add(this->flatIds, "pov_flat_ids", "on");
+    std::string box;
+    for (const double value : this->positionColors.value_or(std::array<double, 6>{}))
+    {
+      box += (box.empty() ? "" : ",") + number(value);
+    }
+    add(this->positionColors.has_value(), "pov_position_colors", box);
     add(this->antialias > 0, "pov_antialias", std::to_string(this->antialias));
     return pairs;
   }
