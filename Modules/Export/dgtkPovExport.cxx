@@ -124,8 +124,9 @@ PovResult exportPov(const SceneState& state, const View& view, const std::string
   const std::string begin = firstLines(state, view, context.scale) + '\n' + head(state, context, {}, result.warnings);
   PovText text(path);
   text << begin;
-  PovMeshesInside meshes(text, images, options);
-  addObjects(state, { text, meshes, view, options, context.scale });
+  const PovSurfaceOptions surface = povSurfaceOptions(state, options);
+  PovMeshesInside meshes(text, images, surface);
+  addObjects(state, { text, meshes, view, surface, context.scale });
   text.commit();
   result.files = images.files();
   result.files.push_back(path);
@@ -165,8 +166,9 @@ PovScene makePovScene(
   const PovLightContext context = contextOf(state, view, options);
   scene.scale = context.scale;
   PovText objects;
-  PovMeshesIncluded meshes(library.impl(), options);
-  addObjects(state, { objects, meshes, view, options, context.scale });
+  const PovSurfaceOptions surface = povSurfaceOptions(state, options);
+  PovMeshesIncluded meshes(library.impl(), surface);
+  addObjects(state, { objects, meshes, view, surface, context.scale });
   scene.uses = meshes.uses();
   scene.text = firstLines(state, view, context.scale);
   for (const PovFile& file : scene.uses)

@@ -114,7 +114,8 @@ std::string PovLibrary::Impl::image(const ImageKey& key, Make make)
   return this->Images.try_emplace(key, name).first->second;
 }
 
-std::shared_ptr<PovLibrary::Impl::Entry> PovLibrary::Impl::entryOf(const Instance& instance, std::uint32_t ownId)
+std::shared_ptr<PovLibrary::Impl::Entry> PovLibrary::Impl::entryOf(
+  const Instance& instance, std::uint32_t ownId, bool headLit)
 {
   const auto gone = [](const Entry& entry) { return entry.geometry.expired(); };
   const std::lock_guard<std::mutex> lock(this->Mutex);
@@ -123,7 +124,7 @@ std::shared_ptr<PovLibrary::Impl::Entry> PovLibrary::Impl::entryOf(const Instanc
     at = gone(*at->second) ? this->Entries.erase(at) : std::next(at);
   }
   std::shared_ptr<Entry>& entry =
-    this->Entries[{ instance.model.get(), instance.geometry.get(), &povMaterialsOf(instance), ownId }];
+    this->Entries[{ instance.model.get(), instance.geometry.get(), &povMaterialsOf(instance), ownId, headLit }];
   if (!entry || gone(*entry))
   {
     entry = std::make_shared<Entry>();
@@ -132,7 +133,7 @@ std::shared_ptr<PovLibrary::Impl::Entry> PovLibrary::Impl::entryOf(const Instanc
   return entry;
 }
 
-PovIncluded PovLibrary::Impl::write(const Instance& instance, std::uint32_t ownId, const PovOptions& options)
+PovIncluded PovLibrary::Impl::write(const Instance& instance, std::uint32_t ownId, const PovSurfaceOptions& options)
 {
   PovText text;
   PovImagesIncluded images(*this);
@@ -145,9 +146,9 @@ PovIncluded PovLibrary::Impl::write(const Instance& instance, std::uint32_t ownI
   return included;
 }
 
-PovIncluded PovLibrary::Impl::mesh(const Instance& instance, std::uint32_t ownId, const PovOptions& options)
+PovIncluded PovLibrary::Impl::mesh(const Instance& instance, std::uint32_t ownId, const PovSurfaceOptions& options)
 {
-  const std::shared_ptr<Entry> entry = this->entryOf(instance, ownId);
+  const std::shared_ptr<Entry> entry = this->entryOf(instance, ownId, options.headLit);
   std::call_once(entry->once, [&] { entry->included = this->write(instance, ownId, options); });
   return entry->included;
 }

@@ -31,7 +31,7 @@ struct PovLibrary::Impl
   std::string folder;
   std::string reference;
 
-  PovIncluded mesh(const Instance& instance, std::uint32_t ownId, const PovOptions& options);
+  PovIncluded mesh(const Instance& instance, std::uint32_t ownId, const PovSurfaceOptions& options);
   PovFile describe(const std::string& name);
   /// Writes a file unless it is there; returns its name <stem>_<hash>.<extension>.
   std::string add(const std::string& stem, const std::string& extension, const std::string& contents);
@@ -49,9 +49,9 @@ private:
     std::once_flag once;
     PovIncluded included;
   };
-  using MeshKey = std::tuple<const Model*, const Geometry*, const std::vector<Material>*, std::uint32_t>;
-  std::shared_ptr<Entry> entryOf(const Instance& instance, std::uint32_t ownId);
-  PovIncluded write(const Instance& instance, std::uint32_t ownId, const PovOptions& options);
+  using MeshKey = std::tuple<const Model*, const Geometry*, const std::vector<Material>*, std::uint32_t, bool>;
+  std::shared_ptr<Entry> entryOf(const Instance& instance, std::uint32_t ownId, bool headLit);
+  PovIncluded write(const Instance& instance, std::uint32_t ownId, const PovSurfaceOptions& options);
 
   std::mutex Mutex;
   std::map<MeshKey, std::shared_ptr<Entry>> Entries;
@@ -63,7 +63,7 @@ private:
 class PovMeshesIncluded final : public PovMeshes
 {
 public:
-  PovMeshesIncluded(PovLibrary::Impl& library, const PovOptions& options)
+  PovMeshesIncluded(PovLibrary::Impl& library, const PovSurfaceOptions& options)
     : Library(library)
     , Options(options)
   {
@@ -74,7 +74,7 @@ public:
 
 private:
   PovLibrary::Impl& Library;
-  PovOptions Options;
+  PovSurfaceOptions Options;
   std::set<std::string> Known;
   std::vector<std::string> Includes;
   std::vector<PovFile> Uses;

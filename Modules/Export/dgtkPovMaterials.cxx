@@ -37,8 +37,8 @@ std::string masked(const Model& model, const Material& material, PovImages& imag
 /// Largest Phong exponent of a material: a mirror.
 constexpr double MirrorShininess = 128;
 
-std::string finish(
-  const Material& material, const Eigen::Vector3d& tint, double diffuse, bool highlight, bool reflections)
+std::string finish(const Material& material, const Eigen::Vector3d& tint, double diffuse, bool highlight,
+  const PovSurfaceOptions& options)
 {
   std::string text =
     "finish { ambient " + povColor(material.ambient.cwiseQuotient(tint)) + " diffuse " + povNumber(diffuse);
@@ -49,10 +49,12 @@ std::string finish(
   const double shine = material.specular.mean();
   if (shine > 0 && highlight)
   {
-    text += " phong " + povNumber(shine) + " phong_size " + povNumber(material.shininess);
+    text += options.headLit
+              ? " specular " + povNumber(shine) + " roughness " + povNumber(1 / std::max(material.shininess, 1.0))
+              : " phong " + povNumber(shine) + " phong_size " + povNumber(material.shininess);
   }
   const double mirror = shine * std::min(material.shininess / MirrorShininess, 1.0);
-  if (reflections && highlight && mirror > 0)
+  if (options.reflections && highlight && mirror > 0)
   {
     text += " reflection { " + povNumber(mirror) + " }";
   }
@@ -60,9 +62,19 @@ std::string finish(
 }
 } // namespace
 
+PovSurfaceOptions povSurfaceOptions(const SceneState& state, const PovOptions& options)
+{
+  PovSurfaceOptions surface;
+  static_cast<PovOptions&>(surface) = options;
+  surface.headLit = std::all_of(state.lights.begin(), state.lights.end(),
+    [](const LightState& light) { return light.kind == LightState::Kind::Head; });
+  return surface;
+}
+
 bool povCutOut(const Model& model, const Material& material) { return material.cutOut && imageOf(model, material); }
 
-std::string povMaterial(const Model& model, const Material& material, const PovOptions& options, PovImages& images)
+std::string povMaterial(
+  const Model& model, const Material& material, const PovSurfaceOptions& options, PovImages& images)
 {
   const double diffuse = material.diffuse.maxCoeff();
   Eigen::Vector3d tint(1, 1, 1);
@@ -84,8 +96,7 @@ std::string povMaterial(const Model& model, const Material& material, const PovO
     pigment =
       transmit > 0 ? "rgbt " + povVector(Eigen::Vector4d(tint.x(), tint.y(), tint.z(), transmit)) : povColor(tint);
   }
-  return "texture { pigment { " + pigment + " } " + finish(material, tint, diffuse, !cutOut, options.reflections) +
-         " }";
+  return "texture { pigment { " + pigment + " } " + finish(material, tint, diffuse, !cutOut, options) + " }";
 }
 
 namespace

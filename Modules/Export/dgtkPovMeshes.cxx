@@ -62,7 +62,7 @@ void writeVertices(PovText& text, const Instance& instance)
 
 /// Of the materials in use; returns material -> index of the list. Empty for a mesh without textures of its own.
 std::vector<int> writeTextures(
-  PovText& text, const Instance& instance, std::uint32_t ownId, const PovOptions& options, PovImages& images)
+  PovText& text, const Instance& instance, std::uint32_t ownId, const PovSurfaceOptions& options, PovImages& images)
 {
   if ((options.flatIds || options.positionColors) && ownId == 0)
   {
@@ -110,7 +110,7 @@ const std::vector<Material>& povMaterialsOf(const Instance& instance)
   return instance.materials ? *instance.materials : instance.model->materials;
 }
 
-std::uint32_t povOwnId(const Instance& instance, std::uint32_t id, const PovOptions& options)
+std::uint32_t povOwnId(const Instance& instance, std::uint32_t id, const PovSurfaceOptions& options)
 {
   const std::vector<Material>& materials = povMaterialsOf(instance);
   const bool cutOut = std::any_of(
@@ -119,7 +119,7 @@ std::uint32_t povOwnId(const Instance& instance, std::uint32_t id, const PovOpti
 }
 
 void povWriteMesh(
-  PovText& text, const Instance& instance, std::uint32_t ownId, const PovOptions& options, PovImages& images)
+  PovText& text, const Instance& instance, std::uint32_t ownId, const PovSurfaceOptions& options, PovImages& images)
 {
   text << "{\n";
   writeVertices(text, instance);

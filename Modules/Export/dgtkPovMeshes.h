@@ -6,6 +6,7 @@
 
 #include "dgtkPovExport.h"
 #include "dgtkPovImages.h"
+#include "dgtkPovMaterials.h"
 #include "dgtkPovText.h"
 
 #include <map>
@@ -18,11 +19,11 @@ namespace dgtk
 const std::vector<Material>& povMaterialsOf(const Instance& instance);
 
 /// Id that a mesh of its own must know for its textures, or 0 when a mesh serves all objects.
-std::uint32_t povOwnId(const Instance& instance, std::uint32_t id, const PovOptions& options);
+std::uint32_t povOwnId(const Instance& instance, std::uint32_t id, const PovSurfaceOptions& options);
 
 /// `mesh2 { ... }` without its end: `{`, lists, `}`.
 void povWriteMesh(
-  PovText& text, const Instance& instance, std::uint32_t ownId, const PovOptions& options, PovImages& images);
+  PovText& text, const Instance& instance, std::uint32_t ownId, const PovSurfaceOptions& options, PovImages& images);
 
 /// Where meshes are declared.
 class PovMeshes
@@ -37,7 +38,7 @@ public:
 class PovMeshesInside final : public PovMeshes
 {
 public:
-  PovMeshesInside(PovText& text, PovImages& images, const PovOptions& options)
+  PovMeshesInside(PovText& text, PovImages& images, const PovSurfaceOptions& options)
     : Text(text)
     , Images(images)
     , Options(options)
@@ -50,7 +51,7 @@ private:
 
   PovText& Text;
   PovImages& Images;
-  PovOptions Options;
+  PovSurfaceOptions Options;
   std::map<Key, std::string> Names;
 };
 
@@ -58,7 +59,7 @@ private:
 class PovObjects
 {
 public:
-  PovObjects(PovText& text, PovMeshes& meshes, const View& view, const PovOptions& options, double scale)
+  PovObjects(PovText& text, PovMeshes& meshes, const View& view, const PovSurfaceOptions& options, double scale)
     : Text(text)
     , Meshes(meshes)
     , TheView(view)
@@ -75,7 +76,7 @@ private:
   PovText& Text;
   PovMeshes& Meshes;
   const View& TheView;
-  PovOptions Options;
+  PovSurfaceOptions Options;
   double Scale;
 };
 
