@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 namespace dgtk::portable
 {
@@ -13,6 +15,80 @@ namespace
 constexpr double ln2 = 0.693147180559945309417;
 constexpr double halfPi = 1.57079632679489661923;
 constexpr double halfLogTwoPi = 0.918938533204672741780;
+
+struct OddReciprocals // 1, 1/3, 1/5, ...
+{
+  double reciprocal[13]{};
+  constexpr OddReciprocals()
+  {
+    for (int i = 0; i < 13; ++i)
+    {
+      this->reciprocal[i] = 1.0 / (2 * i + 1);
+    }
+  }
+};
+constexpr OddReciprocals odd;
+
+struct FactorialReciprocals // 1 / n!
+{
+  double reciprocal[15]{};
+  constexpr FactorialReciprocals()
+  {
+    double factorial = 1;
+    for (int n = 0; n < 15; ++n)
+    {
+      factorial *= n > 0 ? n : 1;
+      this->reciprocal[n] = 1 / factorial;
+    }
+  }
+};
+constexpr FactorialReciprocals factorials;
+
+double powerOfTwo(int exponent) // of a normal number
+{
+  const std::uint64_t bits = static_cast<std::uint64_t>(exponent + 1023) << 52;
+  double value = 0;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+/// A smooth function by Hermite's cubics between equal steps.
+class CubicTable
+{
+public:
+  template <typename Value, typename Slope>
+  CubicTable(double first, double last, const Value& value, const Slope& slope)
+    : First(first)
+    , PerUnit(steps / (last - first))
+  {
+    for (int i = 0; i <= steps; ++i)
+    {
+      const double x = first + i / this->PerUnit;
+      this->Nodes[static_cast<std::size_t>(i)] = { value(x), slope(x) / this->PerUnit };
+    }
+  }
+  double operator()(double x) const
+  {
+    const double at = (x - this->First) * this->PerUnit;
+    const int i = std::min(std::max(static_cast<int>(at), 0), steps - 1);
+    const Node& a = this->Nodes[static_cast<std::size_t>(i)];
+    const Node& b = this->Nodes[static_cast<std::size_t>(i) + 1];
+    const double t = at - i;
+    const double rise = b.value - a.value;
+    return a.value + t * (a.slope + t * ((3 * rise - 2 * a.slope - b.slope) + t * (a.slope + b.slope - 2 * rise)));
+  }
+
+private:
+  static constexpr int steps = 1024;
+  struct Node
+  {
+    double value = 0;
+    double slope = 0; ///< a step
+  };
+  double First;
+  double PerUnit;
+  std::array<Node, steps + 1> Nodes;
+};
 
 // Series of the inverse sine; |x| <= 1/2.
 double asinSmall(double x)
@@ -41,9 +117,9 @@ double log(double x)
   const double s = (m - 1) / (m + 1);
   const double ss = s * s;
   double sum = 0;
-  for (int n = 25; n >= 1; n -= 2) // 2 artanh(s), from the smallest term
+  for (int i = 12; i >= 0; --i) // 2 artanh(s), from the smallest term
   {
-    sum = sum * ss + 1.0 / n;
+    sum = sum * ss + odd.reciprocal[i];
   }
   return exponent * ln2 + 2 * s * sum;
 }
@@ -59,12 +135,15 @@ double exp(double x)
   constexpr double ln2Low = 1.90821492927058770002e-10;
   const double k = std::floor(x / ln2 + 0.5);
   const double r = (x - k * ln2High) - k * ln2Low;
-  double sum = 1;
-  for (int n = 15; n >= 1; --n)
+  const double rr = r * r; // two sums at a time
+  double even = factorials.reciprocal[14];
+  double odds = factorials.reciprocal[13];
+  for (int n = 12; n > 0; n -= 2)
   {
-    sum = 1 + sum * r / n;
+    even = even * rr + factorials.reciprocal[n];
+    odds = odds * rr + factorials.reciprocal[n - 1];
   }
-  return std::ldexp(sum, static_cast<int>(k));
+  return (1 + (even * rr + r * odds)) * powerOfTwo(static_cast<int>(k));
 }
 
 double pow(double x, double y) { return x > 0 ? exp(y * log(x)) : 0; }
@@ -88,14 +167,22 @@ double logFactorial(double n)
 
 double linearFromSrgb(double v)
 {
+  static const CubicTable table(
+    0.04045, 1.0, // the curve and its slope
+    [](double e) { return pow((e + 0.055) / 1.055, 2.4); },
+    [](double e) { return 2.4 / 1.055 * pow((e + 0.055) / 1.055, 1.4); });
   v = std::min(std::max(v, 0.0), 1.0);
-  return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+  return v <= 0.04045 ? v / 12.92 : table(v);
 }
 
 double srgbFromLinear(double v)
 {
+  // in the root of the light, of which the curve is nearly straight
+  static const CubicTable table(
+    std::sqrt(0.0031308), 1.0, [](double root) { return 1.055 * pow(root, 2 / 2.4) - 0.055; },
+    [](double root) { return 1.055 * (2 / 2.4) * pow(root, 2 / 2.4 - 1); });
   v = std::min(std::max(v, 0.0), 1.0);
-  return v <= 0.0031308 ? v * 12.92 : 1.055 * pow(v, 1 / 2.4) - 0.055;
+  return v <= 0.0031308 ? v * 12.92 : table(std::sqrt(v));
 }
 
 } // namespace dgtk::portable

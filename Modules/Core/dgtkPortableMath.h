@@ -22,7 +22,7 @@ DGTKCORE_EXPORT double acos(double c);
 /// Logarithm of n!, n >= 0; absolute error below 1e-10 and a relative 1e-15.
 DGTKCORE_EXPORT double logFactorial(double n);
 
-/// sRGB (IEC 61966-2-1), both ways, on [0, 1]; values outside are clamped.
+/// sRGB (IEC 61966-2-1), both ways, on [0, 1]; values outside are clamped. Error below 1e-10.
 DGTKCORE_EXPORT double linearFromSrgb(double v);
 DGTKCORE_EXPORT double srgbFromLinear(double v);
 
