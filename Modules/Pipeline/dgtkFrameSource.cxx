@@ -93,14 +93,6 @@ void FrameSource::drawColor(const PixelRect& rect, Tile& tile)
   if (!this->Exposed->blurs())
   {
     tile.rest = this->Raster->drawColor(rect, this->Options.samples, tile.colors, hits);
-    if (this->Options.sharp)
-    {
-      tile.rest = [&tile, rest = std::move(tile.rest)]
-      {
-        rest();
-        tile.sharp = tile.colors;
-      };
-    }
     return;
   }
   if (this->Options.sharp)
@@ -209,7 +201,8 @@ void FrameSource::drawBand(int row, DrawnBand& drawn)
   const std::size_t pixels = std::size_t(band.rect.width) * band.rect.height;
   band.hits.resize(this->Options.hits ? pixels : 0);
   band.rgb.resize(this->rasterColor() ? pixels * 3 : 0);
-  band.sharp.resize(this->Options.sharp ? pixels * 3 : 0);
+  const bool sharp = this->Options.sharp && this->rasterColor() && this->Exposed->blurs();
+  band.sharp.resize(sharp ? pixels * 3 : 0);
   band.mattes.resize(this->Options.mattes.size());
   for (MattePixels& matte : band.mattes)
   {
@@ -233,7 +226,7 @@ void FrameSource::drawBand(int row, DrawnBand& drawn)
       std::shared_ptr<Tile> tile = this->drawTile(rect);
       band.peeled.push_back(std::move(tile->ranks));
       placed.push_back(this->Pool.submit(
-        [this, &band, rect, tile = std::move(tile)]
+        [this, &band, rect, sharp, tile = std::move(tile)]
         {
           tile->rest();
           if (this->Options.hits)
@@ -244,7 +237,7 @@ void FrameSource::drawBand(int row, DrawnBand& drawn)
           {
             place(tile->colors.rgb, rect, 3, band.rect, band.rgb);
           }
-          if (this->Options.sharp)
+          if (sharp)
           {
             place(tile->sharp.rgb, rect, 3, band.rect, band.sharp);
           }

@@ -4,6 +4,8 @@
 
 #include "dgtkError.h"
 
+#include <algorithm>
+
 namespace dgtk
 {
 
@@ -24,13 +26,17 @@ class SharpColorLayer : public FrameLayer
 public:
   LayerInfo info() const override
   {
-    return { layerName, { "png", "exr" }, "the picture without motion blur and depth of field" };
+    return { layerName, { "png", "exr" },
+      "the picture without motion blur and depth of field, of cameras that have them" };
   }
-  void check(const WorkPlan& plan, const Stage&) const override
+  void check(const WorkPlan& plan, const Stage& stage) const override
   {
-    if (plan.request.renderer != "vtk")
+    const std::vector<std::string>& asked = plan.request.layers;
+    const bool any = std::any_of(
+      plan.jobs.begin(), plan.jobs.end(), [&](const Job& job) { return !this->files(plan, stage, job).empty(); });
+    if (!any && std::find(asked.begin(), asked.end(), layerName) != asked.end())
     {
-      throw UsageError("the layer color_sharp is the built-in renderer's: --renderer vtk");
+      throw UsageError("layer color_sharp is of cameras with a shutter or a lens, drawn by the built-in renderer");
     }
   }
   std::vector<LayerRecord> specs(const std::string&) const override { return {}; }
@@ -42,11 +48,15 @@ public:
   bool needsSharpColor() const override { return true; }
   std::vector<std::string> files(const WorkPlan& plan, const Stage& stage, const Job& job) const override
   {
+    const CameraDescription& camera = stage.description().cameras[job.camera];
     std::vector<std::string> names;
+    if (plan.request.renderer != "vtk" || !(camera.shutter.blurs() || camera.lens.blurs()))
+    {
+      return names;
+    }
     for (const std::string& format : plan.formatsOf(layerName))
     {
-      names.push_back(WorkPlan::fileName(
-        stage.description().cameras[job.camera].name, layerName, job.frame, formatExtension(format)));
+      names.push_back(WorkPlan::fileName(camera.name, layerName, job.frame, formatExtension(format)));
     }
     return names;
   }

@@ -61,13 +61,14 @@ vec3 dgtkBumped(vec3 p, vec3 n, sampler2D heights, vec2 uv, float scale)
 )";
 
 /// Mean of 3 x 3 comparisons that are interpolated between texels: the larger depth is nearer to the light. The point
-/// is moved off its surface by what a texel covers, more where light grazes.
+/// is moved off its surface by what lies between the texels compared, which grows with the surface's tilt against the
+/// map.
 std::string shadowFunction()
 {
   const std::string stride = std::to_string(ShadowMaps::Stride);
   return "uniform sampler2DArray dgtkShadowMaps;\n"
          "uniform samplerBuffer dgtkShadowData;\n"
-         "float dgtkLit(int map, vec3 L, vec3 p, vec3 n, float df)\n"
+         "float dgtkLit(int map, vec3 L, vec3 p, vec3 n)\n"
          "{\n"
          "  vec4 info = texelFetch(dgtkShadowData, map * " +
          stride +
@@ -85,7 +86,8 @@ std::string shadowFunction()
          "  mat4 m = mat4(texelFetch(dgtkShadowData, at), texelFetch(dgtkShadowData, at + 1),\n"
          "    texelFetch(dgtkShadowData, at + 2), texelFetch(dgtkShadowData, at + 3));\n"
          "  float texel = info.x * dot(vec4(m[0].w, m[1].w, m[2].w, m[3].w), vec4(p, 1.0));\n"
-         "  vec4 clip = m * vec4(p + n * (texel * (0.5 + 2.0 * sqrt(max(0.0, 1.0 - df * df)))), 1.0);\n"
+         "  float tilt = dot(n, normalize(vec3(m[0].z, m[1].z, m[2].z)));\n"
+         "  vec4 clip = m * vec4(p + n * (texel * (0.5 + 3.0 * sqrt(max(0.0, 1.0 - tilt * tilt)))), 1.0);\n"
          "  vec3 place = clip.xyz / clip.w;\n"
          "  vec2 uv = (place.xy * 0.5 + 0.5) * info.y - 0.5;\n"
          "  vec2 low = floor(uv);\n"
@@ -200,8 +202,8 @@ std::string litPart(const ShaderVariant& variant, const std::string& shadowIndex
 {
   return variant.shadows ? "    int shadow = int(" + shadowIndex +
                              ");\n"
-                             "    float lit = shadow > 0 && df > 0.0 ? dgtkLit(shadow - 1, L, vertexVC.xyz, normalVC, "
-                             "df) : 1.0;\n"
+                             "    float lit = shadow > 0 && df > 0.0 ? dgtkLit(shadow - 1, L, vertexVC.xyz, normalVC) "
+                             ": 1.0;\n"
                          : std::string();
 }
 

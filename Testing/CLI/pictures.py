@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""PNG and OpenEXR files, read and written without the libraries under test."""
+import struct
+import zlib
+
+import numpy as np
+
+
+def read_png(path):
+    """8- and 16-bit PNG as (H, W, C), without the library under test."""
+    with open(path, "rb") as file:
+        data = file.read()
+    at, packed = 8, b""
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + size]
+        if kind == b"IHDR":
+            width, height, bits, color = struct.unpack(">IIBB", body[:10])
+        packed += body if kind == b"IDAT" else b""
+        at += 12 + size
+    channels = {0: 1, 2: 3, 4: 2, 6: 4}[color]
+    step = channels * bits // 8
+    raw = np.frombuffer(zlib.decompress(packed), np.uint8).reshape(height, 1 + width * step)
+    rows = np.zeros((height, width * step), np.uint8)
+    above = np.zeros(width * step, np.uint8)
+    for y in range(height):
+        kind, line = raw[y, 0], raw[y, 1:]
+        if kind == 0:
+            rows[y] = line
+        elif kind == 1:
+            rows[y] = np.cumsum(line.reshape(-1, step), axis=0, dtype=np.uint8).reshape(-1)
+        elif kind == 2:
+            rows[y] = line + above
+        else:
+            out = np.zeros(width * step + step, np.int64)
+            up = np.concatenate([np.zeros(step, np.int64), above.astype(np.int64)])
+            for i, value in enumerate(line):
+                a, b, c = out[i], up[i + step], up[i]
+                if kind == 3:
+                    guess = (a + b) // 2
+                else:
+                    p = a + b - c
+                    pa, pb, pc = abs(p - a), abs(p - b), abs(p - c)
+                    guess = a if pa <= pb and pa <= pc else b if pb <= pc else c
+                out[i + step] = (int(value) + guess) & 255
+            rows[y] = out[step:]
+        above = rows[y]
+    kind = np.dtype(">u2") if bits == 16 else np.dtype(np.uint8)
+    return rows.view(kind).reshape(height, width, channels).astype(np.int64)
+
+
+def read_exr(path):
+    """Header and channels of a ZIP-compressed float OpenEXR file."""
+    with open(path, "rb") as file:
+        data = file.read()
+    at, header = 8, {}
+    while data[at]:
+        end = data.index(b"\0", at)
+        name, at = data[at:end].decode(), end + 1
+        end = data.index(b"\0", at)
+        size = struct.unpack("<i", data[end + 1:end + 5])[0]
+        header[name] = data[end + 5:end + 5 + size]
+        at = end + 5 + size
+    float_channel = b"\2\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0"
+    names = [n.rstrip(b"\0").decode() for n in header["channels"].split(float_channel)[:-1]]
+    x0, y0, x1, y1 = struct.unpack("<4i", header["dataWindow"])
+    width, height = x1 - x0 + 1, y1 - y0 + 1
+    chunks = (height + 15) // 16
+    offsets = struct.unpack(f"<{chunks}Q", data[at + 1:at + 1 + 8 * chunks])
+    image = np.zeros((height, len(names), width), np.float32)
+    for offset in offsets:
+        y, size = struct.unpack("<ii", data[offset:offset + 8])
+        rows = min(16, height - y)
+        raw = rows * len(names) * width * 4
+        body = data[offset + 8:offset + 8 + size]
+        if size < raw:
+            delta = np.frombuffer(zlib.decompress(body), np.uint8).astype(np.int64)
+            delta[1:] -= 128
+            split = np.cumsum(delta).astype(np.uint8)
+            even = (raw + 1) // 2
+            joined = np.empty(raw, np.uint8)
+            joined[0::2], joined[1::2] = split[:even], split[even:]
+            body = joined.tobytes()
+        image[y:y + rows] = np.frombuffer(body, "<f4").reshape(rows, len(names), width)
+    return header, {n: image[:, i, :] for i, n in enumerate(names)}
+
+
+def write_png(path, rgb):
+    """Rows x columns x 3, uint8."""
+    rgb = np.ascontiguousarray(rgb, np.uint8)
+    height, width, _ = rgb.shape
+
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+    rows = b"".join(b"\0" + row.tobytes() for row in rgb)
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+                   chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def write_exr(path, rgb):
+    """An uncompressed scan-line EXR of float32 channels B, G, R (the format's public description)."""
+    rgb = np.ascontiguousarray(rgb, np.float32)
+    height, width, _ = rgb.shape
+
+    def attribute(name, kind, data):
+        return name.encode() + b"\0" + kind.encode() + b"\0" + len(data).to_bytes(4, "little") + data
+
+    channels = b"".join(c + b"\0" + (2).to_bytes(4, "little") + bytes(4) + (1).to_bytes(4, "little") * 2
+                        for c in [b"B", b"G", b"R"]) + b"\0"
+    box = np.array([0, 0, width - 1, height - 1], "<i4").tobytes()
+    header = b"\x76\x2f\x31\x01" + (2).to_bytes(4, "little") + attribute("channels", "chlist", channels) + attribute(
+        "compression", "compression", b"\0") + attribute("dataWindow", "box2i", box) + attribute(
+        "displayWindow", "box2i", box) + attribute("lineOrder", "lineOrder", b"\0") + attribute(
+        "pixelAspectRatio", "float", np.array([1], "<f4").tobytes()) + attribute(
+        "screenWindowCenter", "v2f", bytes(8)) + attribute(
+        "screenWindowWidth", "float", np.array([1], "<f4").tobytes()) + b"\0"
+    size = width * 12
+    start = len(header) + 8 * height
+    with open(path, "wb") as file:
+        file.write(header)
+        file.write((start + np.arange(height, dtype="<u8") * (size + 8)).astype("<u8").tobytes())
+        for y in range(height):
+            file.write(np.array([y, size], "<i4").tobytes())
+            file.write(rgb[y, :, ::-1].T.astype("<f4").tobytes())
