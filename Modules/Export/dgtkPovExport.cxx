@@ -89,12 +89,20 @@ std::string head(
   return text + '\n';
 }
 
-std::string firstLines(const SceneState& state, const View& view, double scale)
+std::string firstLines(
+  const SceneState& state, const PovLightContext& context, const PovRows& rows, const std::string& name)
 {
-  const std::string size = "+W" + std::to_string(view.model->width()) + " +H" + std::to_string(view.model->height());
-  return "// Camera " + quoted(view.name) + ", frame " + povNumber(state.frame) + ".\n// povray " + size +
-         " -A +FN8 File_Gamma=sRGB Dither=off FILE\n" +
-         (scale == 1 ? "" : "// Everything is " + povNumber(scale) + " times as large as in the scene.\n");
+  const CameraModel& model = *context.view.model;
+  std::string options =
+    "+W" + std::to_string(model.width()) + " +H" + std::to_string(rows.count > 0 ? rows.count : model.height());
+  for (const std::string& word : povAntialias(context.options.antialias))
+  {
+    options += ' ' + word;
+  }
+  return "// Camera " + quoted(context.view.name) + ", frame " + povNumber(state.frame) + ".\n// povray " + options +
+         " +FN8 File_Gamma=sRGB Dither=off " + name + '\n' +
+         (context.scale == 1 ? ""
+                             : "// Everything is " + povNumber(context.scale) + " times as large as in the scene.\n");
 }
 
 PovLightContext contextOf(const SceneState& state, const View& view, const PovOptions& options)
@@ -114,6 +122,12 @@ void addObjects(const SceneState& state, PovObjects&& objects)
 }
 } // namespace
 
+std::vector<std::string> povAntialias(int points)
+{
+  return points > 1 ? std::vector<std::string>{ "+A0.0", "+AM1", "+R" + std::to_string(points), "-J" }
+                    : std::vector<std::string>{ "-A" };
+}
+
 PovResult exportPov(const SceneState& state, const View& view, const std::string& path, const PovOptions& options)
 {
   checkName(path);
@@ -121,7 +135,7 @@ PovResult exportPov(const SceneState& state, const View& view, const std::string
   PovResult result;
   PovImagesBeside images(path);
   const PovLightContext context = contextOf(state, view, options);
-  const std::string begin = firstLines(state, view, context.scale) + '\n' + head(state, context, {}, result.warnings);
+  const std::string begin = firstLines(state, context, {}, "FILE") + '\n' + head(state, context, {}, result.warnings);
   PovText text(path);
   text << begin;
   const PovSurfaceOptions surface = povSurfaceOptions(state, options);
@@ -158,8 +172,8 @@ PovResult exportPov(const std::shared_ptr<const Model>& model, const std::string
   return exportPov(state, view, path, options);
 }
 
-PovScene makePovScene(
-  const SceneState& state, const View& view, const PovOptions& options, PovLibrary& library, const PovRows& rows)
+PovScene makePovScene(const SceneState& state, const View& view, const PovOptions& options, PovLibrary& library,
+  const PovRows& rows, const std::string& name)
 {
   checkCount(state, view.name);
   PovScene scene;
@@ -170,7 +184,7 @@ PovScene makePovScene(
   PovMeshesIncluded meshes(library.impl(), surface);
   addObjects(state, { objects, meshes, view, surface, context.scale });
   scene.uses = meshes.uses();
-  scene.text = firstLines(state, view, context.scale);
+  scene.text = firstLines(state, context, rows, name);
   for (const PovFile& file : scene.uses)
   {
     scene.text += UsesLine + library.impl().reference + file.name + '\n';
@@ -181,9 +195,9 @@ PovScene makePovScene(
     scene.text += "// Note: " + warning + '\n';
   }
   scene.text += '\n' + begin;
-  for (const std::string& name : meshes.includes())
+  for (const std::string& file : meshes.includes())
   {
-    scene.text += "#include \"" + library.impl().reference + name + "\"\n";
+    scene.text += "#include \"" + library.impl().reference + file + "\"\n";
   }
   scene.text += '\n' + objects.text();
   return scene;

@@ -42,6 +42,7 @@ struct PovOptions
   bool reflections = false;       ///< shiny materials reflect
   bool radiosity = false;         ///< light between surfaces in place of the ambient light
   std::optional<PovLens> lens;    ///< focal blur
+  int antialias = 1;              ///< points a pixel and axis in the options of the second line, 1 to 9
   std::optional<double> ownScale; ///< how much larger the scene is written; none: see PovResult::scale
 };
 
@@ -112,9 +113,13 @@ struct PovScene
 };
 
 /// The small file of a camera at a frame; what it includes has been written into the library. With `rows`, its camera
-/// shows these rows only, by the same rays. Throws as exportPov().
-DGTKEXPORT_EXPORT PovScene makePovScene(
-  const SceneState& state, const View& view, const PovOptions& options, PovLibrary& library, const PovRows& rows = {});
+/// shows these rows only, by the same rays. `name` is the file's, for the command in its second line. Throws as
+/// exportPov().
+DGTKEXPORT_EXPORT PovScene makePovScene(const SceneState& state, const View& view, const PovOptions& options,
+  PovLibrary& library, const PovRows& rows = {}, const std::string& name = "FILE");
+
+/// POV-Ray's options for N x N points a pixel on a grid, without noise.
+DGTKEXPORT_EXPORT std::vector<std::string> povAntialias(int points);
 
 /// The files of the library that a written scene names, without folder. Throws InputError for an unreadable file.
 DGTKEXPORT_EXPORT std::vector<std::string> povSceneUses(const std::string& path);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace dgtk
 {
@@ -14,22 +15,75 @@ namespace
 /// A surface this near to the near or far plane, in parts of its depth, is taken as beyond it and cut.
 constexpr double PlaneSlack = 1e-6;
 
-struct Depths
+/// A half space of the camera frame: normal . x + offset >= 0.
+struct HalfSpace
 {
-  double least = HUGE_VAL;
-  double most = -HUGE_VAL;
+  Eigen::Vector3d normal;
+  double offset;
 };
 
-Depths depthsOf(const Instance& instance, const View& view)
+/// What the image shows, at any depth.
+std::vector<HalfSpace> sidesOf(const View& view)
 {
-  Depths depths;
+  const LinearProjection linear = *view.model->linear();
+  const double most[2] = { double(view.model->width()), double(view.model->height()) };
+  std::vector<HalfSpace> sides;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    Eigen::Vector3d pixel = linear.K.row(axis).transpose(); // times depth where it is perspective
+    const double offset = linear.perspective ? 0 : pixel.z();
+    const Eigen::Vector3d end = linear.perspective ? Eigen::Vector3d(0, 0, most[axis]) : Eigen::Vector3d(0, 0, 0);
+    pixel.z() = linear.perspective ? pixel.z() : 0;
+    sides.push_back({ pixel, offset });
+    sides.push_back({ end - pixel, linear.perspective ? 0 : most[axis] - offset });
+  }
+  return sides;
+}
+
+/// Whether some of a triangle lies in all half spaces.
+bool reaches(const std::vector<HalfSpace>& space, std::vector<Eigen::Vector3d> polygon)
+{
+  for (const HalfSpace& half : space)
+  {
+    std::vector<Eigen::Vector3d> kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+    {
+      const Eigen::Vector3d& p = polygon[i];
+      const Eigen::Vector3d& q = polygon[(i + 1) % polygon.size()];
+      const double dp = half.normal.dot(p) + half.offset;
+      const double dq = half.normal.dot(q) + half.offset;
+      if (dp >= 0)
+      {
+        kept.push_back(p);
+      }
+      if ((dp >= 0) != (dq >= 0))
+      {
+        kept.push_back(p + (q - p) * (dp / (dp - dq)));
+      }
+    }
+    polygon = std::move(kept);
+  }
+  return !polygon.empty();
+}
+
+/// Whether the image would show some of an instance in a range of depths.
+bool showsBetween(const Instance& instance, const View& view, double least, double most)
+{
+  std::vector<HalfSpace> space{ { { 0, 0, 1 }, -least }, { { 0, 0, -1 }, most } };
+  const std::vector<HalfSpace> sides = sidesOf(view);
+  space.insert(space.end(), sides.begin(), sides.end());
+  std::vector<Eigen::Vector3d> points;
   for (const Eigen::Vector3d& position : instance.geometry->positions)
   {
-    const double z = (view.camera_from_world * (instance.world_from_object * position)).z();
-    depths.least = std::min(depths.least, z);
-    depths.most = std::max(depths.most, z);
+    points.push_back(view.camera_from_world * (instance.world_from_object * position));
   }
-  return depths;
+  const auto within = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+  {
+    return std::max({ a.z(), b.z(), c.z() }) >= least && std::min({ a.z(), b.z(), c.z() }) <= most &&
+           reaches(space, { a, b, c });
+  };
+  return std::any_of(instance.model->triangles.begin(), instance.model->triangles.end(),
+    [&](const auto& triangle) { return within(points[triangle[0]], points[triangle[1]], points[triangle[2]]); });
 }
 
 std::string plane(const Eigen::Vector3d& normal, double distance)
@@ -38,19 +92,19 @@ std::string plane(const Eigen::Vector3d& normal, double distance)
 }
 } // namespace
 
-/// Half spaces that keep what lies between the near and the far plane, of an instance that crosses them.
+/// Half spaces that keep what lies between the near and the far plane, of an instance of which there is more in the
+/// image.
 std::string PovObjects::clipping(const Instance& instance) const
 {
   const Rigid3& camera_from_world = this->TheView.camera_from_world;
   const Eigen::Vector3d forward = camera_from_world.rotation.row(2).transpose();
   const double offset = camera_from_world.translation.z();
-  const Depths depths = depthsOf(instance, this->TheView);
   std::string planes;
-  if (depths.least < this->TheView.near * (1 + PlaneSlack))
+  if (showsBetween(instance, this->TheView, 0, this->TheView.near * (1 + PlaneSlack)))
   {
     planes += plane(-forward, offset - this->TheView.near);
   }
-  if (depths.most > this->TheView.far * (1 - PlaneSlack))
+  if (showsBetween(instance, this->TheView, this->TheView.far * (1 - PlaneSlack), HUGE_VAL))
   {
     planes += plane(forward, this->TheView.far - offset);
   }

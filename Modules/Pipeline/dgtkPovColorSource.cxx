@@ -57,6 +57,7 @@ PovOptions povOptionsOf(const PovRenderOptions& options)
   pov.areaLights = options.areaLights;
   pov.reflections = options.reflections;
   pov.radiosity = options.radiosity;
+  pov.antialias = std::max(options.antialias, 1);
   pov.flatIds = options.flatIds;
   if (options.positionColors)
   {
@@ -68,12 +69,6 @@ PovOptions povOptionsOf(const PovRenderOptions& options)
     pov.lens = PovLens{ options.aperture, options.focus };
   }
   return pov;
-}
-
-std::vector<std::string> povAntialias(int points)
-{
-  return points > 1 ? std::vector<std::string>{ "+A0.0", "+AM1", "+R" + std::to_string(points), "-J" }
-                    : std::vector<std::string>{ "-A" };
 }
 
 /// What all pictures share.

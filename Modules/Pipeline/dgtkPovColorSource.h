@@ -22,8 +22,6 @@ class ThreadPool;
 
 /// Export's part of the options.
 PovOptions povOptionsOf(const PovRenderOptions& options);
-/// POV-Ray's words for N x N points a pixel on a grid.
-std::vector<std::string> povAntialias(int points);
 
 struct PovColorSettings
 {

@@ -15,7 +15,7 @@ constexpr const char* LibraryFolder = "pov";
 
 LayerSpec povSpec()
 {
-  return { "pov", PixelType::UInt8, 0, "", "world", "",
+  return { "pov", PixelType::UInt8, 1, "", "world", "",
     "Scene for POV-Ray 3.7 that shows what the camera sees; to be drawn in its folder, or with that folder as +L" };
 }
 
@@ -31,8 +31,10 @@ public:
 
   std::vector<FinishedFile> finish() override
   {
-    const PovScene scene = makePovScene(*this->Context.state, this->Context.view,
-      povOptionsOf(this->Context.plan.request.pov), *this->Context.plan.povLibrary);
+    const std::string name = WorkPlan::fileName(this->Context.camera, "pov", this->Context.job.frame, "pov");
+    const WorkPlan& plan = this->Context.plan;
+    const PovScene scene = makePovScene(*this->Context.state, this->Context.view, povOptionsOf(plan.request.pov),
+      *plan.povLibrary, {}, name.substr(name.rfind('/') + 1));
     std::vector<FinishedFile> files;
     for (const PovFile& file : scene.uses)
     {
@@ -43,7 +45,7 @@ public:
       files.push_back(finished);
     }
     FinishedFile own;
-    own.record.path = WorkPlan::fileName(this->Context.camera, "pov", this->Context.job.frame, "pov");
+    own.record.path = name;
     own.record.bytes = scene.text.size();
     Sha256 hash;
     hash.update(scene.text.data(), scene.text.size());

@@ -195,12 +195,36 @@ TEST_F(PovExport, RowsHaveTheRaysOfTheWhole)
   }
 }
 
+TEST_F(PovExport, WhatTheImageDoesNotShowIsNotCut)
+{
+  // the second box crosses the camera's plane far to its side, the third the far plane behind the image's corner
+  this->V.camera_from_world = Rigid3();
+  this->V.far = 50;
+  const auto state = test::SceneBuilder()
+                       .add(test::makeBox(), test::placement({ 0, 0, 10 }))
+                       .add(test::makeBox(), test::placement({ 20, 0, 0 }))
+                       .add(test::makeBox(), test::placement({ 40, 40, 50 }))
+                       .state();
+  exportPov(*state, this->V, this->path("n.pov"));
+  EXPECT_EQ(count(readFile(this->path("n.pov")), "clipped_by"), 0u);
+  this->V.far = 10;
+  exportPov(*state, this->V, this->path("n.pov"));
+  EXPECT_EQ(count(readFile(this->path("n.pov")), "clipped_by"), 1u);
+  this->V.model = makeOrthographic(64, 48, 2, 0);
+  exportPov(*state, this->V, this->path("n.pov"));
+  EXPECT_EQ(count(readFile(this->path("n.pov")), "clipped_by"), 1u);
+  this->V.model = makeOrthographic(64, 48, 60, 0);
+  exportPov(*state, this->V, this->path("n.pov"));
+  EXPECT_EQ(count(readFile(this->path("n.pov")), "clipped_by"), 2u);
+}
+
 TEST_F(PovExport, WhatCrossesTheNearPlaneIsCut)
 {
   const auto state = test::SceneBuilder()
+                       .add(test::makeBox(), test::placement({ 0, 0, -10 }))
                        .add(test::makeBox(), test::placement({ 0, 0, 0 }))
-                       .add(test::makeBox(), test::placement({ 1, 2, 8 }))
                        .state();
+  this->V.near = std::sqrt(1 + 4 + 64.0);
   exportPov(*state, this->V, this->path("n.pov"));
   const std::string text = readFile(this->path("n.pov"));
   EXPECT_EQ(count(text, "clipped_by"), 1u);
