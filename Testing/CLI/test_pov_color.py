@@ -4,6 +4,7 @@ import json
 import os
 import shutil
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy
 
@@ -69,24 +70,28 @@ class Color(Case):
                 "objects": [{"name": f"thing {i}", "model": os.path.join(MODELS, model), "position": at, "scale": [7 if model == "ball.ac" else 1] * 3,
                          "materials": {"*": material}}
                             for i, (model, at, material) in enumerate(things)],
-                "cameras": [{"name": "c", "width": 240, "height": 180, "fovY": 40, "eye": [3, 3.5, 7], "lookAt": [0, 0.7, 0]}]}
+                "cameras": [{"name": "c", "width": 160, "height": 120, "fovY": 40, "eye": [3, 3.5, 7], "lookAt": [0, 0.7, 0]}]}
 
     def test_light_as_vtk_has_it(self):
-        for kind, light in LIGHTS.items():
+        with ThreadPoolExecutor(len(LIGHTS)) as pool:
+            drawn = dict(zip(LIGHTS, pool.map(self.draw_both, LIGHTS)))
+        for kind, (vtk, pov) in drawn.items():
             with self.subTest(kind):
-                name = kind.replace(" ", "_")
-                scene = self.write(name + ".json", json.dumps(self.lit(light)))
-                vtk = self.render(scene, name + "_vtk", "--layers", "color,objects", "--visibility", "ray")
-                pov = self.render(scene, name + "_pov", "--layers", "color", "--renderer", "povray")
                 a, b = (read_png16(os.path.join(folder, "c", "color", "000000.png")) / 257 for folder in (vtk, pov))
                 within = inside(ids_of(read_pnm(os.path.join(vtk, "c", "objects", "000000.ppm"))))
-                self.keep(name, vtk, pov)
+                self.keep(vtk, pov)
                 difference = abs(a - b)[within]
                 print(f"{kind}: {difference.mean():.3f} of 255 in the mean, {(difference > 8).mean() * 100:.2f} % above 8, most {difference.max():.1f}")
                 self.assertGreater(a[within].std(), 10)
                 self.assertLess(difference.mean(), COLOR_TOLERANCE)
 
-    def keep(self, name, *folders):
+    def draw_both(self, kind):
+        name = kind.replace(" ", "_")
+        scene = self.write(name + ".json", json.dumps(self.lit(LIGHTS[kind])))
+        return (self.render(scene, name + "_vtk", "--layers", "color,objects", "--visibility", "ray"),
+                self.render(scene, name + "_pov", "--layers", "color", "--renderer", "povray"))
+
+    def keep(self, *folders):
         """Leaves the pictures in the build folder, for looking."""
         os.makedirs(PICTURES, exist_ok=True)
         for folder in folders:
