@@ -64,6 +64,9 @@ void fromMetalRoughness(const aiMaterial& from, Material& to)
   from.Get(AI_MATKEY_COLOR_EMISSIVE, emission);
   const double metal = std::clamp(number(from, "$mat.metallicFactor", 1), 0.0, 1.0);
   const double rough = std::clamp(number(from, "$mat.roughnessFactor", 1), 0.0, 1.0);
+  to.physical = 1;
+  to.metallic = metal;
+  to.roughness = rough;
   const double color[3] = { base.r, base.g, base.b };
   const double light[3] = { emission.r, emission.g, emission.b };
   for (std::size_t i = 0; i < 3; ++i)
@@ -76,6 +79,29 @@ void fromMetalRoughness(const aiMaterial& from, Material& to)
   const double alpha = std::max(rough * rough, 0.1);
   to.shininess = std::clamp(2 / (alpha * alpha) - 2, 0.0, 128.0);
   to.opacity = base.a;
+}
+
+std::string pictureOf(const aiMaterial& from, aiTextureType type)
+{
+  aiString name;
+  return from.GetTexture(type, 0, &name) == aiReturn_SUCCESS ? std::string(name.C_Str()) : std::string();
+}
+
+/// A property of the material's first texture of a type.
+double ofPicture(const aiMaterial& from, const char* key, aiTextureType type, double otherwise)
+{
+  ai_real value = 0;
+  return from.Get(key, type, 0, value) == aiReturn_SUCCESS ? static_cast<double>(value) : otherwise;
+}
+
+void readMaps(const aiMaterial& from, Material& to)
+{
+  to.normalMap = pictureOf(from, aiTextureType_NORMALS);
+  to.metallicRoughnessMap = pictureOf(from, aiTextureType_UNKNOWN); // where Assimp 5 keeps it
+  to.emissionMap = pictureOf(from, aiTextureType_EMISSIVE);
+  to.occlusionMap = pictureOf(from, aiTextureType_LIGHTMAP);
+  to.normalScale = ofPicture(from, "$tex.scale", aiTextureType_NORMALS, 1);
+  to.occlusionStrength = std::clamp(ofPicture(from, "$tex.strength", aiTextureType_LIGHTMAP, 1), 0.0, 1.0);
 }
 
 void readAlpha(const aiMaterial& from, Material& to)
@@ -101,6 +127,7 @@ Material converted(const aiMaterial& from, bool gltf)
   if (gltf)
   {
     fromMetalRoughness(from, to);
+    readMaps(from, to);
     readAlpha(from, to);
     return to;
   }
@@ -173,9 +200,13 @@ void convertMaterials(const aiScene& from, bool gltf, Scene& to)
     // pictures that the file holds are also named by their file name
     for (Material& material : to.materials)
     {
-      if (!material.texture.empty() && material.texture == to.textures.back().name)
+      for (std::string* name : { &material.texture, &material.normalMap, &material.metallicRoughnessMap,
+             &material.emissionMap, &material.occlusionMap })
       {
-        material.texture = "*" + std::to_string(i);
+        if (!name->empty() && *name == to.textures.back().name)
+        {
+          *name = "*" + std::to_string(i);
+        }
       }
     }
   }

@@ -39,7 +39,16 @@ struct Material
   std::int32_t twoSided = 0;
   AlphaMode alpha = AlphaMode::Unsaid;
   double alphaCutoff = 0.5;
-  std::string texture; ///< file name, "*N" for embedded texture N, or ""
+  std::string texture;       ///< file name, "*N" for embedded texture N, or ""
+  std::int32_t physical = 0; ///< metallic and roughness count
+  double metallic = 0;
+  double roughness = 1;
+  double normalScale = 1;
+  double occlusionStrength = 1;
+  std::string normalMap; ///< named as `texture`
+  std::string metallicRoughnessMap;
+  std::string emissionMap;
+  std::string occlusionMap;
 };
 
 /// `height` is 0 for an encoded picture (PNG, JPEG), whose bytes are `data`; else RGBA rows, top to bottom.
@@ -152,6 +161,8 @@ void io(A& a, Material& m)
 {
   a(m.name), a(m.ambient), a(m.diffuse), a(m.specular), a(m.emission), a(m.shininess), a(m.opacity), a(m.twoSided);
   a(m.alpha), a(m.alphaCutoff), a(m.texture);
+  a(m.physical), a(m.metallic), a(m.roughness), a(m.normalScale), a(m.occlusionStrength);
+  a(m.normalMap), a(m.metallicRoughnessMap), a(m.emissionMap), a(m.occlusionMap);
 }
 template <class A>
 void io(A& a, Texture& t)

@@ -235,7 +235,17 @@ int AssimpMaterials::add(std::int32_t index)
     this->Builder.warn("material " + quoted(to.name) + " has opacity 0: drawn opaque");
     to.opacity = 1;
   }
+  if (from.physical != 0)
+  {
+    to.physical = Material::Physical{ from.metallic, from.roughness, false };
+  }
   to.texture = this->textureOf(from.texture);
+  to.normalMap = this->textureOf(from.normalMap);
+  to.metallicRoughnessMap = this->textureOf(from.metallicRoughnessMap);
+  to.emissionMap = this->textureOf(from.emissionMap);
+  to.occlusionMap = this->textureOf(from.occlusionMap);
+  to.normalScale = from.normalScale;
+  to.occlusionStrength = from.occlusionStrength;
   this->settleAlpha(from, to);
   const int made = this->Builder.addMaterial(to);
   this->Known[index] = made;

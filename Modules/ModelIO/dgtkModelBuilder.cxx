@@ -109,6 +109,13 @@ void ModelBuilder::setMaterial(int index, const Material& material)
   m.emission = clampedColor(m.emission);
   m.shininess = clamped(m.shininess, 0, 128, 0);
   m.opacity = clamped(m.opacity, 0, 1, 1);
+  if (m.physical)
+  {
+    m.physical->metallic = clamped(m.physical->metallic, 0, 1, 0);
+    m.physical->roughness = clamped(m.physical->roughness, 0, 1, 1);
+  }
+  m.normalScale = clamped(m.normalScale, -1000, 1000, 1);
+  m.occlusionStrength = clamped(m.occlusionStrength, 0, 1, 1);
   m.texture = m.texture < static_cast<int>(this->Result->textures.size()) ? m.texture : -1;
   const Image* image =
     m.texture < 0 ? nullptr : this->Result->textures[static_cast<std::size_t>(m.texture)].image.get();

@@ -211,6 +211,45 @@ TEST(Gltf, MetalRoughnessMaterial)
   EXPECT_EQ(model->twoSidedTriangles, 1u);
 }
 
+TEST(Gltf, MapsOfAPhysicallyBasedMaterial)
+{
+  const std::string png(reinterpret_cast<const char*>(tinyPng), sizeof tinyPng);
+  GltfMaker maker = plain({ { "normalTexture", { { "index", 0 }, { "scale", 0.5 } } },
+    { "occlusionTexture", { { "index", 1 }, { "strength", 0.25 } } }, { "emissiveTexture", { { "index", 0 } } },
+    { "emissiveFactor", { 1, 1, 1 } },
+    { "pbrMetallicRoughness", { { "metallicFactor", 0.75 }, { "roughnessFactor", 0.5 },
+                                { "metallicRoughnessTexture", { { "index", 2 } } } } } });
+  maker.json["textures"] = Json::array();
+  maker.json["images"] = Json::array();
+  for (int i = 0; i < 3; ++i)
+  {
+    maker.json["images"].push_back(
+      { { "name", "picture" + std::to_string(i) }, { "mimeType", "image/png" }, { "bufferView", maker.view(png) } });
+    maker.json["textures"].push_back({ { "source", i } });
+  }
+  const TemporaryFolder folder;
+  dgtk::writeFile(folder.path("m.glb"), maker.glb());
+  const auto model = dgtk::readModel(folder.path("m.glb"));
+  const dgtk::Material& m = model->materials[0];
+  ASSERT_TRUE(m.physical);
+  EXPECT_NEAR(m.physical->metallic, 0.75, 1e-7);
+  EXPECT_NEAR(m.physical->roughness, 0.5, 1e-7);
+  EXPECT_FALSE(m.physical->wanted);
+  EXPECT_NEAR(m.normalScale, 0.5, 1e-7);
+  EXPECT_NEAR(m.occlusionStrength, 0.25, 1e-7);
+  EXPECT_EQ(m.texture, -1);
+  ASSERT_GE(m.normalMap, 0);
+  ASSERT_GE(m.occlusionMap, 0);
+  ASSERT_GE(m.metallicRoughnessMap, 0);
+  EXPECT_EQ(m.emissionMap, m.normalMap);
+  EXPECT_NE(m.occlusionMap, m.normalMap);
+  EXPECT_NE(m.metallicRoughnessMap, m.normalMap);
+  for (const int map : { m.normalMap, m.occlusionMap, m.metallicRoughnessMap })
+  {
+    EXPECT_TRUE(model->textures.at(static_cast<std::size_t>(map)).image) << map;
+  }
+}
+
 TEST(Gltf, AlphaOfAnEmbeddedPicture)
 {
   const std::string png(reinterpret_cast<const char*>(tinyPng), sizeof tinyPng);
