@@ -17,7 +17,7 @@ COLOR = {
 
 DEPTH = {
     "kinect": ({"kinect": {"axial": 1, "lateral": 1}}, {"kinect": {"axial": 5, "lateral": 2}}),
-    "stereo": ({"stereo": {"baseline": 0.1, "subpixel": 0.25}}, {"stereo": {"baseline": 0.1, "subpixel": 1, "sigma": 0.4}}),
+    "stereo": ({"stereo": {"baseline": 0.1, "subpixel": 0.25}}, {"stereo": {"baseline": 0.1, "subpixel": 1, "sigma": 0.4}, "dropout": {"occluded": 1}}),
     "dropout": ({"dropout": {"edge": 0.5, "grazing": 0.3}},
                 {"least": 1, "most": 4.8, "dropout": {"edge": 1, "edgeRadius": 2, "grazing": 0.9, "grazingAngle": 65, "random": 0.05}}),
 }

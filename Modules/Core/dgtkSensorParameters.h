@@ -92,7 +92,7 @@ struct KinectParameters
 /// A depth camera that triangulates.
 struct StereoParameters
 {
-  double baseline = 0; ///< scene units; 0: none
+  double baseline = 0; ///< scene units, to a second viewpoint on the right; 0: none
   double subpixel = 0; ///< step of the disparity, pixels; 0: not quantised
   double sigma = 0;    ///< standard deviation of the disparity before it is quantised, pixels
 };
@@ -101,6 +101,7 @@ struct StereoParameters
 struct DropoutParameters
 {
   double random = 0;        ///< any pixel
+  double occluded = 0;      ///< the second viewpoint of a stereo sensor cannot see it
   double edge = 0;          ///< beside a jump of depth
   double edgeJump = 0.05;   ///< of the smaller depth
   int edgeRadius = 1;       ///< pixels, in the square around

@@ -180,6 +180,7 @@ const std::vector<JsonField<Dropout>>& dropoutFields()
 {
   static const std::vector<JsonField<Dropout>> fields{
     row<&Dropout::random, rules::unit>("random"),
+    row<&Dropout::occluded, rules::unit>("occluded"),
     row<&Dropout::edge, rules::unit>("edge"),
     row<&Dropout::edgeJump, amount>("edgeJump"),
     row<&Dropout::edgeRadius, squareRadius>("edgeRadius"),

@@ -48,6 +48,11 @@ std::string faultOf(const DepthSensorParameters& sensor)
   {
     return "most: 0, or more than least";
   }
+  if (sensor.stereo.baseline == 0 &&
+      (sensor.stereo.subpixel > 0 || sensor.stereo.sigma > 0 || sensor.dropout.occluded > 0))
+  {
+    return "stereo.baseline: above 0 beside subpixel, sigma and dropout.occluded";
+  }
   return {};
 }
 

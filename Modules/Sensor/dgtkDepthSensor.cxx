@@ -24,8 +24,22 @@ constexpr double widest = 4; // standard deviations that a lateral shift may hav
 struct Sample
 {
   double depth = none;
-  double angle = 0; ///< radians between normal and ray
+  double angle = 0;    ///< radians between normal and ray
+  bool hidden = false; ///< from the second viewpoint
 };
+
+// x - disparity grows along a row as long as the second viewpoint, on the right, sees the surfaces one beside the
+// other; what is overtaken from the right lies behind something there.
+void markHidden(std::vector<Sample>& row, double disparityTimesDepth)
+{
+  double leftmost = none;
+  for (std::size_t x = row.size(); x-- > 0;)
+  {
+    const double seenAt = double(x) - disparityTimesDepth / row[x].depth;
+    row[x].hidden = row[x].depth < none && leftmost <= seenAt;
+    leftmost = row[x].depth < none ? std::min(leftmost, seenAt) : leftmost;
+  }
+}
 
 int haloOf(const DepthSensorParameters& p)
 {
@@ -178,6 +192,10 @@ bool DepthSensor::Impl::drops(const Sample& own, int x, int y) const
   {
     return true;
   }
+  if (d.occluded > 0 && own.hidden && this->Dropout.uniform(px, py, 3) < d.occluded)
+  {
+    return true;
+  }
   return d.edge > 0 && this->Dropout.uniform(px, py, 2) < d.edge && this->besideJump(own, x, y);
 }
 
@@ -226,6 +244,10 @@ void DepthSensor::write(int rows, const double* depth, const float* cosine)
     {
       const std::size_t index = std::size_t(i) * width + x;
       row[x] = { depth[index], depth[index] < none ? portable::acos(std::max(double(cosine[index]), 0.0)) : 0 };
+    }
+    if (self.Setup.parameters.dropout.occluded > 0 && self.Setup.parameters.stereo.baseline > 0)
+    {
+      markHidden(row, self.Setup.focalLength * self.Setup.parameters.stereo.baseline);
     }
     self.Rows.push(std::move(row));
   }

@@ -111,6 +111,23 @@ class Noise(Case):
         self.assertTrue((depth["range"][there] >= 2.9).all() and (depth["range"][there] <= 3.2).all())
         self.near(there.mean(), 0.841345 - (1 - 0.977250))  # from one deviation below to two above
 
+    def test_what_the_right_camera_cannot_see_is_what_rays_say(self):
+        scene = load_json(os.path.join(SCENES, "fig_4_7_stereo.json"))  # parallel cameras 0.12 apart
+        for item in scene["objects"]:
+            item["model"] = os.path.join(SCENES, item["model"])
+        scene["cameras"][0]["sensor"] = {"depth": {"stereo": {"baseline": 0.12}, "dropout": {"occluded": 1}}}
+        out = self.render(self.write("stereo.json", json.dumps(scene)), "out", "--layers", "depth_noisy,correspondence",
+                          "--pairs", "left:right", "--frames", "0")
+        hidden = np.isinf(np.load(os.path.join(out, "left", "depth_noisy", "000000.npy")))
+        classes = np.rint(read_png(os.path.join(out, "left", "correspondence_right", "000000.png"))[..., 0] * 255)
+        there = (classes > 0) & (classes < 4)  # inside the right picture
+        hidden, occluded = hidden[there], ((classes == 2) | (classes == 3))[there]
+        self.assertGreater(occluded.sum(), 9000)
+        # They part at the pixels along edges, and where what hides is itself not in the left picture.
+        self.assertLess((hidden != occluded).mean(), 0.005)
+        self.assertGreater((hidden & occluded).sum(), 0.88 * occluded.sum())
+        self.assertGreater((hidden & occluded).sum(), 0.95 * hidden.sum())
+
     def test_the_layers_without_noise_are_untouched(self):
         common = ("--size", "160x120", "--frames", "0", "--visibility", "raster")
         plain = self.render(DEMO, "plain", "--layers", "color,depth,objects", *common)
@@ -192,7 +209,8 @@ class Noise(Case):
                              ({"color": {"psf": {"gaussian": 1, "disc": 2}}}, "one of gaussian, disc and kernel"),
                              ({"color": {"psf": {"kernel": [1, 1]}}}, "n odd"), ({"color": {"bayer": "RGBG"}}, "RGGB"),
                              ({"color": {"response": "table"}}, "at least two"), ({"color": {"salt": 0.6, "pepper": 0.6}}, "at most 1"),
-                             ({"depth": {"least": 3, "most": 2}}, "more than least"), ({"depth": {"gaussian": [1, 2]}}, "list of 3")):
+                             ({"depth": {"least": 3, "most": 2}}, "more than least"), ({"depth": {"gaussian": [1, 2]}}, "list of 3"),
+                             ({"depth": {"dropout": {"occluded": 1}}}, "stereo.baseline")):
             with self.subTest(sensor=sensor):
                 line = self.refused("info", self.scene("bad.json", [{**pose, "sensor": sensor}]), status=3, says=says)
                 self.assertIn("cameras[0].sensor", line)

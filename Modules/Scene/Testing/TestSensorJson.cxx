@@ -27,7 +27,7 @@ const char* const everything = R"({
     "depth": {
       "gaussian": [0.01, 0.02, 0.03], "kinect": { "axial": 2, "lateral": 1.5, "metres": 0.01 },
       "stereo": { "baseline": 0.1, "subpixel": 0.125, "sigma": 0.2 }, "least": 1, "most": 9,
-      "dropout": { "random": 0.1, "edge": 0.2, "edgeJump": 0.3, "edgeRadius": 2, "grazing": 0.4, "grazingAngle": 70 }
+      "dropout": { "random": 0.1, "occluded": 0.7, "edge": 0.2, "edgeJump": 0.3, "edgeRadius": 2, "grazing": 0.4, "grazingAngle": 70 }
     } } } ]
 })";
 

@@ -193,6 +193,28 @@ TEST(DepthSensor, DropOutAtEdgesStaysWithinTheirRadius)
   EXPECT_EQ(validPart(measure(setupOf(p), steps)), 1);
 }
 
+TEST(DepthSensor, WhatTheSecondViewpointCannotSeeDropsOut)
+{
+  // A block at 1 before a wall at 2: disparities 20.4 and 10.2, so that the 10 columns left of the block are hidden.
+  DepthSensorParameters p;
+  p.stereo.baseline = 0.034;
+  p.dropout.occluded = 1;
+  DepthSensorSetup setup = setupOf(p);
+  setup.height = 3;
+  const auto block = [](int x, int) { return x >= 400 && x < 600 ? 1.0 : 2.0; };
+  const std::vector<double> depth = measure(setup, block);
+  for (int x = 0; x < side; ++x)
+  {
+    EXPECT_EQ(std::isfinite(depth[std::size_t(x)]), x < 390 || x >= 400) << x;
+  }
+  setup.parameters.dropout.occluded = 0.3;
+  setup.height = 20000;
+  setup.width = 100;
+  const auto narrow = [](int x, int) { return x >= 70 ? 1.0 : 2.0; };
+  const double gone = 1 - validPart(measure(setup, narrow)); // of 200,000 hidden pixels: standard error 0.34 %
+  EXPECT_NEAR(gone / (0.3 * 10 / 100), 1, 2 * onePercent);
+}
+
 TEST(DepthSensor, RangeAndInvalidity)
 {
   DepthSensorParameters p;
