@@ -10,6 +10,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
 from harness import SCENES, SOURCE, Case, digests, load_json, main
+from pictures import read_exr
 
 ONE_PERCENT = 0.01
 WIDTH, HEIGHT = 1250, 800  # a million pixels
@@ -153,6 +154,23 @@ class Noise(Case):
         for name in ("color/000000.png", "depth/000000.npy", "depth/000000.exr"):
             layer, file = name.split("/")
             self.assertEqual(found[f"left/{layer}/{file}"], found[f"left/{layer}_noisy/{file}"])
+
+    def test_exr_holds_linear_light_or_the_camera_s_own_values(self):
+        scene = load_json(DEMO)
+        for item in scene["objects"]:
+            item["model"] = os.path.join(SCENES, item["model"])
+        scene["cameras"][0]["sensor"] = {"color": {}}
+        scene["cameras"][1]["sensor"] = linear()
+        out = self.render(self.write("exr.json", json.dumps(scene)), "out", "--layers", "color,color_noisy", "--size", "320x240",
+                          "--frames", "0", "--color-format", "exr", "--color_noisy-format", "png,exr", "--color-bits", "16")
+        for name in ("left", "right"):  # without effects both are the light
+            files = (read_exr(os.path.join(out, name, layer, "000000.exr"))[1] for layer in ("color", "color_noisy"))
+            light, noisy = (np.dstack([channels[c] for c in "RGB"]) for channels in files)
+            self.assertLess(abs(light - noisy).max(), 1e-6)
+        self.assertLess(abs(self.color(out, "right") - noisy).max(), 0.51 / 65535)
+        layers = load_json(os.path.join(out, "manifest.json"))["layers"]
+        types = {layer["format"]: layer["type"] for layer in layers if layer["name"] == "color_noisy"}
+        self.assertEqual(types, {"png": "uint16", "exr": "float32"})
 
     def test_the_same_bytes_for_threads_tiles_frames_and_other_layers(self):
         scene = os.path.join(SCENES, "noise_color.json")

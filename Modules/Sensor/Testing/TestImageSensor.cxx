@@ -332,6 +332,41 @@ TEST(ImageSensor, DemosaickedShotNoiseHasTheVarianceOfItsMeans)
   EXPECT_NEAR(variance(0, 1, 2), 1, onePercent);
 }
 
+TEST(ImageSensor, BayerCellsHaveTheirColoursInPlace)
+{
+  ImageSensorSetup setup = setupOf(idealLinear());
+  setup.width = 9;
+  setup.height = 7;
+  const struct
+  {
+    BayerPattern pattern;
+    int channels[4]; ///< (0, 0), (1, 0), (0, 1), (1, 1)
+  } cells[] = { { BayerPattern::RGGB, { 0, 1, 1, 2 } }, { BayerPattern::BGGR, { 2, 1, 1, 0 } },
+    { BayerPattern::GRBG, { 1, 0, 2, 1 } }, { BayerPattern::GBRG, { 1, 2, 0, 1 } } };
+  for (const auto& cell : cells)
+  {
+    setup.parameters.bayer = cell.pattern;
+    // Light of a channel falls where the cell has its photosites, and nowhere else: everything is caught.
+    const auto matched = [&](int x, int y, int c) { return cell.channels[x % 2 + y % 2 * 2] == c ? 0.5 : 0.0; };
+    EXPECT_THAT(expose(setup, matched), testing::Each(testing::FloatNear(0.5f, 1e-6f)));
+    const auto missed = [&](int x, int y, int c) { return cell.channels[x % 2 + y % 2 * 2] == c ? 0.0 : 0.5; };
+    EXPECT_THAT(expose(setup, missed), testing::Each(0.0f));
+    // Means of neighbours on both sides keep a ramp.
+    const auto ramp = [](int x, int y, int c) { return 0.1 + 0.02 * x + 0.03 * y + 0.1 * c; };
+    const std::vector<float> image = expose(setup, ramp);
+    for (int y = 1; y < 6; ++y)
+    {
+      for (int x = 1; x < 8; ++x)
+      {
+        for (int c = 0; c < 3; ++c)
+        {
+          EXPECT_NEAR(image[std::size_t(y * 9 + x) * 3 + c], ramp(x, y, c), 1e-6);
+        }
+      }
+    }
+  }
+}
+
 TEST(ImageSensor, RowsTogetherOrApartAndThreadsGiveTheSameBytes)
 {
   ColorSensorParameters p = defaultColorSensor();
