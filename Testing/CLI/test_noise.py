@@ -175,8 +175,8 @@ class Noise(Case):
     def test_the_same_bytes_for_threads_tiles_frames_and_other_layers(self):
         scene = os.path.join(SCENES, "noise_color.json")
         depth = os.path.join(SCENES, "noise_depth.json")
-        one = self.render(scene, "one", "--layers", "color_noisy", "--threads", "1")
-        many = self.render(scene, "many", "--layers", "color_noisy", "--threads", "5", "--tile", "61x47")
+        one = self.render(scene, "one", "--layers", "color_noisy", "--size", "120x90", "--threads", "1")
+        many = self.render(scene, "many", "--layers", "color_noisy", "--size", "120x90", "--threads", "5", "--tile", "61x47")
         self.assert_same_files(one, many)
         one = self.render(depth, "one_depth", "--layers", "depth_noisy", "--threads", "1")
         many = self.render(depth, "many_depth", "--layers", "depth_noisy", "--threads", "5")
