@@ -244,6 +244,7 @@ Command renderCommand()
     { "--matte", "NAMES", "", "objects of the matting layer" },
     { "--points-step", "N", "4", "pixels between the samples of the points layer" },
     { "--samples", "N", "1", "N x N points a pixel: colour is their mean; alpha, coverage and matting count them" },
+    { "--filter", "NAME", "box", "how samples become a pixel's colour: box, triangle, gaussian, mitchell, lanczos" },
     { "--color-bits", "8|16", "8", "bits a channel of colour PNG files" },
     { "--renderer", "vtk|povray", "vtk", "what draws colour; POV-Ray 3.7 must be installed" },
     { "--pov-shadows", "", "", "POV-Ray: objects cast shadows" },
@@ -251,7 +252,6 @@ Command renderCommand()
     { "--pov-reflections", "", "", "POV-Ray: shiny materials reflect" },
     { "--pov-radiosity", "", "", "POV-Ray: light between surfaces in place of ambient light" },
     { "--pov-focal-blur", "APERTURE,DISTANCE", "", "POV-Ray: diameter of the lens, distance in focus, scene units" },
-    { "--filter", "NAME", "box", "how samples become a pixel's colour: box, triangle, gaussian, mitchell, lanczos" },
     { "--pov-flat-ids", "", "", "POV-Ray: every object in the colour of its id, without light" },
     { "--pov-position-colors", "X0,Y0,Z0,X1,Y1,Z1", "", "POV-Ray: surfaces in the colour of their place in that box" },
     { "--pov-antialias", "N", "", "POV-Ray: N x N points a pixel (default: that of --samples)" } };

@@ -21,6 +21,7 @@ import pictures
 import scenes
 import scenes_abilities
 import scenes_datasets
+import scenes_images
 import scenes_noise
 import textures
 
@@ -33,6 +34,8 @@ def products():
         yield f"Textures/{name}", pictures.png(make())
     for name, make in (("tuxedo", models_appendix.tuxedo_skin), ("face", models_appendix.face_skin), ("head", models_head.head_skin)):
         yield f"Textures/{name}.png", pictures.png(make())
+    yield "Textures/heights.png", pictures.png(scenes_images.heights())
+    yield "Textures/evening.hdr", scenes_images.evening()
     yield "Textures/speckles.png", pictures.png(models_targets.speckle_picture())
     yield "Models/creature.png", pictures.png(models_moving.creature_skin())
     yield "Models/rocket.png", pictures.png(models_other.rocket_skin())
@@ -54,7 +57,7 @@ def products():
     yield "Models/windmill.gltf", models_windmill.windmill()
     for make in (models_appendix.tuxedo, models_appendix.world):
         yield f"Scenes/{make.__name__}.ac", make()
-    for name, make in (scenes.FILES | scenes_abilities.FILES | scenes_datasets.FILES | scenes_noise.FILES).items():
+    for name, make in (scenes.FILES | scenes_abilities.FILES | scenes_datasets.FILES | scenes_images.FILES | scenes_noise.FILES).items():
         yield f"Scenes/{name}", make()
 
 

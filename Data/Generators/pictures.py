@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Small pictures: a canvas of sRGB (and alpha) in [0, 1], written as PNG or PCX."""
 
+import math
 import struct
 import zlib
 
@@ -164,3 +165,15 @@ def pcx(canvas):
     for r, g, b in palette + [(0, 0, 0)] * (256 - len(palette)):
         data += bytes((r, g, b))
     return bytes(data)
+
+
+def radiance(width, height, function):
+    """The bytes of a Radiance picture (RGBE, not compressed) of function(x, y) -> linear light."""
+    body = bytearray()
+    for y in range(height):
+        for x in range(width):
+            colour = [round(c * 1024) / 1024 for c in function(x, y)]  # few bits: no last bit of a sine shows
+            largest = max(colour)
+            exponent = math.frexp(largest)[1] if largest > 1e-30 else -128
+            body += bytes(int(c * 256 / 2.0 ** exponent) for c in colour) + bytes([exponent + 128]) if largest > 1e-30 else bytes(4)
+    return f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n".encode() + bytes(body)

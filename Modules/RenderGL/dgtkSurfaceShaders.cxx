@@ -41,15 +41,22 @@ mat3 dgtkTextureFrame(vec3 p, vec3 n, vec2 uv)
 }
 )";
 
-/// Blinn 1978; the surface's gradient of the height from its differences between pixels.
+/// Blinn 1978; central differences of the height over a texel, or over a pixel where that is larger.
 constexpr const char* Bump = R"(
 vec3 dgtkBumped(vec3 p, vec3 n, sampler2D heights, vec2 uv, float scale)
 {
   vec3 right = dFdx(p);
   vec3 up = dFdy(p);
-  float here = texture(heights, uv).r;
-  float toRight = scale * (texture(heights, uv + dFdx(uv)).r - here);
-  float toUp = scale * (texture(heights, uv + dFdy(uv)).r - here);
+  vec2 uvRight = dFdx(uv);
+  vec2 uvUp = dFdy(uv);
+  vec2 cells = vec2(textureSize(heights, 0));
+  float texels = max(1.0, max(length(uvRight * cells), length(uvUp * cells)));
+  vec2 s = texels / cells;
+  vec2 slope = scale / (2.0 * s) *
+    vec2(texture(heights, uv + vec2(s.x, 0.0)).r - texture(heights, uv - vec2(s.x, 0.0)).r,
+         texture(heights, uv + vec2(0.0, s.y)).r - texture(heights, uv - vec2(0.0, s.y)).r);
+  float toRight = dot(slope, uvRight);
+  float toUp = dot(slope, uvUp);
   vec3 a = cross(up, n);
   vec3 b = cross(n, right);
   float area = dot(right, a);

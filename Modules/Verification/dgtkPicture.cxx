@@ -72,7 +72,7 @@ bool Picture::agrees(const Claims& claims, const Hit& hit, int x, int y) const
   {
     const double expected = this->TheSight->depthOf(hit, centreOf(x, y));
     const double found = claims.depth->at(x, y);
-    if (found != expected && !(std::abs(found - expected) <= claims.tolerance * expected))
+    if (found != expected && !(std::isfinite(expected) && std::abs(found - expected) <= claims.tolerance * expected))
     {
       return false;
     }

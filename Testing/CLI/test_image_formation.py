@@ -113,7 +113,7 @@ class ImageFormation(harness.Case):
         focal = 300.0
         scene = {"objects": [{"model": "square.obj", "materials": GLOWING, "scale": 0.006}],
                  "cameras": [{**camera(161, 161, 161 * distance / focal, distance),
-                              "lens": {"aperture": aperture, "focus": focus, "exposures": 4000}}]}
+                              "lens": {"aperture": aperture, "focus": focus, "exposures": 1500}}]}
         image = self.picture(scene, "--samples", 4)[..., 0].astype(float)
         x = np.arange(161) + 0.5 - 80.5
         total = image.sum()
