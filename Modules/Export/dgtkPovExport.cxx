@@ -107,7 +107,7 @@ std::string firstLines(
 
 PovLightContext contextOf(const SceneState& state, const View& view, const PovOptions& options)
 {
-  PovLightContext context{ view, options, ballOf(state), 1 };
+  PovLightContext context{ view, options, ballOf(state), 1, povShadows(state, options) };
   context.scale = options.ownScale ? *options.ownScale : povSceneScale(view, context.ball);
   return context;
 }

@@ -123,8 +123,8 @@ std::shared_ptr<PovLibrary::Impl::Entry> PovLibrary::Impl::entryOf(
   {
     at = gone(*at->second) ? this->Entries.erase(at) : std::next(at);
   }
-  std::shared_ptr<Entry>& entry =
-    this->Entries[{ instance.model.get(), instance.geometry.get(), &povMaterialsOf(instance), ownId, headLit }];
+  std::shared_ptr<Entry>& entry = this->Entries[{
+    instance.model.get(), instance.geometry.get(), &povMaterialsOf(instance), ownId, headLit, povUnitOf(instance) }];
   if (!entry || gone(*entry))
   {
     entry = std::make_shared<Entry>();

@@ -49,7 +49,7 @@ private:
     std::once_flag once;
     PovIncluded included;
   };
-  using MeshKey = std::tuple<const Model*, const Geometry*, const std::vector<Material>*, std::uint32_t, bool>;
+  using MeshKey = std::tuple<const Model*, const Geometry*, const std::vector<Material>*, std::uint32_t, bool, double>;
   std::shared_ptr<Entry> entryOf(const Instance& instance, std::uint32_t ownId, bool headLit);
   PovIncluded write(const Instance& instance, std::uint32_t ownId, const PovSurfaceOptions& options);
 

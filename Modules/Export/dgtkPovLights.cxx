@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkPovText.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dgtk
@@ -79,6 +80,12 @@ std::string place(const LightState& light, const View& view, const PovBall& ball
 }
 } // namespace
 
+bool povShadows(const SceneState& state, const PovOptions& options)
+{
+  return options.shadows ||
+         std::any_of(state.lights.begin(), state.lights.end(), [](const LightState& light) { return light.shadows; });
+}
+
 Eigen::Vector3d povAmbient(const SceneState& state)
 {
   Eigen::Vector3d sum(WorldAmbient, WorldAmbient, WorldAmbient);
@@ -105,7 +112,14 @@ std::string povLight(const LightState& light, const PovLightContext& context, st
   {
     warnings.push_back("light " + quoted(light.name) + ": its ambient light does not fall off");
   }
-  if (context.options.shadows && context.options.areaLights > 1)
+  const bool shadows = context.options.shadows || light.shadows;
+  if (!shadows && context.shadows)
+  {
+    text += " shadowless";
+    warnings.push_back(
+      "light " + quoted(light.name) + ": without shadows among others that have them, it has no highlights");
+  }
+  if (shadows && context.options.areaLights > 1)
   {
     const std::string width = povNumber(AreaWidth * ball.radius);
     const std::string points = std::to_string(context.options.areaLights);

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPovMaterials.h"
 
+#include "dgtkPovLights.h"
+#include "dgtkPovMeshes.h"
 #include "dgtkPovText.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <cmath>
 
 namespace dgtk
 {
@@ -20,6 +25,27 @@ const Image* imageOf(const Model& model, const Material& material)
   return material.texture >= 0 && !model.uvs.empty()
            ? model.textures[static_cast<std::size_t>(material.texture)].image.get()
            : nullptr;
+}
+
+const Image* bumpImage(const Model& model, const Material& material)
+{
+  return material.bumpMap >= 0 && !model.uvs.empty()
+           ? model.textures[static_cast<std::size_t>(material.bumpMap)].image.get()
+           : nullptr;
+}
+
+/// `normal { ... }`: POV-Ray's slopes are differences between neighbouring texels, in texels. Its axes on the surface
+/// follow from the normal as in a left-handed world, which the mirror undoes.
+std::string bumps(const PovSurface& surface, PovImages& images)
+{
+  const Material& material = surface.material;
+  if (!bumpImage(surface.model, material))
+  {
+    return {};
+  }
+  const Texture& texture = surface.model.textures[static_cast<std::size_t>(material.bumpMap)];
+  return "normal { uv_mapping bump_map { " + images.color(texture, { 1, 1, 1 }) + " interpolate 2 bump_size " +
+         povNumber(material.bumpScale / surface.texel) + " } scale <1, 1, -1> } ";
 }
 
 const Texture& textureOf(const Model& model, const Material& material)
@@ -62,10 +88,45 @@ std::string finish(const Material& material, const Eigen::Vector3d& tint, double
 }
 } // namespace
 
+PovSurface povSurfaceOf(const Instance& instance, std::size_t material)
+{
+  const Model& model = *instance.model;
+  PovSurface surface{ model, povMaterialsOf(instance)[material], 1 };
+  if (const Image* image = bumpImage(model, surface.material))
+  {
+    double space = 0;
+    double picture = 0;
+    for (const Part& part : model.parts)
+    {
+      for (std::uint32_t i = 0; std::size_t(part.material) == material && i < part.triangles; ++i)
+      {
+        const auto& triangle = model.triangles[part.firstTriangle + i];
+        const auto& at = instance.geometry->positions;
+        space += (at[triangle[1]] - at[triangle[0]]).cross(at[triangle[2]] - at[triangle[0]]).norm();
+        const Eigen::Vector2d u = model.uvs[triangle[1]] - model.uvs[triangle[0]];
+        const Eigen::Vector2d v = model.uvs[triangle[2]] - model.uvs[triangle[0]];
+        picture += std::abs(u.x() * v.y() - u.y() * v.x());
+      }
+    }
+    const double texels = picture * image->width * image->height;
+    surface.texel = texels > 0 && space > 0 ? std::sqrt(space / texels) * povUnitOf(instance) : 1;
+  }
+  return surface;
+}
+
+double povUnitOf(const Instance& instance)
+{
+  const std::vector<Material>& materials = povMaterialsOf(instance);
+  const bool bumpy = std::any_of(materials.begin(), materials.end(),
+    [&](const Material& material) { return bumpImage(*instance.model, material) != nullptr; });
+  return bumpy ? std::cbrt(std::abs(instance.world_from_object.linear.determinant())) : 1;
+}
+
 PovSurfaceOptions povSurfaceOptions(const SceneState& state, const PovOptions& options)
 {
   PovSurfaceOptions surface;
   static_cast<PovOptions&>(surface) = options;
+  surface.cast = povShadows(state, options);
   surface.headLit = std::all_of(state.lights.begin(), state.lights.end(),
     [](const LightState& light) { return light.kind == LightState::Kind::Head; });
   return surface;
@@ -73,9 +134,10 @@ PovSurfaceOptions povSurfaceOptions(const SceneState& state, const PovOptions& o
 
 bool povCutOut(const Model& model, const Material& material) { return material.cutOut && imageOf(model, material); }
 
-std::string povMaterial(
-  const Model& model, const Material& material, const PovSurfaceOptions& options, PovImages& images)
+std::string povMaterial(const PovSurface& surface, const PovSurfaceOptions& options, PovImages& images)
 {
+  const Model& model = surface.model;
+  const Material& material = surface.material;
   const double diffuse = material.diffuse.maxCoeff();
   Eigen::Vector3d tint(1, 1, 1);
   if (diffuse > 0)
@@ -96,7 +158,8 @@ std::string povMaterial(
     pigment =
       transmit > 0 ? "rgbt " + povVector(Eigen::Vector4d(tint.x(), tint.y(), tint.z(), transmit)) : povColor(tint);
   }
-  return "texture { pigment { " + pigment + " } " + finish(material, tint, diffuse, !cutOut, options) + " }";
+  return "texture { pigment { " + pigment + " } " + bumps(surface, images) +
+         finish(material, tint, diffuse, !cutOut, options) + " }";
 }
 
 namespace

@@ -79,8 +79,9 @@ std::vector<int> writeTextures(
     {
       const Material& material = materials[static_cast<std::size_t>(part.material)];
       index = static_cast<int>(textures.size());
-      textures.push_back(options.flatIds ? povFlatMaterial(model, material, ownId, images)
-                                         : povMaterial(model, material, options, images));
+      textures.push_back(options.flatIds
+                           ? povFlatMaterial(model, material, ownId, images)
+                           : povMaterial(povSurfaceOf(instance, std::size_t(part.material)), options, images));
     }
   }
   writeList(text, "texture_list", textures, [](const std::string& texture) { return texture; });
@@ -130,7 +131,7 @@ void povWriteMesh(
 std::string PovMeshesInside::declare(const Instance& instance, std::uint32_t id)
 {
   const std::uint32_t own = povOwnId(instance, id, this->Options);
-  const Key key(instance.model.get(), instance.geometry.get(), &povMaterialsOf(instance), own);
+  const Key key(instance.model.get(), instance.geometry.get(), &povMaterialsOf(instance), own, povUnitOf(instance));
   const auto [known, isNew] = this->Names.try_emplace(key, "Mesh" + std::to_string(this->Names.size() + 1));
   if (isNew)
   {

@@ -47,7 +47,7 @@ public:
   std::string declare(const Instance& instance, std::uint32_t id) override;
 
 private:
-  using Key = std::tuple<const Model*, const Geometry*, const std::vector<Material>*, std::uint32_t>;
+  using Key = std::tuple<const Model*, const Geometry*, const std::vector<Material>*, std::uint32_t, double>;
 
   PovText& Text;
   PovImages& Images;

@@ -127,7 +127,7 @@ void PovObjects::add(const Instance& instance, std::uint32_t id)
   const std::string mesh = this->Meshes.declare(instance, id);
   this->Text << "// object " + std::to_string(id) + ": " + quoted(instance.name) + "\nobject {\n  " + mesh + "\n  " +
                   povMatrix(instance.world_from_object) + '\n' + this->clipping(instance) + this->texture(id) +
-                  (this->Options.shadows ? "" : "  no_shadow\n") +
+                  (this->Options.cast ? "" : "  no_shadow\n") +
                   (this->Scale == 1 ? "" : " " + povScale(this->Scale) + '\n') + "}\n\n";
 }
 

@@ -286,6 +286,37 @@ TEST_F(PovExport, RefusalsLeaveWhatWasThere)
   EXPECT_THROW(exportPov(*state, this->V, this->path("nowhere/x.pov")), MachineError);
 }
 
+TEST_F(PovExport, BumpsAreInSceneUnits)
+{
+  const auto quad = test::makeQuad();
+  test::addCutOut(*quad, 4, 1); // a texture of 4 x 4
+  quad->materials[0].cutOut = false;
+  quad->materials[0].bumpMap = quad->materials[0].texture;
+  quad->materials[0].bumpScale = 0.3;
+  double sizes[2] = {};
+  for (const double scale : { 1.0, 2.0 })
+  {
+    const auto state = test::SceneBuilder().add(quad, test::placement({ 0, 0, 0 }, scale)).state();
+    exportPov(*state, this->V, this->path("b.pov"));
+    sizes[int(scale) - 1] = after(readFile(this->path("b.pov")), "bump_size ");
+  }
+  EXPECT_GT(sizes[0], 0);
+  EXPECT_NEAR(sizes[1], sizes[0] / 2, 1e-12); // texels are twice as large
+}
+
+TEST_F(PovExport, ShadowsOfSingleLights)
+{
+  SceneState state = *test::SceneBuilder().add(test::makeBox()).state();
+  state.lights.resize(2);
+  exportPov(state, this->V, this->path("l.pov"));
+  EXPECT_EQ(count(readFile(this->path("l.pov")), "no_shadow"), 1u);
+  state.lights[1].shadows = true;
+  const PovResult result = exportPov(state, this->V, this->path("l.pov"));
+  EXPECT_EQ(count(readFile(this->path("l.pov")), "no_shadow"), 0u);
+  EXPECT_EQ(count(readFile(this->path("l.pov")), "shadowless"), 1u);
+  EXPECT_EQ(result.warnings.size(), 1u);
+}
+
 TEST_F(PovExport, MissingTexelsGetAMask)
 {
   const auto quad = test::makeQuad();
