@@ -18,10 +18,9 @@ public:
 
   void compute(const SurfaceRows& in, Rows& out) const override
   {
-    auto partOf = cachePerTriangle<std::uint32_t>(
-      [&](const Hit& hit) { return in.state->instances[hit.object - 1].model->partOf(hit.triangle); });
+    PartLookup parts(*in.state);
     forSurface<std::uint32_t, 1>(
-      in, out, NoId, [&](std::size_t i, int, int, std::uint32_t* value) { *value = partOf(in.hits[i]); });
+      in, out, NoId, [&](std::size_t i, int, int, std::uint32_t* value) { *value = parts.part(in.hits[i]); });
   }
 };
 } // namespace

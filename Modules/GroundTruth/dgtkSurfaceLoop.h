@@ -76,6 +76,45 @@ TriangleCache<Value, Make> cachePerTriangle(const Make& make)
   return TriangleCache<Value, Make>(make);
 }
 
+/// Part of a hit's triangle. Neighbouring pixels mostly meet the same part.
+class PartLookup
+{
+public:
+  explicit PartLookup(const SceneState& state)
+    : State(state)
+  {
+  }
+  std::uint32_t part(const Hit& hit)
+  {
+    this->find(hit);
+    return this->Part;
+  }
+  std::uint32_t firstTriangle(const Hit& hit)
+  {
+    this->find(hit);
+    return this->First;
+  }
+
+private:
+  void find(const Hit& hit)
+  {
+    if (hit.object == this->Object && hit.triangle - this->First < this->Count)
+    {
+      return;
+    }
+    const Model& model = *this->State.instances[hit.object - 1].model;
+    this->Object = hit.object;
+    this->Part = model.partOf(hit.triangle);
+    this->First = model.parts[this->Part].firstTriangle;
+    this->Count = model.parts[this->Part].triangles;
+  }
+  const SceneState& State;
+  std::uint32_t Object = 0;
+  std::uint32_t Part = 0;
+  std::uint32_t First = 0;
+  std::uint32_t Count = 0;
+};
+
 /// Rays through the centres of pixels without a virtual call where the lens is linear.
 class PixelRays
 {

@@ -18,14 +18,10 @@ public:
 
   void compute(const SurfaceRows& in, Rows& out) const override
   {
-    auto first = cachePerTriangle<std::uint32_t>(
-      [&](const Hit& hit)
-      {
-        const Model& model = *in.state->instances[hit.object - 1].model;
-        return model.parts[model.partOf(hit.triangle)].firstTriangle;
-      });
+    PartLookup parts(*in.state);
     forSurface<std::uint32_t, 1>(in, out, NoId,
-      [&](std::size_t i, int, int, std::uint32_t* value) { *value = in.hits[i].triangle - first(in.hits[i]); });
+      [&](std::size_t i, int, int, std::uint32_t* value)
+      { *value = in.hits[i].triangle - parts.firstTriangle(in.hits[i]); });
   }
 };
 } // namespace

@@ -30,6 +30,7 @@ FrameSource::FrameSource(const FrameSourceOptions& options, ThreadPool& pool)
     std::unique_ptr<RasterSource> raster = makeRasterSource(glBackendFromName(options.gl));
     this->Description = raster->choice().description;
     raster->setFilter(options.filter);
+    raster->setHits(options.peel || !options.mattes.empty() || (options.hits && options.raster));
     this->Raster = std::move(raster);
     this->Exposed = std::make_unique<ExposedColor>(*this->Raster, pool);
   }

@@ -276,7 +276,15 @@ std::shared_ptr<const RasterTopology> RasterScene::topologyOf(const std::shared_
       return variant->shared->topology;
     }
   }
-  return std::make_shared<const RasterTopology>(rasterTopology(*model));
+  // Translucent surfaces are sorted by their numbers.
+  const auto isTranslucent = [](const Instance& instance)
+  {
+    return std::any_of(instance.materials->begin(), instance.materials->end(),
+      [](const Material& material) { return material.opacity < 1; });
+  };
+  const bool numbered =
+    this->Numbered || std::any_of(this->State->instances.begin(), this->State->instances.end(), isTranslucent);
+  return std::make_shared<const RasterTopology>(rasterTopology(*model, numbered));
 }
 
 void RasterScene::fill(Shared& shared, std::shared_ptr<const Geometry> geometry)

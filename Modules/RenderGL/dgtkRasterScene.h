@@ -37,7 +37,9 @@ struct RasterTopology
   std::vector<std::uint32_t> source; ///< vertex -> vertex of the model
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
-RasterTopology rasterTopology(const Model& model);
+/// Where numbers are not wanted, the model's own vertices, fewer, with each triangle's corners in the same order: the
+/// same pixels.
+RasterTopology rasterTopology(const Model& model, bool numbered = true);
 
 /// Which draws.
 enum class Surfaces
@@ -57,6 +59,9 @@ public:
   RasterScene(const RasterScene&) = delete;
   RasterScene& operator=(const RasterScene&) = delete;
 
+  /// Without numbers of triangles, hits and layers cannot be drawn; colours are, with fewer vertices. To be called
+  /// before the first state.
+  void setNumbered(bool numbered) { this->Numbered = numbered; }
   void setState(std::shared_ptr<const SceneState> state);
   const SceneState& state() const { return *this->State; }
   bool hasTranslucent() const { return this->Translucent; }
@@ -183,6 +188,7 @@ private:
   unsigned int LightTexture = 0;
   unsigned int Layer = 0;
   bool Translucent = false;
+  bool Numbered = true;
 };
 
 } // namespace dgtk

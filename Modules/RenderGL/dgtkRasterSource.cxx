@@ -82,6 +82,7 @@ public:
 
   std::string name() const override { return "raster"; }
   GLChoice choice() const override { return this->Choice; }
+  void setHits(bool wanted) override { this->Scene.setNumbered(wanted); }
   void setFilter(PixelFilter filter) override { this->Filter = filter; }
   void setScene(std::shared_ptr<const SceneState> state, const View& view) override;
   void render(const PixelRect& rect, VisibilityBuffer& hits) override;

@@ -45,6 +45,9 @@ class DGTKRENDERGL_EXPORT RasterSource : public ColorSource
 public:
   /// The OpenGL that it draws with.
   virtual GLChoice choice() const = 0;
+  /// Whether hits and layers are asked for at all; true unless set. Colours alone are drawn faster. To be called before
+  /// the first scene.
+  virtual void setHits(bool wanted) = 0;
   /// Of drawColor() with several samples a pixel; box unless set.
   virtual void setFilter(PixelFilter filter) = 0;
   /// Peels all surfaces along the rays through the pixel centres of `rect` (as in render()), nearest first; surfaces at

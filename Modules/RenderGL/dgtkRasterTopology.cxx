@@ -2,11 +2,12 @@
 #include "dgtkRasterScene.h"
 
 #include <limits>
+#include <numeric>
 
 namespace dgtk
 {
 
-RasterTopology rasterTopology(const Model& model)
+RasterTopology rasterTopology(const Model& model, bool numbered)
 {
   constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
   const std::size_t count = model.triangles.size();
@@ -34,6 +35,19 @@ RasterTopology rasterTopology(const Model& model)
         break;
       }
     }
+  }
+  if (!numbered)
+  {
+    result.source.resize(model.rest->positions.size());
+    std::iota(result.source.begin(), result.source.end(), 0u);
+    for (std::size_t t = 0; t < count; ++t)
+    {
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        result.triangles[t][k] = model.triangles[t][(claimed[t] + 1 + k) % 3];
+      }
+    }
+    return result;
   }
   for (std::size_t t = 0; t < count; ++t)
   {
