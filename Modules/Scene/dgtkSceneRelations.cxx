@@ -6,6 +6,7 @@
 #include "dgtkSceneText.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 #include <unordered_map>
 
@@ -31,6 +32,10 @@ public:
     this->checkNames(Kind::Light, this->Scene.lights);
     this->checkNames(Kind::Camera, this->Scene.cameras);
     this->checkParents();
+    for (std::size_t i = 0; i < this->Scene.objects.size(); ++i)
+    {
+      this->checkScale(i);
+    }
     for (std::size_t i = 0; i < this->Scene.lights.size(); ++i)
     {
       this->checkLight(i);
@@ -119,6 +124,28 @@ private:
     }
   }
 
+  /// Between keys of different sign a scale may be 0 at a frame.
+  void checkScale(std::size_t i) const
+  {
+    const Track<Eigen::Vector3d>& scale = this->Scene.objects[i].scale;
+    for (std::size_t k = 1; k < scale.keys.size(); ++k)
+    {
+      const Key<Eigen::Vector3d>& from = scale.keys[k - 1];
+      const Key<Eigen::Vector3d>& to = scale.keys[k];
+      const bool crosses = (from.value.array() * to.value.array() < 0).any();
+      const bool checked =
+        (crosses && scale.interpolation == Interpolation::Linear) || scale.interpolation == Interpolation::Smooth;
+      for (int frame = from.frame + 1; checked && frame < to.frame; ++frame)
+      {
+        if ((scale.at(frame).array() == 0).any())
+        {
+          this->fail(
+            Kind::Object, i, "scale", "passes through 0 at frame " + std::to_string(frame), "another interpolation");
+        }
+      }
+    }
+  }
+
   void checkLight(std::size_t i) const
   {
     const LightDescription& light = this->Scene.lights[i];
@@ -155,6 +182,19 @@ private:
   static std::vector<int> orAnyFrame(const std::vector<int>& frames)
   {
     return frames.empty() ? std::vector<int>{ 0 } : frames;
+  }
+
+  /// Every frame between key frames, but for very long motions, of which only the key frames are looked at.
+  static std::vector<int> allFrames(const std::vector<int>& keys)
+  {
+    constexpr int most = 20000;
+    if (keys.empty() || keys.back() - keys.front() > most)
+    {
+      return keys;
+    }
+    std::vector<int> frames(std::size_t(keys.back() - keys.front()) + 1);
+    std::iota(frames.begin(), frames.end(), keys.front());
+    return frames;
   }
 
   void checkCamera(std::size_t i) const
@@ -199,7 +239,7 @@ private:
   void checkPose(std::size_t i, const CameraDescription& camera) const
   {
     const std::vector<int> keys = keyFramesOf({ &camera.eye, &camera.lookAt, &camera.up });
-    for (const int frame : orAnyFrame(keys))
+    for (const int frame : orAnyFrame(allFrames(keys)))
     {
       const Eigen::Vector3d eye = camera.eye.at(frame);
       const Eigen::Vector3d lookAt = camera.lookAt.at(frame);

@@ -216,6 +216,17 @@ TEST(SceneRefusals, JsonValues)
       "orientation)" },
     { "{\"cameras\": [{\"eye\": [0, 0, 0],\n\"lookAt\": [0, 0, 0]}]}",
       "a.json:2: cameras[0].lookAt is the eye itself" },
+    { "{\"cameras\": [{\n\"eye\": {\"keys\": [[0, [0, 0, 5]], [2, [0, 0, -5]]]},\n\"lookAt\": [0, 0, 0]}]}",
+      "a.json:3: cameras[0].lookAt is the eye itself at frame 1" },
+    { withObject("\"scale\": {\"keys\": [[0, [1, -1, 1]], [4, [1, 1, 1]]]}"),
+      "a.json:4: objects[0].scale passes through 0 at frame 2" },
+    { withCamera("\"shutter\": {\"open\": 1, \"close\": 0}"), "a.json:4: cameras[0].shutter closes before it opens" },
+    { withCamera("\"model\": \"orthographic\", \"lens\": {\"aperture\": 1}"),
+      "cameras[0].lens is not for this camera" },
+    { withCamera("\"lens\": {\"focus\": 0}"), "cameras[0].lens.focus" },
+    { "{\"fog\": {\"density\": -1}}", "fog.density" },
+    { "{\"environment\": {\"picture\": \"a.hdr\"}}", "environment" },
+    { withLight("\"shadowSize\": 15"), "lights[0].shadowSize" },
   };
   for (const Case& c : cases)
   {

@@ -156,12 +156,12 @@ TEST(Stage, UndefinedMomentsAreRefused)
 {
   const ModelFolder folder;
   const auto stage = folder.load(R"({"objects": [
-    {"name": "flat", "model": "models/square.ac", "scale": {"keys": [[0, -1], [2, 1]]}}],
-    "cameras": [{"eye": {"keys": [[0, [0, 0, 5]], [2, [0, 0, -5]]]}, "lookAt": [0, 0, 0]}]})");
+    {"name": "flat", "model": "models/square.ac", "scale": {"keys": [[0, -1], [3, 1]]}}],
+    "cameras": [{"eye": {"keys": [[0, [0, 0, 5]], [3, [0, 0, -5]]]}, "lookAt": [0, 0, 0]}]})");
   EXPECT_NO_THROW(stage->at(0));
   try
   {
-    stage->at(1);
+    stage->at(1.5); // frames of the scene are refused when it is read
     FAIL();
   }
   catch (const InputError& error)
@@ -170,11 +170,11 @@ TEST(Stage, UndefinedMomentsAreRefused)
   }
   try
   {
-    stage->view(0, 1);
+    stage->view(0, 1.5);
     FAIL();
   }
   catch (const InputError& error)
   {
-    EXPECT_THAT(error.what(), HasSubstr("scene.json:3: camera 'Camera0' at frame 1: eye and look-at"));
+    EXPECT_THAT(error.what(), HasSubstr("scene.json:3: camera 'Camera0' at frame 1.5: eye and look-at"));
   }
 }
