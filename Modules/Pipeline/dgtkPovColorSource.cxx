@@ -112,18 +112,18 @@ struct PovColorSource::Studio
 /// A camera at a frame.
 struct PovColorSource::Picture
 {
-  Studio& studio;
+  std::shared_ptr<Studio> studio; // a worker may be the last to let go of a picture
   std::shared_ptr<const SceneState> state;
   View view;
   std::string name;
   std::once_flag once;
   bool drawn = false;
 
-  Picture(Studio& s, const std::shared_ptr<const SceneState>& theState, const View& theView)
+  Picture(const std::shared_ptr<Studio>& s, const std::shared_ptr<const SceneState>& theState, const View& theView)
     : studio(s)
     , state(theState)
     , view(theView)
-    , name("picture" + std::to_string(s.pictures++))
+    , name("picture" + std::to_string(s->pictures++))
   {
   }
   ~Picture()
@@ -136,7 +136,7 @@ struct PovColorSource::Picture
 
   std::string path(const std::string& stem, const char* extension) const
   {
-    return this->studio.folder + '/' + stem + extension;
+    return this->studio->folder + '/' + stem + extension;
   }
   void remove(const std::string& path) const
   {
@@ -147,17 +147,17 @@ struct PovColorSource::Picture
   /// Into <stem>.ppm.
   void draw(const std::string& stem, const PovRows& rows) const
   {
-    const PovRenderOptions& options = this->studio.settings.options;
-    const PovScene scene = makePovScene(*this->state, this->view, povOptionsOf(options), *this->studio.library, rows);
+    const PovRenderOptions& options = this->studio->settings.options;
+    const PovScene scene = makePovScene(*this->state, this->view, povOptionsOf(options), *this->studio->library, rows);
     writeFile(this->path(stem, ".pov"), scene.text);
     const int height = rows.count > 0 ? rows.count : this->view.model->height();
     std::vector<std::string> words{ "+I" + stem + ".pov", "+O" + stem + ".ppm", "+FP16",
       "+W" + std::to_string(this->view.model->width()), "+H" + std::to_string(height), "File_Gamma=sRGB", "Dither=off",
       "-UA", "+Q9", "-D", "-P", "-V", "-C", "+WT1" };
     const std::vector<std::string> more =
-      povAntialias(options.antialias > 0 ? options.antialias : this->studio.settings.samples);
+      povAntialias(options.antialias > 0 ? options.antialias : this->studio->settings.samples);
     words.insert(words.end(), more.begin(), more.end());
-    this->studio.runner->run(words, stem);
+    this->studio->runner->run(words, stem);
     this->remove(this->path(stem, ".pov"));
   }
 
@@ -173,14 +173,14 @@ struct PovColorSource::Picture
   {
     const int width = this->view.model->width();
     std::vector<float> rgb(std::size_t(width) * band.height * 3);
-    if (this->studio.inOnePiece())
+    if (this->studio->inOnePiece())
     {
       std::call_once(this->once, [this] { this->draw(this->name, {}), this->drawn = true; });
       readRows(this->path(this->name, ".ppm"), width, band.y, band.height, rgb.data());
       return rgb;
     }
     const int rows = std::max(1, RangePixels / width);
-    this->studio.pool.parallelFor((band.height + rows - 1) / rows,
+    this->studio->pool.parallelFor((band.height + rows - 1) / rows,
       [&](int i)
       {
         const int first = i * rows;
@@ -192,7 +192,7 @@ struct PovColorSource::Picture
 };
 
 PovColorSource::PovColorSource(const PovColorSettings& settings, ThreadPool& pool)
-  : Self(std::make_unique<Studio>(settings, pool))
+  : Self(std::make_shared<Studio>(settings, pool))
 {
 }
 
@@ -201,7 +201,7 @@ PovColorSource::~PovColorSource() = default;
 void PovColorSource::setScene(const std::shared_ptr<const SceneState>& state, const View& view)
 {
   this->Self->open();
-  this->Current = std::make_shared<Picture>(*this->Self, state, view);
+  this->Current = std::make_shared<Picture>(this->Self, state, view);
 }
 
 std::function<std::vector<float>()> PovColorSource::colorOf(const PixelRect& band)

@@ -38,7 +38,7 @@ class PovColorSource
 public:
   /// Throws MachineError without POV-Ray.
   PovColorSource(const PovColorSettings& settings, ThreadPool& pool);
-  ~PovColorSource(); ///< after everything that colorOf() returned
+  ~PovColorSource();
 
   void setScene(const std::shared_ptr<const SceneState>& state, const View& view);
   /// Draws rows of the current scene when it is called: RGB float32, display-referred, of full-width rows. May be
@@ -48,7 +48,7 @@ public:
 private:
   struct Studio;
   struct Picture;
-  std::unique_ptr<Studio> Self;
+  std::shared_ptr<Studio> Self;
   std::shared_ptr<Picture> Current;
 };
 
