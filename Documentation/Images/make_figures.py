@@ -55,11 +55,12 @@ def depth_picture(path):
 
 def object_picture(path):
     """A colour of its own for each id; black where nothing is."""
-    ids = np.load(path).astype(np.uint64)
-    mixed = ids * np.uint64(0x9E3779B97F4A7C15)
-    colours = np.stack([(mixed >> np.uint64(shift)) & np.uint64(127) for shift in (20, 33, 47)], axis=-1).astype(np.uint8) + 90
-    colours[ids == 0] = 0
-    return colours
+    ids = np.load(path)
+    hue = ids * 0.61803398875 % 1  # the golden ratio keeps neighbours apart
+    value = 150 + 105 * (ids * 0.7548776662 % 1)
+    wheel = np.abs((hue[..., None] * 6 + [0, 4, 2]) % 6 - 3) - 1
+    colours = np.clip(wheel * 0.75 + 0.25, 0.1, 1) * value[..., None]
+    return np.where(ids[..., None] > 0, colours, 0).astype(np.uint8)
 
 
 def tiled(pictures, columns):
