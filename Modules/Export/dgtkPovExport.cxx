@@ -73,6 +73,50 @@ std::string settings(const SceneState& state, const PovOptions& options)
          "\n}\n";
 }
 
+/// Fog whose distance is the built-in renderer's; a note for what it cannot show.
+std::string fogText(const SceneState& state, double scale, std::vector<std::string>& warnings)
+{
+  const FogState& fog = state.fog;
+  if (fog.density <= 0)
+  {
+    return {};
+  }
+  if (fog.start > 0)
+  {
+    warnings.push_back("fog that starts away from the camera is not written");
+    return {};
+  }
+  if (fog.color != state.background)
+  {
+    warnings.push_back("fog hides the background");
+  }
+  return "fog { distance " + povNumber(scale / fog.density) + " color " + povColor(fog.color) + " }\n";
+}
+
+void noteMissing(const SceneState& state, std::vector<std::string>& warnings)
+{
+  bool physical = false;
+  bool normals = false;
+  for (const Instance& instance : state.instances)
+  {
+    for (const Material& material : povMaterialsOf(instance))
+    {
+      physical = physical || (material.physical && material.physical->wanted);
+      normals = normals || material.normalMap >= 0;
+    }
+  }
+  const auto note = [&warnings](bool missing, const char* text)
+  {
+    if (missing)
+    {
+      warnings.emplace_back(text);
+    }
+  };
+  note(state.environment != nullptr, "the environment is not written");
+  note(physical, "metallic and roughness are not written");
+  note(normals, "normal maps are not written");
+}
+
 /// All but the objects.
 std::string head(
   const SceneState& state, const PovLightContext& context, const PovRows& rows, std::vector<std::string>& warnings)
@@ -85,6 +129,11 @@ std::string head(
   for (const LightState& light : state.lights)
   {
     text += shines ? std::string() : povLight(light, context, warnings);
+  }
+  if (!shines)
+  {
+    text += fogText(state, context.scale, warnings);
+    noteMissing(state, warnings);
   }
   return text + '\n';
 }

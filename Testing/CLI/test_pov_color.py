@@ -24,6 +24,7 @@ LIGHTS = {
     "directional": {"kind": "directional", "position": [3, 5, 4], "target": [0, 0, 0], "diffuse": [0.9, 0.95, 1]},
     "spot": {"kind": "spot", "position": [1.5, 5, 3], "target": [0, 0.5, 0], "coneAngle": 30, "exponent": 8},
     "head": {"kind": "head"},
+    "fog": {"kind": "directional", "position": [3, 5, 4], "target": [0, 0, 0]},
 }
 MATT = {"diffuse": [0.8, 0.5, 0.3], "ambient": [0.3, 0.3, 0.3], "specular": [0, 0, 0], "texture": ""}
 SHINY = {"diffuse": [0.2, 0.4, 0.7], "ambient": [0.1, 0.1, 0.1], "specular": [0.8, 0.8, 0.8], "shininess": 30, "texture": ""}
@@ -66,7 +67,8 @@ class Color(Case):
 
     def lit(self, light):
         things = [("floor.ac", [0, 0, 0], MATT), ("ball.ac", [-1.2, 1, 1.5], SHINY), ("ball.ac", [1.2, 1, 1.5], MATT), ("crate.ac", [0, 0, -0.5], MATT)]
-        return {"version": 1, "background": [0.2, 0.3, 0.4], "lights": [{"name": "light", **light}],
+        fog = {"fog": {"color": [0.2, 0.3, 0.4], "density": 0.15}} if light == LIGHTS["fog"] else {}
+        return {"version": 1, "background": [0.2, 0.3, 0.4], "lights": [{"name": "light", **light}], **fog,
                 "objects": [{"name": f"thing {i}", "model": os.path.join(MODELS, model), "position": at, "scale": [7 if model == "ball.ac" else 1] * 3,
                          "materials": {"*": material}}
                             for i, (model, at, material) in enumerate(things)],

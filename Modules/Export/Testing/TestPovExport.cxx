@@ -304,6 +304,20 @@ TEST_F(PovExport, BumpsAreInSceneUnits)
   EXPECT_NEAR(sizes[1], sizes[0] / 2, 1e-12); // texels are twice as large
 }
 
+TEST_F(PovExport, FogIsScaledAndNoted)
+{
+  SceneState state = *test::SceneBuilder().add(test::makeBox()).state();
+  state.fog = { { 0.1, 0.2, 0.3 }, 0.25, 0 };
+  state.background = state.fog.color;
+  PovResult result = exportPov(state, this->V, this->path("f.pov"));
+  EXPECT_EQ(after(readFile(this->path("f.pov")), "fog { distance "), 4 * result.scale);
+  EXPECT_TRUE(result.warnings.empty());
+  state.fog.start = 1;
+  result = exportPov(state, this->V, this->path("f.pov"));
+  EXPECT_EQ(count(readFile(this->path("f.pov")), "fog"), 0u);
+  EXPECT_EQ(result.warnings.size(), 1u);
+}
+
 TEST_F(PovExport, ShadowsOfSingleLights)
 {
   SceneState state = *test::SceneBuilder().add(test::makeBox()).state();
