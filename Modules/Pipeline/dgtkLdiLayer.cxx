@@ -82,6 +82,10 @@ public:
     : Context(context)
   {
     const CameraModel& model = *context.view.model;
+    const CameraDescription& camera = context.queries.stage().description().cameras[context.job.camera];
+    const GeneratorRequest& request = context.plan.request;
+    this->OwnColor =
+      request.samples == 1 && request.renderer == "vtk" && !camera.shutter.blurs() && !camera.lens.blurs();
     for (const std::string& format : formats)
     {
       this->Names.push_back(WorkPlan::fileName(context.camera, "ldi", context.job.frame, format));
@@ -131,7 +135,7 @@ private:
     in.rect.height = std::min(stripRows, band.rect.height - offset);
     const std::size_t first = std::size_t(offset) * in.rect.width;
     in.first = band.hits.data() + first;
-    in.rgb = band.rgb.empty() || this->Context.plan.request.samples > 1 ? nullptr : band.rgb.data() + 3 * first;
+    in.rgb = this->OwnColor && !band.rgb.empty() ? band.rgb.data() + 3 * first : nullptr;
     const Ranks ranks(band, in.rect);
     in.ranks = ranks.rows();
     LayeredRows layered;
@@ -153,6 +157,7 @@ private:
   }
 
   JobContext Context;
+  bool OwnColor = true; ///< the picture's colour is that of the first surfaces: one sample, the built-in renderer
   std::vector<std::string> Names;
   std::vector<std::unique_ptr<LdiWriter>> Writers; // one a name
 };

@@ -218,10 +218,17 @@ private:
   LdiFile Ldi;
 };
 
-bool isOneSample(const Manifest& manifest)
+/// Whether colour is that of the first surface at the pixel's centre, by the renderer that draws all surfaces.
+bool showsFirstSurface(const Picture& picture)
 {
-  return std::none_of(manifest.request.begin(), manifest.request.end(),
-    [](const auto& option) { return option.first == "samples" && option.second != "1"; });
+  const Manifest& manifest = picture.dataset().manifest();
+  const bool asked = std::none_of(manifest.request.begin(), manifest.request.end(),
+    [](const auto& option)
+    { return (option.first == "samples" && option.second != "1") || option.first == "renderer"; });
+  const std::vector<CameraDescription>& cameras = picture.dataset().stage().description().cameras;
+  return asked && std::none_of(cameras.begin(), cameras.end(),
+                    [&](const CameraDescription& camera)
+                    { return camera.name == picture.camera() && (camera.shutter.blurs() || camera.lens.blurs()); });
 }
 } // namespace
 
@@ -255,7 +262,7 @@ void checkLdi(Picture& picture, Results& results)
       "first = depth", "scene units", measure([&](int x, int y, Meter& row) { check.firstDepth(*depth, x, y, row); }));
   }
   const PicturePointer color = picture.quietly([&] { return picture.image("color", { ".png" }); });
-  if (color && color->type() == PixelType::UInt8 && isOneSample(dataset.manifest()))
+  if (color && color->type() == PixelType::UInt8 && showsFirstSurface(picture))
   {
     results.add(
       "first = color", "1/255", measure([&](int x, int y, Meter& row) { check.firstColor(*color, x, y, row); }));
