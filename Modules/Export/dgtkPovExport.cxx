@@ -171,6 +171,13 @@ void addObjects(const SceneState& state, PovObjects&& objects)
 }
 } // namespace
 
+std::vector<std::string> povNotes(const SceneState& state, const View& view, const PovOptions& options)
+{
+  std::vector<std::string> notes;
+  head(state, contextOf(state, view, options), {}, notes);
+  return notes;
+}
+
 std::vector<std::string> povAntialias(int points)
 {
   return points > 1 ? std::vector<std::string>{ "+A0.0", "+AM1", "+R" + std::to_string(points), "-J" }

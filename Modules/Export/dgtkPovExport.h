@@ -118,6 +118,10 @@ struct PovScene
 DGTKEXPORT_EXPORT PovScene makePovScene(const SceneState& state, const View& view, const PovOptions& options,
   PovLibrary& library, const PovRows& rows = {}, const std::string& name = "FILE");
 
+/// What POV-Ray will show otherwise than the built-in renderer, one line each: PovScene::warnings.
+DGTKEXPORT_EXPORT std::vector<std::string> povNotes(
+  const SceneState& state, const View& view, const PovOptions& options);
+
 /// POV-Ray's options for N x N points a pixel on a grid, without noise.
 DGTKEXPORT_EXPORT std::vector<std::string> povAntialias(int points);
 

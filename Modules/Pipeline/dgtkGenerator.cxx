@@ -142,6 +142,16 @@ GeneratorResult Run::execute()
     this->say(this->Result.glDescription);
   }
 
+  if ((request.renderer == "povray" && this->Plan.drawsColor()) || this->Plan.has("pov"))
+  {
+    const Job& first = this->Plan.jobs.front();
+    for (const std::string& note :
+      povNotes(*this->stateAt(first.frame), this->viewOf(first), povOptionsOf(request.pov)))
+    {
+      this->Result.warnings.push_back("POV-Ray: " + note);
+      this->say("warning: POV-Ray: " + note);
+    }
+  }
   try
   {
     this->renderAll();
