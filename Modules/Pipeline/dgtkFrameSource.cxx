@@ -88,12 +88,13 @@ struct FrameSource::Tile
 };
 
 /// Colours, and hits when they come from the raster engine.
-void FrameSource::drawColor(const PixelRect& rect, Tile& tile)
+void FrameSource::drawColor(const PixelRect& rect, Tile& tile, bool later)
 {
   VisibilityBuffer* hits = this->Options.hits && this->Options.raster ? &tile.hits : nullptr;
   if (!this->Exposed->blurs())
   {
-    tile.rest = this->Raster->drawColor(rect, this->Options.samples, tile.colors, hits);
+    tile.rest = later ? this->Raster->drawColorLater(rect, tile.colors, hits)
+                      : this->Raster->drawColor(rect, this->Options.samples, tile.colors, hits);
     return;
   }
   if (this->Options.sharp)
@@ -108,7 +109,7 @@ void FrameSource::drawColor(const PixelRect& rect, Tile& tile)
   this->Raster->setScene(this->State, this->Camera);
 }
 
-std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect)
+std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect, bool later)
 {
   auto tile = std::make_shared<Tile>();
   const bool rasterHits = this->Options.hits && this->Options.raster;
@@ -122,7 +123,7 @@ std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect)
   {
     if (this->rasterColor())
     {
-      this->drawColor(rect, *tile);
+      this->drawColor(rect, *tile, later);
     }
     else if (rasterHits)
     {
@@ -170,13 +171,33 @@ void place(const std::vector<T>& from, const PixelRect& tile, int channels, cons
 }
 } // namespace
 
-void FrameSource::draw(int row, DrawnBand& drawn)
+bool FrameSource::readsLater() const
 {
+  return this->rasterColor() && this->Options.samples == 1 && !this->Options.peel && !this->Matting &&
+         this->Grid->columns() == 1 && !this->Exposed->blurs();
+}
+
+void FrameSource::finish()
+{
+  if (this->Raster)
+  {
+    this->Raster->finish();
+  }
+}
+
+bool FrameSource::draw(int row, DrawnBand& drawn)
+{
+  const bool later = this->readsLater();
+  if (!later)
+  {
+    this->finish();
+  }
   this->drawBand(row, drawn);
   if (this->Pov)
   {
     drawn.color = [&band = drawn.band, draw = this->Pov->colorOf(drawn.band.rect)] { band.rgb = draw(); };
   }
+  return !later;
 }
 
 void FrameSource::drawBand(int row, DrawnBand& drawn)
@@ -186,7 +207,7 @@ void FrameSource::drawBand(int row, DrawnBand& drawn)
   if (columns == 1)
   {
     band.rect = this->Grid->tile(0, row);
-    drawn.rest = [&band, tile = this->drawTile(band.rect)]
+    drawn.rest = [&band, tile = this->drawTile(band.rect, this->readsLater())]
     {
       tile->rest();
       band.rgb = std::move(tile->colors.rgb);
@@ -224,7 +245,7 @@ void FrameSource::drawBand(int row, DrawnBand& drawn)
     for (int column = 0; column < columns; ++column)
     {
       const PixelRect rect = this->Grid->tile(column, row);
-      std::shared_ptr<Tile> tile = this->drawTile(rect);
+      std::shared_ptr<Tile> tile = this->drawTile(rect, false);
       band.peeled.push_back(std::move(tile->ranks));
       placed.push_back(this->Pool.submit(
         [this, &band, rect, sharp, tile = std::move(tile)]

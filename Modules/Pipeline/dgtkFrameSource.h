@@ -44,15 +44,19 @@ public:
   void expose(std::vector<Exposure> exposures, ExposedColor::StateAt stateAt);
   int bands() const;
   /// Draws band `row`, 0 <= row < bands(); what needs neither OpenGL nor this source may be left to drawn.rest.
-  void draw(int row, DrawnBand& drawn);
+  /// False when OpenGL's part of the band is there only after the next draw() or finish().
+  bool draw(int row, DrawnBand& drawn);
+  void finish();
   /// How OpenGL was reached, one line; empty when it is not used.
   const std::string& glDescription() const { return this->Description; }
 
 private:
   struct Tile;
-  std::shared_ptr<Tile> drawTile(const PixelRect& rect);
-  void drawColor(const PixelRect& rect, Tile& tile);
+  std::shared_ptr<Tile> drawTile(const PixelRect& rect, bool later);
+  void drawColor(const PixelRect& rect, Tile& tile, bool later);
   void drawBand(int row, DrawnBand& drawn);
+  /// Whether the colours of a picture may be read while the next one is drawn.
+  bool readsLater() const;
   /// Whether the raster engine gives the colours.
   bool rasterColor() const { return this->Options.color && !this->Pov; }
   FrameSourceOptions Options;

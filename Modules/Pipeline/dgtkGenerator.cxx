@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <deque>
 #include <thread>
+#include <utility>
 
 namespace dgtk
 {
@@ -56,6 +57,8 @@ private:
   void renderAll();
   void render(const Job& job);
   void drawBand(int row, FrameOutput& output);
+  void submitHeld();
+  void finishDrawing();
   void completeOldest();
   bool keep(const Job& job);
   std::vector<std::string> filesOf(const Job& job) const;
@@ -87,6 +90,9 @@ private:
   SceneQueries Queries;
   std::atomic<std::size_t> PendingBytes{ 0 };
   std::deque<Open> Opened;
+  /// A band whose colours OpenGL has not handed over yet, and where it goes.
+  std::shared_ptr<DrawnBand> Held;
+  FrameOutput* HeldFor = nullptr;
   std::shared_ptr<const SceneState> State;
   std::size_t Done = 0;
 };
@@ -163,6 +169,7 @@ GeneratorResult Run::execute()
       throw;
     }
     this->Result.interrupted = true; // while POV-Ray was drawing
+    this->Held = nullptr;
     this->Opened.clear();
   }
   this->Source.reset();
@@ -200,6 +207,7 @@ void Run::renderAll()
       this->Callbacks.progress({ this->Done, this->Plan.jobs.size() });
     }
   }
+  this->finishDrawing();
   while (!this->Opened.empty())
   {
     this->completeOldest();
@@ -238,6 +246,7 @@ void Run::render(const Job& job)
     {
       if (this->PendingBytes > mostPendingBytes)
       {
+        this->finishDrawing();
         output->wait();
       }
       this->drawBand(row, *output);
@@ -253,7 +262,8 @@ void Run::render(const Job& job)
 void Run::drawBand(int row, FrameOutput& output)
 {
   auto band = std::make_unique<DrawnBand>();
-  this->Source->draw(row, *band);
+  const bool there = this->Source->draw(row, *band);
+  this->submitHeld();
   std::size_t bytes = std::size_t(band->band.rect.width) * band->band.rect.height * 2 *
                       (sizeof(Hit) + 3 * sizeof(float)); // as drawn, and whole
   for (const std::vector<SurfaceLayer>& ranks : band->band.peeled)
@@ -264,11 +274,34 @@ void Run::drawBand(int row, FrameOutput& output)
     }
   }
   this->PendingBytes += bytes;
-  output.submit({ band.release(), [this, bytes](DrawnBand* done)
+  this->Held = { band.release(), [this, bytes](DrawnBand* done)
     {
       this->PendingBytes -= bytes;
       delete done;
-    } });
+    } };
+  this->HeldFor = &output;
+  if (there)
+  {
+    this->submitHeld();
+  }
+}
+
+void Run::submitHeld()
+{
+  if (this->Held)
+  {
+    this->HeldFor->submit(std::exchange(this->Held, nullptr));
+  }
+}
+
+/// To be called before anything waits for a band that may be held.
+void Run::finishDrawing()
+{
+  if (this->Held)
+  {
+    this->Source->finish();
+    this->submitHeld();
+  }
 }
 
 void Run::completeOldest()

@@ -118,6 +118,7 @@ dgtk::Rows dgtkRenderer::Internal::draw(const std::string& layer)
   {
     DrawnBand drawn;
     frames.draw(row, drawn);
+    frames.finish();
     const Band& band = drawn.whole();
     Rows part;
     if (color)

@@ -88,9 +88,23 @@ public:
   void render(const PixelRect& rect, VisibilityBuffer& hits) override;
   std::function<void()> drawColor(
     const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits) override;
+  std::function<void()> drawColorLater(const PixelRect& rect, ColorBuffer& colors, VisibilityBuffer* hits) override;
+  void finish() override;
   void peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit) override;
 
 private:
+  /// What is read of a target.
+  struct Drawn
+  {
+    std::vector<float> pixels;
+    std::vector<float> ids;
+  };
+  struct Unread
+  {
+    RasterTarget* target = nullptr;
+    bool ids = false;
+    std::shared_ptr<Drawn> to;
+  };
   void aim(RasterTarget& target, const PixelRect& rect, int samples, bool color);
   void drawSamples(const PixelRect& rect, int samples, bool hits);
   void blendTranslucent();
@@ -98,12 +112,17 @@ private:
   bool firstHitsTranslucent() const;
   void collect(int first, int last, std::vector<Fragment>& fragments);
   void peelOneByOne(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit);
+  std::function<void()> restOf(
+    std::shared_ptr<const Drawn> drawn, const PixelRect& rect, ColorBuffer& colors, VisibilityBuffer* hits) const;
+  static void read(const Unread& unread);
   static void check();
 
   GLChoice Choice;
   vtkOpenGLRenderWindow* Window;
   RasterScene Scene;
   RasterTarget Main{ false };
+  RasterTarget Other{ false }; // of drawColorLater(), in turn with Main
+  Unread Last;                 // not read yet when it has a target
   RasterTarget Layers[2]{ RasterTarget{ true }, RasterTarget{ true } };
   std::shared_ptr<const SceneState> State;
   View Camera;
@@ -131,6 +150,10 @@ void VtkRasterSource::aim(RasterTarget& target, const PixelRect& rect, int sampl
     throw UsageError("no scene was set");
   }
   this->Window->MakeCurrent();
+  if (this->Last.target == &target)
+  {
+    this->finish();
+  }
   if (color)
   {
     this->Scene.prepareLight(this->ClipControl);
@@ -167,17 +190,10 @@ std::function<void()> VtkRasterSource::drawColor(
   {
     this->drawSamples(rect, 1, hits != nullptr);
     check();
-    return [state = this->State, view = this->Camera, first = this->Scene.firstHits(), pixels = std::move(this->Pixels),
-             ids = std::move(this->Ids), rect, &colors, hits]
-    {
-      take(pixels, rect, colors);
-      if (hits)
-      {
-        hits->resize(rect);
-        takeHits(*first, ids, rect, hits->hits);
-        settleEdges(*state, view, *hits, true);
-      }
-    };
+    auto drawn = std::make_shared<Drawn>();
+    drawn->pixels = std::move(this->Pixels);
+    drawn->ids = std::move(this->Ids);
+    return this->restOf(drawn, rect, colors, hits);
   }
   const SampleFilter filter(this->Filter, samples);
   const int side = std::max(1, MaxPiece / samples - 2 * filter.margin());
@@ -196,6 +212,62 @@ std::function<void()> VtkRasterSource::drawColor(
     this->render(rect, *hits);
   }
   return [] {};
+}
+
+std::function<void()> VtkRasterSource::restOf(
+  std::shared_ptr<const Drawn> drawn, const PixelRect& rect, ColorBuffer& colors, VisibilityBuffer* hits) const
+{
+  return [state = this->State, view = this->Camera, first = this->Scene.firstHits(), drawn = std::move(drawn), rect,
+           &colors, hits]
+  {
+    take(drawn->pixels, rect, colors);
+    if (hits)
+    {
+      hits->resize(rect);
+      takeHits(*first, drawn->ids, rect, hits->hits);
+      settleEdges(*state, view, *hits, true);
+    }
+  };
+}
+
+std::function<void()> VtkRasterSource::drawColorLater(
+  const PixelRect& rect, ColorBuffer& colors, VisibilityBuffer* hits)
+{
+  if (this->Scene.hasTranslucent())
+  {
+    return this->drawColor(rect, 1, colors, hits);
+  }
+  colors.resize(rect);
+  RasterTarget& target = this->Last.target == &this->Main ? this->Other : this->Main;
+  this->aim(target, rect, 1, true);
+  const Eigen::Vector3f background = this->State->background.cast<float>();
+  target.bind(true, hits != nullptr);
+  target.clear({ background.x(), background.y(), background.z(), 1 });
+  this->Scene.drawColor(Surfaces::All);
+  glFlush();
+  this->finish();
+  this->Last = { &target, hits != nullptr, std::make_shared<Drawn>() };
+  return this->restOf(this->Last.to, rect, colors, hits);
+}
+
+void VtkRasterSource::read(const Unread& unread)
+{
+  unread.target->readColor(unread.to->pixels);
+  if (unread.ids)
+  {
+    unread.target->readIds(unread.to->ids);
+  }
+}
+
+void VtkRasterSource::finish()
+{
+  if (this->Last.target)
+  {
+    this->Window->MakeCurrent();
+    read(this->Last);
+    this->Last = {};
+    check();
+  }
 }
 
 /// Leaves the samples of a piece of the image in Pixels.

@@ -367,3 +367,63 @@ TEST(RasterColor, AnEmptySceneIsBackground)
   expectColor(colorAt(colors, 3, 3), { 0.25, 0.5, 1 });
   EXPECT_EQ(hits.at(3, 3).object, 0u);
 }
+
+TEST(RasterColor, PicturesReadLaterAreTheSame)
+{
+  ModelBuilder ball;
+  ball.part(matte({ 0.9, 0.4, 0.2 }));
+  ball.sphere(24);
+  const auto model = ball.finish();
+  const auto early = makeRasterSource();
+  const auto late = makeRasterSource();
+  const View view = frontView(96, 72);
+  std::vector<std::shared_ptr<SceneState>> states;
+  std::vector<ColorBuffer> colors(3);
+  std::vector<VisibilityBuffer> hits(3);
+  std::vector<std::function<void()>> rests;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    states.push_back(std::make_shared<SceneState>());
+    states[i]->instances.push_back(instanceOf(model, { 0.3 * double(i), 0, 0 }));
+    states[i]->lights.emplace_back();
+    states[i]->background = { 0.1, 0.2, 0.1 * double(i) };
+    late->setScene(states[i], view);
+    rests.push_back(late->drawColorLater(whole(view), colors[i], i == 1 ? nullptr : &hits[i]));
+    if (i > 0)
+    {
+      rests[i - 1]();
+    }
+  }
+  late->finish();
+  rests[2]();
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    ColorBuffer expected;
+    VisibilityBuffer expectedHits;
+    early->setScene(states[i], view);
+    early->renderColor(whole(view), 1, expected, &expectedHits);
+    EXPECT_EQ(colors[i].rgb, expected.rgb) << i;
+    EXPECT_TRUE(i == 1 || hits[i].hits == expectedHits.hits) << i;
+  }
+}
+
+TEST(RasterColor, ColoursAloneAreTheSameAsWithHits)
+{
+  ModelBuilder ball;
+  ball.part(matte({ 0.2, 0.4, 0.9 }));
+  ball.sphere(24);
+  const auto state = stateOf({ ball.finish() });
+  state->lights.emplace_back();
+  const View view = frontView(96, 72);
+  const auto both = makeRasterSource();
+  both->setScene(state, view);
+  ColorBuffer expected;
+  VisibilityBuffer hits;
+  both->renderColor(whole(view), 1, expected, &hits);
+  const auto alone = makeRasterSource();
+  alone->setHits(false);
+  alone->setScene(state, view);
+  ColorBuffer colors;
+  alone->renderColor(whole(view), 1, colors, nullptr);
+  EXPECT_EQ(colors.rgb, expected.rgb);
+}
