@@ -241,7 +241,8 @@ Canvas makeThumbnail(const std::string& path, const LayerSpec& spec, int width, 
   const ImageInfo info = reader->info();
   const bool integers = info.type != PixelType::Float32 && info.type != PixelType::Float64;
   const bool color = spec.name.rfind("color", 0) == 0 || spec.name == "tiles";
-  const bool picture = color || (info.format == "png" && (spec.name == "depth" || spec.name == "distance"));
+  const bool depth = spec.name == "depth" || spec.name == "depth_noisy" || spec.name == "distance";
+  const bool picture = color || (info.format == "png" && depth);
   const Samples samples = sample(*reader, width, height, picture);
   if (picture)
   {
@@ -251,7 +252,7 @@ Canvas makeThumbnail(const std::string& path, const LayerSpec& spec, int width, 
   {
     return paintIds(samples, spec);
   }
-  if (spec.name == "depth" || spec.name == "distance")
+  if (depth)
   {
     return paintDepth(samples);
   }
