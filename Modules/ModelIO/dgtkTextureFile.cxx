@@ -274,14 +274,14 @@ std::shared_ptr<const Image> decodeTexture(const std::string& path, std::string&
   return image;
 }
 
-std::shared_ptr<const RadianceImage> decodeRadiance(const std::string& path, std::string& problem)
+namespace
 {
-  problem.clear();
+std::shared_ptr<const RadianceImage> readRadiance(const std::string& path, std::string& problem)
+{
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
   if (!input)
   {
     problem = OIIO::geterror();
-    std::replace(problem.begin(), problem.end(), '\n', ' ');
     return nullptr;
   }
   const OIIO::ImageSpec& spec = input->spec();
@@ -297,7 +297,6 @@ std::shared_ptr<const RadianceImage> decodeRadiance(const std::string& path, std
   if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data()))
   {
     problem = input->geterror();
-    std::replace(problem.begin(), problem.end(), '\n', ' ');
     return nullptr;
   }
   const std::string extension = extensionOf(baseName(path));
@@ -316,6 +315,27 @@ std::shared_ptr<const RadianceImage> decodeRadiance(const std::string& path, std
     }
     v = std::max(v, 0.0f);
     image->rgb[i] = linear ? v : v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+  }
+  return image;
+}
+} // namespace
+
+std::shared_ptr<const RadianceImage> decodeRadiance(const std::string& path, std::string& problem)
+{
+  problem.clear();
+  std::shared_ptr<const RadianceImage> image;
+  try
+  {
+    image = readRadiance(path, problem);
+  }
+  catch (const std::exception& error)
+  {
+    problem = error.what();
+  }
+  if (!image)
+  {
+    problem = problem.empty() ? "is not a picture" : problem;
+    std::replace(problem.begin(), problem.end(), '\n', ' ');
   }
   return image;
 }

@@ -112,6 +112,11 @@ dgtk::Rows dgtkRenderer::Internal::draw(const std::string& layer)
   this->height = view.model->height();
 
   const bool color = plan.representations.empty();
+  if (color)
+  {
+    frames.expose(stage.exposures(job.camera, job.frame, this->request.width, this->request.height),
+      [&stage](double instant) { return stage.at(instant); });
+  }
   const LayerSpec spec = color ? plan.colorSpec("png") : plan.representations.front().spec;
   Rows image(spec.type, spec.channels, this->width, 0, this->height);
   for (int row = 0; row < frames.bands(); ++row)

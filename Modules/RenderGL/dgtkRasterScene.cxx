@@ -125,6 +125,7 @@ void RasterScene::setState(std::shared_ptr<const SceneState> state)
   }
   this->State = std::move(state);
   this->LightReady = false;
+  this->FirstShadows.clear();
   this->makeDraws();
   this->dropUnused();
 }

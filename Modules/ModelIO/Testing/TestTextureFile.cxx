@@ -223,3 +223,33 @@ TEST(TextureFile, OneFileIsDecodedOnce)
   EXPECT_FALSE(located->textures[0].image);
   EXPECT_EQ(located->textures[0].path, model->textures[0].path);
 }
+
+TEST(TextureFile, PicturesOfLight)
+{
+  const TemporaryFolder folder;
+  std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
+  for (const unsigned char byte : { 128, 64, 0, 130, 255, 255, 255, 128 }) // mantissas of 256, exponent from 128
+  {
+    text += char(byte);
+  }
+  writeFile(folder.path("sky.hdr"), text);
+  std::string problem;
+  const auto sky = dgtk::decodeRadiance(folder.path("sky.hdr"), problem);
+  ASSERT_TRUE(sky) << problem;
+  ASSERT_EQ(sky->rgb.size(), 6u);
+  EXPECT_NEAR(sky->rgb[0], 2.0, 0.02);
+  EXPECT_NEAR(sky->rgb[1], 1.0, 0.02);
+  EXPECT_NEAR(sky->rgb[2], 0.0, 0.02);
+  EXPECT_NEAR(sky->rgb[3], 0.9961, 0.005);
+  writeFile(folder.path("day.tga"), tga(1, 1, 3, { 255, 188, 0 }));
+  const auto day = dgtk::decodeRadiance(folder.path("day.tga"), problem);
+  ASSERT_TRUE(day) << problem;
+  EXPECT_NEAR(day->rgb[0], 1, 1e-6);
+  EXPECT_NEAR(day->rgb[1], 0.502886, 1e-5); // IEC 61966-2-1
+  EXPECT_EQ(day->rgb[2], 0);
+  writeFile(folder.path("torn.hdr"), text.substr(0, text.size() - 3));
+  EXPECT_FALSE(dgtk::decodeRadiance(folder.path("torn.hdr"), problem));
+  EXPECT_FALSE(problem.empty());
+  EXPECT_FALSE(dgtk::decodeRadiance(folder.path("no.hdr"), problem));
+  EXPECT_EQ(problem.find('\n'), std::string::npos);
+}
