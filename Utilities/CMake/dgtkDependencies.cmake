@@ -7,8 +7,13 @@ find_package(embree 3.13 REQUIRED)
 find_package(assimp 5.2 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)
+set(dgtk_editor_vtk "")
+if(DGTK_EDITOR)
+  find_package(Qt5 5.15 REQUIRED COMPONENTS Widgets Test)
+  set(dgtk_editor_vtk CommonExecutionModel FiltersSources GUISupportQt)
+endif()
 find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonMath CommonTransforms RenderingCore
-  RenderingOpenGL2 glew WrappingPythonCore Python)
+  RenderingOpenGL2 glew WrappingPythonCore Python ${dgtk_editor_vtk})
 
 # dgtk_find_library(<target> <header> <library>): libraries whose own CMake packages ask for programs we do not need.
 function(dgtk_find_library target header library)

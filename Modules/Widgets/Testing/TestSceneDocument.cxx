@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSceneDocument.h"
+
+#include "dgtkError.h"
+#include "dgtkTestSupport.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <random>
+
+namespace
+{
+using namespace dgtk;
+using test::contentsOf;
+using test::sourceFile;
+
+constexpr int edits = 500;
+
+class RandomEditor
+{
+public:
+  RandomEditor(SceneDocument& document, unsigned int seed)
+    : Document(document)
+    , Engine(seed)
+  {
+  }
+
+  // One edit of a random kind; refused ones are part of the game.
+  void edit()
+  {
+    const SceneItem item = this->anyItem();
+    const int frame = this->below(20);
+    switch (this->below(10))
+    {
+      case 0:
+        this->Document.remove({ item });
+        break;
+      case 1:
+        this->Document.paste("Duplicate", extractItems(this->Document.scene(), { item, this->anyItem() }));
+        break;
+      case 2:
+        this->Document.edit("Key", [&](SceneDescription& scene) { makeKeyFrame(scene, frame); });
+        break;
+      case 3:
+        this->Document.edit("Key", [&](SceneDescription& scene) { removeKeyFrame(scene, frame); });
+        break;
+      case 4:
+        this->Document.edit("Rename",
+          [&](SceneDescription& scene) { renameItem(scene, item, "name" + std::to_string(this->below(40))); });
+        break;
+      case 5:
+        this->Document.addLight({});
+        break;
+      case 6:
+        this->Document.addModel(sourceFile(this->below(2) ? "Data/Models/crate.ac" : "Data/Models/vase.pov"));
+        break;
+      case 7:
+        this->turn(item, frame);
+        break;
+      default:
+        this->Document.editItem(
+          "Move", item, [&](SceneDescription& scene) { setItemPosition(scene, item, frame, this->vector()); },
+          this->below(2) ? "drag" : "");
+    }
+  }
+
+  int below(int end) { return int(this->Engine() % unsigned(end)); }
+
+private:
+  Eigen::Vector3d vector()
+  {
+    return { this->below(2000) / 100.0 - 10, this->below(2000) / 100.0 - 10, this->below(2000) / 100.0 - 10 };
+  }
+
+  SceneItem anyItem()
+  {
+    const std::vector<SceneItem> items = this->Document.scene().items();
+    if (items.empty())
+    {
+      return this->Document.addLight({});
+    }
+    return items[std::size_t(this->below(int(items.size())))];
+  }
+
+  void turn(const SceneItem& item, int frame)
+  {
+    if (item.kind == SceneItem::Kind::Object)
+    {
+      const double angle = this->below(628) / 100.0;
+      this->Document.editItem("Turn", item,
+        [&](SceneDescription& scene)
+        {
+          setTrackAt(
+            scene.objects[item.index].orientation, frame, Quaternion{ std::cos(angle), 0, std::sin(angle), 0 });
+          setTrackAt<Eigen::Vector3d>(scene.objects[item.index].scale, frame, Eigen::Vector3d(1, this->below(3), 1));
+        });
+    }
+  }
+
+  SceneDocument& Document;
+  std::mt19937 Engine;
+};
+
+TEST(SceneDocument, FiveHundredRandomEditsAreUndoneAndRedoneExactly)
+{
+  for (const unsigned int seed : { 1u, 2u })
+  {
+    SceneDocument document;
+    document.open(sourceFile("Data/Scenes/demo.json"));
+    const std::string first = document.json();
+    RandomEditor editor(document, seed);
+    int refused = 0;
+    for (int i = 0; i < edits; ++i)
+    {
+      const std::string before = document.json();
+      try
+      {
+        editor.edit();
+      }
+      catch (const InputError&)
+      {
+        ++refused;
+        ASSERT_EQ(document.json(), before) << "a refused edit left something behind";
+      }
+    }
+    EXPECT_GT(refused, 0);
+    EXPECT_LT(refused, edits / 2);
+    const std::string last = document.json();
+    EXPECT_NE(last, first);
+    std::vector<std::string> way;
+    while (document.canUndo())
+    {
+      way.push_back(document.json());
+      document.undo();
+    }
+    EXPECT_GT(way.size(), std::size_t(edits / 4));
+    EXPECT_EQ(document.json(), first);
+    EXPECT_FALSE(document.modified());
+    while (document.canRedo())
+    {
+      document.redo();
+      ASSERT_EQ(document.json(), way.back());
+      way.pop_back();
+    }
+    EXPECT_EQ(document.json(), last);
+    EXPECT_TRUE(way.empty());
+  }
+}
+
+TEST(SceneDocument, SavedAndReopenedItIsTheSameScene)
+{
+  const test::TemporaryFolder folder;
+  for (const char* name : { "demo.json", "parenting.json", "cameras_all_kinds.json", "fig_b1_half_circle.scene" })
+  {
+    SceneDocument document;
+    document.open(sourceFile(std::string("Data/Scenes/") + name));
+    RandomEditor editor(document, 7);
+    for (int i = 0; i < 20; ++i)
+    {
+      try
+      {
+        editor.edit();
+      }
+      catch (const InputError&)
+      {
+      }
+    }
+    ASSERT_TRUE(document.modified());
+    const std::string path = folder.path("saved.json");
+    document.saveAs(path);
+    EXPECT_FALSE(document.modified());
+    EXPECT_EQ(document.path(), path);
+    SceneDocument again;
+    again.open(path);
+    EXPECT_EQ(toJson(document.scene(), folder.path()), toJson(again.scene(), folder.path()));
+    EXPECT_EQ(again.models().size() > 0, !again.scene().objects.empty());
+  }
+}
+
+TEST(SceneDocument, ThesisScenesSayWhatTheyCannotHold)
+{
+  const test::TemporaryFolder folder;
+  SceneDocument document;
+  document.open(sourceFile("Data/Scenes/demo.json"));
+  document.addLight({});
+  const std::string path = folder.path("old.scene");
+  std::ofstream(path) << "what was there";
+  try
+  {
+    document.saveAs(path);
+    FAIL() << "a scene with classes became a .scene";
+  }
+  catch (const InputError& error)
+  {
+    EXPECT_THAT(error.what(), testing::HasSubstr("cannot be said in .scene"));
+  }
+  EXPECT_EQ(contentsOf(path), "what was there");
+  EXPECT_TRUE(document.modified());
+  EXPECT_EQ(document.path(), sourceFile("Data/Scenes/demo.json"));
+
+  SceneDocument plain;
+  plain.open(sourceFile("Data/Scenes/fig_b1_half_circle.scene"));
+  const std::string before = plain.json();
+  plain.saveAs(folder.path("plain.scene"));
+  SceneDocument again;
+  again.open(folder.path("plain.scene"));
+  EXPECT_EQ(toJson(again.scene(), folder.path()), toJson(plain.scene(), folder.path()));
+  EXPECT_EQ(plain.json(), before);
+}
+
+TEST(SceneDocument, WhatCannotBeReadLeavesTheSceneAsItWas)
+{
+  const test::TemporaryFolder folder;
+  SceneDocument document;
+  document.open(sourceFile("Data/Scenes/demo.json"));
+  document.addLight({});
+  const std::string before = document.json();
+  std::ofstream(folder.path("broken.json")) << "{ \"objects\": [ { ] }";
+  std::ofstream(folder.path("lost.json")) << R"({ "objects": [ { "model": "nowhere.ac" } ] })";
+  std::ofstream(folder.path("broken.ac")) << "no model at all\n";
+  for (const char* name : { "broken.json", "lost.json", "missing.json", "missing.scene" })
+  {
+    EXPECT_THROW(document.open(folder.path(name)), InputError) << name;
+  }
+  for (const char* name : { "broken.ac", "missing.ac", "name.xyz" })
+  {
+    EXPECT_THROW(document.addModel(folder.path(name)), InputError) << name;
+  }
+  EXPECT_THROW(
+    document.edit("Scale", [](SceneDescription& scene) { scene.objects[0].scale = Eigen::Vector3d(0, 1, 1); }),
+    InputError);
+  EXPECT_EQ(document.json(), before);
+  EXPECT_EQ(document.path(), sourceFile("Data/Scenes/demo.json"));
+  EXPECT_TRUE(document.modified());
+  document.undo();
+  EXPECT_FALSE(document.modified());
+}
+
+TEST(SceneDocument, StepsOfADragAreOneStepAndASaveIsBetween)
+{
+  const test::TemporaryFolder folder;
+  SceneDocument document;
+  document.open(sourceFile("Data/Scenes/demo.json"));
+  const std::string first = document.json();
+  const SceneItem house{ SceneItem::Kind::Object, 1 };
+  const auto drag = [&](double x)
+  {
+    document.editItem(
+      "Move", house,
+      [&](SceneDescription& s) {
+        setItemPosition(s, house, 0, { x, 0, 0 });
+      },
+      "drag");
+  };
+  for (int i = 0; i < 100; ++i)
+  {
+    drag(i);
+  }
+  document.saveAs(folder.path("dragged.json"));
+  const std::string saved = document.json();
+  drag(1000);
+  EXPECT_TRUE(document.modified());
+  document.undo();
+  EXPECT_EQ(document.json(), saved);
+  EXPECT_FALSE(document.modified());
+  document.undo();
+  EXPECT_EQ(document.json(), first);
+  EXPECT_TRUE(document.modified());
+  drag(5);
+  document.finishMerging();
+  drag(6);
+  document.undo();
+  EXPECT_EQ(document.scene().objects[1].position.value.x(), 5);
+  document.undo();
+  EXPECT_FALSE(document.canUndo());
+  EXPECT_TRUE(document.modified()) << "the file holds another position";
+}
+
+TEST(SceneDocument, AThousandCopiesShareOneModel)
+{
+  SceneDocument document;
+  const SceneItem tree = document.addModel(sourceFile("Data/Models/tree.ac"));
+  const SceneDescription one = extractItems(document.scene(), { tree });
+  document.edit("Forest",
+    [&](SceneDescription& scene)
+    {
+      for (int i = 0; i < 1000; ++i)
+      {
+        appendItems(scene, one);
+      }
+    });
+  EXPECT_EQ(document.models().size(), 1u);
+  const Instance first = document.models().at(document.scene(), document.scene().objects.front(), 0);
+  for (const ObjectDescription& object : document.scene().objects)
+  {
+    const Instance copy = document.models().at(document.scene(), object, 3);
+    ASSERT_EQ(copy.geometry, first.geometry);
+    ASSERT_EQ(copy.materials, first.materials);
+  }
+}
+} // namespace

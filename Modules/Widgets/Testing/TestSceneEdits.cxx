@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSceneDocument.h"
+
+#include "dgtkError.h"
+#include "dgtkTestSupport.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace
+{
+using namespace dgtk;
+using test::sourceFile;
+
+constexpr SceneItem::Kind Object = SceneItem::Kind::Object;
+
+SceneDescription chain()
+{
+  SceneDescription scene;
+  for (const char* name : { "a", "b", "c", "d" })
+  {
+    ObjectDescription object;
+    object.name = name;
+    object.model = "m.ac";
+    scene.objects.push_back(object);
+  }
+  scene.objects[1].parent = "a";
+  scene.objects[2].parent = "b";
+  return scene;
+}
+
+TEST(SceneEdits, TracksChangeWhereTheyAreChanged)
+{
+  Track<double> track(3);
+  setTrackAt(track, 7, 4.0);
+  EXPECT_FALSE(track.animated());
+  EXPECT_EQ(track.value, 4);
+  track.keys = { { 0, 1 }, { 10, 2 } };
+  setTrackAt(track, 10, 5.0);
+  setTrackAt(track, 4, 9.0);
+  setTrackAt(track, 20, 8.0);
+  const std::vector<Key<double>> expected{ { 0, 1 }, { 4, 9 }, { 10, 5 }, { 20, 8 } };
+  EXPECT_EQ(track.keys, expected);
+}
+
+TEST(SceneEdits, NamesStayUnique)
+{
+  EXPECT_EQ(uniqueName({ "tree", "tree-2" }, "tree"), "tree-3");
+  EXPECT_EQ(uniqueName({ "tree-2" }, "tree-2"), "tree-3");
+  EXPECT_EQ(uniqueName({ "7" }, "7"), "8");
+  EXPECT_EQ(uniqueName({ "Light0", "Light1" }, "Light0"), "Light2");
+  EXPECT_EQ(uniqueName({ "a12345678901" }, "a12345678901"), "a12345678901-2");
+  EXPECT_EQ(uniqueName({}, "tree"), "tree");
+}
+
+TEST(SceneEdits, RemovingTakesChildrenAlong)
+{
+  SceneDescription scene = chain();
+  scene.lights.resize(2);
+  scene.lights[0].name = "l";
+  scene.lights[1].name = "m";
+  removeItems(scene, { { Object, 1 }, { SceneItem::Kind::Light, 0 } });
+  ASSERT_EQ(scene.objects.size(), 2u);
+  EXPECT_EQ(scene.objects[0].name, "a");
+  EXPECT_EQ(scene.objects[1].name, "d");
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_EQ(scene.lights[0].name, "m");
+  validate(scene);
+}
+
+TEST(SceneEdits, CopiesOfAFamilyBelongTogether)
+{
+  SceneDescription scene = chain();
+  const SceneItems added = appendItems(scene, extractItems(scene, { { Object, 0 }, { Object, 1 }, { Object, 2 } }));
+  ASSERT_EQ(added.size(), 3u);
+  EXPECT_EQ(scene.objects[4].name, "a-2");
+  EXPECT_EQ(scene.objects[5].parent, "a-2");
+  EXPECT_EQ(scene.objects[6].parent, "b-2");
+  EXPECT_EQ(scene.objects[1].parent, "a");
+  appendItems(scene, extractItems(scene, { { Object, 2 } }));
+  EXPECT_EQ(scene.objects[7].parent, "b") << "a child alone stays with its parent";
+  validate(scene);
+}
+
+TEST(SceneEdits, RenamingIsSeenByChildren)
+{
+  SceneDescription scene = chain();
+  renameItem(scene, { Object, 1 }, "other");
+  EXPECT_EQ(scene.objects[2].parent, "other");
+  validate(scene);
+}
+
+TEST(SceneEdits, KeyFramesHoldWhatIsThere)
+{
+  // The thesis's walk-through A.3: a key frame, another frame, a move, another key frame.
+  SceneDescription scene = chain();
+  scene.cameras.resize(1);
+  scene.cameras[0].name = "Camera0";
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+  {
+    scene.objects[i].name = "m-" + std::to_string(i + 1);
+    scene.objects[i].parent.clear();
+  }
+  makeKeyFrame(scene, 0);
+  setItemPosition(scene, { Object, 3 }, 10, { 4, 0, 0 });
+  makeKeyFrame(scene, 10);
+  EXPECT_EQ(scene.firstFrame(), 0);
+  EXPECT_EQ(scene.lastFrame(), 10);
+  EXPECT_EQ(scene.objects[3].position.at(5), Eigen::Vector3d(2, 0, 0));
+  EXPECT_EQ(scene.objects[0].position.at(5), Eigen::Vector3d(0, 0, 0));
+  EXPECT_EQ(scene.cameras[0].eye.keys.size(), 2u);
+  EXPECT_TRUE(scene.cameras[0].position.keys.empty()) << "the pose that is not in use";
+  EXPECT_EQ(keyFramesOf(scene, { Object, 0 }), (std::vector<int>{ 0, 10 }));
+  validate(scene);
+  EXPECT_NO_THROW(toThesisScene(scene, ""));
+  removeKeyFrame(scene, 0);
+  removeKeyFrame(scene, 10);
+  EXPECT_TRUE(scene.keyFrames().empty());
+  EXPECT_EQ(scene.objects[3].position.value, Eigen::Vector3d(4, 0, 0));
+}
+
+TEST(SceneEdits, KeyFramesAreCopiedAndInterpolated)
+{
+  SceneDescription scene = chain();
+  makeKeyFrame(scene, 0);
+  setItemPosition(scene, { Object, 0 }, 10, { 10, 0, 0 });
+  setInterpolation(scene, { Object, 0 }, Interpolation::Step);
+  EXPECT_EQ(interpolationOf(scene, { Object, 0 }), Interpolation::Step);
+  EXPECT_EQ(interpolationOf(scene, { Object, 1 }), Interpolation::Linear);
+  EXPECT_EQ(scene.objects[0].position.at(9), Eigen::Vector3d(0, 0, 0));
+  copyKeyFrame(scene, 10, 4);
+  EXPECT_EQ(scene.objects[0].position.at(4), Eigen::Vector3d(10, 0, 0));
+  EXPECT_EQ(scene.objects[1].position.keys.size(), 1u) << "it has no key to copy";
+  copyKeyFrame(scene, 0, 20);
+  removeKeyFrame(scene, 0);
+  EXPECT_EQ(scene.keyFrames(), (std::vector<int>{ 4, 10, 20 }));
+  EXPECT_EQ(scene.objects[0].position.at(25), Eigen::Vector3d(0, 0, 0));
+}
+
+TEST(SceneEdits, MovingTakesLookAtPointsAndTargetsAlong)
+{
+  SceneDescription scene;
+  scene.cameras.resize(2);
+  scene.cameras[1].posed = true;
+  scene.lights.resize(1);
+  scene.lights[0].kind = LightKind::Spot;
+  setItemPosition(scene, { SceneItem::Kind::Camera, 0 }, 0, { 1, 2, 13 });
+  EXPECT_EQ(scene.cameras[0].lookAt.value, Eigen::Vector3d(1, 2, 3));
+  setItemPosition(scene, { SceneItem::Kind::Camera, 1 }, 0, { 1, 2, 3 });
+  EXPECT_EQ(scene.cameras[1].position.value, Eigen::Vector3d(1, 2, 3));
+  setItemPosition(scene, { SceneItem::Kind::Light, 0 }, 0, { 0, 5, 0 });
+  EXPECT_EQ(scene.lights[0].target.value, Eigen::Vector3d(0, 5, 0));
+}
+
+TEST(SceneEdits, PastedElsewhereModelsAreStillFound)
+{
+  SceneDocument document;
+  document.open(sourceFile("Data/Scenes/demo.json"));
+  const SceneDescription house = extractItems(document.scene(), { { Object, 1 } });
+  document.clear();
+  document.paste("Paste", house);
+  const std::string file = document.scene().resolve(document.scene().objects.front().model);
+  EXPECT_TRUE(std::filesystem::equivalent(file, sourceFile("Data/Models/house.ac"))) << file;
+}
+} // namespace

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCameraArray.h"
+
+#include "dgtkCameraModel.h"
+#include "dgtkError.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr double pi = 3.14159265358979323846;
+constexpr double goldenAngle = 2.39996322972865332; // pi (3 - sqrt 5)
+constexpr int mostCameras = 10000;
+constexpr double leastHeight = 1e-3; // sine of the elevation of the hemisphere's highest gap to its pole
+
+void check(const CameraArrayOptions& options)
+{
+  if (options.count < 1 || options.count > mostCameras)
+  {
+    throw UsageError("number of cameras: expected 1 to 10000, found " + std::to_string(options.count));
+  }
+  if (options.columns < 1 || options.rows < 1 || long(options.columns) * options.rows > mostCameras)
+  {
+    throw UsageError("columns and rows: expected 1 to 10000 cameras in all");
+  }
+  if (!(options.spacing > 0))
+  {
+    throw UsageError("spacing: expected a number above 0");
+  }
+}
+
+CameraDescription placed(const CameraArrayOptions& options, const Eigen::Vector3d& eye, const Eigen::Vector3d& lookAt,
+  const std::string& suffix)
+{
+  CameraDescription camera = options.first;
+  camera.name += '-' + suffix;
+  camera.eye = eye;
+  camera.lookAt = lookAt;
+  return camera;
+}
+
+/// About `lookAt`: directions from it, of the length of the eye's.
+std::vector<CameraDescription> around(const CameraArrayOptions& options, const std::vector<Eigen::Vector3d>& directions)
+{
+  std::vector<CameraDescription> cameras;
+  for (const Eigen::Vector3d& direction : directions)
+  {
+    const Eigen::Vector3d lookAt = options.first.lookAt.value;
+    cameras.push_back(placed(options, lookAt + direction, lookAt, std::to_string(cameras.size() + 1)));
+  }
+  return cameras;
+}
+} // namespace
+
+std::vector<CameraDescription> cameraArray(const CameraArrayOptions& options)
+{
+  check(options);
+  const Eigen::Vector3d eye = options.first.eye.value;
+  const Eigen::Vector3d lookAt = options.first.lookAt.value;
+  const Eigen::Vector3d up = options.first.up.value.normalized();
+  const Eigen::Matrix3d R = lookAtPose(eye, lookAt, up).rotation; // throws where there is no pose
+  const Eigen::Vector3d right = R.row(0).transpose();
+  const Eigen::Vector3d down = R.row(1).transpose();
+  const Eigen::Vector3d arm = eye - lookAt;
+  std::vector<Eigen::Vector3d> directions;
+  switch (options.kind)
+  {
+    case CameraArrayKind::Ring:
+      for (int i = 0; i < options.count; ++i)
+      {
+        directions.push_back(Eigen::AngleAxisd(2 * pi * i / options.count, up) * arm);
+      }
+      return around(options, directions);
+    case CameraArrayKind::Hemisphere:
+      for (int i = 0; i < options.count; ++i)
+      {
+        // Equal steps in height are equal areas.
+        const double height = std::min((i + 0.5) / options.count, 1 - leastHeight);
+        const Eigen::Vector3d level = Eigen::AngleAxisd(goldenAngle * i, up) * right;
+        directions.push_back(arm.norm() * (height * up + std::sqrt(1 - height * height) * level));
+      }
+      return around(options, directions);
+    case CameraArrayKind::Grid:
+    {
+      std::vector<CameraDescription> cameras;
+      for (int row = 0; row < options.rows; ++row)
+      {
+        for (int column = 0; column < options.columns; ++column)
+        {
+          const Eigen::Vector3d step = options.spacing * ((column - (options.columns - 1) / 2.0) * right +
+                                                           (row - (options.rows - 1) / 2.0) * down);
+          cameras.push_back(placed(options, eye + step, lookAt + step, std::to_string(cameras.size() + 1)));
+        }
+      }
+      return cameras;
+    }
+    default:
+    {
+      const Eigen::Vector3d step = options.spacing / 2 * right;
+      return { placed(options, eye - step, lookAt - step, "left"),
+        placed(options, eye + step, lookAt + step, "right") };
+    }
+  }
+}
+
+} // namespace dgtk

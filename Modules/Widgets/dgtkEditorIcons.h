@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkEditorIcons_h
+#define dgtkEditorIcons_h
+
+// Private to Widgets.
+
+#include <QIcon>
+#include <QString>
+
+namespace dgtk
+{
+
+/// The editor's icons, drawn in one style at every size: new, open, save, import, exit, undo, redo, cut, copy, paste,
+/// duplicate, delete, camera, light, render, frameAll, frameSelected, wireframe, shaded, textured, grid. Null for
+/// another name.
+QIcon editorIcon(const QString& name);
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkItemDialogs_h
+#define dgtkItemDialogs_h
+
+// Private to Widgets.
+
+#include "dgtkEditorState.h"
+
+#include <QDialog>
+
+#include <optional>
+
+class QCheckBox;
+class QComboBox;
+class QFormLayout;
+class QLineEdit;
+
+namespace dgtk
+{
+
+class NumberRow;
+
+/// The thesis's figure A.4: eye, look-at point, up, field of view, aspect, near and far of a new camera.
+class CameraDialog : public QDialog
+{
+  Q_OBJECT
+
+public:
+  /// Begins with these values.
+  CameraDialog(const CameraDescription& camera, QWidget* parent);
+  CameraDescription camera() const;
+
+signals:
+  /// Preview: look through it.
+  void previewAsked();
+
+private:
+  QLineEdit* Name = nullptr;
+  NumberRow* Eye = nullptr;
+  NumberRow* LookAt = nullptr;
+  NumberRow* Up = nullptr;
+  NumberRow* Fov = nullptr;
+  NumberRow* Aspect = nullptr;
+  NumberRow* Range = nullptr;
+};
+
+/// The thesis's figure A.3: kind, position and colours of a new light.
+class LightDialog : public QDialog
+{
+  Q_OBJECT
+
+public:
+  LightDialog(const LightDescription& light, QWidget* parent);
+  LightDescription light() const;
+
+private:
+  QLineEdit* Name = nullptr;
+  QComboBox* Kind = nullptr;
+  QCheckBox* Enabled = nullptr;
+  NumberRow* Position = nullptr;
+  NumberRow* Target = nullptr;
+  NumberRow* Diffuse = nullptr;
+  NumberRow* Specular = nullptr;
+  NumberRow* Ambient = nullptr;
+};
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkMainWindow.h"
+
+#include "dgtkCameraArrayDialog.h"
+#include "dgtkEditorIcons.h"
+#include "dgtkEditorState.h"
+#include "dgtkItemDialogs.h"
+#include "dgtkModelReader.h"
+#include "dgtkPovExport.h"
+#include "dgtkPropertiesPanel.h"
+#include "dgtkRenderDialog.h"
+#include "dgtkSceneTree.h"
+#include "dgtkSceneViews.h"
+#include "dgtkTimeLine.h"
+
+#include <QAction>
+#include <QActionGroup>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QPlainTextEdit>
+#include <QToolBar>
+
+namespace dgtk
+{
+
+QAction* MainWindow::addAction(QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys)
+{
+  QAction* const action = menu->addAction(text);
+  action->setObjectName(name);
+  action->setParent(this);
+  action->setShortcut(keys);
+  const QIcon icon = editorIcon(name);
+  if (!icon.isNull())
+  {
+    action->setIcon(icon);
+    this->findChild<QToolBar*>("toolBar")->addAction(action);
+  }
+  return action;
+}
+
+QDockWidget* MainWindow::addDock(Qt::DockWidgetArea area, const QString& name, const QString& title, QWidget* widget)
+{
+  auto* dock = new QDockWidget(title, this);
+  dock->setObjectName(name);
+  dock->setWidget(widget);
+  this->addDockWidget(area, dock);
+  return dock;
+}
+
+void MainWindow::makeDocks()
+{
+  QDockWidget* const tree =
+    this->addDock(Qt::RightDockWidgetArea, "treeDock", tr("Scene"), new SceneTree(*this->State, this));
+  QDockWidget* const properties =
+    this->addDock(Qt::RightDockWidgetArea, "propertiesDock", tr("Properties"), new PropertiesPanel(*this->State, this));
+  QDockWidget* const time =
+    this->addDock(Qt::BottomDockWidgetArea, "timeDock", tr("Time line"), new TimeLine(*this->State, this));
+  this->Log = new QPlainTextEdit(this);
+  this->Log->setObjectName("log");
+  this->Log->setReadOnly(true);
+  this->Log->setMaximumBlockCount(2000);
+  this->Log->setPlaceholderText(tr("What happens is written here."));
+  QDockWidget* const log = this->addDock(Qt::BottomDockWidgetArea, "logDock", tr("Log"), this->Log);
+  this->setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  this->resizeDocks({ tree, properties }, { 300, 420 }, Qt::Vertical);
+  this->resizeDocks({ tree, properties }, { 320, 320 }, Qt::Horizontal);
+  this->resizeDocks({ time, log }, { 620, 300 }, Qt::Horizontal);
+  this->resizeDocks({ time, log }, { 170, 170 }, Qt::Vertical);
+}
+
+void MainWindow::makeFileMenu()
+{
+  QMenu* const menu = this->menuBar()->addMenu(tr("&File"));
+  const auto add = [&](const char* name, const QString& text, const QKeySequence& keys)
+  { return this->addAction(menu, name, text, keys); };
+  connect(add("new", tr("&New"), QKeySequence::New), &QAction::triggered, this, &MainWindow::newScene);
+  connect(add("open", tr("&Open ..."), QKeySequence::Open), &QAction::triggered, this, &MainWindow::askOpen);
+  this->Recent = menu->addMenu(tr("Open &recent"));
+  connect(add("save", tr("&Save"), QKeySequence::Save), &QAction::triggered, this, [this] { this->save(); });
+  connect(add("saveAs", tr("Save &as ..."), QKeySequence("Ctrl+Shift+S")), &QAction::triggered, this,
+    [this] { this->saveAs(); });
+  menu->addSeparator();
+  connect(add("import", tr("&Import ..."), QKeySequence("Ctrl+I")), &QAction::triggered, this, &MainWindow::askImport);
+  connect(add("exportPov", tr("Export &POV-Ray ..."), {}), &QAction::triggered, this, &MainWindow::exportPov);
+  menu->addSeparator();
+  QAction* const leave = menu->addAction(tr("E&xit"));
+  leave->setObjectName("exit");
+  leave->setIcon(editorIcon("exit"));
+  leave->setShortcut(QKeySequence("Ctrl+Q"));
+  connect(leave, &QAction::triggered, this, &MainWindow::close);
+  this->refreshRecent();
+}
+
+void MainWindow::makeEditMenu()
+{
+  this->findChild<QToolBar*>("toolBar")->addSeparator();
+  QMenu* const menu = this->menuBar()->addMenu(tr("&Edit"));
+  EditorState* const state = this->State;
+  const auto add = [&](const char* name, const QString& text, const QKeySequence& keys)
+  { return this->addAction(menu, name, text, keys); };
+  connect(
+    add("undo", tr("&Undo"), QKeySequence::Undo), &QAction::triggered, state, [state] { state->document().undo(); });
+  connect(add("redo", tr("&Redo"), QKeySequence("Ctrl+Shift+Z")), &QAction::triggered, state,
+    [state] { state->document().redo(); });
+  menu->addSeparator();
+  connect(add("cut", tr("Cu&t"), QKeySequence::Cut), &QAction::triggered, state, &EditorState::cut);
+  connect(add("copy", tr("&Copy"), QKeySequence::Copy), &QAction::triggered, state, &EditorState::copy);
+  connect(add("paste", tr("&Paste"), QKeySequence::Paste), &QAction::triggered, state, &EditorState::paste);
+  connect(
+    add("duplicate", tr("D&uplicate"), QKeySequence("Ctrl+D")), &QAction::triggered, state, &EditorState::duplicate);
+  connect(add("delete", tr("&Delete"), QKeySequence::Delete), &QAction::triggered, state, &EditorState::remove);
+  menu->addSeparator();
+  connect(
+    add("selectAll", tr("Select &all"), QKeySequence::SelectAll), &QAction::triggered, state, &EditorState::selectAll);
+}
+
+void MainWindow::makeViewMenu()
+{
+  this->findChild<QToolBar*>("toolBar")->addSeparator();
+  QMenu* const menu = this->ViewMenu = this->menuBar()->addMenu(tr("&View"));
+  connect(this->addAction(menu, "frameAll", tr("Frame &all"), QKeySequence("R")), &QAction::triggered, this->Views,
+    &SceneViews::frameAll);
+  connect(this->addAction(menu, "frameSelected", tr("&Frame selected"), QKeySequence("F")), &QAction::triggered,
+    this->Views, &SceneViews::frameSelected);
+  connect(this->addAction(menu, "maximize", tr("&Maximise or restore the view"), QKeySequence("F11")),
+    &QAction::triggered, this, [this] { this->Views->toggleMaximized(this->Views->active()); });
+  menu->addSeparator();
+  auto* group = new QActionGroup(this);
+  const auto addStyle = [&](const char* name, const QString& text, const char* key, ViewStyle style)
+  {
+    QAction* const action = group->addAction(this->addAction(menu, name, text, QKeySequence(key)));
+    action->setCheckable(true);
+    action->setChecked(style == ViewStyle::Textured);
+    connect(action, &QAction::triggered, this, [this, style] { this->Views->setStyle(style); });
+  };
+  addStyle("wireframe", tr("&Wireframe"), "W", ViewStyle::Wireframe);
+  addStyle("shaded", tr("&Shaded"), "S", ViewStyle::Shaded);
+  addStyle("textured", tr("&Textured"), "T", ViewStyle::Textured);
+  menu->addSeparator();
+  QAction* const grid = this->addAction(menu, "grid", tr("&Grid and axes"), QKeySequence("G"));
+  grid->setCheckable(true);
+  grid->setChecked(true);
+  connect(grid, &QAction::toggled, this->Views, &SceneViews::showGrid);
+  menu->addSeparator();
+  for (const QDockWidget* dock : this->findChildren<QDockWidget*>())
+  {
+    menu->addAction(dock->toggleViewAction());
+  }
+}
+
+void MainWindow::makeToolsMenu()
+{
+  this->findChild<QToolBar*>("toolBar")->addSeparator();
+  QMenu* const menu = this->menuBar()->addMenu(tr("&Tools"));
+  connect(this->addAction(menu, "camera", tr("Add &camera ..."), QKeySequence("Ctrl+Shift+C")), &QAction::triggered,
+    this, &MainWindow::addCamera);
+  connect(this->addAction(menu, "cameraArray", tr("Add camera &array ..."), {}), &QAction::triggered, this,
+    &MainWindow::addCameraArray);
+  connect(this->addAction(menu, "light", tr("Add &light ..."), QKeySequence("Ctrl+Shift+L")), &QAction::triggered, this,
+    &MainWindow::addLight);
+  connect(this->addAction(menu, "render", tr("&Render configuration ..."), QKeySequence("Ctrl+R")), &QAction::triggered,
+    this, &MainWindow::configureRendering);
+}
+
+void MainWindow::makeHelpMenu()
+{
+  QMenu* const menu = this->menuBar()->addMenu(tr("&Help"));
+  connect(this->addAction(menu, "mouse", tr("&Mouse and keys"), QKeySequence::HelpContents), &QAction::triggered, this,
+    [this]
+    {
+      QMessageBox::information(this, tr("Mouse and keys"),
+        tr("<p>Click: select; with Ctrl: add. Drag what is selected: move it in the view's plane.<br>"
+           "Left drag: turn the perspective, pan the others. Middle or Shift and left: pan.<br>"
+           "Right drag or wheel: zoom. Right click: menu. Double click: one view or all four.</p>"
+           "<p>R frame all, F frame selected, W wireframe, S shaded, T textured, G grid, F11 maximise.</p>"));
+    });
+  connect(this->addAction(menu, "about", tr("&About DGTk"), {}), &QAction::triggered, this,
+    [this]
+    {
+      QMessageBox::about(this, tr("About DGTk"),
+        tr("DGTk: images and exact ground truth from described 3D scenes. The editor writes the scene files and runs "
+           "the "
+           "program dgtk; it adds no second way of doing anything."));
+    });
+}
+
+void MainWindow::askOpen()
+{
+  const QString path =
+    QFileDialog::getOpenFileName(this, tr("Open a scene"), {}, tr("Scenes (*.json *.scene);;All files (*)"));
+  if (!path.isEmpty())
+  {
+    this->openFile(path);
+  }
+}
+
+bool MainWindow::saveAs()
+{
+  QString path = QFileDialog::getSaveFileName(
+    this, tr("Save the scene"), toText(this->document().path()), tr("Scene (*.json);;Thesis scene (*.scene)"));
+  if (path.isEmpty())
+  {
+    return false;
+  }
+  if (!path.endsWith(".json", Qt::CaseInsensitive) && !path.endsWith(".scene", Qt::CaseInsensitive))
+  {
+    path += ".json";
+  }
+  return this->saveFile(path);
+}
+
+void MainWindow::askImport()
+{
+  QStringList all;
+  QStringList filters;
+  for (const ReaderInfo& reader : modelReaders())
+  {
+    QStringList patterns;
+    for (const std::string& extension : reader.extensions)
+    {
+      patterns << "*." + toText(extension);
+    }
+    all << patterns;
+    filters << toText(reader.description).remove('(').remove(')') + " (" + patterns.join(' ') + ')';
+  }
+  filters.prepend(tr("All models (%1)").arg(all.join(' ')));
+  for (const QString& path : QFileDialog::getOpenFileNames(this, tr("Import models"), {}, filters.join(";;")))
+  {
+    this->importFile(path);
+  }
+}
+
+void MainWindow::exportPov()
+{
+  const QString path = QFileDialog::getSaveFileName(this, tr("Export for POV-Ray"), {}, tr("POV-Ray scene (*.pov)"));
+  if (path.isEmpty())
+  {
+    return;
+  }
+  std::size_t camera = 0;
+  for (const SceneItem& item : this->State->selection())
+  {
+    camera = item.kind == SceneItem::Kind::Camera ? item.index : camera;
+  }
+  const bool done = this->State->attempt(
+    [&]
+    {
+      const std::shared_ptr<const Stage> stage = Stage::load(this->State->scene());
+      const int frame = this->State->frame();
+      dgtk::exportPov(*stage->at(frame), stage->view(camera, frame), path.toStdString());
+    });
+  if (done)
+  {
+    this->note(tr("Wrote %1").arg(path));
+  }
+}
+
+CameraDescription MainWindow::cameraOfView() const
+{
+  const ViewCamera& view = this->Views->view(ViewKind::Perspective)->camera();
+  CameraDescription camera;
+  std::vector<std::string> names;
+  for (const CameraDescription& other : this->State->scene().cameras)
+  {
+    names.push_back(other.name);
+  }
+  camera.name = uniqueName(names, "Camera0");
+  const auto tidy = [](const Eigen::Vector3d& v)
+  { return Eigen::Vector3d(((v * 1000).array().round() / 1000).matrix()); };
+  camera.eye = tidy(view.eye());
+  camera.lookAt = tidy(view.focus());
+  camera.up = view.up();
+  return camera;
+}
+
+void MainWindow::addCamera()
+{
+  CameraDialog dialog(this->cameraOfView(), this);
+  connect(&dialog, &CameraDialog::previewAsked, this, [&] { this->Views->lookThrough(dialog.camera()); });
+  if (dialog.exec() == QDialog::Accepted)
+  {
+    this->State->attempt([&] { this->State->select({ this->document().addCamera(dialog.camera()) }); });
+  }
+}
+
+void MainWindow::addCameraArray()
+{
+  CameraArrayDialog dialog(this->cameraOfView(), this);
+  if (dialog.exec() == QDialog::Accepted)
+  {
+    this->State->attempt(
+      [&]
+      {
+        SceneDescription part;
+        part.folder = this->State->scene().folder;
+        part.cameras = cameraArray(dialog.options());
+        this->State->select(this->document().paste("Add camera array", part));
+      });
+  }
+}
+
+void MainWindow::addLight()
+{
+  LightDescription light;
+  std::vector<std::string> names;
+  for (const LightDescription& other : this->State->scene().lights)
+  {
+    names.push_back(other.name);
+  }
+  light.name = uniqueName(names, "Light0");
+  light.position = Eigen::Vector3d(2, 5, 3);
+  LightDialog dialog(light, this);
+  if (dialog.exec() == QDialog::Accepted)
+  {
+    this->State->attempt([&] { this->State->select({ this->document().addLight(dialog.light()) }); });
+  }
+}
+
+void MainWindow::configureRendering()
+{
+  if (this->Rendering == nullptr)
+  {
+    this->Rendering = new RenderDialog(*this->State, this);
+    connect(this->Rendering, &RenderDialog::noted, this, &MainWindow::note);
+  }
+  this->Rendering->show();
+  this->Rendering->raise();
+  this->Rendering->activateWindow();
+}
+
+void MainWindow::preview()
+{
+  for (const SceneItem& item : this->State->selection())
+  {
+    if (item.kind == SceneItem::Kind::Camera)
+    {
+      this->Views->lookThrough(this->State->scene().cameras[item.index]);
+      return;
+    }
+  }
+}
+
+void MainWindow::showContextMenu(const QPoint& global)
+{
+  QMenu menu(this);
+  const SceneItems& selection = this->State->selection();
+  if (selection.empty())
+  {
+    for (const char* name : { "import", "camera", "light", "paste", "frameAll" })
+    {
+      menu.addAction(this->findChild<QAction*>(name));
+    }
+  }
+  else
+  {
+    if (selection.front().kind == SceneItem::Kind::Camera)
+    {
+      menu.addAction(tr("Preview"), this, &MainWindow::preview);
+      menu.addSeparator();
+    }
+    for (const char* name : { "frameSelected", "cut", "copy", "duplicate", "delete" })
+    {
+      menu.addAction(this->findChild<QAction*>(name));
+    }
+  }
+  menu.exec(global);
+}
+
+} // namespace dgtk

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkMainWindow_h
+#define dgtkMainWindow_h
+
+#include "dgtkWidgetsModule.h"
+
+#include <QMainWindow>
+#include <QString>
+#include <QStringList>
+
+class QAction;
+class QDockWidget;
+class QMenu;
+class QPlainTextEdit;
+
+namespace dgtk
+{
+
+class EditorState;
+class RenderDialog;
+class SceneDocument;
+class SceneViews;
+struct CameraDescription;
+
+/// The desktop editor's window: four views, scene tree, properties, time line, log, menus and tool bar. Actions and
+/// fields have object names, by which tests find them.
+class DGTKWIDGETS_EXPORT MainWindow : public QMainWindow
+{
+  Q_OBJECT
+
+public:
+  /// Before the QApplication is made: OpenGL's format, sharp icons and text on dense displays.
+  static void prepareApplication();
+  /// After it is made: names by which settings are kept; numbers with a point.
+  static void setupApplication();
+
+  explicit MainWindow(QWidget* parent = nullptr);
+  ~MainWindow() override;
+
+  SceneDocument& document();
+
+  /// Opens a scene (.scene, .json), after asking about unsaved work, or imports a model, by extension. False when it
+  /// was refused, after a dialog that says why; the scene is then as before.
+  bool openFile(const QString& path);
+  bool importFile(const QString& path);
+  /// Asks about each copy of unsaved work that a crash left behind.
+  void offerRecovery();
+  /// False when it was refused.
+  bool saveFile(const QString& path);
+
+protected:
+  void closeEvent(QCloseEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
+private:
+  QAction* addAction(QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys);
+  void makeFileMenu();
+  void makeEditMenu();
+  void makeViewMenu();
+  void makeToolsMenu();
+  void makeHelpMenu();
+  void makeDocks();
+  QDockWidget* addDock(Qt::DockWidgetArea area, const QString& name, const QString& title, QWidget* widget);
+
+  void newScene();
+  void askOpen();
+  bool save();
+  bool saveAs();
+  void askImport();
+  void exportPov();
+  bool mayDiscard();
+  void addRecent(const QString& path);
+  void refreshRecent();
+  void addCamera();
+  void addCameraArray();
+  CameraDescription cameraOfView() const;
+  void addLight();
+  void configureRendering();
+  void showContextMenu(const QPoint& global);
+  void preview();
+  void refresh();
+  void fail(const QString& message);
+  void note(const QString& line);
+
+  EditorState* State;
+  SceneViews* Views = nullptr;
+  QPlainTextEdit* Log = nullptr;
+  QMenu* Recent = nullptr;
+  QMenu* ViewMenu = nullptr;
+  RenderDialog* Rendering = nullptr;
+};
+
+} // namespace dgtk
+
+#endif

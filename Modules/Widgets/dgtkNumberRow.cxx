@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkNumberRow.h"
+
+#include <QHBoxLayout>
+#include <QKeyEvent>
+
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace dgtk
+{
+
+QString numberText(double value)
+{
+  char text[64];
+  return QString::fromLatin1(text, static_cast<int>(std::to_chars(text, text + sizeof text, value).ptr - text));
+}
+
+std::optional<double> numberOf(const QString& text)
+{
+  const std::string word = text.trimmed().replace(',', '.').toStdString();
+  const char* const begin = word.c_str() + (word.rfind('+', 0) == 0 ? 1 : 0);
+  const char* const end = word.c_str() + word.size();
+  double value = 0;
+  const auto [rest, code] = std::from_chars(begin, end, value);
+  if (code != std::errc() || rest != end || !std::isfinite(value))
+  {
+    return std::nullopt;
+  }
+  return value;
+}
+
+NumberRow::NumberRow(const QString& name, int count, QWidget* parent)
+  : QWidget(parent)
+  , Values(static_cast<std::size_t>(count), 0.0)
+{
+  this->setObjectName(name);
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(3);
+  for (int i = 0; i < count; ++i)
+  {
+    auto* field = new QLineEdit(this);
+    field->setObjectName(name + '.' + QString::number(i));
+    field->setMinimumWidth(38);
+    field->installEventFilter(this);
+    layout->addWidget(field);
+    this->Fields.push_back(field);
+    connect(field, &QLineEdit::editingFinished, this, [this, i] { this->take(static_cast<std::size_t>(i)); });
+  }
+  this->setFocusProxy(this->Fields.front());
+}
+
+bool NumberRow::eventFilter(QObject* watched, QEvent* event)
+{
+  auto* field = qobject_cast<QLineEdit*>(watched);
+  if (field != nullptr && event->type() == QEvent::ShortcutOverride && !field->isModified())
+  {
+    auto* key = static_cast<QKeyEvent*>(event);
+    if (key->matches(QKeySequence::Undo) || key->matches(QKeySequence::Redo))
+    {
+      event->ignore();
+      return true;
+    }
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+void NumberRow::setValues(const std::vector<double>& values)
+{
+  this->Values = values;
+  for (std::size_t i = 0; i < this->Fields.size(); ++i)
+  {
+    const QString text = numberText(values[i]);
+    if (this->Fields[i]->text() != text || this->Fields[i]->isModified())
+    {
+      this->Fields[i]->setText(text);
+      this->Fields[i]->setCursorPosition(0);
+    }
+    this->Fields[i]->setToolTip(text);
+  }
+}
+
+void NumberRow::take(std::size_t field)
+{
+  const std::optional<double> value = numberOf(this->Fields[field]->text());
+  const std::vector<double> old = this->Values;
+  if (value && *value != old[field])
+  {
+    std::vector<double> wanted = old;
+    wanted[field] = *value;
+    this->Values = wanted;
+    if (this->Edited)
+    {
+      this->Edited(wanted);
+    }
+    return;
+  }
+  this->setValues(old);
+}
+
+} // namespace dgtk

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkNumberRow_h
+#define dgtkNumberRow_h
+
+// Private to Widgets.
+
+#include <QLineEdit>
+#include <QString>
+#include <QWidget>
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace dgtk
+{
+
+/// The shortest decimal text that reads back as the same number, with a point in every locale.
+QString numberText(double value);
+/// The whole text as a finite number; a comma counts as a point.
+std::optional<double> numberOf(const QString& text);
+
+/// One or more numbers side by side. What is typed is taken at Return or when the field is left; a text that is no
+/// number gives way to the old value.
+class NumberRow : public QWidget
+{
+  Q_OBJECT
+
+public:
+  /// The fields are called `name`.0, `name`.1, ...
+  NumberRow(const QString& name, int count, QWidget* parent);
+
+  void setValues(const std::vector<double>& values);
+  const std::vector<double>& values() const { return this->Values; }
+  /// Called with the new values when a field changed.
+  void onEdit(std::function<void(const std::vector<double>&)> edited) { this->Edited = std::move(edited); }
+
+protected:
+  /// Undo and redo are the window's where nothing is being typed.
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+  void take(std::size_t field);
+
+  std::vector<QLineEdit*> Fields;
+  std::vector<double> Values;
+  std::function<void(const std::vector<double>&)> Edited;
+};
+
+} // namespace dgtk
+
+#endif

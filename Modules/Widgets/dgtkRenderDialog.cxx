@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkRenderDialog.h"
+
+#include "dgtkCameraModel.h"
+#include "dgtkScenePlaces.h"
+
+#include <QCheckBox>
+#include <QDir>
+#include <QFileDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSlider>
+#include <QSpinBox>
+#include <QTabWidget>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace dgtk
+{
+
+RenderDialog::RenderDialog(EditorState& state, QWidget* parent)
+  : QDialog(parent)
+  , State(state)
+  , Process(nullptr)
+{
+  this->setObjectName("renderDialog");
+  this->setWindowTitle(tr("Render configuration"));
+  auto* layout = new QVBoxLayout(this);
+  this->Tabs = new QTabWidget(this);
+  this->Tabs->addTab(this->makeInfo(), tr("Info"));
+  this->Tabs->addTab(this->makeCameras(), tr("Cameras"));
+  this->Tabs->addTab(this->makeControls(), tr("Controls"));
+  this->Tabs->setCurrentIndex(2);
+  layout->addWidget(this->Tabs, 1);
+  this->makeRunRow(layout);
+  this->resize(640, 560);
+
+  connect(&state, &EditorState::changed, this, &RenderDialog::refresh);
+  connect(&this->Process, &RenderProcess::progress, this, &RenderDialog::showProgress);
+  connect(&this->Process, &RenderProcess::line, this, &RenderDialog::noted);
+  connect(&this->Process, &RenderProcess::finished, this, &RenderDialog::finish);
+  this->refresh();
+  this->setRunning(false);
+}
+
+void RenderDialog::refresh()
+{
+  const SceneDescription& scene = this->State.scene();
+  const std::vector<int> keys = scene.keyFrames();
+  this->Info->setText(
+    tr("<table cellpadding='4'><tr><td>Scene</td><td>%1</td></tr><tr><td>Objects</td><td>%2</td></tr>"
+       "<tr><td>Lights</td><td>%3</td></tr><tr><td>Cameras</td><td>%4</td></tr>"
+       "<tr><td>Frames</td><td>%5 to %6</td></tr><tr><td>Key frames</td><td>%7</td></tr></table>")
+      .arg(this->State.document().path().empty() ? tr("not saved yet")
+                                                 : toText(this->State.document().path()).toHtmlEscaped())
+      .arg(scene.objects.size())
+      .arg(scene.lights.size())
+      .arg(scene.cameras.size())
+      .arg(scene.firstFrame())
+      .arg(scene.lastFrame())
+      .arg(keys.size()));
+  QStringList left;
+  for (int i = 0; i < this->Cameras->count(); ++i)
+  {
+    if (this->Cameras->item(i)->checkState() == Qt::Unchecked)
+    {
+      left << this->Cameras->item(i)->text();
+    }
+  }
+  const int row = this->Cameras->currentRow();
+  this->Cameras->clear();
+  for (const CameraDescription& camera : scene.cameras)
+  {
+    auto* item = new QListWidgetItem(toText(camera.name), this->Cameras);
+    item->setFlags(item->flags() | Qt::ItemIsUserCheckable);
+    item->setCheckState(left.contains(item->text()) ? Qt::Unchecked : Qt::Checked);
+  }
+  this->Cameras->setCurrentRow(std::max(0, std::min(row, this->Cameras->count() - 1)));
+  const int range[2] = { scene.firstFrame(), scene.lastFrame() };
+  for (int end = 0; end < 2; ++end)
+  {
+    // Follows the scene until somebody chooses otherwise.
+    if (this->Frames[end]->value() == this->SceneRange[end])
+    {
+      this->Frames[end]->setValue(range[end]);
+    }
+    this->SceneRange[end] = range[end];
+  }
+  this->showResolution();
+}
+
+void RenderDialog::showResolution()
+{
+  const int row = this->Cameras->currentRow();
+  const SceneDescription& scene = this->State.scene();
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    this->Size[axis]->setEnabled(!this->OwnSize->isChecked());
+    this->Sliders[axis]->setEnabled(!this->OwnSize->isChecked());
+  }
+  if (row < 0 || row >= int(scene.cameras.size()))
+  {
+    this->Resolution->setText(tr("The scene has no camera. Add one with Tools > Add camera."));
+    return;
+  }
+  SceneDescription alone;
+  alone.cameras.push_back(scene.cameras[std::size_t(row)]);
+  CameraDescription& camera = alone.cameras.front();
+  if (!this->OwnSize->isChecked() && !camera.K)
+  {
+    camera.width = this->Size[0]->value();
+    camera.height = this->Size[1]->value();
+  }
+  const CameraPlace place = placeScene(alone, ModelStore(), this->State.frame()).cameras.front();
+  if (!place.valid)
+  {
+    this->Resolution->setText(
+      tr("%1 has no pose at this frame: its eye is at its look-at point.").arg(toText(camera.name)));
+    return;
+  }
+  const WorldResolution resolution = worldResolution(place.view);
+  const QString units = scene.units.empty() ? tr("units") : toText(scene.units);
+  const auto number = [](double value) { return QString::number(value, 'g', 6); };
+  this->Resolution->setText(tr("%1: %2 x %3 pixels\nWorld %4 a pixel: %5 in x, %6 in y; at the far plane %7 and %8")
+                              .arg(toText(camera.name))
+                              .arg(place.view.model->width())
+                              .arg(place.view.model->height())
+                              .arg(units, number(resolution.thesis.x()), number(resolution.thesis.y()),
+                                number(resolution.farPlane.x()), number(resolution.farPlane.y())));
+}
+
+QStringList RenderDialog::arguments(const QString& scene) const
+{
+  QStringList layers;
+  for (const QCheckBox* box : this->Layers)
+  {
+    if (box->isChecked())
+    {
+      layers << box->text();
+    }
+  }
+  QStringList cameras;
+  for (int i = 0; i < this->Cameras->count(); ++i)
+  {
+    if (this->Cameras->item(i)->checkState() == Qt::Checked)
+    {
+      cameras << this->Cameras->item(i)->text();
+    }
+  }
+  QStringList words{ "render", scene, "-o", this->Folder->text(), "--layers", layers.join(',') };
+  if (cameras.size() != this->Cameras->count())
+  {
+    words << "--cameras" << cameras.join(',');
+  }
+  const SceneDescription& description = this->State.scene();
+  const bool allFrames = this->Frames[0]->value() == description.firstFrame() &&
+                         this->Frames[1]->value() == description.lastFrame() && this->Frames[2]->value() == 1;
+  if (!allFrames)
+  {
+    words
+      << "--frames"
+      << QString("%1:%2:%3").arg(this->Frames[0]->value()).arg(this->Frames[1]->value()).arg(this->Frames[2]->value());
+  }
+  if (!this->OwnSize->isChecked())
+  {
+    words << "--size" << QString("%1x%2").arg(this->Size[0]->value()).arg(this->Size[1]->value());
+  }
+  words << "--tile" << QString("%1x%2").arg(this->Tile[0]->value()).arg(this->Tile[1]->value());
+  words << "--samples" << QString::number(this->Samples->value());
+  if (this->Resume->isChecked())
+  {
+    words << "--resume";
+  }
+  return words;
+}
+
+QString RenderDialog::sceneFile()
+{
+  SceneDocument& document = this->State.document();
+  if (!document.modified() && !document.path().empty())
+  {
+    return toText(document.path());
+  }
+  this->Copies = std::make_unique<QTemporaryDir>();
+  const QString copy = this->Copies->filePath("scene.json");
+  document.writeCopy(copy.toStdString());
+  return copy;
+}
+
+void RenderDialog::browse()
+{
+  const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder of the dataset"), this->Folder->text());
+  if (!folder.isEmpty())
+  {
+    this->Folder->setText(folder);
+  }
+}
+
+void RenderDialog::start()
+{
+  QString missing;
+  const QStringList words = this->arguments({});
+  if (this->Cameras->count() == 0)
+  {
+    missing = tr("The scene has no camera. Add one with Tools > Add camera.");
+  }
+  else if (words.contains("--cameras") && words[words.indexOf("--cameras") + 1].isEmpty())
+  {
+    missing = tr("Check at least one camera on the page Cameras.");
+  }
+  else if (words[words.indexOf("--layers") + 1].isEmpty())
+  {
+    missing = tr("Check at least one layer.");
+  }
+  else if (this->Folder->text().trimmed().isEmpty())
+  {
+    missing = tr("Name a folder for the dataset.");
+  }
+  if (!missing.isEmpty())
+  {
+    this->Status->setText(missing);
+    return;
+  }
+  QString scene;
+  if (this->State.attempt([&] { scene = this->sceneFile(); }))
+  {
+    this->setRunning(true);
+    this->Progress->setRange(0, 0);
+    this->Status->setText(tr("Rendering ..."));
+    emit this->noted("dgtk " + this->arguments(scene).join(' '));
+    this->Process.start(this->arguments(scene));
+  }
+}
+
+void RenderDialog::showProgress(int done, int total, const QString& left)
+{
+  this->Progress->setRange(0, total);
+  this->Progress->setValue(done);
+  this->Status->setText(tr("%1 of %2 pictures, %3 left").arg(done).arg(total).arg(left));
+}
+
+void RenderDialog::finish(bool ok, bool cancelled, const QString& message)
+{
+  this->setRunning(false);
+  this->Progress->setRange(0, 1);
+  this->Progress->setValue(ok ? 1 : 0);
+  this->Resume->setChecked(cancelled);
+  this->Status->setText(cancelled ? tr("Stopped. Start goes on where it stopped.") : message);
+  if (!ok && !cancelled)
+  {
+    emit this->State.failed(message);
+  }
+}
+
+void RenderDialog::setRunning(bool on)
+{
+  this->Tabs->setEnabled(!on);
+  this->Start->setEnabled(!on);
+  this->Cancel->setEnabled(on);
+  this->Open->setEnabled(!on && QDir(this->Folder->text()).exists("manifest.json"));
+}
+
+void RenderDialog::reject()
+{
+  // The window goes, the run goes on; the dialog shows it when it comes back.
+  this->hide();
+}
+
+} // namespace dgtk

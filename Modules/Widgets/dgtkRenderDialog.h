@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkRenderDialog_h
+#define dgtkRenderDialog_h
+
+// Private to Widgets.
+
+#include "dgtkEditorState.h"
+#include "dgtkRenderProcess.h"
+
+#include <QDialog>
+#include <QTemporaryDir>
+
+#include <memory>
+#include <vector>
+
+class QCheckBox;
+class QGridLayout;
+class QLabel;
+class QLineEdit;
+class QListWidget;
+class QProgressBar;
+class QPushButton;
+class QSlider;
+class QSpinBox;
+class QTabWidget;
+class QVBoxLayout;
+
+namespace dgtk
+{
+
+/// What `dgtk render` is to make of the scene, with its progress. The scene is that of the file, or a copy of it as it
+/// is now when it has changes.
+class RenderDialog : public QDialog
+{
+  Q_OBJECT
+
+public:
+  RenderDialog(EditorState& state, QWidget* parent);
+
+  /// The words after `dgtk` for a scene file.
+  QStringList arguments(const QString& scene) const;
+
+signals:
+  void noted(const QString& line);
+
+protected:
+  void reject() override;
+
+private:
+  QWidget* makeInfo();
+  QWidget* makeCameras();
+  QWidget* makeControls();
+  void addSizeRow(QGridLayout* grid, int row, const QString& label, const QString& name, int axis);
+  void makeRunRow(QVBoxLayout* layout);
+  void refresh();
+  void showResolution();
+  void browse();
+  void start();
+  void showProgress(int done, int total, const QString& left);
+  void finish(bool ok, bool cancelled, const QString& message);
+  void setRunning(bool on);
+  QString sceneFile();
+
+  EditorState& State;
+  RenderProcess Process;
+  std::unique_ptr<QTemporaryDir> Copies;
+  QTabWidget* Tabs = nullptr;
+  QLabel* Info = nullptr;
+  QListWidget* Cameras = nullptr;
+  QCheckBox* OwnSize = nullptr;
+  QSlider* Sliders[2] = { nullptr, nullptr };
+  QSpinBox* Size[2] = { nullptr, nullptr };
+  QLabel* Resolution = nullptr;
+  QSpinBox* Tile[2] = { nullptr, nullptr };
+  QSpinBox* Frames[3] = { nullptr, nullptr, nullptr };
+  int SceneRange[2] = { 0, 0 };
+  QSpinBox* Samples = nullptr;
+  std::vector<QCheckBox*> Layers;
+  QLineEdit* Folder = nullptr;
+  QCheckBox* Resume = nullptr;
+  QPushButton* Start = nullptr;
+  QPushButton* Cancel = nullptr;
+  QPushButton* Open = nullptr;
+  QProgressBar* Progress = nullptr;
+  QLabel* Status = nullptr;
+};
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkRenderProcess.h"
+
+#include <QCoreApplication>
+#include <QRegularExpression>
+
+#include <csignal>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr int longestEnd = 10000; // milliseconds
+} // namespace
+
+RenderProcess::RenderProcess(QObject* parent)
+  : QObject(parent)
+{
+  this->Process.setProcessChannelMode(QProcess::MergedChannels);
+  connect(&this->Process, &QProcess::readyRead, this, &RenderProcess::read);
+  connect(&this->Process, QOverload<int, QProcess::ExitStatus>::of(&QProcess::finished), this, &RenderProcess::end);
+  connect(&this->Process, &QProcess::errorOccurred, this,
+    [this](QProcess::ProcessError error)
+    {
+      if (error == QProcess::FailedToStart)
+      {
+        emit this->finished(false, false, tr("%1 cannot be started: %2").arg(program(), this->Process.errorString()));
+      }
+    });
+}
+
+RenderProcess::~RenderProcess()
+{
+  this->disconnect();
+  this->Process.disconnect();
+  if (this->running())
+  {
+    this->cancel();
+    if (!this->Process.waitForFinished(longestEnd))
+    {
+      this->Process.kill();
+      this->Process.waitForFinished();
+    }
+  }
+}
+
+QString RenderProcess::program()
+{
+  const QString named = QString::fromLocal8Bit(qgetenv("DGTK"));
+  return named.isEmpty() ? QCoreApplication::applicationDirPath() + "/dgtk" : named;
+}
+
+void RenderProcess::start(const QStringList& arguments)
+{
+  this->Unread.clear();
+  this->Last.clear();
+  this->Cancelled = false;
+  this->Process.setStandardInputFile(QProcess::nullDevice());
+  this->Process.start(program(), arguments);
+}
+
+void RenderProcess::cancel()
+{
+  if (this->running() && this->Process.processId() > 0)
+  {
+    this->Cancelled = true;
+    ::kill(static_cast<pid_t>(this->Process.processId()), SIGINT);
+  }
+}
+
+void RenderProcess::read()
+{
+  this->Unread += this->Process.readAll();
+  for (int at = this->Unread.indexOf('\n'); at >= 0; at = this->Unread.indexOf('\n'))
+  {
+    this->take(QString::fromUtf8(this->Unread.left(at)));
+    this->Unread.remove(0, at + 1);
+  }
+}
+
+void RenderProcess::take(const QString& text)
+{
+  static const QRegularExpression state(QStringLiteral("^(\\d+)/(\\d+) pictures, .*, (\\S+) left$"));
+  const QRegularExpressionMatch match = state.match(text);
+  if (match.hasMatch())
+  {
+    emit this->progress(match.captured(1).toInt(), match.captured(2).toInt(), match.captured(3));
+    return;
+  }
+  this->Last = text;
+  emit this->line(text);
+}
+
+void RenderProcess::end(int code, QProcess::ExitStatus status)
+{
+  this->read();
+  if (!this->Unread.isEmpty())
+  {
+    this->take(QString::fromUtf8(this->Unread));
+    this->Unread.clear();
+  }
+  const bool ok = status == QProcess::NormalExit && code == 0;
+  if (!ok && this->Last.isEmpty())
+  {
+    this->Last = tr("dgtk ended with status %1").arg(code);
+  }
+  emit this->finished(ok, this->Cancelled && !ok, this->Last);
+}
+
+} // namespace dgtk

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSceneDocument.h"
+
+#include "dgtkModelReader.h"
+
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr std::size_t unreachable = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t mostItemsKept = 400000; ///< objects, lights and cameras in steps that hold whole scenes
+
+std::string currentFolder() { return std::filesystem::current_path().generic_string(); }
+
+std::size_t sizeOf(const SceneDescription& scene)
+{
+  return scene.objects.size() + scene.lights.size() + scene.cameras.size();
+}
+} // namespace
+
+SceneDocument::SceneDocument() { this->Scene.folder = currentFolder(); }
+
+void SceneDocument::notify() const
+{
+  for (const std::function<void()>& listener : this->Listeners)
+  {
+    listener();
+  }
+}
+
+void SceneDocument::reset(SceneDescription scene, const std::string& path)
+{
+  this->Scene = std::move(scene);
+  this->Path = path;
+  this->Done.clear();
+  this->Undone.clear();
+  this->Clean = 0;
+  this->notify();
+}
+
+void SceneDocument::clear()
+{
+  this->Models = ModelStore();
+  SceneDescription scene;
+  scene.folder = currentFolder();
+  this->reset(std::move(scene), {});
+}
+
+void SceneDocument::open(const std::string& path)
+{
+  const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
+  SceneDescription scene = readScene(absolute);
+  ModelStore models;
+  models.load(scene);
+  this->Models = std::move(models);
+  this->reset(std::move(scene), absolute);
+}
+
+void SceneDocument::recover(const std::string& path)
+{
+  this->open(path);
+  this->Path.clear();
+  this->Clean = unreachable;
+  this->notify();
+}
+
+void SceneDocument::saveAs(const std::string& path)
+{
+  const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
+  writeScene(this->Scene, absolute);
+  this->Path = absolute;
+  this->finishMerging();
+  this->Clean = this->Done.size();
+  this->notify();
+}
+
+void SceneDocument::writeCopy(const std::string& path) const
+{
+  writeScene(this->Scene, std::filesystem::absolute(path).lexically_normal().string());
+}
+
+std::string SceneDocument::json() const { return toJson(this->Scene, this->Scene.folder); }
+
+SceneDocument::ItemState SceneDocument::stateOf(const SceneDescription& scene, const SceneItem& item)
+{
+  switch (item.kind)
+  {
+    case SceneItem::Kind::Object:
+      return scene.objects.at(item.index);
+    case SceneItem::Kind::Light:
+      return scene.lights.at(item.index);
+    default:
+      return scene.cameras.at(item.index);
+  }
+}
+
+void SceneDocument::putState(SceneDescription& scene, const SceneItem& item, const ItemState& state)
+{
+  switch (item.kind)
+  {
+    case SceneItem::Kind::Object:
+      scene.objects.at(item.index) = std::get<ObjectDescription>(state);
+      break;
+    case SceneItem::Kind::Light:
+      scene.lights.at(item.index) = std::get<LightDescription>(state);
+      break;
+    default:
+      scene.cameras.at(item.index) = std::get<CameraDescription>(state);
+  }
+}
+
+void SceneDocument::edit(
+  const std::string& text, const std::function<void(SceneDescription&)>& change, const std::string& merge)
+{
+  SceneDescription after = this->Scene;
+  change(after);
+  validate(after);
+  this->Models.load(after);
+  Step step;
+  step.text = text;
+  step.merge = merge;
+  step.whole = true;
+  step.before = std::exchange(this->Scene, after);
+  step.after = std::move(after);
+  this->accept(std::move(step));
+}
+
+void SceneDocument::editItem(const std::string& text, const SceneItem& item,
+  const std::function<void(SceneDescription&)>& change, const std::string& merge)
+{
+  Step step;
+  step.text = text;
+  step.merge = merge;
+  step.item = item;
+  step.itemBefore = stateOf(this->Scene, item);
+  try
+  {
+    change(this->Scene);
+    validate(this->Scene);
+    this->Models.load(this->Scene);
+  }
+  catch (...)
+  {
+    putState(this->Scene, item, step.itemBefore);
+    throw;
+  }
+  step.itemAfter = stateOf(this->Scene, item);
+  this->accept(std::move(step));
+}
+
+void SceneDocument::accept(Step step)
+{
+  // Steps after the saved one are gone for good.
+  if (this->Clean != unreachable && this->Clean > this->Done.size())
+  {
+    this->Clean = unreachable;
+  }
+  this->Undone.clear();
+  Step* last = this->Done.empty() || this->Clean == this->Done.size() ? nullptr : &this->Done.back();
+  if (last != nullptr && !step.merge.empty() && last->merge == step.merge && last->whole == step.whole &&
+      last->item == step.item)
+  {
+    last->after = std::move(step.after);
+    last->itemAfter = std::move(step.itemAfter);
+  }
+  else
+  {
+    this->Done.push_back(std::move(step));
+    this->forget();
+  }
+  this->notify();
+}
+
+void SceneDocument::forget()
+{
+  std::size_t items = 0;
+  for (std::size_t i = this->Done.size(); i-- > 0;)
+  {
+    items += this->Done[i].whole ? sizeOf(this->Done[i].before) + sizeOf(this->Done[i].after) : 2;
+    if (items > mostItemsKept && i + 1 < this->Done.size())
+    {
+      this->Done.erase(this->Done.begin(), this->Done.begin() + std::ptrdiff_t(i) + 1);
+      this->Clean = this->Clean == unreachable || this->Clean <= i ? unreachable : this->Clean - i - 1;
+      return;
+    }
+  }
+}
+
+void SceneDocument::finishMerging()
+{
+  if (!this->Done.empty())
+  {
+    this->Done.back().merge.clear();
+  }
+}
+
+void SceneDocument::undo()
+{
+  if (!this->canUndo())
+  {
+    return;
+  }
+  Step step = std::move(this->Done.back());
+  this->Done.pop_back();
+  step.merge.clear();
+  if (step.whole)
+  {
+    this->Scene = step.before;
+  }
+  else
+  {
+    putState(this->Scene, step.item, step.itemBefore);
+  }
+  this->Undone.push_back(std::move(step));
+  this->finishMerging();
+  this->notify();
+}
+
+void SceneDocument::redo()
+{
+  if (!this->canRedo())
+  {
+    return;
+  }
+  Step step = std::move(this->Undone.back());
+  this->Undone.pop_back();
+  if (step.whole)
+  {
+    this->Scene = step.after;
+  }
+  else
+  {
+    putState(this->Scene, step.item, step.itemAfter);
+  }
+  this->Done.push_back(std::move(step));
+  this->notify();
+}
+
+SceneItem SceneDocument::addModel(const std::string& path)
+{
+  namespace fs = std::filesystem;
+  ObjectDescription object;
+  object.name = fs::path(path).stem().string() + "-1"; // as .scene files imply
+  object.model = fs::absolute(path).lexically_normal().lexically_relative(this->Scene.folder).generic_string();
+  SceneDescription part;
+  part.folder = this->Scene.folder;
+  part.objects.push_back(std::move(object));
+  return this->paste("Import " + fs::path(path).filename().string(), part).front();
+}
+
+SceneItem SceneDocument::addLight(LightDescription light)
+{
+  SceneDescription part;
+  part.folder = this->Scene.folder;
+  light.name = light.name.empty() ? "Light0" : light.name;
+  part.lights.push_back(std::move(light));
+  return this->paste("Add light", part).front();
+}
+
+SceneItem SceneDocument::addCamera(CameraDescription camera)
+{
+  SceneDescription part;
+  part.folder = this->Scene.folder;
+  camera.name = camera.name.empty() ? "Camera0" : camera.name;
+  part.cameras.push_back(std::move(camera));
+  return this->paste("Add camera", part).front();
+}
+
+SceneItems SceneDocument::paste(const std::string& text, const SceneDescription& from)
+{
+  SceneItems added;
+  this->edit(text, [&](SceneDescription& scene) { added = appendItems(scene, from); });
+  return added;
+}
+
+void SceneDocument::remove(const SceneItems& items)
+{
+  if (!items.empty())
+  {
+    this->edit("Delete", [&](SceneDescription& scene) { removeItems(scene, items); });
+  }
+}
+
+} // namespace dgtk

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkSceneDocument_h
+#define dgtkSceneDocument_h
+
+#include "dgtkWidgetsModule.h"
+
+#include "dgtkModelStore.h"
+#include "dgtkSceneEdits.h"
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace dgtk
+{
+
+/// A scene that is being edited: description, file, models, undo and redo. Knows nothing of windows. Every edit is
+/// validated; one that is refused (InputError) leaves everything as it was.
+class DGTKWIDGETS_EXPORT SceneDocument
+{
+public:
+  SceneDocument();
+  SceneDocument(const SceneDocument&) = delete;
+  SceneDocument& operator=(const SceneDocument&) = delete;
+
+  const SceneDescription& scene() const { return this->Scene; }
+  const ModelStore& models() const { return this->Models; }
+  /// "" before the first save.
+  const std::string& path() const { return this->Path; }
+  bool modified() const { return this->Done.size() != this->Clean; }
+  /// Called after every change of scene, path or modified().
+  void onChange(std::function<void()> listener) { this->Listeners.push_back(std::move(listener)); }
+
+  void clear();
+  /// Throws InputError, also for models that cannot be read.
+  void open(const std::string& path);
+  /// A copy of unsaved work becomes an unsaved scene. Throws as open().
+  void recover(const std::string& path);
+  /// By extension, .json or .scene. Throws InputError for what the format cannot say, MachineError.
+  void saveAs(const std::string& path);
+  /// The scene as it is now, for a program beside: does not change path() and modified(). Throws as saveAs().
+  void writeCopy(const std::string& path) const;
+  /// As the file would be beside the scene's own folder.
+  std::string json() const;
+
+  bool canUndo() const { return !this->Done.empty(); }
+  bool canRedo() const { return !this->Undone.empty(); }
+  /// What undo() or redo() would take back or do again; "" when there is nothing.
+  std::string undoText() const { return this->canUndo() ? this->Done.back().text : std::string(); }
+  std::string redoText() const { return this->canRedo() ? this->Undone.back().text : std::string(); }
+  void undo();
+  void redo();
+
+  /// An edit of anything. Steps that follow one another with the same `merge` other than "" are undone together, until
+  /// finishMerging().
+  void edit(
+    const std::string& text, const std::function<void(SceneDescription&)>& change, const std::string& merge = {});
+  /// An edit of nothing but one item (not its name): its undo step holds no more than the item.
+  void editItem(const std::string& text, const SceneItem& item, const std::function<void(SceneDescription&)>& change,
+    const std::string& merge = {});
+  void finishMerging();
+
+  /// A model file becomes an object at the origin, with a unique name. Throws InputError when it cannot be read.
+  SceneItem addModel(const std::string& path);
+  SceneItem addLight(LightDescription light);
+  SceneItem addCamera(CameraDescription camera);
+  /// Copies of everything in `from`; returns the new items.
+  SceneItems paste(const std::string& text, const SceneDescription& from);
+  void remove(const SceneItems& items);
+
+private:
+  using ItemState = std::variant<ObjectDescription, LightDescription, CameraDescription>;
+  struct Step
+  {
+    std::string text;
+    std::string merge;
+    bool whole = false;
+    SceneDescription before; ///< whole
+    SceneDescription after;
+    SceneItem item; ///< otherwise
+    ItemState itemBefore;
+    ItemState itemAfter;
+  };
+
+  static ItemState stateOf(const SceneDescription& scene, const SceneItem& item);
+  static void putState(SceneDescription& scene, const SceneItem& item, const ItemState& state);
+  void accept(Step step);
+  void forget();
+  void reset(SceneDescription scene, const std::string& path);
+  void notify() const;
+
+  SceneDescription Scene;
+  std::string Path;
+  ModelStore Models;
+  std::vector<Step> Done;
+  std::vector<Step> Undone;
+  std::size_t Clean = 0; ///< number of done steps at which the scene is what the file holds
+  std::vector<std::function<void()>> Listeners;
+};
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkSceneEdits_h
+#define dgtkSceneEdits_h
+
+#include "dgtkWidgetsModule.h"
+
+#include "dgtkSceneDescription.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+// What an editor does to a description. None of these validates; SceneDocument does, once for each edit.
+
+using SceneItems = std::vector<SceneItem>;
+
+/// Changes a track at a frame: its key there, or a new key of a track that has keys, or the value of one that has none.
+template <typename T>
+void setTrackAt(Track<T>& track, int frame, const T& value)
+{
+  if (!track.animated())
+  {
+    track.value = value;
+    return;
+  }
+  const auto at = std::lower_bound(
+    track.keys.begin(), track.keys.end(), frame, [](const Key<T>& key, int f) { return key.frame < f; });
+  if (at != track.keys.end() && at->frame == frame)
+  {
+    at->value = value;
+  }
+  else
+  {
+    track.keys.insert(at, Key<T>{ frame, value });
+  }
+}
+
+DGTKWIDGETS_EXPORT std::string itemName(const SceneDescription& scene, const SceneItem& item);
+/// Also where children name it as their parent.
+DGTKWIDGETS_EXPORT void renameItem(SceneDescription& scene, const SceneItem& item, const std::string& name);
+
+/// Where an item is at a frame: an object's position in its parent's frame, a light's position, a camera's centre.
+DGTKWIDGETS_EXPORT Eigen::Vector3d itemPosition(const SceneDescription& scene, const SceneItem& item, double frame);
+/// Cameras with a look-at point take it along, lights with a direction their target.
+DGTKWIDGETS_EXPORT void setItemPosition(
+  SceneDescription& scene, const SceneItem& item, int frame, const Eigen::Vector3d& position);
+
+/// Appends a copy of everything of `from`, with paths made relative to the folder of `scene` and names made unique.
+/// Returns the new items. Both folders must be absolute where they differ.
+DGTKWIDGETS_EXPORT SceneItems appendItems(SceneDescription& scene, const SceneDescription& from);
+/// A description of the folder of `scene` with nothing but these items; parents outside of them stay named.
+DGTKWIDGETS_EXPORT SceneDescription extractItems(const SceneDescription& scene, const SceneItems& items);
+/// Removes items, and the children of removed objects.
+DGTKWIDGETS_EXPORT void removeItems(SceneDescription& scene, const SceneItems& items);
+
+/// Gives every position, orientation and scale of objects, position of lights and pose of cameras a key at a frame,
+/// with the value that it has there.
+DGTKWIDGETS_EXPORT void makeKeyFrame(SceneDescription& scene, int frame);
+/// Removes the keys of a frame from all tracks. A track that loses its last key keeps that value.
+DGTKWIDGETS_EXPORT void removeKeyFrame(SceneDescription& scene, int frame);
+/// Gives another frame the keys of a frame; tracks without a key there stay as they are.
+DGTKWIDGETS_EXPORT void copyKeyFrame(SceneDescription& scene, int from, int to);
+/// How the tracks of an item that have keys go from one to the next.
+DGTKWIDGETS_EXPORT void setInterpolation(SceneDescription& scene, const SceneItem& item, Interpolation interpolation);
+/// That of the first track with keys; Linear without any.
+DGTKWIDGETS_EXPORT Interpolation interpolationOf(const SceneDescription& scene, const SceneItem& item);
+/// Frames at which an item has keys, ascending.
+DGTKWIDGETS_EXPORT std::vector<int> keyFramesOf(const SceneDescription& scene, const SceneItem& item);
+
+/// `name`, or where it is taken the next free one by its number: Light1 for Light0, tree-2 for tree.
+DGTKWIDGETS_EXPORT std::string uniqueName(const std::vector<std::string>& taken, const std::string& name);
+
+} // namespace dgtk
+
+#endif

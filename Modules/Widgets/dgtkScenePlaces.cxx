@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkScenePlaces.h"
+
+#include "dgtkError.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <limits>
+#include <unordered_map>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr int usualWidth = 640;
+constexpr int usualHeight = 480;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// World from object of all objects: parents are placed before their children.
+class Matrices
+{
+public:
+  Matrices(const SceneDescription& scene, double frame)
+    : Scene(scene)
+    , Frame(frame)
+    , World(scene.objects.size())
+    , Known(scene.objects.size(), 0)
+  {
+    for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    {
+      this->Index[scene.objects[i].name] = i;
+    }
+  }
+
+  Affine3 ofParent(std::size_t i)
+  {
+    const std::string& parent = this->Scene.objects[i].parent;
+    return parent.empty() ? Affine3{} : this->of(this->Index.at(parent));
+  }
+
+  const Affine3& of(std::size_t i)
+  {
+    if (!this->Known[i])
+    {
+      const ObjectDescription& object = this->Scene.objects[i];
+      const Eigen::Vector3d scale = object.scale.at(this->Frame);
+      const Affine3 local{ object.orientation.at(this->Frame).matrix() * scale.asDiagonal(),
+        object.position.at(this->Frame) };
+      this->World[i] = this->ofParent(i) * local;
+      this->Known[i] = 1;
+    }
+    return this->World[i];
+  }
+
+private:
+  const SceneDescription& Scene;
+  double Frame;
+  std::vector<Affine3> World;
+  std::vector<char> Known;
+  std::unordered_map<std::string, std::size_t> Index;
+};
+
+/// Boxes of geometries in their own axes, each computed once.
+class Boxes
+{
+public:
+  const WorldBox& of(const Geometry& geometry)
+  {
+    const auto [at, isNew] = this->Known.try_emplace(&geometry);
+    if (isNew)
+    {
+      for (const Eigen::Vector3d& position : geometry.positions)
+      {
+        at->second.add(position);
+      }
+    }
+    return at->second;
+  }
+
+private:
+  std::unordered_map<const Geometry*, WorldBox> Known;
+};
+
+WorldBox transformed(const WorldBox& box, const Affine3& world_from_object)
+{
+  WorldBox result;
+  for (int corner = 0; corner < 8 && !box.empty(); ++corner)
+  {
+    result.add(world_from_object * Eigen::Vector3d((corner & 1 ? box.max : box.min).x(),
+                                     (corner & 2 ? box.max : box.min).y(), (corner & 4 ? box.max : box.min).z()));
+  }
+  return result;
+}
+
+CameraPlace placeCamera(const CameraDescription& camera, double frame)
+{
+  CameraPlace place;
+  place.center = camera.posed ? camera.position.at(frame) : camera.eye.at(frame);
+  const int width = camera.width > 0 ? camera.width : usualWidth;
+  const int height = camera.height > 0 ? camera.height : usualHeight;
+  try
+  {
+    place.view.name = camera.name;
+    place.view.near = camera.near;
+    place.view.far = camera.far;
+    if (camera.kind == CameraKind::Orthographic)
+    {
+      place.view.model = makeOrthographic(width, height, camera.viewHeight.at(frame), camera.aspect);
+    }
+    else
+    {
+      place.view.model = camera.K ? makePinhole(width, height, *camera.K)
+                                  : makePinholeFromFov(width, height, camera.fovY.at(frame), camera.aspect);
+    }
+    place.view.camera_from_world = camera.posed
+                                     ? Rigid3{ camera.orientation.at(frame).matrix(), place.center }.inverse()
+                                     : lookAtPose(place.center, camera.lookAt.at(frame), camera.up.at(frame));
+    place.valid = true;
+  }
+  catch (const Error&)
+  {
+    place.valid = false;
+  }
+  return place;
+}
+
+bool meetsBox(const WorldBox& box, const WorldRay& ray, double most)
+{
+  double from = ray.least;
+  double to = most;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double inverse = 1 / ray.direction[axis];
+    double a = (box.min[axis] - ray.origin[axis]) * inverse;
+    double b = (box.max[axis] - ray.origin[axis]) * inverse;
+    if (a > b)
+    {
+      std::swap(a, b);
+    }
+    from = a > from ? a : from; // NaN: within the slab
+    to = b < to ? b : to;
+  }
+  return from <= to;
+}
+
+/// Möller and Trumbore 1997; infinity for a miss.
+double meetTriangle(const WorldRay& ray, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+{
+  const Eigen::Vector3d ab = b - a;
+  const Eigen::Vector3d ac = c - a;
+  const Eigen::Vector3d p = ray.direction.cross(ac);
+  const double determinant = ab.dot(p);
+  if (determinant == 0)
+  {
+    return infinity;
+  }
+  const Eigen::Vector3d s = ray.origin - a;
+  const double u = s.dot(p) / determinant;
+  const Eigen::Vector3d q = s.cross(ab);
+  const double v = ray.direction.dot(q) / determinant;
+  const double t = ac.dot(q) / determinant;
+  return u >= 0 && v >= 0 && u + v <= 1 && t >= ray.least ? t : infinity;
+}
+
+double meetObject(const ObjectPlace& place, const WorldRay& ray, double most)
+{
+  if (!place.visible || place.instance.model == nullptr || !meetsBox(place.box, ray, most))
+  {
+    return infinity;
+  }
+  // Parameters of a ray are the same in the object's own axes.
+  const Eigen::Matrix3d object_from_world = place.instance.world_from_object.linear.inverse();
+  const WorldRay own{ object_from_world * (ray.origin - place.instance.world_from_object.translation),
+    object_from_world * ray.direction, ray.least };
+  const std::vector<Eigen::Vector3d>& positions = place.instance.geometry->positions;
+  double first = infinity;
+  for (const std::array<std::uint32_t, 3>& t : place.instance.model->triangles)
+  {
+    first = std::min(first, meetTriangle(own, positions[t[0]], positions[t[1]], positions[t[2]]));
+  }
+  return first;
+}
+
+double meetPoint(const Eigen::Vector3d& point, const WorldRay& ray, const PickReach& reach)
+{
+  const double t = (point - ray.origin).dot(ray.direction) / ray.direction.squaredNorm();
+  const double distance = (ray.origin + t * ray.direction - point).norm();
+  return t >= ray.least && distance <= reach.constant + reach.slope * t ? t : infinity;
+}
+} // namespace
+
+void WorldBox::add(const Eigen::Vector3d& point)
+{
+  const bool first = this->empty();
+  this->min = first ? point : Eigen::Vector3d(this->min.cwiseMin(point));
+  this->max = first ? point : Eigen::Vector3d(this->max.cwiseMax(point));
+}
+
+void WorldBox::add(const WorldBox& box)
+{
+  if (!box.empty())
+  {
+    this->add(box.min);
+    this->add(box.max);
+  }
+}
+
+WorldBox ScenePlaces::boxOf(const SceneItem& item) const
+{
+  WorldBox found;
+  if (item.kind == SceneItem::Kind::Object && item.index < this->objects.size())
+  {
+    found = this->objects[item.index].box;
+    if (found.empty())
+    {
+      found.add(this->objects[item.index].instance.world_from_object.translation);
+    }
+  }
+  else if (item.kind == SceneItem::Kind::Light && item.index < this->lights.size())
+  {
+    found.add(this->lights[item.index]);
+  }
+  else if (item.kind == SceneItem::Kind::Camera && item.index < this->cameras.size())
+  {
+    found.add(this->cameras[item.index].center);
+  }
+  return found;
+}
+
+ScenePlaces placeScene(const SceneDescription& scene, const ModelStore& models, double frame)
+{
+  ScenePlaces places;
+  places.frame = frame;
+  Matrices matrices(scene, frame);
+  Boxes boxes;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+  {
+    ObjectPlace place;
+    place.instance = models.at(scene, scene.objects[i], frame);
+    place.instance.name = scene.objects[i].name;
+    place.instance.world_from_object = matrices.of(i);
+    place.world_from_parent = matrices.ofParent(i);
+    place.visible = scene.objects[i].visible;
+    if (place.instance.geometry != nullptr)
+    {
+      place.box = transformed(boxes.of(*place.instance.geometry), place.instance.world_from_object);
+    }
+    if (place.visible)
+    {
+      places.box.add(place.box);
+    }
+    places.objects.push_back(std::move(place));
+  }
+  for (const LightDescription& light : scene.lights)
+  {
+    places.lights.push_back(light.position.at(frame));
+    if (light.kind == LightKind::Point || light.kind == LightKind::Spot)
+    {
+      places.box.add(places.lights.back());
+    }
+  }
+  for (const CameraDescription& camera : scene.cameras)
+  {
+    places.cameras.push_back(placeCamera(camera, frame));
+    places.box.add(places.cameras.back().center);
+  }
+  return places;
+}
+
+std::optional<SceneItem> pickItem(const ScenePlaces& places, const WorldRay& ray, const PickReach& reach)
+{
+  std::optional<SceneItem> best;
+  double nearest = infinity;
+  const auto offer = [&](double t, SceneItem::Kind kind, std::size_t index)
+  {
+    if (t < nearest)
+    {
+      nearest = t;
+      best = SceneItem{ kind, index };
+    }
+  };
+  for (std::size_t i = 0; i < places.objects.size(); ++i)
+  {
+    offer(meetObject(places.objects[i], ray, nearest), SceneItem::Kind::Object, i);
+  }
+  for (std::size_t i = 0; i < places.lights.size(); ++i)
+  {
+    offer(meetPoint(places.lights[i], ray, reach), SceneItem::Kind::Light, i);
+  }
+  for (std::size_t i = 0; i < places.cameras.size(); ++i)
+  {
+    offer(meetPoint(places.cameras[i].center, ray, reach), SceneItem::Kind::Camera, i);
+  }
+  return best;
+}
+
+} // namespace dgtk

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkScenePlaces_h
+#define dgtkScenePlaces_h
+
+#include "dgtkWidgetsModule.h"
+
+#include "dgtkCameraModel.h"
+#include "dgtkModelStore.h"
+#include "dgtkSceneEdits.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace dgtk
+{
+
+/// An axis-parallel box in the world; empty while min > max.
+struct DGTKWIDGETS_EXPORT WorldBox
+{
+  Eigen::Vector3d min{ 1, 1, 1 };
+  Eigen::Vector3d max{ -1, -1, -1 };
+  bool empty() const { return (this->min.array() > this->max.array()).any(); }
+  void add(const Eigen::Vector3d& point);
+  void add(const WorldBox& box);
+  Eigen::Vector3d center() const { return (this->min + this->max) / 2; }
+  double diagonal() const { return this->empty() ? 0.0 : (this->max - this->min).norm(); }
+};
+
+/// An object of the scene at a frame.
+struct ObjectPlace
+{
+  Instance instance; ///< model null: nothing to show
+  bool visible = true;
+  Affine3 world_from_parent;
+  WorldBox box; ///< of its vertices, world
+};
+
+/// A camera at a frame as it is drawn.
+struct CameraPlace
+{
+  bool valid = false; ///< false where its pose is undefined
+  View view;
+  Eigen::Vector3d center{ 0, 0, 0 };
+};
+
+/// Where everything of a scene is at a frame; indices as in the description.
+struct DGTKWIDGETS_EXPORT ScenePlaces
+{
+  double frame = 0;
+  std::vector<ObjectPlace> objects;
+  std::vector<CameraPlace> cameras;
+  std::vector<Eigen::Vector3d> lights;
+  WorldBox box; ///< of all that is visible, cameras' centres and lights that have a place
+
+  WorldBox boxOf(const SceneItem& item) const;
+};
+
+/// Throws InputError where a scale passes through 0.
+DGTKWIDGETS_EXPORT ScenePlaces placeScene(const SceneDescription& scene, const ModelStore& models, double frame);
+
+/// x_in_world(t) = origin + t * direction, t >= least.
+struct WorldRay
+{
+  Eigen::Vector3d origin;
+  Eigen::Vector3d direction;
+  double least = 0;
+};
+
+/// The first visible object that a ray meets, exactly by its triangles, or a camera or light whose place the ray passes
+/// within `reach` (world units at parameter 1 of the ray if it widens, everywhere otherwise).
+struct PickReach
+{
+  double constant = 0;
+  double slope = 0; ///< for each unit of the parameter
+};
+DGTKWIDGETS_EXPORT std::optional<SceneItem> pickItem(
+  const ScenePlaces& places, const WorldRay& ray, const PickReach& reach);
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSceneTree.h"
+
+#include <QHeaderView>
+#include <QTimer>
+
+#include <utility>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr int kindRole = Qt::UserRole;
+constexpr int indexRole = Qt::UserRole + 1;
+
+SceneItem itemOf(const QTreeWidgetItem* row)
+{
+  return { static_cast<SceneItem::Kind>(row->data(0, kindRole).toInt()),
+    static_cast<std::size_t>(row->data(0, indexRole).toULongLong()) };
+}
+} // namespace
+
+SceneTree::SceneTree(EditorState& state, QWidget* parent)
+  : QTreeWidget(parent)
+  , State(state)
+{
+  this->setObjectName("sceneTree");
+  this->setColumnCount(2);
+  this->setHeaderLabels({ tr("Name"), tr("Kind") });
+  this->header()->setStretchLastSection(true);
+  this->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+  this->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  this->setEditTriggers(QAbstractItemView::EditKeyPressed);
+  const QString names[3] = { tr("Objects"), tr("Lights"), tr("Cameras") };
+  for (int kind = 0; kind < 3; ++kind)
+  {
+    this->Groups[kind] = new QTreeWidgetItem(this, { names[kind] });
+    this->Groups[kind]->setFlags(Qt::ItemIsEnabled);
+    this->Groups[kind]->setExpanded(true);
+  }
+  connect(&state, &EditorState::changed, this, &SceneTree::refresh);
+  connect(&state, &EditorState::selectionChanged, this, &SceneTree::showSelection);
+  connect(this, &QTreeWidget::itemSelectionChanged, this, &SceneTree::takeSelection);
+  connect(this, &QTreeWidget::itemChanged, this, &SceneTree::takeName);
+  this->refresh();
+}
+
+std::vector<std::string> SceneTree::listing() const
+{
+  const SceneDescription& scene = this->State.scene();
+  std::vector<std::string> lines;
+  for (const ObjectDescription& object : scene.objects)
+  {
+    lines.push_back("o" + object.name + '\n' + object.className + (object.visible ? "+" : "-"));
+  }
+  for (const LightDescription& light : scene.lights)
+  {
+    lines.push_back("l" + light.name + '\n' + std::to_string(static_cast<int>(light.kind)));
+  }
+  for (const CameraDescription& camera : scene.cameras)
+  {
+    lines.push_back("c" + camera.name);
+  }
+  return lines;
+}
+
+void SceneTree::refresh()
+{
+  std::vector<std::string> lines = this->listing();
+  if (lines == this->Shown)
+  {
+    return;
+  }
+  this->Shown = std::move(lines);
+  this->Busy = true;
+  for (QTreeWidgetItem* group : this->Groups)
+  {
+    qDeleteAll(group->takeChildren());
+  }
+  const SceneDescription& scene = this->State.scene();
+  const QString lightKinds[4] = { tr("point"), tr("head"), tr("directional"), tr("spot") };
+  for (const SceneItem& item : scene.items())
+  {
+    QString kind = tr("camera");
+    if (item.kind == SceneItem::Kind::Object)
+    {
+      const ObjectDescription& object = scene.objects[item.index];
+      kind = object.visible ? toText(object.className) : tr("hidden");
+    }
+    else if (item.kind == SceneItem::Kind::Light)
+    {
+      kind = lightKinds[static_cast<int>(scene.lights[item.index].kind)];
+    }
+    auto* row = new QTreeWidgetItem(this->Groups[static_cast<int>(item.kind)], { toText(itemName(scene, item)), kind });
+    row->setData(0, kindRole, static_cast<int>(item.kind));
+    row->setData(0, indexRole, static_cast<qulonglong>(item.index));
+    row->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsEditable);
+  }
+  this->Busy = false;
+  this->showSelection();
+}
+
+void SceneTree::showSelection()
+{
+  if (this->Busy)
+  {
+    return;
+  }
+  this->Busy = true;
+  QTreeWidgetItem* last = nullptr;
+  for (QTreeWidgetItem* group : this->Groups)
+  {
+    for (int i = 0; i < group->childCount(); ++i)
+    {
+      const bool selected = this->State.isSelected(itemOf(group->child(i)));
+      group->child(i)->setSelected(selected);
+      last = selected ? group->child(i) : last;
+    }
+  }
+  if (last != nullptr)
+  {
+    this->scrollToItem(last);
+  }
+  this->Busy = false;
+}
+
+void SceneTree::takeSelection()
+{
+  if (this->Busy)
+  {
+    return;
+  }
+  SceneItems items;
+  for (const QTreeWidgetItem* row : this->selectedItems())
+  {
+    items.push_back(itemOf(row));
+  }
+  this->Busy = true;
+  this->State.select(items);
+  this->Busy = false;
+}
+
+void SceneTree::takeName(QTreeWidgetItem* row)
+{
+  if (this->Busy || row->parent() == nullptr)
+  {
+    return;
+  }
+  const SceneItem item = itemOf(row);
+  const std::string name = row->text(0).toStdString();
+  if (name == itemName(this->State.scene(), item))
+  {
+    return;
+  }
+  // Later: the edit makes the rows anew, and this one is still being edited.
+  QTimer::singleShot(0, this,
+    [this, item, name]
+    {
+      const bool done = this->State.attempt([&]
+        { this->State.document().edit("Rename", [&](SceneDescription& scene) { renameItem(scene, item, name); }); });
+      if (!done)
+      {
+        this->Shown.clear();
+        this->refresh();
+      }
+    });
+}
+
+} // namespace dgtk

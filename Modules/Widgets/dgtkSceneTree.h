@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkSceneTree_h
+#define dgtkSceneTree_h
+
+// Private to Widgets.
+
+#include "dgtkEditorState.h"
+
+#include <QTreeWidget>
+
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// Objects, cameras and lights by name. What is selected here is selected everywhere; F2 renames.
+class SceneTree : public QTreeWidget
+{
+  Q_OBJECT
+
+public:
+  SceneTree(EditorState& state, QWidget* parent);
+
+private:
+  void refresh();
+  void showSelection();
+  void takeSelection();
+  void takeName(QTreeWidgetItem* row);
+  std::vector<std::string> listing() const;
+
+  EditorState& State;
+  QTreeWidgetItem* Groups[3];
+  std::vector<std::string> Shown;
+  bool Busy = false;
+};
+
+} // namespace dgtk
+
+#endif

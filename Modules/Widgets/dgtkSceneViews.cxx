@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSceneViews.h"
+
+#include <QLabel>
+#include <QSplitter>
+#include <QTimer>
+#include <QVBoxLayout>
+
+#include <Eigen/LU>
+
+#include <exception>
+
+namespace dgtk
+{
+
+SceneViews::SceneViews(EditorState& state, QWidget* parent)
+  : QWidget(parent)
+  , State(state)
+{
+  const QString titles[4] = { tr("Front"), tr("Top"), tr("Side"), tr("Perspective") };
+  this->Columns = new QSplitter(Qt::Vertical, this);
+  for (QSplitter*& row : this->Rows)
+  {
+    row = new QSplitter(Qt::Horizontal, this->Columns);
+    row->setChildrenCollapsible(false);
+  }
+  this->Columns->setChildrenCollapsible(false);
+  for (int kind = 0; kind < 4; ++kind)
+  {
+    QWidget* const pane = this->makePane(static_cast<ViewKind>(kind), titles[kind]);
+    this->Rows[kind / 2]->addWidget(pane);
+    this->Panes.push_back(pane);
+  }
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(this->Columns);
+  this->Active = this->view(ViewKind::Perspective);
+  connect(&state, &EditorState::changed, this, &SceneViews::refresh);
+  connect(&state, &EditorState::selectionChanged, this, &SceneViews::refresh);
+  connect(&state, &EditorState::frameChanged, this, &SceneViews::refresh);
+  this->refresh();
+}
+
+SceneViews::~SceneViews() = default;
+
+QWidget* SceneViews::makePane(ViewKind kind, const QString& title)
+{
+  auto* pane = new QWidget;
+  auto* layout = new QVBoxLayout(pane);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  auto* label = new QLabel(title, pane);
+  label->setContentsMargins(6, 1, 6, 1);
+  layout->addWidget(label);
+  auto* view = new SceneView(kind, pane);
+  view->setObjectName("view." + QString::number(static_cast<int>(kind)));
+  layout->addWidget(view, 1);
+  this->Views.push_back(view);
+  connect(view, &SceneView::activated, this, [this, view] { this->Active = view; });
+  connect(view, &SceneView::picked, this, &SceneViews::pick);
+  connect(view, &SceneView::dragStarted, this, &SceneViews::startDrag);
+  connect(view, &SceneView::dragged, this, [this](double x, double y, double z) { this->drag({ x, y, z }); });
+  connect(view, &SceneView::dragFinished, this, [this] { this->State.document().finishMerging(); });
+  connect(view, &SceneView::maximizeAsked, this, [this, view] { this->toggleMaximized(view); });
+  connect(view, &SceneView::menuAsked, this, &SceneViews::menuAsked);
+  return pane;
+}
+
+void SceneViews::refresh()
+{
+  const SceneDescription& scene = this->State.scene();
+  try
+  {
+    this->Places =
+      std::make_shared<ScenePlaces>(placeScene(scene, this->State.document().models(), this->State.frame()));
+  }
+  catch (const std::exception& error)
+  {
+    emit this->failed(QString::fromUtf8(error.what()));
+    return;
+  }
+  for (SceneView* view : this->Views)
+  {
+    view->showScene(scene, this->Places, this->State.selection(), this->Meshes);
+  }
+  this->Meshes.forgetUnused();
+}
+
+void SceneViews::showWhole()
+{
+  if (this->State.scene().upAxis != this->Up)
+  {
+    this->Up = this->State.scene().upAxis;
+    for (SceneView* view : this->Views)
+    {
+      view->resetCamera(this->Up);
+    }
+  }
+  this->WholeWanted = !this->isVisible();
+  this->frameAll();
+}
+
+void SceneViews::showEvent(QShowEvent* event)
+{
+  QWidget::showEvent(event);
+  if (this->WholeWanted)
+  {
+    // After the layout has given the views their sizes.
+    QTimer::singleShot(0, this, &SceneViews::showWhole);
+  }
+}
+
+void SceneViews::frameAll()
+{
+  // Cameras and lights may stand far off: objects count where there are any.
+  WorldBox box;
+  for (const ObjectPlace& object : this->Places->objects)
+  {
+    if (object.visible)
+    {
+      box.add(object.box);
+    }
+  }
+  for (SceneView* view : this->Views)
+  {
+    view->frame(box.empty() ? this->Places->box : box);
+  }
+}
+
+void SceneViews::frameSelected()
+{
+  WorldBox box;
+  for (const SceneItem& item : this->State.selection())
+  {
+    WorldBox its = this->Places->boxOf(item);
+    if (item.kind != SceneItem::Kind::Object)
+    {
+      its.min.array() -= 1;
+      its.max.array() += 1;
+    }
+    box.add(its);
+  }
+  if (!box.empty())
+  {
+    for (SceneView* view : this->Views)
+    {
+      view->frame(box);
+    }
+  }
+}
+
+void SceneViews::setStyle(ViewStyle style)
+{
+  for (SceneView* view : this->Views)
+  {
+    view->setStyle(style);
+  }
+  this->refresh();
+}
+
+void SceneViews::showGrid(bool on)
+{
+  for (SceneView* view : this->Views)
+  {
+    view->showGrid(on);
+  }
+}
+
+void SceneViews::toggleMaximized(SceneView* view)
+{
+  bool alone = true;
+  for (std::size_t i = 0; i < this->Views.size(); ++i)
+  {
+    alone = alone && (this->Views[i] == view || this->Panes[i]->isHidden());
+  }
+  for (std::size_t i = 0; i < this->Views.size(); ++i)
+  {
+    this->Panes[i]->setVisible(alone || this->Views[i] == view);
+  }
+  for (int row = 0; row < 2; ++row)
+  {
+    const auto first = std::size_t(2 * row);
+    this->Rows[row]->setVisible(alone || this->Views[first] == view || this->Views[first + 1] == view);
+  }
+}
+
+void SceneViews::lookThrough(const CameraDescription& camera)
+{
+  this->view(ViewKind::Perspective)->lookThrough(camera, this->State.frame());
+}
+
+void SceneViews::pick(bool hit, int kind, int index, bool add)
+{
+  if (!hit)
+  {
+    if (!add)
+    {
+      this->State.select({});
+    }
+    return;
+  }
+  const SceneItem item{ static_cast<SceneItem::Kind>(kind), static_cast<std::size_t>(index) };
+  if (add)
+  {
+    this->State.toggle(item);
+  }
+  else
+  {
+    this->State.select({ item });
+  }
+}
+
+void SceneViews::startDrag()
+{
+  this->State.document().finishMerging();
+  this->DragStart.clear();
+  for (const SceneItem& item : this->State.selection())
+  {
+    this->DragStart.push_back(itemPosition(this->State.scene(), item, this->State.frame()));
+  }
+}
+
+void SceneViews::drag(const Eigen::Vector3d& motion)
+{
+  const SceneItems items = this->State.selection();
+  if (items.size() != this->DragStart.size() || items.empty())
+  {
+    return;
+  }
+  const int frame = this->State.frame();
+  const auto change = [&](SceneDescription& scene)
+  {
+    for (std::size_t i = 0; i < items.size(); ++i)
+    {
+      Eigen::Vector3d step = motion;
+      if (items[i].kind == SceneItem::Kind::Object)
+      {
+        step = this->Places->objects[items[i].index].world_from_parent.linear.inverse() * motion;
+      }
+      setItemPosition(scene, items[i], frame, this->DragStart[i] + step);
+    }
+  };
+  this->State.attempt(
+    [&]
+    {
+      if (items.size() == 1)
+      {
+        this->State.document().editItem("Move", items.front(), change, "drag");
+      }
+      else
+      {
+        this->State.document().edit("Move", change, "drag");
+      }
+    });
+}
+
+} // namespace dgtk

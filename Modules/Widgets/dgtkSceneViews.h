@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkSceneViews_h
+#define dgtkSceneViews_h
+
+// Private to Widgets.
+
+#include "dgtkEditorState.h"
+#include "dgtkSceneView.h"
+#include "dgtkViewMeshes.h"
+
+#include <QWidget>
+
+#include <map>
+#include <memory>
+#include <vector>
+
+class QSplitter;
+
+namespace dgtk
+{
+
+/// The four views of the scene, with splitters between them. A double click shows one alone, another all four.
+class SceneViews : public QWidget
+{
+  Q_OBJECT
+
+public:
+  SceneViews(EditorState& state, QWidget* parent);
+  ~SceneViews() override;
+
+  SceneView* view(ViewKind kind) const { return this->Views[static_cast<std::size_t>(kind)]; }
+  SceneView* active() const { return this->Active; }
+  void frameAll();
+  void frameSelected();
+  void setStyle(ViewStyle style);
+  void showGrid(bool on);
+  void toggleMaximized(SceneView* view);
+  /// The perspective view from a camera's place.
+  void lookThrough(const CameraDescription& camera);
+  /// The window's size and place is known, or another scene was opened: everything in sight.
+  void showWhole();
+
+signals:
+  void menuAsked(const QPoint& global);
+  void failed(const QString& message);
+
+protected:
+  void showEvent(QShowEvent* event) override;
+
+private:
+  QWidget* makePane(ViewKind kind, const QString& title);
+  void refresh();
+  void pick(bool hit, int kind, int index, bool add);
+  void startDrag();
+  void drag(const Eigen::Vector3d& motion);
+
+  EditorState& State;
+  ViewMeshes Meshes;
+  std::vector<SceneView*> Views;
+  std::vector<QWidget*> Panes;
+  QSplitter* Columns = nullptr;
+  QSplitter* Rows[2] = { nullptr, nullptr };
+  SceneView* Active = nullptr;
+  std::shared_ptr<const ScenePlaces> Places;
+  std::vector<Eigen::Vector3d> DragStart; ///< of the selected items
+  bool WholeWanted = true;
+  UpAxis Up = UpAxis::Y;
+};
+
+} // namespace dgtk
+
+#endif

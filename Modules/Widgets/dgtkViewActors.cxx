@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkViewActors.h"
+
+#include "dgtkViewLines.h"
+
+#include <Eigen/Geometry>
+
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkImageData.h>
+#include <vtkMatrix4x4.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkSphereSource.h>
+#include <vtkTexture.h>
+
+#include <algorithm>
+#include <set>
+
+namespace dgtk
+{
+
+namespace
+{
+const Eigen::Vector3d cameraColor(1.0, 0.75, 0.2);
+const Eigen::Vector3d chosenColor(0.2, 1.0, 0.2);
+const Eigen::Vector3d boxColor(0.75, 0.75, 0.78);
+const Eigen::Vector3d gridColor(0.42, 0.44, 0.47);
+constexpr double frustumShare = 0.06; // of the scene's diagonal
+constexpr double lightShare = 0.012;
+constexpr double smallestExtent = 1;
+
+vtkSmartPointer<vtkMatrix4x4> matrixOf(const Affine3& target_from_source)
+{
+  auto matrix = vtkSmartPointer<vtkMatrix4x4>::New();
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      matrix->SetElement(row, column, target_from_source.linear(row, column));
+    }
+    matrix->SetElement(row, 3, target_from_source.translation[row]);
+  }
+  return matrix;
+}
+
+void fill(vtkProperty* property, const Material& material)
+{
+  const Eigen::Vector3d diffuse = material.diffuse.cwiseMin(1.0);
+  const Eigen::Vector3d specular = material.specular.cwiseMin(1.0);
+  property->SetAmbient(0.25);
+  property->SetAmbientColor(diffuse.x(), diffuse.y(), diffuse.z());
+  property->SetDiffuse(0.85);
+  property->SetDiffuseColor(diffuse.x(), diffuse.y(), diffuse.z());
+  property->SetSpecular(0.5);
+  property->SetSpecularColor(specular.x(), specular.y(), specular.z());
+  property->SetSpecularPower(std::max(material.shininess, 1.0));
+  property->SetOpacity(material.opacity);
+}
+
+double extentOf(const WorldBox& box) { return std::max(box.diagonal(), smallestExtent); }
+} // namespace
+
+/// Line segments of one colour.
+struct ViewActors::Lines
+{
+  Lines(vtkRenderer* renderer, const Eigen::Vector3d& color, double width)
+  {
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(this->Data);
+    this->Actor->SetMapper(mapper);
+    this->Actor->GetProperty()->SetLighting(false);
+    this->Actor->GetProperty()->SetColor(color.x(), color.y(), color.z());
+    this->Actor->GetProperty()->SetLineWidth(static_cast<float>(width));
+    renderer->AddActor(this->Actor);
+    this->set({});
+  }
+
+  void set(const LineList& lines)
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> cells;
+    for (const auto& [from, to] : lines)
+    {
+      const vtkIdType ends[2] = { points->InsertNextPoint(from.data()), points->InsertNextPoint(to.data()) };
+      cells->InsertNextCell(2, ends);
+    }
+    this->Data->SetPoints(points);
+    this->Data->SetLines(cells);
+    this->Data->Modified();
+    this->Filled = !lines.empty();
+    this->Actor->SetVisibility(this->Filled);
+  }
+
+  void show(bool on) { this->Actor->SetVisibility(on && this->Filled); }
+
+  vtkNew<vtkPolyData> Data;
+  vtkNew<vtkActor> Actor;
+  bool Filled = false;
+};
+
+ViewActors::ViewActors(vtkRenderer* renderer, ViewKind kind)
+  : Renderer(renderer)
+  , Kind(kind)
+{
+  this->GridLines = std::make_unique<Lines>(renderer, gridColor, 1);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const Eigen::Vector3d color = 0.25 * Eigen::Vector3d::Ones() + 0.65 * Eigen::Vector3d::Unit(axis);
+    this->Axes[axis] = std::make_unique<Lines>(renderer, color, 2);
+  }
+  this->BoxLines = std::make_unique<Lines>(renderer, boxColor, 1);
+  this->CameraLines = std::make_unique<Lines>(renderer, cameraColor, 1.5);
+  this->ChosenLines = std::make_unique<Lines>(renderer, chosenColor, 2);
+}
+
+ViewActors::~ViewActors() = default;
+
+void ViewActors::remove(Shown& shown)
+{
+  for (const auto& actor : shown.actors)
+  {
+    this->Renderer->RemoveActor(actor);
+  }
+  shown.actors.clear();
+}
+
+ViewActors::Surface& ViewActors::surface(const Instance& instance, std::size_t part, ViewMeshes& meshes)
+{
+  const Material& material = (*instance.materials)[std::size_t(instance.model->parts[part].material)];
+  vtkPolyData* const data = meshes.part(instance, part);
+  Surface& surface = this->Surfaces[{ data, &material }];
+  if (surface.mapper == nullptr)
+  {
+    surface.data = data;
+    surface.materials = instance.materials;
+    surface.mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
+    surface.mapper->SetInputData(data);
+    surface.property = vtkSmartPointer<vtkProperty>::New();
+    fill(surface.property, material);
+    const auto texture = std::size_t(material.texture);
+    vtkImageData* const picture =
+      material.texture < 0 ? nullptr : meshes.picture(instance.model->textures[texture].image, material.cutOut);
+    if (picture != nullptr && data->GetPointData()->GetTCoords() != nullptr)
+    {
+      surface.texture = vtkSmartPointer<vtkTexture>::New();
+      surface.texture->SetInputData(picture);
+      surface.texture->InterpolateOn();
+      surface.texture->MipmapOn();
+      surface.texture->RepeatOn();
+    }
+  }
+  return surface;
+}
+
+void ViewActors::applyStyle(const Surface& surface, vtkActor* actor) const
+{
+  actor->SetTexture(this->Style == ViewStyle::Textured ? surface.texture.Get() : nullptr);
+  if (this->Style == ViewStyle::Wireframe)
+  {
+    surface.property->SetRepresentationToWireframe();
+  }
+  else
+  {
+    surface.property->SetRepresentationToSurface();
+  }
+}
+
+void ViewActors::build(Shown& shown, const ObjectPlace& place, ViewMeshes& meshes)
+{
+  this->remove(shown);
+  shown.geometry = place.instance.geometry;
+  shown.materials = place.instance.materials;
+  for (std::size_t part = 0; place.instance.model != nullptr && part < place.instance.model->parts.size(); ++part)
+  {
+    if (place.instance.model->parts[part].triangles == 0)
+    {
+      continue;
+    }
+    Surface& surface = this->surface(place.instance, part, meshes);
+    auto actor = vtkSmartPointer<vtkActor>::New();
+    actor->SetMapper(surface.mapper);
+    actor->SetProperty(surface.property);
+    this->applyStyle(surface, actor);
+    this->Renderer->AddActor(actor);
+    shown.actors.push_back(actor);
+  }
+}
+
+void ViewActors::showObjects(const ScenePlaces& places, ViewMeshes& meshes)
+{
+  for (std::size_t i = places.objects.size(); i < this->Objects.size(); ++i)
+  {
+    this->remove(this->Objects[i]);
+  }
+  this->Objects.resize(places.objects.size());
+  for (std::size_t i = 0; i < places.objects.size(); ++i)
+  {
+    const ObjectPlace& place = places.objects[i];
+    Shown& shown = this->Objects[i];
+    if (shown.geometry != place.instance.geometry || shown.materials != place.instance.materials)
+    {
+      this->build(shown, place, meshes);
+    }
+    const vtkSmartPointer<vtkMatrix4x4> matrix = matrixOf(place.instance.world_from_object);
+    for (const auto& actor : shown.actors)
+    {
+      actor->SetUserMatrix(matrix);
+      actor->SetVisibility(place.visible && !this->Coarse);
+    }
+    shown.visible = place.visible;
+  }
+  this->forgetSurfaces();
+}
+
+void ViewActors::forgetSurfaces()
+{
+  for (auto at = this->Surfaces.begin(); at != this->Surfaces.end();)
+  {
+    const bool used = at->second.mapper->GetReferenceCount() > 1;
+    at = used ? std::next(at) : this->Surfaces.erase(at);
+  }
+}
+
+void ViewActors::showLights(const SceneDescription& scene, const ScenePlaces& places)
+{
+  while (this->Lights.size() > places.lights.size())
+  {
+    this->Renderer->RemoveActor(this->Lights.back());
+    this->Lights.pop_back();
+  }
+  while (this->Lights.size() < places.lights.size())
+  {
+    vtkNew<vtkSphereSource> sphere;
+    sphere->SetRadius(1);
+    sphere->SetThetaResolution(16);
+    sphere->SetPhiResolution(12);
+    sphere->Update();
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(sphere->GetOutput());
+    auto actor = vtkSmartPointer<vtkActor>::New();
+    actor->SetMapper(mapper);
+    actor->GetProperty()->SetAmbient(0.6);
+    actor->GetProperty()->SetDiffuse(0.4);
+    this->Renderer->AddActor(actor);
+    this->Lights.push_back(actor);
+  }
+  for (std::size_t i = 0; i < places.lights.size(); ++i)
+  {
+    const LightDescription& light = scene.lights[i];
+    Eigen::Vector3d color = light.diffuse / std::max(light.diffuse.maxCoeff(), 1e-9);
+    color = light.enabled ? color : Eigen::Vector3d(0.35, 0.35, 0.35);
+    this->Lights[i]->GetProperty()->SetColor(color.x(), color.y(), color.z());
+    this->Lights[i]->SetScale(lightShare * extentOf(places.box));
+    Eigen::Vector3d position = places.lights[i];
+    this->Lights[i]->SetPosition(position.data());
+    this->Lights[i]->SetVisibility(light.kind != LightKind::Head);
+  }
+}
+
+void ViewActors::showGridFor(const WorldBox& box, UpAxis upAxis)
+{
+  // A grid grows by doubling, so that it does not change with every drag.
+  const double wanted = 2 * std::max({ extentOf(box) / 2, box.min.norm(), box.max.norm(), 5.0 });
+  if (this->GridExtent >= wanted && this->GridExtent < 4 * wanted)
+  {
+    return;
+  }
+  this->GridExtent = 1.5 * wanted;
+  const ViewCamera camera(this->Kind, upAxis);
+  const Eigen::Vector3d forward = (camera.focus() - camera.eye()).normalized();
+  const Eigen::Vector3d worldUp = upAxis == UpAxis::Z ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d u = this->Kind == ViewKind::Perspective ? Eigen::Vector3d::UnitX() : forward.cross(camera.up());
+  const Eigen::Vector3d v = this->Kind == ViewKind::Perspective ? worldUp.cross(u) : camera.up();
+  // Parallel views have theirs behind everything.
+  const Eigen::Vector3d origin =
+    this->Kind == ViewKind::Perspective ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(this->GridExtent * forward);
+  LineList lines;
+  addGrid(lines, origin, u, v, this->GridExtent);
+  this->GridLines->set(lines);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->Axes[axis]->set({ { origin, origin + 2 * gridStep(this->GridExtent) * Eigen::Vector3d::Unit(axis) } });
+  }
+  this->showGrid(this->Grid);
+}
+
+void ViewActors::showGrid(bool on)
+{
+  this->Grid = on;
+  this->GridLines->show(on);
+  for (const auto& axis : this->Axes)
+  {
+    axis->show(on);
+  }
+}
+
+void ViewActors::showCoarse(const ScenePlaces& places)
+{
+  this->Coarse = true;
+  for (const Shown& shown : this->Objects)
+  {
+    for (const auto& actor : shown.actors)
+    {
+      actor->VisibilityOff();
+    }
+  }
+  LineList boxes;
+  for (const ObjectPlace& place : places.objects)
+  {
+    if (place.visible && !place.box.empty())
+    {
+      addBox(boxes, place.box);
+    }
+  }
+  this->BoxLines->set(boxes);
+}
+
+void ViewActors::showFine()
+{
+  if (!this->Coarse)
+  {
+    return;
+  }
+  this->Coarse = false;
+  this->BoxLines->set({});
+  for (const Shown& shown : this->Objects)
+  {
+    for (const auto& actor : shown.actors)
+    {
+      actor->SetVisibility(shown.visible);
+    }
+  }
+}
+
+void ViewActors::setStyle(ViewStyle style)
+{
+  this->Style = style;
+  for (Shown& shown : this->Objects)
+  {
+    shown.geometry = nullptr; // built anew by the next show()
+  }
+}
+
+void ViewActors::show(
+  const SceneDescription& scene, const ScenePlaces& places, const SceneItems& selected, ViewMeshes& meshes)
+{
+  this->showObjects(places, meshes);
+  this->showLights(scene, places);
+  this->showGridFor(places.box, scene.upAxis);
+  const double extent = extentOf(places.box);
+  LineList cameras;
+  LineList chosen;
+  for (std::size_t i = 0; i < places.cameras.size(); ++i)
+  {
+    const SceneItem item{ SceneItem::Kind::Camera, i };
+    const bool isChosen = std::find(selected.begin(), selected.end(), item) != selected.end();
+    addFrustum(isChosen ? chosen : cameras, places.cameras[i], frustumShare * extent);
+  }
+  for (const SceneItem& item : selected)
+  {
+    WorldBox box = places.boxOf(item);
+    if (item.kind == SceneItem::Kind::Light && !box.empty())
+    {
+      box.min.array() -= 1.4 * lightShare * extent;
+      box.max.array() += 1.4 * lightShare * extent;
+    }
+    if (item.kind != SceneItem::Kind::Camera && !box.empty())
+    {
+      addBox(chosen, box);
+    }
+  }
+  this->CameraLines->set(cameras);
+  this->ChosenLines->set(chosen);
+}
+
+} // namespace dgtk

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkViewActors_h
+#define dgtkViewActors_h
+
+// Private to Widgets.
+
+#include "dgtkScenePlaces.h"
+#include "dgtkViewCamera.h"
+#include "dgtkViewMeshes.h"
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+class vtkActor;
+class vtkPolyData;
+class vtkPolyDataMapper;
+class vtkProperty;
+class vtkRenderer;
+class vtkTexture;
+
+namespace dgtk
+{
+
+enum class ViewStyle
+{
+  Wireframe,
+  Shaded,
+  Textured
+};
+
+/// The actors of one view: objects, cameras as frusta, lights as spheres, grid, axes and boxes of what is selected.
+class ViewActors
+{
+public:
+  ViewActors(vtkRenderer* renderer, ViewKind kind);
+  ~ViewActors();
+  ViewActors(const ViewActors&) = delete;
+  ViewActors& operator=(const ViewActors&) = delete;
+
+  void show(const SceneDescription& scene, const ScenePlaces& places, const SceneItems& selected, ViewMeshes& meshes);
+  void setStyle(ViewStyle style);
+  void showGrid(bool on);
+  /// Boxes in place of objects, as far as these places go; and objects again.
+  void showCoarse(const ScenePlaces& places);
+  void showFine();
+
+private:
+  struct Surface ///< what actors of the same part with the same material share
+  {
+    vtkSmartPointer<vtkPolyData> data;
+    std::shared_ptr<const std::vector<Material>> materials;
+    vtkSmartPointer<vtkPolyDataMapper> mapper;
+    vtkSmartPointer<vtkProperty> property;
+    vtkSmartPointer<vtkTexture> texture;
+  };
+  struct Shown
+  {
+    std::shared_ptr<const Geometry> geometry;
+    std::shared_ptr<const std::vector<Material>> materials;
+    bool visible = true;
+    std::vector<vtkSmartPointer<vtkActor>> actors;
+  };
+  struct Lines;
+
+  Surface& surface(const Instance& instance, std::size_t part, ViewMeshes& meshes);
+  void build(Shown& shown, const ObjectPlace& place, ViewMeshes& meshes);
+  void remove(Shown& shown);
+  void applyStyle(const Surface& surface, vtkActor* actor) const;
+  void showObjects(const ScenePlaces& places, ViewMeshes& meshes);
+  void showLights(const SceneDescription& scene, const ScenePlaces& places);
+  void showGridFor(const WorldBox& box, UpAxis upAxis);
+  void forgetSurfaces();
+
+  vtkRenderer* Renderer;
+  ViewKind Kind;
+  ViewStyle Style = ViewStyle::Textured;
+  bool Grid = true;
+  bool Coarse = false;
+  double GridExtent = 0;
+  std::map<std::pair<vtkPolyData*, const Material*>, Surface> Surfaces;
+  std::vector<Shown> Objects;
+  std::vector<vtkSmartPointer<vtkActor>> Lights;
+  std::unique_ptr<Lines> CameraLines;
+  std::unique_ptr<Lines> ChosenLines;
+  std::unique_ptr<Lines> BoxLines;
+  std::unique_ptr<Lines> GridLines;
+  std::unique_ptr<Lines> Axes[3];
+};
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkViewCamera.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr double pi = 3.14159265358979323846;
+constexpr double viewAngle = 30;           // degrees
+constexpr double margin = 1.08;            // of a framed box
+constexpr double steepest = 89 * pi / 180; // of the perspective's eye above the ground
+constexpr double emptyExtent = 10;         // world units shown of an empty scene
+constexpr double nearestFocus = 1e-6;
+
+double tanHalfAngle() { return std::tan(viewAngle / 2 * pi / 180); }
+} // namespace
+
+ViewCamera::ViewCamera(ViewKind kind, UpAxis upAxis)
+  : Kind(kind)
+{
+  const bool zUp = upAxis == UpAxis::Z;
+  const Eigen::Vector3d up = zUp ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d towardsFront = zUp ? Eigen::Vector3d(-Eigen::Vector3d::UnitY()) : Eigen::Vector3d::UnitZ();
+  this->Up = up;
+  switch (kind)
+  {
+    case ViewKind::Front:
+      this->Eye = 10 * towardsFront;
+      break;
+    case ViewKind::Top:
+      this->Eye = 10 * up;
+      this->Up = -towardsFront;
+      break;
+    case ViewKind::Side:
+      this->Eye = 10 * Eigen::Vector3d::UnitX();
+      break;
+    case ViewKind::Perspective:
+      this->Eye = 10 * (towardsFront + 0.6 * up + 0.5 * Eigen::Vector3d::UnitX()).normalized();
+      break;
+  }
+}
+
+double ViewCamera::angle() { return viewAngle; }
+
+double ViewCamera::height() const { return 2 * (this->Focus - this->Eye).norm() * tanHalfAngle(); }
+
+Eigen::Vector3d ViewCamera::forward() const { return (this->Focus - this->Eye).normalized(); }
+Eigen::Vector3d ViewCamera::right() const { return this->forward().cross(this->Up).normalized(); }
+Eigen::Vector3d ViewCamera::upward() const { return this->right().cross(this->forward()); }
+
+void ViewCamera::frame(const WorldBox& box, double aspect)
+{
+  const Eigen::Vector3d direction = this->forward();
+  const Eigen::Vector3d across = this->right();
+  const Eigen::Vector3d upwards = this->upward();
+  this->Focus = box.empty() ? Eigen::Vector3d(0, 0, 0) : box.center();
+  double extent = box.empty() ? emptyExtent : std::max(box.diagonal(), 1e-3);
+  if (this->parallel() && !box.empty())
+  {
+    const Eigen::Vector3d size = box.max - box.min;
+    extent = std::max({ std::abs(size.dot(upwards)), std::abs(size.dot(across)) / aspect, 1e-3 });
+  }
+  else
+  {
+    extent /= std::min(1.0, aspect) * std::cos(viewAngle / 2 * pi / 180); // the sphere touches the frustum
+  }
+  this->Eye = this->Focus - direction * (margin * extent / (2 * tanHalfAngle()));
+}
+
+void ViewCamera::look(const Eigen::Vector3d& eye, const Eigen::Vector3d& focus)
+{
+  const Eigen::Vector3d way = focus - eye;
+  if (!this->parallel() && way.norm() > nearestFocus && way.normalized().cross(this->Up).norm() > 1e-6)
+  {
+    this->Eye = eye;
+    this->Focus = focus;
+  }
+}
+
+void ViewCamera::orbit(double right, double down)
+{
+  if (this->parallel())
+  {
+    return;
+  }
+  const Eigen::Vector3d axis = this->right();
+  Eigen::Vector3d arm = this->Eye - this->Focus;
+  const double elevation = std::asin(std::clamp(arm.normalized().dot(this->Up), -1.0, 1.0));
+  const double tilt = std::clamp(elevation + down * pi / 180, -steepest, steepest) - elevation;
+  arm = Eigen::AngleAxisd(-tilt, axis) * arm;
+  arm = Eigen::AngleAxisd(-right * pi / 180, this->Up) * arm;
+  this->Eye = this->Focus + arm;
+}
+
+void ViewCamera::pan(double dx, double dy, double viewHeight)
+{
+  const double unit = this->height() / viewHeight;
+  const Eigen::Vector3d step = unit * (dy * this->upward() - dx * this->right());
+  this->Eye += step;
+  this->Focus += step;
+}
+
+void ViewCamera::zoom(double factor)
+{
+  const Eigen::Vector3d arm = (this->Eye - this->Focus) / factor;
+  if (arm.norm() > nearestFocus)
+  {
+    this->Eye = this->Focus + arm;
+  }
+}
+
+WorldRay ViewCamera::ray(double x, double y, double width, double height) const
+{
+  const double unit = this->height() / height;
+  const Eigen::Vector3d inPlane =
+    this->Focus + unit * ((x - width / 2) * this->right() + (height / 2 - y) * this->upward());
+  if (this->parallel())
+  {
+    // From far behind the eye: nothing is too near for a parallel view.
+    return { inPlane, this->forward(), -1e15 };
+  }
+  return { this->Eye, (inPlane - this->Eye) / (this->Focus - this->Eye).norm(), 0 };
+}
+
+PickReach ViewCamera::reach(double pixels, double height) const
+{
+  if (this->parallel())
+  {
+    return { pixels * this->height() / height, 0 };
+  }
+  return { 0, pixels * 2 * tanHalfAngle() / height };
+}
+
+Eigen::Vector3d ViewCamera::motion(const Eigen::Vector3d& point, double dx, double dy, double height) const
+{
+  const double depth = this->parallel() ? (this->Focus - this->Eye).norm() : (point - this->Eye).dot(this->forward());
+  const double unit = 2 * depth * tanHalfAngle() / height;
+  return unit * (dx * this->right() - dy * this->upward());
+}
+
+} // namespace dgtk

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkViewCamera_h
+#define dgtkViewCamera_h
+
+#include "dgtkWidgetsModule.h"
+
+#include "dgtkScenePlaces.h"
+
+#include <Eigen/Core>
+
+namespace dgtk
+{
+
+enum class ViewKind
+{
+  Front, ///< along -z, up +y; in a world with z up: along +y, up +z
+  Top,   ///< down, the front's horizontal axis to the right
+  Side,  ///< from the right of the front view
+  Perspective
+};
+
+/// The eye of one view of the editor. Widget pixels: x right, y down, (0, 0) the top left corner.
+class DGTKWIDGETS_EXPORT ViewCamera
+{
+public:
+  explicit ViewCamera(ViewKind kind, UpAxis upAxis = UpAxis::Y);
+
+  ViewKind kind() const { return this->Kind; }
+  bool parallel() const { return this->Kind != ViewKind::Perspective; }
+  const Eigen::Vector3d& eye() const { return this->Eye; }
+  const Eigen::Vector3d& focus() const { return this->Focus; }
+  const Eigen::Vector3d& up() const { return this->Up; }
+  double height() const; ///< of the view in the plane through the focus, world units
+  static double angle(); ///< vertical field of view of the perspective, degrees
+
+  /// Shows the whole box, in a view of width x height pixels; an empty one stands for the surroundings of the origin.
+  void frame(const WorldBox& box, double aspect);
+  /// From a place to another; the horizon stays level. Nothing where both are the same, or one is above the other.
+  void look(const Eigen::Vector3d& eye, const Eigen::Vector3d& focus);
+  /// About the focus and the world's up axis, degrees; nothing in parallel views.
+  void orbit(double right, double down);
+  /// The scene follows the mouse: pixels, in a view of that height.
+  void pan(double dx, double dy, double viewHeight);
+  /// Above 1: things become larger.
+  void zoom(double factor);
+
+  /// Through a point of the widget.
+  WorldRay ray(double x, double y, double width, double height) const;
+  /// World units that `pixels` are, along ray().
+  PickReach reach(double pixels, double height) const;
+  /// The motion of a point in a plane parallel to the view when the mouse moves by dx, dy pixels.
+  Eigen::Vector3d motion(const Eigen::Vector3d& point, double dx, double dy, double height) const;
+
+private:
+  Eigen::Vector3d forward() const;
+  Eigen::Vector3d right() const;
+  Eigen::Vector3d upward() const; ///< in the image
+
+  ViewKind Kind;
+  Eigen::Vector3d Eye{ 0, 0, 10 };
+  Eigen::Vector3d Focus{ 0, 0, 0 };
+  Eigen::Vector3d Up{ 0, 1, 0 };
+};
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkViewLines.h"
+
+#include <array>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr double cellsAcross = 20;
+} // namespace
+
+void addBox(LineList& lines, const WorldBox& box)
+{
+  const auto corner = [&](int i)
+  {
+    return Eigen::Vector3d(
+      (i & 1 ? box.max : box.min).x(), (i & 2 ? box.max : box.min).y(), (i & 4 ? box.max : box.min).z());
+  };
+  for (int i = 0; i < 8; ++i)
+  {
+    for (const int bit : { 1, 2, 4 })
+    {
+      if ((i & bit) == 0)
+      {
+        lines.emplace_back(corner(i), corner(i | bit));
+      }
+    }
+  }
+}
+
+void addFrustum(LineList& lines, const CameraPlace& camera, double length)
+{
+  if (!camera.valid)
+  {
+    return;
+  }
+  const Rigid3 world_from_camera = camera.view.camera_from_world.inverse();
+  const double width = camera.view.model->width();
+  const double height = camera.view.model->height();
+  const std::array<Eigen::Vector2d, 5> pixels{ Eigen::Vector2d(0, 0), Eigen::Vector2d(width, 0),
+    Eigen::Vector2d(width, height), Eigen::Vector2d(0, height), Eigen::Vector2d(width / 2, -height / 4) };
+  std::array<Eigen::Vector3d, 5> near;
+  std::array<Eigen::Vector3d, 5> far;
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+  {
+    const CameraRay ray = camera.view.model->rayThrough(pixels[i]);
+    near[i] = world_from_camera * ray.origin;
+    far[i] = world_from_camera * (ray.origin + length * ray.direction);
+  }
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    lines.emplace_back(near[i], far[i]);
+    lines.emplace_back(far[i], far[(i + 1) % 4]);
+    if (near[i] != near[(i + 1) % 4])
+    {
+      lines.emplace_back(near[i], near[(i + 1) % 4]);
+    }
+  }
+  lines.emplace_back(far[0], far[4]);
+  lines.emplace_back(far[1], far[4]);
+}
+
+double gridStep(double extent)
+{
+  const double wanted = extent / cellsAcross;
+  const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+  const double digit = wanted / power;
+  return power * (digit > 5 ? 10 : digit > 2 ? 5 : digit > 1 ? 2 : 1);
+}
+
+void addGrid(
+  LineList& lines, const Eigen::Vector3d& origin, const Eigen::Vector3d& u, const Eigen::Vector3d& v, double extent)
+{
+  const double step = gridStep(extent);
+  const int cells = static_cast<int>(std::ceil(extent / step / 2));
+  const double end = cells * step;
+  for (int i = -cells; i <= cells; ++i)
+  {
+    lines.emplace_back(origin + i * step * u - end * v, origin + i * step * u + end * v);
+    lines.emplace_back(origin + i * step * v - end * u, origin + i * step * v + end * u);
+  }
+}
+
+} // namespace dgtk

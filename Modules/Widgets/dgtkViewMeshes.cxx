@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkViewMeshes.h"
+
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+#include <cstdint>
+#include <cstring>
+#include <iterator>
+#include <vector>
+
+namespace dgtk
+{
+
+struct ViewMeshes::Mesh
+{
+  std::shared_ptr<const Geometry> geometry;
+  std::shared_ptr<const Model> model;
+  vtkSmartPointer<vtkPoints> points;
+  vtkSmartPointer<vtkFloatArray> normals;
+  vtkSmartPointer<vtkFloatArray> uvs;
+  std::vector<vtkSmartPointer<vtkPolyData>> parts;
+};
+
+struct ViewMeshes::Picture
+{
+  std::shared_ptr<const Image> image;
+  vtkSmartPointer<vtkImageData> data;
+};
+
+namespace
+{
+vtkSmartPointer<vtkPoints> pointsOf(const Geometry& geometry)
+{
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToFloat();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(geometry.positions.size()));
+  for (std::size_t i = 0; i < geometry.positions.size(); ++i)
+  {
+    points->SetPoint(static_cast<vtkIdType>(i), geometry.positions[i].data());
+  }
+  return points;
+}
+
+vtkSmartPointer<vtkFloatArray> normalsOf(const Geometry& geometry)
+{
+  auto normals = vtkSmartPointer<vtkFloatArray>::New();
+  normals->SetName("normals");
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(static_cast<vtkIdType>(geometry.normals.size()));
+  for (std::size_t i = 0; i < geometry.normals.size(); ++i)
+  {
+    normals->SetTypedTuple(static_cast<vtkIdType>(i), geometry.normals[i].data());
+  }
+  return normals;
+}
+
+vtkSmartPointer<vtkFloatArray> uvsOf(const Model& model)
+{
+  auto uvs = vtkSmartPointer<vtkFloatArray>::New();
+  uvs->SetName("uv");
+  uvs->SetNumberOfComponents(2);
+  uvs->SetNumberOfTuples(static_cast<vtkIdType>(model.uvs.size()));
+  for (std::size_t i = 0; i < model.uvs.size(); ++i)
+  {
+    const float uv[2] = { static_cast<float>(model.uvs[i].x()), static_cast<float>(model.uvs[i].y()) };
+    uvs->SetTypedTuple(static_cast<vtkIdType>(i), uv);
+  }
+  return uvs;
+}
+
+vtkSmartPointer<vtkCellArray> trianglesOf(const Model& model, const Part& part)
+{
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->AllocateExact(part.triangles, 3 * static_cast<vtkIdType>(part.triangles));
+  for (std::uint32_t t = part.firstTriangle; t < part.firstTriangle + part.triangles; ++t)
+  {
+    const vtkIdType corners[3] = { model.triangles[t][0], model.triangles[t][1], model.triangles[t][2] };
+    cells->InsertNextCell(3, corners);
+  }
+  return cells;
+}
+
+vtkSmartPointer<vtkImageData> dataOf(const Image& image, bool cutOut)
+{
+  auto data = vtkSmartPointer<vtkImageData>::New();
+  const int channels = cutOut ? 4 : 3;
+  data->SetDimensions(image.width, image.height, 1);
+  data->AllocateScalars(VTK_UNSIGNED_CHAR, channels);
+  auto* to = static_cast<std::uint8_t*>(data->GetScalarPointer());
+  for (int row = image.height - 1; row >= 0; --row)
+  {
+    const std::uint8_t* from = image.rgba.data() + 4 * std::size_t(row) * std::size_t(image.width);
+    for (int column = 0; column < image.width; ++column, from += 4, to += channels)
+    {
+      std::memcpy(to, from, 3);
+      if (cutOut)
+      {
+        to[3] = from[3] < 128 ? 0 : 255;
+      }
+    }
+  }
+  return data;
+}
+} // namespace
+
+ViewMeshes::ViewMeshes() = default;
+ViewMeshes::~ViewMeshes() = default;
+
+std::size_t ViewMeshes::size() const { return this->Meshes.size(); }
+
+vtkPolyData* ViewMeshes::part(const Instance& instance, std::size_t part)
+{
+  std::unique_ptr<Mesh>& mesh = this->Meshes[instance.geometry.get()];
+  if (mesh == nullptr)
+  {
+    mesh = std::make_unique<Mesh>();
+    mesh->geometry = instance.geometry;
+    mesh->model = instance.model;
+    mesh->points = pointsOf(*instance.geometry);
+    mesh->normals = normalsOf(*instance.geometry);
+    if (!instance.model->uvs.empty())
+    {
+      mesh->uvs = uvsOf(*instance.model);
+    }
+    mesh->parts.resize(instance.model->parts.size());
+  }
+  vtkSmartPointer<vtkPolyData>& data = mesh->parts[part];
+  if (data == nullptr)
+  {
+    data = vtkSmartPointer<vtkPolyData>::New();
+    data->SetPoints(mesh->points);
+    data->GetPointData()->SetNormals(mesh->normals);
+    if (mesh->uvs != nullptr)
+    {
+      data->GetPointData()->SetTCoords(mesh->uvs);
+    }
+    data->SetPolys(trianglesOf(*instance.model, instance.model->parts[part]));
+  }
+  return data;
+}
+
+vtkImageData* ViewMeshes::picture(const std::shared_ptr<const Image>& image, bool cutOut)
+{
+  if (image == nullptr || image->rgba.empty())
+  {
+    return nullptr;
+  }
+  std::unique_ptr<Picture>& picture = this->Pictures[{ image.get(), cutOut }];
+  if (picture == nullptr)
+  {
+    picture = std::make_unique<Picture>();
+    picture->image = image;
+    picture->data = dataOf(*image, cutOut);
+  }
+  return picture->data;
+}
+
+void ViewMeshes::forgetUnused()
+{
+  for (auto at = this->Meshes.begin(); at != this->Meshes.end();)
+  {
+    const Mesh& mesh = *at->second;
+    const bool used = mesh.geometry == mesh.model->rest ? mesh.model.use_count() > 1 : mesh.geometry.use_count() > 1;
+    at = used ? std::next(at) : this->Meshes.erase(at);
+  }
+  for (auto at = this->Pictures.begin(); at != this->Pictures.end();)
+  {
+    at = at->second->image.use_count() > 1 ? std::next(at) : this->Pictures.erase(at);
+  }
+}
+
+} // namespace dgtk

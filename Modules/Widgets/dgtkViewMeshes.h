@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkViewMeshes_h
+#define dgtkViewMeshes_h
+
+// Private to Widgets.
+
+#include "dgtkSceneState.h"
+
+#include <vtkSmartPointer.h>
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <utility>
+
+class vtkImageData;
+class vtkPolyData;
+
+namespace dgtk
+{
+
+/// Geometry and pictures of models as VTK's data, each once for all views and all copies.
+class ViewMeshes
+{
+public:
+  ViewMeshes();
+  ~ViewMeshes();
+  ViewMeshes(const ViewMeshes&) = delete;
+  ViewMeshes& operator=(const ViewMeshes&) = delete;
+
+  /// The triangles of one part. The points are shared by the parts.
+  vtkPolyData* part(const Instance& instance, std::size_t part);
+  /// RGBA with alpha 0 or 255 for cut-outs, RGB for others; null without a picture.
+  vtkImageData* picture(const std::shared_ptr<const Image>& image, bool cutOut);
+  /// Forgets poses that nobody shows, and all of models and pictures that nobody else holds.
+  void forgetUnused();
+  std::size_t size() const;
+
+private:
+  struct Mesh;
+  struct Picture;
+  std::map<const Geometry*, std::unique_ptr<Mesh>> Meshes;
+  std::map<std::pair<const Image*, bool>, std::unique_ptr<Picture>> Pictures;
+};
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestEditor.h"
+#include "TestEditorSupport.h"
+
+#include "dgtkMainWindow.h"
+#include "dgtkSceneDocument.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QCheckBox>
+#include <QDialog>
+#include <QFile>
+#include <QLineEdit>
+#include <QMessageBox>
+#include <QOpenGLWidget>
+#include <QProcess>
+#include <QPushButton>
+#include <QSettings>
+#include <QSpinBox>
+#include <QStandardPaths>
+#include <QTest>
+#include <QToolButton>
+#include <QTreeWidget>
+
+#include <cmath>
+
+using dgtk::test::sourceFile;
+
+TestEditor::TestEditor() = default;
+TestEditor::~TestEditor() = default;
+
+void TestEditor::initTestCase()
+{
+  QStandardPaths::setTestModeEnabled(true);
+  QSettings::setPath(
+    QSettings::NativeFormat, QSettings::UserScope, QString::fromStdString(this->Folder.path("settings")));
+}
+
+void TestEditor::init()
+{
+  QSettings().clear();
+  this->Window = std::make_unique<dgtk::MainWindow>();
+  this->Window->show();
+  QVERIFY(QTest::qWaitForWindowExposed(this->Window.get()));
+  this->Window->activateWindow();
+  QVERIFY(QTest::qWaitForWindowActive(this->Window.get()));
+  QTest::qWait(settle);
+}
+
+void TestEditor::cleanup() { this->Window.reset(); }
+
+QAction* TestEditor::action(const char* name) const { return this->Window->findChild<QAction*>(name); }
+
+QLineEdit* TestEditor::field(const char* name) const
+{
+  auto* panel = this->Window->findChild<QWidget*>("propertiesPanel");
+  // A panel that has just been replaced waits to be deleted.
+  const QList<QLineEdit*> all = panel->findChildren<QLineEdit*>(name);
+  return all.isEmpty() ? nullptr : all.last();
+}
+
+void TestEditor::type(const char* name, const QString& text) const
+{
+  QLineEdit* const at = this->field(name);
+  QVERIFY2(at != nullptr, name);
+  at->setFocus();
+  at->selectAll();
+  QTest::keyClicks(at, text);
+  QTest::keyClick(at, Qt::Key_Return);
+}
+
+void TestEditor::select(const char* name) const
+{
+  auto* tree = this->Window->findChild<QTreeWidget*>("sceneTree");
+  const QList<QTreeWidgetItem*> rows = tree->findItems(name, Qt::MatchExactly | Qt::MatchRecursive);
+  QCOMPARE(rows.size(), 1);
+  tree->scrollToItem(rows[0]);
+  QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, tree->visualItemRect(rows[0]).center());
+  QCoreApplication::processEvents();
+}
+
+QString TestEditor::path(const char* name) const { return QString::fromStdString(this->Folder.path(name)); }
+
+QString TestEditor::copyOfDemo() const
+{
+  dgtk::SceneDocument document;
+  document.open(demo().toStdString());
+  document.saveAs(this->Folder.path("demo.json"));
+  return this->path("demo.json");
+}
+
+void TestEditor::opensSelectsMovesUndoesSavesAndRenders()
+{
+  QVERIFY(this->Window->openFile(demo()));
+  dgtk::SceneDocument& document = this->Window->document();
+  const std::string first = document.json();
+  this->select("tree");
+  QCOMPARE(this->field("name")->text(), QString("tree"));
+  QCOMPARE(this->field("position.0")->text(), QString("4.2"));
+  this->type("position.0", "3.25");
+  this->type("position.1", "0.5");
+  this->type("rotation.1", "90");
+  QCOMPARE(document.scene().objects[3].position.value, Eigen::Vector3d(3.25, 0.5, -3.4));
+  QVERIFY(std::abs(document.scene().objects[3].orientation.value.y - std::sqrt(0.5)) < 1e-15);
+  QVERIFY(this->Window->isWindowModified());
+  QTest::keyClick(this->Window.get(), Qt::Key_Z, Qt::ControlModifier);
+  QTest::keyClick(this->Window.get(), Qt::Key_Z, Qt::ControlModifier);
+  QCOMPARE(document.scene().objects[3].position.value, Eigen::Vector3d(3.25, 0, -3.4));
+  QCOMPARE(this->field("position.1")->text(), QString("0"));
+  this->action("undo")->trigger();
+  QCOMPARE(document.json(), first);
+  QVERIFY(!this->Window->isWindowModified());
+  this->action("redo")->trigger();
+
+  const QString scene = this->path("moved.json");
+  QVERIFY(this->Window->saveFile(scene));
+  QVERIFY(!this->Window->isWindowModified());
+
+  this->action("render")->trigger();
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  QVERIFY(dialog != nullptr);
+  for (QCheckBox* box : dialog->findChildren<QCheckBox*>())
+  {
+    if (box->objectName().startsWith("layer."))
+    {
+      box->setChecked(box->text() == "color" || box->text() == "depth");
+    }
+  }
+  dialog->findChild<QCheckBox*>("ownSize")->setChecked(false);
+  dialog->findChild<QSpinBox*>("width")->setValue(64);
+  dialog->findChild<QSpinBox*>("height")->setValue(48);
+  dialog->findChild<QLineEdit*>("folder")->setText(this->path("window"));
+  auto* start = dialog->findChild<QPushButton*>("start");
+  QTest::mouseClick(start, Qt::LeftButton);
+  QVERIFY(!start->isEnabled());
+  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+
+  const QString program = QString::fromLocal8Bit(qgetenv("DGTK"));
+  QCOMPARE(QProcess::execute(program,
+             { "render", scene, "-o", this->path("line"), "--layers", "color,depth", "--size", "64x48", "--quiet" }),
+    0);
+  const QMap<QString, QByteArray> window = contents(this->path("window"));
+  const QMap<QString, QByteArray> line = contents(this->path("line"));
+  QCOMPARE(window.keys(), line.keys());
+  QVERIFY(window.size() >= 12);
+  for (const QString& name : line.keys())
+  {
+    QVERIFY2(window[name] == line[name], qPrintable(name));
+  }
+}
+
+void TestEditor::clicksSelectAndDragsMove()
+{
+  QVERIFY(this->Window->importFile(QString::fromStdString(sourceFile("Data/Models/crate.ac"))));
+  QTest::qWait(settle);
+  dgtk::SceneDocument& document = this->Window->document();
+  auto* front = this->Window->findChild<QOpenGLWidget*>("view.0");
+  const QPoint middle = front->rect().center();
+  QTest::mouseClick(front, Qt::LeftButton, {}, QPoint(3, 3));
+  QVERIFY(this->field("name") == nullptr || !this->field("name")->isVisible());
+  QTest::mouseClick(front, Qt::LeftButton, {}, middle);
+  QCoreApplication::processEvents();
+  QCOMPARE(this->field("name")->text(), QString("crate-1"));
+  QTest::mousePress(front, Qt::LeftButton, {}, middle);
+  for (int step = 10; step <= 60; step += 10)
+  {
+    QTest::mouseMove(front, middle + QPoint(step, -step / 2));
+    QTest::qWait(20);
+  }
+  QTest::mouseRelease(front, Qt::LeftButton, {}, middle + QPoint(60, -30));
+  const Eigen::Vector3d position = document.scene().objects[0].position.value;
+  QVERIFY(position.x() > 0.1);
+  QVERIFY(std::abs(position.y() - position.x() / 2) < 1e-9);
+  QCOMPARE(position.z(), 0.0);
+  this->action("undo")->trigger();
+  QCOMPARE(document.scene().objects[0].position.value, Eigen::Vector3d(0, 0, 0));
+  QTest::mouseDClick(front, Qt::LeftButton, {}, middle);
+  QVERIFY(!this->Window->findChild<QOpenGLWidget*>("view.1")->isVisible());
+  QTest::mouseDClick(front, Qt::LeftButton, {}, middle);
+  QVERIFY(this->Window->findChild<QOpenGLWidget*>("view.1")->isVisible());
+}
+
+void TestEditor::keyFramesPlay()
+{
+  QVERIFY(this->Window->importFile(QString::fromStdString(sourceFile("Data/Models/crate.ac"))));
+  dgtk::SceneDocument& document = this->Window->document();
+  auto* make = this->Window->findChild<QPushButton*>("makeKeyFrame");
+  auto* frame = this->Window->findChild<QSpinBox*>("frame");
+  QTest::mouseClick(make, Qt::LeftButton);
+  frame->setValue(10);
+  this->type("position.0", "5");
+  QTest::mouseClick(make, Qt::LeftButton);
+  QCOMPARE(document.scene().keyFrames(), (std::vector<int>{ 0, 10 }));
+  frame->setValue(4);
+  QCOMPARE(this->field("position.0")->text(), QString("2"));
+  auto* play = this->Window->findChild<QToolButton*>("play");
+  this->Window->findChild<QToolButton*>("loop")->setChecked(false);
+  play->setChecked(true);
+  QTRY_COMPARE_WITH_TIMEOUT(frame->value(), 10, 5000);
+  QTRY_VERIFY(!play->isChecked());
+  QTest::mouseClick(this->Window->findChild<QPushButton*>("removeKeyFrame"), Qt::LeftButton);
+  QCOMPARE(document.scene().keyFrames(), (std::vector<int>{ 0 }));
+}
+
+void TestEditor::copiesCutsAndPastes()
+{
+  QVERIFY(this->Window->openFile(demo()));
+  dgtk::SceneDocument& document = this->Window->document();
+  const std::string first = document.json();
+  const std::size_t models = document.models().size();
+  this->select("vase");
+  this->action("copy")->trigger();
+  this->action("paste")->trigger();
+  QCOMPARE(document.scene().objects.back().name, std::string("vase-2"));
+  QCOMPARE(document.models().size(), models);
+  this->action("duplicate")->trigger();
+  QCOMPARE(document.scene().objects.back().name, std::string("vase-3"));
+  this->action("cut")->trigger();
+  QCOMPARE(document.scene().objects.size(), std::size_t(17));
+  this->action("paste")->trigger();
+  this->action("selectAll")->trigger();
+  this->action("delete")->trigger();
+  QVERIFY(document.scene().items().empty());
+  while (document.canUndo())
+  {
+    this->action("undo")->trigger();
+  }
+  QCOMPARE(document.json(), first);
+}
+
+void TestEditor::addsCamerasAndLights()
+{
+  dgtk::SceneDocument& document = this->Window->document();
+  answer<QDialog>("cameraDialog",
+    [](QDialog& dialog)
+    {
+      auto* eye = dialog.findChild<QLineEdit*>("eye.2");
+      eye->setFocus();
+      eye->selectAll();
+      QTest::keyClicks(eye, "-10");
+      QTest::mouseClick(dialog.findChild<QPushButton*>("add"), Qt::LeftButton);
+    });
+  this->action("camera")->trigger();
+  QCOMPARE(document.scene().cameras.size(), std::size_t(1));
+  QCOMPARE(document.scene().cameras[0].eye.value.z(), -10.0);
+  QCOMPARE(document.scene().cameras[0].fovY.value, 60.0);
+  answer<QDialog>("cameraArrayDialog",
+    [](QDialog& dialog)
+    {
+      dialog.findChild<QSpinBox*>("count")->setValue(5);
+      QTest::mouseClick(dialog.findChild<QPushButton*>("add"), Qt::LeftButton);
+    });
+  this->action("cameraArray")->trigger();
+  QCOMPARE(document.scene().cameras.size(), std::size_t(6));
+  this->action("undo")->trigger();
+  QCOMPARE(document.scene().cameras.size(), std::size_t(1));
+  answer<QDialog>(
+    "lightDialog", [](QDialog& dialog) { QTest::mouseClick(dialog.findChild<QPushButton*>("add"), Qt::LeftButton); });
+  this->action("light")->trigger();
+  QCOMPARE(document.scene().lights.size(), std::size_t(1));
+  this->type("diffuse.0", "0.25");
+  QCOMPARE(document.scene().lights[0].diffuse.x(), 0.25);
+}
+
+void TestEditor::refusesWithAMessage()
+{
+  QVERIFY(this->Window->openFile(demo()));
+  const std::string first = this->Window->document().json();
+  QString message;
+  const auto expect = [&]
+  {
+    message.clear();
+    answer<QMessageBox>("errorBox",
+      [&](QMessageBox& box)
+      {
+        message = box.text();
+        box.accept();
+      });
+  };
+  QFile broken(this->path("broken.ac"));
+  QVERIFY(broken.open(QIODevice::WriteOnly));
+  broken.write("no model at all\n");
+  broken.close();
+  expect();
+  QVERIFY(!this->Window->importFile(broken.fileName()));
+  QVERIFY2(message.contains("broken.ac"), qPrintable(message));
+  expect();
+  QVERIFY(!this->Window->openFile(this->path("missing.json")));
+  QVERIFY2(message.contains("missing.json"), qPrintable(message));
+  expect();
+  QVERIFY(!this->Window->saveFile(this->path("demo.scene")));
+  QVERIFY(!message.isEmpty());
+  this->select("tree");
+  expect();
+  this->type("scale.0", "0");
+  QVERIFY2(message.contains("tree"), qPrintable(message));
+  QCOMPARE(this->field("scale.0")->text(), QString("1"));
+  QCOMPARE(this->Window->document().json(), first);
+  QVERIFY(!this->Window->document().modified());
+}
+
+void TestEditor::asksAboutUnsavedWork()
+{
+  QVERIFY(this->Window->importFile(QString::fromStdString(sourceFile("Data/Models/crate.ac"))));
+  answer<QMessageBox>("unsavedBox", [](QMessageBox& box) { box.button(QMessageBox::Cancel)->click(); });
+  QVERIFY(!this->Window->close());
+  QVERIFY(this->Window->isVisible());
+  answer<QMessageBox>("unsavedBox", [](QMessageBox& box) { box.button(QMessageBox::Cancel)->click(); });
+  this->action("new")->trigger();
+  QCOMPARE(this->Window->document().scene().objects.size(), std::size_t(1));
+  answer<QMessageBox>("unsavedBox", [](QMessageBox& box) { box.button(QMessageBox::Discard)->click(); });
+  this->action("new")->trigger();
+  QVERIFY(this->Window->document().scene().objects.empty());
+  QVERIFY(this->Window->close());
+}
+
+int main(int argc, char** argv)
+{
+  dgtk::MainWindow::prepareApplication();
+  QApplication application(argc, argv);
+  dgtk::MainWindow::setupApplication();
+  TestEditor test;
+  return QTest::qExec(&test, argc, argv);
+}

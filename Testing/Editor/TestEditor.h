@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef TestEditor_h
+#define TestEditor_h
+
+#include "dgtkTestSupport.h"
+
+#include <QObject>
+
+#include <memory>
+
+class QAction;
+class QLineEdit;
+
+namespace dgtk
+{
+class MainWindow;
+}
+
+/// Each case has a window of its own, with settings of its own.
+class TestEditor : public QObject
+{
+  Q_OBJECT
+
+public:
+  TestEditor();
+  ~TestEditor() override;
+
+private slots:
+  void initTestCase();
+  void init();
+  void cleanup();
+
+  void opensSelectsMovesUndoesSavesAndRenders();
+  void clicksSelectAndDragsMove();
+  void keyFramesPlay();
+  void copiesCutsAndPastes();
+  void addsCamerasAndLights();
+  void refusesWithAMessage();
+  void asksAboutUnsavedWork();
+  void unsavedWorkSurvivesACrash();
+  void cancelledRunsResume();
+  void aForestOpensAtOnce();
+  void everyMenuItemWorks();
+  void randomEventsDoNoHarm();
+  void pictures();
+
+private:
+  QAction* action(const char* name) const;
+  QLineEdit* field(const char* name) const;
+  void type(const char* name, const QString& text) const;
+  void select(const char* name) const;
+  QString path(const char* name) const;
+  /// The demo scene in a file that a test may overwrite.
+  QString copyOfDemo() const;
+
+  dgtk::test::TemporaryFolder Folder;
+  std::unique_ptr<dgtk::MainWindow> Window;
+};
+
+#endif

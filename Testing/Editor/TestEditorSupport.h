@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef TestEditorSupport_h
+#define TestEditorSupport_h
+
+#include "dgtkTestSupport.h"
+
+#include <QApplication>
+#include <QDir>
+#include <QDirIterator>
+#include <QFile>
+#include <QMap>
+#include <QString>
+#include <QTimer>
+
+#include <functional>
+
+constexpr int longestRun = 60000; // milliseconds, of a small dataset on a busy machine
+constexpr int settle = 150;       // milliseconds for a window to lay itself out and draw
+
+inline QString demo() { return QString::fromStdString(dgtk::test::sourceFile("Data/Scenes/demo.json")); }
+
+/// When the next dialog of that name is shown, does something with it.
+template <typename Dialog>
+void answer(const QString& name, const std::function<void(Dialog&)>& act)
+{
+  auto* timer = new QTimer(qApp);
+  QObject::connect(timer, &QTimer::timeout, timer,
+    [timer, name, act]
+    {
+      auto* dialog = qobject_cast<Dialog*>(QApplication::activeModalWidget());
+      if (dialog != nullptr && (name.isEmpty() || dialog->objectName() == name))
+      {
+        timer->deleteLater();
+        timer->stop();
+        act(*dialog);
+      }
+    });
+  timer->start(20);
+}
+
+/// All files below a folder, by their path.
+inline QMap<QString, QByteArray> contents(const QString& folder)
+{
+  QMap<QString, QByteArray> files;
+  for (QDirIterator at(folder, QDir::Files, QDirIterator::Subdirectories); at.hasNext();)
+  {
+    QFile file(at.next());
+    if (file.open(QIODevice::ReadOnly))
+    {
+      files[QDir(folder).relativeFilePath(file.fileName())] = file.readAll();
+    }
+  }
+  return files;
+}
+
+#endif

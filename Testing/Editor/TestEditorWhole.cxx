@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestEditor.h"
+#include "TestEditorSupport.h"
+
+#include "dgtkMainWindow.h"
+#include "dgtkSceneDocument.h"
+
+#include <QAbstractScrollArea>
+#include <QAction>
+#include <QCheckBox>
+#include <QDialog>
+#include <QElapsedTimer>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMessageBox>
+#include <QMouseEvent>
+#include <QPushButton>
+#include <QStandardPaths>
+#include <QTabWidget>
+#include <QTest>
+#include <QTreeWidget>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <random>
+
+void TestEditor::cancelledRunsResume()
+{
+  QVERIFY(this->Window->openFile(demo()));
+  this->action("render")->trigger();
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  dialog->findChild<QLineEdit*>("folder")->setText(this->path("stopped"));
+  auto* start = dialog->findChild<QPushButton*>("start");
+  QTest::mouseClick(start, Qt::LeftButton);
+  QTRY_VERIFY_WITH_TIMEOUT(!contents(this->path("stopped")).isEmpty(), longestRun);
+  QTest::mouseClick(dialog->findChild<QPushButton*>("cancel"), Qt::LeftButton);
+  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+  QVERIFY(dialog->findChild<QCheckBox*>("resume")->isChecked());
+  QVERIFY(!QFile::exists(this->path("stopped/manifest.json")));
+  QTest::mouseClick(start, Qt::LeftButton);
+  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+  QVERIFY(QFile::exists(this->path("stopped/manifest.json")));
+}
+
+namespace
+{
+constexpr int forestSide = 32;
+constexpr int forestCameras = 100;
+constexpr int forestLimit = 5000; // milliseconds from the file to the drawn views
+constexpr int monkeySeconds = 15;
+constexpr int eventsBetween = 200; // checks that everything can be undone
+constexpr std::size_t mostItems = 200;
+
+/// Whatever opens is closed again; the unsaved question is answered with Discard.
+void closeWhatIsOpen()
+{
+  if (QWidget* const menu = QApplication::activePopupWidget())
+  {
+    menu->close();
+  }
+  else if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
+  {
+    QAbstractButton* const discard = box->button(QMessageBox::Discard);
+    (discard != nullptr ? discard : box->buttons().first())->click();
+  }
+  else if (auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget()))
+  {
+    dialog->reject();
+  }
+}
+
+/// More than a thousand copies of a tree, looked at from a ring of cameras.
+void writeForest(const std::string& path)
+{
+  dgtk::SceneDocument document;
+  const dgtk::SceneItem tree = document.addModel(dgtk::test::sourceFile("Data/Models/tree.ac"));
+  const dgtk::ObjectDescription one = document.scene().objects[tree.index];
+  document.edit("Forest",
+    [&](dgtk::SceneDescription& scene)
+    {
+      for (int i = 1; i < forestSide * forestSide; ++i)
+      {
+        scene.objects.push_back(one);
+        scene.objects.back().name = "tree" + std::to_string(i);
+        scene.objects.back().position = Eigen::Vector3d(5 * (i % forestSide), 0, 5 * (i / forestSide));
+      }
+      for (int i = 0; i < forestCameras; ++i)
+      {
+        const double angle = 0.0628 * i;
+        dgtk::CameraDescription camera;
+        camera.name = "camera" + std::to_string(i);
+        camera.eye = Eigen::Vector3d(80 + 150 * std::cos(angle), 20, 80 + 150 * std::sin(angle));
+        camera.lookAt = Eigen::Vector3d(80, 0, 80);
+        scene.cameras.push_back(camera);
+      }
+    });
+  document.saveAs(path);
+}
+
+/// A click, drag or turn of the wheel somewhere on a widget.
+void handle(QWidget* widget, std::mt19937& random)
+{
+  const auto below = [&](int end) { return int(random() % unsigned(std::max(end, 1))); };
+  const auto anywhere = [&] { return QPoint(below(widget->width()), below(widget->height())); };
+  const Qt::MouseButton buttons[] = { Qt::LeftButton, Qt::LeftButton, Qt::MiddleButton, Qt::RightButton };
+  const Qt::MouseButton button = buttons[below(4)];
+  const Qt::KeyboardModifiers modifiers = below(4) == 0 ? Qt::ControlModifier : Qt::NoModifier;
+  QTest::mousePress(widget, button, modifiers, anywhere());
+  for (int i = below(4); i > 0; --i)
+  {
+    const QPoint at = anywhere();
+    QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, button, modifiers);
+    QApplication::sendEvent(widget, &move);
+  }
+  QTest::mouseRelease(widget, button, modifiers, anywhere());
+}
+} // namespace
+
+void TestEditor::unsavedWorkSurvivesACrash()
+{
+  const QDir folder(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + "/unsaved");
+  QVERIFY(this->Window->importFile(QString::fromStdString(dgtk::test::sourceFile("Data/Models/crate.ac"))));
+  const QString own = folder.filePath(QString::number(QCoreApplication::applicationPid()) + ".json");
+  this->Window->findChild<QTimer*>("autosave")->start(1);
+  QTRY_VERIFY(QFile::exists(own));
+  const QString left = folder.filePath("999999999.json"); // no process has this number
+  QFile::remove(left);
+  QVERIFY(QFile::copy(own, left));
+  this->Window = std::make_unique<dgtk::MainWindow>();
+  QVERIFY2(!QFile::exists(own), "the regular end removes the copy");
+  this->Window->show();
+  answer<QMessageBox>("recoverBox", [](QMessageBox& box) { box.button(QMessageBox::Open)->click(); });
+  this->Window->offerRecovery();
+  QCOMPARE(this->Window->document().scene().objects.size(), std::size_t(1));
+  QVERIFY(this->Window->document().modified());
+  QVERIFY(this->Window->document().path().empty());
+  QVERIFY(!QFile::exists(left));
+}
+
+void TestEditor::aForestOpensAtOnce()
+{
+  const QString path = this->path("forest.json");
+  writeForest(path.toStdString());
+  QElapsedTimer clock;
+  clock.start();
+  QVERIFY(this->Window->openFile(path));
+  QCoreApplication::processEvents();
+  QCoreApplication::processEvents();
+  const qint64 opened = clock.restart();
+  this->select("tree40");
+  this->type("position.1", "1");
+  QCoreApplication::processEvents();
+  const qint64 edited = clock.elapsed();
+  qInfo("%d trees and %d cameras: %lld ms to open and draw, %lld ms to select, move and draw again",
+    forestSide * forestSide, forestCameras, static_cast<long long>(opened), static_cast<long long>(edited));
+  QVERIFY(opened < forestLimit);
+  QCOMPARE(this->Window->document().models().size(), std::size_t(1));
+}
+
+void TestEditor::everyMenuItemWorks()
+{
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  this->select("house");
+  QTimer closer;
+  connect(&closer, &QTimer::timeout, &closeWhatIsOpen);
+  closer.start(50);
+  int items = 0;
+  for (QMenu* menu : this->Window->findChildren<QMenu*>())
+  {
+    for (QAction* item : menu->actions())
+    {
+      if (!item->isSeparator() && item->menu() == nullptr && item->objectName() != "exit")
+      {
+        QVERIFY2(!item->text().isEmpty(), "a menu item without a text");
+        item->trigger();
+        QCoreApplication::processEvents();
+        ++items;
+      }
+    }
+  }
+  QVERIFY(items > 25);
+  QVERIFY(this->Window->isVisible());
+  this->action("exit")->trigger();
+  QVERIFY(!this->Window->isVisible());
+}
+
+void TestEditor::randomEventsDoNoHarm()
+{
+  const int asked = qEnvironmentVariableIntValue("DGTK_MONKEY_SECONDS");
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  QTimer closer;
+  connect(&closer, &QTimer::timeout, &closeWhatIsOpen);
+  closer.start(20);
+  const char* const actions[] = { "undo", "undo", "redo", "cut", "copy", "paste", "duplicate", "delete", "selectAll",
+    "frameAll", "frameSelected", "maximize", "wireframe", "shaded", "textured", "grid", "camera", "light", "render",
+    "mouse" };
+  const char* const fields[] = { "position.0", "position.2", "rotation.1", "scale.0", "name", "eye.1", "diffuse.0" };
+  dgtk::SceneDocument& document = this->Window->document();
+  const std::string first = document.json();
+  const auto undoAll = [&document]
+  {
+    while (document.canUndo())
+    {
+      document.undo();
+    }
+  };
+  std::mt19937 random(1);
+  int events = 0;
+  QElapsedTimer clock;
+  clock.start();
+  while (clock.elapsed() < 1000 * (asked > 0 ? asked : monkeySeconds))
+  {
+    const int kind = int(random() % 8);
+    if (kind < 2)
+    {
+      this->action(actions[random() % std::size(actions)])->trigger();
+    }
+    else if (kind < 5)
+    {
+      handle(this->Window->findChild<QWidget*>("view." + QString::number(random() % 4)), random);
+    }
+    else if (kind == 5)
+    {
+      QWidget* const widgets[] = { this->Window->findChild<QTreeWidget*>("sceneTree")->viewport(),
+        this->Window->findChild<QAbstractScrollArea*>("timeLineCells")->viewport() };
+      handle(widgets[random() % 2], random);
+    }
+    else if (kind == 6)
+    {
+      const char* const name = fields[random() % std::size(fields)];
+      if (this->field(name) != nullptr)
+      {
+        this->type(name, QString::number(int(random() % 9) - 4));
+      }
+    }
+    else
+    {
+      this->Window->findChild<QPushButton*>(random() % 2 ? "makeKeyFrame" : "removeKeyFrame")->click();
+    }
+    QCoreApplication::processEvents();
+    if (document.scene().items().size() > mostItems || ++events % eventsBetween == 0)
+    {
+      undoAll();
+      QCOMPARE(document.json(), first);
+    }
+  }
+  undoAll();
+  QCOMPARE(document.json(), first);
+}
+
+void TestEditor::pictures()
+{
+  const QString folder = QString::fromLocal8Bit(qgetenv("DGTK_EDITOR_PICTURES"));
+  if (folder.isEmpty())
+  {
+    return; // made by Documentation/Images/make_editor.py
+  }
+  const auto grab = [&](QWidget* widget, const char* name)
+  {
+    QTest::qWait(3 * settle);
+    QVERIFY(widget->grab().save(folder + '/' + name));
+  };
+  this->Window->resize(1280, 860);
+  grab(this->Window.get(), "editor_empty.png");
+  QVERIFY(this->Window->openFile(demo()));
+  this->select("house");
+  grab(this->Window.get(), "editor.png");
+  this->select("left");
+  this->action("wireframe")->trigger();
+  grab(this->Window.get(), "editor_wireframe.png");
+  this->action("render")->trigger();
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  dialog->findChild<QLineEdit*>("folder")->setText("/home/me/dataset");
+  grab(dialog, "editor_render.png");
+  dialog->findChild<QTabWidget*>()->setCurrentIndex(1);
+  grab(dialog, "editor_render_cameras.png");
+  dialog->hide();
+  for (const char* name : { "camera", "light" })
+  {
+    answer<QDialog>({},
+      [&](QDialog& shown)
+      {
+        shown.grab().save(folder + "/editor_" + name + ".png");
+        shown.reject();
+      });
+    this->action(name)->trigger();
+  }
+}
