@@ -62,6 +62,7 @@ CameraArrayDialog::CameraArrayDialog(const CameraDescription& first, QWidget* pa
   QPushButton* const add = buttons->addButton(tr("Add"), QDialogButtonBox::AcceptRole);
   add->setObjectName("add");
   add->setDefault(true);
+  buttons->button(QDialogButtonBox::Cancel)->setAutoDefault(false);
   form->addRow(buttons);
   this->setMinimumWidth(380);
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);

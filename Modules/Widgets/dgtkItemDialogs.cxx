@@ -32,6 +32,7 @@ QDialogButtonBox* addButtons(QDialog* dialog, QFormLayout* form)
   QPushButton* const add = buttons->addButton(QObject::tr("Add"), QDialogButtonBox::AcceptRole);
   add->setObjectName("add");
   add->setDefault(true);
+  buttons->button(QDialogButtonBox::Cancel)->setAutoDefault(false);
   QObject::connect(buttons, &QDialogButtonBox::accepted, dialog, &QDialog::accept);
   QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
   form->addRow(buttons);

@@ -155,7 +155,7 @@ bool MainWindow::openFile(const QString& path)
   this->Views->showWhole();
   this->addRecent(path);
   this->note(tr("Opened %1: %2 objects, %3 lights, %4 cameras")
-               .arg(path)
+               .arg(QFileInfo(path).fileName())
                .arg(this->State->scene().objects.size())
                .arg(this->State->scene().lights.size())
                .arg(this->State->scene().cameras.size()));
@@ -202,7 +202,7 @@ bool MainWindow::importFile(const QString& path)
   }
   if (done)
   {
-    this->note(tr("Imported %1").arg(path));
+    this->note(tr("Imported %1").arg(QFileInfo(path).fileName()));
   }
   return done;
 }

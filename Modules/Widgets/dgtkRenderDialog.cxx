@@ -37,7 +37,7 @@ RenderDialog::RenderDialog(EditorState& state, QWidget* parent)
   this->Tabs->setCurrentIndex(2);
   layout->addWidget(this->Tabs, 1);
   this->makeRunRow(layout);
-  this->resize(640, 560);
+  this->resize(640, 680);
 
   connect(&state, &EditorState::changed, this, &RenderDialog::refresh);
   connect(&this->Process, &RenderProcess::progress, this, &RenderDialog::showProgress);
@@ -125,7 +125,7 @@ void RenderDialog::showResolution()
   const WorldResolution resolution = worldResolution(place.view);
   const QString units = scene.units.empty() ? tr("units") : toText(scene.units);
   const auto number = [](double value) { return QString::number(value, 'g', 6); };
-  this->Resolution->setText(tr("%1: %2 x %3 pixels\nWorld %4 a pixel: %5 in x, %6 in y; at the far plane %7 and %8")
+  this->Resolution->setText(tr("%1: %2 x %3 pixels\nA pixel is %5 %4 in x, %6 in y; at the far plane %7 and %8")
                               .arg(toText(camera.name))
                               .arg(place.view.model->width())
                               .arg(place.view.model->height())

@@ -125,6 +125,8 @@ QWidget* RenderDialog::makeControls()
   }
   grid->setRowStretch(rows, 1);
   area->setWidget(boxes);
+  boxes->setAutoFillBackground(false);
+  area->viewport()->setAutoFillBackground(false);
   groupLayout->addWidget(area);
   layout->addWidget(group, 1);
 

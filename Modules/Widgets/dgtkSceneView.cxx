@@ -79,13 +79,20 @@ void SceneView::drawSoon()
   }
 }
 
+void SceneView::setHurried(bool on)
+{
+  this->Hurried = on;
+  this->drawSoon();
+}
+
 void SceneView::draw()
 {
   if (!this->isVisible())
   {
     return;
   }
-  const bool coarse = this->Moving != Motion::None && this->Moved && this->FineSeconds > slowSeconds;
+  const bool moving = this->Hurried || (this->Moving != Motion::None && this->Moved);
+  const bool coarse = moving && this->FineSeconds > slowSeconds;
   if (coarse)
   {
     this->Actors->showCoarse(*this->Places);

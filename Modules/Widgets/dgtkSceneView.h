@@ -41,6 +41,8 @@ public:
     const SceneItems& selected, ViewMeshes& meshes);
   void setStyle(ViewStyle style) { this->Actors->setStyle(style); }
   void showGrid(bool on);
+  /// Something is being dragged in another view: this one may be coarse, too.
+  void setHurried(bool on);
   /// Draws when the event loop is reached; many calls draw once.
   void drawSoon();
   /// Nothing where only the background is.
@@ -87,6 +89,7 @@ private:
   QPoint Last;
   bool Moved = false;
   bool DrawWanted = false;
+  bool Hurried = false;
   double FineSeconds = 0; ///< that the latest whole drawing took
   Eigen::Vector3d Grasped{ 0, 0, 0 };
 };

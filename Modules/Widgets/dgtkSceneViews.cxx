@@ -60,7 +60,7 @@ QWidget* SceneViews::makePane(ViewKind kind, const QString& title)
   connect(view, &SceneView::picked, this, &SceneViews::pick);
   connect(view, &SceneView::dragStarted, this, &SceneViews::startDrag);
   connect(view, &SceneView::dragged, this, [this](double x, double y, double z) { this->drag({ x, y, z }); });
-  connect(view, &SceneView::dragFinished, this, [this] { this->State.document().finishMerging(); });
+  connect(view, &SceneView::dragFinished, this, [this] { this->finishDrag(); });
   connect(view, &SceneView::maximizeAsked, this, [this, view] { this->toggleMaximized(view); });
   connect(view, &SceneView::menuAsked, this, &SceneViews::menuAsked);
   return pane;
@@ -214,9 +214,22 @@ void SceneViews::startDrag()
 {
   this->State.document().finishMerging();
   this->DragStart.clear();
+  for (SceneView* view : this->Views)
+  {
+    view->setHurried(true);
+  }
   for (const SceneItem& item : this->State.selection())
   {
     this->DragStart.push_back(itemPosition(this->State.scene(), item, this->State.frame()));
+  }
+}
+
+void SceneViews::finishDrag()
+{
+  this->State.document().finishMerging();
+  for (SceneView* view : this->Views)
+  {
+    view->setHurried(false);
   }
 }
 

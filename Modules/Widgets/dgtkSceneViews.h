@@ -52,6 +52,7 @@ private:
   void refresh();
   void pick(bool hit, int kind, int index, bool add);
   void startDrag();
+  void finishDrag();
   void drag(const Eigen::Vector3d& motion);
 
   EditorState& State;

@@ -163,8 +163,10 @@ void TimeLineCells::paintEvent(QPaintEvent*)
   painter.fillRect(this->viewport()->rect(), this->palette().window());
   if (this->Rows.empty())
   {
-    painter.drawText(QRect(0, headerHeight, size.width(), size.height() - headerHeight), Qt::AlignCenter,
-      tr("Import a model: each object, light and camera gets a row here. Right-click a frame to make a key frame."));
+    const int margin = namesWidth + 3 * cellWidth;
+    painter.drawText(QRect(margin, headerHeight, size.width() - margin - cellWidth, size.height() - headerHeight),
+      Qt::AlignVCenter | Qt::AlignLeft | Qt::TextWordWrap,
+      tr("Objects, lights and cameras get rows here. Right-click a frame to make a key frame."));
   }
   const int offset = this->verticalScrollBar()->value();
   for (std::size_t i = std::size_t(offset / rowHeight); i < this->Rows.size(); ++i)

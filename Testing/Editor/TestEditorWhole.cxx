@@ -266,9 +266,6 @@ void TestEditor::pictures()
   QVERIFY(this->Window->openFile(demo()));
   this->select("house");
   grab(this->Window.get(), "editor.png");
-  this->select("left");
-  this->action("wireframe")->trigger();
-  grab(this->Window.get(), "editor_wireframe.png");
   this->action("render")->trigger();
   auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
   dialog->findChild<QLineEdit*>("folder")->setText("/home/me/dataset");
