@@ -30,7 +30,7 @@ const Eigen::Vector3d cameraColor(1.0, 0.75, 0.2);
 const Eigen::Vector3d chosenColor(0.2, 1.0, 0.2);
 const Eigen::Vector3d boxColor(0.75, 0.75, 0.78);
 const Eigen::Vector3d gridColor(0.42, 0.44, 0.47);
-constexpr double frustumShare = 0.06; // of the scene's diagonal
+constexpr double frustumShare = 0.04; // of the scene's diagonal
 constexpr double lightShare = 0.012;
 constexpr double smallestExtent = 1;
 

@@ -48,6 +48,8 @@ namespace
 constexpr int forestSide = 32;
 constexpr int forestCameras = 100;
 constexpr int forestLimit = 5000; // milliseconds from the file to the drawn views
+constexpr int turns = 10;
+constexpr int turnLimit = 200; // milliseconds for an event
 constexpr int monkeySeconds = 15;
 constexpr int eventsBetween = 200; // checks that everything can be undone
 constexpr std::size_t mostItems = 200;
@@ -154,6 +156,20 @@ void TestEditor::aForestOpensAtOnce()
   const qint64 edited = clock.elapsed();
   qInfo("%d trees and %d cameras: %lld ms to open and draw, %lld ms to select, move and draw again",
     forestSide * forestSide, forestCameras, static_cast<long long>(opened), static_cast<long long>(edited));
+  auto* view = this->Window->findChild<QWidget*>("view.3");
+  QTest::mousePress(view, Qt::LeftButton, {}, QPoint(5, 5));
+  QTest::mouseMove(view, QPoint(25, 5));
+  QCoreApplication::processEvents();
+  clock.restart();
+  for (int step = 1; step <= turns; ++step)
+  {
+    QTest::mouseMove(view, QPoint(25 + 5 * step, 5));
+    QCoreApplication::processEvents();
+  }
+  const qint64 turned = clock.elapsed() / turns;
+  QTest::mouseRelease(view, Qt::LeftButton, {}, QPoint(25 + 5 * turns, 5));
+  qInfo("%lld ms for a step of turning the perspective", static_cast<long long>(turned));
+  QVERIFY(turned < turnLimit);
   QVERIFY(opened < forestLimit);
   QCOMPARE(this->Window->document().models().size(), std::size_t(1));
 }
