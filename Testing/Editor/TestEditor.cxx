@@ -5,6 +5,7 @@
 #include "dgtkMainWindow.h"
 #include "dgtkSceneDocument.h"
 
+#include <QAbstractScrollArea>
 #include <QAction>
 #include <QApplication>
 #include <QCheckBox>
@@ -89,6 +90,43 @@ QString TestEditor::copyOfDemo() const
   return this->path("demo.json");
 }
 
+void TestEditor::renderAndCompare(const QString& scene, const QStringList& layers, int width, int height) const
+{
+  const QString inWindow = scene + ".window";
+  const QString inLine = scene + ".line";
+  this->action("render")->trigger();
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  QVERIFY(dialog != nullptr);
+  for (QCheckBox* box : dialog->findChildren<QCheckBox*>())
+  {
+    if (box->objectName().startsWith("layer."))
+    {
+      box->setChecked(layers.contains(box->text()));
+    }
+  }
+  dialog->findChild<QCheckBox*>("ownSize")->setChecked(false);
+  dialog->findChild<QSpinBox*>("width")->setValue(width);
+  dialog->findChild<QSpinBox*>("height")->setValue(height);
+  dialog->findChild<QLineEdit*>("folder")->setText(inWindow);
+  auto* start = dialog->findChild<QPushButton*>("start");
+  QTest::mouseClick(start, Qt::LeftButton);
+  QVERIFY(!start->isEnabled());
+  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+
+  const QString program = QString::fromLocal8Bit(qgetenv("DGTK"));
+  const QStringList words{ "render", scene, "-o", inLine, "--layers", layers.join(','), "--size",
+    QString("%1x%2").arg(width).arg(height), "--quiet" };
+  QCOMPARE(QProcess::execute(program, words), 0);
+  const QMap<QString, QByteArray> window = contents(inWindow);
+  const QMap<QString, QByteArray> line = contents(inLine);
+  QCOMPARE(window.keys(), line.keys());
+  QVERIFY(window.size() > 5);
+  for (const QString& name : line.keys())
+  {
+    QVERIFY2(window[name] == line[name], qPrintable(name));
+  }
+}
+
 void TestEditor::opensSelectsMovesUndoesSavesAndRenders()
 {
   QVERIFY(this->Window->openFile(demo()));
@@ -116,37 +154,33 @@ void TestEditor::opensSelectsMovesUndoesSavesAndRenders()
   QVERIFY(this->Window->saveFile(scene));
   QVERIFY(!this->Window->isWindowModified());
 
-  this->action("render")->trigger();
-  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
-  QVERIFY(dialog != nullptr);
-  for (QCheckBox* box : dialog->findChildren<QCheckBox*>())
-  {
-    if (box->objectName().startsWith("layer."))
-    {
-      box->setChecked(box->text() == "color" || box->text() == "depth");
-    }
-  }
-  dialog->findChild<QCheckBox*>("ownSize")->setChecked(false);
-  dialog->findChild<QSpinBox*>("width")->setValue(64);
-  dialog->findChild<QSpinBox*>("height")->setValue(48);
-  dialog->findChild<QLineEdit*>("folder")->setText(this->path("window"));
-  auto* start = dialog->findChild<QPushButton*>("start");
-  QTest::mouseClick(start, Qt::LeftButton);
-  QVERIFY(!start->isEnabled());
-  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+  this->renderAndCompare(scene, { "color", "depth" }, 64, 48);
+}
 
-  const QString program = QString::fromLocal8Bit(qgetenv("DGTK"));
-  QCOMPARE(QProcess::execute(program,
-             { "render", scene, "-o", this->path("line"), "--layers", "color,depth", "--size", "64x48", "--quiet" }),
-    0);
-  const QMap<QString, QByteArray> window = contents(this->path("window"));
-  const QMap<QString, QByteArray> line = contents(this->path("line"));
-  QCOMPARE(window.keys(), line.keys());
-  QVERIFY(window.size() >= 12);
-  for (const QString& name : line.keys())
-  {
-    QVERIFY2(window[name] == line[name], qPrintable(name));
-  }
+void TestEditor::theThesissDynamicScene()
+{
+  // Appendix A.2 and A.3: import, camera, key frame, another frame, move, key frame, save, render.
+  QVERIFY(this->Window->importFile(QString::fromStdString(sourceFile("Data/Models/crate.ac"))));
+  answer<QDialog>(
+    "cameraDialog", [](QDialog& dialog) { QTest::mouseClick(dialog.findChild<QPushButton*>("add"), Qt::LeftButton); });
+  this->action("camera")->trigger();
+  auto* make = this->Window->findChild<QPushButton*>("makeKeyFrame");
+  auto* cells = this->Window->findChild<QAbstractScrollArea*>("timeLineCells")->viewport();
+  QTest::mouseClick(cells, Qt::LeftButton, {}, QPoint(136, 5));
+  QTest::mouseClick(make, Qt::LeftButton);
+  QTest::mouseClick(cells, Qt::LeftButton, {}, QPoint(136 + 10 * 12, 5)); // ten cells on
+  this->select("crate-1");
+  this->type("position.0", "0.5");
+  this->type("rotation.1", "45");
+  QTest::mouseClick(make, Qt::LeftButton);
+  QCOMPARE(this->Window->document().scene().keyFrames(), (std::vector<int>{ 0, 10 }));
+  const QString scene = this->path("walk.scene");
+  QVERIFY(this->Window->saveFile(scene));
+  this->renderAndCompare(scene, { "depth", "objects", "flow_forward" }, 48, 32);
+  dgtk::SceneDocument again;
+  again.open(scene.toStdString());
+  QCOMPARE(again.scene().objects[0].position.at(5).x(), 0.25);
+  QCOMPARE(again.scene().lastFrame(), 10);
 }
 
 void TestEditor::clicksSelectAndDragsMove()

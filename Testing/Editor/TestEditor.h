@@ -31,6 +31,7 @@ private slots:
   void cleanup();
 
   void opensSelectsMovesUndoesSavesAndRenders();
+  void theThesissDynamicScene();
   void clicksSelectAndDragsMove();
   void keyFramesPlay();
   void copiesCutsAndPastes();
@@ -50,6 +51,8 @@ private:
   void type(const char* name, const QString& text) const;
   void select(const char* name) const;
   QString path(const char* name) const;
+  /// Renders by the dialog, and the scene file by the command line; both must hold the same bytes.
+  void renderAndCompare(const QString& scene, const QStringList& layers, int width, int height) const;
   /// The demo scene in a file that a test may overwrite.
   QString copyOfDemo() const;
 
