@@ -58,7 +58,7 @@ struct Material
   /// Texels of `texture` with alpha below 0.5 are not there.
   bool cutOut = false;
 
-  /// Metal and roughness, as glTF 2 has them; `baseColor` takes the place of diffuse and specular.
+  /// Metal and roughness, as glTF 2 has them, whose base colour is `diffuse`; `specular` does not count then.
   struct Physical
   {
     double metallic = 0;  ///< [0, 1]

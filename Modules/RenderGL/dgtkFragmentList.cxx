@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
+#include <tuple>
 #include <vtk_glew.h>
 
 namespace dgtk
@@ -71,6 +73,37 @@ std::size_t FragmentList::end(std::vector<Fragment>& fragments)
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, 0);
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, 0);
   return header.count;
+}
+
+void sortFragments(std::vector<Fragment>& fragments, std::size_t pixels)
+{
+  const auto key = [](const Fragment& f) { return std::make_tuple(-f.depth, f.number, f.triangle); };
+  std::vector<std::uint32_t> begin(pixels + 1, 0);
+  for (const Fragment& f : fragments)
+  {
+    ++begin[std::size_t(f.pixel) + 1];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Fragment> sorted(fragments.size());
+  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+  for (const Fragment& f : fragments)
+  {
+    sorted[next[std::size_t(f.pixel)]++] = f;
+  }
+  fragments.clear();
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+  {
+    const auto first = sorted.begin() + begin[pixel];
+    const auto last = sorted.begin() + begin[pixel + 1];
+    std::sort(first, last, [&](const Fragment& a, const Fragment& b) { return key(a) < key(b); });
+    for (auto it = first; it != last; ++it)
+    {
+      if (it->depth > 0 && (it == first || key(*it) != key(*(it - 1))))
+      {
+        fragments.push_back(*it);
+      }
+    }
+  }
 }
 
 } // namespace dgtk

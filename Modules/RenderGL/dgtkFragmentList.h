@@ -45,6 +45,10 @@ private:
   unsigned int Buffer = 0;
 };
 
+/// Puts fragments of `pixels` pixels in the order of pixels, in each near to far, then by draw and triangle; drops what
+/// the far plane and cut pieces leave twice.
+void sortFragments(std::vector<Fragment>& fragments, std::size_t pixels);
+
 } // namespace dgtk
 
 #endif

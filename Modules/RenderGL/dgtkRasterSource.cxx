@@ -10,8 +10,6 @@
 #include "dgtkSurfaceRows.h"
 
 #include <algorithm>
-#include <numeric>
-#include <tuple>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
 #include <vtk_glew.h>
@@ -396,39 +394,6 @@ void VtkRasterSource::collect(int first, int last, std::vector<Fragment>& fragme
     throw MachineError("a row of the image has more than " + std::to_string(FragmentList::Capacity) + " surfaces");
   }
   fragments.insert(fragments.end(), found.begin(), found.end());
-}
-
-/// Puts fragments of `pixels` pixels in the order of pixels, in each near to far, then by draw and triangle; drops what
-/// the far plane and cut pieces leave twice.
-void sortFragments(std::vector<Fragment>& fragments, std::size_t pixels)
-{
-  const auto key = [](const Fragment& f) { return std::make_tuple(-f.depth, f.number, f.triangle); };
-  std::vector<std::uint32_t> begin(pixels + 1, 0);
-  for (const Fragment& f : fragments)
-  {
-    ++begin[std::size_t(f.pixel) + 1];
-  }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<Fragment> sorted(fragments.size());
-  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-  for (const Fragment& f : fragments)
-  {
-    sorted[next[std::size_t(f.pixel)]++] = f;
-  }
-  fragments.clear();
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
-  {
-    const auto first = sorted.begin() + begin[pixel];
-    const auto last = sorted.begin() + begin[pixel + 1];
-    std::sort(first, last, [&](const Fragment& a, const Fragment& b) { return key(a) < key(b); });
-    for (auto it = first; it != last; ++it)
-    {
-      if (it->depth > 0 && (it == first || key(*it) != key(*(it - 1))))
-      {
-        fragments.push_back(*it);
-      }
-    }
-  }
 }
 
 void VtkRasterSource::peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit)

@@ -6,8 +6,8 @@ import zlib
 import numpy as np
 
 
-def read_png(path):
-    """8- and 16-bit PNG as (H, W, C), without the library under test."""
+def read_png(path, wanted=None):
+    """8- and 16-bit PNG as (H, W, C), without the library under test. `wanted`: (bits a channel, channels) that it must have."""
     with open(path, "rb") as file:
         data = file.read()
     at, packed = 8, b""
@@ -19,6 +19,8 @@ def read_png(path):
         packed += body if kind == b"IDAT" else b""
         at += 12 + size
     channels = {0: 1, 2: 3, 4: 2, 6: 4}[color]
+    if wanted not in (None, (bits, channels)):
+        raise AssertionError(f"{path}: {bits} bits, {channels} channels")
     step = channels * bits // 8
     raw = np.frombuffer(zlib.decompress(packed), np.uint8).reshape(height, 1 + width * step)
     rows = np.zeros((height, width * step), np.uint8)

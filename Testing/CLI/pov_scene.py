@@ -2,9 +2,7 @@
 """What the cases about POV-Ray share: running it, and the triangles of a scene that dgtk wrote for it, by numpy."""
 import os
 import re
-import struct
 import subprocess
-import zlib
 
 import numpy
 
@@ -35,47 +33,6 @@ def draw(scene, bits=8, folder=None):
     if done.returncode != 0:
         raise AssertionError(done.stderr[-2000:])
     return read_pnm(target)
-
-
-def read_png16(path):
-    """A PNG of 16 bits RGB of any row filter."""
-    with open(path, "rb") as file:
-        data = file.read()
-    at, packed = 8, b""
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + length]
-        at += 12 + length
-        if kind == b"IHDR":
-            width, height, depth, color = struct.unpack(">IIBB", body[:10])
-        packed += body if kind == b"IDAT" else b""
-    if (depth, color) != (16, 2):
-        raise AssertionError(f"{path}: {depth} bits, colour type {color}")
-    rows = numpy.frombuffer(zlib.decompress(packed), numpy.uint8).reshape(height, 1 + width * 6)
-    image, above = numpy.zeros((height, width * 6), numpy.uint8), numpy.zeros(width * 6, numpy.uint8)
-    for y, (kind, line) in enumerate(zip(rows[:, 0], rows[:, 1:])):
-        above = image[y] = unfilter(kind, line, above)
-    return image.reshape(height, width, 3, 2).astype(int) @ numpy.array([256, 1])
-
-
-def unfilter(kind, line, above):
-    if kind == 0:
-        return line
-    if kind == 2:
-        return line + above
-    result = [0] * 6 + line.tolist()
-    up = [0] * 6 + above.tolist()
-    for i in range(6, len(result)):
-        left, top, corner = result[i - 6], up[i], up[i - 6]
-        if kind == 1:
-            add = left
-        elif kind == 3:
-            add = (left + top) // 2
-        else:
-            p = left + top - corner
-            add = min((abs(p - left), 0, left), (abs(p - top), 1, top), (abs(p - corner), 2, corner))[2]
-        result[i] = (result[i] + add) & 255
-    return numpy.array(result[6:], numpy.uint8)
 
 
 def ids_of(rgb):

@@ -8,8 +8,9 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy
 
+import pictures
 from harness import SCENES, SOURCE, Case, main
-from pov_scene import ids_of, read_png16, read_pnm
+from pov_scene import ids_of, read_pnm
 
 MODELS = os.path.join(SOURCE, "Data", "Models")
 # Of a 16-bit level: half of one is rounding; single precision of vertices and of POV-Ray's colours needs the rest.
@@ -55,7 +56,7 @@ class Color(Case):
             with self.subTest(camera):
                 folder = self.render(self.write("p.json", json.dumps(scene)), camera, "--renderer", "povray", "--layers", "color,position,objects",
                                      "--pov-position-colors=" + ",".join(map(str, box)), "--cameras", camera, "--frames", "3", "--size", size)
-                color = read_png16(os.path.join(folder, camera, "color", "000003.png"))
+                color = pictures.read_png(os.path.join(folder, camera, "color", "000003.png"), (16, 3))
                 position = numpy.load(os.path.join(folder, camera, "position", "000003.npy"))
                 ids = ids_of(read_pnm(os.path.join(folder, camera, "objects", "000003.ppm")))
                 self.assertTrue(((position > low) & (position < high))[ids > 0].all())
@@ -79,7 +80,7 @@ class Color(Case):
             drawn = dict(zip(LIGHTS, pool.map(self.draw_both, LIGHTS)))
         for kind, (vtk, pov) in drawn.items():
             with self.subTest(kind):
-                a, b = (read_png16(os.path.join(folder, "c", "color", "000000.png")) / 257 for folder in (vtk, pov))
+                a, b = (pictures.read_png(os.path.join(folder, "c", "color", "000000.png"), (16, 3)) / 257 for folder in (vtk, pov))
                 within = inside(ids_of(read_pnm(os.path.join(vtk, "c", "objects", "000000.ppm"))))
                 self.keep(vtk, pov)
                 difference = abs(a - b)[within]
