@@ -15,6 +15,7 @@
 #include <QMessageBox>
 #include <QMouseEvent>
 #include <QPushButton>
+#include <QSpinBox>
 #include <QStandardPaths>
 #include <QTabWidget>
 #include <QTest>
@@ -25,12 +26,21 @@
 #include <iterator>
 #include <random>
 
+namespace
+{
+constexpr int largeWidth = 2000; // pixels
+}
+
 void TestEditor::cancelledRunsResume()
 {
   QVERIFY(this->Window->openFile(demo()));
   this->action("render")->trigger();
   auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
   dialog->findChild<QLineEdit*>("folder")->setText(this->path("stopped"));
+  // Large enough that the run is far from its end when its first file is seen.
+  dialog->findChild<QCheckBox*>("ownSize")->setChecked(false);
+  dialog->findChild<QSpinBox*>("width")->setValue(largeWidth);
+  dialog->findChild<QSpinBox*>("height")->setValue(largeWidth);
   auto* start = dialog->findChild<QPushButton*>("start");
   QTest::mouseClick(start, Qt::LeftButton);
   QTRY_VERIFY_WITH_TIMEOUT(!contents(this->path("stopped")).isEmpty(), longestRun);
