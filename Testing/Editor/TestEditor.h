@@ -2,34 +2,13 @@
 #ifndef TestEditor_h
 #define TestEditor_h
 
-#include "dgtkTestSupport.h"
+#include "EditorTest.h"
 
-#include <QObject>
-
-#include <memory>
-
-class QAction;
-class QLineEdit;
-
-namespace dgtk
-{
-class MainWindow;
-}
-
-/// Each case has a window of its own, with settings of its own.
-class TestEditor : public QObject
+class TestEditor : public EditorTest
 {
   Q_OBJECT
 
-public:
-  TestEditor();
-  ~TestEditor() override;
-
 private slots:
-  void initTestCase();
-  void init();
-  void cleanup();
-
   void opensSelectsMovesUndoesSavesAndRenders();
   void theThesissDynamicScene();
   void clicksSelectAndDragsMove();
@@ -44,20 +23,6 @@ private slots:
   void everyMenuItemWorks();
   void randomEventsDoNoHarm();
   void pictures();
-
-private:
-  QAction* action(const char* name) const;
-  QLineEdit* field(const char* name) const;
-  void type(const char* name, const QString& text) const;
-  void select(const char* name) const;
-  QString path(const char* name) const;
-  /// Renders by the dialog, and the scene file by the command line; both must hold the same bytes.
-  void renderAndCompare(const QString& scene, const QStringList& layers, int width, int height) const;
-  /// The demo scene in a file that a test may overwrite.
-  QString copyOfDemo() const;
-
-  dgtk::test::TemporaryFolder Folder;
-  std::unique_ptr<dgtk::MainWindow> Window;
 };
 
 #endif

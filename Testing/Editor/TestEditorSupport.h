@@ -4,12 +4,15 @@
 
 #include "dgtkTestSupport.h"
 
+#include "dgtkMainWindow.h"
+
 #include <QApplication>
 #include <QDir>
 #include <QDirIterator>
 #include <QFile>
 #include <QMap>
 #include <QString>
+#include <QTest>
 #include <QTimer>
 
 #include <functional>
@@ -51,6 +54,17 @@ inline QMap<QString, QByteArray> contents(const QString& folder)
     }
   }
   return files;
+}
+
+/// The main function of a test program of the editor.
+template <typename Test>
+int runEditorTest(int argc, char** argv)
+{
+  dgtk::MainWindow::prepareApplication();
+  QApplication application(argc, argv);
+  dgtk::MainWindow::setupApplication();
+  Test test;
+  return QTest::qExec(&test, argc, argv);
 }
 
 #endif

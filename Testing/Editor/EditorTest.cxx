@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "EditorTest.h"
+#include "TestEditorSupport.h"
+
+#include "dgtkMainWindow.h"
+#include "dgtkSceneDocument.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QCheckBox>
+#include <QDialog>
+#include <QLineEdit>
+#include <QProcess>
+#include <QPushButton>
+#include <QSettings>
+#include <QSpinBox>
+#include <QStandardPaths>
+#include <QTest>
+#include <QTreeWidget>
+
+EditorTest::EditorTest() = default;
+EditorTest::~EditorTest() = default;
+
+void EditorTest::initTestCase()
+{
+  QStandardPaths::setTestModeEnabled(true);
+  QSettings::setPath(
+    QSettings::NativeFormat, QSettings::UserScope, QString::fromStdString(this->Folder.path("settings")));
+}
+
+void EditorTest::init()
+{
+  QSettings().clear();
+  this->Window = std::make_unique<dgtk::MainWindow>();
+  this->Window->show();
+  QVERIFY(QTest::qWaitForWindowExposed(this->Window.get()));
+  this->Window->activateWindow();
+  QVERIFY(QTest::qWaitForWindowActive(this->Window.get()));
+  QTest::qWait(settle);
+}
+
+void EditorTest::cleanup() { this->Window.reset(); }
+
+QAction* EditorTest::action(const char* name) const { return this->Window->findChild<QAction*>(name); }
+
+QLineEdit* EditorTest::field(const char* name) const
+{
+  auto* panel = this->Window->findChild<QWidget*>("propertiesPanel");
+  // A panel that has just been replaced waits to be deleted.
+  const QList<QLineEdit*> all = panel->findChildren<QLineEdit*>(name);
+  return all.isEmpty() ? nullptr : all.last();
+}
+
+void EditorTest::type(const char* name, const QString& text) const
+{
+  QLineEdit* const at = this->field(name);
+  QVERIFY2(at != nullptr, name);
+  at->setFocus();
+  at->selectAll();
+  QTest::keyClicks(at, text);
+  QTest::keyClick(at, Qt::Key_Return);
+}
+
+void EditorTest::select(const char* name) const
+{
+  auto* tree = this->Window->findChild<QTreeWidget*>("sceneTree");
+  const QList<QTreeWidgetItem*> rows = tree->findItems(name, Qt::MatchExactly | Qt::MatchRecursive);
+  QCOMPARE(rows.size(), 1);
+  tree->scrollToItem(rows[0]);
+  QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, tree->visualItemRect(rows[0]).center());
+  QCoreApplication::processEvents();
+}
+
+QString EditorTest::path(const char* name) const { return QString::fromStdString(this->Folder.path(name)); }
+
+QString EditorTest::copyOfDemo() const
+{
+  dgtk::SceneDocument document;
+  document.open(demo().toStdString());
+  document.saveAs(this->Folder.path("demo.json"));
+  return this->path("demo.json");
+}
+
+void EditorTest::renderAndCompare(const QString& scene, const QStringList& layers, int width, int height) const
+{
+  const QString inWindow = scene + ".window";
+  const QString inLine = scene + ".line";
+  this->action("render")->trigger();
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  QVERIFY(dialog != nullptr);
+  for (QCheckBox* box : dialog->findChildren<QCheckBox*>())
+  {
+    if (box->objectName().startsWith("layer."))
+    {
+      box->setChecked(layers.contains(box->text()));
+    }
+  }
+  dialog->findChild<QCheckBox*>("ownSize")->setChecked(false);
+  dialog->findChild<QSpinBox*>("width")->setValue(width);
+  dialog->findChild<QSpinBox*>("height")->setValue(height);
+  dialog->findChild<QLineEdit*>("folder")->setText(inWindow);
+  auto* start = dialog->findChild<QPushButton*>("start");
+  QTest::mouseClick(start, Qt::LeftButton);
+  QVERIFY(!start->isEnabled());
+  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+
+  const QString program = QString::fromLocal8Bit(qgetenv("DGTK"));
+  const QStringList words{ "render", scene, "-o", inLine, "--layers", layers.join(','), "--size",
+    QString("%1x%2").arg(width).arg(height), "--quiet" };
+  QCOMPARE(QProcess::execute(program, words), 0);
+  const QMap<QString, QByteArray> window = contents(inWindow);
+  const QMap<QString, QByteArray> line = contents(inLine);
+  QCOMPARE(window.keys(), line.keys());
+  QVERIFY(window.size() > 5);
+  for (const QString& name : line.keys())
+  {
+    QVERIFY2(window[name] == line[name], qPrintable(name));
+  }
+}

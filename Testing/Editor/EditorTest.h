@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef EditorTest_h
+#define EditorTest_h
+
+#include "dgtkTestSupport.h"
+
+#include <QObject>
+
+#include <memory>
+
+class QAction;
+class QLineEdit;
+
+namespace dgtk
+{
+class MainWindow;
+}
+
+/// What the editor's tests share: each case has a window of its own, with settings of its own.
+class EditorTest : public QObject
+{
+  Q_OBJECT
+
+public:
+  EditorTest();
+  ~EditorTest() override;
+
+private slots:
+  void initTestCase();
+  void init();
+  void cleanup();
+
+protected:
+  QAction* action(const char* name) const;
+  QLineEdit* field(const char* name) const;
+  void type(const char* name, const QString& text) const;
+  void select(const char* name) const;
+  QString path(const char* name) const;
+  /// Renders by the dialog, and the scene file by the command line; both must hold the same bytes.
+  void renderAndCompare(const QString& scene, const QStringList& layers, int width, int height) const;
+  /// The demo scene in a file that a test may overwrite.
+  QString copyOfDemo() const;
+
+  dgtk::test::TemporaryFolder Folder;
+  std::unique_ptr<dgtk::MainWindow> Window;
+};
+
+#endif
