@@ -22,6 +22,7 @@ public:
   int width() const { return this->Width; }
   int height() const { return this->Height; }
   Rgb& at(int x, int y) { return this->Pixels[std::size_t(y) * static_cast<std::size_t>(this->Width) + x]; }
+  const std::vector<Rgb>& pixels() const { return this->Pixels; } ///< rows top to bottom
   void paste(const Canvas& picture, int x, int y);
   /// Text in 5 x 7 pixel letters, 6 apart, cut off with dots after `width` pixels; (x, y) is the top left corner.
   void text(const std::string& text, int x, int y, int width, Rgb color);

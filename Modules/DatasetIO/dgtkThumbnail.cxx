@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCanvas.h"
 #include "dgtkDepthPicture.h"
+#include "dgtkLayerPicture.h"
 #include "dgtkLayerReader.h"
 
 #include <algorithm>
@@ -181,11 +182,11 @@ Canvas paintRanges(const Samples& samples)
     });
 }
 
-Canvas paintColor(const Samples& samples, const ImageInfo& info)
+Canvas paintColor(const Samples& samples, PixelType type)
 {
-  const double scale = info.type == PixelType::UInt8 ? 1 / 255.0 : info.type == PixelType::UInt16 ? 1 / 65535.0 : 1;
+  const double scale = type == PixelType::UInt8 ? 1 / 255.0 : type == PixelType::UInt16 ? 1 / 65535.0 : 1;
   const bool linear = scale == 1;
-  const bool gray = info.channels < 3;
+  const bool gray = samples.channels < 3;
   return paint(samples,
     [=](const double* v)
     {
@@ -233,34 +234,57 @@ Canvas paintNormals(const Samples& samples)
       return Rgb{ byteOf(0.5 + v[0] / 2), byteOf(0.5 - v[1] / 2), byteOf(0.5 - v[2] / 2) };
     });
 }
+/// Whole pictures, without a change of size.
+Samples samplesOf(const Rows& rows)
+{
+  Samples out{ rows.width(), rows.height(), rows.channels(), {} };
+  out.values.resize(std::size_t(rows.width()) * std::size_t(rows.height()) * std::size_t(rows.channels()));
+  toDoubles(rows, out.values);
+  return out;
+}
+
+bool isColor(const LayerSpec& spec) { return spec.name.rfind("color", 0) == 0 || spec.name == "tiles"; }
+bool isDepth(const LayerSpec& spec)
+{
+  return spec.name == "depth" || spec.name == "depth_noisy" || spec.name == "distance";
+}
+
+/// In the colours of its meaning; `color`: the values are a picture's.
+Canvas paintSamples(const Samples& samples, const LayerSpec& spec, PixelType type, bool color)
+{
+  if (color)
+  {
+    return paintColor(samples, type);
+  }
+  if (type != PixelType::Float32 && type != PixelType::Float64)
+  {
+    return paintIds(samples, spec);
+  }
+  if (isDepth(spec))
+  {
+    return paintDepth(samples);
+  }
+  if (spec.name == "uv" && samples.channels == 2)
+  {
+    return paintFractions(samples);
+  }
+  const bool normals = spec.name == "normal" || spec.name == "shadingnormal";
+  return normals && samples.channels == 3 ? paintNormals(samples) : paintRanges(samples);
+}
 } // namespace
 
 Canvas makeThumbnail(const std::string& path, const LayerSpec& spec, int width, int height)
 {
   const std::unique_ptr<RowReader> reader = openLayerFile(path);
   const ImageInfo info = reader->info();
-  const bool integers = info.type != PixelType::Float32 && info.type != PixelType::Float64;
-  const bool color = spec.name.rfind("color", 0) == 0 || spec.name == "tiles";
-  const bool depth = spec.name == "depth" || spec.name == "depth_noisy" || spec.name == "distance";
-  const bool picture = color || (info.format == "png" && depth);
-  const Samples samples = sample(*reader, width, height, picture);
-  if (picture)
-  {
-    return paintColor(samples, info);
-  }
-  if (integers)
-  {
-    return paintIds(samples, spec);
-  }
-  if (depth)
-  {
-    return paintDepth(samples);
-  }
-  if (spec.name == "uv" && info.channels == 2)
-  {
-    return paintFractions(samples);
-  }
-  return spec.name == "normal" && info.channels == 3 ? paintNormals(samples) : paintRanges(samples);
+  const bool color = isColor(spec) || (info.format == "png" && isDepth(spec));
+  return paintSamples(sample(*reader, width, height, color), spec, info.type, color);
+}
+
+LayerPicture paintLayer(const Rows& rows, const LayerSpec& spec)
+{
+  const Canvas canvas = paintSamples(samplesOf(rows), spec, rows.type(), isColor(spec));
+  return { canvas.width(), canvas.height(), canvas.pixels() };
 }
 
 } // namespace dgtk

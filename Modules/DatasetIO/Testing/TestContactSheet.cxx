@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkContactSheet.h"
 
+#include "dgtkCanvas.h"
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkHash.h"
+#include "dgtkLayerPicture.h"
 #include "dgtkTestImages.h"
 #include "dgtkTestSupport.h"
 
@@ -78,6 +80,26 @@ Manifest makeDataset(const std::string& folder, int frames)
     }
   }
   return manifest;
+}
+
+TEST(LayerPicture, ValuesHaveTheColoursOfTheSheet)
+{
+  Rows depth(PixelType::Float64, 1, 3, 0, 1);
+  depth.row<double>(0)[0] = 1;
+  depth.row<double>(0)[1] = 10;
+  depth.row<double>(0)[2] = std::numeric_limits<double>::infinity();
+  const LayerPicture picture = paintLayer(depth, { "depth", PixelType::Float64, 1, "", "", "+inf", "" });
+  ASSERT_EQ(picture.pixels.size(), 3u);
+  EXPECT_EQ(picture.width, 3);
+  EXPECT_EQ(picture.pixels[0], rampColor(1));
+  EXPECT_EQ(picture.pixels[1], rampColor(0.15));
+  EXPECT_EQ(picture.pixels[2], (Rgb{ 40, 40, 44 })) << "nothing";
+  Rows ids(PixelType::UInt32, 1, 2, 0, 1);
+  ids.row<std::uint32_t>(0)[0] = 0;
+  ids.row<std::uint32_t>(0)[1] = 7;
+  const LayerPicture objects = paintLayer(ids, { "objects", PixelType::UInt32, 1, "id", "", "0", "" });
+  EXPECT_EQ(objects.pixels[0], idColor(0));
+  EXPECT_EQ(objects.pixels[1], idColor(7));
 }
 } // namespace
 
