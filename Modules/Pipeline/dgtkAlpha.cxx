@@ -67,7 +67,7 @@ public:
       this->Sampler.sample(rect, band.hits.data() + std::size_t(y) * rect.width, this->Samples);
       if (this->Alpha)
       {
-        this->writeAlpha();
+        this->Alpha->write(alphaRows(this->Samples, this->Context.pool));
       }
       if (this->Coverage)
       {
@@ -96,34 +96,6 @@ public:
   }
 
 private:
-  void writeAlpha()
-  {
-    const PixelRect& rect = this->Samples.rect;
-    Rows rows(PixelType::UInt8, 4, rect.width, rect.y, rect.height);
-    this->Context.pool.parallelFor(rect.height,
-      [&](int y)
-      {
-        std::vector<std::uint32_t> ids(this->Samples.samples);
-        std::vector<double> depths(this->Samples.samples);
-        std::uint8_t* out = rows.row<std::uint8_t>(rect.y + y);
-        const std::size_t first = std::size_t(y) * rect.width;
-        for (std::size_t i = first; i < first + rect.width; ++i, out += 4)
-        {
-          SampleCount found{ this->Samples.hits[0].hits[i].object, std::uint32_t(this->Samples.samples) };
-          if (this->Samples.mixed[i])
-          {
-            this->Samples.gather(i, ids.data(), depths.data());
-            found = nearestCoverage(ids.data(), depths.data(), this->Samples.samples);
-          }
-          out[0] = static_cast<std::uint8_t>(found.id >> 16);
-          out[1] = static_cast<std::uint8_t>(found.id >> 8);
-          out[2] = static_cast<std::uint8_t>(found.id);
-          out[3] = static_cast<std::uint8_t>(std::lround(255.0 * found.count / this->Samples.samples));
-        }
-      });
-    this->Alpha->write(rows);
-  }
-
   void writeCoverage()
   {
     const PixelRect& rect = this->Samples.rect;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 namespace dgtk
 {
@@ -179,6 +180,34 @@ void PixelSampler::findDepths(SampledRows& rows) const
       computeSurfaceRows(*this->State, this->Views[k], rows.rect, wanted.data(), false, surface);
       rows.depth[k] = std::move(surface.t);
     });
+}
+
+Rows alphaRows(const SampledRows& samples, ThreadPool& pool)
+{
+  const PixelRect& rect = samples.rect;
+  Rows rows(PixelType::UInt8, 4, rect.width, rect.y, rect.height);
+  pool.parallelFor(rect.height,
+    [&](int y)
+    {
+      std::vector<std::uint32_t> ids(samples.samples);
+      std::vector<double> depths(samples.samples);
+      std::uint8_t* out = rows.row<std::uint8_t>(rect.y + y);
+      const std::size_t first = std::size_t(y) * rect.width;
+      for (std::size_t i = first; i < first + rect.width; ++i, out += 4)
+      {
+        SampleCount found{ samples.hits[0].hits[i].object, std::uint32_t(samples.samples) };
+        if (samples.mixed[i])
+        {
+          samples.gather(i, ids.data(), depths.data());
+          found = nearestCoverage(ids.data(), depths.data(), samples.samples);
+        }
+        out[0] = static_cast<std::uint8_t>(found.id >> 16);
+        out[1] = static_cast<std::uint8_t>(found.id >> 8);
+        out[2] = static_cast<std::uint8_t>(found.id);
+        out[3] = static_cast<std::uint8_t>(std::lround(255.0 * found.count / samples.samples));
+      }
+    });
+  return rows;
 }
 
 } // namespace dgtk

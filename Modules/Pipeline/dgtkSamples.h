@@ -2,6 +2,8 @@
 #ifndef dgtkSamples_h
 #define dgtkSamples_h
 
+#include "dgtkPipelineModule.h"
+
 #include "dgtkCoverage.h"
 #include "dgtkSurfaceRows.h"
 #include "dgtkThreadPool.h"
@@ -15,14 +17,14 @@ namespace dgtk
 
 /// A camera of width x height pixels whose image point p is the point scale * p + offset of `model`: the same lens on
 /// another grid of pixels. scale > 0.
-std::shared_ptr<const CameraModel> resampledCamera(
+DGTKPIPELINE_EXPORT std::shared_ptr<const CameraModel> resampledCamera(
   std::shared_ptr<const CameraModel> model, int width, int height, double scale, const Eigen::Vector2d& offset);
 
 /// The view whose pixel centres are sample (i, j) of the count x count samples of the pixels of `view`.
-View sampleView(const View& view, int i, int j, int count);
+DGTKPIPELINE_EXPORT View sampleView(const View& view, int i, int j, int count);
 
 /// The samples of a strip of full-width rows.
-struct SampledRows
+struct DGTKPIPELINE_EXPORT SampledRows
 {
   PixelRect rect;
   int samples = 1;                        ///< of a pixel: the square of those of a side
@@ -36,7 +38,7 @@ struct SampledRows
 };
 
 /// Traces N x N samples a pixel. The middle sample of an odd N is the pixel's own hit.
-class PixelSampler
+class DGTKPIPELINE_EXPORT PixelSampler
 {
 public:
   PixelSampler(std::shared_ptr<const SceneState> state, const View& view, int side, ThreadPool& pool);
@@ -58,6 +60,9 @@ private:
   std::vector<View> Views; ///< one a sample
   std::unique_ptr<VisibilitySource> Source;
 };
+
+/// The rows of the layer alpha: R, G, B the id of the object at the smallest depth, A 255 times its coverage, rounded.
+DGTKPIPELINE_EXPORT Rows alphaRows(const SampledRows& samples, ThreadPool& pool);
 
 } // namespace dgtk
 

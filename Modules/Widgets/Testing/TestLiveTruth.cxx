@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkLiveTruth.h"
+
+#include "dgtkGenerator.h"
+#include "dgtkLayerReader.h"
+#include "dgtkRepresentation.h"
+#include "dgtkTestSupport.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <future>
+#include <mutex>
+#include <thread>
+
+namespace
+{
+using namespace dgtk;
+using test::sourceFile;
+
+constexpr int width = 96;
+constexpr int height = 72;
+
+LiveQuestion questionOf(const std::string& file, std::size_t camera, int frame, int w = width, int h = height)
+{
+  const SceneDescription scene = readScene(sourceFile(file));
+  ModelStore models;
+  models.load(scene);
+  LiveQuestion question;
+  question.scene = std::make_shared<LiveScene>(scene, models);
+  question.frame = frame;
+  question.view = question.scene->view(scene.cameras[camera], frame, w, h);
+  return question;
+}
+
+/// The dataset of one camera at frame 1, each layer in the format that keeps its values.
+void render(const std::string& file, const std::string& folder)
+{
+  GeneratorRequest request;
+  request.scene = sourceFile(file);
+  request.folder = folder;
+  request.layers = { "flow_forward", "flow_backward", "sceneflow", "alpha" };
+  for (const RepresentationInfo& info : representations())
+  {
+    request.layers.push_back(info.layer);
+    request.formats[info.layer] = { "npy" };
+  }
+  request.formats["flow_forward"] = request.formats["flow_backward"] = { "npy" };
+  request.frames = FrameRange{ 1, 1, 1 };
+  request.width = width;
+  request.height = height;
+  request.samples = 4;
+  request.visibility = "ray";
+  request.threads = 1;
+  generate(request);
+}
+
+/// Path of the file of a layer; classes lie beside their flow.
+std::string fileOf(const std::string& folder, const std::string& layer)
+{
+  const std::size_t end = layer.find("_class");
+  const bool image = end != std::string::npos || layer == "alpha";
+  return folder + "/camera/" + layer.substr(0, end) + "/000001." + (image ? "png" : "npy");
+}
+
+TEST(LiveTruth, IsTheDatasetBitForBit)
+{
+  const char* const file = "Data/Scenes/dataset_flow.json";
+  const test::TemporaryFolder folder;
+  render(file, folder.path("out"));
+  const LiveQuestion question = questionOf(file, 0, 1);
+  ThreadPool pool(1);
+  LiveEye eye(question.scene, 1, question.view, pool);
+  VisibilityBuffer hits;
+  eye.trace({ 0, 0, width, height }, hits);
+  int layers = 0;
+  for (const LiveLayer& layer : liveLayers())
+  {
+    if (layer.name == "surface")
+    {
+      continue;
+    }
+    const ImageData stored = readLayerFile(fileOf(folder.path("out"), layer.name));
+    const Rows live = eye.values(layer.name, hits);
+    ASSERT_EQ(live.type(), stored.pixels.type()) << layer.name;
+    ASSERT_EQ(live.bytes(), stored.pixels.bytes()) << layer.name;
+    EXPECT_EQ(std::memcmp(live.data(), stored.pixels.data(), live.bytes()), 0) << layer.name;
+    ++layers;
+  }
+  EXPECT_GE(layers, 19);
+}
+
+TEST(LiveTruth, APixelIsThePictures)
+{
+  const LiveQuestion question = questionOf("Data/Scenes/dataset_flow.json", 0, 1);
+  ThreadPool pool(1);
+  LiveEye eye(question.scene, 1, question.view, pool);
+  VisibilityBuffer hits;
+  eye.trace({ 0, 0, width, height }, hits);
+  const Rows depth = eye.values("depth", hits);
+  const Rows flow = eye.values("flow_forward", hits);
+  int surfaces = 0;
+  for (int row = 5; row < height; row += 16)
+  {
+    for (int column = 3; column < width; column += 16)
+    {
+      const PixelTruth truth = pixelTruth(question, column, row, pool);
+      const auto value = [&](const char* layer)
+      {
+        for (const PixelValue& one : truth.values)
+        {
+          if (one.spec.name == layer)
+          {
+            return one.values;
+          }
+        }
+        return std::vector<double>();
+      };
+      const Hit& hit = hits.at(column, row);
+      EXPECT_EQ(value("objects").at(0), hit.object);
+      EXPECT_EQ(value("depth").at(0), depth.row<double>(row)[column]);
+      EXPECT_EQ(truth.object.empty(), hit.object == 0);
+      ASSERT_EQ(truth.layers.empty(), hit.object == 0);
+      if (hit.object != 0)
+      {
+        ++surfaces;
+        EXPECT_EQ(value("flow_forward").at(0), flow.row<double>(row)[2 * column]);
+        EXPECT_EQ(truth.layers.front().depth, value("depth").at(0));
+        EXPECT_EQ(truth.layers.front().triangle, value("triangles").at(0));
+        EXPECT_EQ(truth.layers.front().object, truth.object);
+        for (std::size_t i = 1; i < truth.layers.size(); ++i)
+        {
+          EXPECT_LE(truth.layers[i - 1].depth, truth.layers[i].depth);
+        }
+      }
+    }
+  }
+  EXPECT_GT(surfaces, 10);
+  EXPECT_THROW(pixelTruth(question, width, 0, pool), std::exception);
+}
+
+TEST(LiveTruth, FlowNeedsAFrameBeside)
+{
+  const LiveQuestion last = questionOf("Data/Scenes/dataset_flow.json", 0, 2);
+  ThreadPool pool(1);
+  EXPECT_FALSE(livePicture(last, "flow_forward", 1, pool).message.empty());
+  EXPECT_TRUE(livePicture(last, "flow_backward", 1, pool).message.empty());
+  for (const PixelValue& value : pixelTruth(last, 48, 36, pool).values)
+  {
+    EXPECT_EQ(std::isnan(value.values[0]), value.spec.name == "flow_forward" || value.spec.name == "sceneflow")
+      << value.spec.name;
+  }
+}
+
+TEST(LiveTruth, PicturesComeCoarseThenFine)
+{
+  const LiveQuestion question = questionOf("Data/Scenes/dataset_stereo.json", 0, 0, 200, 150);
+  LiveTruth truth;
+  std::mutex mutex;
+  std::vector<LivePicture> received;
+  truth.askPicture(question, "depth",
+    [&](const LivePicture& picture)
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      received.push_back(picture);
+    });
+  truth.wait();
+  ASSERT_EQ(received.size(), 2u);
+  EXPECT_GT(received[0].step, 1);
+  EXPECT_EQ(received[0].picture.width, (200 + received[0].step - 1) / received[0].step);
+  EXPECT_EQ(received[1].step, 1);
+  EXPECT_EQ(received[1].picture.width, 200);
+  EXPECT_EQ(received[1].picture.height, 150);
+  std::string message;
+  truth.askPicture(question, "smell", [&](const LivePicture& picture) { message = picture.message; });
+  truth.wait();
+  EXPECT_NE(message.find("smell"), std::string::npos);
+}
+
+TEST(NewestTask, WhatWaitedIsDropped)
+{
+  std::vector<int> done;
+  bool outdated = false;
+  std::promise<void> started;
+  std::promise<void> go;
+  NewestTask task;
+  task.start(
+    [&](const NewestTask::Outdated& isOutdated)
+    {
+      started.set_value();
+      go.get_future().wait();
+      outdated = isOutdated();
+      done.push_back(0);
+    });
+  started.get_future().wait();
+  for (int i = 1; i <= 100; ++i)
+  {
+    task.start([&done, i](const NewestTask::Outdated&) { done.push_back(i); });
+  }
+  go.set_value();
+  task.wait();
+  EXPECT_TRUE(outdated);
+  EXPECT_EQ(done, (std::vector<int>{ 0, 100 }));
+}
+
+TEST(NewestTask, TheEndWaitsForNothingThatHasNotBegun)
+{
+  std::promise<void> started;
+  int done = 0;
+  {
+    NewestTask task;
+    task.start(
+      [&](const NewestTask::Outdated& outdated)
+      {
+        started.set_value();
+        while (!outdated())
+        {
+          std::this_thread::yield();
+        }
+        ++done;
+      });
+    started.get_future().wait();
+  }
+  EXPECT_EQ(done, 1);
+}
+} // namespace

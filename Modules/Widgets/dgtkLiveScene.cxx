@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkLiveScene.h"
+
+#include "dgtkRaySource.h"
+#include "dgtkScenePlaces.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr std::size_t mostKept = 4; // a frame, its neighbours, and another one
+
+std::shared_ptr<const SceneState> stateOf(const SceneDescription& scene, const ModelStore& models, int frame)
+{
+  ScenePlaces places = placeScene(scene, models, frame);
+  auto state = std::make_shared<SceneState>();
+  state->frame = frame;
+  for (const SceneItem& item : scene.items())
+  {
+    if (item.kind != SceneItem::Kind::Object)
+    {
+      continue;
+    }
+    ObjectPlace& place = places.objects[item.index];
+    if (place.visible && place.instance.model != nullptr)
+    {
+      place.instance.className = scene.objects[item.index].className;
+      state->instances.push_back(std::move(place.instance));
+    }
+  }
+  return state;
+}
+} // namespace
+
+LiveScene::LiveScene(const SceneDescription& scene, const ModelStore& models)
+  : Scene(scene)
+  , Models(models)
+  , First(scene.firstFrame())
+  , Last(scene.lastFrame())
+{
+}
+
+LiveScene::Moment LiveScene::at(int frame) const
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  const auto found =
+    std::find_if(this->Kept.begin(), this->Kept.end(), [&](const Moment& moment) { return moment.frame == frame; });
+  if (found != this->Kept.end())
+  {
+    this->Kept.splice(this->Kept.begin(), this->Kept, found);
+    return this->Kept.front();
+  }
+  Moment moment{ frame, stateOf(this->Scene, this->Models, frame), nullptr };
+  std::shared_ptr<OcclusionQuery> occlusion = makeOcclusionQuery();
+  occlusion->setScene(moment.state);
+  moment.occlusion = std::move(occlusion);
+  this->Kept.push_front(moment);
+  if (this->Kept.size() > mostKept)
+  {
+    this->Kept.pop_back();
+  }
+  return moment;
+}
+
+LiveView LiveScene::view(const CameraDescription& camera, int frame, int width, int height) const
+{
+  SceneDescription alone;
+  alone.file = this->Scene.file;
+  alone.cameras.push_back(camera);
+  const std::shared_ptr<const Stage> stage = Stage::load(std::move(alone));
+  const auto at = [&](int when) { return stage->view(0, when, width, height); };
+  return { at(frame), at(std::max(frame - 1, this->First)), at(std::min(frame + 1, this->Last)) };
+}
+
+} // namespace dgtk

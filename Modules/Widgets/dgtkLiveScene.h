@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkLiveScene_h
+#define dgtkLiveScene_h
+
+#include "dgtkWidgetsModule.h"
+
+#include "dgtkModelStore.h"
+
+#include "dgtkVisibility.h"
+
+#include <cstddef>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace dgtk
+{
+
+/// A camera at a frame and at its neighbours.
+struct LiveView
+{
+  View now;
+  View before; ///< one frame earlier
+  View after;  ///< one frame later
+};
+
+/// A scene that is being edited as it is at one moment, for questions from other threads: the states that `dgtk render`
+/// would have of it, and rays through them. Thread-safe.
+class DGTKWIDGETS_EXPORT LiveScene
+{
+public:
+  /// Copies both; geometry is shared.
+  LiveScene(const SceneDescription& scene, const ModelStore& models);
+
+  struct Moment
+  {
+    int frame = 0;
+    std::shared_ptr<const SceneState> state;
+    std::shared_ptr<const OcclusionQuery> occlusion;
+  };
+  /// Objects as Stage::at(frame) has them, ids included; no lights. The last few are kept. Throws what placeScene()
+  /// and makeOcclusionQuery() throw.
+  Moment at(int frame) const;
+
+  /// A camera of this or any scene, as Stage::view(). Throws InputError where its pose is undefined.
+  LiveView view(const CameraDescription& camera, int frame, int width = 0, int height = 0) const;
+
+  const SceneDescription& description() const { return this->Scene; }
+  int firstFrame() const { return this->First; }
+  int lastFrame() const { return this->Last; }
+
+private:
+  SceneDescription Scene;
+  ModelStore Models;
+  int First = 0;
+  int Last = 0;
+  mutable std::mutex Mutex;
+  mutable std::list<Moment> Kept; // last used first
+};
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkLiveTruth_h
+#define dgtkLiveTruth_h
+
+#include "dgtkLiveLayers.h"
+#include "dgtkNewestTask.h"
+
+#include "dgtkLayerPicture.h"
+#include "dgtkThreadPool.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+struct LiveQuestion
+{
+  std::shared_ptr<const LiveScene> scene;
+  int frame = 0;
+  LiveView view; ///< of the size of the picture
+};
+
+struct LivePicture
+{
+  LayerPicture picture;
+  int step = 1;        ///< pixels of the view, in x and y, that are one of the picture
+  std::string message; ///< why there is nothing to see, one line; empty usually
+};
+
+/// A surface along the ray of a pixel.
+struct PixelLayer
+{
+  std::string object; ///< its name
+  std::uint32_t id = 0;
+  std::uint32_t part = 0;
+  std::uint32_t triangle = 0; ///< within the part
+  double depth = 0;
+  std::array<std::uint8_t, 3> color{};
+  double opacity = 1;
+};
+
+/// A value of a pixel under a layer's specification.
+struct PixelValue
+{
+  LayerSpec spec;
+  std::vector<double> values; ///< the spec's channels; exact
+};
+
+/// Everything known about one pixel.
+struct PixelTruth
+{
+  int column = 0;
+  int row = 0;
+  int frame = 0;
+  std::string object; ///< empty: nothing is there
+  std::string className;
+  std::string part;
+  std::vector<PixelValue> values; ///< of all liveLayers() but "surface"
+  std::vector<PixelLayer> layers; ///< near to far
+  std::string message;            ///< why nothing is known
+};
+
+/// The picture of a layer, every `step` pixels. `stop` is asked between strips; the picture is empty then. Throws what
+/// LiveEye throws.
+DGTKWIDGETS_EXPORT LivePicture livePicture(const LiveQuestion& question, const std::string& layer, int step,
+  ThreadPool& pool, const std::function<bool()>& stop = {});
+
+/// Throws UsageError for a pixel outside the view, and what LiveEye throws.
+DGTKWIDGETS_EXPORT PixelTruth pixelTruth(const LiveQuestion& question, int column, int row, ThreadPool& pool);
+
+/// Answers questions about a scene that changes on threads of its own. Pictures come coarse first, then fine; pixels
+/// do not wait for pictures. The newest question wins: one that waits is dropped, and a picture is given up at its next
+/// strip once its coarse form is there. What goes wrong is an answer's message.
+class DGTKWIDGETS_EXPORT LiveTruth
+{
+public:
+  LiveTruth();
+  /// Ends its threads; nobody is called any more.
+  ~LiveTruth();
+
+  /// `receive` is called on a thread of LiveTruth, once or more; it must not throw.
+  void askPicture(LiveQuestion question, std::string layer, std::function<void(const LivePicture&)> receive);
+  void askPixel(LiveQuestion question, int column, int row, std::function<void(const PixelTruth&)> receive);
+  /// Until every question is answered or dropped.
+  void wait();
+
+private:
+  ThreadPool Pool;
+  ThreadPool Alone; ///< for pixels
+  NewestTask Pictures;
+  NewestTask Pixels;
+};
+
+} // namespace dgtk
+
+#endif
