@@ -13,6 +13,8 @@ namespace dgtk
 namespace
 {
 constexpr std::size_t mostKept = 4; // a frame, its neighbours, and another one
+constexpr double depthRange = 1e4;  // far / near of a view
+constexpr double farMargin = 1.01;
 
 std::shared_ptr<const SceneState> stateOf(const SceneDescription& scene, const ModelStore& models, int frame)
 {
@@ -35,6 +37,22 @@ std::shared_ptr<const SceneState> stateOf(const SceneDescription& scene, const M
   return state;
 }
 } // namespace
+
+LiveView liveView(const ViewCamera& camera, const WorldBox& box, int width, int height)
+{
+  View view;
+  view.model = makePinholeFromFov(width, height, ViewCamera::angle(), 0);
+  view.camera_from_world = lookAtPose(camera.eye(), camera.focus(), camera.up());
+  view.far = (camera.focus() - camera.eye()).norm();
+  for (int corner = 0; corner < 8 && !box.empty(); ++corner)
+  {
+    const Eigen::Vector3d point(
+      (corner & 1 ? box.max : box.min).x(), (corner & 2 ? box.max : box.min).y(), (corner & 4 ? box.max : box.min).z());
+    view.far = std::max(view.far, farMargin * (view.camera_from_world * point).z());
+  }
+  view.near = view.far / depthRange;
+  return { view, view, view };
+}
 
 LiveScene::LiveScene(const SceneDescription& scene, const ModelStore& models)
   : Scene(scene)

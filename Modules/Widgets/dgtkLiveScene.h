@@ -5,6 +5,7 @@
 #include "dgtkWidgetsModule.h"
 
 #include "dgtkModelStore.h"
+#include "dgtkViewCamera.h"
 
 #include "dgtkVisibility.h"
 
@@ -24,6 +25,10 @@ struct LiveView
   View before; ///< one frame earlier
   View after;  ///< one frame later
 };
+
+/// The eye of a perspective view of the editor, which is the same at all frames. near and far hold all of `box` that is
+/// not very near: far is 10,000 times near.
+DGTKWIDGETS_EXPORT LiveView liveView(const ViewCamera& camera, const WorldBox& box, int width, int height);
 
 /// A scene that is being edited as it is at one moment, for questions from other threads: the states that `dgtk render`
 /// would have of it, and rays through them. Thread-safe.

@@ -185,9 +185,10 @@ void LiveTruth::askPicture(LiveQuestion question, std::string layer, std::functi
     {
       const CameraModel& model = *question.view.now.model;
       const bool small = std::int64_t(model.width()) * model.height() < leastFine;
-      for (const int step : { coarseStep, 1 })
+      for (const int factor : { coarseStep, 1 })
       {
-        if (step > 1 && small)
+        const int step = factor * question.finest;
+        if (factor > 1 && small)
         {
           continue;
         }
@@ -195,7 +196,7 @@ void LiveTruth::askPicture(LiveQuestion question, std::string layer, std::functi
         const LivePicture picture = attempted<LivePicture>(
           [&] {
             return livePicture(
-              question, layer, step, this->Pool, step > 1 || small ? std::function<bool()>() : outdated);
+              question, layer, step, this->Pool, factor > 1 || small ? std::function<bool()>() : outdated);
           });
         if (!picture.picture.pixels.empty() || !picture.message.empty())
         {

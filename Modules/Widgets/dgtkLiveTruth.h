@@ -20,7 +20,8 @@ struct LiveQuestion
 {
   std::shared_ptr<const LiveScene> scene;
   int frame = 0;
-  LiveView view; ///< of the size of the picture
+  LiveView view;  ///< of the size of the picture
+  int finest = 1; ///< pixels of the view, in x and y, for one of the finest picture
 };
 
 struct LivePicture

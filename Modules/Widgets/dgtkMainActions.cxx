@@ -12,6 +12,8 @@
 #include "dgtkSceneTree.h"
 #include "dgtkSceneViews.h"
 #include "dgtkTimeLine.h"
+#include "dgtkTruthPanel.h"
+#include "dgtkTruthView.h"
 
 #include <QAction>
 #include <QActionGroup>
@@ -20,6 +22,7 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QPlainTextEdit>
+#include <QStatusBar>
 #include <QToolBar>
 
 namespace dgtk
@@ -55,6 +58,13 @@ void MainWindow::makeDocks()
     this->addDock(Qt::RightDockWidgetArea, "treeDock", tr("Scene"), new SceneTree(*this->State, this));
   QDockWidget* const properties =
     this->addDock(Qt::RightDockWidgetArea, "propertiesDock", tr("Properties"), new PropertiesPanel(*this->State, this));
+  this->Truth = new TruthView(*this->State, *this->Views, this);
+  QDockWidget* const values = this->addDock(Qt::RightDockWidgetArea, "valuesDock", tr("Values"), this->Truth->panel());
+  this->tabifyDockWidget(properties, values);
+  properties->raise();
+  connect(
+    this->Truth, &TruthView::pointed, this, [this](const QString& line) { this->statusBar()->showMessage(line); });
+  connect(this->Truth, &TruthView::layerChosen, values, [values] { values->raise(); });
   QDockWidget* const time =
     this->addDock(Qt::BottomDockWidgetArea, "timeDock", tr("Time line"), new TimeLine(*this->State, this));
   this->Log = new QPlainTextEdit(this);
@@ -139,6 +149,7 @@ void MainWindow::makeViewMenu()
   addStyle("shaded", tr("&Shaded"), "S", ViewStyle::Shaded);
   addStyle("textured", tr("&Textured"), "T", ViewStyle::Textured);
   menu->addSeparator();
+  this->Truth->fillMenu(menu->addMenu(tr("S&how in the perspective")));
   QAction* const grid = this->addAction(menu, "grid", tr("&Grid and axes"), QKeySequence("G"));
   grid->setCheckable(true);
   grid->setChecked(true);

@@ -20,6 +20,7 @@ class EditorState;
 class RenderDialog;
 class SceneDocument;
 class SceneViews;
+class TruthView;
 struct CameraDescription;
 
 /// The desktop editor's window: four views, scene tree, properties, time line, log, menus and tool bar. Actions and
@@ -85,6 +86,7 @@ private:
 
   EditorState* State;
   SceneViews* Views = nullptr;
+  TruthView* Truth = nullptr;
   QPlainTextEdit* Log = nullptr;
   QMenu* Recent = nullptr;
   QMenu* ViewMenu = nullptr;

@@ -62,6 +62,7 @@ void SceneView::placeCamera()
   camera->SetViewAngle(ViewCamera::angle());
   camera->SetParallelProjection(this->Camera.parallel());
   camera->SetParallelScale(this->Camera.height() / 2);
+  emit this->cameraMoved();
   this->drawSoon();
 }
 
@@ -79,6 +80,12 @@ void SceneView::drawSoon()
   }
 }
 
+void SceneView::setCovered(bool on)
+{
+  this->Covered = on;
+  this->drawSoon();
+}
+
 void SceneView::setHurried(bool on)
 {
   this->Hurried = on;
@@ -87,7 +94,7 @@ void SceneView::setHurried(bool on)
 
 void SceneView::draw()
 {
-  if (!this->isVisible())
+  if (!this->isVisible() || this->Covered)
   {
     return;
   }

@@ -45,11 +45,14 @@ public:
   void setHurried(bool on);
   /// Draws when the event loop is reached; many calls draw once.
   void drawSoon();
+  /// Something opaque is in front of the view: it need not draw.
+  void setCovered(bool on);
   /// Nothing where only the background is.
   std::optional<SceneItem> itemAt(const QPoint& position) const;
 
 signals:
   void activated();
+  void cameraMoved();
   void picked(bool hit, int kind, int index, bool add);
   void dragStarted();
   void dragged(double x, double y, double z); ///< world, since the start
@@ -90,6 +93,7 @@ private:
   bool Moved = false;
   bool DrawWanted = false;
   bool Hurried = false;
+  bool Covered = false;
   double FineSeconds = 0; ///< that the latest whole drawing took
   Eigen::Vector3d Grasped{ 0, 0, 0 };
 };

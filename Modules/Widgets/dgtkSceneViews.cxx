@@ -13,6 +13,11 @@
 namespace dgtk
 {
 
+namespace
+{
+constexpr int titleHeight = 24; // pixels
+}
+
 SceneViews::SceneViews(EditorState& state, QWidget* parent)
   : QWidget(parent)
   , State(state)
@@ -50,8 +55,12 @@ QWidget* SceneViews::makePane(ViewKind kind, const QString& title)
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
   auto* label = new QLabel(title, pane);
-  label->setContentsMargins(6, 1, 6, 1);
-  layout->addWidget(label);
+  auto* bar = new QHBoxLayout;
+  bar->setContentsMargins(6, 1, 2, 1);
+  bar->addWidget(label);
+  bar->addStrut(titleHeight);
+  layout->addLayout(bar);
+  this->Titles.push_back(bar);
   auto* view = new SceneView(kind, pane);
   view->setObjectName("view." + QString::number(static_cast<int>(kind)));
   layout->addWidget(view, 1);
@@ -187,6 +196,7 @@ void SceneViews::toggleMaximized(SceneView* view)
 void SceneViews::lookThrough(const CameraDescription& camera)
 {
   this->view(ViewKind::Perspective)->lookThrough(camera, this->State.frame());
+  emit this->lookedThrough(camera);
 }
 
 void SceneViews::pick(bool hit, int kind, int index, bool add)

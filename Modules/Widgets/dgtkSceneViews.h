@@ -14,6 +14,7 @@
 #include <memory>
 #include <vector>
 
+class QHBoxLayout;
 class QSplitter;
 
 namespace dgtk
@@ -29,6 +30,9 @@ public:
   ~SceneViews() override;
 
   SceneView* view(ViewKind kind) const { return this->Views[static_cast<std::size_t>(kind)]; }
+  /// The bar above a view, its name at the left.
+  QHBoxLayout* title(ViewKind kind) const { return this->Titles[static_cast<std::size_t>(kind)]; }
+  const ScenePlaces& places() const { return *this->Places; }
   SceneView* active() const { return this->Active; }
   void frameAll();
   void frameSelected();
@@ -41,6 +45,7 @@ public:
   void showWhole();
 
 signals:
+  void lookedThrough(const CameraDescription& camera);
   void menuAsked(const QPoint& global);
   void failed(const QString& message);
 
@@ -59,6 +64,7 @@ private:
   ViewMeshes Meshes;
   std::vector<SceneView*> Views;
   std::vector<QWidget*> Panes;
+  std::vector<QHBoxLayout*> Titles;
   QSplitter* Columns = nullptr;
   QSplitter* Rows[2] = { nullptr, nullptr };
   SceneView* Active = nullptr;

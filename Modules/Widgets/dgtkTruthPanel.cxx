@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkTruthPanel.h"
+
+#include "dgtkEditorState.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QHeaderView>
+#include <QKeyEvent>
+
+#include <charconv>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+double valueOf(const PixelTruth& truth, const char* layer)
+{
+  for (const PixelValue& value : truth.values)
+  {
+    if (value.spec.name == layer)
+    {
+      return value.values.front();
+    }
+  }
+  return 0;
+}
+} // namespace
+
+QString exactText(double value)
+{
+  if (std::isnan(value))
+  {
+    return QStringLiteral("-");
+  }
+  char text[32];
+  return QString::fromLatin1(text, static_cast<int>(std::to_chars(text, text + sizeof text, value).ptr - text));
+}
+
+QString exactText(const PixelValue& value, const QString& separator)
+{
+  QStringList parts;
+  bool known = false;
+  for (const double one : value.values)
+  {
+    parts << exactText(one);
+    known = known || !std::isnan(one);
+  }
+  return known ? parts.join(separator) : QStringLiteral("-");
+}
+
+QString visibilityText(int visibility)
+{
+  switch (visibility)
+  {
+    case 1:
+      return QApplication::translate("dgtk::TruthPanel", "visible");
+    case 2:
+      return QApplication::translate("dgtk::TruthPanel", "occluded by another object");
+    case 3:
+      return QApplication::translate("dgtk::TruthPanel", "occluded by its own object");
+    case 4:
+      return QApplication::translate("dgtk::TruthPanel", "outside the image");
+    case 5:
+      return QApplication::translate("dgtk::TruthPanel", "behind the camera");
+    default:
+      return QApplication::translate("dgtk::TruthPanel", "no surface");
+  }
+}
+
+TruthPanel::TruthPanel(QWidget* parent)
+  : QTreeWidget(parent)
+{
+  this->setObjectName("truthPanel");
+  this->setColumnCount(2);
+  this->setHeaderLabels({ tr("What"), tr("Value") });
+  this->setRootIsDecorated(false);
+  this->setAlternatingRowColors(true);
+  this->setSelectionMode(ExtendedSelection);
+  this->header()->setStretchLastSection(false);
+  this->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+  this->header()->setSectionResizeMode(1, QHeaderView::Stretch);
+  this->forgetTruth();
+}
+
+void TruthPanel::setRow(const QString& name, const QString& value, const QString& tip)
+{
+  if (this->Next >= this->topLevelItemCount())
+  {
+    this->addTopLevelItem(new QTreeWidgetItem);
+  }
+  QTreeWidgetItem* const row = this->topLevelItem(this->Next++);
+  row->setFirstColumnSpanned(false);
+  row->setText(0, name);
+  row->setText(1, value);
+  row->setToolTip(0, tip);
+  row->setToolTip(1, value);
+  row->setTextAlignment(0, Qt::AlignLeft | Qt::AlignTop);
+}
+
+void TruthPanel::finishRows()
+{
+  while (this->topLevelItemCount() > this->Next)
+  {
+    delete this->takeTopLevelItem(this->topLevelItemCount() - 1);
+  }
+}
+
+void TruthPanel::forgetTruth()
+{
+  this->Next = 0;
+  this->setRow(tr("Move the mouse over the perspective view."), {});
+  this->topLevelItem(0)->setFirstColumnSpanned(true);
+  this->finishRows();
+}
+
+void TruthPanel::showTruth(const QString& view, const PixelTruth& truth, const QString& units)
+{
+  this->Next = 0;
+  this->setRow(tr("View"), tr("%1, frame %2").arg(view).arg(truth.frame));
+  this->setRow(tr("Pixel"), tr("column %1, row %2").arg(truth.column).arg(truth.row));
+  if (!truth.message.empty())
+  {
+    this->setRow(tr("Unknown"), toText(truth.message));
+    this->finishRows();
+    return;
+  }
+  this->setRow(tr("Object"),
+    truth.object.empty() ? tr("nothing") : tr("%1 (id %2)").arg(toText(truth.object)).arg(valueOf(truth, "objects")));
+  if (!truth.object.empty())
+  {
+    if (!truth.className.empty())
+    {
+      this->setRow(tr("Class"), toText(truth.className));
+    }
+    this->setRow(tr("Part"), tr("%1 (id %2)")
+                               .arg(toText(truth.part).isEmpty() ? tr("unnamed") : toText(truth.part))
+                               .arg(valueOf(truth, "parts")));
+    this->setRow(tr("Triangle"), exactText(valueOf(truth, "triangles")));
+    this->showValues(truth, units);
+  }
+  this->setRow(tr("Surfaces on the ray"), QString::number(truth.layers.size()));
+  int rank = 1;
+  for (const PixelLayer& layer : truth.layers)
+  {
+    this->setRow(tr("  %1: %2").arg(rank++).arg(toText(layer.object)),
+      tr("depth %1\npart %2, triangle %3").arg(exactText(layer.depth)).arg(layer.part).arg(layer.triangle));
+  }
+  this->finishRows();
+}
+
+void TruthPanel::showValues(const PixelTruth& truth, const QString& units)
+{
+  for (std::size_t i = 0; i < truth.values.size(); ++i)
+  {
+    const PixelValue& value = truth.values[i];
+    const QString name = toText(value.spec.name);
+    if (name == "objects" || name == "classes" || name == "parts" || name == "triangles" || name.endsWith("_class"))
+    {
+      continue;
+    }
+    QString unit = toText(value.spec.unit);
+    unit.replace("scene units", units.isEmpty() ? tr("scene units") : units);
+    const QString numbers = exactText(value, QStringLiteral("\n"));
+    const bool bare = unit == "1" || unit == "id" || numbers == "-";
+    QString text = numbers;
+    const QString what = QString(name).replace('_', ' ');
+    if (i + 1 < truth.values.size() && truth.values[i + 1].spec.name == value.spec.name + "_class")
+    {
+      text += '\n' + visibilityText(static_cast<int>(truth.values[i + 1].values.front()));
+    }
+    if (name == "alpha")
+    {
+      const std::vector<double>& v = value.values;
+      text = tr("id %1, coverage %2 / 255").arg(v[0] * 65536 + v[1] * 256 + v[2]).arg(v[3]);
+    }
+    this->setRow(bare ? what : what + ", " + unit, text, toText(value.spec.description));
+  }
+}
+
+QString TruthPanel::text() const
+{
+  QStringList lines;
+  for (int i = 0; i < this->topLevelItemCount(); ++i)
+  {
+    const QTreeWidgetItem* const row = this->topLevelItem(i);
+    lines << row->text(0) + '\t' + row->text(1).replace('\n', '\t');
+  }
+  return lines.join('\n');
+}
+
+bool TruthPanel::event(QEvent* event)
+{
+  if (event->type() == QEvent::ShortcutOverride && static_cast<QKeyEvent*>(event)->matches(QKeySequence::Copy))
+  {
+    event->accept(); // or the window copies what is selected in the scene
+    return true;
+  }
+  return QTreeWidget::event(event);
+}
+
+void TruthPanel::keyPressEvent(QKeyEvent* event)
+{
+  if (event->matches(QKeySequence::Copy))
+  {
+    QApplication::clipboard()->setText(this->text());
+    return;
+  }
+  QTreeWidget::keyPressEvent(event);
+}
+
+} // namespace dgtk

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkTruthPanel_h
+#define dgtkTruthPanel_h
+
+// Private to Widgets.
+
+#include "dgtkLiveTruth.h"
+
+#include <QString>
+#include <QTreeWidget>
+
+namespace dgtk
+{
+
+/// A number with the digits that tell it from all others.
+QString exactText(double value);
+/// The channels of a value; "-" where there is none.
+QString exactText(const PixelValue& value, const QString& separator);
+/// What a value of the layers "..._class" says.
+QString visibilityText(int visibility);
+
+/// Everything known about the pixel under the mouse. Control+C copies it.
+class TruthPanel : public QTreeWidget
+{
+  Q_OBJECT
+
+public:
+  explicit TruthPanel(QWidget* parent);
+  /// `units`: of the scene, may be empty.
+  void showTruth(const QString& view, const PixelTruth& truth, const QString& units);
+  void forgetTruth();
+  /// The rows as lines.
+  QString text() const;
+
+protected:
+  bool event(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+
+private:
+  void setRow(const QString& name, const QString& value, const QString& tip = {});
+  void showValues(const PixelTruth& truth, const QString& units);
+  void finishRows();
+  int Next = 0; ///< row that setRow() fills
+};
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkTruthPicture_h
+#define dgtkTruthPicture_h
+
+// Private to Widgets.
+
+#include "dgtkLiveTruth.h"
+
+#include <QImage>
+#include <QString>
+#include <QWidget>
+
+namespace dgtk
+{
+
+/// Copies the pixels.
+QImage imageOf(const LayerPicture& picture);
+
+/// A layer's picture over a view, whose mouse it leaves alone. It is as large as the view; an image of another shape
+/// is fitted into it.
+class TruthPicture : public QWidget
+{
+  Q_OBJECT
+  Q_PROPERTY(int step READ step)
+
+public:
+  explicit TruthPicture(QWidget* view);
+
+  /// `size`: of the image, pixels; the picture may be coarser.
+  void showPicture(const LivePicture& picture, const QSize& size, const QString& caption);
+  void forgetPicture();
+  /// Coarseness of what is shown; 0: nothing yet.
+  int step() const { return this->Step; }
+  const QImage& image() const { return this->Image; }
+
+  /// Where an image of that size is in a widget of another.
+  static QRectF fitted(const QSize& image, const QSize& widget);
+
+protected:
+  void paintEvent(QPaintEvent* event) override;
+
+private:
+  QImage Image;
+  QSize Size;
+  int Step = 0;
+  QString Caption;
+};
+
+} // namespace dgtk
+
+#endif

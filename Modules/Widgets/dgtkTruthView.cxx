@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkTruthView.h"
+
+#include "dgtkTruthPanel.h"
+#include "dgtkTruthPicture.h"
+
+#include <QAction>
+#include <QActionGroup>
+#include <QComboBox>
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QMouseEvent>
+#include <QTimer>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+namespace dgtk
+{
+
+TruthView::TruthView(EditorState& state, SceneViews& views, QObject* parent)
+  : QObject(parent)
+  , State(state)
+  , Views(views)
+  , View3D(views.view(ViewKind::Perspective))
+  , Picture(new TruthPicture(this->View3D))
+  , Panel(new TruthPanel(nullptr))
+  , Choice(new QComboBox)
+  , Subject(new QLabel)
+  , Group(new QActionGroup(this))
+{
+  QHBoxLayout* const title = views.title(ViewKind::Perspective);
+  this->Subject->setObjectName("truthSubject");
+  this->Choice->setObjectName("truthLayer");
+  this->Choice->setToolTip(tr("What the perspective view shows"));
+  this->Choice->addItem(tr("Colour"), QString());
+  for (const LiveLayer& layer : liveLayers())
+  {
+    this->Choice->addItem(toText(layer.name), toText(layer.name));
+    this->Choice->setItemData(this->Choice->count() - 1, toText(layer.description), Qt::ToolTipRole);
+  }
+  title->addWidget(this->Subject);
+  title->addStretch(1);
+  title->addWidget(this->Choice);
+  connect(this->Choice, QOverload<int>::of(&QComboBox::activated), this,
+    [this](int index) { this->setLayer(this->Choice->itemData(index).toString()); });
+  connect(&state, &EditorState::changed, this,
+    [this]
+    {
+      this->Scene.reset();
+      this->askSoon();
+    });
+  connect(&state, &EditorState::frameChanged, this, &TruthView::askSoon);
+  connect(this->View3D, &SceneView::cameraMoved, this, &TruthView::leaveCamera);
+  connect(&views, &SceneViews::lookedThrough, this, &TruthView::lookThrough);
+  this->View3D->installEventFilter(this);
+  this->View3D->setMouseTracking(true);
+}
+
+TruthView::~TruthView() = default;
+
+void TruthView::fillMenu(QMenu* menu)
+{
+  for (int i = 0; i < this->Choice->count(); ++i)
+  {
+    const QString layer = this->Choice->itemData(i).toString();
+    QAction* const action = this->Group->addAction(menu->addAction(this->Choice->itemText(i)));
+    action->setObjectName("show." + (layer.isEmpty() ? QStringLiteral("colour") : layer));
+    action->setData(layer);
+    action->setCheckable(true);
+    action->setChecked(layer == this->Layer);
+    action->setStatusTip(this->Choice->itemData(i, Qt::ToolTipRole).toString());
+    if (i < 10)
+    {
+      action->setShortcut(QKeySequence(QStringLiteral("Ctrl+%1").arg(i)));
+    }
+    connect(action, &QAction::triggered, this, [this, layer] { this->setLayer(layer); });
+  }
+}
+
+void TruthView::setLayer(const QString& layer)
+{
+  const bool other = layer != this->Layer;
+  this->Layer = layer;
+  this->Choice->setCurrentIndex(std::max(0, this->Choice->findData(layer)));
+  for (QAction* action : this->Group->actions())
+  {
+    action->setChecked(action->data().toString() == layer);
+  }
+  if (other)
+  {
+    this->Picture->forgetPicture();
+    this->Picture->setGeometry(this->View3D->rect());
+    this->Picture->setVisible(!layer.isEmpty());
+    this->View3D->setCovered(!layer.isEmpty());
+    emit this->layerChosen(layer);
+    this->askSoon();
+  }
+}
+
+void TruthView::lookThrough(const CameraDescription& camera)
+{
+  this->Through = camera;
+  this->showSubject();
+  this->askSoon();
+}
+
+void TruthView::leaveCamera()
+{
+  this->Through.reset();
+  this->showSubject();
+  this->askSoon();
+}
+
+const CameraDescription* TruthView::camera() const
+{
+  if (!this->Through)
+  {
+    return nullptr;
+  }
+  // As it is now, when it belongs to the scene.
+  for (const CameraDescription& camera : this->State.scene().cameras)
+  {
+    if (camera.name == this->Through->name)
+    {
+      return &camera;
+    }
+  }
+  return &*this->Through;
+}
+
+void TruthView::showSubject()
+{
+  this->Subject->setText(this->Through ? tr("through camera %1").arg(toText(this->Through->name)) : QString());
+}
+
+std::optional<LiveQuestion> TruthView::question()
+{
+  if (!this->View3D->isVisible() || this->View3D->width() < 2 || this->View3D->height() < 2)
+  {
+    return std::nullopt;
+  }
+  if (!this->Scene)
+  {
+    this->Scene = std::make_shared<LiveScene>(this->State.scene(), this->State.document().models());
+    this->Last = this->Scene;
+  }
+  LiveQuestion question;
+  question.scene = this->Scene;
+  question.frame = this->State.frame();
+  if (const CameraDescription* const camera = this->camera())
+  {
+    question.view = this->Scene->view(*camera, question.frame);
+    const CameraModel& model = *question.view.now.model;
+    question.finest =
+      std::max(1, std::max(model.width() / this->View3D->width(), model.height() / this->View3D->height()));
+  }
+  else
+  {
+    question.view =
+      liveView(this->View3D->camera(), this->Views.places().box, this->View3D->width(), this->View3D->height());
+  }
+  return question;
+}
+
+void TruthView::askSoon()
+{
+  if (!this->AskWanted)
+  {
+    this->AskWanted = true;
+    QTimer::singleShot(0, this,
+      [this]
+      {
+        this->AskWanted = false;
+        this->ask();
+      });
+  }
+}
+
+void TruthView::ask()
+{
+  try
+  {
+    if (!this->Layer.isEmpty())
+    {
+      if (const std::optional<LiveQuestion> asked = this->question())
+      {
+        const CameraModel& model = *asked->view.now.model;
+        this->Truth.askPicture(*asked, this->Layer.toStdString(),
+          [this, layer = this->Layer, size = QSize(model.width(), model.height())](const LivePicture& picture)
+          {
+            QMetaObject::invokeMethod(
+              this, [this, picture, layer, size] { this->receive(picture, layer, size); }, Qt::QueuedConnection);
+          });
+      }
+    }
+    if (this->Mouse)
+    {
+      this->askPixel(*this->Mouse);
+    }
+  }
+  catch (const std::exception& error)
+  {
+    LivePicture none;
+    none.message = error.what();
+    this->receive(none, this->Layer, {});
+  }
+}
+
+void TruthView::receive(const LivePicture& picture, const QString& layer, const QSize& size)
+{
+  if (layer != this->Layer)
+  {
+    return;
+  }
+  const QString caption = picture.message.empty() ? layer : layer + ": " + toText(picture.message);
+  this->Picture->showPicture(picture, size, caption);
+}
+
+void TruthView::askPixel(const QPoint& position)
+{
+  this->Mouse = position;
+  if (!this->Panel->isVisible() && this->Layer.isEmpty())
+  {
+    return;
+  }
+  const std::optional<LiveQuestion> asked = this->question();
+  if (!asked)
+  {
+    return;
+  }
+  const CameraModel& model = *asked->view.now.model;
+  const QRectF place = TruthPicture::fitted({ model.width(), model.height() }, this->View3D->size());
+  const double scale = model.width() / place.width();
+  const int column = static_cast<int>(std::floor((position.x() + 0.5 - place.left()) * scale));
+  const int row = static_cast<int>(std::floor((position.y() + 0.5 - place.top()) * scale));
+  if (column < 0 || row < 0 || column >= model.width() || row >= model.height())
+  {
+    return;
+  }
+  this->Truth.askPixel(*asked, column, row,
+    [this](const PixelTruth& truth)
+    {
+      QMetaObject::invokeMethod(
+        this, [this, truth] { this->receive(truth); }, Qt::QueuedConnection);
+    });
+}
+
+void TruthView::receive(const PixelTruth& truth)
+{
+  if (!this->Mouse)
+  {
+    return;
+  }
+  this->Panel->showTruth(
+    this->Through ? toText(this->Through->name) : tr("Perspective"), truth, toText(this->State.scene().units));
+  QString line = tr("(%1, %2)").arg(truth.column).arg(truth.row);
+  if (!truth.object.empty())
+  {
+    line += ' ' + toText(truth.object);
+    for (const PixelValue& value : truth.values)
+    {
+      const QString name = toText(value.spec.name);
+      if (name == "depth" || name == this->Layer)
+      {
+        line += QStringLiteral("  %1 %2").arg(name, exactText(value, QStringLiteral(", ")));
+      }
+    }
+  }
+  emit this->pointed(line);
+}
+
+bool TruthView::eventFilter(QObject* object, QEvent* event)
+{
+  switch (event->type())
+  {
+    case QEvent::Resize:
+      this->Picture->setGeometry(this->View3D->rect());
+      this->askSoon();
+      break;
+    case QEvent::Show:
+      this->askSoon();
+      break;
+    case QEvent::MouseMove:
+      try
+      {
+        this->askPixel(static_cast<QMouseEvent*>(event)->pos());
+      }
+      catch (const std::exception&)
+      {
+        this->Mouse.reset(); // the picture says what is wrong
+      }
+      break;
+    case QEvent::Leave:
+      this->Mouse.reset();
+      this->Panel->forgetTruth();
+      emit this->pointed({});
+      break;
+    default:
+      break;
+  }
+  return QObject::eventFilter(object, event);
+}
+
+} // namespace dgtk

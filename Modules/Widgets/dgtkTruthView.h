@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkTruthView_h
+#define dgtkTruthView_h
+
+// Private to Widgets.
+
+#include "dgtkEditorState.h"
+#include "dgtkLiveTruth.h"
+#include "dgtkSceneViews.h"
+
+#include <QObject>
+#include <QPoint>
+
+#include <memory>
+#include <optional>
+
+class QAction;
+class QActionGroup;
+class QComboBox;
+class QLabel;
+class QMenu;
+
+namespace dgtk
+{
+
+class TruthPanel;
+class TruthPicture;
+
+/// Ground truth in the perspective view: a chosen layer instead of colours, seen from the view's eye or, after Preview,
+/// through a camera of the scene until the view is moved; and what is known about the pixel under the mouse.
+class TruthView : public QObject
+{
+  Q_OBJECT
+
+public:
+  TruthView(EditorState& state, SceneViews& views, QObject* parent);
+  ~TruthView() override;
+
+  /// The panel of values, without a parent: it goes into a dock.
+  TruthPanel* panel() const { return this->Panel; }
+  /// Fills a menu with a radio item for each layer.
+  void fillMenu(QMenu* menu);
+  /// Name of a live layer, empty: colour.
+  void setLayer(const QString& layer);
+  const QString& layer() const { return this->Layer; }
+
+signals:
+  /// One line about the pixel under the mouse, empty outside.
+  void pointed(const QString& line);
+  void layerChosen(const QString& layer);
+
+protected:
+  bool eventFilter(QObject* object, QEvent* event) override;
+
+private:
+  void lookThrough(const CameraDescription& camera);
+  void leaveCamera();
+  void ask();
+  void askSoon();
+  void askPixel(const QPoint& position);
+  void receive(const LivePicture& picture, const QString& layer, const QSize& size);
+  void receive(const PixelTruth& truth);
+  /// What the view looks at, as a camera; none before it has a size.
+  std::optional<LiveQuestion> question();
+  const CameraDescription* camera() const; ///< null: the view's own eye
+  void showSubject();
+
+  EditorState& State;
+  SceneViews& Views;
+  SceneView* const View3D;
+  TruthPicture* Picture;
+  TruthPanel* Panel;
+  QComboBox* Choice;
+  QLabel* Subject;
+  QActionGroup* Group;
+  std::shared_ptr<const LiveScene> Scene; ///< null after a change
+  std::shared_ptr<const LiveScene> Last;  ///< keeps what both share
+  std::optional<CameraDescription> Through;
+  QString Layer;
+  bool AskWanted = false;
+  std::optional<QPoint> Mouse;
+  LiveTruth Truth; ///< last: its threads end first
+};
+
+} // namespace dgtk
+
+#endif
