@@ -35,6 +35,7 @@ void Ac3dObject::begin(const Affine3& root_from_parent, const std::string& textu
   this->Normals.clear();
   this->Flags = 0;
   this->SurfaceMaterial = -1;
+  this->SurfacesLeft = 0;
   this->Builder.beginObject("");
 }
 
@@ -89,6 +90,10 @@ void Ac3dObject::statement(const Words& words)
   else if (key == "numvert")
   {
     this->vertices(this->Lines.count(words, "vertices"));
+  }
+  else if (key == "numsurf")
+  {
+    this->SurfacesLeft = this->Lines.count(words, "surfaces");
   }
   else if (key == "SURF")
   {
@@ -192,6 +197,7 @@ void Ac3dObject::refs(long long number)
   {
     this->Corners.push_back(this->corner(this->Lines.words()));
   }
+  --this->SurfacesLeft;
   this->Builder.model().twoSidedSurfaces += (this->Flags & 0x20u) != 0 ? 1 : 0;
   switch (this->Flags & 0xfu)
   {

@@ -33,6 +33,8 @@ public:
 
   Affine3 rootFromObject() const { return this->Root_from_parent * this->Parent_from_object; }
   const std::string& texture() const { return this->Texture; }
+  /// Of the number that the object announced; below 0 where it has more.
+  long long surfacesLeft() const { return this->SurfacesLeft; }
 
 private:
   void textureStatement(const Words& words);
@@ -57,6 +59,7 @@ private:
   std::vector<std::int32_t> Normals; ///< of each vertex, where the file has them
   unsigned Flags = 0;                ///< of the surface being read
   long long SurfaceMaterial = -1;
+  long long SurfacesLeft = 0;
   std::vector<Corner> Corners;
 
   std::size_t BadMaterials = 0;

@@ -16,6 +16,7 @@ constexpr std::size_t deepest = 1000;
 /// An OBJECT whose kids are being read.
 struct Level
 {
+  long long kids;
   long long kidsLeft;
   Affine3 root_from_object;
   std::string texture;
@@ -42,6 +43,7 @@ public:
         this->statement(words);
       }
     }
+    this->checkEnd();
     this->finishObject();
     while (!this->Levels.empty())
     {
@@ -53,6 +55,25 @@ public:
   }
 
 private:
+  /// Real files promise more kids than follow; but a file that ends in the middle of something was cut short.
+  void checkEnd() const
+  {
+    if (this->InObject && this->Object.surfacesLeft() > 0)
+    {
+      this->Lines.fail("ends within the surfaces of an object", std::to_string(this->Object.surfacesLeft()) + " more",
+        "the end of the file");
+    }
+    if (this->InObject && !this->Levels.empty())
+    {
+      this->Lines.fail("ends within an object", "'kids'", "the end of the file");
+    }
+    if (!this->Levels.empty() && this->Levels.back().kidsLeft == this->Levels.back().kids)
+    {
+      this->Lines.fail("ends before the kids of an object", std::to_string(this->Levels.back().kids) + " objects",
+        "the end of the file");
+    }
+  }
+
   void header()
   {
     std::string_view first;
@@ -188,7 +209,7 @@ private:
     {
       return;
     }
-    Level level{ number, this->Object.rootFromObject(), this->Object.texture() };
+    Level level{ number, number, this->Object.rootFromObject(), this->Object.texture() };
     this->KnowsKids = true;
     this->finishObject();
     if (number > 0)

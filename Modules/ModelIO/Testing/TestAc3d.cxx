@@ -311,6 +311,19 @@ TEST(Ac3d, Refusals)
   EXPECT_THAT(refusal("ac", deep), HasSubstr("objects are nested too deeply (expected at most 1000 levels)"));
 }
 
+TEST(Ac3d, FilesThatWereCutShort)
+{
+  const std::string whole =
+    "AC3Db\n" + grey + "OBJECT world\nkids 9\nOBJECT poly\n" + square + "SURF 0x00\n" + squareRefs + "kids 0\n";
+  EXPECT_EQ(read(whole)->triangles.size(), 2u) << "promises more kids than follow, as real files do";
+  EXPECT_EQ(refusal("ac", whole.substr(0, whole.find("OBJECT poly"))),
+    "model.ac:4: ends before the kids of an object (expected 9 objects, found the end of the file)");
+  EXPECT_EQ(refusal("ac", whole.substr(0, whole.find("SURF"))),
+    "model.ac:11: ends within the surfaces of an object (expected 1 more, found the end of the file)");
+  EXPECT_EQ(refusal("ac", whole.substr(0, whole.find("kids 0"))),
+    "model.ac:18: ends within an object (expected 'kids', found the end of the file)");
+}
+
 TEST(Ac3d, AVersionThatSpreadsMaterialsOverLines)
 {
   const ModelPointer model = read("AC3Dc\nMAT \"m\"\nrgb 1 0.5 0\ntrans 0.5\nENDMAT\nOBJECT poly\n" + square +
