@@ -103,7 +103,8 @@ inline Eigen::Vector3d readValue(const JsonCursor& at, const Range& range, const
 inline Quaternion readValue(const JsonCursor& at, const Range&, const Quaternion*) { return at.quaternion(); }
 inline JsonNode writeValue(double v) { return JsonNode::of(v); }
 inline JsonNode writeValue(const std::string& v) { return JsonNode::of(v); }
-/// [frame, value]; frames must ascend.
+inline JsonNode writeValue(Interpolation v) { return JsonNode::of(interpolationWords()[static_cast<std::size_t>(v)]); }
+/// [frame, value] or [frame, value, interpolation]; frames must ascend.
 template <typename T>
 void readKeys(const JsonCursor& at, const Range& range, std::vector<Key<T>>& keys)
 {
@@ -111,12 +112,13 @@ void readKeys(const JsonCursor& at, const Range& range, std::vector<Key<T>>& key
   keys.reserve(n);
   for (std::size_t i = 0; i < n; ++i)
   {
-    const JsonCursor pair = at.element(i);
-    if (pair.node().type != JsonNode::Type::Array || pair.node().children.size() != 2)
+    const JsonCursor entry = at.element(i);
+    const std::size_t parts = entry.node().children.size();
+    if (entry.node().type != JsonNode::Type::Array || parts < 2 || parts > 3)
     {
-      pair.failType("[frame, value]");
+      entry.failType("[frame, value] or [frame, value, interpolation]");
     }
-    const JsonCursor frame = pair.element(0);
+    const JsonCursor frame = entry.element(0);
     Key<T> key;
     key.frame = static_cast<int>(frame.wholeNumber(rules::frame));
     if (!keys.empty() && key.frame <= keys.back().frame)
@@ -124,7 +126,11 @@ void readKeys(const JsonCursor& at, const Range& range, std::vector<Key<T>>& key
       frame.fail(key.frame == keys.back().frame ? "is a key frame twice" : "is out of order",
         "more than " + std::to_string(keys.back().frame), std::to_string(key.frame));
     }
-    key.value = readValue(pair.element(1), range, static_cast<const T*>(nullptr));
+    key.value = readValue(entry.element(1), range, static_cast<const T*>(nullptr));
+    if (parts == 3)
+    {
+      key.interpolation = static_cast<Interpolation>(entry.element(2).oneOf(interpolationWords()));
+    }
     keys.push_back(key);
   }
 }
@@ -185,15 +191,19 @@ JsonNode writeTrack(const Track<T>& track)
   JsonNode keys(JsonNode::Type::Array);
   for (const Key<T>& key : track.keys)
   {
-    JsonNode pair(JsonNode::Type::Array);
-    pair.children.push_back(JsonNode::of(double(key.frame)));
-    pair.children.push_back(writeValue(key.value));
-    keys.children.push_back(std::move(pair));
+    JsonNode entry(JsonNode::Type::Array);
+    entry.children.push_back(JsonNode::of(double(key.frame)));
+    entry.children.push_back(writeValue(key.value));
+    if (key.interpolation)
+    {
+      entry.children.push_back(writeValue(*key.interpolation));
+    }
+    keys.children.push_back(std::move(entry));
   }
   object.add("keys", std::move(keys));
   if (track.interpolation != Interpolation::Linear)
   {
-    object.add("interpolation", JsonNode::of(interpolationWords()[static_cast<std::size_t>(track.interpolation)]));
+    object.add("interpolation", writeValue(track.interpolation));
   }
   return object;
 }

@@ -133,8 +133,8 @@ private:
       const Key<Eigen::Vector3d>& from = scale.keys[k - 1];
       const Key<Eigen::Vector3d>& to = scale.keys[k];
       const bool crosses = (from.value.array() * to.value.array() < 0).any();
-      const bool checked =
-        (crosses && scale.interpolation == Interpolation::Linear) || scale.interpolation == Interpolation::Smooth;
+      const Interpolation how = scale.interpolationAfter(k - 1);
+      const bool checked = (crosses && how == Interpolation::Linear) || how == Interpolation::Smooth;
       for (int frame = from.frame + 1; checked && frame < to.frame; ++frame)
       {
         if ((scale.at(frame).array() == 0).any())

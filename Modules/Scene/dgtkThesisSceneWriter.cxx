@@ -79,8 +79,12 @@ private:
   template <typename T>
   void needLinear(const Track<T>& track, const SceneItem& item, const std::string& property) const
   {
-    this->need(
-      track.keys.size() < 2 || track.interpolation == Interpolation::Linear, item, property, "linear interpolation");
+    for (std::size_t key = 0; key < track.keys.size(); ++key)
+    {
+      const bool sayable = track.interpolationAfter(key) == Interpolation::Linear;
+      const bool used = key + 1 < track.keys.size() || track.keys[key].interpolation;
+      this->need(sayable || !used, item, property, "linear interpolation");
+    }
   }
 
   void needScene(bool sayable, const std::string& property) const

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -82,7 +83,11 @@ struct Key
 {
   int frame = 0;
   T value;
-  bool operator==(const Key& o) const { return this->frame == o.frame && this->value == o.value; }
+  std::optional<Interpolation> interpolation = std::nullopt; ///< up to the next key; none: the track's
+  bool operator==(const Key& o) const
+  {
+    return this->frame == o.frame && this->value == o.value && this->interpolation == o.interpolation;
+  }
 };
 
 /// A value over time. Without keys it is `value` at every frame; with keys `value` has no effect (it is kept because a
@@ -93,7 +98,7 @@ struct Track
 {
   T value;
   std::vector<Key<T>> keys;
-  Interpolation interpolation = Interpolation::Linear;
+  Interpolation interpolation = Interpolation::Linear; ///< of the keys that name none
 
   /// 0, or the identity.
   Track()
@@ -114,6 +119,11 @@ struct Track
 
   bool animated() const { return !this->keys.empty(); }
   T at(double frame) const;
+  /// How the value goes from a key to the next; key < keys.size().
+  Interpolation interpolationAfter(std::size_t key) const
+  {
+    return this->keys[key].interpolation.value_or(this->interpolation);
+  }
 };
 
 namespace detail
@@ -159,7 +169,8 @@ T Track<T>::at(double frame) const
   }
   const std::size_t i = std::size_t(after - this->keys.begin()) - 1;
   const Key<T>& a = this->keys[i];
-  if (after == this->keys.end() || frame == a.frame || this->interpolation == Interpolation::Step)
+  const Interpolation how = this->interpolationAfter(i);
+  if (after == this->keys.end() || frame == a.frame || how == Interpolation::Step)
   {
     return a.value;
   }
@@ -167,13 +178,12 @@ T Track<T>::at(double frame) const
   if constexpr (std::is_same_v<T, Quaternion>)
   {
     const Quaternion q =
-      this->interpolation == Interpolation::Smooth ? detail::smooth(this->keys, i, u) : slerp(a.value, after->value, u);
+      how == Interpolation::Smooth ? detail::smooth(this->keys, i, u) : slerp(a.value, after->value, u);
     return q.scaled(1 / q.norm());
   }
   else
   {
-    return this->interpolation == Interpolation::Smooth ? detail::smooth(this->keys, i, u)
-                                                        : T(a.value + (after->value - a.value) * u);
+    return how == Interpolation::Smooth ? detail::smooth(this->keys, i, u) : T(a.value + (after->value - a.value) * u);
   }
 }
 

@@ -32,7 +32,9 @@ TEST(SceneJson, ReadsEveryKey)
   EXPECT_EQ(orc.position.at(10), Vector(1, 0, 0));
   EXPECT_EQ(orc.orientation.at(3.9), (Quaternion{ 1, 0, 0, 0 }));
   EXPECT_EQ(orc.scale.value, Vector(1, 2, 3));
-  EXPECT_EQ(orc.scale.at(0), Vector(1, 1, 1));
+  EXPECT_EQ(orc.scale.at(8), Vector(1, 1, 1));
+  EXPECT_EQ(orc.scale.keys[0].interpolation, Interpolation::Step);
+  EXPECT_FALSE(orc.scale.keys[1].interpolation);
   EXPECT_EQ(orc.animation.sequence, "run");
   EXPECT_EQ(orc.animation.start, 2.5);
   EXPECT_EQ(orc.animation.rate, 0.5);

@@ -164,7 +164,14 @@ TEST(SceneRefusals, JsonValues)
     { withObject("\"position\": {\"keys\": [[0.5, [0, 0, 0]]]}"),
       "objects[0].position.keys[0][0] is not a whole number" },
     { withObject("\"position\": {\"keys\": [[0]]}"),
-      "objects[0].position.keys[0] has the wrong type (expected [frame, value]" },
+      "objects[0].position.keys[0] has the wrong type (expected [frame, value] or [frame, value, interpolation]" },
+    { withObject("\"position\": {\"keys\": [[0, [0, 0, 0],\n\"stop\"]]}"),
+      "a.json:5: objects[0].position.keys[0][2] is not known (expected one of" },
+    { withObject("\"position\": {\"keys\": [[0, [0, 0, 0], \"step\", 1]]}"),
+      "objects[0].position.keys[0] has the wrong type" },
+    { withObject("\"scale\": {\"keys\": [[0, -1], [4, 1]]}"), "scale passes through 0 at frame 2" },
+    { withObject("\"scale\": {\"interpolation\": \"step\", \"keys\": [[0, -1, \"linear\"], [4, 1]]}"),
+      "scale passes through 0 at frame 2" },
     { withObject("\"position\": {\"interplation\": \"step\"}"), "perhaps 'interpolation'" },
     { withObject("\"parent\": \"nobody\""),
       "a.json:4: objects[0].parent is no object of the scene (expected the name of an "
@@ -309,6 +316,14 @@ TEST(SceneRefusals, WhatThesisScenesCannotSay)
     { [](auto& s) { s.objects[0].skin = "1"; }, "object 'a-1': skin cannot be said" },
     { [&](auto& s) { s.objects[0].position = eased; },
       "object 'a-1': position cannot be said in .scene (expected linear" },
+    { [](auto& s) {
+       s.lights[0].position.keys = { { 0, Vector(0, 0, 0), Interpolation::Step }, { 1, Vector(1, 1, 1) } };
+     },
+      "light 'Light0': position cannot be said in .scene (expected linear" },
+    { [](auto& s) {
+       s.cameras[0].lookAt.keys = { { 0, Vector(0, 0, 1), Interpolation::Smooth } };
+     },
+      "camera 'Camera0': lookAt cannot be said in .scene (expected linear" },
     { [](auto& s) { s.lights[0].kind = LightKind::Head; }, "light 'Light0': kind cannot be said" },
     { [](auto& s) { s.lights[0].enabled = false; }, "light 'Light0': enabled cannot be said" },
     { [](auto& s) { s.lights[0].intensity = 2; }, "light 'Light0': intensity cannot be said" },

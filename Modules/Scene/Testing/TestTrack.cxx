@@ -63,6 +63,30 @@ TEST(Track, StepsToTheLastKey)
   EXPECT_EQ(track.at(3), 2);
 }
 
+TEST(Track, AKeysOwnInterpolationHoldsUpToTheNext)
+{
+  Track<double> track;
+  track.keys = { { 0, 0 }, { 4, 8, Interpolation::Step }, { 8, 4 }, { 10, 0, Interpolation::Smooth } };
+  EXPECT_EQ(track.at(1), 2);
+  EXPECT_EQ(track.at(7.99), 8);
+  EXPECT_EQ(track.at(8), 4);
+  EXPECT_EQ(track.at(9), 2);
+  track.interpolation = Interpolation::Step;
+  EXPECT_EQ(track.at(3.9), 0) << "a key without a kind of its own has the track's";
+  track.keys[0].interpolation = Interpolation::Linear;
+  EXPECT_EQ(track.at(3), 6);
+  Track<double> smooth;
+  smooth.keys = { { 0, 0 }, { 4, 1 }, { 10, -2 } };
+  smooth.interpolation = Interpolation::Smooth;
+  track.keys = { { 0, 0, Interpolation::Smooth }, { 4, 1, Interpolation::Smooth }, { 10, -2 } };
+  EXPECT_EQ(track.at(2.5), smooth.at(2.5));
+  EXPECT_EQ(track.at(6.5), smooth.at(6.5));
+  Track<Quaternion> turn;
+  turn.keys = { { 0, aboutZ(0), Interpolation::Step }, { 10, aboutZ(1) }, { 20, aboutZ(2) } };
+  EXPECT_EQ(turn.at(9), aboutZ(0));
+  EXPECT_LE(distance(turn.at(15), aboutZ(1.5)), rounding);
+}
+
 TEST(Track, SmoothReproducesALineAndHasNoKinks)
 {
   Track<Vector> line;

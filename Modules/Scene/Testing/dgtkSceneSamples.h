@@ -92,7 +92,7 @@ inline const std::string richJson = R"({
       "parent": "table",
       "position": { "keys": [[0, [0, 0, 0]], [10, [1, 0, 0]], [30, [1, 5, 0]]], "interpolation": "smooth" },
       "orientation": { "keys": [[3, [1, 0, 0, 0]], [4, [0, 1, 0, 0]]], "interpolation": "step" },
-      "scale": { "value": [1, 2, 3], "keys": [[0, 1], [9, [1, 2, 1]]] },
+      "scale": { "value": [1, 2, 3], "keys": [[0, 1, "step"], [9, [1, 2, 1]]] },
       "animation": { "sequence": "run", "start": 2.5, "offset": 1, "rate": 0.5, "loop": false },
       "materials": {
         "*": { "ambient": [0, 0, 0], "diffuse": [1, 0, 0], "specular": [0, 1, 0], "emission": [0, 0, 1] },
