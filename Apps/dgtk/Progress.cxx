@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Progress.h"
 
+#include "dgtkError.h"
+
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 
 #include <unistd.h>
 
@@ -13,6 +18,24 @@ namespace
 {
 constexpr std::chrono::milliseconds barInterval{ 100 };
 constexpr std::chrono::seconds lineInterval{ 5 };
+
+/// Time between lines where no terminal is: DGTK_PROGRESS of the environment, in seconds.
+std::chrono::nanoseconds askedInterval()
+{
+  const char* const asked = std::getenv("DGTK_PROGRESS");
+  if (asked == nullptr)
+  {
+    return lineInterval;
+  }
+  double seconds = 0;
+  const char* const end = asked + std::strlen(asked);
+  const auto [at, code] = std::from_chars(asked, end, seconds);
+  if (code != std::errc() || at != end || !(seconds >= 0.01 && seconds <= 3600))
+  {
+    throw UsageError("DGTK_PROGRESS: expected seconds from 0.01 to 3600, found " + quoted(asked));
+  }
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(seconds));
+}
 
 std::string duration(double seconds)
 {
@@ -33,8 +56,9 @@ std::string duration(double seconds)
 Progress::Progress(bool quiet)
   : Quiet(quiet)
   , Terminal(::isatty(STDERR_FILENO) == 1)
+  , Interval(Terminal ? std::chrono::nanoseconds(barInterval) : askedInterval())
   , Start(std::chrono::steady_clock::now())
-  , Last(Start)
+  , Last(std::getenv("DGTK_PROGRESS") == nullptr ? Start : Start - Interval)
 {
 }
 
@@ -72,8 +96,7 @@ void Progress::message(const std::string& line)
 void Progress::update(std::size_t done, std::size_t total)
 {
   const auto now = std::chrono::steady_clock::now();
-  const auto interval = this->Terminal ? std::chrono::nanoseconds(barInterval) : std::chrono::nanoseconds(lineInterval);
-  if (this->Quiet || total == 0 || (now - this->Last < interval && (done < total || !this->Terminal)))
+  if (this->Quiet || total == 0 || (now - this->Last < this->Interval && (done < total || !this->Terminal)))
   {
     return;
   }

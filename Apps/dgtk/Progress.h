@@ -9,7 +9,8 @@
 namespace dgtk::app
 {
 
-/// Progress of long work on standard error: a bar that is redrawn on a terminal, a plain line now and then otherwise.
+/// Progress of long work on standard error: a bar that is redrawn on a terminal, a plain line every 5 s otherwise, or
+/// as often as DGTK_PROGRESS of the environment says (UsageError where it is no number of seconds).
 class Progress
 {
 public:
@@ -27,6 +28,7 @@ private:
   void clear();
   bool Quiet;
   bool Terminal;
+  std::chrono::nanoseconds Interval;
   bool Drawn = false;
   std::chrono::steady_clock::time_point Start;
   std::chrono::steady_clock::time_point Last;

@@ -275,7 +275,7 @@ Command renderCommand()
     { "--resume", "", "", "continue an interrupted run of the same request" },
     { "--seed", "N", "0", "seed of random numbers" },
     { "--contact-sheet", "", "", "also write DIR/contact.png: cameras and frames by layer" },
-    { "--quiet", "", "", "no progress and no messages" } };
+    { "--quiet", "", "", "no progress and no messages (environment DGTK_PROGRESS: seconds between its lines, else 5)" } };
   command.options.insert(command.options.end(), last.begin(), last.end());
   return command;
 }

@@ -188,6 +188,10 @@ GeneratorResult Run::execute()
 
 void Run::renderAll()
 {
+  if (this->Callbacks.progress)
+  {
+    this->Callbacks.progress({ this->Done, this->Plan.jobs.size() });
+  }
   for (const Job& job : this->Plan.jobs)
   {
     if (this->cancelled())

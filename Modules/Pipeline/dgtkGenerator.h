@@ -57,7 +57,7 @@ struct GeneratorRequest
   bool contactSheet = false;       ///< write contact.png
 };
 
-/// State of a run, reported after every finished picture (one camera at one frame).
+/// State of a run, reported at its start and after every finished picture (one camera at one frame).
 struct GeneratorProgress
 {
   std::size_t done = 0;
