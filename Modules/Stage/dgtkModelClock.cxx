@@ -68,6 +68,13 @@ int findAnimation(const SceneDescription& scene, const ObjectDescription& object
     count == 0 ? "none" : "one of " + names, quoted(wanted));
 }
 
+double sequenceSpan(const Model& model, int animation, bool loop)
+{
+  const Animation& sequence = model.animations[std::size_t(animation)];
+  const double span = std::max(0, sequence.last - sequence.first);
+  return loop && span > 0 && model.format == "md2" ? span + 1 : span;
+}
+
 ModelMoment momentAt(
   const AnimationDescription& description, const Model& model, int animation, double frame, double sceneFps)
 {
@@ -79,7 +86,7 @@ ModelMoment momentAt(
   moment.animation = animation;
   if (description.loop && span > 0)
   {
-    position = std::fmod(position, model.format == "md2" ? span + 1 : span);
+    position = std::fmod(position, sequenceSpan(model, animation, true));
     moment.wrap = std::max(0.0, position - span);
   }
   moment.frame = sequence.first + std::min(position, span);

@@ -2,7 +2,7 @@
 #ifndef dgtkModelClock_h
 #define dgtkModelClock_h
 
-// Private to Stage.
+#include "dgtkStageModule.h"
 
 #include "dgtkModel.h"
 #include "dgtkSceneDescription.h"
@@ -24,18 +24,24 @@ struct ModelMoment
   double wrap = 0;
 };
 
-/// The animation that a description names; -1 when the model has none. Throws InputError.
-int findAnimation(const SceneDescription& scene, const ObjectDescription& object, const Model& model);
+/// Index of the animation that a description names; -1 when the model has none. Throws InputError, with the scene's
+/// file and the object's line, where it has no such sequence.
+DGTKSTAGE_EXPORT int findAnimation(const SceneDescription& scene, const ObjectDescription& object, const Model& model);
 
 /// The moment of a model at a scene frame, see AnimationDescription. Files with one pose a frame (MD2) pass from the
 /// last frame to the first in the time of one frame when they loop; in others the last frame is the first again.
-ModelMoment momentAt(
+DGTKSTAGE_EXPORT ModelMoment momentAt(
   const AnimationDescription& description, const Model& model, int animation, double frame, double sceneFps);
 
-/// Shared geometries of deforming models; an entry lives as long as somebody uses it.
-class GeometryCache
+/// Frames that a sequence takes at the model's own speed until it is done or, with `loop`, until it begins again;
+/// unit: the model's frames.
+DGTKSTAGE_EXPORT double sequenceSpan(const Model& model, int animation, bool loop);
+
+/// Shared geometries of deforming models; an entry lives as long as somebody uses it. Thread-safe.
+class DGTKSTAGE_EXPORT GeometryCache
 {
 public:
+  /// The models outlive the cache.
   std::shared_ptr<const Geometry> get(const Model& model, const ModelMoment& moment);
 
 private:

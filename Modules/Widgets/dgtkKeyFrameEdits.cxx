@@ -52,6 +52,81 @@ void forEachTrackOf(Scene& scene, const SceneItem& item, Function&& function)
     }
   }
 }
+
+/// A track that loses its last key keeps that value.
+template <typename T>
+void removeKey(Track<T>& track, int frame)
+{
+  for (std::size_t i = 0; i < track.keys.size(); ++i)
+  {
+    if (track.keys[i].frame == frame)
+    {
+      track.value = track.keys.size() == 1 ? track.keys[i].value : track.value;
+      track.keys.erase(track.keys.begin() + std::ptrdiff_t(i));
+      return;
+    }
+  }
+}
+
+template <typename T>
+void copyKey(Track<T>& track, int from, int to, bool move)
+{
+  for (const Key<T>& key : track.keys)
+  {
+    if (key.frame == from && from != to)
+    {
+      Key<T> copy = key;
+      copy.frame = to;
+      setTrackAt(track, to, copy.value);
+      std::find_if(track.keys.begin(), track.keys.end(), [to](const Key<T>& k) { return k.frame == to; })
+        ->interpolation = copy.interpolation;
+      if (move)
+      {
+        removeKey(track, from);
+      }
+      return;
+    }
+  }
+}
+
+void copyKeys(SceneDescription& scene, const SceneItem& item, int from, int to, bool move)
+{
+  forEachTrackOf(scene, item, [&](auto& track, bool) { copyKey(track, from, to, move); });
+}
+
+void dropExtra(SceneDescription& scene, int frame)
+{
+  std::vector<int>& extra = scene.extraKeyFrames;
+  extra.erase(std::remove(extra.begin(), extra.end(), frame), extra.end());
+}
+
+void addExtra(SceneDescription& scene, int frame)
+{
+  std::vector<int>& extra = scene.extraKeyFrames;
+  const auto at = std::lower_bound(extra.begin(), extra.end(), frame);
+  if (at == extra.end() || *at != frame)
+  {
+    extra.insert(at, frame);
+  }
+}
+
+/// A key frame of the scene alone, which no track has, goes along.
+void copyFrame(SceneDescription& scene, int from, int to, bool move)
+{
+  for (const SceneItem& item : scene.items())
+  {
+    copyKeys(scene, item, from, to, move);
+  }
+  const std::vector<int>& extra = scene.extraKeyFrames;
+  if (std::binary_search(extra.begin(), extra.end(), from) && from != to)
+  {
+    addExtra(scene, to);
+    if (move)
+    {
+      dropExtra(scene, from);
+    }
+  }
+}
 } // namespace
 
 void makeKeyFrame(SceneDescription& scene, int frame)
@@ -72,11 +147,10 @@ void makeKeyFrame(SceneDescription& scene, int frame)
         }
       });
   }
-  std::vector<int>& extra = scene.extraKeyFrames;
   const std::vector<int> frames = scene.keyFrames();
   if (!std::binary_search(frames.begin(), frames.end(), frame))
   {
-    extra.insert(std::lower_bound(extra.begin(), extra.end(), frame), frame);
+    addExtra(scene, frame);
   }
 }
 
@@ -84,49 +158,70 @@ void removeKeyFrame(SceneDescription& scene, int frame)
 {
   for (const SceneItem& item : scene.items())
   {
-    forEachTrackOf(scene, item,
-      [frame](auto& track, bool)
-      {
-        for (std::size_t i = 0; i < track.keys.size(); ++i)
-        {
-          if (track.keys[i].frame == frame)
-          {
-            track.value = track.keys.size() == 1 ? track.keys[i].value : track.value;
-            track.keys.erase(track.keys.begin() + std::ptrdiff_t(i));
-            return;
-          }
-        }
-      });
+    removeItemKeys(scene, item, frame);
   }
-  std::vector<int>& extra = scene.extraKeyFrames;
-  extra.erase(std::remove(extra.begin(), extra.end(), frame), extra.end());
+  dropExtra(scene, frame);
 }
 
-void copyKeyFrame(SceneDescription& scene, int from, int to)
+void removeItemKeys(SceneDescription& scene, const SceneItem& item, int frame)
 {
-  for (const SceneItem& item : scene.items())
-  {
-    forEachTrackOf(scene, item,
-      [from, to](auto& track, bool)
+  forEachTrackOf(scene, item, [frame](auto& track, bool) { removeKey(track, frame); });
+}
+
+void copyKeyFrame(SceneDescription& scene, int from, int to) { copyFrame(scene, from, to, false); }
+void moveKeyFrame(SceneDescription& scene, int from, int to) { copyFrame(scene, from, to, true); }
+
+void copyItemKeys(SceneDescription& scene, const SceneItem& item, int from, int to)
+{
+  copyKeys(scene, item, from, to, false);
+}
+
+void moveItemKeys(SceneDescription& scene, const SceneItem& item, int from, int to)
+{
+  copyKeys(scene, item, from, to, true);
+}
+
+void setKeyInterpolation(
+  SceneDescription& scene, const SceneItem& item, int frame, std::optional<Interpolation> interpolation)
+{
+  forEachTrackOf(scene, item,
+    [&](auto& track, bool)
+    {
+      for (auto& key : track.keys)
       {
-        for (const auto& key : track.keys)
+        key.interpolation = key.frame == frame ? interpolation : key.interpolation;
+      }
+    });
+}
+
+std::optional<KeyInterpolation> keyInterpolationOf(const SceneDescription& scene, const SceneItem& item, int frame)
+{
+  std::optional<KeyInterpolation> found;
+  forEachTrackOf(scene, item,
+    [&](const auto& track, bool)
+    {
+      for (std::size_t i = 0; i < track.keys.size() && !found; ++i)
+      {
+        if (track.keys[i].frame == frame)
         {
-          if (key.frame == from)
-          {
-            const auto value = key.value;
-            setTrackAt(track, to, value);
-            return;
-          }
+          found = KeyInterpolation{ track.interpolationAfter(i), track.keys[i].interpolation.has_value() };
         }
-      });
-  }
+      }
+    });
+  return found;
 }
 
 void setInterpolation(SceneDescription& scene, const SceneItem& item, Interpolation interpolation)
 {
   forEachTrackOf(scene, item,
     [interpolation](auto& track, bool)
-    { track.interpolation = track.animated() ? interpolation : track.interpolation; });
+    {
+      track.interpolation = track.animated() ? interpolation : track.interpolation;
+      for (auto& key : track.keys)
+      {
+        key.interpolation.reset();
+      }
+    });
 }
 
 Interpolation interpolationOf(const SceneDescription& scene, const SceneItem& item)

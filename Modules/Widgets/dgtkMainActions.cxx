@@ -5,8 +5,6 @@
 #include "dgtkEditorIcons.h"
 #include "dgtkEditorState.h"
 #include "dgtkItemDialogs.h"
-#include "dgtkModelReader.h"
-#include "dgtkPovExport.h"
 #include "dgtkPropertiesPanel.h"
 #include "dgtkRenderDialog.h"
 #include "dgtkSceneTree.h"
@@ -18,7 +16,6 @@
 #include <QAction>
 #include <QActionGroup>
 #include <QDockWidget>
-#include <QFileDialog>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QPlainTextEdit>
@@ -195,77 +192,6 @@ void MainWindow::makeHelpMenu()
            "the "
            "program dgtk; it adds no second way of doing anything."));
     });
-}
-
-void MainWindow::askOpen()
-{
-  const QString path =
-    QFileDialog::getOpenFileName(this, tr("Open a scene"), {}, tr("Scenes (*.json *.scene);;All files (*)"));
-  if (!path.isEmpty())
-  {
-    this->openFile(path);
-  }
-}
-
-bool MainWindow::saveAs()
-{
-  QString path = QFileDialog::getSaveFileName(
-    this, tr("Save the scene"), toText(this->document().path()), tr("Scene (*.json);;Thesis scene (*.scene)"));
-  if (path.isEmpty())
-  {
-    return false;
-  }
-  if (!path.endsWith(".json", Qt::CaseInsensitive) && !path.endsWith(".scene", Qt::CaseInsensitive))
-  {
-    path += ".json";
-  }
-  return this->saveFile(path);
-}
-
-void MainWindow::askImport()
-{
-  QStringList all;
-  QStringList filters;
-  for (const ReaderInfo& reader : modelReaders())
-  {
-    QStringList patterns;
-    for (const std::string& extension : reader.extensions)
-    {
-      patterns << "*." + toText(extension);
-    }
-    all << patterns;
-    filters << toText(reader.description).remove('(').remove(')') + " (" + patterns.join(' ') + ')';
-  }
-  filters.prepend(tr("All models (%1)").arg(all.join(' ')));
-  for (const QString& path : QFileDialog::getOpenFileNames(this, tr("Import models"), {}, filters.join(";;")))
-  {
-    this->importFile(path);
-  }
-}
-
-void MainWindow::exportPov()
-{
-  const QString path = QFileDialog::getSaveFileName(this, tr("Export for POV-Ray"), {}, tr("POV-Ray scene (*.pov)"));
-  if (path.isEmpty())
-  {
-    return;
-  }
-  std::size_t camera = 0;
-  for (const SceneItem& item : this->State->selection())
-  {
-    camera = item.kind == SceneItem::Kind::Camera ? item.index : camera;
-  }
-  const bool done = this->State->attempt(
-    [&]
-    {
-      const std::shared_ptr<const Stage> stage = Stage::load(this->State->scene());
-      const int frame = this->State->frame();
-      dgtk::exportPov(*stage->at(frame), stage->view(camera, frame), path.toStdString());
-    });
-  if (done)
-  {
-    this->note(tr("Wrote %1").arg(path));
-  }
 }
 
 CameraDescription MainWindow::cameraOfView() const

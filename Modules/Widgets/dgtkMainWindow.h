@@ -8,6 +8,9 @@
 #include <QString>
 #include <QStringList>
 
+#include <cstddef>
+#include <functional>
+
 class QAction;
 class QDockWidget;
 class QMenu;
@@ -16,6 +19,7 @@ class QPlainTextEdit;
 namespace dgtk
 {
 
+class BackgroundWork;
 class EditorState;
 class RenderDialog;
 class SceneDocument;
@@ -40,8 +44,9 @@ public:
 
   SceneDocument& document();
 
-  /// Opens a scene (.scene, .json), after asking about unsaved work, or imports a model, by extension. False when it
-  /// was refused, after a dialog that says why; the scene is then as before.
+  /// Opens a scene (.scene, .json), after asking about unsaved work, or imports a model, by extension. The window
+  /// handles events until it is read. False when it was refused, after a dialog that says why, or cancelled; the scene
+  /// is then as before.
   bool openFile(const QString& path);
   bool importFile(const QString& path);
   /// Asks about each copy of unsaved work that a crash left behind.
@@ -71,6 +76,11 @@ private:
   void askImport();
   void exportPov();
   bool mayDiscard();
+  /// False, with a note, while another file is being read.
+  bool isFree();
+  void allowFiles(bool busy);
+  /// Work on another thread with progress and Cancel. False when it was cancelled, or failed, after a dialog.
+  bool work(const QString& what, const std::function<void(const std::function<bool(std::size_t, std::size_t)>&)>& work);
   void addRecent(const QString& path);
   void refreshRecent();
   void addCamera();
@@ -85,6 +95,7 @@ private:
   void note(const QString& line);
 
   EditorState* State;
+  BackgroundWork* Work = nullptr;
   SceneViews* Views = nullptr;
   TruthView* Truth = nullptr;
   QPlainTextEdit* Log = nullptr;

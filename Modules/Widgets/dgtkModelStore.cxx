@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkModelStore.h"
 
+#include "dgtkModelClock.h"
+
 #include <algorithm>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -19,21 +22,20 @@ ObjectDescription bare(const ObjectDescription& object)
   alone.position = {};
   alone.orientation = {};
   alone.scale = Eigen::Vector3d(1, 1, 1);
+  alone.animation = {};
   return alone;
-}
-
-bool plain(const AnimationDescription& animation)
-{
-  const AnimationDescription usual;
-  return animation.sequence.empty() && animation.start == usual.start && animation.offset == usual.offset &&
-         animation.rate == usual.rate && animation.loop == usual.loop;
 }
 } // namespace
 
+ModelStore::ModelStore()
+  : Moving(std::make_shared<GeometryCache>())
+{
+}
+
 std::string ModelStore::keyOf(const SceneDescription& scene, const ObjectDescription& object)
 {
-  std::string key = scene.resolve(object.model) + '\n' + std::to_string(scene.fps);
-  if (!object.materials.empty() || !object.skin.empty() || !plain(object.animation))
+  std::string key = scene.resolve(object.model);
+  if (!object.materials.empty() || !object.skin.empty())
   {
     SceneDescription one;
     one.folder = scene.folder;
@@ -45,26 +47,14 @@ std::string ModelStore::keyOf(const SceneDescription& scene, const ObjectDescrip
   return key;
 }
 
-void ModelStore::load(const SceneDescription& scene)
+const ModelStore::Entry* ModelStore::find(const EntryMap& entries, const std::string& key)
 {
-  SceneDescription wanted;
-  wanted.file = scene.file;
-  wanted.folder = scene.folder;
-  wanted.fps = scene.fps;
-  std::vector<std::string> keys;
-  for (const ObjectDescription& object : scene.objects)
-  {
-    const std::string key = keyOf(scene, object);
-    if (this->Entries.count(key) == 0 && std::find(keys.begin(), keys.end(), key) == keys.end())
-    {
-      keys.push_back(key);
-      wanted.objects.push_back(bare(object));
-    }
-  }
-  if (keys.empty())
-  {
-    return;
-  }
+  const auto found = entries.find(key);
+  return found == entries.end() ? nullptr : &found->second;
+}
+
+void ModelStore::loadFile(SceneDescription wanted, const std::vector<std::string>& keys, EntryMap& into)
+{
   std::vector<std::string> names;
   for (const ObjectDescription& object : wanted.objects)
   {
@@ -75,18 +65,82 @@ void ModelStore::load(const SceneDescription& scene)
   for (std::size_t i = 0; i < keys.size(); ++i)
   {
     const auto at = std::find(present.begin(), present.end(), names[i]);
-    this->Entries[keys[i]] = { stage, std::size_t(at - present.begin()), at == present.end() };
+    into[keys[i]] = { stage, stage->models().front(), std::size_t(at - present.begin()), at == present.end() };
   }
+}
+
+bool ModelStore::load(const SceneDescription& scene, const LoadProgress& progress)
+{
+  struct File
+  {
+    SceneDescription wanted;
+    std::vector<std::string> keys;
+  };
+  std::vector<File> files; // in the order of their first use, as errors are reported
+  std::map<std::string, std::size_t> places;
+  std::set<std::string> known;
+  for (const ObjectDescription& object : scene.objects)
+  {
+    const std::string key = keyOf(scene, object);
+    if (find(this->Entries, key) != nullptr || !known.insert(key).second)
+    {
+      continue;
+    }
+    const auto [place, isNew] = places.emplace(scene.resolve(object.model), files.size());
+    if (isNew)
+    {
+      files.emplace_back();
+      files.back().wanted.file = scene.file;
+      files.back().wanted.folder = scene.folder;
+    }
+    files[place->second].wanted.objects.push_back(bare(object));
+    files[place->second].keys.push_back(key);
+  }
+  EntryMap loaded;
+  for (std::size_t i = 0; i < files.size(); ++i)
+  {
+    if (progress && !progress(i, files.size()))
+    {
+      return false;
+    }
+    loadFile(std::move(files[i].wanted), files[i].keys, loaded);
+  }
+  for (const ObjectDescription& object : scene.objects)
+  {
+    if (!object.animation.sequence.empty())
+    {
+      const std::string key = keyOf(scene, object);
+      const Entry* const entry = find(loaded, key);
+      findAnimation(scene, object, *(entry == nullptr ? this->Entries.at(key) : *entry).model);
+    }
+  }
+  this->Entries.merge(loaded);
+  return true;
+}
+
+void ModelStore::adopt(const ModelStore& other) { this->Entries.insert(other.Entries.begin(), other.Entries.end()); }
+
+std::shared_ptr<const Model> ModelStore::modelOf(const SceneDescription& scene, const ObjectDescription& object) const
+{
+  const Entry* const entry = find(this->Entries, keyOf(scene, object));
+  return entry == nullptr ? nullptr : entry->model;
 }
 
 Instance ModelStore::at(const SceneDescription& scene, const ObjectDescription& object, double frame) const
 {
-  const auto found = this->Entries.find(keyOf(scene, object));
-  if (found == this->Entries.end() || found->second.empty)
+  const Entry* const entry = find(this->Entries, keyOf(scene, object));
+  if (entry == nullptr || entry->empty)
   {
     return {};
   }
-  return found->second.stage->at(frame)->instances[found->second.instance];
+  Instance instance = entry->stage->at(0)->instances[entry->instance];
+  const int animation = entry->model->deformation ? findAnimation(scene, object, *entry->model) : -1;
+  if (animation >= 0)
+  {
+    instance.geometry =
+      this->Moving->get(*entry->model, momentAt(object.animation, *entry->model, animation, frame, scene.fps));
+  }
+  return instance;
 }
 
 } // namespace dgtk

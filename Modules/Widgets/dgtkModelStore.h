@@ -7,24 +7,38 @@
 #include "dgtkStage.h"
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace dgtk
 {
 
-/// The models of a scene that changes, as Stage prepares them (materials replaced, motion applied). Objects that differ
-/// in nothing but their place share everything; what was loaded once stays for undo.
+class GeometryCache;
+
+/// Called between files with how many are read, of how many; false stops.
+using LoadProgress = std::function<bool(std::size_t done, std::size_t total)>;
+
+/// The models of a scene that changes, as Stage prepares them (materials replaced), and their motion. Objects that
+/// differ in nothing but their place and time share everything; what was loaded once stays for undo.
 class DGTKWIDGETS_EXPORT ModelStore
 {
 public:
-  /// Loads what the scene needs beyond what is there. Throws what Stage::load throws; the store is then as before.
-  void load(const SceneDescription& scene);
+  ModelStore();
+
+  /// Loads what the scene needs beyond what is there. Throws what Stage::load throws. The store is then as before; also
+  /// when the result is false, because `progress` stopped it.
+  bool load(const SceneDescription& scene, const LoadProgress& progress = {});
+  /// Takes over what another store has loaded.
+  void adopt(const ModelStore& other);
 
   /// The object's geometry and materials at a frame; world_from_object is without meaning. `model` is null for a model
   /// without triangles, and for one that was not loaded.
   Instance at(const SceneDescription& scene, const ObjectDescription& object, double frame) const;
+  /// The object's model, also one without triangles; null for one that was not loaded.
+  std::shared_ptr<const Model> modelOf(const SceneDescription& scene, const ObjectDescription& object) const;
 
   /// Number of different models with their materials.
   std::size_t size() const { return this->Entries.size(); }
@@ -32,12 +46,19 @@ public:
 private:
   struct Entry
   {
-    std::shared_ptr<const Stage> stage; ///< of one object for each entry loaded together
+    std::shared_ptr<const Stage> stage; ///< of one object for each look of a file
+    std::shared_ptr<const Model> model;
     std::size_t instance = 0;
     bool empty = false;
   };
+  using EntryMap = std::map<std::string, Entry>;
+
   static std::string keyOf(const SceneDescription& scene, const ObjectDescription& object);
-  std::map<std::string, Entry> Entries;
+  static void loadFile(SceneDescription wanted, const std::vector<std::string>& keys, EntryMap& into);
+  static const Entry* find(const EntryMap& entries, const std::string& key);
+
+  EntryMap Entries;
+  std::shared_ptr<GeometryCache> Moving;
 };
 
 } // namespace dgtk

@@ -15,12 +15,27 @@
 #include <QSlider>
 #include <QSpinBox>
 #include <QTabWidget>
+#include <QTimer>
 #include <QVBoxLayout>
 
 #include <algorithm>
 
 namespace dgtk
 {
+
+namespace
+{
+constexpr int progressEvery = 200; // milliseconds
+constexpr int progressSteps = 100000;
+
+QString durationText(double seconds)
+{
+  const int s = int(std::min(seconds + 0.5, 1e6));
+  const QString minutes =
+    QString("%1:%2").arg(s / 60 % 60, s >= 3600 ? 2 : 1, 10, QChar('0')).arg(s % 60, 2, 10, QChar('0'));
+  return s >= 3600 ? QString("%1:%2").arg(s / 3600).arg(minutes) : minutes;
+}
+} // namespace
 
 RenderDialog::RenderDialog(EditorState& state, QWidget* parent)
   : QDialog(parent)
@@ -40,7 +55,9 @@ RenderDialog::RenderDialog(EditorState& state, QWidget* parent)
   this->resize(640, 680);
 
   connect(&state, &EditorState::changed, this, &RenderDialog::refresh);
-  connect(&this->Process, &RenderProcess::progress, this, &RenderDialog::showProgress);
+  this->Clock = new QTimer(this);
+  connect(this->Clock, &QTimer::timeout, this, &RenderDialog::showProgress);
+  connect(&this->Process, &RenderProcess::progress, this, &RenderDialog::takeProgress);
   connect(&this->Process, &RenderProcess::line, this, &RenderDialog::noted);
   connect(&this->Process, &RenderProcess::finished, this, &RenderDialog::finish);
   this->refresh();
@@ -230,22 +247,39 @@ void RenderDialog::start()
   {
     this->setRunning(true);
     this->Progress->setRange(0, 0);
+    this->Estimate = {};
+    this->Pictures.clear();
+    this->Running.start();
+    this->Clock->start(progressEvery);
     this->Status->setText(tr("Rendering ..."));
     emit this->noted("dgtk " + this->arguments(scene).join(' '));
     this->Process.start(this->arguments(scene));
   }
 }
 
-void RenderDialog::showProgress(int done, int total, const QString& left)
+void RenderDialog::takeProgress(int done, int total)
 {
-  this->Progress->setRange(0, total);
-  this->Progress->setValue(done);
-  this->Status->setText(tr("%1 of %2 pictures, %3 left").arg(done).arg(total).arg(left));
+  this->Estimate.report(double(this->Running.elapsed()) / 1000, done, total);
+  this->Pictures = tr("%1 of %2 pictures").arg(done).arg(total);
+}
+
+void RenderDialog::showProgress()
+{
+  if (this->Pictures.isEmpty())
+  {
+    return; // the models are being read
+  }
+  const double now = double(this->Running.elapsed()) / 1000;
+  this->Progress->setRange(0, progressSteps);
+  this->Progress->setValue(int(progressSteps * this->Estimate.fractionAt(now)));
+  const std::optional<double> left = this->Estimate.secondsLeftAt(now);
+  this->Status->setText(left ? tr("%1, %2 left").arg(this->Pictures, durationText(*left)) : this->Pictures);
 }
 
 void RenderDialog::finish(bool ok, bool cancelled, const QString& message)
 {
   this->setRunning(false);
+  this->Clock->stop();
   this->Progress->setRange(0, 1);
   this->Progress->setValue(ok ? 1 : 0);
   this->Resume->setChecked(cancelled);

@@ -5,9 +5,11 @@
 // Private to Widgets.
 
 #include "dgtkEditorState.h"
+#include "dgtkProgressEstimate.h"
 #include "dgtkRenderProcess.h"
 
 #include <QDialog>
+#include <QElapsedTimer>
 #include <QTemporaryDir>
 
 #include <memory>
@@ -23,6 +25,7 @@ class QPushButton;
 class QSlider;
 class QSpinBox;
 class QTabWidget;
+class QTimer;
 class QVBoxLayout;
 
 namespace dgtk
@@ -56,7 +59,8 @@ private:
   void showResolution();
   void browse();
   void start();
-  void showProgress(int done, int total, const QString& left);
+  void takeProgress(int done, int total);
+  void showProgress();
   void finish(bool ok, bool cancelled, const QString& message);
   void setRunning(bool on);
   QString sceneFile();
@@ -64,6 +68,10 @@ private:
   EditorState& State;
   RenderProcess Process;
   std::unique_ptr<QTemporaryDir> Copies;
+  ProgressEstimate Estimate;
+  QElapsedTimer Running;
+  QTimer* Clock = nullptr;
+  QString Pictures; ///< done of all
   QTabWidget* Tabs = nullptr;
   QLabel* Info = nullptr;
   QListWidget* Cameras = nullptr;

@@ -12,12 +12,16 @@ namespace dgtk
 namespace
 {
 constexpr int longestEnd = 10000; // milliseconds
+constexpr const char* secondsBetweenReports = "0.2";
 } // namespace
 
 RenderProcess::RenderProcess(QObject* parent)
   : QObject(parent)
 {
   this->Process.setProcessChannelMode(QProcess::MergedChannels);
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  environment.insert("DGTK_PROGRESS", secondsBetweenReports);
+  this->Process.setProcessEnvironment(environment);
   connect(&this->Process, &QProcess::readyRead, this, &RenderProcess::read);
   connect(&this->Process, QOverload<int, QProcess::ExitStatus>::of(&QProcess::finished), this, &RenderProcess::end);
   connect(&this->Process, &QProcess::errorOccurred, this,
@@ -81,11 +85,11 @@ void RenderProcess::read()
 
 void RenderProcess::take(const QString& text)
 {
-  static const QRegularExpression state(QStringLiteral("^(\\d+)/(\\d+) pictures, .*, (\\S+) left$"));
+  static const QRegularExpression state(QStringLiteral("^(\\d+)/(\\d+) pictures, .*, \\S+ left$"));
   const QRegularExpressionMatch match = state.match(text);
   if (match.hasMatch())
   {
-    emit this->progress(match.captured(1).toInt(), match.captured(2).toInt(), match.captured(3));
+    emit this->progress(match.captured(1).toInt(), match.captured(2).toInt());
     return;
   }
   this->Last = text;

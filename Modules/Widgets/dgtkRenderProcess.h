@@ -32,7 +32,8 @@ public:
   bool running() const { return this->Process.state() != QProcess::NotRunning; }
 
 signals:
-  void progress(int done, int total, const QString& left);
+  /// Several times a second.
+  void progress(int done, int total);
   void line(const QString& text);
   /// `message`: the last line that the program wrote.
   void finished(bool ok, bool cancelled, const QString& message);

@@ -51,19 +51,25 @@ void SceneDocument::clear()
   this->reset(std::move(scene), {});
 }
 
-void SceneDocument::open(const std::string& path)
+std::optional<LoadedScene> SceneDocument::read(const std::string& path, const LoadProgress& progress)
 {
-  const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
-  SceneDescription scene = readScene(absolute);
-  ModelStore models;
-  models.load(scene);
-  this->Models = std::move(models);
-  this->reset(std::move(scene), absolute);
+  LoadedScene loaded;
+  loaded.path = std::filesystem::absolute(path).lexically_normal().string();
+  loaded.scene = readScene(loaded.path);
+  return loaded.models.load(loaded.scene, progress) ? std::make_optional(std::move(loaded)) : std::nullopt;
 }
 
-void SceneDocument::recover(const std::string& path)
+void SceneDocument::install(LoadedScene loaded)
 {
-  this->open(path);
+  this->Models = std::move(loaded.models);
+  this->reset(std::move(loaded.scene), loaded.path);
+}
+
+void SceneDocument::open(const std::string& path) { this->install(*read(path)); }
+
+void SceneDocument::recover(LoadedScene loaded)
+{
+  this->install(std::move(loaded));
   this->Path.clear();
   this->Clean = unreachable;
   this->notify();
@@ -241,16 +247,31 @@ void SceneDocument::redo()
   this->notify();
 }
 
-SceneItem SceneDocument::addModel(const std::string& path)
+SceneDescription SceneDocument::descriptionOf(const std::string& path) const
 {
   namespace fs = std::filesystem;
   ObjectDescription object;
   object.name = fs::path(path).stem().string() + "-1"; // as .scene files imply
   object.model = fs::absolute(path).lexically_normal().lexically_relative(this->Scene.folder).generic_string();
   SceneDescription part;
+  part.file = this->Scene.file;
   part.folder = this->Scene.folder;
   part.objects.push_back(std::move(object));
-  return this->paste("Import " + fs::path(path).filename().string(), part).front();
+  return part;
+}
+
+std::function<std::optional<ModelStore>(const LoadProgress&)> SceneDocument::modelReader(const std::string& path) const
+{
+  return [part = this->descriptionOf(path), models = this->Models](const LoadProgress& progress)
+  {
+    ModelStore more = models;
+    return more.load(part, progress) ? std::make_optional(std::move(more)) : std::nullopt;
+  };
+}
+
+SceneItem SceneDocument::addModel(const std::string& path)
+{
+  return this->paste("Import " + std::filesystem::path(path).filename().string(), this->descriptionOf(path)).front();
 }
 
 SceneItem SceneDocument::addLight(LightDescription light)

@@ -9,12 +9,21 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace dgtk
 {
+
+/// A scene with its models, read from a file.
+struct LoadedScene
+{
+  SceneDescription scene;
+  ModelStore models;
+  std::string path;
+};
 
 /// A scene that is being edited: description, file, models, undo and redo. Knows nothing of windows. Every edit is
 /// validated; one that is refused (InputError) leaves everything as it was.
@@ -34,10 +43,14 @@ public:
   void onChange(std::function<void()> listener) { this->Listeners.push_back(std::move(listener)); }
 
   void clear();
-  /// Throws InputError, also for models that cannot be read.
+  /// The part of open() that takes long; for any thread. None when `progress` stopped it. Throws InputError, also for
+  /// models that cannot be read.
+  static std::optional<LoadedScene> read(const std::string& path, const LoadProgress& progress = {});
+  void install(LoadedScene loaded);
+  /// Throws as read().
   void open(const std::string& path);
-  /// A copy of unsaved work becomes an unsaved scene. Throws as open().
-  void recover(const std::string& path);
+  /// A copy of unsaved work becomes an unsaved scene.
+  void recover(LoadedScene loaded);
   /// By extension, .json or .scene. Throws InputError for what the format cannot say, MachineError.
   void saveAs(const std::string& path);
   /// The scene as it is now, for a program beside: does not change path() and modified(). Throws as saveAs().
@@ -62,6 +75,10 @@ public:
     const std::string& merge = {});
   void finishMerging();
 
+  /// What addModel() and adopt() need of the disk: a function for any thread, which returns none when it was stopped
+  /// and throws InputError.
+  std::function<std::optional<ModelStore>(const LoadProgress&)> modelReader(const std::string& path) const;
+  void adopt(const ModelStore& models) { this->Models.adopt(models); }
   /// A model file becomes an object at the origin, with a unique name. Throws InputError when it cannot be read.
   SceneItem addModel(const std::string& path);
   SceneItem addLight(LightDescription light);
@@ -84,6 +101,7 @@ private:
     ItemState itemAfter;
   };
 
+  SceneDescription descriptionOf(const std::string& modelPath) const;
   static ItemState stateOf(const SceneDescription& scene, const SceneItem& item);
   static void putState(SceneDescription& scene, const SceneItem& item, const ItemState& state);
   void accept(Step step);

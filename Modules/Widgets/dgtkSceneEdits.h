@@ -7,6 +7,8 @@
 #include "dgtkSceneDescription.h"
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,7 @@ namespace dgtk
 using SceneItems = std::vector<SceneItem>;
 
 /// Changes a track at a frame: its key there, or a new key of a track that has keys, or the value of one that has none.
+/// A new key goes on in the way of the key before it.
 template <typename T>
 void setTrackAt(Track<T>& track, int frame, const T& value)
 {
@@ -34,7 +37,8 @@ void setTrackAt(Track<T>& track, int frame, const T& value)
   }
   else
   {
-    track.keys.insert(at, Key<T>{ frame, value });
+    const auto way = at == track.keys.begin() ? std::nullopt : std::prev(at)->interpolation;
+    track.keys.insert(at, Key<T>{ frame, value, way });
   }
 }
 
@@ -61,9 +65,27 @@ DGTKWIDGETS_EXPORT void removeItems(SceneDescription& scene, const SceneItems& i
 DGTKWIDGETS_EXPORT void makeKeyFrame(SceneDescription& scene, int frame);
 /// Removes the keys of a frame from all tracks. A track that loses its last key keeps that value.
 DGTKWIDGETS_EXPORT void removeKeyFrame(SceneDescription& scene, int frame);
-/// Gives another frame the keys of a frame; tracks without a key there stay as they are.
+/// Gives another frame the keys of a frame, in place of those that are there; tracks without a key there stay as they
+/// are. A key keeps its kind of interpolation.
 DGTKWIDGETS_EXPORT void copyKeyFrame(SceneDescription& scene, int from, int to);
-/// How the tracks of an item that have keys go from one to the next.
+/// As copyKeyFrame(), and the keys leave `from`.
+DGTKWIDGETS_EXPORT void moveKeyFrame(SceneDescription& scene, int from, int to);
+/// The same for the keys of one item.
+DGTKWIDGETS_EXPORT void copyItemKeys(SceneDescription& scene, const SceneItem& item, int from, int to);
+DGTKWIDGETS_EXPORT void moveItemKeys(SceneDescription& scene, const SceneItem& item, int from, int to);
+DGTKWIDGETS_EXPORT void removeItemKeys(SceneDescription& scene, const SceneItem& item, int frame);
+/// How the keys of an item at a frame go to the next ones; none: as the item's other keys.
+DGTKWIDGETS_EXPORT void setKeyInterpolation(
+  SceneDescription& scene, const SceneItem& item, int frame, std::optional<Interpolation> interpolation);
+/// What the first track with a key there does, and whether it is the key's own; none without a key.
+struct KeyInterpolation
+{
+  Interpolation kind = Interpolation::Linear;
+  bool own = false;
+};
+DGTKWIDGETS_EXPORT std::optional<KeyInterpolation> keyInterpolationOf(
+  const SceneDescription& scene, const SceneItem& item, int frame);
+/// How the tracks of an item that have keys go from one to the next; no key has a kind of its own then.
 DGTKWIDGETS_EXPORT void setInterpolation(SceneDescription& scene, const SceneItem& item, Interpolation interpolation);
 /// That of the first track with keys; Linear without any.
 DGTKWIDGETS_EXPORT Interpolation interpolationOf(const SceneDescription& scene, const SceneItem& item);

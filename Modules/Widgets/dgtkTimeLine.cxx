@@ -3,35 +3,63 @@
 
 #include "dgtkTimeLineCells.h"
 
+#include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QScopedValueRollback>
 #include <QSpinBox>
 #include <QStyle>
 #include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
 
-#include <algorithm>
+#include <cmath>
 
 namespace dgtk
 {
 
 namespace
 {
-constexpr double shortestFrame = 1; // milliseconds
+constexpr int drawEvery = 10; // milliseconds
+constexpr double fastest = 1000;
+} // namespace
 
-QToolButton* addButton(QWidget* parent, QBoxLayout* layout, const char* name, const QString& tip)
+QToolButton* TimeLine::addButton(QBoxLayout* layout, const char* name, int icon, const QString& tip)
 {
-  auto* button = new QToolButton(parent);
+  auto* button = new QToolButton(this);
   button->setObjectName(name);
   button->setToolTip(tip);
-  button->setCheckable(true);
+  button->setIcon(this->style()->standardIcon(static_cast<QStyle::StandardPixmap>(icon)));
   button->setAutoRaise(true);
   layout->addWidget(button);
   return button;
 }
-} // namespace
+
+void TimeLine::addFrameFields(QBoxLayout* layout)
+{
+  layout->addWidget(new QLabel(tr("Frame"), this));
+  this->Frame = new QSpinBox(this);
+  this->Frame->setObjectName("frame");
+  this->Frame->setRange(0, largestFrame);
+  this->Frame->setKeyboardTracking(false);
+  layout->addWidget(this->Frame);
+  this->Rate = new QDoubleSpinBox(this);
+  this->Rate->setObjectName("frameRate");
+  this->Rate->setRange(0.01, fastest);
+  this->Rate->setKeyboardTracking(false);
+  this->Rate->setSuffix(tr(" frames/s"));
+  this->Rate->setToolTip(tr("The scene's frame rate: of playing, and of the models' sequences"));
+  layout->addWidget(this->Rate);
+  connect(this->Frame, QOverload<int>::of(&QSpinBox::valueChanged), &this->State, &EditorState::setFrame);
+  connect(this->Rate, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+    [this](double rate)
+    {
+      this->State.attempt(
+        [&] { this->State.document().edit("Change frame rate", [&](SceneDescription& scene) { scene.fps = rate; }); });
+      this->refreshRate();
+    });
+}
 
 TimeLine::TimeLine(EditorState& state, QWidget* parent)
   : QWidget(parent)
@@ -40,17 +68,16 @@ TimeLine::TimeLine(EditorState& state, QWidget* parent)
   , Clock(new QTimer(this))
 {
   auto* controls = new QHBoxLayout;
-  this->Play = addButton(this, controls, "play", tr("Play from this frame"));
-  this->Play->setIcon(this->style()->standardIcon(QStyle::SP_MediaPlay));
-  this->Loop = addButton(this, controls, "loop", tr("Begin again after the last frame"));
-  this->Loop->setIcon(this->style()->standardIcon(QStyle::SP_BrowserReload));
+  QToolButton* const back =
+    this->addButton(controls, "previousKey", QStyle::SP_MediaSkipBackward, tr("To the key frame before (Ctrl+Left)"));
+  this->Play = this->addButton(controls, "play", QStyle::SP_MediaPlay, tr("Play from this frame (Space)"));
+  this->Play->setCheckable(true);
+  QToolButton* const on =
+    this->addButton(controls, "nextKey", QStyle::SP_MediaSkipForward, tr("To the next key frame (Ctrl+Right)"));
+  this->Loop = this->addButton(controls, "loop", QStyle::SP_BrowserReload, tr("Begin again after the last frame"));
+  this->Loop->setCheckable(true);
   this->Loop->setChecked(true);
-  controls->addWidget(new QLabel(tr("Frame"), this));
-  this->Frame = new QSpinBox(this);
-  this->Frame->setObjectName("frame");
-  this->Frame->setRange(0, largestFrame);
-  this->Frame->setKeyboardTracking(false);
-  controls->addWidget(this->Frame);
+  this->addFrameFields(controls);
   auto* make = new QPushButton(tr("Make key frame"), this);
   make->setObjectName("makeKeyFrame");
   controls->addWidget(make);
@@ -66,17 +93,33 @@ TimeLine::TimeLine(EditorState& state, QWidget* parent)
   layout->addWidget(this->Cells, 1);
 
   connect(this->Play, &QToolButton::toggled, this, &TimeLine::play);
+  connect(this->Cells, &TimeLineCells::playAsked, this->Play, &QToolButton::toggle);
   connect(this->Clock, &QTimer::timeout, this, &TimeLine::step);
-  connect(this->Frame, QOverload<int>::of(&QSpinBox::valueChanged), &state, &EditorState::setFrame);
+  connect(back, &QToolButton::clicked, this->Cells, [this] { this->Cells->goToKey(-1); });
+  connect(on, &QToolButton::clicked, this->Cells, [this] { this->Cells->goToKey(1); });
   connect(&state, &EditorState::frameChanged, this, &TimeLine::refresh);
+  connect(&state, &EditorState::changed, this, &TimeLine::refreshRate);
   connect(make, &QPushButton::clicked, this->Cells, &TimeLineCells::makeKey);
   connect(remove, &QPushButton::clicked, this->Cells, &TimeLineCells::removeKey);
+  this->refreshRate();
+}
+
+void TimeLine::refreshRate()
+{
+  const bool blocked = this->Rate->blockSignals(true);
+  this->Rate->setValue(this->State.scene().fps);
+  this->Rate->blockSignals(blocked);
 }
 
 void TimeLine::refresh()
 {
   const bool blocked = this->Frame->blockSignals(true);
   this->Frame->setValue(this->State.frame());
+  if (this->Clock->isActive() && !this->Stepping)
+  {
+    this->PlayedFrom = this->State.frame(); // scrubbed meanwhile
+    this->Playing.restart();
+  }
   this->Frame->blockSignals(blocked);
 }
 
@@ -92,22 +135,30 @@ void TimeLine::play(bool on)
   {
     this->State.setFrame(this->State.scene().firstFrame());
   }
-  this->Clock->start(static_cast<int>(std::max(shortestFrame, 1000 / this->State.scene().fps)));
+  this->PlayedFrom = this->State.frame();
+  this->Playing.start();
+  this->Clock->start(drawEvery);
 }
 
 void TimeLine::step()
 {
   const SceneDescription& scene = this->State.scene();
-  if (this->State.frame() < scene.lastFrame())
+  const double passed = double(this->Playing.elapsed()) * scene.fps / 1000;
+  const double frame = this->PlayedFrom + std::floor(passed);
+  const QScopedValueRollback<bool> own(this->Stepping, true);
+  if (frame <= scene.lastFrame())
   {
-    this->State.setFrame(this->State.frame() + 1);
+    this->State.setFrame(int(frame));
   }
   else if (this->Loop->isChecked() && scene.lastFrame() > scene.firstFrame())
   {
-    this->State.setFrame(scene.firstFrame());
+    this->PlayedFrom = scene.firstFrame();
+    this->Playing.restart();
+    this->State.setFrame(this->PlayedFrom);
   }
   else
   {
+    this->State.setFrame(scene.lastFrame());
     this->Play->setChecked(false);
   }
 }

@@ -138,6 +138,49 @@ TEST(SceneEdits, KeyFramesAreCopiedAndInterpolated)
   EXPECT_EQ(scene.objects[0].position.at(25), Eigen::Vector3d(0, 0, 0));
 }
 
+TEST(SceneEdits, KeysMoveWithTheirInterpolation)
+{
+  SceneDescription scene = chain();
+  makeKeyFrame(scene, 0);
+  setItemPosition(scene, { Object, 0 }, 10, { 10, 0, 0 });
+  setItemPosition(scene, { Object, 1 }, 10, { 20, 0, 0 });
+  setKeyInterpolation(scene, { Object, 0 }, 0, Interpolation::Step);
+  EXPECT_EQ(scene.objects[0].position.at(9), Eigen::Vector3d(0, 0, 0));
+  EXPECT_EQ(scene.objects[1].position.at(5), Eigen::Vector3d(10, 0, 0));
+  EXPECT_EQ(keyInterpolationOf(scene, { Object, 0 }, 0)->kind, Interpolation::Step);
+  EXPECT_TRUE(keyInterpolationOf(scene, { Object, 0 }, 0)->own);
+  EXPECT_FALSE(keyInterpolationOf(scene, { Object, 1 }, 0)->own);
+  EXPECT_FALSE(keyInterpolationOf(scene, { Object, 0 }, 3));
+
+  copyItemKeys(scene, { Object, 0 }, 0, 20);
+  EXPECT_EQ(keyFramesOf(scene, { Object, 0 }), (std::vector<int>{ 0, 10, 20 }));
+  EXPECT_EQ(keyFramesOf(scene, { Object, 1 }), (std::vector<int>{ 0, 10 }));
+  EXPECT_EQ(keyInterpolationOf(scene, { Object, 0 }, 20)->kind, Interpolation::Step);
+  moveItemKeys(scene, { Object, 0 }, 10, 4);
+  EXPECT_EQ(scene.objects[0].position.at(4), Eigen::Vector3d(10, 0, 0));
+  EXPECT_EQ(scene.objects[0].position.keys.size(), 3u);
+  moveItemKeys(scene, { Object, 0 }, 4, 20);
+  EXPECT_EQ(scene.objects[0].position.at(20), Eigen::Vector3d(10, 0, 0)) << "in place of the key that was there";
+  EXPECT_FALSE(
+    keyInterpolationOf(scene, { Object, 0 }, 20)->own && scene.objects[0].position.keys.back().interpolation);
+  moveItemKeys(scene, { Object, 0 }, 7, 8);
+  moveItemKeys(scene, { Object, 0 }, 0, 0);
+  EXPECT_EQ(scene.objects[0].position.keys.size(), 2u) << "no key, or no way";
+
+  scene.extraKeyFrames = { 10 };
+  moveKeyFrame(scene, 10, 12);
+  EXPECT_EQ(keyFramesOf(scene, { Object, 1 }), (std::vector<int>{ 0, 12 }));
+  EXPECT_EQ(scene.extraKeyFrames, std::vector<int>{ 12 });
+  removeItemKeys(scene, { Object, 1 }, 12);
+  EXPECT_EQ(keyFramesOf(scene, { Object, 1 }), std::vector<int>{ 0 });
+
+  // A key that is put between two goes on as the one before it.
+  setItemPosition(scene, { Object, 0 }, 5, { 1, 0, 0 });
+  EXPECT_EQ(scene.objects[0].position.at(19), Eigen::Vector3d(1, 0, 0));
+  setInterpolation(scene, { Object, 0 }, Interpolation::Linear);
+  EXPECT_FALSE(keyInterpolationOf(scene, { Object, 0 }, 0)->own);
+}
+
 TEST(SceneEdits, MovingTakesLookAtPointsAndTargetsAlong)
 {
   SceneDescription scene;

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkMainWindow.h"
+
+#include "dgtkAutosave.h"
+#include "dgtkBackgroundWork.h"
+#include "dgtkEditorState.h"
+#include "dgtkModelReader.h"
+#include "dgtkPovExport.h"
+#include "dgtkSceneViews.h"
+
+#include <QAction>
+#include <QDateTime>
+#include <QDragEnterEvent>
+#include <QDropEvent>
+#include <QFile>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMenu>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QSettings>
+#include <QTimer>
+#include <QUrl>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr int mostRecent = 8;
+
+bool isScene(const QString& path)
+{
+  const QString extension = QFileInfo(path).suffix().toLower();
+  return extension == "json" || extension == "scene";
+}
+
+/// The path, with the first of the endings where it has none of them.
+QString withEnding(const QString& path, const QStringList& endings)
+{
+  const bool has = std::any_of(endings.begin(), endings.end(),
+    [&path](const QString& ending) { return path.endsWith(ending, Qt::CaseInsensitive); });
+  return has ? path : path + endings.first();
+}
+} // namespace
+
+bool MainWindow::isFree()
+{
+  if (this->Work->busy())
+  {
+    this->note(tr("Another file is being read: wait for it, or cancel it."));
+  }
+  return !this->Work->busy();
+}
+
+void MainWindow::allowFiles(bool busy)
+{
+  for (const char* name : { "new", "open", "import", "exportPov" })
+  {
+    this->findChild<QAction*>(name)->setEnabled(!busy);
+  }
+  this->Recent->setEnabled(!busy && !this->Recent->isEmpty());
+}
+
+bool MainWindow::work(const QString& what, const std::function<void(const LoadProgress&)>& work)
+{
+  bool done = false;
+  const bool tried = this->State->attempt([&] { done = this->Work->run(what, work); });
+  if (tried && !done)
+  {
+    this->note(tr("Cancelled: %1").arg(what));
+  }
+  return done;
+}
+
+void MainWindow::newScene()
+{
+  if (this->mayDiscard())
+  {
+    this->State->select({});
+    this->State->document().clear();
+    this->State->setFrame(0);
+    this->Views->showWhole();
+  }
+}
+
+void MainWindow::askOpen()
+{
+  const QString path =
+    QFileDialog::getOpenFileName(this, tr("Open a scene"), {}, tr("Scenes (*.json *.scene);;All files (*)"));
+  if (!path.isEmpty())
+  {
+    this->openFile(path);
+  }
+}
+
+bool MainWindow::openFile(const QString& path)
+{
+  if (!isScene(path))
+  {
+    return this->importFile(path);
+  }
+  if (!this->isFree() || !this->mayDiscard())
+  {
+    return false;
+  }
+  const std::string before = this->document().json();
+  const auto loaded = std::make_shared<std::optional<LoadedScene>>();
+  const std::string file = QFile::encodeName(path).toStdString();
+  const bool read = this->work(tr("Reading %1 ...").arg(QFileInfo(path).fileName()),
+    [loaded, file](const LoadProgress& progress) { *loaded = SceneDocument::read(file, progress); });
+  // What was edited in the meantime is not thrown away unasked.
+  if (!read || !*loaded || (this->document().json() != before && !this->mayDiscard()))
+  {
+    return false;
+  }
+  this->document().install(std::move(**loaded));
+  this->State->select({});
+  this->State->setFrame(this->State->scene().firstFrame());
+  this->Views->showWhole();
+  this->addRecent(path);
+  this->note(tr("Opened %1: %2 objects, %3 lights, %4 cameras")
+               .arg(QFileInfo(path).fileName())
+               .arg(this->State->scene().objects.size())
+               .arg(this->State->scene().lights.size())
+               .arg(this->State->scene().cameras.size()));
+  return true;
+}
+
+void MainWindow::offerRecovery()
+{
+  for (const QString& copy : Autosave::leftBehind())
+  {
+    QMessageBox box(QMessageBox::Question, tr("DGTk"),
+      tr("The editor ended without saving a scene, at %1.")
+        .arg(QFileInfo(copy).lastModified().toString(Qt::ISODate).replace('T', ' ')),
+      QMessageBox::Open | QMessageBox::Discard | QMessageBox::Cancel, this);
+    box.setObjectName("recoverBox");
+    box.setInformativeText(tr("Open what was kept of it, or discard it for good. Cancel asks again next time."));
+    const int choice = box.exec();
+    if (choice == QMessageBox::Discard)
+    {
+      QFile::remove(copy);
+    }
+    const auto loaded = std::make_shared<std::optional<LoadedScene>>();
+    if (choice == QMessageBox::Open && this->work(tr("Reading what was kept ..."),
+                                         [loaded, file = QFile::encodeName(copy).toStdString()](const LoadProgress& p)
+                                         { *loaded = SceneDocument::read(file, p); }))
+    {
+      this->document().recover(std::move(**loaded));
+      QFile::remove(copy);
+      this->Views->showWhole();
+      return;
+    }
+  }
+}
+
+void MainWindow::askImport()
+{
+  QStringList all;
+  QStringList filters;
+  for (const ReaderInfo& reader : modelReaders())
+  {
+    QStringList patterns;
+    for (const std::string& extension : reader.extensions)
+    {
+      patterns << "*." + toText(extension);
+    }
+    all << patterns;
+    filters << toText(reader.description).remove('(').remove(')') + " (" + patterns.join(' ') + ')';
+  }
+  filters.prepend(tr("All models (%1)").arg(all.join(' ')));
+  for (const QString& path : QFileDialog::getOpenFileNames(this, tr("Import models"), {}, filters.join(";;")))
+  {
+    this->importFile(path);
+  }
+}
+
+bool MainWindow::importFile(const QString& path)
+{
+  if (!this->isFree())
+  {
+    return false;
+  }
+  const std::string file = QFile::encodeName(path).toStdString();
+  const auto loaded = std::make_shared<std::optional<ModelStore>>();
+  const bool read = this->work(tr("Reading %1 ...").arg(QFileInfo(path).fileName()),
+    [loaded, reader = this->document().modelReader(file)](const LoadProgress& progress)
+    { *loaded = reader(progress); });
+  if (!read || !*loaded)
+  {
+    return false;
+  }
+  const bool first = this->State->scene().objects.empty();
+  this->document().adopt(**loaded);
+  if (!this->State->attempt([&] { this->State->select({ this->document().addModel(file) }); }))
+  {
+    return false;
+  }
+  if (first)
+  {
+    this->Views->showWhole();
+  }
+  this->note(tr("Imported %1").arg(QFileInfo(path).fileName()));
+  return true;
+}
+
+bool MainWindow::saveFile(const QString& path)
+{
+  if (!this->State->attempt([&] { this->State->document().saveAs(path.toStdString()); }))
+  {
+    return false;
+  }
+  this->addRecent(path);
+  this->note(tr("Saved %1").arg(path));
+  return true;
+}
+
+bool MainWindow::save()
+{
+  const QString path = toText(this->State->document().path());
+  return path.isEmpty() ? this->saveAs() : this->saveFile(path);
+}
+
+bool MainWindow::saveAs()
+{
+  const QString path = QFileDialog::getSaveFileName(
+    this, tr("Save the scene"), toText(this->document().path()), tr("Scene (*.json);;Thesis scene (*.scene)"));
+  if (path.isEmpty())
+  {
+    return false;
+  }
+  return this->saveFile(withEnding(path, { ".json", ".scene" }));
+}
+
+bool MainWindow::mayDiscard()
+{
+  if (!this->State->document().modified())
+  {
+    return true;
+  }
+  QMessageBox box(QMessageBox::Question, tr("DGTk"), tr("The scene has changes that are not saved."),
+    QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
+  box.setObjectName("unsavedBox");
+  box.setInformativeText(tr("Save them, or they are lost."));
+  box.setDefaultButton(QMessageBox::Save);
+  switch (box.exec())
+  {
+    case QMessageBox::Save:
+      return this->save();
+    case QMessageBox::Discard:
+      return true;
+    default:
+      return false;
+  }
+}
+
+void MainWindow::exportPov()
+{
+  const QString path = QFileDialog::getSaveFileName(this, tr("Export for POV-Ray"), {}, tr("POV-Ray scene (*.pov)"));
+  if (path.isEmpty() || !this->isFree())
+  {
+    return;
+  }
+  SceneDescription scene = this->State->scene();
+  std::size_t camera = 0;
+  for (const SceneItem& item : this->State->selection())
+  {
+    camera = item.kind == SceneItem::Kind::Camera ? item.index : camera;
+  }
+  if (scene.cameras.empty())
+  {
+    scene.cameras.push_back(this->cameraOfView());
+    scene.order.clear();
+  }
+  const std::string file = QFile::encodeName(withEnding(path, { ".pov" })).toStdString();
+  const bool done = this->work(tr("Writing %1 ...").arg(QFileInfo(path).fileName()),
+    [scene, camera, file, frame = this->State->frame()](const LoadProgress&)
+    {
+      const std::shared_ptr<const Stage> stage = Stage::load(scene);
+      dgtk::exportPov(*stage->at(frame), stage->view(camera, frame), file);
+    });
+  if (done)
+  {
+    this->note(tr("Wrote %1").arg(QFile::decodeName(file.c_str())));
+  }
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event)
+{
+  if (event->mimeData()->hasUrls())
+  {
+    event->acceptProposedAction();
+  }
+}
+
+void MainWindow::dropEvent(QDropEvent* event)
+{
+  QStringList paths;
+  for (const QUrl& url : event->mimeData()->urls())
+  {
+    if (url.isLocalFile())
+    {
+      paths << url.toLocalFile();
+    }
+  }
+  event->acceptProposedAction();
+  // The program that they come from does not wait for them to be read.
+  QTimer::singleShot(0, this,
+    [this, paths]
+    {
+      for (const QString& path : paths)
+      {
+        this->openFile(path);
+      }
+    });
+}
+
+void MainWindow::addRecent(const QString& path)
+{
+  QSettings settings;
+  const QString absolute = QFileInfo(path).absoluteFilePath();
+  QStringList recent = settings.value("recent").toStringList();
+  recent.removeAll(absolute);
+  recent.prepend(absolute);
+  settings.setValue("recent", QStringList(recent.mid(0, mostRecent)));
+  this->refreshRecent();
+}
+
+void MainWindow::refreshRecent()
+{
+  this->Recent->clear();
+  const QStringList recent = QSettings().value("recent").toStringList();
+  for (const QString& path : recent)
+  {
+    this->Recent->addAction(QFileInfo(path).fileName() + "  -  " + QFileInfo(path).absolutePath(), this,
+      [this, path] { this->openFile(path); });
+  }
+  this->Recent->setEnabled(!recent.isEmpty());
+}
+
+} // namespace dgtk
