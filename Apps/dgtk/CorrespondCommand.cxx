@@ -3,12 +3,11 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
-#include "dgtkSparseCorrespondence.h"
+#include "dgtkSparseText.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <iterator>
@@ -41,63 +40,16 @@ void parseView(const std::string& text, const std::string& option, const Stage& 
   camera = static_cast<std::size_t>(found - names.begin());
 }
 
-bool isSeparator(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; }
-
-/// Two numbers a line, separated by blanks or a comma; empty lines and what follows a # do not count.
-std::vector<Eigen::Vector2d> parsePoints(const std::string& text, const std::string& name)
+SparseView named(const Stage& stage, std::size_t camera, int frame, const SparseRequest& request)
 {
-  std::vector<Eigen::Vector2d> points;
-  int number = 0;
-  for (std::size_t begin = 0; begin < text.size();)
-  {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string line = text.substr(begin, end - begin);
-    begin = end + 1;
-    ++number;
-    line = line.substr(0, line.find('#'));
-    std::vector<double> values;
-    const char* at = line.data();
-    const char* const stop = line.data() + line.size();
-    for (at = std::find_if_not(at, stop, isSeparator); at != stop; at = std::find_if_not(at, stop, isSeparator))
-    {
-      double value = 0;
-      const auto [next, error] = std::from_chars(at, stop, value);
-      if (error != std::errc() || !std::isfinite(value) || (next != stop && !isSeparator(*next)))
-      {
-        throw InputError(name, number, "is not a point (expected two numbers, found " + dgtk::quoted(line) + ')');
-      }
-      values.push_back(value);
-      at = next;
-    }
-    if (values.size() == 2)
-    {
-      points.emplace_back(values[0], values[1]);
-    }
-    else if (!values.empty())
-    {
-      throw InputError(
-        name, number, "is not a point (expected two numbers, found " + std::to_string(values.size()) + ')');
-    }
-  }
-  return points;
+  const View view = stage.view(camera, frame, request.width, request.height);
+  return { view.name, frame, view.model->width(), view.model->height() };
 }
 
-std::string shortest(double value)
+std::string asText(const Stage& stage, const SparseRequest& request, const std::vector<SparseMatch>& matches)
 {
-  char text[32];
-  return std::isnan(value) ? "nan" : std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
-
-std::string asText(const std::vector<SparseMatch>& matches)
-{
-  std::string text = "# x y x' y' class object\n";
-  for (const SparseMatch& match : matches)
-  {
-    text += shortest(match.from.x()) + ' ' + shortest(match.from.y()) + ' ' + shortest(match.to.pixel.x()) + ' ' +
-            shortest(match.to.pixel.y()) + ' ' + std::to_string(static_cast<int>(match.to.visibility)) + ' ' +
-            std::to_string(match.hit.object) + '\n';
-  }
-  return text;
+  return sparseText({ named(stage, request.fromCamera, request.fromFrame, request),
+    named(stage, request.toCamera, request.toFrame, request), matches });
 }
 
 std::string asJson(const std::vector<SparseMatch>& matches, const Stage& stage)
@@ -148,7 +100,7 @@ int run(const Arguments& arguments)
                              : readFile(file);
   const std::vector<SparseMatch> matches =
     correspondPoints(*stage, request, parsePoints(text, file == "-" ? "standard input" : file));
-  print(arguments.has("--json") ? asJson(matches, *stage) : asText(matches));
+  print(arguments.has("--json") ? asJson(matches, *stage) : asText(*stage, request, matches));
   return 0;
 }
 } // namespace

@@ -94,4 +94,21 @@ LiveView LiveScene::view(const CameraDescription& camera, int frame, int width, 
   return { at(frame), at(std::max(frame - 1, this->First)), at(std::min(frame + 1, this->Last)) };
 }
 
+std::vector<std::string> LiveScene::objectNames() const
+{
+  std::vector<std::string> names;
+  for (const SceneItem& item : this->Scene.items())
+  {
+    if (item.kind == SceneItem::Kind::Object)
+    {
+      const ObjectDescription& object = this->Scene.objects[item.index];
+      if (object.visible && this->Models.at(this->Scene, object, this->First).model != nullptr)
+      {
+        names.push_back(object.name);
+      }
+    }
+  }
+  return names;
+}
+
 } // namespace dgtk

@@ -14,6 +14,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 namespace dgtk
 {
@@ -50,6 +51,9 @@ public:
 
   /// A camera of this or any scene, as Stage::view(). Throws InputError where its pose is undefined.
   LiveView view(const CameraDescription& camera, int frame, int width = 0, int height = 0) const;
+
+  /// Names of the objects with an id: objectNames()[id - 1].
+  std::vector<std::string> objectNames() const;
 
   const SceneDescription& description() const { return this->Scene; }
   int firstFrame() const { return this->First; }

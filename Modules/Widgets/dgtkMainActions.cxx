@@ -5,6 +5,7 @@
 #include "dgtkEditorIcons.h"
 #include "dgtkEditorState.h"
 #include "dgtkItemDialogs.h"
+#include "dgtkMatchDialog.h"
 #include "dgtkPropertiesPanel.h"
 #include "dgtkRenderDialog.h"
 #include "dgtkSceneTree.h"
@@ -170,6 +171,8 @@ void MainWindow::makeToolsMenu()
     &MainWindow::addLight);
   connect(this->addAction(menu, "render", tr("&Render configuration ..."), QKeySequence("Ctrl+R")), &QAction::triggered,
     this, &MainWindow::configureRendering);
+  connect(this->addAction(menu, "correspondence", tr("C&orrespondence ..."), QKeySequence("Ctrl+M")),
+    &QAction::triggered, this, &MainWindow::showCorrespondence);
 }
 
 void MainWindow::makeHelpMenu()
@@ -265,6 +268,17 @@ void MainWindow::configureRendering()
   this->Rendering->show();
   this->Rendering->raise();
   this->Rendering->activateWindow();
+}
+
+void MainWindow::showCorrespondence()
+{
+  if (this->Matching == nullptr)
+  {
+    this->Matching = new MatchDialog(*this->State, this);
+  }
+  this->Matching->show();
+  this->Matching->raise();
+  this->Matching->activateWindow();
 }
 
 void MainWindow::preview()

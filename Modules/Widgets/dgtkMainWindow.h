@@ -21,6 +21,7 @@ namespace dgtk
 
 class BackgroundWork;
 class EditorState;
+class MatchDialog;
 class RenderDialog;
 class SceneDocument;
 class SceneViews;
@@ -88,6 +89,7 @@ private:
   CameraDescription cameraOfView() const;
   void addLight();
   void configureRendering();
+  void showCorrespondence();
   void showContextMenu(const QPoint& global);
   void preview();
   void refresh();
@@ -102,6 +104,7 @@ private:
   QMenu* Recent = nullptr;
   QMenu* ViewMenu = nullptr;
   RenderDialog* Rendering = nullptr;
+  MatchDialog* Matching = nullptr;
 };
 
 } // namespace dgtk

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSparseText.h"
+
+#include "dgtkError.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+using namespace dgtk;
+
+SparseSet exampleSet()
+{
+  SparseSet set;
+  set.from = { "left @ door", 3, 640, 480 };
+  set.to = { "right", 4, 320, 240 };
+  SparseMatch seen;
+  seen.from = { 0.1, 20.5 };
+  seen.to.pixel = { 1.0 / 3, 7 };
+  seen.to.visibility = VisibilityClass::OccludedByOwn;
+  seen.hit.object = 12;
+  SparseMatch nothing;
+  nothing.from = { 640, 480 };
+  set.matches = { seen, nothing };
+  return set;
+}
+
+TEST(SparseText, IsReadBackAsItWas)
+{
+  SparseSet other = exampleSet();
+  std::swap(other.from, other.to);
+  const std::vector<SparseSet> read = parseSparseText(sparseText(exampleSet()) + sparseText(other), "list.txt");
+  ASSERT_EQ(read.size(), 2u);
+  for (const SparseSet& set : read)
+  {
+    ASSERT_EQ(set.matches.size(), 2u);
+    EXPECT_EQ(set.matches[0].from, exampleSet().matches[0].from);
+    EXPECT_EQ(set.matches[0].to.pixel, exampleSet().matches[0].to.pixel);
+    EXPECT_EQ(set.matches[0].to.visibility, VisibilityClass::OccludedByOwn);
+    EXPECT_EQ(set.matches[0].hit.object, 12u);
+    EXPECT_TRUE(std::isnan(set.matches[1].to.pixel.x()));
+    EXPECT_EQ(set.matches[1].to.visibility, VisibilityClass::NoSurface);
+  }
+  EXPECT_TRUE(read[0].from == exampleSet().from);
+  EXPECT_TRUE(read[0].to == exampleSet().to);
+  EXPECT_TRUE(read[1].from == exampleSet().to);
+  EXPECT_EQ(sparseText(read[0]), sparseText(exampleSet()));
+  const std::vector<SparseSet> bare = parseSparseText("1 2 3 4 1 1\n# from here to there\n5 6 nan nan 0 0\r\n", "x");
+  ASSERT_EQ(bare.size(), 1u);
+  EXPECT_TRUE(bare[0].from.camera.empty());
+  EXPECT_EQ(bare[0].matches.size(), 2u);
+}
+
+TEST(SparseText, PointsAreThoseOfListsAndOfMatches)
+{
+  const std::vector<Eigen::Vector2d> points = parsePoints("# x y\n1, 2\n\n" + sparseText(exampleSet()), "x");
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_EQ(points[0], Eigen::Vector2d(1, 2));
+  EXPECT_EQ(points[1], exampleSet().matches[0].from);
+}
+
+TEST(SparseText, RefusalsNameFileAndLine)
+{
+  const auto message = [](const std::string& text)
+  {
+    try
+    {
+      parseSparseText(text, "list.txt");
+    }
+    catch (const InputError& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  for (const char* bad : { "1 2 3 4 6 1", "1 2 3 4 1.5 1", "1 2 3 4 -1 1", "1 2 3 4 1 -1", "1 2 3 4 1 1e12",
+         "nan 2 3 4 1 1", "1 2 3 4 1", "1 2 3 4 1 1 1", "1 2 3 4 x 1", "1 2 inf 4 1 1" })
+  {
+    EXPECT_NE(message(std::string("# a list\n") + bad).find("list.txt:2"), std::string::npos) << bad;
+  }
+  EXPECT_EQ(message("1 2 3 4 5 0"), "accepted");
+  EXPECT_THROW(parsePoints("1 2 3", "x"), InputError);
+  EXPECT_THROW(parsePoints("nan 2", "x"), InputError);
+}
+} // namespace

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkEpipolarLine.h"
+#include "dgtkLiveMatch.h"
+
+#include "dgtkGenerator.h"
+#include "dgtkLayerReader.h"
+#include "dgtkTestSupport.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <array>
+#include <cmath>
+#include <random>
+
+namespace
+{
+using namespace dgtk;
+using test::sourceFile;
+
+constexpr double lineTolerance = 1e-8; // pixels: products of coordinates of some thousand pixels
+
+View viewAt(const std::shared_ptr<const CameraModel>& model, const Eigen::Vector3d& eye, const Eigen::Vector3d& lookAt)
+{
+  View view;
+  view.model = model;
+  view.camera_from_world = lookAtPose(eye, lookAt, { 0, 1, 0 });
+  return view;
+}
+
+double distance(const Eigen::Vector3d& line, const Eigen::Vector2d& point)
+{
+  return line.head<2>().dot(point) + line.z();
+}
+
+TEST(EpipolarLine, HoldsTheImagesOfAllPointsOfTheRay)
+{
+  Eigen::Matrix3d K;
+  K << 500, 3, 310, 0, 480, 250, 0, 0, 1;
+  const auto pinhole = makePinhole(640, 480, K);
+  const auto parallel = makeOrthographic(400, 300, 6, 0);
+  const std::array<View, 3> views{ viewAt(pinhole, { 3, 2, 7 }, { 0, 0, 0 }),
+    viewAt(parallel, { -4, 3, 5 }, { 0, 1, 0 }),
+    viewAt(makePinholeFromFov(320, 240, 50, 0), { -2, 1, 6 }, { 1, 0, 0 }) };
+  std::mt19937 random(3);
+  for (const View& from : views)
+  {
+    for (const View& to : views)
+    {
+      if (&from == &to)
+      {
+        continue;
+      }
+      for (int i = 0; i < 20; ++i)
+      {
+        const Eigen::Vector2d pixel(double(random() % 3000) / 10, double(random() % 2000) / 10);
+        const auto line = epipolarLine(from, pixel, to);
+        ASSERT_TRUE(line.has_value());
+        EXPECT_NEAR(line->head<2>().norm(), 1, 1e-12);
+        const CameraRay ray = from.model->rayThrough(pixel);
+        for (const double t : { 0.5, 2.0, 9.0 })
+        {
+          const Eigen::Vector3d world = from.camera_from_world.inverse() * (ray.origin + t * ray.direction);
+          Eigen::Vector2d image;
+          if (to.model->project(to.camera_from_world * world, image))
+          {
+            EXPECT_LT(std::abs(distance(*line, image)), lineTolerance);
+          }
+        }
+      }
+    }
+  }
+}
+
+/// l' = F x with F = K'^-T [t]x R K^-1 (Hartley and Zisserman, equation 9.1).
+TEST(EpipolarLine, IsTheFundamentalMatrixs)
+{
+  Eigen::Matrix3d K;
+  K << 500, 0, 310, 0, 480, 250, 0, 0, 1;
+  const View from = viewAt(makePinhole(640, 480, K), { 3, 2, 7 }, { 0, 0, 0 });
+  const View to = viewAt(makePinhole(640, 480, K), { 2, 2, 7 }, { 0.3, 0, 0 });
+  const Rigid3 pose = to.camera_from_world * from.camera_from_world.inverse();
+  Eigen::Matrix3d cross;
+  cross << 0, -pose.translation.z(), pose.translation.y(), pose.translation.z(), 0, -pose.translation.x(),
+    -pose.translation.y(), pose.translation.x(), 0;
+  const Eigen::Matrix3d F = K.inverse().transpose() * cross * pose.rotation * K.inverse();
+  const Eigen::Vector2d pixel(200.25, 310.75);
+  Eigen::Vector3d expected = F * pixel.homogeneous();
+  expected /= expected.head<2>().norm();
+  const Eigen::Vector3d line = *epipolarLine(from, pixel, to);
+  EXPECT_TRUE(line.isApprox(expected, 1e-9) || line.isApprox(-expected, 1e-9)) << line.transpose();
+}
+
+TEST(EpipolarLine, RectifiedPairsHaveTheirRow)
+{
+  const auto model = makePinholeFromFov(640, 480, 44, 0);
+  const View left = viewAt(model, { 0, 1, 5 }, { 0, 1, 0 });
+  const View right = viewAt(model, { 0.2, 1, 5 }, { 0.2, 1, 0 });
+  const Eigen::Vector3d line = *epipolarLine(left, { 100.5, 77.25 }, right);
+  EXPECT_NEAR(line.x(), 0, 1e-12);
+  EXPECT_NEAR(-line.z() / line.y(), 77.25, 1e-9);
+}
+
+TEST(EpipolarLine, IsNothingWhereTheRayIsAPoint)
+{
+  const auto pinhole = makePinholeFromFov(640, 480, 44, 0);
+  const auto parallel = makeOrthographic(400, 300, 6, 0);
+  const View one = viewAt(pinhole, { 3, 2, 7 }, { 0, 0, 0 });
+  const View turned = viewAt(pinhole, { 3, 2, 7 }, { 0, 1, 0 });
+  EXPECT_FALSE(epipolarLine(one, { 10, 20 }, turned).has_value()) << "one centre";
+  const View before = viewAt(pinhole, { 0, 0, 9 }, { 0, 0, 0 });
+  const View behind = viewAt(pinhole, { 0, 0, 5 }, { 0, 0, 0 });
+  EXPECT_FALSE(epipolarLine(before, { 320, 240 }, behind).has_value()) << "the epipole";
+  EXPECT_TRUE(epipolarLine(before, { 321, 240 }, behind).has_value());
+  const View along = viewAt(parallel, { 0, 0, 9 }, { 0, 0, 0 });
+  const View same = viewAt(parallel, { 1, 0, 9 }, { 1, 0, 0 });
+  EXPECT_FALSE(epipolarLine(along, { 10, 20 }, same).has_value()) << "parallel views along one direction";
+  EXPECT_TRUE(epipolarLine(along, { 10, 20 }, before).has_value()) << "a parallel view's ray is a line for a pinhole";
+  EXPECT_FALSE(epipolarLine(before, { 320, 240 }, along).has_value()) << "and the axis of a pinhole is none for it";
+}
+
+TEST(ClippedLine, EndsAtTheBorder)
+{
+  const auto part = clippedLine({ 0, 1, -30 }, 100, 60);
+  ASSERT_TRUE(part.has_value());
+  EXPECT_EQ(std::abs(part->begin.x() - part->end.x()), 100);
+  EXPECT_EQ(part->begin.y(), 30);
+  const double r = std::sqrt(0.5);
+  const auto diagonal = clippedLine({ r, -r, 0 }, 100, 60);
+  ASSERT_TRUE(diagonal.has_value());
+  EXPECT_NEAR((diagonal->begin - diagonal->end).norm(), 60 * std::sqrt(2), 1e-9);
+  EXPECT_FALSE(clippedLine({ 0, 1, -70 }, 100, 60).has_value());
+}
+
+TEST(LiveMatch, IsTheDatasetsAtEveryPixel)
+{
+  const std::string file = sourceFile("Data/Scenes/dataset_stereo.json");
+  const test::TemporaryFolder folder;
+  GeneratorRequest request;
+  request.scene = file;
+  request.folder = folder.path("out");
+  request.layers = { "correspondence" };
+  request.pairs = { "left:right" };
+  request.cameras = { "left" };
+  request.frames = FrameRange{ 0, 0, 1 };
+  request.width = 80;
+  request.height = 60;
+  request.visibility = "ray";
+  request.threads = 1;
+  generate(request);
+  const ImageData places = readLayerFile(folder.path("out/left/correspondence_right/000000.npy"));
+  const ImageData classes = readLayerFile(folder.path("out/left/correspondence_right/000000.png"));
+
+  const SceneDescription scene = readScene(file);
+  ModelStore models;
+  models.load(scene);
+  const LiveScene live(scene, models);
+  const auto camera = [&](const char* name)
+  {
+    for (const CameraDescription& one : scene.cameras)
+    {
+      if (one.name == name)
+      {
+        return MatchView{ live.view(one, 0, 80, 60).now, 0 };
+      }
+    }
+    throw std::runtime_error(name);
+  };
+  const MatchView left = camera("left");
+  const MatchView right = camera("right");
+  std::array<int, 6> seen{};
+  for (int row = 0; row < 60; ++row)
+  {
+    for (int column = 0; column < 80; ++column)
+    {
+      const LiveMatch match = liveMatch(live, left, { column + 0.5, row + 0.5 }, right);
+      const int kind = classes.pixels.row<std::uint8_t>(row)[column];
+      ASSERT_EQ(int(match.to.visibility), kind) << column << ' ' << row;
+      ++seen[std::size_t(kind)];
+      const double* place = places.pixels.row<double>(row) + 2 * column;
+      EXPECT_EQ(match.hit.object == 0, kind == 0);
+      EXPECT_EQ(match.occluder.empty(), kind != 2 && kind != 3);
+      if (kind != 0)
+      {
+        EXPECT_EQ(match.to.pixel.x(), place[0]);
+        EXPECT_EQ(match.to.pixel.y(), place[1]);
+        ASSERT_TRUE(match.line.has_value());
+        EXPECT_LT(match.lineDistance, lineTolerance);
+      }
+    }
+  }
+  EXPECT_GT(seen[1], 1000);
+  EXPECT_GT(seen[2] + seen[3], 10);
+  EXPECT_GT(seen[4], 10);
+  EXPECT_EQ(live.objectNames(), Stage::load(scene)->objectNames());
+}
+} // namespace

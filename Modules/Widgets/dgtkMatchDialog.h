@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkMatchDialog_h
+#define dgtkMatchDialog_h
+
+// Private to Widgets.
+
+#include "dgtkEditorState.h"
+#include "dgtkLiveMatch.h"
+#include "dgtkLiveTruth.h"
+#include "dgtkMatchTable.h"
+#include "dgtkNewestTask.h"
+
+#include <QDialog>
+
+#include <array>
+#include <memory>
+#include <optional>
+
+class QCheckBox;
+class QComboBox;
+class QFormLayout;
+class QLabel;
+class QPushButton;
+class QSpinBox;
+class QVBoxLayout;
+
+namespace dgtk
+{
+
+class MatchPane;
+
+/// Two views of the scene side by side: where a point of one is in the other, and whether it is seen there.
+class MatchDialog : public QDialog
+{
+  Q_OBJECT
+
+public:
+  MatchDialog(EditorState& state, QWidget* parent);
+  ~MatchDialog() override;
+
+  /// Reads and writes lists as `dgtk correspond`. False, after EditorState::failed(), when that was refused.
+  Q_INVOKABLE bool openPairs(const QString& path);
+  Q_INVOKABLE bool savePairs(const QString& path);
+
+protected:
+  void showEvent(QShowEvent* event) override;
+
+private:
+  struct Side
+  {
+    QComboBox* camera = nullptr;
+    QSpinBox* frame = nullptr;
+    MatchPane* pane = nullptr;
+    QLabel* where = nullptr; ///< image point under the mouse
+    std::optional<MatchView> view;
+    std::unique_ptr<LiveTruth> truth;
+  };
+  /// The point that is looked at.
+  struct Point
+  {
+    std::size_t side = 0;
+    Eigen::Vector2d pixel{ 0, 0 };
+  };
+
+  QWidget* makeSide(std::size_t side);
+  void makeControls(QVBoxLayout* layout);
+  QWidget* makeNumbers();
+  QWidget* makePairs();
+  QLabel* addNumber(QFormLayout* form, const QString& label, const char* name);
+
+  void refresh();
+  void refreshCameras();
+  void showView(std::size_t side);
+  void askPicture(std::size_t side);
+  void pick(std::size_t side, const Eigen::Vector2d& pixel);
+  void move(std::size_t side, const Eigen::Vector2d& step);
+  void askMatch();
+  void receive(const Point& point, const LiveMatch& match);
+  void showMatch();
+  void showMarks();
+  void showPair(int row);
+  void addPair();
+  void askOpen();
+  void askSave();
+  void swapSides();
+  void refreshButtons();
+  SparseView sparseView(std::size_t side) const;
+  QString objectName(std::uint32_t id) const;
+
+  EditorState& State;
+  std::shared_ptr<const LiveScene> Scene;
+  std::array<Side, 2> Sides;
+  QComboBox* Layer = nullptr;
+  QCheckBox* Centers = nullptr;
+  MatchTable* Table = nullptr;
+  std::optional<Point> Active;
+  std::optional<LiveMatch> Match; ///< of the active point
+  bool Changed = true;            ///< the scene, since it was shown
+  NewestTask Matcher;             ///< last: its thread ends first
+};
+
+} // namespace dgtk
+
+#endif
