@@ -183,6 +183,30 @@ std::map<QString, Draw> editIcons()
     { "camera", [](QPainter& p) { camera(p); } }, { "light", [](QPainter& p) { bulb(p); } } };
 }
 
+std::map<QString, Draw> handleIcons()
+{
+  return { { "move",
+             [](QPainter& p)
+             {
+               arrow(p, { 5, 19 }, { 5, 3 });
+               arrow(p, { 5, 19 }, { 21, 19 });
+               p.fillRect(QRectF(9, 9, 6, 6), accent);
+             } },
+    { "rotate",
+      [](QPainter& p)
+      {
+        p.fillRect(QRectF(9.5, 10, 5, 5), accent);
+        p.drawArc(QRectF(4, 4.5, 16, 16), 120 * 16, 300 * 16);
+        p.drawPolyline(polygon({ { 4.2, 3.2 }, { 8.4, 5.4 }, { 7, 10 } }));
+      } },
+    { "scale", [](QPainter& p)
+      {
+        p.drawPolyline(polygon({ { 10, 4 }, { 4, 4 }, { 4, 20 }, { 20, 20 }, { 20, 14 } }));
+        p.fillRect(QRectF(6.5, 12, 5.5, 5.5), accent);
+        arrow(p, { 12, 12 }, { 20.5, 3.5 });
+      } } };
+}
+
 std::map<QString, Draw> viewIcons()
 {
   return { { "frameAll",
@@ -243,6 +267,7 @@ QIcon editorIcon(const QString& name)
   {
     std::map<QString, Draw> all = fileIcons();
     all.merge(editIcons());
+    all.merge(handleIcons());
     all.merge(viewIcons());
     return all;
   }();

@@ -11,8 +11,8 @@ namespace dgtk
 {
 
 /// The editor's icons, drawn in one style at every size: new, open, save, import, exit, undo, redo, cut, copy, paste,
-/// duplicate, delete, camera, light, render, frameAll, frameSelected, wireframe, shaded, textured, grid. Null for
-/// another name.
+/// duplicate, delete, move, rotate, scale, camera, light, render, frameAll, frameSelected, wireframe, shaded, textured,
+/// grid. Null for another name.
 QIcon editorIcon(const QString& name);
 
 } // namespace dgtk

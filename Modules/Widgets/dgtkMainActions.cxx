@@ -52,8 +52,9 @@ QDockWidget* MainWindow::addDock(Qt::DockWidgetArea area, const QString& name, c
 
 void MainWindow::makeDocks()
 {
-  QDockWidget* const tree =
-    this->addDock(Qt::RightDockWidgetArea, "treeDock", tr("Scene"), new SceneTree(*this->State, this));
+  auto* items = new SceneTree(*this->State, this);
+  connect(items, &SceneTree::menuAsked, this, &MainWindow::showContextMenu);
+  QDockWidget* const tree = this->addDock(Qt::RightDockWidgetArea, "treeDock", tr("Scene"), items);
   QDockWidget* const properties =
     this->addDock(Qt::RightDockWidgetArea, "propertiesDock", tr("Properties"), new PropertiesPanel(*this->State, this));
   this->Truth = new TruthView(*this->State, *this->Views, this);
@@ -122,6 +123,7 @@ void MainWindow::makeEditMenu()
   menu->addSeparator();
   connect(
     add("selectAll", tr("Select &all"), QKeySequence::SelectAll), &QAction::triggered, state, &EditorState::selectAll);
+  this->makeItemActions(menu);
 }
 
 void MainWindow::makeViewMenu()
@@ -182,7 +184,10 @@ void MainWindow::makeHelpMenu()
     [this]
     {
       QMessageBox::information(this, tr("Mouse and keys"),
-        tr("<p>Click: select; with Ctrl: add. Drag what is selected: move it in the view's plane.<br>"
+        tr("<p>Click: select; with Ctrl: add. Drag what is selected: move it in the view's plane. Drag its handles: "
+           "move, "
+           "rotate or scale it (1, 2, 3).<br>"
+           "During a drag: X, Y, Z keep to an axis, with Shift to the two others; Ctrl: steps; Esc: as it was.<br>"
            "Left drag: turn the perspective, pan the others. Middle or Shift and left: pan.<br>"
            "Right drag or wheel: zoom. Right click: menu. Double click: one view or all four.</p>"
            "<p>R frame all, F frame selected, W wireframe, S shaded, T textured, G grid, F11 maximise.</p>"));
@@ -279,44 +284,6 @@ void MainWindow::showCorrespondence()
   this->Matching->show();
   this->Matching->raise();
   this->Matching->activateWindow();
-}
-
-void MainWindow::preview()
-{
-  for (const SceneItem& item : this->State->selection())
-  {
-    if (item.kind == SceneItem::Kind::Camera)
-    {
-      this->Views->lookThrough(this->State->scene().cameras[item.index]);
-      return;
-    }
-  }
-}
-
-void MainWindow::showContextMenu(const QPoint& global)
-{
-  QMenu menu(this);
-  const SceneItems& selection = this->State->selection();
-  if (selection.empty())
-  {
-    for (const char* name : { "import", "camera", "light", "paste", "frameAll" })
-    {
-      menu.addAction(this->findChild<QAction*>(name));
-    }
-  }
-  else
-  {
-    if (selection.front().kind == SceneItem::Kind::Camera)
-    {
-      menu.addAction(tr("Preview"), this, &MainWindow::preview);
-      menu.addSeparator();
-    }
-    for (const char* name : { "frameSelected", "cut", "copy", "duplicate", "delete" })
-    {
-      menu.addAction(this->findChild<QAction*>(name));
-    }
-  }
-  menu.exec(global);
 }
 
 } // namespace dgtk

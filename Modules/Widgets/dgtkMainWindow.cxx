@@ -70,6 +70,8 @@ MainWindow::MainWindow(QWidget* parent)
   connect(this->State, &EditorState::failed, this, &MainWindow::fail);
   connect(this->Work, &BackgroundWork::busyChanged, this, &MainWindow::allowFiles);
   connect(this->Views, &SceneViews::failed, this, &MainWindow::note);
+  connect(this->Views, &SceneViews::told, this,
+    [this](const QString& text) { this->statusBar()->showMessage(text, statusTime); });
   connect(this->Views, &SceneViews::menuAsked, this, &MainWindow::showContextMenu);
   this->resize(1280, 860);
   const QSettings settings;
@@ -90,12 +92,7 @@ void MainWindow::refresh()
   this->setWindowTitle(tr("%1[*] - DGTk").arg(path.isEmpty() ? tr("Untitled") : QFileInfo(path).fileName()));
   this->setWindowFilePath(path);
   this->setWindowModified(document.modified());
-  const bool selected = !this->State->selection().empty();
-  for (const char* name : { "cut", "copy", "duplicate", "delete", "frameSelected" })
-  {
-    this->findChild<QAction*>(name)->setEnabled(selected);
-  }
-  this->findChild<QAction*>("paste")->setEnabled(this->State->canPaste());
+  this->refreshItemActions();
   QAction* const undo = this->findChild<QAction*>("undo");
   QAction* const redo = this->findChild<QAction*>("redo");
   undo->setEnabled(document.canUndo());

@@ -90,7 +90,11 @@ private:
   void addLight();
   void configureRendering();
   void showCorrespondence();
+  void makeItemActions(QMenu* menu);
+  void refreshItemActions();
   void showContextMenu(const QPoint& global);
+  void rename();
+  void showProperties();
   void preview();
   void refresh();
   void fail(const QString& message);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPropertiesPanel.h"
 
+#include "dgtkItemMotion.h"
+
 #include <QFormLayout>
 #include <QLabel>
 
@@ -12,12 +14,6 @@ namespace dgtk
 namespace
 {
 constexpr double pi = 3.14159265358979323846;
-
-Quaternion product(const Quaternion& a, const Quaternion& b)
-{
-  return { a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-    a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w };
-}
 
 /// Digits beyond what degrees are good for would only be noise.
 double tidy(double degrees) { return std::round(degrees * 1e9) / 1e9 + 0.0; }
@@ -36,10 +32,9 @@ Eigen::Vector3d degreesOf(const Quaternion& rotation)
 
 Quaternion rotationOf(const Eigen::Vector3d& degrees)
 {
-  const Eigen::Vector3d half = degrees * (pi / 360);
-  const Quaternion x{ std::cos(half.x()), std::sin(half.x()), 0, 0 };
-  const Quaternion y{ std::cos(half.y()), 0, std::sin(half.y()), 0 };
-  const Quaternion z{ std::cos(half.z()), 0, 0, std::sin(half.z()) };
+  const Quaternion x = turn(Eigen::Vector3d::UnitX(), degrees.x());
+  const Quaternion y = turn(Eigen::Vector3d::UnitY(), degrees.y());
+  const Quaternion z = turn(Eigen::Vector3d::UnitZ(), degrees.z());
   return product(z, product(y, x));
 }
 

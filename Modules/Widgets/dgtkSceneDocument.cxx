@@ -161,6 +161,11 @@ void SceneDocument::editItem(const std::string& text, const SceneItem& item,
 
 void SceneDocument::accept(Step step)
 {
+  if (!step.merge.empty() && (this->Done.empty() || this->Done.back().merge != step.merge))
+  {
+    this->Before = std::move(this->Undone);
+    this->CleanBefore = this->Clean;
+  }
   // Steps after the saved one are gone for good.
   if (this->Clean != unreachable && this->Clean > this->Done.size())
   {
@@ -191,7 +196,10 @@ void SceneDocument::forget()
     if (items > mostItemsKept && i + 1 < this->Done.size())
     {
       this->Done.erase(this->Done.begin(), this->Done.begin() + std::ptrdiff_t(i) + 1);
-      this->Clean = this->Clean == unreachable || this->Clean <= i ? unreachable : this->Clean - i - 1;
+      for (std::size_t* const clean : { &this->Clean, &this->CleanBefore })
+      {
+        *clean = *clean == unreachable || *clean <= i ? unreachable : *clean - i - 1;
+      }
       return;
     }
   }
@@ -205,6 +213,32 @@ void SceneDocument::finishMerging()
   }
 }
 
+void SceneDocument::abandon()
+{
+  if (this->Done.empty() || this->Done.back().merge.empty())
+  {
+    return;
+  }
+  const Step step = std::move(this->Done.back());
+  this->Done.pop_back();
+  this->putBack(step);
+  this->Undone = std::move(this->Before);
+  this->Clean = this->CleanBefore;
+  this->notify();
+}
+
+void SceneDocument::putBack(const Step& step)
+{
+  if (step.whole)
+  {
+    this->Scene = step.before;
+  }
+  else
+  {
+    putState(this->Scene, step.item, step.itemBefore);
+  }
+}
+
 void SceneDocument::undo()
 {
   if (!this->canUndo())
@@ -214,14 +248,7 @@ void SceneDocument::undo()
   Step step = std::move(this->Done.back());
   this->Done.pop_back();
   step.merge.clear();
-  if (step.whole)
-  {
-    this->Scene = step.before;
-  }
-  else
-  {
-    putState(this->Scene, step.item, step.itemBefore);
-  }
+  this->putBack(step);
   this->Undone.push_back(std::move(step));
   this->finishMerging();
   this->notify();

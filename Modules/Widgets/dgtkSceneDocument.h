@@ -74,6 +74,9 @@ public:
   void editItem(const std::string& text, const SceneItem& item, const std::function<void(SceneDescription&)>& change,
     const std::string& merge = {});
   void finishMerging();
+  /// Takes back the merged steps that finishMerging() has not ended yet, as if they had not been: what could be redone
+  /// before them can be redone again. Nothing without such steps.
+  void abandon();
 
   /// What addModel() and adopt() need of the disk: a function for any thread, which returns none when it was stopped
   /// and throws InputError.
@@ -105,6 +108,7 @@ private:
   static ItemState stateOf(const SceneDescription& scene, const SceneItem& item);
   static void putState(SceneDescription& scene, const SceneItem& item, const ItemState& state);
   void accept(Step step);
+  void putBack(const Step& step);
   void forget();
   void reset(SceneDescription scene, const std::string& path);
   void notify() const;
@@ -114,7 +118,9 @@ private:
   ModelStore Models;
   std::vector<Step> Done;
   std::vector<Step> Undone;
-  std::size_t Clean = 0; ///< number of done steps at which the scene is what the file holds
+  std::vector<Step> Before;    ///< steps undone when the merging began
+  std::size_t CleanBefore = 0; ///< then
+  std::size_t Clean = 0;       ///< number of done steps at which the scene is what the file holds
   std::vector<std::function<void()>> Listeners;
 };
 

@@ -43,6 +43,9 @@ SceneTree::SceneTree(EditorState& state, QWidget* parent)
   connect(&state, &EditorState::selectionChanged, this, &SceneTree::showSelection);
   connect(this, &QTreeWidget::itemSelectionChanged, this, &SceneTree::takeSelection);
   connect(this, &QTreeWidget::itemChanged, this, &SceneTree::takeName);
+  this->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(this, &QWidget::customContextMenuRequested, this,
+    [this](const QPoint& at) { emit this->menuAsked(this->viewport()->mapToGlobal(at)); });
   this->refresh();
 }
 
@@ -123,6 +126,22 @@ void SceneTree::showSelection()
     this->scrollToItem(last);
   }
   this->Busy = false;
+}
+
+void SceneTree::rename(const SceneItem& item)
+{
+  QTreeWidgetItem* const group = this->Groups[static_cast<int>(item.kind)];
+  for (int i = 0; i < group->childCount(); ++i)
+  {
+    if (itemOf(group->child(i)) == item)
+    {
+      group->setExpanded(true);
+      this->scrollToItem(group->child(i));
+      this->setFocus();
+      this->editItem(group->child(i), 0);
+      return;
+    }
+  }
 }
 
 void SceneTree::takeSelection()

@@ -21,6 +21,11 @@ class SceneTree : public QTreeWidget
 
 public:
   SceneTree(EditorState& state, QWidget* parent);
+  /// Its name can be typed in its row.
+  void rename(const SceneItem& item);
+
+signals:
+  void menuAsked(const QPoint& global);
 
 private:
   void refresh();

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSceneView.h"
 
-#include <QApplication>
+#include "dgtkViewOverlay.h"
+
 #include <QElapsedTimer>
-#include <QMouseEvent>
 #include <QTimer>
-#include <QWheelEvent>
 
 #include <vtkCamera.h>
 #include <vtkGenericOpenGLRenderWindow.h>
@@ -14,24 +13,22 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace dgtk
 {
 
 namespace
 {
-constexpr double pickPixels = 8; // around cameras and lights
-constexpr double degreesPerPixel = 0.4;
-constexpr double zoomPerPixel = 0.008; // natural logarithm
-constexpr double slowSeconds = 0.1;    // of a drawing; slower ones are replaced by boxes while the mouse moves
-constexpr double zoomPerStep = 0.15;   // of the wheel
+constexpr double pickPixels = 8;    // around cameras and lights
+constexpr double slowSeconds = 0.1; // of a drawing; slower ones are replaced by boxes while the mouse moves
 } // namespace
 
 SceneView::SceneView(ViewKind kind, QWidget* parent)
   : QVTKOpenGLNativeWidget(parent)
   , Camera(kind)
   , Renderer(vtkSmartPointer<vtkRenderer>::New())
+  , Overlay(new ViewOverlay(this))
 {
   vtkNew<vtkGenericOpenGLRenderWindow> window;
   window->SetMultiSamples(0);
@@ -43,6 +40,7 @@ SceneView::SceneView(ViewKind kind, QWidget* parent)
   this->Renderer->GradientBackgroundOn();
   this->Actors = std::make_unique<ViewActors>(this->Renderer, kind);
   this->setFocusPolicy(Qt::StrongFocus);
+  this->setMouseTracking(true);
   this->setMinimumSize(120, 90);
   this->Camera.frame({}, 1);
   this->placeCamera();
@@ -63,7 +61,30 @@ void SceneView::placeCamera()
   camera->SetParallelProjection(this->Camera.parallel());
   camera->SetParallelScale(this->Camera.height() / 2);
   emit this->cameraMoved();
+  this->placeHandles();
   this->drawSoon();
+}
+
+void SceneView::showHandles(const std::optional<HandlePlace>& place)
+{
+  this->Handles = place;
+  this->placeHandles();
+}
+
+void SceneView::placeHandles()
+{
+  std::vector<HandleShape> shapes;
+  if (this->Handles)
+  {
+    shapes = ViewHandles(*this->Handles, this->Camera, this->width(), this->height()).shapes();
+  }
+  this->Overlay->showHandles(std::move(shapes));
+}
+
+void SceneView::showDrag(const Handle& handle, const QString& text)
+{
+  this->Overlay->highlight(handle);
+  this->Overlay->showText(text, this->Last);
 }
 
 void SceneView::drawSoon()
@@ -171,126 +192,11 @@ void SceneView::pick(const QPoint& position, bool add)
     item.has_value(), item ? static_cast<int>(item->kind) : 0, item ? static_cast<int>(item->index) : 0, add);
 }
 
-void SceneView::mousePressEvent(QMouseEvent* event)
-{
-  emit this->activated();
-  this->Pressed = event->pos();
-  this->Last = event->pos();
-  this->Moved = false;
-  if (event->button() == Qt::MiddleButton ||
-      (event->button() == Qt::LeftButton && event->modifiers() & Qt::ShiftModifier))
-  {
-    this->Moving = Motion::Pan;
-  }
-  else if (event->button() == Qt::RightButton)
-  {
-    this->Moving = Motion::Zoom;
-  }
-  else if (event->button() == Qt::LeftButton)
-  {
-    const std::optional<SceneItem> item = this->itemAt(event->pos());
-    const bool onSelected =
-      item && std::find(this->Selected.begin(), this->Selected.end(), *item) != this->Selected.end();
-    this->Moving = onSelected ? Motion::Drag : this->Camera.parallel() ? Motion::Pan : Motion::Orbit;
-    if (onSelected)
-    {
-      const WorldBox box = this->Places->boxOf(*item);
-      this->Grasped = box.center();
-    }
-  }
-}
-
-void SceneView::mouseMoveEvent(QMouseEvent* event)
-{
-  if (this->Moving == Motion::None)
-  {
-    return;
-  }
-  if (!this->Moved && (event->pos() - this->Pressed).manhattanLength() < QApplication::startDragDistance())
-  {
-    return;
-  }
-  if (!this->Moved && this->Moving == Motion::Drag)
-  {
-    emit this->dragStarted();
-  }
-  this->Moved = true;
-  if (this->Moving == Motion::Drag)
-  {
-    const QPoint way = event->pos() - this->Pressed;
-    const Eigen::Vector3d motion = this->Camera.motion(this->Grasped, way.x(), way.y(), this->height());
-    emit this->dragged(motion.x(), motion.y(), motion.z());
-    return;
-  }
-  this->moveView(event->pos() - this->Last);
-  this->Last = event->pos();
-}
-
-void SceneView::moveView(const QPoint& step)
-{
-  switch (this->Moving)
-  {
-    case Motion::Orbit:
-      this->Camera.orbit(degreesPerPixel * step.x(), degreesPerPixel * step.y());
-      break;
-    case Motion::Pan:
-      this->Camera.pan(step.x(), step.y(), this->height());
-      break;
-    default:
-      this->Camera.zoom(std::exp(-zoomPerPixel * step.y()));
-      break;
-  }
-  this->placeCamera();
-}
-
-void SceneView::mouseReleaseEvent(QMouseEvent* event)
-{
-  const Motion was = this->Moving;
-  this->Moving = Motion::None;
-  if (this->Moved)
-  {
-    this->drawSoon(); // all of it, after a coarse motion
-    if (was == Motion::Drag)
-    {
-      emit this->dragFinished();
-    }
-    return;
-  }
-  if (event->button() == Qt::LeftButton)
-  {
-    this->pick(event->pos(), event->modifiers() & Qt::ControlModifier);
-  }
-  else if (event->button() == Qt::RightButton)
-  {
-    const std::optional<SceneItem> item = this->itemAt(event->pos());
-    if (!item || std::find(this->Selected.begin(), this->Selected.end(), *item) == this->Selected.end())
-    {
-      this->pick(event->pos(), false);
-    }
-    emit this->menuAsked(event->globalPos());
-  }
-}
-
-void SceneView::mouseDoubleClickEvent(QMouseEvent* event)
-{
-  if (event->button() == Qt::LeftButton)
-  {
-    this->Moving = Motion::None;
-    this->Moved = true; // the release that follows selects nothing
-    emit this->maximizeAsked();
-  }
-}
-
-void SceneView::wheelEvent(QWheelEvent* event)
-{
-  this->Camera.zoom(std::exp(zoomPerStep * event->angleDelta().y() / 120.0));
-  this->placeCamera();
-  event->accept();
-}
-
 void SceneView::resizeEvent(QResizeEvent* event)
 {
   QVTKOpenGLNativeWidget::resizeEvent(event);
+  this->Overlay->setGeometry(this->rect());
+  this->placeHandles();
   this->drawSoon();
 }
 

@@ -6,6 +6,7 @@
 
 #include "dgtkViewActors.h"
 #include "dgtkViewCamera.h"
+#include "dgtkViewHandles.h"
 
 #include <QPoint>
 #include <QVTKOpenGLNativeWidget.h>
@@ -20,13 +21,24 @@ class vtkRenderer;
 namespace dgtk
 {
 
+class ViewOverlay;
+
 /// One view of the scene. Mouse, as in VTK: left turns the perspective (and pans parallel views), middle pans, right
-/// and wheel zoom; a click selects, with Control adds; a left drag on what is selected moves it in the view's plane.
+/// and wheel zoom; a click selects, with Control adds; a left drag on a handle, or on what is selected, is told to
+/// whoever moves things.
 class SceneView : public QVTKOpenGLNativeWidget
 {
   Q_OBJECT
 
 public:
+  /// What a drag holds.
+  struct Grasp
+  {
+    std::optional<Handle> handle; ///< none: the thing itself
+    QPoint pressed;
+    Eigen::Vector3d point{ 0, 0, 0 }; ///< of the thing, world
+  };
+
   SceneView(ViewKind kind, QWidget* parent);
   ~SceneView() override;
 
@@ -50,17 +62,29 @@ public:
   /// Nothing where only the background is.
   std::optional<SceneItem> itemAt(const QPoint& position) const;
 
+  void showHandles(const std::optional<HandlePlace>& place);
+  const Grasp& grasp() const { return this->Grasped; }
+  /// While it is dragged: this handle alone is shown, with a text beside the mouse.
+  void showDrag(const Handle& handle, const QString& text);
+  /// World units of a square of the grid.
+  double gridStep() const { return this->Actors->gridStep(); }
+
 signals:
   void activated();
   void cameraMoved();
   void picked(bool hit, int kind, int index, bool add);
   void dragStarted();
-  void dragged(double x, double y, double z); ///< world, since the start
+  void dragged(const QPointF& pixel, bool snap);
+  void constrained(int axis, bool plane);
   void dragFinished();
+  void dragCancelled();
   void maximizeAsked();
   void menuAsked(const QPoint& global);
 
 protected:
+  bool event(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void leaveEvent(QEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
@@ -81,6 +105,10 @@ private:
   void moveView(const QPoint& step);
   void pick(const QPoint& position, bool add);
   void placeCamera();
+  void placeHandles();
+  Motion motionFor(const QMouseEvent& event);
+  std::optional<Handle> handleAt(const QPoint& position) const;
+  void endDrag();
 
   ViewCamera Camera;
   vtkSmartPointer<vtkRenderer> Renderer;
@@ -95,7 +123,10 @@ private:
   bool Hurried = false;
   bool Covered = false;
   double FineSeconds = 0; ///< that the latest whole drawing took
-  Eigen::Vector3d Grasped{ 0, 0, 0 };
+  Grasp Grasped;
+  ViewOverlay* Overlay;
+  std::optional<HandlePlace> Handles;
+  bool Holds = false; ///< a handle, or the thing itself, is being dragged
 };
 
 } // namespace dgtk

@@ -6,8 +6,6 @@
 #include <QTimer>
 #include <QVBoxLayout>
 
-#include <Eigen/LU>
-
 #include <exception>
 
 namespace dgtk
@@ -21,6 +19,7 @@ constexpr int titleHeight = 24; // pixels
 SceneViews::SceneViews(EditorState& state, QWidget* parent)
   : QWidget(parent)
   , State(state)
+  , Tool(new HandleTool(state, this))
 {
   const QString titles[4] = { tr("Front"), tr("Top"), tr("Side"), tr("Perspective") };
   this->Columns = new QSplitter(Qt::Vertical, this);
@@ -40,6 +39,7 @@ SceneViews::SceneViews(EditorState& state, QWidget* parent)
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(this->Columns);
   this->Active = this->view(ViewKind::Perspective);
+  connect(this->Tool, &HandleTool::told, this, &SceneViews::told);
   connect(&state, &EditorState::changed, this, &SceneViews::refresh);
   connect(&state, &EditorState::selectionChanged, this, &SceneViews::refresh);
   connect(&state, &EditorState::frameChanged, this, &SceneViews::refresh);
@@ -67,9 +67,7 @@ QWidget* SceneViews::makePane(ViewKind kind, const QString& title)
   this->Views.push_back(view);
   connect(view, &SceneView::activated, this, [this, view] { this->Active = view; });
   connect(view, &SceneView::picked, this, &SceneViews::pick);
-  connect(view, &SceneView::dragStarted, this, &SceneViews::startDrag);
-  connect(view, &SceneView::dragged, this, [this](double x, double y, double z) { this->drag({ x, y, z }); });
-  connect(view, &SceneView::dragFinished, this, [this] { this->finishDrag(); });
+  this->connectDrags(view);
   connect(view, &SceneView::maximizeAsked, this, [this, view] { this->toggleMaximized(view); });
   connect(view, &SceneView::menuAsked, this, &SceneViews::menuAsked);
   return pane;
@@ -92,6 +90,7 @@ void SceneViews::refresh()
   {
     view->showScene(scene, this->Places, this->State.selection(), this->Meshes);
   }
+  this->showHandles();
   this->Meshes.forgetUnused();
 }
 
@@ -220,61 +219,70 @@ void SceneViews::pick(bool hit, int kind, int index, bool add)
   }
 }
 
-void SceneViews::startDrag()
+void SceneViews::setHurried(bool on)
 {
-  this->State.document().finishMerging();
-  this->DragStart.clear();
   for (SceneView* view : this->Views)
   {
-    view->setHurried(true);
-  }
-  for (const SceneItem& item : this->State.selection())
-  {
-    this->DragStart.push_back(itemPosition(this->State.scene(), item, this->State.frame()));
+    view->setHurried(on);
   }
 }
 
-void SceneViews::finishDrag()
+void SceneViews::connectDrags(SceneView* view)
 {
-  this->State.document().finishMerging();
-  for (SceneView* view : this->Views)
+  const auto show = [this, view]
   {
-    view->setHurried(false);
-  }
-}
-
-void SceneViews::drag(const Eigen::Vector3d& motion)
-{
-  const SceneItems items = this->State.selection();
-  if (items.size() != this->DragStart.size() || items.empty())
-  {
-    return;
-  }
-  const int frame = this->State.frame();
-  const auto change = [&](SceneDescription& scene)
-  {
-    for (std::size_t i = 0; i < items.size(); ++i)
+    if (this->Tool->active())
     {
-      Eigen::Vector3d step = motion;
-      if (items[i].kind == SceneItem::Kind::Object)
-      {
-        step = this->Places->objects[items[i].index].world_from_parent.linear.inverse() * motion;
-      }
-      setItemPosition(scene, items[i], frame, this->DragStart[i] + step);
+      view->showDrag(this->Tool->handle(), this->Tool->text());
     }
   };
-  this->State.attempt(
-    [&]
+  connect(view, &SceneView::dragStarted, this,
+    [this, view]
     {
-      if (items.size() == 1)
-      {
-        this->State.document().editItem("Move", items.front(), change, "drag");
-      }
-      else
-      {
-        this->State.document().edit("Move", change, "drag");
-      }
+      this->setHurried(true);
+      this->Tool->start(*view, *this->Places);
     });
+  connect(view, &SceneView::dragged, this,
+    [this, show](const QPointF& pixel, bool snap)
+    {
+      this->Tool->drag(pixel, snap);
+      show();
+    });
+  connect(view, &SceneView::constrained, this,
+    [this, show](int axis, bool plane)
+    {
+      this->Tool->constrain(axis, plane);
+      show();
+    });
+  connect(view, &SceneView::dragFinished, this,
+    [this]
+    {
+      this->Tool->finish();
+      this->setHurried(false);
+      this->showHandles();
+    });
+  connect(view, &SceneView::dragCancelled, this,
+    [this]
+    {
+      this->Tool->cancel();
+      this->setHurried(false);
+      this->showHandles();
+    });
+}
+
+void SceneViews::setHandleMode(HandleMode mode)
+{
+  this->Tool->setMode(mode);
+  this->showHandles();
+}
+
+void SceneViews::showHandles()
+{
+  const std::optional<HandlePlace> place = this->Tool->place(*this->Places);
+  for (SceneView* view : this->Views)
+  {
+    view->showHandles(place);
+  }
 }
 
 } // namespace dgtk

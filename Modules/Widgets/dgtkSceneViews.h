@@ -5,6 +5,7 @@
 // Private to Widgets.
 
 #include "dgtkEditorState.h"
+#include "dgtkHandleTool.h"
 #include "dgtkSceneView.h"
 #include "dgtkViewMeshes.h"
 
@@ -38,6 +39,8 @@ public:
   void frameSelected();
   void setStyle(ViewStyle style);
   void showGrid(bool on);
+  HandleMode handleMode() const { return this->Tool->mode(); }
+  void setHandleMode(HandleMode mode);
   void toggleMaximized(SceneView* view);
   /// The perspective view from a camera's place.
   void lookThrough(const CameraDescription& camera);
@@ -48,6 +51,8 @@ signals:
   void lookedThrough(const CameraDescription& camera);
   void menuAsked(const QPoint& global);
   void failed(const QString& message);
+  /// The numbers of a drag, for the status bar.
+  void told(const QString& text);
 
 protected:
   void showEvent(QShowEvent* event) override;
@@ -56,9 +61,9 @@ private:
   QWidget* makePane(ViewKind kind, const QString& title);
   void refresh();
   void pick(bool hit, int kind, int index, bool add);
-  void startDrag();
-  void finishDrag();
-  void drag(const Eigen::Vector3d& motion);
+  void connectDrags(SceneView* view);
+  void showHandles();
+  void setHurried(bool on);
 
   EditorState& State;
   ViewMeshes Meshes;
@@ -69,7 +74,7 @@ private:
   QSplitter* Rows[2] = { nullptr, nullptr };
   SceneView* Active = nullptr;
   std::shared_ptr<const ScenePlaces> Places;
-  std::vector<Eigen::Vector3d> DragStart; ///< of the selected items
+  HandleTool* Tool = nullptr;
   bool WholeWanted = true;
   UpAxis Up = UpAxis::Y;
 };

@@ -285,10 +285,12 @@ void ViewActors::showGridFor(const WorldBox& box, UpAxis upAxis)
   this->GridLines->set(lines);
   for (int axis = 0; axis < 3; ++axis)
   {
-    this->Axes[axis]->set({ { origin, origin + 2 * gridStep(this->GridExtent) * Eigen::Vector3d::Unit(axis) } });
+    this->Axes[axis]->set({ { origin, origin + 2 * this->gridStep() * Eigen::Vector3d::Unit(axis) } });
   }
   this->showGrid(this->Grid);
 }
+
+double ViewActors::gridStep() const { return dgtk::gridStep(this->GridExtent); }
 
 void ViewActors::showGrid(bool on)
 {

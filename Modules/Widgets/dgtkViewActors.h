@@ -46,6 +46,8 @@ public:
   void show(const SceneDescription& scene, const ScenePlaces& places, const SceneItems& selected, ViewMeshes& meshes);
   void setStyle(ViewStyle style);
   void showGrid(bool on);
+  /// World units of a square of it.
+  double gridStep() const;
   /// Boxes in place of objects, as far as these places go; and objects again.
   void showCoarse(const ScenePlaces& places);
   void showFine();

@@ -137,11 +137,31 @@ PickReach ViewCamera::reach(double pixels, double height) const
   return { 0, pixels * 2 * tanHalfAngle() / height };
 }
 
-Eigen::Vector3d ViewCamera::motion(const Eigen::Vector3d& point, double dx, double dy, double height) const
+Eigen::Vector3d ViewCamera::towardsEye(const Eigen::Vector3d& point) const
+{
+  return this->parallel() ? Eigen::Vector3d(-this->forward()) : Eigen::Vector3d((this->Eye - point).normalized());
+}
+
+double ViewCamera::unit(const Eigen::Vector3d& point, double height) const
 {
   const double depth = this->parallel() ? (this->Focus - this->Eye).norm() : (point - this->Eye).dot(this->forward());
-  const double unit = 2 * depth * tanHalfAngle() / height;
-  return unit * (dx * this->right() - dy * this->upward());
+  return 2 * depth * tanHalfAngle() / height;
+}
+
+std::optional<Eigen::Vector2d> ViewCamera::pixel(const Eigen::Vector3d& point, double width, double height) const
+{
+  const double unit = this->unit(point, height);
+  if (unit <= nearestFocus / height)
+  {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d way = (point - this->Eye) / unit;
+  return Eigen::Vector2d(width / 2 + way.dot(this->right()), height / 2 - way.dot(this->upward()));
+}
+
+Eigen::Vector3d ViewCamera::motion(const Eigen::Vector3d& point, double dx, double dy, double height) const
+{
+  return this->unit(point, height) * (dx * this->right() - dy * this->upward());
 }
 
 } // namespace dgtk

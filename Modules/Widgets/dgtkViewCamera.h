@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include <optional>
+
 namespace dgtk
 {
 
@@ -32,6 +34,9 @@ public:
   const Eigen::Vector3d& up() const { return this->Up; }
   double height() const; ///< of the view in the plane through the focus, world units
   static double angle(); ///< vertical field of view of the perspective, degrees
+  Eigen::Vector3d forward() const;
+  /// Unit length, from a point.
+  Eigen::Vector3d towardsEye(const Eigen::Vector3d& point) const;
 
   /// Shows the whole box, in a view of width x height pixels; an empty one stands for the surroundings of the origin.
   void frame(const WorldBox& box, double aspect);
@@ -46,13 +51,16 @@ public:
 
   /// Through a point of the widget.
   WorldRay ray(double x, double y, double width, double height) const;
+  /// Where a point is in the widget; nothing where it is not before the eye of the perspective.
+  std::optional<Eigen::Vector2d> pixel(const Eigen::Vector3d& point, double width, double height) const;
+  /// World units of a pixel at the depth of a point.
+  double unit(const Eigen::Vector3d& point, double height) const;
   /// World units that `pixels` are, along ray().
   PickReach reach(double pixels, double height) const;
   /// The motion of a point in a plane parallel to the view when the mouse moves by dx, dy pixels.
   Eigen::Vector3d motion(const Eigen::Vector3d& point, double dx, double dy, double height) const;
 
 private:
-  Eigen::Vector3d forward() const;
   Eigen::Vector3d right() const;
   Eigen::Vector3d upward() const; ///< in the image
 

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkMainWindow.h"
+
+#include "dgtkEditorState.h"
+#include "dgtkSceneTree.h"
+#include "dgtkSceneViews.h"
+#include "dgtkTimeLineCells.h"
+
+#include <QAction>
+#include <QActionGroup>
+#include <QDockWidget>
+#include <QLineEdit>
+#include <QMenu>
+
+namespace dgtk
+{
+
+// What is done with selected items, in the Edit menu and in their context menu.
+
+void MainWindow::makeItemActions(QMenu* menu)
+{
+  auto* group = new QActionGroup(this);
+  const auto addMode = [&](const char* name, const QString& text, const char* key, HandleMode mode)
+  {
+    QAction* const action = group->addAction(this->addAction(menu, name, text, QKeySequence(key)));
+    action->setCheckable(true);
+    action->setChecked(mode == this->Views->handleMode());
+    connect(action, &QAction::triggered, this, [this, mode] { this->Views->setHandleMode(mode); });
+  };
+  menu->addSeparator();
+  addMode("move", tr("&Move"), "1", HandleMode::Move);
+  addMode("rotate", tr("&Rotate"), "2", HandleMode::Rotate);
+  addMode("scale", tr("&Scale"), "3", HandleMode::Scale);
+  menu->addSeparator();
+  const auto add = [&](const char* name, const QString& text, const QKeySequence& keys)
+  { return this->addAction(menu, name, text, keys); };
+  connect(add("rename", tr("Re&name"), QKeySequence("F2")), &QAction::triggered, this, &MainWindow::rename);
+  connect(add("keyFrame", tr("Make &key frame"), QKeySequence("K")), &QAction::triggered, this,
+    [this] { this->findChild<TimeLineCells*>("timeLineCells")->makeKey(); });
+  connect(
+    add("preview", tr("Pre&view the camera"), QKeySequence("P")), &QAction::triggered, this, &MainWindow::preview);
+  connect(add("properties", tr("Pr&operties"), QKeySequence("Alt+Return")), &QAction::triggered, this,
+    &MainWindow::showProperties);
+}
+
+void MainWindow::refreshItemActions()
+{
+  const SceneItems& selection = this->State->selection();
+  for (const char* name : { "cut", "copy", "duplicate", "delete", "frameSelected", "rename", "properties" })
+  {
+    this->findChild<QAction*>(name)->setEnabled(!selection.empty());
+  }
+  bool camera = false;
+  for (const SceneItem& item : selection)
+  {
+    camera = camera || item.kind == SceneItem::Kind::Camera;
+  }
+  this->findChild<QAction*>("preview")->setEnabled(camera);
+  this->findChild<QAction*>("paste")->setEnabled(this->State->canPaste());
+}
+
+void MainWindow::rename()
+{
+  if (!this->State->selection().empty())
+  {
+    auto* dock = this->findChild<QDockWidget*>("treeDock");
+    dock->show();
+    dock->raise();
+    this->findChild<SceneTree*>("sceneTree")->rename(this->State->selection().front());
+  }
+}
+
+void MainWindow::showProperties()
+{
+  auto* dock = this->findChild<QDockWidget*>("propertiesDock");
+  dock->show();
+  dock->raise();
+  // A page that has just been replaced waits to be deleted.
+  const QList<QLineEdit*> names = dock->findChildren<QLineEdit*>("name");
+  if (!names.isEmpty())
+  {
+    names.last()->setFocus();
+    names.last()->selectAll();
+  }
+}
+
+void MainWindow::preview()
+{
+  for (const SceneItem& item : this->State->selection())
+  {
+    if (item.kind == SceneItem::Kind::Camera)
+    {
+      this->Views->lookThrough(this->State->scene().cameras[item.index]);
+      return;
+    }
+  }
+}
+
+void MainWindow::showContextMenu(const QPoint& global)
+{
+  QMenu menu(this);
+  menu.setObjectName("contextMenu");
+  const auto add = [&](std::initializer_list<const char*> names)
+  {
+    for (const char* name : names)
+    {
+      menu.addAction(this->findChild<QAction*>(name));
+    }
+    menu.addSeparator();
+  };
+  if (this->State->selection().empty())
+  {
+    add({ "import", "camera", "light", "paste" });
+    add({ "keyFrame", "frameAll" });
+  }
+  else
+  {
+    if (this->findChild<QAction*>("preview")->isEnabled())
+    {
+      add({ "preview" });
+    }
+    add({ "move", "rotate", "scale" });
+    add({ "rename", "keyFrame", "frameSelected" });
+    add({ "cut", "copy", "paste", "duplicate", "delete" });
+    add({ "properties" });
+  }
+  menu.exec(global);
+}
+
+} // namespace dgtk

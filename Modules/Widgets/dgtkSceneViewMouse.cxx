@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSceneView.h"
+
+#include "dgtkViewOverlay.h"
+
+#include <QApplication>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QWheelEvent>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr double degreesPerPixel = 0.4;
+constexpr double zoomPerPixel = 0.008; // natural logarithm
+constexpr double zoomPerStep = 0.15;   // of the wheel
+
+bool isDragKey(int key) { return key == Qt::Key_X || key == Qt::Key_Y || key == Qt::Key_Z || key == Qt::Key_Escape; }
+} // namespace
+
+SceneView::Motion SceneView::motionFor(const QMouseEvent& event)
+{
+  if (event.button() == Qt::MiddleButton || (event.button() == Qt::LeftButton && event.modifiers() & Qt::ShiftModifier))
+  {
+    return Motion::Pan;
+  }
+  if (event.button() != Qt::LeftButton)
+  {
+    return event.button() == Qt::RightButton ? Motion::Zoom : Motion::None;
+  }
+  this->Grasped.handle = this->handleAt(event.pos());
+  this->Grasped.pressed = event.pos();
+  if (this->Grasped.handle)
+  {
+    return Motion::Drag;
+  }
+  const std::optional<SceneItem> item = this->itemAt(event.pos());
+  if (item && std::find(this->Selected.begin(), this->Selected.end(), *item) != this->Selected.end())
+  {
+    this->Grasped.point = this->Places->boxOf(*item).center();
+    return Motion::Drag;
+  }
+  return this->Camera.parallel() ? Motion::Pan : Motion::Orbit;
+}
+
+std::optional<Handle> SceneView::handleAt(const QPoint& position) const
+{
+  if (!this->Handles)
+  {
+    return std::nullopt;
+  }
+  return ViewHandles(*this->Handles, this->Camera, this->width(), this->height())
+    .hit(Eigen::Vector2d(position.x(), position.y()));
+}
+
+void SceneView::mousePressEvent(QMouseEvent* event)
+{
+  if (this->Holds)
+  {
+    return; // another button during a drag
+  }
+  emit this->activated();
+  this->Pressed = event->pos();
+  this->Last = event->pos();
+  this->Moved = false;
+  this->Moving = this->motionFor(*event);
+}
+
+void SceneView::mouseMoveEvent(QMouseEvent* event)
+{
+  if (this->Moving == Motion::None)
+  {
+    this->Overlay->highlight(event->buttons() == Qt::NoButton ? this->handleAt(event->pos()) : std::nullopt);
+    return;
+  }
+  if (!this->Moved && (event->pos() - this->Pressed).manhattanLength() < QApplication::startDragDistance())
+  {
+    return;
+  }
+  if (!this->Moved && this->Moving == Motion::Drag)
+  {
+    this->Holds = true;
+    emit this->dragStarted();
+  }
+  this->Moved = true;
+  if (this->Moving == Motion::Drag)
+  {
+    this->Last = event->pos();
+    emit this->dragged(event->localPos(), event->modifiers() & Qt::ControlModifier);
+    return;
+  }
+  this->moveView(event->pos() - this->Last);
+  this->Last = event->pos();
+}
+
+void SceneView::moveView(const QPoint& step)
+{
+  switch (this->Moving)
+  {
+    case Motion::Orbit:
+      this->Camera.orbit(degreesPerPixel * step.x(), degreesPerPixel * step.y());
+      break;
+    case Motion::Pan:
+      this->Camera.pan(step.x(), step.y(), this->height());
+      break;
+    default:
+      this->Camera.zoom(std::exp(-zoomPerPixel * step.y()));
+      break;
+  }
+  this->placeCamera();
+}
+
+void SceneView::endDrag()
+{
+  this->Holds = false;
+  this->Moving = Motion::None;
+  this->Overlay->highlight(std::nullopt);
+  this->Overlay->showText({}, {});
+}
+
+void SceneView::mouseReleaseEvent(QMouseEvent* event)
+{
+  if (this->Holds)
+  {
+    if (event->button() == Qt::LeftButton)
+    {
+      this->endDrag();
+      emit this->dragFinished();
+    }
+    return;
+  }
+  this->Moving = Motion::None;
+  if (this->Moved)
+  {
+    this->drawSoon(); // all of it, after a coarse motion
+    return;
+  }
+  if (event->button() == Qt::LeftButton)
+  {
+    this->pick(event->pos(), event->modifiers() & Qt::ControlModifier);
+  }
+  else if (event->button() == Qt::RightButton)
+  {
+    const std::optional<SceneItem> item = this->itemAt(event->pos());
+    if (!item || std::find(this->Selected.begin(), this->Selected.end(), *item) == this->Selected.end())
+    {
+      this->pick(event->pos(), false);
+    }
+    emit this->menuAsked(event->globalPos());
+  }
+}
+
+bool SceneView::event(QEvent* event)
+{
+  if (event->type() == QEvent::ShortcutOverride && this->Holds)
+  {
+    // During a drag these keys are its own, not the window's.
+    const auto* key = static_cast<QKeyEvent*>(event);
+    if (isDragKey(key->key()))
+    {
+      event->accept();
+      return true;
+    }
+  }
+  return QVTKOpenGLNativeWidget::event(event);
+}
+
+void SceneView::keyPressEvent(QKeyEvent* event)
+{
+  if (!this->Holds || !isDragKey(event->key()))
+  {
+    QWidget::keyPressEvent(event);
+    return;
+  }
+  if (event->key() == Qt::Key_Escape)
+  {
+    this->endDrag();
+    this->Moved = true; // the release that follows selects nothing
+    emit this->dragCancelled();
+  }
+  else
+  {
+    emit this->constrained(event->key() - Qt::Key_X, event->modifiers() & Qt::ShiftModifier);
+  }
+}
+
+void SceneView::leaveEvent(QEvent* event)
+{
+  if (!this->Holds)
+  {
+    this->Overlay->highlight(std::nullopt);
+  }
+  QVTKOpenGLNativeWidget::leaveEvent(event);
+}
+
+void SceneView::mouseDoubleClickEvent(QMouseEvent* event)
+{
+  if (event->button() == Qt::LeftButton)
+  {
+    this->Moving = Motion::None;
+    this->Moved = true; // the release that follows selects nothing
+    emit this->maximizeAsked();
+  }
+}
+
+void SceneView::wheelEvent(QWheelEvent* event)
+{
+  event->accept();
+  if (!this->Holds)
+  {
+    this->Camera.zoom(std::exp(zoomPerStep * event->angleDelta().y() / 120.0));
+    this->placeCamera();
+  }
+}
+
+} // namespace dgtk

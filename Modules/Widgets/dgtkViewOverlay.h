@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkViewOverlay_h
+#define dgtkViewOverlay_h
+
+// Private to Widgets.
+
+#include "dgtkViewHandles.h"
+
+#include <QString>
+#include <QWidget>
+
+#include <optional>
+#include <vector>
+
+namespace dgtk
+{
+
+/// What is drawn over a view: handles, and the numbers of a drag. Lets the mouse through.
+class ViewOverlay : public QWidget
+{
+  Q_OBJECT
+
+public:
+  explicit ViewOverlay(QWidget* view);
+
+  void showHandles(std::vector<HandleShape> shapes);
+  /// The one under the mouse, or held by it.
+  void highlight(const std::optional<Handle>& handle);
+  /// Beside the pointer; "" for nothing.
+  void showText(const QString& text, const QPoint& at);
+
+protected:
+  void paintEvent(QPaintEvent* event) override;
+
+private:
+  std::vector<HandleShape> Shapes;
+  std::optional<Handle> Bright;
+  QString Text;
+  QPoint At;
+};
+
+} // namespace dgtk
+
+#endif

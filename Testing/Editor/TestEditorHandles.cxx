@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestEditorHandles.h"
+#include "TestEditorSupport.h"
+
+#include "dgtkMainWindow.h"
+#include "dgtkSceneDocument.h"
+#include "dgtkScenePlaces.h"
+#include "dgtkViewCamera.h"
+#include "dgtkViewHandles.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QLineEdit>
+#include <QMouseEvent>
+#include <QTest>
+
+#include <cmath>
+
+using dgtk::test::sourceFile;
+
+namespace
+{
+constexpr int front = 0;
+constexpr double tolerance = 1e-9; // world units, of motions of a few units
+constexpr double pi = 3.14159265358979323846;
+
+const double arrow = dgtk::ViewHandles::length();
+
+bool near(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm() < tolerance; }
+} // namespace
+
+dgtk::SceneDocument& TestEditorHandles::document() const { return this->Window->document(); }
+
+const dgtk::ObjectDescription& TestEditorHandles::object(std::size_t index) const
+{
+  return this->document().scene().objects[index];
+}
+
+QWidget* TestEditorHandles::view(int kind) const
+{
+  return this->Window->findChild<QWidget*>("view." + QString::number(kind));
+}
+
+dgtk::ViewCamera TestEditorHandles::camera(int kind) const
+{
+  const dgtk::ScenePlaces places = dgtk::placeScene(this->document().scene(), this->document().models(), 0);
+  dgtk::WorldBox box;
+  for (const dgtk::ObjectPlace& place : places.objects)
+  {
+    box.add(place.box);
+  }
+  dgtk::ViewCamera camera(static_cast<dgtk::ViewKind>(kind));
+  camera.frame(box.empty() ? places.box : box, double(this->view(kind)->width()) / this->view(kind)->height());
+  return camera;
+}
+
+double TestEditorHandles::unit(int kind) const { return this->camera(kind).height() / this->view(kind)->height(); }
+
+QPoint TestEditorHandles::pixelOf(int kind, const Eigen::Vector3d& point) const
+{
+  const Eigen::Vector2d at =
+    this->camera(kind).pixel(point, this->view(kind)->width(), this->view(kind)->height()).value();
+  return QPoint(int(std::lround(at.x())), int(std::lround(at.y())));
+}
+
+void TestEditorHandles::openCrate()
+{
+  QVERIFY(this->Window->importFile(QString::fromStdString(sourceFile("Data/Models/crate.ac"))));
+  this->action("frameAll")->trigger();
+  QTest::qWait(settle);
+}
+
+void TestEditorHandles::press(int kind, const QPoint& at) const
+{
+  QTest::mousePress(this->view(kind), Qt::LeftButton, {}, at);
+}
+
+void TestEditorHandles::move(int kind, const QPoint& at, Qt::KeyboardModifiers modifiers) const
+{
+  QWidget* const widget = this->view(kind);
+  QMouseEvent event(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, modifiers);
+  QApplication::sendEvent(widget, &event);
+  QCoreApplication::processEvents();
+}
+
+void TestEditorHandles::release(int kind, const QPoint& at) const
+{
+  QTest::mouseRelease(this->view(kind), Qt::LeftButton, {}, at);
+  QCoreApplication::processEvents();
+}
+
+void TestEditorHandles::drag(int kind, const QPoint& from, const QPoint& to, Qt::KeyboardModifiers modifiers) const
+{
+  this->press(kind, from);
+  for (int step = 1; step <= 4; ++step)
+  {
+    this->move(kind, from + (to - from) * step / 4, modifiers);
+  }
+  this->move(kind, to, modifiers);
+  this->release(kind, to);
+}
+
+void TestEditorHandles::arrowsMove()
+{
+  this->openCrate();
+  const std::string first = this->document().json();
+  const QPoint center = this->pixelOf(front, { 0, 0, 0 });
+  const double u = this->unit(front);
+  // The other component of the mouse's way has no effect.
+  this->drag(front, center + QPoint(60, 0), center + QPoint(110, 20));
+  QVERIFY(near(this->object().position.value, { 50 * u, 0, 0 }));
+  QCOMPARE(this->document().undoText(), std::string("Move"));
+  this->action("undo")->trigger();
+  QCOMPARE(this->document().json(), first);
+  this->drag(front, center - QPoint(0, 60), center - QPoint(15, 100));
+  QVERIFY(near(this->object().position.value, { 0, 40 * u, 0 }));
+  this->action("undo")->trigger();
+  QVERIFY(!this->document().canUndo() || this->document().undoText() != "Move");
+}
+
+void TestEditorHandles::squaresAndKeysKeepToPlanes()
+{
+  this->openCrate();
+  const QPoint center = this->pixelOf(front, { 0, 0, 0 });
+  const double u = this->unit(front);
+  // Between a quarter and a half of two arrows lies the square of their plane.
+  const QPoint square = center + QPoint(int(0.38 * arrow), -int(0.38 * arrow));
+  this->drag(front, square, square + QPoint(30, 25));
+  QVERIFY(near(this->object().position.value, { 30 * u, -25 * u, 0 }));
+  this->action("undo")->trigger();
+
+  this->press(front, center);
+  this->move(front, center + QPoint(20, -10));
+  this->move(front, center + QPoint(40, -30));
+  QVERIFY(near(this->object().position.value, { 40 * u, 30 * u, 0 }));
+  QTest::keyClick(this->view(front), Qt::Key_X);
+  QVERIFY(near(this->object().position.value, { 40 * u, 0, 0 }));
+  QTest::keyClick(this->view(front), Qt::Key_Y);
+  QVERIFY(near(this->object().position.value, { 0, 30 * u, 0 }));
+  QTest::keyClick(this->view(front), Qt::Key_X, Qt::ShiftModifier);
+  QVERIFY(std::abs(this->object().position.value.x()) < tolerance);
+  QTest::keyClick(this->view(front), Qt::Key_Y);
+  QTest::keyClick(this->view(front), Qt::Key_Y);
+  QVERIFY(near(this->object().position.value, { 40 * u, 30 * u, 0 }));
+  this->release(front, center + QPoint(40, -30));
+  this->action("undo")->trigger();
+  QCOMPARE(this->object().position.value, Eigen::Vector3d(0, 0, 0));
+}
+
+void TestEditorHandles::ringsRotate()
+{
+  this->openCrate();
+  QTest::keyClick(this->Window.get(), Qt::Key_2);
+  QVERIFY(this->action("rotate")->isChecked());
+  const QPoint center = this->pixelOf(front, { 0, 0, 0 });
+  const auto onRing = [&](double degrees)
+  {
+    return center + QPoint(int(std::lround(arrow * std::cos(degrees * pi / 180))),
+                      -int(std::lround(arrow * std::sin(degrees * pi / 180))));
+  };
+  const auto angleOf = [&](const QPoint& p) { return std::atan2(center.y() - p.y(), p.x() - center.x()); };
+  // The ring about z is seen whole from the front.
+  const double expected = angleOf(onRing(70)) - angleOf(onRing(20));
+  this->drag(front, onRing(20), onRing(70));
+  const dgtk::Quaternion q = this->object().orientation.value;
+  QVERIFY(std::abs(2 * std::atan2(q.z, q.w) - expected) < 1e-3); // the centre lies between pixels
+  QCOMPARE(q.x, 0.0);
+  QCOMPARE(q.y, 0.0);
+  QCOMPARE(this->object().position.value, Eigen::Vector3d(0, 0, 0));
+  QCOMPARE(this->document().undoText(), std::string("Rotate"));
+  this->action("undo")->trigger();
+
+  // More than half a turn, by steps of 15 degrees.
+  this->press(front, onRing(20));
+  for (int degrees = 40; degrees <= 220; degrees += 20)
+  {
+    this->move(front, onRing(degrees), Qt::ControlModifier);
+  }
+  this->release(front, onRing(220));
+  const dgtk::Quaternion turned = this->object().orientation.value;
+  QVERIFY(std::abs(turned.w - std::cos(195 * pi / 360)) < 1e-12);
+  QVERIFY(std::abs(turned.z - std::sin(195 * pi / 360)) < 1e-12);
+  this->action("undo")->trigger();
+
+  // A ring seen from its edge turns by its rim: the one about y when the mouse goes to the right.
+  this->press(front, center + QPoint(30, 0));
+  this->move(front, center + QPoint(31, 0));
+  this->move(front, center + QPoint(70, 0));
+  this->release(front, center + QPoint(70, 0));
+  const dgtk::Quaternion wheel = this->object().orientation.value;
+  QVERIFY(std::abs(2 * std::atan2(wheel.y, wheel.w) - 40 / arrow) < tolerance);
+}
+
+void TestEditorHandles::boxesScale()
+{
+  this->openCrate();
+  this->type("rotation.2", "90"); // the crate's x axis is up
+  this->action("frameAll")->trigger();
+  QTest::keyClick(this->Window.get(), Qt::Key_3);
+  const QPoint center = this->pixelOf(front, { 0, 0, 0 });
+  this->drag(front, center - QPoint(0, int(arrow)), center - QPoint(9, int(1.5 * arrow)));
+  QVERIFY((this->object().scale.value - Eigen::Vector3d(1.5, 1, 1)).norm() < 0.02); // the centre lies between pixels
+  QCOMPARE(this->object().scale.value.y(), 1.0);
+  QCOMPARE(this->document().undoText(), std::string("Scale"));
+  this->action("undo")->trigger();
+  QCOMPARE(this->object().scale.value, Eigen::Vector3d(1, 1, 1));
+  // The middle scales evenly: half an arrow to the right and up is a factor of 1 + sqrt(1/2).
+  this->drag(front, center, center + QPoint(40, -40));
+  QVERIFY(near(this->object().scale.value, Eigen::Vector3d::Constant(1 + 80 / std::sqrt(2.0) / arrow)));
+}
+
+void TestEditorHandles::controlSnaps()
+{
+  this->openCrate();
+  const QPoint center = this->pixelOf(front, { 0, 0, 0 });
+  const double u = this->unit(front);
+  this->drag(front, center + QPoint(60, 0), center + QPoint(150, 0), Qt::ControlModifier);
+  const double x = this->object().position.value.x();
+  QVERIFY(std::abs(x - 90 * u) < 1);
+  QCOMPARE(x, std::round(x)); // a square of the grid of this scene is a unit
+  this->action("undo")->trigger();
+  QTest::keyClick(this->Window.get(), Qt::Key_3);
+  this->drag(front, center + QPoint(int(arrow), 0), center + QPoint(int(1.33 * arrow), 0), Qt::ControlModifier);
+  QCOMPARE(this->object().scale.value, Eigen::Vector3d(1.3, 1, 1));
+}
+
+void TestEditorHandles::escapePutsBack()
+{
+  this->openCrate();
+  this->type("position.0", "2");
+  this->action("undo")->trigger();
+  const std::string first = this->document().json();
+  QVERIFY(this->document().canRedo());
+  const QPoint center = this->pixelOf(front, { 0, 0, 0 });
+  this->press(front, center + QPoint(60, 0));
+  this->move(front, center + QPoint(80, 0));
+  this->move(front, center + QPoint(140, 0));
+  QVERIFY(this->object().position.value.x() > 0);
+  QTest::keyClick(this->view(front), Qt::Key_Escape);
+  QCOMPARE(this->document().json(), first);
+  this->move(front, center + QPoint(190, 0));
+  this->release(front, center + QPoint(190, 0));
+  QCOMPARE(this->document().json(), first);
+  QCOMPARE(this->field("position.0")->text(), QString("0"));
+  // As if it had not been: what was undone before can be done again.
+  this->action("redo")->trigger();
+  QCOMPARE(this->object().position.value.x(), 2.0);
+}
+
+int main(int argc, char** argv) { return runEditorTest<TestEditorHandles>(argc, argv); }
