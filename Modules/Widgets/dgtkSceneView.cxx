@@ -68,6 +68,7 @@ void SceneView::placeCamera()
 void SceneView::showHandles(const std::optional<HandlePlace>& place)
 {
   this->Handles = place;
+  this->Overlay->raise(); // also above a picture that covers the view
   this->placeHandles();
 }
 

@@ -56,10 +56,14 @@ dgtk::ViewCamera TestEditorHandles::camera(int kind) const
 
 double TestEditorHandles::unit(int kind) const { return this->camera(kind).height() / this->view(kind)->height(); }
 
+Eigen::Vector2d TestEditorHandles::exactPixelOf(int kind, const Eigen::Vector3d& point) const
+{
+  return this->camera(kind).pixel(point, this->view(kind)->width(), this->view(kind)->height()).value();
+}
+
 QPoint TestEditorHandles::pixelOf(int kind, const Eigen::Vector3d& point) const
 {
-  const Eigen::Vector2d at =
-    this->camera(kind).pixel(point, this->view(kind)->width(), this->view(kind)->height()).value();
+  const Eigen::Vector2d at = this->exactPixelOf(kind, point);
   return QPoint(int(std::lround(at.x())), int(std::lround(at.y())));
 }
 
@@ -158,12 +162,13 @@ void TestEditorHandles::ringsRotate()
     return center + QPoint(int(std::lround(arrow * std::cos(degrees * pi / 180))),
                       -int(std::lround(arrow * std::sin(degrees * pi / 180))));
   };
-  const auto angleOf = [&](const QPoint& p) { return std::atan2(center.y() - p.y(), p.x() - center.x()); };
+  const Eigen::Vector2d exact = this->exactPixelOf(front, { 0, 0, 0 });
+  const auto angleOf = [&](const QPoint& p) { return std::atan2(exact.y() - p.y(), p.x() - exact.x()); };
   // The ring about z is seen whole from the front.
   const double expected = angleOf(onRing(70)) - angleOf(onRing(20));
   this->drag(front, onRing(20), onRing(70));
   const dgtk::Quaternion q = this->object().orientation.value;
-  QVERIFY(std::abs(2 * std::atan2(q.z, q.w) - expected) < 1e-3); // the centre lies between pixels
+  QVERIFY(std::abs(2 * std::atan2(q.z, q.w) - expected) < tolerance);
   QCOMPARE(q.x, 0.0);
   QCOMPARE(q.y, 0.0);
   QCOMPARE(this->object().position.value, Eigen::Vector3d(0, 0, 0));
@@ -198,8 +203,11 @@ void TestEditorHandles::boxesScale()
   this->action("frameAll")->trigger();
   QTest::keyClick(this->Window.get(), Qt::Key_3);
   const QPoint center = this->pixelOf(front, { 0, 0, 0 });
-  this->drag(front, center - QPoint(0, int(arrow)), center - QPoint(9, int(1.5 * arrow)));
-  QVERIFY((this->object().scale.value - Eigen::Vector3d(1.5, 1, 1)).norm() < 0.02); // the centre lies between pixels
+  const QPoint from = center - QPoint(0, int(arrow));
+  const QPoint to = center - QPoint(9, int(1.5 * arrow));
+  const double middle = this->exactPixelOf(front, { 0, 0, 0 }).y();
+  this->drag(front, from, to);
+  QVERIFY(near(this->object().scale.value, { (middle - to.y()) / (middle - from.y()), 1, 1 }));
   QCOMPARE(this->object().scale.value.y(), 1.0);
   QCOMPARE(this->document().undoText(), std::string("Scale"));
   this->action("undo")->trigger();

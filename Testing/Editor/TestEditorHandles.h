@@ -43,6 +43,8 @@ private:
   QWidget* view(int kind) const;
   /// The camera that a view has after Frame all.
   dgtk::ViewCamera camera(int kind) const;
+  Eigen::Vector2d exactPixelOf(int kind, const Eigen::Vector3d& point) const;
+  /// The nearest whole one.
   QPoint pixelOf(int kind, const Eigen::Vector3d& point) const;
   /// World units of a pixel in a parallel view.
   double unit(int kind) const;
