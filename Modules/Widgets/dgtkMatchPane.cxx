@@ -221,13 +221,14 @@ void MatchPane::mousePressEvent(QMouseEvent* event)
 {
   this->Pressed = this->LastPosition = event->pos();
   this->Panned = false;
+  this->Down = true;
 }
 
 void MatchPane::mouseMoveEvent(QMouseEvent* event)
 {
   const QPointF point = this->pointAt(event->pos());
   emit this->pointed(this->isInside(point), point.x(), point.y());
-  if (event->buttons() == Qt::NoButton ||
+  if (!this->Down ||
       (!this->Panned && (event->pos() - this->Pressed).manhattanLength() < QApplication::startDragDistance()))
   {
     return;
@@ -242,6 +243,7 @@ void MatchPane::mouseMoveEvent(QMouseEvent* event)
 void MatchPane::mouseReleaseEvent(QMouseEvent* event)
 {
   const QPointF point = this->pointAt(event->pos());
+  this->Down = false;
   if (!this->Panned && event->button() == Qt::LeftButton && this->isInside(point))
   {
     emit this->picked(point.x(), point.y());

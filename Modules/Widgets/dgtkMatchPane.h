@@ -91,6 +91,7 @@ private:
   bool Whole = true;
   QPoint Pressed;
   QPoint LastPosition;
+  bool Down = false; ///< a button is
   bool Panned = false;
 };
 

@@ -4,13 +4,32 @@
 
 #include "EditorTest.h"
 
+#include <QPoint>
+#include <QPointF>
+
+class QWidget;
+
+/// Ground truth in the perspective view, and the correspondence tool.
 class TestEditorTruth : public EditorTest
 {
   Q_OBJECT
 
 private slots:
-  void layersReplaceColour();
+  void layersReplaceColourAndFollowTheView();
+  void valuesAreTheDatasets();
+  void nothingWaitsForPictures();
+  void matchesAreTheDatasets();
+  void pairsAreThoseOfTheCommandLine();
+  void panesZoomAndPan();
+  void aStereoPairWithGroundTruth();
   void pictures();
+
+private:
+  void render(const QString& layers, const QStringList& more) const;
+  /// The dialog, its pictures shown.
+  QWidget* openMatches() const;
+  /// Clicks an image point and waits for its match.
+  void clickMatch(QWidget* dialog, int side, const QPointF& image) const;
 };
 
 #endif
