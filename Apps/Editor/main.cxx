@@ -10,9 +10,9 @@
 namespace
 {
 constexpr const char* help =
-  "usage: dgtk-editor [FILE...]\n\n"
+  "usage: dgtk-editor [FILE|FOLDER...]\n\n"
   "The desktop editor of DGTk. A scene (.json, .scene) is opened; models are imported into\n"
-  "it.\n\n"
+  "it; the folder of a finished dataset is shown in a window of its own.\n\n"
   "  --help      this page\n"
   "  --version   the version\n\n"
   "DGTK of the environment names the dgtk program that renders (default: beside this one).\n";

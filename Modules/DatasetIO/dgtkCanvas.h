@@ -3,6 +3,7 @@
 #define dgtkCanvas_h
 
 #include "dgtkDatasetDocuments.h"
+#include "dgtkLayerColors.h"
 
 #include <array>
 #include <cstdint>
@@ -11,8 +12,6 @@
 
 namespace dgtk
 {
-
-using Rgb = std::array<std::uint8_t, 3>;
 
 /// A small 8-bit RGB picture to draw on.
 class Canvas
@@ -42,11 +41,6 @@ const std::array<std::uint8_t, 7>& glyphOf(char letter);
 /// Reads an image and draws it in readable colours, `width` x `height` pixels. Memory is bounded by the thumbnail and a
 /// few rows. Colours are averaged; values are taken at the centres.
 Canvas makeThumbnail(const std::string& path, const LayerSpec& spec, int width, int height);
-
-/// 0 to 1 from dark to bright, in steps of even lightness.
-Rgb rampColor(double value);
-/// A colour of its own for every id; 0 is dark gray.
-Rgb idColor(std::uint32_t id);
 
 } // namespace dgtk
 

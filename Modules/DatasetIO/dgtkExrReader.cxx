@@ -36,6 +36,7 @@ public:
   }
 
 protected:
+  bool anyRow() const override { return true; }
   void readRows(Rows& rows) override
   {
     const std::size_t channels = this->Channels.size();

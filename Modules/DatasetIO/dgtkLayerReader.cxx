@@ -95,6 +95,16 @@ Rows RowReader::read(int rows)
   return block;
 }
 
+void RowReader::skip(int rows)
+{
+  const int target = this->Next + std::min(std::max(rows, 0), this->Info.height - this->Next);
+  while (this->Next < target && !this->anyRow())
+  {
+    this->read(1);
+  }
+  this->Next = target;
+}
+
 namespace
 {
 std::string extensionOf(const std::string& path)

@@ -45,9 +45,13 @@ public:
   const ImageInfo& info() const { return this->Info; }
   /// The next rows, at most `rows` (>= 1) and fewer at the end; of height 0 behind the last.
   Rows read(int rows);
+  /// Passes over rows, at most to the end; formats whose rows are found at once do not read them.
+  void skip(int rows);
 
 protected:
   virtual void readRows(Rows& rows) = 0;
+  /// Whether readRows() finds any row without those before it.
+  virtual bool anyRow() const { return false; }
   ImageInfo Info;
 
 private:

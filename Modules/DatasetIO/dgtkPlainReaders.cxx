@@ -41,6 +41,7 @@ public:
   }
 
 protected:
+  bool anyRow() const override { return true; }
   void readRows(Rows& rows) override
   {
     const std::size_t rowBytes = rows.rowBytes();

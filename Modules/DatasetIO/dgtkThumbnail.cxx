@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCanvas.h"
-#include "dgtkDepthPicture.h"
 #include "dgtkLayerPicture.h"
 #include "dgtkLayerReader.h"
 
@@ -96,16 +95,6 @@ Samples sample(RowReader& reader, int width, int height, bool average)
   return out;
 }
 
-std::uint8_t byteOf(double unit)
-{
-  return std::isnan(unit) ? 0 : static_cast<std::uint8_t>(std::min(std::max(unit, 0.0), 1.0) * 255 + 0.5);
-}
-
-double encoded(double linear) // IEC 61966-2-1
-{
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
-
 /// Range of the finite values of one channel, without the outermost hundredth on either side when there are many;
 /// 0 to 1 when there is none.
 std::pair<double, double> rangeOf(const Samples& samples, int channel, bool robust)
@@ -127,113 +116,29 @@ std::pair<double, double> rangeOf(const Samples& samples, int channel, bool robu
   return { values[cut], values[values.size() - 1 - cut] };
 }
 
-constexpr Rgb nothing = { 40, 40, 44 };
-
-template <typename F>
-Canvas paint(const Samples& samples, F colorOf)
+Canvas paint(const Samples& samples, const LayerColors& colorOf)
 {
-  Canvas canvas(samples.width, samples.height, nothing);
+  Canvas canvas(samples.width, samples.height, nothingColor);
   for (int y = 0; y < samples.height; ++y)
   {
     for (int x = 0; x < samples.width; ++x)
     {
-      const double* value = samples.at(x, y);
-      canvas.at(x, y) = std::isfinite(value[0]) ? colorOf(value) : nothing;
+      canvas.at(x, y) = colorOf(samples.at(x, y));
     }
   }
   return canvas;
 }
 
-Canvas paintDepth(const Samples& samples)
+Canvas paintSamples(const Samples& samples, LayerColors colors)
 {
-  const auto [near, far] = rangeOf(samples, 0, false);
-  const bool logarithmic = near > 0;
-  const double low = logarithmic ? portableLog(near) : near;
-  const double high = logarithmic ? portableLog(far) : far;
-  const double scale = high > low ? 1 / (high - low) : 0;
-  return paint(samples,
-    [=](const double* v)
-    {
-      const double at = ((logarithmic ? portableLog(*v) : *v) - low) * scale;
-      return rampColor(1 - 0.85 * at); // the farthest surface still differs from nothing
-    });
-}
-
-Canvas paintRanges(const Samples& samples)
-{
-  std::vector<std::pair<double, double>> ranges;
-  for (int c = 0; c < samples.channels; ++c)
+  for (int c = 0; c < colors.ranges(); ++c)
   {
-    ranges.push_back(rangeOf(samples, c, true));
+    const auto [low, high] = rangeOf(samples, c, colors.look() != LayerLook::Depth);
+    colors.setRange(c, low, high);
   }
-  const auto unit = [ranges](const double* v, std::size_t c)
-  {
-    const auto [low, high] = ranges[c];
-    return high > low ? (v[c] - low) / (high - low) : 0.5;
-  };
-  if (samples.channels == 1)
-  {
-    return paint(samples, [&](const double* v) { return rampColor(0.15 + 0.85 * unit(v, 0)); });
-  }
-  const bool blue = samples.channels > 2;
-  return paint(samples,
-    [&](const double* v) {
-      return Rgb{ byteOf(unit(v, 0)), byteOf(unit(v, 1)), blue ? byteOf(unit(v, 2)) : std::uint8_t(64) };
-    });
+  return paint(samples, colors);
 }
 
-Canvas paintColor(const Samples& samples, PixelType type)
-{
-  const double scale = type == PixelType::UInt8 ? 1 / 255.0 : type == PixelType::UInt16 ? 1 / 65535.0 : 1;
-  const bool linear = scale == 1;
-  const bool gray = samples.channels < 3;
-  return paint(samples,
-    [=](const double* v)
-    {
-      const auto channel = [&](int c) { return byteOf(linear ? encoded(v[c] * scale) : v[c] * scale); };
-      return gray ? Rgb{ channel(0), channel(0), channel(0) } : Rgb{ channel(0), channel(1), channel(2) };
-    });
-}
-
-/// Ids start at 0 where another value stands for nothing.
-Canvas paintIds(const Samples& samples, const LayerSpec& spec)
-{
-  const int channels = samples.channels;
-  const bool coverage = spec.name == "alpha" && channels == 4;
-  const bool fromZero = !spec.invalid.empty() && spec.invalid != "0";
-  return paint(samples,
-    [&](const double* v)
-    {
-      const auto id = static_cast<std::uint32_t>(channels >= 3 ? v[0] * 65536 + v[1] * 256 + v[2] : v[0]);
-      if (fromZero && std::to_string(id) == spec.invalid)
-      {
-        return nothing;
-      }
-      Rgb color = idColor(fromZero ? id + 1 : id);
-      for (std::size_t c = 0; coverage && c < 3; ++c)
-      {
-        color[c] = static_cast<std::uint8_t>(color[c] * v[3] / 255);
-      }
-      return color;
-    });
-}
-
-/// Texture coordinates repeat: their fractions.
-Canvas paintFractions(const Samples& samples)
-{
-  return paint(samples,
-    [](const double* v) {
-      return Rgb{ byteOf(v[0] - std::floor(v[0])), byteOf(v[1] - std::floor(v[1])), std::uint8_t(64) };
-    });
-}
-
-Canvas paintNormals(const Samples& samples)
-{
-  return paint(samples,
-    [](const double* v) {
-      return Rgb{ byteOf(0.5 + v[0] / 2), byteOf(0.5 - v[1] / 2), byteOf(0.5 - v[2] / 2) };
-    });
-}
 /// Whole pictures, without a change of size.
 Samples samplesOf(const Rows& rows)
 {
@@ -242,48 +147,23 @@ Samples samplesOf(const Rows& rows)
   toDoubles(rows, out.values);
   return out;
 }
-
-bool isColor(const LayerSpec& spec) { return spec.name.rfind("color", 0) == 0 || spec.name == "tiles"; }
-bool isDepth(const LayerSpec& spec)
-{
-  return spec.name == "depth" || spec.name == "depth_noisy" || spec.name == "distance";
-}
-
-/// In the colours of its meaning; `color`: the values are a picture's.
-Canvas paintSamples(const Samples& samples, const LayerSpec& spec, PixelType type, bool color)
-{
-  if (color)
-  {
-    return paintColor(samples, type);
-  }
-  if (type != PixelType::Float32 && type != PixelType::Float64)
-  {
-    return paintIds(samples, spec);
-  }
-  if (isDepth(spec))
-  {
-    return paintDepth(samples);
-  }
-  if (spec.name == "uv" && samples.channels == 2)
-  {
-    return paintFractions(samples);
-  }
-  const bool normals = spec.name == "normal" || spec.name == "shadingnormal";
-  return normals && samples.channels == 3 ? paintNormals(samples) : paintRanges(samples);
-}
 } // namespace
 
 Canvas makeThumbnail(const std::string& path, const LayerSpec& spec, int width, int height)
 {
   const std::unique_ptr<RowReader> reader = openLayerFile(path);
-  const ImageInfo info = reader->info();
-  const bool color = isColor(spec) || (info.format == "png" && isDepth(spec));
-  return paintSamples(sample(*reader, width, height, color), spec, info.type, color);
+  const LayerColors colors(lookOf(spec, reader->info()), spec, reader->info());
+  return paintSamples(sample(*reader, width, height, colors.look() == LayerLook::Picture), colors);
 }
 
 LayerPicture paintLayer(const Rows& rows, const LayerSpec& spec)
 {
-  const Canvas canvas = paintSamples(samplesOf(rows), spec, rows.type(), isColor(spec));
+  ImageInfo info;
+  info.type = rows.type();
+  info.channels = rows.channels();
+  info.width = rows.width();
+  info.height = rows.height();
+  const Canvas canvas = paintSamples(samplesOf(rows), { lookOf(spec, info), spec, info });
   return { canvas.width(), canvas.height(), canvas.pixels() };
 }
 

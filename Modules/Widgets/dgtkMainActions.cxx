@@ -90,6 +90,8 @@ void MainWindow::makeFileMenu()
   connect(add("save", tr("&Save"), QKeySequence::Save), &QAction::triggered, this, [this] { this->save(); });
   connect(add("saveAs", tr("Save &as ..."), QKeySequence("Ctrl+Shift+S")), &QAction::triggered, this,
     [this] { this->saveAs(); });
+  connect(add("openDataset", tr("Open &dataset ..."), QKeySequence("Ctrl+Shift+O")), &QAction::triggered, this,
+    &MainWindow::askDataset);
   menu->addSeparator();
   connect(add("import", tr("&Import ..."), QKeySequence("Ctrl+I")), &QAction::triggered, this, &MainWindow::askImport);
   connect(add("exportPov", tr("Export &POV-Ray ..."), {}), &QAction::triggered, this, &MainWindow::exportPov);
@@ -269,6 +271,7 @@ void MainWindow::configureRendering()
   {
     this->Rendering = new RenderDialog(*this->State, this);
     connect(this->Rendering, &RenderDialog::noted, this, &MainWindow::note);
+    connect(this->Rendering, &RenderDialog::resultAsked, this, &MainWindow::openDataset);
   }
   this->Rendering->show();
   this->Rendering->raise();

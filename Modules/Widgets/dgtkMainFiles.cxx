@@ -100,6 +100,11 @@ void MainWindow::askOpen()
 
 bool MainWindow::openFile(const QString& path)
 {
+  if (QFileInfo(path).isDir() || QFileInfo(path).fileName() == "manifest.json")
+  {
+    this->openDataset(path);
+    return true;
+  }
   if (!isScene(path))
   {
     return this->importFile(path);

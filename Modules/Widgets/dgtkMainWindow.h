@@ -50,6 +50,8 @@ public:
   /// is then as before.
   bool openFile(const QString& path);
   bool importFile(const QString& path);
+  /// Shows a finished dataset, by its folder or its manifest.json, in a window of its own.
+  void openDataset(const QString& folder);
   /// Asks about each copy of unsaved work that a crash left behind.
   void offerRecovery();
   /// False when it was refused.
@@ -75,6 +77,7 @@ private:
   bool save();
   bool saveAs();
   void askImport();
+  void askDataset();
   void exportPov();
   bool mayDiscard();
   /// False, with a note, while another file is being read.

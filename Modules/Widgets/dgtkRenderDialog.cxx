@@ -295,7 +295,9 @@ void RenderDialog::setRunning(bool on)
   this->Tabs->setEnabled(!on);
   this->Start->setEnabled(!on);
   this->Cancel->setEnabled(on);
-  this->Open->setEnabled(!on && QDir(this->Folder->text()).exists("manifest.json"));
+  const bool there = !on && QDir(this->Folder->text()).exists("manifest.json");
+  this->Open->setEnabled(there);
+  this->Result->setEnabled(there);
 }
 
 void RenderDialog::reject()

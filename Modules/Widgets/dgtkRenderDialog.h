@@ -45,6 +45,7 @@ public:
 
 signals:
   void noted(const QString& line);
+  void resultAsked(const QString& folder);
 
 protected:
   void reject() override;
@@ -89,6 +90,7 @@ private:
   QPushButton* Start = nullptr;
   QPushButton* Cancel = nullptr;
   QPushButton* Open = nullptr;
+  QPushButton* Result = nullptr;
   QProgressBar* Progress = nullptr;
   QLabel* Status = nullptr;
 };

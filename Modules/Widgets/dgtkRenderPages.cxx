@@ -178,6 +178,9 @@ void RenderDialog::makeRunRow(QVBoxLayout* layout)
   layout->addWidget(this->Status);
 
   auto* buttons = new QHBoxLayout;
+  this->Result = new QPushButton(tr("Look at the result"));
+  this->Result->setObjectName("openResult");
+  this->Result->setAutoDefault(false);
   this->Open = new QPushButton(tr("Open the folder"));
   this->Open->setAutoDefault(false);
   this->Start = new QPushButton(tr("Start"));
@@ -188,6 +191,7 @@ void RenderDialog::makeRunRow(QVBoxLayout* layout)
   this->Cancel->setAutoDefault(false);
   auto* close = new QPushButton(tr("Close"));
   close->setAutoDefault(false);
+  buttons->addWidget(this->Result);
   buttons->addWidget(this->Open);
   buttons->addStretch(1);
   for (QPushButton* button : { this->Start, this->Cancel, close })
@@ -199,6 +203,8 @@ void RenderDialog::makeRunRow(QVBoxLayout* layout)
   connect(this->Start, &QPushButton::clicked, this, &RenderDialog::start);
   connect(this->Cancel, &QPushButton::clicked, &this->Process, &RenderProcess::cancel);
   connect(close, &QPushButton::clicked, this, &RenderDialog::reject);
+  connect(this->Result, &QPushButton::clicked, this, [this] { emit this->resultAsked(this->Folder->text()); });
+  connect(this->Folder, &QLineEdit::textChanged, this, [this] { this->setRunning(!this->Start->isEnabled()); });
   connect(this->Open, &QPushButton::clicked, this,
     [this] { QDesktopServices::openUrl(QUrl::fromLocalFile(this->Folder->text())); });
 }

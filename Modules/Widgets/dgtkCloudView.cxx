@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCloudView.h"
+
+#include <QApplication>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QTimer>
+#include <QWheelEvent>
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr double degreesPerPixel = 0.4;
+constexpr double degreesPerKey = 5;
+constexpr double panPerKey = 30;       // pixels
+constexpr double zoomPerPixel = 0.008; // natural logarithm
+constexpr double zoomPerStep = 0.15;
+constexpr double pickPixels = 12;
+constexpr double frustumShare = 0.07; // of the diagonal of everything
+constexpr double markerShare = 0.015;
+constexpr double axisShare = 0.05;
+constexpr double smallestExtent = 1e-3;
+constexpr float pointSize = 2;
+const Eigen::Vector3d cameraColor(0.85, 0.65, 0.25);
+const Eigen::Vector3d chosenColor(0.2, 1.0, 0.2);
+const Eigen::Vector3d markerColor(1.0, 0.2, 0.9);
+} // namespace
+
+/// Line segments of one colour.
+struct CloudView::Lines
+{
+  Lines(vtkRenderer* renderer, const Eigen::Vector3d& color, float width)
+  {
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(this->Data);
+    this->Actor->SetMapper(mapper);
+    this->Actor->GetProperty()->SetLighting(false);
+    this->Actor->GetProperty()->SetColor(color.x(), color.y(), color.z());
+    this->Actor->GetProperty()->SetLineWidth(width);
+    renderer->AddActor(this->Actor);
+    this->set({});
+  }
+  void set(const LineList& lines)
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> cells;
+    for (const auto& [from, to] : lines)
+    {
+      const vtkIdType ends[2] = { points->InsertNextPoint(from.data()), points->InsertNextPoint(to.data()) };
+      cells->InsertNextCell(2, ends);
+    }
+    this->Data->SetPoints(points);
+    this->Data->SetLines(cells);
+    this->Actor->SetVisibility(!lines.empty());
+  }
+  vtkNew<vtkPolyData> Data;
+  vtkNew<vtkActor> Actor;
+};
+
+CloudView::CloudView(QWidget* parent)
+  : QVTKOpenGLNativeWidget(parent)
+  , Camera(ViewKind::Perspective)
+  , Renderer(vtkSmartPointer<vtkRenderer>::New())
+  , Points(vtkSmartPointer<vtkPolyData>::New())
+  , PointActor(vtkSmartPointer<vtkActor>::New())
+{
+  this->setObjectName("cloudView");
+  vtkNew<vtkGenericOpenGLRenderWindow> window;
+  window->SetMultiSamples(0);
+  this->setRenderWindow(window);
+  window->AddRenderer(this->Renderer);
+  window->GetInteractor()->SetInteractorStyle(nullptr);
+  this->Renderer->SetBackground(0.20, 0.21, 0.23);
+  this->Renderer->SetBackground2(0.11, 0.11, 0.12);
+  this->Renderer->GradientBackgroundOn();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(this->Points);
+  this->PointActor->SetMapper(mapper);
+  this->PointActor->GetProperty()->SetLighting(false);
+  this->PointActor->GetProperty()->SetPointSize(pointSize);
+  this->PointActor->VisibilityOff();
+  this->Renderer->AddActor(this->PointActor);
+  this->Frusta = std::make_unique<Lines>(this->Renderer, cameraColor, 1.5f);
+  this->Chosen = std::make_unique<Lines>(this->Renderer, chosenColor, 2.5f);
+  this->Marker = std::make_unique<Lines>(this->Renderer, markerColor, 2.0f);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const Eigen::Vector3d color = 0.25 * Eigen::Vector3d::Ones() + 0.65 * Eigen::Vector3d::Unit(axis);
+    this->Axes[axis] = std::make_unique<Lines>(this->Renderer, color, 2.0f);
+  }
+  this->setFocusPolicy(Qt::StrongFocus);
+  this->setMinimumSize(160, 120);
+  this->placeCamera();
+}
+
+CloudView::~CloudView() = default;
+
+void CloudView::reset(UpAxis upAxis)
+{
+  this->Camera = ViewCamera(ViewKind::Perspective, upAxis);
+  this->Places.clear();
+  this->MarkerPoint.reset();
+  this->setCloud(nullptr);
+}
+
+void CloudView::placeCamera()
+{
+  vtkCamera* const camera = this->Renderer->GetActiveCamera();
+  camera->SetPosition(this->Camera.eye().data());
+  camera->SetFocalPoint(this->Camera.focus().data());
+  camera->SetViewUp(this->Camera.up().data());
+  camera->SetViewAngle(ViewCamera::angle());
+  this->drawSoon();
+}
+
+void CloudView::drawSoon()
+{
+  if (this->DrawWanted)
+  {
+    return;
+  }
+  this->DrawWanted = true;
+  QTimer::singleShot(0, this,
+    [this]
+    {
+      this->DrawWanted = false;
+      if (this->isVisible())
+      {
+        this->Renderer->ResetCameraClippingRange();
+        this->renderWindow()->Render();
+      }
+    });
+}
+
+WorldBox CloudView::box() const
+{
+  WorldBox box = this->CloudBox;
+  for (const CameraPlace& place : this->Places)
+  {
+    box.add(place.center);
+  }
+  return box;
+}
+
+void CloudView::setCameras(const std::vector<View>& views, const std::string& chosen)
+{
+  this->Places.clear();
+  for (const View& view : views)
+  {
+    CameraPlace place;
+    place.valid = true;
+    place.view = view;
+    place.center = view.camera_from_world.inverse().translation;
+    this->Places.push_back(place);
+  }
+  this->ChosenName = chosen;
+  this->refreshLines();
+}
+
+void CloudView::refreshLines()
+{
+  const double extent = std::max(this->box().diagonal(), smallestExtent);
+  LineList frusta;
+  LineList chosen;
+  for (const CameraPlace& place : this->Places)
+  {
+    addFrustum(place.view.name == this->ChosenName ? chosen : frusta, place, frustumShare * extent);
+  }
+  this->Frusta->set(frusta);
+  this->Chosen->set(chosen);
+  LineList cross;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const Eigen::Vector3d direction = Eigen::Vector3d::Unit(axis);
+    this->Axes[axis]->set({ { Eigen::Vector3d::Zero(), axisShare * extent * direction } });
+    if (this->MarkerPoint)
+    {
+      const Eigen::Vector3d arm = markerShare * extent * direction;
+      cross.emplace_back(*this->MarkerPoint - arm, *this->MarkerPoint + arm);
+    }
+  }
+  this->Marker->set(cross);
+  this->drawSoon();
+}
+
+void CloudView::setCloud(const std::shared_ptr<const PointCloud>& cloud)
+{
+  this->Cloud = cloud;
+  this->CloudBox = {};
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetNumberOfComponents(3);
+  vtkNew<vtkCellArray> cells;
+  const vtkIdType count = static_cast<vtkIdType>(this->pointCount());
+  points->SetNumberOfPoints(count);
+  colors->SetNumberOfTuples(count);
+  std::vector<vtkIdType> ids(static_cast<std::size_t>(count));
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const std::size_t at = static_cast<std::size_t>(i);
+    points->SetPoint(i, cloud->points[at].data());
+    colors->SetTypedTuple(i, cloud->colors[at].data());
+    this->CloudBox.add(cloud->points[at]);
+    ids[at] = i;
+  }
+  if (count > 0)
+  {
+    cells->InsertNextCell(count, ids.data());
+  }
+  this->Points->SetPoints(points);
+  this->Points->SetVerts(cells);
+  this->Points->GetPointData()->SetScalars(colors);
+  this->PointActor->SetVisibility(count > 0);
+  this->refreshLines();
+}
+
+void CloudView::setMarker(const std::optional<Eigen::Vector3d>& point)
+{
+  if (point != this->MarkerPoint)
+  {
+    this->MarkerPoint = point;
+    this->refreshLines();
+  }
+}
+
+void CloudView::frameAll()
+{
+  this->Camera.frame(this->box(), double(std::max(this->width(), 1)) / std::max(this->height(), 1));
+  this->placeCamera();
+}
+
+void CloudView::lookThrough(const std::string& name)
+{
+  for (const CameraPlace& place : this->Places)
+  {
+    if (place.view.name == name)
+    {
+      const Eigen::Vector3d forward = place.view.camera_from_world.rotation.row(2).transpose();
+      const double distance =
+        this->CloudBox.empty() ? 1.0 : std::max((this->CloudBox.center() - place.center).dot(forward), smallestExtent);
+      this->Camera.look(place.center, place.center + distance * forward);
+      this->placeCamera();
+    }
+  }
+}
+
+void CloudView::mousePressEvent(QMouseEvent* event)
+{
+  this->Pressed = this->Last = event->pos();
+  this->Moved = false;
+  const bool shifted = event->modifiers() & Qt::ShiftModifier;
+  this->Moving = event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && shifted) ? Motion::Pan
+                 : event->button() == Qt::RightButton                                                  ? Motion::Zoom
+                                                                                                       : Motion::Orbit;
+}
+
+void CloudView::mouseMoveEvent(QMouseEvent* event)
+{
+  const bool far = (event->pos() - this->Pressed).manhattanLength() >= QApplication::startDragDistance();
+  if (this->Moving == Motion::None || (!this->Moved && !far))
+  {
+    return;
+  }
+  this->Moved = true;
+  const QPoint step = event->pos() - this->Last;
+  this->Last = event->pos();
+  switch (this->Moving)
+  {
+    case Motion::Orbit:
+      this->Camera.orbit(degreesPerPixel * step.x(), degreesPerPixel * step.y());
+      break;
+    case Motion::Pan:
+      this->Camera.pan(step.x(), step.y(), this->height());
+      break;
+    default:
+      this->Camera.zoom(std::exp(-zoomPerPixel * step.y()));
+      break;
+  }
+  this->placeCamera();
+}
+
+void CloudView::mouseReleaseEvent(QMouseEvent* event)
+{
+  this->Moving = Motion::None;
+  if (!this->Moved && event->button() == Qt::LeftButton)
+  {
+    this->pick(event->pos());
+  }
+}
+
+void CloudView::pick(const QPoint& at)
+{
+  const WorldRay ray = this->Camera.ray(at.x() + 0.5, at.y() + 0.5, this->width(), this->height());
+  const double reach = this->Camera.reach(pickPixels, this->height()).slope;
+  double nearest = -1;
+  std::string name;
+  for (const CameraPlace& place : this->Places)
+  {
+    const Eigen::Vector3d way = place.center - ray.origin;
+    const double along = way.dot(ray.direction) / ray.direction.squaredNorm();
+    const double aside = (way - along * ray.direction).norm();
+    if (along > 0 && aside <= reach * along && (nearest < 0 || along < nearest))
+    {
+      nearest = along;
+      name = place.view.name;
+    }
+  }
+  if (!name.empty())
+  {
+    emit this->cameraPicked(QString::fromStdString(name));
+  }
+}
+
+void CloudView::wheelEvent(QWheelEvent* event)
+{
+  this->Camera.zoom(std::exp(zoomPerStep * event->angleDelta().y() / 120.0));
+  this->placeCamera();
+  event->accept();
+}
+
+void CloudView::keyPressEvent(QKeyEvent* event)
+{
+  const int dx = event->key() == Qt::Key_Left ? -1 : event->key() == Qt::Key_Right ? 1 : 0;
+  const int dy = event->key() == Qt::Key_Up ? -1 : event->key() == Qt::Key_Down ? 1 : 0;
+  if (dx == 0 && dy == 0)
+  {
+    QVTKOpenGLNativeWidget::keyPressEvent(event);
+    return;
+  }
+  if (event->modifiers() & Qt::ShiftModifier)
+  {
+    this->Camera.pan(panPerKey * dx, panPerKey * dy, this->height());
+  }
+  else
+  {
+    this->Camera.orbit(degreesPerKey * dx, degreesPerKey * dy);
+  }
+  this->placeCamera();
+}
+
+void CloudView::resizeEvent(QResizeEvent* event)
+{
+  QVTKOpenGLNativeWidget::resizeEvent(event);
+  this->drawSoon();
+}
+
+} // namespace dgtk

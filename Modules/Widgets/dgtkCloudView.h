@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkCloudView_h
+#define dgtkCloudView_h
+
+// Private to Widgets.
+
+#include "dgtkDatasetPoints.h"
+#include "dgtkViewCamera.h"
+#include "dgtkViewLines.h"
+
+#include <QPoint>
+#include <QVTKOpenGLNativeWidget.h>
+
+#include <vtkSmartPointer.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkActor;
+class vtkPolyData;
+class vtkRenderer;
+
+namespace dgtk
+{
+
+/// The cameras and points of a dataset in the world. Mouse as in the editor's perspective view: left turns, middle or
+/// Shift and left pans, right and wheel zoom; a click on a camera chooses it. Keys: arrows turn, with Shift they pan,
+/// plus and minus zoom.
+class CloudView : public QVTKOpenGLNativeWidget
+{
+  Q_OBJECT
+
+public:
+  explicit CloudView(QWidget* parent);
+  ~CloudView() override;
+
+  const ViewCamera& camera() const { return this->Camera; }
+  /// Forgets everything; the world's up axis is that of the next dataset.
+  void reset(UpAxis upAxis);
+  /// Frusta of these views; the one called `chosen` is marked.
+  void setCameras(const std::vector<View>& views, const std::string& chosen);
+  void setCloud(const std::shared_ptr<const PointCloud>& cloud);
+  /// A cross at a point of the world.
+  void setMarker(const std::optional<Eigen::Vector3d>& point);
+  /// Shows everything.
+  void frameAll();
+  /// To the place of a camera, looking its way.
+  void lookThrough(const std::string& name);
+  std::size_t pointCount() const { return this->Cloud ? this->Cloud->points.size() : 0; }
+
+signals:
+  void cameraPicked(const QString& name);
+
+protected:
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+
+private:
+  enum class Motion
+  {
+    None,
+    Orbit,
+    Pan,
+    Zoom
+  };
+  struct Lines;
+  void drawSoon();
+  void placeCamera();
+  void refreshLines();
+  WorldBox box() const;
+  void pick(const QPoint& at);
+
+  ViewCamera Camera;
+  vtkSmartPointer<vtkRenderer> Renderer;
+  vtkSmartPointer<vtkPolyData> Points;
+  vtkSmartPointer<vtkActor> PointActor;
+  std::unique_ptr<Lines> Frusta;
+  std::unique_ptr<Lines> Chosen;
+  std::unique_ptr<Lines> Marker;
+  std::unique_ptr<Lines> Axes[3];
+  std::vector<CameraPlace> Places;
+  std::string ChosenName;
+  std::shared_ptr<const PointCloud> Cloud;
+  WorldBox CloudBox;
+  std::optional<Eigen::Vector3d> MarkerPoint;
+  Motion Moving = Motion::None;
+  QPoint Pressed;
+  QPoint Last;
+  bool Moved = false;
+  bool DrawWanted = false;
+};
+
+} // namespace dgtk
+
+#endif

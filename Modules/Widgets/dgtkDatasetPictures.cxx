@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkDatasetPictures.h"
+
+#include "dgtkCryptomatte.h"
+#include "dgtkError.h"
+#include "dgtkJournal.h"
+#include "dgtkLayerReader.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace dgtk
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+
+/// Files of values before pictures of them; colours the other way round.
+int rankOf(const std::string& extension, const std::string& layer)
+{
+  static const std::vector<std::string> values{ "ldi", "npy", "dgd", "flo", "pfm", "exr", "ppm", "png" };
+  const auto at = std::find(values.begin(), values.end(), extension);
+  const int rank = static_cast<int>(at - values.begin());
+  return layer.rfind("color", 0) == 0 ? -rank : rank;
+}
+
+std::string extensionOf(const std::string& path)
+{
+  const std::string extension = fs::path(path).extension().string();
+  return extension.empty() ? extension : extension.substr(1);
+}
+
+bool leavesFolder(const fs::path& path)
+{
+  return path.is_absolute() || std::find(path.begin(), path.end(), fs::path("..")) != path.end();
+}
+
+bool isPicture(const DatasetFile& file)
+{
+  if (file.camera.empty() || file.layer.empty() || file.layer == "pov" || leavesFolder(file.path))
+  {
+    return false;
+  }
+  const std::string extension = extensionOf(file.path);
+  return file.layer == "ldi" ? extension == "ldi" : isLayerFile(file.path);
+}
+
+/// What the user calls the pictures of a file, without its format.
+std::string labelOf(const DatasetFile& file)
+{
+  const fs::path path(file.path);
+  std::string label = path.parent_path().filename().string();
+  const std::string classes = "_class";
+  if (file.layer.size() > classes.size() &&
+      file.layer.compare(file.layer.size() - classes.size(), classes.size(), classes) == 0)
+  {
+    label += " class";
+  }
+  const std::string stem = path.stem().string();
+  const std::size_t part = stem.find('_');
+  if (part != std::string::npos)
+  {
+    std::string rest = stem.substr(part + 1);
+    std::replace(rest.begin(), rest.end(), '_', ',');
+    label += " " + rest;
+  }
+  return label;
+}
+
+/// What a file shows: a layered depth image is seen in three ways.
+const std::vector<std::string>& partsOf(const DatasetFile& file)
+{
+  static const std::vector<std::string> whole{ "" };
+  static const std::vector<std::string> layered{ " color", " depth", " count" };
+  return file.layer == "ldi" ? layered : whole;
+}
+
+template <typename Read>
+void attempt(std::vector<std::string>& warnings, const Read& read)
+{
+  try
+  {
+    read();
+  }
+  catch (const std::exception& error)
+  {
+    warnings.emplace_back(error.what());
+  }
+}
+} // namespace
+
+DatasetPictures::DatasetPictures(const std::string& folder)
+  : Folder(fs::path(folder).filename() == manifestName ? fs::path(folder).parent_path().string() : folder)
+{
+  const fs::path root = this->Folder = this->Folder.empty() ? "." : this->Folder;
+  std::error_code failed;
+  if (!fs::is_directory(root, failed))
+  {
+    throw InputError(this->Folder, 0, "is not the folder of a dataset");
+  }
+  if (!fs::exists(root / manifestName, failed))
+  {
+    throw InputError(this->Folder, 0,
+      fs::exists(root / journalName, failed) ? "the dataset is not finished: render it again with --resume"
+                                             : "is not the folder of a dataset: it has no manifest.json");
+  }
+  this->TheManifest = readManifest((root / manifestName).string());
+  this->readDocuments();
+  this->index();
+  if (this->Files.empty())
+  {
+    throw InputError(this->Folder, 0, "the dataset has no pictures to look at");
+  }
+}
+
+void DatasetPictures::readDocuments()
+{
+  const fs::path root(this->Folder);
+  attempt(this->Warnings, [&] { this->Records = readCameras((root / "cameras.json").string()); });
+  attempt(this->Warnings, [&] { this->Objects = readObjects((root / "objects.json").string()); });
+  try
+  {
+    this->Up = readScene((root / "scene.json").string()).upAxis;
+  }
+  catch (const std::exception&) // pictures need no scene
+  {
+    this->Up = UpAxis::Y;
+  }
+  std::sort(this->Objects.begin(), this->Objects.end(),
+    [](const ObjectRecord& a, const ObjectRecord& b) { return a.id < b.id; });
+  std::vector<std::string> names;
+  for (const ObjectRecord& object : this->Objects)
+  {
+    names.push_back(object.name);
+  }
+  names = distinctNames(names);
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    this->Hashes.emplace(cryptomatteId(names[i]), this->Objects[i].id);
+  }
+  const auto key = [](const CameraRecord& record) { return std::tie(record.name, record.frame); };
+  std::sort(this->Records.begin(), this->Records.end(),
+    [&](const CameraRecord& a, const CameraRecord& b) { return key(a) < key(b); });
+}
+
+void DatasetPictures::index()
+{
+  std::map<std::string, std::set<std::string>> formats; // extensions of a label
+  for (const DatasetFile& file : this->TheManifest.files)
+  {
+    if (isPicture(file))
+    {
+      formats[dgtk::labelOf(file)].insert(extensionOf(file.path));
+    }
+    else if (file.layer == "ldi" && extensionOf(file.path) == "exr" && this->Warnings.empty())
+    {
+      this->Warnings.push_back(file.path + ": layered depth images are shown of .ldi files, not of OpenEXR");
+    }
+  }
+  std::map<std::string, PictureLayer> found;
+  std::set<int> frames;
+  for (const DatasetFile& file : this->TheManifest.files)
+  {
+    if (!isPicture(file))
+    {
+      continue;
+    }
+    const std::string extension = extensionOf(file.path);
+    const std::set<std::string>& all = formats[dgtk::labelOf(file)];
+    const std::string first = *std::min_element(all.begin(), all.end(),
+      [&](const auto& a, const auto& b) { return rankOf(a, file.layer) < rankOf(b, file.layer); });
+    const std::string label = dgtk::labelOf(file) + (extension == first ? "" : " ." + extension);
+    for (const std::string& part : partsOf(file))
+    {
+      this->add(file, label + part, extension, found);
+    }
+    frames.insert(file.frame);
+  }
+  this->Frames.assign(frames.begin(), frames.end());
+  for (const auto& [camera, labels] : this->LayersOfCamera)
+  {
+    this->Cameras.push_back(camera);
+  }
+  this->sortLayers(found);
+}
+
+void DatasetPictures::add(const DatasetFile& file, const std::string& label, const std::string& format,
+  std::map<std::string, PictureLayer>& found)
+{
+  this->Files[{ file.camera, file.frame, label }] = file.path;
+  this->LayersOfCamera[file.camera].insert(label);
+  PictureLayer& layer = found[label];
+  layer.label = label;
+  layer.format = format;
+  layer.spec.name = file.layer;
+}
+
+void DatasetPictures::sortLayers(std::map<std::string, PictureLayer>& found)
+{
+  std::map<std::string, std::size_t> places;
+  for (std::size_t i = 0; i < this->TheManifest.layers.size(); ++i)
+  {
+    const LayerRecord& record = this->TheManifest.layers[i];
+    places.emplace(record.spec.name, i);
+    for (auto& [label, layer] : found)
+    {
+      const bool better = layer.spec.description.empty() || record.format == layer.format;
+      layer.spec = record.spec.name == layer.spec.name && better ? record.spec : layer.spec;
+    }
+  }
+  const auto placeOf = [&](const PictureLayer& layer)
+  {
+    const auto at = places.find(layer.spec.name);
+    return at == places.end() ? places.size() : at->second;
+  };
+  for (const auto& [label, layer] : found)
+  {
+    this->Layers.push_back(layer);
+  }
+  std::stable_sort(this->Layers.begin(), this->Layers.end(),
+    [&](const PictureLayer& a, const PictureLayer& b) { return placeOf(a) < placeOf(b); });
+}
+
+std::vector<std::string> DatasetPictures::layersOf(const std::string& camera) const
+{
+  std::vector<std::string> labels;
+  const auto at = this->LayersOfCamera.find(camera);
+  for (const PictureLayer& layer : this->Layers)
+  {
+    if (at != this->LayersOfCamera.end() && at->second.count(layer.label) > 0)
+    {
+      labels.push_back(layer.label);
+    }
+  }
+  return labels;
+}
+
+const PictureLayer* DatasetPictures::layer(const std::string& label) const
+{
+  const auto at = std::find_if(
+    this->Layers.begin(), this->Layers.end(), [&](const PictureLayer& layer) { return layer.label == label; });
+  return at == this->Layers.end() ? nullptr : &*at;
+}
+
+std::string DatasetPictures::file(const PictureKey& key) const
+{
+  const auto at = this->Files.find(key);
+  return at == this->Files.end() ? std::string() : (fs::path(this->Folder) / at->second).string();
+}
+
+const CameraRecord* DatasetPictures::camera(const std::string& name, int frame) const
+{
+  const auto at = std::find_if(this->Records.begin(), this->Records.end(),
+    [&](const CameraRecord& record) { return record.name == name && record.frame == frame; });
+  return at == this->Records.end() ? nullptr : &*at;
+}
+
+const ObjectRecord* DatasetPictures::object(std::uint32_t id) const
+{
+  const auto at = std::lower_bound(this->Objects.begin(), this->Objects.end(), id,
+    [](const ObjectRecord& object, std::uint32_t value) { return object.id < value; });
+  return at == this->Objects.end() || at->id != id ? nullptr : &*at;
+}
+
+std::uint32_t DatasetPictures::objectOfHash(float hash) const
+{
+  const auto at = this->Hashes.find(hash);
+  return at == this->Hashes.end() ? 0 : at->second;
+}
+
+std::string DatasetPictures::className(std::uint32_t id) const
+{
+  const auto at = std::find_if(
+    this->Objects.begin(), this->Objects.end(), [&](const ObjectRecord& object) { return object.classId == id; });
+  return at == this->Objects.end() ? std::string() : at->objectClass;
+}
+
+} // namespace dgtk

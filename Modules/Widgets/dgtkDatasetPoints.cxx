@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkDatasetPoints.h"
+
+#include "dgtkError.h"
+#include "dgtkPictureColors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr std::array<std::uint8_t, 3> uncolored = { 200, 200, 205 };
+
+std::shared_ptr<const CameraModel> modelOf(const CameraRecord& camera)
+{
+  if (camera.model == "pinhole")
+  {
+    return makePinhole(camera.width, camera.height, camera.K);
+  }
+  if (camera.model == "orthographic")
+  {
+    const double viewHeight = camera.height / camera.K(1, 1);
+    return makeOrthographic(camera.width, camera.height, viewHeight, camera.width / camera.K(0, 0) / viewHeight);
+  }
+  throw InputError("cameras.json", 0, "camera " + quoted(camera.name) + " has a model that is not known here",
+    "pinhole or orthographic", quoted(camera.model));
+}
+
+/// The parameter of the ray's point at a distance from the origin of its frame.
+double parameterAt(const CameraRay& ray, double distance)
+{
+  const double square = ray.direction.squaredNorm();
+  const double middle = ray.origin.dot(ray.direction) / square;
+  return -middle + std::sqrt(middle * middle - (ray.origin.squaredNorm() - distance * distance) / square);
+}
+
+bool isDepth(const std::string& layer) { return layer == "depth" || layer == "depth_noisy"; }
+} // namespace
+
+View viewOf(const CameraRecord& record)
+{
+  View view;
+  view.name = record.name;
+  view.model = modelOf(record);
+  view.camera_from_world = { record.R, record.t };
+  view.near = record.near;
+  view.far = record.far;
+  return view;
+}
+
+bool givesPoints(const LayerSpec& spec)
+{
+  return isDepth(spec.name) || spec.name == "distance" || spec.name == "inversedepth" || spec.name == "position";
+}
+
+std::optional<Eigen::Vector3d> pointOf(const LayerSpec& spec, const View& view, int x, int y, const double* values)
+{
+  if (spec.name == "position")
+  {
+    const Eigen::Vector3d point(values[0], values[1], values[2]);
+    return point.allFinite() ? std::optional<Eigen::Vector3d>(point) : std::nullopt;
+  }
+  const double value = spec.name == "inversedepth" ? 1 / values[0] : values[0];
+  if (!givesPoints(spec) || !std::isfinite(value))
+  {
+    return std::nullopt;
+  }
+  const CameraRay ray = view.model->rayThrough(Eigen::Vector2d(x + 0.5, y + 0.5));
+  const double along = spec.name == "distance" ? parameterAt(ray, value) : (value - ray.origin.z()) / ray.direction.z();
+  return view.camera_from_world.inverse() * (ray.origin + along * ray.direction);
+}
+
+WorldBox PointCloud::box() const
+{
+  WorldBox box;
+  for (const Eigen::Vector3d& point : this->points)
+  {
+    box.add(point);
+  }
+  return box;
+}
+
+std::string pointLayer(const DatasetPictures& dataset, const std::string& camera, int frame)
+{
+  for (const char* const name : { "depth", "position", "distance", "inversedepth", "depth_noisy" })
+  {
+    for (const PictureLayer& layer : dataset.layers())
+    {
+      // a .png of depth is a picture for people
+      if (layer.spec.name == name && layer.format != "png" && !dataset.file({ camera, frame, layer.label }).empty())
+      {
+        return layer.label;
+      }
+    }
+  }
+  return {};
+}
+
+void addPoints(PointCloud& cloud, const DatasetPictures& dataset, const std::string& camera, int frame,
+  const std::string& colorLayer, std::size_t most, const std::function<bool()>& goOn)
+{
+  const std::string label = pointLayer(dataset, camera, frame);
+  const CameraRecord* const record = dataset.camera(camera, frame);
+  if (label.empty())
+  {
+    return;
+  }
+  if (record == nullptr)
+  {
+    throw InputError(
+      dataset.folder() + "/cameras.json", 0, "has no camera " + quoted(camera) + " at frame " + std::to_string(frame));
+  }
+  const View view = viewOf(*record);
+  const std::string path = dataset.file({ camera, frame, label });
+  const PictureLayer& layer = *dataset.layer(label);
+  const auto [width, height] = pictureSize(path, layer);
+  PictureRead read;
+  read.goOn = goOn;
+  read.step = std::max(1, static_cast<int>(std::ceil(std::sqrt(double(width) * height / double(most)))));
+  const PictureValues values = readPicture(path, layer, read);
+  const std::string colorPath = dataset.file({ camera, frame, colorLayer });
+  PictureColors colors;
+  if (!colorPath.empty())
+  {
+    const PictureValues picture = readPicture(colorPath, *dataset.layer(colorLayer), read);
+    const bool same = picture.columns() == values.columns() && picture.rows() == values.rows();
+    colors = same ? colorPicture(dataset, picture) : PictureColors();
+  }
+  std::vector<double> channels(std::size_t(std::max(1, values.values.channels())));
+  for (int row = 0; row < values.rows(); ++row)
+  {
+    for (int column = 0; column < values.columns(); ++column)
+    {
+      values.get(column, row, channels.data());
+      if (const auto point = pointOf(layer.spec, view, values.x(column), values.y(row), channels.data()))
+      {
+        cloud.points.push_back(*point);
+        const std::size_t i = std::size_t(row) * std::size_t(values.columns()) + std::size_t(column);
+        const std::uint32_t color = colors.pixels.empty() ? 0 : colors.pixels[i];
+        cloud.colors.push_back(colors.pixels.empty() ? uncolored
+                                                     : std::array<std::uint8_t, 3>{ std::uint8_t(color >> 16),
+                                                         std::uint8_t(color >> 8), std::uint8_t(color) });
+      }
+    }
+  }
+}
+
+} // namespace dgtk

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCloudView.h"
+#include "dgtkDatasetViewer.h"
+#include "dgtkEditorIcons.h"
+#include "dgtkPicturePane.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QClipboard>
+#include <QFileDialog>
+#include <QLabel>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QSlider>
+#include <QTableWidget>
+#include <QToolBar>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr double zoomStep = 1.25;
+} // namespace
+
+QAction* DatasetViewer::addAction(QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys)
+{
+  QAction* const action = menu->addAction(text);
+  action->setObjectName(name);
+  action->setParent(this);
+  action->setShortcut(keys);
+  const QIcon icon = editorIcon(name);
+  if (!icon.isNull())
+  {
+    action->setIcon(icon);
+    this->Tools->addAction(action);
+  }
+  return action;
+}
+
+void DatasetViewer::makeFileMenu()
+{
+  QMenu* const menu = this->menuBar()->addMenu(tr("&File"));
+  connect(this->addAction(menu, "open", tr("&Open dataset ..."), QKeySequence::Open), &QAction::triggered, this,
+    &DatasetViewer::askOpen);
+  connect(this->addAction(menu, "save", tr("&Save the picture ..."), QKeySequence::Save), &QAction::triggered, this,
+    &DatasetViewer::savePicture);
+  connect(this->addAction(menu, "copyValues", tr("&Copy the numbers"), QKeySequence("Ctrl+Shift+C")),
+    &QAction::triggered, this, &DatasetViewer::copyValues);
+  menu->addSeparator();
+  connect(this->addAction(menu, "close", tr("&Close"), QKeySequence("Ctrl+W")), &QAction::triggered, this,
+    &DatasetViewer::close);
+  this->Tools->addSeparator();
+}
+
+void DatasetViewer::makeViewMenu()
+{
+  QMenu* const menu = this->menuBar()->addMenu(tr("&View"));
+  const auto add = [&](const char* name, const QString& text, const char* keys, const std::function<void()>& act)
+  { connect(this->addAction(menu, name, text, QKeySequence(keys)), &QAction::triggered, this, act); };
+  add("fit", tr("&Fit"), "F", [this] { this->fit(); });
+  add("actualSize", tr("&One to one"), "1", [this] { this->actualSize(); });
+  add("zoomIn", tr("Zoom &in"), "+", [this] { this->zoom(zoomStep); });
+  add("zoomOut", tr("Zoom o&ut"), "-", [this] { this->zoom(1 / zoomStep); });
+  menu->addSeparator();
+  for (const int count : { 1, 2, 4 })
+  {
+    add(qPrintable(QString("panes%1").arg(count)), tr("%n picture(s)", "", count),
+      qPrintable(QString("Ctrl+%1").arg(count)),
+      [this, count]
+      {
+        this->setPaneCount(count);
+        this->askAll();
+      });
+  }
+  add("layersOfCamera", tr("All &layers of one camera"), "L", [this] { this->layersOfOneCamera(); });
+  add("camerasOfLayer", tr("One layer of all &cameras"), "C", [this] { this->oneLayerOfCameras(); });
+  add("maximize", tr("&Maximise or restore the picture"), "F11", [this] { this->maximize(this->Active); });
+  this->Tools->addSeparator();
+}
+
+void DatasetViewer::makeFramesMenu()
+{
+  QMenu* const menu = this->menuBar()->addMenu(tr("F&rames"));
+  this->Play = this->addAction(menu, "play", tr("&Play"), QKeySequence("P"));
+  this->Play->setCheckable(true);
+  connect(this->Play, &QAction::toggled, this, &DatasetViewer::play);
+  const auto add = [&](const char* name, const QString& text, const char* keys, const std::function<void()>& act)
+  { connect(this->addAction(menu, name, text, QKeySequence(keys)), &QAction::triggered, this, act); };
+  add("nextFrame", tr("&Next"), ".", [this] { this->stepFrame(1); });
+  add("previousFrame", tr("&Previous"), ",", [this] { this->stepFrame(-1); });
+  add("firstFrame", tr("&First"), "Home", [this] { this->Frames->setValue(0); });
+  add("lastFrame", tr("&Last"), "End", [this] { this->Frames->setValue(this->Frames->maximum()); });
+}
+
+void DatasetViewer::makeCloudMenu()
+{
+  QMenu* const menu = this->menuBar()->addMenu(tr("&3D view"));
+  this->ShowCloud = this->addAction(menu, "cloud", tr("&Show the 3D view"), QKeySequence("V"));
+  this->ShowCloud->setCheckable(true);
+  this->ShowCloud->setChecked(true);
+  connect(this->ShowCloud, &QAction::toggled, this,
+    [this](bool on)
+    {
+      this->CloudSide->setVisible(on);
+      this->askCloud();
+    });
+  this->AllCameras = this->addAction(menu, "allCameras", tr("Points of &all cameras"), QKeySequence("A"));
+  this->AllCameras->setCheckable(true);
+  connect(this->AllCameras, &QAction::toggled, this, [this] { this->askCloud(); });
+  this->ColorByPane =
+    this->addAction(menu, "colorByPane", tr("Colours of the &chosen picture"), QKeySequence("Shift+C"));
+  this->ColorByPane->setCheckable(true);
+  connect(this->ColorByPane, &QAction::toggled, this, [this] { this->askCloud(); });
+  menu->addSeparator();
+  connect(this->addAction(menu, "frameCloud", tr("Show &everything"), QKeySequence("R")), &QAction::triggered, this,
+    [this] { this->Cloud->frameAll(); });
+  connect(this->addAction(menu, "lookThrough", tr("&Look from the camera"), QKeySequence("T")), &QAction::triggered,
+    this, [this] { this->Cloud->lookThrough(this->activePane()->camera().toStdString()); });
+}
+
+void DatasetViewer::layersOfOneCamera()
+{
+  const PicturePane* const pane = this->activePane();
+  if (!this->Dataset || pane == nullptr)
+  {
+    return;
+  }
+  const QString camera = pane->camera();
+  const std::vector<std::string> labels = this->Dataset->layersOf(camera.toStdString());
+  this->setPaneCount(static_cast<int>(labels.size()));
+  for (std::size_t i = 0; i < labels.size(); ++i)
+  {
+    this->Panes[i]->choose(camera, QString::fromStdString(labels[i]));
+  }
+  this->Sync->fitting = true;
+  this->askAll();
+}
+
+void DatasetViewer::oneLayerOfCameras()
+{
+  const PicturePane* const pane = this->activePane();
+  if (!this->Dataset || pane == nullptr)
+  {
+    return;
+  }
+  const QString layer = pane->layer();
+  const std::vector<std::string>& cameras = this->Dataset->cameras();
+  this->setPaneCount(static_cast<int>(cameras.size()));
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+  {
+    this->Panes[i]->choose(QString::fromStdString(cameras[i]), layer);
+  }
+  this->Sync->fitting = true;
+  this->askAll();
+}
+
+void DatasetViewer::askOpen()
+{
+  const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a dataset"));
+  if (!folder.isEmpty())
+  {
+    this->openFolder(folder);
+  }
+}
+
+void DatasetViewer::savePicture()
+{
+  const PicturePane* const pane = this->activePane();
+  const ShownPointer shown = pane ? pane->view().shown() : nullptr;
+  if (!shown || !shown->picture)
+  {
+    return;
+  }
+  const QString path = QFileDialog::getSaveFileName(this, tr("Save the picture"), {}, tr("PNG (*.png)"));
+  const QImage image(reinterpret_cast<const uchar*>(shown->colors.pixels.data()), shown->picture->columns(),
+    shown->picture->rows(), shown->picture->columns() * 4, QImage::Format_RGB32);
+  if (!path.isEmpty() && !image.save(path, "PNG"))
+  {
+    QMessageBox::warning(this, tr("DGTk"), tr("%1 cannot be written.").arg(path));
+  }
+}
+
+void DatasetViewer::copyValues()
+{
+  QStringList lines{ this->PixelText->text() };
+  for (int row = 0; row < this->ReadOut->rowCount(); ++row)
+  {
+    QStringList cells;
+    for (int column = 0; column < this->ReadOut->columnCount(); ++column)
+    {
+      cells << this->ReadOut->item(row, column)->text();
+    }
+    lines << cells.join('\t');
+  }
+  QApplication::clipboard()->setText(lines.join('\n'));
+}
+
+} // namespace dgtk

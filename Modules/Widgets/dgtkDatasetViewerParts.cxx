@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCloudView.h"
+#include "dgtkDatasetViewer.h"
+#include "dgtkPicturePane.h"
+
+#include <QAction>
+#include <QDragEnterEvent>
+#include <QDropEvent>
+#include <QFileDialog>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QMenuBar>
+#include <QMimeData>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QSlider>
+#include <QSpinBox>
+#include <QSplitter>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QTableWidget>
+#include <QToolBar>
+#include <QToolButton>
+#include <QUrl>
+#include <QVBoxLayout>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr int readOutHeight = 132;
+constexpr int cloudDelay = 150; // milliseconds after the last change
+constexpr int usualRate = 10;   // frames a second
+} // namespace
+
+DatasetViewer::DatasetViewer(QWidget* parent)
+  : QMainWindow(parent)
+  , Loader(new PictureLoader(this))
+  , Sync(new PictureSync(this))
+{
+  this->setObjectName("datasetViewer");
+  this->setAcceptDrops(true);
+  this->setWindowTitle(tr("Dataset - DGTk"));
+  this->Tools = this->addToolBar(tr("Tools"));
+  this->Tools->setIconSize({ 20, 20 });
+  this->Tools->setMovable(false);
+  this->Grid = new QWidget;
+  auto* grid = new QGridLayout(this->Grid);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setSpacing(4);
+  this->Scroll = new QScrollArea;
+  this->Scroll->setWidget(this->Grid);
+  this->Scroll->setWidgetResizable(true);
+  this->Scroll->setFrameShape(QFrame::NoFrame);
+  this->Split = new QSplitter(Qt::Horizontal);
+  this->Split->addWidget(this->Scroll);
+  this->Split->addWidget(this->makeCloudSide());
+  this->Split->setStretchFactor(0, 3);
+  this->Split->setStretchFactor(1, 1);
+  this->Split->setSizes({ 900, 380 });
+  auto* page = new QWidget;
+  auto* layout = new QVBoxLayout(page);
+  layout->setContentsMargins(4, 4, 4, 0);
+  layout->addWidget(this->Split, 1);
+  this->makeFileMenu();
+  this->makeViewMenu();
+  this->makeFramesMenu();
+  this->makeCloudMenu();
+  layout->addWidget(this->makeFrameRow());
+  layout->addWidget(this->makeReadOut());
+  this->Pages = new QStackedWidget(this);
+  this->Pages->addWidget(this->makeEmptyPage());
+  this->Pages->addWidget(page);
+  this->setCentralWidget(this->Pages);
+  this->connectParts();
+  this->resize(1280, 900);
+  this->statusBar()->show();
+}
+
+DatasetViewer::~DatasetViewer() = default;
+
+void DatasetViewer::connectParts()
+{
+  connect(this->Loader, &PictureLoader::opened, this, &DatasetViewer::showDataset);
+  connect(this->Loader, &PictureLoader::refused, this, &DatasetViewer::showRefusal);
+  connect(this->Loader, &PictureLoader::ready, this, &DatasetViewer::receive);
+  connect(this->Loader, &PictureLoader::cloudReady, this,
+    [this](const std::shared_ptr<const PointCloud>& cloud, const QString& error)
+    {
+      this->Cloud->setCloud(cloud);
+      this->CloudText->setText(!error.isEmpty()        ? error
+                               : cloud->points.empty() ? tr("Points need a layer depth, distance or position.")
+                                                       : tr("%L1 points").arg(cloud->points.size()));
+      if (!this->CloudFramed)
+      {
+        this->CloudFramed = true;
+        this->Cloud->frameAll();
+      }
+    });
+  connect(this->Sync, &PictureSync::cursorChanged, this, &DatasetViewer::refreshReadOut);
+  connect(this->Frames, &QSlider::valueChanged, this, &DatasetViewer::askAll);
+  connect(&this->Player, &QTimer::timeout, this, &DatasetViewer::playNext);
+  connect(this->Cloud, &CloudView::cameraPicked, this,
+    [this](const QString& name)
+    {
+      PicturePane* const pane = this->activePane();
+      pane->choose(name, pane->layer());
+      this->askPane(*pane);
+      this->askPoints();
+    });
+  this->CloudTimer.setSingleShot(true);
+  this->CloudTimer.setInterval(cloudDelay);
+  connect(&this->CloudTimer, &QTimer::timeout, this, &DatasetViewer::askCloud);
+}
+
+void DatasetViewer::askCloud()
+{
+  const PicturePane* const pane = this->activePane();
+  if (!this->Dataset || pane == nullptr || !this->ShowCloud->isChecked())
+  {
+    return;
+  }
+  CloudAsk ask;
+  ask.cameras =
+    this->AllCameras->isChecked() ? this->Dataset->cameras() : std::vector<std::string>{ pane->camera().toStdString() };
+  ask.frame = this->frame();
+  ask.colorLayer = this->ColorByPane->isChecked() ? pane->layer().toStdString() : "color";
+  this->Loader->askCloud(ask);
+}
+
+QWidget* DatasetViewer::makeCloudSide()
+{
+  this->CloudSide = new QWidget;
+  auto* layout = new QVBoxLayout(this->CloudSide);
+  layout->setContentsMargins(2, 2, 2, 2);
+  layout->setSpacing(2);
+  this->Cloud = new CloudView(this->CloudSide);
+  this->CloudText = new QLabel(this->CloudSide);
+  this->CloudText->setObjectName("cloudText");
+  this->CloudText->setWordWrap(true);
+  layout->addWidget(this->Cloud, 1);
+  layout->addWidget(this->CloudText);
+  return this->CloudSide;
+}
+
+QWidget* DatasetViewer::makeFrameRow()
+{
+  auto* row = new QWidget;
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  auto* play = new QToolButton(row);
+  play->setDefaultAction(this->Play);
+  this->Loop = new QToolButton(row);
+  this->Loop->setObjectName("loop");
+  this->Loop->setText(tr("Loop"));
+  this->Loop->setCheckable(true);
+  this->Frames = new QSlider(Qt::Horizontal, row);
+  this->Frames->setObjectName("frames");
+  this->Frames->setAccessibleName(tr("Frame"));
+  this->Frames->setPageStep(10);
+  this->FrameText = new QLabel(row);
+  this->FrameText->setObjectName("frameText");
+  this->Rate = new QSpinBox(row);
+  this->Rate->setObjectName("rate");
+  this->Rate->setRange(1, 60);
+  this->Rate->setValue(usualRate);
+  this->Rate->setSuffix(tr(" fps"));
+  this->Rate->setToolTip(tr("Frames a second"));
+  connect(this->Rate, QOverload<int>::of(&QSpinBox::valueChanged), this,
+    [this](int rate) { this->Player.setInterval(1000 / rate); });
+  layout->addWidget(play);
+  layout->addWidget(this->Loop);
+  layout->addWidget(this->Frames, 1);
+  layout->addWidget(this->FrameText);
+  layout->addWidget(this->Rate);
+  return row;
+}
+
+QWidget* DatasetViewer::makeReadOut()
+{
+  auto* box = new QWidget;
+  auto* layout = new QVBoxLayout(box);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(2);
+  this->PixelText = new QLabel(box);
+  this->PixelText->setObjectName("pixel");
+  this->ReadOut = new QTableWidget(0, 4, box);
+  this->ReadOut->setObjectName("readOut");
+  this->ReadOut->setHorizontalHeaderLabels({ tr("Camera"), tr("Layer"), tr("Value"), tr("World point") });
+  this->ReadOut->verticalHeader()->hide();
+  this->ReadOut->verticalHeader()->setDefaultSectionSize(this->fontMetrics().height() + 6);
+  this->ReadOut->horizontalHeader()->setSectionResizeMode(2, QHeaderView::Stretch);
+  this->ReadOut->setColumnWidth(3, 230);
+  this->ReadOut->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  this->ReadOut->setFixedHeight(readOutHeight);
+  layout->addWidget(this->PixelText);
+  layout->addWidget(this->ReadOut);
+  return box;
+}
+
+QWidget* DatasetViewer::makeEmptyPage()
+{
+  auto* page = new QWidget;
+  auto* layout = new QVBoxLayout(page);
+  this->EmptyText =
+    new QLabel(tr("No dataset is open. Open the folder that <i>dgtk render</i> wrote, or drop it here."));
+  this->EmptyText->setObjectName("emptyText");
+  this->EmptyText->setAlignment(Qt::AlignCenter);
+  this->EmptyText->setWordWrap(true);
+  auto* open = new QPushButton(tr("Open dataset ..."));
+  open->setObjectName("openFirst");
+  connect(open, &QPushButton::clicked, this, &DatasetViewer::askOpen);
+  layout->addStretch();
+  layout->addWidget(this->EmptyText);
+  layout->addWidget(open, 0, Qt::AlignCenter);
+  layout->addStretch();
+  return page;
+}
+
+void DatasetViewer::dragEnterEvent(QDragEnterEvent* event)
+{
+  if (event->mimeData()->hasUrls())
+  {
+    event->acceptProposedAction();
+  }
+}
+
+void DatasetViewer::dropEvent(QDropEvent* event)
+{
+  const QList<QUrl> urls = event->mimeData()->urls();
+  if (!urls.isEmpty() && urls.front().isLocalFile())
+  {
+    event->acceptProposedAction();
+    this->openFolder(urls.front().toLocalFile());
+  }
+}
+
+} // namespace dgtk

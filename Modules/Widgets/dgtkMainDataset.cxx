@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkDatasetViewer.h"
+#include "dgtkMainWindow.h"
+
+#include <QFileDialog>
+
+namespace dgtk
+{
+
+void MainWindow::openDataset(const QString& folder)
+{
+  auto* viewer = new DatasetViewer; // beside this window, not above it
+  viewer->setAttribute(Qt::WA_DeleteOnClose);
+  connect(this, &QObject::destroyed, viewer, [viewer] { delete viewer; });
+  viewer->show();
+  viewer->openFolder(folder);
+}
+
+void MainWindow::askDataset()
+{
+  const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a dataset"));
+  if (!folder.isEmpty())
+  {
+    this->openDataset(folder);
+  }
+}
+
+} // namespace dgtk

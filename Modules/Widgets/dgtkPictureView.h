@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkPictureView_h
+#define dgtkPictureView_h
+
+// Private to Widgets.
+
+#include "dgtkPictureLoader.h"
+#include "dgtkPictureZoom.h"
+
+#include <QImage>
+#include <QPoint>
+#include <QWidget>
+
+#include <optional>
+
+namespace dgtk
+{
+
+/// What all panes have in common: the part of the picture that they show, and the pixel under the crosshair.
+class PictureSync : public QObject
+{
+  Q_OBJECT
+
+public:
+  using QObject::QObject;
+  PictureZoom zoom;
+  const std::optional<QPoint>& cursor() const { return this->Cursor; }
+  void setCursor(const std::optional<QPoint>& pixel);
+  void changeZoom() { emit this->zoomChanged(); }
+  /// Fits again when panes change their size, until the user zooms or pans.
+  bool fitting = true;
+
+signals:
+  void zoomChanged();
+  void cursorChanged();
+
+private:
+  std::optional<QPoint> Cursor;
+};
+
+/// One picture, enlarged or reduced. Wheel: zoom at the mouse; drag: pan; arrow keys: crosshair, with Shift by ten;
+/// Ctrl and arrow keys: pan.
+class PictureView : public QWidget
+{
+  Q_OBJECT
+
+public:
+  PictureView(PictureSync& sync, QWidget* parent);
+
+  /// Null: nothing yet. The picture before stays where only its colours change.
+  void showPicture(const ShownPointer& shown);
+  /// A part in more detail, over the picture.
+  void showDetail(const ShownPointer& shown);
+  const ShownPointer& shown() const { return this->Shown; }
+  const ShownPointer& detail() const { return this->Detail; }
+  /// What is told in place of a picture.
+  void setMessage(const QString& message);
+  /// Width and height of the whole image; (0, 0) while there is none.
+  Eigen::Vector2d imageSize() const;
+  /// The picture that has the numbers of a pixel exactly, or the one that is nearest.
+  const PictureValues* pictureAt(const QPoint& pixel) const;
+
+signals:
+  void detailWanted(const dgtk::PixelRect& window, int step);
+  void activated();
+  void maximizeAsked();
+  void resized();
+
+protected:
+  void paintEvent(QPaintEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+
+private:
+  Eigen::Vector2d area() const { return { double(this->width()), double(this->height()) }; }
+  void point(const QPoint& at);
+  void moveCursor(int dx, int dy);
+  void zoomAtCursor(double factor);
+  void askForDetail();
+  void drawPicture(QPainter& painter, const ShownPicture& shown) const;
+  void drawGrid(QPainter& painter) const;
+  void drawCursor(QPainter& painter) const;
+
+  PictureSync& Sync;
+  ShownPointer Shown;
+  ShownPointer Detail;
+  QString Message;
+  QPoint Pressed;
+  QPoint Last;
+  bool Pressing = false;
+  bool Panning = false;
+};
+
+} // namespace dgtk
+
+#endif

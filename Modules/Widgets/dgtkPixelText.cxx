@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPixelText.h"
+
+#include "dgtkDatasetPoints.h"
+#include "dgtkError.h"
+#include "dgtkPictureColors.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr int pointDigits = 6;
+constexpr int lengthDigits = 5;
+
+std::string rounded(double value, int digits)
+{
+  char text[64];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
+  return { text, end };
+}
+
+bool isFloat(PixelType type) { return type == PixelType::Float32 || type == PixelType::Float64; }
+
+std::string listText(const std::vector<double>& values, PixelType type)
+{
+  std::string text;
+  for (const double value : values)
+  {
+    text += (text.empty() ? "" : ", ") + numberText(value, type);
+  }
+  return values.size() == 1 ? text : "(" + text + ")";
+}
+
+std::string unitText(const LayerSpec& spec) { return spec.unit.empty() || spec.unit == "1" ? "" : " " + spec.unit; }
+
+std::string objectText(const DatasetPictures& dataset, std::uint32_t id)
+{
+  const ObjectRecord* const object = dataset.object(id);
+  const std::string number = std::to_string(id);
+  if (object == nullptr)
+  {
+    return id == 0 ? "0 background" : number;
+  }
+  return number + " " + object->name + (object->objectClass.empty() ? "" : " (" + object->objectClass + ")");
+}
+
+std::string ldiText(const PictureValues& picture, std::size_t pixel)
+{
+  const LdiPixels& ldi = *picture.ldi;
+  const std::uint64_t count = ldi.first[pixel + 1] - ldi.first[pixel];
+  std::string text = std::to_string(count) + (count == 1 ? " surface" : " surfaces");
+  for (std::uint64_t i = ldi.first[pixel]; i < ldi.first[pixel + 1]; ++i)
+  {
+    const LdiRecord& record = ldi.records[i];
+    text += (i == ldi.first[pixel] ? ": " : "; ") + numberText(record.depth, PixelType::Float64) + " rgba(" +
+            std::to_string(record.rgba[0]) + ", " + std::to_string(record.rgba[1]) + ", " +
+            std::to_string(record.rgba[2]) + ", " + std::to_string(record.rgba[3]) + ")";
+  }
+  return text;
+}
+
+std::string idText(const DatasetPictures& dataset, const PictureValues& picture, const std::vector<double>& values)
+{
+  const LayerSpec& spec = picture.layer.spec;
+  const bool three = values.size() >= 3;
+  const auto id = static_cast<std::uint32_t>(three ? values[0] * 65536 + values[1] * 256 + values[2] : values[0]);
+  if (!spec.invalid.empty() && spec.invalid != "0" && std::to_string(id) == spec.invalid)
+  {
+    return "nothing";
+  }
+  if (spec.name == "objects")
+  {
+    return objectText(dataset, id);
+  }
+  if (spec.name == "alpha" && values.size() == 4)
+  {
+    return objectText(dataset, id) + ", coverage " + numberText(values[3], PixelType::UInt8) + " / 255";
+  }
+  if (spec.name == "classes")
+  {
+    const std::string name = dataset.className(id);
+    return std::to_string(id) + (id == 0 ? " background" : name.empty() ? "" : " " + name);
+  }
+  return std::to_string(id) + " " + visibilityClass(id);
+}
+
+std::string coverageText(const DatasetPictures& dataset, const PictureValues& picture, const double* channels)
+{
+  std::string text;
+  for (const CoveredObject& object : coveredObjects(dataset, picture, channels))
+  {
+    text += (text.empty() ? "" : ", ") + objectText(dataset, object.id) + ": " +
+            numberText(object.coverage, PixelType::Float32);
+  }
+  return text;
+}
+
+bool endsWith(const std::string& text, const std::string& end)
+{
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+} // namespace
+
+std::string numberText(double value, PixelType type)
+{
+  if (!std::isfinite(value))
+  {
+    return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+  }
+  char text[64];
+  char* const end = text + sizeof text;
+  const auto done = type == PixelType::Float32 ? std::to_chars(text, end, static_cast<float>(value))
+                    : isFloat(type)            ? std::to_chars(text, end, value)
+                                               : std::to_chars(text, end, static_cast<std::int64_t>(value));
+  return { text, done.ptr };
+}
+
+std::string valueText(const DatasetPictures& dataset, const PictureValues& picture, int x, int y)
+{
+  if (!picture.inside(x, y))
+  {
+    return {};
+  }
+  const int column = picture.column(x);
+  const int row = picture.row(y);
+  if (picture.ldi)
+  {
+    return ldiText(picture, std::size_t(row) * std::size_t(picture.columns()) + std::size_t(column));
+  }
+  std::vector<double> values(std::size_t(picture.values.channels()));
+  picture.get(column, row, values.data());
+  const LayerSpec& spec = picture.layer.spec;
+  if (spec.name == "objects" || spec.name == "alpha" || spec.name == "classes" || endsWith(spec.name, "_class"))
+  {
+    return idText(dataset, picture, values);
+  }
+  if (spec.name == "parts" || spec.name == "triangles")
+  {
+    const std::string text = numberText(values[0], PixelType::UInt32);
+    return text == spec.invalid ? "nothing" : text;
+  }
+  if (spec.name == "coverage" && values.size() % 4 == 0)
+  {
+    return coverageText(dataset, picture, values.data());
+  }
+  std::string text = listText(values, picture.info.type);
+  if (spec.name == "color" || spec.name == "tiles" || spec.name == "edges" || spec.unit == "sRGB" ||
+      !std::isfinite(values[0]))
+  {
+    return text;
+  }
+  text += unitText(spec);
+  if (spec.name.rfind("flow_", 0) == 0 && values.size() == 2)
+  {
+    text += ", " + rounded(std::hypot(values[0], values[1]), lengthDigits) + " long";
+  }
+  return text;
+}
+
+std::optional<Eigen::Vector3d> worldPoint(
+  const DatasetPictures& dataset, const PictureKey& key, const PictureValues& picture, int x, int y)
+{
+  LayerSpec spec = picture.layer.spec;
+  spec.name = picture.layer.label == "ldi depth" ? "depth" : spec.name;
+  const CameraRecord* const record = dataset.camera(key.camera, key.frame);
+  if (record == nullptr || !givesPoints(spec) || picture.info.format == "png" || !picture.inside(x, y))
+  {
+    return std::nullopt;
+  }
+  std::vector<double> values(std::size_t(picture.values.channels()));
+  picture.get(picture.column(x), picture.row(y), values.data());
+  try
+  {
+    return pointOf(spec, viewOf(*record), x, y, values.data());
+  }
+  catch (const Error&)
+  {
+    return std::nullopt;
+  }
+}
+
+std::string pointText(const Eigen::Vector3d& point)
+{
+  return "(" + rounded(point.x(), pointDigits) + ", " + rounded(point.y(), pointDigits) + ", " +
+         rounded(point.z(), pointDigits) + ")";
+}
+
+} // namespace dgtk

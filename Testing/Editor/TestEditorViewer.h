@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef TestEditorViewer_h
+#define TestEditorViewer_h
+
+#include "EditorTest.h"
+
+#include <QPoint>
+
+class QMainWindow;
+class QWidget;
+
+/// The window of finished datasets.
+class TestEditorViewer : public EditorTest
+{
+  Q_OBJECT
+
+private slots:
+  void opensByFolderManifestAndDrop();
+  void framesStepAndPlay();
+  void numbersAreThoseOfTheFiles();
+  void zoomIsCommon();
+  void presetsAndLayouts();
+  void rangesAreChosen();
+  void keysReachEverything();
+  void camerasAndPointsInTheWorld();
+  void layeredImagesHaveSurfaces();
+  void brokenDatasetsAreRefused();
+  void theRenderDialogOpensItsResult();
+  void pictures();
+
+private:
+  /// A small dataset of the demo scene, rendered once.
+  QString dataset();
+  /// Opens it in a window of its own and waits for its pictures.
+  QMainWindow* open(const QString& folder);
+  void waitForPictures(QMainWindow* viewer) const;
+  QString cell(QMainWindow* viewer, int row, int column) const;
+  /// The widget of a pane's picture.
+  QWidget* picture(QMainWindow* viewer, int pane) const;
+  void choose(QMainWindow* viewer, int pane, const QString& camera, const QString& layer) const;
+  /// Brings the crosshair to a pixel by keys.
+  void pointAt(QMainWindow* viewer, int x, int y) const;
+
+  QString Rendered;
+};
+
+#endif
