@@ -39,43 +39,15 @@ constexpr double frustumShare = 0.07; // of the diagonal of everything
 constexpr double markerShare = 0.015;
 constexpr double axisShare = 0.05;
 constexpr double smallestExtent = 1e-3;
+constexpr double fromAbove = 0.5; // part of the way forward
+constexpr double fromAside = -0.45;
+constexpr double outlying = 0.03; // part of the points that may be out of sight on either side
+constexpr std::size_t mostSorted = 20000;
 constexpr float pointSize = 2;
 const Eigen::Vector3d cameraColor(0.85, 0.65, 0.25);
 const Eigen::Vector3d chosenColor(0.2, 1.0, 0.2);
 const Eigen::Vector3d markerColor(1.0, 0.2, 0.9);
 } // namespace
-
-/// Line segments of one colour.
-struct CloudView::Lines
-{
-  Lines(vtkRenderer* renderer, const Eigen::Vector3d& color, float width)
-  {
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(this->Data);
-    this->Actor->SetMapper(mapper);
-    this->Actor->GetProperty()->SetLighting(false);
-    this->Actor->GetProperty()->SetColor(color.x(), color.y(), color.z());
-    this->Actor->GetProperty()->SetLineWidth(width);
-    renderer->AddActor(this->Actor);
-    this->set({});
-  }
-  void set(const LineList& lines)
-  {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    vtkNew<vtkCellArray> cells;
-    for (const auto& [from, to] : lines)
-    {
-      const vtkIdType ends[2] = { points->InsertNextPoint(from.data()), points->InsertNextPoint(to.data()) };
-      cells->InsertNextCell(2, ends);
-    }
-    this->Data->SetPoints(points);
-    this->Data->SetLines(cells);
-    this->Actor->SetVisibility(!lines.empty());
-  }
-  vtkNew<vtkPolyData> Data;
-  vtkNew<vtkActor> Actor;
-};
 
 CloudView::CloudView(QWidget* parent)
   : QVTKOpenGLNativeWidget(parent)
@@ -100,13 +72,13 @@ CloudView::CloudView(QWidget* parent)
   this->PointActor->GetProperty()->SetPointSize(pointSize);
   this->PointActor->VisibilityOff();
   this->Renderer->AddActor(this->PointActor);
-  this->Frusta = std::make_unique<Lines>(this->Renderer, cameraColor, 1.5f);
-  this->Chosen = std::make_unique<Lines>(this->Renderer, chosenColor, 2.5f);
-  this->Marker = std::make_unique<Lines>(this->Renderer, markerColor, 2.0f);
+  this->Frusta = std::make_unique<LineActor>(this->Renderer, cameraColor, 1.5f);
+  this->Chosen = std::make_unique<LineActor>(this->Renderer, chosenColor, 2.5f);
+  this->Marker = std::make_unique<LineActor>(this->Renderer, markerColor, 2.0f);
   for (int axis = 0; axis < 3; ++axis)
   {
     const Eigen::Vector3d color = 0.25 * Eigen::Vector3d::Ones() + 0.65 * Eigen::Vector3d::Unit(axis);
-    this->Axes[axis] = std::make_unique<Lines>(this->Renderer, color, 2.0f);
+    this->Axes[axis] = std::make_unique<LineActor>(this->Renderer, color, 2.0f);
   }
   this->setFocusPolicy(Qt::StrongFocus);
   this->setMinimumSize(160, 120);
@@ -203,10 +175,31 @@ void CloudView::refreshLines()
   this->drawSoon();
 }
 
+/// Of most of the points: a few of them far away do not make the rest small.
+WorldBox CloudView::middleOf(const std::vector<Eigen::Vector3d>& points)
+{
+  WorldBox box;
+  const std::size_t every = std::max<std::size_t>(1, points.size() / mostSorted);
+  std::vector<double> values;
+  for (int axis = 0; axis < 3 && !points.empty(); ++axis)
+  {
+    values.clear();
+    for (std::size_t i = 0; i < points.size(); i += every)
+    {
+      values.push_back(points[i][axis]);
+    }
+    std::sort(values.begin(), values.end());
+    const auto cut = static_cast<std::size_t>(outlying * double(values.size()));
+    box.min[axis] = values[cut];
+    box.max[axis] = values[values.size() - 1 - cut];
+  }
+  return box;
+}
+
 void CloudView::setCloud(const std::shared_ptr<const PointCloud>& cloud)
 {
   this->Cloud = cloud;
-  this->CloudBox = {};
+  this->CloudBox = cloud ? middleOf(cloud->points) : WorldBox();
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkUnsignedCharArray> colors;
@@ -221,7 +214,6 @@ void CloudView::setCloud(const std::shared_ptr<const PointCloud>& cloud)
     const std::size_t at = static_cast<std::size_t>(i);
     points->SetPoint(i, cloud->points[at].data());
     colors->SetTypedTuple(i, cloud->colors[at].data());
-    this->CloudBox.add(cloud->points[at]);
     ids[at] = i;
   }
   if (count > 0)
@@ -242,6 +234,21 @@ void CloudView::setMarker(const std::optional<Eigen::Vector3d>& point)
     this->MarkerPoint = point;
     this->refreshLines();
   }
+}
+
+void CloudView::frameFrom(const std::string& name)
+{
+  for (const CameraPlace& place : this->Places)
+  {
+    if (place.view.name == name)
+    {
+      const Eigen::Matrix3d& axes = place.view.camera_from_world.rotation;
+      const Eigen::Vector3d way = (axes.row(2) + fromAbove * axes.row(1) + fromAside * axes.row(0)).transpose();
+      const Eigen::Vector3d focus = this->box().center();
+      this->Camera.look(focus - way, focus);
+    }
+  }
+  this->frameAll();
 }
 
 void CloudView::frameAll()

@@ -5,8 +5,8 @@
 // Private to Widgets.
 
 #include "dgtkDatasetPoints.h"
+#include "dgtkLineActor.h"
 #include "dgtkViewCamera.h"
-#include "dgtkViewLines.h"
 
 #include <QPoint>
 #include <QVTKOpenGLNativeWidget.h>
@@ -44,8 +44,10 @@ public:
   void setCloud(const std::shared_ptr<const PointCloud>& cloud);
   /// A cross at a point of the world.
   void setMarker(const std::optional<Eigen::Vector3d>& point);
-  /// Shows everything.
+  /// Shows everything but the outermost points.
   void frameAll();
+  /// The same from behind and above a camera.
+  void frameFrom(const std::string& name);
   /// To the place of a camera, looking its way.
   void lookThrough(const std::string& name);
   std::size_t pointCount() const { return this->Cloud ? this->Cloud->points.size() : 0; }
@@ -69,21 +71,21 @@ private:
     Pan,
     Zoom
   };
-  struct Lines;
   void drawSoon();
   void placeCamera();
   void refreshLines();
   WorldBox box() const;
+  static WorldBox middleOf(const std::vector<Eigen::Vector3d>& points);
   void pick(const QPoint& at);
 
   ViewCamera Camera;
   vtkSmartPointer<vtkRenderer> Renderer;
   vtkSmartPointer<vtkPolyData> Points;
   vtkSmartPointer<vtkActor> PointActor;
-  std::unique_ptr<Lines> Frusta;
-  std::unique_ptr<Lines> Chosen;
-  std::unique_ptr<Lines> Marker;
-  std::unique_ptr<Lines> Axes[3];
+  std::unique_ptr<LineActor> Frusta;
+  std::unique_ptr<LineActor> Chosen;
+  std::unique_ptr<LineActor> Marker;
+  std::unique_ptr<LineActor> Axes[3];
   std::vector<CameraPlace> Places;
   std::string ChosenName;
   std::shared_ptr<const PointCloud> Cloud;

@@ -209,6 +209,15 @@ void DatasetPictures::sortLayers(std::map<std::string, PictureLayer>& found)
       layer.spec = record.spec.name == layer.spec.name && better ? record.spec : layer.spec;
     }
   }
+  const std::string general = "scene units";
+  for (auto& [label, layer] : found)
+  {
+    const std::size_t at = layer.spec.unit.find(general);
+    if (at != std::string::npos && !this->TheManifest.units.empty())
+    {
+      layer.spec.unit.replace(at, general.size(), this->TheManifest.units);
+    }
+  }
   const auto placeOf = [&](const PictureLayer& layer)
   {
     const auto at = places.find(layer.spec.name);

@@ -23,7 +23,7 @@ struct PictureLayer
   /// "matting_vase alpha", "tiles 0,1", "ldi depth"; with the extension where a layer has several formats: "depth
   /// .dgd".
   std::string label;
-  LayerSpec spec;     ///< as the manifest says
+  LayerSpec spec;     ///< as the manifest says, with the scene's units by their name
   std::string format; ///< of the manifest: "npy", "ldi"
 };
 

@@ -73,16 +73,6 @@ std::optional<Eigen::Vector3d> pointOf(const LayerSpec& spec, const View& view, 
   return view.camera_from_world.inverse() * (ray.origin + along * ray.direction);
 }
 
-WorldBox PointCloud::box() const
-{
-  WorldBox box;
-  for (const Eigen::Vector3d& point : this->points)
-  {
-    box.add(point);
-  }
-  return box;
-}
-
 std::string pointLayer(const DatasetPictures& dataset, const std::string& camera, int frame)
 {
   for (const char* const name : { "depth", "position", "distance", "inversedepth", "depth_noisy" })

@@ -6,7 +6,6 @@
 
 #include "dgtkCameraModel.h"
 #include "dgtkPictureValues.h"
-#include "dgtkScenePlaces.h"
 
 #include <Eigen/Core>
 
@@ -32,11 +31,10 @@ DGTKWIDGETS_EXPORT std::optional<Eigen::Vector3d> pointOf(
   const LayerSpec& spec, const View& view, int x, int y, const double* values);
 
 /// Points in the world with their colours.
-struct DGTKWIDGETS_EXPORT PointCloud
+struct PointCloud
 {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::array<std::uint8_t, 3>> colors;
-  WorldBox box() const;
 };
 
 /// The label of the layer from which a camera's points come at a frame: depth, or the next best; "" for none.

@@ -143,14 +143,7 @@ PicturePane* DatasetViewer::makePane(int number)
   connect(pane, &PicturePane::rangeAsked, this, [this, pane](const auto& range) { this->setRange(*pane, range); });
   connect(&pane->view(), &PictureView::activated, this, [this, pane] { this->setActive(pane->number()); });
   connect(&pane->view(), &PictureView::maximizeAsked, this, [this, pane] { this->maximize(pane->number()); });
-  connect(&pane->view(), &PictureView::resized, this,
-    [this]
-    {
-      if (this->Sync->fitting)
-      {
-        this->fit();
-      }
-    });
+  connect(&pane->view(), &PictureView::resized, this, &DatasetViewer::refreshArea);
   connect(&pane->view(), &PictureView::detailWanted, this,
     [this, pane](const PixelRect& window, int step)
     {
@@ -197,6 +190,10 @@ void DatasetViewer::setActive(int pane)
 {
   const bool changed = this->Active != pane;
   this->Active = std::max(0, pane);
+  for (PicturePane* other : this->Panes)
+  {
+    other->view().setActive(other->number() == this->Active);
+  }
   if (changed)
   {
     this->refreshCloudCameras();
@@ -252,30 +249,42 @@ void DatasetViewer::refreshReadOut()
   this->Cloud->setMarker(this->Dataset && active ? this->worldUnder(active->camera().toStdString()) : std::nullopt);
 }
 
-void DatasetViewer::fit()
+void DatasetViewer::refreshArea()
 {
-  Eigen::Vector2d image(0, 0);
   Eigen::Vector2d area(1e9, 1e9);
   for (const PicturePane* pane : this->Panes)
   {
-    image = image.cwiseMax(pane->view().imageSize());
     if (pane->isVisibleTo(this))
     {
       area = area.cwiseMin(Eigen::Vector2d(pane->view().width(), pane->view().height()));
     }
   }
+  this->Sync->area = area;
+  if (this->Sync->fitting)
+  {
+    this->fit();
+  }
+  this->Sync->changeZoom();
+}
+
+void DatasetViewer::fit()
+{
+  Eigen::Vector2d image(0, 0);
+  for (const PicturePane* pane : this->Panes)
+  {
+    image = image.cwiseMax(pane->view().imageSize());
+  }
   if (image.x() > 0)
   {
     this->Sync->fitting = true;
-    this->Sync->zoom.fit(image, area);
+    this->Sync->zoom.fit(image, this->Sync->area);
     this->Sync->changeZoom();
   }
 }
 
 void DatasetViewer::zoom(double factor)
 {
-  const PicturePane* const pane = this->activePane();
-  const Eigen::Vector2d area(pane->view().width(), pane->view().height());
+  const Eigen::Vector2d& area = this->Sync->area;
   const std::optional<QPoint>& pixel = this->Sync->cursor();
   const Eigen::Vector2d at =
     pixel ? this->Sync->zoom.toWidget({ pixel->x() + 0.5, pixel->y() + 0.5 }, area) : Eigen::Vector2d(area / 2);

@@ -48,7 +48,7 @@ public:
 
   /// Reads the folder of a dataset in the background; opened() or refused() follows, the latter after a dialog.
   void openFolder(const QString& folder);
-  /// Null until one is open.
+  /// Null until one is open. The property "busy" is true while pictures or points are on their way.
   const DatasetPictures* dataset() const { return this->Dataset.get(); }
 
 signals:
@@ -62,11 +62,12 @@ protected:
 private:
   static constexpr int pointSlots = 1000;  ///< of the loader, above those of panes
   static constexpr int detailSlots = 2000; ///< likewise
-  QAction* addAction(QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys);
+  QAction* addAction(QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys, bool tool = true);
   void makeFileMenu();
   void makeViewMenu();
   void makeFramesMenu();
   void makeCloudMenu();
+  void makeHelpMenu();
   QWidget* makeFrameRow();
   QWidget* makeReadOut();
   QWidget* makeEmptyPage();
@@ -100,9 +101,11 @@ private:
   void prefetch();
   void askPoints();
   void askCloud();
+  void refreshBusy();
   void receive(int slot, const ShownPointer& shown);
   void setRange(const PicturePane& pane, const std::optional<PictureRange>& range);
 
+  void refreshArea();
   void fit();
   void actualSize();
   void zoom(double factor);
@@ -120,6 +123,7 @@ private:
   std::map<std::string, ShownPointer> PointSources; ///< by camera
   std::set<int> Pending;                            ///< panes whose picture of this frame is not there yet
   bool CloudFramed = false;
+  bool CloudPending = false;
   QTimer Player;
   QTimer CloudTimer;
 

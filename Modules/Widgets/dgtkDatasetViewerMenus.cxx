@@ -23,7 +23,8 @@ namespace
 constexpr double zoomStep = 1.25;
 } // namespace
 
-QAction* DatasetViewer::addAction(QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys)
+QAction* DatasetViewer::addAction(
+  QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys, bool tool)
 {
   QAction* const action = menu->addAction(text);
   action->setObjectName(name);
@@ -33,6 +34,9 @@ QAction* DatasetViewer::addAction(QMenu* menu, const QString& name, const QStrin
   if (!icon.isNull())
   {
     action->setIcon(icon);
+  }
+  if (tool && !icon.isNull())
+  {
     this->Tools->addAction(action);
   }
   return action;
@@ -63,10 +67,12 @@ void DatasetViewer::makeViewMenu()
   add("zoomIn", tr("Zoom &in"), "+", [this] { this->zoom(zoomStep); });
   add("zoomOut", tr("Zoom o&ut"), "-", [this] { this->zoom(1 / zoomStep); });
   menu->addSeparator();
-  for (const int count : { 1, 2, 4 })
+  const std::pair<int, QString> layouts[] = { { 1, tr("One &picture") }, { 2, tr("&Two pictures") },
+    { 4, tr("Fou&r pictures") } };
+  for (const auto& [number, words] : layouts)
   {
-    add(qPrintable(QString("panes%1").arg(count)), tr("%n picture(s)", "", count),
-      qPrintable(QString("Ctrl+%1").arg(count)),
+    const int count = number;
+    add(qPrintable(QString("panes%1").arg(count)), words, qPrintable(QString("Ctrl+%1").arg(count)),
       [this, count]
       {
         this->setPaneCount(count);
@@ -82,11 +88,11 @@ void DatasetViewer::makeViewMenu()
 void DatasetViewer::makeFramesMenu()
 {
   QMenu* const menu = this->menuBar()->addMenu(tr("F&rames"));
-  this->Play = this->addAction(menu, "play", tr("&Play"), QKeySequence("P"));
+  this->Play = this->addAction(menu, "play", tr("&Play"), QKeySequence("P"), false);
   this->Play->setCheckable(true);
   connect(this->Play, &QAction::toggled, this, &DatasetViewer::play);
   const auto add = [&](const char* name, const QString& text, const char* keys, const std::function<void()>& act)
-  { connect(this->addAction(menu, name, text, QKeySequence(keys)), &QAction::triggered, this, act); };
+  { connect(this->addAction(menu, name, text, QKeySequence(keys), false), &QAction::triggered, this, act); };
   add("nextFrame", tr("&Next"), ".", [this] { this->stepFrame(1); });
   add("previousFrame", tr("&Previous"), ",", [this] { this->stepFrame(-1); });
   add("firstFrame", tr("&First"), "Home", [this] { this->Frames->setValue(0); });
@@ -117,6 +123,23 @@ void DatasetViewer::makeCloudMenu()
     [this] { this->Cloud->frameAll(); });
   connect(this->addAction(menu, "lookThrough", tr("&Look from the camera"), QKeySequence("T")), &QAction::triggered,
     this, [this] { this->Cloud->lookThrough(this->activePane()->camera().toStdString()); });
+}
+
+void DatasetViewer::makeHelpMenu()
+{
+  QMenu* const menu = this->menuBar()->addMenu(tr("&Help"));
+  connect(this->addAction(menu, "mouse", tr("&Mouse and keys"), QKeySequence::HelpContents), &QAction::triggered, this,
+    [this]
+    {
+      QMessageBox::information(this, tr("Mouse and keys"),
+        tr(
+          "<p>Pictures. Wheel: zoom at the mouse, in all pictures. Drag: pan. Double click: this picture alone, or all "
+          "again.<br>Arrow keys: the crosshair by a pixel, with Shift by ten; with Ctrl they pan.<br>"
+          "F fit, 1 one to one, + and - zoom at the crosshair.</p>"
+          "<p>Frames. Comma and full stop: one back, one on; Home, End; P play.</p>"
+          "<p>3D view. Left drag or arrow keys: turn. Middle or Shift and left drag, Shift and arrow keys: pan. Right "
+          "drag or wheel: zoom. Click a camera: its pictures in the chosen pane.</p>"));
+    });
 }
 
 void DatasetViewer::layersOfOneCamera()

@@ -31,7 +31,7 @@ namespace dgtk
 
 namespace
 {
-constexpr int readOutHeight = 132;
+constexpr int readOutRows = 4;  // more are scrolled
 constexpr int cloudDelay = 150; // milliseconds after the last change
 constexpr int usualRate = 10;   // frames a second
 } // namespace
@@ -60,7 +60,7 @@ DatasetViewer::DatasetViewer(QWidget* parent)
   this->Split->addWidget(this->makeCloudSide());
   this->Split->setStretchFactor(0, 3);
   this->Split->setStretchFactor(1, 1);
-  this->Split->setSizes({ 900, 380 });
+  this->Split->setSizes({ 800, 480 });
   auto* page = new QWidget;
   auto* layout = new QVBoxLayout(page);
   layout->setContentsMargins(4, 4, 4, 0);
@@ -69,6 +69,7 @@ DatasetViewer::DatasetViewer(QWidget* parent)
   this->makeViewMenu();
   this->makeFramesMenu();
   this->makeCloudMenu();
+  this->makeHelpMenu();
   layout->addWidget(this->makeFrameRow());
   layout->addWidget(this->makeReadOut());
   this->Pages = new QStackedWidget(this);
@@ -90,6 +91,7 @@ void DatasetViewer::connectParts()
   connect(this->Loader, &PictureLoader::cloudReady, this,
     [this](const std::shared_ptr<const PointCloud>& cloud, const QString& error)
     {
+      this->CloudPending = false;
       this->Cloud->setCloud(cloud);
       this->CloudText->setText(!error.isEmpty()        ? error
                                : cloud->points.empty() ? tr("Points need a layer depth, distance or position.")
@@ -97,8 +99,9 @@ void DatasetViewer::connectParts()
       if (!this->CloudFramed)
       {
         this->CloudFramed = true;
-        this->Cloud->frameAll();
+        this->Cloud->frameFrom(this->activePane()->camera().toStdString());
       }
+      this->refreshBusy();
     });
   connect(this->Sync, &PictureSync::cursorChanged, this, &DatasetViewer::refreshReadOut);
   connect(this->Frames, &QSlider::valueChanged, this, &DatasetViewer::askAll);
@@ -116,11 +119,17 @@ void DatasetViewer::connectParts()
   connect(&this->CloudTimer, &QTimer::timeout, this, &DatasetViewer::askCloud);
 }
 
+void DatasetViewer::refreshBusy()
+{
+  this->setProperty("busy", !this->Pending.empty() || this->CloudPending || this->CloudTimer.isActive());
+}
+
 void DatasetViewer::askCloud()
 {
   const PicturePane* const pane = this->activePane();
   if (!this->Dataset || pane == nullptr || !this->ShowCloud->isChecked())
   {
+    this->refreshBusy();
     return;
   }
   CloudAsk ask;
@@ -128,6 +137,8 @@ void DatasetViewer::askCloud()
     this->AllCameras->isChecked() ? this->Dataset->cameras() : std::vector<std::string>{ pane->camera().toStdString() };
   ask.frame = this->frame();
   ask.colorLayer = this->ColorByPane->isChecked() ? pane->layer().toStdString() : "color";
+  this->CloudPending = true;
+  this->refreshBusy();
   this->Loader->askCloud(ask);
 }
 
@@ -151,8 +162,13 @@ QWidget* DatasetViewer::makeFrameRow()
   auto* row = new QWidget;
   auto* layout = new QHBoxLayout(row);
   layout->setContentsMargins(0, 0, 0, 0);
-  auto* play = new QToolButton(row);
-  play->setDefaultAction(this->Play);
+  for (const char* const name : { "previousFrame", "play", "nextFrame" })
+  {
+    auto* button = new QToolButton(row);
+    button->setDefaultAction(this->findChild<QAction*>(name));
+    button->setAutoRaise(true);
+    layout->addWidget(button);
+  }
   this->Loop = new QToolButton(row);
   this->Loop->setObjectName("loop");
   this->Loop->setText(tr("Loop"));
@@ -171,7 +187,6 @@ QWidget* DatasetViewer::makeFrameRow()
   this->Rate->setToolTip(tr("Frames a second"));
   connect(this->Rate, QOverload<int>::of(&QSpinBox::valueChanged), this,
     [this](int rate) { this->Player.setInterval(1000 / rate); });
-  layout->addWidget(play);
   layout->addWidget(this->Loop);
   layout->addWidget(this->Frames, 1);
   layout->addWidget(this->FrameText);
@@ -194,8 +209,10 @@ QWidget* DatasetViewer::makeReadOut()
   this->ReadOut->verticalHeader()->setDefaultSectionSize(this->fontMetrics().height() + 6);
   this->ReadOut->horizontalHeader()->setSectionResizeMode(2, QHeaderView::Stretch);
   this->ReadOut->setColumnWidth(3, 230);
+  this->ReadOut->setTabKeyNavigation(false);
   this->ReadOut->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  this->ReadOut->setFixedHeight(readOutHeight);
+  const int rows = readOutRows * this->ReadOut->verticalHeader()->defaultSectionSize();
+  this->ReadOut->setFixedHeight(rows + this->ReadOut->horizontalHeader()->sizeHint().height() + 4);
   layout->addWidget(this->PixelText);
   layout->addWidget(this->ReadOut);
   return box;

@@ -35,6 +35,7 @@ void DatasetViewer::askPane(PicturePane& pane)
   if (this->Dataset)
   {
     this->Pending.insert(pane.number());
+    this->refreshBusy();
     this->Loader->ask(pane.number(), this->askOf(pane, this->frame()));
   }
 }
@@ -91,6 +92,7 @@ void DatasetViewer::receive(int slot, const ShownPointer& shown)
   else if (std::size_t(slot) < this->Panes.size())
   {
     this->Pending.erase(slot);
+    this->refreshBusy();
     this->Panes[std::size_t(slot)]->showPicture(shown, shown->ask.range.has_value());
     if (this->Sync->fitting)
     {

@@ -26,7 +26,7 @@ const QColor accent(58, 122, 200);
 const QColor warm(226, 150, 30);
 const QColor danger(200, 60, 50);
 
-using Draw = std::function<void(QPainter&)>;
+using Draw = IconDrawing;
 
 QPolygonF polygon(std::initializer_list<QPointF> points) { return QPolygonF(QVector<QPointF>(points)); }
 
@@ -269,6 +269,7 @@ QIcon editorIcon(const QString& name)
     all.merge(editIcons());
     all.merge(handleIcons());
     all.merge(viewIcons());
+    all.merge(viewerIcons());
     return all;
   }();
   QIcon icon;

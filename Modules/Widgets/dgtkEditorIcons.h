@@ -7,6 +7,11 @@
 #include <QIcon>
 #include <QString>
 
+#include <functional>
+#include <map>
+
+class QPainter;
+
 namespace dgtk
 {
 
@@ -14,6 +19,11 @@ namespace dgtk
 /// duplicate, delete, move, rotate, scale, camera, light, render, frameAll, frameSelected, wireframe, shaded, textured,
 /// grid. Null for another name.
 QIcon editorIcon(const QString& name);
+
+/// Draws on a square of 24 x 24, with the pen that is set.
+using IconDrawing = std::function<void(QPainter&)>;
+/// Those of the dataset viewer, by the names of its actions.
+std::map<QString, IconDrawing> viewerIcons();
 
 } // namespace dgtk
 

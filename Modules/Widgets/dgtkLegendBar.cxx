@@ -22,6 +22,7 @@ constexpr int stripHeight = 20;
 constexpr int swatchSide = 10;
 constexpr int gap = 6;
 constexpr int digits = 4;
+constexpr int narrowest = 260;   // widget units, with fields
 constexpr int tickDistance = 64; // widget units
 
 QColor toQt(Rgb color) { return { color[0], color[1], color[2] }; }
@@ -46,6 +47,12 @@ void LegendStrip::setPicture(const ShownPointer& shown)
   this->update();
 }
 
+void LegendStrip::setEnds(bool on)
+{
+  this->Ends = on;
+  this->update();
+}
+
 void LegendStrip::drawRamp(QPainter& painter) const
 {
   const PictureLegend& legend = this->Shown->colors.legend;
@@ -57,15 +64,17 @@ void LegendStrip::drawRamp(QPainter& painter) const
     painter.drawLine(x, 2, x, this->height() - 3);
   }
   const bool logarithmic = legendIsLogarithmic(picture, legend);
-  const int ticks = width / tickDistance;
-  for (int i = 1; i < ticks; ++i)
+  const int ticks = std::max(1, width / tickDistance);
+  for (int i = this->Ends ? 0 : 1; i <= (this->Ends ? ticks : ticks - 1); ++i)
   {
     const double at = double(i) / ticks;
     const auto [low, high] = legend.range;
     const double value = logarithmic ? low * std::pow(high / low, at) : low + at * (high - low);
-    const QRectF place(at * width - tickDistance / 2.0, 0, tickDistance, this->height());
+    const QRectF place(
+      std::clamp(at * width - tickDistance / 2.0, 2.0, width - tickDistance - 2.0), 0, tickDistance, this->height());
+    const int side = i == 0 ? Qt::AlignLeft : i == ticks ? Qt::AlignRight : Qt::AlignHCenter;
     painter.setPen(luminance(toQt(legendColor(picture, legend, at))) > 0.5 ? Qt::black : Qt::white);
-    painter.drawText(place, Qt::AlignCenter, text(value));
+    painter.drawText(place, side | Qt::AlignVCenter, text(value));
   }
 }
 
@@ -188,6 +197,8 @@ LegendBar::LegendBar(QWidget* parent)
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(3);
+  layout->setSizeConstraint(QLayout::SetNoConstraint); // narrow panes do without the fields
+  this->setMinimumWidth(60);
   const char* const names[] = { "low", "high" };
   const QString tips[] = { tr("Lower end of the colours"), tr("Upper end of the colours") };
   for (int end = 0; end < 2; ++end)
@@ -205,6 +216,8 @@ LegendBar::LegendBar(QWidget* parent)
   this->Auto->setToolTip(tr("Colours over the range of each picture"));
   this->Auto->setCheckable(true);
   this->Auto->setAutoRaise(true);
+  // the same for all, so that pictures side by side have one size
+  this->setFixedHeight(this->Ends[0]->sizeHint().height());
   layout->addWidget(this->Ends[0]);
   layout->addWidget(this->Strip, 1);
   layout->addWidget(this->Ends[1]);
@@ -218,13 +231,14 @@ void LegendBar::setPicture(const ShownPointer& shown, bool chosen)
 {
   const PictureLegend legend = shown ? shown->colors.legend : PictureLegend();
   this->Strip->setPicture(shown);
-  this->Auto->setVisible(legend.hasRange);
   this->Auto->setChecked(!chosen);
+  this->HasRange = legend.hasRange;
+  this->HasLow = legend.kind == PictureLegend::Kind::Ramp;
+  this->showFields();
   this->Shown = legend.range;
   const double ends[] = { legend.range.low, legend.range.high };
   for (int end = 0; end < 2; ++end)
   {
-    this->Ends[end]->setVisible(legend.hasRange && (end == 1 || legend.kind == PictureLegend::Kind::Ramp));
     if (!this->Ends[end]->hasFocus() || !this->Ends[end]->isModified())
     {
       this->Ends[end]->setText(text(ends[end]));
@@ -249,7 +263,23 @@ void LegendBar::ask()
   {
     std::swap(range.low, range.high);
   }
+  this->Shown = range;
   emit this->rangeAsked(range);
+}
+
+void LegendBar::showFields()
+{
+  const bool wide = this->width() >= narrowest;
+  this->Auto->setVisible(this->HasRange && wide);
+  this->Ends[0]->setVisible(this->HasRange && this->HasLow && wide);
+  this->Ends[1]->setVisible(this->HasRange && wide);
+  this->Strip->setEnds(!wide);
+}
+
+void LegendBar::resizeEvent(QResizeEvent* event)
+{
+  QWidget::resizeEvent(event);
+  this->showFields();
 }
 
 } // namespace dgtk

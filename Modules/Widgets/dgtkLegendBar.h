@@ -25,6 +25,8 @@ class LegendStrip : public QWidget
 public:
   explicit LegendStrip(QWidget* parent);
   void setPicture(const ShownPointer& shown);
+  /// Whether the ends of a ramp have their numbers, too.
+  void setEnds(bool on);
 
 protected:
   void paintEvent(QPaintEvent* event) override;
@@ -37,6 +39,7 @@ private:
   QString longText() const;
 
   ShownPointer Shown;
+  bool Ends = false;
 };
 
 /// The legend of a pane, with the ends of the range in fields where the picture has one.
@@ -48,17 +51,23 @@ public:
   explicit LegendBar(QWidget* parent);
   void setPicture(const ShownPointer& shown, bool chosen);
 
+protected:
+  void resizeEvent(QResizeEvent* event) override;
+
 signals:
   /// Low and high end as typed; nothing: the picture's own.
   void rangeAsked(const std::optional<dgtk::PictureRange>& range);
 
 private:
   void ask();
+  void showFields();
 
   LegendStrip* Strip;
   QLineEdit* Ends[2];
   QToolButton* Auto;
   PictureRange Shown;
+  bool HasRange = false;
+  bool HasLow = false;
 };
 
 } // namespace dgtk

@@ -202,7 +202,9 @@ void describe(const PictureValues& picture, LayerLook look, PictureLegend& legen
       break;
     default:
       legend.kind = ramp ? PictureLegend::Kind::Ramp : PictureLegend::Kind::Axes;
-      legend.text = ramp ? "" : "red x, green y, blue z, over the range of each";
+      legend.text = ramp                         ? ""
+                    : picture.info.channels == 2 ? "red x, green y, over the range of each"
+                                                 : "red x, green y, blue z, over the range of each";
       break;
   }
 }

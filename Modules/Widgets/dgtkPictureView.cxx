@@ -60,6 +60,7 @@ void PictureView::showPicture(const ShownPointer& shown)
   this->Detail = same ? this->Detail : nullptr;
   this->Shown = shown;
   this->Message = shown ? shown->error : QString();
+  this->setToolTip(this->Message);
   this->askForDetail();
   this->update();
 }
@@ -68,14 +69,6 @@ void PictureView::showDetail(const ShownPointer& shown)
 {
   const bool fits = this->Shown && shown && shown->picture && this->Shown->ask.key == shown->ask.key;
   this->Detail = fits ? shown : this->Detail;
-  this->update();
-}
-
-void PictureView::setMessage(const QString& message)
-{
-  this->Shown = nullptr;
-  this->Detail = nullptr;
-  this->Message = message;
   this->update();
 }
 
@@ -95,6 +88,12 @@ const PictureValues* PictureView::pictureAt(const QPoint& pixel) const
   return part && part->inside(pixel.x(), pixel.y()) ? part : whole;
 }
 
+void PictureView::setActive(bool on)
+{
+  this->Active = on;
+  this->update();
+}
+
 void PictureView::askForDetail()
 {
   const PictureValues* const whole = this->Shown ? this->Shown->picture.get() : nullptr;
@@ -102,8 +101,8 @@ void PictureView::askForDetail()
   {
     return;
   }
-  const Eigen::Vector2d first = this->Sync.zoom.toImage({ 0, 0 }, this->area());
-  const Eigen::Vector2d last = this->Sync.zoom.toImage(this->area(), this->area());
+  const Eigen::Vector2d first = this->toImage({ 0, 0 });
+  const Eigen::Vector2d last = this->toImage(this->corner());
   const int step = std::max(1, static_cast<int>(std::floor(1 / this->Sync.zoom.scale())));
   PixelRect window;
   window.x = std::clamp(static_cast<int>(std::floor(first.x())), 0, whole->info.width - 1);
@@ -122,19 +121,16 @@ void PictureView::drawPicture(QPainter& painter, const ShownPicture& shown) cons
   const QImage image(reinterpret_cast<const uchar*>(shown.colors.pixels.data()), picture.columns(), picture.rows(),
     picture.columns() * 4, QImage::Format_RGB32);
   const Eigen::Vector2d origin(picture.window.x, picture.window.y);
-  const Eigen::Vector2d first =
-    ((this->Sync.zoom.toImage({ 0, 0 }, this->area()) - origin) / picture.step).array().floor().cwiseMax(0.0);
+  const Eigen::Vector2d first = ((this->toImage({ 0, 0 }) - origin) / picture.step).array().floor().cwiseMax(0.0);
   const Eigen::Vector2d size(picture.columns(), picture.rows());
-  const Eigen::Vector2d last = ((this->Sync.zoom.toImage(this->area(), this->area()) - origin) / picture.step)
-                                 .array()
-                                 .ceil()
-                                 .cwiseMin(size.array());
+  const Eigen::Vector2d last =
+    ((this->toImage(this->corner()) - origin) / picture.step).array().ceil().cwiseMin(size.array());
   if ((last.array() <= first.array()).any())
   {
     return;
   }
-  const QPointF from = toQt(this->Sync.zoom.toWidget(origin + first * picture.step, this->area()));
-  const QPointF to = toQt(this->Sync.zoom.toWidget(origin + last * picture.step, this->area()));
+  const QPointF from = toQt(this->toWidget(origin + first * picture.step));
+  const QPointF to = toQt(this->toWidget(origin + last * picture.step));
   const bool colors = shown.colors.legend.kind == PictureLegend::Kind::None;
   painter.setRenderHint(QPainter::SmoothPixmapTransform, colors && this->Sync.zoom.scale() * picture.step < 1);
   painter.drawImage(QRectF(from, to), image, QRectF(toQt(first), toQt(last)));
@@ -143,20 +139,19 @@ void PictureView::drawPicture(QPainter& painter, const ShownPicture& shown) cons
 void PictureView::drawGrid(QPainter& painter) const
 {
   const Eigen::Vector2d size = this->imageSize();
-  const Eigen::Vector2d first = this->Sync.zoom.toImage({ 0, 0 }, this->area()).array().floor().cwiseMax(0.0);
-  const Eigen::Vector2d last =
-    this->Sync.zoom.toImage(this->area(), this->area()).array().ceil().cwiseMin(size.array());
-  const QPointF low = toQt(this->Sync.zoom.toWidget(first, this->area()));
-  const QPointF high = toQt(this->Sync.zoom.toWidget(last, this->area()));
+  const Eigen::Vector2d first = this->toImage({ 0, 0 }).array().floor().cwiseMax(0.0);
+  const Eigen::Vector2d last = this->toImage(this->corner()).array().ceil().cwiseMin(size.array());
+  const QPointF low = toQt(this->toWidget(first));
+  const QPointF high = toQt(this->toWidget(last));
   painter.setPen(QColor(128, 128, 128, 110));
   for (double x = first.x(); x <= last.x(); ++x)
   {
-    const double at = this->Sync.zoom.toWidget({ x, 0 }, this->area()).x();
+    const double at = this->toWidget({ x, 0 }).x();
     painter.drawLine(QPointF(at, low.y()), QPointF(at, high.y()));
   }
   for (double y = first.y(); y <= last.y(); ++y)
   {
-    const double at = this->Sync.zoom.toWidget({ 0, y }, this->area()).y();
+    const double at = this->toWidget({ 0, y }).y();
     painter.drawLine(QPointF(low.x(), at), QPointF(high.x(), at));
   }
 }
@@ -164,7 +159,7 @@ void PictureView::drawGrid(QPainter& painter) const
 void PictureView::drawCursor(QPainter& painter) const
 {
   const QPoint pixel = *this->Sync.cursor();
-  const QPointF low = toQt(this->Sync.zoom.toWidget({ double(pixel.x()), double(pixel.y()) }, this->area()));
+  const QPointF low = toQt(this->Sync.zoom.toWidget({ double(pixel.x()), double(pixel.y()) }, this->Sync.area));
   const double side = this->Sync.zoom.scale();
   const QPointF middle = low + QPointF(side / 2, side / 2);
   const double gap = std::max(6.0, side / 2);
@@ -208,9 +203,11 @@ void PictureView::paintEvent(QPaintEvent*)
   {
     this->drawCursor(painter);
   }
-  if (this->hasFocus())
+  if (this->Active)
   {
-    painter.setPen(QPen(this->palette().color(QPalette::Highlight), 2));
+    QColor mark = this->palette().color(QPalette::Highlight);
+    mark.setAlphaF(this->hasFocus() ? 1 : 0.45);
+    painter.setPen(QPen(mark, 2));
     painter.drawRect(QRectF(this->rect()).adjusted(1, 1, -1, -1));
   }
 }
@@ -218,7 +215,7 @@ void PictureView::paintEvent(QPaintEvent*)
 void PictureView::point(const QPoint& at)
 {
   const Eigen::Vector2d size = this->imageSize();
-  const Eigen::Vector2d image = this->Sync.zoom.toImage(fromQt(QPointF(at) + QPointF(0.5, 0.5)), this->area());
+  const Eigen::Vector2d image = this->toImage(fromQt(QPointF(at) + QPointF(0.5, 0.5)));
   const bool inside = (image.array() >= 0).all() && (image.array() < size.array()).all();
   this->Sync.setCursor(
     inside ? std::optional<QPoint>(QPoint(int(std::floor(image.x())), int(std::floor(image.y())))) : std::nullopt);
@@ -228,7 +225,7 @@ void PictureView::wheelEvent(QWheelEvent* event)
 {
   this->Sync.fitting = false;
   this->Sync.zoom.zoomBy(
-    std::exp(zoomPerStep * event->angleDelta().y() / 120.0), fromQt(event->position()), this->area());
+    std::exp(zoomPerStep * event->angleDelta().y() / 120.0), fromQt(event->position()), this->Sync.area);
   this->Sync.changeZoom();
   this->point(event->position().toPoint());
   event->accept();
@@ -282,7 +279,7 @@ void PictureView::moveCursor(int dx, int dy)
   const QPoint to(std::clamp(from.x() + dx, 0, int(size.x()) - 1), std::clamp(from.y() + dy, 0, int(size.y()) - 1));
   this->Sync.setCursor(to);
   const Eigen::Vector2d before = center;
-  this->Sync.zoom.reveal({ to.x() + 0.5, to.y() + 0.5 }, this->area());
+  this->Sync.zoom.reveal({ to.x() + 0.5, to.y() + 0.5 }, this->Sync.area);
   if (before != this->Sync.zoom.center())
   {
     this->Sync.changeZoom();

@@ -24,6 +24,8 @@ class PictureSync : public QObject
 public:
   using QObject::QObject;
   PictureZoom zoom;
+  /// What the zoom takes for the size of every pane, so that a place in one is the same image point in all.
+  Eigen::Vector2d area{ 1, 1 };
   const std::optional<QPoint>& cursor() const { return this->Cursor; }
   void setCursor(const std::optional<QPoint>& pixel);
   void changeZoom() { emit this->zoomChanged(); }
@@ -53,10 +55,10 @@ public:
   void showDetail(const ShownPointer& shown);
   const ShownPointer& shown() const { return this->Shown; }
   const ShownPointer& detail() const { return this->Detail; }
-  /// What is told in place of a picture.
-  void setMessage(const QString& message);
   /// Width and height of the whole image; (0, 0) while there is none.
   Eigen::Vector2d imageSize() const;
+  /// The one whose camera and layer the menus mean.
+  void setActive(bool on);
   /// The picture that has the numbers of a pixel exactly, or the one that is nearest.
   const PictureValues* pictureAt(const QPoint& pixel) const;
 
@@ -78,7 +80,12 @@ protected:
   void focusInEvent(QFocusEvent* event) override;
 
 private:
-  Eigen::Vector2d area() const { return { double(this->width()), double(this->height()) }; }
+  Eigen::Vector2d toImage(const Eigen::Vector2d& at) const { return this->Sync.zoom.toImage(at, this->Sync.area); }
+  Eigen::Vector2d toWidget(const Eigen::Vector2d& point) const
+  {
+    return this->Sync.zoom.toWidget(point, this->Sync.area);
+  }
+  Eigen::Vector2d corner() const { return { double(this->width()), double(this->height()) }; }
   void point(const QPoint& at);
   void moveCursor(int dx, int dy);
   void zoomAtCursor(double factor);
@@ -93,6 +100,7 @@ private:
   QString Message;
   QPoint Pressed;
   QPoint Last;
+  bool Active = false;
   bool Pressing = false;
   bool Panning = false;
 };

@@ -6,11 +6,9 @@
 #include <Eigen/Geometry>
 
 #include <vtkActor.h>
-#include <vtkCellArray.h>
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -65,58 +63,19 @@ void fill(vtkProperty* property, const Material& material)
 double extentOf(const WorldBox& box) { return std::max(box.diagonal(), smallestExtent); }
 } // namespace
 
-/// Line segments of one colour.
-struct ViewActors::Lines
-{
-  Lines(vtkRenderer* renderer, const Eigen::Vector3d& color, double width)
-  {
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(this->Data);
-    this->Actor->SetMapper(mapper);
-    this->Actor->GetProperty()->SetLighting(false);
-    this->Actor->GetProperty()->SetColor(color.x(), color.y(), color.z());
-    this->Actor->GetProperty()->SetLineWidth(static_cast<float>(width));
-    renderer->AddActor(this->Actor);
-    this->set({});
-  }
-
-  void set(const LineList& lines)
-  {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    vtkNew<vtkCellArray> cells;
-    for (const auto& [from, to] : lines)
-    {
-      const vtkIdType ends[2] = { points->InsertNextPoint(from.data()), points->InsertNextPoint(to.data()) };
-      cells->InsertNextCell(2, ends);
-    }
-    this->Data->SetPoints(points);
-    this->Data->SetLines(cells);
-    this->Data->Modified();
-    this->Filled = !lines.empty();
-    this->Actor->SetVisibility(this->Filled);
-  }
-
-  void show(bool on) { this->Actor->SetVisibility(on && this->Filled); }
-
-  vtkNew<vtkPolyData> Data;
-  vtkNew<vtkActor> Actor;
-  bool Filled = false;
-};
-
 ViewActors::ViewActors(vtkRenderer* renderer, ViewKind kind)
   : Renderer(renderer)
   , Kind(kind)
 {
-  this->GridLines = std::make_unique<Lines>(renderer, gridColor, 1);
+  this->GridLines = std::make_unique<LineActor>(renderer, gridColor, 1);
   for (int axis = 0; axis < 3; ++axis)
   {
     const Eigen::Vector3d color = 0.25 * Eigen::Vector3d::Ones() + 0.65 * Eigen::Vector3d::Unit(axis);
-    this->Axes[axis] = std::make_unique<Lines>(renderer, color, 2);
+    this->Axes[axis] = std::make_unique<LineActor>(renderer, color, 2);
   }
-  this->BoxLines = std::make_unique<Lines>(renderer, boxColor, 1);
-  this->CameraLines = std::make_unique<Lines>(renderer, cameraColor, 1.5);
-  this->ChosenLines = std::make_unique<Lines>(renderer, chosenColor, 2);
+  this->BoxLines = std::make_unique<LineActor>(renderer, boxColor, 1);
+  this->CameraLines = std::make_unique<LineActor>(renderer, cameraColor, 1.5);
+  this->ChosenLines = std::make_unique<LineActor>(renderer, chosenColor, 2);
 }
 
 ViewActors::~ViewActors() = default;

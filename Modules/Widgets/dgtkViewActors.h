@@ -4,6 +4,7 @@
 
 // Private to Widgets.
 
+#include "dgtkLineActor.h"
 #include "dgtkScenePlaces.h"
 #include "dgtkViewCamera.h"
 #include "dgtkViewMeshes.h"
@@ -68,7 +69,6 @@ private:
     bool visible = true;
     std::vector<vtkSmartPointer<vtkActor>> actors;
   };
-  struct Lines;
 
   Surface& surface(const Instance& instance, std::size_t part, ViewMeshes& meshes);
   void build(Shown& shown, const ObjectPlace& place, ViewMeshes& meshes);
@@ -88,11 +88,11 @@ private:
   std::map<std::pair<vtkPolyData*, const Material*>, Surface> Surfaces;
   std::vector<Shown> Objects;
   std::vector<vtkSmartPointer<vtkActor>> Lights;
-  std::unique_ptr<Lines> CameraLines;
-  std::unique_ptr<Lines> ChosenLines;
-  std::unique_ptr<Lines> BoxLines;
-  std::unique_ptr<Lines> GridLines;
-  std::unique_ptr<Lines> Axes[3];
+  std::unique_ptr<LineActor> CameraLines;
+  std::unique_ptr<LineActor> ChosenLines;
+  std::unique_ptr<LineActor> BoxLines;
+  std::unique_ptr<LineActor> GridLines;
+  std::unique_ptr<LineActor> Axes[3];
 };
 
 } // namespace dgtk

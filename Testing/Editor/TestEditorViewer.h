@@ -4,10 +4,18 @@
 
 #include "EditorTest.h"
 
-#include <QPoint>
+#include <QCoreApplication>
+#include <QMouseEvent>
+#include <QWidget>
 
 class QMainWindow;
-class QWidget;
+
+/// A motion of the mouse that arrives at once, wherever the display's own pointer is.
+inline void moveMouse(QWidget* widget, const QPoint& at, Qt::MouseButtons buttons = Qt::NoButton)
+{
+  QMouseEvent event(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, buttons, Qt::NoModifier);
+  QCoreApplication::sendEvent(widget, &event);
+}
 
 /// The window of finished datasets.
 class TestEditorViewer : public EditorTest
@@ -33,6 +41,8 @@ private:
   QString dataset();
   /// Opens it in a window of its own and waits for its pictures.
   QMainWindow* open(const QString& folder);
+  /// The window that is open, with its pictures; null for none.
+  QMainWindow* viewer() const;
   void waitForPictures(QMainWindow* viewer) const;
   QString cell(QMainWindow* viewer, int row, int column) const;
   /// The widget of a pane's picture.

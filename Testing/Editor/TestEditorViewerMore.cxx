@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestEditorSupport.h"
+#include "TestEditorViewer.h"
+
+#include "dgtkLdi.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QLabel>
+#include <QMainWindow>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QOpenGLWidget>
+#include <QProcess>
+#include <QSlider>
+#include <QSpinBox>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr int mostTabs = 60;
+
+/// Pixels of a colour, within a small difference.
+int countOf(const QImage& image, const QColor& color)
+{
+  int count = 0;
+  for (int y = 0; y < image.height(); ++y)
+  {
+    for (int x = 0; x < image.width(); ++x)
+    {
+      const QColor at = image.pixelColor(x, y);
+      count += std::abs(at.red() - color.red()) < 6 && std::abs(at.green() - color.green()) < 6 &&
+               std::abs(at.blue() - color.blue()) < 6;
+    }
+  }
+  return count;
+}
+
+int colorsOf(const QImage& image)
+{
+  std::set<QRgb> colors;
+  for (int y = 0; y < image.height(); ++y)
+  {
+    for (int x = 0; x < image.width(); ++x)
+    {
+      colors.insert(image.pixel(x, y));
+    }
+  }
+  return int(colors.size());
+}
+
+int pointsOf(const QMainWindow* viewer)
+{
+  return viewer->findChild<QLabel*>("cloudText")->text().remove(QRegExp("[^0-9]")).toInt();
+}
+} // namespace
+
+void TestEditorViewer::keysReachEverything()
+{
+  QMainWindow* const viewer = this->open(this->dataset());
+  QVERIFY(viewer != nullptr);
+  this->picture(viewer, 0)->setFocus();
+  std::set<QString> reached;
+  for (int i = 0; i < mostTabs; ++i)
+  {
+    QWidget* const at = QApplication::focusWidget();
+    QVERIFY(at != nullptr);
+    reached.insert(at->objectName());
+    QTest::keyClick(at, Qt::Key_Tab);
+  }
+  for (const char* const name :
+    { "picture.0", "picture.3", "camera", "layer", "low", "cloudView", "frames", "readOut" })
+  {
+    QVERIFY2(reached.count(name) == 1, name);
+  }
+  std::set<QString> keys;
+  int actions = 0;
+  for (QAction* menu : viewer->menuBar()->actions())
+  {
+    for (QAction* action : menu->menu()->actions())
+    {
+      if (action->isSeparator())
+      {
+        continue;
+      }
+      ++actions;
+      QVERIFY2(action->text().contains('&'), qPrintable(action->text()));
+      QVERIFY2(!action->shortcut().isEmpty(), qPrintable(action->text()));
+      QVERIFY2(keys.insert(action->shortcut().toString()).second, qPrintable(action->text()));
+      const bool asks = action->objectName() == "open" || action->objectName() == "save" ||
+                        action->objectName() == "close" || action->objectName() == "mouse";
+      if (!asks)
+      {
+        action->trigger();
+        QCoreApplication::processEvents();
+      }
+    }
+  }
+  QVERIFY(actions > 15);
+  this->waitForPictures(viewer);
+  QTest::keyClick(viewer, Qt::Key_W, Qt::ControlModifier);
+  QTRY_VERIFY(this->viewer() == nullptr);
+}
+
+void TestEditorViewer::camerasAndPointsInTheWorld()
+{
+  QMainWindow* const viewer = this->open(this->dataset());
+  QVERIFY(viewer != nullptr);
+  auto* const cloud = viewer->findChild<QOpenGLWidget*>("cloudView");
+  QTest::qWait(settle);
+  const QImage first = cloud->grabFramebuffer();
+  QVERIFY(colorsOf(first) > 200);
+  QVERIFY(countOf(first, QColor(51, 255, 51)) > 20); // the chosen camera's frustum
+  const int points = pointsOf(viewer);
+  QVERIFY2(points > 1500 && points <= 64 * 48, qPrintable(QString::number(points)));
+  QTest::mousePress(cloud, Qt::LeftButton, {}, QPoint(100, 100));
+  moveMouse(cloud, QPoint(140, 110), Qt::LeftButton);
+  moveMouse(cloud, QPoint(190, 120), Qt::LeftButton);
+  QTest::mouseRelease(cloud, Qt::LeftButton, {}, QPoint(190, 120));
+  QTRY_VERIFY(cloud->grabFramebuffer() != first);
+  QTest::keyClick(viewer, Qt::Key_A);
+  this->waitForPictures(viewer);
+  QVERIFY(pointsOf(viewer) > 3 * points / 2);
+  QTest::keyClick(viewer, Qt::Key_T);
+  QTest::qWait(settle);
+  const QImage through = cloud->grabFramebuffer();
+  QVERIFY(through != first);
+  QTest::keyClick(cloud, Qt::Key_Left);
+  QTRY_VERIFY(cloud->grabFramebuffer() != through);
+  QTest::keyClick(viewer, Qt::Key_V);
+  QVERIFY(!cloud->isVisible());
+}
+
+void TestEditorViewer::layeredImagesHaveSurfaces()
+{
+  QMainWindow* const viewer = this->open(this->dataset());
+  QVERIFY(viewer != nullptr);
+  auto* const surface = viewer->findChild<QWidget*>("pane.0")->findChild<QSpinBox*>("surface");
+  QVERIFY(!surface->isVisible());
+  this->choose(viewer, 0, "left", "ldi color");
+  QVERIFY(surface->isVisible());
+  QVERIFY(surface->maximum() > 1);
+  const QImage nearest = this->picture(viewer, 0)->grab().toImage();
+  surface->setValue(2);
+  this->waitForPictures(viewer);
+  QVERIFY(this->picture(viewer, 0)->grab().toImage() != nearest);
+
+  this->pointAt(viewer, 30, 24);
+  dgtk::LdiReader reader((this->dataset() + "/left/ldi/000000.ldi").toStdString());
+  dgtk::LdiRow row;
+  for (int y = 0; y <= 24; ++y)
+  {
+    QVERIFY(reader.read(row));
+  }
+  std::size_t first = 0;
+  for (int x = 0; x < 30; ++x)
+  {
+    first += row.counts[std::size_t(x)];
+  }
+  const QString text = this->cell(viewer, 0, 2);
+  QVERIFY2(text.startsWith(QString::number(row.counts[30]) + " surface"), qPrintable(text));
+  for (std::size_t i = first; i < first + row.counts[30]; ++i)
+  {
+    bool found = false;
+    for (const QString& word : text.split(' '))
+    {
+      found = found || word.toDouble() == row.records[i].depth;
+    }
+    QVERIFY2(found, qPrintable(text));
+  }
+}
+
+void TestEditorViewer::brokenDatasetsAreRefused()
+{
+  const std::string folder = this->Folder.path("broken");
+  QString message;
+  const auto expect = [&]
+  {
+    message.clear();
+    answer<QMessageBox>("errorBox",
+      [&](QMessageBox& box)
+      {
+        message = box.text();
+        box.accept();
+      });
+  };
+  const auto refused = [&](const char* words)
+  {
+    expect();
+    this->Window->openFile(QString::fromStdString(folder));
+    QTRY_VERIFY_WITH_TIMEOUT(!message.isEmpty(), longestRun);
+    QVERIFY2(message.contains(words), qPrintable(message));
+    for (QWidget* window : QApplication::topLevelWidgets())
+    {
+      if (window->objectName() == "datasetViewer" && window->isVisible())
+      {
+        QVERIFY(window->findChild<QLabel*>("emptyText")->text().contains(words));
+        window->close();
+      }
+    }
+  };
+  fs::create_directories(folder);
+  refused("no manifest.json");
+  std::ofstream(folder + "/.dgtk-journal") << "DGTk journal 1 0\n";
+  refused("not finished");
+  std::ofstream(folder + "/manifest.json") << "{\"format\": \"DGTk dataset\", \"files\": [";
+  refused("is not JSON");
+
+  fs::remove_all(folder);
+  fs::copy(this->dataset().toStdString(), folder, fs::copy_options::recursive);
+  fs::remove(folder + "/cameras.json");
+  fs::remove(folder + "/left/color/000000.png");
+  fs::resize_file(folder + "/left/depth/000000.npy", 1000);
+  std::ofstream(folder + "/left/objects/000000.ppm") << "no picture";
+  QMainWindow* const viewer = this->open(QString::fromStdString(folder));
+  QVERIFY(viewer != nullptr);
+  for (int pane = 0; pane < 3; ++pane)
+  {
+    const QString told = this->picture(viewer, pane)->toolTip();
+    QVERIFY2(told.contains("000000."), qPrintable(told));
+  }
+  QVERIFY(this->picture(viewer, 3)->toolTip().isEmpty());
+  moveMouse(this->picture(viewer, 3), this->picture(viewer, 3)->rect().center());
+  QVERIFY(this->cell(viewer, 3, 2).startsWith('('));
+  QVERIFY(this->cell(viewer, 3, 3).isEmpty());
+  QTest::keyClick(viewer, Qt::Key_Period); // the next frame is whole
+  this->waitForPictures(viewer);
+  QVERIFY(this->picture(viewer, 1)->toolTip().isEmpty());
+}
+
+void TestEditorViewer::pictures()
+{
+  const QString folder = QString::fromLocal8Bit(qgetenv("DGTK_EDITOR_PICTURES"));
+  if (folder.isEmpty())
+  {
+    QSKIP("DGTK_EDITOR_PICTURES names no folder");
+  }
+  const QString dataset = this->path("pictured");
+  const QStringList words{ "render", demo(), "-o", dataset, "--layers",
+    "color,depth,objects,normal,flow_forward,disparity,classes,shadingnormal,uv,ldi,coverage,correspondence", "--size",
+    "320x240", "--quiet" };
+  QCOMPARE(QProcess::execute(QString::fromLocal8Bit(qgetenv("DGTK")), words), 0);
+  const QString given = QString::fromLocal8Bit(qgetenv("DGTK_VIEWER_DATASET"));
+  QMainWindow* const viewer = this->open(given.isEmpty() ? dataset : given);
+  QVERIFY(viewer != nullptr);
+  const auto save = [&](const char* name)
+  {
+    this->waitForPictures(viewer);
+    QTest::qWait(2 * settle);
+    QVERIFY(viewer->grab().save(folder + "/" + name + ".png"));
+  };
+  this->pointAt(viewer, 110, 150);
+  save("editor_viewer");
+  QTest::keyClick(viewer, Qt::Key_L);
+  save("editor_viewer_layers");
+  QTest::keyClick(viewer, Qt::Key_2, Qt::ControlModifier);
+  this->choose(viewer, 0, "left", "color");
+  this->choose(viewer, 1, "left", "flow_forward");
+  for (int step = 0; step < 14; ++step)
+  {
+    QTest::keyClick(viewer, Qt::Key_Plus);
+  }
+  save("editor_viewer_zoom");
+}
