@@ -121,7 +121,7 @@ private:
   int Maximized = -1;
   std::map<std::string, PictureRange> Ranges;       ///< chosen by the user, by label
   std::map<std::string, ShownPointer> PointSources; ///< by camera
-  std::set<int> Pending;                            ///< panes whose picture of this frame is not there yet
+  std::set<int> Pending;                            ///< the loader's slots whose picture of this frame is not there yet
   bool CloudFramed = false;
   bool CloudPending = false;
   QTimer Player;

@@ -68,6 +68,7 @@ void DatasetViewer::askPoints()
     {
       PictureAsk ask;
       ask.key = { cameras[i], this->frame(), label };
+      this->Pending.insert(pointSlots + static_cast<int>(i));
       this->Loader->ask(pointSlots + static_cast<int>(i), ask);
     }
   }
@@ -87,6 +88,8 @@ void DatasetViewer::receive(int slot, const ShownPointer& shown)
   }
   else if (slot >= pointSlots)
   {
+    this->Pending.erase(slot);
+    this->refreshBusy();
     this->PointSources[shown->ask.key.camera] = shown;
   }
   else if (std::size_t(slot) < this->Panes.size())
@@ -140,7 +143,7 @@ void DatasetViewer::play(bool on)
 
 void DatasetViewer::playNext()
 {
-  if (!this->Pending.empty())
+  if (!this->Pending.empty() && *this->Pending.begin() < pointSlots)
   {
     return; // reading is slower than playing
   }

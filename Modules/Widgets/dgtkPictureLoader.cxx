@@ -56,6 +56,7 @@ void PictureLoader::open(const QString& folder)
           this->Dataset = dataset;
           this->Kept.clear();
           this->KeptBytes = 0;
+          this->Queue.drop(cloudSlot);
           QMetaObject::invokeMethod(
             this, [this, dataset] { emit this->opened(dataset); }, Qt::QueuedConnection);
         };
@@ -71,7 +72,7 @@ void PictureLoader::open(const QString& folder)
 void PictureLoader::ask(int pane, const PictureAsk& ask)
 {
   std::shared_ptr<const PictureValues> values;
-  if (const ShownPointer known = this->find(ask, values))
+  if (const ShownPointer known = this->find(this->Dataset, ask, values))
   {
     this->Queue.drop(pane);
     emit this->ready(pane, known);
@@ -96,11 +97,16 @@ void PictureLoader::prefetch(int pane, const PictureAsk& ask)
     });
 }
 
-ShownPointer PictureLoader::find(const PictureAsk& ask, std::shared_ptr<const PictureValues>& values)
+ShownPointer PictureLoader::find(
+  const DatasetPointer& dataset, const PictureAsk& ask, std::shared_ptr<const PictureValues>& values)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
   for (auto at = this->Kept.begin(); at != this->Kept.end(); ++at)
   {
+    if ((*at)->dataset != dataset)
+    {
+      continue;
+    }
     if ((*at)->ask == ask)
     {
       this->Kept.splice(this->Kept.begin(), this->Kept, at);
@@ -127,12 +133,13 @@ ShownPointer PictureLoader::load(
   const DatasetPointer& dataset, const PictureAsk& ask, std::uint64_t budget, const BackgroundQueue::GoOn& goOn)
 {
   std::shared_ptr<const PictureValues> values;
-  if (const ShownPointer known = this->find(ask, values))
+  if (const ShownPointer known = this->find(dataset, ask, values))
   {
     return known;
   }
   auto shown = std::make_shared<ShownPicture>();
   shown->ask = ask;
+  shown->dataset = dataset;
   try
   {
     const std::string path = dataset->file(ask.key);

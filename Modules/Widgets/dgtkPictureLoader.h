@@ -37,6 +37,7 @@ struct PictureAsk
 /// A picture that can be painted, or the line that says why not.
 struct ShownPicture
 {
+  std::shared_ptr<const DatasetPictures> dataset;
   PictureAsk ask;
   std::shared_ptr<const PictureValues> picture; ///< null: see `error`
   PictureColors colors;
@@ -80,7 +81,7 @@ private:
   using DatasetPointer = std::shared_ptr<const DatasetPictures>;
   ShownPointer load(
     const DatasetPointer& dataset, const PictureAsk& ask, std::uint64_t budget, const BackgroundQueue::GoOn& goOn);
-  ShownPointer find(const PictureAsk& ask, std::shared_ptr<const PictureValues>& values);
+  ShownPointer find(const DatasetPointer& dataset, const PictureAsk& ask, std::shared_ptr<const PictureValues>& values);
   void keep(const ShownPointer& shown);
 
   DatasetPointer Dataset;

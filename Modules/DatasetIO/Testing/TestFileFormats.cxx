@@ -331,5 +331,16 @@ TEST(LayerReaders, RowsInBlocksAreTheWholeImage)
       y += part.height();
     }
     EXPECT_EQ(y, 41);
+    const auto some = openLayerFile(path);
+    for (int row = 3; row < 41; row += 11)
+    {
+      some->skip(row == 3 ? 3 : 10);
+      const Rows one = some->read(1);
+      EXPECT_EQ(one.y(), row);
+      EXPECT_EQ(
+        std::memcmp(one.data(), whole.pixels.data() + whole.pixels.rowBytes() * std::size_t(row), one.bytes()), 0);
+    }
+    some->skip(1000);
+    EXPECT_EQ(some->read(1).height(), 0);
   }
 }

@@ -35,8 +35,8 @@ struct OneLayer
     this->Files.add("left", spec.name, 0, "", format, spec, value);
     this->Files.finish();
     this->Dataset = std::make_unique<DatasetPictures>(this->Files.path());
-    this->Key = { "left", 0, spec.name };
-    this->Picture = readPicture(this->Dataset->file(this->Key), *this->Dataset->layer(spec.name));
+    const PictureLayer& layer = this->Dataset->layers().front();
+    this->Picture = readPicture(this->Dataset->file({ "left", 0, layer.label }), layer);
   }
   std::string text(int x, int y) const { return valueText(*this->Dataset, this->Picture, x, y); }
   PictureColors colors(const std::optional<PictureRange>& range = {}) const
@@ -45,7 +45,6 @@ struct OneLayer
   }
   SmallDataset Files;
   std::unique_ptr<DatasetPictures> Dataset;
-  PictureKey Key;
   PictureValues Picture;
 };
 
