@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkEditorLanguage.h"
 #include "dgtkMainWindow.h"
 
 #include <QApplication>
@@ -6,16 +7,61 @@
 
 #include <cstdio>
 #include <cstring>
+#include <string>
 
 namespace
 {
 constexpr const char* help =
-  "usage: dgtk-editor [FILE|FOLDER...]\n\n"
+  "usage: dgtk-editor [--language LANGUAGE] [FILE|FOLDER...]\n\n"
   "The desktop editor of DGTk. A scene (.json, .scene) is opened; models are imported into\n"
   "it; the folder of a finished dataset is shown in a window of its own.\n\n"
-  "  --help      this page\n"
-  "  --version   the version\n\n"
+  "  --language LANGUAGE   of the window: de, en (default: the system's)\n"
+  "  --help                this page\n"
+  "  --version             the version\n\n"
   "DGTK of the environment names the dgtk program that renders (default: beside this one).\n";
+
+constexpr int wrongUsage = 2;
+
+struct Words
+{
+  QString language;
+  QStringList files;
+  QString problem; ///< "" when all is well
+};
+
+/// The command line without what is Qt's.
+Words parse(const QStringList& arguments)
+{
+  Words words;
+  bool options = true;
+  for (int i = 1; i < arguments.size(); ++i)
+  {
+    const QString& word = arguments[i];
+    if (!options || !word.startsWith("--"))
+    {
+      words.files << word;
+    }
+    else if (word == "--")
+    {
+      options = false;
+    }
+    else if (word.startsWith("--language=") || (word == "--language" && i + 1 < arguments.size()))
+    {
+      words.language = word == "--language" ? arguments[++i] : word.section('=', 1);
+    }
+    else
+    {
+      words.problem = word == "--language" ? "--language needs a value" : "unknown option '" + word + "'";
+    }
+  }
+  return words;
+}
+
+int fail(const QString& what)
+{
+  std::fprintf(stderr, "dgtk-editor: %s (see dgtk-editor --help)\n", what.toLocal8Bit().constData());
+  return wrongUsage;
+}
 } // namespace
 
 int main(int argc, char** argv)
@@ -36,14 +82,23 @@ int main(int argc, char** argv)
   dgtk::MainWindow::prepareApplication();
   QApplication application(argc, argv);
   dgtk::MainWindow::setupApplication();
+  const Words words = parse(QApplication::arguments());
+  if (!words.problem.isEmpty())
+  {
+    return fail(words.problem);
+  }
+  if (!dgtk::setEditorLanguage(words.language))
+  {
+    return fail(
+      "--language: expected one of " + dgtk::editorLanguages().join(", ") + ", found '" + words.language + "'");
+  }
   dgtk::MainWindow window;
   window.show();
-  const QStringList files = QApplication::arguments().mid(1);
   QTimer::singleShot(0, &window,
-    [&window, files]
+    [&window, &words]
     {
       window.offerRecovery();
-      for (const QString& file : files)
+      for (const QString& file : words.files)
       {
         window.openFile(file);
       }

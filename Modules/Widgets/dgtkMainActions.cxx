@@ -76,7 +76,7 @@ void MainWindow::makeDocks()
   this->resizeDocks({ tree, properties }, { 300, 420 }, Qt::Vertical);
   this->resizeDocks({ tree, properties }, { 320, 320 }, Qt::Horizontal);
   this->resizeDocks({ time, log }, { 620, 300 }, Qt::Horizontal);
-  this->resizeDocks({ time, log }, { 170, 170 }, Qt::Vertical);
+  this->resizeDocks({ time, log }, { 200, 200 }, Qt::Vertical);
 }
 
 void MainWindow::makeFileMenu()
@@ -87,6 +87,7 @@ void MainWindow::makeFileMenu()
   connect(add("new", tr("&New"), QKeySequence::New), &QAction::triggered, this, &MainWindow::newScene);
   connect(add("open", tr("&Open ..."), QKeySequence::Open), &QAction::triggered, this, &MainWindow::askOpen);
   this->Recent = menu->addMenu(tr("Open &recent"));
+  this->Recent->setObjectName("recent");
   connect(add("save", tr("&Save"), QKeySequence::Save), &QAction::triggered, this, [this] { this->save(); });
   connect(add("saveAs", tr("Save &as ..."), QKeySequence("Ctrl+Shift+S")), &QAction::triggered, this,
     [this] { this->saveAs(); });

@@ -32,6 +32,7 @@ namespace dgtk
 namespace
 {
 constexpr int mostRecent = 8;
+constexpr std::size_t mostWarnings = 20; ///< of a model, in the log
 
 bool isScene(const QString& path)
 {
@@ -200,8 +201,24 @@ bool MainWindow::importFile(const QString& path)
   {
     return false;
   }
+  return this->addRead(file, **loaded);
+}
+
+bool MainWindow::addRead(const std::string& file, const ModelStore& models)
+{
+  const QString name = QFileInfo(QFile::decodeName(file.c_str())).fileName();
+  const std::shared_ptr<const Model> model = this->document().modelIn(models, file);
+  for (std::size_t i = 0; i < model->warnings.size() && i < mostWarnings; ++i)
+  {
+    this->note(tr("%1: warning: %2").arg(name, toText(model->warnings[i])));
+  }
+  if (model->triangles.empty())
+  {
+    this->fail(tr("%1 has no surfaces: nothing was added.").arg(name));
+    return false;
+  }
   const bool first = this->State->scene().objects.empty();
-  this->document().adopt(**loaded);
+  this->document().adopt(models);
   if (!this->State->attempt([&] { this->State->select({ this->document().addModel(file) }); }))
   {
     return false;
@@ -210,7 +227,7 @@ bool MainWindow::importFile(const QString& path)
   {
     this->Views->showWhole();
   }
-  this->note(tr("Imported %1").arg(QFileInfo(path).fileName()));
+  this->note(tr("Imported %1").arg(name));
   return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include "dgtkAutosave.h"
 #include "dgtkBackgroundWork.h"
+#include "dgtkEditorLanguage.h"
 #include "dgtkEditorState.h"
 #include "dgtkRenderDialog.h"
 #include "dgtkSceneViews.h"
@@ -97,8 +98,8 @@ void MainWindow::refresh()
   QAction* const redo = this->findChild<QAction*>("redo");
   undo->setEnabled(document.canUndo());
   redo->setEnabled(document.canRedo());
-  undo->setText(tr("&Undo %1").arg(toText(document.undoText())).trimmed());
-  redo->setText(tr("&Redo %1").arg(toText(document.redoText())).trimmed());
+  undo->setText(tr("&Undo %1").arg(editText(document.undoText())).trimmed());
+  redo->setText(tr("&Redo %1").arg(editText(document.redoText())).trimmed());
 }
 
 void MainWindow::fail(const QString& message)

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 
 class QAction;
 class QDockWidget;
@@ -22,6 +23,7 @@ namespace dgtk
 class BackgroundWork;
 class EditorState;
 class MatchDialog;
+class ModelStore;
 class RenderDialog;
 class SceneDocument;
 class SceneViews;
@@ -78,6 +80,7 @@ private:
   bool saveAs();
   void askImport();
   void askDataset();
+  bool addRead(const std::string& file, const ModelStore& models);
   void exportPov();
   bool mayDiscard();
   /// False, with a note, while another file is being read.

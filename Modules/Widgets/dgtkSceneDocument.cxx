@@ -296,6 +296,12 @@ std::function<std::optional<ModelStore>(const LoadProgress&)> SceneDocument::mod
   };
 }
 
+std::shared_ptr<const Model> SceneDocument::modelIn(const ModelStore& models, const std::string& path) const
+{
+  const SceneDescription part = this->descriptionOf(path);
+  return models.modelOf(part, part.objects.front());
+}
+
 SceneItem SceneDocument::addModel(const std::string& path)
 {
   return this->paste("Import " + std::filesystem::path(path).filename().string(), this->descriptionOf(path)).front();

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -81,6 +82,8 @@ public:
   /// What addModel() and adopt() need of the disk: a function for any thread, which returns none when it was stopped
   /// and throws InputError.
   std::function<std::optional<ModelStore>(const LoadProgress&)> modelReader(const std::string& path) const;
+  /// The model of such a store that addModel() would add.
+  std::shared_ptr<const Model> modelIn(const ModelStore& models, const std::string& path) const;
   void adopt(const ModelStore& models) { this->Models.adopt(models); }
   /// A model file becomes an object at the origin, with a unique name. Throws InputError when it cannot be read.
   SceneItem addModel(const std::string& path);

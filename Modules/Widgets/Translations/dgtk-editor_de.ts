@@ -1,0 +1,1550 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de_DE" sourcelanguage="en">
+<context>
+    <name>Edit</name>
+    <message>
+        <source>Add camera</source>
+        <translation>Kamera hinzufügen</translation>
+    </message>
+    <message>
+        <source>Add camera array</source>
+        <translation>Kamerafeld hinzufügen</translation>
+    </message>
+    <message>
+        <source>Add light</source>
+        <translation>Licht hinzufügen</translation>
+    </message>
+    <message>
+        <source>Change frame rate</source>
+        <translation>Bildrate ändern</translation>
+    </message>
+    <message>
+        <source>Change interpolation</source>
+        <translation>Interpolation ändern</translation>
+    </message>
+    <message>
+        <source>Change interpolation of keys</source>
+        <translation>Interpolation von Schlüsseln ändern</translation>
+    </message>
+    <message>
+        <source>Change speed of sequence</source>
+        <translation>Tempo der Sequenz ändern</translation>
+    </message>
+    <message>
+        <source>Choose sequence</source>
+        <translation>Sequenz wählen</translation>
+    </message>
+    <message>
+        <source>Copy key frame</source>
+        <translation>Schlüsselbild kopieren</translation>
+    </message>
+    <message>
+        <source>Copy keys</source>
+        <translation>Schlüssel kopieren</translation>
+    </message>
+    <message>
+        <source>Cut</source>
+        <translation>Ausschneiden</translation>
+    </message>
+    <message>
+        <source>Delete</source>
+        <translation>Löschen</translation>
+    </message>
+    <message>
+        <source>Duplicate</source>
+        <translation>Duplizieren</translation>
+    </message>
+    <message>
+        <source>Import</source>
+        <translation>Importieren</translation>
+    </message>
+    <message>
+        <source>Make key frame</source>
+        <translation>Schlüsselbild setzen</translation>
+    </message>
+    <message>
+        <source>Move</source>
+        <translation>Verschieben</translation>
+    </message>
+    <message>
+        <source>Move key frame</source>
+        <translation>Schlüsselbild verschieben</translation>
+    </message>
+    <message>
+        <source>Move keys</source>
+        <translation>Schlüssel verschieben</translation>
+    </message>
+    <message>
+        <source>Move sequence</source>
+        <translation>Sequenz verschieben</translation>
+    </message>
+    <message>
+        <source>Paste</source>
+        <translation>Einfügen</translation>
+    </message>
+    <message>
+        <source>Paste key frame</source>
+        <translation>Schlüsselbild einfügen</translation>
+    </message>
+    <message>
+        <source>Remove key frame</source>
+        <translation>Schlüsselbild entfernen</translation>
+    </message>
+    <message>
+        <source>Remove keys</source>
+        <translation>Schlüssel entfernen</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>Umbenennen</translation>
+    </message>
+    <message>
+        <source>Repeat sequence</source>
+        <translation>Sequenz wiederholen</translation>
+    </message>
+    <message>
+        <source>Rotate</source>
+        <translation>Drehen</translation>
+    </message>
+    <message>
+        <source>Scale</source>
+        <translation>Skalieren</translation>
+    </message>
+</context>
+<context>
+    <name>QObject</name>
+    <message>
+        <source>Add</source>
+        <translation>Hinzufügen</translation>
+    </message>
+</context>
+<context>
+    <name>QPlatformTheme</name>
+    <message>
+        <source>OK</source>
+        <translation>OK</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Speichern</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>Öffnen</translation>
+    </message>
+    <message>
+        <source>&amp;Yes</source>
+        <translation>&amp;Ja</translation>
+    </message>
+    <message>
+        <source>&amp;No</source>
+        <translation>&amp;Nein</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation>Verwerfen</translation>
+    </message>
+    <message>
+        <source>Apply</source>
+        <translation>Anwenden</translation>
+    </message>
+    <message>
+        <source>Reset</source>
+        <translation>Zurücksetzen</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::BackgroundWork</name>
+    <message>
+        <source>&amp;Cancel</source>
+        <translation>&amp;Abbrechen</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::CameraArrayDialog</name>
+    <message>
+        <source>Add camera array</source>
+        <translation>Kamerafeld hinzufügen</translation>
+    </message>
+    <message>
+        <source>Ring</source>
+        <translation>Ring</translation>
+    </message>
+    <message>
+        <source>Hemisphere</source>
+        <translation>Halbkugel</translation>
+    </message>
+    <message>
+        <source>Grid</source>
+        <translation>Gitter</translation>
+    </message>
+    <message>
+        <source>Stereo pair</source>
+        <translation>Stereopaar</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Art</translation>
+    </message>
+    <message>
+        <source>Eye</source>
+        <translation>Auge</translation>
+    </message>
+    <message>
+        <source>Look at</source>
+        <translation>Blickpunkt</translation>
+    </message>
+    <message>
+        <source>Field of view, ° (vertical)</source>
+        <translation>Blickwinkel, ° (senkrecht)</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>Kameras</translation>
+    </message>
+    <message>
+        <source>Columns</source>
+        <translation>Spalten</translation>
+    </message>
+    <message>
+        <source>Rows</source>
+        <translation>Zeilen</translation>
+    </message>
+    <message>
+        <source>Spacing, baseline</source>
+        <translation>Abstand, Basis</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Hinzufügen</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::CameraDialog</name>
+    <message>
+        <source>Add camera</source>
+        <translation>Kamera hinzufügen</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>Eye</source>
+        <translation>Auge</translation>
+    </message>
+    <message>
+        <source>Look at</source>
+        <translation>Blickpunkt</translation>
+    </message>
+    <message>
+        <source>Up</source>
+        <translation>Oben</translation>
+    </message>
+    <message>
+        <source>Field of view, ° (vertical)</source>
+        <translation>Blickwinkel, ° (senkrecht)</translation>
+    </message>
+    <message>
+        <source>Aspect (0: square pixels)</source>
+        <translation>Seitenverhältnis (0: quadratische Pixel)</translation>
+    </message>
+    <message>
+        <source>Near, far</source>
+        <translation>Nah, fern</translation>
+    </message>
+    <message>
+        <source>Preview</source>
+        <translation>Vorschau</translation>
+    </message>
+    <message>
+        <source>Shows the perspective view from there</source>
+        <translation>Zeigt die perspektivische Ansicht von dort aus</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::EditorState</name>
+    <message>
+        <source>The memory of this machine is not enough.</source>
+        <translation>Der Speicher dieses Rechners reicht nicht.</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::HandleTool</name>
+    <message>
+        <source>     X, Y, Z: one axis, Shift: the two others; Ctrl: steps; Esc: as it was</source>
+        <translation>     X, Y, Z: eine Achse, Umschalt: die beiden anderen; Strg: Stufen; Esc: wie zuvor</translation>
+    </message>
+    <message>
+        <source>Rotate %1° about %2</source>
+        <translation>Um %1° um %2 drehen</translation>
+    </message>
+    <message>
+        <source>Rotate %1°</source>
+        <translation>Um %1° drehen</translation>
+    </message>
+    <message>
+        <source>Scale by %1</source>
+        <translation>Um %1 skalieren</translation>
+    </message>
+    <message>
+        <source>Scale by %1, %2, %3</source>
+        <translation>Um %1, %2, %3 skalieren</translation>
+    </message>
+    <message>
+        <source>Move by %1, %2, %3</source>
+        <translation>Um %1, %2, %3 verschieben</translation>
+    </message>
+    <message>
+        <source>As it was before the drag</source>
+        <translation>Wie vor dem Ziehen</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::LightDialog</name>
+    <message>
+        <source>Add light</source>
+        <translation>Licht hinzufügen</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>point</source>
+        <translation>Punktlicht</translation>
+    </message>
+    <message>
+        <source>head</source>
+        <translation>Kopflicht</translation>
+    </message>
+    <message>
+        <source>directional</source>
+        <translation>gerichtet</translation>
+    </message>
+    <message>
+        <source>spot</source>
+        <translation>Strahler</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Art</translation>
+    </message>
+    <message>
+        <source>Position</source>
+        <translation>Position</translation>
+    </message>
+    <message>
+        <source>Target (directional, spot)</source>
+        <translation>Ziel (gerichtet, Strahler)</translation>
+    </message>
+    <message>
+        <source>Diffuse</source>
+        <translation>Diffus</translation>
+    </message>
+    <message>
+        <source>Specular</source>
+        <translation>Glanz</translation>
+    </message>
+    <message>
+        <source>Ambient</source>
+        <translation>Umgebung</translation>
+    </message>
+    <message>
+        <source>Enabled</source>
+        <translation>Eingeschaltet</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::MainWindow</name>
+    <message>
+        <source>&amp;Move</source>
+        <translation>&amp;Verschieben</translation>
+    </message>
+    <message>
+        <source>&amp;Rotate</source>
+        <translation>&amp;Drehen</translation>
+    </message>
+    <message>
+        <source>&amp;Scale</source>
+        <translation>&amp;Skalieren</translation>
+    </message>
+    <message>
+        <source>Re&amp;name</source>
+        <translation>U&amp;mbenennen</translation>
+    </message>
+    <message>
+        <source>Make &amp;key frame</source>
+        <translation>Schlüssel&amp;bild setzen</translation>
+    </message>
+    <message>
+        <source>Pre&amp;view the camera</source>
+        <translation>V&amp;orschau der Kamera</translation>
+    </message>
+    <message>
+        <source>Pr&amp;operties</source>
+        <translation>&amp;Eigenschaften</translation>
+    </message>
+    <message>
+        <source>Scene</source>
+        <translation>Szene</translation>
+    </message>
+    <message>
+        <source>Properties</source>
+        <translation>Eigenschaften</translation>
+    </message>
+    <message>
+        <source>Values</source>
+        <translation>Werte</translation>
+    </message>
+    <message>
+        <source>Time line</source>
+        <translation>Zeitleiste</translation>
+    </message>
+    <message>
+        <source>What happens is written here.</source>
+        <translation>Was geschieht, steht hier.</translation>
+    </message>
+    <message>
+        <source>Log</source>
+        <translation>Protokoll</translation>
+    </message>
+    <message>
+        <source>&amp;File</source>
+        <translation>&amp;Datei</translation>
+    </message>
+    <message>
+        <source>&amp;New</source>
+        <translation>&amp;Neu</translation>
+    </message>
+    <message>
+        <source>&amp;Open ...</source>
+        <translation>Ö&amp;ffnen ...</translation>
+    </message>
+    <message>
+        <source>Open &amp;recent</source>
+        <translation>&amp;Zuletzt geöffnet</translation>
+    </message>
+    <message>
+        <source>&amp;Save</source>
+        <translation>&amp;Speichern</translation>
+    </message>
+    <message>
+        <source>Save &amp;as ...</source>
+        <translation>Speichern &amp;unter ...</translation>
+    </message>
+    <message>
+        <source>&amp;Import ...</source>
+        <translation>&amp;Importieren ...</translation>
+    </message>
+    <message>
+        <source>Export &amp;POV-Ray ...</source>
+        <translation>Für &amp;POV-Ray exportieren ...</translation>
+    </message>
+    <message>
+        <source>E&amp;xit</source>
+        <translation>&amp;Beenden</translation>
+    </message>
+    <message>
+        <source>&amp;Edit</source>
+        <translation>&amp;Bearbeiten</translation>
+    </message>
+    <message>
+        <source>&amp;Undo</source>
+        <translation>&amp;Rückgängig</translation>
+    </message>
+    <message>
+        <source>&amp;Redo</source>
+        <translation>&amp;Wiederholen</translation>
+    </message>
+    <message>
+        <source>Cu&amp;t</source>
+        <translation>&amp;Ausschneiden</translation>
+    </message>
+    <message>
+        <source>&amp;Copy</source>
+        <translation>&amp;Kopieren</translation>
+    </message>
+    <message>
+        <source>&amp;Paste</source>
+        <translation>&amp;Einfügen</translation>
+    </message>
+    <message>
+        <source>D&amp;uplicate</source>
+        <translation>D&amp;uplizieren</translation>
+    </message>
+    <message>
+        <source>&amp;Delete</source>
+        <translation>&amp;Löschen</translation>
+    </message>
+    <message>
+        <source>Select &amp;all</source>
+        <translation>Alle&amp;s auswählen</translation>
+    </message>
+    <message>
+        <source>&amp;View</source>
+        <translation>&amp;Ansicht</translation>
+    </message>
+    <message>
+        <source>Frame &amp;all</source>
+        <translation>&amp;Alles zeigen</translation>
+    </message>
+    <message>
+        <source>&amp;Frame selected</source>
+        <translation>Aus&amp;wahl zeigen</translation>
+    </message>
+    <message>
+        <source>&amp;Maximise or restore the view</source>
+        <translation>Ansicht &amp;maximieren oder wiederherstellen</translation>
+    </message>
+    <message>
+        <source>&amp;Wireframe</source>
+        <translation>&amp;Drahtgitter</translation>
+    </message>
+    <message>
+        <source>&amp;Shaded</source>
+        <translation>&amp;Schattiert</translation>
+    </message>
+    <message>
+        <source>&amp;Textured</source>
+        <translation>Mit &amp;Texturen</translation>
+    </message>
+    <message>
+        <source>S&amp;how in the perspective</source>
+        <translation>In der Perspektive &amp;zeigen</translation>
+    </message>
+    <message>
+        <source>&amp;Grid and axes</source>
+        <translation>&amp;Gitter und Achsen</translation>
+    </message>
+    <message>
+        <source>&amp;Tools</source>
+        <translation>&amp;Werkzeuge</translation>
+    </message>
+    <message>
+        <source>Add &amp;camera ...</source>
+        <translation>&amp;Kamera hinzufügen ...</translation>
+    </message>
+    <message>
+        <source>Add camera &amp;array ...</source>
+        <translation>Kamera&amp;feld hinzufügen ...</translation>
+    </message>
+    <message>
+        <source>Add &amp;light ...</source>
+        <translation>&amp;Licht hinzufügen ...</translation>
+    </message>
+    <message>
+        <source>&amp;Render configuration ...</source>
+        <translation>&amp;Bilder berechnen ...</translation>
+    </message>
+    <message>
+        <source>C&amp;orrespondence ...</source>
+        <translation>K&amp;orrespondenzen ...</translation>
+    </message>
+    <message>
+        <source>&amp;Help</source>
+        <translation>&amp;Hilfe</translation>
+    </message>
+    <message>
+        <source>&amp;Mouse and keys</source>
+        <translation>&amp;Maus und Tasten</translation>
+    </message>
+    <message>
+        <source>Mouse and keys</source>
+        <translation>Maus und Tasten</translation>
+    </message>
+    <message>
+        <source>&lt;p&gt;Click: select; with Ctrl: add. Drag what is selected: move it in the view&apos;s plane. Drag its handles: move, rotate or scale it (1, 2, 3).&lt;br&gt;During a drag: X, Y, Z keep to an axis, with Shift to the two others; Ctrl: steps; Esc: as it was.&lt;br&gt;Left drag: turn the perspective, pan the others. Middle or Shift and left: pan.&lt;br&gt;Right drag or wheel: zoom. Right click: menu. Double click: one view or all four.&lt;/p&gt;&lt;p&gt;R frame all, F frame selected, W wireframe, S shaded, T textured, G grid, F11 maximise.&lt;/p&gt;</source>
+        <translation>&lt;p&gt;Klick: auswählen; mit Strg: dazunehmen. Ausgewähltes ziehen: in der Ebene der Ansicht verschieben. Griffe ziehen: verschieben, drehen oder skalieren (1, 2, 3).&lt;br&gt;Beim Ziehen: X, Y, Z halten an einer Achse fest, mit Umschalt an den beiden anderen; Strg: Stufen; Esc: wie zuvor.&lt;br&gt;Links ziehen: die Perspektive drehen, die anderen verschieben. Mitte oder Umschalt und links: verschieben.&lt;br&gt;Rechts ziehen oder Rad: zoomen. Rechtsklick: Menü. Doppelklick: eine Ansicht oder alle vier.&lt;/p&gt;&lt;p&gt;R alles zeigen, F Auswahl zeigen, W Drahtgitter, S schattiert, T mit Texturen, G Gitter, F11 maximieren.&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>&amp;About DGTk</source>
+        <translation>&amp;Über DGTk</translation>
+    </message>
+    <message>
+        <source>About DGTk</source>
+        <translation>Über DGTk</translation>
+    </message>
+    <message>
+        <source>DGTk: images and exact ground truth from described 3D scenes. The editor writes the scene files and runs the program dgtk; it adds no second way of doing anything.</source>
+        <translation>DGTk: Bilder und exakte Referenzdaten aus beschriebenen 3D-Szenen. Der Editor schreibt die Szenendateien und führt das Programm dgtk aus; er fügt keinen zweiten Weg hinzu.</translation>
+    </message>
+    <message>
+        <source>Another file is being read: wait for it, or cancel it.</source>
+        <translation>Eine andere Datei wird gelesen: warten oder abbrechen.</translation>
+    </message>
+    <message>
+        <source>Cancelled: %1</source>
+        <translation>Abgebrochen: %1</translation>
+    </message>
+    <message>
+        <source>Open a scene</source>
+        <translation>Szene öffnen</translation>
+    </message>
+    <message>
+        <source>Scenes (*.json *.scene);;All files (*)</source>
+        <translation>Szenen (*.json *.scene);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Reading %1 ...</source>
+        <translation>%1 wird gelesen ...</translation>
+    </message>
+    <message>
+        <source>Opened %1: %2 objects, %3 lights, %4 cameras</source>
+        <translation>%1 geöffnet: %2 Objekte, %3 Lichter, %4 Kameras</translation>
+    </message>
+    <message>
+        <source>DGTk</source>
+        <translation>DGTk</translation>
+    </message>
+    <message>
+        <source>The editor ended without saving a scene, at %1.</source>
+        <translation>Der Editor endete um %1, ohne eine Szene zu speichern.</translation>
+    </message>
+    <message>
+        <source>Open what was kept of it, or discard it for good. Cancel asks again next time.</source>
+        <translation>Öffnen, was davon aufgehoben wurde, oder endgültig verwerfen. Abbrechen fragt beim nächsten Mal wieder.</translation>
+    </message>
+    <message>
+        <source>Reading what was kept ...</source>
+        <translation>Aufgehobenes wird gelesen ...</translation>
+    </message>
+    <message>
+        <source>All models (%1)</source>
+        <translation>Alle Modelle (%1)</translation>
+    </message>
+    <message>
+        <source>Import models</source>
+        <translation>Modelle importieren</translation>
+    </message>
+    <message>
+        <source>%1: warning: %2</source>
+        <translation>%1: Warnung: %2</translation>
+    </message>
+    <message>
+        <source>%1 has no surfaces: nothing was added.</source>
+        <translation>%1 hat keine Flächen: nichts wurde hinzugefügt.</translation>
+    </message>
+    <message>
+        <source>Imported %1</source>
+        <translation>%1 importiert</translation>
+    </message>
+    <message>
+        <source>Saved %1</source>
+        <translation>%1 gespeichert</translation>
+    </message>
+    <message>
+        <source>Save the scene</source>
+        <translation>Szene speichern</translation>
+    </message>
+    <message>
+        <source>Scene (*.json);;Thesis scene (*.scene)</source>
+        <translation>Szene (*.json);;Szene der Diplomarbeit (*.scene)</translation>
+    </message>
+    <message>
+        <source>The scene has changes that are not saved.</source>
+        <translation>Die Szene hat Änderungen, die nicht gespeichert sind.</translation>
+    </message>
+    <message>
+        <source>Save them, or they are lost.</source>
+        <translation>Ungespeichert gehen sie verloren.</translation>
+    </message>
+    <message>
+        <source>Export for POV-Ray</source>
+        <translation>Für POV-Ray exportieren</translation>
+    </message>
+    <message>
+        <source>POV-Ray scene (*.pov)</source>
+        <translation>POV-Ray-Szene (*.pov)</translation>
+    </message>
+    <message>
+        <source>Writing %1 ...</source>
+        <translation>%1 wird geschrieben ...</translation>
+    </message>
+    <message>
+        <source>Wrote %1</source>
+        <translation>%1 geschrieben</translation>
+    </message>
+    <message>
+        <source>Tools</source>
+        <translation>Werkzeuge</translation>
+    </message>
+    <message>
+        <source>File &gt; Open opens a scene, File &gt; Import adds a model</source>
+        <translation>Datei &gt; Öffnen öffnet eine Szene, Datei &gt; Importieren fügt ein Modell hinzu</translation>
+    </message>
+    <message>
+        <source>%1[*] - DGTk</source>
+        <translation>%1[*] - DGTk</translation>
+    </message>
+    <message>
+        <source>Untitled</source>
+        <translation>Ohne Titel</translation>
+    </message>
+    <message>
+        <source>&amp;Undo %1</source>
+        <translation>&amp;Rückgängig: %1</translation>
+    </message>
+    <message>
+        <source>&amp;Redo %1</source>
+        <translation>&amp;Wiederholen: %1</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::MatchDialog</name>
+    <message>
+        <source>The scene has no cameras yet. Tools &gt; Add camera array &gt; Stereo pair makes two that see the same.</source>
+        <translation>Die Szene hat noch keine Kameras. Werkzeuge &gt; Kamerafeld hinzufügen &gt; Stereopaar macht zwei, die dasselbe sehen.</translation>
+    </message>
+    <message>
+        <source>id %1</source>
+        <translation>Nr. %1</translation>
+    </message>
+    <message>
+        <source>Open correspondences</source>
+        <translation>Korrespondenzen öffnen</translation>
+    </message>
+    <message>
+        <source>Correspondences (*.txt);;All files (*)</source>
+        <translation>Korrespondenzen (*.txt);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Save correspondences</source>
+        <translation>Korrespondenzen speichern</translation>
+    </message>
+    <message>
+        <source>Correspondences (*.txt)</source>
+        <translation>Korrespondenzen (*.txt)</translation>
+    </message>
+    <message>
+        <source>Correspondence</source>
+        <translation>Korrespondenzen</translation>
+    </message>
+    <message>
+        <source>&amp;Left camera</source>
+        <translation>&amp;Linke Kamera</translation>
+    </message>
+    <message>
+        <source>&amp;Right camera</source>
+        <translation>&amp;Rechte Kamera</translation>
+    </message>
+    <message>
+        <source>Frame</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source>x %1  y %2</source>
+        <translation>x %1  y %2</translation>
+    </message>
+    <message>
+        <source>&amp;Show</source>
+        <translation>&amp;Zeigen</translation>
+    </message>
+    <message>
+        <source>&amp;Pixel centres only</source>
+        <translation>Nur &amp;Pixelmitten</translation>
+    </message>
+    <message>
+        <source>A click takes the centre of its pixel, as the dense layers of a dataset do</source>
+        <translation>Ein Klick nimmt die Mitte seines Pixels, wie die dichten Ebenen eines Datensatzes</translation>
+    </message>
+    <message>
+        <source>S&amp;wap</source>
+        <translation>&amp;Tauschen</translation>
+    </message>
+    <message>
+        <source>Wheel: zoom. Drag: pan. Double click: all of it. Arrows: move the point.</source>
+        <translation>Rad: zoomen. Ziehen: verschieben. Doppelklick: alles. Pfeiltasten: den Punkt bewegen.</translation>
+    </message>
+    <message>
+        <source>Point</source>
+        <translation>Punkt</translation>
+    </message>
+    <message>
+        <source>Its match</source>
+        <translation>Entsprechung</translation>
+    </message>
+    <message>
+        <source>Visibility there</source>
+        <translation>Sichtbarkeit dort</translation>
+    </message>
+    <message>
+        <source>Surface</source>
+        <translation>Fläche</translation>
+    </message>
+    <message>
+        <source>Depth</source>
+        <translation>Tiefe</translation>
+    </message>
+    <message>
+        <source>Depth there</source>
+        <translation>Tiefe dort</translation>
+    </message>
+    <message>
+        <source>World</source>
+        <translation>Welt</translation>
+    </message>
+    <message>
+        <source>World there</source>
+        <translation>Welt dort</translation>
+    </message>
+    <message>
+        <source>Epipolar line</source>
+        <translation>Epipolarlinie</translation>
+    </message>
+    <message>
+        <source>Match to line</source>
+        <translation>Entsprechung zur Linie</translation>
+    </message>
+    <message>
+        <source>&amp;Add pair</source>
+        <translation>Paar &amp;aufnehmen</translation>
+    </message>
+    <message>
+        <source>Adds the point and its match to the list (Ctrl+Return)</source>
+        <translation>Nimmt den Punkt und seine Entsprechung in die Liste auf (Strg+Eingabe)</translation>
+    </message>
+    <message>
+        <source>&amp;Delete</source>
+        <translation>&amp;Löschen</translation>
+    </message>
+    <message>
+        <source>&amp;Clear</source>
+        <translation>&amp;Leeren</translation>
+    </message>
+    <message>
+        <source>&amp;Open ...</source>
+        <translation>Ö&amp;ffnen ...</translation>
+    </message>
+    <message>
+        <source>Sa&amp;ve ...</source>
+        <translation>&amp;Speichern ...</translation>
+    </message>
+    <message>
+        <source>%1, frame %2:  %3, %4</source>
+        <translation>%1, Bild %2:  %3, %4</translation>
+    </message>
+    <message>
+        <source>Click a point of either picture.</source>
+        <translation>Einen Punkt in einem der Bilder anklicken.</translation>
+    </message>
+    <message>
+        <source>%1, part %2, triangle %3</source>
+        <translation>%1, Teil %2, Dreieck %3</translation>
+    </message>
+    <message>
+        <source>nothing</source>
+        <translation>nichts</translation>
+    </message>
+    <message>
+        <source>%1 pixels</source>
+        <translation>%1 Pixel</translation>
+    </message>
+    <message>
+        <source>none: the ray is a point in the other picture</source>
+        <translation>keine: der Strahl ist im anderen Bild ein Punkt</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::MatchTable</name>
+    <message>
+        <source>From</source>
+        <translation>Von</translation>
+    </message>
+    <message>
+        <source>x</source>
+        <translation>x</translation>
+    </message>
+    <message>
+        <source>y</source>
+        <translation>y</translation>
+    </message>
+    <message>
+        <source>To</source>
+        <translation>Nach</translation>
+    </message>
+    <message>
+        <source>x&apos;</source>
+        <translation>x&apos;</translation>
+    </message>
+    <message>
+        <source>y&apos;</source>
+        <translation>y&apos;</translation>
+    </message>
+    <message>
+        <source>Visibility</source>
+        <translation>Sichtbarkeit</translation>
+    </message>
+    <message>
+        <source>Object</source>
+        <translation>Objekt</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::PropertiesPanel</name>
+    <message>
+        <source>Nothing is selected.
+
+Click an object, light or camera in a view or in the scene tree to see its values here.</source>
+        <translation>Nichts ist ausgewählt.
+
+Ein Objekt, ein Licht oder eine Kamera in einer Ansicht oder im Szenenbaum anklicken: seine Werte erscheinen hier.</translation>
+    </message>
+    <message numerus="yes">
+        <source>The first of %n selected:</source>
+        <translation>
+            <numerusform>Das erste von %n ausgewählten:</numerusform>
+            <numerusform>Das erste von %n ausgewählten:</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>Change %1</source>
+        <translation>%1 ändern</translation>
+    </message>
+    <message>
+        <source>Rotation, °</source>
+        <translation>Drehung, °</translation>
+    </message>
+    <message>
+        <source>Quaternion</source>
+        <translation>Quaternion</translation>
+    </message>
+    <message>
+        <source>Class</source>
+        <translation>Klasse</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>Modell</translation>
+    </message>
+    <message>
+        <source>Parent</source>
+        <translation>Gehört zu</translation>
+    </message>
+    <message>
+        <source>Position</source>
+        <translation>Position</translation>
+    </message>
+    <message>
+        <source>Position, %1</source>
+        <translation>Position, %1</translation>
+    </message>
+    <message>
+        <source>Scale</source>
+        <translation>Skalierung</translation>
+    </message>
+    <message>
+        <source>Visible</source>
+        <translation>Sichtbar</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Art</translation>
+    </message>
+    <message>
+        <source>point</source>
+        <translation>Punktlicht</translation>
+    </message>
+    <message>
+        <source>head</source>
+        <translation>Kopflicht</translation>
+    </message>
+    <message>
+        <source>directional</source>
+        <translation>gerichtet</translation>
+    </message>
+    <message>
+        <source>spot</source>
+        <translation>Strahler</translation>
+    </message>
+    <message>
+        <source>Enabled</source>
+        <translation>Eingeschaltet</translation>
+    </message>
+    <message>
+        <source>Target</source>
+        <translation>Ziel</translation>
+    </message>
+    <message>
+        <source>Diffuse</source>
+        <translation>Diffus</translation>
+    </message>
+    <message>
+        <source>Specular</source>
+        <translation>Glanz</translation>
+    </message>
+    <message>
+        <source>Ambient</source>
+        <translation>Umgebung</translation>
+    </message>
+    <message>
+        <source>Attenuation</source>
+        <translation>Abschwächung</translation>
+    </message>
+    <message>
+        <source>Intensity</source>
+        <translation>Stärke</translation>
+    </message>
+    <message>
+        <source>Cone, °</source>
+        <translation>Kegel, °</translation>
+    </message>
+    <message>
+        <source>Exponent</source>
+        <translation>Exponent</translation>
+    </message>
+    <message>
+        <source>Shadows</source>
+        <translation>Schatten</translation>
+    </message>
+    <message>
+        <source>Eye</source>
+        <translation>Auge</translation>
+    </message>
+    <message>
+        <source>Look at</source>
+        <translation>Blickpunkt</translation>
+    </message>
+    <message>
+        <source>Up</source>
+        <translation>Oben</translation>
+    </message>
+    <message>
+        <source>View height</source>
+        <translation>Bildhöhe</translation>
+    </message>
+    <message>
+        <source>Lens</source>
+        <translation>Objektiv</translation>
+    </message>
+    <message>
+        <source>by its matrix K</source>
+        <translation>durch seine Matrix K</translation>
+    </message>
+    <message>
+        <source>Field of view, °</source>
+        <translation>Blickwinkel, °</translation>
+    </message>
+    <message>
+        <source>Aspect (0: square)</source>
+        <translation>Seitenverhältnis (0: quadratisch)</translation>
+    </message>
+    <message>
+        <source>Near</source>
+        <translation>Nah</translation>
+    </message>
+    <message>
+        <source>Far</source>
+        <translation>Fern</translation>
+    </message>
+    <message>
+        <source>Size, pixels</source>
+        <translation>Größe, Pixel</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::RenderDialog</name>
+    <message>
+        <source>Render configuration</source>
+        <translation>Bilder berechnen</translation>
+    </message>
+    <message>
+        <source>Info</source>
+        <translation>Info</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>Kameras</translation>
+    </message>
+    <message>
+        <source>Controls</source>
+        <translation>Einstellungen</translation>
+    </message>
+    <message>
+        <source>&lt;table cellpadding=&apos;4&apos;&gt;&lt;tr&gt;&lt;td&gt;Scene&lt;/td&gt;&lt;td&gt;%1&lt;/td&gt;&lt;/tr&gt;&lt;tr&gt;&lt;td&gt;Objects&lt;/td&gt;&lt;td&gt;%2&lt;/td&gt;&lt;/tr&gt;&lt;tr&gt;&lt;td&gt;Lights&lt;/td&gt;&lt;td&gt;%3&lt;/td&gt;&lt;/tr&gt;&lt;tr&gt;&lt;td&gt;Cameras&lt;/td&gt;&lt;td&gt;%4&lt;/td&gt;&lt;/tr&gt;&lt;tr&gt;&lt;td&gt;Frames&lt;/td&gt;&lt;td&gt;%5 to %6&lt;/td&gt;&lt;/tr&gt;&lt;tr&gt;&lt;td&gt;Key frames&lt;/td&gt;&lt;td&gt;%7&lt;/td&gt;&lt;/tr&gt;&lt;/table&gt;</source>
+        <translation>&lt;table cellpadding=&apos;4&apos;&gt;&lt;tr&gt;&lt;td&gt;Szene&lt;/td&gt;&lt;td&gt;%1&lt;/td&gt;&lt;/tr&gt;&lt;tr&gt;&lt;td&gt;Objekte&lt;/td&gt;&lt;td&gt;%2&lt;/td&gt;&lt;/tr&gt;&lt;tr&gt;&lt;td&gt;Lichter&lt;/td&gt;&lt;td&gt;%3&lt;/td&gt;&lt;/tr&gt;&lt;tr&gt;&lt;td&gt;Kameras&lt;/td&gt;&lt;td&gt;%4&lt;/td&gt;&lt;/tr&gt;&lt;tr&gt;&lt;td&gt;Bilder&lt;/td&gt;&lt;td&gt;%5 bis %6&lt;/td&gt;&lt;/tr&gt;&lt;tr&gt;&lt;td&gt;Schlüsselbilder&lt;/td&gt;&lt;td&gt;%7&lt;/td&gt;&lt;/tr&gt;&lt;/table&gt;</translation>
+    </message>
+    <message>
+        <source>not saved yet</source>
+        <translation>noch nicht gespeichert</translation>
+    </message>
+    <message>
+        <source>The scene has no camera. Add one with Tools &gt; Add camera.</source>
+        <translation>Die Szene hat keine Kamera. Werkzeuge &gt; Kamera hinzufügen macht eine.</translation>
+    </message>
+    <message>
+        <source>%1 has no pose at this frame: its eye is at its look-at point.</source>
+        <translation>%1 hat in diesem Bild keine Lage: das Auge ist am Blickpunkt.</translation>
+    </message>
+    <message>
+        <source>units</source>
+        <translation>Einheiten</translation>
+    </message>
+    <message>
+        <source>%1: %2 x %3 pixels
+A pixel is %5 %4 in x, %6 in y; at the far plane %7 and %8</source>
+        <translation>%1: %2 x %3 Pixel
+Ein Pixel ist %5 %4 in x, %6 in y; an der fernen Ebene %7 und %8</translation>
+    </message>
+    <message>
+        <source>Folder of the dataset</source>
+        <translation>Ordner des Datensatzes</translation>
+    </message>
+    <message>
+        <source>Check at least one camera on the page Cameras.</source>
+        <translation>Auf der Seite Kameras mindestens eine Kamera ankreuzen.</translation>
+    </message>
+    <message>
+        <source>Check at least one layer.</source>
+        <translation>Mindestens eine Ebene ankreuzen.</translation>
+    </message>
+    <message>
+        <source>Name a folder for the dataset.</source>
+        <translation>Einen Ordner für den Datensatz nennen.</translation>
+    </message>
+    <message>
+        <source>Rendering ...</source>
+        <translation>Wird berechnet ...</translation>
+    </message>
+    <message>
+        <source>%1 of %2 pictures</source>
+        <translation>%1 von %2 Bildern</translation>
+    </message>
+    <message>
+        <source>%1, %2 left</source>
+        <translation>%1, noch %2</translation>
+    </message>
+    <message>
+        <source>Stopped. Start goes on where it stopped.</source>
+        <translation>Angehalten. Start macht dort weiter.</translation>
+    </message>
+    <message>
+        <source>Cameras to render:</source>
+        <translation>Zu berechnende Kameras:</translation>
+    </message>
+    <message>
+        <source>Every camera in its own size (640 x 480 where it has none)</source>
+        <translation>Jede Kamera in ihrer eigenen Größe (sonst 640 x 480)</translation>
+    </message>
+    <message>
+        <source>Width</source>
+        <translation>Breite</translation>
+    </message>
+    <message>
+        <source>Height</source>
+        <translation>Höhe</translation>
+    </message>
+    <message>
+        <source>Layers</source>
+        <translation>Ebenen</translation>
+    </message>
+    <message>
+        <source>Tile width</source>
+        <translation>Kachelbreite</translation>
+    </message>
+    <message>
+        <source>Tile height</source>
+        <translation>Kachelhöhe</translation>
+    </message>
+    <message>
+        <source>Samples a side</source>
+        <translation>Proben je Seite</translation>
+    </message>
+    <message>
+        <source>First frame</source>
+        <translation>Erstes Bild</translation>
+    </message>
+    <message>
+        <source>Last frame</source>
+        <translation>Letztes Bild</translation>
+    </message>
+    <message>
+        <source>Every</source>
+        <translation>Jedes wievielte</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>Ordner</translation>
+    </message>
+    <message>
+        <source>Browse ...</source>
+        <translation>Auswählen ...</translation>
+    </message>
+    <message>
+        <source>Go on with an interrupted run of the same request</source>
+        <translation>Einen unterbrochenen Lauf desselben Auftrags fortsetzen</translation>
+    </message>
+    <message>
+        <source>Open the folder</source>
+        <translation>Ordner öffnen</translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>Start</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::RenderProcess</name>
+    <message>
+        <source>%1 cannot be started: %2</source>
+        <translation>%1 lässt sich nicht starten: %2</translation>
+    </message>
+    <message>
+        <source>dgtk ended with status %1</source>
+        <translation>dgtk endete mit Status %1</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::SceneTree</name>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Art</translation>
+    </message>
+    <message>
+        <source>Objects</source>
+        <translation>Objekte</translation>
+    </message>
+    <message>
+        <source>Lights</source>
+        <translation>Lichter</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>Kameras</translation>
+    </message>
+    <message>
+        <source>point</source>
+        <translation>Punktlicht</translation>
+    </message>
+    <message>
+        <source>head</source>
+        <translation>Kopflicht</translation>
+    </message>
+    <message>
+        <source>directional</source>
+        <translation>gerichtet</translation>
+    </message>
+    <message>
+        <source>spot</source>
+        <translation>Strahler</translation>
+    </message>
+    <message>
+        <source>camera</source>
+        <translation>Kamera</translation>
+    </message>
+    <message>
+        <source>hidden</source>
+        <translation>verborgen</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::SceneViews</name>
+    <message>
+        <source>Front</source>
+        <translation>Vorn</translation>
+    </message>
+    <message>
+        <source>Top</source>
+        <translation>Oben</translation>
+    </message>
+    <message>
+        <source>Side</source>
+        <translation>Seite</translation>
+    </message>
+    <message>
+        <source>Perspective</source>
+        <translation>Perspektive</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::TimeLine</name>
+    <message>
+        <source>Frame</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source> frames/s</source>
+        <translation> Bilder/s</translation>
+    </message>
+    <message>
+        <source>The scene&apos;s frame rate: of playing, and of the models&apos; sequences</source>
+        <translation>Bildrate der Szene: beim Abspielen und für die Sequenzen der Modelle</translation>
+    </message>
+    <message>
+        <source>To the key frame before (Ctrl+Left)</source>
+        <translation>Zum vorigen Schlüsselbild (Strg+Links)</translation>
+    </message>
+    <message>
+        <source>Play from this frame (Space)</source>
+        <translation>Ab diesem Bild abspielen (Leertaste)</translation>
+    </message>
+    <message>
+        <source>To the next key frame (Ctrl+Right)</source>
+        <translation>Zum nächsten Schlüsselbild (Strg+Rechts)</translation>
+    </message>
+    <message>
+        <source>Begin again after the last frame</source>
+        <translation>Nach dem letzten Bild von vorn beginnen</translation>
+    </message>
+    <message>
+        <source>Make key frame</source>
+        <translation>Schlüsselbild setzen</translation>
+    </message>
+    <message>
+        <source>Remove key frame</source>
+        <translation>Schlüsselbild entfernen</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::TimeLineCells</name>
+    <message>
+        <source>Make key frame at %1</source>
+        <translation>Schlüsselbild bei %1 setzen</translation>
+    </message>
+    <message>
+        <source>Remove key frame at %1</source>
+        <translation>Schlüsselbild bei %1 entfernen</translation>
+    </message>
+    <message>
+        <source>Copy key frame</source>
+        <translation>Schlüsselbild kopieren</translation>
+    </message>
+    <message>
+        <source>Paste key frame %1 here</source>
+        <translation>Schlüsselbild %1 hier einfügen</translation>
+    </message>
+    <message>
+        <source>Move key frame %1 here</source>
+        <translation>Schlüsselbild %1 hierher verschieben</translation>
+    </message>
+    <message>
+        <source>Remove its keys at %1</source>
+        <translation>Seine Schlüssel bei %1 entfernen</translation>
+    </message>
+    <message>
+        <source>From its key at %1 to the next</source>
+        <translation>Von seinem Schlüssel bei %1 zum nächsten</translation>
+    </message>
+    <message>
+        <source>As its other keys</source>
+        <translation>Wie seine anderen Schlüssel</translation>
+    </message>
+    <message>
+        <source>Linear</source>
+        <translation>Linear</translation>
+    </message>
+    <message>
+        <source>Steps</source>
+        <translation>Stufen</translation>
+    </message>
+    <message>
+        <source>Smooth</source>
+        <translation>Glatt</translation>
+    </message>
+    <message>
+        <source>Between all its keys</source>
+        <translation>Zwischen allen seinen Schlüsseln</translation>
+    </message>
+    <message>
+        <source>Sequence</source>
+        <translation>Sequenz</translation>
+    </message>
+    <message>
+        <source>Begin the sequence here</source>
+        <translation>Sequenz hier beginnen</translation>
+    </message>
+    <message>
+        <source>The model&apos;s own speed</source>
+        <translation>Eigenes Tempo des Modells</translation>
+    </message>
+    <message>
+        <source>Repeat the sequence</source>
+        <translation>Sequenz wiederholen</translation>
+    </message>
+    <message>
+        <source>Drag: move the key. Ctrl: copy it. Right click: interpolation.</source>
+        <translation>Ziehen: Schlüssel verschieben. Strg: kopieren. Rechtsklick: Interpolation.</translation>
+    </message>
+    <message>
+        <source>Drag: move this key frame of the whole scene. Ctrl: copy it.</source>
+        <translation>Ziehen: dieses Schlüsselbild der ganzen Szene verschieben. Strg: kopieren.</translation>
+    </message>
+    <message>
+        <source>Drag: move the start of the sequence.</source>
+        <translation>Ziehen: Anfang der Sequenz verschieben.</translation>
+    </message>
+    <message>
+        <source>Drag: change the speed of the sequence.</source>
+        <translation>Ziehen: Tempo der Sequenz ändern.</translation>
+    </message>
+    <message>
+        <source>copy %1 to %2</source>
+        <translation>%1 nach %2 kopieren</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1 nach %2</translation>
+    </message>
+    <message>
+        <source>Objects, lights and cameras get rows here. Right-click a frame to make a key frame.</source>
+        <translation>Objekte, Lichter und Kameras bekommen hier Zeilen. Rechtsklick auf ein Bild setzt ein Schlüsselbild.</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::TruthPanel</name>
+    <message>
+        <source>visible</source>
+        <translation>sichtbar</translation>
+    </message>
+    <message>
+        <source>occluded by another object</source>
+        <translation>von einem anderen Objekt verdeckt</translation>
+    </message>
+    <message>
+        <source>occluded by its own object</source>
+        <translation>vom eigenen Objekt verdeckt</translation>
+    </message>
+    <message>
+        <source>outside the image</source>
+        <translation>außerhalb des Bildes</translation>
+    </message>
+    <message>
+        <source>behind the camera</source>
+        <translation>hinter der Kamera</translation>
+    </message>
+    <message>
+        <source>no surface</source>
+        <translation>keine Fläche</translation>
+    </message>
+    <message>
+        <source>What</source>
+        <translation>Was</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>Wert</translation>
+    </message>
+    <message>
+        <source>Move the mouse over the perspective view.</source>
+        <translation>Die Maus über die perspektivische Ansicht bewegen.</translation>
+    </message>
+    <message>
+        <source>View</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>%1, frame %2</source>
+        <translation>%1, Bild %2</translation>
+    </message>
+    <message>
+        <source>Pixel</source>
+        <translation>Pixel</translation>
+    </message>
+    <message>
+        <source>column %1, row %2</source>
+        <translation>Spalte %1, Zeile %2</translation>
+    </message>
+    <message>
+        <source>Unknown</source>
+        <translation>Unbekannt</translation>
+    </message>
+    <message>
+        <source>Object</source>
+        <translation>Objekt</translation>
+    </message>
+    <message>
+        <source>nothing</source>
+        <translation>nichts</translation>
+    </message>
+    <message>
+        <source>%1 (id %2)</source>
+        <translation>%1 (Nr. %2)</translation>
+    </message>
+    <message>
+        <source>Class</source>
+        <translation>Klasse</translation>
+    </message>
+    <message>
+        <source>Part</source>
+        <translation>Teil</translation>
+    </message>
+    <message>
+        <source>unnamed</source>
+        <translation>ohne Namen</translation>
+    </message>
+    <message>
+        <source>Triangle</source>
+        <translation>Dreieck</translation>
+    </message>
+    <message>
+        <source>Surfaces on the ray</source>
+        <translation>Flächen auf dem Strahl</translation>
+    </message>
+    <message>
+        <source>  %1: %2</source>
+        <translation>  %1: %2</translation>
+    </message>
+    <message>
+        <source>depth %1
+part %2, triangle %3</source>
+        <translation>Tiefe %1
+Teil %2, Dreieck %3</translation>
+    </message>
+    <message>
+        <source>scene units</source>
+        <translation>Szeneneinheiten</translation>
+    </message>
+    <message>
+        <source>id %1, coverage %2 / 255</source>
+        <translation>Nr. %1, Bedeckung %2 / 255</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::TruthView</name>
+    <message>
+        <source>What the perspective view shows</source>
+        <translation>Was die perspektivische Ansicht zeigt</translation>
+    </message>
+    <message>
+        <source>Colour</source>
+        <translation>Farbe</translation>
+    </message>
+    <message>
+        <source>through camera %1</source>
+        <translation>durch Kamera %1</translation>
+    </message>
+    <message>
+        <source>Perspective</source>
+        <translation>Perspektive</translation>
+    </message>
+    <message>
+        <source>(%1, %2)</source>
+        <translation>(%1, %2)</translation>
+    </message>
+</context>
+</TS>

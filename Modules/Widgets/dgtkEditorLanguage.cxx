@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkEditorLanguage.h"
+
+#include <QCoreApplication>
+#include <QDir>
+#include <QLibraryInfo>
+#include <QLocale>
+#include <QTranslator>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr const char* translations = ":/dgtk/translations";
+constexpr const char* stem = "dgtk-editor_";
+
+// Named in parts without Qt, which do not translate.
+[[maybe_unused]] const char* const edits[] = { QT_TRANSLATE_NOOP("Edit", "Add camera"),
+  QT_TRANSLATE_NOOP("Edit", "Add camera array"), QT_TRANSLATE_NOOP("Edit", "Add light"),
+  QT_TRANSLATE_NOOP("Edit", "Change frame rate"), QT_TRANSLATE_NOOP("Edit", "Change interpolation"),
+  QT_TRANSLATE_NOOP("Edit", "Change interpolation of keys"), QT_TRANSLATE_NOOP("Edit", "Change speed of sequence"),
+  QT_TRANSLATE_NOOP("Edit", "Choose sequence"), QT_TRANSLATE_NOOP("Edit", "Copy key frame"),
+  QT_TRANSLATE_NOOP("Edit", "Copy keys"), QT_TRANSLATE_NOOP("Edit", "Cut"), QT_TRANSLATE_NOOP("Edit", "Delete"),
+  QT_TRANSLATE_NOOP("Edit", "Duplicate"), QT_TRANSLATE_NOOP("Edit", "Import"),
+  QT_TRANSLATE_NOOP("Edit", "Make key frame"), QT_TRANSLATE_NOOP("Edit", "Move"),
+  QT_TRANSLATE_NOOP("Edit", "Move key frame"), QT_TRANSLATE_NOOP("Edit", "Move keys"),
+  QT_TRANSLATE_NOOP("Edit", "Move sequence"), QT_TRANSLATE_NOOP("Edit", "Paste"),
+  QT_TRANSLATE_NOOP("Edit", "Paste key frame"), QT_TRANSLATE_NOOP("Edit", "Remove key frame"),
+  QT_TRANSLATE_NOOP("Edit", "Remove keys"), QT_TRANSLATE_NOOP("Edit", "Rename"),
+  QT_TRANSLATE_NOOP("Edit", "Repeat sequence"), QT_TRANSLATE_NOOP("Edit", "Rotate"),
+  QT_TRANSLATE_NOOP("Edit", "Scale") };
+
+// Buttons of Qt's dialogs, for systems without Qt's own translations.
+[[maybe_unused]] const char* const buttons[] = { QT_TRANSLATE_NOOP("QPlatformTheme", "OK"),
+  QT_TRANSLATE_NOOP("QPlatformTheme", "Save"), QT_TRANSLATE_NOOP("QPlatformTheme", "Open"),
+  QT_TRANSLATE_NOOP("QPlatformTheme", "&Yes"), QT_TRANSLATE_NOOP("QPlatformTheme", "&No"),
+  QT_TRANSLATE_NOOP("QPlatformTheme", "Cancel"), QT_TRANSLATE_NOOP("QPlatformTheme", "Close"),
+  QT_TRANSLATE_NOOP("QPlatformTheme", "Discard"), QT_TRANSLATE_NOOP("QPlatformTheme", "Apply"),
+  QT_TRANSLATE_NOOP("QPlatformTheme", "Reset") };
+
+void install(const QString& name, const QString& folder)
+{
+  auto* translator = new QTranslator(QCoreApplication::instance());
+  if (translator->load(name, folder))
+  {
+    QCoreApplication::installTranslator(translator);
+  }
+}
+} // namespace
+
+QStringList editorLanguages()
+{
+  QStringList languages{ "en" };
+  for (const QString& file : QDir(translations).entryList({ QString(stem) + "*.qm" }))
+  {
+    languages << file.mid(int(qstrlen(stem)), file.size() - int(qstrlen(stem)) - 3);
+  }
+  return languages;
+}
+
+bool setEditorLanguage(const QString& language)
+{
+  const QString wanted = language.isEmpty() ? QLocale::system().name().section('_', 0, 0) : language;
+  if (!editorLanguages().contains(wanted))
+  {
+    return language.isEmpty();
+  }
+  if (wanted != "en")
+  {
+    install("qtbase_" + wanted, QLibraryInfo::location(QLibraryInfo::TranslationsPath));
+    install(stem + wanted, translations);
+  }
+  return true;
+}
+
+QString editText(const std::string& text)
+{
+  const QString words = QString::fromStdString(text);
+  const QString whole = QCoreApplication::translate("Edit", text.c_str());
+  if (whole != words)
+  {
+    return whole;
+  }
+  // A verb and a name.
+  const QString verb = words.section(' ', 0, 0);
+  return QCoreApplication::translate("Edit", verb.toUtf8().constData()) + words.mid(verb.size());
+}
+
+} // namespace dgtk

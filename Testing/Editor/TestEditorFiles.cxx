@@ -1,0 +1,434 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestEditorFiles.h"
+#include "TestEditorSupport.h"
+
+#include "dgtkError.h"
+#include "dgtkMainWindow.h"
+#include "dgtkModelReader.h"
+#include "dgtkSceneDocument.h"
+
+#include <QAction>
+#include <QDockWidget>
+#include <QDropEvent>
+#include <QFileDialog>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QPlainTextEdit>
+#include <QProcess>
+#include <QPushButton>
+#include <QRegularExpression>
+#include <QStandardPaths>
+#include <QTest>
+#include <QUrl>
+
+#include <ctime>
+
+using dgtk::test::sourceFile;
+
+namespace
+{
+constexpr int longestEvent = 200; // milliseconds of the window's thread
+constexpr int side = 450;         // vertices of the large model's side
+
+QString model(const char* name) { return QString::fromStdString(sourceFile(std::string("Data/Models/") + name)); }
+
+QByteArray contentsOf(const QString& path)
+{
+  QFile file(path);
+  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+/// Milliseconds that this thread has computed.
+double computed()
+{
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return double(now.tv_sec) * 1e3 + double(now.tv_nsec) / 1e6;
+}
+
+/// A wavy square of 2 (side - 1)^2 triangles.
+QByteArray largeObj()
+{
+  QByteArray text;
+  for (int i = 0; i < side * side; ++i)
+  {
+    text +=
+      "v " + QByteArray::number(i % side) + ' ' + QByteArray::number(i % 7) + ' ' + QByteArray::number(i / side) + '\n';
+  }
+  for (int i = 0; i + side + 1 < side * side; ++i)
+  {
+    const QByteArray a = QByteArray::number(i + 1);
+    const QByteArray b = QByteArray::number(i + 2);
+    const QByteArray c = QByteArray::number(i + side + 1);
+    const QByteArray d = QByteArray::number(i + side + 2);
+    text += i % side == side - 1 ? QByteArray() : "f " + a + ' ' + c + ' ' + d + ' ' + b + '\n';
+  }
+  return text;
+}
+} // namespace
+
+QString TestEditorFiles::write(const char* name, const QByteArray& contents) const
+{
+  QFile file(this->path(name));
+  return file.open(QIODevice::WriteOnly) && file.write(contents) == contents.size() ? file.fileName() : QString();
+}
+
+QString TestEditorFiles::import(const QString& path)
+{
+  QString said;
+  QTimer looker;
+  connect(&looker, &QTimer::timeout, &looker,
+    [&said]
+    {
+      auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+      if (box != nullptr && box->objectName() == "errorBox")
+      {
+        said += box->text();
+        box->accept();
+      }
+    });
+  looker.start(5);
+  const bool done = this->Window->importFile(path);
+  if (done != said.isEmpty())
+  {
+    QTest::qFail(qPrintable("refused without a message, or the other way round: " + path), __FILE__, __LINE__);
+  }
+  return said;
+}
+
+QString TestEditorFiles::importChecked(const QString& path)
+{
+  dgtk::SceneDocument& document = this->Window->document();
+  const std::string before = document.json();
+  const std::size_t objects = document.scene().objects.size();
+  const std::size_t models = document.models().size();
+  const QString said = this->import(path);
+  if (!said.isEmpty())
+  {
+    const bool same = document.json() == before && document.models().size() == models;
+    const bool named = said.contains(QFileInfo(path).fileName()) && !said.contains('\n');
+    if (!same || !named)
+    {
+      QTest::qFail(qPrintable("not as before, or no line that names the file: " + said), __FILE__, __LINE__);
+    }
+  }
+  else if (document.scene().objects.size() != objects + 1)
+  {
+    QTest::qFail(qPrintable("no object: " + path), __FILE__, __LINE__);
+  }
+  return said;
+}
+
+void TestEditorFiles::samplesAreImportedOrRefused()
+{
+  const QString folder = QString::fromStdString(dgtk::test::extraModels());
+  if (folder.isEmpty())
+  {
+    QSKIP("further models are not part of the source: set DGTK_EXTRA_MODELS");
+  }
+  QStringList patterns;
+  for (const dgtk::ReaderInfo& reader : dgtk::modelReaders())
+  {
+    for (const std::string& extension : reader.extensions)
+    {
+      patterns << "*." + QString::fromStdString(extension);
+    }
+  }
+  int imported = 0;
+  QStringList refused;
+  for (QDirIterator at(folder, patterns, QDir::Files, QDirIterator::Subdirectories); at.hasNext();)
+  {
+    const QString path = at.next();
+    QString expected;
+    try
+    {
+      expected = dgtk::readModel(path.toStdString())->triangles.empty() ? "has no surfaces: nothing was added." : "";
+    }
+    catch (const dgtk::InputError& error)
+    {
+      const QString whole = error.what(); // the document names the folder in its own way
+      expected = whole.mid(std::max(0, whole.lastIndexOf(QFileInfo(path).fileName())));
+    }
+    const QString said = this->importChecked(path);
+    QVERIFY2(said.isEmpty() == expected.isEmpty() && (said.isEmpty() || said.endsWith(expected)),
+      qPrintable(path + QString(" said: %1 expected: %2").arg(said, expected)));
+    imported += said.isEmpty() ? 1 : 0;
+    if (!said.isEmpty())
+    {
+      refused << QFileInfo(path).fileName();
+    }
+  }
+  QVERIFY2(imported >= 30, qPrintable(QString::number(imported)));
+  QVERIFY2(refused.contains("empty.3ds"), qPrintable(refused.join(' ')));
+  while (this->Window->document().canUndo())
+  {
+    this->action("undo")->trigger();
+  }
+  QVERIFY(this->Window->document().scene().objects.empty());
+}
+
+void TestEditorFiles::damagedFilesAreRefused()
+{
+  QVERIFY(this->import(model("crate.ac")).isEmpty());
+  const QByteArray garbage = QByteArray("\x00\xff\x01 no model {[(<", 18).repeated(40);
+  for (const dgtk::ReaderInfo& reader : dgtk::modelReaders())
+  {
+    for (const std::string& extension : reader.extensions)
+    {
+      const QByteArray name = QByteArray("damaged.") + extension.c_str();
+      QVERIFY2(!this->importChecked(this->path("missing") + name).isEmpty(), name);
+      QVERIFY2(!this->importChecked(this->write(name, {})).isEmpty(), name);
+      QVERIFY2(!this->importChecked(this->write(name, garbage)).isEmpty(), name);
+    }
+  }
+}
+
+void TestEditorFiles::filesThatEndEarlyAreRefused()
+{
+  QVERIFY(this->import(model("crate.ac")).isEmpty());
+  auto* log = this->Window->findChild<QPlainTextEdit*>("log");
+  for (const char* own :
+    { "house.ac", "terrain.acc", "creature.md2", "chair.3ds", "head.pov", "column.obj", "windmill.gltf" })
+  {
+    const QByteArray whole = contentsOf(model(own));
+    const QByteArray name = "cut." + QFileInfo(own).suffix().toLatin1();
+    for (const int part : { 1, 40, 66, 90 })
+    {
+      log->clear();
+      const QString said = this->importChecked(this->write(name, whole.left(whole.size() * part / 100)));
+      // What is left of a list of lines is a model. A 3DS file's last chunks are read as far as they are there.
+      const bool warned = name == "cut.obj" || (name == "cut.3ds" && log->toPlainText().contains("longer than"));
+      QVERIFY2(!said.isEmpty() || warned, qPrintable(own + QString(" %1").arg(part)));
+    }
+  }
+}
+
+void TestEditorFiles::useImporter(const QByteArray& line) const
+{
+  QFile script(this->write("importer", "#!/bin/sh\n" + line + '\n'));
+  script.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
+  qputenv("DGTK_IMPORT", script.fileName().toLocal8Bit());
+}
+
+void TestEditorFiles::anImporterThatCrashesIsAMessage()
+{
+  for (const char* signal : { "SEGV", "ABRT", "KILL" })
+  {
+    this->useImporter(QByteArray("kill -") + signal + " $$");
+    for (const char* name : { "a.fbx", "a.dae", "a.glb" })
+    {
+      const QString said = this->importChecked(this->write(name, "contents"));
+      QVERIFY2(said.contains("ended abnormally") || said.contains("is damaged"), qPrintable(said));
+    }
+  }
+  qunsetenv("DGTK_IMPORT");
+  QVERIFY(this->import(model("windmill.gltf")).isEmpty());
+}
+
+void TestEditorFiles::filesAreDropped()
+{
+  QMimeData data;
+  data.setUrls({ QUrl::fromLocalFile(model("crate.ac")), QUrl::fromLocalFile(model("windmill.gltf")) });
+  QDragEnterEvent enter({ 20, 20 }, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(this->Window.get(), &enter);
+  QVERIFY(enter.isAccepted());
+  QDropEvent drop({ 20, 20 }, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(this->Window.get(), &drop);
+  const dgtk::SceneDocument& document = this->Window->document();
+  QTRY_COMPARE(document.scene().objects.size(), std::size_t(2));
+  QCOMPARE(document.scene().objects[1].name, std::string("windmill-1"));
+  QMimeData words;
+  words.setText("no file");
+  QDragEnterEvent text({ 20, 20 }, Qt::CopyAction, &words, Qt::LeftButton, Qt::NoModifier);
+  text.setAccepted(false);
+  QApplication::sendEvent(this->Window.get(), &text);
+  QVERIFY(!text.isAccepted());
+}
+
+void TestEditorFiles::inFileDialog(const char* action, const std::function<void(QFileDialog&)>& act) const
+{
+  answer<QFileDialog>({}, act);
+  this->action(action)->trigger();
+}
+
+void TestEditorFiles::theImportDialogKnowsAllFormats()
+{
+  QStringList filters;
+  this->inFileDialog("import",
+    [&](QFileDialog& dialog)
+    {
+      filters = dialog.nameFilters();
+      dialog.setDirectory(model(""));
+      dialog.findChild<QLineEdit*>("fileNameEdit")->setText("\"crate.ac\" \"windmill.gltf\"");
+      QTest::keyClick(dialog.findChild<QLineEdit*>("fileNameEdit"), Qt::Key_Return);
+    });
+  QCOMPARE(filters.size(), int(dgtk::modelReaders().size()) + 1);
+  for (const dgtk::ReaderInfo& reader : dgtk::modelReaders())
+  {
+    for (const std::string& extension : reader.extensions)
+    {
+      const QString pattern = "*." + QString::fromStdString(extension);
+      QVERIFY2(filters.first().contains(pattern), qPrintable(pattern));
+      QCOMPARE(filters.filter(QRegularExpression(QRegularExpression::escape(pattern) + "[ )]")).size(), 2);
+    }
+  }
+  QTRY_COMPARE(this->Window->document().scene().objects.size(), std::size_t(2));
+}
+
+void TestEditorFiles::exportsForPovRay()
+{
+  QVERIFY(this->import(model("crate.ac")).isEmpty());
+  const QString file = this->path("crate.pov");
+  this->inFileDialog("exportPov",
+    [&](QFileDialog& dialog)
+    {
+      dialog.findChild<QLineEdit*>("fileNameEdit")->setText(this->path("crate"));
+      QTest::keyClick(dialog.findChild<QLineEdit*>("fileNameEdit"), Qt::Key_Return);
+    });
+  QTRY_VERIFY(QFile::exists(file));
+  QCOMPARE(dgtk::readModel(file.toStdString())->triangles.size(),
+    dgtk::readModel(model("crate.ac").toStdString())->triangles.size());
+  const QString povray = QStandardPaths::findExecutable("povray");
+  if (!povray.isEmpty())
+  {
+    QProcess process;
+    process.setWorkingDirectory(this->path("."));
+    process.start(povray, { "+Icrate.pov", "+Ocrate.png", "+W32", "+H24", "-D" });
+    QVERIFY(process.waitForFinished(longestRun));
+    QCOMPARE(process.exitCode(), 0);
+    QVERIFY(QFile::exists(this->path("crate.png")));
+  }
+}
+
+void TestEditorFiles::filesOfTheCommandLineOpen()
+{
+  QProcess editor;
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  const QString settings = this->path("config");
+  environment.insert("XDG_CONFIG_HOME", settings);
+  environment.insert("XDG_DATA_HOME", this->path("data"));
+  editor.setProcessEnvironment(environment);
+  editor.start(QCoreApplication::applicationDirPath() + "/dgtk-editor", { this->copyOfDemo(), model("crate.ac") });
+  QTRY_VERIFY_WITH_TIMEOUT(contentsOf(settings + "/DGTk/Editor.conf").contains("demo.json"), longestRun);
+  QCOMPARE(editor.state(), QProcess::Running);
+  editor.kill();
+  QVERIFY(editor.waitForFinished());
+}
+
+void TestEditorFiles::recentFilesOpenAgain()
+{
+  const QString scene = this->copyOfDemo();
+  QVERIFY(this->Window->openFile(scene));
+  this->Window = std::make_unique<dgtk::MainWindow>();
+  this->Window->show();
+  auto* recent = this->Window->findChild<QMenu*>("recent");
+  QCOMPARE(recent->actions().size(), 1);
+  QVERIFY(recent->actions().first()->text().contains("demo.json"));
+  recent->actions().first()->trigger();
+  QTRY_COMPARE(QString::fromStdString(this->Window->document().path()), scene);
+}
+
+void TestEditorFiles::theWindowIsAsItWasLeft()
+{
+  this->Window->resize(1111, 777);
+  this->Window->findChild<QDockWidget*>("logDock")->hide();
+  QTest::qWait(settle);
+  const QSize size = this->Window->size();
+  QVERIFY(this->Window->close());
+  this->Window = std::make_unique<dgtk::MainWindow>();
+  this->Window->show();
+  QVERIFY(QTest::qWaitForWindowExposed(this->Window.get()));
+  QTRY_COMPARE(this->Window->size(), size);
+  QVERIFY(!this->Window->findChild<QDockWidget*>("logDock")->isVisible());
+  QVERIFY(this->Window->findChild<QDockWidget*>("timeDock")->isVisible());
+}
+
+void TestEditorFiles::readingDoesNotHoldTheWindow()
+{
+  const QString file = this->write("large.obj", largeObj());
+  double last = computed();
+  double longest = 0;
+  int beats = 0;
+  QTimer heart;
+  connect(&heart, &QTimer::timeout, &heart,
+    [&]
+    {
+      const double now = computed();
+      // While a file is read no other can be opened.
+      const bool reading = !this->action("open")->isEnabled();
+      beats += reading ? 1 : 0;
+      longest = reading ? std::max(longest, now - last) : longest;
+      last = now;
+    });
+  heart.start(5);
+  QVERIFY(this->Window->importFile(file));
+  QVERIFY2(beats > 20, qPrintable(QString::number(beats)));
+  qInfo("%d beats while %d triangles were read; the longest event took %.0f ms", beats, 2 * (side - 1) * (side - 1),
+    longest);
+  QVERIFY(longest < longestEvent);
+  QVERIFY(this->action("open")->isEnabled());
+}
+
+void TestEditorFiles::readingIsCancelled()
+{
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  dgtk::SceneDocument& document = this->Window->document();
+  const std::string before = document.json();
+  this->useImporter("exec /bin/sleep 3");
+  const QString file = this->write("slow.dae", "contents");
+  auto* cancel = this->Window->findChild<QPushButton*>("backgroundCancel");
+  QTimer clicker;
+  bool second = true;
+  connect(&clicker, &QTimer::timeout, &clicker,
+    [&]
+    {
+      if (cancel->isVisible())
+      {
+        second = this->Window->importFile(model("crate.ac"));
+        QTest::mouseClick(cancel, Qt::LeftButton);
+        clicker.stop();
+      }
+    });
+  clicker.start(10);
+  QVERIFY(!this->Window->importFile(file));
+  qunsetenv("DGTK_IMPORT");
+  QVERIFY2(!second, "one file at a time");
+  QVERIFY(!cancel->isVisible());
+  QCOMPARE(document.json(), before);
+  QVERIFY(this->import(model("crate.ac")).isEmpty());
+  QCOMPARE(document.undoText(), std::string("Import crate.ac"));
+}
+
+void TestEditorFiles::pictures()
+{
+  const QString folder = QString::fromLocal8Bit(qgetenv("DGTK_EDITOR_PICTURES"));
+  if (folder.isEmpty())
+  {
+    return; // made by Documentation/Images/make_editor.py
+  }
+  this->Window->resize(1280, 860);
+  QVERIFY(this->Window->openFile(demo()));
+  this->useImporter("exec /bin/sleep 8");
+  auto* cancel = this->Window->findChild<QPushButton*>("backgroundCancel");
+  QTimer clicker;
+  connect(&clicker, &QTimer::timeout, &clicker,
+    [&]
+    {
+      if (cancel->isVisible())
+      {
+        clicker.stop();
+        QTest::qWait(settle);
+        const QPixmap all = this->Window->grab();
+        const int height = 60;
+        all.copy(0, all.height() - height, all.width(), height).save(folder + "/editor_reading.png");
+        cancel->click();
+      }
+    });
+  clicker.start(10);
+  this->Window->importFile(this->write("cathedral.dae", "contents"));
+  qunsetenv("DGTK_IMPORT");
+}
+
+int main(int argc, char** argv) { return runEditorTest<TestEditorFiles>(argc, argv); }

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef TestEditorFiles_h
+#define TestEditorFiles_h
+
+#include "EditorTest.h"
+
+class QFileDialog;
+class QString;
+
+class TestEditorFiles : public EditorTest
+{
+  Q_OBJECT
+
+private slots:
+  void samplesAreImportedOrRefused();
+  void damagedFilesAreRefused();
+  void filesThatEndEarlyAreRefused();
+  void anImporterThatCrashesIsAMessage();
+  void filesAreDropped();
+  void theImportDialogKnowsAllFormats();
+  void exportsForPovRay();
+  void filesOfTheCommandLineOpen();
+  void recentFilesOpenAgain();
+  void theWindowIsAsItWasLeft();
+  void readingDoesNotHoldTheWindow();
+  void readingIsCancelled();
+  void pictures();
+
+private:
+  QString write(const char* name, const QByteArray& contents) const;
+  /// Imports a file; returns what the dialog said, "" when there was none.
+  QString import(const QString& path);
+  /// As import(), and the scene is as before when there was a dialog, and has one object more when there was none.
+  QString importChecked(const QString& path);
+  /// Triggers an action that opens a file dialog.
+  void inFileDialog(const char* action, const std::function<void(QFileDialog&)>& act) const;
+  /// An importer that runs a line of shell.
+  void useImporter(const QByteArray& line) const;
+};
+
+#endif
