@@ -5,6 +5,7 @@
 #include "dgtkScenePlaces.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace dgtk
@@ -54,32 +55,54 @@ LiveView liveView(const ViewCamera& camera, const WorldBox& box, int width, int 
   return { view, view, view };
 }
 
-LiveScene::LiveScene(const SceneDescription& scene, const ModelStore& models)
+LiveScene::LiveScene(const SceneDescription& scene, const ModelStore& models, const LiveScene* before)
   : Scene(scene)
   , Models(models)
   , First(scene.firstFrame())
   , Last(scene.lastFrame())
 {
+  if (before != nullptr)
+  {
+    const std::lock_guard<std::mutex> lock(before->Mutex);
+    this->Old = before->Kept.empty() ? before->Old : before->Kept;
+  }
 }
 
-LiveScene::Moment LiveScene::at(int frame) const
+std::optional<LiveScene::Moment> LiveScene::find(int frame) const
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
   const auto found =
     std::find_if(this->Kept.begin(), this->Kept.end(), [&](const Moment& moment) { return moment.frame == frame; });
-  if (found != this->Kept.end())
+  if (found == this->Kept.end())
   {
-    this->Kept.splice(this->Kept.begin(), this->Kept, found);
-    return this->Kept.front();
+    return std::nullopt;
+  }
+  this->Kept.splice(this->Kept.begin(), this->Kept, found);
+  return this->Kept.front();
+}
+
+LiveScene::Moment LiveScene::at(int frame) const
+{
+  if (const std::optional<Moment> known = this->find(frame))
+  {
+    return *known;
+  }
+  const std::lock_guard<std::mutex> building(this->Building);
+  if (const std::optional<Moment> known = this->find(frame))
+  {
+    return *known;
   }
   Moment moment{ frame, stateOf(this->Scene, this->Models, frame), nullptr };
   std::shared_ptr<OcclusionQuery> occlusion = makeOcclusionQuery();
   occlusion->setScene(moment.state);
   moment.occlusion = std::move(occlusion);
+  std::list<Moment> dropped; // destroyed after the lock
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  dropped.swap(this->Old);
   this->Kept.push_front(moment);
   if (this->Kept.size() > mostKept)
   {
-    this->Kept.pop_back();
+    dropped.splice(dropped.begin(), this->Kept, std::prev(this->Kept.end()));
   }
   return moment;
 }

@@ -13,6 +13,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,8 +37,8 @@ DGTKWIDGETS_EXPORT LiveView liveView(const ViewCamera& camera, const WorldBox& b
 class DGTKWIDGETS_EXPORT LiveScene
 {
 public:
-  /// Copies both; geometry is shared.
-  LiveScene(const SceneDescription& scene, const ModelStore& models);
+  /// Copies both; geometry is shared. What rays need of the geometry is taken over from the scene `before` a change.
+  LiveScene(const SceneDescription& scene, const ModelStore& models, const LiveScene* before = nullptr);
 
   struct Moment
   {
@@ -64,8 +65,11 @@ private:
   ModelStore Models;
   int First = 0;
   int Last = 0;
-  mutable std::mutex Mutex;
-  mutable std::list<Moment> Kept; // last used first
+  std::optional<Moment> find(int frame) const;
+  mutable std::mutex Mutex;       ///< of the lists; never held for long
+  mutable std::mutex Building;    ///< one moment is made at a time
+  mutable std::list<Moment> Kept; ///< last used first
+  mutable std::list<Moment> Old;  ///< of the scene before, until there are own ones
 };
 
 } // namespace dgtk

@@ -7,6 +7,7 @@
 #include "dgtkSurfaceRows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <exception>
 #include <thread>
@@ -18,7 +19,7 @@ namespace dgtk
 namespace
 {
 constexpr int stripPixels = 1 << 14;
-constexpr int coarseStep = 6;
+constexpr int steps[] = { 6, 2, 1 };
 constexpr int leastFine = 1 << 14; ///< pixels of a picture that is not worth a coarse one
 
 View coarser(const View& view, int step)
@@ -79,6 +80,24 @@ PixelLayer layerOf(const SceneState& state, const Hit& hit, const SurfacePoint& 
   return layer;
 }
 
+void findRange(const Rows& rows, LivePicture& picture)
+{
+  if (rows.type() != PixelType::Float64 || rows.channels() != 1)
+  {
+    return;
+  }
+  const double* const first = rows.row<double>(0);
+  for (const double* value = first; value != first + std::size_t(rows.width()) * rows.height(); ++value)
+  {
+    if (std::isfinite(*value))
+    {
+      const bool none = picture.least > picture.most;
+      picture.least = none ? *value : std::min(picture.least, *value);
+      picture.most = none ? *value : std::max(picture.most, *value);
+    }
+  }
+}
+
 template <typename Answer, typename Make>
 Answer attempted(const Make& make)
 {
@@ -123,6 +142,7 @@ LivePicture livePicture(
     std::memcpy(whole.data() + whole.rowBytes() * std::size_t(y), rows.data(), rows.bytes());
   }
   result.picture = paintLayer(whole, spec);
+  findRange(whole, result);
   if (eye.isBeyond(layer))
   {
     result.message = "there is no frame beside this one to move to: flow needs key frames";
@@ -185,7 +205,7 @@ void LiveTruth::askPicture(LiveQuestion question, std::string layer, std::functi
     {
       const CameraModel& model = *question.view.now.model;
       const bool small = std::int64_t(model.width()) * model.height() < leastFine;
-      for (const int factor : { coarseStep, 1 })
+      for (const int factor : steps)
       {
         const int step = factor * question.finest;
         if (factor > 1 && small)
@@ -193,11 +213,13 @@ void LiveTruth::askPicture(LiveQuestion question, std::string layer, std::functi
           continue;
         }
         // The coarse picture is shown even when it is late, so that a view that is being turned is not empty.
-        const LivePicture picture = attempted<LivePicture>(
-          [&] {
+        LivePicture picture = attempted<LivePicture>(
+          [&]
+          {
             return livePicture(
-              question, layer, step, this->Pool, factor > 1 || small ? std::function<bool()>() : outdated);
+              question, layer, step, this->Pool, factor == steps[0] || small ? std::function<bool()>() : outdated);
           });
+        picture.coarseness = factor;
         if (!picture.picture.pixels.empty() || !picture.message.empty())
         {
           receive(picture);

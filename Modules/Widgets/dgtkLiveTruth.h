@@ -27,7 +27,10 @@ struct LiveQuestion
 struct LivePicture
 {
   LayerPicture picture;
-  int step = 1;        ///< pixels of the view, in x and y, that are one of the picture
+  int step = 1;       ///< pixels of the view, in x and y, that are one of the picture
+  int coarseness = 1; ///< 1: as fine as was asked
+  double least = 0;   ///< of the finite values of a layer with one real channel; least > most: there are none
+  double most = -1;
   std::string message; ///< why there is nothing to see, one line; empty usually
 };
 

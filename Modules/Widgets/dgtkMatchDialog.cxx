@@ -37,7 +37,7 @@ void MatchDialog::refresh()
   if (this->Changed)
   {
     this->Changed = false;
-    this->Scene = std::make_shared<LiveScene>(this->State.scene(), this->State.document().models());
+    this->Scene = std::make_shared<LiveScene>(this->State.scene(), this->State.document().models(), this->Scene.get());
     this->refreshCameras();
     this->showView(0);
     this->showView(1);

@@ -103,8 +103,7 @@ QWidget* MatchDialog::makeSide(std::size_t index)
   row->addWidget(side.camera);
   row->addWidget(new QLabel(tr("Frame")));
   row->addWidget(side.frame);
-  row->addStretch(1);
-  row->addWidget(side.where);
+  row->addWidget(side.where, 1);
   layout->addLayout(row);
   layout->addWidget(side.pane, 1);
   const auto show = [this, index] { this->showView(index); };
@@ -112,9 +111,13 @@ QWidget* MatchDialog::makeSide(std::size_t index)
   connect(side.frame, QOverload<int>::of(&QSpinBox::valueChanged), this, show);
   connect(side.pane, &MatchPane::picked, this, [this, index](double x, double y) { this->pick(index, { x, y }); });
   connect(side.pane, &MatchPane::moved, this, [this, index](double dx, double dy) { this->move(index, { dx, dy }); });
+  const QString hint = tr("wheel: zoom, drag: pan, arrows: move the point");
+  side.where->setText(hint);
+  side.where->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  side.where->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   connect(side.pane, &MatchPane::pointed, this,
-    [where = side.where](bool inside, double x, double y)
-    { where->setText(inside ? tr("x %1  y %2").arg(x, 0, 'f', 2).arg(y, 0, 'f', 2) : QString()); });
+    [where = side.where, hint](bool inside, double x, double y)
+    { where->setText(inside ? tr("x %1  y %2").arg(x, 0, 'f', 2).arg(y, 0, 'f', 2) : hint); });
   return widget;
 }
 
@@ -144,7 +147,6 @@ void MatchDialog::makeControls(QVBoxLayout* layout)
   row->addSpacing(12);
   row->addWidget(swap);
   row->addStretch(1);
-  row->addWidget(new QLabel(tr("Wheel: zoom. Drag: pan. Double click: all of it. Arrows: move the point.")));
   layout->addLayout(row);
   connect(this->Layer, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     [this]
@@ -160,7 +162,7 @@ QLabel* MatchDialog::addNumber(QFormLayout* form, const QString& label, const ch
   auto* value = new QLabel;
   value->setObjectName(name);
   value->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  value->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  value->setWordWrap(true);
   form->addRow(label, value);
   return value;
 }

@@ -16,6 +16,8 @@ namespace dgtk
 
 namespace
 {
+constexpr int mostInALine = 14; // letters of a name and its unit
+
 double valueOf(const PixelTruth& truth, const char* layer)
 {
   for (const PixelValue& value : truth.values)
@@ -98,6 +100,7 @@ void TruthPanel::setRow(const QString& name, const QString& value, const QString
   row->setToolTip(0, tip);
   row->setToolTip(1, value);
   row->setTextAlignment(0, Qt::AlignLeft | Qt::AlignTop);
+  row->setTextAlignment(1, Qt::AlignLeft | Qt::AlignTop);
 }
 
 void TruthPanel::finishRows()
@@ -141,7 +144,7 @@ void TruthPanel::showTruth(const QString& view, const PixelTruth& truth, const Q
     this->setRow(tr("Triangle"), exactText(valueOf(truth, "triangles")));
     this->showValues(truth, units);
   }
-  this->setRow(tr("Surfaces on the ray"), QString::number(truth.layers.size()));
+  this->setRow(tr("Surfaces"), QString::number(truth.layers.size()));
   int rank = 1;
   for (const PixelLayer& layer : truth.layers)
   {
@@ -176,7 +179,8 @@ void TruthPanel::showValues(const PixelTruth& truth, const QString& units)
       const std::vector<double>& v = value.values;
       text = tr("id %1, coverage %2 / 255").arg(v[0] * 65536 + v[1] * 256 + v[2]).arg(v[3]);
     }
-    this->setRow(bare ? what : what + ", " + unit, text, toText(value.spec.description));
+    const QString separator = what.size() + unit.size() > mostInALine ? QStringLiteral(",\n") : QStringLiteral(", ");
+    this->setRow(bare ? what : what + separator + unit, text, toText(value.spec.description));
   }
 }
 
@@ -186,7 +190,7 @@ QString TruthPanel::text() const
   for (int i = 0; i < this->topLevelItemCount(); ++i)
   {
     const QTreeWidgetItem* const row = this->topLevelItem(i);
-    lines << row->text(0) + '\t' + row->text(1).replace('\n', '\t');
+    lines << row->text(0).replace(",\n", ", ") + '\t' + row->text(1).replace('\n', '\t');
   }
   return lines.join('\n');
 }

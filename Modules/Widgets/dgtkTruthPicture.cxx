@@ -48,6 +48,7 @@ void TruthPicture::showPicture(const LivePicture& picture, const QSize& size, co
   this->Image = imageOf(picture.picture);
   this->Size = size;
   this->Step = picture.step;
+  this->Coarseness = picture.coarseness;
   this->Caption = caption;
   this->update();
 }
@@ -55,7 +56,7 @@ void TruthPicture::showPicture(const LivePicture& picture, const QSize& size, co
 void TruthPicture::forgetPicture()
 {
   this->Image = {};
-  this->Step = 0;
+  this->Coarseness = 0;
   this->Caption.clear();
   this->update();
 }

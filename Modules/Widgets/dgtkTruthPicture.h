@@ -21,7 +21,7 @@ QImage imageOf(const LayerPicture& picture);
 class TruthPicture : public QWidget
 {
   Q_OBJECT
-  Q_PROPERTY(int step READ step)
+  Q_PROPERTY(int coarseness READ coarseness)
 
 public:
   explicit TruthPicture(QWidget* view);
@@ -29,8 +29,8 @@ public:
   /// `size`: of the image, pixels; the picture may be coarser.
   void showPicture(const LivePicture& picture, const QSize& size, const QString& caption);
   void forgetPicture();
-  /// Coarseness of what is shown; 0: nothing yet.
-  int step() const { return this->Step; }
+  /// Of what is shown, 1: as fine as it gets; 0: nothing yet.
+  int coarseness() const { return this->Coarseness; }
   const QImage& image() const { return this->Image; }
 
   /// Where an image of that size is in a widget of another.
@@ -42,7 +42,8 @@ protected:
 private:
   QImage Image;
   QSize Size;
-  int Step = 0;
+  int Step = 1; ///< pixels of the view that are one of the image
+  int Coarseness = 0;
   QString Caption;
 };
 

@@ -42,6 +42,7 @@ TruthView::TruthView(EditorState& state, SceneViews& views, QObject* parent)
     this->Choice->addItem(toText(layer.name), toText(layer.name));
     this->Choice->setItemData(this->Choice->count() - 1, toText(layer.description), Qt::ToolTipRole);
   }
+  title->addSpacing(8);
   title->addWidget(this->Subject);
   title->addStretch(1);
   title->addWidget(this->Choice);
@@ -145,8 +146,8 @@ std::optional<LiveQuestion> TruthView::question()
   }
   if (!this->Scene)
   {
-    this->Scene = std::make_shared<LiveScene>(this->State.scene(), this->State.document().models());
-    this->Last = this->Scene;
+    this->Scene = std::make_shared<LiveScene>(this->State.scene(), this->State.document().models(), this->Before.get());
+    this->Before = this->Scene;
   }
   LiveQuestion question;
   question.scene = this->Scene;
@@ -216,7 +217,20 @@ void TruthView::receive(const LivePicture& picture, const QString& layer, const 
   {
     return;
   }
-  const QString caption = picture.message.empty() ? layer : layer + ": " + toText(picture.message);
+  QString caption = layer;
+  if (!picture.message.empty())
+  {
+    caption += ": " + toText(picture.message);
+  }
+  else if (picture.least <= picture.most)
+  {
+    const bool nearBright = layer == "depth" || layer == "distance";
+    const double ends[2] = { picture.least, picture.most };
+    caption = tr("%1: %2 (bright) to %3 (dark)")
+                .arg(layer)
+                .arg(ends[nearBright ? 0 : 1], 0, 'g', 5)
+                .arg(ends[nearBright ? 1 : 0], 0, 'g', 5);
+  }
   this->Picture->showPicture(picture, size, caption);
 }
 

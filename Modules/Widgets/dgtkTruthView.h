@@ -73,8 +73,8 @@ private:
   QComboBox* Choice;
   QLabel* Subject;
   QActionGroup* Group;
-  std::shared_ptr<const LiveScene> Scene; ///< null after a change
-  std::shared_ptr<const LiveScene> Last;  ///< keeps what both share
+  std::shared_ptr<const LiveScene> Scene;  ///< null after a change
+  std::shared_ptr<const LiveScene> Before; ///< the last one that was asked
   std::optional<CameraDescription> Through;
   QString Layer;
   bool AskWanted = false;
