@@ -62,6 +62,7 @@ BackgroundWork::BackgroundWork(QStatusBar* bar, QObject* parent)
   layout->addWidget(this->What);
   layout->addWidget(this->Bar);
   layout->addWidget(stop);
+  this->Panel->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
   bar->addPermanentWidget(this->Panel);
   this->Panel->hide();
   connect(stop, &QPushButton::clicked, this, &BackgroundWork::cancel);

@@ -118,12 +118,12 @@ void MainWindow::note(const QString& line)
 
 void MainWindow::closeEvent(QCloseEvent* event)
 {
-  this->Work->cancel();
   if (!this->mayDiscard())
   {
     event->ignore();
     return;
   }
+  this->Work->cancel();
   QSettings settings;
   settings.setValue("geometry", this->saveGeometry());
   settings.setValue("state", this->saveState());

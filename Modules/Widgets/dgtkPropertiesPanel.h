@@ -35,6 +35,8 @@ private:
   void rebuild();
   void refresh();
   void buildObject(std::size_t index);
+  /// When the model has sequences.
+  void buildSequence(std::size_t index);
   void buildLight(std::size_t index);
   void buildCamera(std::size_t index);
 

@@ -167,6 +167,7 @@ void PropertiesPanel::buildObject(std::size_t index)
     tr("Scale"), "scale", [object](SceneDescription& scene) -> Track<Eigen::Vector3d>& { return object(scene).scale; });
   this->addCheck(
     tr("Visible"), "visible", [object](SceneDescription& scene) -> bool& { return object(scene).visible; });
+  this->buildSequence(index);
 }
 
 void PropertiesPanel::buildLight(std::size_t index)

@@ -37,6 +37,16 @@ class Usage(Case):
         self.refused("list", "nothing", status=2, says="expected one of readers")
         self.assertFalse(os.path.exists(self.path("x")))
 
+    def test_lines_of_progress_come_as_often_as_asked(self):
+        words = ("render", SCENE, "-o", self.path("x"), "--size", "16x12", "--layers", "depth")
+        often = self.dgtk(*words, environment={"DGTK_PROGRESS": "0.01"}).stderr
+        self.assertRegex(often, r"(?m)^0/\d+ pictures, 0\.000/s, \? left$")
+        self.assertNotIn(" left", self.dgtk(*words[:3], self.path("y"), *words[4:]).stderr)
+        for wrong in ("often", "0", "-1", "1e9", "nan", ""):
+            done = self.dgtk(*words[:3], self.path("z"), *words[4:], status=2, environment={"DGTK_PROGRESS": wrong})
+            self.assertIn("DGTK_PROGRESS: expected seconds from 0.01 to 3600", done.stderr)
+        self.assertFalse(os.path.exists(self.path("z")))
+
     def test_lists(self):
         for what, word in (("readers", "md2"), ("layers", "depth"), ("writers", "npy"), ("cameras", "orthographic"), ("gl", "egl")):
             self.assertIn(word, self.dgtk("list", what).stdout)

@@ -8,6 +8,7 @@
 #include "dgtkSceneDocument.h"
 
 #include <QAction>
+#include <QCheckBox>
 #include <QDockWidget>
 #include <QDropEvent>
 #include <QFileDialog>
@@ -17,8 +18,10 @@
 #include <QMimeData>
 #include <QPlainTextEdit>
 #include <QProcess>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <QSpinBox>
 #include <QStandardPaths>
 #include <QTest>
 #include <QUrl>
@@ -31,6 +34,7 @@ namespace
 {
 constexpr int longestEvent = 200; // milliseconds of the window's thread
 constexpr int side = 450;         // vertices of the large model's side
+constexpr int largeWidth = 1600;  // pixels of a picture that takes a while
 
 QString model(const char* name) { return QString::fromStdString(sourceFile(std::string("Data/Models/") + name)); }
 
@@ -401,6 +405,44 @@ void TestEditorFiles::readingIsCancelled()
   QCOMPARE(document.undoText(), std::string("Import crate.ac"));
 }
 
+void TestEditorFiles::theProgressOfARunMoves()
+{
+  QVERIFY(this->Window->openFile(demo()));
+  this->action("render")->trigger();
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  dialog->findChild<QLineEdit*>("folder")->setText(this->path("progress"));
+  dialog->findChild<QCheckBox*>("ownSize")->setChecked(false);
+  dialog->findChild<QSpinBox*>("width")->setValue(largeWidth);
+  dialog->findChild<QSpinBox*>("height")->setValue(largeWidth);
+  auto* bar = dialog->findChild<QProgressBar*>("progress");
+  auto* start = dialog->findChild<QPushButton*>("start");
+  auto* cancel = dialog->findChild<QPushButton*>("cancel");
+  int last = -1;
+  int still = 0;
+  int stillest = 0;
+  int moves = 0;
+  QTimer looker;
+  connect(&looker, &QTimer::timeout, &looker,
+    [&]
+    {
+      const bool counting = bar->maximum() > 1 && !start->isEnabled();
+      const bool moved = counting && bar->value() > last;
+      QVERIFY(!counting || bar->value() >= last);
+      moves += moved ? 1 : 0;
+      still = moved || !counting ? 0 : still + 1;
+      stillest = std::max(stillest, still);
+      last = counting ? bar->value() : -1;
+    });
+  looker.start(100);
+  QTest::mouseClick(start, Qt::LeftButton);
+  QTRY_VERIFY_WITH_TIMEOUT(moves > 8 || start->isEnabled(), longestRun);
+  QTest::mouseClick(cancel, Qt::LeftButton);
+  looker.stop();
+  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+  QVERIFY(moves > 4);
+  QVERIFY2(stillest < 5, "half a second without a move");
+}
+
 void TestEditorFiles::pictures()
 {
   const QString folder = QString::fromLocal8Bit(qgetenv("DGTK_EDITOR_PICTURES"));
@@ -421,7 +463,7 @@ void TestEditorFiles::pictures()
         clicker.stop();
         QTest::qWait(settle);
         const QPixmap all = this->Window->grab();
-        const int height = 60;
+        const int height = 90;
         all.copy(0, all.height() - height, all.width(), height).save(folder + "/editor_reading.png");
         cancel->click();
       }

@@ -24,6 +24,7 @@ private slots:
   void theWindowIsAsItWasLeft();
   void readingDoesNotHoldTheWindow();
   void readingIsCancelled();
+  void theProgressOfARunMoves();
   void pictures();
 
 private:

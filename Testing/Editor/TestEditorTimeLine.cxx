@@ -12,6 +12,7 @@
 #include <QContextMenuEvent>
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
+#include <QLineEdit>
 #include <QMenu>
 #include <QMessageBox>
 #include <QMouseEvent>
@@ -243,7 +244,11 @@ void TestEditorTimeLine::sequencesAreChosen()
   this->choose(creature, "", "Repeat the sequence");
   QVERIFY(!animation().loop);
   const auto bar = dgtk::sequenceBar(document.scene(), document.scene().objects[1], document.models());
+  this->select("creature-1");
+  QCOMPARE(this->field("sequenceStart.0")->text(), QString("5"));
   QCOMPARE(bar->length, 13 * 2.5);
+  this->type("sequenceRate.0", "2");
+  QCOMPARE(animation().rate, 2.0);
   QVERIFY(this->Window->saveFile(this->path("jump.json")));
   QCOMPARE(dgtk::readScene(this->path("jump.json").toStdString()).objects[1].animation.sequence, std::string("jump"));
 }

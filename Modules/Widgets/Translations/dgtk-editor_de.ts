@@ -272,6 +272,241 @@
     </message>
 </context>
 <context>
+    <name>dgtk::DatasetViewer</name>
+    <message>
+        <source>Opening %1 ...</source>
+        <translation>%1 wird geöffnet ...</translation>
+    </message>
+    <message>
+        <source>%1 - DGTk dataset</source>
+        <translation>%1 - DGTk-Datensatz</translation>
+    </message>
+    <message>
+        <source>%1 cameras, %2 frames, %3 layers</source>
+        <translation>%1 Kameras, %2 Bilder, %3 Ebenen</translation>
+    </message>
+    <message>
+        <source>&lt;p&gt;%1&lt;/p&gt;&lt;p&gt;Open the folder that &lt;i&gt;dgtk render&lt;/i&gt; wrote.&lt;/p&gt;</source>
+        <translation>&lt;p&gt;%1&lt;/p&gt;&lt;p&gt;Den Ordner öffnen, den &lt;i&gt;dgtk render&lt;/i&gt; geschrieben hat.&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>DGTk</source>
+        <translation>DGTk</translation>
+    </message>
+    <message>
+        <source>Pixel (%1, %2)</source>
+        <translation>Pixel (%1, %2)</translation>
+    </message>
+    <message>
+        <source>Point at a picture to read its numbers.</source>
+        <translation>Auf ein Bild zeigen, um seine Zahlen zu lesen.</translation>
+    </message>
+    <message>
+        <source>&amp;File</source>
+        <translation>&amp;Datei</translation>
+    </message>
+    <message>
+        <source>&amp;Open dataset ...</source>
+        <translation>Datensatz ö&amp;ffnen ...</translation>
+    </message>
+    <message>
+        <source>&amp;Save the picture ...</source>
+        <translation>Bild &amp;speichern ...</translation>
+    </message>
+    <message>
+        <source>&amp;Copy the numbers</source>
+        <translation>Zahlen &amp;kopieren</translation>
+    </message>
+    <message>
+        <source>&amp;Close</source>
+        <translation>S&amp;chließen</translation>
+    </message>
+    <message>
+        <source>&amp;View</source>
+        <translation>&amp;Ansicht</translation>
+    </message>
+    <message>
+        <source>&amp;Fit</source>
+        <translation>&amp;Einpassen</translation>
+    </message>
+    <message>
+        <source>&amp;One to one</source>
+        <translation>E&amp;ins zu eins</translation>
+    </message>
+    <message>
+        <source>Zoom &amp;in</source>
+        <translation>&amp;Vergrößern</translation>
+    </message>
+    <message>
+        <source>Zoom o&amp;ut</source>
+        <translation>Ver&amp;kleinern</translation>
+    </message>
+    <message>
+        <source>One &amp;picture</source>
+        <translation>Ein &amp;Bild</translation>
+    </message>
+    <message>
+        <source>&amp;Two pictures</source>
+        <translation>&amp;Zwei Bilder</translation>
+    </message>
+    <message>
+        <source>Fou&amp;r pictures</source>
+        <translation>Vie&amp;r Bilder</translation>
+    </message>
+    <message>
+        <source>All &amp;layers of one camera</source>
+        <translation>Alle E&amp;benen einer Kamera</translation>
+    </message>
+    <message>
+        <source>One layer of all &amp;cameras</source>
+        <translation>Eine Ebene aller K&amp;ameras</translation>
+    </message>
+    <message>
+        <source>&amp;Maximise or restore the picture</source>
+        <translation>Bild &amp;maximieren oder wiederherstellen</translation>
+    </message>
+    <message>
+        <source>F&amp;rames</source>
+        <translation>&amp;Bilder</translation>
+    </message>
+    <message>
+        <source>&amp;Play</source>
+        <translation>&amp;Abspielen</translation>
+    </message>
+    <message>
+        <source>&amp;Next</source>
+        <translation>&amp;Nächstes</translation>
+    </message>
+    <message>
+        <source>&amp;Previous</source>
+        <translation>&amp;Voriges</translation>
+    </message>
+    <message>
+        <source>&amp;First</source>
+        <translation>&amp;Erstes</translation>
+    </message>
+    <message>
+        <source>&amp;Last</source>
+        <translation>&amp;Letztes</translation>
+    </message>
+    <message>
+        <source>&amp;3D view</source>
+        <translation>&amp;3D-Ansicht</translation>
+    </message>
+    <message>
+        <source>&amp;Show the 3D view</source>
+        <translation>3D-Ansicht &amp;zeigen</translation>
+    </message>
+    <message>
+        <source>Points of &amp;all cameras</source>
+        <translation>Punkte &amp;aller Kameras</translation>
+    </message>
+    <message>
+        <source>Colours of the &amp;chosen picture</source>
+        <translation>Farben des ge&amp;wählten Bildes</translation>
+    </message>
+    <message>
+        <source>Show &amp;everything</source>
+        <translation>A&amp;lles zeigen</translation>
+    </message>
+    <message>
+        <source>&amp;Look from the camera</source>
+        <translation>Von der &amp;Kamera aus sehen</translation>
+    </message>
+    <message>
+        <source>&amp;Help</source>
+        <translation>&amp;Hilfe</translation>
+    </message>
+    <message>
+        <source>&amp;Mouse and keys</source>
+        <translation>&amp;Maus und Tasten</translation>
+    </message>
+    <message>
+        <source>Mouse and keys</source>
+        <translation>Maus und Tasten</translation>
+    </message>
+    <message>
+        <source>&lt;p&gt;Pictures. Wheel: zoom at the mouse, in all pictures. Drag: pan. Double click: this picture alone, or all again.&lt;br&gt;Arrow keys: the crosshair by a pixel, with Shift by ten; with Ctrl they pan.&lt;br&gt;F fit, 1 one to one, + and - zoom at the crosshair.&lt;/p&gt;&lt;p&gt;Frames. Comma and full stop: one back, one on; Home, End; P play.&lt;/p&gt;&lt;p&gt;3D view. Left drag or arrow keys: turn. Middle or Shift and left drag, Shift and arrow keys: pan. Right drag or wheel: zoom. Click a camera: its pictures in the chosen pane.&lt;/p&gt;</source>
+        <translation>&lt;p&gt;Bilder. Rad: an der Maus zoomen, in allen Bildern. Ziehen: verschieben. Doppelklick: dieses Bild allein oder wieder alle.&lt;br&gt;Pfeiltasten: das Fadenkreuz um ein Pixel, mit Umschalt um zehn; mit Strg verschieben sie.&lt;br&gt;F einpassen, 1 eins zu eins, + und - zoomen am Fadenkreuz.&lt;/p&gt;&lt;p&gt;Zeit. Komma und Punkt: ein Bild zurück, eins weiter; Pos1, Ende; P abspielen.&lt;/p&gt;&lt;p&gt;3D-Ansicht. Links ziehen oder Pfeiltasten: drehen. Mitte oder Umschalt und links ziehen, Umschalt und Pfeiltasten: verschieben. Rechts ziehen oder Rad: zoomen. Klick auf eine Kamera: ihre Bilder im gewählten Feld.&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>Open a dataset</source>
+        <translation>Datensatz öffnen</translation>
+    </message>
+    <message>
+        <source>Save the picture</source>
+        <translation>Bild speichern</translation>
+    </message>
+    <message>
+        <source>PNG (*.png)</source>
+        <translation>PNG (*.png)</translation>
+    </message>
+    <message>
+        <source>%1 cannot be written.</source>
+        <translation>%1 lässt sich nicht schreiben.</translation>
+    </message>
+    <message>
+        <source>Dataset - DGTk</source>
+        <translation>Datensatz - DGTk</translation>
+    </message>
+    <message>
+        <source>Tools</source>
+        <translation>Werkzeuge</translation>
+    </message>
+    <message>
+        <source>Points need a layer depth, distance or position.</source>
+        <translation>Punkte brauchen eine Ebene depth, distance oder position.</translation>
+    </message>
+    <message>
+        <source>%L1 points</source>
+        <translation>%L1 Punkte</translation>
+    </message>
+    <message>
+        <source>Loop</source>
+        <translation>Endlos</translation>
+    </message>
+    <message>
+        <source>Frame</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source> fps</source>
+        <translation> Bilder/s</translation>
+    </message>
+    <message>
+        <source>Frames a second</source>
+        <translation>Bilder je Sekunde</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Kamera</translation>
+    </message>
+    <message>
+        <source>Layer</source>
+        <translation>Ebene</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>Wert</translation>
+    </message>
+    <message>
+        <source>World point</source>
+        <translation>Weltpunkt</translation>
+    </message>
+    <message>
+        <source>No dataset is open. Open the folder that &lt;i&gt;dgtk render&lt;/i&gt; wrote, or drop it here.</source>
+        <translation>Kein Datensatz ist offen. Den Ordner öffnen, den &lt;i&gt;dgtk render&lt;/i&gt; geschrieben hat, oder ihn hierher ziehen.</translation>
+    </message>
+    <message>
+        <source>Open dataset ...</source>
+        <translation>Datensatz öffnen ...</translation>
+    </message>
+    <message>
+        <source>Frame %1 (%2 of %3)</source>
+        <translation>Bild %1 (%2 von %3)</translation>
+    </message>
+</context>
+<context>
     <name>dgtk::EditorState</name>
     <message>
         <source>The memory of this machine is not enough.</source>
@@ -307,6 +542,40 @@
     <message>
         <source>As it was before the drag</source>
         <translation>Wie vor dem Ziehen</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::LegendBar</name>
+    <message>
+        <source>Lower end of the colours</source>
+        <translation>Unteres Ende der Farben</translation>
+    </message>
+    <message>
+        <source>Upper end of the colours</source>
+        <translation>Oberes Ende der Farben</translation>
+    </message>
+    <message>
+        <source>Auto</source>
+        <translation>Auto</translation>
+    </message>
+    <message>
+        <source>Colours over the range of each picture</source>
+        <translation>Farben über den Bereich jedes Bildes</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::LegendStrip</name>
+    <message>
+        <source>+%1</source>
+        <translation>+%1</translation>
+    </message>
+    <message>
+        <source>direction; full colour: %1 %2</source>
+        <translation>Richtung; volle Farbe: %1 %2</translation>
+    </message>
+    <message>
+        <source>and %1 more</source>
+        <translation>und %1 weitere</translation>
     </message>
 </context>
 <context>
@@ -698,6 +967,14 @@
         <source>&amp;Redo %1</source>
         <translation>&amp;Wiederholen: %1</translation>
     </message>
+    <message>
+        <source>Open &amp;dataset ...</source>
+        <translation>&amp;Datensatz öffnen ...</translation>
+    </message>
+    <message>
+        <source>Open a dataset</source>
+        <translation>Datensatz öffnen</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::MatchDialog</name>
@@ -890,6 +1167,36 @@
     </message>
 </context>
 <context>
+    <name>dgtk::PictureLoader</name>
+    <message>
+        <source>No picture of this layer here</source>
+        <translation>Kein Bild dieser Ebene hier</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::PicturePane</name>
+    <message>
+        <source>Camera of this picture</source>
+        <translation>Kamera dieses Bildes</translation>
+    </message>
+    <message>
+        <source>Layer of this picture</source>
+        <translation>Ebene dieses Bildes</translation>
+    </message>
+    <message>
+        <source>surface </source>
+        <translation>Fläche </translation>
+    </message>
+    <message>
+        <source>Which surface along each ray, from the nearest</source>
+        <translation>Die wievielte Fläche auf jedem Strahl, von der nächsten an</translation>
+    </message>
+    <message>
+        <source>%1 (nearby; zoom in)</source>
+        <translation>%1 (in der Nähe; vergrößern)</translation>
+    </message>
+</context>
+<context>
     <name>dgtk::PropertiesPanel</name>
     <message>
         <source>Nothing is selected.
@@ -1054,6 +1361,22 @@ Ein Objekt, ein Licht oder eine Kamera in einer Ansicht oder im Szenenbaum ankli
         <source>Size, pixels</source>
         <translation>Größe, Pixel</translation>
     </message>
+    <message>
+        <source>Sequence</source>
+        <translation>Sequenz</translation>
+    </message>
+    <message>
+        <source>Begins at frame</source>
+        <translation>Beginnt bei Bild</translation>
+    </message>
+    <message>
+        <source>Speed</source>
+        <translation>Tempo</translation>
+    </message>
+    <message>
+        <source>Repeat</source>
+        <translation>Wiederholen</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::RenderDialog</name>
@@ -1202,6 +1525,10 @@ Ein Pixel ist %5 %4 in x, %6 in y; an der fernen Ebene %7 und %8</translation>
     <message>
         <source>Close</source>
         <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>Look at the result</source>
+        <translation>Ergebnis ansehen</translation>
     </message>
 </context>
 <context>
