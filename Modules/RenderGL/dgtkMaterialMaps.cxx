@@ -12,8 +12,6 @@ namespace dgtk
 namespace
 {
 
-constexpr float Anisotropy = 4; // as the base textures
-
 unsigned int uploaded(const Image& image)
 {
   const std::size_t row = std::size_t(image.width) * 4;
@@ -33,10 +31,6 @@ unsigned int uploaded(const Image& image)
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
-  if (GLEW_EXT_texture_filter_anisotropic)
-  {
-    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, Anisotropy);
-  }
   glBindTexture(GL_TEXTURE_2D, 0);
   return name;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkDrawOrder.h"
 #include "dgtkRasterScene.h"
 
 #include <Eigen/Geometry>
@@ -43,6 +44,16 @@ bool maySee(const Eigen::Matrix4d& clip_from_object, const Eigen::Vector3d& low,
   return outsideAll == 0;
 }
 
+/// A box that is turned, a little larger than needed: surfaces at the same place may be rounded apart.
+ViewBox turned(const Eigen::Matrix4d& matrix, const Eigen::Vector3d& low, const Eigen::Vector3d& high)
+{
+  const Eigen::Matrix3d linear = matrix.topLeftCorner<3, 3>();
+  const Eigen::Vector3d center = linear * ((low + high) / 2) + matrix.topRightCorner<3, 1>();
+  Eigen::Vector3d half = linear.cwiseAbs() * ((high - low) / 2);
+  half.array() += 1e-6 * (half.maxCoeff() + center.cwiseAbs().maxCoeff());
+  return { center - half, center + half };
+}
+
 /// Normals' matrix: the cofactors, which also exist where the matrix has no inverse; scaled to about 1.
 Eigen::Matrix3d normalMatrix(const Eigen::Matrix3d& m)
 {
@@ -68,6 +79,8 @@ void store(Array& target, const Matrix& source)
 
 void RasterScene::place(const RasterCamera& camera)
 {
+  std::vector<ViewBox> boxes;
+  std::vector<std::size_t> visible;
   for (Draw& draw : this->Draws)
   {
     const Instance& instance = this->State->instances[draw.instance];
@@ -84,7 +97,14 @@ void RasterScene::place(const RasterCamera& camera)
     if (draw.visible)
     {
       this->cutDraw(draw, camera, view_from_local);
+      visible.push_back(std::size_t(&draw - this->Draws.data()));
+      boxes.push_back(turned(view_from_local, draw.chunk->boxMin, draw.chunk->boxMax));
     }
+  }
+  this->Order = drawOrder(boxes);
+  for (std::size_t& i : this->Order)
+  {
+    i = visible[i];
   }
 }
 
@@ -238,9 +258,10 @@ void RasterScene::drawColor(Surfaces surfaces)
 void RasterScene::drawAll(Surfaces surfaces)
 {
   this->Frame.uploaded.clear();
-  for (Draw& draw : this->Draws)
+  for (const std::size_t i : this->Order)
   {
-    if (draw.visible && (surfaces == Surfaces::All || draw.chunk->translucent == (surfaces == Surfaces::Translucent)))
+    Draw& draw = this->Draws[i];
+    if ((surfaces == Surfaces::All || draw.chunk->translucent == (surfaces == Surfaces::Translucent)))
     {
       if (!draw.actor->nothing)
       {
@@ -280,17 +301,18 @@ void RasterScene::drawAllIds(bool translucent)
 {
   this->Window->GetShaderCache()->ReleaseCurrentShader();
   this->CurrentIds = nullptr;
-  for (Draw& draw : this->Draws)
+  for (const std::size_t i : this->Order)
   {
+    Draw& draw = this->Draws[i];
     if (draw.chunk->translucent && !translucent)
     {
       continue;
     }
-    if (draw.visible && !draw.actor->nothing)
+    if (!draw.actor->nothing)
     {
       this->drawIdsOf(*draw.chunk->mapper, *draw.actor, *draw.chunk);
     }
-    if (draw.visible && draw.cut)
+    if (draw.cut)
     {
       this->drawIdsOf(*draw.pieces->mapper, *draw.pieces->actor, *draw.chunk);
     }

@@ -171,7 +171,8 @@ private:
   std::vector<std::unique_ptr<Variant>> Variants;
   std::map<std::pair<std::shared_ptr<const Image>, bool>, vtkSmartPointer<vtkOpenGLTexture>> Textures;
   std::vector<Draw> Draws;
-  Pieces Cut; // of the draw at hand
+  std::vector<std::size_t> Order; ///< of the visible draws, see drawOrder()
+  Pieces Cut;                     // of the draw at hand
   const IdPrograms::Program* CurrentIds = nullptr;
   std::shared_ptr<std::vector<Hit>> FirstHits;
   IdPrograms Ids;

@@ -26,6 +26,50 @@ bool dgtkGone(sampler2D picture, vec2 uv)
 }
 )";
 
+/// What a pixel sees of a picture: trilinear probes along the longer axis of its footprint, at most four, as
+/// EXT_texture_filter_anisotropic defines it. By single texels, because software OpenGL either filters in 8 bits or
+/// weighs every texel of an ellipse, for which it takes as long as for all the rest of a frame. Loops in place of
+/// conditions: only they end early there.
+constexpr const char* Texel = R"(
+vec3 dgtkBilinear(sampler2D picture, vec2 uv, int level, vec2 size)
+{
+  vec2 at = fract(uv) * size - 0.5;
+  vec2 low = floor(at);
+  vec2 part = at - low;
+  low += size * vec2(lessThan(low, vec2(0.0)));
+  vec2 high = low + 1.0;
+  high *= vec2(lessThan(high, size));
+  ivec4 t = ivec4(low, high);
+  vec3 below = mix(texelFetch(picture, t.xy, level).rgb, texelFetch(picture, t.zy, level).rgb, part.x);
+  vec3 above = mix(texelFetch(picture, t.xw, level).rgb, texelFetch(picture, t.zw, level).rgb, part.x);
+  return mix(below, above, part.y);
+}
+vec3 dgtkTexel(sampler2D picture, vec2 uv)
+{
+  ivec2 cells = textureSize(picture, 0);
+  vec2 right = dFdx(uv);
+  vec2 up = dFdy(uv);
+  float across = dot(right * vec2(cells), right * vec2(cells));
+  float along = dot(up * vec2(cells), up * vec2(cells));
+  vec2 axis = across > along ? right : up;
+  float longest = max(max(across, along), 1.0);
+  float ratio = longest / max(min(across, along), 1e-30);
+  float probes = longest > 1.0 ? clamp(floor(sqrt(ratio) + 0.5), 1.0, 4.0) : 1.0;
+  float last = floor(log2(float(max(cells.x, cells.y))) + 1e-5);
+  float detail = clamp(0.5 * log2(longest) - log2(probes), 0.0, last);
+  vec3 sum = vec3(0.0);
+  for (float level = floor(detail); level < detail + 1.0 && level <= last; level += 1.0)
+  {
+    vec2 size = vec2(max(cells >> int(level), ivec2(1)));
+    for (float i = 0.5; i < probes; i += 1.0)
+    {
+      sum += (1.0 - abs(level - detail)) * dgtkBilinear(picture, uv + axis * (i / probes - 0.5), int(level), size);
+    }
+  }
+  return sum / probes;
+}
+)";
+
 /// Ambient light of the world, lights add theirs. 0.2 is OpenGL's light model, for which the ambient colours of AC3D,
 /// 3DS and MD2 models are made: they are mostly the diffuse colour over again.
 #define DGTK_WORLD_AMBIENT "0.2"
@@ -187,6 +231,7 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
   declarations += TriangleIn;
   put(vertex, "//VTK::ValuePass::Dec", triangleOut(variant));
   put(vertex, "//VTK::ValuePass::Impl", triangleCode(variant));
+  declarations += variant.samples() ? Texel : "";
   declarations += variant.cutOut ? Gone : "";
   declarations += variant.peel ? Peel : "";
   declarations += variant.collect ? Collect : "";
@@ -211,8 +256,8 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
   }
   put(fragment, "//VTK::Light::Impl", light);
   std::string finish =
-    variant.textured && !variant.physical ? "  dgtkColor *= texture(actortexture, tcoordVCVSOutput).rgb;\n" : "";
-  finish += ownEmission ? "  dgtkColor += dgtkEmission * texture(dgtkEmissionMap, tcoordVCVSOutput).rgb;\n" : "";
+    variant.textured && !variant.physical ? "  dgtkColor *= dgtkTexel(actortexture, tcoordVCVSOutput);\n" : "";
+  finish += ownEmission ? "  dgtkColor += dgtkEmission * dgtkTexel(dgtkEmissionMap, tcoordVCVSOutput).rgb;\n" : "";
   finish += fogCode(variant);
   finish += Identity;
   if (variant.cutOut)

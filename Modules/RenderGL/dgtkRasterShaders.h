@@ -36,6 +36,13 @@ struct ShaderVariant
   bool emissionMap = false;
   bool occlusionMap = false;
 
+  /// Some picture is read with a filter.
+  bool samples() const
+  {
+    return this->textured || this->normalMap || this->bumpMap || this->metallicRoughnessMap || this->emissionMap ||
+           this->occlusionMap;
+  }
+
   /// Everything above.
   std::array<int, 20> key() const
   {

@@ -12,8 +12,6 @@ namespace dgtk
 namespace
 {
 
-constexpr double Anisotropy = 4; // VTK's default
-
 /// Fills the colours of texels with alpha below 0.5 from their neighbours, ring by ring (the picture repeats).
 void dilate(std::vector<std::uint8_t>& rgba, int width, int height)
 {
@@ -122,7 +120,7 @@ vtkSmartPointer<vtkOpenGLTexture> makeTexture(const Image& image, bool cutOut)
   texture->SetColorModeToDirectScalars();
   texture->SetInterpolate(1);
   texture->SetMipmap(true);
-  texture->SetMaximumAnisotropicFiltering(Anisotropy);
+  texture->SetMaximumAnisotropicFiltering(1); // the shaders' own, see dgtkTexel
   texture->SetWrap(vtkTexture::Repeat);
   return texture;
 }

@@ -53,8 +53,8 @@ vec3 dgtkBumped(vec3 p, vec3 n, sampler2D heights, vec2 uv, float scale)
   float texels = max(1.0, max(length(uvRight * cells), length(uvUp * cells)));
   vec2 s = texels / cells;
   vec2 slope = scale / (2.0 * s) *
-    vec2(texture(heights, uv + vec2(s.x, 0.0)).r - texture(heights, uv - vec2(s.x, 0.0)).r,
-         texture(heights, uv + vec2(0.0, s.y)).r - texture(heights, uv - vec2(0.0, s.y)).r);
+    vec2(dgtkTexel(heights, uv + vec2(s.x, 0.0)).r - dgtkTexel(heights, uv - vec2(s.x, 0.0)).r,
+         dgtkTexel(heights, uv + vec2(0.0, s.y)).r - dgtkTexel(heights, uv - vec2(0.0, s.y)).r);
   float toRight = dot(slope, uvRight);
   float toUp = dot(slope, uvUp);
   vec3 a = cross(up, n);
@@ -196,7 +196,7 @@ std::string perturbedNormal(const ShaderVariant& variant)
   }
   if (variant.normalMap)
   {
-    text += "  vec3 dgtkTurn = texture(dgtkNormalMap, tcoordVCVSOutput).xyz * (255.0 / 127.0) - 128.0 / 127.0;\n"
+    text += "  vec3 dgtkTurn = dgtkTexel(dgtkNormalMap, tcoordVCVSOutput).xyz * (255.0 / 127.0) - 128.0 / 127.0;\n"
             "  dgtkTurn.xy *= dgtkNormalScale;\n"
             "  vec3 dgtkTurned = dgtkTextureFrame(vertexVC.xyz, normalVC, tcoordVCVSOutput) * dgtkTurn;\n"
             "  float dgtkTurnedSize = dot(dgtkTurned, dgtkTurned);\n"
@@ -218,9 +218,9 @@ std::string beginPhysical(const ShaderVariant& variant)
 {
   std::string text = "  vec3 dgtkViewer = cameraParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-vertexVC.xyz);\n"
                      "  vec3 base = dgtkToLinear(diffuseColor";
-  text += variant.textured ? " * texture(actortexture, tcoordVCVSOutput).rgb);\n" : ");\n";
+  text += variant.textured ? " * dgtkTexel(actortexture, tcoordVCVSOutput).rgb);\n" : ");\n";
   text += "  vec2 metalRough = dgtkMetalRough;\n";
-  text += variant.metallicRoughnessMap ? "  metalRough *= texture(dgtkMetalRoughMap, tcoordVCVSOutput).bg;\n" : "";
+  text += variant.metallicRoughnessMap ? "  metalRough *= dgtkTexel(dgtkMetalRoughMap, tcoordVCVSOutput).bg;\n" : "";
   return text + "  float rough = clamp(metalRough.y, 0.03, 1.0);\n"
                 "  float a2 = rough * rough * rough * rough;\n"
                 "  vec3 f0 = mix(dgtkF0, base, metalRough.x);\n"
@@ -251,7 +251,7 @@ std::string endPhysical(const ShaderVariant& variant)
   std::string text = "  float occlusion = 1.0;\n";
   if (variant.occlusionMap)
   {
-    text += "  occlusion = 1.0 + dgtkOcclusionStrength * (texture(dgtkOcclusionMap, tcoordVCVSOutput).r - 1.0);\n";
+    text += "  occlusion = 1.0 + dgtkOcclusionStrength * (dgtkTexel(dgtkOcclusionMap, tcoordVCVSOutput).r - 1.0);\n";
   }
   if (variant.environment)
   {
@@ -270,7 +270,7 @@ std::string endPhysical(const ShaderVariant& variant)
     text += "  dgtkSum += dgtkToLinear(dgtkAmbient + dgtkWorldAmbient) * occlusion * (albedo + f0);\n";
   }
   text += "  dgtkSum += dgtkToLinear(dgtkEmission";
-  text += variant.emissionMap ? " * texture(dgtkEmissionMap, tcoordVCVSOutput).rgb);\n" : ");\n";
+  text += variant.emissionMap ? " * dgtkTexel(dgtkEmissionMap, tcoordVCVSOutput).rgb);\n" : ");\n";
   return text + "  vec3 dgtkColor = dgtkToDisplay(dgtkSum);\n";
 }
 
