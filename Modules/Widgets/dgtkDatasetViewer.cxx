@@ -10,6 +10,7 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QMessageBox>
+#include <QScrollArea>
 #include <QSlider>
 #include <QStackedWidget>
 #include <QStatusBar>
@@ -27,6 +28,7 @@ constexpr int pointSlots = 1000;                                 // of the loade
 constexpr int detailSlots = 2000;                                // likewise
 constexpr std::uint64_t pictureBytes = std::uint64_t(256) << 20; // of all panes together
 constexpr int statusTime = 8000;
+constexpr int narrowestPane = 190; // widget units
 
 QString text(const std::string& name) { return QString::fromStdString(name); }
 } // namespace
@@ -58,7 +60,8 @@ void DatasetViewer::showDataset(const std::shared_ptr<const DatasetPictures>& da
   this->setPaneCount(static_cast<int>(std::min<std::size_t>(4, dataset->layers().size())));
   this->chooseFirstLayers();
   this->askAll();
-  QString line = tr("%1 cameras, %2 frames, %3 layers")
+  this->enableActions(true);
+  QString line = tr("Cameras: %1, frames: %2, layers: %3")
                    .arg(dataset->cameras().size())
                    .arg(dataset->frames().size())
                    .arg(dataset->layers().size());
@@ -159,7 +162,8 @@ void DatasetViewer::layOut()
 {
   auto* grid = static_cast<QGridLayout*>(this->Grid->layout());
   const int shown = this->Maximized < 0 ? static_cast<int>(this->Panes.size()) : 1;
-  const int columns = static_cast<int>(std::ceil(std::sqrt(double(shown))));
+  const int widest = std::max(1, this->Scroll->width() / narrowestPane);
+  const int columns = std::min(widest, static_cast<int>(std::ceil(std::sqrt(double(shown)))));
   int place = 0;
   for (PicturePane* pane : this->Panes)
   {
@@ -229,7 +233,9 @@ void DatasetViewer::refreshReadOut()
   {
     const auto point = this->Dataset ? this->worldUnder(pane->camera().toStdString()) : std::nullopt;
     const QString own = this->Dataset ? pane->world(*this->Dataset) : QString();
-    const QString cells[] = { pane->camera(), pane->layer(), this->Dataset ? pane->value(*this->Dataset) : QString(),
+    const QString value = this->Dataset ? pane->value(*this->Dataset) : QString();
+    pane->view().setReadOut(value);
+    const QString cells[] = { pane->camera(), pane->layer(), value,
       !own.isEmpty() ? own
       : point        ? text(pointText(*point))
                      : QString() };

@@ -56,6 +56,7 @@ signals:
   void refused(const QString& message);
 
 protected:
+  void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
 
@@ -68,6 +69,7 @@ private:
   void makeFramesMenu();
   void makeCloudMenu();
   void makeHelpMenu();
+  void enableActions(bool on);
   QWidget* makeFrameRow();
   QWidget* makeReadOut();
   QWidget* makeEmptyPage();

@@ -125,6 +125,18 @@ void DatasetViewer::makeCloudMenu()
     this, [this] { this->Cloud->lookThrough(this->activePane()->camera().toStdString()); });
 }
 
+void DatasetViewer::enableActions(bool on)
+{
+  for (QAction* menu : this->menuBar()->actions())
+  {
+    for (QAction* action : menu->menu()->actions())
+    {
+      const QString name = action->objectName();
+      action->setEnabled(on || name == "open" || name == "close" || name == "mouse");
+    }
+  }
+}
+
 void DatasetViewer::makeHelpMenu()
 {
   QMenu* const menu = this->menuBar()->addMenu(tr("&Help"));

@@ -4,6 +4,7 @@
 #include "dgtkPicturePane.h"
 
 #include <QAction>
+#include <QCloseEvent>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileDialog>
@@ -15,6 +16,7 @@
 #include <QMimeData>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QSettings>
 #include <QSlider>
 #include <QSpinBox>
 #include <QSplitter>
@@ -77,7 +79,12 @@ DatasetViewer::DatasetViewer(QWidget* parent)
   this->Pages->addWidget(page);
   this->setCentralWidget(this->Pages);
   this->connectParts();
+  this->enableActions(false);
   this->resize(1280, 900);
+  const QSettings settings;
+  this->restoreGeometry(settings.value("viewer/geometry").toByteArray());
+  this->Split->restoreState(settings.value("viewer/split").toByteArray());
+  this->Rate->setValue(settings.value("viewer/rate", usualRate).toInt());
   this->statusBar()->show();
 }
 
@@ -235,6 +242,15 @@ QWidget* DatasetViewer::makeEmptyPage()
   layout->addWidget(open, 0, Qt::AlignCenter);
   layout->addStretch();
   return page;
+}
+
+void DatasetViewer::closeEvent(QCloseEvent* event)
+{
+  QSettings settings;
+  settings.setValue("viewer/geometry", this->saveGeometry());
+  settings.setValue("viewer/split", this->Split->saveState());
+  settings.setValue("viewer/rate", this->Rate->value());
+  event->accept();
 }
 
 void DatasetViewer::dragEnterEvent(QDragEnterEvent* event)

@@ -42,17 +42,18 @@ void DatasetViewer::askPane(PicturePane& pane)
 
 void DatasetViewer::askAll()
 {
+  if (!this->Dataset)
+  {
+    return;
+  }
   this->Pending.clear();
   for (PicturePane* pane : this->Panes)
   {
     this->askPane(*pane);
   }
   this->askPoints();
-  if (this->Dataset)
-  {
-    this->FrameText->setText(
-      tr("Frame %1 (%2 of %3)").arg(this->frame()).arg(this->Frames->value() + 1).arg(this->Dataset->frames().size()));
-  }
+  this->FrameText->setText(
+    tr("Frame %1 (%2 of %3)").arg(this->frame()).arg(this->Frames->value() + 1).arg(this->Dataset->frames().size()));
 }
 
 void DatasetViewer::askPoints()

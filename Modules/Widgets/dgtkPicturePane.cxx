@@ -15,7 +15,7 @@ namespace dgtk
 
 namespace
 {
-constexpr int leastLetters = 5; // of a combo box in a narrow pane
+constexpr int narrowestCombo = 44; // widget units
 
 QComboBox* makeCombo(const char* name, const QString& tip, QWidget* parent)
 {
@@ -23,8 +23,11 @@ QComboBox* makeCombo(const char* name, const QString& tip, QWidget* parent)
   combo->setObjectName(name);
   combo->setToolTip(tip);
   combo->setAccessibleName(tip);
-  combo->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  combo->setMinimumContentsLength(leastLetters);
+  // panes side by side have one size, whatever the names in them
+  combo->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  combo->setMinimumWidth(narrowestCombo);
+  QObject::connect(combo, &QComboBox::currentTextChanged, combo,
+    [combo, tip](const QString& chosen) { combo->setToolTip(tip + ": " + chosen); });
   return combo;
 }
 } // namespace
@@ -43,13 +46,13 @@ PicturePane::PicturePane(int number, PictureSync& sync, QWidget* parent)
   this->View->setObjectName(QString("picture.%1").arg(number));
   this->Surface->setObjectName("surface");
   this->Surface->setRange(1, 99);
-  this->Surface->setPrefix(tr("surface "));
+  this->Surface->setPrefix(tr("no. "));
   this->Surface->setToolTip(tr("Which surface along each ray, from the nearest"));
   auto* head = new QHBoxLayout;
   head->setContentsMargins(0, 0, 0, 0);
   head->setSpacing(3);
-  head->addWidget(this->Camera, 2);
-  head->addWidget(this->Layer, 3);
+  head->addWidget(this->Camera, 1);
+  head->addWidget(this->Layer, 2);
   head->addWidget(this->Surface);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(2, 2, 2, 2);

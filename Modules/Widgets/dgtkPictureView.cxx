@@ -22,6 +22,7 @@ constexpr double gridScale = 12;    // widget units a pixel, from which on pixel
 constexpr int farStep = 10;         // pixels, arrow keys with Shift
 constexpr int panStep = 40;         // widget units, arrow keys with Control
 constexpr int messageMargin = 16;
+constexpr int readOutMargin = 4;
 
 QPointF toQt(const Eigen::Vector2d& v) { return { v.x(), v.y() }; }
 Eigen::Vector2d fromQt(const QPointF& p) { return { p.x(), p.y() }; }
@@ -43,7 +44,7 @@ PictureView::PictureView(PictureSync& sync, QWidget* parent)
   this->setMouseTracking(true);
   this->setFocusPolicy(Qt::StrongFocus);
   this->setCursor(Qt::CrossCursor);
-  this->setMinimumSize(80, 60);
+  this->setMinimumSize(120, 90);
   this->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   connect(&sync, &PictureSync::zoomChanged, this,
     [this]
@@ -86,6 +87,15 @@ const PictureValues* PictureView::pictureAt(const QPoint& pixel) const
   const PictureValues* const whole = this->Shown ? this->Shown->picture.get() : nullptr;
   const PictureValues* const part = this->Detail ? this->Detail->picture.get() : nullptr;
   return part && part->inside(pixel.x(), pixel.y()) ? part : whole;
+}
+
+void PictureView::setReadOut(const QString& text)
+{
+  if (this->ReadOut != text)
+  {
+    this->ReadOut = text;
+    this->update();
+  }
 }
 
 void PictureView::setActive(bool on)
@@ -179,6 +189,17 @@ void PictureView::drawCursor(QPainter& painter) const
   }
 }
 
+void PictureView::drawReadOut(QPainter& painter) const
+{
+  const QFontMetrics metrics = painter.fontMetrics();
+  const QString text = metrics.elidedText(this->ReadOut, Qt::ElideRight, this->width() - 4 * readOutMargin);
+  const QRect box(readOutMargin, this->height() - metrics.height() - 2 * readOutMargin,
+    metrics.horizontalAdvance(text) + 2 * readOutMargin, metrics.height() + readOutMargin);
+  painter.fillRect(box, QColor(0, 0, 0, 170));
+  painter.setPen(Qt::white);
+  painter.drawText(box, Qt::AlignCenter, text);
+}
+
 void PictureView::paintEvent(QPaintEvent*)
 {
   QPainter painter(this);
@@ -202,6 +223,10 @@ void PictureView::paintEvent(QPaintEvent*)
   if (this->Sync.cursor())
   {
     this->drawCursor(painter);
+    if (!this->ReadOut.isEmpty())
+    {
+      this->drawReadOut(painter);
+    }
   }
   if (this->Active)
   {
@@ -217,8 +242,10 @@ void PictureView::point(const QPoint& at)
   const Eigen::Vector2d size = this->imageSize();
   const Eigen::Vector2d image = this->toImage(fromQt(QPointF(at) + QPointF(0.5, 0.5)));
   const bool inside = (image.array() >= 0).all() && (image.array() < size.array()).all();
-  this->Sync.setCursor(
-    inside ? std::optional<QPoint>(QPoint(int(std::floor(image.x())), int(std::floor(image.y())))) : std::nullopt);
+  if (inside) // elsewhere the last pixel stays, to be read at leisure
+  {
+    this->Sync.setCursor(QPoint(int(std::floor(image.x())), int(std::floor(image.y()))));
+  }
 }
 
 void PictureView::wheelEvent(QWheelEvent* event)

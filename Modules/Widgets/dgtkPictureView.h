@@ -57,6 +57,8 @@ public:
   const ShownPointer& detail() const { return this->Detail; }
   /// Width and height of the whole image; (0, 0) while there is none.
   Eigen::Vector2d imageSize() const;
+  /// The numbers under the crosshair, shown in a corner; "" for none.
+  void setReadOut(const QString& text);
   /// The one whose camera and layer the menus mean.
   void setActive(bool on);
   /// The picture that has the numbers of a pixel exactly, or the one that is nearest.
@@ -93,11 +95,13 @@ private:
   void drawPicture(QPainter& painter, const ShownPicture& shown) const;
   void drawGrid(QPainter& painter) const;
   void drawCursor(QPainter& painter) const;
+  void drawReadOut(QPainter& painter) const;
 
   PictureSync& Sync;
   ShownPointer Shown;
   ShownPointer Detail;
   QString Message;
+  QString ReadOut;
   QPoint Pressed;
   QPoint Last;
   bool Active = false;

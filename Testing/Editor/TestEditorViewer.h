@@ -17,6 +17,9 @@ inline void moveMouse(QWidget* widget, const QPoint& at, Qt::MouseButtons button
   QCoreApplication::sendEvent(widget, &event);
 }
 
+/// The pixel that the viewer says is under the crosshair; (-1, -1) for none.
+QPoint pixelOf(const QMainWindow* viewer);
+
 /// The window of finished datasets.
 class TestEditorViewer : public EditorTest
 {
@@ -34,6 +37,8 @@ private slots:
   void layeredImagesHaveSurfaces();
   void brokenDatasetsAreRefused();
   void theRenderDialogOpensItsResult();
+  void noEventTakesLong();
+  void largePicturesAreReadInDetail();
   void pictures();
 
 private:

@@ -2,6 +2,7 @@
 #include "TestEditorSupport.h"
 #include "TestEditorViewer.h"
 
+#include "dgtkDatasetDocuments.h"
 #include "dgtkLdi.h"
 
 #include <QAction>
@@ -15,7 +16,9 @@
 #include <QProcess>
 #include <QSlider>
 #include <QSpinBox>
+#include <QTimer>
 
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -25,6 +28,38 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr int mostTabs = 60;
+constexpr double longestEvent = 0.2; // seconds of this thread
+
+/// Time that this thread worked, which other work on the machine does not make longer.
+double workedSeconds()
+{
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
+/// The longest work between two turns of the event loop.
+class Pulse
+{
+public:
+  Pulse()
+  {
+    QObject::connect(&this->Timer, &QTimer::timeout,
+      [this]
+      {
+        const double now = workedSeconds();
+        this->Longest = std::max(this->Longest, now - this->Last);
+        this->Last = now;
+      });
+    this->Timer.start(0);
+  }
+  double longest() const { return this->Longest; }
+
+private:
+  QTimer Timer;
+  double Last = workedSeconds();
+  double Longest = 0;
+};
 
 /// Pixels of a colour, within a small difference.
 int countOf(const QImage& image, const QColor& color)
@@ -53,6 +88,23 @@ int colorsOf(const QImage& image)
     }
   }
   return int(colors.size());
+}
+
+/// Every action that asks for nothing.
+void triggerAll(QMainWindow* viewer)
+{
+  const QStringList asking{ "open", "save", "close", "mouse" };
+  for (QAction* menu : viewer->menuBar()->actions())
+  {
+    for (QAction* action : menu->menu()->actions())
+    {
+      if (!asking.contains(action->objectName()))
+      {
+        action->trigger();
+        QCoreApplication::processEvents();
+      }
+    }
+  }
 }
 
 int pointsOf(const QMainWindow* viewer)
@@ -93,16 +145,10 @@ void TestEditorViewer::keysReachEverything()
       QVERIFY2(action->text().contains('&'), qPrintable(action->text()));
       QVERIFY2(!action->shortcut().isEmpty(), qPrintable(action->text()));
       QVERIFY2(keys.insert(action->shortcut().toString()).second, qPrintable(action->text()));
-      const bool asks = action->objectName() == "open" || action->objectName() == "save" ||
-                        action->objectName() == "close" || action->objectName() == "mouse";
-      if (!asks)
-      {
-        action->trigger();
-        QCoreApplication::processEvents();
-      }
     }
   }
   QVERIFY(actions > 15);
+  triggerAll(viewer);
   this->waitForPictures(viewer);
   QTest::keyClick(viewer, Qt::Key_W, Qt::ControlModifier);
   QTRY_VERIFY(this->viewer() == nullptr);
@@ -201,6 +247,7 @@ void TestEditorViewer::brokenDatasetsAreRefused()
       if (window->objectName() == "datasetViewer" && window->isVisible())
       {
         QVERIFY(window->findChild<QLabel*>("emptyText")->text().contains(words));
+        triggerAll(qobject_cast<QMainWindow*>(window));
         window->close();
       }
     }
@@ -234,6 +281,62 @@ void TestEditorViewer::brokenDatasetsAreRefused()
   QVERIFY(this->picture(viewer, 1)->toolTip().isEmpty());
 }
 
+void TestEditorViewer::noEventTakesLong()
+{
+  const QString given = QString::fromLocal8Bit(qgetenv("DGTK_VIEWER_DATASET"));
+  const Pulse pulse;
+  QMainWindow* const viewer = this->open(given.isEmpty() ? this->dataset() : given);
+  QVERIFY(viewer != nullptr);
+  for (const Qt::Key key : { Qt::Key_A, Qt::Key_L, Qt::Key_Period, Qt::Key_Plus, Qt::Key_Plus, Qt::Key_Plus, Qt::Key_F,
+         Qt::Key_R, Qt::Key_C, Qt::Key_T, Qt::Key_Comma })
+  {
+    QTest::keyClick(viewer, key);
+    this->waitForPictures(viewer);
+    QWidget* const view = this->picture(viewer, 0);
+    for (int i = 0; i < 20; ++i)
+    {
+      moveMouse(view, QPoint(20 + 5 * i, 30 + 3 * i));
+      QCoreApplication::processEvents();
+    }
+  }
+  qInfo("%s", qPrintable(QString("longest event %1 s").arg(pulse.longest())));
+  QVERIFY2(pulse.longest() < longestEvent, qPrintable(QString::number(pulse.longest())));
+}
+
+void TestEditorViewer::largePicturesAreReadInDetail()
+{
+  constexpr int width = 65536;
+  constexpr int height = 16384;
+  const std::string folder = this->Folder.path("large");
+  const std::string file = folder + "/left/color/000000.npy";
+  fs::create_directories(folder + "/left/color");
+  std::string header = "{'descr': '|u1', 'fortran_order': False, 'shape': (16384, 65536), }";
+  header.resize(117, ' ');
+  std::ofstream(file, std::ios::binary) << "\x93NUMPY" << '\x01' << '\0' << '\x76' << '\0' << header << '\n';
+  fs::resize_file(file, 128 + std::uint64_t(width) * height); // no bytes on the disk
+  dgtk::Manifest manifest;
+  manifest.layers.push_back({ { "color", dgtk::PixelType::UInt8, 1, "", "", "none", "" }, "npy" });
+  manifest.files.push_back({ "left/color/000000.npy", 1, std::string(64, '0'), "color", "left", 0 });
+  dgtk::writeDocument(folder, "manifest.json", dgtk::manifestText(manifest));
+  QMainWindow* const viewer = this->open(QString::fromStdString(folder));
+  QVERIFY(viewer != nullptr);
+  QWidget* const view = this->picture(viewer, 0);
+  moveMouse(view, view->rect().center() + QPoint(1, 1));
+  const QPoint pixel = pixelOf(viewer);
+  QVERIFY(pixel.x() > width / 3 && pixel.y() > height / 3);
+  QVERIFY2(this->cell(viewer, 0, 2).startsWith("0 "), qPrintable(this->cell(viewer, 0, 2)));
+  std::fstream change(file, std::ios::binary | std::ios::in | std::ios::out);
+  change.seekp(std::streamoff(128 + std::uint64_t(pixel.y()) * width + std::uint64_t(pixel.x())));
+  change.put(77);
+  change.close();
+  for (int i = 0; i < 40; ++i)
+  {
+    QTest::keyClick(viewer, Qt::Key_Plus);
+  }
+  QCOMPARE(pixelOf(viewer), pixel);
+  QTRY_COMPARE_WITH_TIMEOUT(this->cell(viewer, 0, 2), QString("77"), longestRun);
+}
+
 void TestEditorViewer::pictures()
 {
   const QString folder = QString::fromLocal8Bit(qgetenv("DGTK_EDITOR_PICTURES"));
@@ -249,6 +352,7 @@ void TestEditorViewer::pictures()
   const QString given = QString::fromLocal8Bit(qgetenv("DGTK_VIEWER_DATASET"));
   QMainWindow* const viewer = this->open(given.isEmpty() ? dataset : given);
   QVERIFY(viewer != nullptr);
+  viewer->resize(1120, 800);
   const auto save = [&](const char* name)
   {
     this->waitForPictures(viewer);
