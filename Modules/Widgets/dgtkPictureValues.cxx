@@ -12,13 +12,16 @@ namespace
 {
 constexpr std::uint64_t blockBytes = 1 << 20; // read between two questions whether to go on
 
+constexpr int largestSide = 16384; // of what is kept; painting has 16 bits for a coordinate
+
 int kept(int length, int step) { return (length + step - 1) / step; }
 
-/// The smallest step that keeps at most `budget` bytes.
+/// The smallest step that keeps at most `budget` bytes and sides that can be painted.
 int stepFor(const PixelRect& window, double pixelBytes, std::uint64_t budget)
 {
   int step = 1;
-  while (double(kept(window.width, step)) * kept(window.height, step) * pixelBytes > double(budget))
+  while (double(kept(window.width, step)) * kept(window.height, step) * pixelBytes > double(budget) ||
+         std::max(kept(window.width, step), kept(window.height, step)) > largestSide)
   {
     ++step;
   }

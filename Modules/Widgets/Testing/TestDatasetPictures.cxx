@@ -198,6 +198,8 @@ TEST(PictureValues, LargePicturesAreThinnedOut)
   double value = 0;
   part.get(part.column(12345), part.row(60000), &value);
   EXPECT_EQ(value, 77);
+  read.window = { 0, 60000, side, 1 };
+  EXPECT_EQ(readPicture(folder.path("large.npy"), layer, read).step, 4) << "no side above 16384";
   int asked = 0;
   read.window = {};
   read.goOn = [&] { return ++asked < 3; };

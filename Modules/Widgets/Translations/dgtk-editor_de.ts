@@ -282,10 +282,6 @@
         <translation>%1 - DGTk-Datensatz</translation>
     </message>
     <message>
-        <source>%1 cameras, %2 frames, %3 layers</source>
-        <translation>%1 Kameras, %2 Bilder, %3 Ebenen</translation>
-    </message>
-    <message>
         <source>&lt;p&gt;%1&lt;/p&gt;&lt;p&gt;Open the folder that &lt;i&gt;dgtk render&lt;/i&gt; wrote.&lt;/p&gt;</source>
         <translation>&lt;p&gt;%1&lt;/p&gt;&lt;p&gt;Den Ordner öffnen, den &lt;i&gt;dgtk render&lt;/i&gt; geschrieben hat.&lt;/p&gt;</translation>
     </message>
@@ -504,6 +500,10 @@
     <message>
         <source>Frame %1 (%2 of %3)</source>
         <translation>Bild %1 (%2 von %3)</translation>
+    </message>
+    <message>
+        <source>Cameras: %1, frames: %2, layers: %3</source>
+        <translation>Kameras: %1, Bilder: %2, Ebenen: %3</translation>
     </message>
 </context>
 <context>
@@ -1039,10 +1039,6 @@
         <translation>&amp;Tauschen</translation>
     </message>
     <message>
-        <source>Wheel: zoom. Drag: pan. Double click: all of it. Arrows: move the point.</source>
-        <translation>Rad: zoomen. Ziehen: verschieben. Doppelklick: alles. Pfeiltasten: den Punkt bewegen.</translation>
-    </message>
-    <message>
         <source>Point</source>
         <translation>Punkt</translation>
     </message>
@@ -1130,6 +1126,10 @@
         <source>none: the ray is a point in the other picture</source>
         <translation>keine: der Strahl ist im anderen Bild ein Punkt</translation>
     </message>
+    <message>
+        <source>wheel: zoom, drag: pan, arrows: move the point</source>
+        <translation type="unfinished"></translation>
+    </message>
 </context>
 <context>
     <name>dgtk::MatchTable</name>
@@ -1184,16 +1184,16 @@
         <translation>Ebene dieses Bildes</translation>
     </message>
     <message>
-        <source>surface </source>
-        <translation>Fläche </translation>
-    </message>
-    <message>
         <source>Which surface along each ray, from the nearest</source>
         <translation>Die wievielte Fläche auf jedem Strahl, von der nächsten an</translation>
     </message>
     <message>
         <source>%1 (nearby; zoom in)</source>
         <translation>%1 (in der Nähe; vergrößern)</translation>
+    </message>
+    <message>
+        <source>no. </source>
+        <translation>Nr. </translation>
     </message>
 </context>
 <context>
@@ -1829,10 +1829,6 @@ Ein Pixel ist %5 %4 in x, %6 in y; an der fernen Ebene %7 und %8</translation>
         <translation>Dreieck</translation>
     </message>
     <message>
-        <source>Surfaces on the ray</source>
-        <translation>Flächen auf dem Strahl</translation>
-    </message>
-    <message>
         <source>  %1: %2</source>
         <translation>  %1: %2</translation>
     </message>
@@ -1849,6 +1845,10 @@ Teil %2, Dreieck %3</translation>
     <message>
         <source>id %1, coverage %2 / 255</source>
         <translation>Nr. %1, Bedeckung %2 / 255</translation>
+    </message>
+    <message>
+        <source>Surfaces</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -1872,6 +1872,10 @@ Teil %2, Dreieck %3</translation>
     <message>
         <source>(%1, %2)</source>
         <translation>(%1, %2)</translation>
+    </message>
+    <message>
+        <source>%1: %2 (bright) to %3 (dark)</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 </TS>
