@@ -1128,7 +1128,7 @@
     </message>
     <message>
         <source>wheel: zoom, drag: pan, arrows: move the point</source>
-        <translation type="unfinished"></translation>
+        <translation>Rad: vergrößern, ziehen: verschieben, Pfeiltasten: Punkt bewegen</translation>
     </message>
 </context>
 <context>
@@ -1848,7 +1848,7 @@ Teil %2, Dreieck %3</translation>
     </message>
     <message>
         <source>Surfaces</source>
-        <translation type="unfinished"></translation>
+        <translation>Flächen</translation>
     </message>
 </context>
 <context>
@@ -1875,7 +1875,7 @@ Teil %2, Dreieck %3</translation>
     </message>
     <message>
         <source>%1: %2 (bright) to %3 (dark)</source>
-        <translation type="unfinished"></translation>
+        <translation>%1: %2 (hell) bis %3 (dunkel)</translation>
     </message>
 </context>
 </TS>
