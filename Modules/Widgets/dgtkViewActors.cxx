@@ -86,7 +86,12 @@ void ViewActors::remove(Shown& shown)
   {
     this->Renderer->RemoveActor(actor);
   }
+  for (Surface* const surface : shown.surfaces)
+  {
+    --surface->users;
+  }
   shown.actors.clear();
+  shown.surfaces.clear();
 }
 
 ViewActors::Surface& ViewActors::surface(const Instance& instance, std::size_t part, ViewMeshes& meshes)
@@ -148,6 +153,8 @@ void ViewActors::build(Shown& shown, const ObjectPlace& place, ViewMeshes& meshe
     this->applyStyle(surface, actor);
     this->Renderer->AddActor(actor);
     shown.actors.push_back(actor);
+    shown.surfaces.push_back(&surface);
+    ++surface.users;
   }
 }
 
@@ -181,8 +188,7 @@ void ViewActors::forgetSurfaces()
 {
   for (auto at = this->Surfaces.begin(); at != this->Surfaces.end();)
   {
-    const bool used = at->second.mapper->GetReferenceCount() > 1;
-    at = used ? std::next(at) : this->Surfaces.erase(at);
+    at = at->second.users > 0 ? std::next(at) : this->Surfaces.erase(at);
   }
 }
 

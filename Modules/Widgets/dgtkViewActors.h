@@ -61,6 +61,7 @@ private:
     vtkSmartPointer<vtkPolyDataMapper> mapper;
     vtkSmartPointer<vtkProperty> property;
     vtkSmartPointer<vtkTexture> texture;
+    std::size_t users = 0; ///< actors
   };
   struct Shown
   {
@@ -68,6 +69,7 @@ private:
     std::shared_ptr<const std::vector<Material>> materials;
     bool visible = true;
     std::vector<vtkSmartPointer<vtkActor>> actors;
+    std::vector<Surface*> surfaces; ///< of each actor
   };
 
   Surface& surface(const Instance& instance, std::size_t part, ViewMeshes& meshes);

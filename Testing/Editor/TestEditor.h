@@ -21,7 +21,6 @@ private slots:
   void cancelledRunsResume();
   void aForestOpensAtOnce();
   void everyMenuItemWorks();
-  void randomEventsDoNoHarm();
   void pictures();
 };
 

@@ -6,11 +6,15 @@
 
 #include "dgtkMainWindow.h"
 
+#include <QAbstractButton>
 #include <QApplication>
+#include <QDialog>
 #include <QDir>
 #include <QDirIterator>
 #include <QFile>
 #include <QMap>
+#include <QMenu>
+#include <QMessageBox>
 #include <QString>
 #include <QTest>
 #include <QTimer>
@@ -39,6 +43,24 @@ void answer(const QString& name, const std::function<void(Dialog&)>& act)
       }
     });
   timer->start(20);
+}
+
+/// Whatever opens is closed again; the unsaved question is answered with Discard.
+inline void closeWhatIsOpen()
+{
+  if (QWidget* const menu = QApplication::activePopupWidget())
+  {
+    menu->close();
+  }
+  else if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
+  {
+    QAbstractButton* const discard = box->button(QMessageBox::Discard);
+    (discard != nullptr ? discard : box->buttons().first())->click();
+  }
+  else if (auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget()))
+  {
+    dialog->reject();
+  }
 }
 
 /// All files below a folder, by their path.

@@ -60,27 +60,6 @@ constexpr int forestCameras = 100;
 constexpr int forestLimit = 5000; // milliseconds from the file to the drawn views
 constexpr int turns = 10;
 constexpr int turnLimit = 200; // milliseconds for an event
-constexpr int monkeySeconds = 15;
-constexpr int eventsBetween = 200; // checks that everything can be undone
-constexpr std::size_t mostItems = 200;
-
-/// Whatever opens is closed again; the unsaved question is answered with Discard.
-void closeWhatIsOpen()
-{
-  if (QWidget* const menu = QApplication::activePopupWidget())
-  {
-    menu->close();
-  }
-  else if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
-  {
-    QAbstractButton* const discard = box->button(QMessageBox::Discard);
-    (discard != nullptr ? discard : box->buttons().first())->click();
-  }
-  else if (auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget()))
-  {
-    dialog->reject();
-  }
-}
 
 /// More than a thousand copies of a tree, looked at from a ring of cameras.
 void writeForest(const std::string& path)
@@ -108,24 +87,6 @@ void writeForest(const std::string& path)
       }
     });
   document.saveAs(path);
-}
-
-/// A click, drag or turn of the wheel somewhere on a widget.
-void handle(QWidget* widget, std::mt19937& random)
-{
-  const auto below = [&](int end) { return int(random() % unsigned(std::max(end, 1))); };
-  const auto anywhere = [&] { return QPoint(below(widget->width()), below(widget->height())); };
-  const Qt::MouseButton buttons[] = { Qt::LeftButton, Qt::LeftButton, Qt::MiddleButton, Qt::RightButton };
-  const Qt::MouseButton button = buttons[below(4)];
-  const Qt::KeyboardModifiers modifiers = below(4) == 0 ? Qt::ControlModifier : Qt::NoModifier;
-  QTest::mousePress(widget, button, modifiers, anywhere());
-  for (int i = below(4); i > 0; --i)
-  {
-    const QPoint at = anywhere();
-    QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, button, modifiers);
-    QApplication::sendEvent(widget, &move);
-  }
-  QTest::mouseRelease(widget, button, modifiers, anywhere());
 }
 } // namespace
 
@@ -209,70 +170,6 @@ void TestEditor::everyMenuItemWorks()
   QVERIFY(this->Window->isVisible());
   this->action("exit")->trigger();
   QVERIFY(!this->Window->isVisible());
-}
-
-void TestEditor::randomEventsDoNoHarm()
-{
-  const int asked = qEnvironmentVariableIntValue("DGTK_MONKEY_SECONDS");
-  QVERIFY(this->Window->openFile(this->copyOfDemo()));
-  QTimer closer;
-  connect(&closer, &QTimer::timeout, &closeWhatIsOpen);
-  closer.start(20);
-  const char* const actions[] = { "undo", "undo", "redo", "cut", "copy", "paste", "duplicate", "delete", "selectAll",
-    "frameAll", "frameSelected", "maximize", "wireframe", "shaded", "textured", "grid", "camera", "light", "render",
-    "mouse" };
-  const char* const fields[] = { "position.0", "position.2", "rotation.1", "scale.0", "name", "eye.1", "diffuse.0" };
-  dgtk::SceneDocument& document = this->Window->document();
-  const std::string first = document.json();
-  const auto undoAll = [&document]
-  {
-    while (document.canUndo())
-    {
-      document.undo();
-    }
-  };
-  std::mt19937 random(1);
-  int events = 0;
-  QElapsedTimer clock;
-  clock.start();
-  while (clock.elapsed() < 1000 * (asked > 0 ? asked : monkeySeconds))
-  {
-    const int kind = int(random() % 8);
-    if (kind < 2)
-    {
-      this->action(actions[random() % std::size(actions)])->trigger();
-    }
-    else if (kind < 5)
-    {
-      handle(this->Window->findChild<QWidget*>("view." + QString::number(random() % 4)), random);
-    }
-    else if (kind == 5)
-    {
-      QWidget* const widgets[] = { this->Window->findChild<QTreeWidget*>("sceneTree")->viewport(),
-        this->Window->findChild<QAbstractScrollArea*>("timeLineCells")->viewport() };
-      handle(widgets[random() % 2], random);
-    }
-    else if (kind == 6)
-    {
-      const char* const name = fields[random() % std::size(fields)];
-      if (this->field(name) != nullptr)
-      {
-        this->type(name, QString::number(int(random() % 9) - 4));
-      }
-    }
-    else
-    {
-      this->Window->findChild<QPushButton*>(random() % 2 ? "makeKeyFrame" : "removeKeyFrame")->click();
-    }
-    QCoreApplication::processEvents();
-    if (document.scene().items().size() > mostItems || ++events % eventsBetween == 0)
-    {
-      undoAll();
-      QCOMPARE(document.json(), first);
-    }
-  }
-  undoAll();
-  QCOMPARE(document.json(), first);
 }
 
 void TestEditor::pictures()

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestEditorMonkey.h"
+#include "TestEditorSupport.h"
+
+#include "dgtkSceneDocument.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QElapsedTimer>
+#include <QFileDialog>
+#include <QMenuBar>
+#include <QMouseEvent>
+#include <QPointer>
+#include <QToolButton>
+#include <QWheelEvent>
+
+#include <algorithm>
+#include <iterator>
+#include <malloc.h>
+#include <vector>
+
+extern "C" std::size_t __sanitizer_get_current_allocated_bytes() __attribute__((weak));
+
+namespace
+{
+constexpr int monkeySeconds = 60;
+constexpr int eventsBetween = 100; // checks that everything can be undone
+constexpr std::size_t mostItems = 60;
+constexpr double memorySlack = 64; // MiB that caches, tool windows and the allocator may take
+
+int secondsAsked()
+{
+  const int asked = qEnvironmentVariableIntValue("DGTK_MONKEY_SECONDS");
+  return asked > 0 ? asked : monkeySeconds;
+}
+
+/// What is in use on the heap, MiB.
+double heap()
+{
+  constexpr double mebibyte = 1 << 20;
+  if (__sanitizer_get_current_allocated_bytes)
+  {
+    return double(__sanitizer_get_current_allocated_bytes()) / mebibyte;
+  }
+  const auto info = ::mallinfo2();
+  return double(info.uordblks + info.hblkhd) / mebibyte;
+}
+
+/// Actions and buttons that leave the scene, or start what takes longer than the test.
+bool isAllowed(const QString& name)
+{
+  static const QStringList left = { "new", "open", "exit", "start", "recent" };
+  return !left.contains(name);
+}
+
+bool isAllowed(const QWidget* widget)
+{
+  const auto* button = qobject_cast<const QToolButton*>(widget);
+  const QAction* const action = button ? button->defaultAction() : nullptr;
+  return isAllowed(widget->objectName()) && (action == nullptr || isAllowed(action->objectName())) &&
+         !qobject_cast<const QMenuBar*>(widget);
+}
+
+template <typename T>
+T middleOf(std::vector<T> values)
+{
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+} // namespace
+
+/// Moves of the mouse with a button held, which QTest does not send.
+void TestEditorMonkey::drag(QWidget* widget)
+{
+  const auto anywhere = [&] { return QPoint(this->below(widget->width()), this->below(widget->height())); };
+  const Qt::MouseButton buttons[] = { Qt::LeftButton, Qt::LeftButton, Qt::LeftButton, Qt::MiddleButton,
+    Qt::RightButton };
+  const Qt::MouseButton button = buttons[this->below(int(std::size(buttons)))];
+  const Qt::KeyboardModifiers modifiers = this->below(4) == 0 ? Qt::ControlModifier : Qt::NoModifier;
+  const QPointer<QWidget> alive = widget;
+  QTest::mousePress(widget, button, modifiers, anywhere());
+  for (int i = this->below(4); i > 0 && alive; --i)
+  {
+    const QPoint at = anywhere();
+    QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, button, modifiers);
+    QApplication::sendEvent(widget, &move);
+  }
+  if (alive)
+  {
+    QTest::mouseRelease(widget, button, modifiers, anywhere());
+  }
+}
+
+void TestEditorMonkey::press(QWidget* widget)
+{
+  const int plain[] = { Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down, Qt::Key_Home, Qt::Key_End, Qt::Key_Tab,
+    Qt::Key_Return, Qt::Key_Escape, Qt::Key_Delete, Qt::Key_Space, Qt::Key_F2, Qt::Key_X, Qt::Key_Y, Qt::Key_1,
+    Qt::Key_7, Qt::Key_Minus, Qt::Key_Period, Qt::Key_E, Qt::Key_Backspace };
+  const int withControl[] = { Qt::Key_Z, Qt::Key_C, Qt::Key_X, Qt::Key_V, Qt::Key_D, Qt::Key_A, Qt::Key_Left };
+  if (this->below(4) == 0)
+  {
+    QTest::keyClick(widget, Qt::Key(withControl[this->below(int(std::size(withControl)))]), Qt::ControlModifier);
+    return;
+  }
+  QTest::keyClick(widget, Qt::Key(plain[this->below(int(std::size(plain)))]));
+}
+
+void TestEditorMonkey::touchWidget(QWidget* widget)
+{
+  switch (this->below(6))
+  {
+    case 0:
+      this->press(widget);
+      break;
+    case 1:
+    {
+      const QPointF at(this->below(widget->width()), this->below(widget->height()));
+      QWheelEvent wheel(at, widget->mapToGlobal(at.toPoint()), {}, QPoint(0, this->below(2) ? 120 : -120), Qt::NoButton,
+        Qt::NoModifier, Qt::NoScrollPhase, false);
+      QApplication::sendEvent(widget, &wheel);
+      break;
+    }
+    case 2:
+      QTest::mouseClick(
+        widget, Qt::LeftButton, {}, QPoint(this->below(widget->width()), this->below(widget->height())));
+      break;
+    default:
+      this->drag(widget);
+  }
+}
+
+void TestEditorMonkey::touchDialog()
+{
+  if (auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget()))
+  {
+    const QList<QAction*> actions = menu->actions();
+    QAction* const chosen = actions.isEmpty() ? nullptr : actions[this->below(actions.size())];
+    const bool wanted = chosen && chosen->isEnabled() && !chosen->menu() && isAllowed(chosen->objectName());
+    menu->close();
+    if (wanted && this->below(2) == 0)
+    {
+      chosen->trigger();
+    }
+    return;
+  }
+  QWidget* const modal = QApplication::activeModalWidget();
+  const QList<QWidget*> parts = modal ? modal->findChildren<QWidget*>() : QList<QWidget*>();
+  if (modal == nullptr || qobject_cast<QFileDialog*>(modal) || parts.isEmpty() || this->below(3) == 0)
+  {
+    closeWhatIsOpen();
+    return;
+  }
+  QWidget* const part = parts[this->below(parts.size())];
+  if (part->isVisible() && part->isEnabled())
+  {
+    this->touchWidget(part);
+  }
+}
+
+/// Dialogs and menus have event loops of their own, also within one another: a timer for each time.
+void TestEditorMonkey::watchDialogs()
+{
+  QTimer::singleShot(10, this, &TestEditorMonkey::watchDialogs);
+  if (QApplication::activePopupWidget() || QApplication::activeModalWidget())
+  {
+    this->touchDialog();
+  }
+}
+
+void TestEditorMonkey::trigger()
+{
+  const QList<QAction*> actions = this->Window.get()->findChildren<QAction*>();
+  QAction* const action = actions[this->below(actions.size())];
+  if (!action->objectName().isEmpty() && isAllowed(action->objectName()) && action->isEnabled())
+  {
+    action->trigger();
+  }
+}
+
+void TestEditorMonkey::touch()
+{
+  if (QApplication::activePopupWidget() || QApplication::activeModalWidget())
+  {
+    this->touchDialog();
+    return;
+  }
+  if (this->below(4) == 0)
+  {
+    this->trigger();
+    return;
+  }
+  QList<QWidget*> windows;
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    if (window->isVisible() && (window != this->Window.get() || this->below(2) == 0))
+    {
+      windows << window;
+    }
+  }
+  QWidget* const window = windows.isEmpty() ? this->Window.get() : windows[this->below(windows.size())];
+  QList<QWidget*> parts;
+  for (QWidget* part : window->findChildren<QWidget*>())
+  {
+    if (part->isVisible() && part->isEnabled() && isAllowed(part))
+    {
+      parts << part;
+    }
+  }
+  if (this->below(3) == 0)
+  {
+    parts = { this->Window.get()->findChild<QWidget*>("view." + QString::number(this->below(4))) };
+  }
+  if (!parts.isEmpty())
+  {
+    this->touchWidget(parts[this->below(parts.size())]);
+  }
+}
+
+void TestEditorMonkey::openAgain()
+{
+  dgtk::SceneDocument& document = this->Window->document();
+  while (document.canUndo())
+  {
+    document.undo();
+  }
+  const QString path = this->copyOfDemo();
+  document.open(path.toStdString());
+}
+
+void TestEditorMonkey::randomEventsDoNoHarm()
+{
+  this->Random.seed(unsigned(1 + qEnvironmentVariableIntValue("DGTK_MONKEY_SEED")));
+  QVERIFY(QDir::setCurrent(this->path("")));
+  this->openAgain();
+  this->watchDialogs();
+  dgtk::SceneDocument& document = this->Window->document();
+  const std::string first = document.json();
+  std::vector<double> memory;
+  int events = 0;
+  QElapsedTimer clock;
+  clock.start();
+  while (clock.elapsed() < 1000 * secondsAsked())
+  {
+    this->touch();
+    QCoreApplication::processEvents();
+    if (document.scene().items().size() > mostItems || ++events % eventsBetween == 0)
+    {
+      while (document.canUndo())
+      {
+        document.undo();
+      }
+      QCOMPARE(document.json(), first);
+      this->openAgain();
+      QCoreApplication::processEvents();
+      memory.push_back(heap());
+    }
+  }
+  qInfo("%d events, %d times all was undone; heap %.1f MiB at first, %.1f MiB at last", events, int(memory.size()),
+    memory.empty() ? 0.0 : memory.front(), memory.empty() ? 0.0 : memory.back());
+  QVERIFY(memory.size() >= 4);
+  // After all that opens has been opened once, memory stays.
+  const auto quarter = std::ptrdiff_t(memory.size() / 4);
+  const double early = middleOf(std::vector<double>(memory.begin() + quarter, memory.begin() + 2 * quarter));
+  const double late = middleOf(std::vector<double>(memory.end() - quarter, memory.end()));
+  QVERIFY2(late < 1.2 * early + memorySlack, qPrintable(QString("%1 MiB became %2 MiB").arg(early).arg(late)));
+}
+
+int main(int argc, char** argv)
+{
+  // Qt ends a case after five minutes; dialogs within dialogs may take a while to come to their end.
+  qputenv("QTEST_FUNCTION_TIMEOUT", QByteArray::number(1000 * (secondsAsked() + 600)));
+  return runEditorTest<TestEditorMonkey>(argc, argv);
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef TestEditorMonkey_h
+#define TestEditorMonkey_h
+
+#include "EditorTest.h"
+
+#include <random>
+
+class QWidget;
+
+/// Random events for a minute, or DGTK_MONKEY_SECONDS; DGTK_MONKEY_SEED chooses others.
+class TestEditorMonkey : public EditorTest
+{
+  Q_OBJECT
+
+private slots:
+  void randomEventsDoNoHarm();
+
+private:
+  int below(int end) { return int(this->Random() % unsigned(end > 1 ? end : 1)); }
+  /// To what is in front: a dialog, a menu, or the window with its panels and tool windows.
+  void touch();
+  void touchDialog();
+  void watchDialogs();
+  void touchWidget(QWidget* widget);
+  void drag(QWidget* widget);
+  void press(QWidget* widget);
+  void trigger();
+  void openAgain();
+
+  std::mt19937 Random;
+};
+
+#endif
