@@ -5,6 +5,7 @@
 #include "dgtkBackgroundWork.h"
 #include "dgtkEditorLanguage.h"
 #include "dgtkEditorState.h"
+#include "dgtkMatchDialog.h"
 #include "dgtkRenderDialog.h"
 #include "dgtkSceneViews.h"
 
@@ -118,7 +119,7 @@ void MainWindow::note(const QString& line)
 
 void MainWindow::closeEvent(QCloseEvent* event)
 {
-  if (!this->mayDiscard())
+  if (!this->mayDiscard() || (this->Matching != nullptr && !this->Matching->mayDiscard()))
   {
     event->ignore();
     return;

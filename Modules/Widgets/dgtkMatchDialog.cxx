@@ -292,6 +292,7 @@ bool MatchDialog::openPairs(const QString& path)
   return this->State.attempt(
     [&]
     {
+      const bool empty = this->Table->pairs().empty();
       const std::vector<SparseSet> sets = parseSparseText(readFile(path.toStdString()), path.toStdString());
       for (const SparseSet& set : sets)
       {
@@ -303,13 +304,33 @@ bool MatchDialog::openPairs(const QString& path)
             this->objectName(match.hit.object));
         }
       }
+      this->Saved = empty ? this->Table->text() : std::string();
       this->showMarks();
     });
 }
 
 bool MatchDialog::savePairs(const QString& path)
 {
-  return this->State.attempt([&] { writeFile(path.toStdString(), this->Table->text()); });
+  return this->State.attempt(
+    [&]
+    {
+      this->Saved = this->Table->text();
+      writeFile(path.toStdString(), this->Saved);
+    });
+}
+
+bool MatchDialog::mayDiscard()
+{
+  if (this->Table->pairs().empty() || this->Table->text() == this->Saved)
+  {
+    return true;
+  }
+  QMessageBox box(QMessageBox::Question, tr("DGTk"), tr("The list of correspondences is not saved."),
+    QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
+  box.setObjectName("unsavedPairsBox");
+  box.setDefaultButton(QMessageBox::Save);
+  const int choice = box.exec();
+  return choice == QMessageBox::Discard || (choice == QMessageBox::Save && this->askSave());
 }
 
 void MatchDialog::askOpen()
@@ -322,13 +343,11 @@ void MatchDialog::askOpen()
   }
 }
 
-void MatchDialog::askSave()
+bool MatchDialog::askSave()
 {
-  QString path = QFileDialog::getSaveFileName(this, tr("Save correspondences"), {}, tr("Correspondences (*.txt)"));
-  if (!path.isEmpty())
-  {
-    this->savePairs(path.contains('.') ? path : path + ".txt");
-  }
+  const QString path =
+    QFileDialog::getSaveFileName(this, tr("Save correspondences"), {}, tr("Correspondences (*.txt)"));
+  return !path.isEmpty() && this->savePairs(path.endsWith(".txt") ? path : path + ".txt");
 }
 
 void MatchDialog::refreshButtons()

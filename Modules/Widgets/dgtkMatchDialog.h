@@ -41,6 +41,8 @@ public:
   /// Reads and writes lists as `dgtk correspond`. False, after EditorState::failed(), when that was refused.
   Q_INVOKABLE bool openPairs(const QString& path);
   Q_INVOKABLE bool savePairs(const QString& path);
+  /// Asks about pairs that are not saved; false: keep them.
+  bool mayDiscard();
 
 protected:
   void showEvent(QShowEvent* event) override;
@@ -81,7 +83,7 @@ private:
   void showPair(int row);
   void addPair();
   void askOpen();
-  void askSave();
+  bool askSave();
   void swapSides();
   void refreshButtons();
   SparseView sparseView(std::size_t side) const;
@@ -93,6 +95,7 @@ private:
   QComboBox* Layer = nullptr;
   QCheckBox* Centers = nullptr;
   MatchTable* Table = nullptr;
+  std::string Saved; ///< the pairs as they were last saved or opened
   std::optional<Point> Active;
   std::optional<LiveMatch> Match; ///< of the active point
   bool Changed = true;            ///< the scene, since it was shown

@@ -111,13 +111,10 @@ QWidget* MatchDialog::makeSide(std::size_t index)
   connect(side.frame, QOverload<int>::of(&QSpinBox::valueChanged), this, show);
   connect(side.pane, &MatchPane::picked, this, [this, index](double x, double y) { this->pick(index, { x, y }); });
   connect(side.pane, &MatchPane::moved, this, [this, index](double dx, double dy) { this->move(index, { dx, dy }); });
-  const QString hint = tr("wheel: zoom, drag: pan, arrows: move the point");
-  side.where->setText(hint);
-  side.where->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   side.where->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   connect(side.pane, &MatchPane::pointed, this,
-    [where = side.where, hint](bool inside, double x, double y)
-    { where->setText(inside ? tr("x %1  y %2").arg(x, 0, 'f', 2).arg(y, 0, 'f', 2) : hint); });
+    [where = side.where](bool inside, double x, double y)
+    { where->setText(inside ? tr("x %1  y %2").arg(x, 0, 'f', 2).arg(y, 0, 'f', 2) : QString()); });
   return widget;
 }
 
@@ -206,7 +203,14 @@ QWidget* MatchDialog::makePairs()
   connect(collect, &QPushButton::clicked, this, &MatchDialog::addPair);
   this->Table = new MatchTable(widget);
   connect(add("deletePairs", tr("&Delete")), &QPushButton::clicked, this->Table, &MatchTable::removeSelected);
-  connect(add("clearPairs", tr("&Clear")), &QPushButton::clicked, this->Table, &MatchTable::clearAll);
+  connect(add("clearPairs", tr("&Clear")), &QPushButton::clicked, this,
+    [this]
+    {
+      if (this->mayDiscard())
+      {
+        this->Table->clearAll();
+      }
+    });
   row->addStretch(1);
   connect(add("openPairs", tr("&Open ...")), &QPushButton::clicked, this, &MatchDialog::askOpen);
   connect(add("savePairs", tr("Sa&ve ...")), &QPushButton::clicked, this, &MatchDialog::askSave);

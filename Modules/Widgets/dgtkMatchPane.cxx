@@ -39,10 +39,10 @@ void MatchPane::setImageSize(const QSize& size)
 {
   const bool other = size != this->Size;
   this->Size = size;
-  this->Step = 0;
-  this->Image = {};
   if (other)
   {
+    this->Step = 0;
+    this->Image = {};
     this->showAll();
   }
 }
@@ -180,6 +180,24 @@ void MatchPane::paintLine(QPainter& painter) const
   }
 }
 
+void MatchPane::paintWords(QPainter& painter) const
+{
+  const QRect area = this->rect().adjusted(20, 20, -20, -20);
+  const bool hint = this->Message.isEmpty() && this->Marks.empty();
+  const int where = (hint ? Qt::AlignHCenter | Qt::AlignBottom : Qt::AlignCenter) | Qt::TextWordWrap;
+  const QString words =
+    hint ? tr("Click a point. Wheel: zoom, drag: pan, double click: all of it, arrows: move the point.")
+         : this->Message;
+  if (words.isEmpty())
+  {
+    return;
+  }
+  const QRect box = painter.fontMetrics().boundingRect(area, where, words).adjusted(-6, -3, 6, 3);
+  painter.fillRect(box, QColor(0, 0, 0, 150));
+  painter.setPen(Qt::white);
+  painter.drawText(area, where, words);
+}
+
 void MatchPane::paintEvent(QPaintEvent* /*event*/)
 {
   QPainter painter(this);
@@ -195,11 +213,7 @@ void MatchPane::paintEvent(QPaintEvent* /*event*/)
   {
     this->paintMark(painter, mark);
   }
-  if (!this->Message.isEmpty())
-  {
-    painter.setPen(Qt::white);
-    painter.drawText(this->rect().adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap, this->Message);
-  }
+  this->paintWords(painter);
   if (this->hasFocus())
   {
     painter.setRenderHint(QPainter::Antialiasing, false);

@@ -37,7 +37,7 @@ public:
 
   explicit MatchPane(QWidget* parent);
 
-  /// Shows all of an image of another size. Forgets the picture.
+  /// Shows all of an image of another size, without its picture.
   void setImageSize(const QSize& size);
   void setPicture(const LivePicture& picture);
   /// Instead of a picture; empty: none.
@@ -77,6 +77,7 @@ private:
   void paintImage(QPainter& painter) const;
   void paintGrid(QPainter& painter) const;
   void paintLine(QPainter& painter) const;
+  void paintWords(QPainter& painter) const;
   void paintMark(QPainter& painter, const Mark& mark) const;
 
   QImage Image;

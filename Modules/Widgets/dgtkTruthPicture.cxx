@@ -48,7 +48,6 @@ void TruthPicture::showPicture(const LivePicture& picture, const QSize& size, co
   this->Image = imageOf(picture.picture);
   this->Size = size;
   this->Step = picture.step;
-  this->Coarseness = picture.coarseness;
   this->Caption = caption;
   this->update();
 }
@@ -56,7 +55,7 @@ void TruthPicture::showPicture(const LivePicture& picture, const QSize& size, co
 void TruthPicture::forgetPicture()
 {
   this->Image = {};
-  this->Coarseness = 0;
+  this->Settled = false;
   this->Caption.clear();
   this->update();
 }

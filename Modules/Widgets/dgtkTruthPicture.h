@@ -21,7 +21,7 @@ QImage imageOf(const LayerPicture& picture);
 class TruthPicture : public QWidget
 {
   Q_OBJECT
-  Q_PROPERTY(int coarseness READ coarseness)
+  Q_PROPERTY(bool settled READ isSettled)
 
 public:
   explicit TruthPicture(QWidget* view);
@@ -29,8 +29,9 @@ public:
   /// `size`: of the image, pixels; the picture may be coarser.
   void showPicture(const LivePicture& picture, const QSize& size, const QString& caption);
   void forgetPicture();
-  /// Of what is shown, 1: as fine as it gets; 0: nothing yet.
-  int coarseness() const { return this->Coarseness; }
+  /// Whether what is shown is the last word about the view as it is.
+  bool isSettled() const { return this->Settled; }
+  void setSettled(bool on) { this->Settled = on; }
   const QImage& image() const { return this->Image; }
 
   /// Where an image of that size is in a widget of another.
@@ -43,7 +44,7 @@ private:
   QImage Image;
   QSize Size;
   int Step = 1; ///< pixels of the view that are one of the image
-  int Coarseness = 0;
+  bool Settled = false;
   QString Caption;
 };
 

@@ -169,6 +169,7 @@ std::optional<LiveQuestion> TruthView::question()
 
 void TruthView::askSoon()
 {
+  this->Picture->setSettled(false);
   if (!this->AskWanted)
   {
     this->AskWanted = true;
@@ -183,6 +184,7 @@ void TruthView::askSoon()
 
 void TruthView::ask()
 {
+  const int number = ++this->Asked;
   try
   {
     if (!this->Layer.isEmpty())
@@ -191,10 +193,11 @@ void TruthView::ask()
       {
         const CameraModel& model = *asked->view.now.model;
         this->Truth.askPicture(*asked, this->Layer.toStdString(),
-          [this, layer = this->Layer, size = QSize(model.width(), model.height())](const LivePicture& picture)
+          [this, layer = this->Layer, size = QSize(model.width(), model.height()), number](const LivePicture& picture)
           {
             QMetaObject::invokeMethod(
-              this, [this, picture, layer, size] { this->receive(picture, layer, size); }, Qt::QueuedConnection);
+              this, [this, picture, layer, size, number] { this->receive(picture, layer, size, number); },
+              Qt::QueuedConnection);
           });
       }
     }
@@ -207,11 +210,11 @@ void TruthView::ask()
   {
     LivePicture none;
     none.message = error.what();
-    this->receive(none, this->Layer, {});
+    this->receive(none, this->Layer, {}, number);
   }
 }
 
-void TruthView::receive(const LivePicture& picture, const QString& layer, const QSize& size)
+void TruthView::receive(const LivePicture& picture, const QString& layer, const QSize& size, int number)
 {
   if (layer != this->Layer)
   {
@@ -232,6 +235,7 @@ void TruthView::receive(const LivePicture& picture, const QString& layer, const 
                 .arg(ends[nearBright ? 1 : 0], 0, 'g', 5);
   }
   this->Picture->showPicture(picture, size, caption);
+  this->Picture->setSettled(number == this->Asked && !this->AskWanted && picture.coarseness == 1);
 }
 
 void TruthView::askPixel(const QPoint& position)

@@ -58,7 +58,7 @@ private:
   void ask();
   void askSoon();
   void askPixel(const QPoint& position);
-  void receive(const LivePicture& picture, const QString& layer, const QSize& size);
+  void receive(const LivePicture& picture, const QString& layer, const QSize& size, int number);
   void receive(const PixelTruth& truth);
   /// What the view looks at, as a camera; none before it has a size.
   std::optional<LiveQuestion> question();
@@ -78,6 +78,7 @@ private:
   std::optional<CameraDescription> Through;
   QString Layer;
   bool AskWanted = false;
+  int Asked = 0; ///< pictures
   std::optional<QPoint> Mouse;
   LiveTruth Truth; ///< last: its threads end first
 };

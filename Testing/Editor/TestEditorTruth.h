@@ -18,6 +18,7 @@ private slots:
   void layersReplaceColourAndFollowTheView();
   void valuesAreTheDatasets();
   void nothingWaitsForPictures();
+  void theSceneMayChangeMeanwhile();
   void matchesAreTheDatasets();
   void pairsAreThoseOfTheCommandLine();
   void panesZoomAndPan();
