@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 
 #include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkLogger.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLState.h>
 #include <vtkOutputWindow.h>
@@ -23,7 +24,11 @@ public:
   static CollectingOutput* New();
   vtkTypeMacro(CollectingOutput, vtkOutputWindow);
   void DisplayText(const char* text) override { this->collect(text); }
-  void DisplayErrorText(const char* text) override { this->collect(text); }
+  void DisplayErrorText(const char* text) override
+  {
+    this->collect(text);
+    throwIfRefused(text);
+  }
   void DisplayWarningText(const char* text) override { this->collect(text); }
   void DisplayGenericWarningText(const char* text) override { this->collect(text); }
   void DisplayDebugText(const char*) override {}
@@ -35,6 +40,18 @@ public:
   }
 
 private:
+  /// A shader that OpenGL refuses is told in two texts, its lines with numbers and then why. VTK would go on without it
+  /// and end in its null pointer.
+  static void throwIfRefused(const std::string& text)
+  {
+    const std::size_t said = text.find("): ");
+    if (text.find("vtkShaderProgram") != std::string::npos && said != std::string::npos &&
+        text.compare(said + 3, 3, "1: ") != 0)
+    {
+      const std::size_t end = text.find('\n', said + 3);
+      throw MachineError("OpenGL refuses a shader: " + text.substr(said + 3, end - said - 3));
+    }
+  }
   void collect(const char* text)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
@@ -58,6 +75,7 @@ CollectingOutput* output()
   if (!instance)
   {
     instance = vtkSmartPointer<CollectingOutput>::New();
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   }
   if (vtkOutputWindow::GetInstance() != instance)
   {
