@@ -66,6 +66,8 @@ void DatasetViewer::makeViewMenu()
   add("actualSize", tr("&One to one"), "1", [this] { this->actualSize(); });
   add("zoomIn", tr("Zoom &in"), "+", [this] { this->zoom(zoomStep); });
   add("zoomOut", tr("Zoom o&ut"), "-", [this] { this->zoom(1 / zoomStep); });
+  this->findChild<QAction*>("zoomIn")->setShortcuts({ QKeySequence("+"), QKeySequence("="), QKeySequence::ZoomIn });
+  this->findChild<QAction*>("zoomOut")->setShortcuts({ QKeySequence("-"), QKeySequence::ZoomOut });
   menu->addSeparator();
   const std::pair<int, QString> layouts[] = { { 1, tr("One &picture") }, { 2, tr("&Two pictures") },
     { 4, tr("Fou&r pictures") } };

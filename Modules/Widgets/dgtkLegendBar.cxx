@@ -29,6 +29,26 @@ QColor toQt(Rgb color) { return { color[0], color[1], color[2] }; }
 
 QString text(double value) { return QString::number(value, 'g', digits); }
 
+/// The sentences of colorPicture(), which knows no translation.
+const char* const sentences[] = { QT_TRANSLATE_NOOP(
+                                    "dgtk::LegendStrip", "red right, green up, blue towards the camera"),
+  QT_TRANSLATE_NOOP("dgtk::LegendStrip", "red u, green v, without whole numbers"),
+  QT_TRANSLATE_NOOP("dgtk::LegendStrip", "red x, green y, over the range of each"),
+  QT_TRANSLATE_NOOP("dgtk::LegendStrip", "red x, green y, blue z, over the range of each"),
+  QT_TRANSLATE_NOOP("dgtk::LegendStrip", "each id has a colour of its own") };
+
+QString translated(const std::string& sentence)
+{
+  for (const char* const known : sentences)
+  {
+    if (sentence == known)
+    {
+      return LegendStrip::tr(known);
+    }
+  }
+  return QString::fromStdString(sentence);
+}
+
 double luminance(const QColor& c) { return 0.3 * c.redF() + 0.59 * c.greenF() + 0.11 * c.blueF(); }
 } // namespace
 
@@ -158,7 +178,7 @@ void LegendStrip::paintEvent(QPaintEvent*)
       break;
   }
   painter.setPen(this->palette().color(QPalette::WindowText));
-  const QString whole = QString::fromStdString(legend.text);
+  const QString whole = translated(legend.text);
   painter.drawText(this->rect().adjusted(2, 0, 0, 0), Qt::AlignVCenter,
     painter.fontMetrics().elidedText(whole, Qt::ElideRight, this->width() - 4));
 }
@@ -170,7 +190,7 @@ QString LegendStrip::longText() const
     return {};
   }
   const PictureLegend& legend = this->Shown->colors.legend;
-  QString all = QString::fromStdString(legend.text).toHtmlEscaped();
+  QString all = translated(legend.text).toHtmlEscaped();
   for (const PictureLegend::Swatch& swatch : legend.swatches)
   {
     all += QString("<span style='color:%1'>&#9632;</span> %2<br>")
@@ -208,7 +228,9 @@ LegendBar::LegendBar(QWidget* parent)
     field->setToolTip(tips[end]);
     field->setAccessibleName(tips[end]);
     field->setFixedWidth(field->fontMetrics().horizontalAdvance("-0.0000e-00") + 4);
-    field->setValidator(new QDoubleValidator(field));
+    auto* number = new QDoubleValidator(field);
+    number->setLocale(QLocale::c());
+    field->setValidator(number);
     connect(field, &QLineEdit::editingFinished, this, &LegendBar::ask);
   }
   this->Auto->setObjectName("auto");

@@ -39,6 +39,7 @@ private slots:
   void theRenderDialogOpensItsResult();
   void noEventTakesLong();
   void largePicturesAreReadInDetail();
+  void randomEventsDoNoHarm();
   void pictures();
 
 private:

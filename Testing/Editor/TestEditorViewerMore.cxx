@@ -287,8 +287,7 @@ void TestEditorViewer::noEventTakesLong()
   const Pulse pulse;
   QMainWindow* const viewer = this->open(given.isEmpty() ? this->dataset() : given);
   QVERIFY(viewer != nullptr);
-  for (const Qt::Key key : { Qt::Key_A, Qt::Key_L, Qt::Key_Period, Qt::Key_Plus, Qt::Key_Plus, Qt::Key_Plus, Qt::Key_F,
-         Qt::Key_R, Qt::Key_C, Qt::Key_T, Qt::Key_Comma })
+  for (const Qt::Key key : { Qt::Key_A, Qt::Key_L, Qt::Key_Period, Qt::Key_Plus, Qt::Key_C })
   {
     QTest::keyClick(viewer, key);
     this->waitForPictures(viewer);
@@ -306,11 +305,11 @@ void TestEditorViewer::noEventTakesLong()
 void TestEditorViewer::largePicturesAreReadInDetail()
 {
   constexpr int width = 65536;
-  constexpr int height = 16384;
+  constexpr int height = 4096;
   const std::string folder = this->Folder.path("large");
   const std::string file = folder + "/left/color/000000.npy";
   fs::create_directories(folder + "/left/color");
-  std::string header = "{'descr': '|u1', 'fortran_order': False, 'shape': (16384, 65536), }";
+  std::string header = "{'descr': '|u1', 'fortran_order': False, 'shape': (4096, 65536), }";
   header.resize(117, ' ');
   std::ofstream(file, std::ios::binary) << "\x93NUMPY" << '\x01' << '\0' << '\x76' << '\0' << header << '\n';
   fs::resize_file(file, 128 + std::uint64_t(width) * height); // no bytes on the disk

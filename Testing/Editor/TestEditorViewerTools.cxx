@@ -2,14 +2,93 @@
 #include "TestEditorSupport.h"
 #include "TestEditorViewer.h"
 
+#include <QAction>
 #include <QComboBox>
+#include <QElapsedTimer>
 #include <QLabel>
 #include <QMainWindow>
+#include <QMenu>
+#include <QMenuBar>
 #include <QProcess>
 #include <QRegularExpression>
 #include <QTableWidget>
+#include <QWheelEvent>
 
-// What the cases share.
+#include <random>
+
+// What the cases share, and random events.
+
+namespace
+{
+constexpr int usualMonkey = 3; // seconds
+
+/// An action by chance that opens no other window.
+void triggerOne(QMainWindow* viewer, std::mt19937& random)
+{
+  const QList<QAction*> menus = viewer->menuBar()->actions();
+  const QList<QAction*> actions = menus[int(random() % unsigned(menus.size()))]->menu()->actions();
+  QAction* const action = actions[int(random() % unsigned(actions.size()))];
+  const QStringList asking{ "open", "save", "close", "mouse" };
+  if (!action->isSeparator() && !asking.contains(action->objectName()))
+  {
+    action->trigger();
+  }
+}
+
+/// A press, a motion and a release, or the wheel.
+void useMouse(QWidget* widget, std::mt19937& random)
+{
+  const auto place = [&]
+  { return QPoint(int(random() % unsigned(widget->width())), int(random() % unsigned(widget->height()))); };
+  const Qt::MouseButton buttons[] = { Qt::LeftButton, Qt::MiddleButton, Qt::RightButton };
+  const Qt::MouseButton button = buttons[random() % 3];
+  QTest::mousePress(widget, button, {}, place());
+  moveMouse(widget, place(), button);
+  moveMouse(widget, place(), button);
+  QTest::mouseRelease(widget, button, {}, place());
+  const QPoint at = place();
+  QWheelEvent event(at, widget->mapToGlobal(at), {}, { 0, random() % 2 ? 120 : -120 }, Qt::NoButton, Qt::NoModifier,
+    Qt::NoScrollPhase, false);
+  QCoreApplication::sendEvent(widget, &event);
+}
+} // namespace
+
+void TestEditorViewer::randomEventsDoNoHarm()
+{
+  QMainWindow* const viewer = this->open(this->dataset());
+  QVERIFY(viewer != nullptr);
+  const int asked = qEnvironmentVariableIntValue("DGTK_MONKEY_SECONDS");
+  std::mt19937 random(1);
+  QElapsedTimer clock;
+  for (clock.start(); clock.elapsed() < 1000 * (asked > 0 ? asked : usualMonkey);)
+  {
+    const QList<QWidget*> all = viewer->findChildren<QWidget*>();
+    QWidget* const widget = all[int(random() % unsigned(all.size()))];
+    const bool pointed = widget->objectName().startsWith("picture.") || widget->objectName() == "cloudView";
+    const Qt::Key keys[] = { Qt::Key_Up, Qt::Key_Down, Qt::Key_Left, Qt::Key_Right, Qt::Key_Tab, Qt::Key_PageUp };
+    if (pointed && widget->isVisible())
+    {
+      useMouse(widget, random);
+    }
+    else if (random() % 4 == 0)
+    {
+      triggerOne(viewer, random);
+    }
+    else if (widget->isVisible() && widget->focusPolicy() != Qt::NoFocus)
+    {
+      QTest::keyClick(widget, keys[random() % 6]);
+    }
+    if (random() % 8 == 0)
+    {
+      this->Window->findChild<QAction*>("frameAll")->trigger();
+      QCoreApplication::processEvents();
+    }
+  }
+  viewer->findChild<QAction*>("play")->setChecked(false);
+  QTest::keyClick(viewer, Qt::Key_4, Qt::ControlModifier);
+  this->waitForPictures(viewer);
+  QVERIFY(viewer->isVisible());
+}
 
 QPoint pixelOf(const QMainWindow* viewer)
 {

@@ -577,6 +577,26 @@
         <source>and %1 more</source>
         <translation>und %1 weitere</translation>
     </message>
+    <message>
+        <source>red right, green up, blue towards the camera</source>
+        <translation>rot rechts, grün oben, blau zur Kamera</translation>
+    </message>
+    <message>
+        <source>red u, green v, without whole numbers</source>
+        <translation>rot u, grün v, ohne ganze Zahlen</translation>
+    </message>
+    <message>
+        <source>red x, green y, over the range of each</source>
+        <translation>rot x, grün y, je über ihren Bereich</translation>
+    </message>
+    <message>
+        <source>red x, green y, blue z, over the range of each</source>
+        <translation>rot x, grün y, blau z, je über ihren Bereich</translation>
+    </message>
+    <message>
+        <source>each id has a colour of its own</source>
+        <translation>jede Nummer hat eine eigene Farbe</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::LightDialog</name>
