@@ -1147,8 +1147,19 @@
         <translation>keine: der Strahl ist im anderen Bild ein Punkt</translation>
     </message>
     <message>
-        <source>wheel: zoom, drag: pan, arrows: move the point</source>
-        <translation>Rad: vergrößern, ziehen: verschieben, Pfeiltasten: Punkt bewegen</translation>
+        <source>DGTk</source>
+        <translation>DGTk</translation>
+    </message>
+    <message>
+        <source>The list of correspondences is not saved.</source>
+        <translation>Die Liste der Entsprechungen ist nicht gespeichert.</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::MatchPane</name>
+    <message>
+        <source>Click a point. Wheel: zoom, drag: pan, double click: all of it, arrows: move the point.</source>
+        <translation>Klicken Sie auf einen Punkt. Rad: vergrößern, ziehen: verschieben, Doppelklick: alles, Pfeiltasten: Punkt bewegen.</translation>
     </message>
 </context>
 <context>
