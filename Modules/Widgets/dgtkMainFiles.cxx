@@ -4,6 +4,7 @@
 #include "dgtkAutosave.h"
 #include "dgtkBackgroundWork.h"
 #include "dgtkEditorState.h"
+#include "dgtkError.h"
 #include "dgtkModelReader.h"
 #include "dgtkPovExport.h"
 #include "dgtkSceneViews.h"
@@ -25,6 +26,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 
 namespace dgtk
 {
@@ -38,6 +40,14 @@ bool isScene(const QString& path)
 {
   const QString extension = QFileInfo(path).suffix().toLower();
   return extension == "json" || extension == "scene";
+}
+
+/// What is wrong with a model, without the name of the object that it was to become.
+std::string withoutObject(const std::string& message)
+{
+  const std::string before = "': model: ";
+  const std::size_t at = message.find(before);
+  return at == std::string::npos ? message : message.substr(at + before.size());
 }
 
 /// The path, with the first of the endings where it has none of them.
@@ -196,7 +206,16 @@ bool MainWindow::importFile(const QString& path)
   const auto loaded = std::make_shared<std::optional<ModelStore>>();
   const bool read = this->work(tr("Reading %1 ...").arg(QFileInfo(path).fileName()),
     [loaded, reader = this->document().modelReader(file)](const LoadProgress& progress)
-    { *loaded = reader(progress); });
+    {
+      try
+      {
+        *loaded = reader(progress);
+      }
+      catch (const InputError& error)
+      {
+        throw std::runtime_error(withoutObject(error.what()));
+      }
+    });
   if (!read || !*loaded)
   {
     return false;

@@ -24,10 +24,13 @@ private slots:
   void theWindowIsAsItWasLeft();
   void readingDoesNotHoldTheWindow();
   void readingIsCancelled();
+  void theWindowClosesWhileItReads();
   void theProgressOfARunMoves();
   void pictures();
 
 private:
+  static QString model(const char* name);
+  static QByteArray contentsOf(const QString& path);
   QString write(const char* name, const QByteArray& contents) const;
   /// Imports a file; returns what the dialog said, "" when there was none.
   QString import(const QString& path);

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestEditorFiles.h"
+#include "TestEditorSupport.h"
+
+#include "dgtkMainWindow.h"
+#include "dgtkModelReader.h"
+#include "dgtkSceneDocument.h"
+
+#include <QAction>
+#include <QCheckBox>
+#include <QDialog>
+#include <QDockWidget>
+#include <QDropEvent>
+#include <QFileDialog>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMimeData>
+#include <QProcess>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QRegularExpression>
+#include <QSpinBox>
+#include <QStandardPaths>
+#include <QTest>
+#include <QUrl>
+
+#include <algorithm>
+
+namespace
+{
+constexpr int largeWidth = 1600; // pixels of a picture that takes a while
+} // namespace
+
+void TestEditorFiles::filesAreDropped()
+{
+  QMimeData data;
+  data.setUrls({ QUrl::fromLocalFile(model("crate.ac")), QUrl::fromLocalFile(model("windmill.gltf")) });
+  QDragEnterEvent enter({ 20, 20 }, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(this->Window.get(), &enter);
+  QVERIFY(enter.isAccepted());
+  QDropEvent drop({ 20, 20 }, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(this->Window.get(), &drop);
+  const dgtk::SceneDocument& document = this->Window->document();
+  QTRY_COMPARE(document.scene().objects.size(), std::size_t(2));
+  QCOMPARE(document.scene().objects[1].name, std::string("windmill-1"));
+  QMimeData words;
+  words.setText("no file");
+  QDragEnterEvent text({ 20, 20 }, Qt::CopyAction, &words, Qt::LeftButton, Qt::NoModifier);
+  text.setAccepted(false);
+  QApplication::sendEvent(this->Window.get(), &text);
+  QVERIFY(!text.isAccepted());
+}
+
+void TestEditorFiles::inFileDialog(const char* action, const std::function<void(QFileDialog&)>& act) const
+{
+  answer<QFileDialog>({}, act);
+  this->action(action)->trigger();
+}
+
+void TestEditorFiles::theImportDialogKnowsAllFormats()
+{
+  QStringList filters;
+  this->inFileDialog("import",
+    [&](QFileDialog& dialog)
+    {
+      filters = dialog.nameFilters();
+      dialog.setDirectory(model(""));
+      dialog.findChild<QLineEdit*>("fileNameEdit")->setText("\"crate.ac\" \"windmill.gltf\"");
+      QTest::keyClick(dialog.findChild<QLineEdit*>("fileNameEdit"), Qt::Key_Return);
+    });
+  QCOMPARE(filters.size(), int(dgtk::modelReaders().size()) + 1);
+  for (const dgtk::ReaderInfo& reader : dgtk::modelReaders())
+  {
+    for (const std::string& extension : reader.extensions)
+    {
+      const QString pattern = "*." + QString::fromStdString(extension);
+      QVERIFY2(filters.first().contains(pattern), qPrintable(pattern));
+      QCOMPARE(filters.filter(QRegularExpression(QRegularExpression::escape(pattern) + "[ )]")).size(), 2);
+    }
+  }
+  QTRY_COMPARE(this->Window->document().scene().objects.size(), std::size_t(2));
+}
+
+void TestEditorFiles::exportsForPovRay()
+{
+  QVERIFY(this->import(model("crate.ac")).isEmpty());
+  const QString file = this->path("crate.pov");
+  this->inFileDialog("exportPov",
+    [&](QFileDialog& dialog)
+    {
+      dialog.findChild<QLineEdit*>("fileNameEdit")->setText(this->path("crate"));
+      QTest::keyClick(dialog.findChild<QLineEdit*>("fileNameEdit"), Qt::Key_Return);
+    });
+  QTRY_VERIFY(QFile::exists(file));
+  QCOMPARE(dgtk::readModel(file.toStdString())->triangles.size(),
+    dgtk::readModel(model("crate.ac").toStdString())->triangles.size());
+  const QString povray = QStandardPaths::findExecutable("povray");
+  if (!povray.isEmpty())
+  {
+    QProcess process;
+    process.setWorkingDirectory(this->path("."));
+    process.start(povray, { "+Icrate.pov", "+Ocrate.png", "+W32", "+H24", "-D" });
+    QVERIFY(process.waitForFinished(longestRun));
+    QCOMPARE(process.exitCode(), 0);
+    QVERIFY(QFile::exists(this->path("crate.png")));
+  }
+}
+
+void TestEditorFiles::filesOfTheCommandLineOpen()
+{
+  QProcess editor;
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  const QString settings = this->path("config");
+  environment.insert("XDG_CONFIG_HOME", settings);
+  environment.insert("XDG_DATA_HOME", this->path("data"));
+  editor.setProcessEnvironment(environment);
+  editor.start(QCoreApplication::applicationDirPath() + "/dgtk-editor", { this->copyOfDemo(), model("crate.ac") });
+  QTRY_VERIFY_WITH_TIMEOUT(contentsOf(settings + "/DGTk/Editor.conf").contains("demo.json"), longestRun);
+  QCOMPARE(editor.state(), QProcess::Running);
+  editor.kill();
+  QVERIFY(editor.waitForFinished());
+}
+
+void TestEditorFiles::recentFilesOpenAgain()
+{
+  const QString scene = this->copyOfDemo();
+  QVERIFY(this->Window->openFile(scene));
+  this->Window = std::make_unique<dgtk::MainWindow>();
+  this->Window->show();
+  auto* recent = this->Window->findChild<QMenu*>("recent");
+  QCOMPARE(recent->actions().size(), 1);
+  QVERIFY(recent->actions().first()->text().contains("demo.json"));
+  recent->actions().first()->trigger();
+  QTRY_COMPARE(QString::fromStdString(this->Window->document().path()), scene);
+}
+
+void TestEditorFiles::theWindowIsAsItWasLeft()
+{
+  this->Window->resize(1111, 777);
+  this->Window->findChild<QDockWidget*>("logDock")->hide();
+  QTest::qWait(settle);
+  const QSize size = this->Window->size();
+  QVERIFY(this->Window->close());
+  this->Window = std::make_unique<dgtk::MainWindow>();
+  this->Window->show();
+  QVERIFY(QTest::qWaitForWindowExposed(this->Window.get()));
+  QTRY_COMPARE(this->Window->size(), size);
+  QVERIFY(!this->Window->findChild<QDockWidget*>("logDock")->isVisible());
+  QVERIFY(this->Window->findChild<QDockWidget*>("timeDock")->isVisible());
+}
+
+void TestEditorFiles::theProgressOfARunMoves()
+{
+  QVERIFY(this->Window->openFile(demo()));
+  this->action("render")->trigger();
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  dialog->findChild<QLineEdit*>("folder")->setText(this->path("progress"));
+  dialog->findChild<QCheckBox*>("ownSize")->setChecked(false);
+  dialog->findChild<QSpinBox*>("width")->setValue(largeWidth);
+  dialog->findChild<QSpinBox*>("height")->setValue(largeWidth);
+  auto* bar = dialog->findChild<QProgressBar*>("progress");
+  auto* start = dialog->findChild<QPushButton*>("start");
+  auto* cancel = dialog->findChild<QPushButton*>("cancel");
+  int last = -1;
+  int still = 0;
+  int stillest = 0;
+  int moves = 0;
+  QTimer looker;
+  connect(&looker, &QTimer::timeout, &looker,
+    [&]
+    {
+      const bool counting = bar->maximum() > 1 && !start->isEnabled();
+      const bool moved = counting && bar->value() > last;
+      QVERIFY(!counting || bar->value() >= last);
+      moves += moved ? 1 : 0;
+      still = moved || !counting ? 0 : still + 1;
+      stillest = std::max(stillest, still);
+      last = counting ? bar->value() : -1;
+    });
+  looker.start(100);
+  QTest::mouseClick(start, Qt::LeftButton);
+  QTRY_VERIFY_WITH_TIMEOUT(moves > 8 || start->isEnabled(), longestRun);
+  QTest::mouseClick(cancel, Qt::LeftButton);
+  looker.stop();
+  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+  QVERIFY(moves > 4);
+  QVERIFY2(stillest < 5, "half a second without a move");
+}
