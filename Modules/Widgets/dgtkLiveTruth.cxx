@@ -145,7 +145,8 @@ LivePicture livePicture(
   findRange(whole, result);
   if (eye.isBeyond(layer))
   {
-    result.message = "there is no frame beside this one to move to: flow needs key frames";
+    result.message =
+      layer.rfind("flow_backward", 0) == 0 ? "the first frame has none before it" : "the last frame has none after it";
   }
   return result;
 }

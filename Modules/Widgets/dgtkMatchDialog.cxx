@@ -325,7 +325,7 @@ bool MatchDialog::mayDiscard()
   {
     return true;
   }
-  QMessageBox box(QMessageBox::Question, tr("DGTk"), tr("The list of correspondences is not saved."),
+  QMessageBox box(QMessageBox::Question, QStringLiteral("DGTk"), tr("The list of correspondences is not saved."),
     QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
   box.setObjectName("unsavedPairsBox");
   box.setDefaultButton(QMessageBox::Save);

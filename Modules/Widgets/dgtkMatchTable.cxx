@@ -5,6 +5,7 @@
 
 #include <QHeaderView>
 #include <QKeyEvent>
+#include <QPainter>
 
 #include <algorithm>
 
@@ -29,6 +30,7 @@ MatchTable::MatchTable(QWidget* parent)
   this->setEditTriggers(NoEditTriggers);
   this->setAlternatingRowColors(true);
   this->setWordWrap(false);
+  this->resizeColumnsToContents();
   this->horizontalHeader()->setStretchLastSection(true);
   this->verticalHeader()->setDefaultSectionSize(this->fontMetrics().height() + 6);
 }
@@ -98,6 +100,18 @@ std::string MatchTable::text() const
     text += sparseText(set);
   }
   return text;
+}
+
+void MatchTable::paintEvent(QPaintEvent* event)
+{
+  QTableWidget::paintEvent(event);
+  if (this->Pairs.empty())
+  {
+    QPainter painter(this->viewport());
+    painter.setPen(this->palette().color(QPalette::Disabled, QPalette::Text));
+    painter.drawText(this->viewport()->rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap,
+      tr("Click a point of a picture, then Add pair. Open reads a list that was saved."));
+  }
 }
 
 void MatchTable::keyPressEvent(QKeyEvent* event)

@@ -42,6 +42,7 @@ signals:
   void pairsChanged();
 
 protected:
+  void paintEvent(QPaintEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
 
 private:

@@ -170,7 +170,7 @@ void TruthPanel::showValues(const PixelTruth& truth, const QString& units)
     const bool bare = unit == "1" || unit == "id" || numbers == "-";
     QString text = numbers;
     const QString what = QString(name).replace('_', ' ');
-    if (i + 1 < truth.values.size() && truth.values[i + 1].spec.name == value.spec.name + "_class")
+    if (numbers != "-" && i + 1 < truth.values.size() && truth.values[i + 1].spec.name == value.spec.name + "_class")
     {
       text += '\n' + visibilityText(static_cast<int>(truth.values[i + 1].values.front()));
     }

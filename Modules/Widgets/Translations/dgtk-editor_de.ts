@@ -1147,19 +1147,15 @@
         <translation>keine: der Strahl ist im anderen Bild ein Punkt</translation>
     </message>
     <message>
-        <source>DGTk</source>
-        <translation>DGTk</translation>
-    </message>
-    <message>
         <source>The list of correspondences is not saved.</source>
-        <translation>Die Liste der Entsprechungen ist nicht gespeichert.</translation>
+        <translation>Die Liste der Korrespondenzen ist nicht gespeichert.</translation>
     </message>
 </context>
 <context>
     <name>dgtk::MatchPane</name>
     <message>
         <source>Click a point. Wheel: zoom, drag: pan, double click: all of it, arrows: move the point.</source>
-        <translation>Klicken Sie auf einen Punkt. Rad: vergrößern, ziehen: verschieben, Doppelklick: alles, Pfeiltasten: Punkt bewegen.</translation>
+        <translation>Einen Punkt anklicken. Rad: vergrößern, ziehen: schieben, Doppelklick: alles, Pfeiltasten: Punkt bewegen.</translation>
     </message>
 </context>
 <context>
@@ -1195,6 +1191,10 @@
     <message>
         <source>Object</source>
         <translation>Objekt</translation>
+    </message>
+    <message>
+        <source>Click a point of a picture, then Add pair. Open reads a list that was saved.</source>
+        <translation>Einen Punkt eines Bildes anklicken, dann Paar aufnehmen. Öffnen liest eine gespeicherte Liste.</translation>
     </message>
 </context>
 <context>
