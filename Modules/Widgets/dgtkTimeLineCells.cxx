@@ -32,7 +32,12 @@ QSize TimeLineCells::sizeHint() const { return { 600, headerHeight + 5 * rowHeig
 
 int TimeLineCells::frames() const
 {
-  const int last = this->Keys.empty() ? 0 : this->Keys.back();
+  int last = this->Keys.empty() ? 0 : this->Keys.back();
+  for (const Row& row : this->Rows)
+  {
+    const double end = row.bar ? row.bar->start + (std::isinf(row.bar->length) ? 0 : row.bar->length) : 0;
+    last = std::max(last, int(std::clamp(end, 0.0, double(largestFrame))));
+  }
   return std::min(
     largestFrame, std::max({ fewestFrames, last + framesAfterLast, this->State.frame() + framesAfterLast }));
 }

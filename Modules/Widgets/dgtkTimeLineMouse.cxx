@@ -109,7 +109,11 @@ void TimeLineCells::mouseMoveEvent(QMouseEvent* event)
     return;
   }
   Drag& drag = *this->Dragged;
-  drag.to = this->frameAt(event->pos().x());
+  // Beyond the edges the cells come along.
+  const int x = event->pos().x();
+  QScrollBar* const bar = this->horizontalScrollBar();
+  bar->setValue(bar->value() + (x >= this->viewport()->width() ? cellWidth : x < namesWidth ? -cellWidth : 0));
+  drag.to = this->frameAt(x);
   drag.copy = copy;
   if (drag.from.part == Part::Frames)
   {

@@ -98,7 +98,8 @@ void TimeLineCells::paintBar(QPainter& painter, const Row& row, const SequenceBa
   if (bar.loop && !std::isinf(bar.length))
   {
     painter.fillRect(QRect(right, top + 4, std::max(0, width - right), barHeight - 10), barColor.lighter(150));
-    for (int turn = 2; bar.length * cellWidth > 3; ++turn)
+    const double turns = std::ceil((this->frameAt(namesWidth) - bar.start) / bar.length); // before what is in sight
+    for (double turn = std::max(2.0, turns); bar.length * cellWidth > 3; ++turn)
     {
       const int again = this->middleOf(bar.start + turn * bar.length);
       if (again > width)

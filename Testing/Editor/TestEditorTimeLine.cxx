@@ -16,6 +16,7 @@
 #include <QMenu>
 #include <QMessageBox>
 #include <QMouseEvent>
+#include <QScrollBar>
 #include <QSpinBox>
 #include <QTest>
 #include <QToolButton>
@@ -227,6 +228,30 @@ void TestEditorTimeLine::barsMoveAndStretch()
   QCOMPARE(animation().start, 6.0);
   this->action("undo")->trigger();
   QCOMPARE(document.json(), before);
+}
+
+void TestEditorTimeLine::barsFarAwayAreDrawnAndReached()
+{
+  QVERIFY(this->Window->importFile(QString::fromStdString(model("creature.md2"))));
+  dgtk::SceneDocument& document = this->Window->document();
+  auto* area = this->Window->findChild<QAbstractScrollArea*>("timeLineCells");
+  const auto change = [&](double start, double rate)
+  {
+    document.editItem("far", crate,
+      [=](dgtk::SceneDescription& scene)
+      {
+        scene.objects[0].animation.start = start;
+        scene.objects[0].animation.rate = rate;
+      });
+    this->cells()->grab();
+  };
+  change(-1e9, 1); // began long ago, and has repeated ever since
+  change(1e9, 1);
+  change(0, 1e6);
+  change(0, 1e-9);
+  change(0, 0);
+  change(500, 1);
+  QVERIFY(area->horizontalScrollBar()->maximum() > (520 - 60) * cellWidth);
 }
 
 void TestEditorTimeLine::sequencesAreChosen()

@@ -18,6 +18,7 @@ private slots:
   void aKeyHasAnInterpolation();
   void thesisScenesCannotSayIt();
   void barsMoveAndStretch();
+  void barsFarAwayAreDrawnAndReached();
   void sequencesAreChosen();
   void everythingByKeys();
   void playsAtItsRate();
