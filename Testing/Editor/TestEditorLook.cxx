@@ -204,9 +204,9 @@ void TestEditorLook::pictures()
   this->Window->show();
   this->Window->resize(1280, 860);
   QVERIFY(this->Window->openFile(demo()));
-  this->select("house");
+  this->select("creature");
   QTest::qWait(3 * settle);
-  QVERIFY(this->Window->grab().save(folder + "/editor_german.png"));
+  QVERIFY(this->Window->findChild<QWidget*>("propertiesPanel")->grab().save(folder + "/editor_german.png"));
 }
 
 int main(int argc, char** argv) { return runEditorTest<TestEditorLook>(argc, argv); }
