@@ -147,8 +147,10 @@ void LegendStrip::drawWheel(QPainter& painter) const
   painter.drawImage(QPointF(2, 1), wheel);
   painter.setPen(this->palette().color(QPalette::WindowText));
   const PictureLegend& legend = this->Shown->colors.legend;
-  painter.drawText(QRectF(side + 2 * gap, 0, this->width() - side, this->height()), Qt::AlignVCenter,
-    tr("direction; full colour: %1 %2").arg(text(legend.range.high), QString::fromStdString(legend.unit)));
+  const QString whole = tr("full colour: %1 %2").arg(text(legend.range.high), QString::fromStdString(legend.unit));
+  const int left = side + 2 * gap;
+  painter.drawText(QRectF(left, 0, this->width() - left, this->height()), Qt::AlignVCenter,
+    painter.fontMetrics().elidedText(whole, Qt::ElideRight, this->width() - left));
 }
 
 void LegendStrip::paintEvent(QPaintEvent*)

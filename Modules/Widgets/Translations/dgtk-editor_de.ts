@@ -570,8 +570,8 @@
         <translation>+%1</translation>
     </message>
     <message>
-        <source>direction; full colour: %1 %2</source>
-        <translation>Richtung; volle Farbe: %1 %2</translation>
+        <source>full colour: %1 %2</source>
+        <translation>volle Farbe: %1 %2</translation>
     </message>
     <message>
         <source>and %1 more</source>
