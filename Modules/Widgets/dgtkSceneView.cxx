@@ -7,6 +7,8 @@
 #include <QTimer>
 
 #include <vtkCamera.h>
+#include <vtkCullerCollection.h>
+#include <vtkFrustumCoverageCuller.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
 #include <vtkRenderWindowInteractor.h>
@@ -39,6 +41,11 @@ SceneView::SceneView(ViewKind kind, QWidget* parent)
   this->Renderer->SetBackground2(0.20, 0.21, 0.23);
   this->Renderer->GradientBackgroundOn();
   this->Actors = std::make_unique<ViewActors>(this->Renderer, kind);
+  // What is hidden need not be shaded: without a graphics card that is most of the work.
+  vtkNew<vtkFrustumCoverageCuller> culler;
+  culler->SetSortingStyleToFrontToBack();
+  this->Renderer->GetCullers()->RemoveAllItems();
+  this->Renderer->AddCuller(culler);
   this->setFocusPolicy(Qt::StrongFocus);
   this->setMouseTracking(true);
   this->setMinimumSize(120, 90);
@@ -61,7 +68,7 @@ void SceneView::placeCamera()
   camera->SetParallelProjection(this->Camera.parallel());
   camera->SetParallelScale(this->Camera.height() / 2);
   emit this->cameraMoved();
-  this->placeHandles();
+  this->placeOverlay();
   this->drawSoon();
 }
 
@@ -69,10 +76,10 @@ void SceneView::showHandles(const std::optional<HandlePlace>& place)
 {
   this->Handles = place;
   this->Overlay->raise(); // also above a picture that covers the view
-  this->placeHandles();
+  this->placeOverlay();
 }
 
-void SceneView::placeHandles()
+void SceneView::placeOverlay()
 {
   std::vector<HandleShape> shapes;
   if (this->Handles)
@@ -80,6 +87,15 @@ void SceneView::placeHandles()
     shapes = ViewHandles(*this->Handles, this->Camera, this->width(), this->height()).shapes();
   }
   this->Overlay->showHandles(std::move(shapes));
+  std::vector<QLineF> lines;
+  for (const auto& [from, to] : this->Chosen)
+  {
+    if (const auto seen = this->Camera.segment(from, to, this->width(), this->height()))
+    {
+      lines.emplace_back(seen->first.x(), seen->first.y(), seen->second.x(), seen->second.y());
+    }
+  }
+  this->Overlay->showLines(std::move(lines));
 }
 
 void SceneView::showDrag(const Handle& handle, const QString& text)
@@ -129,6 +145,7 @@ void SceneView::draw()
   else
   {
     this->Actors->showFine();
+    this->Actors->chooseDetail(this->Camera, this->height());
   }
   QElapsedTimer clock;
   clock.start();
@@ -160,13 +177,19 @@ void SceneView::lookThrough(const CameraDescription& camera, double frame)
   this->placeCamera();
 }
 
-void SceneView::showScene(const SceneDescription& scene, const std::shared_ptr<const ScenePlaces>& places,
-  const SceneItems& selected, ViewMeshes& meshes)
+void SceneView::showScene(
+  const SceneDescription& scene, const std::shared_ptr<const ScenePlaces>& places, ViewMeshes& meshes)
 {
   this->Places = places;
-  this->Selected = selected;
-  this->Actors->show(scene, *places, selected, meshes);
+  this->Actors->show(scene, *places, meshes);
   this->drawSoon();
+}
+
+void SceneView::showSelected(const SceneItems& selected)
+{
+  this->Selected = selected;
+  this->Chosen = selectionLines(*this->Places, selected);
+  this->placeOverlay();
 }
 
 void SceneView::showGrid(bool on)
@@ -197,7 +220,7 @@ void SceneView::resizeEvent(QResizeEvent* event)
 {
   QVTKOpenGLNativeWidget::resizeEvent(event);
   this->Overlay->setGeometry(this->rect());
-  this->placeHandles();
+  this->placeOverlay();
   this->drawSoon();
 }
 

@@ -7,6 +7,7 @@
 #include "dgtkViewActors.h"
 #include "dgtkViewCamera.h"
 #include "dgtkViewHandles.h"
+#include "dgtkViewLines.h"
 
 #include <QPoint>
 #include <QVTKOpenGLNativeWidget.h>
@@ -49,8 +50,9 @@ public:
   void frame(const WorldBox& box);
   /// Takes the place and direction of a camera; the field of view stays the view's own.
   void lookThrough(const CameraDescription& camera, double frame);
-  void showScene(const SceneDescription& scene, const std::shared_ptr<const ScenePlaces>& places,
-    const SceneItems& selected, ViewMeshes& meshes);
+  void showScene(const SceneDescription& scene, const std::shared_ptr<const ScenePlaces>& places, ViewMeshes& meshes);
+  /// Of the scene that is shown: nothing is drawn anew but the lines about it.
+  void showSelected(const SceneItems& selected);
   void setStyle(ViewStyle style) { this->Actors->setStyle(style); }
   void showGrid(bool on);
   /// Something is being dragged in another view: this one may be coarse, too.
@@ -105,7 +107,8 @@ private:
   void moveView(const QPoint& step);
   void pick(const QPoint& position, bool add);
   void placeCamera();
-  void placeHandles();
+  /// What lies over the view, for where its camera is now.
+  void placeOverlay();
   Motion motionFor(const QMouseEvent& event);
   std::optional<Handle> handleAt(const QPoint& position) const;
   void endDrag();
@@ -115,6 +118,7 @@ private:
   std::unique_ptr<ViewActors> Actors;
   std::shared_ptr<const ScenePlaces> Places;
   SceneItems Selected;
+  LineList Chosen; ///< about what is selected
   Motion Moving = Motion::None;
   QPoint Pressed;
   QPoint Last;

@@ -41,7 +41,7 @@ SceneViews::SceneViews(EditorState& state, QWidget* parent)
   this->Active = this->view(ViewKind::Perspective);
   connect(this->Tool, &HandleTool::told, this, &SceneViews::told);
   connect(&state, &EditorState::changed, this, &SceneViews::refresh);
-  connect(&state, &EditorState::selectionChanged, this, &SceneViews::refresh);
+  connect(&state, &EditorState::selectionChanged, this, &SceneViews::showSelection);
   connect(&state, &EditorState::frameChanged, this, &SceneViews::refresh);
   this->refresh();
 }
@@ -88,9 +88,9 @@ void SceneViews::refresh()
   }
   for (SceneView* view : this->Views)
   {
-    view->showScene(scene, this->Places, this->State.selection(), this->Meshes);
+    view->showScene(scene, this->Places, this->Meshes);
   }
-  this->showHandles();
+  this->showSelection();
   this->Meshes.forgetUnused();
 }
 
@@ -273,6 +273,15 @@ void SceneViews::connectDrags(SceneView* view)
 void SceneViews::setHandleMode(HandleMode mode)
 {
   this->Tool->setMode(mode);
+  this->showHandles();
+}
+
+void SceneViews::showSelection()
+{
+  for (SceneView* view : this->Views)
+  {
+    view->showSelected(this->State.selection());
+  }
   this->showHandles();
 }
 

@@ -62,6 +62,7 @@ private:
   void refresh();
   void pick(bool hit, int kind, int index, bool add);
   void connectDrags(SceneView* view);
+  void showSelection();
   void showHandles();
   void setHurried(bool on);
 

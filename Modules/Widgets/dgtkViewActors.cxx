@@ -25,12 +25,8 @@ namespace dgtk
 namespace
 {
 const Eigen::Vector3d cameraColor(1.0, 0.75, 0.2);
-const Eigen::Vector3d chosenColor(0.2, 1.0, 0.2);
 const Eigen::Vector3d boxColor(0.75, 0.75, 0.78);
 const Eigen::Vector3d gridColor(0.42, 0.44, 0.47);
-constexpr double frustumShare = 0.04; // of the scene's diagonal
-constexpr double lightShare = 0.012;
-constexpr double smallestExtent = 1;
 
 vtkSmartPointer<vtkMatrix4x4> matrixOf(const Affine3& target_from_source)
 {
@@ -59,8 +55,6 @@ void fill(vtkProperty* property, const Material& material)
   property->SetSpecularPower(std::max(material.shininess, 1.0));
   property->SetOpacity(material.opacity);
 }
-
-double extentOf(const WorldBox& box) { return std::max(box.diagonal(), smallestExtent); }
 } // namespace
 
 ViewActors::ViewActors(vtkRenderer* renderer, ViewKind kind)
@@ -75,7 +69,6 @@ ViewActors::ViewActors(vtkRenderer* renderer, ViewKind kind)
   }
   this->BoxLines = std::make_unique<LineActor>(renderer, boxColor, 1);
   this->CameraLines = std::make_unique<LineActor>(renderer, cameraColor, 1.5);
-  this->ChosenLines = std::make_unique<LineActor>(renderer, chosenColor, 2);
 }
 
 ViewActors::~ViewActors() = default;
@@ -92,6 +85,7 @@ void ViewActors::remove(Shown& shown)
   }
   shown.actors.clear();
   shown.surfaces.clear();
+  shown.level = 0;
 }
 
 ViewActors::Surface& ViewActors::surface(const Instance& instance, std::size_t part, ViewMeshes& meshes)
@@ -99,12 +93,13 @@ ViewActors::Surface& ViewActors::surface(const Instance& instance, std::size_t p
   const Material& material = (*instance.materials)[std::size_t(instance.model->parts[part].material)];
   vtkPolyData* const data = meshes.part(instance, part);
   Surface& surface = this->Surfaces[{ data, &material }];
-  if (surface.mapper == nullptr)
+  if (surface.property == nullptr)
   {
-    surface.data = data;
+    surface.geometry = instance.geometry;
+    surface.model = instance.model;
+    surface.part = part;
     surface.materials = instance.materials;
-    surface.mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
-    surface.mapper->SetInputData(data);
+    surface.mappers[0] = mapperOf(data);
     surface.property = vtkSmartPointer<vtkProperty>::New();
     fill(surface.property, material);
     const auto texture = std::size_t(material.texture);
@@ -116,6 +111,7 @@ ViewActors::Surface& ViewActors::surface(const Instance& instance, std::size_t p
       surface.texture->SetInputData(picture);
       surface.texture->InterpolateOn();
       surface.texture->MipmapOn();
+      surface.texture->SetMaximumAnisotropicFiltering(1); // more is forty times slower without a graphics card
       surface.texture->RepeatOn();
     }
   }
@@ -140,6 +136,7 @@ void ViewActors::build(Shown& shown, const ObjectPlace& place, ViewMeshes& meshe
   this->remove(shown);
   shown.geometry = place.instance.geometry;
   shown.materials = place.instance.materials;
+  shown.world_from_object = {};
   for (std::size_t part = 0; place.instance.model != nullptr && part < place.instance.model->parts.size(); ++part)
   {
     if (place.instance.model->parts[part].triangles == 0)
@@ -148,8 +145,9 @@ void ViewActors::build(Shown& shown, const ObjectPlace& place, ViewMeshes& meshe
     }
     Surface& surface = this->surface(place.instance, part, meshes);
     auto actor = vtkSmartPointer<vtkActor>::New();
-    actor->SetMapper(surface.mapper);
+    actor->SetMapper(surface.mappers[0]);
     actor->SetProperty(surface.property);
+    actor->SetForceOpaque(surface.property->GetOpacity() >= 1); // cut-outs are opaque where they are
     this->applyStyle(surface, actor);
     this->Renderer->AddActor(actor);
     shown.actors.push_back(actor);
@@ -173,13 +171,21 @@ void ViewActors::showObjects(const ScenePlaces& places, ViewMeshes& meshes)
     {
       this->build(shown, place, meshes);
     }
-    const vtkSmartPointer<vtkMatrix4x4> matrix = matrixOf(place.instance.world_from_object);
+    if (!(shown.world_from_object == place.instance.world_from_object))
+    {
+      const vtkSmartPointer<vtkMatrix4x4> matrix = matrixOf(place.instance.world_from_object);
+      for (const auto& actor : shown.actors)
+      {
+        actor->SetUserMatrix(matrix);
+      }
+      shown.world_from_object = place.instance.world_from_object;
+    }
     for (const auto& actor : shown.actors)
     {
-      actor->SetUserMatrix(matrix);
       actor->SetVisibility(place.visible && !this->Coarse);
     }
     shown.visible = place.visible;
+    shown.box = place.box;
   }
   this->forgetSurfaces();
 }
@@ -221,7 +227,7 @@ void ViewActors::showLights(const SceneDescription& scene, const ScenePlaces& pl
     Eigen::Vector3d color = light.diffuse / std::max(light.diffuse.maxCoeff(), 1e-9);
     color = light.enabled ? color : Eigen::Vector3d(0.35, 0.35, 0.35);
     this->Lights[i]->GetProperty()->SetColor(color.x(), color.y(), color.z());
-    this->Lights[i]->SetScale(lightShare * extentOf(places.box));
+    this->Lights[i]->SetScale(lightRadius(places));
     Eigen::Vector3d position = places.lights[i];
     this->Lights[i]->SetPosition(position.data());
     this->Lights[i]->SetVisibility(light.kind != LightKind::Head);
@@ -231,7 +237,7 @@ void ViewActors::showLights(const SceneDescription& scene, const ScenePlaces& pl
 void ViewActors::showGridFor(const WorldBox& box, UpAxis upAxis)
 {
   // A grid grows by doubling, so that it does not change with every drag.
-  const double wanted = 2 * std::max({ extentOf(box) / 2, box.min.norm(), box.max.norm(), 5.0 });
+  const double wanted = 2 * std::max({ std::max(box.diagonal(), 1.0) / 2, box.min.norm(), box.max.norm(), 5.0 });
   if (this->GridExtent >= wanted && this->GridExtent < 4 * wanted)
   {
     return;
@@ -314,36 +320,18 @@ void ViewActors::setStyle(ViewStyle style)
   }
 }
 
-void ViewActors::show(
-  const SceneDescription& scene, const ScenePlaces& places, const SceneItems& selected, ViewMeshes& meshes)
+void ViewActors::show(const SceneDescription& scene, const ScenePlaces& places, ViewMeshes& meshes)
 {
+  this->Meshes = &meshes;
   this->showObjects(places, meshes);
   this->showLights(scene, places);
   this->showGridFor(places.box, scene.upAxis);
-  const double extent = extentOf(places.box);
   LineList cameras;
-  LineList chosen;
-  for (std::size_t i = 0; i < places.cameras.size(); ++i)
+  for (const CameraPlace& camera : places.cameras)
   {
-    const SceneItem item{ SceneItem::Kind::Camera, i };
-    const bool isChosen = std::find(selected.begin(), selected.end(), item) != selected.end();
-    addFrustum(isChosen ? chosen : cameras, places.cameras[i], frustumShare * extent);
-  }
-  for (const SceneItem& item : selected)
-  {
-    WorldBox box = places.boxOf(item);
-    if (item.kind == SceneItem::Kind::Light && !box.empty())
-    {
-      box.min.array() -= 1.4 * lightShare * extent;
-      box.max.array() += 1.4 * lightShare * extent;
-    }
-    if (item.kind != SceneItem::Kind::Camera && !box.empty())
-    {
-      addBox(chosen, box);
-    }
+    addFrustum(cameras, camera, frustumLength(places));
   }
   this->CameraLines->set(cameras);
-  this->ChosenLines->set(chosen);
 }
 
 } // namespace dgtk

@@ -35,7 +35,7 @@ enum class ViewStyle
   Textured
 };
 
-/// The actors of one view: objects, cameras as frusta, lights as spheres, grid, axes and boxes of what is selected.
+/// The actors of one view: objects, cameras as frusta, lights as spheres, grid and axes.
 class ViewActors
 {
 public:
@@ -44,7 +44,7 @@ public:
   ViewActors(const ViewActors&) = delete;
   ViewActors& operator=(const ViewActors&) = delete;
 
-  void show(const SceneDescription& scene, const ScenePlaces& places, const SceneItems& selected, ViewMeshes& meshes);
+  void show(const SceneDescription& scene, const ScenePlaces& places, ViewMeshes& meshes);
   void setStyle(ViewStyle style);
   void showGrid(bool on);
   /// World units of a square of it.
@@ -52,13 +52,17 @@ public:
   /// Boxes in place of objects, as far as these places go; and objects again.
   void showCoarse(const ScenePlaces& places);
   void showFine();
+  /// As much detail as can be seen in a view of that height.
+  void chooseDetail(const ViewCamera& camera, double height);
 
 private:
   struct Surface ///< what actors of the same part with the same material share
   {
-    vtkSmartPointer<vtkPolyData> data;
+    std::shared_ptr<const Geometry> geometry;
+    std::shared_ptr<const Model> model;
+    std::size_t part = 0;
     std::shared_ptr<const std::vector<Material>> materials;
-    vtkSmartPointer<vtkPolyDataMapper> mapper;
+    vtkSmartPointer<vtkPolyDataMapper> mappers[ViewMeshes::levels];
     vtkSmartPointer<vtkProperty> property;
     vtkSmartPointer<vtkTexture> texture;
     std::size_t users = 0; ///< actors
@@ -67,11 +71,15 @@ private:
   {
     std::shared_ptr<const Geometry> geometry;
     std::shared_ptr<const std::vector<Material>> materials;
+    Affine3 world_from_object;
     bool visible = true;
+    WorldBox box;
+    int level = 0; ///< of detail
     std::vector<vtkSmartPointer<vtkActor>> actors;
     std::vector<Surface*> surfaces; ///< of each actor
   };
 
+  static vtkSmartPointer<vtkPolyDataMapper> mapperOf(vtkPolyData* data);
   Surface& surface(const Instance& instance, std::size_t part, ViewMeshes& meshes);
   void build(Shown& shown, const ObjectPlace& place, ViewMeshes& meshes);
   void remove(Shown& shown);
@@ -82,6 +90,7 @@ private:
   void forgetSurfaces();
 
   vtkRenderer* Renderer;
+  ViewMeshes* Meshes = nullptr;
   ViewKind Kind;
   ViewStyle Style = ViewStyle::Textured;
   bool Grid = true;
@@ -91,7 +100,6 @@ private:
   std::vector<Shown> Objects;
   std::vector<vtkSmartPointer<vtkActor>> Lights;
   std::unique_ptr<LineActor> CameraLines;
-  std::unique_ptr<LineActor> ChosenLines;
   std::unique_ptr<LineActor> BoxLines;
   std::unique_ptr<LineActor> GridLines;
   std::unique_ptr<LineActor> Axes[3];

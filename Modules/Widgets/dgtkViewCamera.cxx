@@ -17,6 +17,7 @@ constexpr double margin = 1.08;            // of a framed box
 constexpr double steepest = 89 * pi / 180; // of the perspective's eye above the ground
 constexpr double emptyExtent = 10;         // world units shown of an empty scene
 constexpr double nearestFocus = 1e-6;
+constexpr double nearPart = 1e-2; // of the focus's distance: where segments are cut
 
 double tanHalfAngle() { return std::tan(viewAngle / 2 * pi / 180); }
 } // namespace
@@ -151,12 +152,32 @@ double ViewCamera::unit(const Eigen::Vector3d& point, double height) const
 std::optional<Eigen::Vector2d> ViewCamera::pixel(const Eigen::Vector3d& point, double width, double height) const
 {
   const double unit = this->unit(point, height);
-  if (unit <= nearestFocus / height)
+  if (unit <= 0)
   {
     return std::nullopt;
   }
   const Eigen::Vector3d way = (point - this->Eye) / unit;
   return Eigen::Vector2d(width / 2 + way.dot(this->right()), height / 2 - way.dot(this->upward()));
+}
+
+std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> ViewCamera::segment(
+  const Eigen::Vector3d& from, const Eigen::Vector3d& to, double width, double height) const
+{
+  // Ends that are behind the eye, or nearly beside it, are moved to a plane before it.
+  const double nearest = nearPart * (this->Focus - this->Eye).norm();
+  const double a = (from - this->Eye).dot(this->forward());
+  const double b = (to - this->Eye).dot(this->forward());
+  if (this->parallel() || (a >= nearest && b >= nearest))
+  {
+    return std::pair(*this->pixel(from, width, height), *this->pixel(to, width, height));
+  }
+  if (a < nearest && b < nearest)
+  {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d cut = from + (to - from) * ((nearest - a) / (b - a));
+  return std::pair(
+    *this->pixel(a < nearest ? cut : from, width, height), *this->pixel(b < nearest ? cut : to, width, height));
 }
 
 Eigen::Vector3d ViewCamera::motion(const Eigen::Vector3d& point, double dx, double dy, double height) const

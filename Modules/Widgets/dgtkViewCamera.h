@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <optional>
+#include <utility>
 
 namespace dgtk
 {
@@ -53,6 +54,9 @@ public:
   WorldRay ray(double x, double y, double width, double height) const;
   /// Where a point is in the widget; nothing where it is not before the eye of the perspective.
   std::optional<Eigen::Vector2d> pixel(const Eigen::Vector3d& point, double width, double height) const;
+  /// The part of a segment that is before the eye; nothing where there is none.
+  std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> segment(
+    const Eigen::Vector3d& from, const Eigen::Vector3d& to, double width, double height) const;
   /// World units of a pixel at the depth of a point.
   double unit(const Eigen::Vector3d& point, double height) const;
   /// World units that `pixels` are, along ray().

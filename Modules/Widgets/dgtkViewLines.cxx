@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkViewLines.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -10,6 +11,12 @@ namespace dgtk
 namespace
 {
 constexpr double cellsAcross = 20;
+constexpr double frustumShare = 0.04; // of the scene's diagonal
+constexpr double lightShare = 0.012;
+constexpr double lightMargin = 1.4; // of the box about a light
+constexpr double smallestExtent = 1;
+
+double extentOf(const ScenePlaces& places) { return std::max(places.box.diagonal(), smallestExtent); }
 } // namespace
 
 void addBox(LineList& lines, const WorldBox& box)
@@ -61,6 +68,30 @@ void addFrustum(LineList& lines, const CameraPlace& camera, double length)
   }
   lines.emplace_back(far[0], far[4]);
   lines.emplace_back(far[1], far[4]);
+}
+
+double frustumLength(const ScenePlaces& places) { return frustumShare * extentOf(places); }
+double lightRadius(const ScenePlaces& places) { return lightShare * extentOf(places); }
+
+LineList selectionLines(const ScenePlaces& places, const SceneItems& selected)
+{
+  LineList lines;
+  for (const SceneItem& item : selected)
+  {
+    WorldBox box = places.boxOf(item);
+    if (item.kind == SceneItem::Kind::Camera && item.index < places.cameras.size())
+    {
+      addFrustum(lines, places.cameras[item.index], frustumLength(places));
+    }
+    else if (!box.empty())
+    {
+      const double margin = item.kind == SceneItem::Kind::Light ? lightMargin * lightRadius(places) : 0.0;
+      box.min.array() -= margin;
+      box.max.array() += margin;
+      addBox(lines, box);
+    }
+  }
+  return lines;
 }
 
 double gridStep(double extent)

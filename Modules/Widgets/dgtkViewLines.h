@@ -18,6 +18,11 @@ using LineList = std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>;
 void addBox(LineList& lines, const WorldBox& box);
 /// A camera: its pyramid (or parallel beam) up to `length`, with a mark above the image.
 void addFrustum(LineList& lines, const CameraPlace& camera, double length);
+/// How long frusta are drawn, and how large lights.
+double frustumLength(const ScenePlaces& places);
+double lightRadius(const ScenePlaces& places);
+/// Boxes about what is selected; of cameras their frusta.
+LineList selectionLines(const ScenePlaces& places, const SceneItems& selected);
 /// Squares of 1, 2 or 5 times a power of ten in the plane of two axes through `origin`.
 void addGrid(
   LineList& lines, const Eigen::Vector3d& origin, const Eigen::Vector3d& u, const Eigen::Vector3d& v, double extent);

@@ -9,9 +9,14 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
+#include <Eigen/Geometry>
+
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
+#include <set>
+#include <unordered_map>
 #include <vector>
 
 namespace dgtk
@@ -24,8 +29,23 @@ struct ViewMeshes::Mesh
   vtkSmartPointer<vtkPoints> points;
   vtkSmartPointer<vtkFloatArray> normals;
   vtkSmartPointer<vtkFloatArray> uvs;
-  std::vector<vtkSmartPointer<vtkPolyData>> parts;
+  std::vector<vtkSmartPointer<vtkPolyData>> parts[levels];
+
+  vtkSmartPointer<vtkPolyData> with(vtkCellArray* triangles) const;
 };
+
+vtkSmartPointer<vtkPolyData> ViewMeshes::Mesh::with(vtkCellArray* triangles) const
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(this->points);
+  data->GetPointData()->SetNormals(this->normals);
+  if (this->uvs != nullptr)
+  {
+    data->GetPointData()->SetTCoords(this->uvs);
+  }
+  data->SetPolys(triangles);
+  return data;
+}
 
 struct ViewMeshes::Picture
 {
@@ -35,6 +55,71 @@ struct ViewMeshes::Picture
 
 namespace
 {
+constexpr double coarsePixels[ViewMeshes::levels] = { 0, 56, 22 };
+constexpr double coarseCells[ViewMeshes::levels] = { 0, 14, 6 }; // along a box's diagonal: about four pixels each
+constexpr double leastArea = 0.5;                                // of the triangles that are left
+constexpr double mostLeft = 0.7;                                 // triangles; otherwise it is not worth it
+
+double areaOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+{
+  return (b - a).cross(c - a).norm() / 2;
+}
+
+/// For each vertex the first one in its cell of a grid (Rossignac and Borrel 1993).
+std::vector<std::uint32_t> clusters(const Geometry& geometry, double cells)
+{
+  Eigen::Vector3d low = geometry.positions.front();
+  Eigen::Vector3d high = low;
+  for (const Eigen::Vector3d& position : geometry.positions)
+  {
+    low = low.cwiseMin(position);
+    high = high.cwiseMax(position);
+  }
+  const double cell = (high - low).norm() / cells;
+  std::unordered_map<std::uint32_t, std::uint32_t> first;
+  std::vector<std::uint32_t> to(geometry.positions.size());
+  for (std::uint32_t i = 0; i < to.size(); ++i)
+  {
+    const Eigen::Vector3d at = (geometry.positions[i] - low) / (cell > 0 ? cell : 1.0);
+    const auto key = static_cast<std::uint32_t>(at.x()) + 64 * static_cast<std::uint32_t>(at.y()) +
+                     4096 * static_cast<std::uint32_t>(at.z());
+    to[i] = first.try_emplace(key, i).first->second;
+  }
+  return to;
+}
+
+/// Triangles between the first vertices of cells; null where they would be hardly fewer, or much would vanish.
+vtkSmartPointer<vtkCellArray> clusteredTriangles(
+  const Geometry& geometry, const Model& model, const Part& part, double cells)
+{
+  const std::vector<std::uint32_t> to = clusters(geometry, cells);
+  const std::vector<Eigen::Vector3d>& p = geometry.positions;
+  std::set<std::array<std::uint32_t, 3>> left;
+  double before = 0;
+  double after = 0;
+  for (std::uint32_t t = part.firstTriangle; t < part.firstTriangle + part.triangles; ++t)
+  {
+    const std::array<std::uint32_t, 3>& own = model.triangles[t];
+    const std::array<std::uint32_t, 3> moved{ to[own[0]], to[own[1]], to[own[2]] };
+    before += areaOf(p[own[0]], p[own[1]], p[own[2]]);
+    if (moved[0] != moved[1] && moved[1] != moved[2] && moved[2] != moved[0] && left.insert(moved).second)
+    {
+      after += areaOf(p[moved[0]], p[moved[1]], p[moved[2]]);
+    }
+  }
+  if (after < leastArea * before || double(left.size()) > mostLeft * part.triangles)
+  {
+    return nullptr;
+  }
+  auto triangles = vtkSmartPointer<vtkCellArray>::New();
+  for (const std::array<std::uint32_t, 3>& t : left)
+  {
+    const vtkIdType corners[3] = { t[0], t[1], t[2] };
+    triangles->InsertNextCell(3, corners);
+  }
+  return triangles;
+}
+
 vtkSmartPointer<vtkPoints> pointsOf(const Geometry& geometry)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
@@ -128,19 +213,30 @@ vtkPolyData* ViewMeshes::part(const Instance& instance, std::size_t part)
     {
       mesh->uvs = uvsOf(*instance.model);
     }
-    mesh->parts.resize(instance.model->parts.size());
+    for (auto& parts : mesh->parts)
+    {
+      parts.resize(instance.model->parts.size());
+    }
   }
-  vtkSmartPointer<vtkPolyData>& data = mesh->parts[part];
+  vtkSmartPointer<vtkPolyData>& data = mesh->parts[0][part];
   if (data == nullptr)
   {
-    data = vtkSmartPointer<vtkPolyData>::New();
-    data->SetPoints(mesh->points);
-    data->GetPointData()->SetNormals(mesh->normals);
-    if (mesh->uvs != nullptr)
-    {
-      data->GetPointData()->SetTCoords(mesh->uvs);
-    }
-    data->SetPolys(trianglesOf(*instance.model, instance.model->parts[part]));
+    data = mesh->with(trianglesOf(*instance.model, instance.model->parts[part]));
+  }
+  return data;
+}
+
+double ViewMeshes::pixels(int level) { return coarsePixels[level]; }
+
+vtkPolyData* ViewMeshes::part(const Geometry& geometry, const Model& model, std::size_t part, int level)
+{
+  Mesh& mesh = *this->Meshes.at(&geometry);
+  vtkSmartPointer<vtkPolyData>& data = mesh.parts[level][part];
+  if (data == nullptr && level > 0)
+  {
+    const vtkSmartPointer<vtkCellArray> cells =
+      clusteredTriangles(geometry, model, model.parts[part], coarseCells[level]);
+    data = cells == nullptr ? this->part(geometry, model, part, level - 1) : mesh.with(cells).Get();
   }
   return data;
 }

@@ -28,7 +28,12 @@ public:
   ViewMeshes(const ViewMeshes&) = delete;
   ViewMeshes& operator=(const ViewMeshes&) = delete;
 
-  /// The triangles of one part. The points are shared by the parts.
+  /// The triangles of one part. The points are shared by the parts. `level`, below levels: the higher, the fewer
+  /// triangles, for a model of at most pixels(level) from corner to corner; those of a lower level where fewer would
+  /// not look the same.
+  vtkPolyData* part(const Geometry& geometry, const Model& model, std::size_t part, int level);
+  static constexpr int levels = 3;
+  static double pixels(int level);
   vtkPolyData* part(const Instance& instance, std::size_t part);
   /// RGBA with alpha 0 or 255 for cut-outs, RGB for others; null without a picture.
   vtkImageData* picture(const std::shared_ptr<const Image>& image, bool cutOut);

@@ -14,8 +14,10 @@ namespace
 {
 constexpr double lineWidth = 2.2;
 constexpr double edgeWidth = 4.4; // a dark edge keeps colours legible on any scene
-constexpr int textGap = 16;       // pixels from the pointer
+constexpr std::size_t manyLines = 2000;
+constexpr int textGap = 16; // pixels from the pointer
 const QColor edge(20, 20, 22, 150);
+const QColor chosen(60, 255, 60);
 const QColor bright(255, 214, 60);
 const QColor freeColor(230, 230, 232);
 
@@ -57,6 +59,12 @@ ViewOverlay::ViewOverlay(QWidget* view)
   this->setFocusPolicy(Qt::NoFocus);
 }
 
+void ViewOverlay::showLines(std::vector<QLineF> lines)
+{
+  this->Lines = std::move(lines);
+  this->update();
+}
+
 void ViewOverlay::showHandles(std::vector<HandleShape> shapes)
 {
   this->Shapes = std::move(shapes);
@@ -82,6 +90,9 @@ void ViewOverlay::showText(const QString& text, const QPoint& at)
 void ViewOverlay::paintEvent(QPaintEvent*)
 {
   QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing, this->Lines.size() < manyLines);
+  painter.setPen(QPen(chosen, 1.6));
+  painter.drawLines(this->Lines.data(), static_cast<int>(this->Lines.size()));
   painter.setRenderHint(QPainter::Antialiasing);
   for (const HandleShape& shape : this->Shapes)
   {

@@ -6,6 +6,7 @@
 
 #include "dgtkViewHandles.h"
 
+#include <QLineF>
 #include <QString>
 #include <QWidget>
 
@@ -15,7 +16,7 @@
 namespace dgtk
 {
 
-/// What is drawn over a view: handles, and the numbers of a drag. Lets the mouse through.
+/// What is drawn over a view: boxes about what is selected, handles, the numbers of a drag. Lets the mouse through.
 class ViewOverlay : public QWidget
 {
   Q_OBJECT
@@ -23,6 +24,7 @@ class ViewOverlay : public QWidget
 public:
   explicit ViewOverlay(QWidget* view);
 
+  void showLines(std::vector<QLineF> lines);
   void showHandles(std::vector<HandleShape> shapes);
   /// The one under the mouse, or held by it.
   void highlight(const std::optional<Handle>& handle);
@@ -33,6 +35,7 @@ protected:
   void paintEvent(QPaintEvent* event) override;
 
 private:
+  std::vector<QLineF> Lines; ///< about what is selected
   std::vector<HandleShape> Shapes;
   std::optional<Handle> Bright;
   QString Text;

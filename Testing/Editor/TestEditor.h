@@ -19,7 +19,6 @@ private slots:
   void asksAboutUnsavedWork();
   void unsavedWorkSurvivesACrash();
   void cancelledRunsResume();
-  void aForestOpensAtOnce();
   void everyMenuItemWorks();
   void pictures();
 };

@@ -11,6 +11,8 @@
 #include <QDialog>
 #include <QDir>
 #include <QDirIterator>
+#include <QElapsedTimer>
+#include <QEvent>
 #include <QFile>
 #include <QMap>
 #include <QMenu>
@@ -19,6 +21,8 @@
 #include <QTest>
 #include <QTimer>
 
+#include <algorithm>
+#include <ctime>
 #include <functional>
 
 constexpr int longestRun = 60000; // milliseconds, of a small dataset on a busy machine
@@ -78,12 +82,52 @@ inline QMap<QString, QByteArray> contents(const QString& folder)
   return files;
 }
 
+/// Knows how long the window was busy with one event.
+class TimedApplication : public QApplication
+{
+public:
+  using QApplication::QApplication;
+
+  bool notify(QObject* receiver, QEvent* event) override
+  {
+    if (this->Depth > 0)
+    {
+      return QApplication::notify(receiver, event);
+    }
+    ++this->Depth;
+    QElapsedTimer clock;
+    clock.start();
+    const std::clock_t began = std::clock();
+    const QString name = receiver->objectName() + " (" + receiver->metaObject()->className() + ")";
+    const QEvent::Type type = event->type();
+    const bool done = QApplication::notify(receiver, event);
+    // On a busy machine the time that others took does not count; with threads of their own it is not less than this.
+    const double spent = std::min(clock.nsecsElapsed() * 1e-6, 1000.0 * double(std::clock() - began) / CLOCKS_PER_SEC);
+    if (spent > this->Longest)
+    {
+      this->Longest = spent;
+      this->What = QString("%1, event %2").arg(name).arg(type);
+    }
+    --this->Depth;
+    return done;
+  }
+
+  void restart() { this->Longest = 0; }
+  double longest() const { return this->Longest; } ///< milliseconds
+  QString what() const { return this->What; }
+
+private:
+  int Depth = 0;
+  double Longest = 0;
+  QString What;
+};
+
 /// The main function of a test program of the editor.
 template <typename Test>
 int runEditorTest(int argc, char** argv)
 {
   dgtk::MainWindow::prepareApplication();
-  QApplication application(argc, argv);
+  TimedApplication application(argc, argv);
   dgtk::MainWindow::setupApplication();
   Test test;
   return QTest::qExec(&test, argc, argv);

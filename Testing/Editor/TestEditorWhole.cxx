@@ -5,26 +5,17 @@
 #include "dgtkMainWindow.h"
 #include "dgtkSceneDocument.h"
 
-#include <QAbstractScrollArea>
 #include <QAction>
 #include <QCheckBox>
 #include <QDialog>
-#include <QElapsedTimer>
 #include <QLineEdit>
 #include <QMenu>
 #include <QMessageBox>
-#include <QMouseEvent>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QStandardPaths>
 #include <QTabWidget>
 #include <QTest>
-#include <QTreeWidget>
-
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <random>
 
 namespace
 {
@@ -53,43 +44,6 @@ void TestEditor::cancelledRunsResume()
   QVERIFY(QFile::exists(this->path("stopped/manifest.json")));
 }
 
-namespace
-{
-constexpr int forestSide = 32;
-constexpr int forestCameras = 100;
-constexpr int forestLimit = 5000; // milliseconds from the file to the drawn views
-constexpr int turns = 10;
-constexpr int turnLimit = 200; // milliseconds for an event
-
-/// More than a thousand copies of a tree, looked at from a ring of cameras.
-void writeForest(const std::string& path)
-{
-  dgtk::SceneDocument document;
-  const dgtk::SceneItem tree = document.addModel(dgtk::test::sourceFile("Data/Models/tree.ac"));
-  const dgtk::ObjectDescription one = document.scene().objects[tree.index];
-  document.edit("Forest",
-    [&](dgtk::SceneDescription& scene)
-    {
-      for (int i = 1; i < forestSide * forestSide; ++i)
-      {
-        scene.objects.push_back(one);
-        scene.objects.back().name = "tree" + std::to_string(i);
-        scene.objects.back().position = Eigen::Vector3d(5 * (i % forestSide), 0, 5 * (i / forestSide));
-      }
-      for (int i = 0; i < forestCameras; ++i)
-      {
-        const double angle = 0.0628 * i;
-        dgtk::CameraDescription camera;
-        camera.name = "camera" + std::to_string(i);
-        camera.eye = Eigen::Vector3d(80 + 150 * std::cos(angle), 20, 80 + 150 * std::sin(angle));
-        camera.lookAt = Eigen::Vector3d(80, 0, 80);
-        scene.cameras.push_back(camera);
-      }
-    });
-  document.saveAs(path);
-}
-} // namespace
-
 void TestEditor::unsavedWorkSurvivesACrash()
 {
   const QDir folder(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + "/unsaved");
@@ -109,40 +63,6 @@ void TestEditor::unsavedWorkSurvivesACrash()
   QVERIFY(this->Window->document().modified());
   QVERIFY(this->Window->document().path().empty());
   QVERIFY(!QFile::exists(left));
-}
-
-void TestEditor::aForestOpensAtOnce()
-{
-  const QString path = this->path("forest.json");
-  writeForest(path.toStdString());
-  QElapsedTimer clock;
-  clock.start();
-  QVERIFY(this->Window->openFile(path));
-  QCoreApplication::processEvents();
-  QCoreApplication::processEvents();
-  const qint64 opened = clock.restart();
-  this->select("tree40");
-  this->type("position.1", "1");
-  QCoreApplication::processEvents();
-  const qint64 edited = clock.elapsed();
-  qInfo("%d trees and %d cameras: %lld ms to open and draw, %lld ms to select, move and draw again",
-    forestSide * forestSide, forestCameras, static_cast<long long>(opened), static_cast<long long>(edited));
-  auto* view = this->Window->findChild<QWidget*>("view.3");
-  QTest::mousePress(view, Qt::LeftButton, {}, QPoint(5, 5));
-  QTest::mouseMove(view, QPoint(25, 5));
-  QCoreApplication::processEvents();
-  clock.restart();
-  for (int step = 1; step <= turns; ++step)
-  {
-    QTest::mouseMove(view, QPoint(25 + 5 * step, 5));
-    QCoreApplication::processEvents();
-  }
-  const qint64 turned = clock.elapsed() / turns;
-  QTest::mouseRelease(view, Qt::LeftButton, {}, QPoint(25 + 5 * turns, 5));
-  qInfo("%lld ms for a step of turning the perspective", static_cast<long long>(turned));
-  QVERIFY(turned < turnLimit);
-  QVERIFY(opened < forestLimit);
-  QCOMPARE(this->Window->document().models().size(), std::size_t(1));
 }
 
 void TestEditor::everyMenuItemWorks()

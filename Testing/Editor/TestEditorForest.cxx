@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestEditorForest.h"
+#include "TestEditorSupport.h"
+
+#include "dgtkMainWindow.h"
+#include "dgtkSceneDocument.h"
+
+#include <QAbstractScrollArea>
+#include <QAction>
+#include <QElapsedTimer>
+#include <QMouseEvent>
+#include <QTest>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+namespace
+{
+constexpr int forestSide = 32;
+constexpr int forestCameras = 100;
+constexpr int forestLimit = 5000;  // milliseconds from the file to the drawn views
+constexpr double eventLimit = 200; // milliseconds
+constexpr int tries = 3;
+constexpr int smallerSide = 19; // trees of 584 triangles: 210,000 in all
+constexpr int turns = 10;
+constexpr double turnLimit = 100; // milliseconds: ten pictures a second
+constexpr int front = 0;
+constexpr int perspective = 3;
+
+TimedApplication& timed() { return static_cast<TimedApplication&>(*qApp); }
+
+/// Copies of a tree, one of them moving, looked at from a ring of cameras.
+void writeForest(const std::string& path, int side, int cameras)
+{
+  dgtk::SceneDocument document;
+  const dgtk::SceneItem tree = document.addModel(dgtk::test::sourceFile("Data/Models/tree.ac"));
+  const dgtk::ObjectDescription one = document.scene().objects[tree.index];
+  document.edit("Forest",
+    [&](dgtk::SceneDescription& scene)
+    {
+      scene.objects[0].position.keys = { { 0, Eigen::Vector3d(0, 0, 0) }, { 40, Eigen::Vector3d(0, 4, 0) } };
+      for (int i = 1; i < side * side; ++i)
+      {
+        scene.objects.push_back(one);
+        scene.objects.back().name = "tree" + std::to_string(i);
+        scene.objects.back().position = Eigen::Vector3d(5 * (i % side), 0, 5 * (i / side));
+      }
+      for (int i = 0; i < cameras; ++i)
+      {
+        const double angle = 0.0628 * i;
+        dgtk::CameraDescription camera;
+        camera.name = "camera" + std::to_string(i);
+        camera.eye = Eigen::Vector3d(80 + 150 * std::cos(angle), 20, 80 + 150 * std::sin(angle));
+        camera.lookAt = Eigen::Vector3d(80, 0, 80);
+        scene.cameras.push_back(camera);
+      }
+    });
+  document.saveAs(path);
+}
+} // namespace
+
+QWidget* TestEditorForest::view(int kind) const
+{
+  return this->Window->findChild<QWidget*>("view." + QString::number(kind));
+}
+
+void TestEditorForest::moveTo(int kind, const QPoint& at) const
+{
+  QWidget* const widget = this->view(kind);
+  QMouseEvent event(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(widget, &event);
+  QCoreApplication::processEvents();
+}
+
+void TestEditorForest::openForest(int side, int cameras) const
+{
+  const QString path = this->path("forest.json");
+  writeForest(path.toStdString(), side, cameras);
+  QElapsedTimer clock;
+  clock.start();
+  const std::clock_t began = std::clock();
+  QVERIFY(this->Window->openFile(path));
+  QCoreApplication::processEvents();
+  QCoreApplication::processEvents();
+  const double spent = std::min(clock.nsecsElapsed() * 1e-6, 1000.0 * double(std::clock() - began) / CLOCKS_PER_SEC);
+  qInfo("%d trees and %d cameras: %.0f ms to open and draw", side * side, cameras, spent);
+  QVERIFY(spent < forestLimit);
+}
+
+double TestEditorForest::longest(const char* what, const std::function<void(int)>& act) const
+{
+  double least = 1e9;
+  for (int i = 0; i < tries; ++i)
+  {
+    timed().restart();
+    act(i);
+    for (int round = 0; round < 3; ++round)
+    {
+      QCoreApplication::processEvents();
+    }
+    if (timed().longest() < least)
+    {
+      least = timed().longest();
+      qInfo("%s: %.0f ms, %s", what, least, qPrintable(timed().what()));
+    }
+  }
+  return least;
+}
+
+void TestEditorForest::aForestOpensAndAnswersAtOnce()
+{
+  this->openForest(forestSide, forestCameras);
+  QCOMPARE(this->Window->document().models().size(), std::size_t(1));
+  const char* const names[tries] = { "tree40", "tree41", "tree42" };
+  QVERIFY(this->longest("select", [&](int i) { this->select(names[i % tries]); }) < eventLimit);
+  QVERIFY(this->longest("type", [&](int i) { this->type("position.1", QString::number(i + 1)); }) < eventLimit);
+  QCOMPARE(this->Window->document().scene().objects[42].position.value.y(), double(tries));
+  auto* cells = this->Window->findChild<QAbstractScrollArea*>("timeLineCells")->viewport();
+  const auto scrub = [&](int i)
+  { QTest::mouseClick(cells, Qt::LeftButton, {}, QPoint(cells->width() - 12 * (i + 1), 5)); };
+  QVERIFY(this->longest("scrub", scrub) < eventLimit);
+  this->action("frameSelected")->trigger();
+  QTest::qWait(settle);
+  const QPoint middle = this->view(front)->rect().center();
+  const auto drag = [&](int i)
+  {
+    QTest::mousePress(this->view(front), Qt::LeftButton, {}, middle);
+    for (int step = 4; step <= 40; step += 12)
+    {
+      this->moveTo(front, middle + QPoint(step, i));
+    }
+    QTest::mouseRelease(this->view(front), Qt::LeftButton, {}, middle + QPoint(40, i));
+  };
+  const double before = this->Window->document().scene().objects[42].position.value.x();
+  QVERIFY(this->longest("drag", drag) < eventLimit);
+  QVERIFY(this->Window->document().scene().objects[42].position.value.x() > before);
+}
+
+void TestEditorForest::twoHundredThousandTrianglesTurn()
+{
+  this->openForest(smallerSide, 1);
+  QTest::mousePress(this->view(perspective), Qt::LeftButton, {}, QPoint(5, 5));
+  this->moveTo(perspective, QPoint(25, 5));
+  QElapsedTimer clock;
+  clock.start();
+  const std::clock_t began = std::clock();
+  for (int step = 1; step <= turns; ++step)
+  {
+    this->moveTo(perspective, QPoint(25 + 5 * step, 5));
+  }
+  const double spent =
+    std::min(clock.nsecsElapsed() * 1e-6, 1000.0 * double(std::clock() - began) / CLOCKS_PER_SEC) / turns;
+  QTest::mouseRelease(this->view(perspective), Qt::LeftButton, {}, QPoint(25 + 5 * turns, 5));
+  qInfo("%.0f ms for a step of turning the perspective", spent);
+  QVERIFY(spent < turnLimit);
+}
+
+int main(int argc, char** argv) { return runEditorTest<TestEditorForest>(argc, argv); }

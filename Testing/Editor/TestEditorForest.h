@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef TestEditorForest_h
+#define TestEditorForest_h
+
+#include "EditorTest.h"
+
+#include <QPoint>
+
+#include <functional>
+
+class QWidget;
+
+/// A large scene: it opens soon, and no event takes long.
+class TestEditorForest : public EditorTest
+{
+  Q_OBJECT
+
+private slots:
+  void aForestOpensAndAnswersAtOnce();
+  void twoHundredThousandTrianglesTurn();
+
+private:
+  void openForest(int side, int cameras) const;
+  QWidget* view(int kind) const;
+  void moveTo(int kind, const QPoint& at) const;
+  /// The longest event while something is done and shown; the least of a few times, milliseconds.
+  double longest(const char* what, const std::function<void(int)>& act) const;
+};
+
+#endif
