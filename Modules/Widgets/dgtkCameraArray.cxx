@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <set>
 #include <string>
 
 namespace dgtk
@@ -57,11 +59,71 @@ std::vector<CameraDescription> around(const CameraArrayOptions& options, const s
   }
   return cameras;
 }
+
+std::vector<CameraDescription> along(const CameraArrayOptions& options)
+{
+  const std::vector<Eigen::Vector3d>& eyes = options.path.eyes;
+  const std::vector<Eigen::Vector3d>& targets = options.path.targets;
+  std::vector<double> ends{ 0 }; // length of the path up to each point
+  for (std::size_t i = 1; i < eyes.size(); ++i)
+  {
+    ends.push_back(ends.back() + (eyes[i] - eyes[i - 1]).norm());
+  }
+  if (eyes.size() < 2 || targets.size() != eyes.size() || !(ends.back() > 0))
+  {
+    throw UsageError("path: expected at least two different points");
+  }
+  std::vector<CameraDescription> cameras;
+  for (int i = 0; i < options.count; ++i)
+  {
+    const double at = options.count == 1 ? 0.0 : ends.back() * i / (options.count - 1);
+    std::size_t segment = 1;
+    while (segment + 1 < ends.size() && ends[segment] < at)
+    {
+      ++segment;
+    }
+    const double length = ends[segment] - ends[segment - 1];
+    const double u = length > 0 ? std::min(1.0, (at - ends[segment - 1]) / length) : 0.0;
+    const Eigen::Vector3d eye = eyes[segment - 1] + u * (eyes[segment] - eyes[segment - 1]);
+    const Eigen::Vector3d target = targets[segment - 1] + u * (targets[segment] - targets[segment - 1]);
+    lookAtPose(eye, target, options.first.up.value); // throws where there is no pose
+    cameras.push_back(placed(options, eye, target, std::to_string(i + 1)));
+  }
+  return cameras;
+}
 } // namespace
+
+CameraPath keyFramePath(const CameraDescription& camera)
+{
+  std::set<int> frames;
+  const auto collect = [&](const auto& track)
+  {
+    for (const auto& key : track.keys)
+    {
+      frames.insert(key.frame);
+    }
+  };
+  collect(camera.posed ? camera.position : camera.eye);
+  collect(camera.lookAt);
+  collect(camera.orientation);
+  CameraPath path;
+  for (const int frame : frames)
+  {
+    const Eigen::Vector3d eye = (camera.posed ? camera.position : camera.eye).at(frame);
+    path.eyes.push_back(eye);
+    path.targets.push_back(
+      camera.posed ? Eigen::Vector3d(eye + camera.orientation.at(frame).matrix().col(2)) : camera.lookAt.at(frame));
+  }
+  return path;
+}
 
 std::vector<CameraDescription> cameraArray(const CameraArrayOptions& options)
 {
   check(options);
+  if (options.kind == CameraArrayKind::Path)
+  {
+    return along(options);
+  }
   const Eigen::Vector3d eye = options.first.eye.value;
   const Eigen::Vector3d lookAt = options.first.lookAt.value;
   const Eigen::Vector3d up = options.first.up.value.normalized();

@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCameraArrayDialog.h"
 
+#include "dgtkError.h"
 #include "dgtkNumberRow.h"
 
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFormLayout>
+#include <QLabel>
+#include <QPlainTextEdit>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QSpinBox>
+
+#include <exception>
+#include <optional>
+#include <string>
 
 namespace dgtk
 {
@@ -16,6 +24,7 @@ namespace
 {
 constexpr int mostCameras = 10000;
 constexpr int mostInARow = 100;
+constexpr int pathHeight = 96; // pixels
 
 std::vector<double> listOf(const Eigen::Vector3d& v) { return { v.x(), v.y(), v.z() }; }
 Eigen::Vector3d vectorOf(const NumberRow* row) { return { row->values()[0], row->values()[1], row->values()[2] }; }
@@ -26,6 +35,57 @@ NumberRow* addNumbers(QFormLayout* form, const QString& label, const QString& na
   row->setValues(values);
   form->addRow(label, row);
   return row;
+}
+
+QString textOf(const CameraPath& path)
+{
+  QStringList lines;
+  for (std::size_t i = 0; i < path.eyes.size(); ++i)
+  {
+    QStringList numbers;
+    for (const double value : listOf(path.eyes[i]))
+    {
+      numbers << numberText(value);
+    }
+    for (const double value : listOf(path.targets[i]))
+    {
+      numbers << numberText(value);
+    }
+    lines << numbers.join(' ');
+  }
+  return lines.join('\n');
+}
+
+/// Lines of three or six numbers; others throw UsageError.
+CameraPath pathOf(const QString& text, const Eigen::Vector3d& lookAt)
+{
+  CameraPath path;
+  int number = 0;
+  for (const QString& line : text.split('\n'))
+  {
+    ++number;
+    std::vector<double> values;
+    for (const QString& word : line.split(QRegularExpression("[\\s,;]+"), Qt::SkipEmptyParts))
+    {
+      const std::optional<double> value = numberOf(word);
+      if (!value)
+      {
+        throw UsageError("path: line " + std::to_string(number) + ": \"" + word.toStdString() + "\" is no number");
+      }
+      values.push_back(*value);
+    }
+    if (values.size() != 0 && values.size() != 3 && values.size() != 6)
+    {
+      throw UsageError(
+        "path: line " + std::to_string(number) + ": expected 3 or 6 numbers, found " + std::to_string(values.size()));
+    }
+    if (values.size() >= 3)
+    {
+      path.eyes.emplace_back(values[0], values[1], values[2]);
+      path.targets.push_back(values.size() == 6 ? Eigen::Vector3d(values[3], values[4], values[5]) : lookAt);
+    }
+  }
+  return path;
 }
 
 QSpinBox* addCount(QFormLayout* form, const QString& label, const QString& name, int most, int value)
@@ -39,7 +99,7 @@ QSpinBox* addCount(QFormLayout* form, const QString& label, const QString& name,
 }
 } // namespace
 
-CameraArrayDialog::CameraArrayDialog(const CameraDescription& first, QWidget* parent)
+CameraArrayDialog::CameraArrayDialog(const CameraDescription& first, const CameraPath& path, QWidget* parent)
   : QDialog(parent)
   , First(first)
 {
@@ -48,7 +108,7 @@ CameraArrayDialog::CameraArrayDialog(const CameraDescription& first, QWidget* pa
   auto* form = new QFormLayout(this);
   this->Kind = new QComboBox;
   this->Kind->setObjectName("kind");
-  this->Kind->addItems({ tr("Ring"), tr("Hemisphere"), tr("Grid"), tr("Stereo pair") });
+  this->Kind->addItems({ tr("Ring"), tr("Hemisphere"), tr("Grid"), tr("Stereo pair"), tr("Along a path") });
   form->addRow(tr("Kind"), this->Kind);
   const CameraArrayOptions usual;
   this->Eye = addNumbers(form, tr("Eye"), "eye", listOf(first.eye.value));
@@ -58,6 +118,20 @@ CameraArrayDialog::CameraArrayDialog(const CameraDescription& first, QWidget* pa
   this->Columns = addCount(form, tr("Columns"), "columns", mostInARow, usual.columns);
   this->Rows = addCount(form, tr("Rows"), "rows", mostInARow, usual.rows);
   this->Spacing = addNumbers(form, tr("Spacing, baseline"), "spacing", { usual.spacing });
+  this->Path = new QPlainTextEdit(textOf(path));
+  this->Path->setObjectName("path");
+  this->Path->setPlaceholderText(tr("A point a line: x y z, and where it looks: x y z"));
+  this->Path->setToolTip(
+    tr("x, y and z of a point in each line; after them, if it looks elsewhere than the others, those "
+       "of its look-at point. A camera with key frames that is selected fills this in."));
+  this->Path->setTabChangesFocus(true);
+  this->Path->setMaximumHeight(pathHeight);
+  form->addRow(tr("Path"), this->Path);
+  this->Fault = new QLabel;
+  this->Fault->setObjectName("fault");
+  this->Fault->setWordWrap(true);
+  this->Fault->hide();
+  form->addRow(this->Fault);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   QPushButton* const add = buttons->addButton(tr("Add"), QDialogButtonBox::AcceptRole);
   add->setObjectName("add");
@@ -68,17 +142,35 @@ CameraArrayDialog::CameraArrayDialog(const CameraDescription& first, QWidget* pa
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   connect(this->Kind, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &CameraArrayDialog::showKind);
+  this->Kind->setCurrentIndex(static_cast<int>(path.eyes.size() > 1 ? CameraArrayKind::Path : usual.kind));
   this->showKind();
+}
+
+void CameraArrayDialog::accept()
+{
+  try
+  {
+    cameraArray(this->options());
+    QDialog::accept();
+  }
+  catch (const std::exception& error)
+  {
+    this->Fault->setText(QString::fromUtf8(error.what()));
+    this->Fault->show();
+  }
 }
 
 void CameraArrayDialog::showKind()
 {
   const auto kind = static_cast<CameraArrayKind>(this->Kind->currentIndex());
   const bool around = kind == CameraArrayKind::Ring || kind == CameraArrayKind::Hemisphere;
-  this->Count->setEnabled(around);
+  const bool path = kind == CameraArrayKind::Path;
+  this->Eye->setEnabled(!path);
+  this->Count->setEnabled(around || path);
   this->Columns->setEnabled(kind == CameraArrayKind::Grid);
   this->Rows->setEnabled(kind == CameraArrayKind::Grid);
-  this->Spacing->setEnabled(!around);
+  this->Spacing->setEnabled(kind == CameraArrayKind::Grid || kind == CameraArrayKind::Stereo);
+  this->Path->setEnabled(path);
 }
 
 CameraArrayOptions CameraArrayDialog::options() const
@@ -93,6 +185,10 @@ CameraArrayOptions CameraArrayDialog::options() const
   options.columns = this->Columns->value();
   options.rows = this->Rows->value();
   options.spacing = this->Spacing->values()[0];
+  if (options.kind == CameraArrayKind::Path)
+  {
+    options.path = pathOf(this->Path->toPlainText(), options.first.lookAt.value);
+  }
   return options;
 }
 

@@ -9,7 +9,8 @@
 #include <QDialog>
 
 class QComboBox;
-class QFormLayout;
+class QLabel;
+class QPlainTextEdit;
 class QSpinBox;
 
 namespace dgtk
@@ -23,8 +24,13 @@ class CameraArrayDialog : public QDialog
   Q_OBJECT
 
 public:
-  CameraArrayDialog(const CameraDescription& first, QWidget* parent);
+  /// `path`: what the array along a path begins with; may be empty.
+  CameraArrayDialog(const CameraDescription& first, const CameraPath& path, QWidget* parent);
+  /// Throws UsageError for a path that cannot be read.
   CameraArrayOptions options() const;
+
+  /// Stays open, and says why, where there are no such cameras.
+  void accept() override;
 
 private:
   /// Only the rows that the kind needs can be used.
@@ -39,6 +45,8 @@ private:
   QSpinBox* Columns = nullptr;
   QSpinBox* Rows = nullptr;
   NumberRow* Spacing = nullptr;
+  QPlainTextEdit* Path = nullptr;
+  QLabel* Fault = nullptr;
 };
 
 } // namespace dgtk

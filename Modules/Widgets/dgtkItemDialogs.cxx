@@ -10,11 +10,18 @@
 #include <QLineEdit>
 #include <QPushButton>
 
+#include <cmath>
+
 namespace dgtk
 {
 
 namespace
 {
+constexpr double pi = 3.14159265358979323846;
+constexpr int byMatrix = 1; // of the lens's words
+constexpr double usualWidth = 640;
+constexpr double usualHeight = 480;
+
 NumberRow* addRow(QFormLayout* form, const QString& label, const QString& name, const std::vector<double>& values)
 {
   auto* row = new NumberRow(name, static_cast<int>(values.size()), nullptr);
@@ -53,14 +60,39 @@ CameraDialog::CameraDialog(const CameraDescription& camera, QWidget* parent)
   this->Eye = addRow(form, tr("Eye"), "eye", listOf(camera.eye.value));
   this->LookAt = addRow(form, tr("Look at"), "lookAt", listOf(camera.lookAt.value));
   this->Up = addRow(form, tr("Up"), "up", listOf(camera.up.value));
+  this->Lens = new QComboBox;
+  this->Lens->setObjectName("lens");
+  this->Lens->addItems({ tr("by its field of view"), tr("by its matrix K") });
+  form->addRow(tr("Lens"), this->Lens);
   this->Fov = addRow(form, tr("Field of view, \u00b0 (vertical)"), "fovY", { camera.fovY.value });
   this->Aspect = addRow(form, tr("Aspect (0: square pixels)"), "aspect", { camera.aspect });
+  this->K = addRow(form, tr("fx, fy, cx, cy, pixels"), "K", { 0, 0, 0, 0 });
+  this->Size =
+    addRow(form, tr("Size, pixels (0: as asked for)"), "size", { double(camera.width), double(camera.height) });
+  connect(this->Lens, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &CameraDialog::showLens);
+  this->showLens();
   this->Range = addRow(form, tr("Near, far"), "range", { camera.near, camera.far });
   QDialogButtonBox* const buttons = addButtons(this, form);
   QPushButton* const preview = buttons->addButton(tr("Preview"), QDialogButtonBox::ActionRole);
   preview->setAutoDefault(false);
   preview->setToolTip(tr("Shows the perspective view from there"));
   connect(preview, &QPushButton::clicked, this, &CameraDialog::previewAsked);
+}
+
+void CameraDialog::showLens()
+{
+  const bool matrix = this->Lens->currentIndex() == byMatrix;
+  this->Fov->setEnabled(!matrix);
+  this->Aspect->setEnabled(!matrix);
+  this->K->setEnabled(matrix);
+  if (matrix && this->K->values()[0] == 0)
+  {
+    std::vector<double> size = this->Size->values();
+    size = size[0] > 0 && size[1] > 0 ? size : std::vector<double>{ usualWidth, usualHeight };
+    const double focal = size[1] / 2 / std::tan(this->Fov->values()[0] * pi / 360);
+    this->Size->setValues(size);
+    this->K->setValues({ focal, focal, size[0] / 2, size[1] / 2 });
+  }
 }
 
 CameraDescription CameraDialog::camera() const
@@ -70,8 +102,22 @@ CameraDescription CameraDialog::camera() const
   camera.eye = vectorOf(this->Eye);
   camera.lookAt = vectorOf(this->LookAt);
   camera.up = vectorOf(this->Up);
-  camera.fovY = this->Fov->values()[0];
-  camera.aspect = this->Aspect->values()[0];
+  camera.width = static_cast<int>(this->Size->values()[0]);
+  camera.height = static_cast<int>(this->Size->values()[1]);
+  if (this->Lens->currentIndex() == byMatrix)
+  {
+    const std::vector<double>& k = this->K->values();
+    camera.K = Eigen::Matrix3d::Identity();
+    (*camera.K)(0, 0) = k[0];
+    (*camera.K)(1, 1) = k[1];
+    (*camera.K)(0, 2) = k[2];
+    (*camera.K)(1, 2) = k[3];
+  }
+  else
+  {
+    camera.fovY = this->Fov->values()[0];
+    camera.aspect = this->Aspect->values()[0];
+  }
   camera.near = this->Range->values()[0];
   camera.far = this->Range->values()[1];
   return camera;

@@ -20,7 +20,8 @@ namespace dgtk
 
 class NumberRow;
 
-/// The thesis's figure A.4: eye, look-at point, up, field of view, aspect, near and far of a new camera.
+/// The thesis's figure A.4: eye, look-at point, up, lens, near and far of a new camera. The lens is given
+/// by its field of view, or by the matrix K with the size of the image.
 class CameraDialog : public QDialog
 {
   Q_OBJECT
@@ -35,12 +36,18 @@ signals:
   void previewAsked();
 
 private:
+  /// Only the rows of the lens can be used. A matrix that is asked for begins as what the field of view says.
+  void showLens();
+
   QLineEdit* Name = nullptr;
   NumberRow* Eye = nullptr;
   NumberRow* LookAt = nullptr;
   NumberRow* Up = nullptr;
+  QComboBox* Lens = nullptr;
   NumberRow* Fov = nullptr;
   NumberRow* Aspect = nullptr;
+  NumberRow* K = nullptr; ///< fx, fy, cx, cy
+  NumberRow* Size = nullptr;
   NumberRow* Range = nullptr;
 };
 

@@ -153,6 +153,10 @@ void MainWindow::makeViewMenu()
   addStyle("textured", tr("&Textured"), "T", ViewStyle::Textured);
   menu->addSeparator();
   this->Truth->fillMenu(menu->addMenu(tr("S&how in the perspective")));
+  QAction* const lights = this->addAction(menu, "sceneLights", tr("Light of the s&cene"), QKeySequence("L"));
+  lights->setCheckable(true);
+  lights->setToolTip(tr("The scene's lights light the views, without shadows; otherwise a light at each view's eye"));
+  connect(lights, &QAction::toggled, this->Views, &SceneViews::setSceneLights);
   QAction* const grid = this->addAction(menu, "grid", tr("&Grid and axes"), QKeySequence("G"));
   grid->setCheckable(true);
   grid->setChecked(true);
@@ -235,7 +239,12 @@ void MainWindow::addCamera()
 
 void MainWindow::addCameraArray()
 {
-  CameraArrayDialog dialog(this->cameraOfView(), this);
+  CameraPath path;
+  for (const SceneItem& item : this->State->selection())
+  {
+    path = item.kind == SceneItem::Kind::Camera ? keyFramePath(this->State->scene().cameras[item.index]) : path;
+  }
+  CameraArrayDialog dialog(this->cameraOfView(), path, this);
   if (dialog.exec() == QDialog::Accepted)
   {
     this->State->attempt(

@@ -54,6 +54,7 @@ public:
   /// Of the scene that is shown: nothing is drawn anew but the lines about it.
   void showSelected(const SceneItems& selected);
   void setStyle(ViewStyle style) { this->Actors->setStyle(style); }
+  void setSceneLights(bool on) { this->Actors->setSceneLights(on); }
   void showGrid(bool on);
   /// Something is being dragged in another view: this one may be coarse, too.
   void setHurried(bool on);

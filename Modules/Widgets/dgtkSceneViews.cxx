@@ -166,6 +166,15 @@ void SceneViews::setStyle(ViewStyle style)
   this->refresh();
 }
 
+void SceneViews::setSceneLights(bool on)
+{
+  for (SceneView* view : this->Views)
+  {
+    view->setSceneLights(on);
+  }
+  this->refresh();
+}
+
 void SceneViews::showGrid(bool on)
 {
   for (SceneView* view : this->Views)

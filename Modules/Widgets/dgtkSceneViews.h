@@ -38,6 +38,8 @@ public:
   void frameAll();
   void frameSelected();
   void setStyle(ViewStyle style);
+  /// The scene's own lights, or one at each view's eye.
+  void setSceneLights(bool on);
   void showGrid(bool on);
   HandleMode handleMode() const { return this->Tool->mode(); }
   void setHandleMode(HandleMode mode);

@@ -59,6 +59,7 @@ void fill(vtkProperty* property, const Material& material)
 
 ViewActors::ViewActors(vtkRenderer* renderer, ViewKind kind)
   : Renderer(renderer)
+  , Lighting(renderer)
   , Kind(kind)
 {
   this->GridLines = std::make_unique<LineActor>(renderer, gridColor, 1);
@@ -325,6 +326,7 @@ void ViewActors::show(const SceneDescription& scene, const ScenePlaces& places, 
   this->Meshes = &meshes;
   this->showObjects(places, meshes);
   this->showLights(scene, places);
+  this->Lighting.show(scene, places);
   this->showGridFor(places.box, scene.upAxis);
   LineList cameras;
   for (const CameraPlace& camera : places.cameras)

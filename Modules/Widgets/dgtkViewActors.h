@@ -7,6 +7,7 @@
 #include "dgtkLineActor.h"
 #include "dgtkScenePlaces.h"
 #include "dgtkViewCamera.h"
+#include "dgtkViewLights.h"
 #include "dgtkViewMeshes.h"
 
 #include <vtkNew.h>
@@ -47,6 +48,8 @@ public:
   void show(const SceneDescription& scene, const ScenePlaces& places, ViewMeshes& meshes);
   void setStyle(ViewStyle style);
   void showGrid(bool on);
+  /// Takes effect at the next show().
+  void setSceneLights(bool on) { this->Lighting.setSceneLights(on); }
   /// World units of a square of it.
   double gridStep() const;
   /// Boxes in place of objects, as far as these places go; and objects again.
@@ -90,6 +93,7 @@ private:
   void forgetSurfaces();
 
   vtkRenderer* Renderer;
+  ViewLights Lighting;
   ViewMeshes* Meshes = nullptr;
   ViewKind Kind;
   ViewStyle Style = ViewStyle::Textured;

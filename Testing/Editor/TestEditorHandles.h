@@ -36,6 +36,9 @@ private slots:
   void everyViewMovesTheSame();
   void theContextMenu();
   void renamesInTheTree();
+  void aCameraByItsMatrix();
+  void camerasAlongAPath();
+  void theScenesLightsLightTheViews();
   void theThesissStaticScene();
   void pictures();
 

@@ -10,10 +10,14 @@
 #include <QAbstractScrollArea>
 #include <QAction>
 #include <QApplication>
+#include <QComboBox>
 #include <QContextMenuEvent>
 #include <QDialog>
+#include <QImage>
+#include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
+#include <QPlainTextEdit>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QTest>
@@ -234,6 +238,89 @@ void TestEditorHandles::renamesInTheTree()
   QTest::keyClick(QApplication::focusWidget(), Qt::Key_Return);
   QTRY_COMPARE(this->object().name, std::string("box"));
   QCOMPARE(this->field("name")->text(), QString("box"));
+}
+
+void TestEditorHandles::aCameraByItsMatrix()
+{
+  answer<QDialog>("cameraDialog",
+    [](QDialog& dialog)
+    {
+      const auto number = [&](const char* name) { return dialog.findChild<QLineEdit*>(name); };
+      number("fovY.0")->setFocus();
+      number("fovY.0")->selectAll();
+      QTest::keyClicks(number("fovY.0"), "90");
+      number("size.0")->setFocus();
+      QVERIFY(!number("K.0")->isEnabled());
+      dialog.findChild<QComboBox*>("lens")->setCurrentIndex(1);
+      QVERIFY(!number("fovY.0")->isEnabled());
+      // It begins as what the field of view says.
+      QVERIFY(std::abs(number("K.0")->text().toDouble() - 240) < tolerance);
+      QCOMPARE(number("K.2")->text(), QString("320"));
+      QCOMPARE(number("size.1")->text(), QString("480"));
+      number("K.2")->setFocus();
+      number("K.2")->selectAll();
+      QTest::keyClicks(number("K.2"), "300.5");
+      QTest::mouseClick(dialog.findChild<QPushButton*>("add"), Qt::LeftButton);
+    });
+  this->action("camera")->trigger();
+  QCOMPARE(this->document().scene().cameras.size(), std::size_t(1));
+  const dgtk::CameraDescription& added = this->document().scene().cameras[0];
+  QVERIFY(added.K.has_value());
+  QCOMPARE((*added.K)(0, 2), 300.5);
+  QVERIFY(std::abs((*added.K)(1, 1) - 240) < tolerance);
+  QCOMPARE(added.width, 640);
+}
+
+void TestEditorHandles::camerasAlongAPath()
+{
+  dgtk::CameraDescription camera;
+  camera.name = "moving";
+  camera.eye.keys = { { 0, Eigen::Vector3d(0, 1, 8) }, { 10, Eigen::Vector3d(4, 1, 8) } };
+  this->document().addCamera(camera);
+  this->select("moving");
+  QString fault;
+  answer<QDialog>("cameraArrayDialog",
+    [&](QDialog& dialog)
+    {
+      auto* path = dialog.findChild<QPlainTextEdit*>("path");
+      QCOMPARE(path->toPlainText(), QString("0 1 8 0 0 0\n4 1 8 0 0 0"));
+      dialog.findChild<QSpinBox*>("count")->setValue(3);
+      auto* add = dialog.findChild<QPushButton*>("add");
+      path->appendPlainText("4 one 8");
+      QTest::mouseClick(add, Qt::LeftButton);
+      fault = dialog.findChild<QLabel*>("fault")->text();
+      path->setPlainText("0 1 8\n4 1 8, 1 0 0");
+      QTest::mouseClick(add, Qt::LeftButton);
+    });
+  this->action("cameraArray")->trigger();
+  QVERIFY2(fault.contains("line 3") && fault.contains("one"), qPrintable(fault));
+  QCOMPARE(this->document().scene().cameras.size(), std::size_t(4));
+  QVERIFY(near(this->document().scene().cameras[2].eye.value, { 2, 1, 8 }));
+  QVERIFY(near(this->document().scene().cameras[3].lookAt.value, { 1, 0, 0 }));
+}
+
+void TestEditorHandles::theScenesLightsLightTheViews()
+{
+  this->openCrate();
+  QWidget* const widget = this->view(front);
+  const QPoint on = this->pixelOf(front, { 0.2, 0.5, 0 });
+  const auto brightness = [&]
+  {
+    QTest::qWait(settle);
+    return widget->grab().toImage().pixelColor(on).value();
+  };
+  const int head = brightness();
+  dgtk::LightDescription light;
+  light.name = "behind";
+  light.kind = dgtk::LightKind::Directional;
+  light.position = Eigen::Vector3d(0, 0, -5);
+  this->document().addLight(light);
+  QTRY_COMPARE(brightness(), head);
+  this->action("sceneLights")->trigger();
+  QTRY_VERIFY(brightness() < head - 20); // lit from behind
+  QVERIFY(brightness() > 10);            // yet it can be seen
+  this->action("sceneLights")->trigger();
+  QTRY_COMPARE(brightness(), head);
 }
 
 void TestEditorHandles::theThesissStaticScene()

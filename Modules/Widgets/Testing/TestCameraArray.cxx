@@ -101,4 +101,36 @@ TEST(CameraArray, NonsenseIsRefused)
   options.first.lookAt = options.first.eye;
   EXPECT_THROW(cameraArray(options), UsageError);
 }
+
+TEST(CameraArray, PathIsWalkedEvenly)
+{
+  CameraArrayOptions options = optionsOf(CameraArrayKind::Path);
+  options.count = 5;
+  options.path.eyes = { { 0, 0, 9 }, { 3, 0, 9 }, { 3, 1, 9 } };
+  options.path.targets = { { 0, 0, 0 }, { 3, 0, 0 }, { 3, 0, 0 } };
+  const auto cameras = cameraArray(options);
+  ASSERT_EQ(cameras.size(), 5u);
+  expectSound(cameras);
+  const Eigen::Vector3d expected[5] = { { 0, 0, 9 }, { 1, 0, 9 }, { 2, 0, 9 }, { 3, 0, 9 }, { 3, 1, 9 } };
+  for (std::size_t i = 0; i < 5; ++i)
+  {
+    EXPECT_TRUE(cameras[i].eye.value.isApprox(expected[i], tolerance)) << i;
+    EXPECT_NEAR(cameras[i].lookAt.value.x(), expected[i].x(), tolerance) << i;
+  }
+  options.path.eyes = { { 1, 1, 1 }, { 1, 1, 1 } };
+  options.path.targets.resize(2);
+  EXPECT_THROW(cameraArray(options), UsageError);
+}
+
+TEST(CameraArray, APathThroughKeyFrames)
+{
+  CameraDescription camera;
+  camera.eye.keys = { { 0, Eigen::Vector3d(0, 0, 5) }, { 10, Eigen::Vector3d(4, 0, 5) } };
+  camera.lookAt.keys = { { 0, Eigen::Vector3d(0, 0, 0) }, { 5, Eigen::Vector3d(1, 0, 0) } };
+  const CameraPath path = keyFramePath(camera);
+  ASSERT_EQ(path.eyes.size(), 3u);
+  EXPECT_EQ(path.eyes[1], Eigen::Vector3d(2, 0, 5));
+  EXPECT_EQ(path.targets[2], Eigen::Vector3d(1, 0, 0));
+  EXPECT_TRUE(keyFramePath(CameraDescription()).eyes.empty());
+}
 } // namespace

@@ -227,6 +227,22 @@
         <source>Add</source>
         <translation>Hinzufügen</translation>
     </message>
+    <message>
+        <source>Along a path</source>
+        <translation>Entlang eines Wegs</translation>
+    </message>
+    <message>
+        <source>A point a line: x y z, and where it looks: x y z</source>
+        <translation>Je Zeile ein Punkt: x y z, und wohin sie blickt: x y z</translation>
+    </message>
+    <message>
+        <source>x, y and z of a point in each line; after them, if it looks elsewhere than the others, those of its look-at point. A camera with key frames that is selected fills this in.</source>
+        <translation>Je Zeile x, y und z eines Punktes; danach, wenn die Kamera dort anderswohin blickt, die des Blickpunkts. Eine ausgewählte Kamera mit Schlüsselbildern füllt das Feld.</translation>
+    </message>
+    <message>
+        <source>Path</source>
+        <translation>Weg</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::CameraDialog</name>
@@ -269,6 +285,26 @@
     <message>
         <source>Shows the perspective view from there</source>
         <translation>Zeigt die perspektivische Ansicht von dort aus</translation>
+    </message>
+    <message>
+        <source>by its field of view</source>
+        <translation>durch seinen Bildwinkel</translation>
+    </message>
+    <message>
+        <source>by its matrix K</source>
+        <translation>durch seine Matrix K</translation>
+    </message>
+    <message>
+        <source>Lens</source>
+        <translation>Objektiv</translation>
+    </message>
+    <message>
+        <source>fx, fy, cx, cy, pixels</source>
+        <translation>fx, fy, cx, cy, Pixel</translation>
+    </message>
+    <message>
+        <source>Size, pixels (0: as asked for)</source>
+        <translation>Größe, Pixel (0: wie verlangt)</translation>
     </message>
 </context>
 <context>
@@ -994,6 +1030,14 @@
     <message>
         <source>Open a dataset</source>
         <translation>Datensatz öffnen</translation>
+    </message>
+    <message>
+        <source>Light of the s&amp;cene</source>
+        <translation>Licht der S&amp;zene</translation>
+    </message>
+    <message>
+        <source>The scene&apos;s lights light the views, without shadows; otherwise a light at each view&apos;s eye</source>
+        <translation>Die Lichter der Szene beleuchten die Ansichten, ohne Schatten; sonst ein Licht am Auge jeder Ansicht</translation>
     </message>
 </context>
 <context>

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkItemMotion.h"
+
+#include "dgtkCameraModel.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+using namespace dgtk;
+
+constexpr double tolerance = 1e-12; // scene units and entries of matrices
+
+const SceneItem first{ SceneItem::Kind::Object, 0 };
+const SceneItem second{ SceneItem::Kind::Object, 1 };
+const SceneItem camera{ SceneItem::Kind::Camera, 0 };
+const SceneItem light{ SceneItem::Kind::Light, 0 };
+
+/// A child in a parent that is turned, mirrored and evenly scaled; a camera; a spot.
+SceneDescription family()
+{
+  SceneDescription scene;
+  scene.objects.resize(2);
+  scene.objects[0].name = "parent";
+  scene.objects[0].position = Eigen::Vector3d(1, 2, 3);
+  scene.objects[0].orientation = turn(Eigen::Vector3d(0, 0.6, 0.8), 70);
+  scene.objects[0].scale = Eigen::Vector3d(-2, 2, 2);
+  scene.objects[1].name = "child";
+  scene.objects[1].parent = "parent";
+  scene.objects[1].position = Eigen::Vector3d(0.5, -1, 2);
+  scene.objects[1].orientation = turn(Eigen::Vector3d(1, 0, 0), 20);
+  scene.objects[1].scale = Eigen::Vector3d(1, 2, 3);
+  scene.cameras.resize(1);
+  scene.cameras[0].name = "eye";
+  scene.cameras[0].eye = Eigen::Vector3d(3, 1, 5);
+  scene.cameras[0].lookAt = Eigen::Vector3d(0, 1, 0);
+  scene.lights.resize(1);
+  scene.lights[0].name = "spot";
+  scene.lights[0].kind = LightKind::Spot;
+  scene.lights[0].position = Eigen::Vector3d(0, 4, 0);
+  scene.lights[0].target = Eigen::Vector3d(1, 0, 0);
+  return scene;
+}
+
+ScenePlaces placesOf(const SceneDescription& scene, int frame = 0) { return placeScene(scene, ModelStore(), frame); }
+
+Affine3 worldOf(const SceneDescription& scene, std::size_t object)
+{
+  return placesOf(scene).objects[object].instance.world_from_object;
+}
+
+WorldMotion rotation(const ItemMotion& items, const Eigen::Vector3d& axis, double degrees)
+{
+  WorldMotion motion;
+  motion.mode = HandleMode::Rotate;
+  motion.pivot = items.pivot();
+  motion.axis = axis;
+  motion.degrees = degrees;
+  return motion;
+}
+
+TEST(ItemMotion, ChildrenGoAndTurnInTheWorld)
+{
+  SceneDescription scene = family();
+  const Affine3 before = worldOf(scene, 1);
+  WorldMotion move;
+  move.mode = HandleMode::Move;
+  move.translation = Eigen::Vector3d(0.25, -3, 1);
+  ItemMotion(scene, placesOf(scene), { second }, 0).apply(scene, move);
+  EXPECT_LT((worldOf(scene, 1).translation - before.translation - move.translation).norm(), tolerance);
+  EXPECT_EQ(worldOf(scene, 1).linear, before.linear);
+
+  scene = family();
+  const ItemMotion items(scene, placesOf(scene), { second }, 0);
+  const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -2) / 3;
+  items.apply(scene, rotation(items, axis, 50));
+  EXPECT_LT((worldOf(scene, 1).linear - turn(axis, 50).matrix() * before.linear).norm(), tolerance);
+  EXPECT_EQ(scene.objects[1].position.value, family().objects[1].position.value);
+}
+
+TEST(ItemMotion, SeveralTurnAboutTheirCentreAndChildrenOnce)
+{
+  SceneDescription scene = family();
+  const Affine3 before[2] = { worldOf(scene, 0), worldOf(scene, 1) };
+  const ItemMotion items(scene, placesOf(scene), { first, second, light }, 0);
+  ASSERT_EQ(items.items().size(), 2u); // the child hangs on its parent
+  const Eigen::Vector3d center = (Eigen::Vector3d(1, 2, 3) + Eigen::Vector3d(0, 4, 0)) / 2;
+  EXPECT_LT((items.pivot() - center).norm(), tolerance);
+  const Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
+  items.apply(scene, rotation(items, axis, 90));
+  const Eigen::Matrix3d R = turn(axis, 90).matrix();
+  for (int i = 0; i < 2; ++i)
+  {
+    const Affine3 now = worldOf(scene, std::size_t(i));
+    EXPECT_LT((now.linear - R * before[i].linear).norm(), 1e-11);
+    EXPECT_LT((now.translation - center - R * (before[i].translation - center)).norm(), 1e-11);
+  }
+  EXPECT_LT((scene.lights[0].position.value - center - R * (Eigen::Vector3d(0, 4, 0) - center)).norm(), tolerance);
+  EXPECT_LT((scene.lights[0].target.value - center - R * (Eigen::Vector3d(1, 0, 0) - center)).norm(), tolerance);
+}
+
+TEST(ItemMotion, ScalesAnObjectAlongItsOwnAxes)
+{
+  SceneDescription scene = family();
+  const Affine3 before = worldOf(scene, 1);
+  const ItemMotion items(scene, placesOf(scene), { second }, 0);
+  WorldMotion motion;
+  motion.mode = HandleMode::Scale;
+  motion.pivot = items.pivot();
+  motion.axes = items.axes(HandleMode::Scale);
+  motion.factors = Eigen::Vector3d(1.5, 1, 0.5);
+  EXPECT_LT((motion.axes.transpose() * motion.axes - Eigen::Matrix3d::Identity()).norm(), tolerance);
+  items.apply(scene, motion);
+  EXPECT_EQ(scene.objects[1].scale.value, Eigen::Vector3d(1.5, 2, 1.5));
+  const Eigen::Matrix3d D = motion.axes * motion.factors.asDiagonal() * motion.axes.transpose();
+  EXPECT_LT((worldOf(scene, 1).linear - D * before.linear).norm(), 1e-11);
+}
+
+TEST(ItemMotion, ACamerasPoseTurnsExactlyAndItsUpOnlyWhereItMust)
+{
+  for (const bool roll : { false, true })
+  {
+    SceneDescription scene = family();
+    const CameraDescription before = scene.cameras[0];
+    const Rigid3 old = lookAtPose(before.eye.value, before.lookAt.value, before.up.value).inverse();
+    const ItemMotion items(scene, placesOf(scene), { camera }, 0);
+    const Eigen::Vector3d axis = roll ? Eigen::Vector3d(old.rotation.col(2)) : Eigen::Vector3d(0, 1, 0);
+    items.apply(scene, rotation(items, axis, 33));
+    const CameraDescription& now = scene.cameras[0];
+    const Rigid3 turned = lookAtPose(now.eye.value, now.lookAt.value, now.up.value).inverse();
+    EXPECT_LT((turned.rotation - turn(axis, 33).matrix() * old.rotation).norm(), tolerance);
+    EXPECT_EQ(now.eye.value, before.eye.value);
+    EXPECT_EQ(now.up.value == before.up.value, !roll);
+  }
+}
+
+TEST(ItemMotion, OnlyWhatChangesGetsKeys)
+{
+  SceneDescription scene = family();
+  ObjectDescription& object = scene.objects[0];
+  object.position.keys = { { 0, Eigen::Vector3d(0, 0, 0) }, { 10, Eigen::Vector3d(10, 0, 0) } };
+  object.orientation.keys = { { 0, Quaternion() }, { 10, Quaternion() } };
+  const ItemMotion items(scene, placesOf(scene, 4), { first }, 4);
+  items.apply(scene, rotation(items, Eigen::Vector3d::UnitZ(), 90));
+  ASSERT_EQ(object.orientation.keys.size(), 3u);
+  EXPECT_EQ(object.orientation.keys[1].frame, 4);
+  EXPECT_EQ(object.position.keys.size(), 2u);
+  EXPECT_FALSE(object.scale.animated());
+}
+
+TEST(ItemMotion, NoMotionChangesNothing)
+{
+  for (const HandleMode mode : { HandleMode::Move, HandleMode::Rotate, HandleMode::Scale })
+  {
+    SceneDescription scene = family();
+    scene.objects[0].orientation = Quaternion{ 0.981, 0.1, 0.02, 0.3 }; // as somebody typed it
+    const ItemMotion items(scene, placesOf(scene), { first, camera, light }, 0);
+    WorldMotion motion = rotation(items, Eigen::Vector3d::UnitX(), 0);
+    motion.mode = mode;
+    items.apply(scene, motion);
+    EXPECT_EQ(scene.objects[0].position.value, family().objects[0].position.value);
+    EXPECT_TRUE(scene.objects[0].orientation.value == (Quaternion{ 0.981, 0.1, 0.02, 0.3 }));
+    EXPECT_EQ(scene.cameras[0].eye.value, family().cameras[0].eye.value);
+    EXPECT_EQ(scene.cameras[0].up.value, family().cameras[0].up.value);
+    EXPECT_EQ(scene.lights[0].target.value, family().lights[0].target.value);
+  }
+}
+} // namespace
