@@ -89,7 +89,8 @@ void CameraDialog::showLens()
   {
     std::vector<double> size = this->Size->values();
     size = size[0] > 0 && size[1] > 0 ? size : std::vector<double>{ usualWidth, usualHeight };
-    const double focal = size[1] / 2 / std::tan(this->Fov->values()[0] * pi / 360);
+    const double exact = size[1] / 2 / std::tan(this->Fov->values()[0] * pi / 360);
+    const double focal = std::round(exact * 1000) / 1000; // fits its field
     this->Size->setValues(size);
     this->K->setValues({ focal, focal, size[0] / 2, size[1] / 2 });
   }

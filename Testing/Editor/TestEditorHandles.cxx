@@ -10,6 +10,9 @@
 
 #include <QAction>
 #include <QApplication>
+#include <QComboBox>
+#include <QDialog>
+#include <QImage>
 #include <QLineEdit>
 #include <QMouseEvent>
 #include <QTest>
@@ -21,6 +24,7 @@ using dgtk::test::sourceFile;
 namespace
 {
 constexpr int front = 0;
+constexpr int perspective = 3;
 constexpr double tolerance = 1e-9; // world units, of motions of a few units
 constexpr double pi = 3.14159265358979323846;
 
@@ -253,6 +257,47 @@ void TestEditorHandles::escapePutsBack()
   // As if it had not been: what was undone before can be done again.
   this->action("redo")->trigger();
   QCOMPARE(this->object().position.value.x(), 2.0);
+}
+
+void TestEditorHandles::pictures()
+{
+  const QString folder = QString::fromLocal8Bit(qgetenv("DGTK_EDITOR_PICTURES"));
+  if (folder.isEmpty())
+  {
+    return; // made by Documentation/Images/make_editor.py
+  }
+  this->Window->resize(1280, 860);
+  QVERIFY(this->Window->openFile(demo()));
+  this->select("crate one");
+  this->action("frameSelected")->trigger();
+  const auto save = [&](QWidget* widget, const char* name)
+  {
+    QTest::qWait(3 * settle);
+    // A palette of 256 colours makes the pictures of views small.
+    const bool view = widget->objectName().startsWith("view.");
+    const QImage image =
+      widget->grab().toImage().convertToFormat(view ? QImage::Format_Indexed8 : QImage::Format_RGB32);
+    QVERIFY(image.save(folder + "/editor_" + name + ".png"));
+  };
+  for (const char* name : { "move", "rotate", "scale" })
+  {
+    this->action(name)->trigger();
+    save(this->view(perspective), (std::string("handles_") + name).c_str());
+  }
+  this->action("sceneLights")->trigger();
+  save(this->view(perspective), "scene_lights");
+  for (const char* name : { "camera", "cameraArray" })
+  {
+    answer<QDialog>({},
+      [&](QDialog& dialog)
+      {
+        auto* kind = dialog.findChild<QComboBox*>(name == std::string("camera") ? "lens" : "kind");
+        kind->setCurrentIndex(kind->count() - 1);
+        save(&dialog, (std::string("new_") + name).c_str());
+        dialog.reject();
+      });
+    this->action(name)->trigger();
+  }
 }
 
 int main(int argc, char** argv) { return runEditorTest<TestEditorHandles>(argc, argv); }

@@ -369,22 +369,3 @@ void TestEditorHandles::theThesissStaticScene()
   QVERIFY(this->Window->saveFile(scene));
   this->renderAndCompare(scene, { "color", "depth", "objects", "calibration" }, 48, 32);
 }
-
-void TestEditorHandles::pictures()
-{
-  const QString folder = QString::fromLocal8Bit(qgetenv("DGTK_EDITOR_PICTURES"));
-  if (folder.isEmpty())
-  {
-    return; // made by Documentation/Images/make_editor.py
-  }
-  this->Window->resize(1280, 860);
-  QVERIFY(this->Window->openFile(demo()));
-  this->select("crate one");
-  this->action("frameSelected")->trigger();
-  for (const char* name : { "move", "rotate", "scale" })
-  {
-    this->action(name)->trigger();
-    QTest::qWait(3 * settle);
-    QVERIFY(this->Window->grab().save(folder + "/editor_handles_" + name + ".png"));
-  }
-}
