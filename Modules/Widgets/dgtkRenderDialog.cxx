@@ -12,6 +12,7 @@
 #include <QListWidget>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QSignalBlocker>
 #include <QSlider>
 #include <QSpinBox>
 #include <QTabWidget>
@@ -27,6 +28,7 @@ namespace
 {
 constexpr int progressEvery = 200; // milliseconds
 constexpr int progressSteps = 100000;
+constexpr int usualSize[2] = { 640, 480 }; // of a camera that has none
 
 QString durationText(double seconds)
 {
@@ -89,6 +91,7 @@ void RenderDialog::refresh()
     }
   }
   const int row = this->Cameras->currentRow();
+  const QSignalBlocker quiet(this->Cameras);
   this->Cameras->clear();
   for (const CameraDescription& camera : scene.cameras)
   {
@@ -110,22 +113,71 @@ void RenderDialog::refresh()
   this->showResolution();
 }
 
-void RenderDialog::showResolution()
+const CameraDescription* RenderDialog::chosenCamera() const
 {
+  const std::vector<CameraDescription>& cameras = this->State.scene().cameras;
   const int row = this->Cameras->currentRow();
-  const SceneDescription& scene = this->State.scene();
+  return row < 0 || row >= int(cameras.size()) ? nullptr : &cameras[std::size_t(row)];
+}
+
+void RenderDialog::showSize()
+{
+  const bool own = this->OwnSize->isChecked();
+  const CameraDescription* const camera = this->chosenCamera();
+  const int of[2] = { camera ? camera->width : 0, camera ? camera->height : 0 };
+  // The size of a camera with a matrix K belongs to that matrix.
+  const bool editable = !own || (camera != nullptr && !camera->K);
   for (int axis = 0; axis < 2; ++axis)
   {
-    this->Size[axis]->setEnabled(!this->OwnSize->isChecked());
-    this->Sliders[axis]->setEnabled(!this->OwnSize->isChecked());
+    const int size = own && of[axis] > 0 ? of[axis] : own ? usualSize[axis] : this->CommonSize[axis];
+    const QSignalBlocker quietSize(this->Size[axis]);
+    const QSignalBlocker quietSlider(this->Sliders[axis]);
+    this->Size[axis]->setValue(size);
+    this->Sliders[axis]->setValue(std::min(size, this->Sliders[axis]->maximum()));
+    this->Size[axis]->setEnabled(editable);
+    this->Sliders[axis]->setEnabled(editable);
   }
-  if (row < 0 || row >= int(scene.cameras.size()))
+}
+
+void RenderDialog::takeSize()
+{
+  const int size[2] = { this->Size[0]->value(), this->Size[1]->value() };
+  if (!this->OwnSize->isChecked())
+  {
+    std::copy(size, size + 2, this->CommonSize);
+    this->showResolution();
+    return;
+  }
+  if (const CameraDescription* const camera = this->chosenCamera())
+  {
+    const SceneItem item{ SceneItem::Kind::Camera, std::size_t(this->Cameras->currentRow()) };
+    this->State.attempt(
+      [&]
+      {
+        this->State.document().editItem(
+          "Set image size", item,
+          [&](SceneDescription& scene)
+          {
+            scene.cameras[item.index].width = size[0];
+            scene.cameras[item.index].height = size[1];
+          },
+          "size of " + camera->name);
+      });
+  }
+}
+
+void RenderDialog::showResolution()
+{
+  const SceneDescription& scene = this->State.scene();
+  this->showSize();
+  const CameraDescription* const chosen = this->chosenCamera();
+  if (chosen == nullptr)
   {
     this->Resolution->setText(tr("The scene has no camera. Add one with Tools > Add camera."));
     return;
   }
   SceneDescription alone;
-  alone.cameras.push_back(scene.cameras[std::size_t(row)]);
+  alone.cameras.push_back(*chosen);
   CameraDescription& camera = alone.cameras.front();
   if (!this->OwnSize->isChecked() && !camera.K)
   {
@@ -184,7 +236,7 @@ QStringList RenderDialog::arguments(const QString& scene) const
   }
   if (!this->OwnSize->isChecked())
   {
-    words << "--size" << QString("%1x%2").arg(this->Size[0]->value()).arg(this->Size[1]->value());
+    words << "--size" << QString("%1x%2").arg(this->CommonSize[0]).arg(this->CommonSize[1]);
   }
   words << "--tile" << QString("%1x%2").arg(this->Tile[0]->value()).arg(this->Tile[1]->value());
   words << "--samples" << QString::number(this->Samples->value());

@@ -58,6 +58,10 @@ private:
   void makeRunRow(QVBoxLayout* layout);
   void refresh();
   void showResolution();
+  /// The size of all cameras, or of the chosen one.
+  void showSize();
+  void takeSize();
+  const CameraDescription* chosenCamera() const;
   void browse();
   void start();
   void takeProgress(int done, int total);
@@ -79,6 +83,7 @@ private:
   QCheckBox* OwnSize = nullptr;
   QSlider* Sliders[2] = { nullptr, nullptr };
   QSpinBox* Size[2] = { nullptr, nullptr };
+  int CommonSize[2] = { 640, 480 }; ///< of all cameras, when they have one size
   QLabel* Resolution = nullptr;
   QSpinBox* Tile[2] = { nullptr, nullptr };
   QSpinBox* Frames[3] = { nullptr, nullptr, nullptr };

@@ -68,7 +68,7 @@ void RenderDialog::addSizeRow(QGridLayout* grid, int row, const QString& label, 
       const bool blocked = this->Sliders[axis]->blockSignals(true);
       this->Sliders[axis]->setValue(std::min(value, largestSlider));
       this->Sliders[axis]->blockSignals(blocked);
-      this->showResolution();
+      this->takeSize();
     });
 }
 
@@ -80,7 +80,7 @@ QWidget* RenderDialog::makeCameras()
   this->Cameras = new QListWidget;
   this->Cameras->setObjectName("cameras");
   layout->addWidget(this->Cameras, 1);
-  this->OwnSize = new QCheckBox(tr("Every camera in its own size (640 x 480 where it has none)"));
+  this->OwnSize = new QCheckBox(tr("Every camera in its own size: that of the chosen one is"));
   this->OwnSize->setObjectName("ownSize");
   this->OwnSize->setChecked(true);
   layout->addWidget(this->OwnSize);
@@ -94,7 +94,12 @@ QWidget* RenderDialog::makeCameras()
   this->Resolution->setMinimumHeight(3 * this->fontMetrics().height());
   layout->addWidget(this->Resolution);
   connect(this->OwnSize, &QCheckBox::toggled, this, &RenderDialog::showResolution);
-  connect(this->Cameras, &QListWidget::currentRowChanged, this, &RenderDialog::showResolution);
+  connect(this->Cameras, &QListWidget::currentRowChanged, this,
+    [this]
+    {
+      this->State.document().finishMerging();
+      this->showResolution();
+    });
   return page;
 }
 

@@ -18,6 +18,7 @@ private slots:
   void refusesWithAMessage();
   void asksAboutUnsavedWork();
   void unsavedWorkSurvivesACrash();
+  void camerasHaveSizesOfTheirOwn();
   void cancelledRunsResume();
   void everyMenuItemWorks();
   void pictures();

@@ -9,6 +9,7 @@
 #include <QCheckBox>
 #include <QDialog>
 #include <QLineEdit>
+#include <QListWidget>
 #include <QMenu>
 #include <QMessageBox>
 #include <QPushButton>
@@ -20,6 +21,40 @@
 namespace
 {
 constexpr int largeWidth = 2000; // pixels
+}
+
+void TestEditor::camerasHaveSizesOfTheirOwn()
+{
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  dgtk::SceneDocument& document = this->Window->document();
+  const std::string first = document.json();
+  this->action("render")->trigger();
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  dialog->findChild<QTabWidget*>()->setCurrentIndex(1);
+  auto* cameras = dialog->findChild<QListWidget*>("cameras");
+  auto* width = dialog->findChild<QSpinBox*>("width");
+  auto* height = dialog->findChild<QSpinBox*>("height");
+  cameras->setCurrentRow(1);
+  QCOMPARE(width->value(), 640);
+  width->setValue(320);
+  height->setValue(200);
+  QCOMPARE(cameras->currentRow(), 1);
+  QCOMPARE(document.scene().cameras[1].width, 320);
+  QCOMPARE(document.scene().cameras[1].height, 200);
+  QCOMPARE(document.scene().cameras[0].width, 640);
+  cameras->setCurrentRow(0);
+  QCOMPARE(width->value(), 640);
+  auto* own = dialog->findChild<QCheckBox*>("ownSize");
+  own->setChecked(false);
+  width->setValue(100);
+  QCOMPARE(document.scene().cameras[0].width, 640);
+  own->setChecked(true);
+  QCOMPARE(width->value(), 640);
+  cameras->setCurrentRow(1);
+  QCOMPARE(height->value(), 200);
+  document.undo(); // both numbers are one step
+  QCOMPARE(document.json(), first);
+  QCOMPARE(height->value(), 480);
 }
 
 void TestEditor::cancelledRunsResume()

@@ -111,6 +111,10 @@
         <source>Scale</source>
         <translation>Skalieren</translation>
     </message>
+    <message>
+        <source>Set image size</source>
+        <translation>Bildgröße setzen</translation>
+    </message>
 </context>
 <context>
     <name>QObject</name>
@@ -1534,10 +1538,6 @@ Ein Pixel ist %5 %4 in x, %6 in y; an der fernen Ebene %7 und %8</translation>
         <translation>Zu berechnende Kameras:</translation>
     </message>
     <message>
-        <source>Every camera in its own size (640 x 480 where it has none)</source>
-        <translation>Jede Kamera in ihrer eigenen Größe (sonst 640 x 480)</translation>
-    </message>
-    <message>
         <source>Width</source>
         <translation>Breite</translation>
     </message>
@@ -1604,6 +1604,10 @@ Ein Pixel ist %5 %4 in x, %6 in y; an der fernen Ebene %7 und %8</translation>
     <message>
         <source>Look at the result</source>
         <translation>Ergebnis ansehen</translation>
+    </message>
+    <message>
+        <source>Every camera in its own size: that of the chosen one is</source>
+        <translation>Jede Kamera in ihrer eigenen Größe; die der gewählten ist</translation>
     </message>
 </context>
 <context>
