@@ -230,7 +230,9 @@ void TestEditorMonkey::openAgain()
 void TestEditorMonkey::randomEventsDoNoHarm()
 {
   this->Random.seed(unsigned(1 + qEnvironmentVariableIntValue("DGTK_MONKEY_SEED")));
+  // What it may write, by Return in a dialog, goes to the test's folder.
   QVERIFY(QDir::setCurrent(this->path("")));
+  qputenv("HOME", this->path("").toLocal8Bit());
   this->openAgain();
   this->watchDialogs();
   dgtk::SceneDocument& document = this->Window->document();
