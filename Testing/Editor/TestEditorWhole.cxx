@@ -151,14 +151,11 @@ void TestEditor::pictures()
   dialog->findChild<QTabWidget*>()->setCurrentIndex(1);
   grab(dialog, "editor_render_cameras.png");
   dialog->hide();
-  for (const char* name : { "camera", "light" })
-  {
-    answer<QDialog>({},
-      [&](QDialog& shown)
-      {
-        shown.grab().save(folder + "/editor_" + name + ".png");
-        shown.reject();
-      });
-    this->action(name)->trigger();
-  }
+  answer<QDialog>({},
+    [&](QDialog& shown)
+    {
+      shown.grab().save(folder + "/editor_light.png");
+      shown.reject();
+    });
+  this->action("light")->trigger();
 }
