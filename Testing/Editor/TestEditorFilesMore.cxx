@@ -184,5 +184,5 @@ void TestEditorFiles::theProgressOfARunMoves()
   looker.stop();
   QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
   QVERIFY(moves > 4);
-  QVERIFY2(stillest < 5, "half a second without a move");
+  QVERIFY2(stillest < 5 * patience, "more than half a second without a move, many times over");
 }

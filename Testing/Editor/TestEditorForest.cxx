@@ -19,9 +19,8 @@ namespace
 {
 constexpr int forestSide = 32;
 constexpr int forestCameras = 100;
-constexpr int forestLimit = 5000; // milliseconds from the file to the drawn views
-/// Milliseconds. The aim is 200 on an idle machine; where others share cores and caches, processor time grows, too.
-constexpr double eventLimit = 300;
+constexpr int forestLimit = 5000;  // milliseconds from the file to the drawn views
+constexpr double eventLimit = 200; // milliseconds
 constexpr int tries = 3;
 constexpr int smallerSide = 19; // trees of 584 triangles: 210,000 in all
 constexpr int turns = 10;
@@ -86,7 +85,7 @@ void TestEditorForest::openForest(int side, int cameras) const
   QCoreApplication::processEvents();
   const double spent = std::min(clock.nsecsElapsed() * 1e-6, 1000.0 * double(std::clock() - began) / CLOCKS_PER_SEC);
   qInfo("%d trees and %d cameras: %.0f ms to open and draw", side * side, cameras, spent);
-  QVERIFY(spent < forestLimit);
+  QVERIFY(spent < patience * forestLimit);
 }
 
 double TestEditorForest::longest(const char* what, const std::function<void(int)>& act) const
@@ -114,13 +113,14 @@ void TestEditorForest::aForestOpensAndAnswersAtOnce()
   this->openForest(forestSide, forestCameras);
   QCOMPARE(this->Window->document().models().size(), std::size_t(1));
   const char* const names[tries] = { "tree40", "tree41", "tree42" };
-  QVERIFY(this->longest("select", [&](int i) { this->select(names[i % tries]); }) < eventLimit);
-  QVERIFY(this->longest("type", [&](int i) { this->type("position.1", QString::number(i + 1)); }) < eventLimit);
+  QVERIFY(this->longest("select", [&](int i) { this->select(names[i % tries]); }) < patience * eventLimit);
+  QVERIFY(
+    this->longest("type", [&](int i) { this->type("position.1", QString::number(i + 1)); }) < patience * eventLimit);
   QCOMPARE(this->Window->document().scene().objects[42].position.value.y(), double(tries));
   auto* cells = this->Window->findChild<QAbstractScrollArea*>("timeLineCells")->viewport();
   const auto scrub = [&](int i)
   { QTest::mouseClick(cells, Qt::LeftButton, {}, QPoint(cells->width() - 12 * (i + 1), 5)); };
-  QVERIFY(this->longest("scrub", scrub) < eventLimit);
+  QVERIFY(this->longest("scrub", scrub) < patience * eventLimit);
   this->action("frameSelected")->trigger();
   QTest::qWait(settle);
   const QPoint middle = this->view(front)->rect().center();
@@ -134,7 +134,7 @@ void TestEditorForest::aForestOpensAndAnswersAtOnce()
     QTest::mouseRelease(this->view(front), Qt::LeftButton, {}, middle + QPoint(40, i));
   };
   const double before = this->Window->document().scene().objects[42].position.value.x();
-  QVERIFY(this->longest("drag", drag) < eventLimit);
+  QVERIFY(this->longest("drag", drag) < patience * eventLimit);
   QVERIFY(this->Window->document().scene().objects[42].position.value.x() > before);
 }
 
@@ -154,7 +154,7 @@ void TestEditorForest::twoHundredThousandTrianglesTurn()
     std::min(clock.nsecsElapsed() * 1e-6, 1000.0 * double(std::clock() - began) / CLOCKS_PER_SEC) / turns;
   QTest::mouseRelease(this->view(perspective), Qt::LeftButton, {}, QPoint(25 + 5 * turns, 5));
   qInfo("%.0f ms for a step of turning the perspective", spent);
-  QVERIFY(spent < turnLimit);
+  QVERIFY(spent < patience * turnLimit);
 }
 
 int main(int argc, char** argv) { return runEditorTest<TestEditorForest>(argc, argv); }
