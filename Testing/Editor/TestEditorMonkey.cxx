@@ -6,6 +6,7 @@
 
 #include <QAction>
 #include <QComboBox>
+#include <QDrag>
 #include <QElapsedTimer>
 #include <QFileDialog>
 #include <QMenuBar>
@@ -161,6 +162,7 @@ void TestEditorMonkey::touchDialog()
 void TestEditorMonkey::watchDialogs()
 {
   QTimer::singleShot(10, this, &TestEditorMonkey::watchDialogs);
+  QDrag::cancel(); // text that is dragged waits for a mouse that is not there
   if (QApplication::activePopupWidget() || QApplication::activeModalWidget())
   {
     this->touchDialog();
