@@ -1,39 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCloudView.h"
 
-#include <QApplication>
 #include <QKeyEvent>
 #include <QMouseEvent>
-#include <QTimer>
-#include <QWheelEvent>
 
 #include <vtkActor.h>
-#include <vtkCamera.h>
 #include <vtkCellArray.h>
-#include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace dgtk
 {
 
 namespace
 {
-constexpr double degreesPerPixel = 0.4;
 constexpr double degreesPerKey = 5;
-constexpr double panPerKey = 30;       // pixels
-constexpr double zoomPerPixel = 0.008; // natural logarithm
-constexpr double zoomPerStep = 0.15;
+constexpr double panPerKey = 30; // pixels
 constexpr double pickPixels = 12;
 constexpr double frustumShare = 0.07; // of the diagonal of everything
 constexpr double markerShare = 0.015;
@@ -47,24 +38,16 @@ constexpr float pointSize = 2;
 const Eigen::Vector3d cameraColor(0.85, 0.65, 0.25);
 const Eigen::Vector3d chosenColor(0.2, 1.0, 0.2);
 const Eigen::Vector3d markerColor(1.0, 0.2, 0.9);
+const Eigen::Vector3d topColor(0.11, 0.11, 0.12);
+const Eigen::Vector3d bottomColor(0.20, 0.21, 0.23);
 } // namespace
 
 CloudView::CloudView(QWidget* parent)
-  : QVTKOpenGLNativeWidget(parent)
-  , Camera(ViewKind::Perspective)
-  , Renderer(vtkSmartPointer<vtkRenderer>::New())
+  : ViewWidget(ViewKind::Perspective, topColor, bottomColor, parent)
   , Points(vtkSmartPointer<vtkPolyData>::New())
   , PointActor(vtkSmartPointer<vtkActor>::New())
 {
   this->setObjectName("cloudView");
-  vtkNew<vtkGenericOpenGLRenderWindow> window;
-  window->SetMultiSamples(0);
-  this->setRenderWindow(window);
-  window->AddRenderer(this->Renderer);
-  window->GetInteractor()->SetInteractorStyle(nullptr);
-  this->Renderer->SetBackground(0.20, 0.21, 0.23);
-  this->Renderer->SetBackground2(0.11, 0.11, 0.12);
-  this->Renderer->GradientBackgroundOn();
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(this->Points);
   this->PointActor->SetMapper(mapper);
@@ -80,7 +63,6 @@ CloudView::CloudView(QWidget* parent)
     const Eigen::Vector3d color = 0.25 * Eigen::Vector3d::Ones() + 0.65 * Eigen::Vector3d::Unit(axis);
     this->Axes[axis] = std::make_unique<LineActor>(this->Renderer, color, 2.0f);
   }
-  this->setFocusPolicy(Qt::StrongFocus);
   this->setMinimumSize(160, 120);
   this->placeCamera();
 }
@@ -95,33 +77,13 @@ void CloudView::reset(UpAxis upAxis)
   this->setCloud(nullptr);
 }
 
-void CloudView::placeCamera()
+void CloudView::draw()
 {
-  vtkCamera* const camera = this->Renderer->GetActiveCamera();
-  camera->SetPosition(this->Camera.eye().data());
-  camera->SetFocalPoint(this->Camera.focus().data());
-  camera->SetViewUp(this->Camera.up().data());
-  camera->SetViewAngle(ViewCamera::angle());
-  this->drawSoon();
-}
-
-void CloudView::drawSoon()
-{
-  if (this->DrawWanted)
+  if (this->isVisible())
   {
-    return;
+    this->Renderer->ResetCameraClippingRange();
+    this->renderWindow()->Render();
   }
-  this->DrawWanted = true;
-  QTimer::singleShot(0, this,
-    [this]
-    {
-      this->DrawWanted = false;
-      if (this->isVisible())
-      {
-        this->Renderer->ResetCameraClippingRange();
-        this->renderWindow()->Render();
-      }
-    });
 }
 
 WorldBox CloudView::box() const
@@ -251,11 +213,7 @@ void CloudView::frameFrom(const std::string& name)
   this->frameAll();
 }
 
-void CloudView::frameAll()
-{
-  this->Camera.frame(this->box(), double(std::max(this->width(), 1)) / std::max(this->height(), 1));
-  this->placeCamera();
-}
+void CloudView::frameAll() { this->frameBox(this->box()); }
 
 void CloudView::lookThrough(const std::string& name)
 {
@@ -274,37 +232,17 @@ void CloudView::lookThrough(const std::string& name)
 
 void CloudView::mousePressEvent(QMouseEvent* event)
 {
-  this->Pressed = this->Last = event->pos();
-  this->Moved = false;
   const bool shifted = event->modifiers() & Qt::ShiftModifier;
-  this->Moving = event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && shifted) ? Motion::Pan
-                 : event->button() == Qt::RightButton                                                  ? Motion::Zoom
-                                                                                                       : Motion::Orbit;
+  const bool pans = event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && shifted);
+  this->beginMotion(*event, pans ? Motion::Pan : event->button() == Qt::RightButton ? Motion::Zoom : Motion::Orbit);
 }
 
 void CloudView::mouseMoveEvent(QMouseEvent* event)
 {
-  const bool far = (event->pos() - this->Pressed).manhattanLength() >= QApplication::startDragDistance();
-  if (this->Moving == Motion::None || (!this->Moved && !far))
+  if (this->isMoving(*event))
   {
-    return;
+    this->moveView(*event);
   }
-  this->Moved = true;
-  const QPoint step = event->pos() - this->Last;
-  this->Last = event->pos();
-  switch (this->Moving)
-  {
-    case Motion::Orbit:
-      this->Camera.orbit(degreesPerPixel * step.x(), degreesPerPixel * step.y());
-      break;
-    case Motion::Pan:
-      this->Camera.pan(step.x(), step.y(), this->height());
-      break;
-    default:
-      this->Camera.zoom(std::exp(-zoomPerPixel * step.y()));
-      break;
-  }
-  this->placeCamera();
 }
 
 void CloudView::mouseReleaseEvent(QMouseEvent* event)
@@ -339,20 +277,13 @@ void CloudView::pick(const QPoint& at)
   }
 }
 
-void CloudView::wheelEvent(QWheelEvent* event)
-{
-  this->Camera.zoom(std::exp(zoomPerStep * event->angleDelta().y() / 120.0));
-  this->placeCamera();
-  event->accept();
-}
-
 void CloudView::keyPressEvent(QKeyEvent* event)
 {
   const int dx = event->key() == Qt::Key_Left ? -1 : event->key() == Qt::Key_Right ? 1 : 0;
   const int dy = event->key() == Qt::Key_Up ? -1 : event->key() == Qt::Key_Down ? 1 : 0;
   if (dx == 0 && dy == 0)
   {
-    QVTKOpenGLNativeWidget::keyPressEvent(event);
+    ViewWidget::keyPressEvent(event);
     return;
   }
   if (event->modifiers() & Qt::ShiftModifier)
@@ -364,12 +295,6 @@ void CloudView::keyPressEvent(QKeyEvent* event)
     this->Camera.orbit(degreesPerKey * dx, degreesPerKey * dy);
   }
   this->placeCamera();
-}
-
-void CloudView::resizeEvent(QResizeEvent* event)
-{
-  QVTKOpenGLNativeWidget::resizeEvent(event);
-  this->drawSoon();
 }
 
 } // namespace dgtk

@@ -6,10 +6,7 @@
 
 #include "dgtkDatasetPoints.h"
 #include "dgtkLineActor.h"
-#include "dgtkViewCamera.h"
-
-#include <QPoint>
-#include <QVTKOpenGLNativeWidget.h>
+#include "dgtkViewWidget.h"
 
 #include <vtkSmartPointer.h>
 
@@ -20,7 +17,6 @@
 
 class vtkActor;
 class vtkPolyData;
-class vtkRenderer;
 
 namespace dgtk
 {
@@ -28,7 +24,7 @@ namespace dgtk
 /// The cameras and points of a dataset in the world. Mouse as in the editor's perspective view: left turns, middle or
 /// Shift and left pans, right and wheel zoom; a click on a camera chooses it. Keys: arrows turn, with Shift they pan,
 /// plus and minus zoom.
-class CloudView : public QVTKOpenGLNativeWidget
+class CloudView : public ViewWidget
 {
   Q_OBJECT
 
@@ -36,7 +32,6 @@ public:
   explicit CloudView(QWidget* parent);
   ~CloudView() override;
 
-  const ViewCamera& camera() const { return this->Camera; }
   /// Forgets everything; the world's up axis is that of the next dataset.
   void reset(UpAxis upAxis);
   /// Frusta of these views; the one called `chosen` is marked.
@@ -59,27 +54,15 @@ protected:
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
-  void wheelEvent(QWheelEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
-  void resizeEvent(QResizeEvent* event) override;
+  void draw() override;
 
 private:
-  enum class Motion
-  {
-    None,
-    Orbit,
-    Pan,
-    Zoom
-  };
-  void drawSoon();
-  void placeCamera();
   void refreshLines();
   WorldBox box() const;
   static WorldBox middleOf(const std::vector<Eigen::Vector3d>& points);
   void pick(const QPoint& at);
 
-  ViewCamera Camera;
-  vtkSmartPointer<vtkRenderer> Renderer;
   vtkSmartPointer<vtkPolyData> Points;
   vtkSmartPointer<vtkActor> PointActor;
   std::unique_ptr<LineActor> Frusta;
@@ -91,11 +74,6 @@ private:
   std::shared_ptr<const PointCloud> Cloud;
   WorldBox CloudBox;
   std::optional<Eigen::Vector3d> MarkerPoint;
-  Motion Moving = Motion::None;
-  QPoint Pressed;
-  QPoint Last;
-  bool Moved = false;
-  bool DrawWanted = false;
 };
 
 } // namespace dgtk

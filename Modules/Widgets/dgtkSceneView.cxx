@@ -4,14 +4,11 @@
 #include "dgtkViewOverlay.h"
 
 #include <QElapsedTimer>
-#include <QTimer>
 
-#include <vtkCamera.h>
 #include <vtkCullerCollection.h>
 #include <vtkFrustumCoverageCuller.h>
-#include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
-#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
 #include <algorithm>
@@ -24,29 +21,20 @@ namespace
 {
 constexpr double pickPixels = 8;    // around cameras and lights
 constexpr double slowSeconds = 0.1; // of a drawing; slower ones are replaced by boxes while the mouse moves
+const Eigen::Vector3d topColor(0.20, 0.21, 0.23);
+const Eigen::Vector3d bottomColor(0.30, 0.31, 0.33);
 } // namespace
 
 SceneView::SceneView(ViewKind kind, QWidget* parent)
-  : QVTKOpenGLNativeWidget(parent)
-  , Camera(kind)
-  , Renderer(vtkSmartPointer<vtkRenderer>::New())
+  : ViewWidget(kind, topColor, bottomColor, parent)
   , Overlay(new ViewOverlay(this))
 {
-  vtkNew<vtkGenericOpenGLRenderWindow> window;
-  window->SetMultiSamples(0);
-  this->setRenderWindow(window);
-  window->AddRenderer(this->Renderer);
-  window->GetInteractor()->SetInteractorStyle(nullptr);
-  this->Renderer->SetBackground(0.30, 0.31, 0.33);
-  this->Renderer->SetBackground2(0.20, 0.21, 0.23);
-  this->Renderer->GradientBackgroundOn();
   this->Actors = std::make_unique<ViewActors>(this->Renderer, kind);
   // What is hidden need not be shaded: without a graphics card that is most of the work.
   vtkNew<vtkFrustumCoverageCuller> culler;
   culler->SetSortingStyleToFrontToBack();
   this->Renderer->GetCullers()->RemoveAllItems();
   this->Renderer->AddCuller(culler);
-  this->setFocusPolicy(Qt::StrongFocus);
   this->setMouseTracking(true);
   this->setMinimumSize(120, 90);
   this->Camera.frame({}, 1);
@@ -57,19 +45,9 @@ SceneView::~SceneView() = default;
 
 void SceneView::placeCamera()
 {
-  vtkCamera* const camera = this->Renderer->GetActiveCamera();
-  Eigen::Vector3d eye = this->Camera.eye();
-  Eigen::Vector3d focus = this->Camera.focus();
-  Eigen::Vector3d up = this->Camera.up();
-  camera->SetPosition(eye.data());
-  camera->SetFocalPoint(focus.data());
-  camera->SetViewUp(up.data());
-  camera->SetViewAngle(ViewCamera::angle());
-  camera->SetParallelProjection(this->Camera.parallel());
-  camera->SetParallelScale(this->Camera.height() / 2);
+  ViewWidget::placeCamera();
   emit this->cameraMoved();
   this->placeOverlay();
-  this->drawSoon();
 }
 
 void SceneView::showHandles(const std::optional<HandlePlace>& place)
@@ -102,20 +80,6 @@ void SceneView::showDrag(const Handle& handle, const QString& text)
 {
   this->Overlay->highlight(handle);
   this->Overlay->showText(text, this->Last);
-}
-
-void SceneView::drawSoon()
-{
-  if (!this->DrawWanted)
-  {
-    this->DrawWanted = true;
-    QTimer::singleShot(0, this,
-      [this]
-      {
-        this->DrawWanted = false;
-        this->draw();
-      });
-  }
 }
 
 void SceneView::setCovered(bool on)
@@ -156,12 +120,6 @@ void SceneView::draw()
 }
 
 void SceneView::resetCamera(UpAxis upAxis) { this->Camera = ViewCamera(this->kind(), upAxis); }
-
-void SceneView::frame(const WorldBox& box)
-{
-  this->Camera.frame(box, double(std::max(this->width(), 1)) / std::max(this->height(), 1));
-  this->placeCamera();
-}
 
 void SceneView::lookThrough(const CameraDescription& camera, double frame)
 {
@@ -218,10 +176,9 @@ void SceneView::pick(const QPoint& position, bool add)
 
 void SceneView::resizeEvent(QResizeEvent* event)
 {
-  QVTKOpenGLNativeWidget::resizeEvent(event);
+  ViewWidget::resizeEvent(event);
   this->Overlay->setGeometry(this->rect());
   this->placeOverlay();
-  this->drawSoon();
 }
 
 } // namespace dgtk

@@ -5,19 +5,12 @@
 // Private to Widgets.
 
 #include "dgtkViewActors.h"
-#include "dgtkViewCamera.h"
 #include "dgtkViewHandles.h"
 #include "dgtkViewLines.h"
-
-#include <QPoint>
-#include <QVTKOpenGLNativeWidget.h>
-
-#include <vtkSmartPointer.h>
+#include "dgtkViewWidget.h"
 
 #include <memory>
 #include <optional>
-
-class vtkRenderer;
 
 namespace dgtk
 {
@@ -27,7 +20,7 @@ class ViewOverlay;
 /// One view of the scene. Mouse, as in VTK: left turns the perspective (and pans parallel views), middle pans, right
 /// and wheel zoom; a click selects, with Control adds; a left drag on a handle, or on what is selected, is told to
 /// whoever moves things.
-class SceneView : public QVTKOpenGLNativeWidget
+class SceneView : public ViewWidget
 {
   Q_OBJECT
 
@@ -43,11 +36,10 @@ public:
   SceneView(ViewKind kind, QWidget* parent);
   ~SceneView() override;
 
-  const ViewCamera& camera() const { return this->Camera; }
   ViewKind kind() const { return this->Camera.kind(); }
   /// Looks the way of its kind again; for a scene with another up axis.
   void resetCamera(UpAxis upAxis);
-  void frame(const WorldBox& box);
+  void frame(const WorldBox& box) { this->frameBox(box); }
   /// Takes the place and direction of a camera; the field of view stays the view's own.
   void lookThrough(const CameraDescription& camera, double frame);
   void showScene(const SceneDescription& scene, const std::shared_ptr<const ScenePlaces>& places, ViewMeshes& meshes);
@@ -58,8 +50,6 @@ public:
   void showGrid(bool on);
   /// Something is being dragged in another view: this one may be coarse, too.
   void setHurried(bool on);
-  /// Draws when the event loop is reached; many calls draw once.
-  void drawSoon();
   /// Something opaque is in front of the view: it need not draw.
   void setCovered(bool on);
   /// Nothing where only the background is.
@@ -94,37 +84,21 @@ protected:
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  void draw() override;
+  void placeCamera() override;
 
 private:
-  enum class Motion
-  {
-    None,
-    Orbit,
-    Pan,
-    Zoom,
-    Drag
-  };
-  void draw();
-  void moveView(const QPoint& step);
   void pick(const QPoint& position, bool add);
-  void placeCamera();
   /// What lies over the view, for where its camera is now.
   void placeOverlay();
   Motion motionFor(const QMouseEvent& event);
   std::optional<Handle> handleAt(const QPoint& position) const;
   void endDrag();
 
-  ViewCamera Camera;
-  vtkSmartPointer<vtkRenderer> Renderer;
   std::unique_ptr<ViewActors> Actors;
   std::shared_ptr<const ScenePlaces> Places;
   SceneItems Selected;
   LineList Chosen; ///< about what is selected
-  Motion Moving = Motion::None;
-  QPoint Pressed;
-  QPoint Last;
-  bool Moved = false;
-  bool DrawWanted = false;
   bool Hurried = false;
   bool Covered = false;
   double FineSeconds = 0; ///< that the latest whole drawing took

@@ -3,23 +3,17 @@
 
 #include "dgtkViewOverlay.h"
 
-#include <QApplication>
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QWheelEvent>
 
 #include <algorithm>
-#include <cmath>
 
 namespace dgtk
 {
 
 namespace
 {
-constexpr double degreesPerPixel = 0.4;
-constexpr double zoomPerPixel = 0.008; // natural logarithm
-constexpr double zoomPerStep = 0.15;   // of the wheel
-
 bool isDragKey(int key) { return key == Qt::Key_X || key == Qt::Key_Y || key == Qt::Key_Z || key == Qt::Key_Escape; }
 } // namespace
 
@@ -65,10 +59,7 @@ void SceneView::mousePressEvent(QMouseEvent* event)
     return; // another button during a drag
   }
   emit this->activated();
-  this->Pressed = event->pos();
-  this->Last = event->pos();
-  this->Moved = false;
-  this->Moving = this->motionFor(*event);
+  this->beginMotion(*event, this->motionFor(*event));
 }
 
 void SceneView::mouseMoveEvent(QMouseEvent* event)
@@ -78,41 +69,23 @@ void SceneView::mouseMoveEvent(QMouseEvent* event)
     this->Overlay->highlight(event->buttons() == Qt::NoButton ? this->handleAt(event->pos()) : std::nullopt);
     return;
   }
-  if (!this->Moved && (event->pos() - this->Pressed).manhattanLength() < QApplication::startDragDistance())
+  if (!this->isMoving(*event))
   {
     return;
   }
-  if (!this->Moved && this->Moving == Motion::Drag)
+  if (this->Moving != Motion::Drag)
+  {
+    this->moveView(*event);
+    return;
+  }
+  if (!this->Moved)
   {
     this->Holds = true;
     emit this->dragStarted();
   }
   this->Moved = true;
-  if (this->Moving == Motion::Drag)
-  {
-    this->Last = event->pos();
-    emit this->dragged(event->localPos(), event->modifiers() & Qt::ControlModifier);
-    return;
-  }
-  this->moveView(event->pos() - this->Last);
   this->Last = event->pos();
-}
-
-void SceneView::moveView(const QPoint& step)
-{
-  switch (this->Moving)
-  {
-    case Motion::Orbit:
-      this->Camera.orbit(degreesPerPixel * step.x(), degreesPerPixel * step.y());
-      break;
-    case Motion::Pan:
-      this->Camera.pan(step.x(), step.y(), this->height());
-      break;
-    default:
-      this->Camera.zoom(std::exp(-zoomPerPixel * step.y()));
-      break;
-  }
-  this->placeCamera();
+  emit this->dragged(event->localPos(), event->modifiers() & Qt::ControlModifier);
 }
 
 void SceneView::endDrag()
@@ -167,7 +140,7 @@ bool SceneView::event(QEvent* event)
       return true;
     }
   }
-  return QVTKOpenGLNativeWidget::event(event);
+  return ViewWidget::event(event);
 }
 
 void SceneView::keyPressEvent(QKeyEvent* event)
@@ -195,7 +168,7 @@ void SceneView::leaveEvent(QEvent* event)
   {
     this->Overlay->highlight(std::nullopt);
   }
-  QVTKOpenGLNativeWidget::leaveEvent(event);
+  ViewWidget::leaveEvent(event);
 }
 
 void SceneView::mouseDoubleClickEvent(QMouseEvent* event)
@@ -213,8 +186,7 @@ void SceneView::wheelEvent(QWheelEvent* event)
   event->accept();
   if (!this->Holds)
   {
-    this->Camera.zoom(std::exp(zoomPerStep * event->angleDelta().y() / 120.0));
-    this->placeCamera();
+    ViewWidget::wheelEvent(event);
   }
 }
 

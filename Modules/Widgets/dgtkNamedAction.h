@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkNamedAction_h
+#define dgtkNamedAction_h
+
+// Private to Widgets.
+
+#include <QKeySequence>
+#include <QString>
+
+class QAction;
+class QMenu;
+class QToolBar;
+class QWidget;
+
+namespace dgtk
+{
+
+/// An action of `owner`, last in the menu, called `name`; the icon of that name stands before it and, where there is
+/// one, in the tool bar (null: in none).
+QAction* addNamedAction(
+  QWidget* owner, QMenu* menu, QToolBar* tools, const QString& name, const QString& text, const QKeySequence& keys);
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkViewWidget.h"
+
+#include <QApplication>
+#include <QMouseEvent>
+#include <QTimer>
+#include <QWheelEvent>
+
+#include <vtkCamera.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr double degreesPerPixel = 0.4;
+constexpr double zoomPerPixel = 0.008; // natural logarithm
+constexpr double zoomPerStep = 0.15;   // of the wheel
+constexpr double wheelStep = 120;      // Qt's unit, eighths of a degree
+} // namespace
+
+ViewWidget::ViewWidget(ViewKind kind, const Eigen::Vector3d& top, const Eigen::Vector3d& bottom, QWidget* parent)
+  : QVTKOpenGLNativeWidget(parent)
+  , Camera(kind)
+  , Renderer(vtkSmartPointer<vtkRenderer>::New())
+{
+  vtkNew<vtkGenericOpenGLRenderWindow> window;
+  window->SetMultiSamples(0);
+  this->setRenderWindow(window);
+  window->AddRenderer(this->Renderer);
+  window->GetInteractor()->SetInteractorStyle(nullptr);
+  this->Renderer->SetBackground(bottom.x(), bottom.y(), bottom.z());
+  this->Renderer->SetBackground2(top.x(), top.y(), top.z());
+  this->Renderer->GradientBackgroundOn();
+  this->setFocusPolicy(Qt::StrongFocus);
+}
+
+ViewWidget::~ViewWidget() = default;
+
+void ViewWidget::drawSoon()
+{
+  if (!this->DrawWanted)
+  {
+    this->DrawWanted = true;
+    QTimer::singleShot(0, this,
+      [this]
+      {
+        this->DrawWanted = false;
+        this->draw();
+      });
+  }
+}
+
+void ViewWidget::placeCamera()
+{
+  vtkCamera* const camera = this->Renderer->GetActiveCamera();
+  camera->SetPosition(this->Camera.eye().data());
+  camera->SetFocalPoint(this->Camera.focus().data());
+  camera->SetViewUp(this->Camera.up().data());
+  camera->SetViewAngle(ViewCamera::angle());
+  camera->SetParallelProjection(this->Camera.parallel());
+  camera->SetParallelScale(this->Camera.height() / 2);
+  this->drawSoon();
+}
+
+void ViewWidget::frameBox(const WorldBox& box)
+{
+  this->Camera.frame(box, double(std::max(this->width(), 1)) / std::max(this->height(), 1));
+  this->placeCamera();
+}
+
+void ViewWidget::beginMotion(const QMouseEvent& event, Motion motion)
+{
+  this->Pressed = event.pos();
+  this->Last = event.pos();
+  this->Moved = false;
+  this->Moving = motion;
+}
+
+bool ViewWidget::isMoving(const QMouseEvent& event) const
+{
+  return this->Moving != Motion::None &&
+         (this->Moved || (event.pos() - this->Pressed).manhattanLength() >= QApplication::startDragDistance());
+}
+
+void ViewWidget::moveView(const QMouseEvent& event)
+{
+  const QPoint step = event.pos() - this->Last;
+  this->Last = event.pos();
+  this->Moved = true;
+  switch (this->Moving)
+  {
+    case Motion::Orbit:
+      this->Camera.orbit(degreesPerPixel * step.x(), degreesPerPixel * step.y());
+      break;
+    case Motion::Pan:
+      this->Camera.pan(step.x(), step.y(), this->height());
+      break;
+    default:
+      this->Camera.zoom(std::exp(-zoomPerPixel * step.y()));
+      break;
+  }
+  this->placeCamera();
+}
+
+void ViewWidget::wheelEvent(QWheelEvent* event)
+{
+  event->accept();
+  this->Camera.zoom(std::exp(zoomPerStep * event->angleDelta().y() / wheelStep));
+  this->placeCamera();
+}
+
+void ViewWidget::resizeEvent(QResizeEvent* event)
+{
+  QVTKOpenGLNativeWidget::resizeEvent(event);
+  this->drawSoon();
+}
+
+} // namespace dgtk
