@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCloudView.h"
 #include "dgtkDatasetViewer.h"
-#include "dgtkEditorIcons.h"
+#include "dgtkNamedAction.h"
 #include "dgtkPicturePane.h"
 
 #include <QAction>
@@ -26,20 +26,7 @@ constexpr double zoomStep = 1.25;
 QAction* DatasetViewer::addAction(
   QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys, bool tool)
 {
-  QAction* const action = menu->addAction(text);
-  action->setObjectName(name);
-  action->setParent(this);
-  action->setShortcut(keys);
-  const QIcon icon = editorIcon(name);
-  if (!icon.isNull())
-  {
-    action->setIcon(icon);
-  }
-  if (tool && !icon.isNull())
-  {
-    this->Tools->addAction(action);
-  }
-  return action;
+  return addNamedAction(this, menu, tool ? this->Tools : nullptr, name, text, keys);
 }
 
 void DatasetViewer::makeFileMenu()

@@ -6,6 +6,7 @@
 #include "dgtkEditorState.h"
 #include "dgtkItemDialogs.h"
 #include "dgtkMatchDialog.h"
+#include "dgtkNamedAction.h"
 #include "dgtkPropertiesPanel.h"
 #include "dgtkRenderDialog.h"
 #include "dgtkSceneTree.h"
@@ -28,17 +29,7 @@ namespace dgtk
 
 QAction* MainWindow::addAction(QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys)
 {
-  QAction* const action = menu->addAction(text);
-  action->setObjectName(name);
-  action->setParent(this);
-  action->setShortcut(keys);
-  const QIcon icon = editorIcon(name);
-  if (!icon.isNull())
-  {
-    action->setIcon(icon);
-    this->findChild<QToolBar*>("toolBar")->addAction(action);
-  }
-  return action;
+  return addNamedAction(this, menu, this->findChild<QToolBar*>("toolBar"), name, text, keys);
 }
 
 QDockWidget* MainWindow::addDock(Qt::DockWidgetArea area, const QString& name, const QString& title, QWidget* widget)
