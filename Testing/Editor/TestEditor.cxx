@@ -201,31 +201,21 @@ void TestEditor::refusesWithAMessage()
   QVERIFY(this->Window->openFile(demo()));
   const std::string first = this->Window->document().json();
   QString message;
-  const auto expect = [&]
-  {
-    message.clear();
-    answer<QMessageBox>("errorBox",
-      [&](QMessageBox& box)
-      {
-        message = box.text();
-        box.accept();
-      });
-  };
   QFile broken(this->path("broken.ac"));
   QVERIFY(broken.open(QIODevice::WriteOnly));
   broken.write("no model at all\n");
   broken.close();
-  expect();
+  expectRefusal(message);
   QVERIFY(!this->Window->importFile(broken.fileName()));
   QVERIFY2(message.contains("broken.ac"), qPrintable(message));
-  expect();
+  expectRefusal(message);
   QVERIFY(!this->Window->openFile(this->path("missing.json")));
   QVERIFY2(message.contains("missing.json"), qPrintable(message));
-  expect();
+  expectRefusal(message);
   QVERIFY(!this->Window->saveFile(this->path("demo.scene")));
   QVERIFY(!message.isEmpty());
   this->select("tree");
-  expect();
+  expectRefusal(message);
   this->type("scale.0", "0");
   QVERIFY2(message.contains("tree"), qPrintable(message));
   QCOMPARE(this->field("scale.0")->text(), QString("1"));

@@ -146,12 +146,7 @@ void TestEditorTruth::pairsAreThoseOfTheCommandLine()
 
   dgtk::writeFile(this->Folder.path("broken.txt"), "1 2 3\n");
   QString message;
-  answer<QMessageBox>("errorBox",
-    [&](QMessageBox& box)
-    {
-      message = box.text();
-      box.accept();
-    });
+  expectRefusal(message);
   QVERIFY(!call("openPairs", this->path("broken.txt")));
   QVERIFY2(message.contains("broken.txt:1"), qPrintable(message));
   QCOMPARE(table->rowCount(), 3);

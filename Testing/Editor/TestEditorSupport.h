@@ -52,6 +52,18 @@ void answer(const QString& name, const std::function<void(Dialog&)>& act)
   timer->start(20);
 }
 
+/// The next refusal is closed; what it said goes to `message`, which is empty until then.
+inline void expectRefusal(QString& message)
+{
+  message.clear();
+  answer<QMessageBox>("errorBox",
+    [&message](QMessageBox& box)
+    {
+      message = box.text();
+      box.accept();
+    });
+}
+
 /// Whatever opens is closed again; the unsaved question is answered with Discard.
 inline void closeWhatIsOpen()
 {

@@ -196,12 +196,7 @@ void TestEditorTimeLine::thesisScenesCannotSayIt()
   QVERIFY(this->Window->saveFile(this->path("linear.scene")));
   this->choose(at(0, 0), "keyInterpolation", "Smooth");
   QString said;
-  answer<QMessageBox>("errorBox",
-    [&said](QMessageBox& box)
-    {
-      said = box.text();
-      box.accept();
-    });
+  expectRefusal(said);
   QVERIFY(!this->Window->saveFile(this->path("smooth.scene")));
   QVERIFY2(said.contains("cannot be said in .scene (expected linear interpolation"), qPrintable(said));
   QVERIFY(!QFile::exists(this->path("smooth.scene")));

@@ -226,19 +226,9 @@ void TestEditorViewer::brokenDatasetsAreRefused()
 {
   const std::string folder = this->Folder.path("broken");
   QString message;
-  const auto expect = [&]
-  {
-    message.clear();
-    answer<QMessageBox>("errorBox",
-      [&](QMessageBox& box)
-      {
-        message = box.text();
-        box.accept();
-      });
-  };
   const auto refused = [&](const char* words)
   {
-    expect();
+    expectRefusal(message);
     this->Window->openFile(QString::fromStdString(folder));
     QTRY_VERIFY_WITH_TIMEOUT(!message.isEmpty(), longestRun);
     QVERIFY2(message.contains(words), qPrintable(message));

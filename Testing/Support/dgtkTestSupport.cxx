@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkTestSupport.h"
 
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -14,7 +15,8 @@ namespace dgtk::test
 
 TemporaryFolder::TemporaryFolder()
 {
-  std::string pattern = (std::filesystem::temp_directory_path() / "dgtk-test-XXXXXX").string();
+  constexpr std::size_t random = 6; // characters that mkdtemp replaces
+  std::string pattern = (std::filesystem::temp_directory_path() / "dgtk-test-").string() + std::string(random, 'X');
   if (!::mkdtemp(pattern.data()))
   {
     throw std::runtime_error("no temporary folder: " + pattern);
