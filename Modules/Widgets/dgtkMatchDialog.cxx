@@ -75,7 +75,7 @@ void MatchDialog::showView(std::size_t index)
 {
   Side& side = this->Sides[index];
   side.view.reset();
-  const int camera = side.camera->currentIndex();
+  const int camera = this->Scene ? side.camera->currentIndex() : -1;
   if (camera < 0)
   {
     side.pane->setImageSize({ 640, 480 });
@@ -105,7 +105,7 @@ void MatchDialog::showView(std::size_t index)
 void MatchDialog::askPicture(std::size_t index)
 {
   Side& side = this->Sides[index];
-  if (!side.view)
+  if (!side.view || !this->Scene)
   {
     return;
   }
@@ -174,7 +174,7 @@ void MatchDialog::askMatch()
     }
   }
   this->showMatch();
-  if (!this->Active || !this->Sides[0].view || !this->Sides[1].view)
+  if (!this->Scene || !this->Active || !this->Sides[0].view || !this->Sides[1].view)
   {
     return;
   }

@@ -99,6 +99,7 @@ private:
   std::optional<Point> Active;
   std::optional<LiveMatch> Match; ///< of the active point
   bool Changed = true;            ///< the scene, since it was shown
+  std::size_t Opened = 0;         ///< SceneDocument::opened() of it
   NewestTask Matcher;             ///< last: its thread ends first
 };
 

@@ -75,6 +75,11 @@ MatchDialog::MatchDialog(EditorState& state, QWidget* parent)
     [this]
     {
       this->Changed = true;
+      if (const std::size_t opened = this->State.document().opened(); opened != this->Opened)
+      {
+        this->Scene.reset(); // its models are nobody's any more
+        this->Opened = opened;
+      }
       this->refresh();
     });
 }

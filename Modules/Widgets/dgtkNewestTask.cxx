@@ -33,11 +33,12 @@ void NewestTask::Impl::run()
     {
       return;
     }
-    const auto task = std::exchange(this->Next, nullptr);
+    auto task = std::exchange(this->Next, nullptr);
     this->Waiting = false;
     this->Busy = true;
     lock.unlock();
     task([this] { return this->Waiting.load(); });
+    task = nullptr; // what it holds may take a while to be destroyed
     lock.lock();
     this->Busy = false;
     this->Changed.notify_all();

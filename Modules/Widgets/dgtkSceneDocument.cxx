@@ -37,6 +37,7 @@ void SceneDocument::reset(SceneDescription scene, const std::string& path)
 {
   this->Scene = std::move(scene);
   this->Path = path;
+  ++this->Opened;
   this->Done.clear();
   this->Undone.clear();
   this->Clean = 0;
@@ -307,22 +308,25 @@ SceneItem SceneDocument::addModel(const std::string& path)
   return this->paste("Import " + std::filesystem::path(path).filename().string(), this->descriptionOf(path)).front();
 }
 
-SceneItem SceneDocument::addLight(LightDescription light)
+template <typename Description>
+SceneItem SceneDocument::addTo(
+  std::vector<Description> SceneDescription::*list, Description item, const char* usualName, const std::string& text)
 {
   SceneDescription part;
   part.folder = this->Scene.folder;
-  light.name = light.name.empty() ? "Light0" : light.name;
-  part.lights.push_back(std::move(light));
-  return this->paste("Add light", part).front();
+  item.name = item.name.empty() ? usualName : item.name;
+  (part.*list).push_back(std::move(item));
+  return this->paste(text, part).front();
+}
+
+SceneItem SceneDocument::addLight(LightDescription light)
+{
+  return this->addTo(&SceneDescription::lights, std::move(light), "Light0", "Add light");
 }
 
 SceneItem SceneDocument::addCamera(CameraDescription camera)
 {
-  SceneDescription part;
-  part.folder = this->Scene.folder;
-  camera.name = camera.name.empty() ? "Camera0" : camera.name;
-  part.cameras.push_back(std::move(camera));
-  return this->paste("Add camera", part).front();
+  return this->addTo(&SceneDescription::cameras, std::move(camera), "Camera0", "Add camera");
 }
 
 SceneItems SceneDocument::paste(const std::string& text, const SceneDescription& from)

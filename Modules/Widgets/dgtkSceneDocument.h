@@ -40,6 +40,8 @@ public:
   /// "" before the first save.
   const std::string& path() const { return this->Path; }
   bool modified() const { return this->Done.size() != this->Clean; }
+  /// Scenes so far: another number, and other models, after clear(), install(), open() and recover().
+  std::size_t opened() const { return this->Opened; }
   /// Called after every change of scene, path or modified().
   void onChange(std::function<void()> listener) { this->Listeners.push_back(std::move(listener)); }
 
@@ -108,6 +110,9 @@ private:
   };
 
   SceneDescription descriptionOf(const std::string& modelPath) const;
+  template <typename Description>
+  SceneItem addTo(
+    std::vector<Description> SceneDescription::*list, Description item, const char* usualName, const std::string& text);
   static ItemState stateOf(const SceneDescription& scene, const SceneItem& item);
   static void putState(SceneDescription& scene, const SceneItem& item, const ItemState& state);
   void accept(Step step);
@@ -119,6 +124,7 @@ private:
   SceneDescription Scene;
   std::string Path;
   ModelStore Models;
+  std::size_t Opened = 0;
   std::vector<Step> Done;
   std::vector<Step> Undone;
   std::vector<Step> Before;    ///< steps undone when the merging began

@@ -52,6 +52,11 @@ TruthView::TruthView(EditorState& state, SceneViews& views, QObject* parent)
     [this]
     {
       this->Scene.reset();
+      if (const std::size_t opened = this->State.document().opened(); opened != this->Opened)
+      {
+        this->Before.reset(); // its models are nobody's any more
+        this->Opened = opened;
+      }
       this->askSoon();
     });
   connect(&state, &EditorState::frameChanged, this, &TruthView::askSoon);

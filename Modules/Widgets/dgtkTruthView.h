@@ -74,7 +74,8 @@ private:
   QLabel* Subject;
   QActionGroup* Group;
   std::shared_ptr<const LiveScene> Scene;  ///< null after a change
-  std::shared_ptr<const LiveScene> Before; ///< the last one that was asked
+  std::shared_ptr<const LiveScene> Before; ///< the last one that was asked, of the same document
+  std::size_t Opened = 0;                  ///< SceneDocument::opened() of it
   std::optional<CameraDescription> Through;
   QString Layer;
   bool AskWanted = false;

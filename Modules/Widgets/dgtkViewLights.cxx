@@ -56,6 +56,24 @@ void ViewLights::add(const LightDescription& light, const Eigen::Vector3d& posit
   this->Renderer->AddLight(added);
 }
 
+/// VTK compiles its shaders anew for each number of lights, and keeps them all: dark lights make it a power of two.
+void ViewLights::fillUp()
+{
+  const int lights = this->Renderer->GetLights()->GetNumberOfItems();
+  int wanted = 1;
+  while (wanted < lights)
+  {
+    wanted *= 2;
+  }
+  for (int i = lights; i < wanted; ++i)
+  {
+    vtkNew<vtkLight> dark;
+    dark->SetLightTypeToSceneLight();
+    dark->SetColor(0, 0, 0);
+    this->Renderer->AddLight(dark);
+  }
+}
+
 void ViewLights::show(const SceneDescription& scene, const ScenePlaces& places)
 {
   const bool any = this->OfScene && !scene.lights.empty();
@@ -74,6 +92,7 @@ void ViewLights::show(const SceneDescription& scene, const ScenePlaces& places)
       this->add(scene.lights[i], places.lights[i], places.frame);
     }
   }
+  this->fillUp();
 }
 
 } // namespace dgtk

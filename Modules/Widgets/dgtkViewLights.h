@@ -24,6 +24,7 @@ public:
 
 private:
   void addHead(double intensity);
+  void fillUp();
   void add(const LightDescription& light, const Eigen::Vector3d& position, double frame);
 
   vtkRenderer* Renderer;

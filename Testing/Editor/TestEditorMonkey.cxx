@@ -26,8 +26,9 @@ namespace
 {
 constexpr int monkeySeconds = 60;
 constexpr int eventsBetween = 100; // checks that everything can be undone
+constexpr int undoneBetween = 3;   // looks at the heap
 constexpr std::size_t mostItems = 60;
-constexpr double memorySlack = 256; // MiB that caches, windows left open and the allocator may take
+constexpr double memorySlack = 64; // MiB that larger views, compiled shaders and the allocator may take
 
 int secondsAsked()
 {
@@ -229,6 +230,31 @@ void TestEditorMonkey::openAgain()
   document.open(path.toStdString());
 }
 
+/// As at first, without which memory says little: viewers and tools that are left open keep what they show, and a view
+/// that fills the window has a larger picture.
+void TestEditorMonkey::tidyUp()
+{
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    if (window->isVisible() && window != this->Window.get())
+    {
+      window->close();
+    }
+  }
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  bool maximized = false;
+  for (int i = 0; i < 4; ++i)
+  {
+    maximized = maximized || !this->Window->findChild<QWidget*>("view." + QString::number(i))->isVisible();
+  }
+  if (maximized)
+  {
+    this->Window->findChild<QAction*>("maximize")->trigger();
+  }
+  this->Window->resize(this->Size);
+  QCoreApplication::processEvents();
+}
+
 void TestEditorMonkey::randomEventsDoNoHarm()
 {
   this->Random.seed(unsigned(1 + qEnvironmentVariableIntValue("DGTK_MONKEY_SEED")));
@@ -236,11 +262,13 @@ void TestEditorMonkey::randomEventsDoNoHarm()
   QVERIFY(QDir::setCurrent(this->path("")));
   qputenv("HOME", this->path("").toLocal8Bit());
   this->openAgain();
+  this->Size = this->Window->size();
   this->watchDialogs();
   dgtk::SceneDocument& document = this->Window->document();
   const std::string first = document.json();
   std::vector<double> memory;
   int events = 0;
+  int undone = 0;
   QElapsedTimer clock;
   clock.start();
   while (clock.elapsed() < 1000 * secondsAsked())
@@ -254,19 +282,27 @@ void TestEditorMonkey::randomEventsDoNoHarm()
         document.undo();
       }
       QCOMPARE(document.json(), first);
+      const bool looks = ++undone % undoneBetween == 0;
+      if (looks)
+      {
+        this->tidyUp();
+      }
       this->openAgain();
       QCoreApplication::processEvents();
-      memory.push_back(heap());
+      if (looks)
+      {
+        memory.push_back(heap());
+      }
     }
   }
-  qInfo("%d events, %d times all was undone; heap %.1f MiB at first, %.1f MiB at last", events, int(memory.size()),
+  qInfo("%d events, %d times all was undone; heap %.1f MiB at first, %.1f MiB at last", events, undone,
     memory.empty() ? 0.0 : memory.front(), memory.empty() ? 0.0 : memory.back());
   QVERIFY(memory.size() >= 4);
   // After all that opens has been opened once, memory stays.
   const auto quarter = std::ptrdiff_t(memory.size() / 4);
   const double early = middleOf(std::vector<double>(memory.begin() + quarter, memory.begin() + 2 * quarter));
   const double late = middleOf(std::vector<double>(memory.end() - quarter, memory.end()));
-  QVERIFY2(late < 2 * early + memorySlack, qPrintable(QString("%1 MiB became %2 MiB").arg(early).arg(late)));
+  QVERIFY2(late < 1.2 * early + memorySlack, qPrintable(QString("%1 MiB became %2 MiB").arg(early).arg(late)));
 }
 
 int main(int argc, char** argv)

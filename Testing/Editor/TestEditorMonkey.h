@@ -4,6 +4,8 @@
 
 #include "EditorTest.h"
 
+#include <QSize>
+
 #include <random>
 
 class QWidget;
@@ -27,8 +29,10 @@ private:
   void press(QWidget* widget);
   void trigger();
   void openAgain();
+  void tidyUp();
 
   std::mt19937 Random;
+  QSize Size; ///< of the window, at first
 };
 
 #endif
