@@ -2,6 +2,7 @@
 #include "TestEditorForest.h"
 #include "TestEditorSupport.h"
 
+#include "dgtkFile.h"
 #include "dgtkMainWindow.h"
 #include "dgtkSceneDocument.h"
 
@@ -14,6 +15,8 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <sstream>
+#include <string>
 
 namespace
 {
@@ -24,17 +27,51 @@ constexpr double eventLimit = 200; // milliseconds
 constexpr int tries = 3;
 constexpr int smallerSide = 19; // trees of 584 triangles: 210,000 in all
 constexpr int turns = 10;
+constexpr int crownSide = 100;
+constexpr double copyLimit = 50;  // KiB that another copy takes in four views; the crown itself: 11 MiB
 constexpr double turnLimit = 100; // milliseconds: ten pictures a second
 constexpr int front = 0;
 constexpr int perspective = 3;
 
+std::string tree() { return dgtk::test::sourceFile("Data/Models/tree.ac"); }
+
 TimedApplication& timed() { return static_cast<TimedApplication&>(*qApp); }
 
-/// Copies of a tree, one of them moving, looked at from a ring of cameras.
-void writeForest(const std::string& path, int side, int cameras)
+/// A ball with dents of 2 crownSide^2 triangles.
+void writeCrown(const std::string& path)
+{
+  std::ostringstream ply;
+  ply << "ply\nformat ascii 1.0\nelement vertex " << (crownSide + 1) * (crownSide + 1)
+      << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << 2 * crownSide * crownSide
+      << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (int i = 0; i <= crownSide; ++i)
+  {
+    for (int j = 0; j <= crownSide; ++j)
+    {
+      const double down = M_PI * i / crownSide;
+      const double around = 2 * M_PI * j / crownSide;
+      const double radius = 2 + 0.1 * std::sin(20 * around) * std::sin(20 * down);
+      ply << radius * std::sin(down) * std::cos(around) << ' ' << radius * std::cos(down) << ' '
+          << radius * std::sin(down) * std::sin(around) << '\n';
+    }
+  }
+  for (int i = 0; i < crownSide; ++i)
+  {
+    for (int j = 0; j < crownSide; ++j)
+    {
+      const int corner = i * (crownSide + 1) + j;
+      ply << "3 " << corner << ' ' << corner + 1 << ' ' << corner + crownSide + 1 << "\n3 " << corner + 1 << ' '
+          << corner + crownSide + 2 << ' ' << corner + crownSide + 1 << '\n';
+    }
+  }
+  dgtk::writeFile(path, ply.str());
+}
+
+/// Copies of a model, one of them moving, looked at from a ring of cameras.
+void writeForest(const std::string& path, const std::string& model, int side, int cameras)
 {
   dgtk::SceneDocument document;
-  const dgtk::SceneItem tree = document.addModel(dgtk::test::sourceFile("Data/Models/tree.ac"));
+  const dgtk::SceneItem tree = document.addModel(model);
   const dgtk::ObjectDescription one = document.scene().objects[tree.index];
   document.edit("Forest",
     [&](dgtk::SceneDescription& scene)
@@ -73,10 +110,10 @@ void TestEditorForest::moveTo(int kind, const QPoint& at) const
   QCoreApplication::processEvents();
 }
 
-void TestEditorForest::openForest(int side, int cameras) const
+void TestEditorForest::openForest(const std::string& model, int side, int cameras) const
 {
   const QString path = this->path("forest.json");
-  writeForest(path.toStdString(), side, cameras);
+  writeForest(path.toStdString(), model, side, cameras);
   QElapsedTimer clock;
   clock.start();
   const std::clock_t began = std::clock();
@@ -84,7 +121,7 @@ void TestEditorForest::openForest(int side, int cameras) const
   QCoreApplication::processEvents();
   QCoreApplication::processEvents();
   const double spent = std::min(clock.nsecsElapsed() * 1e-6, 1000.0 * double(std::clock() - began) / CLOCKS_PER_SEC);
-  qInfo("%d trees and %d cameras: %.0f ms to open and draw", side * side, cameras, spent);
+  qInfo("%d copies, %d cameras: %.0f ms to open and draw", side * side, cameras, spent);
   QVERIFY(spent < patience * forestLimit);
 }
 
@@ -110,7 +147,7 @@ double TestEditorForest::longest(const char* what, const std::function<void(int)
 
 void TestEditorForest::aForestOpensAndAnswersAtOnce()
 {
-  this->openForest(forestSide, forestCameras);
+  this->openForest(tree(), forestSide, forestCameras);
   QCOMPARE(this->Window->document().models().size(), std::size_t(1));
   const char* const names[tries] = { "tree40", "tree41", "tree42" };
   QVERIFY(this->longest("select", [&](int i) { this->select(names[i % tries]); }) < patience * eventLimit);
@@ -140,7 +177,7 @@ void TestEditorForest::aForestOpensAndAnswersAtOnce()
 
 void TestEditorForest::twoHundredThousandTrianglesTurn()
 {
-  this->openForest(smallerSide, 1);
+  this->openForest(tree(), smallerSide, 1);
   QTest::mousePress(this->view(perspective), Qt::LeftButton, {}, QPoint(5, 5));
   this->moveTo(perspective, QPoint(25, 5));
   QElapsedTimer clock;
@@ -155,6 +192,23 @@ void TestEditorForest::twoHundredThousandTrianglesTurn()
   QTest::mouseRelease(this->view(perspective), Qt::LeftButton, {}, QPoint(25 + 5 * turns, 5));
   qInfo("%.0f ms for a step of turning the perspective", spent);
   QVERIFY(spent < patience * turnLimit);
+}
+
+void TestEditorForest::copiesShareTheirGeometry()
+{
+  const double none = heapInUse();
+  const std::string crown = this->Folder.path("crown.ply");
+  writeCrown(crown);
+  this->openForest(crown, 1, forestCameras);
+  QTest::qWait(settle);
+  const double one = heapInUse();
+  this->openForest(crown, forestSide, forestCameras);
+  QTest::qWait(settle);
+  const double all = heapInUse();
+  const double copy = 1024 * (all - one) / (forestSide * forestSide - 1);
+  qInfo("heap: %.1f MiB at first, %.1f MiB with a copy, %.1f MiB with %d: %.0f KiB a copy", none, one, all,
+    forestSide * forestSide, copy);
+  QVERIFY(copy < copyLimit);
 }
 
 int main(int argc, char** argv) { return runEditorTest<TestEditorForest>(argc, argv); }

@@ -7,6 +7,7 @@
 #include <QPoint>
 
 #include <functional>
+#include <string>
 
 class QWidget;
 
@@ -18,9 +19,10 @@ class TestEditorForest : public EditorTest
 private slots:
   void aForestOpensAndAnswersAtOnce();
   void twoHundredThousandTrianglesTurn();
+  void copiesShareTheirGeometry();
 
 private:
-  void openForest(int side, int cameras) const;
+  void openForest(const std::string& model, int side, int cameras) const;
   QWidget* view(int kind) const;
   void moveTo(int kind, const QPoint& at) const;
   /// The longest event while something is done and shown; the least of a few times, milliseconds.

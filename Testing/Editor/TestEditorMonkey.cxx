@@ -17,10 +17,7 @@
 
 #include <algorithm>
 #include <iterator>
-#include <malloc.h>
 #include <vector>
-
-extern "C" std::size_t __sanitizer_get_current_allocated_bytes() __attribute__((weak));
 
 namespace
 {
@@ -34,18 +31,6 @@ int secondsAsked()
 {
   const int asked = qEnvironmentVariableIntValue("DGTK_MONKEY_SECONDS");
   return asked > 0 ? asked : monkeySeconds;
-}
-
-/// What is in use on the heap, MiB.
-double heap()
-{
-  constexpr double mebibyte = 1 << 20;
-  if (__sanitizer_get_current_allocated_bytes)
-  {
-    return double(__sanitizer_get_current_allocated_bytes()) / mebibyte;
-  }
-  const auto info = ::mallinfo2();
-  return double(info.uordblks + info.hblkhd) / mebibyte;
 }
 
 /// Actions and buttons that leave the scene, or start what takes longer than the test.
@@ -291,7 +276,7 @@ void TestEditorMonkey::randomEventsDoNoHarm()
       QCoreApplication::processEvents();
       if (looks)
       {
-        memory.push_back(heap());
+        memory.push_back(heapInUse());
       }
     }
   }

@@ -22,8 +22,12 @@
 #include <QTimer>
 
 #include <algorithm>
+#include <cstddef>
 #include <ctime>
 #include <functional>
+#include <malloc.h>
+
+extern "C" std::size_t __sanitizer_get_current_allocated_bytes() __attribute__((weak)); // AddressSanitizer's heap
 
 constexpr int longestRun = 60000; // milliseconds, of a small dataset on a busy machine
 /// Times are measured and printed; a test fails only when one is beyond this many times its aim: machines differ, and
@@ -80,6 +84,18 @@ inline void closeWhatIsOpen()
   {
     dialog->reject();
   }
+}
+
+/// What the program holds on the heap, MiB.
+inline double heapInUse()
+{
+  constexpr double mebibyte = 1 << 20;
+  if (__sanitizer_get_current_allocated_bytes)
+  {
+    return double(__sanitizer_get_current_allocated_bytes()) / mebibyte;
+  }
+  const auto info = ::mallinfo2();
+  return double(info.uordblks + info.hblkhd) / mebibyte;
 }
 
 /// All files below a folder, by their path.
