@@ -102,6 +102,11 @@ LayerLook lookOf(const LayerSpec& spec, const ImageInfo& info)
   return normals && info.channels == 3 ? LayerLook::Normal : LayerLook::Ranges;
 }
 
+bool isFlow(const LayerSpec& spec, const ImageInfo& info)
+{
+  return startsWith(spec.name, "flow_") && info.channels == 2 && info.type != PixelType::UInt8;
+}
+
 LayerColors::LayerColors(LayerLook look, const LayerSpec& spec, const ImageInfo& info)
   : Look(look)
   , Channels(info.channels)

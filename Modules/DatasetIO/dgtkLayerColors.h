@@ -41,6 +41,9 @@ enum class LayerLook
 /// The look that the contact sheet gives a layer of a file. Flow is not among them: a sheet shows its components.
 DGTKDATASETIO_EXPORT LayerLook lookOf(const LayerSpec& spec, const ImageInfo& info);
 
+/// Displacements in the image, which a single picture shows best by the colour wheel.
+DGTKDATASETIO_EXPORT bool isFlow(const LayerSpec& spec, const ImageInfo& info);
+
 /// Colours of the values of one image.
 class DGTKDATASETIO_EXPORT LayerColors
 {

@@ -95,6 +95,22 @@ Samples sample(RowReader& reader, int width, int height, bool average)
   return out;
 }
 
+/// Of the finite displacements, without the outermost hundredth.
+double longestOf(const Samples& samples)
+{
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i + 1 < samples.values.size(); i += 2)
+  {
+    const double length = std::hypot(samples.values[i], samples.values[i + 1]);
+    if (std::isfinite(length))
+    {
+      lengths.push_back(length);
+    }
+  }
+  std::sort(lengths.begin(), lengths.end());
+  return lengths.empty() ? 0 : lengths[lengths.size() - 1 - lengths.size() / 100];
+}
+
 /// Range of the finite values of one channel, without the outermost hundredth on either side when there are many;
 /// 0 to 1 when there is none.
 std::pair<double, double> rangeOf(const Samples& samples, int channel, bool robust)
@@ -163,7 +179,16 @@ LayerPicture paintLayer(const Rows& rows, const LayerSpec& spec)
   info.channels = rows.channels();
   info.width = rows.width();
   info.height = rows.height();
-  const Canvas canvas = paintSamples(samplesOf(rows), { lookOf(spec, info), spec, info });
+  const Samples samples = samplesOf(rows);
+  if (isFlow(spec, info))
+  {
+    LayerColors wheel(LayerLook::Flow, spec, info);
+    const double longest = longestOf(samples);
+    wheel.setRange(0, 0, longest);
+    const Canvas canvas = paint(samples, wheel);
+    return { canvas.width(), canvas.height(), canvas.pixels(), longest };
+  }
+  const Canvas canvas = paintSamples(samples, { lookOf(spec, info), spec, info });
   return { canvas.width(), canvas.height(), canvas.pixels() };
 }
 

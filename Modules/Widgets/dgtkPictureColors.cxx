@@ -26,18 +26,12 @@ bool isClassImage(const LayerSpec& spec)
 
 LayerLook lookOf(const PictureValues& picture)
 {
-  const std::string& name = picture.layer.spec.name;
   if (picture.layer.format == "ldi")
   {
     const std::string& label = picture.layer.label;
     return label == "ldi depth" ? LayerLook::Depth : label == "ldi count" ? LayerLook::Ranges : LayerLook::Picture;
   }
-  const bool vectors = picture.info.channels == 2 && picture.info.type != PixelType::UInt8;
-  if (name.rfind("flow_", 0) == 0 && vectors)
-  {
-    return LayerLook::Flow;
-  }
-  return dgtk::lookOf(picture.layer.spec, picture.info);
+  return isFlow(picture.layer.spec, picture.info) ? LayerLook::Flow : dgtk::lookOf(picture.layer.spec, picture.info);
 }
 
 bool isCoverage(const PictureValues& picture)

@@ -239,6 +239,10 @@ void TruthView::receive(const LivePicture& picture, const QString& layer, const 
                 .arg(ends[nearBright ? 0 : 1], 0, 'g', 5)
                 .arg(ends[nearBright ? 1 : 0], 0, 'g', 5);
   }
+  else if (picture.picture.longest > 0)
+  {
+    caption = tr("%1: full colour at %2 pixels").arg(layer).arg(picture.picture.longest, 0, 'g', 3);
+  }
   this->Picture->showPicture(picture, size, caption);
   this->Picture->setSettled(number == this->Asked && !this->AskWanted && picture.coarseness == 1);
 }

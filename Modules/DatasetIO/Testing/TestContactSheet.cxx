@@ -101,6 +101,20 @@ TEST(LayerPicture, ValuesHaveTheColoursOfTheSheet)
   EXPECT_EQ(objects.pixels[0], idColor(0));
   EXPECT_EQ(objects.pixels[1], idColor(7));
 }
+
+TEST(LayerPicture, FlowHasTheColourWheel)
+{
+  Rows flow(PixelType::Float64, 2, 4, 0, 1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double values[] = { 3, 4, -2.5, 0, 0, 0, nan, nan };
+  std::copy(std::begin(values), std::end(values), flow.row<double>(0));
+  const LayerPicture picture = paintLayer(flow, { "flow_forward", PixelType::Float64, 2, "pixels", "", "nan", "" });
+  EXPECT_EQ(picture.longest, 5);
+  EXPECT_EQ(picture.pixels[0], wheelColor(0.6, 0.8));
+  EXPECT_EQ(picture.pixels[1], wheelColor(-0.5, 0));
+  EXPECT_EQ(picture.pixels[2], (Rgb{ 255, 255, 255 })) << "at rest";
+  EXPECT_EQ(picture.pixels[3], nothingColor);
+}
 } // namespace
 
 TEST(ContactSheet, RowsAreFramesColumnsAreLayers)

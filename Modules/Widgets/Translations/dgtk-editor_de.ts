@@ -1956,5 +1956,9 @@ Teil %2, Dreieck %3</translation>
         <source>%1: %2 (bright) to %3 (dark)</source>
         <translation>%1: %2 (hell) bis %3 (dunkel)</translation>
     </message>
+    <message>
+        <source>%1: full colour at %2 pixels</source>
+        <translation>%1: volle Farbe bei %2 Pixeln</translation>
+    </message>
 </context>
 </TS>
