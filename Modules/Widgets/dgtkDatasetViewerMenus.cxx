@@ -3,6 +3,7 @@
 #include "dgtkDatasetViewer.h"
 #include "dgtkNamedAction.h"
 #include "dgtkPicturePane.h"
+#include "dgtkSaveName.h"
 
 #include <QAction>
 #include <QApplication>
@@ -196,7 +197,7 @@ void DatasetViewer::savePicture()
   {
     return;
   }
-  const QString path = QFileDialog::getSaveFileName(this, tr("Save the picture"), {}, tr("PNG (*.png)"));
+  const QString path = askSaveName(this, tr("Save the picture"), {}, tr("PNG (*.png)"));
   const QImage image(reinterpret_cast<const uchar*>(shown->colors.pixels.data()), shown->picture->columns(),
     shown->picture->rows(), shown->picture->columns() * 4, QImage::Format_RGB32);
   if (!path.isEmpty() && !image.save(path, "PNG"))

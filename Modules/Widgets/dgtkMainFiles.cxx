@@ -7,6 +7,7 @@
 #include "dgtkError.h"
 #include "dgtkModelReader.h"
 #include "dgtkPovExport.h"
+#include "dgtkSaveName.h"
 #include "dgtkSceneViews.h"
 
 #include <QAction>
@@ -23,7 +24,6 @@
 #include <QTimer>
 #include <QUrl>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -48,14 +48,6 @@ std::string withoutObject(const std::string& message)
   const std::string before = "': model: ";
   const std::size_t at = message.find(before);
   return at == std::string::npos ? message : message.substr(at + before.size());
-}
-
-/// The path, with the first of the endings where it has none of them.
-QString withEnding(const QString& path, const QStringList& endings)
-{
-  const bool has = std::any_of(endings.begin(), endings.end(),
-    [&path](const QString& ending) { return path.endsWith(ending, Qt::CaseInsensitive); });
-  return has ? path : path + endings.first();
 }
 } // namespace
 
@@ -269,13 +261,9 @@ bool MainWindow::save()
 
 bool MainWindow::saveAs()
 {
-  const QString path = QFileDialog::getSaveFileName(
+  const QString path = askSaveName(
     this, tr("Save the scene"), toText(this->document().path()), tr("Scene (*.json);;Thesis scene (*.scene)"));
-  if (path.isEmpty())
-  {
-    return false;
-  }
-  return this->saveFile(withEnding(path, { ".json", ".scene" }));
+  return !path.isEmpty() && this->saveFile(path);
 }
 
 bool MainWindow::mayDiscard()
@@ -302,7 +290,7 @@ bool MainWindow::mayDiscard()
 
 void MainWindow::exportPov()
 {
-  const QString path = QFileDialog::getSaveFileName(this, tr("Export for POV-Ray"), {}, tr("POV-Ray scene (*.pov)"));
+  const QString path = askSaveName(this, tr("Export for POV-Ray"), {}, tr("POV-Ray scene (*.pov)"));
   if (path.isEmpty() || !this->isFree())
   {
     return;
@@ -318,7 +306,7 @@ void MainWindow::exportPov()
     scene.cameras.push_back(this->cameraOfView());
     scene.order.clear();
   }
-  const std::string file = QFile::encodeName(withEnding(path, { ".pov" })).toStdString();
+  const std::string file = QFile::encodeName(path).toStdString();
   const bool done = this->work(tr("Writing %1 ...").arg(QFileInfo(path).fileName()),
     [scene, camera, file, frame = this->State->frame()](const LoadProgress&)
     {

@@ -3,6 +3,7 @@
 
 #include "dgtkFile.h"
 #include "dgtkMatchPane.h"
+#include "dgtkSaveName.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -345,9 +346,8 @@ void MatchDialog::askOpen()
 
 bool MatchDialog::askSave()
 {
-  const QString path =
-    QFileDialog::getSaveFileName(this, tr("Save correspondences"), {}, tr("Correspondences (*.txt)"));
-  return !path.isEmpty() && this->savePairs(path.endsWith(".txt") ? path : path + ".txt");
+  const QString path = askSaveName(this, tr("Save correspondences"), {}, tr("Correspondences (*.txt)"));
+  return !path.isEmpty() && this->savePairs(path);
 }
 
 void MatchDialog::refreshButtons()

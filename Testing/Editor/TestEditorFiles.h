@@ -18,6 +18,8 @@ private slots:
   void anImporterThatCrashesIsAMessage();
   void filesAreDropped();
   void theImportDialogKnowsAllFormats();
+  void savingAsksAboutTheFileThatItWrites();
+  void everyFileIsAskedAbout();
   void exportsForPovRay();
   void filesOfTheCommandLineOpen();
   void recentFilesOpenAgain();
@@ -36,6 +38,8 @@ private:
   QString import(const QString& path);
   /// As import(), and the scene is as before when there was a dialog, and has one object more when there was none.
   QString importChecked(const QString& path);
+  /// As if a name were typed into a dialog for files and confirmed; `filter` is chosen before.
+  static void name(QFileDialog& dialog, const QString& path, const QString& filter = {});
   /// Triggers an action that opens a file dialog.
   void inFileDialog(const char* action, const std::function<void(QFileDialog&)>& act) const;
   /// An importer that runs a line of shell.

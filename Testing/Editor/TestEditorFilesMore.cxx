@@ -81,16 +81,66 @@ void TestEditorFiles::theImportDialogKnowsAllFormats()
   QTRY_COMPARE(this->Window->document().scene().objects.size(), std::size_t(2));
 }
 
+void TestEditorFiles::name(QFileDialog& dialog, const QString& path, const QString& filter)
+{
+  auto* field = dialog.findChild<QLineEdit*>("fileNameEdit");
+  if (!filter.isEmpty())
+  {
+    dialog.selectNameFilter(filter);
+  }
+  field->setText(path);
+  QTest::keyClick(field, Qt::Key_Return);
+}
+
+void TestEditorFiles::savingAsksAboutTheFileThatItWrites()
+{
+  QVERIFY(this->import(model("crate.ac")).isEmpty());
+  const QString thesis = "Thesis scene (*.scene)";
+  const QString json = this->write("precious.json", "precious");
+  const QString scene = this->write("precious.v2.scene", "precious");
+  this->inFileDialog("saveAs", [&](QFileDialog& dialog) { name(dialog, this->path("precious"), thesis); });
+  QCOMPARE(this->Window->document().path(), this->Folder.path("precious.scene"));
+  QCOMPARE(contentsOf(json), QByteArray("precious"));
+
+  QString question;
+  answer<QMessageBox>("replaceBox",
+    [&](QMessageBox& box)
+    {
+      question = box.text();
+      answer<QFileDialog>({}, [](QFileDialog& dialog) { dialog.reject(); });
+      box.button(QMessageBox::No)->click();
+    });
+  this->inFileDialog("saveAs", [&](QFileDialog& dialog) { name(dialog, this->path("precious.v2"), thesis); });
+  QVERIFY2(question.contains("precious.v2.scene"), qPrintable(question));
+  QCOMPARE(contentsOf(scene), QByteArray("precious"));
+
+  answer<QMessageBox>("replaceBox", [](QMessageBox& box) { box.button(QMessageBox::Yes)->click(); });
+  this->inFileDialog("saveAs", [&](QFileDialog& dialog) { name(dialog, json, thesis); });
+  QCOMPARE(this->Window->document().path(), json.toStdString());
+  QVERIFY(contentsOf(json) != QByteArray("precious"));
+}
+
+void TestEditorFiles::everyFileIsAskedAbout()
+{
+  QVERIFY(this->import(model("crate.ac")).isEmpty());
+  const QString pov = this->write("precious.pov", "precious");
+  answer<QMessageBox>("replaceBox",
+    [&](QMessageBox& box)
+    {
+      answer<QFileDialog>({}, [](QFileDialog& dialog) { dialog.reject(); });
+      box.button(QMessageBox::No)->click();
+    });
+  this->inFileDialog("exportPov", [&](QFileDialog& dialog) { name(dialog, this->path("precious")); });
+  QTest::qWait(settle);
+  QCOMPARE(contentsOf(pov), QByteArray("precious"));
+  QVERIFY(QApplication::activeModalWidget() == nullptr);
+}
+
 void TestEditorFiles::exportsForPovRay()
 {
   QVERIFY(this->import(model("crate.ac")).isEmpty());
   const QString file = this->path("crate.pov");
-  this->inFileDialog("exportPov",
-    [&](QFileDialog& dialog)
-    {
-      dialog.findChild<QLineEdit*>("fileNameEdit")->setText(this->path("crate"));
-      QTest::keyClick(dialog.findChild<QLineEdit*>("fileNameEdit"), Qt::Key_Return);
-    });
+  this->inFileDialog("exportPov", [&](QFileDialog& dialog) { name(dialog, this->path("crate")); });
   QTRY_VERIFY(QFile::exists(file));
   QCOMPARE(dgtk::readModel(file.toStdString())->triangles.size(),
     dgtk::readModel(model("crate.ac").toStdString())->triangles.size());

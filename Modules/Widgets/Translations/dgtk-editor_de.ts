@@ -122,6 +122,14 @@
         <source>Add</source>
         <translation>Hinzufügen</translation>
     </message>
+    <message>
+        <source>DGTk</source>
+        <translation>DGTk</translation>
+    </message>
+    <message>
+        <source>%1 is there already. Replace it?</source>
+        <translation>%1 ist schon da. Ersetzen?</translation>
+    </message>
 </context>
 <context>
     <name>QPlatformTheme</name>
