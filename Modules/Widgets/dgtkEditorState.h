@@ -42,6 +42,9 @@ public:
   /// Runs an edit. When it throws, failed() tells why, the document is as before, and the result is false.
   bool attempt(const std::function<void()>& edit);
 
+  /// What is being typed is taken: before the scene is saved, rendered or changed otherwise.
+  void finishTyping() { emit this->typingEnds(); }
+
   void cut();
   void copy();
   void paste();
@@ -53,6 +56,7 @@ signals:
   void changed();
   void selectionChanged();
   void frameChanged(int frame);
+  void typingEnds();
   void failed(const QString& message);
 
 private:

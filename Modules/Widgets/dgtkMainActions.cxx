@@ -29,7 +29,9 @@ namespace dgtk
 
 QAction* MainWindow::addAction(QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys)
 {
-  return addNamedAction(this, menu, this->findChild<QToolBar*>("toolBar"), name, text, keys);
+  QAction* const action = addNamedAction(this, menu, this->findChild<QToolBar*>("toolBar"), name, text, keys);
+  connect(action, &QAction::triggered, this->State, &EditorState::finishTyping); // before what the action does
+  return action;
 }
 
 QDockWidget* MainWindow::addDock(Qt::DockWidgetArea area, const QString& name, const QString& title, QWidget* widget)

@@ -244,6 +244,7 @@ bool MainWindow::addRead(const std::string& file, const ModelStore& models)
 
 bool MainWindow::saveFile(const QString& path)
 {
+  this->State->finishTyping();
   if (!this->State->attempt([&] { this->State->document().saveAs(path.toStdString()); }))
   {
     return false;
@@ -268,6 +269,7 @@ bool MainWindow::saveAs()
 
 bool MainWindow::mayDiscard()
 {
+  this->State->finishTyping();
   if (!this->State->document().modified())
   {
     return true;

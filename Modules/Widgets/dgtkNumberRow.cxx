@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkNumberRow.h"
 
+#include <QApplication>
 #include <QHBoxLayout>
 #include <QKeyEvent>
 
@@ -48,7 +49,8 @@ NumberRow::NumberRow(const QString& name, int count, QWidget* parent)
     field->installEventFilter(this);
     layout->addWidget(field);
     this->Fields.push_back(field);
-    connect(field, &QLineEdit::editingFinished, this, [this, i] { this->take(static_cast<std::size_t>(i)); });
+    connect(field, &QLineEdit::returnPressed, this, &NumberRow::commit);
+    connect(field, &QLineEdit::editingFinished, this, &NumberRow::leaveField);
   }
   this->setFocusProxy(this->Fields.front());
 }
@@ -74,7 +76,7 @@ void NumberRow::setValues(const std::vector<double>& values)
   for (std::size_t i = 0; i < this->Fields.size(); ++i)
   {
     const QString text = numberText(values[i]);
-    if (this->Fields[i]->text() != text || this->Fields[i]->isModified())
+    if (this->Fields[i]->text() != text && !this->Fields[i]->isModified())
     {
       this->Fields[i]->setText(text);
       this->Fields[i]->setCursorPosition(0);
@@ -83,22 +85,30 @@ void NumberRow::setValues(const std::vector<double>& values)
   }
 }
 
-void NumberRow::take(std::size_t field)
+void NumberRow::leaveField()
 {
-  const std::optional<double> value = numberOf(this->Fields[field]->text());
-  const std::vector<double> old = this->Values;
-  if (value && *value != old[field])
+  // The focus goes nowhere when the window is left: it comes back to the row.
+  const QWidget* const focus = QApplication::focusWidget();
+  if (!this->Together || (focus != nullptr && !this->isAncestorOf(focus)))
   {
-    std::vector<double> wanted = old;
-    wanted[field] = *value;
-    this->Values = wanted;
-    if (this->Edited)
-    {
-      this->Edited(wanted);
-    }
-    return;
+    this->commit();
   }
-  this->setValues(old);
+}
+
+void NumberRow::commit()
+{
+  std::vector<double> wanted = this->Values;
+  for (std::size_t i = 0; i < this->Fields.size(); ++i)
+  {
+    wanted[i] = numberOf(this->Fields[i]->text()).value_or(wanted[i]);
+    this->Fields[i]->setModified(false);
+  }
+  const bool other = wanted != this->Values;
+  this->setValues(wanted);
+  if (other && this->Edited)
+  {
+    this->Edited(wanted);
+  }
 }
 
 } // namespace dgtk

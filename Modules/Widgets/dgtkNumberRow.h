@@ -21,7 +21,7 @@ QString numberText(double value);
 std::optional<double> numberOf(const QString& text);
 
 /// One or more numbers side by side. What is typed is taken at Return or when the field is left; a text that is no
-/// number gives way to the old value.
+/// number gives way to the old value. While something is being typed, other values do not take its place.
 class NumberRow : public QWidget
 {
   Q_OBJECT
@@ -30,6 +30,10 @@ public:
   /// The fields are called `name`.0, `name`.1, ...
   NumberRow(const QString& name, int count, QWidget* parent);
 
+  /// All numbers are taken at once, at Return or when the row is left: for those that make sense together only.
+  void takeTogether() { this->Together = true; }
+  /// Takes what is typed now.
+  void commit();
   void setValues(const std::vector<double>& values);
   const std::vector<double>& values() const { return this->Values; }
   /// Called with the new values when a field changed.
@@ -40,8 +44,9 @@ protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-  void take(std::size_t field);
+  void leaveField();
 
+  bool Together = false;
   std::vector<QLineEdit*> Fields;
   std::vector<double> Values;
   std::function<void(const std::vector<double>&)> Edited;

@@ -2,10 +2,13 @@
 #include "dgtkPropertiesPanel.h"
 
 #include "dgtkItemMotion.h"
+#include "dgtkNumberRow.h"
 
 #include <QFormLayout>
 #include <QLabel>
+#include <QLineEdit>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dgtk
@@ -48,6 +51,7 @@ PropertiesPanel::PropertiesPanel(EditorState& state, QWidget* parent)
   connect(&state, &EditorState::selectionChanged, this, &PropertiesPanel::rebuild);
   connect(&state, &EditorState::changed, this, &PropertiesPanel::refresh);
   connect(&state, &EditorState::frameChanged, this, &PropertiesPanel::refresh);
+  connect(&state, &EditorState::typingEnds, this, &PropertiesPanel::takeTyped);
   this->rebuild();
 }
 
@@ -119,6 +123,25 @@ void PropertiesPanel::refresh()
   for (const auto& refresher : this->Refreshers)
   {
     refresher(scene);
+  }
+}
+
+void PropertiesPanel::takeTyped()
+{
+  const QList<QLineEdit*> fields = this->widget()->findChildren<QLineEdit*>();
+  const auto typed =
+    std::find_if(fields.begin(), fields.end(), [](const QLineEdit* field) { return field->isModified(); });
+  if (typed == fields.end())
+  {
+    return;
+  }
+  if (auto* row = qobject_cast<NumberRow*>((*typed)->parentWidget()))
+  {
+    row->commit();
+  }
+  else
+  {
+    emit(*typed)->editingFinished();
   }
 }
 

@@ -19,6 +19,8 @@ class QFormLayout;
 namespace dgtk
 {
 
+class NumberRow;
+
 /// The values of what is selected, at the current frame. Of several things the one selected first is shown.
 class PropertiesPanel : public QScrollArea
 {
@@ -34,6 +36,8 @@ private:
 
   void rebuild();
   void refresh();
+  /// As if what is being typed were confirmed.
+  void takeTyped();
   void buildObject(std::size_t index);
   /// When the model has sequences.
   void buildSequence(std::size_t index);
@@ -44,7 +48,8 @@ private:
   void addText(const QString& label, const QString& name,
     const std::function<std::string(const SceneDescription&)>& get,
     const std::function<void(SceneDescription&, const std::string&)>& set);
-  void addNumbers(const QString& label, const QString& name, int count, const GetNumbers& get, const SetNumbers& set);
+  NumberRow* addNumbers(
+    const QString& label, const QString& name, int count, const GetNumbers& get, const SetNumbers& set);
   /// A value that does not move.
   void addNumber(const QString& label, const QString& name, const std::function<double&(SceneDescription&)>& value);
   void addColor(

@@ -9,14 +9,27 @@
 #include <QLineEdit>
 
 #include <algorithm>
+#include <cmath>
 
 namespace dgtk
 {
 
 namespace
 {
+constexpr double roundingOfLength = 1e-12; // of four numbers that were rounded to double precision
+
 std::vector<double> listOf(const Eigen::Vector3d& v) { return { v.x(), v.y(), v.z() }; }
 Eigen::Vector3d vectorOf(const std::vector<double>& v) { return { v[0], v[1], v[2] }; }
+
+/// The rotation of four numbers of any length. Those whose length is 1 stay as they are; of length 0 they are refused.
+Quaternion unitOf(const std::vector<double>& v)
+{
+  const Quaternion q{ v[0], v[1], v[2], v[3] };
+  const double length = q.norm();
+  return length == 0 || std::abs(length - 1) < roundingOfLength
+           ? q
+           : Quaternion{ q.w / length, q.x / length, q.y / length, q.z / length };
+}
 
 /// For an accessor that also serves for writing and is only read here.
 SceneDescription& readable(const SceneDescription& scene) { return const_cast<SceneDescription&>(scene); }
@@ -32,14 +45,20 @@ void PropertiesPanel::addText(const QString& label, const QString& name,
   this->Refreshers.push_back(
     [field, get](SceneDescription& scene)
     {
-      field->setText(toText(get(scene)));
-      field->setCursorPosition(0);
+      if (!field->isModified())
+      {
+        field->setText(toText(get(scene)));
+        field->setCursorPosition(0);
+      }
     });
   connect(field, &QLineEdit::editingFinished, this,
     [this, field, label, get, set]
     {
       const std::string text = field->text().toStdString();
-      if (text == get(this->State.scene()))
+      const std::string old = get(this->State.scene());
+      // What a refusal leaves; its dialog takes the focus, which ends the typing once more.
+      field->setText(toText(old));
+      if (text == old)
       {
         return;
       }
@@ -51,7 +70,7 @@ void PropertiesPanel::addText(const QString& label, const QString& name,
     });
 }
 
-void PropertiesPanel::addNumbers(
+NumberRow* PropertiesPanel::addNumbers(
   const QString& label, const QString& name, int count, const GetNumbers& get, const SetNumbers& set)
 {
   auto* row = new NumberRow(name, count, this->Form->parentWidget());
@@ -59,6 +78,7 @@ void PropertiesPanel::addNumbers(
   this->Refreshers.push_back([row, get](SceneDescription& scene) { row->setValues(get(scene)); });
   row->onEdit([this, label, set](const Numbers& values)
     { this->edit(label, [&](SceneDescription& scene) { set(scene, values); }); });
+  return row;
 }
 
 void PropertiesPanel::addNumber(
@@ -106,16 +126,16 @@ void PropertiesPanel::addOrientation(const std::function<Track<Quaternion>&(Scen
     [now](const SceneDescription& scene) { return listOf(degreesOf(now(scene))); },
     [this, track](SceneDescription& scene, const Numbers& numbers)
     { setTrackAt(track(scene), this->State.frame(), rotationOf(vectorOf(numbers))); });
-  this->addNumbers(
+  NumberRow* const quaternion = this->addNumbers(
     tr("Quaternion"), "orientation", 4,
     [now](const SceneDescription& scene)
     {
       const Quaternion q = now(scene);
       return Numbers{ q.w, q.x, q.y, q.z };
     },
-    [this, track](SceneDescription& scene, const Numbers& q) {
-      setTrackAt(track(scene), this->State.frame(), Quaternion{ q[0], q[1], q[2], q[3] });
-    });
+    [this, track](SceneDescription& scene, const Numbers& numbers)
+    { setTrackAt(track(scene), this->State.frame(), unitOf(numbers)); });
+  quaternion->takeTogether();
 }
 
 void PropertiesPanel::addCheck(

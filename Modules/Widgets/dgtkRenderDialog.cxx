@@ -271,6 +271,7 @@ void RenderDialog::browse()
 
 void RenderDialog::start()
 {
+  this->State.finishTyping();
   QString missing;
   const QStringList words = this->arguments({});
   if (this->Cameras->count() == 0)

@@ -51,14 +51,19 @@ QLineEdit* EditorTest::field(const char* name) const
   return all.isEmpty() ? nullptr : all.last();
 }
 
-void EditorTest::type(const char* name, const QString& text) const
+void EditorTest::typeOnly(const char* name, const QString& text) const
 {
   QLineEdit* const at = this->field(name);
   QVERIFY2(at != nullptr, name);
   at->setFocus();
   at->selectAll();
   QTest::keyClicks(at, text);
-  QTest::keyClick(at, Qt::Key_Return);
+}
+
+void EditorTest::type(const char* name, const QString& text) const
+{
+  this->typeOnly(name, text);
+  QTest::keyClick(this->field(name), Qt::Key_Return);
 }
 
 void EditorTest::select(const char* name) const

@@ -34,6 +34,8 @@ protected:
   QAction* action(const char* name) const;
   QLineEdit* field(const char* name) const;
   void type(const char* name, const QString& text) const;
+  /// As type(), without Return.
+  void typeOnly(const char* name, const QString& text) const;
   void select(const char* name) const;
   QString path(const char* name) const;
   /// Renders by the dialog, and the scene file by the command line; both must hold the same bytes.

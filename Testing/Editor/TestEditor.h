@@ -17,6 +17,10 @@ private slots:
   void addsCamerasAndLights();
   void refusesWithAMessage();
   void asksAboutUnsavedWork();
+  void whatIsBeingTypedIsSaved();
+  void whatIsBeingTypedIsKept();
+  void quaternionsAreTypedAsOne();
+  void aRefusalComesOnce();
   void unsavedWorkSurvivesACrash();
   void camerasHaveSizesOfTheirOwn();
   void cancelledRunsResume();
