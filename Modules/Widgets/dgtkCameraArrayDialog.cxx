@@ -150,7 +150,11 @@ void CameraArrayDialog::accept()
 {
   try
   {
-    cameraArray(this->options());
+    const std::vector<CameraDescription> cameras = cameraArray(this->options());
+    if (this->Adder)
+    {
+      this->Adder(cameras);
+    }
     QDialog::accept();
   }
   catch (const std::exception& error)

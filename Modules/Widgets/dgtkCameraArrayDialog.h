@@ -8,6 +8,10 @@
 
 #include <QDialog>
 
+#include <functional>
+#include <utility>
+#include <vector>
+
 class QComboBox;
 class QLabel;
 class QPlainTextEdit;
@@ -26,16 +30,18 @@ class CameraArrayDialog : public QDialog
 public:
   /// `path`: what the array along a path begins with; may be empty.
   CameraArrayDialog(const CameraDescription& first, const CameraPath& path, QWidget* parent);
-  /// Throws UsageError for a path that cannot be read.
-  CameraArrayOptions options() const;
-
-  /// Stays open, and says why, where there are no such cameras.
+  /// Add: takes the cameras.
+  void onAdd(std::function<void(const std::vector<CameraDescription>&)> add) { this->Adder = std::move(add); }
+  /// Stays open, and says why, where there are no such cameras or they are refused by an exception.
   void accept() override;
 
 private:
+  /// Throws UsageError for a path that cannot be read.
+  CameraArrayOptions options() const;
   /// Only the rows that the kind needs can be used.
   void showKind();
 
+  std::function<void(const std::vector<CameraDescription>&)> Adder;
   CameraDescription First;
   QComboBox* Kind = nullptr;
   NumberRow* Eye = nullptr;

@@ -96,6 +96,14 @@ void CameraDialog::showLens()
   }
 }
 
+void CameraDialog::accept()
+{
+  if (!this->Adder || this->Adder(this->camera()))
+  {
+    QDialog::accept();
+  }
+}
+
 CameraDescription CameraDialog::camera() const
 {
   CameraDescription camera;
@@ -148,6 +156,14 @@ LightDialog::LightDialog(const LightDescription& light, QWidget* parent)
   this->Enabled->setChecked(light.enabled);
   form->addRow(QString(), this->Enabled);
   addButtons(this, form);
+}
+
+void LightDialog::accept()
+{
+  if (!this->Adder || this->Adder(this->light()))
+  {
+    QDialog::accept();
+  }
 }
 
 LightDescription LightDialog::light() const

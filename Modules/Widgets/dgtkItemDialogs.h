@@ -8,7 +8,8 @@
 
 #include <QDialog>
 
-#include <optional>
+#include <functional>
+#include <utility>
 
 class QCheckBox;
 class QComboBox;
@@ -30,6 +31,9 @@ public:
   /// Begins with these values.
   CameraDialog(const CameraDescription& camera, QWidget* parent);
   CameraDescription camera() const;
+  /// Add: takes the camera. Where it is refused (false) the dialog stays open.
+  void onAdd(std::function<bool(const CameraDescription&)> add) { this->Adder = std::move(add); }
+  void accept() override;
 
 signals:
   /// Preview: look through it.
@@ -39,6 +43,7 @@ private:
   /// Only the rows of the lens can be used. A matrix that is asked for begins as what the field of view says.
   void showLens();
 
+  std::function<bool(const CameraDescription&)> Adder;
   QLineEdit* Name = nullptr;
   NumberRow* Eye = nullptr;
   NumberRow* LookAt = nullptr;
@@ -59,8 +64,12 @@ class LightDialog : public QDialog
 public:
   LightDialog(const LightDescription& light, QWidget* parent);
   LightDescription light() const;
+  /// As CameraDialog::onAdd().
+  void onAdd(std::function<bool(const LightDescription&)> add) { this->Adder = std::move(add); }
+  void accept() override;
 
 private:
+  std::function<bool(const LightDescription&)> Adder;
   QLineEdit* Name = nullptr;
   QComboBox* Kind = nullptr;
   QCheckBox* Enabled = nullptr;

@@ -224,10 +224,9 @@ void MainWindow::addCamera()
 {
   CameraDialog dialog(this->cameraOfView(), this);
   connect(&dialog, &CameraDialog::previewAsked, this, [&] { this->Views->lookThrough(dialog.camera()); });
-  if (dialog.exec() == QDialog::Accepted)
-  {
-    this->State->attempt([&] { this->State->select({ this->document().addCamera(dialog.camera()) }); });
-  }
+  dialog.onAdd([this](const CameraDescription& camera)
+    { return this->State->attempt([&] { this->State->select({ this->document().addCamera(camera) }); }); });
+  dialog.exec();
 }
 
 void MainWindow::addCameraArray()
@@ -238,17 +237,15 @@ void MainWindow::addCameraArray()
     path = item.kind == SceneItem::Kind::Camera ? keyFramePath(this->State->scene().cameras[item.index]) : path;
   }
   CameraArrayDialog dialog(this->cameraOfView(), path, this);
-  if (dialog.exec() == QDialog::Accepted)
-  {
-    this->State->attempt(
-      [&]
-      {
-        SceneDescription part;
-        part.folder = this->State->scene().folder;
-        part.cameras = cameraArray(dialog.options());
-        this->State->select(this->document().paste("Add camera array", part));
-      });
-  }
+  dialog.onAdd(
+    [this](const std::vector<CameraDescription>& cameras)
+    {
+      SceneDescription part;
+      part.folder = this->State->scene().folder;
+      part.cameras = cameras;
+      this->State->select(this->document().paste("Add camera array", part));
+    });
+  dialog.exec();
 }
 
 void MainWindow::addLight()
@@ -262,10 +259,9 @@ void MainWindow::addLight()
   light.name = uniqueName(names, "Light0");
   light.position = Eigen::Vector3d(2, 5, 3);
   LightDialog dialog(light, this);
-  if (dialog.exec() == QDialog::Accepted)
-  {
-    this->State->attempt([&] { this->State->select({ this->document().addLight(dialog.light()) }); });
-  }
+  dialog.onAdd([this](const LightDescription& added)
+    { return this->State->attempt([&] { this->State->select({ this->document().addLight(added) }); }); });
+  dialog.exec();
 }
 
 void MainWindow::configureRendering()

@@ -21,6 +21,7 @@ private slots:
   void whatIsBeingTypedIsKept();
   void quaternionsAreTypedAsOne();
   void aRefusalComesOnce();
+  void dialogsKeepWhatIsRefused();
   void unsavedWorkSurvivesACrash();
   void camerasHaveSizesOfTheirOwn();
   void cancelledRunsResume();

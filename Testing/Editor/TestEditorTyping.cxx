@@ -6,8 +6,10 @@
 #include "dgtkSceneDocument.h"
 
 #include <QAction>
+#include <QLabel>
 #include <QLineEdit>
 #include <QMessageBox>
+#include <QPushButton>
 #include <QTest>
 #include <QToolBar>
 #include <QTreeWidget>
@@ -15,6 +17,20 @@
 #include <cmath>
 
 using dgtk::SceneItem;
+
+namespace
+{
+void typeInto(QDialog& dialog, const char* name, const QString& text)
+{
+  QVERIFY(QTest::qWaitForWindowActive(&dialog));
+  auto* field = dialog.findChild<QLineEdit*>(name);
+  field->setFocus();
+  field->selectAll();
+  QTest::keyClicks(field, text);
+}
+
+void add(const QDialog& dialog) { QTest::mouseClick(dialog.findChild<QPushButton*>("add"), Qt::LeftButton); }
+} // namespace
 
 void TestEditor::whatIsBeingTypedIsSaved()
 {
@@ -113,4 +129,46 @@ void TestEditor::aRefusalComesOnce()
   QTest::qWait(settle);
   QCOMPARE(boxes, 1);
   QCOMPARE(this->field("name")->text(), QString("tree"));
+}
+
+void TestEditor::dialogsKeepWhatIsRefused()
+{
+  const dgtk::SceneDocument& document = this->Window->document();
+  QString message;
+  const auto refuseThenAdd = [&](const char* dialogName, const char* field, const QString& bad, const QString& good)
+  {
+    answer<QDialog>(dialogName,
+      [&, dialogName, field, bad, good](QDialog& dialog)
+      {
+        typeInto(dialog, "name", "Top");
+        typeInto(dialog, field, bad);
+        expectRefusal(message);
+        add(dialog);
+        QVERIFY2(!message.isEmpty(), dialogName);
+        QVERIFY(dialog.isVisible());
+        QCOMPARE(dialog.findChild<QLineEdit*>("name")->text(), QString("Top"));
+        typeInto(dialog, field, good);
+        add(dialog);
+        QVERIFY(!dialog.isVisible());
+      });
+  };
+  refuseThenAdd("cameraDialog", "fovY.0", "190", "50");
+  this->action("camera")->trigger();
+  QCOMPARE(document.scene().cameras.at(0).name, std::string("Top"));
+  QCOMPARE(document.scene().cameras.at(0).fovY.value, 50.0);
+  refuseThenAdd("lightDialog", "diffuse.0", "-1", "0.5");
+  this->action("light")->trigger();
+  QCOMPARE(document.scene().lights.at(0).name, std::string("Top"));
+  answer<QDialog>("cameraArrayDialog",
+    [](QDialog& dialog)
+    {
+      typeInto(dialog, "fovY.0", "190");
+      add(dialog);
+      QVERIFY(dialog.findChild<QLabel*>("fault")->isVisible());
+      typeInto(dialog, "fovY.0", "50");
+      add(dialog);
+      QVERIFY(!dialog.isVisible());
+    });
+  this->action("cameraArray")->trigger();
+  QCOMPARE(document.scene().cameras.size(), std::size_t(9));
 }
