@@ -148,6 +148,7 @@ CameraArrayDialog::CameraArrayDialog(const CameraDescription& first, const Camer
 
 void CameraArrayDialog::accept()
 {
+  commitRows(*this);
   try
   {
     const std::vector<CameraDescription> cameras = cameraArray(this->options());

@@ -98,6 +98,7 @@ void CameraDialog::showLens()
 
 void CameraDialog::accept()
 {
+  commitRows(*this);
   if (!this->Adder || this->Adder(this->camera()))
   {
     QDialog::accept();
@@ -160,6 +161,7 @@ LightDialog::LightDialog(const LightDescription& light, QWidget* parent)
 
 void LightDialog::accept()
 {
+  commitRows(*this);
   if (!this->Adder || this->Adder(this->light()))
   {
     QDialog::accept();

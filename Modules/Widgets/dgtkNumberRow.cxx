@@ -111,4 +111,12 @@ void NumberRow::commit()
   }
 }
 
+void commitRows(const QWidget& dialog)
+{
+  for (NumberRow* row : dialog.findChildren<NumberRow*>())
+  {
+    row->commit();
+  }
+}
+
 } // namespace dgtk

@@ -52,6 +52,9 @@ private:
   std::function<void(const std::vector<double>&)> Edited;
 };
 
+/// What is typed in the rows of a dialog is taken.
+void commitRows(const QWidget& dialog);
+
 } // namespace dgtk
 
 #endif
