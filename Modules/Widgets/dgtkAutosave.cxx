@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkAutosave.h"
 
-#include <QCoreApplication>
 #include <QDir>
 #include <QFile>
 #include <QStandardPaths>
 #include <QTimer>
+#include <QUuid>
 
-#include <cerrno>
-#include <csignal>
 #include <exception>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 namespace dgtk
 {
@@ -17,11 +19,40 @@ namespace dgtk
 namespace
 {
 constexpr int interval = 30000; // milliseconds
+
+QString lockFile(const QString& copy) { return copy + ".lock"; }
 } // namespace
+
+/// An exclusive lock of the file beside a copy, which is made for it.
+class Autosave::Lock
+{
+public:
+  explicit Lock(const QString& copy)
+    : File(::open(QFile::encodeName(lockFile(copy)).constData(), O_RDWR | O_CREAT | O_CLOEXEC, 0600))
+    , Got(File >= 0 && ::flock(File, LOCK_EX | LOCK_NB) == 0)
+  {
+  }
+  ~Lock()
+  {
+    if (this->File >= 0)
+    {
+      ::close(this->File);
+    }
+  }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+  bool got() const { return this->Got; }
+
+private:
+  int File;
+  bool Got;
+};
 
 Autosave::Autosave(EditorState& state)
   : QObject(&state)
   , State(state)
+  , File(folder() + '/' + QUuid::createUuid().toString(QUuid::WithoutBraces) + ".json")
   , Timer(new QTimer(this))
 {
   this->Timer->setObjectName("autosave");
@@ -33,30 +64,53 @@ Autosave::Autosave(EditorState& state)
       this->Changed = true;
       if (!this->State.document().modified())
       {
-        QFile::remove(file());
+        this->forget();
       }
     });
 }
 
-Autosave::~Autosave() { QFile::remove(file()); }
+Autosave::~Autosave() { this->forget(); }
 
 QString Autosave::folder() { return QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + "/unsaved"; }
 
-QString Autosave::file() { return folder() + '/' + QString::number(QCoreApplication::applicationPid()) + ".json"; }
+void Autosave::forget()
+{
+  if (this->Held)
+  {
+    discard(this->File);
+    this->Held.reset();
+  }
+}
+
+void Autosave::discard(const QString& copy)
+{
+  QFile::remove(copy);
+  QFile::remove(lockFile(copy));
+}
 
 QStringList Autosave::leftBehind()
 {
   QStringList paths;
   for (const QFileInfo& copy : QDir(folder()).entryInfoList({ "*.json" }, QDir::Files, QDir::Time))
   {
-    bool isNumber = false;
-    const qlonglong process = copy.completeBaseName().toLongLong(&isNumber);
-    if (isNumber && process > 0 && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH)
+    if (Lock(copy.absoluteFilePath()).got())
     {
       paths << copy.absoluteFilePath();
     }
   }
   return paths;
+}
+
+void Autosave::adopt(const QString& copy)
+{
+  if (!this->Held)
+  {
+    this->Held = std::make_unique<Lock>(this->File);
+  }
+  if (this->Held->got() && QDir().rename(copy, this->File))
+  {
+    discard(copy);
+  }
 }
 
 void Autosave::save()
@@ -68,7 +122,11 @@ void Autosave::save()
   try
   {
     QDir().mkpath(folder());
-    this->State.document().writeCopy(file().toStdString());
+    if (!this->Held)
+    {
+      this->Held = std::make_unique<Lock>(this->File);
+    }
+    this->State.document().writeCopy(QFile::encodeName(this->File).toStdString());
     this->Changed = false;
   }
   catch (const std::exception&)

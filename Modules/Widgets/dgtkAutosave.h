@@ -8,13 +8,16 @@
 
 #include <QStringList>
 
+#include <memory>
+
 class QTimer;
 
 namespace dgtk
 {
 
-/// Keeps a copy of unsaved work in the user's data folder while the program runs: one file a process, removed at its
-/// regular end. What is there without its process was left by a crash.
+/// Keeps a copy of unsaved work in the user's data folder while the window lives, removed at its regular end. A locked
+/// file beside the copy says that its window lives: the system lets go of the lock when a process ends in any way, so a
+/// copy whose lock is free was left by a crash. Process numbers would not tell: they are given again.
 class Autosave : public QObject
 {
   Q_OBJECT
@@ -23,15 +26,21 @@ public:
   explicit Autosave(EditorState& state);
   ~Autosave() override;
 
-  /// Copies left behind by processes that are gone.
+  /// Copies left behind by crashes, the newest first.
   static QStringList leftBehind();
+  /// A copy that was left behind becomes this window's own: it stays until the work is saved or given up.
+  void adopt(const QString& copy);
+  static void discard(const QString& copy);
 
 private:
+  class Lock;
   static QString folder();
-  static QString file();
   void save();
+  void forget();
 
   EditorState& State;
+  QString File;
+  std::unique_ptr<Lock> Held; ///< from the first copy on
   QTimer* Timer = nullptr;
   bool Changed = false;
 };

@@ -152,15 +152,15 @@ void MainWindow::offerRecovery()
     const int choice = box.exec();
     if (choice == QMessageBox::Discard)
     {
-      QFile::remove(copy);
+      Autosave::discard(copy);
     }
     const auto loaded = std::make_shared<std::optional<LoadedScene>>();
     if (choice == QMessageBox::Open && this->work(tr("Reading what was kept ..."),
                                          [loaded, file = QFile::encodeName(copy).toStdString()](const LoadProgress& p)
                                          { *loaded = SceneDocument::read(file, p); }))
     {
+      this->Copies->adopt(copy); // before anything is drawn, which may be what ended the editor
       this->document().recover(std::move(**loaded));
-      QFile::remove(copy);
       this->Views->showWhole();
       return;
     }

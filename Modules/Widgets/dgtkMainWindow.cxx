@@ -51,7 +51,7 @@ MainWindow::MainWindow(QWidget* parent)
   : QMainWindow(parent)
   , State(new EditorState(this))
 {
-  new Autosave(*this->State);
+  this->Copies = new Autosave(*this->State);
   this->setObjectName("mainWindow");
   this->setAcceptDrops(true);
   this->Work = new BackgroundWork(this->statusBar(), this);

@@ -20,6 +20,7 @@ class QPlainTextEdit;
 namespace dgtk
 {
 
+class Autosave;
 class BackgroundWork;
 class EditorState;
 class MatchDialog;
@@ -110,6 +111,7 @@ private:
   BackgroundWork* Work = nullptr;
   SceneViews* Views = nullptr;
   TruthView* Truth = nullptr;
+  Autosave* Copies = nullptr;
   QPlainTextEdit* Log = nullptr;
   QMenu* Recent = nullptr;
   QMenu* ViewMenu = nullptr;

@@ -33,14 +33,14 @@ void SceneDocument::notify() const
   }
 }
 
-void SceneDocument::reset(SceneDescription scene, const std::string& path)
+void SceneDocument::reset(SceneDescription scene, const std::string& path, std::size_t clean)
 {
   this->Scene = std::move(scene);
   this->Path = path;
   ++this->Opened;
   this->Done.clear();
   this->Undone.clear();
-  this->Clean = 0;
+  this->Clean = clean;
   this->notify();
 }
 
@@ -49,7 +49,7 @@ void SceneDocument::clear()
   this->Models = ModelStore();
   SceneDescription scene;
   scene.folder = currentFolder();
-  this->reset(std::move(scene), {});
+  this->reset(std::move(scene), {}, 0);
 }
 
 std::optional<LoadedScene> SceneDocument::read(const std::string& path, const LoadProgress& progress)
@@ -63,17 +63,15 @@ std::optional<LoadedScene> SceneDocument::read(const std::string& path, const Lo
 void SceneDocument::install(LoadedScene loaded)
 {
   this->Models = std::move(loaded.models);
-  this->reset(std::move(loaded.scene), loaded.path);
+  this->reset(std::move(loaded.scene), loaded.path, 0);
 }
 
 void SceneDocument::open(const std::string& path) { this->install(*read(path)); }
 
 void SceneDocument::recover(LoadedScene loaded)
 {
-  this->install(std::move(loaded));
-  this->Path.clear();
-  this->Clean = unreachable;
-  this->notify();
+  this->Models = std::move(loaded.models);
+  this->reset(std::move(loaded.scene), {}, unreachable);
 }
 
 void SceneDocument::saveAs(const std::string& path)

@@ -118,7 +118,7 @@ private:
   void accept(Step step);
   void putBack(const Step& step);
   void forget();
-  void reset(SceneDescription scene, const std::string& path);
+  void reset(SceneDescription scene, const std::string& path, std::size_t clean);
   void notify() const;
 
   SceneDescription Scene;
