@@ -315,8 +315,9 @@ bool MatchDialog::savePairs(const QString& path)
   return this->State.attempt(
     [&]
     {
-      this->Saved = this->Table->text();
-      writeFile(path.toStdString(), this->Saved);
+      const std::string text = this->Table->text();
+      writeFile(path.toStdString(), text);
+      this->Saved = text;
     });
 }
 

@@ -125,6 +125,10 @@ void TestEditorTruth::pairsAreThoseOfTheCommandLine()
   table->selectRow(1);
   QTest::keyClick(table, Qt::Key_Delete);
   QCOMPARE(table->rowCount(), 2);
+  QString refusal;
+  expectRefusal(refusal);
+  QVERIFY(!call("savePairs", this->path("nowhere/list.txt")));
+  QVERIFY2(refusal.contains("list.txt"), qPrintable(refusal)); // and the list still counts as not saved
   auto* clear = dialog->findChild<QPushButton*>("clearPairs");
   answer<QMessageBox>("unsavedPairsBox", [](QMessageBox& box) { box.button(QMessageBox::Cancel)->click(); });
   QTest::mouseClick(clear, Qt::LeftButton);
