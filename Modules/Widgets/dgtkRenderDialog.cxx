@@ -5,16 +5,20 @@
 #include "dgtkScenePlaces.h"
 
 #include <QCheckBox>
+#include <QCryptographicHash>
 #include <QDir>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QMessageBox>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QSpinBox>
+#include <QStandardPaths>
 #include <QTabWidget>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -66,9 +70,25 @@ RenderDialog::RenderDialog(EditorState& state, QWidget* parent)
   this->setRunning(false);
 }
 
+QString RenderDialog::usualFolder() const
+{
+  const std::string& path = this->State.document().path();
+  const QFileInfo file(toText(path));
+  return path.empty() ? QDir::home().filePath("dataset") : file.dir().filePath(file.completeBaseName() + "_dataset");
+}
+
 void RenderDialog::refresh()
 {
   const SceneDescription& scene = this->State.scene();
+  if (const std::size_t opened = this->State.document().opened(); opened != this->Opened && !this->Process.running())
+  {
+    // Another scene: the folder of the one before is not for it.
+    this->Opened = opened;
+    this->Folder->setText(this->usualFolder());
+    this->Resume->setChecked(false);
+    this->Progress->setValue(0);
+    this->Status->clear();
+  }
   const std::vector<int> keys = scene.keyFrames();
   this->Info->setText(
     tr("<table cellpadding='4'><tr><td>Scene</td><td>%1</td></tr><tr><td>Objects</td><td>%2</td></tr>"
@@ -254,9 +274,12 @@ QString RenderDialog::sceneFile()
   {
     return toText(document.path());
   }
-  this->Copies = std::make_unique<QTemporaryDir>();
-  const QString copy = this->Copies->filePath("scene.json");
-  document.writeCopy(copy.toStdString());
+  const QByteArray target = QDir::cleanPath(QDir::current().absoluteFilePath(this->Folder->text())).toUtf8();
+  const QDir folder(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + "/rendered/" +
+                    QString::fromLatin1(QCryptographicHash::hash(target, QCryptographicHash::Sha1).toHex().left(16)));
+  folder.mkpath(".");
+  const QString copy = folder.filePath("scene.json");
+  document.writeCopy(QFile::encodeName(copy).toStdString());
   return copy;
 }
 
@@ -267,6 +290,23 @@ void RenderDialog::browse()
   {
     this->Folder->setText(folder);
   }
+}
+
+bool RenderDialog::mayReplace()
+{
+  if (this->Resume->isChecked() || !QDir(this->Folder->text()).exists("manifest.json"))
+  {
+    return true;
+  }
+  QMessageBox box(QMessageBox::Question, QStringLiteral("DGTk"),
+    tr("%1 holds a finished dataset.").arg(QDir::toNativeSeparators(this->Folder->text())), QMessageBox::Cancel, this);
+  box.setObjectName("replaceBox");
+  box.setInformativeText(tr("Replace it by this run? Cancel to name another folder."));
+  QPushButton* const replace = box.addButton(tr("Replace"), QMessageBox::DestructiveRole);
+  replace->setObjectName("replace");
+  box.setDefaultButton(QMessageBox::Cancel);
+  box.exec();
+  return box.clickedButton() == replace;
 }
 
 void RenderDialog::start()
@@ -296,7 +336,7 @@ void RenderDialog::start()
     return;
   }
   QString scene;
-  if (this->State.attempt([&] { scene = this->sceneFile(); }))
+  if (this->mayReplace() && this->State.attempt([&] { scene = this->sceneFile(); }))
   {
     this->setRunning(true);
     this->Progress->setRange(0, 0);

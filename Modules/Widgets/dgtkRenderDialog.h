@@ -10,7 +10,6 @@
 
 #include <QDialog>
 #include <QElapsedTimer>
-#include <QTemporaryDir>
 
 #include <memory>
 #include <vector>
@@ -31,8 +30,8 @@ class QVBoxLayout;
 namespace dgtk
 {
 
-/// What `dgtk render` is to make of the scene, with its progress. The scene is that of the file, or a copy of it as it
-/// is now when it has changes.
+/// What `dgtk render` is to make of the scene, with its progress. The scene is that of the file or, when it has
+/// changes, a copy of it as it is now, which stays: one for each folder, so that an interrupted run can go on.
 class RenderDialog : public QDialog
 {
   Q_OBJECT
@@ -63,6 +62,10 @@ private:
   void takeSize();
   const CameraDescription* chosenCamera() const;
   void browse();
+  /// Beside the scene's file.
+  QString usualFolder() const;
+  /// Whether the run may begin in the folder; asks where a dataset is there that would go.
+  bool mayReplace();
   void start();
   void takeProgress(int done, int total);
   void showProgress();
@@ -72,7 +75,6 @@ private:
 
   EditorState& State;
   RenderProcess Process;
-  std::unique_ptr<QTemporaryDir> Copies;
   ProgressEstimate Estimate;
   QElapsedTimer Running;
   QTimer* Clock = nullptr;
@@ -87,6 +89,7 @@ private:
   QLabel* Resolution = nullptr;
   QSpinBox* Tile[2] = { nullptr, nullptr };
   QSpinBox* Frames[3] = { nullptr, nullptr, nullptr };
+  std::size_t Opened = 0; ///< SceneDocument::opened() of what is shown
   int SceneRange[2] = { 0, 0 };
   QSpinBox* Samples = nullptr;
   std::vector<QCheckBox*> Layers;

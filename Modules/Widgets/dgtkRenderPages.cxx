@@ -161,7 +161,7 @@ void RenderDialog::makeRunRow(QVBoxLayout* layout)
 {
   auto* folder = new QHBoxLayout;
   folder->addWidget(new QLabel(tr("Folder")));
-  this->Folder = new QLineEdit(QDir::home().filePath("dataset"));
+  this->Folder = new QLineEdit(this->usualFolder());
   this->Folder->setObjectName("folder");
   folder->addWidget(this->Folder, 1);
   auto* browseButton = new QPushButton(tr("Browse ..."));

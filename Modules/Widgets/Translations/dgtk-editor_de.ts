@@ -1617,6 +1617,18 @@ Ein Pixel ist %5 %4 in x, %6 in y; an der fernen Ebene %7 und %8</translation>
         <source>Every camera in its own size: that of the chosen one is</source>
         <translation>Jede Kamera in ihrer eigenen Größe; die der gewählten ist</translation>
     </message>
+    <message>
+        <source>%1 holds a finished dataset.</source>
+        <translation>%1 enthält einen fertigen Datensatz.</translation>
+    </message>
+    <message>
+        <source>Replace it by this run? Cancel to name another folder.</source>
+        <translation>Soll dieser Lauf ihn ersetzen? Abbrechen, um einen anderen Ordner zu nennen.</translation>
+    </message>
+    <message>
+        <source>Replace</source>
+        <translation>Ersetzen</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::RenderProcess</name>
