@@ -5,8 +5,10 @@
 
 #include <QElapsedTimer>
 
+#include <vtkCamera.h>
 #include <vtkCullerCollection.h>
 #include <vtkFrustumCoverageCuller.h>
+#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
@@ -20,6 +22,7 @@ namespace dgtk
 namespace
 {
 constexpr double pickPixels = 8;    // around cameras and lights
+constexpr double spareDepth = 0.05; // before the nearest, of the depth of everything
 constexpr double slowSeconds = 0.1; // of a drawing; slower ones are replaced by boxes while the mouse moves
 const Eigen::Vector3d topColor(0.20, 0.21, 0.23);
 const Eigen::Vector3d bottomColor(0.30, 0.31, 0.33);
@@ -113,10 +116,36 @@ void SceneView::draw()
   }
   QElapsedTimer clock;
   clock.start();
+  this->stepBack();
   this->Renderer->ResetCameraClippingRange();
   this->renderWindow()->Render();
   this->renderWindow()->WaitForCompletion();
   this->FineSeconds = coarse ? this->FineSeconds : clock.nsecsElapsed() * 1e-9;
+}
+
+/// A parallel view has everything before it, but VTK clips what is behind the eye.
+void SceneView::stepBack()
+{
+  double bounds[6];
+  this->Renderer->ComputeVisiblePropBounds(bounds);
+  if (!this->Camera.parallel() || vtkMath::AreBoundsInitialized(bounds) == 0)
+  {
+    return;
+  }
+  const Eigen::Vector3d forward = this->Camera.forward();
+  double nearest = 0; // along the view, from the focus
+  double farthest = 0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Eigen::Vector3d point(bounds[corner & 1], bounds[2 + (corner >> 1 & 1)], bounds[4 + (corner >> 2 & 1)]);
+    const double along = (point - this->Camera.focus()).dot(forward);
+    nearest = std::min(nearest, along);
+    farthest = std::max(farthest, along);
+  }
+  // The nearest that VTK draws is a hundredth of the farthest.
+  const double distance = this->Camera.height() + spareDepth * (farthest - nearest) - nearest;
+  const Eigen::Vector3d eye = this->Camera.focus() - distance * forward;
+  this->Renderer->GetActiveCamera()->SetPosition(eye.data());
 }
 
 void SceneView::resetCamera(UpAxis upAxis) { this->Camera = ViewCamera(this->kind(), upAxis); }

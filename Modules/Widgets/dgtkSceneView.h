@@ -88,6 +88,7 @@ protected:
   void placeCamera() override;
 
 private:
+  void stepBack();
   void pick(const QPoint& position, bool add);
   /// What lies over the view, for where its camera is now.
   void placeOverlay();

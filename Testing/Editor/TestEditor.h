@@ -23,6 +23,7 @@ private slots:
   void aRefusalComesOnce();
   void dialogsKeepWhatIsRefused();
   void unsavedWorkSurvivesACrash();
+  void parallelViewsCutNothing();
   void camerasHaveSizesOfTheirOwn();
   void cancelledRunsResume();
   void everyMenuItemWorks();

@@ -10,13 +10,17 @@
 #include <QDialog>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QMap>
 #include <QMenu>
 #include <QMessageBox>
+#include <QOpenGLWidget>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QStandardPaths>
 #include <QTabWidget>
 #include <QTest>
+
+#include <cstdlib>
 
 namespace
 {
@@ -60,6 +64,8 @@ void TestEditor::camerasHaveSizesOfTheirOwn()
 void TestEditor::cancelledRunsResume()
 {
   QVERIFY(this->Window->openFile(demo()));
+  this->select("house");
+  this->type("position.1", "0.5"); // a scene with changes: a copy of it is rendered
   this->action("render")->trigger();
   auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
   dialog->findChild<QLineEdit*>("folder")->setText(this->path("stopped"));
@@ -77,17 +83,35 @@ void TestEditor::cancelledRunsResume()
   QTest::mouseClick(start, Qt::LeftButton);
   QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
   QVERIFY(QFile::exists(this->path("stopped/manifest.json")));
+  // A finished dataset is not replaced unasked.
+  dialog->findChild<QCheckBox*>("resume")->setChecked(false);
+  const QMap<QString, QByteArray> finished = contents(this->path("stopped"));
+  answer<QMessageBox>("replaceBox", [](QMessageBox& box) { box.button(QMessageBox::Cancel)->click(); });
+  QTest::mouseClick(start, Qt::LeftButton);
+  QVERIFY(start->isEnabled());
+  QVERIFY(contents(this->path("stopped")) == finished);
+  // Another scene has another folder.
+  QVERIFY(this->Window->saveFile(this->path("other.json")));
+  QVERIFY(this->Window->openFile(this->path("other.json")));
+  QCOMPARE(dialog->findChild<QLineEdit*>("folder")->text(), this->path("other_dataset"));
 }
 
 void TestEditor::unsavedWorkSurvivesACrash()
 {
   const QDir folder(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + "/unsaved");
+  const auto copies = [&folder] { return QDir(folder).entryList({ "*.json" }, QDir::Files); };
   QVERIFY(this->Window->importFile(QString::fromStdString(dgtk::test::sourceFile("Data/Models/crate.ac"))));
-  const QString own = folder.filePath(QString::number(QCoreApplication::applicationPid()) + ".json");
+  QVERIFY(copies().isEmpty());
   this->Window->findChild<QTimer*>("autosave")->start(1);
-  QTRY_VERIFY(QFile::exists(own));
-  const QString left = folder.filePath("999999999.json"); // no process has this number
-  QFile::remove(left);
+  QTRY_COMPARE(copies().size(), 1);
+  const QString own = folder.filePath(copies().first());
+  {
+    dgtk::MainWindow beside;
+    beside.offerRecovery(); // of a window that lives: nothing is asked
+    QVERIFY(beside.document().scene().objects.empty());
+  }
+  QVERIFY2(QFile::exists(own), "another window's end leaves it");
+  const QString left = folder.filePath("left.json"); // nobody holds its lock
   QVERIFY(QFile::copy(own, left));
   this->Window = std::make_unique<dgtk::MainWindow>();
   QVERIFY2(!QFile::exists(own), "the regular end removes the copy");
@@ -98,6 +122,32 @@ void TestEditor::unsavedWorkSurvivesACrash()
   QVERIFY(this->Window->document().modified());
   QVERIFY(this->Window->document().path().empty());
   QVERIFY(!QFile::exists(left));
+  QCOMPARE(copies().size(), 1); // the window's own: what was recovered may be lost again
+  QVERIFY(this->Window->saveFile(this->path("kept.json")));
+  QVERIFY2(QDir(folder).isEmpty(), "nothing is kept of work that is saved");
+}
+
+void TestEditor::parallelViewsCutNothing()
+{
+  QVERIFY(this->Window->importFile(QString::fromStdString(dgtk::test::sourceFile("Data/Models/crate.ac"))));
+  auto* front = this->Window->findChild<QOpenGLWidget*>("view.0");
+  const auto middle = [front]
+  {
+    QTest::qWait(settle);
+    const QImage image = front->grabFramebuffer();
+    return image.pixelColor(image.rect().center() + QPoint(9, 7));
+  };
+  const QColor crate = middle();
+  this->select("crate-1");
+  for (const char* depth : { "5000", "-5000", "30" })
+  {
+    this->type("position.2", depth); // towards the front view's eye, and far beyond it
+    const QColor there = middle();
+    QVERIFY2(std::abs(there.red() - crate.red()) + std::abs(there.green() - crate.green()) < 40, depth);
+  }
+  this->type("position.0", "5000");
+  const QColor background = middle();
+  QVERIFY(std::abs(background.red() - crate.red()) + std::abs(background.green() - crate.green()) >= 40);
 }
 
 void TestEditor::everyMenuItemWorks()
