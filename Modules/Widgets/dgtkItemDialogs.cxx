@@ -112,8 +112,8 @@ CameraDescription CameraDialog::camera() const
   camera.eye = vectorOf(this->Eye);
   camera.lookAt = vectorOf(this->LookAt);
   camera.up = vectorOf(this->Up);
-  camera.width = static_cast<int>(this->Size->values()[0]);
-  camera.height = static_cast<int>(this->Size->values()[1]);
+  camera.width = pixelsOf(this->Size->values()[0]);
+  camera.height = pixelsOf(this->Size->values()[1]);
   if (this->Lens->currentIndex() == byMatrix)
   {
     const std::vector<double>& k = this->K->values();

@@ -5,6 +5,7 @@
 #include <QHBoxLayout>
 #include <QKeyEvent>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -31,6 +32,12 @@ std::optional<double> numberOf(const QString& text)
     return std::nullopt;
   }
   return value;
+}
+
+int pixelsOf(double number)
+{
+  constexpr double mostPixels = 1 << 24; // beyond the largest image, far below the largest int
+  return static_cast<int>(std::clamp(number, -1.0, mostPixels));
 }
 
 NumberRow::NumberRow(const QString& name, int count, QWidget* parent)

@@ -19,6 +19,8 @@ namespace dgtk
 QString numberText(double value);
 /// The whole text as a finite number; a comma counts as a point.
 std::optional<double> numberOf(const QString& text);
+/// The whole number of pixels of an image's side; what no image has stays out of its range.
+int pixelsOf(double number);
 
 /// One or more numbers side by side. What is typed is taken at Return or when the field is left; a text that is no
 /// number gives way to the old value. While something is being typed, other values do not take its place.

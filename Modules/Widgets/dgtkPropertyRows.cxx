@@ -263,9 +263,9 @@ void PropertiesPanel::buildCamera(std::size_t index)
     {
       // A size is given whole or not at all: the first number typed makes the usual shape.
       CameraDescription& its = camera(scene);
-      const bool widthTyped = int(size[0]) != its.width;
-      its.width = int(size[0]);
-      its.height = int(size[1]);
+      const bool widthTyped = pixelsOf(size[0]) != its.width;
+      its.width = pixelsOf(size[0]);
+      its.height = pixelsOf(size[1]);
       if ((its.width == 0) != (its.height == 0) && widthTyped)
       {
         its.height = its.width == 0 ? 0 : std::max(1, its.width * 3 / 4);

@@ -22,6 +22,7 @@ private slots:
   void quaternionsAreTypedAsOne();
   void aRefusalComesOnce();
   void dialogsKeepWhatIsRefused();
+  void hugeSizesAreRefused();
   void unsavedWorkSurvivesACrash();
   void parallelViewsCutNothing();
   void camerasHaveSizesOfTheirOwn();

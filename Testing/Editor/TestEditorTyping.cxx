@@ -172,3 +172,19 @@ void TestEditor::dialogsKeepWhatIsRefused()
   this->action("cameraArray")->trigger();
   QCOMPARE(document.scene().cameras.size(), std::size_t(9));
 }
+
+void TestEditor::hugeSizesAreRefused()
+{
+  QVERIFY(this->Window->openFile(demo()));
+  const dgtk::SceneDocument& document = this->Window->document();
+  const std::string first = document.json();
+  this->select(document.scene().cameras.front().name.c_str());
+  for (const char* size : { "4294967936", "1e300", "-1e300" }) // the first is 640 to an int that wraps
+  {
+    QString message;
+    expectRefusal(message);
+    this->type("size.0", size);
+    QVERIFY2(!message.isEmpty(), size);
+    QCOMPARE(document.json(), first);
+  }
+}
