@@ -6,6 +6,7 @@
 #include "dgtkEditorState.h"
 #include "dgtkError.h"
 #include "dgtkModelReader.h"
+#include "dgtkNamedAction.h"
 #include "dgtkPovExport.h"
 #include "dgtkSaveName.h"
 #include "dgtkSceneViews.h"
@@ -131,11 +132,10 @@ bool MainWindow::openFile(const QString& path)
   this->State->setFrame(this->State->scene().firstFrame());
   this->Views->showWhole();
   this->addRecent(path);
-  this->note(tr("Opened %1: %2 objects, %3 lights, %4 cameras")
-               .arg(QFileInfo(path).fileName())
-               .arg(this->State->scene().objects.size())
-               .arg(this->State->scene().lights.size())
-               .arg(this->State->scene().cameras.size()));
+  this->note(
+    tr("Opened %1: %2 objects, %3 lights, %4 cameras")
+      .arg(QFileInfo(path).fileName(), QString::number(this->State->scene().objects.size()),
+        QString::number(this->State->scene().lights.size()), QString::number(this->State->scene().cameras.size())));
   return true;
 }
 
@@ -368,7 +368,7 @@ void MainWindow::refreshRecent()
   const QStringList recent = QSettings().value("recent").toStringList();
   for (const QString& path : recent)
   {
-    this->Recent->addAction(QFileInfo(path).fileName() + "  -  " + QFileInfo(path).absolutePath(), this,
+    this->Recent->addAction(menuText(QFileInfo(path).fileName() + "  -  " + QFileInfo(path).absolutePath()), this,
       [this, path] { this->openFile(path); });
   }
   this->Recent->setEnabled(!recent.isEmpty());

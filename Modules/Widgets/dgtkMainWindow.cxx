@@ -6,6 +6,7 @@
 #include "dgtkEditorLanguage.h"
 #include "dgtkEditorState.h"
 #include "dgtkMatchDialog.h"
+#include "dgtkNamedAction.h"
 #include "dgtkRenderDialog.h"
 #include "dgtkSceneViews.h"
 
@@ -99,8 +100,8 @@ void MainWindow::refresh()
   QAction* const redo = this->findChild<QAction*>("redo");
   undo->setEnabled(document.canUndo());
   redo->setEnabled(document.canRedo());
-  undo->setText(tr("&Undo %1").arg(editText(document.undoText())).trimmed());
-  redo->setText(tr("&Redo %1").arg(editText(document.redoText())).trimmed());
+  undo->setText(tr("&Undo %1").arg(menuText(editText(document.undoText()))).trimmed());
+  redo->setText(tr("&Redo %1").arg(menuText(editText(document.redoText()))).trimmed());
 }
 
 void MainWindow::fail(const QString& message)

@@ -240,9 +240,8 @@ void MatchDialog::showMatch()
   const auto place = [this](std::size_t side, const Eigen::Vector2d& pixel)
   {
     return tr("%1, frame %2:  %3, %4")
-      .arg(this->Sides[side].camera->currentText())
-      .arg(this->Sides[side].frame->value())
-      .arg(exactText(pixel.x()), exactText(pixel.y()));
+      .arg(this->Sides[side].camera->currentText(), QString::number(this->Sides[side].frame->value()),
+        exactText(pixel.x()), exactText(pixel.y()));
   };
   const auto vector = [](const Eigen::Vector3d& v)
   { return exactText(v.x()) + ",  " + exactText(v.y()) + ",  " + exactText(v.z()); };
@@ -264,10 +263,11 @@ void MatchDialog::showMatch()
     const LiveMatch& match = *this->Match;
     const bool surface = match.hit.object != 0;
     set("match.to", match.to.pixel.allFinite() ? place(1 - this->Active->side, match.to.pixel) : QString());
-    set("match.surface",
-      !match.message.empty() ? toText(match.message)
-      : surface ? tr("%1, part %2, triangle %3").arg(toText(match.object)).arg(match.part).arg(match.triangle)
-                : tr("nothing"));
+    set("match.surface", !match.message.empty() ? toText(match.message)
+                         : surface
+                           ? tr("%1, part %2, triangle %3")
+                               .arg(toText(match.object), QString::number(match.part), QString::number(match.triangle))
+                           : tr("nothing"));
     QString kind = QString::number(int(match.to.visibility)) + ' ' + visibilityText(int(match.to.visibility));
     set("match.class", match.occluder.empty() ? kind : kind + ": " + toText(match.occluder));
     if (surface)

@@ -20,6 +20,9 @@ namespace dgtk
 QAction* addNamedAction(
   QWidget* owner, QMenu* menu, QToolBar* tools, const QString& name, const QString& text, const QKeySequence& keys);
 
+/// A name as part of a menu's text, where "&" would underline the letter after it.
+inline QString menuText(QString name) { return name.replace('&', "&&"); }
+
 } // namespace dgtk
 
 #endif

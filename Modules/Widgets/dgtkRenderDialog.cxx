@@ -95,13 +95,10 @@ void RenderDialog::refresh()
        "<tr><td>Lights</td><td>%3</td></tr><tr><td>Cameras</td><td>%4</td></tr>"
        "<tr><td>Frames</td><td>%5 to %6</td></tr><tr><td>Key frames</td><td>%7</td></tr></table>")
       .arg(this->State.document().path().empty() ? tr("not saved yet")
-                                                 : toText(this->State.document().path()).toHtmlEscaped())
-      .arg(scene.objects.size())
-      .arg(scene.lights.size())
-      .arg(scene.cameras.size())
-      .arg(scene.firstFrame())
-      .arg(scene.lastFrame())
-      .arg(keys.size()));
+                                                 : toText(this->State.document().path()).toHtmlEscaped(),
+        QString::number(scene.objects.size()), QString::number(scene.lights.size()),
+        QString::number(scene.cameras.size()), QString::number(scene.firstFrame()), QString::number(scene.lastFrame()),
+        QString::number(keys.size())));
   QStringList left;
   for (int i = 0; i < this->Cameras->count(); ++i)
   {
@@ -214,12 +211,11 @@ void RenderDialog::showResolution()
   const WorldResolution resolution = worldResolution(place.view);
   const QString units = scene.units.empty() ? tr("units") : toText(scene.units);
   const auto number = [](double value) { return QString::number(value, 'g', 6); };
-  this->Resolution->setText(tr("%1: %2 x %3 pixels\nA pixel is %5 %4 in x, %6 in y; at the far plane %7 and %8")
-                              .arg(toText(camera.name))
-                              .arg(place.view.model->width())
-                              .arg(place.view.model->height())
-                              .arg(units, number(resolution.thesis.x()), number(resolution.thesis.y()),
-                                number(resolution.farPlane.x()), number(resolution.farPlane.y())));
+  this->Resolution->setText(
+    tr("%1: %2 x %3 pixels\nA pixel is %5 %4 in x, %6 in y; at the far plane %7 and %8")
+      .arg(toText(camera.name), QString::number(place.view.model->width()), QString::number(place.view.model->height()),
+        units, number(resolution.thesis.x()), number(resolution.thesis.y()), number(resolution.farPlane.x()),
+        number(resolution.farPlane.y())));
 }
 
 QStringList RenderDialog::arguments(const QString& scene) const
@@ -345,7 +341,7 @@ void RenderDialog::start()
     this->Running.start();
     this->Clock->start(progressEvery);
     this->Status->setText(tr("Rendering ..."));
-    emit this->noted("dgtk " + this->arguments(scene).join(' '));
+    emit this->noted("dgtk " + shellLine(this->arguments(scene)));
     this->Process.start(this->arguments(scene));
   }
 }
@@ -386,6 +382,8 @@ void RenderDialog::finish(bool ok, bool cancelled, const QString& message)
 void RenderDialog::setRunning(bool on)
 {
   this->Tabs->setEnabled(!on);
+  this->Folder->setEnabled(!on); // the result is there
+  this->Browse->setEnabled(!on);
   this->Start->setEnabled(!on);
   this->Cancel->setEnabled(on);
   const bool there = !on && QDir(this->Folder->text()).exists("manifest.json");

@@ -94,6 +94,7 @@ private:
   QSpinBox* Samples = nullptr;
   std::vector<QCheckBox*> Layers;
   QLineEdit* Folder = nullptr;
+  QPushButton* Browse = nullptr;
   QCheckBox* Resume = nullptr;
   QPushButton* Start = nullptr;
   QPushButton* Cancel = nullptr;

@@ -164,9 +164,9 @@ void RenderDialog::makeRunRow(QVBoxLayout* layout)
   this->Folder = new QLineEdit(this->usualFolder());
   this->Folder->setObjectName("folder");
   folder->addWidget(this->Folder, 1);
-  auto* browseButton = new QPushButton(tr("Browse ..."));
-  browseButton->setAutoDefault(false);
-  folder->addWidget(browseButton);
+  this->Browse = new QPushButton(tr("Browse ..."));
+  this->Browse->setAutoDefault(false);
+  folder->addWidget(this->Browse);
   layout->addLayout(folder);
 
   this->Resume = new QCheckBox(tr("Go on with an interrupted run of the same request"));
@@ -204,7 +204,7 @@ void RenderDialog::makeRunRow(QVBoxLayout* layout)
     buttons->addWidget(button);
   }
   layout->addLayout(buttons);
-  connect(browseButton, &QPushButton::clicked, this, &RenderDialog::browse);
+  connect(this->Browse, &QPushButton::clicked, this, &RenderDialog::browse);
   connect(this->Start, &QPushButton::clicked, this, &RenderDialog::start);
   connect(this->Cancel, &QPushButton::clicked, &this->Process, &RenderProcess::cancel);
   connect(close, &QPushButton::clicked, this, &RenderDialog::reject);

@@ -15,6 +15,17 @@ constexpr int longestEnd = 10000; // milliseconds
 constexpr const char* secondsBetweenReports = "0.2";
 } // namespace
 
+QString shellLine(const QStringList& words)
+{
+  static const QRegularExpression plain("^[A-Za-z0-9_@%+=:,./-]+$");
+  QStringList quoted;
+  for (QString word : words)
+  {
+    quoted << (plain.match(word).hasMatch() ? word : '\'' + word.replace('\'', "'\\''") + '\'');
+  }
+  return quoted.join(' ');
+}
+
 RenderProcess::RenderProcess(QObject* parent)
   : QObject(parent)
 {

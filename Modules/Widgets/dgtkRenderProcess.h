@@ -12,6 +12,9 @@
 namespace dgtk
 {
 
+/// Words as a POSIX shell reads them: quoted where it would make something else of them.
+QString shellLine(const QStringList& words);
+
 /// `dgtk render` in a process of its own: the window stays responsive, and the files are those of the command line.
 class RenderProcess : public QObject
 {

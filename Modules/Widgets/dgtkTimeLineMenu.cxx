@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkNamedAction.h"
 #include "dgtkTimeLineCells.h"
 #include "dgtkTimeLineSizes.h"
 
@@ -120,7 +121,7 @@ void TimeLineCells::addSequences(QMenu& menu, const Row& row)
   int index = 0;
   for (const std::string& name : sequencesOf(scene, scene.objects[item.index], models))
   {
-    QAction* const action = sequences->addAction(toText(name), this,
+    QAction* const action = sequences->addAction(menuText(toText(name)), this,
       [change, name] { change("Choose sequence", [&](AnimationDescription& a) { a.sequence = name; }); });
     action->setCheckable(true);
     action->setChecked(index++ == current);

@@ -29,6 +29,8 @@ double valueOf(const PixelTruth& truth, const char* layer)
   }
   return 0;
 }
+
+QString idText(const PixelTruth& truth, const char* layer) { return QString::number(valueOf(truth, layer), 'f', 0); }
 } // namespace
 
 QString exactText(double value)
@@ -122,7 +124,7 @@ void TruthPanel::forgetTruth()
 void TruthPanel::showTruth(const QString& view, const PixelTruth& truth, const QString& units)
 {
   this->Next = 0;
-  this->setRow(tr("View"), tr("%1, frame %2").arg(view).arg(truth.frame));
+  this->setRow(tr("View"), tr("%1, frame %2").arg(view, QString::number(truth.frame)));
   this->setRow(tr("Pixel"), tr("column %1, row %2").arg(truth.column).arg(truth.row));
   if (!truth.message.empty())
   {
@@ -131,16 +133,15 @@ void TruthPanel::showTruth(const QString& view, const PixelTruth& truth, const Q
     return;
   }
   this->setRow(tr("Object"),
-    truth.object.empty() ? tr("nothing") : tr("%1 (id %2)").arg(toText(truth.object)).arg(valueOf(truth, "objects")));
+    truth.object.empty() ? tr("nothing") : tr("%1 (id %2)").arg(toText(truth.object), idText(truth, "objects")));
   if (!truth.object.empty())
   {
     if (!truth.className.empty())
     {
       this->setRow(tr("Class"), toText(truth.className));
     }
-    this->setRow(tr("Part"), tr("%1 (id %2)")
-                               .arg(toText(truth.part).isEmpty() ? tr("unnamed") : toText(truth.part))
-                               .arg(valueOf(truth, "parts")));
+    this->setRow(tr("Part"),
+      tr("%1 (id %2)").arg(truth.part.empty() ? tr("unnamed") : toText(truth.part), idText(truth, "parts")));
     this->setRow(tr("Triangle"), exactText(valueOf(truth, "triangles")));
     this->showValues(truth, units);
   }

@@ -23,6 +23,8 @@ private slots:
   void exportsForPovRay();
   void filesOfTheCommandLineOpen();
   void recentFilesOpenAgain();
+  void anyNameIsShownAsItIs();
+  void theLogsCommandIsForAShell();
   void theWindowIsAsItWasLeft();
   void readingDoesNotHoldTheWindow();
   void readingIsCancelled();

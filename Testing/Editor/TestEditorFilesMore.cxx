@@ -15,6 +15,7 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QMimeData>
+#include <QPlainTextEdit>
 #include <QProcess>
 #include <QProgressBar>
 #include <QPushButton>
@@ -182,6 +183,49 @@ void TestEditorFiles::recentFilesOpenAgain()
   QVERIFY(recent->actions().first()->text().contains("demo.json"));
   recent->actions().first()->trigger();
   QTRY_COMPARE(QString::fromStdString(this->Window->document().path()), scene);
+}
+
+void TestEditorFiles::anyNameIsShownAsItIs()
+{
+  QVERIFY(this->Window->openFile(demo()));
+  const QString scene = this->path("R&D %2.json");
+  QVERIFY(this->Window->saveFile(scene));
+  QVERIFY(this->Window->openFile(scene));
+  auto* log = this->Window->findChild<QPlainTextEdit*>("log");
+  QVERIFY2(log->toPlainText().contains("Opened R&D %2.json: "), qPrintable(log->toPlainText()));
+  auto* recent = this->Window->findChild<QMenu*>("recent");
+  QVERIFY(recent->actions().first()->text().contains("R&&D %2.json"));
+  const QString crate = this->path("R&D.ac");
+  QVERIFY(QFile::copy(model("crate.ac"), crate));
+  QVERIFY(this->import(crate).isEmpty());
+  QVERIFY2(this->action("undo")->text().contains("R&&D.ac"), qPrintable(this->action("undo")->text()));
+}
+
+void TestEditorFiles::theLogsCommandIsForAShell()
+{
+  const QString folder = this->path("Anna's $HOME & data");
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  this->action("render")->trigger();
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  auto* field = dialog->findChild<QLineEdit*>("folder");
+  field->setText(folder);
+  dialog->findChild<QCheckBox*>("ownSize")->setChecked(false);
+  dialog->findChild<QSpinBox*>("width")->setValue(largeWidth);
+  auto* start = dialog->findChild<QPushButton*>("start");
+  QTest::mouseClick(start, Qt::LeftButton);
+  QVERIFY(!field->isEnabled());
+  QTest::mouseClick(dialog->findChild<QPushButton*>("cancel"), Qt::LeftButton);
+  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+  QVERIFY(field->isEnabled());
+  const QStringList lines = this->Window->findChild<QPlainTextEdit*>("log")->toPlainText().split('\n');
+  const QStringList commands = lines.filter(QRegularExpression("^dgtk render "));
+  QCOMPARE(commands.size(), 1);
+  QProcess shell;
+  shell.start("/bin/sh", { "-c", QString(commands.first()).replace(0, 4, "printf '%s\\n'") });
+  QVERIFY(shell.waitForFinished());
+  const QStringList words = QString::fromUtf8(shell.readAllStandardOutput()).split('\n');
+  QCOMPARE(words.value(words.indexOf("-o") + 1), folder);
+  QVERIFY(words.indexOf("-o") > 0);
 }
 
 void TestEditorFiles::theWindowIsAsItWasLeft()
