@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCloudView.h"
 
-#include <QKeyEvent>
 #include <QMouseEvent>
 
 #include <vtkActor.h>
@@ -23,8 +22,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double degreesPerKey = 5;
-constexpr double panPerKey = 30; // pixels
 constexpr double pickPixels = 12;
 constexpr double frustumShare = 0.07; // of the diagonal of everything
 constexpr double markerShare = 0.015;
@@ -275,26 +272,6 @@ void CloudView::pick(const QPoint& at)
   {
     emit this->cameraPicked(QString::fromStdString(name));
   }
-}
-
-void CloudView::keyPressEvent(QKeyEvent* event)
-{
-  const int dx = event->key() == Qt::Key_Left ? -1 : event->key() == Qt::Key_Right ? 1 : 0;
-  const int dy = event->key() == Qt::Key_Up ? -1 : event->key() == Qt::Key_Down ? 1 : 0;
-  if (dx == 0 && dy == 0)
-  {
-    ViewWidget::keyPressEvent(event);
-    return;
-  }
-  if (event->modifiers() & Qt::ShiftModifier)
-  {
-    this->Camera.pan(panPerKey * dx, panPerKey * dy, this->height());
-  }
-  else
-  {
-    this->Camera.orbit(degreesPerKey * dx, degreesPerKey * dy);
-  }
-  this->placeCamera();
 }
 
 } // namespace dgtk

@@ -22,8 +22,7 @@ namespace dgtk
 {
 
 /// The cameras and points of a dataset in the world. Mouse as in the editor's perspective view: left turns, middle or
-/// Shift and left pans, right and wheel zoom; a click on a camera chooses it. Keys: arrows turn, with Shift they pan,
-/// plus and minus zoom.
+/// Shift and left pans, right and wheel zoom; a click on a camera chooses it.
 class CloudView : public ViewWidget
 {
   Q_OBJECT
@@ -54,7 +53,6 @@ protected:
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
-  void keyPressEvent(QKeyEvent* event) override;
   void draw() override;
 
 private:

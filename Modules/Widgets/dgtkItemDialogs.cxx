@@ -152,11 +152,30 @@ LightDialog::LightDialog(const LightDescription& light, QWidget* parent)
   this->Diffuse = addRow(form, tr("Diffuse"), "diffuse", listOf(light.diffuse));
   this->Specular = addRow(form, tr("Specular"), "specular", listOf(light.specular));
   this->Ambient = addRow(form, tr("Ambient"), "ambient", listOf(light.ambient));
+  this->Intensity = addRow(form, tr("Intensity"), "intensity", { light.intensity });
+  this->Attenuation =
+    addRow(form, tr("Attenuation (constant, linear, quadratic)"), "attenuation", listOf(light.attenuation));
+  this->Cone = addRow(form, tr("Cone of a spot, \u00b0"), "coneAngle", { light.coneAngle });
+  this->Exponent = addRow(form, tr("Exponent of a spot"), "exponent", { light.exponent });
+  connect(this->Kind, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &LightDialog::refreshKind);
+  this->refreshKind();
   this->Enabled = new QCheckBox(tr("Enabled"));
   this->Enabled->setObjectName("enabled");
   this->Enabled->setChecked(light.enabled);
   form->addRow(QString(), this->Enabled);
   addButtons(this, form);
+}
+
+/// What a kind of light does not have cannot be typed.
+void LightDialog::refreshKind()
+{
+  const auto kind = static_cast<LightKind>(this->Kind->currentIndex());
+  const bool spot = kind == LightKind::Spot;
+  this->Position->setEnabled(kind != LightKind::Head);
+  this->Target->setEnabled(spot || kind == LightKind::Directional);
+  this->Attenuation->setEnabled(spot || kind == LightKind::Point);
+  this->Cone->setEnabled(spot);
+  this->Exponent->setEnabled(spot);
 }
 
 void LightDialog::accept()
@@ -179,6 +198,10 @@ LightDescription LightDialog::light() const
   light.diffuse = vectorOf(this->Diffuse);
   light.specular = vectorOf(this->Specular);
   light.ambient = vectorOf(this->Ambient);
+  light.intensity = this->Intensity->values()[0];
+  light.attenuation = vectorOf(this->Attenuation);
+  light.coneAngle = this->Cone->values()[0];
+  light.exponent = this->Exponent->values()[0];
   return light;
 }
 

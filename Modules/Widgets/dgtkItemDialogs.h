@@ -69,6 +69,8 @@ public:
   void accept() override;
 
 private:
+  void refreshKind();
+
   std::function<bool(const LightDescription&)> Adder;
   QLineEdit* Name = nullptr;
   QComboBox* Kind = nullptr;
@@ -78,6 +80,10 @@ private:
   NumberRow* Diffuse = nullptr;
   NumberRow* Specular = nullptr;
   NumberRow* Ambient = nullptr;
+  NumberRow* Intensity = nullptr;
+  NumberRow* Attenuation = nullptr;
+  NumberRow* Cone = nullptr;
+  NumberRow* Exponent = nullptr;
 };
 
 } // namespace dgtk

@@ -27,6 +27,18 @@
 namespace dgtk
 {
 
+namespace
+{
+/// Above the middle of the scene, aside and before it, as far as the scene is large.
+Eigen::Vector3d placeOfLight(const WorldBox& box, UpAxis up)
+{
+  const Eigen::Vector3d center = box.empty() ? Eigen::Vector3d(0, 0, 0) : box.center();
+  const double size = std::max(box.empty() ? 0.0 : box.diagonal(), 1.0);
+  const Eigen::Vector3d way = up == UpAxis::Z ? Eigen::Vector3d(0.4, -0.6, 1) : Eigen::Vector3d(0.4, 1, 0.6);
+  return (100 * (center + size * way)).array().round() / 100;
+}
+} // namespace
+
 QAction* MainWindow::addAction(QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys)
 {
   QAction* const action = addNamedAction(this, menu, this->findChild<QToolBar*>("toolBar"), name, text, keys);
@@ -190,7 +202,9 @@ void MainWindow::makeHelpMenu()
            "During a drag: X, Y, Z keep to an axis, with Shift to the two others; Ctrl: steps; Esc: as it was.<br>"
            "Left drag: turn the perspective, pan the others. Middle or Shift and left: pan.<br>"
            "Right drag or wheel: zoom. Right click: menu. Double click: one view or all four.</p>"
-           "<p>R frame all, F frame selected, W wireframe, S shaded, T textured, G grid, F11 maximise.</p>"));
+           "<p>R frame all, F frame selected, W wireframe, S shaded, T textured, G grid, F11 maximise.<br>"
+           "Arrows turn or pan the view with a frame about it, with Shift they pan; + and - zoom.<br>"
+           "In the time line: Space plays, Left and Right go through the frames, with Ctrl from key to key.</p>"));
     });
   connect(this->addAction(menu, "about", tr("&About DGTk"), {}), &QAction::triggered, this,
     [this]
@@ -257,7 +271,7 @@ void MainWindow::addLight()
     names.push_back(other.name);
   }
   light.name = uniqueName(names, "Light0");
-  light.position = Eigen::Vector3d(2, 5, 3);
+  light.position = placeOfLight(this->Views->places().box, this->State->scene().upAxis);
   LightDialog dialog(light, this);
   dialog.onAdd([this](const LightDescription& added)
     { return this->State->attempt([&] { this->State->select({ this->document().addLight(added) }); }); });

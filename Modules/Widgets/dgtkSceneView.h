@@ -55,6 +55,8 @@ public:
   /// Nothing where only the background is.
   std::optional<SceneItem> itemAt(const QPoint& position) const;
 
+  /// The view that keys and menus mean has a frame.
+  void setActive(bool on);
   void showHandles(const std::optional<HandlePlace>& place);
   const Grasp& grasp() const { return this->Grasped; }
   /// While it is dragged: this handle alone is shown, with a text beside the mouse.
@@ -77,6 +79,8 @@ signals:
 protected:
   bool event(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;

@@ -3,6 +3,7 @@
 
 #include "dgtkViewOverlay.h"
 
+#include <QContextMenuEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QWheelEvent>
@@ -145,7 +146,12 @@ bool SceneView::event(QEvent* event)
 
 void SceneView::keyPressEvent(QKeyEvent* event)
 {
-  if (!this->Holds || !isDragKey(event->key()))
+  if (!this->Holds)
+  {
+    ViewWidget::keyPressEvent(event);
+    return;
+  }
+  if (!isDragKey(event->key()))
   {
     QWidget::keyPressEvent(event);
     return;
@@ -161,6 +167,24 @@ void SceneView::keyPressEvent(QKeyEvent* event)
     emit this->constrained(event->key() - Qt::Key_X, event->modifiers() & Qt::ShiftModifier);
   }
 }
+
+void SceneView::focusInEvent(QFocusEvent* event)
+{
+  ViewWidget::focusInEvent(event);
+  emit this->activated();
+}
+
+/// The menu key; the mouse's menu comes with its release.
+void SceneView::contextMenuEvent(QContextMenuEvent* event)
+{
+  if (event->reason() == QContextMenuEvent::Keyboard && !this->Holds)
+  {
+    emit this->menuAsked(this->mapToGlobal(this->rect().center()));
+  }
+  event->accept();
+}
+
+void SceneView::setActive(bool on) { this->Overlay->showFrame(on); }
 
 void SceneView::leaveEvent(QEvent* event)
 {

@@ -65,7 +65,7 @@ QWidget* SceneViews::makePane(ViewKind kind, const QString& title)
   view->setObjectName("view." + QString::number(static_cast<int>(kind)));
   layout->addWidget(view, 1);
   this->Views.push_back(view);
-  connect(view, &SceneView::activated, this, [this, view] { this->Active = view; });
+  connect(view, &SceneView::activated, this, [this, view] { this->activate(view); });
   connect(view, &SceneView::picked, this, &SceneViews::pick);
   this->connectDrags(view);
   connect(view, &SceneView::maximizeAsked, this, [this, view] { this->toggleMaximized(view); });
@@ -105,7 +105,7 @@ void SceneViews::showWhole()
     }
   }
   this->WholeWanted = !this->isVisible();
-  this->frameAll();
+  this->frameObjects();
 }
 
 void SceneViews::showEvent(QShowEvent* event)
@@ -118,7 +118,24 @@ void SceneViews::showEvent(QShowEvent* event)
   }
 }
 
+void SceneViews::activate(SceneView* view)
+{
+  this->Active = view;
+  for (SceneView* other : this->Views)
+  {
+    other->setActive(other == view);
+  }
+}
+
 void SceneViews::frameAll()
+{
+  for (SceneView* view : this->Views)
+  {
+    view->frame(this->Places->box);
+  }
+}
+
+void SceneViews::frameObjects()
 {
   // Cameras and lights may stand far off: objects count where there are any.
   WorldBox box;

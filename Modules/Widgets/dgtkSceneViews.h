@@ -35,6 +35,7 @@ public:
   QHBoxLayout* title(ViewKind kind) const { return this->Titles[static_cast<std::size_t>(kind)]; }
   const ScenePlaces& places() const { return *this->Places; }
   SceneView* active() const { return this->Active; }
+  /// Objects, cameras and lights.
   void frameAll();
   void frameSelected();
   void setStyle(ViewStyle style);
@@ -46,7 +47,7 @@ public:
   void toggleMaximized(SceneView* view);
   /// The perspective view from a camera's place.
   void lookThrough(const CameraDescription& camera);
-  /// The window's size and place is known, or another scene was opened: everything in sight.
+  /// The window's size and place is known, or another scene was opened: its objects in sight, or what there is.
   void showWhole();
 
 signals:
@@ -62,6 +63,8 @@ protected:
 private:
   QWidget* makePane(ViewKind kind, const QString& title);
   void refresh();
+  void frameObjects();
+  void activate(SceneView* view);
   void pick(bool hit, int kind, int index, bool add);
   void connectDrags(SceneView* view);
   void showSelection();

@@ -20,6 +20,7 @@ const QColor edge(20, 20, 22, 150);
 const QColor chosen(60, 255, 60);
 const QColor bright(255, 214, 60);
 const QColor freeColor(230, 230, 232);
+const QColor frameColor(120, 160, 210);
 
 QColor colorOf(const Handle& handle)
 {
@@ -87,9 +88,20 @@ void ViewOverlay::showText(const QString& text, const QPoint& at)
   this->update();
 }
 
+void ViewOverlay::showFrame(bool on)
+{
+  this->Frame = on;
+  this->update();
+}
+
 void ViewOverlay::paintEvent(QPaintEvent*)
 {
   QPainter painter(this);
+  if (this->Frame)
+  {
+    painter.setPen(frameColor);
+    painter.drawRect(this->rect().adjusted(0, 0, -1, -1));
+  }
   painter.setRenderHint(QPainter::Antialiasing, this->Lines.size() < manyLines);
   painter.setPen(QPen(chosen, 1.6));
   painter.drawLines(this->Lines.data(), static_cast<int>(this->Lines.size()));

@@ -30,6 +30,8 @@ public:
   void highlight(const std::optional<Handle>& handle);
   /// Beside the pointer; "" for nothing.
   void showText(const QString& text, const QPoint& at);
+  /// About the whole view.
+  void showFrame(bool on);
 
 protected:
   void paintEvent(QPaintEvent* event) override;
@@ -40,6 +42,7 @@ private:
   std::optional<Handle> Bright;
   QString Text;
   QPoint At;
+  bool Frame = false;
 };
 
 } // namespace dgtk

@@ -2,6 +2,7 @@
 #include "dgtkViewWidget.h"
 
 #include <QApplication>
+#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QTimer>
 #include <QWheelEvent>
@@ -21,6 +22,8 @@ namespace dgtk
 namespace
 {
 constexpr double degreesPerPixel = 0.4;
+constexpr double degreesPerKey = 5;
+constexpr double panPerKey = 30;       // pixels
 constexpr double zoomPerPixel = 0.008; // natural logarithm
 constexpr double zoomPerStep = 0.15;   // of the wheel
 constexpr double wheelStep = 120;      // Qt's unit, eighths of a degree
@@ -106,6 +109,32 @@ void ViewWidget::moveView(const QMouseEvent& event)
     default:
       this->Camera.zoom(std::exp(-zoomPerPixel * step.y()));
       break;
+  }
+  this->placeCamera();
+}
+
+void ViewWidget::keyPressEvent(QKeyEvent* event)
+{
+  const int key = event->key();
+  const int dx = key == Qt::Key_Left ? -1 : key == Qt::Key_Right ? 1 : 0;
+  const int dy = key == Qt::Key_Up ? -1 : key == Qt::Key_Down ? 1 : 0;
+  const int closer = key == Qt::Key_Plus || key == Qt::Key_Equal ? 1 : key == Qt::Key_Minus ? -1 : 0;
+  if (closer != 0)
+  {
+    this->Camera.zoom(std::exp(zoomPerStep * closer));
+  }
+  else if (dx == 0 && dy == 0)
+  {
+    QVTKOpenGLNativeWidget::keyPressEvent(event);
+    return;
+  }
+  else if (this->Camera.parallel() || event->modifiers() & Qt::ShiftModifier)
+  {
+    this->Camera.pan(panPerKey * dx, panPerKey * dy, this->height());
+  }
+  else
+  {
+    this->Camera.orbit(degreesPerKey * dx, degreesPerKey * dy);
   }
   this->placeCamera();
 }

@@ -16,7 +16,8 @@ class vtkRenderer;
 namespace dgtk
 {
 
-/// One renderer, seen by a ViewCamera that the mouse moves. What a button does is for derived classes to say.
+/// One renderer, seen by a ViewCamera that the mouse moves. What a button does is for derived classes to say. Keys:
+/// arrows turn the perspective and pan parallel views, with Shift they always pan; plus and minus zoom.
 class ViewWidget : public QVTKOpenGLNativeWidget
 {
   Q_OBJECT
@@ -49,6 +50,7 @@ protected:
   /// Turns, pans or zooms by what the mouse has moved since the last time.
   void moveView(const QMouseEvent& event);
   void frameBox(const WorldBox& box);
+  void keyPressEvent(QKeyEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 

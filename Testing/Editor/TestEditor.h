@@ -25,6 +25,8 @@ private slots:
   void hugeSizesAreRefused();
   void unsavedWorkSurvivesACrash();
   void parallelViewsCutNothing();
+  void viewsMoveByKeys();
+  void lightsHaveAllTheirNumbers();
   void camerasHaveSizesOfTheirOwn();
   void cancelledRunsResume();
   void everyMenuItemWorks();

@@ -7,6 +7,7 @@
 
 #include <QAction>
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDialog>
 #include <QLineEdit>
 #include <QListWidget>
@@ -21,6 +22,7 @@
 #include <QTest>
 
 #include <cstdlib>
+#include <utility>
 
 namespace
 {
@@ -148,6 +150,63 @@ void TestEditor::parallelViewsCutNothing()
   this->type("position.0", "5000");
   const QColor background = middle();
   QVERIFY(std::abs(background.red() - crate.red()) + std::abs(background.green() - crate.green()) >= 40);
+}
+
+void TestEditor::viewsMoveByKeys()
+{
+  QVERIFY(this->Window->openFile(demo()));
+  QTest::qWait(settle);
+  for (const char* name : { "view.0", "view.3" })
+  {
+    auto* view = this->Window->findChild<QOpenGLWidget*>(name);
+    view->setFocus();
+    const QImage first = view->grabFramebuffer();
+    const auto differs = [&](int key, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
+    {
+      const QImage before = view->grabFramebuffer();
+      QTest::keyClick(view, Qt::Key(key), modifiers);
+      QTest::qWait(settle);
+      return view->grabFramebuffer() != before;
+    };
+    QVERIFY(differs(Qt::Key_Right));
+    QVERIFY(differs(Qt::Key_Up));
+    QVERIFY(differs(Qt::Key_Left, Qt::ShiftModifier));
+    QVERIFY(differs(Qt::Key_Plus));
+    QVERIFY(differs(Qt::Key_Minus));
+    QVERIFY(first != view->grabFramebuffer());
+    this->action("maximize")->trigger(); // the view that has the focus
+    QVERIFY(view->isVisible());
+    QVERIFY(!this->Window->findChild<QWidget*>("view.1")->isVisible());
+    this->action("maximize")->trigger();
+  }
+}
+
+void TestEditor::lightsHaveAllTheirNumbers()
+{
+  QVERIFY(this->Window->importFile(QString::fromStdString(dgtk::test::sourceFile("Data/Models/crate.ac"))));
+  answer<QDialog>("lightDialog",
+    [](QDialog& dialog)
+    {
+      const auto field = [&dialog](const char* name) { return dialog.findChild<QLineEdit*>(name); };
+      QVERIFY(!field("target.0")->isEnabled());
+      dialog.findChild<QComboBox*>("kind")->setCurrentIndex(static_cast<int>(dgtk::LightKind::Spot));
+      QVERIFY(field("target.0")->isEnabled());
+      const std::pair<const char*, const char*> typed[] = { { "intensity.0", "0.5" }, { "attenuation.1", "0.25" },
+        { "attenuation.2", "0.125" }, { "coneAngle.0", "20" }, { "exponent.0", "3" } };
+      for (const auto& [name, text] : typed)
+      {
+        field(name)->setText(text);
+        field(name)->setModified(true);
+      }
+      QTest::mouseClick(dialog.findChild<QPushButton*>("add"), Qt::LeftButton);
+    });
+  this->action("light")->trigger();
+  const dgtk::LightDescription& light = this->Window->document().scene().lights.at(0);
+  QCOMPARE(light.kind, dgtk::LightKind::Spot);
+  QCOMPARE(light.intensity, 0.5);
+  QCOMPARE(light.attenuation, Eigen::Vector3d(1, 0.25, 0.125));
+  QCOMPARE(light.coneAngle, 20.0);
+  QCOMPARE(light.exponent, 3.0);
 }
 
 void TestEditor::everyMenuItemWorks()
