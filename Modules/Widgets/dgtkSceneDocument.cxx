@@ -204,9 +204,37 @@ void SceneDocument::forget()
   }
 }
 
+bool SceneDocument::changesNothing(const Step& step) const
+{
+  const auto text = [this](const SceneDescription& scene) { return toJson(scene, this->Scene.folder); };
+  if (step.whole)
+  {
+    return text(step.before) == text(step.after);
+  }
+  const auto textOf = [&](const ItemState& state)
+  {
+    SceneDescription alone;
+    alone.folder = this->Scene.folder;
+    alone.objects.resize(step.item.kind == SceneItem::Kind::Object);
+    alone.lights.resize(step.item.kind == SceneItem::Kind::Light);
+    alone.cameras.resize(step.item.kind == SceneItem::Kind::Camera);
+    putState(alone, { step.item.kind, 0 }, state);
+    return text(alone);
+  };
+  return textOf(step.itemBefore) == textOf(step.itemAfter);
+}
+
 void SceneDocument::finishMerging()
 {
-  if (!this->Done.empty())
+  if (this->Done.empty() || this->Done.back().merge.empty())
+  {
+    return;
+  }
+  if (this->changesNothing(this->Done.back()))
+  {
+    this->abandon();
+  }
+  else
   {
     this->Done.back().merge.clear();
   }
@@ -249,7 +277,10 @@ void SceneDocument::undo()
   step.merge.clear();
   this->putBack(step);
   this->Undone.push_back(std::move(step));
-  this->finishMerging();
+  if (!this->Done.empty())
+  {
+    this->Done.back().merge.clear();
+  }
   this->notify();
 }
 

@@ -76,6 +76,7 @@ public:
   /// An edit of nothing but one item (not its name): its undo step holds no more than the item.
   void editItem(const std::string& text, const SceneItem& item, const std::function<void(SceneDescription&)>& change,
     const std::string& merge = {});
+  /// Steps that have changed nothing together are taken back as by abandon().
   void finishMerging();
   /// Takes back the merged steps that finishMerging() has not ended yet, as if they had not been: what could be redone
   /// before them can be redone again. Nothing without such steps.
@@ -117,6 +118,7 @@ private:
   static void putState(SceneDescription& scene, const SceneItem& item, const ItemState& state);
   void accept(Step step);
   void putBack(const Step& step);
+  bool changesNothing(const Step& step) const;
   void forget();
   void reset(SceneDescription scene, const std::string& path, std::size_t clean);
   void notify() const;

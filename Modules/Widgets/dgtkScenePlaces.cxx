@@ -17,6 +17,7 @@ namespace
 {
 constexpr int usualWidth = 640;
 constexpr int usualHeight = 480;
+constexpr double atEye = 1e-6; // world units; nearer cameras and lights are at the eye itself
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// World from object of all objects: parents are placed before their children.
@@ -162,7 +163,7 @@ double meetTriangle(const WorldRay& ray, const Eigen::Vector3d& a, const Eigen::
   const Eigen::Vector3d q = s.cross(ab);
   const double v = ray.direction.dot(q) / determinant;
   const double t = ac.dot(q) / determinant;
-  return u >= 0 && v >= 0 && u + v <= 1 && t >= ray.least ? t : infinity;
+  return u >= 0 && v >= 0 && u + v <= 1 && t > ray.least ? t : infinity;
 }
 
 double meetObject(const ObjectPlace& place, const WorldRay& ray, double most)
@@ -188,7 +189,9 @@ double meetPoint(const Eigen::Vector3d& point, const WorldRay& ray, const PickRe
 {
   const double t = (point - ray.origin).dot(ray.direction) / ray.direction.squaredNorm();
   const double distance = (ray.origin + t * ray.direction - point).norm();
-  return t >= ray.least && distance <= reach.constant + reach.slope * t ? t : infinity;
+  return t > ray.least && (point - ray.origin).norm() > atEye && distance <= reach.constant + reach.slope * t
+           ? t
+           : infinity;
 }
 } // namespace
 
@@ -273,7 +276,7 @@ ScenePlaces placeScene(const SceneDescription& scene, const ModelStore& models, 
 std::optional<SceneItem> pickItem(const ScenePlaces& places, const WorldRay& ray, const PickReach& reach)
 {
   std::optional<SceneItem> best;
-  double nearest = infinity;
+  double nearest = ray.most;
   const auto offer = [&](double t, SceneItem::Kind kind, std::size_t index)
   {
     if (t < nearest)

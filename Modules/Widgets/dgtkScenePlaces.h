@@ -9,6 +9,7 @@
 #include "dgtkSceneEdits.h"
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -59,16 +60,18 @@ struct DGTKWIDGETS_EXPORT ScenePlaces
 /// Throws InputError where a scale passes through 0.
 DGTKWIDGETS_EXPORT ScenePlaces placeScene(const SceneDescription& scene, const ModelStore& models, double frame);
 
-/// x_in_world(t) = origin + t * direction, t >= least.
+/// x_in_world(t) = origin + t * direction, least < t < most.
 struct WorldRay
 {
   Eigen::Vector3d origin;
   Eigen::Vector3d direction;
   double least = 0;
+  double most = std::numeric_limits<double>::infinity();
 };
 
 /// The first visible object that a ray meets, exactly by its triangles, or a camera or light whose place the ray passes
-/// within `reach` (world units at parameter 1 of the ray if it widens, everywhere otherwise).
+/// within `reach` (world units at parameter 1 of the ray if it widens, everywhere otherwise). What is at the ray's
+/// beginning is not met: it may be the camera that one looks through.
 struct PickReach
 {
   double constant = 0;

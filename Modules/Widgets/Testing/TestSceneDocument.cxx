@@ -279,6 +279,37 @@ TEST(SceneDocument, StepsOfADragAreOneStepAndASaveIsBetween)
   EXPECT_TRUE(document.modified()) << "the file holds another position";
 }
 
+TEST(SceneDocument, ADragThatChangesNothingIsNoStep)
+{
+  SceneDocument document;
+  document.open(sourceFile("Data/Scenes/demo.json"));
+  const std::string first = document.json();
+  const SceneItem house{ SceneItem::Kind::Object, 1 };
+  const Eigen::Vector3d place = itemPosition(document.scene(), house, 0);
+  document.editItem("Move", house, [&](SceneDescription& s) { setItemPosition(s, house, 0, { 1, 2, 3 }); });
+  document.undo();
+  const auto drag = [&](const Eigen::Vector3d& to, bool whole)
+  {
+    const auto change = [&](SceneDescription& s) { setItemPosition(s, house, 0, to); };
+    whole ? document.edit("Move", change, "drag") : document.editItem("Move", house, change, "drag");
+  };
+  for (const bool whole : { false, true })
+  {
+    drag({ 4, 5, 6 }, whole);
+    EXPECT_TRUE(document.modified());
+    drag(place, whole);
+    document.finishMerging();
+    EXPECT_FALSE(document.canUndo()) << whole;
+    EXPECT_FALSE(document.modified()) << whole;
+    EXPECT_TRUE(document.canRedo()) << whole;
+    EXPECT_EQ(document.json(), first);
+  }
+  document.redo();
+  drag(place, false);
+  document.finishMerging();
+  EXPECT_TRUE(document.modified() && document.canUndo()) << "there and back are two steps";
+}
+
 TEST(SceneDocument, AThousandCopiesShareOneModel)
 {
   SceneDocument document;

@@ -4,8 +4,11 @@
 #include "dgtkStage.h"
 #include "dgtkSyntheticScene.h"
 #include "dgtkTestSupport.h"
+#include "dgtkViewCamera.h"
 
 #include <gtest/gtest.h>
+
+#include <utility>
 
 namespace
 {
@@ -96,5 +99,34 @@ TEST(ScenePlaces, CamerasAndLightsArePickedByTheirPlace)
   ASSERT_TRUE(light.has_value()) << "0.18 units around it at a distance of 30";
   EXPECT_EQ(light->kind, SceneItem::Kind::Light);
   EXPECT_FALSE(pickItem(places, { { 5, 0, 20 }, { 0, 0, -1 }, 0 }, { 0.1, 0 }).has_value());
+}
+
+TEST(ScenePlaces, ACameraIsNotPickedByItsOwnEye)
+{
+  SceneDescription scene;
+  scene.cameras.resize(2);
+  scene.cameras[0].eye = Eigen::Vector3d(0.1, 7, 3.3);
+  scene.cameras[1].eye = Eigen::Vector3d(0, 0, 0);
+  const ScenePlaces places = placeScene(scene, ModelStore(), 0);
+  ViewCamera eye(ViewKind::Perspective);
+  eye.look(scene.cameras[0].eye.value, scene.cameras[1].eye.value);
+  const PickReach reach = eye.reach(8, 300);
+  for (const auto& [x, y] : { std::pair(3, 4), std::pair(120, 299), std::pair(390, 7) })
+  {
+    EXPECT_FALSE(pickItem(places, eye.ray(x, y, 400, 300), reach).has_value()) << x << ' ' << y;
+  }
+  const auto before = pickItem(places, eye.ray(200, 150, 400, 300), reach);
+  ASSERT_TRUE(before.has_value());
+  EXPECT_EQ(before->index, std::size_t(1));
+}
+
+TEST(ScenePlaces, NothingIsPickedBeyondTheRaysEnd)
+{
+  SceneDescription scene;
+  scene.lights.resize(1);
+  scene.lights[0].position = Eigen::Vector3d(0, 0, -10);
+  const ScenePlaces places = placeScene(scene, ModelStore(), 0);
+  EXPECT_TRUE(pickItem(places, { { 0, 0, 0 }, { 0, 0, -1 }, 0, 10.1 }, { 0.1, 0 }).has_value());
+  EXPECT_FALSE(pickItem(places, { { 0, 0, 0 }, { 0, 0, -1 }, 0, 9.9 }, { 0.1, 0 }).has_value());
 }
 } // namespace
