@@ -221,7 +221,8 @@ void CloudView::lookThrough(const std::string& name)
       const Eigen::Vector3d forward = place.view.camera_from_world.rotation.row(2).transpose();
       const double distance =
         this->CloudBox.empty() ? 1.0 : std::max((this->CloudBox.center() - place.center).dot(forward), smallestExtent);
-      this->Camera.look(place.center, place.center + distance * forward);
+      const Eigen::Vector3d up = -place.view.camera_from_world.rotation.row(1).transpose();
+      this->Camera.look(place.center, place.center + distance * forward, up);
       this->placeCamera();
     }
   }

@@ -150,18 +150,25 @@ void SceneView::stepBack()
 
 void SceneView::resetCamera(UpAxis upAxis) { this->Camera = ViewCamera(this->kind(), upAxis); }
 
-void SceneView::lookThrough(const CameraDescription& camera, double frame)
+bool SceneView::lookThrough(const CameraDescription& camera, double frame)
 {
   Eigen::Vector3d eye = camera.eye.at(frame);
   Eigen::Vector3d focus = camera.lookAt.at(frame);
+  Eigen::Vector3d up = camera.up.at(frame);
   if (camera.posed)
   {
     eye = camera.position.at(frame);
     const double distance = std::max(1.0, (this->Camera.focus() - eye).norm());
-    focus = eye + distance * camera.orientation.at(frame).matrix().col(2);
+    const Eigen::Matrix3d axes = camera.orientation.at(frame).matrix();
+    focus = eye + distance * axes.col(2);
+    up = -axes.col(1);
   }
-  this->Camera.look(eye, focus);
+  if (!this->Camera.look(eye, focus, up))
+  {
+    return false;
+  }
   this->placeCamera();
+  return true;
 }
 
 void SceneView::showScene(

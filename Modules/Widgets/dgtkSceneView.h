@@ -40,8 +40,9 @@ public:
   /// Looks the way of its kind again; for a scene with another up axis.
   void resetCamera(UpAxis upAxis);
   void frame(const WorldBox& box) { this->frameBox(box); }
-  /// Takes the place and direction of a camera; the field of view stays the view's own.
-  void lookThrough(const CameraDescription& camera, double frame);
+  /// Takes the place and direction of a camera; the field of view stays the view's own. False, and nothing changes,
+  /// where the camera looks at its own place.
+  bool lookThrough(const CameraDescription& camera, double frame);
   void showScene(const SceneDescription& scene, const std::shared_ptr<const ScenePlaces>& places, ViewMeshes& meshes);
   /// Of the scene that is shown: nothing is drawn anew but the lines about it.
   void showSelected(const SceneItems& selected);

@@ -220,8 +220,15 @@ void SceneViews::toggleMaximized(SceneView* view)
 
 void SceneViews::lookThrough(const CameraDescription& camera)
 {
-  this->view(ViewKind::Perspective)->lookThrough(camera, this->State.frame());
-  emit this->lookedThrough(camera);
+  if (this->view(ViewKind::Perspective)->lookThrough(camera, this->State.frame()))
+  {
+    emit this->lookedThrough(camera);
+  }
+  else
+  {
+    emit this->failed(
+      tr("%1 looks at its own place at this frame: move its look-at point").arg(QString::fromStdString(camera.name)));
+  }
 }
 
 void SceneViews::pick(bool hit, int kind, int index, bool add)

@@ -17,7 +17,13 @@ constexpr double margin = 1.08;            // of a framed box
 constexpr double steepest = 89 * pi / 180; // of the perspective's eye above the ground
 constexpr double emptyExtent = 10;         // world units shown of an empty scene
 constexpr double nearestFocus = 1e-6;
-constexpr double nearPart = 1e-2; // of the focus's distance: where segments are cut
+constexpr double steepSine = 1e-6; // of the angle to the up axis below which a view has no horizon
+constexpr double nearPart = 1e-2;  // of the focus's distance: where segments are cut
+
+bool along(const Eigen::Vector3d& way, const Eigen::Vector3d& axis)
+{
+  return way.cross(axis).norm() <= steepSine * way.norm();
+}
 
 double tanHalfAngle() { return std::tan(viewAngle / 2 * pi / 180); }
 } // namespace
@@ -52,7 +58,9 @@ double ViewCamera::angle() { return viewAngle; }
 double ViewCamera::height() const { return 2 * (this->Focus - this->Eye).norm() * tanHalfAngle(); }
 
 Eigen::Vector3d ViewCamera::forward() const { return (this->Focus - this->Eye).normalized(); }
-Eigen::Vector3d ViewCamera::right() const { return this->forward().cross(this->Up).normalized(); }
+bool ViewCamera::steep() const { return along(this->Focus - this->Eye, this->Up); }
+Eigen::Vector3d ViewCamera::up() const { return this->steep() ? this->SteepUp : this->Up; }
+Eigen::Vector3d ViewCamera::right() const { return this->forward().cross(this->up()).normalized(); }
 Eigen::Vector3d ViewCamera::upward() const { return this->right().cross(this->forward()); }
 
 void ViewCamera::frame(const WorldBox& box, double aspect)
@@ -74,14 +82,21 @@ void ViewCamera::frame(const WorldBox& box, double aspect)
   this->Eye = this->Focus - direction * (margin * extent / (2 * tanHalfAngle()));
 }
 
-void ViewCamera::look(const Eigen::Vector3d& eye, const Eigen::Vector3d& focus)
+bool ViewCamera::look(const Eigen::Vector3d& eye, const Eigen::Vector3d& focus, const Eigen::Vector3d& up)
 {
   const Eigen::Vector3d way = focus - eye;
-  if (!this->parallel() && way.norm() > nearestFocus && way.normalized().cross(this->Up).norm() > 1e-6)
+  if (this->parallel() || !(way.norm() > nearestFocus))
   {
-    this->Eye = eye;
-    this->Focus = focus;
+    return false;
   }
+  if (along(way, this->Up))
+  {
+    const Eigen::Vector3d tilted = this->right().cross(way);
+    this->SteepUp = (along(up, this->Up) ? tilted : Eigen::Vector3d(up - up.dot(this->Up) * this->Up)).normalized();
+  }
+  this->Eye = eye;
+  this->Focus = focus;
+  return true;
 }
 
 void ViewCamera::orbit(double right, double down)

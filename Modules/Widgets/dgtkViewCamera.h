@@ -32,7 +32,8 @@ public:
   bool parallel() const { return this->Kind != ViewKind::Perspective; }
   const Eigen::Vector3d& eye() const { return this->Eye; }
   const Eigen::Vector3d& focus() const { return this->Focus; }
-  const Eigen::Vector3d& up() const { return this->Up; }
+  /// The world's up axis, or what is upwards in the image where the view is along that axis.
+  Eigen::Vector3d up() const;
   double height() const; ///< of the view in the plane through the focus, world units
   static double angle(); ///< vertical field of view of the perspective, degrees
   Eigen::Vector3d forward() const;
@@ -41,8 +42,11 @@ public:
 
   /// Shows the whole box, in a view of width x height pixels; an empty one stands for the surroundings of the origin.
   void frame(const WorldBox& box, double aspect);
-  /// From a place to another; the horizon stays level. Nothing where both are the same, or one is above the other.
-  void look(const Eigen::Vector3d& eye, const Eigen::Vector3d& focus);
+  /// From a place to another; the horizon stays level. Straight down or up, `up` is upwards in the image; where it
+  /// says nothing, what it would be if the view were tilted there. False, and nothing changes, where both places are
+  /// the same, and in parallel views.
+  bool look(
+    const Eigen::Vector3d& eye, const Eigen::Vector3d& focus, const Eigen::Vector3d& up = Eigen::Vector3d(0, 0, 0));
   /// About the focus and the world's up axis, degrees; nothing in parallel views.
   void orbit(double right, double down);
   /// The scene follows the mouse: pixels, in a view of that height.
@@ -65,6 +69,7 @@ public:
   Eigen::Vector3d motion(const Eigen::Vector3d& point, double dx, double dy, double height) const;
 
 private:
+  bool steep() const; ///< along Up
   Eigen::Vector3d right() const;
   Eigen::Vector3d upward() const; ///< in the image
 
@@ -72,6 +77,7 @@ private:
   Eigen::Vector3d Eye{ 0, 0, 10 };
   Eigen::Vector3d Focus{ 0, 0, 0 };
   Eigen::Vector3d Up{ 0, 1, 0 };
+  Eigen::Vector3d SteepUp{ 0, 0, -1 }; ///< upwards in the image of a view along Up
 };
 
 } // namespace dgtk

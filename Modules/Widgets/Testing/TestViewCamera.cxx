@@ -98,4 +98,39 @@ TEST(ViewCamera, OrbitingKeepsDistanceAndHorizon)
   front.orbit(30, 30);
   EXPECT_EQ(front.eye(), eye);
 }
+
+TEST(ViewCamera, LooksStraightDownAndUp)
+{
+  for (const UpAxis axis : { UpAxis::Y, UpAxis::Z })
+  {
+    const Eigen::Vector3d up = ViewCamera(ViewKind::Front, axis).up();
+    for (const double sign : { 1.0, -1.0 })
+    {
+      const Eigen::Vector3d eye = 20 * sign * up;
+      ViewCamera camera(ViewKind::Perspective, axis);
+      EXPECT_TRUE(camera.look(eye, Eigen::Vector3d(0, 0, 0), -Eigen::Vector3d::UnitX()));
+      EXPECT_EQ(camera.eye(), eye);
+      const auto left = camera.pixel(-Eigen::Vector3d::UnitX(), width, height);
+      ASSERT_TRUE(left.has_value());
+      EXPECT_NEAR(left->x(), width / 2, tolerance);
+      EXPECT_LT(left->y(), height / 2) << "the given direction is upwards";
+      EXPECT_LT(distance(camera, width / 2, height / 2, Eigen::Vector3d(0, 0, 0)), tolerance);
+      camera.zoom(1.5);
+      camera.orbit(0, -sign * 5); // from 90 degrees; the steepest of the mouse is 89
+      EXPECT_LT((camera.up() - up).norm(), tolerance);
+      EXPECT_GT(camera.forward().dot(sign * -Eigen::Vector3d::UnitX()), 0) << "no turn about the up axis";
+      EXPECT_NEAR(camera.pixel(-Eigen::Vector3d::UnitX(), width, height)->x(), width / 2, tolerance);
+    }
+  }
+}
+
+TEST(ViewCamera, LookingDownKeepsTheHeadingWithoutAnotherOne)
+{
+  ViewCamera camera(ViewKind::Perspective);
+  camera.look(Eigen::Vector3d(0, 1, 10), Eigen::Vector3d(0, 0, 0));
+  EXPECT_TRUE(camera.look(Eigen::Vector3d(0, 20, 0), Eigen::Vector3d(0, 0, 0)));
+  EXPECT_LT((camera.up() + Eigen::Vector3d::UnitZ()).norm(), tolerance);
+  EXPECT_FALSE(camera.look(Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(1, 2, 3)));
+  EXPECT_EQ(camera.eye(), Eigen::Vector3d(0, 20, 0));
+}
 } // namespace

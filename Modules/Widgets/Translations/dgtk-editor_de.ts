@@ -1722,6 +1722,10 @@ Ein Pixel ist %5 %4 in x, %6 in y; an der fernen Ebene %7 und %8</translation>
         <source>Perspective</source>
         <translation>Perspektive</translation>
     </message>
+    <message>
+        <source>%1 looks at its own place at this frame: move its look-at point</source>
+        <translation>%1 blickt in diesem Bild auf den eigenen Ort: den Blickpunkt verschieben</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::TimeLine</name>
