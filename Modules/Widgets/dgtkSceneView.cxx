@@ -21,9 +21,10 @@ namespace dgtk
 
 namespace
 {
-constexpr double pickPixels = 8;    // around cameras and lights
-constexpr double spareDepth = 0.05; // before the nearest, of the depth of everything
-constexpr double slowSeconds = 0.1; // of a drawing; slower ones are replaced by boxes while the mouse moves
+constexpr double pickPixels = 8;          // around cameras and lights
+constexpr PickReach objectsOnly{ -1, 0 }; // a camera's picture shows no cameras and lights
+constexpr double spareDepth = 0.05;       // before the nearest, of the depth of everything
+constexpr double slowSeconds = 0.1;       // of a drawing; slower ones are replaced by boxes while the mouse moves
 const Eigen::Vector3d topColor(0.20, 0.21, 0.23);
 const Eigen::Vector3d bottomColor(0.30, 0.31, 0.33);
 } // namespace
@@ -89,6 +90,12 @@ void SceneView::setCovered(bool on)
 {
   this->Covered = on;
   this->drawSoon();
+}
+
+void SceneView::setPictureRays(const PictureRays& rays)
+{
+  this->Rays = rays;
+  this->Overlay->setVisible(!rays);
 }
 
 void SceneView::setHurried(bool on)
@@ -197,6 +204,11 @@ std::optional<SceneItem> SceneView::itemAt(const QPoint& position) const
   if (this->Places == nullptr)
   {
     return std::nullopt;
+  }
+  if (this->Rays)
+  {
+    const std::optional<WorldRay> ray = this->Rays(position);
+    return ray ? pickItem(*this->Places, *ray, objectsOnly) : std::nullopt;
   }
   return pickItem(*this->Places,
     this->Camera.ray(position.x() + 0.5, position.y() + 0.5, this->width(), this->height()),

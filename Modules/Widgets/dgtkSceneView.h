@@ -9,6 +9,7 @@
 #include "dgtkViewLines.h"
 #include "dgtkViewWidget.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -53,6 +54,10 @@ public:
   void setHurried(bool on);
   /// Something opaque is in front of the view: it need not draw.
   void setCovered(bool on);
+  /// A picture with another eye covers the view: `rays` are those of its pixels (none: outside of it), by which its
+  /// objects are met. There are no handles, and nothing is dragged. Empty: the view's own eye again.
+  using PictureRays = std::function<std::optional<WorldRay>(const QPoint&)>;
+  void setPictureRays(const PictureRays& rays);
   /// Nothing where only the background is.
   std::optional<SceneItem> itemAt(const QPoint& position) const;
 
@@ -107,6 +112,7 @@ private:
   LineList Chosen; ///< about what is selected
   bool Hurried = false;
   bool Covered = false;
+  PictureRays Rays;
   double FineSeconds = 0; ///< that the latest whole drawing took
   Grasp Grasped;
   ViewOverlay* Overlay;

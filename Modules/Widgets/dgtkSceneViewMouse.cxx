@@ -34,7 +34,7 @@ SceneView::Motion SceneView::motionFor(const QMouseEvent& event)
   {
     return Motion::Drag;
   }
-  const std::optional<SceneItem> item = this->itemAt(event.pos());
+  const std::optional<SceneItem> item = this->Rays ? std::nullopt : this->itemAt(event.pos());
   if (item && std::find(this->Selected.begin(), this->Selected.end(), *item) != this->Selected.end())
   {
     this->Grasped.point = this->Places->boxOf(*item).center();
@@ -45,7 +45,7 @@ SceneView::Motion SceneView::motionFor(const QMouseEvent& event)
 
 std::optional<Handle> SceneView::handleAt(const QPoint& position) const
 {
-  if (!this->Handles)
+  if (!this->Handles || this->Rays)
   {
     return std::nullopt;
   }

@@ -102,6 +102,7 @@ void TruthView::setLayer(const QString& layer)
     this->Picture->setGeometry(this->View3D->rect());
     this->Picture->setVisible(!layer.isEmpty());
     this->View3D->setCovered(!layer.isEmpty());
+    this->showSubject();
     emit this->layerChosen(layer);
     this->askSoon();
   }
@@ -123,7 +124,7 @@ void TruthView::leaveCamera()
 
 const CameraDescription* TruthView::camera() const
 {
-  if (!this->Through)
+  if (!this->Through || this->Layer.isEmpty())
   {
     return nullptr;
   }
@@ -140,6 +141,9 @@ const CameraDescription* TruthView::camera() const
 
 void TruthView::showSubject()
 {
+  const bool covered = this->camera() != nullptr;
+  this->View3D->setPictureRays(
+    covered ? [this](const QPoint& position) { return this->rayAt(position); } : SceneView::PictureRays());
   this->Subject->setText(this->Through ? tr("through camera %1").arg(toText(this->Through->name)) : QString());
 }
 
@@ -247,6 +251,37 @@ void TruthView::receive(const LivePicture& picture, const QString& layer, const 
   this->Picture->setSettled(number == this->Asked && !this->AskWanted && picture.coarseness == 1);
 }
 
+std::optional<QPoint> TruthView::pixelAt(const QPoint& position, const CameraModel& model) const
+{
+  const QRectF place = TruthPicture::fitted({ model.width(), model.height() }, this->View3D->size());
+  const double scale = model.width() / place.width();
+  const int column = static_cast<int>(std::floor((position.x() + 0.5 - place.left()) * scale));
+  const int row = static_cast<int>(std::floor((position.y() + 0.5 - place.top()) * scale));
+  const bool inside = column >= 0 && row >= 0 && column < model.width() && row < model.height();
+  return inside ? std::make_optional(QPoint(column, row)) : std::nullopt;
+}
+
+std::optional<WorldRay> TruthView::rayAt(const QPoint& position)
+{
+  try
+  {
+    const std::optional<LiveQuestion> asked = this->question();
+    const std::optional<QPoint> pixel = asked ? this->pixelAt(position, *asked->view.now.model) : std::nullopt;
+    if (!pixel)
+    {
+      return std::nullopt;
+    }
+    const View& view = asked->view.now;
+    const CameraRay ray = view.model->rayThrough({ pixel->x() + 0.5, pixel->y() + 0.5 });
+    const Rigid3 world_from_camera = view.camera_from_world.inverse();
+    return WorldRay{ world_from_camera * ray.origin, world_from_camera.rotation * ray.direction, view.near, view.far };
+  }
+  catch (const std::exception&)
+  {
+    return std::nullopt; // the picture says what is wrong
+  }
+}
+
 void TruthView::askPixel(const QPoint& position)
 {
   this->Mouse = position;
@@ -259,16 +294,12 @@ void TruthView::askPixel(const QPoint& position)
   {
     return;
   }
-  const CameraModel& model = *asked->view.now.model;
-  const QRectF place = TruthPicture::fitted({ model.width(), model.height() }, this->View3D->size());
-  const double scale = model.width() / place.width();
-  const int column = static_cast<int>(std::floor((position.x() + 0.5 - place.left()) * scale));
-  const int row = static_cast<int>(std::floor((position.y() + 0.5 - place.top()) * scale));
-  if (column < 0 || row < 0 || column >= model.width() || row >= model.height())
+  const std::optional<QPoint> pixel = this->pixelAt(position, *asked->view.now.model);
+  if (!pixel)
   {
     return;
   }
-  this->Truth.askPixel(*asked, column, row,
+  this->Truth.askPixel(*asked, pixel->x(), pixel->y(),
     [this](const PixelTruth& truth)
     {
       QMetaObject::invokeMethod(
@@ -282,8 +313,8 @@ void TruthView::receive(const PixelTruth& truth)
   {
     return;
   }
-  this->Panel->showTruth(
-    this->Through ? toText(this->Through->name) : tr("Perspective"), truth, toText(this->State.scene().units));
+  this->Panel->showTruth(this->camera() != nullptr ? toText(this->Through->name) : tr("Perspective"), truth,
+    toText(this->State.scene().units));
   QString line = tr("(%1, %2)").arg(truth.column).arg(truth.row);
   if (!truth.object.empty())
   {

@@ -62,8 +62,12 @@ private:
   void receive(const PixelTruth& truth);
   /// What the view looks at, as a camera; none before it has a size.
   std::optional<LiveQuestion> question();
-  const CameraDescription* camera() const; ///< null: the view's own eye
+  /// Whose picture covers the view; null: the view's own eye is seen.
+  const CameraDescription* camera() const;
   void showSubject();
+  /// The pixel of the picture, column and row; none outside of it.
+  std::optional<QPoint> pixelAt(const QPoint& position, const CameraModel& model) const;
+  std::optional<WorldRay> rayAt(const QPoint& position);
 
   EditorState& State;
   SceneViews& Views;

@@ -14,8 +14,10 @@
 #include <QElapsedTimer>
 #include <QImage>
 #include <QLabel>
+#include <QLineEdit>
 #include <QProcess>
 #include <QPushButton>
+#include <QSet>
 #include <QSpinBox>
 #include <QTest>
 #include <QTreeWidget>
@@ -121,6 +123,96 @@ void TestEditorTruth::valuesAreTheDatasets()
   QEvent leave(QEvent::Leave);
   QApplication::sendEvent(view, &leave);
   QCOMPARE(panel->topLevelItemCount(), 1);
+}
+
+void TestEditorTruth::previewLeavesTheViewFree()
+{
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  dgtk::SceneDocument& document = this->Window->document();
+  auto* view = this->Window->findChild<QWidget*>("view.3");
+  auto* tree = this->Window->findChild<QTreeWidget*>("sceneTree");
+  auto* subject = this->Window->findChild<QLabel*>("truthSubject");
+  this->select("left");
+  this->action("preview")->trigger();
+  QVERIFY(subject->text().contains("left"));
+  QTest::mousePress(view, Qt::LeftButton, {}, QPoint(40, 30));
+  for (const int x : { 60, 80, 100 })
+  {
+    QTest::mouseMove(view, QPoint(x, 30));
+  }
+  QTest::mouseRelease(view, Qt::LeftButton, {}, QPoint(100, 30));
+  QVERIFY2(subject->text().isEmpty(), "the drag turned the view");
+  QVERIFY(!document.canUndo());
+  this->action("preview")->trigger();
+  for (const QPoint& at : { QPoint(3, 3), view->rect().center(), QPoint(view->width() - 9, view->height() - 9) })
+  {
+    QTest::mouseClick(view, Qt::LeftButton, {}, at);
+    const QList<QTreeWidgetItem*> chosen = tree->selectedItems();
+    QVERIFY2(chosen.isEmpty() || chosen.front()->text(0) != "left", "the camera itself is not met");
+  }
+
+  document.edit("Above",
+    [](dgtk::SceneDescription& scene)
+    {
+      scene.cameras.front().eye = Eigen::Vector3d(0, 20, 0);
+      scene.cameras.front().lookAt = Eigen::Vector3d(0, 0, 0);
+      scene.cameras.front().up = Eigen::Vector3d(0, 0, -1);
+    });
+  this->select(document.scene().cameras.front().name.c_str());
+  this->action("preview")->trigger();
+  QString height;
+  answer<QDialog>({},
+    [&height](QDialog& dialog)
+    {
+      height = dialog.findChild<QLineEdit*>("eye.1")->text();
+      dialog.reject();
+    });
+  this->action("camera")->trigger(); // starts where the view stands
+  QCOMPARE(height, QString("20"));
+}
+
+void TestEditorTruth::clicksGoThroughThePicture()
+{
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  this->Window->document().edit("Wide",
+    [](dgtk::SceneDescription& scene)
+    {
+      dgtk::CameraDescription& camera = scene.cameras.front();
+      camera.posed = false;
+      camera.eye = Eigen::Vector3d(0, 6, 16);
+      camera.lookAt = Eigen::Vector3d(0, 1, 0);
+      camera.up = Eigen::Vector3d(0.3, 1, 0);
+      camera.fovY = 90;
+    });
+  auto* view = this->Window->findChild<QWidget*>("view.3");
+  auto* overlay = view->findChild<QWidget*>("overlay");
+  auto* panel = this->Window->findChild<QTreeWidget*>("truthPanel");
+  auto* tree = this->Window->findChild<QTreeWidget*>("sceneTree");
+  this->select(this->Window->document().scene().cameras.front().name.c_str());
+  this->action("preview")->trigger();
+  QVERIFY(overlay->isVisible());
+  this->action("show.objects")->trigger();
+  QVERIFY2(!overlay->isVisible(), "handles would not fit the picture");
+  QSet<QString> met;
+  for (int i = 0; i < 20; ++i)
+  {
+    const QPoint at(view->width() * (i % 5 + 1) / 6, view->height() * (i / 5 + 2) / 7);
+    const QString before = valueOf(panel, "Pixel");
+    hover(view, at);
+    QTRY_VERIFY_WITH_TIMEOUT(valueOf(panel, "Pixel") != before, longest);
+    QTest::mouseClick(view, Qt::LeftButton, {}, at);
+    const QList<QTreeWidgetItem*> chosen = tree->selectedItems();
+    const QString name = chosen.isEmpty() ? QString("nothing") : chosen.front()->text(0);
+    QCOMPARE(valueOf(panel, "Object").section(" (", 0, 0), name);
+    met.insert(name);
+  }
+  QVERIFY(met.size() > 2);
+  QTest::mousePress(view, Qt::LeftButton, {}, view->rect().center());
+  QTest::mouseMove(view, view->rect().center() + QPoint(30, 0));
+  QTest::mouseMove(view, view->rect().center() + QPoint(60, 0));
+  QTest::mouseRelease(view, Qt::LeftButton, {}, view->rect().center() + QPoint(60, 0));
+  QVERIFY2(overlay->isVisible(), "the view's own eye again");
+  QCOMPARE(this->Window->document().undoText(), std::string("Wide"));
 }
 
 void TestEditorTruth::nothingWaitsForPictures()

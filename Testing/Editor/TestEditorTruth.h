@@ -17,6 +17,8 @@ class TestEditorTruth : public EditorTest
 private slots:
   void layersReplaceColourAndFollowTheView();
   void valuesAreTheDatasets();
+  void previewLeavesTheViewFree();
+  void clicksGoThroughThePicture();
   void nothingWaitsForPictures();
   void theSceneMayChangeMeanwhile();
   void matchesAreTheDatasets();
