@@ -285,6 +285,7 @@ void MainWindow::configureRendering()
     this->Rendering = new RenderDialog(*this->State, this);
     connect(this->Rendering, &RenderDialog::noted, this, &MainWindow::note);
     connect(this->Rendering, &RenderDialog::resultAsked, this, &MainWindow::openDataset);
+    connect(this, &MainWindow::closed, this->Rendering, &RenderDialog::end);
   }
   this->Rendering->show();
   this->Rendering->raise();
@@ -296,6 +297,7 @@ void MainWindow::showCorrespondence()
   if (this->Matching == nullptr)
   {
     this->Matching = new MatchDialog(*this->State, this);
+    connect(this, &MainWindow::closed, this->Matching, &QWidget::hide);
   }
   this->Matching->show();
   this->Matching->raise();

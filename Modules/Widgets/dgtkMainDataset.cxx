@@ -13,6 +13,7 @@ void MainWindow::openDataset(const QString& folder)
   auto* viewer = new DatasetViewer; // beside this window, not above it
   viewer->setAttribute(Qt::WA_DeleteOnClose);
   connect(this, &QObject::destroyed, viewer, [viewer] { delete viewer; });
+  connect(this, &MainWindow::closed, viewer, &QWidget::close);
   connect(viewer, &DatasetViewer::opened, this, [this, folder] { this->addRecent(QDir::cleanPath(folder)); });
   viewer->show();
   viewer->openFolder(folder);

@@ -130,6 +130,7 @@ void MainWindow::closeEvent(QCloseEvent* event)
   settings.setValue("geometry", this->saveGeometry());
   settings.setValue("state", this->saveState());
   event->accept();
+  emit this->closed();
 }
 
 } // namespace dgtk

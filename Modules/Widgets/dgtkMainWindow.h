@@ -60,6 +60,10 @@ public:
   /// False when it was refused.
   bool saveFile(const QString& path);
 
+signals:
+  /// The window goes for good: what belongs to it ends.
+  void closed();
+
 protected:
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;

@@ -41,6 +41,12 @@ public:
 
   /// The words after `dgtk` for a scene file.
   QStringList arguments(const QString& scene) const;
+  /// Interrupts the run, and is hidden.
+  void end()
+  {
+    this->Process.cancel();
+    this->hide();
+  }
 
 signals:
   void noted(const QString& line);

@@ -23,6 +23,8 @@ private slots:
   void aRefusalComesOnce();
   void dialogsKeepWhatIsRefused();
   void hugeSizesAreRefused();
+  void closingEndsTheProgram();
+  void aClosedViewerEndsNothing();
   void unsavedWorkSurvivesACrash();
   void parallelViewsCutNothing();
   void viewsMoveByKeys();

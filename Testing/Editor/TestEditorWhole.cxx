@@ -15,6 +15,7 @@
 #include <QMenu>
 #include <QMessageBox>
 #include <QOpenGLWidget>
+#include <QProcess>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QStandardPaths>
@@ -27,6 +28,28 @@
 namespace
 {
 constexpr int largeWidth = 2000; // pixels
+
+/// Made in that folder.
+QString smallDataset(const QString& folder)
+{
+  QProcess::execute(QString::fromLocal8Bit(qgetenv("DGTK")),
+    { "render", demo(), "-o", folder, "--layers", "depth", "--size", "32x24", "--frames", "0", "--quiet" });
+  return folder;
+}
+
+/// The dataset viewers that are shown.
+QWidgetList viewers()
+{
+  QWidgetList found;
+  for (QWidget* widget : QApplication::topLevelWidgets())
+  {
+    if (widget->isVisible() && widget->objectName() == "datasetViewer")
+    {
+      found << widget;
+    }
+  }
+  return found;
+}
 }
 
 void TestEditor::camerasHaveSizesOfTheirOwn()
@@ -96,6 +119,47 @@ void TestEditor::cancelledRunsResume()
   QVERIFY(this->Window->saveFile(this->path("other.json")));
   QVERIFY(this->Window->openFile(this->path("other.json")));
   QCOMPARE(dialog->findChild<QLineEdit*>("folder")->text(), this->path("other_dataset"));
+}
+
+void TestEditor::closingEndsTheProgram()
+{
+  QVERIFY(this->Window->openFile(demo()));
+  this->Window->openDataset(smallDataset(this->path("small")));
+  QCOMPARE(viewers().size(), 1);
+  this->action("correspondence")->trigger();
+  this->action("render")->trigger();
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  dialog->findChild<QLineEdit*>("folder")->setText(this->path("interrupted"));
+  dialog->findChild<QCheckBox*>("ownSize")->setChecked(false);
+  dialog->findChild<QSpinBox*>("width")->setValue(largeWidth);
+  dialog->findChild<QSpinBox*>("height")->setValue(largeWidth);
+  auto* start = dialog->findChild<QPushButton*>("start");
+  start->click();
+  QTRY_VERIFY_WITH_TIMEOUT(!contents(this->path("interrupted")).isEmpty(), longestRun);
+  QVERIFY(!start->isEnabled());
+
+  QTimer::singleShot(0, this->Window.get(), &QWidget::close);
+  QTimer guard;
+  connect(&guard, &QTimer::timeout, [] { QCoreApplication::exit(1); });
+  guard.start(longestRun);
+  QCOMPARE(QApplication::exec(), 0); // ends with the last window
+  guard.stop();
+  QCOMPARE(viewers().size(), 0);
+  QVERIFY(!dialog->isVisible());
+  QVERIFY(!this->Window->findChild<QDialog*>("matchDialog")->isVisible());
+  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+  QVERIFY(!QFile::exists(this->path("interrupted/manifest.json")));
+}
+
+void TestEditor::aClosedViewerEndsNothing()
+{
+  this->Window->openDataset(smallDataset(this->path("small")));
+  QCOMPARE(viewers().size(), 1);
+  QTimer::singleShot(0, viewers().front(), &QWidget::close);
+  QTimer::singleShot(5 * settle, [] { QCoreApplication::exit(1); });
+  QCOMPARE(QApplication::exec(), 1); // goes on until it is told to end
+  QCOMPARE(viewers().size(), 0);
+  QVERIFY(this->Window->isVisible());
 }
 
 void TestEditor::unsavedWorkSurvivesACrash()
