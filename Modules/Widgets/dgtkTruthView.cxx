@@ -98,10 +98,6 @@ void TruthView::setLayer(const QString& layer)
   }
   if (other)
   {
-    this->Picture->forgetPicture();
-    this->Picture->setGeometry(this->View3D->rect());
-    this->Picture->setVisible(!layer.isEmpty());
-    this->View3D->setCovered(!layer.isEmpty());
     this->showSubject();
     emit this->layerChosen(layer);
     this->askSoon();
@@ -124,7 +120,7 @@ void TruthView::leaveCamera()
 
 const CameraDescription* TruthView::camera() const
 {
-  if (!this->Through || this->Layer.isEmpty())
+  if (!this->Through)
   {
     return nullptr;
   }
@@ -139,11 +135,24 @@ const CameraDescription* TruthView::camera() const
   return &*this->Through;
 }
 
+QString TruthView::shown() const
+{
+  return this->Through && this->Layer.isEmpty() ? QStringLiteral("surface") : this->Layer;
+}
+
 void TruthView::showSubject()
 {
-  const bool covered = this->camera() != nullptr;
+  const QString shown = this->shown();
+  if (shown != this->Covering)
+  {
+    this->Covering = shown;
+    this->Picture->forgetPicture();
+    this->Picture->setGeometry(this->View3D->rect());
+    this->Picture->setVisible(!shown.isEmpty());
+    this->View3D->setCovered(!shown.isEmpty());
+  }
   this->View3D->setPictureRays(
-    covered ? [this](const QPoint& position) { return this->rayAt(position); } : SceneView::PictureRays());
+    this->Through ? [this](const QPoint& position) { return this->rayAt(position); } : SceneView::PictureRays());
   this->Subject->setText(this->Through ? tr("through camera %1").arg(toText(this->Through->name)) : QString());
 }
 
@@ -196,13 +205,13 @@ void TruthView::ask()
   const int number = ++this->Asked;
   try
   {
-    if (!this->Layer.isEmpty())
+    if (!this->shown().isEmpty())
     {
       if (const std::optional<LiveQuestion> asked = this->question())
       {
         const CameraModel& model = *asked->view.now.model;
-        this->Truth.askPicture(*asked, this->Layer.toStdString(),
-          [this, layer = this->Layer, size = QSize(model.width(), model.height()), number](const LivePicture& picture)
+        this->Truth.askPicture(*asked, this->shown().toStdString(),
+          [this, layer = this->shown(), size = QSize(model.width(), model.height()), number](const LivePicture& picture)
           {
             QMetaObject::invokeMethod(
               this, [this, picture, layer, size, number] { this->receive(picture, layer, size, number); },
@@ -219,13 +228,13 @@ void TruthView::ask()
   {
     LivePicture none;
     none.message = error.what();
-    this->receive(none, this->Layer, {}, number);
+    this->receive(none, this->shown(), {}, number);
   }
 }
 
 void TruthView::receive(const LivePicture& picture, const QString& layer, const QSize& size, int number)
 {
-  if (layer != this->Layer)
+  if (layer != this->shown())
   {
     return;
   }
@@ -285,7 +294,7 @@ std::optional<WorldRay> TruthView::rayAt(const QPoint& position)
 void TruthView::askPixel(const QPoint& position)
 {
   this->Mouse = position;
-  if (!this->Panel->isVisible() && this->Layer.isEmpty())
+  if (!this->Panel->isVisible() && this->shown().isEmpty())
   {
     return;
   }

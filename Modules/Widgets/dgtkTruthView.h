@@ -64,6 +64,8 @@ private:
   std::optional<LiveQuestion> question();
   /// Whose picture covers the view; null: the view's own eye is seen.
   const CameraDescription* camera() const;
+  /// The layer that is seen: through a camera its own picture, also in colour. Empty: the view's drawing.
+  QString shown() const;
   void showSubject();
   /// The pixel of the picture, column and row; none outside of it.
   std::optional<QPoint> pixelAt(const QPoint& position, const CameraModel& model) const;
@@ -82,6 +84,7 @@ private:
   std::size_t Opened = 0;                  ///< SceneDocument::opened() of it
   std::optional<CameraDescription> Through;
   QString Layer;
+  QString Covering; ///< the layer whose picture covers the view, empty: none does
   bool AskWanted = false;
   int Asked = 0; ///< pictures
   std::optional<QPoint> Mouse;

@@ -171,6 +171,71 @@ void TestEditorTruth::previewLeavesTheViewFree()
   QCOMPARE(height, QString("20"));
 }
 
+/// Lens, roll, shape and motion are the camera's own, also in colour.
+void TestEditorTruth::previewIsTheCamerasPicture()
+{
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  dgtk::SceneDocument& document = this->Window->document();
+  document.edit("Camera",
+    [](dgtk::SceneDescription& scene)
+    {
+      dgtk::CameraDescription& camera = scene.cameras.front();
+      camera.posed = false;
+      camera.eye.keys = { { 0, Eigen::Vector3d(0, 6, 16) }, { 20, Eigen::Vector3d(6, 6, 16) } };
+      camera.lookAt = Eigen::Vector3d(0, 1, 0);
+      camera.up = Eigen::Vector3d(0, 1, 0);
+      camera.fovY = 40;
+      camera.width = 300;
+      camera.height = 300;
+    });
+  const std::string name = document.scene().cameras.front().name;
+  auto* picture = this->Window->findChild<QWidget*>("view.3")->findChild<QWidget*>("truthPicture");
+  this->select(name.c_str());
+  QVERIFY(!picture->isVisible());
+  this->action("preview")->trigger();
+  QVERIFY(picture->isVisible());
+  QImage seen;
+  const auto changes = [&]
+  {
+    const QImage before = seen;
+    const bool done = QTest::qWaitFor(
+      [&]
+      {
+        seen = picture->grab().toImage();
+        return picture->property("settled").toBool() && seen != before;
+      },
+      longest);
+    return done;
+  };
+  QVERIFY(changes());
+  const QImage first = seen;
+  this->Window->findChild<QSpinBox*>("frame")->setValue(20);
+  QVERIFY2(changes(), "it moves with the camera");
+  this->Window->findChild<QSpinBox*>("frame")->setValue(0);
+  QVERIFY(changes());
+  QVERIFY(seen == first);
+  for (const int what : { 0, 1, 2 })
+  {
+    document.edit("Lens",
+      [what](dgtk::SceneDescription& scene)
+      {
+        dgtk::CameraDescription& camera = scene.cameras.front();
+        camera.fovY = what == 0 ? 80 : 40;
+        camera.up = what == 1 ? Eigen::Vector3d(1, 1, 0) : Eigen::Vector3d(0, 1, 0);
+        camera.width = what == 2 ? 600 : 300;
+      });
+    QVERIFY2(changes(), "lens, roll and shape");
+  }
+  while (document.undoText() != "Camera")
+  {
+    document.undo();
+  }
+  QVERIFY(changes());
+  QVERIFY(seen == first);
+  this->action("frameAll")->trigger();
+  QVERIFY2(!picture->isVisible(), "the view's own eye again");
+}
+
 void TestEditorTruth::clicksGoThroughThePicture()
 {
   QVERIFY(this->Window->openFile(this->copyOfDemo()));
@@ -189,8 +254,9 @@ void TestEditorTruth::clicksGoThroughThePicture()
   auto* panel = this->Window->findChild<QTreeWidget*>("truthPanel");
   auto* tree = this->Window->findChild<QTreeWidget*>("sceneTree");
   this->select(this->Window->document().scene().cameras.front().name.c_str());
-  this->action("preview")->trigger();
   QVERIFY(overlay->isVisible());
+  this->action("preview")->trigger();
+  QVERIFY2(!overlay->isVisible(), "handles would not fit the picture");
   this->action("show.objects")->trigger();
   QVERIFY2(!overlay->isVisible(), "handles would not fit the picture");
   QSet<QString> met;

@@ -18,6 +18,7 @@ private slots:
   void layersReplaceColourAndFollowTheView();
   void valuesAreTheDatasets();
   void previewLeavesTheViewFree();
+  void previewIsTheCamerasPicture();
   void clicksGoThroughThePicture();
   void nothingWaitsForPictures();
   void theSceneMayChangeMeanwhile();
