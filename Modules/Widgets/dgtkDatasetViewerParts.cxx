@@ -2,6 +2,7 @@
 #include "dgtkCloudView.h"
 #include "dgtkDatasetViewer.h"
 #include "dgtkPicturePane.h"
+#include "dgtkWindowSize.h"
 
 #include <QAction>
 #include <QCloseEvent>
@@ -80,7 +81,7 @@ DatasetViewer::DatasetViewer(QWidget* parent)
   this->setCentralWidget(this->Pages);
   this->connectParts();
   this->enableActions(false);
-  this->resize(1280, 900);
+  resizeWithin(*this, 1280, 900);
   const QSettings settings;
   this->restoreGeometry(settings.value("viewer/geometry").toByteArray());
   this->Split->restoreState(settings.value("viewer/split").toByteArray());

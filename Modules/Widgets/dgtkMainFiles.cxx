@@ -5,6 +5,7 @@
 #include "dgtkBackgroundWork.h"
 #include "dgtkEditorState.h"
 #include "dgtkError.h"
+#include "dgtkMatchDialog.h"
 #include "dgtkModelReader.h"
 #include "dgtkNamedAction.h"
 #include "dgtkPovExport.h"
@@ -270,6 +271,10 @@ bool MainWindow::saveAs()
 bool MainWindow::mayDiscard()
 {
   this->State->finishTyping();
+  if (this->Matching != nullptr && !this->Matching->mayDiscard())
+  {
+    return false;
+  }
   if (!this->State->document().modified())
   {
     return true;

@@ -9,6 +9,7 @@
 #include "dgtkNamedAction.h"
 #include "dgtkRenderDialog.h"
 #include "dgtkSceneViews.h"
+#include "dgtkWindowSize.h"
 
 #include <QAction>
 #include <QCloseEvent>
@@ -76,7 +77,7 @@ MainWindow::MainWindow(QWidget* parent)
   connect(this->Views, &SceneViews::told, this,
     [this](const QString& text) { this->statusBar()->showMessage(text, statusTime); });
   connect(this->Views, &SceneViews::menuAsked, this, &MainWindow::showContextMenu);
-  this->resize(1280, 860);
+  resizeWithin(*this, 1280, 860);
   const QSettings settings;
   this->restoreGeometry(settings.value("geometry").toByteArray());
   this->restoreState(settings.value("state").toByteArray());
@@ -120,7 +121,7 @@ void MainWindow::note(const QString& line)
 
 void MainWindow::closeEvent(QCloseEvent* event)
 {
-  if (!this->mayDiscard() || (this->Matching != nullptr && !this->Matching->mayDiscard()))
+  if (!this->mayDiscard())
   {
     event->ignore();
     return;

@@ -4,6 +4,7 @@
 
 #include "dgtkMatchPane.h"
 #include "dgtkTruthPanel.h"
+#include "dgtkWindowSize.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -70,7 +71,8 @@ MatchDialog::MatchDialog(EditorState& state, QWidget* parent)
   rows->setStretchFactor(0, 1);
   this->makeControls(layout);
   layout->addWidget(rows, 1);
-  this->resize(1180, 800);
+  resizeWithin(*this, 1180, 800);
+  this->Opened = state.document().opened();
   connect(&state, &EditorState::changed, this,
     [this]
     {
@@ -78,6 +80,7 @@ MatchDialog::MatchDialog(EditorState& state, QWidget* parent)
       if (const std::size_t opened = this->State.document().opened(); opened != this->Opened)
       {
         this->Scene.reset(); // its models are nobody's any more
+        this->Table->clearAll();
         this->Opened = opened;
       }
       this->refresh();

@@ -3,6 +3,7 @@
 
 #include "dgtkCameraModel.h"
 #include "dgtkScenePlaces.h"
+#include "dgtkWindowSize.h"
 
 #include <QCheckBox>
 #include <QCryptographicHash>
@@ -58,7 +59,7 @@ RenderDialog::RenderDialog(EditorState& state, QWidget* parent)
   this->Tabs->setCurrentIndex(2);
   layout->addWidget(this->Tabs, 1);
   this->makeRunRow(layout);
-  this->resize(640, 680);
+  resizeWithin(*this, 640, 680);
 
   connect(&state, &EditorState::changed, this, &RenderDialog::refresh);
   this->Clock = new QTimer(this);

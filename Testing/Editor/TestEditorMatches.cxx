@@ -154,6 +154,16 @@ void TestEditorTruth::pairsAreThoseOfTheCommandLine()
   QVERIFY(!call("openPairs", this->path("broken.txt")));
   QVERIFY2(message.contains("broken.txt:1"), qPrintable(message));
   QCOMPARE(table->rowCount(), 3);
+
+  // Another scene has other pairs; those that are not saved are asked about.
+  table->selectRow(0);
+  QTest::keyClick(table, Qt::Key_Delete);
+  answer<QMessageBox>("unsavedPairsBox", [](QMessageBox& box) { box.button(QMessageBox::Cancel)->click(); });
+  QVERIFY(!this->Window->openFile(demo()));
+  QCOMPARE(table->rowCount(), 2);
+  answer<QMessageBox>("unsavedPairsBox", [](QMessageBox& box) { box.button(QMessageBox::Discard)->click(); });
+  QVERIFY(this->Window->openFile(demo()));
+  QCOMPARE(table->rowCount(), 0);
 }
 
 void TestEditorTruth::panesZoomAndPan()

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkWindowSize_h
+#define dgtkWindowSize_h
+
+// Private to Widgets.
+
+class QWidget;
+
+namespace dgtk
+{
+
+/// The size of a window that is not shown yet, as far as its display has room beside a window's frame.
+void resizeWithin(QWidget& window, int width, int height);
+
+} // namespace dgtk
+
+#endif
