@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <exception>
+#include <map>
 #include <new>
+#include <utility>
 
 namespace dgtk
 {
@@ -64,15 +66,18 @@ void EditorState::afterChange()
       this->Counts[2] != scene.cameras.size())
   {
     // Things came or went: what was selected is found by its name.
+    std::map<std::pair<SceneItem::Kind, std::string>, SceneItem> named;
+    for (const SceneItem& item : scene.items())
+    {
+      named.emplace(std::pair(item.kind, itemName(scene, item)), item);
+    }
     kept.clear();
     for (std::size_t i = 0; i < this->Selection.size(); ++i)
     {
-      for (const SceneItem& item : scene.items())
+      const auto at = named.find({ this->Selection[i].kind, this->SelectedNames[i] });
+      if (at != named.end())
       {
-        if (item.kind == this->Selection[i].kind && itemName(scene, item) == this->SelectedNames[i])
-        {
-          kept.push_back(item);
-        }
+        kept.push_back(at->second);
       }
     }
   }

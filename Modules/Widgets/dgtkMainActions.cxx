@@ -14,6 +14,7 @@
 #include "dgtkTimeLine.h"
 #include "dgtkTruthPanel.h"
 #include "dgtkTruthView.h"
+#include "dgtkUniqueNames.h"
 
 #include <QAction>
 #include <QActionGroup>

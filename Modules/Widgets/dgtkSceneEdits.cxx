@@ -1,29 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSceneEdits.h"
 
+#include "dgtkUniqueNames.h"
+
+#include <array>
 #include <filesystem>
-#include <set>
-#include <utility>
+#include <map>
 
 namespace dgtk
 {
 
 namespace
 {
-constexpr std::size_t mostDigits = 8; // of a number that is counted on
-
-bool holds(const SceneItems& items, const SceneItem& item)
+/// Items of a scene, asked for one by one.
+class ItemSet
 {
-  return std::find(items.begin(), items.end(), item) != items.end();
-}
+public:
+  ItemSet(const SceneDescription& scene, const SceneItems& items)
+    : Holds{ std::vector<bool>(scene.objects.size()), std::vector<bool>(scene.lights.size()),
+      std::vector<bool>(scene.cameras.size()) }
+  {
+    for (const SceneItem& item : items)
+    {
+      this->Holds[std::size_t(item.kind)].at(item.index) = true;
+    }
+  }
+
+  bool holds(const SceneItem& item) const { return this->Holds[std::size_t(item.kind)][item.index]; }
+
+private:
+  std::array<std::vector<bool>, 3> Holds;
+};
 
 template <typename T>
-std::vector<std::string> namesOf(const std::vector<T>& things)
+UniqueNames namesOf(const std::vector<T>& things)
 {
-  std::vector<std::string> names;
+  UniqueNames names;
   for (const T& thing : things)
   {
-    names.push_back(thing.name);
+    names.add(thing.name);
+  }
+  return names;
+}
+
+/// Gives those from `first` on names that no other has.
+template <typename T>
+UniqueNames nameAnew(std::vector<T>& things, std::size_t first)
+{
+  UniqueNames names = namesOf(things);
+  for (std::size_t i = first; i < things.size(); ++i)
+  {
+    things[i].name = names.rename(things[i].name);
   }
   return names;
 }
@@ -55,36 +82,6 @@ void movePaths(ObjectDescription& object, const SceneDescription& from, const Sc
   }
 }
 
-/// Objects of `items` and all that hang on them.
-SceneItems withChildren(const SceneDescription& scene, SceneItems items)
-{
-  std::set<std::string> gone;
-  for (const SceneItem& item : items)
-  {
-    if (item.kind == SceneItem::Kind::Object)
-    {
-      gone.insert(scene.objects[item.index].name);
-    }
-  }
-  for (bool grew = true; grew;)
-  {
-    grew = false;
-    for (const ObjectDescription& object : scene.objects)
-    {
-      grew = (gone.count(object.parent) != 0 && gone.insert(object.name).second) || grew;
-    }
-  }
-  for (std::size_t i = 0; i < scene.objects.size(); ++i)
-  {
-    const SceneItem item{ SceneItem::Kind::Object, i };
-    if (gone.count(scene.objects[i].name) != 0 && !holds(items, item))
-    {
-      items.push_back(item);
-    }
-  }
-  return items;
-}
-
 template <typename T>
 void append(std::vector<T>& to, const std::vector<T>& from, SceneItem::Kind kind, SceneItems& added)
 {
@@ -96,29 +93,6 @@ void append(std::vector<T>& to, const std::vector<T>& from, SceneItem::Kind kind
   }
 }
 } // namespace
-
-std::string uniqueName(const std::vector<std::string>& taken, const std::string& name)
-{
-  const auto isTaken = [&](const std::string& text)
-  { return std::find(taken.begin(), taken.end(), text) != taken.end(); };
-  if (!isTaken(name))
-  {
-    return name;
-  }
-  // Light0 becomes Light1, tree-2 becomes tree-3, tree becomes tree-2: the names that .scene files imply.
-  const std::size_t last = name.find_last_not_of("0123456789");
-  const std::size_t digits = name.size() - (last == std::string::npos ? 0 : last + 1);
-  const bool counted = digits > 0 && digits <= mostDigits;
-  const std::string stem = counted ? name.substr(0, name.size() - digits) : name + '-';
-  for (int number = counted ? std::stoi(name.substr(name.size() - digits)) + 1 : 2;; ++number)
-  {
-    const std::string text = stem + std::to_string(number);
-    if (!isTaken(text))
-    {
-      return text;
-    }
-  }
-}
 
 std::string itemName(const SceneDescription& scene, const SceneItem& item)
 {
@@ -205,58 +179,70 @@ SceneItems appendItems(SceneDescription& scene, const SceneDescription& from)
     scene.order.insert(scene.order.end(), added.begin(), added.end());
   }
 
+  nameAnew(scene.lights, scene.lights.size() - from.lights.size());
+  nameAnew(scene.cameras, scene.cameras.size() - from.cameras.size());
   const std::size_t first = scene.objects.size() - from.objects.size();
+  const UniqueNames names = nameAnew(scene.objects, first);
+  std::map<std::string, std::string> copies;
   for (std::size_t i = 0; i < from.objects.size(); ++i)
   {
-    ObjectDescription& object = scene.objects[first + i];
-    movePaths(object, from, scene);
-    const std::string old = object.name;
-    object.name.clear();
-    object.name = uniqueName(namesOf(scene.objects), old);
+    copies.emplace(from.objects[i].name, scene.objects[first + i].name);
   }
-  for (std::size_t i = 0; i < from.objects.size(); ++i)
+  for (std::size_t i = first; i < scene.objects.size(); ++i)
   {
-    // The copy of a child belongs to the copy of its parent.
-    for (std::size_t j = 0; j < from.objects.size() && !from.objects[i].parent.empty(); ++j)
+    movePaths(scene.objects[i], from, scene);
+    // The copy of a child belongs to the copy of its parent, or to the parent, where there is one.
+    std::string& parent = scene.objects[i].parent;
+    const auto copy = parent.empty() ? copies.end() : copies.find(parent);
+    parent = copy != copies.end() ? copy->second : names.holds(parent) ? parent : std::string();
+  }
+  return added;
+}
+
+SceneItems withChildren(const SceneDescription& scene, SceneItems items)
+{
+  std::multimap<std::string, std::size_t> children;
+  std::vector<bool> there(scene.objects.size());
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+  {
+    if (!scene.objects[i].parent.empty())
     {
-      if (from.objects[i].parent == from.objects[j].name)
+      children.emplace(scene.objects[i].parent, i);
+    }
+  }
+  for (const SceneItem& item : items)
+  {
+    if (item.kind == SceneItem::Kind::Object)
+    {
+      there.at(item.index) = true;
+    }
+  }
+  for (std::size_t i = 0; i < items.size(); ++i)
+  {
+    if (items[i].kind == SceneItem::Kind::Object)
+    {
+      const auto [begin, end] = children.equal_range(scene.objects[items[i].index].name);
+      for (auto at = begin; at != end; ++at)
       {
-        scene.objects[first + i].parent = scene.objects[first + j].name;
-        break;
+        if (!there[at->second])
+        {
+          there[at->second] = true;
+          items.push_back({ SceneItem::Kind::Object, at->second });
+        }
       }
     }
   }
-  for (const SceneItem& item : added)
-  {
-    if (item.kind == SceneItem::Kind::Light)
-    {
-      std::string& name = scene.lights[item.index].name;
-      const std::string old = std::exchange(name, {});
-      name = uniqueName(namesOf(scene.lights), old);
-    }
-    else if (item.kind == SceneItem::Kind::Camera)
-    {
-      std::string& name = scene.cameras[item.index].name;
-      const std::string old = std::exchange(name, {});
-      name = uniqueName(namesOf(scene.cameras), old);
-    }
-  }
-  const std::vector<std::string> names = namesOf(scene.objects);
-  for (std::size_t i = first; i < scene.objects.size(); ++i)
-  {
-    std::string& parent = scene.objects[i].parent;
-    parent = std::find(names.begin(), names.end(), parent) == names.end() ? std::string() : parent;
-  }
-  return added;
+  return items;
 }
 
 SceneDescription extractItems(const SceneDescription& scene, const SceneItems& items)
 {
   SceneDescription part;
   part.folder = scene.folder;
+  const ItemSet wanted(scene, items);
   for (const SceneItem& item : scene.items())
   {
-    if (!holds(items, item))
+    if (!wanted.holds(item))
     {
       continue;
     }
@@ -278,7 +264,7 @@ SceneDescription extractItems(const SceneDescription& scene, const SceneItems& i
 
 void removeItems(SceneDescription& scene, const SceneItems& items)
 {
-  const SceneItems gone = withChildren(scene, items);
+  const ItemSet gone(scene, withChildren(scene, items));
   const SceneItems all = scene.items();
   const SceneDescription old = scene;
   const bool listed = !scene.order.empty();
@@ -288,7 +274,7 @@ void removeItems(SceneDescription& scene, const SceneItems& items)
   scene.order.clear();
   for (const SceneItem& item : all)
   {
-    if (holds(gone, item))
+    if (gone.holds(item))
     {
       continue;
     }

@@ -55,6 +55,8 @@ DGTKWIDGETS_EXPORT void setItemPosition(
 /// Appends a copy of everything of `from`, with paths made relative to the folder of `scene` and names made unique.
 /// Returns the new items. Both folders must be absolute where they differ.
 DGTKWIDGETS_EXPORT SceneItems appendItems(SceneDescription& scene, const SceneDescription& from);
+/// `items`, and after them the objects that hang on those of `items`.
+DGTKWIDGETS_EXPORT SceneItems withChildren(const SceneDescription& scene, SceneItems items);
 /// A description of the folder of `scene` with nothing but these items; parents outside of them stay named.
 DGTKWIDGETS_EXPORT SceneDescription extractItems(const SceneDescription& scene, const SceneItems& items);
 /// Removes items, and the children of removed objects.
@@ -91,9 +93,6 @@ DGTKWIDGETS_EXPORT void setInterpolation(SceneDescription& scene, const SceneIte
 DGTKWIDGETS_EXPORT Interpolation interpolationOf(const SceneDescription& scene, const SceneItem& item);
 /// Frames at which an item has keys, ascending.
 DGTKWIDGETS_EXPORT std::vector<int> keyFramesOf(const SceneDescription& scene, const SceneItem& item);
-
-/// `name`, or where it is taken the next free one by its number: Light1 for Light0, tree-2 for tree.
-DGTKWIDGETS_EXPORT std::string uniqueName(const std::vector<std::string>& taken, const std::string& name);
 
 } // namespace dgtk
 

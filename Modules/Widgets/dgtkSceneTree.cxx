@@ -111,16 +111,23 @@ void SceneTree::showSelection()
     return;
   }
   this->Busy = true;
+  QItemSelection chosen; // at once and by neighbours: row by row takes the square of their number
   QTreeWidgetItem* last = nullptr;
   for (QTreeWidgetItem* group : this->Groups)
   {
     for (int i = 0; i < group->childCount(); ++i)
     {
-      const bool selected = this->State.isSelected(itemOf(group->child(i)));
-      group->child(i)->setSelected(selected);
-      last = selected ? group->child(i) : last;
+      if (this->State.isSelected(itemOf(group->child(i))))
+      {
+        const QModelIndex row = this->indexFromItem(group->child(i));
+        const bool next = last != nullptr && i > 0 && last == group->child(i - 1);
+        const QModelIndex first = next ? QModelIndex(chosen.takeLast().topLeft()) : row;
+        chosen.append({ first, row });
+        last = group->child(i);
+      }
     }
   }
+  this->selectionModel()->select(chosen, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
   if (last != nullptr)
   {
     this->scrollToItem(last);

@@ -22,8 +22,9 @@ namespace
 {
 constexpr int forestSide = 32;
 constexpr int forestCameras = 100;
-constexpr int forestLimit = 5000;  // milliseconds from the file to the drawn views
-constexpr double eventLimit = 200; // milliseconds
+constexpr int forestLimit = 5000;    // milliseconds from the file to the drawn views
+constexpr double eventLimit = 200;   // milliseconds
+constexpr double copyAllLimit = 400; // milliseconds: VTK looks through all actors for each that comes or goes
 constexpr int tries = 3;
 constexpr int smallerSide = 19; // trees of 584 triangles: 210,000 in all
 constexpr int turns = 10;
@@ -173,6 +174,38 @@ void TestEditorForest::aForestOpensAndAnswersAtOnce()
   const double before = this->Window->document().scene().objects[42].position.value.x();
   QVERIFY(this->longest("drag", drag) < patience * eventLimit);
   QVERIFY(this->Window->document().scene().objects[42].position.value.x() > before);
+}
+
+void TestEditorForest::aForestIsCopiedAtOnce()
+{
+  this->openForest(tree(), forestSide, 1);
+  dgtk::SceneDocument& document = this->Window->document();
+  const std::size_t trees = document.scene().objects.size();
+  // What is measured is one event after all others.
+  const auto prepare = [](QAction* before, QAction* after)
+  {
+    before->trigger();
+    after->trigger();
+    for (int round = 0; round < 3; ++round)
+    {
+      QCoreApplication::processEvents();
+    }
+    timed().restart();
+  };
+  const auto duplicate = [&](int /*unused*/)
+  {
+    prepare(this->action("undo"), this->action("selectAll"));
+    QTest::keyClick(this->Window.get(), Qt::Key_D, Qt::ControlModifier);
+  };
+  QVERIFY(this->longest("duplicate", duplicate) < patience * copyAllLimit);
+  QCOMPARE(document.scene().objects.size(), 2 * trees);
+  const auto undo = [&](int /*unused*/)
+  {
+    prepare(this->action("redo"), this->action("selectAll"));
+    QTest::keyClick(this->Window.get(), Qt::Key_Z, Qt::ControlModifier);
+  };
+  QVERIFY(this->longest("undo", undo) < patience * copyAllLimit);
+  QCOMPARE(document.scene().objects.size(), trees);
 }
 
 void TestEditorForest::twoHundredThousandTrianglesTurn()

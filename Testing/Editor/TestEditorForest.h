@@ -18,6 +18,7 @@ class TestEditorForest : public EditorTest
 
 private slots:
   void aForestOpensAndAnswersAtOnce();
+  void aForestIsCopiedAtOnce();
   void twoHundredThousandTrianglesTurn();
   void copiesShareTheirGeometry();
 

@@ -3,10 +3,15 @@
 
 #include "dgtkError.h"
 #include "dgtkTestSupport.h"
+#include "dgtkUniqueNames.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <ctime>
 #include <filesystem>
+#include <limits>
+#include <string>
 
 namespace
 {
@@ -52,6 +57,73 @@ TEST(SceneEdits, NamesStayUnique)
   EXPECT_EQ(uniqueName({ "Light0", "Light1" }, "Light0"), "Light2");
   EXPECT_EQ(uniqueName({ "a12345678901" }, "a12345678901"), "a12345678901-2");
   EXPECT_EQ(uniqueName({}, "tree"), "tree");
+}
+
+TEST(SceneEdits, ManyNamesStayUnique)
+{
+  UniqueNames names;
+  for (const char* name : { "a-9", "a-7", "a-7", "a-7", "a-8", "a-11", "a-007", "a-007", "a", "a", "a-" })
+  {
+    names.add(name);
+  }
+  EXPECT_EQ(names.rename("a-9"), "a-9") << "nobody else has it";
+  EXPECT_EQ(names.rename("a-7"), "a-10");
+  EXPECT_EQ(names.rename("a-7"), "a-12");
+  EXPECT_EQ(names.rename("a-7"), "a-7");
+  EXPECT_EQ(names.rename("a-007"), "a-13") << "after 7 come those that were taken";
+  EXPECT_EQ(names.rename("a"), "a-2");
+  EXPECT_FALSE(names.holds("a-3"));
+  names.add("a-2");
+  EXPECT_EQ(names.rename("a-2"), "a-3");
+  names.add("a-");
+  EXPECT_EQ(names.rename("a-"), "a--2");
+  EXPECT_TRUE(names.holds("a-12"));
+}
+
+/// Processor time of copying, removing and undoing all of a scene, the least of three.
+double timeOfCopies(std::size_t count)
+{
+  SceneDescription scene;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    ObjectDescription object;
+    object.name = "tree-" + std::to_string(i + 1);
+    object.model = "tree.ac";
+    object.parent =
+      i % 2 == 1 && i + 1 < count ? "tree-" + std::to_string(i + 2) : std::string(); // a child of the next
+    scene.objects.push_back(object);
+  }
+  double least = std::numeric_limits<double>::max();
+  for (int i = 0; i < 3; ++i)
+  {
+    SceneDescription copy = scene;
+    const std::clock_t began = std::clock();
+    const SceneItems added = appendItems(copy, extractItems(copy, withChildren(copy, copy.items())));
+    EXPECT_EQ(copy.objects.back().name, "tree-" + std::to_string(2 * count));
+    removeItems(copy, added);
+    EXPECT_EQ(copy.objects.size(), count);
+    least = std::min(least, double(std::clock() - began) / CLOCKS_PER_SEC);
+  }
+  return least;
+}
+
+TEST(SceneEdits, CopiesTakeTimeByTheirNumber)
+{
+  // Eight times as many take eight times as long, with what caches and busy machines add; squares would take 64.
+  constexpr double mostGrowth = 30;
+  const double few = timeOfCopies(1000);
+  EXPECT_LT(timeOfCopies(8000), mostGrowth * few);
+}
+
+TEST(SceneEdits, FamiliesAreWhole)
+{
+  SceneDescription scene = chain();
+  std::reverse(scene.objects.begin(), scene.objects.end()); // d, c of b, b of a, a
+  const SceneItem light{ SceneItem::Kind::Light, 0 };
+  EXPECT_EQ(withChildren(scene, { light, { Object, 3 }, { Object, 1 } }),
+    (SceneItems{ light, { Object, 3 }, { Object, 1 }, { Object, 2 } }));
+  EXPECT_EQ(withChildren(scene, { { Object, 0 } }), (SceneItems{ { Object, 0 } }));
+  EXPECT_TRUE(withChildren(scene, {}).empty());
 }
 
 TEST(SceneEdits, RemovingTakesChildrenAlong)
