@@ -119,11 +119,16 @@ bool EditorState::attempt(const std::function<void()>& edit)
   return false;
 }
 
+SceneDescription EditorState::selectedFamilies() const
+{
+  return extractItems(this->scene(), withChildren(this->scene(), this->Selection));
+}
+
 void EditorState::copy()
 {
   if (!this->Selection.empty())
   {
-    this->Clipboard = extractItems(this->scene(), this->Selection);
+    this->Clipboard = this->selectedFamilies();
     emit this->selectionChanged(); // Paste is possible now
   }
 }
@@ -159,8 +164,7 @@ void EditorState::duplicate()
 {
   if (!this->Selection.empty())
   {
-    this->attempt(
-      [this] { this->select(this->Document.paste("Duplicate", extractItems(this->scene(), this->Selection))); });
+    this->attempt([this] { this->select(this->Document.paste("Duplicate", this->selectedFamilies())); });
   }
 }
 

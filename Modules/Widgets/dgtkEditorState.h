@@ -62,6 +62,8 @@ signals:
 private:
   void afterChange();
   void rememberNames();
+  /// What is selected, and what hangs on it.
+  SceneDescription selectedFamilies() const;
 
   SceneDocument Document;
   SceneItems Selection;

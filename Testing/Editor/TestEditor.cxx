@@ -162,6 +162,38 @@ void TestEditor::copiesCutsAndPastes()
   QCOMPARE(document.json(), first);
 }
 
+void TestEditor::aFamilyIsCutAndPasted()
+{
+  QVERIFY(this->Window->openFile(QString::fromStdString(dgtk::test::sourceFile("Data/Scenes/parenting.json"))));
+  dgtk::SceneDocument& document = this->Window->document();
+  const auto parents = [&document]
+  {
+    std::map<std::string, std::string> of;
+    for (const dgtk::ObjectDescription& object : document.scene().objects)
+    {
+      of[object.name] = object.parent;
+    }
+    return of;
+  };
+  const std::map<std::string, std::string> first = parents();
+  const std::string root =
+    std::find_if(first.begin(), first.end(), [](const auto& object) { return !object.second.empty(); })->second;
+  QVERIFY(first.at(root).empty());
+  this->select(root.c_str());
+  this->action("cut")->trigger();
+  QVERIFY(parents().size() + 1 < first.size());
+  this->action("paste")->trigger();
+  QVERIFY(parents() == first);
+  this->select(root.c_str());
+  this->action("duplicate")->trigger();
+  const std::size_t twice = parents().size();
+  QVERIFY(twice > first.size() + 1);
+  this->select(root.c_str());
+  this->action("copy")->trigger();
+  this->action("paste")->trigger();
+  QCOMPARE(parents().size() - twice, twice - first.size());
+}
+
 void TestEditor::addsCamerasAndLights()
 {
   dgtk::SceneDocument& document = this->Window->document();
