@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSceneDescription.h"
 
+#include "dgtkSceneTracks.h"
+
 #include <algorithm>
 
 namespace dgtk
@@ -8,21 +10,6 @@ namespace dgtk
 
 namespace
 {
-template <typename T>
-void collect(const Track<T>& track, std::vector<int>& frames)
-{
-  for (const Key<T>& key : track.keys)
-  {
-    frames.push_back(key.frame);
-  }
-}
-
-void collect(const UnusedKeys& unused, std::vector<int>& frames)
-{
-  collect(unused.orientation, frames);
-  collect(unused.scale, frames);
-}
-
 void sortUnique(std::vector<int>& frames)
 {
   std::sort(frames.begin(), frames.end());
@@ -33,30 +20,17 @@ void sortUnique(std::vector<int>& frames)
 std::vector<int> SceneDescription::keyFrames() const
 {
   std::vector<int> frames = this->extraKeyFrames;
-  for (const ObjectDescription& object : this->objects)
+  for (const SceneItem& item : this->items())
   {
-    collect(object.position, frames);
-    collect(object.orientation, frames);
-    collect(object.scale, frames);
-    sortUnique(frames); // bounded by the longest track, not by their sum
-  }
-  for (const LightDescription& light : this->lights)
-  {
-    collect(light.position, frames);
-    collect(light.target, frames);
-    collect(light.unused, frames);
-  }
-  for (const CameraDescription& camera : this->cameras)
-  {
-    collect(camera.fovY, frames);
-    collect(camera.viewHeight, frames);
-    collect(camera.eye, frames);
-    collect(camera.lookAt, frames);
-    collect(camera.up, frames);
-    collect(camera.position, frames);
-    collect(camera.orientation, frames);
-    collect(camera.unusedEye, frames);
-    collect(camera.unusedLookAt, frames);
+    forEachTrackOf(*this, item,
+      [&frames](const auto& track, bool)
+      {
+        for (const auto& key : track.keys)
+        {
+          frames.push_back(key.frame);
+        }
+      });
+    sortUnique(frames); // bounded by the longest tracks, not by their sum
   }
   sortUnique(frames);
   return frames;

@@ -334,6 +334,10 @@ TEST(SceneRefusals, WhatThesisScenesCannotSay)
     { [](auto& s) { s.cameras[0].kind = CameraKind::Orthographic; }, "camera 'Camera0': model cannot be said" },
     { [](auto& s) { s.cameras[0].width = s.cameras[0].height = 9; }, "camera 'Camera0': width cannot be said" },
     { [](auto& s) { s.cameras[0].posed = true; }, "camera 'Camera0': orientation cannot be said" },
+    { [](auto& s) {
+       s.cameras[0].lens.focus.keys = { { 0, 5 } };
+     },
+      "camera 'Camera0': lens cannot be said" },
     { [](auto& s) { s.cameras[0].name = "eye"; }, "camera 'eye': name cannot be said" },
     { [](auto& s) {
        s.cameras[0].fovY.keys = { { 0, 60 }, { 1, 50 } };

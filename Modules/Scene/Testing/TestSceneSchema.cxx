@@ -27,6 +27,33 @@ std::set<std::string> keysOfSchema(const nlohmann::json& definition)
   return keys;
 }
 
+/// A scene whose one item has keys at frames 5 and 8 for one property, `inner` of `property` where that is not empty.
+std::string sceneWithKeys(
+  const std::string& kind, const std::string& property, const std::string& inner, const std::string& track)
+{
+  using nlohmann::json;
+  const json value = track == "numberTrack"     ? json(1)
+                     : track == "rotationTrack" ? json({ 1, 0, 0, 0 })
+                                                : json({ 1, 2, 3 });
+  const json keys{ { "keys", { { 5, value }, { 8, value } } } };
+  json item = json::object();
+  if (kind == "object")
+  {
+    item["model"] = "a.ac";
+  }
+  else if (kind == "camera" && (property == "position" || property == "orientation"))
+  {
+    item = { { "position", { 0, 0, 5 } }, { "orientation", { 1, 0, 0, 0 } } };
+  }
+  else if (kind == "camera")
+  {
+    item = { { "model", property == "viewHeight" ? "orthographic" : "pinhole" }, { "eye", { 9, 0, 0 } },
+      { "lookAt", { 0, 0, 0 } } };
+  }
+  item[property] = inner.empty() ? keys : json{ { inner, keys } };
+  return json{ { kind + 's', { item } } }.dump();
+}
+
 /// The text between the first fence of this kind after a heading and its end.
 std::string fenced(const std::string& page, const std::string& heading, const std::string& kind)
 {
@@ -61,6 +88,40 @@ TEST(SceneSchema, HasTheKeysOfTheReader)
     EXPECT_EQ(keysOfSchema(definition), asSet(keys));
     EXPECT_FALSE(definition.at("additionalProperties").get<bool>());
   }
+}
+
+TEST(SceneSchema, EveryTrackHasKeyFrames)
+{
+  const nlohmann::json definitions =
+    nlohmann::json::parse(contentsOf(sourceFile("Documentation/Formats/scene.schema.json"))).at("$defs");
+  const TemporaryFolder folder;
+  int tracks = 0;
+  const auto check =
+    [&](const std::string& kind, const std::string& property, const std::string& inner, const nlohmann::json& schema)
+  {
+    const std::string type = schema.value("$ref", "");
+    if (type.size() > 5 && type.substr(type.size() - 5) == "Track")
+    {
+      const std::string text = sceneWithKeys(kind, property, inner, type.substr(type.rfind('/') + 1));
+      EXPECT_EQ(readText(folder, "a.json", text).keyFrames(), (std::vector<int>{ 5, 8 })) << text;
+      ++tracks;
+    }
+  };
+  for (const char* kind : { "object", "light", "camera" })
+  {
+    for (const auto& property : definitions.at(kind).at("properties").items())
+    {
+      check(kind, property.key(), {}, property.value());
+      const std::string type = property.value().value("$ref", "");
+      const nlohmann::json& inner = type.empty() ? property.value() : definitions.at(type.substr(type.rfind('/') + 1));
+      const nlohmann::json parts = inner.value("properties", nlohmann::json::object());
+      for (const auto& one : parts.items())
+      {
+        check(kind, property.key(), one.key(), one.value());
+      }
+    }
+  }
+  EXPECT_EQ(tracks, 3 + 4 + 12) << "tracks of objects, lights and cameras";
 }
 
 TEST(SceneSchema, EveryReferenceHasADefinition)
