@@ -225,10 +225,8 @@ void MatchDialog::addPair()
   if (this->Match && this->Active && this->Match->message.empty())
   {
     const std::size_t side = this->Active->side;
-    this->Table->add(
-      { this->sparseView(side), this->sparseView(1 - side), { this->Match->from, this->Match->to, this->Match->hit } },
-      toText(this->Match->object));
-    this->showMarks();
+    this->Table->add({ { this->sparseView(side), this->sparseView(1 - side),
+      { this->Match->from, this->Match->to, this->Match->hit }, toText(this->Match->object) } });
   }
 }
 
@@ -282,18 +280,14 @@ void MatchDialog::swapSides()
   }
 }
 
-QString MatchDialog::objectName(std::uint32_t id) const
-{
-  const std::vector<std::string> names = this->Scene ? this->Scene->objectNames() : std::vector<std::string>();
-  return id == 0 ? QString() : id <= names.size() ? toText(names[id - 1]) : tr("id %1").arg(id);
-}
-
 bool MatchDialog::openPairs(const QString& path)
 {
   return this->State.attempt(
     [&]
     {
       const bool empty = this->Table->pairs().empty();
+      const std::vector<std::string> names = this->Scene ? this->Scene->objectNames() : std::vector<std::string>();
+      std::vector<MatchRow> rows;
       const std::vector<SparseSet> sets = parseSparseText(readFile(path.toStdString()), path.toStdString());
       for (const SparseSet& set : sets)
       {
@@ -301,12 +295,14 @@ bool MatchDialog::openPairs(const QString& path)
         const bool named = !set.from.camera.empty() && !set.to.camera.empty();
         for (const SparseMatch& match : set.matches)
         {
-          this->Table->add({ named ? set.from : this->sparseView(0), named ? set.to : this->sparseView(1), match },
-            this->objectName(match.hit.object));
+          const std::uint32_t id = match.hit.object;
+          const QString object = id == 0 ? QString() : id <= names.size() ? toText(names[id - 1]) : tr("id %1").arg(id);
+          rows.push_back(
+            { named ? set.from : this->sparseView(0), named ? set.to : this->sparseView(1), match, object });
         }
       }
+      this->Table->add(rows);
       this->Saved = empty ? this->Table->text() : std::string();
-      this->showMarks();
     });
 }
 

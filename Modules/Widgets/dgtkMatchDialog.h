@@ -87,7 +87,6 @@ private:
   void swapSides();
   void refreshButtons();
   SparseView sparseView(std::size_t side) const;
-  QString objectName(std::uint32_t id) const;
 
   EditorState& State;
   std::shared_ptr<const LiveScene> Scene;

@@ -35,20 +35,28 @@ MatchTable::MatchTable(QWidget* parent)
   this->verticalHeader()->setDefaultSectionSize(this->fontMetrics().height() + 6);
 }
 
-void MatchTable::add(const MatchRow& pair, const QString& object)
+void MatchTable::fill(int row, const MatchRow& pair)
 {
-  const int row = this->rowCount();
-  this->Pairs.push_back(pair);
-  this->insertRow(row);
   const SparseMatch& match = pair.match;
   const QString cells[] = { textOf(pair.from), exactText(match.from.x()), exactText(match.from.y()), textOf(pair.to),
     exactText(match.to.pixel.x()), exactText(match.to.pixel.y()), visibilityText(static_cast<int>(match.to.visibility)),
-    object };
+    pair.object };
   for (int column = 0; column < this->columnCount(); ++column)
   {
     auto* item = new QTableWidgetItem(cells[column]);
     item->setToolTip(cells[column]);
     this->setItem(row, column, item);
+  }
+}
+
+void MatchTable::add(const std::vector<MatchRow>& pairs)
+{
+  int row = this->rowCount();
+  this->Pairs.insert(this->Pairs.end(), pairs.begin(), pairs.end());
+  this->setRowCount(int(this->Pairs.size()));
+  for (const MatchRow& pair : pairs)
+  {
+    this->fill(row++, pair);
   }
   this->resizeColumnsToContents();
   this->scrollToBottom();

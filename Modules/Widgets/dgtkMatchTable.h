@@ -21,6 +21,7 @@ struct MatchRow
   SparseView from;
   SparseView to;
   SparseMatch match;
+  QString object; ///< whose surface it is
 };
 
 /// The collected pairs. Delete removes the selected ones.
@@ -32,7 +33,7 @@ public:
   explicit MatchTable(QWidget* parent);
 
   const std::vector<MatchRow>& pairs() const { return this->Pairs; }
-  void add(const MatchRow& pair, const QString& object);
+  void add(const std::vector<MatchRow>& pairs);
   void removeSelected();
   void clearAll();
   /// The pairs as files have them, those of the same views together.
@@ -46,6 +47,8 @@ protected:
   void keyPressEvent(QKeyEvent* event) override;
 
 private:
+  void fill(int row, const MatchRow& pair);
+
   std::vector<MatchRow> Pairs;
 };
 

@@ -7,22 +7,27 @@
 #include "dgtkLayerReader.h"
 #include "dgtkMainWindow.h"
 #include "dgtkSceneDocument.h"
+#include "dgtkSparseText.h"
 
 #include <QAction>
 #include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialog>
+#include <QElapsedTimer>
 #include <QLineEdit>
 #include <QMessageBox>
 #include <QProcess>
 #include <QPushButton>
+#include <QSignalSpy>
 #include <QSpinBox>
 #include <QTableWidget>
 #include <QTest>
 #include <QWheelEvent>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 QWidget* TestEditorTruth::openMatches() const
 {
@@ -164,6 +169,36 @@ void TestEditorTruth::pairsAreThoseOfTheCommandLine()
   answer<QMessageBox>("unsavedPairsBox", [](QMessageBox& box) { box.button(QMessageBox::Discard)->click(); });
   QVERIFY(this->Window->openFile(demo()));
   QCOMPARE(table->rowCount(), 0);
+}
+
+void TestEditorTruth::manyPairsOpenAtOnce()
+{
+  QVERIFY(this->Window->openFile(demo()));
+  QWidget* const dialog = this->openMatches();
+  dgtk::SparseSet set{ { "left", 0, 640, 480 }, { "right", 0, 640, 480 }, {} };
+  constexpr std::size_t many = 2000;
+  for (std::size_t i = 0; i < many; ++i)
+  {
+    dgtk::SparseMatch match;
+    match.from = { 0.5 + double(i % 640), 0.5 + double(i % 480) };
+    match.to.pixel = match.from;
+    match.to.visibility = dgtk::VisibilityClass::Visible;
+    match.hit.object = std::uint32_t(1 + i % 3);
+    set.matches.push_back(match);
+  }
+  const QString list = this->path("many.txt");
+  dgtk::writeFile(list.toStdString(), dgtk::sparseText(set));
+  auto* table = dialog->findChild<QTableWidget*>("matchTable");
+  const QSignalSpy refreshed(table, SIGNAL(pairsChanged()));
+  QElapsedTimer clock;
+  clock.start();
+  bool done = false;
+  QMetaObject::invokeMethod(dialog, "openPairs", Q_RETURN_ARG(bool, done), Q_ARG(QString, list));
+  qInfo("%lld ms to open %zu pairs", clock.elapsed(), many);
+  QVERIFY(done);
+  QCOMPARE(refreshed.size(), 1);
+  QCOMPARE(table->rowCount(), int(many));
+  QCOMPARE(table->item(4, 7)->text(), QString::fromStdString(this->Window->document().scene().objects[1].name));
 }
 
 void TestEditorTruth::panesZoomAndPan()

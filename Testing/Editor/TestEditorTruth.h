@@ -24,6 +24,7 @@ private slots:
   void theSceneMayChangeMeanwhile();
   void matchesAreTheDatasets();
   void pairsAreThoseOfTheCommandLine();
+  void manyPairsOpenAtOnce();
   void panesZoomAndPan();
   void aStereoPairWithGroundTruth();
   void pictures();
