@@ -36,7 +36,6 @@ namespace dgtk
 namespace
 {
 constexpr int mostRecent = 8;
-constexpr std::size_t mostWarnings = 20; ///< of a model, in the log
 
 bool isScene(const QString& path)
 {
@@ -220,10 +219,12 @@ bool MainWindow::addRead(const std::string& file, const ModelStore& models)
 {
   const QString name = QFileInfo(QFile::decodeName(file.c_str())).fileName();
   const std::shared_ptr<const Model> model = this->document().modelIn(models, file);
-  for (std::size_t i = 0; i < model->warnings.size() && i < mostWarnings; ++i)
+  std::vector<std::string> warnings;
+  for (const std::string& line : model->warnings)
   {
-    this->note(tr("%1: warning: %2").arg(name, toText(model->warnings[i])));
+    warnings.push_back(name.toStdString() + ": " + line);
   }
+  this->noteWarnings(warnings);
   if (model->triangles.empty())
   {
     this->fail(tr("%1 has no surfaces: nothing was added.").arg(name));
@@ -231,6 +232,7 @@ bool MainWindow::addRead(const std::string& file, const ModelStore& models)
   }
   const bool first = this->State->scene().objects.empty();
   this->document().adopt(models);
+  this->Warned = this->document().models().warnings().size();
   if (!this->State->attempt([&] { this->State->select({ this->document().addModel(file) }); }))
   {
     return false;
@@ -314,14 +316,20 @@ void MainWindow::exportPov()
     scene.order.clear();
   }
   const std::string file = QFile::encodeName(path).toStdString();
+  const auto warnings = std::make_shared<std::vector<std::string>>();
   const bool done = this->work(tr("Writing %1 ...").arg(QFileInfo(path).fileName()),
-    [scene, camera, file, frame = this->State->frame()](const LoadProgress&)
+    [scene, camera, file, warnings, frame = this->State->frame()](const LoadProgress& progress)
     {
       const std::shared_ptr<const Stage> stage = Stage::load(scene);
-      dgtk::exportPov(*stage->at(frame), stage->view(camera, frame), file);
+      const std::shared_ptr<const SceneState> state = stage->at(frame);
+      if (progress(1, 2)) // cancelled, it leaves the file as it was
+      {
+        *warnings = dgtk::exportPov(*state, stage->view(camera, frame), file).warnings;
+      }
     });
   if (done)
   {
+    this->noteWarnings(*warnings);
     this->note(tr("Wrote %1").arg(QFile::decodeName(file.c_str())));
   }
 }

@@ -29,7 +29,8 @@ namespace dgtk
 
 namespace
 {
-constexpr int statusTime = 5000; // milliseconds
+constexpr int statusTime = 5000;         // milliseconds
+constexpr std::size_t mostWarnings = 20; // of one reading, in the log
 } // namespace
 
 void MainWindow::prepareApplication()
@@ -70,6 +71,7 @@ MainWindow::MainWindow(QWidget* parent)
   this->makeToolsMenu();
   this->makeHelpMenu();
   connect(this->State, &EditorState::changed, this, &MainWindow::refresh);
+  connect(this->State, &EditorState::changed, this, &MainWindow::noteNewWarnings);
   connect(this->State, &EditorState::selectionChanged, this, &MainWindow::refresh);
   connect(this->State, &EditorState::failed, this, &MainWindow::fail);
   connect(this->Work, &BackgroundWork::busyChanged, this, &MainWindow::allowFiles);
@@ -117,6 +119,27 @@ void MainWindow::note(const QString& line)
 {
   this->Log->appendPlainText(line);
   this->statusBar()->showMessage(line, statusTime);
+}
+
+void MainWindow::noteWarnings(const std::vector<std::string>& lines)
+{
+  for (std::size_t i = 0; i < lines.size() && i < mostWarnings; ++i)
+  {
+    this->note(tr("Warning: %1").arg(toText(lines[i])));
+  }
+  if (lines.size() > mostWarnings)
+  {
+    this->note(tr("%1 more warnings: dgtk info shows all of them").arg(lines.size() - mostWarnings));
+  }
+}
+
+void MainWindow::noteNewWarnings()
+{
+  const std::vector<std::string>& all = this->document().models().warnings();
+  this->Warned = this->document().opened() == this->Opened ? this->Warned : 0;
+  this->Opened = this->document().opened();
+  this->noteWarnings({ all.begin() + std::ptrdiff_t(this->Warned), all.end() });
+  this->Warned = all.size();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event)

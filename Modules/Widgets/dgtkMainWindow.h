@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <vector>
 
 class QAction;
 class QDockWidget;
@@ -110,6 +111,9 @@ private:
   void refresh();
   void fail(const QString& message);
   void note(const QString& line);
+  void noteWarnings(const std::vector<std::string>& lines);
+  /// What the scene's models are warned of and the log does not say yet.
+  void noteNewWarnings();
 
   EditorState* State;
   BackgroundWork* Work = nullptr;
@@ -121,6 +125,8 @@ private:
   QMenu* ViewMenu = nullptr;
   RenderDialog* Rendering = nullptr;
   MatchDialog* Matching = nullptr;
+  std::size_t Warned = 0; ///< warnings of the scene's models in the log
+  std::size_t Opened = 0; ///< SceneDocument::opened() of that scene
 };
 
 } // namespace dgtk

@@ -53,14 +53,15 @@ const ModelStore::Entry* ModelStore::find(const EntryMap& entries, const std::st
   return found == entries.end() ? nullptr : &found->second;
 }
 
-void ModelStore::loadFile(SceneDescription wanted, const std::vector<std::string>& keys, EntryMap& into)
+void ModelStore::loadFile(
+  SceneDescription wanted, const std::vector<std::string>& keys, EntryMap& into, const Stage::WarningSink& warning)
 {
   std::vector<std::string> names;
   for (const ObjectDescription& object : wanted.objects)
   {
     names.push_back(object.name);
   }
-  const std::shared_ptr<const Stage> stage = Stage::load(std::move(wanted));
+  const std::shared_ptr<const Stage> stage = Stage::load(std::move(wanted), warning);
   const std::vector<std::string> present = stage->objectNames();
   for (std::size_t i = 0; i < keys.size(); ++i)
   {
@@ -97,13 +98,15 @@ bool ModelStore::load(const SceneDescription& scene, const LoadProgress& progres
     files[place->second].keys.push_back(key);
   }
   EntryMap loaded;
+  std::vector<std::string> warnings;
   for (std::size_t i = 0; i < files.size(); ++i)
   {
     if (progress && !progress(i, files.size()))
     {
       return false;
     }
-    loadFile(std::move(files[i].wanted), files[i].keys, loaded);
+    loadFile(
+      std::move(files[i].wanted), files[i].keys, loaded, [&](const std::string& line) { warnings.push_back(line); });
   }
   for (const ObjectDescription& object : scene.objects)
   {
@@ -115,10 +118,27 @@ bool ModelStore::load(const SceneDescription& scene, const LoadProgress& progres
     }
   }
   this->Entries.merge(loaded);
+  this->addWarnings(warnings);
   return true;
 }
 
-void ModelStore::adopt(const ModelStore& other) { this->Entries.insert(other.Entries.begin(), other.Entries.end()); }
+void ModelStore::addWarnings(const std::vector<std::string>& lines)
+{
+  std::set<std::string> known(this->Warnings.begin(), this->Warnings.end());
+  for (const std::string& line : lines)
+  {
+    if (known.insert(line).second)
+    {
+      this->Warnings.push_back(line);
+    }
+  }
+}
+
+void ModelStore::adopt(const ModelStore& other)
+{
+  this->Entries.insert(other.Entries.begin(), other.Entries.end());
+  this->addWarnings(other.Warnings);
+}
 
 std::shared_ptr<const Model> ModelStore::modelOf(const SceneDescription& scene, const ObjectDescription& object) const
 {

@@ -31,6 +31,8 @@ public:
   /// Loads what the scene needs beyond what is there. Throws what Stage::load throws. The store is then as before; also
   /// when the result is false, because `progress` stopped it.
   bool load(const SceneDescription& scene, const LoadProgress& progress = {});
+  /// What is wrong with what was loaded, one line each, in the order in which it was found. Lines are only added.
+  const std::vector<std::string>& warnings() const { return this->Warnings; }
   /// Takes over what another store has loaded.
   void adopt(const ModelStore& other);
 
@@ -54,10 +56,13 @@ private:
   using EntryMap = std::map<std::string, Entry>;
 
   static std::string keyOf(const SceneDescription& scene, const ObjectDescription& object);
-  static void loadFile(SceneDescription wanted, const std::vector<std::string>& keys, EntryMap& into);
+  static void loadFile(
+    SceneDescription wanted, const std::vector<std::string>& keys, EntryMap& into, const Stage::WarningSink& warning);
+  void addWarnings(const std::vector<std::string>& lines);
   static const Entry* find(const EntryMap& entries, const std::string& key);
 
   EntryMap Entries;
+  std::vector<std::string> Warnings;
   std::shared_ptr<GeometryCache> Moving;
 };
 

@@ -8,6 +8,7 @@
 #include "dgtkSceneDocument.h"
 
 #include <QAction>
+#include <QFileDialog>
 #include <QMessageBox>
 #include <QPlainTextEdit>
 #include <QPushButton>
@@ -275,6 +276,55 @@ void TestEditorFiles::readingIsCancelled()
   QCOMPARE(document.json(), before);
   QVERIFY(this->import(model("crate.ac")).isEmpty());
   QCOMPARE(document.undoText(), std::string("Import crate.ac"));
+}
+
+void TestEditorFiles::warningsAreNotedOnce()
+{
+  auto* log = this->Window->findChild<QPlainTextEdit*>("log");
+  const QByteArray crate =
+    R"({ "model": ")" + model("crate.ac").toUtf8() + R"(", "materials": { "*": { "texture": "gone.png" } } })";
+  QVERIFY(this->Window->openFile(this->write("scene.json", R"({ "objects": [)" + crate + ", " + crate + "] }")));
+  const QString line = "texture 'gone.png': not found";
+  QCOMPARE(log->toPlainText().count(line), 1);
+  this->select("crate-1");
+  this->action("duplicate")->trigger();
+  this->action("undo")->trigger();
+  QCOMPARE(log->toPlainText().count(line), 1);
+  QVERIFY(this->Window->openFile(this->path("scene.json")));
+  QCOMPARE(log->toPlainText().count(line), 2); // it was read again
+
+  log->clear();
+  const QByteArray whole = contentsOf(model("column.obj"));
+  QVERIFY(this->Window->importFile(this->write("cut.obj", whole.left(whole.size() * 9 / 10))));
+  QStringList lines = log->toPlainText().split('\n');
+  QVERIFY(lines.first().startsWith("Warning: cut.obj: "));
+  QCOMPARE(lines.removeDuplicates(), 0);
+}
+
+void TestEditorFiles::aCancelledExportWritesNothing()
+{
+  QVERIFY(this->Window->importFile(model("windmill.gltf")));
+  const QString file = this->write("scene.pov", "what was there");
+  this->useImporter(
+    "/bin/sleep 1\nexec " + QCoreApplication::applicationDirPath().toLocal8Bit() + "/dgtk-import \"$@\"");
+  auto* cancel = this->Window->findChild<QPushButton*>("backgroundCancel");
+  QTimer clicker;
+  connect(&clicker, &QTimer::timeout, &clicker,
+    [&]
+    {
+      if (cancel->isVisible())
+      {
+        clicker.stop();
+        QTest::mouseClick(cancel, Qt::LeftButton);
+      }
+    });
+  clicker.start(10);
+  answer<QMessageBox>("replaceBox", [](QMessageBox& box) { box.button(QMessageBox::Yes)->click(); });
+  this->inFileDialog("exportPov", [&](QFileDialog& dialog) { name(dialog, file); });
+  QVERIFY(!clicker.isActive());
+  this->Window.reset(); // waits for the thread
+  qunsetenv("DGTK_IMPORT");
+  QCOMPARE(contentsOf(file), QByteArray("what was there"));
 }
 
 void TestEditorFiles::theWindowClosesWhileItReads()

@@ -28,6 +28,8 @@ private slots:
   void theWindowIsAsItWasLeft();
   void readingDoesNotHoldTheWindow();
   void readingIsCancelled();
+  void warningsAreNotedOnce();
+  void aCancelledExportWritesNothing();
   void theWindowClosesWhileItReads();
   void theProgressOfARunMoves();
   void pictures();

@@ -976,10 +976,6 @@
         <translation>Modelle importieren</translation>
     </message>
     <message>
-        <source>%1: warning: %2</source>
-        <translation>%1: Warnung: %2</translation>
-    </message>
-    <message>
         <source>%1 has no surfaces: nothing was added.</source>
         <translation>%1 hat keine Flächen: nichts wurde hinzugefügt.</translation>
     </message>
@@ -1066,6 +1062,14 @@
     <message>
         <source>&lt;p&gt;Click: select; with Ctrl: add. Drag what is selected: move it in the view&apos;s plane. Drag its handles: move, rotate or scale it (1, 2, 3).&lt;br&gt;During a drag: X, Y, Z keep to an axis, with Shift to the two others; Ctrl: steps; Esc: as it was.&lt;br&gt;Left drag: turn the perspective, pan the others. Middle or Shift and left: pan.&lt;br&gt;Right drag or wheel: zoom. Right click: menu. Double click: one view or all four.&lt;/p&gt;&lt;p&gt;R frame all, F frame selected, W wireframe, S shaded, T textured, G grid, F11 maximise.&lt;br&gt;Arrows turn or pan the view with a frame about it, with Shift they pan; + and - zoom.&lt;br&gt;In the time line: Space plays, Left and Right go through the frames, with Ctrl from key to key.&lt;/p&gt;</source>
         <translation>&lt;p&gt;Klick: auswählen; mit Strg: dazunehmen. Ausgewähltes ziehen: in der Ebene der Ansicht verschieben. Griffe ziehen: verschieben, drehen oder skalieren (1, 2, 3).&lt;br&gt;Beim Ziehen: X, Y, Z halten an einer Achse fest, mit Umschalt an den beiden anderen; Strg: Stufen; Esc: wie zuvor.&lt;br&gt;Links ziehen: die Perspektive drehen, die anderen verschieben. Mitte oder Umschalt und links: verschieben.&lt;br&gt;Rechts ziehen oder Rad: zoomen. Rechtsklick: Menü. Doppelklick: eine Ansicht oder alle vier.&lt;/p&gt;&lt;p&gt;R alles zeigen, F Auswahl zeigen, W Drahtgitter, S schattiert, T mit Texturen, G Gitter, F11 maximieren.&lt;br&gt;Pfeile drehen oder verschieben die Ansicht mit dem Rahmen, mit Umschalt verschieben sie; + und - zoomen.&lt;br&gt;In der Zeitleiste: Leertaste spielt ab, Links und Rechts gehen durch die Bilder, mit Strg von Schlüssel zu Schlüssel.&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>Warning: %1</source>
+        <translation>Warnung: %1</translation>
+    </message>
+    <message>
+        <source>%1 more warnings: dgtk info shows all of them</source>
+        <translation>%1 weitere Warnungen: dgtk info zeigt alle</translation>
     </message>
 </context>
 <context>
