@@ -24,8 +24,6 @@ namespace dgtk
 
 namespace
 {
-constexpr int pointSlots = 1000;                                 // of the loader, above those of panes
-constexpr int detailSlots = 2000;                                // likewise
 constexpr std::uint64_t pictureBytes = std::uint64_t(256) << 20; // of all panes together
 constexpr int statusTime = 8000;
 constexpr int narrowestPane = 190; // widget units

@@ -168,8 +168,7 @@ PictureColors colorCoverage(const DatasetPictures& dataset, const PictureValues&
 
 LayerColors makeColors(const PictureValues& picture, LayerLook look)
 {
-  ImageInfo info = picture.info;
-  return { look, picture.layer.spec, info };
+  return { look, picture.layer.spec, picture.info };
 }
 
 void describe(const PictureValues& picture, LayerLook look, PictureLegend& legend)

@@ -57,7 +57,7 @@ struct DGTKWIDGETS_EXPORT ScenePlaces
   WorldBox boxOf(const SceneItem& item) const;
 };
 
-/// Throws InputError where a scale passes through 0.
+/// A scale of 0 is no error: what it flattens has a place, too.
 DGTKWIDGETS_EXPORT ScenePlaces placeScene(const SceneDescription& scene, const ModelStore& models, double frame);
 
 /// x_in_world(t) = origin + t * direction, least < t < most.

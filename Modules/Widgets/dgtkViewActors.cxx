@@ -17,7 +17,6 @@
 #include <vtkTexture.h>
 
 #include <algorithm>
-#include <set>
 
 namespace dgtk
 {

@@ -197,8 +197,6 @@ vtkSmartPointer<vtkImageData> dataOf(const Image& image, bool cutOut)
 ViewMeshes::ViewMeshes() = default;
 ViewMeshes::~ViewMeshes() = default;
 
-std::size_t ViewMeshes::size() const { return this->Meshes.size(); }
-
 vtkPolyData* ViewMeshes::part(const Instance& instance, std::size_t part)
 {
   std::unique_ptr<Mesh>& mesh = this->Meshes[instance.geometry.get()];

@@ -39,7 +39,6 @@ public:
   vtkImageData* picture(const std::shared_ptr<const Image>& image, bool cutOut);
   /// Forgets poses that nobody shows, and all of models and pictures that nobody else holds.
   void forgetUnused();
-  std::size_t size() const;
 
 private:
   struct Mesh;
