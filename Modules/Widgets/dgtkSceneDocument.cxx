@@ -204,24 +204,15 @@ void SceneDocument::forget()
   }
 }
 
-bool SceneDocument::changesNothing(const Step& step) const
+bool SceneDocument::lastChangesNothing() const
 {
-  const auto text = [this](const SceneDescription& scene) { return toJson(scene, this->Scene.folder); };
-  if (step.whole)
+  const Step& last = this->Done.back();
+  SceneDescription before = last.whole ? last.before : this->Scene;
+  if (!last.whole)
   {
-    return text(step.before) == text(step.after);
+    putState(before, last.item, last.itemBefore);
   }
-  const auto textOf = [&](const ItemState& state)
-  {
-    SceneDescription alone;
-    alone.folder = this->Scene.folder;
-    alone.objects.resize(step.item.kind == SceneItem::Kind::Object);
-    alone.lights.resize(step.item.kind == SceneItem::Kind::Light);
-    alone.cameras.resize(step.item.kind == SceneItem::Kind::Camera);
-    putState(alone, { step.item.kind, 0 }, state);
-    return text(alone);
-  };
-  return textOf(step.itemBefore) == textOf(step.itemAfter);
+  return toJson(before, before.folder) == this->json();
 }
 
 void SceneDocument::finishMerging()
@@ -230,7 +221,7 @@ void SceneDocument::finishMerging()
   {
     return;
   }
-  if (this->changesNothing(this->Done.back()))
+  if (this->lastChangesNothing())
   {
     this->abandon();
   }

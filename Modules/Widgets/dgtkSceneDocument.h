@@ -118,7 +118,7 @@ private:
   static void putState(SceneDescription& scene, const SceneItem& item, const ItemState& state);
   void accept(Step step);
   void putBack(const Step& step);
-  bool changesNothing(const Step& step) const;
+  bool lastChangesNothing() const;
   void forget();
   void reset(SceneDescription scene, const std::string& path, std::size_t clean);
   void notify() const;

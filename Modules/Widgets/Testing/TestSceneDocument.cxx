@@ -308,6 +308,13 @@ TEST(SceneDocument, ADragThatChangesNothingIsNoStep)
   drag(place, false);
   document.finishMerging();
   EXPECT_TRUE(document.modified() && document.canUndo()) << "there and back are two steps";
+  // Also of an object whose parent is another one.
+  document.edit("Parent", [](SceneDescription& s) { s.objects[2].parent = s.objects[1].name; });
+  const SceneItem child{ SceneItem::Kind::Object, 2 };
+  document.editItem(
+    "Move", child, [&](SceneDescription& s) { s.objects[2].visible = true; }, "drag");
+  document.finishMerging();
+  EXPECT_EQ(document.undoText(), "Parent");
 }
 
 TEST(SceneDocument, AThousandCopiesShareOneModel)
