@@ -226,10 +226,12 @@ void TestEditorHandles::controlSnaps()
   this->openCrate();
   const QPoint center = this->pixelOf(front, { 0, 0, 0 });
   const double u = this->unit(front);
-  this->drag(front, center + QPoint(60, 0), center + QPoint(150, 0), Qt::ControlModifier);
+  const int way = int(0.8 / u); // nearer to one square than to none: a drag back to its start would be no step
+  this->drag(front, center + QPoint(60, 0), center + QPoint(60 + way, 0), Qt::ControlModifier);
   const double x = this->object().position.value.x();
-  QVERIFY(std::abs(x - 90 * u) < 1);
+  QVERIFY(std::abs(x - way * u) < 1);
   QCOMPARE(x, std::round(x)); // a square of the grid of this scene is a unit
+  QCOMPARE(x, 1.0);
   this->action("undo")->trigger();
   QTest::keyClick(this->Window.get(), Qt::Key_3);
   this->drag(front, center + QPoint(int(arrow), 0), center + QPoint(int(1.33 * arrow), 0), Qt::ControlModifier);
