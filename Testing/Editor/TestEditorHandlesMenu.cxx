@@ -91,7 +91,6 @@ void TestEditorHandles::camerasAndLightsTurn()
   camera.lookAt = Eigen::Vector3d(1, 0, -3);
   this->document().addCamera(camera);
   this->select("eye");
-  this->action("frameAll")->trigger();
   const QPoint center = this->pixelOf(top, { 1, 0, 0 });
   this->drag(top, center + QPoint(60, 0), center + QPoint(110, 0));
   const double moved = 50 * this->unit(top);
