@@ -29,6 +29,8 @@ private slots:
   void unsavedWorkSurvivesACrash();
   void parallelViewsCutNothing();
   void viewsMoveByKeys();
+  void stylesLookDifferent();
+  void savingIsAnAnswer();
   void lightsHaveAllTheirNumbers();
   void camerasHaveSizesOfTheirOwn();
   void cancelledRunsResume();

@@ -245,6 +245,48 @@ void TestEditor::viewsMoveByKeys()
   }
 }
 
+void TestEditor::stylesLookDifferent()
+{
+  QVERIFY(this->Window->openFile(demo()));
+  auto* view = this->Window->findChild<QOpenGLWidget*>("view.3");
+  const auto seen = [&](const char* action)
+  {
+    this->action(action)->trigger();
+    QTest::qWait(settle);
+    return view->grabFramebuffer();
+  };
+  const QImage textured = seen("textured");
+  const QImage shaded = seen("shaded");
+  const QImage wires = seen("wireframe");
+  QVERIFY(textured != shaded);
+  QVERIFY(shaded != wires);
+  QVERIFY(wires != textured);
+  QVERIFY2(seen("textured") == textured, "and back");
+  QVERIFY(seen("grid") != textured);
+  QVERIFY(seen("grid") == textured);
+  QVERIFY(seen("sceneLights") != textured);
+}
+
+/// Of the question about unsaved work; a new scene is asked for a name first.
+void TestEditor::savingIsAnAnswer()
+{
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  const QString path = QString::fromStdString(this->Window->document().path());
+  this->select("house");
+  this->type("position.1", "0.75");
+  const std::string changed = this->Window->document().json();
+  answer<QMessageBox>("unsavedBox", [](QMessageBox& box) { box.button(QMessageBox::Save)->click(); });
+  this->action("new")->trigger();
+  QVERIFY(this->Window->document().scene().objects.empty());
+  QVERIFY(this->Window->openFile(path));
+  QCOMPARE(this->Window->document().json(), changed);
+  this->select("house");
+  this->type("position.1", "0.5");
+  this->action("save")->trigger();
+  QVERIFY(!this->Window->document().modified());
+  QVERIFY(this->Window->close()); // nothing is asked
+}
+
 void TestEditor::lightsHaveAllTheirNumbers()
 {
   QVERIFY(this->Window->importFile(QString::fromStdString(dgtk::test::sourceFile("Data/Models/crate.ac"))));
