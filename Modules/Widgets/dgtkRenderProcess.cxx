@@ -77,7 +77,8 @@ void RenderProcess::start(const QStringList& arguments)
 
 void RenderProcess::cancel()
 {
-  if (this->running() && this->Process.processId() > 0)
+  // A signal is for the program, not for the copy of this one that is about to become it.
+  if (this->running() && this->Process.waitForStarted(longestEnd))
   {
     this->Cancelled = true;
     ::kill(static_cast<pid_t>(this->Process.processId()), SIGINT);
