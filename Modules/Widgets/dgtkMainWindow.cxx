@@ -79,6 +79,7 @@ MainWindow::MainWindow(QWidget* parent)
   connect(this->Views, &SceneViews::told, this,
     [this](const QString& text) { this->statusBar()->showMessage(text, statusTime); });
   connect(this->Views, &SceneViews::menuAsked, this, &MainWindow::showContextMenu);
+  this->Views->view(ViewKind::Perspective)->setFocus();
   resizeWithin(*this, 1280, 860);
   const QSettings settings;
   this->restoreGeometry(settings.value("geometry").toByteArray());

@@ -38,7 +38,7 @@ SceneViews::SceneViews(EditorState& state, QWidget* parent)
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(this->Columns);
-  this->Active = this->view(ViewKind::Perspective);
+  this->activate(this->view(ViewKind::Perspective));
   connect(this->Tool, &HandleTool::told, this, &SceneViews::told);
   connect(&state, &EditorState::changed, this, &SceneViews::refresh);
   connect(&state, &EditorState::selectionChanged, this, &SceneViews::showSelection);
@@ -222,6 +222,7 @@ void SceneViews::lookThrough(const CameraDescription& camera)
 {
   if (this->view(ViewKind::Perspective)->lookThrough(camera, this->State.frame()))
   {
+    this->activate(this->view(ViewKind::Perspective));
     emit this->lookedThrough(camera);
   }
   else

@@ -220,6 +220,7 @@ void TestEditor::viewsMoveByKeys()
 {
   QVERIFY(this->Window->openFile(demo()));
   QTest::qWait(settle);
+  QVERIFY2(this->Window->findChild<QWidget*>("view.3")->hasFocus(), "the perspective begins");
   for (const char* name : { "view.0", "view.3" })
   {
     auto* view = this->Window->findChild<QOpenGLWidget*>(name);
