@@ -4,6 +4,8 @@
 #include "dgtkFrameLayers.h"
 #include "dgtkOutputLanes.h"
 
+#include <exception>
+
 namespace dgtk
 {
 
@@ -53,9 +55,22 @@ void FrameOutput::submit(const std::shared_ptr<DrawnBand>& band)
 
 void FrameOutput::wait()
 {
+  // For all of them, also after a failure: what they write to may end with the caller.
+  std::exception_ptr failure;
   for (const auto& queue : this->Queues)
   {
-    queue->wait();
+    try
+    {
+      queue->wait();
+    }
+    catch (...)
+    {
+      failure = failure ? failure : std::current_exception();
+    }
+  }
+  if (failure)
+  {
+    std::rethrow_exception(failure);
   }
 }
 

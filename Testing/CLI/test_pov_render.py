@@ -176,9 +176,9 @@ class Render(Case):
     def test_interrupt_ends_povray_and_resume_completes(self):
         options = ("--renderer", "povray", "--layers", "color,objects,pov", "--cameras", "matrix", "--frames", "0:5", "--size", "120x75", "--quiet", "--threads", "3")
         self.dgtk("render", SCENE, "-o", self.path("whole"), *options)
-        for how in (signal.SIGINT, signal.SIGKILL):
-            with self.subTest(how):
-                folder = self.path(how.name)
+        for number, how in enumerate(3 * (signal.SIGINT,) + (signal.SIGKILL,)):
+            with self.subTest(how, number=number):
+                folder = self.path(f"{how.name}{number}")
                 process = subprocess.Popen([DGTK, "render", SCENE, "-o", folder, *options], stderr=subprocess.PIPE, text=True)
                 deadline = time.monotonic() + 60
                 while time.monotonic() < deadline and process.poll() is None:
