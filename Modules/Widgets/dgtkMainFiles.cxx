@@ -155,9 +155,11 @@ void MainWindow::offerRecovery()
       Autosave::discard(copy);
     }
     const auto loaded = std::make_shared<std::optional<LoadedScene>>();
-    if (choice == QMessageBox::Open && this->work(tr("Reading what was kept ..."),
-                                         [loaded, file = QFile::encodeName(copy).toStdString()](const LoadProgress& p)
-                                         { *loaded = SceneDocument::read(file, p); }))
+    if (choice == QMessageBox::Open &&
+        this->work(tr("Reading what was kept ..."),
+          [loaded, file = QFile::encodeName(copy).toStdString()](const LoadProgress& p)
+          { *loaded = SceneDocument::read(file, p); }) &&
+        *loaded)
     {
       this->Copies->adopt(copy); // before anything is drawn, which may be what ended the editor
       this->document().recover(std::move(**loaded));
