@@ -301,24 +301,29 @@ void TestEditorFiles::warningsAreNotedOnce()
   QCOMPARE(lines.removeDuplicates(), 0);
 }
 
+void TestEditorFiles::whenReading(QTimer& timer, const std::function<void(QPushButton&)>& act) const
+{
+  auto* cancel = this->Window->findChild<QPushButton*>("backgroundCancel");
+  connect(&timer, &QTimer::timeout, &timer,
+    [&timer, cancel, act]
+    {
+      if (cancel->isVisible())
+      {
+        timer.stop();
+        act(*cancel);
+      }
+    });
+  timer.start(10);
+}
+
 void TestEditorFiles::aCancelledExportWritesNothing()
 {
   QVERIFY(this->Window->importFile(model("windmill.gltf")));
   const QString file = this->write("scene.pov", "what was there");
   this->useImporter(
     "/bin/sleep 1\nexec " + QCoreApplication::applicationDirPath().toLocal8Bit() + "/dgtk-import \"$@\"");
-  auto* cancel = this->Window->findChild<QPushButton*>("backgroundCancel");
   QTimer clicker;
-  connect(&clicker, &QTimer::timeout, &clicker,
-    [&]
-    {
-      if (cancel->isVisible())
-      {
-        clicker.stop();
-        QTest::mouseClick(cancel, Qt::LeftButton);
-      }
-    });
-  clicker.start(10);
+  this->whenReading(clicker, [](QPushButton& cancel) { QTest::mouseClick(&cancel, Qt::LeftButton); });
   answer<QMessageBox>("replaceBox", [](QMessageBox& box) { box.button(QMessageBox::Yes)->click(); });
   this->inFileDialog("exportPov", [&](QFileDialog& dialog) { name(dialog, file); });
   QVERIFY(!clicker.isActive());
@@ -357,22 +362,16 @@ void TestEditorFiles::pictures()
   this->Window->resize(1280, 860);
   QVERIFY(this->Window->openFile(demo()));
   this->useImporter("exec /bin/sleep 8");
-  auto* cancel = this->Window->findChild<QPushButton*>("backgroundCancel");
   QTimer clicker;
-  connect(&clicker, &QTimer::timeout, &clicker,
-    [&]
+  this->whenReading(clicker,
+    [&](QPushButton& cancel)
     {
-      if (cancel->isVisible())
-      {
-        clicker.stop();
-        QTest::qWait(settle);
-        const QPixmap all = this->Window->grab();
-        const int height = 90;
-        all.copy(0, all.height() - height, all.width(), height).save(folder + "/editor_reading.png");
-        cancel->click();
-      }
+      QTest::qWait(settle);
+      const QPixmap all = this->Window->grab();
+      const int height = 90;
+      all.copy(0, all.height() - height, all.width(), height).save(folder + "/editor_reading.png");
+      cancel.click();
     });
-  clicker.start(10);
   this->Window->importFile(this->write("cathedral.dae", "contents"));
   qunsetenv("DGTK_IMPORT");
 }

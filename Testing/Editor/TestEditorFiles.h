@@ -4,8 +4,12 @@
 
 #include "EditorTest.h"
 
+#include <functional>
+
 class QFileDialog;
+class QPushButton;
 class QString;
+class QTimer;
 
 class TestEditorFiles : public EditorTest
 {
@@ -37,6 +41,8 @@ private slots:
 private:
   static QString model(const char* name);
   static QByteArray contentsOf(const QString& path);
+  /// As soon as Cancel of the work in the background is there; stops the timer.
+  void whenReading(QTimer& timer, const std::function<void(QPushButton&)>& act) const;
   QString write(const char* name, const QByteArray& contents) const;
   /// Imports a file; returns what the dialog said, "" when there was none.
   QString import(const QString& path);
