@@ -11,8 +11,9 @@
 #include <string>
 #include <vector>
 
-// The text files of the layers `boxes`, `amodal` and `points`; see Documentation/Formats/objects_truth.md. Pure
-// functions.
+// The text files of the layers `boxes`, `amodal` and `points`; see Documentation/Formats/objects_truth.md. Every
+// `...Text` function is a pure function; every `read...` function throws an InputError that names the file and the
+// place.
 
 namespace dgtk
 {
@@ -36,6 +37,7 @@ struct BoxRecord
   Eigen::Matrix<double, 8, 3> corners = Eigen::Matrix<double, 8, 3>::Zero();
 };
 DGTKDATASETIO_EXPORT std::string boxesText(const std::string& camera, int frame, const std::vector<BoxRecord>& objects);
+DGTKDATASETIO_EXPORT std::vector<BoxRecord> readBoxes(const std::string& path);
 
 /// One object in the file of `amodal`.
 struct MaskRecord
@@ -44,6 +46,13 @@ struct MaskRecord
   std::vector<std::uint64_t> counts; ///< run lengths column by column, outside first
 };
 DGTKDATASETIO_EXPORT std::string amodalText(int width, int height, const std::vector<MaskRecord>& masks);
+struct AmodalMasks
+{
+  int width = 0; ///< pixels
+  int height = 0;
+  std::vector<MaskRecord> masks; ///< the run lengths of each are as long as the image
+};
+DGTKDATASETIO_EXPORT AmodalMasks readAmodal(const std::string& path);
 
 /// One point in the files of `points`.
 struct PointRecord
@@ -63,6 +72,14 @@ struct PointRecord
 };
 DGTKDATASETIO_EXPORT std::string pointsText(
   int frame, const std::vector<std::string>& cameras, const std::vector<PointRecord>& points);
+struct TrackedPoints
+{
+  int frame = 0;
+  std::vector<std::string> cameras;
+  std::vector<PointRecord> points; ///< without normal and colour; an index of a camera may be any
+};
+/// Reads the `.json`.
+DGTKDATASETIO_EXPORT TrackedPoints readPoints(const std::string& path);
 /// Binary little-endian PLY: x y z double, nx ny nz float, red green blue uchar, object triangle uint.
 DGTKDATASETIO_EXPORT std::string pointsPly(const std::vector<PointRecord>& points);
 

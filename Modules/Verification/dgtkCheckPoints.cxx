@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCheck.h"
-#include "dgtkJsonFile.h"
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkObjectDocuments.h"
 
 #include <cmath>
 #include <cstring>
@@ -11,7 +13,6 @@ namespace dgtk
 
 namespace
 {
-using Json = nlohmann::json;
 /// Pixels.
 constexpr double TrackTolerance = 1e-6;
 /// Part of the depth.
@@ -32,19 +33,17 @@ struct CloudPoint
   std::vector<TrackPoint> track;
 };
 
-std::vector<CloudPoint> readPoints(const Json& document)
+std::vector<CloudPoint> cloudOf(const TrackedPoints& file)
 {
   std::vector<CloudPoint> points;
-  for (const Json& entry : document.at("points"))
+  for (const PointRecord& record : file.points)
   {
     CloudPoint point;
-    const Json& x = entry.at("x");
-    point.x = { x.at(0).get<double>(), x.at(1).get<double>(), x.at(2).get<double>() };
-    point.hit = { entry.at("object").get<std::uint32_t>(), entry.at("triangle").get<std::uint32_t>() };
-    for (const Json& sight : entry.at("track"))
+    point.x = record.x;
+    point.hit = { record.object, record.triangle };
+    for (const PointRecord::Sight& sight : record.track)
     {
-      point.track.push_back(
-        { sight.at(0).get<std::size_t>(), { sight.at(1).get<double>(), sight.at(2).get<double>() } });
+      point.track.push_back({ sight.camera, { sight.u, sight.v } });
     }
     points.push_back(point);
   }
@@ -54,13 +53,12 @@ std::vector<CloudPoint> readPoints(const Json& document)
 class CloudCheck
 {
 public:
-  CloudCheck(Dataset& dataset, std::string file, int frame, const Json& document)
+  CloudCheck(Dataset& dataset, std::string file, int frame, const TrackedPoints& points)
     : File(std::move(file))
-    , Points(readPoints(document))
+    , Points(cloudOf(points))
   {
-    for (const Json& name : document.at("cameras"))
+    for (const std::string& camera : points.cameras)
     {
-      const std::string camera = name.get<std::string>();
       const CameraRecord* record = dataset.camera(camera, frame);
       if (!record)
       {
@@ -223,8 +221,7 @@ private:
 void checkCloud(Dataset& dataset, const std::string& file, int frame, Results& results)
 {
   const std::string path = dataset.absolute(file);
-  const Json document = readJsonFile(path);
-  const CloudCheck check = useJson(path, [&] { return CloudCheck(dataset, file, frame, document); });
+  const CloudCheck check(dataset, file, frame, readPoints(path));
   const int points = static_cast<int>(check.points().size());
   const auto measure = [&](double tolerance, void (CloudCheck::*body)(std::size_t, Meter&) const)
   {

@@ -2,50 +2,37 @@
 #include "dgtkMasks.h"
 
 #include "dgtkError.h"
-#include "dgtkJsonFile.h"
+#include "dgtkObjectDocuments.h"
 
 namespace dgtk
 {
 
 Masks readMasks(const std::string& path, int width, int height)
 {
-  const nlohmann::json document = readJsonFile(path);
-  return useJson(path,
-    [&]
+  const AmodalMasks file = readAmodal(path);
+  if (file.width != width || file.height != height)
+  {
+    throw InputError(path, 0, "size differs from the camera's");
+  }
+  Masks masks;
+  masks.width = width;
+  masks.height = height;
+  for (const MaskRecord& record : file.masks)
+  {
+    std::vector<char>& mask = masks.byId[record.id];
+    mask.assign(std::size_t(width) * height, 0);
+    std::size_t at = 0; // columns from left to right, each from top to bottom
+    char inside = 0;
+    for (const std::uint64_t count : record.counts)
     {
-      Masks masks;
-      masks.width = document.at("width").get<int>();
-      masks.height = document.at("height").get<int>();
-      if (masks.width != width || masks.height != height)
+      for (const std::size_t end = at + count; at < end; ++at)
       {
-        throw InputError(path, 0, "size differs from the camera's");
+        mask[at % height * width + at / height] = inside;
       }
-      const std::size_t pixels = std::size_t(width) * height;
-      for (const nlohmann::json& entry : document.at("masks"))
-      {
-        std::vector<char>& mask = masks.byId[entry.at("id").get<std::uint32_t>()];
-        mask.assign(pixels, 0);
-        std::size_t at = 0; // columns from left to right, each from top to bottom
-        char inside = 0;
-        for (const nlohmann::json& count : entry.at("counts"))
-        {
-          for (auto n = count.get<std::uint64_t>(); n > 0; --n, ++at)
-          {
-            if (at == pixels)
-            {
-              throw InputError(path, 0, "a mask is longer than the image");
-            }
-            mask[at % height * width + at / height] = inside;
-          }
-          inside = inside == 0 ? 1 : 0;
-        }
-        if (at != pixels)
-        {
-          throw InputError(path, 0, "a mask ends before the image");
-        }
-      }
-      return masks;
-    });
+      inside = inside == 0 ? 1 : 0;
+    }
+  }
+  return masks;
 }
 
 } // namespace dgtk

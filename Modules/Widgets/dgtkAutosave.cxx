@@ -43,6 +43,14 @@ public:
   Lock& operator=(const Lock&) = delete;
 
   bool got() const { return this->Got; }
+  /// The scene file whose unsaved work the copy is.
+  void keepOrigin(const QString& path) const
+  {
+    const QByteArray text = path.toUtf8();
+    // Without it the recovered scene has no name.
+    [[maybe_unused]] const bool kept = this->Got && ::ftruncate(this->File, 0) == 0 &&
+                                       ::pwrite(this->File, text.constData(), size_t(text.size()), 0) == text.size();
+  }
 
 private:
   int File;
@@ -88,6 +96,12 @@ void Autosave::discard(const QString& copy)
   QFile::remove(lockFile(copy));
 }
 
+QString Autosave::originOf(const QString& copy)
+{
+  QFile file(lockFile(copy));
+  return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
+}
+
 QStringList Autosave::leftBehind()
 {
   QStringList paths;
@@ -107,6 +121,7 @@ void Autosave::adopt(const QString& copy)
   {
     this->Held = std::make_unique<Lock>(this->File);
   }
+  this->Held->keepOrigin(originOf(copy));
   if (this->Held->got() && QDir().rename(copy, this->File))
   {
     discard(copy);
@@ -126,6 +141,7 @@ void Autosave::save()
     {
       this->Held = std::make_unique<Lock>(this->File);
     }
+    this->Held->keepOrigin(toText(this->State.document().path()));
     this->State.document().writeCopy(QFile::encodeName(this->File).toStdString());
     this->Changed = false;
   }

@@ -31,6 +31,8 @@ public:
   /// A copy that was left behind becomes this window's own: it stays until the work is saved or given up.
   void adopt(const QString& copy);
   static void discard(const QString& copy);
+  /// The scene file that was being edited; "" where it had no name yet.
+  static QString originOf(const QString& copy);
 
 private:
   class Lock;

@@ -26,7 +26,7 @@ void check(const CameraArrayOptions& options)
 {
   if (options.count < 1 || options.count > mostCameras)
   {
-    throw UsageError("number of cameras: expected 1 to 10000, found " + std::to_string(options.count));
+    throw UsageError("number of cameras: expected 1 to 10000");
   }
   if (options.columns < 1 || options.rows < 1 || long(options.columns) * options.rows > mostCameras)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCameraArrayDialog.h"
 
+#include "dgtkEditorLanguage.h"
 #include "dgtkError.h"
 #include "dgtkNumberRow.h"
 
@@ -70,14 +71,17 @@ CameraPath pathOf(const QString& text, const Eigen::Vector3d& lookAt)
       const std::optional<double> value = numberOf(word);
       if (!value)
       {
-        throw UsageError("path: line " + std::to_string(number) + ": \"" + word.toStdString() + "\" is no number");
+        throw UsageError(
+          CameraArrayDialog::tr("path: line %1: \"%2\" is no number").arg(QString::number(number), word).toStdString());
       }
       values.push_back(*value);
     }
     if (values.size() != 0 && values.size() != 3 && values.size() != 6)
     {
-      throw UsageError(
-        "path: line " + std::to_string(number) + ": expected 3 or 6 numbers, found " + std::to_string(values.size()));
+      throw UsageError(CameraArrayDialog::tr("path: line %1: expected 3 or 6 numbers, found %2")
+                         .arg(number)
+                         .arg(values.size())
+                         .toStdString());
     }
     if (values.size() >= 3)
     {
@@ -109,15 +113,15 @@ CameraArrayDialog::CameraArrayDialog(const CameraDescription& first, const Camer
   this->Kind = new QComboBox;
   this->Kind->setObjectName("kind");
   this->Kind->addItems({ tr("Ring"), tr("Hemisphere"), tr("Grid"), tr("Stereo pair"), tr("Along a path") });
-  form->addRow(tr("Kind"), this->Kind);
+  form->addRow(tr("&Kind"), this->Kind);
   const CameraArrayOptions usual;
-  this->Eye = addNumbers(form, tr("Eye"), "eye", listOf(first.eye.value));
-  this->LookAt = addNumbers(form, tr("Look at"), "lookAt", listOf(first.lookAt.value));
-  this->Fov = addNumbers(form, tr("Field of view, \u00b0 (vertical)"), "fovY", { first.fovY.value });
-  this->Count = addCount(form, tr("Cameras"), "count", mostCameras, usual.count);
-  this->Columns = addCount(form, tr("Columns"), "columns", mostInARow, usual.columns);
-  this->Rows = addCount(form, tr("Rows"), "rows", mostInARow, usual.rows);
-  this->Spacing = addNumbers(form, tr("Spacing, baseline"), "spacing", { usual.spacing });
+  this->Eye = addNumbers(form, tr("&Eye"), "eye", listOf(first.eye.value));
+  this->LookAt = addNumbers(form, tr("&Look at"), "lookAt", listOf(first.lookAt.value));
+  this->Fov = addNumbers(form, tr("&Field of view, \u00b0 (vertical)"), "fovY", { first.fovY.value });
+  this->Count = addCount(form, tr("&Cameras"), "count", mostCameras, usual.count);
+  this->Columns = addCount(form, tr("C&olumns"), "columns", mostInARow, usual.columns);
+  this->Rows = addCount(form, tr("&Rows"), "rows", mostInARow, usual.rows);
+  this->Spacing = addNumbers(form, tr("&Spacing, baseline"), "spacing", { usual.spacing });
   this->Path = new QPlainTextEdit(textOf(path));
   this->Path->setObjectName("path");
   this->Path->setPlaceholderText(tr("A point a line: x y z, and where it looks: x y z"));
@@ -126,14 +130,14 @@ CameraArrayDialog::CameraArrayDialog(const CameraDescription& first, const Camer
        "of its look-at point. A camera with key frames that is selected fills this in."));
   this->Path->setTabChangesFocus(true);
   this->Path->setMaximumHeight(pathHeight);
-  form->addRow(tr("Path"), this->Path);
+  form->addRow(tr("&Path"), this->Path);
   this->Fault = new QLabel;
   this->Fault->setObjectName("fault");
   this->Fault->setWordWrap(true);
   this->Fault->hide();
   form->addRow(this->Fault);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
-  QPushButton* const add = buttons->addButton(tr("Add"), QDialogButtonBox::AcceptRole);
+  QPushButton* const add = buttons->addButton(tr("&Add"), QDialogButtonBox::AcceptRole);
   add->setObjectName("add");
   add->setDefault(true);
   buttons->button(QDialogButtonBox::Cancel)->setAutoDefault(false);
@@ -160,7 +164,7 @@ void CameraArrayDialog::accept()
   }
   catch (const std::exception& error)
   {
-    this->Fault->setText(QString::fromUtf8(error.what()));
+    this->Fault->setText(messageText(error.what()));
     this->Fault->show();
   }
 }

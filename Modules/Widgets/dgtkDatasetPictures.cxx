@@ -43,7 +43,18 @@ bool isPicture(const DatasetFile& file)
     return false;
   }
   const std::string extension = extensionOf(file.path);
-  return file.layer == "ldi" ? extension == "ldi" : isLayerFile(file.path);
+  return file.layer == "ldi"      ? extension == "ldi"
+         : file.layer == "amodal" ? extension == "json"
+                                  : isLayerFile(file.path);
+}
+
+bool isDocument(const DatasetFile& file)
+{
+  const std::string extension = extensionOf(file.path);
+  const bool known = file.layer == "calibration"
+                       ? extension == "txt"
+                       : extension == "json" && (file.layer == "boxes" || file.layer == "points");
+  return known && !leavesFolder(file.path);
 }
 
 /// What the user calls the pictures of a file, without its format.
@@ -153,6 +164,10 @@ void DatasetPictures::index()
     {
       formats[dgtk::labelOf(file)].insert(extensionOf(file.path));
     }
+    else if (isDocument(file))
+    {
+      this->Documents[{ file.layer == "points" ? "" : file.camera, file.frame, file.layer }] = file.path;
+    }
     else if (file.layer == "ldi" && extensionOf(file.path) == "exr" && this->Warnings.empty())
     {
       this->Warnings.push_back(file.path + ": layered depth images are shown of .ldi files, not of OpenEXR");
@@ -256,6 +271,18 @@ std::string DatasetPictures::file(const PictureKey& key) const
 {
   const auto at = this->Files.find(key);
   return at == this->Files.end() ? std::string() : (fs::path(this->Folder) / at->second).string();
+}
+
+std::string DatasetPictures::document(const PictureKey& key) const
+{
+  const auto at = this->Documents.find(key);
+  return at == this->Documents.end() ? std::string() : (fs::path(this->Folder) / at->second).string();
+}
+
+bool DatasetPictures::hasDocuments(const std::string& layer) const
+{
+  return std::any_of(
+    this->Documents.begin(), this->Documents.end(), [&](const auto& one) { return one.first.layer == layer; });
 }
 
 const CameraRecord* DatasetPictures::camera(const std::string& name, int frame) const

@@ -64,6 +64,11 @@ public:
   /// Path of a picture; "" where the dataset has none, such as a flow at the last frame.
   std::string file(const PictureKey& key) const;
 
+  /// Path of a file that is no picture: of the layers boxes and calibration, and of points, which are of camera "". ""
+  /// for none.
+  std::string document(const PictureKey& key) const;
+  bool hasDocuments(const std::string& layer) const;
+
   /// Null where cameras.json has no such entry.
   const CameraRecord* camera(const std::string& name, int frame) const;
   const std::vector<CameraRecord>& records() const { return this->Records; }
@@ -88,6 +93,7 @@ private:
   std::vector<int> Frames;
   std::vector<PictureLayer> Layers;
   std::map<PictureKey, std::string> Files; ///< paths relative to the folder
+  std::map<PictureKey, std::string> Documents;
   std::map<std::string, std::set<std::string>> LayersOfCamera;
   std::vector<CameraRecord> Records;
   std::vector<ObjectRecord> Objects;

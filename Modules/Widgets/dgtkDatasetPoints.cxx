@@ -37,6 +37,8 @@ double parameterAt(const CameraRay& ray, double distance)
   return -middle + std::sqrt(middle * middle - (ray.origin.squaredNorm() - distance * distance) / square);
 }
 
+bool knowsLens(const CameraRecord& camera) { return camera.model == "pinhole" || camera.model == "orthographic"; }
+
 bool isDepth(const std::string& layer) { return layer == "depth" || layer == "depth_noisy"; }
 } // namespace
 
@@ -75,8 +77,14 @@ std::optional<Eigen::Vector3d> pointOf(const LayerSpec& spec, const View& view, 
 
 std::string pointLayer(const DatasetPictures& dataset, const std::string& camera, int frame)
 {
+  const CameraRecord* const record = dataset.camera(camera, frame);
+  const bool positionOnly = record != nullptr && !knowsLens(*record);
   for (const char* const name : { "depth", "position", "distance", "inversedepth", "depth_noisy" })
   {
+    if (positionOnly && std::string(name) != "position")
+    {
+      continue;
+    }
     for (const PictureLayer& layer : dataset.layers())
     {
       // a .png of depth is a picture for people
@@ -103,9 +111,9 @@ void addPoints(PointCloud& cloud, const DatasetPictures& dataset, const std::str
     throw InputError(
       dataset.folder() + "/cameras.json", 0, "has no camera " + quoted(camera) + " at frame " + std::to_string(frame));
   }
-  const View view = viewOf(*record);
   const std::string path = dataset.file({ camera, frame, label });
   const PictureLayer& layer = *dataset.layer(label);
+  const View view = layer.spec.name == "position" ? View() : viewOf(*record);
   const auto [width, height] = pictureSize(path, layer);
   PictureRead read;
   read.goOn = goOn;

@@ -26,7 +26,7 @@ DGTKWIDGETS_EXPORT View viewOf(const CameraRecord& record);
 /// Whether world points follow from the values of a layer: depth, depth_noisy, distance, inversedepth, position.
 DGTKWIDGETS_EXPORT bool givesPoints(const LayerSpec& spec);
 /// The world point seen by the centre of the pixel in column x and row y. `values`: the pixel's channels. Nothing where
-/// they say that there is none.
+/// they say that there is none. Positions need no view.
 DGTKWIDGETS_EXPORT std::optional<Eigen::Vector3d> pointOf(
   const LayerSpec& spec, const View& view, int x, int y, const double* values);
 
@@ -37,7 +37,8 @@ struct PointCloud
   std::vector<std::array<std::uint8_t, 3>> colors;
 };
 
-/// The label of the layer from which a camera's points come at a frame: depth, or the next best; "" for none.
+/// The label of the layer from which a camera's points come at a frame: depth, or the next best; "" for none. Of a
+/// lens that is not known only position.
 DGTKWIDGETS_EXPORT std::string pointLayer(const DatasetPictures& dataset, const std::string& camera, int frame);
 
 /// Adds what a camera sees at a frame: the points of its depth in the colours of `colorLayer` (a label; where the

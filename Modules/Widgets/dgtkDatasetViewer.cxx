@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkDatasetViewer.h"
 
+#include "dgtkCameraText.h"
 #include "dgtkCloudView.h"
 #include "dgtkPicturePane.h"
 #include "dgtkPixelText.h"
 
 #include <QAction>
+#include <QDockWidget>
 #include <QFileInfo>
 #include <QGridLayout>
+#include <QHeaderView>
 #include <QLabel>
 #include <QMessageBox>
+#include <QPlainTextEdit>
 #include <QScrollArea>
 #include <QSlider>
 #include <QStackedWidget>
@@ -27,6 +31,8 @@ namespace
 constexpr std::uint64_t pictureBytes = std::uint64_t(256) << 20; // of all panes together
 constexpr int statusTime = 8000;
 constexpr int narrowestPane = 190; // widget units
+constexpr int widestName = 400;    // for which a pane is made wider
+constexpr int lowestView = 90;     // small panes are scrolled, so that they are not flat
 
 QString text(const std::string& name) { return QString::fromStdString(name); }
 } // namespace
@@ -57,8 +63,8 @@ void DatasetViewer::showDataset(const std::shared_ptr<const DatasetPictures>& da
   this->setWindowTitle(tr("%1 - DGTk dataset").arg(QFileInfo(text(dataset->folder())).fileName()));
   this->setPaneCount(static_cast<int>(std::min<std::size_t>(4, dataset->layers().size())));
   this->chooseFirstLayers();
-  this->askAll();
   this->enableActions(true);
+  this->askAll();
   QString line = tr("Cameras: %1, frames: %2, layers: %3")
                    .arg(dataset->cameras().size())
                    .arg(dataset->frames().size())
@@ -68,7 +74,7 @@ void DatasetViewer::showDataset(const std::shared_ptr<const DatasetPictures>& da
     line += "; " + text(warning);
   }
   this->statusBar()->showMessage(line, dataset->warnings().empty() ? statusTime : 0);
-  emit this->opened();
+  emit this->opened(text(dataset->folder()));
 }
 
 void DatasetViewer::chooseFirstLayers()
@@ -140,6 +146,8 @@ PicturePane* DatasetViewer::makePane(int number)
       this->setActive(pane->number());
       this->askPane(*pane);
       this->askPoints();
+      this->askOverlays();
+      this->refreshCalibration();
     });
   connect(pane, &PicturePane::rangeAsked, this, [this, pane](const auto& range) { this->setRange(*pane, range); });
   connect(&pane->view(), &PictureView::activated, this, [this, pane] { this->setActive(pane->number()); });
@@ -156,12 +164,32 @@ PicturePane* DatasetViewer::makePane(int number)
   return pane;
 }
 
+int DatasetViewer::columns() const
+{
+  int width = narrowestPane;
+  for (const PicturePane* pane : this->Panes)
+  {
+    width = std::max(width, std::min(pane->wholeWidth(true), widestName));
+  }
+  const int shown = this->Maximized < 0 ? static_cast<int>(this->Panes.size()) : 1;
+  return std::min(std::max(1, this->Scroll->width() / width), static_cast<int>(std::ceil(std::sqrt(double(shown)))));
+}
+
+/// All panes alike, so that pictures side by side have one size.
+void DatasetViewer::stackNames()
+{
+  const bool stacked = std::any_of(this->Panes.begin(), this->Panes.end(),
+    [this](const PicturePane* pane) { return pane->isVisibleTo(this) && pane->width() < pane->wholeWidth(false); });
+  for (PicturePane* pane : this->Panes)
+  {
+    pane->setStacked(stacked);
+  }
+}
+
 void DatasetViewer::layOut()
 {
   auto* grid = static_cast<QGridLayout*>(this->Grid->layout());
-  const int shown = this->Maximized < 0 ? static_cast<int>(this->Panes.size()) : 1;
-  const int widest = std::max(1, this->Scroll->width() / narrowestPane);
-  const int columns = std::min(widest, static_cast<int>(std::ceil(std::sqrt(double(shown)))));
+  const int columns = this->Columns = this->columns();
   int place = 0;
   for (PicturePane* pane : this->Panes)
   {
@@ -179,7 +207,19 @@ void DatasetViewer::layOut()
     grid->setColumnStretch(i, i < columns ? 1 : 0);
     grid->setRowStretch(i, i < (place + columns - 1) / columns ? 1 : 0);
   }
+  this->setLowest();
   this->refreshReadOut();
+}
+
+/// Panes that are scrolled have a height that goes with their width.
+void DatasetViewer::setLowest()
+{
+  const bool scrolled = this->Maximized < 0 && int(this->Panes.size()) > 2 * this->Columns;
+  const int lowest = std::max(lowestView, scrolled ? this->Scroll->width() / this->Columns * 3 / 5 : 0);
+  for (PicturePane* pane : this->Panes)
+  {
+    pane->view().setMinimumHeight(lowest);
+  }
 }
 
 void DatasetViewer::maximize(int pane)
@@ -199,6 +239,7 @@ void DatasetViewer::setActive(int pane)
   if (changed)
   {
     this->refreshCloudCameras();
+    this->refreshCalibration();
     this->CloudTimer.start();
   }
 }
@@ -249,12 +290,30 @@ void DatasetViewer::refreshReadOut()
       item->setToolTip(cells[column]);
     }
   }
+  this->fitReadOut();
   const PicturePane* const active = this->activePane();
   this->Cloud->setMarker(this->Dataset && active ? this->worldUnder(active->camera().toStdString()) : std::nullopt);
 }
 
+void DatasetViewer::fitReadOut()
+{
+  const QAbstractItemView* const view = this->ReadOut; // whose hints are public
+  const QHeaderView* const header = this->ReadOut->horizontalHeader();
+  for (const int column : { 0, 1 })
+  {
+    const int whole = std::max(view->sizeHintForColumn(column), header->sectionSizeHint(column));
+    this->ReadOut->setColumnWidth(column, std::min(whole, this->ReadOut->width() / 4));
+  }
+}
+
 void DatasetViewer::refreshArea()
 {
+  if (this->columns() != this->Columns)
+  {
+    this->layOut();
+  }
+  this->setLowest();
+  this->stackNames();
   Eigen::Vector2d area(1e9, 1e9);
   for (const PicturePane* pane : this->Panes)
   {
@@ -322,6 +381,15 @@ void DatasetViewer::refreshCloudCameras()
     }
   }
   this->Cloud->setCameras(views, active->camera().toStdString());
+}
+
+void DatasetViewer::refreshCalibration()
+{
+  const PicturePane* const active = this->activePane();
+  if (this->Dataset && active && this->CalibrationDock->isVisible())
+  {
+    this->Calibration->setPlainText(cameraText(*this->Dataset, active->camera().toStdString(), this->frame()));
+  }
 }
 
 } // namespace dgtk

@@ -17,9 +17,11 @@
 #include <vector>
 
 class QAction;
+class QDockWidget;
 class QGridLayout;
 class QLabel;
 class QMenu;
+class QPlainTextEdit;
 class QScrollArea;
 class QSlider;
 class QSpinBox;
@@ -52,7 +54,7 @@ public:
   const DatasetPictures* dataset() const { return this->Dataset.get(); }
 
 signals:
-  void opened();
+  void opened(const QString& folder);
   void refused(const QString& message);
 
 protected:
@@ -61,6 +63,7 @@ protected:
   void dropEvent(QDropEvent* event) override;
 
 private:
+  static constexpr int overlaySlot = -1;   ///< of what is waited for
   static constexpr int pointSlots = 1000;  ///< of the loader, above those of panes
   static constexpr int detailSlots = 2000; ///< likewise
   QAction* addAction(QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys, bool tool = true);
@@ -74,6 +77,7 @@ private:
   QWidget* makeReadOut();
   QWidget* makeEmptyPage();
   QWidget* makeCloudSide();
+  void makeCalibration();
   void connectParts();
 
   void askOpen();
@@ -86,6 +90,9 @@ private:
   PicturePane* makePane(int number);
   void setPaneCount(int count);
   void layOut();
+  void setLowest();
+  int columns() const;
+  void stackNames();
   void layersOfOneCamera();
   void oneLayerOfCameras();
   void maximize(int pane);
@@ -103,8 +110,12 @@ private:
   void prefetch();
   void askPoints();
   void askCloud();
+  void askOverlays();
+  void refreshCalibration();
   void refreshBusy();
   void receive(int slot, const ShownPointer& shown);
+  void receiveOverlays(const std::shared_ptr<const FrameOverlays>& overlays, const QString& error);
+  void showOverlayProblem(const QString& problem);
   void setRange(const PicturePane& pane, const std::optional<PictureRange>& range);
 
   void refreshArea();
@@ -112,6 +123,7 @@ private:
   void actualSize();
   void zoom(double factor);
   void refreshReadOut();
+  void fitReadOut();
   void refreshCloudCameras();
   std::optional<Eigen::Vector3d> worldUnder(const std::string& camera) const;
 
@@ -121,8 +133,10 @@ private:
   std::vector<PicturePane*> Panes;
   int Active = 0;
   int Maximized = -1;
+  int Columns = 0;                                  ///< of panes
   std::map<std::string, PictureRange> Ranges;       ///< chosen by the user, by label
   std::map<std::string, ShownPointer> PointSources; ///< by camera
+  QString OverlayProblem;                           ///< that the status bar shows, or showed
   std::set<int> Pending;                            ///< the loader's slots whose picture of this frame is not there yet
   bool CloudFramed = false;
   bool CloudPending = false;
@@ -146,6 +160,10 @@ private:
   QAction* AllCameras = nullptr;
   QAction* ColorByPane = nullptr;
   QAction* ShowCloud = nullptr;
+  QAction* ShowBoxes = nullptr;
+  QAction* ShowPoints = nullptr;
+  QDockWidget* CalibrationDock = nullptr;
+  QPlainTextEdit* Calibration = nullptr;
   QAction* Play = nullptr;
   QLabel* PixelText = nullptr;
 };

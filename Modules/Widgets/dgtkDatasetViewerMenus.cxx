@@ -4,10 +4,12 @@
 #include "dgtkNamedAction.h"
 #include "dgtkPicturePane.h"
 #include "dgtkSaveName.h"
+#include "dgtkUsualFolder.h"
 
 #include <QAction>
 #include <QApplication>
 #include <QClipboard>
+#include <QDockWidget>
 #include <QFileDialog>
 #include <QLabel>
 #include <QMenuBar>
@@ -72,6 +74,21 @@ void DatasetViewer::makeViewMenu()
   add("layersOfCamera", tr("All &layers of one camera"), "L", [this] { this->layersOfOneCamera(); });
   add("camerasOfLayer", tr("One layer of all &cameras"), "C", [this] { this->oneLayerOfCameras(); });
   add("maximize", tr("&Maximise or restore the picture"), "F11", [this] { this->maximize(this->Active); });
+  menu->addSeparator();
+  const auto addCheck = [&](const char* name, const QString& text, const char* keys)
+  {
+    QAction* const action = this->addAction(menu, name, text, QKeySequence(keys), false);
+    action->setCheckable(true);
+    connect(action, &QAction::toggled, this, &DatasetViewer::askOverlays);
+    return action;
+  };
+  this->ShowBoxes = addCheck("boxes", tr("&Boxes of objects"), "B");
+  this->ShowPoints = addCheck("sparsePoints", tr("&Sparse points"), "S");
+  QAction* const calibration = this->CalibrationDock->toggleViewAction();
+  calibration->setObjectName("calibration");
+  calibration->setText(tr("C&alibration of the camera"));
+  calibration->setShortcut(QKeySequence("K"));
+  menu->addAction(calibration);
   this->Tools->addSeparator();
 }
 
@@ -125,6 +142,8 @@ void DatasetViewer::enableActions(bool on)
       action->setEnabled(on || name == "open" || name == "close" || name == "mouse");
     }
   }
+  this->ShowBoxes->setEnabled(on && this->Dataset->hasDocuments("boxes"));
+  this->ShowPoints->setEnabled(on && this->Dataset->hasDocuments("points"));
 }
 
 void DatasetViewer::makeHelpMenu()
@@ -182,7 +201,7 @@ void DatasetViewer::oneLayerOfCameras()
 
 void DatasetViewer::askOpen()
 {
-  const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a dataset"));
+  const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a dataset"), usualFolder("dataset"));
   if (!folder.isEmpty())
   {
     this->openFolder(folder);

@@ -6,15 +6,18 @@
 
 #include <QAction>
 #include <QCloseEvent>
+#include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileDialog>
+#include <QFontDatabase>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
+#include <QPlainTextEdit>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSettings>
@@ -34,9 +37,10 @@ namespace dgtk
 
 namespace
 {
-constexpr int readOutRows = 4;  // more are scrolled
-constexpr int cloudDelay = 150; // milliseconds after the last change
-constexpr int usualRate = 10;   // frames a second
+constexpr int readOutRows = 4;         // more are scrolled
+constexpr int cloudDelay = 150;        // milliseconds after the last change
+constexpr int usualRate = 10;          // frames a second
+constexpr int calibrationLetters = 48; // of a line of K
 } // namespace
 
 DatasetViewer::DatasetViewer(QWidget* parent)
@@ -68,6 +72,7 @@ DatasetViewer::DatasetViewer(QWidget* parent)
   auto* layout = new QVBoxLayout(page);
   layout->setContentsMargins(4, 4, 4, 0);
   layout->addWidget(this->Split, 1);
+  this->makeCalibration();
   this->makeFileMenu();
   this->makeViewMenu();
   this->makeFramesMenu();
@@ -111,6 +116,7 @@ void DatasetViewer::connectParts()
       }
       this->refreshBusy();
     });
+  connect(this->Loader, &PictureLoader::overlaysReady, this, &DatasetViewer::receiveOverlays);
   connect(this->Sync, &PictureSync::cursorChanged, this, &DatasetViewer::refreshReadOut);
   connect(this->Frames, &QSlider::valueChanged, this, &DatasetViewer::askAll);
   connect(&this->Player, &QTimer::timeout, this, &DatasetViewer::playNext);
@@ -121,6 +127,8 @@ void DatasetViewer::connectParts()
       pane->choose(name, pane->layer());
       this->askPane(*pane);
       this->askPoints();
+      this->askOverlays();
+      this->refreshCalibration();
     });
   this->CloudTimer.setSingleShot(true);
   this->CloudTimer.setInterval(cloudDelay);
@@ -163,6 +171,24 @@ QWidget* DatasetViewer::makeCloudSide()
   layout->addWidget(this->Cloud, 1);
   layout->addWidget(this->CloudText);
   return this->CloudSide;
+}
+
+void DatasetViewer::makeCalibration()
+{
+  this->CalibrationDock = new QDockWidget(tr("Calibration"), this);
+  this->CalibrationDock->setObjectName("calibrationDock");
+  this->Calibration = new QPlainTextEdit(this->CalibrationDock);
+  this->Calibration->setObjectName("calibration");
+  this->Calibration->setAccessibleName(tr("Calibration"));
+  this->Calibration->setReadOnly(true);
+  this->Calibration->setLineWrapMode(QPlainTextEdit::NoWrap);
+  this->Calibration->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+  this->Calibration->setMinimumWidth(
+    this->Calibration->fontMetrics().horizontalAdvance(QString(calibrationLetters, '0')));
+  this->CalibrationDock->setWidget(this->Calibration);
+  this->addDockWidget(Qt::RightDockWidgetArea, this->CalibrationDock);
+  this->CalibrationDock->hide();
+  connect(this->CalibrationDock, &QDockWidget::visibilityChanged, this, &DatasetViewer::refreshCalibration);
 }
 
 QWidget* DatasetViewer::makeFrameRow()
@@ -216,7 +242,9 @@ QWidget* DatasetViewer::makeReadOut()
   this->ReadOut->verticalHeader()->hide();
   this->ReadOut->verticalHeader()->setDefaultSectionSize(this->fontMetrics().height() + 6);
   this->ReadOut->horizontalHeader()->setSectionResizeMode(2, QHeaderView::Stretch);
-  this->ReadOut->setColumnWidth(3, 230);
+  const QString longest("(-1.23457e-05, -1.23457e-05, -1.23457e-05)");
+  this->ReadOut->setColumnWidth(3, this->fontMetrics().horizontalAdvance(longest) + 12);
+  this->ReadOut->setTextElideMode(Qt::ElideMiddle);
   this->ReadOut->setTabKeyNavigation(false);
   this->ReadOut->setEditTriggers(QAbstractItemView::NoEditTriggers);
   const int rows = readOutRows * this->ReadOut->verticalHeader()->defaultSectionSize();

@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <QSlider>
 #include <QSpinBox>
+#include <QStatusBar>
 #include <QToolButton>
 
 #include <algorithm>
@@ -52,6 +53,8 @@ void DatasetViewer::askAll()
     this->askPane(*pane);
   }
   this->askPoints();
+  this->askOverlays();
+  this->refreshCalibration();
   this->FrameText->setText(
     tr("Frame %1 (%2 of %3)").arg(this->frame()).arg(this->Frames->value() + 1).arg(this->Dataset->frames().size()));
 }
@@ -75,6 +78,54 @@ void DatasetViewer::askPoints()
   }
   this->refreshCloudCameras();
   this->CloudTimer.start();
+}
+
+void DatasetViewer::askOverlays()
+{
+  OverlayAsk ask;
+  ask.frame = this->frame();
+  ask.boxes = this->ShowBoxes->isEnabled() && this->ShowBoxes->isChecked();
+  ask.points = this->ShowPoints->isEnabled() && this->ShowPoints->isChecked();
+  for (std::size_t i = 0; (ask.boxes || ask.points) && i < this->Panes.size(); ++i)
+  {
+    ask.cameras.insert(this->Panes[i]->camera().toStdString());
+  }
+  if (!ask.cameras.empty())
+  {
+    this->Pending.insert(overlaySlot);
+    this->refreshBusy();
+  }
+  this->Loader->askOverlays(ask);
+}
+
+void DatasetViewer::receiveOverlays(const std::shared_ptr<const FrameOverlays>& overlays, const QString& error)
+{
+  this->Pending.erase(overlaySlot);
+  this->refreshBusy();
+  for (PicturePane* pane : this->Panes)
+  {
+    pane->view().setOverlays(overlays);
+  }
+  QStringList problems = error.isEmpty() ? QStringList() : QStringList(error);
+  for (std::size_t i = 0; overlays && i < overlays->problems.size(); ++i)
+  {
+    problems << QString::fromStdString(overlays->problems[i]);
+  }
+  this->showOverlayProblem(problems.join("; "));
+}
+
+/// In the status bar, until an answer without one; other messages there stay.
+void DatasetViewer::showOverlayProblem(const QString& problem)
+{
+  if (!problem.isEmpty())
+  {
+    this->statusBar()->showMessage(problem);
+  }
+  else if (!this->OverlayProblem.isEmpty() && this->statusBar()->currentMessage() == this->OverlayProblem)
+  {
+    this->statusBar()->clearMessage();
+  }
+  this->OverlayProblem = problem;
 }
 
 void DatasetViewer::receive(int slot, const ShownPointer& shown)

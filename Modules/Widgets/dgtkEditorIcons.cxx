@@ -125,6 +125,30 @@ std::map<QString, Draw> fileIcons()
         colored(p, accent);
         arrow(p, { 12, 3 }, { 12, 15 });
       } },
+    { "saveAs",
+      [](QPainter& p)
+      {
+        p.drawRect(QRectF(3, 3, 14, 14));
+        p.drawRect(QRectF(6.5, 3, 7, 4));
+        colored(p, accent);
+        p.drawLine(QPointF(12, 21), QPointF(21, 12));
+        p.drawPolyline(polygon({ { 12, 17 }, { 12, 21 }, { 16, 21 } }));
+      } },
+    { "openDataset",
+      [](QPainter& p)
+      {
+        p.drawRect(QRectF(3, 3, 13, 11));
+        p.drawPolyline(polygon({ { 19, 8 }, { 21, 8 }, { 21, 20 }, { 7, 20 }, { 7, 17 } }));
+        colored(p, accent);
+        p.drawPolyline(polygon({ { 4, 12 }, { 8, 7 }, { 11, 10.5 }, { 13, 8.5 }, { 15, 11 } }));
+      } },
+    { "exportPov",
+      [](QPainter& p)
+      {
+        p.drawPolyline(polygon({ { 4, 13 }, { 4, 20 }, { 20, 20 }, { 20, 13 } }));
+        colored(p, accent);
+        arrow(p, { 12, 15 }, { 12, 3 });
+      } },
     { "exit",
       [](QPainter& p)
       {
@@ -180,7 +204,82 @@ std::map<QString, Draw> editIcons()
         p.drawLine(QPointF(5, 5), QPointF(19, 19));
         p.drawLine(QPointF(19, 5), QPointF(5, 19));
       } },
-    { "camera", [](QPainter& p) { camera(p); } }, { "light", [](QPainter& p) { bulb(p); } } };
+    { "selectAll",
+      [](QPainter& p)
+      {
+        p.fillRect(QRectF(8, 8, 8, 8), QColor(60, 170, 70));
+        QPen dashes = p.pen();
+        dashes.setDashPattern({ 1.6, 1.6 });
+        p.setPen(dashes);
+        p.drawRect(QRectF(4, 4, 16, 16));
+      } },
+    { "rename",
+      [](QPainter& p)
+      {
+        p.drawRect(QRectF(3, 7, 18, 10));
+        colored(p, accent);
+        p.drawLine(QPointF(9, 4), QPointF(9, 20));
+        p.drawLine(QPointF(7, 4), QPointF(11, 4));
+        p.drawLine(QPointF(7, 20), QPointF(11, 20));
+      } },
+    { "keyFrame",
+      [](QPainter& p)
+      {
+        p.drawLine(QPointF(3, 19), QPointF(21, 19));
+        p.setPen(Qt::NoPen);
+        p.setBrush(warm);
+        p.drawPolygon(polygon({ { 12, 3 }, { 18, 9 }, { 12, 15 }, { 6, 9 } }));
+      } },
+    { "preview",
+      [](QPainter& p)
+      {
+        QPainterPath eye;
+        eye.moveTo(2.5, 12);
+        eye.quadTo(12, 2, 21.5, 12);
+        eye.quadTo(12, 22, 2.5, 12);
+        p.drawPath(eye);
+        p.setPen(Qt::NoPen);
+        p.setBrush(accent);
+        p.drawEllipse(QPointF(12, 12), 3.2, 3.2);
+      } },
+    { "properties", [](QPainter& p)
+      {
+        for (const double y : { 6.0, 12.0, 18.0 })
+        {
+          p.drawLine(QPointF(10, y), QPointF(21, y));
+          p.fillRect(QRectF(3, y - 2, 4, 4), accent);
+        }
+      } } };
+}
+
+std::map<QString, Draw> toolIcons()
+{
+  return { { "camera", [](QPainter& p) { camera(p); } },
+    { "cameraArray",
+      [](QPainter& p)
+      {
+        for (const QPointF& at : { QPointF(1.5, 1.5), QPointF(11, 1.5), QPointF(6.5, 11.5) })
+        {
+          p.save();
+          p.translate(at);
+          p.scale(0.5, 0.5);
+          colored(p, at.y() > 5 ? accent : p.pen().color());
+          p.setPen(QPen(p.pen().color(), 2 * lineWidth, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+          camera(p);
+          p.restore();
+        }
+      } },
+    { "light", [](QPainter& p) { bulb(p); } },
+    { "correspondence", [](QPainter& p)
+      {
+        p.drawRect(QRectF(2, 5, 8, 14));
+        p.drawRect(QRectF(14, 5, 8, 14));
+        colored(p, accent);
+        p.drawLine(QPointF(6, 10), QPointF(18, 14));
+        p.setBrush(accent);
+        p.drawEllipse(QPointF(6, 10), 1.4, 1.4);
+        p.drawEllipse(QPointF(18, 14), 1.4, 1.4);
+      } } };
 }
 
 std::map<QString, Draw> handleIcons()
@@ -267,6 +366,7 @@ QIcon editorIcon(const QString& name)
   {
     std::map<QString, Draw> all = fileIcons();
     all.merge(editIcons());
+    all.merge(toolIcons());
     all.merge(handleIcons());
     all.merge(viewIcons());
     all.merge(viewerIcons());

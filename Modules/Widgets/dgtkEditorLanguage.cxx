@@ -7,6 +7,8 @@
 #include <QLocale>
 #include <QTranslator>
 
+#include <iterator>
+
 namespace dgtk
 {
 
@@ -18,11 +20,12 @@ constexpr const char* stem = "dgtk-editor_";
 // Named in parts without Qt, which do not translate.
 [[maybe_unused]] const char* const edits[] = { QT_TRANSLATE_NOOP("Edit", "Add camera"),
   QT_TRANSLATE_NOOP("Edit", "Add camera array"), QT_TRANSLATE_NOOP("Edit", "Add light"),
-  QT_TRANSLATE_NOOP("Edit", "Change frame rate"), QT_TRANSLATE_NOOP("Edit", "Set image size"),
-  QT_TRANSLATE_NOOP("Edit", "Change interpolation"), QT_TRANSLATE_NOOP("Edit", "Change interpolation of keys"),
-  QT_TRANSLATE_NOOP("Edit", "Change speed of sequence"), QT_TRANSLATE_NOOP("Edit", "Choose sequence"),
-  QT_TRANSLATE_NOOP("Edit", "Copy key frame"), QT_TRANSLATE_NOOP("Edit", "Copy keys"), QT_TRANSLATE_NOOP("Edit", "Cut"),
-  QT_TRANSLATE_NOOP("Edit", "Delete"), QT_TRANSLATE_NOOP("Edit", "Duplicate"), QT_TRANSLATE_NOOP("Edit", "Import"),
+  QT_TRANSLATE_NOOP("Edit", "Change frame rate"), QT_TRANSLATE_NOOP("Edit", "Change the lens"),
+  QT_TRANSLATE_NOOP("Edit", "Set image size"), QT_TRANSLATE_NOOP("Edit", "Change interpolation"),
+  QT_TRANSLATE_NOOP("Edit", "Change interpolation of keys"), QT_TRANSLATE_NOOP("Edit", "Change speed of sequence"),
+  QT_TRANSLATE_NOOP("Edit", "Choose sequence"), QT_TRANSLATE_NOOP("Edit", "Copy key frame"),
+  QT_TRANSLATE_NOOP("Edit", "Copy keys"), QT_TRANSLATE_NOOP("Edit", "Cut"), QT_TRANSLATE_NOOP("Edit", "Delete"),
+  QT_TRANSLATE_NOOP("Edit", "Duplicate"), QT_TRANSLATE_NOOP("Edit", "Import"),
   QT_TRANSLATE_NOOP("Edit", "Make key frame"), QT_TRANSLATE_NOOP("Edit", "Move"),
   QT_TRANSLATE_NOOP("Edit", "Move key frame"), QT_TRANSLATE_NOOP("Edit", "Move keys"),
   QT_TRANSLATE_NOOP("Edit", "Move sequence"), QT_TRANSLATE_NOOP("Edit", "Paste"),
@@ -30,6 +33,31 @@ constexpr const char* stem = "dgtk-editor_";
   QT_TRANSLATE_NOOP("Edit", "Remove keys"), QT_TRANSLATE_NOOP("Edit", "Rename"),
   QT_TRANSLATE_NOOP("Edit", "Repeat sequence"), QT_TRANSLATE_NOOP("Edit", "Rotate"),
   QT_TRANSLATE_NOOP("Edit", "Scale") };
+
+// Sentences of parts without Qt, and of the library where a dialog shows them beside the value.
+[[maybe_unused]] const char* const messages[] = { QT_TRANSLATE_NOOP("Message", "the first frame has none before it"),
+  QT_TRANSLATE_NOOP("Message", "the last frame has none after it"),
+  QT_TRANSLATE_NOOP("Message", "the pixel is outside the image"),
+  QT_TRANSLATE_NOOP("Message", "the point is outside the image"),
+  QT_TRANSLATE_NOOP("Message", "number of cameras: expected 1 to 10000"),
+  QT_TRANSLATE_NOOP("Message", "columns and rows: expected 1 to 10000 cameras in all"),
+  QT_TRANSLATE_NOOP("Message", "spacing: expected a number above 0"),
+  QT_TRANSLATE_NOOP("Message", "path: expected at least two different points"),
+  QT_TRANSLATE_NOOP("Message", "eye, look-at or up of a camera is not finite"),
+  QT_TRANSLATE_NOOP("Message", "eye and look-at of a camera coincide"),
+  QT_TRANSLATE_NOOP("Message", "up vector of a camera is zero or parallel to its view") };
+
+// Those that layers have.
+[[maybe_unused]] const char* const units[] = { QT_TRANSLATE_NOOP("Unit", "pixels"),
+  QT_TRANSLATE_NOOP("Unit", "scene units"), QT_TRANSLATE_NOOP("Unit", "1 / scene units"),
+  QT_TRANSLATE_NOOP("Unit", "object units"), QT_TRANSLATE_NOOP("Unit", "linear sRGB"),
+  QT_TRANSLATE_NOOP("Unit", "camera response") };
+
+// In the order of their numbers.
+const char* const visibilities[] = { QT_TRANSLATE_NOOP("Visibility", "no surface"),
+  QT_TRANSLATE_NOOP("Visibility", "visible"), QT_TRANSLATE_NOOP("Visibility", "occluded by another object"),
+  QT_TRANSLATE_NOOP("Visibility", "occluded by its own object"), QT_TRANSLATE_NOOP("Visibility", "outside the image"),
+  QT_TRANSLATE_NOOP("Visibility", "behind the camera") };
 
 // Buttons of Qt's dialogs, for systems without Qt's own translations.
 [[maybe_unused]] const char* const buttons[] = { QT_TRANSLATE_NOOP("QPlatformTheme", "OK"),
@@ -85,6 +113,22 @@ QString editText(const std::string& text)
   // A verb and a name.
   const QString verb = words.section(' ', 0, 0);
   return QCoreApplication::translate("Edit", verb.toUtf8().constData()) + words.mid(verb.size());
+}
+
+QString messageText(const std::string& text)
+{
+  return text.empty() ? QString() : QCoreApplication::translate("Message", text.c_str());
+}
+
+QString visibilityText(std::uint32_t value)
+{
+  return value < std::size(visibilities) ? QCoreApplication::translate("Visibility", visibilities[value])
+                                         : QCoreApplication::translate("Visibility", "unknown class");
+}
+
+QString unitText(const std::string& unit)
+{
+  return unit.empty() ? QString() : QCoreApplication::translate("Unit", unit.c_str());
 }
 
 } // namespace dgtk

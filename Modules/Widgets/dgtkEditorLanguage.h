@@ -7,6 +7,7 @@
 #include <QString>
 #include <QStringList>
 
+#include <cstdint>
 #include <string>
 
 namespace dgtk
@@ -21,6 +22,16 @@ DGTKWIDGETS_EXPORT bool setEditorLanguage(const QString& language);
 
 /// What an edit of a document is called in the language of the window.
 QString editText(const std::string& text);
+
+/// What a part without Qt says in a sentence of its own ("the last frame has none after it"), in the language of the
+/// window; as it is where that is not known, as what the command line says of files.
+QString messageText(const std::string& text);
+
+/// What a value of the layers "..._class" means, in the words of the dataset's format.
+QString visibilityText(std::uint32_t value);
+
+/// A layer's unit in the language of the window; a unit of the scene's own as it is.
+QString unitText(const std::string& unit);
 
 } // namespace dgtk
 

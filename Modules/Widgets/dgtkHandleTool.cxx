@@ -42,7 +42,7 @@ std::optional<HandlePlace> HandleTool::place(const ScenePlaces& places) const
   {
     return std::nullopt;
   }
-  return HandlePlace{ this->Mode, items.pivot(), items.axes(this->Mode) };
+  return HandlePlace{ this->Mode, items.pivot(this->Pivot), items.axes(this->Mode) };
 }
 
 void HandleTool::start(const SceneView& view, const ScenePlaces& places)
@@ -52,7 +52,7 @@ void HandleTool::start(const SceneView& view, const ScenePlaces& places)
   // What is dragged itself moves, whatever its handles would do.
   this->Doing = grasp.handle ? this->Mode : HandleMode::Move;
   this->Items.emplace(this->State.scene(), places, this->State.selection(), this->State.frame());
-  const HandlePlace place{ this->Doing, this->Items->pivot(), this->Items->axes(this->Doing) };
+  const HandlePlace place{ this->Doing, this->Items->pivot(this->Pivot), this->Items->axes(this->Doing) };
   this->Drag.emplace(place, grasp.handle.value_or(Handle{}), grasp.handle ? place.pivot : grasp.point, view.camera(),
     view.width(), view.height(), Eigen::Vector2d(grasp.pressed.x(), grasp.pressed.y()));
   this->Step = view.gridStep();

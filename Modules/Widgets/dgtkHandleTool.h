@@ -27,6 +27,7 @@ public:
 
   HandleMode mode() const { return this->Mode; }
   void setMode(HandleMode mode) { this->Mode = mode; }
+  void setPivot(HandlePivot pivot) { this->Pivot = pivot; }
   /// For what is selected; nothing where the mode can do nothing.
   std::optional<HandlePlace> place(const ScenePlaces& places) const;
 
@@ -53,6 +54,7 @@ private:
 
   EditorState& State;
   HandleMode Mode = HandleMode::Move;
+  HandlePivot Pivot = HandlePivot::Center;
   HandleMode Doing = HandleMode::Move; ///< of the drag
   std::optional<ItemMotion> Items;
   std::optional<HandleDrag> Drag;

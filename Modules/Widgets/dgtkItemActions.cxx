@@ -31,6 +31,11 @@ void MainWindow::makeItemActions(QMenu* menu)
   addMode("move", tr("&Move"), "1", HandleMode::Move);
   addMode("rotate", tr("&Rotate"), "2", HandleMode::Rotate);
   addMode("scale", tr("&Scale"), "3", HandleMode::Scale);
+  QAction* const origin = this->addAction(menu, "handlesAtOrigin", tr("&Handles at the origin"), QKeySequence("O"));
+  origin->setCheckable(true);
+  origin->setToolTip(tr("Rotates and scales about the object's origin; otherwise about the middle of its box"));
+  connect(origin, &QAction::toggled, this,
+    [this](bool on) { this->Views->setHandlePivot(on ? HandlePivot::Origin : HandlePivot::Center); });
   menu->addSeparator();
   const auto add = [&](const char* name, const QString& text, const QKeySequence& keys)
   { return this->addAction(menu, name, text, keys); };

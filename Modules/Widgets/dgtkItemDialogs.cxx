@@ -36,7 +36,7 @@ Eigen::Vector3d vectorOf(const NumberRow* row) { return { row->values()[0], row-
 QDialogButtonBox* addButtons(QDialog* dialog, QFormLayout* form)
 {
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
-  QPushButton* const add = buttons->addButton(QObject::tr("Add"), QDialogButtonBox::AcceptRole);
+  QPushButton* const add = buttons->addButton(QObject::tr("&Add"), QDialogButtonBox::AcceptRole);
   add->setObjectName("add");
   add->setDefault(true);
   buttons->button(QDialogButtonBox::Cancel)->setAutoDefault(false);
@@ -56,24 +56,24 @@ CameraDialog::CameraDialog(const CameraDescription& camera, QWidget* parent)
   auto* form = new QFormLayout(this);
   this->Name = new QLineEdit(toText(camera.name));
   this->Name->setObjectName("name");
-  form->addRow(tr("Name"), this->Name);
-  this->Eye = addRow(form, tr("Eye"), "eye", listOf(camera.eye.value));
-  this->LookAt = addRow(form, tr("Look at"), "lookAt", listOf(camera.lookAt.value));
-  this->Up = addRow(form, tr("Up"), "up", listOf(camera.up.value));
+  form->addRow(tr("&Name"), this->Name);
+  this->Eye = addRow(form, tr("&Eye"), "eye", listOf(camera.eye.value));
+  this->LookAt = addRow(form, tr("&Look at"), "lookAt", listOf(camera.lookAt.value));
+  this->Up = addRow(form, tr("&Up"), "up", listOf(camera.up.value));
   this->Lens = new QComboBox;
   this->Lens->setObjectName("lens");
   this->Lens->addItems({ tr("by its field of view"), tr("by its matrix K") });
-  form->addRow(tr("Lens"), this->Lens);
-  this->Fov = addRow(form, tr("Field of view, \u00b0 (vertical)"), "fovY", { camera.fovY.value });
-  this->Aspect = addRow(form, tr("Aspect (0: square pixels)"), "aspect", { camera.aspect });
-  this->K = addRow(form, tr("fx, fy, cx, cy, pixels"), "K", { 0, 0, 0, 0 });
+  form->addRow(tr("Len&s"), this->Lens);
+  this->Fov = addRow(form, tr("&Field of view, \u00b0 (vertical)"), "fovY", { camera.fovY.value });
+  this->Aspect = addRow(form, tr("Aspec&t (0: square pixels)"), "aspect", { camera.aspect });
+  this->K = addRow(form, tr("f&x, fy, cx, cy, pixels"), "K", { 0, 0, 0, 0 });
   this->Size =
-    addRow(form, tr("Size, pixels (0: as asked for)"), "size", { double(camera.width), double(camera.height) });
+    addRow(form, tr("Si&ze, pixels (0: as asked for)"), "size", { double(camera.width), double(camera.height) });
   connect(this->Lens, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &CameraDialog::showLens);
   this->showLens();
-  this->Range = addRow(form, tr("Near, far"), "range", { camera.near, camera.far });
+  this->Range = addRow(form, tr("Near, fa&r"), "range", { camera.near, camera.far });
   QDialogButtonBox* const buttons = addButtons(this, form);
-  QPushButton* const preview = buttons->addButton(tr("Preview"), QDialogButtonBox::ActionRole);
+  QPushButton* const preview = buttons->addButton(tr("&Preview"), QDialogButtonBox::ActionRole);
   preview->setAutoDefault(false);
   preview->setToolTip(tr("Shows the perspective view from there"));
   connect(preview, &QPushButton::clicked, this, &CameraDialog::previewAsked);
@@ -89,8 +89,7 @@ void CameraDialog::showLens()
   {
     std::vector<double> size = this->Size->values();
     size = size[0] > 0 && size[1] > 0 ? size : std::vector<double>{ usualWidth, usualHeight };
-    const double exact = size[1] / 2 / std::tan(this->Fov->values()[0] * pi / 360);
-    const double focal = std::round(exact * 1000) / 1000; // fits its field
+    const double focal = size[1] / 2 / std::tan(this->Fov->values()[0] * pi / 360);
     this->Size->setValues(size);
     this->K->setValues({ focal, focal, size[0] / 2, size[1] / 2 });
   }
@@ -141,25 +140,25 @@ LightDialog::LightDialog(const LightDescription& light, QWidget* parent)
   auto* form = new QFormLayout(this);
   this->Name = new QLineEdit(toText(light.name));
   this->Name->setObjectName("name");
-  form->addRow(tr("Name"), this->Name);
+  form->addRow(tr("&Name"), this->Name);
   this->Kind = new QComboBox;
   this->Kind->setObjectName("kind");
   this->Kind->addItems({ tr("point"), tr("head"), tr("directional"), tr("spot") });
   this->Kind->setCurrentIndex(static_cast<int>(light.kind));
-  form->addRow(tr("Kind"), this->Kind);
-  this->Position = addRow(form, tr("Position"), "position", listOf(light.position.value));
-  this->Target = addRow(form, tr("Target (directional, spot)"), "target", listOf(light.target.value));
-  this->Diffuse = addRow(form, tr("Diffuse"), "diffuse", listOf(light.diffuse));
-  this->Specular = addRow(form, tr("Specular"), "specular", listOf(light.specular));
-  this->Ambient = addRow(form, tr("Ambient"), "ambient", listOf(light.ambient));
-  this->Intensity = addRow(form, tr("Intensity"), "intensity", { light.intensity });
+  form->addRow(tr("&Kind"), this->Kind);
+  this->Position = addRow(form, tr("&Position"), "position", listOf(light.position.value));
+  this->Target = addRow(form, tr("&Target (directional, spot)"), "target", listOf(light.target.value));
+  this->Diffuse = addRow(form, tr("&Diffuse"), "diffuse", listOf(light.diffuse));
+  this->Specular = addRow(form, tr("&Specular"), "specular", listOf(light.specular));
+  this->Ambient = addRow(form, tr("A&mbient"), "ambient", listOf(light.ambient));
+  this->Intensity = addRow(form, tr("&Intensity"), "intensity", { light.intensity });
   this->Attenuation =
-    addRow(form, tr("Attenuation (constant, linear, quadratic)"), "attenuation", listOf(light.attenuation));
-  this->Cone = addRow(form, tr("Cone of a spot, \u00b0"), "coneAngle", { light.coneAngle });
-  this->Exponent = addRow(form, tr("Exponent of a spot"), "exponent", { light.exponent });
+    addRow(form, tr("Atten&uation (constant, linear, quadratic)"), "attenuation", listOf(light.attenuation));
+  this->Cone = addRow(form, tr("&Cone of a spot, \u00b0"), "coneAngle", { light.coneAngle });
+  this->Exponent = addRow(form, tr("E&xponent of a spot"), "exponent", { light.exponent });
   connect(this->Kind, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &LightDialog::refreshKind);
   this->refreshKind();
-  this->Enabled = new QCheckBox(tr("Enabled"));
+  this->Enabled = new QCheckBox(tr("&Enabled"));
   this->Enabled->setObjectName("enabled");
   this->Enabled->setChecked(light.enabled);
   form->addRow(QString(), this->Enabled);

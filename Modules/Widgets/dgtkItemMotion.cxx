@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -109,6 +110,33 @@ void putTurned(Track<Quaternion>& track, int frame, const Quaternion& rotation, 
   put(track, frame, rotation == Quaternion() ? start : turned.scaled(1 / turned.norm()));
 }
 
+/// What turns or grows about a point beside its origin steps aside as often as it turns or grows: at this frame alone
+/// where `track` has keys, and at the others it stays; at all frames where it has none. `start`: before the motion.
+template <typename T>
+void stepAside(const Track<T>& track, int frame, const Track<Eigen::Vector3d>& start, const Eigen::Vector3d& step,
+  Track<Eigen::Vector3d>& position)
+{
+  position = start; // also where the drag comes back to where it began
+  if (step.isZero(0))
+  {
+    return;
+  }
+  if (track.animated())
+  {
+    for (std::size_t i = 0; i < track.keys.size() && !start.animated(); ++i)
+    {
+      position.keys.push_back({ track.keys[i].frame, start.value, std::nullopt });
+    }
+    putMoved(position, frame, start.at(frame), step);
+    return;
+  }
+  position.value += step;
+  for (Key<Eigen::Vector3d>& key : position.keys)
+  {
+    key.value += step;
+  }
+}
+
 /// The up vector in the image.
 Eigen::Vector3d imageUp(const Eigen::Vector3d& forward, const Eigen::Vector3d& up)
 {
@@ -133,6 +161,7 @@ ItemMotion::ItemMotion(const SceneDescription& scene, const ScenePlaces& places,
   : Items(topmost(scene, items))
   , Frame(frame)
 {
+  WorldBox box;
   for (const SceneItem& item : this->Items)
   {
     Start start;
@@ -146,9 +175,11 @@ ItemMotion::ItemMotion(const SceneDescription& scene, const ScenePlaces& places,
       start.place = place.instance.world_from_object.translation;
       start.parent = place.world_from_parent.linear;
       start.parentRotation = isUnit(start.parent) ? start.parent : nearestOrthogonal(start.parent);
+      start.path = object.position;
       start.orientation = object.orientation.at(frame);
       start.scale = object.scale.at(frame);
       directed = true;
+      this->Center = place.center;
     }
     else if (item.kind == SceneItem::Kind::Light)
     {
@@ -163,13 +194,26 @@ ItemMotion::ItemMotion(const SceneDescription& scene, const ScenePlaces& places,
       start.up = camera.up.at(frame);
       start.orientation = camera.orientation.at(frame);
     }
+    if (item.kind != SceneItem::Kind::Object)
+    {
+      this->Center = start.place;
+    }
+    box.add(places.boxOf(item));
     this->Starts.push_back(start);
     this->Directed.push_back(directed);
   }
+  if (this->Items.size() > 1)
+  {
+    this->Center = box.center();
+  }
 }
 
-Eigen::Vector3d ItemMotion::pivot() const
+Eigen::Vector3d ItemMotion::pivot(HandlePivot wanted) const
 {
+  if (wanted == HandlePivot::Center)
+  {
+    return this->Center;
+  }
   Eigen::Vector3d sum(0, 0, 0);
   for (const Start& start : this->Starts)
   {
@@ -218,22 +262,55 @@ Eigen::Vector3d ItemMotion::ownFactors(const Start& start, const WorldMotion& mo
   return stretched.colwise().norm().transpose();
 }
 
-void ItemMotion::applyToObject(ObjectDescription& object, const Start& start, const WorldMotion& motion) const
+Quaternion ItemMotion::turnInParent(const Start& start, const WorldMotion& motion)
 {
-  const Eigen::Vector3d step = stepOf(start.place, motion);
-  const bool inWorld = isUnit(start.parent);
-  putMoved(object.position, this->Frame, start.position,
-    inWorld || step.isZero(0) ? step : Eigen::Vector3d(start.parent.inverse() * step));
+  // In the parent's frame the same rotation has another axis, and in a mirrored one the other sense.
+  const Eigen::Vector3d axis = start.parentRotation.transpose() * motion.axis;
+  return turn(axis, start.parentRotation.determinant() < 0 ? -motion.degrees : motion.degrees);
+}
+
+Eigen::Vector3d ItemMotion::stepInParent(const Start& start, const WorldMotion& motion)
+{
+  const Eigen::Vector3d arm = motion.mode == HandleMode::Move ? motion.translation : start.place - motion.pivot;
+  const Eigen::Vector3d inParent =
+    isUnit(start.parent) || arm.isZero(0) ? arm : Eigen::Vector3d(start.parent.inverse() * arm);
   if (motion.mode == HandleMode::Rotate)
   {
-    // In the parent's frame the same rotation has another axis, and in a mirrored one the other sense.
-    const Eigen::Vector3d axis = start.parentRotation.transpose() * motion.axis;
-    const double degrees = start.parentRotation.determinant() < 0 ? -motion.degrees : motion.degrees;
-    putTurned(object.orientation, this->Frame, turn(axis, degrees), start.orientation);
+    return turnInParent(start, motion).matrix() * inParent - inParent;
+  }
+  if (motion.mode == HandleMode::Scale)
+  {
+    const Eigen::Matrix3d own = start.orientation.matrix();
+    return own * (motion.factors.array() - 1).matrix().asDiagonal() * own.transpose() * inParent;
+  }
+  return inParent;
+}
+
+void ItemMotion::applyToObject(ObjectDescription& object, const Start& start, const WorldMotion& motion) const
+{
+  Eigen::Vector3d step;
+  if (this->Items.size() == 1)
+  {
+    step = stepInParent(start, motion);
+  }
+  else
+  {
+    step = stepOf(start.place, motion);
+    step = isUnit(start.parent) || step.isZero(0) ? step : Eigen::Vector3d(start.parent.inverse() * step);
+  }
+  if (motion.mode == HandleMode::Rotate)
+  {
+    stepAside(object.orientation, this->Frame, start.path, step, object.position);
+    putTurned(object.orientation, this->Frame, turnInParent(start, motion), start.orientation);
   }
   else if (motion.mode == HandleMode::Scale)
   {
+    stepAside(object.scale, this->Frame, start.path, step, object.position);
     put<Eigen::Vector3d>(object.scale, this->Frame, start.scale.cwiseProduct(this->ownFactors(start, motion)));
+  }
+  else
+  {
+    putMoved(object.position, this->Frame, start.position, step);
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkLegendBar.h"
 
+#include "dgtkEditorLanguage.h"
+
 #include <QDoubleValidator>
 #include <QEvent>
 #include <QHBoxLayout>
@@ -147,7 +149,7 @@ void LegendStrip::drawWheel(QPainter& painter) const
   painter.drawImage(QPointF(2, 1), wheel);
   painter.setPen(this->palette().color(QPalette::WindowText));
   const PictureLegend& legend = this->Shown->colors.legend;
-  const QString whole = tr("full colour: %1 %2").arg(text(legend.range.high), QString::fromStdString(legend.unit));
+  const QString whole = tr("full colour: %1 %2").arg(text(legend.range.high), unitText(legend.unit));
   const int left = side + 2 * gap;
   painter.drawText(QRectF(left, 0, this->width() - left, this->height()), Qt::AlignVCenter,
     painter.fontMetrics().elidedText(whole, Qt::ElideRight, this->width() - left));

@@ -15,6 +15,7 @@
 #include "dgtkTruthPanel.h"
 #include "dgtkTruthView.h"
 #include "dgtkUniqueNames.h"
+#include "dgtkWindowSize.h"
 
 #include <QAction>
 #include <QActionGroup>
@@ -42,7 +43,10 @@ Eigen::Vector3d placeOfLight(const WorldBox& box, UpAxis up)
 
 QAction* MainWindow::addAction(QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys)
 {
-  QAction* const action = addNamedAction(this, menu, this->findChild<QToolBar*>("toolBar"), name, text, keys);
+  // The tool bar has what is used often.
+  static const QStringList menuOnly{ "saveAs", "exportPov", "selectAll", "rename", "properties" };
+  auto* tools = menuOnly.contains(name) ? nullptr : this->findChild<QToolBar*>("toolBar");
+  QAction* const action = addNamedAction(this, menu, tools, name, text, keys);
   connect(action, &QAction::triggered, this->State, &EditorState::finishTyping); // before what the action does
   return action;
 }
@@ -232,12 +236,14 @@ CameraDescription MainWindow::cameraOfView() const
   camera.eye = tidy(view.eye());
   camera.lookAt = tidy(view.focus());
   camera.up = view.up();
+  camera.fovY = ViewCamera::angle(); // sees what the view shows
   return camera;
 }
 
 void MainWindow::addCamera()
 {
   CameraDialog dialog(this->cameraOfView(), this);
+  placeBeside(dialog, *this->Views->view(ViewKind::Perspective)); // where Preview shows what it sees
   connect(&dialog, &CameraDialog::previewAsked, this, [&] { this->Views->lookThrough(dialog.camera()); });
   dialog.onAdd([this](const CameraDescription& camera)
     { return this->State->attempt([&] { this->State->select({ this->document().addCamera(camera) }); }); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkDatasetViewer.h"
 #include "dgtkMainWindow.h"
+#include "dgtkUsualFolder.h"
 
 #include <QDir>
 #include <QFileDialog>
@@ -14,14 +15,19 @@ void MainWindow::openDataset(const QString& folder)
   viewer->setAttribute(Qt::WA_DeleteOnClose);
   connect(this, &QObject::destroyed, viewer, [viewer] { delete viewer; });
   connect(this, &MainWindow::closed, viewer, &QWidget::close);
-  connect(viewer, &DatasetViewer::opened, this, [this, folder] { this->addRecent(QDir::cleanPath(folder)); });
+  connect(viewer, &DatasetViewer::opened, this,
+    [this](const QString& shown) // which may be another one, that was opened there
+    {
+      this->addRecent(QDir::cleanPath(shown));
+      rememberFolder(shown, "dataset");
+    });
   viewer->show();
   viewer->openFolder(folder);
 }
 
 void MainWindow::askDataset()
 {
-  const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a dataset"));
+  const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a dataset"), usualFolder("dataset"));
   if (!folder.isEmpty())
   {
     this->openDataset(folder);

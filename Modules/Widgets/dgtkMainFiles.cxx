@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkMainWindow.h"
 
-#include "dgtkAutosave.h"
 #include "dgtkBackgroundWork.h"
 #include "dgtkEditorState.h"
 #include "dgtkError.h"
@@ -11,9 +10,10 @@
 #include "dgtkPovExport.h"
 #include "dgtkSaveName.h"
 #include "dgtkSceneViews.h"
+#include "dgtkUsualFolder.h"
 
 #include <QAction>
-#include <QDateTime>
+#include <QDir>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFile>
@@ -95,9 +95,10 @@ void MainWindow::newScene()
 void MainWindow::askOpen()
 {
   const QString path =
-    QFileDialog::getOpenFileName(this, tr("Open a scene"), {}, tr("Scenes (*.json *.scene);;All files (*)"));
+    QFileDialog::getOpenFileName(this, tr("Open a scene"), usualFolder(), tr("Scenes (*.json *.scene);;All files (*)"));
   if (!path.isEmpty())
   {
+    rememberFolder(path);
     this->openFile(path);
   }
 }
@@ -139,36 +140,6 @@ bool MainWindow::openFile(const QString& path)
   return true;
 }
 
-void MainWindow::offerRecovery()
-{
-  for (const QString& copy : Autosave::leftBehind())
-  {
-    QMessageBox box(QMessageBox::Question, tr("DGTk"),
-      tr("The editor ended without saving a scene, at %1.")
-        .arg(QFileInfo(copy).lastModified().toString(Qt::ISODate).replace('T', ' ')),
-      QMessageBox::Open | QMessageBox::Discard | QMessageBox::Cancel, this);
-    box.setObjectName("recoverBox");
-    box.setInformativeText(tr("Open what was kept of it, or discard it for good. Cancel asks again next time."));
-    const int choice = box.exec();
-    if (choice == QMessageBox::Discard)
-    {
-      Autosave::discard(copy);
-    }
-    const auto loaded = std::make_shared<std::optional<LoadedScene>>();
-    if (choice == QMessageBox::Open &&
-        this->work(tr("Reading what was kept ..."),
-          [loaded, file = QFile::encodeName(copy).toStdString()](const LoadProgress& p)
-          { *loaded = SceneDocument::read(file, p); }) &&
-        *loaded)
-    {
-      this->Copies->adopt(copy); // before anything is drawn, which may be what ended the editor
-      this->document().recover(std::move(**loaded));
-      this->Views->showWhole();
-      return;
-    }
-  }
-}
-
 void MainWindow::askImport()
 {
   QStringList all;
@@ -184,8 +155,11 @@ void MainWindow::askImport()
     filters << toText(reader.description).remove('(').remove(')') + " (" + patterns.join(' ') + ')';
   }
   filters.prepend(tr("All models (%1)").arg(all.join(' ')));
-  for (const QString& path : QFileDialog::getOpenFileNames(this, tr("Import models"), {}, filters.join(";;")))
+  const QStringList paths =
+    QFileDialog::getOpenFileNames(this, tr("Import models"), usualFolder("models"), filters.join(";;"));
+  for (const QString& path : paths)
   {
+    rememberFolder(path, "models");
     this->importFile(path);
   }
 }
@@ -196,7 +170,7 @@ bool MainWindow::importFile(const QString& path)
   {
     return false;
   }
-  const std::string file = QFile::encodeName(path).toStdString();
+  const std::string file = QFile::encodeName(QDir::cleanPath(QFileInfo(path).absoluteFilePath())).toStdString();
   const auto loaded = std::make_shared<std::optional<ModelStore>>();
   const bool read = this->work(tr("Reading %1 ...").arg(QFileInfo(path).fileName()),
     [loaded, reader = this->document().modelReader(file)](const LoadProgress& progress)
@@ -250,7 +224,7 @@ bool MainWindow::addRead(const std::string& file, const ModelStore& models)
 bool MainWindow::saveFile(const QString& path)
 {
   this->State->finishTyping();
-  if (!this->State->attempt([&] { this->State->document().saveAs(path.toStdString()); }))
+  if (!this->State->attempt([&] { this->State->document().saveAs(QFile::encodeName(path).toStdString()); }))
   {
     return false;
   }
@@ -267,9 +241,15 @@ bool MainWindow::save()
 
 bool MainWindow::saveAs()
 {
+  const QString now = toText(this->document().path());
   const QString path = askSaveName(
-    this, tr("Save the scene"), toText(this->document().path()), tr("Scene (*.json);;Thesis scene (*.scene)"));
-  return !path.isEmpty() && this->saveFile(path);
+    this, tr("Save the scene"), now.isEmpty() ? usualFolder() : now, tr("Scene (*.json);;Thesis scene (*.scene)"));
+  if (path.isEmpty())
+  {
+    return false;
+  }
+  rememberFolder(path);
+  return this->saveFile(path);
 }
 
 bool MainWindow::mayDiscard()
@@ -301,7 +281,10 @@ bool MainWindow::mayDiscard()
 
 void MainWindow::exportPov()
 {
-  const QString path = askSaveName(this, tr("Export for POV-Ray"), {}, tr("POV-Ray scene (*.pov)"));
+  const QFileInfo now(toText(this->document().path()));
+  const QString path = askSaveName(this, tr("Export for POV-Ray"),
+    now.filePath().isEmpty() ? usualFolder() : now.dir().filePath(now.completeBaseName() + ".pov"),
+    tr("POV-Ray scene (*.pov)"));
   if (path.isEmpty() || !this->isFree())
   {
     return;
@@ -383,8 +366,10 @@ void MainWindow::refreshRecent()
   const QStringList recent = QSettings().value("recent").toStringList();
   for (const QString& path : recent)
   {
-    this->Recent->addAction(menuText(QFileInfo(path).fileName() + "  -  " + QFileInfo(path).absolutePath()), this,
-      [this, path] { this->openFile(path); });
+    QAction* const open =
+      this->Recent->addAction(menuText(QFileInfo(path).fileName() + "  -  " + QFileInfo(path).absolutePath()), this,
+        [this, path] { this->openFile(path); });
+    open->setObjectName("recent." + QString::number(this->Recent->actions().size() - 1));
   }
   this->Recent->setEnabled(!recent.isEmpty());
 }

@@ -29,6 +29,8 @@ namespace dgtk
 
 namespace
 {
+/// Actions whose check marks are kept.
+constexpr const char* keptActions[] = { "wireframe", "shaded", "textured", "sceneLights", "grid", "handlesAtOrigin" };
 constexpr int statusTime = 5000;         // milliseconds
 constexpr std::size_t mostWarnings = 20; // of one reading, in the log
 } // namespace
@@ -81,9 +83,7 @@ MainWindow::MainWindow(QWidget* parent)
   connect(this->Views, &SceneViews::menuAsked, this, &MainWindow::showContextMenu);
   this->Views->view(ViewKind::Perspective)->setFocus();
   resizeWithin(*this, 1280, 860);
-  const QSettings settings;
-  this->restoreGeometry(settings.value("geometry").toByteArray());
-  this->restoreState(settings.value("state").toByteArray());
+  this->restoreSettings();
   this->refresh();
   this->statusBar()->showMessage(tr("File > Open opens a scene, File > Import adds a model"));
 }
@@ -143,6 +143,36 @@ void MainWindow::noteNewWarnings()
   this->Warned = all.size();
 }
 
+void MainWindow::saveSettings() const
+{
+  QSettings settings;
+  settings.setValue("geometry", this->saveGeometry());
+  settings.setValue("state", this->saveState());
+  this->Views->saveLayout(settings);
+  for (const char* name : keptActions)
+  {
+    settings.setValue(QString("views/") + name, this->findChild<QAction*>(name)->isChecked());
+  }
+}
+
+void MainWindow::restoreSettings()
+{
+  const QSettings settings;
+  this->restoreGeometry(settings.value("geometry").toByteArray());
+  this->restoreState(settings.value("state").toByteArray());
+  this->Views->restoreLayout(settings);
+  for (const char* name : keptActions)
+  {
+    auto* const action = this->findChild<QAction*>(name);
+    const bool wanted = settings.value(QString("views/") + name, action->isChecked()).toBool();
+    // Of a group only the one that is checked; that takes the others' marks.
+    if (wanted != action->isChecked() && (wanted || action->actionGroup() == nullptr))
+    {
+      action->trigger();
+    }
+  }
+}
+
 void MainWindow::closeEvent(QCloseEvent* event)
 {
   if (!this->mayDiscard())
@@ -151,9 +181,7 @@ void MainWindow::closeEvent(QCloseEvent* event)
     return;
   }
   this->Work->cancel();
-  QSettings settings;
-  settings.setValue("geometry", this->saveGeometry());
-  settings.setValue("state", this->saveState());
+  this->saveSettings();
   event->accept();
   emit this->closed();
 }

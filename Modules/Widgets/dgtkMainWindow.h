@@ -109,6 +109,9 @@ private:
   void showProperties();
   void preview();
   void refresh();
+  /// What the user has arranged, from one start to the next.
+  void saveSettings() const;
+  void restoreSettings();
   void fail(const QString& message);
   void note(const QString& line);
   void noteWarnings(const std::vector<std::string>& lines);

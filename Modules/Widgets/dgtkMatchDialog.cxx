@@ -5,12 +5,14 @@
 #include "dgtkMatchPane.h"
 #include "dgtkSaveName.h"
 
+#include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFileDialog>
 #include <QLabel>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QShowEvent>
 #include <QSignalBlocker>
 #include <QSpinBox>
 
@@ -27,6 +29,37 @@ void MatchDialog::showEvent(QShowEvent* event)
 {
   QDialog::showEvent(event);
   this->refresh();
+  if (!event->spontaneous())
+  {
+    this->chooseSelected();
+  }
+}
+
+/// The first selected camera at left, the second at right; one alone keeps the other side, if that is another camera.
+void MatchDialog::chooseSelected()
+{
+  std::vector<int> chosen;
+  for (const SceneItem& item : this->State.selection())
+  {
+    if (item.kind == SceneItem::Kind::Camera && chosen.size() < 2)
+    {
+      chosen.push_back(int(item.index));
+    }
+  }
+  if (chosen.empty())
+  {
+    return;
+  }
+  if (chosen.size() == 1)
+  {
+    const int cameras = this->Sides[1].camera->count();
+    const int right = this->Sides[1].camera->currentIndex();
+    chosen.push_back(right != chosen[0] ? right : (right + 1) % cameras);
+  }
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    this->Sides[i].camera->setCurrentIndex(chosen[i]);
+  }
 }
 
 void MatchDialog::refresh()
@@ -220,16 +253,6 @@ SparseView MatchDialog::sparseView(std::size_t index) const
   return { side.view->view.name, side.view->frame, side.view->view.model->width(), side.view->view.model->height() };
 }
 
-void MatchDialog::addPair()
-{
-  if (this->Match && this->Active && this->Match->message.empty())
-  {
-    const std::size_t side = this->Active->side;
-    this->Table->add({ { this->sparseView(side), this->sparseView(1 - side),
-      { this->Match->from, this->Match->to, this->Match->hit }, toText(this->Match->object) } });
-  }
-}
-
 void MatchDialog::showPair(int row)
 {
   if (row < 0 || row >= int(this->Table->pairs().size()))
@@ -355,6 +378,8 @@ void MatchDialog::refreshButtons()
   this->findChild<QPushButton*>("deletePairs")->setEnabled(!this->Table->selectedItems().isEmpty());
   this->findChild<QPushButton*>("clearPairs")->setEnabled(any);
   this->findChild<QPushButton*>("savePairs")->setEnabled(any);
+  this->findChild<QAction*>("undoPairs")->setEnabled(this->Table->canUndo());
+  this->findChild<QAction*>("redoPairs")->setEnabled(this->Table->canRedo());
 }
 
 } // namespace dgtk

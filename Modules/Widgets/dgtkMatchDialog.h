@@ -72,6 +72,7 @@ private:
 
   void refresh();
   void refreshCameras();
+  void chooseSelected();
   void showView(std::size_t side);
   void askPicture(std::size_t side);
   void pick(std::size_t side, const Eigen::Vector2d& pixel);

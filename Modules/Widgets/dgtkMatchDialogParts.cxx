@@ -2,10 +2,13 @@
 // What the dialog is made of, and what it says about the point that is looked at.
 #include "dgtkMatchDialog.h"
 
+#include "dgtkEditorIcons.h"
+#include "dgtkEditorLanguage.h"
 #include "dgtkMatchPane.h"
 #include "dgtkTruthPanel.h"
 #include "dgtkWindowSize.h"
 
+#include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFormLayout>
@@ -14,8 +17,10 @@
 #include <QPushButton>
 #include <QSpinBox>
 #include <QSplitter>
+#include <QToolButton>
 #include <QVBoxLayout>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dgtk
@@ -80,7 +85,7 @@ MatchDialog::MatchDialog(EditorState& state, QWidget* parent)
       if (const std::size_t opened = this->State.document().opened(); opened != this->Opened)
       {
         this->Scene.reset(); // its models are nobody's any more
-        this->Table->clearAll();
+        this->Table->forgetAll();
         this->Opened = opened;
       }
       this->refresh();
@@ -219,6 +224,24 @@ QWidget* MatchDialog::makePairs()
         this->Table->clearAll();
       }
     });
+  const auto addTool = [&](const char* name, const char* icon, const QString& text, const QKeySequence& keys)
+  {
+    auto* action = new QAction(editorIcon(icon), text, this);
+    action->setObjectName(name);
+    action->setToolTip(tr("%1 (%2)").arg(text, keys.toString(QKeySequence::NativeText)));
+    action->setShortcut(keys);
+    this->addAction(action);
+    auto* button = new QToolButton;
+    button->setObjectName(name);
+    button->setDefaultAction(action);
+    button->setFocusPolicy(Qt::TabFocus);
+    row->addWidget(button);
+    return action;
+  };
+  connect(addTool("undoPairs", "undo", tr("Undo"), QKeySequence("Ctrl+Z")), &QAction::triggered, this->Table,
+    &MatchTable::undo);
+  connect(addTool("redoPairs", "redo", tr("Redo"), QKeySequence("Ctrl+Shift+Z")), &QAction::triggered, this->Table,
+    &MatchTable::redo);
   row->addStretch(1);
   connect(add("openPairs", tr("&Open ...")), &QPushButton::clicked, this, &MatchDialog::askOpen);
   connect(add("savePairs", tr("Sa&ve ...")), &QPushButton::clicked, this, &MatchDialog::askSave);
@@ -266,12 +289,12 @@ void MatchDialog::showMatch()
     const LiveMatch& match = *this->Match;
     const bool surface = match.hit.object != 0;
     set("match.to", match.to.pixel.allFinite() ? place(1 - this->Active->side, match.to.pixel) : QString());
-    set("match.surface", !match.message.empty() ? toText(match.message)
+    set("match.surface", !match.message.empty() ? messageText(match.message)
                          : surface
                            ? tr("%1, part %2, triangle %3")
                                .arg(toText(match.object), QString::number(match.part), QString::number(match.triangle))
                            : tr("nothing"));
-    QString kind = QString::number(int(match.to.visibility)) + ' ' + visibilityText(int(match.to.visibility));
+    QString kind = QString::number(int(match.to.visibility)) + ' ' + visibilityText(std::uint32_t(match.to.visibility));
     set("match.class", match.occluder.empty() ? kind : kind + ": " + toText(match.occluder));
     if (surface)
     {
@@ -334,6 +357,26 @@ void MatchDialog::showMarks()
   {
     this->Sides[side].pane->setMarks(marks[side]);
     this->Sides[side].pane->setLine(lines[side], lineColor);
+  }
+}
+
+void MatchDialog::addPair()
+{
+  if (this->Match && this->Active && this->Match->message.empty())
+  {
+    const std::size_t side = this->Active->side;
+    const MatchRow pair{ this->sparseView(side), this->sparseView(1 - side),
+      { this->Match->from, this->Match->to, this->Match->hit }, toText(this->Match->object) };
+    const std::vector<MatchRow>& pairs = this->Table->pairs();
+    const auto same = std::find_if(pairs.begin(), pairs.end(),
+      [&pair](const MatchRow& other)
+      { return other.from == pair.from && other.to == pair.to && other.match.from == pair.match.from; });
+    if (same != pairs.end())
+    {
+      this->Table->selectRow(int(same - pairs.begin())); // it is there already
+      return;
+    }
+    this->Table->add({ pair });
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkMatchPane.h"
 
+#include "dgtkEditorLanguage.h"
 #include "dgtkTruthPicture.h"
 
 #include <QApplication>
@@ -51,7 +52,7 @@ void MatchPane::setPicture(const LivePicture& picture)
 {
   this->Image = imageOf(picture.picture);
   this->Step = picture.step;
-  this->setMessage(QString::fromStdString(picture.message));
+  this->setMessage(messageText(picture.message));
 }
 
 void MatchPane::setMessage(const QString& message)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkMatchTable.h"
 
+#include "dgtkEditorLanguage.h"
 #include "dgtkTruthPanel.h"
 
 #include <QHeaderView>
@@ -8,12 +9,17 @@
 #include <QPainter>
 
 #include <algorithm>
+#include <cmath>
 
 namespace dgtk
 {
 
 namespace
 {
+constexpr int decimals = 3; // of pixels, in the table; the tool tip and files have all
+
+QString shortText(double value) { return std::isnan(value) ? exactText(value) : QString::number(value, 'f', decimals); }
+
 QString textOf(const SparseView& view)
 {
   return QString::fromStdString(view.camera) + '@' + QString::number(view.frame);
@@ -38,53 +44,146 @@ MatchTable::MatchTable(QWidget* parent)
 void MatchTable::fill(int row, const MatchRow& pair)
 {
   const SparseMatch& match = pair.match;
-  const QString cells[] = { textOf(pair.from), exactText(match.from.x()), exactText(match.from.y()), textOf(pair.to),
-    exactText(match.to.pixel.x()), exactText(match.to.pixel.y()), visibilityText(static_cast<int>(match.to.visibility)),
+  const auto [x, y] = std::pair(match.from.x(), match.from.y());
+  const auto [u, v] = std::pair(match.to.pixel.x(), match.to.pixel.y());
+  const QString kind = visibilityText(static_cast<std::uint32_t>(match.to.visibility));
+  const QString cells[] = { textOf(pair.from), shortText(x), shortText(y), textOf(pair.to), shortText(u), shortText(v),
+    kind, pair.object };
+  const QString tips[] = { cells[0], exactText(x), exactText(y), cells[3], exactText(u), exactText(v), kind,
     pair.object };
   for (int column = 0; column < this->columnCount(); ++column)
   {
     auto* item = new QTableWidgetItem(cells[column]);
-    item->setToolTip(cells[column]);
+    item->setToolTip(tips[column]);
     this->setItem(row, column, item);
+  }
+}
+
+void MatchTable::take(Step step)
+{
+  if (!step.rows.empty())
+  {
+    this->Steps.resize(this->Done);
+    this->Steps.push_back(std::move(step));
+    this->redo();
+  }
+}
+
+void MatchTable::undo()
+{
+  if (this->canUndo())
+  {
+    --this->Done;
+    this->apply(this->Steps[this->Done], false);
+  }
+}
+
+void MatchTable::redo()
+{
+  if (this->canRedo())
+  {
+    ++this->Done;
+    this->apply(this->Steps[this->Done - 1], true);
+  }
+}
+
+void MatchTable::apply(const Step& step, bool forward)
+{
+  std::vector<MatchRow> pairs;
+  auto taken = step.rows.begin();
+  const bool come = step.added == forward;
+  const std::size_t count = come ? this->Pairs.size() + step.rows.size() : this->Pairs.size();
+  auto kept = this->Pairs.begin();
+  for (std::size_t row = 0; row < count; ++row)
+  {
+    const bool here = taken != step.rows.end() && taken->first == int(row);
+    if (here && come)
+    {
+      pairs.push_back(taken->second);
+    }
+    else
+    {
+      if (!here)
+      {
+        pairs.push_back(std::move(*kept));
+      }
+      ++kept;
+    }
+    taken += here ? 1 : 0;
+  }
+  this->Pairs = std::move(pairs);
+  this->showStep(step, come);
+  emit this->pairsChanged();
+}
+
+/// Only rows that come or go are touched: a list may be long.
+void MatchTable::showStep(const Step& step, bool come)
+{
+  if (come)
+  {
+    const bool atEnd = step.rows.front().first == this->rowCount();
+    if (atEnd)
+    {
+      this->setRowCount(int(this->Pairs.size()));
+    }
+    for (const auto& [row, pair] : step.rows)
+    {
+      if (!atEnd)
+      {
+        this->insertRow(row);
+      }
+      this->fill(row, pair);
+    }
+    this->resizeColumnsToContents();
+    this->scrollToItem(this->item(step.rows.back().first, 0));
+  }
+  else if (this->Pairs.empty())
+  {
+    this->setRowCount(0);
+  }
+  else
+  {
+    std::for_each(step.rows.rbegin(), step.rows.rend(), [this](const auto& gone) { this->removeRow(gone.first); });
   }
 }
 
 void MatchTable::add(const std::vector<MatchRow>& pairs)
 {
+  Step step;
   int row = this->rowCount();
-  this->Pairs.insert(this->Pairs.end(), pairs.begin(), pairs.end());
-  this->setRowCount(int(this->Pairs.size()));
   for (const MatchRow& pair : pairs)
   {
-    this->fill(row++, pair);
+    step.rows.emplace_back(row++, pair);
   }
-  this->resizeColumnsToContents();
-  this->scrollToBottom();
-  emit this->pairsChanged();
+  this->take(std::move(step));
 }
 
 void MatchTable::removeSelected()
 {
-  std::vector<int> rows;
+  Step step{ false, {} };
   for (const QModelIndex& index : this->selectionModel()->selectedRows())
   {
-    rows.push_back(index.row());
+    step.rows.emplace_back(index.row(), this->Pairs[std::size_t(index.row())]);
   }
-  std::sort(rows.rbegin(), rows.rend());
-  for (const int row : rows)
-  {
-    this->Pairs.erase(this->Pairs.begin() + row);
-    this->removeRow(row);
-  }
-  if (!rows.empty())
-  {
-    emit this->pairsChanged();
-  }
+  std::sort(step.rows.begin(), step.rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  this->take(std::move(step));
 }
 
 void MatchTable::clearAll()
 {
+  Step step{ false, {} };
+  for (const MatchRow& pair : this->Pairs)
+  {
+    step.rows.emplace_back(int(step.rows.size()), pair);
+  }
+  this->take(std::move(step));
+}
+
+void MatchTable::forgetAll()
+{
   this->Pairs.clear();
+  this->Steps.clear();
+  this->Done = 0;
   this->setRowCount(0);
   emit this->pairsChanged();
 }

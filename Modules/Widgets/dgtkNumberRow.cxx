@@ -4,6 +4,10 @@
 #include <QApplication>
 #include <QHBoxLayout>
 #include <QKeyEvent>
+#include <QPainter>
+#include <QSpinBox>
+#include <QStyle>
+#include <QStyleOptionFrame>
 
 #include <algorithm>
 #include <charconv>
@@ -13,6 +17,37 @@
 
 namespace dgtk
 {
+
+namespace
+{
+/// A field that shows by three points that its number goes on.
+class NumberField : public QLineEdit
+{
+public:
+  using QLineEdit::QLineEdit;
+
+protected:
+  void paintEvent(QPaintEvent* event) override
+  {
+    QLineEdit::paintEvent(event);
+    QStyleOptionFrame option;
+    this->initStyleOption(&option);
+    const QRect inside = this->style()->subElementRect(QStyle::SE_LineEditContents, &option, this);
+    constexpr int margins = 4; // of the text, on both sides
+    if (this->hasFocus() || this->fontMetrics().horizontalAdvance(this->text()) + margins <= inside.width())
+    {
+      return;
+    }
+    const QString more(QChar(0x2026));
+    const int width = this->fontMetrics().horizontalAdvance(more) + 2;
+    const QRect end(inside.right() - width + 1, inside.top(), width, inside.height());
+    QPainter painter(this);
+    painter.fillRect(end, this->palette().base());
+    painter.setPen(this->palette().color(QPalette::Text));
+    painter.drawText(end, Qt::AlignCenter, more);
+  }
+};
+} // namespace
 
 QString numberText(double value)
 {
@@ -50,7 +85,7 @@ NumberRow::NumberRow(const QString& name, int count, QWidget* parent)
   layout->setSpacing(3);
   for (int i = 0; i < count; ++i)
   {
-    auto* field = new QLineEdit(this);
+    auto* field = new NumberField(this);
     field->setObjectName(name + '.' + QString::number(i));
     field->setMinimumWidth(38);
     field->installEventFilter(this);
@@ -59,7 +94,18 @@ NumberRow::NumberRow(const QString& name, int count, QWidget* parent)
     connect(field, &QLineEdit::returnPressed, this, &NumberRow::commit);
     connect(field, &QLineEdit::editingFinished, this, &NumberRow::leaveField);
   }
+  this->setFocusPolicy(Qt::ClickFocus); // as the buddy of a label, but no stop of Tab beside its fields
   this->setFocusProxy(this->Fields.front());
+}
+
+NumberRow::~NumberRow()
+{
+  // A field that has the focus loses it with the row, and would tell one that is no row any more.
+  for (QLineEdit* field : this->Fields)
+  {
+    field->disconnect(this);
+    field->removeEventFilter(this);
+  }
 }
 
 bool NumberRow::eventFilter(QObject* watched, QEvent* event)
@@ -116,6 +162,16 @@ void NumberRow::commit()
   {
     this->Edited(wanted);
   }
+}
+
+QSpinBox* makeNumber(const QString& name, int least, int most, int value)
+{
+  auto* box = new QSpinBox;
+  box->setObjectName(name);
+  box->setRange(least, most);
+  box->setValue(value);
+  box->setKeyboardTracking(false);
+  return box;
 }
 
 void commitRows(const QWidget& dialog)

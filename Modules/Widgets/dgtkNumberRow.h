@@ -12,6 +12,8 @@
 #include <optional>
 #include <vector>
 
+class QSpinBox;
+
 namespace dgtk
 {
 
@@ -31,6 +33,7 @@ class NumberRow : public QWidget
 public:
   /// The fields are called `name`.0, `name`.1, ...
   NumberRow(const QString& name, int count, QWidget* parent);
+  ~NumberRow() override;
 
   /// All numbers are taken at once, at Return or when the row is left: for those that make sense together only.
   void takeTogether() { this->Together = true; }
@@ -53,6 +56,9 @@ private:
   std::vector<double> Values;
   std::function<void(const std::vector<double>&)> Edited;
 };
+
+/// A field for whole numbers; what is typed counts when it is left.
+QSpinBox* makeNumber(const QString& name, int least, int most, int value);
 
 /// What is typed in the rows of a dialog is taken.
 void commitRows(const QWidget& dialog);

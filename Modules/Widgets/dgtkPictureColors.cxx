@@ -2,6 +2,9 @@
 #include "dgtkPictureColors.h"
 
 #include "dgtkCryptomatte.h"
+#include "dgtkEditorLanguage.h"
+
+#include <QCoreApplication>
 
 #include <algorithm>
 #include <cmath>
@@ -94,17 +97,22 @@ std::string nameOfId(const DatasetPictures& dataset, const LayerSpec& spec, std:
   const std::string number = std::to_string(id);
   if (isClassImage(spec))
   {
-    return number + " " + visibilityClass(id);
+    return number + " " + visibilityText(id).toStdString();
   }
   if (spec.name == "objects" || spec.name == "alpha")
   {
     const ObjectRecord* const object = dataset.object(id);
-    return number + (object ? " " + object->name : id == 0 ? " background" : "");
+    return number + (object ? " " + object->name : id == 0 ? " " + backgroundText() : "");
+  }
+  if (spec.name == "amodal")
+  {
+    const ObjectRecord* const object = dataset.object(id);
+    return number + " " + (id == 0 ? outsideText() : object ? object->name : std::string());
   }
   if (spec.name == "classes")
   {
     const std::string name = dataset.className(id);
-    return number + (id == 0 ? " background" : name.empty() ? "" : " " + name);
+    return number + (id == 0 ? " " + backgroundText() : name.empty() ? "" : " " + name);
   }
   return number;
 }
@@ -203,12 +211,9 @@ void describe(const PictureValues& picture, LayerLook look, PictureLegend& legen
 }
 } // namespace
 
-const char* visibilityClass(std::uint32_t value)
-{
-  static const char* const names[] = { "no surface", "visible", "hidden by another object", "hidden by its own object",
-    "outside the image", "behind the camera" };
-  return value < 6 ? names[value] : "unknown class";
-}
+std::string backgroundText() { return QCoreApplication::translate("PixelText", "background").toStdString(); }
+
+std::string outsideText() { return QCoreApplication::translate("PixelText", "outside").toStdString(); }
 
 std::vector<CoveredObject> coveredObjects(
   const DatasetPictures& dataset, const PictureValues& picture, const double* channels)

@@ -66,8 +66,10 @@ DGTKWIDGETS_EXPORT Rgb legendColor(const PictureValues& picture, const PictureLe
 /// Whether a ramp has equal steps of the logarithm.
 DGTKWIDGETS_EXPORT bool legendIsLogarithmic(const PictureValues& picture, const PictureLegend& legend);
 
-/// The meaning of a number of a class image.
-DGTKWIDGETS_EXPORT const char* visibilityClass(std::uint32_t value);
+/// What id 0 of objects and classes stands for, in the language of the window.
+DGTKWIDGETS_EXPORT std::string backgroundText();
+/// Likewise of amodal masks.
+DGTKWIDGETS_EXPORT std::string outsideText();
 
 /// An object and the part of a pixel that it covers, in the order of a coverage file's ranks.
 struct CoveredObject

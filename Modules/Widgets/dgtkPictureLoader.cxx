@@ -13,6 +13,7 @@ constexpr std::uint64_t mostKept = std::uint64_t(512) << 20; // bytes
 constexpr std::size_t mostPoints = 400000;                   // of a cloud: what is turned without waiting
 constexpr int openSlot = -1;
 constexpr int cloudSlot = -2;
+constexpr int overlaySlot = -3;
 constexpr int prefetchSlots = 100000; // above those of panes
 enum Priority
 {
@@ -57,6 +58,7 @@ void PictureLoader::open(const QString& folder)
           this->Kept.clear();
           this->KeptBytes = 0;
           this->Queue.drop(cloudSlot);
+          this->Queue.drop(overlaySlot);
           QMetaObject::invokeMethod(
             this, [this, dataset] { emit this->opened(dataset); }, Qt::QueuedConnection);
         };
@@ -192,6 +194,30 @@ void PictureLoader::askCloud(const CloudAsk& ask)
         }
       }
       return [this, cloud, problem] { emit this->cloudReady(cloud, problem); };
+    });
+}
+
+void PictureLoader::askOverlays(const OverlayAsk& ask)
+{
+  if (ask.cameras.empty())
+  {
+    this->Queue.drop(overlaySlot);
+    emit this->overlaysReady(nullptr, {});
+    return;
+  }
+  this->Queue.post(overlaySlot, Now,
+    [this, ask, dataset = this->Dataset](const BackgroundQueue::GoOn&) -> BackgroundQueue::Done
+    {
+      try
+      {
+        const auto overlays = std::make_shared<const FrameOverlays>(readOverlays(*dataset, ask));
+        return [this, overlays] { emit this->overlaysReady(overlays, {}); };
+      }
+      catch (const std::exception& error)
+      {
+        const QString message = QString::fromStdString(error.what());
+        return [this, message] { emit this->overlaysReady(nullptr, message); };
+      }
     });
 }
 

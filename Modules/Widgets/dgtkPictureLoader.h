@@ -7,6 +7,7 @@
 #include "dgtkBackgroundQueue.h"
 #include "dgtkDatasetPoints.h"
 #include "dgtkPictureColors.h"
+#include "dgtkPictureOverlay.h"
 
 #include <QObject>
 #include <QString>
@@ -68,6 +69,8 @@ public:
   /// Has a picture read before it is asked for.
   void prefetch(int pane, const PictureAsk& ask);
   void askCloud(const CloudAsk& ask);
+  /// Without cameras: answers at once with none.
+  void askOverlays(const OverlayAsk& ask);
   /// Bytes that one picture may take; larger ones are thinned out.
   void setBudget(std::uint64_t bytes) { this->Budget = bytes; }
 
@@ -76,6 +79,8 @@ signals:
   void refused(const QString& message);
   void ready(int pane, dgtk::ShownPointer picture);
   void cloudReady(std::shared_ptr<const dgtk::PointCloud> cloud, const QString& error);
+  /// Null where `error` says why.
+  void overlaysReady(std::shared_ptr<const dgtk::FrameOverlays> overlays, const QString& error);
 
 private:
   using DatasetPointer = std::shared_ptr<const DatasetPictures>;

@@ -2,33 +2,31 @@
 #include "dgtkPicturePane.h"
 
 #include "dgtkLegendBar.h"
+#include "dgtkNameCombo.h"
 #include "dgtkPixelText.h"
 
-#include <QComboBox>
 #include <QHBoxLayout>
 #include <QSignalBlocker>
 #include <QSpinBox>
 #include <QVBoxLayout>
+
+#include <algorithm>
+#include <limits>
 
 namespace dgtk
 {
 
 namespace
 {
-constexpr int narrowestCombo = 44; // widget units
+constexpr int headSpacing = 3;   // widget units
+constexpr int mostSurfaces = 99; // until a picture tells its own
+const char* const amodalLabel = "amodal";
 
-QComboBox* makeCombo(const char* name, const QString& tip, QWidget* parent)
+/// The largest number of an object that can be asked for. Objects are in the order of their ids.
+int largestObject(const std::vector<ObjectRecord>& objects)
 {
-  auto* combo = new QComboBox(parent);
-  combo->setObjectName(name);
-  combo->setToolTip(tip);
-  combo->setAccessibleName(tip);
-  // panes side by side have one size, whatever the names in them
-  combo->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  combo->setMinimumWidth(narrowestCombo);
-  QObject::connect(combo, &QComboBox::currentTextChanged, combo,
-    [combo, tip](const QString& chosen) { combo->setToolTip(tip + ": " + chosen); });
-  return combo;
+  constexpr std::uint32_t largest = std::numeric_limits<int>::max();
+  return objects.empty() ? mostSurfaces : static_cast<int>(std::clamp<std::uint32_t>(objects.back().id, 1, largest));
 }
 } // namespace
 
@@ -36,8 +34,8 @@ PicturePane::PicturePane(int number, PictureSync& sync, QWidget* parent)
   : QFrame(parent)
   , Number(number)
   , Sync(sync)
-  , Camera(makeCombo("camera", tr("Camera of this picture"), this))
-  , Layer(makeCombo("layer", tr("Layer of this picture"), this))
+  , Camera(new NameCombo("camera", tr("Camera of this picture"), this))
+  , Layer(new NameCombo("layer", tr("Layer of this picture"), this))
   , Surface(new QSpinBox(this))
   , View(new PictureView(sync, this))
   , Legend(new LegendBar(this))
@@ -45,19 +43,22 @@ PicturePane::PicturePane(int number, PictureSync& sync, QWidget* parent)
   this->setObjectName(QString("pane.%1").arg(number));
   this->View->setObjectName(QString("picture.%1").arg(number));
   this->Surface->setObjectName("surface");
-  this->Surface->setRange(1, 99);
+  this->Surface->setRange(1, mostSurfaces);
   this->Surface->setPrefix(tr("no. "));
   this->Surface->setToolTip(tr("Which surface along each ray, from the nearest"));
-  auto* head = new QHBoxLayout;
-  head->setContentsMargins(0, 0, 0, 0);
-  head->setSpacing(3);
-  head->addWidget(this->Camera, 1);
-  head->addWidget(this->Layer, 2);
-  head->addWidget(this->Surface);
+  auto* layer = new QHBoxLayout;
+  layer->setSpacing(headSpacing);
+  layer->addWidget(this->Layer, 1);
+  layer->addWidget(this->Surface);
+  this->Head = new QBoxLayout(QBoxLayout::LeftToRight);
+  this->Head->setContentsMargins(0, 0, 0, 0);
+  this->Head->setSpacing(headSpacing);
+  this->Head->addWidget(this->Camera);
+  this->Head->addLayout(layer);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(2, 2, 2, 2);
   layout->setSpacing(2);
-  layout->addLayout(head);
+  layout->addLayout(this->Head);
   layout->addWidget(this->View, 1);
   layout->addWidget(this->Legend);
   connect(this->Camera, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
@@ -69,7 +70,7 @@ PicturePane::PicturePane(int number, PictureSync& sync, QWidget* parent)
   connect(this->Layer, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     [this]
     {
-      this->Surface->setVisible(this->layer() == "ldi color" || this->layer() == "ldi depth");
+      this->showSurface();
       emit this->changed();
     });
   connect(this->Surface, QOverload<int>::of(&QSpinBox::valueChanged), this, &PicturePane::changed);
@@ -81,6 +82,19 @@ QString PicturePane::camera() const { return this->Camera->currentText(); }
 QString PicturePane::layer() const { return this->Layer->currentText(); }
 int PicturePane::surface() const { return this->Surface->isVisibleTo(this) ? this->Surface->value() - 1 : 0; }
 
+int PicturePane::wholeWidth(bool stacked) const
+{
+  const QMargins margins = this->layout()->contentsMargins();
+  const int names = stacked ? std::max(this->CameraWidth, this->LayerWidth)
+                            : this->CameraWidth + headSpacing + this->LayerWidth + 1; // one for rounding
+  return names + margins.left() + margins.right() + 2 * this->frameWidth();
+}
+
+void PicturePane::setStacked(bool on)
+{
+  this->Head->setDirection(on ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
+}
+
 void PicturePane::setDataset(const std::shared_ptr<const DatasetPictures>& dataset)
 {
   this->Dataset = dataset;
@@ -90,6 +104,7 @@ void PicturePane::setDataset(const std::shared_ptr<const DatasetPictures>& datas
   {
     this->Camera->addItem(QString::fromStdString(name));
   }
+  this->CameraWidth = this->Camera->wholeWidth();
   this->fillLayers();
 }
 
@@ -103,7 +118,20 @@ void PicturePane::fillLayers()
     this->Layer->addItem(QString::fromStdString(label));
   }
   this->Layer->setCurrentIndex(std::max(0, this->Layer->findText(before)));
-  this->Surface->setVisible(this->layer() == "ldi color" || this->layer() == "ldi depth");
+  this->LayerWidth = this->Layer->wholeWidth();
+  this->Head->setStretch(0, this->CameraWidth);
+  this->Head->setStretch(1, this->LayerWidth);
+  this->showSurface();
+}
+
+void PicturePane::showSurface()
+{
+  const bool amodal = this->layer() == amodalLabel;
+  this->Surface->setVisible(amodal || this->layer() == "ldi color" || this->layer() == "ldi depth");
+  this->Surface->setToolTip(
+    amodal ? tr("Which object, by its id") : tr("Which surface along each ray, from the nearest"));
+  const QSignalBlocker quiet(this->Surface); // whoever changed the layer tells it
+  this->Surface->setMaximum(amodal ? largestObject(this->Dataset->objects()) : mostSurfaces);
 }
 
 void PicturePane::choose(const QString& camera, const QString& layer)
@@ -115,14 +143,14 @@ void PicturePane::choose(const QString& camera, const QString& layer)
   this->fillLayers();
   const int layerAt = this->Layer->findText(layer);
   this->Layer->setCurrentIndex(layerAt < 0 ? this->Layer->currentIndex() : layerAt);
-  this->Surface->setVisible(this->layer() == "ldi color" || this->layer() == "ldi depth");
+  this->showSurface();
 }
 
 void PicturePane::showPicture(const ShownPointer& shown, bool chosen)
 {
   this->View->showPicture(shown);
   this->Legend->setPicture(shown && shown->picture ? shown : nullptr, chosen);
-  if (shown && shown->picture && shown->picture->surfaces > 0)
+  if (shown && shown->picture && shown->picture->ldi && shown->picture->surfaces > 0)
   {
     this->Surface->setMaximum(shown->picture->surfaces);
   }

@@ -8,13 +8,14 @@
 
 #include <QFrame>
 
-class QComboBox;
+class QBoxLayout;
 class QSpinBox;
 
 namespace dgtk
 {
 
 class LegendBar;
+class NameCombo;
 
 /// A picture with what it shows: camera and layer above, legend below.
 class PicturePane : public QFrame
@@ -32,6 +33,9 @@ public:
   QString layer() const;
   /// Without a signal; unknown names are passed over.
   void choose(const QString& camera, const QString& layer);
+  /// The width at which the names of all its cameras and layers are whole; `stacked`: the camera above the layer.
+  int wholeWidth(bool stacked) const;
+  void setStacked(bool on);
   int surface() const;
   /// `chosen`: the user's range and not the picture's own.
   void showPicture(const ShownPointer& shown, bool chosen);
@@ -45,12 +49,16 @@ signals:
 
 private:
   void fillLayers();
+  void showSurface();
 
   int Number;
   PictureSync& Sync;
   std::shared_ptr<const DatasetPictures> Dataset;
-  QComboBox* Camera;
-  QComboBox* Layer;
+  QBoxLayout* Head = nullptr;
+  NameCombo* Camera;
+  NameCombo* Layer;
+  int CameraWidth = 0; ///< of all names, whole
+  int LayerWidth = 0;  ///< likewise
   QSpinBox* Surface;
   PictureView* View;
   LegendBar* Legend;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPictureValues.h"
 
+#include "dgtkObjectDocuments.h"
+
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -193,6 +195,48 @@ PictureValues readLdi(const std::string& path, const PictureLayer& layer, const 
   fillLdi(picture, show, read.surface);
   return picture;
 }
+
+bool isAmodal(const PictureLayer& layer) { return layer.format == "json"; }
+
+void fillMask(PictureValues& picture, const MaskRecord& mask, int height)
+{
+  std::size_t run = 0; // of columns from left to right, each from top to bottom; odd ones are inside
+  std::uint64_t end = mask.counts.front();
+  for (int column = 0; column < picture.columns(); ++column)
+  {
+    for (int row = 0; row < picture.rows(); ++row)
+    {
+      const std::uint64_t at = std::uint64_t(picture.x(column)) * std::uint64_t(height) + std::uint64_t(picture.y(row));
+      while (at >= end)
+      {
+        end += mask.counts[++run];
+      }
+      picture.values.row<std::uint32_t>(row)[column] = run % 2 == 1 ? mask.id : 0;
+    }
+  }
+}
+
+/// The object's id in its mask, 0 outside.
+PictureValues readMask(const std::string& path, const PictureLayer& layer, const PictureRead& read)
+{
+  const AmodalMasks file = readAmodal(path);
+  PictureValues picture;
+  picture.layer = layer;
+  picture.info = { "json", PixelType::UInt32, 1, file.width, file.height };
+  picture.window = partOf(read.window, file.width, file.height);
+  picture.step = read.step > 0 ? read.step : stepFor(picture.window, sizeof(std::uint32_t), read.budget);
+  picture.values =
+    Rows(PixelType::UInt32, 1, kept(picture.window.width, picture.step), 0, kept(picture.window.height, picture.step));
+  std::fill_n(picture.values.data(), picture.values.bytes(), std::byte{ 0 });
+  for (const MaskRecord& mask : file.masks)
+  {
+    if (mask.id == std::uint32_t(read.surface) + 1)
+    {
+      fillMask(picture, mask, file.height);
+    }
+  }
+  return picture;
+}
 } // namespace
 
 std::uint64_t PictureValues::bytes() const
@@ -243,6 +287,10 @@ PictureValues readPicture(const std::string& path, const PictureLayer& layer, co
   {
     return readLdi(path, layer, read);
   }
+  if (isAmodal(layer))
+  {
+    return readMask(path, layer, read);
+  }
   const std::unique_ptr<RowReader> reader = openLayerFile(path);
   PictureValues picture;
   picture.layer = layer;
@@ -262,6 +310,11 @@ std::pair<int, int> pictureSize(const std::string& path, const PictureLayer& lay
   {
     const LdiReader reader(path);
     return { reader.width(), reader.height() };
+  }
+  if (isAmodal(layer))
+  {
+    const AmodalMasks masks = readAmodal(path);
+    return { masks.width, masks.height };
   }
   const ImageInfo info = openLayerFile(path)->info();
   return { info.width, info.height };

@@ -60,7 +60,7 @@ struct PictureRead
   PixelRect window;                               ///< of no width: the whole image
   int step = 0;                                   ///< 0: the smallest that keeps `budget` and 16384 pixels a side
   std::uint64_t budget = std::uint64_t(64) << 20; ///< bytes of pixels that are kept, about
-  int surface = 0;                                ///< of a layered depth image, 0 the nearest
+  int surface = 0;                                ///< of a layered depth image, 0 the nearest; of amodal, id - 1
   std::function<bool()> goOn;                     ///< asked now and then; false: an empty picture comes back
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPictureView.h"
 
+#include "dgtkOverlayPainter.h"
+
 #include <QApplication>
 #include <QKeyEvent>
 #include <QMouseEvent>
@@ -97,6 +99,14 @@ void PictureView::setReadOut(const QString& text)
     this->update();
   }
 }
+
+void PictureView::setOverlays(const std::shared_ptr<const FrameOverlays>& overlays)
+{
+  this->Overlays = overlays;
+  this->update();
+}
+
+QPointF PictureView::widgetPoint(const QPointF& image) const { return toQt(this->toWidget(fromQt(image))); }
 
 void PictureView::setActive(bool on)
 {
@@ -219,6 +229,15 @@ void PictureView::paintEvent(QPaintEvent*)
   if (this->Sync.zoom.scale() >= gridScale)
   {
     this->drawGrid(painter);
+  }
+  if (this->Overlays && this->Overlays->frame == this->Shown->ask.key.frame)
+  {
+    const auto overlay = this->Overlays->cameras.find(this->Shown->ask.key.camera);
+    if (overlay != this->Overlays->cameras.end())
+    {
+      paintOverlay(
+        painter, overlay->second, this->rect(), [this](const Eigen::Vector2d& p) { return toQt(this->toWidget(p)); });
+    }
   }
   if (this->Sync.cursor())
   {

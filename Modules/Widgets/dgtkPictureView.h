@@ -57,6 +57,10 @@ public:
   const ShownPointer& detail() const { return this->Detail; }
   /// Width and height of the whole image; (0, 0) while there is none.
   Eigen::Vector2d imageSize() const;
+  /// Boxes and points, drawn over the picture of their frame and camera. Null: none.
+  void setOverlays(const std::shared_ptr<const FrameOverlays>& overlays);
+  /// Where an image point is in the widget; for tests.
+  Q_INVOKABLE QPointF widgetPoint(const QPointF& image) const;
   /// The numbers under the crosshair, shown in a corner; "" for none.
   void setReadOut(const QString& text);
   /// The one whose camera and layer the menus mean.
@@ -100,6 +104,7 @@ private:
   PictureSync& Sync;
   ShownPointer Shown;
   ShownPointer Detail;
+  std::shared_ptr<const FrameOverlays> Overlays;
   QString Message;
   QString ReadOut;
   QPoint Pressed;

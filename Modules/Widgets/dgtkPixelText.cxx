@@ -2,8 +2,11 @@
 #include "dgtkPixelText.h"
 
 #include "dgtkDatasetPoints.h"
+#include "dgtkEditorLanguage.h"
 #include "dgtkError.h"
 #include "dgtkPictureColors.h"
+
+#include <QCoreApplication>
 
 #include <charconv>
 #include <cmath>
@@ -25,6 +28,12 @@ std::string rounded(double value, int digits)
   return { text, end };
 }
 
+/// Words of this file, in the language of the window.
+struct Words
+{
+  Q_DECLARE_TR_FUNCTIONS(PixelText)
+};
+
 bool isFloat(PixelType type) { return type == PixelType::Float32 || type == PixelType::Float64; }
 
 std::string listText(const std::vector<double>& values, PixelType type)
@@ -37,7 +46,12 @@ std::string listText(const std::vector<double>& values, PixelType type)
   return values.size() == 1 ? text : "(" + text + ")";
 }
 
-std::string unitText(const LayerSpec& spec) { return spec.unit.empty() || spec.unit == "1" ? "" : " " + spec.unit; }
+std::string unitOf(const LayerSpec& spec)
+{
+  return spec.unit.empty() || spec.unit == "1" ? "" : " " + unitText(spec.unit).toStdString();
+}
+
+std::string nothingText() { return Words::tr("nothing").toStdString(); }
 
 std::string objectText(const DatasetPictures& dataset, std::uint32_t id)
 {
@@ -45,7 +59,7 @@ std::string objectText(const DatasetPictures& dataset, std::uint32_t id)
   const std::string number = std::to_string(id);
   if (object == nullptr)
   {
-    return id == 0 ? "0 background" : number;
+    return id == 0 ? "0 " + backgroundText() : number;
   }
   return number + " " + object->name + (object->objectClass.empty() ? "" : " (" + object->objectClass + ")");
 }
@@ -54,7 +68,8 @@ std::string ldiText(const PictureValues& picture, std::size_t pixel)
 {
   const LdiPixels& ldi = *picture.ldi;
   const std::uint64_t count = ldi.first[pixel + 1] - ldi.first[pixel];
-  std::string text = std::to_string(count) + (count == 1 ? " surface" : " surfaces");
+  std::string text =
+    (count == 1 ? Words::tr("1 surface") : Words::tr("%1 surfaces").arg(qulonglong(count))).toStdString();
   for (std::uint64_t i = ldi.first[pixel]; i < ldi.first[pixel + 1]; ++i)
   {
     const LdiRecord& record = ldi.records[i];
@@ -72,22 +87,28 @@ std::string idText(const DatasetPictures& dataset, const PictureValues& picture,
   const auto id = static_cast<std::uint32_t>(three ? values[0] * 65536 + values[1] * 256 + values[2] : values[0]);
   if (!spec.invalid.empty() && spec.invalid != "0" && std::to_string(id) == spec.invalid)
   {
-    return "nothing";
+    return nothingText();
   }
   if (spec.name == "objects")
   {
     return objectText(dataset, id);
   }
+  if (spec.name == "amodal")
+  {
+    return id == 0 ? "0 " + outsideText() : objectText(dataset, id);
+  }
   if (spec.name == "alpha" && values.size() == 4)
   {
-    return objectText(dataset, id) + ", coverage " + numberText(values[3], PixelType::UInt8) + " / 255";
+    const QString covered =
+      Words::tr("coverage %1 / 255").arg(QString::fromStdString(numberText(values[3], PixelType::UInt8)));
+    return objectText(dataset, id) + ", " + covered.toStdString();
   }
   if (spec.name == "classes")
   {
     const std::string name = dataset.className(id);
-    return std::to_string(id) + (id == 0 ? " background" : name.empty() ? "" : " " + name);
+    return std::to_string(id) + (id == 0 ? " " + backgroundText() : name.empty() ? "" : " " + name);
   }
-  return std::to_string(id) + " " + visibilityClass(id);
+  return std::to_string(id) + " " + visibilityText(id).toStdString();
 }
 
 std::string coverageText(const DatasetPictures& dataset, const PictureValues& picture, const double* channels)
@@ -136,14 +157,15 @@ std::string valueText(const DatasetPictures& dataset, const PictureValues& pictu
   std::vector<double> values(std::size_t(picture.values.channels()));
   picture.get(column, row, values.data());
   const LayerSpec& spec = picture.layer.spec;
-  if (spec.name == "objects" || spec.name == "alpha" || spec.name == "classes" || endsWith(spec.name, "_class"))
+  if (spec.name == "objects" || spec.name == "alpha" || spec.name == "amodal" || spec.name == "classes" ||
+      endsWith(spec.name, "_class"))
   {
     return idText(dataset, picture, values);
   }
   if (spec.name == "parts" || spec.name == "triangles")
   {
     const std::string text = numberText(values[0], PixelType::UInt32);
-    return text == spec.invalid ? "nothing" : text;
+    return text == spec.invalid ? nothingText() : text;
   }
   if (spec.name == "coverage" && values.size() % 4 == 0)
   {
@@ -155,10 +177,11 @@ std::string valueText(const DatasetPictures& dataset, const PictureValues& pictu
   {
     return text;
   }
-  text += unitText(spec);
+  text += unitOf(spec);
   if (spec.name.rfind("flow_", 0) == 0 && values.size() == 2)
   {
-    text += ", " + rounded(std::hypot(values[0], values[1]), lengthDigits) + " long";
+    const std::string length = rounded(std::hypot(values[0], values[1]), lengthDigits);
+    text += ", " + Words::tr("%1 long").arg(QString::fromStdString(length)).toStdString();
   }
   return text;
 }
@@ -177,7 +200,7 @@ std::optional<Eigen::Vector3d> worldPoint(
   picture.get(picture.column(x), picture.row(y), values.data());
   try
   {
-    return pointOf(spec, viewOf(*record), x, y, values.data());
+    return pointOf(spec, spec.name == "position" ? View() : viewOf(*record), x, y, values.data());
   }
   catch (const Error&)
   {

@@ -17,8 +17,9 @@ namespace dgtk
 /// A number of a picture: an integer, or the shortest text that reads back to the same value of the file's type.
 DGTKWIDGETS_EXPORT std::string numberText(double value, PixelType type);
 
-/// What a picture says at a pixel that it kept, with units and names: "3.25 scene units", "3 windmill",
-/// "(0.5, -2) pixels, 2.0616 long", "2 hidden by another object", the records of a layered depth image. Empty outside.
+/// What a picture says at a pixel that it kept, with units and names, in the language of the window: "3.25 scene
+/// units", "3 windmill", "(0.5, -2) pixels, 2.0616 long", "2 occluded by another object", the records of a layered
+/// depth image. Empty outside.
 DGTKWIDGETS_EXPORT std::string valueText(const DatasetPictures& dataset, const PictureValues& picture, int x, int y);
 
 /// The world point of a pixel, from the picture's own values. Nothing where they do not say it, and for a camera that

@@ -55,6 +55,17 @@ PropertiesPanel::PropertiesPanel(EditorState& state, QWidget* parent)
   this->rebuild();
 }
 
+void PropertiesPanel::rebuildKeepingFocus()
+{
+  const QWidget* const focus = this->window()->focusWidget();
+  const QString name = focus != nullptr && this->widget()->isAncestorOf(focus) ? focus->objectName() : QString();
+  this->rebuild();
+  if (QWidget* const same = name.isEmpty() ? nullptr : this->widget()->findChild<QWidget*>(name))
+  {
+    same->setFocus();
+  }
+}
+
 void PropertiesPanel::rebuild()
 {
   this->Refreshers.clear();
@@ -64,14 +75,17 @@ void PropertiesPanel::rebuild()
   this->Form->setContentsMargins(6, 6, 6, 6);
   this->Form->setVerticalSpacing(4);
   this->Form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  this->Form->setRowWrapPolicy(QFormLayout::WrapLongRows); // names are longer in some languages
+  this->Rows = this->rowsWanted();
   const SceneItems& selection = this->State.selection();
   if (selection.empty())
   {
-    auto* hint = new QLabel(tr("Nothing is selected.\n\nClick an object, light or camera in a view or in the scene "
-                               "tree to see its values here."),
+    auto* hint = new QLabel(tr("Nothing is selected: these are the values of the scene. Click an object, light or "
+                               "camera in a view or in the scene tree to see its own."),
       page);
     hint->setWordWrap(true);
     this->Form->addRow(hint);
+    this->buildScene();
   }
   else
   {
@@ -96,19 +110,50 @@ void PropertiesPanel::rebuild()
         this->buildCamera(item.index);
     }
   }
-  QWidget* const old = this->takeWidget();
-  if (old != nullptr)
+  if (QWidget* const old = this->widget())
   {
-    // One of its fields may have led here; none may speak for another item.
+    // One of its fields may have led here, and loses the focus with it; none may speak any more.
     for (QWidget* field : old->findChildren<QWidget*>())
     {
       field->blockSignals(true);
     }
+    this->takeWidget();
     old->setObjectName("old");
     old->deleteLater();
   }
+  for (QLineEdit* field : page->findChildren<QLineEdit*>())
+  {
+    field->setAcceptDrops(false); // a file dropped here is for the window
+  }
   this->setWidget(page);
   this->refresh();
+}
+
+QString PropertiesPanel::rowsWanted() const
+{
+  const SceneDescription& scene = this->State.scene();
+  QString rows = toText(scene.units) + '\n' + toText(this->State.document().path());
+  if (this->State.selection().empty())
+  {
+    return rows;
+  }
+  const SceneItem item = this->State.selection().front();
+  if (item.kind == SceneItem::Kind::Light && item.index < scene.lights.size())
+  {
+    rows += QString("\n%1").arg(static_cast<int>(scene.lights[item.index].kind));
+  }
+  if (item.kind == SceneItem::Kind::Camera && item.index < scene.cameras.size())
+  {
+    const CameraDescription& camera = scene.cameras[item.index];
+    rows += QString("\n%1 %2 %3").arg(static_cast<int>(camera.kind)).arg(camera.K.has_value()).arg(camera.posed);
+  }
+  return rows;
+}
+
+QString PropertiesPanel::withUnits(const QString& label) const
+{
+  const std::string& units = this->State.scene().units;
+  return units.empty() ? label : tr("%1, %2").arg(label, toText(units));
 }
 
 void PropertiesPanel::refresh()
@@ -116,6 +161,11 @@ void PropertiesPanel::refresh()
   // Between a deletion and the new selection the item may be gone.
   if (this->Item && (this->State.selection().empty() || !(this->State.selection().front() == *this->Item)))
   {
+    return;
+  }
+  if (this->Rows != this->rowsWanted())
+  {
+    this->rebuildKeepingFocus();
     return;
   }
   // The rows' accessors serve for reading and for writing; here they read.
@@ -148,8 +198,18 @@ void PropertiesPanel::takeTyped()
 void PropertiesPanel::edit(const QString& label, const std::function<void(SceneDescription&)>& change)
 {
   const std::string text = tr("Change %1").arg(label).toStdString();
-  const SceneItem item = *this->Item;
-  this->State.attempt([&] { this->State.document().editItem(text, item, change); });
+  this->State.attempt(
+    [&]
+    {
+      if (this->Item)
+      {
+        this->State.document().editItem(text, *this->Item, change);
+      }
+      else
+      {
+        this->State.document().edit(text, change);
+      }
+    });
   this->refresh();
 }
 

@@ -21,7 +21,8 @@ namespace dgtk
 
 class NumberRow;
 
-/// The values of what is selected, at the current frame. Of several things the one selected first is shown.
+/// The values of what is selected, at the current frame; without a selection those of the scene. Of several things the
+/// one selected first is shown.
 class PropertiesPanel : public QScrollArea
 {
   Q_OBJECT
@@ -35,6 +36,8 @@ private:
   using SetNumbers = std::function<void(SceneDescription&, const Numbers&)>;
 
   void rebuild();
+  /// The rows of the same item have changed.
+  void rebuildKeepingFocus();
   void refresh();
   /// As if what is being typed were confirmed.
   void takeTyped();
@@ -43,6 +46,12 @@ private:
   void buildSequence(std::size_t index);
   void buildLight(std::size_t index);
   void buildCamera(std::size_t index);
+  void buildLens(std::size_t index);
+  /// What belongs to no item.
+  void buildScene();
+  /// Another text where the rows of the item shown, or their names, are others.
+  QString rowsWanted() const;
+  QString withUnits(const QString& label) const;
 
   void addLine(const QString& label, const QString& text);
   void addText(const QString& label, const QString& name,
@@ -66,7 +75,8 @@ private:
 
   EditorState& State;
   QFormLayout* Form = nullptr;
-  std::optional<SceneItem> Item;
+  std::optional<SceneItem> Item;                                  ///< none: the scene
+  QString Rows;                                                   ///< rowsWanted() of what is shown
   std::vector<std::function<void(SceneDescription&)>> Refreshers; ///< they only read
 };
 

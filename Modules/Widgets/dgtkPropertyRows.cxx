@@ -8,7 +8,6 @@
 #include <QFormLayout>
 #include <QLineEdit>
 
-#include <algorithm>
 #include <cmath>
 
 namespace dgtk
@@ -165,116 +164,6 @@ void PropertiesPanel::addChoice(const QString& label, const QString& name, const
   this->Refreshers.push_back([box, get](SceneDescription& scene) { box->setCurrentIndex(get(scene)); });
   connect(box, QOverload<int>::of(&QComboBox::activated), this,
     [this, label, set](int choice) { this->edit(label, [&](SceneDescription& scene) { set(scene, choice); }); });
-}
-
-void PropertiesPanel::buildObject(std::size_t index)
-{
-  const ObjectDescription& now = this->State.scene().objects[index];
-  const auto object = [index](SceneDescription& scene) -> ObjectDescription& { return scene.objects[index]; };
-  this->addText(
-    tr("Class"), "class", [index](const SceneDescription& scene) { return scene.objects[index].className; },
-    [index](SceneDescription& scene, const std::string& text) { scene.objects[index].className = text; });
-  this->addLine(tr("Model"), toText(now.model));
-  if (!now.parent.empty())
-  {
-    this->addLine(tr("Parent"), toText(now.parent));
-  }
-  const QString units = toText(this->State.scene().units);
-  this->addTrack(units.isEmpty() ? tr("Position") : tr("Position, %1").arg(units), "position",
-    [object](SceneDescription& scene) -> Track<Eigen::Vector3d>& { return object(scene).position; });
-  this->addOrientation([object](SceneDescription& scene) -> Track<Quaternion>& { return object(scene).orientation; });
-  this->addTrack(
-    tr("Scale"), "scale", [object](SceneDescription& scene) -> Track<Eigen::Vector3d>& { return object(scene).scale; });
-  this->addCheck(
-    tr("Visible"), "visible", [object](SceneDescription& scene) -> bool& { return object(scene).visible; });
-  this->buildSequence(index);
-}
-
-void PropertiesPanel::buildLight(std::size_t index)
-{
-  const auto light = [index](SceneDescription& scene) -> LightDescription& { return scene.lights[index]; };
-  this->addChoice(
-    tr("Kind"), "kind", { tr("point"), tr("head"), tr("directional"), tr("spot") },
-    [index](const SceneDescription& scene) { return static_cast<int>(scene.lights[index].kind); },
-    [index](SceneDescription& scene, int kind) { scene.lights[index].kind = static_cast<LightKind>(kind); });
-  this->addCheck(tr("Enabled"), "enabled", [light](SceneDescription& scene) -> bool& { return light(scene).enabled; });
-  using Vectors = Track<Eigen::Vector3d>;
-  this->addTrack(
-    tr("Position"), "position", [light](SceneDescription& scene) -> Vectors& { return light(scene).position; });
-  this->addTrack(tr("Target"), "target", [light](SceneDescription& scene) -> Vectors& { return light(scene).target; });
-  using Color = Eigen::Vector3d;
-  this->addColor(tr("Diffuse"), "diffuse", [light](SceneDescription& scene) -> Color& { return light(scene).diffuse; });
-  this->addColor(
-    tr("Specular"), "specular", [light](SceneDescription& scene) -> Color& { return light(scene).specular; });
-  this->addColor(tr("Ambient"), "ambient", [light](SceneDescription& scene) -> Color& { return light(scene).ambient; });
-  this->addColor(
-    tr("Attenuation"), "attenuation", [light](SceneDescription& scene) -> Color& { return light(scene).attenuation; });
-  this->addNumber(
-    tr("Intensity"), "intensity", [light](SceneDescription& scene) -> double& { return light(scene).intensity; });
-  this->addNumber(
-    tr("Cone, \u00b0"), "coneAngle", [light](SceneDescription& scene) -> double& { return light(scene).coneAngle; });
-  this->addNumber(
-    tr("Exponent"), "exponent", [light](SceneDescription& scene) -> double& { return light(scene).exponent; });
-  this->addCheck(tr("Shadows"), "shadows", [light](SceneDescription& scene) -> bool& { return light(scene).shadows; });
-}
-
-void PropertiesPanel::buildCamera(std::size_t index)
-{
-  const CameraDescription& now = this->State.scene().cameras[index];
-  const auto camera = [index](SceneDescription& scene) -> CameraDescription& { return scene.cameras[index]; };
-  using Vectors = Track<Eigen::Vector3d>;
-  if (now.posed)
-  {
-    this->addTrack(
-      tr("Position"), "position", [camera](SceneDescription& scene) -> Vectors& { return camera(scene).position; });
-    this->addOrientation([camera](SceneDescription& scene) -> Track<Quaternion>& { return camera(scene).orientation; });
-  }
-  else
-  {
-    this->addTrack(tr("Eye"), "eye", [camera](SceneDescription& scene) -> Vectors& { return camera(scene).eye; });
-    this->addTrack(
-      tr("Look at"), "lookAt", [camera](SceneDescription& scene) -> Vectors& { return camera(scene).lookAt; });
-    this->addTrack(tr("Up"), "up", [camera](SceneDescription& scene) -> Vectors& { return camera(scene).up; });
-  }
-  if (now.kind == CameraKind::Orthographic)
-  {
-    this->addTrack(tr("View height"), "viewHeight",
-      [camera](SceneDescription& scene) -> Track<double>& { return camera(scene).viewHeight; });
-  }
-  else if (now.K)
-  {
-    this->addLine(tr("Lens"), tr("by its matrix K"));
-  }
-  else
-  {
-    this->addTrack(tr("Field of view, \u00b0"), "fovY",
-      [camera](SceneDescription& scene) -> Track<double>& { return camera(scene).fovY; });
-    this->addNumber(tr("Aspect (0: square)"), "aspect",
-      [camera](SceneDescription& scene) -> double& { return camera(scene).aspect; });
-  }
-  this->addNumber(tr("Near"), "near", [camera](SceneDescription& scene) -> double& { return camera(scene).near; });
-  this->addNumber(tr("Far"), "far", [camera](SceneDescription& scene) -> double& { return camera(scene).far; });
-  this->addNumbers(
-    tr("Size, pixels"), "size", 2,
-    [index](const SceneDescription& scene) {
-      return Numbers{ double(scene.cameras[index].width), double(scene.cameras[index].height) };
-    },
-    [camera](SceneDescription& scene, const Numbers& size)
-    {
-      // A size is given whole or not at all: the first number typed makes the usual shape.
-      CameraDescription& its = camera(scene);
-      const bool widthTyped = pixelsOf(size[0]) != its.width;
-      its.width = pixelsOf(size[0]);
-      its.height = pixelsOf(size[1]);
-      if ((its.width == 0) != (its.height == 0) && widthTyped)
-      {
-        its.height = its.width == 0 ? 0 : std::max(1, its.width * 3 / 4);
-      }
-      else if ((its.width == 0) != (its.height == 0))
-      {
-        its.width = its.height == 0 ? 0 : std::max(1, its.height * 4 / 3);
-      }
-    });
 }
 
 } // namespace dgtk

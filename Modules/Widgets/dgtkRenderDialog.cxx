@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRenderDialog.h"
 
-#include "dgtkCameraModel.h"
-#include "dgtkScenePlaces.h"
+#include "dgtkRenderCameras.h"
+#include "dgtkUsualFolder.h"
 #include "dgtkWindowSize.h"
 
 #include <QCheckBox>
@@ -12,12 +12,11 @@
 #include <QFileInfo>
 #include <QLabel>
 #include <QLineEdit>
-#include <QListWidget>
 #include <QMessageBox>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QSignalBlocker>
-#include <QSlider>
+#include <QSettings>
+#include <QSize>
 #include <QSpinBox>
 #include <QStandardPaths>
 #include <QTabWidget>
@@ -25,6 +24,7 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <optional>
 
 namespace dgtk
 {
@@ -33,7 +33,6 @@ namespace
 {
 constexpr int progressEvery = 200; // milliseconds
 constexpr int progressSteps = 100000;
-constexpr int usualSize[2] = { 640, 480 }; // of a camera that has none
 
 QString durationText(double seconds)
 {
@@ -53,15 +52,17 @@ RenderDialog::RenderDialog(EditorState& state, QWidget* parent)
   this->setWindowTitle(tr("Render configuration"));
   auto* layout = new QVBoxLayout(this);
   this->Tabs = new QTabWidget(this);
+  this->Cameras = new RenderCameras(state, this);
   this->Tabs->addTab(this->makeInfo(), tr("Info"));
-  this->Tabs->addTab(this->makeCameras(), tr("Cameras"));
+  this->Tabs->addTab(this->Cameras, tr("Cameras"));
   this->Tabs->addTab(this->makeControls(), tr("Controls"));
   this->Tabs->setCurrentIndex(2);
   layout->addWidget(this->Tabs, 1);
   this->makeRunRow(layout);
-  resizeWithin(*this, 640, 680);
+  resizeWithin(*this, 640, 724);
 
   connect(&state, &EditorState::changed, this, &RenderDialog::refresh);
+  connect(&state, &EditorState::selectionChanged, this, &RenderDialog::showMatte);
   this->Clock = new QTimer(this);
   connect(this->Clock, &QTimer::timeout, this, &RenderDialog::showProgress);
   connect(&this->Process, &RenderProcess::progress, this, &RenderDialog::takeProgress);
@@ -100,24 +101,10 @@ void RenderDialog::refresh()
         QString::number(scene.objects.size()), QString::number(scene.lights.size()),
         QString::number(scene.cameras.size()), QString::number(scene.firstFrame()), QString::number(scene.lastFrame()),
         QString::number(keys.size())));
-  QStringList left;
-  for (int i = 0; i < this->Cameras->count(); ++i)
-  {
-    if (this->Cameras->item(i)->checkState() == Qt::Unchecked)
-    {
-      left << this->Cameras->item(i)->text();
-    }
-  }
-  const int row = this->Cameras->currentRow();
-  const QSignalBlocker quiet(this->Cameras);
-  this->Cameras->clear();
-  for (const CameraDescription& camera : scene.cameras)
-  {
-    auto* item = new QListWidgetItem(toText(camera.name), this->Cameras);
-    item->setFlags(item->flags() | Qt::ItemIsUserCheckable);
-    item->setCheckState(left.contains(item->text()) ? Qt::Unchecked : Qt::Checked);
-  }
-  this->Cameras->setCurrentRow(std::max(0, std::min(row, this->Cameras->count() - 1)));
+  const bool blurs = std::any_of(scene.cameras.begin(), scene.cameras.end(),
+    [](const CameraDescription& camera) { return camera.shutter.blurs() || camera.lens.blurs(); });
+  this->layerBox("color_sharp")->setEnabled(blurs); // it is of such cameras only
+  this->showMatte();
   const int range[2] = { scene.firstFrame(), scene.lastFrame() };
   for (int end = 0; end < 2; ++end)
   {
@@ -128,116 +115,51 @@ void RenderDialog::refresh()
     }
     this->SceneRange[end] = range[end];
   }
-  this->showResolution();
 }
 
-const CameraDescription* RenderDialog::chosenCamera() const
-{
-  const std::vector<CameraDescription>& cameras = this->State.scene().cameras;
-  const int row = this->Cameras->currentRow();
-  return row < 0 || row >= int(cameras.size()) ? nullptr : &cameras[std::size_t(row)];
-}
-
-void RenderDialog::showSize()
-{
-  const bool own = this->OwnSize->isChecked();
-  const CameraDescription* const camera = this->chosenCamera();
-  const int of[2] = { camera ? camera->width : 0, camera ? camera->height : 0 };
-  // The size of a camera with a matrix K belongs to that matrix.
-  const bool editable = !own || (camera != nullptr && !camera->K);
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    const int size = own && of[axis] > 0 ? of[axis] : own ? usualSize[axis] : this->CommonSize[axis];
-    const QSignalBlocker quietSize(this->Size[axis]);
-    const QSignalBlocker quietSlider(this->Sliders[axis]);
-    this->Size[axis]->setValue(size);
-    this->Sliders[axis]->setValue(std::min(size, this->Sliders[axis]->maximum()));
-    this->Size[axis]->setEnabled(editable);
-    this->Sliders[axis]->setEnabled(editable);
-  }
-}
-
-void RenderDialog::takeSize()
-{
-  const int size[2] = { this->Size[0]->value(), this->Size[1]->value() };
-  if (!this->OwnSize->isChecked())
-  {
-    std::copy(size, size + 2, this->CommonSize);
-    this->showResolution();
-    return;
-  }
-  if (const CameraDescription* const camera = this->chosenCamera())
-  {
-    const SceneItem item{ SceneItem::Kind::Camera, std::size_t(this->Cameras->currentRow()) };
-    this->State.attempt(
-      [&]
-      {
-        this->State.document().editItem(
-          "Set image size", item,
-          [&](SceneDescription& scene)
-          {
-            scene.cameras[item.index].width = size[0];
-            scene.cameras[item.index].height = size[1];
-          },
-          "size of " + camera->name);
-      });
-  }
-}
-
-void RenderDialog::showResolution()
-{
-  const SceneDescription& scene = this->State.scene();
-  this->showSize();
-  const CameraDescription* const chosen = this->chosenCamera();
-  if (chosen == nullptr)
-  {
-    this->Resolution->setText(tr("The scene has no camera. Add one with Tools > Add camera."));
-    return;
-  }
-  SceneDescription alone;
-  alone.cameras.push_back(*chosen);
-  CameraDescription& camera = alone.cameras.front();
-  if (!this->OwnSize->isChecked() && !camera.K)
-  {
-    camera.width = this->Size[0]->value();
-    camera.height = this->Size[1]->value();
-  }
-  const CameraPlace place = placeScene(alone, ModelStore(), this->State.frame()).cameras.front();
-  if (!place.valid)
-  {
-    this->Resolution->setText(
-      tr("%1 has no pose at this frame: its eye is at its look-at point.").arg(toText(camera.name)));
-    return;
-  }
-  const WorldResolution resolution = worldResolution(place.view);
-  const QString units = scene.units.empty() ? tr("units") : toText(scene.units);
-  const auto number = [](double value) { return QString::number(value, 'g', 6); };
-  this->Resolution->setText(
-    tr("%1: %2 x %3 pixels\nA pixel is %5 %4 in x, %6 in y; at the far plane %7 and %8")
-      .arg(toText(camera.name), QString::number(place.view.model->width()), QString::number(place.view.model->height()),
-        units, number(resolution.thesis.x()), number(resolution.thesis.y()), number(resolution.farPlane.x()),
-        number(resolution.farPlane.y())));
-}
-
-QStringList RenderDialog::arguments(const QString& scene) const
+QStringList RenderDialog::checkedLayers() const
 {
   QStringList layers;
   for (const QCheckBox* box : this->Layers)
   {
-    if (box->isChecked())
+    if (box->isChecked() && box->isEnabledTo(box->parentWidget()))
     {
       layers << box->text();
     }
   }
-  QStringList cameras;
-  for (int i = 0; i < this->Cameras->count(); ++i)
+  return layers;
+}
+
+QCheckBox* RenderDialog::layerBox(const QString& layer) const
+{
+  const auto at = std::find_if(
+    this->Layers.begin(), this->Layers.end(), [&layer](const QCheckBox* box) { return box->text() == layer; });
+  return at == this->Layers.end() ? nullptr : *at;
+}
+
+void RenderDialog::showMatte()
+{
+  this->Matte->setEnabled(this->layerBox("matting")->isChecked());
+  if (this->Matte->isModified())
   {
-    if (this->Cameras->item(i)->checkState() == Qt::Checked)
+    return;
+  }
+  const SceneDescription& scene = this->State.scene();
+  QStringList names;
+  for (const SceneItem& item : this->State.selection())
+  {
+    if (item.kind == SceneItem::Kind::Object && item.index < scene.objects.size())
     {
-      cameras << this->Cameras->item(i)->text();
+      names << toText(scene.objects[item.index].name);
     }
   }
-  QStringList words{ "render", scene, "-o", this->Folder->text(), "--layers", layers.join(',') };
+  this->Matte->setText(names.join(','));
+}
+
+QStringList RenderDialog::arguments(const QString& scene) const
+{
+  const QStringList cameras = this->Cameras->checked();
+  QStringList words{ "render", scene, "-o", this->Folder->text(), "--layers", this->checkedLayers().join(',') };
   if (cameras.size() != this->Cameras->count())
   {
     words << "--cameras" << cameras.join(',');
@@ -251,9 +173,13 @@ QStringList RenderDialog::arguments(const QString& scene) const
       << "--frames"
       << QString("%1:%2:%3").arg(this->Frames[0]->value()).arg(this->Frames[1]->value()).arg(this->Frames[2]->value());
   }
-  if (!this->OwnSize->isChecked())
+  if (const std::optional<QSize> size = this->Cameras->commonSize())
   {
-    words << "--size" << QString("%1x%2").arg(this->CommonSize[0]).arg(this->CommonSize[1]);
+    words << "--size" << QString("%1x%2").arg(size->width()).arg(size->height());
+  }
+  if (this->layerBox("matting")->isChecked())
+  {
+    words << "--matte" << this->Matte->text();
   }
   words << "--tile" << QString("%1x%2").arg(this->Tile[0]->value()).arg(this->Tile[1]->value());
   words << "--samples" << QString::number(this->Samples->value());
@@ -297,7 +223,7 @@ bool RenderDialog::mayReplace()
   }
   QMessageBox box(QMessageBox::Question, QStringLiteral("DGTk"),
     tr("%1 holds a finished dataset.").arg(QDir::toNativeSeparators(this->Folder->text())), QMessageBox::Cancel, this);
-  box.setObjectName("replaceBox");
+  box.setObjectName("replaceDatasetBox");
   box.setInformativeText(tr("Replace it by this run? Cancel to name another folder."));
   QPushButton* const replace = box.addButton(tr("Replace"), QMessageBox::DestructiveRole);
   replace->setObjectName("replace");
@@ -323,6 +249,10 @@ void RenderDialog::start()
   {
     missing = tr("Check at least one layer.");
   }
+  else if (this->layerBox("matting")->isChecked() && this->Matte->text().trimmed().isEmpty())
+  {
+    missing = tr("Name the objects of the layer matting, or uncheck it.");
+  }
   else if (this->Folder->text().trimmed().isEmpty())
   {
     missing = tr("Name a folder for the dataset.");
@@ -335,6 +265,7 @@ void RenderDialog::start()
   QString scene;
   if (this->mayReplace() && this->State.attempt([&] { scene = this->sceneFile(); }))
   {
+    this->rememberChoices();
     this->setRunning(true);
     this->Progress->setRange(0, 0);
     this->Estimate = {};
@@ -347,10 +278,18 @@ void RenderDialog::start()
   }
 }
 
+void RenderDialog::rememberChoices() const
+{
+  QSettings settings;
+  settings.setValue("render/layers", this->checkedLayers());
+  settings.setValue("render/tile", QSize(this->Tile[0]->value(), this->Tile[1]->value()));
+  settings.setValue("render/samples", this->Samples->value());
+}
+
 void RenderDialog::takeProgress(int done, int total)
 {
   this->Estimate.report(double(this->Running.elapsed()) / 1000, done, total);
-  this->Pictures = tr("%1 of %2 pictures").arg(done).arg(total);
+  this->Pictures = tr("Pictures: %1 of %2").arg(done).arg(total);
 }
 
 void RenderDialog::showProgress()
@@ -373,6 +312,10 @@ void RenderDialog::finish(bool ok, bool cancelled, const QString& message)
   this->Progress->setRange(0, 1);
   this->Progress->setValue(ok ? 1 : 0);
   this->Resume->setChecked(cancelled);
+  if (ok)
+  {
+    rememberFolder(this->Folder->text(), "dataset");
+  }
   this->Status->setText(cancelled ? tr("Stopped. Start goes on where it stopped.") : message);
   if (!ok && !cancelled)
   {

@@ -15,13 +15,10 @@
 #include <vector>
 
 class QCheckBox;
-class QGridLayout;
 class QLabel;
 class QLineEdit;
-class QListWidget;
 class QProgressBar;
 class QPushButton;
-class QSlider;
 class QSpinBox;
 class QTabWidget;
 class QTimer;
@@ -29,6 +26,8 @@ class QVBoxLayout;
 
 namespace dgtk
 {
+
+class RenderCameras;
 
 /// What `dgtk render` is to make of the scene, with its progress. The scene is that of the file or, when it has
 /// changes, a copy of it as it is now, which stays: one for each folder, so that an interrupted run can go on.
@@ -57,22 +56,21 @@ protected:
 
 private:
   QWidget* makeInfo();
-  QWidget* makeCameras();
   QWidget* makeControls();
-  void addSizeRow(QGridLayout* grid, int row, const QString& label, const QString& name, int axis);
   void makeRunRow(QVBoxLayout* layout);
   void refresh();
-  void showResolution();
-  /// The size of all cameras, or of the chosen one.
-  void showSize();
-  void takeSize();
-  const CameraDescription* chosenCamera() const;
   void browse();
   /// Beside the scene's file.
   QString usualFolder() const;
   /// Whether the run may begin in the folder; asks where a dataset is there that would go.
   bool mayReplace();
   void start();
+  QStringList checkedLayers() const;
+  QCheckBox* layerBox(const QString& layer) const;
+  /// The objects of the layer matting: those selected, until others are typed.
+  void showMatte();
+  /// For the next start of the program.
+  void rememberChoices() const;
   void takeProgress(int done, int total);
   void showProgress();
   void finish(bool ok, bool cancelled, const QString& message);
@@ -87,18 +85,14 @@ private:
   QString Pictures; ///< done of all
   QTabWidget* Tabs = nullptr;
   QLabel* Info = nullptr;
-  QListWidget* Cameras = nullptr;
-  QCheckBox* OwnSize = nullptr;
-  QSlider* Sliders[2] = { nullptr, nullptr };
-  QSpinBox* Size[2] = { nullptr, nullptr };
-  int CommonSize[2] = { 640, 480 }; ///< of all cameras, when they have one size
-  QLabel* Resolution = nullptr;
+  RenderCameras* Cameras = nullptr;
   QSpinBox* Tile[2] = { nullptr, nullptr };
   QSpinBox* Frames[3] = { nullptr, nullptr, nullptr };
   std::size_t Opened = 0; ///< SceneDocument::opened() of what is shown
   int SceneRange[2] = { 0, 0 };
   QSpinBox* Samples = nullptr;
   std::vector<QCheckBox*> Layers;
+  QLineEdit* Matte = nullptr;
   QLineEdit* Folder = nullptr;
   QPushButton* Browse = nullptr;
   QCheckBox* Resume = nullptr;

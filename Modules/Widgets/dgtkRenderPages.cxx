@@ -2,6 +2,8 @@
 #include "dgtkRenderDialog.h"
 
 #include "dgtkGenerator.h"
+#include "dgtkNumberRow.h"
+#include "dgtkRenderCameras.h"
 
 #include <QCheckBox>
 #include <QDesktopServices>
@@ -10,36 +12,22 @@
 #include <QGroupBox>
 #include <QLabel>
 #include <QLineEdit>
-#include <QListWidget>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QScrollArea>
-#include <QSlider>
+#include <QSettings>
+#include <QSize>
 #include <QSpinBox>
 #include <QUrl>
 #include <QVBoxLayout>
-
-#include <algorithm>
 
 namespace dgtk
 {
 
 namespace
 {
-constexpr int largestImage = 1 << 20;
-constexpr int largestSlider = 8192; // sliders stay usable; the numbers go further
 constexpr int layerColumns = 3;
 constexpr int mostSamples = 16;
-
-QSpinBox* makeNumber(QWidget* parent, const QString& name, int least, int most, int value)
-{
-  auto* box = new QSpinBox(parent);
-  box->setObjectName(name);
-  box->setRange(least, most);
-  box->setValue(value);
-  box->setKeyboardTracking(false);
-  return box;
-}
 } // namespace
 
 QWidget* RenderDialog::makeInfo()
@@ -49,58 +37,6 @@ QWidget* RenderDialog::makeInfo()
   this->Info->setMargin(12);
   this->Info->setWordWrap(true);
   return this->Info;
-}
-
-void RenderDialog::addSizeRow(QGridLayout* grid, int row, const QString& label, const QString& name, int axis)
-{
-  this->Sliders[axis] = new QSlider(Qt::Horizontal);
-  this->Sliders[axis]->setRange(1, largestSlider);
-  this->Sliders[axis]->setPageStep(64);
-  this->Size[axis] = makeNumber(nullptr, name, 1, largestImage, axis == 0 ? 640 : 480);
-  this->Sliders[axis]->setValue(this->Size[axis]->value());
-  grid->addWidget(new QLabel(label), row, 0);
-  grid->addWidget(this->Sliders[axis], row, 1);
-  grid->addWidget(this->Size[axis], row, 2);
-  connect(this->Sliders[axis], &QSlider::valueChanged, this->Size[axis], &QSpinBox::setValue);
-  connect(this->Size[axis], QOverload<int>::of(&QSpinBox::valueChanged), this,
-    [this, axis](int value)
-    {
-      const bool blocked = this->Sliders[axis]->blockSignals(true);
-      this->Sliders[axis]->setValue(std::min(value, largestSlider));
-      this->Sliders[axis]->blockSignals(blocked);
-      this->takeSize();
-    });
-}
-
-QWidget* RenderDialog::makeCameras()
-{
-  auto* page = new QWidget;
-  auto* layout = new QVBoxLayout(page);
-  layout->addWidget(new QLabel(tr("Cameras to render:")));
-  this->Cameras = new QListWidget;
-  this->Cameras->setObjectName("cameras");
-  layout->addWidget(this->Cameras, 1);
-  this->OwnSize = new QCheckBox(tr("Every camera in its own size: that of the chosen one is"));
-  this->OwnSize->setObjectName("ownSize");
-  this->OwnSize->setChecked(true);
-  layout->addWidget(this->OwnSize);
-  auto* grid = new QGridLayout;
-  this->addSizeRow(grid, 0, tr("Width"), "width", 0);
-  this->addSizeRow(grid, 1, tr("Height"), "height", 1);
-  layout->addLayout(grid);
-  this->Resolution = new QLabel;
-  this->Resolution->setObjectName("resolution");
-  this->Resolution->setWordWrap(true);
-  this->Resolution->setMinimumHeight(3 * this->fontMetrics().height());
-  layout->addWidget(this->Resolution);
-  connect(this->OwnSize, &QCheckBox::toggled, this, &RenderDialog::showResolution);
-  connect(this->Cameras, &QListWidget::currentRowChanged, this,
-    [this]
-    {
-      this->State.document().finishMerging();
-      this->showResolution();
-    });
-  return page;
 }
 
 QWidget* RenderDialog::makeControls()
@@ -117,14 +53,15 @@ QWidget* RenderDialog::makeControls()
   grid->setContentsMargins(0, 0, 0, 0);
   const std::vector<LayerInfo> layers = generatorLayers();
   const int rows = (int(layers.size()) + layerColumns - 1) / layerColumns;
-  const QStringList usual{ "color", "depth", "objects", "calibration" };
+  const QStringList chosen =
+    QSettings().value("render/layers", QStringList{ "color", "depth", "objects", "calibration" }).toStringList();
   for (int i = 0; i < int(layers.size()); ++i)
   {
     const LayerInfo& layer = layers[std::size_t(i)];
     auto* box = new QCheckBox(toText(layer.layer));
     box->setObjectName("layer." + toText(layer.layer));
     box->setToolTip(toText(layer.description));
-    box->setChecked(usual.contains(box->text()));
+    box->setChecked(chosen.contains(box->text()));
     grid->addWidget(box, i % rows, i / rows);
     this->Layers.push_back(box);
   }
@@ -133,26 +70,62 @@ QWidget* RenderDialog::makeControls()
   boxes->setAutoFillBackground(false);
   area->viewport()->setAutoFillBackground(false);
   groupLayout->addWidget(area);
+  auto* choose = new QHBoxLayout;
+  const auto addChoice = [&](const QString& name, const QString& text, bool on)
+  {
+    auto* button = new QPushButton(text);
+    button->setObjectName(name);
+    button->setAutoDefault(false);
+    choose->addWidget(button);
+    connect(button, &QPushButton::clicked, this,
+      [this, on]
+      {
+        for (QCheckBox* box : this->Layers)
+        {
+          box->setChecked(on && box->isEnabled());
+        }
+      });
+  };
+  addChoice("allLayers", tr("&All"), true);
+  addChoice("noLayers", tr("&None"), false);
+  choose->addStretch(1);
+  groupLayout->addLayout(choose);
   layout->addWidget(group, 1);
 
   auto* numbers = new QGridLayout;
-  this->Tile[0] = makeNumber(nullptr, "tileWidth", 1, largestImage, 640);
-  this->Tile[1] = makeNumber(nullptr, "tileHeight", 1, largestImage, 480);
-  this->Frames[0] = makeNumber(nullptr, "firstFrame", 0, largestFrame, 0);
-  this->Frames[1] = makeNumber(nullptr, "lastFrame", 0, largestFrame, 0);
-  this->Frames[2] = makeNumber(nullptr, "frameStep", 1, largestFrame, 1);
-  this->Samples = makeNumber(nullptr, "samples", 1, mostSamples, 1);
-  const auto put = [numbers](int row, int column, const QString& label, QWidget* field)
+  const QSize tile = QSettings().value("render/tile", QSize(640, 480)).toSize();
+  this->Tile[0] = makeNumber("tileWidth", 1, largestImage, tile.width());
+  this->Tile[1] = makeNumber("tileHeight", 1, largestImage, tile.height());
+  this->Frames[0] = makeNumber("firstFrame", 0, largestFrame, 0);
+  this->Frames[1] = makeNumber("lastFrame", 0, largestFrame, 0);
+  this->Frames[2] = makeNumber("frameStep", 1, largestFrame, 1);
+  this->Samples = makeNumber("samples", 1, mostSamples, QSettings().value("render/samples", 1).toInt());
+  const auto put = [numbers](int row, int column, const QString& label, QWidget* field, const QString& says)
   {
-    numbers->addWidget(new QLabel(label), row, 2 * column);
+    auto* caption = new QLabel(label);
+    caption->setBuddy(field);
+    caption->setToolTip(says);
+    field->setToolTip(says);
+    numbers->addWidget(caption, row, 2 * column);
     numbers->addWidget(field, row, 2 * column + 1);
   };
-  put(0, 0, tr("Tile width"), this->Tile[0]);
-  put(0, 1, tr("Tile height"), this->Tile[1]);
-  put(0, 2, tr("Samples a side"), this->Samples);
-  put(1, 0, tr("First frame"), this->Frames[0]);
-  put(1, 1, tr("Last frame"), this->Frames[1]);
-  put(1, 2, tr("Every"), this->Frames[2]);
+  const QString tiles = tr("Images are made in tiles of this size, pixels: larger ones need more memory");
+  put(0, 0, tr("Tile &width"), this->Tile[0], tiles);
+  put(0, 1, tr("Tile hei&ght"), this->Tile[1], tiles);
+  put(0, 2, tr("Samples a si&de"), this->Samples,
+    tr("Rays in a row and in a column of each pixel of colour and alpha: 4 are 16 rays a pixel"));
+  put(1, 0, tr("&First frame"), this->Frames[0], tr("Until you choose another, the first of the scene"));
+  put(1, 1, tr("&Last frame"), this->Frames[1], tr("Until you choose another, the last of the scene"));
+  put(1, 2, tr("E&very"), this->Frames[2], tr("2 renders every second frame"));
+  this->Matte = new QLineEdit;
+  this->Matte->setObjectName("matte");
+  this->Matte->setPlaceholderText(tr("objects, separated by commas"));
+  auto* caption = new QLabel(tr("&Matting of"));
+  caption->setBuddy(this->Matte);
+  numbers->addWidget(caption, 2, 0);
+  numbers->addWidget(this->Matte, 2, 1, 1, 5);
+  connect(this->layerBox("matting"), &QCheckBox::toggled, this, &RenderDialog::showMatte);
+  this->showMatte();
   layout->addLayout(numbers);
   return page;
 }
@@ -160,16 +133,18 @@ QWidget* RenderDialog::makeControls()
 void RenderDialog::makeRunRow(QVBoxLayout* layout)
 {
   auto* folder = new QHBoxLayout;
-  folder->addWidget(new QLabel(tr("Folder")));
+  auto* caption = new QLabel(tr("F&older"));
+  folder->addWidget(caption);
   this->Folder = new QLineEdit(this->usualFolder());
   this->Folder->setObjectName("folder");
+  caption->setBuddy(this->Folder);
   folder->addWidget(this->Folder, 1);
-  this->Browse = new QPushButton(tr("Browse ..."));
+  this->Browse = new QPushButton(tr("&Browse ..."));
   this->Browse->setAutoDefault(false);
   folder->addWidget(this->Browse);
   layout->addLayout(folder);
 
-  this->Resume = new QCheckBox(tr("Go on with an interrupted run of the same request"));
+  this->Resume = new QCheckBox(tr("Go on with an &interrupted run of the same request"));
   this->Resume->setObjectName("resume");
   layout->addWidget(this->Resume);
   this->Progress = new QProgressBar;
@@ -183,12 +158,12 @@ void RenderDialog::makeRunRow(QVBoxLayout* layout)
   layout->addWidget(this->Status);
 
   auto* buttons = new QHBoxLayout;
-  this->Result = new QPushButton(tr("Look at the result"));
+  this->Result = new QPushButton(tr("Loo&k at the result"));
   this->Result->setObjectName("openResult");
   this->Result->setAutoDefault(false);
-  this->Open = new QPushButton(tr("Open the folder"));
+  this->Open = new QPushButton(tr("O&pen the folder"));
   this->Open->setAutoDefault(false);
-  this->Start = new QPushButton(tr("Start"));
+  this->Start = new QPushButton(tr("&Start"));
   this->Start->setObjectName("start");
   this->Start->setDefault(true);
   this->Cancel = new QPushButton(tr("Cancel"));

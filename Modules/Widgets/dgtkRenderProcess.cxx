@@ -6,11 +6,14 @@
 
 #include <csignal>
 
+#include <unistd.h>
+
 namespace dgtk
 {
 
 namespace
 {
+constexpr int niceness = 5;       // of 19
 constexpr int longestEnd = 10000; // milliseconds
 constexpr const char* secondsBetweenReports = "0.2";
 } // namespace
@@ -24,6 +27,11 @@ QString shellLine(const QStringList& words)
     quoted << (plain.match(word).hasMatch() ? word : '\'' + word.replace('\'', "'\\''") + '\'');
   }
   return quoted.join(' ');
+}
+
+void RenderProcess::Renderer::setupChildProcess()
+{
+  [[maybe_unused]] const int now = ::nice(niceness); // it renders as well without
 }
 
 RenderProcess::RenderProcess(QObject* parent)

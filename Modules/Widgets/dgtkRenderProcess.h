@@ -46,7 +46,14 @@ private:
   void take(const QString& text);
   void end(int code, QProcess::ExitStatus status);
 
-  QProcess Process;
+  /// Gives way to the window where both want the processor.
+  class Renderer : public QProcess
+  {
+  protected:
+    void setupChildProcess() override;
+  };
+
+  Renderer Process;
   QByteArray Unread;
   QString Last;
   bool Cancelled = false;

@@ -68,10 +68,10 @@ void SceneDocument::install(LoadedScene loaded)
 
 void SceneDocument::open(const std::string& path) { this->install(*read(path)); }
 
-void SceneDocument::recover(LoadedScene loaded)
+void SceneDocument::recover(LoadedScene loaded, const std::string& origin)
 {
   this->Models = std::move(loaded.models);
-  this->reset(std::move(loaded.scene), {}, unreachable);
+  this->reset(std::move(loaded.scene), origin, unreachable);
 }
 
 void SceneDocument::saveAs(const std::string& path)

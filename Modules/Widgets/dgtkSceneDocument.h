@@ -52,8 +52,8 @@ public:
   void install(LoadedScene loaded);
   /// Throws as read().
   void open(const std::string& path);
-  /// A copy of unsaved work becomes an unsaved scene.
-  void recover(LoadedScene loaded);
+  /// A copy of unsaved work becomes the unsaved state of the scene file `origin`, or of a scene without a name.
+  void recover(LoadedScene loaded, const std::string& origin = {});
   /// By extension, .json or .scene. Throws InputError for what the format cannot say, MachineError.
   void saveAs(const std::string& path);
   /// The scene as it is now, for a program beside: does not change path() and modified(). Throws as saveAs().

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <unordered_map>
 
@@ -15,9 +16,9 @@ namespace dgtk
 
 namespace
 {
-constexpr int usualWidth = 640;
-constexpr int usualHeight = 480;
-constexpr double atEye = 1e-6; // world units; nearer cameras and lights are at the eye itself
+constexpr double pi = 3.14159265358979323846;
+constexpr double atEye = 1e-6;      // world units; nearer cameras and lights are at the eye itself
+constexpr double sameCenter = 1e-6; // of a box's diagonal: what single-precision files leave of a centred model
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// World from object of all objects: parents are placed before their children.
@@ -100,8 +101,8 @@ CameraPlace placeCamera(const CameraDescription& camera, double frame)
 {
   CameraPlace place;
   place.center = camera.posed ? camera.position.at(frame) : camera.eye.at(frame);
-  const int width = camera.width > 0 ? camera.width : usualWidth;
-  const int height = camera.height > 0 ? camera.height : usualHeight;
+  const int width = camera.width > 0 ? camera.width : usualImageSize[0];
+  const int height = camera.height > 0 ? camera.height : usualImageSize[1];
   try
   {
     place.view.name = camera.name;
@@ -233,6 +234,11 @@ WorldBox ScenePlaces::boxOf(const SceneItem& item) const
   return found;
 }
 
+double fieldOfViewOf(const CameraDescription& camera)
+{
+  return std::atan(camera.height / 2.0 / (*camera.K)(1, 1)) * 360 / pi;
+}
+
 ScenePlaces placeScene(const SceneDescription& scene, const ModelStore& models, double frame)
 {
   ScenePlaces places;
@@ -247,9 +253,15 @@ ScenePlaces placeScene(const SceneDescription& scene, const ModelStore& models, 
     place.instance.world_from_object = matrices.of(i);
     place.world_from_parent = matrices.ofParent(i);
     place.visible = scene.objects[i].visible;
+    place.center = place.instance.world_from_object.translation;
     if (place.instance.geometry != nullptr)
     {
-      place.box = transformed(boxes.of(*place.instance.geometry), place.instance.world_from_object);
+      const WorldBox& own = boxes.of(*place.instance.geometry);
+      place.box = transformed(own, place.instance.world_from_object);
+      if (!own.empty() && own.center().norm() > sameCenter * own.diagonal())
+      {
+        place.center = place.instance.world_from_object * own.center();
+      }
     }
     if (place.visible)
     {

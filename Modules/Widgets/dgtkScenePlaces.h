@@ -35,6 +35,9 @@ struct ObjectPlace
   bool visible = true;
   Affine3 world_from_parent;
   WorldBox box; ///< of its vertices, world
+  /// World, the middle of its vertices' box in its own axes; its origin where both differ by rounding only, and of what
+  /// has no vertices.
+  Eigen::Vector3d center{ 0, 0, 0 };
 };
 
 /// A camera at a frame as it is drawn.
@@ -56,6 +59,11 @@ struct DGTKWIDGETS_EXPORT ScenePlaces
 
   WorldBox boxOf(const SceneItem& item) const;
 };
+
+constexpr int usualImageSize[2] = { 640, 480 }; ///< pixels, of a camera that has none
+constexpr int largestImage = 1 << 20;           ///< pixels a side
+/// The vertical field of view, degrees, of a camera with a matrix K.
+DGTKWIDGETS_EXPORT double fieldOfViewOf(const CameraDescription& camera);
 
 /// A scale of 0 is no error: what it flattens has a place, too.
 DGTKWIDGETS_EXPORT ScenePlaces placeScene(const SceneDescription& scene, const ModelStore& models, double frame);

@@ -4,6 +4,7 @@
 #include "dgtkViewOverlay.h"
 
 #include <QElapsedTimer>
+#include <QTimer>
 
 #include <vtkCamera.h>
 #include <vtkCullerCollection.h>
@@ -86,6 +87,10 @@ void SceneView::showDrag(const Handle& handle, const QString& text)
   this->Overlay->showText(text, this->Last);
 }
 
+int SceneView::actors() const { return this->Actors->actors(); }
+
+int SceneView::coarserMeshes() const { return this->Actors->coarserMeshes(); }
+
 void SceneView::setCovered(bool on)
 {
   this->Covered = on;
@@ -119,7 +124,7 @@ void SceneView::draw()
   else
   {
     this->Actors->showFine();
-    this->Actors->chooseDetail(this->Camera, this->height());
+    this->Actors->chooseDetail(this->Camera, this->width(), this->height(), this->Rate.mostTriangles());
   }
   QElapsedTimer clock;
   clock.start();
@@ -127,7 +132,14 @@ void SceneView::draw()
   this->Renderer->ResetCameraClippingRange();
   this->renderWindow()->Render();
   this->renderWindow()->WaitForCompletion();
-  this->FineSeconds = coarse ? this->FineSeconds : clock.nsecsElapsed() * 1e-9;
+  if (!coarse)
+  {
+    this->FineSeconds = clock.nsecsElapsed() * 1e-9;
+    if (!this->Actors->takeFresh())
+    {
+      this->Rate.add(this->Actors->triangles(), this->FineSeconds);
+    }
+  }
 }
 
 /// A parallel view has everything before it, but VTK clips what is behind the eye.
@@ -157,6 +169,25 @@ void SceneView::stepBack()
 
 void SceneView::resetCamera(UpAxis upAxis) { this->Camera = ViewCamera(this->kind(), upAxis); }
 
+void SceneView::frame(const WorldBox& box)
+{
+  this->FrameWanted = this->isVisible() ? std::nullopt : std::optional(box);
+  this->frameBox(box);
+}
+
+void SceneView::showEvent(QShowEvent* event)
+{
+  ViewWidget::showEvent(event);
+  QTimer::singleShot(0, this,
+    [this]
+    {
+      if (this->FrameWanted && this->isVisible())
+      {
+        this->frame(WorldBox(*this->FrameWanted));
+      }
+    });
+}
+
 bool SceneView::lookThrough(const CameraDescription& camera, double frame)
 {
   Eigen::Vector3d eye = camera.eye.at(frame);
@@ -174,6 +205,7 @@ bool SceneView::lookThrough(const CameraDescription& camera, double frame)
   {
     return false;
   }
+  this->FrameWanted.reset();
   this->placeCamera();
   return true;
 }

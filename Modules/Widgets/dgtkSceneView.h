@@ -4,6 +4,7 @@
 
 // Private to Widgets.
 
+#include "dgtkDrawingRate.h"
 #include "dgtkViewActors.h"
 #include "dgtkViewHandles.h"
 #include "dgtkViewLines.h"
@@ -24,6 +25,9 @@ class ViewOverlay;
 class SceneView : public ViewWidget
 {
   Q_OBJECT
+  // What no picture shows, for tests.
+  Q_PROPERTY(int actors READ actors)
+  Q_PROPERTY(int coarserMeshes READ coarserMeshes)
 
 public:
   /// What a drag holds.
@@ -40,7 +44,8 @@ public:
   ViewKind kind() const { return this->Camera.kind(); }
   /// Looks the way of its kind again; for a scene with another up axis.
   void resetCamera(UpAxis upAxis);
-  void frame(const WorldBox& box) { this->frameBox(box); }
+  /// Again when the view is shown, where it is hidden: its shape is not known yet.
+  void frame(const WorldBox& box);
   /// Takes the place and direction of a camera; the field of view stays the view's own. False, and nothing changes,
   /// where the camera looks at its own place.
   bool lookThrough(const CameraDescription& camera, double frame);
@@ -60,6 +65,9 @@ public:
   void setPictureRays(const PictureRays& rays);
   /// Nothing where only the background is.
   std::optional<SceneItem> itemAt(const QPoint& position) const;
+
+  int actors() const;
+  int coarserMeshes() const;
 
   /// The view that keys and menus mean has a frame.
   void setActive(bool on);
@@ -94,6 +102,7 @@ protected:
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  void showEvent(QShowEvent* event) override;
   void draw() override;
   void placeCamera() override;
 
@@ -112,8 +121,10 @@ private:
   LineList Chosen; ///< about what is selected
   bool Hurried = false;
   bool Covered = false;
+  std::optional<WorldBox> FrameWanted;
   PictureRays Rays;
   double FineSeconds = 0; ///< that the latest whole drawing took
+  DrawingRate Rate;
   Grasp Grasped;
   ViewOverlay* Overlay;
   std::optional<HandlePlace> Handles;

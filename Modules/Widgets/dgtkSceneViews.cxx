@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSceneViews.h"
 
+#include "dgtkViewLines.h"
+
 #include <QLabel>
+#include <QSettings>
 #include <QSplitter>
 #include <QTimer>
 #include <QVBoxLayout>
 
+#include <algorithm>
 #include <exception>
 
 namespace dgtk
@@ -90,11 +94,12 @@ void SceneViews::refresh()
   {
     view->showScene(scene, this->Places, this->Meshes);
   }
+  this->takeUpAxis();
   this->showSelection();
   this->Meshes.forgetUnused();
 }
 
-void SceneViews::showWhole()
+void SceneViews::takeUpAxis()
 {
   if (this->State.scene().upAxis != this->Up)
   {
@@ -103,7 +108,12 @@ void SceneViews::showWhole()
     {
       view->resetCamera(this->Up);
     }
+    this->frameObjects();
   }
+}
+
+void SceneViews::showWhole()
+{
   this->WholeWanted = !this->isVisible();
   this->frameObjects();
 }
@@ -157,13 +167,7 @@ void SceneViews::frameSelected()
   WorldBox box;
   for (const SceneItem& item : this->State.selection())
   {
-    WorldBox its = this->Places->boxOf(item);
-    if (item.kind != SceneItem::Kind::Object)
-    {
-      its.min.array() -= 1;
-      its.max.array() += 1;
-    }
-    box.add(its);
+    box.add(drawnBox(*this->Places, item));
   }
   if (!box.empty())
   {
@@ -200,21 +204,84 @@ void SceneViews::showGrid(bool on)
   }
 }
 
-void SceneViews::toggleMaximized(SceneView* view)
+bool SceneViews::isAlone(const SceneView* view) const
 {
   bool alone = true;
   for (std::size_t i = 0; i < this->Views.size(); ++i)
   {
     alone = alone && (this->Views[i] == view || this->Panes[i]->isHidden());
   }
+  return alone;
+}
+
+QByteArrayList SceneViews::splitters() const
+{
+  return { this->Columns->saveState(), this->Rows[0]->saveState(), this->Rows[1]->saveState() };
+}
+
+void SceneViews::restoreSplitters(const QByteArrayList& states)
+{
+  if (states.size() == 3)
+  {
+    this->Columns->restoreState(states[0]);
+    this->Rows[0]->restoreState(states[1]);
+    this->Rows[1]->restoreState(states[2]);
+  }
+}
+
+void SceneViews::toggleMaximized(SceneView* view)
+{
+  const bool all = this->isAlone(view);
+  if (std::none_of(this->Panes.begin(), this->Panes.end(), [](const QWidget* pane) { return pane->isHidden(); }))
+  {
+    this->Divided = this->splitters();
+  }
   for (std::size_t i = 0; i < this->Views.size(); ++i)
   {
-    this->Panes[i]->setVisible(alone || this->Views[i] == view);
+    this->Panes[i]->setVisible(all || this->Views[i] == view);
   }
   for (int row = 0; row < 2; ++row)
   {
     const auto first = std::size_t(2 * row);
-    this->Rows[row]->setVisible(alone || this->Views[first] == view || this->Views[first + 1] == view);
+    this->Rows[row]->setVisible(all || this->Views[first] == view || this->Views[first + 1] == view);
+  }
+  if (all)
+  {
+    this->restoreSplitters(this->Divided);
+  }
+}
+
+void SceneViews::saveLayout(QSettings& settings) const
+{
+  int alone = -1;
+  for (std::size_t i = 0; i < this->Views.size(); ++i)
+  {
+    alone = this->isAlone(this->Views[i]) ? static_cast<int>(i) : alone;
+  }
+  settings.setValue("views/alone", alone);
+  const QByteArrayList states = alone < 0 ? this->splitters() : this->Divided;
+  for (int i = 0; i < states.size(); ++i)
+  {
+    settings.setValue("views/splitter" + QString::number(i), states[i]);
+  }
+}
+
+void SceneViews::restoreLayout(const QSettings& settings)
+{
+  QByteArrayList states;
+  for (int i = 0; i < 3; ++i)
+  {
+    states << settings.value("views/splitter" + QString::number(i)).toByteArray();
+  }
+  this->restoreSplitters(states);
+  const int alone = settings.value("views/alone", -1).toInt();
+  if (alone >= 0 && alone < static_cast<int>(this->Views.size()))
+  {
+    SceneView* const view = this->Views[std::size_t(alone)];
+    this->toggleMaximized(view);
+    this->Divided = states;
+    view->setFocus();
+    this->activate(view);
   }
 }
 
@@ -307,6 +374,12 @@ void SceneViews::connectDrags(SceneView* view)
 void SceneViews::setHandleMode(HandleMode mode)
 {
   this->Tool->setMode(mode);
+  this->showHandles();
+}
+
+void SceneViews::setHandlePivot(HandlePivot pivot)
+{
+  this->Tool->setPivot(pivot);
   this->showHandles();
 }
 

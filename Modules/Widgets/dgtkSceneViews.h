@@ -9,12 +9,14 @@
 #include "dgtkSceneView.h"
 #include "dgtkViewMeshes.h"
 
+#include <QByteArrayList>
 #include <QWidget>
 
 #include <memory>
 #include <vector>
 
 class QHBoxLayout;
+class QSettings;
 class QSplitter;
 
 namespace dgtk
@@ -43,7 +45,11 @@ public:
   void showGrid(bool on);
   HandleMode handleMode() const { return this->Tool->mode(); }
   void setHandleMode(HandleMode mode);
+  void setHandlePivot(HandlePivot pivot);
   void toggleMaximized(SceneView* view);
+  /// Where the splitters are, and which view is alone.
+  void saveLayout(QSettings& settings) const;
+  void restoreLayout(const QSettings& settings);
   /// The perspective view from a camera's place.
   void lookThrough(const CameraDescription& camera);
   /// The window's size and place is known, or another scene was opened: its objects in sight, or what there is.
@@ -62,8 +68,11 @@ protected:
 private:
   QWidget* makePane(ViewKind kind, const QString& title);
   void refresh();
+  /// Where the scene has another than before, its objects are framed from there, also by an edit or its undo.
+  void takeUpAxis();
   void frameObjects();
   void activate(SceneView* view);
+  bool isAlone(const SceneView* view) const;
   void pick(bool hit, int kind, int index, bool add);
   void connectDrags(SceneView* view);
   void showSelection();
@@ -75,6 +84,10 @@ private:
   std::vector<SceneView*> Views;
   std::vector<QWidget*> Panes;
   std::vector<QHBoxLayout*> Titles;
+  QByteArrayList splitters() const;
+  void restoreSplitters(const QByteArrayList& states);
+
+  QByteArrayList Divided; ///< where the splitters were when one view became alone
   QSplitter* Columns = nullptr;
   QSplitter* Rows[2] = { nullptr, nullptr };
   SceneView* Active = nullptr;

@@ -78,10 +78,10 @@ TimeLine::TimeLine(EditorState& state, QWidget* parent)
   this->Loop->setCheckable(true);
   this->Loop->setChecked(true);
   this->addFrameFields(controls);
-  auto* make = new QPushButton(tr("Make key frame"), this);
+  auto* make = new QPushButton(tr("Make &key frame"), this);
   make->setObjectName("makeKeyFrame");
   controls->addWidget(make);
-  auto* remove = new QPushButton(tr("Remove key frame"), this);
+  auto* remove = new QPushButton(tr("&Remove key frame"), this);
   remove->setObjectName("removeKeyFrame");
   controls->addWidget(remove);
   controls->addStretch(1);

@@ -23,7 +23,7 @@ TimeLineCells::TimeLineCells(EditorState& state, QWidget* parent)
   this->horizontalScrollBar()->setSingleStep(cellWidth);
   this->verticalScrollBar()->setSingleStep(rowHeight);
   connect(&state, &EditorState::changed, this, &TimeLineCells::refresh);
-  connect(&state, &EditorState::selectionChanged, this, [this] { this->viewport()->update(); });
+  connect(&state, &EditorState::selectionChanged, this, &TimeLineCells::showRow);
   connect(&state, &EditorState::frameChanged, this, &TimeLineCells::showFrame);
   this->refresh();
 }
@@ -123,6 +123,16 @@ void TimeLineCells::showFrame()
   else if (left + cellWidth > this->viewport()->width())
   {
     bar->setValue(bar->value() + left + cellWidth - this->viewport()->width());
+  }
+  this->viewport()->update();
+}
+
+void TimeLineCells::showRow()
+{
+  if (const Row* const row = this->selectedRow())
+  {
+    QScrollBar* const bar = this->verticalScrollBar();
+    bar->setValue(std::min(row->top, std::max(bar->value(), row->top + row->height - bar->pageStep())));
   }
   this->viewport()->update();
 }

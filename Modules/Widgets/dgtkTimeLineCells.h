@@ -83,6 +83,8 @@ private:
   Row rowOf(const SceneItem& item) const;
   void setBars();
   void showFrame();
+  /// Of the item selected.
+  void showRow();
   int frames() const; ///< cells in a row
   int frameAt(int x) const;
   int leftOf(int frame) const;

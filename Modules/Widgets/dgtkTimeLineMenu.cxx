@@ -27,15 +27,15 @@ void TimeLineCells::contextMenuEvent(QContextMenuEvent* event)
     action->setObjectName(name);
     action->setEnabled(possible);
   };
-  add("makeKey", tr("Make key frame at %1").arg(frame), true, [this] { this->makeKey(); });
-  add("removeKey", tr("Remove key frame at %1").arg(frame), isKey, [this] { this->removeKey(); });
+  add("makeKey", tr("Make &key frame at %1").arg(frame), true, [this] { this->makeKey(); });
+  add("removeKey", tr("&Remove key frame at %1").arg(frame), isKey, [this] { this->removeKey(); });
   menu.addSeparator();
-  add("copyKey", tr("Copy key frame"), isKey, [this, frame] { this->Copied = frame; });
+  add("copyKey", tr("&Copy key frame"), isKey, [this, frame] { this->Copied = frame; });
   const bool canPaste =
     this->Copied && *this->Copied != frame && std::binary_search(this->Keys.begin(), this->Keys.end(), *this->Copied);
   const int copied = this->Copied.value_or(0);
-  add("pasteKey", tr("Paste key frame %1 here").arg(copied), canPaste, [this] { this->pasteKey(false); });
-  add("moveKey", tr("Move key frame %1 here").arg(copied), canPaste, [this] { this->pasteKey(true); });
+  add("pasteKey", tr("&Paste key frame %1 here").arg(copied), canPaste, [this] { this->pasteKey(false); });
+  add("moveKey", tr("&Move key frame %1 here").arg(copied), canPaste, [this] { this->pasteKey(true); });
   const Row* const row = this->selectedRow();
   if (row != nullptr)
   {
@@ -55,12 +55,12 @@ void TimeLineCells::addKeyActions(QMenu& menu, const Row& row)
   const int frame = this->State.frame();
   const SceneItem item = row.item;
   const auto key = keyInterpolationOf(this->State.scene(), item, frame);
-  QAction* const remove = menu.addAction(tr("Remove its keys at %1").arg(frame), this,
+  QAction* const remove = menu.addAction(tr("Remove &its keys at %1").arg(frame), this,
     [this, item, frame]
     { this->edit("Remove keys", [&](SceneDescription& scene) { removeItemKeys(scene, item, frame); }); });
   remove->setObjectName("removeItemKeys");
   remove->setEnabled(key.has_value());
-  QMenu* const kinds = menu.addMenu(tr("From its key at %1 to the next").arg(frame));
+  QMenu* const kinds = menu.addMenu(tr("&From its key at %1 to the next").arg(frame));
   kinds->setObjectName("keyInterpolation");
   kinds->setEnabled(key.has_value());
   const auto add = [&](const QString& text, std::optional<Interpolation> kind, bool checked)
@@ -74,19 +74,19 @@ void TimeLineCells::addKeyActions(QMenu& menu, const Row& row)
     action->setCheckable(true);
     action->setChecked(checked);
   };
-  add(tr("As its other keys"), std::nullopt, key && !key->own);
-  add(tr("Linear"), Interpolation::Linear, key && key->own && key->kind == Interpolation::Linear);
-  add(tr("Steps"), Interpolation::Step, key && key->own && key->kind == Interpolation::Step);
-  add(tr("Smooth"), Interpolation::Smooth, key && key->own && key->kind == Interpolation::Smooth);
+  add(tr("&As its other keys"), std::nullopt, key && !key->own);
+  add(tr("&Linear"), Interpolation::Linear, key && key->own && key->kind == Interpolation::Linear);
+  add(tr("&Steps"), Interpolation::Step, key && key->own && key->kind == Interpolation::Step);
+  add(tr("S&mooth"), Interpolation::Smooth, key && key->own && key->kind == Interpolation::Smooth);
 }
 
 void TimeLineCells::addInterpolations(QMenu& menu, const Row& row)
 {
   const SceneItem item = row.item;
-  QMenu* const kinds = menu.addMenu(tr("Between all its keys"));
+  QMenu* const kinds = menu.addMenu(tr("&Between all its keys"));
   kinds->setObjectName("interpolation");
   kinds->setEnabled(!row.keys.empty());
-  const QString names[3] = { tr("Linear"), tr("Steps"), tr("Smooth") };
+  const QString names[3] = { tr("&Linear"), tr("&Steps"), tr("S&mooth") };
   for (const Interpolation kind : { Interpolation::Linear, Interpolation::Step, Interpolation::Smooth })
   {
     QAction* const action = kinds->addAction(names[static_cast<int>(kind)], this,
@@ -106,7 +106,7 @@ void TimeLineCells::addSequences(QMenu& menu, const Row& row)
   const SceneDescription& scene = this->State.scene();
   const SceneItem item = row.item;
   const ModelStore& models = this->State.document().models();
-  QMenu* const sequences = menu.addMenu(tr("Sequence"));
+  QMenu* const sequences = menu.addMenu(tr("&Sequence"));
   sequences->setObjectName("sequence");
   const auto change = [this, item](const char* text, const std::function<void(AnimationDescription&)>& act)
   {
@@ -126,17 +126,17 @@ void TimeLineCells::addSequences(QMenu& menu, const Row& row)
     action->setCheckable(true);
     action->setChecked(index++ == current);
   }
-  QAction* const begin = menu.addAction(tr("Begin the sequence here"), this,
+  QAction* const begin = menu.addAction(tr("Be&gin the sequence here"), this,
     [this, change]
     {
       const int frame = this->State.frame();
       change("Move sequence", [frame](AnimationDescription& a) { a.start = frame; });
     });
   begin->setObjectName("beginSequence");
-  QAction* const own = menu.addAction(tr("The model's own speed"), this,
+  QAction* const own = menu.addAction(tr("The model's &own speed"), this,
     [change] { change("Change speed of sequence", [](AnimationDescription& a) { a.rate = 1; }); });
   own->setObjectName("ownSpeed");
-  QAction* const loop = menu.addAction(tr("Repeat the sequence"), this,
+  QAction* const loop = menu.addAction(tr("Repea&t the sequence"), this,
     [change] { change("Repeat sequence", [](AnimationDescription& a) { a.loop = !a.loop; }); });
   loop->setObjectName("repeatSequence");
   loop->setCheckable(true);

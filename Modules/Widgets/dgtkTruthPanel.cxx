@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkTruthPanel.h"
 
+#include "dgtkEditorLanguage.h"
 #include "dgtkEditorState.h"
 
 #include <QApplication>
@@ -53,25 +54,6 @@ QString exactText(const PixelValue& value, const QString& separator)
     known = known || !std::isnan(one);
   }
   return known ? parts.join(separator) : QStringLiteral("-");
-}
-
-QString visibilityText(int visibility)
-{
-  switch (visibility)
-  {
-    case 1:
-      return QApplication::translate("dgtk::TruthPanel", "visible");
-    case 2:
-      return QApplication::translate("dgtk::TruthPanel", "occluded by another object");
-    case 3:
-      return QApplication::translate("dgtk::TruthPanel", "occluded by its own object");
-    case 4:
-      return QApplication::translate("dgtk::TruthPanel", "outside the image");
-    case 5:
-      return QApplication::translate("dgtk::TruthPanel", "behind the camera");
-    default:
-      return QApplication::translate("dgtk::TruthPanel", "no surface");
-  }
 }
 
 TruthPanel::TruthPanel(QWidget* parent)
@@ -128,7 +110,7 @@ void TruthPanel::showTruth(const QString& view, const PixelTruth& truth, const Q
   this->setRow(tr("Pixel"), tr("column %1, row %2").arg(truth.column).arg(truth.row));
   if (!truth.message.empty())
   {
-    this->setRow(tr("Unknown"), toText(truth.message));
+    this->setRow(tr("Unknown"), messageText(truth.message));
     this->finishRows();
     return;
   }
@@ -165,15 +147,16 @@ void TruthPanel::showValues(const PixelTruth& truth, const QString& units)
     {
       continue;
     }
-    QString unit = toText(value.spec.unit);
-    unit.replace("scene units", units.isEmpty() ? tr("scene units") : units);
+    QString own = toText(value.spec.unit);
+    const QString unit =
+      units.isEmpty() ? unitText(value.spec.unit) : unitText(own.replace("scene units", units).toStdString());
     const QString numbers = exactText(value, QStringLiteral("\n"));
     const bool bare = unit == "1" || unit == "id" || numbers == "-";
     QString text = numbers;
     const QString what = QString(name).replace('_', ' ');
     if (numbers != "-" && i + 1 < truth.values.size() && truth.values[i + 1].spec.name == value.spec.name + "_class")
     {
-      text += '\n' + visibilityText(static_cast<int>(truth.values[i + 1].values.front()));
+      text += '\n' + visibilityText(static_cast<std::uint32_t>(truth.values[i + 1].values.front()));
     }
     if (name == "alpha")
     {

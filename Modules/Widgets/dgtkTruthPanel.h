@@ -16,8 +16,6 @@ namespace dgtk
 QString exactText(double value);
 /// The channels of a value; "-" where there is none.
 QString exactText(const PixelValue& value, const QString& separator);
-/// What a value of the layers "..._class" says.
-QString visibilityText(int visibility);
 
 /// Everything known about the pixel under the mouse. Control+C copies it.
 class TruthPanel : public QTreeWidget

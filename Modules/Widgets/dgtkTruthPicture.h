@@ -22,6 +22,7 @@ class TruthPicture : public QWidget
 {
   Q_OBJECT
   Q_PROPERTY(bool settled READ isSettled)
+  Q_PROPERTY(QString caption READ caption)
 
 public:
   explicit TruthPicture(QWidget* view);
@@ -33,6 +34,7 @@ public:
   bool isSettled() const { return this->Settled; }
   void setSettled(bool on) { this->Settled = on; }
   const QImage& image() const { return this->Image; }
+  const QString& caption() const { return this->Caption; }
 
   /// Where an image of that size is in a widget of another.
   static QRectF fitted(const QSize& image, const QSize& widget);

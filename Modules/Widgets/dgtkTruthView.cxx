@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkTruthView.h"
 
+#include "dgtkEditorLanguage.h"
 #include "dgtkTruthPanel.h"
 #include "dgtkTruthPicture.h"
 
@@ -241,7 +242,7 @@ void TruthView::receive(const LivePicture& picture, const QString& layer, const 
   QString caption = layer;
   if (!picture.message.empty())
   {
-    caption += ": " + toText(picture.message);
+    caption += ": " + messageText(picture.message);
   }
   else if (picture.least <= picture.most)
   {

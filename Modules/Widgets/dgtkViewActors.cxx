@@ -17,12 +17,14 @@
 #include <vtkTexture.h>
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace dgtk
 {
 
 namespace
 {
+constexpr std::size_t manyCopies = 16; // of a geometry; fewer have actors of their own
 const Eigen::Vector3d cameraColor(1.0, 0.75, 0.2);
 const Eigen::Vector3d boxColor(0.75, 0.75, 0.78);
 const Eigen::Vector3d gridColor(0.42, 0.44, 0.47);
@@ -77,7 +79,10 @@ void ViewActors::remove(Shown& shown)
 {
   for (const auto& actor : shown.actors)
   {
-    this->Renderer->RemoveActor(actor);
+    if (actor != nullptr)
+    {
+      this->Renderer->RemoveActor(actor);
+    }
   }
   for (Surface* const surface : shown.surfaces)
   {
@@ -131,9 +136,21 @@ void ViewActors::applyStyle(const Surface& surface, vtkActor* actor) const
   }
 }
 
+vtkSmartPointer<vtkActor> ViewActors::makeActor(Surface& surface)
+{
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(surface.mappers[0]);
+  actor->SetProperty(surface.property);
+  actor->SetForceOpaque(surface.property->GetOpacity() >= 1); // cut-outs are opaque where they are
+  this->applyStyle(surface, actor);
+  this->Renderer->AddActor(actor);
+  return actor;
+}
+
 void ViewActors::build(Shown& shown, const ObjectPlace& place, ViewMeshes& meshes)
 {
   this->remove(shown);
+  this->Fresh = true;
   shown.geometry = place.instance.geometry;
   shown.materials = place.instance.materials;
   shown.world_from_object = {};
@@ -144,13 +161,8 @@ void ViewActors::build(Shown& shown, const ObjectPlace& place, ViewMeshes& meshe
       continue;
     }
     Surface& surface = this->surface(place.instance, part, meshes);
-    auto actor = vtkSmartPointer<vtkActor>::New();
-    actor->SetMapper(surface.mappers[0]);
-    actor->SetProperty(surface.property);
-    actor->SetForceOpaque(surface.property->GetOpacity() >= 1); // cut-outs are opaque where they are
-    this->applyStyle(surface, actor);
-    this->Renderer->AddActor(actor);
-    shown.actors.push_back(actor);
+    const bool alone = !shown.copy || surface.property->GetOpacity() < 1; // what is seen through is sorted by VTK
+    shown.actors.push_back(alone ? this->makeActor(surface) : nullptr);
     shown.surfaces.push_back(&surface);
     ++surface.users;
   }
@@ -163,27 +175,46 @@ void ViewActors::showObjects(const ScenePlaces& places, ViewMeshes& meshes)
     this->remove(this->Objects[i]);
   }
   this->Objects.resize(places.objects.size());
+  std::unordered_map<const Geometry*, std::size_t> numbers;
+  for (const ObjectPlace& place : places.objects)
+  {
+    ++numbers[place.instance.geometry.get()];
+  }
   for (std::size_t i = 0; i < places.objects.size(); ++i)
   {
     const ObjectPlace& place = places.objects[i];
     Shown& shown = this->Objects[i];
-    if (shown.geometry != place.instance.geometry || shown.materials != place.instance.materials)
+    const bool moved = !(shown.world_from_object == place.instance.world_from_object);
+    const bool wasCopy = shown.copy.has_value();
+    const bool isMany = numbers[place.instance.geometry.get()] >= manyCopies;
+    if (!isMany)
+    {
+      shown.copy.reset();
+    }
+    else if (moved || !wasCopy)
+    {
+      shown.copy = ViewCopies::placeOf(place.instance.world_from_object);
+    }
+    if (shown.geometry != place.instance.geometry || shown.materials != place.instance.materials ||
+        wasCopy != shown.copy.has_value())
     {
       this->build(shown, place, meshes);
     }
-    if (!(shown.world_from_object == place.instance.world_from_object))
-    {
-      const vtkSmartPointer<vtkMatrix4x4> matrix = matrixOf(place.instance.world_from_object);
-      for (const auto& actor : shown.actors)
-      {
-        actor->SetUserMatrix(matrix);
-      }
-      shown.world_from_object = place.instance.world_from_object;
-    }
+    const vtkSmartPointer<vtkMatrix4x4> matrix = shown.world_from_object == place.instance.world_from_object
+                                                   ? nullptr
+                                                   : matrixOf(place.instance.world_from_object);
     for (const auto& actor : shown.actors)
     {
-      actor->SetVisibility(place.visible && !this->Coarse);
+      if (actor != nullptr)
+      {
+        if (matrix != nullptr)
+        {
+          actor->SetUserMatrix(matrix);
+        }
+        actor->SetVisibility(place.visible && !this->Coarse);
+      }
     }
+    shown.world_from_object = place.instance.world_from_object;
     shown.visible = place.visible;
     shown.box = place.box;
   }
@@ -238,11 +269,13 @@ void ViewActors::showGridFor(const WorldBox& box, UpAxis upAxis)
 {
   // A grid grows by doubling, so that it does not change with every drag.
   const double wanted = 2 * std::max({ std::max(box.diagonal(), 1.0) / 2, box.min.norm(), box.max.norm(), 5.0 });
-  if (this->GridExtent >= wanted && this->GridExtent < 4 * wanted)
+  const bool fits = this->GridExtent >= wanted && this->GridExtent < 4 * wanted;
+  if (fits && upAxis == this->GridUp)
   {
     return;
   }
-  this->GridExtent = 1.5 * wanted;
+  this->GridUp = upAxis;
+  this->GridExtent = fits ? this->GridExtent : 1.5 * wanted;
   const ViewCamera camera(this->Kind, upAxis);
   const Eigen::Vector3d forward = (camera.focus() - camera.eye()).normalized();
   const Eigen::Vector3d worldUp = upAxis == UpAxis::Z ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY();
@@ -276,13 +309,7 @@ void ViewActors::showGrid(bool on)
 void ViewActors::showCoarse(const ScenePlaces& places)
 {
   this->Coarse = true;
-  for (const Shown& shown : this->Objects)
-  {
-    for (const auto& actor : shown.actors)
-    {
-      actor->VisibilityOff();
-    }
-  }
+  this->showActors(false);
   LineList boxes;
   for (const ObjectPlace& place : places.objects)
   {
@@ -296,17 +323,34 @@ void ViewActors::showCoarse(const ScenePlaces& places)
 
 void ViewActors::showFine()
 {
-  if (!this->Coarse)
+  if (this->Coarse)
   {
-    return;
+    this->Coarse = false;
+    this->BoxLines->set({});
+    this->showActors(true);
   }
-  this->Coarse = false;
-  this->BoxLines->set({});
+}
+
+void ViewActors::showActors(bool on)
+{
   for (const Shown& shown : this->Objects)
   {
     for (const auto& actor : shown.actors)
     {
-      actor->SetVisibility(shown.visible);
+      if (actor != nullptr)
+      {
+        actor->SetVisibility(on && shown.visible);
+      }
+    }
+  }
+  for (auto& [key, surface] : this->Surfaces)
+  {
+    for (const auto& copies : surface.copies)
+    {
+      if (!on && copies != nullptr)
+      {
+        copies->hide(); // chooseDetail() shows them
+      }
     }
   }
 }
@@ -317,6 +361,13 @@ void ViewActors::setStyle(ViewStyle style)
   for (Shown& shown : this->Objects)
   {
     shown.geometry = nullptr; // built anew by the next show()
+  }
+  for (auto& [key, surface] : this->Surfaces)
+  {
+    for (std::unique_ptr<ViewCopies>& copies : surface.copies)
+    {
+      copies.reset();
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 #include "dgtkLineActor.h"
 #include "dgtkScenePlaces.h"
 #include "dgtkViewCamera.h"
+#include "dgtkViewCopies.h"
 #include "dgtkViewLights.h"
 #include "dgtkViewMeshes.h"
 
@@ -16,6 +17,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -55,8 +57,15 @@ public:
   /// Boxes in place of objects, as far as these places go; and objects again.
   void showCoarse(const ScenePlaces& places);
   void showFine();
-  /// As much detail as can be seen in a view of that height.
-  void chooseDetail(const ViewCamera& camera, double height);
+  /// As much detail as can be seen in a view of that size.
+  /// That is less than usual where there would be more triangles than `most`.
+  void chooseDetail(const ViewCamera& camera, double width, double height, std::size_t most);
+  /// Triangles in sight, since then.
+  std::size_t triangles() const { return this->Triangles; }
+  /// Whether since the latest takeFresh() meshes came that were not drawn before: such a drawing takes longer.
+  bool takeFresh() { return std::exchange(this->Fresh, false); }
+  int actors() const;        ///< also of lines; of what is drawn together there is one
+  int coarserMeshes() const; ///< that were made for this view, with fewer triangles than the models
 
 private:
   struct Surface ///< what actors of the same part with the same material share
@@ -68,7 +77,9 @@ private:
     vtkSmartPointer<vtkPolyDataMapper> mappers[ViewMeshes::levels];
     vtkSmartPointer<vtkProperty> property;
     vtkSmartPointer<vtkTexture> texture;
-    std::size_t users = 0; ///< actors
+    std::size_t users = 0; ///< objects
+    std::unique_ptr<ViewCopies> copies[ViewMeshes::levels];
+    std::vector<ViewCopies::Place> wanted[ViewMeshes::levels]; ///< while it is chosen what is drawn
   };
   struct Shown
   {
@@ -77,20 +88,29 @@ private:
     Affine3 world_from_object;
     bool visible = true;
     WorldBox box;
-    int level = 0; ///< of detail
-    std::vector<vtkSmartPointer<vtkActor>> actors;
-    std::vector<Surface*> surfaces; ///< of each actor
+    int level = 0;                                 ///< of detail
+    double pixels = 0;                             ///< from corner to corner of its box; 0: out of sight
+    std::optional<ViewCopies::Place> copy;         ///< drawn with others like it
+    std::vector<Surface*> surfaces;                ///< of each part
+    std::vector<vtkSmartPointer<vtkActor>> actors; ///< of each part; null for what is drawn by its surface's copies
   };
 
   static vtkSmartPointer<vtkPolyDataMapper> mapperOf(vtkPolyData* data);
   Surface& surface(const Instance& instance, std::size_t part, ViewMeshes& meshes);
   void build(Shown& shown, const ObjectPlace& place, ViewMeshes& meshes);
+  vtkSmartPointer<vtkActor> makeActor(Surface& surface);
+  vtkPolyDataMapper* mapper(Surface& surface, int level);
+  ViewCopies& copies(Surface& surface, int level);
+  /// Chooses the level of all that may be seen; the number of triangles. `coarser`: as if it were so many times
+  /// smaller.
+  std::size_t chooseLevels(double coarser);
   void remove(Shown& shown);
   void applyStyle(const Surface& surface, vtkActor* actor) const;
   void showObjects(const ScenePlaces& places, ViewMeshes& meshes);
   void showLights(const SceneDescription& scene, const ScenePlaces& places);
   void showGridFor(const WorldBox& box, UpAxis upAxis);
   void forgetSurfaces();
+  void showActors(bool on);
 
   vtkRenderer* Renderer;
   ViewLights Lighting;
@@ -99,7 +119,10 @@ private:
   ViewStyle Style = ViewStyle::Textured;
   bool Grid = true;
   bool Coarse = false;
+  bool Fresh = false;
   double GridExtent = 0;
+  UpAxis GridUp = UpAxis::Y;
+  std::size_t Triangles = 0;
   std::map<std::pair<vtkPolyData*, const Material*>, Surface> Surfaces;
   std::vector<Shown> Objects;
   std::vector<vtkSmartPointer<vtkActor>> Lights;

@@ -73,6 +73,32 @@ void addFrustum(LineList& lines, const CameraPlace& camera, double length)
 double frustumLength(const ScenePlaces& places) { return frustumShare * extentOf(places); }
 double lightRadius(const ScenePlaces& places) { return lightShare * extentOf(places); }
 
+WorldBox drawnBox(const ScenePlaces& places, const SceneItem& item)
+{
+  WorldBox box = places.boxOf(item);
+  if (item.kind == SceneItem::Kind::Object || box.empty())
+  {
+    return box;
+  }
+  LineList lines;
+  if (item.kind == SceneItem::Kind::Camera)
+  {
+    addFrustum(lines, places.cameras[item.index], frustumLength(places));
+  }
+  for (const auto& [from, to] : lines)
+  {
+    box.add(from);
+    box.add(to);
+  }
+  if (lines.empty())
+  {
+    // A light, or a camera whose pose is undefined.
+    box.min.array() -= frustumLength(places);
+    box.max.array() += frustumLength(places);
+  }
+  return box;
+}
+
 LineList selectionLines(const ScenePlaces& places, const SceneItems& selected)
 {
   LineList lines;

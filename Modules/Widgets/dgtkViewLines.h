@@ -21,6 +21,8 @@ void addFrustum(LineList& lines, const CameraPlace& camera, double length);
 /// How long frusta are drawn, and how large lights.
 double frustumLength(const ScenePlaces& places);
 double lightRadius(const ScenePlaces& places);
+/// About an item as it is drawn: an object, a camera with its frustum, a light with room about it.
+WorldBox drawnBox(const ScenePlaces& places, const SceneItem& item);
 /// Boxes about what is selected; of cameras their frusta.
 LineList selectionLines(const ScenePlaces& places, const SceneItems& selected);
 /// Squares of 1, 2 or 5 times a power of ten in the plane of two axes through `origin`.

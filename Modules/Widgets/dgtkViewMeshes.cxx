@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkViewMeshes.h"
 
+#include "dgtkMeshClusters.h"
+
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
@@ -9,14 +11,13 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
 #include <array>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
-#include <set>
-#include <unordered_map>
+#include <optional>
 #include <vector>
 
 namespace dgtk
@@ -57,68 +58,6 @@ namespace
 {
 constexpr double coarsePixels[ViewMeshes::levels] = { 0, 56, 22 };
 constexpr double coarseCells[ViewMeshes::levels] = { 0, 14, 6 }; // along a box's diagonal: about four pixels each
-constexpr double leastArea = 0.5;                                // of the triangles that are left
-constexpr double mostLeft = 0.7;                                 // triangles; otherwise it is not worth it
-
-double areaOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
-{
-  return (b - a).cross(c - a).norm() / 2;
-}
-
-/// For each vertex the first one in its cell of a grid (Rossignac and Borrel 1993).
-std::vector<std::uint32_t> clusters(const Geometry& geometry, double cells)
-{
-  Eigen::Vector3d low = geometry.positions.front();
-  Eigen::Vector3d high = low;
-  for (const Eigen::Vector3d& position : geometry.positions)
-  {
-    low = low.cwiseMin(position);
-    high = high.cwiseMax(position);
-  }
-  const double cell = (high - low).norm() / cells;
-  std::unordered_map<std::uint32_t, std::uint32_t> first;
-  std::vector<std::uint32_t> to(geometry.positions.size());
-  for (std::uint32_t i = 0; i < to.size(); ++i)
-  {
-    const Eigen::Vector3d at = (geometry.positions[i] - low) / (cell > 0 ? cell : 1.0);
-    const auto key = static_cast<std::uint32_t>(at.x()) + 64 * static_cast<std::uint32_t>(at.y()) +
-                     4096 * static_cast<std::uint32_t>(at.z());
-    to[i] = first.try_emplace(key, i).first->second;
-  }
-  return to;
-}
-
-/// Triangles between the first vertices of cells; null where they would be hardly fewer, or much would vanish.
-vtkSmartPointer<vtkCellArray> clusteredTriangles(
-  const Geometry& geometry, const Model& model, const Part& part, double cells)
-{
-  const std::vector<std::uint32_t> to = clusters(geometry, cells);
-  const std::vector<Eigen::Vector3d>& p = geometry.positions;
-  std::set<std::array<std::uint32_t, 3>> left;
-  double before = 0;
-  double after = 0;
-  for (std::uint32_t t = part.firstTriangle; t < part.firstTriangle + part.triangles; ++t)
-  {
-    const std::array<std::uint32_t, 3>& own = model.triangles[t];
-    const std::array<std::uint32_t, 3> moved{ to[own[0]], to[own[1]], to[own[2]] };
-    before += areaOf(p[own[0]], p[own[1]], p[own[2]]);
-    if (moved[0] != moved[1] && moved[1] != moved[2] && moved[2] != moved[0] && left.insert(moved).second)
-    {
-      after += areaOf(p[moved[0]], p[moved[1]], p[moved[2]]);
-    }
-  }
-  if (after < leastArea * before || double(left.size()) > mostLeft * part.triangles)
-  {
-    return nullptr;
-  }
-  auto triangles = vtkSmartPointer<vtkCellArray>::New();
-  for (const std::array<std::uint32_t, 3>& t : left)
-  {
-    const vtkIdType corners[3] = { t[0], t[1], t[2] };
-    triangles->InsertNextCell(3, corners);
-  }
-  return triangles;
-}
 
 vtkSmartPointer<vtkPoints> pointsOf(const Geometry& geometry)
 {
@@ -169,6 +108,43 @@ vtkSmartPointer<vtkCellArray> trianglesOf(const Model& model, const Part& part)
     cells->InsertNextCell(3, corners);
   }
   return cells;
+}
+
+vtkSmartPointer<vtkPolyData> dataOf(const ClusteredPart& part, const Geometry& geometry, const Model& model)
+{
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToFloat();
+  auto normals = vtkSmartPointer<vtkFloatArray>::New();
+  normals->SetName("normals");
+  normals->SetNumberOfComponents(3);
+  auto uvs = vtkSmartPointer<vtkFloatArray>::New();
+  uvs->SetName("uv");
+  uvs->SetNumberOfComponents(2);
+  for (std::size_t i = 0; i < part.positions.size(); ++i)
+  {
+    points->InsertNextPoint(part.positions[i].data());
+    normals->InsertNextTypedTuple(geometry.normals[part.sources[i]].data());
+    if (!model.uvs.empty())
+    {
+      const Eigen::Vector2f uv = model.uvs[part.sources[i]].cast<float>();
+      uvs->InsertNextTypedTuple(uv.data());
+    }
+  }
+  auto triangles = vtkSmartPointer<vtkCellArray>::New();
+  for (const std::array<std::uint32_t, 3>& t : part.triangles)
+  {
+    const vtkIdType corners[3] = { t[0], t[1], t[2] };
+    triangles->InsertNextCell(3, corners);
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->GetPointData()->SetNormals(normals);
+  if (!model.uvs.empty())
+  {
+    data->GetPointData()->SetTCoords(uvs);
+  }
+  data->SetPolys(triangles);
+  return data;
 }
 
 vtkSmartPointer<vtkImageData> dataOf(const Image& image, bool cutOut)
@@ -232,9 +208,8 @@ vtkPolyData* ViewMeshes::part(const Geometry& geometry, const Model& model, std:
   vtkSmartPointer<vtkPolyData>& data = mesh.parts[level][part];
   if (data == nullptr && level > 0)
   {
-    const vtkSmartPointer<vtkCellArray> cells =
-      clusteredTriangles(geometry, model, model.parts[part], coarseCells[level]);
-    data = cells == nullptr ? this->part(geometry, model, part, level - 1) : mesh.with(cells).Get();
+    const std::optional<ClusteredPart> fewer = clusterPart(geometry, model, model.parts[part], coarseCells[level]);
+    data = fewer ? dataOf(*fewer, geometry, model).Get() : this->part(geometry, model, part, level - 1);
   }
   return data;
 }

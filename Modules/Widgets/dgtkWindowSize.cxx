@@ -2,6 +2,8 @@
 #include "dgtkWindowSize.h"
 
 #include <QGuiApplication>
+#include <QPoint>
+#include <QRect>
 #include <QScreen>
 #include <QWidget>
 
@@ -19,6 +21,17 @@ void resizeWithin(QWidget& window, int width, int height)
 {
   const QSize room = QGuiApplication::primaryScreen()->availableSize();
   window.resize(std::min(width, room.width() - frame[0]), std::min(height, room.height() - frame[1]));
+}
+
+void placeBeside(QWidget& window, const QWidget& widget)
+{
+  window.adjustSize();
+  const QRect room = widget.screen()->availableGeometry();
+  const QRect there(widget.mapToGlobal(QPoint(0, 0)), widget.size());
+  const int x = there.left() - window.width() - frame[0];
+  const int y = there.center().y() - window.height() / 2;
+  window.move(std::max(room.left(), std::min(x, room.right() - window.width() - frame[0])),
+    std::max(room.top(), std::min(y, room.bottom() - window.height() - frame[1])));
 }
 
 } // namespace dgtk

@@ -12,6 +12,9 @@ namespace dgtk
 /// The size of a window that is not shown yet, as far as its display has room beside a window's frame.
 void resizeWithin(QWidget& window, int width, int height);
 
+/// Moves a window that is not shown yet to the left of a widget, as far as the display allows.
+void placeBeside(QWidget& window, const QWidget& widget);
+
 } // namespace dgtk
 
 #endif

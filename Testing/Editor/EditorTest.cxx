@@ -10,11 +10,15 @@
 #include <QCheckBox>
 #include <QDialog>
 #include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
 #include <QProcess>
 #include <QPushButton>
 #include <QSettings>
 #include <QSpinBox>
 #include <QStandardPaths>
+#include <QTabBar>
+#include <QTabWidget>
 #include <QTest>
 #include <QTreeWidget>
 
@@ -86,28 +90,75 @@ QString EditorTest::copyOfDemo() const
   return this->path("demo.json");
 }
 
+void EditorTest::choose(const char* name) const
+{
+  QAction* const item = this->action(name);
+  QVERIFY2(item != nullptr && item->isEnabled(), name);
+  QMenuBar* const bar = this->Window->menuBar();
+  for (QAction* top : bar->actions())
+  {
+    if (top->menu() != nullptr && top->menu()->actions().contains(item))
+    {
+      QTest::mouseClick(bar, Qt::LeftButton, {}, bar->actionGeometry(top).center());
+      QTRY_VERIFY(top->menu()->isVisible());
+      QTest::mouseClick(top->menu(), Qt::LeftButton, {}, top->menu()->actionGeometry(item).center());
+      QTRY_VERIFY(!top->menu()->isVisible());
+      return;
+    }
+  }
+  QFAIL(name);
+}
+
+void EditorTest::typeInto(QWidget* field, const QString& text)
+{
+  QTest::mouseClick(field, Qt::LeftButton, {}, QPoint(6, field->height() / 2));
+  QTest::keyClick(field, Qt::Key_A, Qt::ControlModifier);
+  QTest::keyClicks(field, text);
+  QTest::keyClick(field, Qt::Key_Tab);
+}
+
+void EditorTest::turnTo(const QDialog& dialog, int page)
+{
+  auto* tabs = dialog.findChild<QTabWidget*>();
+  QTest::mouseClick(tabs->tabBar(), Qt::LeftButton, {}, tabs->tabBar()->tabRect(page).center());
+  QCOMPARE(tabs->currentIndex(), page);
+}
+
+void EditorTest::check(QCheckBox* box, bool on)
+{
+  if (box->isChecked() != on)
+  {
+    QTest::mouseClick(box, Qt::LeftButton, {}, QPoint(8, box->height() / 2));
+  }
+  QVERIFY2(box->isChecked() == on, qPrintable(box->text()));
+}
+
 void EditorTest::renderAndCompare(const QString& scene, const QStringList& layers, int width, int height) const
 {
   const QString inWindow = scene + ".window";
   const QString inLine = scene + ".line";
-  this->action("render")->trigger();
+  this->choose("render");
   auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
   QVERIFY(dialog != nullptr);
+  QVERIFY(QTest::qWaitForWindowExposed(dialog));
+  turnTo(*dialog, 2);
   for (QCheckBox* box : dialog->findChildren<QCheckBox*>())
   {
     if (box->objectName().startsWith("layer."))
     {
-      box->setChecked(layers.contains(box->text()));
+      check(box, layers.contains(box->text()));
     }
   }
-  dialog->findChild<QCheckBox*>("ownSize")->setChecked(false);
-  dialog->findChild<QSpinBox*>("width")->setValue(width);
-  dialog->findChild<QSpinBox*>("height")->setValue(height);
-  dialog->findChild<QLineEdit*>("folder")->setText(inWindow);
+  turnTo(*dialog, 1);
+  check(dialog->findChild<QCheckBox*>("ownSize"), false);
+  typeInto(dialog->findChild<QSpinBox*>("width"), QString::number(width));
+  typeInto(dialog->findChild<QSpinBox*>("height"), QString::number(height));
+  typeInto(dialog->findChild<QLineEdit*>("folder"), inWindow);
   auto* start = dialog->findChild<QPushButton*>("start");
   QTest::mouseClick(start, Qt::LeftButton);
   QVERIFY(!start->isEnabled());
   QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+  dialog->close();
 
   const QString program = QString::fromLocal8Bit(qgetenv("DGTK"));
   const QStringList words{ "render", scene, "-o", inLine, "--layers", layers.join(','), "--size",
@@ -115,7 +166,8 @@ void EditorTest::renderAndCompare(const QString& scene, const QStringList& layer
   QCOMPARE(QProcess::execute(program, words), 0);
   const QMap<QString, QByteArray> window = contents(inWindow);
   const QMap<QString, QByteArray> line = contents(inLine);
-  QCOMPARE(window.keys(), line.keys());
+  QVERIFY2(window.keys() == line.keys(),
+    qPrintable("window: " + QStringList(window.keys()).join(' ') + "; line: " + QStringList(line.keys()).join(' ')));
   QVERIFY(window.size() > 5);
   for (const QString& name : line.keys())
   {

@@ -9,7 +9,10 @@
 #include <memory>
 
 class QAction;
+class QCheckBox;
+class QDialog;
 class QLineEdit;
+class QWidget;
 
 namespace dgtk
 {
@@ -38,7 +41,15 @@ protected:
   void typeOnly(const char* name, const QString& text) const;
   void select(const char* name) const;
   QString path(const char* name) const;
-  /// Renders by the dialog, and the scene file by the command line; both must hold the same bytes.
+  /// Opens the action's menu in the menu bar and clicks it. Returns when dialogs that it opened have been answered.
+  void choose(const char* name) const;
+  /// A click into the field, the text instead of its own, and Tab.
+  static void typeInto(QWidget* field, const QString& text);
+  /// Clicks the page's tab.
+  static void turnTo(const QDialog& dialog, int page);
+  /// Clicks the box unless it is as wanted.
+  static void check(QCheckBox* box, bool on);
+  /// Renders by the dialog, and the scene file by the command line; both must hold the same bytes. By mouse and keys.
   void renderAndCompare(const QString& scene, const QStringList& layers, int width, int height) const;
   /// The demo scene in a file that a test may overwrite.
   QString copyOfDemo() const;

@@ -4,8 +4,8 @@
 
 #include "dgtkMainWindow.h"
 #include "dgtkSceneDocument.h"
+#include "dgtkViewCamera.h"
 
-#include <QAbstractScrollArea>
 #include <QAction>
 #include <QApplication>
 #include <QCheckBox>
@@ -18,6 +18,7 @@
 #include <QPushButton>
 #include <QSettings>
 #include <QSpinBox>
+#include <QSplitter>
 #include <QStandardPaths>
 #include <QTest>
 #include <QToolButton>
@@ -55,32 +56,6 @@ void TestEditor::opensSelectsMovesUndoesSavesAndRenders()
   QVERIFY(!this->Window->isWindowModified());
 
   this->renderAndCompare(scene, { "color", "depth" }, 64, 48);
-}
-
-void TestEditor::theThesissDynamicScene()
-{
-  // Appendix A.2 and A.3: import, camera, key frame, another frame, move, key frame, save, render.
-  QVERIFY(this->Window->importFile(QString::fromStdString(sourceFile("Data/Models/crate.ac"))));
-  answer<QDialog>(
-    "cameraDialog", [](QDialog& dialog) { QTest::mouseClick(dialog.findChild<QPushButton*>("add"), Qt::LeftButton); });
-  this->action("camera")->trigger();
-  auto* make = this->Window->findChild<QPushButton*>("makeKeyFrame");
-  auto* cells = this->Window->findChild<QAbstractScrollArea*>("timeLineCells")->viewport();
-  QTest::mouseClick(cells, Qt::LeftButton, {}, QPoint(136, 5));
-  QTest::mouseClick(make, Qt::LeftButton);
-  QTest::mouseClick(cells, Qt::LeftButton, {}, QPoint(136 + 10 * 12, 5)); // ten cells on
-  this->select("crate-1");
-  this->type("position.0", "0.5");
-  this->type("rotation.1", "45");
-  QTest::mouseClick(make, Qt::LeftButton);
-  QCOMPARE(this->Window->document().scene().keyFrames(), (std::vector<int>{ 0, 10 }));
-  const QString scene = this->path("walk.scene");
-  QVERIFY(this->Window->saveFile(scene));
-  this->renderAndCompare(scene, { "depth", "objects", "flow_forward" }, 48, 32);
-  dgtk::SceneDocument again;
-  again.open(scene.toStdString());
-  QCOMPARE(again.scene().objects[0].position.at(5).x(), 0.25);
-  QCOMPARE(again.scene().lastFrame(), 10);
 }
 
 void TestEditor::clicksSelectAndDragsMove()
@@ -209,7 +184,7 @@ void TestEditor::addsCamerasAndLights()
   this->action("camera")->trigger();
   QCOMPARE(document.scene().cameras.size(), std::size_t(1));
   QCOMPARE(document.scene().cameras[0].eye.value.z(), -10.0);
-  QCOMPARE(document.scene().cameras[0].fovY.value, 60.0);
+  QCOMPARE(document.scene().cameras[0].fovY.value, dgtk::ViewCamera::angle()); // as the perspective view
   answer<QDialog>("cameraArrayDialog",
     [](QDialog& dialog)
     {
@@ -268,6 +243,82 @@ void TestEditor::asksAboutUnsavedWork()
   this->action("new")->trigger();
   QVERIFY(this->Window->document().scene().objects.empty());
   QVERIFY(this->Window->close());
+}
+
+void TestEditor::theViewsLookAsTheyWereLeft()
+{
+  const auto sizes = [this]
+  {
+    QList<int> all;
+    for (const QSplitter* splitter : this->Window->findChildren<QSplitter*>())
+    {
+      all += splitter->sizes();
+    }
+    return all;
+  };
+  const auto visible = [this]
+  {
+    QList<int> kinds;
+    for (int kind = 0; kind < 4; ++kind)
+    {
+      if (this->Window->findChild<QWidget*>("view." + QString::number(kind))->isVisible())
+      {
+        kinds << kind;
+      }
+    }
+    return kinds;
+  };
+  const auto picture = [this](const char* view)
+  {
+    QTest::qWait(2 * settle);
+    return this->Window->findChild<QOpenGLWidget*>(view)->grabFramebuffer();
+  };
+  const auto again = [this]
+  {
+    QVERIFY(this->Window->close());
+    this->Window = std::make_unique<dgtk::MainWindow>();
+    this->Window->show();
+    this->Window->activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(this->Window.get()));
+    QVERIFY(this->Window->openFile(demo()));
+  };
+  const QList<int> usual = sizes();
+  QList<QSplitter*> splitters = this->Window->findChildren<QSplitter*>();
+  QCOMPARE(splitters.size(), 3);
+  for (QSplitter* splitter : splitters)
+  {
+    const int all = splitter->sizes()[0] + splitter->sizes()[1];
+    splitter->setSizes({ all / 3, all - all / 3 });
+  }
+  const QList<int> moved = sizes();
+  QVERIFY(moved != usual);
+  for (const char* name : { "wireframe", "grid", "sceneLights", "handlesAtOrigin" })
+  {
+    this->action(name)->trigger();
+  }
+  QVERIFY(this->Window->openFile(demo()));
+  const QImage front = picture("view.0");
+  again();
+  QCOMPARE(sizes(), moved);
+  QCOMPARE(visible(), (QList<int>{ 0, 1, 2, 3 }));
+  for (const char* name : { "wireframe", "sceneLights", "handlesAtOrigin" })
+  {
+    QVERIFY2(this->action(name)->isChecked(), name);
+  }
+  QVERIFY(!this->action("textured")->isChecked());
+  QVERIFY(!this->action("grid")->isChecked());
+  QVERIFY2(picture("view.0") == front, "and it looks so");
+
+  // One view alone; when the others come back they show the scene that was opened meanwhile.
+  this->Window->findChild<QWidget*>("view.1")->setFocus();
+  this->action("maximize")->trigger();
+  QCOMPARE(visible(), (QList<int>{ 1 }));
+  again();
+  QCOMPARE(visible(), (QList<int>{ 1 }));
+  this->action("maximize")->trigger();
+  QCOMPARE(visible(), (QList<int>{ 0, 1, 2, 3 }));
+  QCOMPARE(sizes(), moved);
+  QVERIFY(picture("view.0") == front);
 }
 
 int main(int argc, char** argv) { return runEditorTest<TestEditor>(argc, argv); }

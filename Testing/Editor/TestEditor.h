@@ -4,13 +4,16 @@
 
 #include "EditorTest.h"
 
+#include <QAction>
+#include <QList>
+#include <QPointer>
+
 class TestEditor : public EditorTest
 {
   Q_OBJECT
 
 private slots:
   void opensSelectsMovesUndoesSavesAndRenders();
-  void theThesissDynamicScene();
   void clicksSelectAndDragsMove();
   void keyFramesPlay();
   void copiesCutsAndPastes();
@@ -24,18 +27,27 @@ private slots:
   void aRefusalComesOnce();
   void dialogsKeepWhatIsRefused();
   void hugeSizesAreRefused();
+  void unitsAreTyped();
+  void rowsEndQuietly();
+  void allLayersAreRendered();
   void closingEndsTheProgram();
   void aClosedViewerEndsNothing();
   void unsavedWorkSurvivesACrash();
   void parallelViewsCutNothing();
   void viewsMoveByKeys();
   void stylesLookDifferent();
+  void theViewsLookAsTheyWereLeft();
   void savingIsAnAnswer();
   void lightsHaveAllTheirNumbers();
   void camerasHaveSizesOfTheirOwn();
   void cancelledRunsResume();
   void everyMenuItemWorks();
+  void theWindowAnswersWhileItRenders();
   void pictures();
+
+private:
+  QList<QPointer<QAction>> menuItems() const;
+  void prepareFor(const QAction& item) const;
 };
 
 #endif

@@ -19,6 +19,8 @@ class TestEditorForest : public EditorTest
 private slots:
   void aForestOpensAndAnswersAtOnce();
   void aForestIsCopiedAtOnce();
+  void copiesLookAsIfEachWereAlone();
+  void whatIsOutOfSightIsNotMadeCoarser();
   void twoHundredThousandTrianglesTurn();
   void copiesShareTheirGeometry();
 

@@ -2,6 +2,7 @@
 #include "TestEditorHandles.h"
 #include "TestEditorSupport.h"
 
+#include "dgtkFile.h"
 #include "dgtkMainWindow.h"
 #include "dgtkSceneDocument.h"
 #include "dgtkScenePlaces.h"
@@ -74,6 +75,7 @@ QPoint TestEditorHandles::pixelOf(int kind, const Eigen::Vector3d& point) const
 void TestEditorHandles::openCrate()
 {
   QVERIFY(this->Window->importFile(QString::fromStdString(sourceFile("Data/Models/crate.ac"))));
+  this->action("handlesAtOrigin")->trigger(); // in the middle of its base
   this->action("frameAll")->trigger();
   QTest::qWait(settle);
 }
@@ -219,6 +221,99 @@ void TestEditorHandles::boxesScale()
   // The middle scales evenly: half an arrow to the right and up is a factor of 1 + sqrt(1/2).
   this->drag(front, center, center + QPoint(40, -40));
   QVERIFY(near(this->object().scale.value, Eigen::Vector3d::Constant(1 + 80 / std::sqrt(2.0) / arrow)));
+}
+
+void TestEditorHandles::modelsFarFromTheirOriginTurnInPlace()
+{
+  // A box of 4 x 2 x 2, written in world coordinates as some programs do.
+  const Eigen::Vector3d middle(1000, 50, -300);
+  std::string obj;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Eigen::Vector3d at = middle + Eigen::Vector3d(corner & 1 ? 2 : -2, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+    obj += "v " + std::to_string(at.x()) + ' ' + std::to_string(at.y()) + ' ' + std::to_string(at.z()) + '\n';
+  }
+  obj += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  dgtk::writeFile(this->Folder.path("far.obj"), obj);
+  QVERIFY(this->Window->importFile(this->path("far.obj")));
+  this->action("frameAll")->trigger();
+  QTest::qWait(settle);
+  const std::string first = this->document().json();
+  const QPoint center = this->pixelOf(front, middle);
+  const Eigen::Vector2d exact = this->exactPixelOf(front, middle);
+
+  // Turned, the middle stays: p = c - R c.
+  this->action("rotate")->trigger();
+  const auto onRing = [&](double degrees)
+  {
+    return center + QPoint(int(std::lround(arrow * std::cos(degrees * pi / 180))),
+                      -int(std::lround(arrow * std::sin(degrees * pi / 180))));
+  };
+  const auto angleOf = [&](const QPoint& p) { return std::atan2(exact.y() - p.y(), p.x() - exact.x()); };
+  const double angle = angleOf(onRing(70)) - angleOf(onRing(20));
+  this->drag(front, onRing(20), onRing(70));
+  const dgtk::Quaternion q = this->object().orientation.value;
+  QVERIFY(std::abs(2 * std::atan2(q.z, q.w) - angle) < tolerance);
+  const Eigen::Vector3d turned(std::cos(angle) * middle.x() - std::sin(angle) * middle.y(),
+    std::sin(angle) * middle.x() + std::cos(angle) * middle.y(), middle.z());
+  QVERIFY((this->object().position.value - (middle - turned)).norm() < 1000 * tolerance);
+  this->action("undo")->trigger();
+  QCOMPARE(this->document().json(), first);
+
+  // Scaled along x by f: p = (1 - f) c in x.
+  this->action("scale")->trigger();
+  const QPoint from = center + QPoint(int(arrow), 0);
+  const QPoint to = center + QPoint(int(1.5 * arrow), 8);
+  const double factor = (to.x() - exact.x()) / (from.x() - exact.x());
+  this->drag(front, from, to);
+  QVERIFY(near(this->object().scale.value, { factor, 1, 1 }));
+  QVERIFY((this->object().position.value - Eigen::Vector3d((1 - factor) * middle.x(), 0, 0)).norm() < 1000 * tolerance);
+  this->action("undo")->trigger();
+  QCOMPARE(this->document().json(), first);
+
+  this->action("move")->trigger();
+  this->drag(front, from, to);
+  QVERIFY(near(this->object().position.value, { (to.x() - from.x()) * this->unit(front), 0, 0 }));
+  this->action("undo")->trigger();
+
+  // At the origin, a thousand units away, there is nothing to be held: the thing itself is.
+  this->action("scale")->trigger();
+  this->action("handlesAtOrigin")->trigger();
+  this->drag(front, from, to);
+  QCOMPARE(this->document().undoText(), std::string("Move"));
+}
+
+void TestEditorHandles::severalTurnAboutTheirCommonBox()
+{
+  this->openCrate();
+  this->action("duplicate")->trigger();
+  this->type("scale.0", "3");
+  this->type("position.0", "10");
+  const dgtk::ScenePlaces places = dgtk::placeScene(this->document().scene(), this->document().models(), 0);
+  const Eigen::Vector3d middle = places.box.center();
+  QVERIFY((middle - Eigen::Vector3d(5, 0, 0)).norm() > 0.5); // the larger one counts for more
+  this->action("selectAll")->trigger();
+  this->action("frameAll")->trigger();
+  this->action("rotate")->trigger();
+  QTest::qWait(settle);
+  const auto halfTurn = [&](const Eigen::Vector3d& pivot)
+  {
+    const QPoint center = this->pixelOf(front, pivot);
+    const auto onRing = [&](double angle)
+    { return center + QPoint(int(arrow * std::cos(angle)), -int(arrow * std::sin(angle))); };
+    this->press(front, onRing(0.4));
+    for (int i = 1; i <= 6; ++i)
+    {
+      this->move(front, onRing(0.4 + i * pi / 6), Qt::ControlModifier);
+    }
+    this->release(front, onRing(0.4 + pi));
+    QVERIFY(near(this->object(0).position.value, 2 * pivot));
+    QVERIFY(near(this->object(1).position.value, 2 * pivot - Eigen::Vector3d(10, 0, 0)));
+    this->action("undo")->trigger();
+  };
+  halfTurn({ 5, 0, 0 });
+  this->action("handlesAtOrigin")->trigger();
+  halfTurn(middle);
 }
 
 void TestEditorHandles::controlSnaps()

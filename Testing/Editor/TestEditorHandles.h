@@ -28,6 +28,8 @@ private slots:
   void squaresAndKeysKeepToPlanes();
   void ringsRotate();
   void boxesScale();
+  void modelsFarFromTheirOriginTurnInPlace();
+  void severalTurnAboutTheirCommonBox();
   void controlSnaps();
   void escapePutsBack();
   void keysAtTheCurrentFrame();
@@ -51,7 +53,7 @@ private:
   QPoint pixelOf(int kind, const Eigen::Vector3d& point) const;
   /// World units of a pixel in a parallel view.
   double unit(int kind) const;
-  /// One crate, selected, and everything in sight.
+  /// One crate, selected, with handles at its origin, and everything in sight.
   void openCrate();
   const dgtk::ObjectDescription& object(std::size_t index = 0) const;
   void press(int kind, const QPoint& at) const;

@@ -3,11 +3,13 @@
 #include "TestEditorSupport.h"
 
 #include "dgtkEditorLanguage.h"
+#include "dgtkFile.h"
 #include "dgtkMainWindow.h"
 #include "dgtkSceneDocument.h"
 
 #include <QAbstractButton>
 #include <QAction>
+#include <QComboBox>
 #include <QDialog>
 #include <QDockWidget>
 #include <QLabel>
@@ -18,13 +20,19 @@
 #include <QTranslator>
 #include <QXmlStreamReader>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
+#include <sstream>
 
 using dgtk::test::sourceFile;
 
 namespace
 {
-constexpr int nearEdge = 2; // pixels of the window on either side of an edge
+constexpr double leastFramed = 0.15; // of a view, that something framed takes
+constexpr double zoomPerStep = 0.15; // of the minus key, natural logarithm
+constexpr double seamTolerance = 12; // of 255: fewer normals shade a little differently
+constexpr int nearEdge = 2;          // pixels of the window on either side of an edge
 
 QString text(const char* relative) { return QString::fromStdString(sourceFile(relative)); }
 
@@ -49,6 +57,63 @@ QMap<QString, QString> germanOfEnglish()
     }
   }
   return german;
+}
+
+/// A ball whose texture meets itself in front, where it is yellow; black elsewhere.
+void writeBall(const std::string& folder)
+{
+  constexpr int around = 64;
+  constexpr int down = 32;
+  QImage picture(256, 16, QImage::Format_RGB32);
+  for (int y = 0; y < picture.height(); ++y)
+  {
+    for (int x = 0; x < picture.width(); ++x)
+    {
+      picture.setPixel(x, y, x < 32 || x >= 224 ? qRgb(255, 220, 0) : qRgb(0, 0, 0));
+    }
+  }
+  picture.save(QString::fromStdString(folder + "/ball.png"));
+  dgtk::writeFile(folder + "/ball.mtl", "newmtl skin\nKd 1 1 1\nmap_Kd ball.png\n");
+  std::ostringstream obj;
+  obj << "mtllib ball.mtl\nusemtl skin\n";
+  for (int i = 0; i <= down; ++i)
+  {
+    for (int j = 0; j <= around; ++j)
+    {
+      const double a = 2 * M_PI * j / around;
+      const double b = M_PI * i / down;
+      obj << "v " << std::sin(b) * std::sin(a) << ' ' << std::cos(b) << ' ' << std::sin(b) * std::cos(a) << "\nvt "
+          << double(j) / around << ' ' << 1 - double(i) / down << '\n';
+    }
+  }
+  for (int i = 0; i < down; ++i)
+  {
+    for (int j = 1; j <= around; ++j)
+    {
+      const int a = i * (around + 1) + j;
+      const int b = a + around + 1;
+      obj << "f " << a << '/' << a << ' ' << b << '/' << b << ' ' << b + 1 << '/' << b + 1 << ' ' << a + 1 << '/'
+          << a + 1 << '\n';
+    }
+  }
+  dgtk::writeFile(folder + "/ball.obj", obj.str());
+}
+
+/// The mean colour of a square about a point, in [0, 255].
+Eigen::Vector3d meanAbout(const QImage& image, const Eigen::Vector2d& at, double side)
+{
+  Eigen::Vector3d sum(0, 0, 0);
+  int count = 0;
+  for (int y = int(std::lround(at.y() - side / 2)); y < std::lround(at.y() + side / 2); ++y)
+  {
+    for (int x = int(std::lround(at.x() - side / 2)); x < std::lround(at.x() + side / 2); ++x)
+    {
+      const QColor color = image.pixelColor(x, y);
+      sum += Eigen::Vector3d(color.red(), color.green(), color.blue());
+      ++count;
+    }
+  }
+  return sum / std::max(count, 1);
 }
 
 /// Everything that is written on a widget and what is in it.
@@ -136,6 +201,139 @@ void TestEditorLook::clicksMeetWhatIsSeen()
   QVERIFY(!clickIn(left - nearEdge));
   QVERIFY(clickIn(right - nearEdge));
   QVERIFY(!clickIn(right + nearEdge));
+}
+
+void TestEditorLook::camerasAndLightsAreFramedAsTheyAreDrawn()
+{
+  // In a small scene and in a large one.
+  for (const double size : { 1.0, 1000.0 })
+  {
+    QVERIFY(this->Window->importFile(text("Data/Models/crate.ac")));
+    this->Window->document().edit("Place",
+      [&](dgtk::SceneDescription& scene)
+      {
+        scene.objects[0].scale = Eigen::Vector3d(size, size, size);
+        scene.cameras.resize(1);
+        scene.cameras[0].name = "eye";
+        scene.cameras[0].eye = Eigen::Vector3d(4 * size, 3 * size, 5 * size);
+        scene.lights.resize(1);
+        scene.lights[0].name = "lamp";
+        scene.lights[0].position = Eigen::Vector3d(-4 * size, 3 * size, 2 * size);
+      });
+    for (const char* name : { "eye", "lamp" })
+    {
+      this->select(name);
+      this->action("frameSelected")->trigger();
+      QTest::qWait(settle);
+      for (const char* view : { "view.0", "view.1", "view.2", "view.3" })
+      {
+        // The green lines about it are in sight as a whole, and large enough to be worked with.
+        const QImage shown = this->Window->findChild<QWidget*>(view)->grab().toImage();
+        QRect green;
+        for (int y = 0; y < shown.height(); ++y)
+        {
+          for (int x = 0; x < shown.width(); ++x)
+          {
+            const QColor color = shown.pixelColor(x, y);
+            green |= color.green() > 200 && color.red() < 110 && color.blue() < 110 ? QRect(x, y, 1, 1) : QRect();
+          }
+        }
+        const double share = std::max(double(green.width()) / shown.width(), double(green.height()) / shown.height());
+        QVERIFY2(share > leastFramed && share < 1,
+          qPrintable(QString("%1, %2, size %3: %4").arg(name, view).arg(size).arg(share)));
+      }
+    }
+    answer<QMessageBox>("unsavedBox", [](QMessageBox& box) { box.button(QMessageBox::Discard)->click(); });
+    this->action("new")->trigger();
+  }
+}
+
+void TestEditorLook::theUpAxisTurnsTheViews()
+{
+  const char* const views[] = { "view.0", "view.1", "view.2", "view.3" };
+  const auto pictures = [&]
+  {
+    QList<QImage> all;
+    for (const char* view : views)
+    {
+      all << this->picture(view);
+    }
+    return all;
+  };
+  QVERIFY(this->Window->importFile(text("Data/Models/tree.ac")));
+  this->action("frameAll")->trigger();
+  QTest::mouseClick(this->Window->findChild<QWidget*>("view.0"), Qt::LeftButton, {}, QPoint(3, 3)); // selects nothing
+  QTest::qWait(settle);
+  const QList<QImage> yUp = pictures();
+  auto* axis = this->Window->findChild<QComboBox*>("upAxis");
+  QVERIFY(axis != nullptr);
+  axis->setFocus();
+  QTest::keyClick(axis, Qt::Key_Down);
+  QVERIFY(this->Window->document().scene().upAxis == dgtk::UpAxis::Z);
+  const QList<QImage> zUp = pictures();
+  this->action("undo")->trigger();
+  const QList<QImage> undone = pictures();
+  this->action("redo")->trigger();
+  // As if the scene had always been so.
+  const QString path = this->path("zUp.json");
+  this->Window->document().saveAs(path.toStdString());
+  this->Window = std::make_unique<dgtk::MainWindow>();
+  this->Window->show();
+  QVERIFY(this->Window->openFile(path));
+  this->action("frameAll")->trigger();
+  QTest::qWait(settle);
+  const QList<QImage> opened = pictures();
+  for (int i = 0; i < yUp.size(); ++i)
+  {
+    QVERIFY2(zUp[i] != yUp[i], views[i]);
+    QVERIFY2(undone[i] == yUp[i], views[i]);
+    QVERIFY2(zUp[i] == opened[i], views[i]);
+  }
+}
+
+void TestEditorLook::smallModelsKeepTheirTexturesSeams()
+{
+  writeBall(this->Folder.path("."));
+  QVERIFY(this->Window->importFile(this->path("ball.obj")));
+  this->action("frameSelected")->trigger();
+  auto* view = this->Window->findChild<QOpenGLWidget*>("view.0");
+  const double ratio = view->devicePixelRatioF();
+  const QImage whole = this->picture("view.0");
+  const auto isYellow = [](const QColor& color) { return color.red() > 100 && color.blue() < 60; };
+  int yellow = 0; // across the middle: the ball's diameter times the sine of an eighth of a turn
+  for (int x = 0; x < whole.width(); ++x)
+  {
+    yellow += isYellow(whole.pixelColor(x, whole.height() / 2)) ? 1 : 0;
+  }
+  const double diameter = yellow / std::sqrt(0.5) / ratio;
+  QVERIFY2(diameter > 100, qPrintable(QString::number(diameter)));
+  int steps = 0;
+  for (const double wanted : { 28.0, 12.0 }) // pixels: fewer triangles, and still fewer
+  {
+    for (; diameter * std::exp(-zoomPerStep * steps) > wanted; ++steps)
+    {
+      QTest::keyClick(view, Qt::Key_Minus);
+    }
+    const double shrunk = std::exp(-zoomPerStep * steps);
+    const QImage small = this->picture("view.0");
+    const Eigen::Vector2d middle(small.width() / 2.0, small.height() / 2.0);
+    const int reach = int(0.3 * ratio * diameter * shrunk / 2);
+    QVERIFY(reach > 0);
+    double sum = 0;
+    int count = 0;
+    for (int y = -2 * reach; y < 2 * reach; ++y)
+    {
+      for (int x = -reach; x < reach; ++x)
+      {
+        const Eigen::Vector2d way(x + 0.5, y + 0.5);
+        const Eigen::Vector3d is = meanAbout(small, middle + way, 1);
+        sum += (is - meanAbout(whole, middle + way / shrunk, 1 / shrunk)).cwiseAbs().maxCoeff();
+        ++count;
+      }
+    }
+    qInfo("a ball of %.0f pixels: %.1f of 255 from all its triangles", diameter * shrunk, sum / count);
+    QVERIFY(sum / count < seamTolerance);
+  }
 }
 
 void TestEditorLook::germanIsShownEverywhere()

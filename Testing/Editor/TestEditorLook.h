@@ -12,6 +12,9 @@ class TestEditorLook : public EditorTest
 private slots:
   void viewsHaveAllPixelsOfTheDisplay();
   void clicksMeetWhatIsSeen();
+  void camerasAndLightsAreFramedAsTheyAreDrawn();
+  void theUpAxisTurnsTheViews();
+  void smallModelsKeepTheirTexturesSeams();
   void germanIsShownEverywhere();
   void languagesAreNamed();
   void pictures();

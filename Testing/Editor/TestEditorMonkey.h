@@ -8,6 +8,7 @@
 
 #include <random>
 
+class QFileDialog;
 class QWidget;
 
 /// Random events for a minute, or DGTK_MONKEY_SECONDS; DGTK_MONKEY_SEED chooses others.
@@ -23,6 +24,8 @@ private:
   /// To what is in front: a dialog, a menu, or the window with its panels and tool windows.
   void touch();
   void touchDialog();
+  void touchFileDialog(QFileDialog& dialog);
+  void writeFiles() const;
   void watchDialogs();
   void touchWidget(QWidget* widget);
   void drag(QWidget* widget);

@@ -4,6 +4,7 @@
 
 #include "dgtkTestSupport.h"
 
+#include "dgtkEditorLanguage.h"
 #include "dgtkMainWindow.h"
 
 #include <QAbstractButton>
@@ -20,6 +21,7 @@
 #include <QString>
 #include <QTest>
 #include <QTimer>
+#include <QTranslator>
 
 #include <algorithm>
 #include <cstddef>
@@ -85,6 +87,22 @@ inline void closeWhatIsOpen()
     dialog->reject();
   }
 }
+
+/// The window speaks German as long as this lives.
+class German
+{
+public:
+  German() { dgtk::setEditorLanguage("de"); }
+  ~German()
+  {
+    for (QTranslator* translator : qApp->findChildren<QTranslator*>())
+    {
+      delete translator;
+    }
+  }
+  German(const German&) = delete;
+  German& operator=(const German&) = delete;
+};
 
 /// What the program holds on the heap, MiB.
 inline double heapInUse()

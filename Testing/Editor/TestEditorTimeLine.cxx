@@ -82,7 +82,7 @@ void TestEditorTimeLine::choose(const QPoint& where, const char* submenu, const 
       QMenu* const menu = *submenu == 0 ? qobject_cast<QMenu*>(popup) : popup->findChild<QMenu*>(submenu);
       for (QAction* action : menu->actions())
       {
-        if (action->text() == text && action->isEnabled() && menu->isEnabled())
+        if (action->text().remove('&') == text && action->isEnabled() && menu->isEnabled())
         {
           action->trigger();
           found = true;

@@ -29,18 +29,6 @@ namespace
 constexpr int eventLimit = 200; // milliseconds, the mean of an event while pictures are made
 constexpr int turns = 20;
 
-/// The row of the values' panel that begins so.
-QString valueOf(QTreeWidget* panel, const QString& name)
-{
-  for (int i = 0; i < panel->topLevelItemCount(); ++i)
-  {
-    if (panel->topLevelItem(i)->text(0).startsWith(name))
-    {
-      return panel->topLevelItem(i)->text(1);
-    }
-  }
-  return {};
-}
 } // namespace
 
 void TestEditorTruth::render(const QString& layers, const QStringList& more) const
@@ -367,7 +355,7 @@ void TestEditorTruth::pictures()
   grab(this->Window.get(), "editor_truth.png");
   this->action("show.colour")->trigger();
   QWidget* const dialog = this->openMatches();
-  dialog->resize(920, 640);
+  dialog->resize(1060, 700);
   for (const QPointF& point : { QPointF(330, 250), QPointF(200, 330), QPointF(425, 280) })
   {
     this->clickMatch(dialog, 0, point);

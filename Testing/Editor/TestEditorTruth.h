@@ -24,9 +24,12 @@ private slots:
   void theSceneMayChangeMeanwhile();
   void matchesAreTheDatasets();
   void pairsAreThoseOfTheCommandLine();
+  void selectedCamerasAreMatched();
+  void pairsAreUndone();
   void manyPairsOpenAtOnce();
   void panesZoomAndPan();
   void aStereoPairWithGroundTruth();
+  void germanIsSpokenOfTheTruth();
   void pictures();
 
 private:

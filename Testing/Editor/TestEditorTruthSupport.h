@@ -8,6 +8,7 @@
 #include <QLabel>
 #include <QMouseEvent>
 #include <QTest>
+#include <QTreeWidget>
 
 #include <cmath>
 
@@ -29,5 +30,18 @@ inline void hover(QWidget* widget, const QPoint& at)
 }
 
 inline QString textOf(QWidget* dialog, const char* label) { return dialog->findChild<QLabel*>(label)->text(); }
+
+/// The row of the values' panel that begins so.
+inline QString valueOf(QTreeWidget* panel, const QString& name)
+{
+  for (int i = 0; i < panel->topLevelItemCount(); ++i)
+  {
+    if (panel->topLevelItem(i)->text(0).startsWith(name))
+    {
+      return panel->topLevelItem(i)->text(1);
+    }
+  }
+  return {};
+}
 
 #endif

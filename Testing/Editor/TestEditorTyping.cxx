@@ -6,10 +6,14 @@
 #include "dgtkSceneDocument.h"
 
 #include <QAction>
+#include <QCheckBox>
+#include <QDialog>
+#include <QFile>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QSpinBox>
 #include <QTest>
 #include <QToolBar>
 #include <QTreeWidget>
@@ -20,7 +24,7 @@ using dgtk::SceneItem;
 
 namespace
 {
-void typeInto(QDialog& dialog, const char* name, const QString& text)
+void typeIntoField(QDialog& dialog, const char* name, const QString& text)
 {
   QVERIFY(QTest::qWaitForWindowActive(&dialog));
   auto* field = dialog.findChild<QLineEdit*>(name);
@@ -140,14 +144,14 @@ void TestEditor::dialogsKeepWhatIsRefused()
     answer<QDialog>(dialogName,
       [&, dialogName, field, bad, good](QDialog& dialog)
       {
-        typeInto(dialog, "name", "Top");
-        typeInto(dialog, field, bad);
+        typeIntoField(dialog, "name", "Top");
+        typeIntoField(dialog, field, bad);
         expectRefusal(message);
         add(dialog);
         QVERIFY2(!message.isEmpty(), dialogName);
         QVERIFY(dialog.isVisible());
         QCOMPARE(dialog.findChild<QLineEdit*>("name")->text(), QString("Top"));
-        typeInto(dialog, field, good);
+        typeIntoField(dialog, field, good);
         add(dialog);
         QVERIFY(!dialog.isVisible());
       });
@@ -162,10 +166,10 @@ void TestEditor::dialogsKeepWhatIsRefused()
   answer<QDialog>("cameraArrayDialog",
     [](QDialog& dialog)
     {
-      typeInto(dialog, "fovY.0", "190");
+      typeIntoField(dialog, "fovY.0", "190");
       add(dialog);
       QVERIFY(dialog.findChild<QLabel*>("fault")->isVisible());
-      typeInto(dialog, "fovY.0", "50");
+      typeIntoField(dialog, "fovY.0", "50");
       add(dialog);
       QVERIFY(!dialog.isVisible());
     });
@@ -187,4 +191,79 @@ void TestEditor::hugeSizesAreRefused()
     QVERIFY2(!message.isEmpty(), size);
     QCOMPARE(document.json(), first);
   }
+}
+
+/// Other rows come with other units; the field that was left last stays the one that is typed in.
+void TestEditor::unitsAreTyped()
+{
+  QVERIFY(this->Window->importFile(QString::fromStdString(dgtk::test::sourceFile("Data/Models/crate.ac"))));
+  this->Window->document().edit("none", [](dgtk::SceneDescription&) {});
+  QTest::mouseClick(this->Window->findChild<QWidget*>("view.0"), Qt::LeftButton, {}, QPoint(3, 3));
+  const dgtk::SceneDescription& scene = this->Window->document().scene();
+  for (const char* units : { "metre", "cm", "m" })
+  {
+    QTest::mouseClick(this->field("units"), Qt::LeftButton);
+    QTRY_VERIFY(this->field("units")->hasFocus());
+    this->field("units")->selectAll();
+    QTest::keyClicks(this->field("units"), units);
+    QTest::keyClick(this->field("units"), Qt::Key_Return);
+    QTest::qWait(settle); // what went is deleted
+    QCOMPARE(scene.units, std::string(units));
+    QCOMPARE(this->field("units")->text(), QString(units));
+    QVERIFY(this->field("units")->hasFocus());
+  }
+  this->select("crate-1");
+  bool labelled = false;
+  for (const QLabel* label : this->Window->findChild<QWidget*>("propertiesPanel")->findChildren<QLabel*>())
+  {
+    labelled = labelled || label->text() == "Position, m";
+  }
+  QVERIFY(labelled);
+}
+
+/// What a layer needs is asked in the window, and what no camera has is not offered.
+void TestEditor::allLayersAreRendered()
+{
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  this->select("tree");
+  this->action("render")->trigger();
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  QVERIFY(!dialog->findChild<QCheckBox*>("layer.color_sharp")->isEnabled());
+  dialog->findChild<QPushButton*>("allLayers")->click();
+  QCOMPARE(dialog->findChild<QLineEdit*>("matte")->text(), QString("tree"));
+  dialog->findChild<QCheckBox*>("ownSize")->setChecked(false);
+  dialog->findChild<QSpinBox*>("width")->setValue(48);
+  dialog->findChild<QSpinBox*>("height")->setValue(36);
+  dialog->findChild<QLineEdit*>("folder")->setText(this->path("all"));
+  auto* start = dialog->findChild<QPushButton*>("start");
+  start->click();
+  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+  QVERIFY2(QFile::exists(this->path("all/manifest.json")), qPrintable(dialog->findChild<QLabel*>("status")->text()));
+  const QStringList files = contents(this->path("all")).keys();
+  QVERIFY2(!files.filter("matting").isEmpty(), qPrintable(files.join(' ').left(2000)));
+  this->Window->document().editItem("shutter", { dgtk::SceneItem::Kind::Camera, 0 },
+    [](dgtk::SceneDescription& scene) { scene.cameras[0].shutter.close = 0.5; });
+  QVERIFY(dialog->findChild<QCheckBox*>("layer.color_sharp")->isEnabled());
+}
+
+/// A row goes while its field has the focus and something is typed there.
+void TestEditor::rowsEndQuietly()
+{
+  bool gone = false;
+  answer<QDialog>("cameraDialog",
+    [&gone](QDialog& dialog)
+    {
+      dialog.activateWindow();
+      QVERIFY(QTest::qWaitForWindowActive(&dialog));
+      auto* field = dialog.findChild<QLineEdit*>("eye.0");
+      QTest::mouseClick(field, Qt::LeftButton);
+      QTRY_VERIFY(field->hasFocus());
+      QTest::keyClicks(field, "5");
+      delete field->parentWidget();
+      gone = dialog.findChild<QLineEdit*>("eye.0") == nullptr;
+      dialog.reject();
+    });
+  this->action("camera")->trigger();
+  QVERIFY(gone);
+  QVERIFY(this->Window->document().scene().cameras.empty());
 }

@@ -37,14 +37,25 @@ private slots:
   void layeredImagesHaveSurfaces();
   void brokenDatasetsAreRefused();
   void theRenderDialogOpensItsResult();
+  void germanIsSpokenOfPixels();
+  void longNamesAreLegible();
+  void boxesAndPointsLieOverPictures();
+  void masksHaveASliceForEachObject();
+  void calibrationIsShown();
   void noEventTakesLong();
   void largePicturesAreReadInDetail();
+  void scrolledPicturesKeepTheirShape();
+  void theViewerOpensWhereItWas();
+  void objectNumbersAreThoseOfTheDataset();
+  void germanIsSpokenOfCameras();
   void randomEventsDoNoHarm();
   void pictures();
 
 private:
   /// A small dataset of the demo scene, rendered once.
   QString dataset();
+  /// Another one, with what is no picture: boxes, masks, points, calibration.
+  QString richDataset();
   /// Opens it in a window of its own and waits for its pictures.
   QMainWindow* open(const QString& folder);
   /// The window that is open, with its pictures; null for none.
@@ -58,6 +69,7 @@ private:
   void pointAt(QMainWindow* viewer, int x, int y) const;
 
   QString Rendered;
+  QString RenderedRich;
 };
 
 #endif

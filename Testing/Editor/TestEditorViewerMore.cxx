@@ -335,8 +335,9 @@ void TestEditorViewer::pictures()
   }
   const QString dataset = this->path("pictured");
   const QStringList words{ "render", demo(), "-o", dataset, "--layers",
-    "color,depth,objects,normal,flow_forward,disparity,classes,shadingnormal,uv,ldi,coverage,correspondence", "--size",
-    "320x240", "--quiet" };
+    "color,depth,objects,normal,flow_forward,disparity,classes,shadingnormal,uv,ldi,coverage,correspondence,boxes,"
+    "amodal,points,calibration",
+    "--size", "320x240", "--quiet" };
   QCOMPARE(QProcess::execute(QString::fromLocal8Bit(qgetenv("DGTK")), words), 0);
   const QString given = QString::fromLocal8Bit(qgetenv("DGTK_VIEWER_DATASET"));
   QMainWindow* const viewer = this->open(given.isEmpty() ? dataset : given);
@@ -360,4 +361,12 @@ void TestEditorViewer::pictures()
     QTest::keyClick(viewer, Qt::Key_Plus);
   }
   save("editor_viewer_zoom");
+  QTest::keyClick(viewer, Qt::Key_F);
+  this->choose(viewer, 1, "left", "amodal");
+  viewer->findChild<QWidget*>("pane.1")->findChild<QSpinBox*>("surface")->setValue(2);
+  for (const Qt::Key key : { Qt::Key_B, Qt::Key_V, Qt::Key_K })
+  {
+    QTest::keyClick(viewer, key);
+  }
+  save("editor_viewer_boxes");
 }

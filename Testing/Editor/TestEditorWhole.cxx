@@ -18,7 +18,6 @@
 #include <QProcess>
 #include <QPushButton>
 #include <QSpinBox>
-#include <QStandardPaths>
 #include <QTabWidget>
 #include <QTest>
 
@@ -111,7 +110,7 @@ void TestEditor::cancelledRunsResume()
   // A finished dataset is not replaced unasked.
   dialog->findChild<QCheckBox*>("resume")->setChecked(false);
   const QMap<QString, QByteArray> finished = contents(this->path("stopped"));
-  answer<QMessageBox>("replaceBox", [](QMessageBox& box) { box.button(QMessageBox::Cancel)->click(); });
+  answer<QMessageBox>("replaceDatasetBox", [](QMessageBox& box) { box.button(QMessageBox::Cancel)->click(); });
   QTest::mouseClick(start, Qt::LeftButton);
   QVERIFY(start->isEnabled());
   QVERIFY(contents(this->path("stopped")) == finished);
@@ -160,37 +159,6 @@ void TestEditor::aClosedViewerEndsNothing()
   QCOMPARE(QApplication::exec(), 1); // goes on until it is told to end
   QCOMPARE(viewers().size(), 0);
   QVERIFY(this->Window->isVisible());
-}
-
-void TestEditor::unsavedWorkSurvivesACrash()
-{
-  const QDir folder(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + "/unsaved");
-  const auto copies = [&folder] { return QDir(folder).entryList({ "*.json" }, QDir::Files); };
-  QVERIFY(this->Window->importFile(QString::fromStdString(dgtk::test::sourceFile("Data/Models/crate.ac"))));
-  QVERIFY(copies().isEmpty());
-  this->Window->findChild<QTimer*>("autosave")->start(1);
-  QTRY_COMPARE(copies().size(), 1);
-  const QString own = folder.filePath(copies().first());
-  {
-    dgtk::MainWindow beside;
-    beside.offerRecovery(); // of a window that lives: nothing is asked
-    QVERIFY(beside.document().scene().objects.empty());
-  }
-  QVERIFY2(QFile::exists(own), "another window's end leaves it");
-  const QString left = folder.filePath("left.json"); // nobody holds its lock
-  QVERIFY(QFile::copy(own, left));
-  this->Window = std::make_unique<dgtk::MainWindow>();
-  QVERIFY2(!QFile::exists(own), "the regular end removes the copy");
-  this->Window->show();
-  answer<QMessageBox>("recoverBox", [](QMessageBox& box) { box.button(QMessageBox::Open)->click(); });
-  this->Window->offerRecovery();
-  QCOMPARE(this->Window->document().scene().objects.size(), std::size_t(1));
-  QVERIFY(this->Window->document().modified());
-  QVERIFY(this->Window->document().path().empty());
-  QVERIFY(!QFile::exists(left));
-  QCOMPARE(copies().size(), 1); // the window's own: what was recovered may be lost again
-  QVERIFY(this->Window->saveFile(this->path("kept.json")));
-  QVERIFY2(QDir(folder).isEmpty(), "nothing is kept of work that is saved");
 }
 
 void TestEditor::parallelViewsCutNothing()
@@ -314,33 +282,15 @@ void TestEditor::lightsHaveAllTheirNumbers()
   QCOMPARE(light.attenuation, Eigen::Vector3d(1, 0.25, 0.125));
   QCOMPARE(light.coneAngle, 20.0);
   QCOMPARE(light.exponent, 3.0);
-}
-
-void TestEditor::everyMenuItemWorks()
-{
-  QVERIFY(this->Window->openFile(this->copyOfDemo()));
-  this->select("house");
-  QTimer closer;
-  connect(&closer, &QTimer::timeout, &closeWhatIsOpen);
-  closer.start(50);
-  int items = 0;
-  for (QMenu* menu : this->Window->findChildren<QMenu*>())
-  {
-    for (QAction* item : menu->actions())
-    {
-      if (!item->isSeparator() && item->menu() == nullptr && item->objectName() != "exit")
-      {
-        QVERIFY2(!item->text().isEmpty(), "a menu item without a text");
-        item->trigger();
-        QCoreApplication::processEvents();
-        ++items;
-      }
-    }
-  }
-  QVERIFY(items > 25);
-  QVERIFY(this->Window->isVisible());
-  this->action("exit")->trigger();
-  QVERIFY(!this->Window->isVisible());
+  // Its properties have the rows of its kind.
+  QVERIFY(this->field("exponent.0") != nullptr);
+  auto* kind = this->Window->findChild<QWidget*>("propertiesPanel")->findChild<QComboBox*>("kind");
+  QTest::keyClick(kind, Qt::Key_Home);
+  QTRY_COMPARE(this->Window->document().scene().lights.at(0).kind, dgtk::LightKind::Point);
+  QTest::qWait(settle);
+  QVERIFY(this->field("exponent.0") == nullptr);
+  QVERIFY(this->field("target.0") == nullptr);
+  QVERIFY(this->field("attenuation.1") != nullptr);
 }
 
 void TestEditor::pictures()

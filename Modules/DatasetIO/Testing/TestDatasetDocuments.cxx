@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkHash.h"
+#include "dgtkObjectDocuments.h"
 #include "dgtkTestImages.h"
 #include "dgtkTestSupport.h"
 
@@ -223,4 +224,64 @@ TEST(Documents, WritingDescribesTheFile)
   EXPECT_EQ(file.bytes, 5u);
   EXPECT_EQ(file.sha256, Sha256::ofFile(folder.path("a.txt")));
   EXPECT_EQ(file.frame, 4);
+}
+
+TEST(ObjectDocuments, ReadBackAsWritten)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.path("x.json");
+  BoxRecord box;
+  box.id = 3;
+  box.name = "mill";
+  box.objectClass = "building";
+  box.pixelsVisible = 5;
+  box.pixelsAmodal = 8;
+  box.visible = Eigen::Vector4d(1, 2, 3, 4);
+  box.projected = Eigen::Vector4d(0.5, -2.25, 1e9, 4);
+  box.rigid = true;
+  box.R << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  box.t = Eigen::Vector3d(0.1, -2, 3);
+  box.scale = Eigen::Vector3d(-1, 2, 3);
+  box.corners(7, 2) = 6;
+  BoxRecord sheared;
+  sheared.id = 4;
+  const std::string boxes = boxesText("left", 7, { box, sheared });
+  writeFile(path, boxes);
+  EXPECT_EQ(boxesText("left", 7, readBoxes(path)), boxes);
+  EXPECT_FALSE(readBoxes(path)[1].rigid);
+
+  const std::string masks = amodalText(4, 2, { { 1, { 0, 3, 5 } }, { 9, { 8 } } });
+  writeFile(path, masks);
+  const AmodalMasks amodal = readAmodal(path);
+  EXPECT_EQ(amodalText(amodal.width, amodal.height, amodal.masks), masks);
+
+  PointRecord point;
+  point.x = Eigen::Vector3d(1, 2.5, -3);
+  point.object = 2;
+  point.triangle = 7;
+  point.track = { { 1, 0.5, 1.5 }, { 0, 2.25, 3 } };
+  const std::string points = pointsText(4, { "left", "right" }, { point, PointRecord() });
+  writeFile(path, points);
+  const TrackedPoints read = readPoints(path);
+  EXPECT_EQ(pointsText(read.frame, read.cameras, read.points), points);
+}
+
+TEST(ObjectDocuments, RefusalsNameThePlace)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.path("x.json");
+  const auto amodal = [&](const std::string& counts)
+  {
+    writeFile(path, "{\"width\": 4, \"height\": 2, \"masks\": [{\"id\": 1, \"counts\": " + counts + "}]}");
+    return messageOf([&] { readAmodal(path); });
+  };
+  EXPECT_EQ(amodal("[0, 8]"), "");
+  EXPECT_EQ(amodal("[0, 9]"), path + ": masks[0]: a mask is longer than the image");
+  EXPECT_EQ(amodal("[3, 18446744073709551615]").find(path + ": masks[0].counts[1]: has the wrong type or value"), 0u);
+  EXPECT_EQ(amodal("[0, 7]"), path + ": masks[0]: a mask ends before the image");
+  EXPECT_THAT(amodal("[-1]"), HasSubstr("masks[0].counts[0]: has the wrong type or value"));
+  writeFile(path, "{\"frame\": 0, \"cameras\": [], \"points\": [{\"x\": [1, 2]}]}");
+  EXPECT_THAT(messageOf([&] { readPoints(path); }), HasSubstr("points[0].x: has the wrong type or value"));
+  writeFile(path, "{\"objects\": [{\"id\": 0}]}");
+  EXPECT_THAT(messageOf([&] { readBoxes(path); }), HasSubstr("objects[0].id: has the wrong type or value"));
 }

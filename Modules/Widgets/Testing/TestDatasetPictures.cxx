@@ -2,6 +2,8 @@
 #include "dgtkDatasetPictures.h"
 
 #include "dgtkError.h"
+#include "dgtkObjectDocuments.h"
+#include "dgtkPictureOverlay.h"
 #include "dgtkPictureValues.h"
 #include "dgtkTestDataset.h"
 
@@ -263,5 +265,55 @@ TEST(PictureValues, LayeredImagesAreSeenInThreeWays)
     colors.get(i % SmallDataset::width, i / SmallDataset::width, value);
     EXPECT_TRUE(i % 3 == 2 ? value[0] == 255 && value[1] == 51 : std::isnan(value[0]));
   }
+}
+
+/// A dataset whose cameras see one box each; returns the names of the files.
+std::vector<std::string> addBoxes(SmallDataset& files)
+{
+  std::vector<std::string> names;
+  const LayerSpec boxes{ "boxes", PixelType::UInt8, 1, "", "", "", "" };
+  for (const char* const camera : { "left", "right" })
+  {
+    files.add(camera, "color", 0, "", "png", color, small);
+    BoxRecord box;
+    box.id = 2;
+    box.visible = Eigen::Vector4d(1, 2, 3, 4);
+    names.push_back(files.place(camera, "boxes", 0, "", "json"));
+    writeDocument(files.path(), names.back(), boxesText(camera, 0, { box }));
+    files.list({ names.back(), 1, "", "boxes", camera, 0 }, boxes, "json");
+  }
+  files.finish();
+  return names;
+}
+
+TEST(PictureOverlay, ACameraOfTwoPanesIsReadOnce)
+{
+  SmallDataset files;
+  addBoxes(files);
+  const DatasetPictures dataset(files.path());
+  OverlayAsk ask;
+  ask.boxes = true;
+  for (const char* const camera : { "left", "right", "left" })
+  {
+    ask.cameras.insert(ask.cameras.end(), camera);
+  }
+  const FrameOverlays overlays = readOverlays(dataset, ask);
+  EXPECT_EQ(overlays.cameras.at("left").boxes.size(), 1u);
+  EXPECT_EQ(overlays.cameras.at("right").boxes.size(), 1u);
+}
+
+TEST(PictureOverlay, ADamagedFileLeavesTheOthers)
+{
+  SmallDataset files;
+  const std::vector<std::string> names = addBoxes(files);
+  std::ofstream(files.path(names[0])) << "{\"objects\": [";
+  const DatasetPictures dataset(files.path());
+  OverlayAsk ask;
+  ask.boxes = true;
+  ask.cameras = { "left", "right" };
+  const FrameOverlays overlays = readOverlays(dataset, ask);
+  EXPECT_EQ(overlays.cameras.at("left").boxes.size(), 0u);
+  EXPECT_EQ(overlays.cameras.at("right").boxes.size(), 1u);
+  EXPECT_THAT(overlays.problems, ElementsAre(HasSubstr(names[0])));
 }
 } // namespace

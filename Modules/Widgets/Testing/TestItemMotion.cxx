@@ -152,6 +152,102 @@ TEST(ItemMotion, OnlyWhatChangesGetsKeys)
   EXPECT_FALSE(object.scale.animated());
 }
 
+/// A model far from its origin turns and grows where it stands.
+TEST(ItemMotion, ThePivotStaysWhereItIs)
+{
+  const Eigen::Vector3d middle(40, -25, 60); // in the child's own axes
+  for (const bool uneven : { false, true })
+  {
+    SceneDescription scene = family();
+    if (uneven)
+    {
+      scene.objects[0].scale = Eigen::Vector3d(-2, 3, 0.5);
+    }
+    const SceneDescription before = scene;
+    ScenePlaces places = placesOf(scene);
+    const Eigen::Vector3d pivot = worldOf(scene, 1) * middle;
+    places.objects[1].center = pivot;
+    const ItemMotion items(scene, places, { second }, 0);
+    EXPECT_EQ(items.pivot(), pivot);
+    EXPECT_EQ(items.pivot(HandlePivot::Origin), places.objects[1].instance.world_from_object.translation);
+    items.apply(scene, rotation(items, Eigen::Vector3d(1, 2, -2) / 3, 50));
+    EXPECT_NE(scene.objects[1].position.value, before.objects[1].position.value);
+    EXPECT_LT((worldOf(scene, 1) * middle - pivot).norm(), 1e-10);
+
+    scene = before;
+    WorldMotion motion;
+    motion.mode = HandleMode::Scale;
+    motion.pivot = pivot;
+    motion.axes = items.axes(HandleMode::Scale);
+    motion.factors = Eigen::Vector3d(1.5, 1, 0.5);
+    items.apply(scene, motion);
+    EXPECT_EQ(scene.objects[1].scale.value, Eigen::Vector3d(1.5, 2, 1.5));
+    EXPECT_LT((worldOf(scene, 1) * middle - pivot).norm(), 1e-10);
+
+    scene = before;
+    motion.pivot = items.pivot(HandlePivot::Origin);
+    items.apply(scene, motion);
+    EXPECT_EQ(scene.objects[1].position.value, before.objects[1].position.value);
+  }
+}
+
+/// A turn about another point than the origin changes the position, at this frame alone.
+TEST(ItemMotion, PosesAtOtherKeysStay)
+{
+  SceneDescription scene = family();
+  ObjectDescription& object = scene.objects[0];
+  object.orientation.keys = { { 0, Quaternion() }, { 10, Quaternion() } };
+  ScenePlaces places = placesOf(scene, 10);
+  places.objects[0].center = object.position.value + Eigen::Vector3d(5, 0, 0);
+  const ItemMotion items(scene, places, { first }, 10);
+  items.apply(scene, rotation(items, Eigen::Vector3d::UnitZ(), 180));
+  EXPECT_EQ(object.position.at(0), Eigen::Vector3d(1, 2, 3));
+  EXPECT_LT((object.position.at(10) - Eigen::Vector3d(11, 2, 3)).norm(), tolerance);
+  EXPECT_FALSE(object.scale.animated());
+}
+
+/// What has keys for its position alone turns and grows at all frames: everywhere about its own middle.
+TEST(ItemMotion, AMovingObjectTurnsInPlaceAtAllFrames)
+{
+  const Eigen::Vector3d middle(4, -3, 2); // in its own axes
+  for (const HandleMode mode : { HandleMode::Rotate, HandleMode::Scale })
+  {
+    SceneDescription scene = family();
+    ObjectDescription& object = scene.objects[1];
+    object.position.keys = { { 0, Eigen::Vector3d(0, 0, 0) }, { 10, Eigen::Vector3d(10, 0, 0) },
+      { 20, Eigen::Vector3d(10, 5, 0), Interpolation::Smooth }, { 30, Eigen::Vector3d(0, 5, 5) } };
+    scene.objects[0].orientation.keys = { { 0, Quaternion() }, { 30, turn(Eigen::Vector3d::UnitX(), 80) } };
+    const SceneDescription before = scene;
+    const auto middleAt = [&](const SceneDescription& of, int frame)
+    { return placesOf(of, frame).objects[1].instance.world_from_object * middle; };
+    ScenePlaces places = placesOf(scene, 14);
+    places.objects[1].center = middleAt(scene, 14);
+    const ItemMotion items(scene, places, { second }, 14);
+    WorldMotion motion = rotation(items, Eigen::Vector3d(2, 1, 2) / 3, 70);
+    motion.mode = mode;
+    motion.axes = items.axes(mode);
+    motion.factors = Eigen::Vector3d(2, 1, 0.5);
+    const auto expectNoKeys = [&]
+    {
+      EXPECT_FALSE(object.orientation.animated() || object.scale.animated());
+      EXPECT_EQ(object.position.keys.size(), 4u);
+    };
+    items.apply(scene, motion);
+    items.apply(scene, motion); // as the drag goes on
+    expectNoKeys();
+    for (const int frame : { -5, 0, 7, 14, 20, 26, 40 })
+    {
+      EXPECT_LT((middleAt(scene, frame) - middleAt(before, frame)).norm(), 1e-10) << "frame " << frame;
+    }
+    EXPECT_GT((object.position.at(0) - before.objects[1].position.at(0)).norm(), 0.5);
+    motion.degrees = 0;
+    motion.factors = Eigen::Vector3d(1, 1, 1);
+    items.apply(scene, motion); // and back
+    expectNoKeys();
+    EXPECT_TRUE(object.position.keys == before.objects[1].position.keys);
+  }
+}
+
 TEST(ItemMotion, NoMotionChangesNothing)
 {
   for (const HandleMode mode : { HandleMode::Move, HandleMode::Rotate, HandleMode::Scale })

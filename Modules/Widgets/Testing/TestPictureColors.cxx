@@ -106,7 +106,7 @@ TEST(PictureColors, ClassesOfVisibilityAreWords)
   const OneLayer layer({ "flow_forward_class", PixelType::UInt8, 1, "class", "image", "0", "" }, "png",
     [](int x, int, int) { return x % 6; });
   EXPECT_EQ(layer.text(1, 0), "1 visible");
-  EXPECT_EQ(layer.text(3, 0), "3 hidden by its own object");
+  EXPECT_EQ(layer.text(3, 0), "3 occluded by its own object");
   EXPECT_EQ(layer.text(5, 0), "5 behind the camera");
 }
 
@@ -203,5 +203,29 @@ TEST(DatasetPoints, CloudsHoldEverySurfaceWithItsColour)
   EXPECT_LT((*worldPoint(dataset, { "left", 0, "depth" }, picture, 5, 2) - cloud.points[at]).norm(), tolerance);
   EXPECT_FALSE(worldPoint(dataset, { "left", 0, "depth" }, picture, 3, 2));
   EXPECT_FALSE(worldPoint(dataset, { "left", 7, "depth" }, picture, 5, 2)) << "no such camera";
+}
+
+TEST(DatasetPoints, PositionsNeedNoLens)
+{
+  SmallDataset files;
+  for (CameraRecord& camera : files.Cameras)
+  {
+    camera.model = "fisheye";
+  }
+  files.add("left", "depth", 0, "", "npy", depth, [](int, int, int) { return 2.0; });
+  files.add("left", "position", 0, "", "npy", { "position", PixelType::Float64, 3, "scene units", "world", "nan", "" },
+    [](int x, int y, int c) {
+      return x == 0 ? nan : c == 0 ? x : c == 1 ? y : 5.0;
+    });
+  files.finish();
+  const DatasetPictures dataset(files.path());
+  EXPECT_EQ(pointLayer(dataset, "left", 0), "position");
+  const PictureValues picture = readPicture(dataset.file({ "left", 0, "position" }), *dataset.layer("position"));
+  EXPECT_EQ(worldPoint(dataset, { "left", 0, "position" }, picture, 5, 2), Eigen::Vector3d(5, 2, 5));
+  EXPECT_FALSE(worldPoint(dataset, { "left", 0, "position" }, picture, 0, 2));
+  PointCloud cloud;
+  addPoints(cloud, dataset, "left", 0, "", 1000);
+  ASSERT_EQ(cloud.points.size(), std::size_t((SmallDataset::width - 1) * SmallDataset::height));
+  EXPECT_EQ(cloud.points[0], Eigen::Vector3d(1, 0, 5));
 }
 } // namespace

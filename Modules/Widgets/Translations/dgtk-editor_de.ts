@@ -2,6 +2,53 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="de_DE" sourcelanguage="en">
 <context>
+    <name>CameraText</name>
+    <message>
+        <source>Size: %1 x %2 pixels</source>
+        <translation>Größe: %1 x %2 Pixel</translation>
+    </message>
+    <message>
+        <source>Lens: %1</source>
+        <translation>Linse: %1</translation>
+    </message>
+    <message>
+        <source>Distortion: %1</source>
+        <translation>Verzeichnung: %1</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>keine</translation>
+    </message>
+    <message>
+        <source>Near, far: %1, %2</source>
+        <translation>Nah, fern: %1, %2</translation>
+    </message>
+    <message>
+        <source>K (pixels from camera axes)</source>
+        <translation>K (Pixel aus Kameraachsen)</translation>
+    </message>
+    <message>
+        <source>R (x_camera = R x_world + t)</source>
+        <translation>R (x_Kamera = R x_Welt + t)</translation>
+    </message>
+    <message>
+        <source>Layer calibration (axes of OpenGL, y up)</source>
+        <translation>Ebene calibration (Achsen von OpenGL, y aufwärts)</translation>
+    </message>
+    <message>
+        <source>%1, frame %2</source>
+        <translation>%1, Bild %2</translation>
+    </message>
+    <message>
+        <source>cameras.json does not have this camera at this frame.</source>
+        <translation>cameras.json hat diese Kamera zu diesem Bild nicht.</translation>
+    </message>
+    <message>
+        <source>Viewport</source>
+        <translation>Bildbereich</translation>
+    </message>
+</context>
+<context>
     <name>Edit</name>
     <message>
         <source>Add camera</source>
@@ -115,13 +162,91 @@
         <source>Set image size</source>
         <translation>Bildgröße setzen</translation>
     </message>
+    <message>
+        <source>Change the lens</source>
+        <translation>Objektiv ändern</translation>
+    </message>
+</context>
+<context>
+    <name>Message</name>
+    <message>
+        <source>the first frame has none before it</source>
+        <translation>das erste Bild hat keins vor sich</translation>
+    </message>
+    <message>
+        <source>the last frame has none after it</source>
+        <translation>das letzte Bild hat keins nach sich</translation>
+    </message>
+    <message>
+        <source>the pixel is outside the image</source>
+        <translation>das Pixel liegt außerhalb des Bildes</translation>
+    </message>
+    <message>
+        <source>the point is outside the image</source>
+        <translation>der Punkt liegt außerhalb des Bildes</translation>
+    </message>
+    <message>
+        <source>number of cameras: expected 1 to 10000</source>
+        <translation>Zahl der Kameras: 1 bis 10000 erwartet</translation>
+    </message>
+    <message>
+        <source>columns and rows: expected 1 to 10000 cameras in all</source>
+        <translation>Spalten und Zeilen: zusammen 1 bis 10000 Kameras erwartet</translation>
+    </message>
+    <message>
+        <source>spacing: expected a number above 0</source>
+        <translation>Abstand: eine Zahl über 0 erwartet</translation>
+    </message>
+    <message>
+        <source>path: expected at least two different points</source>
+        <translation>Weg: mindestens zwei verschiedene Punkte erwartet</translation>
+    </message>
+    <message>
+        <source>eye, look-at or up of a camera is not finite</source>
+        <translation>Auge, Blickpunkt oder Oben einer Kamera ist nicht endlich</translation>
+    </message>
+    <message>
+        <source>eye and look-at of a camera coincide</source>
+        <translation>Auge und Blickpunkt einer Kamera fallen zusammen</translation>
+    </message>
+    <message>
+        <source>up vector of a camera is zero or parallel to its view</source>
+        <translation>Oben einer Kamera ist null oder parallel zu ihrem Blick</translation>
+    </message>
+</context>
+<context>
+    <name>PixelText</name>
+    <message>
+        <source>background</source>
+        <translation>Hintergrund</translation>
+    </message>
+    <message>
+        <source>nothing</source>
+        <translation>nichts</translation>
+    </message>
+    <message>
+        <source>1 surface</source>
+        <translation>1 Fläche</translation>
+    </message>
+    <message>
+        <source>%1 surfaces</source>
+        <translation>%1 Flächen</translation>
+    </message>
+    <message>
+        <source>coverage %1 / 255</source>
+        <translation>Bedeckung %1 / 255</translation>
+    </message>
+    <message>
+        <source>%1 long</source>
+        <translation>%1 lang</translation>
+    </message>
+    <message>
+        <source>outside</source>
+        <translation>außerhalb</translation>
+    </message>
 </context>
 <context>
     <name>QObject</name>
-    <message>
-        <source>Add</source>
-        <translation>Hinzufügen</translation>
-    </message>
     <message>
         <source>DGTk</source>
         <translation>DGTk</translation>
@@ -129,6 +254,10 @@
     <message>
         <source>%1 is there already. Replace it?</source>
         <translation>%1 ist schon da. Ersetzen?</translation>
+    </message>
+    <message>
+        <source>&amp;Add</source>
+        <translation>&amp;Hinzufügen</translation>
     </message>
 </context>
 <context>
@@ -175,6 +304,64 @@
     </message>
 </context>
 <context>
+    <name>Unit</name>
+    <message>
+        <source>pixels</source>
+        <translation>Pixel</translation>
+    </message>
+    <message>
+        <source>scene units</source>
+        <translation>Szeneneinheiten</translation>
+    </message>
+    <message>
+        <source>1 / scene units</source>
+        <translation>1 / Szeneneinheiten</translation>
+    </message>
+    <message>
+        <source>object units</source>
+        <translation>Objekteinheiten</translation>
+    </message>
+    <message>
+        <source>linear sRGB</source>
+        <translation>lineares sRGB</translation>
+    </message>
+    <message>
+        <source>camera response</source>
+        <translation>Kennlinie der Kamera</translation>
+    </message>
+</context>
+<context>
+    <name>Visibility</name>
+    <message>
+        <source>no surface</source>
+        <translation>keine Fläche</translation>
+    </message>
+    <message>
+        <source>visible</source>
+        <translation>sichtbar</translation>
+    </message>
+    <message>
+        <source>occluded by another object</source>
+        <translation>von einem anderen Objekt verdeckt</translation>
+    </message>
+    <message>
+        <source>occluded by its own object</source>
+        <translation>vom eigenen Objekt verdeckt</translation>
+    </message>
+    <message>
+        <source>outside the image</source>
+        <translation>außerhalb des Bildes</translation>
+    </message>
+    <message>
+        <source>behind the camera</source>
+        <translation>hinter der Kamera</translation>
+    </message>
+    <message>
+        <source>unknown class</source>
+        <translation>unbekannte Klasse</translation>
+    </message>
+</context>
+<context>
     <name>dgtk::BackgroundWork</name>
     <message>
         <source>&amp;Cancel</source>
@@ -204,42 +391,6 @@
         <translation>Stereopaar</translation>
     </message>
     <message>
-        <source>Kind</source>
-        <translation>Art</translation>
-    </message>
-    <message>
-        <source>Eye</source>
-        <translation>Auge</translation>
-    </message>
-    <message>
-        <source>Look at</source>
-        <translation>Blickpunkt</translation>
-    </message>
-    <message>
-        <source>Field of view, ° (vertical)</source>
-        <translation>Blickwinkel, ° (senkrecht)</translation>
-    </message>
-    <message>
-        <source>Cameras</source>
-        <translation>Kameras</translation>
-    </message>
-    <message>
-        <source>Columns</source>
-        <translation>Spalten</translation>
-    </message>
-    <message>
-        <source>Rows</source>
-        <translation>Zeilen</translation>
-    </message>
-    <message>
-        <source>Spacing, baseline</source>
-        <translation>Abstand, Basis</translation>
-    </message>
-    <message>
-        <source>Add</source>
-        <translation>Hinzufügen</translation>
-    </message>
-    <message>
         <source>Along a path</source>
         <translation>Entlang eines Wegs</translation>
     </message>
@@ -252,8 +403,52 @@
         <translation>Je Zeile x, y und z eines Punktes; danach, wenn die Kamera dort anderswohin blickt, die des Blickpunkts. Eine ausgewählte Kamera mit Schlüsselbildern füllt das Feld.</translation>
     </message>
     <message>
-        <source>Path</source>
-        <translation>Weg</translation>
+        <source>&amp;Kind</source>
+        <translation>&amp;Art</translation>
+    </message>
+    <message>
+        <source>&amp;Eye</source>
+        <translation>A&amp;uge</translation>
+    </message>
+    <message>
+        <source>&amp;Look at</source>
+        <translation>&amp;Blickpunkt</translation>
+    </message>
+    <message>
+        <source>&amp;Field of view, ° (vertical)</source>
+        <translation>B&amp;lickwinkel, ° (senkrecht)</translation>
+    </message>
+    <message>
+        <source>&amp;Cameras</source>
+        <translation>&amp;Kameras</translation>
+    </message>
+    <message>
+        <source>C&amp;olumns</source>
+        <translation>&amp;Spalten</translation>
+    </message>
+    <message>
+        <source>&amp;Rows</source>
+        <translation>&amp;Zeilen</translation>
+    </message>
+    <message>
+        <source>&amp;Spacing, baseline</source>
+        <translation>Abs&amp;tand, Basis</translation>
+    </message>
+    <message>
+        <source>&amp;Path</source>
+        <translation>&amp;Weg</translation>
+    </message>
+    <message>
+        <source>&amp;Add</source>
+        <translation>&amp;Hinzufügen</translation>
+    </message>
+    <message>
+        <source>path: line %1: &quot;%2&quot; is no number</source>
+        <translation>Weg: Zeile %1: „%2“ ist keine Zahl</translation>
+    </message>
+    <message>
+        <source>path: line %1: expected 3 or 6 numbers, found %2</source>
+        <translation>Weg: Zeile %1: 3 oder 6 Zahlen erwartet, %2 gefunden</translation>
     </message>
 </context>
 <context>
@@ -261,38 +456,6 @@
     <message>
         <source>Add camera</source>
         <translation>Kamera hinzufügen</translation>
-    </message>
-    <message>
-        <source>Name</source>
-        <translation>Name</translation>
-    </message>
-    <message>
-        <source>Eye</source>
-        <translation>Auge</translation>
-    </message>
-    <message>
-        <source>Look at</source>
-        <translation>Blickpunkt</translation>
-    </message>
-    <message>
-        <source>Up</source>
-        <translation>Oben</translation>
-    </message>
-    <message>
-        <source>Field of view, ° (vertical)</source>
-        <translation>Blickwinkel, ° (senkrecht)</translation>
-    </message>
-    <message>
-        <source>Aspect (0: square pixels)</source>
-        <translation>Seitenverhältnis (0: quadratische Pixel)</translation>
-    </message>
-    <message>
-        <source>Near, far</source>
-        <translation>Nah, fern</translation>
-    </message>
-    <message>
-        <source>Preview</source>
-        <translation>Vorschau</translation>
     </message>
     <message>
         <source>Shows the perspective view from there</source>
@@ -307,16 +470,48 @@
         <translation>durch seine Matrix K</translation>
     </message>
     <message>
-        <source>Lens</source>
-        <translation>Objektiv</translation>
+        <source>&amp;Name</source>
+        <translation>&amp;Name</translation>
     </message>
     <message>
-        <source>fx, fy, cx, cy, pixels</source>
-        <translation>fx, fy, cx, cy, Pixel</translation>
+        <source>&amp;Eye</source>
+        <translation>&amp;Auge</translation>
     </message>
     <message>
-        <source>Size, pixels (0: as asked for)</source>
-        <translation>Größe, Pixel (0: wie verlangt)</translation>
+        <source>&amp;Look at</source>
+        <translation>&amp;Blickpunkt</translation>
+    </message>
+    <message>
+        <source>&amp;Up</source>
+        <translation>&amp;Oben</translation>
+    </message>
+    <message>
+        <source>Len&amp;s</source>
+        <translation>Ob&amp;jektiv</translation>
+    </message>
+    <message>
+        <source>&amp;Field of view, ° (vertical)</source>
+        <translation>B&amp;lickwinkel, ° (senkrecht)</translation>
+    </message>
+    <message>
+        <source>Aspec&amp;t (0: square pixels)</source>
+        <translation>&amp;Seitenverhältnis (0: quadratische Pixel)</translation>
+    </message>
+    <message>
+        <source>f&amp;x, fy, cx, cy, pixels</source>
+        <translation>&amp;fx, fy, cx, cy, Pixel</translation>
+    </message>
+    <message>
+        <source>Si&amp;ze, pixels (0: as asked for)</source>
+        <translation>&amp;Größe, Pixel (0: wie verlangt)</translation>
+    </message>
+    <message>
+        <source>Near, fa&amp;r</source>
+        <translation>Na&amp;h, fern</translation>
+    </message>
+    <message>
+        <source>&amp;Preview</source>
+        <translation>&amp;Vorschau</translation>
     </message>
 </context>
 <context>
@@ -553,6 +748,22 @@
         <source>Cameras: %1, frames: %2, layers: %3</source>
         <translation>Kameras: %1, Bilder: %2, Ebenen: %3</translation>
     </message>
+    <message>
+        <source>&amp;Boxes of objects</source>
+        <translation>Käs&amp;ten der Objekte</translation>
+    </message>
+    <message>
+        <source>&amp;Sparse points</source>
+        <translation>Einzelne &amp;Punkte</translation>
+    </message>
+    <message>
+        <source>C&amp;alibration of the camera</source>
+        <translation>Kalibrierun&amp;g der Kamera</translation>
+    </message>
+    <message>
+        <source>Calibration</source>
+        <translation>Kalibrierung</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::EditorState</name>
@@ -653,10 +864,6 @@
         <translation>Licht hinzufügen</translation>
     </message>
     <message>
-        <source>Name</source>
-        <translation>Name</translation>
-    </message>
-    <message>
         <source>point</source>
         <translation>Punktlicht</translation>
     </message>
@@ -673,48 +880,52 @@
         <translation>Strahler</translation>
     </message>
     <message>
-        <source>Kind</source>
-        <translation>Art</translation>
+        <source>&amp;Name</source>
+        <translation>&amp;Name</translation>
     </message>
     <message>
-        <source>Position</source>
-        <translation>Position</translation>
+        <source>&amp;Kind</source>
+        <translation>&amp;Art</translation>
     </message>
     <message>
-        <source>Target (directional, spot)</source>
-        <translation>Ziel (gerichtet, Strahler)</translation>
+        <source>&amp;Position</source>
+        <translation>&amp;Position</translation>
     </message>
     <message>
-        <source>Diffuse</source>
-        <translation>Diffus</translation>
+        <source>&amp;Target (directional, spot)</source>
+        <translation>&amp;Ziel (gerichtet, Strahler)</translation>
     </message>
     <message>
-        <source>Specular</source>
-        <translation>Glanz</translation>
+        <source>&amp;Diffuse</source>
+        <translation>&amp;Diffus</translation>
     </message>
     <message>
-        <source>Ambient</source>
-        <translation>Umgebung</translation>
+        <source>&amp;Specular</source>
+        <translation>&amp;Glanz</translation>
     </message>
     <message>
-        <source>Enabled</source>
-        <translation>Eingeschaltet</translation>
+        <source>A&amp;mbient</source>
+        <translation>&amp;Umgebung</translation>
     </message>
     <message>
-        <source>Intensity</source>
-        <translation>Stärke</translation>
+        <source>&amp;Intensity</source>
+        <translation>&amp;Stärke</translation>
     </message>
     <message>
-        <source>Attenuation (constant, linear, quadratic)</source>
-        <translation>Abschwächung (konstant, linear, quadratisch)</translation>
+        <source>Atten&amp;uation (constant, linear, quadratic)</source>
+        <translation>Abschwächung (konstant, &amp;linear, quadratisch)</translation>
     </message>
     <message>
-        <source>Cone of a spot, °</source>
-        <translation>Kegel eines Strahlers, °</translation>
+        <source>&amp;Cone of a spot, °</source>
+        <translation>&amp;Kegel eines Strahlers, °</translation>
     </message>
     <message>
-        <source>Exponent of a spot</source>
-        <translation>Exponent eines Strahlers</translation>
+        <source>E&amp;xponent of a spot</source>
+        <translation>&amp;Exponent eines Strahlers</translation>
+    </message>
+    <message>
+        <source>&amp;Enabled</source>
+        <translation>E&amp;ingeschaltet</translation>
     </message>
 </context>
 <context>
@@ -956,10 +1167,6 @@
         <translation>DGTk</translation>
     </message>
     <message>
-        <source>The editor ended without saving a scene, at %1.</source>
-        <translation>Der Editor endete um %1, ohne eine Szene zu speichern.</translation>
-    </message>
-    <message>
         <source>Open what was kept of it, or discard it for good. Cancel asks again next time.</source>
         <translation>Öffnen, was davon aufgehoben wurde, oder endgültig verwerfen. Abbrechen fragt beim nächsten Mal wieder.</translation>
     </message>
@@ -1070,6 +1277,34 @@
     <message>
         <source>%1 more warnings: dgtk info shows all of them</source>
         <translation>%1 weitere Warnungen: dgtk info zeigt alle</translation>
+    </message>
+    <message>
+        <source>&amp;Handles at the origin</source>
+        <translation>&amp;Griffe am Ursprung</translation>
+    </message>
+    <message>
+        <source>Rotates and scales about the object&apos;s origin; otherwise about the middle of its box</source>
+        <translation>Dreht und skaliert um den Ursprung des Objekts; sonst um die Mitte seines Quaders</translation>
+    </message>
+    <message>
+        <source>The editor ended without saving a scene that had no name yet, at %1.</source>
+        <translation>Der Editor endete, ohne eine Szene zu speichern, die noch keinen Namen hatte, am %1.</translation>
+    </message>
+    <message>
+        <source>The editor ended without saving %1, at %2.</source>
+        <translation>Der Editor endete, ohne %1 zu speichern, am %2.</translation>
+    </message>
+    <message>
+        <source>There is other unsaved work, too (%1): the next start asks about it.</source>
+        <translation>Es gibt noch andere nicht gespeicherte Arbeit (%1): der nächste Start fragt danach.</translation>
+    </message>
+    <message>
+        <source>Recovered: %1</source>
+        <translation>Wiederhergestellt: %1</translation>
+    </message>
+    <message>
+        <source>a scene without a name</source>
+        <translation>eine Szene ohne Namen</translation>
     </message>
 </context>
 <context>
@@ -1226,6 +1461,18 @@
         <source>The list of correspondences is not saved.</source>
         <translation>Die Liste der Korrespondenzen ist nicht gespeichert.</translation>
     </message>
+    <message>
+        <source>%1 (%2)</source>
+        <translation>%1 (%2)</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>Rückgängig</translation>
+    </message>
+    <message>
+        <source>Redo</source>
+        <translation>Wiederholen</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::MatchPane</name>
@@ -1302,17 +1549,13 @@
         <source>no. </source>
         <translation>Nr. </translation>
     </message>
+    <message>
+        <source>Which object, by its id</source>
+        <translation>Welches Objekt, nach seiner Nummer</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::PropertiesPanel</name>
-    <message>
-        <source>Nothing is selected.
-
-Click an object, light or camera in a view or in the scene tree to see its values here.</source>
-        <translation>Nichts ist ausgewählt.
-
-Ein Objekt, ein Licht oder eine Kamera in einer Ansicht oder im Szenenbaum anklicken: seine Werte erscheinen hier.</translation>
-    </message>
     <message numerus="yes">
         <source>The first of %n selected:</source>
         <translation>
@@ -1351,10 +1594,6 @@ Ein Objekt, ein Licht oder eine Kamera in einer Ansicht oder im Szenenbaum ankli
     <message>
         <source>Position</source>
         <translation>Position</translation>
-    </message>
-    <message>
-        <source>Position, %1</source>
-        <translation>Position, %1</translation>
     </message>
     <message>
         <source>Scale</source>
@@ -1403,10 +1642,6 @@ Ein Objekt, ein Licht oder eine Kamera in einer Ansicht oder im Szenenbaum ankli
     <message>
         <source>Ambient</source>
         <translation>Umgebung</translation>
-    </message>
-    <message>
-        <source>Attenuation</source>
-        <translation>Abschwächung</translation>
     </message>
     <message>
         <source>Intensity</source>
@@ -1484,6 +1719,133 @@ Ein Objekt, ein Licht oder eine Kamera in einer Ansicht oder im Szenenbaum ankli
         <source>Repeat</source>
         <translation>Wiederholen</translation>
     </message>
+    <message>
+        <source>Nothing is selected: these are the values of the scene. Click an object, light or camera in a view or in the scene tree to see its own.</source>
+        <translation>Nichts ist ausgewählt: dies sind die Werte der Szene. Ein Klick auf ein Objekt, Licht oder eine Kamera in einer Ansicht oder im Baum zeigt deren Werte.</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>by its field of view</source>
+        <translation>durch seinen Bildwinkel</translation>
+    </message>
+    <message>
+        <source>fx, fy, pixels</source>
+        <translation>fx, fy, Pixel</translation>
+    </message>
+    <message>
+        <source>cx, cy, pixels</source>
+        <translation>cx, cy, Pixel</translation>
+    </message>
+    <message>
+        <source>Skew, pixels</source>
+        <translation>Scherung, Pixel</translation>
+    </message>
+    <message>
+        <source>Units</source>
+        <translation>Einheit</translation>
+    </message>
+    <message>
+        <source>Up axis</source>
+        <translation>Achse nach oben</translation>
+    </message>
+    <message>
+        <source>Background</source>
+        <translation>Hintergrund</translation>
+    </message>
+    <message>
+        <source>Fog</source>
+        <translation>Nebel</translation>
+    </message>
+    <message>
+        <source>Fog&apos;s density</source>
+        <translation>Dichte des Nebels</translation>
+    </message>
+    <message>
+        <source>Fog begins at</source>
+        <translation>Nebel ab</translation>
+    </message>
+    <message>
+        <source>The field of view has key frames, which a matrix cannot have: remove them first.</source>
+        <translation>Der Bildwinkel hat Schlüsselbilder, die eine Matrix nicht haben kann: zuerst entfernen.</translation>
+    </message>
+    <message>
+        <source>Attenuation (constant, linear, quadratic)</source>
+        <translation>Abschwächung (konstant, linear, quadratisch)</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::RenderCameras</name>
+    <message>
+        <source>&amp;Cameras to render:</source>
+        <translation>&amp;Zu berechnende Kameras:</translation>
+    </message>
+    <message>
+        <source>&amp;Aspect (0: square pixels)</source>
+        <translation>&amp;Seitenverhältnis (0: quadratische Pixel)</translation>
+    </message>
+    <message>
+        <source>&amp;Near plane</source>
+        <translation>&amp;Nahe Ebene</translation>
+    </message>
+    <message>
+        <source>Fa&amp;r plane</source>
+        <translation>&amp;Ferne Ebene</translation>
+    </message>
+    <message>
+        <source>&amp;Every camera in its own size: that of the chosen one is</source>
+        <translation>&amp;Jede Kamera in ihrer eigenen Größe; die der gewählten ist</translation>
+    </message>
+    <message>
+        <source>Image &amp;width</source>
+        <translation>&amp;Bildbreite</translation>
+    </message>
+    <message>
+        <source>Image &amp;height</source>
+        <translation>B&amp;ildhöhe</translation>
+    </message>
+    <message>
+        <source>&amp;View height</source>
+        <translation>Bildhöhe in &amp;der Welt</translation>
+    </message>
+    <message>
+        <source>Field of &amp;view, ° (vertical)</source>
+        <translation>B&amp;lickwinkel, ° (senkrecht)</translation>
+    </message>
+    <message>
+        <source>The scene has no camera. Add one with Tools &gt; Add camera.</source>
+        <translation>Die Szene hat keine Kamera. Werkzeuge &gt; Kamera hinzufügen macht eine.</translation>
+    </message>
+    <message>
+        <source>%1 has no pose at this frame: its eye is at its look-at point.</source>
+        <translation>%1 hat in diesem Bild keine Lage: das Auge ist am Blickpunkt.</translation>
+    </message>
+    <message>
+        <source>units</source>
+        <translation>Einheiten</translation>
+    </message>
+    <message>
+        <source>at every depth</source>
+        <translation>in jeder Tiefe</translation>
+    </message>
+    <message>
+        <source>at the far plane</source>
+        <translation>an der fernen Ebene</translation>
+    </message>
+    <message>
+        <source>between near and far plane (the thesis&apos;s number)</source>
+        <translation>zwischen naher und ferner Ebene (Zahl der Thesis)</translation>
+    </message>
+    <message>
+        <source>%1: %2 x %3 pixels. A pixel is, in x and y:</source>
+        <translation>%1: %2 x %3 Pixel. Ein Pixel ist in x und y:</translation>
+    </message>
+    <message>
+        <source>at the look-at point, %1 %2 away</source>
+        <translation>am Blickpunkt, %1 %2 entfernt</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::RenderDialog</name>
@@ -1516,20 +1878,6 @@ Ein Objekt, ein Licht oder eine Kamera in einer Ansicht oder im Szenenbaum ankli
         <translation>Die Szene hat keine Kamera. Werkzeuge &gt; Kamera hinzufügen macht eine.</translation>
     </message>
     <message>
-        <source>%1 has no pose at this frame: its eye is at its look-at point.</source>
-        <translation>%1 hat in diesem Bild keine Lage: das Auge ist am Blickpunkt.</translation>
-    </message>
-    <message>
-        <source>units</source>
-        <translation>Einheiten</translation>
-    </message>
-    <message>
-        <source>%1: %2 x %3 pixels
-A pixel is %5 %4 in x, %6 in y; at the far plane %7 and %8</source>
-        <translation>%1: %2 x %3 Pixel
-Ein Pixel ist %5 %4 in x, %6 in y; an der fernen Ebene %7 und %8</translation>
-    </message>
-    <message>
         <source>Folder of the dataset</source>
         <translation>Ordner des Datensatzes</translation>
     </message>
@@ -1550,10 +1898,6 @@ Ein Pixel ist %5 %4 in x, %6 in y; an der fernen Ebene %7 und %8</translation>
         <translation>Wird berechnet ...</translation>
     </message>
     <message>
-        <source>%1 of %2 pictures</source>
-        <translation>%1 von %2 Bildern</translation>
-    </message>
-    <message>
         <source>%1, %2 left</source>
         <translation>%1, noch %2</translation>
     </message>
@@ -1562,64 +1906,8 @@ Ein Pixel ist %5 %4 in x, %6 in y; an der fernen Ebene %7 und %8</translation>
         <translation>Angehalten. Start macht dort weiter.</translation>
     </message>
     <message>
-        <source>Cameras to render:</source>
-        <translation>Zu berechnende Kameras:</translation>
-    </message>
-    <message>
-        <source>Width</source>
-        <translation>Breite</translation>
-    </message>
-    <message>
-        <source>Height</source>
-        <translation>Höhe</translation>
-    </message>
-    <message>
         <source>Layers</source>
         <translation>Ebenen</translation>
-    </message>
-    <message>
-        <source>Tile width</source>
-        <translation>Kachelbreite</translation>
-    </message>
-    <message>
-        <source>Tile height</source>
-        <translation>Kachelhöhe</translation>
-    </message>
-    <message>
-        <source>Samples a side</source>
-        <translation>Proben je Seite</translation>
-    </message>
-    <message>
-        <source>First frame</source>
-        <translation>Erstes Bild</translation>
-    </message>
-    <message>
-        <source>Last frame</source>
-        <translation>Letztes Bild</translation>
-    </message>
-    <message>
-        <source>Every</source>
-        <translation>Jedes wievielte</translation>
-    </message>
-    <message>
-        <source>Folder</source>
-        <translation>Ordner</translation>
-    </message>
-    <message>
-        <source>Browse ...</source>
-        <translation>Auswählen ...</translation>
-    </message>
-    <message>
-        <source>Go on with an interrupted run of the same request</source>
-        <translation>Einen unterbrochenen Lauf desselben Auftrags fortsetzen</translation>
-    </message>
-    <message>
-        <source>Open the folder</source>
-        <translation>Ordner öffnen</translation>
-    </message>
-    <message>
-        <source>Start</source>
-        <translation>Start</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -1628,14 +1916,6 @@ Ein Pixel ist %5 %4 in x, %6 in y; an der fernen Ebene %7 und %8</translation>
     <message>
         <source>Close</source>
         <translation>Schließen</translation>
-    </message>
-    <message>
-        <source>Look at the result</source>
-        <translation>Ergebnis ansehen</translation>
-    </message>
-    <message>
-        <source>Every camera in its own size: that of the chosen one is</source>
-        <translation>Jede Kamera in ihrer eigenen Größe; die der gewählten ist</translation>
     </message>
     <message>
         <source>%1 holds a finished dataset.</source>
@@ -1648,6 +1928,98 @@ Ein Pixel ist %5 %4 in x, %6 in y; an der fernen Ebene %7 und %8</translation>
     <message>
         <source>Replace</source>
         <translation>Ersetzen</translation>
+    </message>
+    <message>
+        <source>Pictures: %1 of %2</source>
+        <translation>Bilder: %1 von %2</translation>
+    </message>
+    <message>
+        <source>&amp;All</source>
+        <translation>&amp;Alle</translation>
+    </message>
+    <message>
+        <source>&amp;None</source>
+        <translation>&amp;Keine</translation>
+    </message>
+    <message>
+        <source>Images are made in tiles of this size, pixels: larger ones need more memory</source>
+        <translation>Bilder entstehen in Kacheln dieser Größe, Pixel: größere brauchen mehr Speicher</translation>
+    </message>
+    <message>
+        <source>Tile &amp;width</source>
+        <translation>Ka&amp;chelbreite</translation>
+    </message>
+    <message>
+        <source>Tile hei&amp;ght</source>
+        <translation>Kac&amp;helhöhe</translation>
+    </message>
+    <message>
+        <source>Samples a si&amp;de</source>
+        <translation>&amp;Proben je Seite</translation>
+    </message>
+    <message>
+        <source>Rays in a row and in a column of each pixel of colour and alpha: 4 are 16 rays a pixel</source>
+        <translation>Strahlen in einer Zeile und einer Spalte jedes Pixels von Farbe und Alpha: 4 sind 16 Strahlen je Pixel</translation>
+    </message>
+    <message>
+        <source>&amp;First frame</source>
+        <translation>&amp;Erstes Bild</translation>
+    </message>
+    <message>
+        <source>Until you choose another, the first of the scene</source>
+        <translation>Solange kein anderes gewählt ist, das erste der Szene</translation>
+    </message>
+    <message>
+        <source>&amp;Last frame</source>
+        <translation>Le&amp;tztes Bild</translation>
+    </message>
+    <message>
+        <source>Until you choose another, the last of the scene</source>
+        <translation>Solange kein anderes gewählt ist, das letzte der Szene</translation>
+    </message>
+    <message>
+        <source>E&amp;very</source>
+        <translation>Jedes &amp;wievielte</translation>
+    </message>
+    <message>
+        <source>2 renders every second frame</source>
+        <translation>2 rendert jedes zweite Bild</translation>
+    </message>
+    <message>
+        <source>F&amp;older</source>
+        <translation>&amp;Ordner</translation>
+    </message>
+    <message>
+        <source>&amp;Browse ...</source>
+        <translation>A&amp;uswählen ...</translation>
+    </message>
+    <message>
+        <source>Go on with an &amp;interrupted run of the same request</source>
+        <translation>Einen unte&amp;rbrochenen Lauf desselben Auftrags fortsetzen</translation>
+    </message>
+    <message>
+        <source>Loo&amp;k at the result</source>
+        <translation>Er&amp;gebnis ansehen</translation>
+    </message>
+    <message>
+        <source>O&amp;pen the folder</source>
+        <translation>I&amp;m Dateimanager öffnen</translation>
+    </message>
+    <message>
+        <source>&amp;Start</source>
+        <translation>&amp;Start</translation>
+    </message>
+    <message>
+        <source>Name the objects of the layer matting, or uncheck it.</source>
+        <translation>Nenne die Objekte der Ebene matting, oder wähle sie ab.</translation>
+    </message>
+    <message>
+        <source>objects, separated by commas</source>
+        <translation>Objekte, durch Kommas getrennt</translation>
+    </message>
+    <message>
+        <source>&amp;Matting of</source>
+        <translation>Matting &amp;von</translation>
     </message>
 </context>
 <context>
@@ -1762,80 +2134,16 @@ Ein Pixel ist %5 %4 in x, %6 in y; an der fernen Ebene %7 und %8</translation>
         <translation>Nach dem letzten Bild von vorn beginnen</translation>
     </message>
     <message>
-        <source>Make key frame</source>
-        <translation>Schlüsselbild setzen</translation>
+        <source>Make &amp;key frame</source>
+        <translation>&amp;Schlüsselbild setzen</translation>
     </message>
     <message>
-        <source>Remove key frame</source>
-        <translation>Schlüsselbild entfernen</translation>
+        <source>&amp;Remove key frame</source>
+        <translation>S&amp;chlüsselbild entfernen</translation>
     </message>
 </context>
 <context>
     <name>dgtk::TimeLineCells</name>
-    <message>
-        <source>Make key frame at %1</source>
-        <translation>Schlüsselbild bei %1 setzen</translation>
-    </message>
-    <message>
-        <source>Remove key frame at %1</source>
-        <translation>Schlüsselbild bei %1 entfernen</translation>
-    </message>
-    <message>
-        <source>Copy key frame</source>
-        <translation>Schlüsselbild kopieren</translation>
-    </message>
-    <message>
-        <source>Paste key frame %1 here</source>
-        <translation>Schlüsselbild %1 hier einfügen</translation>
-    </message>
-    <message>
-        <source>Move key frame %1 here</source>
-        <translation>Schlüsselbild %1 hierher verschieben</translation>
-    </message>
-    <message>
-        <source>Remove its keys at %1</source>
-        <translation>Seine Schlüssel bei %1 entfernen</translation>
-    </message>
-    <message>
-        <source>From its key at %1 to the next</source>
-        <translation>Von seinem Schlüssel bei %1 zum nächsten</translation>
-    </message>
-    <message>
-        <source>As its other keys</source>
-        <translation>Wie seine anderen Schlüssel</translation>
-    </message>
-    <message>
-        <source>Linear</source>
-        <translation>Linear</translation>
-    </message>
-    <message>
-        <source>Steps</source>
-        <translation>Stufen</translation>
-    </message>
-    <message>
-        <source>Smooth</source>
-        <translation>Glatt</translation>
-    </message>
-    <message>
-        <source>Between all its keys</source>
-        <translation>Zwischen allen seinen Schlüsseln</translation>
-    </message>
-    <message>
-        <source>Sequence</source>
-        <translation>Sequenz</translation>
-    </message>
-    <message>
-        <source>Begin the sequence here</source>
-        <translation>Sequenz hier beginnen</translation>
-    </message>
-    <message>
-        <source>The model&apos;s own speed</source>
-        <translation>Eigenes Tempo des Modells</translation>
-    </message>
-    <message>
-        <source>Repeat the sequence</source>
-        <translation>Sequenz wiederholen</translation>
-    </message>
     <message>
         <source>Drag: move the key. Ctrl: copy it. Right click: interpolation.</source>
         <translation>Ziehen: Schlüssel verschieben. Strg: kopieren. Rechtsklick: Interpolation.</translation>
@@ -1864,33 +2172,73 @@ Ein Pixel ist %5 %4 in x, %6 in y; an der fernen Ebene %7 und %8</translation>
         <source>Objects, lights and cameras get rows here. Right-click a frame to make a key frame.</source>
         <translation>Objekte, Lichter und Kameras bekommen hier Zeilen. Rechtsklick auf ein Bild setzt ein Schlüsselbild.</translation>
     </message>
+    <message>
+        <source>Make &amp;key frame at %1</source>
+        <translation>&amp;Schlüsselbild bei %1 setzen</translation>
+    </message>
+    <message>
+        <source>&amp;Remove key frame at %1</source>
+        <translation>Schlüsselbild &amp;bei %1 entfernen</translation>
+    </message>
+    <message>
+        <source>&amp;Copy key frame</source>
+        <translation>Schlüsselbild &amp;kopieren</translation>
+    </message>
+    <message>
+        <source>&amp;Paste key frame %1 here</source>
+        <translation>Schlüsselbild %1 &amp;hier einfügen</translation>
+    </message>
+    <message>
+        <source>&amp;Move key frame %1 here</source>
+        <translation>Schlüsselbild %1 hierher &amp;verschieben</translation>
+    </message>
+    <message>
+        <source>Remove &amp;its keys at %1</source>
+        <translation>Seine Schlüssel bei %1 &amp;entfernen</translation>
+    </message>
+    <message>
+        <source>&amp;From its key at %1 to the next</source>
+        <translation>Von seinem Schlüssel bei %1 &amp;zum nächsten</translation>
+    </message>
+    <message>
+        <source>&amp;As its other keys</source>
+        <translation>&amp;Wie seine anderen Schlüssel</translation>
+    </message>
+    <message>
+        <source>&amp;Linear</source>
+        <translation>&amp;Linear</translation>
+    </message>
+    <message>
+        <source>&amp;Steps</source>
+        <translation>S&amp;tufen</translation>
+    </message>
+    <message>
+        <source>S&amp;mooth</source>
+        <translation>&amp;Glatt</translation>
+    </message>
+    <message>
+        <source>&amp;Between all its keys</source>
+        <translation>Zwischen &amp;allen seinen Schlüsseln</translation>
+    </message>
+    <message>
+        <source>&amp;Sequence</source>
+        <translation>Se&amp;quenz</translation>
+    </message>
+    <message>
+        <source>Be&amp;gin the sequence here</source>
+        <translation>Seq&amp;uenz hier beginnen</translation>
+    </message>
+    <message>
+        <source>The model&apos;s &amp;own speed</source>
+        <translation>Eigenes Tempo &amp;des Modells</translation>
+    </message>
+    <message>
+        <source>Repea&amp;t the sequence</source>
+        <translation>Seque&amp;nz wiederholen</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::TruthPanel</name>
-    <message>
-        <source>visible</source>
-        <translation>sichtbar</translation>
-    </message>
-    <message>
-        <source>occluded by another object</source>
-        <translation>von einem anderen Objekt verdeckt</translation>
-    </message>
-    <message>
-        <source>occluded by its own object</source>
-        <translation>vom eigenen Objekt verdeckt</translation>
-    </message>
-    <message>
-        <source>outside the image</source>
-        <translation>außerhalb des Bildes</translation>
-    </message>
-    <message>
-        <source>behind the camera</source>
-        <translation>hinter der Kamera</translation>
-    </message>
-    <message>
-        <source>no surface</source>
-        <translation>keine Fläche</translation>
-    </message>
     <message>
         <source>What</source>
         <translation>Was</translation>
@@ -1960,10 +2308,6 @@ Ein Pixel ist %5 %4 in x, %6 in y; an der fernen Ebene %7 und %8</translation>
 part %2, triangle %3</source>
         <translation>Tiefe %1
 Teil %2, Dreieck %3</translation>
-    </message>
-    <message>
-        <source>scene units</source>
-        <translation>Szeneneinheiten</translation>
     </message>
     <message>
         <source>id %1, coverage %2 / 255</source>

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkAutosave.h"
+#include "dgtkEditorState.h"
+#include "dgtkMainWindow.h"
+#include "dgtkSceneViews.h"
+
+#include <QDateTime>
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QMessageBox>
+
+#include <memory>
+#include <optional>
+
+namespace dgtk
+{
+
+void MainWindow::offerRecovery()
+{
+  QStringList copies = Autosave::leftBehind();
+  while (!copies.isEmpty())
+  {
+    const QString copy = copies.takeFirst();
+    const QString origin = Autosave::originOf(copy);
+    const bool outdated = QFileInfo(origin).lastModified() > QFileInfo(copy).lastModified();
+    const QString time = QFileInfo(copy).lastModified().toString(Qt::ISODate).replace('T', ' ');
+    QMessageBox box(QMessageBox::Question, tr("DGTk"),
+      origin.isEmpty() ? tr("The editor ended without saving a scene that had no name yet, at %1.").arg(time)
+                       : tr("The editor ended without saving %1, at %2.").arg(QDir::toNativeSeparators(origin), time),
+      QMessageBox::Open | QMessageBox::Discard | QMessageBox::Cancel, this);
+    box.setObjectName("recoverBox");
+    box.setInformativeText(tr("Open what was kept of it, or discard it for good. Cancel asks again next time."));
+    const int choice = box.exec();
+    if (choice == QMessageBox::Discard)
+    {
+      Autosave::discard(copy);
+    }
+    const auto loaded = std::make_shared<std::optional<LoadedScene>>();
+    if (choice == QMessageBox::Open &&
+        this->work(tr("Reading what was kept ..."),
+          [loaded, file = QFile::encodeName(copy).toStdString()](const LoadProgress& p)
+          { *loaded = SceneDocument::read(file, p); }) &&
+        *loaded)
+    {
+      this->Copies->adopt(copy); // before anything is drawn, which may be what ended the editor
+      // A file that was saved since is not replaced unasked.
+      this->document().recover(std::move(**loaded), outdated ? std::string() : origin.toStdString());
+      this->Views->showWhole();
+      this->note(tr("Recovered: %1").arg(origin.isEmpty() ? tr("a scene without a name") : origin));
+      if (const int others = Autosave::leftBehind().size(); others > 0)
+      {
+        this->note(tr("There is other unsaved work, too (%1): the next start asks about it.").arg(others));
+      }
+      return;
+    }
+  }
+}
+
+} // namespace dgtk

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPropertiesPanel.h"
+
+#include "dgtkNumberRow.h"
+#include "dgtkScenePlaces.h"
+
+#include <QCoreApplication>
+#include <QDir>
+#include <QFileInfo>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace dgtk
+{
+
+// The rows of each kind of item, and of the scene.
+
+namespace
+{
+constexpr double squareness = 1e-12; // ratio of a pixel's sides that rounding may change
+
+/// What the field of view says, as a matrix of the camera's own size. Throws std::runtime_error for one with keys.
+void useMatrix(CameraDescription& camera, int frame)
+{
+  if (camera.fovY.animated())
+  {
+    throw std::runtime_error(QCoreApplication::translate(
+      "dgtk::PropertiesPanel", "The field of view has key frames, which a matrix cannot have: remove them first.")
+                               .toStdString());
+  }
+  if (camera.width <= 0 || camera.height <= 0)
+  {
+    camera.width = usualImageSize[0];
+    camera.height = usualImageSize[1];
+  }
+  camera.K = makePinholeFromFov(camera.width, camera.height, camera.fovY.at(frame), camera.aspect)->linear()->K;
+  camera.fovY = Track<double>{ CameraDescription().fovY.value };
+  camera.aspect = 0;
+}
+
+/// What the matrix says, without its principal point and skew.
+void useFieldOfView(CameraDescription& camera)
+{
+  const Eigen::Matrix3d& K = *camera.K;
+  const double ratio = K(1, 1) / K(0, 0);
+  camera.fovY = Track<double>{ fieldOfViewOf(camera) };
+  camera.aspect = std::abs(ratio - 1) < squareness ? 0 : ratio * camera.width / camera.height;
+  camera.K.reset();
+}
+} // namespace
+
+void PropertiesPanel::buildObject(std::size_t index)
+{
+  const ObjectDescription& now = this->State.scene().objects[index];
+  const auto object = [index](SceneDescription& scene) -> ObjectDescription& { return scene.objects[index]; };
+  this->addText(
+    tr("Class"), "class", [index](const SceneDescription& scene) { return scene.objects[index].className; },
+    [index](SceneDescription& scene, const std::string& text) { scene.objects[index].className = text; });
+  const QString model = toText(this->State.scene().resolve(now.model));
+  const QFileInfo file(toText(this->State.document().path()));
+  this->addLine(tr("Model"), file.filePath().isEmpty() ? toText(now.model) : file.dir().relativeFilePath(model));
+  if (!now.parent.empty())
+  {
+    this->addLine(tr("Parent"), toText(now.parent));
+  }
+  this->addTrack(this->withUnits(tr("Position")), "position",
+    [object](SceneDescription& scene) -> Track<Eigen::Vector3d>& { return object(scene).position; });
+  this->addOrientation([object](SceneDescription& scene) -> Track<Quaternion>& { return object(scene).orientation; });
+  this->addTrack(
+    tr("Scale"), "scale", [object](SceneDescription& scene) -> Track<Eigen::Vector3d>& { return object(scene).scale; });
+  this->addCheck(
+    tr("Visible"), "visible", [object](SceneDescription& scene) -> bool& { return object(scene).visible; });
+  this->buildSequence(index);
+}
+
+void PropertiesPanel::buildLight(std::size_t index)
+{
+  // In the order of Add light; what a kind does not have is not there.
+  const LightKind now = this->State.scene().lights[index].kind;
+  const bool spot = now == LightKind::Spot;
+  const auto light = [index](SceneDescription& scene) -> LightDescription& { return scene.lights[index]; };
+  this->addChoice(
+    tr("Kind"), "kind", { tr("point"), tr("head"), tr("directional"), tr("spot") },
+    [index](const SceneDescription& scene) { return static_cast<int>(scene.lights[index].kind); },
+    [index](SceneDescription& scene, int kind) { scene.lights[index].kind = static_cast<LightKind>(kind); });
+  using Vectors = Track<Eigen::Vector3d>;
+  if (now != LightKind::Head)
+  {
+    this->addTrack(this->withUnits(tr("Position")), "position",
+      [light](SceneDescription& scene) -> Vectors& { return light(scene).position; });
+  }
+  if (spot || now == LightKind::Directional)
+  {
+    this->addTrack(this->withUnits(tr("Target")), "target",
+      [light](SceneDescription& scene) -> Vectors& { return light(scene).target; });
+  }
+  using Color = Eigen::Vector3d;
+  this->addColor(tr("Diffuse"), "diffuse", [light](SceneDescription& scene) -> Color& { return light(scene).diffuse; });
+  this->addColor(
+    tr("Specular"), "specular", [light](SceneDescription& scene) -> Color& { return light(scene).specular; });
+  this->addColor(tr("Ambient"), "ambient", [light](SceneDescription& scene) -> Color& { return light(scene).ambient; });
+  this->addNumber(
+    tr("Intensity"), "intensity", [light](SceneDescription& scene) -> double& { return light(scene).intensity; });
+  if (spot || now == LightKind::Point)
+  {
+    this->addColor(tr("Attenuation (constant, linear, quadratic)"), "attenuation",
+      [light](SceneDescription& scene) -> Color& { return light(scene).attenuation; });
+  }
+  if (spot)
+  {
+    this->addNumber(
+      tr("Cone, \u00b0"), "coneAngle", [light](SceneDescription& scene) -> double& { return light(scene).coneAngle; });
+    this->addNumber(
+      tr("Exponent"), "exponent", [light](SceneDescription& scene) -> double& { return light(scene).exponent; });
+  }
+  this->addCheck(tr("Enabled"), "enabled", [light](SceneDescription& scene) -> bool& { return light(scene).enabled; });
+  this->addCheck(tr("Shadows"), "shadows", [light](SceneDescription& scene) -> bool& { return light(scene).shadows; });
+}
+
+void PropertiesPanel::buildCamera(std::size_t index)
+{
+  const CameraDescription& now = this->State.scene().cameras[index];
+  const auto camera = [index](SceneDescription& scene) -> CameraDescription& { return scene.cameras[index]; };
+  using Vectors = Track<Eigen::Vector3d>;
+  if (now.posed)
+  {
+    this->addTrack(this->withUnits(tr("Position")), "position",
+      [camera](SceneDescription& scene) -> Vectors& { return camera(scene).position; });
+    this->addOrientation([camera](SceneDescription& scene) -> Track<Quaternion>& { return camera(scene).orientation; });
+  }
+  else
+  {
+    this->addTrack(
+      this->withUnits(tr("Eye")), "eye", [camera](SceneDescription& scene) -> Vectors& { return camera(scene).eye; });
+    this->addTrack(this->withUnits(tr("Look at")), "lookAt",
+      [camera](SceneDescription& scene) -> Vectors& { return camera(scene).lookAt; });
+    this->addTrack(tr("Up"), "up", [camera](SceneDescription& scene) -> Vectors& { return camera(scene).up; });
+  }
+  if (now.kind == CameraKind::Orthographic)
+  {
+    this->addTrack(this->withUnits(tr("View height")), "viewHeight",
+      [camera](SceneDescription& scene) -> Track<double>& { return camera(scene).viewHeight; });
+  }
+  else
+  {
+    this->buildLens(index);
+  }
+  this->addNumber(
+    this->withUnits(tr("Near")), "near", [camera](SceneDescription& scene) -> double& { return camera(scene).near; });
+  this->addNumber(
+    this->withUnits(tr("Far")), "far", [camera](SceneDescription& scene) -> double& { return camera(scene).far; });
+  this->addNumbers(
+    tr("Size, pixels"), "size", 2,
+    [index](const SceneDescription& scene) {
+      return Numbers{ double(scene.cameras[index].width), double(scene.cameras[index].height) };
+    },
+    [camera](SceneDescription& scene, const Numbers& size)
+    {
+      // A size is given whole or not at all: the first number typed makes the usual shape.
+      CameraDescription& its = camera(scene);
+      const bool widthTyped = pixelsOf(size[0]) != its.width;
+      its.width = pixelsOf(size[0]);
+      its.height = pixelsOf(size[1]);
+      if ((its.width == 0) != (its.height == 0) && widthTyped)
+      {
+        its.height = its.width == 0 ? 0 : std::max(1, its.width * 3 / 4);
+      }
+      else if ((its.width == 0) != (its.height == 0))
+      {
+        its.width = its.height == 0 ? 0 : std::max(1, its.height * 4 / 3);
+      }
+    });
+}
+
+void PropertiesPanel::buildLens(std::size_t index)
+{
+  const auto camera = [index](SceneDescription& scene) -> CameraDescription& { return scene.cameras[index]; };
+  this->addChoice(
+    tr("Lens"), "lens", { tr("by its field of view"), tr("by its matrix K") },
+    [index](const SceneDescription& scene) { return scene.cameras[index].K ? 1 : 0; },
+    [this, camera](SceneDescription& scene, int byMatrix)
+    {
+      if (byMatrix == 1 && !camera(scene).K)
+      {
+        useMatrix(camera(scene), this->State.frame());
+      }
+      else if (byMatrix == 0 && camera(scene).K)
+      {
+        useFieldOfView(camera(scene));
+      }
+    });
+  if (!this->State.scene().cameras[index].K)
+  {
+    this->addTrack(tr("Field of view, \u00b0"), "fovY",
+      [camera](SceneDescription& scene) -> Track<double>& { return camera(scene).fovY; });
+    this->addNumber(tr("Aspect (0: square)"), "aspect",
+      [camera](SceneDescription& scene) -> double& { return camera(scene).aspect; });
+    return;
+  }
+  const auto addPair = [&](const QString& label, const char* name, int row0, int column0, int row1, int column1)
+  {
+    this->addNumbers(
+      label, name, 2,
+      [=](const SceneDescription& scene)
+      {
+        const Eigen::Matrix3d& K = *scene.cameras[index].K;
+        return Numbers{ K(row0, column0), K(row1, column1) };
+      },
+      [=](SceneDescription& scene, const Numbers& values)
+      {
+        (*camera(scene).K)(row0, column0) = values[0];
+        (*camera(scene).K)(row1, column1) = values[1];
+      });
+  };
+  addPair(tr("fx, fy, pixels"), "focal", 0, 0, 1, 1);
+  addPair(tr("cx, cy, pixels"), "principal", 0, 2, 1, 2);
+  this->addNumber(
+    tr("Skew, pixels"), "skew", [camera](SceneDescription& scene) -> double& { return (*camera(scene).K)(0, 1); });
+}
+
+void PropertiesPanel::buildScene()
+{
+  this->addText(
+    tr("Units"), "units", [](const SceneDescription& scene) { return scene.units; },
+    [](SceneDescription& scene, const std::string& units) { scene.units = units; });
+  this->addChoice(
+    tr("Up axis"), "upAxis", { "y", "z" }, [](const SceneDescription& scene) { return static_cast<int>(scene.upAxis); },
+    [](SceneDescription& scene, int axis) { scene.upAxis = static_cast<UpAxis>(axis); });
+  this->addColor(
+    tr("Background"), "background", [](SceneDescription& scene) -> Eigen::Vector3d& { return scene.background; });
+  this->addColor(tr("Fog"), "fogColor", [](SceneDescription& scene) -> Eigen::Vector3d& { return scene.fog.color; });
+  this->addNumber(
+    tr("Fog's density"), "fogDensity", [](SceneDescription& scene) -> double& { return scene.fog.density; });
+  this->addNumber(this->withUnits(tr("Fog begins at")), "fogStart",
+    [](SceneDescription& scene) -> double& { return scene.fog.start; });
+}
+
+} // namespace dgtk

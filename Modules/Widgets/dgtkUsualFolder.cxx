@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkUsualFolder.h"
+
+#include <QDir>
+#include <QFileInfo>
+#include <QSettings>
+
+namespace dgtk
+{
+
+QString usualFolder(const QString& kind)
+{
+  const QString folder = QSettings().value("folder/" + kind).toString();
+  return QFileInfo(folder).isDir() ? folder : QString();
+}
+
+void rememberFolder(const QString& chosen, const QString& kind)
+{
+  const QFileInfo file(chosen);
+  QSettings().setValue("folder/" + kind, file.isDir() ? file.absoluteFilePath() : file.absolutePath());
+}
+
+} // namespace dgtk

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestEditor.h"
+#include "TestEditorSupport.h"
+
+#include "dgtkMainWindow.h"
+#include "dgtkSceneDocument.h"
+
+#include <QAction>
+#include <QCheckBox>
+#include <QCryptographicHash>
+#include <QDialog>
+#include <QElapsedTimer>
+#include <QImage>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMouseEvent>
+#include <QPointer>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QStatusBar>
+#include <QTest>
+
+#include <algorithm>
+
+namespace
+{
+constexpr int longestEffect = 10000; // milliseconds until a live layer is there
+constexpr int largeSide = 2000;      // pixels of pictures that take long
+constexpr int stirring = 3000;       // milliseconds
+constexpr double answerLimit = 200;  // milliseconds
+
+/// What stands before the window, and the titles of other windows.
+QString otherWindows(const QWidget* main)
+{
+  QStringList titles;
+  for (const QWidget* widget : QApplication::topLevelWidgets())
+  {
+    if (widget->isVisible() && widget != main)
+    {
+      titles << widget->windowTitle();
+    }
+  }
+  titles.sort();
+  return titles.join('|');
+}
+
+/// As the user sees it, and the scene.
+QByteArray stateOf(dgtk::MainWindow& window)
+{
+  const QImage image = window.grab().toImage().convertToFormat(QImage::Format_RGB32);
+  QCryptographicHash hash(QCryptographicHash::Sha1);
+  hash.addData(reinterpret_cast<const char*>(image.constBits()), int(image.sizeInBytes()));
+  hash.addData(window.document().json().data(), int(window.document().json().size()));
+  hash.addData(otherWindows(&window).toUtf8());
+  return hash.result();
+}
+} // namespace
+
+QList<QPointer<QAction>> TestEditor::menuItems() const
+{
+  QList<QPointer<QAction>> items;
+  for (QMenu* menu : this->Window->findChildren<QMenu*>())
+  {
+    for (QAction* item : menu->actions())
+    {
+      if (!item->isSeparator() && item->menu() == nullptr && item->objectName() != "exit")
+      {
+        items << item;
+      }
+    }
+  }
+  return items;
+}
+
+/// A scene with something to undo and to redo and a selection; what an item would show is not shown yet.
+void TestEditor::prepareFor(const QAction& item) const
+{
+  const QString name = item.objectName();
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  this->select("tree");
+  this->type("position.1", "0.25");
+  this->type("position.1", "0.5");
+  this->action("undo")->trigger();
+  this->action("move")->trigger();
+  this->action("textured")->trigger();
+  this->action(name == "show.colour" ? "show.depth" : "show.colour")->trigger();
+  if (name == "paste")
+  {
+    this->action("copy")->trigger();
+  }
+  else if (name == "copy")
+  {
+    this->select("vase");
+  }
+  else if (name == "preview")
+  {
+    this->select("left");
+  }
+  else if (name == "move")
+  {
+    this->action("rotate")->trigger();
+  }
+  else if (name == "textured")
+  {
+    this->action("wireframe")->trigger();
+  }
+  else if (name == "frameSelected" || name == "frameAll")
+  {
+    QTest::keyClick(this->Window->findChild<QWidget*>("view.3"), Qt::Key_Plus);
+  }
+  this->Window->findChild<QWidget*>("view.3")->setFocus();
+}
+
+/// Each item of each menu changes the scene, the window, or opens another one.
+void TestEditor::everyMenuItemWorks()
+{
+  this->Window->statusBar()->hide(); // its messages come and go
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  QStringList asked;
+  QTimer closer;
+  connect(&closer, &QTimer::timeout,
+    [&asked]
+    {
+      if (const QWidget* const dialog = QApplication::activeModalWidget())
+      {
+        asked << dialog->windowTitle();
+      }
+      closeWhatIsOpen();
+    });
+  closer.start(50);
+  int items = 0;
+  for (const QPointer<QAction>& item : this->menuItems())
+  {
+    if (item == nullptr)
+    {
+      continue; // of the recent files, which are others now
+    }
+    QVERIFY2(!item->text().isEmpty(), "a menu item without a text");
+    this->prepareFor(*item);
+    if (item == nullptr)
+    {
+      continue;
+    }
+    const QString name = item->objectName() + " " + item->text();
+    QVERIFY2(item->isEnabled(), qPrintable(name));
+    QTest::qWait(settle);
+    auto* picture = this->Window->findChild<QWidget*>("truthPicture");
+    QTRY_VERIFY_WITH_TIMEOUT(!picture->isVisible() || picture->property("settled").toBool(), longestEffect);
+    const QByteArray before = stateOf(*this->Window);
+    asked.clear();
+    const bool isCheckBox = item->isCheckable() && item->actionGroup() == nullptr;
+    const bool copies = item->objectName() == "copy";
+    item->trigger();
+    if (copies)
+    {
+      this->action("paste")->trigger(); // not what was cut before
+      QCOMPARE(this->Window->document().scene().objects.back().name, std::string("vase-2"));
+    }
+    QTRY_VERIFY2_WITH_TIMEOUT(!asked.isEmpty() || stateOf(*this->Window) != before, qPrintable(name), longestEffect);
+    if (isCheckBox)
+    {
+      item->trigger();
+    }
+    for (QWidget* widget : QApplication::topLevelWidgets())
+    {
+      if (widget->isVisible() && widget != this->Window.get())
+      {
+        widget->close();
+      }
+    }
+    ++items;
+  }
+  QVERIFY2(items > 45, qPrintable(QString::number(items)));
+  QVERIFY(this->Window->isVisible());
+  this->action("exit")->trigger();
+  QVERIFY(!this->Window->isVisible());
+}
+
+/// While pictures are made, selecting, typing, dragging and scrubbing go on.
+void TestEditor::theWindowAnswersWhileItRenders()
+{
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  this->action("render")->trigger();
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  dialog->findChild<QLineEdit*>("folder")->setText(this->path("beside"));
+  check(dialog->findChild<QCheckBox*>("ownSize"), false);
+  dialog->findChild<QSpinBox*>("width")->setValue(largeSide);
+  dialog->findChild<QSpinBox*>("height")->setValue(largeSide);
+  auto* start = dialog->findChild<QPushButton*>("start");
+  start->click();
+  QTRY_VERIFY_WITH_TIMEOUT(!contents(this->path("beside")).isEmpty(), longestRun);
+  auto& timed = static_cast<TimedApplication&>(*qApp);
+  timed.restart();
+  double latest = 0; // milliseconds that a timer came too late
+  QElapsedTimer since;
+  QTimer probe;
+  constexpr int every = 10;
+  connect(&probe, &QTimer::timeout,
+    [&]
+    {
+      latest = std::max(latest, double(since.nsecsElapsed()) * 1e-6 - every);
+      since.restart();
+    });
+  since.start();
+  probe.start(every);
+  QElapsedTimer clock;
+  clock.start();
+  auto* view = this->Window->findChild<QWidget*>("view.3");
+  auto* frame = this->Window->findChild<QSpinBox*>("frame");
+  const char* names[] = { "house", "tree", "vase" };
+  int rounds = 0;
+  while (clock.elapsed() < stirring && !start->isEnabled())
+  {
+    this->select(names[rounds % 3]);
+    this->type("position.1", QString::number(0.001 * (rounds + 1)));
+    QTest::mousePress(view, Qt::LeftButton, {}, QPoint(8, 8));
+    for (int step = 1; step < 4; ++step)
+    {
+      const QPoint at(8 + 9 * step, 8 + 4 * step);
+      QMouseEvent move(QEvent::MouseMove, at, view->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+      QApplication::sendEvent(view, &move);
+      QCoreApplication::processEvents();
+    }
+    QTest::mouseRelease(view, Qt::LeftButton, {}, QPoint(40, 24));
+    frame->setValue(rounds % 10);
+    QCoreApplication::processEvents();
+    ++rounds;
+  }
+  qInfo("%d rounds beside a run: longest event %.0f ms (%s), latest timer %.0f ms; aim %.0f", rounds, timed.longest(),
+    qPrintable(timed.what()), latest, answerLimit);
+  QVERIFY2(!start->isEnabled(), "the run was to go on all the time");
+  QVERIFY(rounds > 3);
+  QVERIFY(timed.longest() < 2 * answerLimit);
+  QVERIFY(latest < patience * answerLimit);
+  dialog->findChild<QPushButton*>("cancel")->click();
+  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+}

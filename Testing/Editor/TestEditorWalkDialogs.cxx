@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestEditorSupport.h"
+#include "TestEditorWalk.h"
+
+#include "dgtkSceneDocument.h"
+
+#include <QCheckBox>
+#include <QDialog>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+
+/// They have a height instead of an angle, and one size of a pixel at every depth.
+void TestEditorWalk::aParallelCamera()
+{
+  dgtk::CameraDescription camera;
+  camera.name = "above";
+  camera.kind = dgtk::CameraKind::Orthographic;
+  camera.viewHeight = 12;
+  camera.width = 640;
+  camera.height = 480;
+  this->Window->document().addCamera(camera);
+  this->choose("render");
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  QVERIFY(QTest::qWaitForWindowExposed(dialog));
+  turnTo(*dialog, 1);
+  QCOMPARE(dialog->findChild<QLineEdit*>("renderFov.0")->text(), QString("12"));
+  const auto* said = dialog->findChild<QLabel*>("resolution");
+  QVERIFY2(said->text().contains("at every depth") && said->text().contains("0.025"), qPrintable(said->text()));
+  typeInto(dialog->findChild<QLineEdit*>("renderFov.0"), "24");
+  QCOMPARE(this->Window->document().scene().cameras[0].viewHeight.value, 24.0);
+  QVERIFY2(said->text().contains("0.05"), qPrintable(said->text()));
+}
+
+/// Alt and its letter lead to each field of the dialogs.
+void TestEditorWalk::lettersLeadToFields()
+{
+  for (const char* name : { "camera", "light", "cameraArray" })
+  {
+    int fields = 0;
+    answer<QDialog>({},
+      [&fields](QDialog& dialog)
+      {
+        dialog.activateWindow();
+        QVERIFY(QTest::qWaitForWindowActive(&dialog));
+        for (const QLabel* label : dialog.findChildren<QLabel*>())
+        {
+          QWidget* const field = label->buddy();
+          if (field == nullptr || !field->isEnabled())
+          {
+            continue;
+          }
+          const int at = label->text().indexOf('&');
+          QVERIFY2(at >= 0, qPrintable(label->text()));
+          dialog.setFocus();
+          QTest::keyClick(&dialog, label->text().at(at + 1).toLatin1(), Qt::AltModifier);
+          const QWidget* const focus = QApplication::focusWidget();
+          QVERIFY2(focus != nullptr && (focus == field || field->isAncestorOf(focus)), qPrintable(label->text()));
+          ++fields;
+        }
+        dialog.reject();
+      });
+    this->choose(name);
+    QVERIFY2(fields >= 5, name);
+  }
+}
+
+/// Of the render configuration and of file dialogs.
+void TestEditorWalk::choicesAreKept()
+{
+  this->import("crate.ac");
+  this->addCamera();
+  this->saveAs(this->path("kept.json"));
+  this->renderAndCompare(this->path("kept.json"), { "normal", "uv" }, 32, 24);
+  this->Window->document().undo();
+  this->Window = std::make_unique<dgtk::MainWindow>();
+  this->Window->show();
+  QVERIFY(QTest::qWaitForWindowExposed(this->Window.get()));
+  this->choose("render");
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  QVERIFY(dialog->findChild<QCheckBox*>("layer.normal")->isChecked());
+  QVERIFY(dialog->findChild<QCheckBox*>("layer.uv")->isChecked());
+  QVERIFY(!dialog->findChild<QCheckBox*>("layer.depth")->isChecked());
+  QTest::mouseClick(dialog->findChild<QPushButton*>("allLayers"), Qt::LeftButton);
+  QVERIFY(dialog->findChild<QCheckBox*>("layer.depth")->isChecked());
+  QTest::mouseClick(dialog->findChild<QPushButton*>("noLayers"), Qt::LeftButton);
+  QVERIFY(!dialog->findChild<QCheckBox*>("layer.uv")->isChecked());
+  dialog->close();
+  const auto folderOf = [this](const char* action)
+  {
+    QString folder;
+    answer<QFileDialog>({},
+      [&folder](QFileDialog& files)
+      {
+        folder = files.directory().canonicalPath();
+        files.reject();
+      });
+    this->choose(action);
+    return folder;
+  };
+  QCOMPARE(folderOf("open"), QFileInfo(this->path("kept.json")).canonicalPath());
+  QCOMPARE(folderOf("import"),
+    QFileInfo(QString::fromStdString(dgtk::test::sourceFile("Data/Models/crate.ac"))).canonicalPath());
+  QCOMPARE(folderOf("openDataset"), QFileInfo(this->path("kept.json.window")).canonicalFilePath());
+}
