@@ -21,6 +21,28 @@
 #include <QTabWidget>
 #include <QTest>
 #include <QTreeWidget>
+#include <QWindow>
+
+void activate(QWidget& window)
+{
+  constexpr int patient = 20000; // milliseconds
+  constexpr int step = 20;
+  constexpr int again = 500;
+  QVERIFY(QTest::qWaitForWindowExposed(&window));
+  for (int waited = 0; waited < patient && !window.isActiveWindow(); waited += step)
+  {
+    if (window.windowHandle()->isActive())
+    {
+      QApplication::setActiveWindow(&window); // the focus came while a menu was open
+    }
+    else if (waited % again == 0)
+    {
+      window.activateWindow();
+    }
+    QTest::qWait(step);
+  }
+  QVERIFY2(window.isActiveWindow(), qPrintable("no focus: " + window.objectName()));
+}
 
 EditorTest::EditorTest() = default;
 EditorTest::~EditorTest() = default;
@@ -37,9 +59,7 @@ void EditorTest::init()
   QSettings().clear();
   this->Window = std::make_unique<dgtk::MainWindow>();
   this->Window->show();
-  QVERIFY(QTest::qWaitForWindowExposed(this->Window.get()));
-  this->Window->activateWindow();
-  QVERIFY(QTest::qWaitForWindowActive(this->Window.get()));
+  activate(*this->Window);
   QTest::qWait(settle);
 }
 
@@ -59,6 +79,7 @@ void EditorTest::typeOnly(const char* name, const QString& text) const
 {
   QLineEdit* const at = this->field(name);
   QVERIFY2(at != nullptr, name);
+  activate(*at->window());
   at->setFocus();
   at->selectAll();
   QTest::keyClicks(at, text);
@@ -111,6 +132,7 @@ void EditorTest::choose(const char* name) const
 
 void EditorTest::typeInto(QWidget* field, const QString& text)
 {
+  activate(*field->window());
   QTest::mouseClick(field, Qt::LeftButton, {}, QPoint(6, field->height() / 2));
   QTest::keyClick(field, Qt::Key_A, Qt::ControlModifier);
   QTest::keyClicks(field, text);
@@ -140,7 +162,7 @@ void EditorTest::renderAndCompare(const QString& scene, const QStringList& layer
   this->choose("render");
   auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
   QVERIFY(dialog != nullptr);
-  QVERIFY(QTest::qWaitForWindowExposed(dialog));
+  activate(*dialog);
   turnTo(*dialog, 2);
   for (QCheckBox* box : dialog->findChildren<QCheckBox*>())
   {

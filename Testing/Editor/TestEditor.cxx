@@ -278,8 +278,7 @@ void TestEditor::theViewsLookAsTheyWereLeft()
     QVERIFY(this->Window->close());
     this->Window = std::make_unique<dgtk::MainWindow>();
     this->Window->show();
-    this->Window->activateWindow();
-    QVERIFY(QTest::qWaitForWindowActive(this->Window.get()));
+    activate(*this->Window);
     QVERIFY(this->Window->openFile(demo()));
   };
   const QList<int> usual = sizes();

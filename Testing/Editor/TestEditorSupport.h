@@ -18,6 +18,7 @@
 #include <QMap>
 #include <QMenu>
 #include <QMessageBox>
+#include <QPointer>
 #include <QString>
 #include <QTest>
 #include <QTimer>
@@ -39,7 +40,11 @@ constexpr int settle = 150; // milliseconds for a window to lay itself out and d
 
 inline QString demo() { return QString::fromStdString(dgtk::test::sourceFile("Data/Scenes/demo.json")); }
 
-/// When the next dialog of that name is shown, does something with it.
+/// Waits until the window has the focus, and asks for it as often as that takes: where no window manager asks, the X
+/// server refuses the focus to a window that it has not drawn yet, and Qt takes no notice of it while a menu is open.
+void activate(QWidget& window);
+
+/// When the next dialog of that name is shown and has the focus, does something with it. It ends with a failure.
 template <typename Dialog>
 void answer(const QString& name, const std::function<void(Dialog&)>& act)
 {
@@ -52,7 +57,13 @@ void answer(const QString& name, const std::function<void(Dialog&)>& act)
       {
         timer->deleteLater();
         timer->stop();
+        const QPointer<Dialog> kept = dialog;
+        activate(*dialog);
         act(*dialog);
+        if (kept != nullptr && kept->isVisible() && QTest::currentTestFailed())
+        {
+          kept->reject();
+        }
       }
     });
   timer->start(20);

@@ -101,8 +101,7 @@ void TestEditorTruth::pairsAreUndone()
   QTest::mouseClick(dialog->findChild<QPushButton*>("clearPairs"), Qt::LeftButton);
   states << rows();
   QCOMPARE(table->rowCount(), 0);
-  dialog->activateWindow();
-  QVERIFY(QTest::qWaitForWindowActive(dialog));
+  activate(*dialog);
   for (int at = int(states.size()) - 2; at >= 0; --at)
   {
     QTest::keyClick(dialog, Qt::Key_Z, Qt::ControlModifier);

@@ -26,7 +26,6 @@ namespace
 {
 void typeIntoField(QDialog& dialog, const char* name, const QString& text)
 {
-  QVERIFY(QTest::qWaitForWindowActive(&dialog));
   auto* field = dialog.findChild<QLineEdit*>(name);
   field->setFocus();
   field->selectAll();
@@ -253,8 +252,6 @@ void TestEditor::rowsEndQuietly()
   answer<QDialog>("cameraDialog",
     [&gone](QDialog& dialog)
     {
-      dialog.activateWindow();
-      QVERIFY(QTest::qWaitForWindowActive(&dialog));
       auto* field = dialog.findChild<QLineEdit*>("eye.0");
       QTest::mouseClick(field, Qt::LeftButton);
       QTRY_VERIFY(field->hasFocus());

@@ -126,8 +126,7 @@ QMainWindow* TestEditorViewer::viewer() const
   }
   if (viewer != nullptr)
   {
-    viewer->activateWindow();
-    QApplication::setActiveWindow(viewer);
+    activate(*viewer);
     this->waitForPictures(viewer);
   }
   return viewer;

@@ -31,8 +31,6 @@ constexpr int cellWidth = 12;
 void confirm(QFileDialog& dialog, const QString& path)
 {
   auto* field = dialog.findChild<QLineEdit*>("fileNameEdit");
-  dialog.activateWindow();
-  QVERIFY(QTest::qWaitForWindowActive(&dialog));
   QTest::mouseClick(field, Qt::LeftButton);
   QTRY_VERIFY(field->hasFocus()); // otherwise what is typed gives way to the list's selection
   QTest::keyClick(field, Qt::Key_A, Qt::ControlModifier);
@@ -254,7 +252,7 @@ void TestEditorWalk::aCameraOfTheThesis()
   this->addCamera();
   this->choose("render");
   auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
-  QVERIFY(QTest::qWaitForWindowExposed(dialog));
+  activate(*dialog);
   turnTo(*dialog, 1);
   const std::pair<const char*, const char*> typed[] = { { "renderFov.0", "60" }, { "renderAspect.0", "1.33" },
     { "renderNear.0", "0.1" }, { "renderFar.0", "1000" } };

@@ -24,7 +24,7 @@ void TestEditorWalk::aParallelCamera()
   this->Window->document().addCamera(camera);
   this->choose("render");
   auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
-  QVERIFY(QTest::qWaitForWindowExposed(dialog));
+  activate(*dialog);
   turnTo(*dialog, 1);
   QCOMPARE(dialog->findChild<QLineEdit*>("renderFov.0")->text(), QString("12"));
   const auto* said = dialog->findChild<QLabel*>("resolution");
@@ -43,8 +43,6 @@ void TestEditorWalk::lettersLeadToFields()
     answer<QDialog>({},
       [&fields](QDialog& dialog)
       {
-        dialog.activateWindow();
-        QVERIFY(QTest::qWaitForWindowActive(&dialog));
         for (const QLabel* label : dialog.findChildren<QLabel*>())
         {
           QWidget* const field = label->buddy();
@@ -77,7 +75,7 @@ void TestEditorWalk::choicesAreKept()
   this->Window->document().undo();
   this->Window = std::make_unique<dgtk::MainWindow>();
   this->Window->show();
-  QVERIFY(QTest::qWaitForWindowExposed(this->Window.get()));
+  activate(*this->Window);
   this->choose("render");
   auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
   QVERIFY(dialog->findChild<QCheckBox*>("layer.normal")->isChecked());
