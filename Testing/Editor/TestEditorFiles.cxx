@@ -207,6 +207,18 @@ void TestEditorFiles::useImporter(const QByteArray& line) const
   qputenv("DGTK_IMPORT", script.fileName().toLocal8Bit());
 }
 
+void TestEditorFiles::useWaitingImporter(const QByteArray& line) const
+{
+  QFile::remove(this->path("go"));
+  this->useImporter("until [ -e '" + this->path("go").toLocal8Bit() + "' ]; do /bin/sleep 0.02; done\n" + line);
+}
+
+void TestEditorFiles::letImporterGo() const
+{
+  this->write("go", "");
+  qunsetenv("DGTK_IMPORT");
+}
+
 void TestEditorFiles::anImporterThatCrashesIsAMessage()
 {
   for (const char* signal : { "SEGV", "ABRT", "KILL" })
@@ -253,7 +265,7 @@ void TestEditorFiles::readingIsCancelled()
   QVERIFY(this->Window->openFile(this->copyOfDemo()));
   dgtk::SceneDocument& document = this->Window->document();
   const std::string before = document.json();
-  this->useImporter("exec /bin/sleep 3");
+  this->useWaitingImporter();
   const QString file = this->write("slow.dae", "contents");
   auto* cancel = this->Window->findChild<QPushButton*>("backgroundCancel");
   QTimer clicker;
@@ -269,8 +281,9 @@ void TestEditorFiles::readingIsCancelled()
       }
     });
   clicker.start(10);
-  QVERIFY(!this->Window->importFile(file));
-  qunsetenv("DGTK_IMPORT");
+  const bool imported = this->Window->importFile(file);
+  this->letImporterGo();
+  QVERIFY(!imported);
   QVERIFY2(!second, "one file at a time");
   QVERIFY(!cancel->isVisible());
   QCOMPARE(document.json(), before);
@@ -320,21 +333,20 @@ void TestEditorFiles::aCancelledExportWritesNothing()
 {
   QVERIFY(this->Window->importFile(model("windmill.gltf")));
   const QString file = this->write("scene.pov", "what was there");
-  this->useImporter(
-    "/bin/sleep 1\nexec " + QCoreApplication::applicationDirPath().toLocal8Bit() + "/dgtk-import \"$@\"");
+  this->useWaitingImporter("exec " + QCoreApplication::applicationDirPath().toLocal8Bit() + "/dgtk-import \"$@\"");
   QTimer clicker;
   this->whenReading(clicker, [](QPushButton& cancel) { QTest::mouseClick(&cancel, Qt::LeftButton); });
   answer<QMessageBox>("replaceBox", [](QMessageBox& box) { box.button(QMessageBox::Yes)->click(); });
   this->inFileDialog("exportPov", [&](QFileDialog& dialog) { name(dialog, file); });
+  this->letImporterGo();
   QVERIFY(!clicker.isActive());
   this->Window.reset(); // waits for the thread
-  qunsetenv("DGTK_IMPORT");
   QCOMPARE(contentsOf(file), QByteArray("what was there"));
 }
 
 void TestEditorFiles::theWindowClosesWhileItReads()
 {
-  this->useImporter("exec /bin/sleep 2");
+  this->useWaitingImporter();
   QTimer closer;
   connect(&closer, &QTimer::timeout, &closer,
     [&]
@@ -346,8 +358,9 @@ void TestEditorFiles::theWindowClosesWhileItReads()
       }
     });
   closer.start(10);
-  QVERIFY(!this->Window->importFile(this->write("slow.dae", "contents")));
-  qunsetenv("DGTK_IMPORT");
+  const bool imported = this->Window->importFile(this->write("slow.dae", "contents"));
+  this->letImporterGo();
+  QVERIFY(!imported);
   QVERIFY(!this->Window->isVisible());
   QVERIFY(this->Window->document().scene().objects.empty());
 }
@@ -361,7 +374,7 @@ void TestEditorFiles::pictures()
   }
   this->Window->resize(1280, 860);
   QVERIFY(this->Window->openFile(demo()));
-  this->useImporter("exec /bin/sleep 8");
+  this->useWaitingImporter();
   QTimer clicker;
   this->whenReading(clicker,
     [&](QPushButton& cancel)
@@ -373,7 +386,7 @@ void TestEditorFiles::pictures()
       cancel.click();
     });
   this->Window->importFile(this->write("cathedral.dae", "contents"));
-  qunsetenv("DGTK_IMPORT");
+  this->letImporterGo();
 }
 
 int main(int argc, char** argv) { return runEditorTest<TestEditorFiles>(argc, argv); }

@@ -54,6 +54,10 @@ private:
   void inFileDialog(const char* action, const std::function<void(QFileDialog&)>& act) const;
   /// An importer that runs a line of shell.
   void useImporter(const QByteArray& line) const;
+  /// One that runs the line after letImporterGo().
+  void useWaitingImporter(const QByteArray& line = {}) const;
+  /// Ends the waiting, and the use of the importer.
+  void letImporterGo() const;
 };
 
 #endif
