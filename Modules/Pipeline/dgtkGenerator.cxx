@@ -206,6 +206,10 @@ void Run::renderAll()
       continue;
     }
     this->render(job);
+    if (this->Result.interrupted)
+    {
+      break;
+    }
     if (this->Callbacks.progress)
     {
       this->Callbacks.progress({ this->Done, this->Plan.jobs.size() });
@@ -248,6 +252,12 @@ void Run::render(const Job& job)
     }
     for (int row = 0; row < this->Source->bands(); ++row)
     {
+      if (this->cancelled())
+      {
+        this->finishDrawing(); // of this picture, which goes, or of the one before
+        this->Result.interrupted = true;
+        return;
+      }
       if (this->PendingBytes > mostPendingBytes)
       {
         this->finishDrawing();

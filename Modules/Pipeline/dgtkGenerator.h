@@ -89,7 +89,7 @@ struct GeneratorCallbacks
 {
   std::function<void(const GeneratorProgress&)> progress; ///< called from the calling thread
   std::function<void(const std::string&)> message;        ///< one line: engine chosen, warnings
-  const std::atomic<bool>* cancel = nullptr;              ///< checked between pictures, and while POV-Ray draws
+  const std::atomic<bool>* cancel = nullptr;              ///< checked between rows of tiles, and while POV-Ray draws
 };
 
 /// Renders the dataset. Throws UsageError, InputError or MachineError; what was finished before stays and can be

@@ -104,8 +104,8 @@ void MainWindow::refresh()
   QAction* const redo = this->findChild<QAction*>("redo");
   undo->setEnabled(document.canUndo());
   redo->setEnabled(document.canRedo());
-  undo->setText(tr("&Undo %1").arg(menuText(editText(document.undoText()))).trimmed());
-  redo->setText(tr("&Redo %1").arg(menuText(editText(document.redoText()))).trimmed());
+  undo->setText(document.canUndo() ? tr("&Undo %1").arg(menuText(editText(document.undoText()))) : tr("&Undo"));
+  redo->setText(document.canRedo() ? tr("&Redo %1").arg(menuText(editText(document.redoText()))) : tr("&Redo"));
 }
 
 void MainWindow::fail(const QString& message)

@@ -294,6 +294,11 @@ void RenderDialog::takeProgress(int done, int total)
 
 void RenderDialog::showProgress()
 {
+  if (this->Process.cancelled())
+  {
+    this->Status->setText(tr("Stopping ... Cancel again ends what is being drawn, too."));
+    return;
+  }
   if (this->Pictures.isEmpty())
   {
     return; // the models are being read
@@ -303,6 +308,12 @@ void RenderDialog::showProgress()
   this->Progress->setValue(int(progressSteps * this->Estimate.fractionAt(now)));
   const std::optional<double> left = this->Estimate.secondsLeftAt(now);
   this->Status->setText(left ? tr("%1, %2 left").arg(this->Pictures, durationText(*left)) : this->Pictures);
+}
+
+void RenderDialog::cancel()
+{
+  this->Process.cancel();
+  this->showProgress();
 }
 
 void RenderDialog::finish(bool ok, bool cancelled, const QString& message)

@@ -73,6 +73,8 @@ private:
   void rememberChoices() const;
   void takeProgress(int done, int total);
   void showProgress();
+  /// The run ends after a row of tiles or so; asked again, at once.
+  void cancel();
   void finish(bool ok, bool cancelled, const QString& message);
   void setRunning(bool on);
   QString sceneFile();

@@ -181,7 +181,7 @@ void RenderDialog::makeRunRow(QVBoxLayout* layout)
   layout->addLayout(buttons);
   connect(this->Browse, &QPushButton::clicked, this, &RenderDialog::browse);
   connect(this->Start, &QPushButton::clicked, this, &RenderDialog::start);
-  connect(this->Cancel, &QPushButton::clicked, &this->Process, &RenderProcess::cancel);
+  connect(this->Cancel, &QPushButton::clicked, this, &RenderDialog::cancel);
   connect(close, &QPushButton::clicked, this, &RenderDialog::reject);
   connect(this->Result, &QPushButton::clicked, this, [this] { emit this->resultAsked(this->Folder->text()); });
   connect(this->Folder, &QLineEdit::textChanged, this, [this] { this->setRunning(!this->Start->isEnabled()); });

@@ -30,8 +30,10 @@ public:
 
   /// `arguments` as after the word dgtk.
   void start(const QStringList& arguments);
-  /// As Ctrl-C: what is finished stays and can be resumed.
+  /// As Ctrl-C: what is finished stays and can be resumed. The second time nothing is finished any more.
   void cancel();
+  /// Whether cancel() was called since the start.
+  bool cancelled() const { return this->Cancelled; }
   bool running() const { return this->Process.state() != QProcess::NotRunning; }
 
 signals:

@@ -12,12 +12,12 @@ OPTIONS = ("--quiet", "--layers", "color,depth,objects,calibration", "--size", "
 
 
 class Resume(Case):
-    def interrupted(self, folder, how):
-        """Starts a run and sends `how` as soon as some files are there."""
-        process = subprocess.Popen([DGTK, "render", SCENE, "-o", folder, *OPTIONS], stderr=subprocess.PIPE, text=True)
+    def interrupted(self, folder, how, options=OPTIONS, files=12):
+        """Starts a run and sends `how` as soon as more than so many files are there."""
+        process = subprocess.Popen([DGTK, "render", SCENE, "-o", folder, *options], stderr=subprocess.PIPE, text=True)
         deadline = time.monotonic() + 120
         while time.monotonic() < deadline and process.poll() is None:
-            if sum(len(names) for _, _, names in os.walk(folder)) > 12:
+            if sum(len(names) for _, _, names in os.walk(folder)) > files:
                 process.send_signal(how)
                 break
             time.sleep(0.002)
@@ -41,6 +41,17 @@ class Resume(Case):
                 self.assert_same_files(self.path("whole"), folder)
                 kept = [n for n, t in before.items() if os.stat(os.path.join(folder, n)).st_mtime_ns == t]
                 self.assertGreater(len(kept), 0, "nothing was kept")
+
+    def test_interrupt_within_a_picture(self):
+        """A large picture is not waited for."""
+        options = ("--quiet", "--layers", "color,depth", "--size", "256x12000", "--tile", "256x16", "--frames", "0:0")
+        folder = self.path("part")
+        status, errors = self.interrupted(folder, signal.SIGINT, options, 1)
+        self.assertEqual(status, 4, errors)
+        self.assertEqual([n for n in digests(folder) if n.endswith((".png", ".npy", ".exr"))], [])
+        self.dgtk("render", SCENE, "-o", folder, *options, "--resume")
+        self.dgtk("render", SCENE, "-o", self.path("whole"), *options)
+        self.assert_same_files(self.path("whole"), folder)
 
     def test_another_request_is_not_mixed_in(self):
         folder = self.path("mixed")

@@ -6,6 +6,7 @@
 
 #include <functional>
 
+class QDialog;
 class QFileDialog;
 class QPushButton;
 class QString;
@@ -36,6 +37,7 @@ private slots:
   void aCancelledExportWritesNothing();
   void theWindowClosesWhileItReads();
   void theProgressOfARunMoves();
+  void aLargeRunEndsAtOnce();
   void pictures();
 
 private:
@@ -52,6 +54,8 @@ private:
   static void name(QFileDialog& dialog, const QString& path, const QString& filter = {});
   /// Triggers an action that opens a file dialog.
   void inFileDialog(const char* action, const std::function<void(QFileDialog&)>& act) const;
+  /// The dialog of a run of square pictures of all cameras.
+  QDialog* largeRun(const char* folder, int size) const;
   /// An importer that runs a line of shell.
   void useImporter(const QByteArray& line) const;
   /// One that runs the line after letImporterGo().

@@ -11,7 +11,9 @@
 #include <QDialog>
 #include <QDockWidget>
 #include <QDropEvent>
+#include <QFile>
 #include <QFileDialog>
+#include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QMimeData>
@@ -243,15 +245,39 @@ void TestEditorFiles::theWindowIsAsItWasLeft()
   QVERIFY(this->Window->findChild<QDockWidget*>("timeDock")->isVisible());
 }
 
+QDialog* TestEditorFiles::largeRun(const char* folder, int size) const
+{
+  this->action("render")->trigger();
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  dialog->findChild<QLineEdit*>("folder")->setText(this->path(folder));
+  dialog->findChild<QCheckBox*>("ownSize")->setChecked(false);
+  dialog->findChild<QSpinBox*>("width")->setValue(size);
+  dialog->findChild<QSpinBox*>("height")->setValue(size);
+  return dialog;
+}
+
+/// Cancel, and Cancel again while a picture is drawn that takes minutes.
+void TestEditorFiles::aLargeRunEndsAtOnce()
+{
+  QVERIFY(this->Window->openFile(demo()));
+  const QDialog* const dialog = this->largeRun("hours", 20 * largeWidth);
+  auto* start = dialog->findChild<QPushButton*>("start");
+  auto* cancel = dialog->findChild<QPushButton*>("cancel");
+  const auto* status = dialog->findChild<QLabel*>("status");
+  QTest::mouseClick(start, Qt::LeftButton);
+  QTRY_VERIFY_WITH_TIMEOUT(status->text().startsWith("Pictures: 0"), longestRun);
+  QTest::mouseClick(cancel, Qt::LeftButton);
+  QVERIFY2(status->text().contains("Cancel again"), qPrintable(status->text()));
+  QTest::mouseClick(cancel, Qt::LeftButton);
+  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), 1000 * patience);
+  QVERIFY2(status->text().startsWith("Stopped."), qPrintable(status->text()));
+  QVERIFY(!QFile::exists(this->path("hours/manifest.json")));
+}
+
 void TestEditorFiles::theProgressOfARunMoves()
 {
   QVERIFY(this->Window->openFile(demo()));
-  this->action("render")->trigger();
-  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
-  dialog->findChild<QLineEdit*>("folder")->setText(this->path("progress"));
-  dialog->findChild<QCheckBox*>("ownSize")->setChecked(false);
-  dialog->findChild<QSpinBox*>("width")->setValue(largeWidth);
-  dialog->findChild<QSpinBox*>("height")->setValue(largeWidth);
+  const QDialog* const dialog = this->largeRun("progress", largeWidth);
   auto* bar = dialog->findChild<QProgressBar*>("progress");
   auto* start = dialog->findChild<QPushButton*>("start");
   auto* cancel = dialog->findChild<QPushButton*>("cancel");

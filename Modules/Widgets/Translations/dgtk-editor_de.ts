@@ -2021,6 +2021,10 @@
         <source>&amp;Matting of</source>
         <translation>Matting &amp;von</translation>
     </message>
+    <message>
+        <source>Stopping ... Cancel again ends what is being drawn, too.</source>
+        <translation>Wird angehalten ... Noch einmal Abbrechen beendet auch, was gerade gezeichnet wird.</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::RenderProcess</name>
