@@ -31,6 +31,8 @@ QString shellLine(const QStringList& words)
 
 void RenderProcess::Renderer::setupChildProcess()
 {
+  // Scripts start what runs in the background without SIGINT, and a child would lose a Cancel that comes early.
+  ::signal(SIGINT, SIG_DFL);
   [[maybe_unused]] const int now = ::nice(niceness); // it renders as well without
 }
 
@@ -88,8 +90,9 @@ void RenderProcess::cancel()
   // A signal is for the program, not for the copy of this one that is about to become it.
   if (this->running() && this->Process.waitForStarted(longestEnd))
   {
+    // Two of a kind that come soon after one another are one.
+    ::kill(static_cast<pid_t>(this->Process.processId()), this->Cancelled ? SIGKILL : SIGINT);
     this->Cancelled = true;
-    ::kill(static_cast<pid_t>(this->Process.processId()), SIGINT);
   }
 }
 

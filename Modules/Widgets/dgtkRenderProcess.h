@@ -30,7 +30,7 @@ public:
 
   /// `arguments` as after the word dgtk.
   void start(const QStringList& arguments);
-  /// As Ctrl-C: what is finished stays and can be resumed. The second time nothing is finished any more.
+  /// As Ctrl-C: what is finished stays and can be resumed. The second time the process is killed.
   void cancel();
   /// Whether cancel() was called since the start.
   bool cancelled() const { return this->Cancelled; }
@@ -48,7 +48,7 @@ private:
   void take(const QString& text);
   void end(int code, QProcess::ExitStatus status);
 
-  /// Gives way to the window where both want the processor.
+  /// Gives way to the window where both want the processor, and can be interrupted from the first.
   class Renderer : public QProcess
   {
   protected:

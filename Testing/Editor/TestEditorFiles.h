@@ -38,6 +38,7 @@ private slots:
   void theWindowClosesWhileItReads();
   void theProgressOfARunMoves();
   void aLargeRunEndsAtOnce();
+  void aRunEndsThatHasJustBegun();
   void pictures();
 
 private:

@@ -28,6 +28,7 @@
 #include <QUrl>
 
 #include <algorithm>
+#include <csignal>
 
 namespace
 {
@@ -272,6 +273,21 @@ void TestEditorFiles::aLargeRunEndsAtOnce()
   QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), 1000 * patience);
   QVERIFY2(status->text().startsWith("Stopped."), qPrintable(status->text()));
   QVERIFY(!QFile::exists(this->path("hours/manifest.json")));
+}
+
+/// Cancel before dgtk knows of signals, in an editor that ignores them as those that a script starts in the background.
+void TestEditorFiles::aRunEndsThatHasJustBegun()
+{
+  QVERIFY(this->Window->openFile(demo()));
+  const QDialog* const dialog = this->largeRun("hours", 20 * largeWidth);
+  auto* start = dialog->findChild<QPushButton*>("start");
+  const auto before = std::signal(SIGINT, SIG_IGN);
+  QTest::mouseClick(start, Qt::LeftButton);
+  QTest::mouseClick(dialog->findChild<QPushButton*>("cancel"), Qt::LeftButton);
+  std::signal(SIGINT, before);
+  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), 1000 * patience);
+  const QString said = dialog->findChild<QLabel*>("status")->text();
+  QVERIFY2(said.startsWith("Stopped."), qPrintable(said));
 }
 
 void TestEditorFiles::theProgressOfARunMoves()
