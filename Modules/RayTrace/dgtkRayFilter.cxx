@@ -31,13 +31,6 @@ bool isBetter(const RayContext& context, unsigned int lane, const Hit& a, const 
   return comesBefore(first.t, a, second.t, b);
 }
 
-/// Whether there is no texel where the ray meets a triangle.
-bool isMissing(const RayContext& context, unsigned int lane, const Hit& hit)
-{
-  return isCutOut(context.scene->state().instances[hit.object - 1], hit.triangle,
-    context.scene->intersectTriangle(rayOfLane(context, lane), hit).barycentrics);
-}
-
 /// One bit a lane that is not 0.
 unsigned int activeLanes(const int* valid, unsigned int count)
 {
@@ -82,7 +75,6 @@ bool accept(RayContext& context, const RayMesh& mesh, unsigned int geometry, uns
       }
       break;
     }
-    case RayContext::Mode::Plain:
     case RayContext::Mode::Nearest:
       if (mesh.cutOut[geometry] && isCutOut(context.scene->state().instances[hit.object - 1], hit.triangle,
                                      context.scene->intersectTriangle(rayOfLane(context, lane), hit).barycentrics))
@@ -116,25 +108,6 @@ void rayFilter(const RTCFilterFunctionNArguments* arguments)
     context.t[lane] = tfar;
     context.best[lane] = hit;
     tfar += context.scene->slack(tfar);
-  }
-}
-
-void cutOutFilter(const RTCFilterFunctionNArguments* arguments)
-{
-  const auto& context = *reinterpret_cast<const RayContext*>(arguments->context);
-  if (context.mode != RayContext::Mode::Plain)
-  {
-    return; // rayFilter does it
-  }
-  const auto* mesh = static_cast<const RayMesh*>(arguments->geometryUserPtr);
-  const unsigned int count = arguments->N;
-  for (unsigned int lanes = activeLanes(arguments->valid, count); lanes != 0; lanes &= lanes - 1)
-  {
-    const unsigned int i = unsigned(__builtin_ctz(lanes));
-    if (isMissing(context, RTCRayN_id(arguments->ray, count, i), hitOf(*mesh, *arguments, i)))
-    {
-      arguments->valid[i] = 0;
-    }
   }
 }
 

@@ -141,10 +141,6 @@ void attach(RayMesh& mesh, RTCBuffer vertices, std::uint32_t first, std::uint32_
     mesh.inverseEdge[i] = solid && longest > 0 ? 1 / std::sqrt(longest) : 0;
   }
   rtcSetGeometryUserData(geometry, &mesh);
-  if (cutOut)
-  {
-    rtcSetGeometryIntersectFilterFunction(geometry, cutOutFilter);
-  }
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(mesh.scene, geometry);
   rtcReleaseGeometry(geometry);

@@ -36,9 +36,6 @@ struct RayMesh
   std::vector<float> inverseEdge; ///< 1 / longest edge by triangle of the model, units of the vertices; 0 without area
 };
 
-/// Filter of geometries with a cut-out texture (dgtkRayFilter.cxx).
-void cutOutFilter(const RTCFilterFunctionNArguments* arguments);
-
 /// What makes meshes different.
 struct RayMeshKey
 {

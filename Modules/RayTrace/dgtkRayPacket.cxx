@@ -215,8 +215,8 @@ void PacketTracer::trace(const PixelRect& block, VisibilityBuffer& buffer, RayMa
     hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     this->Context.t[lane] = INFINITY;
   }
-  this->Context.mode = Mode == TraceMode::Ties ? RayContext::Mode::Nearest : RayContext::Mode::Plain;
-  this->Context.context.filter = Mode == TraceMode::Ties ? rayFilter : nullptr;
+  this->Context.mode = RayContext::Mode::Nearest;
+  this->Context.context.filter = Mode == TraceMode::Exact ? rayFilter : nullptr;
   this->Context.x = block.x;
   this->Context.y = block.y;
   rtcIntersect16(this->Valid, this->Scene.handle(), &this->Context.context, &this->Packet);
@@ -237,8 +237,7 @@ void PacketTracer::trace(const PixelRect& block, VisibilityBuffer& buffer, RayMa
   }
 }
 
-template void PacketTracer::trace<TraceMode::Ties>(const PixelRect&, VisibilityBuffer&, RayMarks&);
-template void PacketTracer::trace<TraceMode::Plain>(const PixelRect&, VisibilityBuffer&, RayMarks&);
+template void PacketTracer::trace<TraceMode::Exact>(const PixelRect&, VisibilityBuffer&, RayMarks&);
 template void PacketTracer::trace<TraceMode::Bare>(const PixelRect&, VisibilityBuffer&, RayMarks&);
 
 } // namespace dgtk

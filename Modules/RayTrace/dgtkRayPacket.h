@@ -25,9 +25,8 @@ struct RayMarks
 /// What is done beside the tracing.
 enum class TraceMode
 {
-  Bare,  ///< nothing; for scenes made for it
-  Plain, ///< marks are set
-  Ties   ///< marks are set, and surfaces close together are ordered exactly
+  Bare, ///< nothing; for scenes made for it
+  Exact ///< marks are set, and surfaces close together are ordered exactly
 };
 
 /// Traces the primary rays of a view, 4 x 4 pixels at a time. One thread.

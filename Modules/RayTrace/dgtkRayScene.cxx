@@ -239,22 +239,6 @@ void traceAround(const RayScene& scene, const ExactRay& ray, double offset, doub
 
 } // namespace
 
-bool hasNearTie(const RayScene& scene, const ExactRay& ray, float t)
-{
-  thread_local std::vector<Hit> found;
-  found.clear();
-  ExactRay window = ray;
-  window.least = double(t) - scene.slack(t);
-  window.most = double(t) + scene.slack(t);
-  trace(scene, window, found);
-  if (found.size() < 2)
-  {
-    return false;
-  }
-  return 1 <
-         std::count_if(found.begin(), found.end(), [&](const Hit& hit) { return scene.intersect(ray, hit).inside; });
-}
-
 void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::vector<RayHit>& hits)
 {
   thread_local std::vector<Hit> found;

@@ -89,13 +89,10 @@ struct RayHit
 /// misses by a rounding; otherwise only when some surface is marginal.
 void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::vector<RayHit>& hits);
 
-/// Whether two surfaces are too close together along a ray, near t, for single precision to order.
-bool hasNearTie(const RayScene& scene, const ExactRay& ray, float t);
-
 /// Part of t by which equally near surfaces may differ: a few roundings of vertices far from the origin.
 constexpr double SameDistance = 1e-9;
 
-/// Embree's filter of all modes but Plain, set in the context.
+/// Embree's filter of all modes, set in the context.
 void rayFilter(const RTCFilterFunctionNArguments* arguments);
 
 /// Embree's context with what the filter needs, first member first.
@@ -105,11 +102,10 @@ struct RayContext
   const RayScene* scene = nullptr;
   enum class Mode
   {
-    Plain,   ///< the nearest surface in single precision; only cut-out textures are looked at
     Nearest, ///< the nearest surface of each lane, near ties decided exactly
     Checked, ///< the nearest surface that is exactly inside the range of `ray` and is not `skip`
     Collect  ///< all candidates
-  } mode = Mode::Plain;
+  } mode = Mode::Nearest;
   // Nearest: rays by lane (RTCRay::id), and what was accepted.
   const View* view = nullptr;    ///< rays through 4 x 4 pixels of a view, the first one at (x, y) ...
   const ExactRay* ray = nullptr; ///< ... or one given ray

@@ -4,7 +4,6 @@
 #include "dgtkThreadPool.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 namespace dgtk
@@ -51,28 +50,6 @@ public:
         this->decide(i, changes);
       }
     }
-  }
-
-  /// Whether a decided pixel had coincident surfaces.
-  bool hasTie() const { return this->Tie; }
-
-  /// Looks for surfaces close together at one pixel of each square of rows [first, last).
-  bool samplesHaveTie(int first, int last) const
-  {
-    const PixelRect& rect = this->Buffer.rect;
-    for (int x = 0; x < rect.width; x += ChunkRows)
-    {
-      // A different place in each square, so that no regular pattern of the scene escapes.
-      const int square = x / ChunkRows + 37 * (first / ChunkRows);
-      const int column = std::min(x + square * 7 % ChunkRows, rect.width - 1);
-      const int row = std::min(first + square * 11 % ChunkRows, last - 1);
-      const std::size_t i = std::size_t(row) * rect.width + column;
-      if (this->Buffer.hits[i].object != 0 && hasNearTie(this->Scene, this->rayAt(i), 1 / this->Marks.nearness[i]))
-      {
-        return true;
-      }
-    }
-    return false;
   }
 
 private:
@@ -191,7 +168,6 @@ private:
   {
     collectHits(this->Scene, this->rayAt(i), true, this->Found);
     const Hit hit = this->Found.empty() ? Hit{} : this->Found.front().hit;
-    this->Tie |= this->Found.size() > 1 && this->Found[1].t <= this->Found[0].t * (1 + SameDistance);
     if (hit != this->Buffer.hits[i])
     {
       changes.push_back({ i, hit });
@@ -213,7 +189,6 @@ private:
   const VisibilityBuffer& Buffer;
   bool EveryEdge; ///< of every triangle is looked at, not only where the depth jumps
   std::vector<RayHit> Found;
-  bool Tie = false;
   Row Rows[5];
   int Loaded = -1; ///< the row around which all but the last of Rows are loaded
   std::vector<int> Suspects;
@@ -221,13 +196,12 @@ private:
 
 } // namespace
 
-bool settleMarked(
+void settleMarked(
   const RayScene& scene, const View& view, const RayMarks& marks, VisibilityBuffer& buffer, ThreadPool& pool)
 {
   const int height = buffer.rect.height;
   const int chunks = (height + ChunkRows - 1) / ChunkRows;
   std::vector<std::vector<Change>> changes(static_cast<std::size_t>(chunks));
-  std::atomic<bool> ordered{ true };
   pool.parallelFor(chunks,
     [&](int chunk)
     {
@@ -237,10 +211,6 @@ bool settleMarked(
       {
         settler.row(y, changes[chunk]);
       }
-      if (settler.hasTie() || settler.samplesHaveTie(first, std::min(height, first + ChunkRows)))
-      {
-        ordered = false;
-      }
     });
   for (const std::vector<Change>& part : changes)
   {
@@ -249,7 +219,6 @@ bool settleMarked(
       buffer.hits[change.index] = change.hit;
     }
   }
-  return ordered;
 }
 
 } // namespace dgtk

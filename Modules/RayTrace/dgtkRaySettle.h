@@ -11,9 +11,7 @@ class ThreadPool;
 
 /// Decides in double precision the pixels that are marked doubtful, and those beside a nearer surface that contains
 /// them. What single precision decided otherwise, differently from one width of vector units to another, is undone.
-/// Returns false when surfaces lie so close together somewhere that TraceMode::Plain could not order them; found by
-/// samples, and where pixels are decided.
-bool settleMarked(
+void settleMarked(
   const RayScene& scene, const View& view, const RayMarks& marks, VisibilityBuffer& buffer, ThreadPool& pool);
 
 } // namespace dgtk

@@ -43,12 +43,8 @@ public:
       return;
     }
     this->Marks.resize(rect);
-    this->trace<TraceMode::Plain>(hits);
-    if (!settleMarked(this->Scene, this->CurrentView, this->Marks, hits, this->Pool))
-    {
-      this->trace<TraceMode::Ties>(hits);
-      settleMarked(this->Scene, this->CurrentView, this->Marks, hits, this->Pool);
-    }
+    this->trace<TraceMode::Exact>(hits);
+    settleMarked(this->Scene, this->CurrentView, this->Marks, hits, this->Pool);
   }
 
 private:

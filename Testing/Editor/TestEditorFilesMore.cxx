@@ -270,7 +270,7 @@ void TestEditorFiles::aLargeRunEndsAtOnce()
   QTest::mouseClick(cancel, Qt::LeftButton);
   QVERIFY2(status->text().contains("Cancel again"), qPrintable(status->text()));
   QTest::mouseClick(cancel, Qt::LeftButton);
-  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), 1000 * patience);
+  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), 4000 * patience);
   QVERIFY2(status->text().startsWith("Stopped."), qPrintable(status->text()));
   QVERIFY(!QFile::exists(this->path("hours/manifest.json")));
 }
@@ -285,7 +285,7 @@ void TestEditorFiles::aRunEndsThatHasJustBegun()
   QTest::mouseClick(start, Qt::LeftButton);
   QTest::mouseClick(dialog->findChild<QPushButton*>("cancel"), Qt::LeftButton);
   std::signal(SIGINT, before);
-  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), 1000 * patience);
+  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), 4000 * patience);
   const QString said = dialog->findChild<QLabel*>("status")->text();
   QVERIFY2(said.startsWith("Stopped."), qPrintable(said));
 }

@@ -172,6 +172,27 @@ TEST(RaySource, OfCoincidentSurfacesTheLowestIdIsSeen)
   }
 }
 
+/// A few pixels of a picture, which say nothing of themselves elsewhere.
+TEST(RaySource, OfAFewCoincidentPixelsTheLowestIdIsSeen)
+{
+  ThreadPool pool(2);
+  const auto source = makeRaySource(pool);
+  const View view = makeView({ 96, 96, 45, { 0.3, 0.2, 4 }, { 0, 0, 0 }, { 0, 1, 0 }, 0.1, 1000 });
+  const auto quad = makeQuad();
+  for (int i = 0; i < 40; ++i)
+  {
+    // On the same plane, one of them 2 pixels wide.
+    const Eigen::Vector3d at(0.013 * i, 0.007 * i, 0.1);
+    const Affine3 large = placement(at, 0.8, { 1, 1, 0 }, 0.7);
+    const Affine3 small = placement(at, 0.03, { 1, 1, 0 }, 0.7);
+    const auto state = SceneBuilder().add(quad, small).add(quad, large).state();
+    compare({ "small, large", state, view, view }, trace(*source, state, view), bruteForce(*state, view));
+    const auto other = SceneBuilder().add(quad, large).add(quad, small).state();
+    const VisibilityBuffer buffer = trace(*source, other, view);
+    EXPECT_EQ(std::count_if(buffer.hits.begin(), buffer.hits.end(), [](const Hit& hit) { return hit.object == 2; }), 0);
+  }
+}
+
 TEST(RaySource, ThousandInstances)
 {
   ThreadPool pool(2);
