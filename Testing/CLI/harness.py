@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the whole-program cases share: running dgtk, temporary folders, comparing datasets byte by byte."""
+import functools
 import hashlib
 import json
 import os
@@ -56,6 +57,23 @@ class Case(unittest.TestCase):
         differing = [name for name in one if one[name] != two[name]]
         self.assertEqual(differing, [], f"{first} and {second} differ")
         self.assertGreater(len(one), 0)
+
+
+def needs_povray(test):
+    """For a case or a class of cases: without POV-Ray it fails, and says so. It is one of the packages to install."""
+    def wrapped(self, *arguments):
+        self.assertTrue(shutil.which("povray"), "POV-Ray is not installed (Utilities/Setup/packages.txt)")
+        return test(self, *arguments)
+
+    if isinstance(test, type):
+        for name in [n for n in vars(test) if n.startswith("test")]:
+            setattr(test, name, needs_povray(getattr(test, name)))
+        return test
+    return functools.wraps(test)(wrapped)
+
+
+needs_samples = unittest.skipUnless(os.path.exists(os.path.join(EXTRA, "TRUTH.json")) if EXTRA else False,
+                                    "the sample models are not part of the source: set DGTK_EXTRA_MODELS")
 
 
 def digests(folder):

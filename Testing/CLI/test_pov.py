@@ -3,13 +3,11 @@
 import json
 import os
 import re
-import shutil
 import subprocess
-import unittest
 
 import numpy
 
-from harness import SCENES, SOURCE, Case, digests, main
+from harness import SCENES, SOURCE, Case, digests, main, needs_povray
 from test_ldi import read_png
 
 MODELS = os.path.join(SOURCE, "Data", "Models")
@@ -116,7 +114,7 @@ class Pov(Case):
         if nothing.sum() > 9:
             self.assertLess(numpy.median(abs(drawn - color)[nothing]), 1.5)
 
-    @unittest.skipUnless(shutil.which("povray"), "POV-Ray is not installed")
+    @needs_povray
     def test_centred(self):
         f = 240 / 2 / numpy.tan(numpy.radians(22))
         change = {"width": 320, "height": 240, "K": [[f, 0, 160], [0, f, 120], [0, 0, 1]]}
@@ -124,12 +122,12 @@ class Pov(Case):
         del scene["cameras"][0]["fovY"]
         self.check(scene, 0)
 
-    @unittest.skipUnless(shutil.which("povray"), "POV-Ray is not installed")
+    @needs_povray
     def test_off_centre_with_unequal_focal_lengths(self):
         change = {"width": 320, "height": 200, "K": [[350, 12, 125], [0, 280, 130], [0, 0, 1]]}
         self.check(self.scene("cameras_all_kinds.json", "matrix", change), 3)  # a frame within the creature's motion
 
-    @unittest.skipUnless(shutil.which("povray"), "POV-Ray is not installed")
+    @needs_povray
     def test_orthographic(self):
         self.check(self.scene("cameras_all_kinds.json", "orthographic", {"width": 240, "height": 240}), 2)
 

@@ -3,13 +3,12 @@
 import json
 import os
 import shutil
-import unittest
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy
 
 import pictures
-from harness import SCENES, SOURCE, Case, main
+from harness import SCENES, SOURCE, Case, main, needs_povray
 from pov_scene import ids_of, read_pnm
 
 MODELS = os.path.join(SOURCE, "Data", "Models")
@@ -39,7 +38,7 @@ def inside(ids):
     return same & (ids > 0)
 
 
-@unittest.skipUnless(shutil.which("povray"), "POV-Ray is not installed")
+@needs_povray
 class Color(Case):
     def render(self, scene, name, *options):
         self.dgtk("render", scene, "-o", self.path(name), "--quiet", "--color-bits", "16", *options)

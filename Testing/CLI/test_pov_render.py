@@ -6,12 +6,11 @@ import shutil
 import signal
 import subprocess
 import time
-import unittest
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy
 
-from harness import DGTK, SCENES, SOURCE, Case, digests, load_json, main
+from harness import DGTK, SCENES, SOURCE, Case, digests, load_json, main, needs_povray
 from pov_scene import draw, ids_of, read_pnm
 from test_ldi import read_png
 
@@ -109,7 +108,7 @@ class WithoutPovRay(Case):
         return sum(thing["triangles"] for thing in info["objects"])
 
 
-@unittest.skipUnless(shutil.which("povray"), "POV-Ray is not installed")
+@needs_povray
 class Render(Case):
     def test_truth_is_unchanged_and_threads_change_nothing(self):
         options = ("--layers", "color,tiles,depth,normal,objects,triangles,pov", "--cameras", "matrix,flight", "--frames", "0", "--tile", "50x40",
