@@ -7,6 +7,7 @@ endif()
 if(DGTK_SANITIZE)
   add_compile_options(-fsanitize=${DGTK_SANITIZE} -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=${DGTK_SANITIZE})
+  add_compile_definitions(_GLIBCXX_ASSERTIONS) # indices and iterators of the standard library are looked at, too
   if(DGTK_SANITIZE MATCHES "undefined")
     add_compile_options(-fno-sanitize-recover=undefined)
   endif()
