@@ -1,13 +1,27 @@
-# dgtk_add_tests(<Module> <source>... [LINK <targets>...])
-# One GoogleTest program, Test<Module>, of the module's Testing folder; each case is a test of CTest.
+# dgtk_add_tests(<Module> <source>... [LINK <targets>...] [SHARDS <n>] [TIMEOUT <seconds>])
+# One GoogleTest program, Test<Module>, of the module's Testing folder. It is one test of CTest, or SHARDS of them that run
+# beside one another: starting a process a case costs more than most cases do. With DGTK_TEST_EACH_CASE each case is a test.
 include(GoogleTest)
+option(DGTK_TEST_EACH_CASE "Each GoogleTest case is a test of CTest: slower, for finding one" OFF)
 function(dgtk_add_tests module)
-  cmake_parse_arguments(PARSE_ARGV 1 _t "" "TIMEOUT" "LINK")
+  cmake_parse_arguments(PARSE_ARGV 1 _t "" "TIMEOUT;SHARDS" "LINK")
   add_executable(Test${module} ${_t_UNPARSED_ARGUMENTS})
   target_link_libraries(Test${module} PRIVATE DGTk::${module} dgtk_test_support GTest::gmock GTest::gtest_main ${_t_LINK})
   if(NOT _t_TIMEOUT)
     set(_t_TIMEOUT 300)
   endif()
-  gtest_discover_tests(Test${module} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    TEST_PREFIX "${module}." PROPERTIES TIMEOUT ${_t_TIMEOUT})
+  if(DGTK_TEST_EACH_CASE)
+    gtest_discover_tests(Test${module} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+      TEST_PREFIX "${module}." PROPERTIES TIMEOUT ${_t_TIMEOUT})
+  elseif(_t_SHARDS)
+    math(EXPR last "${_t_SHARDS} - 1")
+    foreach(shard RANGE ${last})
+      add_test(NAME ${module}.${shard} COMMAND Test${module} --gtest_brief=1)
+      set_tests_properties(${module}.${shard} PROPERTIES TIMEOUT ${_t_TIMEOUT}
+        ENVIRONMENT "GTEST_TOTAL_SHARDS=${_t_SHARDS};GTEST_SHARD_INDEX=${shard}")
+    endforeach()
+  else()
+    add_test(NAME ${module} COMMAND Test${module} --gtest_brief=1)
+    set_tests_properties(${module} PROPERTIES TIMEOUT ${_t_TIMEOUT})
+  endif()
 endfunction()
