@@ -81,6 +81,7 @@ struct LayerInfo
   std::string layer;
   std::vector<std::string> formats; ///< the first is the default
   std::string description;
+  bool array = false; ///< dgtkRenderer gives it: an array with the values of the file
 };
 /// Every layer that can be asked for, in the order of `--layers all`.
 DGTKPIPELINE_EXPORT std::vector<LayerInfo> generatorLayers();

@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkFrameSource.h"
+#include "dgtkGLContext.h"
 #include "dgtkOutputLanes.h"
 #include "dgtkScene.h"
 #include "dgtkSurfaceRows.h"
@@ -20,31 +21,93 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
+#include <optional>
 #include <thread>
+#include <unistd.h>
 
 vtkStandardNewMacro(dgtkRenderer);
 
-struct dgtkRenderer::Internal
-{
-  vtkSmartPointer<dgtkScene> scene;
-  dgtk::GeneratorRequest request;
-  std::string camera;
-  int frame = 0;
-  bool frameSet = false;
-  std::string errorMessage;
-  int width = 0;
-  int height = 0;
-  dgtk::ThreadPool pool{ std::max(1, static_cast<int>(std::thread::hardware_concurrency())) };
-  std::string sourceKey; // options that `source` was made for
-  std::unique_ptr<dgtk::FrameSource> source;
-  vtkSmartPointer<vtkDataArray> result;
-
-  dgtk::FrameSource& sourceFor(const dgtk::WorkPlan& plan);
-  dgtk::Rows draw(const std::string& layer);
-};
-
 namespace
 {
+/// What draws, kept from picture to picture; for any thread, and for processes forked from the one that made it.
+class KeptSource
+{
+public:
+  ~KeptSource() { this->drop(); }
+  void use(const dgtk::FrameSourceOptions& options, const std::function<void(dgtk::FrameSource&)>& draw);
+
+private:
+  void drop();
+  void leaveInherited();
+
+  pid_t Process = 0; // that of the members below
+  std::unique_ptr<dgtk::ThreadPool> Pool;
+  dgtk::FrameSourceOptions Options; // of Source
+  std::unique_ptr<dgtk::FrameSource> Source;
+};
+
+bool usesGL(const dgtk::FrameSourceOptions& options) { return options.color || options.raster; }
+
+bool same(const dgtk::FrameSourceOptions& a, const dgtk::FrameSourceOptions& b)
+{
+  return a.hits == b.hits && a.color == b.color && a.raster == b.raster && a.samples == b.samples && a.gl == b.gl;
+}
+
+void KeptSource::use(const dgtk::FrameSourceOptions& options, const std::function<void(dgtk::FrameSource&)>& draw)
+{
+  this->leaveInherited();
+  if (!same(options, this->Options))
+  {
+    this->drop();
+  }
+  std::optional<dgtk::GLTurn> turn;
+  if (usesGL(options))
+  {
+    turn.emplace();
+  }
+  if (!this->Source)
+  {
+    this->Options = options;
+    this->Source = std::make_unique<dgtk::FrameSource>(options, *this->Pool);
+  }
+  draw(*this->Source);
+}
+
+void KeptSource::drop()
+{
+  this->leaveInherited();
+  std::optional<dgtk::GLTurn> turn;
+  if (this->Source && usesGL(this->Options))
+  {
+    turn.emplace();
+  }
+  this->Source.reset();
+}
+
+/// The threads of what a process finds when it was forked are not there: its end would wait for them.
+void KeptSource::leaveInherited()
+{
+  if (this->Process != ::getpid())
+  {
+    static_cast<void>(this->Source.release());
+    static_cast<void>(this->Pool.release());
+    this->Process = ::getpid();
+    this->Pool = std::make_unique<dgtk::ThreadPool>(std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+  }
+}
+
+dgtk::FrameSourceOptions sourceOptions(const dgtk::WorkPlan& plan)
+{
+  dgtk::FrameSourceOptions options;
+  options.hits = !plan.representations.empty();
+  options.color = plan.drawsColor();
+  options.raster = plan.raster;
+  options.samples = plan.request.samples;
+  options.gl = plan.request.gl;
+  return options;
+}
+
 vtkSmartPointer<vtkDataArray> arrayFor(dgtk::PixelType type)
 {
   switch (type)
@@ -61,35 +124,65 @@ vtkSmartPointer<vtkDataArray> arrayFor(dgtk::PixelType type)
       return vtkSmartPointer<vtkDoubleArray>::New();
   }
 }
+
+/// Throws UsageError for every name but those of the layers that say that they are arrays.
+void requireArray(const std::string& layer)
+{
+  bool known = false;
+  std::string arrays;
+  for (const dgtk::LayerInfo& info : dgtk::generatorLayers())
+  {
+    if (info.layer == layer && info.array)
+    {
+      return;
+    }
+    known = known || info.layer == layer;
+    if (info.array)
+    {
+      arrays += (arrays.empty() ? "" : ", ") + info.layer;
+    }
+  }
+  throw dgtk::UsageError(
+    (known ? "the layer " + layer + " is not given as an array yet" : "unknown layer " + dgtk::quoted(layer)) +
+    " (expected one of " + arrays + ')');
+}
 } // namespace
 
-dgtk::FrameSource& dgtkRenderer::Internal::sourceFor(const dgtk::WorkPlan& plan)
+struct dgtkRenderer::Internal
 {
-  dgtk::FrameSourceOptions options;
-  options.hits = !plan.representations.empty();
-  options.color = plan.drawsColor();
-  options.raster = plan.raster;
-  options.samples = plan.request.samples;
-  options.gl = plan.request.gl;
-  const std::string key = std::to_string(options.hits) + std::to_string(options.color) +
-                          std::to_string(options.raster) + ' ' + std::to_string(options.samples) + ' ' + options.gl;
-  if (!this->source || key != this->sourceKey)
-  {
-    this->source.reset();
-    this->source = std::make_unique<dgtk::FrameSource>(options, this->pool);
-    this->sourceKey = key;
-  }
-  return *this->source;
-}
+  vtkSmartPointer<dgtkScene> scene;
+  dgtk::GeneratorRequest request;
+  std::string camera;
+  int frame = 0;
+  bool frameSet = false;
+  std::string errorMessage;
+  int width = 0;
+  int height = 0;
+  KeptSource source;
+  vtkSmartPointer<vtkDataArray> result;
+
+  dgtk::Rows draw(const std::string& layer);
+  dgtk::WorkPlan planOf(const std::string& layer, const dgtk::Stage& stage);
+  dgtk::Rows drawWith(dgtk::FrameSource& frames, const dgtk::WorkPlan& plan, const dgtk::Stage& stage);
+};
 
 dgtk::Rows dgtkRenderer::Internal::draw(const std::string& layer)
 {
-  using namespace dgtk;
   if (!this->scene || !this->scene->GetStage())
   {
-    throw UsageError("no scene is set");
+    throw dgtk::UsageError("no scene is set");
   }
-  const Stage& stage = *this->scene->GetStage();
+  const dgtk::Stage& stage = *this->scene->GetStage();
+  const dgtk::WorkPlan plan = this->planOf(layer, stage);
+  dgtk::Rows image;
+  this->source.use(
+    sourceOptions(plan), [&](dgtk::FrameSource& frames) { image = this->drawWith(frames, plan, stage); });
+  return image;
+}
+
+dgtk::WorkPlan dgtkRenderer::Internal::planOf(const std::string& layer, const dgtk::Stage& stage)
+{
+  requireArray(layer);
   this->request.layers = { layer };
   this->request.cameras.clear();
   if (!this->camera.empty())
@@ -97,16 +190,17 @@ dgtk::Rows dgtkRenderer::Internal::draw(const std::string& layer)
     this->request.cameras = { this->camera };
   }
   const int at = this->frameSet ? this->frame : stage.description().firstFrame();
-  this->request.frames = FrameRange{ at, at, 1 };
-  const WorkPlan plan = makeWorkPlan(this->request, stage);
-  if (plan.calibration || plan.tiles)
-  {
-    throw UsageError("layer " + layer + " is a file, not an image");
-  }
+  this->request.frames = dgtk::FrameRange{ at, at, 1 };
+  return dgtk::makeWorkPlan(this->request, stage);
+}
+
+dgtk::Rows dgtkRenderer::Internal::drawWith(
+  dgtk::FrameSource& frames, const dgtk::WorkPlan& plan, const dgtk::Stage& stage)
+{
+  using namespace dgtk;
   const Job& job = plan.jobs.front();
   const View view = stage.view(job.camera, job.frame, this->request.width, this->request.height);
   const std::shared_ptr<const SceneState> state = stage.at(job.frame);
-  FrameSource& frames = this->sourceFor(plan);
   frames.setScene(state, view);
   this->width = view.model->width();
   this->height = view.model->height();

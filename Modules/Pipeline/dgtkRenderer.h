@@ -3,7 +3,9 @@
  * @class dgtkRenderer
  * @brief Renders layers of one camera at one frame into arrays.
  *
- * The arrays hold exactly what `dgtk render` writes: rows from top to bottom, one tuple a pixel.
+ * The arrays hold exactly what `dgtk render` writes: rows from top to bottom, one tuple a pixel. Threads may render in
+ * turns, each with a renderer of its own. In a process that was forked after its first picture was drawn by OpenGL, a
+ * renderer draws on where OpenGL can be had anew, and says so where it cannot.
  */
 #ifndef dgtkRenderer_h
 #define dgtkRenderer_h
@@ -57,7 +59,7 @@ public:
   /**
    * The layer ("color", "depth", "objects", ...): GetWidth() x GetHeight() tuples, rows top to bottom. Colour is
    * unsigned char, 3 components, sRGB. The array belongs to the caller's reference; null on failure, see
-   * GetErrorMessage().
+   * GetErrorMessage(), which also names the layers that can be had so.
    */
   vtkDataArray* Render(const std::string& layer);
 

@@ -113,8 +113,9 @@ std::vector<int> resolveFrames(const std::optional<FrameRange>& asked, const Sce
   const FrameRange range = asked.value_or(FrameRange{ scene.firstFrame(), scene.lastFrame(), 1 });
   if (range.first < scene.firstFrame() || range.last > scene.lastFrame())
   {
-    throw UsageError("--frames: the scene has frames " + std::to_string(scene.firstFrame()) + " to " +
-                     std::to_string(scene.lastFrame()));
+    throw UsageError("the scene has frames " + std::to_string(scene.firstFrame()) + " to " +
+                     std::to_string(scene.lastFrame()) + ", found " +
+                     std::to_string(range.first < scene.firstFrame() ? range.first : range.last));
   }
   std::vector<int> frames;
   for (long frame = range.first; frame <= range.last; frame += range.step)
@@ -127,10 +128,10 @@ std::vector<int> resolveFrames(const std::optional<FrameRange>& asked, const Sce
 
 std::vector<LayerInfo> generatorLayers()
 {
-  std::vector<LayerInfo> layers{ { "color", { "png", "exr" }, "the picture, by VTK or POV-Ray" } };
+  std::vector<LayerInfo> layers{ { "color", { "png", "exr" }, "the picture, by VTK or POV-Ray", true } };
   for (const RepresentationInfo& info : representations())
   {
-    layers.push_back({ info.layer, makeRepresentation(info.layer)->formats(), info.description });
+    layers.push_back({ info.layer, makeRepresentation(info.layer)->formats(), info.description, true });
   }
   for (const auto& layer : frameLayers())
   {
@@ -227,6 +228,22 @@ std::vector<std::string> WorkPlan::formatsOf(const std::string& frameLayer) cons
 
 namespace
 {
+constexpr int mostSamples = 16;
+
+void checkEngines(const GeneratorRequest& request)
+{
+  if (!contains({ "auto", "raster", "ray" }, request.visibility))
+  {
+    throw UsageError("unknown visibility engine " + quoted(request.visibility) + " (expected auto, raster or ray)");
+  }
+  glBackendFromName(request.gl);
+  if (request.samples < 1 || request.samples > mostSamples)
+  {
+    throw UsageError("samples must be between 1 and " + std::to_string(mostSamples) + " (found " +
+                     std::to_string(request.samples) + ')');
+  }
+}
+
 /// What the renderer cannot do.
 void checkPictures(const WorkPlan& plan, const SceneDescription& scene)
 {
@@ -252,6 +269,7 @@ void checkPictures(const WorkPlan& plan, const SceneDescription& scene)
 WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
 {
   const SceneDescription& scene = stage.description();
+  checkEngines(request);
   WorkPlan plan;
   plan.request = request;
   plan.layers = resolveLayers(request.layers);

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <dlfcn.h>
+#include <map>
+#include <unistd.h>
 #include <vector>
 
 namespace dgtk
@@ -95,7 +97,7 @@ public:
   }
   ~EglContext() override
   {
-    egl().makeCurrent(this->Display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    EglContext::release();
     egl().destroyContext(this->Display, this->Context);
   }
   void makeCurrent() override
@@ -105,6 +107,7 @@ public:
       throw MachineError("eglMakeCurrent failed");
     }
   }
+  void release() override { egl().makeCurrent(this->Display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
   bool isCurrent() const override { return egl().getCurrentContext() == this->Context; }
   void* lookUp(const char* function) const override { return reinterpret_cast<void*>(egl().getProcAddress(function)); }
 
@@ -113,9 +116,20 @@ private:
   EGLContext Context;
 };
 
+/// A display's renderer waits for threads that a forked process does not have, so each is used by one process only.
+void claim(EGLDisplay display)
+{
+  static std::map<EGLDisplay, pid_t> owners;
+  if (owners.emplace(display, ::getpid()).first->second != ::getpid())
+  {
+    throw MachineError("in use since before the process was forked");
+  }
+}
+
 /// An OpenGL core context of the highest version that the display has.
 std::unique_ptr<NativeContext> contextOn(EGLDisplay display)
 {
+  claim(display);
   if (display == EGL_NO_DISPLAY || !egl().initialize(display, nullptr, nullptr))
   {
     throw MachineError("eglInitialize failed");
@@ -146,8 +160,8 @@ std::unique_ptr<NativeContext> contextOn(EGLDisplay display)
   throw MachineError("no OpenGL 3.2 core context");
 }
 
-/// A GPU's context; nothing when there is no GPU.
-std::unique_ptr<NativeContext> deviceContext()
+/// A GPU's context, or one of Mesa's software renderer as a device; nothing when there is none.
+std::unique_ptr<NativeContext> deviceContext(bool software)
 {
   if (!egl().queryDevices || !egl().queryDeviceString)
   {
@@ -163,7 +177,7 @@ std::unique_ptr<NativeContext> deviceContext()
   devices.resize(count);
   for (EGLDeviceEXT device : devices)
   {
-    if (contains(egl().queryDeviceString(device, EGL_EXTENSIONS), "EGL_MESA_device_software"))
+    if (contains(egl().queryDeviceString(device, EGL_EXTENSIONS), "EGL_MESA_device_software") != software)
     {
       continue;
     }
@@ -171,7 +185,7 @@ std::unique_ptr<NativeContext> deviceContext()
     {
       auto context = contextOn(egl().getPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
       const std::string name = rendererName(*context);
-      if (name.find("llvmpipe") == std::string::npos && name.find("softpipe") == std::string::npos)
+      if (software || (name.find("llvmpipe") == std::string::npos && name.find("softpipe") == std::string::npos))
       {
         return context;
       }
@@ -194,9 +208,11 @@ std::unique_ptr<NativeContext> makeEglContext()
   {
     throw MachineError("no EGL_EXT_platform_base");
   }
-  if (contains(extensions, "EGL_EXT_platform_device") || contains(extensions, "EGL_EXT_device_enumeration"))
+  const bool devices =
+    contains(extensions, "EGL_EXT_platform_device") || contains(extensions, "EGL_EXT_device_enumeration");
+  if (devices)
   {
-    if (auto context = deviceContext())
+    if (auto context = deviceContext(false))
     {
       return context;
     }
@@ -205,7 +221,19 @@ std::unique_ptr<NativeContext> makeEglContext()
   {
     throw MachineError("no EGL_MESA_platform_surfaceless");
   }
-  return contextOn(egl().getPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr));
+  try
+  {
+    return contextOn(egl().getPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr));
+  }
+  catch (const MachineError&)
+  {
+    // Another display of the same renderer, for a forked process.
+    if (auto context = devices ? deviceContext(true) : nullptr)
+    {
+      return context;
+    }
+    throw;
+  }
 }
 
 } // namespace dgtk

@@ -39,9 +39,23 @@ struct GLChoice
 DGTKRENDERGL_EXPORT void prepareProcess(GLBackend backend, char** argv, int threads = 0);
 
 /// Makes the process's OpenGL context, or returns the one made before. The context belongs to the process and to the
-/// thread that draws. Throws MachineError, one line with what each backend said, when none works, and UsageError when
-/// another backend than the one in use is asked for.
+/// thread that draws, see GLTurn. A process that was forked from one with a context makes its own, which is possible
+/// once, for software rendering through EGL: the threads of the one before are not in the copy. Throws MachineError,
+/// one line with what each backend said, when none works, and UsageError when another backend than the one in use is
+/// asked for.
 DGTKRENDERGL_EXPORT GLChoice chooseGL(GLBackend backend);
+
+/// A thread's turn with the process's OpenGL: waits until no other thread has one, and leaves the context to whichever
+/// thread draws next. Only threads that draw in turns need it, all of them; everything that draws (RasterSource) must
+/// be made, used and destroyed within turns then.
+class DGTKRENDERGL_EXPORT GLTurn
+{
+public:
+  GLTurn();
+  ~GLTurn();
+  GLTurn(const GLTurn&) = delete;
+  GLTurn& operator=(const GLTurn&) = delete;
+};
 
 /// One row of `dgtk list gl`.
 struct GLBackendInfo

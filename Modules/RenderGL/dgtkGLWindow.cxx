@@ -10,7 +10,9 @@
 #include <vtkOutputWindow.h>
 #include <vtk_glew.h>
 
+#include <atomic>
 #include <mutex>
+#include <unistd.h>
 
 namespace dgtk
 {
@@ -110,6 +112,13 @@ public:
       this->Native->makeCurrent();
     }
   }
+  void ReleaseCurrent() override
+  {
+    if (this->Native && this->Native->isCurrent())
+    {
+      this->Native->release();
+    }
+  }
   bool IsCurrent() override { return this->Native && this->Native->isCurrent(); }
   int SupportsOpenGL() override { return 1; }
   void* GetGenericContext() override { return this->Native.get(); }
@@ -142,14 +151,25 @@ vtkStandardNewMacro(SurfacelessWindow);
 
 struct Process
 {
+  pid_t id = ::getpid();
   vtkSmartPointer<vtkOpenGLRenderWindow> window;
   GLChoice choice;
+  GLChoice before; ///< of the process that this one was forked from; without a description when it had none
+  std::mutex turn;
 };
 
 Process& process()
 {
-  // Never destroyed: drivers take themselves down at exit in an order that is not ours.
-  static Process* one = new Process;
+  // Never destroyed: drivers take themselves down at exit in an order that is not ours. What a forked process finds is
+  // left alone: it may wait for threads that are not there.
+  static std::atomic<Process*> current{ new Process };
+  Process* one = current;
+  if (one->id != ::getpid())
+  {
+    auto* own = new Process;
+    own->before = one->window ? one->choice : one->before;
+    one = current.compare_exchange_strong(one, own) ? own : (delete own, one);
+  }
   return *one;
 }
 
@@ -217,44 +237,101 @@ std::string rendererName(const NativeContext& context)
   return name ? reinterpret_cast<const char*>(name) : "";
 }
 
+namespace
+{
+/// The first of the backends that works.
+void makeFirst(GLBackend backend, Process& one)
+{
+  std::string said = inheritedReason();
+  const std::vector<GLBackend> wanted = backend == GLBackend::Auto
+                                          ? std::vector<GLBackend>{ GLBackend::Egl, GLBackend::Osmesa, GLBackend::Glx }
+                                          : std::vector<GLBackend>{ backend };
+  for (const GLBackend each : wanted)
+  {
+    if (backend == GLBackend::Auto && each == GLBackend::Egl && !said.empty())
+    {
+      continue; // tried before the process was started anew
+    }
+    try
+    {
+      make(each, one);
+      break;
+    }
+    catch (const MachineError& error)
+    {
+      said += (said.empty() ? "" : "; ") + std::string(titleOf(each)) + ": " + error.what();
+    }
+  }
+  if (!one.window)
+  {
+    throw MachineError("no OpenGL: " + said);
+  }
+  if (!said.empty())
+  {
+    one.choice.description += " (" + said + ")";
+  }
+}
+
+[[noreturn]] void throwForked()
+{
+  throw MachineError(
+    "OpenGL was used before this process was forked and cannot be used in the copy (start processes by "
+    "spawn or forkserver, or draw the first picture after the fork)");
+}
+
+/// A context in place of the one of the process that this one was forked from: the same renderer, or none.
+void makeAfterFork(Process& one)
+{
+  try
+  {
+    if (one.before.backend != GLBackend::Egl)
+    {
+      throwForked();
+    }
+    glewInit(); // at its first call libGLX notices the fork and drops what is current, which is nothing yet
+    make(GLBackend::Egl, one);
+  }
+  catch (const MachineError&)
+  {
+    throwForked();
+  }
+  if (one.choice.description != one.before.description)
+  {
+    one.window = nullptr;
+    throwForked();
+  }
+}
+
+void checkBackend(GLBackend wanted, GLBackend inUse)
+{
+  if (wanted != GLBackend::Auto && wanted != inUse)
+  {
+    throw UsageError(
+      std::string("OpenGL is in use through ") + titleOf(inUse) + " and cannot change to " + titleOf(wanted));
+  }
+}
+} // namespace
+
+GLTurn::GLTurn() { process().turn.lock(); }
+
+GLTurn::~GLTurn()
+{
+  Process& one = process();
+  if (one.window)
+  {
+    one.window->ReleaseCurrent();
+  }
+  one.turn.unlock();
+}
+
 vtkOpenGLRenderWindow* currentGLWindow(GLBackend backend, GLChoice& choice)
 {
   Process& one = process();
+  const bool forked = !one.before.description.empty();
+  checkBackend(backend, one.window ? one.choice.backend : forked ? one.before.backend : backend);
   if (!one.window)
   {
-    std::string said = inheritedReason();
-    const std::vector<GLBackend> wanted =
-      backend == GLBackend::Auto ? std::vector<GLBackend>{ GLBackend::Egl, GLBackend::Osmesa, GLBackend::Glx }
-                                 : std::vector<GLBackend>{ backend };
-    for (const GLBackend each : wanted)
-    {
-      if (backend == GLBackend::Auto && each == GLBackend::Egl && !said.empty())
-      {
-        continue; // tried before the process was started anew
-      }
-      try
-      {
-        make(each, one);
-        break;
-      }
-      catch (const MachineError& error)
-      {
-        said += (said.empty() ? "" : "; ") + std::string(titleOf(each)) + ": " + error.what();
-      }
-    }
-    if (!one.window)
-    {
-      throw MachineError("no OpenGL: " + said);
-    }
-    if (!said.empty())
-    {
-      one.choice.description += " (" + said + ")";
-    }
-  }
-  else if (backend != GLBackend::Auto && backend != one.choice.backend)
-  {
-    throw UsageError(std::string("OpenGL is in use through ") + titleOf(one.choice.backend) + " and cannot change to " +
-                     titleOf(backend));
+    forked ? makeAfterFork(one) : makeFirst(backend, one);
   }
   one.window->MakeCurrent();
   choice = one.choice;

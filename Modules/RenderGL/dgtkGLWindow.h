@@ -22,6 +22,8 @@ class NativeContext
 public:
   virtual ~NativeContext() = default;
   virtual void makeCurrent() = 0;
+  /// Leaves the context to other threads.
+  virtual void release() = 0;
   virtual bool isCurrent() const = 0;
   virtual void* lookUp(const char* function) const = 0;
 };

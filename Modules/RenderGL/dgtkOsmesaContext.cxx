@@ -64,6 +64,7 @@ public:
       throw MachineError("OSMesaMakeCurrent failed");
     }
   }
+  void release() override { osmesa().makeCurrent(nullptr, nullptr, 0, 0, 0); }
   bool isCurrent() const override { return osmesa().current() == this->Context; }
   void* lookUp(const char* function) const override
   {

@@ -11,6 +11,6 @@ vtk_module_wrap_python(
   INSTALL_HEADERS OFF
   BUILD_STATIC OFF)
 set(CMAKE_INSTALL_RPATH "${dgtk_install_rpath}")
-configure_file("${CMAKE_CURRENT_LIST_DIR}/dgtk__init__.py" "${CMAKE_BINARY_DIR}/${dgtk_python_destination}/dgtk/__init__.py"
-  COPYONLY)
-install(FILES "${CMAKE_CURRENT_LIST_DIR}/dgtk__init__.py" DESTINATION "${dgtk_python_destination}/dgtk" RENAME __init__.py)
+set(dgtk_python_init "${CMAKE_BINARY_DIR}/${dgtk_python_destination}/dgtk/__init__.py")
+configure_file("${CMAKE_CURRENT_LIST_DIR}/dgtk__init__.py.in" "${dgtk_python_init}" @ONLY)
+install(FILES "${dgtk_python_init}" DESTINATION "${dgtk_python_destination}/dgtk")
