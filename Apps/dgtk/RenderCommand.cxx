@@ -191,6 +191,11 @@ GeneratorRequest parseRequest(const Arguments& arguments)
   request.pointsStep = arguments.integer("--points-step", 1, largestImage);
   request.seed = arguments.integer("--seed", 0, 2147483647);
   request.resume = arguments.has("--resume");
+  request.replace = arguments.has("--replace");
+  if (request.resume && request.replace)
+  {
+    throw UsageError("--resume and --replace exclude one another");
+  }
   request.contactSheet = arguments.has("--contact-sheet");
   for (const LayerInfo& layer : generatorLayers())
   {
@@ -200,6 +205,33 @@ GeneratorRequest parseRequest(const Arguments& arguments)
     }
   }
   return request;
+}
+
+// What may be done about a folder that is refused.
+std::string wayOut(FolderContents contents)
+{
+  switch (contents)
+  {
+    case FolderContents::Unfinished:
+      return "; --resume completes it, --replace starts over";
+    case FolderContents::FinishedOther:
+    case FolderContents::UnfinishedOther:
+      return "; --replace removes it, or name another folder";
+    default:
+      return "";
+  }
+}
+
+GeneratorResult generated(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
+{
+  try
+  {
+    return generate(request, callbacks);
+  }
+  catch (const FolderError& error)
+  {
+    throw UsageError(error.what() + wayOut(error.contents()));
+  }
 }
 
 int run(const Arguments& arguments)
@@ -217,7 +249,7 @@ int run(const Arguments& arguments)
   callbacks.cancel = &interrupted;
   callbacks.progress = [&](const GeneratorProgress& state) { progress.update(state.done, state.total); };
   callbacks.message = [&](const std::string& line) { progress.message(line); };
-  const GeneratorResult result = generate(request, callbacks);
+  const GeneratorResult result = generated(request, callbacks);
   if (result.interrupted)
   {
     throw MachineError("interrupted; the same command with --resume completes " + request.folder);
@@ -268,14 +300,16 @@ Command renderCommand()
         { formatOption(layer), "NAMES", layer.formats.front(), "files of the layer, of " + formats });
     }
   }
-  const std::vector<Option> last = { { "--visibility", "auto|raster|ray", "auto",
-                                       "engine of the ids: OpenGL, Embree, or by the request" },
+  const std::vector<Option> last = {
+    { "--visibility", "auto|raster|ray", "auto", "engine of the ids: OpenGL, Embree, or by the request" },
     { "--gl", "auto|egl|osmesa|glx", "auto", "way to OpenGL" },
     { "--threads", "N", "0", "threads; 0: as many as the machine has cores" },
     { "--resume", "", "", "continue an interrupted run of the same request" },
+    { "--replace", "", "", "remove the dataset of another request, or an interrupted run, that the folder holds" },
     { "--seed", "N", "0", "seed of random numbers" },
     { "--contact-sheet", "", "", "also write DIR/contact.png: cameras and frames by layer" },
-    { "--quiet", "", "", "no progress and no messages (environment DGTK_PROGRESS: seconds between its lines, else 5)" } };
+    { "--quiet", "", "", "no progress and no messages (environment DGTK_PROGRESS: seconds between its lines, else 5)" }
+  };
   command.options.insert(command.options.end(), last.begin(), last.end());
   return command;
 }

@@ -69,9 +69,26 @@ std::string readFile(const std::string& path, std::uint64_t limit)
   return contents;
 }
 
+bool writeAll(int descriptor, const void* data, std::size_t bytes)
+{
+  const char* from = static_cast<const char*>(data);
+  while (bytes > 0)
+  {
+    const ssize_t n = ::write(descriptor, from, bytes);
+    if (n < 0 && errno != EINTR)
+    {
+      return false;
+    }
+    const std::size_t done = n > 0 ? static_cast<std::size_t>(n) : 0;
+    from += done;
+    bytes -= done;
+  }
+  return true;
+}
+
 AtomicFile::AtomicFile(const std::string& path)
   : Path(path)
-  , Temporary(path + ".partial")
+  , Temporary(partialName(path))
   , Descriptor(::open(Temporary.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
 {
   if (this->Descriptor < 0)
@@ -96,20 +113,9 @@ void AtomicFile::fail(const char* what) const
 
 void AtomicFile::write(const void* data, std::size_t bytes)
 {
-  const char* from = static_cast<const char*>(data);
-  while (bytes > 0)
+  if (!writeAll(this->Descriptor, data, bytes))
   {
-    const ssize_t n = ::write(this->Descriptor, from, bytes);
-    if (n < 0 && errno == EINTR)
-    {
-      continue;
-    }
-    if (n < 0)
-    {
-      this->fail("cannot be written");
-    }
-    from += n;
-    bytes -= static_cast<std::size_t>(n);
+    this->fail("cannot be written");
   }
 }
 

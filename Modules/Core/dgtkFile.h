@@ -44,6 +44,12 @@ private:
   int Descriptor = -1;
 };
 
+/// Name of a file while it is written.
+inline std::string partialName(const std::string& path) { return path + ".partial"; }
+
+/// Writes to a descriptor until everything is written. False, with errno, when the system refuses.
+DGTKCORE_EXPORT bool writeAll(int descriptor, const void* data, std::size_t bytes);
+
 /// Writes a whole small file through AtomicFile.
 DGTKCORE_EXPORT void writeFile(const std::string& path, const std::string& contents);
 

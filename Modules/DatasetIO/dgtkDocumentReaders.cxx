@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkDatasetDocuments.h"
+#include "dgtkError.h"
+#include "dgtkFolder.h"
 #include "dgtkJsonValue.h"
 
 #include <limits>
@@ -41,6 +43,10 @@ DatasetFile fileOf(const JsonValue& value)
 {
   DatasetFile file;
   file.path = value["path"].text();
+  if (!Folder::isPlain(file.path))
+  {
+    value["path"].fail("leads out of the dataset", "a name beneath its folder", dgtk::quoted(file.path));
+  }
   file.bytes = value["bytes"].count();
   file.sha256 = value["sha256"].hash();
   file.layer = value.has("layer") ? value["layer"].text() : "";

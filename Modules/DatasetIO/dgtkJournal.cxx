@@ -3,319 +3,254 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkFolderRecords.h"
 
 #include <cerrno>
-#include <charconv>
 #include <cstring>
-#include <filesystem>
 #include <map>
 #include <mutex>
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 namespace dgtk
 {
 
 namespace
 {
-namespace fs = std::filesystem;
-
-constexpr const char* firstLine = "DGTk journal 1 ";
-constexpr const char* sheetName = "contact.png";
-
-std::string escaped(const std::string& text)
+void refuseIfNeeded(
+  const std::string& folder, const FolderRecords& records, FolderContents contents, JournalStart start)
 {
-  std::string out;
-  for (const char c : text)
+  switch (contents)
   {
-    out += c == '\t' ? "\\t" : c == '\n' ? "\\n" : c == '\\' ? "\\\\" : std::string(1, c);
-  }
-  return out;
-}
-
-std::string unescaped(const std::string& text)
-{
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i)
-  {
-    const bool code = text[i] == '\\' && i + 1 < text.size();
-    const char c = code ? text[++i] : text[i];
-    out += !code ? c : c == 't' ? '\t' : c == 'n' ? '\n' : c;
-  }
-  return out;
-}
-
-std::string lineOf(const DatasetFile& file)
-{
-  return file.sha256 + '\t' + std::to_string(file.bytes) + '\t' + std::to_string(file.frame) + '\t' +
-         escaped(file.layer) + '\t' + escaped(file.camera) + '\t' + escaped(file.path) + '\n';
-}
-
-bool parseLine(const std::string& line, DatasetFile& file)
-{
-  std::vector<std::string> fields(1);
-  for (const char c : line)
-  {
-    if (c == '\t')
-    {
-      fields.emplace_back();
-    }
-    else
-    {
-      fields.back() += c;
-    }
-  }
-  if (fields.size() != 6 || fields[0].size() != 64)
-  {
-    return false;
-  }
-  const auto number = [](const std::string& text, auto& value)
-  {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size();
-  };
-  file.sha256 = fields[0];
-  file.layer = unescaped(fields[3]);
-  file.camera = unescaped(fields[4]);
-  file.path = unescaped(fields[5]);
-  return number(fields[1], file.bytes) && number(fields[2], file.frame);
-}
-
-/// What a folder records about itself.
-struct Recorded
-{
-  bool any = false;
-  std::string requestHash;
-  std::vector<DatasetFile> files;
-  std::vector<DatasetFile> whole; ///< those of a manifest
-};
-
-Recorded readJournal(const std::string& path)
-{
-  const std::string text = readFile(path);
-  Recorded recorded;
-  recorded.any = true;
-  std::size_t start = 0;
-  for (std::size_t end; (end = text.find('\n', start)) != std::string::npos; start = end + 1)
-  {
-    const std::string line = text.substr(start, end - start);
-    DatasetFile file;
-    if (start == 0 && line.rfind(firstLine, 0) == 0)
-    {
-      recorded.requestHash = line.substr(std::strlen(firstLine));
-    }
-    else if (start == 0 || !parseLine(line, file))
-    {
-      break;
-    }
-    else
-    {
-      recorded.files.push_back(file);
-    }
-  }
-  return recorded;
-}
-
-Recorded readRecords(const fs::path& folder)
-{
-  std::error_code code;
-  Recorded recorded;
-  if (fs::exists(folder / journalName, code))
-  {
-    recorded = readJournal(folder / journalName);
-  }
-  if (fs::exists(folder / manifestName, code))
-  {
-    Manifest manifest;
-    try
-    {
-      manifest = readManifest(folder / manifestName);
-    }
-    catch (const InputError& error)
-    {
-      throw UsageError(
-        folder.string() + ": holds a manifest that is not DGTk's; choose another folder (" + error.what() + ")");
-    }
-    recorded.whole = manifest.files;
-    if (!recorded.any)
-    {
-      recorded = { true, manifest.requestHash, manifest.files, manifest.files };
-    }
-  }
-  return recorded;
-}
-
-/// Below the folder, by name: a list of files is not trusted to stay inside.
-bool staysInside(const std::string& path)
-{
-  const fs::path relative(path);
-  if (path.empty() || relative.is_absolute())
-  {
-    return false;
-  }
-  for (const fs::path& part : relative)
-  {
-    if (part == ".." || part == "." || part.empty())
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// Removes recorded files and the folders that they leave empty.
-void removeFiles(const fs::path& folder, const std::vector<DatasetFile>& files)
-{
-  std::error_code ignored;
-  for (const DatasetFile& file : files)
-  {
-    if (staysInside(file.path) && !fs::is_directory(folder / file.path, ignored))
-    {
-      fs::remove(folder / file.path, ignored);
-      for (fs::path up = fs::path(file.path).parent_path(); !up.empty(); up = up.parent_path())
+    case FolderContents::Nothing:
+    case FolderContents::Finished:
+      return;
+    case FolderContents::Unfinished:
+      if (start == JournalStart::Fresh)
       {
-        fs::remove(folder / up, ignored); // fails, as wanted, when it is not empty
+        throw FolderError(folder, contents);
       }
-    }
+      return;
+    case FolderContents::FinishedOther:
+    case FolderContents::UnfinishedOther:
+      if (start != JournalStart::Replace)
+      {
+        throw FolderError(folder, contents, start == JournalStart::Resume ? ", which cannot be resumed" : "");
+      }
+      return;
+    case FolderContents::Running:
+      throw FolderError(folder, contents);
+    case FolderContents::Foreign:
+      throw FolderError(folder, contents,
+        records.foreign.empty() ? "; name a new or an empty folder"
+                                : "; name another folder (" + records.foreign + ")");
   }
 }
 
-void removeHalfWritten(const fs::path& folder)
+[[noreturn]] void inTheWay(const Folder& folder, const std::string& name, const char* what)
 {
-  std::error_code code;
-  std::vector<fs::path> found;
-  for (fs::recursive_directory_iterator it(folder, code), end; !code && it != end; it.increment(code))
+  throw UsageError(folder.pathOf(name) + ": " + what + "; name another folder, or take it away");
+}
+
+/// A file of a run or of its predecessor is reached without links, and not a folder.
+void checkFile(const Folder& folder, const std::string& name, EntryKind kind)
+{
+  if (kind == EntryKind::Blocked)
   {
-    if (it->path().extension() == ".partial" && it->is_regular_file(code))
+    inTheWay(folder, name, "a link or a file stands where a folder of the dataset has to be");
+  }
+  if (kind == EntryKind::Folder)
+  {
+    inTheWay(folder, name, "a folder stands where a file of the dataset has to be");
+  }
+}
+
+constexpr const char* nobodys = "is in the way, and no run has written it";
+
+/// Before anything is changed.
+void checkNames(const Folder& folder, const FolderRecords& before, const std::vector<std::string>& names)
+{
+  if (holdsNothing(folder.path()))
+  {
+    return;
+  }
+  std::set<std::string> all = before.names;
+  all.insert(names.begin(), names.end());
+  std::set<std::string> partial;
+  for (const std::string& name : all)
+  {
+    partial.insert(partialName(name));
+  }
+  folder.look(all,
+    [&](const std::string& name, EntryKind kind)
     {
-      found.push_back(it->path());
-    }
-  }
-  for (const fs::path& path : found)
-  {
-    fs::remove(path, code);
-  }
+      checkFile(folder, name, kind);
+      if (kind != EntryKind::Nothing && before.names.count(name) == 0)
+      {
+        inTheWay(folder, name, nobodys);
+      }
+    });
+  folder.look(partial, [&](const std::string& name, EntryKind kind) { checkFile(folder, name, kind); });
 }
 
-bool isEmpty(const fs::path& folder)
+bool isSameFile(const FileDescriptor& a, const FileDescriptor& b)
 {
-  std::error_code code;
-  const bool empty = fs::is_empty(folder, code);
-  if (code)
-  {
-    throw MachineError(folder.string() + ": the folder cannot be read: " + code.message());
-  }
-  return empty;
+  struct stat one = {};
+  struct stat two = {};
+  return ::fstat(a.number(), &one) == 0 && ::fstat(b.number(), &two) == 0 && one.st_dev == two.st_dev &&
+         one.st_ino == two.st_ino;
 }
 } // namespace
 
 struct Journal::Impl
 {
-  std::string folder;
-  std::string path;
-  int descriptor = -1;
+  Folder folder;
+  FileDescriptor descriptor;
   std::mutex mutex;
   std::vector<DatasetFile> finished;
   std::map<std::string, std::size_t> byPath;
+  std::set<std::string> before; ///< names that a run that is resumed has announced
 
-  ~Impl()
+  explicit Impl(const std::string& path)
+    : folder(path)
   {
-    if (this->descriptor >= 0)
-    {
-      ::close(this->descriptor);
-    }
   }
 
-  [[noreturn]] void fail() const { throw MachineError(this->path + ": cannot be written: " + std::strerror(errno)); }
+  [[noreturn]] void fail() const
+  {
+    throw MachineError(this->folder.pathOf(journalName) + ": cannot be written: " + std::strerror(errno));
+  }
 
   void append(const std::string& text)
   {
     // one write a line: a crash leaves whole lines and at most one torn one
-    for (std::size_t done = 0; done < text.size();)
+    if (!writeAll(this->descriptor.number(), text.data(), text.size()))
     {
-      const ssize_t n = ::write(this->descriptor, text.data() + done, text.size() - done);
-      if (n < 0 && errno != EINTR)
-      {
-        this->fail();
-      }
-      done += n > 0 ? static_cast<std::size_t>(n) : 0;
+      this->fail();
     }
+  }
+
+  bool isLocked(const FileDescriptor& file) const
+  {
+    return ::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   }
 
   /// One run at a time in a folder; the system lets go of the lock when the process ends, however it ends.
   void lock()
   {
-    this->descriptor = ::open(this->path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    if (this->descriptor < 0)
+    FileDescriptor same;
+    do
+    {
+      this->descriptor = this->folder.open(journalName, O_RDWR | O_CREAT | O_APPEND);
+      if (!this->descriptor)
+      {
+        this->fail();
+      }
+      if (this->isLocked(this->descriptor))
+      {
+        throw FolderError(this->folder.path(), FolderContents::Running);
+      }
+      // not one that another run has just replaced or removed
+      same = this->folder.open(journalName, O_RDONLY);
+    } while (!same || !isSameFile(this->descriptor, same));
+  }
+
+  /// A new journal in place of the old one, at once and under the lock.
+  void rewrite(const std::string& text)
+  {
+    const std::string partial = partialName(journalName);
+    this->folder.remove(partial);
+    FileDescriptor next = this->folder.open(partial, O_RDWR | O_CREAT | O_EXCL | O_APPEND);
+    if (!next || this->isLocked(next) || !writeAll(next.number(), text.data(), text.size()))
     {
       this->fail();
     }
-    if (::flock(this->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    {
-      throw UsageError(this->folder + ": another run is writing into this folder");
-    }
+    this->folder.rename(partial, journalName);
+    this->descriptor = std::move(next);
   }
 
-  void takeOver(const std::vector<DatasetFile>& files)
+  void takeOver(const FolderRecords& records)
   {
-    for (const DatasetFile& file : files)
+    for (const DatasetFile& file : records.finished)
     {
-      std::error_code code;
-      const fs::path whole = fs::path(this->folder) / file.path;
-      const bool there =
-        staysInside(file.path) && fs::is_regular_file(whole, code) && fs::file_size(whole, code) == file.bytes && !code;
+      struct stat info = {};
+      const FileDescriptor whole = this->folder.open(file.path, O_RDONLY | O_NONBLOCK);
+      const bool there = whole && ::fstat(whole.number(), &info) == 0 && S_ISREG(info.st_mode) &&
+                         std::uint64_t(info.st_size) == file.bytes;
       if (there && this->byPath.emplace(file.path, this->finished.size()).second)
       {
         this->finished.push_back(file);
       }
     }
+    for (const std::string& name : records.names)
+    {
+      this->folder.remove(partialName(name));
+    }
+    this->before = records.names;
+  }
+
+  void removeFiles(const std::set<std::string>& names)
+  {
+    for (const std::string& name : names)
+    {
+      this->folder.remove(name);
+      this->folder.remove(partialName(name));
+      this->folder.removeEmptyParents(name);
+    }
   }
 };
 
-Journal::Journal(const std::string& folder, const std::string& requestHash, bool resume)
-  : Self(new Impl)
+namespace
 {
-  makeFolders(folder);
-  this->Self->folder = folder;
-  this->Self->path = (fs::path(folder) / journalName).string();
-  const bool empty = isEmpty(folder);
-  const Recorded before = empty ? Recorded{} : readRecords(folder);
-  if (!empty && !before.any)
+std::string planOf(const std::set<std::string>& names)
+{
+  std::string text;
+  for (const std::string& name : names)
   {
-    throw UsageError(folder + ": holds files that are not a DGTk dataset; name a new or an empty folder");
+    text += journalPlan(name);
   }
-  const bool same = before.any && before.requestHash == requestHash;
-  if (resume && before.any && !same)
+  return text;
+}
+} // namespace
+
+Journal::Journal(
+  const std::string& path, const std::string& requestHash, JournalStart start, const std::vector<std::string>& names)
+  : Self(new Impl(path))
+{
+  makeFolders(path);
+  const Folder& folder = this->Self->folder;
+  if (isRunning(folder))
   {
-    throw UsageError(folder + ": holds a run of another request, which cannot be resumed; "
-                              "run without --resume to replace it, or name another folder");
+    throw FolderError(path, FolderContents::Running);
   }
+  // once without the lock, so that a refusal leaves no trace, and once with it
+  FolderRecords before = readFolderRecords(folder);
+  refuseIfNeeded(path, before, contentsOf(folder, before, requestHash), start);
+  checkNames(folder, before, names);
   this->Self->lock();
-  removeHalfWritten(folder);
-  std::error_code ignored;
-  if (resume && same)
+  before = readFolderRecords(folder);
+  const FolderContents contents = contentsOf(folder, before, requestHash);
+  refuseIfNeeded(path, before, contents, start);
+  const bool resumes = start == JournalStart::Resume && contents != FolderContents::Nothing;
+  if (resumes)
   {
-    this->Self->takeOver(before.files);
+    this->Self->takeOver(before);
   }
-  else
-  {
-    removeFiles(folder, before.files);
-    removeFiles(folder, before.whole);
-    fs::remove(fs::path(folder) / sheetName, ignored);
-  }
-  std::string text = firstLine + requestHash + '\n';
+  std::string text = journalFirstLine(requestHash) + planOf(before.names);
   for (const DatasetFile& file : this->Self->finished)
   {
-    text += lineOf(file);
+    text += journalLine(file);
   }
-  if (::ftruncate(this->Self->descriptor, 0) != 0)
+  this->Self->rewrite(text);
+  folder.remove(manifestName);
+  if (!resumes && !before.names.empty())
   {
-    this->Self->fail();
+    // killed in between, everything is in the journal still
+    this->Self->removeFiles(before.names);
+    this->Self->rewrite(journalFirstLine(requestHash));
   }
-  this->Self->append(text);
-  fs::remove(fs::path(folder) / manifestName, ignored);
 }
 
 Journal::~Journal() = default;
@@ -328,17 +263,38 @@ const DatasetFile* Journal::find(const std::string& path) const
   return found == this->Self->byPath.end() ? nullptr : &this->Self->finished[found->second];
 }
 
+void Journal::plan(const std::vector<std::string>& names)
+{
+  std::string text;
+  for (const std::string& name : names)
+  {
+    text += journalPlan(name);
+  }
+  const std::lock_guard<std::mutex> guard(this->Self->mutex);
+  this->Self->append(text);
+}
+
+void Journal::planLate(const std::string& name)
+{
+  const EntryKind kind = this->Self->folder.look(name);
+  checkFile(this->Self->folder, name, kind);
+  if (kind != EntryKind::Nothing && this->Self->before.count(name) == 0)
+  {
+    inTheWay(this->Self->folder, name, nobodys);
+  }
+  this->plan({ name });
+}
+
 void Journal::add(const DatasetFile& file)
 {
   const std::lock_guard<std::mutex> guard(this->Self->mutex);
-  this->Self->append(lineOf(file));
+  this->Self->append(journalLine(file));
 }
 
 void Journal::close(const Manifest& manifest)
 {
-  writeFile((fs::path(this->Self->folder) / manifestName).string(), manifestText(manifest));
-  std::error_code ignored;
-  fs::remove(this->Self->path, ignored);
+  writeFile(this->Self->folder.pathOf(manifestName), manifestText(manifest));
+  this->Self->folder.remove(journalName);
 }
 
 } // namespace dgtk

@@ -5,6 +5,7 @@
 #include "dgtkDatasetIOModule.h"
 
 #include "dgtkDatasetDocuments.h"
+#include "dgtkFolderContents.h"
 
 #include <memory>
 #include <string>
@@ -19,26 +20,40 @@ using JournalEntry = DatasetFile;
 constexpr const char* manifestName = "manifest.json";
 constexpr const char* journalName = ".dgtk-journal";
 
-/// The files of a dataset that are complete, recorded while it is written, so that an interrupted run can be resumed.
-/// One line a file, flushed at once; a line cut off by a crash is ignored.
+/// What becomes of a run that the folder holds.
+enum class JournalStart
+{
+  Fresh,  ///< an interrupted run, or one of another request, is refused
+  Resume, ///< the same request goes on, another one is refused
+  Replace ///< it goes, whatever it is
+};
+
+/// The files of a dataset: those that are going to be written and those that are complete, recorded while it is
+/// written, so that an interrupted run can be resumed or removed. One line a file, written at once; a line cut off by a
+/// crash is ignored.
 class DGTKDATASETIO_EXPORT Journal
 {
 public:
   /// Prepares `folder`, making it if need be, and starts or resumes the journal of the request with this hash (any
   /// text without line breaks).
   ///
-  /// | folder holds | resume | what happens |
-  /// |---|---|---|
-  /// | nothing | either | a fresh start |
-  /// | a journal or manifest of the same request | yes | files that exist with the recorded size are finished() |
-  /// | a journal or manifest of another request | yes | UsageError |
-  /// | a journal or manifest of any request | no | the files that it lists are removed; a fresh start |
-  /// | other files only | either | UsageError |
+  /// | folderContents() | Fresh | Resume | Replace |
+  /// |---|---|---|---|
+  /// | Nothing | a fresh start | a fresh start | a fresh start |
+  /// | Finished | removed | kept | removed |
+  /// | Unfinished | FolderError | kept | removed |
+  /// | FinishedOther, UnfinishedOther | FolderError | FolderError | removed |
+  /// | Running, Foreign | FolderError | FolderError | FolderError |
   ///
-  /// Files left half-written by a crash (`*.partial`) are removed in every case but the errors. An old manifest is
-  /// removed: a folder with a manifest is a whole dataset. Throws UsageError also when another process is writing into
-  /// the folder, MachineError when the folder cannot be made or written.
-  Journal(const std::string& folder, const std::string& requestHash, bool resume);
+  /// Kept are files with the recorded size; they are finished(). Removed are the files that manifest and journal list,
+  /// half-written ones included, and the folders that they leave empty; nothing else. An old manifest is removed in
+  /// either case: a folder with a manifest is a whole dataset.
+  ///
+  /// `names` are the files that the run is going to write, relative to the folder. A file in the way of one of them
+  /// that neither manifest nor journal lists, or a link in place of a folder, is a UsageError before anything is
+  /// changed. Throws MachineError when the folder cannot be made or written.
+  Journal(const std::string& folder, const std::string& requestHash, JournalStart start,
+    const std::vector<std::string>& names = {});
   ~Journal(); ///< keeps the journal for a later resume
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
@@ -48,6 +63,11 @@ public:
   /// The file taken over from the interrupted run, or null. `path` is relative to the folder.
   const DatasetFile* find(const std::string& path) const;
 
+  /// Records files that are going to be written; to be called before they are. May be called from any thread. Throws
+  /// MachineError.
+  void plan(const std::vector<std::string>& names);
+  /// The same for one that was not among `names` of the constructor. Throws UsageError when it is in the way of one.
+  void planLate(const std::string& name);
   /// Records a finished file. May be called from any thread. Throws MachineError.
   void add(const DatasetFile& file);
 

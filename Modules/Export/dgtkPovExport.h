@@ -6,6 +6,7 @@
 
 #include "dgtkSceneState.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -75,8 +76,11 @@ class DGTKEXPORT_EXPORT PovLibrary
 {
 public:
   /// `reference` is the folder as scenes name it, with its '/' at the end, or "": names of files that begin with it
-  /// must be found by POV-Ray. The folder must exist when the first scene is made.
-  PovLibrary(const std::string& folder, const std::string& reference);
+  /// must be found by POV-Ray. The folder must exist when the first scene is made. `announce` is told each file's name,
+  /// without folder, before it is written.
+  PovLibrary(
+    const std::string& folder, const std::string& reference,
+    std::function<void(const std::string& name)> announce = [](const std::string&) {});
   ~PovLibrary();
   PovLibrary(const PovLibrary&) = delete;
   PovLibrary& operator=(const PovLibrary&) = delete;

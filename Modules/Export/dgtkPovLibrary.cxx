@@ -71,11 +71,13 @@ private:
 };
 } // namespace
 
-PovLibrary::PovLibrary(const std::string& folder, const std::string& reference)
+PovLibrary::PovLibrary(
+  const std::string& folder, const std::string& reference, std::function<void(const std::string&)> announce)
   : Self(new Impl)
 {
   this->Self->folder = folder;
   this->Self->reference = reference;
+  this->Self->announce = std::move(announce);
 }
 
 PovLibrary::~PovLibrary() = default;
@@ -87,6 +89,7 @@ std::string PovLibrary::Impl::add(const std::string& stem, const std::string& ex
   const std::lock_guard<std::mutex> lock(this->Mutex);
   if (this->Written.try_emplace(name, PovFile{ name, contents.size(), hash }).second)
   {
+    this->announce(name);
     writeFile(this->folder + '/' + name, contents);
   }
   return name;

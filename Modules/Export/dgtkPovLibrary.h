@@ -30,6 +30,7 @@ struct PovLibrary::Impl
 {
   std::string folder;
   std::string reference;
+  std::function<void(const std::string&)> announce;
 
   PovIncluded mesh(const Instance& instance, std::uint32_t ownId, const PovSurfaceOptions& options);
   PovFile describe(const std::string& name);

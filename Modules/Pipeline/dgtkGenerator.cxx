@@ -39,6 +39,31 @@ std::string hashOf(const std::vector<std::pair<std::string, std::string>>& pairs
   return hash.hex();
 }
 
+std::string identityOf(const WorkPlan& plan, const std::vector<InputRecord>& inputs)
+{
+  std::vector<std::pair<std::string, std::string>> identity = describeRequest(plan);
+  for (const InputRecord& input : inputs)
+  {
+    identity.emplace_back(input.path, input.sha256);
+  }
+  return hashOf(identity);
+}
+
+JournalStart startOf(const GeneratorRequest& request)
+{
+  if (request.resume && request.replace)
+  {
+    throw UsageError("a run is either resumed or replaced");
+  }
+  return request.resume ? JournalStart::Resume : request.replace ? JournalStart::Replace : JournalStart::Fresh;
+}
+
+// Documents of every dataset, beside the manifest.
+constexpr const char* camerasName = "cameras.json";
+constexpr const char* objectsName = "objects.json";
+constexpr const char* sceneName = "scene.json";
+constexpr const char* sheetName = "contact.png";
+
 class Run
 {
 public:
@@ -62,6 +87,8 @@ private:
   void completeOldest();
   bool keep(const Job& job);
   std::vector<std::string> filesOf(const Job& job) const;
+  std::vector<std::string> documentNames() const;
+  std::vector<std::string> allNames() const;
   void writeDocuments();
   bool cancelled() const { return this->Callbacks.cancel && *this->Callbacks.cancel; }
   void say(const std::string& line) const
@@ -134,14 +161,14 @@ GeneratorResult Run::execute()
   this->Source = std::make_unique<FrameSource>(options, *this->Pool);
   this->Result.glDescription = this->Source->glDescription();
   this->Result.visibility = this->Plan.raster ? "raster" : "ray";
-  std::vector<std::pair<std::string, std::string>> identity = describeRequest(this->Plan);
   this->Inputs = inputsOf(*this->Scene, request.folder);
-  for (const InputRecord& input : this->Inputs)
+  this->RequestHash = identityOf(this->Plan, this->Inputs);
+  this->Files = std::make_unique<RunFiles>(request.folder, this->RequestHash, startOf(request), this->allNames());
+  if (this->Plan.has("pov"))
   {
-    identity.emplace_back(input.path, input.sha256);
+    this->Plan.povLibrary =
+      makePovLibrary(request.folder, [this](const std::string& name) { this->Files->planLate(name); });
   }
-  this->RequestHash = hashOf(identity);
-  this->Files = std::make_unique<RunFiles>(request.folder, this->RequestHash, request.resume);
 
   if (!this->Result.glDescription.empty())
   {
@@ -236,7 +263,9 @@ void Run::render(const Job& job)
   const GeneratorRequest& request = this->Plan.request;
   const View view = this->viewOf(job);
   const std::shared_ptr<const SceneState> state = this->stateAt(job.frame);
-  for (const std::string& name : this->filesOf(job))
+  const std::vector<std::string> names = this->filesOf(job);
+  this->Files->plan(names);
+  for (const std::string& name : names)
   {
     makeFolders(this->Plan.request.folder + '/' + name.substr(0, name.rfind('/')));
   }
@@ -391,8 +420,31 @@ std::vector<std::string> Run::filesOf(const Job& job) const
   return names;
 }
 
+std::vector<std::string> Run::documentNames() const
+{
+  std::vector<std::string> names = { camerasName, objectsName, sceneName };
+  if (this->Plan.request.contactSheet)
+  {
+    names.emplace_back(sheetName);
+  }
+  return names;
+}
+
+/// Every file that the run writes, but those that layers share.
+std::vector<std::string> Run::allNames() const
+{
+  std::vector<std::string> names = this->documentNames();
+  for (const Job& job : this->Plan.jobs)
+  {
+    const std::vector<std::string> own = this->filesOf(job);
+    names.insert(names.end(), own.begin(), own.end());
+  }
+  return names;
+}
+
 void Run::writeDocuments()
 {
+  this->Files->plan(this->documentNames());
   const GeneratorRequest& request = this->Plan.request;
   Manifest manifest;
   manifest.version = DGTK_VERSION;
@@ -422,19 +474,25 @@ void Run::writeDocuments()
   manifest.files = this->Files->files();
   const std::size_t pictures = manifest.files.size();
   manifest.files.push_back(
-    writeDocument(request.folder, "cameras.json", camerasText(cameraRecords(this->Plan, *this->Scene))));
-  manifest.files.push_back(writeDocument(request.folder, "objects.json",
+    writeDocument(request.folder, camerasName, camerasText(cameraRecords(this->Plan, *this->Scene))));
+  manifest.files.push_back(writeDocument(request.folder, objectsName,
     objectsText(objectRecords(*this->Scene, this->Plan.jobs.front().frame, request.folder))));
   manifest.files.push_back(
-    writeDocument(request.folder, "scene.json", toJson(this->Scene->description(), request.folder)));
+    writeDocument(request.folder, sceneName, toJson(this->Scene->description(), request.folder)));
   if (request.contactSheet)
   {
-    manifest.files.push_back(writeContactSheet(request.folder, manifest, "contact.png"));
+    manifest.files.push_back(writeContactSheet(request.folder, manifest, sheetName));
   }
   this->Result.files = manifest.files.size() - pictures;
   this->Files->close(manifest);
 }
 } // namespace
+
+std::string requestHash(const GeneratorRequest& request)
+{
+  const std::shared_ptr<const Stage> scene = Stage::load(readScene(request.scene), [](const std::string&) {});
+  return identityOf(makeWorkPlan(request, *scene), inputsOf(*scene, request.folder));
+}
 
 GeneratorResult generate(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
 {

@@ -4,6 +4,7 @@
 
 #include "dgtkPipelineModule.h"
 
+#include "dgtkFolderContents.h"
 #include "dgtkPovRenderOptions.h"
 
 #include <atomic>
@@ -54,6 +55,7 @@ struct GeneratorRequest
   std::string gl = "auto";         ///< auto, egl, osmesa or glx
   int threads = 0;                 ///< 0: as many as the machine has cores
   bool resume = false;             ///< keep the finished files of an interrupted run of the same request
+  bool replace = false;            ///< remove what another request, or an interrupted run, has left; not with resume
   bool contactSheet = false;       ///< write contact.png
 };
 
@@ -93,7 +95,14 @@ struct GeneratorCallbacks
   const std::atomic<bool>* cancel = nullptr;              ///< checked between rows of tiles, and while POV-Ray draws
 };
 
-/// Renders the dataset. Throws UsageError, InputError or MachineError; what was finished before stays and can be
+/// What names a request in the manifest's `request_hash`: everything that decides the bytes of its files, the contents
+/// of the files that its scene names included, and how its folder stands to them. Loads the scene with its models,
+/// which takes as long as it takes. Throws UsageError and InputError.
+DGTKPIPELINE_EXPORT std::string requestHash(const GeneratorRequest& request);
+
+/// Renders the dataset. Throws FolderError, before anything is changed, when the folder holds an interrupted run or the
+/// dataset of another request and neither `resume` nor `replace` applies, and in any case when it holds somebody's
+/// files (see folderContents()); else UsageError, InputError or MachineError. What was finished before stays and can be
 /// resumed.
 DGTKPIPELINE_EXPORT GeneratorResult generate(const GeneratorRequest& request, const GeneratorCallbacks& callbacks = {});
 

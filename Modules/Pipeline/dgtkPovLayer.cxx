@@ -97,9 +97,11 @@ public:
 };
 } // namespace
 
-std::shared_ptr<PovLibrary> makePovLibrary(const std::string& folder)
+std::shared_ptr<PovLibrary> makePovLibrary(
+  const std::string& folder, const std::function<void(const std::string& name)>& announce)
 {
-  return std::make_shared<PovLibrary>(folder + '/' + LibraryFolder, std::string("../../") + LibraryFolder + '/');
+  return std::make_shared<PovLibrary>(folder + '/' + LibraryFolder, std::string("../../") + LibraryFolder + '/',
+    [announce](const std::string& name) { announce(std::string(LibraryFolder) + '/' + name); });
 }
 
 std::shared_ptr<const FrameLayer> makePovLayer();

@@ -21,11 +21,16 @@ class RunFiles
 {
 public:
   /// Throws what Journal throws.
-  RunFiles(const std::string& folder, const std::string& requestHash, bool resume)
-    : Log(folder, requestHash, resume)
+  RunFiles(const std::string& folder, const std::string& requestHash, JournalStart start,
+    const std::vector<std::string>& names)
+    : Log(folder, requestHash, start, names)
   {
   }
 
+  /// Files that are going to be written now.
+  void plan(const std::vector<std::string>& names) { this->Log.plan(names); }
+  /// One that was not among the names of the constructor.
+  void planLate(const std::string& name) { this->Log.planLate(name); }
   /// A file that was finished now.
   void add(const DatasetFile& file);
   /// Files of a lane; shared ones are recorded once and belong to no job.

@@ -312,10 +312,6 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
   }
   checkPictures(plan, scene);
   plan.noise = describeNoise(plan, stage);
-  if (plan.has("pov"))
-  {
-    plan.povLibrary = makePovLibrary(request.folder);
-  }
   for (const PlannedFrameLayer& planned : plan.frameLayers)
   {
     planned.layer->check(plan, stage);

@@ -56,7 +56,7 @@ struct WorkPlan
   /// What decides the noise of the noisy layers, besides the scene.
   std::vector<std::pair<std::string, std::string>> noise;
   std::vector<Job> jobs;
-  std::shared_ptr<PovLibrary> povLibrary; ///< of the layer pov; null without it
+  std::shared_ptr<PovLibrary> povLibrary; ///< of the layer pov, for a run with files; null without it
 
   bool drawsColor() const { return !this->colorFormats.empty() || this->tiles || this->layersReadColor; }
   bool needsHits() const { return !this->representations.empty() || !this->frameLayers.empty(); }
@@ -79,8 +79,10 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage);
 /// The request as ordered key and value pairs: what the manifest records and what decides whether a run can be resumed.
 std::vector<std::pair<std::string, std::string>> describeRequest(const WorkPlan& plan);
 
-/// What the scenes of the layer pov share, in a dataset's folder.
-std::shared_ptr<PovLibrary> makePovLibrary(const std::string& folder);
+/// What the scenes of the layer pov share, in a dataset's folder. `announce` is told the name of each file, relative to
+/// it, before it is written.
+std::shared_ptr<PovLibrary> makePovLibrary(
+  const std::string& folder, const std::function<void(const std::string& name)>& announce);
 
 /// File name extension of a format, without the dot.
 std::string formatExtension(const std::string& format);

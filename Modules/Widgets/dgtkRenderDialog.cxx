@@ -187,6 +187,10 @@ QStringList RenderDialog::arguments(const QString& scene) const
   {
     words << "--resume";
   }
+  else if (QDir(this->Folder->text()).exists("manifest.json"))
+  {
+    words << "--replace"; // it has been asked for
+  }
   return words;
 }
 

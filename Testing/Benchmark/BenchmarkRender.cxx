@@ -110,6 +110,7 @@ double product(const Settings& s, const std::vector<std::string>& layers, const 
   request.height = s.height;
   request.layers = layers;
   request.visibility = engine;
+  request.replace = true;
   request.threads = s.threads;
   const auto run = [&](int last)
   {

@@ -46,7 +46,7 @@ class ImageFormation(harness.Case):
     def render(self, scene, *options, name="scene", layers="color", threads=2):
         path = self.write("scene.json", json.dumps(scene))
         out = self.path(name + "_out")
-        self.dgtk("render", path, "-o", out, "--layers", layers, "--quiet", "--threads", threads, *options)
+        self.dgtk("render", path, "-o", out, "--replace", "--layers", layers, "--quiet", "--threads", threads, *options)
         return out
 
     def picture(self, scene, *options, name="scene"):

@@ -44,7 +44,7 @@ class Models(Case):
                 scene = self.write("model.json", json.dumps(self.framed(model, info)))
                 seen = {}
                 for engine in ("raster", "ray"):
-                    self.dgtk("render", scene, "-o", self.path(engine), "--quiet", "--size", "200x200", "--visibility", engine,
+                    self.dgtk("render", scene, "-o", self.path(engine), "--replace", "--quiet", "--size", "200x200", "--visibility", engine,
                               "--layers", "color,depth,objects", "--objects-format", "npy")
                     seen[engine] = numpy.load(self.path(engine, "view", "objects", "000000.npy"))
                 self.assertGreater((seen["ray"] > 0).sum(), 40, "hardly anything is seen")

@@ -69,7 +69,7 @@ class Pov(Case):
         return scene
 
     def render(self, scene, name, frame, layers="objects,triangles"):
-        self.dgtk("render", self.write(name + ".json", json.dumps(scene)), "-o", self.path(name), "--quiet", "--visibility",
+        self.dgtk("render", self.write(name + ".json", json.dumps(scene)), "-o", self.path(name), "--replace", "--quiet", "--visibility",
                   "ray" if "color" not in layers else "auto", "--layers", layers, "--frames", frame, "--cameras", scene["cameras"][0]["name"])
         return self.path(name, scene["cameras"][0]["name"])
 

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """An interrupted run is completed by --resume, and ends in the bytes of an uninterrupted one."""
+import json
 import os
 import signal
 import subprocess
 import time
 
-from harness import DGTK, SCENES, Case, digests, main
+from harness import DGTK, SCENES, Case, digests, load_json, main
 
 SCENE = os.path.join(SCENES, "fig_4_14_bouncing_ball.scene")
 OPTIONS = ("--quiet", "--layers", "color,depth,objects,calibration", "--size", "320x240")
@@ -23,6 +24,18 @@ class Resume(Case):
             time.sleep(0.002)
         _, errors = process.communicate(timeout=120)
         return process.returncode, errors
+
+    def unfinish(self, folder):
+        """Makes of a dataset what a run that was killed leaves, without the last file."""
+        manifest = load_json(os.path.join(folder, "manifest.json"))
+        files = [f for f in manifest["files"] if "frame" in f]
+        os.remove(os.path.join(folder, files.pop()["path"]))
+        for name in ("manifest.json", "cameras.json", "objects.json", "scene.json"):
+            os.remove(os.path.join(folder, name))
+        with open(os.path.join(folder, ".dgtk-journal"), "w", encoding="utf-8") as journal:
+            journal.write(f"DGTk journal 1 {manifest['request_hash']}\n")
+            for f in files:
+                journal.write("\t".join([f["sha256"], str(f["bytes"]), str(f["frame"]), f["layer"], f["camera"], f["path"]]) + "\n")
 
     def test_interrupt_and_kill(self):
         self.dgtk("render", SCENE, "-o", self.path("whole"), *OPTIONS)
@@ -57,8 +70,15 @@ class Resume(Case):
         folder = self.path("mixed")
         self.interrupted(folder, signal.SIGKILL)
         other = ("--quiet", "--layers", "depth", "--size", "64x48", "--frames", "0:3")
+        before = digests(folder)
         self.refused("render", SCENE, "-o", folder, *other, "--resume", status=2, says="another request")
-        self.dgtk("render", SCENE, "-o", folder, *other)
+        self.refused("render", SCENE, "-o", folder, *other, status=2, says=("unfinished run of another request", "--replace"))
+        self.assertEqual(digests(folder), before)
+        self.write("mixed/notes.txt", "mine")
+        self.dgtk("render", SCENE, "-o", folder, *other, "--replace")
+        with open(os.path.join(folder, "notes.txt"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), "mine")
+        os.remove(os.path.join(folder, "notes.txt"))
         self.dgtk("render", SCENE, "-o", self.path("clean"), *other)
         self.assert_same_files(self.path("clean"), folder)
 
@@ -71,6 +91,57 @@ class Resume(Case):
         self.dgtk("render", SCENE, "-o", folder, *OPTIONS, "--resume")
         self.dgtk("render", SCENE, "-o", self.path("whole"), *OPTIONS)
         self.assert_same_files(self.path("whole"), folder)
+
+
+    def test_an_unfinished_run_is_not_replaced_unasked(self):
+        folder = self.path("run")
+        self.interrupted(folder, signal.SIGKILL)
+        before = digests(folder)
+        self.refused("render", SCENE, "-o", folder, *OPTIONS, status=2, says=("unfinished run of the same request", "--resume", "--replace"))
+        self.refused("render", SCENE, "-o", folder, *OPTIONS, "--resume", "--replace", status=2, says="exclude one another")
+        self.assertEqual(digests(folder), before)
+        self.dgtk("render", SCENE, "-o", folder, *OPTIONS, "--replace")
+        self.dgtk("render", SCENE, "-o", self.path("whole"), *OPTIONS)
+        self.assert_same_files(self.path("whole"), folder)
+
+    def test_a_finished_dataset_is_replaced_when_asked(self):
+        one, other = (("--quiet", "--layers", layers, "--size", "64x48", "--frames", "0:3") for layers in ("depth,objects", "depth"))
+        folder = self.path("d")
+        self.dgtk("render", SCENE, "-o", folder, *one)
+        whole = digests(folder)
+        self.dgtk("render", SCENE, "-o", folder, *one)  # the same request is rendered anew
+        self.assertEqual(digests(folder), whole)
+        self.refused("render", SCENE, "-o", folder, *other, status=2, says=("finished dataset of another request", "--replace"))
+        self.assertEqual(digests(folder), whole)
+        self.dgtk("render", SCENE, "-o", folder, *other, "--replace")
+        self.dgtk("render", SCENE, "-o", self.path("clean"), *other)
+        self.assert_same_files(self.path("clean"), folder)
+
+    def test_a_changed_model_or_texture_is_another_request(self):
+        """The contents of the files that a scene names are part of what is resumed."""
+        files = {"a.obj": b"mtllib a.mtl\nusemtl m\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n# 1",
+                 "a.mtl": b"newmtl m\nKd 1 1 1\nmap_Kd a.ppm\n# 1", "a.ppm": b"P6\n2 1\n255\n\1\2\3\4\5\6"}
+        for name, data in files.items():
+            self.write(name, data)
+        scene = self.write("s.json", json.dumps({
+            "objects": [{"name": "a", "model": "a.obj"}], "keyFrames": [0, 3],
+            "cameras": [{"name": "c", "eye": [0, 0, 5], "lookAt": [0, 0, 0], "width": 32, "height": 24}]}))
+        render = ("render", scene, "-o", self.path("d"), "--quiet", "--layers", "depth")
+        self.dgtk(*render)
+        self.unfinish(self.path("d"))
+        for name in ("a.obj", "a.ppm"):
+            data = files[name]
+            with self.subTest(name):
+                self.write(name, data[:-1] + b"2")  # the size tells nothing
+                self.refused(*render, "--resume", status=2, says="unfinished run of another request")
+                self.write(name, data)
+        self.dgtk(*render, "--resume")
+
+    def test_every_seed_is_a_request_of_its_own(self):
+        render = ("render", SCENE, "-o", self.path("d"), "--quiet", "--layers", "depth", "--size", "32x24", "--frames", "0:1")
+        self.dgtk(*render, "--seed", "7")
+        self.assertEqual(load_json(self.path("d", "manifest.json"))["request"]["seed"], "7")
+        self.refused(*render, "--seed", "8", "--resume", status=2, says="another request")
 
 
 if __name__ == "__main__":

@@ -27,11 +27,16 @@ DatasetFile addFile(Journal& journal, const std::string& folder, const std::stri
   return file;
 }
 
-std::string refusal(const std::string& folder, const std::string& hash, bool resume)
+constexpr JournalStart fresh = JournalStart::Fresh;
+constexpr JournalStart resume = JournalStart::Resume;
+constexpr JournalStart replace = JournalStart::Replace;
+
+std::string refusal(
+  const std::string& folder, const std::string& hash, JournalStart start, const std::vector<std::string>& names = {})
 {
   try
   {
-    Journal journal(folder, hash, resume);
+    const Journal journal(folder, hash, start, names);
   }
   catch (const UsageError& error)
   {
@@ -46,16 +51,17 @@ TEST(Journal, ResumesWhatWasFinished)
   const TemporaryFolder folder;
   const std::string dir = folder.path("new/data");
   {
-    Journal journal(dir, "one", false);
+    Journal journal(dir, "one", fresh);
     EXPECT_TRUE(journal.finished().empty());
     addFile(journal, dir, "a/depth/000000.npy", "first");
     addFile(journal, dir, "a/depth/000001.npy", "second");
     addFile(journal, dir, "a/depth/000002.npy", "third");
+    journal.plan({ "a/depth/000003.npy" });
     writeFile(dir + "/a/depth/000003.npy.partial", "half");
   }
   writeFile(dir + "/a/depth/000001.npy", "other size");
   std::ofstream(dir + "/" + journalName, std::ios::app) << "deadbeef\t5\t3\tdep"; // a torn line
-  Journal journal(dir, "one", true);
+  Journal journal(dir, "one", resume);
   ASSERT_EQ(journal.finished().size(), 2u);
   const DatasetFile* file = journal.find("a/depth/000002.npy");
   ASSERT_TRUE(file);
@@ -71,14 +77,14 @@ TEST(Journal, ResumesTwice)
 {
   const TemporaryFolder folder;
   {
-    Journal journal(folder.path(), "one", false);
+    Journal journal(folder.path(), "one", fresh);
     addFile(journal, folder.path(), "a", "1");
   }
   {
-    Journal journal(folder.path(), "one", true);
+    Journal journal(folder.path(), "one", resume);
     addFile(journal, folder.path(), "b", "22");
   }
-  EXPECT_EQ(Journal(folder.path(), "one", true).finished().size(), 2u);
+  EXPECT_EQ(Journal(folder.path(), "one", resume).finished().size(), 2u);
 }
 
 TEST(Journal, ClosedIsAManifestAndNoJournal)
@@ -87,71 +93,166 @@ TEST(Journal, ClosedIsAManifestAndNoJournal)
   Manifest manifest;
   manifest.requestHash = "one";
   {
-    Journal journal(folder.path(), "one", false);
+    Journal journal(folder.path(), "one", fresh);
     manifest.files.push_back(addFile(journal, folder.path(), "a", "1"));
     journal.close(manifest);
   }
   EXPECT_FALSE(fs::exists(folder.path(journalName)));
   EXPECT_EQ(readManifest(folder.path(manifestName)).files.size(), 1u);
   // a whole dataset resumes with nothing left to do
-  Journal again(folder.path(), "one", true);
+  Journal again(folder.path(), "one", resume);
   EXPECT_TRUE(again.find("a"));
   EXPECT_FALSE(fs::exists(folder.path(manifestName)));
 }
 
-TEST(Journal, AFreshStartRemovesWhatTheOldDatasetListed)
+TEST(Journal, ReplacingRemovesWhatTheOldRunListed)
 {
   const TemporaryFolder folder;
   {
-    Journal journal(folder.path(), "one", false);
+    Journal journal(folder.path(), "one", fresh);
     Manifest manifest;
+    manifest.requestHash = "one";
     manifest.files.push_back(addFile(journal, folder.path(), "a/depth/000000.npy", "1"));
-    manifest.files.push_back({ "../outside", 1, std::string(64, '0'), "", "", -1 });
     journal.close(manifest);
   }
   writeFile(folder.path("notes.txt"), "mine");
-  Journal journal(folder.path(), "two", false);
-  EXPECT_TRUE(journal.finished().empty());
-  EXPECT_FALSE(fs::exists(folder.path("a")));
+  writeFile(folder.path("notes.txt.partial"), "mine");
+  {
+    Journal journal(folder.path(), "two", replace);
+    EXPECT_TRUE(journal.finished().empty());
+    EXPECT_FALSE(fs::exists(folder.path("a")));
+    journal.plan({ "b/depth/000000.npy", "b/depth/000001.npy", "b/depth/000002.npy" });
+    addFile(journal, folder.path(), "b/depth/000000.npy", "1");
+    writeFile(folder.path("b/depth/000001.npy"), "written, and not recorded any more");
+    writeFile(folder.path("b/depth/000002.npy.partial"), "half");
+  }
+  const Journal journal(folder.path(), "three", replace);
+  EXPECT_FALSE(fs::exists(folder.path("b")));
   EXPECT_TRUE(fs::exists(folder.path("notes.txt")));
+  EXPECT_TRUE(fs::exists(folder.path("notes.txt.partial")));
 }
 
-TEST(Journal, NeverRemovesOutsideTheFolder)
+TEST(Journal, TheSameRequestIsMadeAnew)
+{
+  const TemporaryFolder folder;
+  {
+    Journal journal(folder.path(), "one", fresh);
+    Manifest manifest;
+    manifest.requestHash = "one";
+    manifest.files.push_back(addFile(journal, folder.path(), "a", "1"));
+    journal.close(manifest);
+  }
+  const Journal journal(folder.path(), "one", fresh);
+  EXPECT_TRUE(journal.finished().empty());
+  EXPECT_FALSE(fs::exists(folder.path("a")));
+}
+
+TEST(Journal, ListsThatLeadOutOfTheFolderAreNotOurs)
 {
   const TemporaryFolder folder;
   writeFile(folder.path("outside"), "mine");
-  Manifest manifest;
-  for (const std::string& name : { std::string("../outside"), folder.path("outside"), std::string("x/../../outside") })
+  for (const std::string& name : { std::string("../outside"), folder.path("outside"), std::string("x/../../outside"),
+         std::string("./x"), std::string("x//y"), std::string() })
   {
+    SCOPED_TRACE(name);
+    fs::remove_all(folder.path("data"));
+    makeFolders(folder.path("data"));
+    Manifest manifest;
+    manifest.requestHash = "one";
     manifest.files.push_back({ name, 4, std::string(64, '0'), "", "", -1 });
+    writeFile(folder.path("data/manifest.json"), manifestText(manifest));
+    EXPECT_THAT(refusal(folder.path("data"), "one", replace), HasSubstr("leads out of the dataset"));
+    fs::remove(folder.path("data/manifest.json"));
+    for (const std::string& line : { std::string(64, '0') + "\t4\t-1\t\t\t" + name, "planned\t" + name })
+    {
+      writeFile(folder.path("data/.dgtk-journal"), "DGTk journal 1 one\n" + line + "\n");
+      EXPECT_THAT(refusal(folder.path("data"), "one", replace), HasSubstr("leads out of the dataset"));
+      EXPECT_EQ(folderContents(folder.path("data"), "one"), FolderContents::Foreign);
+    }
+    EXPECT_EQ(contentsOf(folder.path("outside")), "mine");
   }
-  makeFolders(folder.path("data"));
-  writeFile(folder.path("data/manifest.json"), manifestText(manifest));
-  const Journal journal(folder.path("data"), "one", false);
-  EXPECT_TRUE(fs::exists(folder.path("outside")));
+}
+
+TEST(Journal, AFileThatNobodyHasWrittenIsNotReplaced)
+{
+  const TemporaryFolder folder;
+  {
+    Journal journal(folder.path(), "one", fresh);
+    Manifest manifest;
+    manifest.requestHash = "one";
+    manifest.files.push_back(addFile(journal, folder.path(), "a", "1"));
+    journal.close(manifest);
+  }
+  writeFile(folder.path("b"), "mine");
+  for (const JournalStart start : { fresh, resume, replace })
+  {
+    EXPECT_THAT(refusal(folder.path(), "one", start, { "a", "b" }), HasSubstr("/b: is in the way"));
+    EXPECT_THAT(refusal(folder.path(), "one", start, { "a/c" }), HasSubstr("where a folder of the dataset has to be"));
+  }
+  EXPECT_EQ(folderContents(folder.path(), "one"), FolderContents::Finished);
+  EXPECT_EQ(contentsOf(folder.path("a")), "1");
+  EXPECT_EQ(contentsOf(folder.path("b")), "mine");
+  Journal journal(folder.path(), "one", resume, { "a" });
+  EXPECT_THROW(journal.planLate("b"), UsageError);
+  journal.planLate("c");
+}
+
+TEST(FolderContents, SaysWhatStandsThere)
+{
+  const TemporaryFolder place;
+  const std::string dir = place.path("d");
+  const auto contents = [&] { return std::make_pair(folderContents(dir, "one"), folderContents(dir, "two")); };
+  const auto both = [](FolderContents a, FolderContents b) { return std::make_pair(a, b); };
+  const auto alike = [](FolderContents a) { return std::make_pair(a, a); };
+  EXPECT_EQ(contents(), alike(FolderContents::Nothing));
+  makeFolders(dir);
+  EXPECT_EQ(contents(), alike(FolderContents::Nothing));
+  {
+    Journal journal(dir, "one", fresh);
+    EXPECT_EQ(contents(), alike(FolderContents::Running));
+  }
+  EXPECT_EQ(contents(), alike(FolderContents::Nothing)); // it ended before its first file
+  {
+    Journal(dir, "one", fresh).plan({ "a" });
+    EXPECT_EQ(contents(), both(FolderContents::Unfinished, FolderContents::UnfinishedOther));
+    EXPECT_EQ(folderContents(dir, ""), FolderContents::UnfinishedOther);
+    Journal journal(dir, "one", resume);
+    Manifest manifest;
+    manifest.requestHash = "one";
+    manifest.files.push_back(addFile(journal, dir, "a", "1"));
+    journal.close(manifest);
+  }
+  EXPECT_EQ(contents(), both(FolderContents::Finished, FolderContents::FinishedOther));
+  EXPECT_EQ(folderContents(dir, ""), FolderContents::FinishedOther);
+  fs::remove(dir + "/manifest.json");
+  EXPECT_EQ(contents(), alike(FolderContents::Foreign));
+  EXPECT_THROW(folderContents(dir + "/a", "one"), MachineError);
 }
 
 TEST(Journal, Refusals)
 {
   const TemporaryFolder folder;
   writeFile(folder.path("thesis.txt"), "mine");
-  EXPECT_THAT(refusal(folder.path(), "one", false), HasSubstr("holds files that are not a DGTk dataset"));
+  EXPECT_THAT(refusal(folder.path(), "one", fresh), HasSubstr("holds files that are not a DGTk dataset"));
   EXPECT_EQ(contentsOf(folder.path("thesis.txt")), "mine");
   EXPECT_FALSE(fs::exists(folder.path(journalName)));
   writeFile(folder.path("manifest.json"), "{\"mine\": 1}");
-  EXPECT_THAT(refusal(folder.path(), "one", false), HasSubstr("holds a manifest that is not DGTk's"));
+  EXPECT_THAT(refusal(folder.path(), "one", replace), HasSubstr("manifest.json: "));
 
   const TemporaryFolder other;
   {
-    Journal journal(other.path(), "one", false);
+    Journal journal(other.path(), "one", fresh);
     addFile(journal, other.path(), "a", "1");
   }
-  EXPECT_THAT(refusal(other.path(), "two", true), HasSubstr("another request, which cannot be resumed"));
+  EXPECT_THAT(refusal(other.path(), "one", fresh), HasSubstr("an unfinished run of the same request"));
+  EXPECT_THAT(refusal(other.path(), "two", fresh), HasSubstr("an unfinished run of another request"));
+  EXPECT_THAT(
+    refusal(other.path(), "two", resume), HasSubstr("an unfinished run of another request, which cannot be resumed"));
   EXPECT_TRUE(fs::exists(other.path("a")));
   {
-    const Journal running(other.path(), "one", true);
-    EXPECT_THAT(refusal(other.path(), "one", true), HasSubstr("another run is writing into this folder"));
+    const Journal running(other.path(), "one", resume);
+    EXPECT_THAT(refusal(other.path(), "one", resume), HasSubstr("another run is writing into this folder"));
   }
-  EXPECT_THROW(Journal("/proc/nowhere", "one", false), MachineError);
-  EXPECT_THROW(Journal(other.path("a"), "one", false), MachineError);
+  EXPECT_THROW(Journal("/proc/nowhere", "one", fresh), MachineError);
+  EXPECT_THROW(Journal(other.path("a"), "one", fresh), MachineError);
 }

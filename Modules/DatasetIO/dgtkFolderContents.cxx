@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkFolderContents.h"
+
+#include "dgtkFolderRecords.h"
+#include "dgtkJournal.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+
+#include <fcntl.h>
+#include <sys/file.h>
+
+namespace dgtk
+{
+
+namespace fs = std::filesystem;
+
+bool holdsNothing(const std::string& folder)
+{
+  std::error_code code;
+  const fs::directory_iterator entries(folder, code);
+  if (code == std::errc::no_such_file_or_directory)
+  {
+    return true;
+  }
+  if (code)
+  {
+    throw MachineError(folder + ": the folder cannot be read: " + code.message());
+  }
+  return std::all_of(begin(entries), end(entries),
+    [](const fs::directory_entry& entry) { return entry.path().filename().string().rfind(journalName, 0) == 0; });
+}
+
+bool isRunning(const Folder& folder)
+{
+  const FileDescriptor journal = folder.open(journalName, O_RDONLY | O_NONBLOCK);
+  return journal && ::flock(journal.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
+FolderContents contentsOf(const Folder& folder, const FolderRecords& records, const std::string& requestHash)
+{
+  const bool same = records.requestHash == requestHash;
+  if (!records.foreign.empty())
+  {
+    return FolderContents::Foreign;
+  }
+  if (records.whole)
+  {
+    return same ? FolderContents::Finished : FolderContents::FinishedOther;
+  }
+  if (!records.journal)
+  {
+    return holdsNothing(folder.path()) ? FolderContents::Nothing : FolderContents::Foreign;
+  }
+  if (records.names.empty())
+  {
+    return FolderContents::Nothing; // it ended before its first picture
+  }
+  return same ? FolderContents::Unfinished : FolderContents::UnfinishedOther;
+}
+
+FolderContents folderContents(const std::string& path, const std::string& requestHash)
+{
+  const Folder folder(path);
+  std::error_code code;
+  if (!fs::exists(path, code) && !code)
+  {
+    return FolderContents::Nothing;
+  }
+  if (!fs::is_directory(path, code) && !code)
+  {
+    throw MachineError(path + ": a file stands where the folder has to be");
+  }
+  return isRunning(folder) ? FolderContents::Running : contentsOf(folder, readFolderRecords(folder), requestHash);
+}
+
+std::string describe(FolderContents contents)
+{
+  switch (contents)
+  {
+    case FolderContents::Nothing:
+      return "is empty";
+    case FolderContents::Finished:
+      return "holds the finished dataset of the same request";
+    case FolderContents::FinishedOther:
+      return "holds the finished dataset of another request";
+    case FolderContents::Unfinished:
+      return "holds an unfinished run of the same request";
+    case FolderContents::UnfinishedOther:
+      return "holds an unfinished run of another request";
+    case FolderContents::Running:
+      return "another run is writing into this folder";
+    case FolderContents::Foreign:
+      break;
+  }
+  return "holds files that are not a DGTk dataset";
+}
+
+} // namespace dgtk
