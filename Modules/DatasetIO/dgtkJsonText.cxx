@@ -28,7 +28,7 @@ std::string jsonNumber(double value)
     return "null";
   }
   const std::string text = shortest(value);
-  return text == "-0" ? "-0.0" : text;
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
 namespace

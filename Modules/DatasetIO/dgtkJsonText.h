@@ -17,7 +17,8 @@ std::string shortest(double value);
 /// A JSON string with its quotes. Bytes that are not UTF-8 become U+FFFD.
 std::string jsonString(const std::string& text);
 
-/// A JSON number; null for what is not finite.
+/// A JSON number, with a point or an exponent, so that readers that tell them apart take it for a real one; null for
+/// what is not finite.
 std::string jsonNumber(double value);
 
 /// Rows in brackets; a vector (one column) in one pair of brackets.

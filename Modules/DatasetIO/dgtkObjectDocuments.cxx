@@ -4,15 +4,26 @@
 #include "dgtkJsonText.h"
 #include "dgtkLayerFile.h"
 
+#include <cmath>
+
 namespace dgtk
 {
 
 namespace
 {
-template <typename Box>
-std::string boxOrNull(const std::optional<Box>& box)
+/// Borders between pixels are counted.
+std::string bordersOrNull(const std::optional<Eigen::Vector4d>& box)
 {
-  return box ? jsonMatrix(*box) : "null";
+  if (!box)
+  {
+    return "null";
+  }
+  std::string text;
+  for (const double border : *box)
+  {
+    text += (text.empty() ? "[" : ", ") + std::to_string(std::llround(border));
+  }
+  return text + ']';
 }
 
 std::string boxText(const BoxRecord& record)
@@ -25,9 +36,9 @@ std::string boxText(const BoxRecord& record)
   object.integer("pixels_amodal", static_cast<std::int64_t>(record.pixelsAmodal));
   object.number(
     "visible_fraction", record.pixelsAmodal > 0 ? double(record.pixelsVisible) / double(record.pixelsAmodal) : 0.0);
-  object.raw("box_visible", boxOrNull(record.visible));
-  object.raw("box_amodal", boxOrNull(record.amodal));
-  object.raw("box_projected", boxOrNull(record.projected));
+  object.raw("box_visible", bordersOrNull(record.visible));
+  object.raw("box_amodal", bordersOrNull(record.amodal));
+  object.raw("box_projected", record.projected ? jsonMatrix(*record.projected) : "null");
   object.raw("R", record.rigid ? jsonMatrix(record.R) : "null");
   object.raw("t", record.rigid ? jsonMatrix(record.t) : "null");
   object.raw("scale", record.rigid ? jsonMatrix(record.scale) : "null");

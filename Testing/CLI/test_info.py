@@ -4,6 +4,7 @@ import json
 import math
 import os
 
+import numpy
 from harness import EXTRA, SCENES, SOURCE, Case, load_json, main, needs_samples
 
 TRUTH = os.path.join(EXTRA, "TRUTH.json")
@@ -76,6 +77,20 @@ class Scenes(Case):
         self.assertAlmostEqual(camera["K"][0][0], 240 / math.tan(math.radians(30)), delta=1e-9)
         self.assertEqual(camera["K"][0][2], 320)
         self.assertEqual(camera["t"], [0, 0, 5])
+
+    def test_matrices_are_of_real_numbers(self):
+        """As NumPy takes them: of an axis-parallel camera, too, whose R is whole."""
+        scene = self.write("s.json", json.dumps({"objects": [{"name": "o", "model": "q.obj", "position": [1, 0, 0]}], "cameras": [
+            {"name": "c", "width": 64, "height": 48, "eye": [0, 0, 5], "lookAt": [0, 0, 0]}]}))
+        self.write("q.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nf 1 2 3\n")
+        self.dgtk("render", scene, "-o", self.path("out"), "--quiet", "--layers", "boxes")
+        camera = load_json(self.path("out", "cameras.json"))["cameras"][0]
+        info = json.loads(self.dgtk("info", scene, "--json").stdout)["cameras"][0]
+        box = load_json(self.path("out", "c", "boxes", "000000.json"))["objects"][0]
+        for document, keys in ((camera, "KRt"), (info, "KRt"), (box, ("R", "t", "scale", "matrix", "box3d", "box_projected"))):
+            for key in keys:
+                self.assertEqual(numpy.array(document[key]).dtype, numpy.float64, f"{key}: {document[key]}")
+        self.assertEqual(numpy.array(box["box_visible"]).dtype, numpy.int64)  # the borders of a part of the picture
 
     def test_surfaces_of_a_plane_seen_squarely(self):
         scene = self.write("plane.obj", "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3 4\n") and self.write(

@@ -44,7 +44,7 @@ TEST(Compare, CountsAndPlacesDifferences)
   EXPECT_EQ(result.worstX, 1);
   EXPECT_EQ(result.worstY, 1);
   EXPECT_EQ(describe(result), "3 of 6 pixels differ, the first at (2, 0); largest difference 4 at (1, 1)");
-  EXPECT_THAT(compareJson(result), HasSubstr("\"largest\": 4,\n  \"first\": [2, 0],\n  \"worst\": [1, 1]\n}"));
+  EXPECT_THAT(compareJson(result), HasSubstr("\"largest\": 4.0,\n  \"first\": [2, 0],\n  \"worst\": [1, 1]\n}"));
 }
 
 TEST(Compare, InvalidAgainstValidIsInfinite)

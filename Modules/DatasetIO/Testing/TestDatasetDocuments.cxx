@@ -226,6 +226,36 @@ TEST(Documents, WritingDescribesTheFile)
   EXPECT_EQ(file.frame, 4);
 }
 
+TEST(Documents, RealNumbersHaveAPointAndCountsHaveNone)
+{
+  CameraRecord camera;
+  camera.name = "c";
+  camera.width = 640;
+  camera.K << 1e22, 0, 320, 0, 0.5, 240, 0, 0, 1;
+  camera.t << -0.0, -3, 1e-9;
+  camera.model = "pinhole";
+  camera.distortion = { 0, 2 };
+  camera.near = 1;
+  camera.far = 100;
+  const std::string cameras = camerasText({ camera });
+  for (const char* const part : { "\"width\": 640,", "\"K\": [[1e+22, 0.0, 320.0], [0.0, 0.5, 240.0], [0.0, 0.0, 1.0]]",
+         "\"t\": [-0.0, -3.0, 1e-09]", "\"distortion\": [0.0, 2.0]", "\"near\": 1.0", "\"far\": 100.0" })
+  {
+    EXPECT_THAT(cameras, HasSubstr(part));
+  }
+  BoxRecord box;
+  box.id = 3;
+  box.visible = Eigen::Vector4d(1, 2, 3, 4);
+  box.projected = Eigen::Vector4d(1, 2, 3.5, 4);
+  box.rigid = true;
+  const std::string boxes = boxesText("left", 7, { box });
+  for (const char* const part : { "\"id\": 3,", "\"box_visible\": [1, 2, 3, 4]",
+         "\"box_projected\": [1.0, 2.0, 3.5, 4.0]", "\"scale\": [1.0, 1.0, 1.0]", "\"visible_fraction\": 0.0" })
+  {
+    EXPECT_THAT(boxes, HasSubstr(part));
+  }
+}
+
 TEST(ObjectDocuments, ReadBackAsWritten)
 {
   const TemporaryFolder folder;
