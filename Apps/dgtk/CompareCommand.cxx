@@ -4,16 +4,90 @@
 #include "dgtkCompare.h"
 #include "dgtkError.h"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <map>
+#include <optional>
 
 namespace dgtk::app
 {
 
 namespace
 {
-int compareFolders(const std::string& a, const std::string& b, bool json)
+constexpr const char* toleranceOption = "--tolerance";
+constexpr double mostPixels = 9e15; // whole numbers of a double
+
+using Tolerances = std::map<std::string, CompareTolerance>;
+
+[[noreturn]] void badTolerance(const std::string& text, const std::string& part)
 {
-  const DatasetComparison result = compareDatasets(a, b);
+  throw UsageError(std::string(toleranceOption) +
+                   ": expected [LAYER:]value=V,pixels=N,share=S, at least one of them, " +
+                   "numbers from 0, S at most 1, found " + quoted(part.empty() ? text : part));
+}
+
+void setLimit(CompareTolerance& tolerance, const std::string& text, const std::string& part)
+{
+  const std::size_t equals = part.find('=');
+  const std::string key = part.substr(0, equals);
+  const std::string number = equals == std::string::npos ? "" : part.substr(equals + 1);
+  double value = -1;
+  const auto [end, code] = std::from_chars(number.data(), number.data() + number.size(), value);
+  if (code != std::errc() || end != number.data() + number.size() || !std::isfinite(value) || value < 0)
+  {
+    badTolerance(text, part);
+  }
+  if (key == "value")
+  {
+    tolerance.value = value;
+  }
+  else if (key == "pixels" && value == std::floor(value) && value <= mostPixels)
+  {
+    tolerance.pixels = static_cast<std::uint64_t>(value);
+  }
+  else if (key == "share" && value <= 1)
+  {
+    tolerance.share = value;
+  }
+  else
+  {
+    badTolerance(text, part);
+  }
+}
+
+// Layer (or none) and limits of "color:value=2,share=0.001".
+Tolerances parseTolerances(const std::vector<std::string>& texts)
+{
+  Tolerances tolerances;
+  for (const std::string& text : texts)
+  {
+    const std::size_t colon = text.find(':');
+    const std::string layer = colon == std::string::npos ? "" : text.substr(0, colon);
+    CompareTolerance tolerance;
+    for (std::size_t begin = colon == std::string::npos ? 0 : colon + 1; begin <= text.size();)
+    {
+      const std::size_t comma = std::min(text.find(',', begin), text.size());
+      setLimit(tolerance, text, text.substr(begin, comma - begin));
+      begin = comma + 1;
+    }
+    if (!tolerances.emplace(layer, tolerance).second)
+    {
+      throw UsageError(std::string(toleranceOption) + ": two for " + quoted(layer));
+    }
+  }
+  return tolerances;
+}
+
+int compareFolders(const std::string& a, const std::string& b, const Tolerances& tolerances, bool json)
+{
+  if (tolerances.count("") > 0)
+  {
+    throw UsageError(std::string(toleranceOption) + ": datasets need the layer: LAYER:value=V,pixels=N,share=S");
+  }
+  const DatasetComparison result = compareDatasets(a, b, tolerances);
   if (json)
   {
     print(compareJson(result) + '\n');
@@ -23,7 +97,10 @@ int compareFolders(const std::string& a, const std::string& b, bool json)
   {
     print(describe(file) + '\n');
   }
-  print(std::to_string(result.files) + " files, " + std::to_string(result.differing.size()) + " differ\n");
+  const auto within = std::count_if(result.differing.begin(), result.differing.end(),
+    [](const CompareResult& file) { return file.tolerance && file.equal; });
+  print(std::to_string(result.files) + " files, " + std::to_string(result.differing.size()) + " differ" +
+        (tolerances.empty() ? "" : ", " + std::to_string(within) + " of these within tolerances") + '\n');
   return result.equal ? 0 : 1;
 }
 
@@ -32,17 +109,28 @@ int run(const Arguments& arguments)
   const std::string& a = arguments.positional()[0];
   const std::string& b = arguments.positional()[1];
   const bool json = arguments.has("--json");
-  const bool folderA = std::filesystem::is_directory(a);
-  const bool folderB = std::filesystem::is_directory(b);
-  if (folderA != folderB)
+  const Tolerances tolerances = parseTolerances(arguments.all(toleranceOption));
+  for (const std::string* path : { &a, &b })
+  {
+    if (!std::filesystem::exists(*path))
+    {
+      throw InputError(*path, 0, "does not exist");
+    }
+  }
+  const bool folders = std::filesystem::is_directory(a);
+  if (folders != std::filesystem::is_directory(b))
   {
     throw UsageError("compare needs two images or two datasets, not one of each");
   }
-  if (folderA)
+  if (folders)
   {
-    return compareFolders(a, b, json);
+    return compareFolders(a, b, tolerances, json);
   }
-  const CompareResult result = compareFiles(a, b);
+  if (tolerances.size() > tolerances.count(""))
+  {
+    throw UsageError(std::string(toleranceOption) + ": two files have no layers (expected value=V,pixels=N,share=S)");
+  }
+  const CompareResult result = compareFiles(a, b, tolerances.empty() ? std::nullopt : std::optional(tolerances.at("")));
   print((json ? compareJson(result) : describe(result)) + '\n');
   return result.equal ? 0 : 1;
 }
@@ -51,7 +139,10 @@ int run(const Arguments& arguments)
 Command compareCommand()
 {
   return { "compare", "A B", 2, 2, "Compares two images or two datasets; exits with 1 if they differ.",
-    { { "--json", "", "", "print one JSON object" } }, &run };
+    { { toleranceOption, "LAYER:value=V,pixels=N,share=S", "",
+        "pixels of the layer may differ by V, and N of them, or a share S of all, by more; may be repeated" },
+      { "--json", "", "", "print one JSON object" } },
+    &run };
 }
 
 } // namespace dgtk::app

@@ -71,9 +71,9 @@ Arguments::Arguments(const Command& command, const std::vector<std::string>& wor
     {
       throw UsageError(name + " needs a value: " + name + ' ' + option->value);
     }
-    this->Values[name] = option->value.empty()         ? ""
-                         : equals != std::string::npos ? words[i].substr(equals + 1)
-                                                       : words[++i];
+    this->Values[name].push_back(option->value.empty()         ? ""
+                                 : equals != std::string::npos ? words[i].substr(equals + 1)
+                                                               : words[++i]);
   }
   const std::size_t count = this->Positional.size();
   if (!this->has("--help") && (count < command.least || count > command.most))
@@ -86,7 +86,13 @@ Arguments::Arguments(const Command& command, const std::vector<std::string>& wor
 std::string Arguments::text(const std::string& name) const
 {
   const auto found = this->Values.find(name);
-  return found != this->Values.end() ? found->second : find(this->Self, name)->fallback;
+  return found != this->Values.end() ? found->second.back() : find(this->Self, name)->fallback;
+}
+
+std::vector<std::string> Arguments::all(const std::string& name) const
+{
+  const auto found = this->Values.find(name);
+  return found != this->Values.end() ? found->second : std::vector<std::string>();
 }
 
 int parseInteger(const std::string& text, const std::string& what, int least, int most)

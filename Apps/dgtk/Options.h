@@ -42,6 +42,8 @@ public:
   bool has(const std::string& name) const { return this->Values.count(name) > 0; }
   /// The value given, or the option's fallback.
   std::string text(const std::string& name) const;
+  /// The values of an option that may be repeated, as given.
+  std::vector<std::string> all(const std::string& name) const;
   /// An integer in [least, most]; UsageError otherwise.
   int integer(const std::string& name, int least, int most) const;
   /// "WxH", each in [1, most].
@@ -52,7 +54,7 @@ public:
 private:
   const Command& Self;
   std::vector<std::string> Positional;
-  std::map<std::string, std::string> Values;
+  std::map<std::string, std::vector<std::string>> Values;
 };
 
 /// The page that `dgtk COMMAND --help` prints.

@@ -62,6 +62,7 @@ template <typename A, typename B>
 void compareValues(const Rows& a, const Rows& b, CompareResult& result)
 {
   const int channels = a.channels();
+  const double limit = result.tolerance ? result.tolerance->value : 0;
   for (int y = a.y(); y < a.y() + a.height(); ++y)
   {
     const A* left = a.row<A>(y);
@@ -86,6 +87,7 @@ void compareValues(const Rows& a, const Rows& b, CompareResult& result)
           result.worstX = x;
           result.worstY = y;
         }
+        result.beyond += largest > limit ? 1 : 0;
       }
     }
   }
@@ -154,7 +156,7 @@ void comparePixels(const std::string& a, const std::string& b, CompareResult& re
     compareRows(left->read(rows), right->read(rows), result);
   }
   result.pixels = std::uint64_t(one.width) * static_cast<std::uint64_t>(one.height);
-  result.equal = result.differing == 0;
+  result.equal = result.tolerance ? result.tolerance->allows(result.beyond, result.pixels) : result.differing == 0;
 }
 
 /// The files of a dataset by its manifest, else those below the folder.
@@ -222,6 +224,59 @@ std::vector<std::string> manifestDifferences(const std::string& a, const std::st
   return names;
 }
 
+/// The layers of a dataset's files; refuses tolerances that would say nothing about them.
+std::map<std::string, std::string> layersOf(
+  const std::string& folder, const std::map<std::string, CompareTolerance>& tolerances)
+{
+  std::map<std::string, std::string> layers; // by file
+  if (tolerances.empty())
+  {
+    return layers;
+  }
+  const Manifest manifest = readManifest((fs::path(folder) / manifestName).string());
+  std::set<std::string> known;
+  for (const DatasetFile& file : manifest.files)
+  {
+    layers[file.path] = file.layer;
+    known.insert(file.layer);
+  }
+  for (const auto& [layer, tolerance] : tolerances)
+  {
+    if (layer.empty() || known.count(layer) == 0)
+    {
+      known.erase("");
+      std::string names;
+      for (const std::string& name : known)
+      {
+        names += (names.empty() ? "" : ", ") + name;
+      }
+      throw UsageError(
+        "a tolerance for " + quoted(layer) + ": " + folder + " has no such layer (it has " + names + ')');
+    }
+    const auto names = [&name = layer](const LayerRecord& record)
+    { return record.spec.name == name && (record.spec.unit == "id" || record.spec.unit == "class"); };
+    if (tolerance.value > 0 && std::any_of(manifest.layers.begin(), manifest.layers.end(), names))
+    {
+      throw UsageError("a tolerance for " + layer +
+                       ": its values are names, none is nearer than another (expected pixels " + "or a share)");
+    }
+  }
+  return layers;
+}
+
+std::string toleranceText(const CompareResult& result)
+{
+  const CompareTolerance& tolerance = *result.tolerance;
+  std::string limits = tolerance.pixels || !tolerance.share ? std::to_string(tolerance.pixels.value_or(0)) : "";
+  if (tolerance.share)
+  {
+    limits += (limits.empty() ? "" : " and ") + shortest(*tolerance.share) + " of all";
+  }
+  return std::string(result.equal ? "within" : "beyond") + " the tolerance" +
+         (result.layer.empty() ? "" : " of " + result.layer) + " (" + std::to_string(result.beyond) +
+         (tolerance.value > 0 ? " by more than " + shortest(tolerance.value) : "") + ", at most " + limits + ')';
+}
+
 JsonObject members(const CompareResult& result, int indent)
 {
   JsonObject object(indent);
@@ -237,13 +292,25 @@ JsonObject members(const CompareResult& result, int indent)
     object.raw("first", "[" + std::to_string(result.firstX) + ", " + std::to_string(result.firstY) + "]")
       .raw("worst", "[" + std::to_string(result.worstX) + ", " + std::to_string(result.worstY) + "]");
   }
+  if (result.tolerance)
+  {
+    object.text("layer", result.layer).integer("beyond", static_cast<std::int64_t>(result.beyond));
+  }
   return object;
 }
 } // namespace
 
-CompareResult compareFiles(const std::string& a, const std::string& b)
+bool CompareTolerance::allows(std::uint64_t counted, std::uint64_t all) const
+{
+  const bool few = counted <= this->pixels.value_or(this->share ? counted : 0);
+  // As a quotient, which is the number that people write: 29 of 100 are 0.29.
+  return few && (!this->share || counted == 0 || double(counted) / double(all) <= *this->share);
+}
+
+CompareResult compareFiles(const std::string& a, const std::string& b, const std::optional<CompareTolerance>& tolerance)
 {
   CompareResult result;
+  result.tolerance = tolerance;
   result.sameBytes = sameContents(a, b);
   const bool images = isLayerFile(a) && isLayerFile(b) && !isDeepExr(a) && !isDeepExr(b);
   if (images && result.sameBytes)
@@ -261,8 +328,10 @@ CompareResult compareFiles(const std::string& a, const std::string& b)
   return result;
 }
 
-DatasetComparison compareDatasets(const std::string& a, const std::string& b)
+DatasetComparison compareDatasets(
+  const std::string& a, const std::string& b, const std::map<std::string, CompareTolerance>& tolerances)
 {
+  const std::map<std::string, std::string> layers = layersOf(a, tolerances);
   const std::set<std::string> left = filesOf(a);
   const std::set<std::string> right = filesOf(b);
   std::set<std::string> all = left;
@@ -278,7 +347,11 @@ DatasetComparison compareDatasets(const std::string& a, const std::string& b)
     CompareResult result;
     if (there[0] && there[1])
     {
-      result = compareFiles(paths[0], paths[1]);
+      const auto layer = layers.find(name);
+      const auto tolerance = layer == layers.end() ? tolerances.end() : tolerances.find(layer->second);
+      const bool tolerant = tolerance != tolerances.end();
+      result = compareFiles(paths[0], paths[1], tolerant ? std::optional(tolerance->second) : std::nullopt);
+      result.layer = tolerant ? tolerance->first : "";
     }
     else
     {
@@ -309,7 +382,8 @@ std::string describe(const CompareResult& result)
   const auto place = [](int x, int y) { return "(" + std::to_string(x) + ", " + std::to_string(y) + ")"; };
   return name + std::to_string(result.differing) + " of " + std::to_string(result.pixels) +
          " pixels differ, the first at " + place(result.firstX, result.firstY) + "; largest difference " +
-         shortest(result.largest) + " at " + place(result.worstX, result.worstY);
+         shortest(result.largest) + " at " + place(result.worstX, result.worstY) +
+         (result.tolerance ? "; " + toleranceText(result) : "");
 }
 
 std::string compareJson(const CompareResult& result) { return members(result, 2).block() + "\n"; }

@@ -5,18 +5,30 @@
 #include "dgtkDatasetIOModule.h"
 
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace dgtk
 {
 
+/// How far two images may differ and still be equal.
+struct CompareTolerance
+{
+  double value = 0;                    ///< a pixel counts when a channel differs by more; the file's own unit
+  std::optional<std::uint64_t> pixels; ///< how many pixels may count; none may where `share` is not given either
+  std::optional<double> share;         ///< which part of all pixels may count, 0 to 1; with `pixels`, both hold
+
+  bool allows(std::uint64_t counted, std::uint64_t all) const;
+};
+
 /// Two files compared. NaN equals NaN, and infinities of one sign are equal; where only one side is NaN or infinite the
 /// difference is +inf.
 struct CompareResult
 {
   std::string path;         ///< within the datasets; "" when two files were compared
-  bool equal = false;       ///< no pixel differs (files), or the same bytes (what is not an image)
+  bool equal = false;       ///< no pixel differs, or as the tolerance allows; of what is not an image, the same bytes
   bool sameBytes = false;   ///< the files are identical
   std::string problem;      ///< why pixels were not compared: missing, another size or type; "" when they were
   std::uint64_t pixels = 0; ///< compared
@@ -26,6 +38,9 @@ struct CompareResult
   int firstY = -1;
   int worstX = -1; ///< pixel of the largest difference, the first of them in reading order
   int worstY = -1;
+  std::string layer; ///< whose tolerance it was; "" without a tolerance, or of two files
+  std::optional<CompareTolerance> tolerance;
+  std::uint64_t beyond = 0; ///< pixels that differ by more than the tolerance's value
 };
 
 struct DatasetComparison
@@ -39,12 +54,16 @@ struct DatasetComparison
 };
 
 /// Two image files of any readable formats; their types may differ as long as the channels agree. Other files are
-/// compared byte by byte. Throws InputError for a file that cannot be read.
-DGTKDATASETIO_EXPORT CompareResult compareFiles(const std::string& a, const std::string& b);
+/// compared byte by byte, whatever the tolerance. Throws InputError for a file that cannot be read.
+DGTKDATASETIO_EXPORT CompareResult compareFiles(
+  const std::string& a, const std::string& b, const std::optional<CompareTolerance>& tolerance = {});
 
 /// Two datasets, file by file: those of their manifests, or of the folders where one has none. What is on the disk is
-/// compared, whatever a manifest says about it. Throws InputError for a folder that cannot be read.
-DGTKDATASETIO_EXPORT DatasetComparison compareDatasets(const std::string& a, const std::string& b);
+/// compared, whatever a manifest says about it. `tolerances` by the names of layers in the manifest of `a`; a layer
+/// that is not among them must be equal. Throws InputError for a folder that cannot be read, UsageError for a tolerance
+/// of a layer that `a` does not have, and for one of values where the layer holds ids or classes.
+DGTKDATASETIO_EXPORT DatasetComparison compareDatasets(
+  const std::string& a, const std::string& b, const std::map<std::string, CompareTolerance>& tolerances = {});
 
 /// One line for people, without a line break.
 DGTKDATASETIO_EXPORT std::string describe(const CompareResult& result);

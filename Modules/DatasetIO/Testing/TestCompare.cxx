@@ -59,6 +59,25 @@ TEST(Compare, InvalidAgainstValidIsInfinite)
   EXPECT_THAT(compareJson(result), HasSubstr("\"largest\": null"));
 }
 
+TEST(Compare, TolerancesHoldToTheLastPixel)
+{
+  const TemporaryFolder folder;
+  writeValues(folder.path("a.npy"), { 0, 0, 0, 0 }, 2);
+  writeValues(folder.path("b.npy"), { 0, 0.5, -0.75, notANumber }, 2);
+  const auto equal = [&](const CompareTolerance& tolerance)
+  { return compareFiles(folder.path("a.npy"), folder.path("b.npy"), tolerance).equal; };
+  EXPECT_FALSE(equal({}));
+  EXPECT_TRUE(equal({ 0.75, 1, {} }));
+  EXPECT_FALSE(equal({ 0.7499, 1, {} }));
+  EXPECT_TRUE(equal({ 0.7499, 2, {} }));
+  EXPECT_TRUE(equal({ 0.75, {}, 0.25 }));
+  EXPECT_FALSE(equal({ 0.75, {}, 0.2499 }));
+  EXPECT_FALSE(equal({ 0.75, 0, 0.25 }));
+  EXPECT_FALSE(equal({ 1e300, {}, {} })) << "nothing is near a value that is not there";
+  EXPECT_TRUE((CompareTolerance{ 0, {}, 0.29 }.allows(29, 100)));
+  EXPECT_FALSE((CompareTolerance{ 0, {}, 0.29 }.allows(30, 100)));
+}
+
 TEST(Compare, OtherFormatsAndTypesByValue)
 {
   const TemporaryFolder folder;
