@@ -2,11 +2,12 @@
 """Debian's python3 imports dgtk and renders a scene into numpy arrays: the values of the command line's files, or a sentence."""
 import json
 import os
+import re
 import subprocess
 import sys
 
 import numpy
-from harness import SCENES, Case, main
+from harness import SCENES, SOURCE, Case, main
 from pictures import read_png
 
 PACKAGES = os.path.join(os.environ["DGTK_BUILD"], "lib", "python3", "dist-packages")
@@ -109,6 +110,16 @@ json.dump(said, open(sys.argv[2] + "/said.json", "w"))
                     dgtk.render(scene, **{"layers": "depth", "size": (8, 6), **wrong})
                 self.assertNotIn("--", str(caught.exception))
                 self.assertNotIn("\n", str(caught.exception))
+
+
+class Guide(Interpreter):
+    def test_the_page_runs_as_it_stands(self):
+        with open(os.path.join(SOURCE, "Documentation", "UserGuide", "python.md"), encoding="utf-8") as file:
+            blocks = re.findall(r"^```python\n(.*?)^```$", file.read(), re.MULTILINE | re.DOTALL)
+        self.assertGreater(len(blocks), 3)
+        said = self.python(f"import os; os.chdir({SOURCE!r})\n" + "\n".join(blocks)).stdout
+        self.assertIn("(240, 320) float64 (240, 320, 3) uint8", said)
+        self.assertIn("the layer boxes is not given as an array", said)
 
 
 class Import(Interpreter):
