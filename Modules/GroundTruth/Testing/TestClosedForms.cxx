@@ -134,6 +134,36 @@ TEST(ClosedForms, NormalsOfABoxFaceTheCamera)
   }
 }
 
+TEST(ClosedForms, NormalsOfAWallSeenAtAFlatAngleFaceTheRay)
+{
+  // The wall x = 2 + 0.3 z of the camera frame runs away from a wide view: its side towards the camera is
+  // (-1, 0, 0.3), whose z points away from the camera.
+  ViewOptions options;
+  options.fovY = 100;
+  const dgtk::View view = makeView(options);
+  const Eigen::Vector3d expected = Eigen::Vector3d(-1, 0, 0.3).normalized();
+  for (const bool turned : { false, true })
+  {
+    // In the world, z of the camera is 5 - z.
+    const QuadOptions up{ { 2, -50, 5 }, { 30, 0, -100 }, { 0, 100, 0 }, 1, 1 };
+    const QuadOptions down{ { 2, -50, 5 }, { 0, 100, 0 }, { 30, 0, -100 }, 1, 1 };
+    const auto state = SceneBuilder().add(makeQuad(turned ? down : up)).state();
+    const dgtk::VisibilityBuffer buffer = bruteForce(*state, view);
+    const dgtk::Rows normal = computeLayer("normal", *state, view, buffer);
+    int seen = 0;
+    for (int i = 0; i < 64 * 48; ++i)
+    {
+      if (buffer.hits[i].object)
+      {
+        const Eigen::Vector3d found = Eigen::Map<const Eigen::Vector3f>(normal.row<float>(0) + 3 * i).cast<double>();
+        ASSERT_LE((expected - found).norm(), 1e-7);
+        ++seen;
+      }
+    }
+    EXPECT_GT(seen, 300);
+  }
+}
+
 TEST(ClosedForms, NormalsOfAMirroredStretchedSphere)
 {
   dgtk::Affine3 world_from_object;

@@ -196,6 +196,27 @@ TEST(Warp, GlassIsLaidOverWhatIsBehind)
   EXPECT_EQ(alone.rgb[(15 * width + 20) * 3], 40);
 }
 
+TEST(Warp, PanesAreLaidFarToNear)
+{
+  // A second pane of another colour and opacity behind the first, whichever comes first in the file.
+  const WarpSource far = [](const std::function<void(int, int, const WarpSample&)>& visit) {
+    visit(20, 15, { { 40, 60, 240, 102 }, 3, facing });
+  };
+  const View view = viewAt({ 0, 0, 0 });
+  for (const WarpSource& panes : { both(patch(2, 51), far), both(far, patch(2, 51)) })
+  {
+    const WarpedImage image = warpLayeredDepth(both(panes, wall(5)), view, view);
+    const double behind[3] = { 20, 15, 9 };
+    const double farther[3] = { 40, 60, 240 };
+    const double nearer[3] = { 200, 100, 0 };
+    for (int c = 0; c < 3; ++c)
+    {
+      const double middle = behind[c] + 0.4 * (farther[c] - behind[c]);
+      EXPECT_EQ(image.rgb[(15 * width + 20) * 3 + c], std::lround(middle + 0.2 * (nearer[c] - middle))) << c;
+    }
+  }
+}
+
 TEST(Warp, WhatIsBehindTheCameraIsGone)
 {
   EXPECT_EQ(

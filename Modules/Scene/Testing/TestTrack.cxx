@@ -153,6 +153,37 @@ TEST(Track, SmoothRotationsPassThroughTheirKeysWithoutKinks)
   EXPECT_NEAR(track.at(2.5).norm(), 1, rounding);
 }
 
+TEST(Track, SmoothRotationsDoNotDependOnTheSignOfTheirKeys)
+{
+  // q and -q are one rotation: whichever of them a key holds, the way is the shorter one.
+  const double angle[4] = { 0, 0.8, 1.5, 2.9 };
+  Track<Quaternion> plain;
+  plain.interpolation = Interpolation::Smooth;
+  for (int i = 0; i < 4; ++i)
+  {
+    plain.keys.push_back({ 10 * i, aboutZ(angle[i]) });
+  }
+  for (int signs = 1; signs < 16; ++signs)
+  {
+    Track<Quaternion> track = plain;
+    for (int i = 0; i < 4; ++i)
+    {
+      track.keys[i].value = track.keys[i].value.scaled((signs >> i & 1) != 0 ? -1 : 1);
+    }
+    for (double frame = 0; frame <= 30; frame += 1.25)
+    {
+      EXPECT_LE((track.at(frame).matrix() - plain.at(frame).matrix()).norm(), rounding) << signs << ' ' << frame;
+    }
+  }
+  // Between the keys it turns forward only.
+  for (double frame = 1; frame <= 30; frame += 1)
+  {
+    const Vector turned = plain.at(frame).matrix() * Vector(1, 0, 0);
+    const Vector before = plain.at(frame - 1).matrix() * Vector(1, 0, 0);
+    EXPECT_GT(before.cross(turned).z(), 0.02) << frame;
+  }
+}
+
 TEST(Track, RotationMatrixIsTheUsualOne)
 {
   const Vector turned = aboutZ(pi / 2).matrix() * Vector(1, 0, 0);

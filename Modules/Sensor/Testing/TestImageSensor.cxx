@@ -187,6 +187,31 @@ TEST(ImageSensor, PointSpreadsKeepLightAndHaveTheirShape)
   EXPECT_FLOAT_EQ(at(19, 21), 0.0f);
 }
 
+TEST(ImageSensor, TheFullWellHoldsNoMoreElectrons)
+{
+  ColorSensorParameters p = idealLinear();
+  p.gain = 0.5;
+  p.exposure = 3;
+  for (const float value : expose(setupOf(p), grey(1)))
+  {
+    ASSERT_EQ(value, 0.5F);
+  }
+  // Read noise comes behind the saturation: it is all the noise there is.
+  p.shotNoise = true;
+  p.readNoise = 40;
+  const Statistics full = statisticsOf(expose(setupOf(p), grey(1)));
+  EXPECT_NEAR(full.mean / 0.5, 1, 1e-4);
+  EXPECT_NEAR(std::sqrt(full.variance) / (p.readNoise * p.gain / p.fullWell), 1, onePercent);
+  // At a mean of just the full well the upper half is cut: that leaves sqrt(F / 2 pi) less, and 1/2 - 1 / 2 pi of the
+  // variance.
+  p.exposure = 1;
+  p.readNoise = 0;
+  const Statistics half = statisticsOf(expose(setupOf(p), grey(1)));
+  const double pi = 3.14159265358979323846;
+  EXPECT_NEAR((p.fullWell - half.mean / p.gain * p.fullWell) / std::sqrt(p.fullWell / (2 * pi)), 1, onePercent);
+  EXPECT_NEAR(half.variance / (p.gain * p.gain / p.fullWell * (0.5 - 0.5 / pi)), 1, 2 * onePercent);
+}
+
 TEST(ImageSensor, FixedPatternIsThatOfEveryFrameAndHasItsSpread)
 {
   ColorSensorParameters p = idealLinear();

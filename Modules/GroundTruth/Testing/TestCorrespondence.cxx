@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCorrespondence.h"
+#include "dgtkRaySource.h"
+#include "dgtkSyntheticScene.h"
+
+#include <Eigen/LU>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+using namespace dgtk;
+using namespace dgtk::test;
+
+constexpr int width = 64;
+constexpr int height = 48;
+constexpr double focal = 32;
+
+/// Looks along the world's +z from `centre`, x right, y down; the principal point is the image's middle.
+View viewAt(const Eigen::Vector3d& centre, double near = 0.5, double far = 100)
+{
+  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+  K(0, 0) = K(1, 1) = focal;
+  K(0, 2) = width / 2.0;
+  K(1, 2) = height / 2.0;
+  View view;
+  view.model = makePinhole(width, height, K);
+  view.camera_from_world.translation = -centre;
+  view.near = near;
+  view.far = far;
+  return view;
+}
+
+/// A wall of two triangles across the plane z, x and y from -32 to 32: barycentrics of whole numbers are exact.
+std::shared_ptr<Model> wallAt(double z) { return makeQuad({ { -32, -32, z }, { 64, 0, 0 }, { 0, 64, 0 }, 1, 1 }); }
+
+/// The barycentrics of a point (x, y) of the wall's first or second triangle.
+struct OnWall
+{
+  Hit hit;
+  Eigen::Vector2d barycentrics;
+};
+OnWall onWall(const SceneState& state, std::uint32_t object, const Eigen::Vector2d& at)
+{
+  for (const std::uint32_t triangle : { 0u, 1u })
+  {
+    Eigen::Vector3d corner[3];
+    triangleInWorld(state, { object, triangle }, corner);
+    Eigen::Matrix2d edges;
+    edges << (corner[1] - corner[0]).head<2>(), (corner[2] - corner[0]).head<2>();
+    const Eigen::Vector2d found = edges.inverse() * (at - corner[0].head<2>());
+    if (found.minCoeff() >= 0 && found.sum() <= 1)
+    {
+      return { { object, triangle }, found };
+    }
+  }
+  ADD_FAILURE() << "not on the wall";
+  return {};
+}
+
+/// A wall at z = 8 (object 1) and whatever `more` adds, seen by another camera.
+class Other
+{
+public:
+  explicit Other(const View& view, const std::function<void(SceneBuilder&)>& more = {})
+  {
+    SceneBuilder builder;
+    builder.add(wallAt(8));
+    if (more)
+    {
+      more(builder);
+    }
+    this->State = builder.state();
+    this->Query = makeOcclusionQuery();
+    this->Query->setScene(this->State);
+    this->Seen = { this->State.get(), view, this->Query.get() };
+  }
+  const OtherView& operator*() const { return this->Seen; }
+  Correspondence of(const Eigen::Vector2d& at, std::uint32_t object = 1) const
+  {
+    const OnWall point = onWall(*this->State, object, at);
+    return correspond(this->Seen, point.hit, point.barycentrics);
+  }
+
+private:
+  std::shared_ptr<SceneState> State;
+  std::unique_ptr<OcclusionQuery> Query;
+  OtherView Seen;
+};
+} // namespace
+
+TEST(Correspond, APointOfAWallIsWhereTheOtherCameraProjectsIt)
+{
+  const Other other(viewAt({ 1, -0.5, 0 }));
+  const Correspondence found = other.of({ 3, 2 });
+  EXPECT_EQ(found.visibility, VisibilityClass::Visible);
+  EXPECT_NEAR(found.pixel.x(), focal * (3 - 1) / 8 + 32, 1e-12);
+  EXPECT_NEAR(found.pixel.y(), focal * (2 + 0.5) / 8 + 24, 1e-12);
+}
+
+TEST(Correspond, WhatStandsBeforeThePointNamesTheClass)
+{
+  // A pane at z = 4 of another object hides; of the own object it is the own one that hides.
+  const auto pane = makeQuad({ { -1, -1, 4 }, { 2, 0, 0 }, { 0, 2, 0 }, 1, 1 });
+  const Other another(viewAt({ 0, 0, 0 }), [&](SceneBuilder& scene) { scene.add(pane); });
+  EXPECT_EQ(another.of({ 0, 0 }).visibility, VisibilityClass::OccludedByOther);
+  EXPECT_EQ(another.of({ 0, 0 }).pixel, Eigen::Vector2d(32, 24)) << "hidden points are somewhere, too";
+  EXPECT_EQ(another.of({ 3, 0 }).visibility, VisibilityClass::Visible);
+
+  auto folded = std::make_shared<Model>(*wallAt(8));
+  auto rest = std::make_shared<Geometry>(*folded->rest);
+  for (const Eigen::Vector3d& corner : { Eigen::Vector3d(-1, -1, 4), { 1, -1, 4 }, { 0, 2, 4 } })
+  {
+    rest->positions.push_back(corner);
+    rest->normals.push_back(rest->normals[0]);
+    folded->uvs.push_back(folded->uvs[0]);
+  }
+  folded->rest = rest;
+  folded->triangles.push_back({ 4, 5, 6 });
+  folded->parts[0].triangles = 3;
+  const Other own(viewAt({ 0, 0, 0 }), [&](SceneBuilder& scene) { scene.add(folded, placement({ 0, 0, 0.5 })); });
+  EXPECT_EQ(own.of({ 0, 0 }, 2).visibility, VisibilityClass::OccludedByOwn) << "the fold stands before the wall at 8";
+  EXPECT_EQ(own.of({ 4, 0 }, 2).visibility, VisibilityClass::OccludedByOther) << "by the wall at 8";
+  EXPECT_EQ(own.of({ 0, 0 }, 1).visibility, VisibilityClass::OccludedByOther) << "by the fold at 4.5";
+  const Other alone(viewAt({ 0, 0, 0 }), [&](SceneBuilder& scene) { scene.add(folded, placement({ 0, 0, -1 })); });
+  EXPECT_EQ(alone.of({ 0, 0 }, 2).visibility, VisibilityClass::OccludedByOwn);
+  EXPECT_EQ(alone.of({ 4, 0 }, 2).visibility, VisibilityClass::Visible);
+}
+
+TEST(Correspond, TheBordersOfTheImageBelongToIt)
+{
+  // x = 8 is at column 64 of 64, y = 6 at row 48 of 48, exactly.
+  const Other other(viewAt({ 0, 0, 0 }));
+  for (const Eigen::Vector2d& at : { Eigen::Vector2d(8, 0), { -8, 0 }, { 0, 6 }, { 0, -6 } })
+  {
+    EXPECT_EQ(other.of(at).visibility, VisibilityClass::Visible) << at.transpose();
+    const Correspondence beyond = other.of(at * (1 + 1e-9));
+    EXPECT_EQ(beyond.visibility, VisibilityClass::Outside) << at.transpose();
+    EXPECT_TRUE(beyond.pixel.allFinite()) << "points outside are somewhere, too";
+  }
+}
+
+TEST(Correspond, NearerThanNearAndFartherThanFarAreOutside)
+{
+  EXPECT_EQ(Other(viewAt({ 0, 0, 0 }, 0.5, 8)).of({ 0, 0 }).visibility, VisibilityClass::Visible) << "at far";
+  EXPECT_EQ(Other(viewAt({ 0, 0, 0 }, 8, 9)).of({ 0, 0 }).visibility, VisibilityClass::Visible) << "at near";
+  EXPECT_EQ(Other(viewAt({ 0, 0, 0 }, 0.5, 7.999)).of({ 0, 0 }).visibility, VisibilityClass::Outside);
+  EXPECT_EQ(Other(viewAt({ 0, 0, 0 }, 8.001, 9)).of({ 0, 0 }).visibility, VisibilityClass::Outside);
+}
+
+TEST(Correspond, BehindTheCameraIsNowhere)
+{
+  const Correspondence found = Other(viewAt({ 0, 0, 9 })).of({ 0, 0 });
+  EXPECT_EQ(found.visibility, VisibilityClass::Behind);
+  EXPECT_TRUE(found.pixel.array().isNaN().all());
+}
+
+namespace
+{
+/// Barycentrics of all pixels of a view.
+SurfaceRows surfaceOf(const SceneState& state, const View& view, const VisibilityBuffer& buffer)
+{
+  SurfaceRows rows;
+  computeSurfaceRows(state, view, buffer.rect, buffer.hits.data(), true, rows);
+  return rows;
+}
+} // namespace
+
+TEST(CorrespondRows, AStepToTheRightMovesTheWallToTheLeft)
+{
+  const auto state = SceneBuilder().add(makeQuad({ { -4, -40, 8 }, { 80, 0, 0 }, { 0, 80, 0 }, 1, 1 })).state();
+  const View own = viewAt({ 0, 0, 0 });
+  const VisibilityBuffer buffer = bruteForce(*state, own);
+  const SurfaceRows rows = surfaceOf(*state, own, buffer);
+  const std::unique_ptr<OcclusionQuery> query = makeOcclusionQuery();
+  query->setScene(state);
+  std::vector<double> pixels(buffer.hits.size() * 2);
+  std::vector<std::uint8_t> classes(buffer.hits.size());
+  correspondRows(rows, { state.get(), viewAt({ 1, 0, 0 }), query.get() }, pixels.data(), classes.data());
+  for (int y = 0; y < height; ++y)
+  {
+    for (int x = 0; x < width; ++x)
+    {
+      const std::size_t i = std::size_t(y) * width + x;
+      if (x + 0.5 < 16) // left of the wall's edge
+      {
+        ASSERT_EQ(classes[i], 0) << x << ' ' << y;
+        ASSERT_TRUE(std::isnan(pixels[2 * i]) && std::isnan(pixels[2 * i + 1]));
+        continue;
+      }
+      ASSERT_EQ(classes[i], 1) << x << ' ' << y;
+      ASSERT_NEAR(pixels[2 * i], x + 0.5 - focal / 8, 1e-12);
+      ASSERT_NEAR(pixels[2 * i + 1], y + 0.5, 1e-12);
+    }
+  }
+}
+
+TEST(SceneFlowRows, IsTheMotionInTheAxesOfTheCamera)
+{
+  // A wall that moves by (0.5, -0.25, 1) in the world, seen by a camera turned by a quarter about z.
+  const auto state = SceneBuilder().add(wallAt(8)).state();
+  const auto next = SceneBuilder().add(wallAt(8), placement({ 0.5, -0.25, 1 })).state();
+  View view = viewAt({ 0, 0, 0 });
+  view.camera_from_world.rotation << 0, 1, 0, -1, 0, 0, 0, 0, 1;
+  VisibilityBuffer buffer = bruteForce(*state, view);
+  buffer.hits[0] = {};
+  std::vector<double> motion(buffer.hits.size() * 3);
+  sceneFlowRows(surfaceOf(*state, view, buffer), *next, motion.data());
+  EXPECT_TRUE(std::isnan(motion[0]) && std::isnan(motion[1]) && std::isnan(motion[2]));
+  for (std::size_t i = 1; i < buffer.hits.size(); ++i)
+  {
+    ASSERT_LE((Eigen::Map<const Eigen::Vector3d>(&motion[3 * i]) - Eigen::Vector3d(-0.25, -0.5, 1)).norm(), 1e-12);
+  }
+}
