@@ -30,7 +30,9 @@ int run(const Arguments& arguments)
   {
     throw InputError(folder, 0, "is not a dataset", "a folder with manifest.json");
   }
-  const VerificationReport report = verifyDataset(folder, threads);
+  const std::vector<std::string> checks =
+    arguments.has("--check") ? arguments.list("--check") : std::vector<std::string>{};
+  const VerificationReport report = verifyDataset(folder, threads, checks);
   if (arguments.has("--write"))
   {
     writeFile(folder + "/verification.json", verificationText(report));
@@ -47,7 +49,8 @@ int run(const Arguments& arguments)
 Command verifyCommand()
 {
   return { "verify", "DIR", 1, 1, "Derives anew what a dataset claims, prints residuals; exits with 1 on a breach.",
-    { { "--json", "", "", "print one JSON object" }, { "--write", "", "", "also write DIR/verification.json" },
+    { { "--check", "NAME,...", "all", "only these checks, by the names of the table" },
+      { "--json", "", "", "print one JSON object" }, { "--write", "", "", "also write DIR/verification.json" },
       { "--threads", "N", "all processors", "threads to work with" } },
     &run };
 }

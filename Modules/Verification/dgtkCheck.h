@@ -25,6 +25,7 @@ void checkDepth(Picture& picture, Results& results);
 void checkObjects(Picture& picture, Results& results);
 void checkCalibration(Picture& picture, Results& results);
 void checkGeometry(Picture& picture, Results& results);
+void checkEdges(Picture& picture, Results& results);
 void checkMotion(Picture& picture, Results& results);
 void checkClass(Picture& picture, Results& results);
 void checkEpipolar(Picture& picture, Results& results);

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCheck.h"
+#include "dgtkSamples.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <map>
-#include <set>
 
 namespace dgtk
 {
 
 namespace
 {
-constexpr double CoverageTolerance = 1e-6;
+constexpr double Full = 255;
 /// Half a step of 8 bits.
-constexpr double AlphaRounding = 0.5 / 255;
+constexpr double AlphaRounding = 0.5 / Full;
 
 std::uint32_t rotate(std::uint32_t value, int bits) { return value << bits | value >> (32 - bits); }
 
@@ -124,124 +123,68 @@ void checkSums(const Coverage& coverage, int x, int y, Meter& meter)
     });
 }
 
-void checkAlphaPixel(
-  const PictureFile& alpha, const Coverage* coverage, std::size_t objects, int x, int y, Meter& meter)
+/// Coverage counted anew, of all objects of a pixel: all divided pixels, and some of the others.
+void checkSamples(const Coverage& coverage, const Samples& samples, int x, int y, Meter& meter)
 {
-  const std::uint32_t id = alpha.id(x, y);
-  const double share = alpha.at(x, y, 3) / 255;
-  const auto text = [&](double a) { return "object " + std::to_string(id) + ", alpha " + numberText(a); };
-  if (id > objects || share == 0)
+  if (coverage.share(x, y, 0) == 1 && !Samples::isChosen(x, y))
   {
-    meter.equal(false, [&] { return alpha.offender(x, y, text(share), "a known object, alpha above 0"); });
     return;
   }
-  const double expected = coverage ? coverage->shareOf(id, x, y) : id == 0 ? 1 : share;
-  meter.add(std::max(0.0, std::abs(share - expected) - AlphaRounding),
-    [&] { return alpha.offender(x, y, text(share), text(expected)); });
-}
-
-/// The samples of coverage a side of a pixel that the request asked for.
-int samplesOf(const Manifest& manifest)
-{
-  for (const auto& [option, value] : manifest.request)
+  for (const auto& [id, count] : samples.at(x, y).counts)
   {
-    const int samples = option == "coverage_samples" && value.size() < 4 ? std::atoi(value.c_str()) : 0;
-    if (samples > 0)
-    {
-      return samples;
-    }
-  }
-  return 1;
-}
-
-/// Coverage counted anew by rays through the samples.
-class SampleCheck
-{
-public:
-  SampleCheck(Picture& picture, const Coverage& coverage)
-    : Eyes(picture.sight())
-    , Shares(coverage)
-    , Samples(samplesOf(picture.dataset().manifest()))
-  {
-  }
-
-  /// All divided pixels, and some of the others.
-  void pixel(int x, int y, Meter& meter) const
-  {
-    constexpr int step = 4;
-    if (this->Shares.share(x, y, 0) == 1 && (x % step != 0 || y % step != 0))
-    {
-      return;
-    }
-    std::map<std::uint32_t, int> counts;
-    std::map<std::uint32_t, int> doubtful;
-    for (int j = 0; j < this->Samples; ++j)
-    {
-      for (int i = 0; i < this->Samples; ++i)
+    const double share = coverage.shareOf(id, x, y);
+    samples.compare(x, y, id, share, 0, meter,
+      [&, object = id](double expected)
       {
-        const Eigen::Vector2d place(x + (i + 0.5) / this->Samples, y + (j + 0.5) / this->Samples);
-        const std::uint32_t first = this->firstAt(place);
-        ++counts[first];
-        for (const std::uint32_t other : this->firstsAround(place))
-        {
-          doubtful[other] += other != first;
-          doubtful[first] += other != first;
-        }
-      }
-    }
-    for (const auto& [id, count] : doubtful)
-    {
-      counts[id]; // may show as well
-    }
-    for (const auto& [id, count] : counts)
-    {
-      this->compare(x, y, id, count, doubtful[id], meter);
-    }
+        return coverage.file().offender(
+          x, y, "object " + std::to_string(object) + ", coverage " + numberText(share), numberText(expected));
+      });
   }
+}
 
-private:
-  void compare(int x, int y, std::uint32_t id, int count, int doubtful, Meter& meter) const
+/// A known object, and the share that coverage has of it.
+void checkShare(const PictureFile& alpha, const Coverage& coverage, std::size_t objects, int x, int y, Meter& meter)
+{
+  const std::uint32_t id = alpha.id(x, y);
+  const double share = alpha.at(x, y, 3) / Full;
+  const double expected = id <= objects ? coverage.shareOf(id, x, y) : 0;
+  const double error = share > 0 && expected > 0 ? std::abs(share - expected) - AlphaRounding : Infinite;
+  meter.add(std::max(0.0, error),
+    [&]
+    {
+      return alpha.offender(x, y, "object " + std::to_string(id) + ", alpha " + numberText(share),
+        expected > 0 ? numberText(expected) : "an object of the pixel, alpha above 0");
+    });
+}
+
+/// The object of the nearest sample and its share, counted anew.
+void checkNearest(const PictureFile& alpha, const Samples& samples, int x, int y, Meter& meter)
+{
+  const double share = alpha.at(x, y, 3) / Full;
+  if (share == 1 && !Samples::isChosen(x, y))
   {
-    const double all = double(this->Samples) * this->Samples;
-    const double found = this->Shares.shareOf(id, x, y);
-    const double error = std::abs(found - count / all);
-    if (error > meter.Tolerance && error <= doubtful / all + meter.Tolerance)
+    return;
+  }
+  const std::uint32_t found = alpha.id(x, y);
+  const SampledPixel& pixel = samples.at(x, y);
+  if (found != pixel.nearest)
+  {
+    if (pixel.isDoubtful(found) || pixel.isDoubtful(pixel.nearest))
     {
       meter.skip();
       return;
     }
-    meter.add(error,
-      [&]
-      {
-        return this->Shares.file().offender(
-          x, y, "object " + std::to_string(id) + ", coverage " + numberText(found), numberText(count / all));
-      });
+    meter.equal(false, [&]
+      { return alpha.offender(x, y, "object " + std::to_string(found), "object " + std::to_string(pixel.nearest)); });
+    return;
   }
-
-  std::uint32_t firstAt(const Eigen::Vector2d& place) const
-  {
-    std::vector<Hit> hits;
-    std::vector<double> depths;
-    this->Eyes.surfaces(place, hits, depths);
-    return hits.empty() ? 0 : hits.front().object;
-  }
-
-  /// Objects that are first within EdgeReach of a sample, each once.
-  std::set<std::uint32_t> firstsAround(const Eigen::Vector2d& place) const
-  {
-    std::set<std::uint32_t> ids;
-    for (const Eigen::Vector2d& offset :
-      { Eigen::Vector2d(1, 0), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, -1) })
+  samples.compare(x, y, found, share, AlphaRounding, meter,
+    [&](double expected)
     {
-      ids.insert(this->firstAt(place + EdgeReach * offset));
-    }
-    return ids;
-  }
-
-  const Sight& Eyes;
-  const Coverage& Shares;
-  int Samples;
-};
+      return alpha.offender(
+        x, y, "object " + std::to_string(found) + ", alpha " + numberText(share), numberText(expected));
+    });
+}
 } // namespace
 
 void checkAlpha(Picture& picture, Results& results)
@@ -249,29 +192,36 @@ void checkAlpha(Picture& picture, Results& results)
   const PicturePointer file = picture.image("coverage", { ".exr" });
   const std::unique_ptr<Coverage> coverage =
     file && file->channels() % 4 == 0 ? std::make_unique<Coverage>(file, picture.dataset()) : nullptr;
-  const auto measure = [&](const char* layer, const auto& pixel)
+  const Samples samples(picture);
+  const auto measure = [&](const Row& row, const auto& pixel)
   {
-    results.add(layer, "coverage",
-      meterRows(picture.pool(), picture.height(), CoverageTolerance,
-        [&](int y, Meter& row)
-        {
-          for (int x = 0; x < picture.width(); ++x)
-          {
-            pixel(x, y, row);
-          }
-        }));
+    results.add(row, meterRows(picture.pool(), picture.height(), CoverageTolerance,
+                       [&](int y, Meter& meter)
+                       {
+                         for (int x = 0; x < picture.width(); ++x)
+                         {
+                           pixel(x, y, meter);
+                         }
+                       }));
   };
   if (coverage)
   {
-    measure("coverage", [&](int x, int y, Meter& row) { checkSums(*coverage, x, y, row); });
-    const SampleCheck samples(picture, *coverage);
-    measure("samples", [&](int x, int y, Meter& row) { samples.pixel(x, y, row); });
+    measure({ "coverage", "coverage", { file->file() } },
+      [&](int x, int y, Meter& meter) { checkSums(*coverage, x, y, meter); });
+    measure({ "samples", "coverage", { file->file() }, MostOpenSamples },
+      [&](int x, int y, Meter& meter) { checkSamples(*coverage, samples, x, y, meter); });
   }
   const PicturePointer alpha = picture.image("alpha", { ".png" });
   if (alpha && alpha->channels() == 4)
   {
     const std::size_t objects = picture.dataset().objects().size();
-    measure("alpha", [&](int x, int y, Meter& row) { checkAlphaPixel(*alpha, coverage.get(), objects, x, y, row); });
+    if (coverage)
+    {
+      measure({ "alpha", "coverage", { alpha->file() } },
+        [&](int x, int y, Meter& meter) { checkShare(*alpha, *coverage, objects, x, y, meter); });
+    }
+    measure({ "nearest", "coverage", { alpha->file() }, MostOpenSamples },
+      [&](int x, int y, Meter& meter) { checkNearest(*alpha, samples, x, y, meter); });
   }
 }
 

@@ -15,10 +15,10 @@ namespace
 {
 using Json = nlohmann::json;
 using Box = std::array<double, 4>;
-/// Part of the largest number of a matrix or corner.
-constexpr double PoseTolerance = 1e-9;
+/// Part of the largest number of a matrix or corner: products of two placements.
+constexpr double PoseTolerance = 1e-12;
 /// Pixels, or that part of a place far outside.
-constexpr double ProjectedTolerance = 1e-6;
+constexpr double ProjectedTolerance = 1e-9;
 
 /// Pixels of a mask and the borders of the smallest box around them.
 struct Extent
@@ -99,6 +99,7 @@ public:
         });
       return;
     }
+    this->names(object);
     const std::uint64_t visible = object.at("pixels_visible").get<std::uint64_t>();
     const std::uint64_t amodal = object.at("pixels_amodal").get<std::uint64_t>();
     if (this->Objects)
@@ -117,14 +118,32 @@ public:
     this->pose(object);
   }
 
-  void finish(Results& results) const
+  void finish(Results& results)
   {
-    results.add("masks", "", this->Masks);
-    results.add("projected", "pixel", this->Projected);
-    results.add("pose", "relative", this->Pose);
+    const std::size_t objects = this->Owner.sight().state().instances.size();
+    this->Names.equal(this->Number == objects,
+      [&] {
+        return Offender{ this->File, -1, -1, std::to_string(this->Number) + " objects", std::to_string(objects) };
+      });
+    results.add({ "names", "", { this->File } }, this->Names);
+    results.add({ "masks", "", { this->File } }, this->Masks);
+    results.add({ "projected", "pixel", { this->File } }, this->Projected);
+    results.add({ "pose", "relative", { this->File } }, this->Pose);
   }
 
 private:
+  /// Every object of the scene, in its order.
+  void names(const Json& object)
+  {
+    const Instance& instance = this->Owner.sight().instance(this->Id);
+    const auto text = [](std::uint64_t id, const std::string& name, const std::string& kind)
+    { return "object " + std::to_string(id) + " '" + name + "' '" + kind + '\''; };
+    const std::string found =
+      text(this->Id, object.at("name").get<std::string>(), object.at("class").get<std::string>());
+    const std::string expected = text(++this->Number, instance.name, instance.className);
+    this->Names.equal(found == expected, [&] { return Offender{ this->File, -1, -1, found, expected }; });
+  }
+
   void number(Meter& meter, const std::string& key, double found, double expected, double scale = 1) const
   {
     meter.add(found == expected ? 0 : (found - expected) / scale,
@@ -240,6 +259,8 @@ private:
   PicturePointer Objects;
   std::optional<dgtk::Masks> Amodal;
   std::uint32_t Id = 0;
+  std::size_t Number = 0; ///< of objects so far
+  Meter Names{ 0 };
   Meter Masks{ 0 };
   Meter Projected{ ProjectedTolerance };
   Meter Pose{ PoseTolerance };

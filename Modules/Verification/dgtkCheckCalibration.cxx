@@ -12,8 +12,10 @@ namespace dgtk
 
 namespace
 {
-/// Pixels.
-constexpr double CalibrationTolerance = 1e-6;
+/// Pixels: the rounding of world points.
+constexpr double CalibrationTolerance = 1e-9;
+/// Part of the largest number of a matrix, or of 1.
+constexpr double MatrixTolerance = 1e-9;
 
 /// World points of the pixels of a row: the position of the file, or the depth unprojected.
 struct RowPoints
@@ -80,7 +82,9 @@ Meter checkPoints(Picture& picture, const Points& points, const std::string& fil
       for (std::size_t i = 0; i < projected.size(); ++i)
       {
         const cv::Point2d centre(row.columns[i] + 0.5, y + 0.5);
-        meter.add(cv::norm(projected[i] - centre),
+        const cv::Point3d& X = row.points[i];
+        const double depth = picture.eye().toCamera({ X.x, X.y, X.z }).z();
+        meter.add(cv::norm(projected[i] - centre) / picture.eye().farness(depth),
           [&] {
             return Offender{ file, row.columns[i], y, numbersText(&projected[i].x, 2), numbersText(&centre.x, 2) };
           });
@@ -108,7 +112,7 @@ void checkOpenCV(Picture& picture, const Points& points, Results& results)
   cv::Vec3d rotation;
   cv::Rodrigues(R, rotation);
   const cv::Vec3d translation(camera.t.x(), camera.t.y(), camera.t.z());
-  results.add("cv::projectPoints", "pixel",
+  results.add({ "cv::projectPoints", "pixel", { points.file()->file() } },
     checkPoints(picture, points, points.file()->file(),
       [&](const std::vector<cv::Point3d>& world)
       {
@@ -122,20 +126,20 @@ void checkThesis(Picture& picture, const Points& points, const std::string& file
 {
   const Calibration calibration = readCalibration(picture.dataset().absolute(file));
   const Eigen::Matrix<double, 3, 4> matrix = calibration.cameraMatrix();
-  results.add("thesis", "pixel",
-    checkPoints(picture, points, file,
-      [&](const std::vector<cv::Point3d>& world)
-      {
-        std::vector<cv::Point2d> projected;
-        for (const cv::Point3d& X : world)
-        {
-          const Eigen::Vector3d p = matrix * Eigen::Vector4d(X.x, X.y, X.z, 1);
-          projected.emplace_back(p.x() / p.z(), picture.height() - p.y() / p.z());
-        }
-        return projected;
-      }));
+  results.add(
+    { "thesis", "pixel", { file } }, checkPoints(picture, points, file,
+                                       [&](const std::vector<cv::Point3d>& world)
+                                       {
+                                         std::vector<cv::Point2d> projected;
+                                         for (const cv::Point3d& X : world)
+                                         {
+                                           const Eigen::Vector3d p = matrix * Eigen::Vector4d(X.x, X.y, X.z, 1);
+                                           projected.emplace_back(p.x() / p.z(), picture.height() - p.y() / p.z());
+                                         }
+                                         return projected;
+                                       }));
   // The same calibration as cameras.json, entry by entry.
-  Meter meter(1e-9);
+  Meter meter(MatrixTolerance);
   const OpenGLMatrices matrices = openGLMatrices(picture.eye().view());
   const Calibration expected =
     makeCalibration(matrices.projection, matrices.modelView, picture.width(), picture.height());
@@ -150,7 +154,7 @@ void checkThesis(Picture& picture, const Points& points, const std::string& file
   compare(calibration.Rt, expected.Rt);
   const auto viewport = [](const Calibration& c) { return Eigen::Vector4d(c.x, c.y, c.width, c.height); };
   compare(viewport(calibration), viewport(expected));
-  results.add("calibration", "relative", meter);
+  results.add({ "calibration", "relative", { file } }, meter);
 }
 } // namespace
 

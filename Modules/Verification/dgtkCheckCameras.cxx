@@ -2,12 +2,16 @@
 #include "dgtkCheck.h"
 
 #include <algorithm>
+#include <map>
 
 namespace dgtk
 {
 
 namespace
 {
+/// Numbers are written so that they read back as the same doubles; look-at matrices and tracks are computed once.
+constexpr double CameraTolerance = 1e-12;
+
 /// Difference of matrices relative to the larger of 1 and the expected one's largest value.
 template <typename M>
 double relative(const M& found, const M& expected)
@@ -38,6 +42,8 @@ public:
     this->number("far", this->Record.far, this->Scene.far);
     this->TheMeter.equal(this->Record.model == this->Scene.model->name(),
       [&] { return this->offender("model", this->Record.model, this->Scene.model->name()); });
+    this->TheMeter.equal(!linear || this->Record.distortion.empty(),
+      [&] { return this->offender("distortion", numberText(this->Record.distortion[0]), "none"); });
     const Eigen::Matrix3d square = this->Record.R * this->Record.R.transpose();
     this->matrix<Eigen::Matrix3d>("R R^T", square, Eigen::Matrix3d::Identity());
   }
@@ -68,6 +74,26 @@ private:
   Meter& TheMeter;
 };
 
+/// One number a class, one class a number.
+void checkClassIds(const std::vector<ObjectRecord>& objects, Meter& meter)
+{
+  std::map<std::string, std::uint32_t> idOf;
+  std::map<std::uint32_t, std::string> classOf;
+  for (const ObjectRecord& object : objects)
+  {
+    const std::uint32_t id = idOf.try_emplace(object.objectClass, object.classId).first->second;
+    const std::string& name = classOf.try_emplace(object.classId, object.objectClass).first->second;
+    meter.equal(id == object.classId && name == object.objectClass,
+      [&]
+      {
+        return Offender{ "objects.json", -1, -1,
+          "object " + std::to_string(object.id) + " of class " + std::to_string(object.classId) + " '" +
+            object.objectClass + '\'',
+          "one number for each class" };
+      });
+  }
+}
+
 void checkObjects(Dataset& dataset, Meter& meter)
 {
   const int frame = dataset.cameras().empty() ? 0 : dataset.cameras().front().frame;
@@ -88,20 +114,21 @@ void checkObjects(Dataset& dataset, Meter& meter)
       text(i + 1, instances[i].name, instances[i].className, instances[i].model->triangles.size());
     meter.equal(found == expected, [&] { return Offender{ "objects.json", -1, -1, found, expected }; });
   }
+  checkClassIds(objects, meter);
 }
 } // namespace
 
 void checkCameras(Dataset& dataset, Results& results)
 {
-  Meter cameras(1e-9);
+  Meter cameras(CameraTolerance);
   for (const CameraRecord& record : dataset.cameras())
   {
     CameraCheck(record, dataset.sceneView(record), cameras).run();
   }
-  results.add("cameras", "relative", cameras);
+  results.add({ "cameras", "relative", { "cameras.json" } }, cameras);
   Meter objects(0);
   checkObjects(dataset, objects);
-  results.add("objects", "", objects);
+  results.add({ "objects", "", { "objects.json" } }, objects);
 }
 
 } // namespace dgtk

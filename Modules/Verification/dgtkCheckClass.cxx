@@ -174,7 +174,7 @@ void checkClass(Picture& picture, Results& results)
           check.pixel(x, y, row);
         }
       });
-    results.add(pair.layer, "", meter);
+    results.add({ pair.layer, "", { classes->file() } }, meter);
   }
 }
 

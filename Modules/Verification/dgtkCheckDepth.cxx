@@ -8,6 +8,9 @@ namespace dgtk
 
 namespace
 {
+/// Part of a matrix's largest entry: the file holds the doubles that the projection is computed in.
+constexpr double MatrixTolerance = 1e-12;
+
 double relative(double found, double expected)
 {
   return found == expected ? 0 : std::abs(found - expected) / std::min(std::abs(expected), std::abs(found));
@@ -19,7 +22,8 @@ void checkFile(Picture& picture, const std::string& suffix, Results& results)
   const PicturePointer depth = picture.image("depth", { suffix });
   const Surfaces& surfaces = picture.surfaces();
   const Sight& sight = picture.sight();
-  const Meter meter = meterRows(picture.pool(), picture.height(), DepthTolerance,
+  const double tolerance = depthTolerance(*depth);
+  const Meter meter = meterRows(picture.pool(), picture.height(), tolerance,
     [&](int y, Meter& row)
     {
       for (int x = 0; x < picture.width(); ++x)
@@ -27,8 +31,8 @@ void checkFile(Picture& picture, const std::string& suffix, Results& results)
         const std::size_t i = surfaces.index(x, y);
         const double found = depth->at(x, y);
         const double expected = sight.depthOf(surfaces.hits[i], centreOf(x, y));
-        const double error = relative(found, expected);
-        if (surfaces.marks[i] == Mark::Edge && error <= DepthTolerance)
+        const double error = relative(found, expected) / (found == expected ? 1 : picture.eye().farness(expected));
+        if (surfaces.marks[i] == Mark::Edge && error <= tolerance)
         {
           row.skip();
           continue;
@@ -36,7 +40,8 @@ void checkFile(Picture& picture, const std::string& suffix, Results& results)
         row.add(error, [&] { return depth->offender(x, y, numberText(found), numberText(expected)); });
       }
     });
-  results.add("depth", "relative", meter);
+  const bool narrow = tolerance != DepthTolerance;
+  results.add({ narrow ? "depth" + suffix : "depth", "relative", { depth->file() } }, meter);
 }
 
 /// The matrices of a .dgd file against cameras.json.
@@ -44,7 +49,7 @@ void checkMatrices(Picture& picture, Results& results)
 {
   const PicturePointer depth = picture.image("depth", { ".dgd" });
   const OpenGLMatrices expected = openGLMatrices(picture.eye().view());
-  Meter meter(1e-9);
+  Meter meter(MatrixTolerance);
   const auto compare = [&](const char* name, const Eigen::Matrix4d& found, const Eigen::Matrix4d& right)
   {
     int i = 0;
@@ -55,7 +60,7 @@ void checkMatrices(Picture& picture, Results& results)
   };
   compare("projection", depth->matrices().projection, expected.projection);
   compare("model-view", depth->matrices().modelView, expected.modelView);
-  results.add("depth.dgd", "relative", meter);
+  results.add({ "depth.dgd", "relative", { depth->file() } }, meter);
 }
 } // namespace
 

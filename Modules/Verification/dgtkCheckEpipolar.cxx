@@ -13,10 +13,10 @@ namespace dgtk
 
 namespace
 {
-/// Pixels.
-constexpr double EpipolarTolerance = 1e-6;
-/// Of the scene's size.
-constexpr double TriangulationTolerance = 1e-9;
+/// Pixels: the rounding of places, as the motion's.
+constexpr double EpipolarTolerance = 1e-9;
+/// Of the scene's size: the rounding of places, divided by the angle between the rays.
+constexpr double TriangulationTolerance = 1e-10;
 /// Radians: below this angle between the rays, rounding of pixels alone moves a point farther than the tolerance.
 constexpr double LeastAngle = 1e-3;
 constexpr int LastInside = 3; ///< visible, or hidden inside the image
@@ -151,7 +151,7 @@ private:
       const Eigen::Vector3d found(
         points.at<double>(0, column) / w, points.at<double>(1, column) / w, points.at<double>(2, column) / w);
       const Eigen::Vector3d expected = this->Owner.point(columns[i], y);
-      meter.add((found - expected).norm() / this->Size,
+      meter.add((found - expected).norm() / this->Size / this->Owner.eye().farness(expected.z()),
         [&]
         {
           const Eigen::Vector3d from = this->Owner.eye().toWorld(found);
@@ -180,6 +180,7 @@ void checkEpipolar(Picture& picture, Results& results)
     {
       continue;
     }
+    const PairTargets targets(picture, pair);
     const Meter meter = meterRows(picture.pool(), picture.height(), EpipolarTolerance,
       [&](int y, Meter& row)
       {
@@ -192,11 +193,12 @@ void checkEpipolar(Picture& picture, Results& results)
           const Eigen::Vector3d line = epipolarLine(picture.eye(), pair.other->eye(), centreOf(x, y));
           const Eigen::Vector2d p = images.values->at2(x, y);
           const double distance = line.dot(Eigen::Vector3d(p.x(), p.y(), 1)) / line.head<2>().norm();
-          row.add(distance,
+          const Target target = targets.at(x, y);
+          row.add(distance / (target.surface ? picture.eye().farness(target.here.z()) : 1),
             [&] { return images.values->offender(x, y, numbersText(p.data(), 2), "a point of the epipolar line"); });
         }
       });
-    results.add(pair.layer, "pixel", meter);
+    results.add({ pair.layer, "pixel", { images.values->file() } }, meter);
   }
 }
 
@@ -210,7 +212,7 @@ void checkTriangulation(Picture& picture, Results& results)
       continue;
     }
     const Triangulation triangulation(picture, pair, images);
-    results.add(pair.layer, "scene size",
+    results.add({ pair.layer, "scene size", { images.values->file() } },
       meterRows(picture.pool(), picture.height(), TriangulationTolerance,
         [&](int y, Meter& row) { triangulation.row(y, row); }));
   }

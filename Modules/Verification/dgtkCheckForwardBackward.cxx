@@ -3,53 +3,95 @@
 #include "dgtkPair.h"
 
 #include <cmath>
+#include <optional>
 
 namespace dgtk
 {
 
 namespace
 {
-/// Pixels.
-constexpr double LoopTolerance = 1e-3;
-/// Pixels: a flow that bends by more is not interpolated.
-constexpr double MostBend = 2e-4;
+/// Pixels, beyond the rounding of float32 files: the loop is as exact as the flow.
+constexpr double LoopTolerance = 1e-9;
+/// Square pixels: where the four pixels around a target come from a smaller area, their roundings weigh too much.
+constexpr double LeastArea = 0.02;
+/// Roundings of one flow forth and four flows back, which the way through them makes larger.
+constexpr double Roundings = 8;
+/// Share: no four pixels may lie on one triangle anywhere, where triangles are as small as pixels.
+constexpr double MostOpenLoops = 1;
 
-/// Bilinear interpolation of the flow back at p, where one triangle of the object covers the 4 x 4 pixels around.
-/// False where it does not, or where the flow is not straight enough to be interpolated.
-bool interpolate(
-  const PictureFile& back, const Surfaces& seen, const Eigen::Vector2d& p, const Hit& hit, Eigen::Vector2d& flow)
+/// The map of the plane of a triangle from the unit square of four pixels' centres to their places in the other image:
+/// what two linear cameras see of a plane is related by one (Heckbert 1989).
+class SquareToQuad
 {
-  const int x0 = static_cast<int>(std::floor(p.x() - 0.5));
-  const int y0 = static_cast<int>(std::floor(p.y() - 0.5));
-  if (x0 < 1 || y0 < 1 || x0 + 2 >= back.width() || y0 + 2 >= back.height())
+public:
+  /// `corner[i + 2 * j]` is the place of the square's corner (i, j).
+  explicit SquareToQuad(const Eigen::Vector2d corner[4])
+    : Origin(corner[0])
   {
-    return false;
+    const Eigen::Vector2d right = corner[1] - corner[3];
+    const Eigen::Vector2d down = corner[2] - corner[3];
+    const Eigen::Vector2d excess = corner[0] - corner[1] + corner[3] - corner[2];
+    this->Area = right.x() * down.y() - right.y() * down.x();
+    this->G = (excess.x() * down.y() - excess.y() * down.x()) / this->Area;
+    this->H = (right.x() * excess.y() - right.y() * excess.x()) / this->Area;
+    this->U = corner[1] - corner[0] + this->G * corner[1];
+    this->V = corner[2] - corner[0] + this->H * corner[2];
   }
-  for (int y = y0 - 1; y <= y0 + 2; ++y)
+  double area() const { return std::abs(this->Area); }
+  Eigen::Vector2d operator()(double u, double v) const
   {
-    for (int x = x0 - 1; x <= x0 + 2; ++x)
+    return (this->Origin + u * this->U + v * this->V) / (1 + this->G * u + this->H * v);
+  }
+
+private:
+  Eigen::Vector2d Origin;
+  Eigen::Vector2d U;
+  Eigen::Vector2d V;
+  double Area = 0;
+  double G = 0;
+  double H = 0;
+};
+
+/// Where the flow back takes a point of the later image, by the four pixels around it, all on one triangle.
+class WayBack
+{
+public:
+  WayBack(const PictureFile& back, const Surfaces& seen)
+    : Back(back)
+    , Seen(seen)
+  {
+  }
+  /// Nothing where there are no four such pixels. `rounding` receives the largest of their files' roundings.
+  std::optional<Eigen::Vector2d> operator()(const Eigen::Vector2d& p, const Hit& hit, double& rounding) const
+  {
+    const int x = static_cast<int>(std::floor(p.x() - 0.5));
+    const int y = static_cast<int>(std::floor(p.y() - 0.5));
+    if (!(x >= 0 && y >= 0 && x + 1 < this->Back.width() && y + 1 < this->Back.height()))
     {
-      const std::size_t i = seen.index(x, y);
-      if (seen.hits[i] != hit || seen.marks[i] != Mark::Same || !back.at2(x, y).allFinite())
-      {
-        return false;
-      }
+      return std::nullopt;
     }
+    Eigen::Vector2d corner[4];
+    for (int i = 0; i < 4; ++i)
+    {
+      const int column = x + i % 2;
+      const int row = y + i / 2;
+      const std::size_t at = this->Seen.index(column, row);
+      const Eigen::Vector2d flow = this->Back.at2(column, row);
+      if (this->Seen.hits[at] != hit || this->Seen.marks[at] != Mark::Same || !flow.allFinite())
+      {
+        return std::nullopt;
+      }
+      corner[i] = centreOf(column, row) + flow;
+      rounding = std::max(rounding, this->Back.rounding(flow.cwiseAbs().maxCoeff()));
+    }
+    const SquareToQuad map(corner);
+    return map.area() < LeastArea ? std::nullopt : std::optional(map(p.x() - 0.5 - x, p.y() - 0.5 - y));
   }
-  const auto at = [&](int i, int j) { return back.at2(x0 + i, y0 + j); };
-  const auto bend = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
-  { return (a - 2 * b + c).cwiseAbs().maxCoeff(); };
-  const double most = std::max({ bend(at(-1, 0), at(0, 0), at(1, 0)), bend(at(0, 1), at(1, 1), at(2, 1)),
-    bend(at(0, -1), at(0, 0), at(0, 1)), bend(at(1, 0), at(1, 1), at(1, 2)) });
-  if (most > MostBend)
-  {
-    return false;
-  }
-  const double u = p.x() - 0.5 - x0;
-  const double v = p.y() - 0.5 - y0;
-  flow = (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1));
-  return true;
-}
+
+private:
+  const PictureFile& Back;
+  const Surfaces& Seen;
+};
 } // namespace
 
 void checkForwardBackward(Picture& picture, Results& results)
@@ -63,11 +105,16 @@ void checkForwardBackward(Picture& picture, Results& results)
     return;
   }
   Picture later(dataset, *next);
+  if (!picture.eye().linear() || !later.eye().linear())
+  {
+    return;
+  }
   const PicturePointer forward = picture.image("flow_forward", suffixes);
   const PicturePointer back = later.image("flow_backward", suffixes);
   const PicturePointer classes = picture.quietly([&] { return picture.image("flow_forward", { ".png" }); });
+  picture.preparePoints();
   const Surfaces& now = picture.surfaces();
-  const Surfaces& then = later.surfaces();
+  const WayBack wayBack(*back, later.surfaces());
   const Meter meter = meterRows(picture.pool(), picture.height(), LoopTolerance,
     [&](int y, Meter& row)
     {
@@ -79,22 +126,23 @@ void checkForwardBackward(Picture& picture, Results& results)
         {
           continue;
         }
-        Eigen::Vector2d returned;
-        if (!interpolate(*back, then, centreOf(x, y) + flow, hit, returned))
+        double rounding = forward->rounding(flow.cwiseAbs().maxCoeff());
+        const std::optional<Eigen::Vector2d> returned = wayBack(centreOf(x, y) + flow, hit, rounding);
+        if (!returned)
         {
           row.skip();
           continue;
         }
-        row.add((flow + returned).norm(),
+        const double error = (*returned - centreOf(x, y)).norm() - Roundings * rounding;
+        row.add(std::max(0.0, error) / picture.eye().farness(picture.point(x, y).z()),
           [&]
           {
-            const Eigen::Vector2d expected = -returned;
-            return forward->offender(
-              x, y, numbersText(flow.data(), 2), numbersText(expected.data(), 2) + " from " + back->file());
+            return forward->offender(x, y, numbersText(flow.data(), 2),
+              "a flow from where " + back->file() + " returns, not to " + numbersText(returned->data(), 2));
           });
       }
     });
-  results.add("flow", "pixel", meter);
+  results.add({ "flow", "pixel", { forward->file(), back->file() }, MostOpenLoops }, meter);
 }
 
 } // namespace dgtk

@@ -52,13 +52,13 @@ void put(const Eigen::Vector3d& value, double* to) { Eigen::Map<Eigen::Vector3d>
 double distanceOf(const Point& p, const double* found, double* expected)
 {
   *expected = p.x_in_camera.norm();
-  return (*found - *expected) / *expected;
+  return std::abs((*found - *expected) / *expected);
 }
 
 double inverseDepthOf(const Point& p, const double* found, double* expected)
 {
   *expected = 1 / p.x_in_camera.z();
-  return (*found - *expected) / *expected;
+  return std::abs((*found - *expected) / *expected);
 }
 
 double positionOf(const Point& p, const double* found, double* expected)
@@ -86,6 +86,10 @@ double objectCoordinatesOf(const Point& p, const double* found, double* expected
 
 /// Sine of the smallest angle of a triangle below which its normal has no digits to compare.
 constexpr double SliverSine = 1e-6;
+/// Cosine between a normal and the ray below which the side that is seen is a matter of rounding.
+constexpr double LeastCosine = 1e-9;
+/// Length of the sum of the corners' normals below which it has no direction to compare.
+constexpr double LeastNormal = 1e-3;
 
 double normalOf(const Point& p, const double* found, double* expected)
 {
@@ -98,7 +102,7 @@ double normalOf(const Point& p, const double* found, double* expected)
   const Eigen::Vector3d direction = p.sight.eye().ray(p.pixel).direction.normalized();
   const double cosine = unit.dot(direction);
   put(cosine > 0 ? Eigen::Vector3d(-unit) : unit, expected);
-  if (!(n.norm() > SliverSine * longest) || std::abs(cosine) < 1e-9)
+  if (!(n.norm() > SliverSine * longest) || !(std::abs(cosine) > LeastCosine))
   {
     return -1;
   }
@@ -115,12 +119,15 @@ double shadingNormalOf(const Point& p, const double* found, double* expected)
   {
     sum += weight[i] * instance.geometry->normals[triangle[i]].cast<double>();
   }
-  const Eigen::Matrix3d& linear = p.sight.cameraFromObject(p.hit.object).linear;
-  Eigen::Vector3d unit = (linear.inverse().transpose() * sum).stableNormalized();
-  const Eigen::Vector3d given(found[0], found[1], found[2]);
-  unit = unit.dot(given) < 0 ? Eigen::Vector3d(-unit) : unit;
-  put(unit, expected);
-  if (!(sum.norm() > 1e-3)) // normals that cancel each other
+  const std::vector<Eigen::Vector3d>& x = instance.geometry->positions;
+  const Eigen::Vector3d front = (x[triangle[1]] - x[triangle[0]]).cross(x[triangle[2]] - x[triangle[0]]);
+  const Eigen::Matrix3d turn = p.sight.cameraFromObject(p.hit.object).linear.inverse().transpose();
+  const Eigen::Vector3d unit = (turn * sum).stableNormalized();
+  // The triangle decides which side is seen, by the order of its corners in the model: a mirror does not turn it.
+  const double cosine = (turn * front).stableNormalized().dot(p.sight.eye().ray(p.pixel).direction.normalized());
+  put(cosine > 0 ? Eigen::Vector3d(-unit) : unit, expected);
+  // Normals that cancel each other, a flattened object, a triangle seen from its edge.
+  if (!(sum.norm() > LeastNormal) || !unit.allFinite() || !(std::abs(cosine) > LeastCosine))
   {
     return -1;
   }
@@ -159,15 +166,21 @@ double barycentricsOf(const Point& p, const double* found, double* expected)
   return std::max((point - p.x_in_camera).norm() / size, std::abs(found[0] + found[1] + found[2] - 1));
 }
 
+/// Of float64 files, as of depth. Of float32 files one rounding of 6e-8, or some of several channels, which the way
+/// from an object's frame to the camera's adds up.
+constexpr double Wide = 1e-9;
+constexpr double OneRounding = 1e-7;
+constexpr double SomeRoundings = 1e-6;
+
 constexpr GeometryLayer Layers[] = {
-  { "distance", 1, 1e-9, 1e-6, "relative", Infinite, distanceOf },
-  { "inversedepth", 1, 1e-9, 1e-6, "relative", 0, inverseDepthOf },
-  { "position", 3, 1e-9, 1e-6, "relative", Nan, positionOf },
-  { "objectcoords", 3, 1e-9, 1e-6, "relative", Nan, objectCoordinatesOf },
-  { "normal", 3, 1e-6, 1e-6, "1", Nan, normalOf },
-  { "shadingnormal", 3, 1e-6, 1e-6, "1", Nan, shadingNormalOf },
-  { "uv", 2, 1e-6, 1e-6, "1", Nan, uvOf },
-  { "barycentrics", 3, 1e-9, 1e-6, "relative", Nan, barycentricsOf },
+  { "distance", 1, Wide, OneRounding, "relative", Infinite, distanceOf },
+  { "inversedepth", 1, Wide, OneRounding, "relative", 0, inverseDepthOf },
+  { "position", 3, Wide, OneRounding, "relative", Nan, positionOf },
+  { "objectcoords", 3, Wide, SomeRoundings, "relative", Nan, objectCoordinatesOf },
+  { "normal", 3, OneRounding, OneRounding, "1", Nan, normalOf },
+  { "shadingnormal", 3, Wide, OneRounding, "1", Nan, shadingNormalOf },
+  { "uv", 2, Wide, OneRounding, "1", Nan, uvOf },
+  { "barycentrics", 3, Wide, SomeRoundings, "relative", Nan, barycentricsOf },
 };
 
 bool isInvalid(const double* found, const GeometryLayer& layer)
@@ -200,8 +213,11 @@ void checkPixel(Picture& picture, const Surfaces& surfaces, const PictureFile& f
     meter.equal(isInvalid(found, layer), where);
     return;
   }
-  const auto measure = [&](const Hit& surface) {
-    return layer.measure({ picture.sight(), surface, centreOf(x, y), picture.point(x, y) }, found, expected);
+  const auto measure = [&](const Hit& surface)
+  {
+    const Eigen::Vector3d point = picture.point(x, y);
+    return layer.measure({ picture.sight(), surface, centreOf(x, y), point }, found, expected) /
+           picture.eye().farness(point.z());
   };
   double error = measure(hit);
   if (!(error <= meter.Tolerance) && meter.Bad < Patience)
@@ -244,8 +260,8 @@ void checkGeometry(Picture& picture, Results& results)
             checkPixel(picture, surfaces, *file, layer, x, y, row);
           }
         });
-      results.add(
-        std::string(layer.name) + (narrow && layer.narrow != layer.tolerance ? suffix : ""), layer.unit, meter);
+      const std::string name = std::string(layer.name) + (narrow && layer.narrow != layer.tolerance ? suffix : "");
+      results.add({ name, layer.unit, { file->file() } }, meter);
     }
   }
 }

@@ -75,18 +75,18 @@ void checkHashes(Dataset& dataset, Results& results)
   {
     all.merge(meter);
   }
-  results.add("files", "", all);
+  results.add({ "files", "", {} }, all);
 
   Meter inputs(0);
   for (const InputRecord& input : dataset.manifest().inputs)
   {
     checkFile(dataset, input.path, input.bytes, input.sha256, inputs);
   }
-  results.add("inputs", "", inputs);
+  results.add({ "inputs", "", {} }, inputs);
 
   Meter unlisted(0);
   checkUnlisted(dataset, unlisted);
-  results.add("unlisted", "", unlisted);
+  results.add({ "unlisted", "", {} }, unlisted);
 }
 
 } // namespace dgtk

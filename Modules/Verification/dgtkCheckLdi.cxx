@@ -151,7 +151,7 @@ private:
     for (std::size_t i = 0; i < count; ++i)
     {
       const double found = this->Ldi.depth(x, y, i);
-      if (!isClose(found, depths[i]))
+      if (!this->isClose(found, depths[i]))
       {
         return "record " + std::to_string(i) + " at " + numberText(found);
       }
@@ -195,8 +195,10 @@ private:
     }
     for (std::size_t i = 0; i < this->Ldi.count(x, y); ++i)
     {
-      complete = complete && std::any_of(possible.begin(), possible.end(),
-                               [&](double depth) { return isClose(this->Ldi.depth(x, y, i), depth); });
+      const double found = this->Ldi.depth(x, y, i);
+      complete = complete && (std::any_of(possible.begin(), possible.end(),
+                                [&](double depth) { return this->isClose(found, depth); }) ||
+                               this->Owner.isEdgeAt(x, y, found));
     }
     return complete;
   }
@@ -206,12 +208,15 @@ private:
     bool found = false;
     for (std::size_t i = 0; i < this->Ldi.count(x, y); ++i)
     {
-      found = found || isClose(this->Ldi.depth(x, y, i), depth);
+      found = found || this->isClose(this->Ldi.depth(x, y, i), depth);
     }
     return found;
   }
 
-  static bool isClose(double a, double b) { return std::abs(a - b) <= DepthTolerance * b; }
+  bool isClose(double a, double b) const
+  {
+    return std::abs(a - b) <= DepthTolerance * this->Owner.eye().farness(b) * b;
+  }
 
   Picture& Owner;
   std::string File;
@@ -253,19 +258,19 @@ void checkLdi(Picture& picture, Results& results)
         }
       });
   };
-  results.add("surfaces", "", measure([&](int x, int y, Meter& row) { check.surfaces(x, y, row); }));
-  results.add("order", "", measure([&](int x, int y, Meter& row) { check.order(x, y, row); }));
+  results.add({ "surfaces", "", { file } }, measure([&](int x, int y, Meter& row) { check.surfaces(x, y, row); }));
+  results.add({ "order", "", { file } }, measure([&](int x, int y, Meter& row) { check.order(x, y, row); }));
   const PicturePointer depth = picture.quietly([&] { return picture.image("depth", { ".npy", ".dgd" }); });
   if (depth)
   {
-    results.add(
-      "first = depth", "scene units", measure([&](int x, int y, Meter& row) { check.firstDepth(*depth, x, y, row); }));
+    results.add({ "first = depth", "scene units", { file } },
+      measure([&](int x, int y, Meter& row) { check.firstDepth(*depth, x, y, row); }));
   }
   const PicturePointer color = picture.quietly([&] { return picture.image("color", { ".png" }); });
   if (color && color->type() == PixelType::UInt8 && showsFirstSurface(picture))
   {
-    results.add(
-      "first = color", "1/255", measure([&](int x, int y, Meter& row) { check.firstColor(*color, x, y, row); }));
+    results.add({ "first = color", "1/255", { file } },
+      measure([&](int x, int y, Meter& row) { check.firstColor(*color, x, y, row); }));
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCheck.h"
+#include "dgtkSamples.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dgtk
@@ -8,12 +10,15 @@ namespace dgtk
 
 namespace
 {
-constexpr double Full = 65535;
+constexpr std::uint64_t Full = 65535;
 constexpr int Object = 255;
 constexpr int Unknown = 128;
+/// Pixels around which the trimap is unknown.
+constexpr int Band = 2;
 
 struct MattingSet
 {
+  std::uint32_t id = 0;
   PicturePointer alpha;
   PicturePointer foreground;
   PicturePointer background;
@@ -21,26 +26,58 @@ struct MattingSet
   PicturePointer trimap;
 };
 
-/// composite = alpha foreground + (1 - alpha) background, steps of 16 bits.
+/// The object of a folder "matting_<name>", or "matting_#<id>" where the name holds a slash.
+std::uint32_t objectOf(const Dataset& dataset, const std::string& layer)
+{
+  const std::string name = layer.substr(std::string("matting_").size());
+  const auto found = std::find_if(dataset.objects().begin(), dataset.objects().end(),
+    [&](const ObjectRecord& object) { return object.name == name || '#' + std::to_string(object.id) == name; });
+  return found == dataset.objects().end() ? 0 : found->id;
+}
+
+/// composite = (alpha F + (65535 - alpha) B + 32767) / 65535, rounded down.
 void checkComposite(const MattingSet& set, int x, int y, Meter& meter)
 {
-  const double alpha = set.alpha->at(x, y) / Full;
+  const auto number = [&](const PicturePointer& of, int c) { return static_cast<std::uint64_t>(of->at(x, y, c)); };
+  const std::uint64_t alpha = number(set.alpha, 0);
   for (int c = 0; c < 3; ++c)
   {
+    const std::uint64_t sum = alpha * number(set.foreground, c) + (Full - alpha) * number(set.background, c);
     const double found = set.composite->at(x, y, c);
-    const double expected = alpha * set.foreground->at(x, y, c) + (1 - alpha) * set.background->at(x, y, c);
+    const auto expected = double((sum + Full / 2) / Full);
     meter.add(found - expected, [&] { return set.composite->offender(x, y, numberText(found), numberText(expected)); });
   }
 }
 
-/// Where the trimap says object or background, alpha does.
+/// The share of the object's samples, counted anew: all divided pixels, and some of the others.
+void checkAlpha(const MattingSet& set, const Samples& samples, int x, int y, Meter& meter)
+{
+  const double alpha = set.alpha->at(x, y) / double(Full);
+  if ((alpha == 0 || alpha == 1) && !Samples::isChosen(x, y))
+  {
+    return;
+  }
+  constexpr double rounding = 0.5 / double(Full);
+  samples.compare(x, y, set.id, alpha, rounding, meter,
+    [&](double expected) { return set.alpha->offender(x, y, numberText(alpha), numberText(expected)); });
+}
+
+int trimapOf(double alpha) { return alpha == double(Full) ? Object : alpha == 0 ? 0 : Unknown; }
+
+/// Unknown unless alpha says the same, wholly, of all pixels around.
 void checkTrimap(const MattingSet& set, int x, int y, Meter& meter)
 {
+  int expected = trimapOf(set.alpha->at(x, y));
+  for (int j = std::max(0, y - Band); j <= std::min(set.alpha->height() - 1, y + Band); ++j)
+  {
+    for (int i = std::max(0, x - Band); i <= std::min(set.alpha->width() - 1, x + Band); ++i)
+    {
+      expected = trimapOf(set.alpha->at(i, j)) == expected ? expected : Unknown;
+    }
+  }
   const int found = static_cast<int>(set.trimap->at(x, y));
-  const double alpha = set.alpha->at(x, y);
-  const bool right = found == Unknown || (found == Object && alpha == Full) || (found == 0 && alpha == 0);
-  meter.equal(right,
-    [&] { return set.trimap->offender(x, y, std::to_string(found), "128, as alpha is " + numberText(alpha / Full)); });
+  meter.equal(
+    found == expected, [&] { return set.trimap->offender(x, y, std::to_string(found), std::to_string(expected)); });
 }
 } // namespace
 
@@ -53,27 +90,34 @@ void checkMatting(Picture& picture, Results& results)
       continue;
     }
     const auto image = [&](const char* suffix) { return picture.image(layer, { suffix }); };
-    const MattingSet set{ image("_alpha.png"), image("_foreground.png"), image("_background.png"),
-      image("_composite.png"), image("_trimap.png") };
-    const auto measure = [&](const std::string& name, double tolerance, const auto& pixel)
+    const MattingSet set{ objectOf(picture.dataset(), layer), image("_alpha.png"), image("_foreground.png"),
+      image("_background.png"), image("_composite.png"), image("_trimap.png") };
+    const auto measure = [&](const Row& row, double tolerance, const auto& pixel)
     {
-      results.add(name, "1/65535",
-        meterRows(picture.pool(), picture.height(), tolerance,
-          [&](int y, Meter& row)
-          {
-            for (int x = 0; x < picture.width(); ++x)
-            {
-              pixel(set, x, y, row);
-            }
-          }));
+      results.add(row, meterRows(picture.pool(), picture.height(), tolerance,
+                         [&](int y, Meter& meter)
+                         {
+                           for (int x = 0; x < picture.width(); ++x)
+                           {
+                             pixel(x, y, meter);
+                           }
+                         }));
     };
     if (set.alpha && set.foreground && set.background && set.composite)
     {
-      measure(layer, 1, checkComposite);
+      measure({ layer, "1/65535", { set.foreground->file(), set.background->file(), set.composite->file() } }, 0,
+        [&](int x, int y, Meter& meter) { checkComposite(set, x, y, meter); });
+    }
+    if (set.alpha && set.id > 0)
+    {
+      const Samples samples(picture);
+      measure({ layer + " alpha", "coverage", { set.alpha->file() }, MostOpenSamples }, CoverageTolerance,
+        [&](int x, int y, Meter& meter) { checkAlpha(set, samples, x, y, meter); });
     }
     if (set.alpha && set.trimap)
     {
-      measure(layer + " trimap", 0, checkTrimap);
+      measure({ layer + " trimap", "", { set.trimap->file() } }, 0,
+        [&](int x, int y, Meter& meter) { checkTrimap(set, x, y, meter); });
     }
   }
 }

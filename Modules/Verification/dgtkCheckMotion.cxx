@@ -9,8 +9,9 @@ namespace dgtk
 
 namespace
 {
-/// Pixels.
-constexpr double MotionTolerance = 1e-6;
+/// Pixels, beyond the rounding of float32 files: places of some 1000 pixels have 1e-13 in double precision, and lose
+/// some digits on the way from one camera and frame to the other.
+constexpr double MotionTolerance = 1e-9;
 /// Part of the depth: nearer to the plane of the other camera, whether a point projects is a matter of rounding.
 constexpr double PlaneSlack = 1e-9;
 
@@ -86,7 +87,8 @@ private:
       const double difference = std::abs(found[c] - expected[c]);
       error = std::isnan(difference) ? Infinite : std::max(error, difference - this->File.rounding(found[c]));
     }
-    return error / this->scale(target);
+    return error / this->scale(target) / this->Owner.eye().farness(target.here.z()) /
+           (this->ThePair.kind == PairKind::Motion ? 1 : this->ThePair.other->eye().farness(target.there.z()));
   }
 
   void derive(int x, int y, const Target& target, double* expected) const
@@ -156,7 +158,7 @@ void checkMotion(Picture& picture, Results& results)
             check.pixel(x, y, row);
           }
         });
-      results.add(pair.layer, "pixel", meter);
+      results.add({ pair.layer, "pixel", { file->file() } }, meter);
     }
   }
 }

@@ -41,7 +41,7 @@ void checkFile(
           found == expected, [&] { return ids->offender(x, y, std::to_string(found), std::to_string(expected)); });
       }
     });
-  results.add(layer, "", meter);
+  results.add({ layer, "", { ids->file() } }, meter);
 }
 } // namespace
 

@@ -77,7 +77,7 @@ void checkMasks(
     const std::vector<Hit> nearby = picture.nearby(x, y);
     return found && std::any_of(nearby.begin(), nearby.end(), [&](const Hit& hit) { return hit.object == id; });
   };
-  results.add("amodal", "",
+  results.add({ "amodal", "", { file } },
     everyPixel(picture,
       [&](int x, int y, Meter& meter)
       {
@@ -107,7 +107,7 @@ void checkPartition(Picture& picture, Results& results)
   const PicturePointer objects = picture.quietly([&] { return picture.ids("objects"); });
   if (objects)
   {
-    results.add("objects", "",
+    results.add({ "objects", "", { objects->file() } },
       everyPixel(picture,
         [&](int x, int y, Meter& meter)
         {
@@ -116,19 +116,22 @@ void checkPartition(Picture& picture, Results& results)
             [&] { return objects->offender(x, y, std::to_string(id), "an id of objects.json"); });
         }));
   }
-  const PicturePointer classes = picture.image("classes", IdSuffixes);
-  if (classes && objects)
+  for (const std::string& suffix : IdSuffixes)
   {
-    results.add("classes", "",
-      everyPixel(picture,
-        [&](int x, int y, Meter& meter)
-        {
-          const ObjectRecord* record = recordOf(dataset, objects->id(x, y));
-          const std::uint32_t expected = record ? record->classId : 0;
-          const std::uint32_t found = classes->id(x, y);
-          meter.equal(found == expected,
-            [&] { return classes->offender(x, y, std::to_string(found), std::to_string(expected)); });
-        }));
+    const PicturePointer classes = objects ? picture.image("classes", { suffix }) : nullptr;
+    if (classes)
+    {
+      results.add({ "classes", "", { classes->file() } },
+        everyPixel(picture,
+          [&](int x, int y, Meter& meter)
+          {
+            const ObjectRecord* record = recordOf(dataset, objects->id(x, y));
+            const std::uint32_t expected = record ? record->classId : 0;
+            const std::uint32_t found = classes->id(x, y);
+            meter.equal(found == expected,
+              [&] { return classes->offender(x, y, std::to_string(found), std::to_string(expected)); });
+          }));
+    }
   }
   const std::string file = dataset.find(picture.camera(), "amodal", picture.frame(), { ".json" });
   if (file.empty())
@@ -138,7 +141,7 @@ void checkPartition(Picture& picture, Results& results)
   const Masks masks = readMasks(dataset.absolute(file), picture.width(), picture.height());
   if (objects)
   {
-    results.add("visible within amodal", "",
+    results.add({ "visible within amodal", "", { file } },
       everyPixel(picture,
         [&](int x, int y, Meter& meter)
         {

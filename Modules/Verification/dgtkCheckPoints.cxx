@@ -4,6 +4,9 @@
 #include "dgtkFile.h"
 #include "dgtkObjectDocuments.h"
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <set>
@@ -13,13 +16,22 @@ namespace dgtk
 
 namespace
 {
-/// Pixels.
-constexpr double TrackTolerance = 1e-6;
+/// Pixels: places are taken from points in the world, whose rounding grows with the distance from its origin; a ground
+/// plane of 1e5 needs 1e-9.
+constexpr double TrackTolerance = 1e-8;
 /// Part of the depth.
 constexpr double SurfaceTolerance = 1e-9;
 /// Part of the depth, and directions, within which a silhouette leaves visibility open.
 constexpr double SilhouetteReach = 1e-4;
 constexpr std::size_t PlyVertexBytes = 47;
+/// One rounding of float32.
+constexpr double NormalTolerance = 1e-7;
+/// Of 8 bits: rounding to the nearest, either way in the middle.
+constexpr double ColorTolerance = 0.5 + 1e-6;
+/// Texels: as close to the border of two, either is right.
+constexpr double TexelSlack = 1e-6;
+/// Share: on a surface seen straight on, many points may lie on borders.
+constexpr double MostOpenTexels = 0.5;
 
 struct TrackPoint
 {
@@ -95,7 +107,7 @@ public:
       const Eye& eye = this->Sights[sight.camera]->eye();
       Eigen::Vector2d expected(std::nan(""), std::nan(""));
       eye.project(eye.toCamera(point.x), expected);
-      meter.add((expected - sight.pixel).norm(),
+      meter.add((expected - sight.pixel).norm() / eye.farness(eye.toCamera(point.x).z()),
         [&] { return this->offender(index, numbersText(sight.pixel.data(), 2), numbersText(expected.data(), 2)); });
     }
     const Eigen::Vector2d centre = point.track[0].pixel.array().floor() + 0.5;
@@ -117,7 +129,7 @@ public:
     const Sight& sight = *this->Sights[point.track[0].camera];
     const double found = sight.eye().toCamera(point.x).z();
     const double expected = sight.depthOf(point.hit, point.track[0].pixel);
-    meter.add((found - expected) / expected,
+    meter.add((found - expected) / expected / sight.eye().farness(expected),
       [&] { return this->offender(index, "depth " + numberText(found), numberText(expected)); });
   }
 
@@ -140,8 +152,8 @@ public:
     }
   }
 
-  /// The vertices of the .ply are the points.
-  void ply(const Dataset& dataset, const std::string& file, Meter& meter) const
+  /// The vertices of the .ply are the points, with the normals and colours of their surfaces.
+  void ply(const Dataset& dataset, const std::string& file, Meter& meter, Meter& normals, Meter& colors) const
   {
     const std::string bytes = readFile(dataset.absolute(file));
     const std::string mark = "end_header\n";
@@ -168,10 +180,78 @@ public:
           return Offender{ file, -1, -1, "vertex " + std::to_string(i) + ' ' + numbersText(x.data(), 3),
             numbersText(this->Points[i].x.data(), 3) };
         });
+      if (this->isSound(this->Points[i]) && hit == this->Points[i].hit)
+      {
+        this->normal(file, i, vertex + 24, normals);
+        this->color(file, i, vertex + 36, colors);
+      }
     }
   }
 
 private:
+  /// Unit, in the world, on the side of the camera that the point comes from.
+  void normal(const std::string& file, std::size_t index, const char* bytes, Meter& meter) const
+  {
+    const CloudPoint& point = this->Points[index];
+    const Sight& sight = *this->Sights[point.track[0].camera];
+    float narrow[3];
+    std::memcpy(narrow, bytes, sizeof narrow);
+    const Eigen::Vector3d found(narrow[0], narrow[1], narrow[2]);
+    const Eigen::Vector3d unit = sight.normal(point.hit).stableNormalized();
+    const double side = unit.dot(sight.eye().ray(point.track[0].pixel).direction) > 0 ? -1 : 1;
+    const Eigen::Vector3d expected = side * (sight.eye().record().R.transpose() * unit);
+    meter.add((found - expected).cwiseAbs().maxCoeff(),
+      [&]
+      {
+        return Offender{ file, -1, -1, "vertex " + std::to_string(index) + " normal " + numbersText(found.data(), 3),
+          numbersText(expected.data(), 3) };
+      });
+  }
+
+  /// The material's diffuse colour times the texel that the point lies in; open on the border of two texels.
+  void color(const std::string& file, std::size_t index, const char* bytes, Meter& meter) const
+  {
+    const CloudPoint& point = this->Points[index];
+    const Sight& sight = *this->Sights[point.track[0].camera];
+    const Instance& instance = sight.instance(point.hit.object);
+    const Model& model = *instance.model;
+    const Material& material = (*instance.materials)[model.parts[model.partOf(point.hit.triangle)].material];
+    Eigen::Vector3d expected = material.diffuse;
+    if (material.texture >= 0 && !model.uvs.empty() && model.textures[material.texture].image)
+    {
+      const Eigen::Vector3d weight = sight.weights(point.hit, sight.eye().toCamera(point.x));
+      Eigen::Vector2d uv(0, 0);
+      for (int i = 0; i < 3; ++i)
+      {
+        uv += weight[i] * model.uvs[model.triangles[point.hit.triangle][i]];
+      }
+      const Image& image = *model.textures[material.texture].image;
+      const Eigen::Array2d size(image.width, image.height);
+      const Eigen::Array2d texel = uv.array() * size;
+      if (!((texel - texel.round()).abs() > TexelSlack).all())
+      {
+        meter.skip();
+        return;
+      }
+      const Eigen::Array2d cell = texel.floor() - (texel.floor() / size).floor() * size;
+      const std::size_t row = std::size_t(image.height) - 1 - std::size_t(cell.y());
+      const std::uint8_t* rgba = &image.rgba[(row * image.width + std::size_t(cell.x())) * 4];
+      expected = expected.cwiseProduct(Eigen::Vector3d(rgba[0], rgba[1], rgba[2]) / 255);
+    }
+    Eigen::Vector3d found;
+    for (int i = 0; i < 3; ++i)
+    {
+      found[i] = static_cast<unsigned char>(bytes[i]);
+      expected[i] = 255 * std::clamp(expected[i], 0.0, 1.0);
+    }
+    meter.add((found - expected).cwiseAbs().maxCoeff(),
+      [&]
+      {
+        return Offender{ file, -1, -1, "vertex " + std::to_string(index) + " colour " + numbersText(found.data(), 3),
+          numbersText(expected.data(), 3) };
+      });
+  }
+
   Offender offender(std::size_t index, const std::string& found, const std::string& expected) const
   {
     return { this->File, -1, -1, "point " + std::to_string(index) + ' ' + found, expected };
@@ -228,15 +308,19 @@ void checkCloud(Dataset& dataset, const std::string& file, int frame, Results& r
     return meterRows(dataset.pool(), points, tolerance,
       [&](int i, Meter& meter) { (check.*body)(static_cast<std::size_t>(i), meter); });
   };
-  results.add("tracks", "pixel", measure(TrackTolerance, &CloudCheck::reproject));
-  results.add("surface", "relative", measure(SurfaceTolerance, &CloudCheck::onSurface));
-  results.add("visible", "", measure(0, &CloudCheck::visible));
+  results.add({ "tracks", "pixel", { file } }, measure(TrackTolerance, &CloudCheck::reproject));
+  results.add({ "surface", "relative", { file } }, measure(SurfaceTolerance, &CloudCheck::onSurface));
+  results.add({ "visible", "", { file } }, measure(0, &CloudCheck::visible));
   const std::string ply = dataset.find("", "points", frame, { ".ply" });
   if (!ply.empty())
   {
     Meter meter(0);
-    check.ply(dataset, ply, meter);
-    results.add("ply", "", meter);
+    Meter normals(NormalTolerance);
+    Meter colors(ColorTolerance);
+    check.ply(dataset, ply, meter, normals, colors);
+    results.add({ "ply", "", { ply } }, meter);
+    results.add({ "normals", "1", { ply } }, normals);
+    results.add({ "colors", "1/255", { ply }, MostOpenTexels }, colors);
   }
 }
 } // namespace

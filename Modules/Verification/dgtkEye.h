@@ -7,6 +7,8 @@
 #include "dgtkCameraModel.h"
 #include "dgtkDatasetDocuments.h"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace dgtk
@@ -43,6 +45,14 @@ public:
   bool project(const Eigen::Vector3d& x_in_camera, Eigen::Vector2d& pixel) const;
   /// Inside the image, and between near and far.
   bool sees(const Eigen::Vector2d& pixel, double depth) const;
+
+  /// What a residual at a depth is divided by. Numbers of the world have 16 digits: of a camera a million times as far
+  /// from the world's origin as from what it sees, ten are left. 1 up to a thousand times.
+  double farness(double depth) const
+  {
+    constexpr double most = 1000;
+    return std::max(1.0, this->Record.t.norm() / (most * std::abs(depth)));
+  }
 
   /// For the ray engine.
   const View& view() const { return this->TheView; }

@@ -53,16 +53,18 @@ void Results::startCheck(int index, const std::string& name)
   this->Check = name;
 }
 
-void Results::add(const std::string& layer, const std::string& unit, const Meter& meter)
+void Results::add(const Row& row, const Meter& meter)
 {
-  const auto [at, isNew] = this->Residuals.try_emplace({ this->Index, layer });
+  this->Compared.insert(row.files.begin(), row.files.end());
+  const auto [at, isNew] = this->Residuals.try_emplace({ this->Index, row.layer });
   Residual& residual = at->second;
   if (isNew)
   {
     residual.check = this->Check;
-    residual.layer = layer;
-    residual.unit = unit;
+    residual.layer = row.layer;
+    residual.unit = row.unit;
     residual.tolerance = meter.Tolerance;
+    residual.mostOpen = row.mostOpen;
   }
   residual.count += meter.Count;
   residual.skipped += meter.Skipped;
@@ -78,7 +80,7 @@ void Results::unusable(const std::string& layer, const std::string& file, const 
 {
   Meter meter(0);
   meter.equal(false, [&] { return Offender{ file, -1, -1, what, "a file that can be used" }; });
-  this->add(layer, "", meter);
+  this->add({ layer, "", { file } }, meter);
 }
 
 VerificationReport Results::report() const

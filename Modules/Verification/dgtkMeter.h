@@ -12,6 +12,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -66,21 +67,37 @@ public:
   Offender Worst;
 };
 
+/// Share of the values of a row that may be left open, unless the row says otherwise. Of pictures of a usual size it is
+/// some 1e-3; where triangles are as small as pixels, or an edge runs along a row of pixels' centres, more.
+constexpr double MostOpen = 0.1;
+
+/// A line of the report.
+struct Row
+{
+  std::string layer;
+  std::string unit;
+  std::vector<std::string> files; ///< of the dataset, whose contents are compared
+  double mostOpen = MostOpen;
+};
+
 /// The residuals of all checks, in the order of checks, then layers.
 class Results
 {
 public:
   void startCheck(int index, const std::string& name);
-  /// Adds what was measured of a layer by the current check.
-  void add(const std::string& layer, const std::string& unit, const Meter& meter);
+  /// Adds what was measured by the current check.
+  void add(const Row& row, const Meter& meter);
   /// A file that cannot be used at all.
   void unusable(const std::string& layer, const std::string& file, const std::string& what);
+  /// Whether some row compares the contents of a file.
+  bool compares(const std::string& file) const { return this->Compared.count(file) > 0; }
   VerificationReport report() const;
 
 private:
   int Index = 0;
   std::string Check;
   std::map<std::pair<int, std::string>, Residual> Residuals;
+  std::set<std::string> Compared;
 };
 
 /// Calls body(y, meter) for the rows [0, height) on the pool. The result does not depend on the threads.

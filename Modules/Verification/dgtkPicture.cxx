@@ -72,7 +72,9 @@ bool Picture::agrees(const Claims& claims, const Hit& hit, int x, int y) const
   {
     const double expected = this->TheSight->depthOf(hit, centreOf(x, y));
     const double found = claims.depth->at(x, y);
-    if (found != expected && !(std::isfinite(expected) && std::abs(found - expected) <= claims.tolerance * expected))
+    if (found != expected &&
+        !(std::isfinite(expected) &&
+          std::abs(found - expected) <= claims.tolerance * this->eye().farness(expected) * expected))
     {
       return false;
     }
@@ -164,7 +166,27 @@ bool Picture::findCutOut(const Claims& claims, int x, int y, Hit& hit) const
   return false;
 }
 
-bool Picture::isOnEdge(const Hit& hit, int x, int y) const
+bool Picture::isEdgeAt(int x, int y, double depth) const
+{
+  const std::vector<Instance>& instances = this->TheSight->state().instances;
+  for (std::uint32_t object = 1; object <= instances.size(); ++object)
+  {
+    const std::size_t triangles = instances[object - 1].model->triangles.size();
+    for (std::uint32_t triangle = 0; triangle < triangles; ++triangle)
+    {
+      const Hit hit{ object, triangle };
+      if (std::abs(this->TheSight->depthOf(hit, centreOf(x, y)) - depth) <=
+            DepthTolerance * this->eye().farness(depth) * depth &&
+          this->endsAt(hit, x, y))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool Picture::endsAt(const Hit& hit, int x, int y) const
 {
   Eigen::Vector3d corner[3];
   Eigen::Vector2d p[3];
@@ -184,7 +206,12 @@ bool Picture::isOnEdge(const Hit& hit, int x, int y) const
     const double along = std::clamp(from.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
     nearest = std::min(nearest, (from - along * edge).norm());
   }
-  if (nearest > EdgeReach)
+  return nearest <= EdgeReach;
+}
+
+bool Picture::isOnEdge(const Hit& hit, int x, int y) const
+{
+  if (!this->endsAt(hit, x, y))
   {
     return false;
   }
@@ -199,7 +226,7 @@ void Picture::resolveRow(const Claims& claims, int y, int& patience)
 {
   Surfaces& s = *this->TheSurfaces;
   Claims close = claims;
-  close.tolerance = claims.depth && claims.depth->type() == PixelType::Float64 ? CloseDepth : DepthTolerance;
+  close.tolerance = claims.tolerance == DepthTolerance ? CloseDepth : claims.tolerance;
   for (int x = 0; x < s.width; ++x)
   {
     const std::size_t i = s.index(x, y);
@@ -237,6 +264,7 @@ const Surfaces& Picture::surfaces()
   s.marks.assign(s.own.size(), Mark::Same);
   Claims claims;
   claims.depth = this->quietly([&] { return this->values("depth"); });
+  claims.tolerance = claims.depth ? depthTolerance(*claims.depth) : DepthTolerance;
   claims.objects = this->quietly([&] { return this->ids("objects"); });
   claims.parts = this->quietly([&] { return this->ids("parts"); });
   claims.triangles = this->quietly([&] { return this->ids("triangles"); });

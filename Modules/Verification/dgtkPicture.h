@@ -17,8 +17,15 @@ namespace dgtk
 
 /// Pixels: as close to an edge, either of two surfaces may have been recorded.
 constexpr double EdgeReach = 1.0 / 64;
-/// Part of the depth by which a depth may differ from Embree's triangle.
-constexpr double DepthTolerance = 1e-5;
+/// Part of the depth by which a float64 depth may differ from that of its triangle's plane. Two computations in double
+/// precision differ by some 1e-14, times as much as the view grazes the triangle.
+constexpr double DepthTolerance = 1e-9;
+/// The same of a float32 depth, which is rounded by up to 6e-8 of itself.
+constexpr double NarrowDepthTolerance = 1e-7;
+inline double depthTolerance(const PictureFile& depth)
+{
+  return depth.type() == PixelType::Float64 ? DepthTolerance : NarrowDepthTolerance;
+}
 
 /// Wrong values of a few rows after which no pixel is looked around any more: the layer is wrong as a whole.
 constexpr std::uint64_t Patience = 256;
@@ -83,6 +90,9 @@ public:
   Eigen::Vector3d point(int x, int y) const;
   /// Surfaces first met within EdgeReach of a pixel's centre, or coincident with those; object 0 for none.
   std::vector<Hit> nearby(int x, int y) const;
+  /// Whether some triangle of this depth at a pixel's centre ends within EdgeReach of it: on the border of a texel that
+  /// is there and one that is not, rays beside the centre may all miss what the one through it meets.
+  bool isEdgeAt(int x, int y, double depth) const;
   /// To be called before point() is used by several threads.
   void preparePoints();
 
@@ -92,7 +102,9 @@ private:
   bool findNearby(const Claims& claims, int x, int y, Hit& hit) const;
   /// A triangle with a cut-out texture whose edge runs here: rays fall on either side of it in a texture that repeats.
   bool findCutOut(const Claims& claims, int x, int y, Hit& hit) const;
-  /// Whether a triangle that nothing hides ends within EdgeReach of a pixel's centre.
+  /// Whether a triangle ends within EdgeReach of a pixel's centre.
+  bool endsAt(const Hit& hit, int x, int y) const;
+  /// The same, and nothing hides it.
   bool isOnEdge(const Hit& hit, int x, int y) const;
   void resolveRow(const Claims& claims, int y, int& patience);
 

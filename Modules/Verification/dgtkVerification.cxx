@@ -5,6 +5,8 @@
 #include "dgtkError.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 
 namespace dgtk
 {
@@ -19,6 +21,7 @@ constexpr Check Checks[] = {
   { "objects", nullptr, checkObjects },
   { "calibration", nullptr, checkCalibration },
   { "geometry", nullptr, checkGeometry },
+  { "edges", nullptr, checkEdges },
   { "motion", nullptr, checkMotion },
   { "class", nullptr, checkClass },
   { "epipolar", nullptr, checkEpipolar },
@@ -56,28 +59,60 @@ void run(
   }
 }
 
-} // namespace
-
-VerificationReport verifyDataset(const std::string& folder, int threads)
+bool isAsked(const std::vector<std::string>& names, const Check& check)
 {
-  Dataset dataset(folder, threads);
-  Results results;
-  run(Checks[0], Checks[0].ofDataset, dataset, dataset, results);
-  for (const Dataset::Problem& problem : dataset.problems())
+  return names.empty() || std::find(names.begin(), names.end(), check.name) != names.end();
+}
+
+/// The checks of these names, in the order of the table; all for none.
+std::vector<const Check*> checksOf(const std::vector<std::string>& names)
+{
+  const std::vector<std::string> known = verificationChecks();
+  for (const std::string& name : names)
   {
-    results.unusable("documents", problem.file, problem.what);
-  }
-  if (!dataset.problems().empty())
-  {
-    return results.report();
-  }
-  for (const Check& check : Checks)
-  {
-    if (&check != Checks)
+    if (std::find(known.begin(), known.end(), name) == known.end())
     {
-      run(check, check.ofDataset, dataset, dataset, results);
+      std::string all;
+      for (const std::string& one : known)
+      {
+        all += (all.empty() ? "" : ", ") + one;
+      }
+      throw UsageError("there is no check " + quoted(name) + " (expected one of " + all + ")");
     }
   }
+  std::vector<const Check*> asked;
+  for (const Check& check : Checks)
+  {
+    if (isAsked(names, check))
+    {
+      asked.push_back(&check);
+    }
+  }
+  return asked;
+}
+
+/// What no row compares. The scene is what all else is derived from.
+std::vector<Unchecked> uncheckedOf(const Dataset& dataset, const Results& results)
+{
+  std::map<std::pair<std::string, std::string>, std::uint64_t> kinds;
+  for (const DatasetFile& file : dataset.manifest().files)
+  {
+    if (file.path != "scene.json" && !results.compares(file.path))
+    {
+      const std::string extension = std::filesystem::path(file.path).extension().string();
+      ++kinds[{ file.layer.empty() ? file.path : file.layer, extension.empty() ? extension : extension.substr(1) }];
+    }
+  }
+  std::vector<Unchecked> unchecked;
+  for (const auto& [kind, files] : kinds)
+  {
+    unchecked.push_back({ kind.first, kind.second, files });
+  }
+  return unchecked;
+}
+
+void verifyPictures(Dataset& dataset, const std::vector<const Check*>& checks, Results& results)
+{
   std::vector<CameraRecord> records = dataset.cameras();
   std::stable_sort(
     records.begin(), records.end(), [](const CameraRecord& a, const CameraRecord& b) { return a.frame < b.frame; });
@@ -86,9 +121,9 @@ VerificationReport verifyDataset(const std::string& folder, int threads)
     try
     {
       Picture picture(dataset, record);
-      for (const Check& check : Checks)
+      for (const Check* check : checks)
       {
-        run(check, check.ofPicture, picture, dataset, results);
+        run(*check, check->ofPicture, picture, dataset, results);
       }
     }
     catch (const UsageError& error)
@@ -96,7 +131,44 @@ VerificationReport verifyDataset(const std::string& folder, int threads)
       results.unusable("cameras", "cameras.json", error.what());
     }
   }
-  return results.report();
+}
+} // namespace
+
+std::vector<std::string> verificationChecks()
+{
+  std::vector<std::string> names;
+  for (const Check& check : Checks)
+  {
+    names.emplace_back(check.name);
+  }
+  return names;
+}
+
+VerificationReport verifyDataset(const std::string& folder, int threads, const std::vector<std::string>& checks)
+{
+  const std::vector<const Check*> asked = checksOf(checks);
+  Dataset dataset(folder, threads);
+  Results results;
+  results.startCheck(0, Checks[0].name);
+  for (const Dataset::Problem& problem : dataset.problems())
+  {
+    results.unusable("documents", problem.file, problem.what);
+  }
+  const bool usable = dataset.problems().empty();
+  for (const Check* check : asked)
+  {
+    if (usable || check == Checks)
+    {
+      run(*check, check->ofDataset, dataset, dataset, results);
+    }
+  }
+  if (usable)
+  {
+    verifyPictures(dataset, asked, results);
+  }
+  VerificationReport report = results.report();
+  report.unchecked = checks.empty() ? uncheckedOf(dataset, results) : std::vector<Unchecked>{};
+  return report;
 }
 
 } // namespace dgtk

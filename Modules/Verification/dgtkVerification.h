@@ -32,13 +32,25 @@ struct Residual
   std::uint64_t bad = 0;     ///< values beyond the tolerance
   double largest = 0;        ///< largest residual; +inf for a value of the wrong kind
   double tolerance = 0;
-  Offender worst; ///< where `largest` is
-  bool breach() const { return this->bad > 0; }
+  double mostOpen = 0; ///< share of the values that may be left open
+  Offender worst;      ///< where `largest` is
+  /// More values were left open than sound datasets need; a few always may.
+  bool tooMuchOpen() const;
+  bool breach() const { return this->bad > 0 || this->tooMuchOpen(); }
+};
+
+/// Files of one kind of which no check compares the contents: only their hashes are known to be right.
+struct Unchecked
+{
+  std::string layer;  ///< as in the manifest; the path of a file that belongs to no layer
+  std::string format; ///< extension without the dot
+  std::uint64_t files = 0;
 };
 
 struct VerificationReport
 {
-  std::vector<Residual> residuals; ///< in the order of the checks; only of layers that the dataset has
+  std::vector<Residual> residuals;  ///< in the order of the checks; only of layers that the dataset has
+  std::vector<Unchecked> unchecked; ///< sorted; empty where only some checks were asked for
   /// No breach, and something was checked.
   bool passed() const;
   /// The residual to name first: the first breach, as later checks build upon earlier ones. Null when there is none.
@@ -47,10 +59,16 @@ struct VerificationReport
 
 /// Derives everything a dataset claims anew from its files, its scene and models, with Embree, OpenCV and own
 /// arithmetic; none of the code that wrote it takes part. A damaged or missing file is a breach. `threads` >= 1; the
-/// report does not depend on it. Throws InputError when `folder` is not a dataset: no readable manifest.json.
-DGTKVERIFICATION_EXPORT VerificationReport verifyDataset(const std::string& folder, int threads);
+/// report does not depend on it. `checks`: names of the checks to run, all when empty; documents that cannot be read
+/// are always reported. Throws InputError when `folder` is not a dataset: no readable manifest.json; UsageError for a
+/// check that there is not.
+DGTKVERIFICATION_EXPORT VerificationReport verifyDataset(
+  const std::string& folder, int threads, const std::vector<std::string>& checks = {});
 
-/// One line a residual, for people; ends with a newline.
+/// The names of all checks, in their order.
+DGTKVERIFICATION_EXPORT std::vector<std::string> verificationChecks();
+
+/// One line a residual and one for what is not checked, for people; ends with a newline.
 DGTKVERIFICATION_EXPORT std::string verificationTable(const VerificationReport& report);
 /// The contents of verification.json; ends with a newline. Numbers that are not finite are texts.
 DGTKVERIFICATION_EXPORT std::string verificationText(const VerificationReport& report);

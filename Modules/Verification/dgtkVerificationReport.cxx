@@ -34,6 +34,7 @@ Json residualJson(const Residual& residual)
   json["layer"] = residual.layer;
   json["count"] = residual.count;
   json["skipped"] = residual.skipped;
+  json["most_open"] = residual.mostOpen;
   json["bad"] = residual.bad;
   json["largest"] = numberJson(residual.largest);
   json["tolerance"] = residual.tolerance;
@@ -54,9 +55,30 @@ std::vector<std::string> cellsOf(const Residual& residual)
 {
   return { residual.check, residual.layer, std::to_string(residual.count), std::to_string(residual.skipped),
     brief(residual.largest), brief(residual.tolerance), residual.unit,
-    residual.breach() ? "BREACH (" + std::to_string(residual.bad) + ")" : "ok" };
+    residual.bad > 0         ? "BREACH (" + std::to_string(residual.bad) + ")"
+    : residual.tooMuchOpen() ? "BREACH (open)"
+                             : "ok" };
+}
+
+/// "color .png (4 files)"
+std::string kindText(const Unchecked& kind)
+{
+  const std::string format = kind.layer.find('.') == std::string::npos ? " ." + kind.format : "";
+  return kind.layer + format + " (" + std::to_string(kind.files) + (kind.files == 1 ? " file)" : " files)");
+}
+
+std::string openText(const Residual& residual)
+{
+  return std::to_string(residual.skipped) + " of " + std::to_string(residual.count + residual.skipped) +
+         " values left open, expected at most " + brief(100 * residual.mostOpen) + " %";
 }
 } // namespace
+
+bool Residual::tooMuchOpen() const
+{
+  constexpr double few = 16; // of a small picture
+  return double(this->skipped) > few + this->mostOpen * double(this->count + this->skipped);
+}
 
 bool VerificationReport::passed() const { return !this->firstBreach() && !this->residuals.empty(); }
 
@@ -95,7 +117,12 @@ std::string verificationTable(const VerificationReport& report)
     }
     text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
   }
-  return text;
+  std::string kinds;
+  for (const Unchecked& kind : report.unchecked)
+  {
+    kinds += (kinds.empty() ? "" : ", ") + kindText(kind);
+  }
+  return kinds.empty() ? text : text + "not checked beyond their hashes: " + kinds + '\n';
 }
 
 std::string verificationText(const VerificationReport& report)
@@ -109,11 +136,20 @@ std::string verificationText(const VerificationReport& report)
   {
     json["residuals"].push_back(residualJson(residual));
   }
+  json["not_checked"] = Json::array();
+  for (const Unchecked& kind : report.unchecked)
+  {
+    json["not_checked"].push_back({ { "layer", kind.layer }, { "format", kind.format }, { "files", kind.files } });
+  }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 std::string describe(const Residual& residual)
 {
+  if (residual.bad == 0 && residual.tooMuchOpen())
+  {
+    return "dataset: " + openText(residual) + " (check " + residual.check + ", layer " + residual.layer + ')';
+  }
   const Offender& worst = residual.worst;
   std::string text = worst.file.empty() ? "dataset" : worst.file;
   if (worst.x >= 0)

@@ -52,7 +52,7 @@ def read_png(path, wanted=None):
 
 
 def read_exr(path):
-    """Header and channels of a ZIP-compressed float OpenEXR file."""
+    """Header and channels of a float OpenEXR file, ZIP-compressed or not compressed."""
     with open(path, "rb") as file:
         data = file.read()
     at, header = 8, {}
@@ -67,12 +67,13 @@ def read_exr(path):
     names = [n.rstrip(b"\0").decode() for n in header["channels"].split(float_channel)[:-1]]
     x0, y0, x1, y1 = struct.unpack("<4i", header["dataWindow"])
     width, height = x1 - x0 + 1, y1 - y0 + 1
-    chunks = (height + 15) // 16
+    lines = 1 if header["compression"] == b"\0" else 16
+    chunks = (height + lines - 1) // lines
     offsets = struct.unpack(f"<{chunks}Q", data[at + 1:at + 1 + 8 * chunks])
     image = np.zeros((height, len(names), width), np.float32)
     for offset in offsets:
         y, size = struct.unpack("<ii", data[offset:offset + 8])
-        rows = min(16, height - y)
+        rows = min(lines, height - y)
         raw = rows * len(names) * width * 4
         body = data[offset + 8:offset + 8 + size]
         if size < raw:
@@ -87,42 +88,51 @@ def read_exr(path):
     return header, {n: image[:, i, :] for i, n in enumerate(names)}
 
 
-def write_png(path, rgb):
-    """Rows x columns x 3, uint8."""
-    rgb = np.ascontiguousarray(rgb, np.uint8)
-    height, width, _ = rgb.shape
+def write_png(path, pixels):
+    """Rows x columns, or rows x columns x 1 to 4; uint8 or uint16."""
+    pixels = np.asarray(pixels)
+    bits = 16 if pixels.dtype == np.uint16 else 8
+    pixels = np.ascontiguousarray(pixels, ">u2" if bits == 16 else np.uint8)
+    height, width = pixels.shape[:2]
+    color = {1: 0, 2: 4, 3: 2, 4: 6}[pixels.size // (height * width)]
 
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
-    rows = b"".join(b"\0" + row.tobytes() for row in rgb)
+    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
     with open(path, "wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, color, 0, 0, 0)) +
                    chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
 def write_exr(path, rgb):
-    """An uncompressed scan-line EXR of float32 channels B, G, R (the format's public description)."""
-    rgb = np.ascontiguousarray(rgb, np.float32)
-    height, width, _ = rgb.shape
+    """An EXR of channels B, G, R."""
+    write_exr_channels(path, {name: np.asarray(rgb)[..., i] for i, name in enumerate("RGB")})
+
+
+def write_exr_channels(path, channels):
+    """An uncompressed scan-line EXR of float32 channels by name (the format's public description)."""
+    names = sorted(channels)
+    rows = np.stack([np.asarray(channels[name], "<f4") for name in names], axis=1)
+    height, _, width = rows.shape
 
     def attribute(name, kind, data):
         return name.encode() + b"\0" + kind.encode() + b"\0" + len(data).to_bytes(4, "little") + data
 
-    channels = b"".join(c + b"\0" + (2).to_bytes(4, "little") + bytes(4) + (1).to_bytes(4, "little") * 2
-                        for c in [b"B", b"G", b"R"]) + b"\0"
+    listed = b"".join(name.encode() + b"\0" + (2).to_bytes(4, "little") + bytes(4) + (1).to_bytes(4, "little") * 2
+                      for name in names) + b"\0"
     box = np.array([0, 0, width - 1, height - 1], "<i4").tobytes()
-    header = b"\x76\x2f\x31\x01" + (2).to_bytes(4, "little") + attribute("channels", "chlist", channels) + attribute(
+    header = b"\x76\x2f\x31\x01" + (2).to_bytes(4, "little") + attribute("channels", "chlist", listed) + attribute(
         "compression", "compression", b"\0") + attribute("dataWindow", "box2i", box) + attribute(
         "displayWindow", "box2i", box) + attribute("lineOrder", "lineOrder", b"\0") + attribute(
         "pixelAspectRatio", "float", np.array([1], "<f4").tobytes()) + attribute(
         "screenWindowCenter", "v2f", bytes(8)) + attribute(
         "screenWindowWidth", "float", np.array([1], "<f4").tobytes()) + b"\0"
-    size = width * 12
+    size = width * 4 * len(names)
     start = len(header) + 8 * height
     with open(path, "wb") as file:
         file.write(header)
         file.write((start + np.arange(height, dtype="<u8") * (size + 8)).astype("<u8").tobytes())
         for y in range(height):
             file.write(np.array([y, size], "<i4").tobytes())
-            file.write(rgb[y, :, ::-1].T.astype("<f4").tobytes())
+            file.write(rows[y].tobytes())

@@ -57,11 +57,11 @@ TEST(Results, FirstBreachIsInTheOrderOfChecks)
   Meter good(0);
   good.good(5);
   results.startCheck(3, "late");
-  results.add("a", "", bad);
+  results.add({ "a", "", {} }, bad);
   results.startCheck(1, "early");
-  results.add("b", "", good);
-  results.add("c", "", bad);
-  results.add("empty", "", Meter(0));
+  results.add({ "b", "", {} }, good);
+  results.add({ "c", "", {} }, bad);
+  results.add({ "empty", "", {} }, Meter(0));
   const VerificationReport report = results.report();
   ASSERT_EQ(report.residuals.size(), 3u);
   ASSERT_NE(report.firstBreach(), nullptr);
@@ -69,5 +69,39 @@ TEST(Results, FirstBreachIsInTheOrderOfChecks)
   EXPECT_EQ(report.firstBreach()->layer, "c");
   EXPECT_FALSE(report.passed());
   EXPECT_FALSE(VerificationReport{}.passed()) << "nothing was checked";
+}
+
+TEST(Results, ARowThatLeavesTooMuchOpenIsABreach)
+{
+  const auto reportOf = [](std::uint64_t open)
+  {
+    Results results;
+    Meter meter(0);
+    meter.good(1000 - open);
+    meter.skip(open);
+    results.startCheck(0, "check");
+    results.add({ "layer", "", {}, 0.05 }, meter);
+    return results.report();
+  };
+  EXPECT_TRUE(reportOf(66).passed()) << "a twentieth, and a few of a small picture";
+  const VerificationReport report = reportOf(67);
+  EXPECT_FALSE(report.passed());
+  ASSERT_NE(report.firstBreach(), nullptr);
+  EXPECT_EQ(report.firstBreach()->bad, 0u);
+  EXPECT_EQ(describe(*report.firstBreach()),
+    "dataset: 67 of 1000 values left open, expected at most 5.00e+00 % (check check, layer layer)");
+  EXPECT_NE(verificationTable(report).find("BREACH (open)"), std::string::npos);
+}
+
+TEST(Results, KnowsTheFilesThatItsRowsCompare)
+{
+  Results results;
+  Meter meter(0);
+  meter.good();
+  results.add({ "layer", "", { "a.npy" } }, meter);
+  results.unusable("layer", "b.npy", "damaged");
+  EXPECT_TRUE(results.compares("a.npy"));
+  EXPECT_TRUE(results.compares("b.npy"));
+  EXPECT_FALSE(results.compares("c.npy"));
 }
 } // namespace

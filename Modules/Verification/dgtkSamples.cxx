@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSamples.h"
+
+#include <cstdlib>
+#include <set>
+
+namespace dgtk
+{
+
+namespace
+{
+/// The samples a side of a pixel that the request asked for.
+int samplesOf(const Manifest& manifest)
+{
+  for (const auto& [option, value] : manifest.request)
+  {
+    const int samples = option == "coverage_samples" && value.size() < 4 ? std::atoi(value.c_str()) : 0;
+    if (samples > 0)
+    {
+      return samples;
+    }
+  }
+  return 1;
+}
+} // namespace
+
+Samples::Samples(Picture& picture)
+  : TheSight(picture.sight())
+  , Width(picture.width())
+  , Side(samplesOf(picture.dataset().manifest()))
+  , Known(std::size_t(picture.width()) * picture.height())
+{
+}
+
+const SampledPixel& Samples::at(int x, int y) const
+{
+  std::unique_ptr<const SampledPixel>& known = this->Known[std::size_t(y) * this->Width + x];
+  if (!known)
+  {
+    known = std::make_unique<const SampledPixel>(this->count(x, y));
+  }
+  return *known;
+}
+
+SampledPixel Samples::count(int x, int y) const
+{
+  SampledPixel pixel;
+  double least = Infinite;
+  for (int j = 0; j < this->Side; ++j)
+  {
+    for (int i = 0; i < this->Side; ++i)
+    {
+      const Eigen::Vector2d place(x + (i + 0.5) / this->Side, y + (j + 0.5) / this->Side);
+      const First first = this->firstAt(place);
+      ++pixel.counts[first.id];
+      if (first.depth < least || (first.depth == least && first.id < pixel.nearest))
+      {
+        least = first.depth;
+        pixel.nearest = first.id;
+      }
+      std::set<std::uint32_t> around;
+      for (const Eigen::Vector2d& offset :
+        { Eigen::Vector2d(1, 0), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, -1) })
+      {
+        around.insert(this->firstAt(place + EdgeReach * offset).id);
+      }
+      around.erase(first.id);
+      for (const std::uint32_t other : around)
+      {
+        pixel.counts[other]; // may show as well
+        ++pixel.doubtful[other];
+        ++pixel.doubtful[first.id];
+      }
+    }
+  }
+  return pixel;
+}
+
+Samples::First Samples::firstAt(const Eigen::Vector2d& place) const
+{
+  std::vector<Hit> hits;
+  std::vector<double> depths;
+  this->TheSight.surfaces(place, hits, depths);
+  return hits.empty() ? First{} : First{ hits.front().object, depths.front() };
+}
+
+} // namespace dgtk
