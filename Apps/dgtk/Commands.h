@@ -20,6 +20,9 @@ Command listCommand();
 /// Text on standard output; MachineError when it cannot be written (a full disk behind a redirection).
 void print(const std::string& text);
 
+/// Throws InputError for what is not the folder of a complete dataset.
+void requireDataset(const std::string& folder);
+
 /// Gets the process ready for OpenGL before anything uses it; may start the program anew (OSMesa needs a preload).
 void prepareGL(const std::string& backend, int threads);
 

@@ -87,6 +87,10 @@ int run(const Arguments& arguments)
       throw UsageError(std::string(option) + " is for a scene that becomes .pov");
     }
   }
+  if (!pov && !isScene(to))
+  {
+    throw UsageError("nothing can be converted to " + quoted(to) + " (expected a name in .scene, .json or .pov)");
+  }
   if (!pov)
   {
     writeScene(readScene(from), to);

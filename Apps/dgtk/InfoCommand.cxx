@@ -91,9 +91,9 @@ void describe(const Json& value, const std::string& indent, std::string& text)
 Json infoOf(const Arguments& arguments)
 {
   const std::string& path = arguments.positional()[0];
-  const bool folder = std::filesystem::is_directory(path);
-  if (folder && std::filesystem::exists(path + "/manifest.json"))
+  if (std::filesystem::is_directory(path))
   {
+    requireDataset(path);
     return infoOfDataset(path);
   }
   if (std::filesystem::path(path).filename() == "manifest.json")
@@ -103,10 +103,6 @@ Json infoOf(const Arguments& arguments)
   if (extension(path) == ".scene" || extension(path) == ".json")
   {
     return infoOfScene(path, arguments);
-  }
-  if (folder)
-  {
-    throw InputError(path, 0, "is a folder without a dataset", "a scene, a model or a folder with manifest.json");
   }
   return infoOfModel(path);
 }

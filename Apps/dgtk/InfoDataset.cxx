@@ -1,15 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Commands.h"
 #include "Info.h"
 
 #include "dgtkDatasetDocuments.h"
+#include "dgtkError.h"
+#include "dgtkFolderContents.h"
+#include "dgtkLayerWriter.h"
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <map>
 #include <set>
 
 namespace dgtk::app
 {
+
+void requireDataset(const std::string& folder)
+{
+  if (std::filesystem::exists(folder + "/manifest.json"))
+  {
+    return;
+  }
+  if (std::filesystem::is_directory(folder) && folderContents(folder, "") == FolderContents::UnfinishedOther)
+  {
+    throw InputError(folder, 0, "holds an unfinished run: the same dgtk render command with --resume completes it");
+  }
+  throw InputError(folder, 0, "is not a dataset", "a folder with manifest.json");
+}
 
 Json infoOfDataset(const std::string& folder)
 {
@@ -41,9 +59,9 @@ Json infoOfDataset(const std::string& folder)
   info["layers"] = Json::array();
   for (const LayerRecord& layer : manifest.layers)
   {
-    info["layers"].push_back(
-      { { "name", layer.spec.name }, { "format", layer.format }, { "type", nameOf(layer.spec.type) },
-        { "channels", layer.spec.channels }, { "unit", layer.spec.unit }, { "files", files[layer.spec.name] } });
+    info["layers"].push_back({ { "name", layer.spec.name }, { "format", layer.format },
+      { "type", nameOf(storedType(layer.format, layer.spec.type)) }, { "channels", layer.spec.channels },
+      { "unit", layer.spec.unit }, { "files", files[layer.spec.name] } });
   }
   Json request = Json::object();
   for (const auto& [key, value] : manifest.request)

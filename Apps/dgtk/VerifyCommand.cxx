@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <thread>
 
 namespace dgtk::app
@@ -26,10 +25,7 @@ int run(const Arguments& arguments)
   }
   const int threads = arguments.has("--threads") ? arguments.integer("--threads", 1, MostThreads)
                                                  : std::max(1, int(std::thread::hardware_concurrency()));
-  if (!std::filesystem::exists(folder + "/manifest.json"))
-  {
-    throw InputError(folder, 0, "is not a dataset", "a folder with manifest.json");
-  }
+  requireDataset(folder);
   const std::vector<std::string> checks =
     arguments.has("--check") ? arguments.list("--check") : std::vector<std::string>{};
   const VerificationReport report = verifyDataset(folder, threads, checks);

@@ -214,6 +214,6 @@ std::unique_ptr<LayerWriter> openExr(
 } // namespace
 
 extern const WriterEntry writerExr;
-const WriterEntry writerExr = { &canWriteExr, &openExr };
+const WriterEntry writerExr = { &canWriteExr, &openExr, true };
 
 } // namespace dgtk

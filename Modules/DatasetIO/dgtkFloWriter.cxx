@@ -53,6 +53,6 @@ std::unique_ptr<LayerWriter> openFlo(
 } // namespace
 
 extern const WriterEntry writerFlo;
-const WriterEntry writerFlo = { &canWriteFlo, &openFlo };
+const WriterEntry writerFlo = { &canWriteFlo, &openFlo, true };
 
 } // namespace dgtk

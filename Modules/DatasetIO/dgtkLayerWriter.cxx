@@ -52,6 +52,12 @@ bool canWrite(const std::string& format, const LayerSpec& spec)
   return row && spec.channels >= 1 && row->entry->canWrite(spec);
 }
 
+PixelType storedType(const std::string& format, PixelType type)
+{
+  const WriterRow* row = findWriter(format);
+  return row && row->entry->rounds && type == PixelType::Float64 ? PixelType::Float32 : type;
+}
+
 std::unique_ptr<LayerWriter> makeLayerWriter(const std::string& format, const std::string& path, const LayerSpec& spec,
   int width, int height, const LayerWriterContext& context)
 {

@@ -60,6 +60,10 @@ DGTKDATASETIO_EXPORT const std::vector<WriterInfo>& layerWriters();
 /// Whether `format` can hold a layer of this specification.
 DGTKDATASETIO_EXPORT bool canWrite(const std::string& format, const LayerSpec& spec);
 
+/// The type of the real numbers that a file of `format` holds of a layer of `type`: float32 where float64 is rounded to
+/// it. Other types, and formats that are no images, are returned as they are.
+DGTKDATASETIO_EXPORT PixelType storedType(const std::string& format, PixelType type);
+
 /// Opens a writer. Throws UsageError for an unknown format or one that cannot hold the layer, MachineError when the
 /// file cannot be made.
 DGTKDATASETIO_EXPORT std::unique_ptr<LayerWriter> makeLayerWriter(const std::string& format, const std::string& path,

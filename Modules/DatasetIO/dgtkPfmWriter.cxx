@@ -59,6 +59,6 @@ std::unique_ptr<LayerWriter> openPfm(
 } // namespace
 
 extern const WriterEntry writerPfm;
-const WriterEntry writerPfm = { &canWritePfm, &openPfm };
+const WriterEntry writerPfm = { &canWritePfm, &openPfm, true };
 
 } // namespace dgtk

@@ -18,6 +18,7 @@ struct WriterEntry
   /// Called with a size of at least 1 x 1 and a specification that canWrite() accepts.
   std::unique_ptr<LayerWriter> (*open)(
     const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context);
+  bool rounds = false; ///< float64 to float32
 };
 
 struct WriterRow

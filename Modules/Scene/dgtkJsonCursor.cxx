@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkSceneText.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dgtk::scenefile
@@ -80,9 +81,34 @@ void JsonCursor::failType(const std::string& expected) const
   this->fail("has the wrong type", expected, this->Node->described());
 }
 
+namespace
+{
+/// What other programs call it.
+struct OtherName
+{
+  const char* theirs;
+  const char* ours;
+};
+constexpr OtherName otherNames[] = { { "rotation", "orientation" }, { "rotate", "orientation" },
+  { "quaternion", "orientation" }, { "translation", "position" }, { "translate", "position" },
+  { "location", "position" }, { "target", "lookAt" }, { "fov", "fovY" }, { "mesh", "model" }, { "file", "model" } };
+
+std::string suggestion(const std::string& key, const std::vector<std::string>& known)
+{
+  for (const OtherName& name : otherNames)
+  {
+    if (key == name.theirs && std::find(known.begin(), known.end(), name.ours) != known.end())
+    {
+      return name.ours;
+    }
+  }
+  return nearest(key, known);
+}
+} // namespace
+
 void JsonCursor::failKey(std::size_t pair, const std::vector<std::string>& known) const
 {
-  const std::string near = nearest(this->key(pair), known);
+  const std::string near = suggestion(this->key(pair), known);
   const JsonCursor at = this->member(pair);
   throw InputError(*this->File, this->Node->children[2 * pair].line, at.path() + " is an unknown key",
     near.empty() ? "one of " + listed(known) : "perhaps " + quoted(near), quoted(this->key(pair)));

@@ -78,6 +78,14 @@ class Scenes(Case):
         self.assertEqual(camera["K"][0][2], 320)
         self.assertEqual(camera["t"], [0, 0, 5])
 
+    def test_layers_have_the_type_of_their_files(self):
+        self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", self.path("out"), "--quiet", "--size", "16x12", "--frames", "0",
+                  "--cameras", "left", "--layers", "depth,flow_forward", "--depth-format", "npy,exr,pfm,dgd")
+        layers = json.loads(self.dgtk("info", self.path("out"), "--json").stdout)["layers"]
+        self.assertEqual({(layer["name"], layer["format"]): layer["type"] for layer in layers},
+                         {("depth", "npy"): "float64", ("depth", "dgd"): "float64", ("depth", "exr"): "float32", ("depth", "pfm"): "float32",
+                          ("flow_forward", "flo"): "float32", ("flow_forward_class", "png"): "uint8"})
+
     def test_matrices_are_of_real_numbers(self):
         """As NumPy takes them: of an axis-parallel camera, too, whose R is whole."""
         scene = self.write("s.json", json.dumps({"objects": [{"name": "o", "model": "q.obj", "position": [1, 0, 0]}], "cameras": [

@@ -34,6 +34,7 @@ class Usage(Case):
         self.refused("render", SCENE, "-o", self.path("x"), "--frames", "0:100000", status=2, says="the scene has frames")
         self.refused("render", SCENE, "-o", self.path("x"), "--gl", "metal", status=2, says="expected one of")
         self.refused("render", SCENE, "-o", self.path("x"), "--depth-format", "jpg", status=2, says="cannot be written")
+        self.refused("convert", SCENE, self.path("x.obj"), status=2, says="expected a name in .scene, .json or .pov")
         self.refused("list", "nothing", status=2, says="expected one of readers")
         self.assertFalse(os.path.exists(self.path("x")))
 

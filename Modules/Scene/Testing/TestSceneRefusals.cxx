@@ -172,6 +172,8 @@ TEST(SceneRefusals, JsonValues)
     { withObject("\"scale\": {\"keys\": [[0, -1], [4, 1]]}"), "scale passes through 0 at frame 2" },
     { withObject("\"scale\": {\"interpolation\": \"step\", \"keys\": [[0, -1, \"linear\"], [4, 1]]}"),
       "scale passes through 0 at frame 2" },
+    { withObject("\"rotation\": [1, 0, 0, 0]"), "expected perhaps 'orientation', found 'rotation'" },
+    { withCamera("\"target\": [0, 0, 0]"), "expected perhaps 'lookAt', found 'target'" },
     { withObject("\"position\": {\"interplation\": \"step\"}"), "perhaps 'interpolation'" },
     { withObject("\"parent\": \"nobody\""),
       "a.json:4: objects[0].parent is no object of the scene (expected the name of an "
