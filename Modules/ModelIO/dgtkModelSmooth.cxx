@@ -87,7 +87,7 @@ void ModelBuilder::smooth(std::vector<Eigen::Vector3f>& normals)
     areas.assign(object.positions.size(), Eigen::Vector3d::Zero());
     for (std::size_t v = 0; v < areas.size(); ++v)
     {
-      forEachSurface(object, &around[first[v]], first[v + 1] - first[v],
+      forEachSurface(object, around.data() + first[v], first[v + 1] - first[v],
         [&](const Object::Surface& s) { areas[v] += s.area * s.normal; });
     }
   }
@@ -116,7 +116,7 @@ void ModelBuilder::smooth(std::vector<Eigen::Vector3f>& normals)
       else if (shading != Shading::Flat && this->Work + count <= this->WorkLimit)
       {
         this->Work += count;
-        forEachSurface(object, &around[first[v]], count,
+        forEachSurface(object, around.data() + first[v], count,
           [&](const Object::Surface& other)
           {
             const bool joins = shading == Shading::Crease
