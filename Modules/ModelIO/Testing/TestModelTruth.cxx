@@ -99,7 +99,7 @@ TEST(ModelTruth, TexturesThatAreThereAreFoundAndDecoded)
   }
   if (dgtk::test::extraModels().empty())
   {
-    GTEST_SKIP() << "the sample models and their TRUTH.json are not part of the source: set DGTK_EXTRA_MODELS";
+    GTEST_SKIP() << dgtk::test::withoutExtraModels;
   }
   EXPECT_GE(found, 28);
 }
@@ -109,7 +109,7 @@ TEST(ModelTruth, CountsAndBounds)
   const std::string folder = dgtk::test::extraModels();
   if (folder.empty() || !std::filesystem::exists(folder + "/TRUTH.json"))
   {
-    GTEST_SKIP() << "the sample models and their TRUTH.json are not part of the source: set DGTK_EXTRA_MODELS";
+    GTEST_SKIP() << dgtk::test::withoutExtraModels;
   }
   const nlohmann::json truth = nlohmann::json::parse(dgtk::test::contentsOf(folder + "/TRUTH.json"));
   int compared = 0;

@@ -159,6 +159,9 @@ std::string refusal(const std::string& extension, const std::string& bytes)
   return {};
 }
 
+const char* const withoutExtraModels =
+  "the sample models and their TRUTH.json are not part of the source: set DGTK_EXTRA_MODELS";
+
 std::vector<std::string> extraPaths(const std::string& extension)
 {
   std::vector<std::string> paths;

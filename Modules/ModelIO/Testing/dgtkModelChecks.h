@@ -5,6 +5,7 @@
 
 #include "dgtkModelReader.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,9 +27,15 @@ std::string refusal(const std::string& extension, const std::string& bytes);
 /// partial model of a truncated file without a warning, and for more memory than 10 times the file and 64 MiB.
 void fuzzReader(const std::string& extension, const std::vector<std::string>& seeds, int variants = 2000);
 
+/// A truncated (each fourth) or mutated copy, the same for the same variant everywhere.
+std::string damaged(const std::string& seed, std::uint64_t variant);
+
 /// Reads a file of these bytes once, with the same limits of time and memory and the same checks; prints both. Returns
 /// the model, or null when it is refused.
 std::shared_ptr<const Model> readWithinLimits(const std::string& extension, const std::string& bytes);
+
+/// Why a test of the further models is skipped.
+extern const char* const withoutExtraModels;
 
 /// Paths of the further models with exactly that extension and at least a byte, sorted.
 std::vector<std::string> extraPaths(const std::string& extension);

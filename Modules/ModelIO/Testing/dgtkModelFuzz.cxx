@@ -206,6 +206,31 @@ Outcome readOnce(const std::string& path, const std::string& bytes, const std::s
 }
 } // namespace
 
+namespace
+{
+std::string damagedBy(Dice& dice, const std::string& seed, bool truncated)
+{
+  std::string bytes = seed;
+  if (truncated)
+  {
+    bytes.resize(dice.below(bytes.size()));
+    return bytes;
+  }
+  const std::size_t changes = 1 + dice.below(4);
+  for (std::size_t c = 0; c < changes && !bytes.empty(); ++c)
+  {
+    mutateOnce(bytes, dice);
+  }
+  return bytes;
+}
+} // namespace
+
+std::string damaged(const std::string& seed, std::uint64_t variant)
+{
+  Dice dice(variant);
+  return damagedBy(dice, seed, variant % 4 == 0);
+}
+
 std::shared_ptr<const Model> readWithinLimits(const std::string& extension, const std::string& bytes)
 {
   const TemporaryFolder folder;
@@ -230,20 +255,8 @@ void fuzzReader(const std::string& extension, const std::vector<std::string>& se
     Dice dice(1000 * s + 1);
     for (int i = 0; i < perSeed && !testing::Test::HasFailure(); ++i)
     {
-      std::string bytes = seeds[s];
       const bool truncated = i % 4 == 0;
-      if (truncated)
-      {
-        bytes.resize(dice.below(bytes.size()));
-      }
-      else
-      {
-        const std::size_t changes = 1 + dice.below(4);
-        for (std::size_t c = 0; c < changes && !bytes.empty(); ++c)
-        {
-          mutateOnce(bytes, dice);
-        }
-      }
+      const std::string bytes = damagedBy(dice, seeds[s], truncated);
       const std::string what = "seed " + std::to_string(s) + ", variant " + std::to_string(i);
       const Outcome outcome = readOnce(path, bytes, what);
       EXPECT_TRUE(!truncated || outcome.refused || outcome.warned || outcome.triangles == whole.triangles)
