@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 
 namespace dgtk::import
@@ -22,17 +21,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t mostNodes = 1'000'000;
 
 [[noreturn]] void fail(const char* what) { throw std::runtime_error(what); }
-
-std::string contentsOf(const fs::path& path)
-{
-  std::error_code code;
-  std::ifstream file(path, std::ios::binary);
-  if (!fs::is_regular_file(path, code) || !file)
-  {
-    fail("a buffer cannot be opened");
-  }
-  return { std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
-}
 
 std::size_t littleWord(const std::string& bytes, std::size_t at)
 {
@@ -87,8 +75,9 @@ std::string withoutPercents(const std::string& uri)
 class GltfFile
 {
 public:
-  explicit GltfFile(const std::string& path)
+  GltfFile(const std::string& path, const ReadContents& contentsOf)
     : Folder(fs::path(path).parent_path())
+    , ContentsOf(contentsOf)
   {
     const std::string bytes = contentsOf(path);
     if (bytes.compare(0, 4, "glTF") != 0)
@@ -178,11 +167,12 @@ private:
     std::string& bytes = this->Buffers[index];
     bytes = uri.empty()                  ? this->Binary
             : uri.rfind("data:", 0) == 0 ? fromBase64(uri, comma == std::string::npos ? uri.size() : comma + 1)
-                                         : contentsOf(this->Folder / withoutPercents(uri));
+                                         : this->ContentsOf((this->Folder / withoutPercents(uri)).string());
     return bytes;
   }
 
   fs::path Folder;
+  ReadContents ContentsOf;
   Json Root;
   std::string Binary;
   std::map<std::size_t, std::string> Buffers;
@@ -442,13 +432,21 @@ void repairJoints(const GltfFile& file, const NodeMatch& nodes, Scene& scene)
     }
   }
 }
+
+void warnOfAnimations(Scene& scene, const char* why)
+{
+  if (!scene.animations.empty())
+  {
+    scene.warnings.push_back(std::string("animations are taken from the importer, without steps and splines: ") + why);
+  }
+}
 } // namespace
 
-void repairGltf(const std::string& path, Scene& scene)
+void repairGltf(const std::string& path, const ReadContents& contentsOf, Scene& scene)
 {
   try
   {
-    GltfFile file(path);
+    GltfFile file(path, contentsOf);
     const NodeMatch nodes(file, scene);
     repairJoints(file, nodes, scene);
     if (file.root().contains("animations"))
@@ -465,13 +463,13 @@ void repairGltf(const std::string& path, Scene& scene)
   {
     throw;
   }
+  catch (const Json::exception&)
+  {
+    warnOfAnimations(scene, "something of the file is missing or of an unexpected type");
+  }
   catch (const std::exception& error)
   {
-    if (!scene.animations.empty())
-    {
-      scene.warnings.push_back(
-        std::string("animations are taken from the importer, without steps and splines: ") + error.what());
-    }
+    warnOfAnimations(scene, error.what());
   }
 }
 

@@ -75,7 +75,7 @@ public:
     , Format(format)
     , Scene(std::make_shared<import::Scene>(importModel(path, format)))
     , Builder(path, format, this->Scene->bytesRead, options)
-    , Materials(*this->Scene, this->Builder, options)
+    , Materials(*this->Scene, this->Builder)
   {
   }
 
@@ -100,6 +100,7 @@ public:
     {
       this->weldVertices();
     }
+    this->prepareMaterials();
     auto deformation = std::make_shared<AssimpDeformation>(this->Scene, this->Posed);
     const std::vector<Eigen::Affine3d> pose = deformation->pose(moves ? 0 : -1, 0);
     for (std::size_t i = 0; i < this->Posed.size(); ++i)
@@ -217,13 +218,24 @@ private:
     this->Builder.endObject();
   }
 
+  /// These formats have no materials; the importer makes one up.
+  bool isPlain() const { return this->Format == "stl" || this->Format == "off"; }
+
+  void prepareMaterials()
+  {
+    std::vector<std::int32_t> used;
+    for (std::size_t i = 0; i < this->Posed.size() && !this->isPlain(); ++i)
+    {
+      used.push_back(this->Scene->meshes[this->Posed[i].mesh].material);
+    }
+    this->Materials.prepare(used);
+  }
+
   void addSurfaces(const import::Mesh& mesh, const std::vector<std::uint32_t>& model,
     const std::vector<std::int32_t>& normals, bool mirrored)
   {
     SurfaceStyle style;
-    // these formats have no materials; the importer makes one up
-    const bool plain = this->Format == "stl" || this->Format == "off";
-    style.material = plain ? this->Builder.defaultMaterial() : this->Materials.add(mesh.material);
+    style.material = this->isPlain() ? this->Builder.defaultMaterial() : this->Materials.add(mesh.material);
     style.twoSided = this->Builder.model().materials[static_cast<std::size_t>(style.material)].twoSided;
     const bool smooth = this->Format == "obj" || this->Format == "off" || this->Format == "collada";
     style.shading = smooth ? Shading::Crease : Shading::Flat;
@@ -261,7 +273,7 @@ private:
     std::size_t declared = 0;
     for (const import::Material& material : this->Scene->materials)
     {
-      declared += this->Format != "stl" && this->Format != "off" && material.name != "DefaultMaterial" ? 1 : 0;
+      declared += !this->isPlain() && material.name != "DefaultMaterial" ? 1 : 0;
     }
     this->Builder.model().declaredMaterials = declared;
     if (this->Points > 0)

@@ -2,21 +2,21 @@
 #include "dgtkAssimpProcess.h"
 
 #include "dgtkError.h"
+#include "dgtkHelperProcess.h"
+#include "dgtkImportProtocol.h"
+#include "dgtkModelFolder.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
-#include <dlfcn.h>
 #include <fcntl.h>
-#include <spawn.h>
+#include <poll.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-extern char** environ;
 
 namespace dgtk
 {
@@ -24,123 +24,142 @@ namespace dgtk
 namespace
 {
 namespace fs = std::filesystem;
+using helper::Descriptor;
 constexpr std::uint64_t largestModel = std::uint64_t(1) << 32;
 constexpr std::uint64_t streamBase = std::uint64_t(64) << 20;
 constexpr std::uint64_t streamPerByte = 64;
 
-bool isProgram(const fs::path& path)
+std::string lower(std::string text)
 {
-  std::error_code code;
-  return fs::is_regular_file(path, code) && ::access(path.c_str(), X_OK) == 0;
+  std::transform(
+    text.begin(), text.end(), text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  return text;
 }
 
-/// Folder of the shared library (or program) that holds this function.
-fs::path libraryFolder()
-{
-  Dl_info info{};
-  std::error_code code;
-  if (::dladdr(reinterpret_cast<const void*>(&importProgram), &info) == 0 || !info.dli_fname)
-  {
-    return {};
-  }
-  return fs::weakly_canonical(info.dli_fname, code).parent_path();
-}
-
-class Descriptor
+/// The files that a model may have: regular ones in its folder or below it. Names are found as textures are found: as
+/// written, beside the model, in any case.
+class ModelFiles
 {
 public:
-  explicit Descriptor(int descriptor = -1)
-    : Number(descriptor)
+  explicit ModelFiles(const std::string& model)
+    : Model(model)
+    , Folder(folderOfFile(model))
   {
   }
-  ~Descriptor() { this->close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  void close()
+
+  Descriptor open(const std::string& written, import::FileAnswer& answer)
   {
-    if (this->Number >= 0)
+    const std::string path = this->locate(written);
+    Descriptor file(path.empty() ? -1 : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+    struct stat status = {};
+    if (!file || ::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode) ||
+        std::uint64_t(status.st_size) > largestModel)
     {
-      ::close(this->Number);
-      this->Number = -1;
+      return Descriptor();
     }
+    helper::put(answer.path, path.c_str());
+    return file;
   }
-  int get() const { return this->Number; }
+
+  /// A file that is there, and that the model may not have; as written. "" when there was none.
+  const std::string& outside() const { return this->Outside; }
 
 private:
-  int Number;
+  std::string locate(const std::string& written)
+  {
+    std::string name = written;
+    std::replace(name.begin(), name.end(), '\\', '/');
+    if (name == this->Model)
+    {
+      return name;
+    }
+    const fs::path path(name);
+    const fs::path folder(this->Folder);
+    std::error_code code;
+    std::string outside;
+    for (const fs::path& candidate : { folder / path, folder / path.filename() }) // an absolute path stays one
+    {
+      if (fs::is_regular_file(candidate, code))
+      {
+        if (liesBeneath(candidate.string(), this->Folder))
+        {
+          return candidate.string();
+        }
+        outside = written;
+      }
+    }
+    const std::string found = this->inAnyCase(lower(path.filename().string()));
+    this->Outside = found.empty() && this->Outside.empty() ? outside : this->Outside;
+    return found;
+  }
+
+  std::string inAnyCase(const std::string& wanted) const
+  {
+    std::string found;
+    std::error_code code;
+    for (fs::directory_iterator it(this->Folder, code), end; !code && it != end; it.increment(code))
+    {
+      const std::string other = it->path().filename().string();
+      std::error_code kind;
+      if (lower(other) == wanted && (found.empty() || other < found) && fs::is_regular_file(it->path(), kind) &&
+          liesBeneath(it->path().string(), this->Folder))
+      {
+        found = other;
+      }
+    }
+    return found.empty() ? found : (fs::path(this->Folder) / found).string();
+  }
+
+  std::string Model;
+  std::string Folder;
+  std::string Outside;
 };
 
-/// The helper with nothing on its standard input and error and our pipe as its output.
-pid_t spawn(const std::string& program, const std::string& path, const std::string& format, int output)
+/// Appends what the pipe holds; false at its end.
+bool readSome(int from, std::string& to, std::size_t& size)
 {
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
-  sigset_t defaults;
-  sigset_t none;
-  sigemptyset(&none);
-  sigemptyset(&defaults);
-  for (const int signal : { SIGPIPE, SIGXCPU, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL })
+  if (size == to.size())
   {
-    sigaddset(&defaults, signal);
+    to.resize(std::max<std::size_t>(65536, size * 2));
   }
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, output, 1);
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setsigdefault(&attributes, &defaults);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-  const char* arguments[] = { program.c_str(), path.c_str(), format.c_str(), nullptr };
-  pid_t child = -1;
-  const int problem =
-    posix_spawn(&child, program.c_str(), &actions, &attributes, const_cast<char* const*>(arguments), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  if (problem != 0)
-  {
-    throw MachineError(program + ": cannot be started: " + std::strerror(problem));
-  }
-  return child;
+  const ssize_t got = ::read(from, to.data() + size, to.size() - size);
+  size += static_cast<std::size_t>(std::max<ssize_t>(got, 0));
+  return got > 0 || (got < 0 && errno == EINTR);
 }
 
-int waitFor(pid_t child)
+/// One question of the importer; false when it has hung up.
+bool serve(int channel, ModelFiles& files)
 {
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0)
+  import::FileRequest request;
+  helper::Descriptors none;
+  if (!helper::receive(channel, request, none))
   {
-    if (errno != EINTR)
-    {
-      return 0; // somebody else collects children: the stream says whether it is whole
-    }
+    return false;
   }
-  return status;
+  request.name[sizeof request.name - 1] = '\0';
+  import::FileAnswer answer;
+  const Descriptor file = files.open(request.name, answer);
+  answer.found = file ? 1 : 0;
+  return helper::send(channel, answer, file.get());
 }
 
-/// All that comes out of the pipe; false when it is more than `limit` bytes.
-bool readAll(int from, std::uint64_t limit, std::string& to)
+/// All that comes out of the pipe, while the importer is given the files that it asks for; false when it is more than
+/// `limit` bytes.
+bool converse(int channel, int from, ModelFiles& files, std::uint64_t limit, std::string& to)
 {
   std::size_t size = 0;
-  for (;;)
+  pollfd waits[2] = { { from, POLLIN, 0 }, { channel, POLLIN, 0 } };
+  for (bool open = true; open && size <= limit;)
   {
-    if (size == to.size())
+    if (::poll(waits, 2, -1) < 0)
     {
-      if (size > limit)
-      {
-        return false;
-      }
-      to.resize(std::max<std::size_t>(65536, size * 2));
+      continue; // interrupted
     }
-    const ssize_t got = ::read(from, to.data() + size, to.size() - size);
-    if (got < 0 && errno == EINTR)
+    if (waits[1].revents != 0 && !serve(channel, files))
     {
-      continue;
+      waits[1].fd = -1;
     }
-    if (got <= 0)
-    {
-      break;
-    }
-    size += static_cast<std::size_t>(got);
+    open = waits[0].revents == 0 || readSome(from, to, size);
   }
   to.resize(size);
   return size <= limit;
@@ -167,7 +186,7 @@ std::string oneLine(std::string text, const std::string& path)
 [[noreturn]] void reportDeath(const std::string& path, int status)
 {
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP)
+  if (helper::isInterruption(signal))
   {
     throw MachineError(path + ": reading was interrupted");
   }
@@ -177,77 +196,62 @@ std::string oneLine(std::string text, const std::string& path)
   }
   throw InputError(path, 0,
     "is damaged: its importer ended abnormally (" +
-      (signal ? "signal " + std::to_string(signal) + ", " + ::strsignal(signal) : std::string("incomplete answer")) +
-      ')');
+      (signal ? helper::signalText(signal) : std::string("incomplete answer")) + ')');
+}
+
+/// Bytes of the model. Throws InputError when it is no file that can be read.
+std::uint64_t sizeOfModel(const std::string& path)
+{
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (!fs::exists(status))
+  {
+    throw InputError(path, 0, "no such file");
+  }
+  if (!fs::is_regular_file(status))
+  {
+    throw InputError(path, 0, "is not a regular file");
+  }
+  const std::uint64_t bytes = fs::file_size(path, code);
+  if (code || bytes > largestModel)
+  {
+    throw InputError(path, 0, "is too large", "at most " + std::to_string(largestModel) + " bytes");
+  }
+  return bytes;
+}
+
+[[noreturn]] void reportError(const std::string& path, const std::string& absolute, const import::Scene& scene)
+{
+  const std::string file = scene.errorFile.empty() || scene.errorFile == absolute ? path : scene.errorFile;
+  throw InputError(file, static_cast<long>(std::min<std::uint64_t>(scene.errorLine, 1u << 31)),
+    "cannot be read: " + oneLine(scene.error, absolute));
 }
 } // namespace
 
-std::string importProgram()
-{
-  const char* set = std::getenv("DGTK_IMPORT");
-  if (set && *set)
-  {
-    if (!isProgram(set))
-    {
-      throw MachineError(std::string(set) + ": is not a program (DGTK_IMPORT names dgtk-import)");
-    }
-    return set;
-  }
-  const fs::path library = libraryFolder();
-  fs::path folder = library;
-  for (int up = 0; up < 4 && !folder.empty(); ++up, folder = folder.parent_path())
-  {
-    for (const char* below : { "libexec/dgtk", "bin" })
-    {
-      if (isProgram(folder / below / "dgtk-import"))
-      {
-        return (folder / below / "dgtk-import").string();
-      }
-    }
-  }
-  throw MachineError("dgtk-import, the program that reads models of this format, was not found above " +
-                     library.string() + " (DGTK_IMPORT can name it)");
-}
-
-import::Scene importModel(const std::string& path, const std::string& format){ std::error_code code;
-const fs::file_status status = fs::status(path, code);
-if (!fs::exists(status))
-{
-  throw InputError(path, 0, "no such file");
-}
-if (!fs::is_regular_file(status))
-{
-  throw InputError(path, 0, "is not a regular file");
-}
-const std::uint64_t bytes = fs::file_size(path, code);
-if (code || bytes > largestModel)
-{
-  throw InputError(path, 0, "is too large", "at most " + std::to_string(largestModel) + " bytes");
-}
-const std::string program = importProgram();
+import::Scene importModel(const std::string& path, const std::string& format){
+  const std::uint64_t bytes = sizeOfModel(path);
+std::error_code code;
+const std::string absolute = fs::absolute(path, code).string();
+const std::string program = helper::findProgram("dgtk-import", "DGTK_IMPORT");
 int ends[2] = { -1, -1 };
 if (::pipe2(ends, O_CLOEXEC) != 0)
 {
   throw MachineError(path + ": no pipe to its importer: " + std::strerror(errno));
 }
-Descriptor in(ends[0]);
+const Descriptor in(ends[0]);
 Descriptor out(ends[1]);
-const pid_t child = spawn(program, fs::absolute(path, code).string(), format, out.get());
-out.close();
+helper::Process process({ program, absolute, format }, out.get());
+out.reset();
+ModelFiles files(absolute);
 std::string stream;
-bool whole = false;
-try
+const std::uint64_t limit = streamBase + streamPerByte * bytes + (std::uint64_t(1) << 30);
+const bool whole = converse(process.channel(), in.get(), files, limit, stream);
+const int ended = whole ? process.wait() : 0;
+if (!files.outside().empty())
 {
-  whole = readAll(in.get(), streamBase + streamPerByte * bytes + (std::uint64_t(1) << 30), stream);
+  const std::string name = oneLine(files.outside(), folderOfFile(absolute) + '/');
+  throw InputError(path, 0, "names the file '" + name + "', which lies outside of the model's folder");
 }
-catch (...)
-{
-  in.close();
-  waitFor(child);
-  throw;
-}
-in.close();
-const int ended = waitFor(child);
 import::Scene scene;
 try
 {
@@ -260,7 +264,7 @@ catch (const std::runtime_error&)
 }
 if (!scene.error.empty())
 {
-  throw InputError(path, 0, "cannot be read: " + oneLine(scene.error, fs::absolute(path, code).string()));
+  reportError(path, absolute, scene);
 }
 return scene;
 }

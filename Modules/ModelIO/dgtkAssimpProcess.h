@@ -9,12 +9,10 @@
 namespace dgtk
 {
 
-/// Path of the program dgtk-import: $DGTK_IMPORT, else beside the library (bin/ and libexec/dgtk/ of the folders above
-/// it). Throws MachineError when it is not there.
-std::string importProgram();
-
-/// Reads a model in a process of its own, with limits of memory (512 MiB and 10 bytes a byte read) and of processor
-/// time (60 s). Throws InputError with the importer's complaint, also when the importer crashed or ran into a limit.
+/// Reads a model in the process dgtk-import ($DGTK_IMPORT can name it), with limits of memory (512 MiB and 10 bytes a
+/// byte read) and of processor time (60 s). That process opens nothing: it is handed the model, and the files that the
+/// model names, as far as they lie in the model's folder or below it. Throws InputError with the importer's complaint,
+/// also when the importer crashed or ran into a limit, or when the model names a file elsewhere.
 import::Scene importModel(const std::string& path, const std::string& format);
 
 } // namespace dgtk

@@ -148,6 +148,8 @@ struct Scene
 {
   std::uint64_t bytesRead = 0; ///< of all files
   std::string error;           ///< when not empty, nothing else counts
+  std::string errorFile;       ///< the file it is in, as the importer named it; "" where that is not known
+  std::uint64_t errorLine = 0; ///< from 1; 0 where that is not known
   std::vector<std::string> warnings;
   std::vector<Material> materials;
   std::vector<Texture> textures;
@@ -216,7 +218,8 @@ template <class A>
 void io(A& a, Scene& s)
 {
   a.mark(streamBegin);
-  a(s.bytesRead), a(s.error), a(s.warnings), a(s.materials), a(s.textures), a(s.meshes), a(s.nodes), a(s.animations);
+  a(s.bytesRead), a(s.error), a(s.errorFile), a(s.errorLine), a(s.warnings), a(s.materials), a(s.textures), a(s.meshes),
+    a(s.nodes), a(s.animations);
   a.mark(streamEnd);
 }
 

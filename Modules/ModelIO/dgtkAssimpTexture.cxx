@@ -2,11 +2,8 @@
 #include "dgtkAssimpTexture.h"
 
 #include "dgtkError.h"
+#include "dgtkTexturePixels.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
-#include <algorithm>
 #include <charconv>
 
 namespace dgtk
@@ -14,50 +11,6 @@ namespace dgtk
 
 namespace
 {
-constexpr int largestSide = 16384;
-
-std::shared_ptr<Image> decode(OIIO::ImageInput& input, std::string& problem)
-{
-  const OIIO::ImageSpec& spec = input.spec();
-  const int channels = std::min(spec.nchannels, 4);
-  if (spec.width < 1 || spec.height < 1 || spec.width > largestSide || spec.height > largestSide || channels < 1)
-  {
-    problem = "is larger than " + std::to_string(largestSide) + " pixels a side, or empty";
-    return nullptr;
-  }
-  const std::size_t pixels = std::size_t(spec.width) * static_cast<std::size_t>(spec.height);
-  const auto step = static_cast<std::size_t>(channels);
-  std::vector<std::uint8_t> raw(pixels * step);
-  if (!input.read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, raw.data()))
-  {
-    problem = input.geterror();
-    return nullptr;
-  }
-  auto image = std::make_shared<Image>();
-  image->width = spec.width;
-  image->height = spec.height;
-  image->rgba.resize(pixels * 4);
-  for (std::size_t i = 0; i < pixels; ++i)
-  {
-    const std::uint8_t* from = &raw[i * step];
-    std::uint8_t* to = &image->rgba[i * 4];
-    to[0] = from[0];
-    to[1] = channels < 3 ? from[0] : from[1];
-    to[2] = channels < 3 ? from[0] : from[2];
-    to[3] = channels == 2 ? from[1] : channels == 4 ? from[3] : std::uint8_t(255);
-  }
-  return image;
-}
-
-void findAlpha(Image& image)
-{
-  image.hasAlpha = false;
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4)
-  {
-    image.hasAlpha = image.hasAlpha || image.rgba[i] < 255;
-  }
-}
-
 /// "%20" and the like, and `file://` in front.
 std::string withoutUrl(const std::string& name)
 {
@@ -83,45 +36,6 @@ std::string withoutUrl(const std::string& name)
 Eigen::Vector3d color(const std::array<double, 3>& from) { return Eigen::Vector3d(from.data()); }
 } // namespace
 
-std::shared_ptr<const Image> decodeEmbedded(const import::Texture& texture, std::string& problem)
-{
-  problem.clear();
-  std::shared_ptr<Image> image;
-  if (texture.height > 0 && texture.width > 0 && texture.width <= largestSide && texture.height <= largestSide &&
-      texture.data.size() == std::size_t(texture.width) * static_cast<std::size_t>(texture.height) * 4)
-  {
-    image = std::make_shared<Image>();
-    image->width = texture.width;
-    image->height = texture.height;
-    image->rgba = texture.data;
-  }
-  else if (texture.height == 0 && texture.data.size() > 8)
-  {
-    const bool jpeg = texture.data[0] == 0xff && texture.data[1] == 0xd8;
-    OIIO::ImageSpec config;
-    config["oiio:UnassociatedAlpha"] = 1;
-    OIIO::Filesystem::IOMemReader memory(const_cast<std::uint8_t*>(texture.data.data()), texture.data.size());
-    const auto input = OIIO::ImageInput::create(jpeg ? "jpeg" : "png");
-    OIIO::ImageSpec spec;
-    if (input && input->set_ioproxy(&memory) && input->open(jpeg ? "embedded.jpg" : "embedded.png", spec, config))
-    {
-      image = decode(*input, problem);
-    }
-    else
-    {
-      problem = input ? input->geterror() : OIIO::geterror();
-    }
-  }
-  if (!image)
-  {
-    problem = problem.empty() ? "is not a PNG or JPEG picture" : problem;
-    std::replace(problem.begin(), problem.end(), '\n', ' ');
-    return nullptr;
-  }
-  findAlpha(*image);
-  return image;
-}
-
 int AssimpMaterials::embeddedTexture(const std::string& name)
 {
   std::size_t index = 0;
@@ -132,20 +46,20 @@ int AssimpMaterials::embeddedTexture(const std::string& name)
     return -1;
   }
   const import::Texture& from = this->Scene.textures[index];
-  Texture texture;
-  texture.name = from.name.empty() ? name : from.name;
-  texture.path = this->Builder.model().path;
-  if (this->Options.decodeTextures)
+  const std::string known = from.name.empty() ? name : from.name;
+  if (from.width > 0 && from.height > 0 && from.width <= picture::largestSide && from.height <= picture::largestSide &&
+      from.data.size() == std::size_t(from.width) * static_cast<std::size_t>(from.height) * 4)
   {
-    std::string problem;
-    texture.image = decodeEmbedded(from, problem);
-    if (!texture.image)
-    {
-      this->Builder.warn("texture " + quoted(texture.name) + " in the file cannot be decoded: " + problem);
-    }
+    auto image = std::make_shared<Image>();
+    image->width = from.width;
+    image->height = from.height;
+    image->rgba = from.data;
+    dgtk::settleAlpha(*image, AlphaRule::Meant);
+    this->Builder.model().textures.push_back({ known, this->Builder.model().path, image });
+    return static_cast<int>(this->Builder.model().textures.size()) - 1;
   }
-  this->Builder.model().textures.push_back(texture);
-  return static_cast<int>(this->Builder.model().textures.size()) - 1;
+  const bool jpeg = from.data.size() > 1 && from.data[0] == 0xff && from.data[1] == 0xd8;
+  return this->Builder.addEmbedded(known, { jpeg ? "jpg" : "png", &from.data });
 }
 
 int AssimpMaterials::fileTexture(const std::string& name)
@@ -200,7 +114,7 @@ void AssimpMaterials::settleAlpha(const import::Material& from, Material& to)
     {
       remade->rgba[i] = remade->rgba[i] * opacity / 255 >= cutoff ? 255 : 0;
     }
-    findAlpha(*remade);
+    dgtk::settleAlpha(*remade, AlphaRule::Meant);
     Texture texture = textures[static_cast<std::size_t>(to.texture)];
     texture.image = remade;
     known->second = static_cast<int>(textures.size());
@@ -209,9 +123,31 @@ void AssimpMaterials::settleAlpha(const import::Material& from, Material& to)
   to.texture = known->second;
 }
 
+const import::Material* AssimpMaterials::find(std::int32_t index) const
+{
+  const bool known = index >= 0 && static_cast<std::size_t>(index) < this->Scene.materials.size();
+  return known ? &this->Scene.materials[static_cast<std::size_t>(index)] : nullptr;
+}
+
+void AssimpMaterials::prepare(const std::vector<std::int32_t>& indices)
+{
+  for (const std::int32_t index : indices)
+  {
+    if (const import::Material* material = this->find(index))
+    {
+      for (const std::string* name : { &material->texture, &material->normalMap, &material->metallicRoughnessMap,
+             &material->emissionMap, &material->occlusionMap })
+      {
+        this->textureOf(*name);
+      }
+    }
+  }
+  this->Builder.decodeTextures();
+}
+
 int AssimpMaterials::add(std::int32_t index)
 {
-  if (index < 0 || static_cast<std::size_t>(index) >= this->Scene.materials.size())
+  if (!this->find(index))
   {
     return this->Builder.defaultMaterial();
   }
@@ -220,7 +156,7 @@ int AssimpMaterials::add(std::int32_t index)
   {
     return known->second;
   }
-  const import::Material& from = this->Scene.materials[static_cast<std::size_t>(index)];
+  const import::Material& from = *this->find(index);
   Material to;
   to.name = from.name;
   to.ambient = color(from.ambient);

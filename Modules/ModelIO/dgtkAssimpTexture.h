@@ -12,23 +12,22 @@
 namespace dgtk
 {
 
-/// A picture held by a model file. Null, and `problem` set, when it cannot be decoded.
-std::shared_ptr<const Image> decodeEmbedded(const import::Texture& texture, std::string& problem);
-
 /// Makes the model's materials and textures of the importer's.
 class AssimpMaterials
 {
 public:
-  AssimpMaterials(const import::Scene& scene, ModelBuilder& builder, const ReadOptions& options)
+  AssimpMaterials(const import::Scene& scene, ModelBuilder& builder)
     : Scene(scene)
     , Builder(builder)
-    , Options(options)
   {
   }
+  /// Looks for the textures of materials that are going to be added, and decodes them together.
+  void prepare(const std::vector<std::int32_t>& indices);
   /// Index in the model of material `index` of the scene, which may be out of range.
   int add(std::int32_t index);
 
 private:
+  const import::Material* find(std::int32_t index) const;
   int textureOf(const std::string& name);
   int fileTexture(const std::string& name);
   int embeddedTexture(const std::string& name);
@@ -36,7 +35,6 @@ private:
 
   const import::Scene& Scene;
   ModelBuilder& Builder;
-  ReadOptions Options;
   std::map<std::int32_t, int> Known;
   std::map<std::string, int> Named;
   std::map<std::tuple<int, double, double>, int> Remade; ///< (texture, cut-off, opacity)

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // dgtk-import FILE FORMAT: reads a model with Assimp and writes it to standard output (dgtkAssimpStream.h). A program
-// of its own, so that an assertion, an endless loop or a flood of memory in an importer ends here.
+// of its own, so that an assertion, an endless loop or a flood of memory in an importer ends here. It opens no file: it
+// asks the library for each (dgtkImportProtocol.h).
 #include "dgtkAssimpConvert.h"
 #include "dgtkAssimpGltf.h"
+#include "dgtkHelperChannel.h"
+#include "dgtkHelperWall.h"
+#include "dgtkImportProtocol.h"
 
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/IOStream.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -14,122 +19,170 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <memory>
 #include <set>
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 namespace
 {
-namespace fs = std::filesystem;
+using dgtk::helper::Descriptor;
+using dgtk::helper::Descriptors;
+using dgtk::helper::limitTo;
 using dgtk::import::Scene;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool limitMemory = false; // the sanitizers reserve terabytes of addresses
-#else
-constexpr bool limitMemory = true;
-#endif
+constexpr int channel = 0;
 constexpr std::uint64_t memoryBase = std::uint64_t(512) << 20;
 constexpr std::uint64_t memoryPerByte = 10;
-constexpr rlim_t seconds = 60;
-constexpr std::uint64_t largestFile = std::uint64_t(1) << 32;
+constexpr std::uint64_t seconds = 60;
+/// Digits of the longest number: an importer's time grows with their square.
+constexpr std::uint64_t mostDigits = 1000;
+const char* const memoryError = "needs more memory than a file of its size may";
 
-void limit(int what, rlim_t value)
+/// An open file that the library has handed over.
+class File : public Assimp::IOStream
 {
-  rlimit now{};
-  if (getrlimit(static_cast<__rlimit_resource>(what), &now) == 0)
+public:
+  explicit File(Descriptor&& descriptor)
+    : Stream(::fdopen(descriptor.release(), "rb"))
   {
-    now.rlim_cur = std::min(value, now.rlim_max);
-    setrlimit(static_cast<__rlimit_resource>(what), &now);
   }
-}
+  ~File() override { std::fclose(this->Stream); }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  std::size_t Read(void* to, std::size_t size, std::size_t count) override
+  {
+    return std::fread(to, size, count, this->Stream);
+  }
+  std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
+  aiReturn Seek(std::size_t offset, aiOrigin origin) override
+  {
+    const int whence = origin == aiOrigin_CUR ? SEEK_CUR : origin == aiOrigin_END ? SEEK_END : SEEK_SET;
+    return std::fseek(this->Stream, static_cast<long>(offset), whence) == 0 ? aiReturn_SUCCESS : aiReturn_FAILURE;
+  }
+  std::size_t Tell() const override { return static_cast<std::size_t>(std::ftell(this->Stream)); }
+  std::size_t FileSize() const override
+  {
+    struct stat status = {};
+    return ::fstat(::fileno(this->Stream), &status) == 0 ? static_cast<std::size_t>(status.st_size) : 0;
+  }
+  void Flush() override {}
 
-std::string lower(std::string text)
+private:
+  std::FILE* Stream;
+};
+
+/// Line of the first number that is too long, in a text; 0 when there is none, or the file is no text.
+std::uint64_t lineOfLongNumber(int file)
 {
-  std::transform(
-    text.begin(), text.end(), text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return text;
+  std::vector<char> buffer(65536);
+  std::uint64_t line = 1;
+  std::uint64_t digits = 0;
+  ssize_t got = 0;
+  for (off_t at = 0; (got = ::pread(file, buffer.data(), buffer.size(), at)) > 0; at += got)
+  {
+    const char* const begin = buffer.data();
+    const char* const end = begin + got;
+    if (at == 0 && std::find(begin, end, '\0') != end)
+    {
+      return 0;
+    }
+    for (const char* c = begin; c != end; ++c)
+    {
+      digits = *c >= '0' && *c <= '9' ? digits + 1 : 0;
+      if (digits > mostDigits)
+      {
+        return line;
+      }
+      line += *c == '\n' ? 1 : 0;
+    }
+  }
+  return 0;
 }
 
-/// Opens regular files only, finds names as textures are found (as written, beside the model, in any case), and lets
-/// memory grow with what was read.
+/// The model's files, through the library; lets memory grow with what was read.
 class Files : public Assimp::DefaultIOSystem
 {
 public:
-  explicit Files(const std::string& model)
-    : Folder(fs::path(model).parent_path())
-  {
-  }
-  bool Exists(const char* name) const override { return !this->locate(name).empty(); }
+  bool Exists(const char* name) const override { return static_cast<bool>(ask(name).file); }
   Assimp::IOStream* Open(const char* name, const char* mode) override
   {
-    const std::string path = mode && mode[0] == 'r' ? this->locate(name) : std::string();
-    if (path.empty())
+    Found found = mode && mode[0] == 'r' ? ask(name) : Found();
+    if (!found.file)
     {
       this->Missing.insert(name);
       return nullptr;
     }
-    std::error_code code;
-    const std::uint64_t bytes = fs::file_size(path, code);
-    if (code || bytes > largestFile)
+    const bool isNew = this->Seen.insert(found.path).second;
+    const std::uint64_t line = isNew ? lineOfLongNumber(found.file.get()) : 0;
+    if (line > 0 || !this->LongNumber.empty())
     {
+      this->LongNumber = this->LongNumber.empty() ? found.path : this->LongNumber;
+      this->Line = std::max(line, this->Line);
       return nullptr;
     }
-    if (this->Seen.insert(path).second)
+    auto file = std::make_unique<File>(std::move(found.file));
+    if (isNew)
     {
-      this->Bytes += bytes;
-      if (limitMemory)
+      this->Bytes += file->FileSize();
+      if (!dgtk::helper::isSanitized)
       {
-        limit(RLIMIT_AS, memoryBase + memoryPerByte * this->Bytes);
+        limitTo(RLIMIT_AS, memoryBase + memoryPerByte * this->Bytes);
       }
     }
-    return Assimp::DefaultIOSystem::Open(path.c_str(), mode);
+    return file.release();
+  }
+
+  /// All of a file, or its first bytes. Throws std::runtime_error.
+  std::string contentsOf(const std::string& name, std::size_t most = ~std::size_t(0))
+  {
+    const std::unique_ptr<Assimp::IOStream> file(this->Open(name.c_str(), "rb"));
+    if (!file)
+    {
+      throw std::runtime_error("a buffer cannot be opened");
+    }
+    std::string bytes(std::min(file->FileSize(), most), '\0');
+    bytes.resize(file->Read(bytes.data(), 1, bytes.size()));
+    return bytes;
   }
 
   std::uint64_t Bytes = 0;
   std::set<std::string> Missing;
+  std::string LongNumber; ///< path of the file that has one, or ""
+  std::uint64_t Line = 0; ///< where it is
 
 private:
-  std::string locate(const std::string& written) const
+  struct Found
   {
-    std::string name = written;
-    std::replace(name.begin(), name.end(), '\\', '/');
-    const fs::path path(name);
-    std::error_code code;
-    for (const fs::path& candidate : { path, this->Folder / path, this->Folder / path.filename() })
+    Descriptor file = Descriptor();
+    std::string path;
+  };
+
+  static Found ask(const std::string& name)
+  {
+    dgtk::import::FileRequest request;
+    dgtk::import::FileAnswer answer;
+    Descriptors files;
+    if (name.size() >= sizeof request.name)
     {
-      if (fs::is_regular_file(candidate, code))
-      {
-        return candidate.string();
-      }
+      return Found();
     }
-    const std::string wanted = lower(path.filename().string());
-    std::string found;
-    const fs::path folder = this->Folder.empty() ? fs::path(".") : this->Folder;
-    for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code))
+    dgtk::helper::put(request.name, name.c_str());
+    if (!dgtk::helper::send(channel, request) || !dgtk::helper::receive(channel, answer, files) || answer.found == 0)
     {
-      const std::string other = it->path().filename().string();
-      if (lower(other) == wanted && fs::is_regular_file(it->path(), code) && (found.empty() || other < found))
-      {
-        found = other;
-      }
+      return Found();
     }
-    return found.empty() ? found : (folder / found).string();
+    answer.path[sizeof answer.path - 1] = '\0';
+    return { std::move(files[0]), answer.path };
   }
 
-  fs::path Folder;
   std::set<std::string> Seen;
 };
 
 /// `<unit meter="..."/>` of a Collada file; the importer scales by it.
-double colladaUnit(const std::string& path)
+double colladaUnit(const std::string& text)
 {
-  std::ifstream file(path, std::ios::binary);
-  std::string text(65536, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
   const std::size_t unit = text.find("<unit");
   const std::size_t end = unit == std::string::npos ? unit : text.find('>', unit);
   const std::size_t meter = end == std::string::npos ? end : text.find("meter=", unit);
@@ -141,29 +194,51 @@ double colladaUnit(const std::string& path)
   return value > 0 && value < 1e30 ? value : 1;
 }
 
+/// What the standard library says of memory and sizes, in words.
+std::string inWords(const std::string& error)
+{
+  for (const char* text : { "std::bad_alloc", "bad allocation", "std::bad_array_new_length", "std::length_error",
+         "vector::_M", "vector::reserve", "basic_string::_M", "basic_string::reserve" })
+  {
+    if (error.find(text) != std::string::npos)
+    {
+      return memoryError;
+    }
+  }
+  return error.empty() ? "its importer says no more" : error;
+}
+
 void read(const std::string& path, const std::string& format, Scene& scene)
 {
   Assimp::Importer importer;
-  auto* files = new Files(path); // the importer owns it
+  auto* files = new Files; // the importer owns it
   importer.SetIOHandler(files);
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, 1);
   const aiScene* found = importer.ReadFile(path, aiProcess_TransformUVCoords);
   scene.bytesRead = files->Bytes;
+  if (!files->LongNumber.empty())
+  {
+    scene.error = "a number has more than " + std::to_string(mostDigits) + " digits";
+    scene.errorFile = files->LongNumber;
+    scene.errorLine = files->Line;
+    return;
+  }
   if (!found)
   {
-    scene.error = importer.GetErrorString();
-    scene.error = scene.error.empty() ? "cannot be read" : scene.error;
+    scene.error = inWords(importer.GetErrorString());
     return;
   }
   for (const std::string& name : files->Missing)
   {
     scene.warnings.push_back("file " + name.substr(0, 200) + " not found");
   }
-  dgtk::import::convert(*found, format == "gltf", format == "collada" ? colladaUnit(path) : 1, scene);
+  dgtk::import::convert(
+    *found, format == "gltf", format == "collada" ? colladaUnit(files->contentsOf(path, 65536)) : 1, scene);
   if (format == "gltf")
   {
-    dgtk::import::repairGltf(path, scene);
+    dgtk::import::repairGltf(
+      path, [files](const std::string& name) { return files->contentsOf(name); }, scene);
   }
 }
 
@@ -185,12 +260,13 @@ int main(int argc, char** argv)
     std::fputs("dgtk-import is a part of DGTk: it reads one model for the library\n", stderr);
     return 2;
   }
-  limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, seconds);
-  if (limitMemory)
+  limitTo(RLIMIT_CORE, 0);
+  limitTo(RLIMIT_CPU, seconds);
+  if (!dgtk::helper::isSanitized)
   {
-    limit(RLIMIT_AS, memoryBase);
+    limitTo(RLIMIT_AS, memoryBase);
   }
+  dgtk::helper::lockDown(dgtk::helper::Opening::Nothing);
   Scene scene;
   try
   {
@@ -199,12 +275,12 @@ int main(int argc, char** argv)
   catch (const std::bad_alloc&)
   {
     scene = {};
-    scene.error = "needs more memory than a file of its size may";
+    scene.error = memoryError;
   }
   catch (const std::exception& error)
   {
     scene = {};
-    scene.error = error.what();
+    scene.error = inWords(error.what());
   }
   return send(scene) ? 0 : 1;
 }

@@ -117,9 +117,6 @@ void ModelBuilder::setMaterial(int index, const Material& material)
   m.normalScale = clamped(m.normalScale, -1000, 1000, 1);
   m.occlusionStrength = clamped(m.occlusionStrength, 0, 1, 1);
   m.texture = m.texture < static_cast<int>(this->Result->textures.size()) ? m.texture : -1;
-  const Image* image =
-    m.texture < 0 ? nullptr : this->Result->textures[static_cast<std::size_t>(m.texture)].image.get();
-  m.cutOut = image && isCutOut(*image);
 }
 
 int ModelBuilder::addTexture(const std::string& name, const std::string& alternative)
@@ -135,6 +132,32 @@ int ModelBuilder::addTexture(const std::string& name, const std::string& alterna
     this->warn(warning);
   }
   return index;
+}
+
+int ModelBuilder::addEmbedded(const std::string& name, const EmbeddedPicture& picture)
+{
+  return this->Textures.addEmbedded(this->Result->textures, name, picture);
+}
+
+void ModelBuilder::decodeTextures()
+{
+  for (const std::string& warning : this->Textures.decode(this->Result->textures))
+  {
+    this->warn(warning);
+  }
+}
+
+void ModelBuilder::settleCutOuts()
+{
+  std::vector<bool> cutOut;
+  for (const Texture& texture : this->Result->textures)
+  {
+    cutOut.push_back(texture.image && isCutOut(*texture.image));
+  }
+  for (Material& material : this->Result->materials)
+  {
+    material.cutOut = material.texture >= 0 && cutOut[static_cast<std::size_t>(material.texture)];
+  }
 }
 
 int ModelBuilder::withTexture(int material, int texture)
@@ -324,6 +347,8 @@ void ModelBuilder::endObject()
 std::shared_ptr<Model> ModelBuilder::finish()
 {
   Model& model = *this->Result;
+  this->decodeTextures();
+  this->settleCutOuts();
   model.sourceVertices = this->SourceVertices;
   if (this->HasUvs)
   {

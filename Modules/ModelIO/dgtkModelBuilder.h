@@ -70,15 +70,19 @@ public:
   /// One line; at most 50 are kept, the rest is counted.
   void warn(const std::string& text);
 
-  /// Adds a material and returns its index. Colours are clamped to [0, 1], values that are not finite replaced, and
-  /// `cutOut` is settled by its texture.
+  /// Adds a material and returns its index. Colours are clamped to [0, 1], values that are not finite replaced;
+  /// finish() settles `cutOut` by its texture.
   int addMaterial(const Material& material);
   /// Changes a material that addMaterial returned and nothing uses yet.
   void setMaterial(int index, const Material& material);
   std::size_t materials() const { return this->Result->materials.size(); }
-  /// Index of the texture of that name in Model::textures (found and decoded at the first call), or -1 for "". When it
-  /// is not found, `alternative` is looked for.
+  /// Index of the texture of that name in Model::textures (found at the first call), or -1 for "". When it is not
+  /// found, `alternative` is looked for.
   int addTexture(const std::string& name, const std::string& alternative = {});
+  /// The same for a picture that the model's file holds; its bytes have to stay until it is decoded.
+  int addEmbedded(const std::string& name, const EmbeddedPicture& picture);
+  /// Decodes the textures added since the last call. finish() does it, too; for readers that look at the texels.
+  void decodeTextures();
   /// Index of a material that is `material` with that texture: shared by all calls with the same arguments.
   int withTexture(int material, int texture);
   /// Index of a grey material for surfaces that name none.
@@ -119,6 +123,7 @@ private:
   void emit(const std::vector<Eigen::Vector3f>& normals);
   void growBounds(const Eigen::Vector3d& position);
   bool usable(const Corner* corners, std::size_t count);
+  void settleCutOuts();
 
   std::shared_ptr<Model> Result;
   std::shared_ptr<Geometry> Rest;

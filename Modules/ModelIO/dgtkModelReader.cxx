@@ -70,7 +70,7 @@ std::shared_ptr<const Model> readModel(const std::string& path, const ReadOption
       }
       catch (const std::bad_alloc&)
       {
-        throw InputError(path, 0, "is too large for the memory of this machine");
+        throw MachineError(path + ": is too large for the memory of this machine");
       }
     }
   }

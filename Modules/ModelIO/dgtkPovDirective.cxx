@@ -2,7 +2,9 @@
 #include "dgtkPovParser.h"
 
 #include "dgtkError.h"
+#include "dgtkModelFolder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -19,12 +21,6 @@ const std::set<std::string> otherWords = { "light_source", "sphere", "box", "pla
   "normal", "interior", "media", "density", "fog", "sky_sphere", "rainbow", "color_map", "colour_map", "pigment_map",
   "normal_map", "texture_map", "slope_map", "sphere_sweep", "bicubic_patch", "polygon", "quadric", "cubic", "quartic",
   "poly", "julia_fractal", "background", "spline", "array", "function", "ovus", "lemon", "radiosity", "photons" };
-
-std::string folderOf(const std::string& path)
-{
-  const std::size_t slash = path.find_last_of('/');
-  return slash == std::string::npos ? std::string(".") : path.substr(0, slash + (slash == 0 ? 1 : 0));
-}
 } // namespace
 
 void PovParser::directive(const PovToken& token)
@@ -270,6 +266,8 @@ void PovParser::declareColors()
 }
 
 /// Beside the including file, beside the scene, then in the folders of the environment's POVINC (separated by ':').
+/// What lies neither below the scene's folder nor below one of these is refused; datasets keep the meshes of all
+/// cameras in ../../pov.
 std::string PovParser::findInclude(const std::string& written, const PovPlace& from, std::string& tried) const
 {
   namespace fs = std::filesystem;
@@ -278,24 +276,37 @@ std::string PovParser::findInclude(const std::string& written, const PovPlace& f
   {
     c = c == '\\' ? '/' : c;
   }
-  std::vector<std::string> folders = { folderOf(this->Tokens.path(from.file)), folderOf(this->Tokens.path(0)) };
+  const std::string beside = folderOfFile(this->Tokens.path(0));
+  std::vector<std::string> own = { beside, beside + "/../../pov" };
   const char* library = std::getenv("POVINC");
   std::string rest = library ? library : "";
   while (!rest.empty())
   {
     const std::size_t end = std::min(rest.find(':'), rest.size());
-    folders.push_back(rest.substr(0, end));
+    own.push_back(rest.substr(0, end));
     rest.erase(0, end + 1);
   }
   tried = std::string("beside the including file, beside the scene, POVINC") + (library ? "" : " (not set)");
+  std::vector<std::string> folders = own;
+  folders.insert(folders.begin(), folderOfFile(this->Tokens.path(from.file)));
+  bool outside = false;
   for (const std::string& folder : folders)
   {
     std::error_code code;
     const fs::path path = fs::path(folder) / name;
     if (name.size() < 4096 && fs::is_regular_file(path, code))
     {
-      return path.lexically_normal().string();
+      const std::string found = path.lexically_normal().string();
+      if (std::any_of(own.begin(), own.end(), [&found](const std::string& root) { return liesBeneath(found, root); }))
+      {
+        return found;
+      }
+      outside = true;
     }
+  }
+  if (outside)
+  {
+    this->Tokens.fail(from, "#include " + dgtk::quoted(written) + " lies outside of the scene's folder and POVINC");
   }
   return {};
 }

@@ -5,6 +5,8 @@
 #include "dgtkModelIOModule.h"
 #include "dgtkModelReader.h"
 
+#include <atomic>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -16,56 +18,97 @@ namespace dgtk
 /// Finds the picture that a model names: as written, relative to the model; its base name beside the model;
 /// case-insensitively; same stem with another image extension; stems equal in 8.3 names; the same in ../textures.
 /// Returns "" when there is none. `tried` receives a short text of what was tried. Absolute names count by their base
-/// name. Only regular files are found.
+/// name, and so do names that lead out of the folder above the model's. Only regular files are found.
 DGTKMODELIO_EXPORT std::string locateTexture(
   const std::string& modelPath, const std::string& name, std::string* tried = nullptr);
 
-/// The same for many names of one model: folders are listed once.
+/// The same for many names of one model: folders are listed once. A name may also lead anywhere into the scene's
+/// folder, when there is one.
 class DGTKMODELIO_EXPORT TextureFinder
 {
 public:
-  explicit TextureFinder(const std::string& modelPath)
+  explicit TextureFinder(const std::string& modelPath, const std::string& sceneFolder = {})
     : ModelPath(modelPath)
+    , SceneFolder(sceneFolder)
   {
   }
   std::string find(const std::string& name, std::string* tried = nullptr);
 
 private:
   const std::vector<std::string>& pictures(const std::string& folder);
+  bool mayName(const std::string& path) const;
   std::string ModelPath;
+  std::string SceneFolder;
   std::map<std::string, std::vector<std::string>> Listings;
 };
 
-/// Decodes a picture to RGBA, rows top to bottom. Null, and `problem` set, when it cannot be decoded or is larger than
-/// 16384 a side. An alpha channel that is 0 everywhere is taken as absent.
-DGTKMODELIO_EXPORT std::shared_ptr<const Image> decodeTexture(const std::string& path, std::string& problem);
+/// How much memory the decoded pictures of a scene may take together, whatever the machine has: 4096 MiB, or as many
+/// as the environment variable DGTK_TEXTURE_MEMORY says. Thread-safe.
+class DGTKMODELIO_EXPORT TextureBudget
+{
+public:
+  /// Throws MachineError when the variable is no number of MiB.
+  TextureBudget();
+  explicit TextureBudget(std::uint64_t bytes)
+    : Limit(bytes)
+  {
+  }
+  /// Throws MachineError, with the picture and the sum, when it does not fit any more. Nothing has been decoded then.
+  void take(const std::string& picture, int width, int height, std::uint64_t bytes);
+
+private:
+  std::uint64_t Limit;
+  std::atomic<std::uint64_t> Taken{ 0 };
+};
+
+/// Decodes a picture to RGBA, rows top to bottom, in a process of its own: whatever the file does to its decoder, the
+/// picture is lost and nothing else. Null, and `problem` set, when it cannot be decoded or is larger than 16384 a side.
+/// An alpha channel that is 0 everywhere is taken as absent. Throws MachineError when memory is short, or beyond
+/// `budget` (null: a budget of its own).
+DGTKMODELIO_EXPORT std::shared_ptr<const Image> decodeTexture(
+  const std::string& path, std::string& problem, TextureBudget* budget = nullptr);
 
 /// Decodes a picture of light: .hdr and .exr as they are, others from sRGB. Null, and `problem` set, as above; also
 /// where a value is not finite. Negative values become 0.
-DGTKMODELIO_EXPORT std::shared_ptr<const RadianceImage> decodeRadiance(const std::string& path, std::string& problem);
+DGTKMODELIO_EXPORT std::shared_ptr<const RadianceImage> decodeRadiance(
+  const std::string& path, std::string& problem, TextureBudget* budget = nullptr);
 
 /// Whether a picture is a cut-out: some texels have alpha below 0.5 and some do not.
 DGTKMODELIO_EXPORT bool isCutOut(const Image& image);
+
+/// A picture that a model file holds.
+struct EmbeddedPicture
+{
+  std::string extension;                            ///< "png", "jpg"
+  const std::vector<std::uint8_t>* bytes = nullptr; ///< has to outlive TextureCache::decode
+};
 
 /// The textures of one model: each name is looked up once, each file decoded once.
 class DGTKMODELIO_EXPORT TextureCache
 {
 public:
-  TextureCache(const std::string& modelPath, const ReadOptions& options)
-    : Finder(modelPath)
-    , Options(options)
-  {
-  }
+  TextureCache(const std::string& modelPath, const ReadOptions& options);
   /// Appends the texture to `textures` unless it is there; returns its index, or -1 when there are too many. `warning`
-  /// is set when neither it nor `alternative` was found, or it was not decoded.
+  /// is set when neither it nor `alternative` was found. Nothing is decoded.
   int add(
     std::vector<Texture>& textures, const std::string& name, std::string& warning, const std::string& alternative = {});
+  /// Appends a picture that the model's file holds, and returns its index.
+  int addEmbedded(std::vector<Texture>& textures, const std::string& name, const EmbeddedPicture& picture);
+  /// Decodes what was added since, if pictures are wanted at all: first all sizes are counted, then pixels are made.
+  /// Returns a line for each that cannot be decoded. Throws MachineError as decodeTexture does.
+  std::vector<std::string> decode(std::vector<Texture>& textures);
 
 private:
-  int addFile(std::vector<Texture>& textures, const std::string& name, const std::string& path, std::string& warning);
+  struct Job;
+  std::vector<Job> jobsOf(std::vector<Texture>& textures);
+
+  std::string ModelPath;
   TextureFinder Finder;
-  ReadOptions Options;
+  bool Wanted;
+  std::shared_ptr<TextureBudget> Budget;
+  std::size_t Decoded = 0; ///< textures that were seen by decode()
   std::map<std::string, int> ByName;
+  std::map<int, EmbeddedPicture> Embedded;
   std::map<std::string, std::shared_ptr<const Image>> ByPath;
 };
 

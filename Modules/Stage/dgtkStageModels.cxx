@@ -53,6 +53,7 @@ void failObject(const SceneDescription& scene, const ObjectDescription& object, 
 StageModels::StageModels(const SceneDescription& scene, const Stage::WarningSink& warning)
   : Scene(scene)
   , Warning(warning)
+  , Budget(std::make_shared<TextureBudget>())
 {
   this->readModels();
   this->addTextures();
@@ -88,7 +89,7 @@ void StageModels::readEnvironment()
   auto made = std::make_shared<EnvironmentState>();
   if (fs::is_regular_file(path, error))
   {
-    made->image = decodeRadiance(path, problem);
+    made->image = decodeRadiance(path, problem, this->Budget.get());
   }
   if (!made->image)
   {
@@ -128,6 +129,9 @@ void StageModels::addFile(const std::string& path)
 void StageModels::readModels()
 {
   std::map<std::string, std::size_t> known;
+  ReadOptions options;
+  options.budget = this->Budget;
+  options.sceneFolder = this->Scene.resolve(".");
   for (const ObjectDescription& object : this->Scene.objects)
   {
     const std::string path = this->Scene.resolve(object.model);
@@ -139,7 +143,7 @@ void StageModels::readModels()
     }
     try
     {
-      this->Models.push_back(readModel(path));
+      this->Models.push_back(readModel(path, options));
     }
     catch (const InputError& error)
     {
@@ -201,7 +205,7 @@ int StageModels::addTexture(Model& model, const std::string& written)
   std::string problem = "not found (tried: " + tried + ')';
   if (!texture.path.empty())
   {
-    texture.image = decodeTexture(texture.path, problem);
+    texture.image = decodeTexture(texture.path, problem, this->Budget.get());
   }
   if (!texture.image)
   {

@@ -283,3 +283,75 @@ TEST(Assimp, BlendIsRefusedWithTheWayOut)
 {
   EXPECT_THAT(refusal("blend", "BLENDER-v300"), HasSubstr("File > Export > glTF 2.0"));
 }
+
+TEST(Assimp, FilesOutsideOfTheModelsFolderAreRefused)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path("model/parts"));
+  dgtk::writeFile(folder.path("secret.bin"), std::string(36, '\0'));
+  dgtk::writeFile(folder.path("quad.mtl"), quadMtl);
+  dgtk::writeFile(folder.path("model/parts/quad.mtl"), quadMtl);
+  const auto refusalOf = [&folder](const std::string& name, const std::string& text) -> std::string
+  {
+    dgtk::writeFile(folder.path("model/" + name), text);
+    try
+    {
+      dgtk::readModel(folder.path("model/" + name));
+    }
+    catch (const dgtk::InputError& error)
+    {
+      return error.what();
+    }
+    return {};
+  };
+  const auto gltf = [](const std::string& uri)
+  {
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"buffers":[{"byteLength":36,"uri":")" +
+           uri + R"("}],"bufferViews":[{"buffer":0,"byteLength":36}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[0,0,0]}]})";
+  };
+  EXPECT_THAT(refusalOf("a.gltf", gltf("../secret.bin")),
+    HasSubstr("a.gltf: names the file '../secret.bin', which lies outside of the model's folder"));
+  EXPECT_THAT(refusalOf("a.gltf", gltf("parts/../../secret.bin")), HasSubstr("outside of the model's folder"));
+  std::filesystem::create_symlink(folder.path("secret.bin"), folder.path("model/link.bin"));
+  EXPECT_THAT(refusalOf("a.gltf", gltf("link.bin")), HasSubstr("'link.bin', which lies outside"));
+  const auto obj = [](const std::string& library)
+  { return "mtllib " + library + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n"; };
+  EXPECT_EQ(refusalOf("a.obj", obj(folder.path("quad.mtl"))), "") << "the importer takes it as relative";
+  EXPECT_THAT(dgtk::readModel(folder.path("model/a.obj"))->warnings, Contains(HasSubstr("quad.mtl not found")));
+  EXPECT_THAT(refusalOf("a.obj", obj("../quad.mtl")), HasSubstr("'../quad.mtl', which lies outside"));
+  EXPECT_EQ(refusalOf("a.obj", obj("/nowhere/quad.mtl")), "");
+  EXPECT_EQ(refusalOf("a.obj", obj("parts/quad.mtl")), "");
+  EXPECT_EQ(dgtk::readModel(folder.path("model/a.obj"))->materials.back().name, "red");
+  dgtk::writeFile(folder.path("model/quad.mtl"), quadMtl);
+  EXPECT_EQ(refusalOf("a.obj", obj("../quad.mtl")), "") << "its base name is beside the model";
+}
+
+TEST(Assimp, ANumberOfTooManyDigitsIsRefusedAtOnce)
+{
+  const std::string many(3'000'000, '1');
+  EXPECT_EQ(refusal("obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 " + many + "\n"),
+    "model.obj:4: cannot be read: a number has more than 1000 digits");
+  EXPECT_THAT(refusal("off", "OFF\n4 2 " + many + '\n'), HasSubstr("model.off:2: "));
+  EXPECT_EQ(refusal("obj", "v 0 0 0\nv 1 0 0\nv 0 1 0.0" + std::string(900, '1') + "\nf 1 2 3\n"), "");
+  const TemporaryFolder folder;
+  dgtk::writeFile(folder.path("quad.obj"), quadObj);
+  dgtk::writeFile(folder.path("quad.mtl"), "newmtl red\nNs " + many + '\n');
+  try
+  {
+    dgtk::readModel(folder.path("quad.obj"));
+    FAIL();
+  }
+  catch (const dgtk::InputError& error)
+  {
+    EXPECT_EQ(error.file(), folder.path("quad.mtl"));
+    EXPECT_EQ(error.line(), 2);
+  }
+}
+
+TEST(Assimp, TooMuchMemoryIsSaidInWords)
+{
+  EXPECT_EQ(refusal("off", "OFF\n4000000000 4000000000 0\n0 0 0\n"),
+    "model.off: cannot be read: needs more memory than a file of its size may");
+}

@@ -122,6 +122,27 @@ TEST(TextureFile, ShortNames)
   EXPECT_FALSE(find(".."));
 }
 
+TEST(TextureFile, NamesLeadNoFurtherThanTheFolderAbove)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path("scene/parts/car/skins"));
+  for (const std::string name : { "scene/a.png", "scene/parts/b.png", "scene/parts/other.png" })
+  {
+    writeFile(folder.path(name), "x");
+  }
+  const std::string model = folder.path("scene/parts/car/car.ac");
+  EXPECT_EQ(locateTexture(model, "../b.png"), folder.path("scene/parts/b.png"));
+  EXPECT_EQ(locateTexture(model, "skins/../../b.png"), folder.path("scene/parts/b.png"));
+  EXPECT_EQ(locateTexture(model, "../../a.png"), "");
+  EXPECT_EQ(locateTexture(model, "../../A.jpg"), "");
+  EXPECT_EQ(locateTexture(model, "../../parts/b.png"), folder.path("scene/parts/b.png"));
+  dgtk::TextureFinder inScene(model, folder.path("scene"));
+  EXPECT_EQ(inScene.find("../../a.png"), folder.path("scene/a.png"));
+  EXPECT_EQ(inScene.find("../../A.jpg"), folder.path("scene/a.png"));
+  dgtk::TextureFinder inOther(model, folder.path("scene/parts/ca"));
+  EXPECT_EQ(inOther.find("../../a.png"), "");
+}
+
 TEST(TextureFile, OnlyFilesAreFound)
 {
   const TemporaryFolder folder;

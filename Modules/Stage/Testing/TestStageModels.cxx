@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 using namespace dgtk;
@@ -107,6 +108,32 @@ TEST(StageModels, AMissingTextureIsAWarning)
   folder.load(R"({"objects": [{"model": "models/square.ac", "materials": {"*": {"texture": "no.png"}}}]})",
     [&](const std::string& line) { warnings.push_back(line); });
   EXPECT_THAT(warnings, testing::Contains(HasSubstr("texture 'no.png': not found")));
+}
+
+TEST(StageModels, AllPicturesOfASceneHaveOneBudget)
+{
+  const ModelFolder folder;
+  writeFile(folder.path("models/other.ac"), squareAc);
+  writeFile(folder.path("models/red.ppm"), "P6 512 512 255\n" + std::string(512 * 512 * 3, 'r')); // 1 MiB of texels
+  const auto load = [&folder](const std::string& more)
+  { return folder.load(R"({"objects": [{"model": "models/square.ac"}, {"model": "models/square.ac"})" + more); };
+  ::setenv("DGTK_TEXTURE_MEMORY", "1", 1);
+  EXPECT_EQ(load("]}")->models().size(), 1u);
+  for (const std::string more :
+    { R"(, {"model": "models/other.ac"}]})", R"(], "environment": {"image": "models/red.ppm"}})",
+      R"(, {"model": "models/square.ac", "materials": {"*": {"texture": "models/red.ppm"}}}]})" })
+  {
+    try
+    {
+      load(more);
+      ADD_FAILURE() << more;
+    }
+    catch (const MachineError& error)
+    {
+      EXPECT_THAT(error.what(), HasSubstr("red.ppm: a texture of 512 x 512 pixels; with it, all textures take "));
+    }
+  }
+  ::unsetenv("DGTK_TEXTURE_MEMORY");
 }
 
 TEST(StageModels, SkinsAreTexturesOfTheModel)

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkHelperProcess.h"
+
+#include "dgtkError.h"
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+extern char** environ;
+
+namespace dgtk::helper
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+
+bool isProgram(const fs::path& path)
+{
+  std::error_code code;
+  return fs::is_regular_file(path, code) && ::access(path.c_str(), X_OK) == 0;
+}
+
+/// Folder of the shared library (or program) that holds this function.
+fs::path libraryFolder()
+{
+  Dl_info info{};
+  std::error_code code;
+  if (::dladdr(reinterpret_cast<const void*>(&findProgram), &info) == 0 || !info.dli_fname)
+  {
+    return {};
+  }
+  return fs::weakly_canonical(info.dli_fname, code).parent_path();
+}
+
+/// With default signals and nothing on its standard error.
+pid_t spawn(const std::vector<std::string>& command, int input, int output)
+{
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+  sigset_t defaults;
+  sigset_t none;
+  sigemptyset(&none);
+  sigemptyset(&defaults);
+  for (const int signal : { SIGPIPE, SIGXCPU, SIGXFSZ, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL })
+  {
+    sigaddset(&defaults, signal);
+  }
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, input, 0);
+  if (output >= 0)
+  {
+    posix_spawn_file_actions_adddup2(&actions, output, 1);
+  }
+  else
+  {
+    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+  }
+  posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setsigdefault(&attributes, &defaults);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+  std::vector<char*> arguments;
+  for (const std::string& word : command)
+  {
+    arguments.push_back(const_cast<char*>(word.c_str()));
+  }
+  arguments.push_back(nullptr);
+  pid_t child = -1;
+  const int problem = ::posix_spawn(&child, command.front().c_str(), &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  if (problem != 0)
+  {
+    throw MachineError(command.front() + ": cannot be started: " + std::strerror(problem));
+  }
+  return child;
+}
+} // namespace
+
+std::string findProgram(const char* name, const char* variable)
+{
+  const char* set = std::getenv(variable);
+  if (set && *set)
+  {
+    if (!isProgram(set))
+    {
+      throw MachineError(std::string(set) + ": is not a program (" + variable + " names " + name + ')');
+    }
+    return set;
+  }
+  const fs::path library = libraryFolder();
+  fs::path folder = library;
+  for (int up = 0; up < 4 && !folder.empty(); ++up, folder = folder.parent_path())
+  {
+    for (const char* below : { "libexec/dgtk", "bin" })
+    {
+      if (isProgram(folder / below / name))
+      {
+        return (folder / below / name).string();
+      }
+    }
+  }
+  throw MachineError(std::string(name) + ", a program that belongs to the library, was not found above " +
+                     library.string() + " (" + variable + " can name it)");
+}
+
+Process::Process(const std::vector<std::string>& command, int output)
+  : Owner(::getpid())
+{
+  int ends[2] = { -1, -1 };
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
+  {
+    throw MachineError(command.front() + ": no socket to it: " + std::strerror(errno));
+  }
+  this->Channel.reset(ends[0]);
+  const Descriptor theirs(ends[1]);
+  this->Child = spawn(command, theirs.get(), output);
+}
+
+Process::~Process()
+{
+  if (this->Child > 0 && this->isOurs())
+  {
+    ::kill(this->Child, SIGKILL); // nobody waits for what it does
+  }
+  this->wait();
+}
+
+bool Process::isOurs() const { return this->Owner == ::getpid(); }
+
+int Process::wait()
+{
+  this->Channel.reset();
+  int status = 0;
+  while (this->Child > 0 && this->isOurs() && ::waitpid(this->Child, &status, 0) < 0)
+  {
+    if (errno != EINTR)
+    {
+      status = 0; // somebody else collects children: what it sent says whether it came to its end
+      break;
+    }
+  }
+  this->Child = -1;
+  return status;
+}
+
+bool isInterruption(int signal) { return signal == SIGINT || signal == SIGTERM || signal == SIGHUP; }
+
+std::string signalText(int signal) { return "signal " + std::to_string(signal) + ", " + ::strsignal(signal); }
+
+} // namespace dgtk::helper

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkTextureFile.h"
+
+#include "dgtkError.h"
+#include "dgtkModelFolder.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace dgtk
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr std::size_t mostEntries = 20000;
+
+const char* const imageExtensions[] = { "png", "jpg", "jpeg", "tga", "bmp", "rgb", "rgba", "sgi", "bw", "dds", "gif",
+  "tif", "tiff", "ppm", "pgm", "pnm", "pcx" };
+
+std::string lower(std::string text)
+{
+  for (char& c : text)
+  {
+    c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+  }
+  return text;
+}
+
+std::string baseName(const std::string& path)
+{
+  const std::size_t slash = path.find_last_of("/\\:");
+  return slash == std::string::npos ? path : path.substr(slash + 1);
+}
+
+/// A leading dot belongs to the stem's name: `.body01` is a name without extension.
+std::string stemOf(const std::string& name)
+{
+  const std::size_t dot = name.find_last_of('.');
+  return dot == std::string::npos || dot == 0 ? name : name.substr(0, dot);
+}
+
+bool isImageExtension(const std::string& extension)
+{
+  return std::find(std::begin(imageExtensions), std::end(imageExtensions), extension) != std::end(imageExtensions);
+}
+
+bool isFile(const fs::path& path)
+{
+  std::error_code code;
+  return fs::is_regular_file(path, code);
+}
+
+/// The stem as DOS programs cut it: "foobarbaz" and "FOOBARBA" agree, and "FOOBAR~1" with both.
+bool sameShortStem(const std::string& a, const std::string& b)
+{
+  const std::size_t tilde = a.find('~');
+  if (tilde != std::string::npos && tilde >= 1)
+  {
+    return b.size() >= tilde && a.compare(0, tilde, b, 0, tilde) == 0;
+  }
+  return a.size() >= 8 && b.size() >= 8 && a.compare(0, 8, b, 0, 8) == 0;
+}
+
+/// Names of the pictures of a folder, sorted.
+std::vector<std::string> picturesIn(const fs::path& folder)
+{
+  std::vector<std::string> names;
+  std::error_code code;
+  std::size_t seen = 0;
+  for (fs::directory_iterator it(folder, code), end; !code && it != end && seen < mostEntries;
+       it.increment(code), ++seen)
+  {
+    const std::string name = it->path().filename().string();
+    if (isImageExtension(extensionOfFile(name)) && isFile(it->path()))
+    {
+      names.push_back(name);
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Among the pictures of a folder: the name itself, whatever its case; its stem with another extension, in the order
+/// of imageExtensions; a stem that is the same in 8.3 names. "" when there is none.
+std::string bestMatch(const std::vector<std::string>& pictures, const std::string& wanted)
+{
+  const std::string name = lower(wanted);
+  const std::string stem = isImageExtension(extensionOfFile(name)) ? stemOf(name) : name;
+  for (const std::string& picture : pictures)
+  {
+    if (lower(picture) == name)
+    {
+      return picture;
+    }
+  }
+  for (const bool shortened : { false, true })
+  {
+    for (const char* extension : imageExtensions)
+    {
+      for (const std::string& picture : pictures)
+      {
+        const std::string other = lower(stemOf(picture));
+        if (extensionOfFile(picture) == extension && (shortened ? sameShortStem(stem, other) : other == stem))
+        {
+          return picture;
+        }
+      }
+    }
+  }
+  return {};
+}
+} // namespace
+
+bool TextureFinder::mayName(const std::string& path) const
+{
+  const std::string above = folderOfFile(this->ModelPath) + "/..";
+  return isNamedBeneath(path, above) || (!this->SceneFolder.empty() && isNamedBeneath(path, this->SceneFolder));
+}
+
+const std::vector<std::string>& TextureFinder::pictures(const std::string& folder)
+{
+  const auto known = this->Listings.find(folder);
+  return known != this->Listings.end() ? known->second
+                                       : this->Listings.emplace(folder, picturesIn(folder)).first->second;
+}
+
+std::string TextureFinder::find(const std::string& written, std::string* tried)
+{
+  std::string name = written;
+  std::replace(name.begin(), name.end(), '\\', '/');
+  name.erase(std::find(name.begin(), name.end(), '\0'), name.end());
+  const std::string base = baseName(name);
+  const fs::path folder = fs::path(this->ModelPath).parent_path();
+  if (tried)
+  {
+    *tried = "as written, " + quoted(base) +
+             " beside the model, in any case, with other image extensions, as an 8.3 name, and in ../textures";
+  }
+  const bool relative = !name.empty() && name[0] != '/' && name.find(':') == std::string::npos;
+  if (base.empty() || base == "." || base == ".." || name.size() > 4096)
+  {
+    return {};
+  }
+  if (relative && isFile(folder / name) && this->mayName((folder / name).string()))
+  {
+    return (folder / name).lexically_normal().string();
+  }
+  if (isFile(folder / base))
+  {
+    return (folder / base).string();
+  }
+  // in the folder that was written, beside the model, and where games keep their textures
+  std::vector<fs::path> folders = { folder, folder / ".." / "textures" };
+  if (relative && name != base && this->mayName((folder / name).string()))
+  {
+    folders.insert(folders.begin(), folder / fs::path(name).parent_path());
+  }
+  // a leading dot, in MD2, means the model's own folder
+  const std::string wanted = base[0] == '.' ? base.substr(1) : base;
+  for (const fs::path& place : folders)
+  {
+    const std::string match = bestMatch(this->pictures(place.string().empty() ? "." : place.string()), wanted);
+    if (!match.empty())
+    {
+      return (place / match).lexically_normal().string();
+    }
+  }
+  return {};
+}
+
+std::string locateTexture(const std::string& modelPath, const std::string& name, std::string* tried)
+{
+  return TextureFinder(modelPath).find(name, tried);
+}
+
+} // namespace dgtk

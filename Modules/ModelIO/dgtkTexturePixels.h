@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkTexturePixels_h
+#define dgtkTexturePixels_h
+
+#include "dgtkModel.h"
+#include "dgtkPictureProcess.h"
+
+#include <memory>
+#include <string>
+
+namespace dgtk
+{
+
+class TextureBudget;
+
+/// What is known of an alpha channel.
+enum class AlphaRule
+{
+  Painted, ///< one that is 0 everywhere was never painted, and is taken as absent
+  Meant    ///< it is as the file has it
+};
+
+/// Takes what the picture's pixels will need. False, and `problem` set, when it is no picture.
+bool takeTexels(const picture::Source& source, TextureBudget& budget, std::string& problem);
+
+/// Decodes, whatever the budget. Null, and `problem` set, when it cannot be decoded.
+std::shared_ptr<const Image> decodeTexels(const picture::Source& source, AlphaRule rule, std::string& problem);
+
+/// Settles Image::hasAlpha.
+void settleAlpha(Image& image, AlphaRule rule);
+
+} // namespace dgtk
+
+#endif
