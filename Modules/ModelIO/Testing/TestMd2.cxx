@@ -227,3 +227,18 @@ TEST(Md2, BadIndicesAreCounted)
   EXPECT_THAT(model->warnings, testing::Contains(HasSubstr("1 surface left out: a vertex that does not exist")));
   EXPECT_THAT(model->warnings, testing::Contains(HasSubstr("1 corner(s) without texture coordinates: bad indices")));
 }
+
+TEST(Md2, UnusedLastVerticesAreNoBother)
+{
+  // the surfaces around each vertex are looked up; with library assertions one index too far ends the program
+  dgtk::test::Md2File file = md2Seed();
+  const std::size_t vertices = file.frames[0].coordinates.size() / 3;
+  for (dgtk::test::Md2File::Frame& frame : file.frames)
+  {
+    frame.coordinates.insert(frame.coordinates.end(), { 1, 2, 3, 4, 5, 6 });
+  }
+  const auto model = readBytes("md2", file.bytes());
+  EXPECT_EQ(dgtk::test::brokenPromise(*model), "");
+  EXPECT_EQ(model->sourceVertices, vertices + 2);
+  EXPECT_EQ(model->triangles.size(), readBytes("md2", md2Seed().bytes())->triangles.size());
+}
