@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <functional>
 #include <limits>
 
@@ -267,10 +267,10 @@ TEST(SceneRefusals, Files)
 
 TEST(SceneRefusals, ClaimedCountsCostNothing)
 {
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock(); // of this process: others on the machine do not count
   EXPECT_NE(refusalOf("a.scene", "1000000000\n"), "");
   EXPECT_NE(refusalOf("a.scene", "0\n1000000000\n0\n"), "");
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
+  EXPECT_LT(std::clock() - start, CLOCKS_PER_SEC);
 }
 
 TEST(SceneRefusals, WhatThesisScenesCannotSay)
