@@ -3,6 +3,7 @@
 """How textures are sampled: repeated, bilinear where they are enlarged, mip-mapped and anisotropic where reduced."""
 import json
 import os
+import struct
 import unittest
 
 import numpy as np
@@ -83,6 +84,27 @@ class Textures(harness.Case):
         row = image[10, :, 0]
         expected = 0.5 + 127 / 255 * np.sin(2 * np.pi * 4 * (np.arange(200) + 0.5) / 200)
         self.assertLess(np.abs(row - expected).max(), 0.01)
+
+    def test_one_that_ends_its_decoder_costs_itself(self):
+        shown = self.square(np.full((4, 4, 3), 200, np.uint8))
+        # a run of five pixels in a row of two: OpenImageIO 2.4 ends the process that reads it
+        header = struct.pack(">hBBHHHHii", 474, 1, 1, 2, 2, 1, 1, 0, 255) + bytes(492)
+        self.write("deadly.rgb", header + struct.pack(">II", 520, 3) + bytes([0x85, 1, 2]))
+        self.write("square.mtl", "newmtl m\nmap_Kd deadly.rgb\n")
+        scene = self.write("s.json", json.dumps({"objects": [shown], "cameras": [camera(24, 24, 2)]}))
+        done = self.dgtk("render", scene, "-o", self.path("d"), "--layers", "depth")
+        said = [line for line in done.stderr.splitlines() if "deadly.rgb" in line]
+        self.assertEqual(len(said), 1, done.stderr)
+        self.assertIn("cannot be decoded: is damaged: its decoder ended abnormally (signal 6", said[0])
+
+    def test_more_memory_than_all_may_take_is_the_machines_fault(self):
+        shown = self.square(np.full((600, 600, 3), 200, np.uint8))
+        scene = self.write("s.json", json.dumps({"objects": [shown], "cameras": [camera(24, 24, 2)]}))
+        done = self.dgtk("render", scene, "-o", self.path("d"), "--layers", "depth", status=4,
+                         environment={"DGTK_TEXTURE_MEMORY": "1"})
+        self.assertRegex(done.stderr, r"^dgtk: .*texture.png: a texture of 600 x 600 pixels; with it, all textures take "
+                                      r"2 MiB of memory, more than the 1 MiB that they may \(DGTK_TEXTURE_MEMORY raises it\)\n$")
+        self.assertFalse(os.path.exists(self.path("d", "manifest.json")))
 
 
 if __name__ == "__main__":
