@@ -138,7 +138,12 @@ void checkThesis(Picture& picture, const Points& points, const std::string& file
                                          }
                                          return projected;
                                        }));
-  // The same calibration as cameras.json, entry by entry.
+}
+
+/// The same calibration as cameras.json, entry by entry.
+void checkEntries(Picture& picture, const std::string& file, Results& results)
+{
+  const Calibration calibration = readCalibration(picture.dataset().absolute(file));
   Meter meter(MatrixTolerance);
   const OpenGLMatrices matrices = openGLMatrices(picture.eye().view());
   const Calibration expected =
@@ -166,9 +171,13 @@ void checkCalibration(Picture& picture, Results& results)
   {
     checkOpenCV(picture, points, results);
   }
-  if (points.file() && picture.eye().linear() && !text.empty())
+  if (picture.eye().linear() && !text.empty())
   {
-    checkThesis(picture, points, text, results);
+    checkEntries(picture, text, results);
+    if (points.file())
+    {
+      checkThesis(picture, points, text, results);
+    }
   }
 }
 
