@@ -163,6 +163,15 @@ def turned_around(name):
     return lambda data, _: data.change(name, data.spot("right", 0), lambda values: -values)
 
 
+def background(name):
+    """A number in all channels of a pixel without a surface."""
+    def edit(data, _):
+        rows, columns = np.nonzero(data.load("left/objects/000000.npy")[..., 0] == 0)
+        return data.change(name, (int(columns[0]), int(rows[0])), lambda values: np.full_like(values, 0.5))
+
+    return edit
+
+
 def geometry():
     # Channels, and what a residual of 1 is worth: positions are compared with their distance from the camera or the world's
     # origin, texture coordinates with the largest of their triangle.
@@ -181,6 +190,11 @@ def geometry():
         yield Plant("geometry", "normal", 1e-7, by(f"normal.{kind}", absolute(1e-7)), small=False)
     for layer, tolerance in (("normal", 1e-7), ("shadingnormal", 1e-9)):
         yield Plant("geometry", layer, tolerance, turned_around(f"right/{layer}/000000.npy"), small=False)
+    # A surface where there is none.
+    for layer in ("distance", "inversedepth", "position", "normal"):
+        yield Plant("geometry", layer, 1e-7 if layer == "normal" else 1e-9, background(f"left/{layer}/000000.npy"), small=False,
+                    also={("calibration", "cv::projectPoints"): "projects positions",
+                          ("calibration", "thesis"): "likewise"} if layer == "position" else None)
     # What is too small as well as what is too large.
     yield Plant("geometry", "distance", 1e-9, by("distance.npy", part(-1e-9), "right"))
     yield Plant("geometry", "inversedepth", 1e-9, by("inversedepth.npy", part(-1e-9), "parallel"))
@@ -406,6 +420,19 @@ def covered():
         return edit
 
     yield Plant("alpha", "coverage", 1e-7, shares(1e-7, 0), {("alpha", "samples"): "one share is wrong"}, small=False)
+    def swapped(data, _):
+        """The smaller share first."""
+        return data.change(coverage, most_of_one(data), lambda v: v[[2, 3, 0, 1, *range(4, len(v))]])
+
+    def unknown(data, _):
+        """The object of the smaller share becomes one that there is not."""
+        alpha_image, ranks = data.load(alpha), data.load(coverage)
+        for (x, y), first, _ in divided(data, "left"):
+            if alpha_image[y, x, 2] == first and ranks[y, x, 2] > 0.7:
+                return data.change(coverage, (x, y), lambda v: np.where(np.arange(len(v)) == 1, np.float32(1.5), v))
+
+    yield Plant("alpha", "coverage", 1e-7, swapped, small=False)
+    yield Plant("alpha", "coverage", 1e-7, unknown, {("alpha", "samples"): "nothing is left for the true object"}, small=False)
     yield Plant("alpha", "samples", 1e-7, shares(1e-7, -1e-7), bad=2, small=False)
     yield Plant("alpha", "alpha", 1e-7,
                 lambda data, _: data.change(alpha, most_of_one(data), lambda v: v + [0, 0, 0, 2]),
@@ -479,21 +506,26 @@ def boxes():
     yield Plant("boxes", "projected", 1e-9, lambda data, factor: data.document("right/boxes/000001.json", projected(factor)))
 
     def pose(factor):
+        """The floor's axes are the camera's, but for a turn about x: its first number is alone in its row and column, and
+        is seen in R R^T and in R diag(scale)."""
         def edit(document):
-            objects = document["objects"]
-            step = 1e-12 * factor
-            for o, key, at in ((0, "matrix", (2, 3)), (1, "t", (2,)), (2, "box3d", (3, 2))):
-                number = objects[o][key]
-                for i in at[:-1]:
-                    number = number[i]
-                number[at[-1]] += step * 4
-            objects[3]["R"][1][1] += step
-            objects[4]["scale"][0] += step
+            objects, step = document["objects"], 1e-12 * factor
+            objects[0]["R"][0][0] += step
+            objects[1]["matrix"][2][3] += 5 * step
+            objects[2]["t"][2] += 5 * step
+            objects[4]["box3d"][3][2] += 5 * step
 
         return edit
 
-    # matrix, t and a corner; of R three numbers of R R^T and one of R diag(scale); of scale one.
-    yield Plant("boxes", "pose", 1e-12, lambda data, factor: data.document("right/boxes/000000.json", pose(factor)), bad=None)
+    yield Plant("boxes", "pose", 1e-12, lambda data, factor: data.document("right/boxes/000000.json", pose(factor)), bad=5)
+
+    def scale(factor):
+        def edit(document):
+            document["objects"][0]["scale"][0] += 1e-12 * factor
+
+        return edit
+
+    yield Plant("boxes", "pose", 1e-12, lambda data, factor: data.document("left/boxes/000000.json", scale(factor)))
 
 
 def masks():
