@@ -14,13 +14,28 @@ int texelIndex(double coordinate, int size)
   const double index = std::fmod(std::floor(coordinate * size), size);
   return std::isfinite(index) ? int(index < 0 ? index + size : index) : 0;
 }
+} // namespace
 
-Eigen::Vector3d texelAt(const Model& model, const Image& image, std::uint32_t triangle, const Eigen::Vector2d& at)
+const Material* materialOf(const Instance& instance, std::uint32_t triangle)
 {
+  const Model& model = *instance.model;
+  const std::vector<Material>& materials = instance.materials ? *instance.materials : model.materials;
+  return materials.empty() ? nullptr : &materials[model.parts[model.partOf(triangle)].material];
+}
+
+Eigen::Vector3d texelAt(
+  const Instance& instance, std::uint32_t triangle, const Eigen::Vector2d& barycentrics, int texture)
+{
+  const Model& model = *instance.model;
+  if (texture < 0 || model.uvs.empty() || !model.textures[texture].image)
+  {
+    return Eigen::Vector3d::Ones();
+  }
+  const Image& image = *model.textures[texture].image;
   const auto& corners = model.triangles[triangle];
   const Eigen::Vector2d& first = model.uvs[corners[0]];
   const Eigen::Vector2d uv =
-    first + at.x() * (model.uvs[corners[1]] - first) + at.y() * (model.uvs[corners[2]] - first);
+    first + barycentrics.x() * (model.uvs[corners[1]] - first) + barycentrics.y() * (model.uvs[corners[2]] - first);
   if (!uv.allFinite() || image.width < 1 || image.height < 1)
   {
     return Eigen::Vector3d::Ones();
@@ -30,22 +45,14 @@ Eigen::Vector3d texelAt(const Model& model, const Image& image, std::uint32_t tr
   const std::uint8_t* texel = &image.rgba[(std::size_t(row) * image.width + column) * 4];
   return Eigen::Vector3d(texel[0], texel[1], texel[2]) / 255;
 }
-} // namespace
 
 std::array<std::uint8_t, 3> albedoAt(
   const Instance& instance, std::uint32_t triangle, const Eigen::Vector2d& barycentrics)
 {
-  const Model& model = *instance.model;
-  const std::vector<Material>& materials = instance.materials ? *instance.materials : model.materials;
   Eigen::Vector3d color = Eigen::Vector3d::Ones();
-  if (!materials.empty())
+  if (const Material* const material = materialOf(instance, triangle))
   {
-    const Material& material = materials[model.parts[model.partOf(triangle)].material];
-    color = material.diffuse;
-    if (material.texture >= 0 && !model.uvs.empty() && model.textures[material.texture].image)
-    {
-      color = color.cwiseProduct(texelAt(model, *model.textures[material.texture].image, triangle, barycentrics));
-    }
+    color = material->diffuse.cwiseProduct(texelAt(instance, triangle, barycentrics, material->texture));
   }
   std::array<std::uint8_t, 3> rounded;
   for (int i = 0; i < 3; ++i)

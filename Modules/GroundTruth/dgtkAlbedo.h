@@ -19,6 +19,14 @@ namespace dgtk
 DGTKGROUNDTRUTH_EXPORT std::array<std::uint8_t, 3> albedoAt(
   const Instance& instance, std::uint32_t triangle, const Eigen::Vector2d& barycentrics);
 
+/// The nearest texel (as isCutOut() finds it) of Model::textures[texture] at a surface point, sRGB in [0, 1]; white
+/// where there is no such texture, picture or texture coordinate. Thread-safe.
+DGTKGROUNDTRUTH_EXPORT Eigen::Vector3d texelAt(
+  const Instance& instance, std::uint32_t triangle, const Eigen::Vector2d& barycentrics, int texture);
+
+/// The material of a triangle; null for a model without materials. Thread-safe.
+DGTKGROUNDTRUTH_EXPORT const Material* materialOf(const Instance& instance, std::uint32_t triangle);
+
 } // namespace dgtk
 
 #endif

@@ -15,6 +15,32 @@ namespace
 constexpr double Pi = 3.14159265358979323846;
 constexpr int Samples = 128;
 
+Eigen::Vector3f texelAt(const float* rgb, int width, int height, int x, int y)
+{
+  x = (x % width + width) % width;
+  y = std::clamp(y, 0, height - 1);
+  return Eigen::Vector3f(rgb + (std::size_t(y) * width + x) * 3);
+}
+
+/// `d` has unit length.
+Eigen::Vector3f bilinear(const float* rgb, int width, int height, const Eigen::Vector3d& d)
+{
+  const double x = (0.5 + std::atan2(d.x(), -d.z()) / (2 * Pi)) * width - 0.5;
+  const double y = std::acos(std::clamp(d.y(), -1.0, 1.0)) / Pi * height - 0.5;
+  const int column = int(std::floor(x));
+  const int row = int(std::floor(y));
+  const auto right = float(x - column);
+  const auto down = float(y - row);
+  const auto texel = [&](int across, int below) { return texelAt(rgb, width, height, column + across, row + below); };
+  return (texel(0, 0) * (1 - right) + texel(1, 0) * right) * (1 - down) +
+         (texel(0, 1) * (1 - right) + texel(1, 1) * right) * down;
+}
+
+Eigen::Vector3f bilinear(const RadianceImage& image, const Eigen::Vector3d& d)
+{
+  return bilinear(image.rgb.data(), image.width, image.height, d);
+}
+
 /// Equirectangular radiance at several resolutions.
 class Pyramid
 {
@@ -43,25 +69,6 @@ public:
   }
 
 private:
-  static Eigen::Vector3f texelAt(const RadianceImage& image, int x, int y)
-  {
-    x = (x % image.width + image.width) % image.width;
-    y = std::clamp(y, 0, image.height - 1);
-    return Eigen::Vector3f(image.rgb.data() + (std::size_t(y) * image.width + x) * 3);
-  }
-
-  static Eigen::Vector3f bilinear(const RadianceImage& image, const Eigen::Vector3d& d)
-  {
-    const double x = (0.5 + std::atan2(d.x(), -d.z()) / (2 * Pi)) * image.width - 0.5;
-    const double y = std::acos(std::clamp(d.y(), -1.0, 1.0)) / Pi * image.height - 0.5;
-    const int column = int(std::floor(x));
-    const int row = int(std::floor(y));
-    const auto right = float(x - column);
-    const auto down = float(y - row);
-    return (texelAt(image, column, row) * (1 - right) + texelAt(image, column + 1, row) * right) * (1 - down) +
-           (texelAt(image, column, row + 1) * (1 - right) + texelAt(image, column + 1, row + 1) * right) * down;
-  }
-
   /// To the size of level 0, by area; small pictures are interpolated.
   static RadianceImage resampled(const RadianceImage& from, double intensity)
   {
@@ -83,7 +90,7 @@ private:
         {
           for (int u = left; u < right; ++u)
           {
-            sum += texelAt(from, u, v).cast<double>();
+            sum += texelAt(from.rgb.data(), from.width, from.height, u, v).cast<double>();
           }
         }
         const Eigen::Vector3f mean = (sum / (double(bottom - top) * (right - left))).cast<float>() * factor;
@@ -102,9 +109,10 @@ private:
     {
       for (int x = 0; x < to.width; ++x)
       {
-        const Eigen::Vector3f mean = (texelAt(from, 2 * x, 2 * y) + texelAt(from, 2 * x + 1, 2 * y) +
-                                       texelAt(from, 2 * x, 2 * y + 1) + texelAt(from, 2 * x + 1, 2 * y + 1)) /
-                                     4;
+        const auto texel = [&](int column, int row)
+        { return texelAt(from.rgb.data(), from.width, from.height, column, row); };
+        const Eigen::Vector3f mean =
+          (texel(2 * x, 2 * y) + texel(2 * x + 1, 2 * y) + texel(2 * x, 2 * y + 1) + texel(2 * x + 1, 2 * y + 1)) / 4;
         to.rgb.insert(to.rgb.end(), mean.data(), mean.data() + 3);
       }
     }
@@ -120,6 +128,13 @@ Eigen::Vector3d directionOf(double x, double y)
   const double around = (x - 0.5) * 2 * Pi;
   const double down = y * Pi;
   return { std::sin(down) * std::sin(around), std::cos(down), -std::sin(down) * std::cos(around) };
+}
+
+/// The terms of EnvironmentLight::irradiance.
+std::array<double, 9> termsOf(const Eigen::Vector3d& d)
+{
+  return { 1, d.y(), d.z(), d.x(), d.x() * d.y(), d.y() * d.z(), 3 * d.z() * d.z() - 1, d.x() * d.z(),
+    d.x() * d.x() - d.y() * d.y() };
 }
 
 std::array<Eigen::Vector3d, 9> irradianceOf(const RadianceImage& image)
@@ -138,8 +153,7 @@ std::array<Eigen::Vector3d, 9> irradianceOf(const RadianceImage& image)
       const Eigen::Vector3d d = directionOf((column + 0.5) / image.width, (row + 0.5) / image.height);
       const Eigen::Vector3d light =
         Eigen::Vector3f(image.rgb.data() + (std::size_t(row) * image.width + column) * 3).cast<double>() * solidAngle;
-      const double terms[9] = { 1, d.y(), d.z(), d.x(), d.x() * d.y(), d.y() * d.z(), 3 * d.z() * d.z() - 1,
-        d.x() * d.z(), d.x() * d.x() - d.y() * d.y() };
+      const std::array<double, 9> terms = termsOf(d);
       for (std::size_t i = 0; i < 9; ++i)
       {
         sums[i] += light * (terms[i] * weights[i]);
@@ -230,6 +244,31 @@ std::vector<float> filtered(const Pyramid& pyramid, int width, double roughness)
 }
 
 } // namespace
+
+Eigen::Vector3d EnvironmentLight::irradianceOn(const Eigen::Vector3d& normal) const
+{
+  const std::array<double, 9> terms = termsOf(normal);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < terms.size(); ++i)
+  {
+    sum += terms[i] * this->irradiance[i];
+  }
+  return sum.cwiseMax(0.0);
+}
+
+Eigen::Vector3d EnvironmentLight::reflectedFrom(const Eigen::Vector3d& direction, double roughness) const
+{
+  const double level = std::clamp(roughness, 0.0, 1.0) * (Levels - 1);
+  const int low = std::min(int(level), Levels - 2);
+  const auto at = [&](int i) -> Eigen::Vector3d
+  { return bilinear(this->radiance[std::size_t(i)].data(), Width >> i, Width / 2 >> i, direction).cast<double>(); };
+  return at(low) * (low + 1 - level) + at(low + 1) * (level - low);
+}
+
+Eigen::Vector3d radianceFrom(const RadianceImage& image, const Eigen::Vector3d& direction)
+{
+  return bilinear(image, direction.normalized()).cast<double>();
+}
 
 EnvironmentLight environmentLight(const RadianceImage& image, double intensity)
 {

@@ -2,8 +2,6 @@
 #ifndef dgtkEnvironmentLight_h
 #define dgtkEnvironmentLight_h
 
-// Private to RenderGL.
-
 #include "dgtkModel.h"
 #include "dgtkRenderGLModule.h"
 
@@ -28,9 +26,17 @@ struct DGTKRENDERGL_EXPORT EnvironmentLight
   std::array<Eigen::Vector3d, 9> irradiance;
   /// RGB, equirectangular, rows top to bottom (Karis 2013: the lobe seen along the normal).
   std::array<std::vector<float>, Levels> radiance;
+
+  /// Irradiance divided by pi on a surface with a unit normal in the image's axes, RGB.
+  Eigen::Vector3d irradianceOn(const Eigen::Vector3d& normal) const;
+  /// `radiance` along a direction in the image's axes for a roughness in [0, 1], interpolated.
+  Eigen::Vector3d reflectedFrom(const Eigen::Vector3d& direction, double roughness) const;
 };
 
 DGTKRENDERGL_EXPORT EnvironmentLight environmentLight(const RadianceImage& image, double intensity);
+
+/// Radiance along a direction (any length but 0) in the image's axes, interpolated between texels; RGB.
+DGTKRENDERGL_EXPORT Eigen::Vector3d radianceFrom(const RadianceImage& image, const Eigen::Vector3d& direction);
 
 /// Scale and bias of the reflectance at normal incidence (Karis 2013), for the cosine of the viewer's angle (columns)
 /// and roughness (rows) at the centres of ReflectanceSize x ReflectanceSize cells.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkMaterialMaps.h"
 
+#include "dgtkSurfaceMaterial.h"
+
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <vector>
 #include <vtk_glew.h>
@@ -58,21 +59,12 @@ unsigned int MaterialMaps::textureOf(const Model& model, int index)
 
 SurfaceParameters MaterialMaps::parameters(const Model& model, const Material& material)
 {
-  constexpr double dielectric = 0.04; // reflectance of glass of index 1.5
+  const FacetedSurface facets = facetsOf(material);
   SurfaceParameters to;
-  if (material.physical)
+  to.metalRough = { float(facets.metallic), float(facets.roughness) };
+  for (std::size_t i = 0; i < 3; ++i)
   {
-    to.metalRough = { float(material.physical->metallic), float(material.physical->roughness) };
-    to.f0.fill(float(dielectric));
-  }
-  else
-  {
-    // The width of the GGX lobe that is as wide as Phong's.
-    to.metalRough = { 0, float(std::sqrt(std::sqrt(2 / (material.shininess + 2)))) };
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      to.f0[i] = float(dielectric * material.specular[Eigen::Index(i)]);
-    }
+    to.f0[i] = float(facets.f0[Eigen::Index(i)]);
   }
   to.normalMap = this->textureOf(model, material.normalMap);
   to.bumpMap = this->textureOf(model, material.bumpMap);

@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkRasterTexture.h"
+#include "dgtkSurfaceMaterial.h"
 
 #include <Eigen/LU>
 
@@ -43,23 +44,6 @@ Eigen::Vector3d middleOf(const std::vector<Eigen::Vector3d>& positions)
     high = high.cwiseMax(x);
   }
   return (low + high) / 2;
-}
-
-vtkSmartPointer<vtkOpenGLProperty> makeProperty(const Material& material)
-{
-  auto property = vtkSmartPointer<vtkOpenGLProperty>::New();
-  Eigen::Vector3d color = material.ambient;
-  property->SetAmbient(1);
-  property->SetAmbientColor(color.data());
-  color = material.diffuse;
-  property->SetDiffuse(1);
-  property->SetDiffuseColor(color.data());
-  color = material.specular;
-  property->SetSpecular(1);
-  property->SetSpecularColor(color.data());
-  property->SetSpecularPower(material.shininess);
-  property->SetOpacity(material.opacity);
-  return property;
 }
 
 } // namespace
@@ -382,7 +366,8 @@ RasterScene::Chunk RasterScene::makeChunk(
     const auto& corners = variant.shared->topology->triangles[t];
     indices.insert(indices.end(), corners.begin(), corners.end());
   }
-  chunk.property = makeProperty(material);
+  chunk.property = vtkSmartPointer<vtkOpenGLProperty>::New();
+  setProperty(material, *chunk.property);
   chunk.mapper = vtkSmartPointer<PartMapper>::New();
   chunk.mapper->configure(&this->Frame, shader, int(first), std::move(indices));
   chunk.mapper->SetInputData(variant.shared->data);

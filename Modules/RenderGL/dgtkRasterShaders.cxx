@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRasterShaders.h"
 
+#include "dgtkSurfaceMaterial.h"
 #include "dgtkSurfaceShaders.h"
 
+#include <charconv>
 #include <vtkShaderProgram.h>
 
 namespace dgtk
@@ -70,9 +72,11 @@ vec3 dgtkTexel(sampler2D picture, vec2 uv)
 }
 )";
 
-/// Ambient light of the world, lights add theirs. 0.2 is OpenGL's light model, for which the ambient colours of AC3D,
-/// 3DS and MD2 models are made: they are mostly the diffuse colour over again.
-#define DGTK_WORLD_AMBIENT "0.2"
+std::string ambientOfWorld()
+{
+  char text[32];
+  return { text, std::to_chars(text, text + sizeof text, worldAmbient).ptr };
+}
 
 constexpr const char* Peel = R"(
 uniform sampler2D dgtkLayer; // draw, triangle and depth of the layer before; depth 2 before the first
@@ -168,7 +172,8 @@ std::string loop(int from, int count, const std::string& body)
 std::string headLighting(const ShaderVariant& variant)
 {
   const std::string text = "  float df = max(0.0, normalVC.z);\n"
-                           "  vec3 dgtkColor = (" DGTK_WORLD_AMBIENT
+                           "  vec3 dgtkColor = (" +
+                           ambientOfWorld() +
                            " + dgtkLights[3].rgb) * ambientColor + dgtkEmission + df * diffuseColor * "
                            "dgtkLights[4].rgb";
   return text + (variant.specular ? " + pow(df, specularPower) * specularColor * dgtkLights[5].rgb;\n" : ";\n");
@@ -195,8 +200,9 @@ std::string lighting(const ShaderVariant& variant)
                            lightValue(variant, 0) + ".w ? s * pow(inside, axis.w) : 0.0;\n";
   const std::string far = "    vec3 L = " + lightValue(variant, 0) + ".xyz;\n    float s = 1.0;\n";
   std::string text = variant.physical ? beginPhysical(variant)
-                                      : "  vec3 dgtkAmbient = vec3(" DGTK_WORLD_AMBIENT ");\n"
-                                        "  vec3 dgtkDiffuse = vec3(0.0);\n";
+                                      : "  vec3 dgtkAmbient = vec3(" + ambientOfWorld() +
+                                          ");\n"
+                                          "  vec3 dgtkDiffuse = vec3(0.0);\n";
   if (variant.specular && !variant.physical)
   {
     text += "  vec3 dgtkSpecular = vec3(0.0);\n"
@@ -240,7 +246,7 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
     put(
       fragment, "//VTK::System::Dec", "//VTK::System::Dec\n#extension GL_ARB_shader_storage_buffer_object : require\n");
   }
-  declarations += "const float dgtkWorldAmbient = " DGTK_WORLD_AMBIENT ";\n" + surfaceDeclarations(variant);
+  declarations += "const float dgtkWorldAmbient = " + ambientOfWorld() + ";\n" + surfaceDeclarations(variant);
   put(fragment, "//VTK::ValuePass::Dec", declarations);
   // Everything is two-sided: the normal points to where the surface is seen from.
   put(fragment, "//VTK::Normal::Impl",

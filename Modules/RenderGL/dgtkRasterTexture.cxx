@@ -90,7 +90,7 @@ void dilate(std::vector<std::uint8_t>& rgba, int width, int height)
 
 } // namespace
 
-vtkSmartPointer<vtkOpenGLTexture> makeTexture(const Image& image, bool cutOut)
+vtkSmartPointer<vtkImageData> makePicture(const Image& image, bool cutOut)
 {
   // VTK takes a picture of width 1 for one lying on its side.
   const int repeat = image.width == 1 ? 2 : 1;
@@ -115,8 +115,13 @@ vtkSmartPointer<vtkOpenGLTexture> makeTexture(const Image& image, bool cutOut)
       std::memcpy(target, source + (std::size_t(row) * image.width + column / repeat) * 4, std::size_t(channels));
     }
   }
+  return data;
+}
+
+vtkSmartPointer<vtkOpenGLTexture> makeTexture(const Image& image, bool cutOut)
+{
   auto texture = vtkSmartPointer<vtkOpenGLTexture>::New();
-  texture->SetInputData(data);
+  texture->SetInputData(makePicture(image, cutOut));
   texture->SetColorModeToDirectScalars();
   texture->SetInterpolate(1);
   texture->SetMipmap(true);

@@ -3,24 +3,12 @@
 
 #include "dgtkEnvironmentLight.h"
 #include "dgtkShadowMaps.h"
+#include "dgtkSurfaceMaterial.h"
 
 namespace dgtk
 {
 namespace
 {
-
-/// IEC 61966-2-1
-constexpr const char* Transfer = R"(
-vec3 dgtkToLinear(vec3 c)
-{
-  return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(vec3(0.04045), c));
-}
-vec3 dgtkToDisplay(vec3 c)
-{
-  c = max(c, vec3(0.0));
-  return mix(c * 12.92, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(vec3(0.0031308), c));
-}
-)";
 
 /// The frame of the texture coordinates follows from how position and coordinates change between pixels.
 constexpr const char* Frame = R"(
@@ -115,20 +103,11 @@ std::string shadowFunction()
          "}\n";
 }
 
-/// Real spherical harmonics up to degree 2 of a direction (Ramamoorthi and Hanrahan 2001); the coefficients hold the
-/// constants.
 constexpr const char* Environment = R"(
 uniform vec3 dgtkIrradiance[9];
 uniform mat3 dgtkImageFromView;
 uniform sampler2D dgtkEnvironment;
 uniform sampler2D dgtkReflectance;
-vec3 dgtkIrradianceFrom(vec3 d)
-{
-  vec3 sum = dgtkIrradiance[0] + dgtkIrradiance[1] * d.y + dgtkIrradiance[2] * d.z + dgtkIrradiance[3] * d.x +
-    dgtkIrradiance[4] * (d.x * d.y) + dgtkIrradiance[5] * (d.y * d.z) + dgtkIrradiance[6] * (3.0 * d.z * d.z - 1.0) +
-    dgtkIrradiance[7] * (d.x * d.z) + dgtkIrradiance[8] * (d.x * d.x - d.y * d.y);
-  return max(sum, vec3(0.0));
-}
 )";
 
 /// Where a direction of the image's axes lies in an equirectangular picture whose rows go down.
@@ -159,7 +138,7 @@ std::string surfaceDeclarations(const ShaderVariant& variant)
   std::string text;
   if (variant.physical || variant.fog)
   {
-    text += Transfer;
+    text += transferShader();
   }
   if (variant.shadows || variant.environment)
   {
@@ -182,6 +161,7 @@ std::string surfaceDeclarations(const ShaderVariant& variant)
   if (variant.environment)
   {
     text += Environment;
+    text += irradianceShader();
     text += Equirectangular;
   }
   return text;

@@ -25,7 +25,7 @@ constexpr const char* stem = "dgtk-editor_";
   QT_TRANSLATE_NOOP("Edit", "Change interpolation of keys"), QT_TRANSLATE_NOOP("Edit", "Change speed of sequence"),
   QT_TRANSLATE_NOOP("Edit", "Choose sequence"), QT_TRANSLATE_NOOP("Edit", "Copy key frame"),
   QT_TRANSLATE_NOOP("Edit", "Copy keys"), QT_TRANSLATE_NOOP("Edit", "Cut"), QT_TRANSLATE_NOOP("Edit", "Delete"),
-  QT_TRANSLATE_NOOP("Edit", "Duplicate"), QT_TRANSLATE_NOOP("Edit", "Import"),
+  QT_TRANSLATE_NOOP("Edit", "Duplicate"), QT_TRANSLATE_NOOP("Edit", "Find models"), QT_TRANSLATE_NOOP("Edit", "Import"),
   QT_TRANSLATE_NOOP("Edit", "Make key frame"), QT_TRANSLATE_NOOP("Edit", "Move"),
   QT_TRANSLATE_NOOP("Edit", "Move key frame"), QT_TRANSLATE_NOOP("Edit", "Move keys"),
   QT_TRANSLATE_NOOP("Edit", "Move sequence"), QT_TRANSLATE_NOOP("Edit", "Paste"),

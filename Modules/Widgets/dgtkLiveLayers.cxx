@@ -7,6 +7,7 @@
 #include "dgtkRaySource.h"
 #include "dgtkRepresentation.h"
 #include "dgtkSamples.h"
+#include "dgtkSurfaceShading.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,6 @@ namespace dgtk
 namespace
 {
 constexpr int alphaSide = 4; ///< samples a side of a pixel
-constexpr double ambient = 0.25;
 
 /// A layer that relates a view with a neighbouring frame.
 struct FlowLayer
@@ -66,7 +66,7 @@ LayerSpec specOf(const FlowLayer& flow)
 
 const LayerSpec alphaSpec{ "alpha", PixelType::UInt8, 4, "id", "image", "0", "nearest object and its coverage" };
 const LayerSpec surfaceSpec{ "color_surface", PixelType::UInt8, 3, "sRGB", "image", "0",
-  "diffuse colour in a light at the camera" };
+  "draft of the colours, without shadows and bumps" };
 
 template <typename T>
 void fill(Rows& rows, T value)
@@ -75,35 +75,11 @@ void fill(Rows& rows, T value)
   std::fill(first, first + std::size_t(rows.width()) * rows.height() * rows.channels(), value);
 }
 
-/// Points of the surface without rows of the full width: all that reads SurfaceRows takes any rectangle.
-void shade(const SurfaceRows& in, Rows& out)
+bool isTranslucent(const SceneState& state, const Hit& hit)
 {
-  const std::unique_ptr<Representation> normals = makeRepresentation("shadingnormal");
-  Rows normal(PixelType::Float64, 3, in.rect.width, in.rect.y, in.rect.height);
-  normals->compute(in, normal);
-  const double* n = normal.row<double>(in.rect.y);
-  std::uint8_t* rgb = out.row<std::uint8_t>(in.rect.y);
-  std::size_t i = 0;
-  for (int y = in.rect.y; y < in.rect.y + in.rect.height; ++y)
-  {
-    for (int x = in.rect.x; x < in.rect.x + in.rect.width; ++x, ++i, n += 3, rgb += 3)
-    {
-      if (!std::isfinite(in.t[i]))
-      {
-        rgb[0] = rgb[1] = rgb[2] = 70;
-        continue;
-      }
-      const auto albedo = albedoAt(in.state->instances[in.hits[i].object - 1], in.hits[i].triangle,
-        { in.barycentrics[2 * i], in.barycentrics[2 * i + 1] });
-      const Eigen::Vector3d ray = in.view->model->rayThrough({ x + 0.5, y + 0.5 }).direction.normalized();
-      const double cosine = std::abs(ray.dot(Eigen::Vector3d(n[0], n[1], n[2])));
-      const double light = ambient + (1 - ambient) * (std::isfinite(cosine) ? cosine : 1.0);
-      for (std::size_t c = 0; c < 3; ++c)
-      {
-        rgb[c] = static_cast<std::uint8_t>(std::lround(albedo[c] * std::min(light, 1.0)));
-      }
-    }
-  }
+  const Material* const material =
+    hit.object == 0 ? nullptr : materialOf(state.instances[hit.object - 1], hit.triangle);
+  return material != nullptr && material->opacity < 1;
 }
 } // namespace
 
@@ -140,6 +116,8 @@ struct LiveEye::Impl
 
   Rows flow(const FlowLayer& flow, const SurfaceRows& in);
   Rows alpha(const VisibilityBuffer& hits);
+  void shade(const SurfaceRows& in, Rows& out);
+  Eigen::Vector3d through(int x, int y) const;
   const LiveScene::Moment& neighbour(int step);
 
   std::shared_ptr<const LiveScene> Scene;
@@ -150,6 +128,7 @@ struct LiveEye::Impl
   std::optional<LiveScene::Moment> After;
   std::unique_ptr<VisibilitySource> Source;
   std::unique_ptr<PixelSampler> Sampler;
+  std::optional<SurfaceShading> Shading;
 };
 
 const LiveScene::Moment& LiveEye::Impl::neighbour(int step)
@@ -204,6 +183,50 @@ Rows LiveEye::Impl::alpha(const VisibilityBuffer& hits)
   SampledRows samples;
   this->Sampler->sample(hits.rect, hits.hits.data(), samples);
   return alphaRows(samples, this->Pool);
+}
+
+/// The colour of a pixel where the nearest surface is seen through.
+Eigen::Vector3d LiveEye::Impl::through(int x, int y) const
+{
+  const SceneState& state = *this->Now.state;
+  const View& view = this->Views.now;
+  std::vector<Hit> hits;
+  this->Now.occlusion->allHits(view, { x + 0.5, y + 0.5 }, hits);
+  hits.push_back({}); // the background
+  Eigen::Vector3d color = Eigen::Vector3d::Zero();
+  double left = 1;
+  for (auto hit = hits.begin(); hit != hits.end() && left > 0; ++hit)
+  {
+    SurfaceRows one;
+    computeSurfaceRows(state, view, { x, y, 1, 1 }, &*hit, true, one);
+    const double opacity =
+      isTranslucent(state, *hit) ? materialOf(state.instances[hit->object - 1], hit->triangle)->opacity : 1.0;
+    color += left * opacity * this->Shading->colors(one).front().cwiseMin(1.0);
+    left *= 1 - opacity;
+  }
+  return color;
+}
+
+/// Points of the surface without rows of the full width: all that reads SurfaceRows takes any rectangle.
+void LiveEye::Impl::shade(const SurfaceRows& in, Rows& out)
+{
+  if (!this->Shading)
+  {
+    this->Shading.emplace(*this->Now.state, this->Views.now, this->Scene->environmentLight());
+  }
+  const std::vector<Eigen::Vector3d> colors = this->Shading->colors(in);
+  std::uint8_t* rgb = out.row<std::uint8_t>(in.rect.y);
+  for (std::size_t i = 0; i < colors.size(); ++i)
+  {
+    const auto width = std::size_t(in.rect.width);
+    const Eigen::Vector3d color = isTranslucent(*in.state, in.hits[i])
+                                    ? this->through(in.rect.x + int(i % width), in.rect.y + int(i / width))
+                                    : colors[i];
+    for (int c = 0; c < 3; ++c)
+    {
+      *rgb++ = static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[c], 0.0, 1.0)));
+    }
+  }
 }
 
 LiveEye::LiveEye(std::shared_ptr<const LiveScene> scene, int frame, LiveView view, ThreadPool& pool)
@@ -271,7 +294,7 @@ Rows LiveEye::values(const std::string& layer, const VisibilityBuffer& hits)
   }
   else
   {
-    shade(surface, out);
+    this->Self->shade(surface, out);
   }
   return out;
 }

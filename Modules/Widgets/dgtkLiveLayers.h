@@ -20,8 +20,8 @@ struct LiveLayer
   std::string description; ///< one sentence
 };
 
-/// What can be shown of a view: "surface" (diffuse colours in a light at the camera), all representations in the order
-/// of their registry, flow to the frames beside and its visibility classes, scene flow, alpha.
+/// What can be shown of a view: "surface" (a draft of the colours, see SurfaceShading), all representations in the
+/// order of their registry, flow to the frames beside and its visibility classes, scene flow, alpha.
 DGTKWIDGETS_EXPORT const std::vector<LiveLayer>& liveLayers();
 
 /// A view of a scene at a frame, traced by rays: the hits and values that `dgtk render --visibility ray` has of the

@@ -20,8 +20,7 @@ constexpr double farMargin = 1.01;
 std::shared_ptr<const SceneState> stateOf(const SceneDescription& scene, const ModelStore& models, int frame)
 {
   ScenePlaces places = placeScene(scene, models, frame);
-  auto state = std::make_shared<SceneState>();
-  state->frame = frame;
+  auto state = std::make_shared<SceneState>(*places.surroundings);
   for (const SceneItem& item : scene.items())
   {
     if (item.kind != SceneItem::Kind::Object)
@@ -115,6 +114,11 @@ LiveView LiveScene::view(const CameraDescription& camera, int frame, int width, 
   const std::shared_ptr<const Stage> stage = Stage::load(std::move(alone));
   const auto at = [&](int when) { return stage->view(0, when, width, height); };
   return { at(frame), at(std::max(frame - 1, this->First)), at(std::min(frame + 1, this->Last)) };
+}
+
+std::shared_ptr<const EnvironmentLight> LiveScene::environmentLight() const
+{
+  return this->Models.environment(this->Scene).light;
 }
 
 std::vector<std::string> LiveScene::objectNames() const

@@ -46,12 +46,15 @@ public:
     std::shared_ptr<const SceneState> state;
     std::shared_ptr<const OcclusionQuery> occlusion;
   };
-  /// Objects as Stage::at(frame) has them, ids included; no lights. The last few are kept. Throws what placeScene()
+  /// Objects as Stage::at(frame) has them, ids included. The last few are kept. Throws what placeScene()
   /// and makeOcclusionQuery() throw.
   Moment at(int frame) const;
 
   /// A camera of this or any scene, as Stage::view(). Throws InputError where its pose is undefined.
   LiveView view(const CameraDescription& camera, int frame, int width = 0, int height = 0) const;
+
+  /// What surfaces get from the environment; null where there is none.
+  std::shared_ptr<const EnvironmentLight> environmentLight() const;
 
   /// Names of the objects with an id: objectNames()[id - 1].
   std::vector<std::string> objectNames() const;

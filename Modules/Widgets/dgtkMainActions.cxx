@@ -105,6 +105,7 @@ void MainWindow::makeFileMenu()
     &MainWindow::askDataset);
   menu->addSeparator();
   connect(add("import", tr("&Import ..."), QKeySequence("Ctrl+I")), &QAction::triggered, this, &MainWindow::askImport);
+  connect(add("findModels", tr("Find &missing models ..."), {}), &QAction::triggered, this, &MainWindow::findMissing);
   connect(add("exportPov", tr("Export &POV-Ray ..."), {}), &QAction::triggered, this, &MainWindow::exportPov);
   menu->addSeparator();
   QAction* const leave = menu->addAction(tr("E&xit"));
@@ -165,7 +166,9 @@ void MainWindow::makeViewMenu()
   this->Truth->fillMenu(menu->addMenu(tr("S&how in the perspective")));
   QAction* const lights = this->addAction(menu, "sceneLights", tr("Light of the s&cene"), QKeySequence("L"));
   lights->setCheckable(true);
-  lights->setToolTip(tr("The scene's lights light the views, without shadows; otherwise a light at each view's eye"));
+  lights->setChecked(true);
+  lights->setToolTip(
+    tr("The scene's lights and background in the views, without shadows; otherwise a light at each view's eye"));
   connect(lights, &QAction::toggled, this->Views, &SceneViews::setSceneLights);
   QAction* const grid = this->addAction(menu, "grid", tr("&Grid and axes"), QKeySequence("G"));
   grid->setCheckable(true);

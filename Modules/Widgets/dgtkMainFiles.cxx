@@ -52,6 +52,11 @@ std::string withoutObject(const std::string& message)
 }
 } // namespace
 
+QString MainWindow::withWarnings(const QString& line, std::size_t warnings)
+{
+  return warnings == 0 ? line : tr("%1; warnings in the log: %2").arg(line).arg(warnings);
+}
+
 bool MainWindow::isFree()
 {
   if (this->Work->busy())
@@ -133,10 +138,12 @@ bool MainWindow::openFile(const QString& path)
   this->State->setFrame(this->State->scene().firstFrame());
   this->Views->showWhole();
   this->addRecent(path);
-  this->note(
-    tr("Opened %1: %2 objects, %3 lights, %4 cameras")
-      .arg(QFileInfo(path).fileName(), QString::number(this->State->scene().objects.size()),
-        QString::number(this->State->scene().lights.size()), QString::number(this->State->scene().cameras.size())));
+  const SceneDescription& scene = this->State->scene();
+  const QString opened = tr("Opened %1: %2 objects, %3 lights, %4 cameras")
+                           .arg(QFileInfo(path).fileName(), QString::number(scene.objects.size()),
+                             QString::number(scene.lights.size()), QString::number(scene.cameras.size()));
+  this->note(withWarnings(opened, this->Warned));
+  this->findMissing();
   return true;
 }
 
@@ -217,7 +224,7 @@ bool MainWindow::addRead(const std::string& file, const ModelStore& models)
   {
     this->Views->showWhole();
   }
-  this->note(tr("Imported %1").arg(name));
+  this->note(withWarnings(tr("Imported %1").arg(name), warnings.size()));
   return true;
 }
 

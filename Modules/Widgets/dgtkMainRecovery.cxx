@@ -48,6 +48,7 @@ void MainWindow::offerRecovery()
       this->document().recover(std::move(**loaded), outdated ? std::string() : origin.toStdString());
       this->Views->showWhole();
       this->note(tr("Recovered: %1").arg(origin.isEmpty() ? tr("a scene without a name") : origin));
+      this->findMissing();
       if (const int others = Autosave::leftBehind().size(); others > 0)
       {
         this->note(tr("There is other unsaved work, too (%1): the next start asks about it.").arg(others));

@@ -102,6 +102,7 @@ void MainWindow::refresh()
   this->refreshItemActions();
   QAction* const undo = this->findChild<QAction*>("undo");
   QAction* const redo = this->findChild<QAction*>("redo");
+  this->findChild<QAction*>("findModels")->setEnabled(!document.absent().empty());
   undo->setEnabled(document.canUndo());
   redo->setEnabled(document.canRedo());
   undo->setText(document.canUndo() ? tr("&Undo %1").arg(menuText(editText(document.undoText()))) : tr("&Undo"));

@@ -86,6 +86,11 @@ private:
   bool saveAs();
   void askImport();
   void askDataset();
+  /// Until there are none, or nobody looks for them.
+  void findMissing();
+  /// Lists the models that are not there and offers to look for them. True when some were found.
+  bool offerToFind();
+  bool findModelsBelow(const QString& folder);
   bool addRead(const std::string& file, const ModelStore& models);
   void exportPov();
   bool mayDiscard();
@@ -115,6 +120,8 @@ private:
   void fail(const QString& message);
   void note(const QString& line);
   void noteWarnings(const std::vector<std::string>& lines);
+  /// The status bar keeps only the last line: it says that there are others.
+  static QString withWarnings(const QString& line, std::size_t warnings);
   /// What the scene's models are warned of and the log does not say yet.
   void noteNewWarnings();
 

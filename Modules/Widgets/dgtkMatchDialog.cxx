@@ -148,7 +148,9 @@ void MatchDialog::askPicture(std::size_t index)
   question.frame = side.view->frame;
   question.view =
     this->Scene->view(this->Scene->description().cameras[std::size_t(side.camera->currentIndex())], question.frame);
-  side.truth->askPicture(question, this->Layer->currentData().toString().toStdString(),
+  const QString layer = this->Layer->currentData().toString();
+  side.pane->findChild<QLabel*>("draft")->setVisible(layer == "surface");
+  side.truth->askPicture(question, layer.toStdString(),
     [this, index, name = side.view->view.name, frame = question.frame](const LivePicture& picture)
     {
       const auto show = [this, index, name, frame, picture]

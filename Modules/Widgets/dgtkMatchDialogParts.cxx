@@ -2,6 +2,7 @@
 // What the dialog is made of, and what it says about the point that is looked at.
 #include "dgtkMatchDialog.h"
 
+#include "dgtkDraftLabel.h"
 #include "dgtkEditorIcons.h"
 #include "dgtkEditorLanguage.h"
 #include "dgtkMatchPane.h"
@@ -108,6 +109,7 @@ QWidget* MatchDialog::makeSide(std::size_t index)
   side.where = new QLabel;
   side.where->setObjectName("where" + suffix);
   side.pane = new MatchPane(widget);
+  makeDraftLabel(side.pane);
   side.pane->setObjectName("pane" + suffix);
   side.truth = std::make_unique<LiveTruth>();
   auto* camera = new QLabel(index == 0 ? tr("&Left camera") : tr("&Right camera"));

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkModelStore.h"
 
+#include "dgtkEnvironmentLight.h"
+#include "dgtkError.h"
 #include "dgtkModelClock.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
-#include <set>
+#include <cstdint>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -23,6 +29,60 @@ ObjectDescription bare(const ObjectDescription& object)
   alone.orientation = {};
   alone.scale = Eigen::Vector3d(1, 1, 1);
   alone.animation = {};
+  return alone;
+}
+
+bool isThere(const std::string& path)
+{
+  std::error_code error;
+  return std::filesystem::status(path, error).type() != std::filesystem::file_type::not_found;
+}
+
+/// What stands for a model that is not there.
+std::shared_ptr<const Model> makeBox()
+{
+  auto model = std::make_shared<Model>();
+  auto geometry = std::make_shared<Geometry>();
+  for (int side = 0; side < 6; ++side)
+  {
+    const int axis = side / 2;
+    const double sign = side % 2 == 0 ? -1 : 1;
+    const Eigen::Vector3d n = sign * Eigen::Vector3d::Unit(axis);
+    const Eigen::Vector3d u = sign * Eigen::Vector3d::Unit((axis + 1) % 3);
+    const Eigen::Vector3d v = Eigen::Vector3d::Unit((axis + 2) % 3);
+    const auto first = static_cast<std::uint32_t>(geometry->positions.size());
+    for (const auto& [a, b] : { std::pair(-1, -1), { 1, -1 }, { 1, 1 }, { -1, 1 } })
+    {
+      geometry->positions.emplace_back((n + a * u + b * v) / 2);
+      geometry->normals.emplace_back(n.cast<float>());
+      model->sourceVertex.push_back(first + std::uint32_t(model->sourceVertex.size() % 4));
+    }
+    model->triangles.push_back({ first, first + 1, first + 2 });
+    model->triangles.push_back({ first, first + 2, first + 3 });
+  }
+  model->sourceVertices = geometry->positions.size();
+  model->rest = std::move(geometry);
+  model->materials.emplace_back();
+  model->materials.front().ambient = model->materials.front().diffuse = Eigen::Vector3d::Constant(0.5);
+  model->parts.push_back({ "missing", 0, 0, static_cast<std::uint32_t>(model->triangles.size()) });
+  model->boundsMin.setConstant(-0.5);
+  model->boundsMax.setConstant(0.5);
+  return model;
+}
+
+std::shared_ptr<const Model> box()
+{
+  static const std::shared_ptr<const Model> one = makeBox();
+  return one;
+}
+
+SceneDescription environmentAlone(const SceneDescription& scene)
+{
+  SceneDescription alone;
+  alone.file = scene.file;
+  alone.folder = scene.folder;
+  alone.upAxis = scene.upAxis;
+  alone.environment = scene.environment;
   return alone;
 }
 } // namespace
@@ -70,24 +130,34 @@ void ModelStore::loadFile(
   }
 }
 
-bool ModelStore::load(const SceneDescription& scene, const LoadProgress& progress)
+bool ModelStore::load(const SceneDescription& scene, const LoadProgress& progress, AbsentModel absent)
 {
   struct File
   {
     SceneDescription wanted;
     std::vector<std::string> keys;
   };
+  EntryMap loaded;
+  std::set<std::string> boxes;
   std::vector<File> files; // in the order of their first use, as errors are reported
   std::map<std::string, std::size_t> places;
   std::set<std::string> known;
   for (const ObjectDescription& object : scene.objects)
   {
     const std::string key = keyOf(scene, object);
-    if (find(this->Entries, key) != nullptr || !known.insert(key).second)
+    const std::string path = scene.resolve(object.model);
+    const Entry* const entry = find(this->Entries, key);
+    if ((entry != nullptr && (entry->stage != nullptr || !isThere(path))) || !known.insert(key).second)
     {
       continue;
     }
-    const auto [place, isNew] = places.emplace(scene.resolve(object.model), files.size());
+    if ((absent == AbsentModel::Box || this->Absent.count(path) != 0) && !isThere(path))
+    {
+      boxes.insert(path);
+      loaded[key] = { nullptr, box(), 0, false };
+      continue;
+    }
+    const auto [place, isNew] = places.emplace(path, files.size());
     if (isNew)
     {
       files.emplace_back();
@@ -97,7 +167,6 @@ bool ModelStore::load(const SceneDescription& scene, const LoadProgress& progres
     files[place->second].wanted.objects.push_back(bare(object));
     files[place->second].keys.push_back(key);
   }
-  EntryMap loaded;
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < files.size(); ++i)
   {
@@ -108,18 +177,57 @@ bool ModelStore::load(const SceneDescription& scene, const LoadProgress& progres
     loadFile(
       std::move(files[i].wanted), files[i].keys, loaded, [&](const std::string& line) { warnings.push_back(line); });
   }
+  const std::string environment = environmentKey(scene);
+  std::map<std::string, Environment> surroundings;
+  if (!environment.empty() && this->Environments.count(environment) == 0)
+  {
+    surroundings[environment] = readEnvironment(scene, [&](const std::string& line) { warnings.push_back(line); });
+  }
   for (const ObjectDescription& object : scene.objects)
   {
     if (!object.animation.sequence.empty())
     {
       const std::string key = keyOf(scene, object);
-      const Entry* const entry = find(loaded, key);
-      findAnimation(scene, object, *(entry == nullptr ? this->Entries.at(key) : *entry).model);
+      const Entry* const found = find(loaded, key);
+      const Entry& entry = found == nullptr ? this->Entries.at(key) : *found;
+      if (entry.stage != nullptr)
+      {
+        findAnimation(scene, object, *entry.model);
+      }
     }
   }
-  this->Entries.merge(loaded);
+  this->take(loaded);
+  this->Environments.merge(surroundings);
+  this->Absent.merge(boxes);
   this->addWarnings(warnings);
   return true;
+}
+
+std::string ModelStore::environmentKey(const SceneDescription& scene)
+{
+  return scene.environment.image.empty() ? std::string()
+                                         : scene.folder + '\n' + toJson(environmentAlone(scene), scene.folder);
+}
+
+ModelStore::Environment ModelStore::readEnvironment(const SceneDescription& scene, const Stage::WarningSink& warning)
+{
+  Environment read;
+  try
+  {
+    read.state = Stage::load(environmentAlone(scene))->at(0)->environment;
+    read.light = std::make_shared<EnvironmentLight>(environmentLight(*read.state->image, read.state->intensity));
+  }
+  catch (const InputError& error)
+  {
+    warning(error.what());
+  }
+  return read;
+}
+
+ModelStore::Environment ModelStore::environment(const SceneDescription& scene) const
+{
+  const auto found = this->Environments.find(environmentKey(scene));
+  return found == this->Environments.end() ? Environment() : found->second;
 }
 
 void ModelStore::addWarnings(const std::vector<std::string>& lines)
@@ -134,9 +242,21 @@ void ModelStore::addWarnings(const std::vector<std::string>& lines)
   }
 }
 
+/// In place of boxes, too.
+void ModelStore::take(const EntryMap& entries)
+{
+  for (const auto& [key, entry] : entries)
+  {
+    Entry& own = this->Entries[key];
+    own = own.stage == nullptr ? entry : own;
+  }
+}
+
 void ModelStore::adopt(const ModelStore& other)
 {
-  this->Entries.insert(other.Entries.begin(), other.Entries.end());
+  this->take(other.Entries);
+  this->Environments.insert(other.Environments.begin(), other.Environments.end());
+  this->Absent.insert(other.Absent.begin(), other.Absent.end());
   this->addWarnings(other.Warnings);
 }
 
@@ -146,12 +266,34 @@ std::shared_ptr<const Model> ModelStore::modelOf(const SceneDescription& scene, 
   return entry == nullptr ? nullptr : entry->model;
 }
 
+std::vector<std::size_t> ModelStore::absent(const SceneDescription& scene) const
+{
+  std::vector<std::size_t> objects;
+  for (std::size_t i = 0; i < scene.objects.size() && !this->Absent.empty(); ++i)
+  {
+    const Entry* const entry = find(this->Entries, keyOf(scene, scene.objects[i]));
+    if (entry != nullptr && entry->stage == nullptr)
+    {
+      objects.push_back(i);
+    }
+  }
+  return objects;
+}
+
 Instance ModelStore::at(const SceneDescription& scene, const ObjectDescription& object, double frame) const
 {
   const Entry* const entry = find(this->Entries, keyOf(scene, object));
   if (entry == nullptr || entry->empty)
   {
     return {};
+  }
+  if (entry->stage == nullptr)
+  {
+    Instance placeholder;
+    placeholder.model = entry->model;
+    placeholder.geometry = entry->model->rest;
+    placeholder.materials = std::shared_ptr<const std::vector<Material>>(entry->model, &entry->model->materials);
+    return placeholder;
   }
   Instance instance = entry->stage->at(0)->instances[entry->instance];
   const int animation = entry->model->deformation ? findAnimation(scene, object, *entry->model) : -1;

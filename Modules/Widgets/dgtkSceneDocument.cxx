@@ -57,7 +57,8 @@ std::optional<LoadedScene> SceneDocument::read(const std::string& path, const Lo
   LoadedScene loaded;
   loaded.path = std::filesystem::absolute(path).lexically_normal().string();
   loaded.scene = readScene(loaded.path);
-  return loaded.models.load(loaded.scene, progress) ? std::make_optional(std::move(loaded)) : std::nullopt;
+  return loaded.models.load(loaded.scene, progress, AbsentModel::Box) ? std::make_optional(std::move(loaded))
+                                                                      : std::nullopt;
 }
 
 void SceneDocument::install(LoadedScene loaded)

@@ -37,6 +37,8 @@ public:
 
   const SceneDescription& scene() const { return this->Scene; }
   const ModelStore& models() const { return this->Models; }
+  /// The objects that are boxes because their model's file is not there: indices.
+  std::vector<std::size_t> absent() const { return this->Models.absent(this->Scene); }
   /// "" before the first save.
   const std::string& path() const { return this->Path; }
   bool modified() const { return this->Done.size() != this->Clean; }
@@ -47,7 +49,7 @@ public:
 
   void clear();
   /// The part of open() that takes long; for any thread. None when `progress` stopped it. Throws InputError, also for
-  /// models that cannot be read.
+  /// models that cannot be read; those whose file is not there become boxes.
   static std::optional<LoadedScene> read(const std::string& path, const LoadProgress& progress = {});
   void install(LoadedScene loaded);
   /// Throws as read().

@@ -239,10 +239,28 @@ double fieldOfViewOf(const CameraDescription& camera)
   return std::atan(camera.height / 2.0 / (*camera.K)(1, 1)) * 360 / pi;
 }
 
+namespace
+{
+/// Without objects and cameras Stage reads nothing.
+std::shared_ptr<const SceneState> surroundingsOf(const SceneDescription& scene, const ModelStore& models, double frame)
+{
+  SceneDescription alone;
+  alone.file = scene.file;
+  alone.upAxis = scene.upAxis;
+  alone.background = scene.background;
+  alone.fog = scene.fog;
+  alone.lights = scene.lights;
+  auto state = std::make_shared<SceneState>(*Stage::load(std::move(alone))->at(frame));
+  state->environment = models.environment(scene).state;
+  return state;
+}
+} // namespace
+
 ScenePlaces placeScene(const SceneDescription& scene, const ModelStore& models, double frame)
 {
   ScenePlaces places;
   places.frame = frame;
+  places.surroundings = surroundingsOf(scene, models, frame);
   Matrices matrices(scene, frame);
   Boxes boxes;
   for (std::size_t i = 0; i < scene.objects.size(); ++i)

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -56,6 +57,8 @@ struct DGTKWIDGETS_EXPORT ScenePlaces
   std::vector<CameraPlace> cameras;
   std::vector<Eigen::Vector3d> lights;
   WorldBox box; ///< of all that is visible, cameras' centres and lights that have a place
+  /// Lights, background, environment and fog as Stage::at() has them; no instances. Never null.
+  std::shared_ptr<const SceneState> surroundings;
 
   WorldBox boxOf(const SceneItem& item) const;
 };

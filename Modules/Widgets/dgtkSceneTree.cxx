@@ -2,8 +2,10 @@
 #include "dgtkSceneTree.h"
 
 #include <QHeaderView>
+#include <QStyle>
 #include <QTimer>
 
+#include <set>
 #include <utility>
 
 namespace dgtk
@@ -53,6 +55,10 @@ std::vector<std::string> SceneTree::listing() const
 {
   const SceneDescription& scene = this->State.scene();
   std::vector<std::string> lines;
+  for (const std::size_t i : this->State.document().absent())
+  {
+    lines.push_back("a" + std::to_string(i));
+  }
   for (const ObjectDescription& object : scene.objects)
   {
     lines.push_back("o" + object.name + '\n' + object.className + (object.visible ? "+" : "-"));
@@ -82,6 +88,8 @@ void SceneTree::refresh()
     qDeleteAll(group->takeChildren());
   }
   const SceneDescription& scene = this->State.scene();
+  const std::vector<std::size_t> boxes = this->State.document().absent();
+  const std::set<std::size_t> absent(boxes.begin(), boxes.end());
   const QString lightKinds[4] = { tr("point"), tr("head"), tr("directional"), tr("spot") };
   for (const SceneItem& item : scene.items())
   {
@@ -99,6 +107,12 @@ void SceneTree::refresh()
     row->setData(0, kindRole, static_cast<int>(item.kind));
     row->setData(0, indexRole, static_cast<qulonglong>(item.index));
     row->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsEditable);
+    if (item.kind == SceneItem::Kind::Object && absent.count(item.index) != 0)
+    {
+      row->setIcon(0, this->style()->standardIcon(QStyle::SP_MessageBoxWarning));
+      row->setText(1, tr("missing"));
+      row->setToolTip(0, tr("Its model is not there: %1").arg(toText(scene.objects[item.index].model)));
+    }
   }
   this->Busy = false;
   this->showSelection();

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSceneView.h"
 
+#include "dgtkDraftLabel.h"
 #include "dgtkViewOverlay.h"
 
 #include <QElapsedTimer>
+#include <QLabel>
 #include <QTimer>
 
 #include <vtkCamera.h>
@@ -33,6 +35,7 @@ const Eigen::Vector3d bottomColor(0.30, 0.31, 0.33);
 SceneView::SceneView(ViewKind kind, QWidget* parent)
   : ViewWidget(kind, topColor, bottomColor, parent)
   , Overlay(new ViewOverlay(this))
+  , Draft(makeDraftLabel(this))
 {
   this->Actors = std::make_unique<ViewActors>(this->Renderer, kind);
   // What is hidden need not be shaded: without a graphics card that is most of the work.
@@ -128,6 +131,7 @@ void SceneView::draw()
   }
   QElapsedTimer clock;
   clock.start();
+  this->Actors->aim(this->Camera);
   this->stepBack();
   this->Renderer->ResetCameraClippingRange();
   this->renderWindow()->Render();
@@ -210,11 +214,11 @@ bool SceneView::lookThrough(const CameraDescription& camera, double frame)
   return true;
 }
 
-void SceneView::showScene(
-  const SceneDescription& scene, const std::shared_ptr<const ScenePlaces>& places, ViewMeshes& meshes)
+void SceneView::showScene(const SceneDescription& scene, const std::shared_ptr<const ScenePlaces>& places,
+  const std::shared_ptr<const EnvironmentLight>& environment, ViewMeshes& meshes)
 {
   this->Places = places;
-  this->Actors->show(scene, *places, meshes);
+  this->Actors->show(scene, *places, environment, meshes);
   this->drawSoon();
 }
 
@@ -223,6 +227,12 @@ void SceneView::showSelected(const SceneItems& selected)
   this->Selected = selected;
   this->Chosen = selectionLines(*this->Places, selected);
   this->placeOverlay();
+}
+
+void SceneView::showDraft(bool on)
+{
+  this->Draft->setVisible(on);
+  this->Draft->raise(); // also above a picture that covers the view
 }
 
 void SceneView::showGrid(bool on)

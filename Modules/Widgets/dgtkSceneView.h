@@ -14,6 +14,8 @@
 #include <memory>
 #include <optional>
 
+class QLabel;
+
 namespace dgtk
 {
 
@@ -49,7 +51,9 @@ public:
   /// Takes the place and direction of a camera; the field of view stays the view's own. False, and nothing changes,
   /// where the camera looks at its own place.
   bool lookThrough(const CameraDescription& camera, double frame);
-  void showScene(const SceneDescription& scene, const std::shared_ptr<const ScenePlaces>& places, ViewMeshes& meshes);
+  /// `environment` of the places' surroundings.
+  void showScene(const SceneDescription& scene, const std::shared_ptr<const ScenePlaces>& places,
+    const std::shared_ptr<const EnvironmentLight>& environment, ViewMeshes& meshes);
   /// Of the scene that is shown: nothing is drawn anew but the lines about it.
   void showSelected(const SceneItems& selected);
   void setStyle(ViewStyle style) { this->Actors->setStyle(style); }
@@ -63,6 +67,8 @@ public:
   /// objects are met. There are no handles, and nothing is dragged. Empty: the view's own eye again.
   using PictureRays = std::function<std::optional<WorldRay>(const QPoint&)>;
   void setPictureRays(const PictureRays& rays);
+  /// The word at its corner: what is seen is not the renderer's.
+  void showDraft(bool on);
   /// Nothing where only the background is.
   std::optional<SceneItem> itemAt(const QPoint& position) const;
 
@@ -127,6 +133,7 @@ private:
   DrawingRate Rate;
   Grasp Grasped;
   ViewOverlay* Overlay;
+  QLabel* Draft;
   std::optional<HandlePlace> Handles;
   bool Holds = false; ///< a handle, or the thing itself, is being dragged
 };

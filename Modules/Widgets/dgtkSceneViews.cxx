@@ -90,9 +90,10 @@ void SceneViews::refresh()
     emit this->failed(QString::fromUtf8(error.what()));
     return;
   }
+  const std::shared_ptr<const EnvironmentLight> environment = this->State.document().models().environment(scene).light;
   for (SceneView* view : this->Views)
   {
-    view->showScene(scene, this->Places, this->Meshes);
+    view->showScene(scene, this->Places, environment, this->Meshes);
   }
   this->takeUpAxis();
   this->showSelection();
@@ -101,9 +102,11 @@ void SceneViews::refresh()
 
 void SceneViews::takeUpAxis()
 {
-  if (this->State.scene().upAxis != this->Up)
+  const std::size_t opened = this->State.document().opened();
+  if (this->State.scene().upAxis != this->Up || opened != this->Opened)
   {
     this->Up = this->State.scene().upAxis;
+    this->Opened = opened;
     for (SceneView* view : this->Views)
     {
       view->resetCamera(this->Up);

@@ -68,7 +68,8 @@ protected:
 private:
   QWidget* makePane(ViewKind kind, const QString& title);
   void refresh();
-  /// Where the scene has another than before, its objects are framed from there, also by an edit or its undo.
+  /// Where the scene has another than before, its objects are framed from there, also by an edit or its undo. Another
+  /// scene is looked at from where views begin.
   void takeUpAxis();
   void frameObjects();
   void activate(SceneView* view);
@@ -95,6 +96,7 @@ private:
   HandleTool* Tool = nullptr;
   bool WholeWanted = true;
   UpAxis Up = UpAxis::Y;
+  std::size_t Opened = 0; ///< SceneDocument::opened() of what is seen
 };
 
 } // namespace dgtk

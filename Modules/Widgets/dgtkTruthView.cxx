@@ -58,6 +58,7 @@ TruthView::TruthView(EditorState& state, SceneViews& views, QObject* parent)
         this->Before.reset(); // its models are nobody's any more
         this->Opened = opened;
       }
+      this->showSubject();
       this->askSoon();
     });
   connect(&state, &EditorState::frameChanged, this, &TruthView::askSoon);
@@ -152,6 +153,8 @@ void TruthView::showSubject()
     this->Picture->setVisible(!shown.isEmpty());
     this->View3D->setCovered(!shown.isEmpty());
   }
+  // Values of a box that stands for a model are nobody's.
+  this->View3D->showDraft(shown.isEmpty() || shown == "surface" || !this->State.document().absent().empty());
   this->View3D->setPictureRays(
     this->Through ? [this](const QPoint& position) { return this->rayAt(position); } : SceneView::PictureRays());
   this->Subject->setText(this->Through ? tr("through camera %1").arg(toText(this->Through->name)) : QString());
@@ -239,7 +242,7 @@ void TruthView::receive(const LivePicture& picture, const QString& layer, const 
   {
     return;
   }
-  QString caption = layer;
+  QString caption = layer == "surface" ? tr("draft of the colours, without shadows and bumps") : layer;
   if (!picture.message.empty())
   {
     caption += ": " + messageText(picture.message);

@@ -13,6 +13,7 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkShaderProperty.h>
 #include <vtkSphereSource.h>
 #include <vtkTexture.h>
 
@@ -42,25 +43,12 @@ vtkSmartPointer<vtkMatrix4x4> matrixOf(const Affine3& target_from_source)
   }
   return matrix;
 }
-
-void fill(vtkProperty* property, const Material& material)
-{
-  const Eigen::Vector3d diffuse = material.diffuse.cwiseMin(1.0);
-  const Eigen::Vector3d specular = material.specular.cwiseMin(1.0);
-  property->SetAmbient(0.25);
-  property->SetAmbientColor(diffuse.x(), diffuse.y(), diffuse.z());
-  property->SetDiffuse(0.85);
-  property->SetDiffuseColor(diffuse.x(), diffuse.y(), diffuse.z());
-  property->SetSpecular(0.5);
-  property->SetSpecularColor(specular.x(), specular.y(), specular.z());
-  property->SetSpecularPower(std::max(material.shininess, 1.0));
-  property->SetOpacity(material.opacity);
-}
 } // namespace
 
 ViewActors::ViewActors(vtkRenderer* renderer, ViewKind kind)
   : Renderer(renderer)
   , Lighting(renderer)
+  , Shading(this->Lighting.makeShading(false))
   , Kind(kind)
 {
   this->GridLines = std::make_unique<LineActor>(renderer, gridColor, 1);
@@ -106,7 +94,7 @@ ViewActors::Surface& ViewActors::surface(const Instance& instance, std::size_t p
     surface.materials = instance.materials;
     surface.mappers[0] = mapperOf(data);
     surface.property = vtkSmartPointer<vtkProperty>::New();
-    fill(surface.property, material);
+    this->Lighting.fill(material, *surface.property);
     const auto texture = std::size_t(material.texture);
     vtkImageData* const picture =
       material.texture < 0 ? nullptr : meshes.picture(instance.model->textures[texture].image, material.cutOut);
@@ -141,6 +129,7 @@ vtkSmartPointer<vtkActor> ViewActors::makeActor(Surface& surface)
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(surface.mappers[0]);
   actor->SetProperty(surface.property);
+  actor->SetShaderProperty(this->Shading);
   actor->SetForceOpaque(surface.property->GetOpacity() >= 1); // cut-outs are opaque where they are
   this->applyStyle(surface, actor);
   this->Renderer->AddActor(actor);
@@ -358,9 +347,15 @@ void ViewActors::showActors(bool on)
 void ViewActors::setStyle(ViewStyle style)
 {
   this->Style = style;
+  this->rebuild();
+}
+
+/// By the next show().
+void ViewActors::rebuild()
+{
   for (Shown& shown : this->Objects)
   {
-    shown.geometry = nullptr; // built anew by the next show()
+    shown.geometry = nullptr;
   }
   for (auto& [key, surface] : this->Surfaces)
   {
@@ -371,12 +366,21 @@ void ViewActors::setStyle(ViewStyle style)
   }
 }
 
-void ViewActors::show(const SceneDescription& scene, const ScenePlaces& places, ViewMeshes& meshes)
+void ViewActors::show(const SceneDescription& scene, const ScenePlaces& places,
+  const std::shared_ptr<const EnvironmentLight>& environment, ViewMeshes& meshes)
 {
   this->Meshes = &meshes;
+  if (this->Lighting.show(*places.surroundings, environment, ViewCamera(this->Kind, scene.upAxis)))
+  {
+    this->Shading = this->Lighting.makeShading(false);
+    this->rebuild();
+    for (auto& [key, surface] : this->Surfaces)
+    {
+      this->Lighting.fill(*key.second, *surface.property);
+    }
+  }
   this->showObjects(places, meshes);
   this->showLights(scene, places);
-  this->Lighting.show(scene, places);
   this->showGridFor(places.box, scene.upAxis);
   LineList cameras;
   for (const CameraPlace& camera : places.cameras)

@@ -26,6 +26,7 @@ class vtkPolyData;
 class vtkPolyDataMapper;
 class vtkProperty;
 class vtkRenderer;
+class vtkShaderProperty;
 class vtkTexture;
 
 namespace dgtk
@@ -47,9 +48,13 @@ public:
   ViewActors(const ViewActors&) = delete;
   ViewActors& operator=(const ViewActors&) = delete;
 
-  void show(const SceneDescription& scene, const ScenePlaces& places, ViewMeshes& meshes);
+  /// `environment` of the places' surroundings.
+  void show(const SceneDescription& scene, const ScenePlaces& places,
+    const std::shared_ptr<const EnvironmentLight>& environment, ViewMeshes& meshes);
   void setStyle(ViewStyle style);
   void showGrid(bool on);
+  /// Before each drawing.
+  void aim(const ViewCamera& camera) { this->Lighting.aim(camera); }
   /// Takes effect at the next show().
   void setSceneLights(bool on) { this->Lighting.setSceneLights(on); }
   /// World units of a square of it.
@@ -110,10 +115,12 @@ private:
   void showLights(const SceneDescription& scene, const ScenePlaces& places);
   void showGridFor(const WorldBox& box, UpAxis upAxis);
   void forgetSurfaces();
+  void rebuild();
   void showActors(bool on);
 
   vtkRenderer* Renderer;
-  ViewLights Lighting;
+  ViewLights Lighting;                        ///< before what it lights
+  vtkSmartPointer<vtkShaderProperty> Shading; ///< of all actors but copies
   ViewMeshes* Meshes = nullptr;
   ViewKind Kind;
   ViewStyle Style = ViewStyle::Textured;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkViewCopies.h"
 
+#include "dgtkViewLights.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -12,6 +14,7 @@
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkShaderProperty.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <cmath>
@@ -49,8 +52,10 @@ std::optional<ViewCopies::Place> ViewCopies::placeOf(const Affine3& world_from_o
   return place;
 }
 
-ViewCopies::ViewCopies(vtkRenderer* renderer, vtkPolyData* part, vtkProperty* property)
+ViewCopies::ViewCopies(vtkRenderer* renderer, vtkPolyData* part, vtkProperty* property, ViewLights& lights)
   : Renderer(renderer)
+  , Lights(lights)
+  , Shading(lights.makeShading(true))
 {
   this->Points->SetDataTypeToDouble();
   this->Data->SetPoints(this->Points);
@@ -73,12 +78,18 @@ ViewCopies::ViewCopies(vtkRenderer* renderer, vtkPolyData* part, vtkProperty* pr
   this->Mapper->StaticOn();
   this->Actor->SetMapper(this->Mapper);
   this->Actor->SetProperty(property);
+  ViewLights::setGlow(*this->Shading, *property);
+  this->Actor->SetShaderProperty(this->Shading);
   this->Actor->ForceOpaqueOn();
   this->Actor->VisibilityOff();
   renderer->AddActor(this->Actor);
 }
 
-ViewCopies::~ViewCopies() { this->Renderer->RemoveActor(this->Actor); }
+ViewCopies::~ViewCopies()
+{
+  this->Lights.forget(this->Shading);
+  this->Renderer->RemoveActor(this->Actor);
+}
 
 void ViewCopies::hide() { this->Actor->VisibilityOff(); }
 

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <vtkNew.h>
+#include <vtkSmartPointer.h>
 
 #include <optional>
 #include <vector>
@@ -20,10 +21,13 @@ class vtkPoints;
 class vtkPolyData;
 class vtkProperty;
 class vtkRenderer;
+class vtkShaderProperty;
 class vtkUnsignedCharArray;
 
 namespace dgtk
 {
+
+class ViewLights;
 
 /// Many copies of a part of a model in one view, drawn by one call of OpenGL: an actor for each takes the most of a
 /// drawing's time, and VTK looks through all its actors for each that comes or goes.
@@ -43,7 +47,8 @@ public:
   /// Nothing for what is sheared or flat.
   static std::optional<Place> placeOf(const Affine3& world_from_object);
 
-  ViewCopies(vtkRenderer* renderer, vtkPolyData* part, vtkProperty* property);
+  /// `lights` must outlive them.
+  ViewCopies(vtkRenderer* renderer, vtkPolyData* part, vtkProperty* property, ViewLights& lights);
   ~ViewCopies();
   ViewCopies(const ViewCopies&) = delete;
   ViewCopies& operator=(const ViewCopies&) = delete;
@@ -55,6 +60,8 @@ public:
 
 private:
   vtkRenderer* Renderer;
+  ViewLights& Lights;
+  vtkSmartPointer<vtkShaderProperty> Shading;
   vtkNew<vtkPolyData> Data; ///< a point for each copy
   vtkNew<vtkPoints> Points;
   vtkNew<vtkDoubleArray> Rotations;

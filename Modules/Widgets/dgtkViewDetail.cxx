@@ -59,8 +59,8 @@ ViewCopies& ViewActors::copies(Surface& surface, int level)
   if (surface.copies[level] == nullptr)
   {
     this->Fresh = true;
-    surface.copies[level] = std::make_unique<ViewCopies>(
-      this->Renderer, this->Meshes->part(*surface.geometry, *surface.model, surface.part, level), surface.property);
+    surface.copies[level] = std::make_unique<ViewCopies>(this->Renderer,
+      this->Meshes->part(*surface.geometry, *surface.model, surface.part, level), surface.property, this->Lighting);
     this->applyStyle(surface, surface.copies[level]->actor());
   }
   return *surface.copies[level];

@@ -2,6 +2,7 @@
 #include "dgtkViewMeshes.h"
 
 #include "dgtkMeshClusters.h"
+#include "dgtkRasterTexture.h"
 
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
@@ -15,7 +16,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <iterator>
 #include <optional>
 #include <vector>
@@ -146,28 +146,6 @@ vtkSmartPointer<vtkPolyData> dataOf(const ClusteredPart& part, const Geometry& g
   data->SetPolys(triangles);
   return data;
 }
-
-vtkSmartPointer<vtkImageData> dataOf(const Image& image, bool cutOut)
-{
-  auto data = vtkSmartPointer<vtkImageData>::New();
-  const int channels = cutOut ? 4 : 3;
-  data->SetDimensions(image.width, image.height, 1);
-  data->AllocateScalars(VTK_UNSIGNED_CHAR, channels);
-  auto* to = static_cast<std::uint8_t*>(data->GetScalarPointer());
-  for (int row = image.height - 1; row >= 0; --row)
-  {
-    const std::uint8_t* from = image.rgba.data() + 4 * std::size_t(row) * std::size_t(image.width);
-    for (int column = 0; column < image.width; ++column, from += 4, to += channels)
-    {
-      std::memcpy(to, from, 3);
-      if (cutOut)
-      {
-        to[3] = from[3] < 128 ? 0 : 255;
-      }
-    }
-  }
-  return data;
-}
 } // namespace
 
 ViewMeshes::ViewMeshes() = default;
@@ -225,7 +203,7 @@ vtkImageData* ViewMeshes::picture(const std::shared_ptr<const Image>& image, boo
   {
     picture = std::make_unique<Picture>();
     picture->image = image;
-    picture->data = dataOf(*image, cutOut);
+    picture->data = makePicture(*image, cutOut);
   }
   return picture->data;
 }

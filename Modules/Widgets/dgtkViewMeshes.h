@@ -35,7 +35,7 @@ public:
   static constexpr int levels = 3;
   static double pixels(int level);
   vtkPolyData* part(const Instance& instance, std::size_t part);
-  /// RGBA with alpha 0 or 255 for cut-outs, RGB for others; null without a picture.
+  /// RGBA for cut-outs, RGB for others; null without a picture.
   vtkImageData* picture(const std::shared_ptr<const Image>& image, bool cutOut);
   /// Forgets poses that nobody shows, and all of models and pictures that nobody else holds.
   void forgetUnused();

@@ -34,6 +34,8 @@ private slots:
   void readingDoesNotHoldTheWindow();
   void readingIsCancelled();
   void warningsAreNotedOnce();
+  void missingModelsAreBoxes();
+  void missingModelsAreFound();
   void aCancelledExportWritesNothing();
   void theWindowClosesWhileItReads();
   void theProgressOfARunMoves();
@@ -63,6 +65,8 @@ private:
   void useWaitingImporter(const QByteArray& line = {}) const;
   /// Ends the waiting, and the use of the importer.
   void letImporterGo() const;
+  /// A scene whose two models are not there; its path.
+  QString sceneWithoutModels() const;
 };
 
 #endif

@@ -381,7 +381,6 @@ void TestEditorHandles::pictures()
     this->action(name)->trigger();
     save(this->view(perspective), (std::string("handles_") + name).c_str());
   }
-  this->action("sceneLights")->trigger();
   save(this->view(perspective), "scene_lights");
   for (const char* name : { "camera", "cameraArray" })
   {

@@ -308,6 +308,7 @@ void TestEditorHandles::theScenesLightsLightTheViews()
     QTest::qWait(settle);
     return widget->grab().toImage().pixelColor(on).value();
   };
+  this->action("sceneLights")->trigger(); // a light at the eye
   const int head = brightness();
   dgtk::LightDescription light;
   light.name = "behind";

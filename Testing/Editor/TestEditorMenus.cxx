@@ -131,9 +131,9 @@ void TestEditor::everyMenuItemWorks()
   int items = 0;
   for (const QPointer<QAction>& item : this->menuItems())
   {
-    if (item == nullptr)
+    if (item == nullptr || item->objectName() == "findModels")
     {
-      continue; // of the recent files, which are others now
+      continue; // of the recent files, which are others now; or for a scene whose models are missing
     }
     QVERIFY2(!item->text().isEmpty(), "a menu item without a text");
     this->prepareFor(*item);

@@ -35,7 +35,7 @@ void TestEditorTruth::render(const QString& layers, const QStringList& more) con
 {
   const QString program = QString::fromLocal8Bit(qgetenv("DGTK"));
   QStringList words{ "render", demo(), "-o", this->path("out"), "--layers", layers, "--visibility", "ray", "--frames",
-    "0", "--quiet" };
+    "0", "--quiet", "--replace" };
   QCOMPARE(QProcess::execute(program, words + more), 0);
 }
 

@@ -19,6 +19,9 @@ private slots:
   void valuesAreTheDatasets();
   void previewLeavesTheViewFree();
   void previewIsTheCamerasPicture();
+  void viewsHaveTheRenderersColours_data();
+  void viewsHaveTheRenderersColours();
+  void whatIsNotTheRenderersSaysDraft();
   void clicksGoThroughThePicture();
   void nothingWaitsForPictures();
   void theSceneMayChangeMeanwhile();

@@ -2,13 +2,17 @@
 #include "dgtkSceneDocument.h"
 
 #include "dgtkError.h"
+#include "dgtkMissingFiles.h"
+#include "dgtkScenePlaces.h"
 #include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 
 namespace
@@ -219,7 +223,7 @@ TEST(SceneDocument, WhatCannotBeReadLeavesTheSceneAsItWas)
   document.addLight({});
   const std::string before = document.json();
   std::ofstream(folder.path("broken.json")) << "{ \"objects\": [ { ] }";
-  std::ofstream(folder.path("lost.json")) << R"({ "objects": [ { "model": "nowhere.ac" } ] })";
+  std::ofstream(folder.path("lost.json")) << R"({ "objects": [ { "model": "broken.ac" } ] })";
   std::ofstream(folder.path("broken.ac")) << "no model at all\n";
   for (const char* name : { "broken.json", "lost.json", "missing.json", "missing.scene" })
   {
@@ -237,6 +241,59 @@ TEST(SceneDocument, WhatCannotBeReadLeavesTheSceneAsItWas)
   EXPECT_TRUE(document.modified());
   document.undo();
   EXPECT_FALSE(document.modified());
+}
+
+TEST(SceneDocument, WhatIsNotThereIsABoxUntilItIsFound)
+{
+  namespace fs = std::filesystem;
+  const test::TemporaryFolder folder;
+  const std::string text = R"({ "objects": [ { "name": "a", "model": "models/crate.ac", "position": [4, 0, 0] },
+    { "name": "b", "model": "models/crate.ac", "materials": { "*": { "diffuse": [1, 0, 0] } } },
+    { "name": "c", "model": "models/walker.md2", "animation": { "sequence": "walk" } },
+    { "name": "d", "model": "none.ac" } ] })";
+  std::ofstream(folder.path("lost.json")) << text;
+  SceneDocument document;
+  document.open(folder.path("lost.json"));
+  EXPECT_EQ(document.absent(), (std::vector<std::size_t>{ 0, 1, 2, 3 }));
+  const ScenePlaces boxes = placeScene(document.scene(), document.models(), 0);
+  EXPECT_EQ(boxes.objects[0].box.min, Eigen::Vector3d(3.5, -0.5, -0.5));
+  EXPECT_EQ(boxes.objects[0].box.max, Eigen::Vector3d(4.5, 0.5, 0.5));
+
+  // Edits and saving leave the paths as they are.
+  document.editItem("Move", document.scene().items().front(),
+    [](SceneDescription& scene) { scene.objects[0].position = Eigen::Vector3d(5, 0, 0); });
+  document.saveAs(folder.path("again.json"));
+  SceneDocument again;
+  again.open(folder.path("again.json"));
+  EXPECT_EQ(again.json(), document.json());
+  EXPECT_EQ(again.scene().objects[2].animation.sequence, "walk");
+  EXPECT_THROW(document.addModel(folder.path("models/other.ac")), InputError) << "what is imported is there";
+
+  const std::string library = folder.path("library");
+  fs::create_directories(library + "/models");
+  fs::create_directories(library + "/aaa");
+  for (const char* place : { "/models/crate.ac", "/aaa/crate.ac" })
+  {
+    fs::copy_file(sourceFile("Data/Models/crate.ac"), library + place);
+  }
+  const std::vector<std::string> wanted = modelsOf(document.scene(), document.absent());
+  EXPECT_EQ(wanted, (std::vector<std::string>{ "models/crate.ac", "models/walker.md2", "none.ac" }));
+  const std::map<std::string, std::string> found = findModels(wanted, library);
+  EXPECT_EQ(found, (std::map<std::string, std::string>{ { "models/crate.ac", library + "/models/crate.ac" } }));
+  const std::string before = document.json();
+  document.edit("Find models", [&](SceneDescription& scene) { replaceModels(scene, found); });
+  EXPECT_EQ(document.absent(), (std::vector<std::size_t>{ 2, 3 }));
+  EXPECT_EQ(document.scene().objects[1].model, "library/models/crate.ac");
+  EXPECT_EQ(document.models().modelOf(document.scene(), document.scene().objects[0])->format, "ac3d");
+  document.undo();
+  EXPECT_EQ(document.json(), before);
+  EXPECT_EQ(document.absent().size(), 4u);
+
+  // A file that is there again is read by the next edit.
+  fs::copy_file(sourceFile("Data/Models/crate.ac"), folder.path("none.ac"));
+  document.redo();
+  document.addLight({});
+  EXPECT_EQ(document.absent(), (std::vector<std::size_t>{ 2 }));
 }
 
 TEST(SceneDocument, StepsOfADragAreOneStepAndASaveIsBetween)

@@ -166,6 +166,10 @@
         <source>Change the lens</source>
         <translation>Objektiv ändern</translation>
     </message>
+    <message>
+        <source>Find models</source>
+        <translation>Modelle suchen</translation>
+    </message>
 </context>
 <context>
     <name>Message</name>
@@ -766,6 +770,13 @@
     </message>
 </context>
 <context>
+    <name>dgtk::DraftLabel</name>
+    <message>
+        <source>Draft</source>
+        <translation>Entwurf</translation>
+    </message>
+</context>
+<context>
     <name>dgtk::EditorState</name>
     <message>
         <source>The memory of this machine is not enough.</source>
@@ -1263,10 +1274,6 @@
         <translation>Licht der S&amp;zene</translation>
     </message>
     <message>
-        <source>The scene&apos;s lights light the views, without shadows; otherwise a light at each view&apos;s eye</source>
-        <translation>Die Lichter der Szene beleuchten die Ansichten, ohne Schatten; sonst ein Licht am Auge jeder Ansicht</translation>
-    </message>
-    <message>
         <source>&lt;p&gt;Click: select; with Ctrl: add. Drag what is selected: move it in the view&apos;s plane. Drag its handles: move, rotate or scale it (1, 2, 3).&lt;br&gt;During a drag: X, Y, Z keep to an axis, with Shift to the two others; Ctrl: steps; Esc: as it was.&lt;br&gt;Left drag: turn the perspective, pan the others. Middle or Shift and left: pan.&lt;br&gt;Right drag or wheel: zoom. Right click: menu. Double click: one view or all four.&lt;/p&gt;&lt;p&gt;R frame all, F frame selected, W wireframe, S shaded, T textured, G grid, F11 maximise.&lt;br&gt;Arrows turn or pan the view with a frame about it, with Shift they pan; + and - zoom.&lt;br&gt;In the time line: Space plays, Left and Right go through the frames, with Ctrl from key to key.&lt;/p&gt;</source>
         <translation>&lt;p&gt;Klick: auswählen; mit Strg: dazunehmen. Ausgewähltes ziehen: in der Ebene der Ansicht verschieben. Griffe ziehen: verschieben, drehen oder skalieren (1, 2, 3).&lt;br&gt;Beim Ziehen: X, Y, Z halten an einer Achse fest, mit Umschalt an den beiden anderen; Strg: Stufen; Esc: wie zuvor.&lt;br&gt;Links ziehen: die Perspektive drehen, die anderen verschieben. Mitte oder Umschalt und links: verschieben.&lt;br&gt;Rechts ziehen oder Rad: zoomen. Rechtsklick: Menü. Doppelklick: eine Ansicht oder alle vier.&lt;/p&gt;&lt;p&gt;R alles zeigen, F Auswahl zeigen, W Drahtgitter, S schattiert, T mit Texturen, G Gitter, F11 maximieren.&lt;br&gt;Pfeile drehen oder verschieben die Ansicht mit dem Rahmen, mit Umschalt verschieben sie; + und - zoomen.&lt;br&gt;In der Zeitleiste: Leertaste spielt ab, Links und Rechts gehen durch die Bilder, mit Strg von Schlüssel zu Schlüssel.&lt;/p&gt;</translation>
     </message>
@@ -1305,6 +1312,46 @@
     <message>
         <source>a scene without a name</source>
         <translation>eine Szene ohne Namen</translation>
+    </message>
+    <message>
+        <source>Find &amp;missing models ...</source>
+        <translation>Fehlende &amp;Modelle suchen ...</translation>
+    </message>
+    <message>
+        <source>The scene&apos;s lights and background in the views, without shadows; otherwise a light at each view&apos;s eye</source>
+        <translation>Lichter und Hintergrund der Szene in den Ansichten, ohne Schatten; sonst ein Licht am Auge jeder Ansicht</translation>
+    </message>
+    <message>
+        <source>%1; warnings in the log: %2</source>
+        <translation>%1; Warnungen im Protokoll: %2</translation>
+    </message>
+    <message>
+        <source>%1
+
+Grey boxes stand in their place. The scene can be edited and saved, but not rendered.</source>
+        <translation>%1
+
+Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert, aber nicht berechnet werden.</translation>
+    </message>
+    <message>
+        <source>&amp;Find folder ...</source>
+        <translation>&amp;Ordner suchen ...</translation>
+    </message>
+    <message>
+        <source>Folder below which the models are</source>
+        <translation>Ordner, unter dem die Modelle liegen</translation>
+    </message>
+    <message>
+        <source>Looking for models in %1 ...</source>
+        <translation>Suche Modelle in %1 ...</translation>
+    </message>
+    <message>
+        <source>Found %1 of %2 models</source>
+        <translation>%1 von %2 Modellen gefunden</translation>
+    </message>
+    <message>
+        <source>Models that are not there: %1</source>
+        <translation>Modelle, die nicht da sind: %1</translation>
     </message>
 </context>
 <context>
@@ -2083,6 +2130,14 @@
         <source>hidden</source>
         <translation>verborgen</translation>
     </message>
+    <message>
+        <source>missing</source>
+        <translation>fehlt</translation>
+    </message>
+    <message>
+        <source>Its model is not there: %1</source>
+        <translation>Sein Modell ist nicht da: %1</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::SceneViews</name>
@@ -2351,6 +2406,10 @@ Teil %2, Dreieck %3</translation>
     <message>
         <source>%1: full colour at %2 pixels</source>
         <translation>%1: volle Farbe bei %2 Pixeln</translation>
+    </message>
+    <message>
+        <source>draft of the colours, without shadows and bumps</source>
+        <translation>Entwurf der Farben, ohne Schatten und Unebenheiten</translation>
     </message>
 </context>
 </TS>

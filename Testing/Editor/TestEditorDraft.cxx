@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestEditorTruth.h"
+#include "TestEditorTruthSupport.h"
+
+#include "dgtkMainWindow.h"
+#include "dgtkSceneDocument.h"
+#include "dgtkViewCamera.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QImage>
+#include <QOpenGLWidget>
+#include <QProcess>
+#include <QTest>
+
+#include <algorithm>
+#include <cmath>
+
+using dgtk::test::sourceFile;
+
+namespace
+{
+constexpr int squares = 4; // a side of the pictures that are compared
+// Of 255, of the mean colours of squares.
+constexpr double shadingTolerance = 8;
+constexpr double environmentTolerance = 24; // what mirrors it has only its mean
+constexpr double farAway = 1000;
+constexpr int aside = 3; // presses of a key
+
+/// The largest difference between the mean colours of squares of two pictures, of 255.
+double worstSquare(const QImage& a, const QImage& b)
+{
+  double worst = 0;
+  for (int square = 0; square < squares * squares; ++square)
+  {
+    const int left = square % squares * a.width() / squares;
+    const int top = square / squares * a.height() / squares;
+    double sum[3] = { 0, 0, 0 };
+    for (int y = top; y < top + a.height() / squares; ++y)
+    {
+      for (int x = left; x < left + a.width() / squares; ++x)
+      {
+        const QRgb one = a.pixel(x, y);
+        const QRgb other = b.pixel(x, y);
+        sum[0] += qRed(one) - qRed(other);
+        sum[1] += qGreen(one) - qGreen(other);
+        sum[2] += qBlue(one) - qBlue(other);
+      }
+    }
+    for (const double channel : sum)
+    {
+      worst = std::max(worst, std::abs(channel) * squares * squares / (double(a.width()) * a.height()));
+    }
+  }
+  return worst;
+}
+} // namespace
+
+void TestEditorTruth::viewsHaveTheRenderersColours_data()
+{
+  QTest::addColumn<QString>("scene");
+  QTest::addColumn<double>("tolerance");
+  QTest::newRow("emission") << "appendix_b3.scene" << shadingTolerance;
+  QTest::newRow("lights") << "demo.json" << shadingTolerance;
+  QTest::newRow("environment") << "materials_environment.json" << environmentTolerance;
+}
+
+/// The perspective view from a camera's place, and the renderer's picture of a camera with the view's lens.
+void TestEditorTruth::viewsHaveTheRenderersColours()
+{
+  QFETCH(QString, scene);
+  QFETCH(double, tolerance);
+  QVERIFY(this->Window->openFile(QString::fromStdString(sourceFile(("Data/Scenes/" + scene).toStdString()))));
+  auto* view = this->Window->findChild<QOpenGLWidget*>("view.3");
+  dgtk::SceneDocument& document = this->Window->document();
+  document.edit("The view's lens",
+    [view](dgtk::SceneDescription& edited)
+    {
+      dgtk::CameraDescription& camera = edited.cameras.front();
+      camera.K.reset();
+      camera.fovY = dgtk::ViewCamera::angle();
+      camera.aspect = 0;
+      camera.width = view->width();
+      camera.height = view->height();
+      for (dgtk::LightDescription& light : edited.lights) // their signs would stand before the view
+      {
+        const Eigen::Vector3d away = light.position.at(0) - light.target.at(0);
+        light.position = light.kind == dgtk::LightKind::Directional
+                           ? Eigen::Vector3d(light.target.at(0) + farAway * away)
+                           : light.position.at(0);
+      }
+    });
+  const std::string name = document.scene().cameras.front().name;
+  document.writeCopy(this->Folder.path("view.json"));
+  const QStringList words{ "render", this->path("view.json"), "-o", this->path("drawn"), "--replace", "--layers",
+    "color", "--cameras", name.c_str(), "--frames", "0", "--quiet" };
+  QCOMPARE(QProcess::execute(QString::fromLocal8Bit(qgetenv("DGTK")), words), 0);
+  const QImage rendered(this->path(("drawn/" + name + "/color/000000.png").c_str()));
+  QCOMPARE(rendered.size(), view->size());
+
+  this->action("grid")->setChecked(false);
+  this->select(name.c_str());
+  this->action("preview")->trigger();
+  auto* picture = view->findChild<QWidget*>("truthPicture");
+  QTRY_VERIFY_WITH_TIMEOUT(picture->property("settled").toBool(), longest);
+  view->setFocus();
+  for (int i = 0; i < aside; ++i)
+  {
+    QTest::keyClick(view, Qt::Key_Right);
+    QTest::keyClick(view, Qt::Key_Left);
+  }
+  QVERIFY(!picture->isVisible());
+  QTest::qWait(settle);
+  const double worst = worstSquare(view->grabFramebuffer(), rendered);
+  QVERIFY2(worst < tolerance, QByteArray::number(worst));
+}
+
+void TestEditorTruth::whatIsNotTheRenderersSaysDraft()
+{
+  QVERIFY(this->Window->openFile(demo()));
+  const auto draft = [this](int view)
+  {
+    auto* widget = this->Window->findChild<QWidget*>("view." + QString::number(view));
+    const auto* label = widget->findChild<QLabel*>("draft");
+    return label != nullptr && label->isVisible() && label->text() == "Draft";
+  };
+  for (int view = 0; view < 4; ++view)
+  {
+    QVERIFY(draft(view));
+  }
+  this->action("show.depth")->trigger();
+  QVERIFY2(draft(0) && !draft(3), "depths are the dataset's");
+  this->select("left");
+  this->action("preview")->trigger();
+  QVERIFY(!draft(3));
+  this->action("show.colour")->trigger();
+  QVERIFY2(draft(3), "colours through a camera are not");
+  this->action("show.objects")->trigger();
+  QVERIFY(!draft(3));
+  this->action("show.surface")->trigger();
+  QVERIFY(draft(3));
+
+  QWidget* const dialog = this->openMatches();
+  const auto* label = dialog->findChild<QWidget*>("pane.0")->findChild<QLabel*>("draft");
+  QVERIFY(label != nullptr && label->isVisible());
+  auto* layer = dialog->findChild<QComboBox*>("layer");
+  layer->setCurrentIndex(layer->findData("depth"));
+  QVERIFY(!label->isVisible());
+}
