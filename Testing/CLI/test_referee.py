@@ -845,6 +845,13 @@ class Referee(Case):
                         self.assertEqual(rows[plant.row]["bad"], plant.bad)
                     shutil.rmtree(data.root)
 
+    def test_only_some_checks(self):
+        folder = os.path.join(self.folders, "closed")
+        report, rows = self.verify(folder, "--check", "depth,ldi", status=0)
+        self.assertEqual({check for check, _ in rows}, {"depth", "ldi"})
+        self.assertEqual(report["not_checked"], [])
+        self.refused("verify", folder, "--check", "depht", status=2, says=["'depht'", "expected one of hashes, cameras"])
+
     def test_a_tenth_of_the_tolerance_passes(self):
         data = self.copy("all", "small")
         for plant in ALL:
