@@ -59,6 +59,8 @@ public:
   /// Files of the dataset that a finished file of the layer needs and that other jobs may need, too, relative to the
   /// dataset.
   virtual std::vector<std::string> sharedFiles(const std::string& /*path*/) const { return {}; }
+  /// What deserves a word before a run of it, one line; "" for nothing.
+  virtual std::string note(const WorkPlan&) const { return {}; }
   /// The lane that writes them; called for jobs that have files.
   virtual std::unique_ptr<OutputLane> makeLane(const JobContext&) const = 0;
 };

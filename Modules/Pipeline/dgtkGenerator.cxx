@@ -215,6 +215,14 @@ GeneratorResult Run::execute()
 
 void Run::renderAll()
 {
+  for (const PlannedFrameLayer& planned : this->Plan.frameLayers)
+  {
+    if (const std::string note = planned.layer->note(this->Plan); !note.empty())
+    {
+      this->Result.warnings.push_back(note);
+      this->say("warning: " + note);
+    }
+  }
   if (this->Callbacks.progress)
   {
     this->Callbacks.progress({ this->Done, this->Plan.jobs.size() });

@@ -311,6 +311,15 @@ public:
     , Step(step)
   {
   }
+  std::string note(const WorkPlan& plan) const override
+  {
+    const int taken = plan.request.frames ? plan.request.frames->step : 1;
+    return taken == 1 ? ""
+                      : "layer " + this->valueSpec().name + " leads to the scene's frame one " +
+                          (this->Step > 0 ? "later" : "earlier") + ", which this run of every " +
+                          std::to_string(taken) + " frames does not have (correspondence of the pair NAME:NAME+" +
+                          std::to_string(taken) + " leads on to its next one)";
+  }
   LayerInfo info() const override
   {
     if (this->Value == PairValue::Motion)

@@ -109,5 +109,14 @@ class Dataset(Case):
         self.assertEqual((rows.min(), rows.max()), (math.ceil(60 - 2 * f / 5 - 0.5), math.floor(60 - f / 5 - 0.5)))
 
 
+class FlowOfEverySecondFrame(Case):
+    def test_the_run_says_where_it_leads(self):
+        words = ("render", os.path.join(SCENES, "demo.json"), "--size", "16x12", "--cameras", "left", "--layers", "flow_forward,depth")
+        said = self.dgtk(*words, "-o", self.path("second"), "--frames", "0:2:2").stderr
+        self.assertEqual(said.count("layer flow_forward leads to the scene's frame one later"), 1, said)
+        self.assertIn("NAME:NAME+2", said)
+        self.assertNotIn("leads", self.dgtk(*words, "-o", self.path("each"), "--frames", "0:2").stderr)
+
+
 if __name__ == "__main__":
     main()
