@@ -114,6 +114,52 @@ TEST(Stage, Lights)
   EXPECT_TRUE(folder.load(R"({"lights": [{"enabled": false}]})")->at(0)->lights.empty());
 }
 
+// The picture's centre column lies towards -z (z up: +y), and turns counter-clockwise as seen from above.
+TEST(Stage, EnvironmentsTurnAboutTheUpAxis)
+{
+  const ModelFolder folder;
+  writeFile(folder.path("sky.hdr"), "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x40\x40\x40\x80");
+  const double c = std::cos(0.52359877559829887), s = 0.5; // of 30 degrees
+  struct Case
+  {
+    const char* upAxis;
+    Vector ahead, right, up; ///< of the picture, in the world
+  };
+  for (const Case& one :
+    { Case{ "y", { -s, 0, -c }, { c, 0, -s }, { 0, 1, 0 } }, Case{ "z", { -s, c, 0 }, { c, s, 0 }, { 0, 0, 1 } } })
+  {
+    const auto state = folder
+                         .load(std::string(R"({"upAxis": ")") + one.upAxis +
+                               R"(", "environment": {"image": "sky.hdr", "rotation": 30}})")
+                         ->at(0);
+    ASSERT_TRUE(state->environment);
+    const Eigen::Matrix3d& turn = state->environment->image_from_world;
+    EXPECT_LT((turn * one.ahead - Vector(0, 0, -1)).norm(), rounding) << one.upAxis;
+    EXPECT_LT((turn * one.right - Vector(1, 0, 0)).norm(), rounding) << one.upAxis;
+    EXPECT_LT((turn * one.up - Vector(0, 1, 0)).norm(), rounding) << one.upAxis;
+  }
+}
+
+TEST(Stage, ExposuresAreInTheMiddleOfTheirPartsOfTheShutter)
+{
+  const ModelFolder folder;
+  const std::vector<std::vector<double>> expected = { { 3.25 }, { 3, 3.5 }, { 2.875, 3.125, 3.375, 3.625 } };
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    const auto stage = folder.load(R"({"cameras": [{"name": "c", "eye": {"keys": [[0, [0, 0, 0]], [8, [8, 0, 0]]]},
+      "lookAt": [0, 0, -9], "fovY": 40, "near": 1, "far": 9, "shutter": {"open": -0.25, "close": 0.75, "exposures": )" +
+                                   std::to_string(1 << i) + "}}]}");
+    const std::vector<Exposure> exposures = stage->exposures(0, 3, 8, 8);
+    ASSERT_EQ(exposures.size(), expected[i].size());
+    for (std::size_t k = 0; k < exposures.size(); ++k)
+    {
+      EXPECT_EQ(exposures[k].frame, expected[i][k]);
+      const Rigid3& pose = exposures[k].view.camera_from_world;
+      EXPECT_LT((-(pose.rotation.transpose() * pose.translation) - Vector(expected[i][k], 0, 0)).norm(), 8 * rounding);
+    }
+  }
+}
+
 TEST(Stage, IsTheSameFromManyThreads)
 {
   const ModelFolder folder;
