@@ -16,7 +16,7 @@ namespace
 {
 /// Relative difference of depths that drawing cannot tell apart: the resolution of the depth buffer, both ways.
 constexpr double SameDepth = 2e-6;
-/// Relative slack of a triangle's range of depths, as in settleEdges().
+/// Relative slack of a triangle's range of depths, for triangles parallel to the image plane.
 constexpr double RangeSlack = 1e-6;
 constexpr std::uint32_t DistanceSteps = 32;
 constexpr std::uint32_t NormalSteps = 8;

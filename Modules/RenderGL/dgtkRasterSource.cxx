@@ -86,7 +86,7 @@ public:
   void render(const PixelRect& rect, VisibilityBuffer& hits) override;
   std::function<void()> drawColor(
     const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits) override;
-  std::function<void()> drawColorLater(const PixelRect& rect, ColorBuffer& colors, VisibilityBuffer* hits) override;
+  std::function<void()> drawColorLater(const PixelRect& rect, ColorBuffer& colors) override;
   void finish() override;
   void peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit) override;
 
@@ -100,7 +100,6 @@ private:
   struct Unread
   {
     RasterTarget* target = nullptr;
-    bool ids = false;
     std::shared_ptr<Drawn> to;
   };
   void aim(RasterTarget& target, const PixelRect& rect, int samples, bool color);
@@ -112,7 +111,6 @@ private:
   void peelOneByOne(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit);
   std::function<void()> restOf(
     std::shared_ptr<const Drawn> drawn, const PixelRect& rect, ColorBuffer& colors, VisibilityBuffer* hits) const;
-  static void read(const Unread& unread);
   static void check();
 
   GLChoice Choice;
@@ -157,7 +155,12 @@ void VtkRasterSource::aim(RasterTarget& target, const PixelRect& rect, int sampl
     this->Scene.prepareLight(this->ClipControl);
   }
   target.resize(rect.width, rect.height);
-  this->Window->GetState()->vtkglViewport(0, 0, rect.width, rect.height);
+  // Targets are cleared whole: VTK's state begins with a scissor of the window's size.
+  vtkOpenGLState* state = this->Window->GetState();
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglViewport(0, 0, rect.width, rect.height);
   this->Scene.aim(rasterCamera(this->Camera, rect, samples, this->ClipControl), rect.width, rect.height);
   this->Scene.peelBehind(0);
 }
@@ -172,7 +175,7 @@ void VtkRasterSource::render(const PixelRect& rect, VisibilityBuffer& hits)
   hits.resize(rect);
   takeHits(*this->Scene.firstHits(), this->Ids, rect, hits.hits);
   check();
-  settleEdges(*this->State, this->Camera, hits, true);
+  settleEdges(*this->State, this->Camera, hits);
 }
 
 std::function<void()> VtkRasterSource::drawColor(
@@ -215,46 +218,34 @@ std::function<void()> VtkRasterSource::drawColor(
 std::function<void()> VtkRasterSource::restOf(
   std::shared_ptr<const Drawn> drawn, const PixelRect& rect, ColorBuffer& colors, VisibilityBuffer* hits) const
 {
-  return [state = this->State, view = this->Camera, first = this->Scene.firstHits(), drawn = std::move(drawn), rect,
-           &colors, hits]
+  return [first = this->Scene.firstHits(), drawn = std::move(drawn), rect, &colors, hits]
   {
     take(drawn->pixels, rect, colors);
     if (hits)
     {
       hits->resize(rect);
       takeHits(*first, drawn->ids, rect, hits->hits);
-      settleEdges(*state, view, *hits, true);
     }
   };
 }
 
-std::function<void()> VtkRasterSource::drawColorLater(
-  const PixelRect& rect, ColorBuffer& colors, VisibilityBuffer* hits)
+std::function<void()> VtkRasterSource::drawColorLater(const PixelRect& rect, ColorBuffer& colors)
 {
   if (this->Scene.hasTranslucent())
   {
-    return this->drawColor(rect, 1, colors, hits);
+    return this->drawColor(rect, 1, colors, nullptr);
   }
   colors.resize(rect);
   RasterTarget& target = this->Last.target == &this->Main ? this->Other : this->Main;
   this->aim(target, rect, 1, true);
   const Eigen::Vector3f background = this->State->background.cast<float>();
-  target.bind(true, hits != nullptr);
+  target.bind(true, false);
   target.clear({ background.x(), background.y(), background.z(), 1 });
   this->Scene.drawColor(Surfaces::All);
   glFlush();
   this->finish();
-  this->Last = { &target, hits != nullptr, std::make_shared<Drawn>() };
-  return this->restOf(this->Last.to, rect, colors, hits);
-}
-
-void VtkRasterSource::read(const Unread& unread)
-{
-  unread.target->readColor(unread.to->pixels);
-  if (unread.ids)
-  {
-    unread.target->readIds(unread.to->ids);
-  }
+  this->Last = { &target, std::make_shared<Drawn>() };
+  return this->restOf(this->Last.to, rect, colors, nullptr);
 }
 
 void VtkRasterSource::finish()
@@ -262,7 +253,7 @@ void VtkRasterSource::finish()
   if (this->Last.target)
   {
     this->Window->MakeCurrent();
-    read(this->Last);
+    this->Last.target->readColor(this->Last.to->pixels);
     this->Last = {};
     check();
   }

@@ -53,7 +53,7 @@ public:
   /// drawColor() with one sample a pixel, whose pixels are read by the next call of any function that draws, or by
   /// finish(): OpenGL transforms the vertices of a picture while it fills the one before. What it returns may be called
   /// from then on.
-  virtual std::function<void()> drawColorLater(const PixelRect& rect, ColorBuffer& colors, VisibilityBuffer* hits) = 0;
+  virtual std::function<void()> drawColorLater(const PixelRect& rect, ColorBuffer& colors) = 0;
   virtual void finish() = 0;
   /// Peels all surfaces along the rays through the pixel centres of `rect` (as in render()), nearest first; surfaces at
   /// one depth in the order of (object, triangle). Calls `visit` for each rank until it returns false or no pixel has a

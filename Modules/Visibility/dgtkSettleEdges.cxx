@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkEdgeMarks.h"
 #include "dgtkSurfaceRows.h"
-
-#include "dgtkThreadPool.h"
 #include "dgtkTriangleSolver.h"
 
 #include <algorithm>
+#include <optional>
+#include <tuple>
 
 namespace dgtk
 {
@@ -12,256 +13,260 @@ namespace dgtk
 namespace
 {
 
-/// Pixels: a centre this close to an edge of its triangle is looked at.
+/// Pixels: a centre this close to an edge may have been drawn on its other side. Vertices are snapped to 1/256 pixel,
+/// or coarser steps for triangles that are left uncut; see RenderGL.
 constexpr double LookDistance = 1.0 / 64;
 /// Relative difference of t below which surfaces count as equally near: a few roundings of the intersection.
 constexpr double SameDistance = 1e-12;
-/// Relative slack of a triangle's range of depths, for triangles parallel to the image plane.
-constexpr double RangeSlack = 1e-6;
+/// Part of a depth by which a surface in front may have been drawn as if it were behind.
+constexpr double SameDepth = 4e-6;
+/// Part of near and far within which drawing may decide either way.
+constexpr double LimitSlack = 2e-6;
 /// Values of a line in double-double below this part of their terms are zero.
 constexpr double ExactZero = 0x1p-70;
-constexpr int ChunkRows = 32;
 
 /// Signed lines of a triangle; a point is inside where the three values have one sign.
 struct Edges
 {
-  Hit hit;
-  Vector3 line[3];     ///< for General lenses the corners
-  double threshold[3]; ///< a larger value is farther than LookDistance and its sign is certain
-  double error;        ///< a larger value has a certain sign
+  Vector3 line[3];
+  double error; ///< a larger value has a certain sign
 };
 
-struct PixelPoint
+/// A surface at the centre of a pixel.
+struct Candidate
 {
-  double u, v;
-  double dx, dy;
-};
-
-struct Change
-{
-  std::size_t index;
+  std::size_t pixel;
+  double t;
   Hit hit;
 };
 
 class Settler
 {
 public:
-  Settler(const SceneState& state, const dgtk::View& view, const VisibilityBuffer& buffer, bool grazingOnly)
+  Settler(const SceneState& state, const dgtk::View& view, VisibilityBuffer& buffer)
     : State(state)
     , TheView(view)
     , Buffer(buffer)
-    , GrazingOnly(grazingOnly)
+    , Marks(buffer.rect)
     , Solver(state, view)
-    , Cache(CacheCount)
   {
   }
 
-  /// Rows [first, last) of the buffer.
-  void run(int first, int last, std::vector<Change>& changes)
+  std::size_t run()
   {
-    const int width = this->Buffer.rect.width;
-    for (int y = first; y < last; ++y)
+    this->measure();
+    this->forTriangles(
+      [this](const Hit& hit, const SmallPolygon<Vector3>& polygon, bool cutOut) { this->look(hit, polygon, cutOut); });
+    this->Marks.pack();
+    this->forTriangles(
+      [this](const Hit& hit, const SmallPolygon<Vector3>& polygon, bool) { this->collect(hit, polygon); });
+    return this->decide();
+  }
+
+private:
+  void measure()
+  {
+    this->Drawn.assign(this->Buffer.hits.size(), std::numeric_limits<double>::infinity());
+    const PixelRect& rect = this->Buffer.rect;
+    for (std::size_t i = 0; i < this->Drawn.size(); ++i)
     {
-      const Hit* row = this->Buffer.hits.data() + std::size_t(y) * width;
-      for (int x = 0; x < width; ++x)
+      if (this->Buffer.hits[i].object != 0)
       {
-        Hit settled;
-        if (!this->isUniform(row + x, x, y) && this->settle(row + x, x, y, settled))
+        const double u = rect.x + double(i % std::size_t(rect.width)) + 0.5;
+        const double v = rect.y + double(i / std::size_t(rect.width)) + 0.5;
+        this->Drawn[i] = this->Solver.point(this->Buffer.hits[i], u, v, false).t;
+      }
+    }
+  }
+
+  /// Calls body(hit, polygon, cutOut) with what each triangle has within near and far, a little widened.
+  template <typename Body>
+  void forTriangles(const Body& body)
+  {
+    for (std::size_t i = 0; i < this->State.instances.size(); ++i)
+    {
+      const Instance& instance = this->State.instances[i];
+      const std::vector<Material>& materials = instance.materials ? *instance.materials : instance.model->materials;
+      for (const Part& part : instance.model->parts)
+      {
+        const bool cutOut = !materials.empty() && materials[std::size_t(part.material)].cutOut;
+        for (std::uint32_t t = part.firstTriangle; t < part.firstTriangle + part.triangles; ++t)
         {
-          changes.push_back({ std::size_t(y) * width + x, settled });
+          const Hit hit{ std::uint32_t(i + 1), t };
+          const SmallPolygon<Vector3> polygon = this->withinLimits(hit);
+          if (polygon.count > 0)
+          {
+            body(hit, polygon, cutOut);
+          }
         }
       }
     }
   }
 
-private:
-  static constexpr std::size_t CacheCount = 1024;
-
-  /// Whether the 3 x 3 neighbourhood is whole and of one triangle: the centre is then deep inside it.
-  bool isUniform(const Hit* at, int x, int y) const
+  SmallPolygon<Vector3> withinLimits(const Hit& hit)
   {
-    const int width = this->Buffer.rect.width;
-    if (x == 0 || y == 0 || x == width - 1 || y == this->Buffer.rect.height - 1)
+    Vector3 corner[3];
+    this->Solver.corners(hit, corner);
+    SmallPolygon<Vector3> polygon;
+    for (const Vector3& x : corner)
     {
-      return at->object == 0 && this->isLonely(at, x, y);
+      polygon.add(x);
     }
-    const Hit hit = *at;
-    const Hit* above = at - width;
-    const Hit* below = at + width;
-    return at[1] == hit && at[-1] == hit && above[0] == hit && below[0] == hit && above[-1] == hit && above[1] == hit &&
-           below[-1] == hit && below[1] == hit;
+    polygon =
+      this->isBeyond(corner, 1, this->least(-LimitSlack)) ? clipped(polygon, 1, this->least(-LimitSlack)) : polygon;
+    return this->isBeyond(corner, -1, this->most(LimitSlack)) ? clipped(polygon, -1, this->most(LimitSlack)) : polygon;
   }
 
-  template <typename Body>
-  void forNeighbours(const Hit* at, int x, int y, const Body& body) const
+  double least(double slack) const { return this->TheView.near + slack * std::abs(this->TheView.near); }
+  double most(double slack) const { return this->TheView.far + slack * std::abs(this->TheView.far); }
+
+  /// Whether some corner is on the wrong side of a plane, or not a number.
+  static bool isBeyond(const Vector3 corner[3], double side, double limit)
   {
-    const int width = this->Buffer.rect.width;
-    for (int dy = y > 0 ? -1 : 0; dy <= (y < this->Buffer.rect.height - 1 ? 1 : 0); ++dy)
-    {
-      for (int dx = x > 0 ? -1 : 0; dx <= (x < width - 1 ? 1 : 0); ++dx)
-      {
-        body(at[std::ptrdiff_t(dy) * width + dx]);
-      }
-    }
+    return std::any_of(corner, corner + 3, [&](const Vector3& x) { return !(side * (x.z - limit) >= 0); });
   }
 
-  bool isLonely(const Hit* at, int x, int y) const
-  {
-    bool lonely = true;
-    this->forNeighbours(at, x, y, [&](const Hit& hit) { lonely &= hit.object == 0; });
-    return lonely;
-  }
-
-  PixelPoint pixelPoint(int x, int y) const
+  SmallPolygon<ImagePoint> project(const SmallPolygon<Vector3>& polygon) const
   {
     const Lens& lens = this->Solver.lens();
-    PixelPoint p;
-    p.u = this->Buffer.rect.x + x + 0.5;
-    p.v = this->Buffer.rect.y + y + 0.5;
-    p.dy = lens.directionY(p.v);
-    p.dx = lens.directionX(p.u, lens.Skew * p.dy);
-    return p;
-  }
-
-  const Edges& edges(const Hit& hit)
-  {
-    Edges& entry = this->Cache[TriangleSolver::slot(hit) % CacheCount];
-    if (entry.hit != hit)
+    SmallPolygon<ImagePoint> projected;
+    for (int i = 0; i < polygon.count; ++i)
     {
-      this->makeEdges(hit, entry);
+      const double scale = lens.Kind == LensKind::Perspective ? 1 / polygon[i].z : 1;
+      const double x = polygon[i].x * scale;
+      const double y = polygon[i].y * scale;
+      projected.add({ lens.Fx * x + lens.Skew * y + lens.Cx, lens.Fy * y + lens.Cy });
     }
-    return entry;
+    return projected;
   }
 
-  void makeEdges(const Hit& hit, Edges& e)
+  /// Marks the pixels at which drawing may have taken a triangle's part wrongly.
+  void look(const Hit& hit, const SmallPolygon<Vector3>& polygon, bool cutOut)
+  {
+    const SmallPolygon<ImagePoint> image = this->project(polygon);
+    for (int i = 0; i < image.count; ++i)
+    {
+      this->Marks.markSegment(image[i], image[(i + 1) % image.count], LookDistance);
+    }
+    this->lookAtLimit(clipped(polygon, -1, this->least(LimitSlack)));
+    this->lookAtLimit(clipped(polygon, 1, this->most(-LimitSlack)));
+    this->Marks.forPixels(image, LookDistance,
+      [&](int x, int y)
+      {
+        if (!this->Marks.isMarked(x, y) && this->mayDecide(hit, cutOut, x, y))
+        {
+          this->Marks.mark(x, y);
+        }
+      });
+  }
+
+  /// Whether a triangle is not clearly behind what was drawn, which is another, or was drawn where its texel is
+  /// missing.
+  bool mayDecide(const Hit& hit, bool cutOut, int x, int y)
+  {
+    const std::size_t pixel = this->Marks.index(x, y);
+    const bool drawn = this->Buffer.hits[pixel] == hit;
+    if (drawn && !cutOut)
+    {
+      return false;
+    }
+    const PlanePoint point = this->Solver.point(hit, x + 0.5, y + 0.5, cutOut);
+    return drawn ? isCutOut(this->State.instances[hit.object - 1], hit.triangle, { point.second, point.third })
+                 : point.t <= this->Drawn[pixel] * (1 + SameDepth);
+  }
+
+  void lookAtLimit(const SmallPolygon<Vector3>& slab)
+  {
+    if (slab.count > 0)
+    {
+      this->Marks.forPixels(this->project(slab), LookDistance, [this](int x, int y) { this->Marks.mark(x, y); });
+    }
+  }
+
+  /// Adds what a triangle has at the centres of marked pixels.
+  void collect(const Hit& hit, const SmallPolygon<Vector3>& polygon)
+  {
+    std::optional<Edges> edges;
+    this->Marks.forMarked(this->project(polygon), LookDistance,
+      [&](int x, int y)
+      {
+        if (!edges)
+        {
+          edges = this->makeEdges(hit);
+        }
+        const double t = this->meets(hit, *edges, x, y);
+        if (t < std::numeric_limits<double>::infinity())
+        {
+          this->Candidates.push_back({ this->Marks.index(x, y), t, hit });
+        }
+      });
+  }
+
+  Edges makeEdges(const Hit& hit)
   {
     const Lens& lens = this->Solver.lens();
     Vector3 corner[3];
     this->Solver.corners(hit, corner);
     const double reach = std::max({ sumNorm(corner[0]), sumNorm(corner[1]), sumNorm(corner[2]) });
     const double rounding = 32 * UnitRoundoff * this->Solver.condition(hit) * reach;
-    e.hit = hit;
-    if (lens.Kind == LensKind::General)
-    {
-      std::copy(corner, corner + 3, e.line);
-      e.error = rounding;
-      return;
-    }
+    Edges e;
+    e.error = rounding * reach * lens.LargestDirection;
     if (lens.Kind == LensKind::Parallel)
     {
       corner[0].z = corner[1].z = corner[2].z = 1;
       e.error = rounding * (reach + 1 + lens.LargestDirection);
     }
-    else
-    {
-      e.error = rounding * reach * lens.LargestDirection;
-    }
     for (int i = 0; i < 3; ++i)
     {
-      const Vector3& line = e.line[i] = cross(corner[(i + 1) % 3], corner[(i + 2) % 3]);
-      const double gradientX = line.x * lens.InverseFx;
-      const double gradientY = (line.y - gradientX * lens.Skew) * lens.InverseFy;
-      const double gradient = std::sqrt(gradientX * gradientX + gradientY * gradientY);
-      e.threshold[i] = std::max(LookDistance * gradient, e.error);
+      e.line[i] = cross(corner[(i + 1) % 3], corner[(i + 2) % 3]);
     }
+    return e;
   }
 
-  /// Values of the three lines at a pixel, and their error.
-  double valuesAt(const Edges& e, const PixelPoint& p, double q[3]) const
+  /// t of a triangle's surface at a pixel's centre, +inf where there is none.
+  double meets(const Hit& hit, const Edges& edges, int x, int y)
   {
-    if (this->Solver.lens().Kind != LensKind::General)
+    constexpr double nowhere = std::numeric_limits<double>::infinity();
+    const double u = x + 0.5;
+    const double v = y + 0.5;
+    if (!this->contains(hit, edges, u, v))
     {
-      for (int i = 0; i < 3; ++i)
-      {
-        q[i] = e.line[i].x * p.dx + e.line[i].y * p.dy + e.line[i].z;
-      }
-      return e.error;
+      return nowhere;
     }
-    const GeneralRay ray = this->Solver.generalRay(p.u, p.v);
-    const Vector3 corner[3] = { e.line[0] - ray.origin, e.line[1] - ray.origin, e.line[2] - ray.origin };
-    for (int i = 0; i < 3; ++i)
-    {
-      q[i] = dot(cross(corner[(i + 1) % 3], corner[(i + 2) % 3]), ray.direction);
-    }
-    const double reach = std::max({ sumNorm(corner[0]), sumNorm(corner[1]), sumNorm(corner[2]) });
-    return (e.error + 32 * UnitRoundoff * sumNorm(ray.origin)) * reach * sumNorm(ray.direction);
+    const PlanePoint point = this->Solver.point(hit, u, v, true);
+    const bool seen = point.t >= this->TheView.near && point.t <= this->TheView.far &&
+                      !isCutOut(this->State.instances[hit.object - 1], hit.triangle, { point.second, point.third });
+    return seen ? point.t : nowhere;
   }
 
-  /// Whether the centre is certainly inside and, for linear lenses, LookDistance away from the edges.
-  bool isDeepInside(const Edges& e, const PixelPoint& p) const
+  bool contains(const Hit& hit, const Edges& edges, double u, double v)
   {
-    double q[3];
-    if (this->Solver.lens().Kind != LensKind::General)
-    {
-      this->valuesAt(e, p, q);
-      return (q[0] > e.threshold[0] && q[1] > e.threshold[1] && q[2] > e.threshold[2]) ||
-             (-q[0] > e.threshold[0] && -q[1] > e.threshold[1] && -q[2] > e.threshold[2]);
-    }
-    return this->lensIsDeepInside(e, p);
-  }
-
-  /// The distance from the edges by differences of one pixel.
-  bool lensIsDeepInside(const Edges& e, const PixelPoint& p) const
-  {
-    double q[3], right[3], below[3];
-    const double error = this->valuesAt(e, p, q);
-    this->valuesAt(e, { p.u + 1, p.v, 0, 0 }, right);
-    this->valuesAt(e, { p.u, p.v + 1, 0, 0 }, below);
+    const Lens& lens = this->Solver.lens();
+    const double dy = lens.directionY(v);
+    const double dx = lens.directionX(u, lens.Skew * dy);
     int positive = 0, negative = 0;
-    for (int i = 0; i < 3; ++i)
+    for (const Vector3& line : edges.line)
     {
-      const double x = right[i] - q[i];
-      const double y = below[i] - q[i];
-      const double threshold = std::max(LookDistance * std::sqrt(x * x + y * y), error);
-      positive += q[i] > threshold;
-      negative += -q[i] > threshold;
-    }
-    return positive == 3 || negative == 3;
-  }
-
-  bool contains(const Hit& hit, const PixelPoint& p)
-  {
-    double q[3];
-    const double error = this->valuesAt(this->edges(hit), p, q);
-    int positive = 0, negative = 0;
-    for (const double value : q)
-    {
-      positive += value > error;
-      negative += -value > error;
+      const double value = line.x * dx + line.y * dy + line.z;
+      positive += value > edges.error;
+      negative += -value > edges.error;
     }
     if (positive > 0 && negative > 0)
     {
       return false;
     }
-    return positive == 3 || negative == 3 || this->containsExactly(hit, p);
+    return positive == 3 || negative == 3 || this->containsExactly(hit, lens.exactDirection(u, v));
   }
 
-  bool containsExactly(const Hit& hit, const PixelPoint& p)
+  bool containsExactly(const Hit& hit, const Vector3dd& direction)
   {
-    const Lens& lens = this->Solver.lens();
     const ExactTriangle& triangle = this->Solver.exact(hit);
     if (!triangle.valid)
     {
       return false;
     }
-    Vector3dd line[3] = { triangle.lines[0], triangle.lines[1], triangle.lines[2] };
-    Vector3dd direction;
-    if (lens.Kind == LensKind::General)
-    {
-      const GeneralRay ray = this->Solver.generalRay(p.u, p.v);
-      const Vector3dd origin{ ray.origin.x, ray.origin.y, ray.origin.z };
-      direction = { ray.direction.x, ray.direction.y, ray.direction.z };
-      for (int i = 0; i < 3; ++i)
-      {
-        line[i] = cross(triangle.corners[(i + 1) % 3] - origin, triangle.corners[(i + 2) % 3] - origin);
-      }
-    }
-    else
-    {
-      direction = lens.exactDirection(p.u, p.v);
-    }
     int positive = 0, negative = 0;
-    for (const Vector3dd& l : line)
+    for (const Vector3dd& l : triangle.lines)
     {
       const double value = dot(l, direction).hi;
       const double zero = ExactZero * (std::abs(l.x.hi * direction.x.hi) + std::abs(l.y.hi * direction.y.hi) +
@@ -272,164 +277,57 @@ private:
     return (positive > 0) != (negative > 0);
   }
 
-  double depthOf(const PixelPoint& p, double t) const
+  /// Gives the marked pixels their nearest surface; returns how many change.
+  std::size_t decide()
   {
-    if (this->Solver.lens().Kind != LensKind::General)
+    std::sort(this->Candidates.begin(), this->Candidates.end(),
+      [](const Candidate& a, const Candidate& b) { return std::tie(a.pixel, a.t) < std::tie(b.pixel, b.t); });
+    std::size_t changed = 0;
+    auto at = this->Candidates.begin();
+    for (int y = 0; y < this->Buffer.rect.height; ++y)
     {
-      return t;
-    }
-    const GeneralRay ray = this->Solver.generalRay(p.u, p.v);
-    return ray.origin.z + t * ray.direction.z;
-  }
-
-  /// Whether the plane of a triangle gives a depth within the triangle's own.
-  bool isPlausible(const Hit& hit, const PixelPoint& p)
-  {
-    Vector3 corner[3];
-    this->Solver.corners(hit, corner);
-    const double nearest = std::min({ corner[0].z, corner[1].z, corner[2].z });
-    const double farthest = std::max({ corner[0].z, corner[1].z, corner[2].z });
-    const double depth = this->depthOf(p, this->Solver.point(hit, p.u, p.v, false).t);
-    const double slack = RangeSlack * std::abs(farthest);
-    return depth >= nearest - slack && depth <= farthest + slack;
-  }
-
-  /// t of a candidate that has a surface at the pixel's centre, +inf otherwise.
-  double candidate(const Hit& hit, const PixelPoint& p)
-  {
-    constexpr double nowhere = std::numeric_limits<double>::infinity();
-    if (!this->contains(hit, p))
-    {
-      return nowhere;
-    }
-    const PlanePoint point = this->Solver.point(hit, p.u, p.v, true);
-    const double depth = this->depthOf(p, point.t);
-    if (!(depth >= this->TheView.near && depth <= this->TheView.far) ||
-        isCutOut(this->State.instances[hit.object - 1], hit.triangle, { point.second, point.third }))
-    {
-      return nowhere;
-    }
-    return point.t;
-  }
-
-  /// The nearest surface of the neighbourhood at the centre; object 0 when there is none.
-  Hit nearest(const Hit* at, int x, int y, const PixelPoint& p)
-  {
-    Hit distinct[9];
-    double t[9];
-    int count = 0;
-    double least = std::numeric_limits<double>::infinity();
-    this->forNeighbours(at, x, y,
-      [&](const Hit& hit)
+      for (int x = 0; x < this->Buffer.rect.width; ++x)
       {
-        if (hit.object != 0 && std::find(distinct, distinct + count, hit) == distinct + count)
+        const std::size_t pixel = std::size_t(y) * std::size_t(this->Buffer.rect.width) + std::size_t(x);
+        if (this->Marks.isMarked(this->Buffer.rect.x + x, this->Buffer.rect.y + y))
         {
-          t[count] = this->candidate(hit, p);
-          least = std::min(least, t[count]);
-          distinct[count++] = hit;
-        }
-      });
-    Hit best;
-    for (int i = 0; i < count; ++i)
-    {
-      const bool near = t[i] < std::numeric_limits<double>::infinity() && t[i] <= least * (1 + SameDistance);
-      const bool lower = best.object == 0 || distinct[i].object < best.object ||
-                         (distinct[i].object == best.object && distinct[i].triangle < best.triangle);
-      best = near && lower ? distinct[i] : best;
-    }
-    return best;
-  }
-
-  /// The nearest surface at the centre of all triangles of the neighbourhood's objects; object 0 when there is none.
-  Hit nearestOfObjects(const Hit* at, int x, int y, const PixelPoint& p)
-  {
-    std::vector<std::uint32_t> objects;
-    this->forNeighbours(at, x, y, [&](const Hit& hit) { objects.push_back(hit.object); });
-    std::sort(objects.begin(), objects.end());
-    objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
-    Hit best;
-    double least = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t object : objects)
-    {
-      const std::size_t count = object == 0 ? 0 : this->State.instances[object - 1].model->triangles.size();
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        const Hit hit{ object, std::uint32_t(i) };
-        const double t = this->candidate(hit, p);
-        if (t < least * (1 - SameDistance))
-        {
-          least = t;
-          best = hit;
+          const Hit hit = this->nearest(pixel, at);
+          changed += hit != this->Buffer.hits[pixel] ? 1 : 0;
+          this->Buffer.hits[pixel] = hit;
         }
       }
     }
-    return best;
+    return changed;
   }
 
-  /// True when the pixel changes, to `settled`.
-  bool settle(const Hit* at, int x, int y, Hit& settled)
+  /// The first of a pixel's candidates from `at`, which goes on to the next pixel's; of equally near ones the lowest.
+  Hit nearest(std::size_t pixel, std::vector<Candidate>::iterator& at) const
   {
-    const Hit own = *at;
-    const PixelPoint p = this->pixelPoint(x, y);
-    if (own.object == 0)
+    Hit best;
+    const double limit = at != this->Candidates.end() ? at->t * (1 + SameDistance) : 0;
+    for (; at != this->Candidates.end() && at->pixel == pixel; ++at)
     {
-      settled = this->GrazingOnly || this->isLonely(at, x, y) ? own : this->nearest(at, x, y, p);
-      return settled != own;
+      const bool lower =
+        best.object == 0 || std::tie(at->hit.object, at->hit.triangle) < std::tie(best.object, best.triangle);
+      best = at->t <= limit && lower ? at->hit : best;
     }
-    if (this->isDeepInside(this->edges(own), p) ||
-        (this->GrazingOnly && (this->contains(own, p) || this->isPlausible(own, p))))
-    {
-      return false;
-    }
-    settled = this->nearest(at, x, y, p);
-    if (settled.object == 0)
-    {
-      // A sliver that no neighbour shows: rare enough to look at every triangle.
-      settled = this->isPlausible(own, p) ? own : this->nearestOfObjects(at, x, y, p);
-    }
-    return settled != own;
+    return best;
   }
 
   const SceneState& State;
   const dgtk::View& TheView;
-  const VisibilityBuffer& Buffer;
-  bool GrazingOnly;
+  VisibilityBuffer& Buffer;
+  PixelMarks Marks;
   TriangleSolver Solver;
-  std::vector<Edges> Cache;
+  std::vector<double> Drawn; ///< t of the surfaces that were drawn
+  std::vector<Candidate> Candidates;
 };
 
 } // namespace
 
-std::size_t settleEdges(
-  const SceneState& state, const View& view, VisibilityBuffer& buffer, bool grazingOnly, ThreadPool* pool)
+std::size_t settleEdges(const SceneState& state, const View& view, VisibilityBuffer& buffer)
 {
-  const int height = buffer.rect.height;
-  const int chunks = (height + ChunkRows - 1) / ChunkRows;
-  std::vector<std::vector<Change>> changes(std::size_t(std::max(chunks, 0)));
-  const auto body = [&](int chunk)
-  {
-    Settler settler(state, view, buffer, grazingOnly);
-    settler.run(chunk * ChunkRows, std::min(height, (chunk + 1) * ChunkRows), changes[chunk]);
-  };
-  if (pool)
-  {
-    pool->parallelFor(chunks, body);
-  }
-  else if (chunks > 0)
-  {
-    Settler settler(state, view, buffer, grazingOnly);
-    settler.run(0, height, changes[0]);
-  }
-  std::size_t changed = 0;
-  for (const std::vector<Change>& part : changes)
-  {
-    for (const Change& change : part)
-    {
-      buffer.hits[change.index] = change.hit;
-    }
-    changed += part.size();
-  }
-  return changed;
+  return Settler(state, view, buffer).run();
 }
 
 } // namespace dgtk

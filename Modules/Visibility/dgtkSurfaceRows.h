@@ -55,19 +55,14 @@ DGTKVISIBILITY_EXPORT void triangleInWorld(const SceneState& state, const Hit& h
 DGTKVISIBILITY_EXPORT bool isCutOut(
   const Instance& instance, std::uint32_t triangle, const Eigen::Vector2d& barycentrics);
 
-/// Settles pixels whose recorded triangle does not contain the pixel's centre in exact arithmetic, or contains it
-/// within 1/64 pixel of its edge, and background pixels beside a surface: of the triangles recorded in the 3 x 3
-/// neighbourhood inside the buffer, those that contain the centre (edges included) within near and far, at a texel that
-/// is there, the nearest is taken (nearest within a relative 1e-12: the lowest object, then triangle). When there is
-/// none the pixel keeps its hit, unless the plane of its triangle would give a depth outside the triangle's own range:
-/// then all triangles of the neighbourhood's objects are looked at, and where none contains the centre nothing is
-/// there. Triangles without area are never hit. `grazingOnly`: only pixels whose triangle does not
-/// contain the centre and whose plane would give a depth outside the triangle's own range; used for raster buffers,
-/// whose colours are to stay with their labels. Every decision reads the buffer as it came in; the result does not
-/// depend on the order of pixels or on `pool`, whose threads share the work when it is given. Returns how many pixels
+/// Settles the pixels of a drawn buffer at which drawing may be wrong: those whose centre is within 1/64 pixel of an
+/// edge of any triangle between near and far; where a triangle that was not drawn is not clearly behind the one that
+/// was (by 4e-6 of the depth); where the texel of what was drawn is missing; and where a surface is at near or far but
+/// for 2e-6 of it. They get the nearest surface of all triangles that contain the centre (edges included) within near
+/// and far (both included), at a texel that is there, in exact arithmetic (nearest within a relative 1e-12: the lowest
+/// object, then triangle), or none. Triangles without area are never hit. Linear cameras. Returns how many pixels
 /// changed.
-DGTKVISIBILITY_EXPORT std::size_t settleEdges(
-  const SceneState& state, const View& view, VisibilityBuffer& buffer, bool grazingOnly, ThreadPool* pool = nullptr);
+DGTKVISIBILITY_EXPORT std::size_t settleEdges(const SceneState& state, const View& view, VisibilityBuffer& buffer);
 
 } // namespace dgtk
 

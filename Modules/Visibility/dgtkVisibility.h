@@ -78,8 +78,8 @@ class DGTKVISIBILITY_EXPORT ColorSource : public VisibilitySource
 {
 public:
   /// Fills `colors` with `samples` x `samples` samples a pixel averaged by a box. With hits != nullptr and samples ==
-  /// 1, colour and hits come from the same pass, so that a pixel's colour and its labels cannot disagree. (With samples
-  /// > 1 the hits are those of the pixel's centre.)
+  /// 1, colour and hits come from the same pass, as they were drawn: a pixel's colour and its labels cannot disagree,
+  /// but beside edges the labels may be others than those of render(). (With samples > 1 the hits are render()'s.)
   void renderColor(const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits)
   {
     this->drawColor(rect, samples, colors, hits)();

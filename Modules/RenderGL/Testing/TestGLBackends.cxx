@@ -212,6 +212,12 @@ TEST(GLBackends, GlxDrawsUnderXvfb)
   EXPECT_THAT(glx.first, StartsWith("GLX, "));
   EXPECT_EQ(glx.second.size(), 64u);
   EXPECT_EQ(glx.rest, "");
+  const Answer egl = run("egl");
+  const auto isSoftware = [](const Answer& answer) { return answer.first.find("llvmpipe") != std::string::npos; };
+  if (isSoftware(egl) && isSoftware(glx))
+  {
+    EXPECT_EQ(glx.second, egl.second); // the first picture of the process, too
+  }
   const Answer fallback = run("auto unprepared", NoEgl + (" " + display));
   EXPECT_THAT(fallback.first, StartsWith("GLX, "));
   EXPECT_THAT(fallback.first, HasSubstr("OSMesa: "));

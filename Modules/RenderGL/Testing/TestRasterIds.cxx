@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSurfaceRows.h"
 #include "dgtkTestScene.h"
 
 #include <Eigen/Geometry>
@@ -95,6 +96,7 @@ TEST(RasterIds, ColorPassHasTheSameIds)
   const View view = viewOf(makePinholeFromFov(321, 243, 45, 0), { 3, 2, 5 }, { 0, 0, 0 });
   VisibilityBuffer fromColor;
   renderColor(state, view, 1, &fromColor);
+  settleEdges(*state, view, fromColor); // as render() does
   EXPECT_EQ(fromColor.hits, render(state, view).hits);
 }
 
@@ -153,6 +155,7 @@ TEST(RasterIds, OnGroundThatReachesToTheHorizon)
     EXPECT_LT(comparedWithRays(*state, view, hits), 20);
     VisibilityBuffer fromColor;
     const ColorBuffer colors = renderColor(state, view, 1, &fromColor);
+    settleEdges(*state, view, fromColor);
     EXPECT_EQ(fromColor.hits, hits.hits);
     for (int x = 0; x < 160; ++x)
     {
