@@ -301,7 +301,7 @@ Command renderCommand()
     }
   }
   const std::vector<Option> last = {
-    { "--visibility", "auto|raster|ray", "auto", "engine of the ids: OpenGL, Embree, or by the request" },
+    { "--visibility", "auto|raster|ray", "auto", "engine of the ids: OpenGL or Embree; auto is Embree" },
     { "--gl", "auto|egl|osmesa|glx", "auto", "way to OpenGL" },
     { "--threads", "N", "0", "threads; 0: as many as the machine has cores" },
     { "--resume", "", "", "continue an interrupted run of the same request" },

@@ -87,23 +87,17 @@ struct FrameSource::Tile
   std::function<void()> rest = [] {}; ///< to be done before the buffers are whole
 };
 
-/// Colours, and hits when they come from the raster engine.
 void FrameSource::drawColor(const PixelRect& rect, Tile& tile, bool later)
 {
-  VisibilityBuffer* hits = this->Options.hits && this->Options.raster ? &tile.hits : nullptr;
   if (!this->Exposed->blurs())
   {
-    tile.rest = later ? this->Raster->drawColorLater(rect, tile.colors, hits)
-                      : this->Raster->drawColor(rect, this->Options.samples, tile.colors, hits);
+    tile.rest = later ? this->Raster->drawColorLater(rect, tile.colors)
+                      : this->Raster->drawColor(rect, this->Options.samples, tile.colors, nullptr);
     return;
   }
   if (this->Options.sharp)
   {
-    tile.rest = this->Raster->drawColor(rect, this->Options.samples, tile.sharp, hits);
-  }
-  else if (hits)
-  {
-    this->Raster->render(rect, *hits);
+    tile.rest = this->Raster->drawColor(rect, this->Options.samples, tile.sharp, nullptr);
   }
   this->Exposed->draw(rect, this->Options.samples, tile.colors);
   this->Raster->setScene(this->State, this->Camera);
@@ -112,7 +106,6 @@ void FrameSource::drawColor(const PixelRect& rect, Tile& tile, bool later)
 std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect, bool later)
 {
   auto tile = std::make_shared<Tile>();
-  const bool rasterHits = this->Options.hits && this->Options.raster;
   // Software OpenGL leaves cores idle while it transforms vertices; rays are traced meanwhile.
   std::future<void> traced;
   if (this->Ray)
@@ -121,13 +114,14 @@ std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect, 
   }
   try
   {
+    // What the ids are does not depend on whether colour is drawn, too.
+    if (this->Options.hits && this->Options.raster)
+    {
+      this->Raster->render(rect, tile->hits);
+    }
     if (this->rasterColor())
     {
       this->drawColor(rect, *tile, later);
-    }
-    else if (rasterHits)
-    {
-      this->Raster->render(rect, tile->hits);
     }
     if (this->Options.peel)
     {

@@ -170,16 +170,6 @@ public:
     return { "ldi", { "ldi", "exr" }, "layered depth image: every surface along each ray, with colour and depth" };
   }
 
-  void check(const WorkPlan& plan, const Stage&) const override
-  {
-    const auto& asked = plan.request.layers;
-    if (!plan.raster && std::find(asked.begin(), asked.end(), "ldi") != asked.end())
-    {
-      throw UsageError("layer ldi is drawn with OpenGL: its first surface could differ from ids that rays decide; "
-                       "leave out --visibility ray, or ldi");
-    }
-  }
-
   std::vector<LayerRecord> specs(const std::string& format) const override
   {
     if (format == "exr")
@@ -200,7 +190,7 @@ public:
   std::vector<std::string> files(const WorkPlan& plan, const Stage& stage, const Job& job) const override
   {
     std::vector<std::string> names;
-    for (const std::string& format : this->formatsOf(plan))
+    for (const std::string& format : plan.formatsOf("ldi"))
     {
       names.push_back(WorkPlan::fileName(stage.cameraNames()[job.camera], "ldi", job.frame, format));
     }
@@ -209,21 +199,7 @@ public:
 
   std::unique_ptr<OutputLane> makeLane(const JobContext& context) const override
   {
-    return std::make_unique<LdiLane>(context, this->formatsOf(context.plan));
-  }
-
-private:
-  /// None when rays decide the ids: `--layers all --visibility ray` goes without.
-  std::vector<std::string> formatsOf(const WorkPlan& plan) const
-  {
-    for (const PlannedFrameLayer& planned : plan.frameLayers)
-    {
-      if (plan.raster && planned.layer.get() == this)
-      {
-        return planned.formats;
-      }
-    }
-    return {};
+    return std::make_unique<LdiLane>(context, context.plan.formatsOf("ldi"));
   }
 };
 } // namespace

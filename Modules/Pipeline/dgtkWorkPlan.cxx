@@ -299,10 +299,7 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
   }
   plan.layersReadColor = std::any_of(plan.frameLayers.begin(), plan.frameLayers.end(),
     [](const PlannedFrameLayer& planned) { return planned.layer->needsColor(); });
-  const std::string& engine = request.visibility;
-  const bool peels = std::any_of(plan.frameLayers.begin(), plan.frameLayers.end(),
-    [](const PlannedFrameLayer& planned) { return planned.layer->needsPeeling(); });
-  plan.raster = engine == "raster" || (engine == "auto" && (peels || (plan.drawsColor() && request.samples == 1)));
+  plan.raster = request.visibility == "raster";
   for (const int frame : resolveFrames(request.frames, scene))
   {
     for (const std::size_t camera : resolveCameras(request.cameras, scene))

@@ -222,9 +222,11 @@ class Layers(Case):
         seen, first = firsts(counts)
         self.assertTrue((records["depth"][first] == depth[seen]).all())
 
-    def test_rays_are_refused(self):
-        self.refused("render", os.path.join(SCENES, "demo.json"), "-o", self.path("d"), "--layers", "ldi", "--visibility",
-                     "ray", status=2, says=["ldi", "--visibility ray"])
+    def test_first_surface_is_the_same_whichever_engine_decides(self):
+        for engine in ("ray", "raster"):
+            folder = self.render("demo.json", engine, "--cameras", "left", "--frames", "1", "--size", "160x120", "--ldi-format",
+                                 "ldi,exr", "--triangles-format", "npy", "--visibility", engine)
+            self.check_first(os.path.join(folder, "left"), 1)
 
 
 class Warp(Case):

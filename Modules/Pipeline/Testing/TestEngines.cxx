@@ -157,20 +157,17 @@ std::vector<Case> sampleScenes()
   return cases;
 }
 
+/// Pixels in which the engines see different triangles, all at the same place.
 struct Counts
 {
   std::size_t pixels = 0;
-  std::size_t differing = 0;
-  std::size_t onEdges = 0;
   std::size_t coinciding = 0;
-  std::size_t onTexels = 0; ///< border of a texel that a cut-out removes: the silhouette of such a surface
+  std::size_t otherObjects = 0; ///< of the coinciding ones
   void operator+=(const Counts& other)
   {
     this->pixels += other.pixels;
-    this->differing += other.differing;
-    this->onEdges += other.onEdges;
     this->coinciding += other.coinciding;
-    this->onTexels += other.onTexels;
+    this->otherObjects += other.otherObjects;
   }
 };
 
@@ -245,22 +242,24 @@ Counts compareEngines(const Case& c, VisibilitySource& raster, VisibilitySource&
       {
         continue;
       }
-      ++counts.differing;
       const Eigen::Vector2d centre(x + 0.5, y + 0.5);
-      const Reason reason = reasonOf(c, hits, centre, coincident);
-      counts.onEdges += reason == Reason::Edge;
-      counts.coinciding += reason == Reason::Coincident;
-      counts.onTexels += reason == Reason::Texel;
-      EXPECT_NE(reason, Reason::None) << c.name << " at " << x << ", " << y << ": raster " << hits[0].object << ':'
-                                      << hits[0].triangle << " at " << depthAt(c, hits[0], centre) << ", ray "
-                                      << hits[1].object << ':' << hits[1].triangle << " at "
-                                      << depthAt(c, hits[1], centre);
+      const double depths[2] = { depthAt(c, hits[0], centre), depthAt(c, hits[1], centre) };
+      if (std::abs(depths[0] - depths[1]) <= coincident * std::min(depths[0], depths[1]))
+      {
+        ++counts.coinciding;
+        counts.otherObjects += hits[0].object != hits[1].object ? 1 : 0;
+        continue;
+      }
+      ADD_FAILURE() << c.name << " at " << x << ", " << y << ": raster " << hits[0].object << ':' << hits[0].triangle
+                    << " at " << depths[0] << ", ray " << hits[1].object << ':' << hits[1].triangle << " at "
+                    << depths[1];
     }
   }
   return counts;
 }
 
-void compareAll(const std::vector<Case>& cases)
+/// Edges and borders of missing texels are settled exactly; what may differ are surfaces that lie on one another.
+void compareAll(const std::vector<Case>& cases, std::size_t mostCoinciding, std::size_t mostOtherObjects)
 {
   ThreadPool pool(2);
   const auto raster = makeRasterSource();
@@ -270,11 +269,11 @@ void compareAll(const std::vector<Case>& cases)
   {
     all += compareEngines(c, *raster, *ray);
   }
-  std::printf("%zu cases, %zu pixels: %zu differ, %zu of them within 1/128 pixel of an edge, %zu on coincident "
-              "surfaces, %zu on borders of cut-out texels\n",
-    cases.size(), all.pixels, all.differing, all.onEdges, all.coinciding, all.onTexels);
+  std::printf("%zu cases, %zu pixels: %zu differ, all on coincident surfaces, %zu of them of another object\n",
+    cases.size(), all.pixels, all.coinciding, all.otherObjects);
   EXPECT_GT(cases.size(), 5U);
-  EXPECT_LT(all.differing, all.pixels / 100);
+  EXPECT_LE(all.coinciding, mostCoinciding);
+  EXPECT_LE(all.otherObjects, mostOtherObjects);
 }
 
 /// Embree without anything of ours: float triangles relative to the camera, in its frame.
@@ -346,9 +345,9 @@ private:
 };
 } // namespace
 
-TEST(Engines, RasterAndRayAgreeOnEverySampleModel) { compareAll(sampleModels()); }
+TEST(Engines, RasterAndRayAgreeOnEverySampleModel) { compareAll(sampleModels(), 1, 0); }
 
-TEST(Engines, RasterAndRayAgreeOnEveryScene) { compareAll(sampleScenes()); }
+TEST(Engines, RasterAndRayAgreeOnEveryScene) { compareAll(sampleScenes(), 0, 0); }
 
 TEST(Engines, DepthIsThatOfBareEmbree)
 {

@@ -164,22 +164,3 @@ INSTANTIATE_TEST_SUITE_P(All, LdiScenes,
   testing::Values(SceneCase{ "Data/Scenes/fig_5_2_trees_grass.json", 0 }, // cut-out leaves
     SceneCase{ "Data/Scenes/demo.json", 1 },                              // MD2 and glTF in motion
     SceneCase{ "Data/Scenes/fig_4_7_stereo.json", 0 }));
-
-TEST(LdiLayer, IsRefusedWithRays)
-{
-  const TemporaryFolder folder;
-  GeneratorRequest request;
-  request.scene = sourceFile("Data/Scenes/parenting.json");
-  request.folder = folder.path("d");
-  request.layers = { "depth", "ldi" };
-  request.visibility = "ray";
-  try
-  {
-    generate(request);
-    FAIL();
-  }
-  catch (const UsageError& error)
-  {
-    EXPECT_THAT(error.what(), testing::HasSubstr("--visibility ray"));
-  }
-}
