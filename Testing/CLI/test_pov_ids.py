@@ -105,6 +105,22 @@ class FlatIds(Case):
         self.assertGreater(counts[1], 0.02 * counts[0])
         self.assertEqual(far, [])
 
+    def test_near_and_far_inside_an_object(self):
+        """The cut is between near and far: its other sides would show other surfaces, or none."""
+        model = os.path.join(MODELS, "chair.3ds")
+        low, high = numpy.array(self.dgtk_json("info", model)["bounds"])
+        radius = numpy.linalg.norm(high - low) / 2
+        cameras = [{**camera, "near": 2.4 * radius, "far": 3.1 * radius} for camera in cameras_around(low, high)]
+        scene = self.write("cut.json", json.dumps({"version": 1, "objects": [{"name": "model", "model": model}], "cameras": cameras}))
+        names = [camera["name"] for camera in cameras]
+        far, counts = self.compare("cut", scene, names, 0)
+        self.assertEqual(far, [])
+        self.assertGreater(counts[1], 1000)
+        for camera in cameras:  # both planes cut something away
+            camera.update(near=0.5 * radius, far=6 * radius)
+        whole = self.write("whole.json", json.dumps({"version": 1, "objects": [{"name": "model", "model": model}], "cameras": cameras}))
+        self.assertGreater(self.compare("whole", whole, names, 0)[1][1], counts[1] + 100)
+
     def test_models(self):
         paths = sorted(os.path.join(root, name) for top in (MODELS, EXTRA) if top for root, _, names in os.walk(top)
                        for name in names if os.path.splitext(name)[1].lower() in EXTENSIONS)

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <regex>
 #include <unistd.h>
 
 namespace dgtk
@@ -229,6 +230,32 @@ TEST_F(PovExport, WhatCrossesTheNearPlaneIsCut)
   const std::string text = readFile(this->path("n.pov"));
   EXPECT_EQ(count(text, "clipped_by"), 1u);
   EXPECT_GT(text.find("clipped_by"), text.find("object 2"));
+}
+
+// What POV-Ray keeps, the inside of a plane, is where normal . x is below its distance.
+TEST_F(PovExport, WhatIsCutLiesBeyondNearAndFar)
+{
+  const auto state =
+    test::SceneBuilder().add(test::makeQuad({ { -50, 0, -50 }, { 100, 0, 0 }, { 0, 0, 100 } })).state();
+  this->V.near = 5;
+  this->V.far = 12;
+  exportPov(*state, this->V, this->path("n.pov"));
+  const std::string text = readFile(this->path("n.pov"));
+  const std::regex form(R"(plane \{ <([^,]+), ([^,]+), ([^>]+)>, ([^ ]+) \})");
+  std::vector<std::pair<Eigen::Vector3d, double>> planes;
+  for (std::sregex_iterator at(text.begin() + long(text.find("clipped_by")), text.end(), form), end; at != end; ++at)
+  {
+    planes.push_back({ { std::stod((*at)[1]), std::stod((*at)[2]), std::stod((*at)[3]) }, std::stod((*at)[4]) });
+  }
+  ASSERT_EQ(planes.size(), 2u);
+  const Rigid3 world_from_camera = this->V.camera_from_world.inverse();
+  for (const double depth : { -4.0, 4.999, 5.001, 8.0, 11.999, 12.001, 30.0 })
+  {
+    const Eigen::Vector3d x = world_from_camera * Eigen::Vector3d(0.3 * depth, -0.2 * depth, depth);
+    const bool kept =
+      std::all_of(planes.begin(), planes.end(), [&](const auto& plane) { return plane.first.dot(x) <= plane.second; });
+    EXPECT_EQ(kept, depth > 5 && depth < 12) << depth;
+  }
 }
 
 TEST_F(PovExport, ModelKeepsItsAxes)
