@@ -97,6 +97,7 @@ int main(int argc, char** argv)
   QTimer::singleShot(0, &window,
     [&window, &words]
     {
+      window.findRuns();
       window.offerRecovery();
       for (const QString& file : words.files)
       {

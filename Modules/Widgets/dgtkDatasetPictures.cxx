@@ -113,7 +113,7 @@ DatasetPictures::DatasetPictures(const std::string& folder)
   if (!fs::exists(root / manifestName, failed))
   {
     throw InputError(this->Folder, 0,
-      fs::exists(root / journalName, failed) ? "the dataset is not finished: render it again with --resume"
+      fs::exists(root / journalName, failed) ? "the dataset is not finished: render it again, to its end"
                                              : "is not the folder of a dataset: it has no manifest.json");
   }
   this->TheManifest = readManifest((root / manifestName).string());

@@ -8,7 +8,6 @@
 #include "dgtkMatchDialog.h"
 #include "dgtkNamedAction.h"
 #include "dgtkPropertiesPanel.h"
-#include "dgtkRenderDialog.h"
 #include "dgtkSceneTree.h"
 #include "dgtkSceneViews.h"
 #include "dgtkTimeLine.h"
@@ -286,20 +285,6 @@ void MainWindow::addLight()
   dialog.onAdd([this](const LightDescription& added)
     { return this->State->attempt([&] { this->State->select({ this->document().addLight(added) }); }); });
   dialog.exec();
-}
-
-void MainWindow::configureRendering()
-{
-  if (this->Rendering == nullptr)
-  {
-    this->Rendering = new RenderDialog(*this->State, this);
-    connect(this->Rendering, &RenderDialog::noted, this, &MainWindow::note);
-    connect(this->Rendering, &RenderDialog::resultAsked, this, &MainWindow::openDataset);
-    connect(this, &MainWindow::closed, this->Rendering, &RenderDialog::end);
-  }
-  this->Rendering->show();
-  this->Rendering->raise();
-  this->Rendering->activateWindow();
 }
 
 void MainWindow::showCorrespondence()

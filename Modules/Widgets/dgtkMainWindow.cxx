@@ -7,7 +7,7 @@
 #include "dgtkEditorState.h"
 #include "dgtkMatchDialog.h"
 #include "dgtkNamedAction.h"
-#include "dgtkRenderDialog.h"
+#include "dgtkRenderStatus.h"
 #include "dgtkSceneViews.h"
 #include "dgtkWindowSize.h"
 
@@ -60,6 +60,7 @@ MainWindow::MainWindow(QWidget* parent)
   this->setObjectName("mainWindow");
   this->setAcceptDrops(true);
   this->Work = new BackgroundWork(this->statusBar(), this);
+  this->Run = new RenderStatus(this->statusBar());
   this->setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowNestedDocks | QMainWindow::AllowTabbedDocks);
   this->Views = new SceneViews(*this->State, this);
   this->setCentralWidget(this->Views);
@@ -176,7 +177,7 @@ void MainWindow::restoreSettings()
 
 void MainWindow::closeEvent(QCloseEvent* event)
 {
-  if (!this->mayDiscard())
+  if (!this->mayDiscard() || !this->mayLeaveRun())
   {
     event->ignore();
     return;

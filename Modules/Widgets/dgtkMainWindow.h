@@ -27,6 +27,7 @@ class EditorState;
 class MatchDialog;
 class ModelStore;
 class RenderDialog;
+class RenderStatus;
 class SceneDocument;
 class SceneViews;
 class TruthView;
@@ -58,6 +59,8 @@ public:
   void openDataset(const QString& folder);
   /// Asks about each copy of unsaved work that a crash left behind.
   void offerRecovery();
+  /// Shows the run of an earlier window that goes on, and says how others ended since.
+  void findRuns();
   /// False when it was refused.
   bool saveFile(const QString& path);
 
@@ -105,7 +108,10 @@ private:
   void addCameraArray();
   CameraDescription cameraOfView() const;
   void addLight();
+  RenderDialog& rendering();
   void configureRendering();
+  /// False when the window is to stay because of a run that goes on, after asking.
+  bool mayLeaveRun();
   void showCorrespondence();
   void makeItemActions(QMenu* menu);
   void refreshItemActions();
@@ -134,6 +140,7 @@ private:
   QMenu* Recent = nullptr;
   QMenu* ViewMenu = nullptr;
   RenderDialog* Rendering = nullptr;
+  RenderStatus* Run = nullptr;
   MatchDialog* Matching = nullptr;
   std::size_t Warned = 0; ///< warnings of the scene's models in the log
   std::size_t Opened = 0; ///< SceneDocument::opened() of that scene

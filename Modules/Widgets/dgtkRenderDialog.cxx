@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRenderDialog.h"
 
+#include "dgtkFolderContents.h"
+#include "dgtkJournal.h"
 #include "dgtkRenderCameras.h"
 #include "dgtkUsualFolder.h"
 #include "dgtkWindowSize.h"
@@ -18,13 +20,14 @@
 #include <QSettings>
 #include <QSize>
 #include <QSpinBox>
-#include <QStandardPaths>
 #include <QTabWidget>
 #include <QTimer>
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <exception>
 #include <optional>
+#include <utility>
 
 namespace dgtk
 {
@@ -40,6 +43,28 @@ QString durationText(double seconds)
   const QString minutes =
     QString("%1:%2").arg(s / 60 % 60, s >= 3600 ? 2 : 1, 10, QChar('0')).arg(s % 60, 2, 10, QChar('0'));
   return s >= 3600 ? QString("%1:%2").arg(s / 3600).arg(minutes) : minutes;
+}
+
+QByteArray hashOf(const SceneDocument& document)
+{
+  return QCryptographicHash::hash(QByteArray::fromStdString(document.json()), QCryptographicHash::Sha1).toHex();
+}
+
+/// A message of the command line, with the names that its options have here.
+QString inWindowsWords(QString message)
+{
+  if (message.contains(QString::fromStdString(describe(FolderContents::UnfinishedOther))))
+  {
+    return RenderDialog::tr("The interrupted run in this folder is of another request: untick to replace it, or name "
+                            "another folder.");
+  }
+  const std::pair<const char*, QString> names[] = { { "--matte", RenderDialog::tr("Matting of") },
+    { "--frames", RenderDialog::tr("First and last frame") } };
+  for (const auto& [option, name] : names)
+  {
+    message.replace(option, name);
+  }
+  return message;
 }
 } // namespace
 
@@ -69,7 +94,7 @@ RenderDialog::RenderDialog(EditorState& state, QWidget* parent)
   connect(&this->Process, &RenderProcess::line, this, &RenderDialog::noted);
   connect(&this->Process, &RenderProcess::finished, this, &RenderDialog::finish);
   this->refresh();
-  this->setRunning(false);
+  this->lookAtFolder();
 }
 
 QString RenderDialog::usualFolder() const
@@ -86,10 +111,10 @@ void RenderDialog::refresh()
   {
     // Another scene: the folder of the one before is not for it.
     this->Opened = opened;
-    this->Folder->setText(this->usualFolder());
-    this->Resume->setChecked(false);
     this->Progress->setValue(0);
     this->Status->clear();
+    this->Folder->setText(this->usualFolder());
+    this->lookAtFolder();
   }
   const std::vector<int> keys = scene.keyFrames();
   this->Info->setText(
@@ -159,7 +184,7 @@ void RenderDialog::showMatte()
 QStringList RenderDialog::arguments(const QString& scene) const
 {
   const QStringList cameras = this->Cameras->checked();
-  QStringList words{ "render", scene, "-o", this->Folder->text(), "--layers", this->checkedLayers().join(',') };
+  QStringList words{ "render", scene, "-o", this->folder(), "--layers", this->checkedLayers().join(',') };
   if (cameras.size() != this->Cameras->count())
   {
     words << "--cameras" << cameras.join(',');
@@ -183,14 +208,6 @@ QStringList RenderDialog::arguments(const QString& scene) const
   }
   words << "--tile" << QString("%1x%2").arg(this->Tile[0]->value()).arg(this->Tile[1]->value());
   words << "--samples" << QString::number(this->Samples->value());
-  if (this->Resume->isChecked())
-  {
-    words << "--resume";
-  }
-  else if (QDir(this->Folder->text()).exists("manifest.json"))
-  {
-    words << "--replace"; // it has been asked for
-  }
   return words;
 }
 
@@ -199,15 +216,55 @@ QString RenderDialog::sceneFile()
   SceneDocument& document = this->State.document();
   if (!document.modified() && !document.path().empty())
   {
-    return toText(document.path());
+    return QFileInfo(toText(document.path())).absoluteFilePath();
   }
-  const QByteArray target = QDir::cleanPath(QDir::current().absoluteFilePath(this->Folder->text())).toUtf8();
-  const QDir folder(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + "/rendered/" +
-                    QString::fromLatin1(QCryptographicHash::hash(target, QCryptographicHash::Sha1).toHex().left(16)));
-  folder.mkpath(".");
-  const QString copy = folder.filePath("scene.json");
+  const QString copy = RunLog(this->folder()).sceneCopy();
   document.writeCopy(QFile::encodeName(copy).toStdString());
   return copy;
+}
+
+QString RenderDialog::folder() const { return QDir::cleanPath(QDir::current().absoluteFilePath(this->Folder->text())); }
+
+FolderContents RenderDialog::contents() const
+{
+  // Of another request, as far as this knows: to tell, the scene's models would have to be read.
+  try
+  {
+    return folderContents(QFile::encodeName(this->folder()).toStdString(), {});
+  }
+  catch (const std::exception&)
+  {
+    return FolderContents::Foreign; // the run says what is wrong with it
+  }
+}
+
+void RenderDialog::lookAtFolder()
+{
+  RunLog log(this->folder());
+  const FolderContents found = this->contents();
+  const bool unfinished = found == FolderContents::UnfinishedOther;
+  this->Interrupted.reset();
+  if (unfinished)
+  {
+    log.read();
+  }
+  if (!log.request().arguments.isEmpty() && log.end() != RunLog::End::Done)
+  {
+    this->Interrupted = log.request();
+  }
+  this->Resume->setChecked(unfinished);
+  if (this->Status->text().isEmpty() && unfinished)
+  {
+    this->Status->setText(
+      tr("An interrupted run stands in this folder%1. Start goes on with it.")
+        .arg(log.total() == 0 ? QString() : tr(" (%1 of %2 pictures)").arg(log.done()).arg(log.total())));
+  }
+  else if (this->Status->text().isEmpty() && found == FolderContents::Running)
+  {
+    this->Status->setText(log.alive() ? tr("A run into this folder goes on. Start shows it.")
+                                      : tr("Another program is rendering into this folder."));
+  }
+  this->setRunning(false);
 }
 
 void RenderDialog::browse()
@@ -219,66 +276,148 @@ void RenderDialog::browse()
   }
 }
 
-bool RenderDialog::mayReplace()
+RenderDialog::Begin RenderDialog::askToGoOn(const QString& what)
 {
-  if (this->Resume->isChecked() || !QDir(this->Folder->text()).exists("manifest.json"))
+  QMessageBox box(QMessageBox::Question, QStringLiteral("DGTk"), what, QMessageBox::Cancel, this);
+  box.setObjectName("unfinishedRunBox");
+  box.setInformativeText(tr("Go on with it, or replace it by this run? What it has made so far goes then."));
+  QPushButton* const goOn = box.addButton(tr("Go on"), QMessageBox::AcceptRole);
+  goOn->setObjectName("goOn");
+  QPushButton* const replace = box.addButton(tr("Replace"), QMessageBox::DestructiveRole);
+  replace->setObjectName("replace");
+  box.button(QMessageBox::Cancel)->setText(tr("Another folder"));
+  box.setDefaultButton(goOn);
+  box.exec();
+  return box.clickedButton() == goOn ? Begin::GoOn : box.clickedButton() == replace ? Begin::Replace : Begin::Not;
+}
+
+RenderDialog::Begin RenderDialog::askAboutFolder()
+{
+  const QString name = QDir::toNativeSeparators(this->folder());
+  if (this->contents() == FolderContents::UnfinishedOther)
   {
-    return true;
+    if (this->Resume->isChecked() && this->Interrupted && this->sceneChangedSince(*this->Interrupted))
+    {
+      return this->askToGoOn(
+        tr("%1 holds an interrupted run of another scene, or of this one before it was changed.").arg(name));
+    }
+    return this->Resume->isChecked() ? Begin::GoOn : this->askToGoOn(tr("%1 holds an interrupted run.").arg(name));
   }
-  QMessageBox box(QMessageBox::Question, QStringLiteral("DGTk"),
-    tr("%1 holds a finished dataset.").arg(QDir::toNativeSeparators(this->Folder->text())), QMessageBox::Cancel, this);
+  if (!QDir(this->folder()).exists(manifestName))
+  {
+    return Begin::Fresh;
+  }
+  QMessageBox box(QMessageBox::Question, QStringLiteral("DGTk"), tr("%1 holds a finished dataset.").arg(name),
+    QMessageBox::Cancel, this);
   box.setObjectName("replaceDatasetBox");
   box.setInformativeText(tr("Replace it by this run? Cancel to name another folder."));
   QPushButton* const replace = box.addButton(tr("Replace"), QMessageBox::DestructiveRole);
   replace->setObjectName("replace");
   box.setDefaultButton(QMessageBox::Cancel);
   box.exec();
-  return box.clickedButton() == replace;
+  return box.clickedButton() == replace ? Begin::Replace : Begin::Not;
+}
+
+QString RenderDialog::missing() const
+{
+  if (this->Cameras->count() == 0)
+  {
+    return tr("The scene has no camera. Add one with Tools > Add camera.");
+  }
+  if (this->Cameras->checked().isEmpty())
+  {
+    return tr("Check at least one camera on the page Cameras.");
+  }
+  if (this->checkedLayers().isEmpty())
+  {
+    return tr("Check at least one layer.");
+  }
+  if (this->layerBox("matting")->isChecked() && this->Matte->text().trimmed().isEmpty())
+  {
+    return tr("Name the objects of the layer matting, or uncheck it.");
+  }
+  return {};
+}
+
+bool RenderDialog::sceneChangedSince(const RunRequest& request) const
+{
+  // Without a scene there is nothing else that could be meant.
+  return this->Cameras->count() > 0 && hashOf(this->State.document()) != request.scene;
+}
+
+RunRequest RenderDialog::newRequest()
+{
+  return { this->folder(), this->arguments(this->sceneFile()), hashOf(this->State.document()) };
 }
 
 void RenderDialog::start()
 {
   this->State.finishTyping();
-  QString missing;
-  const QStringList words = this->arguments({});
-  if (this->Cameras->count() == 0)
-  {
-    missing = tr("The scene has no camera. Add one with Tools > Add camera.");
-  }
-  else if (words.contains("--cameras") && words[words.indexOf("--cameras") + 1].isEmpty())
-  {
-    missing = tr("Check at least one camera on the page Cameras.");
-  }
-  else if (words[words.indexOf("--layers") + 1].isEmpty())
-  {
-    missing = tr("Check at least one layer.");
-  }
-  else if (this->layerBox("matting")->isChecked() && this->Matte->text().trimmed().isEmpty())
-  {
-    missing = tr("Name the objects of the layer matting, or uncheck it.");
-  }
-  else if (this->Folder->text().trimmed().isEmpty())
-  {
-    missing = tr("Name a folder for the dataset.");
-  }
+  const bool goesOn = this->Resume->isChecked() && this->Interrupted;
+  const QString missing = this->Folder->text().trimmed().isEmpty() ? tr("Name a folder for the dataset.")
+                          : goesOn                                 ? QString()
+                                                                   : this->missing();
   if (!missing.isEmpty())
   {
     this->Status->setText(missing);
     return;
   }
-  QString scene;
-  if (this->mayReplace() && this->State.attempt([&] { scene = this->sceneFile(); }))
+  if (RunLog(this->folder()).alive())
   {
+    this->follow(this->folder()); // another window's, or an earlier one's
+    return;
+  }
+  const Begin begin = this->askAboutFolder();
+  RunRequest request;
+  if (begin == Begin::Not)
+  {
+    this->Folder->setFocus();
+  }
+  else if (begin == Begin::GoOn && this->Interrupted)
+  {
+    request = *this->Interrupted;
+  }
+  else if (!this->State.attempt([&] { request = this->newRequest(); }))
+  {
+    request = {};
+  }
+  if (!request.arguments.isEmpty())
+  {
+    const QStringList how = begin == Begin::GoOn      ? QStringList{ "--resume" }
+                            : begin == Begin::Replace ? QStringList{ "--replace" }
+                                                      : QStringList();
     this->rememberChoices();
-    this->setRunning(true);
-    this->Progress->setRange(0, 0);
-    this->Estimate = {};
-    this->Pictures.clear();
-    this->Running.start();
-    this->Clock->start(progressEvery);
-    this->Status->setText(tr("Rendering ..."));
-    emit this->noted("dgtk " + shellLine(this->arguments(scene)));
-    this->Process.start(this->arguments(scene));
+    this->begin();
+    emit this->noted("dgtk " + shellLine(request.arguments + how));
+    this->Process.start(request, how);
+  }
+}
+
+void RenderDialog::begin()
+{
+  this->setRunning(true);
+  this->Progress->setRange(0, 0);
+  this->Estimate = {};
+  this->Pictures.clear();
+  this->Running.start();
+  this->Clock->start(progressEvery);
+  this->Status->setText(tr("Rendering ..."));
+  emit this->progressed(-1, {});
+}
+
+void RenderDialog::follow(const QString& folder)
+{
+  this->Folder->setText(folder);
+  this->begin();
+  this->Process.follow(folder);
+}
+
+void RenderDialog::offer(const QString& folder)
+{
+  if (!this->running())
+  {
+    this->Folder->setText(folder);
+    this->lookAtFolder();
   }
 }
 
@@ -308,10 +447,12 @@ void RenderDialog::showProgress()
     return; // the models are being read
   }
   const double now = double(this->Running.elapsed()) / 1000;
+  const double fraction = this->Estimate.fractionAt(now);
   this->Progress->setRange(0, progressSteps);
-  this->Progress->setValue(int(progressSteps * this->Estimate.fractionAt(now)));
+  this->Progress->setValue(int(progressSteps * fraction));
   const std::optional<double> left = this->Estimate.secondsLeftAt(now);
   this->Status->setText(left ? tr("%1, %2 left").arg(this->Pictures, durationText(*left)) : this->Pictures);
+  emit this->progressed(fraction, left ? durationText(*left) : QString());
 }
 
 void RenderDialog::cancel()
@@ -320,34 +461,63 @@ void RenderDialog::cancel()
   this->showProgress();
 }
 
-void RenderDialog::finish(bool ok, bool cancelled, const QString& message)
+QString RenderDialog::endText(RunLog::End end, const QString& message) const
 {
-  this->setRunning(false);
+  const bool goesOn = this->Resume->isChecked();
+  switch (end)
+  {
+    case RunLog::End::Done:
+      return message;
+    case RunLog::End::Failed:
+      return inWindowsWords(message);
+    case RunLog::End::Lost:
+      if (!this->Process.cancelled())
+      {
+        return goesOn ? tr("The run was ended from outside. Start goes on where it ended.")
+                      : tr("The run was ended from outside.");
+      }
+      [[fallthrough]];
+    default:
+      return goesOn ? tr("Stopped. Start goes on where it stopped.") : tr("Stopped.");
+  }
+}
+
+void RenderDialog::finish(RunLog::End end, const QString& message)
+{
   this->Clock->stop();
   this->Progress->setRange(0, 1);
-  this->Progress->setValue(ok ? 1 : 0);
-  this->Resume->setChecked(cancelled);
-  if (ok)
+  this->Progress->setValue(end == RunLog::End::Done ? 1 : 0);
+  this->lookAtFolder();
+  if (end == RunLog::End::Done)
   {
-    rememberFolder(this->Folder->text(), "dataset");
+    rememberFolder(this->folder(), "dataset");
   }
-  this->Status->setText(cancelled ? tr("Stopped. Start goes on where it stopped.") : message);
-  if (!ok && !cancelled)
-  {
-    emit this->State.failed(message);
-  }
+  const QString said = this->endText(end, message);
+  this->Status->setText(said);
+  emit this->ended(end, said);
 }
 
 void RenderDialog::setRunning(bool on)
 {
-  this->Tabs->setEnabled(!on);
+  this->Tabs->setEnabled(!on && !(this->Resume->isChecked() && this->Interrupted)); // that goes on as it was begun
+  this->Resume->setEnabled(!on);
   this->Folder->setEnabled(!on); // the result is there
   this->Browse->setEnabled(!on);
   this->Start->setEnabled(!on);
   this->Cancel->setEnabled(on);
-  const bool there = !on && QDir(this->Folder->text()).exists("manifest.json");
+  const bool there = !on && QDir(this->folder()).exists(manifestName);
   this->Open->setEnabled(there);
   this->Result->setEnabled(there);
+}
+
+void RenderDialog::showEvent(QShowEvent* event)
+{
+  QDialog::showEvent(event);
+  if (!this->running())
+  {
+    this->lookAtFolder();
+  }
+  emit this->shown();
 }
 
 void RenderDialog::reject()

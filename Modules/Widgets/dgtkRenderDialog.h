@@ -5,13 +5,14 @@
 // Private to Widgets.
 
 #include "dgtkEditorState.h"
+#include "dgtkFolderContents.h"
 #include "dgtkProgressEstimate.h"
 #include "dgtkRenderProcess.h"
 
 #include <QDialog>
 #include <QElapsedTimer>
 
-#include <memory>
+#include <optional>
 #include <vector>
 
 class QCheckBox;
@@ -30,7 +31,8 @@ namespace dgtk
 class RenderCameras;
 
 /// What `dgtk render` is to make of the scene, with its progress. The scene is that of the file or, when it has
-/// changes, a copy of it as it is now, which stays: one for each folder, so that an interrupted run can go on.
+/// changes, a copy of it as it is now, which stays: one for each folder, so that an interrupted run can go on. Runs
+/// outlive the window; one that was interrupted goes on as it was begun, by whichever window.
 class RenderDialog : public QDialog
 {
   Q_OBJECT
@@ -38,23 +40,40 @@ class RenderDialog : public QDialog
 public:
   RenderDialog(EditorState& state, QWidget* parent);
 
-  /// The words after `dgtk` for a scene file.
+  /// The words after `dgtk` for a scene file, without what is for a folder that is not empty.
   QStringList arguments(const QString& scene) const;
-  /// Interrupts the run, and is hidden.
-  void end()
-  {
-    this->Process.cancel();
-    this->hide();
-  }
+  bool running() const { return this->Process.running(); }
+  /// "Pictures: 3 of 20"; "" before that is known.
+  const QString& pictures() const { return this->Pictures; }
+  /// The run ends after a row of tiles or so; asked again, at once.
+  void cancel();
+  /// Shows a run that goes on.
+  void follow(const QString& folder);
+  /// Offers the folder for the next run, unless one goes on.
+  void offer(const QString& folder);
 
 signals:
   void noted(const QString& line);
   void resultAsked(const QString& folder);
+  void shown();
+  /// `fraction`: in [0, 1]; negative before it is known.
+  void progressed(double fraction, const QString& left);
+  /// `message`: what the dialog says of it.
+  void ended(dgtk::RunLog::End end, const QString& message);
 
 protected:
   void reject() override;
+  void showEvent(QShowEvent* event) override;
 
 private:
+  enum class Begin
+  {
+    Not,
+    Fresh,
+    GoOn,
+    Replace
+  };
+
   QWidget* makeInfo();
   QWidget* makeControls();
   void makeRunRow(QVBoxLayout* layout);
@@ -62,9 +81,19 @@ private:
   void browse();
   /// Beside the scene's file.
   QString usualFolder() const;
-  /// Whether the run may begin in the folder; asks where a dataset is there that would go.
-  bool mayReplace();
+  QString folder() const; ///< absolute
+  FolderContents contents() const;
+  /// What stands there: a finished dataset, a run to go on with.
+  void lookAtFolder();
+  /// What keeps a new run from beginning; "" for nothing.
+  QString missing() const;
+  /// How the run begins in the folder; asks where something is there that would go.
+  Begin askAboutFolder();
+  Begin askToGoOn(const QString& what);
+  RunRequest newRequest();
+  bool sceneChangedSince(const RunRequest& request) const;
   void start();
+  void begin();
   QStringList checkedLayers() const;
   QCheckBox* layerBox(const QString& layer) const;
   /// The objects of the layer matting: those selected, until others are typed.
@@ -73,9 +102,8 @@ private:
   void rememberChoices() const;
   void takeProgress(int done, int total);
   void showProgress();
-  /// The run ends after a row of tiles or so; asked again, at once.
-  void cancel();
-  void finish(bool ok, bool cancelled, const QString& message);
+  void finish(RunLog::End end, const QString& message);
+  QString endText(RunLog::End end, const QString& message) const;
   void setRunning(bool on);
   QString sceneFile();
 
@@ -98,6 +126,7 @@ private:
   QLineEdit* Folder = nullptr;
   QPushButton* Browse = nullptr;
   QCheckBox* Resume = nullptr;
+  std::optional<RunRequest> Interrupted; ///< the run of the folder that can go on
   QPushButton* Start = nullptr;
   QPushButton* Cancel = nullptr;
   QPushButton* Open = nullptr;

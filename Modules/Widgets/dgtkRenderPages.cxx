@@ -144,8 +144,9 @@ void RenderDialog::makeRunRow(QVBoxLayout* layout)
   folder->addWidget(this->Browse);
   layout->addLayout(folder);
 
-  this->Resume = new QCheckBox(tr("Go on with an &interrupted run of the same request"));
+  this->Resume = new QCheckBox(tr("Go on with an &interrupted run"));
   this->Resume->setObjectName("resume");
+  this->Resume->setToolTip(tr("As it was begun: the choices above are for a new run"));
   layout->addWidget(this->Resume);
   this->Progress = new QProgressBar;
   this->Progress->setObjectName("progress");
@@ -183,10 +184,16 @@ void RenderDialog::makeRunRow(QVBoxLayout* layout)
   connect(this->Start, &QPushButton::clicked, this, &RenderDialog::start);
   connect(this->Cancel, &QPushButton::clicked, this, &RenderDialog::cancel);
   connect(close, &QPushButton::clicked, this, &RenderDialog::reject);
-  connect(this->Result, &QPushButton::clicked, this, [this] { emit this->resultAsked(this->Folder->text()); });
-  connect(this->Folder, &QLineEdit::textChanged, this, [this] { this->setRunning(!this->Start->isEnabled()); });
+  connect(this->Result, &QPushButton::clicked, this, [this] { emit this->resultAsked(this->folder()); });
+  connect(this->Resume, &QCheckBox::toggled, this, [this] { this->setRunning(this->running()); });
+  connect(this->Folder, &QLineEdit::textChanged, this,
+    [this]
+    {
+      this->Status->clear();
+      this->lookAtFolder();
+    });
   connect(this->Open, &QPushButton::clicked, this,
-    [this] { QDesktopServices::openUrl(QUrl::fromLocalFile(this->Folder->text())); });
+    [this] { QDesktopServices::openUrl(QUrl::fromLocalFile(this->folder())); });
 }
 
 } // namespace dgtk

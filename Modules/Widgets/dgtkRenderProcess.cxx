@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRenderProcess.h"
 
-#include <QCoreApplication>
-#include <QRegularExpression>
+#include "dgtkDetachedProgram.h"
 
+#include <QCoreApplication>
+#include <QElapsedTimer>
+#include <QFile>
+#include <QRegularExpression>
+#include <QStandardPaths>
+#include <QThread>
+#include <QTimer>
+
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 
 #include <unistd.h>
 
@@ -13,9 +22,36 @@ namespace dgtk
 
 namespace
 {
-constexpr int niceness = 5;       // of 19
 constexpr int longestEnd = 10000; // milliseconds
-constexpr const char* secondsBetweenReports = "0.2";
+constexpr int lookEvery = 100;    // milliseconds
+constexpr int waitStep = 10;      // milliseconds
+constexpr const char* secondsBetweenReports = "0.5";
+
+QList<QByteArray> encoded(const QStringList& words)
+{
+  QList<QByteArray> bytes;
+  for (const QString& word : words)
+  {
+    bytes << QFile::encodeName(word);
+  }
+  return bytes;
+}
+
+/// This program's, and how often the run is to say how far it is.
+QList<QByteArray> environmentOfRun()
+{
+  const QByteArray progress = "DGTK_PROGRESS=";
+  QList<QByteArray> environment{ progress + secondsBetweenReports };
+  for (char** at = environ; *at != nullptr; ++at)
+  {
+    const QByteArray variable(*at);
+    if (!variable.startsWith(progress))
+    {
+      environment << variable;
+    }
+  }
+  return environment;
+}
 } // namespace
 
 QString shellLine(const QStringList& words)
@@ -29,110 +65,102 @@ QString shellLine(const QStringList& words)
   return quoted.join(' ');
 }
 
-void RenderProcess::Renderer::setupChildProcess()
-{
-  // Scripts start what runs in the background without SIGINT, and a child would lose a Cancel that comes early.
-  ::signal(SIGINT, SIG_DFL);
-  [[maybe_unused]] const int now = ::nice(niceness); // it renders as well without
-}
-
 RenderProcess::RenderProcess(QObject* parent)
   : QObject(parent)
+  , Clock(new QTimer(this))
 {
-  this->Process.setProcessChannelMode(QProcess::MergedChannels);
-  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
-  environment.insert("DGTK_PROGRESS", secondsBetweenReports);
-  this->Process.setProcessEnvironment(environment);
-  connect(&this->Process, &QProcess::readyRead, this, &RenderProcess::read);
-  connect(&this->Process, QOverload<int, QProcess::ExitStatus>::of(&QProcess::finished), this, &RenderProcess::end);
-  connect(&this->Process, &QProcess::errorOccurred, this,
-    [this](QProcess::ProcessError error)
-    {
-      if (error == QProcess::FailedToStart)
-      {
-        emit this->finished(false, false, tr("%1 cannot be started: %2").arg(program(), this->Process.errorString()));
-      }
-    });
+  connect(this->Clock, &QTimer::timeout, this, &RenderProcess::look);
 }
 
 RenderProcess::~RenderProcess()
 {
-  this->disconnect();
-  this->Process.disconnect();
-  if (this->running())
+  QElapsedTimer waited;
+  waited.start();
+  while (this->Cancelled && this->running() && this->Log.alive())
   {
-    this->cancel();
-    if (!this->Process.waitForFinished(longestEnd))
+    if (waited.elapsed() > longestEnd)
     {
-      this->Process.kill();
-      this->Process.waitForFinished();
+      this->cancel();
+      return;
     }
+    QThread::msleep(waitStep);
   }
 }
 
 QString RenderProcess::program()
 {
   const QString named = QString::fromLocal8Bit(qgetenv("DGTK"));
-  return named.isEmpty() ? QCoreApplication::applicationDirPath() + "/dgtk" : named;
+  const QString found = named.contains('/') ? named : QStandardPaths::findExecutable(named);
+  return named.isEmpty() ? QCoreApplication::applicationDirPath() + "/dgtk" : found.isEmpty() ? named : found;
 }
 
-void RenderProcess::start(const QStringList& arguments)
+bool RenderProcess::running() const { return this->Clock->isActive(); }
+
+void RenderProcess::start(const RunRequest& request, const QStringList& how)
 {
-  this->Unread.clear();
-  this->Last.clear();
+  this->Log = RunLog(request.folder);
   this->Cancelled = false;
-  this->Process.setStandardInputFile(QProcess::nullDevice());
-  this->Process.start(program(), arguments);
+  const int log = this->Log.begin(request);
+  if (log < 0)
+  {
+    emit this->finished(RunLog::End::Failed,
+      tr("The progress of the run cannot be kept: %1").arg(QString::fromLocal8Bit(std::strerror(errno))));
+    return;
+  }
+  const QString error =
+    startDetached(encoded(QStringList(program()) + request.arguments + how), environmentOfRun(), log);
+  ::close(log);
+  if (!error.isEmpty())
+  {
+    this->end(RunLog::End::Failed, tr("%1 cannot be started: %2").arg(program(), error));
+    return;
+  }
+  this->Clock->start(lookEvery);
+  this->look();
+}
+
+void RenderProcess::follow(const QString& folder)
+{
+  this->Log = RunLog(folder);
+  this->Cancelled = false;
+  this->Clock->start(lookEvery);
+  this->look();
 }
 
 void RenderProcess::cancel()
 {
-  // A signal is for the program, not for the copy of this one that is about to become it.
-  if (this->running() && this->Process.waitForStarted(longestEnd))
+  if (!this->running() || this->Log.process() <= 0 || !this->Log.alive())
   {
-    // Two of a kind that come soon after one another are one.
-    ::kill(static_cast<pid_t>(this->Process.processId()), this->Cancelled ? SIGKILL : SIGINT);
-    this->Cancelled = true;
-  }
-}
-
-void RenderProcess::read()
-{
-  this->Unread += this->Process.readAll();
-  for (int at = this->Unread.indexOf('\n'); at >= 0; at = this->Unread.indexOf('\n'))
-  {
-    this->take(QString::fromUtf8(this->Unread.left(at)));
-    this->Unread.remove(0, at + 1);
-  }
-}
-
-void RenderProcess::take(const QString& text)
-{
-  static const QRegularExpression state(QStringLiteral("^(\\d+)/(\\d+) pictures, .*, \\S+ left$"));
-  const QRegularExpressionMatch match = state.match(text);
-  if (match.hasMatch())
-  {
-    emit this->progress(match.captured(1).toInt(), match.captured(2).toInt());
     return;
   }
-  this->Last = text;
-  emit this->line(text);
+  // Two of a kind that come soon after one another are one. It leads a group, with what it has started itself.
+  const bool again = this->Cancelled;
+  ::kill(again ? -this->Log.process() : this->Log.process(), again ? SIGKILL : SIGINT);
+  this->Cancelled = true;
 }
 
-void RenderProcess::end(int code, QProcess::ExitStatus status)
+void RenderProcess::look()
 {
-  this->read();
-  if (!this->Unread.isEmpty())
+  const bool alive = this->Log.alive(); // before its last words are read
+  for (const QString& message : this->Log.read())
   {
-    this->take(QString::fromUtf8(this->Unread));
-    this->Unread.clear();
+    emit this->line(message);
   }
-  const bool ok = status == QProcess::NormalExit && code == 0;
-  if (!ok && this->Last.isEmpty())
+  if (this->Log.total() > 0)
   {
-    this->Last = tr("dgtk ended with status %1").arg(code);
+    emit this->progress(this->Log.done(), this->Log.total());
   }
-  emit this->finished(ok, this->Cancelled && !ok, this->Last);
+  if (!alive)
+  {
+    this->end(this->Log.end(), this->Log.last());
+  }
+}
+
+void RenderProcess::end(RunLog::End end, const QString& message)
+{
+  this->Clock->stop();
+  this->Log.markShown();
+  emit this->finished(end, message);
 }
 
 } // namespace dgtk

@@ -23,6 +23,10 @@
 #include <QTreeWidget>
 #include <QWindow>
 
+#include <csignal>
+
+#include <sys/file.h>
+
 void activate(QWidget& window)
 {
   constexpr int patient = 20000; // milliseconds
@@ -47,9 +51,26 @@ void activate(QWidget& window)
 EditorTest::EditorTest() = default;
 EditorTest::~EditorTest() = default;
 
+QList<pid_t> livingRuns()
+{
+  QList<pid_t> living;
+  const QString data = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
+  for (QDirIterator at(data, { "run.log" }, QDir::Files, QDirIterator::Subdirectories); at.hasNext();)
+  {
+    QFile log(at.next());
+    if (log.open(QIODevice::ReadOnly) && ::flock(log.handle(), LOCK_SH | LOCK_NB) != 0)
+    {
+      log.readLine(); // what was asked
+      living << log.readLine().trimmed().toInt();
+    }
+  }
+  return living;
+}
+
 void EditorTest::initTestCase()
 {
-  QStandardPaths::setTestModeEnabled(true);
+  // Programs that run at the same time do not meet there.
+  qputenv("XDG_DATA_HOME", QByteArray::fromStdString(this->Folder.path("data")));
   QSettings::setPath(
     QSettings::NativeFormat, QSettings::UserScope, QString::fromStdString(this->Folder.path("settings")));
 }
@@ -63,7 +84,15 @@ void EditorTest::init()
   QTest::qWait(settle);
 }
 
-void EditorTest::cleanup() { this->Window.reset(); }
+void EditorTest::cleanup()
+{
+  this->Window.reset();
+  for (const pid_t run : livingRuns())
+  {
+    ::kill(-run, SIGKILL);
+  }
+  QTRY_VERIFY(livingRuns().isEmpty());
+}
 
 QAction* EditorTest::action(const char* name) const { return this->Window->findChild<QAction*>(name); }
 

@@ -4,10 +4,7 @@
 
 #include "EditorTest.h"
 
-#include <QAction>
-#include <QList>
-#include <QPointer>
-
+/// The window as it is used from day to day.
 class TestEditor : public EditorTest
 {
   Q_OBJECT
@@ -21,33 +18,8 @@ private slots:
   void addsCamerasAndLights();
   void refusesWithAMessage();
   void asksAboutUnsavedWork();
-  void whatIsBeingTypedIsSaved();
-  void whatIsBeingTypedIsKept();
-  void quaternionsAreTypedAsOne();
-  void aRefusalComesOnce();
-  void dialogsKeepWhatIsRefused();
-  void hugeSizesAreRefused();
-  void unitsAreTyped();
-  void rowsEndQuietly();
-  void allLayersAreRendered();
-  void closingEndsTheProgram();
-  void aClosedViewerEndsNothing();
-  void unsavedWorkSurvivesACrash();
-  void parallelViewsCutNothing();
-  void viewsMoveByKeys();
-  void stylesLookDifferent();
   void theViewsLookAsTheyWereLeft();
-  void savingIsAnAnswer();
-  void lightsHaveAllTheirNumbers();
-  void camerasHaveSizesOfTheirOwn();
-  void cancelledRunsResume();
-  void everyMenuItemWorks();
-  void theWindowAnswersWhileItRenders();
-  void pictures();
-
-private:
-  QList<QPointer<QAction>> menuItems() const;
-  void prepareFor(const QAction& item) const;
+  void unsavedWorkSurvivesACrash();
 };
 
 #endif

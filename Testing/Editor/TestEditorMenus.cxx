@@ -1,33 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "TestEditor.h"
+#include "TestEditorMenus.h"
 #include "TestEditorSupport.h"
 
 #include "dgtkMainWindow.h"
 #include "dgtkSceneDocument.h"
 
 #include <QAction>
-#include <QCheckBox>
 #include <QCryptographicHash>
-#include <QDialog>
-#include <QElapsedTimer>
 #include <QImage>
-#include <QLineEdit>
 #include <QMenu>
-#include <QMouseEvent>
 #include <QPointer>
-#include <QPushButton>
-#include <QSpinBox>
 #include <QStatusBar>
 #include <QTest>
-
-#include <algorithm>
 
 namespace
 {
 constexpr int longestEffect = 10000; // milliseconds until a live layer is there
-constexpr int largeSide = 2000;      // pixels of pictures that take long
-constexpr int stirring = 3000;       // milliseconds
-constexpr double answerLimit = 200;  // milliseconds
 
 /// What stands before the window, and the titles of other windows.
 QString otherWindows(const QWidget* main)
@@ -56,7 +44,7 @@ QByteArray stateOf(dgtk::MainWindow& window)
 }
 } // namespace
 
-QList<QPointer<QAction>> TestEditor::menuItems() const
+QList<QPointer<QAction>> TestEditorMenus::menuItems() const
 {
   QList<QPointer<QAction>> items;
   for (QMenu* menu : this->Window->findChildren<QMenu*>())
@@ -73,7 +61,7 @@ QList<QPointer<QAction>> TestEditor::menuItems() const
 }
 
 /// A scene with something to undo and to redo and a selection; what an item would show is not shown yet.
-void TestEditor::prepareFor(const QAction& item) const
+void TestEditorMenus::prepareFor(const QAction& item) const
 {
   const QString name = item.objectName();
   QVERIFY(this->Window->openFile(this->copyOfDemo()));
@@ -112,7 +100,7 @@ void TestEditor::prepareFor(const QAction& item) const
 }
 
 /// Each item of each menu changes the scene, the window, or opens another one.
-void TestEditor::everyMenuItemWorks()
+void TestEditorMenus::everyMenuItemWorks()
 {
   this->Window->statusBar()->hide(); // its messages come and go
   QVERIFY(this->Window->openFile(this->copyOfDemo()));
@@ -176,62 +164,4 @@ void TestEditor::everyMenuItemWorks()
   QVERIFY(!this->Window->isVisible());
 }
 
-/// While pictures are made, selecting, typing, dragging and scrubbing go on.
-void TestEditor::theWindowAnswersWhileItRenders()
-{
-  QVERIFY(this->Window->openFile(this->copyOfDemo()));
-  this->action("render")->trigger();
-  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
-  dialog->findChild<QLineEdit*>("folder")->setText(this->path("beside"));
-  check(dialog->findChild<QCheckBox*>("ownSize"), false);
-  dialog->findChild<QSpinBox*>("width")->setValue(largeSide);
-  dialog->findChild<QSpinBox*>("height")->setValue(largeSide);
-  auto* start = dialog->findChild<QPushButton*>("start");
-  start->click();
-  QTRY_VERIFY_WITH_TIMEOUT(!contents(this->path("beside")).isEmpty(), longestRun);
-  auto& timed = static_cast<TimedApplication&>(*qApp);
-  timed.restart();
-  double latest = 0; // milliseconds that a timer came too late
-  QElapsedTimer since;
-  QTimer probe;
-  constexpr int every = 10;
-  connect(&probe, &QTimer::timeout,
-    [&]
-    {
-      latest = std::max(latest, double(since.nsecsElapsed()) * 1e-6 - every);
-      since.restart();
-    });
-  since.start();
-  probe.start(every);
-  QElapsedTimer clock;
-  clock.start();
-  auto* view = this->Window->findChild<QWidget*>("view.3");
-  auto* frame = this->Window->findChild<QSpinBox*>("frame");
-  const char* names[] = { "house", "tree", "vase" };
-  int rounds = 0;
-  while (clock.elapsed() < stirring && !start->isEnabled())
-  {
-    this->select(names[rounds % 3]);
-    this->type("position.1", QString::number(0.001 * (rounds + 1)));
-    QTest::mousePress(view, Qt::LeftButton, {}, QPoint(8, 8));
-    for (int step = 1; step < 4; ++step)
-    {
-      const QPoint at(8 + 9 * step, 8 + 4 * step);
-      QMouseEvent move(QEvent::MouseMove, at, view->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
-      QApplication::sendEvent(view, &move);
-      QCoreApplication::processEvents();
-    }
-    QTest::mouseRelease(view, Qt::LeftButton, {}, QPoint(40, 24));
-    frame->setValue(rounds % 10);
-    QCoreApplication::processEvents();
-    ++rounds;
-  }
-  qInfo("%d rounds beside a run: longest event %.0f ms (%s), latest timer %.0f ms; aim %.0f", rounds, timed.longest(),
-    qPrintable(timed.what()), latest, answerLimit);
-  QVERIFY2(!start->isEnabled(), "the run was to go on all the time");
-  QVERIFY(rounds > 3);
-  QVERIFY(timed.longest() < 2 * answerLimit);
-  QVERIFY(latest < patience * answerLimit);
-  dialog->findChild<QPushButton*>("cancel")->click();
-  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
-}
+int main(int argc, char** argv) { return runEditorTest<TestEditorMenus>(argc, argv); }

@@ -30,6 +30,8 @@
 #include <functional>
 #include <malloc.h>
 
+#include <sys/types.h>
+
 extern "C" std::size_t __sanitizer_get_current_allocated_bytes() __attribute__((weak)); // AddressSanitizer's heap
 
 constexpr int longestRun = 60000; // milliseconds, of a small dataset on a busy machine
@@ -141,6 +143,9 @@ inline QMap<QString, QByteArray> contents(const QString& folder)
   }
   return files;
 }
+
+/// Processes of `dgtk render` that windows of this program's data folder started, and that live.
+QList<pid_t> livingRuns();
 
 /// Knows how long the window was busy with one event.
 class TimedApplication : public QApplication

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "TestEditor.h"
+#include "TestEditorTyping.h"
 #include "TestEditorSupport.h"
 
 #include "dgtkMainWindow.h"
@@ -35,7 +35,7 @@ void typeIntoField(QDialog& dialog, const char* name, const QString& text)
 void add(const QDialog& dialog) { QTest::mouseClick(dialog.findChild<QPushButton*>("add"), Qt::LeftButton); }
 } // namespace
 
-void TestEditor::whatIsBeingTypedIsSaved()
+void TestEditorTyping::whatIsBeingTypedIsSaved()
 {
   QVERIFY(this->Window->openFile(this->copyOfDemo()));
   const dgtk::SceneDocument& document = this->Window->document();
@@ -62,7 +62,7 @@ void TestEditor::whatIsBeingTypedIsSaved()
   QCOMPARE(saved().position.value.x(), 14.5);
 }
 
-void TestEditor::whatIsBeingTypedIsKept()
+void TestEditorTyping::whatIsBeingTypedIsKept()
 {
   QVERIFY(this->Window->openFile(demo()));
   dgtk::SceneDocument& document = this->Window->document();
@@ -83,7 +83,7 @@ void TestEditor::whatIsBeingTypedIsKept()
   QVERIFY(this->field("class")->text() != "oak");
 }
 
-void TestEditor::quaternionsAreTypedAsOne()
+void TestEditorTyping::quaternionsAreTypedAsOne()
 {
   QVERIFY(this->Window->openFile(demo()));
   dgtk::SceneDocument& document = this->Window->document();
@@ -111,7 +111,7 @@ void TestEditor::quaternionsAreTypedAsOne()
   QCOMPARE(this->field("orientation.1")->text(), QString("0.8"));
 }
 
-void TestEditor::aRefusalComesOnce()
+void TestEditorTyping::aRefusalComesOnce()
 {
   QVERIFY(this->Window->openFile(demo()));
   this->select("tree");
@@ -134,7 +134,7 @@ void TestEditor::aRefusalComesOnce()
   QCOMPARE(this->field("name")->text(), QString("tree"));
 }
 
-void TestEditor::dialogsKeepWhatIsRefused()
+void TestEditorTyping::dialogsKeepWhatIsRefused()
 {
   const dgtk::SceneDocument& document = this->Window->document();
   QString message;
@@ -176,7 +176,7 @@ void TestEditor::dialogsKeepWhatIsRefused()
   QCOMPARE(document.scene().cameras.size(), std::size_t(9));
 }
 
-void TestEditor::hugeSizesAreRefused()
+void TestEditorTyping::hugeSizesAreRefused()
 {
   QVERIFY(this->Window->openFile(demo()));
   const dgtk::SceneDocument& document = this->Window->document();
@@ -193,7 +193,7 @@ void TestEditor::hugeSizesAreRefused()
 }
 
 /// Other rows come with other units; the field that was left last stays the one that is typed in.
-void TestEditor::unitsAreTyped()
+void TestEditorTyping::unitsAreTyped()
 {
   QVERIFY(this->Window->importFile(QString::fromStdString(dgtk::test::sourceFile("Data/Models/crate.ac"))));
   this->Window->document().edit("none", [](dgtk::SceneDescription&) {});
@@ -221,7 +221,7 @@ void TestEditor::unitsAreTyped()
 }
 
 /// What a layer needs is asked in the window, and what no camera has is not offered.
-void TestEditor::allLayersAreRendered()
+void TestEditorTyping::allLayersAreRendered()
 {
   QVERIFY(this->Window->openFile(this->copyOfDemo()));
   this->select("tree");
@@ -246,7 +246,7 @@ void TestEditor::allLayersAreRendered()
 }
 
 /// A row goes while its field has the focus and something is typed there.
-void TestEditor::rowsEndQuietly()
+void TestEditorTyping::rowsEndQuietly()
 {
   bool gone = false;
   answer<QDialog>("cameraDialog",
@@ -264,3 +264,5 @@ void TestEditor::rowsEndQuietly()
   QVERIFY(gone);
   QVERIFY(this->Window->document().scene().cameras.empty());
 }
+
+int main(int argc, char** argv) { return runEditorTest<TestEditorTyping>(argc, argv); }

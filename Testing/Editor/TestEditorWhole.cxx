@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "TestEditor.h"
+#include "TestEditorWhole.h"
 #include "TestEditorSupport.h"
 
 #include "dgtkMainWindow.h"
@@ -51,7 +51,7 @@ QWidgetList viewers()
 }
 }
 
-void TestEditor::camerasHaveSizesOfTheirOwn()
+void TestEditorWhole::camerasHaveSizesOfTheirOwn()
 {
   QVERIFY(this->Window->openFile(this->copyOfDemo()));
   dgtk::SceneDocument& document = this->Window->document();
@@ -85,7 +85,7 @@ void TestEditor::camerasHaveSizesOfTheirOwn()
   QCOMPARE(height->value(), 480);
 }
 
-void TestEditor::cancelledRunsResume()
+void TestEditorWhole::cancelledRunsResume()
 {
   QVERIFY(this->Window->openFile(demo()));
   this->select("house");
@@ -120,7 +120,7 @@ void TestEditor::cancelledRunsResume()
   QCOMPARE(dialog->findChild<QLineEdit*>("folder")->text(), this->path("other_dataset"));
 }
 
-void TestEditor::closingEndsTheProgram()
+void TestEditorWhole::closingEndsTheProgram()
 {
   QVERIFY(this->Window->openFile(demo()));
   this->Window->openDataset(smallDataset(this->path("small")));
@@ -137,6 +137,7 @@ void TestEditor::closingEndsTheProgram()
   QTRY_VERIFY_WITH_TIMEOUT(!contents(this->path("interrupted")).isEmpty(), longestRun);
   QVERIFY(!start->isEnabled());
 
+  answer<QMessageBox>("runningBox", [](QMessageBox& box) { box.findChild<QPushButton*>("stop")->click(); });
   QTimer::singleShot(0, this->Window.get(), &QWidget::close);
   QTimer guard;
   connect(&guard, &QTimer::timeout, [] { QCoreApplication::exit(1); });
@@ -150,7 +151,7 @@ void TestEditor::closingEndsTheProgram()
   QVERIFY(!QFile::exists(this->path("interrupted/manifest.json")));
 }
 
-void TestEditor::aClosedViewerEndsNothing()
+void TestEditorWhole::aClosedViewerEndsNothing()
 {
   this->Window->openDataset(smallDataset(this->path("small")));
   QCOMPARE(viewers().size(), 1);
@@ -161,7 +162,7 @@ void TestEditor::aClosedViewerEndsNothing()
   QVERIFY(this->Window->isVisible());
 }
 
-void TestEditor::parallelViewsCutNothing()
+void TestEditorWhole::parallelViewsCutNothing()
 {
   QVERIFY(this->Window->importFile(QString::fromStdString(dgtk::test::sourceFile("Data/Models/crate.ac"))));
   auto* front = this->Window->findChild<QOpenGLWidget*>("view.0");
@@ -184,7 +185,7 @@ void TestEditor::parallelViewsCutNothing()
   QVERIFY(std::abs(background.red() - crate.red()) + std::abs(background.green() - crate.green()) >= 40);
 }
 
-void TestEditor::viewsMoveByKeys()
+void TestEditorWhole::viewsMoveByKeys()
 {
   QVERIFY(this->Window->openFile(demo()));
   QTest::qWait(settle);
@@ -214,7 +215,7 @@ void TestEditor::viewsMoveByKeys()
   }
 }
 
-void TestEditor::stylesLookDifferent()
+void TestEditorWhole::stylesLookDifferent()
 {
   QVERIFY(this->Window->openFile(demo()));
   auto* view = this->Window->findChild<QOpenGLWidget*>("view.3");
@@ -237,7 +238,7 @@ void TestEditor::stylesLookDifferent()
 }
 
 /// Of the question about unsaved work; a new scene is asked for a name first.
-void TestEditor::savingIsAnAnswer()
+void TestEditorWhole::savingIsAnAnswer()
 {
   QVERIFY(this->Window->openFile(this->copyOfDemo()));
   const QString path = QString::fromStdString(this->Window->document().path());
@@ -256,7 +257,7 @@ void TestEditor::savingIsAnAnswer()
   QVERIFY(this->Window->close()); // nothing is asked
 }
 
-void TestEditor::lightsHaveAllTheirNumbers()
+void TestEditorWhole::lightsHaveAllTheirNumbers()
 {
   QVERIFY(this->Window->importFile(QString::fromStdString(dgtk::test::sourceFile("Data/Models/crate.ac"))));
   answer<QDialog>("lightDialog",
@@ -293,7 +294,7 @@ void TestEditor::lightsHaveAllTheirNumbers()
   QVERIFY(this->field("attenuation.1") != nullptr);
 }
 
-void TestEditor::pictures()
+void TestEditorWhole::pictures()
 {
   const QString folder = QString::fromLocal8Bit(qgetenv("DGTK_EDITOR_PICTURES"));
   if (folder.isEmpty())
@@ -325,3 +326,5 @@ void TestEditor::pictures()
     });
   this->action("light")->trigger();
 }
+
+int main(int argc, char** argv) { return runEditorTest<TestEditorWhole>(argc, argv); }

@@ -82,7 +82,7 @@ TEST(DatasetPictures, UnusableFoldersAreRefusedInALine)
   EXPECT_THAT(refusal(folder.path("nowhere")), HasSubstr("nowhere: is not the folder of a dataset"));
   EXPECT_THAT(refusal(folder.path()), HasSubstr("it has no manifest.json"));
   std::ofstream(folder.path(".dgtk-journal")) << "DGTk journal 1 x\n";
-  EXPECT_THAT(refusal(folder.path()), HasSubstr("not finished: render it again with --resume"));
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("not finished: render it again"));
   SmallDataset files;
   files.finish();
   EXPECT_THAT(refusal(files.path()), HasSubstr("has no pictures to look at"));

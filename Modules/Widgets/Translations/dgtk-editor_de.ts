@@ -1353,6 +1353,54 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
         <source>Models that are not there: %1</source>
         <translation>Modelle, die nicht da sind: %1</translation>
     </message>
+    <message>
+        <source>Rendering is done</source>
+        <translation>Die Bilder sind berechnet</translation>
+    </message>
+    <message>
+        <source>Rendering has failed</source>
+        <translation>Die Berechnung ist gescheitert</translation>
+    </message>
+    <message>
+        <source>Rendering was interrupted</source>
+        <translation>Die Berechnung wurde unterbrochen</translation>
+    </message>
+    <message>
+        <source> (%1 of %2 pictures)</source>
+        <translation> (%1 von %2 Bildern)</translation>
+    </message>
+    <message>
+        <source>Rendered meanwhile: %1</source>
+        <translation>Inzwischen berechnet: %1</translation>
+    </message>
+    <message>
+        <source>Rendering into %1 has failed: %2</source>
+        <translation>Die Berechnung in %1 ist gescheitert: %2</translation>
+    </message>
+    <message>
+        <source>Rendering into %1 was interrupted%2. It can go on: Tools &gt; Render configuration.</source>
+        <translation>Die Berechnung in %1 wurde unterbrochen%2. Sie kann weitergehen: Werkzeuge &gt; Bilder berechnen.</translation>
+    </message>
+    <message>
+        <source>A dataset is being rendered. %1</source>
+        <translation>Ein Datensatz wird berechnet. %1</translation>
+    </message>
+    <message>
+        <source>In the background it goes on without this window, and the next start shows it again. Stopped, it can go on later.</source>
+        <translation>Im Hintergrund geht das ohne dieses Fenster weiter, und der nächste Start zeigt es wieder. Angehalten kann es später weitergehen.</translation>
+    </message>
+    <message>
+        <source>Go on in the &amp;background</source>
+        <translation>Im &amp;Hintergrund weiter</translation>
+    </message>
+    <message>
+        <source>&amp;Stop</source>
+        <translation>&amp;Anhalten</translation>
+    </message>
+    <message>
+        <source>S&amp;tay here</source>
+        <translation>Hier &amp;bleiben</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::MatchDialog</name>
@@ -2041,10 +2089,6 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
         <translation>A&amp;uswählen ...</translation>
     </message>
     <message>
-        <source>Go on with an &amp;interrupted run of the same request</source>
-        <translation>Einen unte&amp;rbrochenen Lauf desselben Auftrags fortsetzen</translation>
-    </message>
-    <message>
         <source>Loo&amp;k at the result</source>
         <translation>Er&amp;gebnis ansehen</translation>
     </message>
@@ -2072,6 +2116,74 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
         <source>Stopping ... Cancel again ends what is being drawn, too.</source>
         <translation>Wird angehalten ... Noch einmal Abbrechen beendet auch, was gerade gezeichnet wird.</translation>
     </message>
+    <message>
+        <source>Matting of</source>
+        <translation>Freistellen von</translation>
+    </message>
+    <message>
+        <source>First and last frame</source>
+        <translation>Erstes und letztes Bild</translation>
+    </message>
+    <message>
+        <source> (%1 of %2 pictures)</source>
+        <translation> (%1 von %2 Bildern)</translation>
+    </message>
+    <message>
+        <source>A run into this folder goes on. Start shows it.</source>
+        <translation>In diesen Ordner wird gerade berechnet. Start zeigt es.</translation>
+    </message>
+    <message>
+        <source>An interrupted run stands in this folder%1. Start goes on with it.</source>
+        <translation>In diesem Ordner steht ein unterbrochener Lauf%1. Start setzt ihn fort.</translation>
+    </message>
+    <message>
+        <source>Go on with it, or replace it by this run? What it has made so far goes then.</source>
+        <translation>Ihn fortsetzen oder durch diesen Lauf ersetzen? Dann ist fort, was er bisher gemacht hat.</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>Fortsetzen</translation>
+    </message>
+    <message>
+        <source>Another folder</source>
+        <translation>Anderer Ordner</translation>
+    </message>
+    <message>
+        <source>%1 holds an interrupted run of another scene, or of this one before it was changed.</source>
+        <translation>%1 enthält einen unterbrochenen Lauf einer anderen Szene oder von dieser, bevor sie geändert wurde.</translation>
+    </message>
+    <message>
+        <source>%1 holds an interrupted run.</source>
+        <translation>%1 enthält einen unterbrochenen Lauf.</translation>
+    </message>
+    <message>
+        <source>The run was ended from outside. Start goes on where it ended.</source>
+        <translation>Der Lauf wurde von außen beendet. Start macht dort weiter.</translation>
+    </message>
+    <message>
+        <source>The run was ended from outside.</source>
+        <translation>Der Lauf wurde von außen beendet.</translation>
+    </message>
+    <message>
+        <source>Stopped.</source>
+        <translation>Angehalten.</translation>
+    </message>
+    <message>
+        <source>Go on with an &amp;interrupted run</source>
+        <translation>Einen unte&amp;rbrochenen Lauf fortsetzen</translation>
+    </message>
+    <message>
+        <source>As it was begun: the choices above are for a new run</source>
+        <translation>So, wie er begonnen wurde: Die Auswahl oben gilt für einen neuen Lauf</translation>
+    </message>
+    <message>
+        <source>The interrupted run in this folder is of another request: untick to replace it, or name another folder.</source>
+        <translation>Der unterbrochene Lauf in diesem Ordner gehört zu einem anderen Auftrag: Haken fortnehmen, um ihn zu ersetzen, oder einen anderen Ordner nennen.</translation>
+    </message>
+    <message>
+        <source>Another program is rendering into this folder.</source>
+        <translation>Ein anderes Programm rechnet in diesen Ordner.</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::RenderProcess</name>
@@ -2080,8 +2192,27 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
         <translation>%1 lässt sich nicht starten: %2</translation>
     </message>
     <message>
-        <source>dgtk ended with status %1</source>
-        <translation>dgtk endete mit Status %1</translation>
+        <source>The progress of the run cannot be kept: %1</source>
+        <translation>Der Fortschritt des Laufs kann nicht aufgehoben werden: %1</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::RenderStatus</name>
+    <message>
+        <source>Rendering ...</source>
+        <translation>Wird berechnet ...</translation>
+    </message>
+    <message>
+        <source>Rendering: %1 %</source>
+        <translation>Berechnet: %1 %</translation>
+    </message>
+    <message>
+        <source>Rendering: %1 %, %2 left</source>
+        <translation>Berechnet: %1 %, noch %2</translation>
+    </message>
+    <message>
+        <source>Click for the render configuration</source>
+        <translation>Klicken, um die Berechnung zu sehen</translation>
     </message>
 </context>
 <context>

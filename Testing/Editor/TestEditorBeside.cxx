@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestEditorBeside.h"
+#include "TestEditorSupport.h"
+
+#include <QCheckBox>
+#include <QDialog>
+#include <QElapsedTimer>
+#include <QLineEdit>
+#include <QMouseEvent>
+#include <QPushButton>
+#include <QSpinBox>
+
+#include <algorithm>
+
+namespace
+{
+constexpr int largeSide = 2000;     // pixels of pictures that take long
+constexpr int stirring = 3000;      // milliseconds
+constexpr double answerLimit = 200; // milliseconds
+} // namespace
+
+/// While pictures are made, selecting, typing, dragging and scrubbing go on.
+void TestEditorBeside::theWindowAnswersWhileItRenders()
+{
+  QVERIFY(this->Window->openFile(this->copyOfDemo()));
+  this->action("render")->trigger();
+  auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
+  dialog->findChild<QLineEdit*>("folder")->setText(this->path("beside"));
+  check(dialog->findChild<QCheckBox*>("ownSize"), false);
+  dialog->findChild<QSpinBox*>("width")->setValue(largeSide);
+  dialog->findChild<QSpinBox*>("height")->setValue(largeSide);
+  auto* start = dialog->findChild<QPushButton*>("start");
+  start->click();
+  QTRY_VERIFY_WITH_TIMEOUT(!contents(this->path("beside")).isEmpty(), longestRun);
+  auto& timed = static_cast<TimedApplication&>(*qApp);
+  timed.restart();
+  double latest = 0; // milliseconds that a timer came too late
+  QElapsedTimer since;
+  QTimer probe;
+  constexpr int every = 10;
+  connect(&probe, &QTimer::timeout,
+    [&]
+    {
+      latest = std::max(latest, double(since.nsecsElapsed()) * 1e-6 - every);
+      since.restart();
+    });
+  since.start();
+  probe.start(every);
+  QElapsedTimer clock;
+  clock.start();
+  auto* view = this->Window->findChild<QWidget*>("view.3");
+  auto* frame = this->Window->findChild<QSpinBox*>("frame");
+  const char* names[] = { "house", "tree", "vase" };
+  int rounds = 0;
+  while (clock.elapsed() < stirring && !start->isEnabled())
+  {
+    this->select(names[rounds % 3]);
+    this->type("position.1", QString::number(0.001 * (rounds + 1)));
+    QTest::mousePress(view, Qt::LeftButton, {}, QPoint(8, 8));
+    for (int step = 1; step < 4; ++step)
+    {
+      const QPoint at(8 + 9 * step, 8 + 4 * step);
+      QMouseEvent move(QEvent::MouseMove, at, view->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+      QApplication::sendEvent(view, &move);
+      QCoreApplication::processEvents();
+    }
+    QTest::mouseRelease(view, Qt::LeftButton, {}, QPoint(40, 24));
+    frame->setValue(rounds % 10);
+    QCoreApplication::processEvents();
+    ++rounds;
+  }
+  qInfo("%d rounds beside a run: longest event %.0f ms (%s), latest timer %.0f ms; aim %.0f", rounds, timed.longest(),
+    qPrintable(timed.what()), latest, answerLimit);
+  QVERIFY2(!start->isEnabled(), "the run was to go on all the time");
+  QVERIFY(rounds > 3);
+  QVERIFY(timed.longest() < 2 * answerLimit);
+  QVERIFY(latest < patience * answerLimit);
+  dialog->findChild<QPushButton*>("cancel")->click();
+  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+}
+
+int main(int argc, char** argv) { return runEditorTest<TestEditorBeside>(argc, argv); }

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef TestEditorMenus_h
+#define TestEditorMenus_h
+
+#include "EditorTest.h"
+
+#include <QAction>
+#include <QList>
+#include <QPointer>
+
+/// Each item of the menus does something.
+class TestEditorMenus : public EditorTest
+{
+  Q_OBJECT
+
+private slots:
+  void everyMenuItemWorks();
+
+private:
+  QList<QPointer<QAction>> menuItems() const;
+  void prepareFor(const QAction& item) const;
+};
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef TestEditorTyping_h
+#define TestEditorTyping_h
+
+#include "EditorTest.h"
+
+/// What is typed into the window and its dialogs.
+class TestEditorTyping : public EditorTest
+{
+  Q_OBJECT
+
+private slots:
+  void whatIsBeingTypedIsSaved();
+  void whatIsBeingTypedIsKept();
+  void quaternionsAreTypedAsOne();
+  void aRefusalComesOnce();
+  void dialogsKeepWhatIsRefused();
+  void hugeSizesAreRefused();
+  void unitsAreTyped();
+  void allLayersAreRendered();
+  void rowsEndQuietly();
+};
+
+#endif
