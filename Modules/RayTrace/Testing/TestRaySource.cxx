@@ -233,3 +233,23 @@ TEST(RaySource, BareRaysDifferOnEdgesOnly)
     }
   }
 }
+
+// As in the raster engine: between near and far means both included. The numbers are exact.
+TEST(RaySource, SurfacesAtNearAndAtFarAreSeen)
+{
+  const auto state = SceneBuilder().add(makeQuad({ { -1, -1, 5 }, { 2, 0, 0 }, { 0, 2, 0 } })).state();
+  ThreadPool pool(1);
+  const auto source = makeRaySource(pool);
+  for (const double shift : { 0.0, 1e-9, -1e-9 })
+  {
+    for (const bool atFar : { false, true })
+    {
+      View view = makeView();
+      view.camera_from_world = Rigid3();
+      view.near = atFar ? 0.1 : 5 + shift;
+      view.far = atFar ? 5 + shift : 100;
+      const bool seen = atFar ? shift >= 0 : shift <= 0;
+      EXPECT_EQ(trace(*source, state, view).at(30, 25).object, seen ? 1u : 0u) << shift << ' ' << atFar;
+    }
+  }
+}
