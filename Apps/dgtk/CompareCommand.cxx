@@ -110,15 +110,16 @@ int run(const Arguments& arguments)
   const std::string& b = arguments.positional()[1];
   const bool json = arguments.has("--json");
   const Tolerances tolerances = parseTolerances(arguments.all(toleranceOption));
+  std::error_code code;
   for (const std::string* path : { &a, &b })
   {
-    if (!std::filesystem::exists(*path))
+    if (!std::filesystem::exists(*path, code))
     {
       throw InputError(*path, 0, "does not exist");
     }
   }
-  const bool folders = std::filesystem::is_directory(a);
-  if (folders != std::filesystem::is_directory(b))
+  const bool folders = std::filesystem::is_directory(a, code);
+  if (folders != std::filesystem::is_directory(b, code))
   {
     throw UsageError("compare needs two images or two datasets, not one of each");
   }

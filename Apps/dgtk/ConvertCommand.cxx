@@ -5,6 +5,7 @@
 #include "dgtkModelReader.h"
 #include "dgtkPovExport.h"
 #include "dgtkStage.h"
+#include "dgtkUtf8.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -28,7 +29,7 @@ bool isScene(const std::string& path)
   return extension == ".scene" || extension == ".json";
 }
 
-void warn(const std::string& line) { std::cerr << "dgtk: warning: " << line << '\n'; }
+void warn(const std::string& line) { std::cerr << "dgtk: warning: " << printable(line) << '\n'; }
 
 std::size_t cameraOf(const Stage& stage, const Arguments& arguments)
 {

@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkSparseText.h"
+#include "dgtkUtf8.h"
 
 #include <nlohmann/json.hpp>
 
@@ -68,12 +69,11 @@ std::string asJson(const std::vector<SparseMatch>& matches, const Stage& stage)
     item["object"] = match.hit.object;
     if (match.hit.object != 0)
     {
-      item["name"] = objects[match.hit.object - 1];
+      item["name"] = utf8FromBytes(objects[match.hit.object - 1]);
     }
     list.push_back(item);
   }
-  return nlohmann::ordered_json{ { "matches", list } }.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
-         '\n';
+  return nlohmann::ordered_json{ { "matches", list } }.dump(2) + '\n';
 }
 
 int run(const Arguments& arguments)

@@ -5,6 +5,7 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkModelReader.h"
+#include "dgtkUtf8.h"
 
 #include <nlohmann/json.hpp>
 
@@ -61,6 +62,29 @@ std::string extension(const std::string& path)
   return text;
 }
 
+/// Names of files may be any bytes; JSON holds UTF-8.
+void toUtf8(Json& value)
+{
+  if (value.is_string())
+  {
+    value = utf8FromBytes(value.get<std::string>());
+  }
+  else if (value.is_structured())
+  {
+    std::for_each(value.begin(), value.end(), toUtf8);
+  }
+}
+
+std::string shown(Json value)
+{
+  if (value.is_string())
+  {
+    return printable(value.get<std::string>());
+  }
+  toUtf8(value);
+  return value.dump();
+}
+
 // "key: value" lines; lists of objects become indented blocks.
 void describe(const Json& value, const std::string& indent, std::string& text)
 {
@@ -69,7 +93,7 @@ void describe(const Json& value, const std::string& indent, std::string& text)
     const bool blocks = item.is_object() || (item.is_array() && !item.empty() && item[0].is_object());
     if (!blocks)
     {
-      text += indent + key + ": " + (item.is_string() ? item.get<std::string>() : item.dump()) + '\n';
+      text += indent + key + ": " + shown(item) + '\n';
       continue;
     }
     text += indent + key + ":\n";
@@ -91,7 +115,8 @@ void describe(const Json& value, const std::string& indent, std::string& text)
 Json infoOf(const Arguments& arguments)
 {
   const std::string& path = arguments.positional()[0];
-  if (std::filesystem::is_directory(path))
+  std::error_code code; // what cannot be asked is told when it is read
+  if (std::filesystem::is_directory(path, code))
   {
     requireDataset(path);
     return infoOfDataset(path);
@@ -109,10 +134,11 @@ Json infoOf(const Arguments& arguments)
 
 int run(const Arguments& arguments)
 {
-  const Json info = infoOf(arguments);
+  Json info = infoOf(arguments);
   std::string text;
   if (arguments.has("--json"))
   {
+    toUtf8(info);
     text = info.dump(2) + '\n';
   }
   else

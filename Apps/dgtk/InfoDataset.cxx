@@ -18,11 +18,12 @@ namespace dgtk::app
 
 void requireDataset(const std::string& folder)
 {
-  if (std::filesystem::exists(folder + "/manifest.json"))
+  std::error_code code;
+  if (std::filesystem::exists(folder + "/manifest.json", code))
   {
     return;
   }
-  if (std::filesystem::is_directory(folder) && folderContents(folder, "") == FolderContents::UnfinishedOther)
+  if (std::filesystem::is_directory(folder, code) && folderContents(folder, "") == FolderContents::UnfinishedOther)
   {
     throw InputError(folder, 0, "holds an unfinished run: the same dgtk render command with --resume completes it");
   }

@@ -2,6 +2,7 @@
 #include "Progress.h"
 
 #include "dgtkError.h"
+#include "dgtkUtf8.h"
 
 #include <algorithm>
 #include <charconv>
@@ -89,7 +90,7 @@ void Progress::message(const std::string& line)
   if (!this->Quiet)
   {
     this->clear();
-    std::fprintf(stderr, "%s\n", line.c_str());
+    std::fprintf(stderr, "%s\n", printable(line).c_str());
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkUtf8.h"
 #include "dgtkVerification.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ int run(const Arguments& arguments)
   print(arguments.has("--json") ? verificationText(report) : verificationTable(report));
   if (const Residual* breach = report.firstBreach())
   {
-    std::fprintf(stderr, "dgtk: %s\n", (folder + '/' + describe(*breach)).c_str());
+    std::fprintf(stderr, "dgtk: %s\n", printable(folder + '/' + describe(*breach)).c_str());
   }
   return static_cast<int>(report.passed() ? ExitCode::Done : ExitCode::Difference);
 }

@@ -3,12 +3,16 @@
 
 #include "dgtkError.h"
 #include "dgtkGLContext.h"
+#include "dgtkUtf8.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
+#include <new>
+#include <system_error>
 
 namespace
 {
@@ -101,9 +105,18 @@ int main(int argc, char** argv)
   {
     std::fprintf(stderr, "dgtk: the memory of this machine is not enough\n");
   }
-  catch (const std::exception& error)
+  catch (const std::filesystem::filesystem_error& error)
   {
-    std::fprintf(stderr, "dgtk: %s\n", error.what());
+    const std::string path = dgtk::printable(error.path1().string());
+    std::fprintf(stderr, "dgtk: %s: %s\n", path.c_str(), error.code().message().c_str());
+  }
+  catch (const std::system_error& error)
+  {
+    std::fprintf(stderr, "dgtk: the system refuses: %s\n", error.code().message().c_str());
+  }
+  catch (const std::exception&)
+  {
+    std::fprintf(stderr, "dgtk: failed in a way that it does not know; please report the command\n");
   }
   return static_cast<int>(dgtk::ExitCode::Machine);
 }

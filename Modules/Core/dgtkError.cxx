@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkError.h"
 
-#include <cstdio>
+#include "dgtkUtf8.h"
+
+#include <algorithm>
 
 namespace dgtk
 {
+
+Error::Error(ExitCode code, const std::string& message)
+  : std::runtime_error(printable(message))
+  , Code(code)
+{
+}
 
 namespace
 {
@@ -40,22 +48,12 @@ InputError::InputError(
 std::string quoted(const std::string& text)
 {
   constexpr std::size_t longest = 40;
-  std::string out = "'";
-  for (std::size_t i = 0; i < text.size() && i < longest; ++i)
+  std::size_t end = std::min(text.size(), longest);
+  while (end < text.size() && end > longest - 3 && (text[end] & '\xc0') == '\x80') // within a character
   {
-    const auto c = static_cast<unsigned char>(text[i]);
-    if (c < 0x20 || c == 0x7f)
-    {
-      char code[8];
-      std::snprintf(code, sizeof code, "\\x%02x", c);
-      out += code;
-    }
-    else
-    {
-      out += text[i];
-    }
+    --end;
   }
-  return out + (text.size() > longest ? "...'" : "'");
+  return "'" + printable(text.substr(0, end)) + (end < text.size() ? "...'" : "'");
 }
 
 } // namespace dgtk

@@ -20,15 +20,12 @@ enum class ExitCode
   Machine = 4     ///< the machine cannot do it (no OpenGL, no space, no permission)
 };
 
-/// Base of every exception that DGTk throws. what() is one complete line without a trailing newline.
+/// Base of every exception that DGTk throws. what() is one complete line of UTF-8 without a trailing newline: control
+/// characters and bytes that are not UTF-8, as in names of files, are shown as \xE4.
 class DGTKCORE_EXPORT Error : public std::runtime_error
 {
 public:
-  Error(ExitCode code, const std::string& message)
-    : std::runtime_error(message)
-    , Code(code)
-  {
-  }
+  Error(ExitCode code, const std::string& message);
   ExitCode code() const noexcept { return this->Code; }
 
 private:
@@ -70,7 +67,7 @@ private:
   long Line;
 };
 
-/// Quotes and shortens text found in a file for use in a message: control characters escaped, at most 40 characters.
+/// Quotes and shortens text found in a file for use in a message: escaped as in Error, at most 40 bytes.
 DGTKCORE_EXPORT std::string quoted(const std::string& text);
 
 } // namespace dgtk

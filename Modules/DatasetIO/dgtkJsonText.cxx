@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkJsonText.h"
 
+#include "dgtkUtf8.h"
+
 #include <charconv>
 #include <cmath>
 
@@ -31,49 +33,13 @@ std::string jsonNumber(double value)
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
-namespace
-{
-// Length of the UTF-8 sequence at text[i]; 0 when there is none (Unicode 15, table 3-7).
-std::size_t sequenceAt(const std::string& text, std::size_t i)
-{
-  const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
-  const auto tail = [&](std::size_t k) { return (byte(k) & 0xc0) == 0x80; };
-  const unsigned int a = byte(i);
-  const unsigned int b = byte(i + 1);
-  if (a < 0x80)
-  {
-    return 1;
-  }
-  if (a >= 0xc2 && a <= 0xdf && tail(i + 1))
-  {
-    return 2;
-  }
-  if (a >= 0xe0 && a <= 0xef && tail(i + 1) && tail(i + 2) && !(a == 0xe0 && b < 0xa0) && !(a == 0xed && b > 0x9f))
-  {
-    return 3;
-  }
-  if (a >= 0xf0 && a <= 0xf4 && tail(i + 1) && tail(i + 2) && tail(i + 3) && !(a == 0xf0 && b < 0x90) &&
-      !(a == 0xf4 && b > 0x8f))
-  {
-    return 4;
-  }
-  return 0;
-}
-} // namespace
-
 std::string jsonString(const std::string& text)
 {
   constexpr char digits[] = "0123456789abcdef";
   std::string out = "\"";
-  for (std::size_t i = 0; i < text.size();)
+  for (const char c : utf8FromBytes(text))
   {
-    const char c = text[i];
-    const std::size_t length = sequenceAt(text, i);
-    if (length == 0)
-    {
-      out += "\xef\xbf\xbd";
-    }
-    else if (c == '"' || c == '\\')
+    if (c == '"' || c == '\\')
     {
       out += { '\\', c };
     }
@@ -83,9 +49,8 @@ std::string jsonString(const std::string& text)
     }
     else
     {
-      out.append(text, i, length);
+      out += c;
     }
-    i += length == 0 ? 1 : length;
   }
   return out + '"';
 }

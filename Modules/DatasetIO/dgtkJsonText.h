@@ -14,7 +14,7 @@ namespace dgtk
 /// Shortest text that reads back to the same double; "inf", "-inf" and "nan" for what is not a number.
 std::string shortest(double value);
 
-/// A JSON string with its quotes. Bytes that are not UTF-8 become U+FFFD.
+/// A JSON string with its quotes. Bytes that are not UTF-8 are written as utf8FromBytes() says.
 std::string jsonString(const std::string& text);
 
 /// A JSON number, with a point or an exponent, so that readers that tell them apart take it for a real one; null for

@@ -6,6 +6,7 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkUtf8.h"
 
 #include <nlohmann/json.hpp>
 
@@ -71,7 +72,7 @@ public:
     std::vector<std::pair<std::string, std::string>> all;
     for (const auto& [key, value] : this->Node.items())
     {
-      all.emplace_back(key, JsonValue(this->File, this->Place + "." + key, value).text());
+      all.emplace_back(bytesFromUtf8(key), JsonValue(this->File, this->Place + "." + key, value).text());
     }
     return all;
   }
@@ -79,7 +80,7 @@ public:
   std::string text() const
   {
     this->require(this->Node.is_string(), "a text");
-    return this->Node.get<std::string>();
+    return bytesFromUtf8(this->Node.get<std::string>());
   }
   double number() const
   {

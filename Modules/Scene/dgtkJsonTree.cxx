@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkSceneText.h"
+#include "dgtkUtf8.h"
 
 #include <nlohmann/json.hpp>
 
@@ -87,7 +88,7 @@ public:
     }
     return this->put(JsonNode::of(value));
   }
-  bool string(string_t& value) override { return this->put(JsonNode::of(value)); }
+  bool string(string_t& value) override { return this->put(JsonNode::of(bytesFromUtf8(value))); }
   bool binary(binary_t&) override { return false; }
   bool start_object(std::size_t) override { return this->open(JsonNode::Type::Object); }
   bool start_array(std::size_t) override { return this->open(JsonNode::Type::Array); }
@@ -104,7 +105,7 @@ public:
     {
       throw InputError(this->File, this->Line, "key " + dgtk::quoted(name) + " is given twice");
     }
-    return this->put(JsonNode::of(name));
+    return this->put(JsonNode::of(bytesFromUtf8(name)));
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& error) override
   {
@@ -179,18 +180,6 @@ bool fitsOneLine(const JsonNode& node)
   return isShort(node, budget);
 }
 
-void printText(const std::string& text, std::string& out)
-{
-  try
-  {
-    out += nlohmann::json(text).dump();
-  }
-  catch (const nlohmann::json::exception&)
-  {
-    throw UsageError("text " + quoted(text) + " is not UTF-8 and cannot be written as JSON");
-  }
-}
-
 void print(const JsonNode& node, std::size_t indentation, std::string& out);
 
 void printContainer(const JsonNode& node, std::size_t indentation, std::string& out)
@@ -239,7 +228,7 @@ void print(const JsonNode& node, std::size_t indentation, std::string& out)
       out += node.number == 0 && std::signbit(node.number) ? "-0.0" : numberText(node.number);
       break;
     case JsonNode::Type::String:
-      printText(node.text, out);
+      out += nlohmann::json(utf8FromBytes(node.text)).dump();
       break;
     default:
       printContainer(node, indentation, out);

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkError.h"
+#include "dgtkUtf8.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace dgtk;
+
+TEST(Utf8, BytesThatAreNoCharactersComeBack)
+{
+  EXPECT_EQ(utf8FromBytes("caf\xe9.png"), "caf\xee\xbf\xa9.png"); // U+EFE9
+  EXPECT_EQ(utf8FromBytes("\x80\xbf\xc0"), "\xee\xbe\x80\xee\xbe\xbf\xee\xbf\x80");
+  EXPECT_EQ(bytesFromUtf8("caf\xee\xbf\xa9.png"), "caf\xe9.png");
+  for (const char* plain : { "", "a.png", "caf\xc3\xa9", "\xf0\x9f\x99\x82", "\xee\xbd\xbf", "\xef\x80\x80", "\n\\" })
+  {
+    EXPECT_EQ(utf8FromBytes(plain), plain);
+    EXPECT_EQ(bytesFromUtf8(plain), plain);
+  }
+  // a name that has one of the characters that stand for bytes
+  EXPECT_EQ(utf8FromBytes("\xee\xbf\xa9"), "\xee\xbf\xae\xee\xbe\xbf\xee\xbe\xa9");
+}
+
+TEST(Utf8, EveryNameRoundTrips)
+{
+  std::mt19937 random(1);
+  const std::string parts[] = { "a", "\xee", "\xbe", "\xbf", "\x80", "\xc3\xa9", "\xff", "\xed\xa0\x80", "\xf0\x9f" };
+  for (int i = 0; i < 2000; ++i)
+  {
+    std::string name;
+    for (unsigned n = random() % 12; n > 0; --n)
+    {
+      name += parts[random() % std::size(parts)];
+    }
+    const std::string text = utf8FromBytes(name);
+    EXPECT_EQ(bytesFromUtf8(text), name);
+    EXPECT_EQ(printable(text), text) << "valid UTF-8";
+  }
+}
+
+TEST(Utf8, ErrorsAreOneLineOfUtf8)
+{
+  EXPECT_EQ(printable("\xe4\n\x7f\xc3\xa4"), "\\xE4\\x0A\\x7F\xc3\xa4");
+  EXPECT_STREQ(InputError("caf\xe9\n.ac", 3, "is bad").what(), "caf\\xE9\\x0A.ac:3: is bad");
+  EXPECT_STREQ(UsageError("x\xff").what(), "x\\xFF");
+  EXPECT_EQ(InputError("caf\xe9", 0, "x").file(), "caf\xe9");
+  // a character is not cut
+  EXPECT_EQ(quoted(std::string(39, 'a') + "\xc3\xa9"), "'" + std::string(39, 'a') + "...'");
+  EXPECT_EQ(quoted(std::string(38, 'a') + "\xc3\xa9"), "'" + std::string(38, 'a') + "\xc3\xa9'");
+}
