@@ -6,6 +6,7 @@
 #include "dgtkError.h"
 #include "dgtkFolderContents.h"
 #include "dgtkLayerWriter.h"
+#include "dgtkUtf8.h"
 
 #include <nlohmann/json.hpp>
 
@@ -64,10 +65,18 @@ Json infoOfDataset(const std::string& folder)
       { "type", nameOf(storedType(layer.format, layer.spec.type)) }, { "channels", layer.spec.channels },
       { "unit", layer.spec.unit }, { "files", files[layer.spec.name] } });
   }
+  info["classes"] = Json::array();
+  const std::string objects = folder + "/objects.json";
+  std::error_code code;
+  for (const ClassRecord& one :
+    std::filesystem::exists(objects, code) ? readClasses(objects) : std::vector<ClassRecord>())
+  {
+    info["classes"].push_back({ { "id", one.id }, { "name", one.name } });
+  }
   Json request = Json::object();
   for (const auto& [key, value] : manifest.request)
   {
-    request[key] = value;
+    request[utf8FromBytes(key)] = value;
   }
   info["request"] = request;
   return info;

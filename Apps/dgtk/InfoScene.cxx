@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Info.h"
 
+#include "dgtkRepresentation.h"
 #include "dgtkStage.h"
 #include "dgtkSurfaceResolution.h"
 
 #include <nlohmann/json.hpp>
+
+#include <map>
 
 namespace dgtk::app
 {
@@ -83,11 +86,24 @@ Json infoOfScene(const std::string& path, const Arguments& arguments)
   info["file"] = path;
   info["objects"] = Json::array();
   const auto state = stage->at(scene.firstFrame());
+  const std::vector<std::uint32_t> classes = classIds(*state);
+  std::map<std::uint32_t, std::string> classNames;
+  for (const ClassDescription& one : scene.classes)
+  {
+    classNames.emplace(one.id, one.name);
+  }
   for (std::size_t i = 0; i < state->instances.size(); ++i)
   {
     const Instance& instance = state->instances[i];
-    info["objects"].push_back({ { "id", i + 1 }, { "name", instance.name }, { "class", instance.className },
-      { "model", instance.model->path }, { "triangles", instance.model->triangles.size() } });
+    info["objects"].push_back(
+      { { "id", i + 1 }, { "name", instance.name }, { "class", instance.className }, { "class_id", classes[i] },
+        { "model", instance.model->path }, { "triangles", instance.model->triangles.size() } });
+    classNames.emplace(classes[i], instance.className);
+  }
+  info["classes"] = Json::array();
+  for (const auto& [id, name] : classNames)
+  {
+    info["classes"].push_back({ { "id", id }, { "name", name } });
   }
   info["cameras"] = Json::array();
   for (std::size_t i = 0; i < scene.cameras.size(); ++i)

@@ -48,6 +48,13 @@ int SceneDescription::lastFrame() const
   return frames.empty() ? 0 : frames.back();
 }
 
+int SceneDescription::classIdOf(const std::string& className) const
+{
+  const auto found = std::find_if(
+    this->classes.begin(), this->classes.end(), [&](const ClassDescription& one) { return one.name == className; });
+  return found == this->classes.end() ? 0 : found->id;
+}
+
 std::string SceneDescription::title() const { return this->file.empty() ? "scene" : this->file; }
 
 std::vector<SceneItem> SceneDescription::items() const

@@ -173,7 +173,7 @@ struct CameraDescription
   Track<Eigen::Vector3d> position{ Eigen::Vector3d(0, 0, 0) };
   Track<Quaternion> orientation; ///< world_from_camera; camera axes x right, y down, z forward
   ShutterDescription shutter;
-  LensDescription lens; ///< pinhole only
+  LensDescription lens;                   ///< pinhole only
   std::optional<SensorParameters> sensor; ///< none: the default sensor
   UnusedKeys unusedEye;
   UnusedKeys unusedLookAt;
@@ -200,6 +200,16 @@ enum class UpAxis
   Z
 };
 
+/// Class numbers: 0 is the background's.
+constexpr int largestClassId = 65535;
+
+/// A class of objects with the number that it has in every scene.
+struct ClassDescription
+{
+  std::string name; ///< "": of objects without a class
+  int id = 0;       ///< 1 to largestClassId, unique
+};
+
 /// A scene as written. The world is right-handed; upAxis changes nothing but the `up` that a camera has by default.
 struct DGTKSCENE_EXPORT SceneDescription
 {
@@ -220,7 +230,13 @@ struct DGTKSCENE_EXPORT SceneDescription
   std::string units; ///< name of the unit of length, free text
   UpAxis upAxis = UpAxis::Y;
   std::uint64_t seed = 0; ///< below 2^53
+  /// Fixed numbers of the classes; empty: numbered in the order of the objects. Otherwise every class of an object is
+  /// among them.
+  std::vector<ClassDescription> classes;
+  std::string classFile; ///< where `classes` stand, as written, relative to the folder; "": in the scene
 
+  /// The number that `classes` give to a class; 0 when there is none.
+  int classIdOf(const std::string& className) const;
   /// Every key frame of every track and extraKeyFrames, ascending, without repetition.
   std::vector<int> keyFrames() const;
   int firstFrame() const; ///< first key frame; 0 without key frames
@@ -233,8 +249,8 @@ struct DGTKSCENE_EXPORT SceneDescription
   std::string resolve(const std::string& path) const;
 };
 
-/// Reads a .scene or .json file, by extension (case-insensitive), and validates it. Models are not opened. Throws
-/// InputError with file, line and key path.
+/// Reads a .scene or .json file, by extension (case-insensitive), with its file of classes, and validates it. Models
+/// are not opened. Throws InputError with file, line and key path.
 DGTKSCENE_EXPORT SceneDescription readScene(const std::string& path);
 
 /// Writes a scene, by extension, atomically; relative paths are rewritten relative to the new file's folder. Throws

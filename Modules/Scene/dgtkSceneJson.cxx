@@ -246,6 +246,7 @@ const std::vector<JsonField<Scene>>& sceneFields()
     fogRow(),
     { "seed", readSeed, writeSeed },
     { "keyFrames", readKeyFrames, writeKeyFrames },
+    classesRow(),
     { "objects", readItems<&Scene::objects, readObject>, writeObjects },
     { "lights", readItems<&Scene::lights, readLight>, writeLights },
     { "cameras", readItems<&Scene::cameras, readSceneCamera>, writeCameras },
@@ -337,6 +338,7 @@ SceneDescription readJsonScene(const std::string& file, const std::string& folde
   std::set_difference(
     listed.begin(), listed.end(), frames.begin(), frames.end(), std::back_inserter(scene.extraKeyFrames));
   nameAll(scene);
+  readClassFile(scene);
   validateRelations(scene, [&root](SceneItem::Kind kind, std::size_t index, const std::string& property)
     { return locate(root, kind, index, property); });
   return scene;
@@ -351,6 +353,7 @@ std::map<std::string, std::vector<std::string>> jsonSceneKeys()
     { "material", keysOf(materialFields()) },
     { "light", keysOf(lightFields()) },
     { "camera", keysOf(cameraFields()) },
+    { "class", keysOf(classFields()) },
     { "environment", keysOf(environmentFields()) },
     { "fog", keysOf(fogFields()) },
     { "shutter", keysOf(shutterFields()) },
@@ -390,6 +393,7 @@ std::string toJson(const SceneDescription& scene, const std::string& newFolder)
     }
   }
   moved.environment.image = relocate(moved.environment.image, scene.folder, newFolder);
+  moved.classFile = relocate(moved.classFile, scene.folder, newFolder);
   return printJson(writeFields(moved, sceneFields()));
 }
 

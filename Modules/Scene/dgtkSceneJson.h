@@ -35,6 +35,8 @@ const std::vector<JsonField<EnvironmentDescription>>& environmentFields();
 const std::vector<JsonField<FogDescription>>& fogFields();
 const std::vector<JsonField<ShutterDescription>>& shutterFields();
 const std::vector<JsonField<LensDescription>>& lensFields();
+const std::vector<JsonField<ClassDescription>>& classFields();
+JsonField<SceneDescription> classesRow();
 JsonField<SceneDescription> environmentRow();
 JsonField<SceneDescription> fogRow();
 
@@ -84,6 +86,9 @@ JsonNode writeCamera(const CameraDescription& camera, UpAxis upAxis);
 
 /// Reads the contents of a .json scene; names are given, relations are checked.
 SceneDescription readJsonScene(const std::string& file, const std::string& folder, const std::string& contents);
+
+/// Reads the file that `classFile` names into `classes`; nothing when it names none.
+void readClassFile(SceneDescription& scene);
 
 /// The keys that the reader knows, by the name of the definition in the published schema.
 DGTKSCENE_EXPORT std::map<std::string, std::vector<std::string>> jsonSceneKeys();

@@ -32,6 +32,7 @@ public:
     this->checkNames(Kind::Light, this->Scene.lights);
     this->checkNames(Kind::Camera, this->Scene.cameras);
     this->checkParents();
+    this->checkClasses();
     for (std::size_t i = 0; i < this->Scene.objects.size(); ++i)
     {
       this->checkScale(i);
@@ -120,6 +121,31 @@ private:
         {
           this->fail(Kind::Object, i, "materials", "names " + quoted(material.material) + " twice");
         }
+      }
+    }
+  }
+
+  /// With a table of classes, everything that has an id has a class of the table.
+  void checkClasses() const
+  {
+    if (this->Scene.classes.empty())
+    {
+      return;
+    }
+    std::string names;
+    for (std::size_t i = 0; i < this->Scene.classes.size(); ++i)
+    {
+      names += (i == 0 ? "" : ", ") + (i < 20 ? quoted(this->Scene.classes[i].name) : "...");
+      i += i < 20 ? 0 : this->Scene.classes.size();
+    }
+    for (std::size_t i = 0; i < this->Scene.objects.size(); ++i)
+    {
+      const ObjectDescription& object = this->Scene.objects[i];
+      if ((object.visible || !object.className.empty()) && this->Scene.classIdOf(object.className) == 0)
+      {
+        const std::string& file = this->Scene.classFile;
+        this->fail(Kind::Object, i, "class", "has no number in " + (file.empty() ? "\"classes\"" : file),
+          "one of " + names, quoted(object.className));
       }
     }
   }

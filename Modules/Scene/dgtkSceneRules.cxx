@@ -126,6 +126,7 @@ void validate(const SceneDescription& scene)
   rest.environment = scene.environment;
   rest.fog = scene.fog;
   rest.seed = scene.seed;
+  rest.classes = scene.classes; // whose file says no more
   rest.extraKeyFrames = scene.extraKeyFrames;
   const JsonNode node = writeFields(rest, sceneFields());
   const std::string label;

@@ -105,6 +105,7 @@ private:
     this->needScene(this->Scene.units.empty(), "units");
     this->needScene(this->Scene.upAxis == usual.upAxis, "upAxis");
     this->needScene(this->Scene.seed == 0, "seed");
+    this->needScene(this->Scene.classes.empty(), "classes");
   }
 
   void writeItem(const SceneItem& item)

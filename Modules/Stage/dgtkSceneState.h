@@ -21,6 +21,7 @@ struct Instance
 {
   std::string name;
   std::string className;
+  std::uint32_t classId = 0;                ///< as the scene fixes it; 0: it does not
   std::shared_ptr<const Model> model;       ///< shared by all instances of one file
   std::shared_ptr<const Geometry> geometry; ///< model->rest, or the deformed vertices at this instant
   std::shared_ptr<const std::vector<Material>>

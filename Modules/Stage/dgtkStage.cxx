@@ -265,6 +265,7 @@ std::shared_ptr<const SceneState> Stage::Impl::compute(double frame)
     Instance instance;
     instance.name = object.name;
     instance.className = object.className;
+    instance.classId = std::uint32_t(this->Scene.classIdOf(object.className));
     instance.model = this->Files.modelOf(item.index);
     instance.geometry = actor.animation < 0
                           ? instance.model->rest

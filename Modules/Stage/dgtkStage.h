@@ -32,8 +32,9 @@ public:
   using WarningSink = std::function<void(const std::string&)>;
 
   /// Validates the scene and reads each model file once, however its path is spelled, and each replacing texture.
-  /// Throws InputError, with the scene's file and line, for a model that is missing or cannot be used, an unknown
-  /// sequence or skin, and cameras or objects that are invalid at a key frame. Missing textures are warnings.
+  /// Throws InputError, with the scene's file and line, for models that are missing (all of them in one line) or one
+  /// that cannot be used, an unknown sequence or skin, and cameras or objects that are invalid at a key frame. Missing
+  /// textures are warnings.
   static std::shared_ptr<const Stage> load(SceneDescription scene, const WarningSink& warning = {});
 
   ~Stage();
@@ -61,7 +62,7 @@ public:
 
   /// Models in the order of their first use, each once.
   std::vector<std::shared_ptr<const Model>> models() const;
-  /// Every file that was read, without repetition: scene, models, textures (in order of first use).
+  /// Every file that was read, without repetition: scene, classes, models with what they include, textures.
   std::vector<std::string> inputFiles() const;
 
 private:

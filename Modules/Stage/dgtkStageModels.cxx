@@ -2,6 +2,7 @@
 #include "dgtkStageModels.h"
 
 #include "dgtkError.h"
+#include "dgtkMissingModels.h"
 #include "dgtkTextureFile.h"
 
 #include <algorithm>
@@ -17,13 +18,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-std::string canonical(const std::string& path)
-{
-  std::error_code error;
-  const fs::path found = fs::weakly_canonical(fs::absolute(path), error);
-  return error ? path : found.string();
-}
-
 /// A texture is named by its whole name, its file name or its stem.
 bool isCalled(const Texture& texture, const std::string& name)
 {
@@ -65,9 +59,14 @@ StageModels::StageModels(const SceneDescription& scene, const Stage::WarningSink
   {
     this->Files.push_back(scene.file);
   }
+  this->addFile(scene.resolve(scene.classFile));
   for (const std::shared_ptr<const Model>& model : this->Models)
   {
     this->addFile(model->path);
+    for (const std::string& companion : model->companions)
+    {
+      this->addFile(companion);
+    }
     for (const Texture& texture : model->textures)
     {
       this->addFile(texture.path);
@@ -128,6 +127,7 @@ void StageModels::addFile(const std::string& path)
 
 void StageModels::readModels()
 {
+  requireModels(this->Scene);
   std::map<std::string, std::size_t> known;
   ReadOptions options;
   options.budget = this->Budget;
@@ -135,7 +135,7 @@ void StageModels::readModels()
   for (const ObjectDescription& object : this->Scene.objects)
   {
     const std::string path = this->Scene.resolve(object.model);
-    const auto [entry, isNew] = known.emplace(canonical(path), this->Models.size());
+    const auto [entry, isNew] = known.emplace(canonicalPath(path), this->Models.size());
     this->Uses.push_back(entry->second);
     if (!isNew)
     {

@@ -31,6 +31,7 @@ std::shared_ptr<const SceneState> stateOf(const SceneDescription& scene, const M
     if (place.visible && place.instance.model != nullptr)
     {
       place.instance.className = scene.objects[item.index].className;
+      place.instance.classId = std::uint32_t(scene.classIdOf(place.instance.className));
       state->instances.push_back(std::move(place.instance));
     }
   }

@@ -30,6 +30,10 @@ class BadScenes(Case):
     def test_missing_model(self):
         self.bad(scene(objects=[{"name": "o", "model": "no.obj"}]), ["bad.json", "no.obj"])
 
+    def test_all_missing_models_in_one_line(self):
+        objects = [{"name": n, "model": f"no/{n}.obj"} for n in "abc"] + [{"name": "quad", "model": "quad.obj"}]
+        self.bad(scene(objects=objects), ["bad.json", "3 model files are missing", "no/a.obj", "no/b.obj", "no/c.obj"])
+
     def test_not_a_number(self):
         self.bad('{"objects":[],"cameras":[{"name":"c","fovY":NaN}]}', "bad.json:1")
         self.bad('{"objects":[],"cameras":[{"name":"c","fovY":1e999,"near":1,"far":2,"eye":[0,0,1],"lookAt":[0,0,0]}]}', "bad.json:1")

@@ -135,3 +135,27 @@ TEST(SceneJson, ARefusedWriteLeavesWhatWasThere)
   EXPECT_THROW(writeScene(SceneDescription(), folder.path("no/such/a.json")), MachineError);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
+
+TEST(SceneJson, ClassesKeepTheirNumbersAndTheirFile)
+{
+  const TemporaryFolder folder;
+  makeFolders(folder.path("deep"));
+  writeFile(folder.path("classes.json"), R"({"vehicle": 7, "tree": {"id": 2}})");
+  const SceneDescription inside = readText(folder, "a.json",
+    R"({"classes": {"vehicle": 7, "tree": {"id": 2}}, "objects": [{"model": "a.ac", "class": "tree"}]})");
+  EXPECT_EQ(inside.classIdOf("vehicle"), 7);
+  EXPECT_EQ(inside.classIdOf("tree"), 2);
+  EXPECT_EQ(inside.classIdOf(""), 0);
+  EXPECT_NE(toJson(inside, "").find("\"classes\": {\n    \"vehicle\": 7,\n    \"tree\": 2\n  }"), std::string::npos)
+    << toJson(inside, "");
+  writeScene(inside, folder.path("deep/a.json"));
+  EXPECT_EQ(readScene(folder.path("deep/a.json")).classIdOf("vehicle"), 7);
+
+  const SceneDescription beside =
+    readText(folder, "b.json", R"({"classes": "classes.json", "objects": [{"model": "a.ac", "class": "tree"}]})");
+  writeScene(beside, folder.path("deep/b.json"));
+  const SceneDescription moved = readScene(folder.path("deep/b.json"));
+  EXPECT_EQ(moved.classFile, "../classes.json");
+  EXPECT_EQ(moved.classIdOf("vehicle"), 7);
+  EXPECT_EQ(moved.classes.size(), 2u);
+}

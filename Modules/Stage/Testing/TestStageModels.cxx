@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkMissingModels.h"
 #include "dgtkStageSamples.h"
 
 #include <gmock/gmock.h>
@@ -207,6 +208,31 @@ TEST(StageModels, RefusalsNameTheSceneAndTheObject)
     HasSubstr("(expected one of go, rest, found 'run')"));
   EXPECT_THAT(folder.refusalOf("{\"objects\": [{\"model\": \"models/square.ac\", \"materials\": {\"blue\": {}}}]}"),
     HasSubstr("materials: no material of models/square.ac has this name (expected * or one of red, found 'blue')"));
+}
+
+TEST(StageModels, AllThatAreMissingAreNamedAtOnce)
+{
+  const ModelFolder folder;
+  const std::string json = "{\"objects\": [{\"model\": \"models/a.ac\"},\n{\"model\": \"models/square.ac\"},\n"
+                           "{\"model\": \"models/../models/a.ac\"},\n{\"model\": \"b.obj\"}]}";
+  EXPECT_EQ(folder.refusalOf(json), "scene.json: 2 model files are missing: models/a.ac (line 1), b.obj (line 4)");
+  const std::vector<MissingModel> missing = missingModels(readScene(folder.path("scene.json")));
+  ASSERT_EQ(missing.size(), 2u);
+  EXPECT_EQ(missing[0].model, "models/a.ac");
+  EXPECT_EQ(missing[0].path, folder.path("models/a.ac"));
+  EXPECT_EQ(missing[0].objects, (std::vector<std::size_t>{ 0, 2 }));
+  EXPECT_EQ(missing[1].objects, (std::vector<std::size_t>{ 3 }));
+}
+
+TEST(StageModels, FixedClassesAreThoseOfTheInstancesAndAnInput)
+{
+  const ModelFolder folder;
+  writeFile(folder.path("classes.json"), R"({"wall": 12, "": 300})");
+  const auto stage = folder.load(R"({"classes": "classes.json", "objects": [{"model": "models/square.ac"},
+    {"model": "models/square.ac", "class": "wall"}]})");
+  EXPECT_EQ(stage->at(0)->instances[0].classId, 300u);
+  EXPECT_EQ(stage->at(0)->instances[1].classId, 12u);
+  EXPECT_EQ(stage->inputFiles()[1], folder.path("classes.json"));
 }
 
 TEST(StageModels, ThesisScenesLoad)
