@@ -4,6 +4,8 @@
 #include "dgtkError.h"
 #include "dgtkWriterEntry.h"
 
+#include <cstdlib>
+
 namespace dgtk
 {
 
@@ -56,6 +58,25 @@ PixelType storedType(const std::string& format, PixelType type)
 {
   const WriterRow* row = findWriter(format);
   return row && row->entry->rounds && type == PixelType::Float64 ? PixelType::Float32 : type;
+}
+
+LayerSpec storedSpec(const std::string& format, const LayerSpec& spec)
+{
+  LayerSpec stored = spec;
+  const WriterRow* row = findWriter(format);
+  if (row && row->entry->marksNothing && spec.type == PixelType::UInt32 &&
+      std::strtoul(spec.invalid.c_str(), nullptr, 10) > row->entry->largestId)
+  {
+    stored.invalid = std::to_string(row->entry->largestId);
+  }
+  return stored;
+}
+
+std::uint32_t largestStored(const std::string& format, const LayerSpec& spec)
+{
+  const WriterRow* row = findWriter(format);
+  const std::uint32_t largest = row ? row->entry->largestId : 0;
+  return storedSpec(format, spec).invalid == spec.invalid ? largest : largest - 1;
 }
 
 std::unique_ptr<LayerWriter> makeLayerWriter(const std::string& format, const std::string& path, const LayerSpec& spec,

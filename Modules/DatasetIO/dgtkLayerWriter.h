@@ -63,6 +63,10 @@ DGTKDATASETIO_EXPORT bool canWrite(const std::string& format, const LayerSpec& s
 /// The type of the real numbers that a file of `format` holds of a layer of `type`: float32 where float64 is rounded to
 /// it. Other types, and formats that are no images, are returned as they are.
 DGTKDATASETIO_EXPORT PixelType storedType(const std::string& format, PixelType type);
+/// The layer as the files of a format hold it: `invalid` is another one where the layer's does not fit.
+DGTKDATASETIO_EXPORT LayerSpec storedSpec(const std::string& format, const LayerSpec& spec);
+/// The largest value of a uint32 layer, apart from its code for nothing, that fits a format.
+DGTKDATASETIO_EXPORT std::uint32_t largestStored(const std::string& format, const LayerSpec& spec);
 
 /// Opens a writer. Throws UsageError for an unknown format or one that cannot hold the layer, MachineError when the
 /// file cannot be made.

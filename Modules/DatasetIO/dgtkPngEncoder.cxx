@@ -182,6 +182,10 @@ PngEncoder::PngEncoder(const Header& header, Sink sink)
   {
     this->chunk("sRGB", "\0", 1);
   }
+  if (header.nothing)
+  {
+    this->chunk("tRNS", "\xff\xff", 2);
+  }
   const std::uint64_t raw = std::uint64_t(this->RowBytes + 1) * static_cast<std::uint64_t>(header.height);
   if (raw <= wholeImageBytes)
   {

@@ -30,9 +30,10 @@ public:
   {
     int width = 0;
     int height = 0;
-    int bitDepth = 8;  ///< 8 or 16
-    int channels = 3;  ///< 1 gray, 2 gray and alpha, 3 RGB, 4 RGBA
-    bool srgb = false; ///< adds an sRGB chunk, perceptual intent
+    int bitDepth = 8;     ///< 8 or 16
+    int channels = 3;     ///< 1 gray, 2 gray and alpha, 3 RGB, 4 RGBA
+    bool srgb = false;    ///< adds an sRGB chunk, perceptual intent
+    bool nothing = false; ///< adds a tRNS chunk: of 16-bit gray, 65535 is no value
     PngPrediction prediction = PngPrediction::Smooth;
   };
 

@@ -90,7 +90,8 @@ inline unsigned char paeth(int a, int b, int c)
   return static_cast<unsigned char>(pa <= pb && pa <= pc ? a : pb <= pc ? b : c);
 }
 
-/// 8 and 16 bits, gray to RGBA, without palette and interlace: what DGTk writes.
+/// 8 and 16 bits, gray to RGBA, without palette and interlace: what DGTk writes. 16-bit gray with a transparent value
+/// is read as uint32, 4294967295 in its place.
 class PngReader : public RowReader
 {
 public:
@@ -100,6 +101,7 @@ public:
     , Window(windowBytes)
   {
     this->readHeader();
+    this->findPixels();
     // in front of both rows stand zeros: the pixel to the left of the first
     this->Row.resize(this->RowBytes + 8);
     this->Above.resize(this->RowBytes + 8);
@@ -119,17 +121,17 @@ protected:
       this->unpack(&filter, 1);
       this->unpack(this->Row.data() + 8, this->RowBytes);
       this->reconstruct(filter);
-      if (rows.type() == PixelType::UInt8)
+      switch (rows.type())
       {
-        std::memcpy(rows.row<unsigned char>(y), this->Row.data() + 8, this->RowBytes);
-      }
-      else
-      {
-        std::uint16_t* to = rows.row<std::uint16_t>(y);
-        for (std::size_t i = 8; i < this->Row.size(); i += 2)
-        {
-          *to++ = static_cast<std::uint16_t>(this->Row[i] << 8 | this->Row[i + 1]);
-        }
+        case PixelType::UInt8:
+          std::memcpy(rows.row<unsigned char>(y), this->Row.data() + 8, this->RowBytes);
+          break;
+        case PixelType::UInt16:
+          this->words(rows.row<std::uint16_t>(y), [](std::uint16_t word) { return word; });
+          break;
+        default:
+          this->words(rows.row<std::uint32_t>(y),
+            [this](std::uint16_t word) { return word == this->Nothing ? 0xffffffffu : std::uint32_t(word); });
       }
       this->Row.swap(this->Above);
     }
@@ -140,6 +142,15 @@ protected:
   }
 
 private:
+  template <typename T, typename F>
+  void words(T* to, const F& valueOf) const
+  {
+    for (std::size_t i = 8; i < this->Row.size(); i += 2)
+    {
+      *to++ = valueOf(static_cast<std::uint16_t>(this->Row[i] << 8 | this->Row[i + 1]));
+    }
+  }
+
   void readHeader()
   {
     if (this->File.head(8) != std::string("\x89PNG\r\n\x1a\n", 8))
@@ -180,15 +191,37 @@ private:
 
   static std::string quotedType(const char* type) { return "'" + std::string(type, 4) + "'"; }
 
-  /// Fills the window with compressed bytes.
-  void refill()
+  /// A transparent value of 16-bit gray stands for nothing.
+  void readTransparent(std::uint64_t at, std::uint32_t length)
+  {
+    if (this->Info.type != PixelType::UInt16 || this->Info.channels != 1)
+    {
+      this->Data.skip();
+      return;
+    }
+    unsigned char value[2] = { 0, 0 };
+    if (length != sizeof value)
+    {
+      this->File.fail(at, "the transparent value has a wrong length", "2", std::to_string(length));
+    }
+    this->Data.read(value, sizeof value);
+    this->Nothing = static_cast<std::uint16_t>(value[0] << 8 | value[1]);
+    this->Info.type = PixelType::UInt32;
+  }
+
+  /// Goes on to the next pixels.
+  void findPixels()
   {
     while (this->Data.chunkDone())
     {
       char type[5];
       const std::uint64_t at = this->Data.at();
       const std::uint32_t length = this->Data.nextChunk(type);
-      if (std::strcmp(type, "IDAT") != 0)
+      if (std::strcmp(type, "tRNS") == 0 && !this->Started)
+      {
+        this->readTransparent(at, length);
+      }
+      else if (std::strcmp(type, "IDAT") != 0)
       {
         if (this->Started || std::strcmp(type, "IEND") == 0)
         {
@@ -205,6 +238,12 @@ private:
         this->Started = true;
       }
     }
+  }
+
+  /// Fills the window with compressed bytes.
+  void refill()
+  {
+    this->findPixels();
     this->Stream.avail_in = static_cast<uInt>(this->Data.read(this->Window.data(), this->Window.size()));
     this->Stream.next_in = this->Window.data();
   }
@@ -301,6 +340,7 @@ private:
   z_stream Stream = {};
   std::size_t PixelBytes = 0;
   std::size_t RowBytes = 0;
+  std::uint16_t Nothing = 0; ///< value that is none, of a file read as uint32
   bool Started = false;
   bool Ended = false;
 };

@@ -6,6 +6,7 @@
 #include "dgtkWriterEntry.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <optional>
 
 namespace dgtk
@@ -15,6 +16,15 @@ namespace
 {
 bool isFloat(PixelType type) { return type == PixelType::Float32 || type == PixelType::Float64; }
 
+constexpr std::uint32_t largestWord = 0xffff;
+
+/// The layer's value for nothing, where it does not fit 16 bits.
+std::optional<std::uint32_t> nothingOf(const LayerSpec& spec)
+{
+  const unsigned long value = std::strtoul(spec.invalid.c_str(), nullptr, 10);
+  return spec.type == PixelType::UInt32 && value > largestWord ? std::optional<std::uint32_t>(value) : std::nullopt;
+}
+
 PngEncoder::Header headerOf(const LayerSpec& spec, int width, int height)
 {
   PngEncoder::Header header;
@@ -22,6 +32,7 @@ PngEncoder::Header headerOf(const LayerSpec& spec, int width, int height)
   header.height = height;
   header.bitDepth = spec.type == PixelType::UInt16 || spec.type == PixelType::UInt32 ? 16 : 8;
   header.channels = spec.channels;
+  header.nothing = nothingOf(spec).has_value();
   header.srgb = spec.name.rfind("color", 0) == 0;
   // numbers that name things have no smooth areas
   header.prediction =
@@ -31,7 +42,8 @@ PngEncoder::Header headerOf(const LayerSpec& spec, int width, int height)
   return header;
 }
 
-/// 8 and 16 bits as they are; uint32 as 16-bit gray when every value fits; depth as an 8-bit picture.
+/// 8 and 16 bits as they are; uint32 as 16-bit gray when every value fits, 65535 for a larger value for nothing; depth
+/// as an 8-bit picture.
 class PngWriter : public LayerFileWriter
 {
 public:
@@ -39,6 +51,7 @@ public:
     : LayerFileWriter(path, spec, width, height)
     , Encoder(headerOf(spec, width, height), [this](const void* data, std::size_t n) { this->append(data, n); })
     , Row(Encoder.rowBytes())
+    , Nothing(nothingOf(spec))
   {
     if (isFloat(spec.type))
     {
@@ -86,20 +99,26 @@ private:
 
   void packIds(const std::uint32_t* from)
   {
-    std::uint32_t all = 0;
-    for (std::size_t i = 0; i < std::size_t(this->Width); ++i)
+    const std::uint32_t largest = this->Nothing ? largestWord - 1 : largestWord;
+    this->Ids.assign(from, from + this->Width);
+    bool fits = true;
+    for (std::size_t i = 0; i < this->Ids.size(); ++i)
     {
-      all |= from[i];
-      putBig16(&this->Row[i * 2], from[i]);
+      const bool nothing = this->Nothing && from[i] == *this->Nothing;
+      this->Ids[i] = nothing ? 0 : from[i];
+      fits = fits && this->Ids[i] <= largest;
+      putBig16(&this->Row[i * 2], nothing ? largestWord : from[i]);
     }
-    if (all >> 16)
+    if (!fits)
     {
-      refuseIds(from, std::size_t(this->Width), 0xffff, "a 16-bit .png", this->Spec.name);
+      refuseIds(this->Ids.data(), this->Ids.size(), largest, "a 16-bit .png", this->Spec.name);
     }
   }
 
   PngEncoder Encoder;
   std::vector<unsigned char> Row;
+  std::optional<std::uint32_t> Nothing;
+  std::vector<std::uint32_t> Ids; // of a row, 0 for nothing
   std::optional<DepthPicture> Picture;
 };
 
@@ -120,6 +139,6 @@ std::unique_ptr<LayerWriter> openPng(
 } // namespace
 
 extern const WriterEntry writerPng;
-const WriterEntry writerPng = { &canWritePng, &openPng };
+const WriterEntry writerPng = { &canWritePng, &openPng, false, largestWord, true };
 
 } // namespace dgtk

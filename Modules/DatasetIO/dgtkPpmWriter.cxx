@@ -85,6 +85,6 @@ std::unique_ptr<LayerWriter> openPpm(
 } // namespace
 
 extern const WriterEntry writerPpm;
-const WriterEntry writerPpm = { &canWritePpm, &openPpm };
+const WriterEntry writerPpm = { &canWritePpm, &openPpm, false, 0xffffff };
 
 } // namespace dgtk

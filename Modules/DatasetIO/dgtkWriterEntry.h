@@ -4,6 +4,7 @@
 
 #include "dgtkLayerWriter.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,7 +19,9 @@ struct WriterEntry
   /// Called with a size of at least 1 x 1 and a specification that canWrite() accepts.
   std::unique_ptr<LayerWriter> (*open)(
     const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context);
-  bool rounds = false; ///< float64 to float32
+  bool rounds = false;                  ///< float64 to float32
+  std::uint32_t largestId = 0xffffffff; ///< of a uint32 layer
+  bool marksNothing = false;            ///< it gives up its largest id where a layer's code for nothing does not fit
 };
 
 struct WriterRow

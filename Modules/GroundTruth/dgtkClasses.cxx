@@ -12,7 +12,8 @@ std::vector<std::uint32_t> classIds(const SceneState& state)
   std::vector<std::uint32_t> ids;
   for (const Instance& instance : state.instances)
   {
-    ids.push_back(known.emplace(instance.className, std::uint32_t(known.size() + 1)).first->second);
+    const std::uint32_t next = instance.classId != 0 ? instance.classId : std::uint32_t(known.size() + 1);
+    ids.push_back(known.emplace(instance.className, next).first->second);
   }
   return ids;
 }
@@ -28,6 +29,11 @@ public:
       "class of the object, class_id of objects.json; 0 for the background" };
   }
   std::vector<std::string> formats() const override { return { "png", "npy" }; }
+  std::uint32_t largest(const SceneState& state) const override
+  {
+    const std::vector<std::uint32_t> ids = classIds(state);
+    return ids.empty() ? 0 : *std::max_element(ids.begin(), ids.end());
+  }
 
   void compute(const SurfaceRows& in, Rows& out) const override
   {

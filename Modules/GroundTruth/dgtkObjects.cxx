@@ -15,6 +15,7 @@ public:
       "object at the pixel's centre, 1 to N in the order of the scene" };
   }
   std::vector<std::string> formats() const override { return { "ppm", "png", "npy" }; }
+  std::uint32_t largest(const SceneState& state) const override { return std::uint32_t(state.instances.size()); }
 
   void compute(const SurfaceRows& in, Rows& out) const override
   {

@@ -15,6 +15,15 @@ public:
       "part within the object at the pixel's centre, from 0 in file order" };
   }
   std::vector<std::string> formats() const override { return { "npy", "png" }; }
+  std::uint32_t largest(const SceneState& state) const override
+  {
+    std::size_t most = 1;
+    for (const Instance& instance : state.instances)
+    {
+      most = std::max(most, instance.model->parts.size());
+    }
+    return std::uint32_t(most - 1);
+  }
 
   void compute(const SurfaceRows& in, Rows& out) const override
   {

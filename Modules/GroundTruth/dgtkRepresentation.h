@@ -25,6 +25,8 @@ public:
   virtual std::vector<std::string> formats() const = 0;
   /// Whether compute() reads SurfaceRows::barycentrics.
   virtual bool needsBarycentrics() const { return false; }
+  /// The largest value, that for nothing apart, of a uint32 layer in any picture of the state; 0 for other layers.
+  virtual std::uint32_t largest(const SceneState&) const { return 0; }
   /// Fills `out`, which has the spec's type and channels and the rows of `in`.
   virtual void compute(const SurfaceRows& in, Rows& out) const = 0;
 };
@@ -40,8 +42,8 @@ DGTKGROUNDTRUTH_EXPORT const std::vector<RepresentationInfo>& representations();
 /// The representation of a layer. Throws UsageError for an unknown one.
 DGTKGROUNDTRUTH_EXPORT std::unique_ptr<Representation> makeRepresentation(const std::string& layer);
 
-/// Class id of each object of a state, from 1 in the order in which the classes first appear; objects without a class
-/// share the class of the empty name.
+/// Class id of each object of a state: the one that the scene fixes, else from 1 in the order in which the classes
+/// first appear; objects without a class share the class of the empty name.
 DGTKGROUNDTRUTH_EXPORT std::vector<std::uint32_t> classIds(const SceneState& state);
 
 } // namespace dgtk

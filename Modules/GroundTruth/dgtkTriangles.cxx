@@ -15,6 +15,18 @@ public:
       "triangle within the part at the pixel's centre, from 0 in file order" };
   }
   std::vector<std::string> formats() const override { return { "npy", "png" }; }
+  std::uint32_t largest(const SceneState& state) const override
+  {
+    std::uint32_t most = 1;
+    for (const Instance& instance : state.instances)
+    {
+      for (const Part& part : instance.model->parts)
+      {
+        most = std::max(most, part.triangles);
+      }
+    }
+    return most - 1;
+  }
 
   void compute(const SurfaceRows& in, Rows& out) const override
   {
