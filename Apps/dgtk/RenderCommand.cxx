@@ -196,6 +196,7 @@ GeneratorRequest parseRequest(const Arguments& arguments)
   {
     throw UsageError("--resume and --replace exclude one another");
   }
+  request.pack = arguments.has("--pack");
   request.contactSheet = arguments.has("--contact-sheet");
   for (const LayerInfo& layer : generatorLayers())
   {
@@ -307,6 +308,7 @@ Command renderCommand()
     { "--resume", "", "", "continue an interrupted run of the same request" },
     { "--replace", "", "", "remove the dataset of another request, or an interrupted run, that the folder holds" },
     { "--seed", "N", "0", "seed of random numbers" },
+    { "--pack", "", "", "copy scene, models and textures into DIR/inputs, so that DIR can be moved" },
     { "--contact-sheet", "", "", "also write DIR/contact.png: cameras and frames by layer" },
     { "--quiet", "", "", "no progress and no messages (environment DGTK_PROGRESS: seconds between its lines, else 5)" }
   };

@@ -6,6 +6,7 @@
 #include "dgtkJsonText.h"
 
 #include <algorithm>
+#include <map>
 #include <tuple>
 
 namespace dgtk
@@ -88,8 +89,17 @@ std::string camerasText(std::vector<CameraRecord> cameras)
   return JsonObject(2).raw("cameras", arrayText(cameras, cameraText)).block() + "\n";
 }
 
-std::string objectsText(std::vector<ObjectRecord> objects)
+std::string objectsText(std::vector<ObjectRecord> objects, const std::vector<ClassRecord>& classes)
 {
+  std::map<std::uint32_t, std::string> names;
+  for (const ClassRecord& one : classes)
+  {
+    names.emplace(one.id, one.name);
+  }
+  for (const ObjectRecord& object : objects)
+  {
+    names.emplace(object.classId, object.objectClass);
+  }
   std::stable_sort(
     objects.begin(), objects.end(), [](const ObjectRecord& a, const ObjectRecord& b) { return a.id < b.id; });
   const auto text = [](const ObjectRecord& object)
@@ -103,7 +113,12 @@ std::string objectsText(std::vector<ObjectRecord> objects)
       .integer("triangles", static_cast<std::int64_t>(object.triangles))
       .line();
   };
-  return JsonObject(2).raw("objects", arrayText(objects, text)).block() + "\n";
+  JsonArray table(4);
+  for (const auto& [id, name] : names)
+  {
+    table.add(JsonObject(6).integer("id", id).text("name", name).line());
+  }
+  return JsonObject(2).raw("objects", arrayText(objects, text)).raw("classes", table.block()).block() + "\n";
 }
 
 std::string manifestText(Manifest manifest)
@@ -125,6 +140,15 @@ std::string manifestText(Manifest manifest)
       .text("sha256", file.sha256)
       .line();
   };
+  const auto empty = [](const EmptyRecord& one)
+  {
+    return JsonObject(6)
+      .text("layer", one.layer)
+      .integer("pictures", static_cast<std::int64_t>(one.pictures))
+      .integer("of", static_cast<std::int64_t>(one.of))
+      .text("needs", one.needs)
+      .line();
+  };
   return JsonObject(2)
            .text("format", "DGTk dataset")
            .integer("format_version", 1)
@@ -134,6 +158,8 @@ std::string manifestText(Manifest manifest)
            .text("units", manifest.units)
            .raw("inputs", arrayText(manifest.inputs, input))
            .raw("layers", arrayText(manifest.layers, layerText))
+           .raw("empty", arrayText(manifest.empty, empty))
+           .raw("warnings", arrayText(manifest.warnings, jsonString))
            .raw("files", arrayText(manifest.files, fileText))
            .block() +
          "\n";

@@ -48,6 +48,13 @@ struct ObjectRecord
   std::uint64_t triangles = 0;
 };
 
+/// A class of objects, as in objects.json.
+struct ClassRecord
+{
+  std::uint32_t id = 0; ///< value of the `classes` layer, >= 1
+  std::string name;
+};
+
 /// A file that the dataset was made from.
 struct InputRecord
 {
@@ -74,6 +81,15 @@ struct LayerRecord
   std::string format;
 };
 
+/// A layer of which pictures have no file, and what they lack.
+struct EmptyRecord
+{
+  std::string layer;
+  std::size_t pictures = 0; ///< without a file
+  std::size_t of = 0;       ///< pictures of the dataset
+  std::string needs;        ///< what a picture needs to have one
+};
+
 struct Manifest
 {
   std::string version;                                      ///< of DGTk
@@ -82,15 +98,21 @@ struct Manifest
   std::string units;                                        ///< of the scene; "" when it does not say
   std::vector<InputRecord> inputs;
   std::vector<LayerRecord> layers;
-  std::vector<DatasetFile> files; ///< written sorted by path
+  std::vector<EmptyRecord> empty;
+  std::vector<std::string> warnings; ///< lines
+  std::vector<DatasetFile> files;    ///< written sorted by path
 };
 
 DGTKDATASETIO_EXPORT std::string camerasText(std::vector<CameraRecord> cameras);
-DGTKDATASETIO_EXPORT std::string objectsText(std::vector<ObjectRecord> objects);
+/// `classes` are those that the scene fixes; those of the objects are added.
+DGTKDATASETIO_EXPORT std::string objectsText(
+  std::vector<ObjectRecord> objects, const std::vector<ClassRecord>& classes = {});
 DGTKDATASETIO_EXPORT std::string manifestText(Manifest manifest);
 
 DGTKDATASETIO_EXPORT std::vector<CameraRecord> readCameras(const std::string& path);
 DGTKDATASETIO_EXPORT std::vector<ObjectRecord> readObjects(const std::string& path);
+/// The classes in objects.json, also those that no object has; by their numbers.
+DGTKDATASETIO_EXPORT std::vector<ClassRecord> readClasses(const std::string& path);
 DGTKDATASETIO_EXPORT Manifest readManifest(const std::string& path);
 
 /// Writes DIR/`name` atomically and describes it for the manifest (layer, camera and frame as given).

@@ -5,6 +5,7 @@
 #include "dgtkJsonValue.h"
 
 #include <limits>
+#include <map>
 
 namespace dgtk
 {
@@ -105,6 +106,25 @@ std::vector<ObjectRecord> readObjects(const std::string& path)
   return objects;
 }
 
+std::vector<ClassRecord> readClasses(const std::string& path)
+{
+  const nlohmann::ordered_json json = readJson(path);
+  const JsonValue root(path, "", json);
+  const bool table = root.has("classes"); // not in the first datasets
+  std::map<std::uint32_t, std::string> names;
+  for (const JsonValue& item : root[table ? "classes" : "objects"].items())
+  {
+    const std::int64_t id = item[table ? "id" : "class_id"].integer(1, std::numeric_limits<std::uint32_t>::max());
+    names.emplace(std::uint32_t(id), item[table ? "name" : "class"].text());
+  }
+  std::vector<ClassRecord> classes;
+  for (const auto& [id, name] : names)
+  {
+    classes.push_back({ id, name });
+  }
+  return classes;
+}
+
 Manifest readManifest(const std::string& path)
 {
   const nlohmann::ordered_json json = readJson(path);
@@ -126,6 +146,21 @@ Manifest readManifest(const std::string& path)
   for (const JsonValue& item : root["layers"].items())
   {
     manifest.layers.push_back(layerOf(item));
+  }
+  if (root.has("empty")) // not in the first datasets, nor are warnings
+  {
+    for (const JsonValue& item : root["empty"].items())
+    {
+      manifest.empty.push_back(
+        { item["layer"].text(), item["pictures"].count(), item["of"].count(), item["needs"].text() });
+    }
+  }
+  if (root.has("warnings"))
+  {
+    for (const JsonValue& item : root["warnings"].items())
+    {
+      manifest.warnings.push_back(item.text());
+    }
   }
   for (const JsonValue& item : root["files"].items())
   {

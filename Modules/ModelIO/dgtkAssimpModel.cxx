@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <numeric>
 
 namespace dgtk
@@ -89,6 +90,7 @@ public:
     {
       throw InputError(this->Path, 0, std::string("is damaged: ") + error.what());
     }
+    this->nameCompanions();
     for (const std::string& warning : this->Scene->warnings)
     {
       this->Builder.warn(warning);
@@ -264,6 +266,23 @@ private:
       else
       {
         this->Builder.addSurface(corners, style);
+      }
+    }
+  }
+
+  /// What the helper read beside the model, spelled as the model is.
+  void nameCompanions()
+  {
+    namespace fs = std::filesystem;
+    const fs::path model = fs::absolute(this->Path);
+    const std::string folder = (model.parent_path() / "").string();
+    for (const std::string& file : this->Scene->files)
+    {
+      const bool below = file.compare(0, folder.size(), folder) == 0;
+      if (file != model.string())
+      {
+        this->Builder.model().companions.push_back(
+          below ? (fs::path(this->Path).parent_path() / file.substr(folder.size())).string() : file);
       }
     }
   }

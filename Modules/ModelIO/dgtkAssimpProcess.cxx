@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <set>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -58,9 +59,12 @@ public:
       return Descriptor();
     }
     helper::put(answer.path, path.c_str());
+    this->Given.insert(path);
     return file;
   }
 
+  /// The paths of what was opened.
+  const std::set<std::string>& given() const { return this->Given; }
   /// A file that is there, and that the model may not have; as written. "" when there was none.
   const std::string& outside() const { return this->Outside; }
 
@@ -113,6 +117,7 @@ private:
   std::string Model;
   std::string Folder;
   std::string Outside;
+  std::set<std::string> Given;
 };
 
 /// Appends what the pipe holds; false at its end.
@@ -266,6 +271,7 @@ if (!scene.error.empty())
 {
   reportError(path, absolute, scene);
 }
+scene.files.assign(files.given().begin(), files.given().end());
 return scene;
 }
 

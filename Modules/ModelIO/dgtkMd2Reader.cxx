@@ -236,6 +236,7 @@ void addAnm(const std::string& path, int frames, std::vector<Animation>& animati
   {
     return;
   }
+  builder.model().companions.push_back(anm);
   std::vector<std::string> warnings;
   for (Animation& named : parseAnm(toUtf8(readFile(anm, std::uint64_t(1) << 20)), anm, frames, warnings))
   {

@@ -120,7 +120,8 @@ struct Model
 {
   std::string format; ///< "ac3d", "md2", "3ds", "pov", "obj", "stl", "ply", "gltf", "collada", "fbx", "off"
   std::string path;
-  std::vector<std::string> warnings; ///< one line each
+  std::vector<std::string> warnings;   ///< one line each
+  std::vector<std::string> companions; ///< paths of other files that were read for it, its textures apart
 
   std::vector<Material> materials; ///< never empty when there are parts
   std::vector<Texture> textures;

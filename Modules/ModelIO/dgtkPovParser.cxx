@@ -333,6 +333,7 @@ PovScene PovParser::run()
     result.warnings.push_back("no part of the model, left out: " + names);
   }
   result.bytesRead = this->Tokens.bytesRead();
+  result.files = this->Tokens.paths();
   return result;
 }
 

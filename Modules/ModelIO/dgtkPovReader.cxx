@@ -27,6 +27,7 @@ public:
   std::shared_ptr<Model> run()
   {
     this->checkSize();
+    this->Builder.model().companions.assign(this->Scene.files.begin() + 1, this->Scene.files.end());
     for (const std::string& warning : this->Scene.warnings)
     {
       this->Builder.warn(warning);

@@ -105,6 +105,7 @@ struct PovScene
   bool rightHanded = false; ///< the camera's `right` has a negative x
   std::vector<std::string> warnings;
   std::uint64_t bytesRead = 0;
+  std::vector<std::string> files; ///< all that were read, the scene itself first
 };
 
 /// Reads a scene. Throws InputError for what would leave a mesh incomplete.

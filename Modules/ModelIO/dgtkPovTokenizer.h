@@ -50,6 +50,7 @@ public:
   PovToken next();
 
   const std::string& path(std::size_t file) const { return this->Paths[file]; }
+  const std::vector<std::string>& paths() const { return this->Paths; }
   std::uint64_t bytesRead() const { return this->Bytes; }
   [[noreturn]] void fail(const PovPlace& place, const std::string& what, const std::string& expected = {},
     const std::string& found = {}) const;

@@ -51,7 +51,8 @@ std::vector<CameraRecord> cameraRecords(const WorkPlan& plan, const Stage& stage
   return records;
 }
 
-std::vector<ObjectRecord> objectRecords(const Stage& stage, int frame, const std::string& folder)
+std::vector<ObjectRecord> objectRecords(
+  const Stage& stage, int frame, const std::string& folder, const std::map<std::string, std::string>& copies)
 {
   namespace fs = std::filesystem;
   const std::shared_ptr<const SceneState> state = stage.at(frame);
@@ -65,9 +66,22 @@ std::vector<ObjectRecord> objectRecords(const Stage& stage, int frame, const std
     record.name = instance.name;
     record.objectClass = instance.className;
     record.classId = classes[i];
-    record.model = fs::relative(fs::absolute(instance.model->path), fs::absolute(folder)).generic_string();
+    const auto copy = copies.find(instance.model->path);
+    record.model = copy != copies.end()
+                     ? copy->second
+                     : fs::relative(fs::absolute(instance.model->path), fs::absolute(folder)).generic_string();
     record.triangles = instance.model->triangles.size();
     records.push_back(record);
+  }
+  return records;
+}
+
+std::vector<ClassRecord> classRecords(const Stage& stage)
+{
+  std::vector<ClassRecord> records;
+  for (const ClassDescription& one : stage.description().classes)
+  {
+    records.push_back({ std::uint32_t(one.id), one.name });
   }
   return records;
 }

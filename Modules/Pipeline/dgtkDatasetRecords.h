@@ -6,6 +6,7 @@
 
 #include "dgtkDatasetDocuments.h"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,12 @@ std::vector<InputRecord> inputsOf(const Stage& stage, const std::string& folder)
 /// One record for each camera and frame of the plan, cameras first.
 std::vector<CameraRecord> cameraRecords(const WorkPlan& plan, const Stage& stage);
 
-/// One record for each object with an id; models are relative to `folder`.
-std::vector<ObjectRecord> objectRecords(const Stage& stage, int frame, const std::string& folder);
+/// One record for each object with an id; models are relative to `folder`, or their copies in it.
+std::vector<ObjectRecord> objectRecords(
+  const Stage& stage, int frame, const std::string& folder, const std::map<std::string, std::string>& copies);
+
+/// The classes whose numbers the scene fixes.
+std::vector<ClassRecord> classRecords(const Stage& stage);
 
 } // namespace dgtk
 

@@ -61,6 +61,8 @@ public:
   virtual std::vector<std::string> sharedFiles(const std::string& /*path*/) const { return {}; }
   /// What deserves a word before a run of it, one line; "" for nothing.
   virtual std::string note(const WorkPlan&) const { return {}; }
+  /// What a picture needs to have files of the layer, to follow "needs"; "" where none is without but by design.
+  virtual std::string needs() const { return {}; }
   /// The lane that writes them; called for jobs that have files.
   virtual std::unique_ptr<OutputLane> makeLane(const JobContext&) const = 0;
 };

@@ -8,7 +8,9 @@
 #include "dgtkFrameOutput.h"
 #include "dgtkFrameSource.h"
 #include "dgtkHash.h"
+#include "dgtkPacking.h"
 #include "dgtkRunFiles.h"
+#include "dgtkRunNotes.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWorkPlan.h"
 
@@ -17,6 +19,9 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
+#include <optional>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -98,6 +103,13 @@ private:
       this->Callbacks.message(line);
     }
   }
+  void warn(const std::string& line)
+  {
+    this->Result.warnings.push_back(line);
+    this->say("warning: " + line);
+  }
+  void pack();
+  void sayNotes();
   const std::string& cameraName(const Job& job) const { return this->Scene->description().cameras[job.camera].name; }
   View viewOf(const Job& job) const
   {
@@ -110,6 +122,7 @@ private:
   WorkPlan Plan;
   int Threads;
   std::vector<InputRecord> Inputs;
+  std::optional<Packing> Packed;
   std::string RequestHash;
   std::unique_ptr<RunFiles> Files;
   std::unique_ptr<ThreadPool> Pool;
@@ -126,12 +139,7 @@ private:
 
 Run::Run(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
   : Callbacks(callbacks)
-  , Scene(Stage::load(readScene(request.scene),
-      [this](const std::string& line)
-      {
-        this->Result.warnings.push_back(line);
-        this->say("warning: " + line);
-      }))
+  , Scene(Stage::load(readScene(request.scene), [this](const std::string& line) { this->warn(line); }))
   , Plan(makeWorkPlan(request, *this->Scene))
   , Threads(request.threads > 0 ? request.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())))
   , Queries(this->Scene)
@@ -163,6 +171,11 @@ GeneratorResult Run::execute()
   this->Result.visibility = this->Plan.raster ? "raster" : "ray";
   this->Inputs = inputsOf(*this->Scene, request.folder);
   this->RequestHash = identityOf(this->Plan, this->Inputs);
+  refuseOwnInputs(*this->Scene, request.folder);
+  if (request.pack)
+  {
+    this->Packed = planPacking(*this->Scene, request.folder);
+  }
   this->Files = std::make_unique<RunFiles>(request.folder, this->RequestHash, startOf(request), this->allNames());
   if (this->Plan.has("pov"))
   {
@@ -175,16 +188,8 @@ GeneratorResult Run::execute()
     this->say(this->Result.glDescription);
   }
 
-  if ((request.renderer == "povray" && this->Plan.drawsColor()) || this->Plan.has("pov"))
-  {
-    const Job& first = this->Plan.jobs.front();
-    for (const std::string& note :
-      povNotes(*this->stateAt(first.frame), this->viewOf(first), povOptionsOf(request.pov)))
-    {
-      this->Result.warnings.push_back("POV-Ray: " + note);
-      this->say("warning: POV-Ray: " + note);
-    }
-  }
+  this->pack();
+  this->sayNotes();
   try
   {
     this->renderAll();
@@ -211,6 +216,65 @@ GeneratorResult Run::execute()
   }
   this->Result.files += this->Files->files().size();
   return this->Result;
+}
+
+/// Puts copies of all inputs into the dataset, when they are wanted there.
+void Run::pack()
+{
+  const std::string& folder = this->Plan.request.folder;
+  if (!this->Packed)
+  {
+    return;
+  }
+  const std::vector<std::string> files = this->Scene->inputFiles();
+  const std::vector<InputRecord> inputs = std::exchange(this->Inputs, {});
+  std::set<std::string> there; // a file may have two spellings
+  for (std::size_t i = 0; i < files.size(); ++i)
+  {
+    const std::string& to = this->Packed->copies.at(files[i]);
+    if (!there.insert(to).second)
+    {
+      continue;
+    }
+    this->Inputs.push_back({ to, inputs[i].bytes, inputs[i].sha256 });
+    if (this->Files->keep({ to }, {}))
+    {
+      continue;
+    }
+    makeFolders(folder + '/' + to.substr(0, to.rfind('/')));
+    this->Files->plan({ to });
+    const DatasetFile copy = writeDocument(folder, to, readFile(files[i]));
+    if (copy.sha256 != inputs[i].sha256)
+    {
+      throw InputError(files[i], 0, "changed while it was copied");
+    }
+    this->Files->add(copy);
+  }
+  checkPacking(*this->Packed, *this->Scene);
+}
+
+/// What deserves a word before the first picture.
+void Run::sayNotes()
+{
+  const GeneratorRequest& request = this->Plan.request;
+  const std::string empty = emptyLine(this->Plan.empty);
+  if (!empty.empty())
+  {
+    this->say(empty);
+  }
+  for (const std::string& line : blindPictures(this->Plan, *this->Scene))
+  {
+    this->warn(line);
+  }
+  if ((request.renderer == "povray" && this->Plan.drawsColor()) || this->Plan.has("pov"))
+  {
+    const Job& first = this->Plan.jobs.front();
+    for (const std::string& note :
+      povNotes(*this->stateAt(first.frame), this->viewOf(first), povOptionsOf(request.pov)))
+    {
+      this->warn("POV-Ray: " + note);
+    }
+  }
 }
 
 void Run::renderAll()
@@ -442,6 +506,10 @@ std::vector<std::string> Run::documentNames() const
 std::vector<std::string> Run::allNames() const
 {
   std::vector<std::string> names = this->documentNames();
+  for (const auto& [file, copy] : this->Packed ? this->Packed->copies : std::map<std::string, std::string>())
+  {
+    names.push_back(copy);
+  }
   for (const Job& job : this->Plan.jobs)
   {
     const std::vector<std::string> own = this->filesOf(job);
@@ -468,7 +536,7 @@ void Run::writeDocuments()
   {
     for (const std::string& format : layer.formats)
     {
-      manifest.layers.push_back({ layer.spec, format });
+      manifest.layers.push_back({ storedSpec(format, layer.spec), format });
     }
   }
   for (const PlannedFrameLayer& planned : this->Plan.frameLayers)
@@ -479,14 +547,21 @@ void Run::writeDocuments()
       manifest.layers.insert(manifest.layers.end(), records.begin(), records.end());
     }
   }
+  manifest.empty = this->Plan.empty;
+  for (const std::string& line : this->Result.warnings)
+  {
+    manifest.warnings.push_back(placelessLine(line, this->Scene->description()));
+  }
   manifest.files = this->Files->files();
   const std::size_t pictures = manifest.files.size();
   manifest.files.push_back(
     writeDocument(request.folder, camerasName, camerasText(cameraRecords(this->Plan, *this->Scene))));
   manifest.files.push_back(writeDocument(request.folder, objectsName,
-    objectsText(objectRecords(*this->Scene, this->Plan.jobs.front().frame, request.folder))));
-  manifest.files.push_back(
-    writeDocument(request.folder, sceneName, toJson(this->Scene->description(), request.folder)));
+    objectsText(objectRecords(*this->Scene, this->Plan.jobs.front().frame, request.folder,
+                  this->Packed ? this->Packed->copies : std::map<std::string, std::string>()),
+      classRecords(*this->Scene))));
+  manifest.files.push_back(writeDocument(request.folder, sceneName,
+    toJson(this->Packed ? this->Packed->scene : this->Scene->description(), request.folder)));
   if (request.contactSheet)
   {
     manifest.files.push_back(writeContactSheet(request.folder, manifest, sheetName));

@@ -56,6 +56,7 @@ struct GeneratorRequest
   int threads = 0;                 ///< 0: as many as the machine has cores
   bool resume = false;             ///< keep the finished files of an interrupted run of the same request
   bool replace = false;            ///< remove what another request, or an interrupted run, has left; not with resume
+  bool pack = false;               ///< copy what the scene was loaded from into the dataset
   bool contactSheet = false;       ///< write contact.png
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The layer matting: foreground, background, alpha, composite and trimap of the objects of --matte.
-#include "dgtkError.h"
 #include "dgtkFrameLayers.h"
 #include "dgtkMatte.h"
 #include "dgtkMattingSource.h"
@@ -163,15 +162,8 @@ public:
   {
     return { "matting", { "png" }, "foreground, background, alpha, composite and trimap of the objects of --matte" };
   }
-  void check(const WorkPlan& plan, const Stage& stage) const override
-  {
-    const std::vector<std::string>& asked = plan.request.layers;
-    if (plan.request.matte.empty() && std::find(asked.begin(), asked.end(), "matting") != asked.end())
-    {
-      throw UsageError("layer matting needs the names of its objects: --matte NAMES");
-    }
-    matteObjects(plan, stage);
-  }
+  void check(const WorkPlan& plan, const Stage& stage) const override { matteObjects(plan, stage); }
+  std::string needs() const override { return "the names of the objects to cut out (matte)"; }
   std::vector<LayerRecord> specs(const std::string& format) const override
   {
     std::vector<LayerRecord> records;

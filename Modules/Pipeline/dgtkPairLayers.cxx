@@ -88,6 +88,11 @@ private:
   }
 };
 
+bool isFrame(const Stage& stage, int frame)
+{
+  return frame >= stage.description().firstFrame() && frame <= stage.description().lastFrame();
+}
+
 /// Another camera and how many frames later.
 struct Pair
 {
@@ -178,7 +183,23 @@ public:
   {
     return { "correspondence", { "npy" }, "where each pixel's surface point is in other images, and its visibility" };
   }
-  void check(const WorkPlan& plan, const Stage& stage) const override { pairsOf(plan, stage); }
+  void check(const WorkPlan& plan, const Stage& stage) const override
+  {
+    const std::vector<Pair> pairs = pairsOf(plan, stage);
+    for (std::size_t i = 0; i < plan.request.pairs.size(); ++i)
+    {
+      if (std::none_of(plan.jobs.begin(), plan.jobs.end(),
+            [&](const Job& job) { return job.camera == pairs[i].from && isFrame(stage, job.frame + pairs[i].offset); }))
+      {
+        throw UsageError("pair " + quoted(plan.request.pairs[i]) + " leads from every frame of this run to one that " +
+                         "the scene does not have");
+      }
+    }
+  }
+  std::string needs() const override
+  {
+    return "another camera in the run, or a pair of cameras that ends within the frames of the scene";
+  }
   std::vector<std::pair<std::string, std::string>> options(const GeneratorRequest& request) const override
   {
     std::string text;
@@ -198,8 +219,7 @@ protected:
     for (const Pair& pair : pairsOf(plan, stage))
     {
       const int frame = job.frame + pair.offset;
-      if (pair.from != job.camera || frame < stage.description().firstFrame() ||
-          frame > stage.description().lastFrame())
+      if (pair.from != job.camera || !isFrame(stage, frame))
       {
         continue;
       }
@@ -273,16 +293,9 @@ public:
     return { "disparity", { "pfm", "npy", "exr" },
       "x_left - x_right for cameras of rectified pairs, and visibility in the other image" };
   }
-  void check(const WorkPlan& plan, const Stage& stage) const override
+  std::string needs() const override
   {
-    const bool any = std::any_of(plan.jobs.begin(), plan.jobs.end(),
-      [&](const Job& job) { return rectifiedPartner(plan, stage, job.camera, job.frame).has_value(); });
-    const auto& asked = plan.request.layers;
-    if (!any && std::find(asked.begin(), asked.end(), "disparity") != asked.end())
-    {
-      throw UsageError("layer disparity needs two cameras side by side: the same K but cx, the same orientation, "
-                       "displaced along the x axis; the scene has no such pair");
-    }
+    return "two cameras side by side: the same K but cx, the same orientation, displaced along the x axis";
   }
 
 protected:
@@ -331,6 +344,11 @@ public:
                      : "optical flow to the frame before, and visibility there" };
   }
 
+  std::string needs() const override
+  {
+    return std::string("a frame of the scene ") + (this->Step > 0 ? "after" : "before") + " the picture's own";
+  }
+
 protected:
   LayerSpec valueSpec() const override
   {
@@ -343,7 +361,7 @@ protected:
     target.camera = job.camera;
     target.frame = job.frame + this->Step;
     target.value = this->Value;
-    if (target.frame < stage.description().firstFrame() || target.frame > stage.description().lastFrame())
+    if (!isFrame(stage, target.frame))
     {
       return {};
     }

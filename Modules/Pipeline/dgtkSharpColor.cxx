@@ -2,9 +2,7 @@
 #include "dgtkFrameLayers.h"
 #include "dgtkOutputLanes.h"
 
-#include "dgtkError.h"
 
-#include <algorithm>
 
 namespace dgtk
 {
@@ -29,16 +27,7 @@ public:
     return { layerName, { "png", "exr" },
       "the picture without motion blur and depth of field, of cameras that have them" };
   }
-  void check(const WorkPlan& plan, const Stage& stage) const override
-  {
-    const std::vector<std::string>& asked = plan.request.layers;
-    const bool any = std::any_of(
-      plan.jobs.begin(), plan.jobs.end(), [&](const Job& job) { return !this->files(plan, stage, job).empty(); });
-    if (!any && std::find(asked.begin(), asked.end(), layerName) != asked.end())
-    {
-      throw UsageError("layer color_sharp is of cameras with a shutter or a lens, drawn by the built-in renderer");
-    }
-  }
+  std::string needs() const override { return "a camera with a shutter or a lens, drawn by the built-in renderer"; }
   std::vector<LayerRecord> specs(const std::string&) const override { return {}; }
   std::vector<LayerRecord> records(const WorkPlan& plan, const std::string& format) const override
   {

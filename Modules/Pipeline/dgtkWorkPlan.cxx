@@ -6,6 +6,7 @@
 #include "dgtkLayerWriter.h"
 #include "dgtkNoisySensor.h"
 #include "dgtkRasterSource.h"
+#include "dgtkRunNotes.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -266,6 +267,28 @@ void checkPictures(const WorkPlan& plan, const SceneDescription& scene)
 }
 } // namespace
 
+namespace
+{
+/// Ids that do not fit a format are refused before anything is written.
+void checkIds(const WorkPlan& plan, const Stage& stage)
+{
+  const std::shared_ptr<const SceneState> state = stage.at(plan.jobs.front().frame);
+  for (const PlannedLayer& layer : plan.representations)
+  {
+    const std::uint32_t largest = layer.representation->largest(*state);
+    for (const std::string& format : layer.formats)
+    {
+      const std::uint32_t fits = largestStored(format, layer.spec);
+      if (largest > fits)
+      {
+        throw UsageError("layer " + layer.spec.name + ": ids up to " + std::to_string(largest) + " do not fit ." +
+                         formatExtension(format) + " (largest " + std::to_string(fits) + "); .npy holds them");
+      }
+    }
+  }
+}
+} // namespace
+
 WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
 {
   const SceneDescription& scene = stage.description();
@@ -308,11 +331,13 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
     }
   }
   checkPictures(plan, scene);
+  checkIds(plan, stage);
   plan.noise = describeNoise(plan, stage);
   for (const PlannedFrameLayer& planned : plan.frameLayers)
   {
     planned.layer->check(plan, stage);
   }
+  plan.empty = emptyLayers(plan, stage);
   return plan;
 }
 
@@ -361,6 +386,10 @@ std::vector<std::pair<std::string, std::string>> describeRequest(const WorkPlan&
   pairs.emplace_back("visibility", plan.raster ? "raster" : "ray");
   pairs.emplace_back("seed", std::to_string(request.seed));
   pairs.insert(pairs.end(), plan.noise.begin(), plan.noise.end());
+  if (request.pack)
+  {
+    pairs.emplace_back("pack", "yes");
+  }
   return pairs;
 }
 

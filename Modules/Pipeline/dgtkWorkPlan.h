@@ -4,6 +4,7 @@
 
 #include "dgtkGenerator.h"
 
+#include "dgtkDatasetDocuments.h"
 #include "dgtkLayer.h"
 #include "dgtkRepresentation.h"
 #include "dgtkStage.h"
@@ -56,6 +57,7 @@ struct WorkPlan
   /// What decides the noise of the noisy layers, besides the scene.
   std::vector<std::pair<std::string, std::string>> noise;
   std::vector<Job> jobs;
+  std::vector<EmptyRecord> empty;         ///< layers that some pictures do not have
   std::shared_ptr<PovLibrary> povLibrary; ///< of the layer pov, for a run with files; null without it
 
   bool drawsColor() const { return !this->colorFormats.empty() || this->tiles || this->layersReadColor; }

@@ -266,7 +266,7 @@ class ObjectsTruth(Case):
                 self.assertEqual(alone[name], whole[name], name)
 
     def test_refusals(self):
-        self.refused("render", DEMO, "-o", self.path("a"), "--layers", "matting", status=2, says="--matte")
+        self.refused("render", DEMO, "-o", self.path("a"), "--layers", "matting", status=2, says="the names of the objects")
         self.refused("render", DEMO, "-o", self.path("a"), "--layers", "matting", "--matte", "nobody", status=2, says="nobody")
         self.refused("render", DEMO, "-o", self.path("a"), "--layers", "points", "--points-step", "0", status=2,
                      says="--points-step")

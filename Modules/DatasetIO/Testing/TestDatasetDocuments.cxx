@@ -160,14 +160,35 @@ TEST(Objects, RoundTrip)
 {
   const TemporaryFolder folder;
   const std::string text = objectsText({ { 2, "b\xff", "", 2, "m.obj", 7 }, { 1, "\xc3\xa4", "tree", 1, "t.ac", 12 } });
-  EXPECT_EQ(text, "{\n  \"objects\": [\n"
-                  "    {\"id\": 1, \"name\": \"\xc3\xa4\", \"class\": \"tree\", \"class_id\": 1, \"model\": \"t.ac\", "
-                  "\"triangles\": 12},\n"
-                  "    {\"id\": 2, \"name\": \"b\xef\xbf\xbd\", \"class\": \"\", \"class_id\": 2, \"model\": "
-                  "\"m.obj\", \"triangles\": 7}\n"
-                  "  ]\n}\n");
+  EXPECT_EQ(text,
+    "{\n  \"objects\": [\n"
+    "    {\"id\": 1, \"name\": \"\xc3\xa4\", \"class\": \"tree\", \"class_id\": 1, \"model\": \"t.ac\", "
+    "\"triangles\": 12},\n"
+    "    {\"id\": 2, \"name\": \"b\xee\xbf\xbf\", \"class\": \"\", \"class_id\": 2, \"model\": "
+    "\"m.obj\", \"triangles\": 7}\n"
+    "  ],\n  \"classes\": [\n    {\"id\": 1, \"name\": \"tree\"},\n    {\"id\": 2, \"name\": \"\"}\n  ]\n}\n");
   writeFile(folder.path("objects.json"), text);
   EXPECT_EQ(objectsText(readObjects(folder.path("objects.json"))), text);
+}
+
+TEST(Objects, ClassesWithoutObjectsAreListed)
+{
+  const TemporaryFolder folder;
+  const std::vector<ObjectRecord> objects{ { 1, "o", "tree", 40, "t.ac", 12 } };
+  const auto read = [&](const std::string& text)
+  {
+    writeFile(folder.path("objects.json"), text);
+    std::string found;
+    for (const ClassRecord& one : readClasses(folder.path("objects.json")))
+    {
+      found += std::to_string(one.id) + one.name + ' ';
+    }
+    return found;
+  };
+  EXPECT_EQ(read(objectsText(objects, { { 65535, "sky" }, { 40, "tree" }, { 7, "car" } })), "7car 40tree 65535sky ");
+  std::string old = objectsText(objects);
+  old.replace(old.find(",\n  \"classes\""), std::string::npos, "\n}\n");
+  EXPECT_EQ(read(old), "40tree ");
 }
 
 TEST(ManifestDocument, RoundTrip)

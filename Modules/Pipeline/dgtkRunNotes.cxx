@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkRunNotes.h"
+
+#include "dgtkError.h"
+#include "dgtkFrameLayers.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace dgtk
+{
+
+std::vector<EmptyRecord> emptyLayers(const WorkPlan& plan, const Stage& stage)
+{
+  std::vector<EmptyRecord> empty;
+  for (const PlannedFrameLayer& planned : plan.frameLayers)
+  {
+    const std::string needs = planned.layer->needs();
+    if (needs.empty())
+    {
+      continue;
+    }
+    const auto without = std::count_if(plan.jobs.begin(), plan.jobs.end(),
+      [&](const Job& job) { return planned.layer->files(plan, stage, job).empty(); });
+    if (without == 0)
+    {
+      continue;
+    }
+    const std::string name = planned.layer->info().layer;
+    const std::vector<std::string>& asked = plan.request.layers;
+    empty.push_back({ name, std::size_t(without), plan.jobs.size(), needs });
+    if (empty.back().pictures == empty.back().of && std::find(asked.begin(), asked.end(), name) != asked.end())
+    {
+      throw UsageError("layer " + name + " would have no file in this run: it needs " + needs);
+    }
+  }
+  return empty;
+}
+
+std::string emptyLine(const std::vector<EmptyRecord>& empty)
+{
+  std::string without;
+  std::string partly;
+  for (const EmptyRecord& one : empty)
+  {
+    const bool whole = one.pictures == one.of;
+    std::string& list = whole ? without : partly;
+    list += (list.empty() ? "" : ", ") + one.layer;
+    list += whole ? "" : " (" + std::to_string(one.pictures) + " of " + std::to_string(one.of) + ')';
+  }
+  without = without.empty() ? "" : "layers without a file: " + without;
+  partly = partly.empty() ? "" : "layers without a file for some pictures: " + partly;
+  return without + (without.empty() || partly.empty() ? "" : "; ") + partly;
+}
+
+namespace
+{
+struct Box
+{
+  Eigen::Vector3d least = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d most = -least;
+};
+
+Box boxOf(const Geometry& geometry)
+{
+  Box box;
+  for (const Eigen::Vector3d& position : geometry.positions)
+  {
+    box.least = box.least.cwiseMin(position);
+    box.most = box.most.cwiseMax(position);
+  }
+  return box;
+}
+
+/// Values that are negative outside one side of what a camera sees, of a point in its frame; linear in the point.
+Eigen::Matrix<double, 6, 1> sidesOf(const View& view, const LinearProjection& lens, const Eigen::Vector3d& x_in_camera)
+{
+  const double w = lens.perspective ? x_in_camera.z() : 1;
+  const Eigen::Vector3d pixel = lens.K * Eigen::Vector3d(x_in_camera.x(), x_in_camera.y(), w);
+  Eigen::Matrix<double, 6, 1> sides;
+  sides << pixel.x(), view.model->width() * w - pixel.x(), pixel.y(), view.model->height() * w - pixel.y(),
+    x_in_camera.z() - view.near, view.far - x_in_camera.z();
+  return sides;
+}
+
+/// Whether a box reaches into the frustum, as far as its planes tell.
+bool reaches(const View& view, const LinearProjection& lens, const Box& box, const Affine3& world_from_object)
+{
+  Eigen::Matrix<double, 6, 1> most = Eigen::Matrix<double, 6, 1>::Constant(-std::numeric_limits<double>::infinity());
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Eigen::Vector3d point((corner & 1 ? box.most : box.least).x(), (corner & 2 ? box.most : box.least).y(),
+      (corner & 4 ? box.most : box.least).z());
+    most = most.cwiseMax(sidesOf(view, lens, view.camera_from_world * (world_from_object * point)));
+  }
+  return (most.array() >= 0).all();
+}
+
+bool seesAnything(const View& view, const SceneState& state, std::map<const Geometry*, Box>& boxes)
+{
+  const auto lens = view.model->linear();
+  return !lens || std::any_of(state.instances.begin(), state.instances.end(),
+                    [&](const Instance& instance)
+                    {
+                      const auto [box, isNew] = boxes.try_emplace(instance.geometry.get());
+                      box->second = isNew ? boxOf(*instance.geometry) : box->second;
+                      return reaches(view, *lens, box->second, instance.world_from_object);
+                    });
+}
+} // namespace
+
+std::vector<std::string> blindPictures(const WorkPlan& plan, const Stage& stage)
+{
+  if (stage.objectNames().empty())
+  {
+    return { "the scene has no object with a surface: its pictures are empty" };
+  }
+  std::set<std::size_t> blind;
+  for (const Job& job : plan.jobs)
+  {
+    blind.insert(job.camera);
+  }
+  for (auto job = plan.jobs.begin(); job != plan.jobs.end() && !blind.empty();)
+  {
+    // boxes are known for the geometry of one state, which keeps it
+    const std::shared_ptr<const SceneState> state = stage.at(job->frame);
+    std::map<const Geometry*, Box> boxes;
+    for (const int frame = job->frame; job != plan.jobs.end() && job->frame == frame; ++job)
+    {
+      if (blind.count(job->camera) != 0 &&
+          seesAnything(stage.view(job->camera, frame, plan.request.width, plan.request.height), *state, boxes))
+      {
+        blind.erase(job->camera);
+      }
+    }
+  }
+  std::vector<std::string> lines;
+  for (const std::size_t camera : blind)
+  {
+    lines.push_back("camera " + quoted(stage.cameraNames()[camera]) + " sees no object at any frame of this run");
+  }
+  return lines;
+}
+
+std::string placelessLine(const std::string& line, const SceneDescription& scene)
+{
+  const std::string prefix = scene.folder.empty() ? std::string() : scene.folder + '/';
+  std::string text = line;
+  for (std::size_t at = 0; !prefix.empty() && (at = text.find(prefix, at)) != std::string::npos;)
+  {
+    const bool begins = at == 0 || (at >= 2 && text.compare(at - 2, 2, ": ") == 0);
+    text.erase(at, begins ? prefix.size() : 0);
+    at += begins ? 0 : prefix.size();
+  }
+  return text;
+}
+
+} // namespace dgtk

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkRunNotes_h
+#define dgtkRunNotes_h
+
+// Private to Pipeline: what deserves a word about a run although nothing is wrong with its request.
+
+#include "dgtkWorkPlan.h"
+
+#include "dgtkDatasetDocuments.h"
+
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// The layers of which some pictures of the run have no file, in the order of the plan. Throws UsageError for a layer
+/// that was asked for by its name and has no file at all.
+std::vector<EmptyRecord> emptyLayers(const WorkPlan& plan, const Stage& stage);
+
+/// The same in one line; "" when there are none.
+std::string emptyLine(const std::vector<EmptyRecord>& empty);
+
+/// A scene without surfaces, and cameras whose frustum holds no object's box at any frame of the run; one line each.
+std::vector<std::string> blindPictures(const WorkPlan& plan, const Stage& stage);
+
+/// A line with the paths of the scene's files, at its start and after colons, relative to the scene's folder, so that
+/// it is the same from wherever the scene was named.
+std::string placelessLine(const std::string& line, const SceneDescription& scene);
+
+} // namespace dgtk
+
+#endif
