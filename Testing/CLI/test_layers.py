@@ -93,6 +93,39 @@ class Dataset(Case):
         objects = load_json(os.path.join(out, "objects.json"))
         self.assertTrue(objects)
 
+    def test_parts_and_triangles_as_png(self):
+        import numpy
+
+        self.write("q.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1 3 4\n")
+        self.write("s.json", json.dumps({"objects": [{"name": "q", "model": "q.obj"}], "cameras": [
+            {"name": "c", "width": 40, "height": 30, "eye": [0, 0, 5], "lookAt": [0, 0, 0]}]}))
+        out = self.path("out")
+        self.dgtk("render", self.path("s.json"), "-o", out, "--quiet", "--layers", "depth,objects,parts,triangles", "--parts-format",
+                  "npy,png", "--triangles-format", "npy,png")
+        invalid = {(r["name"], r["format"]): r["invalid"] for r in load_json(os.path.join(out, "manifest.json"))["layers"]}
+        for layer in ("parts", "triangles"):
+            ids = numpy.load(os.path.join(out, "c", layer, "000000.npy"))
+            self.assertEqual(set(ids.flat) - {0, 1}, {4294967295})
+            self.assertEqual((invalid[layer, "npy"], invalid[layer, "png"]), ("4294967295", "65535"))
+            png = os.path.join(out, "c", layer, "000000.png")
+            self.dgtk("compare", png, os.path.join(out, "c", layer, "000000.npy"))
+        self.dgtk("verify", out)
+
+    def test_ids_that_do_not_fit_are_refused_before_anything_is_written(self):
+        rows = 182  # 2 x 182 x 182 = 66248 triangles
+        lines = [f"v {x} {y} 0" for y in range(rows + 1) for x in range(rows + 1)]
+        corner = lambda x, y: y * (rows + 1) + x + 1
+        for y in range(rows):
+            for x in range(rows):
+                a, b, c, d = corner(x, y), corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1)
+                lines += [f"f {a} {b} {c}", f"f {a} {c} {d}"]
+        self.write("grid.obj", "\n".join(lines) + "\n")
+        self.write("s.json", json.dumps({"objects": [{"name": "g", "model": "grid.obj"}], "cameras": [
+            {"name": "c", "width": 8, "height": 6, "eye": [0, 0, 500], "lookAt": [0, 0, 0]}]}))
+        self.refused("render", self.path("s.json"), "-o", self.path("out"), "--quiet", "--layers", "depth,triangles",
+                     "--triangles-format", "png", status=2, says=["layer triangles", "66247", "largest 65534", ".npy"])
+        self.assertFalse(os.path.exists(self.path("out")))
+
     def test_orientation(self):
         """A red quad in the upper left of the view is in the upper left of the picture."""
         self.write("q.obj", "mtllib q.mtl\nusemtl red\nv -3 1 0\nv -1 1 0\nv -1 2 0\nv -3 2 0\nf 1 2 3 4\n")

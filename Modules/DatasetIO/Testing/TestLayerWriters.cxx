@@ -2,6 +2,7 @@
 // Laws that hold for every row of the registry of writers.
 #include "dgtkError.h"
 #include "dgtkHash.h"
+#include "dgtkLayerReader.h"
 #include "dgtkTestImages.h"
 #include "dgtkTestSupport.h"
 
@@ -263,6 +264,62 @@ TEST(LayerWriters, RefusalsSayWhatIsWrong)
   EXPECT_EQ(messageOf([&] { writeId("png", 65535); }), "");
   EXPECT_THAT(messageOf([&] { writeId("png", 65536); }), HasSubstr("'objects': 65536 does not fit a 16-bit .png"));
   EXPECT_THROW(makeLayerWriter("npy", "/proc/nowhere/x.npy", depth, 1, 1), MachineError);
+}
+
+TEST(LayerWriters, PngHasACodeForNothing)
+{
+  const TemporaryFolder folder;
+  LayerSpec spec = specOf(PixelType::UInt32, 1, "triangles");
+  spec.invalid = "4294967295";
+  const auto write = [&](std::uint32_t largest)
+  {
+    Rows ids(PixelType::UInt32, 1, 3, 0, 1);
+    ids.row<std::uint32_t>(0)[0] = 0;
+    ids.row<std::uint32_t>(0)[1] = 4294967295u;
+    ids.row<std::uint32_t>(0)[2] = largest;
+    writeImage("png", folder.path("x.png"), spec, ids, 1, {});
+  };
+  write(65534);
+  EXPECT_NE(contentsOf(folder.path("x.png")).find(std::string("\0\0\0\2tRNS\xff\xff", 10)), std::string::npos);
+  const ImageData read = readLayerFile(folder.path("x.png"));
+  ASSERT_EQ(read.info.type, PixelType::UInt32);
+  EXPECT_EQ(read.pixels.row<std::uint32_t>(0)[0], 0u);
+  EXPECT_EQ(read.pixels.row<std::uint32_t>(0)[1], 4294967295u);
+  EXPECT_EQ(read.pixels.row<std::uint32_t>(0)[2], 65534u);
+  EXPECT_THROW(write(65535), UsageError);
+  EXPECT_EQ(storedSpec("png", spec).invalid, "65535");
+  EXPECT_EQ(storedSpec("npy", spec).invalid, "4294967295");
+  EXPECT_EQ(largestStored("png", spec), 65534u);
+  EXPECT_EQ(largestStored("npy", spec), 4294967295u);
+
+  // ids of objects keep all 16 bits, and their files the bytes that they had
+  spec = specOf(PixelType::UInt32, 1, "objects");
+  spec.invalid = "0";
+  Rows id(PixelType::UInt32, 1, 1, 0, 1);
+  *id.row<std::uint32_t>(0) = 65535;
+  writeImage("png", folder.path("y.png"), spec, id, 1, {});
+  EXPECT_EQ(contentsOf(folder.path("y.png")).find("tRNS"), std::string::npos);
+  EXPECT_EQ(readLayerFile(folder.path("y.png")).info.type, PixelType::UInt16);
+  EXPECT_EQ(largestStored("png", spec), 65535u);
+  EXPECT_EQ(largestStored("ppm", spec), 0xffffffu);
+}
+
+TEST(LayerWriters, ADamagedCodeForNothingIsRefused)
+{
+  const TemporaryFolder folder;
+  LayerSpec spec = specOf(PixelType::UInt32, 1, "parts");
+  spec.invalid = "4294967295";
+  Rows ids(PixelType::UInt32, 1, 1, 0, 1);
+  *ids.row<std::uint32_t>(0) = 7;
+  writeImage("png", folder.path("x.png"), spec, ids, 1, {});
+  std::string bytes = contentsOf(folder.path("x.png"));
+  const std::size_t at = bytes.find("tRNS");
+  bytes[at + 4] = '\x7f';
+  writeFile(folder.path("x.png"), bytes);
+  EXPECT_THROW(readLayerFile(folder.path("x.png")), InputError) << "checksum";
+  bytes.replace(at - 4, 4, std::string("\0\0\0\1", 4));
+  writeFile(folder.path("x.png"), bytes);
+  EXPECT_THROW(readLayerFile(folder.path("x.png")), InputError) << "length";
 }
 
 TEST(LayerWriters, DepthIsNeverNamedWrongly)
