@@ -232,7 +232,15 @@ void checkPacking(const Packing& packing, const Stage& stage)
     throw InputError(stage.description().title(), 0,
       "cannot be packed: a model would not find the same files elsewhere (it names one by an absolute path?): " + file);
   };
-  const auto packed = Stage::load(packing.scene);
+  std::shared_ptr<const Stage> packed;
+  try
+  {
+    packed = Stage::load(packing.scene);
+  }
+  catch (const InputError& error)
+  {
+    fail(error.what());
+  }
   std::set<std::string> expected;
   for (const std::string& file : stage.inputFiles())
   {
