@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Laws that hold for every row of the registry of writers.
 #include "dgtkError.h"
+#include "dgtkFile.h"
 #include "dgtkHash.h"
 #include "dgtkLayerReader.h"
 #include "dgtkTestImages.h"
