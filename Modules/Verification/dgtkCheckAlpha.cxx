@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCheck.h"
-#include "dgtkSamples.h"
+#include "dgtkSampledPixels.h"
 
 #include <cmath>
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkSamples.h"
+#include "dgtkSampledPixels.h"
 
 #include <cstdlib>
 #include <set>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef dgtkSamples_h
-#define dgtkSamples_h
+#ifndef dgtkSampledPixels_h
+#define dgtkSampledPixels_h
 
 // Private to Verification.
 
