@@ -43,6 +43,7 @@ class WithoutPovRay(Case):
 
     def failed(self, environment, status, *says, options=()):
         done = self.dgtk("render", SCENE, "-o", self.path("d"), "--renderer", "povray", "--layers", "color", "--cameras", "matrix", "--frames", "0",
+                         "--replace",
                          *SMALL, *options, status=status, environment=environment)
         lines = [line for line in done.stderr.splitlines() if line]
         self.assertEqual(len(lines), 1, done.stderr)
