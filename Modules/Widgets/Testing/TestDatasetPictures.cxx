@@ -98,7 +98,6 @@ TEST(DatasetPictures, DocumentsAreNotNeededForPictures)
 {
   SmallDataset files;
   files.add("left", "depth", 0, "", "npy", depth, ramp);
-  files.add("../left", "depth", 0, "", "npy", depth, ramp); // outside: never opened
   files.finish();
   std::ofstream(files.path("objects.json")) << "{\"objects\": [{\"id\": 0}]}";
   std::filesystem::remove(files.path("cameras.json"));
@@ -108,6 +107,23 @@ TEST(DatasetPictures, DocumentsAreNotNeededForPictures)
   EXPECT_THAT(dataset.warnings()[1], HasSubstr("objects.json"));
   EXPECT_THAT(dataset.cameras(), ElementsAre("left"));
   EXPECT_EQ(dataset.camera("left", 0), nullptr);
+}
+
+TEST(DatasetPictures, ListsThatLeadOutsideAreRefused)
+{
+  SmallDataset files;
+  files.add("left", "depth", 0, "", "npy", depth, ramp);
+  files.add("../left", "depth", 0, "", "npy", depth, ramp);
+  files.finish();
+  try
+  {
+    const DatasetPictures dataset(files.path());
+    FAIL() << "a file outside was taken into the dataset";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_THAT(error.what(), HasSubstr("leads out of the dataset"));
+  }
 }
 
 TEST(PictureValues, AreThoseOfTheFile)
