@@ -9,6 +9,8 @@
 #include <cstring>
 #include <string>
 
+#include <signal.h>
+
 namespace
 {
 constexpr const char* help =
@@ -66,6 +68,7 @@ int fail(const QString& what)
 
 int main(int argc, char** argv)
 {
+  ::signal(SIGXFSZ, SIG_IGN); // a file beyond the limit of `ulimit -f` is an error of writing
   for (int i = 1; i < argc; ++i)
   {
     if (std::strcmp(argv[i], "--help") == 0 || std::strcmp(argv[i], "-h") == 0)

@@ -14,6 +14,8 @@
 #include <new>
 #include <system_error>
 
+#include <signal.h>
+
 namespace
 {
 using namespace dgtk::app;
@@ -92,6 +94,7 @@ void dgtk::app::prepareGL(const std::string& backend, int threads)
 int main(int argc, char** argv)
 {
   processArguments = argv;
+  ::signal(SIGXFSZ, SIG_IGN); // a file beyond the limit of `ulimit -f` is an error of writing, also in helpers
   try
   {
     return dispatch({ argv + 1, argv + argc });

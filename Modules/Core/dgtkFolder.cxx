@@ -214,4 +214,34 @@ void Folder::sync(const std::string& name) const
   }
 }
 
+void Folder::syncAll() const
+{
+  const FileDescriptor folder(::open(this->Path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!folder || ::syncfs(folder.number()) != 0)
+  {
+    throw MachineError(this->Path + ": cannot be written: " + std::strerror(errno));
+  }
+}
+
+std::string Folder::fileAt(const std::string& name) const
+{
+  const std::string path = this->pathOf(name);
+  if (!isPlain(name))
+  {
+    throw InputError(this->Path, 0, dgtk::quoted(name) + " leads out of the folder");
+  }
+  switch (this->look(name))
+  {
+    case EntryKind::File:
+      return path;
+    case EntryKind::Nothing:
+      throw InputError(path, 0, "no such file");
+    case EntryKind::Link:
+    case EntryKind::Blocked:
+      throw InputError(path, 0, "is not read through a link");
+    default:
+      throw InputError(path, 0, "is not a file");
+  }
+}
+
 } // namespace dgtk

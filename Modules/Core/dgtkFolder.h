@@ -84,6 +84,10 @@ public:
   void rename(const std::string& from, const std::string& to) const;
   /// Waits until the names in the folder that holds `name` are on the disk.
   void sync(const std::string& name) const;
+  /// Waits until everything in its file system is on the disk: all files of a dataset in one go.
+  void syncAll() const;
+  /// The path of a file, for those who read it. Throws InputError when no file is there or a link leads to it.
+  std::string fileAt(const std::string& name) const;
 
 private:
   FileDescriptor holderOf(const std::string& name) const;

@@ -52,7 +52,7 @@ void Canvas::text(const std::string& text, int x, int y, int width, Rgb color)
   }
 }
 
-DatasetFile Canvas::write(const std::string& path) const
+DatasetFile Canvas::write(const FilePlace& path) const
 {
   LayerSpec spec;
   spec.name = "color";

@@ -3,6 +3,7 @@
 #define dgtkCanvas_h
 
 #include "dgtkDatasetDocuments.h"
+#include "dgtkFile.h"
 #include "dgtkLayerColors.h"
 
 #include <array>
@@ -27,7 +28,7 @@ public:
   void text(const std::string& text, int x, int y, int width, Rgb color);
   static int textWidth(const std::string& text) { return 6 * static_cast<int>(text.size()); }
   /// Writes a PNG file and describes it.
-  DatasetFile write(const std::string& path) const;
+  DatasetFile write(const FilePlace& path) const;
 
 private:
   int Width;

@@ -3,6 +3,7 @@
 
 #include "dgtkDatasetDocuments.h"
 #include "dgtkError.h"
+#include "dgtkFolder.h"
 #include "dgtkInputFile.h"
 #include "dgtkJournal.h"
 #include "dgtkJsonText.h"
@@ -167,7 +168,7 @@ std::set<std::string> filesOf(const std::string& folder)
   const fs::path manifest = fs::path(folder) / manifestName;
   if (fs::exists(manifest, code))
   {
-    for (const DatasetFile& file : readManifest(manifest.string()).files)
+    for (const DatasetFile& file : readManifestIn(folder).files)
     {
       names.insert(file.path);
     }
@@ -177,7 +178,7 @@ std::set<std::string> filesOf(const std::string& folder)
   for (const fs::recursive_directory_iterator end; !code && it != end; it.increment(code))
   {
     const std::string name = it->path().lexically_relative(folder).generic_string();
-    if (it->is_regular_file(code) && name != journalName)
+    if ((it->is_symlink(code) || it->is_regular_file(code)) && name != journalName)
     {
       names.insert(name);
     }
@@ -341,16 +342,16 @@ DatasetComparison compareDatasets(
   comparison.files = all.size();
   for (const std::string& name : all)
   {
-    const std::string paths[] = { (fs::path(a) / name).string(), (fs::path(b) / name).string() };
-    std::error_code code;
-    const bool there[] = { fs::exists(paths[0], code), fs::exists(paths[1], code) };
+    const Folder folders[] = { Folder(a), Folder(b) };
+    const bool there[] = { folders[0].look(name) != EntryKind::Nothing, folders[1].look(name) != EntryKind::Nothing };
     CompareResult result;
     if (there[0] && there[1])
     {
       const auto layer = layers.find(name);
       const auto tolerance = layer == layers.end() ? tolerances.end() : tolerances.find(layer->second);
       const bool tolerant = tolerance != tolerances.end();
-      result = compareFiles(paths[0], paths[1], tolerant ? std::optional(tolerance->second) : std::nullopt);
+      result = compareFiles(
+        folders[0].fileAt(name), folders[1].fileAt(name), tolerant ? std::optional(tolerance->second) : std::nullopt);
       result.layer = tolerant ? tolerance->first : "";
     }
     else

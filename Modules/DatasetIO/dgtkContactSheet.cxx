@@ -183,7 +183,7 @@ DatasetFile writeContactSheet(
       ++row;
     }
   }
-  DatasetFile file = sheet.write(inFolder(path));
+  DatasetFile file = sheet.write(FilePlace(folder, path));
   file.path = path;
   return file;
 }

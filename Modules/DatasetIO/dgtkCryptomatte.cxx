@@ -100,7 +100,7 @@ struct CryptomatteWriter::Impl
     std::uint32_t pixels;
   };
 
-  std::string Path;
+  FilePlace Place;
   LayerSpec Spec;
   int Width;
   int Height;
@@ -151,7 +151,7 @@ struct CryptomatteWriter::Impl
   }
 };
 
-CryptomatteWriter::CryptomatteWriter(const std::string& path, const LayerSpec& spec, int width, int height,
+CryptomatteWriter::CryptomatteWriter(const FilePlace& path, const LayerSpec& spec, int width, int height,
   const std::vector<std::string>& names, int leastRanks)
   : Self(new Impl{ path, spec, width, height, std::size_t(leastRanks), distinctNames(names), { 0.0f }, {}, {}, 0 })
 {
@@ -184,13 +184,13 @@ FileRecord CryptomatteWriter::finish()
   Impl& self = *this->Self;
   if (self.Pixels != std::uint64_t(self.Width) * self.Height)
   {
-    throw UsageError(self.Path + ": " + std::to_string(self.Pixels) + " pixels were written (expected " +
+    throw UsageError(self.Place.path() + ": " + std::to_string(self.Pixels) + " pixels were written (expected " +
                      std::to_string(self.Width) + " x " + std::to_string(self.Height) + ')');
   }
   self.Ranks += self.Ranks % 2;
   self.Spec.channels = static_cast<int>(self.Ranks * 2);
   const std::unique_ptr<LayerWriter> writer =
-    makeLayerWriter("exr", self.Path, self.Spec, self.Width, self.Height, self.context());
+    makeLayerWriter("exr", self.Place, self.Spec, self.Width, self.Height, self.context());
   std::size_t next = 0;
   for (int y = 0; y < self.Height; y += blockRows)
   {

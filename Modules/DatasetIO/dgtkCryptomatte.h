@@ -44,7 +44,7 @@ class DGTKDATASETIO_EXPORT CryptomatteWriter
 public:
   /// `names[id - 1]` is the name of an object. `leastRanks`: channels for so many are written anyway. Throws what
   /// makeLayerWriter() throws.
-  CryptomatteWriter(const std::string& path, const LayerSpec& spec, int width, int height,
+  CryptomatteWriter(const FilePlace& path, const LayerSpec& spec, int width, int height,
     const std::vector<std::string>& names, int leastRanks);
   ~CryptomatteWriter();
 

@@ -168,7 +168,7 @@ std::string manifestText(Manifest manifest)
 DatasetFile writeDocument(const std::string& folder, const std::string& name, const std::string& text,
   const std::string& layer, const std::string& camera, int frame)
 {
-  writeFile(folder + '/' + name, text);
+  writeFile(FilePlace(folder, name), text);
   Sha256 hash;
   hash.update(text.data(), text.size());
   return { name, text.size(), hash.hex(), layer, camera, frame };

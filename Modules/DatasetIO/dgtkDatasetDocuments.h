@@ -114,6 +114,9 @@ DGTKDATASETIO_EXPORT std::vector<ObjectRecord> readObjects(const std::string& pa
 /// The classes in objects.json, also those that no object has; by their numbers.
 DGTKDATASETIO_EXPORT std::vector<ClassRecord> readClasses(const std::string& path);
 DGTKDATASETIO_EXPORT Manifest readManifest(const std::string& path);
+/// The manifest of the dataset in a folder. Throws InputError also when a link stands in place of it or of a file that
+/// it lists, or of a folder that leads there: what is read of a dataset is in its folder. Files may be missing.
+DGTKDATASETIO_EXPORT Manifest readManifestIn(const std::string& folder);
 
 /// Writes DIR/`name` atomically and describes it for the manifest (layer, camera and frame as given).
 DGTKDATASETIO_EXPORT DatasetFile writeDocument(const std::string& folder, const std::string& name,

@@ -29,7 +29,7 @@ float linearFromEncoded(float v) // IEC 61966-2-1
 class DeepExrWriter : public LdiFileWriter
 {
 public:
-  DeepExrWriter(const std::string& path, int width, int height)
+  DeepExrWriter(const FilePlace& path, int width, int height)
     : LdiFileWriter(path, width, height)
     , Spec(width, height, channelCount, OIIO::TypeDesc::FLOAT)
     , Output(OIIO::ImageOutput::create("exr"))
@@ -111,7 +111,7 @@ private:
 };
 } // namespace
 
-std::unique_ptr<LdiWriter> makeDeepExrWriter(const std::string& path, int width, int height)
+std::unique_ptr<LdiWriter> makeDeepExrWriter(const FilePlace& path, int width, int height)
 {
   return std::make_unique<DeepExrWriter>(path, width, height);
 }

@@ -11,7 +11,7 @@ namespace
 class DgdWriter : public LayerFileWriter
 {
 public:
-  DgdWriter(const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
+  DgdWriter(const FilePlace& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
     : LayerFileWriter(path, spec, width, height)
   {
     std::string header;
@@ -37,7 +37,7 @@ bool canWriteDgd(const LayerSpec& spec)
 }
 
 std::unique_ptr<LayerWriter> openDgd(
-  const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
+  const FilePlace& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
 {
   return std::make_unique<DgdWriter>(path, spec, width, height, context);
 }

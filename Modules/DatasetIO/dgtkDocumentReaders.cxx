@@ -2,10 +2,12 @@
 #include "dgtkDatasetDocuments.h"
 #include "dgtkError.h"
 #include "dgtkFolder.h"
+#include "dgtkJournal.h"
 #include "dgtkJsonValue.h"
 
 #include <limits>
 #include <map>
+#include <set>
 
 namespace dgtk
 {
@@ -166,6 +168,26 @@ Manifest readManifest(const std::string& path)
   {
     manifest.files.push_back(fileOf(item));
   }
+  return manifest;
+}
+
+Manifest readManifestIn(const std::string& path)
+{
+  const Folder folder(path);
+  Manifest manifest = readManifest(folder.fileAt(manifestName));
+  std::set<std::string> names;
+  for (const DatasetFile& file : manifest.files)
+  {
+    names.insert(file.path);
+  }
+  folder.look(names,
+    [&](const std::string& name, EntryKind kind)
+    {
+      if (kind != EntryKind::Nothing && kind != EntryKind::File)
+      {
+        folder.fileAt(name);
+      }
+    });
   return manifest;
 }
 

@@ -54,7 +54,7 @@ void predict(const unsigned char* __restrict raw, std::size_t bytes, unsigned ch
 class ExrWriter : public LayerFileWriter
 {
 public:
-  ExrWriter(const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
+  ExrWriter(const FilePlace& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
     : LayerFileWriter(path, spec, width, height)
     , Compressor(libdeflate_alloc_compressor(compressionLevel), &libdeflate_free_compressor)
     , Order(std::size_t(spec.channels))
@@ -62,13 +62,13 @@ public:
   {
     if (!this->Compressor)
     {
-      throw MachineError(path + ": out of memory");
+      throw MachineError(path.path() + ": out of memory");
     }
     this->hashAtEnd();
     const std::vector<std::string> names = context.channels.empty() ? channelNames(spec) : context.channels;
     if (names.size() != this->Order.size())
     {
-      throw UsageError(path + ": " + std::to_string(names.size()) + " channel names for " +
+      throw UsageError(path.path() + ": " + std::to_string(names.size()) + " channel names for " +
                        std::to_string(this->Order.size()) + " channels");
     }
     std::iota(this->Order.begin(), this->Order.end(), 0);
@@ -207,7 +207,7 @@ bool canWriteExr(const LayerSpec& spec)
 }
 
 std::unique_ptr<LayerWriter> openExr(
-  const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
+  const FilePlace& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
 {
   return std::make_unique<ExrWriter>(path, spec, width, height, context);
 }

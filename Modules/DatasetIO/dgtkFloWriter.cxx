@@ -13,7 +13,7 @@ namespace
 class FloWriter : public LayerFileWriter
 {
 public:
-  FloWriter(const std::string& path, const LayerSpec& spec, int width, int height)
+  FloWriter(const FilePlace& path, const LayerSpec& spec, int width, int height)
     : LayerFileWriter(path, spec, width, height)
   {
     std::string header = "PIEH";
@@ -46,7 +46,7 @@ bool canWriteFlo(const LayerSpec& spec)
 }
 
 std::unique_ptr<LayerWriter> openFlo(
-  const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext&)
+  const FilePlace& path, const LayerSpec& spec, int width, int height, const LayerWriterContext&)
 {
   return std::make_unique<FloWriter>(path, spec, width, height);
 }

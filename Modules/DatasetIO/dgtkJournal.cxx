@@ -4,11 +4,14 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkFolderRecords.h"
+#include "dgtkHash.h"
+#include "dgtkThreadPool.h"
 
 #include <cerrno>
 #include <cstring>
 #include <map>
 #include <mutex>
+#include <thread>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -171,15 +174,29 @@ struct Journal::Impl
     this->descriptor = std::move(next);
   }
 
+  bool isWhole(const DatasetFile& file) const
+  {
+    if (this->folder.look(file.path) != EntryKind::File)
+    {
+      return false;
+    }
+    const std::string path = this->folder.pathOf(file.path);
+    struct stat info = {};
+    return ::stat(path.c_str(), &info) == 0 && std::uint64_t(info.st_size) == file.bytes &&
+           Sha256::ofFile(path) == file.sha256;
+  }
+
   void takeOver(const FolderRecords& records)
   {
-    for (const DatasetFile& file : records.finished)
+    // A crash of the machine may leave a file with its name and size, and without its contents.
+    std::vector<char> whole(records.finished.size(), 0);
+    ThreadPool pool(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+    pool.parallelFor(static_cast<int>(whole.size()),
+      [&](int i) { whole[std::size_t(i)] = this->isWhole(records.finished[std::size_t(i)]) ? 1 : 0; });
+    for (std::size_t i = 0; i < whole.size(); ++i)
     {
-      struct stat info = {};
-      const FileDescriptor whole = this->folder.open(file.path, O_RDONLY | O_NONBLOCK);
-      const bool there = whole && ::fstat(whole.number(), &info) == 0 && S_ISREG(info.st_mode) &&
-                         std::uint64_t(info.st_size) == file.bytes;
-      if (there && this->byPath.emplace(file.path, this->finished.size()).second)
+      const DatasetFile& file = records.finished[i];
+      if (whole[i] && this->byPath.emplace(file.path, this->finished.size()).second)
       {
         this->finished.push_back(file);
       }
@@ -293,7 +310,9 @@ void Journal::add(const DatasetFile& file)
 
 void Journal::close(const Manifest& manifest)
 {
-  writeFile(this->Self->folder.pathOf(manifestName), manifestText(manifest));
+  // whoever finds a manifest finds whole files, also when the power fails
+  this->Self->folder.syncAll();
+  writeFileDurably(FilePlace(this->Self->folder.path(), manifestName), manifestText(manifest));
   this->Self->folder.remove(journalName);
 }
 

@@ -45,9 +45,9 @@ public:
   /// | FinishedOther, UnfinishedOther | FolderError | FolderError | removed |
   /// | Running, Foreign | FolderError | FolderError | FolderError |
   ///
-  /// Kept are files with the recorded size; they are finished(). Removed are the files that manifest and journal list,
-  /// half-written ones included, and the folders that they leave empty; nothing else. An old manifest is removed in
-  /// either case: a folder with a manifest is a whole dataset.
+  /// Kept are files with the recorded size and hash; they are finished(). Removed are the files that manifest and
+  /// journal list, half-written ones included, and the folders that they leave empty; nothing else. An old manifest is
+  /// removed in either case: a folder with a manifest is a whole dataset.
   ///
   /// `names` are the files that the run is going to write, relative to the folder. A file in the way of one of them
   /// that neither manifest nor journal lists, or a link in place of a folder, is a UsageError before anything is

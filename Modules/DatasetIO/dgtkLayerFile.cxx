@@ -8,11 +8,11 @@
 namespace dgtk
 {
 
-LayerFileWriter::LayerFileWriter(const std::string& path, const LayerSpec& spec, int width, int height)
+LayerFileWriter::LayerFileWriter(const FilePlace& path, const LayerSpec& spec, int width, int height)
   : Spec(spec)
   , Width(width)
   , Height(height)
-  , Path(path)
+  , Path(path.path())
   , File(path)
 {
 }

@@ -18,7 +18,7 @@ namespace dgtk
 class LayerFileWriter : public LayerWriter
 {
 public:
-  LayerFileWriter(const std::string& path, const LayerSpec& spec, int width, int height);
+  LayerFileWriter(const FilePlace& path, const LayerSpec& spec, int width, int height);
   void write(const Rows& rows) final;
   FileRecord finish() final;
 

@@ -79,7 +79,7 @@ std::uint32_t largestStored(const std::string& format, const LayerSpec& spec)
   return storedSpec(format, spec).invalid == spec.invalid ? largest : largest - 1;
 }
 
-std::unique_ptr<LayerWriter> makeLayerWriter(const std::string& format, const std::string& path, const LayerSpec& spec,
+std::unique_ptr<LayerWriter> makeLayerWriter(const std::string& format, const FilePlace& path, const LayerSpec& spec,
   int width, int height, const LayerWriterContext& context)
 {
   const WriterRow* row = findWriter(format);
@@ -94,8 +94,8 @@ std::unique_ptr<LayerWriter> makeLayerWriter(const std::string& format, const st
   }
   if (width < 1 || height < 1)
   {
-    throw UsageError(
-      path + ": an image of " + std::to_string(width) + " x " + std::to_string(height) + " pixels cannot be written");
+    throw UsageError(path.path() + ": an image of " + std::to_string(width) + " x " + std::to_string(height) +
+                     " pixels cannot be written");
   }
   return row->entry->open(path, spec, width, height, context);
 }

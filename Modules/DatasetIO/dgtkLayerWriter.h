@@ -4,6 +4,7 @@
 
 #include "dgtkDatasetIOModule.h"
 
+#include "dgtkFile.h"
 #include "dgtkLayer.h"
 
 #include <Eigen/Core>
@@ -70,7 +71,7 @@ DGTKDATASETIO_EXPORT std::uint32_t largestStored(const std::string& format, cons
 
 /// Opens a writer. Throws UsageError for an unknown format or one that cannot hold the layer, MachineError when the
 /// file cannot be made.
-DGTKDATASETIO_EXPORT std::unique_ptr<LayerWriter> makeLayerWriter(const std::string& format, const std::string& path,
+DGTKDATASETIO_EXPORT std::unique_ptr<LayerWriter> makeLayerWriter(const std::string& format, const FilePlace& path,
   const LayerSpec& spec, int width, int height, const LayerWriterContext& context = {});
 
 } // namespace dgtk

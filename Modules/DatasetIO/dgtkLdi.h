@@ -50,7 +50,7 @@ public:
 /// A (float32, linear light, premultiplied), Z (float32 depth), id, part, triangle (uint32). Throws UsageError for
 /// another format.
 DGTKDATASETIO_EXPORT std::unique_ptr<LdiWriter> makeLdiWriter(
-  const std::string& format, const std::string& path, int width, int height);
+  const std::string& format, const FilePlace& path, int width, int height);
 
 /// One record of a .ldi file.
 struct LdiRecord

@@ -12,7 +12,7 @@ namespace dgtk
 class LdiFileWriter : public LdiWriter
 {
 public:
-  LdiFileWriter(const std::string& path, int width, int height);
+  LdiFileWriter(const FilePlace& path, int width, int height);
   void write(const LdiRows& rows) final;
   FileRecord finish() final;
 
@@ -31,7 +31,7 @@ private:
   bool Finished = false;
 };
 
-std::unique_ptr<LdiWriter> makeDeepExrWriter(const std::string& path, int width, int height);
+std::unique_ptr<LdiWriter> makeDeepExrWriter(const FilePlace& path, int width, int height);
 
 } // namespace dgtk
 

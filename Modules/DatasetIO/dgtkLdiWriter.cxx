@@ -11,8 +11,8 @@
 namespace dgtk
 {
 
-LdiFileWriter::LdiFileWriter(const std::string& path, int width, int height)
-  : Path(path)
+LdiFileWriter::LdiFileWriter(const FilePlace& path, int width, int height)
+  : Path(path.path())
   , Width(width)
   , Height(height)
   , File(path)
@@ -61,7 +61,7 @@ std::uint8_t rounded(float value)
 class ThesisLdiWriter : public LdiFileWriter
 {
 public:
-  ThesisLdiWriter(const std::string& path, int width, int height)
+  ThesisLdiWriter(const FilePlace& path, int width, int height)
     : LdiFileWriter(path, width, height)
   {
     putLittle(this->Buffer, static_cast<std::int32_t>(width));
@@ -112,7 +112,7 @@ private:
 };
 } // namespace
 
-std::unique_ptr<LdiWriter> makeLdiWriter(const std::string& format, const std::string& path, int width, int height)
+std::unique_ptr<LdiWriter> makeLdiWriter(const std::string& format, const FilePlace& path, int width, int height)
 {
   if (format == "ldi")
   {

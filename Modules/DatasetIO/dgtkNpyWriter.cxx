@@ -30,7 +30,7 @@ const char* descriptorOf(PixelType type)
 class NpyWriter : public LayerFileWriter
 {
 public:
-  NpyWriter(const std::string& path, const LayerSpec& spec, int width, int height)
+  NpyWriter(const FilePlace& path, const LayerSpec& spec, int width, int height)
     : LayerFileWriter(path, spec, width, height)
   {
     std::string text = std::string("{'descr': '") + descriptorOf(spec.type) + "', 'fortran_order': False, 'shape': (" +
@@ -51,7 +51,7 @@ protected:
 bool canWriteNpy(const LayerSpec&) { return true; }
 
 std::unique_ptr<LayerWriter> openNpy(
-  const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext&)
+  const FilePlace& path, const LayerSpec& spec, int width, int height, const LayerWriterContext&)
 {
   return std::make_unique<NpyWriter>(path, spec, width, height);
 }

@@ -11,7 +11,7 @@ namespace
 class PfmWriter : public LayerFileWriter
 {
 public:
-  PfmWriter(const std::string& path, const LayerSpec& spec, int width, int height)
+  PfmWriter(const FilePlace& path, const LayerSpec& spec, int width, int height)
     : LayerFileWriter(path, spec, width, height)
   {
     const std::string header =
@@ -52,7 +52,7 @@ bool canWritePfm(const LayerSpec& spec)
 }
 
 std::unique_ptr<LayerWriter> openPfm(
-  const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext&)
+  const FilePlace& path, const LayerSpec& spec, int width, int height, const LayerWriterContext&)
 {
   return std::make_unique<PfmWriter>(path, spec, width, height);
 }

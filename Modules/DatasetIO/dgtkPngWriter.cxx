@@ -47,7 +47,7 @@ PngEncoder::Header headerOf(const LayerSpec& spec, int width, int height)
 class PngWriter : public LayerFileWriter
 {
 public:
-  PngWriter(const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
+  PngWriter(const FilePlace& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
     : LayerFileWriter(path, spec, width, height)
     , Encoder(headerOf(spec, width, height), [this](const void* data, std::size_t n) { this->append(data, n); })
     , Row(Encoder.rowBytes())
@@ -55,7 +55,7 @@ public:
   {
     if (isFloat(spec.type))
     {
-      this->Picture.emplace(context.near, context.far, path);
+      this->Picture.emplace(context.near, context.far, path.path());
     }
   }
 
@@ -132,7 +132,7 @@ bool canWritePng(const LayerSpec& spec)
 }
 
 std::unique_ptr<LayerWriter> openPng(
-  const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
+  const FilePlace& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context)
 {
   return std::make_unique<PngWriter>(path, spec, width, height, context);
 }

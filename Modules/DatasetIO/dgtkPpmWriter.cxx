@@ -12,7 +12,7 @@ namespace
 class PpmWriter : public LayerFileWriter
 {
 public:
-  PpmWriter(const std::string& path, const LayerSpec& spec, int width, int height)
+  PpmWriter(const FilePlace& path, const LayerSpec& spec, int width, int height)
     : LayerFileWriter(path, spec, width, height)
   {
     this->append("P6\n" + std::to_string(width) + ' ' + std::to_string(height) + '\n' +
@@ -78,7 +78,7 @@ bool canWritePpm(const LayerSpec& spec)
 }
 
 std::unique_ptr<LayerWriter> openPpm(
-  const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext&)
+  const FilePlace& path, const LayerSpec& spec, int width, int height, const LayerWriterContext&)
 {
   return std::make_unique<PpmWriter>(path, spec, width, height);
 }

@@ -18,7 +18,7 @@ struct WriterEntry
   bool (*canWrite)(const LayerSpec& spec);
   /// Called with a size of at least 1 x 1 and a specification that canWrite() accepts.
   std::unique_ptr<LayerWriter> (*open)(
-    const std::string& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context);
+    const FilePlace& path, const LayerSpec& spec, int width, int height, const LayerWriterContext& context);
   bool rounds = false;                  ///< float64 to float32
   std::uint32_t largestId = 0xffffffff; ///< of a uint32 layer
   bool marksNothing = false;            ///< it gives up its largest id where a layer's code for nothing does not fit

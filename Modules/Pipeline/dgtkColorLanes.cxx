@@ -32,7 +32,7 @@ public:
     , Name(name)
     , Rgb(rgb)
     , Writer(makeLayerWriter(
-        format, plan.request.folder + '/' + this->Name, this->Spec, view.model->width(), view.model->height()))
+        format, FilePlace(plan.request.folder, this->Name), this->Spec, view.model->width(), view.model->height()))
   {
   }
 
@@ -104,7 +104,7 @@ private:
     {
       const std::string& name = this->Names[this->Files.size() + this->Writers.size()];
       this->Writers.push_back(makeLayerWriter(
-        "png", this->Folder + '/' + name, this->Spec, std::min(this->TileWidth, this->Width - x), height));
+        "png", FilePlace(this->Folder, name), this->Spec, std::min(this->TileWidth, this->Width - x), height));
     }
   }
 

@@ -6,6 +6,7 @@
 #include "dgtkSceneQueries.h"
 
 #include "dgtkDatasetDocuments.h"
+#include "dgtkFile.h"
 
 #include <memory>
 #include <string>
@@ -25,8 +26,8 @@ struct JobContext
   SceneQueries& queries; ///< other frames and cameras
   ThreadPool& pool;
 
-  /// Absolute or working-directory path of a file of the dataset.
-  std::string path(const std::string& name) const { return this->plan.request.folder + '/' + name; }
+  /// Where a file of the dataset goes.
+  FilePlace path(const std::string& name) const { return { this->plan.request.folder, name }; }
 };
 
 /// A layer that needs more than a pixel of one visibility buffer: neighbours, other views, samples, objects. Stateless;

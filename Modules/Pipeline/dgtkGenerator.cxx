@@ -339,7 +339,7 @@ void Run::render(const Job& job)
   this->Files->plan(names);
   for (const std::string& name : names)
   {
-    makeFolders(this->Plan.request.folder + '/' + name.substr(0, name.rfind('/')));
+    Folder(request.folder).makeParents(name);
   }
   auto output = std::make_unique<FrameOutput>(
     JobContext{ this->Plan, job, this->cameraName(job), state, view, this->Queries, *this->Pool });

@@ -38,7 +38,7 @@ public:
       for (const std::string& format : planned.formats)
       {
         const std::string name = WorkPlan::fileName(camera, planned.spec.name, job.frame, formatExtension(format));
-        layer.files.push_back({ makeLayerWriter(format, plan.request.folder + '/' + name, planned.spec,
+        layer.files.push_back({ makeLayerWriter(format, FilePlace(plan.request.folder, name), planned.spec,
                                   view.model->width(), view.model->height(), context),
           name });
       }

@@ -89,7 +89,13 @@ struct PovColorSource::Studio
     , folder(s.folder + "/.povray")
   {
   }
-  ~Studio() { this->clear(); }
+  ~Studio()
+  {
+    if (this->runner)
+    {
+      this->clear();
+    }
+  }
 
   void clear() const
   {

@@ -91,7 +91,8 @@ public:
   }
   std::unique_ptr<OutputLane> makeLane(const JobContext& context) const override
   {
-    makeFolders(context.path(LibraryFolder));
+    const FilePlace library = context.path(std::string(LibraryFolder) + "/library");
+    library.folder().makeParents(library.name());
     return std::make_unique<PovLane>(context);
   }
 };

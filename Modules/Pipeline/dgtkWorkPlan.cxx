@@ -118,6 +118,11 @@ std::vector<int> resolveFrames(const std::optional<FrameRange>& asked, const Sce
                      std::to_string(scene.lastFrame()) + ", found " +
                      std::to_string(range.first < scene.firstFrame() ? range.first : range.last));
   }
+  if (range.last < range.first || range.step < 1)
+  {
+    throw UsageError("frames: expected first <= last and a step of at least 1, found " + std::to_string(range.first) +
+                     " to " + std::to_string(range.last) + " by " + std::to_string(range.step));
+  }
   std::vector<int> frames;
   for (long frame = range.first; frame <= range.last; frame += range.step)
   {

@@ -43,7 +43,7 @@ void writeScene(const SceneDescription& scene, const std::string& path)
   {
     throw UsageError("a scene cannot be written as " + quoted(path) + " (expected a name in .scene or .json)");
   }
-  writeFile(path, extension == "json" ? toJson(scene, folderOf(path)) : toThesisScene(scene, folderOf(path)));
+  writeFileDurably(path, extension == "json" ? toJson(scene, folderOf(path)) : toThesisScene(scene, folderOf(path)));
 }
 
 } // namespace dgtk

@@ -49,7 +49,7 @@ void checkUnlisted(const Dataset& dataset, Meter& meter)
   for (const auto& entry : fs::recursive_directory_iterator(dataset.folder()))
   {
     const std::string path = entry.path().lexically_relative(dataset.folder()).generic_string();
-    if (!entry.is_directory() && path != "manifest.json" && path != "verification.json")
+    if ((entry.is_symlink() || !entry.is_directory()) && path != "manifest.json" && path != "verification.json")
     {
       present.insert(path);
     }

@@ -2,6 +2,7 @@
 #include "dgtkDataset.h"
 
 #include "dgtkError.h"
+#include "dgtkFolder.h"
 #include "dgtkRaySource.h"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ double PictureFile::rounding(double value) const
 
 Dataset::Dataset(const std::string& folder, int threads)
   : Folder(folder)
-  , TheManifest(readManifest(folder + "/manifest.json"))
+  , TheManifest(readManifestIn(folder))
   , Pool(threads)
 {
   this->index();
@@ -102,7 +103,7 @@ void Dataset::readDocuments()
   {
     try
     {
-      read(this->absolute(file));
+      read(dgtk::Folder(this->Folder).fileAt(file));
     }
     catch (const Error& error)
     {

@@ -139,6 +139,22 @@ class Resume(Case):
                 self.write(name, data)
         self.dgtk(*render, "--resume")
 
+    def test_what_a_power_cut_leaves_is_not_kept(self):
+        """Files with their names and sizes, and full of zeros."""
+        render = ("render", SCENE, "--quiet", "--layers", "depth,objects", "--size", "64x48", "--frames", "0:3")
+        self.dgtk(*render, "-o", self.path("whole"))
+        self.dgtk(*render, "-o", self.path("d"))
+        self.unfinish(self.path("d"))
+        names = [n for n in digests(self.path("d")) if n.endswith((".npy", ".ppm"))]
+        kept = {n: os.stat(self.path("d", n)).st_mtime_ns for n in names}
+        with open(self.path("d", names[1]), "r+b") as file:
+            size = os.path.getsize(file.name)
+            file.truncate(0)
+            file.truncate(size)
+        self.dgtk(*render, "-o", self.path("d"), "--resume")
+        self.assert_same_files(self.path("whole"), self.path("d"))
+        self.assertTrue([n for n, t in kept.items() if os.stat(self.path("d", n)).st_mtime_ns == t], "nothing was kept")
+
     def test_every_seed_is_a_request_of_its_own(self):
         render = ("render", SCENE, "-o", self.path("d"), "--quiet", "--layers", "depth", "--size", "32x24", "--frames", "0:1")
         self.dgtk(*render, "--seed", "7")

@@ -9,7 +9,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <deque>
 #include <filesystem>
+
+#include <sys/resource.h>
 
 using dgtk::test::contentsOf;
 using dgtk::test::TemporaryFolder;
@@ -62,6 +65,64 @@ TEST(AtomicFile, FailureNamesTheFile)
   {
     EXPECT_THAT(error.what(), testing::HasSubstr("/proc/nowhere/x: cannot be written"));
   }
+}
+
+TEST(AtomicFile, ReplacesLinksAndWritesThroughNone)
+{
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  dgtk::writeFile(folder.path("theirs"), "theirs");
+  for (const char* name : { "x", "x.partial" })
+  {
+    fs::create_symlink("theirs", folder.path(name));
+    dgtk::writeFile(folder.path("x"), "ours");
+    EXPECT_EQ(contentsOf(folder.path("theirs")), "theirs");
+    EXPECT_FALSE(fs::is_symlink(folder.path("x")));
+    fs::remove(folder.path("x"));
+    fs::create_hard_link(folder.path("theirs"), folder.path(name));
+    dgtk::writeFileDurably(folder.path("x"), "ours");
+    EXPECT_EQ(contentsOf(folder.path("theirs")), "theirs");
+    EXPECT_EQ(contentsOf(folder.path("x")), "ours");
+    fs::remove(folder.path("x"));
+  }
+  fs::create_directory(folder.path("in"));
+  fs::create_symlink("in", folder.path("link"));
+  EXPECT_THROW(dgtk::writeFile({ folder.path(), "link/x" }, ""), dgtk::MachineError);
+  EXPECT_TRUE(fs::is_empty(folder.path("in")));
+  dgtk::writeFile(folder.path("link/x"), "the path is somebody's own"); // as the system walks
+  EXPECT_TRUE(fs::exists(folder.path("in/x")));
+}
+
+TEST(AtomicFile, MoreTogetherThanDescriptors)
+{
+  constexpr rlim_t few = 64;
+  struct rlimit before = {};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const struct rlimit limit = { few, before.rlim_max };
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &limit), 0);
+  const TemporaryFolder folder;
+  std::deque<dgtk::AtomicFile> files;
+  for (std::size_t i = 0; i < 3 * few; ++i)
+  {
+    files.emplace_back(folder.path(std::to_string(i)));
+  }
+  for (const char* text : { "one ", "two ", "three" })
+  {
+    for (dgtk::AtomicFile& file : files)
+    {
+      file.write(text);
+    }
+  }
+  for (dgtk::AtomicFile& file : files)
+  {
+    file.writeAt(0, "O", 1);
+    file.commit();
+  }
+  for (std::size_t i = 0; i < files.size(); ++i)
+  {
+    EXPECT_EQ(contentsOf(folder.path(std::to_string(i))), "One two three");
+  }
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
 }
 
 TEST(ReadFile, RefusesFoldersAndMissingFiles)

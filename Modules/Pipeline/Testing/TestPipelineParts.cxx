@@ -1,15 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkError.h"
+#include "dgtkGenerator.h"
 #include "dgtkOutputLanes.h"
 #include "dgtkSerialQueue.h"
+#include "dgtkTestSupport.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 using namespace dgtk;
+
+TEST(Generator, RefusesFramesThatAreNone)
+{
+  const test::TemporaryFolder folder;
+  GeneratorRequest request;
+  request.scene = test::sourceFile("Data/Scenes/demo.json");
+  request.folder = folder.path("d");
+  request.layers = { "depth" };
+  for (const FrameRange& frames : { FrameRange{ 2, 1, 1 }, FrameRange{ 0, 2, 0 }, FrameRange{ 0, 2, -1 } })
+  {
+    request.frames = frames;
+    EXPECT_THROW(generate(request), UsageError);
+    EXPECT_THROW(requestHash(request), UsageError);
+  }
+  EXPECT_FALSE(std::filesystem::exists(request.folder));
+}
 
 TEST(SerialQueue, KeepsTheOrderOfEachQueueOnAnyNumberOfThreads)
 {
