@@ -11,6 +11,7 @@
 #include "dgtkPacking.h"
 #include "dgtkRunFiles.h"
 #include "dgtkRunNotes.h"
+#include "dgtkSpaceNeeded.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWorkPlan.h"
 
@@ -176,6 +177,12 @@ GeneratorResult Run::execute()
   {
     this->Packed = planPacking(*this->Scene, request.folder);
   }
+  const SpaceNeeded needed = spaceOf(this->Plan, *this->Scene);
+  const std::string tight = checkSpace(request.folder, needed, spaceIn(request.folder, needed.likely));
+  if (!tight.empty())
+  {
+    this->warn(tight);
+  }
   this->Files = std::make_unique<RunFiles>(request.folder, this->RequestHash, startOf(request), this->allNames());
   if (this->Plan.has("pov"))
   {
@@ -241,7 +248,7 @@ void Run::pack()
     {
       continue;
     }
-    makeFolders(folder + '/' + to.substr(0, to.rfind('/')));
+    Folder(folder).makeParents(to);
     this->Files->plan({ to });
     const DatasetFile copy = writeDocument(folder, to, readFile(files[i]));
     if (copy.sha256 != inputs[i].sha256)

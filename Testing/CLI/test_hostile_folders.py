@@ -4,7 +4,7 @@ import json
 import os
 import shutil
 
-from harness import Case, digests, main
+from harness import Case, main
 
 ENTRY = {"bytes": 4, "sha256": "0" * 64, "layer": "depth", "camera": "left", "frame": 0}
 STARTS = ((), ("--replace",), ("--resume",))
@@ -46,16 +46,20 @@ class HostileFolders(Case):
             os.remove(path)
         os.symlink(target, path)
 
+    def names(self):
+        """What stands in the folder, links included and not followed."""
+        return sorted(os.path.join(root, name) for root, folders, files in os.walk(self.data) for name in folders + files)
+
     def test_linked_folders(self):
         for name, target in (("left", "../outside"), ("left/depth", "../../outside"), ("left", self.path("outside")), ("left", "left"),
                              ("left/depth", "../../nowhere")):
             with self.subTest(name=name, target=target):
                 self.fresh()
                 self.link(name, target)
-                before = {n for n in digests(self.data)}
+                before = self.names()
                 for start in STARTS:
                     self.refused(*self.render, "-o", self.data, *start, status=2, says="a link or a file stands where a folder of the dataset has to be")
-                self.assertEqual({n for n in digests(self.data)}, before)
+                self.assertEqual(self.names(), before)
                 self.refused("verify", self.data, status=3, says="through a link")
                 self.refused("compare", self.data, self.path("whole"), status=3, says="through a link")
 

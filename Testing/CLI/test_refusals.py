@@ -80,10 +80,12 @@ class Machine(Case):
                 ["mount", "-t", "tmpfs", "-o", "size=256k", "none", self.path("small")], capture_output=True).returncode:
             self.skipTest("only root may mount a small disk")
         try:
-            line = self.refused("render", os.path.join(SCENES, "demo.json"), "-o", self.path("small", "out"), "--quiet",
-                                "--layers", "depth", "--frames", "0", "--size", "640x480", status=4, says="No space left")
-            self.assertIn(".npy", line)
-            left = [n for n in digests(self.path("small")) if n.endswith((".npy", "manifest.json"))]
+            words = ("render", os.path.join(SCENES, "demo.json"), "-o", self.path("small", "out"), "--quiet", "--frames", "0", "--size", "640x480")
+            self.refused(*words, "--layers", "depth", status=4, says=("needs at least 4.92 MB", "there are 262 KB"))
+            self.assertFalse(os.path.exists(self.path("small", "out")))
+            line = self.refused(*words, "--layers", "normal", "--normal-format", "exr", status=4, says="No space left")
+            self.assertIn(".exr", line)
+            left = [n for n in digests(self.path("small")) if n.endswith((".exr", "manifest.json"))]
             self.assertEqual(left, [], "half-written files")
         finally:
             subprocess.run(["umount", self.path("small")], check=True)

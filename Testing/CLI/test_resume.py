@@ -131,8 +131,7 @@ class Resume(Case):
         render = ("render", scene, "-o", self.path("d"), "--quiet", "--layers", "depth")
         self.dgtk(*render)
         self.unfinish(self.path("d"))
-        for name in ("a.obj", "a.ppm"):
-            data = files[name]
+        for name, data in files.items():
             with self.subTest(name):
                 self.write(name, data[:-1] + b"2")  # the size tells nothing
                 self.refused(*render, "--resume", status=2, says="unfinished run of another request")
