@@ -117,7 +117,7 @@ class Correspond(Case):
         self.refused("correspond", STEREO, "--from", "left", "--points", points, status=2, says="--to")
         self.refused("correspond", STEREO, "--from", "left@7", "--to", "right", "--points", points, status=2, says="frame")
         self.refused("render", STEREO, "-o", self.path("x"), "--layers", "correspondence", "--pairs", "left:top", status=2, says="'left:top'")
-        self.refused("render", FLOW, "-o", self.path("x"), "--layers", "disparity", status=2, says="no such pair")
+        self.refused("render", FLOW, "-o", self.path("x"), "--layers", "disparity", status=2, says="two cameras side by side")
 
     def test_same_bytes_for_any_number_of_threads(self):
         layers = "correspondence,disparity,edges,classes"
