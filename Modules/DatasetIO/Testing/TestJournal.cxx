@@ -31,6 +31,16 @@ constexpr JournalStart fresh = JournalStart::Fresh;
 constexpr JournalStart resume = JournalStart::Resume;
 constexpr JournalStart replace = JournalStart::Replace;
 
+/// A dataset of request "one" that holds one file.
+void finishRun(const std::string& folder, const std::string& name)
+{
+  Journal journal(folder, "one", fresh);
+  Manifest manifest;
+  manifest.requestHash = "one";
+  manifest.files.push_back(addFile(journal, folder, name, "1"));
+  journal.close(manifest);
+}
+
 std::string refusal(
   const std::string& folder, const std::string& hash, JournalStart start, const std::vector<std::string>& names = {})
 {
@@ -108,13 +118,7 @@ TEST(Journal, ClosedIsAManifestAndNoJournal)
 TEST(Journal, ReplacingRemovesWhatTheOldRunListed)
 {
   const TemporaryFolder folder;
-  {
-    Journal journal(folder.path(), "one", fresh);
-    Manifest manifest;
-    manifest.requestHash = "one";
-    manifest.files.push_back(addFile(journal, folder.path(), "a/depth/000000.npy", "1"));
-    journal.close(manifest);
-  }
+  finishRun(folder.path(), "a/depth/000000.npy");
   writeFile(folder.path("notes.txt"), "mine");
   writeFile(folder.path("notes.txt.partial"), "mine");
   {
@@ -135,13 +139,7 @@ TEST(Journal, ReplacingRemovesWhatTheOldRunListed)
 TEST(Journal, TheSameRequestIsMadeAnew)
 {
   const TemporaryFolder folder;
-  {
-    Journal journal(folder.path(), "one", fresh);
-    Manifest manifest;
-    manifest.requestHash = "one";
-    manifest.files.push_back(addFile(journal, folder.path(), "a", "1"));
-    journal.close(manifest);
-  }
+  finishRun(folder.path(), "a");
   const Journal journal(folder.path(), "one", fresh);
   EXPECT_TRUE(journal.finished().empty());
   EXPECT_FALSE(fs::exists(folder.path("a")));
@@ -176,13 +174,7 @@ TEST(Journal, ListsThatLeadOutOfTheFolderAreNotOurs)
 TEST(Journal, AFileThatNobodyHasWrittenIsNotReplaced)
 {
   const TemporaryFolder folder;
-  {
-    Journal journal(folder.path(), "one", fresh);
-    Manifest manifest;
-    manifest.requestHash = "one";
-    manifest.files.push_back(addFile(journal, folder.path(), "a", "1"));
-    journal.close(manifest);
-  }
+  finishRun(folder.path(), "a");
   writeFile(folder.path("b"), "mine");
   for (const JournalStart start : { fresh, resume, replace })
   {
