@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkDeepExrFile.h"
 #include "dgtkLdiFile.h"
 
 #include "dgtkError.h"
 #include "dgtkHash.h"
 
-#include <OpenImageIO/deepdata.h>
-#include <OpenImageIO/imageio.h>
-
-#include <cmath>
+#include <dlfcn.h>
 #include <filesystem>
 
 namespace dgtk
@@ -15,15 +13,21 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* channelNames[] = { "R", "G", "B", "A", "Z", "id", "part", "triangle" };
-constexpr int floatChannels = 5;
-constexpr int channelCount = 8;
-// OpenImageIO would write the time of day.
-constexpr const char* noDate = "1970:01:01 00:00:00";
-
-float linearFromEncoded(float v) // IEC 61966-2-1
+/// The function of the library dgtkdeepexr, which stands beside this one and is loaded once.
+decltype(&dgtkNewDeepExrFile) deepExrLibrary()
 {
-  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+  static void* const found = []() -> void*
+  {
+    Dl_info self;
+    if (::dladdr(reinterpret_cast<const void*>(&makeDeepExrWriter), &self) == 0)
+    {
+      return nullptr;
+    }
+    const std::string path = std::filesystem::path(self.dli_fname).replace_filename("libdgtkdeepexr.so").string();
+    void* const library = ::dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
+    return library != nullptr ? ::dlsym(library, "dgtkNewDeepExrFile") : nullptr;
+  }();
+  return reinterpret_cast<decltype(&dgtkNewDeepExrFile)>(found);
 }
 
 class DeepExrWriter : public LdiFileWriter
@@ -31,83 +35,37 @@ class DeepExrWriter : public LdiFileWriter
 public:
   DeepExrWriter(const FilePlace& path, int width, int height)
     : LdiFileWriter(path, width, height)
-    , Spec(width, height, channelCount, OIIO::TypeDesc::FLOAT)
-    , Output(OIIO::ImageOutput::create("exr"))
   {
-    this->Spec.deep = true;
-    this->Spec.channelnames.assign(channelNames, channelNames + channelCount);
-    this->Spec.alpha_channel = 3;
-    this->Spec.z_channel = 4;
-    this->Spec.channelformats.assign(floatChannels, OIIO::TypeDesc::FLOAT);
-    this->Spec.channelformats.resize(channelCount, OIIO::TypeDesc::UINT32);
-    this->Spec.attribute("compression", "zips");
-    this->Spec.attribute("DateTime", noDate);
-    this->Spec.attribute("oiio:ColorSpace", "Linear");
-    if (!this->Output || !this->Output->supports("deepdata") ||
-        !this->Output->open(this->File.temporaryPath(), this->Spec))
+    const auto make = deepExrLibrary();
+    if (make == nullptr)
     {
-      this->fail();
+      throw MachineError(
+        this->Path + ": cannot be written: the library libdgtkdeepexr.so is missing or cannot be loaded");
     }
+    this->Output.reset(make(this->File.temporaryPath(), width, height));
+    this->require(this->Output->opened());
   }
 
 protected:
-  void writeRows(const LdiRows& rows) override
-  {
-    const std::size_t pixels = rows.counts.size();
-    if (pixels == 0)
-    {
-      return;
-    }
-    OIIO::DeepData deep;
-    deep.init(static_cast<std::int64_t>(pixels), channelCount, this->Spec.channelformats, this->Spec.channelnames);
-    deep.set_all_samples(rows.counts);
-    const LdiSurface* surface = rows.surfaces.data();
-    for (std::size_t i = 0; i < pixels; ++i)
-    {
-      for (std::uint32_t s = 0; s < rows.counts[i]; ++s, ++surface)
-      {
-        set(deep, static_cast<std::int64_t>(i), static_cast<int>(s), *surface);
-      }
-    }
-    if (!this->Output->write_deep_scanlines(rows.y, rows.y + rows.height, 0, deep))
-    {
-      this->fail();
-    }
-  }
+  void writeRows(const LdiRows& rows) override { this->require(rows.counts.empty() || this->Output->write(rows)); }
 
   FileRecord complete() override
   {
-    if (!this->Output->close())
-    {
-      this->fail();
-    }
+    this->require(this->Output->close());
     const std::string& file = this->File.temporaryPath();
     return { {}, std::filesystem::file_size(file), Sha256::ofFile(file) };
   }
 
 private:
-  static void set(OIIO::DeepData& deep, std::int64_t pixel, int sample, const LdiSurface& surface)
+  void require(bool done) const
   {
-    const float alpha = surface.rgba[3];
-    for (int c = 0; c < 3; ++c)
+    if (!done)
     {
-      deep.set_deep_value(pixel, c, sample, linearFromEncoded(surface.rgba[c]) * alpha);
+      throw MachineError(this->Path + ": cannot be written: " + this->Output->error());
     }
-    deep.set_deep_value(pixel, 3, sample, alpha);
-    deep.set_deep_value(pixel, 4, sample, static_cast<float>(surface.depth));
-    deep.set_deep_value(pixel, 5, sample, surface.object);
-    deep.set_deep_value(pixel, 6, sample, surface.part);
-    deep.set_deep_value(pixel, 7, sample, surface.triangle);
   }
 
-  [[noreturn]] void fail() const
-  {
-    const std::string why = this->Output ? this->Output->geterror() : OIIO::geterror();
-    throw MachineError(this->Path + ": cannot be written: " + (why.empty() ? "OpenImageIO has no deep EXR" : why));
-  }
-
-  OIIO::ImageSpec Spec;
-  std::unique_ptr<OIIO::ImageOutput> Output;
+  std::unique_ptr<DeepExrFile> Output;
 };
 } // namespace
 

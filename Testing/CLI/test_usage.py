@@ -19,6 +19,12 @@ class Usage(Case):
     def test_version(self):
         self.assertRegex(self.dgtk("--version").stdout, r"^dgtk \d+\.\d+\.\d+\n$")
 
+    def test_starts_without_the_libraries_of_decoders_and_windows(self):
+        libraries = self.dgtk("--version", environment={"LD_TRACE_LOADED_OBJECTS": "1"}).stdout
+        self.assertIn("libdgtkPipeline", libraries)
+        for name in ("OpenImageIO", "avcodec", "Qt5", "assimp"):
+            self.assertNotIn(name, libraries)
+
     def test_wrong_usage_is_one_line_and_status_2(self):
         self.refused(status=2, says="a command is missing")
         self.refused("rendr", status=2, says="did you mean render?")

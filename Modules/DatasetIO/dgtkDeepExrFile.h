@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkDeepExrFile_h
+#define dgtkDeepExrFile_h
+
+#include "dgtkLdi.h"
+
+#include <string>
+
+namespace dgtk
+{
+
+/// A deep OpenEXR file that is being written; of the library dgtkdeepexr.
+class DeepExrFile
+{
+public:
+  virtual ~DeepExrFile() = default;
+  virtual bool opened() const = 0;
+  /// The next rows, at least one pixel.
+  virtual bool write(const LdiRows& rows) = 0;
+  virtual bool close() = 0;
+  /// Why one of these failed.
+  virtual std::string error() const = 0;
+};
+
+} // namespace dgtk
+
+#define DGTK_DEEP_EXR_EXPORT __attribute__((visibility("default")))
+/// Never null; the caller deletes it.
+extern "C" DGTK_DEEP_EXR_EXPORT dgtk::DeepExrFile* dgtkNewDeepExrFile(const std::string& path, int width, int height);
+
+#endif
