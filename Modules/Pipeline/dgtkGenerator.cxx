@@ -273,6 +273,10 @@ void Run::sayNotes()
   {
     this->warn(line);
   }
+  for (const std::string& line : coarseShadowLines(this->Plan, *this->Scene))
+  {
+    this->warn(line);
+  }
   if ((request.renderer == "povray" && this->Plan.drawsColor()) || this->Plan.has("pov"))
   {
     const Job& first = this->Plan.jobs.front();

@@ -3,8 +3,10 @@
 
 #include "dgtkError.h"
 #include "dgtkFrameLayers.h"
+#include "dgtkShadowNotes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <set>
@@ -98,6 +100,14 @@ bool reaches(const View& view, const LinearProjection& lens, const Box& box, con
   return (most.array() >= 0).all();
 }
 
+constexpr std::size_t mostLookedAt = 64; // pictures of a run, for how coarse shadows are
+
+bool castsShadows(const SceneDescription& scene)
+{
+  return std::any_of(
+    scene.lights.begin(), scene.lights.end(), [](const auto& light) { return light.enabled && light.shadows; });
+}
+
 bool seesAnything(const View& view, const SceneState& state, std::map<const Geometry*, Box>& boxes)
 {
   const auto lens = view.model->linear();
@@ -140,6 +150,47 @@ std::vector<std::string> blindPictures(const WorkPlan& plan, const Stage& stage)
   for (const std::size_t camera : blind)
   {
     lines.push_back("camera " + quoted(stage.cameraNames()[camera]) + " sees no object at any frame of this run");
+  }
+  return lines;
+}
+
+std::vector<std::string> coarseShadowLines(const WorkPlan& plan, const Stage& stage)
+{
+  if (!plan.drawsColor() || plan.request.renderer != "vtk" || !castsShadows(stage.description()))
+  {
+    return {};
+  }
+  struct Worst
+  {
+    double pixels = 0;
+    int size = 0;
+    Job job;
+  };
+  std::map<std::string, Worst> coarse; // by the light's name
+  const std::size_t step = (plan.jobs.size() + mostLookedAt - 1) / mostLookedAt;
+  std::shared_ptr<const SceneState> state;
+  for (std::size_t i = 0; i < plan.jobs.size(); i += step)
+  {
+    const Job& job = plan.jobs[i];
+    if (!state || state->frame != job.frame)
+    {
+      state = stage.at(job.frame);
+    }
+    const View view = stage.view(job.camera, job.frame, plan.request.width, plan.request.height);
+    for (const CoarseShadow& found : coarseShadows(*state, view))
+    {
+      const LightState& light = state->lights[found.light];
+      Worst& worst = coarse[light.name];
+      worst = found.pixels > worst.pixels ? Worst{ found.pixels, light.shadowSize, job } : worst;
+    }
+  }
+  std::vector<std::string> lines;
+  for (const auto& [light, worst] : coarse)
+  {
+    lines.push_back("light " + quoted(light) + ": its shadows are coarse: a texel of the map (shadowSize " +
+                    std::to_string(worst.size) + ") is up to " + std::to_string(std::lround(worst.pixels)) +
+                    " pixels large (camera " + quoted(stage.cameraNames()[worst.job.camera]) + ", frame " +
+                    std::to_string(worst.job.frame) + ')');
   }
   return lines;
 }

@@ -131,43 +131,30 @@ void RasterScene::aim(const RasterCamera& camera, int width, int height)
   ++this->Frame.lightsVersion;
 }
 
-BoundingBall RasterScene::ball() const
+void RasterScene::setView(const View& view)
 {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300);
-  Eigen::Vector3d high = -low;
-  for (const Draw& draw : this->Draws)
-  {
-    const Instance& instance = this->State->instances[draw.instance];
-    for (int corner = 0; corner < 8 && draw.chunk->boxMin.x() <= draw.chunk->boxMax.x(); ++corner)
-    {
-      const Eigen::Vector3d local((corner & 1 ? draw.chunk->boxMax : draw.chunk->boxMin).x(),
-        (corner & 2 ? draw.chunk->boxMax : draw.chunk->boxMin).y(),
-        (corner & 4 ? draw.chunk->boxMax : draw.chunk->boxMin).z());
-      const Eigen::Vector3d x = instance.world_from_object * (local + draw.variant->shared->origin);
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
-  }
-  return low.x() > high.x() ? BoundingBall() : BoundingBall{ (low + high) / 2, (high - low).norm() / 2 };
+  const Rigid3& before = this->Seen.camera_from_world;
+  const Rigid3& now = view.camera_from_world;
+  const bool same = this->Seen.model == view.model && before.rotation == now.rotation &&
+                    before.translation == now.translation && this->Seen.near == view.near && this->Seen.far == view.far;
+  this->ShadowsReady = this->ShadowsReady && same;
+  this->Seen = view;
 }
 
 void RasterScene::prepareLight(bool zeroToOne)
 {
-  if (this->LightReady)
+  if (!this->EnvironmentReady)
   {
-    return;
+    this->Environment.set(this->State->environment);
+    this->EnvironmentReady = true;
   }
-  this->LightReady = true;
-  this->Environment.set(this->State->environment);
-  std::vector<ShadowView> views;
-  this->FirstShadows.clear();
-  if (std::any_of(
-        this->State->lights.begin(), this->State->lights.end(), [](const LightState& light) { return light.shadows; }))
+  if (!this->ShadowsReady)
   {
-    views = shadowViews(this->State->lights, this->ball(), zeroToOne, this->FirstShadows);
+    std::vector<ShadowView> views = shadowViews(*this->State, this->Seen, zeroToOne, this->FirstShadows);
+    this->Shadows.update(
+      std::move(views), zeroToOne, [this](const RasterCamera& camera, int size) { this->drawShadows(camera, size); });
+    this->ShadowsReady = true;
   }
-  this->Shadows.update(
-    std::move(views), zeroToOne, [this](const RasterCamera& camera, int size) { this->drawShadows(camera, size); });
 }
 
 /// Depths of what is not translucent to the bound framebuffer.

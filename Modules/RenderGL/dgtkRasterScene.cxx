@@ -92,8 +92,9 @@ RasterScene::~RasterScene()
   this->Window->RemoveRenderer(this->Renderer);
 }
 
-void RasterScene::setState(std::shared_ptr<const SceneState> state)
+void RasterScene::setState(std::shared_ptr<const SceneState> state, const View& view)
 {
+  this->setView(view);
   if (state == this->State)
   {
     return;
@@ -108,7 +109,7 @@ void RasterScene::setState(std::shared_ptr<const SceneState> state)
     }
   }
   this->State = std::move(state);
-  this->LightReady = false;
+  this->EnvironmentReady = this->ShadowsReady = false;
   this->FirstShadows.clear();
   this->makeDraws();
   this->dropUnused();

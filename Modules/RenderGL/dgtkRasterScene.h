@@ -62,12 +62,12 @@ public:
   /// Without numbers of triangles, hits and layers cannot be drawn; colours are, with fewer vertices. To be called
   /// before the first state.
   void setNumbered(bool numbered) { this->Numbered = numbered; }
-  void setState(std::shared_ptr<const SceneState> state);
+  void setState(std::shared_ptr<const SceneState> state, const View& view);
   const SceneState& state() const { return *this->State; }
   bool hasTranslucent() const { return this->Translucent; }
 
-  /// Makes what colours need beside the draws: shadow maps and the environment. Binds other framebuffers. To be called
-  /// before aim() when colours are drawn; does nothing when all is there.
+  /// Makes what colours need beside the draws: the environment, and shadow maps for the view's whole image. Binds other
+  /// framebuffers. To be called before aim() when colours are drawn; does nothing when all is there.
   void prepareLight(bool zeroToOne);
   /// Sets the matrices and lights of the draws to come, to a target of width x height pixels.
   void aim(const RasterCamera& camera, int width, int height);
@@ -153,7 +153,7 @@ private:
   void dropUnused();
   void cutDraw(Draw& draw, const RasterCamera& camera, const Eigen::Matrix4d& view_from_local);
   void fillPieces(Draw& draw, const RasterCamera& camera);
-  BoundingBall ball() const;
+  void setView(const View& view);
   void place(const RasterCamera& camera);
   void drawShadows(const RasterCamera& camera, int size);
   void drawAllIds(bool translucent);
@@ -181,7 +181,9 @@ private:
   std::shared_ptr<const Image> White; // a picture of one texel
   ShadowMaps Shadows;
   std::vector<int> FirstShadows; // of each light
-  bool LightReady = false;
+  bool EnvironmentReady = false;
+  bool ShadowsReady = false;
+  View Seen; ///< what the shadow maps are for
   RasterCamera Camera;
   int Width = 0;
   int Height = 0;

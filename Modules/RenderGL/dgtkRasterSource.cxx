@@ -136,7 +136,7 @@ void VtkRasterSource::setScene(std::shared_ptr<const SceneState> state, const Vi
   this->Window->MakeCurrent();
   this->Camera = view;
   this->State = state;
-  this->Scene.setState(std::move(state));
+  this->Scene.setState(std::move(state), view);
 }
 
 void VtkRasterSource::aim(RasterTarget& target, const PixelRect& rect, int samples, bool color)

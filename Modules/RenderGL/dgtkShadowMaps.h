@@ -4,44 +4,21 @@
 
 // Private to RenderGL.
 
-#include "dgtkRasterCamera.h"
-#include "dgtkSceneState.h"
+#include "dgtkShadowViews.h"
 
-#include <array>
 #include <functional>
 #include <vector>
 
 namespace dgtk
 {
 
-/// How a shadow map is drawn.
-struct ShadowView
-{
-  RasterCamera camera;
-  int size = 0;      ///< pixels a side
-  double texel = 0;  ///< side of a texel in scene units, for a perspective at distance 1 along the axis
-  bool cube = false; ///< one of six around a point: +x, -x, +y, -y, +z, -z of the world
-};
-
-/// A ball that holds all that is drawn; radius 0 when there is nothing.
-struct BoundingBall
-{
-  Eigen::Vector3d centre{ 0, 0, 0 };
-  double radius = 0;
-};
-
-/// The maps of the lights that cast shadows, in the order of the lights, and the first map of each light (-1: none).
-/// Every map sees all of the ball that its light can reach: it depends on the scene, never on the camera. Directional
-/// lights have one map, spots of up to 120 degrees one, others six. Head lights have none.
-std::vector<ShadowView> shadowViews(
-  const std::vector<LightState>& lights, const BoundingBall& ball, bool zeroToOne, std::vector<int>& firstOfLight);
-
 /// Shadow maps as layers of a texture. The context must be current.
 class ShadowMaps
 {
 public:
   /// Of the buffer texture: texels of four floats for each map. Four columns of window depth and clip coordinates from
-  /// view coordinates; then size of a texel, pixels a side, 1 for the first of a cube.
+  /// view coordinates; then size of a texel, pixels a side, 1 for the first of a cube, number of
+  /// maps from this one on that may hold a surface.
   static constexpr int Stride = 5;
 
   ~ShadowMaps();

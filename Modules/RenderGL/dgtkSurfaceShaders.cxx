@@ -57,7 +57,7 @@ vec3 dgtkBumped(vec3 p, vec3 n, sampler2D heights, vec2 uv, float scale)
 
 /// Mean of 3 x 3 comparisons that are interpolated between texels: the larger depth is nearer to the light. The point
 /// is moved off its surface by what lies between the texels compared, which grows with the surface's tilt against the
-/// map.
+/// map. Of the nested maps of a light, the first that holds the point counts.
 std::string shadowFunction()
 {
   const std::string stride = std::to_string(ShadowMaps::Stride);
@@ -75,15 +75,21 @@ std::string shadowFunction()
          "    map += size.x >= size.y && size.x >= size.z ? (d.x > 0.0 ? 0 : 1)\n"
          "         : size.y >= size.z ? (d.y > 0.0 ? 2 : 3) : (d.z > 0.0 ? 4 : 5);\n"
          "  }\n"
-         "  int at = map * " +
+         "  vec3 place;\n"
+         "  for (int left = int(info.w);; --left, ++map)\n"
+         "  {\n"
+         "    int at = map * " +
          stride +
          ";\n"
-         "  mat4 m = mat4(texelFetch(dgtkShadowData, at), texelFetch(dgtkShadowData, at + 1),\n"
-         "    texelFetch(dgtkShadowData, at + 2), texelFetch(dgtkShadowData, at + 3));\n"
-         "  float texel = info.x * dot(vec4(m[0].w, m[1].w, m[2].w, m[3].w), vec4(p, 1.0));\n"
-         "  float tilt = dot(n, normalize(vec3(m[0].z, m[1].z, m[2].z)));\n"
-         "  vec4 clip = m * vec4(p + n * (texel * (0.5 + 3.0 * sqrt(max(0.0, 1.0 - tilt * tilt)))), 1.0);\n"
-         "  vec3 place = clip.xyz / clip.w;\n"
+         "    mat4 m = mat4(texelFetch(dgtkShadowData, at), texelFetch(dgtkShadowData, at + 1),\n"
+         "      texelFetch(dgtkShadowData, at + 2), texelFetch(dgtkShadowData, at + 3));\n"
+         "    info = texelFetch(dgtkShadowData, at + 4);\n"
+         "    float texel = info.x * dot(vec4(m[0].w, m[1].w, m[2].w, m[3].w), vec4(p, 1.0));\n"
+         "    float tilt = dot(n, normalize(vec3(m[0].z, m[1].z, m[2].z)));\n"
+         "    vec4 clip = m * vec4(p + n * (texel * (0.5 + 3.0 * sqrt(max(0.0, 1.0 - tilt * tilt)))), 1.0);\n"
+         "    place = clip.xyz / clip.w;\n"
+         "    if (left <= 1 || (max(abs(place.x), abs(place.y)) <= 1.0 - 4.0 / info.y && place.z >= 0.0)) { break; }\n"
+         "  }\n"
          "  vec2 uv = (place.xy * 0.5 + 0.5) * info.y - 0.5;\n"
          "  vec2 low = floor(uv);\n"
          "  vec2 part = uv - low;\n"

@@ -120,6 +120,24 @@ class Notes(Case):
         self.render("depth", out="bare")
         self.assertEqual(self.manifest("bare")["warnings"], ["the scene has no object with a surface: its pictures are empty"])
 
+    def test_coarse_shadows_deserve_a_word(self):
+        lamps = [{"name": "sun", "kind": "directional", "position": [1, 2, 3], "target": [0, 0, 0], "shadows": True},
+                 {"name": "lamp", "position": [0, 0, 4], "shadows": True, "shadowSize": 64},
+                 {"name": "off", "position": [0, 0, 4], "shadows": True, "shadowSize": 16, "enabled": False},
+                 {"name": "plain", "position": [0, 0, 4]}]
+        close = camera("close", eye={"keys": [[0, [0, 0, 5]], [2, [0, 0, 0.2]]]}, width=200, height=150)
+        self.scene(lights=lamps, cameras=[camera(), close])
+        said = self.render("color", "--frames", "0").stderr
+        self.assertNotIn("shadow", said)
+        self.assertEqual(self.manifest()["warnings"], [])
+        said = self.render("color,objects", out="closer").stderr
+        self.assertEqual(said.count("shadows are coarse"), 1)
+        self.assertIn("warning: light 'lamp': its shadows are coarse", said)
+        [line] = self.manifest("closer")["warnings"]
+        self.assertRegex(line, r"shadowSize 64\) is up to \d+ pixels large \(camera 'close', frame 2\)")
+        self.render("objects", "--quiet", out="none")
+        self.assertEqual(self.manifest("none")["warnings"], [])
+
     def test_the_demo_has_nothing_to_say(self):
         self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", self.path("out"), "--layers", "depth", "--size", "16x12",
                   "--frames", "0", "--quiet")
