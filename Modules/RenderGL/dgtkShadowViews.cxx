@@ -24,7 +24,6 @@ constexpr int MostMaps = 4;            // of a directional light
 constexpr int LargestOfSeveral = 8192; // texels a side: four have as many as the largest single one
 constexpr double Fine = 1e-3;          // texel, of the image's height, that needs no further maps
 constexpr double Gain = 1.1;           // what a further map must bring
-constexpr double Border = 6;           // texels around what is seen: the way off a surface, and the comparisons
 constexpr int Steps = 32;              // places of a window within its own side
 constexpr double CoarsePixels = 8;
 constexpr double Unseen = 1.0 / 255; // strength of a light that does not show
@@ -62,6 +61,9 @@ void setDepths(RasterCamera& camera, double near, double far, bool zeroToOne)
   }
 }
 
+/// Texels around what is seen: the way off a surface, and the comparisons. Small maps have less.
+double border(int size) { return std::min(6.0, size / 8.0); }
+
 /// What is seen between two depths, in the axes of a directional light.
 struct Slice
 {
@@ -75,12 +77,15 @@ struct Slice
   }
 };
 
+/// Texels between the places of a window.
+int stepOf(int size) { return std::max(1, size / Steps); }
+
 /// Side of a map that holds a slice: with the border, in steps, so that it stays the same while the camera moves on.
 double sideFor(const Slice& slice, int size)
 {
   const double extent = slice.box.sizes().head<2>().maxCoeff();
   const double rounding = 1e-9 * slice.box.min().cwiseAbs().cwiseMax(slice.box.max().cwiseAbs()).maxCoeff();
-  const double share = 1 - (2 * Border + std::max(1.0, double(size) / Steps)) / std::max(size, 32);
+  const double share = 1 - (2 * border(size) + stepOf(size)) / size;
   const double side = std::max({ extent / share, rounding, 1e-30 });
   return std::exp2(std::ceil(8 * std::log2(side)) / 8);
 }
@@ -262,8 +267,9 @@ ShadowView LightFit::parallelView(const Slice& slice, int size, double nearest, 
   const double side = sideFor(slice, size);
   view.size = size;
   view.texel = side / size;
-  const double step = view.texel * std::max(1, size / Steps);
-  const auto from = [&](int axis) { return std::floor((slice.box.min()[axis] - Border * view.texel) / step) * step; };
+  const double step = view.texel * stepOf(size);
+  const auto from = [&](int axis)
+  { return std::floor((slice.box.min()[axis] - border(size) * view.texel) / step) * step; };
   const Eigen::Vector3d eye(from(0) + side / 2, from(1) + side / 2, nearest + view.texel);
   view.camera.perspective = false;
   view.camera.view_from_world.setIdentity();
@@ -272,7 +278,7 @@ ShadowView LightFit::parallelView(const Slice& slice, int size, double nearest, 
   view.camera.clip_from_view.setZero();
   view.camera.clip_from_view(0, 0) = view.camera.clip_from_view(1, 1) = 2 / side;
   view.camera.clip_from_view(3, 3) = 1;
-  setDepths(view.camera, 0, eye.z() - slice.box.min().z() + Border * view.texel, zeroToOne);
+  setDepths(view.camera, 0, eye.z() - slice.box.min().z() + border(size) * view.texel, zeroToOne);
   view.camera.focal = size / side;
   view.pixels = view.texel / this->Seen.heightAt(slice.least);
   return view;
