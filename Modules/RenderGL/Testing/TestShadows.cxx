@@ -2,6 +2,8 @@
 #include "dgtkShadowNotes.h"
 #include "dgtkTestScene.h"
 
+#include <Eigen/Geometry>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -182,6 +184,21 @@ TEST(Shadows, NearAndFarInOnePicture)
   }
 }
 
+TEST(Shadows, InAValleyBelowTheCamera)
+{
+  // beside the rock's edge, which the nearest map holds, the light goes on down to the valley
+  const std::vector<Block> blocks{ { { -40, 0, 0 }, { 40, 60, 80 } }, { { -2, 0, -52 }, { 2, 20, -48 } } };
+  for (const double aside : { -2.0, 0.0, 2.0 })
+  {
+    const LightState light = lamp(LightState::Kind::Directional, { aside, 5, 3 });
+    const View view = camera({ 0, 62, 0.5 }, { -12 * aside, 0, -39 });
+    const Count count = countWrong(onGround(500, light, blocks), view, blocks);
+    EXPECT_GT(count.dark, 200);
+    EXPECT_GT(count.light, 5000);
+    EXPECT_EQ(count.wrong, 0);
+  }
+}
+
 TEST(Shadows, RemainWhenSomethingIsParkedFarAway)
 {
   const View view = camera({ 4, 3, 5 }, { 0.5, 1, 0 });
@@ -225,13 +242,15 @@ TEST(Shadows, AreTheSameInEveryPartOfThePicture)
   const auto state = onGround(500, sun(), { Head });
   const View view = camera({ 4, 1.7, 5 }, { 0.5, 1, 0 });
   const ColorBuffer all = renderColor(state, view);
+  View other = view;
+  other.camera_from_world.translation += Eigen::Vector3d(0, 0, 50);
   int differing = 0;
   for (int y = 0; y < 240; y += 120)
   {
     for (int x = 0; x < 320; x += 160)
     {
       // after something else was drawn with the same scene
-      renderColor(state, camera({ 40, 20, 50 }, { 0, 0, 0 }));
+      renderColor(state, other);
       source().setScene(state, view);
       ColorBuffer part;
       source().renderColor({ x, y, 160, 120 }, 1, part, nullptr);
@@ -247,6 +266,15 @@ TEST(Shadows, AreTheSameInEveryPartOfThePicture)
   }
   EXPECT_EQ(differing, 0);
   EXPECT_EQ(renderColor(state, view).rgb, all.rgb);
+  View turned = view;
+  turned.camera_from_world.rotation =
+    Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()) * view.camera_from_world.rotation;
+  for (const View& next : { other, turned })
+  {
+    renderColor(state, view);
+    const ColorBuffer kept = renderColor(state, next);
+    EXPECT_EQ(renderColor(std::make_shared<SceneState>(*state), next).rgb, kept.rgb);
+  }
 }
 
 TEST(Shadows, MapsThatAreTooCoarseAreNamed)
@@ -266,4 +294,46 @@ TEST(Shadows, MapsThatAreTooCoarseAreNamed)
     state->lights[0].shadows = false;
     EXPECT_TRUE(coarseShadows(*state, view).empty());
   }
+}
+
+TEST(Shadows, MapsAreCoarseWhereLightIsSeen)
+{
+  const View low = camera({ 4, 0.5, 5 }, { 0.5, 1, 0 });
+  LightState narrow = lamp(LightState::Kind::Spot, { -3, 5, 1 });
+  narrow.shadowSize = 16;
+  EXPECT_EQ(coarseShadows(*onGround(500, narrow, { Head }), low).size(), 1u);
+  narrow.coneAngle = 5; // a spot of a metre, far from the camera
+  EXPECT_TRUE(coarseShadows(*onGround(500, narrow, { Head }), low).empty());
+  LightState weak = lamp(LightState::Kind::Point, { -3, 5, 1 });
+  weak.shadowSize = 16;
+  EXPECT_EQ(coarseShadows(*onGround(500, weak, { Head }), low).size(), 1u);
+  weak.attenuation = { 1, 0, 100 };
+  EXPECT_TRUE(coarseShadows(*onGround(500, weak, { Head }), low).empty());
+}
+
+TEST(Shadows, MapsAreCoarseForWhatIsNearAndFar)
+{
+  LightState light = sun();
+  light.shadowSize = 16;
+  const View view = viewOf(makePinholeFromFov(320, 240, 45, 0), { 0, 4, 10 }, { 0, 4, 0 }, 3, 30);
+  const auto pixels = [&view, &light](double ground, const std::vector<Block>& blocks)
+  { return coarseShadows(*onGround(ground, light, blocks), view).at(0).pixels; };
+  // what is nearer than the near plane or beyond the far plane is not seen
+  const std::vector<Block> unseen{ Head, { { -1, 2, 8 }, { 1, 5, 12 } }, { { -20, -20, -90 }, { 20, 20, -50 } } };
+  EXPECT_DOUBLE_EQ(pixels(0.01, unseen), pixels(0.01, { Head }));
+  // a speck close to the camera takes a map, the first, which is less coarse than the others
+  const std::vector<Block> speck{ Head, { { 0, 4, 6.4 }, { 0.02, 4.02, 6.42 } } };
+  EXPECT_GE(pixels(500, speck), pixels(500, { Head }));
+}
+
+TEST(Shadows, MapsAreAsLargeAsWhatIsSeen)
+{
+  // The image is 8 x 6 units; 1/32 of its width is left at each side, and 4 of the 32 texels, and one for its place.
+  LightState light = lamp(LightState::Kind::Directional, { 0, 1, 0 });
+  light.shadowSize = 32;
+  const View view = viewOf(makeOrthographic(320, 240, 6, 0), { 0, 9, 0.001 }, { 0, 0, 0 }, 0.1, 100);
+  const double least = 8 * 1.0625 / (1 - 9.0 / 32) / 32 * 240 / 6;
+  const double pixels = coarseShadows(*onGround(500, light, {}), view).at(0).pixels;
+  EXPECT_GT(pixels, 0.999 * least);
+  EXPECT_LT(pixels, 1.001 * least * std::exp2(1 / 8.0));
 }
