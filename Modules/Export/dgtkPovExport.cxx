@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <utility>
 
 namespace dgtk
 {
@@ -163,10 +165,15 @@ PovLightContext contextOf(const SceneState& state, const View& view, const PovOp
 
 void addObjects(const SceneState& state, PovObjects&& objects)
 {
+  std::map<std::pair<const Geometry*, const std::vector<Material>*>, int> users;
+  for (const Instance& instance : state.instances)
+  {
+    ++users[{ instance.geometry.get(), &povMaterialsOf(instance) }];
+  }
   std::uint32_t id = 0;
   for (const Instance& instance : state.instances)
   {
-    objects.add(instance, ++id);
+    objects.add(instance, ++id, users[{ instance.geometry.get(), &povMaterialsOf(instance) }] > 1);
   }
 }
 } // namespace
@@ -184,7 +191,10 @@ std::vector<std::string> povAntialias(int points)
                     : std::vector<std::string>{ "-A" };
 }
 
-PovResult exportPov(const SceneState& state, const View& view, const std::string& path, const PovOptions& options)
+namespace
+{
+PovResult writeScene(
+  const SceneState& state, const View& view, const std::string& path, const PovSurfaceOptions& options)
 {
   checkName(path);
   checkCount(state, path);
@@ -194,14 +204,19 @@ PovResult exportPov(const SceneState& state, const View& view, const std::string
   const std::string begin = firstLines(state, context, {}, "FILE") + '\n' + head(state, context, {}, result.warnings);
   PovText text(path);
   text << begin;
-  const PovSurfaceOptions surface = povSurfaceOptions(state, options);
-  PovMeshesInside meshes(text, images, surface);
-  addObjects(state, { text, meshes, view, surface, context.scale });
+  PovMeshesInside meshes(text, images, options);
+  addObjects(state, { text, meshes, view, options, context.scale });
   text.commit();
   result.files = images.files();
   result.files.push_back(path);
   result.scale = context.scale;
   return result;
+}
+} // namespace
+
+PovResult exportPov(const SceneState& state, const View& view, const std::string& path, const PovOptions& options)
+{
+  return writeScene(state, view, path, povSurfaceOptions(state, options));
 }
 
 PovResult exportPov(const std::shared_ptr<const Model>& model, const std::string& path)
@@ -223,9 +238,10 @@ PovResult exportPov(const std::shared_ptr<const Model>& model, const std::string
     lookAtPose(ball.centre + Eigen::Vector3d(0, 0, 2.8 * ball.radius), ball.centre, Eigen::Vector3d(0, 1, 0));
   view.near = ball.radius;
   view.far = 5 * ball.radius;
-  PovOptions options;
+  PovSurfaceOptions options = povSurfaceOptions(state, {});
   options.ownScale = 1;
-  return exportPov(state, view, path, options);
+  options.asSeen = false;
+  return writeScene(state, view, path, options);
 }
 
 PovScene makePovScene(const SceneState& state, const View& view, const PovOptions& options, PovLibrary& library,
@@ -255,7 +271,7 @@ PovScene makePovScene(const SceneState& state, const View& view, const PovOption
   {
     scene.text += "#include \"" + library.impl().reference + file + "\"\n";
   }
-  scene.text += '\n' + objects.text();
+  scene.text += '\n' + meshes.declared() + objects.text();
   return scene;
 }
 

@@ -140,7 +140,7 @@ PovIncluded PovLibrary::Impl::write(const Instance& instance, std::uint32_t ownI
 {
   PovText text;
   PovImagesIncluded images(*this);
-  povWriteMesh(text, instance, ownId, options, images);
+  povWriteMesh(text, instance, povTexturesOf(instance, ownId, options, images));
   PovIncluded included;
   included.name = "Mesh_" + hashOf(text.text()).substr(0, HashDigits);
   included.file =
@@ -156,21 +156,40 @@ PovIncluded PovLibrary::Impl::mesh(const Instance& instance, std::uint32_t ownId
   return entry->included;
 }
 
-std::string PovMeshesIncluded::declare(const Instance& instance, std::uint32_t id)
+std::vector<std::string> PovLibrary::Impl::declareTurned(PovText& text, const std::string& name,
+  const Instance& instance, const PovTurned& turned, const PovSurfaceOptions& options)
 {
-  const PovIncluded mesh = this->Library.mesh(instance, povOwnId(instance, id, this->Options), this->Options);
-  if (this->Known.insert(mesh.file).second)
+  PovImagesIncluded images(*this);
+  povDeclareMesh(text, name, instance, povTexturesOf(instance, 0, options, images), turned);
+  return images.files();
+}
+
+void PovMeshesIncluded::use(const std::vector<std::string>& files)
+{
+  for (const std::string& file : files)
   {
-    this->Includes.push_back(mesh.file);
-    this->Uses.push_back(this->Library.describe(mesh.file));
-  }
-  for (const std::string& picture : mesh.pictures)
-  {
-    if (this->Known.insert(picture).second)
+    if (this->Known.insert(file).second)
     {
-      this->Uses.push_back(this->Library.describe(picture));
+      this->Uses.push_back(this->Library.describe(file));
     }
   }
+}
+
+std::string PovMeshesIncluded::declare(const Instance& instance, std::uint32_t id, const PovTurned& turned)
+{
+  if (!turned.empty())
+  {
+    const std::string name = "Mesh" + std::to_string(id);
+    this->use(this->Library.declareTurned(this->Declared, name, instance, turned, this->Options));
+    return name;
+  }
+  const PovIncluded mesh = this->Library.mesh(instance, povOwnId(instance, id, this->Options), this->Options);
+  if (this->Known.count(mesh.file) == 0)
+  {
+    this->Includes.push_back(mesh.file);
+  }
+  this->use({ mesh.file });
+  this->use(mesh.pictures);
   return mesh.name;
 }
 

@@ -33,6 +33,9 @@ struct PovLibrary::Impl
   std::function<void(const std::string&)> announce;
 
   PovIncluded mesh(const Instance& instance, std::uint32_t ownId, const PovSurfaceOptions& options);
+  /// Declares a mesh with triangles that are shaded as a view sees them; returns the pictures that it uses.
+  std::vector<std::string> declareTurned(PovText& text, const std::string& name, const Instance& instance,
+    const PovTurned& turned, const PovSurfaceOptions& options);
   PovFile describe(const std::string& name);
   /// Writes a file unless it is there; returns its name <stem>_<hash>.<extension>.
   std::string add(const std::string& stem, const std::string& extension, const std::string& contents);
@@ -69,13 +72,18 @@ public:
     , Options(options)
   {
   }
-  std::string declare(const Instance& instance, std::uint32_t id) override;
+  std::string declare(const Instance& instance, std::uint32_t id, const PovTurned& turned) override;
   const std::vector<std::string>& includes() const { return this->Includes; }
+  /// Meshes of this scene alone.
+  const std::string& declared() const { return this->Declared.text(); }
   const std::vector<PovFile>& uses() const { return this->Uses; }
 
 private:
+  void use(const std::vector<std::string>& files);
+
   PovLibrary::Impl& Library;
   PovSurfaceOptions Options;
+  PovText Declared;
   std::set<std::string> Known;
   std::vector<std::string> Includes;
   std::vector<PovFile> Uses;

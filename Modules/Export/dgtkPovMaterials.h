@@ -18,7 +18,8 @@ struct PovSurfaceOptions : PovOptions
   /// All lights are at the camera: the built-in renderer then takes the cosine to the normal for the highlight, in
   /// place of that to the reflected ray.
   bool headLit = false;
-  bool cast = false; ///< objects cast shadows
+  bool cast = false;  ///< objects cast shadows
+  bool asSeen = true; ///< meshes may be shaded for one view: see povTurned()
 };
 
 PovSurfaceOptions povSurfaceOptions(const SceneState& state, const PovOptions& options);

@@ -60,46 +60,29 @@ void writeVertices(PovText& text, const Instance& instance)
   }
 }
 
-/// Of the materials in use; returns material -> index of the list. Empty for a mesh without textures of its own.
-std::vector<int> writeTextures(
-  PovText& text, const Instance& instance, std::uint32_t ownId, const PovSurfaceOptions& options, PovImages& images)
+/// ", 3", the texture of a triangle, or "".
+std::string faceTexture(const PovTextures& textures, std::uint32_t triangle, int material)
 {
-  if ((options.flatIds || options.positionColors) && ownId == 0)
+  if (textures.ofMaterial.empty())
   {
     return {};
   }
-  const Model& model = *instance.model;
-  const std::vector<Material>& materials = povMaterialsOf(instance);
-  std::vector<int> indices(materials.size(), -1);
-  std::vector<std::string> textures;
-  for (const Part& part : model.parts)
-  {
-    int& index = indices[static_cast<std::size_t>(part.material)];
-    if (index < 0 && part.triangles > 0)
-    {
-      const Material& material = materials[static_cast<std::size_t>(part.material)];
-      index = static_cast<int>(textures.size());
-      textures.push_back(options.flatIds
-                           ? povFlatMaterial(model, material, ownId, images)
-                           : povMaterial(povSurfaceOf(instance, std::size_t(part.material)), options, images));
-    }
-  }
-  writeList(text, "texture_list", textures, [](const std::string& texture) { return texture; });
-  return indices;
+  const auto own = textures.ofTriangle.find(triangle);
+  return ", " + std::to_string(own == textures.ofTriangle.end()
+                                 ? textures.ofMaterial[static_cast<std::size_t>(material)]
+                                 : own->second);
 }
 
-void writeFaces(PovText& text, const Model& model, const std::vector<int>& textures)
+void writeFaces(PovText& text, const Model& model, const PovTextures& textures)
 {
   text << "  face_indices { " + std::to_string(model.triangles.size());
   for (const Part& part : model.parts)
   {
-    const std::string end =
-      textures.empty() ? std::string() : ", " + std::to_string(textures[static_cast<std::size_t>(part.material)]);
     for (std::uint32_t i = part.firstTriangle; i < part.firstTriangle + part.triangles; ++i)
     {
       const auto& triangle = model.triangles[i];
       text << ",\n    <" + std::to_string(triangle[0]) + ", " + std::to_string(triangle[1]) + ", " +
-                std::to_string(triangle[2]) + '>' + end;
+                std::to_string(triangle[2]) + '>' + faceTexture(textures, i, part.material);
     }
   }
   text << "\n  }\n";
@@ -119,27 +102,64 @@ std::uint32_t povOwnId(const Instance& instance, std::uint32_t id, const PovSurf
   return options.flatIds && cutOut ? id : 0;
 }
 
-void povWriteMesh(
-  PovText& text, const Instance& instance, std::uint32_t ownId, const PovSurfaceOptions& options, PovImages& images)
+PovTextures povTexturesOf(
+  const Instance& instance, std::uint32_t ownId, const PovSurfaceOptions& options, PovImages& images)
+{
+  PovTextures textures;
+  if ((options.flatIds || options.positionColors) && ownId == 0)
+  {
+    return textures;
+  }
+  const Model& model = *instance.model;
+  const std::vector<Material>& materials = povMaterialsOf(instance);
+  textures.ofMaterial.assign(materials.size(), -1);
+  for (const Part& part : model.parts)
+  {
+    int& index = textures.ofMaterial[static_cast<std::size_t>(part.material)];
+    if (index < 0 && part.triangles > 0)
+    {
+      const Material& material = materials[static_cast<std::size_t>(part.material)];
+      index = static_cast<int>(textures.list.size());
+      textures.list.push_back(options.flatIds
+                                ? povFlatMaterial(model, material, ownId, images)
+                                : povMaterial(povSurfaceOf(instance, std::size_t(part.material)), options, images));
+    }
+  }
+  return textures;
+}
+
+void povWriteMesh(PovText& text, const Instance& instance, const PovTextures& textures)
 {
   text << "{\n";
   writeVertices(text, instance);
-  writeFaces(text, *instance.model, writeTextures(text, instance, ownId, options, images));
+  if (!textures.ofMaterial.empty())
+  {
+    writeList(text, "texture_list", textures.list, [](const std::string& texture) { return texture; });
+  }
+  writeFaces(text, *instance.model, textures);
   text << "}\n";
 }
 
-std::string PovMeshesInside::declare(const Instance& instance, std::uint32_t id)
+std::string PovMeshesInside::declare(const Instance& instance, std::uint32_t id, const PovTurned& turned)
 {
   const std::uint32_t own = povOwnId(instance, id, this->Options);
-  const Key key(instance.model.get(), instance.geometry.get(), &povMaterialsOf(instance), own, povUnitOf(instance));
-  const auto [known, isNew] = this->Names.try_emplace(key, "Mesh" + std::to_string(this->Names.size() + 1));
-  if (isNew)
+  const auto write = [&](const std::string& name)
   {
-    this->Text << "#declare " + known->second + " = mesh2 ";
-    povWriteMesh(this->Text, instance, own, this->Options, this->Images);
+    povDeclareMesh(this->Text, name, instance, povTexturesOf(instance, own, this->Options, this->Images), turned);
     this->Text << "\n";
+    return name;
+  };
+  if (!turned.empty())
+  {
+    return write(this->nextName());
   }
-  return known->second;
+  std::string& name =
+    this->Names[{ instance.model.get(), instance.geometry.get(), &povMaterialsOf(instance), own, povUnitOf(instance) }];
+  if (name.empty())
+  {
+    name = write(this->nextName());
+  }
+  return name;
 }
 
 } // namespace dgtk

@@ -8,9 +8,11 @@
 #include "dgtkPovImages.h"
 #include "dgtkPovMaterials.h"
 #include "dgtkPovText.h"
+#include "dgtkPovTurned.h"
 
 #include <map>
 #include <tuple>
+#include <vector>
 
 namespace dgtk
 {
@@ -21,17 +23,29 @@ const std::vector<Material>& povMaterialsOf(const Instance& instance);
 /// Id that a mesh of its own must know for its textures, or 0 when a mesh serves all objects.
 std::uint32_t povOwnId(const Instance& instance, std::uint32_t id, const PovSurfaceOptions& options);
 
-/// `mesh2 { ... }` without its end: `{`, lists, `}`.
-void povWriteMesh(
-  PovText& text, const Instance& instance, std::uint32_t ownId, const PovSurfaceOptions& options, PovImages& images);
+/// Which texture of its list each triangle of a mesh has.
+struct PovTextures
+{
+  std::vector<std::string> list;           ///< `texture { ... }`
+  std::vector<int> ofMaterial;             ///< material -> index of the list; empty without textures of its own
+  std::map<std::uint32_t, int> ofTriangle; ///< triangles that have another than their material's
+};
+
+/// Those of the materials in use.
+PovTextures povTexturesOf(
+  const Instance& instance, std::uint32_t ownId, const PovSurfaceOptions& options, PovImages& images);
+
+/// `mesh2 { ... }` without its beginning: `{`, lists, `}`.
+void povWriteMesh(PovText& text, const Instance& instance, const PovTextures& textures);
 
 /// Where meshes are declared.
 class PovMeshes
 {
 public:
   virtual ~PovMeshes() = default;
-  /// The name of an instance's mesh, which is declared unless it was.
-  virtual std::string declare(const Instance& instance, std::uint32_t id) = 0;
+  /// The name of an instance's mesh, which is declared unless it was. With triangles that are shaded as the view sees
+  /// them it is the object's own.
+  virtual std::string declare(const Instance& instance, std::uint32_t id, const PovTurned& turned) = 0;
 };
 
 /// In the scene itself.
@@ -44,15 +58,18 @@ public:
     , Options(options)
   {
   }
-  std::string declare(const Instance& instance, std::uint32_t id) override;
+  std::string declare(const Instance& instance, std::uint32_t id, const PovTurned& turned) override;
 
 private:
   using Key = std::tuple<const Model*, const Geometry*, const std::vector<Material>*, std::uint32_t, double>;
+
+  std::string nextName() { return "Mesh" + std::to_string(++this->Declared); }
 
   PovText& Text;
   PovImages& Images;
   PovSurfaceOptions Options;
   std::map<Key, std::string> Names;
+  std::size_t Declared = 0;
 };
 
 /// `object { ... }` of each instance.
@@ -67,10 +84,12 @@ public:
     , Scale(scale)
   {
   }
-  void add(const Instance& instance, std::uint32_t id);
+  /// `shared`: other objects have the same mesh.
+  void add(const Instance& instance, std::uint32_t id, bool shared);
 
 private:
   std::string clipping(const Instance& instance) const;
+  PovTurned turned(const Instance& instance, bool shared) const;
   std::string texture(std::uint32_t id) const;
 
   PovText& Text;

@@ -118,13 +118,20 @@ std::string PovObjects::texture(std::uint32_t id) const
                                         : std::string();
 }
 
-void PovObjects::add(const Instance& instance, std::uint32_t id)
+/// Where there is light.
+PovTurned PovObjects::turned(const Instance& instance, bool shared) const
+{
+  const bool shaded = this->Options.asSeen && !this->Options.flatIds && !this->Options.positionColors;
+  return shaded ? povTurned(instance, this->TheView, shared) : PovTurned();
+}
+
+void PovObjects::add(const Instance& instance, std::uint32_t id, bool shared)
 {
   if (instance.model->triangles.empty())
   {
     return;
   }
-  const std::string mesh = this->Meshes.declare(instance, id);
+  const std::string mesh = this->Meshes.declare(instance, id, this->turned(instance, shared));
   this->Text << "// object " + std::to_string(id) + ": " + quoted(instance.name) + "\nobject {\n  " + mesh + "\n  " +
                   povMatrix(instance.world_from_object) + '\n' + this->clipping(instance) + this->texture(id) +
                   (this->Options.cast ? "" : "  no_shadow\n") +

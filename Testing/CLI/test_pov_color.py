@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy
 
 import pictures
-from harness import SCENES, SOURCE, Case, main, needs_povray
+from harness import SCENES, SOURCE, Case, load_json, main, needs_povray
 from pov_scene import ids_of, read_pnm
 
 MODELS = os.path.join(SOURCE, "Data", "Models")
@@ -36,6 +36,20 @@ def inside(ids):
     height, width = ids.shape
     same = numpy.all([padded[y:y + height, x:x + width] == ids for y in range(3) for x in range(3)], axis=0)
     return same & (ids > 0)
+
+
+def coarse_ball(segments, rings, top=None):
+    """A ball of few, smooth triangles as .obj, or its lower rings up to `top`."""
+    rows = rings if top is None else top
+    points = [(numpy.sin(t) * numpy.cos(a), -numpy.cos(t), -numpy.sin(t) * numpy.sin(a))
+              for t in numpy.pi * numpy.arange(rows + 1) / rings for a in 2 * numpy.pi * numpy.arange(segments) / segments]
+    lines = [f"{kind} {x:.9f} {y:.9f} {z:.9f}" for kind in ("v", "vn") for x, y, z in points]
+    for row in range(rows):
+        for i in range(segments):
+            a, b = row * segments + i + 1, row * segments + (i + 1) % segments + 1
+            lines += [f"f {a}//{a} {b}//{b} {b + segments}//{b + segments}"] * (row > 0)
+            lines += [f"f {a}//{a} {b + segments}//{b + segments} {a + segments}//{a + segments}"] * (row < rings - 1)
+    return "\n".join(lines) + "\n"
 
 
 @needs_povray
@@ -92,6 +106,50 @@ class Color(Case):
         scene = self.write(name + ".json", json.dumps(self.lit(LIGHTS[kind])))
         return (self.render(scene, name + "_vtk", "--layers", "color,objects", "--visibility", "ray"),
                 self.render(scene, name + "_pov", "--layers", "color", "--renderer", "povray"))
+
+    def test_normals_that_face_away(self):
+        """Where the interpolated normal of a coarse model faces away from the viewer: from outside and from inside, mirrored, in
+        perspective and parallel projection."""
+        self.write("ball.obj", coarse_ball(6, 4))
+        self.write("bowl.obj", coarse_ball(7, 5, top=3))
+        things = [("ball.obj", [-1.1, 0, 0], [1, 1, 1]), ("ball.obj", [1.2, 0, 0.3], [-1, 1.2, 0.9]), ("bowl.obj", [0, -0.3, 1.4], [0.9, 0.9, 0.9])]
+        scene = {"version": 1, "background": [0.2, 0.3, 0.4],
+                 "lights": [{"name": "a", "kind": "point", "position": [3, 4, 2]}, {"name": "b", "kind": "directional", "position": [-4, 2, -3], "target": [0, 0, 0]}],
+                 "objects": [{"name": f"thing {i}", "model": model, "position": at, "scale": scale, "materials": {"*": {**MATT, "diffuse": [0.5, 0.4, 0.3]}}}
+                             for i, (model, at, scale) in enumerate(things)],
+                 "cameras": [{"name": "perspective", "width": 320, "height": 240, "fovY": 40, "eye": [1, 2.5, 5], "lookAt": [0, 0, 0.5]},
+                             {"name": "parallel", "model": "orthographic", "width": 320, "height": 240, "viewHeight": 4, "eye": [1, 2.5, 5], "lookAt": [0, 0, 0.5]}]}
+        vtk, pov = self.draw_away(self.write("away.json", json.dumps(scene)), "away")
+        for camera in ("perspective", "parallel"):
+            with self.subTest(camera):
+                difference, within, away = self.compare_away(vtk, pov, camera)
+                self.assertGreater((within & away).sum(), 200)
+                self.assertLess(abs(difference)[within & away].mean(), 0.1)
+                self.assertLess(abs(difference)[within].max(), 8)
+
+    def test_far_edge_of_a_table(self):
+        vtk, pov = self.draw_away(os.path.join(SCENES, "fig_4_6_ray_traced.json"), "table", "--size", "640x480")
+        difference, within, away = self.compare_away(vtk, pov, "camera")
+        self.assertGreater((within & away).sum(), 100)
+        self.assertLess((difference[within & away] < -30).sum(), 10)
+
+    def draw_away(self, scene, name, *options):
+        return (self.render(scene, name + "_vtk", "--layers", "color,objects,shadingnormal", "--visibility", "ray", *options),
+                self.render(scene, name + "_pov", "--layers", "color", "--renderer", "povray", *options))
+
+    def compare_away(self, vtk, pov, camera):
+        """By how much POV-Ray's pixels are brighter, of 255; which lie inside surfaces; and where shading normals face away."""
+        a, b = (pictures.read_png(os.path.join(folder, camera, "color", "000000.png"), (16, 3)) / 257 for folder in (vtk, pov))
+        normal = numpy.load(os.path.join(vtk, camera, "shadingnormal", "000000.npy"))
+        seen = next(c for c in load_json(os.path.join(vtk, "cameras.json"))["cameras"] if c["name"] == camera)
+        y, x = numpy.mgrid[:a.shape[0], :a.shape[1]] + 0.5
+        ray = numpy.stack([x, y, numpy.ones_like(x)], -1) @ numpy.linalg.inv(numpy.array(seen["K"])).T
+        away = ((numpy.array([0, 0, 1]) if seen["model"] == "orthographic" else ray) * normal).sum(-1) > 0
+        within = inside(ids_of(read_pnm(os.path.join(vtk, camera, "objects", "000000.ppm"))))
+        difference = (b - a).mean(-1)
+        print(f"{camera}: {(within & away).sum()} pixels face away, {abs(difference)[within & away].mean():.3f} of 255 in the mean, "
+              f"{(difference[within & away] < -30).sum()} much darker; elsewhere {(abs(difference)[within & ~away] > 8).sum()} above 8")
+        return difference, within, away
 
     def keep(self, *folders):
         """Leaves the pictures in the build folder, for looking."""
