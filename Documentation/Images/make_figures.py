@@ -3,7 +3,7 @@
 """Makes the thesis's figures 4.5, 4.6, 5.1 and 5.3 anew, as fig_4_5.png ... beside it: for each scene the built-in
 renderer's picture, POV-Ray's, the depth map and the object map; and pictures.png, what light, lens and shutter do.
 
-    Documentation/Images/make_figures.py build/release/bin/dgtk build/figures
+    Documentation/Images/make_figures.py build/release/bin/dgtk build/figures [fig_4_6 pictures ...]
 """
 
 import pathlib
@@ -74,7 +74,8 @@ def tiled(pictures, columns):
 
 
 def main(arguments):
-    if len(arguments) != 2:
+    names = arguments[2:] or [*FIGURES, "pictures"]
+    if len(arguments) < 2 or not set(names) <= {*FIGURES, "pictures"}:
         print(__doc__.strip(), file=sys.stderr)
         return 2
     dgtk, folder = arguments[0], pathlib.Path(arguments[1])
@@ -84,18 +85,20 @@ def main(arguments):
                        check=True)
         return folder / name
 
-    for figure, scene in FIGURES.items():
+    for figure in (name for name in names if name in FIGURES):
+        scene = FIGURES[figure]
         size = ["--size", "400x200" if figure == "fig_4_5" else "400x300"]
         built_in = render(scene, figure, "--layers", "color,depth,objects", "--objects-format", "npy", *size)
         traced = render(scene, figure + "_povray", "--layers", "color", "--renderer", "povray", "--pov-shadows", *size)
         color = "camera/color/000000.png"
         write(HERE / f"{figure}.png", tiled([read(built_in / color), read(traced / color), depth_picture(built_in / "camera/depth/000000.npy"),
                                              object_picture(built_in / "camera/objects/000000.npy")], 2))
-    size = ["--size", "400x300", "--layers", "color"]
-    materials = render("materials_environment", "materials", *size)
-    blurred = render("lens_and_shutter", "blurred", "--frames", "2", *size)
-    pictures = [materials / "camera", blurred / "shutter", blurred / "lens", blurred / "both"]
-    write(HERE / "pictures.png", tiled([read(next((picture / "color").glob("*.png"))) for picture in pictures], 2))
+    if "pictures" in names:
+        size = ["--size", "400x300", "--layers", "color"]
+        materials = render("materials_environment", "materials", *size)
+        blurred = render("lens_and_shutter", "blurred", "--frames", "2", *size)
+        pictures = [materials / "camera", blurred / "shutter", blurred / "lens", blurred / "both"]
+        write(HERE / "pictures.png", tiled([read(next((picture / "color").glob("*.png"))) for picture in pictures], 2))
     return 0
 
 

@@ -181,21 +181,40 @@ private:
       this->Model_from_camera * ray.direction };
   }
 
-  /// First pixel and the one behind the last of a box around a triangle, within the image.
+  /// Corners of what a triangle has beyond the near plane, camera frame.
+  std::vector<Eigen::Vector3d> before(const Shaded& triangle) const
+  {
+    std::vector<Eigen::Vector3d> points;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const Eigen::Vector3d p = this->Camera_from_model * triangle.corners()[k];
+      const Eigen::Vector3d q = this->Camera_from_model * triangle.corners()[(k + 1) % 3];
+      if (p.z() >= this->The.near)
+      {
+        points.push_back(p);
+      }
+      if ((p.z() >= this->The.near) != (q.z() >= this->The.near))
+      {
+        points.push_back(p + (q - p) * ((this->The.near - p.z()) / (q.z() - p.z())));
+      }
+    }
+    return points;
+  }
+
+  /// First pixel and the one behind the last of a box around what the image may show of a triangle.
   std::array<Eigen::Vector2i, 2> pixelsOf(const Shaded& triangle) const
   {
     const Eigen::Array2d size(this->The.model->width(), this->The.model->height());
     Eigen::Array2d low = size;
     Eigen::Array2d high(0, 0);
-    for (const Eigen::Vector3d& corner : triangle.corners())
+    for (const Eigen::Vector3d& point : this->before(triangle))
     {
       Eigen::Vector2d pixel;
-      if (!this->The.model->project(this->Camera_from_model * corner, pixel))
+      if (this->The.model->project(point, pixel))
       {
-        return { Eigen::Vector2i(0, 0), size.cast<int>() };
+        low = low.min(pixel.array());
+        high = high.max(pixel.array());
       }
-      low = low.min(pixel.array());
-      high = high.max(pixel.array());
     }
     return { low.floor().max(0).matrix().cast<int>(), high.ceil().min(size).matrix().cast<int>() };
   }

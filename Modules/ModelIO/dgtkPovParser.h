@@ -118,6 +118,8 @@ private:
   void pigment(PovTexture& to);
   void colorMap(PovTexture& to, int& colors, Eigen::Vector3d& sum);
   void imageMap(PovTexture& to);
+  PovTexturePointer mapEntry(PovTexture& to);
+  PovTexturePointer textureMap(PovTexture& to);
   void finishBlock(PovTexture& to);
   bool optionalNumber(Number& to);
 
@@ -157,6 +159,7 @@ private:
   std::vector<Context> Contexts;
   PovTexturePointer DefaultTexture;
   std::vector<std::string> Warnings;
+  bool MapWarned = false;        ///< maps of textures are warned of once
   std::set<std::string> Scenery; ///< statements that are no part of the model
   std::string FirstProblem;
   PovPlace FirstProblemPlace;

@@ -269,6 +269,65 @@ bool PovParser::textureWord(const PovToken& word, PovTexture& to)
   return true;
 }
 
+/// What stands behind the number in `[0 texture]`, which is open. Returns the declared texture that it names, if it is
+/// no more than that.
+PovTexturePointer PovParser::mapEntry(PovTexture& to)
+{
+  PovTexturePointer same;
+  Number value;
+  this->optionalNumber(value);
+  while (!this->accept(']'))
+  {
+    const PovToken token = this->peek();
+    const auto known = token.kind == PovToken::Kind::Word ? this->Names.find(token.text) : this->Names.end();
+    if (token.kind == PovToken::Kind::End)
+    {
+      this->failAt(token, "ends inside texture_map", "']'");
+    }
+    if (known != this->Names.end() && known->second.kind == PovValue::Kind::Texture)
+    {
+      this->take();
+      to = *known->second.texture;
+      to.name = token.text;
+      same = known->second.texture;
+    }
+    else if (this->textureWord(token, to))
+    {
+      same.reset();
+    }
+    else
+    {
+      this->take();
+      this->skipOptionalBlock();
+    }
+  }
+  return same;
+}
+
+/// `{ [0 first] [1 second] ... }`: the first texture is drawn everywhere; returned as by mapEntry().
+PovTexturePointer PovParser::textureMap(PovTexture& to)
+{
+  const PovPlace begin = this->peek().place;
+  this->expect('{', "texture_map");
+  const bool entries = this->accept('[');
+  const PovTexturePointer same = entries ? this->mapEntry(to) : nullptr;
+  if (!this->MapWarned)
+  {
+    this->warn(begin, entries ? "a map of textures is drawn in its first one" : "texture_map is not drawn");
+  }
+  this->MapWarned = true;
+  for (int depth = 1; depth > 0;)
+  {
+    const PovToken token = this->take();
+    if (token.kind == PovToken::Kind::End)
+    {
+      this->failAt(token, "ends inside texture_map", "'}'");
+    }
+    depth += token.is('{') ? 1 : token.is('}') ? -1 : 0;
+  }
+  return same;
+}
+
 /// The block after `texture`, `pigment`, `finish` or `material`; `base` is what it changes. A block that only names a
 /// declared texture is that one.
 PovTexturePointer PovParser::texture(const std::string& kind, PovTexturePointer base)
@@ -299,6 +358,12 @@ PovTexturePointer PovParser::texture(const std::string& kind, PovTexturePointer 
       *result = *known->second.texture;
       result->name = token.text;
       same = known->second.texture;
+      continue;
+    }
+    if (token.is("texture_map"))
+    {
+      this->take();
+      same = this->textureMap(*result);
       continue;
     }
     const bool nested = kind == "material" && token.is("texture");

@@ -150,6 +150,54 @@ TEST_F(PovExport, IncludedMeshesReadBack)
   expectSameTriangles(corners(*state, scene.scale), corners(*readModel(this->path("c/pov/0.pov"))), scene.scale);
 }
 
+/// Smooth, and so coarse that interpolated normals face away from a viewer.
+std::shared_ptr<Model> coarseSphere()
+{
+  test::SphereOptions options;
+  options.rings = 4;
+  options.segments = 6;
+  return test::makeSphere(options);
+}
+
+TEST_F(PovExport, NormalsThatFaceAwayHaveTexturesOfTheView)
+{
+  const auto state =
+    test::SceneBuilder().add(coarseSphere()).add(test::makeBox(), test::placement({ 2, 0, 0 })).state();
+  this->V.model = makePinholeFromFov(320, 240, 45, 0);
+  std::filesystem::create_directories(this->path("c/pov"));
+  PovLibrary library(this->path("c/pov"), "");
+  const PovScene scene = makePovScene(*state, this->V, {}, library);
+  ASSERT_EQ(scene.uses.size(), 1u); // the box
+  EXPECT_EQ(count(scene.text, "= mesh2"), 1u);
+  EXPECT_EQ(count(scene.text, "texture_map"), 2u);
+  EXPECT_EQ(count(scene.text, "diffuse 0, "), 1u);
+  EXPECT_EQ(count(scene.text, "normal_indices"), 0u); // the model's own
+  writeFile(this->path("c/pov/0.pov"), scene.text);
+  const auto again = readModel(this->path("c/pov/0.pov"));
+  expectSameTriangles(corners(*state, scene.scale), corners(*again), scene.scale);
+  EXPECT_EQ(again->materials.size(), 2u);
+}
+
+TEST_F(PovExport, MeshesAreSharedUnlessNormalsFaceAwayInManyPixels)
+{
+  const auto sphere = coarseSphere();
+  const auto state =
+    test::SceneBuilder().add(sphere, test::placement({ -1, 0, 0 })).add(sphere, test::placement({ 1, 0, 0 })).state();
+  const auto meshes = [&](int width, const PovOptions& options)
+  {
+    this->V.model = makePinholeFromFov(width, width * 3 / 4, 45, 0);
+    exportPov(*state, this->V, this->path("s.pov"), options);
+    return count(readFile(this->path("s.pov")), "mesh2");
+  };
+  EXPECT_EQ(meshes(64, {}), 1u);
+  EXPECT_EQ(meshes(640, {}), 2u);
+  PovOptions flat;
+  flat.flatIds = true;
+  EXPECT_EQ(meshes(640, flat), 1u);
+  exportPov(sphere, this->path("m.pov")); // a model is not made for a view
+  EXPECT_EQ(count(readFile(this->path("m.pov")), "texture_map"), 0u);
+}
+
 TEST_F(PovExport, LibraryNamesAreThoseOfTheContents)
 {
   const auto quad = test::makeQuad();

@@ -110,6 +110,26 @@ TEST(Pov, Mesh2WithTexturesNormalsAndTransforms)
   EXPECT_EQ(model->uvs[model->triangles[1][2]], Eigen::Vector2d(0, 1));
 }
 
+TEST(Pov, MapsOfTexturesAreDrawnInTheirFirstOne)
+{
+  const std::string begin = "#declare A = texture { pigment { rgb <1, 0, 0.5> } finish { diffuse 0.5 } }\n"
+                            "#declare B = texture { A finish { diffuse 0, 0.5 } }\n"
+                            "mesh2 { vertex_vectors { 3, 0, x, y } texture_list { 2, texture { A } texture { ";
+  const std::string end = " } } face_indices { 2, <0,1,2>, 0, <0,2,1>, 1 } }";
+  const auto declared =
+    readBytes("pov", begin + "function { select(x - 0.5, 0, 1) } texture_map { [0.5 A] [0.5 B] }" + end);
+  EXPECT_EQ(declared->parts.size(), 1u); // the same material
+  EXPECT_EQ(declared->materials[0].diffuse, Eigen::Vector3d(0.5, 0, 0.25));
+  EXPECT_EQ(declared->warnings.size(), 1u);
+  const auto inPlace = readBytes(
+    "pov", begin + "gradient x texture_map { [0 pigment { rgb <0, 1, 0> } finish { diffuse 1 } scale 2] [1 B] }" + end);
+  ASSERT_EQ(inPlace->parts.size(), 2u);
+  EXPECT_EQ(inPlace->materials[static_cast<std::size_t>(inPlace->parts[1].material)].diffuse, Eigen::Vector3d(0, 1, 0));
+  EXPECT_EQ(readBytes("pov", begin + "gradient x texture_map { Known }" + end)->triangles.size(), 2u);
+  EXPECT_THROW(readBytes("pov", begin + "gradient x texture_map { [0 A"), dgtk::InputError);
+  EXPECT_THROW(readBytes("pov", begin + "gradient x texture_map { [0 A] "), dgtk::InputError);
+}
+
 TEST(Pov, NormalsDecideWhichSideIsOutside)
 {
   const auto model = readBytes("pov", rightHanded + "mesh { smooth_triangle { <0,0,0>,<0,0,-2>, <1,0,0>,<0,0,-2>, "
