@@ -391,12 +391,27 @@ def layered():
     # What an LDI is for: a hidden surface that is missing, displaced or invented, the first one being right.
     yield Plant("ldi", "surfaces", 0, hidden(lambda records, _: records[:1] + records[2:]))
     yield Plant("ldi", "surfaces", 0, hidden(lambda records, _: records + [[*records[-1][:4], 90.0, 0]]))
+    # Where the floor's plane would be met, far from where the floor ends.
+    yield Plant("ldi", "surfaces", 0, beyond_the_floor)
     yield Plant("ldi", "surfaces", 1e-9, hidden(lambda r, f: r[:-1] + [[*r[-1][:4], r[-1][4] * (1 + 1e-9 * f), r[-1][5]]]),
                 shown=0)
     yield Plant("ldi", "order", 0, hidden(lambda records, _: [records[0], records[2], records[1], *records[3:]]))
     # The last digit of the first record.
     yield Plant("ldi", "first = depth", 0,
                 hidden(lambda r, _: [[*r[0][:4], float(np.nextafter(r[0][4], 0)), r[0][5]], *r[1:]]))
+
+
+def beyond_the_floor(data, _):
+    """A record more behind the others, in the plane of the boards (y = 0, up to 3 from the middle), which end before."""
+    camera = record_of(data, "right", 0)
+    layers = data.layers_of("right/ldi/000000.ldi")
+    v, u = np.indices(layers.shape) + 0.5
+    rays = np.stack([u, v, np.ones_like(u)], axis=-1) @ np.linalg.inv(camera["K"]).T @ camera["R"]
+    centre = -camera["R"].T @ camera["t"]
+    depth = -centre[1] / rays[..., 1]
+    place = centre + depth[..., None] * rays
+    x, y = data.spot("right", 0, (layers > 0) & (depth > 8) & (depth < 90) & (np.abs(place[..., 2]) > 3.5))
+    return data.layered("right/ldi/000000.ldi", (x, y), lambda records: records + [[*records[-1][:4], depth[y, x], 0]])
 
 
 def divided(data, camera, frame=0):

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
@@ -57,6 +58,7 @@ TEST(Stage, ViewsOfAFieldOfView)
   EXPECT_LE((stage->view(0, 5).camera_from_world * Vector(0, 0, 0) - Vector(0, 0, 10)).norm(), rounding);
   EXPECT_NEAR(stage->view(0, 10).model->linear()->K(1, 1), 240 / std::tan(3.14159265358979323846 / 6), 1e-9);
   EXPECT_EQ(stage->view(1, 0).model->width(), 100);
+  EXPECT_EQ(stage->view(1, 0).model->height(), 50);
   EXPECT_NEAR(stage->view(1, 0, 200, 100).model->linear()->K(0, 0), 50, 1e-12 * 50);
   EXPECT_THROW(stage->view(2, 0), UsageError);
   EXPECT_THROW(stage->view(0, 0, -1, 5), UsageError);
@@ -92,6 +94,11 @@ TEST(Stage, OrthographicViews)
   Eigen::Vector2d pixel;
   ASSERT_TRUE(view.model->project(view.camera_from_world * Vector(1, 1, 3), pixel));
   EXPECT_LE((pixel - Eigen::Vector2d(250, 50)).norm(), 1e-12);
+  const auto zoom = folder.load(R"({"cameras": [{"model": "orthographic", "eye": [0, 0, 9], "lookAt": [0, 0, 0],
+    "viewHeight": {"keys": [[0, 4], [10, 8]]}}]})");
+  const View wide = zoom->view(0, 10, 400, 200);
+  ASSERT_TRUE(wide.model->project(wide.camera_from_world * Vector(1, 1, 3), pixel));
+  EXPECT_LE((pixel - Eigen::Vector2d(225, 75)).norm(), 1e-12);
 }
 
 TEST(Stage, Lights)
@@ -103,11 +110,22 @@ TEST(Stage, Lights)
   const auto some = folder
                       .load(R"({"background": [0.1, 0.2, 0.3], "lights": [
     {"enabled": false}, {"name": "s", "kind": "spot", "position": {"keys": [[0, [0, 0, 0]], [4, [4, 0, 0]]]},
-    "target": [0, 0, 5], "intensity": 3, "coneAngle": 20}]})")
+    "target": {"keys": [[0, [0, 0, 1]], [4, [0, 0, 9]]]}, "intensity": 3, "coneAngle": 20, "exponent": 7,
+    "ambient": [0.1, 0.2, 0.3], "diffuse": [0.4, 0.5, 0.6], "specular": [0.7, 0.8, 0.9], "attenuation": [1, 2, 3],
+    "shadows": true, "shadowSize": 512}]})")
                       ->at(1);
   ASSERT_EQ(some->lights.size(), 1u);
   EXPECT_EQ(some->lights[0].kind, LightState::Kind::Spot);
+  EXPECT_EQ(some->lights[0].name, "s");
   EXPECT_EQ(some->lights[0].position, Vector(1, 0, 0));
+  EXPECT_EQ(some->lights[0].target, Vector(0, 0, 3));
+  EXPECT_EQ(some->lights[0].ambient, Vector(0.1, 0.2, 0.3));
+  EXPECT_EQ(some->lights[0].diffuse, Vector(0.4, 0.5, 0.6));
+  EXPECT_EQ(some->lights[0].specular, Vector(0.7, 0.8, 0.9));
+  EXPECT_EQ(some->lights[0].attenuation, Vector(1, 2, 3));
+  EXPECT_EQ(some->lights[0].exponent, 7);
+  EXPECT_TRUE(some->lights[0].shadows);
+  EXPECT_EQ(some->lights[0].shadowSize, 512);
   EXPECT_EQ(some->lights[0].intensity, 3);
   EXPECT_EQ(some->lights[0].coneAngle, 20);
   EXPECT_EQ(some->background, Vector(0.1, 0.2, 0.3));
@@ -130,9 +148,12 @@ TEST(Stage, EnvironmentsTurnAboutTheUpAxis)
   {
     const auto state = folder
                          .load(std::string(R"({"upAxis": ")") + one.upAxis +
-                               R"(", "environment": {"image": "sky.hdr", "rotation": 30}})")
+                               R"(", "environment": {"image": "sky.hdr", "rotation": 30, "intensity": 2,
+                                  "background": false}})")
                          ->at(0);
     ASSERT_TRUE(state->environment);
+    EXPECT_EQ(state->environment->intensity, 2);
+    EXPECT_FALSE(state->environment->background);
     const Eigen::Matrix3d& turn = state->environment->image_from_world;
     EXPECT_LT((turn * one.ahead - Vector(0, 0, -1)).norm(), rounding) << one.upAxis;
     EXPECT_LT((turn * one.right - Vector(1, 0, 0)).norm(), rounding) << one.upAxis;
@@ -157,6 +178,33 @@ TEST(Stage, ExposuresAreInTheMiddleOfTheirPartsOfTheShutter)
       const Rigid3& pose = exposures[k].view.camera_from_world;
       EXPECT_LT((-(pose.rotation.transpose() * pose.translation) - Vector(expected[i][k], 0, 0)).norm(), 8 * rounding);
     }
+  }
+}
+
+TEST(Stage, ExposuresOfALensAreSpreadOverItAndMeetInTheFocus)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"cameras": [{"eye": [0, 0, 0], "lookAt": [0, 0, -9], "fovY": 40,
+    "lens": {"aperture": 0.5, "focus": {"keys": [[0, 4], [2, 8]]}, "exposures": 12},
+    "shutter": {"open": 0, "close": 2, "exposures": 8}}]})");
+  const Eigen::Matrix3d K = stage->view(0, 0, 64, 48).model->linear()->K;
+  const std::vector<Exposure> exposures = stage->exposures(0, 0, 64, 48);
+  ASSERT_EQ(exposures.size(), 12u); // as many as the one of the two that needs more
+  std::vector<double> radii;
+  for (const Exposure& one : exposures)
+  {
+    const Vector point(0.5, -0.25, -4 - 2 * one.frame); // in focus at that time
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(one.view.model->project(one.view.camera_from_world * point, pixel));
+    const Vector x(point.x(), -point.y(), -point.z());
+    EXPECT_LT((pixel - (K * x / x.z()).head<2>()).norm(), 1e-12);
+    radii.push_back(one.view.camera_from_world.translation.norm());
+  }
+  // Circles that cut the disc into parts of one size pass between the points.
+  std::sort(radii.begin(), radii.end());
+  for (std::size_t i = 0; i < radii.size(); ++i)
+  {
+    EXPECT_NEAR(radii[i], 0.25 * std::sqrt((double(i) + 0.5) / 12), rounding);
   }
 }
 
@@ -198,11 +246,25 @@ TEST(Stage, IsTheSameFromManyThreads)
   EXPECT_EQ(wrong, std::vector<int>(4, 0));
 }
 
+TEST(Stage, ObjectsThatOnlyGrowMove)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"objects": [
+    {"name": "root", "model": "models/square.ac", "scale": {"keys": [[0, 1], [4, 3]]}},
+    {"name": "child", "model": "models/square.ac", "parent": "root", "position": [1, 0, 0]}]})");
+  for (const auto& [frame, scale] : { std::pair(0, 1), std::pair(2, 2), std::pair(4, 3) })
+  {
+    const auto state = stage->at(frame);
+    EXPECT_EQ(state->instances[0].world_from_object * Vector(1, 1, 0), Vector(scale, scale, 0));
+    EXPECT_EQ(state->instances[1].world_from_object * Vector(1, 1, 0), Vector(2 * scale, scale, 0));
+  }
+}
+
 TEST(Stage, UndefinedMomentsAreRefused)
 {
   const ModelFolder folder;
   const auto stage = folder.load(R"({"objects": [
-    {"name": "flat", "model": "models/square.ac", "scale": {"keys": [[0, -1], [3, 1]]}}],
+    {"name": "flat", "model": "models/square.ac", "scale": {"keys": [[0, [1, -1, 2]], [3, [1, 1, 2]]]}}],
     "cameras": [{"eye": {"keys": [[0, [0, 0, 5]], [3, [0, 0, -5]]]}, "lookAt": [0, 0, 0]}]})");
   EXPECT_NO_THROW(stage->at(0));
   try

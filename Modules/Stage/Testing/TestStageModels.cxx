@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkMissingModels.h"
+#include "dgtkModelClock.h"
 #include "dgtkStageSamples.h"
 
 #include <gmock/gmock.h>
@@ -59,6 +60,16 @@ TEST(StageModels, FilesAreListed)
                                    folder.path("models/red.ppm"), folder.path("models/other.ppm") }));
 }
 
+TEST(StageModels, FilesBesideAModelAreListed)
+{
+  const ModelFolder folder;
+  writeFile(folder.path("models/runner.anm"), "jump 0 1 5\n");
+  const auto stage = folder.load(runner(R"("sequence": "jump")"));
+  EXPECT_EQ(stage->inputFiles(),
+    (std::vector<std::string>{ folder.path("scene.json"), folder.path("models/runner.md2"),
+      folder.path("models/runner.anm"), folder.path("models/one.ppm"), folder.path("models/two.ppm") }));
+}
+
 TEST(StageModels, ObjectsWithoutSurfacesHaveNoId)
 {
   const ModelFolder folder;
@@ -100,6 +111,50 @@ TEST(StageModels, MaterialsAreReplaced)
   EXPECT_EQ(model.textures.at(std::size_t(material(3).texture)).path, folder.path("models/other.ppm"));
   EXPECT_NE(model.textures.at(std::size_t(material(3).texture)).image, nullptr);
   EXPECT_EQ(state->instances[3].model, state->instances[0].model);
+}
+
+TEST(StageModels, MissingTexelsAreThoseOfTheTextureThatIsUsed)
+{
+  const ModelFolder folder;
+  // Two texels of 32 bits, the second one transparent.
+  writeFile(folder.path("models/holes.tga"),
+    std::string("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\1\0\x20\x28", 18) + "\1\2\3\xff\4\5\6" + '\0');
+  const auto stage = folder.load(R"({"objects": [
+    {"model": "models/square.ac"}, {"model": "models/square.ac", "materials": {"*": {"texture": "models/holes.tga"}}},
+    {"model": "models/square.ac", "materials": {"*": {"texture": "models/holes.tga"}, "red": {"texture": ""}}},
+    {"model": "models/square.ac", "materials": {"*": {"texture": "models/holes.tga"},
+      "red": {"texture": "models/other.ppm"}}}]})");
+  const auto state = stage->at(0);
+  for (const auto& [object, cutOut] :
+    { std::pair(0, false), std::pair(1, true), std::pair(2, false), std::pair(3, false) })
+  {
+    EXPECT_EQ(state->instances[std::size_t(object)].materials->at(0).cutOut, cutOut) << object;
+  }
+}
+
+TEST(StageModels, MetalAndRoughnessAreAskedFor)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"objects": [{"model": "models/square.ac"},
+    {"model": "models/square.ac", "materials": {"*": {"metallic": 0.75}}},
+    {"model": "models/square.ac", "materials": {"*": {"roughness": 0.25}}}]})");
+  const auto physical = [&](std::size_t i) { return stage->at(0)->instances[i].materials->at(0).physical; };
+  EXPECT_FALSE(physical(0));
+  for (const std::size_t i : { 1u, 2u })
+  {
+    ASSERT_TRUE(physical(i));
+    EXPECT_TRUE(physical(i)->wanted);
+    EXPECT_EQ(physical(i)->metallic, i == 1 ? 0.75 : 0);
+    EXPECT_EQ(physical(i)->roughness, i == 2 ? 0.25 : 1);
+  }
+}
+
+TEST(StageModels, AllMaterialsOfNone)
+{
+  const ModelFolder folder;
+  writeFile(folder.path("models/bare.ac"), "AC3Db\nOBJECT world\nkids 0\n");
+  EXPECT_EQ(
+    folder.refusalOf(R"({"objects": [{"model": "models/bare.ac", "materials": {"*": {"opacity": 0.5}}}]})"), "");
 }
 
 TEST(StageModels, AMissingTextureIsAWarning)
@@ -154,6 +209,24 @@ TEST(StageModels, SkinsAreTexturesOfTheModel)
               "two.ppm, found 'three')"));
 }
 
+TEST(StageModels, SkinsReplaceTexturesOnly)
+{
+  const ModelFolder folder;
+  std::string two = squareAc;
+  two.replace(two.find("kids 1"), 6, "kids 2");
+  std::string plain = squareAc.substr(squareAc.find("OBJECT poly"));
+  plain.replace(plain.find("texture \"red.ppm\"\n"), 18, "");
+  writeFile(folder.path("models/two.ac"), two + plain);
+  const auto stage = folder.load(R"({"objects": [{"model": "models/two.ac", "skin": "red"}]})");
+  const Instance& instance = stage->at(0)->instances[0];
+  std::vector<int> textures;
+  for (const Part& part : instance.model->parts)
+  {
+    textures.push_back(instance.materials->at(std::size_t(part.material)).texture);
+  }
+  EXPECT_THAT(textures, testing::ElementsAre(0, -1));
+}
+
 // MD2 plays 10 frames a second: at 20 scene frames a second, half a model frame each.
 TEST(StageModels, AnimationsFollowTheirClock)
 {
@@ -170,6 +243,7 @@ TEST(StageModels, AnimationsFollowTheirClock)
   {
     EXPECT_NEAR(advance(*held, frame), expected, 1e-12) << frame;
   }
+  EXPECT_EQ(held->at(8)->instances[0].geometry, held->at(1e6)->instances[0].geometry);
   const auto still = folder.load(runner(R"("rate": 0, "offset": 2)"));
   EXPECT_EQ(advance(*still, 50), 0);
   const auto other = folder.load(runner(R"("sequence": "rest")"));
@@ -192,6 +266,43 @@ TEST(StageModels, InstancesInTheSamePoseShareIt)
   EXPECT_EQ(state->instances[3].geometry, stage->at(2)->instances[3].geometry);
 }
 
+namespace
+{
+/// A triangle in the plane z = 0 whose third corner is as high as the number of the frame.
+class Flap : public Deformation
+{
+public:
+  void positionsAt(int /*animation*/, double frame, std::vector<Vector>& positions) const override
+  {
+    positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, frame } };
+  }
+};
+
+std::shared_ptr<Model> makeFlap()
+{
+  auto model = std::make_shared<Model>();
+  model->triangles = { { 0, 1, 2 } };
+  model->sourceVertex = { 0, 1, 2 };
+  model->sourceVertices = 3;
+  model->normalGroup = { 0, 0, 0 };
+  model->animations = { { "flap", 0, 1, 10, false } };
+  model->deformation = std::make_shared<Flap>();
+  model->rest = geometryAt(*model, 0, 0);
+  return model;
+}
+} // namespace
+
+// On the way from the last frame to the first one.
+TEST(StageModels, NormalsPassFromTheEndToTheBeginning)
+{
+  const auto flap = makeFlap();
+  const auto there = GeometryCache().get(*flap, { 0, 1, 0.25 });
+  EXPECT_EQ(there->positions[2], Vector(0, 1, 0.75));
+  const Eigen::Vector3f up(0, 0, 1);
+  const Eigen::Vector3f tilted = Eigen::Vector3f(0, -1, 1).normalized();
+  EXPECT_LT((there->normals[0] - (0.75f * tilted + 0.25f * up).normalized()).norm(), 1e-6f);
+}
+
 TEST(StageModels, RefusalsNameTheSceneAndTheObject)
 {
   const ModelFolder folder;
@@ -206,6 +317,9 @@ TEST(StageModels, RefusalsNameTheSceneAndTheObject)
   EXPECT_THAT(
     folder.refusalOf("{\"objects\": [{\"model\": \"models/runner.md2\", \"animation\": {\"sequence\": \"run\"}}]}"),
     HasSubstr("(expected one of go, rest, found 'run')"));
+  EXPECT_THAT(
+    folder.refusalOf("{\"objects\": [{\"model\": \"models/runner.md2\", \"animation\": {\"sequence\": \"2\"}}]}"),
+    HasSubstr("(expected one of go, rest, found '2')"));
   EXPECT_THAT(folder.refusalOf("{\"objects\": [{\"model\": \"models/square.ac\", \"materials\": {\"blue\": {}}}]}"),
     HasSubstr("materials: no material of models/square.ac has this name (expected * or one of red, found 'blue')"));
 }

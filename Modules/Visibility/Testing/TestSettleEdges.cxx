@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkSyntheticScene.h"
+#include "dgtkExactReference.h"
 
 #include <gtest/gtest.h>
 
@@ -76,7 +76,10 @@ TEST(SettleEdges, RestoresPixelsThatARoundingErrorMoved)
 {
   const auto state = mixedScene();
   dgtk::View view = makeView({ 320, 240, 45, { 2, 2, 5 }, { 0, 0, 0 }, { 0, 1, 0 }, 0.1, 100 });
-  for (const auto& model : { dgtk::makePinholeFromFov(320, 240, 45, 0), dgtk::makeOrthographic(320, 240, 5, 0) })
+  Eigen::Matrix3d skewed;
+  skewed << 290, 60, 160, 0, 280, 120, 0, 0, 1;
+  for (const auto& model : { dgtk::makePinholeFromFov(320, 240, 45, 0), dgtk::makeOrthographic(320, 240, 5, 0),
+         dgtk::makePinhole(320, 240, skewed) })
   {
     view.model = model;
     const dgtk::VisibilityBuffer exact = bruteForce(*state, view);
@@ -138,6 +141,80 @@ TEST(SettleEdges, PartsOfTheImageAreThePartsOfTheWhole)
     for (int x = 50; x < 114; ++x)
     {
       EXPECT_EQ(part.at(x, y), exact.at(x, y)) << x << ' ' << y;
+    }
+  }
+}
+
+// Far from all edges, where a surface was drawn that lies behind another one.
+TEST(SettleEdges, PartsOfTheImageKnowHowFarTheirSurfacesAre)
+{
+  const auto state = SceneBuilder()
+                       .add(makeQuad({ { -3, -3, 0 }, { 6, 0, 0 }, { 0, 6, 0 }, 1, 1 }))
+                       .add(makeQuad({ { -3, -3, 0.3 }, { 6, 0, -0.6 }, { 0, 6, 0 }, 1, 1 })) // behind on the right
+                       .state();
+  const dgtk::View view = makeView();
+  dgtk::VisibilityBuffer part;
+  part.resize({ 32, 0, 32, 48 });
+  for (int y = 0; y < 48; ++y)
+  {
+    for (int x = 32; x < 64; ++x)
+    {
+      part.at(x, y) = bruteForce(*state, view, { x, y, 1, 1 }).hits[0];
+    }
+  }
+  const dgtk::Hit seen = part.at(50, 30);
+  ASSERT_EQ(seen.object, 1u);
+  part.at(50, 30) = { 2, seen.triangle };
+  EXPECT_EQ(dgtk::settleEdges(*state, view, part), 1u);
+  EXPECT_EQ(part.at(50, 30), seen);
+}
+
+/// A triangle of which two edges, in the image, pass through the centres of pixels as well as double precision can say.
+std::shared_ptr<dgtk::Model> throughCentres(const dgtk::View& view, std::mt19937& random)
+{
+  auto model = makeSoup({ 1, 0.1, 0.1, 1 });
+  auto geometry = std::make_shared<dgtk::Geometry>(*model->rest);
+  const int x = int(random() % 30), y = int(random() % 20), side = int(4 + random() % 24);
+  const int corner[3][2] = { { x, y }, { x + 2 * side, y + side }, { x, y + side } };
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const dgtk::CameraRay ray = view.model->rayThrough({ corner[i][0] + 0.5, corner[i][1] + 0.5 });
+    const double depth = 3 + double(random() % 1000) / 300;
+    geometry->positions[i] = view.camera_from_world.inverse() * (ray.origin + depth * ray.direction);
+  }
+  model->rest = geometry;
+  return model;
+}
+
+/// The pixels of a scene's only triangle, whose edges belong to it.
+dgtk::VisibilityBuffer inExactArithmetic(const dgtk::SceneState& state, const dgtk::View& view)
+{
+  dgtk::VisibilityBuffer buffer;
+  buffer.resize({ 0, 0, view.model->width(), view.model->height() });
+  for (int i = 0; i < int(buffer.hits.size()); ++i)
+  {
+    const ReferencePoint at =
+      referencePoint(state, view, { 1, 0 }, i % buffer.rect.width + 0.5, i / buffer.rect.width + 0.5);
+    const bool inside = at.second >= 0 && at.third >= 0 && at.second + at.third <= 1;
+    buffer.hits[std::size_t(i)] = inside ? dgtk::Hit{ 1, 0 } : dgtk::Hit{};
+  }
+  return buffer;
+}
+
+TEST(SettleEdges, CentresOnEdgesAreDecidedExactly)
+{
+  dgtk::View view = makeView({ 64, 48, 45, { 2.1, 1.7, 5.3 }, { 0.1, 0.2, 0 }, { 0.1, 1, 0 }, 0.1, 100 });
+  for (const auto& model : { dgtk::makePinholeFromFov(64, 48, 45, 0), dgtk::makeOrthographic(64, 48, 5, 0) })
+  {
+    view.model = model;
+    std::mt19937 random(7);
+    for (int i = 0; i < 40; ++i)
+    {
+      const auto state = SceneBuilder().add(throughCentres(view, random)).state();
+      const dgtk::VisibilityBuffer exact = inExactArithmetic(*state, view);
+      dgtk::VisibilityBuffer buffer = exact;
+      dgtk::settleEdges(*state, view, buffer);
+      EXPECT_EQ(differences(buffer, exact), 0u) << i;
     }
   }
 }
@@ -221,6 +298,31 @@ TEST(SettleEdges, CoincidentSurfacesGoToTheLowestObject)
   {
     EXPECT_EQ(buffer.at(i, 47 - i), (dgtk::Hit{ 1, 0 }));
   }
+}
+
+// Whose depths differ by roundings, away from all edges.
+TEST(SettleEdges, CoincidentSurfacesOfDifferentTrianglesGoToTheLowestObject)
+{
+  const auto state = SceneBuilder()
+                       .add(makeQuad({ { -3, -3, 0.1 }, { 6, 0, 0.7 }, { 0, 6, 0.3 }, 2, 3 }))
+                       .add(makeQuad({ { -3, -3, 0.1 }, { 6, 0, 0.7 }, { 0, 6, 0.3 }, 1, 1 }))
+                       .state();
+  const dgtk::View view = makeView();
+  const dgtk::VisibilityBuffer exact = bruteForce(*state, view);
+  dgtk::VisibilityBuffer buffer = exact;
+  for (std::size_t i = 0; i < buffer.hits.size(); ++i)
+  {
+    ASSERT_EQ(exact.hits[i].object, 1u);
+    const int x = int(i % 64), y = int(i / 64);
+    for (const std::uint32_t triangle : { 0u, 1u })
+    {
+      const Eigen::Vector2d weights =
+        dgtk::surfacePointAt(*state, view, { x + 0.5, y + 0.5 }, { 2, triangle }).barycentrics;
+      buffer.hits[i] = weights.minCoeff() >= 0 && weights.sum() <= 1 ? dgtk::Hit{ 2, triangle } : buffer.hits[i];
+    }
+  }
+  dgtk::settleEdges(*state, view, buffer);
+  EXPECT_EQ(differences(buffer, exact), 0u);
 }
 
 TEST(SettleEdges, RemovesImpossibleDepths)

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkPovExport.h"
+#include "dgtkSyntheticScene.h"
+#include "dgtkTestSupport.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace dgtk
+{
+namespace
+{
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Numbers of a few products.
+constexpr double Rounding = 1e-14;
+
+/// What scenes are written with: camera, lights, materials and pictures.
+class PovLook : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->V.name = "c";
+    this->V.model = makePinholeFromFov(64, 48, 45, 0);
+    this->V.camera_from_world = lookAtPose({ 1, 2, 8 }, { 0, 0, 0 }, { 0, 1, 0 });
+    this->State = *test::SceneBuilder().add(test::makeBox()).state();
+  }
+  std::string path(const std::string& name) const { return this->Folder.path(name); }
+  std::string write(const PovOptions& options = {})
+  {
+    this->Result = exportPov(this->State, this->V, this->path("s.pov"), options);
+    return readFile(this->path("s.pov"));
+  }
+  /// The box, with its material changed.
+  template <class Edit>
+  void change(const Edit& edit)
+  {
+    Instance& box = this->State.instances[0];
+    auto materials = std::make_shared<std::vector<Material>>(*box.materials);
+    edit((*materials)[0]);
+    box.materials = materials;
+  }
+
+  test::TemporaryFolder Folder;
+  View V;
+  SceneState State;
+  PovResult Result;
+};
+
+/// The number after a word.
+double after(const std::string& text, const std::string& word)
+{
+  const std::size_t at = text.find(word);
+  return at == std::string::npos ? NAN : std::stod(text.substr(at + word.size()));
+}
+
+/// The colour after a word.
+Eigen::Vector3d colorAfter(const std::string& text, const std::string& word)
+{
+  Eigen::Vector3d v(NAN, NAN, NAN);
+  const std::size_t at = text.find(word + " rgb <");
+  std::sscanf(text.c_str() + (at == std::string::npos ? text.size() : at + word.size() + 6), "%lf, %lf, %lf", &v[0],
+    &v[1], &v[2]);
+  return v;
+}
+
+TEST_F(PovLook, TheLargestDistanceIsNotReachedButNearly)
+{
+  for (const double size : { 1e-3, 1.0, 1e5 })
+  {
+    this->State.instances[0].world_from_object = test::placement({ 0, 0, 0 }, size);
+    this->write();
+    const double reach = std::sqrt(1 + 4 + 64.0) + size * std::sqrt(3.0);
+    EXPECT_EQ(this->Result.scale, std::exp2(std::floor(std::log2(this->Result.scale)))) << size;
+    EXPECT_LE(this->Result.scale * reach, 1 << 17) << size;
+    EXPECT_GT(this->Result.scale * reach, 1 << 16) << size;
+  }
+}
+
+TEST_F(PovLook, LensIsAsLargeAsTheScene)
+{
+  PovOptions options;
+  options.lens = PovLens{ 0.25, 7 };
+  const std::string text = this->write(options);
+  EXPECT_EQ(after(text, "aperture "), 0.25 * this->Result.scale);
+  EXPECT_THAT(text, HasSubstr("focal_point <0, 0, 7>"));
+}
+
+TEST_F(PovLook, AmbientLightIsTheWorldsAndThatOfTheLights)
+{
+  this->State.lights.resize(2);
+  this->State.lights[0].ambient = { 0.1, 0.2, 0.3 };
+  this->State.lights[1].ambient = { 0.05, 0, 0 };
+  this->State.lights[1].intensity = 4;
+  EXPECT_LE((colorAfter(this->write(), "ambient_light") - Eigen::Vector3d(0.5, 0.4, 0.5)).norm(), Rounding);
+  PovOptions options;
+  options.radiosity = true;
+  const std::string text = this->write(options);
+  EXPECT_EQ(colorAfter(text, "ambient_light"), Eigen::Vector3d(0, 0, 0));
+  EXPECT_THAT(text, HasSubstr("radiosity {"));
+}
+
+TEST_F(PovLook, OnlyAmbientLightThatShouldFallOffIsNoted)
+{
+  this->State.lights.resize(1);
+  this->State.lights[0].ambient = { 0.1, 0.1, 0.1 };
+  this->write();
+  EXPECT_THAT(this->Result.warnings, testing::IsEmpty());
+  this->State.lights[0].attenuation = { 1, 0.5, 0 };
+  this->write();
+  EXPECT_THAT(this->Result.warnings, testing::ElementsAre(HasSubstr("its ambient light does not fall off")));
+}
+
+TEST_F(PovLook, AttenuationThatIsMatchedOrBounded)
+{
+  const auto at = [this](const Eigen::Vector3d& attenuation, double d)
+  {
+    this->State.lights.resize(1);
+    this->State.lights[0].position = { 0, 3, 4 };
+    this->State.lights[0].attenuation = attenuation;
+    std::string text = this->write();
+    text = text.substr(text.find("light_source"));
+    const double fade = std::pow(d * this->Result.scale / after(text, "fade_distance "), after(text, "fade_power "));
+    return after(text, "rgb <") * 2 / (1 + fade);
+  };
+  // Linear and quadratic together: at the middle of the scene, 5 away.
+  EXPECT_NEAR(at({ 1, 0.5, 0.25 }, 5), 1 / (1 + 2.5 + 6.25), Rounding);
+  EXPECT_THAT(this->Result.warnings, testing::ElementsAre(HasSubstr("at the middle of the scene only")));
+  // Nothing but the distance: as if there were a thousandth of the scene's radius more of it, or of its square.
+  const double least = 1e-3 * std::sqrt(3.0);
+  EXPECT_NEAR(at({ 0, 2, 0 }, 5), 1 / (2 * (5 + least)), Rounding);
+  EXPECT_NEAR(at({ 0, 0, 2 }, 5), 1 / (2 * (25 + least * least)), Rounding);
+}
+
+TEST_F(PovLook, WhatIsNotWrittenIsNoted)
+{
+  this->change([](Material& material) { material.normalMap = 0; });
+  this->State.fog = { { 0.1, 0.2, 0.3 }, 0.5, 0 };
+  this->State.environment = std::make_shared<EnvironmentState>();
+  this->write();
+  EXPECT_THAT(this->Result.warnings,
+    testing::ElementsAre("fog hides the background", "the environment is not written", "normal maps are not written"));
+  EXPECT_EQ(povNotes(this->State, this->V, {}), this->Result.warnings);
+}
+
+TEST_F(PovLook, AntialiasIsAGridWithoutNoise)
+{
+  EXPECT_THAT(povAntialias(1), testing::ElementsAre("-A"));
+  EXPECT_THAT(povAntialias(2), testing::ElementsAre("+A0.0", "+AM1", "+R2", "-J"));
+}
+
+// A finish's ambient light and emission are multiplied with the pigment.
+TEST_F(PovLook, ColoursOfPartsThatThePigmentLacks)
+{
+  this->change(
+    [](Material& material)
+    {
+      material.diffuse = { 0.5, 0.25, 0 };
+      material.ambient = { 0.1, 0.2, 0.3 };
+      material.emission = { 0.4, 0.5, 0.6 };
+    });
+  const std::string text = this->write();
+  const Eigen::Vector3d pigment = colorAfter(text, "pigment {");
+  EXPECT_EQ(after(text, " diffuse "), 0.5);
+  EXPECT_LE((0.5 * pigment - Eigen::Vector3d(0.5, 0.25, 0)).norm(), 1e-3);
+  EXPECT_LE(
+    (colorAfter(text, "finish { ambient").cwiseProduct(pigment) - Eigen::Vector3d(0.1, 0.2, 0.3)).norm(), Rounding);
+  EXPECT_LE((colorAfter(text, "emission").cwiseProduct(pigment) - Eigen::Vector3d(0.4, 0.5, 0.6)).norm(), Rounding);
+}
+
+TEST_F(PovLook, MissingTexelsHaveNoHighlights)
+{
+  const auto quad = test::makeQuad();
+  test::addCutOut(*quad, 4, 1);
+  quad->materials[0].specular = { 1, 1, 1 };
+  quad->materials[0].shininess = 20;
+  for (const bool cutOut : { false, true })
+  {
+    quad->materials[0].cutOut = cutOut;
+    this->State = *test::SceneBuilder().add(quad).state();
+    this->State.lights.resize(1);
+    this->State.lights[0].kind = LightState::Kind::Directional;
+    this->State.lights[0].target = { 0, 0, -1 };
+    EXPECT_EQ(this->write().find("phong 1 phong_size 20") == std::string::npos, cutOut);
+  }
+}
+
+TEST_F(PovLook, TexelsAreThereFromTheMiddleOn)
+{
+  const auto quad = test::makeQuad();
+  test::addCutOut(*quad, 2, 1);
+  auto image = std::make_shared<Image>(*quad->textures[0].image);
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    image->rgba[4 * i + 3] = std::uint8_t(126 + i);
+  }
+  quad->textures[0].image = image;
+  exportPov(quad, this->path("q.pov"));
+  EXPECT_EQ(readFile(this->path("q_0_mask.pgm")), std::string("P5\n2 2\n255\n\0\0\xff\xff", 15));
+}
+
+TEST_F(PovLook, NormalsOfTheOtherSideAreWritten)
+{
+  const auto quad = test::makeQuad();
+  auto geometry = std::make_shared<Geometry>(*quad->rest);
+  for (Eigen::Vector3f& normal : geometry->normals)
+  {
+    normal = -normal;
+  }
+  quad->rest = geometry;
+  exportPov(quad, this->path("q.pov"));
+  EXPECT_THAT(readFile(this->path("q.pov")), HasSubstr("normal_vectors"));
+}
+
+/// A quad with an opaque texture of one file, of which only the header counts.
+std::shared_ptr<Model> textured(const std::string& path, char kind, bool hasAlpha)
+{
+  writeFile(path, "\x89PNG\r\n\x1a\n" + std::string(17, '\1') + kind);
+  const auto quad = test::makeQuad();
+  test::addCutOut(*quad, 2, 1);
+  auto image = std::make_shared<Image>(*quad->textures[0].image);
+  image->rgba = { 3, 3, 3, 255, 0, 1, 2, 255, 255, 254, 253, 255, 7, 5, 9, 255 };
+  image->hasAlpha = hasAlpha;
+  quad->textures[0].image = image;
+  quad->textures[0].path = path;
+  quad->materials[0].cutOut = false;
+  return quad;
+}
+
+TEST_F(PovLook, PicturesThatArePlainAreUsedAsTheyAre)
+{
+  for (const char kind : { 0, 2, 3, 4, 6 }) // grey, colours, palette; with alpha
+  {
+    for (const bool hasAlpha : { false, true })
+    {
+      exportPov(textured(this->path("t.png"), kind, hasAlpha), this->path("q.pov"));
+      const bool whole = kind < 4 && !hasAlpha;
+      EXPECT_THAT(
+        readFile(this->path("q.pov")), HasSubstr(whole ? "image_map { png \"t.png\"" : "image_map { ppm \"q_0.ppm\""))
+        << int(kind) << hasAlpha;
+    }
+  }
+}
+
+TEST_F(PovLook, PicturesAreTintedInTheirTexels)
+{
+  const auto quad = textured(this->path("t.png"), 2, false);
+  quad->materials[0].diffuse = { 0.8, 0.4, 0.2 };
+  exportPov(quad, this->path("q.pov"));
+  const std::string text = readFile(this->path("q.pov"));
+  EXPECT_EQ(after(text, " diffuse "), 0.8);
+  // Rounded: 1.5, 0.75; 0.5, 0.5; 127, 63.25; 2.5, 2.25
+  EXPECT_EQ(readFile(this->path("q_0.ppm")), std::string("P6\n2 2\n255\n\3\2\1\0\1\1\xff\x7f\x3f\7\3\2", 23));
+}
+
+TEST_F(PovLook, MaterialsOfALibraryAreThoseOfTheLight)
+{
+  this->change(
+    [](Material& material)
+    {
+      material.specular = { 1, 1, 1 };
+      material.shininess = 20;
+    });
+  PovLibrary library(this->Folder.path(), "");
+  const auto finishIn = [&](LightState::Kind kind)
+  {
+    this->State.lights.resize(1);
+    this->State.lights[0].kind = kind;
+    this->State.lights[0].target = { 0, 0, -1 };
+    return readFile(this->path(makePovScene(this->State, this->V, {}, library).uses.at(0).name));
+  };
+  EXPECT_THAT(finishIn(LightState::Kind::Head), HasSubstr("specular 1 roughness 0.05"));
+  EXPECT_THAT(finishIn(LightState::Kind::Directional), HasSubstr("phong 1 phong_size 20"));
+}
+
+TEST_F(PovLook, WhatLightDoesNotReachNeedsNoTextureOfTheView)
+{
+  test::SphereOptions options;
+  options.rings = 4;
+  options.segments = 6;
+  this->V.model = makePinholeFromFov(320, 240, 45, 0);
+  this->State = *test::SceneBuilder().add(test::makeSphere(options)).state();
+  EXPECT_THAT(this->write(), HasSubstr("texture_map"));
+  this->change([](Material& material) { material.diffuse.setZero(); });
+  EXPECT_THAT(this->write(), Not(HasSubstr("texture_map")));
+}
+
+} // namespace
+} // namespace dgtk
