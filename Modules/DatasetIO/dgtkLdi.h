@@ -26,6 +26,11 @@ struct LdiSurface
   std::uint32_t triangle = 0; ///< within the part
 };
 
+/// Names of what a .ldi file has of a pixel and of a surface: count, and colour, depth and splat index.
+constexpr const char* ldiParts[] = { "count", "rgba", "depth", "splat" };
+/// A surface's colour as .ldi files hold it: rounded as the layer color is.
+DGTKDATASETIO_EXPORT std::array<std::uint8_t, 4> ldiColor(const std::array<float, 4>& rgba);
+
 /// Full-width rows of a layered depth image, top to bottom.
 struct LdiRows
 {

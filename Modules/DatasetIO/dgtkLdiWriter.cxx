@@ -52,12 +52,6 @@ FileRecord LdiFileWriter::finish()
 
 namespace
 {
-// As the colour layer rounds.
-std::uint8_t rounded(float value)
-{
-  return static_cast<std::uint8_t>(std::min(std::max(value, 0.0f), 1.0f) * 255.0f + 0.5f);
-}
-
 class ThesisLdiWriter : public LdiFileWriter
 {
 public:
@@ -78,9 +72,9 @@ protected:
       putLittle(this->Buffer, count);
       for (const LdiSurface* end = surface + count; surface != end; ++surface)
       {
-        for (const float channel : surface->rgba)
+        for (const std::uint8_t channel : ldiColor(surface->rgba))
         {
-          this->Buffer.push_back(static_cast<char>(rounded(channel)));
+          this->Buffer.push_back(static_cast<char>(channel));
         }
         putLittle(this->Buffer, surface->depth);
         putLittle(this->Buffer, surface->splatIndex);
@@ -111,6 +105,14 @@ private:
   std::uint64_t Bytes = 0;
 };
 } // namespace
+
+std::array<std::uint8_t, 4> ldiColor(const std::array<float, 4>& rgba)
+{
+  std::array<std::uint8_t, 4> bytes{};
+  std::transform(rgba.begin(), rgba.end(), bytes.begin(),
+    [](float value) { return static_cast<std::uint8_t>(std::min(std::max(value, 0.0f), 1.0f) * 255.0f + 0.5f); });
+  return bytes;
+}
 
 std::unique_ptr<LdiWriter> makeLdiWriter(const std::string& format, const FilePlace& path, int width, int height)
 {

@@ -36,6 +36,7 @@ struct RepresentationInfo
   std::string name;        ///< "Depth"
   std::string layer;       ///< "depth"
   std::string description; ///< one sentence
+  bool usual;              ///< taken where no layers are asked for
 };
 /// All representations, in the order of their rows in CMakeLists.txt.
 DGTKGROUNDTRUTH_EXPORT const std::vector<RepresentationInfo>& representations();

@@ -2,6 +2,7 @@
 #include "dgtkDatasetRecords.h"
 
 #include "dgtkHash.h"
+#include "dgtkRepresentation.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkFrameLayers.h"
+#include "dgtkLayers.h"
 
 #include "dgtkSurfaceRows.h"
 
@@ -48,22 +48,16 @@ LayerSpec edgesSpec()
 }
 
 /// Two rows are known at a time; a row is written when the one below it is.
-class EdgesLane : public OutputLane
+class EdgesPass : public LayerPass
 {
 public:
-  EdgesLane(const JobContext& context, const std::vector<std::string>& formats)
-    : Context(context)
+  explicit EdgesPass(const JobContext& context)
+    : State(context.state)
+    , TheView(context.view)
   {
-    for (const std::string& format : formats)
-    {
-      const std::string name = WorkPlan::fileName(context.camera, "edges", context.job.frame, formatExtension(format));
-      this->Names.push_back(name);
-      this->Writers.push_back(makeLayerWriter(
-        format, context.path(name), edgesSpec(), context.view.model->width(), context.view.model->height()));
-    }
   }
 
-  void write(const Band& band) override
+  void band(const Band& band, LayerSink& sink) override
   {
     for (int y = band.rect.y; y < band.rect.y + band.rect.height; ++y)
     {
@@ -81,7 +75,7 @@ public:
           this->Marks[x] = std::max(this->Marks[x], edge);
           marks[x] = edge;
         }
-        this->flush(y - 1);
+        this->flush(y - 1, sink);
         this->Marks.swap(marks);
       }
       for (std::size_t x = 1; x < below.size(); ++x)
@@ -94,18 +88,7 @@ public:
     }
   }
 
-  std::vector<FinishedFile> finish() override
-  {
-    this->flush(this->Context.view.model->height() - 1);
-    std::vector<FinishedFile> files;
-    for (std::size_t i = 0; i < this->Writers.size(); ++i)
-    {
-      FileRecord record = this->Writers[i]->finish();
-      record.path = this->Names[i];
-      files.push_back({ record, "edges" });
-    }
-    return files;
-  }
+  void finish(LayerSink& sink) override { this->flush(this->TheView.model->height() - 1, sink); }
 
 private:
   std::vector<PixelPlane> planes(const Band& band, int y) const
@@ -113,7 +96,7 @@ private:
     const PixelRect rect{ 0, y, band.rect.width, 1 };
     const Hit* hits = band.hits.data() + std::size_t(y - band.rect.y) * rect.width;
     SurfaceRows surface;
-    computeSurfaceRows(*this->Context.state, this->Context.view, rect, hits, false, surface);
+    computeSurfaceRows(*this->State, this->TheView, rect, hits, false, surface);
     std::vector<PixelPlane> row(static_cast<std::size_t>(rect.width));
     for (std::size_t x = 0; x < row.size(); ++x)
     {
@@ -121,7 +104,7 @@ private:
       {
         continue;
       }
-      const CameraRay ray = this->Context.view.model->rayThrough({ double(x) + 0.5, y + 0.5 });
+      const CameraRay ray = this->TheView.model->rayThrough({ double(x) + 0.5, y + 0.5 });
       row[x].object = hits[x].object;
       row[x].point = ray.origin + surface.t[x] * ray.direction;
       row[x].normal = x > 0 && hits[x] == hits[x - 1] ? row[x - 1].normal : this->normalOf(hits[x]);
@@ -132,53 +115,48 @@ private:
   Eigen::Vector3d normalOf(const Hit& hit) const
   {
     Eigen::Vector3d corners[3];
-    triangleInWorld(*this->Context.state, hit, corners);
-    return this->Context.view.camera_from_world.rotation *
+    triangleInWorld(*this->State, hit, corners);
+    return this->TheView.camera_from_world.rotation *
            (corners[1] - corners[0]).cross(corners[2] - corners[0]).stableNormalized();
   }
 
-  void flush(int y)
+  void flush(int y, LayerSink& sink) const
   {
     Rows rows(PixelType::UInt8, 1, static_cast<int>(this->Marks.size()), y, 1);
     std::copy(this->Marks.begin(), this->Marks.end(), rows.row<std::uint8_t>(y));
-    for (const auto& writer : this->Writers)
-    {
-      writer->write(rows);
-    }
+    sink.rows(0, rows);
   }
 
-  JobContext Context;
-  std::vector<std::string> Names;
-  std::vector<std::unique_ptr<LayerWriter>> Writers;
+  std::shared_ptr<const SceneState> State;
+  View TheView;
   std::vector<PixelPlane> Above;
   std::vector<std::uint8_t> Marks; // of the row of Above
 };
 
-class EdgesLayer final : public FrameLayer
+class EdgesLayer final : public Layer
 {
 public:
   LayerInfo info() const override
   {
     return { "edges", { "png", "npy" }, "discontinuities of object ids and of depth" };
   }
-  std::vector<LayerRecord> specs(const std::string& format) const override { return { { edgesSpec(), format } }; }
-  std::vector<std::string> files(const WorkPlan& plan, const Stage& stage, const Job& job) const override
+  LayerNeeds needs(const GeneratorRequest&, const Stage&) const override { return LayerNeeds::ofHits(); }
+  std::vector<LayerRecord> records(const WorkPlan&, const std::string& format) const override
   {
-    std::vector<std::string> names;
-    for (const std::string& format : plan.formatsOf("edges"))
-    {
-      names.push_back(WorkPlan::fileName(stage.cameraNames()[job.camera], "edges", job.frame, formatExtension(format)));
-    }
-    return names;
+    return { { edgesSpec(), format } };
   }
-  std::unique_ptr<OutputLane> makeLane(const JobContext& context) const override
+  std::vector<LayerOutput> outputs(
+    const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {
-    return std::make_unique<EdgesLane>(context, context.plan.formatsOf("edges"));
+    return { imageOutput(plan, stage, job, edgesSpec(), planned.formats) };
+  }
+  std::unique_ptr<LayerPass> makePass(const JobContext& context, const std::vector<PassLayer>&) const override
+  {
+    return std::make_unique<EdgesPass>(context);
   }
 };
 } // namespace
 
-std::shared_ptr<const FrameLayer> makeEdgesLayer();
-std::shared_ptr<const FrameLayer> makeEdgesLayer() { return std::make_shared<EdgesLayer>(); }
+LayerList edgesLayers() { return { std::make_shared<EdgesLayer>() }; }
 
 } // namespace dgtk

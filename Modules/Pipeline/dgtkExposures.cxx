@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkExposures.h"
 
-#include "dgtkOutputLanes.h"
+#include "dgtkColorRows.h"
 #include "dgtkThreadPool.h"
 
 #include <algorithm>

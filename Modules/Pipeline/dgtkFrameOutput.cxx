@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkFrameOutput.h"
 
-#include "dgtkFrameLayers.h"
-#include "dgtkOutputLanes.h"
-
 #include <exception>
 
 namespace dgtk
@@ -12,44 +9,23 @@ namespace dgtk
 FrameOutput::FrameOutput(const JobContext& context)
   : Pool(context.pool)
 {
-  const WorkPlan& plan = context.plan;
-  const Job& job = context.job;
-  const std::string& camera = context.camera;
-  const View& view = context.view;
-  for (const std::string& format : plan.colorFormats)
+  for (PlannedPass& planned : passesOf(context.plan, context.queries.stage(), context.job))
   {
-    this->addLane(makeColorLane(plan, job, camera, view, format), true);
+    Lane lane;
+    lane.readsColor = planned.readsColor;
+    lane.pass = planned.layers.front().layer.makePass(context, planned.layers);
+    lane.sink = std::make_unique<FileSink>(context, planned.outputs());
+    this->Lanes.push_back(std::move(lane));
+    this->Queues.push_back(std::make_unique<SerialQueue>(this->Pool));
   }
-  if (plan.tiles)
-  {
-    this->addLane(makeTilesLane(plan, job, camera, view), true);
-  }
-  if (!plan.representations.empty())
-  {
-    this->addLane(makeGeometryLane(plan, job, camera, context.state, view, context.pool), false);
-  }
-  for (const PlannedFrameLayer& planned : plan.frameLayers)
-  {
-    if (!planned.layer->files(plan, context.queries.stage(), job).empty())
-    {
-      this->addLane(planned.layer->makeLane(context), planned.layer->needsColor());
-    }
-  }
-}
-
-void FrameOutput::addLane(std::unique_ptr<OutputLane> lane, bool readsColor)
-{
-  this->ReadsColor.push_back(readsColor);
-  this->Lanes.push_back(std::move(lane));
-  this->Queues.push_back(std::make_unique<SerialQueue>(this->Pool));
 }
 
 void FrameOutput::submit(const std::shared_ptr<DrawnBand>& band)
 {
   for (std::size_t i = 0; i < this->Lanes.size(); ++i)
   {
-    OutputLane* lane = this->Lanes[i].get();
-    this->Queues[i]->submit([lane, band, colored = this->ReadsColor[i]] { lane->write(band->whole(colored)); });
+    Lane* lane = &this->Lanes[i];
+    this->Queues[i]->submit([lane, band] { lane->pass->band(band->whole(lane->readsColor), *lane->sink); });
   }
 }
 
@@ -80,8 +56,13 @@ std::vector<FinishedFile> FrameOutput::finish()
   std::vector<std::vector<FinishedFile>> finished(this->Lanes.size());
   for (std::size_t i = 0; i < this->Lanes.size(); ++i)
   {
-    OutputLane* lane = this->Lanes[i].get();
-    this->Queues[i]->submit([lane, out = &finished[i]] { *out = lane->finish(); });
+    Lane* lane = &this->Lanes[i];
+    this->Queues[i]->submit(
+      [lane, out = &finished[i]]
+      {
+        lane->pass->finish(*lane->sink);
+        *out = lane->sink->finish();
+      });
   }
   this->wait();
   std::vector<FinishedFile> all;

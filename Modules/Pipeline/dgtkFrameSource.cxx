@@ -13,30 +13,42 @@
 namespace dgtk
 {
 
+FrameSourceOptions sourceOptions(const WorkPlan& plan)
+{
+  FrameSourceOptions options;
+  options.needs = plan.needs;
+  options.raster = plan.raster;
+  options.samples = plan.request.samples;
+  options.filter = pixelFilterFromName(plan.request.filter);
+  options.gl = plan.request.gl;
+  return options;
+}
+
 FrameSource::FrameSource(const FrameSourceOptions& options, ThreadPool& pool)
   : Options(options)
   , Pool(pool)
 {
-  if (options.hits && !options.raster)
+  if (options.needs.hits && !options.raster)
   {
     this->Ray = makeRaySource(pool);
   }
-  if (options.color && options.pov)
+  if (options.needs.color && options.pov)
   {
     this->Pov = std::make_unique<PovColorSource>(*options.pov, pool);
   }
-  if (this->rasterColor() || options.peel || !options.mattes.empty() || (options.hits && options.raster))
+  if (this->rasterColor() || options.needs.peeled || !options.needs.mattes.empty() ||
+      (options.needs.hits && options.raster))
   {
     std::unique_ptr<RasterSource> raster = makeRasterSource(glBackendFromName(options.gl));
     this->Description = raster->choice().description;
     raster->setFilter(options.filter);
-    raster->setHits(options.peel || !options.mattes.empty() || (options.hits && options.raster));
+    raster->setHits(options.needs.peeled || !options.needs.mattes.empty() || (options.needs.hits && options.raster));
     this->Raster = std::move(raster);
     this->Exposed = std::make_unique<ExposedColor>(*this->Raster, pool);
   }
-  if (!options.mattes.empty())
+  if (!options.needs.mattes.empty())
   {
-    this->Matting = std::make_unique<MattingSource>(*this->Raster, options.mattes, options.samples);
+    this->Matting = std::make_unique<MattingSource>(*this->Raster, options.needs.mattes, options.samples);
   }
 }
 
@@ -74,6 +86,12 @@ void FrameSource::expose(std::vector<Exposure> exposures, ExposedColor::StateAt 
   }
 }
 
+bool FrameSource::drawsAnything() const
+{
+  const LayerNeeds& needs = this->Options.needs;
+  return needs.hits || needs.color || needs.peeled || !needs.mattes.empty();
+}
+
 int FrameSource::bands() const { return this->Grid->rows(); }
 
 /// What is drawn of a canonical tile.
@@ -95,7 +113,7 @@ void FrameSource::drawColor(const PixelRect& rect, Tile& tile, bool later)
                       : this->Raster->drawColor(rect, this->Options.samples, tile.colors, nullptr);
     return;
   }
-  if (this->Options.sharp)
+  if (this->Options.needs.sharp)
   {
     tile.rest = this->Raster->drawColor(rect, this->Options.samples, tile.sharp, nullptr);
   }
@@ -115,7 +133,7 @@ std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect, 
   try
   {
     // What the ids are does not depend on whether colour is drawn, too.
-    if (this->Options.hits && this->Options.raster)
+    if (this->Options.needs.hits && this->Options.raster)
     {
       this->Raster->render(rect, tile->hits);
     }
@@ -123,7 +141,7 @@ std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect, 
     {
       this->drawColor(rect, *tile, later);
     }
-    if (this->Options.peel)
+    if (this->Options.needs.peeled)
     {
       const auto keep = [&tile](const SurfaceLayer& rank)
       {
@@ -167,7 +185,7 @@ void place(const std::vector<T>& from, const PixelRect& tile, int channels, cons
 
 bool FrameSource::readsLater() const
 {
-  return this->rasterColor() && this->Options.samples == 1 && !this->Options.peel && !this->Matting &&
+  return this->rasterColor() && this->Options.samples == 1 && !this->Options.needs.peeled && !this->Matting &&
          this->Grid->columns() == 1 && !this->Exposed->blurs();
 }
 
@@ -215,11 +233,11 @@ void FrameSource::drawBand(int row, DrawnBand& drawn)
   const PixelRect last = this->Grid->tile(columns - 1, row);
   band.rect = { 0, last.y, last.x + last.width, last.height };
   const std::size_t pixels = std::size_t(band.rect.width) * band.rect.height;
-  band.hits.resize(this->Options.hits ? pixels : 0);
+  band.hits.resize(this->Options.needs.hits ? pixels : 0);
   band.rgb.resize(this->rasterColor() ? pixels * 3 : 0);
-  const bool sharp = this->Options.sharp && this->rasterColor() && this->Exposed->blurs();
+  const bool sharp = this->Options.needs.sharp && this->rasterColor() && this->Exposed->blurs();
   band.sharp.resize(sharp ? pixels * 3 : 0);
-  band.mattes.resize(this->Options.mattes.size());
+  band.mattes.resize(this->Options.needs.mattes.size());
   for (MattePixels& matte : band.mattes)
   {
     matte.count.resize(pixels);
@@ -245,7 +263,7 @@ void FrameSource::drawBand(int row, DrawnBand& drawn)
         [this, &band, rect, sharp, tile = std::move(tile)]
         {
           tile->rest();
-          if (this->Options.hits)
+          if (this->Options.needs.hits)
           {
             place(tile->hits.hits, rect, 1, band.rect, band.hits);
           }

@@ -2,9 +2,10 @@
 #ifndef dgtkFrameSource_h
 #define dgtkFrameSource_h
 
+#include "dgtkBand.h"
 #include "dgtkExposures.h"
-#include "dgtkFrameOutput.h"
 #include "dgtkPovColorSource.h"
+#include "dgtkWorkPlan.h"
 
 #include "dgtkVisibility.h"
 
@@ -18,17 +19,16 @@ namespace dgtk
 /// What is drawn, and by which engine.
 struct FrameSourceOptions
 {
-  bool hits = true;   ///< the visibility buffer is wanted
-  bool color = false; ///< colours are wanted
-  bool peel = false;  ///< all surfaces are wanted
-  bool raster = false;
-  bool sharp = false; ///< colours without motion blur and depth of field are wanted
+  LayerNeeds needs;
+  bool raster = false; ///< engine of the hits
   int samples = 1;
   PixelFilter filter = PixelFilter::Box;
-  std::vector<std::uint32_t> mattes; ///< ids of the objects whose mattes are wanted
   std::string gl = "auto";
   std::optional<PovColorSettings> pov; ///< colours are POV-Ray's
 };
+
+/// What the built-in renderer has to do for a plan. Throws UsageError for an unknown filter.
+FrameSourceOptions sourceOptions(const WorkPlan& plan);
 
 /// Draws the bands of pictures with the engines that the options need. To be used from one thread: that of OpenGL.
 class FrameSource
@@ -43,6 +43,8 @@ public:
   /// What colours are the mean of, from now to the next setScene(); one or none: of the view itself.
   void expose(std::vector<Exposure> exposures, ExposedColor::StateAt stateAt);
   int bands() const;
+  /// False where nothing is needed of a picture.
+  bool drawsAnything() const;
   /// Draws band `row`, 0 <= row < bands(); what needs neither OpenGL nor this source may be left to drawn.rest.
   /// False when OpenGL's part of the band is there only after the next draw() or finish().
   bool draw(int row, DrawnBand& drawn);
@@ -58,7 +60,7 @@ private:
   /// Whether the colours of a picture may be read while the next one is drawn.
   bool readsLater() const;
   /// Whether the raster engine gives the colours.
-  bool rasterColor() const { return this->Options.color && !this->Pov; }
+  bool rasterColor() const { return this->Options.needs.color && !this->Pov; }
   FrameSourceOptions Options;
   ThreadPool& Pool;
   std::unique_ptr<VisibilitySource> Ray;

@@ -4,10 +4,10 @@
 #include "dgtkDatasetRecords.h"
 #include "dgtkError.h"
 #include "dgtkFile.h"
-#include "dgtkFrameLayers.h"
 #include "dgtkFrameOutput.h"
 #include "dgtkFrameSource.h"
 #include "dgtkHash.h"
+#include "dgtkLayers.h"
 #include "dgtkPacking.h"
 #include "dgtkRunFiles.h"
 #include "dgtkRunNotes.h"
@@ -150,18 +150,7 @@ Run::Run(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
 GeneratorResult Run::execute()
 {
   const GeneratorRequest& request = this->Plan.request;
-  FrameSourceOptions options;
-  options.hits = this->Plan.needsHits();
-  options.color = this->Plan.drawsColor();
-  options.raster = this->Plan.raster;
-  options.peel = std::any_of(this->Plan.frameLayers.begin(), this->Plan.frameLayers.end(),
-    [](const PlannedFrameLayer& planned) { return planned.layer->needsPeeling(); });
-  options.samples = request.samples;
-  options.filter = pixelFilterFromName(request.filter);
-  options.sharp = std::any_of(this->Plan.frameLayers.begin(), this->Plan.frameLayers.end(),
-    [](const PlannedFrameLayer& planned) { return planned.layer->needsSharpColor(); });
-  options.mattes = matteObjects(this->Plan, *this->Scene);
-  options.gl = request.gl;
+  FrameSourceOptions options = sourceOptions(this->Plan);
   if (request.renderer == "povray")
   {
     options.pov = PovColorSettings{ request.pov, request.folder, request.samples, this->Callbacks.cancel };
@@ -184,10 +173,10 @@ GeneratorResult Run::execute()
     this->warn(tight);
   }
   this->Files = std::make_unique<RunFiles>(request.folder, this->RequestHash, startOf(request), this->allNames());
-  if (this->Plan.has("pov"))
+  for (PlannedLayer& planned : this->Plan.layers)
   {
-    this->Plan.povLibrary =
-      makePovLibrary(request.folder, [this](const std::string& name) { this->Files->planLate(name); });
+    planned.shared = planned.layer->makeShared(
+      { [&request] { return request.folder; }, [this](const std::string& name) { this->Files->planLate(name); } });
   }
 
   if (!this->Result.glDescription.empty())
@@ -277,27 +266,26 @@ void Run::sayNotes()
   {
     this->warn(line);
   }
-  if ((request.renderer == "povray" && this->Plan.drawsColor()) || this->Plan.has("pov"))
+  std::vector<std::string> notes;
+  if (request.renderer == "povray" && this->Plan.drawsColor())
   {
     const Job& first = this->Plan.jobs.front();
-    for (const std::string& note :
-      povNotes(*this->stateAt(first.frame), this->viewOf(first), povOptionsOf(request.pov)))
-    {
-      this->warn("POV-Ray: " + note);
-    }
+    notes = povLines(*this->stateAt(first.frame), this->viewOf(first), request.pov);
+  }
+  for (const PlannedLayer& planned : this->Plan.layers)
+  {
+    const std::vector<std::string> own = planned.layer->notes(this->Plan, *this->Scene);
+    std::copy_if(own.begin(), own.end(), std::back_inserter(notes),
+      [&notes](const std::string& line) { return std::find(notes.begin(), notes.end(), line) == notes.end(); });
+  }
+  for (const std::string& note : notes)
+  {
+    this->warn(note);
   }
 }
 
 void Run::renderAll()
 {
-  for (const PlannedFrameLayer& planned : this->Plan.frameLayers)
-  {
-    if (const std::string note = planned.layer->note(this->Plan); !note.empty())
-    {
-      this->Result.warnings.push_back(note);
-      this->say("warning: " + note);
-    }
-  }
   if (this->Callbacks.progress)
   {
     this->Callbacks.progress({ this->Done, this->Plan.jobs.size() });
@@ -354,7 +342,7 @@ void Run::render(const Job& job)
   }
   auto output = std::make_unique<FrameOutput>(
     JobContext{ this->Plan, job, this->cameraName(job), state, view, this->Queries, *this->Pool });
-  if (this->Plan.needsHits() || this->Plan.drawsColor())
+  if (this->Source->drawsAnything())
   {
     this->Source->setScene(state, view);
     if (this->Plan.drawsColor() && request.renderer == "vtk")
@@ -436,16 +424,6 @@ void Run::completeOldest()
   this->Opened.pop_front();
   const std::vector<FinishedFile> files = open.output->finish();
   this->Files->add(files, this->cameraName(open.job), open.job.frame);
-  if (this->Plan.calibration)
-  {
-    const View view = this->viewOf(open.job);
-    const OpenGLMatrices matrices = openGLMatrices(view);
-    const std::string name = WorkPlan::fileName(this->cameraName(open.job), "calibration", open.job.frame, "txt");
-    this->Files->add(writeDocument(this->Plan.request.folder, name,
-      calibrationText(
-        makeCalibration(matrices.projection, matrices.modelView, view.model->width(), view.model->height())),
-      "calibration", this->cameraName(open.job), open.job.frame));
-  }
   ++this->Done;
 }
 
@@ -459,12 +437,15 @@ bool Run::keep(const Job& job)
     return false;
   }
   std::vector<std::string> shared;
-  for (const PlannedFrameLayer& planned : this->Plan.frameLayers)
+  for (const PlannedLayer& planned : this->Plan.layers)
   {
-    for (const std::string& name : planned.layer->files(this->Plan, *this->Scene, job))
+    for (const LayerOutput& output : planned.layer->outputs(this->Plan, *this->Scene, job, planned))
     {
-      const std::vector<std::string> needed = planned.layer->sharedFiles(this->Plan.request.folder + '/' + name);
-      shared.insert(shared.end(), needed.begin(), needed.end());
+      for (const std::string& name : output.files())
+      {
+        const std::vector<std::string> needed = planned.layer->sharedFiles(this->Plan.request.folder + '/' + name);
+        shared.insert(shared.end(), needed.begin(), needed.end());
+      }
     }
   }
   return this->Files->keep(own, shared);
@@ -473,32 +454,10 @@ bool Run::keep(const Job& job)
 std::vector<std::string> Run::filesOf(const Job& job) const
 {
   std::vector<std::string> names;
-  const std::string& camera = this->cameraName(job);
-  for (const std::string& format : this->Plan.colorFormats)
+  for (const LayerOutput& output : outputsOf(this->Plan, *this->Scene, job))
   {
-    names.push_back(WorkPlan::fileName(camera, "color", job.frame, formatExtension(format)));
-  }
-  for (const PlannedLayer& layer : this->Plan.representations)
-  {
-    for (const std::string& format : layer.formats)
-    {
-      names.push_back(WorkPlan::fileName(camera, layer.spec.name, job.frame, formatExtension(format)));
-    }
-  }
-  if (this->Plan.tiles)
-  {
-    const View view = this->viewOf(job);
-    const std::vector<std::string> tiles = this->Plan.tileNames(camera, job.frame, *view.model);
-    names.insert(names.end(), tiles.begin(), tiles.end());
-  }
-  if (this->Plan.calibration)
-  {
-    names.push_back(WorkPlan::fileName(camera, "calibration", job.frame, "txt"));
-  }
-  for (const PlannedFrameLayer& planned : this->Plan.frameLayers)
-  {
-    const std::vector<std::string> files = planned.layer->files(this->Plan, *this->Scene, job);
-    names.insert(names.end(), files.begin(), files.end());
+    const std::vector<std::string> own = output.files();
+    names.insert(names.end(), own.begin(), own.end());
   }
   return names;
 }
@@ -539,18 +498,7 @@ void Run::writeDocuments()
   manifest.request = describeRequest(this->Plan);
   manifest.units = this->Scene->description().units;
   manifest.inputs = this->Inputs;
-  for (const std::string& format : this->Plan.colorFormats)
-  {
-    manifest.layers.push_back({ this->Plan.colorSpec(format), format });
-  }
-  for (const PlannedLayer& layer : this->Plan.representations)
-  {
-    for (const std::string& format : layer.formats)
-    {
-      manifest.layers.push_back({ storedSpec(format, layer.spec), format });
-    }
-  }
-  for (const PlannedFrameLayer& planned : this->Plan.frameLayers)
+  for (const PlannedLayer& planned : this->Plan.layers)
   {
     for (const std::string& format : planned.formats)
     {

@@ -31,7 +31,7 @@ struct GeneratorRequest
 {
   std::string scene;               ///< path of a .scene or .json file
   std::string folder;              ///< where the dataset goes
-  std::vector<std::string> layers; ///< names of generatorLayers(); empty: color, depth, objects, calibration
+  std::vector<std::string> layers; ///< names of generatorLayers(); empty: the usual ones
   /// File formats of a layer, by layer name; a layer that is not named here has its default format.
   std::map<std::string, std::vector<std::string>> formats;
   std::vector<std::string> cameras; ///< names; empty: all
@@ -84,7 +84,8 @@ struct LayerInfo
   std::string layer;
   std::vector<std::string> formats; ///< the first is the default
   std::string description;
-  bool array = false; ///< dgtkRenderer gives it: an array with the values of the file
+  bool usual = false;         ///< taken where no layers are asked for
+  std::string filesOnly = {}; ///< why dgtkRenderer does not give it as arrays; empty: it does
 };
 /// Every layer that can be asked for, in the order of `--layers all`.
 DGTKPIPELINE_EXPORT std::vector<LayerInfo> generatorLayers();

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Layered depth images: every surface along the ray through a pixel's centre.
-#include "dgtkError.h"
-#include "dgtkFrameLayers.h"
 #include "dgtkLayeredDepth.h"
-#include "dgtkLdi.h"
+#include "dgtkLayers.h"
 
 #include <algorithm>
 
@@ -75,25 +73,19 @@ private:
   std::vector<float> Colors;
 };
 
-class LdiLane : public OutputLane
+class LdiPass : public LayerPass
 {
 public:
-  LdiLane(const JobContext& context, const std::vector<std::string>& formats)
+  explicit LdiPass(const JobContext& context)
     : Context(context)
   {
-    const CameraModel& model = *context.view.model;
     const CameraDescription& camera = context.queries.stage().description().cameras[context.job.camera];
     const GeneratorRequest& request = context.plan.request;
     this->OwnColor =
       request.samples == 1 && request.renderer == "vtk" && !camera.shutter.blurs() && !camera.lens.blurs();
-    for (const std::string& format : formats)
-    {
-      this->Names.push_back(WorkPlan::fileName(context.camera, "ldi", context.job.frame, format));
-      this->Writers.push_back(makeLdiWriter(format, context.path(this->Names.back()), model.width(), model.height()));
-    }
   }
 
-  void write(const Band& band) override
+  void band(const Band& band, LayerSink& sink) override
   {
     const int stripRows = std::max(1, stripPixels / band.rect.width);
     const int strips = (band.rect.height + stripRows - 1) / stripRows;
@@ -106,24 +98,9 @@ public:
         count, [&](int i) { done[i] = this->derive(band, (first + i) * stripRows, stripRows); });
       for (const LdiRows& rows : done)
       {
-        for (const auto& writer : this->Writers)
-        {
-          writer->write(rows);
-        }
+        sink.surfaces(0, rows);
       }
     }
-  }
-
-  std::vector<FinishedFile> finish() override
-  {
-    std::vector<FinishedFile> files;
-    for (std::size_t i = 0; i < this->Writers.size(); ++i)
-    {
-      FileRecord record = this->Writers[i]->finish();
-      record.path = this->Names[i];
-      files.push_back({ record, "ldi" });
-    }
-    return files;
   }
 
 private:
@@ -158,11 +135,9 @@ private:
 
   JobContext Context;
   bool OwnColor = true; ///< the picture's colour is that of the first surfaces: one sample, the built-in renderer
-  std::vector<std::string> Names;
-  std::vector<std::unique_ptr<LdiWriter>> Writers; // one a name
 };
 
-class LdiLayer final : public FrameLayer
+class LdiLayer final : public Layer
 {
 public:
   LayerInfo info() const override
@@ -170,7 +145,15 @@ public:
     return { "ldi", { "ldi", "exr" }, "layered depth image: every surface along each ray, with colour and depth" };
   }
 
-  std::vector<LayerRecord> specs(const std::string& format) const override
+  LayerNeeds needs(const GeneratorRequest&, const Stage&) const override
+  {
+    LayerNeeds needs;
+    needs.hits = true;
+    needs.peeled = true;
+    return needs;
+  }
+
+  std::vector<LayerRecord> records(const WorkPlan&, const std::string& format) const override
   {
     if (format == "exr")
     {
@@ -185,26 +168,20 @@ public:
       format } };
   }
 
-  bool needsPeeling() const override { return true; }
-
-  std::vector<std::string> files(const WorkPlan& plan, const Stage& stage, const Job& job) const override
+  std::vector<LayerOutput> outputs(
+    const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {
-    std::vector<std::string> names;
-    for (const std::string& format : plan.formatsOf("ldi"))
-    {
-      names.push_back(WorkPlan::fileName(stage.cameraNames()[job.camera], "ldi", job.frame, format));
-    }
-    return names;
+    const LayerSpec spec = this->records(plan, planned.formats.front()).front().spec;
+    return { imageOutput(plan, stage, job, spec, planned.formats) };
   }
 
-  std::unique_ptr<OutputLane> makeLane(const JobContext& context) const override
+  std::unique_ptr<LayerPass> makePass(const JobContext& context, const std::vector<PassLayer>&) const override
   {
-    return std::make_unique<LdiLane>(context, context.plan.formatsOf("ldi"));
+    return std::make_unique<LdiPass>(context);
   }
 };
 } // namespace
 
-std::shared_ptr<const FrameLayer> makeLdiLayer();
-std::shared_ptr<const FrameLayer> makeLdiLayer() { return std::make_shared<LdiLayer>(); }
+LayerList ldiLayers() { return { std::make_shared<LdiLayer>() }; }
 
 } // namespace dgtk

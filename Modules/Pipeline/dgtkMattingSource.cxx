@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkMattingSource.h"
 
-#include "dgtkError.h"
 #include "dgtkSamples.h"
-#include "dgtkWorkPlan.h"
 
 #include <algorithm>
 
@@ -13,30 +11,6 @@ namespace dgtk
 namespace
 {
 constexpr int mostSide = 2048; // of a picture of samples
-}
-
-std::vector<std::uint32_t> matteObjects(const WorkPlan& plan, const Stage& stage)
-{
-  std::vector<std::uint32_t> objects;
-  if (!plan.has("matting"))
-  {
-    return objects;
-  }
-  const std::vector<std::string> names = stage.objectNames();
-  for (const std::string& name : plan.request.matte)
-  {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
-    {
-      throw UsageError("--matte: the scene has no object " + quoted(name));
-    }
-    const auto id = static_cast<std::uint32_t>(found - names.begin() + 1);
-    if (std::find(objects.begin(), objects.end(), id) == objects.end())
-    {
-      objects.push_back(id);
-    }
-  }
-  return objects;
 }
 
 MattingSource::MattingSource(RasterSource& raster, std::vector<std::uint32_t> objects, int samples)

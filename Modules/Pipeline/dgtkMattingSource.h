@@ -12,9 +12,6 @@
 namespace dgtk
 {
 
-class Stage;
-struct WorkPlan;
-
 /// What is drawn of an object for its matte, for the pixels of a rectangle.
 struct MattePixels
 {
@@ -22,10 +19,6 @@ struct MattePixels
   std::vector<float> foreground;    ///< mean colour of these samples, 3 a pixel; 0 where there is none
   std::vector<float> background;    ///< mean colour of all samples without the object, 3 a pixel
 };
-
-/// Ids of the objects of `--matte`, each once, in its order; empty without the layer matting. Throws UsageError for a
-/// name that no object has.
-std::vector<std::uint32_t> matteObjects(const WorkPlan& plan, const Stage& stage);
 
 /// Draws what mattes are made of with samples x samples samples a pixel. Uses the raster engine in the calling thread.
 class MattingSource

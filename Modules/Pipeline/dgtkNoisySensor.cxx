@@ -38,37 +38,25 @@ NoiseKey noiseKey(const GeneratorRequest& request, const Stage& stage, const Job
   return { noiseSeed(request, stage), static_cast<std::uint32_t>(job.camera), job.frame };
 }
 
-std::vector<std::pair<std::string, std::string>> describeNoise(const WorkPlan& plan, const Stage& stage)
+std::vector<std::pair<std::string, std::string>> describeNoise(const WorkPlan& plan, const Stage& stage,
+  const std::string& layer, const std::function<bool(const SensorParameters&)>& isOwn)
 {
-  std::vector<std::pair<std::string, std::string>> pairs;
-  for (const char* layer : { "color_noisy", "depth_noisy" })
+  std::set<std::size_t> cameras;
+  for (const Job& job : plan.jobs)
   {
-    if (!plan.has(layer))
+    const std::optional<SensorParameters>& sensor = sensorOf(stage, job.camera);
+    if (!sensor || !isOwn(*sensor))
     {
-      continue;
+      cameras.insert(job.camera);
     }
-    if (pairs.empty())
-    {
-      pairs.emplace_back("noise_seed", std::to_string(noiseSeed(plan.request, stage)));
-    }
-    const bool color = layer == std::string("color_noisy");
-    std::set<std::size_t> cameras;
-    for (const Job& job : plan.jobs)
-    {
-      const std::optional<SensorParameters>& sensor = sensorOf(stage, job.camera);
-      if (!sensor || !(color ? sensor->color.has_value() : sensor->depth.has_value()))
-      {
-        cameras.insert(job.camera);
-      }
-    }
-    std::string names;
-    for (const std::size_t camera : cameras)
-    {
-      names += (names.empty() ? "" : ",") + stage.description().cameras[camera].name;
-    }
-    pairs.emplace_back(std::string(layer) + "_default_sensor", names.empty() ? "none" : names);
   }
-  return pairs;
+  std::string names;
+  for (const std::size_t camera : cameras)
+  {
+    names += (names.empty() ? "" : ",") + stage.description().cameras[camera].name;
+  }
+  return { { "noise_seed", std::to_string(noiseSeed(plan.request, stage)) },
+    { layer + "_default_sensor", names.empty() ? "none" : names } };
 }
 
 } // namespace dgtk

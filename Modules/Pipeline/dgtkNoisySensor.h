@@ -6,6 +6,7 @@
 #include "dgtkSensorParameters.h"
 #include "dgtkWorkPlan.h"
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,9 +22,9 @@ DepthSensorParameters depthSensorOf(const Stage& stage, std::size_t camera);
 std::uint64_t noiseSeed(const GeneratorRequest& request, const Stage& stage);
 NoiseKey noiseKey(const GeneratorRequest& request, const Stage& stage, const Job& job);
 
-/// For the manifest and for resuming: the seed, and the cameras that have default sensors. Empty without a layer that
-/// is noisy.
-std::vector<std::pair<std::string, std::string>> describeNoise(const WorkPlan& plan, const Stage& stage);
+/// What Layer::noise() is of a noisy layer: the seed, and the cameras of the plan without a sensor of their own.
+std::vector<std::pair<std::string, std::string>> describeNoise(const WorkPlan& plan, const Stage& stage,
+  const std::string& layer, const std::function<bool(const SensorParameters&)>& isOwn);
 
 } // namespace dgtk
 

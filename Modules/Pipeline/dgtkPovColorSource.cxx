@@ -50,6 +50,16 @@ void readRows(const std::string& path, int width, int skip, int rows, float* rgb
 }
 } // namespace
 
+std::vector<std::string> povLines(const SceneState& state, const View& view, const PovRenderOptions& options)
+{
+  std::vector<std::string> lines;
+  for (const std::string& note : povNotes(state, view, povOptionsOf(options)))
+  {
+    lines.push_back("POV-Ray: " + note);
+  }
+  return lines;
+}
+
 PovOptions povOptionsOf(const PovRenderOptions& options)
 {
   PovOptions pov;

@@ -23,6 +23,9 @@ class ThreadPool;
 /// Export's part of the options.
 PovOptions povOptionsOf(const PovRenderOptions& options);
 
+/// What POV-Ray does not show of a scene as it is at a frame, one line each.
+std::vector<std::string> povLines(const SceneState& state, const View& view, const PovRenderOptions& options);
+
 struct PovColorSettings
 {
   PovRenderOptions options;

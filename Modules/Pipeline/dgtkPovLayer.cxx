@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkFrameLayers.h"
+#include "dgtkLayers.h"
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
-#include "dgtkHash.h"
 #include "dgtkPovColorSource.h"
 
 namespace dgtk
@@ -19,52 +18,40 @@ LayerSpec povSpec()
     "Scene for POV-Ray 3.7 that shows what the camera sees; to be drawn in its folder, or with that folder as +L" };
 }
 
-/// Writes when the job is finished; needs no pixels.
-class PovLane : public OutputLane
+/// Needs no pixels.
+class PovPass : public LayerPass
 {
 public:
-  explicit PovLane(const JobContext& context)
+  PovPass(const JobContext& context, const PassLayer& layer)
     : Context(context)
+    , Library(std::static_pointer_cast<PovLibrary>(layer.planned.shared))
+    , Name(layer.outputs.front().files().front())
   {
   }
-  void write(const Band&) override {}
 
-  std::vector<FinishedFile> finish() override
+  void finish(LayerSink& sink) override
   {
-    const std::string name = WorkPlan::fileName(this->Context.camera, "pov", this->Context.job.frame, "pov");
-    const WorkPlan& plan = this->Context.plan;
-    const PovScene scene = makePovScene(*this->Context.state, this->Context.view, povOptionsOf(plan.request.pov),
-      *plan.povLibrary, {}, name.substr(name.rfind('/') + 1));
-    std::vector<FinishedFile> files;
+    const PovScene scene = makePovScene(*this->Context.state, this->Context.view,
+      povOptionsOf(this->Context.plan.request.pov), *this->Library, {}, this->Name.substr(this->Name.rfind('/') + 1));
     for (const PovFile& file : scene.uses)
     {
-      FinishedFile finished;
-      finished.record = { std::string(LibraryFolder) + '/' + file.name, file.bytes, file.sha256 };
-      finished.layer = "pov";
-      finished.shared = true;
-      files.push_back(finished);
+      sink.shared("pov", { std::string(LibraryFolder) + '/' + file.name, file.bytes, file.sha256 });
     }
-    FinishedFile own;
-    own.record.path = name;
-    own.record.bytes = scene.text.size();
-    Sha256 hash;
-    hash.update(scene.text.data(), scene.text.size());
-    own.record.sha256 = hash.hex();
-    own.layer = "pov";
-    writeFile(this->Context.path(own.record.path), scene.text);
-    files.push_back(own);
-    return files;
+    sink.document(0, scene.text);
   }
 
 private:
   JobContext Context;
+  std::shared_ptr<PovLibrary> Library;
+  std::string Name;
 };
 
-class PovLayer final : public FrameLayer
+class PovLayer final : public Layer
 {
 public:
   LayerInfo info() const override { return { "pov", { "pov" }, "scene for POV-Ray that shows what the camera sees" }; }
-  void check(const WorkPlan&, const Stage& stage) const override
+  LayerNeeds needs(const GeneratorRequest&, const Stage&) const override { return {}; }
+  void check(const WorkPlan&, const Stage& stage, const PlannedLayer&) const override
   {
     const SceneDescription& scene = stage.description();
     for (std::size_t camera = 0; camera < scene.cameras.size(); ++camera)
@@ -75,10 +62,28 @@ public:
       }
     }
   }
-  std::vector<LayerRecord> specs(const std::string& format) const override { return { { povSpec(), format } }; }
-  std::vector<std::string> files(const WorkPlan&, const Stage& stage, const Job& job) const override
+  std::vector<LayerRecord> records(const WorkPlan&, const std::string& format) const override
   {
-    return { WorkPlan::fileName(stage.cameraNames()[job.camera], "pov", job.frame, "pov") };
+    return { { povSpec(), format } };
+  }
+  std::vector<LayerOutput> outputs(
+    const WorkPlan&, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
+  {
+    return { documentOutput(stage, job, povSpec(), planned.formats.front()) };
+  }
+  std::vector<std::string> notes(const WorkPlan& plan, const Stage& stage) const override
+  {
+    const Job& first = plan.jobs.front();
+    const GeneratorRequest& request = plan.request;
+    return povLines(
+      *stage.at(first.frame), stage.view(first.camera, first.frame, request.width, request.height), request.pov);
+  }
+  std::shared_ptr<void> makeShared(const SharedPlace& place) const override
+  {
+    const std::string folder = place.folder();
+    Folder(folder).makeParents(std::string(LibraryFolder) + "/library");
+    return std::make_shared<PovLibrary>(folder + '/' + LibraryFolder, std::string("../../") + LibraryFolder + '/',
+      [announce = place.announce](const std::string& name) { announce(std::string(LibraryFolder) + '/' + name); });
   }
   std::vector<std::string> sharedFiles(const std::string& path) const override
   {
@@ -89,23 +94,13 @@ public:
     }
     return names;
   }
-  std::unique_ptr<OutputLane> makeLane(const JobContext& context) const override
+  std::unique_ptr<LayerPass> makePass(const JobContext& context, const std::vector<PassLayer>& layers) const override
   {
-    const FilePlace library = context.path(std::string(LibraryFolder) + "/library");
-    library.folder().makeParents(library.name());
-    return std::make_unique<PovLane>(context);
+    return std::make_unique<PovPass>(context, layers.front());
   }
 };
 } // namespace
 
-std::shared_ptr<PovLibrary> makePovLibrary(
-  const std::string& folder, const std::function<void(const std::string& name)>& announce)
-{
-  return std::make_shared<PovLibrary>(folder + '/' + LibraryFolder, std::string("../../") + LibraryFolder + '/',
-    [announce](const std::string& name) { announce(std::string(LibraryFolder) + '/' + name); });
-}
-
-std::shared_ptr<const FrameLayer> makePovLayer();
-std::shared_ptr<const FrameLayer> makePovLayer() { return std::make_shared<PovLayer>(); }
+LayerList povLayers() { return { std::make_shared<PovLayer>() }; }
 
 } // namespace dgtk

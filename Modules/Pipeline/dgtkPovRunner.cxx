@@ -110,7 +110,7 @@ std::string findPovRay()
     }
     begin = colon + 1;
   }
-  throw MachineError("--renderer povray needs POV-Ray 3.7, which is not on PATH: install the package povray");
+  throw MachineError("the renderer povray needs POV-Ray 3.7, which is not on PATH: install the package povray");
 }
 
 PovRunner::PovRunner(std::string program, std::string folder, const std::atomic<bool>* cancel)

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRenderer.h"
 
+#include "dgtkArraySink.h"
 #include "dgtkError.h"
 #include "dgtkFrameSource.h"
 #include "dgtkGLContext.h"
-#include "dgtkOutputLanes.h"
 #include "dgtkScene.h"
-#include "dgtkSurfaceRows.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWorkPlan.h"
 
@@ -20,10 +19,13 @@
 #include "vtkUnsignedShortArray.h"
 
 #include <algorithm>
-#include <cstring>
+#include <cstdlib>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <thread>
+#include <tuple>
 #include <unistd.h>
 
 vtkStandardNewMacro(dgtkRenderer);
@@ -35,7 +37,9 @@ class KeptSource
 {
 public:
   ~KeptSource() { this->drop(); }
-  void use(const dgtk::FrameSourceOptions& options, const std::function<void(dgtk::FrameSource&)>& draw);
+  /// For draw(), what does the drawing, queries of the stage, and threads.
+  using Draw = std::function<void(dgtk::FrameSource&, dgtk::SceneQueries&, dgtk::ThreadPool&)>;
+  void use(const dgtk::FrameSourceOptions& options, const std::shared_ptr<const dgtk::Stage>& stage, const Draw& draw);
 
 private:
   void drop();
@@ -45,16 +49,29 @@ private:
   std::unique_ptr<dgtk::ThreadPool> Pool;
   dgtk::FrameSourceOptions Options; // of Source
   std::unique_ptr<dgtk::FrameSource> Source;
+  std::shared_ptr<const dgtk::Stage> Stage; // of Queries
+  std::unique_ptr<dgtk::SceneQueries> Queries;
 };
 
-bool usesGL(const dgtk::FrameSourceOptions& options) { return options.color || options.raster; }
+bool usesGL(const dgtk::FrameSourceOptions& options)
+{
+  const dgtk::LayerNeeds& needs = options.needs;
+  return needs.color || needs.peeled || !needs.mattes.empty() || (needs.hits && options.raster);
+}
 
 bool same(const dgtk::FrameSourceOptions& a, const dgtk::FrameSourceOptions& b)
 {
-  return a.hits == b.hits && a.color == b.color && a.raster == b.raster && a.samples == b.samples && a.gl == b.gl;
+  const auto all = [](const dgtk::FrameSourceOptions& options)
+  {
+    const dgtk::LayerNeeds& needs = options.needs;
+    return std::tie(needs.hits, needs.color, needs.sharp, needs.peeled, needs.mattes, options.raster, options.samples,
+      options.filter, options.gl);
+  };
+  return all(a) == all(b);
 }
 
-void KeptSource::use(const dgtk::FrameSourceOptions& options, const std::function<void(dgtk::FrameSource&)>& draw)
+void KeptSource::use(
+  const dgtk::FrameSourceOptions& options, const std::shared_ptr<const dgtk::Stage>& stage, const Draw& draw)
 {
   this->leaveInherited();
   if (!same(options, this->Options))
@@ -71,7 +88,12 @@ void KeptSource::use(const dgtk::FrameSourceOptions& options, const std::functio
     this->Options = options;
     this->Source = std::make_unique<dgtk::FrameSource>(options, *this->Pool);
   }
-  draw(*this->Source);
+  if (this->Stage != stage)
+  {
+    this->Queries = std::make_unique<dgtk::SceneQueries>(stage);
+    this->Stage = stage;
+  }
+  draw(*this->Source, *this->Queries, *this->Pool);
 }
 
 void KeptSource::drop()
@@ -91,21 +113,12 @@ void KeptSource::leaveInherited()
   if (this->Process != ::getpid())
   {
     static_cast<void>(this->Source.release());
+    static_cast<void>(this->Queries.release());
     static_cast<void>(this->Pool.release());
+    this->Stage = nullptr;
     this->Process = ::getpid();
     this->Pool = std::make_unique<dgtk::ThreadPool>(std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
   }
-}
-
-dgtk::FrameSourceOptions sourceOptions(const dgtk::WorkPlan& plan)
-{
-  dgtk::FrameSourceOptions options;
-  options.hits = !plan.representations.empty();
-  options.color = plan.drawsColor();
-  options.raster = plan.raster;
-  options.samples = plan.request.samples;
-  options.gl = plan.request.gl;
-  return options;
 }
 
 vtkSmartPointer<vtkDataArray> arrayFor(dgtk::PixelType type)
@@ -125,27 +138,76 @@ vtkSmartPointer<vtkDataArray> arrayFor(dgtk::PixelType type)
   }
 }
 
-/// Throws UsageError for every name but those of the layers that say that they are arrays.
-void requireArray(const std::string& layer)
+/// Throws UsageError for layers that are not known or not given as arrays.
+void requireArrays(const std::vector<std::string>& layers)
 {
-  bool known = false;
+  std::map<std::string, std::string> filesOnly;
   std::string arrays;
   for (const dgtk::LayerInfo& info : dgtk::generatorLayers())
   {
-    if (info.layer == layer && info.array)
+    filesOnly[info.layer] = info.filesOnly;
+    arrays += (arrays.empty() || !info.filesOnly.empty() ? "" : ", ") + (info.filesOnly.empty() ? info.layer : "");
+  }
+  for (const std::string& layer : layers)
+  {
+    const auto found = filesOnly.find(layer);
+    if (found == filesOnly.end())
     {
-      return;
+      throw dgtk::UsageError("unknown layer " + dgtk::quoted(layer) + " (expected one of " + arrays + ')');
     }
-    known = known || info.layer == layer;
-    if (info.array)
+    if (!found->second.empty())
     {
-      arrays += (arrays.empty() ? "" : ", ") + info.layer;
+      throw dgtk::UsageError("the layer " + layer + " is not given as an array: " + found->second);
     }
   }
-  throw dgtk::UsageError(
-    (known ? "the layer " + layer + " is not given as an array yet" : "unknown layer " + dgtk::quoted(layer)) +
-    " (expected one of " + arrays + ')');
 }
+
+std::vector<std::string> split(const std::string& text)
+{
+  std::vector<std::string> words(1);
+  for (const char c : text)
+  {
+    if (c == ',')
+    {
+      words.emplace_back();
+    }
+    else
+    {
+      words.back().push_back(c);
+    }
+  }
+  return words;
+}
+
+/// A folder that is gone afterwards; made when it is first asked for.
+class ScratchFolder
+{
+public:
+  ~ScratchFolder()
+  {
+    if (!this->Path.empty())
+    {
+      std::error_code ignored;
+      std::filesystem::remove_all(this->Path, ignored);
+    }
+  }
+  std::string path()
+  {
+    if (this->Path.empty())
+    {
+      std::string name = (std::filesystem::temp_directory_path() / "dgtk-XXXXXX").string();
+      if (::mkdtemp(name.data()) == nullptr)
+      {
+        throw dgtk::MachineError(name + ": cannot be made");
+      }
+      this->Path = name;
+    }
+    return this->Path;
+  }
+
+private:
+  std::string Path;
+};
 } // namespace
 
 struct dgtkRenderer::Internal
@@ -159,82 +221,144 @@ struct dgtkRenderer::Internal
   int width = 0;
   int height = 0;
   KeptSource source;
-  vtkSmartPointer<vtkDataArray> result;
+  std::vector<dgtk::LayerArray> results;
+  std::vector<vtkSmartPointer<vtkDataArray>> arrays; // one a result
 
-  dgtk::Rows draw(const std::string& layer);
-  dgtk::WorkPlan planOf(const std::string& layer, const dgtk::Stage& stage);
-  dgtk::Rows drawWith(dgtk::FrameSource& frames, const dgtk::WorkPlan& plan, const dgtk::Stage& stage);
+  bool render(const std::vector<std::string>& layers);
+  std::vector<dgtk::LayerArray> draw(const std::vector<std::string>& layers);
+  dgtk::WorkPlan planOf(const std::vector<std::string>& layers, const dgtk::Stage& stage);
+  std::vector<dgtk::LayerArray> drawWith(dgtk::FrameSource& frames, const dgtk::JobContext& context);
 };
 
-dgtk::Rows dgtkRenderer::Internal::draw(const std::string& layer)
+bool dgtkRenderer::Internal::render(const std::vector<std::string>& layers)
+{
+  this->errorMessage.clear();
+  this->results.clear();
+  this->arrays.clear();
+  try
+  {
+    this->results = this->draw(layers);
+    for (dgtk::LayerArray& result : this->results)
+    {
+      const vtkSmartPointer<vtkDataArray> array = arrayFor(result.type);
+      const std::size_t tuple = dgtk::bytesOf(result.type) * std::size_t(result.channels);
+      array->SetName(result.name.c_str());
+      array->SetNumberOfComponents(result.channels);
+      array->SetNumberOfTuples(static_cast<vtkIdType>(result.data.size() / tuple));
+      std::copy_n(result.data.data(), result.data.size(), static_cast<std::byte*>(array->GetVoidPointer(0)));
+      result.data = {};
+      this->arrays.push_back(array);
+    }
+    return true;
+  }
+  catch (const std::exception& error)
+  {
+    this->errorMessage = error.what();
+    return false;
+  }
+}
+
+std::vector<dgtk::LayerArray> dgtkRenderer::Internal::draw(const std::vector<std::string>& layers)
 {
   if (!this->scene || !this->scene->GetStage())
   {
     throw dgtk::UsageError("no scene is set");
   }
-  const dgtk::Stage& stage = *this->scene->GetStage();
-  const dgtk::WorkPlan plan = this->planOf(layer, stage);
-  dgtk::Rows image;
-  this->source.use(
-    sourceOptions(plan), [&](dgtk::FrameSource& frames) { image = this->drawWith(frames, plan, stage); });
-  return image;
+  const std::shared_ptr<const dgtk::Stage> stage = this->scene->GetStage();
+  ScratchFolder scratch;
+  dgtk::WorkPlan plan = this->planOf(layers, *stage);
+  for (dgtk::PlannedLayer& planned : plan.layers)
+  {
+    planned.shared = planned.layer->makeShared({ [&scratch] { return scratch.path(); }, [](const std::string&) {} });
+  }
+  std::vector<dgtk::LayerArray> drawn;
+  this->source.use(sourceOptions(plan), stage,
+    [&](dgtk::FrameSource& frames, dgtk::SceneQueries& queries, dgtk::ThreadPool& pool)
+    {
+      const dgtk::Job job = plan.jobs.front();
+      const dgtk::View view = stage->view(job.camera, job.frame, this->request.width, this->request.height);
+      drawn = this->drawWith(
+        frames, { plan, job, stage->cameraNames()[job.camera], stage->at(job.frame), view, queries, pool });
+    });
+  return drawn;
 }
 
-dgtk::WorkPlan dgtkRenderer::Internal::planOf(const std::string& layer, const dgtk::Stage& stage)
+/// The plan of all cameras, which layers may relate to one another; the first job is the picture.
+dgtk::WorkPlan dgtkRenderer::Internal::planOf(const std::vector<std::string>& layers, const dgtk::Stage& stage)
 {
-  requireArray(layer);
-  this->request.layers = { layer };
-  this->request.cameras.clear();
-  if (!this->camera.empty())
-  {
-    this->request.cameras = { this->camera };
-  }
+  requireArrays(layers);
+  this->request.layers = layers;
   const int at = this->frameSet ? this->frame : stage.description().firstFrame();
   this->request.frames = dgtk::FrameRange{ at, at, 1 };
-  return dgtk::makeWorkPlan(this->request, stage);
+  dgtk::WorkPlan plan = dgtk::makeWorkPlan(this->request, stage);
+  const std::vector<std::string> names = stage.cameraNames();
+  const auto own = std::find_if(plan.jobs.begin(), plan.jobs.end(),
+    [&](const dgtk::Job& job) { return this->camera.empty() || names[job.camera] == this->camera; });
+  if (own == plan.jobs.end())
+  {
+    dgtk::GeneratorRequest wrong = this->request;
+    wrong.cameras = { this->camera };
+    dgtk::makeWorkPlan(wrong, stage); // says which there are
+  }
+  std::rotate(plan.jobs.begin(), own, own + 1);
+  for (const dgtk::PlannedLayer& planned : plan.layers)
+  {
+    if (planned.layer->outputs(plan, stage, plan.jobs.front(), planned).empty())
+    {
+      throw dgtk::UsageError("there is no layer " + planned.layer->info().layer + " of camera " +
+                             dgtk::quoted(names[plan.jobs.front().camera]) + " at frame " + std::to_string(at) +
+                             ": it needs " + planned.layer->requirement());
+    }
+  }
+  return plan;
 }
 
-dgtk::Rows dgtkRenderer::Internal::drawWith(
-  dgtk::FrameSource& frames, const dgtk::WorkPlan& plan, const dgtk::Stage& stage)
+std::vector<dgtk::LayerArray> dgtkRenderer::Internal::drawWith(
+  dgtk::FrameSource& frames, const dgtk::JobContext& context)
 {
   using namespace dgtk;
-  const Job& job = plan.jobs.front();
-  const View view = stage.view(job.camera, job.frame, this->request.width, this->request.height);
-  const std::shared_ptr<const SceneState> state = stage.at(job.frame);
-  frames.setScene(state, view);
-  this->width = view.model->width();
-  this->height = view.model->height();
-
-  const bool color = plan.representations.empty();
-  if (color)
+  const Stage& stage = context.queries.stage();
+  const Job& job = context.job;
+  this->width = context.view.model->width();
+  this->height = context.view.model->height();
+  struct Lane
   {
-    frames.expose(stage.exposures(job.camera, job.frame, this->request.width, this->request.height),
-      [&stage](double instant) { return stage.at(instant); });
-  }
-  const LayerSpec spec = color ? plan.colorSpec("png") : plan.representations.front().spec;
-  Rows image(spec.type, spec.channels, this->width, 0, this->height);
-  for (int row = 0; row < frames.bands(); ++row)
+    std::unique_ptr<LayerPass> pass;
+    ArraySink sink;
+  };
+  std::vector<Lane> lanes;
+  for (const PlannedPass& planned : passesOf(context.plan, stage, job))
   {
-    DrawnBand drawn;
-    frames.draw(row, drawn);
-    frames.finish();
-    const Band& band = drawn.whole();
-    Rows part;
-    if (color)
-    {
-      part = quantise(band, spec, band.rect.y, band.rect.height);
-    }
-    else
-    {
-      const Representation& representation = *plan.representations.front().representation;
-      SurfaceRows surface;
-      computeSurfaceRows(*state, view, band.rect, band.hits.data(), representation.needsBarycentrics(), surface);
-      part = Rows(spec.type, spec.channels, this->width, band.rect.y, band.rect.height);
-      representation.compute(surface, part);
-    }
-    std::copy_n(part.data(), part.bytes(), image.data() + band.rect.y * image.rowBytes());
+    lanes.push_back(
+      { planned.layers.front().layer.makePass(context, planned.layers), ArraySink(context, planned.outputs()) });
   }
-  return image;
+  if (frames.drawsAnything())
+  {
+    frames.setScene(context.state, context.view);
+    if (context.plan.drawsColor())
+    {
+      frames.expose(stage.exposures(job.camera, job.frame, this->request.width, this->request.height),
+        [&stage](double instant) { return stage.at(instant); });
+    }
+    for (int row = 0; row < frames.bands(); ++row)
+    {
+      DrawnBand drawn;
+      frames.draw(row, drawn);
+      frames.finish();
+      for (Lane& lane : lanes)
+      {
+        lane.pass->band(drawn.whole(), lane.sink);
+      }
+    }
+  }
+  std::vector<LayerArray> all;
+  for (Lane& lane : lanes)
+  {
+    lane.pass->finish(lane.sink);
+    std::vector<LayerArray> own = lane.sink.finish();
+    all.insert(all.end(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
+  }
+  return all;
 }
 
 dgtkRenderer::dgtkRenderer()
@@ -296,25 +420,76 @@ void dgtkRenderer::SetGL(const std::string& backend)
   this->Modified();
 }
 
+void dgtkRenderer::SetFilter(const std::string& name)
+{
+  this->Self->request.filter = name;
+  this->Modified();
+}
+
+void dgtkRenderer::SetColorBits(int bits)
+{
+  this->Self->request.colorBits = bits;
+  this->Modified();
+}
+
+void dgtkRenderer::SetPointsStep(int pixels)
+{
+  this->Self->request.pointsStep = pixels;
+  this->Modified();
+}
+
+void dgtkRenderer::SetSeed(int seed)
+{
+  this->Self->request.seed = seed;
+  this->Modified();
+}
+
+void dgtkRenderer::ClearNames()
+{
+  this->Self->request.matte.clear();
+  this->Self->request.pairs.clear();
+  this->Modified();
+}
+
+void dgtkRenderer::AddMatte(const std::string& object)
+{
+  this->Self->request.matte.push_back(object);
+  this->Modified();
+}
+
+void dgtkRenderer::AddPair(const std::string& pair)
+{
+  this->Self->request.pairs.push_back(pair);
+  this->Modified();
+}
+
 vtkDataArray* dgtkRenderer::Render(const std::string& layer)
 {
-  this->Self->errorMessage.clear();
-  this->Self->result = nullptr;
-  try
-  {
-    const dgtk::Rows image = this->Self->draw(layer);
-    const vtkSmartPointer<vtkDataArray> array = arrayFor(image.type());
-    array->SetName(layer.c_str());
-    array->SetNumberOfComponents(image.channels());
-    array->SetNumberOfTuples(static_cast<vtkIdType>(image.width()) * image.height());
-    std::memcpy(array->GetVoidPointer(0), image.data(), image.bytes());
-    this->Self->result = array;
-  }
-  catch (const std::exception& error)
-  {
-    this->Self->errorMessage = error.what();
-  }
-  return this->Self->result;
+  return this->Self->render({ layer }) ? this->GetOutput(0) : nullptr;
+}
+
+bool dgtkRenderer::RenderLayers(const std::string& layers) { return this->Self->render(split(layers)); }
+
+int dgtkRenderer::GetNumberOfOutputs() const { return static_cast<int>(this->Self->arrays.size()); }
+
+vtkDataArray* dgtkRenderer::GetOutput(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfOutputs() ? this->Self->arrays[std::size_t(index)].Get() : nullptr;
+}
+
+std::string dgtkRenderer::GetOutputPart(int index) const
+{
+  return this->GetOutput(index) != nullptr ? this->Self->results[std::size_t(index)].part : std::string();
+}
+
+std::string dgtkRenderer::GetOutputFormat(int index) const
+{
+  return this->GetOutput(index) != nullptr ? this->Self->results[std::size_t(index)].format : std::string();
+}
+
+bool dgtkRenderer::IsOutputImage(int index) const
+{
+  return this->GetOutput(index) != nullptr && this->Self->results[std::size_t(index)].shape.size() == 2;
 }
 
 int dgtkRenderer::GetWidth() const { return this->Self->width; }

@@ -48,6 +48,31 @@ public:
    */
   void SetSamples(int samples);
   /**
+   * How samples become a pixel's colour: "box" (default), "triangle", "gaussian", "mitchell" or "lanczos".
+   */
+  void SetFilter(const std::string& name);
+  /**
+   * Bits a channel of colour: 8 (default) or 16.
+   */
+  void SetColorBits(int bits);
+  /**
+   * Pixels between the samples of the layer points, at least 1 (default 4).
+   */
+  void SetPointsStep(int pixels);
+  /**
+   * Seed of random numbers, at least 0 (default 0).
+   */
+  void SetSeed(int seed);
+  ///@{
+  /**
+   * Names of objects for the layer matting; pairs of cameras for the layer correspondence, "left:right" or
+   * "left:right+1" (default: all other cameras at the same frame).
+   */
+  void AddMatte(const std::string& object);
+  void AddPair(const std::string& pair);
+  void ClearNames();
+  ///@}
+  /**
    * "auto" (default), "raster" or "ray".
    */
   void SetVisibility(const std::string& engine);
@@ -57,11 +82,28 @@ public:
   void SetGL(const std::string& backend);
 
   /**
-   * The layer ("color", "depth", "objects", ...): GetWidth() x GetHeight() tuples, rows top to bottom. Colour is
-   * unsigned char, 3 components, sRGB. The array belongs to the caller's reference; null on failure, see
-   * GetErrorMessage(), which also names the layers that can be had so.
+   * The first output of a layer ("color", "depth", "objects", ...), null on failure; see RenderLayers().
    */
   vtkDataArray* Render(const std::string& layer);
+  /**
+   * Renders layers, their names separated by commas. False on failure, see GetErrorMessage(), which also names the
+   * layers that can be had so.
+   */
+  bool RenderLayers(const std::string& layers);
+
+  ///@{
+  /**
+   * What was rendered last, arrays with the values of the layers' files, named by the output ("depth",
+   * "flow_forward_class"). An image has GetWidth() x GetHeight() tuples, rows top to bottom. A document's bytes have a
+   * format ("json"). A layered depth image is several arrays of one name, each a part: "count" (an image), "rgba",
+   * "depth" and "splat" of all its surfaces. Arrays belong to the caller's reference.
+   */
+  int GetNumberOfOutputs() const;
+  vtkDataArray* GetOutput(int index) const;
+  std::string GetOutputPart(int index) const;
+  std::string GetOutputFormat(int index) const;
+  bool IsOutputImage(int index) const;
+  ///@}
 
   ///@{
   /**

@@ -4,7 +4,7 @@
 
 // Private to Pipeline.
 
-#include "dgtkFrameOutput.h"
+#include "dgtkFileSink.h"
 
 #include "dgtkDatasetDocuments.h"
 #include "dgtkJournal.h"

@@ -2,7 +2,7 @@
 #include "dgtkRunNotes.h"
 
 #include "dgtkError.h"
-#include "dgtkFrameLayers.h"
+#include "dgtkLayers.h"
 #include "dgtkShadowNotes.h"
 
 #include <algorithm>
@@ -17,15 +17,15 @@ namespace dgtk
 std::vector<EmptyRecord> emptyLayers(const WorkPlan& plan, const Stage& stage)
 {
   std::vector<EmptyRecord> empty;
-  for (const PlannedFrameLayer& planned : plan.frameLayers)
+  for (const PlannedLayer& planned : plan.layers)
   {
-    const std::string needs = planned.layer->needs();
+    const std::string needs = planned.layer->requirement();
     if (needs.empty())
     {
       continue;
     }
     const auto without = std::count_if(plan.jobs.begin(), plan.jobs.end(),
-      [&](const Job& job) { return planned.layer->files(plan, stage, job).empty(); });
+      [&](const Job& job) { return planned.layer->outputs(plan, stage, job, planned).empty(); });
     if (without == 0)
     {
       continue;

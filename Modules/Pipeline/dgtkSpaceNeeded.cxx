@@ -2,7 +2,7 @@
 #include "dgtkSpaceNeeded.h"
 
 #include "dgtkError.h"
-#include "dgtkFrameLayers.h"
+#include "dgtkLayers.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -30,21 +30,6 @@ void operator+=(SpaceNeeded& sum, const SpaceNeeded& more)
 {
   sum.least += more.least;
   sum.likely += more.likely;
-}
-
-/// The smallest of what a layer says about its files with this extension.
-SpaceNeeded spaceOfFile(const std::vector<LayerRecord>& records, const std::string& extension, int width, int height)
-{
-  SpaceNeeded smallest{ std::numeric_limits<std::uint64_t>::max(), 0 };
-  for (const LayerRecord& record : records)
-  {
-    const SpaceNeeded space = spaceOf(record.spec, record.format, width, height);
-    if (record.format == extension && space.least < smallest.least)
-    {
-      smallest = space;
-    }
-  }
-  return smallest.likely == 0 ? SpaceNeeded{} : smallest;
 }
 
 std::string sizeText(std::uint64_t bytes)
@@ -95,31 +80,11 @@ SpaceNeeded spaceOf(const WorkPlan& plan, const Stage& stage)
   SpaceNeeded sum;
   for (const Job& job : plan.jobs)
   {
-    const View view = stage.view(job.camera, job.frame, plan.request.width, plan.request.height);
-    const int width = view.model->width();
-    const int height = view.model->height();
-    for (const std::string& format : plan.colorFormats)
+    for (const LayerOutput& output : outputsOf(plan, stage, job))
     {
-      sum += spaceOf(plan.colorSpec(format), format, width, height);
-    }
-    for (const PlannedLayer& layer : plan.representations)
-    {
-      for (const std::string& format : layer.formats)
+      for (const std::string& format : output.formats)
       {
-        sum += spaceOf(layer.spec, format, width, height);
-      }
-    }
-    for (const PlannedFrameLayer& planned : plan.frameLayers)
-    {
-      std::vector<LayerRecord> records;
-      for (const std::string& format : planned.formats)
-      {
-        const std::vector<LayerRecord> more = planned.layer->records(plan, format);
-        records.insert(records.end(), more.begin(), more.end());
-      }
-      for (const std::string& name : planned.layer->files(plan, stage, job))
-      {
-        sum += spaceOfFile(records, name.substr(name.rfind('.') + 1), width, height);
+        sum += spaceOf(output.spec, format, output.width, output.height);
       }
     }
   }

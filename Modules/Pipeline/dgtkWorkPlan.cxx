@@ -2,9 +2,8 @@
 #include "dgtkWorkPlan.h"
 
 #include "dgtkError.h"
-#include "dgtkFrameLayers.h"
 #include "dgtkLayerWriter.h"
-#include "dgtkNoisySensor.h"
+#include "dgtkLayers.h"
 #include "dgtkRasterSource.h"
 #include "dgtkRunNotes.h"
 
@@ -16,8 +15,6 @@ namespace dgtk
 
 namespace
 {
-const std::vector<std::string> defaultLayers = { "color", "depth", "objects", "calibration" };
-
 std::string joined(const std::vector<std::string>& words)
 {
   std::string text;
@@ -37,15 +34,20 @@ bool contains(const std::vector<std::string>& words, const std::string& word)
 std::vector<std::string> resolveLayers(const std::vector<std::string>& asked)
 {
   std::vector<std::string> known;
+  std::vector<std::string> usual;
   for (const LayerInfo& info : generatorLayers())
   {
     known.push_back(info.layer);
+    if (info.usual)
+    {
+      usual.push_back(info.layer);
+    }
   }
   if (asked.size() == 1 && asked[0] == "all")
   {
     return known;
   }
-  const std::vector<std::string>& wanted = asked.empty() ? defaultLayers : asked;
+  const std::vector<std::string>& wanted = asked.empty() ? usual : asked;
   for (const std::string& layer : wanted)
   {
     if (!contains(known, layer))
@@ -134,18 +136,12 @@ std::vector<int> resolveFrames(const std::optional<FrameRange>& asked, const Sce
 
 std::vector<LayerInfo> generatorLayers()
 {
-  std::vector<LayerInfo> layers{ { "color", { "png", "exr" }, "the picture, by VTK or POV-Ray", true } };
-  for (const RepresentationInfo& info : representations())
+  std::vector<LayerInfo> infos;
+  for (const auto& layer : layers())
   {
-    layers.push_back({ info.layer, makeRepresentation(info.layer)->formats(), info.description, true });
+    infos.push_back(layer->info());
   }
-  for (const auto& layer : frameLayers())
-  {
-    layers.push_back(layer->info());
-  }
-  layers.push_back({ "calibration", { "txt" }, "projection and pose of the camera, as the thesis writes them" });
-  layers.push_back({ "tiles", { "png" }, "the picture cut into tiles" });
-  return layers;
+  return infos;
 }
 
 std::string formatExtension(const std::string& format)
@@ -157,74 +153,44 @@ std::string formatExtension(const std::string& format)
       return info.extension;
     }
   }
-  throw UsageError("unknown file format " + quoted(format));
+  return format;
 }
 
-LayerSpec WorkPlan::colorSpec(const std::string& format) const
+LayerNeeds LayerNeeds::ofHits()
 {
-  LayerSpec spec;
-  spec.name = "color";
-  spec.channels = 3;
-  spec.frame = "image";
-  spec.invalid = "none";
-  if (format == "exr")
-  {
-    spec.type = PixelType::Float32;
-    spec.unit = "linear sRGB";
-    spec.description = "The picture in linear light, primaries of sRGB; red, green, blue.";
-  }
-  else
-  {
-    spec.type = this->request.colorBits == 16 ? PixelType::UInt16 : PixelType::UInt8;
-    spec.unit = "sRGB";
-    spec.description = "The picture as it is displayed, sRGB-encoded; red, green, blue.";
-  }
-  return spec;
+  LayerNeeds needs;
+  needs.hits = true;
+  return needs;
 }
 
-std::string WorkPlan::fileName(
-  const std::string& camera, const std::string& layer, int frame, const std::string& extension)
+LayerNeeds LayerNeeds::ofColor()
+{
+  LayerNeeds needs;
+  needs.color = true;
+  return needs;
+}
+
+void LayerNeeds::add(const LayerNeeds& more)
+{
+  this->hits = this->hits || more.hits;
+  this->color = this->color || more.color;
+  this->sharp = this->sharp || more.sharp;
+  this->peeled = this->peeled || more.peeled;
+  this->mattes.insert(this->mattes.end(), more.mattes.begin(), more.mattes.end());
+}
+
+std::string WorkPlan::stem(const std::string& camera, const std::string& layer, int frame)
 {
   char number[16];
   std::snprintf(number, sizeof number, "%06d", frame);
-  return camera + '/' + layer + '/' + number + '.' + extension;
+  return camera + '/' + layer + '/' + number;
 }
 
-std::vector<std::string> WorkPlan::tileNames(const std::string& camera, int frame, const CameraModel& model) const
+std::vector<std::string> WorkPlan::formatsOf(const std::string& layer) const
 {
-  const int columns = (model.width() + this->request.tileWidth - 1) / this->request.tileWidth;
-  const int rows = (model.height() + this->request.tileHeight - 1) / this->request.tileHeight;
-  std::vector<std::string> names;
-  for (int row = 0; row < rows; ++row)
+  for (const PlannedLayer& planned : this->layers)
   {
-    for (int column = 0; column < columns; ++column)
-    {
-      char name[48];
-      std::snprintf(name, sizeof name, "/tiles/%06d_%d_%d.png", frame, row, column);
-      names.push_back(camera + name);
-    }
-  }
-  return names;
-}
-
-bool WorkPlan::has(const std::string& layer) const { return contains(this->layers, layer); }
-
-namespace
-{
-std::shared_ptr<const FrameLayer> frameLayerOf(const std::string& name)
-{
-  const auto& all = frameLayers();
-  const auto found =
-    std::find_if(all.begin(), all.end(), [&](const auto& layer) { return layer->info().layer == name; });
-  return found == all.end() ? nullptr : *found;
-}
-} // namespace
-
-std::vector<std::string> WorkPlan::formatsOf(const std::string& frameLayer) const
-{
-  for (const PlannedFrameLayer& planned : this->frameLayers)
-  {
-    if (planned.layer->info().layer == frameLayer)
+    if (planned.layer->info().layer == layer)
     {
       return planned.formats;
     }
@@ -257,8 +223,8 @@ void checkPictures(const WorkPlan& plan, const SceneDescription& scene)
   pixelFilterFromName(request.filter);
   if (request.filter != "box" && (request.samples == 1 || request.renderer != "vtk"))
   {
-    throw UsageError("the filter " + request.filter + " needs several samples a pixel (--samples 2 or more) and " +
-                     "the built-in renderer");
+    throw UsageError(
+      "the filter " + request.filter + " needs several samples a pixel (2 or more) and " + "the built-in renderer");
   }
   for (const Job& job : plan.jobs)
   {
@@ -266,29 +232,7 @@ void checkPictures(const WorkPlan& plan, const SceneDescription& scene)
     if (plan.drawsColor() && request.renderer != "vtk" && (camera.shutter.blurs() || camera.lens.blurs()))
     {
       throw UsageError("camera " + quoted(camera.name) + " has a " + (camera.lens.blurs() ? "lens" : "shutter") +
-                       ": only the built-in renderer averages exposures (POV-Ray has --pov-focal-blur)");
-    }
-  }
-}
-} // namespace
-
-namespace
-{
-/// Ids that do not fit a format are refused before anything is written.
-void checkIds(const WorkPlan& plan, const Stage& stage)
-{
-  const std::shared_ptr<const SceneState> state = stage.at(plan.jobs.front().frame);
-  for (const PlannedLayer& layer : plan.representations)
-  {
-    const std::uint32_t largest = layer.representation->largest(*state);
-    for (const std::string& format : layer.formats)
-    {
-      const std::uint32_t fits = largestStored(format, layer.spec);
-      if (largest > fits)
-      {
-        throw UsageError("layer " + layer.spec.name + ": ids up to " + std::to_string(largest) + " do not fit ." +
-                         formatExtension(format) + " (largest " + std::to_string(fits) + "); .npy holds them");
-      }
+                       ": only the built-in renderer averages exposures (POV-Ray has a focal blur of its own)");
     }
   }
 }
@@ -300,33 +244,16 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
   checkEngines(request);
   WorkPlan plan;
   plan.request = request;
-  plan.layers = resolveLayers(request.layers);
-  for (const LayerInfo& info : generatorLayers())
+  const std::vector<std::string> wanted = resolveLayers(request.layers);
+  for (const auto& layer : layers())
   {
-    if (!contains(plan.layers, info.layer))
+    const LayerInfo info = layer->info();
+    if (contains(wanted, info.layer))
     {
-      continue;
-    }
-    if (info.layer == "color")
-    {
-      plan.colorFormats = resolveFormats(info, request);
-    }
-    else if (info.layer == "tiles" || info.layer == "calibration")
-    {
-      (info.layer == "tiles" ? plan.tiles : plan.calibration) = true;
-    }
-    else if (const auto frameLayer = frameLayerOf(info.layer))
-    {
-      plan.frameLayers.push_back({ frameLayer, resolveFormats(info, request) });
-    }
-    else
-    {
-      std::shared_ptr<const Representation> representation = makeRepresentation(info.layer);
-      plan.representations.push_back({ representation, representation->spec(), resolveFormats(info, request) });
+      plan.layers.push_back({ layer, resolveFormats(info, request), nullptr });
+      plan.needs.add(layer->needs(request, stage));
     }
   }
-  plan.layersReadColor = std::any_of(plan.frameLayers.begin(), plan.frameLayers.end(),
-    [](const PlannedFrameLayer& planned) { return planned.layer->needsColor(); });
   plan.raster = request.visibility == "raster";
   for (const int frame : resolveFrames(request.frames, scene))
   {
@@ -336,11 +263,16 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
     }
   }
   checkPictures(plan, scene);
-  checkIds(plan, stage);
-  plan.noise = describeNoise(plan, stage);
-  for (const PlannedFrameLayer& planned : plan.frameLayers)
+  for (const PlannedLayer& planned : plan.layers)
   {
-    planned.layer->check(plan, stage);
+    planned.layer->check(plan, stage, planned);
+    for (const auto& pair : planned.layer->noise(plan, stage))
+    {
+      if (std::find(plan.noise.begin(), plan.noise.end(), pair) == plan.noise.end())
+      {
+        plan.noise.push_back(pair);
+      }
+    }
   }
   plan.empty = emptyLayers(plan, stage);
   return plan;
@@ -350,7 +282,12 @@ std::vector<std::pair<std::string, std::string>> describeRequest(const WorkPlan&
 {
   const GeneratorRequest& request = plan.request;
   std::vector<std::pair<std::string, std::string>> pairs;
-  pairs.emplace_back("layers", joined(plan.layers));
+  std::vector<std::string> names;
+  for (const PlannedLayer& planned : plan.layers)
+  {
+    names.push_back(planned.layer->info().layer);
+  }
+  pairs.emplace_back("layers", joined(names));
   pairs.emplace_back("cameras", request.cameras.empty() ? "all" : joined(request.cameras));
   pairs.emplace_back("frames", request.frames
                                  ? std::to_string(request.frames->first) + ':' + std::to_string(request.frames->last) +
@@ -358,9 +295,11 @@ std::vector<std::pair<std::string, std::string>> describeRequest(const WorkPlan&
                                  : "all");
   pairs.emplace_back(
     "size", request.width ? std::to_string(request.width) + 'x' + std::to_string(request.height) : "camera's own");
-  if (plan.tiles)
+  const auto add = [&pairs](const std::vector<std::pair<std::string, std::string>>& more)
+  { pairs.insert(pairs.end(), more.begin(), more.end()); };
+  for (const PlannedLayer& planned : plan.layers)
   {
-    pairs.emplace_back("tile", std::to_string(request.tileWidth) + 'x' + std::to_string(request.tileHeight));
+    add(planned.layer->pictureOptions(request));
   }
   if (plan.drawsColor())
   {
@@ -370,27 +309,20 @@ std::vector<std::pair<std::string, std::string>> describeRequest(const WorkPlan&
       pairs.emplace_back("filter", request.filter);
     }
     pairs.emplace_back("color_bits", std::to_string(request.colorBits));
-    pairs.emplace_back("color_format", joined(plan.colorFormats));
+    pairs.emplace_back("color_format", joined(plan.formatsOf(pictureLayer)));
   }
-  for (const PlannedLayer& layer : plan.representations)
+  for (const PlannedLayer& planned : plan.layers)
   {
-    pairs.emplace_back(layer.spec.name + "_format", joined(layer.formats));
-  }
-  for (const PlannedFrameLayer& planned : plan.frameLayers)
-  {
-    pairs.emplace_back(planned.layer->info().layer + "_format", joined(planned.formats));
-    const auto options = planned.layer->options(request);
-    pairs.insert(pairs.end(), options.begin(), options.end());
+    add(planned.layer->options(request, planned));
   }
   if (request.renderer != "vtk")
   {
     pairs.emplace_back("renderer", request.renderer);
   }
-  const auto povray = request.pov.describe();
-  pairs.insert(pairs.end(), povray.begin(), povray.end());
+  add(request.pov.describe());
   pairs.emplace_back("visibility", plan.raster ? "raster" : "ray");
   pairs.emplace_back("seed", std::to_string(request.seed));
-  pairs.insert(pairs.end(), plan.noise.begin(), plan.noise.end());
+  add(plan.noise);
   if (request.pack)
   {
     pairs.emplace_back("pack", "yes");

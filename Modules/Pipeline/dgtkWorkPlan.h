@@ -5,10 +5,9 @@
 #include "dgtkGenerator.h"
 
 #include "dgtkDatasetDocuments.h"
-#include "dgtkLayer.h"
-#include "dgtkRepresentation.h"
 #include "dgtkStage.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -24,55 +23,48 @@ struct Job
   int frame = 0;
 };
 
-/// A representation and the files that hold it.
-struct PlannedLayer
+/// What layers read of a picture; nothing else is drawn.
+struct LayerNeeds
 {
-  std::shared_ptr<const Representation> representation;
-  LayerSpec spec;
-  std::vector<std::string> formats;
+  bool hits = false;                 ///< Band::hits
+  bool color = false;                ///< Band::rgb
+  bool sharp = false;                ///< Band::sharp
+  bool peeled = false;               ///< Band::peeled
+  std::vector<std::uint32_t> mattes; ///< objects of Band::mattes
+
+  static LayerNeeds ofHits();
+  static LayerNeeds ofColor();
+  /// Adds what others need; mattes are those of one layer.
+  void add(const LayerNeeds& more);
 };
 
-class FrameLayer;
-class PovLibrary;
+class Layer;
 
-/// A frame layer and its file formats.
-struct PlannedFrameLayer
+/// A layer of a plan and its file formats.
+struct PlannedLayer
 {
-  std::shared_ptr<const FrameLayer> layer;
+  std::shared_ptr<const Layer> layer;
   std::vector<std::string> formats;
+  std::shared_ptr<void> shared; ///< Layer::makeShared(), for a run with files
 };
 
 /// A request, checked and resolved against its scene. Depends on nothing else.
 struct WorkPlan
 {
   GeneratorRequest request;
-  std::vector<std::string> layers; ///< in the order of generatorLayers()
-  std::vector<PlannedLayer> representations;
-  std::vector<PlannedFrameLayer> frameLayers;
-  std::vector<std::string> colorFormats; ///< "png", "exr"; empty when no colour is written
-  bool tiles = false;
-  bool calibration = false;
-  bool raster = false;          ///< engine of the visibility buffer: raster or ray
-  bool layersReadColor = false; ///< some frame layer needs Band::rgb
+  std::vector<PlannedLayer> layers; ///< in the order of generatorLayers()
+  LayerNeeds needs;                 ///< of all of them
+  bool raster = false;              ///< engine of the visibility buffer: raster or ray
   /// What decides the noise of the noisy layers, besides the scene.
   std::vector<std::pair<std::string, std::string>> noise;
   std::vector<Job> jobs;
-  std::vector<EmptyRecord> empty;         ///< layers that some pictures do not have
-  std::shared_ptr<PovLibrary> povLibrary; ///< of the layer pov, for a run with files; null without it
+  std::vector<EmptyRecord> empty; ///< layers that some pictures do not have
 
-  bool drawsColor() const { return !this->colorFormats.empty() || this->tiles || this->layersReadColor; }
-  bool needsHits() const { return !this->representations.empty() || !this->frameLayers.empty(); }
-  /// Whether a layer is among those asked for.
-  bool has(const std::string& layer) const;
-  /// File formats of a frame layer; empty when it is not asked for.
-  std::vector<std::string> formatsOf(const std::string& frameLayer) const;
-  /// Specification of the colour layer in a format.
-  LayerSpec colorSpec(const std::string& format) const;
-  /// Relative paths of the files of the tiles layer, in the order in which they are completed.
-  std::vector<std::string> tileNames(const std::string& camera, int frame, const CameraModel& model) const;
-  /// Relative path of a file of the dataset.
-  static std::string fileName(
-    const std::string& camera, const std::string& layer, int frame, const std::string& extension);
+  bool drawsColor() const { return this->needs.color || this->needs.sharp; }
+  /// File formats of a layer; empty when it is not asked for.
+  std::vector<std::string> formatsOf(const std::string& layer) const;
+  /// Relative path of a file of the dataset, without extension.
+  static std::string stem(const std::string& camera, const std::string& layer, int frame);
 };
 
 /// Throws UsageError for a request that does not fit the scene.
@@ -81,12 +73,7 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage);
 /// The request as ordered key and value pairs: what the manifest records and what decides whether a run can be resumed.
 std::vector<std::pair<std::string, std::string>> describeRequest(const WorkPlan& plan);
 
-/// What the scenes of the layer pov share, in a dataset's folder. `announce` is told the name of each file, relative to
-/// it, before it is written.
-std::shared_ptr<PovLibrary> makePovLibrary(
-  const std::string& folder, const std::function<void(const std::string& name)>& announce);
-
-/// File name extension of a format, without the dot.
+/// File name extension of a format, without the dot. A format that is no image's is its extension.
 std::string formatExtension(const std::string& format);
 
 } // namespace dgtk

@@ -2,13 +2,14 @@
 """Debian's python3 imports dgtk and renders a scene into numpy arrays: the values of the command line's files, or a sentence."""
 import json
 import os
+import pickle
 import re
 import subprocess
 import sys
 
 import numpy
 from harness import SCENES, SOURCE, Case, main
-from pictures import read_png
+from pictures import read_exr, read_png
 
 PACKAGES = os.path.join(os.environ["DGTK_BUILD"], "lib", "python3", "dist-packages")
 sys.path.insert(0, PACKAGES)
@@ -27,39 +28,136 @@ class Interpreter(Case):
 
 class Arrays(Interpreter):
     EVERY_LAYER = """
-import json, sys, dgtk, numpy
-scene, size, said = dgtk.load(sys.argv[1]), (64, 48), {}
-for layer in sys.argv[3:]:
+import pickle, sys, dgtk
+scene, given = dgtk.load(sys.argv[1]), {}
+options = eval(sys.argv[3])
+for layer in sys.argv[4:]:
     print(layer, flush=True)
     try:
-        numpy.save(f"{sys.argv[2]}/{layer}.npy", dgtk.render(scene, layer, size=size, frame=1, visibility="ray"))
+        given[layer] = dgtk.render(scene, [layer], size=(64, 48), frame=1, samples=2, **options)
     except (RuntimeError, ValueError) as error:
-        said[layer] = str(error)
-json.dump(said, open(sys.argv[2] + "/said.json", "w"))
+        given[layer] = str(error)
+pickle.dump(given, open(sys.argv[2] + "/given.pickle", "wb"))
 """
+    # Of other scenes than the demo, or with words of their own.
+    SPECIAL = {"color_sharp": ("lens_and_shutter.json", {}, ()), "matting": ("demo.json", {"matte": ["house"]}, ("--matte", "house"))}
 
     def layers(self):
         return [line.split()[0] for line in self.dgtk("list", "layers").stdout.splitlines()]
 
+    def given(self, scene, layers, options=None):
+        self.python(self.EVERY_LAYER, os.path.join(SCENES, scene), self.folder, repr(options or {}), *layers, limit=300)
+        with open(self.path("given.pickle"), "rb") as file:
+            return pickle.load(file)
+
     def test_every_layer_is_that_of_the_file_or_refused(self):
-        self.python(self.EVERY_LAYER, DEMO, self.folder, *self.layers())
-        with open(self.path("said.json"), encoding="utf-8") as file:
-            said = json.load(file)
-        given = [layer for layer in self.layers() if layer not in said]
-        formats = [word for layer in given if layer != "color" for word in (f"--{layer}-format", "npy")]
-        self.dgtk("render", DEMO, "-o", self.path("out"), "--quiet", "--layers", ",".join(given), "--size", "64x48", "--frames", "1",
-                  "--visibility", "ray", *formats)
-        for layer in given:
-            with self.subTest(layer):
-                array = numpy.load(self.path(f"{layer}.npy"))
-                path = self.path("out", "left", layer, "000001")
-                file = read_png(path + ".png").astype(numpy.uint8) if layer == "color" else numpy.load(path + ".npy")
-                self.assertEqual(file.dtype, array.dtype)
-                numpy.testing.assert_array_equal(file, array)
-        for layer, line in said.items():
-            self.assertRegex(line, rf"\Athe layer {layer} is not given as an array yet \(expected one of color, depth, .*\)\Z")
-        self.assertLess({"color", "depth", "objects", "normal", "position", "uv", "triangles"}, set(given))
-        self.assertLess({"boxes", "ldi", "flow_forward", "color_noisy", "points", "tiles"}, set(said))
+        usual = [layer for layer in self.layers() if layer not in self.SPECIAL]
+        given = self.given("demo.json", usual)
+        self.dgtk("render", DEMO, "-o", self.path("demo"), "--quiet", "--size", "64x48", "--frames", "1", "--samples", "2", "--layers",
+                  ",".join(usual), *(word for layer in usual for word in self.format_of(layer)))
+        self.assertEqual(given.pop("tiles"), "the layer tiles is not given as an array: it is color cut into files")
+        for layer, outputs in given.items():
+            self.compare(layer, outputs, self.path("demo"))
+        for layer, (scene, options, words) in self.SPECIAL.items():
+            folder = self.path(layer)
+            self.dgtk("render", os.path.join(SCENES, scene), "-o", folder, "--quiet", "--size", "64x48", "--frames", "1", "--samples", "2",
+                      "--layers", layer, *words)
+            self.compare(layer, self.given(scene, [layer], options)[layer], folder)
+
+    def format_of(self, layer):
+        formats = next(line.split()[1] for line in self.dgtk("list", "layers").stdout.splitlines() if line.split()[0] == layer).split(",")
+        return (f"--{layer}-format", "npy") if "npy" in formats and len(formats) > 1 else ()
+
+    def compare(self, layer, outputs, dataset):
+        """Every file of the picture is an output, and every output has its values."""
+        self.assertIsInstance(outputs, dict, outputs)
+        with open(os.path.join(dataset, "cameras.json"), encoding="utf-8") as file:
+            camera = json.load(file)["cameras"][0]
+        with open(os.path.join(dataset, "manifest.json"), encoding="utf-8") as file:
+            files = [entry["path"] for entry in json.load(file)["files"] if entry.get("camera") == camera["name"]]
+        own = [path for path in files if path.split("/")[-2] == layer or path.split("/")[-2].startswith((layer + "_class", layer + "_right", "matting"))
+               and layer in ("correspondence", "matting")]
+        self.assertGreater(len(own), 0, layer)
+        for path in own:
+            folder, name = path.split("/")[-2:]
+            stem, extension = os.path.splitext(name)
+            output = folder + stem[6:]
+            whole = os.path.join(dataset, path)
+            with self.subTest(path):
+                if extension == ".png" and len([other for other in own if os.path.splitext(other)[0] == os.path.splitext(path)[0]]) > 1:
+                    output += "_class"
+                if extension == ".json":
+                    self.compare_json(layer, outputs, whole)
+                    continue
+                self.assertIn(output, outputs)
+                getattr(self, "compare_" + extension[1:])(outputs[output], whole, camera)
+
+    def compare_png(self, array, path, camera):
+        pixels = read_png(path)
+        numpy.testing.assert_array_equal(pixels.reshape(array.shape), array)
+        self.assertIn(array.dtype, (numpy.uint8, numpy.uint16))
+
+    def compare_npy(self, array, path, camera):
+        file = numpy.load(path)
+        self.assertEqual(file.dtype, array.dtype)
+        numpy.testing.assert_array_equal(file, array)
+
+    def compare_exr(self, array, path, camera):
+        channels = read_exr(path)[1]
+        names = [f"CryptoObject{level:02}.{channel}" for level in range(array.shape[2] // 4) for channel in "rgba"]
+        self.assertEqual(sorted(names), sorted(channels))
+        numpy.testing.assert_array_equal(numpy.stack([channels[name] for name in names], axis=-1), array)
+
+    def compare_txt(self, calibration, path, camera):
+        text = open(path, encoding="utf-8").read().split()
+        self.assertEqual([float(word) for word in text[1:10]], calibration["thesis_K"].ravel().tolist())
+        self.assertEqual([float(word) for word in text[11:23]], calibration["thesis_Rt"].ravel().tolist())
+        self.assertEqual([int(word) for word in text[24:]], list(calibration["viewport"]))
+        for name in ("K", "R", "t"):
+            numpy.testing.assert_allclose(calibration[name], camera[name], rtol=1e-12, atol=1e-12)
+
+    def compare_pov(self, text, path, camera):
+        self.assertEqual(text, open(path, encoding="utf-8").read())
+
+    def compare_ldi(self, ldi, path, camera):
+        data = open(path, "rb").read()
+        self.assertEqual(ldi["count"].shape, (48, 64))
+        at, rows = 8, iter(zip(ldi["rgba"], ldi["depth"], ldi["splat"]))
+        for count in ldi["count"].ravel():
+            self.assertEqual(int.from_bytes(data[at:at + 4], "little"), count)
+            at += 4
+            for _ in range(count):
+                color, depth, splat = next(rows)
+                self.assertEqual(data[at:at + 16], color.tobytes() + depth.tobytes() + splat.tobytes())
+                at += 16
+        self.assertEqual((at, list(rows)), (len(data), []))
+
+    def compare_json(self, layer, outputs, path):
+        with open(path, encoding="utf-8") as file:
+            self.assertEqual(json.load(file), outputs[layer])
+
+    def test_points_are_those_of_the_files(self):
+        cloud = self.given("demo.json", ["points"], {"points_step": 7})["points"]["points"]
+        self.dgtk("render", DEMO, "-o", self.path("out"), "--quiet", "--layers", "points", "--size", "64x48", "--frames", "1", "--points-step", "7")
+        with open(self.path("out", "points", "000001.json"), encoding="utf-8") as file:
+            document = json.load(file)
+        self.assertGreater(len(document["points"]), 50)
+        self.assertEqual(cloud["cameras"], document["cameras"])
+        self.assertEqual(cloud["x"].tolist(), [point["x"] for point in document["points"]])
+        self.assertEqual(cloud["triangle"].tolist(), [point["triangle"] for point in document["points"]])
+        self.assertEqual([track.tolist() for track in cloud["track"]], [point["track"] for point in document["points"]])
+        numpy.testing.assert_allclose(numpy.linalg.norm(cloud["normal"], axis=1), 1, atol=1e-6)
+
+    def test_pairs_lead_where_they_are_asked_to(self):
+        import dgtk
+
+        scene = dgtk.load(DEMO)
+        outputs = dgtk.render(scene, "correspondence", camera="right", size=(32, 24), pairs=["right:left+1", "left:right"])
+        self.assertEqual(list(outputs), ["correspondence_left+1", "correspondence_left+1_class"])
+        self.dgtk("render", DEMO, "-o", self.path("out"), "--quiet", "--layers", "correspondence", "--size", "32x24", "--frames", "0",
+                  "--pairs", "right:left+1")
+        numpy.testing.assert_array_equal(
+            numpy.load(self.path("out", "right", "correspondence_left+1", "000000.npy")), outputs["correspondence_left+1"])
 
     def test_colour_of_a_lens_a_shutter_and_samples(self):
         import dgtk
@@ -96,7 +194,12 @@ json.dump(said, open(sys.argv[2] + "/said.json", "w"))
         for wrong, says in (
                 ({"layers": "depht"}, r"unknown layer 'depht' \(expected one of color, depth, "),
                 ({"layers": "all"}, "unknown layer 'all'"),
-                ({"layers": ["depth", "boxes"]}, "boxes is not given as an array"),
+                ({"layers": ["depth", "tiles"]}, "tiles is not given as an array: it is color cut into files"),
+                ({"layers": "matting"}, "matting would have no file in this run|needs the names of the objects"),
+                ({"layers": "flow_backward"}, "needs a frame of the scene before the picture's own"),
+                ({"layers": "matting", "matte": ["nobody"]}, "the scene has no object 'nobody'"),
+                ({"layers": "points", "points_step": 0}, "points_step: expected at least 1, found 0"),
+                ({"layers": "correspondence", "pairs": ["left:nobody"]}, "pairs: expected FROM:TO"),
                 ({"visibility": "foo"}, r"unknown visibility engine 'foo' \(expected auto, raster or ray\)"),
                 ({"gl": "foo"}, "unknown OpenGL backend 'foo'"),
                 ({"samples": 99}, r"samples must be between 1 and 16 \(found 99\)"),
@@ -119,7 +222,7 @@ class Guide(Interpreter):
         self.assertGreater(len(blocks), 3)
         said = self.python(f"import os; os.chdir({SOURCE!r})\n" + "\n".join(blocks)).stdout
         self.assertIn("(240, 320) float64 (240, 320, 3) uint8", said)
-        self.assertIn("the layer boxes is not given as an array", said)
+        self.assertIn("the layer tiles is not given as an array", said)
 
 
 class Import(Interpreter):

@@ -6,33 +6,63 @@ usage: check_layering.py SOURCE_FOLDER
 
 * every dependency between modules in Modules/*/vtk.module is allowed by the table, and the table has no cycle;
 * no public header names a type or header of a third-party library other than Eigen and VTK;
-* modules that must be independent of VTK's rendering name no VTK module.
+* modules that must be independent of VTK's rendering name no VTK module;
+* no text in a module names an option of the command line (but for Widgets, whose render dialog starts `dgtk`);
+* what drives the layers (Pipeline, but for the files of the layers) names none of them.
 """
 import os
 import re
 import sys
 
-# module -> modules that it may use directly; what those use comes along.
-ALLOWED = {
-    "Core": [],
-    "Camera": ["Core"],
-    "Scene": ["Core", "Camera"],
-    "ModelIO": ["Core"],
-    "Stage": ["Scene", "ModelIO"],
-    "Visibility": ["Stage"],
-    "RenderGL": ["Visibility"],
-    "RayTrace": ["Visibility"],
-    "GroundTruth": ["Visibility"],
-    "Export": ["Stage"],
-    "DatasetIO": ["Core"],
-    "Sensor": ["Core"],
-    "Pipeline": ["GroundTruth", "DatasetIO", "RenderGL", "RayTrace", "Sensor", "Export"],
-    "Verification": ["Stage", "RayTrace", "DatasetIO"],
-    "Widgets": ["Pipeline", "RenderGL"],
-}
 USES_VTK = {"RenderGL", "Pipeline", "Widgets"}
 PRIVATE_LIBRARIES = re.compile(
     r"#\s*include\s*[<\"](GL/|EGL/|embree|assimp|opencv|OpenImageIO|OpenEXR|nlohmann|openssl|libdeflate|zlib|vtkgl|vtk_glew)")
+
+
+ALLOWED = {}
+TABLE = os.path.join("Documentation", "DeveloperGuide", "architecture.md")
+STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
+STARTS_THE_PROGRAM = {"Widgets"}
+
+
+def table(source):
+    """Module -> modules that it may use directly; what those use comes along."""
+    text = open(os.path.join(source, TABLE), encoding="utf-8").read()
+    rows = re.search(r"\| module \| may use \|.*?\n\|[-|]+\n((?:\|.*\n)+)", text).group(1)
+    allowed = {}
+    for row in rows.splitlines():
+        module, used = (cell.strip() for cell in row.split("|")[1:3])
+        allowed[module] = [] if used == "\u2013" else used.split(", ")
+    return allowed
+
+
+def layer_names(modules):
+    """Names of the layers in the rows of representations and in the files of the others."""
+    rows = open(os.path.join(modules, "GroundTruth", "CMakeLists.txt"), encoding="utf-8").read()
+    names = set(re.findall(r"dgtk_representation\(\w+ LAYER (\w+)", rows))
+    pipeline = os.path.join(modules, "Pipeline")
+    for name in os.listdir(pipeline):
+        if name.endswith("Layer.cxx"):
+            text = open(os.path.join(pipeline, name), encoding="utf-8").read()
+            for found in re.findall(r'(?:return \{ |[lL]ayer(?:Name)? = )(?:\w+ \? )?"(\w+)"(?: : "(\w+)")?[,;]', text):
+                names |= set(found) - {""}
+    return names
+
+
+def named_in_texts(modules):
+    problems = []
+    layers = layer_names(modules)
+    for module in sorted(os.listdir(modules)):
+        for name in sorted(os.listdir(os.path.join(modules, module))):
+            if not name.endswith((".h", ".cxx")):
+                continue
+            code = re.sub(r"//[^\n]*|/\*.*?\*/", "", open(os.path.join(modules, module, name), encoding="utf-8").read(), flags=re.DOTALL)
+            for text in STRING.findall(code):
+                if module not in STARTS_THE_PROGRAM and re.search(r"--[a-z]", text):
+                    problems.append(f"Modules/{module}/{name}: {text} names an option of the command line")
+                if module == "Pipeline" and not name.endswith("Layer.cxx") and text[1:-1] in layers:
+                    problems.append(f"Modules/{module}/{name}: {text} is the name of a layer")
+    return problems
 
 
 def closure(module, seen=()):
@@ -57,8 +87,9 @@ def dependencies(path):
 
 
 def check(source):
-    problems = []
+    ALLOWED.update(table(source))
     modules = os.path.join(source, "Modules")
+    problems = named_in_texts(modules)
     for module in sorted(os.listdir(modules)):
         declaration = os.path.join(modules, module, "vtk.module")
         if not os.path.exists(declaration):

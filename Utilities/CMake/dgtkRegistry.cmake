@@ -1,7 +1,7 @@
 # Registration tables: one row a newcomer. `dgtk_reader(Ac3d EXTENSIONS ac acc FORMAT ac3d DESCRIPTION "AC3D")` declares
 # that <prefix>Ac3d.cxx defines the factory of that name; the tables are generated, there are no static initialisers.
 #
-#   dgtk_registry_begin(<kind>)            kind: reader, representation, writer
+#   dgtk_registry_begin(<kind>)            kind: reader, representation, layer, writer
 #   dgtk_<kind>(<Name> KEY value... )
 #   dgtk_registry_end(<kind> <output.cxx>) configures <kind>Registry.cxx.in in the module's folder; @DGTK_DECLARATIONS@ and
 #                                          @DGTK_ROWS@ are replaced.
@@ -31,10 +31,10 @@ macro(dgtk_reader name)
 endmacro()
 
 macro(dgtk_representation name)
-  cmake_parse_arguments(_row "" "LAYER;DESCRIPTION" "" ${ARGN})
+  cmake_parse_arguments(_row "USUAL" "LAYER;DESCRIPTION" "" ${ARGN})
   string(APPEND _dgtk_representation_declarations "std::unique_ptr<Representation> make${name}();\n")
   string(APPEND _dgtk_representation_rows
-    "  { { \"${name}\", \"${_row_LAYER}\", \"${_row_DESCRIPTION}\" }, &make${name} },\n")
+    "  { { \"${name}\", \"${_row_LAYER}\", \"${_row_DESCRIPTION}\", \"${_row_USUAL}\" == std::string(\"TRUE\") }, &make${name} },\n")
   list(APPEND _dgtk_representation_sources "dgtk${name}.cxx")
 endmacro()
 
@@ -44,6 +44,15 @@ macro(dgtk_writer name)
   string(APPEND _dgtk_writer_rows
     "  { { \"${name}\", \"${_row_FORMAT}\", \"${_row_EXTENSION}\", \"${_row_DESCRIPTION}\" }, &writer${name} },\n")
   list(APPEND _dgtk_writer_sources "dgtk${name}Writer.cxx")
+endmacro()
+
+macro(dgtk_layer name)
+  string(SUBSTRING "${name}" 0 1 _first)
+  string(TOLOWER "${_first}" _first)
+  string(SUBSTRING "${name}" 1 -1 _rest)
+  string(APPEND _dgtk_layer_declarations "LayerList ${_first}${_rest}Layers();\n")
+  string(APPEND _dgtk_layer_rows "&${_first}${_rest}Layers, ")
+  list(APPEND _dgtk_layer_sources "dgtk${name}Layer.cxx")
 endmacro()
 
 macro(dgtk_registry_end kind template output)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkError.h"
 #include "dgtkGenerator.h"
-#include "dgtkOutputLanes.h"
+#include "dgtkColorRows.h"
 #include "dgtkSerialQueue.h"
 #include "dgtkTestSupport.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkPairLane.h"
+#include "dgtkPairPass.h"
 
 #include "dgtkCorrespondence.h"
 
@@ -13,13 +13,12 @@ namespace
 // Pixels that are one job of the pool.
 constexpr int stripPixels = 1 << 14;
 
-class PairLane : public OutputLane
+class PairPass : public LayerPass
 {
 public:
-  PairLane(const JobContext& context, const std::vector<PairTarget>& targets)
+  PairPass(const JobContext& context, const std::vector<PairTarget>& targets)
     : Context(context)
   {
-    const CameraModel& model = *context.view.model;
     for (const PairTarget& target : targets)
     {
       Output output;
@@ -29,18 +28,11 @@ public:
         context.queries.stage().view(
           target.camera, target.frame, context.plan.request.width, context.plan.request.height),
         output.moment.occlusion.get() };
-      output.names = pairFiles(target, context.camera, context.job.frame);
-      for (std::size_t i = 0; i < output.names.size(); ++i)
-      {
-        const bool isClass = i == target.formats.size();
-        output.writers.push_back(makeLayerWriter(isClass ? "png" : target.formats[i], context.path(output.names[i]),
-          isClass ? classSpec(target.spec.name) : target.spec, model.width(), model.height()));
-      }
       this->Outputs.push_back(std::move(output));
     }
   }
 
-  void write(const Band& band) override
+  void band(const Band& band, LayerSink& sink) override
   {
     const int stripRows = std::max(1, stripPixels / band.rect.width);
     const int strips = (band.rect.height + stripRows - 1) / stripRows;
@@ -53,25 +45,9 @@ public:
         count, [&](int i) { done[i] = this->derive(band, (first + i) * stripRows, stripRows); });
       for (const std::vector<Values>& strip : done)
       {
-        this->append(strip);
+        this->append(strip, sink);
       }
     }
-  }
-
-  std::vector<FinishedFile> finish() override
-  {
-    std::vector<FinishedFile> files;
-    for (Output& output : this->Outputs)
-    {
-      for (std::size_t i = 0; i < output.writers.size(); ++i)
-      {
-        FileRecord record = output.writers[i]->finish();
-        record.path = output.names[i];
-        const std::string& layer = output.target.spec.name;
-        files.push_back({ record, i == output.target.formats.size() ? classSpec(layer).name : layer });
-      }
-    }
-    return files;
   }
 
 private:
@@ -80,8 +56,6 @@ private:
     PairTarget target;
     SceneQueries::Moment moment;
     OtherView other;
-    std::vector<std::string> names;
-    std::vector<std::unique_ptr<LayerWriter>> writers; // one a name
   };
   // Of a strip and an output.
   struct Values
@@ -148,14 +122,15 @@ private:
     return result;
   }
 
-  void append(const std::vector<Values>& strip)
+  void append(const std::vector<Values>& strip, LayerSink& sink) const
   {
-    for (std::size_t o = 0; o < strip.size(); ++o)
+    std::size_t output = 0;
+    for (std::size_t i = 0; i < strip.size(); ++i)
     {
-      Output& output = this->Outputs[o];
-      for (std::size_t i = 0; i < output.writers.size(); ++i)
+      sink.rows(output++, strip[i].values);
+      if (this->Outputs[i].target.value != PairValue::Motion)
       {
-        output.writers[i]->write(i == output.target.formats.size() ? strip[o].classes : strip[o].values);
+        sink.rows(output++, strip[i].classes);
       }
     }
   }
@@ -165,30 +140,9 @@ private:
 };
 } // namespace
 
-LayerSpec classSpec(const std::string& layer)
+std::unique_ptr<LayerPass> makePairPass(const JobContext& context, const std::vector<PairTarget>& targets)
 {
-  return { layer + "_class", PixelType::UInt8, 1, "class", "image", "0",
-    "0 no surface, 1 visible, 2 occluded by another object, 3 occluded by its own object, 4 outside the image, "
-    "5 behind the camera" };
-}
-
-std::vector<std::string> pairFiles(const PairTarget& target, const std::string& camera, int frame)
-{
-  std::vector<std::string> names;
-  for (const std::string& format : target.formats)
-  {
-    names.push_back(WorkPlan::fileName(camera, target.folder, frame, formatExtension(format)));
-  }
-  if (target.value != PairValue::Motion)
-  {
-    names.push_back(WorkPlan::fileName(camera, target.folder, frame, "png"));
-  }
-  return names;
-}
-
-std::unique_ptr<OutputLane> makePairLane(const JobContext& context, const std::vector<PairTarget>& targets)
-{
-  return std::make_unique<PairLane>(context, targets);
+  return std::make_unique<PairPass>(context, targets);
 }
 
 } // namespace dgtk

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkFrameLayers.h"
+#include "dgtkColorRows.h"
 #include "dgtkNoisySensor.h"
-#include "dgtkOutputLanes.h"
 
 #include "dgtkImageSensor.h"
 #include "dgtkPortableMath.h"
@@ -17,9 +16,9 @@ namespace
 {
 constexpr int blockPixels = 1 << 18; // given to the sensor at once
 
-LayerSpec noisySpec(const WorkPlan& plan, const std::string& format)
+LayerSpec noisySpec(const GeneratorRequest& request, const std::string& format)
 {
-  LayerSpec spec = plan.colorSpec(format);
+  LayerSpec spec = colorSpec(request, format);
   spec.name = "color_noisy";
   spec.unit = format == "exr" ? "linear sRGB, or the camera's own response" : "camera response";
   spec.description =
@@ -30,10 +29,10 @@ LayerSpec noisySpec(const WorkPlan& plan, const std::string& format)
   return spec;
 }
 
-class NoisyColorLane : public OutputLane
+class NoisyColorPass : public LayerPass
 {
 public:
-  explicit NoisyColorLane(const JobContext& context)
+  NoisyColorPass(const JobContext& context, const std::vector<LayerOutput>& outputs)
     : Width(context.view.model->width())
   {
     const Stage& stage = context.queries.stage();
@@ -48,20 +47,17 @@ public:
       return d.z() / d.norm();
     };
     this->Decodes = setup.parameters.response == ResponseCurve::Srgb;
-    for (const std::string& format : context.plan.formatsOf("color_noisy"))
+    for (const LayerOutput& output : outputs)
     {
-      const LayerSpec spec = noisySpec(context.plan, format);
-      const std::string name =
-        WorkPlan::fileName(context.camera, "color_noisy", context.job.frame, formatExtension(format));
-      this->Files.push_back(
-        { spec, name, makeLayerWriter(format, context.path(name), spec, setup.width, setup.height) });
+      this->Specs.push_back(output.spec);
     }
     this->Sensor = std::make_unique<ImageSensor>(
       setup, [this](int y, int height, const float* rgb) { this->append(y, height, rgb); }, &context.pool);
   }
 
-  void write(const Band& band) override
+  void band(const Band& band, LayerSink& sink) override
   {
+    this->Sink = &sink;
     const int rows = std::max(1, blockPixels / this->Width);
     for (int y = 0; y < band.rect.height; y += rows)
     {
@@ -69,82 +65,62 @@ public:
     }
   }
 
-  std::vector<FinishedFile> finish() override
-  {
-    std::vector<FinishedFile> finished;
-    for (File& file : this->Files)
-    {
-      FileRecord record = file.writer->finish();
-      record.path = file.name;
-      finished.push_back({ record, "color_noisy" });
-    }
-    return finished;
-  }
-
 private:
-  struct File
-  {
-    LayerSpec spec;
-    std::string name;
-    std::unique_ptr<LayerWriter> writer;
-  };
-
   void append(int y, int height, const float* rgb)
   {
     Band band;
     band.rect = { 0, y, this->Width, height };
     band.rgb.assign(rgb, rgb + std::size_t(this->Width) * height * 3);
-    for (const File& file : this->Files)
+    for (std::size_t i = 0; i < this->Specs.size(); ++i)
     {
-      if (file.spec.type != PixelType::Float32)
+      if (this->Specs[i].type != PixelType::Float32)
       {
-        file.writer->write(quantise(band, file.spec, y, height));
+        this->Sink->rows(i, quantise(band, this->Specs[i], y, height));
         continue;
       }
       Rows rows(PixelType::Float32, 3, this->Width, y, height);
       std::transform(band.rgb.begin(), band.rgb.end(), rows.row<float>(y),
         [this](float v) { return this->Decodes ? static_cast<float>(portable::linearFromSrgb(v)) : v; });
-      file.writer->write(rows);
+      this->Sink->rows(i, rows);
     }
   }
 
   int Width;
   bool Decodes = true;
-  std::vector<File> Files;
+  std::vector<LayerSpec> Specs; // one an output
+  LayerSink* Sink = nullptr;    // of the band that the sensor has been given
   std::unique_ptr<ImageSensor> Sensor;
 };
 
-class NoisyColorLayer final : public FrameLayer
+class NoisyColorLayer final : public Layer
 {
 public:
   LayerInfo info() const override
   {
     return { "color_noisy", { "png", "exr" }, "what the camera's sensor makes of the picture" };
   }
-  bool needsColor() const override { return true; }
-  std::vector<LayerRecord> specs(const std::string& format) const override { return this->records({}, format); }
+  LayerNeeds needs(const GeneratorRequest&, const Stage&) const override { return LayerNeeds::ofColor(); }
   std::vector<LayerRecord> records(const WorkPlan& plan, const std::string& format) const override
   {
-    return { { noisySpec(plan, format), format } };
+    return { { noisySpec(plan.request, format), format } };
   }
-  std::vector<std::string> files(const WorkPlan& plan, const Stage& stage, const Job& job) const override
+  std::vector<std::pair<std::string, std::string>> noise(const WorkPlan& plan, const Stage& stage) const override
   {
-    std::vector<std::string> names;
-    for (const std::string& format : plan.formatsOf("color_noisy"))
-    {
-      names.push_back(
-        WorkPlan::fileName(stage.cameraNames()[job.camera], "color_noisy", job.frame, formatExtension(format)));
-    }
-    return names;
+    return describeNoise(
+      plan, stage, this->info().layer, [](const SensorParameters& sensor) { return sensor.color.has_value(); });
   }
-  std::unique_ptr<OutputLane> makeLane(const JobContext& context) const override
+  std::vector<LayerOutput> outputs(
+    const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {
-    return std::make_unique<NoisyColorLane>(context);
+    return colorOutputs(plan, stage, job, planned, &noisySpec);
+  }
+  std::unique_ptr<LayerPass> makePass(const JobContext& context, const std::vector<PassLayer>& layers) const override
+  {
+    return std::make_unique<NoisyColorPass>(context, layers.front().outputs);
   }
 };
 } // namespace
 
-std::shared_ptr<const FrameLayer> makeNoisyColorLayer();
-std::shared_ptr<const FrameLayer> makeNoisyColorLayer() { return std::make_shared<NoisyColorLayer>(); }
+LayerList noisyColorLayers() { return { std::make_shared<NoisyColorLayer>() }; }
 
 } // namespace dgtk

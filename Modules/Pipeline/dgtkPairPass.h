@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef dgtkPairLane_h
-#define dgtkPairLane_h
+#ifndef dgtkPairPass_h
+#define dgtkPairPass_h
 
-#include "dgtkFrameLayers.h"
+#include "dgtkLayers.h"
 
 #include <vector>
 
@@ -19,7 +19,7 @@ enum class PairValue
   Motion        ///< of the surface point in the axes of the camera, scene units; no class image
 };
 
-/// Another view and the files of what is derived with it.
+/// Another view and what is derived with it.
 struct PairTarget
 {
   std::size_t camera = 0; ///< the other camera: index into the scene's cameras
@@ -27,16 +27,11 @@ struct PairTarget
   PairValue value = PairValue::Position;
   LayerSpec spec;     ///< of the values
   std::string folder; ///< of the files, below the camera's: "correspondence_right"
-  std::vector<std::string> formats;
 };
 
-/// Specification of the class image of a layer.
-LayerSpec classSpec(const std::string& layer);
-
-/// Files that a target has for a job: one a format, then the class image where there is one.
-std::vector<std::string> pairFiles(const PairTarget& target, const std::string& camera, int frame);
-
-std::unique_ptr<OutputLane> makePairLane(const JobContext& context, const std::vector<PairTarget>& targets);
+/// One pass for targets of several layers. A target has an output for its values and, unless they are motion, the next
+/// one for its classes.
+std::unique_ptr<LayerPass> makePairPass(const JobContext& context, const std::vector<PairTarget>& targets);
 
 } // namespace dgtk
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkError.h"
-#include "dgtkFrameLayers.h"
+#include "dgtkLayers.h"
 #include "dgtkNoisySensor.h"
 
 #include "dgtkDepthSensor.h"
@@ -25,14 +25,6 @@ LayerSpec noisySpec()
     "z in the camera frame as the camera's depth sensor measures it, positive forward" };
 }
 
-/// The same, as the writers know it: they tell depth by its name.
-LayerSpec writtenSpec()
-{
-  LayerSpec spec = noisySpec();
-  spec.name = "depth";
-  return spec;
-}
-
 /// fx in pixels; 0 for a camera that has none.
 double focalLengthOf(const CameraModel& model)
 {
@@ -40,10 +32,10 @@ double focalLengthOf(const CameraModel& model)
   return linear && linear->perspective ? linear->K(0, 0) : 0;
 }
 
-class NoisyDepthLane : public OutputLane
+class NoisyDepthPass : public LayerPass
 {
 public:
-  explicit NoisyDepthLane(const JobContext& context)
+  explicit NoisyDepthPass(const JobContext& context)
     : Context(context)
     , Depth(makeRepresentation("depth"))
     , Normal(makeRepresentation("normal"))
@@ -56,28 +48,13 @@ public:
     setup.height = view.model->height();
     setup.key = noiseKey(context.plan.request, stage, context.job);
     setup.focalLength = focalLengthOf(*view.model);
-    LayerWriterContext writerContext;
-    writerContext.near = view.near;
-    writerContext.far = view.far;
-    if (view.model->linear())
-    {
-      const OpenGLMatrices matrices = openGLMatrices(view);
-      writerContext.projection = matrices.projection;
-      writerContext.modelView = matrices.modelView;
-    }
-    for (const std::string& format : context.plan.formatsOf("depth_noisy"))
-    {
-      this->Names.push_back(
-        WorkPlan::fileName(context.camera, "depth_noisy", context.job.frame, formatExtension(format)));
-      this->Writers.push_back(makeLayerWriter(
-        format, context.path(this->Names.back()), writtenSpec(), setup.width, setup.height, writerContext));
-    }
     this->Sensor = std::make_unique<DepthSensor>(
       setup, [this](int y, const double* depth) { this->append(y, depth); }, &context.pool);
   }
 
-  void write(const Band& band) override
+  void band(const Band& band, LayerSink& sink) override
   {
+    this->Sink = &sink;
     const int stripRows = std::max(1, stripPixels / band.rect.width);
     const int strips = (band.rect.height + stripRows - 1) / stripRows;
     const int batch = std::max(1, this->Context.pool.threads());
@@ -91,18 +68,6 @@ public:
         this->Sensor->write(strip.depth.height(), strip.depth.row<double>(strip.depth.y()), strip.cosines.data());
       }
     }
-  }
-
-  std::vector<FinishedFile> finish() override
-  {
-    std::vector<FinishedFile> files;
-    for (std::size_t i = 0; i < this->Writers.size(); ++i)
-    {
-      FileRecord record = this->Writers[i]->finish();
-      record.path = this->Names[i];
-      files.push_back({ record, "depth_noisy" });
-    }
-    return files;
   }
 
 private:
@@ -146,28 +111,25 @@ private:
     const int width = this->Context.view.model->width();
     Rows rows(PixelType::Float64, 1, width, y, 1);
     std::copy_n(depth, width, rows.row<double>(y));
-    for (const auto& writer : this->Writers)
-    {
-      writer->write(rows);
-    }
+    this->Sink->rows(0, rows);
   }
 
   JobContext Context;
   std::unique_ptr<Representation> Depth;
   std::unique_ptr<Representation> Normal;
-  std::vector<std::string> Names;
-  std::vector<std::unique_ptr<LayerWriter>> Writers;
+  LayerSink* Sink = nullptr; // of the band that the sensor has been given
   std::unique_ptr<DepthSensor> Sensor;
 };
 
-class NoisyDepthLayer final : public FrameLayer
+class NoisyDepthLayer final : public Layer
 {
 public:
   LayerInfo info() const override
   {
     return { "depth_noisy", { "npy", "dgd", "exr", "pfm", "png" }, "depth as the camera's depth sensor measures it" };
   }
-  void check(const WorkPlan& plan, const Stage& stage) const override
+  LayerNeeds needs(const GeneratorRequest&, const Stage&) const override { return LayerNeeds::ofHits(); }
+  void check(const WorkPlan& plan, const Stage& stage, const PlannedLayer&) const override
   {
     for (const Job& job : plan.jobs)
     {
@@ -179,25 +141,29 @@ public:
       }
     }
   }
-  std::vector<LayerRecord> specs(const std::string& format) const override { return { { noisySpec(), format } }; }
-  std::vector<std::string> files(const WorkPlan& plan, const Stage& stage, const Job& job) const override
+  std::vector<LayerRecord> records(const WorkPlan&, const std::string& format) const override
   {
-    std::vector<std::string> names;
-    for (const std::string& format : plan.formatsOf("depth_noisy"))
-    {
-      names.push_back(
-        WorkPlan::fileName(stage.cameraNames()[job.camera], "depth_noisy", job.frame, formatExtension(format)));
-    }
-    return names;
+    return { { noisySpec(), format } };
   }
-  std::unique_ptr<OutputLane> makeLane(const JobContext& context) const override
+  std::vector<std::pair<std::string, std::string>> noise(const WorkPlan& plan, const Stage& stage) const override
   {
-    return std::make_unique<NoisyDepthLane>(context);
+    return describeNoise(
+      plan, stage, this->info().layer, [](const SensorParameters& sensor) { return sensor.depth.has_value(); });
+  }
+  std::vector<LayerOutput> outputs(
+    const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
+  {
+    LayerOutput output = imageOutput(plan, stage, job, noisySpec(), planned.formats);
+    output.spec.name = "depth"; // writers tell depth by its name
+    return { output };
+  }
+  std::unique_ptr<LayerPass> makePass(const JobContext& context, const std::vector<PassLayer>&) const override
+  {
+    return std::make_unique<NoisyDepthPass>(context);
   }
 };
 } // namespace
 
-std::shared_ptr<const FrameLayer> makeNoisyDepthLayer();
-std::shared_ptr<const FrameLayer> makeNoisyDepthLayer() { return std::make_shared<NoisyDepthLayer>(); }
+LayerList noisyDepthLayers() { return { std::make_shared<NoisyDepthLayer>() }; }
 
 } // namespace dgtk

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The layers that relate a view with another: correspondence, disparity, optical flow and scene flow.
 #include "dgtkError.h"
-#include "dgtkPairLane.h"
+#include "dgtkPairPass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,11 +37,19 @@ LayerSpec motionSpec()
     "motion of the pixel's surface point in the world until the next frame, in the axes of this frame's camera" };
 }
 
+LayerSpec classSpec(const std::string& layer)
+{
+  return { layer + "_class", PixelType::UInt8, 1, "class", "image", "0",
+    "0 no surface, 1 visible, 2 occluded by another object, 3 occluded by its own object, 4 outside the image, "
+    "5 behind the camera" };
+}
+
 /// A layer of targets; what differs is which targets a job has.
-class PairLayer : public FrameLayer
+class PairLayer : public Layer
 {
 public:
-  std::vector<LayerRecord> specs(const std::string& format) const override
+  LayerNeeds needs(const GeneratorRequest&, const Stage&) const override { return LayerNeeds::ofHits(); }
+  std::vector<LayerRecord> records(const WorkPlan&, const std::string& format) const override
   {
     std::vector<LayerRecord> records{ { this->valueSpec(), format } };
     if (this->hasClasses())
@@ -51,20 +59,41 @@ public:
     return records;
   }
 
-  std::vector<std::string> files(const WorkPlan& plan, const Stage& stage, const Job& job) const override
+  std::vector<LayerOutput> outputs(
+    const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {
-    std::vector<std::string> names;
+    const LayerOutput values = imageOutput(plan, stage, job, this->valueSpec(), planned.formats);
+    std::vector<LayerOutput> all;
     for (const PairTarget& target : this->completeTargets(plan, stage, job))
     {
-      const std::vector<std::string> own = pairFiles(target, stage.cameraNames()[job.camera], job.frame);
-      names.insert(names.end(), own.begin(), own.end());
+      all.push_back(values);
+      all.back().name = target.folder;
+      all.back().path = WorkPlan::stem(stage.description().cameras[job.camera].name, target.folder, job.frame);
+      if (this->hasClasses())
+      {
+        all.push_back(all.back());
+        LayerOutput& classes = all.back();
+        classes.spec = classSpec(values.layer);
+        classes.layer = classes.spec.name;
+        classes.name += "_class";
+        classes.formats = { "png" };
+      }
     }
-    return names;
+    return all;
   }
 
-  std::unique_ptr<OutputLane> makeLane(const JobContext& context) const override
+  std::string passKey() const override { return "pairs"; }
+
+  std::unique_ptr<LayerPass> makePass(const JobContext& context, const std::vector<PassLayer>& layers) const override
   {
-    return makePairLane(context, this->completeTargets(context.plan, context.queries.stage(), context.job));
+    std::vector<PairTarget> targets;
+    for (const PassLayer& layer : layers)
+    {
+      const std::vector<PairTarget> own =
+        static_cast<const PairLayer&>(layer.layer).completeTargets(context.plan, context.queries.stage(), context.job);
+      targets.insert(targets.end(), own.begin(), own.end());
+    }
+    return makePairPass(context, targets);
   }
 
 protected:
@@ -77,12 +106,10 @@ private:
   std::vector<PairTarget> completeTargets(const WorkPlan& plan, const Stage& stage, const Job& job) const
   {
     std::vector<PairTarget> all = this->targets(plan, stage, job);
-    const std::string name = this->valueSpec().name;
     for (PairTarget& target : all)
     {
       target.spec = this->valueSpec();
-      target.folder = target.folder.empty() ? name : target.folder;
-      target.formats = plan.formatsOf(name);
+      target.folder = target.folder.empty() ? target.spec.name : target.folder;
     }
     return all;
   }
@@ -161,15 +188,15 @@ std::vector<Pair> pairsOf(const WorkPlan& plan, const Stage& stage)
     if (!parsePair(text, names, pair))
     {
       throw UsageError(
-        "--pairs: expected FROM:TO with names of cameras and maybe +N or -N frames, found " + quoted(text));
+        "pairs: expected FROM:TO with names of cameras and maybe +N or -N frames, found " + quoted(text));
     }
     if (pair.from == pair.to && pair.offset == 0)
     {
-      throw UsageError("--pairs: " + quoted(text) + " is a camera with itself at the same frame");
+      throw UsageError("pairs: " + quoted(text) + " is a camera with itself at the same frame");
     }
     if (cameras.count(pair.from) == 0)
     {
-      throw UsageError("--pairs: camera " + quoted(names[pair.from]) + " is not among those of --cameras");
+      throw UsageError("pairs: camera " + quoted(names[pair.from]) + " is not among those of the run");
     }
     pairs.push_back(pair);
   }
@@ -183,7 +210,7 @@ public:
   {
     return { "correspondence", { "npy" }, "where each pixel's surface point is in other images, and its visibility" };
   }
-  void check(const WorkPlan& plan, const Stage& stage) const override
+  void check(const WorkPlan& plan, const Stage& stage, const PlannedLayer&) const override
   {
     const std::vector<Pair> pairs = pairsOf(plan, stage);
     for (std::size_t i = 0; i < plan.request.pairs.size(); ++i)
@@ -196,18 +223,21 @@ public:
       }
     }
   }
-  std::string needs() const override
+  std::string requirement() const override
   {
     return "another camera in the run, or a pair of cameras that ends within the frames of the scene";
   }
-  std::vector<std::pair<std::string, std::string>> options(const GeneratorRequest& request) const override
+  std::vector<std::pair<std::string, std::string>> options(
+    const GeneratorRequest& request, const PlannedLayer& planned) const override
   {
     std::string text;
     for (const std::string& pair : request.pairs)
     {
       text += (text.empty() ? "" : ",") + pair;
     }
-    return { { "pairs", text.empty() ? "all" : text } };
+    auto pairs = this->Layer::options(request, planned);
+    pairs.emplace_back("pairs", text.empty() ? "all" : text);
+    return pairs;
   }
 
 protected:
@@ -293,7 +323,7 @@ public:
     return { "disparity", { "pfm", "npy", "exr" },
       "x_left - x_right for cameras of rectified pairs, and visibility in the other image" };
   }
-  std::string needs() const override
+  std::string requirement() const override
   {
     return "two cameras side by side: the same K but cx, the same orientation, displaced along the x axis";
   }
@@ -324,14 +354,17 @@ public:
     , Step(step)
   {
   }
-  std::string note(const WorkPlan& plan) const override
+  std::vector<std::string> notes(const WorkPlan& plan, const Stage&) const override
   {
     const int taken = plan.request.frames ? plan.request.frames->step : 1;
-    return taken == 1 ? ""
-                      : "layer " + this->valueSpec().name + " leads to the scene's frame one " +
-                          (this->Step > 0 ? "later" : "earlier") + ", which this run of every " +
-                          std::to_string(taken) + " frames does not have (correspondence of the pair NAME:NAME+" +
-                          std::to_string(taken) + " leads on to its next one)";
+    if (taken == 1)
+    {
+      return {};
+    }
+    return { "layer " + this->valueSpec().name + " leads to the scene's frame one " +
+             (this->Step > 0 ? "later" : "earlier") + ", which this run of every " + std::to_string(taken) +
+             " frames does not have (correspondence of the pair NAME:NAME+" + std::to_string(taken) +
+             " leads on to its next one)" };
   }
   LayerInfo info() const override
   {
@@ -344,7 +377,7 @@ public:
                      : "optical flow to the frame before, and visibility there" };
   }
 
-  std::string needs() const override
+  std::string requirement() const override
   {
     return std::string("a frame of the scene ") + (this->Step > 0 ? "after" : "before") + " the picture's own";
   }
@@ -374,25 +407,11 @@ private:
 };
 } // namespace
 
-std::shared_ptr<const FrameLayer> makeCorrespondenceLayer();
-std::shared_ptr<const FrameLayer> makeCorrespondenceLayer() { return std::make_shared<CorrespondenceLayer>(); }
-
-std::shared_ptr<const FrameLayer> makeDisparityLayer();
-std::shared_ptr<const FrameLayer> makeDisparityLayer() { return std::make_shared<DisparityLayer>(); }
-
-std::shared_ptr<const FrameLayer> makeFlowForwardLayer();
-std::shared_ptr<const FrameLayer> makeFlowForwardLayer()
+LayerList pairLayers()
 {
-  return std::make_shared<MotionLayer>(PairValue::Displacement, 1);
+  return { std::make_shared<CorrespondenceLayer>(), std::make_shared<DisparityLayer>(),
+    std::make_shared<MotionLayer>(PairValue::Displacement, 1),
+    std::make_shared<MotionLayer>(PairValue::Displacement, -1), std::make_shared<MotionLayer>(PairValue::Motion, 1) };
 }
-
-std::shared_ptr<const FrameLayer> makeFlowBackwardLayer();
-std::shared_ptr<const FrameLayer> makeFlowBackwardLayer()
-{
-  return std::make_shared<MotionLayer>(PairValue::Displacement, -1);
-}
-
-std::shared_ptr<const FrameLayer> makeSceneFlowLayer();
-std::shared_ptr<const FrameLayer> makeSceneFlowLayer() { return std::make_shared<MotionLayer>(PairValue::Motion, 1); }
 
 } // namespace dgtk

@@ -3,7 +3,7 @@
 #include "dgtkAlbedo.h"
 #include "dgtkCorrespondence.h"
 #include "dgtkError.h"
-#include "dgtkFrameLayers.h"
+#include "dgtkLayers.h"
 #include "dgtkObjectDocuments.h"
 #include "dgtkRaySource.h"
 #include "dgtkSamples.h"
@@ -12,7 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <set>
 
 namespace dgtk
 {
@@ -26,23 +26,13 @@ LayerSpec pointsSpec()
     "see each" };
 }
 
-std::vector<std::string> pointsFiles(int frame)
+/// The cameras of the plan, in the order of the scene.
+std::set<std::size_t> camerasOf(const WorkPlan& plan)
 {
-  char number[16];
-  std::snprintf(number, sizeof number, "%06d", frame);
-  return { std::string("points/") + number + ".ply", std::string("points/") + number + ".json" };
-}
-
-/// The cameras of the request, in its order.
-std::vector<std::size_t> camerasOf(const WorkPlan& plan)
-{
-  std::vector<std::size_t> cameras;
+  std::set<std::size_t> cameras;
   for (const Job& job : plan.jobs)
   {
-    if (std::find(cameras.begin(), cameras.end(), job.camera) == cameras.end())
-    {
-      cameras.push_back(job.camera);
-    }
+    cameras.insert(job.camera);
   }
   return cameras;
 }
@@ -59,10 +49,10 @@ View sparseView(const View& view, int step)
   return sparse;
 }
 
-class PointsLane : public OutputLane
+class PointsPass : public LayerPass
 {
 public:
-  explicit PointsLane(const JobContext& context)
+  explicit PointsPass(const JobContext& context)
     : Context(context)
     , Step(context.plan.request.pointsStep)
   {
@@ -77,9 +67,7 @@ public:
     }
   }
 
-  void write(const Band&) override {}
-
-  std::vector<FinishedFile> finish() override
+  void finish(LayerSink& sink) override
   {
     std::vector<PointRecord> points;
     for (std::size_t camera = 0; camera < this->Views.size(); ++camera)
@@ -92,15 +80,8 @@ public:
     {
       names.push_back(view.view.name);
     }
-    const std::vector<std::string> paths = pointsFiles(this->Context.job.frame);
-    std::vector<FinishedFile> files;
-    for (std::size_t i = 0; i < paths.size(); ++i)
-    {
-      const DatasetFile file = writeDocument(this->Context.plan.request.folder, paths[i],
-        i == 0 ? pointsPly(points) : pointsText(this->Context.job.frame, names, points));
-      files.push_back({ { file.path, file.bytes, file.sha256 }, "points" });
-    }
-    return files;
+    sink.document(0, pointsPly(points));
+    sink.document(1, pointsText(this->Context.job.frame, names, points));
   }
 
 private:
@@ -195,38 +176,53 @@ private:
   std::vector<OtherView> Views; ///< in the order of the cameras of the file
 };
 
-class PointsLayer final : public FrameLayer
+class PointsLayer final : public Layer
 {
 public:
   LayerInfo info() const override
   {
     return { "points", { "ply" }, "point cloud fused over the cameras, and the pixels that see each point" };
   }
-  void check(const WorkPlan& plan, const Stage&) const override
+  LayerNeeds needs(const GeneratorRequest&, const Stage&) const override { return {}; }
+  void check(const WorkPlan& plan, const Stage&, const PlannedLayer&) const override
   {
     if (plan.request.pointsStep < 1)
     {
-      throw UsageError("--points-step: expected at least 1, found " + std::to_string(plan.request.pointsStep));
+      throw UsageError("points_step: expected at least 1, found " + std::to_string(plan.request.pointsStep));
     }
   }
-  std::vector<LayerRecord> specs(const std::string& format) const override { return { { pointsSpec(), format } }; }
-  std::vector<std::pair<std::string, std::string>> options(const GeneratorRequest& request) const override
+  std::vector<LayerRecord> records(const WorkPlan&, const std::string& format) const override
   {
-    return { { "points_step", std::to_string(request.pointsStep) } };
+    return { { pointsSpec(), format } };
   }
-  std::vector<std::string> files(const WorkPlan& plan, const Stage&, const Job& job) const override
+  std::vector<std::pair<std::string, std::string>> options(
+    const GeneratorRequest& request, const PlannedLayer& planned) const override
   {
-    // the files of a frame belong to its first camera's job
-    return job.camera == plan.jobs.front().camera ? pointsFiles(job.frame) : std::vector<std::string>{};
+    auto pairs = this->Layer::options(request, planned);
+    pairs.emplace_back("points_step", std::to_string(request.pointsStep));
+    return pairs;
   }
-  std::unique_ptr<OutputLane> makeLane(const JobContext& context) const override
+  /// The files of a frame belong to its first camera's job.
+  std::vector<LayerOutput> outputs(
+    const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {
-    return std::make_unique<PointsLane>(context);
+    if (job.camera != plan.jobs.front().camera)
+    {
+      return {};
+    }
+    LayerOutput points = documentOutput(stage, job, pointsSpec(), planned.formats.front());
+    points.path = WorkPlan::stem({}, points.layer, job.frame).substr(1); // of no camera
+    LayerOutput tracks = points;
+    tracks.formats = { "json" };
+    return { points, tracks };
+  }
+  std::unique_ptr<LayerPass> makePass(const JobContext& context, const std::vector<PassLayer>&) const override
+  {
+    return std::make_unique<PointsPass>(context);
   }
 };
 } // namespace
 
-std::shared_ptr<const FrameLayer> makePointsLayer();
-std::shared_ptr<const FrameLayer> makePointsLayer() { return std::make_shared<PointsLayer>(); }
+LayerList pointsLayers() { return { std::make_shared<PointsLayer>() }; }
 
 } // namespace dgtk

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkArraySink.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace dgtk
+{
+
+namespace
+{
+enum Surface
+{
+  Counts,
+  Colors,
+  Depths,
+  Splats
+};
+
+template <typename T>
+void append(LayerArray& array, const T* values, std::size_t count)
+{
+  const auto* const bytes = reinterpret_cast<const std::byte*>(values);
+  array.data.insert(array.data.end(), bytes, bytes + count * sizeof(T));
+}
+
+LayerArray arrayOf(const LayerOutput& output, PixelType type, int channels)
+{
+  LayerArray array;
+  array.name = output.name;
+  array.type = type;
+  array.channels = channels;
+  array.shape = { output.height, output.width };
+  return array;
+}
+
+std::vector<LayerArray> surfaceArrays(const LayerOutput& output)
+{
+  std::vector<LayerArray> arrays{ arrayOf(output, PixelType::UInt32, 1), arrayOf(output, PixelType::UInt8, 4),
+    arrayOf(output, PixelType::Float64, 1), arrayOf(output, PixelType::UInt32, 1) };
+  for (std::size_t i = 0; i < arrays.size(); ++i)
+  {
+    arrays[i].part = ldiParts[i];
+  }
+  return arrays;
+}
+} // namespace
+
+ArraySink::ArraySink(const JobContext& context, const std::vector<LayerOutput>& outputs)
+{
+  for (const std::string& name : distinctNames(context.queries.stage().objectNames()))
+  {
+    this->Ids.push_back(cryptomatteId(name));
+  }
+  for (const LayerOutput& output : outputs)
+  {
+    this->Outputs.push_back({ output, {}, {}, {} });
+  }
+}
+
+void ArraySink::rows(std::size_t output, const Rows& rows)
+{
+  Values& values = this->Outputs[output];
+  if (values.arrays.empty())
+  {
+    values.arrays.push_back(arrayOf(values.output, rows.type(), rows.channels()));
+    values.arrays.front().data.reserve(rows.rowBytes() * std::size_t(values.output.height));
+  }
+  append(values.arrays.front(), rows.data(), rows.bytes());
+}
+
+void ArraySink::surfaces(std::size_t output, const LdiRows& rows)
+{
+  Values& values = this->Outputs[output];
+  if (values.arrays.empty())
+  {
+    values.arrays = surfaceArrays(values.output);
+  }
+  append(values.arrays[Counts], rows.counts.data(), rows.counts.size());
+  for (const LdiSurface& surface : rows.surfaces)
+  {
+    const std::array<std::uint8_t, 4> color = ldiColor(surface.rgba);
+    append(values.arrays[Colors], color.data(), color.size());
+    append(values.arrays[Depths], &surface.depth, 1);
+    append(values.arrays[Splats], &surface.splatIndex, 1);
+  }
+}
+
+void ArraySink::ranks(std::size_t output, const std::vector<CoveredId>& ranks, std::uint32_t pixels)
+{
+  this->Outputs[output].ranks.push_back(ranks);
+  this->Outputs[output].pixels.push_back(pixels);
+}
+
+void ArraySink::document(std::size_t output, const std::string& text)
+{
+  Values& values = this->Outputs[output];
+  LayerArray array = arrayOf(values.output, PixelType::UInt8, 1);
+  array.format = values.output.formats.front();
+  append(array, text.data(), text.size());
+  values.arrays.push_back(std::move(array));
+}
+
+/// Channels as CryptomatteWriter has them: as many ranks as a pixel needs, but at least those of the layer.
+void ArraySink::completeRanks(Values& values) const
+{
+  std::size_t most = std::size_t(values.output.spec.channels) / 2;
+  for (const std::vector<CoveredId>& run : values.ranks)
+  {
+    most = std::max(most, run.size() + run.size() % 2); // files have two ranks in four channels
+  }
+  LayerArray array = arrayOf(values.output, PixelType::Float32, static_cast<int>(2 * most));
+  std::vector<float> pixel(2 * most);
+  for (std::size_t i = 0; i < values.ranks.size(); ++i)
+  {
+    std::fill(pixel.begin(), pixel.end(), 0.0f);
+    for (std::size_t rank = 0; rank < values.ranks[i].size(); ++rank)
+    {
+      const CoveredId& covered = values.ranks[i][rank];
+      pixel[2 * rank] = covered.id == 0 ? 0.0f : this->Ids[covered.id - 1];
+      pixel[2 * rank + 1] = covered.coverage;
+    }
+    for (std::uint32_t k = 0; k < values.pixels[i]; ++k)
+    {
+      append(array, pixel.data(), pixel.size());
+    }
+  }
+  values.arrays.push_back(std::move(array));
+}
+
+std::vector<LayerArray> ArraySink::finish()
+{
+  std::vector<LayerArray> all;
+  for (Values& values : this->Outputs)
+  {
+    if (!values.ranks.empty())
+    {
+      this->completeRanks(values);
+    }
+    for (LayerArray& array : values.arrays)
+    {
+      const std::size_t tuples = array.data.size() / (bytesOf(array.type) * std::size_t(array.channels));
+      const std::size_t pixels = std::size_t(values.output.width) * std::size_t(values.output.height);
+      if (&array != &values.arrays.front() || !array.format.empty() || tuples != pixels)
+      {
+        array.shape = { static_cast<int>(tuples) };
+      }
+      all.push_back(std::move(array));
+    }
+  }
+  return all;
+}
+
+} // namespace dgtk

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkColorRows.h"
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr const char* layerName = "color_sharp";
+
+LayerSpec sharpSpec(const GeneratorRequest& request, const std::string& format)
+{
+  LayerSpec spec = colorSpec(request, format);
+  spec.name = layerName;
+  spec.description = "The picture at the frame's own instant and through the centre of the lens; red, green, blue.";
+  return spec;
+}
+
+class SharpColorLayer final : public Layer
+{
+public:
+  LayerInfo info() const override
+  {
+    return { layerName, { "png", "exr" },
+      "the picture without motion blur and depth of field, of cameras that have them" };
+  }
+  LayerNeeds needs(const GeneratorRequest&, const Stage&) const override
+  {
+    LayerNeeds needs = LayerNeeds::ofColor();
+    needs.sharp = true;
+    return needs;
+  }
+  std::string requirement() const override
+  {
+    return "a camera with a shutter or a lens, drawn by the built-in renderer";
+  }
+  std::vector<LayerRecord> records(const WorkPlan& plan, const std::string& format) const override
+  {
+    return { { sharpSpec(plan.request, format), format } };
+  }
+  std::vector<LayerOutput> outputs(
+    const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
+  {
+    const CameraDescription& camera = stage.description().cameras[job.camera];
+    if (plan.request.renderer != "vtk" || !(camera.shutter.blurs() || camera.lens.blurs()))
+    {
+      return {};
+    }
+    return colorOutputs(plan, stage, job, planned, &sharpSpec);
+  }
+  std::unique_ptr<LayerPass> makePass(const JobContext& context, const std::vector<PassLayer>& layers) const override
+  {
+    return makeColorPass(context, layers, &Band::sharp);
+  }
+};
+} // namespace
+
+LayerList sharpColorLayers() { return { std::make_shared<SharpColorLayer>() }; }
+
+} // namespace dgtk
