@@ -1,45 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkEdges.h"
 #include "dgtkLayers.h"
 
-#include "dgtkSurfaceRows.h"
-
-#include <Eigen/Geometry>
-
 #include <algorithm>
-#include <cmath>
 
 namespace dgtk
 {
 
 namespace
 {
-constexpr std::uint8_t objectEdge = 255;
-constexpr std::uint8_t depthEdge = 128;
-constexpr double tolerance = 0.01; // of the smaller depth
-
-/// A pixel's surface: its point and the plane of its triangle in the camera frame.
-struct PixelPlane
-{
-  std::uint32_t object = 0;
-  Eigen::Vector3d point{ 0, 0, 0 };
-  Eigen::Vector3d normal{ 0, 0, 0 };
-
-  bool holds(const Eigen::Vector3d& other, double slack) const
-  {
-    return std::abs(this->normal.dot(other - this->point)) <= slack;
-  }
-};
-
-std::uint8_t edgeBetween(const PixelPlane& a, const PixelPlane& b)
-{
-  if (a.object != b.object)
-  {
-    return objectEdge;
-  }
-  const double slack = tolerance * std::min(a.point.z(), b.point.z());
-  return a.object != 0 && !a.holds(b.point, slack) && !b.holds(a.point, slack) ? depthEdge : 0;
-}
-
 LayerSpec edgesSpec()
 {
   return { "edges", PixelType::UInt8, 1, "1", "image", "0",
@@ -47,7 +16,6 @@ LayerSpec edgesSpec()
     "this pixel off its, by more than 1 % of the smaller depth" };
 }
 
-/// Two rows are known at a time; a row is written when the one below it is.
 class EdgesPass : public LayerPass
 {
 public:
@@ -59,78 +27,32 @@ public:
 
   void band(const Band& band, LayerSink& sink) override
   {
-    for (int y = band.rect.y; y < band.rect.y + band.rect.height; ++y)
+    for (int y = 0; y < band.rect.height; ++y)
     {
-      std::vector<PixelPlane> below = this->planes(band, y);
-      if (y == 0)
+      SurfaceRows row;
+      computeSurfaceRows(*this->State, this->TheView, { 0, band.rect.y + y, band.rect.width, 1 },
+        band.hits.data() + std::size_t(y) * std::size_t(band.rect.width), false, row);
+      const std::vector<std::uint8_t> above = this->Edges.next(pixelPlanes(row));
+      if (band.rect.y + y > 0)
       {
-        this->Marks.assign(below.size(), 0);
+        give(band.rect.y + y - 1, above, sink);
       }
-      else
-      {
-        std::vector<std::uint8_t> marks(below.size(), 0);
-        for (std::size_t x = 0; x < below.size(); ++x)
-        {
-          const std::uint8_t edge = edgeBetween(this->Above[x], below[x]);
-          this->Marks[x] = std::max(this->Marks[x], edge);
-          marks[x] = edge;
-        }
-        this->flush(y - 1, sink);
-        this->Marks.swap(marks);
-      }
-      for (std::size_t x = 1; x < below.size(); ++x)
-      {
-        const std::uint8_t edge = edgeBetween(below[x - 1], below[x]);
-        this->Marks[x - 1] = std::max(this->Marks[x - 1], edge);
-        this->Marks[x] = std::max(this->Marks[x], edge);
-      }
-      this->Above.swap(below);
     }
   }
 
-  void finish(LayerSink& sink) override { this->flush(this->TheView.model->height() - 1, sink); }
+  void finish(LayerSink& sink) override { give(this->TheView.model->height() - 1, this->Edges.last(), sink); }
 
 private:
-  std::vector<PixelPlane> planes(const Band& band, int y) const
+  static void give(int y, const std::vector<std::uint8_t>& marks, LayerSink& sink)
   {
-    const PixelRect rect{ 0, y, band.rect.width, 1 };
-    const Hit* hits = band.hits.data() + std::size_t(y - band.rect.y) * rect.width;
-    SurfaceRows surface;
-    computeSurfaceRows(*this->State, this->TheView, rect, hits, false, surface);
-    std::vector<PixelPlane> row(static_cast<std::size_t>(rect.width));
-    for (std::size_t x = 0; x < row.size(); ++x)
-    {
-      if (!std::isfinite(surface.t[x]))
-      {
-        continue;
-      }
-      const CameraRay ray = this->TheView.model->rayThrough({ double(x) + 0.5, y + 0.5 });
-      row[x].object = hits[x].object;
-      row[x].point = ray.origin + surface.t[x] * ray.direction;
-      row[x].normal = x > 0 && hits[x] == hits[x - 1] ? row[x - 1].normal : this->normalOf(hits[x]);
-    }
-    return row;
-  }
-
-  Eigen::Vector3d normalOf(const Hit& hit) const
-  {
-    Eigen::Vector3d corners[3];
-    triangleInWorld(*this->State, hit, corners);
-    return this->TheView.camera_from_world.rotation *
-           (corners[1] - corners[0]).cross(corners[2] - corners[0]).stableNormalized();
-  }
-
-  void flush(int y, LayerSink& sink) const
-  {
-    Rows rows(PixelType::UInt8, 1, static_cast<int>(this->Marks.size()), y, 1);
-    std::copy(this->Marks.begin(), this->Marks.end(), rows.row<std::uint8_t>(y));
+    Rows rows(PixelType::UInt8, 1, static_cast<int>(marks.size()), y, 1);
+    std::copy(marks.begin(), marks.end(), rows.row<std::uint8_t>(y));
     sink.rows(0, rows);
   }
 
   std::shared_ptr<const SceneState> State;
   View TheView;
-  std::vector<PixelPlane> Above;
-  std::vector<std::uint8_t> Marks; // of the row of Above
+  EdgeRows Edges;
 };
 
 class EdgesLayer final : public Layer

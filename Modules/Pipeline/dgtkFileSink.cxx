@@ -61,7 +61,7 @@ void FileSink::rows(std::size_t output, const Rows& rows)
   {
     writer->write(rows);
   }
-  if (rows.y() + rows.height() == what.height)
+  if (what.isOneOfMany && rows.y() + rows.height() == what.height)
   {
     files.finish(files.images);
   }
@@ -79,10 +79,6 @@ void FileSink::surfaces(std::size_t output, const LdiRows& rows)
   for (const auto& writer : files.surfaces)
   {
     writer->write(rows);
-  }
-  if (rows.y + rows.height == what.height)
-  {
-    files.finish(files.surfaces);
   }
 }
 
@@ -115,6 +111,8 @@ std::vector<FinishedFile> FileSink::finish()
   std::vector<FinishedFile> all = std::move(this->Shared);
   for (const std::unique_ptr<Files>& files : this->Outputs)
   {
+    files->finish(files->images);
+    files->finish(files->surfaces);
     if (files->coverages)
     {
       files->finished.push_back(files->coverages->finish());

@@ -21,7 +21,8 @@ struct FinishedFile
   bool shared = false; ///< of no camera and frame; other jobs may have finished it, too
 };
 
-/// Files of a dataset: each output in its formats. A file is opened with its first rows and whole with its last.
+/// Files of a dataset: each output in its formats. A file is opened with its first
+/// rows; it is there when finish() is done.
 class FileSink final : public LayerSink
 {
 public:

@@ -26,6 +26,7 @@ struct LayerOutput
   LayerSpec spec;                   ///< of its values, as the writers of files know it
   int width = 0;                    ///< pixels; 0 for documents
   int height = 0;
+  bool isOneOfMany = false; ///< so many that they cannot be open together: each is closed with its last row
 
   /// Paths of its files, one a format.
   std::vector<std::string> files() const;

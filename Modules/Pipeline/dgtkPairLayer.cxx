@@ -267,29 +267,6 @@ protected:
   }
 };
 
-/// Displacement of camera b along the x axis of camera a, when the two are a rectified pair; 0 otherwise.
-double rectifiedBaseline(const View& a, const View& b)
-{
-  const auto own = a.model->linear();
-  const auto other = b.model->linear();
-  if (!own || !other || !own->perspective || !other->perspective || a.model->width() != b.model->width() ||
-      a.model->height() != b.model->height())
-  {
-    return 0;
-  }
-  Eigen::Matrix3d difference = own->K - other->K;
-  difference(0, 2) = 0;
-  constexpr double same = 1e-9;
-  const Eigen::Matrix3d rotation = a.camera_from_world.rotation - b.camera_from_world.rotation;
-  // centre of b in the frame of a
-  const Eigen::Vector3d centre =
-    a.camera_from_world * Eigen::Vector3d(-b.camera_from_world.rotation.transpose() * b.camera_from_world.translation);
-  const bool rectified = difference.cwiseAbs().maxCoeff() <= same * own->K(0, 0) &&
-                         rotation.cwiseAbs().maxCoeff() <= same && std::abs(centre.x()) > 0 &&
-                         std::max(std::abs(centre.y()), std::abs(centre.z())) <= same * std::abs(centre.x());
-  return rectified ? centre.x() : 0;
-}
-
 struct Partner
 {
   std::size_t camera = 0;

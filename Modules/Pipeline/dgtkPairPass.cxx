@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPairPass.h"
 
-#include "dgtkCorrespondence.h"
-
 #include <algorithm>
 
 namespace dgtk
@@ -83,42 +81,16 @@ private:
   static Values deriveOne(const SurfaceRows& surface, const Output& output)
   {
     const PixelRect& rect = surface.rect;
-    const LayerSpec& spec = output.target.spec;
+    const PairValue value = output.target.value;
     Values result;
-    result.values = Rows(PixelType::Float64, spec.channels, rect.width, rect.y, rect.height);
-    if (output.target.value == PairValue::Motion)
+    result.values = Rows(PixelType::Float64, channelsOf(value), rect.width, rect.y, rect.height);
+    std::uint8_t* classes = nullptr;
+    if (value != PairValue::Motion)
     {
-      sceneFlowRows(surface, *output.other.state, result.values.row<double>(rect.y));
-      return result;
+      result.classes = Rows(PixelType::UInt8, 1, rect.width, rect.y, rect.height);
+      classes = result.classes.row<std::uint8_t>(rect.y);
     }
-    result.classes = Rows(PixelType::UInt8, 1, rect.width, rect.y, rect.height);
-    std::vector<double> found(surface.t.size() * 2);
-    correspondRows(surface, output.other, found.data(), result.classes.row<std::uint8_t>(rect.y));
-    double* value = result.values.row<double>(rect.y);
-    std::size_t i = 0;
-    for (int y = rect.y; y < rect.y + rect.height; ++y)
-    {
-      for (int x = 0; x < rect.width; ++x, i += 2)
-      {
-        const double own[2] = { x + 0.5, y + 0.5 };
-        switch (output.target.value)
-        {
-          case PairValue::Position:
-            *value++ = found[i];
-            *value++ = found[i + 1];
-            break;
-          case PairValue::Displacement:
-            *value++ = found[i] - own[0];
-            *value++ = found[i + 1] - own[1];
-            break;
-          case PairValue::FromLeft:
-            *value++ = own[0] - found[i];
-            break;
-          default:
-            *value++ = found[i] - own[0];
-        }
-      }
-    }
+    pairRows(surface, output.other, value, result.values.row<double>(rect.y), classes);
     return result;
   }
 

@@ -3,21 +3,12 @@
 #define dgtkPairPass_h
 
 #include "dgtkLayers.h"
+#include "dgtkPairValues.h"
 
 #include <vector>
 
 namespace dgtk
 {
-
-/// What is written of the correspondence with another view.
-enum class PairValue
-{
-  Position,     ///< (x', y')
-  Displacement, ///< (x', y') - (x, y)
-  FromLeft,     ///< x - x': disparity of the left camera of a pair
-  FromRight,    ///< x' - x: of the right one
-  Motion        ///< of the surface point in the axes of the camera, scene units; no class image
-};
 
 /// Another view and what is derived with it.
 struct PairTarget

@@ -96,6 +96,7 @@ public:
         LayerOutput tile = whole;
         tile.layer = layerName;
         tile.name = layerName;
+        tile.isOneOfMany = true;
         tile.path = stem + '_' + std::to_string(y / tileHeight) + '_' + std::to_string(x / tileWidth);
         tile.width = std::min(tileWidth, whole.width - x);
         tile.height = std::min(tileHeight, whole.height - y);

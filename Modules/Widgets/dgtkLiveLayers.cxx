@@ -2,8 +2,8 @@
 #include "dgtkLiveLayers.h"
 
 #include "dgtkAlbedo.h"
-#include "dgtkCorrespondence.h"
 #include "dgtkError.h"
+#include "dgtkPairValues.h"
 #include "dgtkRaySource.h"
 #include "dgtkRepresentation.h"
 #include "dgtkSamples.h"
@@ -146,31 +146,18 @@ Rows LiveEye::Impl::flow(const FlowLayer& flow, const SurfaceRows& in)
   const LayerSpec spec = specOf(flow);
   Rows out(spec.type, spec.channels, in.rect.width, in.rect.y, in.rect.height);
   const LiveScene::Moment& moment = this->neighbour(flow.step);
-  if (flow.value == FlowLayer::Motion)
-  {
-    sceneFlowRows(in, *moment.state, out.row<double>(in.rect.y));
-    return out;
-  }
   const OtherView other{ moment.state.get(), flow.step > 0 ? this->Views.after : this->Views.before,
     moment.occlusion.get() };
-  std::vector<double> pixels(2 * in.t.size());
   std::vector<std::uint8_t> classes(in.t.size());
-  correspondRows(in, other, pixels.data(), classes.data());
-  if (flow.value == FlowLayer::Class)
+  if (flow.value != FlowLayer::Class)
   {
-    std::copy(classes.begin(), classes.end(), out.row<std::uint8_t>(in.rect.y));
+    const PairValue value = flow.value == FlowLayer::Motion ? PairValue::Motion : PairValue::Displacement;
+    pairRows(in, other, value, out.row<double>(in.rect.y), classes.data());
     return out;
   }
-  double* value = out.row<double>(in.rect.y);
-  std::size_t i = 0;
-  for (int y = in.rect.y; y < in.rect.y + in.rect.height; ++y)
-  {
-    for (int x = in.rect.x; x < in.rect.x + in.rect.width; ++x, i += 2)
-    {
-      value[i] = pixels[i] - (x + 0.5);
-      value[i + 1] = pixels[i + 1] - (y + 0.5);
-    }
-  }
+  std::vector<double> pixels(2 * in.t.size());
+  pairRows(in, other, PairValue::Position, pixels.data(), classes.data());
+  std::copy(classes.begin(), classes.end(), out.row<std::uint8_t>(in.rect.y));
   return out;
 }
 

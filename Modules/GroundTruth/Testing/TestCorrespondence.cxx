@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkCorrespondence.h"
+#include "dgtkPairValues.h"
 #include "dgtkRaySource.h"
 #include "dgtkSyntheticScene.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <gtest/gtest.h>
@@ -213,4 +214,71 @@ TEST(SceneFlowRows, IsTheMotionInTheAxesOfTheCamera)
   {
     ASSERT_LE((Eigen::Map<const Eigen::Vector3d>(&motion[3 * i]) - Eigen::Vector3d(-0.25, -0.5, 1)).norm(), 1e-12);
   }
+}
+
+namespace
+{
+/// pairRows() of a wall at depth 8, in the rows 1 and 2, seen again by a camera at `place`.
+std::vector<double> pairOf(PairValue value, const Eigen::Vector3d& place, std::vector<std::uint8_t>& classes)
+{
+  const auto state = SceneBuilder().add(wallAt(8)).state();
+  const View own = viewAt({ 0, 0, 0 });
+  const VisibilityBuffer buffer = bruteForce(*state, own);
+  SurfaceRows rows;
+  computeSurfaceRows(*state, own, { 0, 1, width, 2 }, buffer.hits.data() + width, true, rows);
+  const std::unique_ptr<OcclusionQuery> query = makeOcclusionQuery();
+  query->setScene(state);
+  std::vector<double> values(rows.t.size() * std::size_t(channelsOf(value)));
+  classes.assign(rows.t.size(), 99);
+  pairRows(rows, { state.get(), viewAt(place), query.get() }, value, values.data(), classes.data());
+  return values;
+}
+} // namespace
+
+TEST(PairRows, ValuesAreRelatedToThePixelsCentre)
+{
+  // The other camera stands 0.5 to the right and 0.25 below (y down): everything moves to the left and up.
+  constexpr double left = 0.5 * focal / 8;
+  constexpr double up = 0.25 * focal / 8;
+  std::vector<std::uint8_t> classes;
+  const Eigen::Vector3d place(0.5, 0.25, 0);
+  const std::vector<double> position = pairOf(PairValue::Position, place, classes);
+  const std::vector<double> displacement = pairOf(PairValue::Displacement, place, classes);
+  const std::vector<double> fromLeft = pairOf(PairValue::FromLeft, place, classes);
+  const std::vector<double> fromRight = pairOf(PairValue::FromRight, place, classes);
+  ASSERT_EQ(position.size(), 4u * width);
+  ASSERT_EQ(fromLeft.size(), 2u * width);
+  for (int i = 0; i < 2 * width; ++i)
+  {
+    const double x = i % width + 0.5;
+    const double y = 1 + i / width + 0.5;
+    ASSERT_NE(classes[std::size_t(i)], 99);
+    ASSERT_NEAR(position[std::size_t(2 * i)], x - left, 1e-11);
+    ASSERT_NEAR(position[std::size_t(2 * i + 1)], y - up, 1e-11);
+    ASSERT_NEAR(displacement[std::size_t(2 * i)], -left, 1e-11);
+    ASSERT_NEAR(displacement[std::size_t(2 * i + 1)], -up, 1e-11);
+    ASSERT_NEAR(fromLeft[std::size_t(i)], left, 1e-11);
+    ASSERT_NEAR(fromRight[std::size_t(i)], -left, 1e-11);
+  }
+}
+
+TEST(PairRows, MotionHasNoClasses)
+{
+  std::vector<std::uint8_t> classes;
+  const std::vector<double> motion = pairOf(PairValue::Motion, { 0.5, 0.25, 0 }, classes);
+  EXPECT_EQ(motion, std::vector<double>(6 * width, 0.0));
+  EXPECT_EQ(classes, std::vector<std::uint8_t>(2 * width, 99));
+}
+
+TEST(RectifiedBaseline, IsThatOfCamerasSideBySideOnly)
+{
+  const View own = viewAt({ 0, 0, 0 });
+  EXPECT_NEAR(rectifiedBaseline(own, viewAt({ 0.5, 0, 0 })), 0.5, 1e-15);
+  EXPECT_NEAR(rectifiedBaseline(own, viewAt({ -2, 0, 0 })), -2, 1e-15);
+  EXPECT_EQ(rectifiedBaseline(own, own), 0);
+  EXPECT_EQ(rectifiedBaseline(own, viewAt({ 0.5, 1e-6, 0 })), 0);
+  EXPECT_EQ(rectifiedBaseline(own, viewAt({ 0.5, 0, 1e-6 })), 0);
+  View turned = viewAt({ 0.5, 0, 0 });
+  turned.camera_from_world.rotation = Eigen::AngleAxisd(1e-6, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  EXPECT_EQ(rectifiedBaseline(own, turned), 0);
 }

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPairValues.h"
+
+#include <cmath>
+#include <vector>
+
+namespace dgtk
+{
+
+int channelsOf(PairValue value)
+{
+  switch (value)
+  {
+    case PairValue::Position:
+    case PairValue::Displacement:
+      return 2;
+    case PairValue::Motion:
+      return 3;
+    default:
+      return 1;
+  }
+}
+
+void pairRows(const SurfaceRows& in, const OtherView& other, PairValue value, double* values, std::uint8_t* classes)
+{
+  if (value == PairValue::Motion)
+  {
+    sceneFlowRows(in, *other.state, values);
+    return;
+  }
+  std::vector<double> found(2 * in.t.size());
+  correspondRows(in, other, found.data(), classes);
+  const auto width = static_cast<std::size_t>(in.rect.width);
+  for (std::size_t i = 0; i < in.t.size(); ++i)
+  {
+    const double x = found[2 * i];
+    const double y = found[2 * i + 1];
+    const double ownX = in.rect.x + double(i % width) + 0.5;
+    const double ownY = in.rect.y + double(i / width) + 0.5;
+    switch (value)
+    {
+      case PairValue::Position:
+        *values++ = x;
+        *values++ = y;
+        break;
+      case PairValue::Displacement:
+        *values++ = x - ownX;
+        *values++ = y - ownY;
+        break;
+      case PairValue::FromLeft:
+        *values++ = ownX - x;
+        break;
+      default:
+        *values++ = x - ownX;
+    }
+  }
+}
+
+double rectifiedBaseline(const View& a, const View& b)
+{
+  const auto own = a.model->linear();
+  const auto other = b.model->linear();
+  if (!own || !other || !own->perspective || !other->perspective || a.model->width() != b.model->width() ||
+      a.model->height() != b.model->height())
+  {
+    return 0;
+  }
+  Eigen::Matrix3d difference = own->K - other->K;
+  difference(0, 2) = 0;
+  constexpr double same = 1e-9;
+  const Eigen::Matrix3d rotation = a.camera_from_world.rotation - b.camera_from_world.rotation;
+  // centre of b in the frame of a
+  const Eigen::Vector3d centre =
+    a.camera_from_world * Eigen::Vector3d(-b.camera_from_world.rotation.transpose() * b.camera_from_world.translation);
+  const bool rectified = difference.cwiseAbs().maxCoeff() <= same * own->K(0, 0) &&
+                         rotation.cwiseAbs().maxCoeff() <= same && std::abs(centre.x()) > 0 &&
+                         std::max(std::abs(centre.y()), std::abs(centre.z())) <= same * std::abs(centre.x());
+  return rectified ? centre.x() : 0;
+}
+
+} // namespace dgtk

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkPairValues_h
+#define dgtkPairValues_h
+
+#include "dgtkGroundTruthModule.h"
+
+#include "dgtkCorrespondence.h"
+
+#include <cstdint>
+
+namespace dgtk
+{
+
+/// What relates the pixels (x, y) of a view with where their surface points (x', y') are in another.
+enum class PairValue
+{
+  Position,     ///< (x', y'), pixels
+  Displacement, ///< (x', y') - (x, y), pixels
+  FromLeft,     ///< x - x', pixels: disparity of the left camera of a rectified pair
+  FromRight,    ///< x' - x, pixels: of the right one
+  Motion        ///< of the surface point in the axes of the camera, scene units
+};
+
+/// Values a pixel: 2, 1 for disparities, 3 for motion.
+DGTKGROUNDTRUTH_EXPORT int channelsOf(PairValue value);
+
+/// One value of rows (full width, barycentrics computed): channelsOf(value) numbers a pixel in `values`, NaN where
+/// there is none, and in `classes` the VisibilityClass of each pixel, which motion does not have: it may be null then.
+DGTKGROUNDTRUTH_EXPORT void pairRows(
+  const SurfaceRows& in, const OtherView& other, PairValue value, double* values, std::uint8_t* classes);
+
+/// Centre of camera b on the x axis of camera a, when the two are a rectified pair: two perspectives of one size, the
+/// same K but for the column of the principal point, one orientation, displaced along x only (to 1e-9). Otherwise 0.
+DGTKGROUNDTRUTH_EXPORT double rectifiedBaseline(const View& a, const View& b);
+
+} // namespace dgtk
+
+#endif
