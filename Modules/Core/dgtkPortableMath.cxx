@@ -185,4 +185,14 @@ double srgbFromLinear(double v)
   return v <= 0.0031308 ? v * 12.92 : table(std::sqrt(v));
 }
 
+float linearFromEncoded(float v)
+{
+  return static_cast<float>(v <= 1 ? linearFromSrgb(double(v)) : pow((double(v) + 0.055) / 1.055, 2.4));
+}
+
+float encodedFromLinear(float v)
+{
+  return static_cast<float>(v <= 1 ? srgbFromLinear(double(v)) : 1.055 * pow(double(v), 1 / 2.4) - 0.055);
+}
+
 } // namespace dgtk::portable

@@ -25,6 +25,9 @@ DGTKCORE_EXPORT double logFactorial(double n);
 /// sRGB (IEC 61966-2-1), both ways, on [0, 1]; values outside are clamped. Error below 1e-10.
 DGTKCORE_EXPORT double linearFromSrgb(double v);
 DGTKCORE_EXPORT double srgbFromLinear(double v);
+/// The same of colours in single precision, whose curves go on above 1.
+DGTKCORE_EXPORT float linearFromEncoded(float v);
+DGTKCORE_EXPORT float encodedFromLinear(float v);
 
 } // namespace dgtk::portable
 

@@ -6,8 +6,6 @@
 #include <OpenImageIO/deepdata.h>
 #include <OpenImageIO/imageio.h>
 
-#include <cmath>
-
 namespace dgtk
 {
 
@@ -18,11 +16,6 @@ constexpr int floatChannels = 5;
 constexpr int channelCount = 8;
 // OpenImageIO would write the time of day.
 constexpr const char* noDate = "1970:01:01 00:00:00";
-
-float linearFromEncoded(float v) // IEC 61966-2-1
-{
-  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
 
 class OpenImageIOFile : public DeepExrFile
 {
@@ -76,7 +69,7 @@ private:
     const float alpha = surface.rgba[3];
     for (int c = 0; c < 3; ++c)
     {
-      deep.set_deep_value(pixel, c, sample, linearFromEncoded(surface.rgba[c]) * alpha);
+      deep.set_deep_value(pixel, c, sample, surface.rgba[c] * alpha);
     }
     deep.set_deep_value(pixel, 3, sample, alpha);
     deep.set_deep_value(pixel, 4, sample, static_cast<float>(surface.depth));

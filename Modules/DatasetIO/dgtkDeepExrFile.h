@@ -15,7 +15,7 @@ class DeepExrFile
 public:
   virtual ~DeepExrFile() = default;
   virtual bool opened() const = 0;
-  /// The next rows, at least one pixel.
+  /// The next rows, at least one pixel; colours in linear light.
   virtual bool write(const LdiRows& rows) = 0;
   virtual bool close() = 0;
   /// Why one of these failed.

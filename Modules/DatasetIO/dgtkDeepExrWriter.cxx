@@ -4,7 +4,9 @@
 
 #include "dgtkError.h"
 #include "dgtkHash.h"
+#include "dgtkPortableMath.h"
 
+#include <algorithm>
 #include <dlfcn.h>
 #include <filesystem>
 
@@ -47,7 +49,19 @@ public:
   }
 
 protected:
-  void writeRows(const LdiRows& rows) override { this->require(rows.counts.empty() || this->Output->write(rows)); }
+  void writeRows(const LdiRows& rows) override
+  {
+    if (rows.counts.empty())
+    {
+      return;
+    }
+    LdiRows linear = rows;
+    for (LdiSurface& surface : linear.surfaces)
+    {
+      std::transform(surface.rgba.begin(), surface.rgba.begin() + 3, surface.rgba.begin(), portable::linearFromEncoded);
+    }
+    this->require(this->Output->write(linear));
+  }
 
   FileRecord complete() override
   {

@@ -2,6 +2,7 @@
 #include "dgtkLayerColors.h"
 
 #include "dgtkDepthPicture.h"
+#include "dgtkPortableMath.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,11 +20,6 @@ bool startsWith(const std::string& text, const char* start) { return text.rfind(
 std::uint8_t byteOf(double unit)
 {
   return std::isnan(unit) ? 0 : static_cast<std::uint8_t>(std::min(std::max(unit, 0.0), 1.0) * 255 + 0.5);
-}
-
-double encoded(double linear) // IEC 61966-2-1
-{
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
 bool isDepth(const std::string& layer) { return layer == "depth" || layer == "depth_noisy" || layer == "distance"; }
@@ -142,7 +138,8 @@ std::uint32_t LayerColors::id(const double* v) const
 
 Rgb LayerColors::picture(const double* v) const
 {
-  const auto channel = [&](int c) { return byteOf(this->Linear ? encoded(v[c] * this->Scale) : v[c] * this->Scale); };
+  const auto channel = [&](int c)
+  { return byteOf(this->Linear ? portable::srgbFromLinear(v[c] * this->Scale) : v[c] * this->Scale); };
   return this->Channels < 3 ? Rgb{ channel(0), channel(0), channel(0) } : Rgb{ channel(0), channel(1), channel(2) };
 }
 

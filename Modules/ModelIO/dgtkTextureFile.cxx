@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkModelFolder.h"
 #include "dgtkPictureProcess.h"
+#include "dgtkPortableMath.h"
 #include "dgtkTexturePixels.h"
 
 #include <algorithm>
@@ -100,7 +101,7 @@ std::shared_ptr<RadianceImage> toLight(const picture::Answer& size, const float*
       return nullptr;
     }
     v = std::max(v, 0.0f);
-    image->rgb[i] = size.linear != 0 ? v : v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+    image->rgb[i] = size.linear != 0 ? v : portable::linearFromEncoded(v);
   }
   return image;
 }

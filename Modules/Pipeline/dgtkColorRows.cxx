@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkColorRows.h"
 
+#include "dgtkPortableMath.h"
+
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace dgtk
@@ -61,10 +62,6 @@ private:
 };
 } // namespace
 
-float linearFromEncoded(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
-
-float encodedFromLinear(float v) { return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f; }
-
 Rows quantise(const Band& band, const LayerSpec& spec, int y, int height, std::vector<float> Band::*rgb)
 {
   const std::size_t rowValues = std::size_t(band.rect.width) * 3;
@@ -80,7 +77,7 @@ Rows quantise(const Band& band, const LayerSpec& spec, int y, int height, std::v
       round(from, rows.row<std::uint16_t>(y), count);
       break;
     default:
-      std::transform(from, from + count, rows.row<float>(y), linearFromEncoded);
+      std::transform(from, from + count, rows.row<float>(y), portable::linearFromEncoded);
   }
   return rows;
 }

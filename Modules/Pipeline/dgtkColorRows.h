@@ -9,10 +9,6 @@
 namespace dgtk
 {
 
-/// IEC 61966-2-1, values in [0, 1].
-float linearFromEncoded(float v);
-float encodedFromLinear(float v);
-
 /// Specification of the picture in a format.
 LayerSpec colorSpec(const GeneratorRequest& request, const std::string& format);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkExposures.h"
 
-#include "dgtkColorRows.h"
+#include "dgtkPortableMath.h"
 #include "dgtkThreadPool.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ void ExposedColor::draw(const PixelRect& rect, int samples, ColorBuffer& colors)
         {
           rest();
           std::transform(sums.begin(), sums.end(), drawn->rgb.begin(), sums.begin(),
-            [](double sum, float value) { return sum + double(linearFromEncoded(value)); });
+            [](double sum, float value) { return sum + double(portable::linearFromEncoded(value)); });
         });
     }
     settle();
@@ -57,7 +57,7 @@ void ExposedColor::draw(const PixelRect& rect, int samples, ColorBuffer& colors)
   colors.resize(rect);
   const double count = double(this->Exposures.size());
   std::transform(sums.begin(), sums.end(), colors.rgb.begin(),
-    [count](double sum) { return encodedFromLinear(float(sum / count)); });
+    [count](double sum) { return portable::encodedFromLinear(float(sum / count)); });
 }
 
 } // namespace dgtk

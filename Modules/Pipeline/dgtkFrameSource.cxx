@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <deque>
 #include <future>
+#include <utility>
 
 namespace dgtk
 {
@@ -195,21 +196,37 @@ void FrameSource::finish()
   {
     this->Raster->finish();
   }
+  this->give();
 }
 
-bool FrameSource::draw(int row, DrawnBand& drawn)
+void FrameSource::give()
+{
+  if (this->Waiting)
+  {
+    this->WaitsFor(std::exchange(this->Waiting, nullptr));
+  }
+}
+
+void FrameSource::draw(int row, const Receiver& receiver)
 {
   const bool later = this->readsLater();
   if (!later)
   {
     this->finish();
   }
-  this->drawBand(row, drawn);
+  auto drawn = std::make_shared<DrawnBand>();
+  this->drawBand(row, *drawn);
   if (this->Pov)
   {
-    drawn.color = [&band = drawn.band, draw = this->Pov->colorOf(drawn.band.rect)] { band.rgb = draw(); };
+    drawn->color = [&band = drawn->band, draw = this->Pov->colorOf(drawn->band.rect)] { band.rgb = draw(); };
   }
-  return !later;
+  this->give();
+  this->Waiting = std::move(drawn);
+  this->WaitsFor = receiver;
+  if (!later)
+  {
+    this->give();
+  }
 }
 
 void FrameSource::drawBand(int row, DrawnBand& drawn)

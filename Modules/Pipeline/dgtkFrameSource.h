@@ -45,10 +45,15 @@ public:
   int bands() const;
   /// False where nothing is needed of a picture.
   bool drawsAnything() const;
-  /// Draws band `row`, 0 <= row < bands(); what needs neither OpenGL nor this source may be left to drawn.rest.
-  /// False when OpenGL's part of the band is there only after the next draw() or finish().
-  bool draw(int row, DrawnBand& drawn);
+  /// Takes a band; what needs neither OpenGL nor this source is left to DrawnBand::whole().
+  using Receiver = std::function<void(std::shared_ptr<DrawnBand>)>;
+  /// Draws band `row`, 0 <= row < bands(), which `receiver` gets: at once, or, while OpenGL still works on it, with the
+  /// next draw() or finish(). Bands are given in the order in which they are drawn.
+  void draw(int row, const Receiver& receiver);
+  /// Gives the band that is still waited for. To be called before anything waits for what receivers do.
   void finish();
+  /// Forgets that band.
+  void drop() { this->Waiting = nullptr; }
   /// How OpenGL was reached, one line; empty when it is not used.
   const std::string& glDescription() const { return this->Description; }
 
@@ -57,6 +62,7 @@ private:
   std::shared_ptr<Tile> drawTile(const PixelRect& rect, bool later);
   void drawColor(const PixelRect& rect, Tile& tile, bool later);
   void drawBand(int row, DrawnBand& drawn);
+  void give();
   /// Whether the colours of a picture may be read while the next one is drawn.
   bool readsLater() const;
   /// Whether the raster engine gives the colours.
@@ -72,6 +78,9 @@ private:
   View Camera;
   std::unique_ptr<TileGrid> Grid;
   std::string Description;
+  /// Whose colours OpenGL has not handed over yet, and who gets it.
+  std::shared_ptr<DrawnBand> Waiting;
+  Receiver WaitsFor;
 };
 
 } // namespace dgtk

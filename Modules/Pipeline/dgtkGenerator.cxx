@@ -87,9 +87,7 @@ private:
   std::shared_ptr<const SceneState> stateAt(int frame);
   void renderAll();
   void render(const Job& job);
-  void drawBand(int row, FrameOutput& output);
-  void submitHeld();
-  void finishDrawing();
+  std::shared_ptr<DrawnBand> counted(std::shared_ptr<DrawnBand> band);
   void completeOldest();
   bool keep(const Job& job);
   std::vector<std::string> filesOf(const Job& job) const;
@@ -131,9 +129,6 @@ private:
   SceneQueries Queries;
   std::atomic<std::size_t> PendingBytes{ 0 };
   std::deque<Open> Opened;
-  /// A band whose colours OpenGL has not handed over yet, and where it goes.
-  std::shared_ptr<DrawnBand> Held;
-  FrameOutput* HeldFor = nullptr;
   std::shared_ptr<const SceneState> State;
   std::size_t Done = 0;
 };
@@ -197,7 +192,7 @@ GeneratorResult Run::execute()
       throw;
     }
     this->Result.interrupted = true; // while POV-Ray was drawing
-    this->Held = nullptr;
+    this->Source->drop();
     this->Opened.clear();
   }
   this->Source.reset();
@@ -313,7 +308,7 @@ void Run::renderAll()
       this->Callbacks.progress({ this->Done, this->Plan.jobs.size() });
     }
   }
-  this->finishDrawing();
+  this->Source->finish();
   while (!this->Opened.empty())
   {
     this->completeOldest();
@@ -354,16 +349,17 @@ void Run::render(const Job& job)
     {
       if (this->cancelled())
       {
-        this->finishDrawing(); // of this picture, which goes, or of the one before
+        this->Source->finish(); // of this picture, which goes, or of the one before
         this->Result.interrupted = true;
         return;
       }
       if (this->PendingBytes > mostPendingBytes)
       {
-        this->finishDrawing();
+        this->Source->finish();
         output->wait();
       }
-      this->drawBand(row, *output);
+      this->Source->draw(row,
+        [this, out = output.get()](std::shared_ptr<DrawnBand> band) { out->submit(this->counted(std::move(band))); });
     }
   }
   this->Opened.push_back({ job, std::move(output) });
@@ -373,11 +369,9 @@ void Run::render(const Job& job)
   }
 }
 
-void Run::drawBand(int row, FrameOutput& output)
+/// The band, whose bytes are pending until it is gone.
+std::shared_ptr<DrawnBand> Run::counted(std::shared_ptr<DrawnBand> band)
 {
-  auto band = std::make_unique<DrawnBand>();
-  const bool there = this->Source->draw(row, *band);
-  this->submitHeld();
   std::size_t bytes = std::size_t(band->band.rect.width) * band->band.rect.height * 2 *
                       (sizeof(Hit) + 3 * sizeof(float)); // as drawn, and whole
   for (const std::vector<SurfaceLayer>& ranks : band->band.peeled)
@@ -388,34 +382,12 @@ void Run::drawBand(int row, FrameOutput& output)
     }
   }
   this->PendingBytes += bytes;
-  this->Held = { band.release(), [this, bytes](DrawnBand* done)
+  DrawnBand* const drawn = band.get();
+  return { drawn, [this, bytes, band = std::move(band)](DrawnBand*) mutable
     {
+      band.reset();
       this->PendingBytes -= bytes;
-      delete done;
     } };
-  this->HeldFor = &output;
-  if (there)
-  {
-    this->submitHeld();
-  }
-}
-
-void Run::submitHeld()
-{
-  if (this->Held)
-  {
-    this->HeldFor->submit(std::exchange(this->Held, nullptr));
-  }
-}
-
-/// To be called before anything waits for a band that may be held.
-void Run::finishDrawing()
-{
-  if (this->Held)
-  {
-    this->Source->finish();
-    this->submitHeld();
-  }
 }
 
 void Run::completeOldest()

@@ -332,6 +332,7 @@ std::vector<dgtk::LayerArray> dgtkRenderer::Internal::drawWith(
     lanes.push_back(
       { planned.layers.front().layer.makePass(context, planned.layers), ArraySink(context, planned.outputs()) });
   }
+  frames.drop(); // of a picture that failed
   if (frames.drawsAnything())
   {
     frames.setScene(context.state, context.view);
@@ -342,14 +343,16 @@ std::vector<dgtk::LayerArray> dgtkRenderer::Internal::drawWith(
     }
     for (int row = 0; row < frames.bands(); ++row)
     {
-      DrawnBand drawn;
-      frames.draw(row, drawn);
-      frames.finish();
-      for (Lane& lane : lanes)
-      {
-        lane.pass->band(drawn.whole(), lane.sink);
-      }
+      frames.draw(row,
+        [&lanes](const std::shared_ptr<DrawnBand>& band)
+        {
+          for (Lane& lane : lanes)
+          {
+            lane.pass->band(band->whole(), lane.sink);
+          }
+        });
     }
+    frames.finish();
   }
   std::vector<LayerArray> all;
   for (Lane& lane : lanes)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSurfaceShading.h"
 
+#include "dgtkPortableMath.h"
+
 #include "dgtkAlbedo.h"
 #include "dgtkRepresentation.h"
 #include "dgtkSurfaceMaterial.h"
@@ -22,17 +24,9 @@ constexpr double leastRough = 0.03;  // as in the shaders, like what follows
 constexpr double leastCosine = 1e-4; // between normal and viewer
 constexpr double leastMasking = 1e-7;
 
-/// The transfer function of IEC 61966-2-1.
-Eigen::Vector3d toLinear(const Eigen::Vector3d& display)
-{
-  return display.unaryExpr([](double c) { return c < 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); });
-}
+Eigen::Vector3d toLinear(const Eigen::Vector3d& display) { return display.unaryExpr(&portable::linearFromSrgb); }
 
-Eigen::Vector3d toDisplay(const Eigen::Vector3d& linear)
-{
-  return linear.cwiseMax(0.0).unaryExpr(
-    [](double c) { return c < 0.0031308 ? c * 12.92 : 1.055 * std::pow(c, 1 / 2.4) - 0.055; });
-}
+Eigen::Vector3d toDisplay(const Eigen::Vector3d& linear) { return linear.unaryExpr(&portable::srgbFromLinear); }
 
 bool isFar(const LightState& light)
 {

@@ -201,7 +201,11 @@ TEST(PortableMath, SrgbIsThatOfTheStandard)
     const double encoded = v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
     ASSERT_NEAR(portable::linearFromSrgb(v), decoded, 1e-10);
     ASSERT_NEAR(portable::srgbFromLinear(v), encoded, 1e-10);
+    ASSERT_NEAR(portable::linearFromEncoded(float(v)), decoded, 1e-7);
+    ASSERT_NEAR(portable::encodedFromLinear(float(v)), encoded, 1e-7 + 1e-7 * 13);
   }
+  EXPECT_NEAR(portable::linearFromEncoded(2.0f), std::pow(2.055 / 1.055, 2.4), 1e-6);
+  EXPECT_NEAR(portable::encodedFromLinear(4.0f), 1.055 * std::pow(4, 1 / 2.4) - 0.055, 1e-6);
 }
 
 } // namespace dgtk
