@@ -5,6 +5,7 @@
 #include "dgtkSyntheticScene.h"
 #include "dgtkTestSupport.h"
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -289,6 +290,30 @@ TEST_F(PovLook, WhatLightDoesNotReachNeedsNoTextureOfTheView)
   this->State = *test::SceneBuilder().add(test::makeSphere(options)).state();
   EXPECT_THAT(this->write(), HasSubstr("texture_map"));
   this->change([](Material& material) { material.diffuse.setZero(); });
+  EXPECT_THAT(this->write(), Not(HasSubstr("texture_map")));
+}
+
+/// A triangle from depth 1 to 10 whose normals, but for that of the first corner, are its own.
+std::shared_ptr<Model> turnedAtItsFirstCorner()
+{
+  const auto model = test::makeSoup({ 1, 1, 1, 1 });
+  auto geometry = std::make_shared<Geometry>(*model->rest);
+  geometry->positions = { { -0.4, -0.3, 1 }, { -4, 3, 10 }, { 3, -3, 10 } };
+  const auto& p = geometry->positions;
+  const Eigen::Vector3f normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized().cast<float>();
+  geometry->normals = { -normal, normal, normal };
+  model->rest = geometry;
+  return model;
+}
+
+// Half of the way, up to a depth of 5.5, normals face away.
+TEST_F(PovLook, WhatIsNearerThanTheNearPlaneNeedsNoTextureOfTheView)
+{
+  this->V.camera_from_world = Rigid3();
+  this->State = *test::SceneBuilder().add(turnedAtItsFirstCorner()).state();
+  this->V.near = 0.1;
+  EXPECT_THAT(this->write(), HasSubstr("texture_map"));
+  this->V.near = 6;
   EXPECT_THAT(this->write(), Not(HasSubstr("texture_map")));
 }
 

@@ -110,6 +110,14 @@ TEST(Studio3ds, SmoothingGroups)
   EXPECT_LT((normals({ 1, 1, 1, 1 })[2] - Eigen::Vector3f(h, 0, h)).norm(), 0.4f);
 }
 
+TEST(Studio3ds, LargeFacesOfASmoothingGroupCountMore)
+{
+  // an upright and a flat triangle along the x axis, of areas 1 and 3
+  const auto model = readBytes("3ds", meshFile(vertices({ 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0, -1 }) +
+                                               faces({ 0, 1, 2, 1, 0, 3 }, chunk3ds(0x4150, u32(1) + u32(1)))));
+  EXPECT_LT((model->rest->normals[0] - Eigen::Vector3f(0, -1, 3).normalized()).norm(), 1e-6f);
+}
+
 TEST(Studio3ds, SmoothingJoinsVerticesAtOnePlace)
 {
   // the same roof with its own vertices for each square, as along a seam of the texture
@@ -140,6 +148,21 @@ TEST(Studio3ds, TexturesAreScaledAndMoved)
     readBytes("3ds", meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }) + uvs + faces({ 0, 1, 2 }, use), material));
   EXPECT_EQ(model->uvs[0], Eigen::Vector2d(0.5, 0));
   EXPECT_EQ(model->uvs[2], Eigen::Vector2d(2.5, 3));
+}
+
+TEST(Studio3ds, TheFirstColourAndTheFirstMaterialOfANameAreMeant)
+{
+  const auto material = [](float red, float green)
+  {
+    const std::string colors = chunk3ds(0x0010, f32(red) + f32(green) + f32(0)) + // and the same, linear
+                               chunk3ds(0x0013, f32(0.25f) + f32(0.25f) + f32(0.25f));
+    return chunk3ds(0xafff, chunk3ds(0xa000, text("m")) + chunk3ds(0xa020, colors));
+  };
+  const std::string use = chunk3ds(0x4130, text("m") + u16(1) + u16(0));
+  const auto model = readBytes("3ds",
+    meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }) + faces({ 0, 1, 2 }, use), material(1, 0) + material(0, 1)));
+  ASSERT_EQ(model->parts.size(), 1u);
+  EXPECT_EQ(model->materials[static_cast<std::size_t>(model->parts[0].material)].diffuse, Eigen::Vector3d(1, 0, 0));
 }
 
 TEST(Studio3ds, DamageThatRealFilesHave)

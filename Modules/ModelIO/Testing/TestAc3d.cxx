@@ -100,6 +100,27 @@ TEST(Ac3d, TextureCoordinatesAreRepeatedAndMoved)
   EXPECT_EQ(model->uvs[2], Eigen::Vector2d(2.5, 3.25));
 }
 
+TEST(Ac3d, CornersThatDifferInOneTextureCoordinateAreNotShared)
+{
+  // a vertex of so many surfaces that some of its corners have hashes that meet
+  constexpr int surfaces = 200;
+  for (const bool along : { false, true })
+  {
+    std::string text = "numvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf " + std::to_string(surfaces) + '\n';
+    for (int i = 0; i < surfaces; ++i)
+    {
+      const std::string value = std::to_string(i / 64.0);
+      text += "SURF 0x00\nmat 0\nrefs 3\n0 " + (along ? value + " 0" : "0 " + value) + "\n1 1 0\n2 0 1\n";
+    }
+    const ModelPointer model = read(object(text));
+    ASSERT_EQ(model->uvs.size(), std::size_t(surfaces) + 2);
+    for (std::size_t i = 0; i < surfaces; ++i)
+    {
+      EXPECT_EQ(model->uvs[model->triangles[i][0]][along ? 0 : 1], double(i) / 64);
+    }
+  }
+}
+
 TEST(Ac3d, TransformsAreInherited)
 {
   // a turn by 90 degrees about z: x -> y, y -> -x
@@ -163,6 +184,16 @@ TEST(Ac3d, ConcavePolygonsKeepTheirArea)
   expectNear(totalArea(*model), { 0, area, 0 }); // none turned over
 }
 
+TEST(Ac3d, CornersOnADiagonalAreInItsWay)
+{
+  // a square with a notch down to its middle, which lies on both diagonals
+  const ModelPointer model =
+    read(object("numvert 5\n0 0 0\n2 0 0\n2 2 0\n1 1 0\n0 2 0\nnumsurf 1\nSURF 0x00\nmat 0\nrefs 5\n"
+                "0 0 0\n1 0 0\n2 0 0\n3 0 0\n4 0 0\n"));
+  EXPECT_EQ(model->triangles.size(), 3u);
+  EXPECT_NEAR(summedArea(*model), 3, 1e-12);
+}
+
 TEST(Ac3d, PolygonWithAHoleThroughABridge)
 {
   // outer square 4 x 4, hole 2 x 2, joined by a seam that is walked twice
@@ -208,6 +239,43 @@ TEST(Ac3d, NormalsOfTheFileAreUsedAndTurned)
                                          "numsurf 1\nSURF 0x10\nmat 0\nrefs 3\n0 0 0 1 1 1 1 1 1\n1 1 0\n2 0 1\n"));
   EXPECT_LT((model->rest->normals[0] - Eigen::Vector3f(0, 1, 0)).norm(), 1e-6f);
   EXPECT_EQ(model->uvs[0], Eigen::Vector2d(0, 0)); // the first pair, not the last
+}
+
+TEST(Ac3d, NormalsStayAcrossSurfacesThatAreStretched)
+{
+  const ModelPointer model = read(object("rot 2 0 0 0 1 0 0 0 1\nnumvert 3\n0 0 0 1 1 0\n1 0 0 1 1 0\n0 1 0 1 1 0\n"
+                                         "numsurf 1\nSURF 0x10\nmat 0\nrefs 3\n0 0 0\n1 1 0\n2 0 1\n"));
+  EXPECT_LT((model->rest->normals[0] - Eigen::Vector3f(1, 2, 0).normalized()).norm(), 1e-6f);
+}
+
+TEST(Ac3d, LayersForOtherPurposesAreNotTheTexture)
+{
+  for (const std::string layer : { "tiled", "skids", "shad" })
+  {
+    const ModelPointer model =
+      read(object("texture \"a.png\" base\ntexture \"b.png\" " + layer + "\n" + square + "SURF 0x00\n" + squareRefs));
+    ASSERT_EQ(model->textures.size(), 1u) << layer;
+    EXPECT_EQ(model->textures[0].name, "a.png") << layer;
+  }
+}
+
+TEST(Ac3d, ALineOfTwoPointsIsOneEvenClosed)
+{
+  const ModelPointer line = read(object(square + "SURF 0x01\nmat 0\nrefs 2\n0 0 0\n2 0 0\n"));
+  EXPECT_EQ(line->lines, 1u);
+  expectNear(line->boundsMax, { 1, 1, 0 });
+  EXPECT_EQ(read(object(square + "SURF 0x01\nmat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\n"))->lines, 3u);
+  EXPECT_EQ(read(object(square + "SURF 0x02\nmat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\n"))->lines, 2u);
+}
+
+TEST(Ac3d, ASurfaceThatMeetsAVertexTwiceIsSmoothedInOnce)
+{
+  // two triangles of one polygon that touch at vertex 0, and a third triangle, upright, beside vertex 0
+  const ModelPointer model = read(
+    object("crease 120\nnumvert 6\n0 0 0\n1 0 0\n1 1 0\n-1 0 0\n-1 -1 0\n0 1 -1\nnumsurf 2\nSURF 0x10\nmat 0\nrefs 6\n"
+           "0 0 0\n1 0 0\n2 0 0\n0 0 0\n3 0 0\n4 0 0\nSURF 0x10\nmat 0\nrefs 3\n0 0 0\n1 0 0\n5 0 0\n"));
+  const Eigen::Vector3f upright = Eigen::Vector3f(0, 1, 1).normalized(); // (1, 0, 0) x (0, 1, -1)
+  EXPECT_LT((model->rest->normals[0] - (Eigen::Vector3f(0, 0, 1) + upright).normalized()).norm(), 1e-6f);
 }
 
 TEST(Ac3d, EncodingsAndLineEndsDoNotMatter)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkAssimpDeformation.h"
+#include "dgtkAssimpStream.h"
 #include "dgtkFile.h"
 #include "dgtkGltfMaker.h"
 #include "dgtkModelChecks.h"
@@ -143,6 +145,55 @@ TEST(Gltf, HalfAQuarterTurnIsAnEighth)
   // slerp, not a normalised blend: a third of the way is 30 degrees
   const std::vector<Eigen::Vector3d> p = at(*model, 10);
   expectNear({ -0.5, 1 + std::sqrt(3) / 2, 0 }, p[5]);
+}
+
+TEST(Gltf, AMeshMovesWithTheNodesAboveIt)
+{
+  GltfMaker maker = plain({ { "name", "m" } });
+  maker.json["nodes"][0].erase("scale");
+  const int times = maker.floats("SCALAR", { 0, 1 });
+  const int moves = maker.floats("VEC3", { 0, 0, 0, 2, 0, 0 });
+  maker.json["animations"] = { { { "channels", { channel(0, 0, "translation") } },
+    { "samplers", { sampler(times, moves) } } } };
+  const auto model = readBytes("gltf", maker.gltf());
+  ASSERT_TRUE(model->deformation);
+  expectNear({ 1, 0, 3 }, at(*model, 15)[0]);
+}
+
+TEST(Gltf, WhatAnAnimationDoesNotGiveStaysAsAtRest)
+{
+  auto scene = std::make_shared<dgtk::import::Scene>();
+  scene->nodes = { { "root", dgtk::import::noIndex, { 2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 1, 7, 0, 0, 0, 1 }, { 0 } } };
+  scene->meshes.resize(1);
+  scene->meshes[0].positions = { { 1, 0, 0 }, { 0, 1, 0 } };
+  scene->animations.resize(1);
+  scene->animations[0].duration = 1;
+  scene->animations[0].channels.resize(1);
+  scene->animations[0].channels[0].node = 0;
+  scene->animations[0].channels[0].rotation.times = { 0 };
+  scene->animations[0].channels[0].rotation.values = { { std::sqrt(0.5), 0, 0, std::sqrt(0.5) } }; // a quarter turn
+  const dgtk::AssimpDeformation deformation(scene, { { 0, 0, { 0, 1 } } });
+  std::vector<Eigen::Vector3d> positions;
+  deformation.positionsAt(0, 0, positions);
+  ASSERT_EQ(positions.size(), 2u);
+  expectNear({ 0, 2, 7 }, positions[0]);
+  expectNear({ -3, 0, 7 }, positions[1]);
+}
+
+TEST(Gltf, WeightsOfJointsAreSharesOfTheirSum)
+{
+  const dgtk::import::Matrix still = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
+  const dgtk::import::Matrix moved = { 1, 0, 0, 4, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
+  auto scene = std::make_shared<dgtk::import::Scene>();
+  scene->nodes = { { "root", dgtk::import::noIndex, still, { 0 } }, { "joint", 0, moved, {} } };
+  scene->meshes.resize(1);
+  scene->meshes[0].positions = { { 1, 2, 3 } };
+  scene->meshes[0].bones = { { 0, still, { 0 }, { 0.125f } }, { 1, still, { 0 }, { 0.375f } } };
+  const dgtk::AssimpDeformation deformation(scene, { { 0, 0, { 0 } } });
+  std::vector<Eigen::Vector3d> positions;
+  deformation.positionsAt(-1, 0, positions);
+  ASSERT_EQ(positions.size(), 1u);
+  expectNear({ 4, 2, 3 }, positions[0]);
 }
 
 TEST(Gltf, StepsSplinesAndNegativeWeights)

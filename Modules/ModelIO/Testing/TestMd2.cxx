@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 using dgtk::Model;
@@ -127,6 +128,49 @@ TEST(Md2, ASeamOfTheTextureDoesNotShow)
   }
 }
 
+TEST(Md2, ATriangleCountsOnceInTheNormalOfTwoOfItsCorners)
+{
+  // one upright and one flat triangle; the flat one has two corners in the group of the upright one's first
+  struct Still : dgtk::Deformation
+  {
+    void positionsAt(int /*animation*/, double /*frame*/, std::vector<Eigen::Vector3d>& positions) const override
+    {
+      positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 1 } };
+    }
+  };
+  Model model = *seed();
+  model.deformation = std::make_shared<Still>();
+  model.triangles = { { 0, 1, 2 }, { 3, 4, 5 } };
+  model.sourceVertex = { 0, 1, 2, 3, 4, 5 };
+  model.normalGroup = { 0, 0, 1, 0, 2, 3 };
+  const auto geometry = dgtk::geometryAt(model, 0, 0);
+  EXPECT_LT((geometry->normals[0] - Eigen::Vector3f(0, -1, 1).normalized()).norm(), 1e-6f);
+  EXPECT_EQ(geometry->normals[2], Eigen::Vector3f(0, 0, 1));
+}
+
+TEST(Md2, FramesMayBeLongerThanTheirVertices)
+{
+  std::string bytes = md2Seed().bytes();
+  const auto field = [&bytes](std::size_t i)
+  {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + 8 + 4 * i, 4);
+    return value;
+  };
+  const std::uint32_t size = field(2), frames = field(8), begin = field(12);
+  bytes.replace(8 + 2 * 4, 4, dgtk::test::u32(size + 4));
+  for (std::uint32_t f = frames; f > 0; --f)
+  {
+    bytes.insert(begin + f * size, 4, '\x7f');
+  }
+  const auto plain = seed();
+  const auto padded = readBytes("md2", bytes);
+  for (const double frame : { 0.0, 1.0 })
+  {
+    EXPECT_EQ(dgtk::geometryAt(*padded, 1, 2 + frame)->positions, dgtk::geometryAt(*plain, 1, 2 + frame)->positions);
+  }
+}
+
 TEST(Md2, SequencesFromFrameNames)
 {
   const auto of = [](const std::vector<std::string>& names) { return described(dgtk::sequencesOf(names)); };
@@ -158,6 +202,15 @@ TEST(Md2, TimesFromAnAnmFile)
   std::vector<Eigen::Vector3d> p;
   model->deformation->positionsAt(2, 1.5, p);
   EXPECT_EQ(p[0].z(), 1.5);
+}
+
+TEST(Md2, TimesOfAnAnmFileBeginWithinTheFrames)
+{
+  std::vector<std::string> warnings;
+  EXPECT_THAT(described(dgtk::parseAnm("last 3 3\n", "x.anm", 4, warnings)), ElementsAre("last 3-3"));
+  EXPECT_THAT(warnings, testing::IsEmpty());
+  EXPECT_THAT(dgtk::parseAnm("behind 4 9\n", "x.anm", 4, warnings), testing::IsEmpty());
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("x.anm:1: left out")));
 }
 
 TEST(Md2, SkinsAreFoundWhereGamesPutThem)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkModelChecks.h"
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -130,6 +131,34 @@ TEST(Ply, StripsEdgesAndWedges)
     EXPECT_EQ(normal, Eigen::Vector3f(0, 0, 1)); // both triangles of the strip face the same way
   }
   EXPECT_EQ(model->uvs[model->triangles[2][2]], Eigen::Vector2d(0.5, 0.25));
+}
+
+TEST(Ply, ColoursOfTwoBytes)
+{
+  std::string text = asciiQuad;
+  for (const char* name : { "red", "green", "blue" })
+  {
+    text = changed(text, std::string("uchar ") + name, std::string("ushort ") + name);
+  }
+  for (int i = 0; i < 4; ++i)
+  {
+    text = changed(text, " 255 51 0\n", " 65535 13107 0\n");
+  }
+  EXPECT_EQ(readBytes("ply", text)->materials[0].diffuse, Eigen::Vector3d(1, 0.2, 0));
+}
+
+TEST(Ply, StripsBeginAnewWithTheirOwnTurn)
+{
+  const auto model = readBytes("ply",
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n"
+    "8 0 1 2 3 -1 0 1 2\n");
+  ASSERT_EQ(model->triangles.size(), 3u);
+  for (const auto& t : model->triangles)
+  {
+    const auto& p = model->rest->positions;
+    EXPECT_EQ((p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]), Eigen::Vector3d(0, 0, 1));
+  }
 }
 
 TEST(Ply, FacesThatNameNoVertexAreCounted)

@@ -160,6 +160,38 @@ TEST(Pov, TransformsMultiplyInTheOrderWritten)
   expectNear({ 1, 2, 3 }, at("rotate 30*z transform { rotate 30*z inverse }"));
 }
 
+TEST(Pov, RotationsAreAboutXThenYThenZAndNothingIsScaledByZero)
+{
+  const auto at = [](const std::string& transforms)
+  {
+    return corner(
+      *readBytes("pov", rightHanded + "mesh { triangle { <1,2,3>, <1,0,0>, <0,1,0> } " + transforms + " }"), 0, 0);
+  };
+  expectNear({ 3, 1, 2 }, at("rotate <90,0,90>"));
+  expectNear({ 2, -3, -1 }, at("rotate <90,90,0>"));
+  expectNear({ 2, 2, 9 }, at("scale <2,0,3>"));
+}
+
+TEST(Pov, ATextureOfTheObjectReplacesThatOfItsMeshButNotThoseOfAUnion)
+{
+  const std::string green = " texture { pigment { rgb <0,1,0> } } }";
+  const auto diffuse = [&](const std::string& text)
+  {
+    const auto model =
+      readBytes("pov", "#declare A = mesh { " + oneTriangle + "texture { pigment { rgb <1,0,0> } } }\n" + text + green);
+    return model->materials[static_cast<std::size_t>(model->parts[0].material)].diffuse.normalized();
+  };
+  EXPECT_EQ(diffuse("object { A"), Eigen::Vector3d(0, 1, 0));
+  EXPECT_EQ(diffuse("union { object { A }"), Eigen::Vector3d(1, 0, 0));
+}
+
+TEST(Pov, NormalsStayAcrossTrianglesThatAreStretched)
+{
+  const auto model = readBytes("pov", rightHanded + "mesh { smooth_triangle { <0,0,0>,<1,1,0>, <1,-1,0>,<1,1,0>, "
+                                                    "<0,0,1>,<1,1,0> scale <2,1,1> } }");
+  EXPECT_LT((model->rest->normals[0] - Eigen::Vector3f(1, 2, 0).normalized()).norm(), 1e-6f);
+}
+
 TEST(Pov, DeclaredMeshesOnlyAreDrawnOnce)
 {
   const auto model = readBytes(
@@ -183,6 +215,24 @@ TEST(Pov, ConditionsAreFollowed)
                                       "#ifdef (Nothing) #while (1) mesh { #end #end\n"
                                       "triangle { 0, Far*x, Size*y }");
   EXPECT_EQ(model->boundsMax, Eigen::Vector3d(6, 3, 0));
+}
+
+TEST(Pov, ComparisonsThatIncludeEquality)
+{
+  for (const auto& [condition, holds] : std::vector<std::pair<std::string, bool>>{ { "1 <= 2", true },
+         { "2 <= 2", true }, { "3 <= 2", false }, { "1 >= 2", false }, { "2 >= 2", true }, { "3 >= 2", true } })
+  {
+    const auto model =
+      readBytes("pov", "#if (" + condition + ") #declare S = 3; #else #declare S = 4; #end triangle { 0, S*x, S*y }");
+    EXPECT_EQ(model->boundsMax.x(), holds ? 3 : 4) << condition;
+  }
+}
+
+TEST(Pov, FilterAndTransmitOfColours)
+{
+  const auto model = readBytes("pov", "#declare T = rgbt <1,2,3,4>; #declare F = rgbf <1,2,3,5>;\n"
+                                      "triangle { 0, <T.transmit,0,T.filter>, <0,F.filter,F.transmit> }");
+  EXPECT_EQ(model->boundsMax, Eigen::Vector3d(4, 5, 0));
 }
 
 TEST(Pov, IncludesAreFoundBesideTheFileThenInTheLibrary)

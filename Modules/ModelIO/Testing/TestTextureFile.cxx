@@ -117,6 +117,8 @@ TEST(TextureFile, ShortNames)
   EXPECT_TRUE(find("BRICKW~1.TGA"));
   EXPECT_TRUE(find("brickwall_old.png")) << "equal in their first eight letters";
   EXPECT_FALSE(find("BRICK.TGA"));
+  writeFile(folder.path("PLANKS_O.png"), "x");
+  EXPECT_TRUE(find("planks_of_oak.jpg")) << "the file has the short name";
   EXPECT_FALSE(find("BRICKWOR.TGA"));
   EXPECT_FALSE(find(""));
   EXPECT_FALSE(find(".."));
@@ -200,6 +202,18 @@ TEST(TextureFile, Pcx)
   EXPECT_EQ(texel(*image, 1, 0), (std::vector<int>{ 5, 250, 7, 255 }));
   EXPECT_EQ(texel(*image, 2, 0), (std::vector<int>{ 200, 55, 7, 255 }));
   EXPECT_EQ(texel(*image, 2, 1), (std::vector<int>{ 9, 246, 7, 255 }));
+}
+
+TEST(TextureFile, PcxOfThreePlanes)
+{
+  std::string bytes = pcx(2, 1, "");
+  bytes.resize(128);
+  bytes[65] = 3;
+  bytes += { 1, 2, 9, 3, 4, 9, 5, 6, 9 }; // red, green and blue of both pixels, each with its padding
+  const auto image = decoded("skin.pcx", bytes);
+  ASSERT_TRUE(image);
+  EXPECT_EQ(texel(*image, 0, 0), (std::vector<int>{ 1, 3, 5, 255 }));
+  EXPECT_EQ(texel(*image, 1, 0), (std::vector<int>{ 2, 4, 6, 255 }));
 }
 
 TEST(TextureFile, RefusedPictures)

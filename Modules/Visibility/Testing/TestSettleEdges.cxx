@@ -204,7 +204,10 @@ dgtk::VisibilityBuffer inExactArithmetic(const dgtk::SceneState& state, const dg
 TEST(SettleEdges, CentresOnEdgesAreDecidedExactly)
 {
   dgtk::View view = makeView({ 64, 48, 45, { 2.1, 1.7, 5.3 }, { 0.1, 0.2, 0 }, { 0.1, 1, 0 }, 0.1, 100 });
-  for (const auto& model : { dgtk::makePinholeFromFov(64, 48, 45, 0), dgtk::makeOrthographic(64, 48, 5, 0) })
+  Eigen::Matrix3d skewed;
+  skewed << 58, 9, 31, 0, 57, 22, 0, 0, 1;
+  for (const auto& model : { dgtk::makePinholeFromFov(64, 48, 45, 0), dgtk::makeOrthographic(64, 48, 5, 0),
+         dgtk::makePinhole(64, 48, skewed) })
   {
     view.model = model;
     std::mt19937 random(7);

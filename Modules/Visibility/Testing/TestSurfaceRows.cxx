@@ -101,6 +101,27 @@ TEST(SurfaceRows, TiltedCameraOverAnEnormousPlane)
   check(*state, makeView(options));
 }
 
+// So far away that double precision alone is just not enough.
+TEST(SurfaceRows, LowAboveEnormousPlanes)
+{
+  ViewOptions options;
+  options.eye = { 0, 0, 0 };
+  options.lookAt = { -5, -0.4, 1 };
+  options.far = 1e5;
+  const dgtk::View view = makeView(options);
+  for (const double height : { 0.9, 1.2, 1.6, 2.2, 3.0 })
+  {
+    for (const double turn : { 0.2, 0.7, 1.9, 2.5 })
+    {
+      const auto state = SceneBuilder()
+                           .add(makeQuad({ { -1e5, 0, -1e5 }, { 2e5, 0, 0 }, { 0, 0, 2e5 }, 1, 1 }),
+                             placement({ 0, -height, 0 }, 1, { 0.03, 1, 0.02 }, turn))
+                           .state();
+      EXPECT_LE(errorsOf(surface(*state, view, bruteForce(*state, view))).t, Promised) << height << ' ' << turn;
+    }
+  }
+}
+
 TEST(SurfaceRows, SphereOfTriangles)
 {
   const auto state = SceneBuilder().add(makeSphere({ { 0, 0, 0 }, 2, 40, 80 })).state();
@@ -228,6 +249,23 @@ TEST(SurfaceRows, LensesAskForRays)
   }
 }
 
+TEST(SurfaceRows, PlanesBehindTheCameraAreNotThere)
+{
+  const auto state = SceneBuilder().add(makeQuad({ { -9, -1, -9 }, { 18, 0, 0 }, { 0, 0, 18 }, 1, 1 })).state();
+  dgtk::View view = makeView();
+  const auto perspective = view.model;
+  for (const auto& model : { perspective, hideLinear(perspective) })
+  {
+    view.model = model;
+    const dgtk::SurfaceRows rows = surface(*state, view, everywhere(view, { 1, 0 }));
+    for (std::size_t i = 0; i < rows.t.size(); ++i) // the horizon is between the rows in the middle
+    {
+      ASSERT_EQ(std::isinf(rows.t[i]), i < rows.t.size() / 2) << i;
+      ASSERT_EQ(std::isnan(rows.barycentrics[2 * i]), i < rows.t.size() / 2) << i;
+    }
+  }
+}
+
 TEST(SurfaceRows, APixelDoesNotDependOnItsNeighbours)
 {
   const auto state = SceneBuilder()
@@ -245,6 +283,24 @@ TEST(SurfaceRows, APixelDoesNotDependOnItsNeighbours)
     dgtk::computeSurfaceRows(*state, view, { i % 64, i / 64, 1, 1 }, &buffer.hits[i], true, one);
     ASSERT_EQ(std::memcmp(one.t.data(), &whole.t[i], sizeof(double)), 0);
     ASSERT_EQ(std::memcmp(one.barycentrics.data(), &whole.barycentrics[2 * i], 2 * sizeof(double)), 0);
+  }
+}
+
+TEST(SurfaceRows, SinglePointsAreThoseOfTheRows)
+{
+  const auto state = SceneBuilder().add(makeSphere({ { 0, 0, 0 }, 2, 6, 9 })).state();
+  const dgtk::View view = makeView();
+  const dgtk::VisibilityBuffer buffer = bruteForce(*state, view);
+  const dgtk::SurfaceRows rows = surface(*state, view, buffer);
+  for (std::size_t i = 0; i < rows.t.size(); ++i)
+  {
+    if (buffer.hits[i].object)
+    {
+      const dgtk::SurfacePoint one =
+        dgtk::surfacePointAt(*state, view, { i % 64 + 0.5, double(i / 64) + 0.5 }, buffer.hits[i]);
+      ASSERT_EQ(one.t, rows.t[i]);
+      ASSERT_EQ(one.barycentrics, Eigen::Vector2d(rows.barycentrics[2 * i], rows.barycentrics[2 * i + 1]));
+    }
   }
 }
 
@@ -273,6 +329,21 @@ TEST(SurfaceRows, TrianglesWithoutAreaAreNotThere)
         ASSERT_TRUE(std::isnan(rows.barycentrics[2 * i]) && std::isnan(rows.barycentrics[2 * i + 1]));
       }
     }
+  }
+}
+
+TEST(SurfaceRows, TrianglesAreThereFromASineOf1e15On)
+{
+  for (const auto& [width, there] : { std::pair(1e-16, false), std::pair(1e-14, true) })
+  {
+    auto model = makeSoup({ 1, 0.1, 0.1, 1 });
+    auto geometry = std::make_shared<dgtk::Geometry>(*model->rest);
+    geometry->positions = { { -1, 0, 0 }, { 1, 0, 0 }, { 1, width, 0 } };
+    model->rest = geometry;
+    const auto state = SceneBuilder().add(model).state();
+    const dgtk::View view = makeView();
+    const dgtk::SurfaceRows rows = surface(*state, view, everywhere(view, { 1, 0 }), false);
+    EXPECT_EQ(std::isfinite(rows.t[1000]), there) << width;
   }
 }
 
