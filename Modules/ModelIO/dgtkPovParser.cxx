@@ -264,7 +264,7 @@ bool PovParser::item(ShapeList& to)
   return true;
 }
 
-void PovParser::scene(PovScene& result)
+void PovParser::scene(PovContents& result)
 {
   ShapeList all;
   while (this->peek().kind != PovToken::Kind::End)
@@ -284,7 +284,7 @@ void PovParser::scene(PovScene& result)
 }
 
 /// A file of declarations only is drawn as if each mesh that no other one uses stood in the scene.
-void PovParser::finish(PovScene& result)
+void PovParser::finish(PovContents& result)
 {
   if (result.shape.empty())
   {
@@ -315,9 +315,9 @@ void PovParser::finish(PovScene& result)
   }
 }
 
-PovScene PovParser::run()
+PovContents PovParser::run()
 {
-  PovScene result;
+  PovContents result;
   this->scene(result);
   this->finish(result);
   result.rightHanded = this->Right < 0;
@@ -337,6 +337,6 @@ PovScene PovParser::run()
   return result;
 }
 
-PovScene readPovScene(const std::string& path) { return PovParser(path).run(); }
+PovContents readPovContents(const std::string& path) { return PovParser(path).run(); }
 
 } // namespace dgtk

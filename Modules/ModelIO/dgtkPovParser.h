@@ -2,7 +2,7 @@
 #ifndef dgtkPovParser_h
 #define dgtkPovParser_h
 
-#include "dgtkPovScene.h"
+#include "dgtkPovContents.h"
 
 #include <set>
 
@@ -16,7 +16,7 @@ class PovParser
 {
 public:
   explicit PovParser(const std::string& path);
-  PovScene run();
+  PovContents run();
 
 private:
   /// A float, vector or colour.
@@ -74,8 +74,8 @@ private:
   bool holdsMesh(const PovToken& token) const;
 
   // statements: dgtkPovParser.cxx
-  void scene(PovScene& result);
-  void finish(PovScene& result);
+  void scene(PovContents& result);
+  void finish(PovContents& result);
   bool item(ShapeList& list);
   void skipStatement(const PovToken& word);
   void macroCall(const PovToken& word);

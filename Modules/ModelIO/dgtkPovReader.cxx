@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkError.h"
 #include "dgtkModelBuilder.h"
-#include "dgtkPovScene.h"
+#include "dgtkPovContents.h"
 
 #include <algorithm>
 
@@ -18,7 +18,7 @@ class PovAssembly
 {
 public:
   PovAssembly(const std::string& path, const ReadOptions& options)
-    : Scene(readPovScene(path))
+    : Scene(readPovContents(path))
     , Path(path)
     , Builder(path, "pov", this->Scene.bytesRead, options)
   {
@@ -214,7 +214,7 @@ private:
     this->Builder.addSurface(corners, 3, style);
   }
 
-  PovScene Scene;
+  PovContents Scene;
   std::string Path;
   ModelBuilder Builder;
   std::map<const PovTexture*, int> Materials;

@@ -8,7 +8,9 @@ usage: check_layering.py SOURCE_FOLDER
 * no public header names a type or header of a third-party library other than Eigen and VTK;
 * modules that must be independent of VTK's rendering name no VTK module;
 * no text in a module names an option of the command line (but for Widgets, whose render dialog starts `dgtk`);
-* what drives the layers (Pipeline, but for the files of the layers) names none of them.
+* what drives the layers (Pipeline, but for the files of the layers) names none of them;
+* a class of a namespace is defined in one place: to the linker two of one name are one, also when
+  their modules do not see each other.
 """
 import os
 import re
@@ -65,6 +67,28 @@ def named_in_texts(modules):
     return problems
 
 
+COMMENT_OR_TEXT = re.compile(r"""//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])'|^\s*\#(?:\\\n|[^\n])*""", re.S | re.M)
+NAMESPACE = re.compile(r"\bnamespace\s*([\w:]*)\s*$")
+CLASS = re.compile(r"^(?:.*[;>\s])?(?<!enum )(?:class|struct)\s+(?:[A-Z0-9]+_EXPORT\s+)?(\w+)\s*(?:final\s*)?(?::[^:].*)?$", re.S)
+
+
+def classes(text):
+    """Full names of the classes that are defined in namespaces with a name."""
+    scopes, last = [], 0
+    text = COMMENT_OR_TEXT.sub(" ", text)
+    for mark in re.finditer("[{};]", text):
+        head = text[last:mark.start()].strip()
+        last = mark.end()
+        if mark.group() == "}" and scopes:
+            scopes.pop()
+        elif mark.group() == "{":
+            namespace = NAMESPACE.search(head)
+            found = CLASS.match(head)
+            if found and None not in scopes:
+                yield "::".join(scopes + [found.group(1)])
+            scopes.append(namespace.group(1) or None if namespace else None)
+
+
 def closure(module, seen=()):
     """All modules that `module` may see; raises on a cycle."""
     if module in seen:
@@ -88,6 +112,7 @@ def dependencies(path):
 
 def check(source):
     ALLOWED.update(table(source))
+    places = {}
     modules = os.path.join(source, "Modules")
     problems = named_in_texts(modules)
     for module in sorted(os.listdir(modules)):
@@ -114,10 +139,13 @@ def check(source):
             if not name.endswith((".h", ".cxx")):
                 continue
             text = open(os.path.join(modules, module, name), encoding="utf-8").read()
+            for defined in classes(text):
+                places.setdefault(defined, []).append(f"Modules/{module}/{name}")
             for included in re.findall(r'#\s*include\s*"(dgtk\w+\.h)"', text):
                 owner = next((m for m in ALLOWED if os.path.exists(os.path.join(modules, m, included))), module)
                 if owner != module and owner not in may_see:
                     problems.append(f"Modules/{module}/{name}: includes {included} of {owner}")
+    problems += [f"{name}: defined in {' and '.join(files)}" for name, files in sorted(places.items()) if len(files) > 1]
     return problems
 
 

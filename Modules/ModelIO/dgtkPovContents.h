@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef dgtkPovScene_h
-#define dgtkPovScene_h
+#ifndef dgtkPovContents_h
+#define dgtkPovContents_h
 
 #include "dgtkPovTokenizer.h"
 
@@ -98,7 +98,7 @@ struct PovValue
 };
 
 /// What a scene file leaves.
-struct PovScene
+struct PovContents
 {
   PovShape shape;
   PovTexturePointer defaultTexture;
@@ -109,7 +109,7 @@ struct PovScene
 };
 
 /// Reads a scene. Throws InputError for what would leave a mesh incomplete.
-PovScene readPovScene(const std::string& path);
+PovContents readPovContents(const std::string& path);
 
 } // namespace dgtk
 
