@@ -2,6 +2,14 @@
 # One GoogleTest program, Test<Module>, of the module's Testing folder. It is one test of CTest, or SHARDS of them that run
 # beside one another: starting a process a case costs more than most cases do. With DGTK_TEST_EACH_CASE each case is a test.
 include(GoogleTest)
+
+# Seconds that tests may take; with sanitizers, which are ten times slower, what ctest's --timeout says.
+function(dgtk_limit_tests seconds)
+  if(NOT DGTK_SANITIZE)
+    set_tests_properties(${ARGN} PROPERTIES TIMEOUT ${seconds})
+  endif()
+endfunction()
+
 option(DGTK_TEST_EACH_CASE "Each GoogleTest case is a test of CTest: slower, for finding one" OFF)
 function(dgtk_add_tests module)
   cmake_parse_arguments(PARSE_ARGV 1 _t "" "TIMEOUT;SHARDS" "LINK")
@@ -17,11 +25,12 @@ function(dgtk_add_tests module)
     math(EXPR last "${_t_SHARDS} - 1")
     foreach(shard RANGE ${last})
       add_test(NAME ${module}.${shard} COMMAND Test${module} --gtest_brief=1)
-      set_tests_properties(${module}.${shard} PROPERTIES TIMEOUT ${_t_TIMEOUT}
+      dgtk_limit_tests(${_t_TIMEOUT} ${module}.${shard})
+      set_tests_properties(${module}.${shard} PROPERTIES
         ENVIRONMENT "GTEST_TOTAL_SHARDS=${_t_SHARDS};GTEST_SHARD_INDEX=${shard}")
     endforeach()
   else()
     add_test(NAME ${module} COMMAND Test${module} --gtest_brief=1)
-    set_tests_properties(${module} PROPERTIES TIMEOUT ${_t_TIMEOUT})
+    dgtk_limit_tests(${_t_TIMEOUT} ${module})
   endif()
 endfunction()
