@@ -86,7 +86,12 @@ Arguments::Arguments(const Command& command, const std::vector<std::string>& wor
 std::string Arguments::text(const std::string& name) const
 {
   const auto found = this->Values.find(name);
-  return found != this->Values.end() ? found->second.back() : find(this->Self, name)->fallback;
+  if (found != this->Values.end())
+  {
+    return found->second.back();
+  }
+  const Option* option = find(this->Self, name);
+  return option ? option->fallback : "";
 }
 
 std::vector<std::string> Arguments::all(const std::string& name) const

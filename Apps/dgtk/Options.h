@@ -40,7 +40,7 @@ public:
 
   const std::vector<std::string>& positional() const { return this->Positional; }
   bool has(const std::string& name) const { return this->Values.count(name) > 0; }
-  /// The value given, or the option's fallback.
+  /// The value given, or the option's fallback; "" where the command has no such option.
   std::string text(const std::string& name) const;
   /// The values of an option that may be repeated, as given.
   std::vector<std::string> all(const std::string& name) const;

@@ -67,7 +67,7 @@ FrameRange parseFrames(const std::string& text)
 
 std::string oneOf(const Arguments& arguments, const std::string& option, const std::vector<std::string>& allowed)
 {
-  const std::string value = arguments.text(option);
+  std::string value = arguments.text(option);
   if (std::find(allowed.begin(), allowed.end(), value) == allowed.end())
   {
     std::string names;

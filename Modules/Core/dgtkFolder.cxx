@@ -225,7 +225,7 @@ void Folder::syncAll() const
 
 std::string Folder::fileAt(const std::string& name) const
 {
-  const std::string path = this->pathOf(name);
+  std::string path = this->pathOf(name);
   if (!isPlain(name))
   {
     throw InputError(this->Path, 0, dgtk::quoted(name) + " leads out of the folder");

@@ -42,12 +42,13 @@ struct Grid
 /// `count` of the items, evenly, with the first and the last.
 std::vector<int> spread(const std::set<int>& items, int count)
 {
-  const std::vector<int> all(items.begin(), items.end());
+  std::vector<int> all(items.begin(), items.end());
   if (static_cast<int>(all.size()) <= count)
   {
     return all;
   }
   std::vector<int> chosen;
+  chosen.reserve(std::size_t(count));
   for (int i = 0; i < count; ++i)
   {
     chosen.push_back(all[count > 1 ? std::size_t(i) * (all.size() - 1) / std::size_t(count - 1) : 0]);

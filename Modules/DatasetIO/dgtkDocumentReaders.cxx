@@ -120,6 +120,7 @@ std::vector<ClassRecord> readClasses(const std::string& path)
     names.emplace(std::uint32_t(id), item[table ? "name" : "class"].text());
   }
   std::vector<ClassRecord> classes;
+  classes.reserve(names.size());
   for (const auto& [id, name] : names)
   {
     classes.push_back({ id, name });

@@ -176,7 +176,7 @@ private:
   void checkSizes()
   {
     this->RowBytes = std::size_t(this->Info.width) * static_cast<std::size_t>(this->Info.channels) * 4;
-    const std::uint64_t chunks = std::uint64_t((this->Info.height - 1) / this->ChunkRows + 1);
+    const std::uint64_t chunks = std::uint64_t((this->Info.height - 1) / this->ChunkRows) + 1;
     const std::uint64_t ratio = this->Compressed ? largestRatio : 1;
     if (this->TableStart + chunks * 16 > this->File.size() || this->Info.pixelBytes() / ratio > this->File.size())
     {

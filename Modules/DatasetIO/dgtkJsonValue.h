@@ -103,7 +103,7 @@ public:
   std::uint64_t count() const { return std::uint64_t(this->integer(0, std::numeric_limits<std::int64_t>::max())); }
   std::string hash() const
   {
-    const std::string value = this->text();
+    std::string value = this->text();
     this->require(
       value.size() == 64 && value.find_first_not_of("0123456789abcdef") == std::string::npos, "64 hexadecimal digits");
     return value;

@@ -85,7 +85,7 @@ PovLibrary::~PovLibrary() = default;
 std::string PovLibrary::Impl::add(const std::string& stem, const std::string& extension, const std::string& contents)
 {
   const std::string hash = hashOf(contents);
-  const std::string name = stem + '_' + hash.substr(0, HashDigits) + '.' + extension;
+  std::string name = stem + '_' + hash.substr(0, HashDigits) + '.' + extension;
   const std::lock_guard<std::mutex> lock(this->Mutex);
   if (this->Written.try_emplace(name, PovFile{ name, contents.size(), hash }).second)
   {

@@ -162,7 +162,7 @@ private:
     {
       ++length;
     }
-    const std::string out = this->In.text(at, length);
+    std::string out = this->In.text(at, length);
     at += length + 1;
     if (at > chunk.end)
     {

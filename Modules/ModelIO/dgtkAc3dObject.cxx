@@ -140,7 +140,7 @@ void Ac3dObject::vertices(long long number)
     cofactors.col(i) << a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0];
   }
   // an entry has at least six characters
-  const auto possible = static_cast<long long>(this->Lines.remaining() / 6 + 1);
+  const auto possible = static_cast<long long>(this->Lines.remaining() / 6) + 1;
   this->Builder.reserve(this->Vertices + static_cast<std::size_t>(std::min(number, possible)), 0, 0);
   for (long long i = 0; i < number && this->Lines.nextEntry("vertices", i, number); ++i)
   {

@@ -8,6 +8,7 @@
 #include "dgtkError.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -32,11 +33,18 @@ std::vector<std::uint32_t> weld(const import::Mesh& mesh)
       influences[mesh.bones[b].vertices[i]].emplace_back(static_cast<std::uint32_t>(b), mesh.bones[b].weights[i]);
     }
   }
-  const auto compare = [](const import::Float3& a, const import::Float3& b)
+  const auto bits = [](const import::Float3& p)
   {
-    const import::Float3 p{ a[0] + 0.f, a[1] + 0.f, a[2] + 0.f }; // -0 is 0
-    const import::Float3 q{ b[0] + 0.f, b[1] + 0.f, b[2] + 0.f };
-    return std::memcmp(p.data(), q.data(), sizeof p);
+    const import::Float3 sum{ p[0] + 0.f, p[1] + 0.f, p[2] + 0.f }; // -0 is 0
+    std::array<std::uint32_t, 3> words;                             // NaN has its place in their order, too
+    std::memcpy(words.data(), sum.data(), sizeof words);
+    return words;
+  };
+  const auto compare = [&](const import::Float3& a, const import::Float3& b)
+  {
+    const std::array<std::uint32_t, 3> p = bits(a);
+    const std::array<std::uint32_t, 3> q = bits(b);
+    return p == q ? 0 : p < q ? -1 : 1;
   };
   const auto order = [&](std::uint32_t a, std::uint32_t b)
   {

@@ -131,12 +131,14 @@ private:
     const double from = std::max(a.depth, near);
     if (b.depth > MaxDepthRatio * from)
     {
-      for (double depth = near * CutRatio; depth < b.depth; depth *= CutRatio)
+      double depth = near * CutRatio;
+      while (depth < b.depth)
       {
         if (depth > from)
         {
           chain.push_back(between(a, b, depth));
         }
+        depth *= CutRatio;
       }
     }
     chain.push_back(b);

@@ -39,6 +39,7 @@ std::vector<std::uint32_t> objectsAlong(const Sight& sight, const Eigen::Vector2
   std::vector<double> depths;
   sight.surfaces(pixel, hits, depths);
   std::vector<std::uint32_t> ids;
+  ids.reserve(hits.size());
   for (const Hit& hit : hits)
   {
     ids.push_back(hit.object);

@@ -164,14 +164,14 @@ void PictureView::drawGrid(QPainter& painter) const
   const QPointF low = toQt(this->toWidget(first));
   const QPointF high = toQt(this->toWidget(last));
   painter.setPen(QColor(128, 128, 128, 110));
-  for (double x = first.x(); x <= last.x(); ++x)
+  for (int x = int(first.x()); x <= int(last.x()); ++x)
   {
-    const double at = this->toWidget({ x, 0 }).x();
+    const double at = this->toWidget({ double(x), 0 }).x();
     painter.drawLine(QPointF(at, low.y()), QPointF(at, high.y()));
   }
-  for (double y = first.y(); y <= last.y(); ++y)
+  for (int y = int(first.y()); y <= int(last.y()); ++y)
   {
-    const double at = this->toWidget({ 0, y }).y();
+    const double at = this->toWidget({ 0, double(y) }).y();
     painter.drawLine(QPointF(low.x(), at), QPointF(high.x(), at));
   }
 }

@@ -334,10 +334,9 @@ void TestEditorViewer::pictures()
     QSKIP("DGTK_EDITOR_PICTURES names no folder");
   }
   const QString dataset = this->path("pictured");
-  const QStringList words{ "render", demo(), "-o", dataset, "--layers",
-    "color,depth,objects,normal,flow_forward,disparity,classes,shadingnormal,uv,ldi,coverage,correspondence,boxes,"
-    "amodal,points,calibration",
-    "--size", "320x240", "--quiet" };
+  const QString layers = "color,depth,objects,normal,flow_forward,disparity,classes,shadingnormal,uv,ldi,coverage,"
+                         "correspondence,boxes,amodal,points,calibration";
+  const QStringList words{ "render", demo(), "-o", dataset, "--layers", layers, "--size", "320x240", "--quiet" };
   QCOMPARE(QProcess::execute(QString::fromLocal8Bit(qgetenv("DGTK")), words), 0);
   const QString given = QString::fromLocal8Bit(qgetenv("DGTK_VIEWER_DATASET"));
   QMainWindow* const viewer = this->open(given.isEmpty() ? dataset : given);

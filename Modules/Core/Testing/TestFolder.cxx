@@ -15,7 +15,6 @@
 
 using namespace dgtk;
 using namespace dgtk::test;
-using testing::HasSubstr;
 namespace fs = std::filesystem;
 
 namespace

@@ -22,7 +22,7 @@ namespace
 DatasetFile addFile(Journal& journal, const std::string& folder, const std::string& name, const std::string& text)
 {
   makeFolders(fs::path(folder + '/' + name).parent_path().string());
-  const DatasetFile file = writeDocument(folder, name, text, "depth", "cam\tera", 3);
+  DatasetFile file = writeDocument(folder, name, text, "depth", "cam\tera", 3);
   journal.add(file);
   return file;
 }

@@ -112,10 +112,10 @@ TEST(Quantise, FloatIsLinearLight)
 
 TEST(Quantise, EightBitsAreTheRoundingOfSixteen)
 {
-  std::vector<float> ramp;
+  std::vector<float> ramp(3000);
   for (int i = 0; i < 3000; ++i)
   {
-    ramp.push_back(static_cast<float>(i) / 2999.0f);
+    ramp[std::size_t(i)] = static_cast<float>(i) / 2999.0f;
   }
   const Rows bytes = quantise(bandOf(ramp), colorOf(PixelType::UInt8), 5, 1);
   const Rows words = quantise(bandOf(ramp), colorOf(PixelType::UInt16), 5, 1);
