@@ -99,7 +99,7 @@ int PovImagesBeside::number(const Image& image, const Eigen::Vector3d& tint)
 
 std::string PovImagesBeside::write(const std::string& end, const std::string& contents)
 {
-  const std::string name = this->Stem + end;
+  std::string name = this->Stem + end;
   const std::string path = (std::filesystem::path(this->Folder) / name).string();
   writeFile(path, contents);
   this->Files.push_back(path);

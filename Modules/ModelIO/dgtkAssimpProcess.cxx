@@ -92,7 +92,7 @@ private:
         outside = written;
       }
     }
-    const std::string found = this->inAnyCase(lower(path.filename().string()));
+    std::string found = this->inAnyCase(lower(path.filename().string()));
     this->Outside = found.empty() && this->Outside.empty() ? outside : this->Outside;
     return found;
   }

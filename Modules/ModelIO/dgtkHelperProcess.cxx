@@ -11,8 +11,7 @@
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
-
-extern char** environ;
+#include <unistd.h>
 
 namespace dgtk::helper
 {
@@ -68,6 +67,7 @@ pid_t spawn(const std::vector<std::string>& command, int input, int output)
   posix_spawnattr_setsigmask(&attributes, &none);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command)
   {
     arguments.push_back(const_cast<char*>(word.c_str()));

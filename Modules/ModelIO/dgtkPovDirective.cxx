@@ -296,7 +296,7 @@ std::string PovParser::findInclude(const std::string& written, const PovPlace& f
     const fs::path path = fs::path(folder) / name;
     if (name.size() < 4096 && fs::is_regular_file(path, code))
     {
-      const std::string found = path.lexically_normal().string();
+      std::string found = path.lexically_normal().string();
       if (std::any_of(own.begin(), own.end(), [&found](const std::string& root) { return liesBeneath(found, root); }))
       {
         return found;

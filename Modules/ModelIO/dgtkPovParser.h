@@ -113,7 +113,7 @@ private:
   Eigen::Vector3d known(const Number& number, const PovPlace& place);
 
   // appearance: dgtkPovTexture.cxx
-  PovTexturePointer texture(const std::string& kind, PovTexturePointer base);
+  PovTexturePointer texture(const std::string& kind, const PovTexturePointer& base);
   bool textureWord(const PovToken& word, PovTexture& to);
   void pigment(PovTexture& to);
   void colorMap(PovTexture& to, int& colors, Eigen::Vector3d& sum);

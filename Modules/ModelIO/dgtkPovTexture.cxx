@@ -330,7 +330,7 @@ PovTexturePointer PovParser::textureMap(PovTexture& to)
 
 /// The block after `texture`, `pigment`, `finish` or `material`; `base` is what it changes. A block that only names a
 /// declared texture is that one.
-PovTexturePointer PovParser::texture(const std::string& kind, PovTexturePointer base)
+PovTexturePointer PovParser::texture(const std::string& kind, const PovTexturePointer& base)
 {
   const Guard guard(*this);
   auto result = std::make_shared<PovTexture>(base ? *base : *this->DefaultTexture);

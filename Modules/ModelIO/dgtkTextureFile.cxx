@@ -176,7 +176,7 @@ std::shared_ptr<const Image> decodeTexels(const picture::Source& source, AlphaRu
   return decodePixels(source, picture::Values::Bytes, problem,
     [rule](const picture::Answer& size, const picture::Pixels& pixels)
     {
-      const std::shared_ptr<Image> image = spread(size, pixels.as<std::uint8_t>());
+      std::shared_ptr<Image> image = spread(size, pixels.as<std::uint8_t>());
       settleAlpha(*image, rule);
       return image;
     });

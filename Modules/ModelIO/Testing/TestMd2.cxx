@@ -28,6 +28,7 @@ std::shared_ptr<const Model> seed() { return readBytes("md2", md2Seed().bytes())
 std::vector<std::string> described(const std::vector<dgtk::Animation>& animations)
 {
   std::vector<std::string> out;
+  out.reserve(animations.size());
   for (const dgtk::Animation& a : animations)
   {
     out.push_back(a.name + " " + std::to_string(a.first) + "-" + std::to_string(a.last));

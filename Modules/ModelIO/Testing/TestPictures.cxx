@@ -309,7 +309,7 @@ TEST(Pictures, TooLittleMemoryIsTheMachinesFault)
   GTEST_SKIP() << "sanitizers reserve terabytes of addresses";
 #endif
   const TemporaryFolder folder;
-  dgtk::writeFile(folder.path("a.pgm"), "P5 16000 5000 255\n" + std::string(80'000'000, 'x'));
+  dgtk::writeFile(folder.path("a.pgm"), std::string("P5 16000 5000 255\n").append(80'000'000, 'x'));
   dgtk::writeFile(folder.path("m.ac"), modelWith({ "a.pgm" }));
   std::string problem;
   const FewAddresses few(std::uint64_t(200) << 20); // of 320 MB

@@ -126,7 +126,7 @@ std::string brokenPromise(const Model& model)
   }
   for (const auto check : { brokenArrays, brokenParts, brokenBounds, brokenMaterials })
   {
-    const std::string broken = check(model);
+    std::string broken = check(model);
     if (!broken.empty())
     {
       return broken;
