@@ -155,6 +155,7 @@ public:
   std::vector<LayerRecord> records(const WorkPlan&, const std::string& format) const override
   {
     std::vector<LayerRecord> records;
+    records.reserve(PictureCount);
     for (int picture = 0; picture < PictureCount; ++picture)
     {
       records.push_back({ pictureSpec(picture), format });
