@@ -375,7 +375,7 @@ TEST_F(PovExport, BumpsAreInSceneUnits)
     exportPov(*state, this->V, this->path("b.pov"));
     sizes[int(scale) - 1] = after(readFile(this->path("b.pov")), "bump_size ");
   }
-  EXPECT_NEAR(sizes[0], 0.6, 1e-12); // a texel is half a unit wide
+  EXPECT_NEAR(sizes[0], 0.6, 1e-12);          // a texel is half a unit wide
   EXPECT_NEAR(sizes[1], sizes[0] / 2, 1e-12); // texels are twice as large
 }
 

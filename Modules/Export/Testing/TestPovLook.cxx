@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <regex>
 
 namespace dgtk
 {
@@ -151,6 +152,30 @@ TEST_F(PovLook, WhatIsNotWrittenIsNoted)
   EXPECT_EQ(povNotes(this->State, this->V, {}), this->Result.warnings);
 }
 
+TEST_F(PovLook, LightsStandWhereTheyShould)
+{
+  this->State.lights.resize(1);
+  LightState& light = this->State.lights[0];
+  light.shadows = true;
+  light.position = { 0, 9, 0 };
+  PovOptions options;
+  options.areaLights = 3;
+  const auto written = [&]
+  {
+    const std::string text = this->write(options);
+    return text.substr(text.find("light_source"));
+  };
+  const double radius = std::sqrt(3.0);
+  EXPECT_NEAR(after(written(), "area_light "), 0.1 * radius, Rounding);
+  light.kind = LightState::Kind::Directional;
+  EXPECT_NEAR(after(written(), "light_source { <0, "), 4 * radius, Rounding);
+  light.kind = LightState::Kind::Spot;
+  light.coneAngle = 89;
+  EXPECT_EQ(after(written(), "spotlight point_at <0, 0, 0> radius "), 89);
+  light.coneAngle = 90; // a half space
+  EXPECT_THAT(written(), Not(HasSubstr("spotlight")));
+}
+
 TEST_F(PovLook, AntialiasIsAGridWithoutNoise)
 {
   EXPECT_THAT(povAntialias(1), testing::ElementsAre("-A"));
@@ -193,6 +218,31 @@ TEST_F(PovLook, MissingTexelsHaveNoHighlights)
   }
 }
 
+TEST_F(PovLook, MirrorsAndVeils)
+{
+  this->change(
+    [](Material& material)
+    {
+      material.specular = { 0.5, 0.5, 0.5 };
+      material.shininess = 32;
+      material.opacity = 0.75;
+    });
+  PovOptions options;
+  options.reflections = true;
+  const std::string text = this->write(options);
+  EXPECT_EQ(after(text, "reflection { "), 0.5 * 32 / 128);
+  EXPECT_THAT(text, HasSubstr("pigment { rgbt <1, 1, 1, 0.25> }"));
+}
+
+TEST_F(PovLook, PlacesHaveColoursThatAreAveraged)
+{
+  PovOptions options;
+  options.positionColors = PovBox{ { -1, -2, -3 }, { 4, 5, 6 } };
+  const std::string text = this->write(options);
+  EXPECT_THAT(text, HasSubstr("gradient x color_map { [0 rgb 0] [1 rgb <3, 0, 0>] } scale 5 translate -1 * x"));
+  EXPECT_THAT(text, HasSubstr("gradient z color_map { [0 rgb 0] [1 rgb <0, 0, 3>] } scale 9 translate -3 * z"));
+}
+
 TEST_F(PovLook, TexelsAreThereFromTheMiddleOn)
 {
   const auto quad = test::makeQuad();
@@ -215,6 +265,16 @@ TEST_F(PovLook, NormalsOfTheOtherSideAreWritten)
   {
     normal = -normal;
   }
+  quad->rest = geometry;
+  exportPov(quad, this->path("q.pov"));
+  EXPECT_THAT(readFile(this->path("q.pov")), HasSubstr("normal_vectors"));
+}
+
+TEST_F(PovLook, NormalsThatAreALittleTiltedAreWritten)
+{
+  const auto quad = test::makeQuad();
+  auto geometry = std::make_shared<Geometry>(*quad->rest);
+  geometry->normals[0] = Eigen::Vector3f(0.001f, 0, 1).normalized();
   quad->rest = geometry;
   exportPov(quad, this->path("q.pov"));
   EXPECT_THAT(readFile(this->path("q.pov")), HasSubstr("normal_vectors"));
@@ -304,6 +364,22 @@ std::shared_ptr<Model> turnedAtItsFirstCorner()
   geometry->normals = { -normal, normal, normal };
   model->rest = geometry;
   return model;
+}
+
+TEST_F(PovLook, NormalsFaceAwayFromTheRaysOfParallelCameras)
+{
+  test::SphereOptions options;
+  options.rings = 4;
+  options.segments = 6;
+  this->V.model = makeOrthographic(320, 240, 3, 0);
+  this->State = *test::SceneBuilder().add(test::makeSphere(options)).state();
+  const std::string text = this->write();
+  const std::regex form(
+    R"(\* \((-?[0-9.e-]+)\) \+ \([^()]*\) \* \((-?[0-9.e-]+)\) \+ \([^()]*\) \* \((-?[0-9.e-]+)\))");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(text, found, form));
+  const Eigen::Vector3d way(std::stod(found[1]), std::stod(found[2]), std::stod(found[3]));
+  EXPECT_LE((way - this->V.camera_from_world.rotation.row(2).transpose()).norm(), Rounding);
 }
 
 // Half of the way, up to a depth of 5.5, normals face away.

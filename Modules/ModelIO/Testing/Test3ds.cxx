@@ -165,6 +165,21 @@ TEST(Studio3ds, TheFirstColourAndTheFirstMaterialOfANameAreMeant)
   EXPECT_EQ(model->materials[static_cast<std::size_t>(model->parts[0].material)].diffuse, Eigen::Vector3d(1, 0, 0));
 }
 
+TEST(Studio3ds, PercentagesAreSharesOrOfAHundred)
+{
+  for (const auto& [written, share] : { std::pair(1.0f, 1.0), std::pair(0.5f, 0.5), std::pair(50.0f, 0.5) })
+  {
+    const std::string glow = chunk3ds(0xa084, chunk3ds(0x0031, f32(written)));
+    const std::string diffuse = chunk3ds(0xa020, chunk3ds(0x0010, f32(1) + f32(0.5f) + f32(0)));
+    const auto model = readBytes("3ds", meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }) +
+                                                   faces({ 0, 1, 2 }, chunk3ds(0x4130, text("m") + u16(1) + u16(0))),
+                                          chunk3ds(0xafff, chunk3ds(0xa000, text("m")) + diffuse + glow)));
+    EXPECT_EQ(
+      model->materials[static_cast<std::size_t>(model->parts[0].material)].emission, share * Eigen::Vector3d(1, 0.5, 0))
+      << written;
+  }
+}
+
 TEST(Studio3ds, DamageThatRealFilesHave)
 {
   const auto badIndex = readBytes("3ds", meshFile(vertices(roof) + faces({ 0, 1, 2, 0, 1, 99 })));

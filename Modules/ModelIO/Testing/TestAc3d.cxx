@@ -226,6 +226,7 @@ TEST(Ac3d, FlatAndSmoothSurfaces)
   EXPECT_EQ(file("", "0x00")->rest->normals.size(), 8u);
   EXPECT_EQ(file("", "0x10")->rest->normals.size(), 8u); // 90 degrees are more than 61
   EXPECT_EQ(file("crease 89.0\n", "0x10")->rest->normals.size(), 8u);
+  EXPECT_EQ(file("crease 90\n", "0x10")->rest->normals.size(), 6u);
   const ModelPointer smooth = file("crease 91\n", "0x10");
   ASSERT_EQ(smooth->rest->normals.size(), 6u);
   const float h = std::sqrt(0.5f);
@@ -276,6 +277,15 @@ TEST(Ac3d, ASurfaceThatMeetsAVertexTwiceIsSmoothedInOnce)
            "0 0 0\n1 0 0\n2 0 0\n0 0 0\n3 0 0\n4 0 0\nSURF 0x10\nmat 0\nrefs 3\n0 0 0\n1 0 0\n5 0 0\n"));
   const Eigen::Vector3f upright = Eigen::Vector3f(0, 1, 1).normalized(); // (1, 0, 0) x (0, 1, -1)
   EXPECT_LT((model->rest->normals[0] - (Eigen::Vector3f(0, 0, 1) + upright).normalized()).norm(), 1e-6f);
+}
+
+TEST(Ac3d, NormalsBelongToTheVerticesThatHaveThem)
+{
+  const ModelPointer model = read(object("numvert 3\n0 0 0\n1 0 0 1 0 1\n0 1 0\nnumsurf 1\nSURF 0x10\nmat 0\nrefs 3\n"
+                                         "0 0 0\n1 1 0\n2 0 1\n"));
+  EXPECT_EQ(model->rest->normals[0], Eigen::Vector3f(0, 0, 1));
+  EXPECT_LT((model->rest->normals[1] - Eigen::Vector3f(1, 0, 1).normalized()).norm(), 1e-6f);
+  EXPECT_EQ(model->rest->normals[2], Eigen::Vector3f(0, 0, 1));
 }
 
 TEST(Ac3d, EncodingsAndLineEndsDoNotMatter)
@@ -348,6 +358,18 @@ TEST(Ac3d, CoordinatesThatAreNoNumbersAreLeftOut)
     EXPECT_THAT(
       model->warnings, ElementsAre(HasSubstr("1 surface left out: a coordinate that is not a finite number")));
   }
+}
+
+TEST(Ac3d, NumbersOfMaterialsAndTextureCoordinatesAreBounded)
+{
+  std::string text = object(square + "SURF 0x00\nmat 0\nrefs 3\n0 0 nan\n1 1e999 0\n2 0.5 0.25\n");
+  text.replace(text.find("shi 0"), 5, "shi 200");
+  const ModelPointer model = read(text);
+  EXPECT_EQ(model->materials[static_cast<std::size_t>(model->parts[0].material)].shininess, 128);
+  ASSERT_EQ(model->uvs.size(), 3u);
+  EXPECT_EQ(model->uvs[model->triangles[0][0]], Eigen::Vector2d(0, 0));
+  EXPECT_EQ(model->uvs[model->triangles[0][1]], Eigen::Vector2d(0, 0));
+  EXPECT_EQ(model->uvs[model->triangles[0][2]], Eigen::Vector2d(0.5, 0.25));
 }
 
 TEST(Ac3d, DataMayLookLikeStatements)

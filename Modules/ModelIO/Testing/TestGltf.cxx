@@ -178,6 +178,12 @@ TEST(Gltf, WhatAnAnimationDoesNotGiveStaysAsAtRest)
   ASSERT_EQ(positions.size(), 2u);
   expectNear({ 0, 2, 7 }, positions[0]);
   expectNear({ -3, 0, 7 }, positions[1]);
+
+  // The animation is over after a second, whatever its keys.
+  scene->animations[0].channels[0].translation = { { 0, 2 }, { { 0, 0, 0 }, { 8, 0, 0 } }, {}, {}, {} };
+  positions.clear();
+  deformation.positionsAt(0, 1000, positions);
+  expectNear({ 4, 2, 0 }, positions[0]);
 }
 
 TEST(Gltf, WeightsOfJointsAreSharesOfTheirSum)

@@ -91,6 +91,7 @@ TEST(Ply, AsciiWithNormalsUvsAndOneColour)
   const auto model = readBytes("ply", asciiQuad);
   expectQuad(*model);
   EXPECT_EQ(model->materials[0].diffuse, Eigen::Vector3d(1, 0.2, 0));
+  EXPECT_LT((model->materials[0].ambient - Eigen::Vector3d(0.2, 0.04, 0)).norm(), 1e-15);
   EXPECT_TRUE(model->warnings.empty());
 }
 

@@ -185,6 +185,16 @@ TEST(Pov, ATextureOfTheObjectReplacesThatOfItsMeshButNotThoseOfAUnion)
   EXPECT_EQ(diffuse("union { object { A }"), Eigen::Vector3d(1, 0, 0));
 }
 
+TEST(Pov, FacesOfSeveralTexturesAreDrawnWithTheirFirstOne)
+{
+  const auto model =
+    readBytes("pov", "mesh2 { vertex_vectors { 3, 0, x, y } texture_list { 2, texture { pigment { rgb "
+                     "<1,0,0> } } texture { pigment { rgb <0,1,0> } } } face_indices { 1, <0,1,2>, 0, 1, 1 } }");
+  const dgtk::Material& drawn = model->materials[static_cast<std::size_t>(model->parts[0].material)];
+  EXPECT_EQ(drawn.diffuse.normalized(), Eigen::Vector3d(1, 0, 0));
+  EXPECT_THAT(model->warnings, Contains(HasSubstr("faces of several textures are drawn with their first one")));
+}
+
 TEST(Pov, NormalsStayAcrossTrianglesThatAreStretched)
 {
   const auto model = readBytes("pov", rightHanded + "mesh { smooth_triangle { <0,0,0>,<1,1,0>, <1,-1,0>,<1,1,0>, "
@@ -226,6 +236,12 @@ TEST(Pov, ComparisonsThatIncludeEquality)
       readBytes("pov", "#if (" + condition + ") #declare S = 3; #else #declare S = 4; #end triangle { 0, S*x, S*y }");
     EXPECT_EQ(model->boundsMax.x(), holds ? 3 : 4) << condition;
   }
+}
+
+TEST(Pov, ChoicesBetweenTwoValues)
+{
+  const auto model = readBytes("pov", "triangle { 0, (1 > 2 ? 3 : 4)*x, (2 > 1 ? 5 : 6)*y }");
+  EXPECT_EQ(model->boundsMax, Eigen::Vector3d(4, 5, 0));
 }
 
 TEST(Pov, FilterAndTransmitOfColours)

@@ -146,11 +146,11 @@ TEST(Stage, EnvironmentsTurnAboutTheUpAxis)
   for (const Case& one :
     { Case{ "y", { -s, 0, -c }, { c, 0, -s }, { 0, 1, 0 } }, Case{ "z", { -s, c, 0 }, { c, s, 0 }, { 0, 0, 1 } } })
   {
-    const auto state = folder
-                         .load(std::string(R"({"upAxis": ")") + one.upAxis +
-                               R"(", "environment": {"image": "sky.hdr", "rotation": 30, "intensity": 2,
-                                  "background": false}})")
-                         ->at(0);
+    const auto stage = folder.load(std::string(R"({"upAxis": ")") + one.upAxis +
+                                   R"(", "environment": {"image": "sky.hdr", "rotation": 30, "intensity": 2,
+                                  "background": false}})");
+    const auto state = stage->at(0);
+    EXPECT_EQ(stage->inputFiles(), (std::vector<std::string>{ folder.path("scene.json"), folder.path("sky.hdr") }));
     ASSERT_TRUE(state->environment);
     EXPECT_EQ(state->environment->intensity, 2);
     EXPECT_FALSE(state->environment->background);
@@ -206,6 +206,15 @@ TEST(Stage, ExposuresOfALensAreSpreadOverItAndMeetInTheFocus)
   {
     EXPECT_NEAR(radii[i], 0.25 * std::sqrt((double(i) + 0.5) / 12), rounding);
   }
+}
+
+TEST(Stage, FogIsThatOfTheScene)
+{
+  const ModelFolder folder;
+  const auto state = folder.load(R"({"fog": {"color": [0.1, 0.2, 0.3], "density": 0.5, "start": 2}})")->at(0);
+  EXPECT_EQ(state->fog.color, Vector(0.1, 0.2, 0.3));
+  EXPECT_EQ(state->fog.density, 0.5);
+  EXPECT_EQ(state->fog.start, 2);
 }
 
 TEST(Stage, IsTheSameFromManyThreads)

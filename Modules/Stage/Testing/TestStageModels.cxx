@@ -95,7 +95,7 @@ TEST(StageModels, MaterialsAreReplaced)
   const ModelFolder folder;
   const auto stage = folder.load(R"({"objects": [
     {"model": "models/square.ac"},
-    {"model": "models/square.ac", "materials": {"*": {"diffuse": [0, 0, 1], "opacity": 0.5}, "red": {"shininess": 3}}},
+    {"model": "models/square.ac", "materials": {"*": {"diffuse": [0, 0, 1], "opacity": 0.5}, "red": {"shininess": 3, "bumpScale": 0.25}}},
     {"model": "models/square.ac", "materials": {"red": {"texture": ""}}},
     {"model": "models/square.ac", "materials": {"*": {"texture": "models/other.ppm"}}}]})");
   const auto state = stage->at(0);
@@ -105,6 +105,7 @@ TEST(StageModels, MaterialsAreReplaced)
   EXPECT_EQ(material(1).diffuse, Vector(0, 0, 1));
   EXPECT_EQ(material(1).opacity, 0.5);
   EXPECT_EQ(material(1).shininess, 3);
+  EXPECT_EQ(material(1).bumpScale, 0.25);
   EXPECT_EQ(material(1).specular, material(0).specular);
   EXPECT_EQ(material(2).texture, -1);
   const Model& model = *state->instances[3].model;
@@ -164,6 +165,47 @@ TEST(StageModels, AMissingTextureIsAWarning)
   folder.load(R"({"objects": [{"model": "models/square.ac", "materials": {"*": {"texture": "no.png"}}}]})",
     [&](const std::string& line) { warnings.push_back(line); });
   EXPECT_THAT(warnings, testing::Contains(HasSubstr("texture 'no.png': not found")));
+}
+
+TEST(StageModels, TexturesOfAbsoluteNamesAreNotLookedForElsewhere)
+{
+  const ModelFolder folder;
+  writeFile(folder.path("beside.ppm"), redPpm);
+  for (const auto& [name, found] : { std::pair("nowhere/beside.ppm", true), std::pair("/nowhere/beside.ppm", false) })
+  {
+    std::vector<std::string> warnings;
+    folder.load(
+      std::string(R"({"objects": [{"model": "models/square.ac", "materials": {"*": {"texture": ")") + name + "\"}}}]}",
+      [&](const std::string& line) { warnings.push_back(line); });
+    EXPECT_EQ(warnings.empty(), found) << name;
+  }
+}
+
+TEST(StageModels, MapsAreThoseThatTheSceneNames)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"objects": [{"model": "models/square.ac", "materials": {"*": {
+    "emissionMap": "models/one.ppm", "occlusionMap": "models/two.ppm", "metallicRoughnessMap": "models/other.ppm",
+    "normalMap": "models/red.ppm"}}}]})");
+  const Instance& instance = stage->at(0)->instances[0];
+  const Material& material = instance.materials->at(0);
+  const auto file = [&](int map)
+  { return std::filesystem::path(instance.model->textures.at(std::size_t(map)).path).filename().string(); };
+  EXPECT_EQ(file(material.emissionMap), "one.ppm");
+  EXPECT_EQ(file(material.occlusionMap), "two.ppm");
+  EXPECT_EQ(file(material.metallicRoughnessMap), "other.ppm");
+  EXPECT_EQ(file(material.normalMap), "red.ppm");
+}
+
+TEST(StageModels, WarningsOfAModelNameItsFile)
+{
+  const ModelFolder folder;
+  std::filesystem::remove(folder.path("models/red.ppm"));
+  std::vector<std::string> warnings;
+  folder.load(R"({"objects": [{"model": "models/square.ac"}, {"model": "models/square.ac"}]})",
+    [&](const std::string& line) { warnings.push_back(line); });
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].rfind(folder.path("models/square.ac") + ": texture 'red.ppm' not found", 0), 0u) << warnings[0];
 }
 
 TEST(StageModels, AllPicturesOfASceneHaveOneBudget)
@@ -244,6 +286,10 @@ TEST(StageModels, AnimationsFollowTheirClock)
     EXPECT_NEAR(advance(*held, frame), expected, 1e-12) << frame;
   }
   EXPECT_EQ(held->at(8)->instances[0].geometry, held->at(1e6)->instances[0].geometry);
+  const Model& model = *looped->models().at(0);
+  EXPECT_EQ(sequenceSpan(model, 0, true), 4);
+  EXPECT_EQ(sequenceSpan(model, 0, false), 3);
+  EXPECT_EQ(sequenceSpan(model, 1, true), 0);
   const auto still = folder.load(runner(R"("rate": 0, "offset": 2)"));
   EXPECT_EQ(advance(*still, 50), 0);
   const auto other = folder.load(runner(R"("sequence": "rest")"));
