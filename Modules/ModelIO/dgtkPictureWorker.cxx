@@ -23,7 +23,6 @@
 namespace
 {
 using namespace dgtk::picture;
-using dgtk::helper::Descriptor;
 using dgtk::helper::Descriptors;
 
 constexpr int channel = 0;

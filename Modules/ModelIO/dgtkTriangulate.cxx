@@ -103,7 +103,7 @@ public:
         }
         ++this->Work;
       }
-      const std::size_t ear = found < n ? found : flat < n ? flat : at % n;
+      const std::size_t ear = found < n ? found : flat < n ? flat : at;
       this->cut(ear);
       at = ear % this->Ring.size();
     }

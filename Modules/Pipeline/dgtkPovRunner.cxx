@@ -19,8 +19,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char** environ;
-
 namespace dgtk
 {
 
@@ -84,7 +82,7 @@ PovComplaint povComplaint(const std::string& printed)
   for (std::size_t begin = 0; begin < text.size();)
   {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const PovComplaint complaint = parse(text.substr(begin, end - begin));
+    PovComplaint complaint = parse(text.substr(begin, end - begin));
     if (!complaint.what.empty())
     {
       return complaint;

@@ -147,6 +147,7 @@ std::vector<std::string> blindPictures(const WorkPlan& plan, const Stage& stage)
     }
   }
   std::vector<std::string> lines;
+  lines.reserve(blind.size());
   for (const std::size_t camera : blind)
   {
     lines.push_back("camera " + quoted(stage.cameraNames()[camera]) + " sees no object at any frame of this run");
@@ -185,6 +186,7 @@ std::vector<std::string> coarseShadowLines(const WorkPlan& plan, const Stage& st
     }
   }
   std::vector<std::string> lines;
+  lines.reserve(coarse.size());
   for (const auto& [light, worst] : coarse)
   {
     lines.push_back("light " + quoted(light) + ": its shadows are coarse: a texel of the map (shadowSize " +
