@@ -138,6 +138,7 @@ TEST_F(PovExport, IncludedMeshesReadBack)
   const PovScene again = makePovScene(*state, this->V, {}, library);
   EXPECT_EQ(scene.text, again.text);
   ASSERT_EQ(scene.uses.size(), 2u); // two meshes, three objects
+  EXPECT_EQ(count(scene.text, "#include"), 2u);
   writeFile(this->path("c/pov/0.pov"), scene.text);
   EXPECT_EQ(
     povSceneUses(this->path("c/pov/0.pov")), (std::vector<std::string>{ scene.uses[0].name, scene.uses[1].name }));

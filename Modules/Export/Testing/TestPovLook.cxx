@@ -171,7 +171,9 @@ TEST_F(PovLook, LightsStandWhereTheyShould)
   EXPECT_NEAR(after(written(), "light_source { <0, "), 4 * radius, Rounding);
   light.kind = LightState::Kind::Spot;
   light.coneAngle = 89;
+  light.exponent = 8;
   EXPECT_EQ(after(written(), "spotlight point_at <0, 0, 0> radius "), 89);
+  EXPECT_EQ(after(written(), "tightness "), 8);
   light.coneAngle = 90; // a half space
   EXPECT_THAT(written(), Not(HasSubstr("spotlight")));
 }
@@ -317,8 +319,62 @@ TEST_F(PovLook, PicturesAreTintedInTheirTexels)
   exportPov(quad, this->path("q.pov"));
   const std::string text = readFile(this->path("q.pov"));
   EXPECT_EQ(after(text, " diffuse "), 0.8);
+  EXPECT_THAT(text, Not(HasSubstr("transmit")));
   // Rounded: 1.5, 0.75; 0.5, 0.5; 127, 63.25; 2.5, 2.25
   EXPECT_EQ(readFile(this->path("q_0.ppm")), std::string("P6\n2 2\n255\n\3\2\1\0\1\1\xff\x7f\x3f\7\3\2", 23));
+}
+
+TEST_F(PovLook, PicturesAreSeenThroughAsTheirMaterialsAre)
+{
+  const auto quad = textured(this->path("t.png"), 2, false);
+  quad->materials[0].opacity = 0.75;
+  exportPov(quad, this->path("q.pov"));
+  EXPECT_THAT(readFile(this->path("q.pov")), HasSubstr("interpolate 2 transmit all 0.25 }"));
+}
+
+TEST_F(PovLook, MeshesAreSharedByWhatLooksTheSame)
+{
+  const auto holes = test::makeQuad();
+  test::addCutOut(*holes, 4, 1);
+  this->State = *test::SceneBuilder().add(holes).add(holes, test::placement({ 1, 0, 0 }, 2)).state();
+  const auto meshes = [this](const PovOptions& options)
+  {
+    const std::string text = this->write(options);
+    const std::string word = "= mesh2";
+    int n = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+    {
+      ++n;
+    }
+    return n;
+  };
+  PovOptions flat;
+  flat.flatIds = true;
+  EXPECT_EQ(meshes({}), 1);
+  EXPECT_EQ(meshes(flat), 2) << "each in its own colour";
+  holes->materials[0].bumpMap = 0;
+  EXPECT_EQ(meshes({}), 2) << "bumps are as high as the object is large";
+}
+
+TEST_F(PovLook, FirstLinesSayHowTheSceneIsDrawn)
+{
+  PovLibrary library(this->Folder.path(), "");
+  PovOptions options;
+  EXPECT_THAT(makePovScene(this->State, this->V, options, library, { 16, 8 }).text, HasSubstr("+W64 +H8 "));
+  EXPECT_THAT(makePovScene(this->State, this->V, options, library).text,
+    testing::AllOf(HasSubstr("+W64 +H48 "), HasSubstr("times as large as in the scene")));
+  options.ownScale = 1;
+  EXPECT_THAT(makePovScene(this->State, this->V, options, library).text, Not(HasSubstr("times as large")));
+}
+
+TEST_F(PovLook, NamesOfALibraryAreNotLong)
+{
+  const auto box = std::make_shared<Model>(*this->State.instances[0].model);
+  box->path = std::string(240, 'm') + ".ac";
+  this->State.instances[0].model = box;
+  PovLibrary library(this->Folder.path(), "");
+  EXPECT_EQ(
+    makePovScene(this->State, this->V, {}, library).uses.at(0).name.size(), 100 + 1 + 16 + std::string(".inc").size());
 }
 
 TEST_F(PovLook, MaterialsOfALibraryAreThoseOfTheLight)
@@ -380,6 +436,8 @@ TEST_F(PovLook, NormalsFaceAwayFromTheRaysOfParallelCameras)
   ASSERT_TRUE(std::regex_search(text, found, form));
   const Eigen::Vector3d way(std::stod(found[1]), std::stod(found[2]), std::stod(found[3]));
   EXPECT_LE((way - this->V.camera_from_world.rotation.row(2).transpose()).norm(), Rounding);
+  this->change([](Material& material) { material.diffuse = { 0.25, 0.5, 0.125 }; });
+  EXPECT_THAT(this->write(), HasSubstr("finish { diffuse 0, 0.5 phong 0 specular 0 }"));
 }
 
 // Half of the way, up to a depth of 5.5, normals face away.

@@ -139,15 +139,15 @@ TEST(Studio3ds, SmoothingJoinsVerticesAtOnePlace)
 
 TEST(Studio3ds, TexturesAreScaledAndMoved)
 {
-  const std::string map =
-    chunk3ds(0xa300, text("T.PNG")) + chunk3ds(0xa356, f32(2)) + chunk3ds(0xa354, f32(3)) + chunk3ds(0xa358, f32(0.5f));
+  const std::string map = chunk3ds(0xa300, text("T.PNG")) + chunk3ds(0xa356, f32(2)) + chunk3ds(0xa354, f32(3)) +
+                          chunk3ds(0xa358, f32(0.5f)) + chunk3ds(0xa35a, f32(0.25f));
   const std::string material = chunk3ds(0xafff, chunk3ds(0xa000, text("m")) + chunk3ds(0xa200, map));
   const std::string uvs = chunk3ds(0x4140, u16(3) + f32(0) + f32(0) + f32(1) + f32(0) + f32(1) + f32(1));
   const std::string use = chunk3ds(0x4130, text("m") + u16(1) + u16(0));
   const auto model =
     readBytes("3ds", meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }) + uvs + faces({ 0, 1, 2 }, use), material));
-  EXPECT_EQ(model->uvs[0], Eigen::Vector2d(0.5, 0));
-  EXPECT_EQ(model->uvs[2], Eigen::Vector2d(2.5, 3));
+  EXPECT_EQ(model->uvs[0], Eigen::Vector2d(0.5, 0.25));
+  EXPECT_EQ(model->uvs[2], Eigen::Vector2d(2.5, 3.25));
 }
 
 TEST(Studio3ds, TheFirstColourAndTheFirstMaterialOfANameAreMeant)

@@ -192,6 +192,11 @@ TEST(Ac3d, CornersOnADiagonalAreInItsWay)
                 "0 0 0\n1 0 0\n2 0 0\n3 0 0\n4 0 0\n"));
   EXPECT_EQ(model->triangles.size(), 3u);
   EXPECT_NEAR(summedArea(*model), 3, 1e-12);
+  const ModelPointer turned =
+    read(object("numvert 5\n0 0 0\n2 0 0\n2 2 0\n1 1 0\n0 2 0\nnumsurf 1\nSURF 0x00\nmat 0\nrefs 5\n"
+                "4 0 0\n3 0 0\n2 0 0\n1 0 0\n0 0 0\n"));
+  EXPECT_NEAR(summedArea(*turned), 3, 1e-12);
+  expectNear(totalArea(*turned), { 0, 0, -3 });
 }
 
 TEST(Ac3d, PolygonWithAHoleThroughABridge)
@@ -363,9 +368,10 @@ TEST(Ac3d, CoordinatesThatAreNoNumbersAreLeftOut)
 TEST(Ac3d, NumbersOfMaterialsAndTextureCoordinatesAreBounded)
 {
   std::string text = object(square + "SURF 0x00\nmat 0\nrefs 3\n0 0 nan\n1 1e999 0\n2 0.5 0.25\n");
-  text.replace(text.find("shi 0"), 5, "shi 200");
+  text.replace(text.find("shi 0 trans 0"), 13, "shi 200 trans -1");
   const ModelPointer model = read(text);
   EXPECT_EQ(model->materials[static_cast<std::size_t>(model->parts[0].material)].shininess, 128);
+  EXPECT_EQ(model->materials[static_cast<std::size_t>(model->parts[0].material)].opacity, 1);
   ASSERT_EQ(model->uvs.size(), 3u);
   EXPECT_EQ(model->uvs[model->triangles[0][0]], Eigen::Vector2d(0, 0));
   EXPECT_EQ(model->uvs[model->triangles[0][1]], Eigen::Vector2d(0, 0));

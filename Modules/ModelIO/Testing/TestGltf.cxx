@@ -184,6 +184,35 @@ TEST(Gltf, WhatAnAnimationDoesNotGiveStaysAsAtRest)
   positions.clear();
   deformation.positionsAt(0, 1000, positions);
   expectNear({ 4, 2, 0 }, positions[0]);
+  positions.clear();
+  deformation.positionsAt(0, std::nan(""), positions);
+  expectNear({ 0, 2, 0 }, positions[0]);
+}
+
+TEST(Gltf, EachKeyHasAWeightForEachTarget)
+{
+  auto scene = std::make_shared<dgtk::import::Scene>();
+  scene->nodes = { { "root", dgtk::import::noIndex, { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 }, { 0 } } };
+  scene->meshes.resize(1);
+  scene->meshes[0].positions = { { 0, 0, 0 } };
+  scene->meshes[0].targets = { { 0, { { 1, 0, 0 } } }, { 0, { { 0, 1, 0 } } } };
+  scene->animations.resize(1);
+  scene->animations[0].duration = 2;
+  scene->animations[0].morphs.resize(1);
+  dgtk::import::MorphChannel& morph = scene->animations[0].morphs[0];
+  morph.node = 0;
+  morph.times = { 0, 1, 2 };
+  morph.targets = 2;
+  morph.weights = { 1, 2, 3, 4, 5, 6 };
+  const dgtk::AssimpDeformation deformation(scene, { { 0, 0, { 0 } } });
+  const std::pair<double, Eigen::Vector3d> expected[] = { { 0, { 1, 2, 0 } }, { 30, { 3, 4, 0 } }, { 45, { 4, 5, 0 } },
+    { 60, { 5, 6, 0 } } };
+  for (const auto& [frame, place] : expected)
+  {
+    std::vector<Eigen::Vector3d> positions;
+    deformation.positionsAt(0, frame, positions);
+    expectNear(place, positions.at(0));
+  }
 }
 
 TEST(Gltf, WeightsOfJointsAreSharesOfTheirSum)

@@ -208,7 +208,7 @@ TEST(Md2, TimesFromAnAnmFile)
 TEST(Md2, TimesOfAnAnmFileBeginWithinTheFrames)
 {
   std::vector<std::string> warnings;
-  EXPECT_THAT(described(dgtk::parseAnm("last 3 3\n", "x.anm", 4, warnings)), ElementsAre("last 3-3"));
+  EXPECT_THAT(described(dgtk::parseAnm("# name\nlast 3 3\n", "x.anm", 4, warnings)), ElementsAre("last 3-3"));
   EXPECT_THAT(warnings, testing::IsEmpty());
   EXPECT_THAT(dgtk::parseAnm("behind 4 9\n", "x.anm", 4, warnings), testing::IsEmpty());
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("x.anm:1: left out")));
@@ -241,6 +241,7 @@ TEST(Md2, SkinsAreFoundWhereGamesPutThem)
   EXPECT_EQ(found({ "a.pcx", "b.pcx" }, { "a.png", "b.png" }), "a.png");
   EXPECT_EQ(found({}, { "gun.png" }), "gun.png");
   EXPECT_EQ(found({}, {}), "");
+  EXPECT_EQ(seed()->materials.at(0).diffuse, Eigen::Vector3d(1, 1, 1)) << "as the skin is";
 }
 
 TEST(Md2, BlocksMayEndAtTheEndOfTheFile)

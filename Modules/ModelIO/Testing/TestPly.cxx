@@ -108,6 +108,22 @@ TEST(Ply, ColoursThatVaryAreReported)
   EXPECT_EQ(model->materials[0].diffuse, Eigen::Vector3d(0.8, 0.8, 0.8));
 }
 
+TEST(Ply, TheFirstVertexMayHaveAColourOfItsOwn)
+{
+  const auto model = readBytes("ply", changed(asciiQuad, "1 0 0 255 51 0", "1 0 0 0 51 0"));
+  EXPECT_THAT(model->warnings, testing::ElementsAre("colours of vertices are not drawn"));
+}
+
+TEST(Ply, WedgesOfAnotherCountAreNotUsed)
+{
+  const auto model =
+    readBytes("ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                     "element face 1\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+                     "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 4 .5 .5 .5 .5\n");
+  EXPECT_EQ(model->triangles.size(), 1u);
+  EXPECT_TRUE(model->uvs.empty());
+}
+
 TEST(Ply, PointsAloneAreAModelWithoutTriangles)
 {
   const auto model = readBytes("ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"

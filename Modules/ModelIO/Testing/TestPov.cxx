@@ -82,6 +82,7 @@ TEST(Pov, CameraWithNegativeRightIsRightHanded)
   const auto declared =
     readBytes("pov", "#declare C = camera { right -x*image_width/image_height }\ncamera { C }" + oneTriangle);
   expectNear({ 2, 0, 1 }, corner(*declared, 0, 1));
+  expectNear({ 0, 0, -1 }, corner(*readBytes("pov", "camera { right 1.33*y }" + oneTriangle), 0, 0));
 }
 
 TEST(Pov, Mesh2WithTexturesNormalsAndTransforms)
@@ -240,7 +241,7 @@ TEST(Pov, ComparisonsThatIncludeEquality)
 
 TEST(Pov, ChoicesBetweenTwoValues)
 {
-  const auto model = readBytes("pov", "triangle { 0, (1 > 2 ? 3 : 4)*x, (2 > 1 ? 5 : 6)*y }");
+  const auto model = readBytes("pov", "triangle { 0, (1 > 2 ? 3 : 4)*x, - -(2 > 1 ? 5 : 6)*y }");
   EXPECT_EQ(model->boundsMax, Eigen::Vector3d(4, 5, 0));
 }
 

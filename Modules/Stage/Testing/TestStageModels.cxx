@@ -95,7 +95,8 @@ TEST(StageModels, MaterialsAreReplaced)
   const ModelFolder folder;
   const auto stage = folder.load(R"({"objects": [
     {"model": "models/square.ac"},
-    {"model": "models/square.ac", "materials": {"*": {"diffuse": [0, 0, 1], "opacity": 0.5}, "red": {"shininess": 3, "bumpScale": 0.25}}},
+    {"model": "models/square.ac", "materials": {"*": {"diffuse": [0, 0, 1], "opacity": 0.5}, "red": {"shininess": 3, "bumpScale": 0.25,
+      "ambient": [0.1, 0, 0], "specular": [0, 0.1, 0], "emission": [0, 0, 0.1]}}},
     {"model": "models/square.ac", "materials": {"red": {"texture": ""}}},
     {"model": "models/square.ac", "materials": {"*": {"texture": "models/other.ppm"}}}]})");
   const auto state = stage->at(0);
@@ -106,7 +107,11 @@ TEST(StageModels, MaterialsAreReplaced)
   EXPECT_EQ(material(1).opacity, 0.5);
   EXPECT_EQ(material(1).shininess, 3);
   EXPECT_EQ(material(1).bumpScale, 0.25);
-  EXPECT_EQ(material(1).specular, material(0).specular);
+  EXPECT_EQ(material(1).ambient, Vector(0.1, 0, 0));
+  EXPECT_EQ(material(1).specular, Vector(0, 0.1, 0));
+  EXPECT_EQ(material(1).emission, Vector(0, 0, 0.1));
+  EXPECT_EQ(material(2).ambient, material(0).ambient);
+  EXPECT_EQ(material(2).specular, material(0).specular);
   EXPECT_EQ(material(2).texture, -1);
   const Model& model = *state->instances[3].model;
   EXPECT_EQ(model.textures.at(std::size_t(material(3).texture)).path, folder.path("models/other.ppm"));
@@ -179,6 +184,21 @@ TEST(StageModels, TexturesOfAbsoluteNamesAreNotLookedForElsewhere)
       [&](const std::string& line) { warnings.push_back(line); });
     EXPECT_EQ(warnings.empty(), found) << name;
   }
+}
+
+TEST(StageModels, ATextureWithoutCoordinatesIsAWarning)
+{
+  const ModelFolder folder;
+  std::string bare = squareAc;
+  for (const char* refs : { "1 1 0\n", "2 1 1\n", "3 0 1\n" })
+  {
+    bare.replace(bare.rfind(refs), 6, std::string(1, refs[0]) + " 0 0\n");
+  }
+  writeFile(folder.path("models/bare.ac"), bare);
+  std::vector<std::string> warnings;
+  folder.load(R"({"objects": [{"model": "models/bare.ac", "materials": {"*": {"texture": "models/one.ppm"}}}]})",
+    [&](const std::string& line) { warnings.push_back(line); });
+  EXPECT_THAT(warnings, testing::ElementsAre(HasSubstr("bare.ac has no texture coordinates")));
 }
 
 TEST(StageModels, MapsAreThoseThatTheSceneNames)
@@ -294,6 +314,12 @@ TEST(StageModels, AnimationsFollowTheirClock)
   EXPECT_EQ(advance(*still, 50), 0);
   const auto other = folder.load(runner(R"("sequence": "rest")"));
   const auto number = folder.load(runner(R"("sequence": "1")"));
+  writeFile(folder.path("models/runner.anm"), "pair 0 1 10\n");
+  const auto pair = folder.load(runner(R"("sequence": "pair")"));
+  for (const auto& [frame, expected] : std::vector<std::pair<double, double>>{ { 2, 1 }, { 3, 0.5 }, { 4, 0 } })
+  {
+    EXPECT_NEAR(advance(*pair, frame), expected, 1e-12) << frame;
+  }
   const Vector moved =
     other->at(0)->instances[0].geometry->positions[0] - looped->at(0)->instances[0].geometry->positions[0];
   EXPECT_NEAR(moved.norm(), 10, 1e-12);
@@ -347,6 +373,8 @@ TEST(StageModels, NormalsPassFromTheEndToTheBeginning)
   const Eigen::Vector3f up(0, 0, 1);
   const Eigen::Vector3f tilted = Eigen::Vector3f(0, -1, 1).normalized();
   EXPECT_LT((there->normals[0] - (0.75f * tilted + 0.25f * up).normalized()).norm(), 1e-6f);
+  const Eigen::Vector3f upright = Eigen::Vector3f(0, -10, 1).normalized();
+  EXPECT_LT((GeometryCache().get(*flap, { 0, 10, 0.5 })->normals[0] - (upright + up).normalized()).norm(), 1e-6f);
 }
 
 TEST(StageModels, RefusalsNameTheSceneAndTheObject)

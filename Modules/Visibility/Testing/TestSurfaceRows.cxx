@@ -210,6 +210,29 @@ TEST(SurfaceRows, FarFromTheOrigin)
   check(*SceneBuilder().add(makeSphere(sphere), placement({ 0.5, -0.25, 0.125 })).state(), view);
 }
 
+TEST(SurfaceRows, FarFromTheOriginInAnyDirectionAndFlattened)
+{
+  const Eigen::Vector3d far(4.5e6, 120.25, -5.3e6);
+  ViewOptions options;
+  options.eye = far + Eigen::Vector3d(3, 2, 5);
+  options.lookAt = far;
+  const dgtk::View view = makeView(options);
+  check(*SceneBuilder().add(makeSphere(), placement(far, 1.5, { 1, 2, 3 }, 0.4)).state(), view);
+  dgtk::Affine3 flat = placement(far, 1.5);
+  flat.linear.col(2).setZero();
+  check(*SceneBuilder().add(makeSphere(), flat).state(), view);
+}
+
+TEST(SurfaceRows, ParallelRaysThatBeginAtASurface)
+{
+  const auto state = SceneBuilder().add(makeQuad({ { -3, -3, 4.99 }, { 6, 0, 0.002 }, { 0, 6, 0.02 }, 1, 1 })).state();
+  ViewOptions options;
+  options.near = 1e-12;
+  dgtk::View view = makeView(options);
+  view.model = dgtk::makeOrthographic(64, 48, 4, 0);
+  check(*state, view);
+}
+
 TEST(SurfaceRows, SliversAndGrazingFaces)
 {
   auto model = makeSoup({ 1, 0.1, 0.1, 1 });
