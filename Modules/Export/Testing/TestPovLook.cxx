@@ -440,6 +440,19 @@ TEST_F(PovLook, NormalsFaceAwayFromTheRaysOfParallelCameras)
   EXPECT_THAT(this->write(), HasSubstr("finish { diffuse 0, 0.5 phong 0 specular 0 }"));
 }
 
+TEST_F(PovLook, ModelsAreNotMadeForAView)
+{
+  const auto model = test::makeSoup({ 1, 1, 1, 1 });
+  auto geometry = std::make_shared<Geometry>(*model->rest);
+  geometry->positions = { { -1, -1, 0 }, { 1, -1, 0 }, { 0, 1, 0 } };
+  geometry->normals = { { 0, 0, -1 }, { 0, 0, 1 }, { 0, 0, 1 } };
+  model->rest = geometry;
+  this->State = *test::SceneBuilder().add(model).state();
+  EXPECT_THAT(this->write(), HasSubstr("texture_map"));
+  exportPov(model, this->path("m.pov"));
+  EXPECT_THAT(readFile(this->path("m.pov")), Not(HasSubstr("texture_map")));
+}
+
 // Half of the way, up to a depth of 5.5, normals face away.
 TEST_F(PovLook, WhatIsNearerThanTheNearPlaneNeedsNoTextureOfTheView)
 {
