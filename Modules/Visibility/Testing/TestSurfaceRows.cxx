@@ -112,8 +112,8 @@ TEST(SurfaceRows, LowAboveEnormousPlanes)
   const auto expectExact = [&view](double height, double turn)
   {
     const auto state = SceneBuilder()
-                         .add(makeQuad({ { -1e5, 0, -1e5 }, { 2e5, 0, 0 }, { 0, 0, 2e5 }, 1, 1 }),
-                           placement({ 0, -height, 0 }, 1, { 0.03, 1, 0.02 }, turn))
+                         .add(makeQuad({ { -1e7, 0, -1e7 }, { 2e7, 0, 0 }, { 0, 0, 2e7 }, 1, 1 }),
+                           placement({ 0, -height, 0 }, 0.01, { 0.03, 1, 0.02 }, turn))
                          .state();
     const dgtk::VisibilityBuffer buffer = bruteForce(*state, view);
     const dgtk::SurfaceRows rows = surface(*state, view, buffer);
@@ -221,6 +221,11 @@ TEST(SurfaceRows, FarFromTheOriginInAnyDirectionAndFlattened)
   dgtk::Affine3 flat = placement(far, 1.5);
   flat.linear.col(2).setZero();
   check(*SceneBuilder().add(makeSphere(), flat).state(), view);
+  flat = placement({ 0, 0, far.z() }); // and its own vertices are there
+  flat.linear.col(2).setZero();
+  SphereOptions sphere;
+  sphere.centre = far;
+  check(*SceneBuilder().add(makeSphere(sphere), flat).state(), view);
 }
 
 TEST(SurfaceRows, ParallelRaysThatBeginAtASurface)
