@@ -236,6 +236,8 @@ TEST(SurfaceRows, ParallelRaysThatBeginAtASurface)
   dgtk::View view = makeView(options);
   view.model = dgtk::makeOrthographic(64, 48, 4, 0);
   check(*state, view);
+  // in one row of pixels a hundred-thousandth away
+  check(*SceneBuilder().add(makeQuad({ { -3, -3, 1.95832 }, { 6, 0, 0 }, { 0, 6, 6 }, 1, 1 })).state(), view);
 }
 
 TEST(SurfaceRows, SliversAndGrazingFaces)
