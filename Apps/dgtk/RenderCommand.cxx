@@ -223,6 +223,17 @@ std::string wayOut(FolderContents contents)
   }
 }
 
+/// A refusal that begins with the name of what was asked for ("points_step: ..."), with that of its option.
+std::string withOption(const std::string& line)
+{
+  std::string option = "--" + line.substr(0, line.find(": "));
+  std::replace(option.begin(), option.end(), '_', '-');
+  const std::vector<Option> options = renderCommand().options;
+  const bool known =
+    std::any_of(options.begin(), options.end(), [&](const Option& other) { return other.name == option; });
+  return known ? option + line.substr(option.size() - 2) : line;
+}
+
 GeneratorResult generated(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
 {
   try
@@ -232,6 +243,10 @@ GeneratorResult generated(const GeneratorRequest& request, const GeneratorCallba
   catch (const FolderError& error)
   {
     throw UsageError(error.what() + wayOut(error.contents()));
+  }
+  catch (const UsageError& error)
+  {
+    throw UsageError(withOption(error.what()));
   }
 }
 

@@ -267,7 +267,7 @@ class ObjectsTruth(Case):
 
     def test_refusals(self):
         self.refused("render", DEMO, "-o", self.path("a"), "--layers", "matting", status=2, says="the names of the objects")
-        self.refused("render", DEMO, "-o", self.path("a"), "--layers", "matting", "--matte", "nobody", status=2, says="nobody")
+        self.refused("render", DEMO, "-o", self.path("a"), "--layers", "matting", "--matte", "nobody", status=2, says="--matte: the scene has no object 'nobody'")
         self.refused("render", DEMO, "-o", self.path("a"), "--layers", "points", "--points-step", "0", status=2,
                      says="--points-step")
         self.assertFalse(os.path.exists(self.path("a")))
