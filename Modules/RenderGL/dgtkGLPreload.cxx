@@ -72,7 +72,7 @@ std::string preloadLibrary()
   const std::size_t slash = path.rfind('/');
   path = (slash == std::string::npos ? std::string() : path.substr(0, slash + 1)) + "libdgtkosmesa.so";
   char* whole = ::realpath(path.c_str(), nullptr);
-  const std::string result = whole ? whole : "";
+  std::string result = whole ? whole : "";
   std::free(whole);
   return result;
 }

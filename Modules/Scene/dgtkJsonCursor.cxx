@@ -196,7 +196,7 @@ Eigen::Vector3d JsonCursor::vector(const Range& range) const
 Eigen::Vector3d JsonCursor::scale() const
 {
   const bool uniform = this->Node->type == JsonNode::Type::Number;
-  const Eigen::Vector3d s =
+  Eigen::Vector3d s =
     uniform ? Eigen::Vector3d(Eigen::Vector3d::Constant(this->number(rules::scale))) : this->vector(rules::scale);
   for (int i = 0; i < 3; ++i)
   {

@@ -44,6 +44,7 @@ template <typename T>
 std::vector<std::string> keysOf(const std::vector<JsonField<T>>& fields)
 {
   std::vector<std::string> keys;
+  keys.reserve(fields.size());
   for (const JsonField<T>& field : fields)
   {
     keys.emplace_back(field.key);

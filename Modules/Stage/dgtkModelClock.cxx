@@ -32,7 +32,7 @@ std::shared_ptr<const Geometry> blended(const Geometry& a, const Geometry& b, do
 
 std::shared_ptr<const Geometry> compute(const Model& model, const ModelMoment& moment)
 {
-  const std::shared_ptr<const Geometry> here = geometryAt(model, moment.animation, moment.frame);
+  std::shared_ptr<const Geometry> here = geometryAt(model, moment.animation, moment.frame);
   if (moment.wrap == 0)
   {
     return here;
@@ -99,7 +99,7 @@ std::shared_ptr<const Geometry> GeometryCache::get(const Model& model, const Mod
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     const auto found = this->Entries.find(key);
-    const std::shared_ptr<const Geometry> known = found == this->Entries.end() ? nullptr : found->second.lock();
+    std::shared_ptr<const Geometry> known = found == this->Entries.end() ? nullptr : found->second.lock();
     if (known)
     {
       return known;
@@ -112,7 +112,7 @@ std::shared_ptr<const Geometry> GeometryCache::get(const Model& model, const Mod
     entry = entry->second.expired() ? this->Entries.erase(entry) : std::next(entry);
   }
   std::weak_ptr<const Geometry>& entry = this->Entries[key];
-  const std::shared_ptr<const Geometry> other = entry.lock(); // another thread was faster
+  std::shared_ptr<const Geometry> other = entry.lock(); // another thread was faster
   if (other)
   {
     return other;

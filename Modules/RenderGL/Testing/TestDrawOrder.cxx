@@ -43,6 +43,7 @@ TEST(DrawOrder, BoxesThatMeetKeepTheirOrder)
   for (int round = 0; round < 20; ++round)
   {
     std::vector<dgtk::ViewBox> boxes;
+    boxes.reserve(80);
     for (int i = 0; i < 80; ++i)
     {
       boxes.push_back(cube(place(random), place(random), place(random), half(random)));

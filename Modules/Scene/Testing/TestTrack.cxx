@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <vector>
 
 using namespace dgtk;
 using Vector = Eigen::Vector3d;
@@ -17,6 +18,17 @@ constexpr double rounding = 4e-15; // a dozen operations on numbers of size 1
 Quaternion aboutZ(double angle) { return { std::cos(angle / 2), 0, 0, std::sin(angle / 2) }; }
 
 double distance(const Quaternion& a, const Quaternion& b) { return (a - b).norm(); }
+
+/// first, first + step, ... up to last; exact for steps of powers of two.
+std::vector<double> steps(int first, int last, double step)
+{
+  std::vector<double> all;
+  for (int i = 0; first + i * step <= last; ++i)
+  {
+    all.push_back(first + i * step);
+  }
+  return all;
+}
 } // namespace
 
 TEST(Track, IsConstantWithoutKeys)
@@ -92,7 +104,7 @@ TEST(Track, SmoothReproducesALineAndHasNoKinks)
   Track<Vector> line;
   line.keys = { { 0, Vector(0, 0, 0) }, { 2, Vector(2, 4, 0) }, { 10, Vector(10, 20, 0) } };
   line.interpolation = Interpolation::Smooth;
-  for (double frame = 0; frame <= 10; frame += 0.25)
+  for (const double frame : steps(0, 10, 0.25))
   {
     EXPECT_LE((line.at(frame) - Vector(frame, 2 * frame, 0)).norm(), 1e-13) << frame;
   }
@@ -112,7 +124,7 @@ TEST(Track, SlerpTurnsAtConstantSpeed)
   {
     Track<Quaternion> track;
     track.keys = { { 0, aboutZ(0.2) }, { 10, aboutZ(0.2 + angle) } };
-    for (double frame = 0; frame <= 10; frame += 0.5)
+    for (const double frame : steps(0, 10, 0.5))
     {
       EXPECT_LE(distance(track.at(frame), aboutZ(0.2 + angle * frame / 10)), rounding) << angle << ' ' << frame;
     }
@@ -170,13 +182,13 @@ TEST(Track, SmoothRotationsDoNotDependOnTheSignOfTheirKeys)
     {
       track.keys[i].value = track.keys[i].value.scaled((signs >> i & 1) != 0 ? -1 : 1);
     }
-    for (double frame = 0; frame <= 30; frame += 1.25)
+    for (const double frame : steps(0, 30, 1.25))
     {
       EXPECT_LE((track.at(frame).matrix() - plain.at(frame).matrix()).norm(), rounding) << signs << ' ' << frame;
     }
   }
   // Between the keys it turns forward only.
-  for (double frame = 1; frame <= 30; frame += 1)
+  for (const double frame : steps(1, 30, 1))
   {
     const Vector turned = plain.at(frame).matrix() * Vector(1, 0, 0);
     const Vector before = plain.at(frame - 1).matrix() * Vector(1, 0, 0);

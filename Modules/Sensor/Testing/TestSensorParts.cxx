@@ -60,6 +60,7 @@ Bytes throughOwn(const Bytes& bytes, int width, int height, int quality, bool su
     for (int r = y; r < std::min(y + jpeg.blockRows(), height); ++r)
     {
       std::vector<float> row;
+      row.reserve(std::size_t(width) * 3);
       for (int i = 0; i < width * 3; ++i)
       {
         row.push_back(bytes[std::size_t(r) * width * 3 + i] / 255.0f);

@@ -77,6 +77,7 @@ std::vector<double> measure(
   {
     const int rows = std::min(rowsAtOnce, setup.height - y);
     std::vector<double> exact;
+    exact.reserve(std::size_t(rows) * std::size_t(setup.width));
     for (int i = 0; i < rows * setup.width; ++i)
     {
       exact.push_back(depth(i % setup.width, y + i / setup.width));
