@@ -94,7 +94,10 @@ DatasetViewer::DatasetViewer(QWidget* parent)
   this->statusBar()->show();
 }
 
-DatasetViewer::~DatasetViewer() = default;
+DatasetViewer::~DatasetViewer()
+{
+  this->CalibrationDock->disconnect(this); // it is hidden when it goes, after what its slot reads
+}
 
 void DatasetViewer::connectParts()
 {

@@ -106,7 +106,8 @@ std::set<std::string> readableSamples()
   if (!extraModels().empty())
   {
     std::ifstream file(extraModels() + "/TRUTH.json");
-    for (const auto& [name, truth] : nlohmann::json::parse(file).items())
+    const nlohmann::json samples = nlohmann::json::parse(file); // outlives the loop over its items
+    for (const auto& [name, truth] : samples.items())
     {
       if (truth.is_object() && truth.value("triangles", 0) > 0)
       {
