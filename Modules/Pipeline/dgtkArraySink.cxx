@@ -2,7 +2,6 @@
 #include "dgtkArraySink.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace dgtk
 {
@@ -30,7 +29,6 @@ LayerArray arrayOf(const LayerOutput& output, PixelType type, int channels)
   array.name = output.name;
   array.type = type;
   array.channels = channels;
-  array.shape = { output.height, output.width };
   return array;
 }
 
@@ -139,12 +137,7 @@ std::vector<LayerArray> ArraySink::finish()
     }
     for (LayerArray& array : values.arrays)
     {
-      const std::size_t tuples = array.data.size() / (bytesOf(array.type) * std::size_t(array.channels));
-      const std::size_t pixels = std::size_t(values.output.width) * std::size_t(values.output.height);
-      if (&array != &values.arrays.front() || !array.format.empty() || tuples != pixels)
-      {
-        array.shape = { static_cast<int>(tuples) };
-      }
+      array.isImage = array.format.empty() && &array == &values.arrays.front();
       all.push_back(std::move(array));
     }
   }

@@ -20,7 +20,7 @@ struct LayerArray
   std::string format; ///< of a document: "json"; empty for values
   PixelType type = PixelType::UInt8;
   int channels = 1;
-  std::vector<int> shape; ///< height and width of an image, otherwise how many there are
+  bool isImage = true; ///< height x width; otherwise as many as there are
   std::vector<std::byte> data;
 };
 

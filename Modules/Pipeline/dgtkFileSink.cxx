@@ -51,8 +51,8 @@ void FileSink::rows(std::size_t output, const Rows& rows)
 {
   Files& files = *this->Outputs[output];
   const LayerOutput& what = files.output;
-  const std::vector<std::string> names = what.files();
-  for (std::size_t i = 0; rows.y() == 0 && i < names.size(); ++i)
+  const std::vector<std::string> names = rows.y() == 0 ? what.files() : std::vector<std::string>();
+  for (std::size_t i = 0; i < names.size(); ++i)
   {
     files.images.push_back(
       makeLayerWriter(what.formats[i], this->place(names[i]), what.spec, what.width, what.height, this->Context));
@@ -71,8 +71,8 @@ void FileSink::surfaces(std::size_t output, const LdiRows& rows)
 {
   Files& files = *this->Outputs[output];
   const LayerOutput& what = files.output;
-  const std::vector<std::string> names = what.files();
-  for (std::size_t i = 0; rows.y == 0 && i < names.size(); ++i)
+  const std::vector<std::string> names = rows.y == 0 ? what.files() : std::vector<std::string>();
+  for (std::size_t i = 0; i < names.size(); ++i)
   {
     files.surfaces.push_back(makeLdiWriter(what.formats[i], this->place(names[i]), what.width, what.height));
   }

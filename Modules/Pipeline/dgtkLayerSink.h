@@ -44,7 +44,7 @@ public:
   virtual void surfaces(std::size_t output, const LdiRows& rows) = 0;
   /// The next `pixels` pixels of an image of coverages, all with these ranks, the largest coverage first.
   virtual void ranks(std::size_t output, const std::vector<CoveredId>& ranks, std::uint32_t pixels) = 0;
-  /// A whole document, in its only format or in the one of that place.
+  /// A whole document, in its only format.
   virtual void document(std::size_t output, const std::string& text) = 0;
   /// A file that the layer has written beside, relative to the dataset; other pictures may use it, too.
   virtual void shared(const std::string& layer, const FileRecord& file) = 0;

@@ -54,9 +54,7 @@ std::vector<PlannedPass> passesOf(const WorkPlan& plan, const Stage& stage, cons
     {
       pass = passes.insert(passes.end(), PlannedPass());
     }
-    const PassLayer* const last = pass->layers.empty() ? nullptr : &pass->layers.back();
-    const std::size_t first = last != nullptr ? last->first + last->outputs.size() : 0;
-    pass->layers.push_back({ layer, planned, first, std::move(outputs) });
+    pass->layers.push_back({ layer, planned, std::move(outputs) });
     const LayerNeeds needs = layer.needs(plan.request, stage);
     pass->readsColor = pass->readsColor || needs.color || needs.sharp;
   }

@@ -47,12 +47,11 @@ public:
   virtual void finish(LayerSink&) {}
 };
 
-/// A layer and those of a pass's outputs that are its own.
+/// A layer and those of a pass's outputs that are its own; they follow those of the layer before.
 struct PassLayer
 {
   const Layer& layer;
   const PlannedLayer& planned;
-  std::size_t first; ///< number of the first
   std::vector<LayerOutput> outputs;
 };
 

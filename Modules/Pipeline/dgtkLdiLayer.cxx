@@ -2,6 +2,7 @@
 // Layered depth images: every surface along the ray through a pixel's centre.
 #include "dgtkLayeredDepth.h"
 #include "dgtkLayers.h"
+#include "dgtkStrips.h"
 
 #include <algorithm>
 
@@ -87,32 +88,19 @@ public:
 
   void band(const Band& band, LayerSink& sink) override
   {
-    const int stripRows = std::max(1, stripPixels / band.rect.width);
-    const int strips = (band.rect.height + stripRows - 1) / stripRows;
-    const int batch = std::max(1, 2 * this->Context.pool.threads());
-    for (int first = 0; first < strips; first += batch)
-    {
-      const int count = std::min(batch, strips - first);
-      std::vector<LdiRows> done(count);
-      this->Context.pool.parallelFor(
-        count, [&](int i) { done[i] = this->derive(band, (first + i) * stripRows, stripRows); });
-      for (const LdiRows& rows : done)
-      {
-        sink.surfaces(0, rows);
-      }
-    }
+    forStrips(
+      band, stripPixels, 2 * this->Context.pool.threads(), this->Context.pool,
+      [&](const PixelRect& rect, const Hit* hits) { return this->derive(band, rect, hits); },
+      [&sink](const LdiRows& rows) { sink.surfaces(0, rows); });
   }
 
 private:
-  LdiRows derive(const Band& band, int offset, int stripRows) const
+  LdiRows derive(const Band& band, const PixelRect& rect, const Hit* hits) const
   {
     LayeredInput in;
-    in.rect = band.rect;
-    in.rect.y += offset;
-    in.rect.height = std::min(stripRows, band.rect.height - offset);
-    const std::size_t first = std::size_t(offset) * in.rect.width;
-    in.first = band.hits.data() + first;
-    in.rgb = this->OwnColor && !band.rgb.empty() ? band.rgb.data() + 3 * first : nullptr;
+    in.rect = rect;
+    in.first = hits;
+    in.rgb = this->OwnColor && !band.rgb.empty() ? band.rgb.data() + 3 * (hits - band.hits.data()) : nullptr;
     const Ranks ranks(band, in.rect);
     in.ranks = ranks.rows();
     LayeredRows layered;

@@ -2,6 +2,7 @@
 #include "dgtkError.h"
 #include "dgtkLayers.h"
 #include "dgtkNoisySensor.h"
+#include "dgtkStrips.h"
 
 #include "dgtkDepthSensor.h"
 #include "dgtkRepresentation.h"
@@ -55,19 +56,11 @@ public:
   void band(const Band& band, LayerSink& sink) override
   {
     this->Sink = &sink;
-    const int stripRows = std::max(1, stripPixels / band.rect.width);
-    const int strips = (band.rect.height + stripRows - 1) / stripRows;
-    const int batch = std::max(1, this->Context.pool.threads());
-    for (int first = 0; first < strips; first += batch)
-    {
-      std::vector<Strip> done(static_cast<std::size_t>(std::min(batch, strips - first)));
-      this->Context.pool.parallelFor(static_cast<int>(done.size()),
-        [&](int i) { done[static_cast<std::size_t>(i)] = this->derive(band, (first + i) * stripRows, stripRows); });
-      for (const Strip& strip : done)
-      {
-        this->Sensor->write(strip.depth.height(), strip.depth.row<double>(strip.depth.y()), strip.cosines.data());
-      }
-    }
+    forStrips(
+      band, stripPixels, this->Context.pool.threads(), this->Context.pool,
+      [this](const PixelRect& rect, const Hit* hits) { return this->derive(rect, hits); },
+      [this](const Strip& strip)
+      { this->Sensor->write(strip.depth.height(), strip.depth.row<double>(strip.depth.y()), strip.cosines.data()); });
   }
 
 private:
@@ -77,15 +70,11 @@ private:
     std::vector<float> cosines; // between normal and ray
   };
 
-  Strip derive(const Band& band, int offset, int stripRows) const
+  Strip derive(const PixelRect& rect, const Hit* hits) const
   {
     const View& view = this->Context.view;
-    PixelRect rect = band.rect;
-    rect.y += offset;
-    rect.height = std::min(stripRows, band.rect.height - offset);
     SurfaceRows surface;
-    computeSurfaceRows(
-      *this->Context.state, view, rect, band.hits.data() + std::size_t(offset) * rect.width, false, surface);
+    computeSurfaceRows(*this->Context.state, view, rect, hits, false, surface);
     Strip strip;
     strip.depth = Rows(PixelType::Float64, 1, rect.width, rect.y, rect.height);
     this->Depth->compute(surface, strip.depth);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPairPass.h"
 
-#include <algorithm>
+#include "dgtkStrips.h"
 
 namespace dgtk
 {
@@ -32,20 +32,10 @@ public:
 
   void band(const Band& band, LayerSink& sink) override
   {
-    const int stripRows = std::max(1, stripPixels / band.rect.width);
-    const int strips = (band.rect.height + stripRows - 1) / stripRows;
-    const int batch = std::max(1, 4 * this->Context.pool.threads());
-    for (int first = 0; first < strips; first += batch)
-    {
-      const int count = std::min(batch, strips - first);
-      std::vector<std::vector<Values>> done(count);
-      this->Context.pool.parallelFor(
-        count, [&](int i) { done[i] = this->derive(band, (first + i) * stripRows, stripRows); });
-      for (const std::vector<Values>& strip : done)
-      {
-        this->append(strip, sink);
-      }
-    }
+    forStrips(
+      band, stripPixels, 4 * this->Context.pool.threads(), this->Context.pool,
+      [this](const PixelRect& rect, const Hit* hits) { return this->derive(rect, hits); },
+      [this, &sink](const std::vector<Values>& strip) { this->append(strip, sink); });
   }
 
 private:
@@ -62,14 +52,10 @@ private:
     Rows classes;
   };
 
-  std::vector<Values> derive(const Band& band, int offset, int stripRows) const
+  std::vector<Values> derive(const PixelRect& rect, const Hit* hits) const
   {
-    PixelRect rect = band.rect;
-    rect.y += offset;
-    rect.height = std::min(stripRows, band.rect.height - offset);
     SurfaceRows surface;
-    computeSurfaceRows(*this->Context.state, this->Context.view, rect,
-      band.hits.data() + std::size_t(offset) * rect.width, true, surface);
+    computeSurfaceRows(*this->Context.state, this->Context.view, rect, hits, true, surface);
     std::vector<Values> strip;
     for (const Output& output : this->Outputs)
     {

@@ -3,8 +3,7 @@
 
 #include "dgtkArraySink.h"
 #include "dgtkError.h"
-#include "dgtkFrameSource.h"
-#include "dgtkGLContext.h"
+#include "dgtkKeptSource.h"
 #include "dgtkScene.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWorkPlan.h"
@@ -23,104 +22,11 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <optional>
-#include <thread>
-#include <tuple>
-#include <unistd.h>
 
 vtkStandardNewMacro(dgtkRenderer);
 
 namespace
 {
-/// What draws, kept from picture to picture; for any thread, and for processes forked from the one that made it.
-class KeptSource
-{
-public:
-  ~KeptSource() { this->drop(); }
-  /// For draw(), what does the drawing, queries of the stage, and threads.
-  using Draw = std::function<void(dgtk::FrameSource&, dgtk::SceneQueries&, dgtk::ThreadPool&)>;
-  void use(const dgtk::FrameSourceOptions& options, const std::shared_ptr<const dgtk::Stage>& stage, const Draw& draw);
-
-private:
-  void drop();
-  void leaveInherited();
-
-  pid_t Process = 0; // that of the members below
-  std::unique_ptr<dgtk::ThreadPool> Pool;
-  dgtk::FrameSourceOptions Options; // of Source
-  std::unique_ptr<dgtk::FrameSource> Source;
-  std::shared_ptr<const dgtk::Stage> Stage; // of Queries
-  std::unique_ptr<dgtk::SceneQueries> Queries;
-};
-
-bool usesGL(const dgtk::FrameSourceOptions& options)
-{
-  const dgtk::LayerNeeds& needs = options.needs;
-  return needs.color || needs.peeled || !needs.mattes.empty() || (needs.hits && options.raster);
-}
-
-bool same(const dgtk::FrameSourceOptions& a, const dgtk::FrameSourceOptions& b)
-{
-  const auto all = [](const dgtk::FrameSourceOptions& options)
-  {
-    const dgtk::LayerNeeds& needs = options.needs;
-    return std::tie(needs.hits, needs.color, needs.sharp, needs.peeled, needs.mattes, options.raster, options.samples,
-      options.filter, options.gl);
-  };
-  return all(a) == all(b);
-}
-
-void KeptSource::use(
-  const dgtk::FrameSourceOptions& options, const std::shared_ptr<const dgtk::Stage>& stage, const Draw& draw)
-{
-  this->leaveInherited();
-  if (!same(options, this->Options))
-  {
-    this->drop();
-  }
-  std::optional<dgtk::GLTurn> turn;
-  if (usesGL(options))
-  {
-    turn.emplace();
-  }
-  if (!this->Source)
-  {
-    this->Options = options;
-    this->Source = std::make_unique<dgtk::FrameSource>(options, *this->Pool);
-  }
-  if (this->Stage != stage)
-  {
-    this->Queries = std::make_unique<dgtk::SceneQueries>(stage);
-    this->Stage = stage;
-  }
-  draw(*this->Source, *this->Queries, *this->Pool);
-}
-
-void KeptSource::drop()
-{
-  this->leaveInherited();
-  std::optional<dgtk::GLTurn> turn;
-  if (this->Source && usesGL(this->Options))
-  {
-    turn.emplace();
-  }
-  this->Source.reset();
-}
-
-/// The threads of what a process finds when it was forked are not there: its end would wait for them.
-void KeptSource::leaveInherited()
-{
-  if (this->Process != ::getpid())
-  {
-    static_cast<void>(this->Source.release());
-    static_cast<void>(this->Queries.release());
-    static_cast<void>(this->Pool.release());
-    this->Stage = nullptr;
-    this->Process = ::getpid();
-    this->Pool = std::make_unique<dgtk::ThreadPool>(std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
-  }
-}
-
 vtkSmartPointer<vtkDataArray> arrayFor(dgtk::PixelType type)
 {
   switch (type)
@@ -220,7 +126,7 @@ struct dgtkRenderer::Internal
   std::string errorMessage;
   int width = 0;
   int height = 0;
-  KeptSource source;
+  dgtk::KeptSource source;
   std::vector<dgtk::LayerArray> results;
   std::vector<vtkSmartPointer<vtkDataArray>> arrays; // one a result
 
@@ -492,7 +398,7 @@ std::string dgtkRenderer::GetOutputFormat(int index) const
 
 bool dgtkRenderer::IsOutputImage(int index) const
 {
-  return this->GetOutput(index) != nullptr && this->Self->results[std::size_t(index)].shape.size() == 2;
+  return this->GetOutput(index) != nullptr && this->Self->results[std::size_t(index)].isImage;
 }
 
 int dgtkRenderer::GetWidth() const { return this->Self->width; }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every representation as a layer: one pass computes the surface of each pixel for all of them.
 #include "dgtkLayers.h"
+#include "dgtkStrips.h"
 
 #include "dgtkError.h"
 #include "dgtkRepresentation.h"
 #include "dgtkSurfaceRows.h"
-
-#include <algorithm>
 
 namespace dgtk
 {
@@ -78,22 +77,16 @@ public:
 
   void band(const Band& band, LayerSink& sink) override
   {
-    const int stripRows = std::max(1, stripPixels / band.rect.width);
-    const int strips = (band.rect.height + stripRows - 1) / stripRows;
-    const int batch = std::max(1, this->Pool.threads());
-    for (int first = 0; first < strips; first += batch)
-    {
-      const int count = std::min(batch, strips - first);
-      std::vector<std::vector<Rows>> done(count);
-      this->Pool.parallelFor(count, [&](int i) { done[i] = this->derive(band, (first + i) * stripRows, stripRows); });
-      for (const std::vector<Rows>& rows : done)
+    forStrips(
+      band, stripPixels, this->Pool.threads(), this->Pool,
+      [this](const PixelRect& rect, const Hit* hits) { return this->derive(rect, hits); },
+      [&sink](const std::vector<Rows>& strip)
       {
-        for (std::size_t i = 0; i < rows.size(); ++i)
+        for (std::size_t i = 0; i < strip.size(); ++i)
         {
-          sink.rows(i, rows[i]);
+          sink.rows(i, strip[i]);
         }
-      }
-    }
+      });
   }
 
 private:
@@ -103,14 +96,10 @@ private:
     LayerSpec spec;
   };
 
-  std::vector<Rows> derive(const Band& band, int offset, int stripRows) const
+  std::vector<Rows> derive(const PixelRect& rect, const Hit* hits) const
   {
-    PixelRect rect = band.rect;
-    rect.y += offset;
-    rect.height = std::min(stripRows, band.rect.height - offset);
     SurfaceRows surface;
-    computeSurfaceRows(*this->State, this->TheView, rect, band.hits.data() + std::size_t(offset) * rect.width,
-      this->Barycentrics, surface);
+    computeSurfaceRows(*this->State, this->TheView, rect, hits, this->Barycentrics, surface);
     std::vector<Rows> out;
     for (const Values& layer : this->Layers)
     {
