@@ -225,7 +225,8 @@ WarpedImage warp(LdiReader& file, std::uint32_t layers, const View& from, const 
 void save(const std::string& path, const WarpedImage& image, const std::vector<std::uint8_t>& pixels, int channels)
 {
   LayerSpec spec;
-  spec.name = "color";
+  spec.name = "picture";
+  spec.meaning = Meaning::Picture;
   spec.channels = channels;
   const auto writer = makeLayerWriter("png", path, spec, image.width, image.height);
   Rows rows(PixelType::UInt8, channels, image.width, 0, image.height);

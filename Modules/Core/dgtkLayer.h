@@ -29,6 +29,33 @@ DGTKCORE_EXPORT std::size_t bytesOf(PixelType type);
 /// "uint8", "uint16", "uint32", "float32", "float64": the names that the manifest and NumPy use.
 DGTKCORE_EXPORT const char* nameOf(PixelType type);
 
+/// What the values of a layer are. Decides their channels' names, colours and texts: nobody asks for a layer's name.
+enum class Meaning
+{
+  Unknown,
+  Picture,            ///< colours, or gray
+  Id,                 ///< of objects; with four channels 24 bits, high first, and the object's coverage
+  Class,              ///< of objects
+  Index,              ///< within an object
+  Visibility,         ///< visibility class of a surface point in another image
+  Depth,              ///< z in the camera frame
+  Distance,           ///< from the camera centre
+  InverseDepth,       ///< 1 / z
+  Point,              ///< coordinates in the layer's frame, which may be another image
+  Direction,          ///< unit vector
+  Displacement,       ///< difference of two points
+  TextureCoordinates, ///< (u, v)
+  Weights,            ///< barycentric coordinates
+  Coverage,           ///< share of the pixel, or ranks of (id, share)
+  Mask,               ///< which pixels are meant
+  Surfaces,           ///< all along each ray
+  Record              ///< no image
+};
+/// "picture", "texture coordinates": the words of the manifest.
+DGTKCORE_EXPORT const char* nameOf(Meaning meaning);
+/// Unknown for a word that is none.
+DGTKCORE_EXPORT Meaning meaningFromName(const std::string& name);
+
 /// What the values of a layer mean. Plain text, written to the manifest as it stands.
 struct LayerSpec
 {
@@ -39,6 +66,7 @@ struct LayerSpec
   std::string frame;       ///< coordinate frame of the values: "camera", "world", "object", "image" or ""
   std::string invalid;     ///< value where there is nothing: "+inf", "nan", "0"
   std::string description; ///< one sentence
+  Meaning meaning = Meaning::Unknown;
 };
 
 /// A rectangle of pixels; x to the right, y down from the top-left corner of the image.

@@ -55,7 +55,8 @@ void Canvas::text(const std::string& text, int x, int y, int width, Rgb color)
 DatasetFile Canvas::write(const FilePlace& path) const
 {
   LayerSpec spec;
-  spec.name = "color";
+  spec.name = "picture";
+  spec.meaning = Meaning::Picture;
   spec.channels = 3;
   const std::unique_ptr<LayerWriter> writer = makeLayerWriter("png", path, spec, this->Width, this->Height);
   Rows rows(PixelType::UInt8, 3, this->Width, 0, this->Height);

@@ -82,18 +82,28 @@ struct Contents
   std::map<Key, std::string> images;
 };
 
-/// Layers whose files are not one picture of the view.
-bool isPicture(const std::string& layer) { return layer != "tiles" && layer != "ldi" && layer != "coverage"; }
+/// Layers whose files are one picture of the view.
+bool isPicture(const LayerSpec& spec)
+{
+  const bool ranks = spec.meaning == Meaning::Coverage && spec.channels > 1;
+  return spec.meaning != Meaning::Surfaces && spec.meaning != Meaning::Record && !ranks;
+}
 
 Contents contentsOf(const Manifest& manifest)
 {
   Contents contents;
+  std::map<std::string, LayerSpec> known;
+  for (const LayerRecord& layer : manifest.layers)
+  {
+    known.emplace(layer.spec.name, layer.spec);
+  }
   std::set<std::string> found;
   std::set<std::string> cameras;
   std::vector<const DatasetFile*> files;
   for (const DatasetFile& file : manifest.files)
   {
-    if (!file.layer.empty() && isPicture(file.layer) && !file.camera.empty() && isLayerFile(file.path))
+    const auto layer = known.find(file.layer);
+    if (layer != known.end() && isPicture(layer->second) && !file.camera.empty() && isLayerFile(file.path))
     {
       files.push_back(&file);
     }
@@ -104,7 +114,7 @@ Contents contentsOf(const Manifest& manifest)
     // the first in alphabetical order where a layer has several formats; a picture loses nothing to values
     std::string& path = contents.images[{ file->camera, file->frame, file->layer }];
     const bool picture = file->path.size() > 4 && file->path.compare(file->path.size() - 4, 4, ".png") == 0;
-    if (path.empty() || (picture && file->layer.rfind("color", 0) == 0))
+    if (path.empty() || (picture && known[file->layer].meaning == Meaning::Picture))
     {
       path = file->path;
     }
@@ -119,11 +129,6 @@ Contents contentsOf(const Manifest& manifest)
     {
       contents.layers.push_back(layer.spec);
     }
-  }
-  for (const std::string& name : found)
-  {
-    contents.layers.emplace_back();
-    contents.layers.back().name = name;
   }
   return contents;
 }
@@ -210,7 +215,7 @@ DatasetFile writePictureSheet(const std::vector<std::pair<std::string, std::stri
   grid.lines = 1;
   Canvas sheet = grid.sheet();
   LayerSpec spec;
-  spec.name = "color";
+  spec.meaning = Meaning::Picture;
   for (int i = 0; i < count; ++i)
   {
     const int column = i % grid.columns;

@@ -39,16 +39,20 @@ std::string cameraText(const CameraRecord& camera)
 std::string layerText(const LayerRecord& layer)
 {
   const LayerSpec& spec = layer.spec;
-  return JsonObject(6)
-    .text("name", spec.name)
+  JsonObject object(6);
+  object.text("name", spec.name)
     .text("format", layer.format)
     .text("type", nameOf(spec.type))
     .integer("channels", spec.channels)
     .text("unit", spec.unit)
     .text("frame", spec.frame)
     .text("invalid", spec.invalid)
-    .text("description", spec.description)
-    .line();
+    .text("description", spec.description);
+  if (spec.meaning != Meaning::Unknown && spec.meaning != impliedMeaning(spec))
+  {
+    object.text("meaning", nameOf(spec.meaning));
+  }
+  return object.line();
 }
 
 std::string fileText(const DatasetFile& file)
@@ -118,7 +122,7 @@ std::string objectsText(std::vector<ObjectRecord> objects, const std::vector<Cla
   {
     table.add(JsonObject(6).integer("id", id).text("name", name).line());
   }
-  return JsonObject(2).raw("objects", arrayText(objects, text)).raw("classes", table.block()).block() + "\n";
+  return JsonObject(2).raw(objectsKey, arrayText(objects, text)).raw(classesKey, table.block()).block() + "\n";
 }
 
 std::string manifestText(Manifest manifest)

@@ -74,6 +74,13 @@ struct DatasetFile
   int frame = -1;     ///< -1 likewise
 };
 
+/// Keys of objects.json; also the names of the layers whose values they list.
+constexpr const char* objectsKey = "objects";
+constexpr const char* classesKey = "classes";
+
+/// The meaning of a layer whose manifest does not say one: as its unit, frame, value for nothing and channels have it.
+DGTKDATASETIO_EXPORT Meaning impliedMeaning(const LayerSpec& spec);
+
 /// A layer and a format that it was written in.
 struct LayerRecord
 {

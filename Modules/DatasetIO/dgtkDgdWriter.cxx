@@ -33,7 +33,7 @@ protected:
 
 bool canWriteDgd(const LayerSpec& spec)
 {
-  return spec.name == "depth" && spec.channels == 1 && spec.type == PixelType::Float64;
+  return spec.meaning == Meaning::Depth && spec.channels == 1 && spec.type == PixelType::Float64;
 }
 
 std::unique_ptr<LayerWriter> openDgd(

@@ -39,6 +39,7 @@ LayerRecord layerOf(const JsonValue& value)
   layer.spec.frame = value["frame"].text();
   layer.spec.invalid = value["invalid"].text();
   layer.spec.description = value["description"].text();
+  layer.spec.meaning = value.has("meaning") ? meaningFromName(value["meaning"].text()) : impliedMeaning(layer.spec);
   return layer;
 }
 
@@ -94,7 +95,7 @@ std::vector<ObjectRecord> readObjects(const std::string& path)
 {
   const nlohmann::ordered_json json = readJson(path);
   std::vector<ObjectRecord> objects;
-  for (const JsonValue& item : JsonValue(path, "", json)["objects"].items())
+  for (const JsonValue& item : JsonValue(path, "", json)[objectsKey].items())
   {
     ObjectRecord object;
     object.id = std::uint32_t(item["id"].integer(1, std::numeric_limits<std::uint32_t>::max()));
@@ -112,9 +113,9 @@ std::vector<ClassRecord> readClasses(const std::string& path)
 {
   const nlohmann::ordered_json json = readJson(path);
   const JsonValue root(path, "", json);
-  const bool table = root.has("classes"); // not in the first datasets
+  const bool table = root.has(classesKey); // not in the first datasets
   std::map<std::uint32_t, std::string> names;
-  for (const JsonValue& item : root[table ? "classes" : "objects"].items())
+  for (const JsonValue& item : root[table ? classesKey : objectsKey].items())
   {
     const std::int64_t id = item[table ? "id" : "class_id"].integer(1, std::numeric_limits<std::uint32_t>::max());
     names.emplace(std::uint32_t(id), item[table ? "name" : "class"].text());

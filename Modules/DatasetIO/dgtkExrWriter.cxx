@@ -18,15 +18,16 @@ constexpr int chunkRows = 16;       // of ZIP compression
 
 std::vector<std::string> channelNames(const LayerSpec& spec)
 {
-  const bool color = spec.name.rfind("color", 0) == 0;
   switch (spec.channels)
   {
     case 1:
-      return { spec.name == "depth" ? "Z" : "Y" };
+      return { spec.meaning == Meaning::Depth ? "Z" : "Y" };
     case 2:
-      return spec.name == "uv" ? std::vector<std::string>{ "U", "V" } : std::vector<std::string>{ "X", "Y" };
+      return spec.meaning == Meaning::TextureCoordinates ? std::vector<std::string>{ "U", "V" }
+                                                         : std::vector<std::string>{ "X", "Y" };
     case 3:
-      return color ? std::vector<std::string>{ "R", "G", "B" } : std::vector<std::string>{ "X", "Y", "Z" };
+      return spec.meaning == Meaning::Picture ? std::vector<std::string>{ "R", "G", "B" }
+                                              : std::vector<std::string>{ "X", "Y", "Z" };
     default:
       return { "R", "G", "B", "A" };
   }
@@ -203,7 +204,7 @@ private:
 bool canWriteExr(const LayerSpec& spec)
 {
   return (spec.type == PixelType::Float32 || spec.type == PixelType::Float64) &&
-         (spec.channels <= 4 || spec.name == "coverage");
+         (spec.channels <= 4 || spec.meaning == Meaning::Coverage);
 }
 
 std::unique_ptr<LayerWriter> openExr(

@@ -15,14 +15,10 @@ namespace
 {
 constexpr double pi = 3.14159265358979323846;
 
-bool startsWith(const std::string& text, const char* start) { return text.rfind(start, 0) == 0; }
-
 std::uint8_t byteOf(double unit)
 {
   return std::isnan(unit) ? 0 : static_cast<std::uint8_t>(std::min(std::max(unit, 0.0), 1.0) * 255 + 0.5);
 }
-
-bool isDepth(const std::string& layer) { return layer == "depth" || layer == "depth_noisy" || layer == "distance"; }
 
 Rgb hueColor(double hue, double saturation, double value)
 {
@@ -76,9 +72,11 @@ Rgb wheelColor(double dx, double dy)
 LayerLook lookOf(const LayerSpec& spec, const ImageInfo& info)
 {
   const bool integers = info.type != PixelType::Float32 && info.type != PixelType::Float64;
-  const bool color =
-    startsWith(spec.name, "color") || startsWith(spec.name, "matting_") || spec.name == "tiles" || spec.name == "edges";
-  if (color || (info.format == "png" && isDepth(spec.name)))
+  const bool depth = spec.meaning == Meaning::Depth || spec.meaning == Meaning::Distance;
+  const bool shares = spec.meaning == Meaning::Coverage && integers;
+  const bool unsaid = spec.meaning == Meaning::Unknown && integers && info.channels > 1;
+  if (spec.meaning == Meaning::Picture || spec.meaning == Meaning::Mask || shares || unsaid ||
+      (depth && info.format == "png"))
   {
     return LayerLook::Picture;
   }
@@ -86,21 +84,20 @@ LayerLook lookOf(const LayerSpec& spec, const ImageInfo& info)
   {
     return LayerLook::Ids;
   }
-  if (isDepth(spec.name))
+  if (depth)
   {
     return LayerLook::Depth;
   }
-  if (spec.name == "uv" && info.channels == 2)
+  if (spec.meaning == Meaning::TextureCoordinates && info.channels == 2)
   {
     return LayerLook::Fractions;
   }
-  const bool normals = spec.name == "normal" || spec.name == "shadingnormal";
-  return normals && info.channels == 3 ? LayerLook::Normal : LayerLook::Ranges;
+  return spec.meaning == Meaning::Direction && info.channels == 3 ? LayerLook::Normal : LayerLook::Ranges;
 }
 
 bool isFlow(const LayerSpec& spec, const ImageInfo& info)
 {
-  return startsWith(spec.name, "flow_") && info.channels == 2 && info.type != PixelType::UInt8;
+  return spec.meaning == Meaning::Displacement && info.channels == 2;
 }
 
 LayerColors::LayerColors(LayerLook look, const LayerSpec& spec, const ImageInfo& info)
@@ -110,7 +107,7 @@ LayerColors::LayerColors(LayerLook look, const LayerSpec& spec, const ImageInfo&
           : info.type == PixelType::UInt16 ? 1 / 65535.0
                                            : 1)
   , Linear(Scale == 1)
-  , Coverage(spec.name == "alpha" && info.channels == 4)
+  , Coverage(spec.meaning == Meaning::Id && info.channels == 4)
   , FromZero(!spec.invalid.empty() && spec.invalid != "0")
   , NoId(FromZero ? static_cast<std::uint32_t>(std::strtoul(spec.invalid.c_str(), nullptr, 10)) : 0)
 {

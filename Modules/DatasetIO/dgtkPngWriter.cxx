@@ -33,12 +33,11 @@ PngEncoder::Header headerOf(const LayerSpec& spec, int width, int height)
   header.bitDepth = spec.type == PixelType::UInt16 || spec.type == PixelType::UInt32 ? 16 : 8;
   header.channels = spec.channels;
   header.nothing = nothingOf(spec).has_value();
-  header.srgb = spec.name.rfind("color", 0) == 0;
+  header.srgb = spec.meaning == Meaning::Picture;
   // numbers that name things have no smooth areas
-  header.prediction =
-    spec.type == PixelType::UInt32 || spec.unit == "id" || spec.unit == "class" || spec.name == "alpha"
-      ? PngPrediction::Labels
-      : PngPrediction::Smooth;
+  header.prediction = spec.type == PixelType::UInt32 || spec.unit == "id" || spec.unit == "class"
+                        ? PngPrediction::Labels
+                        : PngPrediction::Smooth;
   return header;
 }
 
@@ -126,7 +125,7 @@ bool canWritePng(const LayerSpec& spec)
 {
   if (isFloat(spec.type))
   {
-    return spec.channels == 1 && (spec.name == "depth" || spec.name == "distance");
+    return spec.channels == 1 && (spec.meaning == Meaning::Depth || spec.meaning == Meaning::Distance);
   }
   return spec.type == PixelType::UInt32 ? spec.channels == 1 : spec.channels <= 4;
 }

@@ -12,7 +12,8 @@ public:
   LayerSpec spec() const override
   {
     return { "barycentrics", PixelType::Float64, 3, "1", "", "nan",
-      "weights of the three corners of the triangle at the pixel's centre, in the order of the model, sum 1" };
+      "weights of the three corners of the triangle at the pixel's centre, in the order of the model, sum 1",
+      Meaning::Weights };
   }
   std::vector<std::string> formats() const override { return { "npy", "exr" }; }
   bool needsBarycentrics() const override { return true; }

@@ -26,7 +26,7 @@ public:
   LayerSpec spec() const override
   {
     return { "classes", PixelType::UInt32, 1, "id", "", "0",
-      "class of the object, class_id of objects.json; 0 for the background" };
+      "class of the object, class_id of objects.json; 0 for the background", Meaning::Class };
   }
   std::vector<std::string> formats() const override { return { "png", "npy" }; }
   std::uint32_t largest(const SceneState& state) const override

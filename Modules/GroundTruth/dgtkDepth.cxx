@@ -14,7 +14,7 @@ public:
   LayerSpec spec() const override
   {
     return { "depth", PixelType::Float64, 1, "scene units", "camera", "+inf",
-      "z in the camera frame, positive forward, of the surface at the pixel's centre" };
+      "z in the camera frame, positive forward, of the surface at the pixel's centre", Meaning::Depth };
   }
   std::vector<std::string> formats() const override { return { "npy", "dgd", "exr", "pfm", "png" }; }
 

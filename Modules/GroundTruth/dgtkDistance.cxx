@@ -12,7 +12,7 @@ public:
   LayerSpec spec() const override
   {
     return { "distance", PixelType::Float64, 1, "scene units", "", "+inf",
-      "Euclidean distance of the surface at the pixel's centre from the camera centre" };
+      "Euclidean distance of the surface at the pixel's centre from the camera centre", Meaning::Distance };
   }
   std::vector<std::string> formats() const override { return { "npy", "exr", "pfm" }; }
 

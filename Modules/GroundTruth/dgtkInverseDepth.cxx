@@ -12,7 +12,7 @@ public:
   LayerSpec spec() const override
   {
     return { "inversedepth", PixelType::Float64, 1, "1 / scene units", "camera", "0",
-      "1 / z in the camera frame of the surface at the pixel's centre" };
+      "1 / z in the camera frame of the surface at the pixel's centre", Meaning::InverseDepth };
   }
   std::vector<std::string> formats() const override { return { "npy", "exr", "pfm" }; }
 

@@ -50,7 +50,7 @@ public:
   LayerSpec spec() const override
   {
     return { "normal", PixelType::Float32, 3, "1", "camera", "nan",
-      "unit normal of the triangle at the pixel's centre, on the side of the camera" };
+      "unit normal of the triangle at the pixel's centre, on the side of the camera", Meaning::Direction };
   }
   std::vector<std::string> formats() const override { return { "npy", "exr" }; }
 

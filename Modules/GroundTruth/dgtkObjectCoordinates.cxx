@@ -12,7 +12,7 @@ public:
   LayerSpec spec() const override
   {
     return { "objectcoords", PixelType::Float64, 3, "object units", "object", "nan",
-      "surface point at the pixel's centre in the frame of its object, before placement and scale" };
+      "surface point at the pixel's centre in the frame of its object, before placement and scale", Meaning::Point };
   }
   std::vector<std::string> formats() const override { return { "npy", "exr" }; }
   bool needsBarycentrics() const override { return true; }

@@ -12,7 +12,7 @@ public:
   LayerSpec spec() const override
   {
     return { "objects", PixelType::UInt32, 1, "id", "", "0",
-      "object at the pixel's centre, 1 to N in the order of the scene" };
+      "object at the pixel's centre, 1 to N in the order of the scene", Meaning::Id };
   }
   std::vector<std::string> formats() const override { return { "ppm", "png", "npy" }; }
   std::uint32_t largest(const SceneState& state) const override { return std::uint32_t(state.instances.size()); }

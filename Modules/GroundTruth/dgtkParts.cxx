@@ -12,7 +12,7 @@ public:
   LayerSpec spec() const override
   {
     return { "parts", PixelType::UInt32, 1, "id", "", "4294967295",
-      "part within the object at the pixel's centre, from 0 in file order" };
+      "part within the object at the pixel's centre, from 0 in file order", Meaning::Index };
   }
   std::vector<std::string> formats() const override { return { "npy", "png" }; }
   std::uint32_t largest(const SceneState& state) const override

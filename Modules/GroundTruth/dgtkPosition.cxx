@@ -11,7 +11,8 @@ class Position final : public Representation
 public:
   LayerSpec spec() const override
   {
-    return { "position", PixelType::Float64, 3, "scene units", "world", "nan", "surface point at the pixel's centre" };
+    return { "position", PixelType::Float64, 3, "scene units", "world", "nan", "surface point at the pixel's centre",
+      Meaning::Point };
   }
   std::vector<std::string> formats() const override { return { "npy", "exr" }; }
 

@@ -62,7 +62,8 @@ public:
   LayerSpec spec() const override
   {
     return { "shadingnormal", PixelType::Float64, 3, "1", "camera", "nan",
-      "unit normal that the vertices' normals interpolate to, turned around where the triangle is seen from behind" };
+      "unit normal that the vertices' normals interpolate to, turned around where the triangle is seen from behind",
+      Meaning::Direction };
   }
   std::vector<std::string> formats() const override { return { "npy", "exr" }; }
   bool needsBarycentrics() const override { return true; }

@@ -12,7 +12,7 @@ public:
   LayerSpec spec() const override
   {
     return { "triangles", PixelType::UInt32, 1, "id", "", "4294967295",
-      "triangle within the part at the pixel's centre, from 0 in file order" };
+      "triangle within the part at the pixel's centre, from 0 in file order", Meaning::Index };
   }
   std::vector<std::string> formats() const override { return { "npy", "png" }; }
   std::uint32_t largest(const SceneState& state) const override

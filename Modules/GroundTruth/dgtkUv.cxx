@@ -11,10 +11,9 @@ class Uv final : public Representation
 public:
   LayerSpec spec() const override
   {
-    return {
-      "uv", PixelType::Float64, 2, "1", "", "nan",
-      "texture coordinates at the pixel's centre, (0, 0) the lower left corner of the picture; none for models without"
-    };
+    return { "uv", PixelType::Float64, 2, "1", "", "nan",
+      "texture coordinates at the pixel's centre, (0, 0) the lower left corner of the picture; none for models without",
+      Meaning::TextureCoordinates };
   }
   std::vector<std::string> formats() const override { return { "npy", "exr" }; }
   bool needsBarycentrics() const override { return true; }

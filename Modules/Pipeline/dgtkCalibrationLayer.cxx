@@ -45,6 +45,7 @@ public:
   {
     LayerSpec spec;
     spec.name = this->info().layer;
+    spec.meaning = Meaning::Record;
     return { documentOutput(stage, job, spec, planned.formats.front()) };
   }
   std::unique_ptr<LayerPass> makePass(const JobContext& context, const std::vector<PassLayer>&) const override

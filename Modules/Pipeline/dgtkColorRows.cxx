@@ -89,6 +89,7 @@ LayerSpec colorSpec(const GeneratorRequest& request, const std::string& format)
   spec.channels = 3;
   spec.frame = "image";
   spec.invalid = "none";
+  spec.meaning = Meaning::Picture;
   if (format == "exr")
   {
     spec.type = PixelType::Float32;

@@ -13,7 +13,8 @@ LayerSpec edgesSpec()
 {
   return { "edges", PixelType::UInt8, 1, "1", "image", "0",
     "255: a 4-neighbour has another object id; 128: one of the same object lies off this pixel's tangent plane, and "
-    "this pixel off its, by more than 1 % of the smaller depth" };
+    "this pixel off its, by more than 1 % of the smaller depth",
+    Meaning::Mask };
 }
 
 class EdgesPass : public LayerPass

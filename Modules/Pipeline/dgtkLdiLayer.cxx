@@ -147,12 +147,14 @@ public:
     {
       return { { { "ldi", PixelType::Float32, 8, "linear sRGB, scene units, id", "camera", "no sample",
                    "deep image of every surface along the ray through the pixel's centre, near to far: R, G, B, A "
-                   "(premultiplied), Z (depth), id, part, triangle (uint32)" },
+                   "(premultiplied), Z (depth), id, part, triangle (uint32)",
+                   Meaning::Surfaces },
         format } };
     }
     return { { { "ldi", PixelType::Float64, 1, "scene units", "camera", "no record",
                  "for each pixel a count and for every surface along the ray through the pixel's centre, near to far, "
-                 "R, G, B, A (uint8, sRGB), depth (float64) and splat index (uint32)" },
+                 "R, G, B, A (uint8, sRGB), depth (float64) and splat index (uint32)",
+                 Meaning::Surfaces },
       format } };
   }
 

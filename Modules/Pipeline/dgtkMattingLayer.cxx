@@ -42,6 +42,7 @@ LayerSpec pictureSpec(int picture)
     "0 background, 255 the object, 128 within two pixels of a pixel that is neither alone"
   };
   spec.description = descriptions[picture];
+  spec.meaning = color ? Meaning::Picture : picture == Alpha ? Meaning::Coverage : Meaning::Mask;
   return spec;
 }
 
@@ -188,10 +189,6 @@ public:
         LayerOutput output = imageOutput(plan, stage, job, pictureSpec(picture), planned.formats);
         output.path = WorkPlan::stem(stage.cameraNames()[job.camera], folder, job.frame) + '_' + pictureNames[picture];
         output.name = folder + '_' + pictureNames[picture];
-        if (output.spec.channels == 3)
-        {
-          output.spec.name = "color_" + output.spec.name; // so that the PNG says that it is sRGB
-        }
         all.push_back(output);
       }
     }

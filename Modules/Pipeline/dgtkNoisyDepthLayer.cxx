@@ -23,7 +23,7 @@ constexpr int stripPixels = 1 << 16; // whose surfaces are computed at once
 LayerSpec noisySpec()
 {
   return { "depth_noisy", PixelType::Float64, 1, "scene units", "camera", "+inf",
-    "z in the camera frame as the camera's depth sensor measures it, positive forward" };
+    "z in the camera frame as the camera's depth sensor measures it, positive forward", Meaning::Depth };
 }
 
 /// fx in pixels; 0 for a camera that has none.
@@ -142,9 +142,7 @@ public:
   std::vector<LayerOutput> outputs(
     const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {
-    LayerOutput output = imageOutput(plan, stage, job, noisySpec(), planned.formats);
-    output.spec.name = "depth"; // writers tell depth by its name
-    return { output };
+    return { imageOutput(plan, stage, job, noisySpec(), planned.formats) };
   }
   std::unique_ptr<LayerPass> makePass(const JobContext& context, const std::vector<PassLayer>&) const override
   {

@@ -18,13 +18,14 @@ constexpr int stripPixels = 1 << 12;
 LayerSpec boxesSpec()
 {
   return { "boxes", PixelType::Float64, 1, "pixels", "image", "null",
-    "2D boxes of the visible and the amodal pixels of each object, its 3D box and pose in the camera frame" };
+    "2D boxes of the visible and the amodal pixels of each object, its 3D box and pose in the camera frame",
+    Meaning::Record };
 }
 
 LayerSpec amodalSpec()
 {
   return { "amodal", PixelType::UInt8, 1, "mask", "image", "0",
-    "for each object the pixels whose ray meets it, hidden or not; COCO's uncompressed run lengths" };
+    "for each object the pixels whose ray meets it, hidden or not; COCO's uncompressed run lengths", Meaning::Mask };
 }
 
 class ObjectsLayer : public Layer

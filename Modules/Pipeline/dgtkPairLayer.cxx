@@ -16,32 +16,35 @@ namespace
 LayerSpec positionSpec()
 {
   return { "correspondence", PixelType::Float64, 2, "pixels", "image of the other camera", "nan",
-    "(x', y') of the pixel's surface point in the other image; pixel centres are at + 0.5" };
+    "(x', y') of the pixel's surface point in the other image; pixel centres are at + 0.5", Meaning::Point };
 }
 
 LayerSpec disparitySpec()
 {
   return { "disparity", PixelType::Float64, 1, "pixels", "image", "nan",
-    "x_left - x_right of the pixel's surface point in the two images of a rectified pair" };
+    "x_left - x_right of the pixel's surface point in the two images of a rectified pair", Meaning::Displacement };
 }
 
 LayerSpec flowSpec(bool forward)
 {
   return { forward ? "flow_forward" : "flow_backward", PixelType::Float64, 2, "pixels", "image", "nan",
-    std::string("(x' - x, y' - y) of the pixel's surface point one frame ") + (forward ? "later" : "earlier") };
+    std::string("(x' - x, y' - y) of the pixel's surface point one frame ") + (forward ? "later" : "earlier"),
+    Meaning::Displacement };
 }
 
 LayerSpec motionSpec()
 {
   return { "sceneflow", PixelType::Float64, 3, "scene units", "camera", "nan",
-    "motion of the pixel's surface point in the world until the next frame, in the axes of this frame's camera" };
+    "motion of the pixel's surface point in the world until the next frame, in the axes of this frame's camera",
+    Meaning::Displacement };
 }
 
 LayerSpec classSpec(const std::string& layer)
 {
   return { layer + "_class", PixelType::UInt8, 1, "class", "image", "0",
     "0 no surface, 1 visible, 2 occluded by another object, 3 occluded by its own object, 4 outside the image, "
-    "5 behind the camera" };
+    "5 behind the camera",
+    Meaning::Visibility };
 }
 
 /// A layer of targets; what differs is which targets a job has.

@@ -23,7 +23,8 @@ LayerSpec pointsSpec()
 {
   return { "points", PixelType::Float64, 3, "scene units", "world", "none",
     "surface points seen by the cameras, each once, with normal, albedo, object and triangle; .json: the pixels that "
-    "see each" };
+    "see each",
+    Meaning::Record };
 }
 
 /// The cameras of the plan, in the order of the scene.

@@ -15,7 +15,8 @@ constexpr const char* LibraryFolder = "pov";
 LayerSpec povSpec()
 {
   return { "pov", PixelType::UInt8, 1, "", "world", "",
-    "Scene for POV-Ray 3.7 that shows what the camera sees; to be drawn in its folder, or with that folder as +L" };
+    "Scene for POV-Ray 3.7 that shows what the camera sees; to be drawn in its folder, or with that folder as +L",
+    Meaning::Record };
 }
 
 /// Needs no pixels.

@@ -19,14 +19,16 @@ LayerSpec alphaSpec()
 {
   return { "alpha", PixelType::UInt8, 4, "id", "image", "0",
     "R, G, B: id of the nearest object among the pixel's N x N samples as a 24-bit number, R high; A: 255 times the "
-    "share of the samples that show it, rounded" };
+    "share of the samples that show it, rounded",
+    Meaning::Id };
 }
 
 LayerSpec coverageSpec()
 {
   return { "coverage", PixelType::Float32, 2 * leastRanks, "1", "image", "0",
     "Cryptomatte: ranks of (id, coverage), the largest coverage first, id 0 is the background; six ranks, more where a "
-    "pixel needs them" };
+    "pixel needs them",
+    Meaning::Coverage };
 }
 
 class SampledLayer : public Layer

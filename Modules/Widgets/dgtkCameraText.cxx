@@ -82,7 +82,7 @@ QString cameraText(const DatasetPictures& dataset, const std::string& camera, in
   QString lines = Words::tr("%1, frame %2").arg(QString::fromStdString(camera)).arg(frame) + '\n';
   const CameraRecord* const record = dataset.camera(camera, frame);
   lines += record ? recordText(*record) : Words::tr("cameras.json does not have this camera at this frame.") + '\n';
-  const std::string path = dataset.document({ camera, frame, "calibration" });
+  const std::string path = dataset.document(DatasetDocument::Calibration, camera, frame);
   return path.empty() ? lines : lines + fileText(path);
 }
 

@@ -17,12 +17,12 @@ namespace
 namespace fs = std::filesystem;
 
 /// Files of values before pictures of them; colours the other way round.
-int rankOf(const std::string& extension, const std::string& layer)
+int rankOf(const std::string& extension, const LayerSpec& layer)
 {
   static const std::vector<std::string> values{ "ldi", "npy", "dgd", "flo", "pfm", "exr", "ppm", "png" };
   const auto at = std::find(values.begin(), values.end(), extension);
   const int rank = static_cast<int>(at - values.begin());
-  return layer.rfind("color", 0) == 0 ? -rank : rank;
+  return layer.meaning == Meaning::Picture ? -rank : rank;
 }
 
 std::string extensionOf(const std::string& path)
@@ -36,25 +36,16 @@ bool leavesFolder(const fs::path& path)
   return path.is_absolute() || std::find(path.begin(), path.end(), fs::path("..")) != path.end();
 }
 
-bool isPicture(const DatasetFile& file)
+bool isPicture(const DatasetFile& file, const LayerSpec& layer)
 {
-  if (file.camera.empty() || file.layer.empty() || file.layer == "pov" || leavesFolder(file.path))
+  if (file.camera.empty() || file.layer.empty() || leavesFolder(file.path))
   {
     return false;
   }
   const std::string extension = extensionOf(file.path);
-  return file.layer == "ldi"      ? extension == "ldi"
-         : file.layer == "amodal" ? extension == "json"
-                                  : isLayerFile(file.path);
-}
-
-bool isDocument(const DatasetFile& file)
-{
-  const std::string extension = extensionOf(file.path);
-  const bool known = file.layer == "calibration"
-                       ? extension == "txt"
-                       : extension == "json" && (file.layer == "boxes" || file.layer == "points");
-  return known && !leavesFolder(file.path);
+  return layer.meaning == Meaning::Surfaces                      ? extension == "ldi"
+         : layer.meaning == Meaning::Mask && extension == "json" ? true
+                                                                 : isLayerFile(file.path);
 }
 
 /// What the user calls the pictures of a file, without its format.
@@ -80,11 +71,11 @@ std::string labelOf(const DatasetFile& file)
 }
 
 /// What a file shows: a layered depth image is seen in three ways.
-const std::vector<std::string>& partsOf(const DatasetFile& file)
+const std::vector<std::string>& partsOf(const LayerSpec& layer)
 {
   static const std::vector<std::string> whole{ "" };
-  static const std::vector<std::string> layered{ " color", " depth", " count" };
-  return file.layer == "ldi" ? layered : whole;
+  static const std::vector<std::string> layered{ "color", "depth", "count" };
+  return layer.meaning == Meaning::Surfaces ? layered : whole;
 }
 
 template <typename Read>
@@ -160,35 +151,37 @@ void DatasetPictures::index()
   std::map<std::string, std::set<std::string>> formats; // extensions of a label
   for (const DatasetFile& file : this->TheManifest.files)
   {
-    if (isPicture(file))
+    const LayerSpec spec = this->specOf(file);
+    if (isPicture(file, spec))
     {
       formats[dgtk::labelOf(file)].insert(extensionOf(file.path));
     }
-    else if (isDocument(file))
-    {
-      this->Documents[{ file.layer == "points" ? "" : file.camera, file.frame, file.layer }] = file.path;
-    }
-    else if (file.layer == "ldi" && extensionOf(file.path) == "exr" && this->Warnings.empty())
+    else if (spec.meaning == Meaning::Surfaces && extensionOf(file.path) == "exr" && this->Warnings.empty())
     {
       this->Warnings.push_back(file.path + ": layered depth images are shown of .ldi files, not of OpenEXR");
+    }
+    else
+    {
+      this->addDocument(file);
     }
   }
   std::map<std::string, PictureLayer> found;
   std::set<int> frames;
   for (const DatasetFile& file : this->TheManifest.files)
   {
-    if (!isPicture(file))
+    const LayerSpec spec = this->specOf(file);
+    if (!isPicture(file, spec))
     {
       continue;
     }
     const std::string extension = extensionOf(file.path);
     const std::set<std::string>& all = formats[dgtk::labelOf(file)];
-    const std::string first = *std::min_element(all.begin(), all.end(),
-      [&](const auto& a, const auto& b) { return rankOf(a, file.layer) < rankOf(b, file.layer); });
+    const std::string first = *std::min_element(
+      all.begin(), all.end(), [&](const auto& a, const auto& b) { return rankOf(a, spec) < rankOf(b, spec); });
     const std::string label = dgtk::labelOf(file) + (extension == first ? "" : " ." + extension);
-    for (const std::string& part : partsOf(file))
+    for (const std::string& part : partsOf(spec))
     {
-      this->add(file, label + part, extension, found);
+      this->add(file, label + (part.empty() ? "" : " " + part), part, found);
     }
     frames.insert(file.frame);
   }
@@ -200,15 +193,51 @@ void DatasetPictures::index()
   this->sortLayers(found);
 }
 
-void DatasetPictures::add(const DatasetFile& file, const std::string& label, const std::string& format,
+/// What the manifest says of the file's layer in its format, or else in another.
+LayerSpec DatasetPictures::specOf(const DatasetFile& file) const
+{
+  LayerSpec spec;
+  spec.name = file.layer;
+  bool found = false;
+  for (const LayerRecord& record : this->TheManifest.layers)
+  {
+    if (record.spec.name == file.layer && (!found || record.format == extensionOf(file.path)))
+    {
+      spec = record.spec;
+      found = true;
+    }
+  }
+  return spec;
+}
+
+void DatasetPictures::addDocument(const DatasetFile& file)
+{
+  const std::string extension = extensionOf(file.path);
+  if (leavesFolder(file.path) || file.layer.empty() || (extension != "txt" && extension != "json"))
+  {
+    return;
+  }
+  const bool ofCamera = !file.camera.empty() && file.path.compare(0, file.camera.size() + 1, file.camera + '/') == 0;
+  const DatasetDocument kind = extension == "txt" ? DatasetDocument::Calibration
+                               : ofCamera         ? DatasetDocument::Boxes
+                                                  : DatasetDocument::Points;
+  this->Documents[{ kind, ofCamera ? file.camera : "", file.frame }] = file.path;
+}
+
+void DatasetPictures::add(const DatasetFile& file, const std::string& label, const std::string& part,
   std::map<std::string, PictureLayer>& found)
 {
   this->Files[{ file.camera, file.frame, label }] = file.path;
   this->LayersOfCamera[file.camera].insert(label);
   PictureLayer& layer = found[label];
   layer.label = label;
-  layer.format = format;
-  layer.spec.name = file.layer;
+  layer.format = extensionOf(file.path);
+  layer.part = part;
+  layer.spec = this->specOf(file);
+  if (!part.empty())
+  {
+    layer.spec.meaning = part == "color" ? Meaning::Picture : part == "depth" ? Meaning::Depth : Meaning::Surfaces;
+  }
 }
 
 void DatasetPictures::sortLayers(std::map<std::string, PictureLayer>& found)
@@ -216,13 +245,7 @@ void DatasetPictures::sortLayers(std::map<std::string, PictureLayer>& found)
   std::map<std::string, std::size_t> places;
   for (std::size_t i = 0; i < this->TheManifest.layers.size(); ++i)
   {
-    const LayerRecord& record = this->TheManifest.layers[i];
-    places.emplace(record.spec.name, i);
-    for (auto& [label, layer] : found)
-    {
-      const bool better = layer.spec.description.empty() || record.format == layer.format;
-      layer.spec = record.spec.name == layer.spec.name && better ? record.spec : layer.spec;
-    }
+    places.emplace(this->TheManifest.layers[i].spec.name, i);
   }
   const std::string general = "scene units";
   for (auto& [label, layer] : found)
@@ -267,22 +290,31 @@ const PictureLayer* DatasetPictures::layer(const std::string& label) const
   return at == this->Layers.end() ? nullptr : &*at;
 }
 
+std::string DatasetPictures::firstLayer(Meaning meaning, const std::string& camera, int frame) const
+{
+  const auto at = std::find_if(this->Layers.begin(), this->Layers.end(),
+    [&](const PictureLayer& layer) {
+      return layer.spec.meaning == meaning && this->Files.count({ camera, frame, layer.label }) > 0;
+    });
+  return at == this->Layers.end() ? std::string() : at->label;
+}
+
 std::string DatasetPictures::file(const PictureKey& key) const
 {
   const auto at = this->Files.find(key);
   return at == this->Files.end() ? std::string() : (fs::path(this->Folder) / at->second).string();
 }
 
-std::string DatasetPictures::document(const PictureKey& key) const
+std::string DatasetPictures::document(DatasetDocument kind, const std::string& camera, int frame) const
 {
-  const auto at = this->Documents.find(key);
+  const auto at = this->Documents.find({ kind, camera, frame });
   return at == this->Documents.end() ? std::string() : (fs::path(this->Folder) / at->second).string();
 }
 
-bool DatasetPictures::hasDocuments(const std::string& layer) const
+bool DatasetPictures::hasDocuments(DatasetDocument kind) const
 {
   return std::any_of(
-    this->Documents.begin(), this->Documents.end(), [&](const auto& one) { return one.first.layer == layer; });
+    this->Documents.begin(), this->Documents.end(), [&](const auto& one) { return std::get<0>(one.first) == kind; });
 }
 
 const CameraRecord* DatasetPictures::camera(const std::string& name, int frame) const

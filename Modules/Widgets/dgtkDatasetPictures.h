@@ -23,8 +23,17 @@ struct PictureLayer
   /// "matting_vase alpha", "tiles 0,1", "ldi depth"; with the extension where a layer has several formats: "depth
   /// .dgd".
   std::string label;
-  LayerSpec spec;     ///< as the manifest says, with the scene's units by their name
+  LayerSpec spec;     ///< as the manifest says, with the scene's units by their name and the meaning of the part
   std::string format; ///< of the manifest: "npy", "ldi"
+  std::string part{}; ///< of a layered depth image, which is seen in three ways: "color", "depth", "count"
+};
+
+/// Files of a dataset that are no pictures.
+enum class DatasetDocument
+{
+  Calibration,
+  Boxes,
+  Points ///< of no camera
 };
 
 /// Which picture of a dataset.
@@ -61,13 +70,14 @@ public:
   const std::vector<PictureLayer>& layers() const { return this->Layers; } ///< in the manifest's order
   std::vector<std::string> layersOf(const std::string& camera) const;      ///< labels
   const PictureLayer* layer(const std::string& label) const;               ///< null for none
+  /// The label of the first layer with a meaning that has this picture; "" for none.
+  std::string firstLayer(Meaning meaning, const std::string& camera, int frame) const;
   /// Path of a picture; "" where the dataset has none, such as a flow at the last frame.
   std::string file(const PictureKey& key) const;
 
-  /// Path of a file that is no picture: of the layers boxes and calibration, and of points, which are of camera "". ""
-  /// for none.
-  std::string document(const PictureKey& key) const;
-  bool hasDocuments(const std::string& layer) const;
+  /// Its path; "" for none. Points are of camera "".
+  std::string document(DatasetDocument kind, const std::string& camera, int frame) const;
+  bool hasDocuments(DatasetDocument kind) const;
 
   /// Null where cameras.json has no such entry.
   const CameraRecord* camera(const std::string& name, int frame) const;
@@ -82,8 +92,10 @@ public:
 private:
   void readDocuments();
   void index();
-  void add(const DatasetFile& file, const std::string& label, const std::string& format,
+  void addDocument(const DatasetFile& file);
+  void add(const DatasetFile& file, const std::string& label, const std::string& part,
     std::map<std::string, PictureLayer>& found);
+  LayerSpec specOf(const DatasetFile& file) const;
   void sortLayers(std::map<std::string, PictureLayer>& found);
 
   std::string Folder;
@@ -92,8 +104,8 @@ private:
   std::vector<std::string> Cameras;
   std::vector<int> Frames;
   std::vector<PictureLayer> Layers;
-  std::map<PictureKey, std::string> Files; ///< paths relative to the folder
-  std::map<PictureKey, std::string> Documents;
+  std::map<PictureKey, std::string> Files;                                        ///< paths relative to the folder
+  std::map<std::tuple<DatasetDocument, std::string, int>, std::string> Documents; ///< by camera and frame
   std::map<std::string, std::set<std::string>> LayersOfCamera;
   std::vector<CameraRecord> Records;
   std::vector<ObjectRecord> Objects;

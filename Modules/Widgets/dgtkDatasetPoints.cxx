@@ -39,7 +39,7 @@ double parameterAt(const CameraRay& ray, double distance)
 
 bool knowsLens(const CameraRecord& camera) { return camera.model == "pinhole" || camera.model == "orthographic"; }
 
-bool isDepth(const std::string& layer) { return layer == "depth" || layer == "depth_noisy"; }
+bool isPlace(const LayerSpec& spec) { return spec.meaning == Meaning::Point && spec.frame == "world"; }
 } // namespace
 
 View viewOf(const CameraRecord& record)
@@ -55,23 +55,25 @@ View viewOf(const CameraRecord& record)
 
 bool givesPoints(const LayerSpec& spec)
 {
-  return isDepth(spec.name) || spec.name == "distance" || spec.name == "inversedepth" || spec.name == "position";
+  return spec.meaning == Meaning::Depth || spec.meaning == Meaning::Distance || spec.meaning == Meaning::InverseDepth ||
+         isPlace(spec);
 }
 
 std::optional<Eigen::Vector3d> pointOf(const LayerSpec& spec, const View& view, int x, int y, const double* values)
 {
-  if (spec.name == "position")
+  if (isPlace(spec))
   {
     const Eigen::Vector3d point(values[0], values[1], values[2]);
     return point.allFinite() ? std::optional<Eigen::Vector3d>(point) : std::nullopt;
   }
-  const double value = spec.name == "inversedepth" ? 1 / values[0] : values[0];
+  const double value = spec.meaning == Meaning::InverseDepth ? 1 / values[0] : values[0];
   if (!givesPoints(spec) || !std::isfinite(value))
   {
     return std::nullopt;
   }
   const CameraRay ray = view.model->rayThrough(Eigen::Vector2d(x + 0.5, y + 0.5));
-  const double along = spec.name == "distance" ? parameterAt(ray, value) : (value - ray.origin.z()) / ray.direction.z();
+  const double along =
+    spec.meaning == Meaning::Distance ? parameterAt(ray, value) : (value - ray.origin.z()) / ray.direction.z();
   return view.camera_from_world.inverse() * (ray.origin + along * ray.direction);
 }
 
@@ -79,16 +81,14 @@ std::string pointLayer(const DatasetPictures& dataset, const std::string& camera
 {
   const CameraRecord* const record = dataset.camera(camera, frame);
   const bool positionOnly = record != nullptr && !knowsLens(*record);
-  for (const char* const name : { "depth", "position", "distance", "inversedepth", "depth_noisy" })
+  for (const Meaning meaning : { Meaning::Point, Meaning::Depth, Meaning::Distance, Meaning::InverseDepth })
   {
-    if (positionOnly && std::string(name) != "position")
-    {
-      continue;
-    }
     for (const PictureLayer& layer : dataset.layers())
     {
-      // a .png of depth is a picture for people
-      if (layer.spec.name == name && layer.format != "png" && !dataset.file({ camera, frame, layer.label }).empty())
+      // a .png of depth is a picture for people, and of layers the .npy
+      const bool usable = layer.spec.meaning == meaning && givesPoints(layer.spec) && layer.format != "png" &&
+                          (isPlace(layer.spec) || !positionOnly);
+      if (usable && !dataset.file({ camera, frame, layer.label }).empty())
       {
         return layer.label;
       }
@@ -113,19 +113,20 @@ void addPoints(PointCloud& cloud, const DatasetPictures& dataset, const std::str
   }
   const std::string path = dataset.file({ camera, frame, label });
   const PictureLayer& layer = *dataset.layer(label);
-  const View view = layer.spec.name == "position" ? View() : viewOf(*record);
+  const View view = isPlace(layer.spec) ? View() : viewOf(*record);
   const auto [width, height] = pictureSize(path, layer);
   PictureRead read;
   read.goOn = goOn;
   read.step = std::max(1, static_cast<int>(std::ceil(std::sqrt(double(width) * height / double(most)))));
   const PictureValues values = readPicture(path, layer, read);
-  const std::string colorPath = dataset.file({ camera, frame, colorLayer });
-  PictureColors colors;
+  const std::string colors = colorLayer.empty() ? dataset.firstLayer(Meaning::Picture, camera, frame) : colorLayer;
+  const std::string colorPath = dataset.file({ camera, frame, colors });
+  PictureColors painted;
   if (!colorPath.empty())
   {
-    const PictureValues picture = readPicture(colorPath, *dataset.layer(colorLayer), read);
+    const PictureValues picture = readPicture(colorPath, *dataset.layer(colors), read);
     const bool same = picture.columns() == values.columns() && picture.rows() == values.rows();
-    colors = same ? colorPicture(dataset, picture) : PictureColors();
+    painted = same ? colorPicture(dataset, picture) : PictureColors();
   }
   std::vector<double> channels(std::size_t(std::max(1, values.values.channels())));
   for (int row = 0; row < values.rows(); ++row)
@@ -137,10 +138,10 @@ void addPoints(PointCloud& cloud, const DatasetPictures& dataset, const std::str
       {
         cloud.points.push_back(*point);
         const std::size_t i = std::size_t(row) * std::size_t(values.columns()) + std::size_t(column);
-        const std::uint32_t color = colors.pixels.empty() ? 0 : colors.pixels[i];
-        cloud.colors.push_back(colors.pixels.empty() ? uncolored
-                                                     : std::array<std::uint8_t, 3>{ std::uint8_t(color >> 16),
-                                                         std::uint8_t(color >> 8), std::uint8_t(color) });
+        const std::uint32_t color = painted.pixels.empty() ? 0 : painted.pixels[i];
+        cloud.colors.push_back(painted.pixels.empty() ? uncolored
+                                                      : std::array<std::uint8_t, 3>{ std::uint8_t(color >> 16),
+                                                          std::uint8_t(color >> 8), std::uint8_t(color) });
       }
     }
   }

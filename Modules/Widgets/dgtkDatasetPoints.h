@@ -41,9 +41,9 @@ struct PointCloud
 /// lens that is not known only position.
 DGTKWIDGETS_EXPORT std::string pointLayer(const DatasetPictures& dataset, const std::string& camera, int frame);
 
-/// Adds what a camera sees at a frame: the points of its depth in the colours of `colorLayer` (a label; where the
-/// camera has no such picture they are gray), of every n-th pixel, so that there are at most `most`. Throws InputError
-/// for damaged files and a camera that is not in cameras.json. `goOn`: as in PictureRead.
+/// Adds what a camera sees at a frame: the points of its depth in the colours of `colorLayer` (a label; "" for the
+/// first picture; where the camera has no such picture they are gray), of every n-th pixel, so that there are at most
+/// `most`. Throws InputError for damaged files and a camera that is not in cameras.json. `goOn`: as in PictureRead.
 DGTKWIDGETS_EXPORT void addPoints(PointCloud& cloud, const DatasetPictures& dataset, const std::string& camera,
   int frame, const std::string& colorLayer, std::size_t most, const std::function<bool()>& goOn = {});
 

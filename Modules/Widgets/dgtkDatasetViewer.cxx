@@ -81,11 +81,12 @@ void DatasetViewer::chooseFirstLayers()
 {
   const QString camera = text(this->Dataset->cameras().front());
   std::vector<std::string> labels;
-  for (const char* const wanted : { "color", "depth", "objects", "normal" })
+  for (const Meaning wanted : { Meaning::Picture, Meaning::Depth, Meaning::Id, Meaning::Direction })
   {
-    if (!this->Dataset->file({ camera.toStdString(), this->frame(), wanted }).empty())
+    const std::string label = this->Dataset->firstLayer(wanted, camera.toStdString(), this->frame());
+    if (!label.empty())
     {
-      labels.emplace_back(wanted);
+      labels.push_back(label);
     }
   }
   for (const std::string& label : this->Dataset->layersOf(camera.toStdString()))

@@ -142,8 +142,8 @@ void DatasetViewer::enableActions(bool on)
       action->setEnabled(on || name == "open" || name == "close" || name == "mouse");
     }
   }
-  this->ShowBoxes->setEnabled(on && this->Dataset->hasDocuments("boxes"));
-  this->ShowPoints->setEnabled(on && this->Dataset->hasDocuments("points"));
+  this->ShowBoxes->setEnabled(on && this->Dataset->hasDocuments(DatasetDocument::Boxes));
+  this->ShowPoints->setEnabled(on && this->Dataset->hasDocuments(DatasetDocument::Points));
 }
 
 void DatasetViewer::makeHelpMenu()

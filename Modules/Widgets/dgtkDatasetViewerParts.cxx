@@ -155,7 +155,7 @@ void DatasetViewer::askCloud()
   ask.cameras =
     this->AllCameras->isChecked() ? this->Dataset->cameras() : std::vector<std::string>{ pane->camera().toStdString() };
   ask.frame = this->frame();
-  ask.colorLayer = this->ColorByPane->isChecked() ? pane->layer().toStdString() : "color";
+  ask.colorLayer = this->ColorByPane->isChecked() ? pane->layer().toStdString() : std::string();
   this->CloudPending = true;
   this->refreshBusy();
   this->Loader->askCloud(ask);

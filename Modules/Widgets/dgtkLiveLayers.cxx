@@ -56,17 +56,19 @@ LayerSpec specOf(const FlowLayer& flow)
   switch (flow.value)
   {
     case FlowLayer::Displacement:
-      return { flow.name, PixelType::Float64, 2, "pixels", "image", "nan", flow.description };
+      return { flow.name, PixelType::Float64, 2, "pixels", "image", "nan", flow.description, Meaning::Displacement };
     case FlowLayer::Class:
-      return { flow.name, PixelType::UInt8, 1, "class", "image", "0", flow.description };
+      return { flow.name, PixelType::UInt8, 1, "class", "image", "0", flow.description, Meaning::Visibility };
     default:
-      return { flow.name, PixelType::Float64, 3, "scene units", "camera", "nan", flow.description };
+      return { flow.name, PixelType::Float64, 3, "scene units", "camera", "nan", flow.description,
+        Meaning::Displacement };
   }
 }
 
-const LayerSpec alphaSpec{ "alpha", PixelType::UInt8, 4, "id", "image", "0", "nearest object and its coverage" };
+const LayerSpec alphaSpec{ "alpha", PixelType::UInt8, 4, "id", "image", "0", "nearest object and its coverage",
+  Meaning::Id };
 const LayerSpec surfaceSpec{ "color_surface", PixelType::UInt8, 3, "sRGB", "image", "0",
-  "draft of the colours, without shadows and bumps" };
+  "draft of the colours, without shadows and bumps", Meaning::Picture };
 
 template <typename T>
 void fill(Rows& rows, T value)

@@ -127,6 +127,7 @@ LivePicture livePicture(
   const int height = view.now.model->height();
   const LayerSpec spec = eye.spec(layer);
   LivePicture result;
+  result.meaning = spec.meaning;
   result.step = step;
   Rows whole(spec.type, spec.channels, width, 0, height);
   VisibilityBuffer hits;

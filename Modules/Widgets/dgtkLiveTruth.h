@@ -27,6 +27,7 @@ struct LiveQuestion
 struct LivePicture
 {
   LayerPicture picture;
+  Meaning meaning = Meaning::Unknown;
   int step = 1;       ///< pixels of the view, in x and y, that are one of the picture
   int coarseness = 1; ///< 1: as fine as was asked
   double least = 0;   ///< of the finite values of a layer with one real channel; least > most: there are none

@@ -21,31 +21,24 @@ constexpr std::size_t mostSamples = 100000; // from which a range is taken
 constexpr std::size_t mostSwatches = 40;
 constexpr std::size_t mostIds = 4096; // above, ids are not counted one by one
 
-bool isClassImage(const LayerSpec& spec)
-{
-  const std::string end = "_class";
-  return spec.name.size() > end.size() && spec.name.compare(spec.name.size() - end.size(), end.size(), end) == 0;
-}
-
 LayerLook lookOf(const PictureValues& picture)
 {
-  if (picture.layer.format == "ldi")
+  if (isObjectMask(picture.layer))
   {
-    const std::string& label = picture.layer.label;
-    return label == "ldi depth" ? LayerLook::Depth : label == "ldi count" ? LayerLook::Ranges : LayerLook::Picture;
+    return LayerLook::Ids;
   }
   return isFlow(picture.layer.spec, picture.info) ? LayerLook::Flow : dgtk::lookOf(picture.layer.spec, picture.info);
 }
 
 bool isCoverage(const PictureValues& picture)
 {
-  return picture.layer.spec.name == "coverage" && picture.info.channels % 4 == 0;
+  return picture.layer.spec.meaning == Meaning::Coverage && picture.info.channels % 4 == 0;
 }
 
 /// What stands for nothing although it is a finite number.
 bool zeroIsNothing(const PictureValues& picture)
 {
-  return picture.layer.spec.name == "inversedepth" || picture.layer.label == "ldi count";
+  return picture.layer.spec.meaning == Meaning::InverseDepth || picture.layer.spec.meaning == Meaning::Surfaces;
 }
 
 /// Calls with the channels of every kept pixel, or of every `every`-th.
@@ -95,26 +88,23 @@ std::uint32_t wordOf(Rgb color)
 std::string nameOfId(const DatasetPictures& dataset, const LayerSpec& spec, std::uint32_t id)
 {
   const std::string number = std::to_string(id);
-  if (isClassImage(spec))
+  const ObjectRecord* const object = dataset.object(id);
+  switch (spec.meaning)
   {
-    return number + " " + visibilityText(id).toStdString();
+    case Meaning::Visibility:
+      return number + " " + visibilityText(id).toStdString();
+    case Meaning::Id:
+      return number + (object ? " " + object->name : id == 0 ? " " + backgroundText() : "");
+    case Meaning::Mask:
+      return number + " " + (id == 0 ? outsideText() : object ? object->name : std::string());
+    case Meaning::Class:
+    {
+      const std::string name = dataset.className(id);
+      return number + (id == 0 ? " " + backgroundText() : name.empty() ? "" : " " + name);
+    }
+    default:
+      return number;
   }
-  if (spec.name == "objects" || spec.name == "alpha")
-  {
-    const ObjectRecord* const object = dataset.object(id);
-    return number + (object ? " " + object->name : id == 0 ? " " + backgroundText() : "");
-  }
-  if (spec.name == "amodal")
-  {
-    const ObjectRecord* const object = dataset.object(id);
-    return number + " " + (id == 0 ? outsideText() : object ? object->name : std::string());
-  }
-  if (spec.name == "classes")
-  {
-    const std::string name = dataset.className(id);
-    return number + (id == 0 ? " " + backgroundText() : name.empty() ? "" : " " + name);
-  }
-  return number;
 }
 
 using Counts = std::unordered_map<std::uint32_t, std::size_t>;
@@ -149,7 +139,7 @@ PictureColors colorCoverage(const DatasetPictures& dataset, const PictureValues&
 {
   PictureColors out;
   LayerSpec spec;
-  spec.name = "objects";
+  spec.meaning = Meaning::Id;
   const LayerColors colors(LayerLook::Ids, spec, picture.info);
   Counts counts;
   forEach(picture, 1,
@@ -182,7 +172,7 @@ LayerColors makeColors(const PictureValues& picture, LayerLook look)
 void describe(const PictureValues& picture, LayerLook look, PictureLegend& legend)
 {
   const LayerSpec& spec = picture.layer.spec;
-  legend.unit = spec.unit == "1" || picture.layer.label == "ldi count" ? "" : spec.unit;
+  legend.unit = spec.unit == "1" || spec.meaning == Meaning::Surfaces ? "" : spec.unit;
   const bool ramp = look == LayerLook::Depth || (look == LayerLook::Ranges && picture.info.channels == 1);
   legend.hasRange = ramp || look == LayerLook::Flow;
   switch (look)

@@ -58,10 +58,10 @@ FrameOverlays readOverlays(const DatasetPictures& dataset, const OverlayAsk& ask
   for (const std::string& camera : ask.cameras)
   {
     PictureOverlay& overlay = overlays.cameras[camera];
-    const std::string boxes = ask.boxes ? dataset.document({ camera, ask.frame, "boxes" }) : std::string();
+    const std::string boxes = ask.boxes ? dataset.document(DatasetDocument::Boxes, camera, ask.frame) : std::string();
     attempt(overlays, boxes, [&](const std::string& file) { addBoxes(overlay, readBoxes(file)); });
   }
-  const std::string points = ask.points ? dataset.document({ "", ask.frame, "points" }) : std::string();
+  const std::string points = ask.points ? dataset.document(DatasetDocument::Points, {}, ask.frame) : std::string();
   attempt(overlays, points, [&](const std::string& file) { addPoints(overlays, readPoints(file)); });
   return overlays;
 }

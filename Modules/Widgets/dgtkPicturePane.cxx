@@ -20,7 +20,6 @@ namespace
 {
 constexpr int headSpacing = 3;   // widget units
 constexpr int mostSurfaces = 99; // until a picture tells its own
-const char* const amodalLabel = "amodal";
 
 /// The largest number of an object that can be asked for. Objects are in the order of their ids.
 int largestObject(const std::vector<ObjectRecord>& objects)
@@ -126,8 +125,10 @@ void PicturePane::fillLayers()
 
 void PicturePane::showSurface()
 {
-  const bool amodal = this->layer() == amodalLabel;
-  this->Surface->setVisible(amodal || this->layer() == "ldi color" || this->layer() == "ldi depth");
+  const PictureLayer* const layer = this->Dataset->layer(this->layer().toStdString());
+  const bool amodal = layer != nullptr && isObjectMask(*layer);
+  const bool surfaces = layer != nullptr && !layer->part.empty() && layer->spec.meaning != Meaning::Surfaces;
+  this->Surface->setVisible(amodal || surfaces);
   this->Surface->setToolTip(
     amodal ? tr("Which object, by its id") : tr("Which surface along each ray, from the nearest"));
   const QSignalBlocker quiet(this->Surface); // whoever changed the layer tells it

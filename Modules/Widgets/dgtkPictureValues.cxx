@@ -104,9 +104,9 @@ enum class LdiShow
   Count
 };
 
-LdiShow showOf(const std::string& label)
+LdiShow showOf(const PictureLayer& layer)
 {
-  return label == "ldi depth" ? LdiShow::Depth : label == "ldi count" ? LdiShow::Count : LdiShow::Color;
+  return layer.part == "depth" ? LdiShow::Depth : layer.part == "count" ? LdiShow::Count : LdiShow::Color;
 }
 
 void fillLdi(PictureValues& picture, LdiShow show, int surface)
@@ -177,7 +177,7 @@ PictureValues readLdi(const std::string& path, const PictureLayer& layer, const 
   LdiReader reader(path);
   PictureValues picture;
   picture.layer = layer;
-  const LdiShow show = showOf(layer.label);
+  const LdiShow show = showOf(layer);
   picture.info = { "ldi", show == LdiShow::Color ? PixelType::UInt8 : PixelType::Float64,
     show == LdiShow::Color ? 3 : 1, reader.width(), reader.height() };
   picture.window = partOf(read.window, reader.width(), reader.height());
@@ -195,8 +195,6 @@ PictureValues readLdi(const std::string& path, const PictureLayer& layer, const 
   fillLdi(picture, show, read.surface);
   return picture;
 }
-
-bool isAmodal(const PictureLayer& layer) { return layer.format == "json"; }
 
 void fillMask(PictureValues& picture, const MaskRecord& mask, int height)
 {
@@ -281,13 +279,15 @@ void PictureValues::get(int column, int row, double* channels) const
   }
 }
 
+bool isObjectMask(const PictureLayer& layer) { return layer.format == "json"; }
+
 PictureValues readPicture(const std::string& path, const PictureLayer& layer, const PictureRead& read)
 {
   if (layer.format == "ldi")
   {
     return readLdi(path, layer, read);
   }
-  if (isAmodal(layer))
+  if (isObjectMask(layer))
   {
     return readMask(path, layer, read);
   }
@@ -311,7 +311,7 @@ std::pair<int, int> pictureSize(const std::string& path, const PictureLayer& lay
     const LdiReader reader(path);
     return { reader.width(), reader.height() };
   }
-  if (isAmodal(layer))
+  if (isObjectMask(layer))
   {
     const AmodalMasks masks = readAmodal(path);
     return { masks.width, masks.height };

@@ -64,6 +64,9 @@ struct PictureRead
   std::function<bool()> goOn;                     ///< asked now and then; false: an empty picture comes back
 };
 
+/// Masks of objects, of which one is seen; its pixels have the object's id, others 0.
+bool isObjectMask(const PictureLayer& layer);
+
 /// Reads a picture; memory is bounded by the budget and a few rows. Throws InputError for a damaged file.
 DGTKWIDGETS_EXPORT PictureValues readPicture(
   const std::string& path, const PictureLayer& layer, const PictureRead& read = {});

@@ -89,26 +89,29 @@ std::string idText(const DatasetPictures& dataset, const PictureValues& picture,
   {
     return nothingText();
   }
-  if (spec.name == "objects")
+  switch (spec.meaning)
+  {
+    case Meaning::Mask:
+      return id == 0 ? "0 " + outsideText() : objectText(dataset, id);
+    case Meaning::Class:
+    {
+      const std::string name = dataset.className(id);
+      return std::to_string(id) + (id == 0 ? " " + backgroundText() : name.empty() ? "" : " " + name);
+    }
+    case Meaning::Visibility:
+      return std::to_string(id) + " " + visibilityText(id).toStdString();
+    case Meaning::Index:
+      return std::to_string(id);
+    default:
+      break;
+  }
+  if (values.size() < 4)
   {
     return objectText(dataset, id);
   }
-  if (spec.name == "amodal")
-  {
-    return id == 0 ? "0 " + outsideText() : objectText(dataset, id);
-  }
-  if (spec.name == "alpha" && values.size() == 4)
-  {
-    const QString covered =
-      Words::tr("coverage %1 / 255").arg(QString::fromStdString(numberText(values[3], PixelType::UInt8)));
-    return objectText(dataset, id) + ", " + covered.toStdString();
-  }
-  if (spec.name == "classes")
-  {
-    const std::string name = dataset.className(id);
-    return std::to_string(id) + (id == 0 ? " " + backgroundText() : name.empty() ? "" : " " + name);
-  }
-  return std::to_string(id) + " " + visibilityText(id).toStdString();
+  const QString covered =
+    Words::tr("coverage %1 / 255").arg(QString::fromStdString(numberText(values[3], PixelType::UInt8)));
+  return objectText(dataset, id) + ", " + covered.toStdString();
 }
 
 std::string coverageText(const DatasetPictures& dataset, const PictureValues& picture, const double* channels)
@@ -122,9 +125,18 @@ std::string coverageText(const DatasetPictures& dataset, const PictureValues& pi
   return text;
 }
 
-bool endsWith(const std::string& text, const std::string& end)
+bool isNumbers(const PictureValues& picture)
 {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+  switch (picture.layer.spec.meaning)
+  {
+    case Meaning::Id:
+    case Meaning::Class:
+    case Meaning::Index:
+    case Meaning::Visibility:
+      return true;
+    default:
+      return isObjectMask(picture.layer);
+  }
 }
 } // namespace
 
@@ -157,28 +169,21 @@ std::string valueText(const DatasetPictures& dataset, const PictureValues& pictu
   std::vector<double> values(std::size_t(picture.values.channels()));
   picture.get(column, row, values.data());
   const LayerSpec& spec = picture.layer.spec;
-  if (spec.name == "objects" || spec.name == "alpha" || spec.name == "amodal" || spec.name == "classes" ||
-      endsWith(spec.name, "_class"))
+  if (isNumbers(picture))
   {
     return idText(dataset, picture, values);
   }
-  if (spec.name == "parts" || spec.name == "triangles")
-  {
-    const std::string text = numberText(values[0], PixelType::UInt32);
-    return text == spec.invalid ? nothingText() : text;
-  }
-  if (spec.name == "coverage" && values.size() % 4 == 0)
+  if (spec.meaning == Meaning::Coverage && values.size() % 4 == 0)
   {
     return coverageText(dataset, picture, values.data());
   }
   std::string text = listText(values, picture.info.type);
-  if (spec.name == "color" || spec.name == "tiles" || spec.name == "edges" || spec.unit == "sRGB" ||
-      !std::isfinite(values[0]))
+  if (spec.meaning == Meaning::Picture || spec.meaning == Meaning::Mask || !std::isfinite(values[0]))
   {
     return text;
   }
   text += unitOf(spec);
-  if (spec.name.rfind("flow_", 0) == 0 && values.size() == 2)
+  if (spec.meaning == Meaning::Displacement && values.size() == 2)
   {
     const std::string length = rounded(std::hypot(values[0], values[1]), lengthDigits);
     text += ", " + Words::tr("%1 long").arg(QString::fromStdString(length)).toStdString();
@@ -189,8 +194,7 @@ std::string valueText(const DatasetPictures& dataset, const PictureValues& pictu
 std::optional<Eigen::Vector3d> worldPoint(
   const DatasetPictures& dataset, const PictureKey& key, const PictureValues& picture, int x, int y)
 {
-  LayerSpec spec = picture.layer.spec;
-  spec.name = picture.layer.label == "ldi depth" ? "depth" : spec.name;
+  const LayerSpec& spec = picture.layer.spec;
   const CameraRecord* const record = dataset.camera(key.camera, key.frame);
   if (record == nullptr || !givesPoints(spec) || picture.info.format == "png" || !picture.inside(x, y))
   {
@@ -200,7 +204,7 @@ std::optional<Eigen::Vector3d> worldPoint(
   picture.get(picture.column(x), picture.row(y), values.data());
   try
   {
-    return pointOf(spec, spec.name == "position" ? View() : viewOf(*record), x, y, values.data());
+    return pointOf(spec, spec.meaning == Meaning::Point ? View() : viewOf(*record), x, y, values.data());
   }
   catch (const Error&)
   {

@@ -53,8 +53,12 @@ QWidget* RenderDialog::makeControls()
   grid->setContentsMargins(0, 0, 0, 0);
   const std::vector<LayerInfo> layers = generatorLayers();
   const int rows = (int(layers.size()) + layerColumns - 1) / layerColumns;
-  const QStringList chosen =
-    QSettings().value("render/layers", QStringList{ "color", "depth", "objects", "calibration" }).toStringList();
+  QStringList usual;
+  for (const LayerInfo& layer : layers)
+  {
+    usual += layer.usual ? QStringList(toText(layer.layer)) : QStringList();
+  }
+  const QStringList chosen = QSettings().value("render/layers", usual).toStringList();
   for (int i = 0; i < int(layers.size()); ++i)
   {
     const LayerInfo& layer = layers[std::size_t(i)];

@@ -249,7 +249,7 @@ void TruthView::receive(const LivePicture& picture, const QString& layer, const 
   }
   else if (picture.least <= picture.most)
   {
-    const bool nearBright = layer == "depth" || layer == "distance";
+    const bool nearBright = picture.meaning == Meaning::Depth || picture.meaning == Meaning::Distance;
     const double ends[2] = { picture.least, picture.most };
     caption = tr("%1: %2 (bright) to %3 (dark)")
                 .arg(layer)

@@ -88,7 +88,8 @@ TEST(LayerPicture, ValuesHaveTheColoursOfTheSheet)
   depth.row<double>(0)[0] = 1;
   depth.row<double>(0)[1] = 10;
   depth.row<double>(0)[2] = std::numeric_limits<double>::infinity();
-  const LayerPicture picture = paintLayer(depth, { "depth", PixelType::Float64, 1, "", "", "+inf", "" });
+  const LayerPicture picture =
+    paintLayer(depth, { "depth", PixelType::Float64, 1, "", "", "+inf", "", Meaning::Depth });
   ASSERT_EQ(picture.pixels.size(), 3u);
   EXPECT_EQ(picture.width, 3);
   EXPECT_EQ(picture.pixels[0], rampColor(1));
@@ -97,7 +98,7 @@ TEST(LayerPicture, ValuesHaveTheColoursOfTheSheet)
   Rows ids(PixelType::UInt32, 1, 2, 0, 1);
   ids.row<std::uint32_t>(0)[0] = 0;
   ids.row<std::uint32_t>(0)[1] = 7;
-  const LayerPicture objects = paintLayer(ids, { "objects", PixelType::UInt32, 1, "id", "", "0", "" });
+  const LayerPicture objects = paintLayer(ids, { "objects", PixelType::UInt32, 1, "id", "", "0", "", Meaning::Id });
   EXPECT_EQ(objects.pixels[0], idColor(0));
   EXPECT_EQ(objects.pixels[1], idColor(7));
 }
@@ -108,7 +109,8 @@ TEST(LayerPicture, FlowHasTheColourWheel)
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double values[] = { 3, 4, -2.5, 0, 0, 0, nan, nan };
   std::copy(std::begin(values), std::end(values), flow.row<double>(0));
-  const LayerPicture picture = paintLayer(flow, { "flow_forward", PixelType::Float64, 2, "pixels", "", "nan", "" });
+  const LayerPicture picture =
+    paintLayer(flow, { "flow_forward", PixelType::Float64, 2, "pixels", "", "nan", "", Meaning::Displacement });
   EXPECT_EQ(picture.longest, 5);
   EXPECT_EQ(picture.pixels[0], wheelColor(0.6, 0.8));
   EXPECT_EQ(picture.pixels[1], wheelColor(-0.5, 0));

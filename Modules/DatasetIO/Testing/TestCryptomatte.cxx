@@ -26,6 +26,7 @@ LayerSpec coverageSpec()
   spec.name = "coverage";
   spec.type = PixelType::Float32;
   spec.channels = 12;
+  spec.meaning = Meaning::Coverage;
   return spec;
 }
 } // namespace

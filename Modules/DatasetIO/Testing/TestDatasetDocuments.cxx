@@ -191,6 +191,21 @@ TEST(Objects, ClassesWithoutObjectsAreListed)
   EXPECT_EQ(read(old), "40tree ");
 }
 
+TEST(ManifestDocument, SaysAMeaningThatUnitAndFrameDoNotImply)
+{
+  Manifest manifest;
+  manifest.layers = { { { "curvature", PixelType::Float64, 1, "1 / scene units", "", "nan", "", Meaning::Direction },
+                        "npy" },
+    { { "depth", PixelType::Float64, 1, "scene units", "camera", "+inf", "", Meaning::Depth }, "npy" } };
+  const TemporaryFolder folder;
+  const std::string text = manifestText(manifest);
+  EXPECT_EQ(text.find("meaning"), text.rfind("meaning")) << "of one only";
+  writeFile(folder.path("manifest.json"), text);
+  const Manifest read = readManifest(folder.path("manifest.json"));
+  EXPECT_EQ(read.layers[0].spec.meaning, Meaning::Direction);
+  EXPECT_EQ(read.layers[1].spec.meaning, Meaning::Depth);
+}
+
 TEST(ManifestDocument, RoundTrip)
 {
   Manifest manifest;

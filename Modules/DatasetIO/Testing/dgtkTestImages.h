@@ -9,17 +9,23 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace dgtk::test
 {
 
-/// A layer of a type, named so that every format that can take the type does.
+/// A layer of a type, with a meaning such that every format that can take the type does.
 inline LayerSpec specOf(PixelType type, int channels, const std::string& name = "depth")
 {
+  static const std::map<std::string, Meaning> meanings{ { "depth", Meaning::Depth }, { "distance", Meaning::Distance },
+    { "color", Meaning::Picture }, { "objects", Meaning::Id }, { "alpha", Meaning::Id }, { "parts", Meaning::Index },
+    { "triangles", Meaning::Index }, { "normal", Meaning::Direction }, { "uv", Meaning::TextureCoordinates },
+    { "flow_forward", Meaning::Displacement }, { "flow_class", Meaning::Visibility } };
   LayerSpec spec;
   spec.name = name;
+  spec.meaning = meanings.at(name);
   spec.type = type;
   spec.channels = channels;
   spec.unit = "1";

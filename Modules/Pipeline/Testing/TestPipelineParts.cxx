@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkColorRows.h"
 #include "dgtkError.h"
 #include "dgtkGenerator.h"
-#include "dgtkColorRows.h"
+#include "dgtkLayers.h"
+#include "dgtkSceneDescription.h"
 #include "dgtkSerialQueue.h"
 #include "dgtkTestSupport.h"
 
@@ -11,6 +13,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <set>
 
 using namespace dgtk;
 
@@ -28,6 +31,30 @@ TEST(Generator, RefusesFramesThatAreNone)
     EXPECT_THROW(requestHash(request), UsageError);
   }
   EXPECT_FALSE(std::filesystem::exists(request.folder));
+}
+
+/// What a dataset says of a layer without naming its meaning is enough to tell it, so that manifests need not name it.
+TEST(Layers, MeanWhatTheirUnitsAndFramesImply)
+{
+  GeneratorRequest request;
+  request.layers = { "all" };
+  request.matte = { "vase" };
+  SceneDescription scene = readScene(test::sourceFile("Data/Scenes/noise_color.json"));
+  const auto stage = Stage::load(scene);
+  std::set<Meaning> seen;
+  for (const PlannedLayer& planned : makeWorkPlan(request, *stage).layers)
+  {
+    for (const std::string& format : planned.layer->info().formats)
+    {
+      for (const LayerRecord& record : planned.layer->records(makeWorkPlan(request, *stage), format))
+      {
+        EXPECT_NE(record.spec.meaning, Meaning::Unknown) << record.spec.name;
+        EXPECT_EQ(nameOf(record.spec.meaning), std::string(nameOf(impliedMeaning(record.spec)))) << record.spec.name;
+        seen.insert(record.spec.meaning);
+      }
+    }
+  }
+  EXPECT_EQ(seen.size(), std::size_t(Meaning::Record)) << "every meaning but Unknown has a layer";
 }
 
 TEST(SerialQueue, KeepsTheOrderOfEachQueueOnAnyNumberOfThreads)

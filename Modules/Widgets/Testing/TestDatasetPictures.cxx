@@ -21,7 +21,7 @@ using test::SmallDataset;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const LayerSpec depth{ "depth", PixelType::Float64, 1, "scene units", "camera", "+inf", "" };
+const LayerSpec depth{ "depth", PixelType::Float64, 1, "scene units", "camera", "+inf", "", Meaning::Depth };
 const LayerSpec color{ "color", PixelType::UInt8, 3, "sRGB", "image", "none", "" };
 const LayerSpec matches{ "correspondence", PixelType::Float64, 2, "pixels", "", "nan", "" };
 const LayerSpec classes{ "correspondence_class", PixelType::UInt8, 1, "class", "", "0", "" };

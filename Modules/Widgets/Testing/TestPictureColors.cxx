@@ -23,7 +23,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double tolerance = 1e-12; // scene units, of points some units away
 
-const LayerSpec depth{ "depth", PixelType::Float64, 1, "scene units", "camera", "+inf", "" };
+const LayerSpec depth{ "depth", PixelType::Float64, 1, "scene units", "camera", "+inf", "", Meaning::Depth };
 
 std::uint32_t wordOf(Rgb c) { return 0xff000000u | std::uint32_t(c[0]) << 16 | std::uint32_t(c[1]) << 8 | c[2]; }
 
@@ -113,7 +113,7 @@ TEST(PictureColors, ClassesOfVisibilityAreWords)
 TEST(PictureColors, CoverageNamesItsObjects)
 {
   SmallDataset files;
-  const LayerSpec spec{ "coverage", PixelType::Float32, 4, "1", "image", "0", "" };
+  const LayerSpec spec{ "coverage", PixelType::Float32, 4, "1", "image", "0", "", Meaning::Coverage };
   const std::string name = files.place("left", "coverage", 0, "", "exr");
   CryptomatteWriter writer(
     files.path(name), spec, SmallDataset::width, SmallDataset::height, { "floor", "mill", "tree" }, 6);
@@ -167,14 +167,14 @@ TEST(DatasetPoints, PixelsGoWhereTheCalibrationSays)
       const double distance = (camera.R * point + camera.t).norm();
       const double inverse = 1 / z;
       EXPECT_LT((*pointOf(depth, view, x, y, &z) - point).norm(), tolerance);
-      EXPECT_LT((*pointOf({ "distance", {}, 1, "", "", "", "" }, view, x, y, &distance) - point).norm(), tolerance);
-      EXPECT_LT((*pointOf({ "inversedepth", {}, 1, "", "", "", "" }, view, x, y, &inverse) - point).norm(), tolerance);
-      EXPECT_EQ(*pointOf({ "position", {}, 3, "", "", "", "" }, view, x, y, point.data()), point);
+      EXPECT_LT((*pointOf({ "distance", {}, 1, "", "", "", "", Meaning::Distance }, view, x, y, &distance) - point).norm(), tolerance);
+      EXPECT_LT((*pointOf({ "inversedepth", {}, 1, "", "", "", "", Meaning::InverseDepth }, view, x, y, &inverse) - point).norm(), tolerance);
+      EXPECT_EQ(*pointOf({ "position", {}, 3, "", "world", "", "", Meaning::Point }, view, x, y, point.data()), point);
     }
     EXPECT_FALSE(pointOf(depth, view, 0, 0, &inf));
     const double none = 0;
-    EXPECT_FALSE(pointOf({ "inversedepth", {}, 1, "", "", "", "" }, view, 0, 0, &none));
-    EXPECT_FALSE(pointOf({ "uv", {}, 2, "", "", "", "" }, view, 0, 0, &none));
+    EXPECT_FALSE(pointOf({ "inversedepth", {}, 1, "", "", "", "", Meaning::InverseDepth }, view, 0, 0, &none));
+    EXPECT_FALSE(pointOf({ "uv", {}, 2, "", "", "", "", Meaning::TextureCoordinates }, view, 0, 0, &none));
   }
 }
 
