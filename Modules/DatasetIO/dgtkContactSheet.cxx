@@ -89,6 +89,8 @@ bool isPicture(const LayerSpec& spec)
   return spec.meaning != Meaning::Surfaces && spec.meaning != Meaning::Record && !ranks;
 }
 
+bool isPng(const std::string& path) { return fs::path(path).extension() == ".png"; }
+
 Contents contentsOf(const Manifest& manifest)
 {
   Contents contents;
@@ -113,8 +115,8 @@ Contents contentsOf(const Manifest& manifest)
   {
     // the first in alphabetical order where a layer has several formats; a picture loses nothing to values
     std::string& path = contents.images[{ file->camera, file->frame, file->layer }];
-    const bool picture = file->path.size() > 4 && file->path.compare(file->path.size() - 4, 4, ".png") == 0;
-    if (path.empty() || (picture && known[file->layer].meaning == Meaning::Picture))
+    const bool better = known[file->layer].meaning == Meaning::Picture && isPng(file->path) && !isPng(path);
+    if (path.empty() || better)
     {
       path = file->path;
     }
