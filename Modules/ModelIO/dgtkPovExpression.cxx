@@ -135,19 +135,19 @@ PovParser::Number PovParser::term()
 
 PovParser::Number PovParser::factor()
 {
-  bool negative = false;
-  bool inverted = false;
+  std::string signs;
   while (this->peek().is('-') || this->peek().is('+') || this->peek().is('!'))
   {
-    const PovToken sign = this->take();
-    negative = negative != sign.is('-');
-    inverted = inverted != sign.is('!');
+    signs += this->take().text[0];
   }
   Number value = this->member(this->primary());
-  for (std::size_t i = 0; i < static_cast<std::size_t>(value.size); ++i)
+  for (auto sign = signs.rbegin(); sign != signs.rend(); ++sign)
   {
-    value.v[i] = negative ? -value.v[i] : value.v[i];
-    value.v[i] = inverted ? value.v[i] == 0 : value.v[i];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(value.size); ++i)
+    {
+      double& v = value.v[i];
+      v = *sign == '-' ? -v : *sign == '!' ? double(v == 0) : v;
+    }
   }
   return value;
 }
@@ -226,28 +226,35 @@ PovParser::Number PovParser::vectorLiteral()
   return value;
 }
 
+/// The value of one component; `color` becomes unknown with it.
+double PovParser::component(Number& color)
+{
+  const Number component = this->factor();
+  color.unknown = component.unknown >= 0 ? component.unknown : color.unknown;
+  return component.v[0];
+}
+
+/// A colour and what is said of its components behind it: `red 1 green 0.5 blue 0`, `rgb 1 transmit 0.5`.
+PovParser::Number PovParser::withComponents(Number color)
+{
+  for (PovToken next = this->peek();
+       next.kind == PovToken::Kind::Word && next.text.size() >= 3 && members.count(next.text) > 0; next = this->peek())
+  {
+    this->take();
+    color.v[members.at(next.text)] = this->component(color);
+  }
+  return color;
+}
+
 PovParser::Number PovParser::colorWord(const PovToken& word)
 {
   Number color;
   if (members.count(word.text) > 0)
   {
-    // red 1 green 0.5 blue 0
-    PovToken name = word;
-    for (;;)
-    {
-      const Number component = this->factor();
-      color.v[members.at(name.text)] = component.v[0];
-      color.unknown = component.unknown >= 0 ? component.unknown : color.unknown;
-      const PovToken& next = this->peek();
-      if (next.kind != PovToken::Kind::Word || next.text.size() < 3 || members.count(next.text) == 0)
-      {
-        break;
-      }
-      name = this->take();
-    }
+    color.v[members.at(word.text)] = this->component(color);
     color.size = 5;
     color.isColor = true;
-    return color;
+    return this->withComponents(color);
   }
   const int components = colorWords.at(word.text);
   color = this->expression();
@@ -264,7 +271,7 @@ PovParser::Number PovParser::colorWord(const PovToken& word)
   }
   color.size = 5;
   color.isColor = true;
-  return color;
+  return this->withComponents(color);
 }
 
 PovParser::Number PovParser::word()
@@ -284,6 +291,7 @@ PovParser::Number PovParser::word()
       value.v = name->second.number;
       value.size = name->second.size;
       value.isColor = name->second.kind == PovValue::Kind::Color;
+      value = value.isColor ? this->withComponents(value) : value;
     }
   }
   else if (colorWords.count(word.text) > 0)

@@ -101,6 +101,8 @@ private:
   Number factor();
   Number primary();
   Number word();
+  double component(Number& color);
+  Number withComponents(Number color);
   Number colorWord(const PovToken& word);
   Number vectorLiteral();
   Number comparison();
