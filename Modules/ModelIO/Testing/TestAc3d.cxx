@@ -383,8 +383,14 @@ TEST(Ac3d, DataMayLookLikeStatements)
   const ModelPointer model = read(object("data 13\nkids 4\nSURF x\n" + square + "SURF 0x00\n" + squareRefs));
   EXPECT_EQ(model->triangles.size(), 2u);
   EXPECT_THAT(model->warnings, IsEmpty());
-  // counted with two characters a line end
-  EXPECT_EQ(read(object("data 8\nab\ncde\n" + square + "SURF 0x00\n" + squareRefs))->triangles.size(), 2u);
+  // counted with up to three characters a line end, and one at the end
+  for (const char* count : { "7", "8", "9", "12" })
+  {
+    const ModelPointer counted =
+      read(object(std::string("data ") + count + "\nab\ncde\n" + square + "SURF 0x00\n" + squareRefs));
+    EXPECT_EQ(counted->triangles.size(), 2u) << count;
+    EXPECT_THAT(counted->warnings, IsEmpty()) << count;
+  }
 }
 
 TEST(Ac3d, Refusals)

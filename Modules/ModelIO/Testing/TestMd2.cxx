@@ -205,6 +205,33 @@ TEST(Md2, TimesFromAnAnmFile)
   EXPECT_EQ(p[0].z(), 1.5);
 }
 
+TEST(Md2, RatesOfAnAnmFile)
+{
+  std::vector<std::string> warnings;
+  const auto rates = [&](const std::string& text)
+  {
+    std::vector<double> found;
+    for (const dgtk::Animation& animation : dgtk::parseAnm(text, "x.anm", 4, warnings))
+    {
+      found.push_back(animation.fps);
+    }
+    return found;
+  };
+  EXPECT_THAT(rates("a 1 3\nb 1 3 // ten\n#c 1 3 4\nd 1 3 4 // four\ne 1 3 999999\nf 0 0 0\n"),
+    ElementsAre(10, 10, 4, 999999, 0));
+  EXPECT_THAT(warnings, testing::IsEmpty());
+  EXPECT_THAT(rates("a 1 3 1000000\nb 3 1 4\nc 1 3 fast\nd -1 3 4\ne 1 3 -1\nf 1\n"), testing::IsEmpty());
+  EXPECT_EQ(warnings.size(), 6u);
+}
+
+TEST(Md2, FrameNamesOfAllTheirCharacters)
+{
+  dgtk::test::Md2File file = md2Seed();
+  file.frames[0].name = "a_frame_of_many1";
+  file.frames[1].name = "a_frame_of_many2";
+  EXPECT_THAT(described(readBytes("md2", file.bytes())->animations), ElementsAre("a_frame_of_many 0-1", "pain1 2-3"));
+}
+
 TEST(Md2, TimesOfAnAnmFileBeginWithinTheFrames)
 {
   std::vector<std::string> warnings;
@@ -276,7 +303,7 @@ TEST(Md2, BadIndicesAreCounted)
 {
   dgtk::test::Md2File file = md2Seed();
   file.triangles[0] = 4;
-  file.triangles[9] = 77;
+  file.triangles[9] = 4; // one behind the last of both
   const auto model = readBytes("md2", file.bytes());
   EXPECT_EQ(model->triangles.size(), 3u);
   EXPECT_THAT(model->warnings, testing::Contains(HasSubstr("1 surface left out: a vertex that does not exist")));
