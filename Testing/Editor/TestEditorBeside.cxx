@@ -11,11 +11,13 @@
 #include <QSpinBox>
 
 #include <algorithm>
+#include <vector>
 
 namespace
 {
 constexpr int largeSide = 2000;     // pixels of pictures that take long
 constexpr int stirring = 3000;      // milliseconds
+constexpr int fewest = 4;           // rounds
 constexpr double answerLimit = 200; // milliseconds
 } // namespace
 
@@ -31,10 +33,11 @@ void TestEditorBeside::theWindowAnswersWhileItRenders()
   dialog->findChild<QSpinBox*>("height")->setValue(largeSide);
   auto* start = dialog->findChild<QPushButton*>("start");
   start->click();
-  QTRY_VERIFY_WITH_TIMEOUT(!contents(this->path("beside")).isEmpty(), longestRun);
+  QTRY_VERIFY(!contents(this->path("beside")).isEmpty());
   auto& timed = static_cast<TimedApplication&>(*qApp);
   timed.restart();
-  double latest = 0; // milliseconds that a timer came too late
+  double latest = 0; // milliseconds that a timer came too late in this round
+  std::vector<double> lateness;
   QElapsedTimer since;
   QTimer probe;
   constexpr int every = 10;
@@ -52,8 +55,9 @@ void TestEditorBeside::theWindowAnswersWhileItRenders()
   auto* frame = this->Window->findChild<QSpinBox*>("frame");
   const char* names[] = { "house", "tree", "vase" };
   int rounds = 0;
-  while (clock.elapsed() < stirring && !start->isEnabled())
+  while ((clock.elapsed() < stirring || rounds < fewest) && !start->isEnabled())
   {
+    latest = 0;
     this->select(names[rounds % 3]);
     this->type("position.1", QString::number(0.001 * (rounds + 1)));
     QTest::mousePress(view, Qt::LeftButton, {}, QPoint(8, 8));
@@ -67,16 +71,19 @@ void TestEditorBeside::theWindowAnswersWhileItRenders()
     QTest::mouseRelease(view, Qt::LeftButton, {}, QPoint(40, 24));
     frame->setValue(rounds % 10);
     QCoreApplication::processEvents();
+    lateness.push_back(latest);
     ++rounds;
   }
-  qInfo("%d rounds beside a run: longest event %.0f ms (%s), latest timer %.0f ms; aim %.0f", rounds, timed.longest(),
-    qPrintable(timed.what()), latest, answerLimit);
   QVERIFY2(!start->isEnabled(), "the run was to go on all the time");
-  QVERIFY(rounds > 3);
-  QVERIFY(timed.longest() < 2 * answerLimit);
-  QVERIFY(latest < patience * answerLimit);
+  // Of half of the rounds: in single ones other programs may have had the machine.
+  std::nth_element(lateness.begin(), lateness.begin() + rounds / 2, lateness.end());
+  const double late = lateness[std::size_t(rounds / 2)];
+  qInfo("%d rounds beside a run: longest event %.0f ms (%s), timer %.0f ms late; aim %.0f", rounds, timed.longest(),
+    qPrintable(timed.what()), late, answerLimit);
+  QVERIFY(timed.longest() < patience() * answerLimit);
+  QVERIFY(late < patience() * answerLimit);
   dialog->findChild<QPushButton*>("cancel")->click();
-  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+  QTRY_VERIFY(start->isEnabled());
 }
 
 int main(int argc, char** argv) { return runEditorTest<TestEditorBeside>(argc, argv); }

@@ -102,7 +102,7 @@ void TestEditorTruth::viewsHaveTheRenderersColours()
   this->select(name.c_str());
   this->action("preview")->trigger();
   auto* picture = view->findChild<QWidget*>("truthPicture");
-  QTRY_VERIFY_WITH_TIMEOUT(picture->property("settled").toBool(), longest);
+  QTRY_VERIFY(picture->property("settled").toBool());
   view->setFocus();
   for (int i = 0; i < aside; ++i)
   {

@@ -169,10 +169,10 @@ void TestEditorFiles::filesOfTheCommandLineOpen()
   environment.insert("XDG_DATA_HOME", this->path("data"));
   editor.setProcessEnvironment(environment);
   editor.start(QCoreApplication::applicationDirPath() + "/dgtk-editor", { this->copyOfDemo(), model("crate.ac") });
-  QTRY_VERIFY_WITH_TIMEOUT(contentsOf(settings + "/DGTk/Editor.conf").contains("demo.json"), longestRun);
+  QTRY_VERIFY(contentsOf(settings + "/DGTk/Editor.conf").contains("demo.json"));
   QCOMPARE(editor.state(), QProcess::Running);
   editor.kill();
-  QVERIFY(editor.waitForFinished());
+  QVERIFY(editor.waitForFinished(longestRun));
 }
 
 void TestEditorFiles::recentFilesOpenAgain()
@@ -218,14 +218,14 @@ void TestEditorFiles::theLogsCommandIsForAShell()
   QTest::mouseClick(start, Qt::LeftButton);
   QVERIFY(!field->isEnabled());
   QTest::mouseClick(dialog->findChild<QPushButton*>("cancel"), Qt::LeftButton);
-  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+  QTRY_VERIFY(start->isEnabled());
   QVERIFY(field->isEnabled());
   const QStringList lines = this->Window->findChild<QPlainTextEdit*>("log")->toPlainText().split('\n');
   const QStringList commands = lines.filter(QRegularExpression("^dgtk render "));
   QCOMPARE(commands.size(), 1);
   QProcess shell;
   shell.start("/bin/sh", { "-c", QString(commands.first()).replace(0, 4, "printf '%s\\n'") });
-  QVERIFY(shell.waitForFinished());
+  QVERIFY(shell.waitForFinished(longestRun));
   const QStringList words = QString::fromUtf8(shell.readAllStandardOutput()).split('\n');
   QCOMPARE(words.value(words.indexOf("-o") + 1), folder);
   QVERIFY(words.indexOf("-o") > 0);
@@ -240,7 +240,7 @@ void TestEditorFiles::theWindowIsAsItWasLeft()
   QVERIFY(this->Window->close());
   this->Window = std::make_unique<dgtk::MainWindow>();
   this->Window->show();
-  QVERIFY(QTest::qWaitForWindowExposed(this->Window.get()));
+  QVERIFY(QTest::qWaitForWindowExposed(this->Window.get(), longestRun));
   QTRY_COMPARE(this->Window->size(), size);
   QVERIFY(!this->Window->findChild<QDockWidget*>("logDock")->isVisible());
   QVERIFY(this->Window->findChild<QDockWidget*>("timeDock")->isVisible());
@@ -266,11 +266,11 @@ void TestEditorFiles::aLargeRunEndsAtOnce()
   auto* cancel = dialog->findChild<QPushButton*>("cancel");
   const auto* status = dialog->findChild<QLabel*>("status");
   QTest::mouseClick(start, Qt::LeftButton);
-  QTRY_VERIFY_WITH_TIMEOUT(status->text().startsWith("Pictures: 0"), longestRun);
+  QTRY_VERIFY(status->text().startsWith("Pictures: 0"));
   QTest::mouseClick(cancel, Qt::LeftButton);
   QVERIFY2(status->text().contains("Cancel again"), qPrintable(status->text()));
   QTest::mouseClick(cancel, Qt::LeftButton);
-  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), 4000 * patience);
+  QTRY_VERIFY(start->isEnabled());
   QVERIFY2(status->text().startsWith("Stopped."), qPrintable(status->text()));
   QVERIFY(!QFile::exists(this->path("hours/manifest.json")));
 }
@@ -285,7 +285,7 @@ void TestEditorFiles::aRunEndsThatHasJustBegun()
   QTest::mouseClick(start, Qt::LeftButton);
   QTest::mouseClick(dialog->findChild<QPushButton*>("cancel"), Qt::LeftButton);
   std::signal(SIGINT, before);
-  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), 4000 * patience);
+  QTRY_VERIFY(start->isEnabled());
   const QString said = dialog->findChild<QLabel*>("status")->text();
   QVERIFY2(said.startsWith("Stopped."), qPrintable(said));
 }
@@ -300,6 +300,7 @@ void TestEditorFiles::theProgressOfARunMoves()
   int last = -1;
   int still = 0;
   int stillest = 0;
+  int looks = 0;
   int moves = 0;
   QTimer looker;
   connect(&looker, &QTimer::timeout, &looker,
@@ -309,16 +310,19 @@ void TestEditorFiles::theProgressOfARunMoves()
       const bool moved = counting && bar->value() > last;
       QVERIFY(!counting || bar->value() >= last);
       moves += moved ? 1 : 0;
+      looks += counting ? 1 : 0;
       still = moved || !counting ? 0 : still + 1;
       stillest = std::max(stillest, still);
       last = counting ? bar->value() : -1;
     });
   looker.start(100);
   QTest::mouseClick(start, Qt::LeftButton);
-  QTRY_VERIFY_WITH_TIMEOUT(moves > 8 || start->isEnabled(), longestRun);
+  QTRY_VERIFY(moves > 8 || start->isEnabled());
   QTest::mouseClick(cancel, Qt::LeftButton);
   looker.stop();
-  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+  QTRY_VERIFY(start->isEnabled());
   QVERIFY(moves > 4);
-  QVERIFY2(stillest < 5 * patience, "more than half a second without a move, many times over");
+  qInfo("%d moves in %d looks, at most %d looks without a move", moves, looks, stillest);
+  QVERIFY2(
+    stillest < std::max(5 * patience(), 0.5 * looks), "no move for many times half a second, and half of the time");
 }

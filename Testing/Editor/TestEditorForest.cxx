@@ -126,7 +126,7 @@ void TestEditorForest::openForest(const std::string& model, int side, int camera
   QCoreApplication::processEvents();
   const double spent = std::min(clock.nsecsElapsed() * 1e-6, 1000.0 * double(std::clock() - began) / CLOCKS_PER_SEC);
   qInfo("%d copies, %d cameras: %.0f ms to open and draw", side * side, cameras, spent);
-  QVERIFY(spent < patience * forestLimit);
+  QVERIFY(spent < patience() * forestLimit);
 }
 
 double TestEditorForest::longest(const char* what, const std::function<void(int)>& act) const
@@ -154,14 +154,14 @@ void TestEditorForest::aForestOpensAndAnswersAtOnce()
   this->openForest(tree(), forestSide, forestCameras);
   QCOMPARE(this->Window->document().models().size(), std::size_t(1));
   const char* const names[tries] = { "tree40", "tree41", "tree42" };
-  QVERIFY(this->longest("select", [&](int i) { this->select(names[i % tries]); }) < patience * eventLimit);
+  QVERIFY(this->longest("select", [&](int i) { this->select(names[i % tries]); }) < patience() * eventLimit);
   QVERIFY(
-    this->longest("type", [&](int i) { this->type("position.1", QString::number(i + 1)); }) < patience * eventLimit);
+    this->longest("type", [&](int i) { this->type("position.1", QString::number(i + 1)); }) < patience() * eventLimit);
   QCOMPARE(this->Window->document().scene().objects[42].position.value.y(), double(tries));
   auto* cells = this->Window->findChild<QAbstractScrollArea*>("timeLineCells")->viewport();
   const auto scrub = [&](int i)
   { QTest::mouseClick(cells, Qt::LeftButton, {}, QPoint(cells->width() - 12 * (i + 1), 5)); };
-  QVERIFY(this->longest("scrub", scrub) < patience * eventLimit);
+  QVERIFY(this->longest("scrub", scrub) < patience() * eventLimit);
   this->action("frameSelected")->trigger();
   QTest::qWait(settle);
   const QPoint middle = this->view(front)->rect().center();
@@ -175,7 +175,7 @@ void TestEditorForest::aForestOpensAndAnswersAtOnce()
     QTest::mouseRelease(this->view(front), Qt::LeftButton, {}, middle + QPoint(40, i));
   };
   const double before = this->Window->document().scene().objects[42].position.value.x();
-  QVERIFY(this->longest("drag", drag) < patience * eventLimit);
+  QVERIFY(this->longest("drag", drag) < patience() * eventLimit);
   QVERIFY(this->Window->document().scene().objects[42].position.value.x() > before);
 }
 
@@ -200,14 +200,14 @@ void TestEditorForest::aForestIsCopiedAtOnce()
     prepare(this->action("undo"), this->action("selectAll"));
     QTest::keyClick(this->Window.get(), Qt::Key_D, Qt::ControlModifier);
   };
-  QVERIFY(this->longest("duplicate", duplicate) < patience * eventLimit);
+  QVERIFY(this->longest("duplicate", duplicate) < patience() * eventLimit);
   QCOMPARE(document.scene().objects.size(), 2 * trees);
   const auto undo = [&](int /*unused*/)
   {
     prepare(this->action("redo"), this->action("selectAll"));
     QTest::keyClick(this->Window.get(), Qt::Key_Z, Qt::ControlModifier);
   };
-  QVERIFY(this->longest("undo", undo) < patience * eventLimit);
+  QVERIFY(this->longest("undo", undo) < patience() * eventLimit);
   QCOMPARE(document.scene().objects.size(), trees);
 }
 
@@ -323,7 +323,7 @@ void TestEditorForest::twoHundredThousandTrianglesTurn()
     std::min(clock.nsecsElapsed() * 1e-6, 1000.0 * double(std::clock() - began) / CLOCKS_PER_SEC) / turns;
   QTest::mouseRelease(this->view(perspective), Qt::LeftButton, {}, QPoint(25 + 5 * turns, 5));
   qInfo("%.0f ms for a step of turning the perspective", spent);
-  QVERIFY(spent < patience * turnLimit);
+  QVERIFY(spent < patience() * turnLimit);
 }
 
 void TestEditorForest::copiesShareTheirGeometry()

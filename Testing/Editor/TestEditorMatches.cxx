@@ -36,7 +36,7 @@ QWidget* TestEditorTruth::openMatches() const
   for (const char* pane : { "pane.0", "pane.1" })
   {
     auto* widget = dialog->findChild<QWidget*>(pane);
-    for (int i = 0; i < longest / 20 && widget->property("step").toInt() != 1; ++i)
+    for (int i = 0; i < longestRun / 20 && widget->property("step").toInt() != 1; ++i)
     {
       QTest::qWait(20);
     }
@@ -48,7 +48,7 @@ void TestEditorTruth::clickMatch(QWidget* dialog, int side, const QPointF& image
 {
   auto* pane = dialog->findChild<QWidget*>(QStringLiteral("pane.%1").arg(side));
   QTest::mouseClick(pane, Qt::LeftButton, {}, widgetPoint(pane, image));
-  QTRY_VERIFY_WITH_TIMEOUT(textOf(dialog, "match.class") != "-", longest);
+  QTRY_VERIFY(textOf(dialog, "match.class") != "-");
 }
 
 void TestEditorTruth::matchesAreTheDatasets()
@@ -155,7 +155,7 @@ void TestEditorTruth::pairsAreThoseOfTheCommandLine()
   const QRect cell = table->visualItemRect(table->item(2, 1));
   QTest::mouseClick(table->viewport(), Qt::LeftButton, {}, cell.center());
   QCOMPARE(dialog->findChild<QComboBox*>("camera.1")->currentText(), QString("right"));
-  QTRY_VERIFY_WITH_TIMEOUT(textOf(dialog, "match.to").contains(table->item(2, 4)->toolTip()), longest);
+  QTRY_VERIFY(textOf(dialog, "match.to").contains(table->item(2, 4)->toolTip()));
 
   dgtk::writeFile(this->Folder.path("broken.txt"), "1 2 3\n");
   QString message;
@@ -237,7 +237,7 @@ void TestEditorTruth::panesZoomAndPan()
   // Inside a pixel, and by a tenth.
   dialog->findChild<QCheckBox*>("centers")->setChecked(false);
   QTest::mouseClick(pane, Qt::LeftButton, {}, middle);
-  QTRY_VERIFY_WITH_TIMEOUT(textOf(dialog, "match.class") != "-", longest);
+  QTRY_VERIFY(textOf(dialog, "match.class") != "-");
   const double x = textOf(dialog, "match.from").section(':', 1).section(',', 0, 0).toDouble();
   QTest::keyClick(pane, Qt::Key_Right, Qt::ShiftModifier);
   const double moved = textOf(dialog, "match.from").section(':', 1).section(',', 0, 0).toDouble();

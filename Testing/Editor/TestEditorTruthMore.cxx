@@ -132,17 +132,15 @@ void TestEditorTruth::germanIsSpokenOfTheTruth()
   auto* frame = this->Window->findChild<QSpinBox*>("frame");
   this->action("show.flow_forward")->trigger();
   frame->setValue(this->Window->document().scene().lastFrame());
-  QTRY_COMPARE_WITH_TIMEOUT(
-    picture->property("caption").toString(), QString("flow_forward: das letzte Bild hat keins nach sich"), longest);
+  QTRY_COMPARE(picture->property("caption").toString(), QString("flow_forward: das letzte Bild hat keins nach sich"));
   this->action("show.flow_backward")->trigger();
   frame->setValue(this->Window->document().scene().firstFrame());
-  QTRY_COMPARE_WITH_TIMEOUT(
-    picture->property("caption").toString(), QString("flow_backward: das erste Bild hat keins vor sich"), longest);
+  QTRY_COMPARE(picture->property("caption").toString(), QString("flow_backward: das erste Bild hat keins vor sich"));
   this->action("show.flow_forward")->trigger();
   auto* view = this->Window->findChild<QWidget*>("view.3");
   auto* panel = this->Window->findChild<QTreeWidget*>("truthPanel");
   hover(view, view->rect().center());
-  QTRY_VERIFY_WITH_TIMEOUT(valueOf(panel, "flow forward,").contains('\n'), longest);
+  QTRY_VERIFY(valueOf(panel, "flow forward,").contains('\n'));
   QVERIFY(panel->findItems("flow forward,\nPixel", Qt::MatchExactly).size() == 1);
 
   QStringList faults;

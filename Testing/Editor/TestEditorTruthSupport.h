@@ -12,8 +12,6 @@
 
 #include <cmath>
 
-constexpr int longest = 30000; // milliseconds, of a picture on a busy machine
-
 /// Where an image point of a pane is in its widget.
 inline QPoint widgetPoint(QWidget* pane, const QPointF& image)
 {

@@ -132,7 +132,7 @@ QMainWindow* TestEditorViewer::viewer() const
 
 void TestEditorViewer::waitForPictures(QMainWindow* viewer) const
 {
-  QTRY_VERIFY_WITH_TIMEOUT(viewer->property("busy").isValid() && !viewer->property("busy").toBool(), longestRun);
+  QTRY_VERIFY(viewer->property("busy").isValid() && !viewer->property("busy").toBool());
 }
 
 QWidget* TestEditorViewer::picture(QMainWindow* viewer, int pane) const

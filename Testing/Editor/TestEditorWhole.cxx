@@ -99,13 +99,13 @@ void TestEditorWhole::cancelledRunsResume()
   dialog->findChild<QSpinBox*>("height")->setValue(largeWidth);
   auto* start = dialog->findChild<QPushButton*>("start");
   QTest::mouseClick(start, Qt::LeftButton);
-  QTRY_VERIFY_WITH_TIMEOUT(!contents(this->path("stopped")).isEmpty(), longestRun);
+  QTRY_VERIFY(!contents(this->path("stopped")).isEmpty());
   QTest::mouseClick(dialog->findChild<QPushButton*>("cancel"), Qt::LeftButton);
-  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+  QTRY_VERIFY(start->isEnabled());
   QVERIFY(dialog->findChild<QCheckBox*>("resume")->isChecked());
   QVERIFY(!QFile::exists(this->path("stopped/manifest.json")));
   QTest::mouseClick(start, Qt::LeftButton);
-  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+  QTRY_VERIFY(start->isEnabled());
   QVERIFY(QFile::exists(this->path("stopped/manifest.json")));
   // A finished dataset is not replaced unasked.
   dialog->findChild<QCheckBox*>("resume")->setChecked(false);
@@ -134,7 +134,7 @@ void TestEditorWhole::closingEndsTheProgram()
   dialog->findChild<QSpinBox*>("height")->setValue(largeWidth);
   auto* start = dialog->findChild<QPushButton*>("start");
   start->click();
-  QTRY_VERIFY_WITH_TIMEOUT(!contents(this->path("interrupted")).isEmpty(), longestRun);
+  QTRY_VERIFY(!contents(this->path("interrupted")).isEmpty());
   QVERIFY(!start->isEnabled());
 
   answer<QMessageBox>("runningBox", [](QMessageBox& box) { box.findChild<QPushButton*>("stop")->click(); });
@@ -147,7 +147,7 @@ void TestEditorWhole::closingEndsTheProgram()
   QCOMPARE(viewers().size(), 0);
   QVERIFY(!dialog->isVisible());
   QVERIFY(!this->Window->findChild<QDialog*>("matchDialog")->isVisible());
-  QTRY_VERIFY_WITH_TIMEOUT(start->isEnabled(), longestRun);
+  QTRY_VERIFY(start->isEnabled());
   QVERIFY(!QFile::exists(this->path("interrupted/manifest.json")));
 }
 
