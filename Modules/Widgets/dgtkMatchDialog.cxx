@@ -287,7 +287,8 @@ void MatchDialog::swapSides()
 {
   const int cameras[2] = { this->Sides[0].camera->currentIndex(), this->Sides[1].camera->currentIndex() };
   const int frames[2] = { this->Sides[0].frame->value(), this->Sides[1].frame->value() };
-  std::optional<Point> active = this->Active;
+  const bool chosen = this->Active.has_value();
+  const Point active = this->Active.value_or(Point{});
   for (std::size_t i = 0; i < 2; ++i)
   {
     const QSignalBlocker stillCamera(this->Sides[i].camera);
@@ -298,9 +299,9 @@ void MatchDialog::swapSides()
   this->Active.reset();
   this->showView(0);
   this->showView(1);
-  if (active)
+  if (chosen)
   {
-    this->Active = Point{ 1 - active->side, active->pixel };
+    this->Active = Point{ 1 - active.side, active.pixel };
     this->askMatch();
   }
 }
