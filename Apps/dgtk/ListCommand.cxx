@@ -7,8 +7,9 @@
 #include "dgtkLayerWriter.h"
 #include "dgtkModelReader.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
-#include <functional>
 
 namespace dgtk::app
 {
@@ -16,16 +17,7 @@ namespace dgtk::app
 namespace
 {
 using Row = std::vector<std::string>;
-
-std::string joined(const std::vector<std::string>& words)
-{
-  std::string text;
-  for (const std::string& word : words)
-  {
-    text += (text.empty() ? "" : ",") + word;
-  }
-  return text;
-}
+using Json = nlohmann::ordered_json;
 
 // Columns as wide as their widest cell; the last one is free.
 std::string table(const std::vector<Row>& rows)
@@ -57,7 +49,7 @@ std::vector<Row> readers()
   std::vector<Row> rows;
   for (const ReaderInfo& reader : modelReaders())
   {
-    rows.push_back({ reader.format, joined(reader.extensions), reader.description });
+    rows.push_back({ reader.format, joinedNames(reader.extensions), reader.description });
   }
   return rows;
 }
@@ -67,7 +59,20 @@ std::vector<Row> layers()
   std::vector<Row> rows;
   for (const LayerInfo& layer : generatorLayers())
   {
-    rows.push_back({ layer.layer, joined(layer.formats), layer.description });
+    rows.push_back({ layer.layer, joinedNames(layer.formats), layer.description });
+  }
+  return rows;
+}
+
+std::vector<Row> options()
+{
+  std::vector<Row> rows;
+  for (const auto* some : { &requestOptions(), &runOptions() })
+  {
+    for (const OptionRow* option : *some)
+    {
+      rows.push_back({ option->name, option->value, option->value.empty() ? "" : option->fallback, option->help });
+    }
   }
   return rows;
 }
@@ -98,44 +103,119 @@ std::vector<Row> gl()
   return rows;
 }
 
+Json outputsOf(const LayerInfo& layer)
+{
+  Json outputs = Json::array();
+  for (const LayerRecord& record : layer.records)
+  {
+    const LayerSpec& spec = record.spec;
+    outputs.push_back({ { "name", spec.name }, { "format", record.format }, { "type", nameOf(spec.type) },
+      { "channels", spec.channels }, { "unit", spec.unit }, { "frame", spec.frame }, { "invalid", spec.invalid },
+      { "meaning", nameOf(spec.meaning) }, { "description", spec.description } });
+  }
+  return outputs;
+}
+
+void describeLayers(Json& rows)
+{
+  const std::vector<LayerInfo> infos = generatorLayers();
+  for (std::size_t i = 0; i < infos.size(); ++i)
+  {
+    rows[i]["outputs"] = outputsOf(infos[i]);
+    rows[i]["options"] = Json::array();
+    for (const OptionRow* option : infos[i].options)
+    {
+      rows[i]["options"].push_back(option->name);
+    }
+  }
+}
+
+void describeOptions(Json& rows)
+{
+  static const char* const kinds[] = { "switch", "integer", "choice", "names", "size", "numbers" };
+  for (Json& row : rows)
+  {
+    const OptionRow& option = requestOption(row["name"].get<std::string>());
+    row["kind"] = kinds[static_cast<int>(option.kind)];
+    if (option.most > 0)
+    {
+      row["least"] = option.least;
+      row["most"] = option.most;
+    }
+    if (!option.choices.empty())
+    {
+      row["choices"] = option.choices;
+    }
+  }
+}
+
 struct Section
 {
   const char* name;
   std::vector<Row> (*rows)();
+  Row columns;                            ///< keys of JSON
+  void (*describe)(Json& rows) = nullptr; ///< adds what a line has no room for
 };
-constexpr Section sections[] = { { "readers", &readers }, { "layers", &layers }, { "writers", &writers },
-  { "cameras", &cameras }, { "gl", &gl } };
+
+Json jsonOf(const Section& section)
+{
+  Json list = Json::array();
+  for (const Row& row : section.rows())
+  {
+    Json object;
+    for (std::size_t i = 0; i < row.size(); ++i)
+    {
+      object[section.columns[i]] = row[i];
+    }
+    list.push_back(object);
+  }
+  if (section.describe != nullptr)
+  {
+    section.describe(list);
+  }
+  return list;
+}
+
+const std::vector<Section>& sections()
+{
+  static const std::vector<Section> all{ { "readers", &readers, { "format", "extensions", "description" } },
+    { "layers", &layers, { "layer", "formats", "description" }, &describeLayers },
+    { "options", &options, { "name", "value", "default", "help" }, &describeOptions },
+    { "writers", &writers, { "format", "extension", "description" } },
+    { "cameras", &cameras, { "model", "description" } }, { "gl", &gl, { "backend", "state", "description" } } };
+  return all;
+}
 
 int run(const Arguments& arguments)
 {
   const std::string wanted = arguments.positional().empty() ? "" : arguments.positional()[0];
   std::string text;
+  Json json;
   std::vector<std::string> names;
-  for (const Section& section : sections)
+  for (const Section& section : sections())
   {
     names.emplace_back(section.name);
-    if (wanted == section.name)
+    if (!wanted.empty() && wanted != section.name)
     {
-      text = table(section.rows());
+      continue;
     }
-    else if (wanted.empty())
-    {
-      text += std::string(text.empty() ? "" : "\n") + section.name + ":\n" + table(section.rows());
-    }
+    text += (wanted.empty() ? (text.empty() ? "" : "\n") + names.back() + ":\n" : "") + table(section.rows());
+    json[section.name] = arguments.has("--json") ? jsonOf(section) : Json();
   }
   if (text.empty())
   {
-    throw UsageError("list: expected one of " + joined(names) + ", found " + quoted(wanted));
+    throw UsageError("list: expected one of " + joinedNames(names) + ", found " + quoted(wanted));
   }
-  print(text);
+  print(arguments.has("--json") ? json.dump(2) + '\n' : text);
   return 0;
 }
 } // namespace
 
 Command listCommand()
 {
-  return { "list", "[readers|layers|writers|cameras|gl]", 0, 1, "Lists what this program can read, derive and write.",
-    {}, &run };
+  return { "list", "[readers|layers|options|writers|cameras|gl]", 0, 1,
+    "Lists what this program can read, derive and write.",
+    { { "--json", "", "", "as JSON, with all that is known of layers and options" } }, &run };
 }
 
 } // namespace dgtk::app

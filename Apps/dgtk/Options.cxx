@@ -25,7 +25,13 @@ const Option* find(const Command& command, const std::string& name)
   return found == command.options.end() ? nullptr : &*found;
 }
 
-std::string longName(const std::string& word) { return word == "-o" ? "--output" : word == "-h" ? "--help" : word; }
+/// Names may be written with '_' for '-'.
+std::string longName(const std::string& word)
+{
+  std::string name = word == "-o" ? "--output" : word == "-h" ? "--help" : word;
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
 
 [[noreturn]] void unknownOption(const Command& command, const std::string& word)
 {

@@ -36,10 +36,6 @@ public:
   LayerNeeds needs(const GeneratorRequest&, const Stage&) const override { return {}; }
   /// It has no image.
   std::vector<LayerRecord> records(const WorkPlan&, const std::string&) const override { return {}; }
-  std::vector<std::pair<std::string, std::string>> options(const GeneratorRequest&, const PlannedLayer&) const override
-  {
-    return {};
-  }
   std::vector<LayerOutput> outputs(
     const WorkPlan&, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {

@@ -18,11 +18,6 @@ public:
   {
     return { { colorSpec(plan.request, format), format } };
   }
-  /// Its formats stand with how it is drawn.
-  std::vector<std::pair<std::string, std::string>> options(const GeneratorRequest&, const PlannedLayer&) const override
-  {
-    return {};
-  }
   std::vector<LayerOutput> outputs(
     const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {

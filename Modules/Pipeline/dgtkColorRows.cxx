@@ -98,7 +98,7 @@ LayerSpec colorSpec(const GeneratorRequest& request, const std::string& format)
   }
   else
   {
-    spec.type = request.colorBits == 16 ? PixelType::UInt16 : PixelType::UInt8;
+    spec.type = option::colorBits().of(request.options) == "16" ? PixelType::UInt16 : PixelType::UInt8;
     spec.unit = "sRGB";
     spec.description = "The picture as it is displayed, sRGB-encoded; red, green, blue.";
   }

@@ -19,9 +19,9 @@ FrameSourceOptions sourceOptions(const WorkPlan& plan)
   FrameSourceOptions options;
   options.needs = plan.needs;
   options.raster = plan.raster;
-  options.samples = plan.request.samples;
-  options.filter = pixelFilterFromName(plan.request.filter);
-  options.gl = plan.request.gl;
+  options.samples = option::samples().of(plan.request.options);
+  options.filter = pixelFilterFromName(option::filter().of(plan.request.options));
+  options.gl = option::gl().of(plan.request.options);
   return options;
 }
 

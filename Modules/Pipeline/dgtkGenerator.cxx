@@ -45,14 +45,20 @@ std::string hashOf(const std::vector<std::pair<std::string, std::string>>& pairs
   return hash.hex();
 }
 
-std::string identityOf(const WorkPlan& plan, const std::vector<InputRecord>& inputs)
+std::string identityOf(const WorkPlan& plan, const Stage& stage, const std::vector<InputRecord>& inputs)
 {
-  std::vector<std::pair<std::string, std::string>> identity = describeRequest(plan);
+  std::vector<std::pair<std::string, std::string>> identity = describeRequest(plan, stage);
   for (const InputRecord& input : inputs)
   {
     identity.emplace_back(input.path, input.sha256);
   }
   return hashOf(identity);
+}
+
+int threadsOf(const GeneratorRequest& request)
+{
+  const int threads = option::threads().of(request.options);
+  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 JournalStart startOf(const GeneratorRequest& request)
@@ -137,7 +143,7 @@ Run::Run(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
   : Callbacks(callbacks)
   , Scene(Stage::load(readScene(request.scene), [this](const std::string& line) { this->warn(line); }))
   , Plan(makeWorkPlan(request, *this->Scene))
-  , Threads(request.threads > 0 ? request.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())))
+  , Threads(threadsOf(request))
   , Queries(this->Scene)
 {
 }
@@ -146,18 +152,19 @@ GeneratorResult Run::execute()
 {
   const GeneratorRequest& request = this->Plan.request;
   FrameSourceOptions options = sourceOptions(this->Plan);
-  if (request.renderer == "povray")
+  if (!drawsItself(request))
   {
-    options.pov = PovColorSettings{ request.pov, request.folder, request.samples, this->Callbacks.cancel };
+    options.pov = PovColorSettings{ request.options, request.folder, option::samples().of(request.options),
+      this->Callbacks.cancel };
   }
   this->Pool = std::make_unique<ThreadPool>(this->Threads);
   this->Source = std::make_unique<FrameSource>(options, *this->Pool);
   this->Result.glDescription = this->Source->glDescription();
   this->Result.visibility = this->Plan.raster ? "raster" : "ray";
   this->Inputs = inputsOf(*this->Scene, request.folder);
-  this->RequestHash = identityOf(this->Plan, this->Inputs);
+  this->RequestHash = identityOf(this->Plan, *this->Scene, this->Inputs);
   refuseOwnInputs(*this->Scene, request.folder);
-  if (request.pack)
+  if (option::pack().of(request.options))
   {
     this->Packed = planPacking(*this->Scene, request.folder);
   }
@@ -262,10 +269,10 @@ void Run::sayNotes()
     this->warn(line);
   }
   std::vector<std::string> notes;
-  if (request.renderer == "povray" && this->Plan.drawsColor())
+  if (!drawsItself(request) && this->Plan.drawsColor())
   {
     const Job& first = this->Plan.jobs.front();
-    notes = povLines(*this->stateAt(first.frame), this->viewOf(first), request.pov);
+    notes = povLines(*this->stateAt(first.frame), this->viewOf(first), request.options);
   }
   for (const PlannedLayer& planned : this->Plan.layers)
   {
@@ -340,7 +347,7 @@ void Run::render(const Job& job)
   if (this->Source->drawsAnything())
   {
     this->Source->setScene(state, view);
-    if (this->Plan.drawsColor() && request.renderer == "vtk")
+    if (this->Plan.drawsColor() && drawsItself(request))
     {
       this->Source->expose(this->Scene->exposures(job.camera, job.frame, request.width, request.height),
         [this](double frame) { return this->Scene->at(frame); });
@@ -437,7 +444,7 @@ std::vector<std::string> Run::filesOf(const Job& job) const
 std::vector<std::string> Run::documentNames() const
 {
   std::vector<std::string> names = { camerasName, objectsName, sceneName };
-  if (this->Plan.request.contactSheet)
+  if (option::contactSheet().of(this->Plan.request.options))
   {
     names.emplace_back(sheetName);
   }
@@ -467,7 +474,7 @@ void Run::writeDocuments()
   Manifest manifest;
   manifest.version = DGTK_VERSION;
   manifest.requestHash = this->RequestHash;
-  manifest.request = describeRequest(this->Plan);
+  manifest.request = describeRequest(this->Plan, *this->Scene);
   manifest.units = this->Scene->description().units;
   manifest.inputs = this->Inputs;
   for (const PlannedLayer& planned : this->Plan.layers)
@@ -493,7 +500,7 @@ void Run::writeDocuments()
       classRecords(*this->Scene))));
   manifest.files.push_back(writeDocument(request.folder, sceneName,
     toJson(this->Packed ? this->Packed->scene : this->Scene->description(), request.folder)));
-  if (request.contactSheet)
+  if (option::contactSheet().of(request.options))
   {
     manifest.files.push_back(writeContactSheet(request.folder, manifest, sheetName));
   }
@@ -505,7 +512,7 @@ void Run::writeDocuments()
 std::string requestHash(const GeneratorRequest& request)
 {
   const std::shared_ptr<const Stage> scene = Stage::load(readScene(request.scene), [](const std::string&) {});
-  return identityOf(makeWorkPlan(request, *scene), inputsOf(*scene, request.folder));
+  return identityOf(makeWorkPlan(request, *scene), *scene, inputsOf(*scene, request.folder));
 }
 
 GeneratorResult generate(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)

@@ -4,19 +4,21 @@
 
 #include "dgtkPipelineModule.h"
 
+#include "dgtkDatasetDocuments.h"
 #include "dgtkFolderContents.h"
-#include "dgtkPovRenderOptions.h"
+#include "dgtkRequestOptions.h"
 
 #include <atomic>
 #include <cstddef>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace dgtk
 {
+
+struct SceneDescription;
 
 /// Frames first, first + step, ... up to last, included.
 struct FrameRange
@@ -26,38 +28,19 @@ struct FrameRange
   int step = 1; ///< >= 1
 };
 
-/// What a dataset is to hold. Everything that decides its bytes; threads and OpenGL backend do not.
+/// What a dataset is to hold. Everything that decides its bytes, and how the run is made.
 struct GeneratorRequest
 {
-  std::string scene;               ///< path of a .scene or .json file
-  std::string folder;              ///< where the dataset goes
-  std::vector<std::string> layers; ///< names of generatorLayers(); empty: the usual ones
-  /// File formats of a layer, by layer name; a layer that is not named here has its default format.
-  std::map<std::string, std::vector<std::string>> formats;
+  std::string scene;                ///< path of a .scene or .json file
+  std::string folder;               ///< where the dataset goes
+  std::vector<std::string> layers;  ///< names of generatorLayers(); empty: the usual ones
   std::vector<std::string> cameras; ///< names; empty: all
   std::optional<FrameRange> frames; ///< none: every frame of the scene
   int width = 0;                    ///< pixels; 0: the camera's own size, or 640 x 480
   int height = 0;
-  int tileWidth = 640; ///< of the `tiles` layer; may exceed the image and need not divide it
-  int tileHeight = 480;
-  /// Pairs of the correspondence layer: "A:B", "A:B+1" (camera B one frame later); empty: every ordered pair of the
-  /// cameras asked for.
-  std::vector<std::string> pairs;
-  std::vector<std::string> matte;  ///< names of the objects of the matting layer
-  int pointsStep = 4;              ///< pixels between the samples of the points layer, >= 1
-  int seed = 0;                    ///< of random numbers
-  int samples = 1;                 ///< colour is the mean of samples x samples points a pixel, 1 to 16
-  std::string filter = "box";      ///< of the samples of colour: box, triangle, gaussian, mitchell or lanczos
-  int colorBits = 8;               ///< of colour in PNG: 8 or 16
-  std::string renderer = "vtk";    ///< of colour: vtk or povray
-  PovRenderOptions pov;            ///< of POV-Ray and of the layer pov
-  std::string visibility = "auto"; ///< auto, raster or ray
-  std::string gl = "auto";         ///< auto, egl, osmesa or glx
-  int threads = 0;                 ///< 0: as many as the machine has cores
-  bool resume = false;             ///< keep the finished files of an interrupted run of the same request
-  bool replace = false;            ///< remove what another request, or an interrupted run, has left; not with resume
-  bool pack = false;               ///< copy what the scene was loaded from into the dataset
-  bool contactSheet = false;       ///< write contact.png
+  OptionValues options; ///< of requestOptions() and runOptions(): `options["points_step"] = "2"`
+  bool resume = false;  ///< keep the finished files of an interrupted run of the same request
+  bool replace = false; ///< remove what another request, or an interrupted run, has left; not with resume
 };
 
 /// State of a run, reported at its start and after every finished picture (one camera at one frame).
@@ -86,6 +69,11 @@ struct LayerInfo
   std::string description;
   bool usual = false;         ///< taken where no layers are asked for
   std::string filesOnly = {}; ///< why dgtkRenderer does not give it as arrays; empty: it does
+  /// Whether a picture of the scene could have it; null: of any scene.
+  bool (*appliesTo)(const SceneDescription& scene) = nullptr;
+  std::vector<const OptionRow*> options = {}; ///< its own and that of its formats; set by generatorLayers()
+  /// What datasets say of its images, format by format; set by generatorLayers().
+  std::vector<LayerRecord> records = {};
 };
 /// Every layer that can be asked for, in the order of `--layers all`.
 DGTKPIPELINE_EXPORT std::vector<LayerInfo> generatorLayers();

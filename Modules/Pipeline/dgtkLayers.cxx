@@ -16,16 +16,7 @@ std::vector<std::string> LayerOutput::files() const
   return names;
 }
 
-std::vector<std::pair<std::string, std::string>> Layer::options(
-  const GeneratorRequest&, const PlannedLayer& planned) const
-{
-  std::string formats;
-  for (const std::string& format : planned.formats)
-  {
-    formats += (formats.empty() ? "" : ",") + format;
-  }
-  return { { this->info().layer + "_format", formats } };
-}
+std::string formatOption(const std::string& layer) { return layer + "_format"; }
 
 std::vector<LayerOutput> PlannedPass::outputs() const
 {

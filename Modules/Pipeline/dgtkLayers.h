@@ -74,12 +74,11 @@ public:
   virtual LayerNeeds needs(const GeneratorRequest&, const Stage&) const = 0;
   /// Throws UsageError for a request that it cannot fulfil.
   virtual void check(const WorkPlan&, const Stage&, const PlannedLayer&) const {}
-  /// What the manifest says of its images in a format; several where it has several.
+  /// What the manifest says of its images in a format; several where it has several, none where it has no image of its
+  /// own.
   virtual std::vector<LayerRecord> records(const WorkPlan&, const std::string& format) const = 0;
-  /// Keys and values of the request that decide its files, for the manifest and for resuming.
-  virtual std::vector<std::pair<std::string, std::string>> options(const GeneratorRequest&, const PlannedLayer&) const;
-  /// The same of a layer that is about the picture as such; they stand before all others.
-  virtual std::vector<std::pair<std::string, std::string>> pictureOptions(const GeneratorRequest&) const { return {}; }
+  /// Its own options, besides its file formats. They live as long as the program.
+  virtual std::vector<const OptionRow*> options() const { return {}; }
   /// Keys and values about the noise of sensors, besides the scene; they stand last, each once.
   virtual std::vector<std::pair<std::string, std::string>> noise(const WorkPlan&, const Stage&) const { return {}; }
   /// What a job has of it, each once; nothing where it lacks something.
@@ -123,6 +122,9 @@ std::vector<LayerOutput> outputsOf(const WorkPlan& plan, const Stage& stage, con
 /// An image output of the size of the job's picture.
 LayerOutput imageOutput(const WorkPlan& plan, const Stage& stage, const Job& job, const LayerSpec& spec,
   const std::vector<std::string>& formats);
+/// Name of the option of a layer's file formats.
+std::string formatOption(const std::string& layer);
+
 /// A document of a picture; its format is its extension.
 LayerOutput documentOutput(const Stage& stage, const Job& job, const LayerSpec& spec, const std::string& format);
 

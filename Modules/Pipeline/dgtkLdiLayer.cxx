@@ -82,8 +82,8 @@ public:
   {
     const CameraDescription& camera = context.queries.stage().description().cameras[context.job.camera];
     const GeneratorRequest& request = context.plan.request;
-    this->OwnColor =
-      request.samples == 1 && request.renderer == "vtk" && !camera.shutter.blurs() && !camera.lens.blurs();
+    this->OwnColor = option::samples().of(request.options) == 1 && drawsItself(request) && !camera.shutter.blurs() &&
+                     !camera.lens.blurs();
   }
 
   void band(const Band& band, LayerSink& sink) override

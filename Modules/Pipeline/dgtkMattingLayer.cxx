@@ -24,6 +24,8 @@ enum Picture
 };
 const std::array<const char*, PictureCount> pictureNames{ "foreground", "background", "alpha", "composite", "trimap" };
 
+const NamesOption matteOption("matte", "NAMES", "objects of the matting layer");
+
 LayerSpec pictureSpec(int picture)
 {
   const bool color = picture == Foreground || picture == Background || picture == Composite;
@@ -59,7 +61,7 @@ std::vector<std::uint32_t> matteObjects(const GeneratorRequest& request, const S
 {
   std::vector<std::uint32_t> objects;
   const std::vector<std::string> names = stage.objectNames();
-  for (const std::string& name : request.matte)
+  for (const std::string& name : matteOption.of(request.options))
   {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
@@ -80,7 +82,7 @@ class MattingPass : public LayerPass
 {
 public:
   explicit MattingPass(const JobContext& context)
-    : Samples(context.plan.request.samples)
+    : Samples(option::samples().of(context.plan.request.options))
     , Pool(context.pool)
   {
     const std::size_t objects = matteObjects(context.plan.request, context.queries.stage()).size();
@@ -149,6 +151,7 @@ public:
   LayerNeeds needs(const GeneratorRequest& request, const Stage& stage) const override
   {
     LayerNeeds needs;
+    needs.samples = true;
     needs.mattes = matteObjects(request, stage);
     return needs;
   }
@@ -163,19 +166,7 @@ public:
     }
     return records;
   }
-  std::vector<std::pair<std::string, std::string>> options(
-    const GeneratorRequest& request, const PlannedLayer& planned) const override
-  {
-    std::string names;
-    for (const std::string& name : request.matte)
-    {
-      names += (names.empty() ? "" : ",") + name;
-    }
-    auto pairs = this->Layer::options(request, planned);
-    pairs.emplace_back("matte", names);
-    pairs.emplace_back("matting_samples", std::to_string(request.samples));
-    return pairs;
-  }
+  std::vector<const OptionRow*> options() const override { return { &matteOption }; }
   std::vector<LayerOutput> outputs(
     const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {

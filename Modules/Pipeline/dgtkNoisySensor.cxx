@@ -30,7 +30,7 @@ DepthSensorParameters depthSensorOf(const Stage& stage, std::size_t camera)
 
 std::uint64_t noiseSeed(const GeneratorRequest& request, const Stage& stage)
 {
-  return stage.description().seed + static_cast<std::uint64_t>(request.seed);
+  return stage.description().seed + static_cast<std::uint64_t>(option::seed().of(request.options));
 }
 
 NoiseKey noiseKey(const GeneratorRequest& request, const Stage& stage, const Job& job)

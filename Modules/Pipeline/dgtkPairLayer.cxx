@@ -123,6 +123,18 @@ bool isFrame(const Stage& stage, int frame)
   return frame >= stage.description().firstFrame() && frame <= stage.description().lastFrame();
 }
 
+const NamesOption pairsOption(
+  "pairs", "A:B,...", "all", "camera pairs of the correspondence layer; A:B+1 one frame later");
+
+/// The pairs that are asked for; none for all.
+std::vector<std::string> pairTexts(const WorkPlan& plan)
+{
+  std::vector<std::string> texts = pairsOption.of(plan.request.options);
+  return texts == std::vector<std::string>{ pairsOption.fallback } ? std::vector<std::string>() : texts;
+}
+
+bool hasFrames(const SceneDescription& scene) { return scene.lastFrame() > scene.firstFrame(); }
+
 /// Another camera and how many frames later.
 struct Pair
 {
@@ -171,7 +183,8 @@ std::vector<Pair> pairsOf(const WorkPlan& plan, const Stage& stage)
   {
     cameras.insert(job.camera);
   }
-  if (plan.request.pairs.empty())
+  const std::vector<std::string> texts = pairTexts(plan);
+  if (texts.empty())
   {
     for (const std::size_t from : cameras)
     {
@@ -185,7 +198,7 @@ std::vector<Pair> pairsOf(const WorkPlan& plan, const Stage& stage)
     }
     return pairs;
   }
-  for (const std::string& text : plan.request.pairs)
+  for (const std::string& text : texts)
   {
     Pair pair;
     if (!parsePair(text, names, pair))
@@ -216,13 +229,14 @@ public:
   void check(const WorkPlan& plan, const Stage& stage, const PlannedLayer&) const override
   {
     const std::vector<Pair> pairs = pairsOf(plan, stage);
-    for (std::size_t i = 0; i < plan.request.pairs.size(); ++i)
+    const std::vector<std::string> texts = pairTexts(plan);
+    for (std::size_t i = 0; i < texts.size(); ++i)
     {
       if (std::none_of(plan.jobs.begin(), plan.jobs.end(),
             [&](const Job& job) { return job.camera == pairs[i].from && isFrame(stage, job.frame + pairs[i].offset); }))
       {
-        throw UsageError("pair " + quoted(plan.request.pairs[i]) + " leads from every frame of this run to one that " +
-                         "the scene does not have");
+        throw UsageError(
+          "pair " + quoted(texts[i]) + " leads from every frame of this run to one that " + "the scene does not have");
       }
     }
   }
@@ -230,18 +244,7 @@ public:
   {
     return "another camera in the run, or a pair of cameras that ends within the frames of the scene";
   }
-  std::vector<std::pair<std::string, std::string>> options(
-    const GeneratorRequest& request, const PlannedLayer& planned) const override
-  {
-    std::string text;
-    for (const std::string& pair : request.pairs)
-    {
-      text += (text.empty() ? "" : ",") + pair;
-    }
-    auto pairs = this->Layer::options(request, planned);
-    pairs.emplace_back("pairs", text.empty() ? "all" : text);
-    return pairs;
-  }
+  std::vector<const OptionRow*> options() const override { return { &pairsOption }; }
 
 protected:
   LayerSpec valueSpec() const override { return positionSpec(); }
@@ -350,11 +353,13 @@ public:
   {
     if (this->Value == PairValue::Motion)
     {
-      return { "sceneflow", { "npy", "exr" }, "3D motion of each pixel's surface point until the next frame" };
+      return { "sceneflow", { "npy", "exr" }, "3D motion of each pixel's surface point until the next frame", false, {},
+        &hasFrames };
     }
     return { this->valueSpec().name, { "flo", "npy", "exr" },
       this->Step > 0 ? "optical flow to the next frame, and visibility there"
-                     : "optical flow to the frame before, and visibility there" };
+                     : "optical flow to the frame before, and visibility there",
+      false, {}, &hasFrames };
   }
 
   std::string requirement() const override

@@ -2,7 +2,6 @@
 // The layer of all cameras of a frame: a fused point cloud with tracks.
 #include "dgtkAlbedo.h"
 #include "dgtkCorrespondence.h"
-#include "dgtkError.h"
 #include "dgtkLayers.h"
 #include "dgtkObjectDocuments.h"
 #include "dgtkRaySource.h"
@@ -19,6 +18,9 @@ namespace dgtk
 
 namespace
 {
+constexpr int largestStep = 1 << 20;
+const IntegerOption stepOption("points_step", 4, 1, largestStep, "pixels between the samples of the points layer");
+
 LayerSpec pointsSpec()
 {
   return { "points", PixelType::Float64, 3, "scene units", "world", "none",
@@ -55,7 +57,7 @@ class PointsPass : public LayerPass
 public:
   explicit PointsPass(const JobContext& context)
     : Context(context)
-    , Step(context.plan.request.pointsStep)
+    , Step(stepOption.of(context.plan.request.options))
   {
     const SceneQueries::Moment moment = context.queries.at(context.job.frame);
     this->Occlusion = moment.occlusion;
@@ -185,24 +187,11 @@ public:
     return { "points", { "ply" }, "point cloud fused over the cameras, and the pixels that see each point" };
   }
   LayerNeeds needs(const GeneratorRequest&, const Stage&) const override { return {}; }
-  void check(const WorkPlan& plan, const Stage&, const PlannedLayer&) const override
-  {
-    if (plan.request.pointsStep < 1)
-    {
-      throw UsageError("points_step: expected at least 1, found " + std::to_string(plan.request.pointsStep));
-    }
-  }
   std::vector<LayerRecord> records(const WorkPlan&, const std::string& format) const override
   {
     return { { pointsSpec(), format } };
   }
-  std::vector<std::pair<std::string, std::string>> options(
-    const GeneratorRequest& request, const PlannedLayer& planned) const override
-  {
-    auto pairs = this->Layer::options(request, planned);
-    pairs.emplace_back("points_step", std::to_string(request.pointsStep));
-    return pairs;
-  }
+  std::vector<const OptionRow*> options() const override { return { &stepOption }; }
   /// The files of a frame belong to its first camera's job.
   std::vector<LayerOutput> outputs(
     const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override

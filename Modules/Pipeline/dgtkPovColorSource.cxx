@@ -50,35 +50,14 @@ void readRows(const std::string& path, int width, int skip, int rows, float* rgb
 }
 } // namespace
 
-std::vector<std::string> povLines(const SceneState& state, const View& view, const PovRenderOptions& options)
+std::vector<std::string> povLines(const SceneState& state, const View& view, const OptionValues& values)
 {
   std::vector<std::string> lines;
-  for (const std::string& note : povNotes(state, view, povOptionsOf(options)))
+  for (const std::string& note : povNotes(state, view, povOptionsOf(values)))
   {
     lines.push_back("POV-Ray: " + note);
   }
   return lines;
-}
-
-PovOptions povOptionsOf(const PovRenderOptions& options)
-{
-  PovOptions pov;
-  pov.shadows = options.shadows || options.areaLights > 0;
-  pov.areaLights = options.areaLights;
-  pov.reflections = options.reflections;
-  pov.radiosity = options.radiosity;
-  pov.antialias = std::max(options.antialias, 1);
-  pov.flatIds = options.flatIds;
-  if (options.positionColors)
-  {
-    const std::array<double, 6>& box = *options.positionColors;
-    pov.positionColors = PovBox{ { box[0], box[1], box[2] }, { box[3], box[4], box[5] } };
-  }
-  if (options.aperture > 0)
-  {
-    pov.lens = PovLens{ options.aperture, options.focus };
-  }
-  return pov;
 }
 
 /// What all pictures share.
@@ -122,7 +101,11 @@ struct PovColorSource::Studio
       this->library.emplace(this->folder, "");
     }
   }
-  bool inOnePiece() const { return this->settings.options.radiosity || this->settings.options.aperture > 0; }
+  bool inOnePiece() const
+  {
+    const PovOptions options = povOptionsOf(this->settings.options);
+    return options.radiosity || options.lens.has_value();
+  }
 };
 
 /// A camera at a frame.
@@ -163,7 +146,7 @@ struct PovColorSource::Picture
   /// Into <stem>.ppm.
   void draw(const std::string& stem, const PovRows& rows) const
   {
-    const PovRenderOptions& options = this->studio->settings.options;
+    const OptionValues& options = this->studio->settings.options;
     const PovScene scene = makePovScene(*this->state, this->view, povOptionsOf(options), *this->studio->library, rows);
     writeFile(this->path(stem, ".pov"), scene.text);
     const int height = rows.count > 0 ? rows.count : this->view.model->height();
@@ -171,7 +154,7 @@ struct PovColorSource::Picture
       "+W" + std::to_string(this->view.model->width()), "+H" + std::to_string(height), "File_Gamma=sRGB", "Dither=off",
       "-UA", "+Q9", "-D", "-P", "-V", "-C", "+WT1" };
     const std::vector<std::string> more =
-      povAntialias(options.antialias > 0 ? options.antialias : this->studio->settings.samples);
+      povAntialias(povAntialiasOf(options).value_or(this->studio->settings.samples));
     words.insert(words.end(), more.begin(), more.end());
     this->studio->runner->run(words, stem);
     this->remove(this->path(stem, ".pov"));

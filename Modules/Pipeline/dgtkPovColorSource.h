@@ -20,17 +20,14 @@ namespace dgtk
 
 class ThreadPool;
 
-/// Export's part of the options.
-PovOptions povOptionsOf(const PovRenderOptions& options);
-
 /// What POV-Ray does not show of a scene as it is at a frame, one line each.
-std::vector<std::string> povLines(const SceneState& state, const View& view, const PovRenderOptions& options);
+std::vector<std::string> povLines(const SceneState& state, const View& view, const OptionValues& values);
 
 struct PovColorSettings
 {
-  PovRenderOptions options;
+  OptionValues options;
   std::string folder; ///< a folder `.povray` in it is made, and removed at the end
-  int samples = 1;    ///< where options.antialias is 0
+  int samples = 1;    ///< where the options do not say how many points
   const std::atomic<bool>* cancel = nullptr;
 };
 

@@ -32,8 +32,9 @@ public:
 
   void finish(LayerSink& sink) override
   {
-    const PovScene scene = makePovScene(*this->Context.state, this->Context.view,
-      povOptionsOf(this->Context.plan.request.pov), *this->Library, {}, this->Name.substr(this->Name.rfind('/') + 1));
+    const PovScene scene =
+      makePovScene(*this->Context.state, this->Context.view, povOptionsOf(this->Context.plan.request.options),
+        *this->Library, {}, this->Name.substr(this->Name.rfind('/') + 1));
     for (const PovFile& file : scene.uses)
     {
       sink.shared("pov", { std::string(LibraryFolder) + '/' + file.name, file.bytes, file.sha256 });
@@ -52,6 +53,7 @@ class PovLayer final : public Layer
 public:
   LayerInfo info() const override { return { "pov", { "pov" }, "scene for POV-Ray that shows what the camera sees" }; }
   LayerNeeds needs(const GeneratorRequest&, const Stage&) const override { return {}; }
+  std::vector<const OptionRow*> options() const override { return povOptionRows(); }
   void check(const WorkPlan&, const Stage& stage, const PlannedLayer&) const override
   {
     const SceneDescription& scene = stage.description();
@@ -77,7 +79,7 @@ public:
     const Job& first = plan.jobs.front();
     const GeneratorRequest& request = plan.request;
     return povLines(
-      *stage.at(first.frame), stage.view(first.camera, first.frame, request.width, request.height), request.pov);
+      *stage.at(first.frame), stage.view(first.camera, first.frame, request.width, request.height), request.options);
   }
   std::shared_ptr<void> makeShared(const SharedPlace& place) const override
   {

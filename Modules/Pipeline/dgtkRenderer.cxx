@@ -68,23 +68,6 @@ void requireArrays(const std::vector<std::string>& layers)
   }
 }
 
-std::vector<std::string> split(const std::string& text)
-{
-  std::vector<std::string> words(1);
-  for (const char c : text)
-  {
-    if (c == ',')
-    {
-      words.emplace_back();
-    }
-    else
-    {
-      words.back().push_back(c);
-    }
-  }
-  return words;
-}
-
 /// A folder that is gone afterwards; made when it is first asked for.
 class ScratchFolder
 {
@@ -130,20 +113,20 @@ struct dgtkRenderer::Internal
   std::vector<dgtk::LayerArray> results;
   std::vector<vtkSmartPointer<vtkDataArray>> arrays; // one a result
 
-  bool render(const std::vector<std::string>& layers);
+  bool render(const std::function<std::vector<std::string>()>& layers);
   std::vector<dgtk::LayerArray> draw(const std::vector<std::string>& layers);
   dgtk::WorkPlan planOf(const std::vector<std::string>& layers, const dgtk::Stage& stage);
   std::vector<dgtk::LayerArray> drawWith(dgtk::FrameSource& frames, const dgtk::JobContext& context);
 };
 
-bool dgtkRenderer::Internal::render(const std::vector<std::string>& layers)
+bool dgtkRenderer::Internal::render(const std::function<std::vector<std::string>()>& layers)
 {
   this->errorMessage.clear();
   this->results.clear();
   this->arrays.clear();
   try
   {
-    this->results = this->draw(layers);
+    this->results = this->draw(layers());
     for (dgtk::LayerArray& result : this->results)
     {
       const vtkSmartPointer<vtkDataArray> array = arrayFor(result.type);
@@ -193,6 +176,10 @@ std::vector<dgtk::LayerArray> dgtkRenderer::Internal::draw(const std::vector<std
 dgtk::WorkPlan dgtkRenderer::Internal::planOf(const std::vector<std::string>& layers, const dgtk::Stage& stage)
 {
   requireArrays(layers);
+  if (!dgtk::option::renderer().isDefault(this->request.options))
+  {
+    throw dgtk::UsageError("renderer: arrays are drawn by the built-in one");
+  }
   this->request.layers = layers;
   const int at = this->frameSet ? this->frame : stage.description().firstFrame();
   this->request.frames = dgtk::FrameRange{ at, at, 1 };
@@ -311,73 +298,43 @@ void dgtkRenderer::SetSize(int width, int height)
   this->Modified();
 }
 
-void dgtkRenderer::SetSamples(int samples)
+void dgtkRenderer::SetSamples(int samples) { this->SetOption("samples", std::to_string(samples)); }
+
+void dgtkRenderer::SetVisibility(const std::string& engine) { this->SetOption("visibility", engine); }
+
+void dgtkRenderer::SetGL(const std::string& backend) { this->SetOption("gl", backend); }
+
+void dgtkRenderer::SetOption(const std::string& name, const std::string& value)
 {
-  this->Self->request.samples = samples;
+  this->Self->request.options[name] = value;
   this->Modified();
 }
 
-void dgtkRenderer::SetVisibility(const std::string& engine)
+void dgtkRenderer::ClearOptions()
 {
-  this->Self->request.visibility = engine;
+  this->Self->request.options.clear();
   this->Modified();
 }
 
-void dgtkRenderer::SetGL(const std::string& backend)
+std::string dgtkRenderer::GetOptions()
 {
-  this->Self->request.gl = backend;
-  this->Modified();
-}
-
-void dgtkRenderer::SetFilter(const std::string& name)
-{
-  this->Self->request.filter = name;
-  this->Modified();
-}
-
-void dgtkRenderer::SetColorBits(int bits)
-{
-  this->Self->request.colorBits = bits;
-  this->Modified();
-}
-
-void dgtkRenderer::SetPointsStep(int pixels)
-{
-  this->Self->request.pointsStep = pixels;
-  this->Modified();
-}
-
-void dgtkRenderer::SetSeed(int seed)
-{
-  this->Self->request.seed = seed;
-  this->Modified();
-}
-
-void dgtkRenderer::ClearNames()
-{
-  this->Self->request.matte.clear();
-  this->Self->request.pairs.clear();
-  this->Modified();
-}
-
-void dgtkRenderer::AddMatte(const std::string& object)
-{
-  this->Self->request.matte.push_back(object);
-  this->Modified();
-}
-
-void dgtkRenderer::AddPair(const std::string& pair)
-{
-  this->Self->request.pairs.push_back(pair);
-  this->Modified();
+  std::string lines;
+  for (const dgtk::OptionRow* row : dgtk::requestOptions())
+  {
+    lines += row->name + '\t' + row->value + '\t' + row->fallback + '\t' + row->help + '\n';
+  }
+  return lines;
 }
 
 vtkDataArray* dgtkRenderer::Render(const std::string& layer)
 {
-  return this->Self->render({ layer }) ? this->GetOutput(0) : nullptr;
+  return this->Self->render([&layer] { return std::vector<std::string>{ layer }; }) ? this->GetOutput(0) : nullptr;
 }
 
-bool dgtkRenderer::RenderLayers(const std::string& layers) { return this->Self->render(split(layers)); }
+bool dgtkRenderer::RenderLayers(const std::string& layers)
+{
+  return this->Self->render([&layers] { return dgtk::splitNames(layers, "layers"); });
+}
 
 int dgtkRenderer::GetNumberOfOutputs() const { return static_cast<int>(this->Self->arrays.size()); }
 

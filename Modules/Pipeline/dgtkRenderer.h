@@ -48,31 +48,6 @@ public:
    */
   void SetSamples(int samples);
   /**
-   * How samples become a pixel's colour: "box" (default), "triangle", "gaussian", "mitchell" or "lanczos".
-   */
-  void SetFilter(const std::string& name);
-  /**
-   * Bits a channel of colour: 8 (default) or 16.
-   */
-  void SetColorBits(int bits);
-  /**
-   * Pixels between the samples of the layer points, at least 1 (default 4).
-   */
-  void SetPointsStep(int pixels);
-  /**
-   * Seed of random numbers, at least 0 (default 0).
-   */
-  void SetSeed(int seed);
-  ///@{
-  /**
-   * Names of objects for the layer matting; pairs of cameras for the layer correspondence, "left:right" or
-   * "left:right+1" (default: all other cameras at the same frame).
-   */
-  void AddMatte(const std::string& object);
-  void AddPair(const std::string& pair);
-  void ClearNames();
-  ///@}
-  /**
    * "auto" (default), "raster" or "ray".
    */
   void SetVisibility(const std::string& engine);
@@ -80,6 +55,19 @@ public:
    * "auto" (default), "egl", "osmesa" or "glx". Read when OpenGL is first needed.
    */
   void SetGL(const std::string& backend);
+  ///@{
+  /**
+   * Any of the options of GetOptions(), as on the command line: SetOption("points_step", "2"), SetOption("matte",
+   * "tree,house"). Rendering fails, and says why, with one that is none.
+   */
+  void SetOption(const std::string& name, const std::string& value);
+  void ClearOptions();
+  ///@}
+  /**
+   * All options, one a line: name, what stands for the value (nothing for a switch), default and help, separated by
+   * tabulators.
+   */
+  static std::string GetOptions();
 
   /**
    * The first output of a layer ("color", "depth", "objects", ...), null on failure; see RenderLayers().

@@ -157,7 +157,7 @@ std::vector<std::string> blindPictures(const WorkPlan& plan, const Stage& stage)
 
 std::vector<std::string> coarseShadowLines(const WorkPlan& plan, const Stage& stage)
 {
-  if (!plan.drawsColor() || plan.request.renderer != "vtk" || !castsShadows(stage.description()))
+  if (!plan.drawsColor() || !drawsItself(plan.request) || !castsShadows(stage.description()))
   {
     return {};
   }

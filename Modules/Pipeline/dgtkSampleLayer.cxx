@@ -34,17 +34,15 @@ LayerSpec coverageSpec()
 class SampledLayer : public Layer
 {
 public:
-  LayerNeeds needs(const GeneratorRequest&, const Stage&) const override { return LayerNeeds::ofHits(); }
+  LayerNeeds needs(const GeneratorRequest&, const Stage&) const override
+  {
+    LayerNeeds needs = LayerNeeds::ofHits();
+    needs.samples = true;
+    return needs;
+  }
   std::vector<LayerRecord> records(const WorkPlan&, const std::string& format) const override
   {
     return { { this->spec(), format } };
-  }
-  std::vector<std::pair<std::string, std::string>> options(
-    const GeneratorRequest& request, const PlannedLayer& planned) const override
-  {
-    auto pairs = this->Layer::options(request, planned);
-    pairs.emplace_back(this->spec().name + "_samples", std::to_string(request.samples));
-    return pairs;
   }
   std::vector<LayerOutput> outputs(
     const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
@@ -64,7 +62,7 @@ class SampledPass : public LayerPass
 public:
   SampledPass(const JobContext& context, const std::vector<PassLayer>& layers)
     : Pool(context.pool)
-    , Sampler(context.state, context.view, context.plan.request.samples, context.pool)
+    , Sampler(context.state, context.view, option::samples().of(context.plan.request.options), context.pool)
   {
     for (const PassLayer& layer : layers)
     {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkColorRows.h"
 
+#include <algorithm>
+
 namespace dgtk
 {
 
@@ -16,13 +18,17 @@ LayerSpec sharpSpec(const GeneratorRequest& request, const std::string& format)
   return spec;
 }
 
+bool blurs(const CameraDescription& camera) { return camera.shutter.blurs() || camera.lens.blurs(); }
+
+bool hasBlur(const SceneDescription& scene) { return std::any_of(scene.cameras.begin(), scene.cameras.end(), &blurs); }
+
 class SharpColorLayer final : public Layer
 {
 public:
   LayerInfo info() const override
   {
     return { layerName, { "png", "exr" },
-      "the picture without motion blur and depth of field, of cameras that have them" };
+      "the picture without motion blur and depth of field, of cameras that have them", false, {}, &hasBlur };
   }
   LayerNeeds needs(const GeneratorRequest&, const Stage&) const override
   {
@@ -42,7 +48,7 @@ public:
     const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {
     const CameraDescription& camera = stage.description().cameras[job.camera];
-    if (plan.request.renderer != "vtk" || !(camera.shutter.blurs() || camera.lens.blurs()))
+    if (!drawsItself(plan.request) || !blurs(camera))
     {
       return {};
     }

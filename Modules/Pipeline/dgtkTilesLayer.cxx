@@ -11,6 +11,9 @@ namespace dgtk
 namespace
 {
 constexpr const char* layerName = "tiles";
+constexpr int largestTile = 1 << 20;
+const SizeOption tileOption("tile", 640, 480, largestTile,
+  "size of the images of the tiles layer, pixels; may exceed the picture and need not divide it");
 // Rows that are cut at once.
 constexpr int blockPixels = 1 << 18;
 
@@ -21,8 +24,8 @@ public:
   TilesPass(const GeneratorRequest& request, const CameraModel& model)
     : Spec(colorSpec(request, "png"))
     , Width(model.width())
-    , TileWidth(std::min(request.tileWidth, model.width()))
-    , TileHeight(std::min(request.tileHeight, model.height()))
+    , TileWidth(std::min(tileOption.width(request.options), model.width()))
+    , TileHeight(std::min(tileOption.height(request.options), model.height()))
   {
   }
 
@@ -73,21 +76,14 @@ public:
   LayerNeeds needs(const GeneratorRequest&, const Stage&) const override { return LayerNeeds::ofColor(); }
   /// The manifest knows them by the picture.
   std::vector<LayerRecord> records(const WorkPlan&, const std::string&) const override { return {}; }
-  std::vector<std::pair<std::string, std::string>> options(const GeneratorRequest&, const PlannedLayer&) const override
-  {
-    return {};
-  }
-  std::vector<std::pair<std::string, std::string>> pictureOptions(const GeneratorRequest& request) const override
-  {
-    return { { "tile", std::to_string(request.tileWidth) + 'x' + std::to_string(request.tileHeight) } };
-  }
+  std::vector<const OptionRow*> options() const override { return { &tileOption }; }
   std::vector<LayerOutput> outputs(
     const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {
     const LayerOutput whole = imageOutput(plan, stage, job, colorSpec(plan.request, "png"), planned.formats);
     const std::string stem = WorkPlan::stem(stage.description().cameras[job.camera].name, layerName, job.frame);
-    const int tileWidth = plan.request.tileWidth;
-    const int tileHeight = plan.request.tileHeight;
+    const int tileWidth = tileOption.width(plan.request.options);
+    const int tileHeight = tileOption.height(plan.request.options);
     std::vector<LayerOutput> tiles;
     for (int y = 0; y < whole.height; y += tileHeight)
     {

@@ -4,7 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkLayerWriter.h"
 #include "dgtkLayers.h"
-#include "dgtkRasterSource.h"
+#include "dgtkPovRenderOptions.h"
 #include "dgtkRunNotes.h"
 
 #include <algorithm>
@@ -15,16 +15,6 @@ namespace dgtk
 
 namespace
 {
-std::string joined(const std::vector<std::string>& words)
-{
-  std::string text;
-  for (const std::string& word : words)
-  {
-    text += (text.empty() ? "" : ",") + word;
-  }
-  return text;
-}
-
 bool contains(const std::vector<std::string>& words, const std::string& word)
 {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -52,7 +42,7 @@ std::vector<std::string> resolveLayers(const std::vector<std::string>& asked)
   {
     if (!contains(known, layer))
     {
-      throw UsageError("unknown layer " + quoted(layer) + " (expected some of " + joined(known) + ", or all)");
+      throw UsageError("unknown layer " + quoted(layer) + " (expected some of " + joinedNames(known) + ", or all)");
     }
   }
   std::vector<std::string> layers;
@@ -63,23 +53,16 @@ std::vector<std::string> resolveLayers(const std::vector<std::string>& asked)
 
 std::vector<std::string> resolveFormats(const LayerInfo& layer, const GeneratorRequest& request)
 {
-  const auto asked = request.formats.find(layer.layer);
-  if (asked == request.formats.end() || asked->second.empty())
+  if (layer.formats.size() == 1)
   {
-    return { layer.formats.front() };
+    return layer.formats;
   }
-  for (const std::string& format : asked->second)
-  {
-    if (!contains(layer.formats, format))
-    {
-      throw UsageError("layer " + layer.layer + " cannot be written as " + quoted(format) + " (expected some of " +
-                       joined(layer.formats) + ')');
-    }
-  }
+  const NamesOption& row = static_cast<const NamesOption&>(requestOption(formatOption(layer.layer)));
+  const std::vector<std::string> asked = row.of(request.options);
   std::vector<std::string> formats;
   std::copy_if(layer.formats.begin(), layer.formats.end(), std::back_inserter(formats),
-    [&](const std::string& format) { return contains(asked->second, format); });
-  return formats;
+    [&](const std::string& format) { return contains(asked, format); });
+  return formats.empty() ? std::vector<std::string>{ layer.formats.front() } : formats;
 }
 
 std::vector<std::size_t> resolveCameras(const std::vector<std::string>& asked, const SceneDescription& scene)
@@ -97,7 +80,7 @@ std::vector<std::size_t> resolveCameras(const std::vector<std::string>& asked, c
   {
     if (!contains(names, name))
     {
-      throw UsageError("the scene has no camera " + quoted(name) + " (it has " + joined(names) + ')');
+      throw UsageError("the scene has no camera " + quoted(name) + " (it has " + joinedNames(names) + ')');
     }
   }
   std::vector<std::size_t> cameras;
@@ -140,6 +123,18 @@ std::vector<LayerInfo> generatorLayers()
   for (const auto& layer : layers())
   {
     infos.push_back(layer->info());
+    LayerInfo& info = infos.back();
+    const std::vector<const OptionRow*> own = layer->options();
+    info.options = own == povOptionRows() ? std::vector<const OptionRow*>() : own; // these are not of layers only
+    if (info.formats.size() > 1)
+    {
+      info.options.push_back(&requestOption(formatOption(info.layer)));
+    }
+    for (const std::string& format : info.formats)
+    {
+      const std::vector<LayerRecord> records = layer->records({}, format);
+      info.records.insert(info.records.end(), records.begin(), records.end());
+    }
   }
   return infos;
 }
@@ -198,42 +193,53 @@ std::vector<std::string> WorkPlan::formatsOf(const std::string& layer) const
   return {};
 }
 
+bool drawsItself(const GeneratorRequest& request) { return option::renderer().isDefault(request.options); }
+
 namespace
 {
-constexpr int mostSamples = 16;
-
-void checkEngines(const GeneratorRequest& request)
+/// The request with its options as they stand in manifests. Throws UsageError for one that is none.
+GeneratorRequest normalised(GeneratorRequest request)
 {
-  if (!contains({ "auto", "raster", "ray" }, request.visibility))
+  for (auto& [name, text] : request.options)
   {
-    throw UsageError("unknown visibility engine " + quoted(request.visibility) + " (expected auto, raster or ray)");
+    text = requestOption(name).normal(text);
   }
-  glBackendFromName(request.gl);
-  if (request.samples < 1 || request.samples > mostSamples)
-  {
-    throw UsageError("samples must be between 1 and " + std::to_string(mostSamples) + " (found " +
-                     std::to_string(request.samples) + ')');
-  }
+  return request;
 }
 
 /// What the renderer cannot do.
 void checkPictures(const WorkPlan& plan, const SceneDescription& scene)
 {
   const GeneratorRequest& request = plan.request;
-  pixelFilterFromName(request.filter);
-  if (request.filter != "box" && (request.samples == 1 || request.renderer != "vtk"))
+  const bool single = option::samples().of(request.options) == 1;
+  if (!option::filter().isDefault(request.options) && (single || !drawsItself(request)))
   {
-    throw UsageError(
-      "the filter " + request.filter + " needs several samples a pixel (2 or more) and " + "the built-in renderer");
+    throw UsageError("the filter " + option::filter().of(request.options) +
+                     " needs several samples a pixel (2 or more) and the built-in renderer");
   }
   for (const Job& job : plan.jobs)
   {
     const CameraDescription& camera = scene.cameras[job.camera];
-    if (plan.drawsColor() && request.renderer != "vtk" && (camera.shutter.blurs() || camera.lens.blurs()))
+    if (plan.drawsColor() && !drawsItself(request) && (camera.shutter.blurs() || camera.lens.blurs()))
     {
       throw UsageError("camera " + quoted(camera.name) + " has a " + (camera.lens.blurs() ? "lens" : "shutter") +
                        ": only the built-in renderer averages exposures (POV-Ray has a focal blur of its own)");
     }
+  }
+}
+
+/// Options of POV-Ray mean nothing where it does not draw and no layer is for it.
+void checkPovOptions(const WorkPlan& plan)
+{
+  const std::vector<const OptionRow*>& rows = povOptionRows();
+  povOptionsOf(plan.request.options);
+  const auto given =
+    std::find_if(rows.begin(), rows.end(), [&](const OptionRow* row) { return !row->isDefault(plan.request.options); });
+  const bool used = std::any_of(plan.layers.begin(), plan.layers.end(),
+    [&](const PlannedLayer& planned) { return planned.layer->options() == rows; });
+  if (given != rows.end() && drawsItself(plan.request) && !used)
+  {
+    throw UsageError((*given)->name + ": is for pictures and scenes of POV-Ray, and this run makes none");
   }
 }
 } // namespace
@@ -241,20 +247,19 @@ void checkPictures(const WorkPlan& plan, const SceneDescription& scene)
 WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
 {
   const SceneDescription& scene = stage.description();
-  checkEngines(request);
   WorkPlan plan;
-  plan.request = request;
+  plan.request = normalised(request);
   const std::vector<std::string> wanted = resolveLayers(request.layers);
   for (const auto& layer : layers())
   {
     const LayerInfo info = layer->info();
     if (contains(wanted, info.layer))
     {
-      plan.layers.push_back({ layer, resolveFormats(info, request), nullptr });
-      plan.needs.add(layer->needs(request, stage));
+      plan.layers.push_back({ layer, resolveFormats(info, plan.request), nullptr });
+      plan.needs.add(layer->needs(plan.request, stage));
     }
   }
-  plan.raster = request.visibility == "raster";
+  plan.raster = option::visibility().of(plan.request.options) == "raster";
   for (const int frame : resolveFrames(request.frames, scene))
   {
     for (const std::size_t camera : resolveCameras(request.cameras, scene))
@@ -263,6 +268,7 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
     }
   }
   checkPictures(plan, scene);
+  checkPovOptions(plan);
   for (const PlannedLayer& planned : plan.layers)
   {
     planned.layer->check(plan, stage, planned);
@@ -278,54 +284,99 @@ WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage)
   return plan;
 }
 
-std::vector<std::pair<std::string, std::string>> describeRequest(const WorkPlan& plan)
+namespace
+{
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+void add(Pairs& pairs, const std::vector<const OptionRow*>& rows, const OptionValues& values)
+{
+  for (const OptionRow* row : rows)
+  {
+    pairs.emplace_back(row->name, row->text(values));
+  }
+}
+
+void addGiven(Pairs& pairs, const std::vector<const OptionRow*>& rows, const OptionValues& values)
+{
+  for (const OptionRow* row : rows)
+  {
+    if (!row->isDefault(values))
+    {
+      pairs.emplace_back(row->name, row->text(values));
+    }
+  }
+}
+
+/// A layer without an image of its own: its files are the picture, or are documents.
+bool hasImages(const WorkPlan& plan, const PlannedLayer& planned)
+{
+  return !planned.layer->records(plan, planned.formats.front()).empty();
+}
+
+/// A layer's part of the request; the picture's formats stand with how it is drawn.
+void addLayer(Pairs& pairs, const WorkPlan& plan, const PlannedLayer& planned, const Stage& stage)
+{
+  const std::string name = planned.layer->info().layer;
+  if (!hasImages(plan, planned) || name == pictureLayer)
+  {
+    return;
+  }
+  pairs.emplace_back(formatOption(name), joinedNames(planned.formats));
+  if (planned.layer->options() != povOptionRows())
+  {
+    add(pairs, planned.layer->options(), plan.request.options);
+  }
+  if (planned.layer->needs(plan.request, stage).samples)
+  {
+    pairs.emplace_back(name + "_samples", option::samples().text(plan.request.options));
+  }
+}
+} // namespace
+
+Pairs describeRequest(const WorkPlan& plan, const Stage& stage)
 {
   const GeneratorRequest& request = plan.request;
-  std::vector<std::pair<std::string, std::string>> pairs;
+  const OptionValues& options = request.options;
+  Pairs pairs;
   std::vector<std::string> names;
   for (const PlannedLayer& planned : plan.layers)
   {
     names.push_back(planned.layer->info().layer);
   }
-  pairs.emplace_back("layers", joined(names));
-  pairs.emplace_back("cameras", request.cameras.empty() ? "all" : joined(request.cameras));
+  pairs.emplace_back("layers", joinedNames(names));
+  pairs.emplace_back("cameras", request.cameras.empty() ? "all" : joinedNames(request.cameras));
   pairs.emplace_back("frames", request.frames
                                  ? std::to_string(request.frames->first) + ':' + std::to_string(request.frames->last) +
                                      ':' + std::to_string(request.frames->step)
                                  : "all");
   pairs.emplace_back(
     "size", request.width ? std::to_string(request.width) + 'x' + std::to_string(request.height) : "camera's own");
-  const auto add = [&pairs](const std::vector<std::pair<std::string, std::string>>& more)
-  { pairs.insert(pairs.end(), more.begin(), more.end()); };
   for (const PlannedLayer& planned : plan.layers)
   {
-    add(planned.layer->pictureOptions(request));
+    if (!hasImages(plan, planned))
+    {
+      add(pairs, planned.layer->options(), options);
+    }
   }
   if (plan.drawsColor())
   {
-    pairs.emplace_back("samples", std::to_string(request.samples));
-    if (request.filter != "box")
-    {
-      pairs.emplace_back("filter", request.filter);
-    }
-    pairs.emplace_back("color_bits", std::to_string(request.colorBits));
-    pairs.emplace_back("color_format", joined(plan.formatsOf(pictureLayer)));
+    add(pairs, { &option::samples() }, options);
+    addGiven(pairs, { &option::filter() }, options);
+    add(pairs, { &option::colorBits() }, options);
+    pairs.emplace_back(formatOption(pictureLayer), joinedNames(plan.formatsOf(pictureLayer)));
   }
   for (const PlannedLayer& planned : plan.layers)
   {
-    add(planned.layer->options(request, planned));
+    addLayer(pairs, plan, planned, stage);
   }
-  if (request.renderer != "vtk")
+  addGiven(pairs, { &option::renderer() }, options);
+  addGiven(pairs, povOptionRows(), options);
+  pairs.emplace_back(option::visibility().name, plan.raster ? "raster" : "ray");
+  add(pairs, { &option::seed() }, options);
+  pairs.insert(pairs.end(), plan.noise.begin(), plan.noise.end());
+  if (option::pack().of(options))
   {
-    pairs.emplace_back("renderer", request.renderer);
-  }
-  add(request.pov.describe());
-  pairs.emplace_back("visibility", plan.raster ? "raster" : "ray");
-  pairs.emplace_back("seed", std::to_string(request.seed));
-  add(plan.noise);
-  if (request.pack)
-  {
-    pairs.emplace_back("pack", "yes");
+    pairs.emplace_back(option::pack().name, "yes");
   }
   return pairs;
 }

@@ -30,6 +30,7 @@ struct LayerNeeds
   bool color = false;                ///< Band::rgb
   bool sharp = false;                ///< Band::sharp
   bool peeled = false;               ///< Band::peeled
+  bool samples = false;              ///< several points a pixel
   std::vector<std::uint32_t> mattes; ///< objects of Band::mattes
 
   static LayerNeeds ofHits();
@@ -67,11 +68,14 @@ struct WorkPlan
   static std::string stem(const std::string& camera, const std::string& layer, int frame);
 };
 
+/// Whether the built-in renderer makes the colours, if any are made.
+bool drawsItself(const GeneratorRequest& request);
+
 /// Throws UsageError for a request that does not fit the scene.
 WorkPlan makeWorkPlan(const GeneratorRequest& request, const Stage& stage);
 
 /// The request as ordered key and value pairs: what the manifest records and what decides whether a run can be resumed.
-std::vector<std::pair<std::string, std::string>> describeRequest(const WorkPlan& plan);
+std::vector<std::pair<std::string, std::string>> describeRequest(const WorkPlan& plan, const Stage& stage);
 
 /// File name extension of a format, without the dot. A format that is no image's is its extension.
 std::string formatExtension(const std::string& format);

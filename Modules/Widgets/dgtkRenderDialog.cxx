@@ -2,8 +2,10 @@
 #include "dgtkRenderDialog.h"
 
 #include "dgtkFolderContents.h"
+#include "dgtkGenerator.h"
 #include "dgtkJournal.h"
 #include "dgtkRenderCameras.h"
+#include "dgtkRenderOptions.h"
 #include "dgtkUsualFolder.h"
 #include "dgtkWindowSize.h"
 
@@ -49,23 +51,6 @@ QByteArray hashOf(const SceneDocument& document)
 {
   return QCryptographicHash::hash(QByteArray::fromStdString(document.json()), QCryptographicHash::Sha1).toHex();
 }
-
-/// A message of the command line, with the names that its options have here.
-QString inWindowsWords(QString message)
-{
-  if (message.contains(QString::fromStdString(describe(FolderContents::UnfinishedOther))))
-  {
-    return RenderDialog::tr("The interrupted run in this folder is of another request: untick to replace it, or name "
-                            "another folder.");
-  }
-  const std::pair<const char*, QString> names[] = { { "--matte", RenderDialog::tr("Matting of") },
-    { "--frames", RenderDialog::tr("First and last frame") } };
-  for (const auto& [option, name] : names)
-  {
-    message.replace(option, name);
-  }
-  return message;
-}
 } // namespace
 
 RenderDialog::RenderDialog(EditorState& state, QWidget* parent)
@@ -80,14 +65,17 @@ RenderDialog::RenderDialog(EditorState& state, QWidget* parent)
   this->Cameras = new RenderCameras(state, this);
   this->Tabs->addTab(this->makeInfo(), tr("Info"));
   this->Tabs->addTab(this->Cameras, tr("Cameras"));
+  this->Options = new RenderOptions(this);
   this->Tabs->addTab(this->makeControls(), tr("Controls"));
+  this->Tabs->addTab(this->Options, tr("Options"));
+  this->Options->setLayers(this->checkedLayers());
   this->Tabs->setCurrentIndex(2);
   layout->addWidget(this->Tabs, 1);
   this->makeRunRow(layout);
   resizeWithin(*this, 640, 724);
 
   connect(&state, &EditorState::changed, this, &RenderDialog::refresh);
-  connect(&state, &EditorState::selectionChanged, this, &RenderDialog::showMatte);
+  connect(&state, &EditorState::selectionChanged, this, &RenderDialog::offerSelection);
   this->Clock = new QTimer(this);
   connect(this->Clock, &QTimer::timeout, this, &RenderDialog::showProgress);
   connect(&this->Process, &RenderProcess::progress, this, &RenderDialog::takeProgress);
@@ -126,10 +114,14 @@ void RenderDialog::refresh()
         QString::number(scene.objects.size()), QString::number(scene.lights.size()),
         QString::number(scene.cameras.size()), QString::number(scene.firstFrame()), QString::number(scene.lastFrame()),
         QString::number(keys.size())));
-  const bool blurs = std::any_of(scene.cameras.begin(), scene.cameras.end(),
-    [](const CameraDescription& camera) { return camera.shutter.blurs() || camera.lens.blurs(); });
-  this->layerBox("color_sharp")->setEnabled(blurs); // it is of such cameras only
-  this->showMatte();
+  for (const LayerInfo& layer : generatorLayers())
+  {
+    if (layer.appliesTo != nullptr)
+    {
+      this->layerBox(toText(layer.layer))->setEnabled(layer.appliesTo(scene));
+    }
+  }
+  this->offerSelection();
   const int range[2] = { scene.firstFrame(), scene.lastFrame() };
   for (int end = 0; end < 2; ++end)
   {
@@ -162,13 +154,8 @@ QCheckBox* RenderDialog::layerBox(const QString& layer) const
   return at == this->Layers.end() ? nullptr : *at;
 }
 
-void RenderDialog::showMatte()
+void RenderDialog::offerSelection()
 {
-  this->Matte->setEnabled(this->layerBox("matting")->isChecked());
-  if (this->Matte->isModified())
-  {
-    return;
-  }
   const SceneDescription& scene = this->State.scene();
   QStringList names;
   for (const SceneItem& item : this->State.selection())
@@ -178,7 +165,7 @@ void RenderDialog::showMatte()
       names << toText(scene.objects[item.index].name);
     }
   }
-  this->Matte->setText(names.join(','));
+  this->Options->offer("matte", names.join(','));
 }
 
 QStringList RenderDialog::arguments(const QString& scene) const
@@ -202,13 +189,7 @@ QStringList RenderDialog::arguments(const QString& scene) const
   {
     words << "--size" << QString("%1x%2").arg(size->width()).arg(size->height());
   }
-  if (this->layerBox("matting")->isChecked())
-  {
-    words << "--matte" << this->Matte->text();
-  }
-  words << "--tile" << QString("%1x%2").arg(this->Tile[0]->value()).arg(this->Tile[1]->value());
-  words << "--samples" << QString::number(this->Samples->value());
-  return words;
+  return words + this->Options->words();
 }
 
 QString RenderDialog::sceneFile()
@@ -332,10 +313,6 @@ QString RenderDialog::missing() const
   {
     return tr("Check at least one layer.");
   }
-  if (this->layerBox("matting")->isChecked() && this->Matte->text().trimmed().isEmpty())
-  {
-    return tr("Name the objects of the layer matting, or uncheck it.");
-  }
   return {};
 }
 
@@ -425,8 +402,7 @@ void RenderDialog::rememberChoices() const
 {
   QSettings settings;
   settings.setValue("render/layers", this->checkedLayers());
-  settings.setValue("render/tile", QSize(this->Tile[0]->value(), this->Tile[1]->value()));
-  settings.setValue("render/samples", this->Samples->value());
+  this->Options->remember();
 }
 
 void RenderDialog::takeProgress(int done, int total)
@@ -469,7 +445,10 @@ QString RenderDialog::endText(RunLog::End end, const QString& message) const
     case RunLog::End::Done:
       return message;
     case RunLog::End::Failed:
-      return inWindowsWords(message);
+      return message.contains(QString::fromStdString(describe(FolderContents::UnfinishedOther)))
+               ? tr("The interrupted run in this folder is of another request: untick to replace it, or name another "
+                    "folder.")
+               : this->Options->inWindowsWords(message);
     case RunLog::End::Lost:
       if (!this->Process.cancelled())
       {

@@ -29,6 +29,7 @@ namespace dgtk
 {
 
 class RenderCameras;
+class RenderOptions;
 
 /// What `dgtk render` is to make of the scene, with its progress. The scene is that of the file or, when it has
 /// changes, a copy of it as it is now, which stays: one for each folder, so that an interrupted run can go on. Runs
@@ -96,8 +97,8 @@ private:
   void begin();
   QStringList checkedLayers() const;
   QCheckBox* layerBox(const QString& layer) const;
-  /// The objects of the layer matting: those selected, until others are typed.
-  void showMatte();
+  /// The names of the selected objects, for options that take objects.
+  void offerSelection();
   /// For the next start of the program.
   void rememberChoices() const;
   void takeProgress(int done, int total);
@@ -116,13 +117,11 @@ private:
   QTabWidget* Tabs = nullptr;
   QLabel* Info = nullptr;
   RenderCameras* Cameras = nullptr;
-  QSpinBox* Tile[2] = { nullptr, nullptr };
+  RenderOptions* Options = nullptr;
   QSpinBox* Frames[3] = { nullptr, nullptr, nullptr };
   std::size_t Opened = 0; ///< SceneDocument::opened() of what is shown
   int SceneRange[2] = { 0, 0 };
-  QSpinBox* Samples = nullptr;
   std::vector<QCheckBox*> Layers;
-  QLineEdit* Matte = nullptr;
   QLineEdit* Folder = nullptr;
   QPushButton* Browse = nullptr;
   QCheckBox* Resume = nullptr;

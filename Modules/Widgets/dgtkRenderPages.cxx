@@ -4,6 +4,7 @@
 #include "dgtkGenerator.h"
 #include "dgtkNumberRow.h"
 #include "dgtkRenderCameras.h"
+#include "dgtkRenderOptions.h"
 
 #include <QCheckBox>
 #include <QDesktopServices>
@@ -16,7 +17,6 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSettings>
-#include <QSize>
 #include <QSpinBox>
 #include <QUrl>
 #include <QVBoxLayout>
@@ -27,7 +27,6 @@ namespace dgtk
 namespace
 {
 constexpr int layerColumns = 3;
-constexpr int mostSamples = 16;
 } // namespace
 
 QWidget* RenderDialog::makeInfo()
@@ -66,6 +65,7 @@ QWidget* RenderDialog::makeControls()
     box->setObjectName("layer." + toText(layer.layer));
     box->setToolTip(toText(layer.description));
     box->setChecked(chosen.contains(box->text()));
+    connect(box, &QCheckBox::toggled, this, [this] { this->Options->setLayers(this->checkedLayers()); });
     grid->addWidget(box, i % rows, i / rows);
     this->Layers.push_back(box);
   }
@@ -97,13 +97,9 @@ QWidget* RenderDialog::makeControls()
   layout->addWidget(group, 1);
 
   auto* numbers = new QGridLayout;
-  const QSize tile = QSettings().value("render/tile", QSize(640, 480)).toSize();
-  this->Tile[0] = makeNumber("tileWidth", 1, largestImage, tile.width());
-  this->Tile[1] = makeNumber("tileHeight", 1, largestImage, tile.height());
   this->Frames[0] = makeNumber("firstFrame", 0, largestFrame, 0);
   this->Frames[1] = makeNumber("lastFrame", 0, largestFrame, 0);
   this->Frames[2] = makeNumber("frameStep", 1, largestFrame, 1);
-  this->Samples = makeNumber("samples", 1, mostSamples, QSettings().value("render/samples", 1).toInt());
   const auto put = [numbers](int row, int column, const QString& label, QWidget* field, const QString& says)
   {
     auto* caption = new QLabel(label);
@@ -113,23 +109,9 @@ QWidget* RenderDialog::makeControls()
     numbers->addWidget(caption, row, 2 * column);
     numbers->addWidget(field, row, 2 * column + 1);
   };
-  const QString tiles = tr("Images are made in tiles of this size, pixels: larger ones need more memory");
-  put(0, 0, tr("Tile &width"), this->Tile[0], tiles);
-  put(0, 1, tr("Tile hei&ght"), this->Tile[1], tiles);
-  put(0, 2, tr("Samples a si&de"), this->Samples,
-    tr("Rays in a row and in a column of each pixel of colour and alpha: 4 are 16 rays a pixel"));
-  put(1, 0, tr("&First frame"), this->Frames[0], tr("Until you choose another, the first of the scene"));
-  put(1, 1, tr("&Last frame"), this->Frames[1], tr("Until you choose another, the last of the scene"));
-  put(1, 2, tr("E&very"), this->Frames[2], tr("2 renders every second frame"));
-  this->Matte = new QLineEdit;
-  this->Matte->setObjectName("matte");
-  this->Matte->setPlaceholderText(tr("objects, separated by commas"));
-  auto* caption = new QLabel(tr("&Matting of"));
-  caption->setBuddy(this->Matte);
-  numbers->addWidget(caption, 2, 0);
-  numbers->addWidget(this->Matte, 2, 1, 1, 5);
-  connect(this->layerBox("matting"), &QCheckBox::toggled, this, &RenderDialog::showMatte);
-  this->showMatte();
+  put(0, 0, tr("&First frame"), this->Frames[0], tr("Until you choose another, the first of the scene"));
+  put(0, 1, tr("&Last frame"), this->Frames[1], tr("Until you choose another, the last of the scene"));
+  put(0, 2, tr("E&very"), this->Frames[2], tr("2 renders every second frame"));
   layout->addLayout(numbers);
   return page;
 }

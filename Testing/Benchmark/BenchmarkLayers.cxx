@@ -89,14 +89,14 @@ double render(const Settings& s, const Row& row, Size size, int frames)
   request.scene = s.scenePath;
   request.folder = s.folder + "/out";
   request.layers = row.layers;
-  request.samples = row.samples;
+  request.options["samples"] = std::to_string(row.samples);
   request.cameras = { "c" };
-  request.pairs = { "c:r" };
-  request.matte = { "o0" };
+  request.options["pairs"] = "c:r";
+  request.options["matte"] = "o0";
   request.frames = FrameRange{ 1, frames, 1 };
   request.width = size.width;
   request.height = size.height;
-  request.threads = s.threads;
+  request.options["threads"] = std::to_string(s.threads);
   const bench::Clock::time_point start = bench::Clock::now();
   generate(request);
   const double time = bench::milliseconds(start);

@@ -109,9 +109,9 @@ double product(const Settings& s, const std::vector<std::string>& layers, const 
   request.width = s.width;
   request.height = s.height;
   request.layers = layers;
-  request.visibility = engine;
+  request.options["visibility"] = engine;
   request.replace = true;
-  request.threads = s.threads;
+  request.options["threads"] = std::to_string(s.threads);
   const auto run = [&](int last)
   {
     request.folder = s.folder + "/out" + std::to_string(last);

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Help, version, and wrong usage."""
+import json
 import os
+import subprocess
 
-from harness import SCENES, Case, main
+from harness import SCENES, SOURCE, Case, main
 
 SCENE = os.path.join(SCENES, "demo.json")
 
@@ -39,7 +41,7 @@ class Usage(Case):
         self.refused("render", SCENE, "-o", self.path("x"), "--frames", "3:1", status=2, says="A <= B")
         self.refused("render", SCENE, "-o", self.path("x"), "--frames", "0:100000", status=2, says="the scene has frames")
         self.refused("render", SCENE, "-o", self.path("x"), "--gl", "metal", status=2, says="expected one of")
-        self.refused("render", SCENE, "-o", self.path("x"), "--depth-format", "jpg", status=2, says="cannot be written")
+        self.refused("render", SCENE, "-o", self.path("x"), "--depth-format", "jpg", status=2, says="--depth-format: expected some of npy,")
         self.refused("convert", SCENE, self.path("x.obj"), status=2, says="expected a name in .scene, .json or .pov")
         self.refused("list", "nothing", status=2, says="expected one of readers")
         self.assertFalse(os.path.exists(self.path("x")))
@@ -55,11 +57,27 @@ class Usage(Case):
         self.assertFalse(os.path.exists(self.path("z")))
 
     def test_lists(self):
-        for what, word in (("readers", "md2"), ("layers", "depth"), ("writers", "npy"), ("cameras", "orthographic"), ("gl", "egl")):
+        for what, word in (("readers", "md2"), ("layers", "depth"), ("options", "points_step"), ("writers", "npy"), ("cameras", "orthographic"), ("gl", "egl")):
             self.assertIn(word, self.dgtk("list", what).stdout)
         everything = self.dgtk("list").stdout
+        known = json.loads(self.dgtk("list", "--json").stdout)
+        self.assertEqual([line.split()[0] for line in self.dgtk("list", "layers").stdout.splitlines()], [row["layer"] for row in known["layers"]])
+        depth = next(row for row in known["layers"] if row["layer"] == "depth")
+        self.assertEqual(("float64", "depth", ["depth_format"]), (depth["outputs"][0]["type"], depth["outputs"][0]["meaning"], depth["options"]))
+        samples = next(row for row in known["options"] if row["name"] == "samples")
+        self.assertEqual(("integer", 1, 16), (samples["kind"], samples["least"], samples["most"]))
         for word in ("readers:", "layers:", "writers:", "cameras:", "gl:"):
             self.assertIn(word, everything)
+
+    def test_the_page_of_layers_is_made_from_the_rows(self):
+        script = os.path.join(SOURCE, "Utilities", "Maintenance", "update_tables")
+        done = subprocess.run(["/usr/bin/python3", script, "--check", os.environ["DGTK"]], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_every_option_of_rows_is_one_of_the_command_line(self):
+        page = self.dgtk("render", "--help").stdout
+        for row in json.loads(self.dgtk("list", "options", "--json").stdout)["options"]:
+            self.assertIn("--" + row["name"].replace("_", "-") + " ", page)
 
 
 if __name__ == "__main__":

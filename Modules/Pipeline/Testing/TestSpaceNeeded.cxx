@@ -21,10 +21,10 @@ TEST(SpaceNeeded, IsNeverMoreThanTheFilesAre)
   request.scene = test::sourceFile("Data/Scenes/fig_4_7_stereo.json");
   request.folder = folder.path("d");
   request.layers = { "depth", "objects", "normal", "correspondence", "disparity", "edges" };
-  request.formats["depth"] = { "npy", "dgd", "exr", "pfm", "png" };
+  request.options["depth_format"] = "npy,dgd,exr,pfm,png";
   request.width = 64;
   request.height = 48;
-  request.visibility = "ray";
+  request.options["visibility"] = "ray";
   generate(request);
   std::uint64_t files = 0;
   std::uint64_t raw = 0;

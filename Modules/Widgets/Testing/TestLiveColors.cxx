@@ -33,7 +33,7 @@ ImageData rendered(const std::string& scene, int frame, const std::string& folde
   request.cameras = { readScene(scene).cameras.front().name };
   request.width = width;
   request.height = height;
-  request.threads = 1;
+  request.options["threads"] = "1";
   generate(request);
   const std::string number = std::to_string(frame);
   return readLayerFile(

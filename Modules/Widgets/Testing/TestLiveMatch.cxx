@@ -142,13 +142,13 @@ TEST(LiveMatch, IsTheDatasetsAtEveryPixel)
   request.scene = file;
   request.folder = folder.path("out");
   request.layers = { "correspondence" };
-  request.pairs = { "left:right" };
+  request.options["pairs"] = "left:right";
   request.cameras = { "left" };
   request.frames = FrameRange{ 0, 0, 1 };
   request.width = 80;
   request.height = 60;
-  request.visibility = "ray";
-  request.threads = 1;
+  request.options["visibility"] = "ray";
+  request.options["threads"] = "1";
   generate(request);
   const ImageData places = readLayerFile(folder.path("out/left/correspondence_right/000000.npy"));
   const ImageData classes = readLayerFile(folder.path("out/left/correspondence_right/000000.png"));

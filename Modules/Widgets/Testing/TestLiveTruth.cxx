@@ -44,15 +44,15 @@ void render(const std::string& file, const std::string& folder)
   for (const RepresentationInfo& info : representations())
   {
     request.layers.push_back(info.layer);
-    request.formats[info.layer] = { "npy" };
+    request.options[info.layer + "_format"] = "npy";
   }
-  request.formats["flow_forward"] = request.formats["flow_backward"] = { "npy" };
+  request.options["flow_forward_format"] = request.options["flow_backward_format"] = "npy";
   request.frames = FrameRange{ 1, 1, 1 };
   request.width = width;
   request.height = height;
-  request.samples = 4;
-  request.visibility = "ray";
-  request.threads = 1;
+  request.options["samples"] = "4";
+  request.options["visibility"] = "ray";
+  request.options["threads"] = "1";
   generate(request);
 }
 
