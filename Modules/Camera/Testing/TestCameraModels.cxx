@@ -24,6 +24,40 @@ Eigen::Matrix3d matrixK(double fx, double fy, double cx, double cy, double skew)
   return K;
 }
 
+/// A linear camera with its image moved.
+class Moved final : public dgtk::CameraModel
+{
+public:
+  Moved(std::shared_ptr<const dgtk::CameraModel> inner, const Eigen::Vector2d& by)
+    : CameraModel(inner->width(), inner->height())
+    , Inner(std::move(inner))
+    , By(by)
+  {
+  }
+  std::string name() const override { return this->Inner->name(); }
+  dgtk::CameraRay rayThrough(const Eigen::Vector2d& pixel) const override
+  {
+    return this->Inner->rayThrough(pixel - this->By);
+  }
+  bool project(const Eigen::Vector3d& x, Eigen::Vector2d& pixel) const override
+  {
+    Eigen::Vector2d found;
+    const bool seen = this->Inner->project(x, found);
+    pixel = seen ? Eigen::Vector2d(found + this->By) : pixel;
+    return seen;
+  }
+  std::optional<dgtk::LinearProjection> linear() const override
+  {
+    dgtk::LinearProjection moved = *this->Inner->linear();
+    moved.K.topRightCorner<2, 1>() += this->By;
+    return moved;
+  }
+
+private:
+  std::shared_ptr<const dgtk::CameraModel> Inner;
+  Eigen::Vector2d By;
+};
+
 struct Member
 {
   std::string label;
@@ -40,7 +74,8 @@ std::vector<Member> family()
     { "calibrated", dgtk::makePinhole(1280, 960, matrixK(1100.5, 1043.25, 601.75, 512.125, 3.5)) },
     { "outside", dgtk::makePinhole(320, 200, matrixK(300, 280, -150, 430, -20)) },
     { "parallel", dgtk::makeOrthographic(640, 480, 12.5, 0) },
-    { "parallelWide", dgtk::makeOrthographic(333, 777, 0.01, 1.9) } };
+    { "parallelWide", dgtk::makeOrthographic(333, 777, 0.01, 1.9) },
+    { "parallelMoved", std::make_shared<Moved>(dgtk::makeOrthographic(640, 480, 12.5, 0), Eigen::Vector2d(70, -30)) } };
 }
 
 dgtk::View viewOf(const std::shared_ptr<const dgtk::CameraModel>& model)
@@ -299,4 +334,14 @@ TEST(CameraRefusals, NameWhatIsWrong)
   EXPECT_THAT(messageOf([&] { dgtk::worldResolution(view); }), HasSubstr("0 < near < far"));
   view.model.reset();
   EXPECT_THAT(messageOf([&] { dgtk::worldResolution(view); }), HasSubstr("has no camera model"));
+}
+
+TEST(LookAtPose, TheLengthOfUpMeansNothing)
+{
+  const dgtk::Rigid3 expected = dgtk::lookAtPose({ 3, -2, 7 }, { -1, 0.5, 0.25 }, { 0, 1, 0 });
+  for (const double length : { 1e-300, 1e-20, 2.0, 1e20, 1e300 })
+  {
+    const dgtk::Rigid3 found = dgtk::lookAtPose({ 3, -2, 7 }, { -1, 0.5, 0.25 }, { 0, length, 0 });
+    EXPECT_LE((found.rotation - expected.rotation).norm(), 1e-15) << length;
+  }
 }

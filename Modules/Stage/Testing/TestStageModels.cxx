@@ -143,15 +143,16 @@ TEST(StageModels, MetalAndRoughnessAreAskedFor)
   const ModelFolder folder;
   const auto stage = folder.load(R"({"objects": [{"model": "models/square.ac"},
     {"model": "models/square.ac", "materials": {"*": {"metallic": 0.75}}},
-    {"model": "models/square.ac", "materials": {"*": {"roughness": 0.25}}}]})");
+    {"model": "models/square.ac", "materials": {"*": {"roughness": 0.25}}},
+    {"model": "models/square.ac", "materials": {"*": {"metallic": 0.75}, "red": {"roughness": 0.25}}}]})");
   const auto physical = [&](std::size_t i) { return stage->at(0)->instances[i].materials->at(0).physical; };
   EXPECT_FALSE(physical(0));
-  for (const std::size_t i : { 1u, 2u })
+  for (const std::size_t i : { 1u, 2u, 3u })
   {
     ASSERT_TRUE(physical(i));
     EXPECT_TRUE(physical(i)->wanted);
-    EXPECT_EQ(physical(i)->metallic, i == 1 ? 0.75 : 0);
-    EXPECT_EQ(physical(i)->roughness, i == 2 ? 0.25 : 1);
+    EXPECT_EQ(physical(i)->metallic, i != 2 ? 0.75 : 0);
+    EXPECT_EQ(physical(i)->roughness, i != 1 ? 0.25 : 1);
   }
 }
 

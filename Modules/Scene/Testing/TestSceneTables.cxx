@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSceneSamples.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+using namespace dgtk;
+using namespace dgtk::test;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Vector = Eigen::Vector3d;
+
+// Keys, limits and paths of scenes, one by one.
+
+namespace
+{
+/// A scene of one object, one light and one camera with a key each, "" for none.
+std::string sceneWith(const std::string& where, const std::string& key)
+{
+  const auto of = [&](const std::string& here) { return where == here && !key.empty() ? ", " + key : std::string(); };
+  return "{\"version\": 1" + of("scene") + ", \"objects\": [{\"model\": \"a.ac\"" + of("object") +
+         "}], \"lights\": [{\"position\": [0, 0, 9]" + of("light") +
+         "}], \"cameras\": [{\"eye\": [0, 0, 9], \"lookAt\": [0, 0, 0]" + of("camera") + "}]}";
+}
+} // namespace
+
+TEST(SceneTables, EveryKeyOfPicturesAndImageFormationIsReadAndWritten)
+{
+  const std::string text = R"({
+  "version": 1,
+  "environment": { "image": "sky.hdr", "intensity": 2, "rotation": 30, "background": false },
+  "fog": { "color": [0.25, 0.5, 0.75], "density": 0.125, "start": 3 },
+  "objects": [{ "model": "a.ac", "materials": { "m": {
+    "ambient": [0.125, 0, 0], "diffuse": [0.25, 0, 0], "specular": [0.375, 0, 0], "emission": [0.5, 0, 0],
+    "shininess": 7, "opacity": 0.625, "texture": "t.png", "metallic": 0.75, "roughness": 0.875, "normalMap": "n.png",
+    "bump": "b.png", "bumpScale": 9, "metallicRoughnessMap": "mr.png", "emissionMap": "e.png", "occlusionMap": "o.png"
+  } } }],
+  "lights": [{ "position": [1, 2, 3], "shadows": true, "shadowSize": 512 }],
+  "cameras": [{ "eye": [0, 0, 9], "lookAt": [0, 0, 0], "shutter": { "open": -0.25, "close": 0.5, "exposures": 8 },
+    "lens": { "aperture": 0.5, "focus": 6, "exposures": 32 } }]
+})";
+  const TemporaryFolder folder;
+  std::string written = text;
+  for (int time = 0; time < 2; ++time) // as read, and as read from what is written
+  {
+    const SceneDescription scene = readText(folder, "a.json", written);
+    EXPECT_EQ(scene.environment.image, "sky.hdr");
+    EXPECT_EQ(scene.environment.intensity, 2);
+    EXPECT_EQ(scene.environment.rotation, 30);
+    EXPECT_FALSE(scene.environment.background);
+    EXPECT_EQ(scene.fog.color, Vector(0.25, 0.5, 0.75));
+    EXPECT_EQ(scene.fog.density, 0.125);
+    EXPECT_EQ(scene.fog.start, 3);
+    const MaterialOverride& material = scene.objects.at(0).materials.at(0);
+    EXPECT_EQ(material.material, "m");
+    EXPECT_EQ(material.ambient->x(), 0.125);
+    EXPECT_EQ(material.diffuse->x(), 0.25);
+    EXPECT_EQ(material.specular->x(), 0.375);
+    EXPECT_EQ(material.emission->x(), 0.5);
+    EXPECT_EQ(material.shininess, 7);
+    EXPECT_EQ(material.opacity, 0.625);
+    EXPECT_EQ(material.texture, "t.png");
+    EXPECT_EQ(material.metallic, 0.75);
+    EXPECT_EQ(material.roughness, 0.875);
+    EXPECT_EQ(material.normalMap, "n.png");
+    EXPECT_EQ(material.bump, "b.png");
+    EXPECT_EQ(material.bumpScale, 9);
+    EXPECT_EQ(material.metallicRoughnessMap, "mr.png");
+    EXPECT_EQ(material.emissionMap, "e.png");
+    EXPECT_EQ(material.occlusionMap, "o.png");
+    EXPECT_TRUE(scene.lights.at(0).shadows);
+    EXPECT_EQ(scene.lights[0].shadowSize, 512);
+    const CameraDescription& camera = scene.cameras.at(0);
+    EXPECT_EQ(camera.shutter.open, -0.25);
+    EXPECT_EQ(camera.shutter.close, 0.5);
+    EXPECT_EQ(camera.shutter.exposures, 8);
+    EXPECT_EQ(camera.lens.aperture, 0.5);
+    EXPECT_EQ(camera.lens.focus.at(0), 6);
+    EXPECT_EQ(camera.lens.exposures, 32);
+    written = toJson(scene, folder.path());
+  }
+}
+
+TEST(SceneTables, EveryPathMovesWithTheScene)
+{
+  const TemporaryFolder folder;
+  makeFolders(folder.path("deep/er"));
+  writeFile(folder.path("classes.json"), R"({"tree": 2})");
+  const SceneDescription scene = readText(folder, "a.json", R"({ "classes": "classes.json",
+    "environment": { "image": "sky.hdr" }, "objects": [{ "model": "a.ac", "class": "tree", "materials": { "*": {
+    "texture": "t.png", "normalMap": "n.png", "bump": "b.png", "metallicRoughnessMap": "mr.png",
+    "emissionMap": "e.png", "occlusionMap": "o.png" } } }] })");
+  writeScene(scene, folder.path("deep/er/b.json"));
+  const SceneDescription moved = readScene(folder.path("deep/er/b.json"));
+  const MaterialOverride& material = moved.objects.at(0).materials.at(0);
+  EXPECT_THAT((std::vector<std::string>{ moved.classFile, moved.environment.image, moved.objects[0].model,
+                *material.texture, *material.normalMap, *material.bump, *material.metallicRoughnessMap,
+                *material.emissionMap, *material.occlusionMap }),
+    ElementsAre("../../classes.json", "../../sky.hdr", "../../a.ac", "../../t.png", "../../n.png", "../../b.png",
+      "../../mr.png", "../../e.png", "../../o.png"));
+}
+
+TEST(SceneTables, LimitsAreWithin)
+{
+  struct Row
+  {
+    const char* where;
+    std::string key; ///< with # for the value
+    std::vector<const char*> good, bad;
+  };
+  const Row table[] = { { "scene", "\"fps\": #", { "1e-9", "1e6" }, { "0", "-1", "1000001" } },
+    { "scene", "\"seed\": #", { "0", "9007199254740991" }, { "-1", "9007199254740992", "1.5" } },
+    { "scene", "\"keyFrames\": [#]", { "0", "999999" }, { "-1", "1000000", "0.5" } },
+    { "scene", "\"background\": [0, #, 0]", { "0", "1" }, { "-0.001", "1.001" } },
+    { "scene", "\"environment\": {\"rotation\": #}", { "-36000", "36000" }, { "-36001", "36001" } },
+    { "scene", "\"environment\": {\"intensity\": #}", { "0", "1e6" }, { "-1", "1000001" } },
+    { "scene", "\"fog\": {\"density\": #}", { "0", "1e15" }, { "-1", "1.1e15" } },
+    { "scene", "\"fog\": {\"start\": #}", { "0", "1e15" }, { "-1", "1.1e15" } },
+    { "object", "\"position\": [0, #, 0]", { "-1e15", "1e15" }, { "-1.1e15", "1.1e15" } },
+    { "object", "\"scale\": [1, #, 1]", { "-1e12", "1e12", "1e-300" }, { "-1.1e12", "1.1e12", "0" } },
+    { "object", "\"orientation\": [#, 0, 0, 0]", { "0.9901", "1.0099", "-1" }, { "0.9899", "1.0101", "0" } },
+    { "object", "\"animation\": {\"rate\": #}", { "0", "1e6" }, { "-1", "1000001" } },
+    { "object", "\"animation\": {\"start\": #}", { "-1e9", "1e9" }, { "-1.1e9", "1.1e9" } },
+    { "object", "\"animation\": {\"offset\": #}", { "0", "1e9" }, { "-1", "1.1e9" } },
+    { "object", "\"materials\": {\"*\": {\"shininess\": #}}", { "0", "128" }, { "-1", "129" } },
+    { "object", "\"materials\": {\"*\": {\"opacity\": #}}", { "0", "1" }, { "-0.001", "1.001" } },
+    { "object", "\"materials\": {\"*\": {\"metallic\": #}}", { "0", "1" }, { "-0.001", "1.001" } },
+    { "object", "\"materials\": {\"*\": {\"roughness\": #}}", { "0", "1" }, { "-0.001", "1.001" } },
+    { "object", "\"materials\": {\"*\": {\"diffuse\": [#, 0, 0]}}", { "0", "1" }, { "-0.001", "1.001" } },
+    { "light", "\"coneAngle\": #", { "0.001", "90" }, { "0", "90.001" } },
+    { "light", "\"exponent\": #", { "0", "128" }, { "-1", "129" } },
+    { "light", "\"intensity\": #", { "0", "1e6" }, { "-1", "1000001" } },
+    { "light", "\"diffuse\": [#, 0, 0]", { "0", "1e6" }, { "-1", "1000001" } },
+    { "light", "\"shadowSize\": #", { "16", "16384" }, { "15", "16385", "16.5" } },
+    { "camera", "\"fovY\": #", { "0.001", "179.999" }, { "0", "180" } },
+    { "camera", "\"aspect\": #", { "0", "1e6" }, { "-1", "1000001" } },
+    { "camera", "\"near\": #, \"far\": 1e15", { "1e-9", "999999999999999" }, { "0", "-1", "1e15" } },
+    { "camera", "\"far\": #", { "0.11", "1e15" }, { "0", "0.1", "1.1e15" } },
+    { "camera", "\"width\": #, \"height\": 1", { "1", "1048576" }, { "0", "-1", "1048577" } },
+    { "camera", "\"model\": \"orthographic\", \"viewHeight\": #", { "1e-9", "1e15" }, { "0", "1.1e15" } },
+    { "camera", "\"shutter\": {\"open\": #, \"close\": 1000}", { "-1000", "1000" }, { "-1001", "1001" } },
+    { "camera", "\"shutter\": {\"exposures\": #}", { "1", "65536" }, { "0", "65537" } },
+    { "camera", "\"lens\": {\"exposures\": #}", { "1", "65536" }, { "0", "65537" } },
+    { "camera", "\"lens\": {\"aperture\": #}", { "0", "1e15" }, { "-1", "1.1e15" } },
+    { "camera", "\"lens\": {\"focus\": #}", { "1e-9", "1e15" }, { "0", "1.1e15" } } };
+  for (const Row& row : table)
+  {
+    const auto refusalWith = [&row](const char* value)
+    {
+      std::string key = row.key;
+      key.replace(key.find('#'), 1, value);
+      return refusalOf("a.json", sceneWith(row.where, key));
+    };
+    for (const char* value : row.good)
+    {
+      EXPECT_EQ(refusalWith(value), "") << row.key << ' ' << value;
+    }
+    for (const char* value : row.bad)
+    {
+      EXPECT_NE(refusalWith(value), "") << row.key << ' ' << value;
+    }
+  }
+}
+
+TEST(SceneTables, NamesOfCamerasAreFitForFolders)
+{
+  for (const std::string& name : { std::string("a b"), std::string("a.b-c"), std::string(128, 'x'), std::string("Ä") })
+  {
+    EXPECT_EQ(refusalOf("a.json", sceneWith("camera", "\"name\": \"" + name + '"')), "") << name;
+  }
+  for (const std::string& name :
+    { std::string(), std::string("a/b"), std::string("a\\\\b"), std::string("a,b"), std::string("a@b"),
+      std::string("a:b"), std::string(".a"), std::string(" a"), std::string("-a"), std::string("a "),
+      std::string("manifest.json"), std::string("cameras.json"), std::string("objects.json"), std::string("scene.json"),
+      std::string("contact.png"), std::string(129, 'x'), std::string("a\\u0001b"), std::string("a\\u007fb") })
+  {
+    EXPECT_THAT(refusalOf("a.json", sceneWith("camera", "\"name\": \"" + name + '"')), HasSubstr("name")) << name;
+  }
+}
+
+TEST(SceneTables, OnlyKeyFramesThatNoTrackHasAreExtra)
+{
+  const TemporaryFolder folder;
+  const SceneDescription scene = readText(folder, "a.json",
+    R"({"keyFrames": [1, 2, 4, 5, 9],
+      "objects": [{"model": "a.ac", "position": {"keys": [[2, [0, 0, 0]], [5, [1, 0, 0]]]}}]})");
+  EXPECT_THAT(scene.extraKeyFrames, ElementsAre(1, 4, 9));
+  EXPECT_THAT(scene.keyFrames(), ElementsAre(1, 2, 4, 5, 9));
+}
+
+TEST(SceneTables, ScalesThatPassThroughZeroAtAnyFrameBetween)
+{
+  // from -a to b within some frames, 0 at the frame behind the first, or before the last
+  EXPECT_THAT(refusalOf("a.json", sceneWith("object", "\"scale\": {\"keys\": [[3, -1], [7, 3]]}")),
+    HasSubstr("scale passes through 0 at frame 4"));
+  EXPECT_THAT(refusalOf("a.json", sceneWith("object", "\"scale\": {\"keys\": [[3, -3], [7, 1]]}")),
+    HasSubstr("scale passes through 0 at frame 6"));
+  EXPECT_EQ(refusalOf("a.json", sceneWith("object", "\"scale\": {\"keys\": [[3, -1], [7, 2]]}")), "");
+  EXPECT_EQ(refusalOf("a.json", sceneWith("object", "\"scale\": {\"keys\": [[3, -1], [4, 1]]}")), "");
+}
+
+TEST(SceneTables, WhatSceneFilesHaveNoWordsFor)
+{
+  const std::pair<std::function<void(SceneDescription&)>, const char*> table[] = {
+    { [](auto& s) { s.environment.image = "sky.hdr"; }, "environment" }, { [](auto& s) { s.fog.density = 1; }, "fog" },
+    { [](auto& s) { s.objects[0].animation.start = 1; }, "object 'a-1': animation.start" },
+    { [](auto& s) { s.objects[0].animation.offset = 1; }, "object 'a-1': animation.offset" },
+    { [](auto& s) { s.objects[0].animation.loop = !s.objects[0].animation.loop; }, "object 'a-1': animation.loop" },
+    { [](auto& s) {
+       s.objects[0].orientation.keys = { { 0, {}, Interpolation::Step }, { 1, {} } };
+     },
+      "object 'a-1': orientation" },
+    { [](auto& s) {
+       s.objects[0].scale.keys = { { 0, { 1, 1, 1 }, Interpolation::Step }, { 1, { 1, 1, 1 } } };
+     },
+      "object 'a-1': scale" },
+    { [](auto& s) { s.lights[0].target.value = Vector(1, 0, 0); }, "light 'Light0': target" },
+    { [](auto& s) { s.lights[0].coneAngle = 31; }, "light 'Light0': coneAngle" },
+    { [](auto& s) { s.lights[0].exponent = 2; }, "light 'Light0': exponent" },
+    { [](auto& s) { s.lights[0].shadows = true; }, "light 'Light0': shadows" },
+    { [](auto& s) { s.lights[0].name = "a (b"; }, "light 'a (b': name" },
+    { [](auto& s) { s.cameras[0].shutter.close = 1; }, "camera 'Camera0': shutter" },
+    { [](auto& s) { s.cameras[0].lens.aperture = 1; }, "camera 'Camera0': lens" },
+    { [](auto& s) { s.cameras[0].sensor.emplace(); }, "camera 'Camera0': sensor" },
+    { [](auto& s) {
+       s.cameras[0].up.keys = { { 0, { 0, 1, 0 } }, { 1, { 0, 1, 0.5 } } };
+     },
+      "camera 'Camera0': up" },
+    { [](auto& s) {
+       s.cameras[0].eye.keys = { { 0, { 0, 0, 9 }, Interpolation::Smooth }, { 1, { 0, 0, 8 } } };
+     },
+      "camera 'Camera0': eye" },
+    { [](auto& s)
+      {
+        s.cameras[0].K = Eigen::Matrix3d::Identity();
+        s.cameras[0].width = s.cameras[0].height = 9;
+      },
+      "camera 'Camera0': K" }
+  };
+  for (const auto& [change, what] : table)
+  {
+    SceneDescription scene;
+    scene.objects.resize(1);
+    scene.objects[0].model = "a.ac";
+    scene.lights.resize(1);
+    scene.cameras.resize(1);
+    nameAll(scene);
+    EXPECT_NO_THROW(toThesisScene(scene, ""));
+    change(scene);
+    try
+    {
+      toThesisScene(scene, "");
+      ADD_FAILURE() << what;
+    }
+    catch (const InputError& error)
+    {
+      EXPECT_THAT(error.what(), HasSubstr(std::string("scene: ") + what + " cannot be said in .scene"));
+    }
+  }
+}
