@@ -108,6 +108,21 @@ TEST(Warp, ToItsOwnCameraIsTheFirstLayer)
   }
 }
 
+TEST(Warp, ToItsOwnCameraOfSkewedPixels)
+{
+  View view = viewAt({ 1, 2, 3 }, 0.3);
+  Eigen::Matrix3d K = view.model->linear()->K;
+  K(0, 1) = -40; // a step down is 0.8 of one to the side
+  view.model = makePinhole(width, height, K);
+  const WarpedImage image = warpLayeredDepth(wall(5), view, view);
+  EXPECT_EQ(image.holeCount, 0u);
+  for (int i = 0; i < width * height; ++i)
+  {
+    ASSERT_EQ(image.rgb[3 * i], i % width);
+    ASSERT_EQ(image.rgb[3 * i + 1], i / width);
+  }
+}
+
 TEST(Warp, AStepAsideShiftsByFocalLengthOverDepth)
 {
   // 5 units deep, 0.3 to the right: 3 pixels to the left; three columns at the right have no sample

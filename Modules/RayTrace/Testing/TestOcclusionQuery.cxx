@@ -216,6 +216,28 @@ TEST(OcclusionQuery, AWallHidesWhatIsBehindIt)
   EXPECT_EQ(query->occluder(view, { 0.3, 0.2, 0 }, target).object, 0U);
 }
 
+// A principal point a million million pixels away: projections are rounded to 1e-4 pixels, 1e-5 units at the point.
+TEST(OcclusionQuery, PointsAreLookedAtThroughTheRoundingOfTheirProjection)
+{
+  Eigen::Matrix3d K;
+  K << 100, 0, 1e12, 0, 100, 24, 0, 0, 1;
+  View view;
+  view.model = makePinhole(64, 48, K);
+  view.near = 0.1;
+  view.far = 100;
+  const auto query = makeOcclusionQuery();
+  for (const double x : { 0.0123456, 0.0444444, 0.0777777, 0.1 / 3, 0.2 / 7 })
+  {
+    for (const bool covers : { false, true })
+    {
+      // half as far away, with an edge 1e-7 beside the way to the point
+      const double edge = 0.5 * x + (covers ? 1e-7 : -1e-7);
+      query->setScene(SceneBuilder().add(makeQuad({ { edge - 1, -1, 5 }, { 1, 0, 0 }, { 0, 2, 0 } })).state());
+      EXPECT_EQ(query->occluder(view, { x, 0.01, 10 }, {}).object, covers ? 1U : 0U) << x;
+    }
+  }
+}
+
 TEST(OcclusionQuery, ASphereHidesItsOwnBack)
 {
   const auto query = makeOcclusionQuery();

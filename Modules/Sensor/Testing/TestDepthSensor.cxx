@@ -215,6 +215,23 @@ TEST(DepthSensor, WhatTheSecondViewpointCannotSeeDropsOut)
   EXPECT_NEAR(gone / (0.3 * 10 / 100), 1, 2 * onePercent);
 }
 
+// Disparities 2 and 3 of neighbours: the second viewpoint sees both at one place, the nearer one, on the right, hides.
+TEST(DepthSensor, OfSurfacesThatTheSecondViewpointSeesAtOnePlaceTheNearerIsSeen)
+{
+  DepthSensorParameters p;
+  p.stereo.baseline = 1;
+  p.dropout.occluded = 1;
+  DepthSensorSetup setup = setupOf(p);
+  setup.focalLength = 6;
+  setup.width = 12;
+  setup.height = 1;
+  const std::vector<double> depth = measure(setup, [](int x, int) { return x < 8 ? 3.0 : 2.0; });
+  for (int x = 0; x < 12; ++x)
+  {
+    EXPECT_EQ(std::isfinite(depth[std::size_t(x)]), x != 7) << x;
+  }
+}
+
 TEST(DepthSensor, RangeAndInvalidity)
 {
   DepthSensorParameters p;

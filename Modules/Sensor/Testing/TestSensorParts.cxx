@@ -127,6 +127,46 @@ TEST(JpegArtefacts, AreThoseOfLibjpeg)
   }
 }
 
+// Two of four pixels have a blue chroma of 1: halves are rounded down and up in turn, as in libjpeg.
+TEST(JpegArtefacts, HalvesOfChromaGoDownAndUpInTurn)
+{
+  Bytes bytes;
+  for (int i = 0; i < 16 * 16; ++i)
+  {
+    bytes.insert(bytes.end(), { 128, 128, static_cast<unsigned char>(i % 2 == 0 ? 128 : 130) });
+  }
+  const Bytes out = throughOwn(bytes, 16, 16, 100, true);
+  double blue = 0;
+  for (std::size_t i = 2; i < out.size(); i += 3)
+  {
+    blue += out[i] / 256.0;
+  }
+  EXPECT_NEAR(blue, 129, 0.25); // 128 + 1.772 * (0 or 1), rounded
+}
+
+// At the nodes of its lattice the noise is 0: those of all octaves but the first are where the pixels' centres are.
+TEST(GradientNoise, EachOctaveHasTwiceTheFrequency)
+{
+  TextureParameters p;
+  p.amplitude = 1;
+  p.period = 1;
+  p.persistence = 0.5;
+  p.octaves = 1;
+  const sensor::GradientNoise one(p, CounterRandom(3, 1, 0, 0));
+  p.octaves = 4;
+  const sensor::GradientNoise four(p, CounterRandom(3, 1, 0, 0));
+  p.period = 0.5;
+  const sensor::GradientNoise none(p, CounterRandom(3, 1, 0, 0));
+  double largest = 0;
+  for (int x = 0; x < 50; ++x)
+  {
+    EXPECT_EQ(four.at(x, 2 * x), one.at(x, 2 * x));
+    EXPECT_EQ(none.at(x, 2 * x), 0);
+    largest = std::max(largest, std::abs(one.at(x, 2 * x)));
+  }
+  EXPECT_GT(largest, 0.3);
+}
+
 TEST(GradientNoise, HasTheMeanAndVarianceOfItsGradients)
 {
   TextureParameters p;

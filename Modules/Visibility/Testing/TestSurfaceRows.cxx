@@ -306,6 +306,33 @@ TEST(SurfaceRows, LensesAskForRays)
   }
 }
 
+// Parallel rays cross a plane through the camera's centre; the depth of this one is twice x.
+TEST(SurfaceRows, PlanesThroughTheCentreOfALens)
+{
+  const auto state = SceneBuilder().add(makeQuad({ { 0, -9, 0 }, { 9, 0, 18 }, { 0, 18, 0 } })).state();
+  dgtk::View view;
+  view.near = 1e-3;
+  view.far = 100;
+  for (const bool hidden : { false, true })
+  {
+    view.model = dgtk::makeOrthographic(8, 6, 6, 0);
+    view.model = hidden ? hideLinear(view.model) : view.model;
+    const dgtk::SurfaceRows rows = surface(*state, view, bruteForce(*state, view));
+    for (int x = 0; x < 8; ++x)
+    {
+      const double t = rows.t[std::size_t(8 * 2 + x)];
+      if (x < 4)
+      {
+        EXPECT_TRUE(std::isinf(t)) << x;
+      }
+      else
+      {
+        EXPECT_NEAR(t, 2 * (x - 3.5), 1e-14) << x;
+      }
+    }
+  }
+}
+
 TEST(SurfaceRows, PlanesBehindTheCameraAreNotThere)
 {
   const auto state = SceneBuilder().add(makeQuad({ { -9, -1, -9 }, { 18, 0, 0 }, { 0, 0, 18 }, 1, 1 })).state();
