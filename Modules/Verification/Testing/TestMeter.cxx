@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace
 {
 using namespace dgtk;
@@ -37,14 +39,20 @@ TEST(Meter, RowsAreTheSameForAnyThreads)
   const auto measure = [](int threads)
   {
     ThreadPool pool(threads);
-    return meterRows(
-      pool, 100, 0.5, [](int y, Meter& meter) { meter.add(y % 10 == 7 ? 3 : 0.1, [&] { return at(0, y); }); });
+    return meterRows(pool, 100, 0.5,
+      [](int y, Meter& meter)
+      {
+        meter.add(y % 10 == 7 ? 3 : 0.1, [&] { return at(0, y); });
+        meter.skip(y < 50 ? 2 : 0);
+      });
   };
   for (const int threads : { 1, 2, 5 })
   {
     const Meter meter = measure(threads);
     EXPECT_EQ(meter.Count, 100u);
     EXPECT_EQ(meter.Bad, 10u);
+    EXPECT_EQ(meter.Skipped, 100u);
+    EXPECT_EQ(meter.Largest, 3);
     EXPECT_EQ(meter.Worst.y, 7);
   }
 }
@@ -69,6 +77,39 @@ TEST(Results, FirstBreachIsInTheOrderOfChecks)
   EXPECT_EQ(report.firstBreach()->layer, "c");
   EXPECT_FALSE(report.passed());
   EXPECT_FALSE(VerificationReport{}.passed()) << "nothing was checked";
+}
+
+TEST(Results, RowsOfOneLayerAreAddedUp)
+{
+  Results results;
+  results.startCheck(0, "check");
+  for (const int part : { 1, 2, 3 })
+  {
+    Meter meter(0.5);
+    meter.add(part == 2 ? 4 : 1, [&] { return at(part, 0); });
+    meter.good(10);
+    meter.skip(100);
+    results.add({ "layer", "pixel", {} }, meter);
+  }
+  const VerificationReport report = results.report();
+  ASSERT_EQ(report.residuals.size(), 1u);
+  EXPECT_EQ(report.residuals[0].count, 33u);
+  EXPECT_EQ(report.residuals[0].skipped, 300u);
+  EXPECT_EQ(report.residuals[0].bad, 3u);
+  EXPECT_EQ(report.residuals[0].largest, 4);
+  EXPECT_EQ(report.residuals[0].worst.x, 2);
+  EXPECT_EQ(report.residuals[0].tolerance, 0.5);
+  EXPECT_EQ(report.residuals[0].unit, "pixel");
+}
+
+TEST(Numbers, AreTheShortestTextThatReadsBack)
+{
+  const double values[] = { 0.1, -2, 1e300 };
+  EXPECT_EQ(numbersText(values, 3), "(0.1, -2, 1e+300)");
+  EXPECT_EQ(numbersText(values, 1), "0.1");
+  EXPECT_EQ(numberText(Infinite), "inf");
+  EXPECT_EQ(numberText(-Infinite), "-inf");
+  EXPECT_EQ(numberText(std::nan("")), "nan");
 }
 
 TEST(Results, ARowThatLeavesTooMuchOpenIsABreach)

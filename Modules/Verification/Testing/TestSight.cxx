@@ -106,6 +106,26 @@ TEST(Sight, DepthsOfAllSurfaces)
   EXPECT_LT((sight.weights({ 1, 0 }, { 0, 0, 2 }) - Eigen::Vector3d(1, 1, 1) / 3).norm(), 1e-15);
 }
 
+// The plane of a triangle, z = 2 + 3 x, is met behind the camera by rays that turn away from it.
+TEST(Sight, DepthsBehindTheCameraAreNone)
+{
+  const auto state = makeState(false);
+  auto geometry = std::make_shared<Geometry>(*state->instances[0].geometry);
+  for (Eigen::Vector3d& position : geometry->positions)
+  {
+    position.z() += 3 * position.x();
+  }
+  state->instances[0].geometry = geometry;
+  const Sight sight = makeSight(state);
+  EXPECT_DOUBLE_EQ(sight.depthOf({ 1, 0 }, { 30, 25 }), 2);
+  EXPECT_NEAR(sight.depthOf({ 1, 0 }, { 30 + 80 * 0.25, 25 }), 2 / 0.25, 1e-13);
+  EXPECT_NEAR(sight.depthOf({ 1, 0 }, { 30 - 80, 25 }), 0.5, 1e-15);
+  EXPECT_TRUE(std::isinf(sight.depthOf({ 1, 0 }, { 30 + 80 * 0.5, 25 })));
+  const Eigen::Vector3d expected = Eigen::Vector3d(3, 0, -1).normalized();
+  EXPECT_NEAR(std::abs(sight.normal({ 1, 1 }).normalized().dot(expected)), 1, 1e-15);
+  EXPECT_LT((sight.weights({ 1, 0 }, { 0.5, 0.5, 3.5 }) - Eigen::Vector3d(0, 0.5, 0.5)).norm(), 1e-15);
+}
+
 TEST(Carrier, FollowsPlacementAndDeformation)
 {
   const auto before = makeState(false);
