@@ -3,6 +3,7 @@
 #include "dgtkPair.h"
 
 #include <cmath>
+#include <limits>
 
 namespace dgtk
 {
@@ -34,7 +35,8 @@ public:
 
   void pixel(int x, int y, Meter& meter) const
   {
-    double found[3] = { 0, 0, 0 };
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    double found[3] = { none, none, none };
     double expected[3] = { 0, 0, 0 };
     for (int c = 0; c < this->Channels; ++c)
     {
@@ -76,9 +78,7 @@ private:
     {
       std::fill(expected, expected + 3, std::nan(""));
       const bool near = target.surface && std::abs(target.there.z()) <= PlaneSlack * target.here.z();
-      return near                                                                                 ? -1
-             : std::all_of(found, found + this->Channels, [](double v) { return std::isnan(v); }) ? 0
-                                                                                                  : Infinite;
+      return near ? -1 : std::all_of(found, found + 3, [](double v) { return std::isnan(v); }) ? 0 : Infinite;
     }
     this->derive(x, y, target, expected);
     double error = 0;

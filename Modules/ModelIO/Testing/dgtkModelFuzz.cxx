@@ -65,8 +65,8 @@ namespace
 constexpr std::size_t memoryFactor = 10;
 constexpr std::size_t memorySlack = std::size_t(64) << 20;
 constexpr double longestSeconds = 2;
-#ifdef __SANITIZE_ADDRESS__
-constexpr double longestOfLarge = 10; ///< files of megabytes, in a build that is five to ten times slower
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr double longestOfLarge = 30; ///< files of megabytes, in a build that is five to fifteen times slower
 #else
 constexpr double longestOfLarge = longestSeconds;
 #endif
