@@ -25,8 +25,8 @@ struct FileSink::Files
   }
 };
 
-FileSink::FileSink(const JobContext& context, std::vector<LayerOutput> outputs)
-  : Folder(context.plan.request.folder)
+FileSink::FileSink(std::string folder, const JobContext& context, std::vector<LayerOutput> outputs)
+  : Folder(std::move(folder))
   , ObjectNames(context.queries.stage().objectNames())
 {
   const View& view = context.view;

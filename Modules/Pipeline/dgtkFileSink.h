@@ -26,7 +26,8 @@ struct FinishedFile
 class FileSink final : public LayerSink
 {
 public:
-  FileSink(const JobContext& context, std::vector<LayerOutput> outputs);
+  /// `folder`: the dataset.
+  FileSink(std::string folder, const JobContext& context, std::vector<LayerOutput> outputs);
   ~FileSink() override;
 
   void rows(std::size_t output, const Rows& rows) override;

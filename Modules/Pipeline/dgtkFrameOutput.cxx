@@ -6,7 +6,7 @@
 namespace dgtk
 {
 
-FrameOutput::FrameOutput(const JobContext& context)
+FrameOutput::FrameOutput(const std::string& folder, const JobContext& context)
   : Pool(context.pool)
 {
   for (PlannedPass& planned : passesOf(context.plan, context.queries.stage(), context.job))
@@ -14,7 +14,7 @@ FrameOutput::FrameOutput(const JobContext& context)
     Lane lane;
     lane.readsColor = planned.readsColor;
     lane.pass = planned.layers.front().layer.makePass(context, planned.layers);
-    lane.sink = std::make_unique<FileSink>(context, planned.outputs());
+    lane.sink = std::make_unique<FileSink>(folder, context, planned.outputs());
     this->Lanes.push_back(std::move(lane));
     this->Queues.push_back(std::make_unique<SerialQueue>(this->Pool));
   }

@@ -2,6 +2,7 @@
 #ifndef dgtkFrameOutput_h
 #define dgtkFrameOutput_h
 
+#include "dgtkDrawnBand.h"
 #include "dgtkFileSink.h"
 #include "dgtkLayers.h"
 #include "dgtkSerialQueue.h"
@@ -17,7 +18,8 @@ namespace dgtk
 class FrameOutput
 {
 public:
-  explicit FrameOutput(const JobContext& context);
+  /// `folder`: the dataset.
+  FrameOutput(const std::string& folder, const JobContext& context);
 
   void submit(const std::shared_ptr<DrawnBand>& band);
   /// Waits for everything submitted; rethrows what failed.

@@ -2,7 +2,8 @@
 #ifndef dgtkFrameSource_h
 #define dgtkFrameSource_h
 
-#include "dgtkBand.h"
+#include "dgtkDrawnBand.h"
+#include "dgtkMattingSource.h"
 #include "dgtkExposures.h"
 #include "dgtkPovColorSource.h"
 #include "dgtkWorkPlan.h"

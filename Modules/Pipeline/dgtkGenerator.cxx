@@ -12,6 +12,7 @@
 #include "dgtkRunFiles.h"
 #include "dgtkRunNotes.h"
 #include "dgtkSpaceNeeded.h"
+#include "dgtkTracedQueries.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWorkPlan.h"
 
@@ -124,6 +125,7 @@ private:
   GeneratorCallbacks Callbacks;
   GeneratorResult Result;
   std::shared_ptr<const Stage> Scene;
+  GeneratorRequest Request;
   WorkPlan Plan;
   int Threads;
   std::vector<InputRecord> Inputs;
@@ -132,7 +134,7 @@ private:
   std::unique_ptr<RunFiles> Files;
   std::unique_ptr<ThreadPool> Pool;
   std::unique_ptr<FrameSource> Source;
-  SceneQueries Queries;
+  TracedQueries Queries;
   std::atomic<std::size_t> PendingBytes{ 0 };
   std::deque<Open> Opened;
   std::shared_ptr<const SceneState> State;
@@ -142,6 +144,7 @@ private:
 Run::Run(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
   : Callbacks(callbacks)
   , Scene(Stage::load(readScene(request.scene), [this](const std::string& line) { this->warn(line); }))
+  , Request(request)
   , Plan(makeWorkPlan(request, *this->Scene))
   , Threads(threadsOf(request))
   , Queries(this->Scene)
@@ -150,7 +153,7 @@ Run::Run(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
 
 GeneratorResult Run::execute()
 {
-  const GeneratorRequest& request = this->Plan.request;
+  const GeneratorRequest& request = this->Request;
   FrameSourceOptions options = sourceOptions(this->Plan);
   if (!drawsItself(request))
   {
@@ -219,7 +222,7 @@ GeneratorResult Run::execute()
 /// Puts copies of all inputs into the dataset, when they are wanted there.
 void Run::pack()
 {
-  const std::string& folder = this->Plan.request.folder;
+  const std::string& folder = this->Request.folder;
   if (!this->Packed)
   {
     return;
@@ -254,7 +257,7 @@ void Run::pack()
 /// What deserves a word before the first picture.
 void Run::sayNotes()
 {
-  const GeneratorRequest& request = this->Plan.request;
+  const GeneratorRequest& request = this->Request;
   const std::string empty = emptyLine(this->Plan.empty);
   if (!empty.empty())
   {
@@ -333,7 +336,7 @@ std::shared_ptr<const SceneState> Run::stateAt(int frame)
 
 void Run::render(const Job& job)
 {
-  const GeneratorRequest& request = this->Plan.request;
+  const GeneratorRequest& request = this->Request;
   const View view = this->viewOf(job);
   const std::shared_ptr<const SceneState> state = this->stateAt(job.frame);
   const std::vector<std::string> names = this->filesOf(job);
@@ -342,7 +345,7 @@ void Run::render(const Job& job)
   {
     Folder(request.folder).makeParents(name);
   }
-  auto output = std::make_unique<FrameOutput>(
+  auto output = std::make_unique<FrameOutput>(this->Request.folder,
     JobContext{ this->Plan, job, this->cameraName(job), state, view, this->Queries, *this->Pool });
   if (this->Source->drawsAnything())
   {
@@ -422,7 +425,7 @@ bool Run::keep(const Job& job)
     {
       for (const std::string& name : output.files())
       {
-        const std::vector<std::string> needed = planned.layer->sharedFiles(this->Plan.request.folder + '/' + name);
+        const std::vector<std::string> needed = planned.layer->sharedFiles(this->Request.folder + '/' + name);
         shared.insert(shared.end(), needed.begin(), needed.end());
       }
     }
@@ -444,7 +447,7 @@ std::vector<std::string> Run::filesOf(const Job& job) const
 std::vector<std::string> Run::documentNames() const
 {
   std::vector<std::string> names = { camerasName, objectsName, sceneName };
-  if (option::contactSheet().of(this->Plan.request.options))
+  if (option::contactSheet().of(this->Request.options))
   {
     names.emplace_back(sheetName);
   }
@@ -470,7 +473,7 @@ std::vector<std::string> Run::allNames() const
 void Run::writeDocuments()
 {
   this->Files->plan(this->documentNames());
-  const GeneratorRequest& request = this->Plan.request;
+  const GeneratorRequest& request = this->Request;
   Manifest manifest;
   manifest.version = DGTK_VERSION;
   manifest.requestHash = this->RequestHash;

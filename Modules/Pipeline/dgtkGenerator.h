@@ -4,41 +4,24 @@
 
 #include "dgtkPipelineModule.h"
 
-#include "dgtkDatasetDocuments.h"
 #include "dgtkFolderContents.h"
+#include "dgtkLayerRequest.h"
 #include "dgtkRequestOptions.h"
 
 #include <atomic>
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace dgtk
 {
 
-struct SceneDescription;
-
-/// Frames first, first + step, ... up to last, included.
-struct FrameRange
+/// A dataset: what it holds, which is all that decides its bytes, and how the run is made.
+struct GeneratorRequest : LayerRequest
 {
-  int first = 0;
-  int last = 0;
-  int step = 1; ///< >= 1
-};
-
-/// What a dataset is to hold. Everything that decides its bytes, and how the run is made.
-struct GeneratorRequest
-{
-  std::string scene;                ///< path of a .scene or .json file
-  std::string folder;               ///< where the dataset goes
-  std::vector<std::string> layers;  ///< names of generatorLayers(); empty: the usual ones
-  std::vector<std::string> cameras; ///< names; empty: all
-  std::optional<FrameRange> frames; ///< none: every frame of the scene
-  int width = 0;                    ///< pixels; 0: the camera's own size, or 640 x 480
-  int height = 0;
-  OptionValues options; ///< of requestOptions() and runOptions(): `options["points_step"] = "2"`
+  std::string scene;    ///< path of a .scene or .json file
+  std::string folder;   ///< where the dataset goes
   bool resume = false;  ///< keep the finished files of an interrupted run of the same request
   bool replace = false; ///< remove what another request, or an interrupted run, has left; not with resume
 };
@@ -60,23 +43,6 @@ struct GeneratorResult
   bool interrupted = false;  ///< stopped by `cancel`; a run with resume completes the dataset
   std::vector<std::string> warnings;
 };
-
-/// One row of the list of layers.
-struct LayerInfo
-{
-  std::string layer;
-  std::vector<std::string> formats; ///< the first is the default
-  std::string description;
-  bool usual = false;         ///< taken where no layers are asked for
-  std::string filesOnly = {}; ///< why dgtkRenderer does not give it as arrays; empty: it does
-  /// Whether a picture of the scene could have it; null: of any scene.
-  bool (*appliesTo)(const SceneDescription& scene) = nullptr;
-  std::vector<const OptionRow*> options = {}; ///< its own and that of its formats; set by generatorLayers()
-  /// What datasets say of its images, format by format; set by generatorLayers().
-  std::vector<LayerRecord> records = {};
-};
-/// Every layer that can be asked for, in the order of `--layers all`.
-DGTKPIPELINE_EXPORT std::vector<LayerInfo> generatorLayers();
 
 struct GeneratorCallbacks
 {

@@ -52,7 +52,7 @@ void KeptSource::use(const FrameSourceOptions& options, const std::shared_ptr<co
   }
   if (this->Scene != stage)
   {
-    this->Queries = std::make_unique<SceneQueries>(stage);
+    this->Queries = std::make_unique<TracedQueries>(stage);
     this->Scene = stage;
   }
   draw(*this->Source, *this->Queries, *this->Pool);

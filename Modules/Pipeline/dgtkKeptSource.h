@@ -5,8 +5,8 @@
 // Private to Pipeline.
 
 #include "dgtkFrameSource.h"
-#include "dgtkSceneQueries.h"
 #include "dgtkThreadPool.h"
+#include "dgtkTracedQueries.h"
 
 #include <functional>
 #include <memory>
@@ -34,7 +34,7 @@ private:
   FrameSourceOptions Options; // of Source
   std::unique_ptr<FrameSource> Source;
   std::shared_ptr<const Stage> Scene; // of Queries
-  std::unique_ptr<SceneQueries> Queries;
+  std::unique_ptr<TracedQueries> Queries;
 };
 
 } // namespace dgtk

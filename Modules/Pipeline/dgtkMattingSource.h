@@ -12,14 +12,6 @@
 namespace dgtk
 {
 
-/// What is drawn of an object for its matte, for the pixels of a rectangle.
-struct MattePixels
-{
-  std::vector<std::uint16_t> count; ///< samples that show the object, one a pixel
-  std::vector<float> foreground;    ///< mean colour of these samples, 3 a pixel; 0 where there is none
-  std::vector<float> background;    ///< mean colour of all samples without the object, 3 a pixel
-};
-
 /// Draws what mattes are made of with samples x samples samples a pixel. Uses the raster engine in the calling thread.
 class MattingSource
 {

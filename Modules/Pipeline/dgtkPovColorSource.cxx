@@ -50,16 +50,6 @@ void readRows(const std::string& path, int width, int skip, int rows, float* rgb
 }
 } // namespace
 
-std::vector<std::string> povLines(const SceneState& state, const View& view, const OptionValues& values)
-{
-  std::vector<std::string> lines;
-  for (const std::string& note : povNotes(state, view, povOptionsOf(values)))
-  {
-    lines.push_back("POV-Ray: " + note);
-  }
-  return lines;
-}
-
 /// What all pictures share.
 struct PovColorSource::Studio
 {

@@ -20,9 +20,6 @@ namespace dgtk
 
 class ThreadPool;
 
-/// What POV-Ray does not show of a scene as it is at a frame, one line each.
-std::vector<std::string> povLines(const SceneState& state, const View& view, const OptionValues& values);
-
 struct PovColorSettings
 {
   OptionValues options;

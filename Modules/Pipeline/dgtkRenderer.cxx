@@ -102,7 +102,7 @@ private:
 struct dgtkRenderer::Internal
 {
   vtkSmartPointer<dgtkScene> scene;
-  dgtk::GeneratorRequest request;
+  dgtk::LayerRequest request;
   std::string camera;
   int frame = 0;
   bool frameSet = false;
@@ -189,7 +189,7 @@ dgtk::WorkPlan dgtkRenderer::Internal::planOf(const std::vector<std::string>& la
     [&](const dgtk::Job& job) { return this->camera.empty() || names[job.camera] == this->camera; });
   if (own == plan.jobs.end())
   {
-    dgtk::GeneratorRequest wrong = this->request;
+    dgtk::LayerRequest wrong = this->request;
     wrong.cameras = { this->camera };
     dgtk::makeWorkPlan(wrong, stage); // says which there are
   }

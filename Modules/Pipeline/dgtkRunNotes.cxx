@@ -14,33 +14,6 @@
 namespace dgtk
 {
 
-std::vector<EmptyRecord> emptyLayers(const WorkPlan& plan, const Stage& stage)
-{
-  std::vector<EmptyRecord> empty;
-  for (const PlannedLayer& planned : plan.layers)
-  {
-    const std::string needs = planned.layer->requirement();
-    if (needs.empty())
-    {
-      continue;
-    }
-    const auto without = std::count_if(plan.jobs.begin(), plan.jobs.end(),
-      [&](const Job& job) { return planned.layer->outputs(plan, stage, job, planned).empty(); });
-    if (without == 0)
-    {
-      continue;
-    }
-    const std::string name = planned.layer->info().layer;
-    const std::vector<std::string>& asked = plan.request.layers;
-    empty.push_back({ name, std::size_t(without), plan.jobs.size(), needs });
-    if (empty.back().pictures == empty.back().of && std::find(asked.begin(), asked.end(), name) != asked.end())
-    {
-      throw UsageError("layer " + name + " would have no file in this run: it needs " + needs);
-    }
-  }
-  return empty;
-}
-
 std::string emptyLine(const std::vector<EmptyRecord>& empty)
 {
   std::string without;

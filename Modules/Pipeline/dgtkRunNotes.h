@@ -14,11 +14,7 @@
 namespace dgtk
 {
 
-/// The layers of which some pictures of the run have no file, in the order of the plan. Throws UsageError for a layer
-/// that was asked for by its name and has no file at all.
-std::vector<EmptyRecord> emptyLayers(const WorkPlan& plan, const Stage& stage);
-
-/// The same in one line; "" when there are none.
+/// The layers of which pictures have no file, in one line; "" when there are none.
 std::string emptyLine(const std::vector<EmptyRecord>& empty);
 
 /// A scene without surfaces, and cameras whose frustum holds no object's box at any frame of the run; one line each.

@@ -5,6 +5,7 @@
 #include "dgtkRenderGLModule.h"
 
 #include "dgtkGLContext.h"
+#include "dgtkSurfaceLayer.h"
 #include "dgtkVisibility.h"
 
 #include <functional>
@@ -14,15 +15,6 @@
 
 namespace dgtk
 {
-
-/// The surfaces of one rank along the rays of a rectangle's pixels: rank 0 is what render() gives, rank 1 what stands
-/// behind it, and so on.
-struct SurfaceLayer
-{
-  PixelRect rect;
-  std::vector<float> rgba; ///< 4 per pixel, rows top to bottom: shaded colour in [0, 1] and opacity; 0 without surface
-  std::vector<Hit> hits;   ///< object 0 where the ray meets no surface of this rank
-};
 
 /// How the samples of a neighbourhood become the colour of a pixel. Separable; the weights of the samples at hand sum
 /// to 1.

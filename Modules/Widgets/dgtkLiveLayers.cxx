@@ -167,7 +167,8 @@ Rows LiveEye::Impl::alpha(const VisibilityBuffer& hits)
 {
   if (!this->Sampler)
   {
-    this->Sampler = std::make_unique<PixelSampler>(this->Now.state, this->Views.now, alphaSide, this->Pool);
+    this->Sampler = std::make_unique<PixelSampler>(
+      this->Now.state, this->Views.now, alphaSide, makeRaySource(this->Pool), this->Pool);
   }
   SampledRows samples;
   this->Sampler->sample(hits.rect, hits.hits.data(), samples);

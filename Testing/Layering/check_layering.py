@@ -42,10 +42,10 @@ def layer_names(modules):
     """Names of the layers in the rows of representations and in the files of the others."""
     rows = open(os.path.join(modules, "GroundTruth", "CMakeLists.txt"), encoding="utf-8").read()
     names = set(re.findall(r"dgtk_representation\(\w+ LAYER (\w+)", rows))
-    pipeline = os.path.join(modules, "Pipeline")
-    for name in os.listdir(pipeline):
+    layers = os.path.join(modules, "Layers")
+    for name in os.listdir(layers):
         if name.endswith("Layer.cxx"):
-            text = open(os.path.join(pipeline, name), encoding="utf-8").read()
+            text = open(os.path.join(layers, name), encoding="utf-8").read()
             for found in re.findall(r'(?:return \{ |[lL]ayer(?:Name)? = )(?:\w+ \? )?"(\w+)"(?: : "(\w+)")?[,;]', text):
                 names |= set(found) - {""}
     return names

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkTracedQueries_h
+#define dgtkTracedQueries_h
+
+#include "dgtkPipelineModule.h"
+
+#include "dgtkSceneQueries.h"
+
+#include <list>
+#include <memory>
+#include <mutex>
+
+namespace dgtk
+{
+
+/// The last few moments are kept.
+class DGTKPIPELINE_EXPORT TracedQueries : public SceneQueries
+{
+public:
+  explicit TracedQueries(std::shared_ptr<const Stage> stage);
+
+  Moment at(int frame) override;
+  const Stage& stage() const override { return *this->Scene; }
+  std::unique_ptr<VisibilitySource> makeSource(ThreadPool& pool) const override;
+
+private:
+  std::shared_ptr<const Stage> Scene;
+  std::mutex Mutex;
+  std::list<Moment> Kept; // last used first
+};
+
+} // namespace dgtk
+
+#endif
