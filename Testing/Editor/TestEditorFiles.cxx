@@ -98,7 +98,7 @@ QString TestEditorFiles::importChecked(const QString& path)
   const std::string before = document.json();
   const std::size_t objects = document.scene().objects.size();
   const std::size_t models = document.models().size();
-  const QString said = this->import(path);
+  QString said = this->import(path);
   if (!said.isEmpty())
   {
     const bool same = document.json() == before && document.models().size() == models;
