@@ -34,14 +34,15 @@ public:
       computeSurfaceRows(*this->State, this->TheView, { 0, band.rect.y + y, band.rect.width, 1 },
         band.hits.data() + std::size_t(y) * std::size_t(band.rect.width), false, row);
       const std::vector<std::uint8_t> above = this->Edges.next(pixelPlanes(row));
-      if (band.rect.y + y > 0)
+      this->Last = band.rect.y + y;
+      if (!above.empty())
       {
-        give(band.rect.y + y - 1, above, sink);
+        give(this->Last - 1, above, sink);
       }
     }
   }
 
-  void finish(LayerSink& sink) override { give(this->TheView.model->height() - 1, this->Edges.last(), sink); }
+  void finish(LayerSink& sink) override { give(this->Last, this->Edges.last(), sink); }
 
 private:
   static void give(int y, const std::vector<std::uint8_t>& marks, LayerSink& sink)
@@ -54,6 +55,7 @@ private:
   std::shared_ptr<const SceneState> State;
   View TheView;
   EdgeRows Edges;
+  int Last = 0; ///< row that came last
 };
 
 class EdgesLayer final : public Layer

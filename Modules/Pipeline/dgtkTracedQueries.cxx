@@ -4,6 +4,7 @@
 #include "dgtkRaySource.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace dgtk
 {
@@ -18,24 +19,40 @@ TracedQueries::TracedQueries(std::shared_ptr<const Stage> stage)
 {
 }
 
-SceneQueries::Moment TracedQueries::at(int frame)
+std::optional<SceneQueries::Moment> TracedQueries::find(int frame)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
   const auto found =
     std::find_if(this->Kept.begin(), this->Kept.end(), [&](const Moment& moment) { return moment.frame == frame; });
-  if (found != this->Kept.end())
+  if (found == this->Kept.end())
   {
-    this->Kept.splice(this->Kept.begin(), this->Kept, found);
-    return this->Kept.front();
+    return std::nullopt;
+  }
+  this->Kept.splice(this->Kept.begin(), this->Kept, found);
+  return this->Kept.front();
+}
+
+SceneQueries::Moment TracedQueries::at(int frame)
+{
+  if (const std::optional<Moment> known = this->find(frame))
+  {
+    return *known;
+  }
+  const std::lock_guard<std::mutex> building(this->Building);
+  if (const std::optional<Moment> known = this->find(frame))
+  {
+    return *known;
   }
   Moment moment{ frame, this->Scene->at(frame), nullptr };
   std::shared_ptr<OcclusionQuery> occlusion = makeOcclusionQuery();
   occlusion->setScene(moment.state);
   moment.occlusion = std::move(occlusion);
+  std::list<Moment> dropped; // destroyed after the lock
+  const std::lock_guard<std::mutex> lock(this->Mutex);
   this->Kept.push_front(moment);
   if (this->Kept.size() > mostKept)
   {
-    this->Kept.pop_back();
+    dropped.splice(dropped.begin(), this->Kept, std::prev(this->Kept.end()));
   }
   return moment;
 }

@@ -9,6 +9,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 namespace dgtk
 {
@@ -24,9 +25,12 @@ public:
   std::unique_ptr<VisibilitySource> makeSource(ThreadPool& pool) const override;
 
 private:
+  std::optional<Moment> find(int frame);
+
   std::shared_ptr<const Stage> Scene;
-  std::mutex Mutex;
-  std::list<Moment> Kept; // last used first
+  std::mutex Mutex;       ///< of the list; never held for long
+  std::mutex Building;    ///< one moment is made at a time
+  std::list<Moment> Kept; ///< last used first
 };
 
 } // namespace dgtk

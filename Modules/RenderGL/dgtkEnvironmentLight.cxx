@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkEnvironmentLight.h"
 
+#include "dgtkSceneState.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <mutex>
+#include <utility>
 
 namespace dgtk
 {
@@ -321,6 +325,29 @@ std::vector<float> reflectanceTable()
     }
   }
   return table;
+}
+
+std::shared_ptr<const EnvironmentLight> environmentLight(const std::shared_ptr<const EnvironmentState>& environment)
+{
+  using Known = std::pair<std::weak_ptr<const EnvironmentState>, std::shared_ptr<const EnvironmentLight>>;
+  static std::mutex mutex;
+  static std::vector<Known> all;
+  if (environment == nullptr)
+  {
+    return nullptr;
+  }
+  const std::lock_guard<std::mutex> lock(mutex);
+  all.erase(
+    std::remove_if(all.begin(), all.end(), [](const Known& known) { return known.first.expired(); }), all.end());
+  const auto found =
+    std::find_if(all.begin(), all.end(), [&](const Known& known) { return known.first.lock() == environment; });
+  if (found != all.end())
+  {
+    return found->second;
+  }
+  all.emplace_back(environment,
+    std::make_shared<const EnvironmentLight>(environmentLight(*environment->image, environment->intensity)));
+  return all.back().second;
 }
 
 } // namespace dgtk

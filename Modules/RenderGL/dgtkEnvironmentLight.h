@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace dgtk
@@ -34,6 +35,11 @@ struct DGTKRENDERGL_EXPORT EnvironmentLight
 };
 
 DGTKRENDERGL_EXPORT EnvironmentLight environmentLight(const RadianceImage& image, double intensity);
+
+struct EnvironmentState;
+/// The same of a scene's environment, computed once while that is in use; null for null. Thread-safe.
+DGTKRENDERGL_EXPORT std::shared_ptr<const EnvironmentLight> environmentLight(
+  const std::shared_ptr<const EnvironmentState>& environment);
 
 /// Radiance along a direction (any length but 0) in the image's axes, interpolated between texels; RGB.
 DGTKRENDERGL_EXPORT Eigen::Vector3d radianceFrom(const RadianceImage& image, const Eigen::Vector3d& direction);

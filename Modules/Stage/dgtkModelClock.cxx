@@ -121,4 +121,11 @@ std::shared_ptr<const Geometry> GeometryCache::get(const Model& model, const Mod
   return made;
 }
 
+std::shared_ptr<const Geometry> geometryAt(const SceneDescription& scene, const ObjectDescription& object,
+  const Model& model, double frame, GeometryCache& cache)
+{
+  const int animation = model.deformation ? findAnimation(scene, object, model) : -1;
+  return animation < 0 ? model.rest : cache.get(model, momentAt(object.animation, model, animation, frame, scene.fps));
+}
+
 } // namespace dgtk

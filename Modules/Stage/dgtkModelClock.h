@@ -50,6 +50,11 @@ private:
   std::map<Key, std::weak_ptr<const Geometry>> Entries;
 };
 
+/// The vertices of an object's model at a scene frame: its rest geometry where it does not deform. Throws what
+/// findAnimation() throws.
+DGTKSTAGE_EXPORT std::shared_ptr<const Geometry> geometryAt(const SceneDescription& scene,
+  const ObjectDescription& object, const Model& model, double frame, GeometryCache& cache);
+
 } // namespace dgtk
 
 #endif

@@ -30,7 +30,6 @@ struct Actor
   std::size_t parent = noParent; ///< index of an object
   bool moves = false;            ///< it or one of its ancestors has key frames
   bool present = false;          ///< has an id
-  int animation = -1;            ///< of a deforming model; -1 rigid
   Affine3 world_from_object;     ///< of one that does not move
 };
 
@@ -162,25 +161,55 @@ struct Stage::Impl
 {
   Impl(SceneDescription scene, const WarningSink& warning)
     : Scene(std::move(scene))
-    , Files(this->Scene, warning)
   {
-    this->makeActors();
+    const StageModels read(this->Scene, warning);
+    this->Models = read.models();
+    this->Files = read.files();
+    this->take(read);
+  }
+  Impl(SceneDescription scene, const ModelSource& models)
+    : Scene(std::move(scene))
+  {
+    this->take(models);
+    for (const ObjectLook& look : this->Looks)
+    {
+      if (look.model != nullptr &&
+          std::find(this->Models.begin(), this->Models.end(), look.model) == this->Models.end())
+      {
+        this->Models.push_back(look.model);
+      }
+    }
   }
 
+  void take(const ModelSource& models);
   void makeActors();
   Affine3 localAt(std::size_t object, double frame) const;
   std::shared_ptr<const SceneState> compute(double frame);
 
   SceneDescription Scene;
-  StageModels Files;
+  std::vector<ObjectLook> Looks; ///< one an object
+  std::shared_ptr<const EnvironmentState> Environment;
+  std::vector<std::shared_ptr<const Model>> Models; ///< in the order of their first use
+  std::vector<std::string> Files;
   std::vector<Actor> Actors;
   std::vector<std::size_t> ParentsFirst; ///< objects, each after its parent
-  GeometryCache Geometries;
+  std::shared_ptr<GeometryCache> Geometries;
 
   // The latest states: the cameras of a frame, and what looks a frame ahead and back, ask for the same ones.
   std::mutex Mutex;
   std::deque<std::shared_ptr<const SceneState>> Latest;
 };
+
+void Stage::Impl::take(const ModelSource& models)
+{
+  for (const ObjectDescription& object : this->Scene.objects)
+  {
+    this->Looks.push_back(models.lookOf(this->Scene, object));
+  }
+  this->Environment = models.environment(this->Scene);
+  this->Geometries = models.geometries();
+  this->makeActors();
+}
 
 void Stage::Impl::makeActors()
 {
@@ -207,14 +236,16 @@ void Stage::Impl::makeActors()
   for (const std::size_t i : this->ParentsFirst)
   {
     const ObjectDescription& object = this->Scene.objects[i];
-    const Model& model = *this->Files.modelOf(i);
+    const Model* const model = this->Looks[i].model.get();
     Actor& actor = this->Actors[i];
     const bool root = actor.parent == noParent;
     actor.moves = object.position.animated() || object.orientation.animated() || object.scale.animated() ||
                   (!root && this->Actors[actor.parent].moves);
-    actor.present = object.visible && !model.triangles.empty();
-    const int animation = findAnimation(this->Scene, object, model);
-    actor.animation = model.deformation ? animation : -1;
+    actor.present = object.visible && model != nullptr && !model->triangles.empty();
+    if (model != nullptr && !this->Looks[i].standsIn)
+    {
+      findAnimation(this->Scene, object, *model);
+    }
     if (!actor.moves)
     {
       const Affine3 local = this->localAt(i, 0);
@@ -251,7 +282,7 @@ std::shared_ptr<const SceneState> Stage::Impl::compute(double frame)
   auto state = std::make_shared<SceneState>();
   state->frame = frame;
   state->background = this->Scene.background;
-  state->environment = this->Files.environment();
+  state->environment = this->Environment;
   state->fog = { this->Scene.fog.color, this->Scene.fog.density, this->Scene.fog.start };
   state->lights = lightsAt(this->Scene, frame);
   for (const SceneItem& item : this->Scene.items())
@@ -261,17 +292,14 @@ std::shared_ptr<const SceneState> Stage::Impl::compute(double frame)
       continue;
     }
     const ObjectDescription& object = this->Scene.objects[item.index];
-    const Actor& actor = this->Actors[item.index];
     Instance instance;
     instance.name = object.name;
     instance.className = object.className;
     instance.classId = std::uint32_t(this->Scene.classIdOf(object.className));
-    instance.model = this->Files.modelOf(item.index);
-    instance.geometry = actor.animation < 0
-                          ? instance.model->rest
-                          : this->Geometries.get(*instance.model,
-                              momentAt(object.animation, *instance.model, actor.animation, frame, this->Scene.fps));
-    instance.materials = this->Files.materialsOf(item.index);
+    const ObjectLook& look = this->Looks[item.index];
+    instance.model = look.model;
+    instance.geometry = geometryAt(this->Scene, object, *look.model, frame, *this->Geometries);
+    instance.materials = look.materials;
     instance.world_from_object = world[item.index];
     state->instances.push_back(std::move(instance));
   }
@@ -287,9 +315,20 @@ Stage::~Stage() = default;
 
 std::shared_ptr<const Stage> Stage::load(SceneDescription scene, const WarningSink& warning)
 {
+  check(scene);
+  return std::shared_ptr<const Stage>(new Stage(std::make_unique<Impl>(std::move(scene), warning)));
+}
+
+std::shared_ptr<const Stage> Stage::make(SceneDescription scene, const ModelSource& models)
+{
+  check(scene);
+  return std::shared_ptr<const Stage>(new Stage(std::make_unique<Impl>(std::move(scene), models)));
+}
+
+void Stage::check(SceneDescription& scene)
+{
   nameAll(scene);
   validate(scene);
-  return std::shared_ptr<const Stage>(new Stage(std::make_unique<Impl>(std::move(scene), warning)));
 }
 
 const SceneDescription& Stage::description() const { return this->Self->Scene; }
@@ -407,8 +446,8 @@ std::vector<std::string> Stage::objectNames() const
   return names;
 }
 
-std::vector<std::shared_ptr<const Model>> Stage::models() const { return this->Self->Files.models(); }
+std::vector<std::shared_ptr<const Model>> Stage::models() const { return this->Self->Models; }
 
-std::vector<std::string> Stage::inputFiles() const { return this->Self->Files.files(); }
+std::vector<std::string> Stage::inputFiles() const { return this->Self->Files; }
 
 } // namespace dgtk

@@ -16,6 +16,8 @@
 namespace dgtk
 {
 
+class ModelSource;
+
 /// One of the pictures whose mean, in linear light, is the colour of a frame: an instant, and a pinhole at a point of
 /// the lens.
 struct Exposure
@@ -36,6 +38,11 @@ public:
   /// that cannot be used, an unknown sequence or skin, and cameras or objects that are invalid at a key frame. Missing
   /// textures are warnings.
   static std::shared_ptr<const Stage> load(SceneDescription scene, const WarningSink& warning = {});
+
+  /// A stage over models that are there already: cheap, so that a description that changes gets a new one. Objects
+  /// without a look, or with one without triangles, are not there and have no id. Throws what load() throws of
+  /// descriptions, sequences and looks.
+  static std::shared_ptr<const Stage> make(SceneDescription scene, const ModelSource& models);
 
   ~Stage();
   Stage(const Stage&) = delete;
@@ -62,12 +69,13 @@ public:
 
   /// Models in the order of their first use, each once.
   std::vector<std::shared_ptr<const Model>> models() const;
-  /// Every file that was read, without repetition: scene, classes, models with what they include, textures.
+  /// Every file that load() has read, without repetition: scene, classes, models with what they include, textures.
   std::vector<std::string> inputFiles() const;
 
 private:
   struct Impl;
   explicit Stage(std::unique_ptr<Impl> impl);
+  static void check(SceneDescription& scene);
   std::unique_ptr<Impl> Self;
 };
 

@@ -75,6 +75,12 @@ StageModels::StageModels(const SceneDescription& scene, const Stage::WarningSink
   this->readEnvironment();
 }
 
+ObjectLook StageModels::lookOf(const SceneDescription& scene, const ObjectDescription& object) const
+{
+  const auto index = static_cast<std::size_t>(&object - scene.objects.data());
+  return { this->modelOf(index), this->Materials[index], false };
+}
+
 void StageModels::readEnvironment()
 {
   const EnvironmentDescription& from = this->Scene.environment;

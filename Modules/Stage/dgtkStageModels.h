@@ -5,6 +5,7 @@
 // Private to Stage.
 
 #include "dgtkModelReader.h"
+#include "dgtkModelSource.h"
 #include "dgtkStage.h"
 
 #include <map>
@@ -18,21 +19,25 @@ namespace dgtk
 using MaterialList = std::shared_ptr<const std::vector<Material>>;
 
 /// Everything that the objects of a scene need from files, each file read once.
-class StageModels
+class StageModels : public ModelSource
 {
 public:
   /// Throws InputError with the scene's file and the line of the object that wants the model.
   StageModels(const SceneDescription& scene, const Stage::WarningSink& warning);
 
-  /// By index of the object in the scene.
-  const std::shared_ptr<const Model>& modelOf(std::size_t object) const { return this->Models[this->Uses[object]]; }
-  const MaterialList& materialsOf(std::size_t object) const { return this->Materials[object]; }
+  /// Of this scene and its objects only.
+  ObjectLook lookOf(const SceneDescription& scene, const ObjectDescription& object) const override;
+  std::shared_ptr<const EnvironmentState> environment(const SceneDescription&) const override
+  {
+    return this->Environment;
+  }
+  std::shared_ptr<GeometryCache> geometries() const override { return this->Geometries; }
+
   const std::vector<std::shared_ptr<const Model>>& models() const { return this->Models; }
-  /// Null when the scene has none.
-  const std::shared_ptr<const EnvironmentState>& environment() const { return this->Environment; }
   const std::vector<std::string>& files() const { return this->Files; }
 
 private:
+  const std::shared_ptr<const Model>& modelOf(std::size_t object) const { return this->Models[this->Uses[object]]; }
   void readModels();
   void addTextures();
   int addTexture(Model& model, const std::string& written);
@@ -52,6 +57,7 @@ private:
   std::vector<std::size_t> Uses; ///< object -> model
   std::vector<MaterialList> Materials;
   std::shared_ptr<const EnvironmentState> Environment;
+  std::shared_ptr<GeometryCache> Geometries = std::make_shared<GeometryCache>();
   std::map<std::pair<const Model*, std::string>, int> Textures; ///< texture of the scene -> index in the model
   std::vector<std::string> Files;
 };

@@ -35,8 +35,13 @@ constexpr const char* stem = "dgtk-editor_";
   QT_TRANSLATE_NOOP("Edit", "Scale") };
 
 // Sentences of parts without Qt, and of the library where a dialog shows them beside the value.
-[[maybe_unused]] const char* const messages[] = { QT_TRANSLATE_NOOP("Message", "the first frame has none before it"),
-  QT_TRANSLATE_NOOP("Message", "the last frame has none after it"),
+[[maybe_unused]] const char* const messages[] = { QT_TRANSLATE_NOOP(
+                                                    "Message", "it needs a frame of the scene after the picture's own"),
+  QT_TRANSLATE_NOOP("Message", "it needs a frame of the scene before the picture's own"),
+  QT_TRANSLATE_NOOP(
+    "Message", "it needs another camera in the run, or a pair of cameras that ends within the frames of the scene"),
+  QT_TRANSLATE_NOOP("Message",
+    "it needs two cameras side by side: the same K but cx, the same orientation, displaced along the x axis"),
   QT_TRANSLATE_NOOP("Message", "the pixel is outside the image"),
   QT_TRANSLATE_NOOP("Message", "the point is outside the image"),
   QT_TRANSLATE_NOOP("Message", "number of cameras: expected 1 to 10000"),

@@ -2,79 +2,83 @@
 #include "dgtkLiveLayers.h"
 
 #include "dgtkAlbedo.h"
+#include "dgtkEnvironmentLight.h"
 #include "dgtkError.h"
-#include "dgtkPairValues.h"
+#include "dgtkLayerWriter.h"
+#include "dgtkLayers.h"
 #include "dgtkRaySource.h"
-#include "dgtkRepresentation.h"
-#include "dgtkSamples.h"
+#include "dgtkSurfaceRows.h"
 #include "dgtkSurfaceShading.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <optional>
 #include <utility>
 
 namespace dgtk
 {
 
+const char* const draftLayer = "surface";
+
 namespace
 {
-constexpr int alphaSide = 4; ///< samples a side of a pixel
+constexpr const char* liveSamples = "4"; ///< of a pixel, a side
+constexpr int mostChannels = 4;          ///< of an image that can be shown
+constexpr int stripPixels = 1 << 14;
 
-/// A layer that relates a view with a neighbouring frame.
-struct FlowLayer
+LayerSpec draftSpec()
 {
-  const char* name;
-  const char* description;
-  int step; ///< frames
-  enum
-  {
-    Displacement,
-    Class,
-    Motion
-  } value;
-};
-const FlowLayer flowLayers[] = {
-  { "flow_forward", "motion in the image until the next frame, pixels", 1, FlowLayer::Displacement },
-  { "flow_forward_class", "visibility in the next frame", 1, FlowLayer::Class },
-  { "flow_backward", "motion in the image to the frame before, pixels", -1, FlowLayer::Displacement },
-  { "flow_backward_class", "visibility in the frame before", -1, FlowLayer::Class },
-  { "sceneflow", "motion in the world until the next frame, axes of the camera", 1, FlowLayer::Motion },
-};
-
-const FlowLayer* findFlow(const std::string& layer)
-{
-  const auto* const found = std::find_if(
-    std::begin(flowLayers), std::end(flowLayers), [&](const FlowLayer& flow) { return layer == flow.name; });
-  return found == std::end(flowLayers) ? nullptr : found;
+  return { draftLayer, PixelType::UInt8, 3, "sRGB", "image", "0", "draft of the colours, without shadows and bumps",
+    Meaning::Picture };
 }
 
-LayerSpec specOf(const FlowLayer& flow)
+const Layer* findLayer(const std::string& name)
 {
-  switch (flow.value)
+  const auto found =
+    std::find_if(layers().begin(), layers().end(), [&](const auto& layer) { return layer->info().layer == name; });
+  return found == layers().end() ? nullptr : found->get();
+}
+
+/// An image that can be shown, and its layer.
+struct LiveImage
+{
+  std::string layer;
+  LayerSpec spec;
+};
+
+const std::vector<LiveImage>& liveImages()
+{
+  static const std::vector<LiveImage> all = []
   {
-    case FlowLayer::Displacement:
-      return { flow.name, PixelType::Float64, 2, "pixels", "image", "nan", flow.description, Meaning::Displacement };
-    case FlowLayer::Class:
-      return { flow.name, PixelType::UInt8, 1, "class", "image", "0", flow.description, Meaning::Visibility };
-    default:
-      return { flow.name, PixelType::Float64, 3, "scene units", "camera", "nan", flow.description,
-        Meaning::Displacement };
+    std::vector<LiveImage> images;
+    for (const LayerInfo& info : generatorLayers())
+    {
+      std::string last; // one an image, not one a format
+      for (const LayerRecord& record : info.records)
+      {
+        if (liveRefusal(info).empty() && record.spec.name != last)
+        {
+          images.push_back({ info.layer, record.spec });
+          last = record.spec.name;
+        }
+      }
+    }
+    return images;
+  }();
+  return all;
+}
+
+const LiveImage& liveImage(const std::string& name)
+{
+  const std::vector<LiveImage>& all = liveImages();
+  const auto found =
+    std::find_if(all.begin(), all.end(), [&](const LiveImage& image) { return image.spec.name == name; });
+  if (found == all.end())
+  {
+    throw UsageError("there is no live layer " + quoted(name));
   }
-}
-
-const LayerSpec alphaSpec{ "alpha", PixelType::UInt8, 4, "id", "image", "0", "nearest object and its coverage",
-  Meaning::Id };
-const LayerSpec surfaceSpec{ "color_surface", PixelType::UInt8, 3, "sRGB", "image", "0",
-  "draft of the colours, without shadows and bumps", Meaning::Picture };
-
-template <typename T>
-void fill(Rows& rows, T value)
-{
-  T* const first = rows.row<T>(rows.y());
-  std::fill(first, first + std::size_t(rows.width()) * rows.height() * rows.channels(), value);
+  return *found;
 }
 
 bool isTranslucent(const SceneState& state, const Hit& hit)
@@ -83,103 +87,157 @@ bool isTranslucent(const SceneState& state, const Hit& hit)
     hit.object == 0 ? nullptr : materialOf(state.instances[hit.object - 1], hit.triangle);
   return material != nullptr && material->opacity < 1;
 }
+
+/// The queries of a scene that is being edited, for the stage of an eye, which has a camera more.
+class EyeQueries : public SceneQueries
+{
+public:
+  EyeQueries(const LiveScene& scene, const Stage& stage)
+    : Scene(scene)
+    , Own(stage)
+  {
+  }
+  Moment at(int frame) override { return this->Scene.at(frame); }
+  const Stage& stage() const override { return this->Own; }
+  std::unique_ptr<VisibilitySource> makeSource(ThreadPool& pool) const override { return makeRaySource(pool); }
+
+private:
+  const LiveScene& Scene;
+  const Stage& Own;
+};
+
+/// Keeps the rows of one output.
+class LiveSink : public LayerSink
+{
+public:
+  LiveSink(std::size_t wanted, const LayerSpec& spec, const PixelRect& rect)
+    : Wanted(wanted)
+    , Kept(spec.type, spec.channels, rect.width, rect.y, rect.height)
+  {
+  }
+  void rows(std::size_t output, const Rows& rows) override
+  {
+    if (output == this->Wanted)
+    {
+      std::memcpy(
+        this->Kept.data() + this->Kept.rowBytes() * std::size_t(rows.y() - this->Kept.y()), rows.data(), rows.bytes());
+    }
+  }
+  void surfaces(std::size_t, const LdiRows&) override {}
+  void ranks(std::size_t, const std::vector<CoveredId>&, std::uint32_t) override {}
+  void document(std::size_t, const std::string&) override {}
+  void shared(const std::string&, const FileRecord&) override {}
+  Rows take() { return std::move(this->Kept); }
+
+private:
+  std::size_t Wanted;
+  Rows Kept;
+};
+
+int stripRows(int width) { return std::max(8, stripPixels / width / 8 * 8); }
+
+bool asked(const LiveEye::Stop& stop) { return stop && stop(); }
 } // namespace
+
+std::string liveRefusal(const LayerInfo& info)
+{
+  static const std::shared_ptr<const Stage> nothing = Stage::load({});
+  const Layer* const layer = findLayer(info.layer);
+  const LayerNeeds needs = layer->needs({}, *nothing);
+  const std::vector<WriterInfo>& writers = layerWriters();
+  const bool image = std::any_of(writers.begin(), writers.end(),
+    [&](const WriterInfo& writer) { return writer.format == info.formats.front(); });
+  if (info.records.empty() || !image)
+  {
+    return "it has no image of its own";
+  }
+  if (!needs.hits || needs.color || needs.sharp || needs.peeled)
+  {
+    return "it needs the renderer's pictures";
+  }
+  return info.records.front().spec.channels > mostChannels ? "it has more numbers a pixel than a picture shows" : "";
+}
 
 const std::vector<LiveLayer>& liveLayers()
 {
-  static const std::vector<LiveLayer> layers = []
+  static const std::vector<LiveLayer> all = []
   {
-    std::vector<LiveLayer> list{ { "surface", surfaceSpec.description } };
-    for (const RepresentationInfo& info : representations())
+    std::vector<LiveLayer> list{ { draftLayer, draftSpec().description } };
+    for (const LiveImage& image : liveImages())
     {
-      list.push_back({ info.layer, info.description });
+      list.push_back({ image.spec.name, image.spec.description });
     }
-    for (const FlowLayer& flow : flowLayers)
-    {
-      list.push_back({ flow.name, flow.description });
-    }
-    list.push_back({ alphaSpec.name, alphaSpec.description });
     return list;
   }();
-  return layers;
+  return all;
+}
+
+View viewOf(const LiveQuestion& question)
+{
+  return question.scene->view(question.camera, question.frame, question.width, question.height);
 }
 
 struct LiveEye::Impl
 {
-  Impl(std::shared_ptr<const LiveScene> scene, int frame, LiveView view, ThreadPool& pool)
-    : Scene(std::move(scene))
-    , Views(std::move(view))
-    , Pool(pool)
-    , Now(this->Scene->at(frame))
-    , Source(makeRaySource(pool))
-  {
-    this->Source->setScene(this->Now.state, this->Views.now);
-  }
+  Impl(const LiveQuestion& question, int step, ThreadPool& pool);
 
-  Rows flow(const FlowLayer& flow, const SurfaceRows& in);
-  Rows alpha(const VisibilityBuffer& hits);
+  /// The plan of one layer at the question's frame, with all cameras; this one's job is the first.
+  WorkPlan planOf(const std::string& layer) const;
   void shade(const SurfaceRows& in, Rows& out);
   Eigen::Vector3d through(int x, int y) const;
-  const LiveScene::Moment& neighbour(int step);
+  Rows draft(const VisibilityBuffer& hits);
 
-  std::shared_ptr<const LiveScene> Scene;
-  LiveView Views;
+  LiveQuestion Question;
   ThreadPool& Pool;
+  Job Picture;
+  std::shared_ptr<const Stage> Own; ///< of the scene, with the eye's camera
+  EyeQueries Queries;
+  View Eye;
   LiveScene::Moment Now;
-  std::optional<LiveScene::Moment> Before;
-  std::optional<LiveScene::Moment> After;
   std::unique_ptr<VisibilitySource> Source;
-  std::unique_ptr<PixelSampler> Sampler;
   std::optional<SurfaceShading> Shading;
 };
 
-const LiveScene::Moment& LiveEye::Impl::neighbour(int step)
+LiveEye::Impl::Impl(const LiveQuestion& question, int step, ThreadPool& pool)
+  : Question(question)
+  , Pool(pool)
+  , Own(question.scene->stageWith(question.camera, this->Picture.camera))
+  , Queries(*question.scene, *this->Own)
+  , Now(question.scene->at(question.frame))
+  , Source(makeRaySource(pool))
 {
-  std::optional<LiveScene::Moment>& kept = step > 0 ? this->After : this->Before;
-  if (!kept)
-  {
-    kept = this->Scene->at(this->Now.frame + step);
-  }
-  return *kept;
+  const View whole = viewOf(question);
+  this->Picture.frame = question.frame;
+  this->Question.width = (whole.model->width() + step - 1) / step;
+  this->Question.height = (whole.model->height() + step - 1) / step;
+  this->Eye = this->Own->view(this->Picture.camera, question.frame, this->Question.width, this->Question.height);
+  this->Source->setScene(this->Now.state, this->Eye);
 }
 
-Rows LiveEye::Impl::flow(const FlowLayer& flow, const SurfaceRows& in)
+WorkPlan LiveEye::Impl::planOf(const std::string& layer) const
 {
-  const LayerSpec spec = specOf(flow);
-  Rows out(spec.type, spec.channels, in.rect.width, in.rect.y, in.rect.height);
-  const LiveScene::Moment& moment = this->neighbour(flow.step);
-  const OtherView other{ moment.state.get(), flow.step > 0 ? this->Views.after : this->Views.before,
-    moment.occlusion.get() };
-  std::vector<std::uint8_t> classes(in.t.size());
-  if (flow.value != FlowLayer::Class)
+  const SceneDescription& scene = this->Own->description();
+  const int known = std::clamp(this->Question.frame, scene.firstFrame(), scene.lastFrame());
+  LayerRequest request;
+  request.layers = { layer };
+  request.frames = FrameRange{ known, known, 1 };
+  request.width = this->Question.width;
+  request.height = this->Question.height;
+  request.options["samples"] = liveSamples;
+  WorkPlan plan = makeWorkPlan(request, *this->Own);
+  for (Job& job : plan.jobs)
   {
-    const PairValue value = flow.value == FlowLayer::Motion ? PairValue::Motion : PairValue::Displacement;
-    pairRows(in, other, value, out.row<double>(in.rect.y), classes.data());
-    return out;
+    job.frame = this->Question.frame;
   }
-  std::vector<double> pixels(2 * in.t.size());
-  pairRows(in, other, PairValue::Position, pixels.data(), classes.data());
-  std::copy(classes.begin(), classes.end(), out.row<std::uint8_t>(in.rect.y));
-  return out;
-}
-
-Rows LiveEye::Impl::alpha(const VisibilityBuffer& hits)
-{
-  if (!this->Sampler)
-  {
-    this->Sampler = std::make_unique<PixelSampler>(
-      this->Now.state, this->Views.now, alphaSide, makeRaySource(this->Pool), this->Pool);
-  }
-  SampledRows samples;
-  this->Sampler->sample(hits.rect, hits.hits.data(), samples);
-  return alphaRows(samples, this->Pool);
+  std::rotate(plan.jobs.begin(), plan.jobs.begin() + std::ptrdiff_t(this->Picture.camera), plan.jobs.end());
+  return plan;
 }
 
 /// The colour of a pixel where the nearest surface is seen through.
 Eigen::Vector3d LiveEye::Impl::through(int x, int y) const
 {
   const SceneState& state = *this->Now.state;
-  const View& view = this->Views.now;
+  const View& view = this->Eye;
   std::vector<Hit> hits;
   this->Now.occlusion->allHits(view, { x + 0.5, y + 0.5 }, hits);
   hits.push_back({}); // the background
@@ -202,7 +260,7 @@ void LiveEye::Impl::shade(const SurfaceRows& in, Rows& out)
 {
   if (!this->Shading)
   {
-    this->Shading.emplace(*this->Now.state, this->Views.now, this->Scene->environmentLight());
+    this->Shading.emplace(*this->Now.state, this->Eye, this->Question.scene->environmentLight());
   }
   const std::vector<Eigen::Vector3d> colors = this->Shading->colors(in);
   std::uint8_t* rgb = out.row<std::uint8_t>(in.rect.y);
@@ -219,74 +277,106 @@ void LiveEye::Impl::shade(const SurfaceRows& in, Rows& out)
   }
 }
 
-LiveEye::LiveEye(std::shared_ptr<const LiveScene> scene, int frame, LiveView view, ThreadPool& pool)
-  : Self(std::make_unique<Impl>(std::move(scene), frame, std::move(view), pool))
+Rows LiveEye::Impl::draft(const VisibilityBuffer& hits)
+{
+  const LayerSpec spec = draftSpec();
+  Rows out(spec.type, spec.channels, hits.rect.width, hits.rect.y, hits.rect.height);
+  SurfaceRows surface;
+  computeSurfaceRows(*this->Now.state, this->Eye, hits.rect, hits.hits.data(), true, surface);
+  this->shade(surface, out);
+  return out;
+}
+
+LiveEye::LiveEye(const LiveQuestion& question, int step, ThreadPool& pool)
+  : Self(std::make_unique<Impl>(question, step, pool))
 {
 }
 
 LiveEye::~LiveEye() = default;
 
-const View& LiveEye::view() const { return this->Self->Views.now; }
+const View& LiveEye::view() const { return this->Self->Eye; }
 
 const LiveScene::Moment& LiveEye::moment() const { return this->Self->Now; }
 
-void LiveEye::trace(const PixelRect& rect, VisibilityBuffer& hits) { this->Self->Source->render(rect, hits); }
+bool LiveEye::trace(int y, int height, VisibilityBuffer& hits, const Stop& stop)
+{
+  const int width = this->view().model->width();
+  const int strip = stripRows(width);
+  VisibilityBuffer part;
+  hits.resize({ 0, y, width, height });
+  for (int done = 0; done < height; done += strip)
+  {
+    if (asked(stop))
+    {
+      return false;
+    }
+    this->Self->Source->render({ 0, y + done, width, std::min(strip, height - done) }, part);
+    std::copy(part.hits.begin(), part.hits.end(), hits.hits.begin() + std::ptrdiff_t(done) * width);
+  }
+  return true;
+}
 
 LayerSpec LiveEye::spec(const std::string& layer) const
 {
-  if (const FlowLayer* const flow = findFlow(layer))
-  {
-    return specOf(*flow);
-  }
-  return layer == "alpha" ? alphaSpec : layer == "surface" ? surfaceSpec : makeRepresentation(layer)->spec();
+  return layer == draftLayer ? draftSpec() : liveImage(layer).spec;
 }
 
-bool LiveEye::isBeyond(const std::string& layer) const
+std::string LiveEye::missing(const std::string& layer) const
 {
-  const FlowLayer* const flow = findFlow(layer);
-  const int frame = this->Self->Now.frame + (flow != nullptr ? flow->step : 0);
-  return flow != nullptr && (frame < this->Self->Scene->firstFrame() || frame > this->Self->Scene->lastFrame());
+  if (layer == draftLayer)
+  {
+    return {};
+  }
+  const LiveImage& image = liveImage(layer);
+  try
+  {
+    const WorkPlan plan = this->Self->planOf(image.layer);
+    const PlannedLayer& planned = plan.layers.front();
+    return planned.layer->outputs(plan, *this->Self->Own, plan.jobs.front(), planned).empty()
+             ? planned.layer->requirement()
+             : std::string();
+  }
+  catch (const UsageError&)
+  {
+    return findLayer(image.layer)->requirement();
+  }
 }
 
-Rows LiveEye::values(const std::string& layer, const VisibilityBuffer& hits)
+Rows LiveEye::values(const std::string& layer, const VisibilityBuffer& hits, const Stop& stop)
 {
-  if (layer == "alpha")
+  if (layer == draftLayer)
   {
-    return this->Self->alpha(hits);
+    return this->Self->draft(hits);
   }
-  const LayerSpec spec = this->spec(layer);
-  Rows out(spec.type, spec.channels, hits.rect.width, hits.rect.y, hits.rect.height);
-  if (this->isBeyond(layer))
+  if (!this->missing(layer).empty())
   {
-    if (spec.type == PixelType::UInt8)
+    return {};
+  }
+  const WorkPlan plan = this->Self->planOf(liveImage(layer).layer);
+  const Job job = plan.jobs.front();
+  const JobContext context{ plan, job, this->Self->Own->cameraNames()[job.camera], this->Self->Now.state, this->view(),
+    this->Self->Queries, this->Self->Pool };
+  const PlannedPass planned = passesOf(plan, *this->Self->Own, context.job).front();
+  const std::vector<LayerOutput> outputs = planned.outputs();
+  const auto output =
+    std::find_if(outputs.begin(), outputs.end(), [&](const LayerOutput& one) { return one.spec.name == layer; });
+  LiveSink sink(std::size_t(output - outputs.begin()), output->spec, hits.rect);
+  const std::unique_ptr<LayerPass> pass = planned.layers.front().layer.makePass(context, planned.layers);
+  const int strip = stripRows(hits.rect.width);
+  for (int done = 0; done < hits.rect.height; done += strip)
+  {
+    if (asked(stop))
     {
-      fill<std::uint8_t>(out, 0);
+      return {};
     }
-    else
-    {
-      fill(out, std::numeric_limits<double>::quiet_NaN());
-    }
-    return out;
+    Band band;
+    band.rect = { 0, hits.rect.y + done, hits.rect.width, std::min(strip, hits.rect.height - done) };
+    const auto first = hits.hits.begin() + std::ptrdiff_t(done) * hits.rect.width;
+    band.hits.assign(first, first + std::ptrdiff_t(band.rect.height) * hits.rect.width);
+    pass->band(band, sink);
   }
-  const FlowLayer* const flow = findFlow(layer);
-  const std::unique_ptr<Representation> one =
-    flow != nullptr || layer == "surface" ? nullptr : makeRepresentation(layer);
-  SurfaceRows surface;
-  computeSurfaceRows(*this->Self->Now.state, this->Self->Views.now, hits.rect, hits.hits.data(),
-    one == nullptr || one->needsBarycentrics(), surface);
-  if (flow != nullptr)
-  {
-    return this->Self->flow(*flow, surface);
-  }
-  if (one != nullptr)
-  {
-    one->compute(surface, out);
-  }
-  else
-  {
-    this->Self->shade(surface, out);
-  }
-  return out;
+  pass->finish(sink);
+  return sink.take();
 }
 
 } // namespace dgtk

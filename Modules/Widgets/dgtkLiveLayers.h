@@ -6,31 +6,58 @@
 
 #include "dgtkLayer.h"
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace dgtk
 {
 
+class Layer;
+struct LayerInfo;
 class ThreadPool;
+
+/// The draft of the colours, see SurfaceShading: no layer of a dataset.
+extern DGTKWIDGETS_EXPORT const char* const draftLayer;
 
 struct LiveLayer
 {
-  std::string name;        ///< as the dataset's layer: "depth", "flow_forward", "flow_forward_class"
+  std::string name;        ///< of an image of a dataset: "depth", "flow_forward_class"; or draftLayer
   std::string description; ///< one sentence
 };
 
-/// What can be shown of a view: "surface" (a draft of the colours, see SurfaceShading), all representations in the
-/// order of their registry, flow to the frames beside and its visibility classes, scene flow, alpha.
+/// What can be shown of a view: the draft, and the images of all layers but those of liveRefusal().
 DGTKWIDGETS_EXPORT const std::vector<LiveLayer>& liveLayers();
 
-/// A view of a scene at a frame, traced by rays: the hits and values that `dgtk render --visibility ray` has of the
-/// same camera, frame and size. One thread at a time.
+/// Why the images of a layer cannot be seen while a scene is edited, one line; empty: they can. Rays give what pixels
+/// meet; what else a layer reads is the renderer's.
+DGTKWIDGETS_EXPORT std::string liveRefusal(const LayerInfo& info);
+
+/// A camera's picture of a scene at a frame.
+struct LiveQuestion
+{
+  std::shared_ptr<const LiveScene> scene;
+  int frame = 0;
+  CameraDescription camera; ///< of the scene, or another one without a name
+  int width = 0;            ///< pixels; 0: the camera's own size, or 640 x 480
+  int height = 0;
+  int finest = 1; ///< pixels of the view, in x and y, for one of the finest picture
+};
+
+/// The view of a question. Throws what Stage::view() throws.
+DGTKWIDGETS_EXPORT View viewOf(const LiveQuestion& question);
+
+/// A view of a scene at a frame, traced by rays: the hits and values that `dgtk render` has of the same camera, frame
+/// and size, by the same layers. One thread at a time.
 class DGTKWIDGETS_EXPORT LiveEye
 {
 public:
-  /// The view may have any size. `pool` must outlive the eye. Throws what LiveScene::at() throws.
-  LiveEye(std::shared_ptr<const LiveScene> scene, int frame, LiveView view, ThreadPool& pool);
+  /// Asked between strips of rows; true ends the work.
+  using Stop = std::function<bool()>;
+
+  /// A view of every `step`-th pixel. `pool` must outlive the eye. Throws what LiveScene::at() throws.
+  LiveEye(const LiveQuestion& question, int step, ThreadPool& pool);
   ~LiveEye();
   LiveEye(const LiveEye&) = delete;
   LiveEye& operator=(const LiveEye&) = delete;
@@ -38,14 +65,16 @@ public:
   const View& view() const;
   const LiveScene::Moment& moment() const;
 
-  /// Hits of a rectangle inside the image.
-  void trace(const PixelRect& rect, VisibilityBuffer& hits);
-  /// Values of a layer at these hits: rows of the rectangle's width. Throws UsageError for an unknown layer.
-  Rows values(const std::string& layer, const VisibilityBuffer& hits);
+  /// Hits of full-width rows. False when it was stopped.
+  bool trace(int y, int height, VisibilityBuffer& hits, const Stop& stop = {});
+  /// Values of a layer's image at the rows of these hits; those next to the image's edge are as if it ended there.
+  /// Without rows when it was stopped, and where missing() says why there is none. Throws UsageError for an unknown
+  /// layer.
+  Rows values(const std::string& layer, const VisibilityBuffer& hits, const Stop& stop = {});
   /// Throws UsageError for an unknown layer.
   LayerSpec spec(const std::string& layer) const;
-  /// Whether the layer needs the frame after the last one, or before the first, so that all of it is invalid.
-  bool isBeyond(const std::string& layer) const;
+  /// What the view lacks to have a layer's image; empty: nothing.
+  std::string missing(const std::string& layer) const;
 
 private:
   struct Impl;

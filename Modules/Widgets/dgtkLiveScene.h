@@ -4,75 +4,64 @@
 
 #include "dgtkWidgetsModule.h"
 
-#include "dgtkModelStore.h"
+#include "dgtkModelLibrary.h"
 #include "dgtkViewCamera.h"
 
-#include "dgtkVisibility.h"
+#include "dgtkTracedQueries.h"
 
-#include <cstddef>
-#include <list>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace dgtk
 {
 
-/// A camera at a frame and at its neighbours.
-struct LiveView
-{
-  View now;
-  View before; ///< one frame earlier
-  View after;  ///< one frame later
-};
+struct EnvironmentLight;
 
-/// The eye of a perspective view of the editor, which is the same at all frames. near and far hold all of `box` that is
-/// not very near: far is 10,000 times near.
-DGTKWIDGETS_EXPORT LiveView liveView(const ViewCamera& camera, const WorldBox& box, int width, int height);
+/// The eye of a perspective view of the editor, the same at all frames, as a camera without a name. near and far hold
+/// all of `box` that is not very near: far is 10,000 times near.
+DGTKWIDGETS_EXPORT CameraDescription liveCamera(const ViewCamera& camera, const WorldBox& box);
 
-/// A scene that is being edited as it is at one moment, for questions from other threads: the states that `dgtk render`
-/// would have of it, and rays through them. Thread-safe.
+/// A scene that is being edited as it is at one moment, for questions from other threads: the stage that `dgtk render`
+/// would have of it, and rays through it. Thread-safe.
 class DGTKWIDGETS_EXPORT LiveScene
 {
 public:
   /// Copies both; geometry is shared. What rays need of the geometry is taken over from the scene `before` a change.
-  LiveScene(const SceneDescription& scene, const ModelStore& models, const LiveScene* before = nullptr);
+  LiveScene(const SceneDescription& scene, const ModelLibrary& models, const LiveScene* before = nullptr);
 
-  struct Moment
-  {
-    int frame = 0;
-    std::shared_ptr<const SceneState> state;
-    std::shared_ptr<const OcclusionQuery> occlusion;
-  };
-  /// Objects as Stage::at(frame) has them, ids included. The last few are kept. Throws what placeScene()
-  /// and makeOcclusionQuery() throw.
+  using Moment = SceneQueries::Moment;
+  /// The last few are kept. Throws what Stage::make(), Stage::at() and makeOcclusionQuery() throw.
   Moment at(int frame) const;
+  /// Throws what Stage::make() throws.
+  std::shared_ptr<const Stage> stage() const;
 
   /// A camera of this or any scene, as Stage::view(). Throws InputError where its pose is undefined.
-  LiveView view(const CameraDescription& camera, int frame, int width = 0, int height = 0) const;
+  View view(const CameraDescription& camera, int frame, int width = 0, int height = 0) const;
+  /// The stage with this camera among its own, and the camera's index. One without a name is none of the scene's.
+  std::shared_ptr<const Stage> stageWith(const CameraDescription& camera, std::size_t& index) const;
 
   /// What surfaces get from the environment; null where there is none.
   std::shared_ptr<const EnvironmentLight> environmentLight() const;
 
   /// Names of the objects with an id: objectNames()[id - 1].
-  std::vector<std::string> objectNames() const;
+  std::vector<std::string> objectNames() const { return this->stage()->objectNames(); }
 
   const SceneDescription& description() const { return this->Scene; }
   int firstFrame() const { return this->First; }
   int lastFrame() const { return this->Last; }
 
 private:
+  std::shared_ptr<TracedQueries> queries() const;
+
   SceneDescription Scene;
-  ModelStore Models;
+  ModelLibrary Models;
   int First = 0;
   int Last = 0;
-  std::optional<Moment> find(int frame) const;
-  mutable std::mutex Mutex;       ///< of the lists; never held for long
-  mutable std::mutex Building;    ///< one moment is made at a time
-  mutable std::list<Moment> Kept; ///< last used first
-  mutable std::list<Moment> Old;  ///< of the scene before, until there are own ones
+  mutable std::mutex Mutex;
+  mutable std::shared_ptr<TracedQueries> Queries; ///< made when it is first asked for
+  mutable std::shared_ptr<TracedQueries> Before;  ///< of the scene before, until there is an own moment
 };
 
 } // namespace dgtk

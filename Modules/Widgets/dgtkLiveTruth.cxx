@@ -3,13 +3,12 @@
 
 #include "dgtkAlbedo.h"
 #include "dgtkError.h"
-#include "dgtkSamples.h"
 #include "dgtkSurfaceRows.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <exception>
+#include <limits>
 #include <thread>
 #include <utility>
 
@@ -18,47 +17,38 @@ namespace dgtk
 
 namespace
 {
-constexpr int stripPixels = 1 << 14;
 constexpr int steps[] = { 6, 2, 1 };
 constexpr int leastFine = 1 << 14; ///< pixels of a picture that is not worth a coarse one
-
-View coarser(const View& view, int step)
-{
-  View coarse = view;
-  coarse.model = resampledCamera(
-    view.model, (view.model->width() + step - 1) / step, (view.model->height() + step - 1) / step, step, { 0, 0 });
-  return coarse;
-}
 
 /// One thread is left to the window.
 int pictureThreads() { return std::clamp(static_cast<int>(std::thread::hardware_concurrency()) - 1, 1, 8); }
 
 template <typename T>
-void append(const Rows& rows, std::vector<double>& values)
+void append(const Rows& rows, int column, int row, std::vector<double>& values)
 {
-  const T* const value = rows.row<T>(rows.y());
+  const T* const value = rows.row<T>(row) + std::ptrdiff_t(column) * rows.channels();
   values.insert(values.end(), value, value + rows.channels());
 }
 
-std::vector<double> numbers(const Rows& rows)
+std::vector<double> numbers(const Rows& rows, int column, int row)
 {
   std::vector<double> values;
   switch (rows.type())
   {
     case PixelType::UInt8:
-      append<std::uint8_t>(rows, values);
+      append<std::uint8_t>(rows, column, row, values);
       break;
     case PixelType::UInt16:
-      append<std::uint16_t>(rows, values);
+      append<std::uint16_t>(rows, column, row, values);
       break;
     case PixelType::UInt32:
-      append<std::uint32_t>(rows, values);
+      append<std::uint32_t>(rows, column, row, values);
       break;
     case PixelType::Float32:
-      append<float>(rows, values);
+      append<float>(rows, column, row, values);
       break;
     case PixelType::Float64:
-      append<double>(rows, values);
+      append<double>(rows, column, row, values);
       break;
   }
   return values;
@@ -117,69 +107,81 @@ Answer attempted(const Make& make)
 LivePicture livePicture(
   const LiveQuestion& question, const std::string& layer, int step, ThreadPool& pool, const std::function<bool()>& stop)
 {
-  LiveView view = question.view;
-  for (View* one : { &view.now, &view.before, &view.after })
-  {
-    *one = step > 1 ? coarser(*one, step) : *one;
-  }
-  LiveEye eye(question.scene, question.frame, view, pool);
-  const int width = view.now.model->width();
-  const int height = view.now.model->height();
+  LiveEye eye(question, step, pool);
+  const int width = eye.view().model->width();
+  const int height = eye.view().model->height();
   const LayerSpec spec = eye.spec(layer);
   LivePicture result;
   result.meaning = spec.meaning;
   result.step = step;
-  Rows whole(spec.type, spec.channels, width, 0, height);
-  VisibilityBuffer hits;
-  const int strip = std::max(8, stripPixels / width / 8 * 8);
-  for (int y = 0; y < height; y += strip)
+  if (const std::string missing = eye.missing(layer); !missing.empty())
   {
-    if (stop && stop())
-    {
-      return result;
-    }
-    eye.trace({ 0, y, width, std::min(strip, height - y) }, hits);
-    const Rows rows = eye.values(layer, hits);
-    std::memcpy(whole.data() + whole.rowBytes() * std::size_t(y), rows.data(), rows.bytes());
+    result.message = "it needs " + missing;
+    return result;
   }
-  result.picture = paintLayer(whole, spec);
-  findRange(whole, result);
-  if (eye.isBeyond(layer))
+  VisibilityBuffer hits;
+  if (!eye.trace(0, height, hits, stop))
   {
-    result.message =
-      layer.rfind("flow_backward", 0) == 0 ? "the first frame has none before it" : "the last frame has none after it";
+    return result;
+  }
+  const Rows whole = eye.values(layer, hits, stop);
+  if (whole.width() == width)
+  {
+    result.picture = paintLayer(whole, spec);
+    findRange(whole, result);
   }
   return result;
 }
 
+namespace
+{
+/// The values of all layers at a pixel; those that the view does not have are NaN, or 0.
+std::vector<PixelValue> valuesAt(LiveEye& eye, const VisibilityBuffer& rows, int column, int row)
+{
+  std::vector<PixelValue> all;
+  for (const LiveLayer& layer : liveLayers())
+  {
+    if (layer.name == draftLayer)
+    {
+      continue;
+    }
+    const LayerSpec spec = eye.spec(layer.name);
+    const Rows values = eye.values(layer.name, rows);
+    const bool real = spec.type == PixelType::Float32 || spec.type == PixelType::Float64;
+    const double nothing = real ? std::numeric_limits<double>::quiet_NaN() : 0;
+    all.push_back({ spec,
+      values.width() > 0 ? numbers(values, column, row) : std::vector<double>(std::size_t(spec.channels), nothing) });
+  }
+  return all;
+}
+} // namespace
+
 PixelTruth pixelTruth(const LiveQuestion& question, int column, int row, ThreadPool& pool)
 {
-  const View& view = question.view.now;
+  LiveEye eye(question, 1, pool);
+  const View& view = eye.view();
   if (column < 0 || row < 0 || column >= view.model->width() || row >= view.model->height())
   {
     throw UsageError("the pixel is outside the image");
   }
-  LiveEye eye(question.scene, question.frame, question.view, pool);
   const SceneState& state = *eye.moment().state;
-  VisibilityBuffer hits;
-  eye.trace({ column, row, 1, 1 }, hits);
+  VisibilityBuffer rows; // some layers look at the pixels around
+  const int first = std::max(0, row - 1);
+  eye.trace(first, std::min(row + 2, view.model->height()) - first, rows);
   PixelTruth truth;
   truth.column = column;
   truth.row = row;
   truth.frame = question.frame;
-  for (const LiveLayer& layer : liveLayers())
-  {
-    if (layer.name != "surface")
-    {
-      truth.values.push_back({ eye.spec(layer.name), numbers(eye.values(layer.name, hits)) });
-    }
-  }
-  if (const Hit& hit = hits.hits.front(); hit.object != 0)
+  truth.values = valuesAt(eye, rows, column, row);
+  if (const Hit& hit = rows.at(column, row); hit.object != 0)
   {
     const Instance& instance = state.instances[hit.object - 1];
     truth.object = instance.name;
+    truth.id = hit.object;
     truth.className = instance.className;
-    truth.part = instance.model->parts[instance.model->partOf(hit.triangle)].name;
+    truth.partId = instance.model->partOf(hit.triangle);
+    truth.part = instance.model->parts[truth.partId].name;
+    truth.triangle = hit.triangle - instance.model->parts[truth.partId].firstTriangle;
   }
   std::vector<Hit> surfaces;
   const Eigen::Vector2d center(column + 0.5, row + 0.5);
@@ -205,8 +207,19 @@ void LiveTruth::askPicture(LiveQuestion question, std::string layer, std::functi
     [this, question = std::move(question), layer = std::move(layer), receive = std::move(receive)](
       const NewestTask::Outdated& outdated)
     {
-      const CameraModel& model = *question.view.now.model;
-      const bool small = std::int64_t(model.width()) * model.height() < leastFine;
+      const LivePicture refused = attempted<LivePicture>(
+        [&]
+        {
+          viewOf(question);
+          return LivePicture();
+        });
+      if (!refused.message.empty())
+      {
+        receive(refused);
+        return;
+      }
+      const View view = viewOf(question);
+      const bool small = std::int64_t(view.model->width()) * view.model->height() < leastFine;
       for (const int factor : steps)
       {
         const int step = factor * question.finest;

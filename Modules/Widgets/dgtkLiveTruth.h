@@ -16,14 +16,6 @@
 namespace dgtk
 {
 
-struct LiveQuestion
-{
-  std::shared_ptr<const LiveScene> scene;
-  int frame = 0;
-  LiveView view;  ///< of the size of the picture
-  int finest = 1; ///< pixels of the view, in x and y, for one of the finest picture
-};
-
 struct LivePicture
 {
   LayerPicture picture;
@@ -63,7 +55,10 @@ struct PixelTruth
   std::string object; ///< empty: nothing is there
   std::string className;
   std::string part;
-  std::vector<PixelValue> values; ///< of all liveLayers() but "surface"
+  std::uint32_t id = 0;
+  std::uint32_t partId = 0;
+  std::uint32_t triangle = 0;     ///< within the part
+  std::vector<PixelValue> values; ///< of all liveLayers() but the draft
   std::vector<PixelLayer> layers; ///< near to far
   std::string message;            ///< why nothing is known
 };

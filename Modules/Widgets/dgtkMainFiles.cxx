@@ -178,7 +178,7 @@ bool MainWindow::importFile(const QString& path)
     return false;
   }
   const std::string file = QFile::encodeName(QDir::cleanPath(QFileInfo(path).absoluteFilePath())).toStdString();
-  const auto loaded = std::make_shared<std::optional<ModelStore>>();
+  const auto loaded = std::make_shared<std::optional<ModelLibrary>>();
   const bool read = this->work(tr("Reading %1 ...").arg(QFileInfo(path).fileName()),
     [loaded, reader = this->document().modelReader(file)](const LoadProgress& progress)
     {
@@ -198,7 +198,7 @@ bool MainWindow::importFile(const QString& path)
   return this->addRead(file, **loaded);
 }
 
-bool MainWindow::addRead(const std::string& file, const ModelStore& models)
+bool MainWindow::addRead(const std::string& file, const ModelLibrary& models)
 {
   const QString name = QFileInfo(QFile::decodeName(file.c_str())).fileName();
   const std::shared_ptr<const Model> model = this->document().modelIn(models, file);

@@ -71,7 +71,7 @@ bool MainWindow::findModelsBelow(const QString& folder)
   struct Found
   {
     std::map<std::string, std::string> files;
-    std::optional<ModelStore> models;
+    std::optional<ModelLibrary> models;
   };
   const auto found = std::make_shared<Found>();
   const std::vector<std::string> wanted = modelsOf(this->State->scene(), this->document().absent());
@@ -82,7 +82,7 @@ bool MainWindow::findModelsBelow(const QString& folder)
       found->files = findModels(wanted, file, progress);
       SceneDescription after = scene;
       replaceModels(after, found->files);
-      ModelStore more = models;
+      ModelLibrary more = models;
       if (more.load(after, progress))
       {
         found->models = std::move(more);

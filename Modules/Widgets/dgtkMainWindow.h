@@ -25,7 +25,7 @@ class Autosave;
 class BackgroundWork;
 class EditorState;
 class MatchDialog;
-class ModelStore;
+class ModelLibrary;
 class RenderDialog;
 class RenderStatus;
 class SceneDocument;
@@ -94,7 +94,7 @@ private:
   /// Lists the models that are not there and offers to look for them. True when some were found.
   bool offerToFind();
   bool findModelsBelow(const QString& folder);
-  bool addRead(const std::string& file, const ModelStore& models);
+  bool addRead(const std::string& file, const ModelLibrary& models);
   void exportPov();
   bool mayDiscard();
   /// False, with a note, while another file is being read.

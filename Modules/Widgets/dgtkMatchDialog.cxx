@@ -121,9 +121,9 @@ void MatchDialog::showView(std::size_t index)
     try
     {
       const int frame = side.frame->value();
-      const LiveView view = this->Scene->view(this->Scene->description().cameras[std::size_t(camera)], frame);
-      side.view = MatchView{ view.now, frame };
-      side.pane->setImageSize({ view.now.model->width(), view.now.model->height() });
+      const View view = this->Scene->view(this->Scene->description().cameras[std::size_t(camera)], frame);
+      side.view = MatchView{ view, frame };
+      side.pane->setImageSize({ view.model->width(), view.model->height() });
       side.pane->setMessage({});
       this->askPicture(index);
     }
@@ -146,10 +146,9 @@ void MatchDialog::askPicture(std::size_t index)
   LiveQuestion question;
   question.scene = this->Scene;
   question.frame = side.view->frame;
-  question.view =
-    this->Scene->view(this->Scene->description().cameras[std::size_t(side.camera->currentIndex())], question.frame);
+  question.camera = this->Scene->description().cameras[std::size_t(side.camera->currentIndex())];
   const QString layer = this->Layer->currentData().toString();
-  side.pane->findChild<QLabel*>("draft")->setVisible(layer == "surface");
+  side.pane->findChild<QLabel*>("draft")->setVisible(layer == draftLayer);
   side.truth->askPicture(question, layer.toStdString(),
     [this, index, name = side.view->view.name, frame = question.frame](const LivePicture& picture)
     {

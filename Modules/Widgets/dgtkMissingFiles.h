@@ -4,7 +4,7 @@
 
 #include "dgtkWidgetsModule.h"
 
-#include "dgtkModelStore.h"
+#include "dgtkModelLibrary.h"
 
 #include <cstddef>
 #include <map>

@@ -296,7 +296,7 @@ void RenderCameras::showResolution()
     sized.width = this->Size[0]->value();
     sized.height = this->Size[1]->value();
   }
-  const CameraPlace place = placeScene(alone, ModelStore(), this->State.frame()).cameras.front();
+  const CameraPlace place = placeScene(alone, ModelLibrary(), this->State.frame()).cameras.front();
   if (!place.valid)
   {
     this->Resolution->setText(

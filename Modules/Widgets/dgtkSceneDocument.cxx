@@ -46,7 +46,7 @@ void SceneDocument::reset(SceneDescription scene, const std::string& path, std::
 
 void SceneDocument::clear()
 {
-  this->Models = ModelStore();
+  this->Models = ModelLibrary();
   SceneDescription scene;
   scene.folder = currentFolder();
   this->reset(std::move(scene), {}, 0);
@@ -309,16 +309,17 @@ SceneDescription SceneDocument::descriptionOf(const std::string& path) const
   return part;
 }
 
-std::function<std::optional<ModelStore>(const LoadProgress&)> SceneDocument::modelReader(const std::string& path) const
+std::function<std::optional<ModelLibrary>(const LoadProgress&)> SceneDocument::modelReader(
+  const std::string& path) const
 {
   return [part = this->descriptionOf(path), models = this->Models](const LoadProgress& progress)
   {
-    ModelStore more = models;
+    ModelLibrary more = models;
     return more.load(part, progress) ? std::make_optional(std::move(more)) : std::nullopt;
   };
 }
 
-std::shared_ptr<const Model> SceneDocument::modelIn(const ModelStore& models, const std::string& path) const
+std::shared_ptr<const Model> SceneDocument::modelIn(const ModelLibrary& models, const std::string& path) const
 {
   const SceneDescription part = this->descriptionOf(path);
   return models.modelOf(part, part.objects.front());

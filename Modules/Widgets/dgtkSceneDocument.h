@@ -4,7 +4,7 @@
 
 #include "dgtkWidgetsModule.h"
 
-#include "dgtkModelStore.h"
+#include "dgtkModelLibrary.h"
 #include "dgtkSceneEdits.h"
 
 #include <cstddef>
@@ -22,7 +22,7 @@ namespace dgtk
 struct LoadedScene
 {
   SceneDescription scene;
-  ModelStore models;
+  ModelLibrary models;
   std::string path;
 };
 
@@ -36,7 +36,7 @@ public:
   SceneDocument& operator=(const SceneDocument&) = delete;
 
   const SceneDescription& scene() const { return this->Scene; }
-  const ModelStore& models() const { return this->Models; }
+  const ModelLibrary& models() const { return this->Models; }
   /// The objects that are boxes because their model's file is not there: indices.
   std::vector<std::size_t> absent() const { return this->Models.absent(this->Scene); }
   /// "" before the first save.
@@ -86,10 +86,10 @@ public:
 
   /// What addModel() and adopt() need of the disk: a function for any thread, which returns none when it was stopped
   /// and throws InputError.
-  std::function<std::optional<ModelStore>(const LoadProgress&)> modelReader(const std::string& path) const;
+  std::function<std::optional<ModelLibrary>(const LoadProgress&)> modelReader(const std::string& path) const;
   /// The model of such a store that addModel() would add.
-  std::shared_ptr<const Model> modelIn(const ModelStore& models, const std::string& path) const;
-  void adopt(const ModelStore& models) { this->Models.adopt(models); }
+  std::shared_ptr<const Model> modelIn(const ModelLibrary& models, const std::string& path) const;
+  void adopt(const ModelLibrary& models) { this->Models.adopt(models); }
   /// A model file becomes an object at the origin, with a unique name. Throws InputError when it cannot be read.
   SceneItem addModel(const std::string& path);
   SceneItem addLight(LightDescription light);
@@ -127,7 +127,7 @@ private:
 
   SceneDescription Scene;
   std::string Path;
-  ModelStore Models;
+  ModelLibrary Models;
   std::size_t Opened = 0;
   std::vector<Step> Done;
   std::vector<Step> Undone;

@@ -242,7 +242,8 @@ double fieldOfViewOf(const CameraDescription& camera)
 namespace
 {
 /// Without objects and cameras Stage reads nothing.
-std::shared_ptr<const SceneState> surroundingsOf(const SceneDescription& scene, const ModelStore& models, double frame)
+std::shared_ptr<const SceneState> surroundingsOf(
+  const SceneDescription& scene, const ModelLibrary& models, double frame)
 {
   SceneDescription alone;
   alone.file = scene.file;
@@ -251,12 +252,12 @@ std::shared_ptr<const SceneState> surroundingsOf(const SceneDescription& scene, 
   alone.fog = scene.fog;
   alone.lights = scene.lights;
   auto state = std::make_shared<SceneState>(*Stage::load(std::move(alone))->at(frame));
-  state->environment = models.environment(scene).state;
+  state->environment = models.environment(scene);
   return state;
 }
 } // namespace
 
-ScenePlaces placeScene(const SceneDescription& scene, const ModelStore& models, double frame)
+ScenePlaces placeScene(const SceneDescription& scene, const ModelLibrary& models, double frame)
 {
   ScenePlaces places;
   places.frame = frame;

@@ -5,7 +5,7 @@
 #include "dgtkWidgetsModule.h"
 
 #include "dgtkCameraModel.h"
-#include "dgtkModelStore.h"
+#include "dgtkModelLibrary.h"
 #include "dgtkSceneEdits.h"
 
 #include <array>
@@ -69,7 +69,7 @@ constexpr int largestImage = 1 << 20;           ///< pixels a side
 DGTKWIDGETS_EXPORT double fieldOfViewOf(const CameraDescription& camera);
 
 /// A scale of 0 is no error: what it flattens has a place, too.
-DGTKWIDGETS_EXPORT ScenePlaces placeScene(const SceneDescription& scene, const ModelStore& models, double frame);
+DGTKWIDGETS_EXPORT ScenePlaces placeScene(const SceneDescription& scene, const ModelLibrary& models, double frame);
 
 /// x_in_world(t) = origin + t * direction, least < t < most.
 struct WorldRay

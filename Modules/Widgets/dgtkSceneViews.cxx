@@ -90,7 +90,7 @@ void SceneViews::refresh()
     emit this->failed(QString::fromUtf8(error.what()));
     return;
   }
-  const std::shared_ptr<const EnvironmentLight> environment = this->State.document().models().environment(scene).light;
+  const std::shared_ptr<const EnvironmentLight> environment = environmentLight(this->Places->surroundings->environment);
   for (SceneView* view : this->Views)
   {
     view->showScene(scene, this->Places, environment, this->Meshes);

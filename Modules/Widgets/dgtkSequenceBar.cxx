@@ -20,14 +20,14 @@ double lengthAtRateOne(const SceneDescription& scene, const ObjectDescription& o
 }
 } // namespace
 
-int currentSequence(const SceneDescription& scene, const ObjectDescription& object, const ModelStore& models)
+int currentSequence(const SceneDescription& scene, const ObjectDescription& object, const ModelLibrary& models)
 {
   const std::shared_ptr<const Model> model = models.modelOf(scene, object);
   return model && model->deformation ? findAnimation(scene, object, *model) : -1;
 }
 
 std::vector<std::string> sequencesOf(
-  const SceneDescription& scene, const ObjectDescription& object, const ModelStore& models)
+  const SceneDescription& scene, const ObjectDescription& object, const ModelLibrary& models)
 {
   std::vector<std::string> names;
   const std::shared_ptr<const Model> model = models.modelOf(scene, object);
@@ -42,7 +42,7 @@ std::vector<std::string> sequencesOf(
 }
 
 std::optional<SequenceBar> sequenceBar(
-  const SceneDescription& scene, const ObjectDescription& object, const ModelStore& models)
+  const SceneDescription& scene, const ObjectDescription& object, const ModelLibrary& models)
 {
   const int sequence = currentSequence(scene, object, models);
   if (sequence < 0)
@@ -61,7 +61,7 @@ std::optional<SequenceBar> sequenceBar(
 }
 
 void setSequenceLength(
-  const SceneDescription& scene, ObjectDescription& object, const ModelStore& models, double length)
+  const SceneDescription& scene, ObjectDescription& object, const ModelLibrary& models, double length)
 {
   const int sequence = currentSequence(scene, object, models);
   if (sequence >= 0)

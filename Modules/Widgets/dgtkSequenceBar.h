@@ -4,7 +4,7 @@
 
 #include "dgtkWidgetsModule.h"
 
-#include "dgtkModelStore.h"
+#include "dgtkModelLibrary.h"
 
 #include <optional>
 #include <string>
@@ -24,20 +24,20 @@ struct SequenceBar
 
 /// None for an object whose model does not move, or was not loaded.
 DGTKWIDGETS_EXPORT std::optional<SequenceBar> sequenceBar(
-  const SceneDescription& scene, const ObjectDescription& object, const ModelStore& models);
+  const SceneDescription& scene, const ObjectDescription& object, const ModelLibrary& models);
 
 /// Sets the rate with which a sequence takes `length` > 0 frames of the scene. No change where there is no sequence, or
 /// one of a single pose.
 DGTKWIDGETS_EXPORT void setSequenceLength(
-  const SceneDescription& scene, ObjectDescription& object, const ModelStore& models, double length);
+  const SceneDescription& scene, ObjectDescription& object, const ModelLibrary& models, double length);
 
 /// Names of the sequences that the object's model has.
 DGTKWIDGETS_EXPORT std::vector<std::string> sequencesOf(
-  const SceneDescription& scene, const ObjectDescription& object, const ModelStore& models);
+  const SceneDescription& scene, const ObjectDescription& object, const ModelLibrary& models);
 
 /// Index of the one that is shown, -1 without any.
 DGTKWIDGETS_EXPORT int currentSequence(
-  const SceneDescription& scene, const ObjectDescription& object, const ModelStore& models);
+  const SceneDescription& scene, const ObjectDescription& object, const ModelLibrary& models);
 
 } // namespace dgtk
 

@@ -8,7 +8,7 @@ namespace dgtk
 
 void PropertiesPanel::buildSequence(std::size_t index)
 {
-  const ModelStore& models = this->State.document().models();
+  const ModelLibrary& models = this->State.document().models();
   const std::vector<std::string> names = sequencesOf(this->State.scene(), this->State.scene().objects[index], models);
   if (names.empty())
   {

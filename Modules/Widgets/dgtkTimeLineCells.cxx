@@ -193,7 +193,7 @@ void TimeLineCells::pasteKey(bool move)
 
 void TimeLineCells::changeBar(SceneItem item, const SequenceBar& bar, bool start)
 {
-  const ModelStore& models = this->State.document().models();
+  const ModelLibrary& models = this->State.document().models();
   this->State.attempt(
     [&]
     {

@@ -105,7 +105,7 @@ void TimeLineCells::addSequences(QMenu& menu, const Row& row)
   }
   const SceneDescription& scene = this->State.scene();
   const SceneItem item = row.item;
-  const ModelStore& models = this->State.document().models();
+  const ModelLibrary& models = this->State.document().models();
   QMenu* const sequences = menu.addMenu(tr("&Sequence"));
   sequences->setObjectName("sequence");
   const auto change = [this, item](const char* text, const std::function<void(AnimationDescription&)>& act)

@@ -19,19 +19,11 @@ namespace
 {
 constexpr int mostInALine = 14; // letters of a name and its unit
 
-double valueOf(const PixelTruth& truth, const char* layer)
+/// What the panel says in words of its own, or with the values that it belongs to.
+bool isSaid(Meaning meaning)
 {
-  for (const PixelValue& value : truth.values)
-  {
-    if (value.spec.name == layer)
-    {
-      return value.values.front();
-    }
-  }
-  return 0;
+  return meaning == Meaning::Class || meaning == Meaning::Index || meaning == Meaning::Visibility;
 }
-
-QString idText(const PixelTruth& truth, const char* layer) { return QString::number(valueOf(truth, layer), 'f', 0); }
 } // namespace
 
 QString exactText(double value)
@@ -115,7 +107,7 @@ void TruthPanel::showTruth(const QString& view, const PixelTruth& truth, const Q
     return;
   }
   this->setRow(tr("Object"),
-    truth.object.empty() ? tr("nothing") : tr("%1 (id %2)").arg(toText(truth.object), idText(truth, "objects")));
+    truth.object.empty() ? tr("nothing") : tr("%1 (id %2)").arg(toText(truth.object), QString::number(truth.id)));
   if (!truth.object.empty())
   {
     if (!truth.className.empty())
@@ -123,8 +115,8 @@ void TruthPanel::showTruth(const QString& view, const PixelTruth& truth, const Q
       this->setRow(tr("Class"), toText(truth.className));
     }
     this->setRow(tr("Part"),
-      tr("%1 (id %2)").arg(truth.part.empty() ? tr("unnamed") : toText(truth.part), idText(truth, "parts")));
-    this->setRow(tr("Triangle"), exactText(valueOf(truth, "triangles")));
+      tr("%1 (id %2)").arg(truth.part.empty() ? tr("unnamed") : toText(truth.part), QString::number(truth.partId)));
+    this->setRow(tr("Triangle"), QString::number(truth.triangle));
     this->showValues(truth, units);
   }
   this->setRow(tr("Surfaces"), QString::number(truth.layers.size()));
@@ -143,7 +135,8 @@ void TruthPanel::showValues(const PixelTruth& truth, const QString& units)
   {
     const PixelValue& value = truth.values[i];
     const QString name = toText(value.spec.name);
-    if (name == "objects" || name == "classes" || name == "parts" || name == "triangles" || name.endsWith("_class"))
+    const bool coverage = value.spec.meaning == Meaning::Id && value.values.size() == 4;
+    if (isSaid(value.spec.meaning) || (value.spec.meaning == Meaning::Id && !coverage))
     {
       continue;
     }
@@ -154,11 +147,11 @@ void TruthPanel::showValues(const PixelTruth& truth, const QString& units)
     const bool bare = unit == "1" || unit == "id" || numbers == "-";
     QString text = numbers;
     const QString what = QString(name).replace('_', ' ');
-    if (numbers != "-" && i + 1 < truth.values.size() && truth.values[i + 1].spec.name == value.spec.name + "_class")
+    if (numbers != "-" && i + 1 < truth.values.size() && truth.values[i + 1].spec.meaning == Meaning::Visibility)
     {
       text += '\n' + visibilityText(static_cast<std::uint32_t>(truth.values[i + 1].values.front()));
     }
-    if (name == "alpha")
+    if (coverage)
     {
       const std::vector<double>& v = value.values;
       text = tr("id %1, coverage %2 / 255").arg(v[0] * 65536 + v[1] * 256 + v[2]).arg(v[3]);

@@ -137,10 +137,7 @@ const CameraDescription* TruthView::camera() const
   return &*this->Through;
 }
 
-QString TruthView::shown() const
-{
-  return this->Through && this->Layer.isEmpty() ? QStringLiteral("surface") : this->Layer;
-}
+QString TruthView::shown() const { return this->Through && this->Layer.isEmpty() ? QString(draftLayer) : this->Layer; }
 
 void TruthView::showSubject()
 {
@@ -154,7 +151,7 @@ void TruthView::showSubject()
     this->View3D->setCovered(!shown.isEmpty());
   }
   // Values of a box that stands for a model are nobody's.
-  this->View3D->showDraft(shown.isEmpty() || shown == "surface" || !this->State.document().absent().empty());
+  this->View3D->showDraft(shown.isEmpty() || shown == draftLayer || !this->State.document().absent().empty());
   this->View3D->setPictureRays(
     this->Through ? [this](const QPoint& position) { return this->rayAt(position); } : SceneView::PictureRays());
   this->Subject->setText(this->Through ? tr("through camera %1").arg(toText(this->Through->name)) : QString());
@@ -176,15 +173,17 @@ std::optional<LiveQuestion> TruthView::question()
   question.frame = this->State.frame();
   if (const CameraDescription* const camera = this->camera())
   {
-    question.view = this->Scene->view(*camera, question.frame);
-    const CameraModel& model = *question.view.now.model;
+    question.camera = *camera;
+    const View view = viewOf(question);
+    const CameraModel& model = *view.model;
     question.finest =
       std::max(1, std::max(model.width() / this->View3D->width(), model.height() / this->View3D->height()));
   }
   else
   {
-    question.view =
-      liveView(this->View3D->camera(), this->Views.places().box, this->View3D->width(), this->View3D->height());
+    question.camera = liveCamera(this->View3D->camera(), this->Views.places().box);
+    question.width = this->View3D->width();
+    question.height = this->View3D->height();
   }
   return question;
 }
@@ -213,7 +212,8 @@ void TruthView::ask()
     {
       if (const std::optional<LiveQuestion> asked = this->question())
       {
-        const CameraModel& model = *asked->view.now.model;
+        const View view = viewOf(*asked);
+        const CameraModel& model = *view.model;
         this->Truth.askPicture(*asked, this->shown().toStdString(),
           [this, layer = this->shown(), size = QSize(model.width(), model.height()), number](const LivePicture& picture)
           {
@@ -242,7 +242,7 @@ void TruthView::receive(const LivePicture& picture, const QString& layer, const 
   {
     return;
   }
-  QString caption = layer == "surface" ? tr("draft of the colours, without shadows and bumps") : layer;
+  QString caption = layer == draftLayer ? tr("draft of the colours, without shadows and bumps") : layer;
   if (!picture.message.empty())
   {
     caption += ": " + messageText(picture.message);
@@ -279,12 +279,12 @@ std::optional<WorldRay> TruthView::rayAt(const QPoint& position)
   try
   {
     const std::optional<LiveQuestion> asked = this->question();
-    const std::optional<QPoint> pixel = asked ? this->pixelAt(position, *asked->view.now.model) : std::nullopt;
+    const View view = asked ? viewOf(*asked) : View();
+    const std::optional<QPoint> pixel = asked ? this->pixelAt(position, *view.model) : std::nullopt;
     if (!pixel)
     {
       return std::nullopt;
     }
-    const View& view = asked->view.now;
     const CameraRay ray = view.model->rayThrough({ pixel->x() + 0.5, pixel->y() + 0.5 });
     const Rigid3 world_from_camera = view.camera_from_world.inverse();
     return WorldRay{ world_from_camera * ray.origin, world_from_camera.rotation * ray.direction, view.near, view.far };
@@ -307,7 +307,7 @@ void TruthView::askPixel(const QPoint& position)
   {
     return;
   }
-  const std::optional<QPoint> pixel = this->pixelAt(position, *asked->view.now.model);
+  const std::optional<QPoint> pixel = this->pixelAt(position, *viewOf(*asked).model);
   if (!pixel)
   {
     return;

@@ -46,7 +46,7 @@ SceneDescription family()
   return scene;
 }
 
-ScenePlaces placesOf(const SceneDescription& scene, int frame = 0) { return placeScene(scene, ModelStore(), frame); }
+ScenePlaces placesOf(const SceneDescription& scene, int frame = 0) { return placeScene(scene, ModelLibrary(), frame); }
 
 Affine3 worldOf(const SceneDescription& scene, std::size_t object)
 {

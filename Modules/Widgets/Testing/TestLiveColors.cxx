@@ -43,14 +43,16 @@ ImageData rendered(const std::string& scene, int frame, const std::string& folde
 LayerPicture drafted(const std::string& file, int frame)
 {
   const SceneDescription scene = readScene(file);
-  ModelStore models;
+  ModelLibrary models;
   models.load(scene);
   LiveQuestion question;
   question.scene = std::make_shared<LiveScene>(scene, models);
   question.frame = frame;
-  question.view = question.scene->view(scene.cameras.front(), frame, width, height);
+  question.camera = scene.cameras.front();
+  question.width = width;
+  question.height = height;
   ThreadPool pool(1);
-  return livePicture(question, "surface", 1, pool).picture;
+  return livePicture(question, draftLayer, 1, pool).picture;
 }
 
 /// The largest difference between the mean colours of squares of both pictures, of 255.

@@ -154,7 +154,7 @@ TEST(LiveMatch, IsTheDatasetsAtEveryPixel)
   const ImageData classes = readLayerFile(folder.path("out/left/correspondence_right/000000.png"));
 
   const SceneDescription scene = readScene(file);
-  ModelStore models;
+  ModelLibrary models;
   models.load(scene);
   const LiveScene live(scene, models);
   const auto camera = [&](const char* name)
@@ -163,7 +163,7 @@ TEST(LiveMatch, IsTheDatasetsAtEveryPixel)
     {
       if (one.name == name)
       {
-        return MatchView{ live.view(one, 0, 80, 60).now, 0 };
+        return MatchView{ live.view(one, 0, 80, 60), 0 };
       }
     }
     throw std::runtime_error(name);

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkLiveTruth.h"
 
+#include "dgtkDatasetDocuments.h"
+#include "dgtkError.h"
 #include "dgtkGenerator.h"
 #include "dgtkLayerReader.h"
-#include "dgtkRepresentation.h"
 #include "dgtkTestSupport.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <future>
+#include <map>
 #include <mutex>
+#include <set>
 #include <thread>
 
 namespace
@@ -25,81 +29,104 @@ constexpr int height = 72;
 LiveQuestion questionOf(const std::string& file, std::size_t camera, int frame, int w = width, int h = height)
 {
   const SceneDescription scene = readScene(sourceFile(file));
-  ModelStore models;
+  ModelLibrary models;
   models.load(scene);
   LiveQuestion question;
   question.scene = std::make_shared<LiveScene>(scene, models);
   question.frame = frame;
-  question.view = question.scene->view(scene.cameras[camera], frame, w, h);
+  question.camera = scene.cameras[camera];
+  question.width = w;
+  question.height = h;
   return question;
 }
 
-/// The dataset of one camera at frame 1, each layer in the format that keeps its values.
+/// All layers of all cameras at frame 1, each in the format that keeps its values.
 void render(const std::string& file, const std::string& folder)
 {
   GeneratorRequest request;
   request.scene = sourceFile(file);
   request.folder = folder;
-  request.layers = { "flow_forward", "flow_backward", "sceneflow", "alpha" };
-  for (const RepresentationInfo& info : representations())
+  request.layers = { "all" };
+  for (const LayerInfo& info : generatorLayers())
   {
-    request.layers.push_back(info.layer);
-    request.options[info.layer + "_format"] = "npy";
+    if (info.formats.size() > 1 && std::find(info.formats.begin(), info.formats.end(), "npy") != info.formats.end())
+    {
+      request.options[info.layer + "_format"] = "npy";
+    }
   }
-  request.options["flow_forward_format"] = request.options["flow_backward_format"] = "npy";
   request.frames = FrameRange{ 1, 1, 1 };
   request.width = width;
   request.height = height;
   request.options["samples"] = "4";
-  request.options["visibility"] = "ray";
   request.options["threads"] = "1";
   generate(request);
 }
 
-/// Path of the file of a layer; classes lie beside their flow.
-std::string fileOf(const std::string& folder, const std::string& layer)
+/// The files of the first camera, by the names of their images; several of one name are those of several cameras.
+std::multimap<std::string, std::string> filesOf(const std::string& folder, const std::string& camera)
 {
-  const std::size_t end = layer.find("_class");
-  const bool image = end != std::string::npos || layer == "alpha";
-  return folder + "/camera/" + layer.substr(0, end) + "/000001." + (image ? "png" : "npy");
+  std::multimap<std::string, std::string> files;
+  for (const DatasetFile& file : readManifestIn(folder).files)
+  {
+    if (file.camera == camera)
+    {
+      files.emplace(file.layer, folder + '/' + file.path);
+    }
+  }
+  return files;
 }
 
-TEST(LiveTruth, IsTheDatasetBitForBit)
+/// Every layer of the registry is seen live as in its file, or refused in words.
+TEST(LiveTruth, EveryLayerIsTheDatasetBitForBit)
 {
-  const char* const file = "Data/Scenes/dataset_flow.json";
+  const char* const scene = "Data/Scenes/demo.json";
   const test::TemporaryFolder folder;
-  render(file, folder.path("out"));
-  const LiveQuestion question = questionOf(file, 0, 1);
+  render(scene, folder.path("out"));
+  const LiveQuestion question = questionOf(scene, 0, 1);
+  const auto files = filesOf(folder.path("out"), question.camera.name);
   ThreadPool pool(1);
-  LiveEye eye(question.scene, 1, question.view, pool);
+  LiveEye eye(question, 1, pool);
   VisibilityBuffer hits;
-  eye.trace({ 0, 0, width, height }, hits);
-  int layers = 0;
+  ASSERT_TRUE(eye.trace(0, height, hits));
+  std::set<std::string> shown;
   for (const LiveLayer& layer : liveLayers())
   {
-    if (layer.name == "surface")
+    shown.insert(layer.name);
+    if (layer.name == draftLayer)
     {
       continue;
     }
-    const ImageData stored = readLayerFile(fileOf(folder.path("out"), layer.name));
+    EXPECT_EQ(eye.missing(layer.name), "") << layer.name;
+    ASSERT_EQ(files.count(layer.name), 1u) << layer.name;
+    const ImageData stored = readLayerFile(files.find(layer.name)->second);
     const Rows live = eye.values(layer.name, hits);
     ASSERT_EQ(live.type(), stored.pixels.type()) << layer.name;
     ASSERT_EQ(live.bytes(), stored.pixels.bytes()) << layer.name;
     EXPECT_EQ(std::memcmp(live.data(), stored.pixels.data(), live.bytes()), 0) << layer.name;
-    ++layers;
   }
-  EXPECT_GE(layers, 19);
+  int refused = 0;
+  for (const LayerInfo& info : generatorLayers())
+  {
+    refused += liveRefusal(info).empty() ? 0 : 1;
+    for (const LayerRecord& record : info.records)
+    {
+      EXPECT_EQ(shown.count(record.spec.name) == 1, liveRefusal(info).empty()) << record.spec.name;
+    }
+  }
+  EXPECT_EQ(refused, 12) << "a new layer is seen live, or this number says that it is not";
+  EXPECT_THROW(eye.values("color", hits), UsageError);
 }
 
 TEST(LiveTruth, APixelIsThePictures)
 {
   const LiveQuestion question = questionOf("Data/Scenes/dataset_flow.json", 0, 1);
   ThreadPool pool(1);
-  LiveEye eye(question.scene, 1, question.view, pool);
+  LiveEye eye(question, 1, pool);
   VisibilityBuffer hits;
-  eye.trace({ 0, 0, width, height }, hits);
+  eye.trace(0, height, hits);
   const Rows depth = eye.values("depth", hits);
   const Rows flow = eye.values("flow_forward", hits);
+  const Rows edges = eye.values("edges", hits);
   int surfaces = 0;
   for (int row = 5; row < height; row += 16)
   {
@@ -121,6 +148,7 @@ TEST(LiveTruth, APixelIsThePictures)
       EXPECT_EQ(value("objects").at(0), hit.object);
       EXPECT_EQ(value("depth").at(0), depth.row<double>(row)[column]);
       EXPECT_EQ(truth.object.empty(), hit.object == 0);
+      EXPECT_EQ(truth.id, hit.object);
       ASSERT_EQ(truth.layers.empty(), hit.object == 0);
       if (hit.object != 0)
       {
@@ -128,6 +156,9 @@ TEST(LiveTruth, APixelIsThePictures)
         EXPECT_EQ(value("flow_forward").at(0), flow.row<double>(row)[2 * column]);
         EXPECT_EQ(truth.layers.front().depth, value("depth").at(0));
         EXPECT_EQ(truth.layers.front().triangle, value("triangles").at(0));
+        EXPECT_EQ(truth.triangle, value("triangles").at(0));
+        EXPECT_EQ(truth.partId, value("parts").at(0));
+        EXPECT_EQ(value("edges").at(0), edges.row<std::uint8_t>(row)[column]) << "of three rows only";
         EXPECT_EQ(truth.layers.front().object, truth.object);
         for (std::size_t i = 1; i < truth.layers.size(); ++i)
         {
@@ -148,8 +179,8 @@ TEST(LiveTruth, FlowNeedsAFrameBeside)
   EXPECT_TRUE(livePicture(last, "flow_backward", 1, pool).message.empty());
   for (const PixelValue& value : pixelTruth(last, 48, 36, pool).values)
   {
-    EXPECT_EQ(std::isnan(value.values[0]), value.spec.name == "flow_forward" || value.spec.name == "sceneflow")
-      << value.spec.name;
+    static const std::set<std::string> others{ "flow_forward", "sceneflow", "correspondence", "disparity" };
+    EXPECT_EQ(std::isnan(value.values[0]), others.count(value.spec.name) == 1) << value.spec.name;
   }
 }
 
@@ -212,7 +243,7 @@ TEST(LiveTruth, TheNewestQuestionHasTheLastWord)
 TEST(LiveScene, AChangeKeepsWhatItDidNotTouch)
 {
   SceneDescription scene = readScene(sourceFile("Data/Scenes/dataset_stereo.json"));
-  ModelStore models;
+  ModelLibrary models;
   models.load(scene);
   auto first = std::make_unique<LiveScene>(scene, models);
   const LiveScene::Moment before = first->at(0);
@@ -234,7 +265,12 @@ TEST(LiveView, IsTheEyeOfTheView)
   box.add(Eigen::Vector3d(5, 2, 4));
   camera.frame(box, 1.5);
   camera.orbit(20, 10);
-  const View view = liveView(camera, box, 300, 200).now;
+  LiveQuestion question;
+  question.scene = std::make_shared<LiveScene>(SceneDescription(), ModelLibrary());
+  question.camera = liveCamera(camera, box);
+  question.width = 300;
+  question.height = 200;
+  const View view = viewOf(question);
   const Rigid3 world_from_camera = view.camera_from_world.inverse();
   for (const Eigen::Vector2d& pixel : { Eigen::Vector2d(0, 0), { 10.5, 180.25 }, { 150, 100 }, { 299, 3 } })
   {

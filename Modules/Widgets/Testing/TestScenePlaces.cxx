@@ -23,7 +23,7 @@ TEST(ScenePlaces, AreThoseOfTheStage)
   {
     const SceneDescription scene = readScene(sourceFile(std::string("Data/Scenes/") + name));
     const std::shared_ptr<const Stage> stage = Stage::load(scene);
-    ModelStore models;
+    ModelLibrary models;
     models.load(scene);
     for (const double frame : { 0.0, 1.0, 1.5, 40.0 })
     {
@@ -57,7 +57,7 @@ TEST(ScenePlaces, AreThoseOfTheStage)
 TEST(ScenePlaces, PickingFindsWhatARendererSees)
 {
   const SceneDescription scene = readScene(sourceFile("Data/Scenes/parenting.json"));
-  ModelStore models;
+  ModelLibrary models;
   models.load(scene);
   const ScenePlaces places = placeScene(scene, models, 0);
   const std::shared_ptr<const Stage> stage = Stage::load(scene);
@@ -91,7 +91,7 @@ TEST(ScenePlaces, CamerasAndLightsArePickedByTheirPlace)
   scene.cameras.resize(1);
   scene.lights.resize(1);
   scene.lights[0].position = Eigen::Vector3d(0, 0, -10);
-  const ScenePlaces places = placeScene(scene, ModelStore(), 0);
+  const ScenePlaces places = placeScene(scene, ModelLibrary(), 0);
   const auto camera = pickItem(places, { { 0.05, 0, 20 }, { 0, 0, -1 }, 0 }, { 0.1, 0 });
   ASSERT_TRUE(camera.has_value());
   EXPECT_EQ(camera->kind, SceneItem::Kind::Camera);
@@ -107,7 +107,7 @@ TEST(ScenePlaces, ACameraIsNotPickedByItsOwnEye)
   scene.cameras.resize(2);
   scene.cameras[0].eye = Eigen::Vector3d(0.1, 7, 3.3);
   scene.cameras[1].eye = Eigen::Vector3d(0, 0, 0);
-  const ScenePlaces places = placeScene(scene, ModelStore(), 0);
+  const ScenePlaces places = placeScene(scene, ModelLibrary(), 0);
   ViewCamera eye(ViewKind::Perspective);
   eye.look(scene.cameras[0].eye.value, scene.cameras[1].eye.value);
   const PickReach reach = eye.reach(8, 300);
@@ -125,7 +125,7 @@ TEST(ScenePlaces, NothingIsPickedBeyondTheRaysEnd)
   SceneDescription scene;
   scene.lights.resize(1);
   scene.lights[0].position = Eigen::Vector3d(0, 0, -10);
-  const ScenePlaces places = placeScene(scene, ModelStore(), 0);
+  const ScenePlaces places = placeScene(scene, ModelLibrary(), 0);
   EXPECT_TRUE(pickItem(places, { { 0, 0, 0 }, { 0, 0, -1 }, 0, 10.1 }, { 0.1, 0 }).has_value());
   EXPECT_FALSE(pickItem(places, { { 0, 0, 0 }, { 0, 0, -1 }, 0, 9.9 }, { 0.1, 0 }).has_value());
 }

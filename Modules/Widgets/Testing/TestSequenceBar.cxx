@@ -107,11 +107,11 @@ TEST(SequenceBar, UnknownSequencesAreRefusedAndNothingIsReadAgain)
   EXPECT_EQ(document.models().size(), 1u);
 }
 
-TEST(ModelStore, StopsBetweenFilesAndIsThenAsBefore)
+TEST(ModelLibrary, StopsBetweenFilesAndIsThenAsBefore)
 {
   SceneDocument document;
   document.open(sourceFile("Data/Scenes/demo.json"));
-  ModelStore store;
+  ModelLibrary store;
   std::size_t asked = 0;
   std::size_t files = 0;
   const bool done = store.load(document.scene(),

@@ -174,12 +174,20 @@
 <context>
     <name>Message</name>
     <message>
-        <source>the first frame has none before it</source>
-        <translation>das erste Bild hat keins vor sich</translation>
+        <source>it needs a frame of the scene after the picture&apos;s own</source>
+        <translation>dafür braucht es ein Bild der Szene nach diesem</translation>
     </message>
     <message>
-        <source>the last frame has none after it</source>
-        <translation>das letzte Bild hat keins nach sich</translation>
+        <source>it needs a frame of the scene before the picture&apos;s own</source>
+        <translation>dafür braucht es ein Bild der Szene vor diesem</translation>
+    </message>
+    <message>
+        <source>it needs another camera in the run, or a pair of cameras that ends within the frames of the scene</source>
+        <translation>dafür braucht es eine weitere Kamera</translation>
+    </message>
+    <message>
+        <source>it needs two cameras side by side: the same K but cx, the same orientation, displaced along the x axis</source>
+        <translation>dafür braucht es zwei Kameras nebeneinander: gleiches K bis auf cx, gleich ausgerichtet, entlang der x-Achse versetzt</translation>
     </message>
     <message>
         <source>the pixel is outside the image</source>
@@ -2037,26 +2045,6 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
         <translation>&amp;Keine</translation>
     </message>
     <message>
-        <source>Images are made in tiles of this size, pixels: larger ones need more memory</source>
-        <translation>Bilder entstehen in Kacheln dieser Größe, Pixel: größere brauchen mehr Speicher</translation>
-    </message>
-    <message>
-        <source>Tile &amp;width</source>
-        <translation>Ka&amp;chelbreite</translation>
-    </message>
-    <message>
-        <source>Tile hei&amp;ght</source>
-        <translation>Kac&amp;helhöhe</translation>
-    </message>
-    <message>
-        <source>Samples a si&amp;de</source>
-        <translation>&amp;Proben je Seite</translation>
-    </message>
-    <message>
-        <source>Rays in a row and in a column of each pixel of colour and alpha: 4 are 16 rays a pixel</source>
-        <translation>Strahlen in einer Zeile und einer Spalte jedes Pixels von Farbe und Alpha: 4 sind 16 Strahlen je Pixel</translation>
-    </message>
-    <message>
         <source>&amp;First frame</source>
         <translation>&amp;Erstes Bild</translation>
     </message>
@@ -2101,28 +2089,8 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
         <translation>&amp;Start</translation>
     </message>
     <message>
-        <source>Name the objects of the layer matting, or uncheck it.</source>
-        <translation>Nenne die Objekte der Ebene matting, oder wähle sie ab.</translation>
-    </message>
-    <message>
-        <source>objects, separated by commas</source>
-        <translation>Objekte, durch Kommas getrennt</translation>
-    </message>
-    <message>
-        <source>&amp;Matting of</source>
-        <translation>Matting &amp;von</translation>
-    </message>
-    <message>
         <source>Stopping ... Cancel again ends what is being drawn, too.</source>
         <translation>Wird angehalten ... Noch einmal Abbrechen beendet auch, was gerade gezeichnet wird.</translation>
-    </message>
-    <message>
-        <source>Matting of</source>
-        <translation>Freistellen von</translation>
-    </message>
-    <message>
-        <source>First and last frame</source>
-        <translation>Erstes und letztes Bild</translation>
     </message>
     <message>
         <source> (%1 of %2 pictures)</source>
@@ -2183,6 +2151,17 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
     <message>
         <source>Another program is rendering into this folder.</source>
         <translation>Ein anderes Programm rechnet in diesen Ordner.</translation>
+    </message>
+    <message>
+        <source>Options</source>
+        <translation>Optionen</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::RenderOptions</name>
+    <message>
+        <source>File formats</source>
+        <translation>Dateiformate</translation>
     </message>
 </context>
 <context>

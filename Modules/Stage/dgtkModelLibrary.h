@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef dgtkModelStore_h
-#define dgtkModelStore_h
+#ifndef dgtkModelLibrary_h
+#define dgtkModelLibrary_h
 
-#include "dgtkWidgetsModule.h"
+#include "dgtkStageModule.h"
 
+#include "dgtkModelSource.h"
 #include "dgtkStage.h"
 
 #include <cstddef>
@@ -17,9 +18,6 @@
 namespace dgtk
 {
 
-class GeometryCache;
-struct EnvironmentLight;
-
 /// Called between files with how many are read, of how many; false stops.
 using LoadProgress = std::function<bool(std::size_t done, std::size_t total)>;
 
@@ -30,12 +28,13 @@ enum class AbsentModel
   Box ///< of 1 x 1 x 1, grey, about the origin
 };
 
-/// The models of a scene that changes, as Stage prepares them (materials replaced), and their motion. Objects that
-/// differ in nothing but their place and time share everything; what was loaded once stays for undo.
-class DGTKWIDGETS_EXPORT ModelStore
+/// A library of models that grows: those of a scene that changes, as Stage::load() prepares them (materials replaced),
+/// and their motion. Objects that differ in nothing but their place and time share everything; what was loaded once
+/// stays for undo.
+class DGTKSTAGE_EXPORT ModelLibrary : public ModelSource
 {
 public:
-  ModelStore();
+  ModelLibrary();
 
   /// Loads what the scene needs beyond what is there. Throws what Stage::load throws, but for an environment that
   /// cannot be read: that is a warning. The store is then as before; also when the result is false, because `progress`
@@ -48,7 +47,7 @@ public:
   /// What is wrong with what was loaded, one line each, in the order in which it was found. Lines are only added.
   const std::vector<std::string>& warnings() const { return this->Warnings; }
   /// Takes over what another store has loaded.
-  void adopt(const ModelStore& other);
+  void adopt(const ModelLibrary& other);
 
   /// The object's geometry and materials at a frame; world_from_object is without meaning. `model` is null for a model
   /// without triangles, and for one that was not loaded.
@@ -56,13 +55,10 @@ public:
   /// The object's model, also one without triangles; null for one that was not loaded.
   std::shared_ptr<const Model> modelOf(const SceneDescription& scene, const ObjectDescription& object) const;
 
-  /// The scene's environment and what surfaces get from it; nulls for none, and for one that was not loaded.
-  struct Environment
-  {
-    std::shared_ptr<const EnvironmentState> state;
-    std::shared_ptr<const EnvironmentLight> light;
-  };
-  Environment environment(const SceneDescription& scene) const;
+  ObjectLook lookOf(const SceneDescription& scene, const ObjectDescription& object) const override;
+  /// Null also for one that was not loaded.
+  std::shared_ptr<const EnvironmentState> environment(const SceneDescription& scene) const override;
+  std::shared_ptr<GeometryCache> geometries() const override { return this->Moving; }
 
   /// Number of different models with their materials.
   std::size_t size() const { return this->Entries.size(); }
@@ -81,13 +77,14 @@ private:
   static void loadFile(
     SceneDescription wanted, const std::vector<std::string>& keys, EntryMap& into, const Stage::WarningSink& warning);
   static std::string environmentKey(const SceneDescription& scene);
-  static Environment readEnvironment(const SceneDescription& scene, const Stage::WarningSink& warning);
+  static std::shared_ptr<const EnvironmentState> readEnvironment(
+    const SceneDescription& scene, const Stage::WarningSink& warning);
   void addWarnings(const std::vector<std::string>& lines);
   void take(const EntryMap& entries);
   static const Entry* find(const EntryMap& entries, const std::string& key);
 
   EntryMap Entries;
-  std::map<std::string, Environment> Environments;
+  std::map<std::string, std::shared_ptr<const EnvironmentState>> Environments;
   std::set<std::string> Absent; ///< files
   std::vector<std::string> Warnings;
   std::shared_ptr<GeometryCache> Moving;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkModelStore.h"
+#include "dgtkModelLibrary.h"
 
-#include "dgtkEnvironmentLight.h"
 #include "dgtkError.h"
 #include "dgtkModelClock.h"
 
@@ -87,12 +86,12 @@ SceneDescription environmentAlone(const SceneDescription& scene)
 }
 } // namespace
 
-ModelStore::ModelStore()
+ModelLibrary::ModelLibrary()
   : Moving(std::make_shared<GeometryCache>())
 {
 }
 
-std::string ModelStore::keyOf(const SceneDescription& scene, const ObjectDescription& object)
+std::string ModelLibrary::keyOf(const SceneDescription& scene, const ObjectDescription& object)
 {
   std::string key = scene.resolve(object.model);
   if (!object.materials.empty() || !object.skin.empty())
@@ -107,13 +106,13 @@ std::string ModelStore::keyOf(const SceneDescription& scene, const ObjectDescrip
   return key;
 }
 
-const ModelStore::Entry* ModelStore::find(const EntryMap& entries, const std::string& key)
+const ModelLibrary::Entry* ModelLibrary::find(const EntryMap& entries, const std::string& key)
 {
   const auto found = entries.find(key);
   return found == entries.end() ? nullptr : &found->second;
 }
 
-void ModelStore::loadFile(
+void ModelLibrary::loadFile(
   SceneDescription wanted, const std::vector<std::string>& keys, EntryMap& into, const Stage::WarningSink& warning)
 {
   std::vector<std::string> names;
@@ -130,7 +129,7 @@ void ModelStore::loadFile(
   }
 }
 
-bool ModelStore::load(const SceneDescription& scene, const LoadProgress& progress, AbsentModel absent)
+bool ModelLibrary::load(const SceneDescription& scene, const LoadProgress& progress, AbsentModel absent)
 {
   struct File
   {
@@ -178,7 +177,7 @@ bool ModelStore::load(const SceneDescription& scene, const LoadProgress& progres
       std::move(files[i].wanted), files[i].keys, loaded, [&](const std::string& line) { warnings.push_back(line); });
   }
   const std::string environment = environmentKey(scene);
-  std::map<std::string, Environment> surroundings;
+  std::map<std::string, std::shared_ptr<const EnvironmentState>> surroundings;
   if (!environment.empty() && this->Environments.count(environment) == 0)
   {
     surroundings[environment] = readEnvironment(scene, [&](const std::string& line) { warnings.push_back(line); });
@@ -203,34 +202,33 @@ bool ModelStore::load(const SceneDescription& scene, const LoadProgress& progres
   return true;
 }
 
-std::string ModelStore::environmentKey(const SceneDescription& scene)
+std::string ModelLibrary::environmentKey(const SceneDescription& scene)
 {
   return scene.environment.image.empty() ? std::string()
                                          : scene.folder + '\n' + toJson(environmentAlone(scene), scene.folder);
 }
 
-ModelStore::Environment ModelStore::readEnvironment(const SceneDescription& scene, const Stage::WarningSink& warning)
+std::shared_ptr<const EnvironmentState> ModelLibrary::readEnvironment(
+  const SceneDescription& scene, const Stage::WarningSink& warning)
 {
-  Environment read;
   try
   {
-    read.state = Stage::load(environmentAlone(scene))->at(0)->environment;
-    read.light = std::make_shared<EnvironmentLight>(environmentLight(*read.state->image, read.state->intensity));
+    return Stage::load(environmentAlone(scene))->at(0)->environment;
   }
   catch (const InputError& error)
   {
     warning(error.what());
+    return nullptr;
   }
-  return read;
 }
 
-ModelStore::Environment ModelStore::environment(const SceneDescription& scene) const
+std::shared_ptr<const EnvironmentState> ModelLibrary::environment(const SceneDescription& scene) const
 {
   const auto found = this->Environments.find(environmentKey(scene));
-  return found == this->Environments.end() ? Environment() : found->second;
+  return found == this->Environments.end() ? nullptr : found->second;
 }
 
-void ModelStore::addWarnings(const std::vector<std::string>& lines)
+void ModelLibrary::addWarnings(const std::vector<std::string>& lines)
 {
   std::set<std::string> known(this->Warnings.begin(), this->Warnings.end());
   for (const std::string& line : lines)
@@ -243,7 +241,7 @@ void ModelStore::addWarnings(const std::vector<std::string>& lines)
 }
 
 /// In place of boxes, too.
-void ModelStore::take(const EntryMap& entries)
+void ModelLibrary::take(const EntryMap& entries)
 {
   for (const auto& [key, entry] : entries)
   {
@@ -252,7 +250,7 @@ void ModelStore::take(const EntryMap& entries)
   }
 }
 
-void ModelStore::adopt(const ModelStore& other)
+void ModelLibrary::adopt(const ModelLibrary& other)
 {
   this->take(other.Entries);
   this->Environments.insert(other.Environments.begin(), other.Environments.end());
@@ -260,13 +258,13 @@ void ModelStore::adopt(const ModelStore& other)
   this->addWarnings(other.Warnings);
 }
 
-std::shared_ptr<const Model> ModelStore::modelOf(const SceneDescription& scene, const ObjectDescription& object) const
+std::shared_ptr<const Model> ModelLibrary::modelOf(const SceneDescription& scene, const ObjectDescription& object) const
 {
   const Entry* const entry = find(this->Entries, keyOf(scene, object));
   return entry == nullptr ? nullptr : entry->model;
 }
 
-std::vector<std::size_t> ModelStore::absent(const SceneDescription& scene) const
+std::vector<std::size_t> ModelLibrary::absent(const SceneDescription& scene) const
 {
   std::vector<std::size_t> objects;
   for (std::size_t i = 0; i < scene.objects.size() && !this->Absent.empty(); ++i)
@@ -280,27 +278,30 @@ std::vector<std::size_t> ModelStore::absent(const SceneDescription& scene) const
   return objects;
 }
 
-Instance ModelStore::at(const SceneDescription& scene, const ObjectDescription& object, double frame) const
+ObjectLook ModelLibrary::lookOf(const SceneDescription& scene, const ObjectDescription& object) const
 {
   const Entry* const entry = find(this->Entries, keyOf(scene, object));
-  if (entry == nullptr || entry->empty)
+  if (entry == nullptr)
   {
     return {};
   }
-  if (entry->stage == nullptr)
+  if (entry->stage == nullptr || entry->empty)
   {
-    Instance placeholder;
-    placeholder.model = entry->model;
-    placeholder.geometry = entry->model->rest;
-    placeholder.materials = std::shared_ptr<const std::vector<Material>>(entry->model, &entry->model->materials);
-    return placeholder;
+    return { entry->model, { entry->model, &entry->model->materials }, entry->stage == nullptr };
   }
-  Instance instance = entry->stage->at(0)->instances[entry->instance];
-  const int animation = entry->model->deformation ? findAnimation(scene, object, *entry->model) : -1;
-  if (animation >= 0)
+  const Instance& instance = entry->stage->at(0)->instances[entry->instance];
+  return { instance.model, instance.materials };
+}
+
+Instance ModelLibrary::at(const SceneDescription& scene, const ObjectDescription& object, double frame) const
+{
+  const ObjectLook look = this->lookOf(scene, object);
+  Instance instance;
+  if (look.model != nullptr && !look.model->triangles.empty())
   {
-    instance.geometry =
-      this->Moving->get(*entry->model, momentAt(object.animation, *entry->model, animation, frame, scene.fps));
+    instance.model = look.model;
+    instance.materials = look.materials;
+    instance.geometry = geometryAt(scene, object, *look.model, frame, *this->Moving);
   }
   return instance;
 }

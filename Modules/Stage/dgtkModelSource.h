@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkModelSource_h
+#define dgtkModelSource_h
+
+#include "dgtkModelClock.h"
+#include "dgtkSceneState.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// What an object looks like: its model with the materials that the scene gives it. Null: nothing is known.
+struct ObjectLook
+{
+  std::shared_ptr<const Model> model;
+  std::shared_ptr<const std::vector<Material>> materials;
+  bool standsIn = false; ///< for a model that is not there: without its animations
+};
+
+/// Where a stage has its models from: files, a library that grows, memory.
+class ModelSource
+{
+public:
+  virtual ~ModelSource() = default;
+  /// Objects that look the same share it. Throws InputError for an object that cannot look so.
+  virtual ObjectLook lookOf(const SceneDescription& scene, const ObjectDescription& object) const = 0;
+  /// Null for none.
+  virtual std::shared_ptr<const EnvironmentState> environment(const SceneDescription& scene) const = 0;
+  /// Of the models, which live as long as it does. Not null.
+  virtual std::shared_ptr<GeometryCache> geometries() const = 0;
+};
+
+} // namespace dgtk
+
+#endif
