@@ -453,6 +453,23 @@ TEST_F(PovLook, ModelsAreNotMadeForAView)
   EXPECT_THAT(readFile(this->path("m.pov")), Not(HasSubstr("texture_map")));
 }
 
+// Only where the triangle crosses the near plane does it have a width in the image: its far side is upright, on one
+// line.
+TEST_F(PovLook, TrianglesThatCrossTheNearPlaneAreLookedAtFromThereOn)
+{
+  this->V.camera_from_world = Rigid3();
+  const auto model = turnedAtItsFirstCorner();
+  auto geometry = std::make_shared<Geometry>(*model->rest);
+  geometry->positions = { { 0.3, 0, 1 }, { -3, 3, 10 }, { -3, -3, 10 } };
+  const auto& p = geometry->positions;
+  const Eigen::Vector3f normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized().cast<float>();
+  geometry->normals = { -normal, normal, normal };
+  model->rest = geometry;
+  this->State = *test::SceneBuilder().add(model).state();
+  this->V.near = 2;
+  EXPECT_THAT(this->write(), HasSubstr("texture_map"));
+}
+
 // Half of the way, up to a depth of 5.5, normals face away.
 TEST_F(PovLook, WhatIsNearerThanTheNearPlaneNeedsNoTextureOfTheView)
 {
