@@ -97,6 +97,24 @@ TEST(GltfTables, MetalAndRoughnessAsHighlights)
 }
 
 // A turn about z whose quaternion is written in each type of component; and the largest number of each is 1.
+TEST(GltfTables, ScalesOfMapsAreKeptWithinTheirLimits)
+{
+  const std::tuple<double, double, double, double> table[] = { { -2, -2, 0.25, 0.25 }, { 0.5, 0.5, 0, 0 },
+    { 5000, 1000, 2, 1 }, { -5000, -1000, -1, 0 } };
+  for (const auto& [scale, expectedScale, strength, expectedStrength] : table)
+  {
+    GltfMaker maker = triangle();
+    maker.json["images"] = { { { "uri", "none.png" } } };
+    maker.json["textures"] = { { { "source", 0 } } };
+    maker.json["materials"] = { { { "normalTexture", { { "index", 0 }, { "scale", scale } } },
+      { "occlusionTexture", { { "index", 0 }, { "strength", strength } } } } };
+    maker.json["meshes"][0]["primitives"][0]["material"] = 0;
+    const dgtk::Material m = readBytes("gltf", maker.gltf())->materials.at(0);
+    EXPECT_NEAR(m.normalScale, expectedScale, floatTolerance);
+    EXPECT_NEAR(m.occlusionStrength, expectedStrength, floatTolerance);
+  }
+}
+
 TEST(GltfTables, NormalisedNumbersOfEveryType)
 {
   const double c = std::cos(0.5), s = std::sin(0.5);

@@ -114,6 +114,25 @@ TEST(TextLines, TextsBecomeValidUtf8)
   EXPECT_EQ(dgtk::validUtf8("\xe4\xb8"), "\xc3\xa4\xc2\xb8");             // cut short
 }
 
+TEST(TextLines, TextsOfTwoByteCharacters)
+{
+  // a, Ae, euro, and a face beyond 16 bits
+  const std::string expected = "a\xc3\x84\xe2\x82\xac\xf0\x9f\x98\x80";
+  const std::string little("a\0\xc4\0\xac\x20\x3d\xd8\x00\xde", 10);
+  std::string big = little;
+  for (std::size_t i = 0; i < big.size(); i += 2)
+  {
+    std::swap(big[i], big[i + 1]);
+  }
+  EXPECT_EQ(dgtk::toUtf8("\xff\xfe" + little), expected);
+  EXPECT_EQ(dgtk::toUtf8("\xfe\xff" + big), expected);
+  EXPECT_EQ(dgtk::toUtf8(little), expected) << "without a mark";
+  EXPECT_EQ(dgtk::toUtf8(big), expected);
+  EXPECT_EQ(dgtk::toUtf8("\xef\xbb\xbf" + expected), expected);
+  EXPECT_EQ(dgtk::toUtf8(expected), expected);
+  EXPECT_EQ(dgtk::toUtf8(little.substr(0, 9)), expected.substr(0, 6) + "\xed\xa0\xbd") << "cut within the last one";
+}
+
 TEST(TextLines, WordsAndLines)
 {
   const std::string text = "a  \"b c\"\td\r\n\r\n\"open\rlast";

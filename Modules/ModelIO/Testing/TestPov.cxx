@@ -373,6 +373,17 @@ TEST(Pov, RepetitionIsBounded)
     text += "#declare A" + std::to_string(i) + " = union { object { " + before + " } object { " + before + " } }\n";
   }
   EXPECT_THAT(refusal("pov", text), HasSubstr("has too many objects"));
+  std::string copies = "#declare A = mesh { " + oneTriangle + "}\n#declare B = union {";
+  for (int i = 0; i < 1000; ++i)
+  {
+    copies += " object { A }";
+  }
+  copies += " }\n";
+  for (int i = 0; i < 50; ++i)
+  {
+    copies += "#declare B" + std::to_string(i) + " = B\n";
+  }
+  EXPECT_THAT(refusal("pov", copies), HasSubstr("has too many objects"));
   const TemporaryFolder folder;
   const std::string scene = writeFiles(folder, { { "scene.pov", "#include \"scene.pov\"\n" } });
   try

@@ -216,6 +216,31 @@ TEST(TextureFile, PcxOfThreePlanes)
   EXPECT_EQ(texel(*image, 1, 0), (std::vector<int>{ 2, 4, 6, 255 }));
 }
 
+TEST(TextureFile, HeadersOfPcx)
+{
+  const std::string sound = pcx(3, 2, std::string(8, '\1'));
+  struct Row
+  {
+    std::size_t at;
+    std::string bytes;
+    const char* problem; ///< "" for none
+  };
+  const Row table[] = { { 1, "\3", "" }, { 0, "\xb", "is not an 8-bit" },
+    { 2, std::string(1, '\0'), "is not an 8-bit" }, { 3, "\4", "is not an 8-bit" }, { 65, "\2", "in 2 planes" },
+    { 65, "\4", "in 4 planes" }, { 66, u16(3), "" },
+    { 66, u16(2), "of 3 x 2 pixels in 1 planes, which cannot be read" }, { 8, u16(0xffff), "which cannot be read" },
+    { 4, u16(2), "" }, { 4, u16(3), "which cannot be read" }, { 6, u16(1), "" }, { 6, u16(2), "which cannot be read" },
+    { sound.size() - 769, "\xb", "without its palette" } };
+  for (const Row& row : table)
+  {
+    std::string bytes = sound;
+    bytes.replace(row.at, row.bytes.size(), row.bytes);
+    std::string problem;
+    EXPECT_EQ(decoded("a.pcx", bytes, &problem) != nullptr, *row.problem == '\0') << row.at << ": " << problem;
+    EXPECT_THAT(problem, HasSubstr(row.problem)) << row.at;
+  }
+}
+
 TEST(TextureFile, RefusedPictures)
 {
   std::string problem;

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <functional>
 
 using namespace dgtk;
@@ -197,6 +199,11 @@ TEST(SceneTables, ScalesThatPassThroughZeroAtAnyFrameBetween)
     HasSubstr("scale passes through 0 at frame 4"));
   EXPECT_THAT(refusalOf("a.json", sceneWith("object", "\"scale\": {\"keys\": [[3, -3], [7, 1]]}")),
     HasSubstr("scale passes through 0 at frame 6"));
+  // between two keys of 1, between keys of 9: (1 + 1) / 2 + 2 / 8 (-2 - 2)
+  EXPECT_THAT(
+    refusalOf("a.json",
+      sceneWith("object", "\"scale\": {\"interpolation\": \"smooth\", \"keys\": [[0, 9], [2, 1], [4, 1], [6, 9]]}")),
+    HasSubstr("scale passes through 0 at frame 3"));
   EXPECT_EQ(refusalOf("a.json", sceneWith("object", "\"scale\": {\"keys\": [[3, -1], [7, 2]]}")), "");
   EXPECT_EQ(refusalOf("a.json", sceneWith("object", "\"scale\": {\"keys\": [[3, -1], [4, 1]]}")), "");
 }
@@ -257,6 +264,21 @@ TEST(SceneTables, WhatSceneFilesHaveNoWordsFor)
     catch (const InputError& error)
     {
       EXPECT_THAT(error.what(), HasSubstr(std::string("scene: ") + what + " cannot be said in .scene"));
+    }
+  }
+}
+
+TEST(SceneTables, ModelsOfSceneFilesHaveTheExtensionOfTheirWord)
+{
+  for (const auto& [word, own] : { std::pair("glObject_3DS", "3ds"), std::pair("glObject_Md2", "md2"),
+         std::pair("glObject_AC", ""), std::pair("GLOBJECT_md2", "md2") })
+  {
+    for (const std::string extension : { "3ds", "3DS", "md2", "MD2", "ac", "pov", "md3" })
+    {
+      std::string small = extension;
+      std::transform(small.begin(), small.end(), small.begin(), [](unsigned char c) { return std::tolower(c); });
+      const std::string refusal = refusalOf("a.scene", std::string("1\n") + word + ": a." + extension + "\n0\n");
+      EXPECT_EQ(refusal.empty(), *own == '\0' || small == own) << word << ' ' << extension << ' ' << refusal;
     }
   }
 }
