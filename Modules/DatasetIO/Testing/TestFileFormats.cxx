@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The formats byte by byte, and through other people's readers.
+#include "dgtkDepthPicture.h"
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkTestImages.h"
@@ -10,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
@@ -252,6 +254,25 @@ TEST(DepthPicture, BrighterNearerInEqualStepsOfTheLogarithm)
   {
     EXPECT_EQ(back.pixels.row<std::uint8_t>(0)[i], expected[i]) << values[i];
   }
+}
+
+TEST(DepthPicture, IsRoundedToTheNearestStep)
+{
+  const DepthPicture logarithmic(0.5, 128, "x");
+  const DepthPicture linear(-2, 125, "x");
+  for (const int step : { 1, 2, 100, 253 })
+  {
+    for (const double part : { -0.49, 0.0, 0.49 })
+    {
+      EXPECT_EQ(int(logarithmic(128 * std::pow(0.5 / 128, (step + part) / 254))), step + 1) << step << part;
+      EXPECT_EQ(int(linear(125 - 127 * (step + part) / 254)), step + 1) << step << part;
+    }
+  }
+  EXPECT_EQ(int(linear(-3)), 255);
+  EXPECT_EQ(int(linear(126)), 1);
+  EXPECT_EQ(int(linear(std::nan(""))), 0);
+  EXPECT_THROW(DepthPicture(1, 1, "x"), UsageError);
+  EXPECT_THROW(DepthPicture(1, INFINITY, "x"), UsageError);
 }
 
 TEST(Exr, OpenImageIOReadsTheSamePixelsAndNoClock)

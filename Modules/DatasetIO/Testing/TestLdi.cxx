@@ -39,7 +39,7 @@ LdiRows rowsOf(int first, int count)
     {
       const auto step = static_cast<float>(i);
       const auto id = static_cast<std::uint32_t>(1000 * i + s);
-      rows.surfaces.push_back({ { step / 255, 0.5f, 1.5f, s == 0 ? 1.0f : 0.25f }, 0.1 + i + s / 3.0, id % 2048, id,
+      rows.surfaces.push_back({ { step / 255, 0.5f, 1.5f, s == 0 ? 1.0f : 0.25f }, 0.1 + i + s / 3.0, id * 65537u, id,
         static_cast<std::uint32_t>(s), 0xFFFFFFF0u });
     }
   }
@@ -102,7 +102,7 @@ TEST(Ldi, IsTheThesisFileByteForByte)
       put(std::uint8_t(255));
       put(std::uint8_t(s == 0 ? 255 : 64));
       put(double(0.1 + i + s / 3.0));
-      put(std::uint32_t((1000 * i + s) % 2048));
+      put(std::uint32_t((1000 * i + s) * 65537u));
     }
   }
   EXPECT_EQ(contentsOf(path), expected);

@@ -180,6 +180,39 @@ TEST(Studio3ds, PercentagesAreSharesOrOfAHundred)
   }
 }
 
+TEST(Studio3ds, ChunksOfMaterials)
+{
+  const auto of = [](const std::string& chunks)
+  {
+    const auto model = readBytes("3ds", meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }) +
+                                                   faces({ 0, 1, 2 }, chunk3ds(0x4130, text("m") + u16(1) + u16(0))),
+                                          chunk3ds(0xafff, chunk3ds(0xa000, text("m")) + chunks)));
+    return model->materials.at(static_cast<std::size_t>(model->parts.at(0).material));
+  };
+  const std::string real = f32(0.25f) + f32(0.5f) + f32(1);
+  const std::string bytes = { '\x33', '\x66', '\xff' };
+  const Eigen::Vector3d realColor(0.25, 0.5, 1), byteColor(0.2, 0.4, 1);
+  for (const auto& [id, contents, color] : { std::tuple(0x0010, real, realColor), { 0x0013, real, realColor },
+         { 0x0011, bytes, byteColor }, { 0x0012, bytes, byteColor } })
+  {
+    const std::string chunk = chunk3ds(static_cast<std::uint16_t>(id), contents);
+    EXPECT_EQ(of(chunk3ds(0xa010, chunk)).ambient, color) << id;
+    EXPECT_EQ(of(chunk3ds(0xa020, chunk)).diffuse, color) << id;
+    EXPECT_EQ(of(chunk3ds(0xa030, chunk)).specular, color) << id;
+  }
+  const std::string white = chunk3ds(0xa030, chunk3ds(0x0010, f32(1) + f32(1) + f32(1)));
+  const std::string quarter = chunk3ds(0x0030, u16(25));
+  EXPECT_EQ(of(chunk3ds(0xa040, quarter)).shininess, 32);
+  EXPECT_EQ(of(white + chunk3ds(0xa041, quarter)).specular, Eigen::Vector3d(0.25, 0.25, 0.25));
+  EXPECT_EQ(of(chunk3ds(0xa050, quarter)).opacity, 0.75);
+  EXPECT_EQ(of(chunk3ds(0xa020, chunk3ds(0x0010, real)) + chunk3ds(0xa084, quarter)).emission, realColor / 4);
+  EXPECT_TRUE(of(chunk3ds(0xa081, "")).twoSided);
+  const dgtk::Material usual = of("");
+  EXPECT_FALSE(usual.twoSided);
+  EXPECT_EQ(usual.opacity, 1);
+  EXPECT_EQ(usual.emission, Eigen::Vector3d(0, 0, 0));
+}
+
 TEST(Studio3ds, DamageThatRealFilesHave)
 {
   const auto badIndex = readBytes("3ds", meshFile(vertices(roof) + faces({ 0, 1, 2, 0, 1, 99 })));

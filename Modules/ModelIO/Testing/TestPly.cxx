@@ -101,6 +101,74 @@ TEST(Ply, BinaryOfBothByteOrdersWithFacesFirst)
   expectQuad(*readBytes("ply", binaryQuad(true)));
 }
 
+namespace
+{
+/// Three vertices (0, 0, 0), (100, 0, 0), (0, 100, 0) whose coordinates have a type, and lists of it as well.
+template <class T>
+void expectType(const std::vector<const char*>& names)
+{
+  for (const char* name : names)
+  {
+    for (const bool big : { false, true })
+    {
+      std::string bytes = std::string("ply\nformat binary_") + (big ? "big" : "little") +
+                          "_endian 1.0\nelement vertex 3\nproperty " + name + " x\nproperty " + name +
+                          " y\nproperty uchar z\nelement face 1\nproperty list uchar " + name +
+                          " vertex_indices\nend_header\n";
+      for (const int corner : { 0, 1, 2 })
+      {
+        put<T>(bytes, T(corner == 1 ? 100 : 0), big);
+        put<T>(bytes, T(corner == 2 ? 100 : 0), big);
+        put<std::uint8_t>(bytes, 0, big);
+      }
+      put<std::uint8_t>(bytes, 3, big);
+      for (const int corner : { 0, 1, 2 })
+      {
+        put<T>(bytes, T(corner), big);
+      }
+      const auto model = readBytes("ply", bytes);
+      ASSERT_EQ(model->triangles.size(), 1u) << name << big;
+      EXPECT_EQ(model->boundsMax, Eigen::Vector3d(100, 100, 0)) << name << big;
+      EXPECT_EQ(model->boundsMin, Eigen::Vector3d(0, 0, 0)) << name << big;
+    }
+  }
+}
+} // namespace
+
+TEST(Ply, NumbersOfEveryTypeAndByteOrder)
+{
+  expectType<std::int8_t>({ "char", "int8" });
+  expectType<std::uint8_t>({ "uchar", "uint8" });
+  expectType<std::int16_t>({ "short", "int16" });
+  expectType<std::uint16_t>({ "ushort", "uint16" });
+  expectType<std::int32_t>({ "int", "int32" });
+  expectType<std::uint32_t>({ "uint", "uint32" });
+  expectType<float>({ "float", "float32" });
+  expectType<double>({ "double", "float64" });
+  EXPECT_THAT(refusal("ply", changed(asciiQuad, "property float x", "property half x")), HasSubstr("unknown type"));
+}
+
+TEST(Ply, NamesOfPropertiesInManyDialects)
+{
+  const std::vector<std::vector<const char*>> uvs{ { "s", "t" }, { "u", "v" }, { "texture_u", "texture_v" },
+    { "texture_s", "texture_t" } };
+  for (const auto& names : uvs)
+  {
+    const std::string text = changed(asciiQuad, "property float s\nproperty float t\n",
+      std::string("property float ") + names[0] + "\nproperty float " + names[1] + '\n');
+    expectQuad(*readBytes("ply", text));
+  }
+  const std::vector<std::vector<const char*>> colors{ { "r", "g", "b" },
+    { "diffuse_red", "diffuse_green", "diffuse_blue" } };
+  for (const auto& names : colors)
+  {
+    std::string text = changed(asciiQuad, "uchar red", std::string("uchar ") + names[0]);
+    text = changed(text, "uchar green", std::string("uchar ") + names[1]);
+    text = changed(text, "uchar blue", std::string("uchar ") + names[2]);
+    EXPECT_EQ(readBytes("ply", text)->materials[0].diffuse, Eigen::Vector3d(1, 0.2, 0)) << names[0];
+  }
+}
+
 TEST(Ply, ColoursThatVaryAreReported)
 {
   const auto model = readBytes("ply", changed(asciiQuad, "1 0 255 51 0", "1 0 0 51 0"));

@@ -175,6 +175,13 @@ TEST(PixelFilters, WeightsAreThoseOfTheirShapes)
   EXPECT_NEAR(mitchell[2], 8.0 / 9, 1e-15);
   EXPECT_NEAR(mitchell[1], 1.0 / 18, 1e-15);
   EXPECT_NEAR(mitchell[0], 0, 1e-15);
+  // and at quarters of pixels: (7 x^3 - 12 x^2 + 16 / 3) / 6, beyond 1 (-7 x^3 / 3 + 12 x^2 - 20 x + 32 / 3) / 6
+  const std::vector<double> quarters = weights("mitchell", 2);
+  ASSERT_EQ(quarters.size(), 10u);
+  const double inner = (7 * 0.015625 - 12 * 0.0625 + 16.0 / 3) / 6;
+  EXPECT_NEAR(quarters[6] / quarters[5], (7 * 0.421875 - 12 * 0.5625 + 16.0 / 3) / 6 / inner, 1e-12);
+  EXPECT_NEAR(quarters[7] / quarters[5], (-7 * 1.953125 / 3 + 12 * 1.5625 - 20 * 1.25 + 32.0 / 3) / 6 / inner, 1e-12);
+  EXPECT_NEAR(quarters[8] / quarters[5], (-7 * 5.359375 / 3 + 12 * 3.0625 - 20 * 1.75 + 32.0 / 3) / 6 / inner, 1e-12);
   const std::vector<double> lanczos = weights("lanczos", 2); // at 0.25 and 1.25 pixels
   const auto sinc = [](double x) { return std::sin(M_PI * x) / (M_PI * x); };
   ASSERT_EQ(lanczos.size(), 14u);

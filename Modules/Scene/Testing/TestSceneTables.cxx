@@ -166,6 +166,22 @@ TEST(SceneTables, LimitsAreWithin)
   }
 }
 
+TEST(SceneTables, CamerasHaveOneWholePose)
+{
+  const std::pair<const char*, const char*> keys[] = { { "eye", "[0, 0, 9]" }, { "lookAt", "[0, 0, 0]" },
+    { "up", "[0, 1, 0]" }, { "position", "[1, 2, 3]" }, { "orientation", "[1, 0, 0, 0]" } };
+  for (unsigned subset = 0; subset < 32; ++subset)
+  {
+    std::string camera;
+    for (unsigned i = 0; i < 5; ++i)
+    {
+      camera += (subset >> i & 1u) != 0 ? std::string(", \"") + keys[i].first + "\": " + keys[i].second : "";
+    }
+    const bool good = subset == 0b00011 || subset == 0b00111 || subset == 0b11000;
+    EXPECT_EQ(refusalOf("a.json", "{\"cameras\": [{\"name\": \"c\"" + camera + "}]}").empty(), good) << camera;
+  }
+}
+
 TEST(SceneTables, NamesOfCamerasAreFitForFolders)
 {
   for (const std::string& name : { std::string("a b"), std::string("a.b-c"), std::string(128, 'x'), std::string("Ä") })

@@ -202,6 +202,13 @@ TEST(ImageSensor, TheFullWellHoldsNoMoreElectrons)
   const Statistics full = statisticsOf(expose(setupOf(p), grey(1)));
   EXPECT_NEAR(full.mean / 0.5, 1, 1e-4);
   EXPECT_NEAR(std::sqrt(full.variance) / (p.readNoise * p.gain / p.fullWell), 1, onePercent);
+  // So does what the reading adds: offsets of pixels, rows and columns.
+  p.readNoise = 0;
+  p.dsnu = 40;
+  const Statistics offsets = statisticsOf(expose(setupOf(p), grey(1)));
+  EXPECT_NEAR(offsets.mean / 0.5, 1, 1e-4);
+  EXPECT_NEAR(std::sqrt(offsets.variance) / (p.dsnu * p.gain / p.fullWell), 1, onePercent);
+  p.dsnu = 0;
   // At a mean of just the full well the upper half is cut: that leaves sqrt(F / 2 pi) less, and 1/2 - 1 / 2 pi of the
   // variance.
   p.exposure = 1;
