@@ -77,7 +77,7 @@ Meaning impliedMeaning(const LayerSpec& spec)
   {
     return meaningOfNumbers(spec);
   }
-  if (spec.unit == "1 / scene units")
+  if (spec.unit == "1 / scene units" && spec.frame == "camera")
   {
     return Meaning::InverseDepth;
   }

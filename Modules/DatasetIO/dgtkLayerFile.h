@@ -15,7 +15,7 @@ namespace dgtk
 
 /// What every writer shares: the checks on the rows, the file and its hash. A format implements writeRows() and, when
 /// something follows the pixels, complete().
-class LayerFileWriter : public LayerWriter
+class DGTKDATASETIO_EXPORT LayerFileWriter : public LayerWriter
 {
 public:
   LayerFileWriter(const FilePlace& path, const LayerSpec& spec, int width, int height);
@@ -69,11 +69,11 @@ inline void putBig16(unsigned char* to, unsigned int value)
 }
 
 /// Throws a UsageError that names the first value above `largest`.
-[[noreturn]] void refuseIds(
+[[noreturn]] DGTKDATASETIO_EXPORT void refuseIds(
   const std::uint32_t* ids, std::size_t count, std::uint32_t largest, const char* container, const std::string& layer);
 
 /// Values of a Float32 or Float64 block as float32; float64 is rounded to nearest.
-void narrow(const Rows& rows, std::vector<float>& out);
+DGTKDATASETIO_EXPORT void narrow(const Rows& rows, std::vector<float>& out);
 
 } // namespace dgtk
 

@@ -30,7 +30,10 @@ struct WriterRow
   const WriterEntry* entry;
 };
 
-const std::vector<WriterRow>& writerRows();
+DGTKDATASETIO_EXPORT const std::vector<WriterRow>& writerRows();
+
+/// Adds a format of a program of its own, before anything asks for formats. `entry` lives as long as the program. True.
+DGTKDATASETIO_EXPORT bool addWriter(const WriterInfo& info, const WriterEntry& entry);
 
 } // namespace dgtk
 

@@ -34,8 +34,8 @@ struct JobContext
 };
 
 /// Derives the outputs of one or several layers from the bands of one picture, which arrive top to bottom. They may be
-/// some of its rows only, next to one another: what looks at neighbours takes the outermost ones for the picture's edge.
-/// One thread at a time.
+/// some of its rows only, next to one another: what looks at neighbours takes the outermost ones for the picture's
+/// edge. One thread at a time.
 class LayerPass
 {
 public:
@@ -104,6 +104,10 @@ extern DGTKLAYERS_EXPORT const char* const pictureLayer;
 
 /// All layers, in the order of "all".
 DGTKLAYERS_EXPORT const LayerList& layers();
+
+/// Adds layers of a program of its own, after all others; before anything asks for layers or options:
+/// `const bool added = addLayers({ std::make_shared<Curvature>() });` beside the class is a row. True.
+DGTKLAYERS_EXPORT bool addLayers(const LayerList& more);
 
 /// Layers of a job that are made by one pass.
 struct DGTKLAYERS_EXPORT PlannedPass

@@ -171,10 +171,10 @@ void RenderDialog::offerSelection()
 QStringList RenderDialog::arguments(const QString& scene) const
 {
   const QStringList cameras = this->Cameras->checked();
-  QStringList words{ "render", scene, "-o", this->folder(), "--layers", this->checkedLayers().join(',') };
+  QStringList words{ "render", scene, "-o", this->folder(), optionWord("layers"), this->checkedLayers().join(',') };
   if (cameras.size() != this->Cameras->count())
   {
-    words << "--cameras" << cameras.join(',');
+    words << optionWord("cameras") << cameras.join(',');
   }
   const SceneDescription& description = this->State.scene();
   const bool allFrames = this->Frames[0]->value() == description.firstFrame() &&
@@ -182,12 +182,12 @@ QStringList RenderDialog::arguments(const QString& scene) const
   if (!allFrames)
   {
     words
-      << "--frames"
+      << optionWord("frames")
       << QString("%1:%2:%3").arg(this->Frames[0]->value()).arg(this->Frames[1]->value()).arg(this->Frames[2]->value());
   }
   if (const std::optional<QSize> size = this->Cameras->commonSize())
   {
-    words << "--size" << QString("%1x%2").arg(size->width()).arg(size->height());
+    words << optionWord("size") << QString("%1x%2").arg(size->width()).arg(size->height());
   }
   return words + this->Options->words();
 }
@@ -360,8 +360,8 @@ void RenderDialog::start()
   }
   if (!request.arguments.isEmpty())
   {
-    const QStringList how = begin == Begin::GoOn      ? QStringList{ "--resume" }
-                            : begin == Begin::Replace ? QStringList{ "--replace" }
+    const QStringList how = begin == Begin::GoOn      ? QStringList{ optionWord("resume") }
+                            : begin == Begin::Replace ? QStringList{ optionWord("replace") }
                                                       : QStringList();
     this->rememberChoices();
     this->begin();

@@ -25,14 +25,7 @@ namespace
 {
 QString keyOf(const OptionRow& row) { return "render/options/" + toText(row.name); }
 
-QString labelOf(const OptionRow& row)
-{
-  QString label = toText(row.name).replace('_', ' ');
-  label[0] = label[0].toUpper();
-  return label;
-}
-
-QString wordOf(const OptionRow& row) { return "--" + toText(row.name).replace('_', '-'); }
+QString wordOf(const OptionRow& row) { return optionWord(toText(row.name)); }
 
 /// What is typed for another scene means nothing in this one.
 bool fitsAnyScene(const OptionRow& row)
@@ -40,6 +33,8 @@ bool fitsAnyScene(const OptionRow& row)
   return row.kind != OptionRow::Kind::Numbers && (row.kind != OptionRow::Kind::Names || !row.choices.empty());
 }
 } // namespace
+
+QString optionWord(const QString& name) { return "--" + QString(name).replace('_', '-'); }
 
 RenderOptions::RenderOptions(QWidget* parent)
   : QWidget(parent)
@@ -91,7 +86,7 @@ QString RenderOptions::kept(const OptionRow& row) const
 
 void RenderOptions::add(const OptionRow& row, QFormLayout* form)
 {
-  Field field{ &row, nullptr, labelOf(row), {}, {} };
+  Field field{ &row, nullptr, toText(row.name), {}, {} };
   field.widget = this->makeField(row, this->kept(row), field);
   field.widget->setObjectName(toText(row.name));
   field.widget->setToolTip(toText(row.help));

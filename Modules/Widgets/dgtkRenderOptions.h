@@ -18,6 +18,9 @@ class QLineEdit;
 namespace dgtk
 {
 
+/// An option of `dgtk render` as its command line has it.
+QString optionWord(const QString& name);
+
 /// The page Options of the render configuration: a field for each option of a run, called as the option.
 class RenderOptions : public QWidget
 {

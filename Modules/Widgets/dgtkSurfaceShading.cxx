@@ -206,10 +206,8 @@ Eigen::Vector3d SurfaceShading::color(const Point& point) const
 
 std::vector<Eigen::Vector3d> SurfaceShading::colors(const SurfaceRows& in) const
 {
-  const std::unique_ptr<Representation> normals = makeRepresentation("shadingnormal");
-  Rows normal(PixelType::Float64, 3, in.rect.width, in.rect.y, in.rect.height);
-  normals->compute(in, normal);
-  const double* n = normal.row<double>(in.rect.y);
+  const std::vector<double> normals = shadingNormals(in);
+  const double* n = normals.data();
   const Material plain;
   std::vector<Eigen::Vector3d> colors;
   colors.reserve(in.t.size());

@@ -335,7 +335,7 @@ void TruthView::receive(const PixelTruth& truth)
     for (const PixelValue& value : truth.values)
     {
       const QString name = toText(value.spec.name);
-      if (name == "depth" || name == this->Layer)
+      if (value.spec.meaning == Meaning::Depth || name == this->Layer)
       {
         line += QStringLiteral("  %1 %2").arg(name, exactText(value, QStringLiteral(", ")));
       }

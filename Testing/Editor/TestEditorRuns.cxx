@@ -435,7 +435,7 @@ void TestEditorRuns::aRefusalIsShownOnce()
   QTRY_VERIFY(start->isEnabled());
   QVERIFY(QApplication::activeModalWidget() == nullptr);
   const QString said = shown->findChild<QLabel*>("status")->text();
-  QVERIFY2(said.startsWith("Matte: ") && said.contains("nobody"), qPrintable(said));
+  QVERIFY2(said.startsWith("matte: ") && said.contains("nobody"), qPrintable(said));
   QVERIFY2(!said.contains("--") && !said.contains("dgtk"), qPrintable(said));
   const QStringList log = this->Window->findChild<QPlainTextEdit*>("log")->toPlainText().split('\n');
   QCOMPARE(log.filter("nobody").size(), 2); // the command, the answer

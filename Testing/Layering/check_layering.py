@@ -7,8 +7,9 @@ usage: check_layering.py SOURCE_FOLDER
 * every dependency between modules in Modules/*/vtk.module is allowed by the table, and the table has no cycle;
 * no public header names a type or header of a third-party library other than Eigen and VTK;
 * modules that must be independent of VTK's rendering name no VTK module;
-* no text in a module names an option of the command line (but for Widgets, whose render dialog starts `dgtk`);
-* what drives the layers (Pipeline, but for the files of the layers) names none of them;
+* no text in a module names an option of the command line (but for the file of Widgets that starts `dgtk`);
+* what drives, writes, reads or shows layers names none of them: their names stand in their own files, in Verification, and
+  as keys of documents and words of other files' formats;
 * a class of a namespace is defined in one place: to the linker two of one name are one, also when
   their modules do not see each other.
 """
@@ -24,7 +25,13 @@ PRIVATE_LIBRARIES = re.compile(
 ALLOWED = {}
 TABLE = os.path.join("Documentation", "DeveloperGuide", "architecture.md")
 STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
-STARTS_THE_PROGRAM = {"Widgets"}
+STARTS_THE_PROGRAM = {"dgtkRenderOptions.cxx"}
+# Modules (and the program) that meet layers of whatever name. In Scene, ModelIO and Export the same words are those of files.
+MEET_LAYERS = ["Core", "DatasetIO", "Layers", "Pipeline", "RayTrace", "RenderGL", "Sensor", "Stage", "Visibility", "Widgets", "../Apps/dgtk", "../Apps/Editor"]
+# A literal beside == or !=, or looked for in a text, or given to what takes a layer's name.
+COMPARED = re.compile(r"([=!]=\s*|\b(?:rfind|compare|makeRepresentation|layerBox|formatsOf|firstLayer|startsWith|endsWith)\(\s*)$")
+# Of what is compared: formats, parts of formats and extensions are called like some layers.
+OTHER_WORDS = re.compile(r"(format|extension|part|word|key|name\(\)|filename\(\)|kind)(\(\w*\))?\s*[=!]=\s*$")
 
 
 def table(source):
@@ -51,19 +58,31 @@ def layer_names(modules):
     return names
 
 
+def sources(modules, module):
+    folder = os.path.join(modules, module)
+    for name in sorted(os.listdir(folder)) if os.path.isdir(folder) else []:
+        if name.endswith((".h", ".cxx")):
+            text = open(os.path.join(folder, name), encoding="utf-8").read()
+            yield name, re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.DOTALL)
+
+
 def named_in_texts(modules):
     problems = []
     layers = layer_names(modules)
     for module in sorted(os.listdir(modules)):
-        for name in sorted(os.listdir(os.path.join(modules, module))):
-            if not name.endswith((".h", ".cxx")):
-                continue
-            code = re.sub(r"//[^\n]*|/\*.*?\*/", "", open(os.path.join(modules, module, name), encoding="utf-8").read(), flags=re.DOTALL)
+        for name, code in sources(modules, module):
             for text in STRING.findall(code):
-                if module not in STARTS_THE_PROGRAM and re.search(r"--[a-z]", text) and ";" not in text:  # shaders count down
+                if name not in STARTS_THE_PROGRAM and re.search(r"--[a-z]|^\"--\"$", text) and ";" not in text:  # shaders count down
                     problems.append(f"Modules/{module}/{name}: {text} names an option of the command line")
-                if module == "Pipeline" and not name.endswith("Layer.cxx") and text[1:-1] in layers:
-                    problems.append(f"Modules/{module}/{name}: {text} is the name of a layer")
+    for module in MEET_LAYERS:
+        for name, code in sources(modules, module):
+            if name.endswith("Layer.cxx"):
+                continue
+            for text in STRING.finditer(code):
+                before = code[max(0, text.start() - 60):text.start()]
+                driven = module == "Pipeline" or (COMPARED.search(before) and not OTHER_WORDS.search(before)) or re.match(r"\s*[=!]=", code[text.end():])
+                if text.group()[1:-1] in layers and driven:
+                    problems.append(f"Modules/{module}/{name}: {text.group()} is the name of a layer")
     return problems
 
 
