@@ -33,9 +33,9 @@ struct JobContext
   ThreadPool& pool;
 };
 
-/// Derives the outputs of one or several layers from the bands of one picture, which arrive top to bottom. They may be
-/// some of its rows only, next to one another: what looks at neighbours takes the outermost ones for the picture's
-/// edge. One thread at a time.
+/// Derives the outputs of one or several layers from the bands of one picture, which arrive top to bottom. But for
+/// those of layers that need the whole, they may be some of its rows only, next to one another: what looks at
+/// neighbours takes the outermost ones for the picture's edge. One thread at a time.
 class LayerPass
 {
 public:

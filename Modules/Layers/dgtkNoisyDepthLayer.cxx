@@ -117,7 +117,12 @@ public:
   {
     return { "depth_noisy", { "npy", "dgd", "exr", "pfm", "png" }, "depth as the camera's depth sensor measures it" };
   }
-  LayerNeeds needs(const LayerRequest&, const Stage&) const override { return LayerNeeds::ofHits(); }
+  LayerNeeds needs(const LayerRequest&, const Stage&) const override
+  {
+    LayerNeeds needs = LayerNeeds::ofHits();
+    needs.whole = true;
+    return needs;
+  }
   void check(const WorkPlan& plan, const Stage& stage, const PlannedLayer&) const override
   {
     for (const Job& job : plan.jobs)

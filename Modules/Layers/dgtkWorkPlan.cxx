@@ -170,6 +170,8 @@ void LayerNeeds::add(const LayerNeeds& more)
   this->color = this->color || more.color;
   this->sharp = this->sharp || more.sharp;
   this->peeled = this->peeled || more.peeled;
+  this->samples = this->samples || more.samples;
+  this->whole = this->whole || more.whole;
   this->mattes.insert(this->mattes.end(), more.mattes.begin(), more.mattes.end());
 }
 

@@ -31,6 +31,7 @@ struct DGTKLAYERS_EXPORT LayerNeeds
   bool sharp = false;                ///< Band::sharp
   bool peeled = false;               ///< Band::peeled
   bool samples = false;              ///< several points a pixel
+  bool whole = false;                ///< all rows, from the top: not some of them only
   std::vector<std::uint32_t> mattes; ///< objects of Band::mattes
 
   static LayerNeeds ofHits();

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace dgtk
@@ -54,13 +55,12 @@ const std::vector<LiveImage>& liveImages()
     std::vector<LiveImage> images;
     for (const LayerInfo& info : generatorLayers())
     {
-      std::string last; // one an image, not one a format
+      std::set<std::string> known; // each image once, whatever its formats
       for (const LayerRecord& record : info.records)
       {
-        if (liveRefusal(info).empty() && record.spec.name != last)
+        if (liveRefusal(info).empty() && known.insert(record.spec.name).second)
         {
           images.push_back({ info.layer, record.spec });
-          last = record.spec.name;
         }
       }
     }
@@ -114,10 +114,14 @@ public:
     : Wanted(wanted)
     , Kept(spec.type, spec.channels, rect.width, rect.y, rect.height)
   {
+    std::fill_n(this->Kept.data(), this->Kept.bytes(), std::byte{ 0 });
   }
   void rows(std::size_t output, const Rows& rows) override
   {
-    if (output == this->Wanted)
+    const bool inside = rows.y() >= this->Kept.y() &&
+                        rows.y() + rows.height() <= this->Kept.y() + this->Kept.height() &&
+                        rows.rowBytes() == this->Kept.rowBytes();
+    if (output == this->Wanted && inside)
     {
       std::memcpy(
         this->Kept.data() + this->Kept.rowBytes() * std::size_t(rows.y() - this->Kept.y()), rows.data(), rows.bytes());
@@ -145,8 +149,8 @@ std::string liveRefusal(const LayerInfo& info)
   const Layer* const layer = findLayer(info.layer);
   const LayerNeeds needs = layer->needs({}, *nothing);
   const std::vector<WriterInfo>& writers = layerWriters();
-  const bool image = std::any_of(writers.begin(), writers.end(),
-    [&](const WriterInfo& writer) { return writer.format == info.formats.front(); });
+  const bool image = std::any_of(
+    writers.begin(), writers.end(), [&](const WriterInfo& writer) { return writer.format == info.formats.front(); });
   if (info.records.empty() || !image)
   {
     return "it has no image of its own";
@@ -356,6 +360,10 @@ Rows LiveEye::values(const std::string& layer, const VisibilityBuffer& hits, con
   const Job job = plan.jobs.front();
   const JobContext context{ plan, job, this->Self->Own->cameraNames()[job.camera], this->Self->Now.state, this->view(),
     this->Self->Queries, this->Self->Pool };
+  if (plan.needs.whole && hits.rect.height < this->view().model->height())
+  {
+    return {};
+  }
   const PlannedPass planned = passesOf(plan, *this->Self->Own, context.job).front();
   const std::vector<LayerOutput> outputs = planned.outputs();
   const auto output =

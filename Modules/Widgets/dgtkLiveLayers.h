@@ -68,8 +68,8 @@ public:
   /// Hits of full-width rows. False when it was stopped.
   bool trace(int y, int height, VisibilityBuffer& hits, const Stop& stop = {});
   /// Values of a layer's image at the rows of these hits; those next to the image's edge are as if it ended there.
-  /// Without rows when it was stopped, and where missing() says why there is none. Throws UsageError for an unknown
-  /// layer.
+  /// Without rows when it was stopped, where missing() says why there is none, and where the layer needs the whole
+  /// picture (LayerNeeds::whole) and these are not all rows. Throws UsageError for an unknown layer.
   Rows values(const std::string& layer, const VisibilityBuffer& hits, const Stop& stop = {});
   /// Throws UsageError for an unknown layer.
   LayerSpec spec(const std::string& layer) const;

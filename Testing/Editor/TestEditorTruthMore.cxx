@@ -132,10 +132,12 @@ void TestEditorTruth::germanIsSpokenOfTheTruth()
   auto* frame = this->Window->findChild<QSpinBox*>("frame");
   this->action("show.flow_forward")->trigger();
   frame->setValue(this->Window->document().scene().lastFrame());
-  QTRY_COMPARE(picture->property("caption").toString(), QString("flow_forward: dafür braucht es ein Bild der Szene nach diesem"));
+  QTRY_COMPARE(
+    picture->property("caption").toString(), QString("flow_forward: dafür braucht es ein Bild der Szene nach diesem"));
   this->action("show.flow_backward")->trigger();
   frame->setValue(this->Window->document().scene().firstFrame());
-  QTRY_COMPARE(picture->property("caption").toString(), QString("flow_backward: dafür braucht es ein Bild der Szene vor diesem"));
+  QTRY_COMPARE(
+    picture->property("caption").toString(), QString("flow_backward: dafür braucht es ein Bild der Szene vor diesem"));
   this->action("show.flow_forward")->trigger();
   auto* view = this->Window->findChild<QWidget*>("view.3");
   auto* panel = this->Window->findChild<QTreeWidget*>("truthPanel");
