@@ -8,7 +8,7 @@ import os
 
 TARGET = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "DeveloperGuide", "architecture.svg")
 COLUMN, ROW, GAP, LEFT, TOP = 80, 62, 8, 16, 44
-ROWS = 8
+ROWS = 10
 BLUE, YELLOW, GREEN, PINK, GRAY, VIOLET = "#dbeafe", "#fde68a", "#bbf7d0", "#fbcfe8", "#e8e8e8", "#ddd6fe"
 # name, what it holds, columns from and to, rows from and to (from the bottom), colour
 BOXES = [
@@ -18,15 +18,18 @@ BOXES = [
     ("ModelIO", "models, readers", 4, 8, 1, 3, BLUE),
     ("Stage", "loaded scene, its state at a time", 0, 8, 3, 4, BLUE),
     ("Visibility", "hits per pixel, exact intersection, canonical tiles", 0, 6.5, 4, 5, YELLOW),
-    ("RenderGL", "VTK / OpenGL: colour, ids", 0, 2.15, 5, 6, GREEN),
-    ("GroundTruth", "layers from hits", 2.15, 4.3, 5, 6, GREEN),
-    ("RayTrace", "Embree: ids, queries", 4.3, 6.5, 5, 6, GREEN),
+    ("RenderGL", "VTK / OpenGL: colour, ids", 0, 2.15, 5, 7, GREEN),
+    ("RayTrace", "Embree: ids, queries", 2.15, 4.3, 5, 7, GREEN),
+    ("GroundTruth", "values from hits", 4.3, 6.5, 5, 6, GREEN),
     ("Export", "POV-Ray", 6.5, 8, 4, 6, GREEN),
     ("Sensor", "blur, noise", 8, 9.5, 1, 6, PINK),
     ("DatasetIO", "writers, readers, manifest", 9.5, 12, 1, 6, PINK),
-    ("Pipeline", "work plan, bands, threads, resume, VTK classes, Python", 0, 9.75, 6, 7, VIOLET),
-    ("Verification", "also on Stage, RayTrace", 9.75, 12, 6, 7, VIOLET),
-    ("Widgets", "parts of the desktop editor", 0, 6.5, 7, 8, VIOLET),
+    ("Layers", "what pictures are given out as: layers, options, plan", 4.3, 10, 6, 7, VIOLET),
+    ("Pipeline", "bands, threads, files, resume, VTK classes, Python", 0, 10, 7, 8, VIOLET),
+    ("Verification", "also on Stage, RayTrace", 10, 12, 6, 8, VIOLET),
+    ("Document", "what the editor edits; on Stage alone", 5, 10, 8, 9, VIOLET),
+    ("Live", "ground truth while editing", 0, 5, 8, 9, VIOLET),
+    ("Widgets", "parts of the desktop editor", 0, 10, 9, 10, VIOLET),
 ]
 
 

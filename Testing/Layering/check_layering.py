@@ -17,7 +17,7 @@ import os
 import re
 import sys
 
-USES_VTK = {"RenderGL", "Pipeline", "Widgets"}
+USES_VTK = {"RenderGL", "Pipeline", "Live", "Widgets"}
 PRIVATE_LIBRARIES = re.compile(
     r"#\s*include\s*[<\"](GL/|EGL/|embree|assimp|opencv|OpenImageIO|OpenEXR|nlohmann|openssl|libdeflate|zlib|vtkgl|vtk_glew)")
 
@@ -27,7 +27,7 @@ TABLE = os.path.join("Documentation", "DeveloperGuide", "architecture.md")
 STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 STARTS_THE_PROGRAM = {"dgtkRenderOptions.cxx"}
 # Modules (and the program) that meet layers of whatever name. In Scene, ModelIO and Export the same words are those of files.
-MEET_LAYERS = ["Core", "DatasetIO", "Layers", "Pipeline", "RayTrace", "RenderGL", "Sensor", "Stage", "Visibility", "Widgets", "../Apps/dgtk", "../Apps/Editor"]
+MEET_LAYERS = ["Core", "DatasetIO", "Document", "Layers", "Live", "Pipeline", "RayTrace", "RenderGL", "Sensor", "Stage", "Visibility", "Widgets", "../Apps/dgtk", "../Apps/Editor"]
 # A literal beside == or !=, or looked for in a text, or given to what takes a layer's name.
 COMPARED = re.compile(r"([=!]=\s*|\b(?:rfind|compare|makeRepresentation|layerBox|formatsOf|firstLayer|startsWith|endsWith)\(\s*)$")
 # Of what is compared: formats, parts of formats and extensions are called like some layers.

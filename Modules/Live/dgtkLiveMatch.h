@@ -39,7 +39,7 @@ struct LiveMatch
 };
 
 /// The same as correspondPixel(), with more around it. Throws UsageError for a point outside the image.
-DGTKWIDGETS_EXPORT LiveMatch liveMatch(
+DGTKLIVE_EXPORT LiveMatch liveMatch(
   const LiveScene& scene, const MatchView& from, const Eigen::Vector2d& pixel, const MatchView& to);
 
 } // namespace dgtk

@@ -2,7 +2,7 @@
 #ifndef dgtkLiveScene_h
 #define dgtkLiveScene_h
 
-#include "dgtkWidgetsModule.h"
+#include "dgtkLiveModule.h"
 
 #include "dgtkModelLibrary.h"
 #include "dgtkViewCamera.h"
@@ -21,11 +21,11 @@ struct EnvironmentLight;
 
 /// The eye of a perspective view of the editor, the same at all frames, as a camera without a name. near and far hold
 /// all of `box` that is not very near: far is 10,000 times near.
-DGTKWIDGETS_EXPORT CameraDescription liveCamera(const ViewCamera& camera, const WorldBox& box);
+DGTKLIVE_EXPORT CameraDescription liveCamera(const ViewCamera& camera, const WorldBox& box);
 
 /// A scene that is being edited as it is at one moment, for questions from other threads: the stage that `dgtk render`
 /// would have of it, and rays through it. Thread-safe.
-class DGTKWIDGETS_EXPORT LiveScene
+class DGTKLIVE_EXPORT LiveScene
 {
 public:
   /// Copies both; geometry is shared. What rays need of the geometry is taken over from the scene `before` a change.

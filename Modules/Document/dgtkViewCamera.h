@@ -2,7 +2,7 @@
 #ifndef dgtkViewCamera_h
 #define dgtkViewCamera_h
 
-#include "dgtkWidgetsModule.h"
+#include "dgtkDocumentModule.h"
 
 #include "dgtkScenePlaces.h"
 
@@ -23,7 +23,7 @@ enum class ViewKind
 };
 
 /// The eye of one view of the editor. Widget pixels: x right, y down, (0, 0) the top left corner.
-class DGTKWIDGETS_EXPORT ViewCamera
+class DGTKDOCUMENT_EXPORT ViewCamera
 {
 public:
   explicit ViewCamera(ViewKind kind, UpAxis upAxis = UpAxis::Y);

@@ -2,7 +2,7 @@
 #ifndef dgtkSequenceBar_h
 #define dgtkSequenceBar_h
 
-#include "dgtkWidgetsModule.h"
+#include "dgtkDocumentModule.h"
 
 #include "dgtkModelLibrary.h"
 
@@ -23,20 +23,20 @@ struct SequenceBar
 };
 
 /// None for an object whose model does not move, or was not loaded.
-DGTKWIDGETS_EXPORT std::optional<SequenceBar> sequenceBar(
+DGTKDOCUMENT_EXPORT std::optional<SequenceBar> sequenceBar(
   const SceneDescription& scene, const ObjectDescription& object, const ModelLibrary& models);
 
 /// Sets the rate with which a sequence takes `length` > 0 frames of the scene. No change where there is no sequence, or
 /// one of a single pose.
-DGTKWIDGETS_EXPORT void setSequenceLength(
+DGTKDOCUMENT_EXPORT void setSequenceLength(
   const SceneDescription& scene, ObjectDescription& object, const ModelLibrary& models, double length);
 
 /// Names of the sequences that the object's model has.
-DGTKWIDGETS_EXPORT std::vector<std::string> sequencesOf(
+DGTKDOCUMENT_EXPORT std::vector<std::string> sequencesOf(
   const SceneDescription& scene, const ObjectDescription& object, const ModelLibrary& models);
 
 /// Index of the one that is shown, -1 without any.
-DGTKWIDGETS_EXPORT int currentSequence(
+DGTKDOCUMENT_EXPORT int currentSequence(
   const SceneDescription& scene, const ObjectDescription& object, const ModelLibrary& models);
 
 } // namespace dgtk

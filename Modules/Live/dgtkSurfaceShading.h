@@ -2,8 +2,6 @@
 #ifndef dgtkSurfaceShading_h
 #define dgtkSurfaceShading_h
 
-// Private to Widgets.
-
 #include "dgtkEnvironmentLight.h"
 #include "dgtkSurfaceRows.h"
 

@@ -2,7 +2,7 @@
 #ifndef dgtkItemMotion_h
 #define dgtkItemMotion_h
 
-#include "dgtkWidgetsModule.h"
+#include "dgtkDocumentModule.h"
 
 #include "dgtkScenePlaces.h"
 #include "dgtkViewHandles.h"
@@ -13,9 +13,9 @@ namespace dgtk
 {
 
 /// The rotation b followed by a.
-DGTKWIDGETS_EXPORT Quaternion product(const Quaternion& a, const Quaternion& b);
+DGTKDOCUMENT_EXPORT Quaternion product(const Quaternion& a, const Quaternion& b);
 /// About an axis of unit length.
-DGTKWIDGETS_EXPORT Quaternion turn(const Eigen::Vector3d& axis, double degrees);
+DGTKDOCUMENT_EXPORT Quaternion turn(const Eigen::Vector3d& axis, double degrees);
 
 /// What handles stand at, and rotations and scalings go about.
 enum class HandlePivot
@@ -25,7 +25,7 @@ enum class HandlePivot
 };
 
 /// Items of a scene as they are before they are moved, rotated or scaled together in the world.
-class DGTKWIDGETS_EXPORT ItemMotion
+class DGTKDOCUMENT_EXPORT ItemMotion
 {
 public:
   /// Children of objects among `items` go with their parents. `places` are those of the scene at `frame`.

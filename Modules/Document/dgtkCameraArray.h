@@ -2,7 +2,7 @@
 #ifndef dgtkCameraArray_h
 #define dgtkCameraArray_h
 
-#include "dgtkWidgetsModule.h"
+#include "dgtkDocumentModule.h"
 
 #include "dgtkSceneDescription.h"
 
@@ -28,7 +28,7 @@ struct CameraPath
 };
 
 /// Eye and look-at point at each key frame of a camera; of a posed one a point before it. Empty without key frames.
-DGTKWIDGETS_EXPORT CameraPath keyFramePath(const CameraDescription& camera);
+DGTKDOCUMENT_EXPORT CameraPath keyFramePath(const CameraDescription& camera);
 
 struct CameraArrayOptions
 {
@@ -43,7 +43,7 @@ struct CameraArrayOptions
 
 /// The cameras, named <name>-1, <name>-2, ... (Stereo: <name>-left, <name>-right). Throws UsageError for values out of
 /// their range, and for an eye at its look-at point or looking along `up`.
-DGTKWIDGETS_EXPORT std::vector<CameraDescription> cameraArray(const CameraArrayOptions& options);
+DGTKDOCUMENT_EXPORT std::vector<CameraDescription> cameraArray(const CameraArrayOptions& options);
 
 } // namespace dgtk
 

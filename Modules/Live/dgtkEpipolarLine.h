@@ -2,7 +2,7 @@
 #ifndef dgtkEpipolarLine_h
 #define dgtkEpipolarLine_h
 
-#include "dgtkWidgetsModule.h"
+#include "dgtkLiveModule.h"
 
 #include "dgtkCameraModel.h"
 
@@ -18,7 +18,7 @@ namespace dgtk
 /// one of them is a point at infinity (Hartley and Zisserman, Multiple View Geometry, 9.2; the same for parallel
 /// projections). Nothing where the ray's image is a point: it passes through the centre of `to`, or is parallel to the
 /// view of a parallel projection. Nothing for cameras that are not linear().
-DGTKWIDGETS_EXPORT std::optional<Eigen::Vector3d> epipolarLine(
+DGTKLIVE_EXPORT std::optional<Eigen::Vector3d> epipolarLine(
   const View& from, const Eigen::Vector2d& pixel, const View& to);
 
 /// The part of a line inside a picture, none when it passes beside.
@@ -27,7 +27,7 @@ struct LinePart
   Eigen::Vector2d begin;
   Eigen::Vector2d end;
 };
-DGTKWIDGETS_EXPORT std::optional<LinePart> clippedLine(const Eigen::Vector3d& line, double width, double height);
+DGTKLIVE_EXPORT std::optional<LinePart> clippedLine(const Eigen::Vector3d& line, double width, double height);
 
 } // namespace dgtk
 

@@ -2,7 +2,7 @@
 #ifndef dgtkViewHandles_h
 #define dgtkViewHandles_h
 
-#include "dgtkWidgetsModule.h"
+#include "dgtkDocumentModule.h"
 
 #include "dgtkViewCamera.h"
 
@@ -55,7 +55,7 @@ struct HandleShape
 };
 
 /// The handles as one view shows them, of the same size in pixels everywhere. Pixels as in ViewCamera.
-class DGTKWIDGETS_EXPORT ViewHandles
+class DGTKDOCUMENT_EXPORT ViewHandles
 {
 public:
   ViewHandles(const HandlePlace& place, const ViewCamera& camera, double width, double height);
@@ -104,7 +104,7 @@ struct WorldMotion
 
 /// A drag with the mouse as a motion in the world: the point that was grasped stays under the mouse as far as the
 /// handle allows.
-class DGTKWIDGETS_EXPORT HandleDrag
+class DGTKDOCUMENT_EXPORT HandleDrag
 {
 public:
   /// `grasped`: a point of what is dragged (world), which gives the depth of free motions. `start`: pixel of the press.

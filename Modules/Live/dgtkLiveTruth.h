@@ -65,16 +65,16 @@ struct PixelTruth
 
 /// The picture of a layer, every `step` pixels. `stop` is asked between strips; the picture is empty then. Throws what
 /// LiveEye throws.
-DGTKWIDGETS_EXPORT LivePicture livePicture(const LiveQuestion& question, const std::string& layer, int step,
+DGTKLIVE_EXPORT LivePicture livePicture(const LiveQuestion& question, const std::string& layer, int step,
   ThreadPool& pool, const std::function<bool()>& stop = {});
 
 /// Throws UsageError for a pixel outside the view, and what LiveEye throws.
-DGTKWIDGETS_EXPORT PixelTruth pixelTruth(const LiveQuestion& question, int column, int row, ThreadPool& pool);
+DGTKLIVE_EXPORT PixelTruth pixelTruth(const LiveQuestion& question, int column, int row, ThreadPool& pool);
 
 /// Answers questions about a scene that changes on threads of its own. Pictures come coarse first, then fine; pixels
 /// do not wait for pictures. The newest question wins: one that waits is dropped, and a picture is given up at its next
 /// strip once its coarse form is there. What goes wrong is an answer's message.
-class DGTKWIDGETS_EXPORT LiveTruth
+class DGTKLIVE_EXPORT LiveTruth
 {
 public:
   LiveTruth();

@@ -2,7 +2,7 @@
 #ifndef dgtkNewestTask_h
 #define dgtkNewestTask_h
 
-#include "dgtkWidgetsModule.h"
+#include "dgtkLiveModule.h"
 
 #include <functional>
 #include <memory>
@@ -11,7 +11,7 @@ namespace dgtk
 {
 
 /// A thread that works on the newest task only: one that waits is replaced by the next, which never starts then.
-class DGTKWIDGETS_EXPORT NewestTask
+class DGTKLIVE_EXPORT NewestTask
 {
 public:
   /// True when a newer task waits or the owner is being destroyed.

@@ -2,7 +2,7 @@
 #ifndef dgtkSceneDocument_h
 #define dgtkSceneDocument_h
 
-#include "dgtkWidgetsModule.h"
+#include "dgtkDocumentModule.h"
 
 #include "dgtkModelLibrary.h"
 #include "dgtkSceneEdits.h"
@@ -28,7 +28,7 @@ struct LoadedScene
 
 /// A scene that is being edited: description, file, models, undo and redo. Knows nothing of windows. Every edit is
 /// validated; one that is refused (InputError) leaves everything as it was.
-class DGTKWIDGETS_EXPORT SceneDocument
+class DGTKDOCUMENT_EXPORT SceneDocument
 {
 public:
   SceneDocument();

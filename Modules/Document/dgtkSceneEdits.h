@@ -2,7 +2,7 @@
 #ifndef dgtkSceneEdits_h
 #define dgtkSceneEdits_h
 
-#include "dgtkWidgetsModule.h"
+#include "dgtkDocumentModule.h"
 
 #include "dgtkSceneDescription.h"
 
@@ -42,42 +42,42 @@ void setTrackAt(Track<T>& track, int frame, const T& value)
   }
 }
 
-DGTKWIDGETS_EXPORT std::string itemName(const SceneDescription& scene, const SceneItem& item);
+DGTKDOCUMENT_EXPORT std::string itemName(const SceneDescription& scene, const SceneItem& item);
 /// Also where children name it as their parent.
-DGTKWIDGETS_EXPORT void renameItem(SceneDescription& scene, const SceneItem& item, const std::string& name);
+DGTKDOCUMENT_EXPORT void renameItem(SceneDescription& scene, const SceneItem& item, const std::string& name);
 
 /// Where an item is at a frame: an object's position in its parent's frame, a light's position, a camera's centre.
-DGTKWIDGETS_EXPORT Eigen::Vector3d itemPosition(const SceneDescription& scene, const SceneItem& item, double frame);
+DGTKDOCUMENT_EXPORT Eigen::Vector3d itemPosition(const SceneDescription& scene, const SceneItem& item, double frame);
 /// Cameras with a look-at point take it along, lights with a direction their target.
-DGTKWIDGETS_EXPORT void setItemPosition(
+DGTKDOCUMENT_EXPORT void setItemPosition(
   SceneDescription& scene, const SceneItem& item, int frame, const Eigen::Vector3d& position);
 
 /// Appends a copy of everything of `from`, with paths made relative to the folder of `scene` and names made unique.
 /// Returns the new items. Both folders must be absolute where they differ.
-DGTKWIDGETS_EXPORT SceneItems appendItems(SceneDescription& scene, const SceneDescription& from);
+DGTKDOCUMENT_EXPORT SceneItems appendItems(SceneDescription& scene, const SceneDescription& from);
 /// `items`, and after them the objects that hang on those of `items`.
-DGTKWIDGETS_EXPORT SceneItems withChildren(const SceneDescription& scene, SceneItems items);
+DGTKDOCUMENT_EXPORT SceneItems withChildren(const SceneDescription& scene, SceneItems items);
 /// A description of the folder of `scene` with nothing but these items; parents outside of them stay named.
-DGTKWIDGETS_EXPORT SceneDescription extractItems(const SceneDescription& scene, const SceneItems& items);
+DGTKDOCUMENT_EXPORT SceneDescription extractItems(const SceneDescription& scene, const SceneItems& items);
 /// Removes items, and the children of removed objects.
-DGTKWIDGETS_EXPORT void removeItems(SceneDescription& scene, const SceneItems& items);
+DGTKDOCUMENT_EXPORT void removeItems(SceneDescription& scene, const SceneItems& items);
 
 /// Gives every position, orientation and scale of objects, position of lights and pose of cameras a key at a frame,
 /// with the value that it has there.
-DGTKWIDGETS_EXPORT void makeKeyFrame(SceneDescription& scene, int frame);
+DGTKDOCUMENT_EXPORT void makeKeyFrame(SceneDescription& scene, int frame);
 /// Removes the keys of a frame from all tracks. A track that loses its last key keeps that value.
-DGTKWIDGETS_EXPORT void removeKeyFrame(SceneDescription& scene, int frame);
+DGTKDOCUMENT_EXPORT void removeKeyFrame(SceneDescription& scene, int frame);
 /// Gives another frame the keys of a frame, in place of those that are there; tracks without a key there stay as they
 /// are. A key keeps its kind of interpolation.
-DGTKWIDGETS_EXPORT void copyKeyFrame(SceneDescription& scene, int from, int to);
+DGTKDOCUMENT_EXPORT void copyKeyFrame(SceneDescription& scene, int from, int to);
 /// As copyKeyFrame(), and the keys leave `from`.
-DGTKWIDGETS_EXPORT void moveKeyFrame(SceneDescription& scene, int from, int to);
+DGTKDOCUMENT_EXPORT void moveKeyFrame(SceneDescription& scene, int from, int to);
 /// The same for the keys of one item.
-DGTKWIDGETS_EXPORT void copyItemKeys(SceneDescription& scene, const SceneItem& item, int from, int to);
-DGTKWIDGETS_EXPORT void moveItemKeys(SceneDescription& scene, const SceneItem& item, int from, int to);
-DGTKWIDGETS_EXPORT void removeItemKeys(SceneDescription& scene, const SceneItem& item, int frame);
+DGTKDOCUMENT_EXPORT void copyItemKeys(SceneDescription& scene, const SceneItem& item, int from, int to);
+DGTKDOCUMENT_EXPORT void moveItemKeys(SceneDescription& scene, const SceneItem& item, int from, int to);
+DGTKDOCUMENT_EXPORT void removeItemKeys(SceneDescription& scene, const SceneItem& item, int frame);
 /// How the keys of an item at a frame go to the next ones; none: as the item's other keys.
-DGTKWIDGETS_EXPORT void setKeyInterpolation(
+DGTKDOCUMENT_EXPORT void setKeyInterpolation(
   SceneDescription& scene, const SceneItem& item, int frame, std::optional<Interpolation> interpolation);
 /// What the first track with a key there does, and whether it is the key's own; none without a key.
 struct KeyInterpolation
@@ -85,14 +85,14 @@ struct KeyInterpolation
   Interpolation kind = Interpolation::Linear;
   bool own = false;
 };
-DGTKWIDGETS_EXPORT std::optional<KeyInterpolation> keyInterpolationOf(
+DGTKDOCUMENT_EXPORT std::optional<KeyInterpolation> keyInterpolationOf(
   const SceneDescription& scene, const SceneItem& item, int frame);
 /// How the tracks of an item that have keys go from one to the next; no key has a kind of its own then.
-DGTKWIDGETS_EXPORT void setInterpolation(SceneDescription& scene, const SceneItem& item, Interpolation interpolation);
+DGTKDOCUMENT_EXPORT void setInterpolation(SceneDescription& scene, const SceneItem& item, Interpolation interpolation);
 /// That of the first track with keys; Linear without any.
-DGTKWIDGETS_EXPORT Interpolation interpolationOf(const SceneDescription& scene, const SceneItem& item);
+DGTKDOCUMENT_EXPORT Interpolation interpolationOf(const SceneDescription& scene, const SceneItem& item);
 /// Frames at which an item has keys, ascending.
-DGTKWIDGETS_EXPORT std::vector<int> keyFramesOf(const SceneDescription& scene, const SceneItem& item);
+DGTKDOCUMENT_EXPORT std::vector<int> keyFramesOf(const SceneDescription& scene, const SceneItem& item);
 
 } // namespace dgtk
 

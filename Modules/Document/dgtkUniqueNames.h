@@ -2,7 +2,7 @@
 #ifndef dgtkUniqueNames_h
 #define dgtkUniqueNames_h
 
-#include "dgtkWidgetsModule.h"
+#include "dgtkDocumentModule.h"
 
 #include <cstddef>
 #include <map>
@@ -13,7 +13,7 @@ namespace dgtk
 {
 
 /// Names that must differ. A name takes logarithmic time, however many have its stem.
-class DGTKWIDGETS_EXPORT UniqueNames
+class DGTKDOCUMENT_EXPORT UniqueNames
 {
 public:
   void add(const std::string& name) { ++this->Holders[name]; }
@@ -31,7 +31,7 @@ private:
 };
 
 /// `name`, or where it is taken the next free one.
-DGTKWIDGETS_EXPORT std::string uniqueName(const std::vector<std::string>& taken, const std::string& name);
+DGTKDOCUMENT_EXPORT std::string uniqueName(const std::vector<std::string>& taken, const std::string& name);
 
 } // namespace dgtk
 

@@ -2,8 +2,6 @@
 #ifndef dgtkMeshClusters_h
 #define dgtkMeshClusters_h
 
-// Private to Widgets.
-
 #include "dgtkSceneState.h"
 
 #include <Eigen/Core>

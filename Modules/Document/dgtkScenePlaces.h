@@ -2,7 +2,7 @@
 #ifndef dgtkScenePlaces_h
 #define dgtkScenePlaces_h
 
-#include "dgtkWidgetsModule.h"
+#include "dgtkDocumentModule.h"
 
 #include "dgtkCameraModel.h"
 #include "dgtkModelLibrary.h"
@@ -18,7 +18,7 @@ namespace dgtk
 {
 
 /// An axis-parallel box in the world; empty while min > max.
-struct DGTKWIDGETS_EXPORT WorldBox
+struct DGTKDOCUMENT_EXPORT WorldBox
 {
   Eigen::Vector3d min{ 1, 1, 1 };
   Eigen::Vector3d max{ -1, -1, -1 };
@@ -50,7 +50,7 @@ struct CameraPlace
 };
 
 /// Where everything of a scene is at a frame; indices as in the description.
-struct DGTKWIDGETS_EXPORT ScenePlaces
+struct DGTKDOCUMENT_EXPORT ScenePlaces
 {
   double frame = 0;
   std::vector<ObjectPlace> objects;
@@ -66,10 +66,10 @@ struct DGTKWIDGETS_EXPORT ScenePlaces
 constexpr int usualImageSize[2] = { 640, 480 }; ///< pixels, of a camera that has none
 constexpr int largestImage = 1 << 20;           ///< pixels a side
 /// The vertical field of view, degrees, of a camera with a matrix K.
-DGTKWIDGETS_EXPORT double fieldOfViewOf(const CameraDescription& camera);
+DGTKDOCUMENT_EXPORT double fieldOfViewOf(const CameraDescription& camera);
 
 /// A scale of 0 is no error: what it flattens has a place, too.
-DGTKWIDGETS_EXPORT ScenePlaces placeScene(const SceneDescription& scene, const ModelLibrary& models, double frame);
+DGTKDOCUMENT_EXPORT ScenePlaces placeScene(const SceneDescription& scene, const ModelLibrary& models, double frame);
 
 /// x_in_world(t) = origin + t * direction, least < t < most.
 struct WorldRay
@@ -88,7 +88,7 @@ struct PickReach
   double constant = 0;
   double slope = 0; ///< for each unit of the parameter
 };
-DGTKWIDGETS_EXPORT std::optional<SceneItem> pickItem(
+DGTKDOCUMENT_EXPORT std::optional<SceneItem> pickItem(
   const ScenePlaces& places, const WorldRay& ray, const PickReach& reach);
 
 } // namespace dgtk

@@ -19,7 +19,7 @@ struct LayerInfo;
 class ThreadPool;
 
 /// The draft of the colours, see SurfaceShading: no layer of a dataset.
-extern DGTKWIDGETS_EXPORT const char* const draftLayer;
+extern DGTKLIVE_EXPORT const char* const draftLayer;
 
 struct LiveLayer
 {
@@ -28,11 +28,11 @@ struct LiveLayer
 };
 
 /// What can be shown of a view: the draft, and the images of all layers but those of liveRefusal().
-DGTKWIDGETS_EXPORT const std::vector<LiveLayer>& liveLayers();
+DGTKLIVE_EXPORT const std::vector<LiveLayer>& liveLayers();
 
 /// Why the images of a layer cannot be seen while a scene is edited, one line; empty: they can. Rays give what pixels
 /// meet; what else a layer reads is the renderer's.
-DGTKWIDGETS_EXPORT std::string liveRefusal(const LayerInfo& info);
+DGTKLIVE_EXPORT std::string liveRefusal(const LayerInfo& info);
 
 /// A camera's picture of a scene at a frame.
 struct LiveQuestion
@@ -46,11 +46,11 @@ struct LiveQuestion
 };
 
 /// The view of a question. Throws what Stage::view() throws.
-DGTKWIDGETS_EXPORT View viewOf(const LiveQuestion& question);
+DGTKLIVE_EXPORT View viewOf(const LiveQuestion& question);
 
 /// A view of a scene at a frame, traced by rays: the hits and values that `dgtk render` has of the same camera, frame
 /// and size, by the same layers. One thread at a time.
-class DGTKWIDGETS_EXPORT LiveEye
+class DGTKLIVE_EXPORT LiveEye
 {
 public:
   /// Asked between strips of rows; true ends the work.

@@ -2,8 +2,6 @@
 #ifndef dgtkViewLines_h
 #define dgtkViewLines_h
 
-// Private to Widgets.
-
 #include "dgtkScenePlaces.h"
 
 #include <utility>
