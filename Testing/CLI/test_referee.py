@@ -390,6 +390,7 @@ def layered():
 
     # What an LDI is for: a hidden surface that is missing, displaced or invented, the first one being right.
     yield Plant("ldi", "surfaces", 0, hidden(lambda records, _: records[:1] + records[2:]))
+    yield Plant("ldi", "surfaces", 0, hidden(lambda records, _: records[:-1]))
     yield Plant("ldi", "surfaces", 0, hidden(lambda records, _: records + [[*records[-1][:4], 90.0, 0]]))
     # Where the floor's plane would be met, far from where the floor ends.
     yield Plant("ldi", "surfaces", 0, beyond_the_floor)

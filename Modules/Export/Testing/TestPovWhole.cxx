@@ -376,10 +376,10 @@ TEST_F(PovWhole, BumpsFollowTheTexelsOnTheSurface)
   square->materials[0].bumpScale = 0.5;
   for (Eigen::Vector2d& uv : square->uvs)
   {
-    uv = { 3 * uv.x() - uv.y(), uv.x() + uv.y() }; // 4 times the picture on a square of side 2
+    uv = { 3 * uv.x() - uv.y(), uv.x() + 2 * uv.y() }; // 7 times the picture on a square of side 2
   }
   const std::string text = this->write(*test::SceneBuilder().add(square).state(), {});
-  EXPECT_NEAR(after(text, "bump_size "), 0.5 / (2.0 / (2 * 2)), 1e-15);
+  EXPECT_NEAR(after(text, "bump_size "), 0.5 / std::sqrt(4 / (7.0 * 2 * 2)), 1e-14);
   EXPECT_THAT(text, testing::HasSubstr("normal { uv_mapping bump_map { png \"t.png\" interpolate 2 bump_size "));
   EXPECT_THAT(text, testing::HasSubstr(" } scale <1, 1, -1> } finish {"));
 }

@@ -12,6 +12,30 @@
 using namespace dgtk;
 using namespace dgtk::test;
 
+// What crosses the near plane may be anywhere in the image.
+TEST(BlockObjects, ObjectsThroughTheCameraMayHideAllOthers)
+{
+  const View view = makeView(); // from z = 5
+  for (const bool through : { false, true })
+  {
+    const auto state = SceneBuilder()
+                         .add(makeQuad({ { -9, -9, -3 }, { 18, 0, 0 }, { 0, 18, 0 } }))
+                         .add(makeQuad({ { 0, -0.1, 0 }, { 0.1, 0, 0 }, { 0, 0, through ? 9.0 : 0.1 } }))
+                         .state();
+    const BlockObjects blocks(*state, view);
+    int open = 0;
+    for (int y = 0; y < 48; y += 8)
+    {
+      for (int x = 0; x < 64; x += 8)
+      {
+        open += blocks.mayHideOthers(x, y, 1) ? 1 : 0;
+      }
+    }
+    EXPECT_GE(open, through ? 48 : 1);
+    EXPECT_LE(open, through ? 48 : 4);
+  }
+}
+
 namespace
 {
 /// Decodes run lengths column by column to a row-major mask.

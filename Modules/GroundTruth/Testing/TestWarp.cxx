@@ -114,12 +114,21 @@ TEST(Warp, ToItsOwnCameraOfSkewedPixels)
   Eigen::Matrix3d K = view.model->linear()->K;
   K(0, 1) = -40; // a step down is 0.8 of one to the side
   view.model = makePinhole(width, height, K);
-  const WarpedImage image = warpLayeredDepth(wall(5), view, view);
+  const WarpSource stripes = [](const std::function<void(int, int, const WarpSample&)>& visit)
+  {
+    wall(5)(
+      [&](int x, int y, WarpSample sample)
+      {
+        sample.rgba = { std::uint8_t(x % 2 * 200), std::uint8_t(y % 2 * 200), 0, 255 };
+        visit(x, y, sample);
+      });
+  };
+  const WarpedImage image = warpLayeredDepth(stripes, view, view);
   EXPECT_EQ(image.holeCount, 0u);
   for (int i = 0; i < width * height; ++i)
   {
-    ASSERT_EQ(image.rgb[3 * i], i % width);
-    ASSERT_EQ(image.rgb[3 * i + 1], i / width);
+    ASSERT_EQ(image.rgb[3 * i], i % width % 2 * 200);
+    ASSERT_EQ(image.rgb[3 * i + 1], i / width % 2 * 200);
   }
 }
 

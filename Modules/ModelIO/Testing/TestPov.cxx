@@ -201,6 +201,16 @@ TEST(Pov, NormalsStayAcrossTrianglesThatAreStretched)
   const auto model = readBytes("pov", rightHanded + "mesh { smooth_triangle { <0,0,0>,<1,1,0>, <1,-1,0>,<1,1,0>, "
                                                     "<0,0,1>,<1,1,0> scale <2,1,1> } }");
   EXPECT_LT((model->rest->normals[0] - Eigen::Vector3f(1, 2, 0).normalized()).norm(), 1e-6f);
+  // (1, 1, 0) is across (1, -1, 0) and z: turned, and sheared so that y leans to x
+  for (const auto& [transform, expected] : { std::pair("rotate 90*z", Eigen::Vector3f(-1, 1, 0)),
+         std::pair("matrix <1,0,0, 1,1,0, 0,0,1, 5,5,5>", Eigen::Vector3f(1, 0, 0)) })
+  {
+    const auto moved = readBytes("pov", rightHanded +
+                                          "mesh { smooth_triangle { <0,0,0>,<1,1,0>, <1,-1,0>,<1,1,0>, "
+                                          "<0,0,1>,<1,1,0> " +
+                                          transform + " } }");
+    EXPECT_LT((moved->rest->normals[0] - expected.normalized()).norm(), 1e-6f) << transform;
+  }
 }
 
 TEST(Pov, DeclaredMeshesOnlyAreDrawnOnce)

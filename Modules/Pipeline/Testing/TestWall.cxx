@@ -137,6 +137,26 @@ TEST_F(Wall, CorrespondencesAndFlows)
     found["correspondence_b_class"], 0, [](double x, double) { return x - 4 < 0 ? 4 : 1; }); // outside on the left
 }
 
+TEST_F(Wall, FramesAreThoseOfTheScene)
+{
+  GeneratorRequest request;
+  request.layers = { "depth" };
+  for (const auto& [range, good] : { std::pair(FrameRange{ 0, 4, 1 }, true), std::pair(FrameRange{ 4, 4, 9 }, true),
+         std::pair(FrameRange{ -1, 4, 1 }, false), std::pair(FrameRange{ 0, 5, 1 }, false) })
+  {
+    request.frames = range;
+    if (good)
+    {
+      EXPECT_EQ(
+        int(makeWorkPlan(request, *this->stage()).jobs.size()), 3 * ((range.last - range.first) / range.step + 1));
+    }
+    else
+    {
+      EXPECT_THROW(makeWorkPlan(request, *this->stage()), UsageError) << range.first << ' ' << range.last;
+    }
+  }
+}
+
 TEST_F(Wall, PairsThatAreRefused)
 {
   GeneratorRequest request;

@@ -205,6 +205,13 @@ TEST(OcclusionQuery, AWallHidesWhatIsBehindIt)
   EXPECT_EQ(query->occluder(view, { 0, 0, 7 }, target).object, 0U) << "behind the camera";
   const Hit wall = query->occluder(view, { 0.3, 0.2, -2 }, target);
   EXPECT_EQ(query->occluder(view, { 0.3, 0.2, -2 }, wall).object, 0U) << "the target hides nothing";
+  for (const double inside : { 1e-4, 1e-7, 1e-9, 1e-12 }) // of its edge, where rays beside it are asked as well
+  {
+    const Eigen::Vector3d point(1.4 * (1 - inside), -0.7, -2);
+    const Hit edge = query->occluder(view, point, target);
+    EXPECT_EQ(edge.object, 1U) << inside;
+    EXPECT_EQ(query->occluder(view, point, edge).object, 0U) << "the target hides nothing " << inside;
+  }
   view.near = 5.5;
   EXPECT_EQ(query->occluder(view, { 0.3, 0.2, -2 }, target).object, 0U) << "nearer than near";
   view = makeView();
