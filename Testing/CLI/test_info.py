@@ -64,7 +64,43 @@ class Models(Case):
                         self.assertEqual(found["warnings"], [])
 
 
+    def test_everything_that_is_told_of_a_model(self):
+        """Two flat squares across an edge: six vertices, of which the edge's two have two normals, so that eight are drawn."""
+        model = self.write("roof.ac", 'AC3Db\nMATERIAL "" rgb 1 1 1 amb 0 0 0 emis 0 0 0 spec 0 0 0 shi 0 trans 0\n'
+                           "OBJECT poly\ntexture \"none.png\"\nnumvert 6\n0 0 0\n2 0 0\n2 3 0\n0 3 0\n2 0 -1\n2 3 -1\nnumsurf 3\n"
+                           "SURF 0x20\nmat 0\nrefs 4\n0 0 0\n1 0 0\n2 0 0\n3 0 0\nSURF 0x00\nmat 0\nrefs 4\n1 0 0\n4 0 0\n5 0 0\n2 0 0\n"
+                           "SURF 0x02\nrefs 2\n0 0 0\n2 0 0\nkids 0\n")
+        found = self.info(model)
+        self.assertIn("none.png", found.pop("warnings")[0])
+        self.assertEqual(found, {
+            "file": model, "format": "ac3d", "triangles": 4, "drawn_triangles": 4, "vertices": 6, "parts": 1, "materials": 1,
+            "textures": [{"name": "none.png", "found": False}], "bounds": [[0, 0, -1], [2, 3, 0]], "two_sided_triangles": 2,
+            "two_sided_surfaces": 1, "lines": 1, "frames": 1, "animations": [], "animations_beside": []})
+
+
 class Scenes(Case):
+    def test_cameras_are_those_of_the_first_frame(self):
+        self.write("q.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nf 1 2 3\n")
+        scene = self.write("s.json", json.dumps({
+            "objects": [{"name": "o", "model": "q.obj", "class": "thing"}],
+            "lights": [{"name": "sun", "kind": "directional", "position": [0, 1, 0]}, {"name": "lamp", "enabled": False},
+                       {"name": "head", "kind": "head"}, {"name": "cone", "kind": "spot", "position": [0, 1, 0]}],
+            "cameras": [{"name": "c", "width": 64, "height": 48, "near": 1, "far": 50, "lookAt": [0, 0, 0],
+                         "eye": {"keys": [[3, [0, 0, 5]], [7, [0, 0, 9]]]}}]}))
+        found = json.loads(self.dgtk("info", scene, "--json").stdout)
+        self.assertEqual((found["first_frame"], found["last_frame"], found["key_frames"]), (3, 7, [3, 7]))
+        camera = found["cameras"][0]
+        self.assertEqual((camera["t"], camera["R"]), ([0, 0, 5], [[1, 0, 0], [0, -1, 0], [0, 0, -1]]))
+        self.assertEqual([camera[key] for key in ("name", "model", "width", "height", "near", "far")], ["c", "pinhole", 64, 48, 1, 50])
+        self.assertEqual([(light["name"], light["kind"], light["enabled"]) for light in found["lights"]],
+                         [("sun", "directional", True), ("lamp", "point", False), ("head", "head", True), ("cone", "spot", True)])
+        self.assertEqual(found["objects"], [{"id": 1, "name": "o", "class": "thing", "class_id": 1, "model": self.path("q.obj"),
+                                             "triangles": 1}])
+        self.assertEqual(found["classes"], [{"id": 1, "name": "thing"}])
+        smaller = json.loads(self.dgtk("info", scene, "--json", "--size", "32x24").stdout)["cameras"][0]
+        self.assertEqual((smaller["width"], smaller["height"]), (32, 24))
+        self.assertAlmostEqual(smaller["K"][0][0], camera["K"][0][0] / 2, delta=1e-12)
+
     def test_resolution_by_equations_4_1_and_4_2(self):
         scene = self.write("s.json", json.dumps({"objects": [], "cameras": [
             {"name": "c", "fovY": 60, "near": 0.5, "far": 100.5, "width": 640, "height": 480,
