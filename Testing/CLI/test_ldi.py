@@ -297,6 +297,33 @@ class Warp(Case):
         self.assertLess(numpy.median(difference), 6)
         self.assertLess((difference > 60).mean(), 0.05)
 
+    def test_layers_are_those_that_are_asked_for(self):
+        """To its own camera: --layers N leaves what the first N records of each pixel are."""
+        counts, records = read_ldi(self.ldi)
+        starts = numpy.cumsum(counts.ravel()) - counts.ravel()
+        with open(self.ldi, "rb") as file:
+            head = file.read(8)
+        pictures = {layers: self.warp("left", "--layers", str(layers))[1] for layers in (0, 1, 2)}
+        for layers, picture in pictures.items():
+            kept = [records[start:start + (min(count, layers) if layers else count)] for start, count in zip(starts, counts.ravel())]
+            with open(self.ldi, "wb") as file:
+                file.write(head + b"".join(struct.pack("<I", len(pixel)) + pixel.tobytes() for pixel in kept))
+            self.assertTrue((picture == self.warp("left")[1]).all(), layers)
+
+    def test_limits_of_a_camera_file(self):
+        """Samples nearer than near, or beyond far, are left out."""
+        with open(self.path("d", "cameras.json"), encoding="utf-8") as file:
+            left = self.find_left(json.load(file))
+        depth = numpy.load(self.path("d", "left", "depth", "000000.npy"))
+        middle = float(numpy.median(depth[numpy.isfinite(depth)]))
+        camera = {key: left[key] for key in ("K", "R", "t", "width", "height")}
+        everything, _ = self.warp(self.write("all.json", json.dumps(camera)))
+        beyond, _ = self.warp(self.write("near.json", json.dumps({**camera, "near": middle})))
+        before, _ = self.warp(self.write("far.json", json.dumps({**camera, "far": middle})))
+        self.assertEqual(everything, (~numpy.isfinite(depth)).sum())
+        self.assertLess(everything, beyond)
+        self.assertGreaterEqual(before, (depth > middle).sum())
+
     def test_refusals(self):
         out = ("-o", self.path("o.png"))
         self.refused("warp", self.ldi, *out, status=2, says="--to")
@@ -307,7 +334,11 @@ class Warp(Case):
         self.refused("warp", self.path("d", "left", "ldi", "000001.ldi"), "--to", "left", *out, status=3, says="000001.ldi")
         for text, says in (("[]", "is not a camera"), ("{", "is not a camera"), ('{"K": 3}', "K"),
                            (json.dumps({"K": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "R": [[2, 0, 0], [0, 2, 0], [0, 0, 2]],
-                                        "t": [0, 0, 0], "width": 4, "height": 4}), "not a rotation")):
+                                        "t": [0, 0, 0], "width": 4, "height": 4}), "not a rotation"),
+                           (json.dumps({"K": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "R": [[-1, 0, 0], [0, 1, 0], [0, 0, 1]],
+                                        "t": [0, 0, 0], "width": 4, "height": 4}), "not a rotation"),
+                           (json.dumps({"K": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "R": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+                                        "t": [0, 0, 0], "width": 0, "height": 4}), "width or height")):
             self.refused("warp", self.ldi, "--to", self.write("c.json", text), *out, status=3, says=["c.json", says])
         with open(self.ldi, "rb+") as file:
             file.truncate(os.path.getsize(self.ldi) - 1)
