@@ -187,7 +187,7 @@ void TestEditorMonkey::watchDialogs()
 
 void TestEditorMonkey::trigger()
 {
-  const QList<QAction*> actions = this->Window.get()->findChildren<QAction*>();
+  const QList<QAction*> actions = this->Window->findChildren<QAction*>();
   QAction* const action = actions[this->below(actions.size())];
   if (!action->objectName().isEmpty() && isAllowed(action->objectName()) && action->isEnabled())
   {
@@ -226,7 +226,7 @@ void TestEditorMonkey::touch()
   }
   if (this->below(3) == 0)
   {
-    parts = { this->Window.get()->findChild<QWidget*>("view." + QString::number(this->below(4))) };
+    parts = { this->Window->findChild<QWidget*>("view." + QString::number(this->below(4))) };
   }
   if (!parts.isEmpty())
   {
