@@ -28,6 +28,15 @@ class Usage(Case):
         for name in ("OpenImageIO", "avcodec", "Qt5", "assimp"):
             self.assertNotIn(name, libraries)
 
+    def test_suggestions_are_the_nearest_words(self):
+        """The first of the nearest ones, of those that at most half of the letters of the word must be changed for."""
+        for word, suggestion in (("--jsn", "--json"), ("--jsson", "--json"), ("--ison", "--json"), ("--surfces", "--surfaces"),
+                                 ("--sion", "--json"), ("--sizze", "--size"), ("--surf", "--size"), ("--sfcs", "--size"),
+                                 ("--hlp", "--help"), ("--xyzwvu", ""), ("--qqqqqqqq", "")):
+            with self.subTest(word):
+                line = self.refused("info", SCENE, word, status=2, says="unknown option")
+                self.assertIn(f"did you mean {suggestion}?" if suggestion else f"unknown option '{word}' (see", line)
+
     def test_wrong_usage_is_one_line_and_status_2(self):
         self.refused(status=2, says="a command is missing")
         self.refused("rendr", status=2, says="did you mean render?")
