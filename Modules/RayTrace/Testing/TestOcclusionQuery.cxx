@@ -212,6 +212,12 @@ TEST(OcclusionQuery, AWallHidesWhatIsBehindIt)
     EXPECT_EQ(edge.object, 1U) << inside;
     EXPECT_EQ(query->occluder(view, point, edge).object, 0U) << "the target hides nothing " << inside;
   }
+  const auto both = makeOcclusionQuery();
+  both->setScene(SceneBuilder().add(makeQuad()).add(makeQuad({ { -2, -2, -1 }, { 4, 0, 0 }, { 0, 4, 0 } })).state());
+  const Eigen::Vector3d beyond(1.4 * (1 - 1e-7), -0.7, -2);
+  const Hit nearer = both->occluder(view, beyond, {});
+  EXPECT_EQ(nearer.object, 1U);
+  EXPECT_EQ(both->occluder(view, beyond, nearer).object, 2U) << "the next one behind the target";
   view.near = 5.5;
   EXPECT_EQ(query->occluder(view, { 0.3, 0.2, -2 }, target).object, 0U) << "nearer than near";
   view = makeView();
