@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkError.h"
+#include "dgtkThreadPool.h"
 #include "dgtkUtf8.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
+#include <string>
 
 using namespace dgtk;
 
@@ -48,4 +50,48 @@ TEST(Utf8, ErrorsAreOneLineOfUtf8)
   // a character is not cut
   EXPECT_EQ(quoted(std::string(39, 'a') + "\xc3\xa9"), "'" + std::string(39, 'a') + "...'");
   EXPECT_EQ(quoted(std::string(38, 'a') + "\xc3\xa9"), "'" + std::string(38, 'a') + "\xc3\xa9'");
+}
+
+TEST(Utf8, SurrogatesAreNoCharacters)
+{
+  EXPECT_EQ(printable("\xed\x9f\xbf"), "\xed\x9f\xbf");
+  EXPECT_EQ(printable("\xed\xa0\x80"), "\\xED\\xA0\\x80");
+  EXPECT_EQ(printable("\xee\x80\x80"), "\xee\x80\x80");
+}
+
+TEST(Quoted, LongTextsAreCutBetweenCharactersAndNoFurtherBack)
+{
+  EXPECT_EQ(quoted(std::string(40, 'a')), "'" + std::string(40, 'a') + "'");
+  EXPECT_EQ(quoted(std::string(41, 'a')), "'" + std::string(40, 'a') + "...'");
+  EXPECT_EQ(quoted(std::string(39, 'a') + "\xc3\xa9z"), "'" + std::string(39, 'a') + "...'");
+  std::string escaped;
+  for (int i = 0; i < 37; ++i)
+  {
+    escaped += "\\x80";
+  }
+  EXPECT_EQ(quoted(std::string(60, '\x80')), "'" + escaped + "...'"); // no text at all
+}
+
+TEST(ThreadPool, OfSeveralFailuresTheFirstIndexIsReported)
+{
+  for (const int threads : { 1, 4 })
+  {
+    ThreadPool pool(threads);
+    try
+    {
+      pool.parallelFor(100,
+        [](int i)
+        {
+          if (i >= 7)
+          {
+            throw UsageError(std::to_string(i));
+          }
+        });
+      ADD_FAILURE();
+    }
+    catch (const UsageError& error)
+    {
+      EXPECT_STREQ(error.what(), "7");
+    }
+  }
 }
