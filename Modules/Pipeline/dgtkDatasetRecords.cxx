@@ -87,4 +87,28 @@ std::vector<ClassRecord> classRecords(const Stage& stage)
   return records;
 }
 
+namespace
+{
+std::string hashOf(const std::vector<std::pair<std::string, std::string>>& pairs)
+{
+  Sha256 hash;
+  for (const auto& [key, value] : pairs)
+  {
+    hash.update(key.data(), key.size() + 1);
+    hash.update(value.data(), value.size() + 1);
+  }
+  return hash.hex();
+}
+} // namespace
+
+std::string identityOf(const WorkPlan& plan, const Stage& stage, const std::vector<InputRecord>& inputs)
+{
+  std::vector<std::pair<std::string, std::string>> identity = describeRequest(plan, stage);
+  for (const InputRecord& input : inputs)
+  {
+    identity.emplace_back(input.path, input.sha256);
+  }
+  return hashOf(identity);
+}
+
 } // namespace dgtk

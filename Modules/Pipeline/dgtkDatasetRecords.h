@@ -16,6 +16,9 @@ namespace dgtk
 /// Every file that the scene was loaded from, with its hash; paths are relative to `folder`.
 std::vector<InputRecord> inputsOf(const Stage& stage, const std::string& folder);
 
+/// A hash of everything that decides the bytes of a dataset's files: the request, and what the scene was loaded from.
+std::string identityOf(const WorkPlan& plan, const Stage& stage, const std::vector<InputRecord>& inputs);
+
 /// One record for each camera and frame of the plan, cameras first.
 std::vector<CameraRecord> cameraRecords(const WorkPlan& plan, const Stage& stage);
 

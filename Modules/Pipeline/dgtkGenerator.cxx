@@ -6,14 +6,13 @@
 #include "dgtkFile.h"
 #include "dgtkFrameOutput.h"
 #include "dgtkFrameSource.h"
-#include "dgtkHash.h"
 #include "dgtkLayers.h"
 #include "dgtkPacking.h"
 #include "dgtkRunFiles.h"
 #include "dgtkRunNotes.h"
 #include "dgtkSpaceNeeded.h"
-#include "dgtkTracedQueries.h"
 #include "dgtkThreadPool.h"
+#include "dgtkTracedQueries.h"
 #include "dgtkWorkPlan.h"
 
 #include "dgtkContactSheet.h"
@@ -34,27 +33,6 @@ namespace
 {
 // Bands that wait for their encoders, before drawing pauses.
 constexpr std::size_t mostPendingBytes = std::size_t(384) << 20;
-
-std::string hashOf(const std::vector<std::pair<std::string, std::string>>& pairs)
-{
-  Sha256 hash;
-  for (const auto& [key, value] : pairs)
-  {
-    hash.update(key.data(), key.size() + 1);
-    hash.update(value.data(), value.size() + 1);
-  }
-  return hash.hex();
-}
-
-std::string identityOf(const WorkPlan& plan, const Stage& stage, const std::vector<InputRecord>& inputs)
-{
-  std::vector<std::pair<std::string, std::string>> identity = describeRequest(plan, stage);
-  for (const InputRecord& input : inputs)
-  {
-    identity.emplace_back(input.path, input.sha256);
-  }
-  return hashOf(identity);
-}
 
 int threadsOf(const GeneratorRequest& request)
 {
@@ -257,35 +235,14 @@ void Run::pack()
 /// What deserves a word before the first picture.
 void Run::sayNotes()
 {
-  const GeneratorRequest& request = this->Request;
   const std::string empty = emptyLine(this->Plan.empty);
   if (!empty.empty())
   {
     this->say(empty);
   }
-  for (const std::string& line : blindPictures(this->Plan, *this->Scene))
+  for (const std::string& line : pictureNotes(this->Plan, *this->Scene))
   {
     this->warn(line);
-  }
-  for (const std::string& line : coarseShadowLines(this->Plan, *this->Scene))
-  {
-    this->warn(line);
-  }
-  std::vector<std::string> notes;
-  if (!drawsItself(request) && this->Plan.drawsColor())
-  {
-    const Job& first = this->Plan.jobs.front();
-    notes = povLines(*this->stateAt(first.frame), this->viewOf(first), request.options);
-  }
-  for (const PlannedLayer& planned : this->Plan.layers)
-  {
-    const std::vector<std::string> own = planned.layer->notes(this->Plan, *this->Scene);
-    std::copy_if(own.begin(), own.end(), std::back_inserter(notes),
-      [&notes](const std::string& line) { return std::find(notes.begin(), notes.end(), line) == notes.end(); });
-  }
-  for (const std::string& note : notes)
-  {
-    this->warn(note);
   }
 }
 

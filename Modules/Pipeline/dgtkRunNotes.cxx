@@ -3,10 +3,12 @@
 
 #include "dgtkError.h"
 #include "dgtkLayers.h"
+#include "dgtkPovRenderOptions.h"
 #include "dgtkShadowNotes.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -92,8 +94,8 @@ bool seesAnything(const View& view, const SceneState& state, std::map<const Geom
                       return reaches(view, *lens, box->second, instance.world_from_object);
                     });
 }
-} // namespace
 
+/// A scene without surfaces, and cameras whose frustum holds no object's box at any frame of the run.
 std::vector<std::string> blindPictures(const WorkPlan& plan, const Stage& stage)
 {
   if (stage.objectNames().empty())
@@ -128,6 +130,7 @@ std::vector<std::string> blindPictures(const WorkPlan& plan, const Stage& stage)
   return lines;
 }
 
+/// None where colours are not the built-in renderer's.
 std::vector<std::string> coarseShadowLines(const WorkPlan& plan, const Stage& stage)
 {
   if (!plan.drawsColor() || !drawsItself(plan.request) || !castsShadows(stage.description()))
@@ -170,6 +173,8 @@ std::vector<std::string> coarseShadowLines(const WorkPlan& plan, const Stage& st
   return lines;
 }
 
+} // namespace
+
 std::string placelessLine(const std::string& line, const SceneDescription& scene)
 {
   const std::string prefix = scene.folder.empty() ? std::string() : scene.folder + '/';
@@ -181,6 +186,29 @@ std::string placelessLine(const std::string& line, const SceneDescription& scene
     at += begins ? 0 : prefix.size();
   }
   return text;
+}
+
+std::vector<std::string> pictureNotes(const WorkPlan& plan, const Stage& stage)
+{
+  std::vector<std::string> notes;
+  const auto add = [&notes](const std::vector<std::string>& lines)
+  {
+    std::copy_if(lines.begin(), lines.end(), std::back_inserter(notes),
+      [&notes](const std::string& line) { return std::find(notes.begin(), notes.end(), line) == notes.end(); });
+  };
+  add(blindPictures(plan, stage));
+  add(coarseShadowLines(plan, stage));
+  if (!drawsItself(plan.request) && plan.drawsColor())
+  {
+    const Job& first = plan.jobs.front();
+    add(povLines(*stage.at(first.frame), stage.view(first.camera, first.frame, plan.request.width, plan.request.height),
+      plan.request.options));
+  }
+  for (const PlannedLayer& planned : plan.layers)
+  {
+    add(planned.layer->notes(plan, stage));
+  }
+  return notes;
 }
 
 } // namespace dgtk

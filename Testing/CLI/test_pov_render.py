@@ -79,7 +79,7 @@ class WithoutPovRay(Case):
     def test_refusals(self):
         render = ("render", SCENE, "-o", self.path("x"))
         self.refused(*render, "--renderer", "povrey", status=2, says=["--renderer", "vtk, povray"])
-        self.refused(*render, "--pov-shadows", status=2, says="--renderer povray or the layer pov")
+        self.refused(*render, "--pov-shadows", status=2, says="--pov-shadows: is for pictures and scenes of POV-Ray")
         for option, value in (("--pov-area-lights", "1"), ("--pov-antialias", "10"), ("--pov-focal-blur", "1"), ("--pov-focal-blur", "0,1"),
                               ("--pov-focal-blur", "1,x"), ("--pov-position-colors", "0,0,0,1,1"), ("--pov-position-colors", "0,0,0,1,0,1")):
             self.refused(*render, "--renderer", "povray", option, value, status=2, says=option)
