@@ -147,6 +147,10 @@ std::string liveRefusal(const LayerInfo& info)
 {
   static const std::shared_ptr<const Stage> nothing = Stage::load({});
   const Layer* const layer = findLayer(info.layer);
+  if (layer == nullptr)
+  {
+    return "there is no such layer";
+  }
   const LayerNeeds needs = layer->needs({}, *nothing);
   const std::vector<WriterInfo>& writers = layerWriters();
   const bool image = std::any_of(
@@ -189,7 +193,7 @@ struct LiveEye::Impl
   WorkPlan planOf(const std::string& layer) const;
   void shade(const SurfaceRows& in, Rows& out);
   Eigen::Vector3d through(int x, int y) const;
-  Rows draft(const VisibilityBuffer& hits);
+  void draft(const Band& band, LayerSink& sink);
 
   LiveQuestion Question;
   ThreadPool& Pool;
@@ -281,14 +285,14 @@ void LiveEye::Impl::shade(const SurfaceRows& in, Rows& out)
   }
 }
 
-Rows LiveEye::Impl::draft(const VisibilityBuffer& hits)
+void LiveEye::Impl::draft(const Band& band, LayerSink& sink)
 {
   const LayerSpec spec = draftSpec();
-  Rows out(spec.type, spec.channels, hits.rect.width, hits.rect.y, hits.rect.height);
+  Rows out(spec.type, spec.channels, band.rect.width, band.rect.y, band.rect.height);
   SurfaceRows surface;
-  computeSurfaceRows(*this->Now.state, this->Eye, hits.rect, hits.hits.data(), true, surface);
+  computeSurfaceRows(*this->Now.state, this->Eye, band.rect, band.hits.data(), true, surface);
   this->shade(surface, out);
-  return out;
+  sink.rows(0, out);
 }
 
 LiveEye::LiveEye(const LiveQuestion& question, int step, ThreadPool& pool)
@@ -346,42 +350,63 @@ std::string LiveEye::missing(const std::string& layer) const
   }
 }
 
+namespace
+{
+/// The bands of these hits, strip by strip. False when it was stopped.
+bool giveBands(const VisibilityBuffer& hits, const std::function<void(const Band&)>& give, const LiveEye::Stop& stop)
+{
+  const int strip = stripRows(hits.rect.width);
+  for (int done = 0; done < hits.rect.height; done += strip)
+  {
+    if (asked(stop))
+    {
+      return false;
+    }
+    Band band;
+    band.rect = { 0, hits.rect.y + done, hits.rect.width, std::min(strip, hits.rect.height - done) };
+    const auto first = hits.hits.begin() + std::ptrdiff_t(done) * hits.rect.width;
+    band.hits.assign(first, first + std::ptrdiff_t(band.rect.height) * hits.rect.width);
+    give(band);
+  }
+  return true;
+}
+} // namespace
+
 Rows LiveEye::values(const std::string& layer, const VisibilityBuffer& hits, const Stop& stop)
 {
   if (layer == draftLayer)
   {
-    return this->Self->draft(hits);
+    LiveSink sink(0, draftSpec(), hits.rect);
+    const bool done = giveBands(
+      hits, [&](const Band& band) { this->Self->draft(band, sink); }, stop);
+    return done ? sink.take() : Rows();
   }
   if (!this->missing(layer).empty())
   {
     return {};
   }
   const WorkPlan plan = this->Self->planOf(liveImage(layer).layer);
-  const Job job = plan.jobs.front();
-  const JobContext context{ plan, job, this->Self->Own->cameraNames()[job.camera], this->Self->Now.state, this->view(),
-    this->Self->Queries, this->Self->Pool };
   if (plan.needs.whole && hits.rect.height < this->view().model->height())
   {
     return {};
   }
-  const PlannedPass planned = passesOf(plan, *this->Self->Own, context.job).front();
+  const Job job = plan.jobs.front();
+  const JobContext context{ plan, job, this->Self->Own->cameraNames()[job.camera], this->Self->Now.state, this->view(),
+    this->Self->Queries, this->Self->Pool };
+  const PlannedPass planned = passesOf(plan, *this->Self->Own, job).front();
   const std::vector<LayerOutput> outputs = planned.outputs();
   const auto output =
     std::find_if(outputs.begin(), outputs.end(), [&](const LayerOutput& one) { return one.spec.name == layer; });
+  if (output == outputs.end())
+  {
+    return {};
+  }
   LiveSink sink(std::size_t(output - outputs.begin()), output->spec, hits.rect);
   const std::unique_ptr<LayerPass> pass = planned.layers.front().layer.makePass(context, planned.layers);
-  const int strip = stripRows(hits.rect.width);
-  for (int done = 0; done < hits.rect.height; done += strip)
+  if (!giveBands(
+        hits, [&](const Band& band) { pass->band(band, sink); }, stop))
   {
-    if (asked(stop))
-    {
-      return {};
-    }
-    Band band;
-    band.rect = { 0, hits.rect.y + done, hits.rect.width, std::min(strip, hits.rect.height - done) };
-    const auto first = hits.hits.begin() + std::ptrdiff_t(done) * hits.rect.width;
-    band.hits.assign(first, first + std::ptrdiff_t(band.rect.height) * hits.rect.width);
-    pass->band(band, sink);
+    return {};
   }
   pass->finish(sink);
   return sink.take();
