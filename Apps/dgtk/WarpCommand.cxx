@@ -120,15 +120,7 @@ View viewOf(const CameraRecord& camera, const std::string& file)
   view.far = camera.far;
   try
   {
-    if (camera.model == "pinhole")
-    {
-      view.model = makePinhole(camera.width, camera.height, camera.K);
-    }
-    else if (camera.model == "orthographic")
-    {
-      const double height = camera.height / camera.K(1, 1);
-      view.model = makeOrthographic(camera.width, camera.height, height, camera.width / camera.K(0, 0) / height);
-    }
+    view.model = makeRecordedCamera(camera.model, camera.width, camera.height, camera.K);
   }
   catch (const UsageError& error)
   {

@@ -96,6 +96,11 @@ DGTKCAMERA_EXPORT std::shared_ptr<const CameraModel> makePinholeFromFov(
 DGTKCAMERA_EXPORT std::shared_ptr<const CameraModel> makeOrthographic(
   int width, int height, double viewHeight, double aspect);
 
+/// A camera as cameras.json has it: of the model "pinhole", or "orthographic", whose K has pixels a scene unit. Null
+/// for any other model. Throws UsageError for a size or K that no camera has.
+DGTKCAMERA_EXPORT std::shared_ptr<const CameraModel> makeRecordedCamera(
+  const std::string& model, int width, int height, const Eigen::Matrix3d& K);
+
 /// camera_from_world of a camera at `eye` that looks at `lookAt` with `up` upwards in the image (gluLookAt).
 /// Throws UsageError when eye and lookAt coincide or up is parallel to the view.
 DGTKCAMERA_EXPORT Rigid3 lookAtPose(

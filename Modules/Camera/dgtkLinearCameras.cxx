@@ -179,4 +179,19 @@ std::shared_ptr<const CameraModel> makeOrthographic(int width, int height, doubl
   return std::make_shared<Orthographic>(width, height, K);
 }
 
+std::shared_ptr<const CameraModel> makeRecordedCamera(
+  const std::string& model, int width, int height, const Eigen::Matrix3d& K)
+{
+  if (model == "pinhole")
+  {
+    return makePinhole(width, height, K);
+  }
+  if (model != "orthographic")
+  {
+    return nullptr;
+  }
+  const double viewHeight = height / K(1, 1);
+  return makeOrthographic(width, height, viewHeight, width / K(0, 0) / viewHeight);
+}
+
 } // namespace dgtk

@@ -101,25 +101,9 @@ CameraPlace placeCamera(const CameraDescription& camera, double frame)
 {
   CameraPlace place;
   place.center = camera.posed ? camera.position.at(frame) : camera.eye.at(frame);
-  const int width = camera.width > 0 ? camera.width : usualImageSize[0];
-  const int height = camera.height > 0 ? camera.height : usualImageSize[1];
   try
   {
-    place.view.name = camera.name;
-    place.view.near = camera.near;
-    place.view.far = camera.far;
-    if (camera.kind == CameraKind::Orthographic)
-    {
-      place.view.model = makeOrthographic(width, height, camera.viewHeight.at(frame), camera.aspect);
-    }
-    else
-    {
-      place.view.model = camera.K ? makePinhole(width, height, *camera.K)
-                                  : makePinholeFromFov(width, height, camera.fovY.at(frame), camera.aspect);
-    }
-    place.view.camera_from_world = camera.posed
-                                     ? Rigid3{ camera.orientation.at(frame).matrix(), place.center }.inverse()
-                                     : lookAtPose(place.center, camera.lookAt.at(frame), camera.up.at(frame));
+    place.view = cameraView(camera, frame);
     place.valid = true;
   }
   catch (const Error&)

@@ -182,7 +182,7 @@ const std::vector<LiveLayer>& liveLayers()
 
 View viewOf(const LiveQuestion& question)
 {
-  return question.scene->view(question.camera, question.frame, question.width, question.height);
+  return cameraView(question.camera, question.frame, question.width, question.height);
 }
 
 struct LiveEye::Impl

@@ -45,7 +45,7 @@ struct LiveQuestion
   int finest = 1; ///< pixels of the view, in x and y, for one of the finest picture
 };
 
-/// The view of a question. Throws what Stage::view() throws.
+/// The view of a question. Throws what cameraView() throws.
 DGTKLIVE_EXPORT View viewOf(const LiveQuestion& question);
 
 /// A view of a scene at a frame, traced by rays: the hits and values that `dgtk render` has of the same camera, frame

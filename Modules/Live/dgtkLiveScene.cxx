@@ -74,14 +74,6 @@ LiveScene::Moment LiveScene::at(int frame) const
   return moment;
 }
 
-View LiveScene::view(const CameraDescription& camera, int frame, int width, int height) const
-{
-  SceneDescription alone;
-  alone.file = this->Scene.file;
-  alone.cameras.push_back(camera);
-  return Stage::load(std::move(alone))->view(0, frame, width, height);
-}
-
 std::shared_ptr<const Stage> LiveScene::stageWith(const CameraDescription& camera, std::size_t& index) const
 {
   const std::vector<CameraDescription>& own = this->Scene.cameras;

@@ -37,8 +37,6 @@ public:
   /// Throws what Stage::make() throws.
   std::shared_ptr<const Stage> stage() const;
 
-  /// A camera of this or any scene, as Stage::view(). Throws InputError where its pose is undefined.
-  View view(const CameraDescription& camera, int frame, int width = 0, int height = 0) const;
   /// The stage with this camera among its own, and the camera's index. One without a name is none of the scene's.
   std::shared_ptr<const Stage> stageWith(const CameraDescription& camera, std::size_t& index) const;
 

@@ -157,6 +157,22 @@ std::shared_ptr<const CameraModel> lensAt(const CameraDescription& camera, doubl
 }
 } // namespace
 
+View cameraView(const CameraDescription& camera, double frame, int width, int height)
+{
+  if (width == 0 && height == 0)
+  {
+    width = camera.width > 0 ? camera.width : usualWidth;
+    height = camera.height > 0 ? camera.height : usualHeight;
+  }
+  View view;
+  view.name = camera.name;
+  view.near = camera.near;
+  view.far = camera.far;
+  view.model = lensAt(camera, frame, width, height);
+  view.camera_from_world = poseAt(camera, frame);
+  return view;
+}
+
 struct Stage::Impl
 {
   Impl(SceneDescription scene, const WarningSink& warning)
@@ -372,26 +388,16 @@ View Stage::view(std::size_t index, double frame, int width, int height) const
     throw UsageError("frame is not a finite number");
   }
   const CameraDescription& camera = scene.cameras[index];
-  if (width == 0 && height == 0)
-  {
-    width = camera.width > 0 ? camera.width : usualWidth;
-    height = camera.height > 0 ? camera.height : usualHeight;
-  }
-  View view;
-  view.name = camera.name;
-  view.near = camera.near;
-  view.far = camera.far;
-  view.model = lensAt(camera, frame, width, height);
   try
   {
-    view.camera_from_world = poseAt(camera, frame);
+    poseAt(camera, frame);
   }
   catch (const UsageError& error)
   {
     throw InputError(
       scene.title(), camera.line, "camera " + quoted(camera.name) + " at frame " + textOf(frame) + ": " + error.what());
   }
-  return view;
+  return cameraView(camera, frame, width, height);
 }
 
 std::vector<Exposure> Stage::exposures(std::size_t index, int frame, int width, int height) const

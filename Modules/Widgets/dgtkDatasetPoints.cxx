@@ -16,17 +16,7 @@ constexpr std::array<std::uint8_t, 3> uncolored = { 200, 200, 205 };
 
 std::shared_ptr<const CameraModel> modelOf(const CameraRecord& camera)
 {
-  if (camera.model == "pinhole")
-  {
-    return makePinhole(camera.width, camera.height, camera.K);
-  }
-  if (camera.model == "orthographic")
-  {
-    const double viewHeight = camera.height / camera.K(1, 1);
-    return makeOrthographic(camera.width, camera.height, viewHeight, camera.width / camera.K(0, 0) / viewHeight);
-  }
-  throw InputError("cameras.json", 0, "camera " + quoted(camera.name) + " has a model that is not known here",
-    "pinhole or orthographic", quoted(camera.model));
+  return camera.distortion.empty() ? makeRecordedCamera(camera.model, camera.width, camera.height, camera.K) : nullptr;
 }
 
 /// The parameter of the ray's point at a distance from the origin of its frame.
@@ -37,8 +27,6 @@ double parameterAt(const CameraRay& ray, double distance)
   return -middle + std::sqrt(middle * middle - (ray.origin.squaredNorm() - distance * distance) / square);
 }
 
-bool knowsLens(const CameraRecord& camera) { return camera.model == "pinhole" || camera.model == "orthographic"; }
-
 bool isPlace(const LayerSpec& spec) { return spec.meaning == Meaning::Point && spec.frame == "world"; }
 } // namespace
 
@@ -47,6 +35,11 @@ View viewOf(const CameraRecord& record)
   View view;
   view.name = record.name;
   view.model = modelOf(record);
+  if (!view.model)
+  {
+    throw InputError("cameras.json", 0, "camera " + quoted(record.name) + " has a model that is not known here",
+      "pinhole or orthographic", quoted(record.model));
+  }
   view.camera_from_world = { record.R, record.t };
   view.near = record.near;
   view.far = record.far;
@@ -80,7 +73,7 @@ std::optional<Eigen::Vector3d> pointOf(const LayerSpec& spec, const View& view, 
 std::string pointLayer(const DatasetPictures& dataset, const std::string& camera, int frame)
 {
   const CameraRecord* const record = dataset.camera(camera, frame);
-  const bool positionOnly = record != nullptr && !knowsLens(*record);
+  const bool positionOnly = record != nullptr && !modelOf(*record);
   for (const Meaning meaning : { Meaning::Point, Meaning::Depth, Meaning::Distance, Meaning::InverseDepth })
   {
     for (const PictureLayer& layer : dataset.layers())

@@ -121,7 +121,7 @@ void MatchDialog::showView(std::size_t index)
     try
     {
       const int frame = side.frame->value();
-      const View view = this->Scene->view(this->Scene->description().cameras[std::size_t(camera)], frame);
+      const View view = cameraView(this->Scene->description().cameras[std::size_t(camera)], frame);
       side.view = MatchView{ view, frame };
       side.pane->setImageSize({ view.model->width(), view.model->height() });
       side.pane->setMessage({});

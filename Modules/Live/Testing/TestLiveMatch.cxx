@@ -163,7 +163,7 @@ TEST(LiveMatch, IsTheDatasetsAtEveryPixel)
     {
       if (one.name == name)
       {
-        return MatchView{ live.view(one, 0, 80, 60), 0 };
+        return MatchView{ cameraView(one, 0, 80, 60), 0 };
       }
     }
     throw std::runtime_error(name);
