@@ -332,10 +332,13 @@ void TruthView::receive(const PixelTruth& truth)
   if (!truth.object.empty())
   {
     line += ' ' + toText(truth.object);
+    bool depthSaid = false; // the exact one comes first
     for (const PixelValue& value : truth.values)
     {
       const QString name = toText(value.spec.name);
-      if (value.spec.meaning == Meaning::Depth || name == this->Layer)
+      const bool depth = value.spec.meaning == Meaning::Depth && !depthSaid;
+      depthSaid = depthSaid || depth;
+      if (depth || name == this->Layer)
       {
         line += QStringLiteral("  %1 %2").arg(name, exactText(value, QStringLiteral(", ")));
       }

@@ -317,6 +317,8 @@ void TestEditorWhole::pictures()
   grab(dialog, "editor_render.png");
   dialog->findChild<QTabWidget*>()->setCurrentIndex(1);
   grab(dialog, "editor_render_cameras.png");
+  dialog->findChild<QTabWidget*>()->setCurrentIndex(3);
+  grab(dialog, "editor_render_options.png");
   dialog->hide();
   answer<QDialog>({},
     [&](QDialog& shown)
