@@ -67,7 +67,7 @@ std::shared_ptr<const Stage> LiveScene::stage() const
 
 LiveScene::Moment LiveScene::at(int frame) const
 {
-  const Moment moment = this->queries()->at(frame);
+  Moment moment = this->queries()->at(frame);
   std::shared_ptr<TracedQueries> dropped; // destroyed after the lock
   const std::lock_guard<std::mutex> lock(this->Mutex);
   dropped.swap(this->Before);
