@@ -67,12 +67,9 @@ std::vector<Row> layers()
 std::vector<Row> options()
 {
   std::vector<Row> rows;
-  for (const auto* some : { &requestOptions(), &runOptions() })
+  for (const OptionRow* option : allOptions())
   {
-    for (const OptionRow* option : *some)
-    {
-      rows.push_back({ option->name, option->value, option->value.empty() ? "" : option->fallback, option->help });
-    }
+    rows.push_back({ option->name, option->value, option->value.empty() ? "" : option->fallback, option->help });
   }
   return rows;
 }

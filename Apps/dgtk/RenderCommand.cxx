@@ -70,6 +70,19 @@ std::string optionWord(const OptionRow& row)
   return word;
 }
 
+std::string usualLayers()
+{
+  std::vector<std::string> usual;
+  for (const LayerInfo& info : generatorLayers())
+  {
+    if (info.usual)
+    {
+      usual.push_back(info.layer);
+    }
+  }
+  return joinedNames(usual);
+}
+
 GeneratorRequest parseRequest(const Arguments& arguments)
 {
   GeneratorRequest request;
@@ -89,14 +102,11 @@ GeneratorRequest parseRequest(const Arguments& arguments)
   {
     arguments.size("--size", largestImage, request.width, request.height);
   }
-  for (const auto* rows : { &requestOptions(), &runOptions() })
+  for (const OptionRow* row : allOptions())
   {
-    for (const OptionRow* row : *rows)
+    if (arguments.has(optionWord(*row)))
     {
-      if (arguments.has(optionWord(*row)))
-      {
-        request.options[row->name] = row->normal(arguments.text(optionWord(*row)));
-      }
+      request.options[row->name] = row->normal(arguments.text(optionWord(*row)));
     }
   }
   request.resume = arguments.has("--resume");
@@ -127,17 +137,9 @@ std::string wayOut(FolderContents contents)
 std::string withOption(const std::string& line)
 {
   const std::string name = line.substr(0, line.find(": "));
-  for (const auto* rows : { &requestOptions(), &runOptions() })
-  {
-    for (const OptionRow* row : *rows)
-    {
-      if (row->name == name)
-      {
-        return optionWord(*row) + line.substr(name.size());
-      }
-    }
-  }
-  return line;
+  const auto named =
+    std::find_if(allOptions().begin(), allOptions().end(), [&](const OptionRow* row) { return row->name == name; });
+  return named == allOptions().end() ? line : optionWord(**named) + line.substr(name.size());
 }
 
 GeneratorResult generated(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
@@ -196,20 +198,13 @@ Command renderCommand()
 {
   Command command{ "render", "SCENE", 1, 1, "Renders images and ground truth of a scene into a folder.", {}, &run };
   command.options = { { "--output", "DIR", "", "folder of the dataset" },
-    { "--layers", "NAMES|all", "color,depth,objects,calibration", "what to write; see dgtk list layers" },
+    { "--layers", "NAMES|all", usualLayers(), "what to write; see dgtk list layers" },
     { "--cameras", "NAMES", "", "some of the cameras (default: all)" },
     { "--frames", "A[:B[:STEP]]", "", "some of the frames (default: all)" },
     { "--size", "WxH", "", "size of the images in pixels (default: the camera's own, else 640x480)" } };
-  const auto add = [&command](const OptionRow& row) {
-    command.options.push_back({ optionWord(row), row.value, row.value.empty() ? "" : row.fallback, row.help });
-  };
-  for (const OptionRow* row : requestOptions())
+  for (const OptionRow* row : allOptions())
   {
-    add(*row);
-  }
-  for (const OptionRow* row : runOptions())
-  {
-    add(*row);
+    command.options.push_back({ optionWord(*row), row->value, row->value.empty() ? "" : row->fallback, row->help });
   }
   const std::vector<Option> last = { { "--resume", "", "", "continue an interrupted run of the same request" },
     { "--replace", "", "", "remove the dataset of another request, or an interrupted run, that the folder holds" },

@@ -32,7 +32,7 @@ struct LayerRequest
   std::optional<FrameRange> frames; ///< none: every frame of the scene
   int width = 0;                    ///< pixels; 0: the camera's own size, or 640 x 480
   int height = 0;
-  OptionValues options; ///< of requestOptions() and runOptions(): `options["points_step"] = "2"`
+  OptionValues options; ///< of allOptions(): `options["points_step"] = "2"`
 };
 
 /// One row of the list of layers.

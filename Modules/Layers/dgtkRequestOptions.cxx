@@ -122,11 +122,7 @@ std::vector<const OptionRow*> makeRequestOptions()
   {
     add(row.get());
   }
-  for (const OptionRow* row :
-    std::initializer_list<const OptionRow*>{ &option::visibility(), &option::gl(), &option::seed() })
-  {
-    add(row);
-  }
+  rows.insert(rows.end(), { &option::visibility(), &option::gl(), &option::seed() });
   return rows;
 }
 } // namespace
@@ -137,25 +133,27 @@ const std::vector<const OptionRow*>& requestOptions()
   return rows;
 }
 
-const std::vector<const OptionRow*>& runOptions()
+const std::vector<const OptionRow*>& allOptions()
 {
-  static const std::vector<const OptionRow*> rows{ &option::threads(), &option::pack(), &option::contactSheet() };
+  static const std::vector<const OptionRow*> rows = []
+  {
+    std::vector<const OptionRow*> all = requestOptions();
+    all.insert(all.end(), { &option::threads(), &option::pack(), &option::contactSheet() });
+    return all;
+  }();
   return rows;
 }
 
 const OptionRow& requestOption(const std::string& name)
 {
   std::string known;
-  for (const auto* rows : { &requestOptions(), &runOptions() })
+  for (const OptionRow* row : allOptions())
   {
-    for (const OptionRow* row : *rows)
+    if (row->name == name)
     {
-      if (row->name == name)
-      {
-        return *row;
-      }
-      known += (known.empty() ? "" : ", ") + row->name;
+      return *row;
     }
+    known += (known.empty() ? "" : ", ") + row->name;
   }
   throw UsageError("there is no option " + quoted(name) + " (expected one of " + known + ')');
 }

@@ -15,9 +15,9 @@ namespace dgtk
 /// Every option that may decide what a picture's layers are: of pictures, of the layers (Layer::options()), of their
 /// file formats ("depth_format"), of the engines.
 DGTKLAYERS_EXPORT const std::vector<const OptionRow*>& requestOptions();
-/// Options of a run that writes a dataset, besides.
-DGTKLAYERS_EXPORT const std::vector<const OptionRow*>& runOptions();
-/// One of either, by its name. Throws UsageError when there is none.
+/// These, and then the options of a run that writes a dataset.
+DGTKLAYERS_EXPORT const std::vector<const OptionRow*>& allOptions();
+/// One of all, by its name. Throws UsageError when there is none.
 DGTKLAYERS_EXPORT const OptionRow& requestOption(const std::string& name);
 
 /// Options that are of no layer.

@@ -56,8 +56,8 @@ std::vector<std::string> resolveFormats(const LayerInfo& layer, const LayerReque
   {
     return layer.formats;
   }
-  const NamesOption& row = static_cast<const NamesOption&>(requestOption(formatOption(layer.layer)));
-  const std::vector<std::string> asked = row.of(request.options);
+  const OptionRow& row = requestOption(formatOption(layer.layer));
+  const std::vector<std::string> asked = splitNames(row.text(request.options), row.name);
   std::vector<std::string> formats;
   std::copy_if(layer.formats.begin(), layer.formats.end(), std::back_inserter(formats),
     [&](const std::string& format) { return contains(asked, format); });
@@ -114,6 +114,9 @@ std::vector<int> resolveFrames(const std::optional<FrameRange>& asked, const Sce
   }
   return frames;
 }
+
+/// Whether its options are POV-Ray's, which are not of layers only.
+bool isForPov(const Layer& layer) { return layer.options() == povOptionRows(); }
 } // namespace
 
 std::vector<LayerInfo> generatorLayers()
@@ -123,8 +126,7 @@ std::vector<LayerInfo> generatorLayers()
   {
     infos.push_back(layer->info());
     LayerInfo& info = infos.back();
-    const std::vector<const OptionRow*> own = layer->options();
-    info.options = own == povOptionRows() ? std::vector<const OptionRow*>() : own; // these are not of layers only
+    info.options = isForPov(*layer) ? std::vector<const OptionRow*>() : layer->options();
     if (info.formats.size() > 1)
     {
       info.options.push_back(&requestOption(formatOption(info.layer)));
@@ -236,17 +238,14 @@ void checkPovOptions(const WorkPlan& plan)
   povOptionsOf(plan.request.options);
   const auto given =
     std::find_if(rows.begin(), rows.end(), [&](const OptionRow* row) { return !row->isDefault(plan.request.options); });
-  const bool used = std::any_of(plan.layers.begin(), plan.layers.end(),
-    [&](const PlannedLayer& planned) { return planned.layer->options() == rows; });
+  const bool used = std::any_of(
+    plan.layers.begin(), plan.layers.end(), [](const PlannedLayer& planned) { return isForPov(*planned.layer); });
   if (given != rows.end() && drawsItself(plan.request) && !used)
   {
     throw UsageError((*given)->name + ": is for pictures and scenes of POV-Ray, and this run makes none");
   }
 }
-} // namespace
 
-namespace
-{
 /// The layers of which some pictures of the run have no file, in the order of the plan. Throws UsageError for a layer
 /// that was asked for by its name and has no file at all.
 std::vector<EmptyRecord> emptyLayers(const WorkPlan& plan, const Stage& stage)
@@ -355,7 +354,7 @@ void addLayer(Pairs& pairs, const WorkPlan& plan, const PlannedLayer& planned, c
     return;
   }
   pairs.emplace_back(formatOption(name), joinedNames(planned.formats));
-  if (planned.layer->options() != povOptionRows())
+  if (!isForPov(*planned.layer))
   {
     add(pairs, planned.layer->options(), plan.request.options);
   }

@@ -197,7 +197,7 @@ struct LiveEye::Impl
 
   LiveQuestion Question;
   ThreadPool& Pool;
-  Job Picture;
+  std::size_t Camera = 0;           ///< of the stage
   std::shared_ptr<const Stage> Own; ///< of the scene, with the eye's camera
   EyeQueries Queries;
   View Eye;
@@ -209,16 +209,15 @@ struct LiveEye::Impl
 LiveEye::Impl::Impl(const LiveQuestion& question, int step, ThreadPool& pool)
   : Question(question)
   , Pool(pool)
-  , Own(question.scene->stageWith(question.camera, this->Picture.camera))
+  , Own(question.scene->stageWith(question.camera, this->Camera))
   , Queries(*question.scene, *this->Own)
   , Now(question.scene->at(question.frame))
   , Source(makeRaySource(pool))
 {
   const View whole = viewOf(question);
-  this->Picture.frame = question.frame;
   this->Question.width = (whole.model->width() + step - 1) / step;
   this->Question.height = (whole.model->height() + step - 1) / step;
-  this->Eye = this->Own->view(this->Picture.camera, question.frame, this->Question.width, this->Question.height);
+  this->Eye = this->Own->view(this->Camera, question.frame, this->Question.width, this->Question.height);
   this->Source->setScene(this->Now.state, this->Eye);
 }
 
@@ -237,7 +236,7 @@ WorkPlan LiveEye::Impl::planOf(const std::string& layer) const
   {
     job.frame = this->Question.frame;
   }
-  std::rotate(plan.jobs.begin(), plan.jobs.begin() + std::ptrdiff_t(this->Picture.camera), plan.jobs.end());
+  std::rotate(plan.jobs.begin(), plan.jobs.begin() + std::ptrdiff_t(this->Camera), plan.jobs.end());
   return plan;
 }
 

@@ -207,10 +207,12 @@ void LiveTruth::askPicture(LiveQuestion question, std::string layer, std::functi
     [this, question = std::move(question), layer = std::move(layer), receive = std::move(receive)](
       const NewestTask::Outdated& outdated)
     {
+      std::int64_t pixels = 0;
       const LivePicture refused = attempted<LivePicture>(
         [&]
         {
-          viewOf(question);
+          const View view = viewOf(question);
+          pixels = std::int64_t(view.model->width()) * view.model->height();
           return LivePicture();
         });
       if (!refused.message.empty())
@@ -218,8 +220,7 @@ void LiveTruth::askPicture(LiveQuestion question, std::string layer, std::functi
         receive(refused);
         return;
       }
-      const View view = viewOf(question);
-      const bool small = std::int64_t(view.model->width()) * view.model->height() < leastFine;
+      const bool small = pixels < leastFine;
       for (const int factor : steps)
       {
         const int step = factor * question.finest;

@@ -196,6 +196,11 @@ dgtk::WorkPlan dgtkRenderer::Internal::planOf(const std::vector<std::string>& la
   std::rotate(plan.jobs.begin(), own, own + 1);
   for (const dgtk::PlannedLayer& planned : plan.layers)
   {
+    if (planned.formats.size() > 1)
+    {
+      throw dgtk::UsageError(dgtk::formatOption(planned.layer->info().layer) + ": an array has one format, found " +
+                             dgtk::quoted(dgtk::joinedNames(planned.formats)));
+    }
     if (planned.layer->outputs(plan, stage, plan.jobs.front(), planned).empty())
     {
       throw dgtk::UsageError("there is no layer " + planned.layer->info().layer + " of camera " +

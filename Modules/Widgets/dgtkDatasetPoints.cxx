@@ -27,6 +27,19 @@ double parameterAt(const CameraRay& ray, double distance)
   return -middle + std::sqrt(middle * middle - (ray.origin.squaredNorm() - distance * distance) / square);
 }
 
+/// False for a model that is not known here. What is wrong with a known one is said where its points are asked for.
+bool knowsLens(const CameraRecord& camera)
+{
+  try
+  {
+    return modelOf(camera) != nullptr;
+  }
+  catch (const UsageError&)
+  {
+    return true;
+  }
+}
+
 bool isPlace(const LayerSpec& spec) { return spec.meaning == Meaning::Point && spec.frame == "world"; }
 } // namespace
 
@@ -73,12 +86,12 @@ std::optional<Eigen::Vector3d> pointOf(const LayerSpec& spec, const View& view, 
 std::string pointLayer(const DatasetPictures& dataset, const std::string& camera, int frame)
 {
   const CameraRecord* const record = dataset.camera(camera, frame);
-  const bool positionOnly = record != nullptr && !modelOf(*record);
+  const bool positionOnly = record != nullptr && !knowsLens(*record);
   for (const Meaning meaning : { Meaning::Point, Meaning::Depth, Meaning::Distance, Meaning::InverseDepth })
   {
     for (const PictureLayer& layer : dataset.layers())
     {
-      // a .png of depth is a picture for people, and of layers the .npy
+      // a .png of depth is a picture for people
       const bool usable = layer.spec.meaning == meaning && givesPoints(layer.spec) && layer.format != "png" &&
                           (isPlace(layer.spec) || !positionOnly);
       if (usable && !dataset.file({ camera, frame, layer.label }).empty())

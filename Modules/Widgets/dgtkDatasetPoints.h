@@ -37,8 +37,8 @@ struct PointCloud
   std::vector<std::array<std::uint8_t, 3>> colors;
 };
 
-/// The label of the layer from which a camera's points come at a frame: depth, or the next best; "" for none. Of a
-/// lens that is not known only position.
+/// The label of the layer from which a camera's points come at a frame: positions, depth, or the next best; "" for
+/// none. Of a lens that is not known only position.
 DGTKWIDGETS_EXPORT std::string pointLayer(const DatasetPictures& dataset, const std::string& camera, int frame);
 
 /// Adds what a camera sees at a frame: the points of its depth in the colours of `colorLayer` (a label; "" for the

@@ -3,6 +3,7 @@
 
 #include "dgtkBackgroundWork.h"
 #include "dgtkEditorState.h"
+#include "dgtkEnvironmentLight.h"
 #include "dgtkError.h"
 #include "dgtkMatchDialog.h"
 #include "dgtkModelReader.h"
@@ -127,7 +128,14 @@ bool MainWindow::openFile(const QString& path)
   const auto loaded = std::make_shared<std::optional<LoadedScene>>();
   const std::string file = QFile::encodeName(path).toStdString();
   const bool read = this->work(tr("Reading %1 ...").arg(QFileInfo(path).fileName()),
-    [loaded, file](const LoadProgress& progress) { *loaded = SceneDocument::read(file, progress); });
+    [loaded, file](const LoadProgress& progress)
+    {
+      *loaded = SceneDocument::read(file, progress);
+      if (*loaded)
+      {
+        environmentLight((*loaded)->models.environment((*loaded)->scene)); // is kept; the views need not wait for it
+      }
+    });
   // What was edited in the meantime is not thrown away unasked.
   if (!read || !*loaded || (this->document().json() != before && !this->mayDiscard()))
   {

@@ -53,12 +53,9 @@ RenderOptions::RenderOptions(QWidget* parent)
   auto* formats = new QFormLayout(group);
   columns->addWidget(group);
   columns->addStretch(1);
-  for (const auto* rows : { &requestOptions(), &runOptions() })
+  for (const OptionRow* row : allOptions())
   {
-    for (const OptionRow* row : *rows)
-    {
-      this->add(*row, row->kind == OptionRow::Kind::Names && !row->choices.empty() ? formats : form);
-    }
+    this->add(*row, row->kind == OptionRow::Kind::Names && !row->choices.empty() ? formats : form);
   }
   for (const LayerInfo& info : generatorLayers())
   {
@@ -86,11 +83,11 @@ QString RenderOptions::kept(const OptionRow& row) const
 
 void RenderOptions::add(const OptionRow& row, QFormLayout* form)
 {
-  Field field{ &row, nullptr, toText(row.name), {}, {} };
+  Field field{ &row, nullptr, {}, {} };
   field.widget = this->makeField(row, this->kept(row), field);
   field.widget->setObjectName(toText(row.name));
   field.widget->setToolTip(toText(row.help));
-  form->addRow(field.label, field.widget);
+  form->addRow(toText(row.name), field.widget);
   form->labelForField(field.widget)->setToolTip(toText(row.help));
   this->Fields.push_back(field);
 }
@@ -121,15 +118,9 @@ QWidget* RenderOptions::makeField(const OptionRow& row, const QString& text, Fie
     field.text = [box] { return box->currentText().toStdString(); };
     return box;
   }
-  QLineEdit* const line = this->makeLine(row, text);
-  field.text = [line] { return line->text().trimmed().toStdString(); };
-  return line;
-}
-
-QLineEdit* RenderOptions::makeLine(const OptionRow& row, const QString& text)
-{
   auto* line = new QLineEdit(text);
   line->setPlaceholderText(toText(row.value));
+  field.text = [line] { return line->text().trimmed().toStdString(); };
   return line;
 }
 
@@ -192,7 +183,7 @@ QString RenderOptions::inWindowsWords(QString message) const
 {
   const auto named = std::find_if(this->Fields.begin(), this->Fields.end(),
     [&](const Field& field) { return message.startsWith(wordOf(*field.row) + ": "); });
-  return named == this->Fields.end() ? message : named->label + message.mid(wordOf(*named->row).size());
+  return named == this->Fields.end() ? message : toText(named->row->name) + message.mid(wordOf(*named->row).size());
 }
 
 } // namespace dgtk

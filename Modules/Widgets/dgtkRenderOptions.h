@@ -13,7 +13,6 @@
 #include <vector>
 
 class QFormLayout;
-class QLineEdit;
 
 namespace dgtk
 {
@@ -45,13 +44,11 @@ private:
   {
     const OptionRow* row;
     QWidget* widget;
-    QString label;
     QStringList layers; ///< that have it; empty: all
     std::function<std::string()> text;
   };
   void add(const OptionRow& row, QFormLayout* form);
   QWidget* makeField(const OptionRow& row, const QString& text, Field& field);
-  QLineEdit* makeLine(const OptionRow& row, const QString& text);
   QString kept(const OptionRow& row) const;
 
   std::vector<Field> Fields;

@@ -212,6 +212,7 @@ pickle.dump(given, open(sys.argv[2] + "/given.pickle", "wb"))
                 ({"samples": 0}, "from 1 to 16, found '0'"),
                 ({"sample": 4}, "there is no option 'sample' .expected one of samples, filter, "),
                 ({"matte": ["tree", ""], "layers": "matting"}, "matte: an empty name in 'tree,'"),
+                ({"layers": "color", "color_format": ["png", "exr"]}, "color_format: an array has one format, found 'png,exr'"),
                 ({"renderer": "povray"}, "renderer: arrays are drawn by the built-in one"),
                 ({"frame": 77}, "the scene has frames 0 to 2, found 77"),
                 ({"frame": -1}, "found -1"),
@@ -237,6 +238,12 @@ class Guide(Interpreter):
 class Import(Interpreter):
     def test_version_is_that_of_the_program(self):
         self.assertEqual("dgtk " + self.python("import dgtk; print(dgtk.__version__)").stdout, self.dgtk("--version").stdout)
+
+    def test_help_lists_every_option_and_is_not_needed(self):
+        said = self.python("import dgtk; print(dgtk.render.__doc__)").stdout
+        for row in json.loads(self.dgtk("list", "options", "--json").stdout)["options"]:
+            self.assertEqual(f"\n    {row['name']}: " in said, row["name"] not in ("threads", "pack", "contact_sheet"), row["name"])
+        self.python("import dgtk", flags=("-OO",))
 
     def test_another_python_is_told_which_one_is_needed(self):
         self.assertIn("/usr/bin/python3", self.said("import dgtk", "-S"))  # -S: without Debian's packages

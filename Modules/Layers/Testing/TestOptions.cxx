@@ -13,29 +13,26 @@ using namespace dgtk;
 TEST(Options, AreReadAsTheyAreWritten)
 {
   std::set<std::string> names;
-  for (const auto* rows : { &requestOptions(), &runOptions() })
+  for (const OptionRow* row : allOptions())
   {
-    for (const OptionRow* row : *rows)
+    EXPECT_TRUE(names.insert(row->name).second) << row->name;
+    EXPECT_EQ(row->name.find_first_not_of("abcdefghijklmnopqrstuvwxyz_"), std::string::npos) << row->name;
+    EXPECT_FALSE(row->help.empty()) << row->name;
+    EXPECT_EQ(row->value.empty(), row->kind == OptionRow::Kind::Switch) << row->name;
+    EXPECT_EQ(&requestOption(row->name), row);
+    EXPECT_TRUE(row->isDefault({})) << row->name;
+    if (!row->fallback.empty())
     {
-      EXPECT_TRUE(names.insert(row->name).second) << row->name;
-      EXPECT_EQ(row->name.find_first_not_of("abcdefghijklmnopqrstuvwxyz_"), std::string::npos) << row->name;
-      EXPECT_FALSE(row->help.empty()) << row->name;
-      EXPECT_EQ(row->value.empty(), row->kind == OptionRow::Kind::Switch) << row->name;
-      EXPECT_EQ(&requestOption(row->name), row);
-      EXPECT_TRUE(row->isDefault({})) << row->name;
-      if (!row->fallback.empty())
-      {
-        EXPECT_EQ(row->normal(row->fallback), row->fallback) << row->name;
-      }
-      for (const std::string& choice : row->choices)
-      {
-        EXPECT_EQ(row->normal(choice), choice);
-      }
-      if (row->kind != OptionRow::Kind::Names || !row->choices.empty())
-      {
-        EXPECT_THROW(row->normal("?"), UsageError) << row->name;
-        EXPECT_THROW(row->text({ { row->name, "?" } }), UsageError) << row->name;
-      }
+      EXPECT_EQ(row->normal(row->fallback), row->fallback) << row->name;
+    }
+    for (const std::string& choice : row->choices)
+    {
+      EXPECT_EQ(row->normal(choice), choice);
+    }
+    if (row->kind != OptionRow::Kind::Names || !row->choices.empty())
+    {
+      EXPECT_THROW(row->normal("?"), UsageError) << row->name;
+      EXPECT_THROW(row->text({ { row->name, "?" } }), UsageError) << row->name;
     }
   }
   EXPECT_THROW(requestOption("sample"), UsageError);

@@ -4,6 +4,7 @@
 #include "dgtkCryptomatte.h"
 #include "dgtkDatasetPoints.h"
 #include "dgtkError.h"
+#include "dgtkFile.h"
 #include "dgtkPixelText.h"
 #include "dgtkTestDataset.h"
 
@@ -167,8 +168,13 @@ TEST(DatasetPoints, PixelsGoWhereTheCalibrationSays)
       const double distance = (camera.R * point + camera.t).norm();
       const double inverse = 1 / z;
       EXPECT_LT((*pointOf(depth, view, x, y, &z) - point).norm(), tolerance);
-      EXPECT_LT((*pointOf({ "distance", {}, 1, "", "", "", "", Meaning::Distance }, view, x, y, &distance) - point).norm(), tolerance);
-      EXPECT_LT((*pointOf({ "inversedepth", {}, 1, "", "", "", "", Meaning::InverseDepth }, view, x, y, &inverse) - point).norm(), tolerance);
+      EXPECT_LT(
+        (*pointOf({ "distance", {}, 1, "", "", "", "", Meaning::Distance }, view, x, y, &distance) - point).norm(),
+        tolerance);
+      EXPECT_LT(
+        (*pointOf({ "inversedepth", {}, 1, "", "", "", "", Meaning::InverseDepth }, view, x, y, &inverse) - point)
+          .norm(),
+        tolerance);
       EXPECT_EQ(*pointOf({ "position", {}, 3, "", "world", "", "", Meaning::Point }, view, x, y, point.data()), point);
     }
     EXPECT_FALSE(pointOf(depth, view, 0, 0, &inf));
@@ -176,6 +182,20 @@ TEST(DatasetPoints, PixelsGoWhereTheCalibrationSays)
     EXPECT_FALSE(pointOf({ "inversedepth", {}, 1, "", "", "", "", Meaning::InverseDepth }, view, 0, 0, &none));
     EXPECT_FALSE(pointOf({ "uv", {}, 2, "", "", "", "", Meaning::TextureCoordinates }, view, 0, 0, &none));
   }
+}
+
+TEST(DatasetPoints, ACameraThatCannotBeIsRefusedWherePointsAreMade)
+{
+  SmallDataset files;
+  files.add("left", "depth", 0, "", "npy", depth, [](int, int, int) { return 2.0; });
+  files.finish();
+  CameraRecord wrong = SmallDataset::left(0);
+  wrong.K.setZero();
+  writeFile(files.path("cameras.json"), camerasText({ wrong }));
+  const DatasetPictures dataset(files.path());
+  EXPECT_EQ(pointLayer(dataset, "left", 0), "depth") << "is asked for by the window itself";
+  PointCloud cloud;
+  EXPECT_THROW(addPoints(cloud, dataset, "left", 0, "", 100), UsageError);
 }
 
 TEST(DatasetPoints, CloudsHoldEverySurfaceWithItsColour)
