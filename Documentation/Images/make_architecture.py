@@ -8,7 +8,7 @@ import os
 
 TARGET = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "DeveloperGuide", "architecture.svg")
 COLUMN, ROW, GAP, LEFT, TOP = 80, 62, 8, 16, 44
-ROWS = 10
+ROWS = 13
 BLUE, YELLOW, GREEN, PINK, GRAY, VIOLET = "#dbeafe", "#fde68a", "#bbf7d0", "#fbcfe8", "#e8e8e8", "#ddd6fe"
 # name, what it holds, columns from and to, rows from and to (from the bottom), colour
 BOXES = [
@@ -29,7 +29,13 @@ BOXES = [
     ("Verification", "also on Stage, RayTrace", 10, 12, 6, 8, VIOLET),
     ("Document", "what the editor edits; on Stage alone", 5, 10, 8, 9, VIOLET),
     ("Live", "ground truth while editing", 0, 5, 8, 9, VIOLET),
-    ("Widgets", "parts of the desktop editor", 0, 10, 9, 10, VIOLET),
+    ("Controls", "state, small widgets", 5, 10, 9, 10, VIOLET),
+    ("Views", "3D views, handles", 0, 5, 9, 11, VIOLET),
+    ("Panels", "properties, time line", 5, 7.5, 10, 12, VIOLET),
+    ("Runs", "renders into files", 7.5, 10, 10, 12, VIOLET),
+    ("Viewer", "datasets", 0, 2.5, 11, 12, VIOLET),
+    ("Matches", "live truth, matches", 2.5, 5, 11, 12, VIOLET),
+    ("Windows", "the editor's main window", 0, 10, 12, 13, VIOLET),
 ]
 
 
@@ -38,7 +44,7 @@ def main():
     lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="DejaVu Sans, Arial, sans-serif">',
              '<rect width="100%" height="100%" fill="white"/>',
              f'<text x="{LEFT}" y="28" font-size="15" fill="#333">Each box rests on what it uses. Python stands on Pipeline, '
-             'the program dgtk also on Verification, dgtk-editor on Widgets.</text>']
+             'the program dgtk also on Verification, dgtk-editor on Windows.</text>']
     for name, holds, left, right, bottom, top, colour in BOXES:
         x, y = LEFT + left * COLUMN + GAP / 2, TOP + (ROWS - top) * ROW + GAP / 2
         w, h = (right - left) * COLUMN - GAP, (top - bottom) * ROW - GAP

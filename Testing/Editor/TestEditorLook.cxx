@@ -40,7 +40,7 @@ QString text(const char* relative) { return QString::fromStdString(sourceFile(re
 QMap<QString, QString> germanOfEnglish()
 {
   QMap<QString, QString> german;
-  QFile file(text("Modules/Widgets/Translations/dgtk-editor_de.ts"));
+  QFile file(text("Modules/Controls/Translations/dgtk-editor_de.ts"));
   file.open(QIODevice::ReadOnly);
   QXmlStreamReader xml(&file);
   QString english;

@@ -7,7 +7,7 @@ usage: check_layering.py SOURCE_FOLDER
 * every dependency between modules in Modules/*/vtk.module is allowed by the table, and the table has no cycle;
 * no public header names a type or header of a third-party library other than Eigen and VTK;
 * modules that must be independent of VTK's rendering name no VTK module;
-* no text in a module names an option of the command line (but for the file of Widgets that starts `dgtk`);
+* no text in a module names an option of the command line (but for the file of Runs that starts `dgtk`);
 * what drives, writes, reads or shows layers names none of them: their names stand in their own files, in Verification, and
   as keys of documents and words of other files' formats;
 * a class of a namespace is defined in one place: to the linker two of one name are one, also when
@@ -17,7 +17,7 @@ import os
 import re
 import sys
 
-USES_VTK = {"RenderGL", "Pipeline", "Live", "Widgets"}
+USES_VTK = {"RenderGL", "Pipeline", "Live", "Views", "Viewer", "Matches"}
 PRIVATE_LIBRARIES = re.compile(
     r"#\s*include\s*[<\"](GL/|EGL/|embree|assimp|opencv|OpenImageIO|OpenEXR|nlohmann|openssl|libdeflate|zlib|vtkgl|vtk_glew)")
 
@@ -27,7 +27,7 @@ TABLE = os.path.join("Documentation", "DeveloperGuide", "architecture.md")
 STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 STARTS_THE_PROGRAM = {"dgtkRenderOptions.cxx"}
 # Modules (and the program) that meet layers of whatever name. In Scene, ModelIO and Export the same words are those of files.
-MEET_LAYERS = ["Core", "DatasetIO", "Document", "Layers", "Live", "Pipeline", "RayTrace", "RenderGL", "Sensor", "Stage", "Visibility", "Widgets", "../Apps/dgtk", "../Apps/Editor"]
+MEET_LAYERS = ["Core", "DatasetIO", "Document", "Layers", "Live", "Pipeline", "RayTrace", "RenderGL", "Sensor", "Stage", "Visibility", "Controls", "Views", "Viewer", "Matches", "Panels", "Runs", "Windows", "../Apps/dgtk", "../Apps/Editor"]
 # A literal beside == or !=, or looked for in a text, or given to what takes a layer's name.
 COMPARED = re.compile(r"([=!]=\s*|\b(?:rfind|compare|makeRepresentation|layerBox|formatsOf|firstLayer|startsWith|endsWith)\(\s*)$")
 # Of what is compared: formats, parts of formats and extensions are called like some layers.
@@ -49,21 +49,26 @@ def layer_names(modules):
     """Names of the layers in the rows of representations and in the files of the others."""
     rows = open(os.path.join(modules, "GroundTruth", "CMakeLists.txt"), encoding="utf-8").read()
     names = set(re.findall(r"dgtk_representation\(\w+ LAYER (\w+)", rows))
-    layers = os.path.join(modules, "Layers")
-    for name in os.listdir(layers):
+    for name in files(modules, "Layers"):
         if name.endswith("Layer.cxx"):
-            text = open(os.path.join(layers, name), encoding="utf-8").read()
+            text = open(os.path.join(modules, "Layers", name), encoding="utf-8").read()
             for found in re.findall(r'(?:return \{ |[lL]ayer(?:Name)? = )(?:\w+ \? )?"(\w+)"(?: : "(\w+)")?[,;]', text):
                 names |= set(found) - {""}
     return names
 
 
+def files(modules, module):
+    """Sources and headers of a module, from its folder; without its tests."""
+    top = os.path.join(modules, module)
+    for folder, below, names in os.walk(top):
+        below[:] = sorted(set(below) - {"Testing"})
+        yield from (os.path.relpath(os.path.join(folder, name), top) for name in sorted(names) if name.endswith((".h", ".cxx")))
+
+
 def sources(modules, module):
-    folder = os.path.join(modules, module)
-    for name in sorted(os.listdir(folder)) if os.path.isdir(folder) else []:
-        if name.endswith((".h", ".cxx")):
-            text = open(os.path.join(folder, name), encoding="utf-8").read()
-            yield name, re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.DOTALL)
+    for name in files(modules, module):
+        text = open(os.path.join(modules, module, name), encoding="utf-8").read()
+        yield name, re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.DOTALL)
 
 
 def named_in_texts(modules):
@@ -72,7 +77,7 @@ def named_in_texts(modules):
     for module in sorted(os.listdir(modules)):
         for name, code in sources(modules, module):
             for text in STRING.findall(code):
-                if name not in STARTS_THE_PROGRAM and re.search(r"--[a-z]|^\"--\"$", text) and ";" not in text:  # shaders count down
+                if os.path.basename(name) not in STARTS_THE_PROGRAM and re.search(r"--[a-z]|^\"--\"$", text) and ";" not in text:  # shaders count down
                     problems.append(f"Modules/{module}/{name}: {text} names an option of the command line")
     for module in MEET_LAYERS:
         for name, code in sources(modules, module):
@@ -134,6 +139,7 @@ def check(source):
     places = {}
     modules = os.path.join(source, "Modules")
     problems = named_in_texts(modules)
+    owners = {os.path.basename(name): module for module in ALLOWED for name in files(modules, module)}
     for module in sorted(os.listdir(modules)):
         declaration = os.path.join(modules, module, "vtk.module")
         if not os.path.exists(declaration):
@@ -149,19 +155,15 @@ def check(source):
             if package == "VTK" and module not in USES_VTK:
                 problems.append(f"Modules/{module}/vtk.module: {module} may not use VTK")
         lists = open(os.path.join(modules, module, "CMakeLists.txt"), encoding="utf-8").read()
-        for header in sorted(h for h in os.listdir(os.path.join(modules, module)) if h.endswith(".h")):
-            text = open(os.path.join(modules, module, header), encoding="utf-8").read()
-            public = re.search(r"\b" + re.escape(header) + r"\b", lists)
-            if public and PRIVATE_LIBRARIES.search(text):
-                problems.append(f"Modules/{module}/{header}: a public header includes a private library")
-        for name in sorted(os.listdir(os.path.join(modules, module))):
-            if not name.endswith((".h", ".cxx")):
-                continue
+        for name in files(modules, module):
             text = open(os.path.join(modules, module, name), encoding="utf-8").read()
+            public = name.endswith(".h") and re.search(r"\b" + re.escape(name) + r"\b", lists)
+            if public and PRIVATE_LIBRARIES.search(text):
+                problems.append(f"Modules/{module}/{name}: a public header includes a private library")
             for defined in classes(text):
                 places.setdefault(defined, []).append(f"Modules/{module}/{name}")
             for included in re.findall(r'#\s*include\s*"(dgtk\w+\.h)"', text):
-                owner = next((m for m in ALLOWED if os.path.exists(os.path.join(modules, m, included))), module)
+                owner = owners.get(included, module)
                 if owner != module and owner not in may_see:
                     problems.append(f"Modules/{module}/{name}: includes {included} of {owner}")
     problems += [f"{name}: defined in {' and '.join(files)}" for name, files in sorted(places.items()) if len(files) > 1]

@@ -1,5 +1,5 @@
 # Registration tables: one row a newcomer. `dgtk_reader(Ac3d EXTENSIONS ac acc FORMAT ac3d DESCRIPTION "AC3D")` declares
-# that <prefix>Ac3d.cxx defines the factory of that name; the tables are generated, there are no static initialisers.
+# that dgtkAc3dReader.cxx, in the module's folder or below, defines the factory of that name; the tables are generated, there are no static initialisers.
 #
 #   dgtk_registry_begin(<kind>)            kind: reader, representation, layer, writer
 #   dgtk_<kind>(<Name> KEY value... )
@@ -27,7 +27,8 @@ macro(dgtk_reader name)
     "std::shared_ptr<Model> read${name}(const std::string& path, const ReadOptions& options);\n")
   string(APPEND _dgtk_reader_rows
     "  { { \"${name}\", \"${_row_FORMAT}\", \"${_row_DESCRIPTION}\", { ${_extensions}} }, &read${name} },\n")
-  list(APPEND _dgtk_reader_sources "dgtk${name}Reader.cxx")
+  dgtk_find_source(_source "dgtk${name}Reader.cxx")
+  list(APPEND _dgtk_reader_sources "${_source}")
 endmacro()
 
 macro(dgtk_representation name)
@@ -35,7 +36,8 @@ macro(dgtk_representation name)
   string(APPEND _dgtk_representation_declarations "std::unique_ptr<Representation> make${name}();\n")
   string(APPEND _dgtk_representation_rows
     "  { { \"${name}\", \"${_row_LAYER}\", \"${_row_DESCRIPTION}\", \"${_row_USUAL}\" == std::string(\"TRUE\") }, &make${name} },\n")
-  list(APPEND _dgtk_representation_sources "dgtk${name}.cxx")
+  dgtk_find_source(_source "dgtk${name}.cxx")
+  list(APPEND _dgtk_representation_sources "${_source}")
 endmacro()
 
 macro(dgtk_writer name)
@@ -43,7 +45,8 @@ macro(dgtk_writer name)
   string(APPEND _dgtk_writer_declarations "extern const WriterEntry writer${name};\n")
   string(APPEND _dgtk_writer_rows
     "  { { \"${name}\", \"${_row_FORMAT}\", \"${_row_EXTENSION}\", \"${_row_DESCRIPTION}\" }, &writer${name} },\n")
-  list(APPEND _dgtk_writer_sources "dgtk${name}Writer.cxx")
+  dgtk_find_source(_source "dgtk${name}Writer.cxx")
+  list(APPEND _dgtk_writer_sources "${_source}")
 endmacro()
 
 macro(dgtk_layer name)
@@ -52,7 +55,8 @@ macro(dgtk_layer name)
   string(SUBSTRING "${name}" 1 -1 _rest)
   string(APPEND _dgtk_layer_declarations "LayerList ${_first}${_rest}Layers();\n")
   string(APPEND _dgtk_layer_rows "&${_first}${_rest}Layers, ")
-  list(APPEND _dgtk_layer_sources "dgtk${name}Layer.cxx")
+  dgtk_find_source(_source "dgtk${name}Layer.cxx")
+  list(APPEND _dgtk_layer_sources "${_source}")
 endmacro()
 
 macro(dgtk_registry_end kind template output)

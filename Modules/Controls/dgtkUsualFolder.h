@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkUsualFolder_h
+#define dgtkUsualFolder_h
+
+#include "dgtkControlsModule.h"
+
+#include <QString>
+
+namespace dgtk
+{
+
+/// Where file dialogs begin: where a file of that kind was chosen last; "", the working folder, before the first.
+DGTKCONTROLS_EXPORT QString usualFolder(const QString& kind = "scenes");
+/// Of a file its folder; a folder (a dataset) itself.
+DGTKCONTROLS_EXPORT void rememberFolder(const QString& chosen, const QString& kind = "scenes");
+
+} // namespace dgtk
+
+#endif

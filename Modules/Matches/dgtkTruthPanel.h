@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkTruthPanel_h
+#define dgtkTruthPanel_h
+
+#include "dgtkLiveTruth.h"
+#include "dgtkMatchesModule.h"
+
+#include <QString>
+#include <QTreeWidget>
+
+namespace dgtk
+{
+
+/// A number with the digits that tell it from all others.
+DGTKMATCHES_EXPORT QString exactText(double value);
+/// The channels of a value; "-" where there is none.
+DGTKMATCHES_EXPORT QString exactText(const PixelValue& value, const QString& separator);
+
+/// Everything known about the pixel under the mouse. Control+C copies it.
+class DGTKMATCHES_EXPORT TruthPanel : public QTreeWidget
+{
+  Q_OBJECT
+
+public:
+  explicit TruthPanel(QWidget* parent);
+  /// `units`: of the scene, may be empty.
+  void showTruth(const QString& view, const PixelTruth& truth, const QString& units);
+  void forgetTruth();
+  /// The rows as lines.
+  QString text() const;
+
+protected:
+  bool event(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+
+private:
+  void setRow(const QString& name, const QString& value, const QString& tip = {});
+  void showValues(const PixelTruth& truth, const QString& units);
+  void finishRows();
+  int Next = 0; ///< row that setRow() fills
+};
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkDatasetPoints_h
+#define dgtkDatasetPoints_h
+
+#include "dgtkViewerModule.h"
+
+#include "dgtkCameraModel.h"
+#include "dgtkPictureValues.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// The camera of an entry of cameras.json. Throws InputError for a model that is neither "pinhole" nor "orthographic",
+/// UsageError for a K that no camera has.
+DGTKVIEWER_EXPORT View viewOf(const CameraRecord& record);
+
+/// Whether world points follow from the values of a layer: depth, depth_noisy, distance, inversedepth, position.
+DGTKVIEWER_EXPORT bool givesPoints(const LayerSpec& spec);
+/// The world point seen by the centre of the pixel in column x and row y. `values`: the pixel's channels. Nothing where
+/// they say that there is none. Positions need no view.
+DGTKVIEWER_EXPORT std::optional<Eigen::Vector3d> pointOf(
+  const LayerSpec& spec, const View& view, int x, int y, const double* values);
+
+/// Points in the world with their colours.
+struct PointCloud
+{
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::array<std::uint8_t, 3>> colors;
+};
+
+/// The label of the layer from which a camera's points come at a frame: positions, depth, or the next best; "" for
+/// none. Of a lens that is not known only position.
+DGTKVIEWER_EXPORT std::string pointLayer(const DatasetPictures& dataset, const std::string& camera, int frame);
+
+/// Adds what a camera sees at a frame: the points of its depth in the colours of `colorLayer` (a label; "" for the
+/// first picture; where the camera has no such picture they are gray), of every n-th pixel, so that there are at most
+/// `most`. Throws InputError for damaged files and a camera that is not in cameras.json. `goOn`: as in PictureRead.
+DGTKVIEWER_EXPORT void addPoints(PointCloud& cloud, const DatasetPictures& dataset, const std::string& camera,
+  int frame, const std::string& colorLayer, std::size_t most, const std::function<bool()>& goOn = {});
+
+} // namespace dgtk
+
+#endif

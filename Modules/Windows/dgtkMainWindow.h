@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkMainWindow_h
+#define dgtkMainWindow_h
+
+#include "dgtkWindowsModule.h"
+
+#include <QMainWindow>
+#include <QString>
+#include <QStringList>
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+class QAction;
+class QDockWidget;
+class QMenu;
+class QPlainTextEdit;
+
+namespace dgtk
+{
+
+class Autosave;
+class BackgroundWork;
+class EditorState;
+class MatchDialog;
+class ModelLibrary;
+class RenderDialog;
+class RenderStatus;
+class SceneDocument;
+class SceneViews;
+class TruthView;
+struct CameraDescription;
+
+/// The desktop editor's window: four views, scene tree, properties, time line, log, menus and tool bar. Actions and
+/// fields have object names, by which tests find them.
+class DGTKWINDOWS_EXPORT MainWindow : public QMainWindow
+{
+  Q_OBJECT
+
+public:
+  /// Before the QApplication is made: OpenGL's format, sharp icons and text on dense displays.
+  static void prepareApplication();
+  /// After it is made: names by which settings are kept; numbers with a point.
+  static void setupApplication();
+
+  explicit MainWindow(QWidget* parent = nullptr);
+  ~MainWindow() override;
+
+  SceneDocument& document();
+
+  /// Opens a scene (.scene, .json), after asking about unsaved work, or imports a model, by extension. The window
+  /// handles events until it is read. False when it was refused, after a dialog that says why, or cancelled; the scene
+  /// is then as before.
+  bool openFile(const QString& path);
+  bool importFile(const QString& path);
+  /// Shows a finished dataset, by its folder or its manifest.json, in a window of its own.
+  void openDataset(const QString& folder);
+  /// Asks about each copy of unsaved work that a crash left behind.
+  void offerRecovery();
+  /// Shows the run of an earlier window that goes on, and says how others ended since.
+  void findRuns();
+  /// False when it was refused.
+  bool saveFile(const QString& path);
+
+signals:
+  /// The window goes for good: what belongs to it ends.
+  void closed();
+
+protected:
+  void closeEvent(QCloseEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
+private:
+  QAction* addAction(QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys);
+  void makeFileMenu();
+  void makeEditMenu();
+  void makeViewMenu();
+  void makeToolsMenu();
+  void makeHelpMenu();
+  void makeDocks();
+  QDockWidget* addDock(Qt::DockWidgetArea area, const QString& name, const QString& title, QWidget* widget);
+
+  void newScene();
+  void askOpen();
+  bool save();
+  bool saveAs();
+  void askImport();
+  void askDataset();
+  /// Until there are none, or nobody looks for them.
+  void findMissing();
+  /// Lists the models that are not there and offers to look for them. True when some were found.
+  bool offerToFind();
+  bool findModelsBelow(const QString& folder);
+  bool addRead(const std::string& file, const ModelLibrary& models);
+  void exportPov();
+  bool mayDiscard();
+  /// False, with a note, while another file is being read.
+  bool isFree();
+  void allowFiles(bool busy);
+  /// Work on another thread with progress and Cancel. False when it was cancelled, or failed, after a dialog.
+  bool work(const QString& what, const std::function<void(const std::function<bool(std::size_t, std::size_t)>&)>& work);
+  void addRecent(const QString& path);
+  void refreshRecent();
+  void addCamera();
+  void addCameraArray();
+  CameraDescription cameraOfView() const;
+  void addLight();
+  RenderDialog& rendering();
+  void configureRendering();
+  /// False when the window is to stay because of a run that goes on, after asking.
+  bool mayLeaveRun();
+  void showCorrespondence();
+  void makeItemActions(QMenu* menu);
+  void refreshItemActions();
+  void showContextMenu(const QPoint& global);
+  void rename();
+  void showProperties();
+  void preview();
+  void refresh();
+  /// What the user has arranged, from one start to the next.
+  void saveSettings() const;
+  void restoreSettings();
+  void fail(const QString& message);
+  void note(const QString& line);
+  void noteWarnings(const std::vector<std::string>& lines);
+  /// The status bar keeps only the last line: it says that there are others.
+  static QString withWarnings(const QString& line, std::size_t warnings);
+  /// What the scene's models are warned of and the log does not say yet.
+  void noteNewWarnings();
+
+  EditorState* State;
+  BackgroundWork* Work = nullptr;
+  SceneViews* Views = nullptr;
+  TruthView* Truth = nullptr;
+  Autosave* Copies = nullptr;
+  QPlainTextEdit* Log = nullptr;
+  QMenu* Recent = nullptr;
+  QMenu* ViewMenu = nullptr;
+  RenderDialog* Rendering = nullptr;
+  RenderStatus* Run = nullptr;
+  MatchDialog* Matching = nullptr;
+  std::size_t Warned = 0; ///< warnings of the scene's models in the log
+  std::size_t Opened = 0; ///< SceneDocument::opened() of that scene
+};
+
+} // namespace dgtk
+
+#endif
