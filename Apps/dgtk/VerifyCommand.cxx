@@ -15,7 +15,7 @@ namespace dgtk::app
 
 namespace
 {
-constexpr int MostThreads = 1024;
+constexpr int mostThreads = 1024;
 
 int run(const Arguments& arguments)
 {
@@ -24,7 +24,7 @@ int run(const Arguments& arguments)
   {
     folder.pop_back();
   }
-  const int threads = arguments.has("--threads") ? arguments.integer("--threads", 1, MostThreads)
+  const int threads = arguments.has("--threads") ? arguments.integer("--threads", 1, mostThreads)
                                                  : std::max(1, int(std::thread::hardware_concurrency()));
   requireDataset(folder);
   const std::vector<std::string> checks =

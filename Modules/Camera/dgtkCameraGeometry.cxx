@@ -14,7 +14,7 @@ namespace dgtk
 namespace
 {
 /// Sine of the angle between up and view below which they count as parallel.
-constexpr double ParallelSine = 1e-12;
+constexpr double parallelSine = 1e-12;
 
 void checkView(const View& view)
 {
@@ -50,7 +50,7 @@ Rigid3 lookAtPose(const Eigen::Vector3d& eye, const Eigen::Vector3d& lookAt, con
     throw UsageError("eye and look-at of a camera coincide");
   }
   const Eigen::Vector3d sideways = forward.cross(up.stableNormalized());
-  if (!(sideways.norm() > ParallelSine))
+  if (!(sideways.norm() > parallelSine))
   {
     throw UsageError("up vector of a camera is zero or parallel to its view");
   }

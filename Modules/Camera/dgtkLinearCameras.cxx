@@ -12,8 +12,8 @@ namespace dgtk
 
 namespace
 {
-constexpr int MaximumSide = 1 << 20;
-constexpr double Pi = 3.14159265358979323846;
+constexpr int maximumSide = 1 << 20;
+constexpr double pi = 3.14159265358979323846;
 
 std::string textOf(double value)
 {
@@ -25,9 +25,9 @@ std::string textOf(double value)
 
 void checkSize(int width, int height)
 {
-  if (width < 1 || height < 1 || width > MaximumSide || height > MaximumSide)
+  if (width < 1 || height < 1 || width > maximumSide || height > maximumSide)
   {
-    throw UsageError("image size out of range (expected 1 to " + std::to_string(MaximumSide) +
+    throw UsageError("image size out of range (expected 1 to " + std::to_string(maximumSide) +
                      " pixels a side, found " + std::to_string(width) + " x " + std::to_string(height) + ")");
   }
 }
@@ -157,7 +157,7 @@ std::shared_ptr<const CameraModel> makePinholeFromFov(int width, int height, dou
   {
     throw UsageError("aspect is not finite");
   }
-  const double viewHeight = 2 * std::tan(fovYDegrees * (Pi / 360));
+  const double viewHeight = 2 * std::tan(fovYDegrees * (pi / 360));
   const Eigen::Matrix3d K = centredK(width, height, aspect > 0 ? aspect * viewHeight : 0, viewHeight);
   checkK(K);
   return std::make_shared<Pinhole>(width, height, K);

@@ -13,14 +13,14 @@ namespace dgtk
 namespace
 {
 /// Distances of the written scene stay below; POV-Ray's largest is 1e7, lights stand at 4 radii.
-constexpr double MostDistance = 1 << 17;
-constexpr int BlurSamples = 128;
+constexpr double mostDistance = 1 << 17;
+constexpr int blurSamples = 128;
 } // namespace
 
 double povSceneScale(const View& view, const PovBall& ball)
 {
   const double reach = (view.camera_from_world * ball.centre).norm() + ball.radius;
-  return std::exp2(std::clamp(std::floor(std::log2(MostDistance / reach)), -1000.0, 1000.0));
+  return std::exp2(std::clamp(std::floor(std::log2(mostDistance / reach)), -1000.0, 1000.0));
 }
 
 /// A ray is location + direction + a right + b up; a from -1/2 at the image's left side to 1/2 at its right, b upwards.
@@ -56,7 +56,7 @@ std::string povCamera(const View& view, const PovRows& rows, const std::optional
   if (lens)
   {
     text += "\n  aperture " + povNumber(lens->aperture * scale) + " focal_point " +
-            povVector(Eigen::Vector3d(0, 0, lens->focus)) + " blur_samples " + std::to_string(BlurSamples) +
+            povVector(Eigen::Vector3d(0, 0, lens->focus)) + " blur_samples " + std::to_string(blurSamples) +
             " variance 0";
   }
   return text + "\n  " + povMatrix(world_from_pov) + povScale(scale) + "\n}\n";

@@ -18,11 +18,11 @@ namespace dgtk
 
 namespace
 {
-constexpr std::size_t MostIds = (1 << 24) - 1;
+constexpr std::size_t mostIds = (1 << 24) - 1;
 /// POV-Ray's largest: surfaces that may lie behind one another where texels are missing.
 constexpr const char* TraceLevel = "256";
 /// Begins a line that names a file of the library.
-const std::string UsesLine = "// uses ";
+const std::string usesLine = "// uses ";
 
 void checkName(const std::string& path)
 {
@@ -37,9 +37,9 @@ void checkName(const std::string& path)
 
 void checkCount(const SceneState& state, const std::string& path)
 {
-  if (state.instances.size() > MostIds)
+  if (state.instances.size() > mostIds)
   {
-    throw InputError(path, 0, "cannot hold as many objects", "at most " + std::to_string(MostIds),
+    throw InputError(path, 0, "cannot hold as many objects", "at most " + std::to_string(mostIds),
       std::to_string(state.instances.size()));
   }
 }
@@ -259,7 +259,7 @@ PovScene makePovScene(const SceneState& state, const View& view, const PovOption
   scene.text = firstLines(state, context, rows, name);
   for (const PovFile& file : scene.uses)
   {
-    scene.text += UsesLine + library.impl().reference + file.name + '\n';
+    scene.text += usesLine + library.impl().reference + file.name + '\n';
   }
   const std::string begin = head(state, context, rows, scene.warnings);
   for (const std::string& warning : scene.warnings)
@@ -282,9 +282,9 @@ std::vector<std::string> povSceneUses(const std::string& path)
   for (std::size_t begin = 0; text.compare(begin, 2, "//") == 0;)
   {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    if (text.compare(begin, UsesLine.size(), UsesLine) == 0)
+    if (text.compare(begin, usesLine.size(), usesLine) == 0)
     {
-      const std::string name = text.substr(begin + UsesLine.size(), end - begin - UsesLine.size());
+      const std::string name = text.substr(begin + usesLine.size(), end - begin - usesLine.size());
       names.push_back(name.substr(name.rfind('/') + 1));
     }
     begin = std::min(end + 1, text.size());

@@ -11,10 +11,10 @@ namespace dgtk
 
 namespace
 {
-constexpr std::size_t HashDigits = 16;
-constexpr std::size_t LongestStem = 100;
+constexpr std::size_t hashDigits = 16;
+constexpr std::size_t longestStem = 100;
 /// Forgotten meshes are looked for when so many are known.
-constexpr std::size_t ManyEntries = 256;
+constexpr std::size_t manyEntries = 256;
 
 std::string hashOf(const std::string& contents)
 {
@@ -26,7 +26,7 @@ std::string hashOf(const std::string& contents)
 std::string stemOf(const std::string& path, const char* fallback)
 {
   const std::string stem = povPlainName(std::filesystem::path(path).stem().string());
-  return stem.empty() ? fallback : stem.substr(0, LongestStem);
+  return stem.empty() ? fallback : stem.substr(0, longestStem);
 }
 
 /// Pictures of one mesh.
@@ -85,7 +85,7 @@ PovLibrary::~PovLibrary() = default;
 std::string PovLibrary::Impl::add(const std::string& stem, const std::string& extension, const std::string& contents)
 {
   const std::string hash = hashOf(contents);
-  std::string name = stem + '_' + hash.substr(0, HashDigits) + '.' + extension;
+  std::string name = stem + '_' + hash.substr(0, hashDigits) + '.' + extension;
   const std::lock_guard<std::mutex> lock(this->Mutex);
   if (this->Written.try_emplace(name, PovFile{ name, contents.size(), hash }).second)
   {
@@ -122,7 +122,7 @@ std::shared_ptr<PovLibrary::Impl::Entry> PovLibrary::Impl::entryOf(
 {
   const auto gone = [](const Entry& entry) { return entry.geometry.expired(); };
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  for (auto at = this->Entries.begin(); this->Entries.size() > ManyEntries && at != this->Entries.end();)
+  for (auto at = this->Entries.begin(); this->Entries.size() > manyEntries && at != this->Entries.end();)
   {
     at = gone(*at->second) ? this->Entries.erase(at) : std::next(at);
   }
@@ -142,7 +142,7 @@ PovIncluded PovLibrary::Impl::write(const Instance& instance, std::uint32_t ownI
   PovImagesIncluded images(*this);
   povWriteMesh(text, instance, povTexturesOf(instance, ownId, options, images));
   PovIncluded included;
-  included.name = "Mesh_" + hashOf(text.text()).substr(0, HashDigits);
+  included.name = "Mesh_" + hashOf(text.text()).substr(0, hashDigits);
   included.file =
     this->add(stemOf(instance.model->path, "mesh"), "inc", "#declare " + included.name + " = mesh2 " + text.text());
   included.pictures = images.files();

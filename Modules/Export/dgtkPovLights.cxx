@@ -13,11 +13,11 @@ namespace dgtk
 namespace
 {
 /// The built-in renderer's light of the world.
-constexpr double WorldAmbient = 0.2;
+constexpr double worldAmbient = 0.2;
 /// Of the ball's radius: where a light that falls off from its position on begins to.
-constexpr double NearestFade = 1e-3;
+constexpr double nearestFade = 1e-3;
 /// Of the ball's radius: the width of an area light.
-constexpr double AreaWidth = 0.1;
+constexpr double areaWidth = 0.1;
 
 /// fade_power and fade_distance f give 2 / (1 + (d / f)^power): with `scale` on the colour, 1 / (c + l d + q d^2).
 struct Fade
@@ -38,7 +38,7 @@ Fade fadeOf(const LightState& light, const PovBall& ball, std::vector<std::strin
   }
   if (linear > 0 && quadratic > 0)
   {
-    const double away = std::max((ball.centre - light.position).norm(), ball.radius * NearestFade);
+    const double away = std::max((ball.centre - light.position).norm(), ball.radius * nearestFade);
     quadratic += linear / away;
     linear = 0;
     warnings.push_back("light " + quoted(light.name) +
@@ -46,7 +46,7 @@ Fade fadeOf(const LightState& light, const PovBall& ball, std::vector<std::strin
   }
   const int power = linear > 0 ? 1 : 2;
   const double factor = linear > 0 ? linear : quadratic;
-  constant = std::max(constant, factor * std::pow(ball.radius * NearestFade, power));
+  constant = std::max(constant, factor * std::pow(ball.radius * nearestFade, power));
   return { 0.5 / constant, std::pow(constant / factor, 1.0 / power), power };
 }
 
@@ -88,7 +88,7 @@ bool povShadows(const SceneState& state, const PovOptions& options)
 
 Eigen::Vector3d povAmbient(const SceneState& state)
 {
-  Eigen::Vector3d sum(WorldAmbient, WorldAmbient, WorldAmbient);
+  Eigen::Vector3d sum(worldAmbient, worldAmbient, worldAmbient);
   for (const LightState& light : state.lights)
   {
     sum += light.ambient * light.intensity;
@@ -121,7 +121,7 @@ std::string povLight(const LightState& light, const PovLightContext& context, st
   }
   if (shadows && context.options.areaLights > 1)
   {
-    const std::string width = povNumber(AreaWidth * ball.radius);
+    const std::string width = povNumber(areaWidth * ball.radius);
     const std::string points = std::to_string(context.options.areaLights);
     text += " area_light " + width + " * x, " + width + " * y, " + points + ", " + points + " circular orient";
   }

@@ -16,7 +16,7 @@ namespace dgtk
 namespace
 {
 /// A finish's ambient and emission are multiplied with the pigment: no component of it may vanish.
-constexpr double SmallestTint = 1.0 / 1024;
+constexpr double smallestTint = 1.0 / 1024;
 
 constexpr const char* FlatFinish = " finish { ambient 0 diffuse 0 emission 1 }";
 
@@ -61,7 +61,7 @@ std::string masked(const Model& model, const Material& material, PovImages& imag
 }
 
 /// Largest Phong exponent of a material: a mirror.
-constexpr double MirrorShininess = 128;
+constexpr double mirrorShininess = 128;
 
 std::string finish(const Material& material, const Eigen::Vector3d& tint, double diffuse, bool highlight,
   const PovSurfaceOptions& options)
@@ -79,7 +79,7 @@ std::string finish(const Material& material, const Eigen::Vector3d& tint, double
               ? " specular " + povNumber(shine) + " roughness " + povNumber(1 / std::max(material.shininess, 1.0))
               : " phong " + povNumber(shine) + " phong_size " + povNumber(material.shininess);
   }
-  const double mirror = shine * std::min(material.shininess / MirrorShininess, 1.0);
+  const double mirror = shine * std::min(material.shininess / mirrorShininess, 1.0);
   if (options.reflections && highlight && mirror > 0)
   {
     text += " reflection { " + povNumber(mirror) + " }";
@@ -142,7 +142,7 @@ std::string povMaterial(const PovSurface& surface, const PovSurfaceOptions& opti
   Eigen::Vector3d tint(1, 1, 1);
   if (diffuse > 0)
   {
-    tint = (material.diffuse / diffuse).cwiseMax(SmallestTint);
+    tint = (material.diffuse / diffuse).cwiseMax(smallestTint);
   }
   const double transmit = 1 - material.opacity;
   const bool cutOut = povCutOut(model, material);

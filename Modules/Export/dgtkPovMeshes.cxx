@@ -13,7 +13,7 @@ namespace dgtk
 namespace
 {
 /// Largest sine of the angle between a vertex's normal and its triangle's that counts as none.
-constexpr double FlatAngle = 1e-5;
+constexpr double flatAngle = 1e-5;
 
 /// Whether all shading normals are their triangles' own.
 bool isFlat(const Model& model, const Geometry& geometry)
@@ -28,7 +28,7 @@ bool isFlat(const Model& model, const Geometry& geometry)
         [&](std::uint32_t vertex)
         {
           const Eigen::Vector3d own = geometry.normals[vertex].cast<double>();
-          return normal.dot(own) > 0 && normal.cross(own).norm() < FlatAngle;
+          return normal.dot(own) > 0 && normal.cross(own).norm() < flatAngle;
         });
     });
 }

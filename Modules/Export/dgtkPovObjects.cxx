@@ -13,7 +13,7 @@ namespace dgtk
 namespace
 {
 /// A surface this near to the near or far plane, in parts of its depth, is taken as beyond it and cut.
-constexpr double PlaneSlack = 1e-6;
+constexpr double planeSlack = 1e-6;
 
 /// A half space of the camera frame: normal . x + offset >= 0.
 struct HalfSpace
@@ -100,11 +100,11 @@ std::string PovObjects::clipping(const Instance& instance) const
   const Eigen::Vector3d forward = camera_from_world.rotation.row(2).transpose();
   const double offset = camera_from_world.translation.z();
   std::string planes;
-  if (showsBetween(instance, this->TheView, 0, this->TheView.near * (1 + PlaneSlack)))
+  if (showsBetween(instance, this->TheView, 0, this->TheView.near * (1 + planeSlack)))
   {
     planes += plane(-forward, offset - this->TheView.near);
   }
-  if (showsBetween(instance, this->TheView, this->TheView.far * (1 - PlaneSlack), HUGE_VAL))
+  if (showsBetween(instance, this->TheView, this->TheView.far * (1 - planeSlack), HUGE_VAL))
   {
     planes += plane(forward, this->TheView.far - offset);
   }

@@ -19,9 +19,9 @@ namespace
 {
 /// So many pixels of a triangle may show normals that face away: silhouettes of finely divided models keep the mesh
 /// that all views share.
-constexpr int FewPixels = 4;
+constexpr int fewPixels = 4;
 /// The same where objects share a mesh, which would be written once for each of them.
-constexpr int FewOfShared = 32;
+constexpr int fewOfShared = 32;
 
 /// Where the rays of a view come from, in a model's axes.
 struct Viewer
@@ -142,7 +142,7 @@ class ModelView
 {
 public:
   ModelView(const Instance& instance, const View& view)
-    : The(view)
+    : TheView(view)
     , Camera_from_model(view.camera_from_world * instance.world_from_object)
     , Model_from_camera(this->Camera_from_model.linear.inverse())
   {
@@ -163,7 +163,7 @@ public:
       for (int x = low.x(); x < high.x(); ++x)
       {
         const std::optional<double> depth = triangle.turnedAt(this->rayThrough(x, y));
-        pixels += depth && *depth >= this->The.near && *depth <= this->The.far ? 1 : 0;
+        pixels += depth && *depth >= this->TheView.near && *depth <= this->TheView.far ? 1 : 0;
         if (pixels > few)
         {
           return true;
@@ -176,7 +176,7 @@ public:
 private:
   CameraRay rayThrough(int x, int y) const
   {
-    const CameraRay ray = this->The.model->rayThrough({ x + 0.5, y + 0.5 });
+    const CameraRay ray = this->TheView.model->rayThrough({ x + 0.5, y + 0.5 });
     return { this->Model_from_camera * (ray.origin - this->Camera_from_model.translation),
       this->Model_from_camera * ray.direction };
   }
@@ -189,13 +189,13 @@ private:
     {
       const Eigen::Vector3d p = this->Camera_from_model * triangle.corners()[k];
       const Eigen::Vector3d q = this->Camera_from_model * triangle.corners()[(k + 1) % 3];
-      if (p.z() >= this->The.near)
+      if (p.z() >= this->TheView.near)
       {
         points.push_back(p);
       }
-      if ((p.z() >= this->The.near) != (q.z() >= this->The.near))
+      if ((p.z() >= this->TheView.near) != (q.z() >= this->TheView.near))
       {
-        points.push_back(p + (q - p) * ((this->The.near - p.z()) / (q.z() - p.z())));
+        points.push_back(p + (q - p) * ((this->TheView.near - p.z()) / (q.z() - p.z())));
       }
     }
     return points;
@@ -204,13 +204,13 @@ private:
   /// First pixel and the one behind the last of a box around what the image may show of a triangle.
   std::array<Eigen::Vector2i, 2> pixelsOf(const Shaded& triangle) const
   {
-    const Eigen::Array2d size(this->The.model->width(), this->The.model->height());
+    const Eigen::Array2d size(this->TheView.model->width(), this->TheView.model->height());
     Eigen::Array2d low = size;
     Eigen::Array2d high(0, 0);
     for (const Eigen::Vector3d& point : this->before(triangle))
     {
       Eigen::Vector2d pixel;
-      if (this->The.model->project(point, pixel))
+      if (this->TheView.model->project(point, pixel))
       {
         low = low.min(pixel.array());
         high = high.max(pixel.array());
@@ -219,7 +219,7 @@ private:
     return { low.floor().max(0).matrix().cast<int>(), high.ceil().min(size).matrix().cast<int>() };
   }
 
-  const View& The;
+  const View& TheView;
   Affine3 Camera_from_model;
   Eigen::Matrix3d Model_from_camera;
   Viewer Seen;
@@ -271,7 +271,7 @@ PovTurned povTurned(const Instance& instance, const View& view, bool shared)
     for (std::uint32_t i = 0; lit && i < part.triangles; ++i)
     {
       const Shaded triangle(instance, part.firstTriangle + i, seen.viewer());
-      if (triangle.mayTurn(seen.viewer()) && seen.showsTurned(triangle, shared ? FewOfShared : FewPixels))
+      if (triangle.mayTurn(seen.viewer()) && seen.showsTurned(triangle, shared ? fewOfShared : fewPixels))
       {
         turned.emplace(part.firstTriangle + i, triangle.function(seen.viewer()));
       }

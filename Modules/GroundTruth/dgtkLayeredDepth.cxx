@@ -15,11 +15,11 @@ namespace dgtk
 namespace
 {
 /// Relative difference of depths that drawing cannot tell apart: the resolution of the depth buffer, both ways.
-constexpr double SameDepth = 2e-6;
+constexpr double sameDepth = 2e-6;
 /// Relative slack of a triangle's range of depths, for triangles parallel to the image plane.
-constexpr double RangeSlack = 1e-6;
-constexpr std::uint32_t DistanceSteps = 32;
-constexpr std::uint32_t NormalSteps = 8;
+constexpr double rangeSlack = 1e-6;
+constexpr std::uint32_t distanceSteps = 32;
+constexpr std::uint32_t normalSteps = 8;
 
 /// A triangle in the camera frame.
 struct TriangleFacts
@@ -44,7 +44,7 @@ TriangleFacts factsOf(const SceneState& state, const View& view, const Hit& hit)
     facts.normal = normal.stableNormalized();
   }
   const auto [least, most] = std::minmax({ corner[0].z(), corner[1].z(), corner[2].z() });
-  const double slack = RangeSlack * std::abs(most);
+  const double slack = rangeSlack * std::abs(most);
   facts.nearest = least - slack;
   facts.farthest = most + slack;
   return facts;
@@ -166,7 +166,7 @@ private:
     const TriangleFacts& facts = this->Facts(surface.hit);
     const bool real = surface.depth >= facts.nearest && surface.depth <= facts.farthest &&
                       surface.depth >= this->TheView.near && surface.depth <= this->TheView.far;
-    if (real && surface.depth >= first - SameDepth * first)
+    if (real && surface.depth >= first - sameDepth * first)
     {
       surface.depth = std::max(surface.depth, first);
       this->Pixel.push_back(surface);
@@ -199,20 +199,20 @@ void layeredDepthRows(const SceneState& state, const View& view, const LayeredIn
 
 std::uint32_t splatIndex(double distance, const Eigen::Vector3d& normal, double near, double far)
 {
-  const std::uint32_t d = quantised(std::log(distance / near) / std::log(far / near), DistanceSteps);
-  return (d << 6) | (quantised((normal.x() + 1) / 2, NormalSteps) << 3) | quantised((normal.y() + 1) / 2, NormalSteps);
+  const std::uint32_t d = quantised(std::log(distance / near) / std::log(far / near), distanceSteps);
+  return (d << 6) | (quantised((normal.x() + 1) / 2, normalSteps) << 3) | quantised((normal.y() + 1) / 2, normalSteps);
 }
 
 double splatDistance(std::uint32_t index, double near, double far)
 {
-  return near * std::pow(far / near, ((index >> 6 & (DistanceSteps - 1)) + 0.5) / DistanceSteps);
+  return near * std::pow(far / near, ((index >> 6 & (distanceSteps - 1)) + 0.5) / distanceSteps);
 }
 
 Eigen::Vector3d splatNormal(std::uint32_t index)
 {
-  const double step = 2.0 / NormalSteps;
+  const double step = 2.0 / normalSteps;
   Eigen::Vector2d n(
-    ((index >> 3 & (NormalSteps - 1)) + 0.5) * step - 1, ((index & (NormalSteps - 1)) + 0.5) * step - 1);
+    ((index >> 3 & (normalSteps - 1)) + 0.5) * step - 1, ((index & (normalSteps - 1)) + 0.5) * step - 1);
   const double square = n.squaredNorm();
   if (square > 1)
   {

@@ -41,16 +41,16 @@ void Matte::addRows(const std::uint16_t* count, int rows)
   const std::size_t pixels = std::size_t(this->Width) * static_cast<std::size_t>(rows);
   for (std::size_t i = 0; i < pixels; ++i)
   {
-    this->Values.push_back(count[i] == 0            ? TrimapBackground
-                           : count[i] == this->Full ? TrimapForeground
-                                                    : TrimapUnknown);
+    this->Values.push_back(count[i] == 0            ? trimapBackground
+                           : count[i] == this->Full ? trimapForeground
+                                                    : trimapUnknown);
   }
 }
 
 void Matte::trimapRow(int y, std::uint8_t* row) const
 {
-  const int top = std::max(0, y - Band);
-  const int bottom = std::min(this->height() - 1, y + Band);
+  const int top = std::max(0, y - band);
+  const int bottom = std::min(this->height() - 1, y + band);
   // the same value in the whole column, or unknown
   std::vector<std::uint8_t> column(this->Values.begin() + std::ptrdiff_t(top) * this->Width,
     this->Values.begin() + std::ptrdiff_t(top + 1) * this->Width);
@@ -59,15 +59,15 @@ void Matte::trimapRow(int y, std::uint8_t* row) const
     const std::uint8_t* values = this->Values.data() + std::size_t(other) * static_cast<std::size_t>(this->Width);
     for (int x = 0; x < this->Width; ++x)
     {
-      column[x] = column[x] == values[x] ? column[x] : TrimapUnknown;
+      column[x] = column[x] == values[x] ? column[x] : trimapUnknown;
     }
   }
   for (int x = 0; x < this->Width; ++x)
   {
-    const auto first = column.begin() + std::max(0, x - Band);
-    const auto last = column.begin() + std::min(this->Width, x + Band + 1);
+    const auto first = column.begin() + std::max(0, x - band);
+    const auto last = column.begin() + std::min(this->Width, x + band + 1);
     row[x] =
-      std::all_of(first, last, [&](std::uint8_t value) { return value == column[x]; }) ? column[x] : TrimapUnknown;
+      std::all_of(first, last, [&](std::uint8_t value) { return value == column[x]; }) ? column[x] : trimapUnknown;
   }
 }
 

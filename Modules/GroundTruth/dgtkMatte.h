@@ -12,9 +12,9 @@ namespace dgtk
 {
 
 /// Values of a trimap.
-constexpr std::uint8_t TrimapBackground = 0;
-constexpr std::uint8_t TrimapUnknown = 128;
-constexpr std::uint8_t TrimapForeground = 255;
+constexpr std::uint8_t trimapBackground = 0;
+constexpr std::uint8_t trimapUnknown = 128;
+constexpr std::uint8_t trimapForeground = 255;
 
 /// 16-bit pictures of a matte from `pixels` pixels: foreground (3 a pixel, mean colour of the `count` samples that show
 /// the object), background (3 a pixel) and alpha = count / samples^2 are rounded first; composite = alpha foreground +
@@ -28,7 +28,7 @@ DGTKGROUNDTRUTH_EXPORT void composeMatte(const std::uint16_t* count, const float
 class DGTKGROUNDTRUTH_EXPORT Matte
 {
 public:
-  static constexpr int Band = 2; ///< pixels
+  static constexpr int band = 2; ///< pixels
 
   Matte(int width, int samples)
     : Width(width)

@@ -179,8 +179,8 @@ ObjectPose objectPose(const Instance& instance, const View& view)
 }
 
 BlockObjects::BlockObjects(const SceneState& state, const View& view)
-  : Columns((view.model->width() >> Shift) + 1)
-  , RowCount((view.model->height() >> Shift) + 1)
+  : Columns((view.model->width() >> shift) + 1)
+  , RowCount((view.model->height() >> shift) + 1)
   , Blocks(std::size_t(this->Columns) * this->RowCount, 0)
 {
   for (std::size_t i = 0; i < state.instances.size(); ++i)
@@ -192,7 +192,7 @@ BlockObjects::BlockObjects(const SceneState& state, const View& view)
 void BlockObjects::mark(std::uint32_t object, double x0, double y0, double x1, double y1)
 {
   const auto block = [](double at, int count)
-  { return static_cast<int>(std::clamp(std::floor(at / (1 << Shift)), -1.0, double(count))); };
+  { return static_cast<int>(std::clamp(std::floor(at / (1 << shift)), -1.0, double(count))); };
   const int left = std::max(0, block(x0, this->Columns));
   const int right = std::min(this->Columns - 1, block(x1, this->Columns));
   const int bottom = std::min(this->RowCount - 1, block(y1, this->RowCount));
@@ -201,7 +201,7 @@ void BlockObjects::mark(std::uint32_t object, double x0, double y0, double x1, d
     std::uint32_t* row = this->Blocks.data() + std::size_t(y) * this->Columns;
     for (int x = left; x <= right; ++x)
     {
-      row[x] = row[x] == 0 || row[x] == object ? object : Several;
+      row[x] = row[x] == 0 || row[x] == object ? object : several;
     }
   }
 }

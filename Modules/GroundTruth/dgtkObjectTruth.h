@@ -84,12 +84,12 @@ public:
   /// False when the ray of a pixel whose first surface is of `object` can meet no other one.
   bool mayHideOthers(int x, int y, std::uint32_t object) const
   {
-    return this->Blocks[std::size_t(y >> Shift) * this->Columns + (x >> Shift)] != object;
+    return this->Blocks[std::size_t(y >> shift) * this->Columns + (x >> shift)] != object;
   }
 
 private:
-  static constexpr int Shift = 3;
-  static constexpr std::uint32_t Several = 0xffffffff;
+  static constexpr int shift = 3;
+  static constexpr std::uint32_t several = 0xffffffff;
   void mark(std::uint32_t object, double x0, double y0, double x1, double y1);
   void markObject(std::uint32_t object, const Instance& instance, const View& view);
   int Columns;

@@ -12,7 +12,7 @@ namespace dgtk
 {
 
 /// Value of `parts` and `triangles` where there is nothing.
-constexpr std::uint32_t NoId = 0xFFFFFFFFu;
+constexpr std::uint32_t noId = 0xFFFFFFFFu;
 
 /// Calls body(index, x, y, value) for every pixel with a surface, in rows top to bottom; `index` into SurfaceRows::t
 /// and hits, `value` the pixel's channels. The others get `invalid` in all channels.
@@ -45,12 +45,13 @@ class TriangleCache
 public:
   explicit TriangleCache(const Make& make)
     : MakeValue(make)
-    , Entries(Count)
+    , Entries(entryCount)
   {
   }
   const Value& operator()(const Hit& hit)
   {
-    Entry& entry = this->Entries[(std::size_t(hit.triangle * 0x9E3779B1u ^ hit.object * 0x85EBCA77u) >> 7) % Count];
+    Entry& entry =
+      this->Entries[(std::size_t(hit.triangle * 0x9E3779B1u ^ hit.object * 0x85EBCA77u) >> 7) % entryCount];
     if (entry.hit != hit)
     {
       entry.hit = hit;
@@ -60,7 +61,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t Count = 256;
+  static constexpr std::size_t entryCount = 256;
   struct Entry
   {
     Hit hit;

@@ -14,16 +14,16 @@ namespace dgtk
 namespace
 {
 /// Splats reach a quarter farther than the pixel: the splat index knows the normal coarsely.
-constexpr double Reach = 0.5 * 1.25;
+constexpr double splatReach = 0.5 * 1.25;
 /// Sine of the flattest angle between ray and surface that is believed.
-constexpr double Flattest = 0.2;
+constexpr double flattestSine = 0.2;
 /// Half of the largest splat of the paper, 7 x 7 pixels, for equal scales.
-constexpr double Largest = 3.5;
-constexpr double LeastWeight = 1e-3;
+constexpr double largestSplat = 3.5;
+constexpr double leastWeight = 1e-3;
 /// Depth that a step of one pixel on the surface is uncertain by, as a part of its length.
-constexpr double Uncertain = 0.05;
+constexpr double uncertainShare = 0.05;
 /// Square pixels: a splat seen flatter than this has no slope.
-constexpr double LeastArea = 1e-3;
+constexpr double leastArea = 1e-3;
 
 LinearProjection linearOf(const View& view)
 {
@@ -85,7 +85,7 @@ public:
     const Eigen::Vector3d right = Eigen::Vector3d(1 / K(0, 0), 0, 0) * scale;
     const Eigen::Vector3d down = Eigen::Vector3d(-K(0, 1) / (K(0, 0) * K(1, 1)), 1 / K(1, 1), 0) * scale;
     const Eigen::Vector3d normal = splatNormal(sample.splatIndex);
-    const double facing = std::min(normal.dot(ray), -Flattest * ray.norm());
+    const double facing = std::min(normal.dot(ray), -flattestSine * ray.norm());
     const Eigen::Matrix3d& R = this->To_from_From.rotation;
     this->place(moved, R * (right - ray * (normal.dot(right) / facing)), R * (down - ray * (normal.dot(down) / facing)),
       this->magnification(scale, moved.z()), out);
@@ -109,7 +109,7 @@ private:
     const double v = x.y() / divisor;
     out.x = K(0, 0) * u + K(0, 1) * v + K(0, 2);
     out.y = K(1, 1) * v + K(1, 2);
-    const double largest = Largest * std::max(1.0, magnification);
+    const double largest = largestSplat * std::max(1.0, magnification);
     Eigen::Matrix2d steps; // columns: to the right, down
     int column = 0;
     for (const Eigen::Vector3d* d : { &right, &down })
@@ -118,13 +118,13 @@ private:
       const double dv = (d->y() - (this->To.perspective ? v * d->z() : 0)) / divisor;
       steps.col(column++) << K(0, 0) * du + K(0, 1) * dv, K(1, 1) * dv;
     }
-    out.halfX = std::clamp(Reach * steps.row(0).cwiseAbs().sum(), 0.5, largest);
-    out.halfY = std::clamp(Reach * steps.row(1).cwiseAbs().sum(), 0.5, largest);
+    out.halfX = std::clamp(splatReach * steps.row(0).cwiseAbs().sum(), 0.5, largest);
+    out.halfY = std::clamp(splatReach * steps.row(1).cwiseAbs().sum(), 0.5, largest);
     out.depth = x.z();
-    out.reach = Reach * (std::abs(right.z()) + std::abs(down.z()));
-    out.slack = Uncertain * (right.norm() + down.norm());
+    out.reach = splatReach * (std::abs(right.z()) + std::abs(down.z()));
+    out.slack = uncertainShare * (right.norm() + down.norm());
     const double area = steps(0, 0) * steps(1, 1) - steps(0, 1) * steps(1, 0);
-    const bool flat = std::abs(area) < LeastArea;
+    const bool flat = std::abs(area) < leastArea;
     out.slopeX = flat ? 0 : (right.z() * steps(1, 1) - down.z() * steps(1, 0)) / area;
     out.slopeY = flat ? 0 : (down.z() * steps(0, 0) - right.z() * steps(0, 1)) / area;
   }
@@ -227,10 +227,10 @@ private:
     const int bottom = std::min(this->Height, static_cast<int>(std::ceil(s.y + s.halfY - 0.5)));
     for (int y = top; y < bottom; ++y)
     {
-      const double vertical = std::max(LeastWeight, 1 - std::abs(y + 0.5 - s.y) / s.halfY);
+      const double vertical = std::max(leastWeight, 1 - std::abs(y + 0.5 - s.y) / s.halfY);
       for (int x = left; x < right; ++x)
       {
-        const double horizontal = std::max(LeastWeight, 1 - std::abs(x + 0.5 - s.x) / s.halfX);
+        const double horizontal = std::max(leastWeight, 1 - std::abs(x + 0.5 - s.x) / s.halfX);
         body(std::size_t(y) * this->Width + x, vertical * horizontal, s.depthAt(x + 0.5, y + 0.5));
       }
     }

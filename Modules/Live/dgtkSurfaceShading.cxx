@@ -48,7 +48,7 @@ Eigen::Vector3d reflected(
 Eigen::Vector2d reflectanceOf(double cosine, double roughness)
 {
   static const std::vector<float> table = reflectanceTable();
-  constexpr int size = EnvironmentLight::ReflectanceSize;
+  constexpr int size = EnvironmentLight::reflectanceSize;
   const int column = std::clamp(int(cosine * size), 0, size - 1);
   const int row = std::clamp(int(roughness * size), 0, size - 1);
   const float* const cell = &table[2 * (std::size_t(row) * size + std::size_t(column))];

@@ -27,7 +27,7 @@ struct ExactHit
 };
 
 /// The error of a position in single precision: of `distance` from the ray's origin, and of the sizes that took part.
-constexpr double RayPrecision = 1e-6;
+constexpr double rayPrecision = 1e-6;
 
 namespace exact
 {

@@ -14,15 +14,15 @@ namespace dgtk
 namespace
 {
 /// Scenes kept placed, by pose of the camera.
-constexpr std::size_t MostPoses = 16;
+constexpr std::size_t mostPoses = 16;
 /// Part of the distance that keeps the surface around a point from hiding it.
-constexpr double PointSlack = 1e-9;
+constexpr double pointSlack = 1e-9;
 
 /// Pixels: with a larger error of single precision, rays are looked around at once; an image that needs it is 30,000
 /// pixels wide.
-constexpr double CoarseError = 1.0 / 16;
+constexpr double coarseError = 1.0 / 16;
 
-bool isCoarse(const RayScene& scene, const View& view) { return scene.errorInPixels(view) > CoarseError; }
+bool isCoarse(const RayScene& scene, const View& view) { return scene.errorInPixels(view) > coarseError; }
 
 bool samePose(const Rigid3& a, const Rigid3& b) { return a.rotation == b.rotation && a.translation == b.translation; }
 
@@ -74,7 +74,7 @@ public:
     ExactRay ray = rayOf(view, pixel);
     const double t = (x - ray.origin).dot(ray.direction) / ray.direction.squaredNorm();
     ray.direction = (x - ray.origin) / t; // through the point, whatever the projection's rounding
-    ray.most = t * (1 - PointSlack);
+    ray.most = t * (1 - pointSlack);
     if (!(ray.most > ray.least))
     {
       return {};
@@ -129,7 +129,7 @@ private:
     }
     const auto placed = std::make_shared<RayScene>(this->Device, false);
     placed->place(this->State, pose);
-    if (this->Scenes.size() == MostPoses)
+    if (this->Scenes.size() == mostPoses)
     {
       this->Scenes.erase(this->Scenes.begin());
     }

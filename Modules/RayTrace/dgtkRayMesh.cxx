@@ -15,9 +15,9 @@ namespace dgtk
 namespace
 {
 /// A matrix with a larger condition number loses too much when Embree inverts it in single precision.
-constexpr double LargestCondition = 1e4;
+constexpr double largestCondition = 1e4;
 /// Sine of the angle at the first corner below which a triangle has no area.
-constexpr double DegenerateSine = 1e-12;
+constexpr double degenerateSine = 1e-12;
 
 bool needsBaking(const Eigen::Matrix3d& linear)
 {
@@ -27,7 +27,7 @@ bool needsBaking(const Eigen::Matrix3d& linear)
     return true;
   }
   const double condition = linear.norm() * linear.inverse().norm();
-  return !(condition < LargestCondition);
+  return !(condition < largestCondition);
 }
 
 RayMeshKey keyOf(const Instance& instance, bool bare)
@@ -112,7 +112,7 @@ bool hasArea(const RayMesh& mesh, const std::array<std::uint32_t, 3>& triangle)
   const Eigen::Vector3d e2 = positions[triangle[2]] - positions[triangle[0]];
   const Eigen::Vector3d n(
     e1.y() * e2.z() - e1.z() * e2.y(), e1.z() * e2.x() - e1.x() * e2.z(), e1.x() * e2.y() - e1.y() * e2.x());
-  return n.squaredNorm() > DegenerateSine * DegenerateSine * e1.squaredNorm() * e2.squaredNorm();
+  return n.squaredNorm() > degenerateSine * degenerateSine * e1.squaredNorm() * e2.squaredNorm();
 }
 
 void attach(RayMesh& mesh, RTCBuffer vertices, std::uint32_t first, std::uint32_t count, bool cutOut)

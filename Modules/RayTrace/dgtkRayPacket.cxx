@@ -19,12 +19,12 @@ PacketTracer::PacketTracer(const RayScene& scene, const View& view)
   this->Context.scene = &scene;
   this->Context.view = &view;
   RTCRay16& ray = this->Packet.ray;
-  for (int lane = 0; lane < Lanes; ++lane)
+  for (int lane = 0; lane < lanes; ++lane)
   {
     ray.org_x[lane] = ray.org_y[lane] = ray.org_z[lane] = 0;
     ray.dir_x[lane] = ray.dir_y[lane] = 0;
     ray.dir_z[lane] = 1;
-    ray.tnear[lane] = this->Near * (1 - RangeSlack);
+    ray.tnear[lane] = this->Near * (1 - rangeSlack);
     ray.time[lane] = 0;
     ray.mask[lane] = ~0U;
     ray.id[lane] = unsigned(lane);
@@ -53,16 +53,16 @@ PacketTracer::PacketTracer(const RayScene& scene, const View& view)
 
 void PacketTracer::setLinear(const PixelRect& block)
 {
-  for (int j = 0; j < Side; ++j)
+  for (int j = 0; j < side; ++j)
   {
     const double y = std::min(block.y + j, block.y + block.height - 1);
     const double skew = this->FirstX + this->Skew * y;
     const float row = float(this->FirstY + this->StepY * y);
-    for (int i = 0; i < Side; ++i)
+    for (int i = 0; i < side; ++i)
     {
       const double x = std::min(block.x + i, block.x + block.width - 1);
-      this->VaryingX[Side * j + i] = float(skew + this->StepX * x);
-      this->VaryingY[Side * j + i] = row;
+      this->VaryingX[side * j + i] = float(skew + this->StepX * x);
+      this->VaryingY[side * j + i] = row;
     }
   }
 }
@@ -70,10 +70,10 @@ void PacketTracer::setLinear(const PixelRect& block)
 void PacketTracer::setGeneral(const PixelRect& block)
 {
   RTCRay16& out = this->Packet.ray;
-  for (int lane = 0; lane < Lanes; ++lane)
+  for (int lane = 0; lane < lanes; ++lane)
   {
-    const int x = block.x + std::min(lane % Side, block.width - 1);
-    const int y = block.y + std::min(lane / Side, block.height - 1);
+    const int x = block.x + std::min(lane % side, block.width - 1);
+    const int y = block.y + std::min(lane / side, block.height - 1);
     const CameraRay ray = this->TheView.model->rayThrough({ x + 0.5, y + 0.5 });
     out.org_x[lane] = float(ray.origin.x());
     out.org_y[lane] = float(ray.origin.y());
@@ -91,12 +91,12 @@ void PacketTracer::toMesh(MeshLanes& out) const
   const RTCRay16& ray = this->Packet.ray;
   const RTCHit16& hit = this->Packet.hit;
   unsigned int instance = RTC_INVALID_GEOMETRY_ID;
-  for (int i = 0; i < Lanes; ++i)
+  for (int i = 0; i < lanes; ++i)
   {
     instance = std::min(instance, hit.instID[0][i]);
   }
   unsigned int others = 0;
-  for (int i = 0; i < Lanes; ++i)
+  for (int i = 0; i < lanes; ++i)
   {
     others |= unsigned(hit.instID[0][i] != instance) & unsigned(hit.instID[0][i] != RTC_INVALID_GEOMETRY_ID);
   }
@@ -106,8 +106,8 @@ void PacketTracer::toMesh(MeshLanes& out) const
     float m[9];
     std::copy(placed.mesh_from_camera, placed.mesh_from_camera + 9, m);
     const float sizes = placed.sizes;
-    alignas(64) unsigned int triangle[Lanes];
-    for (int i = 0; i < Lanes; ++i)
+    alignas(64) unsigned int triangle[lanes];
+    for (int i = 0; i < lanes; ++i)
     {
       out.x[i] = m[0] * ray.dir_x[i] + m[1] * ray.dir_y[i] + m[2] * ray.dir_z[i];
       out.y[i] = m[3] * ray.dir_x[i] + m[4] * ray.dir_y[i] + m[5] * ray.dir_z[i];
@@ -116,13 +116,13 @@ void PacketTracer::toMesh(MeshLanes& out) const
       triangle[i] = hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? 0 : hit.primID[i];
     }
     const float* inverse = placed.mesh->inverseEdge.data();
-    for (int i = 0; i < Lanes; ++i)
+    for (int i = 0; i < lanes; ++i)
     {
       out.inverseEdge[i] = inverse[triangle[i]];
     }
     return;
   }
-  for (int i = 0; i < Lanes; ++i)
+  for (int i = 0; i < lanes; ++i)
   {
     const bool any = hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
     const RayScene::Placed& own = this->Scene.placed(any ? hit.instID[0][i] : instance);
@@ -138,27 +138,27 @@ void PacketTracer::toMesh(MeshLanes& out) const
 /// Whether each hit is far enough from the edges of its triangle, not too edge-on and far enough from the ends of the
 /// range for single precision. In the axes of the mesh: u, v of a hit have the error (error of a position) * (longest
 /// edge) * |direction| / |normal * direction|, with Embree's normal of twice the triangle's area.
-void PacketTracer::findClear(int clear[Lanes]) const
+void PacketTracer::findClear(int clear[lanes]) const
 {
   const RTCRay16& ray = this->Packet.ray;
   const RTCHit16& hit = this->Packet.hit;
-  const float least = this->Near * (1 + RangeSlack);
-  const float most = this->Far * (1 - RangeSlack);
-  constexpr float precision = float(2 * RayPrecision * RayPrecision); // (a + b)^2 <= 2 (a^2 + b^2)
-  MeshLanes lanes;
-  this->toMesh(lanes);
-  for (int i = 0; i < Lanes; ++i)
+  const float least = this->Near * (1 + rangeSlack);
+  const float most = this->Far * (1 - rangeSlack);
+  constexpr float precision = float(2 * rayPrecision * rayPrecision); // (a + b)^2 <= 2 (a^2 + b^2)
+  MeshLanes at;
+  this->toMesh(at);
+  for (int i = 0; i < lanes; ++i)
   {
-    const float x = lanes.x[i];
-    const float y = lanes.y[i];
-    const float z = lanes.z[i];
+    const float x = at.x[i];
+    const float y = at.y[i];
+    const float z = at.z[i];
     const float t = ray.tfar[i];
     const float square = x * x + y * y + z * z;
-    const float along = (x * hit.Ng_x[i] + y * hit.Ng_y[i] + z * hit.Ng_z[i]) * lanes.inverseEdge[i];
+    const float along = (x * hit.Ng_x[i] + y * hit.Ng_y[i] + z * hit.Ng_z[i]) * at.inverseEdge[i];
     const float u = hit.u[i];
     const float v = hit.v[i];
     const float w = 1 - u - v;
-    const float error = precision * (t * t * square + lanes.sizes[i] * lanes.sizes[i]) * square;
+    const float error = precision * (t * t * square + at.sizes[i] * at.sizes[i]) * square;
     const float distance = along * along;
     clear[i] = (u > 0) & (v > 0) & (w > 0) & (u * u * distance > error) & (v * v * distance > error) &
                (w * w * distance > error) & (t > least) & (t < most);
@@ -177,7 +177,7 @@ bool PacketTracer::anyHit() const
 
 void PacketTracer::mark(const PixelRect& block, const VisibilityBuffer& buffer, RayMarks& marks)
 {
-  int clear[Lanes];
+  int clear[lanes];
   if (this->anyHit())
   {
     this->findClear(clear);
@@ -187,7 +187,7 @@ void PacketTracer::mark(const PixelRect& block, const VisibilityBuffer& buffer, 
     const std::size_t row = std::size_t(block.y - buffer.rect.y + y) * buffer.rect.width + (block.x - buffer.rect.x);
     for (int x = 0; x < block.width; ++x)
     {
-      const int lane = y * Side + x;
+      const int lane = y * side + x;
       const bool any = this->Packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
       marks.nearness[row + x] = any ? 1 / this->Packet.ray.tfar[lane] : 0;
       marks.doubtful[row + x] = any && clear[lane] == 0;
@@ -207,10 +207,10 @@ void PacketTracer::trace(const PixelRect& block, VisibilityBuffer& buffer, RayMa
     this->setGeneral(block);
   }
   RTCHit16& hit = this->Packet.hit;
-  for (int lane = 0; lane < Lanes; ++lane)
+  for (int lane = 0; lane < lanes; ++lane)
   {
-    this->Valid[lane] = lane % Side < block.width && lane / Side < block.height ? -1 : 0;
-    this->Packet.ray.tfar[lane] = this->Far * (1 + RangeSlack);
+    this->Valid[lane] = lane % side < block.width && lane / side < block.height ? -1 : 0;
+    this->Packet.ray.tfar[lane] = this->Far * (1 + rangeSlack);
     hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
     hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     this->Context.t[lane] = INFINITY;
@@ -225,7 +225,7 @@ void PacketTracer::trace(const PixelRect& block, VisibilityBuffer& buffer, RayMa
     Hit* row = &buffer.at(block.x, block.y + y);
     for (int x = 0; x < block.width; ++x)
     {
-      const int lane = y * Side + x;
+      const int lane = y * side + x;
       row[x] = hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID
                  ? this->Scene.hit(hit.instID[0][lane], hit.geomID[lane], hit.primID[lane])
                  : Hit{};

@@ -33,8 +33,8 @@ enum class TraceMode
 class PacketTracer
 {
 public:
-  static constexpr int Lanes = 16;
-  static constexpr int Side = 4;
+  static constexpr int lanes = 16;
+  static constexpr int side = 4;
 
   PacketTracer(const RayScene& scene, const View& view);
 
@@ -45,18 +45,18 @@ public:
 private:
   struct MeshLanes
   {
-    alignas(64) float x[Lanes];
-    alignas(64) float y[Lanes];
-    alignas(64) float z[Lanes];
-    alignas(64) float sizes[Lanes];
-    alignas(64) float inverseEdge[Lanes];
+    alignas(64) float x[lanes];
+    alignas(64) float y[lanes];
+    alignas(64) float z[lanes];
+    alignas(64) float sizes[lanes];
+    alignas(64) float inverseEdge[lanes];
   };
   void setLinear(const PixelRect& block);
   void setGeneral(const PixelRect& block);
   void mark(const PixelRect& block, const VisibilityBuffer& buffer, RayMarks& marks);
   bool anyHit() const;
   void toMesh(MeshLanes& out) const;
-  void findClear(int clear[Lanes]) const;
+  void findClear(int clear[lanes]) const;
 
   const RayScene& Scene;
   const View& TheView;
@@ -68,7 +68,7 @@ private:
   float Far;
   RayContext Context;
   alignas(64) RTCRayHit16 Packet;
-  alignas(64) int Valid[Lanes];
+  alignas(64) int Valid[lanes];
 };
 
 } // namespace dgtk

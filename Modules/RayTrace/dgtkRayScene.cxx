@@ -145,7 +145,7 @@ bool RayScene::isUncertain(const ExactRay& ray, const Hit& hit, double t) const
   Eigen::Vector3d x[3];
   this->corners(hit, x);
   return isMarginal(
-    ray, x, RayPrecision * (std::abs(t) * ray.direction.norm() + this->Instances[hit.object - 1].reach));
+    ray, x, rayPrecision * (std::abs(t) * ray.direction.norm() + this->Instances[hit.object - 1].reach));
 }
 
 double RayScene::errorInPixels(const View& view) const
@@ -155,7 +155,7 @@ double RayScene::errorInPixels(const View& view) const
   const CameraRay next = view.model->rayThrough({ middle.x() + 1, middle.y() });
   const double pixel =
     (next.origin - ray.origin).norm() + this->Reach * (next.direction - ray.direction).norm() / ray.direction.norm();
-  return this->Reach > 0 ? 2 * RayPrecision * this->Reach / pixel : 0;
+  return this->Reach > 0 ? 2 * rayPrecision * this->Reach / pixel : 0;
 }
 
 ExactRay rayOf(const View& view, const Eigen::Vector2d& pixel)
@@ -166,7 +166,7 @@ ExactRay rayOf(const View& view, const Eigen::Vector2d& pixel)
 
 bool comesBefore(double ta, const Hit& a, double tb, const Hit& b)
 {
-  if (std::abs(ta - tb) > SameDistance * std::min(ta, tb))
+  if (std::abs(ta - tb) > sameDistance * std::min(ta, tb))
   {
     return ta < tb;
   }
@@ -182,8 +182,8 @@ RTCRayHit makeQuery(const ExactRay& ray)
   query.ray.dir_x = float(ray.direction.x());
   query.ray.dir_y = float(ray.direction.y());
   query.ray.dir_z = float(ray.direction.z());
-  query.ray.tnear = float(ray.least) * (1 - RangeSlack);
-  query.ray.tfar = float(ray.most) * (1 + RangeSlack);
+  query.ray.tnear = float(ray.least) * (1 - rangeSlack);
+  query.ray.tfar = float(ray.most) * (1 + rangeSlack);
   query.ray.mask = ~0U;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -202,7 +202,7 @@ void sortHits(std::vector<RayHit>& hits)
     hits.begin(), hits.end(), [&](const RayHit& a, const RayHit& b) { return a.t != b.t ? a.t < b.t : lower(a, b); });
   for (auto first = hits.begin(); first != hits.end();)
   {
-    const double limit = first->t + SameDistance * std::abs(first->t);
+    const double limit = first->t + sameDistance * std::abs(first->t);
     const auto last = std::find_if(first, hits.end(), [&](const RayHit& h) { return h.t > limit; });
     std::sort(first, last, lower);
     first = last;
@@ -256,9 +256,9 @@ void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::v
   }
   if (nearby)
   {
-    const double turn = 4 * RayPrecision * ray.direction.norm();
+    const double turn = 4 * rayPrecision * ray.direction.norm();
     traceAround(scene, ray, 0, turn, found);
-    traceAround(scene, ray, 4 * RayPrecision * scene.reach(), turn, found);
+    traceAround(scene, ray, 4 * rayPrecision * scene.reach(), turn, found);
     std::sort(found.begin(), found.end(),
       [](const Hit& a, const Hit& b) { return a.object != b.object ? a.object < b.object : a.triangle < b.triangle; });
     found.erase(std::unique(found.begin(), found.end()), found.end());

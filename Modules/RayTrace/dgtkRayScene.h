@@ -45,7 +45,7 @@ public:
   /// size.
   double errorInPixels(const View& view) const;
   /// Surfaces whose single-precision t differ by less are compared exactly.
-  float slack(float t) const { return float(2 * RayPrecision) * (t + float(this->Reach)); }
+  float slack(float t) const { return float(2 * rayPrecision) * (t + float(this->Reach)); }
 
   Hit hit(unsigned int instance, unsigned int geometry, unsigned int primitive) const
   {
@@ -90,7 +90,7 @@ struct RayHit
 void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::vector<RayHit>& hits);
 
 /// Part of t by which equally near surfaces may differ: a few roundings of vertices far from the origin.
-constexpr double SameDistance = 1e-9;
+constexpr double sameDistance = 1e-9;
 
 /// Embree's filter of all modes, set in the context.
 void rayFilter(const RTCFilterFunctionNArguments* arguments);
@@ -122,7 +122,7 @@ struct RayContext
 RTCRayHit makeQuery(const ExactRay& ray);
 
 /// Part of near and far by which Embree's range is wider than the exact one.
-constexpr float RangeSlack = 1e-5F;
+constexpr float rangeSlack = 1e-5F;
 
 } // namespace dgtk
 

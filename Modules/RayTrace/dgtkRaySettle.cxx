@@ -11,7 +11,7 @@ namespace dgtk
 
 namespace
 {
-constexpr int ChunkRows = 16;
+constexpr int chunkRows = 16;
 
 struct Change
 {
@@ -21,7 +21,7 @@ struct Change
 
 /// Pixels: below this error of single precision, few rays pass an edge so closely, and one that is missed for want of a
 /// jump in depth is rarer still.
-constexpr double SmallError = 1.0 / 128;
+constexpr double smallError = 1.0 / 128;
 
 class Settler
 {
@@ -31,7 +31,7 @@ public:
     , TheView(view)
     , Marks(marks)
     , Buffer(buffer)
-    , EveryEdge(!(scene.errorInPixels(view) < SmallError))
+    , EveryEdge(!(scene.errorInPixels(view) < smallError))
   {
   }
 
@@ -83,28 +83,28 @@ private:
     std::vector<float> nearness;
     std::vector<std::uint32_t> objects;
   };
-  static constexpr int Pad = 2;
+  static constexpr int pad = 2;
 
   void load(int y, Row& row) const
   {
     const int width = this->Buffer.rect.width;
     const int clamped = std::clamp(y, 0, this->Buffer.rect.height - 1);
     const std::size_t start = std::size_t(clamped) * width;
-    row.nearness.resize(std::size_t(width) + 2 * Pad);
-    row.objects.resize(std::size_t(width) + 2 * Pad);
-    std::copy_n(this->Marks.nearness.begin() + start, width, row.nearness.begin() + Pad);
+    row.nearness.resize(std::size_t(width) + 2 * pad);
+    row.objects.resize(std::size_t(width) + 2 * pad);
+    std::copy_n(this->Marks.nearness.begin() + start, width, row.nearness.begin() + pad);
     const Hit* hits = this->Buffer.hits.data() + start;
-    std::uint32_t* objects = row.objects.data() + Pad;
+    std::uint32_t* objects = row.objects.data() + pad;
     for (int x = 0; x < width; ++x)
     {
       objects[x] = hits[x].object;
     }
-    for (int i = 0; i < Pad; ++i)
+    for (int i = 0; i < pad; ++i)
     {
-      row.nearness[i] = row.nearness[Pad];
-      row.objects[i] = row.objects[Pad];
-      row.nearness[std::size_t(width) + Pad + i] = row.nearness[std::size_t(width) + Pad - 1];
-      row.objects[std::size_t(width) + Pad + i] = row.objects[std::size_t(width) + Pad - 1];
+      row.nearness[i] = row.nearness[pad];
+      row.objects[i] = row.objects[pad];
+      row.nearness[std::size_t(width) + pad + i] = row.nearness[std::size_t(width) + pad - 1];
+      row.objects[std::size_t(width) + pad + i] = row.objects[std::size_t(width) + pad - 1];
     }
   }
 
@@ -139,16 +139,16 @@ private:
   void compare(const Row& own, const Row& next, int nextShift, const Row& beyond, int beyondShift, int side)
   {
     const int width = this->Buffer.rect.width;
-    const float* a = own.nearness.data() + Pad;
-    const float* b = next.nearness.data() + Pad + nextShift;
-    const float* c = beyond.nearness.data() + Pad + beyondShift;
-    const std::uint32_t* p = own.objects.data() + Pad;
-    const std::uint32_t* q = next.objects.data() + Pad + nextShift;
+    const float* a = own.nearness.data() + pad;
+    const float* b = next.nearness.data() + pad + nextShift;
+    const float* c = beyond.nearness.data() + pad + beyondShift;
+    const std::uint32_t* p = own.objects.data() + pad;
+    const std::uint32_t* q = next.objects.data() + pad + nextShift;
     int* out = this->Suspects.data();
     for (int x = 0; x < width; ++x)
     {
       const float jump = b[x] - a[x];
-      const int steep = jump > JumpFactor * std::abs(c[x] - b[x]);
+      const int steep = jump > jumpFactor * std::abs(c[x] - b[x]);
       const int other = (p[x] != q[x]) & (jump >= 0);
       out[x] |= -(steep | other) & side;
     }
@@ -174,7 +174,7 @@ private:
     }
   }
 
-  static constexpr float JumpFactor = 2;
+  static constexpr float jumpFactor = 2;
   enum Side
   {
     Right = 1,
@@ -200,14 +200,14 @@ void settleMarked(
   const RayScene& scene, const View& view, const RayMarks& marks, VisibilityBuffer& buffer, ThreadPool& pool)
 {
   const int height = buffer.rect.height;
-  const int chunks = (height + ChunkRows - 1) / ChunkRows;
+  const int chunks = (height + chunkRows - 1) / chunkRows;
   std::vector<std::vector<Change>> changes(static_cast<std::size_t>(chunks));
   pool.parallelFor(chunks,
     [&](int chunk)
     {
       Settler settler(scene, view, marks, buffer);
-      const int first = chunk * ChunkRows;
-      for (int y = first; y < std::min(height, first + ChunkRows); ++y)
+      const int first = chunk * chunkRows;
+      for (int y = first; y < std::min(height, first + chunkRows); ++y)
       {
         settler.row(y, changes[chunk]);
       }

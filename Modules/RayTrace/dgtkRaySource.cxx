@@ -13,8 +13,8 @@ namespace dgtk
 
 namespace
 {
-constexpr int BandRows = 8; ///< rows that are traced as one job
-constexpr int Side = PacketTracer::Side;
+constexpr int bandRows = 8; ///< rows that are traced as one job
+constexpr int side = PacketTracer::side;
 
 /// Primary rays in packets; `Bare` is the yardstick.
 template <bool Bare>
@@ -31,7 +31,7 @@ public:
   void setScene(std::shared_ptr<const SceneState> state, const View& view) override
   {
     this->Scene.place(std::move(state), view.camera_from_world);
-    this->CurrentView = view;
+    this->TheView = view;
   }
 
   void render(const PixelRect& rect, VisibilityBuffer& hits) override
@@ -44,7 +44,7 @@ public:
     }
     this->Marks.resize(rect);
     this->trace<TraceMode::Exact>(hits);
-    settleMarked(this->Scene, this->CurrentView, this->Marks, hits, this->Pool);
+    settleMarked(this->Scene, this->TheView, this->Marks, hits, this->Pool);
   }
 
 private:
@@ -52,18 +52,18 @@ private:
   void trace(VisibilityBuffer& hits)
   {
     const PixelRect& rect = hits.rect;
-    this->Pool.parallelFor((rect.height + BandRows - 1) / BandRows,
+    this->Pool.parallelFor((rect.height + bandRows - 1) / bandRows,
       [&](int band)
       {
-        const int first = band * BandRows;
-        const int last = std::min(rect.height, first + BandRows);
-        PacketTracer tracer(this->Scene, this->CurrentView);
-        for (int x = 0; x < rect.width; x += Side)
+        const int first = band * bandRows;
+        const int last = std::min(rect.height, first + bandRows);
+        PacketTracer tracer(this->Scene, this->TheView);
+        for (int x = 0; x < rect.width; x += side)
         {
-          for (int y = first; y < last; y += Side)
+          for (int y = first; y < last; y += side)
           {
             tracer.template trace<Mode>(
-              { rect.x + x, rect.y + y, std::min(Side, rect.width - x), std::min(Side, last - y) }, hits, this->Marks);
+              { rect.x + x, rect.y + y, std::min(side, rect.width - x), std::min(side, last - y) }, hits, this->Marks);
           }
         }
       });
@@ -71,7 +71,7 @@ private:
 
   ThreadPool& Pool;
   RayScene Scene;
-  View CurrentView;
+  View TheView;
   RayMarks Marks;
 };
 

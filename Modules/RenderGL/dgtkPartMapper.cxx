@@ -195,11 +195,11 @@ void PartMapper::setSurface(vtkShaderProgram& program, const SurfaceParameters& 
       program.SetUniformi(name, unit);
     }
   };
-  bind(this->Built.normalMap, "dgtkNormalMap", surface.normalMap, RasterUnits::Maps);
-  bind(this->Built.bumpMap, "dgtkBumpMap", surface.bumpMap, RasterUnits::Maps + 1);
-  bind(this->Built.metallicRoughnessMap, "dgtkMetalRoughMap", surface.metallicRoughnessMap, RasterUnits::Maps + 2);
-  bind(this->Built.emissionMap, "dgtkEmissionMap", surface.emissionMap, RasterUnits::Maps + 3);
-  bind(this->Built.occlusionMap, "dgtkOcclusionMap", surface.occlusionMap, RasterUnits::Maps + 4);
+  bind(this->Built.normalMap, "dgtkNormalMap", surface.normalMap, RasterUnits::maps);
+  bind(this->Built.bumpMap, "dgtkBumpMap", surface.bumpMap, RasterUnits::maps + 1);
+  bind(this->Built.metallicRoughnessMap, "dgtkMetalRoughMap", surface.metallicRoughnessMap, RasterUnits::maps + 2);
+  bind(this->Built.emissionMap, "dgtkEmissionMap", surface.emissionMap, RasterUnits::maps + 3);
+  bind(this->Built.occlusionMap, "dgtkOcclusionMap", surface.occlusionMap, RasterUnits::maps + 4);
   if (this->Built.normalMap)
   {
     program.SetUniformf("dgtkNormalScale", surface.normalScale);
@@ -224,14 +224,14 @@ void PartMapper::setEnvironment(vtkShaderProgram& program) const
   RasterFrame& frame = *this->Frame;
   if (this->Built.shadows)
   {
-    program.SetUniformi("dgtkShadowMaps", RasterUnits::ShadowMaps);
-    program.SetUniformi("dgtkShadowData", RasterUnits::ShadowData);
+    program.SetUniformi("dgtkShadowMaps", RasterUnits::shadowMaps);
+    program.SetUniformi("dgtkShadowData", RasterUnits::shadowData);
     program.SetUniformMatrix3x3("dgtkWorldFromView", frame.worldFromView.data());
   }
   if (this->Built.environment)
   {
-    program.SetUniformi("dgtkEnvironment", RasterUnits::Radiance);
-    program.SetUniformi("dgtkReflectance", RasterUnits::Reflectance);
+    program.SetUniformi("dgtkEnvironment", RasterUnits::radiance);
+    program.SetUniformi("dgtkReflectance", RasterUnits::reflectance);
     program.SetUniformMatrix3x3("dgtkImageFromView", frame.imageFromView.data());
     program.SetUniform3fv("dgtkIrradiance", 9, reinterpret_cast<const float(*)[3]>(frame.irradiance.data()));
   }

@@ -21,14 +21,14 @@ namespace dgtk
 /// Texture units; VTK hands out those from 0.
 struct RasterUnits
 {
-  static constexpr int Maps = 4; ///< and the four after it
-  static constexpr int Radiance = 9;
-  static constexpr int Reflectance = 10;
-  static constexpr int ShadowMaps = 11;
-  static constexpr int ShadowData = 12;
-  static constexpr int Background = 13;
-  static constexpr int Layer = 14;
-  static constexpr int Lights = 15;
+  static constexpr int maps = 4; ///< and the four after it
+  static constexpr int radiance = 9;
+  static constexpr int reflectance = 10;
+  static constexpr int shadowMaps = 11;
+  static constexpr int shadowData = 12;
+  static constexpr int background = 13;
+  static constexpr int layer = 14;
+  static constexpr int lights = 15;
 };
 
 /// What all draws of a frame share.
@@ -50,7 +50,7 @@ struct RasterFrame
   std::array<float, 27> irradiance{};
   int lightsUnit = 0; ///< texture unit of the buffer texture with the lights
   int layerUnit = 0;  ///< texture unit of the layer before, when peeling
-  int maxUniformLights = UniformLights;
+  int maxUniformLights = uniformLights;
   std::unordered_map<vtkShaderProgram*, std::uint64_t> uploaded; ///< version of the lights that a program has
 };
 

@@ -12,7 +12,7 @@ namespace dgtk
 namespace
 {
 
-constexpr double Pi = 3.14159265358979323846;
+constexpr double pi = 3.14159265358979323846;
 
 float clamped(double value) { return value > 0 ? (value < 1 ? float(value) : 1.0f) : 0.0f; }
 float clamped(float value) { return value > 0 ? (value < 1 ? value : 1.0f) : 0.0f; }
@@ -40,10 +40,10 @@ double mitchell(double x)
                : ((-b - 6 * c) * x * x * x + (6 * b + 30 * c) * x * x + (-12 * b - 48 * c) * x + 8 * b + 24 * c) / 6;
 }
 
-double sinc(double x) { return x == 0 ? 1 : std::sin(Pi * x) / (Pi * x); }
+double sinc(double x) { return x == 0 ? 1 : std::sin(pi * x) / (pi * x); }
 
 /// In the order of PixelFilter.
-constexpr FilterShape Shapes[] = {
+constexpr FilterShape shapes[] = {
   { "box", 0.5, [](double) { return 1.0; } },
   { "triangle", 1, [](double x) { return 1 - std::abs(x); } },
   { "gaussian", 1.5, gaussian },
@@ -55,9 +55,9 @@ constexpr FilterShape Shapes[] = {
 
 PixelFilter pixelFilterFromName(const std::string& name)
 {
-  for (int i = 0; i < int(std::size(Shapes)); ++i)
+  for (int i = 0; i < int(std::size(shapes)); ++i)
   {
-    if (name == Shapes[i].name)
+    if (name == shapes[i].name)
     {
       return PixelFilter(i);
     }
@@ -67,7 +67,7 @@ PixelFilter pixelFilterFromName(const std::string& name)
 
 std::vector<double> pixelFilterWeights(PixelFilter filter, int samples, int& margin)
 {
-  const FilterShape& shape = Shapes[int(filter)];
+  const FilterShape& shape = shapes[int(filter)];
   margin = int(std::ceil(shape.radius - 0.5));
   std::vector<double> weights;
   for (int i = 0; i < (2 * margin + 1) * samples; ++i)

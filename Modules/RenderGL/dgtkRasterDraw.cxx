@@ -174,7 +174,7 @@ void RasterScene::peelBehind(unsigned int layer)
 {
   this->Layer = layer;
   this->Frame.peel = layer != 0;
-  this->Frame.layerUnit = RasterUnits::Layer;
+  this->Frame.layerUnit = RasterUnits::layer;
 }
 
 void RasterScene::uploadLights()
@@ -191,10 +191,10 @@ void RasterScene::uploadLights()
   const auto& values = this->Frame.lights.values;
   glBindBuffer(GL_TEXTURE_BUFFER, this->LightBuffer);
   glBufferData(GL_TEXTURE_BUFFER, GLsizeiptr(values.size() * sizeof(values[0])), values.data(), GL_STREAM_DRAW);
-  glActiveTexture(GL_TEXTURE0 + RasterUnits::Lights);
+  glActiveTexture(GL_TEXTURE0 + RasterUnits::lights);
   glBindTexture(GL_TEXTURE_BUFFER, this->LightTexture);
   glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, this->LightBuffer);
-  this->Frame.lightsUnit = RasterUnits::Lights;
+  this->Frame.lightsUnit = RasterUnits::lights;
 }
 
 /// What VTK's cache of OpenGL's state must know is set through it.
@@ -211,17 +211,17 @@ void RasterScene::setUpState()
   state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   if (this->Layer)
   {
-    glActiveTexture(GL_TEXTURE0 + RasterUnits::Layer);
+    glActiveTexture(GL_TEXTURE0 + RasterUnits::layer);
     glBindTexture(GL_TEXTURE_2D, this->Layer);
   }
   this->uploadLights();
   if (!this->Shadows.empty())
   {
-    this->Shadows.bind(RasterUnits::ShadowMaps, RasterUnits::ShadowData);
+    this->Shadows.bind(RasterUnits::shadowMaps, RasterUnits::shadowData);
   }
   if (this->Environment.exists())
   {
-    this->Environment.bind(RasterUnits::Radiance, RasterUnits::Reflectance);
+    this->Environment.bind(RasterUnits::radiance, RasterUnits::reflectance);
   }
   glActiveTexture(GL_TEXTURE0);
   state->ResetGLActiveTexture();
@@ -235,7 +235,7 @@ void RasterScene::drawColor(Surfaces surfaces)
     vtkOpenGLState* state = this->Window->GetState();
     this->Window->GetShaderCache()->ReleaseCurrentShader();
     state->vtkglDisable(GL_DEPTH_TEST);
-    this->Environment.drawBackground(this->Camera, this->Width, this->Height, RasterUnits::Background);
+    this->Environment.drawBackground(this->Camera, this->Width, this->Height, RasterUnits::background);
     state->ResetGLActiveTexture();
     state->vtkglEnable(GL_DEPTH_TEST);
   }

@@ -8,7 +8,7 @@ namespace dgtk
 namespace
 {
 
-constexpr double Pi = 3.14159265358979323846;
+constexpr double pi = 3.14159265358979323846;
 
 std::array<float, 4> pack(const Eigen::Vector3d& xyz, double w = 0)
 {
@@ -36,7 +36,7 @@ void append(RasterLights& lights, const LightState& light, const Eigen::Matrix4d
   {
     position = -axis;
   }
-  lights.values.push_back(pack(position, std::cos(light.coneAngle * Pi / 180)));
+  lights.values.push_back(pack(position, std::cos(light.coneAngle * pi / 180)));
   lights.values.push_back(pack(axis, light.exponent));
   lights.values.push_back(pack(light.attenuation, map + 1));
   lights.values.push_back(pack(light.ambient * light.intensity));

@@ -16,7 +16,7 @@ namespace dgtk
 /// then the points, then the spots.
 struct RasterLights
 {
-  static constexpr int Stride = 6;
+  static constexpr int stride = 6;
   /// Per light: position (directional: towards the light) and cosine of the cone; axis and exponent; attenuation and
   /// number of its first shadow map, from 1, 0 for none;
   /// ambient; diffuse; specular. Colours are multiplied by the intensity.

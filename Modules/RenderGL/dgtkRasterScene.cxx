@@ -26,7 +26,7 @@ namespace dgtk
 namespace
 {
 
-constexpr std::uint32_t MaxChunk = 1u << 24; // triangle numbers are exact in float
+constexpr std::uint32_t maxChunk = 1u << 24; // triangle numbers are exact in float
 
 std::array<float, 3> floats(const Eigen::Vector3d& v) { return { float(v.x()), float(v.y()), float(v.z()) }; }
 
@@ -161,7 +161,7 @@ void RasterScene::makeDraws()
     }
   }
   this->Draws.resize(count);
-  if (count >= MaxChunk)
+  if (count >= maxChunk)
   {
     throw UsageError("more than 16,777,215 parts of objects cannot be drawn at once");
   }
@@ -319,10 +319,10 @@ std::unique_ptr<RasterScene::Variant> RasterScene::makeVariant(const Instance& i
   variant->used = true;
   for (const Part& part : instance.model->parts)
   {
-    for (std::uint32_t done = 0; done < part.triangles; done += MaxChunk)
+    for (std::uint32_t done = 0; done < part.triangles; done += maxChunk)
     {
       variant->chunks.push_back(
-        this->makeChunk(*variant, part, part.firstTriangle + done, std::min(MaxChunk, part.triangles - done)));
+        this->makeChunk(*variant, part, part.firstTriangle + done, std::min(maxChunk, part.triangles - done)));
     }
   }
   return variant;

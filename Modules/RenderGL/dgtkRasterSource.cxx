@@ -19,9 +19,9 @@ namespace dgtk
 namespace
 {
 
-constexpr int MaxSamples = 64;
-constexpr int MaxPiece = 2048;  // side of what is drawn at once with several samples a pixel
-constexpr int MaxLayers = 4096; // of translucent surfaces; a safeguard
+constexpr int maxSamples = 64;
+constexpr int maxPiece = 2048;  // side of what is drawn at once with several samples a pixel
+constexpr int maxLayers = 4096; // of translucent surfaces; a safeguard
 
 float clamped(float value) { return value > 0 ? (value < 1 ? value : 1.0f) : 0.0f; }
 
@@ -121,7 +121,7 @@ private:
   Unread Last;                 // not read yet when it has a target
   RasterTarget Layers[2]{ RasterTarget{ true }, RasterTarget{ true } };
   std::shared_ptr<const SceneState> State;
-  View Camera;
+  View TheView;
   bool ClipControl;
   PixelFilter Filter = PixelFilter::Box;
   std::vector<float> Pixels; // RGBA, bottom to top
@@ -134,7 +134,7 @@ private:
 void VtkRasterSource::setScene(std::shared_ptr<const SceneState> state, const View& view)
 {
   this->Window->MakeCurrent();
-  this->Camera = view;
+  this->TheView = view;
   this->State = state;
   this->Scene.setState(std::move(state), view);
 }
@@ -161,7 +161,7 @@ void VtkRasterSource::aim(RasterTarget& target, const PixelRect& rect, int sampl
   state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglViewport(0, 0, rect.width, rect.height);
-  this->Scene.aim(rasterCamera(this->Camera, rect, samples, this->ClipControl), rect.width, rect.height);
+  this->Scene.aim(rasterCamera(this->TheView, rect, samples, this->ClipControl), rect.width, rect.height);
   this->Scene.peelBehind(0);
 }
 
@@ -175,16 +175,16 @@ void VtkRasterSource::render(const PixelRect& rect, VisibilityBuffer& hits)
   hits.resize(rect);
   takeHits(*this->Scene.firstHits(), this->Ids, rect, hits.hits);
   check();
-  settleEdges(*this->State, this->Camera, hits);
+  settleEdges(*this->State, this->TheView, hits);
 }
 
 std::function<void()> VtkRasterSource::drawColor(
   const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits)
 {
-  if (samples < 1 || samples > MaxSamples)
+  if (samples < 1 || samples > maxSamples)
   {
     throw UsageError(
-      "samples must be between 1 and " + std::to_string(MaxSamples) + " (found " + std::to_string(samples) + ")");
+      "samples must be between 1 and " + std::to_string(maxSamples) + " (found " + std::to_string(samples) + ")");
   }
   colors.resize(rect);
   if (samples == 1)
@@ -197,7 +197,7 @@ std::function<void()> VtkRasterSource::drawColor(
     return this->restOf(drawn, rect, colors, hits);
   }
   const SampleFilter filter(this->Filter, samples);
-  const int side = std::max(1, MaxPiece / samples - 2 * filter.margin());
+  const int side = std::max(1, maxPiece / samples - 2 * filter.margin());
   for (int y = 0; y < rect.height; y += side)
   {
     for (int x = 0; x < rect.width; x += side)
@@ -339,7 +339,7 @@ void VtkRasterSource::blendTranslucent()
   const std::size_t count = this->Pixels.size() / 4;
   std::vector<float> over(count * 3, 0.0f);
   std::vector<float> through(count, 1.0f);
-  for (int rank = 0; rank < MaxLayers && this->drawLayer(rank, Surfaces::Translucent, &this->Main); ++rank)
+  for (int rank = 0; rank < maxLayers && this->drawLayer(rank, Surfaces::Translucent, &this->Main); ++rank)
   {
     for (std::size_t i = 0; i < count; ++i)
     {
@@ -373,16 +373,16 @@ void VtkRasterSource::collect(int first, int last, std::vector<Fragment>& fragme
   this->Scene.drawFragments(this->Main.width(), first, last);
   std::vector<Fragment> found;
   const std::size_t count = this->Fragments.end(found);
-  if (count > FragmentList::Capacity && last - first > 1)
+  if (count > FragmentList::capacity && last - first > 1)
   {
     const int middle = (first + last) / 2;
     this->collect(first, middle, fragments);
     this->collect(middle, last, fragments);
     return;
   }
-  if (count > FragmentList::Capacity)
+  if (count > FragmentList::capacity)
   {
-    throw MachineError("a row of the image has more than " + std::to_string(FragmentList::Capacity) + " surfaces");
+    throw MachineError("a row of the image has more than " + std::to_string(FragmentList::capacity) + " surfaces");
   }
   fragments.insert(fragments.end(), found.begin(), found.end());
 }
@@ -442,7 +442,7 @@ void VtkRasterSource::peelOneByOne(const PixelRect& rect, const std::function<bo
 {
   SurfaceLayer layer;
   layer.rect = rect;
-  for (int rank = 0; rank < MaxLayers && this->drawLayer(rank, Surfaces::All, nullptr); ++rank)
+  for (int rank = 0; rank < maxLayers && this->drawLayer(rank, Surfaces::All, nullptr); ++rank)
   {
     layer.hits.resize(std::size_t(rect.width) * rect.height);
     takeHits(*this->Scene.firstHits(), this->LayerIds, rect, layer.hits);

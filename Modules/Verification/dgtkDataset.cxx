@@ -18,7 +18,7 @@ namespace
 {
 namespace fs = std::filesystem;
 /// Instants whose scenes are kept.
-constexpr std::size_t MostMoments = 4;
+constexpr std::size_t mostMoments = 4;
 } // namespace
 
 PictureFile::PictureFile(const std::string& folder, const std::string& file, int width, int height)
@@ -238,7 +238,7 @@ Dataset::Moment& Dataset::moment(int frame)
   {
     return found->second;
   }
-  if (this->Moments.size() == MostMoments)
+  if (this->Moments.size() == mostMoments)
   {
     // Frames are visited in order, so the one farthest away is not needed for the longest time.
     const bool first =

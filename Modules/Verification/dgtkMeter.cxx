@@ -8,7 +8,7 @@ namespace dgtk
 
 namespace
 {
-constexpr int ChunkRows = 16;
+constexpr int chunkRows = 16;
 }
 
 std::string numberText(double value)
@@ -98,12 +98,12 @@ VerificationReport Results::report() const
 
 Meter meterRows(ThreadPool& pool, int height, double tolerance, const std::function<void(int, Meter&)>& body)
 {
-  const int chunks = (height + ChunkRows - 1) / ChunkRows;
+  const int chunks = (height + chunkRows - 1) / chunkRows;
   std::vector<Meter> meters(static_cast<std::size_t>(chunks), Meter(tolerance));
   pool.parallelFor(chunks,
     [&](int chunk)
     {
-      for (int y = chunk * ChunkRows; y < std::min(height, (chunk + 1) * ChunkRows); ++y)
+      for (int y = chunk * chunkRows; y < std::min(height, (chunk + 1) * chunkRows); ++y)
       {
         body(y, meters[chunk]);
       }

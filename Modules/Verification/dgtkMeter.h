@@ -20,7 +20,7 @@
 namespace dgtk
 {
 
-constexpr double Infinite = std::numeric_limits<double>::infinity();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Shortest text of a number; "inf", "nan".
 std::string numberText(double value);
@@ -40,7 +40,7 @@ public:
   template <typename Where>
   void add(double error, const Where& where)
   {
-    error = std::isnan(error) ? Infinite : std::abs(error);
+    error = std::isnan(error) ? infinite : std::abs(error);
     ++this->Count;
     this->Bad += error > this->Tolerance;
     if (error > this->Largest)
@@ -53,7 +53,7 @@ public:
   template <typename Where>
   void equal(bool same, const Where& where)
   {
-    this->add(same ? 0 : Infinite, where);
+    this->add(same ? 0 : infinite, where);
   }
   void good(std::uint64_t count = 1) { this->Count += count; }
   void skip(std::uint64_t count = 1) { this->Skipped += count; }
@@ -69,7 +69,7 @@ public:
 
 /// Share of the values of a row that may be left open, unless the row says otherwise. Of pictures of a usual size it is
 /// some 1e-3; where triangles are as small as pixels, or an edge runs along a row of pixels' centres, more.
-constexpr double MostOpen = 0.1;
+constexpr double usualMostOpen = 0.1;
 
 /// A line of the report.
 struct Row
@@ -77,7 +77,7 @@ struct Row
   std::string layer;
   std::string unit;
   std::vector<std::string> files; ///< of the dataset, whose contents are compared
-  double mostOpen = MostOpen;
+  double mostOpen = usualMostOpen;
 };
 
 /// The residuals of all checks, in the order of checks, then layers.

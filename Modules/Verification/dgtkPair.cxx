@@ -13,7 +13,7 @@ namespace dgtk
 namespace
 {
 /// Part by which K, rotation and displacement of a rectified pair may differ.
-constexpr double RectifiedTolerance = 1e-9;
+constexpr double rectifiedTolerance = 1e-9;
 
 /// Displacement of camera b along the x axis of camera a; 0 unless they differ in nothing else but cx.
 double rectifiedBaseline(const Eye& a, const Eye& b)
@@ -25,9 +25,9 @@ double rectifiedBaseline(const Eye& a, const Eye& b)
   Eigen::Matrix3d K = a.record().K - b.record().K;
   K(0, 2) = 0;
   const Eigen::Vector3d centre = a.toCamera(b.toWorld(Eigen::Vector3d::Zero()));
-  const bool same = K.cwiseAbs().maxCoeff() <= RectifiedTolerance * a.record().K(0, 0) &&
-                    (a.record().R - b.record().R).cwiseAbs().maxCoeff() <= RectifiedTolerance &&
-                    centre.tail<2>().cwiseAbs().maxCoeff() <= RectifiedTolerance * std::abs(centre.x());
+  const bool same = K.cwiseAbs().maxCoeff() <= rectifiedTolerance * a.record().K(0, 0) &&
+                    (a.record().R - b.record().R).cwiseAbs().maxCoeff() <= rectifiedTolerance &&
+                    centre.tail<2>().cwiseAbs().maxCoeff() <= rectifiedTolerance * std::abs(centre.x());
   return same ? centre.x() : 0;
 }
 
@@ -36,13 +36,13 @@ std::optional<Pair> disparityPair(Picture& picture)
 {
   Dataset& dataset = picture.dataset();
   std::optional<Pair> best;
-  double nearest = Infinite;
+  double nearest = infinite;
   for (const std::string& name : dataset.stage().cameraNames())
   {
     const std::optional<Eye> eye =
       name == picture.camera() ? std::nullopt : dataset.eye(name, picture.frame(), picture.eye().record());
     const double baseline = eye ? rectifiedBaseline(picture.eye(), *eye) : 0;
-    if (baseline != 0 && std::abs(baseline) < nearest * (1 - RectifiedTolerance))
+    if (baseline != 0 && std::abs(baseline) < nearest * (1 - rectifiedTolerance))
     {
       nearest = std::abs(baseline);
       best = Pair{ "disparity", baseline > 0 ? PairKind::FromLeft : PairKind::FromRight, name, picture.frame(), nullptr,

@@ -11,11 +11,11 @@ namespace dgtk
 
 namespace
 {
-constexpr int ChunkRows = 16;
+constexpr int chunkRows = 16;
 /// Part of the depth by which two computations of one point in double precision may differ; a neighbouring triangle
 /// that is closer to a file's value is the one it shows.
-constexpr double CloseDepth = 1e-10;
-constexpr double Pi = 3.14159265358979323846;
+constexpr double closeDepth = 1e-10;
+constexpr double pi = 3.14159265358979323846;
 } // namespace
 
 /// What the files say about the surface of a pixel; null where there is no file.
@@ -25,7 +25,7 @@ struct Picture::Claims
   PicturePointer objects;
   PicturePointer parts;
   PicturePointer triangles;
-  double tolerance = DepthTolerance; ///< part of the depth
+  double tolerance = wideDepthTolerance; ///< part of the depth
 };
 
 Picture::Picture(Dataset& dataset, const CameraRecord& record)
@@ -91,13 +91,13 @@ bool Picture::agrees(const Claims& claims, const Hit& hit, int x, int y) const
 
 std::vector<Hit> Picture::nearby(int x, int y) const
 {
-  constexpr int Probes = 33;
-  std::vector<Hit> hits[Probes];
-  std::vector<double> depths[Probes];
-  for (int i = 0; i < Probes; ++i)
+  constexpr int probes = 33;
+  std::vector<Hit> hits[probes];
+  std::vector<double> depths[probes];
+  for (int i = 0; i < probes; ++i)
   {
-    const double radius = i == 0 ? 0 : i <= 16 ? EdgeReach : EdgeReach / 4;
-    const Eigen::Vector2d offset(std::cos(i * Pi / 8), std::sin(i * Pi / 8));
+    const double radius = i == 0 ? 0 : i <= 16 ? edgeReach : edgeReach / 4;
+    const Eigen::Vector2d offset(std::cos(i * pi / 8), std::sin(i * pi / 8));
     this->TheSight->surfaces(centreOf(x, y) + radius * offset, hits[i], depths[i]);
   }
   // A surface that some probe misses has an edge here, and may or may not hide what is behind.
@@ -114,10 +114,10 @@ std::vector<Hit> Picture::nearby(int x, int y) const
       found.push_back(hit);
     }
   };
-  for (int i = 0; i < Probes; ++i)
+  for (int i = 0; i < probes; ++i)
   {
-    double solid = Infinite; // depth of the first surface without an edge
-    for (std::size_t k = 0; k < hits[i].size() && depths[i][k] <= solid * (1 + DepthTolerance); ++k)
+    double solid = infinite; // depth of the first surface without an edge
+    for (std::size_t k = 0; k < hits[i].size() && depths[i][k] <= solid * (1 + wideDepthTolerance); ++k)
     {
       add(hits[i][k]);
       solid = std::isinf(solid) && !hasEdge(hits[i][k]) ? depths[i][k] : solid;
@@ -176,7 +176,7 @@ bool Picture::isEdgeAt(int x, int y, double depth) const
     {
       const Hit hit{ object, triangle };
       if (std::abs(this->TheSight->depthOf(hit, centreOf(x, y)) - depth) <=
-            DepthTolerance * this->eye().farness(depth) * depth &&
+            wideDepthTolerance * this->eye().farness(depth) * depth &&
           this->endsAt(hit, x, y))
       {
         return true;
@@ -198,7 +198,7 @@ bool Picture::endsAt(const Hit& hit, int x, int y) const
       return false;
     }
   }
-  double nearest = Infinite;
+  double nearest = infinite;
   for (int i = 0; i < 3; ++i)
   {
     const Eigen::Vector2d edge = p[(i + 1) % 3] - p[i];
@@ -206,7 +206,7 @@ bool Picture::endsAt(const Hit& hit, int x, int y) const
     const double along = std::clamp(from.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
     nearest = std::min(nearest, (from - along * edge).norm());
   }
-  return nearest <= EdgeReach;
+  return nearest <= edgeReach;
 }
 
 bool Picture::isOnEdge(const Hit& hit, int x, int y) const
@@ -218,15 +218,15 @@ bool Picture::isOnEdge(const Hit& hit, int x, int y) const
   std::vector<Hit> hits;
   std::vector<double> depths;
   this->TheSight->surfaces(centreOf(x, y), hits, depths);
-  const double before = depths.empty() ? Infinite : depths.front();
-  return this->TheSight->depthOf(hit, centreOf(x, y)) <= before * (1 + DepthTolerance);
+  const double before = depths.empty() ? infinite : depths.front();
+  return this->TheSight->depthOf(hit, centreOf(x, y)) <= before * (1 + wideDepthTolerance);
 }
 
 void Picture::resolveRow(const Claims& claims, int y, int& patience)
 {
   Surfaces& s = *this->TheSurfaces;
   Claims close = claims;
-  close.tolerance = claims.tolerance == DepthTolerance ? CloseDepth : claims.tolerance;
+  close.tolerance = claims.tolerance == wideDepthTolerance ? closeDepth : claims.tolerance;
   for (int x = 0; x < s.width; ++x)
   {
     const std::size_t i = s.index(x, y);
@@ -264,15 +264,15 @@ const Surfaces& Picture::surfaces()
   s.marks.assign(s.own.size(), Mark::Same);
   Claims claims;
   claims.depth = this->quietly([&] { return this->values("depth"); });
-  claims.tolerance = claims.depth ? depthTolerance(*claims.depth) : DepthTolerance;
+  claims.tolerance = claims.depth ? depthTolerance(*claims.depth) : wideDepthTolerance;
   claims.objects = this->quietly([&] { return this->ids("objects"); });
   claims.parts = this->quietly([&] { return this->ids("parts"); });
   claims.triangles = this->quietly([&] { return this->ids("triangles"); });
-  this->pool().parallelFor((this->height() + ChunkRows - 1) / ChunkRows,
+  this->pool().parallelFor((this->height() + chunkRows - 1) / chunkRows,
     [&](int chunk)
     {
-      int patience = static_cast<int>(Patience);
-      for (int y = chunk * ChunkRows; y < std::min(this->height(), (chunk + 1) * ChunkRows); ++y)
+      int patience = static_cast<int>(usualPatience);
+      for (int y = chunk * chunkRows; y < std::min(this->height(), (chunk + 1) * chunkRows); ++y)
       {
         this->resolveRow(claims, y, patience);
       }

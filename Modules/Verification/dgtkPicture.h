@@ -16,19 +16,19 @@ namespace dgtk
 {
 
 /// Pixels: as close to an edge, either of two surfaces may have been recorded.
-constexpr double EdgeReach = 1.0 / 64;
+constexpr double edgeReach = 1.0 / 64;
 /// Part of the depth by which a float64 depth may differ from that of its triangle's plane. Two computations in double
 /// precision differ by some 1e-14, times as much as the view grazes the triangle.
-constexpr double DepthTolerance = 1e-9;
+constexpr double wideDepthTolerance = 1e-9;
 /// The same of a float32 depth, which is rounded by up to 6e-8 of itself.
-constexpr double NarrowDepthTolerance = 1e-7;
+constexpr double narrowDepthTolerance = 1e-7;
 inline double depthTolerance(const PictureFile& depth)
 {
-  return depth.type() == PixelType::Float64 ? DepthTolerance : NarrowDepthTolerance;
+  return depth.type() == PixelType::Float64 ? wideDepthTolerance : narrowDepthTolerance;
 }
 
 /// Wrong values of a few rows after which no pixel is looked around any more: the layer is wrong as a whole.
-constexpr std::uint64_t Patience = 256;
+constexpr std::uint64_t usualPatience = 256;
 
 /// How the surface of a pixel was found.
 enum class Mark : std::uint8_t

@@ -45,7 +45,7 @@ const SampledPixel& Samples::at(int x, int y) const
 SampledPixel Samples::count(int x, int y) const
 {
   SampledPixel pixel;
-  double least = Infinite;
+  double least = infinite;
   for (int j = 0; j < this->Side; ++j)
   {
     for (int i = 0; i < this->Side; ++i)
@@ -62,7 +62,7 @@ SampledPixel Samples::count(int x, int y) const
       for (const Eigen::Vector2d& offset :
         { Eigen::Vector2d(1, 0), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, -1) })
       {
-        around.insert(this->firstAt(place + EdgeReach * offset).id);
+        around.insert(this->firstAt(place + edgeReach * offset).id);
       }
       around.erase(first.id);
       for (const std::uint32_t other : around)

@@ -59,7 +59,7 @@ private:
   struct First
   {
     std::uint32_t id = 0;
-    double depth = Infinite;
+    double depth = infinite;
   };
   First firstAt(const Eigen::Vector2d& place) const;
   SampledPixel count(int x, int y) const;
@@ -71,9 +71,9 @@ private:
 };
 
 /// Part of a pixel; the smallest true difference is one sample of 256, and float32 shares round by 3e-8.
-constexpr double CoverageTolerance = 1e-7;
+constexpr double coverageTolerance = 1e-7;
 /// Share: most pixels that are looked at are divided by edges.
-constexpr double MostOpenSamples = 0.5;
+constexpr double mostOpenSamples = 0.5;
 
 } // namespace dgtk
 

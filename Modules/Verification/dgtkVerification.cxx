@@ -14,7 +14,7 @@ namespace dgtk
 namespace
 {
 /// In this order a fault is named where it is, and not where it shows: later checks build upon earlier ones.
-constexpr Check Checks[] = {
+constexpr Check allChecks[] = {
   { "hashes", checkHashes, nullptr },
   { "cameras", checkCameras, nullptr },
   { "depth", nullptr, checkDepth },
@@ -40,7 +40,7 @@ template <typename Subject>
 void run(
   const Check& check, void (*body)(Subject&, Results&), Subject& subject, const Dataset& dataset, Results& results)
 {
-  results.startCheck(static_cast<int>(&check - Checks), check.name);
+  results.startCheck(static_cast<int>(&check - allChecks), check.name);
   if (!body)
   {
     return;
@@ -81,7 +81,7 @@ std::vector<const Check*> checksOf(const std::vector<std::string>& names)
     }
   }
   std::vector<const Check*> asked;
-  for (const Check& check : Checks)
+  for (const Check& check : allChecks)
   {
     if (isAsked(names, check))
     {
@@ -137,7 +137,7 @@ void verifyPictures(Dataset& dataset, const std::vector<const Check*>& checks, R
 std::vector<std::string> verificationChecks()
 {
   std::vector<std::string> names;
-  for (const Check& check : Checks)
+  for (const Check& check : allChecks)
   {
     names.emplace_back(check.name);
   }
@@ -149,7 +149,7 @@ VerificationReport verifyDataset(const std::string& folder, int threads, const s
   const std::vector<const Check*> asked = checksOf(checks);
   Dataset dataset(folder, threads);
   Results results;
-  results.startCheck(0, Checks[0].name);
+  results.startCheck(0, allChecks[0].name);
   for (const Dataset::Problem& problem : dataset.problems())
   {
     results.unusable("documents", problem.file, problem.what);
@@ -157,7 +157,7 @@ VerificationReport verifyDataset(const std::string& folder, int threads, const s
   const bool usable = dataset.problems().empty();
   for (const Check* check : asked)
   {
-    if (usable || check == Checks)
+    if (usable || check == allChecks)
     {
       run(*check, check->ofDataset, dataset, dataset, results);
     }

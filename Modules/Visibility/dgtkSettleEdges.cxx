@@ -15,15 +15,15 @@ namespace
 
 /// Pixels: a centre this close to an edge may have been drawn on its other side. Vertices are snapped to 1/256 pixel,
 /// or coarser steps for triangles that are left uncut; see RenderGL.
-constexpr double LookDistance = 1.0 / 64;
+constexpr double lookDistance = 1.0 / 64;
 /// Relative difference of t below which surfaces count as equally near: a few roundings of the intersection.
-constexpr double SameDistance = 1e-12;
+constexpr double sameDistance = 1e-12;
 /// Part of a depth by which a surface in front may have been drawn as if it were behind.
-constexpr double SameDepth = 4e-6;
+constexpr double sameDepth = 4e-6;
 /// Part of near and far within which drawing may decide either way.
-constexpr double LimitSlack = 2e-6;
+constexpr double limitSlack = 2e-6;
 /// Values of a line in double-double below this part of their terms are zero.
-constexpr double ExactZero = 0x1p-70;
+constexpr double exactZero = 0x1p-70;
 
 /// Signed lines of a triangle; a point is inside where the three values have one sign.
 struct Edges
@@ -113,8 +113,8 @@ private:
       polygon.add(x);
     }
     polygon =
-      this->isBeyond(corner, 1, this->least(-LimitSlack)) ? clipped(polygon, 1, this->least(-LimitSlack)) : polygon;
-    return this->isBeyond(corner, -1, this->most(LimitSlack)) ? clipped(polygon, -1, this->most(LimitSlack)) : polygon;
+      this->isBeyond(corner, 1, this->least(-limitSlack)) ? clipped(polygon, 1, this->least(-limitSlack)) : polygon;
+    return this->isBeyond(corner, -1, this->most(limitSlack)) ? clipped(polygon, -1, this->most(limitSlack)) : polygon;
   }
 
   double least(double slack) const { return this->TheView.near + slack * std::abs(this->TheView.near); }
@@ -146,11 +146,11 @@ private:
     const SmallPolygon<ImagePoint> image = this->project(polygon);
     for (int i = 0; i < image.count; ++i)
     {
-      this->Marks.markSegment(image[i], image[(i + 1) % image.count], LookDistance);
+      this->Marks.markSegment(image[i], image[(i + 1) % image.count], lookDistance);
     }
-    this->lookAtLimit(clipped(polygon, -1, this->least(LimitSlack)));
-    this->lookAtLimit(clipped(polygon, 1, this->most(-LimitSlack)));
-    this->Marks.forPixels(image, LookDistance,
+    this->lookAtLimit(clipped(polygon, -1, this->least(limitSlack)));
+    this->lookAtLimit(clipped(polygon, 1, this->most(-limitSlack)));
+    this->Marks.forPixels(image, lookDistance,
       [&](int x, int y)
       {
         if (!this->Marks.isMarked(x, y) && this->mayDecide(hit, cutOut, x, y))
@@ -172,14 +172,14 @@ private:
     }
     const PlanePoint point = this->Solver.point(hit, x + 0.5, y + 0.5, cutOut);
     return drawn ? isCutOut(this->State.instances[hit.object - 1], hit.triangle, { point.second, point.third })
-                 : point.t <= this->Drawn[pixel] * (1 + SameDepth);
+                 : point.t <= this->Drawn[pixel] * (1 + sameDepth);
   }
 
   void lookAtLimit(const SmallPolygon<Vector3>& slab)
   {
     if (slab.count > 0)
     {
-      this->Marks.forPixels(this->project(slab), LookDistance, [this](int x, int y) { this->Marks.mark(x, y); });
+      this->Marks.forPixels(this->project(slab), lookDistance, [this](int x, int y) { this->Marks.mark(x, y); });
     }
   }
 
@@ -187,7 +187,7 @@ private:
   void collect(const Hit& hit, const SmallPolygon<Vector3>& polygon)
   {
     std::optional<Edges> edges;
-    this->Marks.forMarked(this->project(polygon), LookDistance,
+    this->Marks.forMarked(this->project(polygon), lookDistance,
       [&](int x, int y)
       {
         if (!edges)
@@ -208,7 +208,7 @@ private:
     Vector3 corner[3];
     this->Solver.corners(hit, corner);
     const double reach = std::max({ sumNorm(corner[0]), sumNorm(corner[1]), sumNorm(corner[2]) });
-    const double rounding = 32 * UnitRoundoff * this->Solver.condition(hit) * reach;
+    const double rounding = 32 * unitRoundoff * this->Solver.condition(hit) * reach;
     Edges e;
     e.error = rounding * reach * lens.LargestDirection;
     if (lens.Kind == LensKind::Parallel)
@@ -269,7 +269,7 @@ private:
     for (const Vector3dd& l : triangle.lines)
     {
       const double value = dot(l, direction).hi;
-      const double zero = ExactZero * (std::abs(l.x.hi * direction.x.hi) + std::abs(l.y.hi * direction.y.hi) +
+      const double zero = exactZero * (std::abs(l.x.hi * direction.x.hi) + std::abs(l.y.hi * direction.y.hi) +
                                         std::abs(l.z.hi * direction.z.hi));
       positive += value > zero;
       negative += -value > zero;
@@ -304,7 +304,7 @@ private:
   Hit nearest(std::size_t pixel, std::vector<Candidate>::iterator& at) const
   {
     Hit best;
-    const double limit = at != this->Candidates.end() ? at->t * (1 + SameDistance) : 0;
+    const double limit = at != this->Candidates.end() ? at->t * (1 + sameDistance) : 0;
     for (; at != this->Candidates.end() && at->pixel == pixel; ++at)
     {
       const bool lower =

@@ -135,12 +135,12 @@ Vector3dd Lens::exactDirection(double u, double v) const
 TriangleSolver::TriangleSolver(const SceneState& state, const dgtk::View& view)
   : State(state)
   , TheView(view)
-  , View_(*view.model)
+  , Seen(*view.model)
   , FrameCount(state.instances.size())
   , Frames(new InstanceFrame[state.instances.size()])
   , TriangleCounts(state.instances.size(), 0)
-  , Planes(PlaneCount)
-  , Exacts(ExactCount)
+  , Planes(planeCount)
+  , Exacts(exactCount)
 {
 }
 
@@ -196,7 +196,7 @@ void TriangleSolver::cornersOf(const InstanceFrame& frame, const Hit& hit, Vecto
 void TriangleSolver::makePlane(const Hit& hit, Plane& plane)
 {
   const InstanceFrame& frame = this->frameOf(hit);
-  const LensKind kind = this->View_.Kind;
+  const LensKind kind = this->Seen.Kind;
   Vector3 corner[3];
   cornersOf(frame, hit, corner);
   plane.hit = hit;
@@ -210,7 +210,7 @@ void TriangleSolver::makePlane(const Hit& hit, Plane& plane)
 
   // Relative error of t <= (error of the vertices) / (distance of the camera from the plane), the same for slivers
   // with the rounding of n.
-  constexpr double factor = 16 * UnitRoundoff / AcceptedError;
+  constexpr double factor = 16 * unitRoundoff / acceptedError;
   const double reach = std::max({ sumNorm(corner[0]), sumNorm(corner[1]), sumNorm(corner[2]) }) * frame.condition;
   const double s1 = dot(e1, e1);
   const double s2 = dot(e2, e2);
@@ -232,13 +232,13 @@ void TriangleSolver::makePlane(const Hit& hit, Plane& plane)
 
 const ExactTriangle& TriangleSolver::exact(const Hit& hit)
 {
-  ExactTriangle& entry = this->Exacts[slot(hit) % ExactCount];
+  ExactTriangle& entry = this->Exacts[slot(hit) % exactCount];
   if (entry.hit == hit)
   {
     return entry;
   }
   const InstanceFrame& frame = this->frameOf(hit);
-  const LensKind kind = this->View_.Kind;
+  const LensKind kind = this->Seen.Kind;
   Vector3dd image[3];
   for (int i = 0; i < 3; ++i)
   {
@@ -257,7 +257,7 @@ const ExactTriangle& TriangleSolver::exact(const Hit& hit)
   const Vector3 n = rounded(entry.n);
   const double area = dot(n, n);
   const double sides = dot(e1, e1).hi * dot(e2, e2).hi;
-  entry.valid = finite(n) && finite(rounded(entry.corners[0])) && area > DegenerateSine * DegenerateSine * sides &&
+  entry.valid = finite(n) && finite(rounded(entry.corners[0])) && area > degenerateSine * degenerateSine * sides &&
                 std::isfinite(sides) &&
                 (kind == LensKind::Parallel ? n.z != 0 : entry.d.hi != 0 || kind == LensKind::General);
   return entry;
@@ -265,7 +265,7 @@ const ExactTriangle& TriangleSolver::exact(const Hit& hit)
 
 GeneralRay TriangleSolver::generalRay(double u, double v) const
 {
-  const CameraRay ray = this->View_.Model->rayThrough({ u, v });
+  const CameraRay ray = this->Seen.Model->rayThrough({ u, v });
   return { { ray.origin.x(), ray.origin.y(), ray.origin.z() },
     { ray.direction.x(), ray.direction.y(), ray.direction.z() } };
 }
@@ -278,14 +278,14 @@ PlanePoint TriangleSolver::exactPoint(const Hit& hit, double u, double v)
   {
     return point;
   }
-  if (this->View_.Kind == LensKind::General)
+  if (this->Seen.Kind == LensKind::General)
   {
     return this->exactGeneralPoint(triangle, this->generalRay(u, v));
   }
-  const Vector3dd direction = this->View_.exactDirection(u, v);
+  const Vector3dd direction = this->Seen.exactDirection(u, v);
   DoubleDouble dividend = triangle.d;
   DoubleDouble divisor = triangle.n.z;
-  if (this->View_.Kind == LensKind::Perspective)
+  if (this->Seen.Kind == LensKind::Perspective)
   {
     divisor = dot(triangle.n, direction);
   }
@@ -327,7 +327,7 @@ PlanePoint TriangleSolver::generalPoint(const Hit& hit, const GeneralRay& ray, c
   const Vector3& n = prepared.n;
   const double dividend = dot(n, a);
   const double divisor = dot(n, ray.direction);
-  constexpr double factor = 16 * UnitRoundoff / AcceptedError;
+  constexpr double factor = 16 * unitRoundoff / acceptedError;
   const double reach = std::max({ sumNorm(corner[0]), sumNorm(corner[1]), sumNorm(corner[2]) }) + sumNorm(ray.origin);
   const double sliver = std::max(dot(e1, e1), dot(e2, e2));
   const double size = std::max(sumNorm(n) * reach * this->condition(hit), sliver * std::sqrt(sliver));
@@ -352,7 +352,7 @@ PlanePoint TriangleSolver::generalPoint(const Hit& hit, const GeneralRay& ray, c
 
 PlanePoint TriangleSolver::point(const Hit& hit, double u, double v, bool barycentrics)
 {
-  const Lens& lens = this->View_;
+  const Lens& lens = this->Seen;
   const Plane& prepared = this->plane(hit);
   PlanePoint point;
   if (prepared.state == Plane::State::None)

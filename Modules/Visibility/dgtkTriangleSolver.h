@@ -55,11 +55,11 @@ inline double sumNorm(const Vector3& a) { return std::abs(a.x) + std::abs(a.y) +
 inline Vector3 rounded(const Vector3dd& a) { return { a.x.hi, a.y.hi, a.z.hi }; }
 
 /// Unit roundoff of double.
-constexpr double UnitRoundoff = 1.1102230246251565e-16;
+constexpr double unitRoundoff = 1.1102230246251565e-16;
 /// Largest bound of a relative error that is left to plain double, once for the triangle and once for the pixel.
-constexpr double AcceptedError = 4e-13;
+constexpr double acceptedError = 4e-13;
 /// A triangle whose sides at a corner enclose an angle with a sine below this has no area.
-constexpr double DegenerateSine = 1e-15;
+constexpr double degenerateSine = 1e-15;
 
 /// A pixel's ray of any lens, in the camera frame.
 struct GeneralRay
@@ -124,12 +124,12 @@ class TriangleSolver
 public:
   TriangleSolver(const SceneState& state, const View& view);
 
-  const Lens& lens() const { return this->View_; }
+  const Lens& lens() const { return this->Seen; }
   /// The corners in the camera frame, in double.
   void corners(const Hit& hit, Vector3 out[3]) { this->cornersOf(this->frameOf(hit), hit, out); }
   const Plane& plane(const Hit& hit)
   {
-    Plane& entry = this->Planes[slot(hit) % PlaneCount];
+    Plane& entry = this->Planes[slot(hit) % planeCount];
     if (entry.hit != hit)
     {
       this->makePlane(hit, entry);
@@ -151,8 +151,8 @@ public:
   }
 
 private:
-  static constexpr std::size_t PlaneCount = 512;
-  static constexpr std::size_t ExactCount = 32;
+  static constexpr std::size_t planeCount = 512;
+  static constexpr std::size_t exactCount = 32;
 
   const InstanceFrame& frameOf(const Hit& hit)
   {
@@ -171,7 +171,7 @@ private:
 
   const SceneState& State;
   const dgtk::View& TheView;
-  Lens View_;
+  Lens Seen;
   std::size_t FrameCount;
   std::unique_ptr<InstanceFrame[]> Frames;
   std::vector<std::uint32_t> TriangleCounts; ///< 0 until the frame is made
@@ -184,7 +184,7 @@ private:
 template <LensKind Kind, bool WithBarycentrics>
 inline bool evaluate(const Plane& plane, double dx, double dy, double skewX, PlanePoint& point)
 {
-  constexpr double guard = 4 * UnitRoundoff / AcceptedError;
+  constexpr double guard = 4 * unitRoundoff / acceptedError;
   const double x = plane.n.x * dx;
   const double y = plane.n.y * dy;
   const double size = std::abs(plane.n.x) * (std::abs(dx) + skewX) + std::abs(y);

@@ -12,12 +12,12 @@ namespace dgtk
 
 namespace
 {
-constexpr int MaximumSide = 1 << 20;
-constexpr int SingleTileSide = 4096;
-constexpr long SingleTilePixels = 4L << 20;
-constexpr int LargeTileWidth = 2048;
-constexpr int LargeTileHeight = 512;
-constexpr int HalfAlpha = 128;
+constexpr int maximumSide = 1 << 20;
+constexpr int singleTileSide = 4096;
+constexpr long singleTilePixels = 4L << 20;
+constexpr int largeTileWidth = 2048;
+constexpr int largeTileHeight = 512;
+constexpr int halfAlpha = 128;
 
 /// floor(coordinate * size) mod size.
 int texelIndex(double coordinate, int size)
@@ -32,14 +32,14 @@ TileGrid::TileGrid(int width, int height)
   : Width(width)
   , Height(height)
 {
-  if (width < 1 || height < 1 || width > MaximumSide || height > MaximumSide)
+  if (width < 1 || height < 1 || width > maximumSide || height > maximumSide)
   {
-    throw UsageError("image size out of range (expected 1 to " + std::to_string(MaximumSide) +
+    throw UsageError("image size out of range (expected 1 to " + std::to_string(maximumSide) +
                      " pixels a side, found " + std::to_string(width) + " x " + std::to_string(height) + ")");
   }
-  const bool single = width <= SingleTileSide && height <= SingleTileSide && long(width) * height <= SingleTilePixels;
-  this->TileWidth = single ? width : LargeTileWidth;
-  this->TileHeight = single ? height : LargeTileHeight;
+  const bool single = width <= singleTileSide && height <= singleTileSide && long(width) * height <= singleTilePixels;
+  this->TileWidth = single ? width : largeTileWidth;
+  this->TileHeight = single ? height : largeTileHeight;
   this->Columns = (width + this->TileWidth - 1) / this->TileWidth;
   this->RowCount = (height + this->TileHeight - 1) / this->TileHeight;
 }
@@ -90,7 +90,7 @@ bool isCutOut(const Instance& instance, std::uint32_t triangle, const Eigen::Vec
   }
   const int column = texelIndex(uv.x(), image.width);
   const int row = image.height - 1 - texelIndex(uv.y(), image.height);
-  return image.rgba[(std::size_t(row) * image.width + column) * 4 + 3] < HalfAlpha;
+  return image.rgba[(std::size_t(row) * image.width + column) * 4 + 3] < halfAlpha;
 }
 
 } // namespace dgtk

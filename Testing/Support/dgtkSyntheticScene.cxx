@@ -14,7 +14,7 @@ namespace dgtk::test
 
 namespace
 {
-constexpr double Pi = 3.14159265358979323846;
+constexpr double pi = 3.14159265358979323846;
 using Point = std::array<long double, 3>;
 
 double uniform(std::mt19937_64& random) { return double(random() >> 11) * 0x1p-53; }
@@ -178,8 +178,8 @@ std::shared_ptr<Model> makeSphere(const SphereOptions& options)
   auto model = makeGrid(options.segments, options.rings,
     [&](int c, int r) -> Eigen::Vector3d
     {
-      const double polar = Pi * r / options.rings;
-      const double around = 2 * Pi * (c % options.segments) / options.segments;
+      const double polar = pi * r / options.rings;
+      const double around = 2 * pi * (c % options.segments) / options.segments;
       const double ring = r % options.rings == 0 ? 0 : std::sin(polar);
       return options.centre +
              options.radius * Eigen::Vector3d(ring * std::cos(around), -std::cos(polar), -ring * std::sin(around));

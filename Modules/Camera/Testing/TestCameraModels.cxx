@@ -13,9 +13,9 @@
 
 namespace
 {
-constexpr double Pi = 3.14159265358979323846;
-constexpr double RoundTrip = 1e-12; // of the image's size: a dozen roundings
-constexpr double GlPixels = 1e-9;   // pixels: agreement of two different chains of matrices
+constexpr double pi = 3.14159265358979323846;
+constexpr double roundTrip = 1e-12; // of the image's size: a dozen roundings
+constexpr double glPixels = 1e-9;   // pixels: agreement of two different chains of matrices
 
 Eigen::Matrix3d matrixK(double fx, double fy, double cx, double cy, double skew)
 {
@@ -141,7 +141,7 @@ TEST(CameraFamily, ProjectsEveryPointOfARayOntoItsPixel)
       {
         Eigen::Vector2d back;
         ASSERT_TRUE(member.model->project(ray.origin + t * ray.direction, back));
-        ASSERT_LE((back - pixel).norm(), RoundTrip * (size + pixel.norm() + member.model->linear()->K.norm()));
+        ASSERT_LE((back - pixel).norm(), roundTrip * (size + pixel.norm() + member.model->linear()->K.norm()));
       }
     }
   }
@@ -173,7 +173,7 @@ TEST(CameraFamily, LinearProjectionIsTheModel)
     const Eigen::Vector3d h = linear.K * (linear.perspective ? x : Eigen::Vector3d(x.x(), x.y(), 1));
     Eigen::Vector2d pixel;
     ASSERT_TRUE(member.model->project(x, pixel));
-    EXPECT_LE((pixel - h.head<2>() / h.z()).norm(), RoundTrip * (1 + pixel.norm() + linear.K.norm()));
+    EXPECT_LE((pixel - h.head<2>() / h.z()).norm(), roundTrip * (1 + pixel.norm() + linear.K.norm()));
   }
 }
 
@@ -197,7 +197,7 @@ TEST(CameraFamily, OpenGLMatricesProjectAlike)
       const Eigen::Vector2d window(
         (ndc.x() + 1) / 2 * member.model->width(), (1 - ndc.y()) / 2 * member.model->height());
       const double scale = std::max(1.0, member.model->linear()->K.norm() / 1000); // narrow views magnify rounding
-      ASSERT_LE((window - pixel).norm(), GlPixels * scale);
+      ASSERT_LE((window - pixel).norm(), glPixels * scale);
       ASSERT_LE(std::abs(ndc.z()), 1 + 1e-12);
     }
   }
@@ -221,12 +221,12 @@ TEST(CameraFamily, OpenGLDepthRunsFromNearToFar)
 
 TEST(Pinhole, FieldOfViewIsK)
 {
-  const double f = 240 / std::tan(20 * Pi / 180);
+  const double f = 240 / std::tan(20 * pi / 180);
   const Eigen::Matrix3d square = dgtk::makePinholeFromFov(640, 480, 40, 0)->linear()->K;
   EXPECT_LE((square - matrixK(f, f, 320, 240, 0)).norm(), 1e-10);
   EXPECT_EQ(square(0, 0), square(1, 1));
   const Eigen::Matrix3d wide = dgtk::makePinholeFromFov(640, 480, 40, 2)->linear()->K;
-  EXPECT_LE((wide - matrixK(320 / (2 * std::tan(20 * Pi / 180)), f, 320, 240, 0)).norm(), 1e-10);
+  EXPECT_LE((wide - matrixK(320 / (2 * std::tan(20 * pi / 180)), f, 320, 240, 0)).norm(), 1e-10);
   const auto fromK = dgtk::makePinhole(640, 480, wide);
   EXPECT_EQ(fromK->rayThrough({ 12, 34 }).direction,
     dgtk::makePinholeFromFov(640, 480, 40, 2)->rayThrough({ 12, 34 }).direction);
@@ -280,11 +280,11 @@ TEST(WorldResolution, EquationsPerAxis)
   dgtk::View view = viewOf(dgtk::makePinholeFromFov(640, 480, 60, 0));
   view.near = 2;
   view.far = 102;
-  const double yDistance = 2 * (102 - 2) * std::tan(30 * Pi / 180); // equation 4.1 with the field of view of y
+  const double yDistance = 2 * (102 - 2) * std::tan(30 * pi / 180); // equation 4.1 with the field of view of y
   dgtk::WorldResolution resolution = dgtk::worldResolution(view);
   EXPECT_NEAR(resolution.thesis.y(), yDistance / 480, 1e-12);
   EXPECT_NEAR(resolution.thesis.x(), yDistance * 640 / 480 / 640, 1e-12);
-  EXPECT_NEAR(resolution.farPlane.y(), 2 * 102 * std::tan(30 * Pi / 180) / 480, 1e-12);
+  EXPECT_NEAR(resolution.farPlane.y(), 2 * 102 * std::tan(30 * pi / 180) / 480, 1e-12);
 
   view.model = dgtk::makePinhole(640, 480, matrixK(500, 250, 17, 400, 0)); // off-centre: the full extent W / fx counts
   resolution = dgtk::worldResolution(view);

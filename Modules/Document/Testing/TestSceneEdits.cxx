@@ -18,7 +18,7 @@ namespace
 using namespace dgtk;
 using test::sourceFile;
 
-constexpr SceneItem::Kind Object = SceneItem::Kind::Object;
+constexpr SceneItem::Kind ofObject = SceneItem::Kind::Object;
 
 SceneDescription chain()
 {
@@ -120,9 +120,9 @@ TEST(SceneEdits, FamiliesAreWhole)
   SceneDescription scene = chain();
   std::reverse(scene.objects.begin(), scene.objects.end()); // d, c of b, b of a, a
   const SceneItem light{ SceneItem::Kind::Light, 0 };
-  EXPECT_EQ(withChildren(scene, { light, { Object, 3 }, { Object, 1 } }),
-    (SceneItems{ light, { Object, 3 }, { Object, 1 }, { Object, 2 } }));
-  EXPECT_EQ(withChildren(scene, { { Object, 0 } }), (SceneItems{ { Object, 0 } }));
+  EXPECT_EQ(withChildren(scene, { light, { ofObject, 3 }, { ofObject, 1 } }),
+    (SceneItems{ light, { ofObject, 3 }, { ofObject, 1 }, { ofObject, 2 } }));
+  EXPECT_EQ(withChildren(scene, { { ofObject, 0 } }), (SceneItems{ { ofObject, 0 } }));
   EXPECT_TRUE(withChildren(scene, {}).empty());
 }
 
@@ -132,7 +132,7 @@ TEST(SceneEdits, RemovingTakesChildrenAlong)
   scene.lights.resize(2);
   scene.lights[0].name = "l";
   scene.lights[1].name = "m";
-  removeItems(scene, { { Object, 1 }, { SceneItem::Kind::Light, 0 } });
+  removeItems(scene, { { ofObject, 1 }, { SceneItem::Kind::Light, 0 } });
   ASSERT_EQ(scene.objects.size(), 2u);
   EXPECT_EQ(scene.objects[0].name, "a");
   EXPECT_EQ(scene.objects[1].name, "d");
@@ -144,13 +144,14 @@ TEST(SceneEdits, RemovingTakesChildrenAlong)
 TEST(SceneEdits, CopiesOfAFamilyBelongTogether)
 {
   SceneDescription scene = chain();
-  const SceneItems added = appendItems(scene, extractItems(scene, { { Object, 0 }, { Object, 1 }, { Object, 2 } }));
+  const SceneItems added =
+    appendItems(scene, extractItems(scene, { { ofObject, 0 }, { ofObject, 1 }, { ofObject, 2 } }));
   ASSERT_EQ(added.size(), 3u);
   EXPECT_EQ(scene.objects[4].name, "a-2");
   EXPECT_EQ(scene.objects[5].parent, "a-2");
   EXPECT_EQ(scene.objects[6].parent, "b-2");
   EXPECT_EQ(scene.objects[1].parent, "a");
-  appendItems(scene, extractItems(scene, { { Object, 2 } }));
+  appendItems(scene, extractItems(scene, { { ofObject, 2 } }));
   EXPECT_EQ(scene.objects[7].parent, "b") << "a child alone stays with its parent";
   validate(scene);
 }
@@ -158,7 +159,7 @@ TEST(SceneEdits, CopiesOfAFamilyBelongTogether)
 TEST(SceneEdits, RenamingIsSeenByChildren)
 {
   SceneDescription scene = chain();
-  renameItem(scene, { Object, 1 }, "other");
+  renameItem(scene, { ofObject, 1 }, "other");
   EXPECT_EQ(scene.objects[2].parent, "other");
   validate(scene);
 }
@@ -175,7 +176,7 @@ TEST(SceneEdits, KeyFramesHoldWhatIsThere)
     scene.objects[i].parent.clear();
   }
   makeKeyFrame(scene, 0);
-  setItemPosition(scene, { Object, 3 }, 10, { 4, 0, 0 });
+  setItemPosition(scene, { ofObject, 3 }, 10, { 4, 0, 0 });
   makeKeyFrame(scene, 10);
   EXPECT_EQ(scene.firstFrame(), 0);
   EXPECT_EQ(scene.lastFrame(), 10);
@@ -183,7 +184,7 @@ TEST(SceneEdits, KeyFramesHoldWhatIsThere)
   EXPECT_EQ(scene.objects[0].position.at(5), Eigen::Vector3d(0, 0, 0));
   EXPECT_EQ(scene.cameras[0].eye.keys.size(), 2u);
   EXPECT_TRUE(scene.cameras[0].position.keys.empty()) << "the pose that is not in use";
-  EXPECT_EQ(keyFramesOf(scene, { Object, 0 }), (std::vector<int>{ 0, 10 }));
+  EXPECT_EQ(keyFramesOf(scene, { ofObject, 0 }), (std::vector<int>{ 0, 10 }));
   validate(scene);
   EXPECT_NO_THROW(toThesisScene(scene, ""));
   removeKeyFrame(scene, 0);
@@ -196,10 +197,10 @@ TEST(SceneEdits, KeyFramesAreCopiedAndInterpolated)
 {
   SceneDescription scene = chain();
   makeKeyFrame(scene, 0);
-  setItemPosition(scene, { Object, 0 }, 10, { 10, 0, 0 });
-  setInterpolation(scene, { Object, 0 }, Interpolation::Step);
-  EXPECT_EQ(interpolationOf(scene, { Object, 0 }), Interpolation::Step);
-  EXPECT_EQ(interpolationOf(scene, { Object, 1 }), Interpolation::Linear);
+  setItemPosition(scene, { ofObject, 0 }, 10, { 10, 0, 0 });
+  setInterpolation(scene, { ofObject, 0 }, Interpolation::Step);
+  EXPECT_EQ(interpolationOf(scene, { ofObject, 0 }), Interpolation::Step);
+  EXPECT_EQ(interpolationOf(scene, { ofObject, 1 }), Interpolation::Linear);
   EXPECT_EQ(scene.objects[0].position.at(9), Eigen::Vector3d(0, 0, 0));
   copyKeyFrame(scene, 10, 4);
   EXPECT_EQ(scene.objects[0].position.at(4), Eigen::Vector3d(10, 0, 0));
@@ -214,43 +215,43 @@ TEST(SceneEdits, KeysMoveWithTheirInterpolation)
 {
   SceneDescription scene = chain();
   makeKeyFrame(scene, 0);
-  setItemPosition(scene, { Object, 0 }, 10, { 10, 0, 0 });
-  setItemPosition(scene, { Object, 1 }, 10, { 20, 0, 0 });
-  setKeyInterpolation(scene, { Object, 0 }, 0, Interpolation::Step);
+  setItemPosition(scene, { ofObject, 0 }, 10, { 10, 0, 0 });
+  setItemPosition(scene, { ofObject, 1 }, 10, { 20, 0, 0 });
+  setKeyInterpolation(scene, { ofObject, 0 }, 0, Interpolation::Step);
   EXPECT_EQ(scene.objects[0].position.at(9), Eigen::Vector3d(0, 0, 0));
   EXPECT_EQ(scene.objects[1].position.at(5), Eigen::Vector3d(10, 0, 0));
-  EXPECT_EQ(keyInterpolationOf(scene, { Object, 0 }, 0)->kind, Interpolation::Step);
-  EXPECT_TRUE(keyInterpolationOf(scene, { Object, 0 }, 0)->own);
-  EXPECT_FALSE(keyInterpolationOf(scene, { Object, 1 }, 0)->own);
-  EXPECT_FALSE(keyInterpolationOf(scene, { Object, 0 }, 3));
+  EXPECT_EQ(keyInterpolationOf(scene, { ofObject, 0 }, 0)->kind, Interpolation::Step);
+  EXPECT_TRUE(keyInterpolationOf(scene, { ofObject, 0 }, 0)->own);
+  EXPECT_FALSE(keyInterpolationOf(scene, { ofObject, 1 }, 0)->own);
+  EXPECT_FALSE(keyInterpolationOf(scene, { ofObject, 0 }, 3));
 
-  copyItemKeys(scene, { Object, 0 }, 0, 20);
-  EXPECT_EQ(keyFramesOf(scene, { Object, 0 }), (std::vector<int>{ 0, 10, 20 }));
-  EXPECT_EQ(keyFramesOf(scene, { Object, 1 }), (std::vector<int>{ 0, 10 }));
-  EXPECT_EQ(keyInterpolationOf(scene, { Object, 0 }, 20)->kind, Interpolation::Step);
-  moveItemKeys(scene, { Object, 0 }, 10, 4);
+  copyItemKeys(scene, { ofObject, 0 }, 0, 20);
+  EXPECT_EQ(keyFramesOf(scene, { ofObject, 0 }), (std::vector<int>{ 0, 10, 20 }));
+  EXPECT_EQ(keyFramesOf(scene, { ofObject, 1 }), (std::vector<int>{ 0, 10 }));
+  EXPECT_EQ(keyInterpolationOf(scene, { ofObject, 0 }, 20)->kind, Interpolation::Step);
+  moveItemKeys(scene, { ofObject, 0 }, 10, 4);
   EXPECT_EQ(scene.objects[0].position.at(4), Eigen::Vector3d(10, 0, 0));
   EXPECT_EQ(scene.objects[0].position.keys.size(), 3u);
-  moveItemKeys(scene, { Object, 0 }, 4, 20);
+  moveItemKeys(scene, { ofObject, 0 }, 4, 20);
   EXPECT_EQ(scene.objects[0].position.at(20), Eigen::Vector3d(10, 0, 0)) << "in place of the key that was there";
   EXPECT_FALSE(
-    keyInterpolationOf(scene, { Object, 0 }, 20)->own && scene.objects[0].position.keys.back().interpolation);
-  moveItemKeys(scene, { Object, 0 }, 7, 8);
-  moveItemKeys(scene, { Object, 0 }, 0, 0);
+    keyInterpolationOf(scene, { ofObject, 0 }, 20)->own && scene.objects[0].position.keys.back().interpolation);
+  moveItemKeys(scene, { ofObject, 0 }, 7, 8);
+  moveItemKeys(scene, { ofObject, 0 }, 0, 0);
   EXPECT_EQ(scene.objects[0].position.keys.size(), 2u) << "no key, or no way";
 
   scene.extraKeyFrames = { 10 };
   moveKeyFrame(scene, 10, 12);
-  EXPECT_EQ(keyFramesOf(scene, { Object, 1 }), (std::vector<int>{ 0, 12 }));
+  EXPECT_EQ(keyFramesOf(scene, { ofObject, 1 }), (std::vector<int>{ 0, 12 }));
   EXPECT_EQ(scene.extraKeyFrames, std::vector<int>{ 12 });
-  removeItemKeys(scene, { Object, 1 }, 12);
-  EXPECT_EQ(keyFramesOf(scene, { Object, 1 }), std::vector<int>{ 0 });
+  removeItemKeys(scene, { ofObject, 1 }, 12);
+  EXPECT_EQ(keyFramesOf(scene, { ofObject, 1 }), std::vector<int>{ 0 });
 
   // A key that is put between two goes on as the one before it.
-  setItemPosition(scene, { Object, 0 }, 5, { 1, 0, 0 });
+  setItemPosition(scene, { ofObject, 0 }, 5, { 1, 0, 0 });
   EXPECT_EQ(scene.objects[0].position.at(19), Eigen::Vector3d(1, 0, 0));
-  setInterpolation(scene, { Object, 0 }, Interpolation::Linear);
-  EXPECT_FALSE(keyInterpolationOf(scene, { Object, 0 }, 0)->own);
+  setInterpolation(scene, { ofObject, 0 }, Interpolation::Linear);
+  EXPECT_FALSE(keyInterpolationOf(scene, { ofObject, 0 }, 0)->own);
 }
 
 TEST(SceneEdits, MovingTakesLookAtPointsAndTargetsAlong)
@@ -272,7 +273,7 @@ TEST(SceneEdits, PastedElsewhereModelsAreStillFound)
 {
   SceneDocument document;
   document.open(sourceFile("Data/Scenes/demo.json"));
-  const SceneDescription house = extractItems(document.scene(), { { Object, 1 } });
+  const SceneDescription house = extractItems(document.scene(), { { ofObject, 1 } });
   document.clear();
   document.paste("Paste", house);
   const std::string file = document.scene().resolve(document.scene().objects.front().model);

@@ -24,7 +24,7 @@ namespace
 using testing::HasSubstr;
 
 /// A coordinate that went through text and a product with a matrix, of numbers up to 10.
-constexpr double RoundTrip = 1e-12;
+constexpr double roundTrip = 1e-12;
 
 class PovExport : public testing::Test
 {
@@ -102,7 +102,7 @@ void expectSameTriangles(
       }
       least = std::min(least, largest);
     }
-    ASSERT_LE(least, RoundTrip * scale) << "triangle " << i / 3;
+    ASSERT_LE(least, roundTrip * scale) << "triangle " << i / 3;
   }
 }
 

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// Numbers of a few products.
-constexpr double Rounding = 1e-14;
+constexpr double rounding = 1e-14;
 
 /// What scenes are written with: camera, lights, materials and pictures.
 class PovLook : public testing::Test
@@ -101,7 +101,7 @@ TEST_F(PovLook, AmbientLightIsTheWorldsAndThatOfTheLights)
   this->State.lights[0].ambient = { 0.1, 0.2, 0.3 };
   this->State.lights[1].ambient = { 0.05, 0, 0 };
   this->State.lights[1].intensity = 4;
-  EXPECT_LE((colorAfter(this->write(), "ambient_light") - Eigen::Vector3d(0.5, 0.4, 0.5)).norm(), Rounding);
+  EXPECT_LE((colorAfter(this->write(), "ambient_light") - Eigen::Vector3d(0.5, 0.4, 0.5)).norm(), rounding);
   PovOptions options;
   options.radiosity = true;
   const std::string text = this->write(options);
@@ -133,12 +133,12 @@ TEST_F(PovLook, AttenuationThatIsMatchedOrBounded)
     return after(text, "rgb <") * 2 / (1 + fade);
   };
   // Linear and quadratic together: at the middle of the scene, 5 away.
-  EXPECT_NEAR(at({ 1, 0.5, 0.25 }, 5), 1 / (1 + 2.5 + 6.25), Rounding);
+  EXPECT_NEAR(at({ 1, 0.5, 0.25 }, 5), 1 / (1 + 2.5 + 6.25), rounding);
   EXPECT_THAT(this->Result.warnings, testing::ElementsAre(HasSubstr("at the middle of the scene only")));
   // Nothing but the distance: as if there were a thousandth of the scene's radius more of it, or of its square.
   const double least = 1e-3 * std::sqrt(3.0);
-  EXPECT_NEAR(at({ 0, 2, 0 }, 5), 1 / (2 * (5 + least)), Rounding);
-  EXPECT_NEAR(at({ 0, 0, 2 }, 5), 1 / (2 * (25 + least * least)), Rounding);
+  EXPECT_NEAR(at({ 0, 2, 0 }, 5), 1 / (2 * (5 + least)), rounding);
+  EXPECT_NEAR(at({ 0, 0, 2 }, 5), 1 / (2 * (25 + least * least)), rounding);
 }
 
 TEST_F(PovLook, WhatIsNotWrittenIsNoted)
@@ -166,9 +166,9 @@ TEST_F(PovLook, LightsStandWhereTheyShould)
     return text.substr(text.find("light_source"));
   };
   const double radius = std::sqrt(3.0);
-  EXPECT_NEAR(after(written(), "area_light "), 0.1 * radius, Rounding);
+  EXPECT_NEAR(after(written(), "area_light "), 0.1 * radius, rounding);
   light.kind = LightState::Kind::Directional;
-  EXPECT_NEAR(after(written(), "light_source { <0, "), 4 * radius, Rounding);
+  EXPECT_NEAR(after(written(), "light_source { <0, "), 4 * radius, rounding);
   light.kind = LightState::Kind::Spot;
   light.coneAngle = 89;
   light.exponent = 8;
@@ -199,8 +199,8 @@ TEST_F(PovLook, ColoursOfPartsThatThePigmentLacks)
   EXPECT_EQ(after(text, " diffuse "), 0.5);
   EXPECT_LE((0.5 * pigment - Eigen::Vector3d(0.5, 0.25, 0)).norm(), 1e-3);
   EXPECT_LE(
-    (colorAfter(text, "finish { ambient").cwiseProduct(pigment) - Eigen::Vector3d(0.1, 0.2, 0.3)).norm(), Rounding);
-  EXPECT_LE((colorAfter(text, "emission").cwiseProduct(pigment) - Eigen::Vector3d(0.4, 0.5, 0.6)).norm(), Rounding);
+    (colorAfter(text, "finish { ambient").cwiseProduct(pigment) - Eigen::Vector3d(0.1, 0.2, 0.3)).norm(), rounding);
+  EXPECT_LE((colorAfter(text, "emission").cwiseProduct(pigment) - Eigen::Vector3d(0.4, 0.5, 0.6)).norm(), rounding);
 }
 
 TEST_F(PovLook, MissingTexelsHaveNoHighlights)
@@ -435,7 +435,7 @@ TEST_F(PovLook, NormalsFaceAwayFromTheRaysOfParallelCameras)
   std::smatch found;
   ASSERT_TRUE(std::regex_search(text, found, form));
   const Eigen::Vector3d way(std::stod(found[1]), std::stod(found[2]), std::stod(found[3]));
-  EXPECT_LE((way - this->V.camera_from_world.rotation.row(2).transpose()).norm(), Rounding);
+  EXPECT_LE((way - this->V.camera_from_world.rotation.row(2).transpose()).norm(), rounding);
   this->change([](Material& material) { material.diffuse = { 0.25, 0.5, 0.125 }; });
   EXPECT_THAT(this->write(), HasSubstr("finish { diffuse 0, 0.5 phong 0 specular 0 }"));
 }

@@ -29,7 +29,7 @@ public:
   {
     PartLookup parts(*in.state);
     forSurface<std::uint32_t, 1>(
-      in, out, NoId, [&](std::size_t i, int, int, std::uint32_t* value) { *value = parts.part(in.hits[i]); });
+      in, out, noId, [&](std::size_t i, int, int, std::uint32_t* value) { *value = parts.part(in.hits[i]); });
   }
 };
 } // namespace

@@ -31,7 +31,7 @@ public:
   void compute(const SurfaceRows& in, Rows& out) const override
   {
     PartLookup parts(*in.state);
-    forSurface<std::uint32_t, 1>(in, out, NoId,
+    forSurface<std::uint32_t, 1>(in, out, noId,
       [&](std::size_t i, int, int, std::uint32_t* value)
       { *value = in.hits[i].triangle - parts.firstTriangle(in.hits[i]); });
   }

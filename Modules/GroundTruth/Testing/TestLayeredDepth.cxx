@@ -27,7 +27,7 @@ struct Squares
     ViewOptions options;
     options.width = 4;
     options.height = 1;
-    this->View_ = makeView(options);
+    this->Seen = makeView(options);
     this->First = { this->hit(1), this->hit(1), this->hit(1), this->hit(1) };
     this->Hits = { this->First, { this->hit(2), this->hit(2), this->hit(2), this->hit(2) },
       { this->hit(3), this->hit(3), this->hit(3), this->hit(3) } };
@@ -55,12 +55,12 @@ struct Squares
       in.ranks.push_back({ this->Hits[r].data(), this->Colors[r].data() });
     }
     LayeredRows out;
-    layeredDepthRows(*this->Builder.state(), this->View_, in, out);
+    layeredDepthRows(*this->Builder.state(), this->Seen, in, out);
     return out;
   }
 
   SceneBuilder Builder;
-  View View_;
+  View Seen;
   std::vector<Hit> First;
   std::vector<std::vector<Hit>> Hits;
   std::vector<std::vector<float>> Colors;
@@ -157,6 +157,6 @@ TEST(LayeredDepth, SurfacesThatDrawingCannotTellApartStayInOrder)
 TEST(LayeredDepth, NearAndFarCount)
 {
   Squares squares;
-  squares.View_.far = 5.5;
+  squares.Seen.far = 5.5;
   EXPECT_EQ(squares.rows().counts, (std::vector<std::uint32_t>{ 2, 2, 2, 2 }));
 }

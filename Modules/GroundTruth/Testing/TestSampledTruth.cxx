@@ -145,7 +145,7 @@ TEST(Matte, TheTrimapIsUnknownWithinTwoPixelsOfAnEdge)
   matte.trimapRow(1, trimap.data());
   for (int x = 0; x < width; ++x)
   {
-    EXPECT_EQ(trimap[x], x < 4 ? TrimapBackground : x > 8 ? TrimapForeground : TrimapUnknown) << x;
+    EXPECT_EQ(trimap[x], x < 4 ? trimapBackground : x > 8 ? trimapForeground : trimapUnknown) << x;
   }
 }
 
@@ -161,7 +161,7 @@ TEST(Matte, TheTrimapLooksUpAndDownAndStopsAtTheBorder)
   {
     std::uint8_t trimap[width];
     matte.trimapRow(y, trimap);
-    const std::uint8_t expected = y < 2 ? TrimapBackground : y > 5 ? TrimapForeground : TrimapUnknown;
+    const std::uint8_t expected = y < 2 ? trimapBackground : y > 5 ? trimapForeground : trimapUnknown;
     EXPECT_EQ(trimap[0], expected) << y;
     EXPECT_EQ(trimap[2], expected) << y;
   }

@@ -58,7 +58,7 @@ FrameSource::~FrameSource() = default;
 void FrameSource::setScene(const std::shared_ptr<const SceneState>& state, const View& view)
 {
   this->State = state;
-  this->Camera = view;
+  this->TheView = view;
   if (this->Ray)
   {
     this->Ray->setScene(state, view);
@@ -119,7 +119,7 @@ void FrameSource::drawColor(const PixelRect& rect, Tile& tile, bool later)
     tile.rest = this->Raster->drawColor(rect, this->Options.samples, tile.sharp, nullptr);
   }
   this->Exposed->draw(rect, this->Options.samples, tile.colors);
-  this->Raster->setScene(this->State, this->Camera);
+  this->Raster->setScene(this->State, this->TheView);
 }
 
 std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect, bool later)

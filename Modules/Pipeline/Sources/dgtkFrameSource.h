@@ -3,8 +3,8 @@
 #define dgtkFrameSource_h
 
 #include "dgtkDrawnBand.h"
-#include "dgtkMattingSource.h"
 #include "dgtkExposures.h"
+#include "dgtkMattingSource.h"
 #include "dgtkPovColorSource.h"
 #include "dgtkWorkPlan.h"
 
@@ -76,7 +76,7 @@ private:
   std::unique_ptr<PovColorSource> Pov;
   std::unique_ptr<ExposedColor> Exposed;
   std::shared_ptr<const SceneState> State;
-  View Camera;
+  View TheView;
   std::unique_ptr<TileGrid> Grid;
   std::string Description;
   /// Whose colours OpenGL has not handed over yet, and who gets it.

@@ -23,7 +23,7 @@ MattingSource::MattingSource(RasterSource& raster, std::vector<std::uint32_t> ob
 void MattingSource::setScene(const std::shared_ptr<const SceneState>& state, const View& view)
 {
   this->State = state;
-  this->Camera = view;
+  this->TheView = view;
 }
 
 std::vector<MattePixels> MattingSource::draw(const PixelRect& rect)
@@ -39,11 +39,11 @@ std::vector<MattePixels> MattingSource::draw(const PixelRect& rect)
   for (std::size_t i = 0; i < mattes.size(); ++i)
   {
     ColorBuffer colors;
-    this->Raster.setScene(this->without(this->Objects[i]), this->Camera);
+    this->Raster.setScene(this->without(this->Objects[i]), this->TheView);
     this->Raster.renderColor(rect, this->Samples, colors, nullptr);
     mattes[i].background = std::move(colors.rgb);
   }
-  this->Raster.setScene(this->State, this->Camera);
+  this->Raster.setScene(this->State, this->TheView);
   return mattes;
 }
 
@@ -51,10 +51,10 @@ std::vector<MattePixels> MattingSource::draw(const PixelRect& rect)
 /// their mean, so that both see the same textures.
 void MattingSource::drawForegrounds(const PixelRect& rect, std::vector<MattePixels>& mattes)
 {
-  View large = this->Camera;
-  const CameraModel& model = *this->Camera.model;
+  View large = this->TheView;
+  const CameraModel& model = *this->TheView.model;
   large.model = resampledCamera(
-    this->Camera.model, model.width() * this->Samples, model.height() * this->Samples, 1.0 / this->Samples, { 0, 0 });
+    this->TheView.model, model.width() * this->Samples, model.height() * this->Samples, 1.0 / this->Samples, { 0, 0 });
   this->Raster.setScene(this->State, large);
   const int side = std::max(1, mostSide / this->Samples);
   for (int y = 0; y < rect.height; y += side)
@@ -110,13 +110,13 @@ std::shared_ptr<const SceneState> MattingSource::without(std::uint32_t object) c
 {
   auto state = std::make_shared<SceneState>(*this->State);
   Instance& instance = state->instances[object - 1];
-  const Affine3 camera_from_object = this->Camera.camera_from_world * instance.world_from_object;
-  double farthest = this->Camera.far;
+  const Affine3 camera_from_object = this->TheView.camera_from_world * instance.world_from_object;
+  double farthest = this->TheView.far;
   for (const Eigen::Vector3d& position : instance.geometry->positions)
   {
     farthest = std::max(farthest, (camera_from_object * position).norm());
   }
-  const Eigen::Vector3d forward = this->Camera.camera_from_world.rotation.row(2).transpose();
+  const Eigen::Vector3d forward = this->TheView.camera_from_world.rotation.row(2).transpose();
   instance.world_from_object.translation -= 4 * farthest * forward;
   return state;
 }

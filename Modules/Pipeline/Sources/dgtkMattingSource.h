@@ -30,7 +30,7 @@ private:
   std::vector<std::uint32_t> Objects;
   int Samples;
   std::shared_ptr<const SceneState> State;
-  View Camera;
+  View TheView;
 };
 
 } // namespace dgtk

@@ -18,8 +18,8 @@ namespace dgtk
 namespace
 {
 /// Of a range of rows.
-constexpr int RangePixels = 1 << 20;
-constexpr double Top = 65535;
+constexpr int rangePixels = 1 << 20;
+constexpr double top = 65535;
 
 /// Rows of a .ppm of 16 bits; `skip` rows are passed over.
 void readRows(const std::string& path, int width, int skip, int rows, float* rgb)
@@ -45,7 +45,7 @@ void readRows(const std::string& path, int width, int skip, int rows, float* rgb
   }
   for (std::size_t i = 0; i < row * rows; ++i)
   {
-    rgb[i] = static_cast<float>((bytes[2 * i] << 8 | bytes[2 * i + 1]) / Top);
+    rgb[i] = static_cast<float>((bytes[2 * i] << 8 | bytes[2 * i + 1]) / top);
   }
 }
 } // namespace
@@ -168,7 +168,7 @@ struct PovColorSource::Picture
       readRows(this->path(this->name, ".ppm"), width, band.y, band.height, rgb.data());
       return rgb;
     }
-    const int rows = std::max(1, RangePixels / width);
+    const int rows = std::max(1, rangePixels / width);
     this->studio->pool.parallelFor((band.height + rows - 1) / rows,
       [&](int i)
       {

@@ -24,7 +24,7 @@ namespace dgtk
 
 namespace
 {
-constexpr std::chrono::milliseconds LookEvery{ 5 };
+constexpr std::chrono::milliseconds lookEvery{ 5 };
 /// Settings of the user or the machine are not read: this file is empty.
 constexpr const char* Settings = "povray.ini";
 constexpr const char* SettingsVariable = "POVINI=";
@@ -176,7 +176,7 @@ int PovRunner::wait(int process) const
       killed = true;
       ::kill(process, SIGKILL);
     }
-    std::this_thread::sleep_for(LookEvery);
+    std::this_thread::sleep_for(lookEvery);
   }
 }
 

@@ -15,7 +15,7 @@ using namespace dgtk;
 using namespace dgtk::test;
 
 /// Pixels: a ray this close to an edge may fall on either side in double precision.
-constexpr double OnEdge = 1e-6;
+constexpr double onEdge = 1e-6;
 
 VisibilityBuffer trace(VisibilitySource& source, std::shared_ptr<const SceneState> state, const View& view)
 {
@@ -46,7 +46,7 @@ int compare(const RayCase& c, const VisibilityBuffer& rays, const VisibilityBuff
           distance = std::min(distance, edgeDistance(*c.state, c.linearView, hit, { x + 0.5, y + 0.5 }));
         }
       }
-      EXPECT_LE(distance, OnEdge) << c.name << " at " << x << ", " << y << ": rays " << rays.at(x, y).object << ":"
+      EXPECT_LE(distance, onEdge) << c.name << " at " << x << ", " << y << ": rays " << rays.at(x, y).object << ":"
                                   << rays.at(x, y).triangle << ", reference " << reference.at(x, y).object << ":"
                                   << reference.at(x, y).triangle;
     }

@@ -13,7 +13,7 @@ namespace dgtk
 namespace
 {
 
-constexpr GLBackend All[] = { GLBackend::Egl, GLBackend::Osmesa, GLBackend::Glx };
+constexpr GLBackend all[] = { GLBackend::Egl, GLBackend::Osmesa, GLBackend::Glx };
 
 constexpr unsigned int ChildSeconds = 30;
 
@@ -101,7 +101,7 @@ GLBackend glBackendFromName(const std::string& name)
   {
     return GLBackend::Auto;
   }
-  for (const GLBackend backend : All)
+  for (const GLBackend backend : all)
   {
     if (name == nameOf(backend))
     {
@@ -121,7 +121,7 @@ GLChoice chooseGL(GLBackend backend)
 std::vector<GLBackendInfo> glBackends()
 {
   std::vector<GLBackendInfo> rows;
-  for (const GLBackend backend : All)
+  for (const GLBackend backend : all)
   {
     rows.push_back(inChild(backend));
   }

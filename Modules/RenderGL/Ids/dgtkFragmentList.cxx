@@ -40,18 +40,18 @@ bool FragmentList::supported()
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
     glGetIntegerv(GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS, &blocks);
   }
-  return blocks > 0 && std::uint64_t(most) >= sizeof(Header) + Capacity * sizeof(Fragment);
+  return blocks > 0 && std::uint64_t(most) >= sizeof(Header) + capacity * sizeof(Fragment);
 }
 
 void FragmentList::begin(int width)
 {
-  const Header header{ 0, std::uint32_t(Capacity), std::uint32_t(width), 0 };
+  const Header header{ 0, std::uint32_t(capacity), std::uint32_t(width), 0 };
   if (!this->Buffer)
   {
     glGenBuffers(1, &this->Buffer);
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, this->Buffer);
     glBufferData(
-      GL_SHADER_STORAGE_BUFFER, GLsizeiptr(sizeof(Header) + Capacity * sizeof(Fragment)), nullptr, GL_DYNAMIC_READ);
+      GL_SHADER_STORAGE_BUFFER, GLsizeiptr(sizeof(Header) + capacity * sizeof(Fragment)), nullptr, GL_DYNAMIC_READ);
   }
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, this->Buffer);
   glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof header, &header);
@@ -64,7 +64,7 @@ std::size_t FragmentList::end(std::vector<Fragment>& fragments)
   Header header{};
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, this->Buffer);
   glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof header, &header);
-  fragments.resize(std::min<std::size_t>(header.count, Capacity));
+  fragments.resize(std::min<std::size_t>(header.count, capacity));
   if (!fragments.empty())
   {
     glGetBufferSubData(

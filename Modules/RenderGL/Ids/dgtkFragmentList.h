@@ -34,7 +34,7 @@ public:
   /// Whether the current OpenGL can do it.
   static bool supported();
   /// Fragments that fit.
-  static constexpr std::size_t Capacity = std::size_t(1) << 21;
+  static constexpr std::size_t capacity = std::size_t(1) << 21;
 
   /// Empties the list and binds it for shaders that draw to a target of this width.
   void begin(int width);

@@ -12,10 +12,10 @@ namespace dgtk
 namespace
 {
 
-constexpr double MaxDepthRatio = 4;    // largest to smallest depth on an edge that is not cut
-constexpr double CutRatio = 2;         // depths of neighbouring cuts
-constexpr double RoundingPixels = 2e4; // extent * focal length / depth: above it, rounding exceeds 1/512 pixel
-constexpr double LeastReach = 2;       // extent / depth that is always left to OpenGL
+constexpr double maxDepthRatio = 4;    // largest to smallest depth on an edge that is not cut
+constexpr double cutRatio = 2;         // depths of neighbouring cuts
+constexpr double roundingPixels = 2e4; // extent * focal length / depth: above it, rounding exceeds 1/512 pixel
+constexpr double leastReach = 2;       // extent / depth that is always left to OpenGL
 
 struct Corner
 {
@@ -24,7 +24,7 @@ struct Corner
   double depth = 0;
 };
 
-double reach(const RasterCamera& camera) { return std::max(LeastReach, RoundingPixels / camera.focal); }
+double reach(const RasterCamera& camera) { return std::max(leastReach, roundingPixels / camera.focal); }
 
 class Cutter
 {
@@ -80,7 +80,7 @@ private:
     {
       return false;
     }
-    if (least >= this->Camera.near && largest <= MaxDepthRatio * least && least >= this->Closest)
+    if (least >= this->Camera.near && largest <= maxDepthRatio * least && least >= this->Closest)
     {
       return false;
     }
@@ -129,16 +129,16 @@ private:
       chain.push_back(between(a, b, near));
     }
     const double from = std::max(a.depth, near);
-    if (b.depth > MaxDepthRatio * from)
+    if (b.depth > maxDepthRatio * from)
     {
-      double depth = near * CutRatio;
+      double depth = near * cutRatio;
       while (depth < b.depth)
       {
         if (depth > from)
         {
           chain.push_back(between(a, b, depth));
         }
-        depth *= CutRatio;
+        depth *= cutRatio;
       }
     }
     chain.push_back(b);
@@ -219,7 +219,7 @@ private:
 bool mayNeedPieces(const PieceRange& range, const RasterCamera& camera)
 {
   return camera.perspective && range.largest >= camera.near && range.least <= camera.far &&
-         (range.least < camera.near || range.largest > MaxDepthRatio * range.least ||
+         (range.least < camera.near || range.largest > maxDepthRatio * range.least ||
            range.least < range.extent / reach(camera));
 }
 

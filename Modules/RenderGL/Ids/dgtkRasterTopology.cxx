@@ -9,12 +9,12 @@ namespace dgtk
 
 RasterTopology rasterTopology(const Model& model, bool numbered)
 {
-  constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   const std::size_t count = model.triangles.size();
   RasterTopology result;
   result.source.resize(count);
   result.triangles.resize(count);
-  std::vector<std::uint32_t> renumbered(model.rest->positions.size(), None); // vertex of the model -> vertex
+  std::vector<std::uint32_t> renumbered(model.rest->positions.size(), none); // vertex of the model -> vertex
 
   // Each triangle claims a corner that no other has claimed, or a copy of its last one.
   std::vector<std::uint8_t> claimed(count);
@@ -24,11 +24,11 @@ RasterTopology rasterTopology(const Model& model, bool numbered)
     {
       const std::uint8_t corner = std::uint8_t((k + 2) % 3);
       std::uint32_t& vertex = renumbered[model.triangles[t][corner]];
-      if (vertex == None || k == 2)
+      if (vertex == none || k == 2)
       {
-        claimed[t] = vertex == None ? corner : 2;
+        claimed[t] = vertex == none ? corner : 2;
         result.source[t] = model.triangles[t][claimed[t]];
-        if (vertex == None)
+        if (vertex == none)
         {
           vertex = std::uint32_t(t);
         }
@@ -54,7 +54,7 @@ RasterTopology rasterTopology(const Model& model, bool numbered)
     for (std::size_t k = 0; k < 3; ++k)
     {
       const std::uint32_t original = model.triangles[t][(claimed[t] + 1 + k) % 3];
-      if (renumbered[original] == None)
+      if (renumbered[original] == none)
       {
         renumbered[original] = std::uint32_t(result.source.size());
         result.source.push_back(original);

@@ -16,8 +16,8 @@ namespace dgtk
 namespace
 {
 
-constexpr double Pi = 3.14159265358979323846;
-constexpr int Samples = 128;
+constexpr double pi = 3.14159265358979323846;
+constexpr int samplesOfLobe = 128;
 
 Eigen::Vector3f texelAt(const float* rgb, int width, int height, int x, int y)
 {
@@ -29,8 +29,8 @@ Eigen::Vector3f texelAt(const float* rgb, int width, int height, int x, int y)
 /// `d` has unit length.
 Eigen::Vector3f bilinear(const float* rgb, int width, int height, const Eigen::Vector3d& d)
 {
-  const double x = (0.5 + std::atan2(d.x(), -d.z()) / (2 * Pi)) * width - 0.5;
-  const double y = std::acos(std::clamp(d.y(), -1.0, 1.0)) / Pi * height - 0.5;
+  const double x = (0.5 + std::atan2(d.x(), -d.z()) / (2 * pi)) * width - 0.5;
+  const double y = std::acos(std::clamp(d.y(), -1.0, 1.0)) / pi * height - 0.5;
   const int column = int(std::floor(x));
   const int row = int(std::floor(y));
   const auto right = float(x - column);
@@ -63,7 +63,7 @@ public:
   Eigen::Vector3f at(const Eigen::Vector3d& d, double solidAngle) const
   {
     const RadianceImage& finest = this->Levels[0];
-    const double texel = 4 * Pi / (double(finest.width) * finest.height);
+    const double texel = 4 * pi / (double(finest.width) * finest.height);
     const double lod =
       std::clamp(0.5 * std::log2(std::max(solidAngle / texel, 1.0)), 0.0, double(this->Levels.size() - 1));
     const auto low = std::min(std::size_t(lod), this->Levels.size() - 1);
@@ -77,8 +77,8 @@ private:
   static RadianceImage resampled(const RadianceImage& from, double intensity)
   {
     RadianceImage to;
-    to.width = EnvironmentLight::Width;
-    to.height = EnvironmentLight::Width / 2;
+    to.width = EnvironmentLight::width;
+    to.height = EnvironmentLight::width / 2;
     to.rgb.resize(std::size_t(to.width) * to.height * 3);
     const auto factor = float(intensity);
     for (int y = 0; y < to.height; ++y)
@@ -129,8 +129,8 @@ private:
 /// Direction of a point of an equirectangular picture; x and y in [0, 1], y down.
 Eigen::Vector3d directionOf(double x, double y)
 {
-  const double around = (x - 0.5) * 2 * Pi;
-  const double down = y * Pi;
+  const double around = (x - 0.5) * 2 * pi;
+  const double down = y * pi;
   return { std::sin(down) * std::sin(around), std::cos(down), -std::sin(down) * std::cos(around) };
 }
 
@@ -144,14 +144,14 @@ std::array<double, 9> termsOf(const Eigen::Vector3d& d)
 std::array<Eigen::Vector3d, 9> irradianceOf(const RadianceImage& image)
 {
   // Of each: the harmonic's constant squared times the cosine lobe's coefficient over pi (1, 2/3, 1/4).
-  constexpr double weights[9] = { 0.25 / Pi, 0.75 / Pi * 2 / 3, 0.75 / Pi * 2 / 3, 0.75 / Pi * 2 / 3, 3.75 / Pi / 4,
-    3.75 / Pi / 4, 0.3125 / Pi / 4, 3.75 / Pi / 4, 0.9375 / Pi / 4 };
+  constexpr double weights[9] = { 0.25 / pi, 0.75 / pi * 2 / 3, 0.75 / pi * 2 / 3, 0.75 / pi * 2 / 3, 3.75 / pi / 4,
+    3.75 / pi / 4, 0.3125 / pi / 4, 3.75 / pi / 4, 0.9375 / pi / 4 };
   std::array<Eigen::Vector3d, 9> sums;
   sums.fill(Eigen::Vector3d::Zero());
   for (int row = 0; row < image.height; ++row)
   {
     const double solidAngle =
-      (std::cos(row * Pi / image.height) - std::cos((row + 1) * Pi / image.height)) * 2 * Pi / image.width;
+      (std::cos(row * pi / image.height) - std::cos((row + 1) * pi / image.height)) * 2 * pi / image.width;
     for (int column = 0; column < image.width; ++column)
     {
       const Eigen::Vector3d d = directionOf((column + 0.5) / image.width, (row + 0.5) / image.height);
@@ -184,7 +184,7 @@ Eigen::Vector3d halfVector(const Eigen::Vector2d& u, double alpha)
 {
   const double cos2 = (1 - u.x()) / (1 + (alpha * alpha - 1) * u.x());
   const double sine = std::sqrt(std::max(0.0, 1 - cos2));
-  const double around = 2 * Pi * u.y();
+  const double around = 2 * pi * u.y();
   return { sine * std::cos(around), sine * std::sin(around), std::sqrt(cos2) };
 }
 
@@ -199,9 +199,9 @@ struct LobeSample
 std::vector<LobeSample> lobe(double alpha)
 {
   std::vector<LobeSample> samples;
-  for (std::uint32_t i = 0; i < std::uint32_t(Samples); ++i)
+  for (std::uint32_t i = 0; i < std::uint32_t(samplesOfLobe); ++i)
   {
-    const Eigen::Vector3d h = halfVector(hammersley(i, std::uint32_t(Samples)), alpha);
+    const Eigen::Vector3d h = halfVector(hammersley(i, std::uint32_t(samplesOfLobe)), alpha);
     const Eigen::Vector3d l(2 * h.z() * h.x(), 2 * h.z() * h.y(), 2 * h.z() * h.z() - 1);
     if (l.z() <= 0)
     {
@@ -209,8 +209,8 @@ std::vector<LobeSample> lobe(double alpha)
     }
     const double a2 = alpha * alpha;
     const double d = h.z() * h.z() * (a2 - 1) + 1;
-    const double density = a2 / (Pi * d * d) / 4; // of l: D (n h) / (4 (v h)), and v = n
-    samples.push_back({ l, l.z(), 1 / (Samples * density) });
+    const double density = a2 / (pi * d * d) / 4; // of l: D (n h) / (4 (v h)), and v = n
+    samples.push_back({ l, l.z(), 1 / (samplesOfLobe * density) });
   }
   return samples;
 }
@@ -262,10 +262,10 @@ Eigen::Vector3d EnvironmentLight::irradianceOn(const Eigen::Vector3d& normal) co
 
 Eigen::Vector3d EnvironmentLight::reflectedFrom(const Eigen::Vector3d& direction, double roughness) const
 {
-  const double level = std::clamp(roughness, 0.0, 1.0) * (Levels - 1);
-  const int low = std::min(int(level), Levels - 2);
+  const double level = std::clamp(roughness, 0.0, 1.0) * (levels - 1);
+  const int low = std::min(int(level), levels - 2);
   const auto at = [&](int i) -> Eigen::Vector3d
-  { return bilinear(this->radiance[std::size_t(i)].data(), Width >> i, Width / 2 >> i, direction).cast<double>(); };
+  { return bilinear(this->radiance[std::size_t(i)].data(), width >> i, width / 2 >> i, direction).cast<double>(); };
   return at(low) * (low + 1 - level) + at(low + 1) * (level - low);
 }
 
@@ -280,17 +280,17 @@ EnvironmentLight environmentLight(const RadianceImage& image, double intensity)
   EnvironmentLight light;
   light.irradiance = irradianceOf(pyramid.level(0));
   light.radiance[0] = pyramid.level(0).rgb;
-  for (int i = 1; i < EnvironmentLight::Levels; ++i)
+  for (int i = 1; i < EnvironmentLight::levels; ++i)
   {
     light.radiance[std::size_t(i)] =
-      filtered(pyramid, EnvironmentLight::Width >> i, double(i) / (EnvironmentLight::Levels - 1));
+      filtered(pyramid, EnvironmentLight::width >> i, double(i) / (EnvironmentLight::levels - 1));
   }
   return light;
 }
 
 std::vector<float> reflectanceTable()
 {
-  constexpr int size = EnvironmentLight::ReflectanceSize;
+  constexpr int size = EnvironmentLight::reflectanceSize;
   constexpr std::uint32_t count = 256;
   std::vector<float> table;
   for (int row = 0; row < size; ++row)

@@ -18,15 +18,15 @@ namespace dgtk
 struct DGTKRENDERGL_EXPORT EnvironmentLight
 {
   /// Radiance filtered for roughness 0, 1/5, ... 1, each half the size of the one before.
-  static constexpr int Levels = 6;
-  static constexpr int Width = 512; ///< of level 0; height is half of it
-  static constexpr int ReflectanceSize = 64;
+  static constexpr int levels = 6;
+  static constexpr int width = 512; ///< of level 0; height is half of it
+  static constexpr int reflectanceSize = 64;
 
   /// Irradiance divided by pi as a polynomial of the unit normal (x, y, z) in the image's axes, RGB:
   /// 1, y, z, x, xy, yz, 3zz - 1, xz, xx - yy (Ramamoorthi and Hanrahan 2001).
   std::array<Eigen::Vector3d, 9> irradiance;
   /// RGB, equirectangular, rows top to bottom (Karis 2013: the lobe seen along the normal).
-  std::array<std::vector<float>, Levels> radiance;
+  std::array<std::vector<float>, levels> radiance;
 
   /// Irradiance divided by pi on a surface with a unit normal in the image's axes, RGB.
   Eigen::Vector3d irradianceOn(const Eigen::Vector3d& normal) const;

@@ -103,19 +103,19 @@ void EnvironmentMap::set(const std::shared_ptr<const EnvironmentState>& environm
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glGenTextures(1, &this->Radiance);
   glBindTexture(GL_TEXTURE_2D, this->Radiance);
-  for (int level = 0; level < EnvironmentLight::Levels; ++level)
+  for (int level = 0; level < EnvironmentLight::levels; ++level)
   {
-    glTexImage2D(GL_TEXTURE_2D, level, GL_RGB32F, EnvironmentLight::Width >> level,
-      EnvironmentLight::Width / 2 >> level, 0, GL_RGB, GL_FLOAT, light.radiance[std::size_t(level)].data());
+    glTexImage2D(GL_TEXTURE_2D, level, GL_RGB32F, EnvironmentLight::width >> level,
+      EnvironmentLight::width / 2 >> level, 0, GL_RGB, GL_FLOAT, light.radiance[std::size_t(level)].data());
   }
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, EnvironmentLight::Levels - 1);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, EnvironmentLight::levels - 1);
   wrapAround(true);
   if (!this->Reflectance)
   {
     const std::vector<float> table = reflectanceTable();
     glGenTextures(1, &this->Reflectance);
     glBindTexture(GL_TEXTURE_2D, this->Reflectance);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, EnvironmentLight::ReflectanceSize, EnvironmentLight::ReflectanceSize, 0,
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, EnvironmentLight::reflectanceSize, EnvironmentLight::reflectanceSize, 0,
       GL_RG, GL_FLOAT, table.data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     wrapAround(false);

@@ -129,7 +129,7 @@ constexpr const char* Identity = "  vec2 dgtkId = vec2(dgtkDraw.x, dgtkTriangleV
 
 std::string lightValue(const ShaderVariant& variant, int slot)
 {
-  const std::string index = "i * " + std::to_string(RasterLights::Stride) + " + " + std::to_string(slot);
+  const std::string index = "i * " + std::to_string(RasterLights::stride) + " + " + std::to_string(slot);
   return variant.lightTexture ? "texelFetch(dgtkLights, " + index + ")" : "dgtkLights[" + index + "]";
 }
 
@@ -232,7 +232,7 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
   {
     declarations += variant.lightTexture
                       ? std::string("uniform samplerBuffer dgtkLights;\n")
-                      : "uniform vec4 dgtkLights[" + std::to_string(lights * RasterLights::Stride) + "];\n";
+                      : "uniform vec4 dgtkLights[" + std::to_string(lights * RasterLights::stride) + "];\n";
   }
   declarations += TriangleIn;
   put(vertex, "//VTK::ValuePass::Dec", triangleOut(variant));

@@ -55,7 +55,7 @@ struct ShaderVariant
 };
 
 /// Lights that are held in uniforms; OpenGL 3.2 promises 1024 components.
-constexpr int UniformLights = 32;
+constexpr int uniformLights = 32;
 
 /// Substitutes our parts into VTK's templates, before VTK does. Output 0 is the colour, output 1 the number of the
 /// draw, the triangle and the depth.

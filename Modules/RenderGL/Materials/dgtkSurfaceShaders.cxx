@@ -60,7 +60,7 @@ vec3 dgtkBumped(vec3 p, vec3 n, sampler2D heights, vec2 uv, float scale)
 /// map. Of the nested maps of a light, the first that holds the point counts.
 std::string shadowFunction()
 {
-  const std::string stride = std::to_string(ShadowMaps::Stride);
+  const std::string stride = std::to_string(ShadowMaps::stride);
   return "uniform sampler2DArray dgtkShadowMaps;\n"
          "uniform samplerBuffer dgtkShadowData;\n"
          "float dgtkLit(int map, vec3 L, vec3 p, vec3 n)\n"
@@ -245,7 +245,7 @@ std::string endPhysical(const ShaderVariant& variant)
             "  vec3 mirrored = f0 * reflectance.x + reflectance.y;\n"
             "  vec3 away = dgtkImageFromView * reflect(-dgtkViewer, normalVC);\n"
             "  vec3 seen = textureLod(dgtkEnvironment, dgtkEquirectangular(away), rough * " +
-            std::to_string(EnvironmentLight::Levels - 1) +
+            std::to_string(EnvironmentLight::levels - 1) +
             ".0).rgb;\n"
             "  dgtkSum += occlusion * (albedo * (1.0 - mirrored) * dgtkIrradianceFrom(dgtkImageFromView * normalVC) + "
             "mirrored * seen);\n"

@@ -11,7 +11,7 @@ namespace dgtk
 namespace
 {
 
-constexpr double Rim = 1.0625; // of half the image; more than the widest filter from 96 pixels on
+constexpr double rim = 1.0625; // of half the image; more than the widest filter from 96 pixels on
 
 int sliceOf(double depth) { return int(std::floor(2 * std::log2(std::max(depth, 1e-300)))); }
 
@@ -47,7 +47,7 @@ SeenSurfaces::SeenSurfaces(const View& view)
   this->Depth = -camera.view_from_world.row(2).transpose();
   for (int side = 0; side < 4; ++side)
   {
-    this->Sides.row(side) = Rim * clip_from_world.row(3) + (side % 2 ? -1 : 1) * clip_from_world.row(side / 2);
+    this->Sides.row(side) = rim * clip_from_world.row(3) + (side % 2 ? -1 : 1) * clip_from_world.row(side / 2);
   }
   this->Sides.row(4) = this->Depth.transpose();
   this->Sides(4, 3) -= view.near;

@@ -19,7 +19,7 @@ public:
   /// Of the buffer texture: texels of four floats for each map. Four columns of window depth and clip coordinates from
   /// view coordinates; then size of a texel, pixels a side, 1 for the first of a cube, number of
   /// maps from this one on that may hold a surface.
-  static constexpr int Stride = 5;
+  static constexpr int stride = 5;
 
   ~ShadowMaps();
   /// Draws all maps by `draw`, which draws depths for a camera to the bound framebuffer. Throws MachineError when

@@ -17,16 +17,16 @@ namespace dgtk
 namespace
 {
 
-constexpr double Pi = 3.14159265358979323846;
-constexpr double LargestCone = 60; // degrees, half the opening of a light with a single map
-constexpr double Margin = 1.0 + 1e-6;
-constexpr int MostMaps = 4;            // of a directional light
-constexpr int LargestOfSeveral = 8192; // texels a side: four have as many as the largest single one
-constexpr double Fine = 1e-3;          // texel, of the image's height, that needs no further maps
-constexpr double Gain = 1.1;           // what a further map must bring
-constexpr int Steps = 32;              // places of a window within its own side
-constexpr double CoarsePixels = 8;
-constexpr double Unseen = 1.0 / 255; // strength of a light that does not show
+constexpr double pi = 3.14159265358979323846;
+constexpr double largestCone = 60; // degrees, half the opening of a light with a single map
+constexpr double margin = 1.0 + 1e-6;
+constexpr int mostMaps = 4;            // of a directional light
+constexpr int largestOfSeveral = 8192; // texels a side: four have as many as the largest single one
+constexpr double fineTexel = 1e-3;     // texel, of the image's height, that needs no further maps
+constexpr double gain = 1.1;           // what a further map must bring
+constexpr int stepsOfSide = 32;        // places of a window within its own side
+constexpr double coarsePixels = 8;
+constexpr double unseen = 1.0 / 255; // strength of a light that does not show
 
 /// Axes as OpenGL's for a view along `axis`: rows x, y, z.
 Eigen::Matrix3d axesAlong(const Eigen::Vector3d& axis, const Eigen::Vector3d& up)
@@ -78,7 +78,7 @@ struct Slice
 };
 
 /// Texels between the places of a window.
-int stepOf(int size) { return std::max(1, size / Steps); }
+int stepOf(int size) { return std::max(1, size / stepsOfSide); }
 
 /// Side of a map that holds a slice: with the border, in steps, so that it stays the same while the camera moves on.
 double sideFor(const Slice& slice, int size)
@@ -98,7 +98,7 @@ public:
     , Seen(seen)
     , Axis(light.target - light.position)
     , Axes(axesAlong(Axis, across(Axis)))
-    , Slope(std::tan(halfAngle(light) * Pi / 180))
+    , Slope(std::tan(halfAngle(light) * pi / 180))
   {
   }
 
@@ -124,7 +124,7 @@ public:
 private:
   static bool oneCone(const LightState& light)
   {
-    return light.kind == LightState::Kind::Spot && light.coneAngle <= LargestCone;
+    return light.kind == LightState::Kind::Spot && light.coneAngle <= largestCone;
   }
   /// A rim of a texel or two, so that the comparisons at the cone's border find neighbours.
   static double halfAngle(const LightState& light)
@@ -149,7 +149,7 @@ private:
     const Eigen::Vector3d& k = this->Light.attenuation;
     const double strength =
       this->Light.intensity * std::max(this->Light.diffuse.maxCoeff(), this->Light.specular.maxCoeff());
-    if (strength >= Unseen * (k[0] + distance * (k[1] + distance * k[2])))
+    if (strength >= unseen * (k[0] + distance * (k[1] + distance * k[2])))
     {
       this->Coarsest = std::max(this->Coarsest, distance / this->Seen.heightAt(this->Seen.depthOf(x)));
     }
@@ -198,12 +198,12 @@ std::vector<Slice> LightFit::grouped(int& size) const
     slices.push_back(entry.second);
   }
   const std::size_t count = slices.size();
-  const std::size_t most = std::min<std::size_t>(MostMaps, count);
-  const int several = std::min(size, LargestOfSeveral);
+  const std::size_t most = std::min<std::size_t>(mostMaps, count);
+  const int several = std::min(size, largestOfSeveral);
   constexpr double none = std::numeric_limits<double>::infinity();
   // Of the first j slices in k maps: how coarse the coarsest is, and where the last map begins.
-  std::array<std::vector<double>, MostMaps + 1> coarsest;
-  std::array<std::vector<std::size_t>, MostMaps + 1> begin;
+  std::array<std::vector<double>, mostMaps + 1> coarsest;
+  std::array<std::vector<std::size_t>, mostMaps + 1> begin;
   coarsest.fill(std::vector<double>(count + 1, none));
   begin.fill(std::vector<std::size_t>(count + 1, 0));
   coarsest[0][0] = 0;
@@ -230,7 +230,7 @@ std::vector<Slice> LightFit::grouped(int& size) const
     best = std::min(best, coarsest[k][count]);
   }
   std::size_t k = 1;
-  while (coarsest[k][count] > std::max(Fine, Gain * best))
+  while (coarsest[k][count] > std::max(fineTexel, gain * best))
   {
     ++k;
   }
@@ -288,7 +288,7 @@ ShadowView LightFit::perspectiveView(const Eigen::Matrix3d& axes, bool zeroToOne
 {
   ShadowView view;
   view.size = this->Light.shadowSize;
-  const double far = this->Reach * Margin;
+  const double far = this->Reach * margin;
   view.camera.perspective = true;
   view.camera.view_from_world.setIdentity();
   view.camera.view_from_world.topLeftCorner<3, 3>() = axes;
@@ -392,7 +392,7 @@ std::vector<CoarseShadow> coarseShadows(const SceneState& state, const View& vie
       {
         pixels = std::max(pixels, first[i].pixels);
       }
-      if (pixels > CoarsePixels)
+      if (pixels > coarsePixels)
       {
         coarse.push_back({ light, pixels });
       }

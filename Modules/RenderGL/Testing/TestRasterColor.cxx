@@ -14,11 +14,11 @@ using namespace dgtk::test;
 namespace
 {
 
-constexpr double FloatTolerance = 2e-5; // sums of a few products in single precision
+constexpr double floatTolerance = 2e-5; // sums of a few products in single precision
 
-constexpr double TexelTolerance = 0.3; // Mesa's anisotropic filter blurs a little where it magnifies
+constexpr double texelTolerance = 0.3; // Mesa's anisotropic filter blurs a little where it magnifies
 
-void expectColor(const Eigen::Vector3d& found, const Eigen::Vector3d& expected, double tolerance = FloatTolerance)
+void expectColor(const Eigen::Vector3d& found, const Eigen::Vector3d& expected, double tolerance = floatTolerance)
 {
   EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), tolerance)
     << "found " << found.transpose() << ", expected " << expected.transpose();
@@ -103,10 +103,10 @@ TEST(RasterColor, TextureStandsUpright)
   model.part(material);
   model.quad({ -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 });
   const ColorBuffer colors = renderColor(stateOf({ model.finish() }), frontView());
-  expectColor(colorAt(colors, 20, 12), { 1, 0, 0 }, TexelTolerance);
-  expectColor(colorAt(colors, 44, 12), { 0, 1, 0 }, TexelTolerance);
-  expectColor(colorAt(colors, 20, 36), { 0, 0, 1 }, TexelTolerance);
-  expectColor(colorAt(colors, 44, 36), { 1, 1, 1 }, TexelTolerance);
+  expectColor(colorAt(colors, 20, 12), { 1, 0, 0 }, texelTolerance);
+  expectColor(colorAt(colors, 44, 12), { 0, 1, 0 }, texelTolerance);
+  expectColor(colorAt(colors, 20, 36), { 0, 0, 1 }, texelTolerance);
+  expectColor(colorAt(colors, 44, 36), { 1, 1, 1 }, texelTolerance);
 }
 
 TEST(RasterColor, TextureTimesMaterialAndNoTextureWithoutCoordinates)

@@ -88,8 +88,8 @@ TEST(RasterLights, AreInViewCoordinatesDirectionalOnesFirst)
   EXPECT_EQ(found.spots, 1);
   EXPECT_EQ(found.count(), 5);
   EXPECT_FALSE(found.headOnly);
-  ASSERT_EQ(found.values.size(), 5u * RasterLights::Stride);
-  const auto first = [&](int light, int row) { return found.values[std::size_t(light * RasterLights::Stride + row)]; };
+  ASSERT_EQ(found.values.size(), 5u * RasterLights::stride);
+  const auto first = [&](int light, int row) { return found.values[std::size_t(light * RasterLights::stride + row)]; };
   const auto three = [&](int light, int row)
   { return Eigen::Vector3f(first(light, row)[0], first(light, row)[1], first(light, row)[2]); };
   EXPECT_EQ(three(0, 0), Eigen::Vector3f(-1, 0, 0)); // towards the light, at +y of the world

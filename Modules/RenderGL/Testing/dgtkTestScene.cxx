@@ -17,7 +17,7 @@ namespace dgtk::test
 {
 namespace
 {
-constexpr double Pi = 3.14159265358979323846;
+constexpr double pi = 3.14159265358979323846;
 
 double distanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
@@ -106,8 +106,8 @@ void ModelBuilder::sphere(int steps)
   {
     for (int j = 0; j <= 2 * steps; ++j)
     {
-      const double theta = Pi * i / steps;
-      const double phi = Pi * j / steps;
+      const double theta = pi * i / steps;
+      const double phi = pi * j / steps;
       const Eigen::Vector3d x(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi));
       this->Rest->positions.push_back(x);
       this->Rest->normals.push_back(x.cast<float>());
@@ -316,7 +316,7 @@ int comparedWithRays(const SceneState& state, const View& view, const Visibility
       if (found != expected.hit)
       {
         ++differing;
-        EXPECT_LT(expected.margin, EdgeTolerance)
+        EXPECT_LT(expected.margin, edgeTolerance)
           << "pixel " << x << ", " << y << ": object " << found.object << " triangle " << found.triangle
           << ", expected " << expected.hit.object << ' ' << expected.hit.triangle << " at depth " << expected.depth;
       }

@@ -81,7 +81,7 @@ Eigen::Vector3d colorAt(const ColorBuffer& colors, int x, int y);
 
 /// Ids differ from the exact ones only where an edge passes within 1/128 pixel of the centre: rasterizers round
 /// vertices to 1/256 pixel.
-constexpr double EdgeTolerance = 1.0 / 128;
+constexpr double edgeTolerance = 1.0 / 128;
 /// Compares every `step`th pixel with RayCaster; returns how many differ and fails where that is not explained by
 /// EdgeTolerance.
 int comparedWithRays(const SceneState& state, const View& view, const VisibilityBuffer& hits, int step = 1);

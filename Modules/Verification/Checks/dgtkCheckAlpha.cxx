@@ -11,9 +11,9 @@ namespace dgtk
 
 namespace
 {
-constexpr double Full = 255;
+constexpr double full = 255;
 /// Half a step of 8 bits.
-constexpr double AlphaRounding = 0.5 / Full;
+constexpr double alphaRounding = 0.5 / full;
 
 std::uint32_t rotate(std::uint32_t value, int bits) { return value << bits | value >> (32 - bits); }
 
@@ -106,7 +106,7 @@ private:
 void checkSums(const Coverage& coverage, int x, int y, Meter& meter)
 {
   double sum = 0;
-  double before = Infinite;
+  double before = infinite;
   bool sound = true;
   for (int rank = 0; rank < coverage.ranks(); ++rank)
   {
@@ -115,7 +115,7 @@ void checkSums(const Coverage& coverage, int x, int y, Meter& meter)
     sound = sound && share >= 0 && share <= before && coverage.id(x, y, rank) >= 0;
     before = share;
   }
-  meter.add(sound ? sum - 1 : Infinite,
+  meter.add(sound ? sum - 1 : infinite,
     [&]
     {
       return coverage.file().offender(x, y, sound ? "ranks of sum " + numberText(sum) : "a rank of no object or order",
@@ -146,9 +146,9 @@ void checkSamples(const Coverage& coverage, const Samples& samples, int x, int y
 void checkShare(const PictureFile& alpha, const Coverage& coverage, std::size_t objects, int x, int y, Meter& meter)
 {
   const std::uint32_t id = alpha.id(x, y);
-  const double share = alpha.at(x, y, 3) / Full;
+  const double share = alpha.at(x, y, 3) / full;
   const double expected = id <= objects ? coverage.shareOf(id, x, y) : 0;
-  const double error = share > 0 && expected > 0 ? std::abs(share - expected) - AlphaRounding : Infinite;
+  const double error = share > 0 && expected > 0 ? std::abs(share - expected) - alphaRounding : infinite;
   meter.add(std::max(0.0, error),
     [&]
     {
@@ -160,7 +160,7 @@ void checkShare(const PictureFile& alpha, const Coverage& coverage, std::size_t 
 /// The object of the nearest sample and its share, counted anew.
 void checkNearest(const PictureFile& alpha, const Samples& samples, int x, int y, Meter& meter)
 {
-  const double share = alpha.at(x, y, 3) / Full;
+  const double share = alpha.at(x, y, 3) / full;
   if (share == 1 && !Samples::isChosen(x, y))
   {
     return;
@@ -178,7 +178,7 @@ void checkNearest(const PictureFile& alpha, const Samples& samples, int x, int y
       { return alpha.offender(x, y, "object " + std::to_string(found), "object " + std::to_string(pixel.nearest)); });
     return;
   }
-  samples.compare(x, y, found, share, AlphaRounding, meter,
+  samples.compare(x, y, found, share, alphaRounding, meter,
     [&](double expected)
     {
       return alpha.offender(
@@ -195,7 +195,7 @@ void checkAlpha(Picture& picture, Results& results)
   const Samples samples(picture);
   const auto measure = [&](const Row& row, const auto& pixel)
   {
-    results.add(row, meterRows(picture.pool(), picture.height(), CoverageTolerance,
+    results.add(row, meterRows(picture.pool(), picture.height(), coverageTolerance,
                        [&](int y, Meter& meter)
                        {
                          for (int x = 0; x < picture.width(); ++x)
@@ -208,7 +208,7 @@ void checkAlpha(Picture& picture, Results& results)
   {
     measure({ "coverage", "coverage", { file->file() } },
       [&](int x, int y, Meter& meter) { checkSums(*coverage, x, y, meter); });
-    measure({ "samples", "coverage", { file->file() }, MostOpenSamples },
+    measure({ "samples", "coverage", { file->file() }, mostOpenSamples },
       [&](int x, int y, Meter& meter) { checkSamples(*coverage, samples, x, y, meter); });
   }
   const PicturePointer alpha = picture.image("alpha", { ".png" });
@@ -220,7 +220,7 @@ void checkAlpha(Picture& picture, Results& results)
       measure({ "alpha", "coverage", { alpha->file() } },
         [&](int x, int y, Meter& meter) { checkShare(*alpha, *coverage, objects, x, y, meter); });
     }
-    measure({ "nearest", "coverage", { alpha->file() }, MostOpenSamples },
+    measure({ "nearest", "coverage", { alpha->file() }, mostOpenSamples },
       [&](int x, int y, Meter& meter) { checkNearest(*alpha, samples, x, y, meter); });
   }
 }

@@ -16,15 +16,15 @@ namespace
 using Json = nlohmann::json;
 using Box = std::array<double, 4>;
 /// Part of the largest number of a matrix or corner: products of two placements.
-constexpr double PoseTolerance = 1e-12;
+constexpr double poseTolerance = 1e-12;
 /// Pixels, or that part of a place far outside.
-constexpr double ProjectedTolerance = 1e-9;
+constexpr double projectedTolerance = 1e-9;
 
 /// Pixels of a mask and the borders of the smallest box around them.
 struct Extent
 {
   std::uint64_t pixels = 0;
-  Box box{ Infinite, Infinite, -Infinite, -Infinite };
+  Box box{ infinite, infinite, -infinite, -infinite };
   void add(double x0, double y0, double x1, double y1)
   {
     this->box = { std::min(this->box[0], x0), std::min(this->box[1], y0), std::max(this->box[2], x1),
@@ -236,7 +236,7 @@ private:
       this->matrix("R diag(scale)", R * scale.asDiagonal(), camera_from_object.linear);
       this->matrix("t", vectorOf(object.at("t")), camera_from_object.translation);
     }
-    Eigen::Vector3d least(Infinite, Infinite, Infinite);
+    Eigen::Vector3d least(infinite, infinite, infinite);
     Eigen::Vector3d most = -least;
     this->forVertices(
       [&](const Eigen::Vector3d& vertex)
@@ -262,8 +262,8 @@ private:
   std::size_t Number = 0; ///< of objects so far
   Meter Names{ 0 };
   Meter Masks{ 0 };
-  Meter Projected{ ProjectedTolerance };
-  Meter Pose{ PoseTolerance };
+  Meter Projected{ projectedTolerance };
+  Meter Pose{ poseTolerance };
 };
 } // namespace
 

@@ -13,9 +13,9 @@ namespace dgtk
 namespace
 {
 /// Pixels: the rounding of world points.
-constexpr double CalibrationTolerance = 1e-9;
+constexpr double calibrationTolerance = 1e-9;
 /// Part of the largest number of a matrix, or of 1.
-constexpr double MatrixTolerance = 1e-9;
+constexpr double matrixTolerance = 1e-9;
 
 /// World points of the pixels of a row: the position of the file, or the depth unprojected.
 struct RowPoints
@@ -70,7 +70,7 @@ using Project = std::function<std::vector<cv::Point2d>(const std::vector<cv::Poi
 /// The points of each pixel, projected, must give its centre.
 Meter checkPoints(Picture& picture, const Points& points, const std::string& file, const Project& project)
 {
-  return meterRows(picture.pool(), picture.height(), CalibrationTolerance,
+  return meterRows(picture.pool(), picture.height(), calibrationTolerance,
     [&](int y, Meter& meter)
     {
       const RowPoints row = points.row(y);
@@ -144,7 +144,7 @@ void checkThesis(Picture& picture, const Points& points, const std::string& file
 void checkEntries(Picture& picture, const std::string& file, Results& results)
 {
   const Calibration calibration = readCalibration(picture.dataset().absolute(file));
-  Meter meter(MatrixTolerance);
+  Meter meter(matrixTolerance);
   const OpenGLMatrices matrices = openGLMatrices(picture.eye().view());
   const Calibration expected =
     makeCalibration(matrices.projection, matrices.modelView, picture.width(), picture.height());

@@ -10,7 +10,7 @@ namespace dgtk
 namespace
 {
 /// Numbers are written so that they read back as the same doubles; look-at matrices and tracks are computed once.
-constexpr double CameraTolerance = 1e-12;
+constexpr double cameraTolerance = 1e-12;
 
 /// Difference of matrices relative to the larger of 1 and the expected one's largest value.
 template <typename M>
@@ -120,7 +120,7 @@ void checkObjects(Dataset& dataset, Meter& meter)
 
 void checkCameras(Dataset& dataset, Results& results)
 {
-  Meter cameras(CameraTolerance);
+  Meter cameras(cameraTolerance);
   for (const CameraRecord& record : dataset.cameras())
   {
     CameraCheck(record, dataset.sceneView(record), cameras).run();

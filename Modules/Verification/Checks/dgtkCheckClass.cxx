@@ -22,12 +22,12 @@ enum Class
 };
 
 /// Directions, and parts of the depth, that a ray may pass by a silhouette.
-constexpr double SilhouetteReach = 1e-4;
+constexpr double silhouetteReach = 1e-4;
 /// Part of the depth within which a surface is the point's own: the rounding of its place.
-constexpr double SurfaceSlack = 1e-9;
+constexpr double surfaceSlack = 1e-9;
 /// Pixels: as near to the image's border, inside and outside are a matter of rounding.
-constexpr double BorderSlack = 1e-6;
-constexpr double Pi = 3.14159265358979323846;
+constexpr double borderSlack = 1e-6;
+constexpr double pi = 3.14159265358979323846;
 
 class ClassCheck
 {
@@ -45,13 +45,13 @@ public:
     const int found = static_cast<int>(this->File.at(x, y));
     const Hit& hit = this->Targets.hit(x, y);
     const Target target = this->Targets.at(x, y);
-    const int expected = this->classOf(target, hit, target.pixel, SurfaceSlack);
+    const int expected = this->classOf(target, hit, target.pixel, surfaceSlack);
     if (found == expected)
     {
       meter.good();
       return;
     }
-    if (meter.Bad < Patience && this->isOpen(x, y, target, hit, found))
+    if (meter.Bad < usualPatience && this->isOpen(x, y, target, hit, found))
     {
       meter.skip();
       return;
@@ -95,7 +95,7 @@ private:
     {
       return !target.ok && target.surface;
     }
-    if (std::abs(target.there.z()) <= SurfaceSlack * target.here.norm())
+    if (std::abs(target.there.z()) <= surfaceSlack * target.here.norm())
     {
       return true;
     }
@@ -107,19 +107,19 @@ private:
     {
       return false;
     }
-    if (this->classOf(target, hit, target.pixel, SilhouetteReach) == found)
+    if (this->classOf(target, hit, target.pixel, silhouetteReach) == found)
     {
       return true;
     }
     const CameraRecord& camera = this->Other.eye().record();
     const double unit = this->Other.eye().pinhole() ? 1 : target.there.z();
-    const Eigen::Vector2d reach = SilhouetteReach * unit * camera.K.diagonal().head<2>();
+    const Eigen::Vector2d reach = silhouetteReach * unit * camera.K.diagonal().head<2>();
     for (int i = 0; i < 32; ++i)
     {
-      const Eigen::Vector2d direction(std::cos(i * Pi / 8), std::sin(i * Pi / 8));
+      const Eigen::Vector2d direction(std::cos(i * pi / 8), std::sin(i * pi / 8));
       const Eigen::Vector2d pixel = target.pixel + (i < 16 ? 1.0 : 0.25) * reach.cwiseProduct(direction);
-      if (this->classOf(target, hit, pixel, SurfaceSlack) == found ||
-          this->classOf(target, hit, pixel, SilhouetteReach) == found)
+      if (this->classOf(target, hit, pixel, surfaceSlack) == found ||
+          this->classOf(target, hit, pixel, silhouetteReach) == found)
       {
         return true;
       }
@@ -135,7 +135,7 @@ private:
       [&](const Hit& other)
       {
         const Target target = other.object == hit.object ? this->Targets.at(x, y, other) : Target{};
-        return target.ok && this->classOf(target, other, target.pixel, SurfaceSlack) == found;
+        return target.ok && this->classOf(target, other, target.pixel, surfaceSlack) == found;
       });
   }
 
@@ -144,9 +144,9 @@ private:
     const Eye& eye = this->Other.eye();
     const auto near = [](double a, double b, double slack) { return std::abs(a - b) <= slack; };
     const double z = target.there.z();
-    return near(target.pixel.x(), 0, BorderSlack) || near(target.pixel.x(), eye.width(), BorderSlack) ||
-           near(target.pixel.y(), 0, BorderSlack) || near(target.pixel.y(), eye.height(), BorderSlack) ||
-           near(z, eye.record().near, SurfaceSlack * z) || near(z, eye.record().far, SurfaceSlack * z);
+    return near(target.pixel.x(), 0, borderSlack) || near(target.pixel.x(), eye.width(), borderSlack) ||
+           near(target.pixel.y(), 0, borderSlack) || near(target.pixel.y(), eye.height(), borderSlack) ||
+           near(z, eye.record().near, surfaceSlack * z) || near(z, eye.record().far, surfaceSlack * z);
   }
 
   Picture& Owner;

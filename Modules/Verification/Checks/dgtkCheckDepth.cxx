@@ -9,7 +9,7 @@ namespace dgtk
 namespace
 {
 /// Part of a matrix's largest entry: the file holds the doubles that the projection is computed in.
-constexpr double MatrixTolerance = 1e-12;
+constexpr double matrixTolerance = 1e-12;
 
 double relative(double found, double expected)
 {
@@ -40,7 +40,7 @@ void checkFile(Picture& picture, const std::string& suffix, Results& results)
         row.add(error, [&] { return depth->offender(x, y, numberText(found), numberText(expected)); });
       }
     });
-  const bool narrow = tolerance != DepthTolerance;
+  const bool narrow = tolerance != wideDepthTolerance;
   results.add({ narrow ? "depth" + suffix : "depth", "relative", { depth->file() } }, meter);
 }
 
@@ -49,7 +49,7 @@ void checkMatrices(Picture& picture, Results& results)
 {
   const PicturePointer depth = picture.image("depth", { ".dgd" });
   const OpenGLMatrices expected = openGLMatrices(picture.eye().view());
-  Meter meter(MatrixTolerance);
+  Meter meter(matrixTolerance);
   const auto compare = [&](const char* name, const Eigen::Matrix4d& found, const Eigen::Matrix4d& right)
   {
     int i = 0;

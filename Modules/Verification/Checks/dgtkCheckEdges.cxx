@@ -11,12 +11,12 @@ namespace dgtk
 
 namespace
 {
-constexpr int ObjectEdge = 255;
-constexpr int DepthEdge = 128;
+constexpr int objectEdge = 255;
+constexpr int depthEdge = 128;
 /// Part of the smaller depth by which neighbours of one surface lie off each other's tangent planes.
-constexpr double Step = 0.01;
+constexpr double depthStep = 0.01;
 /// Part of the depth: as close to the step, either side is right.
-constexpr double StepSlack = 1e-9;
+constexpr double stepSlack = 1e-9;
 
 class EdgeCheck
 {
@@ -64,7 +64,7 @@ private:
   {
     if (this->hit(x, y).object != this->hit(i, j).object)
     {
-      return ObjectEdge;
+      return objectEdge;
     }
     if (this->hit(x, y).object == 0)
     {
@@ -74,14 +74,14 @@ private:
     const Eigen::Vector3d b = this->Owner.point(i, j);
     const double depth = std::min(a.z(), b.z());
     const double least = std::min(this->off(x, y, b), this->off(i, j, a));
-    close = close || std::abs(least - Step * depth) <= StepSlack * depth;
-    return least > Step * depth ? DepthEdge : 0;
+    close = close || std::abs(least - depthStep * depth) <= stepSlack * depth;
+    return least > depthStep * depth ? depthEdge : 0;
   }
 
   /// Where no other file says which surface is meant, any within EdgeReach is right, of a neighbour, too.
   bool isOpen(int x, int y, const Meter& meter) const
   {
-    if (meter.Bad >= Patience || this->Owner.has("triangles"))
+    if (meter.Bad >= usualPatience || this->Owner.has("triangles"))
     {
       return false;
     }

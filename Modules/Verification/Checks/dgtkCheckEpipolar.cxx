@@ -14,12 +14,12 @@ namespace dgtk
 namespace
 {
 /// Pixels: the rounding of places, as the motion's.
-constexpr double EpipolarTolerance = 1e-9;
+constexpr double epipolarTolerance = 1e-9;
 /// Of the scene's size: the rounding of places, divided by the angle between the rays.
-constexpr double TriangulationTolerance = 1e-10;
+constexpr double triangulationTolerance = 1e-10;
 /// Radians: below this angle between the rays, rounding of pixels alone moves a point farther than the tolerance.
-constexpr double LeastAngle = 1e-3;
-constexpr int LastInside = 3; ///< visible, or hidden inside the image
+constexpr double leastAngle = 1e-3;
+constexpr int lastInside = 3; ///< visible, or hidden inside the image
 
 /// Image of a homogeneous point of the first camera's frame in the second image.
 Eigen::Vector3d imageOf(const Eye& first, const Eye& second, const Eigen::Vector3d& x, double w)
@@ -46,7 +46,7 @@ struct PairImages
   bool usable(int x, int y) const
   {
     const double kind = this->classes ? this->classes->at(x, y) : 1;
-    return kind >= 1 && kind <= LastInside && std::isfinite(this->values->at(x, y, 0));
+    return kind >= 1 && kind <= lastInside && std::isfinite(this->values->at(x, y, 0));
   }
 };
 
@@ -67,7 +67,7 @@ PairImages imagesOf(Picture& picture, const Pair& pair)
 
 double sizeOf(const SceneState& state)
 {
-  Eigen::Vector3d least(Infinite, Infinite, Infinite);
+  Eigen::Vector3d least(infinite, infinite, infinite);
   Eigen::Vector3d most = -least;
   for (const Instance& instance : state.instances)
   {
@@ -123,7 +123,7 @@ public:
       const Eigen::Vector3d a = this->Owner.eye().ray(centreOf(x, y)).direction;
       const Eigen::Vector3d b = this->Other.ray(this->Images.values->at2(x, y)).direction;
       const Eigen::Vector3d turned = this->Second_from_first.rotation * a;
-      if (std::atan2(turned.cross(b).norm(), turned.dot(b)) < LeastAngle)
+      if (std::atan2(turned.cross(b).norm(), turned.dot(b)) < leastAngle)
       {
         meter.skip();
         continue;
@@ -181,7 +181,7 @@ void checkEpipolar(Picture& picture, Results& results)
       continue;
     }
     const PairTargets targets(picture, pair);
-    const Meter meter = meterRows(picture.pool(), picture.height(), EpipolarTolerance,
+    const Meter meter = meterRows(picture.pool(), picture.height(), epipolarTolerance,
       [&](int y, Meter& row)
       {
         for (int x = 0; x < picture.width(); ++x)
@@ -213,7 +213,7 @@ void checkTriangulation(Picture& picture, Results& results)
     }
     const Triangulation triangulation(picture, pair, images);
     results.add({ pair.layer, "scene size", { images.values->file() } },
-      meterRows(picture.pool(), picture.height(), TriangulationTolerance,
+      meterRows(picture.pool(), picture.height(), triangulationTolerance,
         [&](int y, Meter& row) { triangulation.row(y, row); }));
   }
 }

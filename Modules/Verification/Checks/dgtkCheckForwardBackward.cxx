@@ -11,13 +11,13 @@ namespace dgtk
 namespace
 {
 /// Pixels, beyond the rounding of float32 files: the loop is as exact as the flow.
-constexpr double LoopTolerance = 1e-9;
+constexpr double loopTolerance = 1e-9;
 /// Square pixels: where the four pixels around a target come from a smaller area, their roundings weigh too much.
-constexpr double LeastArea = 0.02;
+constexpr double leastArea = 0.02;
 /// Roundings of one flow forth and four flows back, which the way through them makes larger.
-constexpr double Roundings = 8;
+constexpr double roundingFactor = 8;
 /// Share: no four pixels may lie on one triangle anywhere, where triangles are as small as pixels.
-constexpr double MostOpenLoops = 1;
+constexpr double mostOpenLoops = 1;
 
 /// The map of the plane of a triangle from the unit square of four pixels' centres to their places in the other image:
 /// what two linear cameras see of a plane is related by one (Heckbert 1989).
@@ -85,7 +85,7 @@ public:
       rounding = std::max(rounding, this->Back.rounding(flow.cwiseAbs().maxCoeff()));
     }
     const SquareToQuad map(corner);
-    return map.area() < LeastArea ? std::nullopt : std::optional(map(p.x() - 0.5 - x, p.y() - 0.5 - y));
+    return map.area() < leastArea ? std::nullopt : std::optional(map(p.x() - 0.5 - x, p.y() - 0.5 - y));
   }
 
 private:
@@ -115,7 +115,7 @@ void checkForwardBackward(Picture& picture, Results& results)
   picture.preparePoints();
   const Surfaces& now = picture.surfaces();
   const WayBack wayBack(*back, later.surfaces());
-  const Meter meter = meterRows(picture.pool(), picture.height(), LoopTolerance,
+  const Meter meter = meterRows(picture.pool(), picture.height(), loopTolerance,
     [&](int y, Meter& row)
     {
       for (int x = 0; x < picture.width(); ++x)
@@ -133,7 +133,7 @@ void checkForwardBackward(Picture& picture, Results& results)
           row.skip();
           continue;
         }
-        const double error = (*returned - centreOf(x, y)).norm() - Roundings * rounding;
+        const double error = (*returned - centreOf(x, y)).norm() - roundingFactor * rounding;
         row.add(std::max(0.0, error) / picture.eye().farness(picture.point(x, y).z()),
           [&]
           {
@@ -142,7 +142,7 @@ void checkForwardBackward(Picture& picture, Results& results)
           });
       }
     });
-  results.add({ "flow", "pixel", { forward->file(), back->file() }, MostOpenLoops }, meter);
+  results.add({ "flow", "pixel", { forward->file(), back->file() }, mostOpenLoops }, meter);
 }
 
 } // namespace dgtk

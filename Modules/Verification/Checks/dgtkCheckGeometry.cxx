@@ -11,7 +11,7 @@ namespace dgtk
 
 namespace
 {
-constexpr double Nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A seen surface point.
 struct Point
@@ -85,11 +85,11 @@ double objectCoordinatesOf(const Point& p, const double* found, double* expected
 }
 
 /// Sine of the smallest angle of a triangle below which its normal has no digits to compare.
-constexpr double SliverSine = 1e-6;
+constexpr double sliverSine = 1e-6;
 /// Cosine between a normal and the ray below which the side that is seen is a matter of rounding.
-constexpr double LeastCosine = 1e-9;
+constexpr double leastCosine = 1e-9;
 /// Length of the sum of the corners' normals below which it has no direction to compare.
-constexpr double LeastNormal = 1e-3;
+constexpr double leastNormal = 1e-3;
 
 double normalOf(const Point& p, const double* found, double* expected)
 {
@@ -102,7 +102,7 @@ double normalOf(const Point& p, const double* found, double* expected)
   const Eigen::Vector3d direction = p.sight.eye().ray(p.pixel).direction.normalized();
   const double cosine = unit.dot(direction);
   put(cosine > 0 ? Eigen::Vector3d(-unit) : unit, expected);
-  if (!(n.norm() > SliverSine * longest) || !(std::abs(cosine) > LeastCosine))
+  if (!(n.norm() > sliverSine * longest) || !(std::abs(cosine) > leastCosine))
   {
     return -1;
   }
@@ -127,7 +127,7 @@ double shadingNormalOf(const Point& p, const double* found, double* expected)
   const double cosine = (turn * front).stableNormalized().dot(p.sight.eye().ray(p.pixel).direction.normalized());
   put(cosine > 0 ? Eigen::Vector3d(-unit) : unit, expected);
   // Normals that cancel each other, a flattened object, a triangle seen from its edge.
-  if (!(sum.norm() > LeastNormal) || !unit.allFinite() || !(std::abs(cosine) > LeastCosine))
+  if (!(sum.norm() > leastNormal) || !unit.allFinite() || !(std::abs(cosine) > leastCosine))
   {
     return -1;
   }
@@ -139,8 +139,8 @@ double uvOf(const Point& p, const double* found, double* expected)
   const Model& model = *p.sight.instance(p.hit.object).model;
   if (model.uvs.empty())
   {
-    expected[0] = expected[1] = Nan;
-    return std::isnan(found[0]) && std::isnan(found[1]) ? 0 : Infinite;
+    expected[0] = expected[1] = nan;
+    return std::isnan(found[0]) && std::isnan(found[1]) ? 0 : infinite;
   }
   const auto& triangle = model.triangles[p.hit.triangle];
   const Eigen::Vector3d weight = p.sight.weights(p.hit, p.x_in_camera);
@@ -168,19 +168,19 @@ double barycentricsOf(const Point& p, const double* found, double* expected)
 
 /// Of float64 files, as of depth. Of float32 files one rounding of 6e-8, or some of several channels, which the way
 /// from an object's frame to the camera's adds up.
-constexpr double Wide = 1e-9;
-constexpr double OneRounding = 1e-7;
-constexpr double SomeRoundings = 1e-6;
+constexpr double wide = 1e-9;
+constexpr double oneRounding = 1e-7;
+constexpr double someRoundings = 1e-6;
 
-constexpr GeometryLayer Layers[] = {
-  { "distance", 1, Wide, OneRounding, "relative", Infinite, distanceOf },
-  { "inversedepth", 1, Wide, OneRounding, "relative", 0, inverseDepthOf },
-  { "position", 3, Wide, OneRounding, "relative", Nan, positionOf },
-  { "objectcoords", 3, Wide, SomeRoundings, "relative", Nan, objectCoordinatesOf },
-  { "normal", 3, OneRounding, OneRounding, "1", Nan, normalOf },
-  { "shadingnormal", 3, Wide, OneRounding, "1", Nan, shadingNormalOf },
-  { "uv", 2, Wide, OneRounding, "1", Nan, uvOf },
-  { "barycentrics", 3, Wide, SomeRoundings, "relative", Nan, barycentricsOf },
+constexpr GeometryLayer layers[] = {
+  { "distance", 1, wide, oneRounding, "relative", infinite, distanceOf },
+  { "inversedepth", 1, wide, oneRounding, "relative", 0, inverseDepthOf },
+  { "position", 3, wide, oneRounding, "relative", nan, positionOf },
+  { "objectcoords", 3, wide, someRoundings, "relative", nan, objectCoordinatesOf },
+  { "normal", 3, oneRounding, oneRounding, "1", nan, normalOf },
+  { "shadingnormal", 3, wide, oneRounding, "1", nan, shadingNormalOf },
+  { "uv", 2, wide, oneRounding, "1", nan, uvOf },
+  { "barycentrics", 3, wide, someRoundings, "relative", nan, barycentricsOf },
 };
 
 bool isInvalid(const double* found, const GeometryLayer& layer)
@@ -220,7 +220,7 @@ void checkPixel(Picture& picture, const Surfaces& surfaces, const PictureFile& f
            picture.eye().farness(point.z());
   };
   double error = measure(hit);
-  if (!(error <= meter.Tolerance) && meter.Bad < Patience)
+  if (!(error <= meter.Tolerance) && meter.Bad < usualPatience)
   {
     // Beside an edge the files may show the neighbour.
     for (const Hit& neighbour : picture.nearby(x, y))
@@ -240,7 +240,7 @@ void checkPixel(Picture& picture, const Surfaces& surfaces, const PictureFile& f
 
 void checkGeometry(Picture& picture, Results& results)
 {
-  for (const GeometryLayer& layer : Layers)
+  for (const GeometryLayer& layer : layers)
   {
     for (const char* suffix : { ".npy", ".exr", ".pfm" })
     {

@@ -13,7 +13,7 @@ namespace dgtk
 
 namespace
 {
-constexpr std::size_t RecordBytes = 16;
+constexpr std::size_t recordBytes = 16;
 
 /// A .ldi file, taken apart here from the description of its bytes.
 class LdiFile
@@ -31,12 +31,12 @@ public:
     for (std::size_t i = 0; i < std::size_t(width) * height; ++i)
     {
       this->Starts.push_back(at);
-      const std::size_t left = at + 4 <= this->Bytes.size() ? (this->Bytes.size() - at - 4) / RecordBytes : 0;
+      const std::size_t left = at + 4 <= this->Bytes.size() ? (this->Bytes.size() - at - 4) / recordBytes : 0;
       if (at + 4 > this->Bytes.size() || this->number<std::uint32_t>(at) > left)
       {
         throw InputError(path, 0, "ends at byte " + std::to_string(this->Bytes.size()) + " within a pixel");
       }
-      at += 4 + RecordBytes * this->number<std::uint32_t>(at);
+      at += 4 + recordBytes * this->number<std::uint32_t>(at);
     }
     if (at != this->Bytes.size())
     {
@@ -46,11 +46,11 @@ public:
   std::size_t count(int x, int y) const { return this->number<std::uint32_t>(this->start(x, y)); }
   double depth(int x, int y, std::size_t i) const
   {
-    return this->number<double>(this->start(x, y) + 4 + RecordBytes * i + 4);
+    return this->number<double>(this->start(x, y) + 4 + recordBytes * i + 4);
   }
   int color(int x, int y, std::size_t i, int channel) const
   {
-    return static_cast<unsigned char>(this->Bytes[this->start(x, y) + 4 + RecordBytes * i + channel]);
+    return static_cast<unsigned char>(this->Bytes[this->start(x, y) + 4 + recordBytes * i + channel]);
   }
 
 private:
@@ -84,7 +84,7 @@ public:
     std::vector<double> depths;
     this->Owner.sight().surfaces(centreOf(x, y), hits, depths);
     const std::string problem = this->problem(x, y, depths);
-    if (!problem.empty() && meter.Bad < Patience && this->isOpen(x, y))
+    if (!problem.empty() && meter.Bad < usualPatience && this->isOpen(x, y))
     {
       meter.skip();
       return;
@@ -110,7 +110,7 @@ public:
 
   void firstDepth(const PictureFile& depth, int x, int y, Meter& meter) const
   {
-    const double found = this->Ldi.count(x, y) > 0 ? this->Ldi.depth(x, y, 0) : Infinite;
+    const double found = this->Ldi.count(x, y) > 0 ? this->Ldi.depth(x, y, 0) : infinite;
     const double expected = depth.at(x, y);
     meter.add(found == expected ? 0 : found - expected,
       [&] {
@@ -168,15 +168,15 @@ private:
       Hit hit;
       int rays = 0;
     };
-    constexpr int Rays = 81; // the centre's and five rings of 16: slivers are thinner than the reach
+    constexpr int raysAround = 81; // the centre's and five rings of 16: slivers are thinner than the reach
     constexpr double sixteenth = 0.39269908169872414;
     std::vector<Nearby> all;
     std::vector<Hit> hits;
     std::vector<double> depths;
-    for (int i = 0; i < Rays; ++i)
+    for (int i = 0; i < raysAround; ++i)
     {
       const Eigen::Vector2d offset(std::cos(i * sixteenth), std::sin(i * sixteenth));
-      this->Owner.sight().surfaces(centreOf(x, y) + EdgeReach * ((i + 15) / 16) / 5 * offset, hits, depths);
+      this->Owner.sight().surfaces(centreOf(x, y) + edgeReach * ((i + 15) / 16) / 5 * offset, hits, depths);
       for (const Hit& hit : hits)
       {
         auto known = std::find_if(all.begin(), all.end(), [&](const Nearby& n) { return n.hit == hit; });
@@ -191,7 +191,7 @@ private:
     for (const Nearby& nearby : all)
     {
       possible.push_back(this->Owner.sight().depthOf(nearby.hit, centreOf(x, y)));
-      complete = complete && (nearby.rays < Rays || this->hasRecord(x, y, possible.back()));
+      complete = complete && (nearby.rays < raysAround || this->hasRecord(x, y, possible.back()));
     }
     for (std::size_t i = 0; i < this->Ldi.count(x, y); ++i)
     {
@@ -215,7 +215,7 @@ private:
 
   bool isClose(double a, double b) const
   {
-    return std::abs(a - b) <= DepthTolerance * this->Owner.eye().farness(b) * b;
+    return std::abs(a - b) <= wideDepthTolerance * this->Owner.eye().farness(b) * b;
   }
 
   Picture& Owner;

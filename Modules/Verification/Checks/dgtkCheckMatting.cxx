@@ -10,11 +10,11 @@ namespace dgtk
 
 namespace
 {
-constexpr std::uint64_t Full = 65535;
-constexpr int Object = 255;
-constexpr int Unknown = 128;
+constexpr std::uint64_t full = 65535;
+constexpr int trimapObject = 255;
+constexpr int trimapUnknown = 128;
 /// Pixels around which the trimap is unknown.
-constexpr int Band = 2;
+constexpr int band = 2;
 
 struct MattingSet
 {
@@ -42,9 +42,9 @@ void checkComposite(const MattingSet& set, int x, int y, Meter& meter)
   const std::uint64_t alpha = number(set.alpha, 0);
   for (int c = 0; c < 3; ++c)
   {
-    const std::uint64_t sum = alpha * number(set.foreground, c) + (Full - alpha) * number(set.background, c);
+    const std::uint64_t sum = alpha * number(set.foreground, c) + (full - alpha) * number(set.background, c);
     const double found = set.composite->at(x, y, c);
-    const auto expected = double((sum + Full / 2) / Full);
+    const auto expected = double((sum + full / 2) / full);
     meter.add(found - expected, [&] { return set.composite->offender(x, y, numberText(found), numberText(expected)); });
   }
 }
@@ -52,27 +52,27 @@ void checkComposite(const MattingSet& set, int x, int y, Meter& meter)
 /// The share of the object's samples, counted anew: all divided pixels, and some of the others.
 void checkAlpha(const MattingSet& set, const Samples& samples, int x, int y, Meter& meter)
 {
-  const double alpha = set.alpha->at(x, y) / double(Full);
+  const double alpha = set.alpha->at(x, y) / double(full);
   if ((alpha == 0 || alpha == 1) && !Samples::isChosen(x, y))
   {
     return;
   }
-  constexpr double rounding = 0.5 / double(Full);
+  constexpr double rounding = 0.5 / double(full);
   samples.compare(x, y, set.id, alpha, rounding, meter,
     [&](double expected) { return set.alpha->offender(x, y, numberText(alpha), numberText(expected)); });
 }
 
-int trimapOf(double alpha) { return alpha == double(Full) ? Object : alpha == 0 ? 0 : Unknown; }
+int trimapOf(double alpha) { return alpha == double(full) ? trimapObject : alpha == 0 ? 0 : trimapUnknown; }
 
 /// Unknown unless alpha says the same, wholly, of all pixels around.
 void checkTrimap(const MattingSet& set, int x, int y, Meter& meter)
 {
   int expected = trimapOf(set.alpha->at(x, y));
-  for (int j = std::max(0, y - Band); j <= std::min(set.alpha->height() - 1, y + Band); ++j)
+  for (int j = std::max(0, y - band); j <= std::min(set.alpha->height() - 1, y + band); ++j)
   {
-    for (int i = std::max(0, x - Band); i <= std::min(set.alpha->width() - 1, x + Band); ++i)
+    for (int i = std::max(0, x - band); i <= std::min(set.alpha->width() - 1, x + band); ++i)
     {
-      expected = trimapOf(set.alpha->at(i, j)) == expected ? expected : Unknown;
+      expected = trimapOf(set.alpha->at(i, j)) == expected ? expected : trimapUnknown;
     }
   }
   const int found = static_cast<int>(set.trimap->at(x, y));
@@ -111,7 +111,7 @@ void checkMatting(Picture& picture, Results& results)
     if (set.alpha && set.id > 0)
     {
       const Samples samples(picture);
-      measure({ layer + " alpha", "coverage", { set.alpha->file() }, MostOpenSamples }, CoverageTolerance,
+      measure({ layer + " alpha", "coverage", { set.alpha->file() }, mostOpenSamples }, coverageTolerance,
         [&](int x, int y, Meter& meter) { checkAlpha(set, samples, x, y, meter); });
     }
     if (set.alpha && set.trimap)

@@ -12,9 +12,9 @@ namespace
 {
 /// Pixels, beyond the rounding of float32 files: places of some 1000 pixels have 1e-13 in double precision, and lose
 /// some digits on the way from one camera and frame to the other.
-constexpr double MotionTolerance = 1e-9;
+constexpr double motionTolerance = 1e-9;
 /// Part of the depth: nearer to the plane of the other camera, whether a point projects is a matter of rounding.
-constexpr double PlaneSlack = 1e-9;
+constexpr double planeSlack = 1e-9;
 
 int channelsOf(PairKind kind)
 {
@@ -44,7 +44,7 @@ public:
     }
     const Hit& own = this->Targets.hit(x, y);
     double error = this->measure(x, y, own, found, expected);
-    if (!(error <= meter.Tolerance) && own.object != 0 && meter.Bad < Patience)
+    if (!(error <= meter.Tolerance) && own.object != 0 && meter.Bad < usualPatience)
     {
       // Beside an edge of a deforming model the files may follow the neighbour.
       for (const Hit& neighbour : this->Owner.nearby(x, y))
@@ -77,15 +77,15 @@ private:
     if (!exists)
     {
       std::fill(expected, expected + 3, std::nan(""));
-      const bool near = target.surface && std::abs(target.there.z()) <= PlaneSlack * target.here.z();
-      return near ? -1 : std::all_of(found, found + 3, [](double v) { return std::isnan(v); }) ? 0 : Infinite;
+      const bool near = target.surface && std::abs(target.there.z()) <= planeSlack * target.here.z();
+      return near ? -1 : std::all_of(found, found + 3, [](double v) { return std::isnan(v); }) ? 0 : infinite;
     }
     this->derive(x, y, target, expected);
     double error = 0;
     for (int c = 0; c < this->Channels; ++c)
     {
       const double difference = std::abs(found[c] - expected[c]);
-      error = std::isnan(difference) ? Infinite : std::max(error, difference - this->File.rounding(found[c]));
+      error = std::isnan(difference) ? infinite : std::max(error, difference - this->File.rounding(found[c]));
     }
     return error / this->scale(target) / this->Owner.eye().farness(target.here.z()) /
            (this->ThePair.kind == PairKind::Motion ? 1 : this->ThePair.other->eye().farness(target.there.z()));
@@ -150,7 +150,7 @@ void checkMotion(Picture& picture, Results& results)
         continue;
       }
       const MotionCheck check(picture, pair, *file);
-      const Meter meter = meterRows(picture.pool(), picture.height(), MotionTolerance,
+      const Meter meter = meterRows(picture.pool(), picture.height(), motionTolerance,
         [&](int y, Meter& row)
         {
           for (int x = 0; x < picture.width(); ++x)

@@ -9,7 +9,7 @@ namespace dgtk
 namespace
 {
 /// Value of parts and triangles where there is nothing; a 16-bit file cannot hold it.
-constexpr std::uint32_t NoId = 0xFFFFFFFFu;
+constexpr std::uint32_t noId = 0xFFFFFFFFu;
 
 using IdOf = std::function<std::uint32_t(const Hit&)>;
 
@@ -55,11 +55,11 @@ void checkObjects(Picture& picture, Results& results)
       picture, "objects", suffix, [](const Hit& hit) { return hit.object; }, results);
     checkFile(
       picture, "parts", suffix,
-      [&](const Hit& hit) { return hit.object == 0 ? NoId : model(hit).partOf(hit.triangle); }, results);
+      [&](const Hit& hit) { return hit.object == 0 ? noId : model(hit).partOf(hit.triangle); }, results);
     checkFile(
       picture, "triangles", suffix,
       [&](const Hit& hit) {
-        return hit.object == 0 ? NoId : hit.triangle - model(hit).parts[model(hit).partOf(hit.triangle)].firstTriangle;
+        return hit.object == 0 ? noId : hit.triangle - model(hit).parts[model(hit).partOf(hit.triangle)].firstTriangle;
       },
       results);
   }

@@ -70,7 +70,7 @@ void checkMasks(
     {
       constexpr double eighth = 0.78539816339744831;
       const Eigen::Vector2d offset(std::cos(i * eighth), std::sin(i * eighth));
-      if (contains(objectsAlong(picture.sight(), centreOf(x, y) + EdgeReach * offset), id) == found)
+      if (contains(objectsAlong(picture.sight(), centreOf(x, y) + edgeReach * offset), id) == found)
       {
         return true;
       }
@@ -86,7 +86,7 @@ void checkMasks(
         for (std::uint32_t id = 1; id <= objects; ++id)
         {
           const bool found = masks.inside(id, x, y);
-          if (found != contains(along, id) && meter.Bad < Patience && isOpen(x, y, id, found))
+          if (found != contains(along, id) && meter.Bad < usualPatience && isOpen(x, y, id, found))
           {
             meter.skip();
             continue;

@@ -18,20 +18,20 @@ namespace
 {
 /// Pixels: places are taken from points in the world, whose rounding grows with the distance from its origin; a ground
 /// plane of 1e5 needs 1e-9.
-constexpr double TrackTolerance = 1e-8;
+constexpr double trackTolerance = 1e-8;
 /// Part of the depth.
-constexpr double SurfaceTolerance = 1e-9;
+constexpr double surfaceTolerance = 1e-9;
 /// Part of the depth, and directions, within which a silhouette leaves visibility open.
-constexpr double SilhouetteReach = 1e-4;
-constexpr std::size_t PlyVertexBytes = 47;
+constexpr double silhouetteReach = 1e-4;
+constexpr std::size_t plyVertexBytes = 47;
 /// One rounding of float32.
-constexpr double NormalTolerance = 1e-7;
+constexpr double normalTolerance = 1e-7;
 /// Of 8 bits: rounding to the nearest, either way in the middle.
-constexpr double ColorTolerance = 0.5 + 1e-6;
+constexpr double colorTolerance = 0.5 + 1e-6;
 /// Texels: as close to the border of two, either is right.
-constexpr double TexelSlack = 1e-6;
+constexpr double texelSlack = 1e-6;
 /// Share: on a surface seen straight on, many points may lie on borders.
-constexpr double MostOpenTexels = 0.5;
+constexpr double mostOpenTexels = 0.5;
 
 struct TrackPoint
 {
@@ -139,7 +139,7 @@ public:
     for (const TrackPoint& track : this->isSound(point) ? point.track : std::vector<TrackPoint>{})
     {
       const Sight& sight = *this->Sights[track.camera];
-      const bool seen = this->isSeen(sight, point, track.pixel, SurfaceTolerance);
+      const bool seen = this->isSeen(sight, point, track.pixel, surfaceTolerance);
       if (!seen && this->isOpen(sight, point, track.pixel))
       {
         meter.skip();
@@ -158,7 +158,7 @@ public:
     const std::string bytes = readFile(dataset.absolute(file));
     const std::string mark = "end_header\n";
     const std::size_t header = bytes.find(mark);
-    const std::size_t expected = this->Points.size() * PlyVertexBytes;
+    const std::size_t expected = this->Points.size() * plyVertexBytes;
     const std::size_t start = header == std::string::npos ? bytes.size() : header + mark.size();
     meter.equal(bytes.size() - start == expected,
       [&]
@@ -168,7 +168,7 @@ public:
       });
     for (std::size_t i = 0; bytes.size() - start == expected && i < this->Points.size(); ++i)
     {
-      const char* vertex = bytes.data() + start + i * PlyVertexBytes;
+      const char* vertex = bytes.data() + start + i * plyVertexBytes;
       Eigen::Vector3d x;
       Hit hit;
       std::memcpy(x.data(), vertex, 24);
@@ -228,7 +228,7 @@ private:
       const Image& image = *model.textures[material.texture].image;
       const Eigen::Array2d size(image.width, image.height);
       const Eigen::Array2d texel = uv.array() * size;
-      if (!((texel - texel.round()).abs() > TexelSlack).all())
+      if (!((texel - texel.round()).abs() > texelSlack).all())
       {
         meter.skip();
         return;
@@ -280,12 +280,12 @@ private:
   bool isOpen(const Sight& sight, const CloudPoint& point, const Eigen::Vector2d& pixel) const
   {
     const double unit = sight.eye().pinhole() ? 1 : sight.eye().toCamera(point.x).z();
-    const Eigen::Vector2d reach = SilhouetteReach * unit * sight.eye().record().K.diagonal().head<2>();
+    const Eigen::Vector2d reach = silhouetteReach * unit * sight.eye().record().K.diagonal().head<2>();
     for (int i = 0; i <= 16; ++i)
     {
       constexpr double sixteenth = 0.39269908169872414;
       const Eigen::Vector2d direction(std::cos(i * sixteenth), std::sin(i * sixteenth));
-      if (this->isSeen(sight, point, pixel + (i == 16 ? 0.0 : 1.0) * reach.cwiseProduct(direction), SilhouetteReach))
+      if (this->isSeen(sight, point, pixel + (i == 16 ? 0.0 : 1.0) * reach.cwiseProduct(direction), silhouetteReach))
       {
         return true;
       }
@@ -308,19 +308,19 @@ void checkCloud(Dataset& dataset, const std::string& file, int frame, Results& r
     return meterRows(dataset.pool(), points, tolerance,
       [&](int i, Meter& meter) { (check.*body)(static_cast<std::size_t>(i), meter); });
   };
-  results.add({ "tracks", "pixel", { file } }, measure(TrackTolerance, &CloudCheck::reproject));
-  results.add({ "surface", "relative", { file } }, measure(SurfaceTolerance, &CloudCheck::onSurface));
+  results.add({ "tracks", "pixel", { file } }, measure(trackTolerance, &CloudCheck::reproject));
+  results.add({ "surface", "relative", { file } }, measure(surfaceTolerance, &CloudCheck::onSurface));
   results.add({ "visible", "", { file } }, measure(0, &CloudCheck::visible));
   const std::string ply = dataset.find("", "points", frame, { ".ply" });
   if (!ply.empty())
   {
     Meter meter(0);
-    Meter normals(NormalTolerance);
-    Meter colors(ColorTolerance);
+    Meter normals(normalTolerance);
+    Meter colors(colorTolerance);
     check.ply(dataset, ply, meter, normals, colors);
     results.add({ "ply", "", { ply } }, meter);
     results.add({ "normals", "1", { ply } }, normals);
-    results.add({ "colors", "1/255", { ply }, MostOpenTexels }, colors);
+    results.add({ "colors", "1/255", { ply }, mostOpenTexels }, colors);
   }
 }
 } // namespace

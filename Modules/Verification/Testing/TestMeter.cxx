@@ -30,7 +30,7 @@ TEST(Meter, WhatIsNoNumberIsInfinitelyWrong)
   Meter meter(1e300);
   meter.add(std::nan(""), [] { return at(0, 0); });
   EXPECT_EQ(meter.Bad, 1u);
-  EXPECT_EQ(meter.Largest, Infinite);
+  EXPECT_EQ(meter.Largest, infinite);
 }
 
 TEST(Meter, RowsAreTheSameForAnyThreads)
@@ -107,8 +107,8 @@ TEST(Numbers, AreTheShortestTextThatReadsBack)
   const double values[] = { 0.1, -2, 1e300 };
   EXPECT_EQ(numbersText(values, 3), "(0.1, -2, 1e+300)");
   EXPECT_EQ(numbersText(values, 1), "0.1");
-  EXPECT_EQ(numberText(Infinite), "inf");
-  EXPECT_EQ(numberText(-Infinite), "-inf");
+  EXPECT_EQ(numberText(infinite), "inf");
+  EXPECT_EQ(numberText(-infinite), "-inf");
   EXPECT_EQ(numberText(std::nan("")), "nan");
 }
 

@@ -15,7 +15,7 @@ using namespace dgtk::test;
 namespace
 {
 /// Relative error of t that is promised.
-constexpr double Promised = 1e-12;
+constexpr double promisedError = 1e-12;
 
 /// A buffer that names one triangle everywhere.
 dgtk::VisibilityBuffer everywhere(const dgtk::View& view, const dgtk::Hit& hit)
@@ -45,7 +45,7 @@ ReferenceErrors check(const dgtk::SceneState& state, const dgtk::View& view, dou
   const dgtk::VisibilityBuffer buffer = bruteForce(state, view);
   const ReferenceErrors errors = errorsOf(surface(state, view, buffer));
   EXPECT_GT(errors.pixels, view.model->width() * view.model->height() / 20);
-  EXPECT_LE(errors.t, Promised);
+  EXPECT_LE(errors.t, promisedError);
   EXPECT_LE(errors.barycentrics, barycentricLimit);
   std::printf(
     "  %d pixels, relative error of t %.1e, of barycentrics %.1e\n", errors.pixels, errors.t, errors.barycentrics);
@@ -86,12 +86,12 @@ TEST(SurfaceRows, GroundPlaneUpToTheHorizon) // near 0.1, far 100,000; closed fo
     const double slope = ((i / 31) + 0.5 - 1000.5) / view.model->linear()->K(1, 1);
     if (buffer.hits[i].object)
     {
-      ASSERT_LE(std::abs(rows.t[i] - height / slope), Promised * height / slope);
+      ASSERT_LE(std::abs(rows.t[i] - height / slope), promisedError * height / slope);
       farthest = std::max(farthest, rows.t[i]);
     }
   }
   EXPECT_GT(farthest, 5e4);
-  EXPECT_LE(errorsOf(rows).t, Promised);
+  EXPECT_LE(errorsOf(rows).t, promisedError);
 }
 
 TEST(SurfaceRows, TiltedCameraOverAnEnormousPlane)
@@ -124,7 +124,7 @@ TEST(SurfaceRows, LowAboveEnormousPlanes)
                          .state();
     const dgtk::VisibilityBuffer buffer = bruteForce(*state, view);
     const dgtk::SurfaceRows rows = surface(*state, view, buffer);
-    EXPECT_LE(errorsOf(rows).t, Promised) << height << ' ' << turn;
+    EXPECT_LE(errorsOf(rows).t, promisedError) << height << ' ' << turn;
     dgtk::View lens = view;
     lens.model = hideLinear(view.model);
     const dgtk::SurfaceRows general = surface(*state, lens, buffer);
@@ -132,7 +132,8 @@ TEST(SurfaceRows, LowAboveEnormousPlanes)
     {
       if (buffer.hits[i].object && rows.t[i] < 100) // farther away, roundings of the ray count
       {
-        ASSERT_LE(std::abs(general.t[i] - rows.t[i]), 2 * Promised * rows.t[i]) << i << ' ' << height << ' ' << turn;
+        ASSERT_LE(std::abs(general.t[i] - rows.t[i]), 2 * promisedError * rows.t[i])
+          << i << ' ' << height << ' ' << turn;
       }
     }
   };
