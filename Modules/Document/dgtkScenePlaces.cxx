@@ -2,6 +2,7 @@
 #include "dgtkScenePlaces.h"
 
 #include "dgtkError.h"
+#include "dgtkObjectPoses.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -20,50 +21,6 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double atEye = 1e-6;      // world units; nearer cameras and lights are at the eye itself
 constexpr double sameCenter = 1e-6; // of a box's diagonal: what single-precision files leave of a centred model
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// World from object of all objects: parents are placed before their children.
-class Matrices
-{
-public:
-  Matrices(const SceneDescription& scene, double frame)
-    : Scene(scene)
-    , Frame(frame)
-    , World(scene.objects.size())
-    , Known(scene.objects.size(), 0)
-  {
-    for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    {
-      this->Index[scene.objects[i].name] = i;
-    }
-  }
-
-  Affine3 ofParent(std::size_t i)
-  {
-    const std::string& parent = this->Scene.objects[i].parent;
-    return parent.empty() ? Affine3{} : this->of(this->Index.at(parent));
-  }
-
-  const Affine3& of(std::size_t i)
-  {
-    if (!this->Known[i])
-    {
-      const ObjectDescription& object = this->Scene.objects[i];
-      const Eigen::Vector3d scale = object.scale.at(this->Frame);
-      const Affine3 local{ object.orientation.at(this->Frame).matrix() * scale.asDiagonal(),
-        object.position.at(this->Frame) };
-      this->World[i] = this->ofParent(i) * local;
-      this->Known[i] = 1;
-    }
-    return this->World[i];
-  }
-
-private:
-  const SceneDescription& Scene;
-  double Frame;
-  std::vector<Affine3> World;
-  std::vector<char> Known;
-  std::unordered_map<std::string, std::size_t> Index;
-};
 
 /// Boxes of geometries in their own axes, each computed once.
 class Boxes
@@ -246,15 +203,17 @@ ScenePlaces placeScene(const SceneDescription& scene, const ModelLibrary& models
   ScenePlaces places;
   places.frame = frame;
   places.surroundings = surroundingsOf(scene, models, frame);
-  Matrices matrices(scene, frame);
+  const ObjectPoses poses(scene);
+  const std::vector<Affine3> world = poses.at(frame);
   Boxes boxes;
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
   {
     ObjectPlace place;
     place.instance = models.at(scene, scene.objects[i], frame);
     place.instance.name = scene.objects[i].name;
-    place.instance.world_from_object = matrices.of(i);
-    place.world_from_parent = matrices.ofParent(i);
+    place.instance.world_from_object = world[i];
+    const std::size_t parent = poses.parentOf(i);
+    place.world_from_parent = parent == ObjectPoses::noParent ? Affine3{} : world[parent];
     place.visible = scene.objects[i].visible;
     place.center = place.instance.world_from_object.translation;
     if (place.instance.geometry != nullptr)

@@ -3,15 +3,15 @@
 
 #include "dgtkError.h"
 #include "dgtkModelClock.h"
+#include "dgtkObjectPoses.h"
 #include "dgtkStageModels.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <deque>
-#include <limits>
 #include <mutex>
-#include <unordered_map>
+#include <optional>
 #include <utility>
 
 namespace dgtk
@@ -22,16 +22,6 @@ namespace
 constexpr int usualWidth = 640;
 constexpr int usualHeight = 480;
 constexpr std::size_t keptStates = 4;
-constexpr std::size_t noParent = std::numeric_limits<std::size_t>::max();
-
-/// What stays the same about an object at all frames.
-struct Actor
-{
-  std::size_t parent = noParent; ///< index of an object
-  bool moves = false;            ///< it or one of its ancestors has key frames
-  bool present = false;          ///< has an id
-  Affine3 world_from_object;     ///< of one that does not move
-};
 
 std::string textOf(double frame)
 {
@@ -198,8 +188,10 @@ struct Stage::Impl
   }
 
   void take(const ModelSource& models);
-  void makeActors();
-  Affine3 localAt(std::size_t object, double frame) const;
+  void checkObjects() const;
+  void checkScale(const ObjectDescription& object, double frame) const;
+  /// It has an id.
+  bool isPresent(std::size_t object) const;
   std::shared_ptr<const SceneState> compute(double frame);
 
   SceneDescription Scene;
@@ -207,8 +199,7 @@ struct Stage::Impl
   std::shared_ptr<const EnvironmentState> Environment;
   std::vector<std::shared_ptr<const Model>> Models; ///< in the order of their first use
   std::vector<std::string> Files;
-  std::vector<Actor> Actors;
-  std::vector<std::size_t> ParentsFirst; ///< objects, each after its parent
+  std::optional<ObjectPoses> Poses;
   std::shared_ptr<GeometryCache> Geometries;
 
   // The latest states: the cameras of a frame, and what looks a frame ahead and back, ask for the same ones.
@@ -224,77 +215,50 @@ void Stage::Impl::take(const ModelSource& models)
   }
   this->Environment = models.environment(this->Scene);
   this->Geometries = models.geometries();
-  this->makeActors();
+  this->checkObjects();
+  this->Poses.emplace(this->Scene);
 }
 
-void Stage::Impl::makeActors()
+void Stage::Impl::checkObjects() const
 {
-  std::unordered_map<std::string, std::size_t> index;
-  for (std::size_t i = 0; i < this->Scene.objects.size(); ++i)
-  {
-    index[this->Scene.objects[i].name] = i;
-  }
-  this->Actors.resize(this->Scene.objects.size());
-  std::vector<char> done(this->Actors.size(), 0);
-  for (std::size_t i = 0; i < this->Actors.size(); ++i)
-  {
-    // Up to an ancestor that is placed already, then back down.
-    std::vector<std::size_t> chain;
-    for (std::size_t at = i; at != noParent && !done[at]; at = this->Actors[at].parent)
-    {
-      const std::string& parent = this->Scene.objects[at].parent;
-      this->Actors[at].parent = parent.empty() ? noParent : index.at(parent);
-      chain.push_back(at);
-      done[at] = 1;
-    }
-    this->ParentsFirst.insert(this->ParentsFirst.end(), chain.rbegin(), chain.rend());
-  }
-  for (const std::size_t i : this->ParentsFirst)
+  for (std::size_t i = 0; i < this->Looks.size(); ++i)
   {
     const ObjectDescription& object = this->Scene.objects[i];
-    const Model* const model = this->Looks[i].model.get();
-    Actor& actor = this->Actors[i];
-    const bool root = actor.parent == noParent;
-    actor.moves = object.position.animated() || object.orientation.animated() || object.scale.animated() ||
-                  (!root && this->Actors[actor.parent].moves);
-    actor.present = object.visible && model != nullptr && !model->triangles.empty();
-    if (model != nullptr && !this->Looks[i].standsIn)
+    if (this->Looks[i].model != nullptr && !this->Looks[i].standsIn)
     {
-      findAnimation(this->Scene, object, *model);
+      findAnimation(this->Scene, object, *this->Looks[i].model);
     }
-    if (!actor.moves)
+    if (!object.scale.animated())
     {
-      const Affine3 local = this->localAt(i, 0);
-      actor.world_from_object = root ? local : this->Actors[actor.parent].world_from_object * local;
+      this->checkScale(object, 0);
     }
   }
 }
 
-Affine3 Stage::Impl::localAt(std::size_t index, double frame) const
+void Stage::Impl::checkScale(const ObjectDescription& object, double frame) const
 {
-  const ObjectDescription& object = this->Scene.objects[index];
-  const Eigen::Vector3d scale = object.scale.at(frame);
-  if ((scale.array() == 0).any())
+  if ((object.scale.at(frame).array() == 0).any())
   {
     failObject(this->Scene, object, "scale passes through 0", "another interpolation", "frame " + textOf(frame));
   }
-  return { object.orientation.at(frame).matrix() * scale.asDiagonal(), object.position.at(frame) };
+}
+
+bool Stage::Impl::isPresent(std::size_t object) const
+{
+  const Model* const model = this->Looks[object].model.get();
+  return this->Scene.objects[object].visible && model != nullptr && !model->triangles.empty();
 }
 
 std::shared_ptr<const SceneState> Stage::Impl::compute(double frame)
 {
-  std::vector<Affine3> world(this->Actors.size());
-  for (const std::size_t i : this->ParentsFirst)
+  for (const ObjectDescription& object : this->Scene.objects)
   {
-    const Actor& actor = this->Actors[i];
-    if (!actor.moves)
+    if (object.scale.animated())
     {
-      world[i] = actor.world_from_object;
-      continue;
+      this->checkScale(object, frame);
     }
-    const Affine3 local = this->localAt(i, frame);
-    world[i] = actor.parent == noParent ? local : world[actor.parent] * local;
   }
+  const std::vector<Affine3> world = this->Poses->at(frame);
   auto state = std::make_shared<SceneState>();
   state->frame = frame;
   state->background = this->Scene.background;
@@ -303,7 +267,7 @@ std::shared_ptr<const SceneState> Stage::Impl::compute(double frame)
   state->lights = lightsAt(this->Scene, frame);
   for (const SceneItem& item : this->Scene.items())
   {
-    if (item.kind != SceneItem::Kind::Object || !this->Actors[item.index].present)
+    if (item.kind != SceneItem::Kind::Object || !this->isPresent(item.index))
     {
       continue;
     }
@@ -444,7 +408,7 @@ std::vector<std::string> Stage::objectNames() const
   std::vector<std::string> names;
   for (const SceneItem& item : this->Self->Scene.items())
   {
-    if (item.kind == SceneItem::Kind::Object && this->Self->Actors[item.index].present)
+    if (item.kind == SceneItem::Kind::Object && this->Self->isPresent(item.index))
     {
       names.push_back(this->Self->Scene.objects[item.index].name);
     }
