@@ -17,25 +17,22 @@
 
 class QAction;
 class QDockWidget;
-class QGridLayout;
 class QLabel;
 class QMenu;
 class QPlainTextEdit;
-class QScrollArea;
-class QSlider;
-class QSpinBox;
 class QSplitter;
 class QStackedWidget;
-class QTableWidget;
 class QToolBar;
-class QToolButton;
 
 namespace dgtk
 {
 
 class CloudView;
+class FrameRow;
+class PaneGrid;
 class PicturePane;
 class PictureSync;
+class ReadOut;
 
 /// The window in which a finished dataset is looked at: pictures side by side, the numbers at a pixel, frames, and the
 /// cameras and points in the world. Actions and fields have object names, by which tests find them.
@@ -72,8 +69,6 @@ private:
   void makeCloudMenu();
   void makeHelpMenu();
   void enableActions(bool on);
-  QWidget* makeFrameRow();
-  QWidget* makeReadOut();
   QWidget* makeEmptyPage();
   QWidget* makeCloudSide();
   void makeCalibration();
@@ -86,25 +81,19 @@ private:
   void showRefusal(const QString& message);
 
   void chooseFirstLayers();
-  PicturePane* makePane(int number);
   void setPaneCount(int count);
-  void layOut();
-  void setLowest();
-  int columns() const;
-  void stackNames();
+  /// As many as there are of one of them, of which the other has one.
+  void showPictures(const std::vector<std::string>& cameras, const std::vector<std::string>& labels);
   void layersOfOneCamera();
   void oneLayerOfCameras();
-  void maximize(int pane);
-  void setActive(int pane);
+  const std::vector<PicturePane*>& panes() const;
   PicturePane* activePane() const;
 
   int frame() const;
-  void stepFrame(int by);
-  void play(bool on);
-  void playNext();
 
   PictureAsk askOf(const PicturePane& pane, int frame) const;
   void askPane(PicturePane& pane);
+  void askChosen(PicturePane* pane);
   void askAll();
   void prefetch();
   void askPoints();
@@ -115,47 +104,33 @@ private:
   void receive(int slot, const ShownPointer& shown);
   void receiveOverlays(const std::shared_ptr<const FrameOverlays>& overlays, const QString& error);
   void showOverlayProblem(const QString& problem);
-  void setRange(const PicturePane& pane, const std::optional<PictureRange>& range);
+  void setRange(const PicturePane* pane, const std::optional<PictureRange>& range);
 
-  void refreshArea();
-  void fit();
-  void actualSize();
-  void zoom(double factor);
   void refreshReadOut();
-  void fitReadOut();
   void refreshCloudCameras();
   std::optional<Eigen::Vector3d> worldUnder(const std::string& camera) const;
 
   std::shared_ptr<const DatasetPictures> Dataset;
   PictureLoader* Loader;
   PictureSync* Sync;
-  std::vector<PicturePane*> Panes;
-  int Active = 0;
-  int Maximized = -1;
-  int Columns = 0;                                  ///< of panes
   std::map<std::string, PictureRange> Ranges;       ///< chosen by the user, by label
   std::map<std::string, ShownPointer> PointSources; ///< by camera
   QString OverlayProblem;                           ///< that the status bar shows, or showed
   std::set<int> Pending;                            ///< the loader's slots whose picture of this frame is not there yet
   bool CloudFramed = false;
   bool CloudPending = false;
-  QTimer Player;
   QTimer CloudTimer;
 
   QStackedWidget* Pages = nullptr;
   QLabel* EmptyText = nullptr;
   QToolBar* Tools = nullptr;
   QSplitter* Split = nullptr;
-  QScrollArea* Scroll = nullptr;
-  QWidget* Grid = nullptr;
+  PaneGrid* Grid = nullptr;
   CloudView* Cloud = nullptr;
   QWidget* CloudSide = nullptr;
   QLabel* CloudText = nullptr;
-  QSlider* Frames = nullptr;
-  QLabel* FrameText = nullptr;
-  QSpinBox* Rate = nullptr;
-  QToolButton* Loop = nullptr;
-  QTableWidget* ReadOut = nullptr;
+  FrameRow* Frames = nullptr;
+  ReadOut* Numbers = nullptr;
   QAction* AllCameras = nullptr;
   QAction* ColorByPane = nullptr;
   QAction* ShowCloud = nullptr;
@@ -164,7 +139,6 @@ private:
   QDockWidget* CalibrationDock = nullptr;
   QPlainTextEdit* Calibration = nullptr;
   QAction* Play = nullptr;
-  QLabel* PixelText = nullptr;
 };
 
 } // namespace dgtk

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCloudView.h"
 #include "dgtkDatasetViewer.h"
+#include "dgtkFrameRow.h"
 #include "dgtkNamedAction.h"
-#include "dgtkPicturePane.h"
+#include "dgtkPaneGrid.h"
+#include "dgtkReadOut.h"
 #include "dgtkSaveName.h"
 #include "dgtkUsualFolder.h"
 
@@ -11,11 +13,8 @@
 #include <QClipboard>
 #include <QDockWidget>
 #include <QFileDialog>
-#include <QLabel>
 #include <QMenuBar>
 #include <QMessageBox>
-#include <QSlider>
-#include <QTableWidget>
 #include <QToolBar>
 
 namespace dgtk
@@ -52,10 +51,10 @@ void DatasetViewer::makeViewMenu()
   QMenu* const menu = this->menuBar()->addMenu(tr("&View"));
   const auto add = [&](const char* name, const QString& text, const char* keys, const std::function<void()>& act)
   { connect(this->addAction(menu, name, text, QKeySequence(keys)), &QAction::triggered, this, act); };
-  add("fit", tr("&Fit"), "F", [this] { this->fit(); });
-  add("actualSize", tr("&One to one"), "1", [this] { this->actualSize(); });
-  add("zoomIn", tr("Zoom &in"), "+", [this] { this->zoom(zoomStep); });
-  add("zoomOut", tr("Zoom o&ut"), "-", [this] { this->zoom(1 / zoomStep); });
+  add("fit", tr("&Fit"), "F", [this] { this->Grid->fit(); });
+  add("actualSize", tr("&One to one"), "1", [this] { this->Grid->actualSize(); });
+  add("zoomIn", tr("Zoom &in"), "+", [this] { this->Grid->zoom(zoomStep); });
+  add("zoomOut", tr("Zoom o&ut"), "-", [this] { this->Grid->zoom(1 / zoomStep); });
   this->findChild<QAction*>("zoomIn")->setShortcuts({ QKeySequence("+"), QKeySequence("="), QKeySequence::ZoomIn });
   this->findChild<QAction*>("zoomOut")->setShortcuts({ QKeySequence("-"), QKeySequence::ZoomOut });
   menu->addSeparator();
@@ -73,7 +72,8 @@ void DatasetViewer::makeViewMenu()
   }
   add("layersOfCamera", tr("All &layers of one camera"), "L", [this] { this->layersOfOneCamera(); });
   add("camerasOfLayer", tr("One layer of all &cameras"), "C", [this] { this->oneLayerOfCameras(); });
-  add("maximize", tr("&Maximise or restore the picture"), "F11", [this] { this->maximize(this->Active); });
+  add("maximize", tr("&Maximise or restore the picture"), "F11",
+    [this] { this->Grid->maximize(this->activePane() ? this->activePane()->number() : 0); });
   menu->addSeparator();
   const auto addCheck = [&](const char* name, const QString& text, const char* keys)
   {
@@ -97,13 +97,12 @@ void DatasetViewer::makeFramesMenu()
   QMenu* const menu = this->menuBar()->addMenu(tr("F&rames"));
   this->Play = this->addAction(menu, "play", tr("&Play"), QKeySequence("P"), false);
   this->Play->setCheckable(true);
-  connect(this->Play, &QAction::toggled, this, &DatasetViewer::play);
   const auto add = [&](const char* name, const QString& text, const char* keys, const std::function<void()>& act)
   { connect(this->addAction(menu, name, text, QKeySequence(keys), false), &QAction::triggered, this, act); };
-  add("nextFrame", tr("&Next"), ".", [this] { this->stepFrame(1); });
-  add("previousFrame", tr("&Previous"), ",", [this] { this->stepFrame(-1); });
-  add("firstFrame", tr("&First"), "Home", [this] { this->Frames->setValue(0); });
-  add("lastFrame", tr("&Last"), "End", [this] { this->Frames->setValue(this->Frames->maximum()); });
+  add("nextFrame", tr("&Next"), ".", [this] { this->Frames->step(1); });
+  add("previousFrame", tr("&Previous"), ",", [this] { this->Frames->step(-1); });
+  add("firstFrame", tr("&First"), "Home", [this] { this->Frames->setIndex(0); });
+  add("lastFrame", tr("&Last"), "End", [this] { this->Frames->setIndex(this->Frames->last()); });
 }
 
 void DatasetViewer::makeCloudMenu()
@@ -163,42 +162,6 @@ void DatasetViewer::makeHelpMenu()
     });
 }
 
-void DatasetViewer::layersOfOneCamera()
-{
-  const PicturePane* const pane = this->activePane();
-  if (!this->Dataset || pane == nullptr)
-  {
-    return;
-  }
-  const QString camera = pane->camera();
-  const std::vector<std::string> labels = this->Dataset->layersOf(camera.toStdString());
-  this->setPaneCount(static_cast<int>(labels.size()));
-  for (std::size_t i = 0; i < labels.size(); ++i)
-  {
-    this->Panes[i]->choose(camera, QString::fromStdString(labels[i]));
-  }
-  this->Sync->fitting = true;
-  this->askAll();
-}
-
-void DatasetViewer::oneLayerOfCameras()
-{
-  const PicturePane* const pane = this->activePane();
-  if (!this->Dataset || pane == nullptr)
-  {
-    return;
-  }
-  const QString layer = pane->layer();
-  const std::vector<std::string>& cameras = this->Dataset->cameras();
-  this->setPaneCount(static_cast<int>(cameras.size()));
-  for (std::size_t i = 0; i < cameras.size(); ++i)
-  {
-    this->Panes[i]->choose(QString::fromStdString(cameras[i]), layer);
-  }
-  this->Sync->fitting = true;
-  this->askAll();
-}
-
 void DatasetViewer::askOpen()
 {
   const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a dataset"), usualFolder("dataset"));
@@ -225,19 +188,6 @@ void DatasetViewer::savePicture()
   }
 }
 
-void DatasetViewer::copyValues()
-{
-  QStringList lines{ this->PixelText->text() };
-  for (int row = 0; row < this->ReadOut->rowCount(); ++row)
-  {
-    QStringList cells;
-    for (int column = 0; column < this->ReadOut->columnCount(); ++column)
-    {
-      cells << this->ReadOut->item(row, column)->text();
-    }
-    lines << cells.join('\t');
-  }
-  QApplication::clipboard()->setText(lines.join('\n'));
-}
+void DatasetViewer::copyValues() { QApplication::clipboard()->setText(this->Numbers->text()); }
 
 } // namespace dgtk

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCloudView.h"
 #include "dgtkDatasetViewer.h"
-#include "dgtkPicturePane.h"
+#include "dgtkFrameRow.h"
+#include "dgtkPaneGrid.h"
+#include "dgtkReadOut.h"
 #include "dgtkWindowSize.h"
 
 #include <QAction>
@@ -11,24 +13,16 @@
 #include <QDropEvent>
 #include <QFileDialog>
 #include <QFontDatabase>
-#include <QGridLayout>
-#include <QHBoxLayout>
-#include <QHeaderView>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QPlainTextEdit>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QSettings>
-#include <QSlider>
-#include <QSpinBox>
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QStatusBar>
-#include <QTableWidget>
 #include <QToolBar>
-#include <QToolButton>
 #include <QUrl>
 #include <QVBoxLayout>
 
@@ -37,7 +31,6 @@ namespace dgtk
 
 namespace
 {
-constexpr int readOutRows = 4;         // more are scrolled
 constexpr int cloudDelay = 150;        // milliseconds after the last change
 constexpr int usualRate = 10;          // frames a second
 constexpr int calibrationLetters = 48; // of a line of K
@@ -54,16 +47,9 @@ DatasetViewer::DatasetViewer(QWidget* parent)
   this->Tools = this->addToolBar(tr("Tools"));
   this->Tools->setIconSize({ 20, 20 });
   this->Tools->setMovable(false);
-  this->Grid = new QWidget;
-  auto* grid = new QGridLayout(this->Grid);
-  grid->setContentsMargins(0, 0, 0, 0);
-  grid->setSpacing(4);
-  this->Scroll = new QScrollArea;
-  this->Scroll->setWidget(this->Grid);
-  this->Scroll->setWidgetResizable(true);
-  this->Scroll->setFrameShape(QFrame::NoFrame);
+  this->Grid = new PaneGrid(*this->Sync, nullptr);
   this->Split = new QSplitter(Qt::Horizontal);
-  this->Split->addWidget(this->Scroll);
+  this->Split->addWidget(this->Grid);
   this->Split->addWidget(this->makeCloudSide());
   this->Split->setStretchFactor(0, 3);
   this->Split->setStretchFactor(1, 1);
@@ -78,8 +64,12 @@ DatasetViewer::DatasetViewer(QWidget* parent)
   this->makeFramesMenu();
   this->makeCloudMenu();
   this->makeHelpMenu();
-  layout->addWidget(this->makeFrameRow());
-  layout->addWidget(this->makeReadOut());
+  this->Frames = new FrameRow(
+    { this->findChild<QAction*>("previousFrame"), this->Play, this->findChild<QAction*>("nextFrame") }, this->Play,
+    [this] { return this->Pending.empty() || *this->Pending.begin() >= pointSlots; }, page);
+  this->Numbers = new ReadOut(page);
+  layout->addWidget(this->Frames);
+  layout->addWidget(this->Numbers);
   this->Pages = new QStackedWidget(this);
   this->Pages->addWidget(this->makeEmptyPage());
   this->Pages->addWidget(page);
@@ -90,7 +80,7 @@ DatasetViewer::DatasetViewer(QWidget* parent)
   const QSettings settings;
   this->restoreGeometry(settings.value("viewer/geometry").toByteArray());
   this->Split->restoreState(settings.value("viewer/split").toByteArray());
-  this->Rate->setValue(settings.value("viewer/rate", usualRate).toInt());
+  this->Frames->setRate(settings.value("viewer/rate", usualRate).toInt());
   this->statusBar()->show();
 }
 
@@ -121,17 +111,33 @@ void DatasetViewer::connectParts()
     });
   connect(this->Loader, &PictureLoader::overlaysReady, this, &DatasetViewer::receiveOverlays);
   connect(this->Sync, &PictureSync::cursorChanged, this, &DatasetViewer::refreshReadOut);
-  connect(this->Frames, &QSlider::valueChanged, this, &DatasetViewer::askAll);
-  connect(&this->Player, &QTimer::timeout, this, &DatasetViewer::playNext);
+  connect(this->Frames, &FrameRow::changed, this, &DatasetViewer::askAll);
+  connect(this->Frames, &FrameRow::advanced, this, &DatasetViewer::prefetch);
+  connect(this->Grid, &PaneGrid::dropped, this->Loader, &PictureLoader::drop);
+  connect(this->Grid, &PaneGrid::arranged, this, &DatasetViewer::refreshReadOut);
+  connect(this->Grid, &PaneGrid::activated, this,
+    [this]
+    {
+      this->refreshCloudCameras();
+      this->refreshCalibration();
+      this->CloudTimer.start();
+    });
+  connect(this->Grid, &PaneGrid::chosen, this, &DatasetViewer::askChosen);
+  connect(this->Grid, &PaneGrid::rangeAsked, this, &DatasetViewer::setRange);
+  connect(this->Grid, &PaneGrid::detailWanted, this,
+    [this](const PicturePane* pane, const PixelRect& window, int step)
+    {
+      PictureAsk ask = this->askOf(*pane, this->frame());
+      ask.window = window;
+      ask.step = step;
+      this->Loader->ask(detailSlots + pane->number(), ask);
+    });
   connect(this->Cloud, &CloudView::cameraPicked, this,
     [this](const QString& name)
     {
       PicturePane* const pane = this->activePane();
       pane->choose(name, pane->layer());
-      this->askPane(*pane);
-      this->askPoints();
-      this->askOverlays();
-      this->refreshCalibration();
+      this->askChosen(pane);
     });
   this->CloudTimer.setSingleShot(true);
   this->CloudTimer.setInterval(cloudDelay);
@@ -194,69 +200,6 @@ void DatasetViewer::makeCalibration()
   connect(this->CalibrationDock, &QDockWidget::visibilityChanged, this, &DatasetViewer::refreshCalibration);
 }
 
-QWidget* DatasetViewer::makeFrameRow()
-{
-  auto* row = new QWidget;
-  auto* layout = new QHBoxLayout(row);
-  layout->setContentsMargins(0, 0, 0, 0);
-  for (const char* const name : { "previousFrame", "play", "nextFrame" })
-  {
-    auto* button = new QToolButton(row);
-    button->setDefaultAction(this->findChild<QAction*>(name));
-    button->setAutoRaise(true);
-    layout->addWidget(button);
-  }
-  this->Loop = new QToolButton(row);
-  this->Loop->setObjectName("loop");
-  this->Loop->setText(tr("Loop"));
-  this->Loop->setCheckable(true);
-  this->Frames = new QSlider(Qt::Horizontal, row);
-  this->Frames->setObjectName("frames");
-  this->Frames->setAccessibleName(tr("Frame"));
-  this->Frames->setPageStep(10);
-  this->FrameText = new QLabel(row);
-  this->FrameText->setObjectName("frameText");
-  this->Rate = new QSpinBox(row);
-  this->Rate->setObjectName("rate");
-  this->Rate->setRange(1, 60);
-  this->Rate->setValue(usualRate);
-  this->Rate->setSuffix(tr(" fps"));
-  this->Rate->setToolTip(tr("Frames a second"));
-  connect(this->Rate, QOverload<int>::of(&QSpinBox::valueChanged), this,
-    [this](int rate) { this->Player.setInterval(1000 / rate); });
-  layout->addWidget(this->Loop);
-  layout->addWidget(this->Frames, 1);
-  layout->addWidget(this->FrameText);
-  layout->addWidget(this->Rate);
-  return row;
-}
-
-QWidget* DatasetViewer::makeReadOut()
-{
-  auto* box = new QWidget;
-  auto* layout = new QVBoxLayout(box);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(2);
-  this->PixelText = new QLabel(box);
-  this->PixelText->setObjectName("pixel");
-  this->ReadOut = new QTableWidget(0, 4, box);
-  this->ReadOut->setObjectName("readOut");
-  this->ReadOut->setHorizontalHeaderLabels({ tr("Camera"), tr("Layer"), tr("Value"), tr("World point") });
-  this->ReadOut->verticalHeader()->hide();
-  this->ReadOut->verticalHeader()->setDefaultSectionSize(this->fontMetrics().height() + 6);
-  this->ReadOut->horizontalHeader()->setSectionResizeMode(2, QHeaderView::Stretch);
-  const QString longest("(-1.23457e-05, -1.23457e-05, -1.23457e-05)");
-  this->ReadOut->setColumnWidth(3, this->fontMetrics().horizontalAdvance(longest) + 12);
-  this->ReadOut->setTextElideMode(Qt::ElideMiddle);
-  this->ReadOut->setTabKeyNavigation(false);
-  this->ReadOut->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  const int rows = readOutRows * this->ReadOut->verticalHeader()->defaultSectionSize();
-  this->ReadOut->setFixedHeight(rows + this->ReadOut->horizontalHeader()->sizeHint().height() + 4);
-  layout->addWidget(this->PixelText);
-  layout->addWidget(this->ReadOut);
-  return box;
-}
-
 QWidget* DatasetViewer::makeEmptyPage()
 {
   auto* page = new QWidget;
@@ -281,7 +224,7 @@ void DatasetViewer::closeEvent(QCloseEvent* event)
   QSettings settings;
   settings.setValue("viewer/geometry", this->saveGeometry());
   settings.setValue("viewer/split", this->Split->saveState());
-  settings.setValue("viewer/rate", this->Rate->value());
+  settings.setValue("viewer/rate", this->Frames->rate());
   event->accept();
 }
 

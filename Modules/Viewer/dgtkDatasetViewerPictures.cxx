@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkDatasetViewer.h"
-#include "dgtkPicturePane.h"
+#include "dgtkFrameRow.h"
+#include "dgtkPaneGrid.h"
 
 #include <QAction>
-#include <QLabel>
-#include <QSlider>
-#include <QSpinBox>
 #include <QStatusBar>
-#include <QToolButton>
 
 #include <algorithm>
 
@@ -18,7 +15,7 @@ namespace dgtk
 
 int DatasetViewer::frame() const
 {
-  return this->Dataset ? this->Dataset->frames()[std::size_t(this->Frames->value())] : 0;
+  return this->Dataset ? this->Dataset->frames()[std::size_t(this->Frames->index())] : 0;
 }
 
 PictureAsk DatasetViewer::askOf(const PicturePane& pane, int frame) const
@@ -41,6 +38,14 @@ void DatasetViewer::askPane(PicturePane& pane)
   }
 }
 
+void DatasetViewer::askChosen(PicturePane* pane)
+{
+  this->askPane(*pane);
+  this->askPoints();
+  this->askOverlays();
+  this->refreshCalibration();
+}
+
 void DatasetViewer::askAll()
 {
   if (!this->Dataset)
@@ -48,15 +53,15 @@ void DatasetViewer::askAll()
     return;
   }
   this->Pending.clear();
-  for (PicturePane* pane : this->Panes)
+  for (PicturePane* pane : this->panes())
   {
     this->askPane(*pane);
   }
   this->askPoints();
   this->askOverlays();
   this->refreshCalibration();
-  this->FrameText->setText(
-    tr("Frame %1 (%2 of %3)").arg(this->frame()).arg(this->Frames->value() + 1).arg(this->Dataset->frames().size()));
+  this->Frames->setText(
+    tr("Frame %1 (%2 of %3)").arg(this->frame()).arg(this->Frames->index() + 1).arg(this->Dataset->frames().size()));
 }
 
 void DatasetViewer::askPoints()
@@ -65,7 +70,7 @@ void DatasetViewer::askPoints()
   const std::vector<std::string>& cameras = this->Dataset->cameras();
   for (std::size_t i = 0; i < cameras.size(); ++i)
   {
-    const bool shown = std::any_of(this->Panes.begin(), this->Panes.end(),
+    const bool shown = std::any_of(this->panes().begin(), this->panes().end(),
       [&](const PicturePane* pane) { return pane->camera() == QString::fromStdString(cameras[i]); });
     const std::string label = shown ? pointLayer(*this->Dataset, cameras[i], this->frame()) : std::string();
     if (!label.empty())
@@ -86,9 +91,9 @@ void DatasetViewer::askOverlays()
   ask.frame = this->frame();
   ask.boxes = this->ShowBoxes->isEnabled() && this->ShowBoxes->isChecked();
   ask.points = this->ShowPoints->isEnabled() && this->ShowPoints->isChecked();
-  for (std::size_t i = 0; (ask.boxes || ask.points) && i < this->Panes.size(); ++i)
+  for (std::size_t i = 0; (ask.boxes || ask.points) && i < this->panes().size(); ++i)
   {
-    ask.cameras.insert(this->Panes[i]->camera().toStdString());
+    ask.cameras.insert(this->panes()[i]->camera().toStdString());
   }
   if (!ask.cameras.empty())
   {
@@ -102,7 +107,7 @@ void DatasetViewer::receiveOverlays(const std::shared_ptr<const FrameOverlays>& 
 {
   this->Pending.erase(overlaySlot);
   this->refreshBusy();
-  for (PicturePane* pane : this->Panes)
+  for (PicturePane* pane : this->panes())
   {
     pane->view().setOverlays(overlays);
   }
@@ -133,9 +138,9 @@ void DatasetViewer::receive(int slot, const ShownPointer& shown)
   if (slot >= detailSlots)
   {
     const std::size_t pane = std::size_t(slot - detailSlots);
-    if (pane < this->Panes.size())
+    if (pane < this->panes().size())
     {
-      this->Panes[pane]->view().showDetail(shown);
+      this->panes()[pane]->view().showDetail(shown);
     }
   }
   else if (slot >= pointSlots)
@@ -144,75 +149,40 @@ void DatasetViewer::receive(int slot, const ShownPointer& shown)
     this->refreshBusy();
     this->PointSources[shown->ask.key.camera] = shown;
   }
-  else if (std::size_t(slot) < this->Panes.size())
+  else if (std::size_t(slot) < this->panes().size())
   {
     this->Pending.erase(slot);
     this->refreshBusy();
-    this->Panes[std::size_t(slot)]->showPicture(shown, shown->ask.range.has_value());
+    this->panes()[std::size_t(slot)]->showPicture(shown, shown->ask.range.has_value());
     if (this->Sync->fitting)
     {
-      this->fit();
+      this->Grid->fit();
     }
   }
   this->refreshReadOut();
 }
 
-void DatasetViewer::setRange(const PicturePane& pane, const std::optional<PictureRange>& range)
+void DatasetViewer::setRange(const PicturePane* pane, const std::optional<PictureRange>& range)
 {
-  const std::string label = pane.layer().toStdString();
+  const std::string label = pane->layer().toStdString();
   this->Ranges.erase(label);
   if (range)
   {
     this->Ranges[label] = *range;
   }
-  for (PicturePane* other : this->Panes)
+  for (PicturePane* other : this->panes())
   {
-    if (other->layer() == pane.layer())
+    if (other->layer() == pane->layer())
     {
       this->askPane(*other);
     }
   }
 }
 
-void DatasetViewer::stepFrame(int by) { this->Frames->setValue(this->Frames->value() + by); }
-
-void DatasetViewer::play(bool on)
-{
-  if (on && this->Dataset)
-  {
-    if (this->Frames->value() == this->Frames->maximum())
-    {
-      this->Frames->setValue(0);
-    }
-    this->prefetch();
-    this->Player.start(1000 / this->Rate->value());
-  }
-  else
-  {
-    this->Player.stop();
-  }
-}
-
-void DatasetViewer::playNext()
-{
-  if (!this->Pending.empty() && *this->Pending.begin() < pointSlots)
-  {
-    return; // reading is slower than playing
-  }
-  if (this->Frames->value() == this->Frames->maximum() && !this->Loop->isChecked())
-  {
-    this->Play->setChecked(false);
-    return;
-  }
-  this->Frames->setValue(this->Frames->value() == this->Frames->maximum() ? 0 : this->Frames->value() + 1);
-  this->prefetch();
-}
-
 void DatasetViewer::prefetch()
 {
-  const std::vector<int>& frames = this->Dataset->frames();
-  const int next = frames[std::size_t(this->Frames->value() + 1) % frames.size()];
-  for (const PicturePane* pane : this->Panes)
+  const int next = this->Dataset->frames()[std::size_t(this->Frames->next())];
+  for (const PicturePane* pane : this->panes())
   {
     this->Loader->prefetch(pane->number(), this->askOf(*pane, next));
   }

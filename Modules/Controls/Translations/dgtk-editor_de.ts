@@ -545,14 +545,6 @@
         <translation>DGTk</translation>
     </message>
     <message>
-        <source>Pixel (%1, %2)</source>
-        <translation>Pixel (%1, %2)</translation>
-    </message>
-    <message>
-        <source>Point at a picture to read its numbers.</source>
-        <translation>Auf ein Bild zeigen, um seine Zahlen zu lesen.</translation>
-    </message>
-    <message>
         <source>&amp;File</source>
         <translation>&amp;Datei</translation>
     </message>
@@ -713,38 +705,6 @@
         <translation>%L1 Punkte</translation>
     </message>
     <message>
-        <source>Loop</source>
-        <translation>Endlos</translation>
-    </message>
-    <message>
-        <source>Frame</source>
-        <translation>Bild</translation>
-    </message>
-    <message>
-        <source> fps</source>
-        <translation> Bilder/s</translation>
-    </message>
-    <message>
-        <source>Frames a second</source>
-        <translation>Bilder je Sekunde</translation>
-    </message>
-    <message>
-        <source>Camera</source>
-        <translation>Kamera</translation>
-    </message>
-    <message>
-        <source>Layer</source>
-        <translation>Ebene</translation>
-    </message>
-    <message>
-        <source>Value</source>
-        <translation>Wert</translation>
-    </message>
-    <message>
-        <source>World point</source>
-        <translation>Weltpunkt</translation>
-    </message>
-    <message>
         <source>No dataset is open. Open the folder that &lt;i&gt;dgtk render&lt;/i&gt; wrote, or drop it here.</source>
         <translation>Kein Datensatz ist offen. Den Ordner öffnen, den &lt;i&gt;dgtk render&lt;/i&gt; geschrieben hat, oder ihn hierher ziehen.</translation>
     </message>
@@ -789,6 +749,25 @@
     <message>
         <source>The memory of this machine is not enough.</source>
         <translation>Der Speicher dieses Rechners reicht nicht.</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::FrameRow</name>
+    <message>
+        <source>Loop</source>
+        <translation>Endlos</translation>
+    </message>
+    <message>
+        <source>Frame</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source> fps</source>
+        <translation> Bilder/s</translation>
+    </message>
+    <message>
+        <source>Frames a second</source>
+        <translation>Bilder je Sekunde</translation>
     </message>
 </context>
 <context>
@@ -1877,6 +1856,33 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
     <message>
         <source>Attenuation (constant, linear, quadratic)</source>
         <translation>Abschwächung (konstant, linear, quadratisch)</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::ReadOut</name>
+    <message>
+        <source>Camera</source>
+        <translation>Kamera</translation>
+    </message>
+    <message>
+        <source>Layer</source>
+        <translation>Ebene</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>Wert</translation>
+    </message>
+    <message>
+        <source>World point</source>
+        <translation>Weltpunkt</translation>
+    </message>
+    <message>
+        <source>Pixel (%1, %2)</source>
+        <translation>Pixel (%1, %2)</translation>
+    </message>
+    <message>
+        <source>Point at a picture to read its numbers.</source>
+        <translation>Auf ein Bild zeigen, um seine Zahlen zu lesen.</translation>
     </message>
 </context>
 <context>
