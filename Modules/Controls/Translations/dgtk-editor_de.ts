@@ -2367,6 +2367,9 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
         <source>&amp;Move key frame %1 here</source>
         <translation>Schlüsselbild %1 hierher &amp;verschieben</translation>
     </message>
+</context>
+<context>
+    <name>dgtk::TimeLineEdits</name>
     <message>
         <source>Remove &amp;its keys at %1</source>
         <translation>Seine Schlüssel bei %1 &amp;entfernen</translation>
