@@ -220,9 +220,7 @@ private:
     {
       const Eigen::Matrix3d& m = linear[linear.size() == 1 ? 0 : i];
       const Eigen::Vector3d n(mesh.normals[i][0], mesh.normals[i][1], mesh.normals[i][2]);
-      // cofactors turn normals as the inverse transpose does, also where a scale is 0
-      normals.push_back(this->Builder.addNormal(
-        m.col(1).cross(m.col(2)) * n.x() + m.col(2).cross(m.col(0)) * n.y() + m.col(0).cross(m.col(1)) * n.z()));
+      normals.push_back(this->Builder.addNormal(turnedNormal(m, n)));
     }
     this->addSurfaces(mesh, model, normals, mesh.bones.empty() && pose[posed.node].linear().determinant() < 0);
     this->Builder.endObject();

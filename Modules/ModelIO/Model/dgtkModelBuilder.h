@@ -150,6 +150,10 @@ private:
 bool triangulate(const std::vector<Eigen::Vector3d>& points, std::vector<std::array<std::uint32_t, 3>>& triangles,
   std::uint64_t& work, std::uint64_t workLimit);
 
+/// A normal, not of unit length, where points go by `linear`: by its cofactors, which are the inverse transpose times
+/// the determinant, also where a scale is 0.
+Eigen::Vector3d turnedNormal(const Eigen::Matrix3d& linear, const Eigen::Vector3d& normal);
+
 /// Newell's normal of a polygon: twice its area long.
 Eigen::Vector3d polygonNormal(const std::vector<Eigen::Vector3d>& points);
 

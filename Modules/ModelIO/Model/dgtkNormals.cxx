@@ -18,6 +18,12 @@ Eigen::Vector3d polygonNormal(const std::vector<Eigen::Vector3d>& points)
   return sum;
 }
 
+Eigen::Vector3d turnedNormal(const Eigen::Matrix3d& linear, const Eigen::Vector3d& normal)
+{
+  const auto cofactors = [&linear](int a, int b) { return linear.col(a).cross(linear.col(b)); };
+  return cofactors(1, 2) * normal.x() + cofactors(2, 0) * normal.y() + cofactors(0, 1) * normal.z();
+}
+
 void areaNormals(const Model& model, const std::vector<Eigen::Vector3d>& positions,
   const std::vector<Eigen::Vector3f>* fallback, std::vector<Eigen::Vector3f>& normals)
 {

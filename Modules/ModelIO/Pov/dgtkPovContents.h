@@ -2,12 +2,10 @@
 #ifndef dgtkPovContents_h
 #define dgtkPovContents_h
 
-#include "dgtkPovTokenizer.h"
-
 #include <Eigen/Geometry>
 
 #include <array>
-#include <map>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,8 +13,8 @@
 namespace dgtk
 {
 
-/// What a pigment and a finish say, as far as a Material can hold it.
-struct PovTexture
+/// What a pigment says, as far as a Material can hold it.
+struct PovPigment
 {
   Eigen::Vector3d color{ 1, 1, 1 };
   double filter = 0;
@@ -27,14 +25,23 @@ struct PovTexture
   int mapType = 0; ///< of the image_map; 0 is planar
   /// Where the image lies: point of the pattern from a point of the object (or from (u, v, 0)).
   Eigen::Affine3d object_from_pattern = Eigen::Affine3d::Identity();
+};
 
-  double ambient = -1; ///< finish; below 0: not said
+struct PovFinish
+{
+  double ambient = -1; ///< below 0: not said
   double diffuse = -1;
   double specular = 0;
   double roughness = 0.05;
   double phong = 0;
   double phongSize = 40;
   double emission = 0;
+};
+
+struct PovTexture
+{
+  PovPigment pigment;
+  PovFinish finish;
   std::string name;
 };
 using PovTexturePointer = std::shared_ptr<const PovTexture>;
@@ -67,36 +74,6 @@ struct PovInstance
 };
 using PovShape = std::vector<PovInstance>;
 
-/// A value of the language.
-struct PovValue
-{
-  enum class Kind : std::uint8_t
-  {
-    Unknown, ///< needs evaluation that is not done here: `text` says what, `place` where
-    Number,  ///< a float or vector
-    Color,
-    Text,
-    Texture, ///< texture, pigment, finish, material
-    Transform,
-    Shape, ///< meshes; may be empty
-    Camera,
-    Other ///< anything without a surface of triangles: primitives, lights, ...
-  };
-  Kind kind = Kind::Unknown;
-  PovPlace place;
-  std::string text;
-  std::array<double, 5> number{}; ///< colour: r, g, b, filter, transmit
-  int size = 1;
-  PovTexturePointer texture;
-  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
-  PovShape shape;
-  double right = 1; ///< Camera: sign of the x of `right`
-  bool used = false;
-  std::size_t order = 0; ///< of declaration
-
-  bool isNumeric() const { return this->kind == Kind::Number || this->kind == Kind::Color; }
-};
-
 /// What a scene file leaves.
 struct PovContents
 {
@@ -108,7 +85,9 @@ struct PovContents
   std::vector<std::string> files; ///< all that were read, the scene itself first
 };
 
-/// Reads a scene. Throws InputError for what would leave a mesh incomplete.
+/// Reads the subset of POV-Ray's language that says where triangles are and how they look: literals, constant
+/// arithmetic, declarations, inclusions and conditions are followed; loops, macros and functions are not. What a mesh
+/// depends on is then refused, everything else skipped with a warning. Throws InputError.
 PovContents readPovContents(const std::string& path);
 
 } // namespace dgtk

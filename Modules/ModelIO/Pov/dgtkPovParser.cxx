@@ -1,317 +1,409 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkPovParser.h"
-
 #include "dgtkError.h"
+#include "dgtkModelFolder.h"
+#include "dgtkPovShapes.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
 
 namespace dgtk
 {
 
 namespace
 {
-using Words = std::set<std::string>;
-
-const Words meshWords = { "mesh", "mesh2", "triangle", "smooth_triangle" };
-const Words groupWords = { "union", "difference", "intersection", "merge", "light_group" };
-/// Shapes that are not made of triangles.
-const Words primitiveWords = { "bicubic_patch", "blob", "box", "cone", "cubic", "cylinder", "disc", "height_field",
-  "isosurface", "julia_fractal", "lathe", "lemon", "ovus", "parametric", "plane", "poly", "polygon", "polynomial",
-  "prism", "quadric", "quartic", "sor", "sphere", "sphere_sweep", "superellipsoid", "text", "torus" };
-/// Statements about everything but shapes.
-const Words sceneryWords = { "atmosphere", "background", "fog", "global_settings", "light_source", "looks_like",
-  "media", "photons", "radiosity", "rainbow", "sky_sphere", "interior", "density", "atmospheric_media" };
-constexpr std::size_t mostInstances = 50'000; ///< and one for every hundred bytes read
-} // namespace
-
-PovParser::PovParser(const std::string& path)
-  : Tokens(path)
-  , DefaultTexture(std::make_shared<PovTexture>())
+/// Where an included file lies, or "": beside the including file, beside the scene, then in the folders of the
+/// environment's POVINC (separated by ':'). What lies neither below the scene's folder nor below one of these is
+/// refused; datasets keep the meshes of all cameras in ../../pov.
+std::string findInclude(const PovTokenizer& files, const std::string& written, const PovPlace& from)
 {
-}
-
-PovToken PovParser::raw()
-{
-  if (this->HasPending)
+  namespace fs = std::filesystem;
+  std::string name = written;
+  std::replace(name.begin(), name.end(), '\\', '/');
+  const std::string beside = folderOfFile(files.path(0));
+  std::vector<std::string> own = { beside, beside + "/../../pov" };
+  const char* library = std::getenv("POVINC");
+  std::istringstream rest(library ? library : "");
+  for (std::string folder; std::getline(rest, folder, ':');)
   {
-    this->HasPending = false;
-    return this->Pending;
+    own.push_back(folder);
   }
-  return this->Tokens.next();
-}
-
-const PovToken& PovParser::peek()
-{
-  while (!this->HasLook)
+  std::vector<std::string> folders = own;
+  folders.insert(folders.begin(), folderOfFile(files.path(from.file)));
+  bool outside = false;
+  for (const std::string& folder : folders)
   {
-    PovToken token = this->raw();
-    if (token.kind == PovToken::Kind::Directive && this->Nesting != this->DeferAt)
+    std::error_code code;
+    const fs::path path = fs::path(folder) / name;
+    if (name.size() < 4096 && fs::is_regular_file(path, code))
     {
-      this->directive(token);
-    }
-    else
-    {
-      this->Look = std::move(token);
-      this->HasLook = true;
+      std::string found = path.lexically_normal().string();
+      if (std::any_of(own.begin(), own.end(), [&found](const std::string& root) { return liesBeneath(found, root); }))
+      {
+        return found;
+      }
+      outside = true;
     }
   }
-  return this->Look;
+  if (outside)
+  {
+    files.fail(from, "#include " + quoted(written) + " lies outside of the scene's folder and POVINC");
+  }
+  return {};
 }
 
-void PovParser::drop()
+/// Statements and directives of a scene.
+class PovParser
 {
-  const bool opens = this->Look.is('{') || this->Look.is('(');
-  const bool closes = this->Look.is('}') || this->Look.is(')');
-  this->Nesting += opens ? 1 : closes ? -1 : 0;
-  this->HasLook = false;
+public:
+  explicit PovParser(const std::string& path)
+    : Session(path)
+    , Stream(Session.stream)
+    , Appearance(Session)
+    , Shapes(Session, Appearance)
+  {
+    this->Stream.setFollow([this](const PovToken& token) { this->directive(token); });
+  }
+  PovContents run();
+
+private:
+  void directive(const PovToken& token);
+  void declare(const PovToken& token);
+  PovValue value();
+  void include(const PovToken& token);
+  void condition(const PovToken& token);
+  void endOfBranch(const PovToken& token);
+  void skipBranch(const PovPlace& begin, bool toEnd);
+  void skipEvaluated(const PovToken& token, const std::string& what);
+  PovToken skipped(const PovPlace& place, const std::string& begin, int& depth);
+  PovSymbols::Macro skipToEnd(const PovToken& begin, const std::string& what);
+  void macro(const PovToken& token);
+  void undef(const PovToken&) { this->Session.symbols.undeclare(this->Stream.take().text); }
+  void setDefault(const PovToken&) { this->Appearance.readDefault(); }
+  void loop(const PovToken& token) { this->skipEvaluated(token, "#" + token.text + " is not evaluated"); }
+  void nothing(const PovToken&) {}
+  void version(const PovToken& token);
+  void message(const PovToken& token);
+  void error(const PovToken& token);
+  void file(const PovToken& token);
+  void scene(PovContents& result);
+  void checkDrawn(const PovShape& shape) const;
+
+  PovSession Session;
+  PovStream& Stream;
+  PovAppearance Appearance;
+  PovShapes Shapes;
+  int OpenConditions = 0;
+};
+
+void PovParser::directive(const PovToken& token)
+{
+  using Follow = void (PovParser::*)(const PovToken&);
+  static const std::map<std::string, Follow> follow = { { "declare", &PovParser::declare },
+    { "local", &PovParser::declare }, { "undef", &PovParser::undef }, { "include", &PovParser::include },
+    { "default", &PovParser::setDefault }, { "version", &PovParser::version }, { "macro", &PovParser::macro },
+    { "if", &PovParser::condition }, { "ifdef", &PovParser::condition }, { "ifndef", &PovParser::condition },
+    { "else", &PovParser::endOfBranch }, { "elseif", &PovParser::endOfBranch }, { "end", &PovParser::endOfBranch },
+    { "while", &PovParser::loop }, { "for", &PovParser::loop }, { "switch", &PovParser::loop },
+    { "break", &PovParser::nothing }, { "case", &PovParser::nothing }, { "range", &PovParser::nothing },
+    { "error", &PovParser::error }, { "warning", &PovParser::message }, { "debug", &PovParser::message },
+    { "render", &PovParser::message }, { "statistics", &PovParser::message }, { "fopen", &PovParser::file },
+    { "fclose", &PovParser::file }, { "read", &PovParser::file }, { "write", &PovParser::file } };
+  const PovStream::Level level(this->Stream);
+  const auto found = follow.find(token.text);
+  if (found == follow.end())
+  {
+    this->Stream.failAt(token, "unknown directive", "#declare, #include, #if, ...");
+  }
+  (this->*found->second)(token);
 }
 
-PovToken PovParser::take()
+void PovParser::error(const PovToken& token)
 {
-  this->peek();
-  this->drop();
-  return std::move(this->Look);
+  const PovToken& text = this->Stream.peek();
+  this->Stream.fail(token.place, "#error " + (text.kind == PovToken::Kind::String ? quoted(text.text) : ""));
 }
 
-bool PovParser::accept(char symbol)
+void PovParser::file(const PovToken& token)
 {
-  if (!this->peek().is(symbol))
-  {
-    return false;
-  }
-  this->drop();
-  return true;
+  this->Session.problem(token.place, "#" + token.text + " is not evaluated");
+  this->Stream.skipLine(token.place);
 }
 
-void PovParser::failAt(const PovToken& token, const std::string& what, const std::string& expected)
+void PovParser::version(const PovToken&)
 {
-  this->fail(token.place, what, expected, token.kind == PovToken::Kind::End ? "end of file" : quoted(token.text));
+  while (this->Stream.peek().kind == PovToken::Kind::Word && !this->Stream.peek().is("version"))
+  {
+    this->Stream.take();
+  }
+  this->Session.evaluator.expression();
+  this->Stream.accept(';');
 }
 
-void PovParser::expect(char symbol, const char* where)
+void PovParser::message(const PovToken&)
 {
-  if (!this->accept(symbol))
+  if (this->Stream.peek().kind == PovToken::Kind::String)
   {
-    this->failAt(this->peek(), std::string("cannot understand ") + where, quoted(std::string(1, symbol)));
-  }
-}
-
-void PovParser::warn(const PovPlace& place, const std::string& what)
-{
-  const std::string& path = this->Tokens.path(place.file);
-  const std::string name = path.substr(path.find_last_of('/') + 1);
-  if (this->Warnings.size() < 1000)
-  {
-    this->Warnings.push_back(name + ':' + std::to_string(place.line) + ": " + what);
-  }
-}
-
-void PovParser::problem(const PovPlace& place, const std::string& what)
-{
-  if (this->FirstProblem.empty())
-  {
-    this->FirstProblem = what;
-    this->FirstProblemPlace = place;
-  }
-  if (this->Contexts.empty())
-  {
-    this->warn(place, what + ": left out");
-    return;
-  }
-  Context& context = this->Contexts.back();
-  if (context.isMesh)
-  {
-    this->fail(place, what + ", and a mesh depends on it");
-  }
-  if (context.problem.empty())
-  {
-    context.problem = what;
-    context.place = place;
-  }
-}
-
-bool PovParser::holdsMesh(const PovToken& token) const
-{
-  if (token.kind != PovToken::Kind::Word)
-  {
-    return false;
-  }
-  if (meshWords.count(token.text) > 0)
-  {
-    return true;
-  }
-  const auto name = this->Names.find(token.text);
-  if (name != this->Names.end() && name->second.kind == PovValue::Kind::Shape && !name->second.shape.empty())
-  {
-    return true;
-  }
-  const auto macro = this->Macros.find(token.text);
-  return macro != this->Macros.end() && !macro->second.what.empty();
-}
-
-bool PovParser::skipBalanced(char open, char close)
-{
-  const PovPlace begin = this->peek().place;
-  bool mesh = false;
-  int depth = 0;
-  do
-  {
-    const PovToken token = this->take();
-    if (token.kind == PovToken::Kind::End)
-    {
-      this->fail(begin, "block is not closed", quoted(std::string(1, close)), "end of file");
-    }
-    depth += token.is(open) ? 1 : token.is(close) ? -1 : 0;
-    mesh = mesh || this->holdsMesh(token);
-  } while (depth > 0);
-  return mesh;
-}
-
-void PovParser::skipOptionalBlock()
-{
-  if (this->peek().is('{'))
-  {
-    this->skipBalanced('{', '}');
-  }
-}
-
-/// A statement that makes no triangles. A mesh inside it would be lost: refused.
-void PovParser::skipStatement(const PovToken& word)
-{
-  if (!this->peek().is('{'))
-  {
-    this->failAt(this->peek(), "cannot understand " + quoted(word.text), "'{'");
-  }
-  if (this->skipBalanced('{', '}'))
-  {
-    this->fail(word.place, quoted(word.text) + " with a mesh in it cannot be read");
-  }
-}
-
-void PovParser::macroCall(const PovToken& word)
-{
-  const auto macro = this->Macros.find(word.text);
-  const bool isMacro = macro != this->Macros.end();
-  const std::string what =
-    isMacro ? "macro " + quoted(word.text) + " is not evaluated" : "undeclared name " + quoted(word.text);
-  if (!isMacro || !macro->second.what.empty())
-  {
-    this->fail(word.place, what + (isMacro ? ", and a mesh depends on it" : ""));
-  }
-  if (this->peek().is('(') && this->skipBalanced('(', ')'))
-  {
-    this->fail(word.place, what + ", and a mesh depends on it");
-  }
-  this->problem(word.place, what);
-  this->poison(macro->second.sets, word.place, what);
-}
-
-void PovParser::countInstances(std::size_t more, const PovPlace& place)
-{
-  this->Instances += more;
-  const std::size_t most = mostInstances + static_cast<std::size_t>(this->Tokens.bytesRead() / 100);
-  if (this->Instances > most)
-  {
-    this->fail(place, "has too many objects", "at most " + std::to_string(most));
-  }
-}
-
-/// One object of the scene or of a group. False when the next token does not begin one.
-bool PovParser::item(ShapeList& to)
-{
-  const PovToken word = this->peek();
-  if (word.kind != PovToken::Kind::Word)
-  {
-    return false;
-  }
-  const Guard guard(*this);
-  const auto begins = [&](const char* text) { return word.text == text; };
-  if (begins("triangle") || begins("smooth_triangle"))
-  {
-    this->take();
-    this->triangle(begins("smooth_triangle"), to.triangles());
-  }
-  else if (begins("mesh") || begins("mesh2") || begins("object") || groupWords.count(word.text) > 0)
-  {
-    this->take();
-    to.add(begins("mesh")     ? this->mesh()
-           : begins("mesh2")  ? this->mesh2()
-           : begins("object") ? this->object()
-                              : this->group(word));
-  }
-  else if (primitiveWords.count(word.text) > 0)
-  {
-    this->take();
-    this->skipStatement(word);
-    this->problem(word.place, word.text + " is not made of triangles");
-  }
-  else if (begins("camera"))
-  {
-    this->take();
-    this->Right = this->camera();
-    this->Scenery.insert(word.text);
-  }
-  else if (sceneryWords.count(word.text) > 0)
-  {
-    this->take();
-    this->skipStatement(word);
-    this->Scenery.insert(word.text);
+    this->Stream.take();
   }
   else
   {
-    return false;
+    this->Session.evaluator.expression();
   }
-  return true;
+}
+
+void PovParser::macro(const PovToken& token)
+{
+  const PovToken name = this->Stream.raw();
+  this->Session.symbols.declareMacro(name.text, this->skipToEnd(token, ""));
+}
+
+/// What cannot be evaluated, up to its #end; names that it may set are not known any more.
+void PovParser::skipEvaluated(const PovToken& token, const std::string& what)
+{
+  const PovSymbols::Macro inside = this->skipToEnd(token, what);
+  this->Session.problem(token.place, what);
+  this->Session.symbols.poison(inside.sets, token.place, what);
+}
+
+/// The next token of what is skipped behind `begin`; `depth` counts what an #end closes.
+PovToken PovParser::skipped(const PovPlace& place, const std::string& begin, int& depth)
+{
+  static const std::set<std::string> opening = { "if", "ifdef", "ifndef", "while", "for", "switch", "macro" };
+  PovToken token = this->Stream.raw();
+  if (token.kind == PovToken::Kind::End)
+  {
+    this->Stream.fail(place, "#" + begin + " is not closed", "#end", "end of file");
+  }
+  if (token.kind == PovToken::Kind::Directive)
+  {
+    depth += opening.count(token.text) > 0 ? 1 : token.text == "end" ? -1 : 0;
+  }
+  return token;
+}
+
+/// Skips to the #end of a loop or macro. A mesh in a loop is refused; a macro's is noted for when it is called.
+PovSymbols::Macro PovParser::skipToEnd(const PovToken& begin, const std::string& what)
+{
+  PovSymbols::Macro result;
+  const bool isMacro = begin.text == "macro";
+  std::string declares;
+  for (int depth = 1; depth > 0;)
+  {
+    const PovToken token = this->skipped(begin.place, begin.text, depth);
+    const std::string directive = token.kind == PovToken::Kind::Directive ? token.text : std::string();
+    const bool mesh = this->Session.symbols.isMesh(token) || directive == "include";
+    if (mesh && !isMacro)
+    {
+      this->Stream.fail(begin.place, what + ", and a mesh depends on it (" + quoted(token.text) + ", line " +
+                                       std::to_string(token.place.line) + ')');
+    }
+    result.mesh = mesh && result.mesh.empty() ? token.text : result.mesh;
+    if (token.kind == PovToken::Kind::Word && (declares == "declare" || (declares == "local" && !isMacro)))
+    {
+      result.sets.push_back(token.text);
+    }
+    declares = directive;
+  }
+  return result;
+}
+
+/// Skips the branch of a condition that is not taken: to its #end, or to an #else that is.
+void PovParser::skipBranch(const PovPlace& begin, bool toEnd)
+{
+  for (int depth = 1; depth > 0;)
+  {
+    PovToken token = this->skipped(begin, "if", depth);
+    if (token.kind != PovToken::Kind::Directive || depth != 1 || toEnd)
+    {
+      continue;
+    }
+    if (token.text == "else")
+    {
+      ++this->OpenConditions;
+      return;
+    }
+    if (token.text == "elseif")
+    {
+      token.text = "if";
+      this->condition(token);
+      return;
+    }
+  }
+}
+
+void PovParser::endOfBranch(const PovToken& token)
+{
+  if (this->OpenConditions == 0)
+  {
+    this->Stream.fail(token.place, "#" + token.text + " without #if");
+  }
+  --this->OpenConditions;
+  if (token.text != "end")
+  {
+    this->skipBranch(token.place, true);
+  }
+}
+
+void PovParser::condition(const PovToken& token)
+{
+  PovNumber holds;
+  this->Stream.expect('(', "a condition");
+  if (token.text == "if")
+  {
+    holds = this->Session.evaluator.logical();
+  }
+  else
+  {
+    holds.v[0] = this->Session.symbols.has(this->Stream.take().text) == (token.text == "ifdef") ? 1 : 0;
+    this->Stream.skipGroup("[");
+  }
+  this->Stream.expect(')', "a condition");
+  if (holds.unknown)
+  {
+    this->skipEvaluated(token, "#if is not evaluated: " + holds.unknown->what);
+  }
+  else if (holds.v[0] != 0)
+  {
+    ++this->OpenConditions;
+  }
+  else
+  {
+    this->skipBranch(token.place, false);
+  }
+}
+
+void PovParser::include(const PovToken& token)
+{
+  const PovToken name = this->Stream.take();
+  const PovValue* named = this->Session.symbols.find(name, PovValue::Kind::Text);
+  if (!named && name.kind != PovToken::Kind::String)
+  {
+    this->Stream.failAt(name, "#include names no file", "a file name in quotes");
+  }
+  const std::string written = named ? named->text : name.text;
+  const std::string path = findInclude(this->Stream.files(), written, token.place);
+  if (!path.empty())
+  {
+    this->Stream.files().include(path, token.place);
+    return;
+  }
+  if (written == "colors.inc")
+  {
+    this->Session.symbols.declareColors();
+  }
+  const std::string what = "#include " + quoted(written) +
+                           " not found (beside the including file, beside the scene, POVINC" +
+                           (std::getenv("POVINC") ? ")" : " (not set))");
+  this->Session.isOutside() ? this->Session.warn(token.place, what) : this->Session.problem(token.place, what);
+}
+
+/// The right-hand side of a declaration.
+PovValue PovParser::value()
+{
+  PovValue value;
+  const PovToken token = this->Stream.peek();
+  const PovValue* known = this->Session.symbols.find(token);
+  if (token.kind == PovToken::Kind::String)
+  {
+    value.kind = PovValue::Kind::Text;
+    value.text = this->Stream.take().text;
+  }
+  else if (PovAppearance::begins(token))
+  {
+    value.kind = PovValue::Kind::Texture;
+    do // layers: the last one is on top
+    {
+      value.texture = this->Appearance.texture(this->Stream.take().text, nullptr);
+    } while (this->Stream.peek().is("texture"));
+  }
+  else if (this->Stream.accept("transform"))
+  {
+    value.kind = PovValue::Kind::Transform;
+    value.transform = this->Session.evaluator.transformBlock();
+  }
+  else if (this->Stream.accept("camera"))
+  {
+    value.kind = PovValue::Kind::Camera;
+    value.right = this->Shapes.camera();
+  }
+  else if (known && known->kind != PovValue::Kind::Number)
+  {
+    value = this->Session.use(this->Stream.take());
+  }
+  else if (PovShapes::isOther(token))
+  {
+    this->Stream.take();
+    this->Stream.skipBlock();
+    value.kind = PovValue::Kind::Other;
+    value.text = token.text + " is not made of triangles";
+  }
+  else
+  {
+    PovShapeMaker maker;
+    const bool isShape = this->Shapes.item(maker);
+    value.kind = isShape ? PovValue::Kind::Shape : PovValue::Kind::Number;
+    value.shape = maker.take();
+    value.number = isShape ? PovNumber() : this->Session.evaluator.logical();
+  }
+  return value;
+}
+
+void PovParser::declare(const PovToken& directive)
+{
+  const PovToken name = this->Stream.take();
+  if (name.kind != PovToken::Kind::Word)
+  {
+    this->Stream.failAt(name, "cannot understand #" + directive.text, "a name");
+  }
+  this->Stream.skipGroup("[");
+  this->Stream.expect('=', "a declaration");
+  PovValue value;
+  this->Stream.readValue(
+    [&]
+    {
+      value = this->value();
+      this->Stream.accept(';');
+    });
+  for (PovInstance& instance : value.shape)
+  {
+    instance.name = instance.name.empty() ? name.text : instance.name;
+  }
+  this->Session.symbols.declare(name.text, std::move(value));
 }
 
 void PovParser::scene(PovContents& result)
 {
-  ShapeList all;
-  while (this->peek().kind != PovToken::Kind::End)
+  PovShapeMaker all;
+  while (this->Stream.peek().kind != PovToken::Kind::End)
   {
-    if (this->item(all) || this->accept(';'))
+    if (this->Shapes.item(all) || this->Stream.accept(';'))
     {
       continue;
     }
-    const PovToken token = this->take();
+    const PovToken token = this->Stream.take();
     if (token.kind != PovToken::Kind::Word)
     {
-      this->failAt(token, "cannot be understood here", "an object or a declaration");
+      this->Stream.failAt(token, "cannot be understood here", "an object or a declaration");
     }
-    this->macroCall(token);
+    this->Session.skipCall(token);
   }
   result.shape = all.take();
 }
 
-/// A file of declarations only is drawn as if each mesh that no other one uses stood in the scene.
-void PovParser::finish(PovContents& result)
+void PovParser::checkDrawn(const PovShape& shape) const
 {
-  if (result.shape.empty())
+  const bool drawn =
+    std::any_of(shape.begin(), shape.end(), [](const PovInstance& instance) { return !instance.mesh->faces.empty(); });
+  const PovProblem& first = this->Session.firstProblem();
+  if (!drawn && first.what.empty())
   {
-    std::vector<const PovValue*> declared;
-    for (const auto& [name, value] : this->Names)
-    {
-      if (value.kind == PovValue::Kind::Shape && !value.used)
-      {
-        declared.push_back(&value);
-      }
-    }
-    std::sort(
-      declared.begin(), declared.end(), [](const PovValue* a, const PovValue* b) { return a->order < b->order; });
-    for (const PovValue* value : declared)
-    {
-      result.shape.insert(result.shape.end(), value->shape.begin(), value->shape.end());
-    }
+    this->Stream.fail({ 0, 0 }, "has no mesh", "mesh, mesh2 or triangle", "none");
   }
-  const bool drawn = std::any_of(result.shape.begin(), result.shape.end(),
-    [](const PovInstance& instance) { return !instance.mesh->faces.empty(); });
   if (!drawn)
   {
-    if (!this->FirstProblem.empty())
-    {
-      this->fail(this->FirstProblemPlace, this->FirstProblem + ", and the file has no mesh");
-    }
-    this->fail({ 0, 0 }, "has no mesh", "mesh, mesh2 or triangle", "none");
+    this->Stream.fail(first.place, first.what + ", and the file has no mesh");
   }
 }
 
@@ -319,23 +411,29 @@ PovContents PovParser::run()
 {
   PovContents result;
   this->scene(result);
-  this->finish(result);
-  result.rightHanded = this->Right < 0;
-  result.defaultTexture = this->DefaultTexture;
-  result.warnings = std::move(this->Warnings);
-  if (!this->Scenery.empty())
+  if (result.shape.empty())
   {
-    std::string names;
-    for (const std::string& name : this->Scenery)
-    {
-      names += (names.empty() ? "" : ", ") + name;
-    }
-    result.warnings.push_back("no part of the model, left out: " + names);
+    // a file of declarations only is drawn as if each mesh that no other one uses stood in the scene
+    result.shape = this->Session.symbols.unused();
   }
-  result.bytesRead = this->Tokens.bytesRead();
-  result.files = this->Tokens.paths();
+  this->checkDrawn(result.shape);
+  result.rightHanded = this->Shapes.right() < 0;
+  result.defaultTexture = this->Appearance.defaultTexture();
+  result.warnings = this->Session.takeWarnings();
+  std::string scenery;
+  for (const std::string& name : this->Shapes.scenery())
+  {
+    scenery += (scenery.empty() ? "no part of the model, left out: " : ", ") + name;
+  }
+  if (!scenery.empty())
+  {
+    result.warnings.push_back(scenery);
+  }
+  result.bytesRead = this->Stream.files().bytesRead();
+  result.files = this->Stream.files().paths();
   return result;
 }
+} // namespace
 
 PovContents readPovContents(const std::string& path) { return PovParser(path).run(); }
 

@@ -4,7 +4,7 @@
 #include "dgtkPovContents.h"
 
 #include <algorithm>
-
+#include <map>
 #include <set>
 
 namespace dgtk
@@ -95,42 +95,40 @@ private:
   int material(const PovTexture& texture)
   {
     const auto known = this->Materials.find(&texture);
-    if (known != this->Materials.end())
-    {
-      return known->second;
-    }
-    const Eigen::Vector3d plain = texture.image.empty() ? Eigen::Vector3d(0.8, 0.8, 0.8) : Eigen::Vector3d(1, 1, 1);
-    const Eigen::Vector3d color = texture.hasColor && texture.image.empty() ? texture.color : plain;
+    return known != this->Materials.end() ? known->second : this->Materials[&texture] = this->addMaterial(texture);
+  }
+
+  int addMaterial(const PovTexture& texture)
+  {
+    const PovPigment& pigment = texture.pigment;
+    const PovFinish& finish = texture.finish;
+    const Eigen::Vector3d plain = pigment.image.empty() ? Eigen::Vector3d(0.8, 0.8, 0.8) : Eigen::Vector3d(1, 1, 1);
+    const Eigen::Vector3d color = pigment.hasColor && pigment.image.empty() ? pigment.color : plain;
     Material made;
     made.name = texture.name;
-    made.diffuse = color * (texture.diffuse >= 0 ? texture.diffuse : 1);
-    made.ambient = color * (texture.ambient >= 0 ? texture.ambient : 0.2);
-    made.emission = color * texture.emission;
-    const bool specular = texture.specular > 0;
-    const double shine = specular ? texture.specular : texture.phong;
-    made.specular = Eigen::Vector3d(shine, shine, shine);
-    made.shininess = specular ? 1 / std::max(texture.roughness, 1e-3) : shine > 0 ? texture.phongSize : 0;
-    made.opacity = 1 - texture.filter - texture.transmit;
+    made.diffuse = color * (finish.diffuse >= 0 ? finish.diffuse : 1);
+    made.ambient = color * (finish.ambient >= 0 ? finish.ambient : 0.2);
+    made.emission = color * finish.emission;
+    const bool specular = finish.specular > 0;
+    made.specular.setConstant(specular ? finish.specular : finish.phong);
+    made.shininess = specular ? 1 / std::max(finish.roughness, 1e-3) : finish.phong > 0 ? finish.phongSize : 0;
+    made.opacity = 1 - pigment.filter - pigment.transmit;
     made.twoSided = true;
-    int index = this->Builder.addMaterial(made);
-    if (!texture.image.empty())
+    const int plainIndex = this->Builder.addMaterial(made);
+    const int index = this->Builder.withTexture(plainIndex, this->Builder.addTexture(pigment.image));
+    if (!pigment.image.empty() && !pigment.uvMapping && pigment.mapType != 0)
     {
-      index = this->Builder.withTexture(index, this->Builder.addTexture(texture.image));
-      if (!texture.uvMapping && texture.mapType != 0)
-      {
-        this->Builder.warn("image_map " + quoted(texture.image) + " of that map_type is not drawn in its place");
-      }
+      this->Builder.warn("image_map " + quoted(pigment.image) + " of that map_type is not drawn in its place");
     }
-    this->Materials[&texture] = index;
     return index;
   }
 
   /// Texture coordinates of a corner: those of the mesh, or for a planar image_map x and y.
   static Eigen::Vector2d uvOf(
-    const PovInstance& instance, const PovMesh::Face& face, std::size_t corner, const PovTexture& texture)
+    const PovInstance& instance, const PovMesh::Face& face, std::size_t corner, const PovPigment& pigment)
   {
     Eigen::Vector3d p = Eigen::Vector3d::Zero();
-    if (texture.uvMapping || texture.mapType != 0)
+    if (pigment.uvMapping || pigment.mapType != 0)
     {
       if (face.uv[corner] >= 0)
       {
@@ -142,8 +140,8 @@ private:
       p = instance.mesh->vertices[face.vertex[corner]];
       p = face.texture >= 0 ? p : instance.texture_from_mesh * p;
     }
-    const bool invertible = texture.object_from_pattern.linear().determinant() != 0;
-    return (invertible ? texture.object_from_pattern.inverse() * p : p).head<2>();
+    const bool invertible = pigment.object_from_pattern.linear().determinant() != 0;
+    return (invertible ? pigment.object_from_pattern.inverse() * p : p).head<2>();
   }
 
   void add(const PovInstance& instance, std::size_t index)
@@ -162,10 +160,7 @@ private:
     std::vector<std::int32_t> normals;
     for (const Eigen::Vector3f& normal : mesh.normals)
     {
-      // cofactors: the inverse transpose times the determinant
-      const Eigen::Vector3d n = orientation * normal.cast<double>();
-      normals.push_back(this->Builder.addNormal(
-        m.col(1).cross(m.col(2)) * n.x() + m.col(2).cross(m.col(0)) * n.y() + m.col(0).cross(m.col(1)) * n.z()));
+      normals.push_back(this->Builder.addNormal(turnedNormal(m, orientation * normal.cast<double>())));
     }
     for (const PovMesh::Face& face : mesh.faces)
     {
@@ -199,9 +194,9 @@ private:
     {
       corners[i].vertex = first + face.vertex[i];
       corners[i].normal = face.normal[i] < 0 ? -1 : normals[static_cast<std::size_t>(face.normal[i])];
-      if (!texture.image.empty() || face.uv[i] >= 0)
+      if (!texture.pigment.image.empty() || face.uv[i] >= 0)
       {
-        const Eigen::Vector2d uv = uvOf(instance, face, i, texture);
+        const Eigen::Vector2d uv = uvOf(instance, face, i, texture.pigment);
         corners[i].u = static_cast<float>(uv.x());
         corners[i].v = static_cast<float>(uv.y());
         this->Builder.setHasUvs();

@@ -73,12 +73,10 @@ void PovTokenizer::skipComment(Source& source)
     {
       this->fail(begin, "comment is not closed", "*/", "end of file");
     }
-    const char c = source.text[source.at];
-    const char after = source.text[source.at + 1];
-    const bool opens = c == '/' && after == '*';
-    const bool closes = c == '*' && after == '/';
+    const bool opens = source.begins("/*");
+    const bool closes = source.begins("*/");
     depth += opens ? 1 : closes ? -1 : 0;
-    source.place.line += c == '\n' ? 1 : 0;
+    source.place.line += source.text[source.at] == '\n' ? 1 : 0;
     source.at += opens || closes ? 2 : 1;
   } while (depth > 0);
 }
@@ -86,26 +84,21 @@ void PovTokenizer::skipComment(Source& source)
 /// False at the end of the file.
 bool PovTokenizer::skipSpace(Source& source)
 {
-  while (source.at < source.text.size())
+  for (; source.at < source.text.size(); ++source.at)
   {
-    const char c = source.text[source.at];
-    if (isSpace(c))
-    {
-      source.place.line += c == '\n' ? 1 : 0;
-      ++source.at;
-    }
-    else if (source.text.compare(source.at, 2, "//") == 0)
-    {
-      source.at = std::min(source.text.find('\n', source.at), source.text.size());
-    }
-    else if (source.text.compare(source.at, 2, "/*") == 0)
+    while (source.begins("/*"))
     {
       this->skipComment(source);
     }
-    else
+    if (source.begins("//"))
+    {
+      source.at = std::min(source.text.find('\n', source.at), source.text.size());
+    }
+    if (!isSpace(source.ahead()))
     {
       return true;
     }
+    source.place.line += source.ahead() == '\n' ? 1 : 0;
   }
   return false;
 }
@@ -133,14 +126,9 @@ PovToken PovTokenizer::string(Source& source)
   const PovPlace begin = source.place;
   for (++source.at; source.at < source.text.size() && source.text[source.at] != '"'; ++source.at)
   {
-    char c = source.text[source.at];
-    if (c == '\\' && source.at + 1 < source.text.size() &&
-        (source.text[source.at + 1] == '"' || source.text[source.at + 1] == '\\'))
-    {
-      c = source.text[++source.at];
-    }
-    source.place.line += c == '\n' ? 1 : 0;
-    token.text += c;
+    source.at += source.begins("\\\"") || source.begins("\\\\") ? 1 : 0;
+    source.place.line += source.text[source.at] == '\n' ? 1 : 0;
+    token.text += source.text[source.at];
   }
   if (source.at >= source.text.size())
   {
@@ -150,24 +138,37 @@ PovToken PovTokenizer::string(Source& source)
   return token;
 }
 
+PovToken PovTokenizer::word(Source& source)
+{
+  PovToken token;
+  token.kind = PovToken::Kind::Word;
+  if (source.ahead() == '#')
+  {
+    token.kind = PovToken::Kind::Directive;
+    source.at = std::min(source.text.find_first_not_of(" \t", source.at + 1), source.text.size());
+  }
+  for (; isLetter(source.ahead()) || isDigit(source.ahead()); ++source.at)
+  {
+    token.text += source.ahead();
+  }
+  if (token.text.size() > longestWord)
+  {
+    this->fail(source.place, "name is too long", "at most " + std::to_string(longestWord) + " characters");
+  }
+  return token;
+}
+
 PovToken PovTokenizer::next()
 {
-  while (!this->skipSpace(*this->Stack.back()))
+  while (!this->skipSpace(*this->Stack.back()) && this->Stack.size() > 1)
   {
-    if (this->Stack.size() == 1)
-    {
-      PovToken end;
-      end.place = this->Stack.back()->place;
-      return end;
-    }
     this->Stack.pop_back();
   }
   Source& source = *this->Stack.back();
   const PovPlace place = source.place;
-  const char c = source.text[source.at];
-  const char after = source.at + 1 < source.text.size() ? source.text[source.at + 1] : '\0';
+  const char c = source.ahead();
   PovToken token;
-  if (isDigit(c) || (c == '.' && isDigit(after)))
+  if (isDigit(c) || (c == '.' && isDigit(source.ahead(1))))
   {
     token = this->number(source);
   }
@@ -177,32 +178,9 @@ PovToken PovTokenizer::next()
   }
   else if (isLetter(c) || c == '#')
   {
-    std::size_t begin = source.at;
-    if (c == '#')
-    {
-      token.kind = PovToken::Kind::Directive;
-      begin = source.at + 1;
-      while (begin < source.text.size() && (source.text[begin] == ' ' || source.text[begin] == '\t'))
-      {
-        ++begin;
-      }
-    }
-    else
-    {
-      token.kind = PovToken::Kind::Word;
-    }
-    source.at = begin;
-    while (source.at < source.text.size() && (isLetter(source.text[source.at]) || isDigit(source.text[source.at])))
-    {
-      ++source.at;
-    }
-    if (source.at - begin > longestWord)
-    {
-      this->fail(place, "name is too long", "at most " + std::to_string(longestWord) + " characters");
-    }
-    token.text = source.text.substr(begin, source.at - begin);
+    token = this->word(source);
   }
-  else
+  else if (source.at < source.text.size())
   {
     token.kind = PovToken::Kind::Symbol;
     token.text = c;

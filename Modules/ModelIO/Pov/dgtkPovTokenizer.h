@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,10 @@ struct PovToken
 
   bool is(char symbol) const { return this->kind == Kind::Symbol && this->text[0] == symbol; }
   bool is(const char* word) const { return this->kind == Kind::Word && this->text == word; }
+  bool isOneOf(const std::set<std::string>& words) const
+  {
+    return this->kind == Kind::Word && words.count(this->text) > 0;
+  }
 };
 
 /// Splits a scene file and what it includes into tokens. Comments nest, as POV-Ray's do.
@@ -61,12 +66,20 @@ private:
     std::string text;
     std::size_t at = 0;
     PovPlace place;
+
+    /// The character that comes, or one of those behind it; 0 behind the end.
+    char ahead(std::size_t more = 0) const
+    {
+      return this->at + more < this->text.size() ? this->text[this->at + more] : '\0';
+    }
+    bool begins(const char* two) const { return this->ahead() == two[0] && this->ahead(1) == two[1]; }
   };
   void open(const std::string& path);
   bool skipSpace(Source& source);
   void skipComment(Source& source);
   PovToken number(Source& source);
   PovToken string(Source& source);
+  PovToken word(Source& source);
 
   std::vector<std::string> Paths;
   std::vector<std::unique_ptr<Source>> Stack;

@@ -304,6 +304,13 @@ TEST(PovTables, DeclarationsThatAreNotMadeOfTriangles)
     EXPECT_THAT(drawn("", declared + "object { A scale 2 }").warnings,
       ElementsAre(HasSubstr(std::string(word) + " is not made of triangles: left out")));
   }
+  for (const char* use : { "object { A scale 2 }", "union { A }" })
+  {
+    EXPECT_THAT(drawn("", std::string("#declare A = \"a.png\";\n") + use).warnings,
+      ElementsAre(HasSubstr(":3: 'A' is not made of triangles: left out")));
+  }
+  EXPECT_EQ(
+    readBytes("pov", "#declare A = union { sphere { 0, 1 } }\nmesh { A }\ntriangle { 0, x, y }")->triangles.size(), 1u);
   for (const char* word : { "array", "function", "spline" })
   {
     const std::string declared = std::string("#declare A = ") + word + "(x)[3] { 1, 2, 3 }\n";
