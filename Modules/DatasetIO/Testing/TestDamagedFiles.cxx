@@ -119,7 +119,7 @@ TEST_P(DamagedFiles, AreRefusedOrRead)
       }
       if (broken.size() < bytes.size())
       {
-        ASSERT_FALSE(message.empty() && format != "png") << "cut to " << broken.size() << " of " << bytes.size();
+        ASSERT_FALSE(message.empty()) << "cut to " << broken.size() << " of " << bytes.size();
       }
     }
   }
@@ -151,7 +151,7 @@ TEST(LyingHeaders, AreRefusedWithTheirOffset)
   EXPECT_THAT(messageOf("x.dgd", std::string(264, '\0')), HasSubstr("offset 256: unusable image size"));
   EXPECT_THAT(messageOf("x.dgd", "short"), HasSubstr("offset 5: ends too early"));
   std::string png("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\xff\xff\0\0\xff\xff\x08\x06\0\0\0", 29);
-  EXPECT_THAT(messageOf("x.png", png + "????"), HasSubstr("offset 29: the checksum of a chunk is wrong"));
+  EXPECT_THAT(messageOf("x.png", png + "????"), HasSubstr("offset 33: is damaged"));
   std::uint32_t crc = ~0u; // ISO 3309, over the chunk's type and data
   for (std::size_t i = 12; i < png.size(); ++i)
   {
@@ -165,7 +165,8 @@ TEST(LyingHeaders, AreRefusedWithTheirOffset)
   {
     png += char(~crc >> shift & 255);
   }
-  EXPECT_THAT(messageOf("x.png", png),
+  EXPECT_THAT(messageOf("x.png", png), HasSubstr("offset 33: ends too early"));
+  EXPECT_THAT(messageOf("x.png", png + std::string("\0\0\0\1IDAT", 8)),
     HasSubstr("offset 16: more pixels than a file of this size can hold (found 65535 x 65535)"));
   EXPECT_THAT(messageOf("x.png", "not a picture"), HasSubstr("offset 0: is not a PNG file"));
   EXPECT_THAT(messageOf("x.exr", "not a picture"), HasSubstr("offset 0: is not an OpenEXR file"));
