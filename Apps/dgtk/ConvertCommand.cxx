@@ -5,6 +5,7 @@
 #include "dgtkModelReader.h"
 #include "dgtkPovExport.h"
 #include "dgtkStage.h"
+#include "dgtkText.h"
 #include "dgtkUtf8.h"
 
 #include <algorithm>
@@ -16,17 +17,10 @@ namespace dgtk::app
 
 namespace
 {
-std::string extensionOf(const std::string& path)
-{
-  std::string text = std::filesystem::path(path).extension().string();
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 bool isScene(const std::string& path)
 {
   const std::string extension = extensionOf(path);
-  return extension == ".scene" || extension == ".json";
+  return extension == "scene" || extension == "json";
 }
 
 void warn(const std::string& line) { std::cerr << "dgtk: warning: " << printable(line) << '\n'; }
@@ -80,7 +74,7 @@ int run(const Arguments& arguments)
 {
   const std::string& from = arguments.positional()[0];
   const std::string& to = arguments.positional()[1];
-  const bool pov = extensionOf(to) == ".pov";
+  const bool pov = lower(std::filesystem::path(to).extension().string()) == ".pov";
   for (const char* const option : { "--camera", "--frame", "--flat-ids", "--shadows" })
   {
     if (arguments.has(option) && !(pov && isScene(from)))

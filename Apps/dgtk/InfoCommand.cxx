@@ -5,6 +5,7 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkModelReader.h"
+#include "dgtkText.h"
 #include "dgtkUtf8.h"
 
 #include <nlohmann/json.hpp>
@@ -53,13 +54,6 @@ Json infoOfModel(const std::string& path)
   }
   info["warnings"] = model->warnings;
   return info;
-}
-
-std::string extension(const std::string& path)
-{
-  std::string text = std::filesystem::path(path).extension().string();
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
 }
 
 /// Names of files may be any bytes; JSON holds UTF-8.
@@ -125,7 +119,7 @@ Json infoOf(const Arguments& arguments)
   {
     return infoOfDataset(std::filesystem::path(path).parent_path().string());
   }
-  if (extension(path) == ".scene" || extension(path) == ".json")
+  if (extensionOf(path) == "scene" || extensionOf(path) == "json")
   {
     return infoOfScene(path, arguments);
   }

@@ -2,10 +2,10 @@
 #include "Options.h"
 
 #include "dgtkError.h"
+#include "dgtkText.h"
 
 #include <algorithm>
 #include <charconv>
-#include <numeric>
 
 namespace dgtk::app
 {
@@ -175,34 +175,6 @@ std::string helpPage(const Command& command)
             (options[i].fallback.empty() ? "" : " [" + options[i].fallback + ']') + '\n';
   }
   return page;
-}
-
-std::string nearest(const std::string& word, const std::vector<std::string>& candidates)
-{
-  std::string best;
-  std::size_t bestDistance = word.size() / 2 + 1;
-  for (const std::string& candidate : candidates)
-  {
-    std::vector<std::size_t> row(candidate.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t(0));
-    for (std::size_t i = 0; i < word.size(); ++i)
-    {
-      std::size_t diagonal = row[0];
-      row[0] = i + 1;
-      for (std::size_t j = 0; j < candidate.size(); ++j)
-      {
-        const std::size_t above = row[j + 1];
-        row[j + 1] = std::min({ above + 1, row[j] + 1, diagonal + (word[i] == candidate[j] ? 0 : 1) });
-        diagonal = above;
-      }
-    }
-    if (row.back() < bestDistance)
-    {
-      bestDistance = row.back();
-      best = candidate;
-    }
-  }
-  return best;
 }
 
 } // namespace dgtk::app

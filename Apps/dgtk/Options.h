@@ -60,9 +60,6 @@ private:
 /// The page that `dgtk COMMAND --help` prints.
 std::string helpPage(const Command& command);
 
-/// The candidate nearest to `word` by edit distance, or "" when none is near.
-std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
-
 /// An integer written in full; UsageError naming `what` otherwise.
 int parseInteger(const std::string& text, const std::string& what, int least, int most);
 

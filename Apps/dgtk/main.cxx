@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkGLContext.h"
+#include "dgtkText.h"
 #include "dgtkUtf8.h"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ int dispatch(const std::vector<std::string>& words)
   {
     std::vector<std::string> names;
     std::transform(all.begin(), all.end(), std::back_inserter(names), [](const Command& c) { return c.name; });
-    const std::string near = nearest(words[0], names);
+    const std::string near = dgtk::nearest(words[0], names);
     throw dgtk::UsageError("unknown command " + dgtk::quoted(words[0]) +
                            (near.empty() ? "" : ", did you mean " + near + "?") + " (see dgtk --help)");
   }

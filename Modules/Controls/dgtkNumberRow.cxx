@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkNumberRow.h"
 
+#include "dgtkText.h"
+
 #include <QApplication>
 #include <QHBoxLayout>
 #include <QKeyEvent>
@@ -49,11 +51,7 @@ protected:
 };
 } // namespace
 
-QString numberText(double value)
-{
-  char text[64];
-  return QString::fromLatin1(text, static_cast<int>(std::to_chars(text, text + sizeof text, value).ptr - text));
-}
+QString numberText(double value) { return QString::fromStdString(shortest(value)); }
 
 std::optional<double> numberOf(const QString& text)
 {

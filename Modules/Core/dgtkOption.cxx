@@ -2,6 +2,7 @@
 #include "dgtkOption.h"
 
 #include "dgtkError.h"
+#include "dgtkText.h"
 
 #include <algorithm>
 #include <charconv>
@@ -102,12 +103,6 @@ std::vector<double> numbersIn(const OptionRow& row, const std::string& text)
     refuse(row, row.value + (row.leastNumber == 0 ? ", all above 0" : ""), text);
   }
   return values;
-}
-
-std::string shortest(double value)
-{
-  char text[32];
-  return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 } // namespace
 

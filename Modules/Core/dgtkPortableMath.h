@@ -4,6 +4,11 @@
 
 #include "dgtkCoreModule.h"
 
+namespace dgtk
+{
+constexpr double pi = 3.14159265358979323846;
+}
+
 namespace dgtk::portable
 {
 

@@ -9,6 +9,7 @@
 #include "dgtkJsonText.h"
 #include "dgtkLayerReader.h"
 #include "dgtkLdi.h"
+#include "dgtkText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -246,13 +247,8 @@ std::map<std::string, std::string> layersOf(
     if (layer.empty() || known.count(layer) == 0)
     {
       known.erase("");
-      std::string names;
-      for (const std::string& name : known)
-      {
-        names += (names.empty() ? "" : ", ") + name;
-      }
-      throw UsageError(
-        "a tolerance for " + quoted(layer) + ": " + folder + " has no such layer (it has " + names + ')');
+      throw UsageError("a tolerance for " + quoted(layer) + ": " + folder + " has no such layer (it has " +
+                       joined({ known.begin(), known.end() }) + ')');
     }
     const auto names = [&name = layer](const LayerRecord& record)
     { return record.spec.name == name && (record.spec.unit == "id" || record.spec.unit == "class"); };

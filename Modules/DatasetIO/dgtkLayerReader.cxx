@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkInputFile.h"
+#include "dgtkText.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -104,20 +105,6 @@ void RowReader::skip(int rows)
   }
   this->Next = target;
 }
-
-namespace
-{
-std::string extensionOf(const std::string& path)
-{
-  const std::size_t dot = path.find_last_of("./");
-  std::string extension = dot == std::string::npos || path[dot] != '.' ? std::string() : path.substr(dot + 1);
-  for (char& c : extension)
-  {
-    c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  }
-  return extension;
-}
-} // namespace
 
 bool isLayerFile(const std::string& path)
 {

@@ -2,6 +2,7 @@
 #include "dgtkLayerWriter.h"
 
 #include "dgtkError.h"
+#include "dgtkText.h"
 #include "dgtkWriterEntry.h"
 
 #include <cstdlib>
@@ -25,12 +26,12 @@ const WriterRow* findWriter(const std::string& format)
 
 std::string formatList()
 {
-  std::string list;
+  std::vector<std::string> list;
   for (const WriterRow& row : writerRows())
   {
-    list += (list.empty() ? "" : ", ") + row.info.format;
+    list.push_back(row.info.format);
   }
-  return list;
+  return joined(list);
 }
 } // namespace
 

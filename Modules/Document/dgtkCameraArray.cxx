@@ -3,6 +3,7 @@
 
 #include "dgtkCameraModel.h"
 #include "dgtkError.h"
+#include "dgtkPortableMath.h"
 
 #include <Eigen/Geometry>
 
@@ -17,7 +18,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double goldenAngle = 2.39996322972865332; // pi (3 - sqrt 5)
 constexpr int mostCameras = 10000;
 constexpr double leastHeight = 1e-3; // sine of the elevation of the hemisphere's highest gap to its pole

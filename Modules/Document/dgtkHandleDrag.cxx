@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPortableMath.h"
 #include "dgtkViewHandles.h"
 
 #include <Eigen/Geometry>
@@ -11,7 +12,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double mostParallel = 0.998; // cosine between a ray and an axis that can still be pulled
 constexpr double flattest = 0.2;       // cosine at which the plane of a ring is still seen openly
 constexpr double leastFactor = 0.01;

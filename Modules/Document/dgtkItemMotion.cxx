@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkItemMotion.h"
 
+#include "dgtkPortableMath.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -16,7 +18,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double samePose = 1e-12; // of unit vectors
 constexpr int mostSteps = 60;      // of an iteration that converges in about ten
 

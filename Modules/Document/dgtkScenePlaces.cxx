@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkObjectPoses.h"
+#include "dgtkPortableMath.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -17,7 +18,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double atEye = 1e-6;      // world units; nearer cameras and lights are at the eye itself
 constexpr double sameCenter = 1e-6; // of a box's diagonal: what single-precision files leave of a centred model
 constexpr double infinity = std::numeric_limits<double>::infinity();

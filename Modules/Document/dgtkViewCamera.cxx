@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkViewCamera.h"
 
+#include "dgtkPortableMath.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -11,7 +13,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double viewAngle = 30;           // degrees
 constexpr double margin = 1.08;            // of a framed box
 constexpr double steepest = 89 * pi / 180; // of the perspective's eye above the ground

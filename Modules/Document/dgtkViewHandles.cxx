@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkViewHandles.h"
 
+#include "dgtkPortableMath.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -12,7 +14,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double lengthPixels = 80;
 constexpr double hitPixels = 7;
 constexpr double patchPixels = 6;   // half the side of the box in the middle

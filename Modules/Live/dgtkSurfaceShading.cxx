@@ -18,7 +18,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double noCone = 90;        // degrees; a wider cone is none
 constexpr double leastRough = 0.03;  // as in the shaders, like what follows
 constexpr double leastCosine = 1e-4; // between normal and viewer

@@ -3,13 +3,13 @@
 
 #include "dgtkEditorLanguage.h"
 #include "dgtkEditorState.h"
+#include "dgtkText.h"
 
 #include <QApplication>
 #include <QClipboard>
 #include <QHeaderView>
 #include <QKeyEvent>
 
-#include <charconv>
 #include <cmath>
 
 namespace dgtk
@@ -32,8 +32,7 @@ QString exactText(double value)
   {
     return QStringLiteral("-");
   }
-  char text[32];
-  return QString::fromLatin1(text, static_cast<int>(std::to_chars(text, text + sizeof text, value).ptr - text));
+  return QString::fromStdString(shortest(value));
 }
 
 QString exactText(const PixelValue& value, const QString& separator)

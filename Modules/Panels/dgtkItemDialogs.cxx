@@ -2,6 +2,7 @@
 #include "dgtkItemDialogs.h"
 
 #include "dgtkNumberRow.h"
+#include "dgtkPortableMath.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -17,7 +18,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr int byMatrix = 1; // of the lens's words
 constexpr double usualWidth = 640;
 constexpr double usualHeight = 480;

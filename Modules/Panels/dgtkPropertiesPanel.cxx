@@ -3,6 +3,7 @@
 
 #include "dgtkItemMotion.h"
 #include "dgtkNumberRow.h"
+#include "dgtkPortableMath.h"
 
 #include <QFormLayout>
 #include <QLabel>
@@ -16,7 +17,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 
 /// Digits beyond what degrees are good for would only be noise.
 double tidy(double degrees) { return std::round(degrees * 1e9) / 1e9 + 0.0; }

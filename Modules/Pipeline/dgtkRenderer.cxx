@@ -8,6 +8,7 @@
 #include "dgtkThreadPool.h"
 #include "dgtkWorkPlan.h"
 
+#include "dgtkText.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
@@ -48,18 +49,22 @@ vtkSmartPointer<vtkDataArray> arrayFor(dgtk::PixelType type)
 void requireArrays(const std::vector<std::string>& layers)
 {
   std::map<std::string, std::string> filesOnly;
-  std::string arrays;
+  std::vector<std::string> arrays;
   for (const dgtk::LayerInfo& info : dgtk::generatorLayers())
   {
     filesOnly[info.layer] = info.filesOnly;
-    arrays += (arrays.empty() || !info.filesOnly.empty() ? "" : ", ") + (info.filesOnly.empty() ? info.layer : "");
+    if (info.filesOnly.empty())
+    {
+      arrays.push_back(info.layer);
+    }
   }
   for (const std::string& layer : layers)
   {
     const auto found = filesOnly.find(layer);
     if (found == filesOnly.end())
     {
-      throw dgtk::UsageError("unknown layer " + dgtk::quoted(layer) + " (expected one of " + arrays + ')');
+      throw dgtk::UsageError(
+        "unknown layer " + dgtk::quoted(layer) + " (expected one of " + dgtk::joined(arrays) + ')');
     }
     if (!found->second.empty())
     {

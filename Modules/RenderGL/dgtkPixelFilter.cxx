@@ -2,6 +2,7 @@
 #include "dgtkPixelFilter.h"
 
 #include "dgtkError.h"
+#include "dgtkPortableMath.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,6 @@ namespace dgtk
 {
 namespace
 {
-
-constexpr double pi = 3.14159265358979323846;
 
 float clamped(double value) { return value > 0 ? (value < 1 ? float(value) : 1.0f) : 0.0f; }
 float clamped(float value) { return value > 0 ? (value < 1 ? value : 1.0f) : 0.0f; }

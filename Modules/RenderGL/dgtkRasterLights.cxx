@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRasterLights.h"
 
+#include "dgtkPortableMath.h"
+
 #include <cmath>
 
 namespace dgtk
 {
 namespace
 {
-
-constexpr double pi = 3.14159265358979323846;
 
 std::array<float, 4> pack(const Eigen::Vector3d& xyz, double w = 0)
 {

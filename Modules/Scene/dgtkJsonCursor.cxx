@@ -3,25 +3,13 @@
 
 #include "dgtkError.h"
 #include "dgtkSceneText.h"
+#include "dgtkText.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace dgtk::scenefile
 {
-
-namespace
-{
-std::string listed(const std::vector<std::string>& words)
-{
-  std::string text;
-  for (const std::string& word : words)
-  {
-    text += (text.empty() ? "" : ", ") + word;
-  }
-  return text;
-}
-} // namespace
 
 JsonCursor::JsonCursor(const JsonNode& node, const std::string& file, const std::string& label, long line)
   : Node(&node)
@@ -111,7 +99,7 @@ void JsonCursor::failKey(std::size_t pair, const std::vector<std::string>& known
   const std::string near = suggestion(this->key(pair), known);
   const JsonCursor at = this->member(pair);
   throw InputError(*this->File, this->Node->children[2 * pair].line, at.path() + " is an unknown key",
-    near.empty() ? "one of " + listed(known) : "perhaps " + quoted(near), quoted(this->key(pair)));
+    near.empty() ? "one of " + joined(known) : "perhaps " + quoted(near), quoted(this->key(pair)));
 }
 
 double JsonCursor::number(const Range& range) const
@@ -251,7 +239,7 @@ std::size_t JsonCursor::oneOf(const std::vector<std::string>& words) const
       }
     }
   }
-  this->fail("is not known", "one of " + listed(words), this->Node->described());
+  this->fail("is not known", "one of " + joined(words), this->Node->described());
 }
 
 } // namespace dgtk::scenefile

@@ -5,6 +5,7 @@
 #include "dgtkFile.h"
 #include "dgtkSceneJson.h"
 #include "dgtkSceneText.h"
+#include "dgtkText.h"
 #include "dgtkThesisScene.h"
 
 #include <filesystem>

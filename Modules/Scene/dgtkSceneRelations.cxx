@@ -4,6 +4,7 @@
 #include "dgtkCameraModel.h"
 #include "dgtkError.h"
 #include "dgtkSceneText.h"
+#include "dgtkText.h"
 
 #include <algorithm>
 #include <numeric>

@@ -53,34 +53,6 @@ std::string parseNumber(std::string_view text, double& value)
 
 namespace
 {
-std::size_t editDistance(const std::string& a, const std::string& b)
-{
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j)
-  {
-    row[j] = j;
-  }
-  for (std::size_t i = 1; i <= a.size(); ++i)
-  {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j)
-    {
-      const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({ replaced, row[j] + 1, row[j - 1] + 1 });
-    }
-  }
-  return row[b.size()];
-}
-
-std::string lower(std::string text)
-{
-  std::transform(
-    text.begin(), text.end(), text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-  return text;
-}
-
 fs::path canonicalFolder(const std::string& folder)
 {
   std::error_code error;
@@ -89,26 +61,6 @@ fs::path canonicalFolder(const std::string& folder)
   return error ? path.lexically_normal() : canonical;
 }
 } // namespace
-
-std::string nearest(const std::string& word, const std::vector<std::string>& candidates)
-{
-  if (word.size() > 64)
-  {
-    return {};
-  }
-  std::string best;
-  std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
-  for (const std::string& candidate : candidates)
-  {
-    const std::size_t distance = editDistance(lower(word), lower(candidate));
-    if (distance < least)
-    {
-      least = distance;
-      best = candidate;
-    }
-  }
-  return best;
-}
 
 std::string relocate(const std::string& path, const std::string& fromFolder, const std::string& toFolder)
 {
@@ -128,11 +80,5 @@ std::string relocate(const std::string& path, const std::string& fromFolder, con
 }
 
 std::string stemOf(const std::string& path) { return fs::path(path).stem().string(); }
-
-std::string extensionOf(const std::string& path)
-{
-  const std::string extension = lower(fs::path(path).extension().string());
-  return extension.empty() ? extension : extension.substr(1);
-}
 
 } // namespace dgtk::scenefile

@@ -6,7 +6,6 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace dgtk::scenefile
 {
@@ -17,17 +16,12 @@ std::string numberText(double value);
 /// What a text is not, as an error says it; empty when `value` was read. Decimal, finite, the whole text.
 std::string parseNumber(std::string_view text, double& value);
 
-/// The candidate with the smallest edit distance, or "" when none is near.
-std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
-
 /// `path` as written below `fromFolder`, rewritten to be relative to `toFolder`; absolute paths and paths within the
 /// same folder stay as they are.
 std::string relocate(const std::string& path, const std::string& fromFolder, const std::string& toFolder);
 
 /// File name without folder and extension.
 std::string stemOf(const std::string& path);
-/// Extension in lower case, without dot.
-std::string extensionOf(const std::string& path);
 
 } // namespace dgtk::scenefile
 

@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkSceneRules.h"
 #include "dgtkSceneText.h"
+#include "dgtkText.h"
 #include "dgtkThesisLexer.h"
 
 #include <algorithm>
@@ -15,14 +16,6 @@ namespace
 {
 using Kind = SceneItem::Kind;
 using Vector = Eigen::Vector3d;
-
-std::string lowerCase(std::string_view text)
-{
-  std::string out(text);
-  std::transform(
-    out.begin(), out.end(), out.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-  return out;
-}
 
 /// One line of a key frame: < position > { w, < x, y, z > } [ scale ].
 struct KeyLine
@@ -75,7 +68,7 @@ private:
     }
     const long line = this->Lexer.line();
     ThesisLexer before = this->Lexer;
-    const std::string tag = lowerCase(this->Lexer.word());
+    const std::string tag = lower(std::string(this->Lexer.word()));
     const bool model = tag == "globject_ac" || tag == "globject_3ds" || tag == "globject_md2";
     if (!model && tag != "globject_light" && tag != "globject_camera")
     {

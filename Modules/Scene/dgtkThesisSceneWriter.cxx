@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkSceneRules.h"
 #include "dgtkSceneText.h"
+#include "dgtkText.h"
 
 #include <algorithm>
 

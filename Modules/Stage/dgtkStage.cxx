@@ -5,9 +5,9 @@
 #include "dgtkModelClock.h"
 #include "dgtkObjectPoses.h"
 #include "dgtkStageModels.h"
+#include "dgtkText.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <deque>
 #include <mutex>
@@ -22,12 +22,6 @@ namespace
 constexpr int usualWidth = 640;
 constexpr int usualHeight = 480;
 constexpr std::size_t keptStates = 4;
-
-std::string textOf(double frame)
-{
-  char text[32];
-  return std::string(text, std::to_chars(text, text + sizeof text, frame).ptr);
-}
 
 LightState::Kind kindOf(LightKind kind)
 {
@@ -239,7 +233,7 @@ void Stage::Impl::checkScale(const ObjectDescription& object, double frame) cons
 {
   if ((object.scale.at(frame).array() == 0).any())
   {
-    failObject(this->Scene, object, "scale passes through 0", "another interpolation", "frame " + textOf(frame));
+    failObject(this->Scene, object, "scale passes through 0", "another interpolation", "frame " + shortest(frame));
   }
 }
 
@@ -358,8 +352,8 @@ View Stage::view(std::size_t index, double frame, int width, int height) const
   }
   catch (const UsageError& error)
   {
-    throw InputError(
-      scene.title(), camera.line, "camera " + quoted(camera.name) + " at frame " + textOf(frame) + ": " + error.what());
+    throw InputError(scene.title(), camera.line,
+      "camera " + quoted(camera.name) + " at frame " + shortest(frame) + ": " + error.what());
   }
   return cameraView(camera, frame, width, height);
 }

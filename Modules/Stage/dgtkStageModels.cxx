@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkMissingModels.h"
+#include "dgtkPortableMath.h"
 #include "dgtkTextureFile.h"
 
 #include <algorithm>
@@ -103,7 +104,7 @@ void StageModels::readEnvironment()
   this->addFile(path);
   made->intensity = from.intensity;
   made->background = from.background;
-  const double angle = from.rotation * 3.14159265358979323846 / 180;
+  const double angle = from.rotation * pi / 180;
   Eigen::Matrix3d unturn;
   unturn << std::cos(angle), 0, -std::sin(angle), 0, 1, 0, std::sin(angle), 0, std::cos(angle);
   Eigen::Matrix3d upright = Eigen::Matrix3d::Identity();

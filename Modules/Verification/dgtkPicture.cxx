@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPicture.h"
 
+#include "dgtkPortableMath.h"
 #include "dgtkRaySource.h"
 
 #include <algorithm>
@@ -15,7 +16,6 @@ constexpr int chunkRows = 16;
 /// Part of the depth by which two computations of one point in double precision may differ; a neighbouring triangle
 /// that is closer to a file's value is the one it shows.
 constexpr double closeDepth = 1e-10;
-constexpr double pi = 3.14159265358979323846;
 } // namespace
 
 /// What the files say about the surface of a pixel; null where there is no file.

@@ -3,6 +3,7 @@
 
 #include "dgtkCheck.h"
 #include "dgtkError.h"
+#include "dgtkText.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -72,12 +73,7 @@ std::vector<const Check*> checksOf(const std::vector<std::string>& names)
   {
     if (std::find(known.begin(), known.end(), name) == known.end())
     {
-      std::string all;
-      for (const std::string& one : known)
-      {
-        all += (all.empty() ? "" : ", ") + one;
-      }
-      throw UsageError("there is no check " + quoted(name) + " (expected one of " + all + ")");
+      throw UsageError("there is no check " + quoted(name) + " (expected one of " + joined(known) + ")");
     }
   }
   std::vector<const Check*> asked;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkViewLights.h"
 
+#include "dgtkPortableMath.h"
 #include "dgtkSurfaceMaterial.h"
 #include "dgtkSurfaceShading.h"
 
@@ -27,7 +28,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double pointCone = 180;   // degrees: VTK's word for a light in all directions
 constexpr double usualCosine = 0.7; // between a surface's normal and the viewer
 constexpr double displayGamma = 2.2;

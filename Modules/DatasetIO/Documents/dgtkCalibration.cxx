@@ -3,6 +3,7 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkJsonText.h"
+#include "dgtkText.h"
 
 #include <charconv>
 #include <cmath>

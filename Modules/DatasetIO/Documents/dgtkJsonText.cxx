@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkJsonText.h"
 
+#include "dgtkText.h"
 #include "dgtkUtf8.h"
 
-#include <charconv>
 #include <cmath>
 
 namespace dgtk
 {
-
-std::string shortest(double value)
-{
-  if (std::isnan(value))
-  {
-    return "nan";
-  }
-  if (std::isinf(value))
-  {
-    return value > 0 ? "inf" : "-inf";
-  }
-  char text[32];
-  return { text, std::to_chars(text, text + sizeof text, value).ptr };
-}
 
 std::string jsonNumber(double value)
 {

@@ -11,9 +11,6 @@
 namespace dgtk
 {
 
-/// Shortest text that reads back to the same double; "inf", "-inf" and "nan" for what is not a number.
-std::string shortest(double value);
-
 /// A JSON string with its quotes. Bytes that are not UTF-8 are written as utf8FromBytes() says.
 std::string jsonString(const std::string& text);
 

@@ -13,7 +13,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 
 std::uint8_t byteOf(double unit)
 {

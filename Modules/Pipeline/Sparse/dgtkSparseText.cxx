@@ -2,6 +2,7 @@
 #include "dgtkSparseText.h"
 
 #include "dgtkError.h"
+#include "dgtkText.h"
 
 #include <algorithm>
 #include <charconv>
@@ -16,12 +17,6 @@ namespace
 {
 constexpr int largestImage = 1 << 20;
 constexpr double largestId = 4294967295.0;
-
-std::string shortest(double value)
-{
-  char text[32];
-  return std::isnan(value) ? "nan" : std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
 
 bool isSeparator(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; }
 

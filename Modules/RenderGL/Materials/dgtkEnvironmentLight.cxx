@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkEnvironmentLight.h"
 
+#include "dgtkPortableMath.h"
 #include "dgtkSceneState.h"
 
 #include <Eigen/Geometry>
@@ -16,7 +17,6 @@ namespace dgtk
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int samplesOfLobe = 128;
 
 Eigen::Vector3f texelAt(const float* rgb, int width, int height, int x, int y)

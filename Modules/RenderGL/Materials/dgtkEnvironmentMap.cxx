@@ -2,6 +2,7 @@
 #include "dgtkEnvironmentMap.h"
 
 #include "dgtkError.h"
+#include "dgtkPortableMath.h"
 
 #include <Eigen/LU>
 
@@ -209,7 +210,7 @@ void EnvironmentMap::drawBackground(const RasterCamera& camera, int width, int h
   }
   std::array<float, 9> values;
   storeMatrix(imageFromViewOf(*this->State, camera.view_from_world) * ray, values);
-  const double texel = 3.14159265358979323846 / this->State->image->height;
+  const double texel = pi / this->State->image->height;
   glUseProgram(this->Program);
   glUniformMatrix3fv(glGetUniformLocation(this->Program, "dgtkRay"), 1, GL_FALSE, values.data());
   glUniform1f(

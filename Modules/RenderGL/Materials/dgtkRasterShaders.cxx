@@ -3,8 +3,8 @@
 
 #include "dgtkSurfaceMaterial.h"
 #include "dgtkSurfaceShaders.h"
+#include "dgtkText.h"
 
-#include <charconv>
 #include <vtkShaderProgram.h>
 
 namespace dgtk
@@ -71,12 +71,6 @@ vec3 dgtkTexel(sampler2D picture, vec2 uv)
   return sum / probes;
 }
 )";
-
-std::string ambientOfWorld()
-{
-  char text[32];
-  return { text, std::to_chars(text, text + sizeof text, worldAmbient).ptr };
-}
 
 constexpr const char* Peel = R"(
 uniform sampler2D dgtkLayer; // draw, triangle and depth of the layer before; depth 2 before the first
@@ -173,7 +167,7 @@ std::string headLighting(const ShaderVariant& variant)
 {
   const std::string text = "  float df = max(0.0, normalVC.z);\n"
                            "  vec3 dgtkColor = (" +
-                           ambientOfWorld() +
+                           shortest(worldAmbient) +
                            " + dgtkLights[3].rgb) * ambientColor + dgtkEmission + df * diffuseColor * "
                            "dgtkLights[4].rgb";
   return text + (variant.specular ? " + pow(df, specularPower) * specularColor * dgtkLights[5].rgb;\n" : ";\n");
@@ -200,7 +194,7 @@ std::string lighting(const ShaderVariant& variant)
                            lightValue(variant, 0) + ".w ? s * pow(inside, axis.w) : 0.0;\n";
   const std::string far = "    vec3 L = " + lightValue(variant, 0) + ".xyz;\n    float s = 1.0;\n";
   std::string text = variant.physical ? beginPhysical(variant)
-                                      : "  vec3 dgtkAmbient = vec3(" + ambientOfWorld() +
+                                      : "  vec3 dgtkAmbient = vec3(" + shortest(worldAmbient) +
                                           ");\n"
                                           "  vec3 dgtkDiffuse = vec3(0.0);\n";
   if (variant.specular && !variant.physical)
@@ -246,7 +240,7 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
     put(
       fragment, "//VTK::System::Dec", "//VTK::System::Dec\n#extension GL_ARB_shader_storage_buffer_object : require\n");
   }
-  declarations += "const float dgtkWorldAmbient = " + ambientOfWorld() + ";\n" + surfaceDeclarations(variant);
+  declarations += "const float dgtkWorldAmbient = " + shortest(worldAmbient) + ";\n" + surfaceDeclarations(variant);
   put(fragment, "//VTK::ValuePass::Dec", declarations);
   // Everything is two-sided: the normal points to where the surface is seen from.
   put(fragment, "//VTK::Normal::Impl",

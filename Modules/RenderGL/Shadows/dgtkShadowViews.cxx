@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkShadowViews.h"
 
+#include "dgtkPortableMath.h"
 #include "dgtkSeenSurfaces.h"
 #include "dgtkShadowNotes.h"
 
@@ -17,7 +18,6 @@ namespace dgtk
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double largestCone = 60; // degrees, half the opening of a light with a single map
 constexpr double margin = 1.0 + 1e-6;
 constexpr int mostMaps = 4;            // of a directional light

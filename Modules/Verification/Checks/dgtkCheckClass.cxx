@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCheck.h"
 #include "dgtkPair.h"
+#include "dgtkPortableMath.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +28,6 @@ constexpr double silhouetteReach = 1e-4;
 constexpr double surfaceSlack = 1e-9;
 /// Pixels: as near to the image's border, inside and outside are a matter of rounding.
 constexpr double borderSlack = 1e-6;
-constexpr double pi = 3.14159265358979323846;
 
 class ClassCheck
 {

@@ -5,6 +5,7 @@
 #include "dgtkError.h"
 #include "dgtkJournal.h"
 #include "dgtkLayerReader.h"
+#include "dgtkText.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -23,12 +24,6 @@ int rankOf(const std::string& extension, const LayerSpec& layer)
   const auto at = std::find(values.begin(), values.end(), extension);
   const int rank = static_cast<int>(at - values.begin());
   return layer.meaning == Meaning::Picture ? -rank : rank;
-}
-
-std::string extensionOf(const std::string& path)
-{
-  const std::string extension = fs::path(path).extension().string();
-  return extension.empty() ? extension : extension.substr(1);
 }
 
 bool leavesFolder(const fs::path& path)
