@@ -3,11 +3,13 @@
 
 #include "dgtkCameraArrayDialog.h"
 #include "dgtkEditorIcons.h"
+#include "dgtkEditorLog.h"
 #include "dgtkEditorState.h"
 #include "dgtkItemDialogs.h"
 #include "dgtkMatchDialog.h"
 #include "dgtkNamedAction.h"
 #include "dgtkPropertiesPanel.h"
+#include "dgtkSceneFiles.h"
 #include "dgtkSceneTree.h"
 #include "dgtkSceneViews.h"
 #include "dgtkTimeLine.h"
@@ -21,7 +23,6 @@
 #include <QDockWidget>
 #include <QMenuBar>
 #include <QMessageBox>
-#include <QPlainTextEdit>
 #include <QStatusBar>
 #include <QToolBar>
 
@@ -75,11 +76,6 @@ void MainWindow::makeDocks()
   connect(this->Truth, &TruthView::layerChosen, values, [values] { values->raise(); });
   QDockWidget* const time =
     this->addDock(Qt::BottomDockWidgetArea, "timeDock", tr("Time line"), new TimeLine(*this->State, this));
-  this->Log = new QPlainTextEdit(this);
-  this->Log->setObjectName("log");
-  this->Log->setReadOnly(true);
-  this->Log->setMaximumBlockCount(2000);
-  this->Log->setPlaceholderText(tr("What happens is written here."));
   QDockWidget* const log = this->addDock(Qt::BottomDockWidgetArea, "logDock", tr("Log"), this->Log);
   this->setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
   this->resizeDocks({ tree, properties }, { 300, 420 }, Qt::Vertical);
@@ -91,28 +87,33 @@ void MainWindow::makeDocks()
 void MainWindow::makeFileMenu()
 {
   QMenu* const menu = this->menuBar()->addMenu(tr("&File"));
+  this->Recent = new QMenu(tr("Open &recent"), this);
+  this->Recent->setObjectName("recent");
+  this->Files = new SceneFiles(*this->State, *this->Views, *this->Log, *this->Work, *this->Recent, *this,
+    { [this] { return this->cameraOfView(); },
+      [this] { return this->Matching == nullptr || this->Matching->mayDiscard(); } });
+  SceneFiles* const files = this->Files;
+  connect(files, &SceneFiles::datasetAsked, this, &MainWindow::openDataset);
   const auto add = [&](const char* name, const QString& text, const QKeySequence& keys)
   { return this->addAction(menu, name, text, keys); };
-  connect(add("new", tr("&New"), QKeySequence::New), &QAction::triggered, this, &MainWindow::newScene);
-  connect(add("open", tr("&Open ..."), QKeySequence::Open), &QAction::triggered, this, &MainWindow::askOpen);
-  this->Recent = menu->addMenu(tr("Open &recent"));
-  this->Recent->setObjectName("recent");
-  connect(add("save", tr("&Save"), QKeySequence::Save), &QAction::triggered, this, [this] { this->save(); });
-  connect(add("saveAs", tr("Save &as ..."), QKeySequence("Ctrl+Shift+S")), &QAction::triggered, this,
-    [this] { this->saveAs(); });
+  connect(add("new", tr("&New"), QKeySequence::New), &QAction::triggered, files, &SceneFiles::newScene);
+  connect(add("open", tr("&Open ..."), QKeySequence::Open), &QAction::triggered, files, &SceneFiles::askOpen);
+  menu->addMenu(this->Recent);
+  connect(add("save", tr("&Save"), QKeySequence::Save), &QAction::triggered, files, &SceneFiles::save);
+  connect(
+    add("saveAs", tr("Save &as ..."), QKeySequence("Ctrl+Shift+S")), &QAction::triggered, files, &SceneFiles::saveAs);
   connect(add("openDataset", tr("Open &dataset ..."), QKeySequence("Ctrl+Shift+O")), &QAction::triggered, this,
     &MainWindow::askDataset);
   menu->addSeparator();
-  connect(add("import", tr("&Import ..."), QKeySequence("Ctrl+I")), &QAction::triggered, this, &MainWindow::askImport);
-  connect(add("findModels", tr("Find &missing models ..."), {}), &QAction::triggered, this, &MainWindow::findMissing);
-  connect(add("exportPov", tr("Export &POV-Ray ..."), {}), &QAction::triggered, this, &MainWindow::exportPov);
+  connect(add("import", tr("&Import ..."), QKeySequence("Ctrl+I")), &QAction::triggered, files, &SceneFiles::askImport);
+  connect(add("findModels", tr("Find &missing models ..."), {}), &QAction::triggered, files, &SceneFiles::findMissing);
+  connect(add("exportPov", tr("Export &POV-Ray ..."), {}), &QAction::triggered, files, &SceneFiles::exportPov);
   menu->addSeparator();
   QAction* const leave = menu->addAction(tr("E&xit"));
   leave->setObjectName("exit");
   leave->setIcon(editorIcon("exit"));
   leave->setShortcut(QKeySequence("Ctrl+Q"));
   connect(leave, &QAction::triggered, this, &MainWindow::close);
-  this->refreshRecent();
 }
 
 void MainWindow::makeEditMenu()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkDatasetViewer.h"
 #include "dgtkMainWindow.h"
+#include "dgtkSceneFiles.h"
 #include "dgtkUsualFolder.h"
 
 #include <QDir>
@@ -18,7 +19,7 @@ void MainWindow::openDataset(const QString& folder)
   connect(viewer, &DatasetViewer::opened, this,
     [this](const QString& shown) // which may be another one, that was opened there
     {
-      this->addRecent(QDir::cleanPath(shown));
+      this->Files->addRecent(QDir::cleanPath(shown));
       rememberFolder(shown, "dataset");
     });
   viewer->show();

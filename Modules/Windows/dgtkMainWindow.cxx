@@ -1,26 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkMainWindow.h"
 
-#include "dgtkAutosave.h"
 #include "dgtkBackgroundWork.h"
 #include "dgtkEditorLanguage.h"
+#include "dgtkEditorLog.h"
 #include "dgtkEditorState.h"
 #include "dgtkMatchDialog.h"
 #include "dgtkNamedAction.h"
 #include "dgtkRenderStatus.h"
+#include "dgtkSceneFiles.h"
 #include "dgtkSceneViews.h"
 #include "dgtkWindowSize.h"
 
 #include <QAction>
 #include <QCloseEvent>
 #include <QCoreApplication>
+#include <QDragEnterEvent>
+#include <QDropEvent>
 #include <QFileInfo>
+#include <QMenu>
 #include <QMessageBox>
-#include <QPlainTextEdit>
+#include <QMimeData>
 #include <QSettings>
 #include <QStatusBar>
 #include <QSurfaceFormat>
+#include <QTimer>
 #include <QToolBar>
+#include <QUrl>
 
 #include <clocale>
 
@@ -31,8 +37,7 @@ namespace
 {
 /// Actions whose check marks are kept.
 constexpr const char* keptActions[] = { "wireframe", "shaded", "textured", "sceneLights", "grid", "handlesAtOrigin" };
-constexpr int statusTime = 5000;         // milliseconds
-constexpr std::size_t mostWarnings = 20; // of one reading, in the log
+constexpr int statusTime = 5000; // milliseconds
 } // namespace
 
 void MainWindow::prepareApplication()
@@ -56,7 +61,6 @@ MainWindow::MainWindow(QWidget* parent)
   : QMainWindow(parent)
   , State(new EditorState(this))
 {
-  this->Copies = new Autosave(*this->State);
   this->setObjectName("mainWindow");
   this->setAcceptDrops(true);
   this->Work = new BackgroundWork(this->statusBar(), this);
@@ -67,6 +71,7 @@ MainWindow::MainWindow(QWidget* parent)
   auto* tools = this->addToolBar(tr("Tools"));
   tools->setObjectName("toolBar");
   tools->setIconSize({ 20, 20 });
+  this->Log = new EditorLog(this);
   this->makeDocks();
   this->makeFileMenu();
   this->makeEditMenu();
@@ -74,7 +79,9 @@ MainWindow::MainWindow(QWidget* parent)
   this->makeToolsMenu();
   this->makeHelpMenu();
   connect(this->State, &EditorState::changed, this, &MainWindow::refresh);
-  connect(this->State, &EditorState::changed, this, &MainWindow::noteNewWarnings);
+  connect(this->State, &EditorState::changed, this, [this] { this->Log->noteNewWarnings(this->document()); });
+  connect(this->Log, &EditorLog::noted, this,
+    [this](const QString& line) { this->statusBar()->showMessage(line, statusTime); });
   connect(this->State, &EditorState::selectionChanged, this, &MainWindow::refresh);
   connect(this->State, &EditorState::failed, this, &MainWindow::fail);
   connect(this->Work, &BackgroundWork::busyChanged, this, &MainWindow::allowFiles);
@@ -110,39 +117,14 @@ void MainWindow::refresh()
   redo->setText(document.canRedo() ? tr("&Redo %1").arg(menuText(editText(document.redoText()))) : tr("&Redo"));
 }
 
+void MainWindow::note(const QString& line) { this->Log->note(line); }
+
 void MainWindow::fail(const QString& message)
 {
   this->note(message);
   QMessageBox box(QMessageBox::Warning, tr("DGTk"), message, QMessageBox::Ok, this);
   box.setObjectName("errorBox");
   box.exec();
-}
-
-void MainWindow::note(const QString& line)
-{
-  this->Log->appendPlainText(line);
-  this->statusBar()->showMessage(line, statusTime);
-}
-
-void MainWindow::noteWarnings(const std::vector<std::string>& lines)
-{
-  for (std::size_t i = 0; i < lines.size() && i < mostWarnings; ++i)
-  {
-    this->note(tr("Warning: %1").arg(toText(lines[i])));
-  }
-  if (lines.size() > mostWarnings)
-  {
-    this->note(tr("%1 more warnings: dgtk info shows all of them").arg(lines.size() - mostWarnings));
-  }
-}
-
-void MainWindow::noteNewWarnings()
-{
-  const std::vector<std::string>& all = this->document().models().warnings();
-  this->Warned = this->document().opened() == this->Opened ? this->Warned : 0;
-  this->Opened = this->document().opened();
-  this->noteWarnings({ all.begin() + std::ptrdiff_t(this->Warned), all.end() });
-  this->Warned = all.size();
 }
 
 void MainWindow::saveSettings() const
@@ -175,9 +157,53 @@ void MainWindow::restoreSettings()
   }
 }
 
+bool MainWindow::openFile(const QString& path) { return this->Files->openFile(path); }
+bool MainWindow::importFile(const QString& path) { return this->Files->importFile(path); }
+bool MainWindow::saveFile(const QString& path) { return this->Files->saveFile(path); }
+void MainWindow::offerRecovery() { this->Files->offerRecovery(); }
+
+void MainWindow::allowFiles(bool busy)
+{
+  for (const char* name : { "new", "open", "import", "exportPov" })
+  {
+    this->findChild<QAction*>(name)->setEnabled(!busy);
+  }
+  this->Recent->setEnabled(!busy && !this->Recent->isEmpty());
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event)
+{
+  if (event->mimeData()->hasUrls())
+  {
+    event->acceptProposedAction();
+  }
+}
+
+void MainWindow::dropEvent(QDropEvent* event)
+{
+  QStringList paths;
+  for (const QUrl& url : event->mimeData()->urls())
+  {
+    if (url.isLocalFile())
+    {
+      paths << url.toLocalFile();
+    }
+  }
+  event->acceptProposedAction();
+  // The program that they come from does not wait for them to be read.
+  QTimer::singleShot(0, this,
+    [this, paths]
+    {
+      for (const QString& path : paths)
+      {
+        this->openFile(path);
+      }
+    });
+}
+
 void MainWindow::closeEvent(QCloseEvent* event)
 {
-  if (!this->mayDiscard() || !this->mayLeaveRun())
+  if (!this->Files->mayDiscard() || !this->mayLeaveRun())
   {
     event->ignore();
     return;

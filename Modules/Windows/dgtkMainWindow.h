@@ -16,19 +16,18 @@
 class QAction;
 class QDockWidget;
 class QMenu;
-class QPlainTextEdit;
 
 namespace dgtk
 {
 
-class Autosave;
 class BackgroundWork;
+class EditorLog;
 class EditorState;
 class MatchDialog;
-class ModelLibrary;
 class RenderDialog;
 class RenderStatus;
 class SceneDocument;
+class SceneFiles;
 class SceneViews;
 class TruthView;
 struct CameraDescription;
@@ -83,27 +82,8 @@ private:
   void makeDocks();
   QDockWidget* addDock(Qt::DockWidgetArea area, const QString& name, const QString& title, QWidget* widget);
 
-  void newScene();
-  void askOpen();
-  bool save();
-  bool saveAs();
-  void askImport();
   void askDataset();
-  /// Until there are none, or nobody looks for them.
-  void findMissing();
-  /// Lists the models that are not there and offers to look for them. True when some were found.
-  bool offerToFind();
-  bool findModelsBelow(const QString& folder);
-  bool addRead(const std::string& file, const ModelLibrary& models);
-  void exportPov();
-  bool mayDiscard();
-  /// False, with a note, while another file is being read.
-  bool isFree();
   void allowFiles(bool busy);
-  /// Work on another thread with progress and Cancel. False when it was cancelled, or failed, after a dialog.
-  bool work(const QString& what, const std::function<void(const std::function<bool(std::size_t, std::size_t)>&)>& work);
-  void addRecent(const QString& path);
-  void refreshRecent();
   void addCamera();
   void addCameraArray();
   CameraDescription cameraOfView() const;
@@ -125,25 +105,18 @@ private:
   void restoreSettings();
   void fail(const QString& message);
   void note(const QString& line);
-  void noteWarnings(const std::vector<std::string>& lines);
-  /// The status bar keeps only the last line: it says that there are others.
-  static QString withWarnings(const QString& line, std::size_t warnings);
-  /// What the scene's models are warned of and the log does not say yet.
-  void noteNewWarnings();
 
   EditorState* State;
   BackgroundWork* Work = nullptr;
   SceneViews* Views = nullptr;
   TruthView* Truth = nullptr;
-  Autosave* Copies = nullptr;
-  QPlainTextEdit* Log = nullptr;
+  SceneFiles* Files = nullptr;
+  EditorLog* Log = nullptr;
   QMenu* Recent = nullptr;
   QMenu* ViewMenu = nullptr;
   RenderDialog* Rendering = nullptr;
   RenderStatus* Run = nullptr;
   MatchDialog* Matching = nullptr;
-  std::size_t Warned = 0; ///< warnings of the scene's models in the log
-  std::size_t Opened = 0; ///< SceneDocument::opened() of that scene
 };
 
 } // namespace dgtk

@@ -745,6 +745,25 @@
     </message>
 </context>
 <context>
+    <name>dgtk::EditorLog</name>
+    <message>
+        <source>What happens is written here.</source>
+        <translation>Was geschieht, steht hier.</translation>
+    </message>
+    <message>
+        <source>Warning: %1</source>
+        <translation>Warnung: %1</translation>
+    </message>
+    <message>
+        <source>%1 more warnings: dgtk info shows all of them</source>
+        <translation>%1 weitere Warnungen: dgtk info zeigt alle</translation>
+    </message>
+    <message>
+        <source>%1; warnings in the log: %2</source>
+        <translation>%1; Warnungen im Protokoll: %2</translation>
+    </message>
+</context>
+<context>
     <name>dgtk::EditorState</name>
     <message>
         <source>The memory of this machine is not enough.</source>
@@ -973,10 +992,6 @@
         <translation>Zeitleiste</translation>
     </message>
     <message>
-        <source>What happens is written here.</source>
-        <translation>Was geschieht, steht hier.</translation>
-    </message>
-    <message>
         <source>Log</source>
         <translation>Protokoll</translation>
     </message>
@@ -1137,92 +1152,8 @@
         <translation>DGTk: Bilder und exakte Referenzdaten aus beschriebenen 3D-Szenen. Der Editor schreibt die Szenendateien und führt das Programm dgtk aus; er fügt keinen zweiten Weg hinzu.</translation>
     </message>
     <message>
-        <source>Another file is being read: wait for it, or cancel it.</source>
-        <translation>Eine andere Datei wird gelesen: warten oder abbrechen.</translation>
-    </message>
-    <message>
-        <source>Cancelled: %1</source>
-        <translation>Abgebrochen: %1</translation>
-    </message>
-    <message>
-        <source>Open a scene</source>
-        <translation>Szene öffnen</translation>
-    </message>
-    <message>
-        <source>Scenes (*.json *.scene);;All files (*)</source>
-        <translation>Szenen (*.json *.scene);;Alle Dateien (*)</translation>
-    </message>
-    <message>
-        <source>Reading %1 ...</source>
-        <translation>%1 wird gelesen ...</translation>
-    </message>
-    <message>
-        <source>Opened %1: %2 objects, %3 lights, %4 cameras</source>
-        <translation>%1 geöffnet: %2 Objekte, %3 Lichter, %4 Kameras</translation>
-    </message>
-    <message>
         <source>DGTk</source>
         <translation>DGTk</translation>
-    </message>
-    <message>
-        <source>Open what was kept of it, or discard it for good. Cancel asks again next time.</source>
-        <translation>Öffnen, was davon aufgehoben wurde, oder endgültig verwerfen. Abbrechen fragt beim nächsten Mal wieder.</translation>
-    </message>
-    <message>
-        <source>Reading what was kept ...</source>
-        <translation>Aufgehobenes wird gelesen ...</translation>
-    </message>
-    <message>
-        <source>All models (%1)</source>
-        <translation>Alle Modelle (%1)</translation>
-    </message>
-    <message>
-        <source>Import models</source>
-        <translation>Modelle importieren</translation>
-    </message>
-    <message>
-        <source>%1 has no surfaces: nothing was added.</source>
-        <translation>%1 hat keine Flächen: nichts wurde hinzugefügt.</translation>
-    </message>
-    <message>
-        <source>Imported %1</source>
-        <translation>%1 importiert</translation>
-    </message>
-    <message>
-        <source>Saved %1</source>
-        <translation>%1 gespeichert</translation>
-    </message>
-    <message>
-        <source>Save the scene</source>
-        <translation>Szene speichern</translation>
-    </message>
-    <message>
-        <source>Scene (*.json);;Thesis scene (*.scene)</source>
-        <translation>Szene (*.json);;Szene der Diplomarbeit (*.scene)</translation>
-    </message>
-    <message>
-        <source>The scene has changes that are not saved.</source>
-        <translation>Die Szene hat Änderungen, die nicht gespeichert sind.</translation>
-    </message>
-    <message>
-        <source>Save them, or they are lost.</source>
-        <translation>Ungespeichert gehen sie verloren.</translation>
-    </message>
-    <message>
-        <source>Export for POV-Ray</source>
-        <translation>Für POV-Ray exportieren</translation>
-    </message>
-    <message>
-        <source>POV-Ray scene (*.pov)</source>
-        <translation>POV-Ray-Szene (*.pov)</translation>
-    </message>
-    <message>
-        <source>Writing %1 ...</source>
-        <translation>%1 wird geschrieben ...</translation>
-    </message>
-    <message>
-        <source>Wrote %1</source>
-        <translation>%1 geschrieben</translation>
     </message>
     <message>
         <source>Tools</source>
@@ -1265,14 +1196,6 @@
         <translation>&lt;p&gt;Klick: auswählen; mit Strg: dazunehmen. Ausgewähltes ziehen: in der Ebene der Ansicht verschieben. Griffe ziehen: verschieben, drehen oder skalieren (1, 2, 3).&lt;br&gt;Beim Ziehen: X, Y, Z halten an einer Achse fest, mit Umschalt an den beiden anderen; Strg: Stufen; Esc: wie zuvor.&lt;br&gt;Links ziehen: die Perspektive drehen, die anderen verschieben. Mitte oder Umschalt und links: verschieben.&lt;br&gt;Rechts ziehen oder Rad: zoomen. Rechtsklick: Menü. Doppelklick: eine Ansicht oder alle vier.&lt;/p&gt;&lt;p&gt;R alles zeigen, F Auswahl zeigen, W Drahtgitter, S schattiert, T mit Texturen, G Gitter, F11 maximieren.&lt;br&gt;Pfeile drehen oder verschieben die Ansicht mit dem Rahmen, mit Umschalt verschieben sie; + und - zoomen.&lt;br&gt;In der Zeitleiste: Leertaste spielt ab, Links und Rechts gehen durch die Bilder, mit Strg von Schlüssel zu Schlüssel.&lt;/p&gt;</translation>
     </message>
     <message>
-        <source>Warning: %1</source>
-        <translation>Warnung: %1</translation>
-    </message>
-    <message>
-        <source>%1 more warnings: dgtk info shows all of them</source>
-        <translation>%1 weitere Warnungen: dgtk info zeigt alle</translation>
-    </message>
-    <message>
         <source>&amp;Handles at the origin</source>
         <translation>&amp;Griffe am Ursprung</translation>
     </message>
@@ -1281,64 +1204,12 @@
         <translation>Dreht und skaliert um den Ursprung des Objekts; sonst um die Mitte seines Quaders</translation>
     </message>
     <message>
-        <source>The editor ended without saving a scene that had no name yet, at %1.</source>
-        <translation>Der Editor endete, ohne eine Szene zu speichern, die noch keinen Namen hatte, am %1.</translation>
-    </message>
-    <message>
-        <source>The editor ended without saving %1, at %2.</source>
-        <translation>Der Editor endete, ohne %1 zu speichern, am %2.</translation>
-    </message>
-    <message>
-        <source>There is other unsaved work, too (%1): the next start asks about it.</source>
-        <translation>Es gibt noch andere nicht gespeicherte Arbeit (%1): der nächste Start fragt danach.</translation>
-    </message>
-    <message>
-        <source>Recovered: %1</source>
-        <translation>Wiederhergestellt: %1</translation>
-    </message>
-    <message>
-        <source>a scene without a name</source>
-        <translation>eine Szene ohne Namen</translation>
-    </message>
-    <message>
         <source>Find &amp;missing models ...</source>
         <translation>Fehlende &amp;Modelle suchen ...</translation>
     </message>
     <message>
         <source>The scene&apos;s lights and background in the views, without shadows; otherwise a light at each view&apos;s eye</source>
         <translation>Lichter und Hintergrund der Szene in den Ansichten, ohne Schatten; sonst ein Licht am Auge jeder Ansicht</translation>
-    </message>
-    <message>
-        <source>%1; warnings in the log: %2</source>
-        <translation>%1; Warnungen im Protokoll: %2</translation>
-    </message>
-    <message>
-        <source>%1
-
-Grey boxes stand in their place. The scene can be edited and saved, but not rendered.</source>
-        <translation>%1
-
-Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert, aber nicht berechnet werden.</translation>
-    </message>
-    <message>
-        <source>&amp;Find folder ...</source>
-        <translation>&amp;Ordner suchen ...</translation>
-    </message>
-    <message>
-        <source>Folder below which the models are</source>
-        <translation>Ordner, unter dem die Modelle liegen</translation>
-    </message>
-    <message>
-        <source>Looking for models in %1 ...</source>
-        <translation>Suche Modelle in %1 ...</translation>
-    </message>
-    <message>
-        <source>Found %1 of %2 models</source>
-        <translation>%1 von %2 Modellen gefunden</translation>
-    </message>
-    <message>
-        <source>Models that are not there: %1</source>
-        <translation>Modelle, die nicht da sind: %1</translation>
     </message>
     <message>
         <source>Rendering is done</source>
@@ -2198,6 +2069,145 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
     <message>
         <source>Click for the render configuration</source>
         <translation>Klicken, um die Berechnung zu sehen</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::SceneFiles</name>
+    <message>
+        <source>DGTk</source>
+        <translation>DGTk</translation>
+    </message>
+    <message>
+        <source>Models that are not there: %1</source>
+        <translation>Modelle, die nicht da sind: %1</translation>
+    </message>
+    <message>
+        <source>%1
+
+Grey boxes stand in their place. The scene can be edited and saved, but not rendered.</source>
+        <translation>%1
+
+Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert, aber nicht berechnet werden.</translation>
+    </message>
+    <message>
+        <source>&amp;Find folder ...</source>
+        <translation>&amp;Ordner suchen ...</translation>
+    </message>
+    <message>
+        <source>Folder below which the models are</source>
+        <translation>Ordner, unter dem die Modelle liegen</translation>
+    </message>
+    <message>
+        <source>Looking for models in %1 ...</source>
+        <translation>Suche Modelle in %1 ...</translation>
+    </message>
+    <message>
+        <source>Found %1 of %2 models</source>
+        <translation>%1 von %2 Modellen gefunden</translation>
+    </message>
+    <message>
+        <source>The editor ended without saving a scene that had no name yet, at %1.</source>
+        <translation>Der Editor endete, ohne eine Szene zu speichern, die noch keinen Namen hatte, am %1.</translation>
+    </message>
+    <message>
+        <source>The editor ended without saving %1, at %2.</source>
+        <translation>Der Editor endete, ohne %1 zu speichern, am %2.</translation>
+    </message>
+    <message>
+        <source>Open what was kept of it, or discard it for good. Cancel asks again next time.</source>
+        <translation>Öffnen, was davon aufgehoben wurde, oder endgültig verwerfen. Abbrechen fragt beim nächsten Mal wieder.</translation>
+    </message>
+    <message>
+        <source>Reading what was kept ...</source>
+        <translation>Aufgehobenes wird gelesen ...</translation>
+    </message>
+    <message>
+        <source>Recovered: %1</source>
+        <translation>Wiederhergestellt: %1</translation>
+    </message>
+    <message>
+        <source>a scene without a name</source>
+        <translation>eine Szene ohne Namen</translation>
+    </message>
+    <message>
+        <source>There is other unsaved work, too (%1): the next start asks about it.</source>
+        <translation>Es gibt noch andere nicht gespeicherte Arbeit (%1): der nächste Start fragt danach.</translation>
+    </message>
+    <message>
+        <source>Another file is being read: wait for it, or cancel it.</source>
+        <translation>Eine andere Datei wird gelesen: warten oder abbrechen.</translation>
+    </message>
+    <message>
+        <source>Cancelled: %1</source>
+        <translation>Abgebrochen: %1</translation>
+    </message>
+    <message>
+        <source>Open a scene</source>
+        <translation>Szene öffnen</translation>
+    </message>
+    <message>
+        <source>Scenes (*.json *.scene);;All files (*)</source>
+        <translation>Szenen (*.json *.scene);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Reading %1 ...</source>
+        <translation>%1 wird gelesen ...</translation>
+    </message>
+    <message>
+        <source>Opened %1: %2 objects, %3 lights, %4 cameras</source>
+        <translation>%1 geöffnet: %2 Objekte, %3 Lichter, %4 Kameras</translation>
+    </message>
+    <message>
+        <source>All models (%1)</source>
+        <translation>Alle Modelle (%1)</translation>
+    </message>
+    <message>
+        <source>Import models</source>
+        <translation>Modelle importieren</translation>
+    </message>
+    <message>
+        <source>%1 has no surfaces: nothing was added.</source>
+        <translation>%1 hat keine Flächen: nichts wurde hinzugefügt.</translation>
+    </message>
+    <message>
+        <source>Imported %1</source>
+        <translation>%1 importiert</translation>
+    </message>
+    <message>
+        <source>Saved %1</source>
+        <translation>%1 gespeichert</translation>
+    </message>
+    <message>
+        <source>Save the scene</source>
+        <translation>Szene speichern</translation>
+    </message>
+    <message>
+        <source>Scene (*.json);;Thesis scene (*.scene)</source>
+        <translation>Szene (*.json);;Szene der Diplomarbeit (*.scene)</translation>
+    </message>
+    <message>
+        <source>The scene has changes that are not saved.</source>
+        <translation>Die Szene hat Änderungen, die nicht gespeichert sind.</translation>
+    </message>
+    <message>
+        <source>Save them, or they are lost.</source>
+        <translation>Ungespeichert gehen sie verloren.</translation>
+    </message>
+    <message>
+        <source>Export for POV-Ray</source>
+        <translation>Für POV-Ray exportieren</translation>
+    </message>
+    <message>
+        <source>POV-Ray scene (*.pov)</source>
+        <translation>POV-Ray-Szene (*.pov)</translation>
+    </message>
+    <message>
+        <source>Writing %1 ...</source>
+        <translation>%1 wird geschrieben ...</translation>
+    </message>
+    <message>
+        <source>Wrote %1</source>
+        <translation>%1 geschrieben</translation>
     </message>
 </context>
 <context>

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkAutosave.h"
+#include "dgtkEditorLog.h"
 #include "dgtkEditorState.h"
-#include "dgtkMainWindow.h"
+#include "dgtkSceneFiles.h"
 #include "dgtkSceneViews.h"
 
 #include <QDateTime>
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
+#include <QMainWindow>
 #include <QMessageBox>
 
 #include <memory>
@@ -16,7 +18,7 @@
 namespace dgtk
 {
 
-void MainWindow::offerRecovery()
+void SceneFiles::offerRecovery()
 {
   QStringList copies = Autosave::leftBehind();
   while (!copies.isEmpty())
@@ -28,7 +30,7 @@ void MainWindow::offerRecovery()
     QMessageBox box(QMessageBox::Question, tr("DGTk"),
       origin.isEmpty() ? tr("The editor ended without saving a scene that had no name yet, at %1.").arg(time)
                        : tr("The editor ended without saving %1, at %2.").arg(QDir::toNativeSeparators(origin), time),
-      QMessageBox::Open | QMessageBox::Discard | QMessageBox::Cancel, this);
+      QMessageBox::Open | QMessageBox::Discard | QMessageBox::Cancel, &this->Window);
     box.setObjectName("recoverBox");
     box.setInformativeText(tr("Open what was kept of it, or discard it for good. Cancel asks again next time."));
     const int choice = box.exec();
@@ -45,13 +47,13 @@ void MainWindow::offerRecovery()
     {
       this->Copies->adopt(copy); // before anything is drawn, which may be what ended the editor
       // A file that was saved since is not replaced unasked.
-      this->document().recover(std::move(**loaded), outdated ? std::string() : origin.toStdString());
-      this->Views->showWhole();
-      this->note(tr("Recovered: %1").arg(origin.isEmpty() ? tr("a scene without a name") : origin));
+      this->State.document().recover(std::move(**loaded), outdated ? std::string() : origin.toStdString());
+      this->Views.showWhole();
+      this->Log.note(tr("Recovered: %1").arg(origin.isEmpty() ? tr("a scene without a name") : origin));
       this->findMissing();
       if (const int others = Autosave::leftBehind().size(); others > 0)
       {
-        this->note(tr("There is other unsaved work, too (%1): the next start asks about it.").arg(others));
+        this->Log.note(tr("There is other unsaved work, too (%1): the next start asks about it.").arg(others));
       }
       return;
     }

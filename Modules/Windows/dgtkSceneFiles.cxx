@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkMainWindow.h"
+#include "dgtkSceneFiles.h"
 
+#include "dgtkAutosave.h"
 #include "dgtkBackgroundWork.h"
+#include "dgtkEditorLog.h"
 #include "dgtkEditorState.h"
 #include "dgtkEnvironmentLight.h"
 #include "dgtkError.h"
-#include "dgtkMatchDialog.h"
 #include "dgtkModelReader.h"
 #include "dgtkNamedAction.h"
 #include "dgtkPovExport.h"
@@ -15,17 +16,13 @@
 
 #include <QAction>
 #include <QDir>
-#include <QDragEnterEvent>
-#include <QDropEvent>
 #include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QMainWindow>
 #include <QMenu>
 #include <QMessageBox>
-#include <QMimeData>
 #include <QSettings>
-#include <QTimer>
-#include <QUrl>
 
 #include <memory>
 #include <optional>
@@ -53,55 +50,56 @@ std::string withoutObject(const std::string& message)
 }
 } // namespace
 
-QString MainWindow::withWarnings(const QString& line, std::size_t warnings)
+SceneFiles::SceneFiles(EditorState& state, SceneViews& views, EditorLog& log, BackgroundWork& work, QMenu& recent,
+  QMainWindow& window, SceneFilesHooks hooks)
+  : QObject(&window)
+  , State(state)
+  , Views(views)
+  , Log(log)
+  , Work(work)
+  , Recent(recent)
+  , Window(window)
+  , Hooks(std::move(hooks))
+  , Copies(new Autosave(state))
 {
-  return warnings == 0 ? line : tr("%1; warnings in the log: %2").arg(line).arg(warnings);
+  this->refreshRecent();
 }
 
-bool MainWindow::isFree()
+bool SceneFiles::isFree()
 {
-  if (this->Work->busy())
+  if (this->Work.busy())
   {
-    this->note(tr("Another file is being read: wait for it, or cancel it."));
+    this->Log.note(tr("Another file is being read: wait for it, or cancel it."));
   }
-  return !this->Work->busy();
+  return !this->Work.busy();
 }
 
-void MainWindow::allowFiles(bool busy)
-{
-  for (const char* name : { "new", "open", "import", "exportPov" })
-  {
-    this->findChild<QAction*>(name)->setEnabled(!busy);
-  }
-  this->Recent->setEnabled(!busy && !this->Recent->isEmpty());
-}
-
-bool MainWindow::work(const QString& what, const std::function<void(const LoadProgress&)>& work)
+bool SceneFiles::work(const QString& what, const std::function<void(const LoadProgress&)>& work)
 {
   bool done = false;
-  const bool tried = this->State->attempt([&] { done = this->Work->run(what, work); });
+  const bool tried = this->State.attempt([&] { done = this->Work.run(what, work); });
   if (tried && !done)
   {
-    this->note(tr("Cancelled: %1").arg(what));
+    this->Log.note(tr("Cancelled: %1").arg(what));
   }
   return done;
 }
 
-void MainWindow::newScene()
+void SceneFiles::newScene()
 {
   if (this->mayDiscard())
   {
-    this->State->select({});
-    this->State->document().clear();
-    this->State->setFrame(0);
-    this->Views->showWhole();
+    this->State.select({});
+    this->State.document().clear();
+    this->State.setFrame(0);
+    this->Views.showWhole();
   }
 }
 
-void MainWindow::askOpen()
+void SceneFiles::askOpen()
 {
-  const QString path =
-    QFileDialog::getOpenFileName(this, tr("Open a scene"), usualFolder(), tr("Scenes (*.json *.scene);;All files (*)"));
+  const QString path = QFileDialog::getOpenFileName(
+    &this->Window, tr("Open a scene"), usualFolder(), tr("Scenes (*.json *.scene);;All files (*)"));
   if (!path.isEmpty())
   {
     rememberFolder(path);
@@ -109,11 +107,11 @@ void MainWindow::askOpen()
   }
 }
 
-bool MainWindow::openFile(const QString& path)
+bool SceneFiles::openFile(const QString& path)
 {
   if (QFileInfo(path).isDir() || QFileInfo(path).fileName() == "manifest.json")
   {
-    this->openDataset(path);
+    emit this->datasetAsked(path);
     return true;
   }
   if (!isScene(path))
@@ -124,7 +122,7 @@ bool MainWindow::openFile(const QString& path)
   {
     return false;
   }
-  const std::string before = this->document().json();
+  const std::string before = this->State.document().json();
   const auto loaded = std::make_shared<std::optional<LoadedScene>>();
   const std::string file = QFile::encodeName(path).toStdString();
   const bool read = this->work(tr("Reading %1 ...").arg(QFileInfo(path).fileName()),
@@ -137,25 +135,25 @@ bool MainWindow::openFile(const QString& path)
       }
     });
   // What was edited in the meantime is not thrown away unasked.
-  if (!read || !*loaded || (this->document().json() != before && !this->mayDiscard()))
+  if (!read || !*loaded || (this->State.document().json() != before && !this->mayDiscard()))
   {
     return false;
   }
-  this->document().install(std::move(**loaded));
-  this->State->select({});
-  this->State->setFrame(this->State->scene().firstFrame());
-  this->Views->showWhole();
+  this->State.document().install(std::move(**loaded));
+  this->State.select({});
+  this->State.setFrame(this->State.scene().firstFrame());
+  this->Views.showWhole();
   this->addRecent(path);
-  const SceneDescription& scene = this->State->scene();
+  const SceneDescription& scene = this->State.scene();
   const QString opened = tr("Opened %1: %2 objects, %3 lights, %4 cameras")
                            .arg(QFileInfo(path).fileName(), QString::number(scene.objects.size()),
                              QString::number(scene.lights.size()), QString::number(scene.cameras.size()));
-  this->note(withWarnings(opened, this->Warned));
+  this->Log.note(EditorLog::withWarnings(opened, this->Log.warned()));
   this->findMissing();
   return true;
 }
 
-void MainWindow::askImport()
+void SceneFiles::askImport()
 {
   QStringList all;
   QStringList filters;
@@ -171,7 +169,7 @@ void MainWindow::askImport()
   }
   filters.prepend(tr("All models (%1)").arg(all.join(' ')));
   const QStringList paths =
-    QFileDialog::getOpenFileNames(this, tr("Import models"), usualFolder("models"), filters.join(";;"));
+    QFileDialog::getOpenFileNames(&this->Window, tr("Import models"), usualFolder("models"), filters.join(";;"));
   for (const QString& path : paths)
   {
     rememberFolder(path, "models");
@@ -179,7 +177,7 @@ void MainWindow::askImport()
   }
 }
 
-bool MainWindow::importFile(const QString& path)
+bool SceneFiles::importFile(const QString& path)
 {
   if (!this->isFree())
   {
@@ -188,7 +186,7 @@ bool MainWindow::importFile(const QString& path)
   const std::string file = QFile::encodeName(QDir::cleanPath(QFileInfo(path).absoluteFilePath())).toStdString();
   const auto loaded = std::make_shared<std::optional<ModelLibrary>>();
   const bool read = this->work(tr("Reading %1 ...").arg(QFileInfo(path).fileName()),
-    [loaded, reader = this->document().modelReader(file)](const LoadProgress& progress)
+    [loaded, reader = this->State.document().modelReader(file)](const LoadProgress& progress)
     {
       try
       {
@@ -206,59 +204,59 @@ bool MainWindow::importFile(const QString& path)
   return this->addRead(file, **loaded);
 }
 
-bool MainWindow::addRead(const std::string& file, const ModelLibrary& models)
+bool SceneFiles::addRead(const std::string& file, const ModelLibrary& models)
 {
   const QString name = QFileInfo(QFile::decodeName(file.c_str())).fileName();
-  const std::shared_ptr<const Model> model = this->document().modelIn(models, file);
+  const std::shared_ptr<const Model> model = this->State.document().modelIn(models, file);
   std::vector<std::string> warnings;
   for (const std::string& line : model->warnings)
   {
     warnings.push_back(name.toStdString() + ": " + line);
   }
-  this->noteWarnings(warnings);
+  this->Log.noteWarnings(warnings);
   if (model->triangles.empty())
   {
-    this->fail(tr("%1 has no surfaces: nothing was added.").arg(name));
+    emit this->State.failed(tr("%1 has no surfaces: nothing was added.").arg(name));
     return false;
   }
-  const bool first = this->State->scene().objects.empty();
-  this->document().adopt(models);
-  this->Warned = this->document().models().warnings().size();
-  if (!this->State->attempt([&] { this->State->select({ this->document().addModel(file) }); }))
+  const bool first = this->State.scene().objects.empty();
+  this->State.document().adopt(models);
+  this->Log.setWarned(this->State.document().models().warnings().size());
+  if (!this->State.attempt([&] { this->State.select({ this->State.document().addModel(file) }); }))
   {
     return false;
   }
   if (first)
   {
-    this->Views->showWhole();
+    this->Views.showWhole();
   }
-  this->note(withWarnings(tr("Imported %1").arg(name), warnings.size()));
+  this->Log.note(EditorLog::withWarnings(tr("Imported %1").arg(name), warnings.size()));
   return true;
 }
 
-bool MainWindow::saveFile(const QString& path)
+bool SceneFiles::saveFile(const QString& path)
 {
-  this->State->finishTyping();
-  if (!this->State->attempt([&] { this->State->document().saveAs(QFile::encodeName(path).toStdString()); }))
+  this->State.finishTyping();
+  if (!this->State.attempt([&] { this->State.document().saveAs(QFile::encodeName(path).toStdString()); }))
   {
     return false;
   }
   this->addRecent(path);
-  this->note(tr("Saved %1").arg(path));
+  this->Log.note(tr("Saved %1").arg(path));
   return true;
 }
 
-bool MainWindow::save()
+bool SceneFiles::save()
 {
-  const QString path = toText(this->State->document().path());
+  const QString path = toText(this->State.document().path());
   return path.isEmpty() ? this->saveAs() : this->saveFile(path);
 }
 
-bool MainWindow::saveAs()
+bool SceneFiles::saveAs()
 {
-  const QString now = toText(this->document().path());
-  const QString path = askSaveName(
-    this, tr("Save the scene"), now.isEmpty() ? usualFolder() : now, tr("Scene (*.json);;Thesis scene (*.scene)"));
+  const QString now = toText(this->State.document().path());
+  const QString path = askSaveName(&this->Window, tr("Save the scene"), now.isEmpty() ? usualFolder() : now,
+    tr("Scene (*.json);;Thesis scene (*.scene)"));
   if (path.isEmpty())
   {
     return false;
@@ -267,19 +265,19 @@ bool MainWindow::saveAs()
   return this->saveFile(path);
 }
 
-bool MainWindow::mayDiscard()
+bool SceneFiles::mayDiscard()
 {
-  this->State->finishTyping();
-  if (this->Matching != nullptr && !this->Matching->mayDiscard())
+  this->State.finishTyping();
+  if (!this->Hooks.mayDiscardMore())
   {
     return false;
   }
-  if (!this->State->document().modified())
+  if (!this->State.document().modified())
   {
     return true;
   }
   QMessageBox box(QMessageBox::Question, tr("DGTk"), tr("The scene has changes that are not saved."),
-    QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
+    QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &this->Window);
   box.setObjectName("unsavedBox");
   box.setInformativeText(tr("Save them, or they are lost."));
   box.setDefaultButton(QMessageBox::Save);
@@ -294,31 +292,31 @@ bool MainWindow::mayDiscard()
   }
 }
 
-void MainWindow::exportPov()
+void SceneFiles::exportPov()
 {
-  const QFileInfo now(toText(this->document().path()));
-  const QString path = askSaveName(this, tr("Export for POV-Ray"),
+  const QFileInfo now(toText(this->State.document().path()));
+  const QString path = askSaveName(&this->Window, tr("Export for POV-Ray"),
     now.filePath().isEmpty() ? usualFolder() : now.dir().filePath(now.completeBaseName() + ".pov"),
     tr("POV-Ray scene (*.pov)"));
   if (path.isEmpty() || !this->isFree())
   {
     return;
   }
-  SceneDescription scene = this->State->scene();
+  SceneDescription scene = this->State.scene();
   std::size_t camera = 0;
-  for (const SceneItem& item : this->State->selection())
+  for (const SceneItem& item : this->State.selection())
   {
     camera = item.kind == SceneItem::Kind::Camera ? item.index : camera;
   }
   if (scene.cameras.empty())
   {
-    scene.cameras.push_back(this->cameraOfView());
+    scene.cameras.push_back(this->Hooks.cameraOfView());
     scene.order.clear();
   }
   const std::string file = QFile::encodeName(path).toStdString();
   const auto warnings = std::make_shared<std::vector<std::string>>();
   const bool done = this->work(tr("Writing %1 ...").arg(QFileInfo(path).fileName()),
-    [scene, camera, file, warnings, frame = this->State->frame()](const LoadProgress& progress)
+    [scene, camera, file, warnings, frame = this->State.frame()](const LoadProgress& progress)
     {
       const std::shared_ptr<const Stage> stage = Stage::load(scene);
       const std::shared_ptr<const SceneState> state = stage->at(frame);
@@ -329,42 +327,12 @@ void MainWindow::exportPov()
     });
   if (done)
   {
-    this->noteWarnings(*warnings);
-    this->note(tr("Wrote %1").arg(QFile::decodeName(file.c_str())));
+    this->Log.noteWarnings(*warnings);
+    this->Log.note(tr("Wrote %1").arg(QFile::decodeName(file.c_str())));
   }
 }
 
-void MainWindow::dragEnterEvent(QDragEnterEvent* event)
-{
-  if (event->mimeData()->hasUrls())
-  {
-    event->acceptProposedAction();
-  }
-}
-
-void MainWindow::dropEvent(QDropEvent* event)
-{
-  QStringList paths;
-  for (const QUrl& url : event->mimeData()->urls())
-  {
-    if (url.isLocalFile())
-    {
-      paths << url.toLocalFile();
-    }
-  }
-  event->acceptProposedAction();
-  // The program that they come from does not wait for them to be read.
-  QTimer::singleShot(0, this,
-    [this, paths]
-    {
-      for (const QString& path : paths)
-      {
-        this->openFile(path);
-      }
-    });
-}
-
-void MainWindow::addRecent(const QString& path)
+void SceneFiles::addRecent(const QString& path)
 {
   QSettings settings;
   const QString absolute = QFileInfo(path).absoluteFilePath();
@@ -375,18 +343,18 @@ void MainWindow::addRecent(const QString& path)
   this->refreshRecent();
 }
 
-void MainWindow::refreshRecent()
+void SceneFiles::refreshRecent()
 {
-  this->Recent->clear();
+  this->Recent.clear();
   const QStringList recent = QSettings().value("recent").toStringList();
   for (const QString& path : recent)
   {
     QAction* const open =
-      this->Recent->addAction(menuText(QFileInfo(path).fileName() + "  -  " + QFileInfo(path).absolutePath()), this,
+      this->Recent.addAction(menuText(QFileInfo(path).fileName() + "  -  " + QFileInfo(path).absolutePath()), this,
         [this, path] { this->openFile(path); });
-    open->setObjectName("recent." + QString::number(this->Recent->actions().size() - 1));
+    open->setObjectName("recent." + QString::number(this->Recent.actions().size() - 1));
   }
-  this->Recent->setEnabled(!recent.isEmpty());
+  this->Recent.setEnabled(!recent.isEmpty());
 }
 
 } // namespace dgtk

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkEditorLog.h"
 #include "dgtkEditorState.h"
-#include "dgtkMainWindow.h"
 #include "dgtkMissingFiles.h"
+#include "dgtkSceneFiles.h"
 #include "dgtkUsualFolder.h"
 
 #include <QFile>
 #include <QFileDialog>
+#include <QMainWindow>
 #include <QMessageBox>
 #include <QPushButton>
 
@@ -34,18 +36,18 @@ QString listOf(const std::vector<std::string>& models)
 }
 } // namespace
 
-void MainWindow::findMissing()
+void SceneFiles::findMissing()
 {
-  while (!this->document().absent().empty() && this->offerToFind())
+  while (!this->State.document().absent().empty() && this->offerToFind())
   {
   }
 }
 
-bool MainWindow::offerToFind()
+bool SceneFiles::offerToFind()
 {
-  const std::vector<std::string> models = modelsOf(this->State->scene(), this->document().absent());
-  QMessageBox box(
-    QMessageBox::Warning, tr("DGTk"), tr("Models that are not there: %1").arg(models.size()), QMessageBox::Ok, this);
+  const std::vector<std::string> models = modelsOf(this->State.scene(), this->State.document().absent());
+  QMessageBox box(QMessageBox::Warning, tr("DGTk"), tr("Models that are not there: %1").arg(models.size()),
+    QMessageBox::Ok, &this->Window);
   box.setObjectName("missingBox");
   box.setInformativeText(
     tr("%1\n\nGrey boxes stand in their place. The scene can be edited and saved, but not rendered.")
@@ -58,11 +60,11 @@ bool MainWindow::offerToFind()
     return false;
   }
   const QString folder =
-    QFileDialog::getExistingDirectory(this, tr("Folder below which the models are"), usualFolder("models"));
+    QFileDialog::getExistingDirectory(&this->Window, tr("Folder below which the models are"), usualFolder("models"));
   return !folder.isEmpty() && this->findModelsBelow(folder);
 }
 
-bool MainWindow::findModelsBelow(const QString& folder)
+bool SceneFiles::findModelsBelow(const QString& folder)
 {
   if (!this->isFree())
   {
@@ -74,9 +76,9 @@ bool MainWindow::findModelsBelow(const QString& folder)
     std::optional<ModelLibrary> models;
   };
   const auto found = std::make_shared<Found>();
-  const std::vector<std::string> wanted = modelsOf(this->State->scene(), this->document().absent());
+  const std::vector<std::string> wanted = modelsOf(this->State.scene(), this->State.document().absent());
   const bool looked = this->work(tr("Looking for models in %1 ...").arg(folder),
-    [found, wanted, scene = this->State->scene(), models = this->document().models(),
+    [found, wanted, scene = this->State.scene(), models = this->State.document().models(),
       file = QFile::encodeName(folder).toStdString()](const LoadProgress& progress)
     {
       found->files = findModels(wanted, file, progress);
@@ -92,14 +94,16 @@ bool MainWindow::findModelsBelow(const QString& folder)
   {
     return false;
   }
-  const std::size_t before = this->Warned;
-  this->document().adopt(*found->models);
+  const std::size_t before = this->Log.warned();
+  this->State.document().adopt(*found->models);
   const bool changed =
-    !found->files.empty() &&
-    this->State->attempt([&]
-      { this->document().edit("Find models", [&](SceneDescription& scene) { replaceModels(scene, found->files); }); });
-  this->note(
-    withWarnings(tr("Found %1 of %2 models").arg(found->files.size()).arg(wanted.size()), this->Warned - before));
+    !found->files.empty() && this->State.attempt(
+                               [&] {
+                                 this->State.document().edit(
+                                   "Find models", [&](SceneDescription& scene) { replaceModels(scene, found->files); });
+                               });
+  this->Log.note(EditorLog::withWarnings(
+    tr("Found %1 of %2 models").arg(found->files.size()).arg(wanted.size()), this->Log.warned() - before));
   return changed;
 }
 
