@@ -49,6 +49,16 @@ std::string standIn(char byte)
 }
 } // namespace
 
+bool isUtf8(const std::string& text)
+{
+  std::size_t i = 0;
+  for (std::size_t length = 1; i < text.size() && length > 0; i += length)
+  {
+    length = sequenceAt(text, i);
+  }
+  return i >= text.size();
+}
+
 std::string utf8FromBytes(const std::string& bytes)
 {
   std::string text;

@@ -11,6 +11,9 @@
 namespace dgtk
 {
 
+/// Whether a text is valid UTF-8.
+DGTKCORE_EXPORT bool isUtf8(const std::string& text);
+
 /// UTF-8 that stands for any bytes: a byte B that belongs to no character is U+EF00 + B (U+EF80 to U+EFFF), and so is
 /// each byte of a character of that range. All else stays as it is.
 DGTKCORE_EXPORT std::string utf8FromBytes(const std::string& bytes);

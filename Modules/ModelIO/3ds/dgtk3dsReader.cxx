@@ -79,37 +79,8 @@ public:
   {
     const Chunk main = this->chunkAt(0, this->In.size());
     // materials first: objects name them, whatever the order in the file
-    this->forEach(main.begin, main.end,
-      [this](const Chunk& editor)
-      {
-        if (editor.id == Editor)
-        {
-          this->HasEditor = true;
-          this->forEach(editor.begin, editor.end,
-            [this](const Chunk& c)
-            {
-              if (c.id == MaterialBlock)
-              {
-                this->material(c);
-              }
-            });
-        }
-      });
-    this->forEach(main.begin, main.end,
-      [this](const Chunk& editor)
-      {
-        if (editor.id == Editor)
-        {
-          this->forEach(editor.begin, editor.end,
-            [this](const Chunk& c)
-            {
-              if (c.id == NamedObject)
-              {
-                this->namedObject(c);
-              }
-            });
-        }
-      });
+    this->forEachOfEditors(main, MaterialBlock, [this](const Chunk& c) { this->material(c); });
+    this->forEachOfEditors(main, NamedObject, [this](const Chunk& c) { this->namedObject(c); });
     if (!this->HasEditor)
     {
       this->In.fail(main.begin, "no model in the file", "a chunk 3D3D");
@@ -142,6 +113,24 @@ private:
       function(chunk);
       at = chunk.end;
     }
+  }
+
+  template <typename Function>
+  void forEachOfEditors(const Chunk& main, ChunkId id, Function function)
+  {
+    this->forEach(main.begin, main.end,
+      [&](const Chunk& editor)
+      {
+        this->HasEditor = this->HasEditor || editor.id == Editor;
+        this->forEach(editor.begin, editor.id == Editor ? editor.end : editor.begin,
+          [&](const Chunk& c)
+          {
+            if (c.id == id)
+            {
+              function(c);
+            }
+          });
+      });
   }
 
   /// Throws unless `count` bytes of `what` lie in the chunk at `at`.
@@ -332,73 +321,94 @@ private:
     return count;
   }
 
-  void mesh(const Chunk& mesh, const std::string& name)
+  /// The lists of a mesh, and where its vertices are in the model.
+  struct Mesh3ds
   {
     Chunk vertices;
     Chunk faces;
     Chunk uvs;
-    this->forEach(mesh.begin, mesh.end,
-      [&](const Chunk& c) {
-        (c.id == Vertices ? vertices : c.id == Faces ? faces : c.id == TextureCoordinates ? uvs : this->Ignored) = c;
+    std::size_t vertexCount = 0;
+    std::size_t faceCount = 0;
+    std::size_t uvCount = 0;
+    std::uint32_t first = 0;
+    std::vector<const MappedMaterial*> materialOf; ///< of each face, or null
+    std::vector<std::uint32_t> groupsOf;
+  };
+
+  void mesh(const Chunk& chunk, const std::string& name)
+  {
+    Mesh3ds mesh;
+    this->forEach(chunk.begin, chunk.end,
+      [&](const Chunk& c)
+      {
+        (c.id == Vertices              ? mesh.vertices
+          : c.id == Faces              ? mesh.faces
+          : c.id == TextureCoordinates ? mesh.uvs
+                                       : this->Ignored) = c;
       });
     this->Builder.beginObject(name);
-    const std::size_t vertexCount = vertices.id ? this->counted(vertices, 12, "vertices") : 0;
-    const std::size_t faceCount = faces.id ? this->counted(faces, 8, "faces") : 0;
-    const std::size_t uvCount = uvs.id ? this->counted(uvs, 8, "texture coordinates") : 0;
-    this->Builder.reserve(vertexCount, faceCount, faceCount * 3);
-    std::uint32_t first = 0;
-    for (std::size_t v = 0; v < vertexCount; ++v)
+    mesh.vertexCount = mesh.vertices.id ? this->counted(mesh.vertices, 12, "vertices") : 0;
+    mesh.faceCount = mesh.faces.id ? this->counted(mesh.faces, 8, "faces") : 0;
+    mesh.uvCount = mesh.uvs.id ? this->counted(mesh.uvs, 8, "texture coordinates") : 0;
+    this->Builder.reserve(mesh.vertexCount, mesh.faceCount, mesh.faceCount * 3);
+    for (std::size_t v = 0; v < mesh.vertexCount; ++v)
     {
-      const std::size_t p = vertices.begin + 2 + 12 * v;
+      const std::size_t p = mesh.vertices.begin + 2 + 12 * v;
       const std::uint32_t index =
         this->Builder.addVertex({ double(this->In.f32(p)), double(this->In.f32(p + 4)), double(this->In.f32(p + 8)) });
-      first = v == 0 ? index : first;
+      mesh.first = v == 0 ? index : mesh.first;
     }
-    std::vector<const MappedMaterial*> materialOf(faceCount, nullptr);
-    std::vector<std::uint32_t> groupsOf(faceCount, 0);
-    if (faces.id)
+    this->faceLists(mesh);
+    for (std::size_t f = 0; f < mesh.faceCount; ++f)
     {
-      this->forEach(faces.begin + 2 + 8 * faceCount, faces.end,
-        [&](const Chunk& c)
-        {
-          if (c.id == FaceMaterial)
-          {
-            this->faceMaterial(c, materialOf);
-          }
-          else if (c.id == SmoothingGroups)
-          {
-            for (std::size_t f = 0; f < faceCount && c.begin + 4 * f + 4 <= c.end; ++f)
-            {
-              groupsOf[f] = this->In.u32(c.begin + 4 * f);
-            }
-          }
-        });
-    }
-    for (std::size_t f = 0; f < faceCount; ++f)
-    {
-      Corner corners[3];
-      const MappedMaterial* mapped = materialOf[f];
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        const std::size_t index = this->In.u16(faces.begin + 2 + 8 * f + 2 * i);
-        corners[i].vertex =
-          index < vertexCount ? first + static_cast<std::uint32_t>(index) : std::numeric_limits<std::uint32_t>::max();
-        if (index < uvCount)
-        {
-          const Eigen::Vector2d uv(this->In.f32(uvs.begin + 2 + 8 * index), this->In.f32(uvs.begin + 6 + 8 * index));
-          const Eigen::Vector2d placed = mapped ? Eigen::Vector2d(uv.cwiseProduct(mapped->scale) + mapped->offset) : uv;
-          corners[i].u = static_cast<float>(placed[0]);
-          corners[i].v = static_cast<float>(placed[1]);
-        }
-      }
-      SurfaceStyle style;
-      style.material = mapped ? mapped->material : this->Builder.defaultMaterial();
-      style.shading = groupsOf[f] != 0 ? Shading::Groups : Shading::Flat;
-      style.groups = groupsOf[f];
-      style.twoSided = mapped && this->Builder.model().materials[static_cast<std::size_t>(style.material)].twoSided;
-      this->Builder.addSurface(corners, 3, style);
+      this->face(mesh, f);
     }
     this->Builder.endObject();
+  }
+
+  /// What stands behind the faces: their materials and smoothing groups.
+  void faceLists(Mesh3ds& mesh)
+  {
+    mesh.materialOf.assign(mesh.faceCount, nullptr);
+    mesh.groupsOf.assign(mesh.faceCount, 0);
+    this->forEach(mesh.faces.begin + (mesh.faces.id ? 2 + 8 * mesh.faceCount : 0), mesh.faces.end,
+      [&](const Chunk& c)
+      {
+        if (c.id == FaceMaterial)
+        {
+          this->faceMaterial(c, mesh.materialOf);
+        }
+        for (std::size_t f = 0; c.id == SmoothingGroups && f < mesh.faceCount && c.begin + 4 * f + 4 <= c.end; ++f)
+        {
+          mesh.groupsOf[f] = this->In.u32(c.begin + 4 * f);
+        }
+      });
+  }
+
+  void face(const Mesh3ds& mesh, std::size_t f)
+  {
+    Corner corners[3];
+    const MappedMaterial* mapped = mesh.materialOf[f];
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const std::size_t index = this->In.u16(mesh.faces.begin + 2 + 8 * f + 2 * i);
+      corners[i].vertex = index < mesh.vertexCount ? mesh.first + static_cast<std::uint32_t>(index)
+                                                   : std::numeric_limits<std::uint32_t>::max();
+      if (index < mesh.uvCount)
+      {
+        const std::size_t at = mesh.uvs.begin + 2 + 8 * index;
+        const Eigen::Vector2d uv(this->In.f32(at), this->In.f32(at + 4));
+        const Eigen::Vector2d placed = mapped ? Eigen::Vector2d(uv.cwiseProduct(mapped->scale) + mapped->offset) : uv;
+        corners[i].u = static_cast<float>(placed[0]);
+        corners[i].v = static_cast<float>(placed[1]);
+      }
+    }
+    SurfaceStyle style;
+    style.material = mapped ? mapped->material : this->Builder.defaultMaterial();
+    style.shading = mesh.groupsOf[f] != 0 ? Shading::Groups : Shading::Flat;
+    style.groups = mesh.groupsOf[f];
+    style.twoSided = mapped && this->Builder.model().materials[static_cast<std::size_t>(style.material)].twoSided;
+    this->Builder.addSurface(corners, 3, style);
   }
 
   void faceMaterial(const Chunk& c, std::vector<const MappedMaterial*>& materialOf)

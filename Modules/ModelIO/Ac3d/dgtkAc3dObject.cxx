@@ -4,7 +4,6 @@
 #include "dgtkError.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace dgtk
@@ -20,8 +19,6 @@ enum SurfaceKind : unsigned
   OpenLine = 2,
   Strip = 4
 };
-
-bool isFinite(const Eigen::Vector3d& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
 } // namespace
 
 void Ac3dObject::begin(const Affine3& root_from_parent, const std::string& texture)
@@ -130,15 +127,6 @@ void Ac3dObject::textureStatement(const Words& words)
 void Ac3dObject::vertices(long long number)
 {
   const Affine3 root_from_object = this->rootFromObject();
-  // normals go with the inverse transpose, which up to its length is the matrix of cofactors
-  const Eigen::Matrix3d& m = root_from_object.linear;
-  Eigen::Matrix3d cofactors;
-  for (int i = 0; i < 3; ++i)
-  {
-    const Eigen::Vector3d a = m.col((i + 1) % 3);
-    const Eigen::Vector3d b = m.col((i + 2) % 3);
-    cofactors.col(i) << a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0];
-  }
   // an entry has at least six characters
   const auto possible = static_cast<long long>(this->Lines.remaining() / 6) + 1;
   this->Builder.reserve(this->Vertices + static_cast<std::size_t>(std::min(number, possible)), 0, 0);
@@ -156,7 +144,7 @@ void Ac3dObject::vertices(long long number)
     {
       const Eigen::Vector3d n = this->Lines.vector(words, 3, "normal");
       this->Normals.resize(this->Vertices - 1, -1);
-      this->Normals.push_back(isFinite(n) ? this->Builder.addNormal(cofactors * n) : -1);
+      this->Normals.push_back(n.allFinite() ? this->Builder.addNormal(turnedNormal(root_from_object.linear, n)) : -1);
     }
   }
 }

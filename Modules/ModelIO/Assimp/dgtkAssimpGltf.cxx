@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkAssimpGltf.h"
 
+#include "dgtkImportProtocol.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -55,21 +56,6 @@ std::string fromBase64(const std::string& text, std::size_t begin)
     }
   }
   return bytes;
-}
-
-std::string withoutPercents(const std::string& uri)
-{
-  std::string plain;
-  for (std::size_t i = 0; i < uri.size(); ++i)
-  {
-    unsigned code = 0;
-    const char* digits = uri.data() + i + 1;
-    const bool escape =
-      uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
-    plain += escape ? static_cast<char>(code) : uri[i];
-    i += escape ? 2 : 0;
-  }
-  return plain;
 }
 
 class GltfFile

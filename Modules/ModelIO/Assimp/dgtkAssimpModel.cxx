@@ -22,55 +22,70 @@ namespace
 constexpr std::uint64_t mostCorners = 8'000'000;
 constexpr double mostFrames = 1e9;
 
-/// One number for each vertex of a mesh; the same for vertices that are at the same place and move alike.
-std::vector<std::uint32_t> weld(const import::Mesh& mesh)
+/// Orders the vertices of a mesh; those that are at the same place and move alike are equal.
+class VertexOrder
 {
-  std::vector<std::vector<std::pair<std::uint32_t, float>>> influences(mesh.bones.empty() ? 0 : mesh.positions.size());
-  for (std::size_t b = 0; b < mesh.bones.size(); ++b)
+public:
+  explicit VertexOrder(const import::Mesh& mesh)
+    : Mesh(mesh)
+    , Influences(mesh.bones.empty() ? 0 : mesh.positions.size())
   {
-    for (std::size_t i = 0; i < mesh.bones[b].vertices.size(); ++i)
+    for (std::size_t b = 0; b < mesh.bones.size(); ++b)
     {
-      influences[mesh.bones[b].vertices[i]].emplace_back(static_cast<std::uint32_t>(b), mesh.bones[b].weights[i]);
+      for (std::size_t i = 0; i < mesh.bones[b].vertices.size(); ++i)
+      {
+        this->Influences[mesh.bones[b].vertices[i]].emplace_back(
+          static_cast<std::uint32_t>(b), mesh.bones[b].weights[i]);
+      }
     }
   }
-  const auto bits = [](const import::Float3& p)
+
+  /// Below 0, 0 or above 0.
+  int compare(std::uint32_t a, std::uint32_t b) const
+  {
+    int difference = order(bits(this->Mesh.positions[a]), bits(this->Mesh.positions[b]));
+    for (std::size_t i = 0; difference == 0 && i < this->Mesh.targets.size(); ++i)
+    {
+      const std::vector<import::Float3>& positions = this->Mesh.targets[i].positions;
+      difference = order(bits(positions[a]), bits(positions[b]));
+    }
+    return difference != 0 || this->Influences.empty() ? difference : order(this->Influences[a], this->Influences[b]);
+  }
+
+private:
+  static std::array<std::uint32_t, 3> bits(const import::Float3& p)
   {
     const import::Float3 sum{ p[0] + 0.f, p[1] + 0.f, p[2] + 0.f }; // -0 is 0
     std::array<std::uint32_t, 3> words;                             // NaN has its place in their order, too
     std::memcpy(words.data(), sum.data(), sizeof words);
     return words;
-  };
-  const auto compare = [&](const import::Float3& a, const import::Float3& b)
+  }
+  template <class Value>
+  static int order(const Value& a, const Value& b)
   {
-    const std::array<std::uint32_t, 3> p = bits(a);
-    const std::array<std::uint32_t, 3> q = bits(b);
-    return p == q ? 0 : p < q ? -1 : 1;
-  };
-  const auto order = [&](std::uint32_t a, std::uint32_t b)
-  {
-    int difference = compare(mesh.positions[a], mesh.positions[b]);
-    for (std::size_t i = 0; difference == 0 && i < mesh.targets.size(); ++i)
-    {
-      difference = compare(mesh.targets[i].positions[a], mesh.targets[i].positions[b]);
-    }
-    if (difference == 0 && !influences.empty() && influences[a] != influences[b])
-    {
-      difference = influences[a] < influences[b] ? -1 : 1;
-    }
-    return difference;
-  };
+    return a == b ? 0 : a < b ? -1 : 1;
+  }
+
+  const import::Mesh& Mesh;
+  std::vector<std::vector<std::pair<std::uint32_t, float>>> Influences; ///< of each vertex: bone, weight
+};
+
+/// The first vertex of a mesh that is equal to each one.
+std::vector<std::uint32_t> weld(const import::Mesh& mesh)
+{
+  const VertexOrder vertices(mesh);
   std::vector<std::uint32_t> sorted(mesh.positions.size());
   std::iota(sorted.begin(), sorted.end(), 0u);
   std::sort(sorted.begin(), sorted.end(),
     [&](std::uint32_t a, std::uint32_t b)
     {
-      const int difference = order(a, b);
+      const int difference = vertices.compare(a, b);
       return difference != 0 ? difference < 0 : a < b;
     });
   std::vector<std::uint32_t> first(sorted.size());
   for (std::size_t i = 0; i < sorted.size(); ++i)
   {
-    const bool same = i > 0 && order(sorted[i - 1], sorted[i]) == 0;
+    const bool same = i > 0 && vertices.compare(sorted[i - 1], sorted[i]) == 0;
     first[sorted[i]] = same ? first[sorted[i - 1]] : sorted[i];
   }
   return first;

@@ -30,13 +30,6 @@ constexpr std::uint64_t largestModel = std::uint64_t(1) << 32;
 constexpr std::uint64_t streamBase = std::uint64_t(64) << 20;
 constexpr std::uint64_t streamPerByte = 64;
 
-std::string lower(std::string text)
-{
-  std::transform(
-    text.begin(), text.end(), text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return text;
-}
-
 /// The files that a model may have: regular ones in its folder or below it. Names are found as textures are found: as
 /// written, beside the model, in any case.
 class ModelFiles

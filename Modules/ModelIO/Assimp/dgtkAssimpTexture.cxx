@@ -2,37 +2,14 @@
 #include "dgtkAssimpTexture.h"
 
 #include "dgtkError.h"
+#include "dgtkImportProtocol.h"
 #include "dgtkTexturePixels.h"
-
-#include <charconv>
 
 namespace dgtk
 {
 
 namespace
 {
-/// "%20" and the like, and `file://` in front.
-std::string withoutUrl(const std::string& name)
-{
-  std::string text = name.rfind("file://", 0) == 0 ? name.substr(7) : name;
-  std::string plain;
-  for (std::size_t i = 0; i < text.size(); ++i)
-  {
-    unsigned code = 0;
-    const char* digits = text.data() + i + 1;
-    if (text[i] == '%' && i + 2 < text.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2)
-    {
-      plain += static_cast<char>(code);
-      i += 2;
-    }
-    else
-    {
-      plain += text[i];
-    }
-  }
-  return plain;
-}
-
 Eigen::Vector3d color(const std::array<double, 3>& from) { return Eigen::Vector3d(from.data()); }
 } // namespace
 
@@ -64,7 +41,7 @@ int AssimpMaterials::embeddedTexture(const std::string& name)
 
 int AssimpMaterials::fileTexture(const std::string& name)
 {
-  const std::string plain = withoutUrl(name);
+  const std::string plain = import::withoutPercents(name.rfind("file://", 0) == 0 ? name.substr(7) : name);
   const bool asWritten = plain == name || !locateTexture(this->Builder.model().path, name).empty();
   return this->Builder.addTexture(asWritten ? name : plain);
 }

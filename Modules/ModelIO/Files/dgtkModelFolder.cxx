@@ -43,17 +43,19 @@ std::string folderOfFile(const std::string& path)
   return folder.empty() ? "." : folder;
 }
 
-std::string extensionOfFile(const std::string& path)
+std::string lower(std::string text)
+{
+  std::transform(
+    text.begin(), text.end(), text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  return text;
+}
+
+std::string extensionOf(const std::string& path)
 {
   const std::size_t slash = path.find_last_of("/\\:");
   const std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
   const std::size_t dot = name.find_last_of('.');
-  std::string extension = dot == std::string::npos || dot == 0 ? std::string() : name.substr(dot + 1);
-  for (char& c : extension)
-  {
-    c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  }
-  return extension;
+  return dot == std::string::npos || dot == 0 ? std::string() : lower(name.substr(dot + 1));
 }
 
 } // namespace dgtk

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkTextLines.h"
 
+#include "dgtkUtf8.h"
+
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -81,49 +83,14 @@ std::string toUtf8(std::string bytes)
   return bytes;
 }
 
-namespace
-{
-/// Bytes of the UTF-8 character at `at`; 0 when there is no valid one.
-std::size_t characterLength(const std::string& text, std::size_t at)
-{
-  const auto byte = [&text](std::size_t i) { return i < text.size() ? static_cast<std::uint8_t>(text[i]) : 0u; };
-  const unsigned lead = byte(at);
-  const std::size_t length = lead < 0x80                   ? 1
-                             : lead >= 0xc2 && lead < 0xe0 ? 2
-                             : lead >= 0xe0 && lead < 0xf0 ? 3
-                             : lead >= 0xf0 && lead < 0xf5 ? 4
-                                                           : 0;
-  for (std::size_t i = 1; i < length; ++i)
-  {
-    if ((byte(at + i) & 0xc0u) != 0x80)
-    {
-      return 0;
-    }
-  }
-  const unsigned second = byte(at + 1);
-  const bool overlong = (lead == 0xe0 && second < 0xa0) || (lead == 0xf0 && second < 0x90);
-  const bool beyond = (lead == 0xed && second >= 0xa0) || (lead == 0xf4 && second >= 0x90);
-  return overlong || beyond ? 0 : length;
-}
-} // namespace
-
 std::string validUtf8(const std::string& text)
 {
-  std::size_t at = 0;
-  while (at < text.size() && characterLength(text, at) > 0)
-  {
-    at += characterLength(text, at);
-  }
-  if (at == text.size())
-  {
-    return text;
-  }
   std::string out;
-  for (const char c : text)
+  for (const char c : isUtf8(text) ? std::string() : text)
   {
     appendUtf8(out, static_cast<std::uint8_t>(c));
   }
-  return out;
+  return out.empty() ? text : out;
 }
 
 std::optional<double> parseNumber(std::string_view token)

@@ -190,7 +190,7 @@ int ModelBuilder::defaultMaterial()
 
 void ModelBuilder::beginObject(const std::string& name)
 {
-  this->Current = std::make_unique<Object>();
+  this->Current = std::make_unique<ModelObject>();
   this->Current->name = name;
   this->Current->firstVertex = static_cast<std::uint32_t>(this->SourceVertices);
 }
@@ -225,7 +225,7 @@ std::int32_t ModelBuilder::addNormal(const Eigen::Vector3d& normal)
 
 bool ModelBuilder::usable(const Corner* corners, std::size_t count)
 {
-  const Object& object = *this->Current;
+  const ModelObject& object = *this->Current;
   if (count < 3)
   {
     ++this->SmallSurfaces;
@@ -247,29 +247,11 @@ bool ModelBuilder::usable(const Corner* corners, std::size_t count)
   return finite;
 }
 
-bool ModelBuilder::addSurface(const Corner* corners, std::size_t count, const SurfaceStyle& style)
+void ModelBuilder::addCorners(const Corner* corners, std::size_t count)
 {
-  if (!this->usable(corners, count))
-  {
-    return false;
-  }
-  Object& object = *this->Current;
-  if (object.corners.size() + count >= none)
-  {
-    throw InputError(this->Result->path, 0, "has too many surfaces in one object");
-  }
-  Object::Surface surface;
-  surface.firstCorner = static_cast<std::uint32_t>(object.corners.size());
-  surface.corners = static_cast<std::uint32_t>(count);
-  surface.firstTriangle = static_cast<std::uint32_t>(object.triangles.size());
-  surface.style = style;
-  if (style.material < 0 || static_cast<std::size_t>(style.material) >= this->materials())
-  {
-    surface.style.material = this->defaultMaterial();
-  }
+  ModelObject& object = *this->Current;
   object.polygon.clear();
   object.polygon.reserve(count);
-  object.cut.reserve(count - 2);
   makeRoom(object.corners, count);
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -280,19 +262,37 @@ bool ModelBuilder::addSurface(const Corner* corners, std::size_t count, const Su
     object.corners.push_back(corner);
     object.polygon.push_back(object.positions[object.local(corner)]);
   }
-  surface.normal = polygonNormal(object.polygon);
+}
+
+bool ModelBuilder::addSurface(const Corner* corners, std::size_t count, const SurfaceStyle& style)
+{
+  if (!this->usable(corners, count))
+  {
+    return false;
+  }
+  ModelObject& object = *this->Current;
+  const auto first = static_cast<std::uint32_t>(object.corners.size());
+  if (object.corners.size() + count >= none)
+  {
+    throw InputError(this->Result->path, 0, "has too many surfaces in one object");
+  }
+  this->addCorners(corners, count);
+  object.cut.reserve(count - 2);
+  this->GaveUpShape = !triangulate(object.polygon, object.cut, this->Work, this->WorkLimit) || this->GaveUpShape;
+  ModelObject::Surface surface{ first, static_cast<std::uint32_t>(count),
+    static_cast<std::uint32_t>(object.triangles.size()), static_cast<std::uint32_t>(object.cut.size()), style,
+    polygonNormal(object.polygon), 0 };
   surface.area = surface.normal.stableNorm();
   surface.normal = surface.area > 0 ? Eigen::Vector3d(surface.normal / surface.area) : Eigen::Vector3d(0, 0, 0);
-  if (!triangulate(object.polygon, object.cut, this->Work, this->WorkLimit))
+  if (style.material < 0 || static_cast<std::size_t>(style.material) >= this->materials())
   {
-    this->GaveUpShape = true;
+    surface.style.material = this->defaultMaterial();
   }
   makeRoom(object.triangles, object.cut.size());
   for (const std::array<std::uint32_t, 3>& t : object.cut)
   {
-    object.triangles.push_back({ surface.firstCorner + t[0], surface.firstCorner + t[1], surface.firstCorner + t[2] });
+    object.triangles.push_back({ first + t[0], first + t[1], first + t[2] });
   }
-  surface.triangles = static_cast<std::uint32_t>(object.cut.size());
   object.surfaces.push_back(surface);
   if (count > largeSurface)
   {
@@ -335,11 +335,9 @@ void ModelBuilder::setCrease(double degrees) { this->Current->crease = clamped(d
 
 void ModelBuilder::endObject()
 {
-  std::vector<Eigen::Vector3f> normals;
   if (!this->Current->surfaces.empty())
   {
-    this->smooth(normals);
-    this->emit(normals);
+    this->addParts(this->addSplitVertices(this->smooth()));
   }
   this->Current.reset();
 }

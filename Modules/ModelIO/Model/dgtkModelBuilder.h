@@ -43,6 +43,8 @@ struct SurfaceStyle
   bool twoSided = false;    ///< the file marks the surface as two-sided
 };
 
+struct ModelObject;
+
 /// Collects what a reader finds, and makes a Model of it: triangulates polygons, computes normals, splits vertices,
 /// groups triangles into parts by (object, material) in file order, and fills counts and bounds.
 ///
@@ -118,9 +120,10 @@ public:
   std::shared_ptr<Model> finish();
 
 private:
-  struct Object;
-  void smooth(std::vector<Eigen::Vector3f>& normals);
-  void emit(const std::vector<Eigen::Vector3f>& normals);
+  std::vector<Eigen::Vector3f> smooth();
+  std::vector<std::uint32_t> addSplitVertices(const std::vector<Eigen::Vector3f>& normals);
+  void addParts(const std::vector<std::uint32_t>& splitOf);
+  void addCorners(const Corner* corners, std::size_t count);
   void growBounds(const Eigen::Vector3d& position);
   bool usable(const Corner* corners, std::size_t count);
   void settleCutOuts();
@@ -128,7 +131,7 @@ private:
   std::shared_ptr<Model> Result;
   std::shared_ptr<Geometry> Rest;
   TextureCache Textures;
-  std::unique_ptr<Object> Current;
+  std::unique_ptr<ModelObject> Current;
   std::uint64_t MemoryLimit;
   std::uint64_t WorkLimit; ///< of ear clipping and smoothing together
   std::uint64_t Work = 0;

@@ -27,7 +27,7 @@ void makeRoom(std::vector<T>& v, std::size_t more)
 }
 
 /// The object that a ModelBuilder is collecting.
-struct ModelBuilder::Object
+struct ModelObject
 {
   struct Surface
   {

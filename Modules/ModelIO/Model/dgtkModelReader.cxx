@@ -2,6 +2,7 @@
 #include "dgtkModelReader.h"
 
 #include "dgtkError.h"
+#include "dgtkModelFolder.h"
 #include "dgtkReaderRegistry.h"
 
 #include <algorithm>
@@ -13,21 +14,6 @@ namespace dgtk
 
 namespace
 {
-std::string extensionOf(const std::string& path)
-{
-  const std::size_t dot = path.find_last_of("./");
-  if (dot == std::string::npos || path[dot] == '/')
-  {
-    return {};
-  }
-  std::string extension = path.substr(dot + 1);
-  for (char& c : extension)
-  {
-    c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  }
-  return extension;
-}
-
 std::string knownExtensions()
 {
   std::string known;

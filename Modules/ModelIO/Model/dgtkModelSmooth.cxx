@@ -15,32 +15,75 @@ namespace
 {
 constexpr double pi = 3.14159265358979323846;
 
-/// Calls `function` for each of the surfaces around a vertex; one that meets the vertex twice counts once.
-template <typename Object, typename Function>
-void forEachSurface(const Object& object, const std::uint32_t* around, std::uint32_t count, Function function)
+using Surface = ModelObject::Surface;
+
+/// The surfaces around each vertex, in file order.
+class SurfacesAround
 {
-  for (std::uint32_t i = 0; i < count; ++i)
+public:
+  explicit SurfacesAround(const ModelObject& object)
+    : Object(object)
+    , Place(placesOf(object))
+    , First(object.positions.size() + 1, 0)
+    , List(object.corners.size())
   {
-    if (i == 0 || around[i] != around[i - 1])
+    for (const Corner& corner : object.corners)
     {
-      function(object.surfaces[around[i]]);
+      ++this->First[this->placeOf(corner) + 1];
+    }
+    std::partial_sum(this->First.begin(), this->First.end(), this->First.begin());
+    std::vector<std::uint32_t> next(this->First.begin(), this->First.end() - 1);
+    for (std::uint32_t s = 0; s < object.surfaces.size(); ++s)
+    {
+      const Surface& surface = object.surfaces[s];
+      for (std::uint32_t c = 0; c < surface.corners; ++c)
+      {
+        this->List[next[this->placeOf(object.corners[surface.firstCorner + c])]++] = s;
+      }
     }
   }
-}
-} // namespace
 
-void ModelBuilder::smooth(std::vector<Eigen::Vector3f>& normals)
-{
-  const Object& object = *this->Current;
-  const std::size_t corners = object.corners.size();
+  /// The vertex that stands for all at its place.
+  std::uint32_t placeOf(const Corner& corner) const { return this->Place[this->Object.local(corner)]; }
+  std::uint32_t count(std::uint32_t place) const { return this->First[place + 1] - this->First[place]; }
 
-  // Smoothing groups join vertices at the same place: files split vertices along seams of the texture.
-  const bool byPlace = std::any_of(object.surfaces.begin(), object.surfaces.end(),
-    [](const Object::Surface& s) { return s.style.shading == Shading::Groups; });
-  std::vector<std::uint32_t> place(object.positions.size());
-  std::iota(place.begin(), place.end(), 0u);
-  if (byPlace)
+  /// Sum of what `term` gives for each surface; one that meets the vertex twice counts once.
+  template <typename Term>
+  Eigen::Vector3d sum(std::uint32_t place, Term term) const
   {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::uint32_t i = this->First[place]; i < this->First[place + 1]; ++i)
+    {
+      if (i == this->First[place] || this->List[i] != this->List[i - 1])
+      {
+        sum += term(this->Object.surfaces[this->List[i]]);
+      }
+    }
+    return sum;
+  }
+
+  /// Area-weighted sums of normals, of each vertex.
+  std::vector<Eigen::Vector3d> areaSums() const
+  {
+    std::vector<Eigen::Vector3d> sums;
+    for (std::uint32_t v = 0; v < this->Place.size(); ++v)
+    {
+      sums.push_back(this->sum(v, [](const Surface& s) -> Eigen::Vector3d { return s.area * s.normal; }));
+    }
+    return sums;
+  }
+
+private:
+  /// Smoothing groups join vertices at the same place: files split vertices along seams of the texture.
+  static std::vector<std::uint32_t> placesOf(const ModelObject& object)
+  {
+    std::vector<std::uint32_t> place(object.positions.size());
+    std::iota(place.begin(), place.end(), 0u);
+    if (std::none_of(object.surfaces.begin(), object.surfaces.end(),
+          [](const Surface& s) { return s.style.shading == Shading::Groups; }))
+    {
+      return place;
+    }
     const auto key = [&object](std::uint32_t i)
     {
       const Eigen::Vector3d& p = object.positions[i];
@@ -54,50 +97,50 @@ void ModelBuilder::smooth(std::vector<Eigen::Vector3f>& normals)
     {
       place[order[i]] = key(order[i]) == key(order[i - 1]) ? place[order[i - 1]] : order[i];
     }
+    return place;
   }
 
-  // surfaces around each vertex, in file order: around[first[v]] .. around[first[v + 1]]
-  std::vector<std::uint32_t> first(object.positions.size() + 1, 0);
-  for (const Corner& corner : object.corners)
-  {
-    ++first[place[object.local(corner)] + 1];
-  }
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<std::uint32_t> around(corners);
-  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-  for (std::uint32_t s = 0; s < object.surfaces.size(); ++s)
-  {
-    const Object::Surface& surface = object.surfaces[s];
-    for (std::uint32_t c = 0; c < surface.corners; ++c)
+  const ModelObject& Object;
+  std::vector<std::uint32_t> Place;
+  std::vector<std::uint32_t> First; ///< of each place in List
+  std::vector<std::uint32_t> List;
+};
+
+/// Sum over the surfaces around a place that are smooth with `surface`: Shading::Crease or Shading::Groups.
+Eigen::Vector3d smoothSum(const SurfacesAround& around, std::uint32_t place, const Surface& surface, double cosine)
+{
+  const bool byCrease = surface.style.shading == Shading::Crease;
+  return around.sum(place,
+    [&](const Surface& other) -> Eigen::Vector3d
     {
-      around[next[place[object.local(object.corners[surface.firstCorner + c])]]++] = s;
-    }
-  }
+      const bool joins = byCrease ? other.style.shading == Shading::Crease && other.normal.dot(surface.normal) >= cosine
+                                  : (other.style.groups & surface.style.groups) != 0;
+      const double weight = !joins && &other != &surface ? 0 : byCrease ? 1 : other.area;
+      return weight * other.normal;
+    });
+}
+} // namespace
 
-  const std::uint64_t splits = this->Rest->positions.size() + corners;
+std::vector<Eigen::Vector3f> ModelBuilder::smooth()
+{
+  const ModelObject& object = *this->Current;
+  const SurfacesAround around(object);
+  const std::uint64_t splits = this->Rest->positions.size() + object.corners.size();
   const std::uint64_t triangles = this->Result->triangles.size() + object.triangles.size();
-  const bool neverFlat = 110 * splits + 20 * triangles + 64 * corners > this->MemoryLimit;
-  const auto shadingOf = [neverFlat](const Object::Surface& s)
-  { return neverFlat && s.style.shading == Shading::Flat ? Shading::Area : s.style.shading; };
-
-  std::vector<Eigen::Vector3d> areas; ///< of each vertex, for Shading::Area
-  if (std::any_of(object.surfaces.begin(), object.surfaces.end(),
-        [&](const Object::Surface& s) { return shadingOf(s) == Shading::Area; }))
-  {
-    areas.assign(object.positions.size(), Eigen::Vector3d::Zero());
-    for (std::size_t v = 0; v < areas.size(); ++v)
-    {
-      forEachSurface(object, around.data() + first[v], first[v + 1] - first[v],
-        [&](const Object::Surface& s) { areas[v] += s.area * s.normal; });
-    }
-  }
-
+  const bool neverFlat = 110 * splits + 20 * triangles + 64 * object.corners.size() > this->MemoryLimit;
   const double cosine = std::cos(object.crease * pi / 180) - 1e-9;
-  normals.reserve(corners);
-  for (const Object::Surface& surface : object.surfaces)
+  std::vector<Eigen::Vector3d> areas; ///< of each vertex, for Shading::Area
+  std::vector<Eigen::Vector3f> normals;
+  normals.reserve(object.corners.size());
+  for (const Surface& surface : object.surfaces)
   {
-    const Shading shading = shadingOf(surface);
-    this->GaveUpFlat = this->GaveUpFlat || shading != surface.style.shading;
+    const bool raised = neverFlat && surface.style.shading == Shading::Flat;
+    const Shading shading = raised ? Shading::Area : surface.style.shading;
+    this->GaveUpFlat = this->GaveUpFlat || raised;
+    if (shading == Shading::Area && areas.empty())
+    {
+      areas = around.areaSums();
+    }
     for (std::uint32_t c = 0; c < surface.corners; ++c)
     {
       const Corner& corner = object.corners[surface.firstCorner + c];
@@ -106,37 +149,20 @@ void ModelBuilder::smooth(std::vector<Eigen::Vector3f>& normals)
         normals.push_back(object.normals[static_cast<std::size_t>(corner.normal)]);
         continue;
       }
-      const std::uint32_t v = place[object.local(corner)];
-      const std::uint32_t count = first[v + 1] - first[v];
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      if (shading == Shading::Area)
-      {
-        sum = areas[v];
-      }
-      else if (shading != Shading::Flat && this->Work + count <= this->WorkLimit)
-      {
-        this->Work += count;
-        forEachSurface(object, around.data() + first[v], count,
-          [&](const Object::Surface& other)
-          {
-            const bool joins = shading == Shading::Crease
-                                 ? other.style.shading == Shading::Crease && other.normal.dot(surface.normal) >= cosine
-                                 : (other.style.groups & surface.style.groups) != 0;
-            if (joins || &other == &surface)
-            {
-              sum += shading == Shading::Crease ? other.normal : Eigen::Vector3d(other.area * other.normal);
-            }
-          });
-      }
-      else
-      {
-        this->GaveUpShape = this->GaveUpShape || shading != Shading::Flat;
-      }
+      const std::uint32_t place = around.placeOf(corner);
+      const bool searched = shading == Shading::Crease || shading == Shading::Groups;
+      const bool affordable = this->Work + around.count(place) <= this->WorkLimit;
+      this->Work += searched && affordable ? around.count(place) : 0;
+      this->GaveUpShape = this->GaveUpShape || (searched && !affordable);
+      const Eigen::Vector3d sum = shading == Shading::Area ? areas[place]
+                                  : searched && affordable ? smoothSum(around, place, surface, cosine)
+                                                           : Eigen::Vector3d(0, 0, 0);
       const double length = sum.stableNorm();
       const Eigen::Vector3d unit = length > 0 ? Eigen::Vector3d(sum / length) : surface.normal;
       normals.push_back(unit.isZero(0) ? Eigen::Vector3f(0, 0, 1) : Eigen::Vector3f(unit.cast<float>()));
     }
   }
+  return normals;
 }
 
 void groupNormals(Model& model)

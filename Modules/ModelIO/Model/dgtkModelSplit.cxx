@@ -76,34 +76,38 @@ private:
   const std::vector<Eigen::Vector3f>& Normals;
   std::vector<std::uint32_t> Slots;
 };
-} // namespace
 
-void ModelBuilder::emit(const std::vector<Eigen::Vector3f>& normals)
+/// The vertex of each corner, from `base`; `cornerOf` gets the first corner of each vertex.
+std::vector<std::uint32_t> splitCorners(const std::vector<Corner>& corners, const std::vector<Eigen::Vector3f>& normals,
+  std::size_t base, std::vector<std::uint32_t>& cornerOf)
 {
-  const Object& object = *this->Current;
-  Model& model = *this->Result;
-  const std::size_t base = this->Rest->positions.size();
-
-  // corner -> split vertex, and the first corner of each split vertex
-  std::vector<std::uint32_t> cornerOf;
-  std::vector<std::uint32_t> splitOf(object.corners.size());
+  SplitTable table(corners, normals);
+  std::vector<std::uint32_t> splitOf(corners.size());
+  for (std::uint32_t c = 0; c < corners.size(); ++c)
   {
-    SplitTable table(object.corners, normals);
-    for (std::uint32_t c = 0; c < object.corners.size(); ++c)
+    const std::uint32_t shared = table.find(c);
+    splitOf[c] = shared == c ? static_cast<std::uint32_t>(base + cornerOf.size()) : splitOf[shared];
+    if (shared == c)
     {
-      const std::uint32_t shared = table.find(c);
-      splitOf[c] = shared == c ? static_cast<std::uint32_t>(cornerOf.size()) : splitOf[shared];
-      if (shared == c)
-      {
-        cornerOf.push_back(c);
-      }
+      cornerOf.push_back(c);
     }
   }
+  return splitOf;
+}
+} // namespace
+
+/// Makes the vertices of the current object; returns the one of each corner.
+std::vector<std::uint32_t> ModelBuilder::addSplitVertices(const std::vector<Eigen::Vector3f>& normals)
+{
+  const ModelObject& object = *this->Current;
+  Model& model = *this->Result;
+  const std::size_t base = this->Rest->positions.size();
+  std::vector<std::uint32_t> cornerOf;
+  const std::vector<std::uint32_t> splitOf = splitCorners(object.corners, normals, base, cornerOf);
   if (base + cornerOf.size() >= none || model.triangles.size() + object.triangles.size() >= none)
   {
     throw InputError(model.path, 0, "has too many triangles", "fewer than 4294967295 vertices");
   }
-
   makeRoom(this->Rest->positions, cornerOf.size());
   makeRoom(this->Rest->normals, cornerOf.size());
   makeRoom(model.sourceVertex, cornerOf.size());
@@ -125,10 +129,16 @@ void ModelBuilder::emit(const std::vector<Eigen::Vector3f>& normals)
       model.uvs.emplace_back(double(corner.u), double(corner.v));
     }
   }
+  return splitOf;
+}
 
-  // parts: materials in the order in which the object uses them
+/// Makes parts and triangles of the current object: materials in the order in which it uses them.
+void ModelBuilder::addParts(const std::vector<std::uint32_t>& splitOf)
+{
+  const ModelObject& object = *this->Current;
+  Model& model = *this->Result;
   std::map<int, std::uint32_t> rank;
-  for (const Object::Surface& surface : object.surfaces)
+  for (const ModelObject::Surface& surface : object.surfaces)
   {
     rank.emplace(surface.style.material, static_cast<std::uint32_t>(rank.size()));
   }
@@ -144,7 +154,7 @@ void ModelBuilder::emit(const std::vector<Eigen::Vector3f>& normals)
   int previous = -1;
   for (const std::uint32_t s : order)
   {
-    const Object::Surface& surface = object.surfaces[s];
+    const ModelObject::Surface& surface = object.surfaces[s];
     if (surface.style.material != previous)
     {
       previous = surface.style.material;
@@ -154,12 +164,7 @@ void ModelBuilder::emit(const std::vector<Eigen::Vector3f>& normals)
     for (std::uint32_t t = 0; t < surface.triangles; ++t)
     {
       const std::array<std::uint32_t, 3>& cut = object.triangles[surface.firstTriangle + t];
-      std::array<std::uint32_t, 3> out;
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        out[i] = static_cast<std::uint32_t>(base) + splitOf[cut[i]];
-      }
-      model.triangles.push_back(out);
+      model.triangles.push_back({ splitOf[cut[0]], splitOf[cut[1]], splitOf[cut[2]] });
     }
   }
 }

@@ -204,7 +204,6 @@ private:
       this->fail("header names no format", "format ascii 1.0", "none");
     }
     this->Header.bodyAt = this->At;
-    this->Header.bodyLine = this->Line + 1;
     std::uint64_t left = this->Contents.size() - this->At;
     const bool ascii = this->Header.encoding == PlyHeader::Encoding::Ascii;
     for (const PlyElement& element : this->Header.elements)

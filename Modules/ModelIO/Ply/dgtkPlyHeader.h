@@ -53,7 +53,6 @@ struct PlyHeader
   std::vector<PlyElement> elements;
   std::string texture;    ///< of a line `comment TextureFile NAME`
   std::size_t bodyAt = 0; ///< offset of the first byte after the header
-  long bodyLine = 1;      ///< its line
 };
 
 /// Reads and checks the header: known types, no name twice, and counts that fit into the bytes that follow. Throws

@@ -92,7 +92,7 @@ std::vector<TextureCache::Job> TextureCache::jobsOf(std::vector<Texture>& textur
     }
     else if (!texture.path.empty() && this->ByPath.emplace(texture.path, nullptr).second)
     {
-      jobs.push_back({ this->Decoded, { texture.path, extensionOfFile(texture.path), nullptr }, false, {} });
+      jobs.push_back({ this->Decoded, { texture.path, extensionOf(texture.path), nullptr }, false, {} });
     }
   }
   return jobs;

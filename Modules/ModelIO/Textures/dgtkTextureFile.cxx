@@ -143,7 +143,7 @@ auto decodePixels(const picture::Source& source, picture::Values values, std::st
   }
 }
 
-picture::Source fileSource(const std::string& path) { return { path, extensionOfFile(path), nullptr }; }
+picture::Source fileSource(const std::string& path) { return { path, extensionOf(path), nullptr }; }
 } // namespace
 
 void settleAlpha(Image& image, AlphaRule rule)

@@ -19,15 +19,6 @@ constexpr std::size_t mostEntries = 20000;
 const char* const imageExtensions[] = { "png", "jpg", "jpeg", "tga", "bmp", "rgb", "rgba", "sgi", "bw", "dds", "gif",
   "tif", "tiff", "ppm", "pgm", "pnm", "pcx" };
 
-std::string lower(std::string text)
-{
-  for (char& c : text)
-  {
-    c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  }
-  return text;
-}
-
 std::string baseName(const std::string& path)
 {
   const std::size_t slash = path.find_last_of("/\\:");
@@ -73,7 +64,7 @@ std::vector<std::string> picturesIn(const fs::path& folder)
        it.increment(code), ++seen)
   {
     const std::string name = it->path().filename().string();
-    if (isImageExtension(extensionOfFile(name)) && isFile(it->path()))
+    if (isImageExtension(extensionOf(name)) && isFile(it->path()))
     {
       names.push_back(name);
     }
@@ -87,7 +78,7 @@ std::vector<std::string> picturesIn(const fs::path& folder)
 std::string bestMatch(const std::vector<std::string>& pictures, const std::string& wanted)
 {
   const std::string name = lower(wanted);
-  const std::string stem = isImageExtension(extensionOfFile(name)) ? stemOf(name) : name;
+  const std::string stem = isImageExtension(extensionOf(name)) ? stemOf(name) : name;
   for (const std::string& picture : pictures)
   {
     if (lower(picture) == name)
@@ -102,7 +93,7 @@ std::string bestMatch(const std::vector<std::string>& pictures, const std::strin
       for (const std::string& picture : pictures)
       {
         const std::string other = lower(stemOf(picture));
-        if (extensionOfFile(picture) == extension && (shortened ? sameShortStem(stem, other) : other == stem))
+        if (extensionOf(picture) == extension && (shortened ? sameShortStem(stem, other) : other == stem))
         {
           return picture;
         }
