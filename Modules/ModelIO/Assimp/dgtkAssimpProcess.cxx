@@ -5,6 +5,7 @@
 #include "dgtkHelperProcess.h"
 #include "dgtkImportProtocol.h"
 #include "dgtkModelFolder.h"
+#include "dgtkText.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -43,19 +43,4 @@ std::string folderOfFile(const std::string& path)
   return folder.empty() ? "." : folder;
 }
 
-std::string lower(std::string text)
-{
-  std::transform(
-    text.begin(), text.end(), text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-  return text;
-}
-
-std::string extensionOf(const std::string& path)
-{
-  const std::size_t slash = path.find_last_of("/\\:");
-  const std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
-  const std::size_t dot = name.find_last_of('.');
-  return dot == std::string::npos || dot == 0 ? std::string() : lower(name.substr(dot + 1));
-}
-
 } // namespace dgtk

@@ -16,12 +16,6 @@ bool liesBeneath(const std::string& path, const std::string& folder);
 /// Folder of a file: "." when the path has none.
 std::string folderOfFile(const std::string& path);
 
-/// A-Z as a-z; all else as it is.
-std::string lower(std::string text);
-
-/// Extension of a file's name, lower case, no dot: "" when it has none. A leading dot belongs to the stem.
-std::string extensionOf(const std::string& path);
-
 } // namespace dgtk
 
 #endif

@@ -2,8 +2,8 @@
 #include "dgtkModelReader.h"
 
 #include "dgtkError.h"
-#include "dgtkModelFolder.h"
 #include "dgtkReaderRegistry.h"
+#include "dgtkText.h"
 
 #include <algorithm>
 #include <new>

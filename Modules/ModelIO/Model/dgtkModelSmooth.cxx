@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkModelObject.h"
+#include "dgtkPortableMath.h"
 
 #include <Eigen/Geometry>
 
@@ -13,8 +14,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 using Surface = ModelObject::Surface;
 
 /// The surfaces around each vertex, in file order.

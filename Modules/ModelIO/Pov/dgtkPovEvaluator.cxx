@@ -2,6 +2,7 @@
 #include "dgtkPovEvaluator.h"
 
 #include "dgtkError.h"
+#include "dgtkPortableMath.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 /// Names that POV-Ray itself gives a value; those of the command line have its defaults.
 const std::map<std::string, double> constants = { { "pi", pi }, { "tau", 2 * pi }, { "true", 1 }, { "false", 0 },
   { "yes", 1 }, { "no", 0 }, { "on", 1 }, { "off", 0 }, { "clock", 0 }, { "clock_delta", 1 }, { "clock_on", 0 },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkError.h"
-#include "dgtkModelFolder.h"
+#include "dgtkText.h"
 #include "dgtkTextureFile.h"
 #include "dgtkTexturePixels.h"
 

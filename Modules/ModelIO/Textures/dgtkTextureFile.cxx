@@ -2,9 +2,9 @@
 #include "dgtkTextureFile.h"
 
 #include "dgtkError.h"
-#include "dgtkModelFolder.h"
 #include "dgtkPictureProcess.h"
 #include "dgtkPortableMath.h"
+#include "dgtkText.h"
 #include "dgtkTexturePixels.h"
 
 #include <algorithm>

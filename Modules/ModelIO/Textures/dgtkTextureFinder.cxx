@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkModelFolder.h"
+#include "dgtkText.h"
 
 #include <algorithm>
 #include <filesystem>
