@@ -57,6 +57,15 @@ class Textures(harness.Case):
             np.testing.assert_allclose(image, expected, atol=2e-5)
             self.assertGreater(len(np.unique(png)), 20000)
 
+    def test_what_most_textures_are_needs_the_quick_decoder_alone(self):
+        nowhere = {"DGTK_PICTURE_ANY": self.path("nowhere")}
+        options = ("--layers", "color,objects", "--frames", "0", "--size", "64x48", "--quiet")
+        self.dgtk("render", os.path.join(harness.SCENES, "demo.json"), "-o", self.path("out"), *options, environment=nowhere)
+        light = self.write("light.json", json.dumps({"environment": {"image": "light.hdr"}, "cameras": [camera(8, 8, 2)]}))
+        self.write("light.hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + bytes([128, 128, 128, 128] * 2))
+        self.dgtk("render", light, "-o", self.path("light"), *options, environment=nowhere, status=4)
+        self.dgtk("render", light, "-o", self.path("light"), *options)
+
     def test_reduced_textures_keep_their_mean(self):
         texture = np.zeros((256, 256, 3), np.uint8)
         texture[::2, ::2] = texture[1::2, 1::2] = 255

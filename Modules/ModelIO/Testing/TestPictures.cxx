@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures of strangers, decoded in dgtk-picture: damaged ones of every format, the budget, and what is short of
+// Pictures of strangers, decoded in processes of their own: damaged ones of every format, the budget, and what is short of
 // memory.
 #include "dgtkError.h"
 #include "dgtkFile.h"
@@ -11,8 +11,10 @@
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <png.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -152,6 +154,123 @@ TEST(Pictures, ASoundPictureOfEveryFormatIsWhatTheLibraryReads)
     ++compared;
   }
   EXPECT_GE(compared, 14);
+}
+
+namespace
+{
+/// A PNG file of a kind; `clear`: with a transparent colour, or transparent colours of the palette.
+void writePng(const std::string& path, int color, int bits, bool clear, bool interlaced)
+{
+  std::FILE* const file = std::fopen(path.c_str(), "wb");
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop head = png_create_info_struct(png);
+  png_init_io(png, file);
+  png_set_IHDR(png, head, width, height, bits, color, interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
+    PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  const int colors = 1 << std::min(bits, 8);
+  std::vector<png_color> palette;
+  std::vector<png_byte> alphas;
+  for (int i = 0; i < colors; ++i)
+  {
+    palette.push_back({ png_byte(7 * i + 3), png_byte(31 * i), png_byte(255 - i) });
+    alphas.push_back(png_byte(13 * i));
+  }
+  png_color_16 transparent{};
+  transparent.red = transparent.green = transparent.blue = transparent.gray = 1;
+  if (color == PNG_COLOR_TYPE_PALETTE)
+  {
+    png_set_PLTE(png, head, palette.data(), colors);
+  }
+  if (clear)
+  {
+    const bool isPalette = color == PNG_COLOR_TYPE_PALETTE;
+    png_set_tRNS(
+      png, head, isPalette ? alphas.data() : nullptr, isPalette ? colors : 0, isPalette ? nullptr : &transparent);
+  }
+  png_write_info(png, head);
+  std::vector<png_byte> row(png_get_rowbytes(png, head));
+  const int passes = interlaced ? png_set_interlace_handling(png) : 1;
+  for (int pass = 0; pass < passes; ++pass)
+  {
+    for (int y = 0; y < height; ++y)
+    {
+      for (std::size_t i = 0; i < row.size(); ++i)
+      {
+        row[i] = png_byte((i * 37 + std::size_t(y) * 11) % 7 == 0 ? 1 : i * 53 + std::size_t(y) * 29);
+      }
+      png_write_row(png, row.data());
+    }
+  }
+  png_write_end(png, nullptr);
+  png_destroy_write_struct(&png, &head);
+  std::fclose(file);
+}
+
+void expectAsTheLibrary(const std::string& path)
+{
+  const std::vector<std::uint8_t> expected = texelsOf(path);
+  std::string problem;
+  const auto found = dgtk::decodeTexture(path, problem);
+  ASSERT_TRUE(found) << path << ": " << problem;
+  EXPECT_FALSE(expected.empty()) << path;
+  EXPECT_TRUE(found->rgba == expected) << path;
+}
+} // namespace
+
+TEST(Pictures, EveryKindOfPngIsWhatTheLibraryReads)
+{
+  const TemporaryFolder folder;
+  const std::vector<std::pair<int, std::vector<int>>> kinds{ { PNG_COLOR_TYPE_GRAY, { 1, 2, 4, 8, 16 } },
+    { PNG_COLOR_TYPE_RGB, { 8, 16 } }, { PNG_COLOR_TYPE_PALETTE, { 1, 2, 4, 8 } },
+    { PNG_COLOR_TYPE_GRAY_ALPHA, { 8, 16 } }, { PNG_COLOR_TYPE_RGB_ALPHA, { 8, 16 } } };
+  for (const auto& [color, depths] : kinds)
+  {
+    for (const int bits : depths)
+    {
+      for (const bool clear : { false, true })
+      {
+        for (const bool interlaced : { false, true })
+        {
+          const bool hasAlpha = (color & PNG_COLOR_MASK_ALPHA) != 0;
+          if (!(clear && hasAlpha))
+          {
+            const std::string path = folder.path(std::to_string(color) + '-' + std::to_string(bits) +
+                                                 (clear ? "-clear" : "") + (interlaced ? "-interlaced" : "") + ".png");
+            writePng(path, color, bits, clear, interlaced);
+            expectAsTheLibrary(path);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Pictures, EveryKindOfJpegIsWhatTheLibraryReads)
+{
+  const TemporaryFolder folder;
+  for (const int channels : { 1, 3 })
+  {
+    for (const std::string sampling : { "4:4:4", "4:2:2", "4:2:0", "4:1:1" })
+    {
+      for (const int progressive : { 0, 1 })
+      {
+        const std::string path =
+          folder.path(std::to_string(channels) + sampling[2] + sampling[4] + (progressive != 0 ? "p" : "") + ".jpg");
+        const auto output = OIIO::ImageOutput::create(path);
+        OIIO::ImageSpec spec(width + 3, height + 1, channels, OIIO::TypeDesc::UINT8);
+        spec["jpeg:subsampling"] = sampling;
+        spec["jpeg:progressive"] = progressive;
+        std::vector<std::uint8_t> values(std::size_t((width + 3) * (height + 1) * channels));
+        for (std::size_t i = 0; i < values.size(); ++i)
+        {
+          values[i] = std::uint8_t(i * i / 91 + i % 5 * 40);
+        }
+        ASSERT_TRUE(
+          output->open(path, spec) && output->write_image(OIIO::TypeDesc::UINT8, values.data()) && output->close());
+        expectAsTheLibrary(path);
+      }
+    }
+  }
 }
 
 TEST(Pictures, APictureThatEndsItsDecoderCostsItself)

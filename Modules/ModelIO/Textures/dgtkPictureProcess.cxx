@@ -5,6 +5,7 @@
 #include "dgtkHelperProcess.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <memory>
@@ -114,14 +115,14 @@ bool isSane(const Answer& answer)
          answer.channels >= 1 && answer.channels <= 4;
 }
 
-/// The process dgtk-picture of this process.
+/// One of the two programs that decode for this process.
 class Helper
 {
 public:
-  static Helper& instance()
+  Helper(const char* program, const char* variable)
+    : Program(program)
+    , Variable(variable)
   {
-    static Helper helper;
-    return helper;
   }
 
   void prepare()
@@ -143,7 +144,7 @@ public:
         this->Running.reset(); // it ended before it knew of this picture
         if (++this->Starts > mostStarts)
         {
-          failMachine(path, "dgtk-picture ends at its start");
+          failMachine(path, std::string(this->Program) + " ends at its start");
         }
         continue;
       }
@@ -170,7 +171,7 @@ private:
   {
     if (!this->Running || !this->Running->isOurs())
     {
-      const std::string program = helper::findProgram("dgtk-picture", "DGTK_PICTURE");
+      const std::string program = helper::findProgram(this->Program, this->Variable);
       this->Running = std::make_unique<helper::Process>(std::vector<std::string>{ program }, -1);
     }
   }
@@ -187,7 +188,7 @@ private:
     }
     if (signal == SIGKILL)
     {
-      failMachine(path, "dgtk-picture was killed: not enough memory?");
+      failMachine(path, std::string(this->Program) + " was killed: not enough memory?");
     }
     if (cramped)
     {
@@ -207,7 +208,7 @@ private:
     {
       failMachine(path, "not enough memory");
     }
-    if (answer.status == Status::Done && isSane(answer))
+    if (answer.status == Status::Elsewhere || (answer.status == Status::Done && isSane(answer)))
     {
       return true;
     }
@@ -216,6 +217,8 @@ private:
     return false;
   }
 
+  const char* Program;
+  const char* Variable;
   std::mutex Mutex;
   std::unique_ptr<helper::Process> Running;
   int Starts = 0;
@@ -230,9 +233,72 @@ Request requestFor(const Source& source, Values values, const Encoded& encoded)
   return request;
 }
 
-bool measure(const Source& source, const Request& request, const Encoded& encoded, Answer& size, std::string& problem)
+/// The quick one, for what most pictures are, and the one for all kinds, which loads some 250 libraries.
+std::array<Helper, 2>& helpers()
 {
-  return Helper::instance().ask(source.path, request, encoded.memory.get(), -1, false, size, problem);
+  static std::array<Helper, 2> both{ { { "dgtk-picture", "DGTK_PICTURE" },
+    { "dgtk-picture-any", "DGTK_PICTURE_ANY" } } };
+  return both;
+}
+
+/// What one of them makes of a picture: its size, and its pixels unless `pixels` is null. False with a problem; with
+/// Status::Elsewhere in `size`, it is the other's.
+bool askOne(Helper& helper, const Source& source, Request request, const Encoded& encoded, Answer& size, Pixels* pixels,
+  std::string& problem)
+{
+  request.step = Step::Measure;
+  if (!helper.ask(source.path, request, encoded.memory.get(), -1, false, size, problem))
+  {
+    return false;
+  }
+  if (pixels == nullptr || size.status == Status::Elsewhere)
+  {
+    return true;
+  }
+  const std::uint64_t bytes = pixelBytes(size, request.values);
+  const Descriptor memory = sharedMemory(source.path, bytes);
+  Answer answer;
+  request.step = Step::Decode;
+  const bool cramped = size.cramped != 0;
+  if (!helper.ask(source.path, request, encoded.memory.get(), memory.get(), cramped, answer, problem))
+  {
+    return false;
+  }
+  if (answer.status == Status::Elsewhere)
+  {
+    size.status = answer.status;
+    return true;
+  }
+  if (pixelBytes(answer, request.values) != bytes || answer.width != size.width || answer.channels != size.channels)
+  {
+    problem = "is damaged: its decoder gave no picture";
+    return false;
+  }
+  pixels->map(memory.get(), static_cast<std::size_t>(bytes));
+  return true;
+}
+
+bool ask(const Source& source, Values values, Answer& size, Pixels* pixels, std::string& problem)
+{
+  Encoded encoded;
+  if (!encodedOf(source, encoded, problem))
+  {
+    return false;
+  }
+  const Request request = requestFor(source, values, encoded);
+  for (Helper& helper : helpers())
+  {
+    if (!askOne(helper, source, request, encoded, size, pixels, problem))
+    {
+      return false;
+    }
+    if (size.status != Status::Elsewhere)
+    {
+      return true;
+    }
+  }
+  problem = "is damaged: its decoder gave no picture";
+  return false;
 }
 } // namespace
 
@@ -255,43 +321,16 @@ void Pixels::map(int file, std::size_t bytes)
   this->Bytes = bytes;
 }
 
-void prepare() { Helper::instance().prepare(); }
+void prepare() { helpers().front().prepare(); }
 
 bool measure(const Source& source, Values values, Answer& size, std::string& problem)
 {
-  Encoded encoded;
-  return encodedOf(source, encoded, problem) &&
-         measure(source, requestFor(source, values, encoded), encoded, size, problem);
+  return ask(source, values, size, nullptr, problem);
 }
 
 bool decode(const Source& source, Values values, Answer& size, Pixels& pixels, std::string& problem)
 {
-  Encoded encoded;
-  if (!encodedOf(source, encoded, problem))
-  {
-    return false;
-  }
-  Request request = requestFor(source, values, encoded);
-  if (!measure(source, request, encoded, size, problem))
-  {
-    return false;
-  }
-  const std::uint64_t bytes = pixelBytes(size, values);
-  const Descriptor memory = sharedMemory(source.path, bytes);
-  Answer answer;
-  request.step = Step::Decode;
-  const bool cramped = size.cramped != 0;
-  if (!Helper::instance().ask(source.path, request, encoded.memory.get(), memory.get(), cramped, answer, problem))
-  {
-    return false;
-  }
-  if (pixelBytes(answer, values) != bytes || answer.width != size.width || answer.channels != size.channels)
-  {
-    problem = "is damaged: its decoder gave no picture";
-    return false;
-  }
-  pixels.map(memory.get(), static_cast<std::size_t>(bytes));
-  return true;
+  return ask(source, values, size, &pixels, problem);
 }
 
 } // namespace dgtk::picture

@@ -19,7 +19,7 @@ struct Source
   const std::vector<std::uint8_t>* bytes = nullptr;
 };
 
-/// Pixels that dgtk-picture has written; it may go on doing so, their number does not change.
+/// Pixels that a helper has written; it may go on doing so, their number does not change.
 class Pixels
 {
 public:
@@ -48,8 +48,8 @@ void prepare();
 /// the picture, is in the way.
 bool measure(const Source& source, Values values, Answer& size, std::string& problem);
 
-/// The same with its pixels. One process decodes all pictures, one after the other; it is started again when a picture
-/// made it end, and ends when nothing has been asked for a while. Thread-safe.
+/// The same with its pixels. A process decodes all pictures that it can, one after the other; it is started again when
+/// a picture made it end, and ends when nothing has been asked for a while. Thread-safe.
 bool decode(const Source& source, Values values, Answer& size, Pixels& pixels, std::string& problem);
 
 } // namespace dgtk::picture

@@ -5,8 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What the library asks dgtk-picture, and what it answers (dgtkHelperChannel.h). The encoded picture comes in shared
-/// memory; the pixels go back in shared memory that the library has made, of a size that nobody can change.
+/// What the library asks dgtk-picture and dgtk-picture-any, and what they answer (dgtkHelperChannel.h). The encoded
+/// picture comes in shared memory; the pixels go back in shared memory that the library has made, of a size that nobody
+/// can change.
 namespace dgtk::picture
 {
 
@@ -35,9 +36,10 @@ struct Request
 enum class Status : std::uint32_t
 {
   Done,
-  Refused, ///< `problem` says why
-  NoRoom,  ///< the machine's limit of memory is in the way, not the picture
-  Bye      ///< nothing was asked for a while: the helper ends; ask another
+  Refused,   ///< `problem` says why
+  Elsewhere, ///< not of the kinds that dgtk-picture decodes, or not surely sound: dgtk-picture-any is to judge
+  NoRoom,    ///< the machine's limit of memory is in the way, not the picture
+  Bye        ///< nothing was asked for a while: the helper ends; ask another
 };
 
 struct Answer

@@ -1,222 +1,223 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// dgtk-picture: decodes pictures with OpenImageIO for the library (dgtkPictureProtocol.h). A program of its own, so
-// that an assertion, an endless loop or a flood of memory in a decoder ends here.
-#include "dgtkHelperChannel.h"
-#include "dgtkHelperWall.h"
+// dgtk-picture: decodes what most textures are, sound PNG, JPEG and PCX files, and hands on all else
+// (Status::Elsewhere) to dgtk-picture-any. It starts forty times as fast.
 #include "dgtkPcx.h"
-#include "dgtkPictureProtocol.h"
+#include "dgtkPictureServer.h"
 
-#include <OpenImageIO/imageio.h>
+#include <jpeglib.h>
+#include <png.h>
 
-#include <algorithm>
-#include <cstdio>
-#include <memory>
-#include <new>
+#include <csetjmp>
+#include <cstring>
 #include <string>
 
-#include <malloc.h>
-#include <poll.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
 
 namespace
 {
 using namespace dgtk::picture;
-using dgtk::helper::Descriptors;
 
-constexpr int channel = 0;
-const std::string descriptors = "/proc/self/fd/";
-constexpr int idleMilliseconds = 10'000;
-constexpr std::uint64_t slackBytes = std::uint64_t(512) << 20;
-constexpr std::uint64_t slackSeconds = 20;
-constexpr std::uint64_t pixelsPerSecond = 2'000'000;
+constexpr std::uint64_t pngExpansion = 1100; // deflate: 1032
 
-std::uint64_t addressLimit = RLIM_INFINITY; ///< the machine's, when the program started
-
-/// Shared memory, mapped.
-class Mapping
+/// A picture in memory whose decoder fails by longjmp(). Whatever it fails or warns of is left to others, so that there
+/// is one judge of what is damaged.
+class Sound
 {
 public:
-  Mapping(int file, std::uint64_t bytes, int protection)
-    : Bytes(static_cast<std::size_t>(bytes))
-    , Data(::mmap(nullptr, std::max<std::size_t>(this->Bytes, 1), protection, MAP_SHARED, file, 0))
+  explicit Sound(const Mapping& file)
+    : File(file)
   {
-    if (this->Data == MAP_FAILED)
-    {
-      throw std::bad_alloc();
-    }
   }
-  ~Mapping() { ::munmap(this->Data, std::max<std::size_t>(this->Bytes, 1)); }
-  Mapping(const Mapping&) = delete;
-  Mapping& operator=(const Mapping&) = delete;
-  void* data() const { return this->Data; }
-  std::size_t size() const { return this->Bytes; }
+  virtual ~Sound() = default;
+  Sound(const Sound&) = delete;
+  Sound& operator=(const Sound&) = delete;
+
+  /// False when others are to judge.
+  virtual bool readHeader() = 0;
+  virtual bool decode(std::uint8_t* pixels) = 0;
+
+  std::int64_t width = 0;
+  std::int64_t height = 0;
+  int channels = 0;
+  std::uint64_t expansion = 0;
+
+protected:
+  const std::uint8_t* bytes() const { return static_cast<const std::uint8_t*>(this->File.data()); }
+  std::size_t size() const { return this->File.size(); }
+  std::jmp_buf Stop; // NOLINT(readability-identifier-naming)
 
 private:
-  std::size_t Bytes;
-  void* Data;
+  const Mapping& File;
 };
 
-void refuse(Answer& answer, std::string problem)
+/// Of 8 bits a channel or fewer: palettes become colours, transparent colours an alpha channel.
+class Png final : public Sound
 {
-  // the name that the decoders see says nothing
-  for (std::size_t at = 0; (at = problem.find(descriptors)) != std::string::npos;)
+public:
+  explicit Png(const Mapping& file)
+    : Sound(file)
+    , Read(png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &Png::stop, &Png::stop))
+    , Head(this->Read ? png_create_info_struct(this->Read) : nullptr)
   {
-    std::size_t end = std::min(problem.find_first_not_of("0123456789", at + descriptors.size()), problem.size());
-    const bool isQuoted = at > 0 && end < problem.size() && problem[at - 1] == problem[end];
-    at -= isQuoted ? 1 : 0;
-    end += isQuoted ? 1 : 0;
-    problem.replace(at, end - at, "the file");
   }
-  answer.status = Status::Refused;
-  dgtk::helper::put(answer.problem, problem.empty() ? "is not a picture" : problem.c_str());
-}
+  ~Png() override { png_destroy_read_struct(&this->Read, &this->Head, nullptr); }
+  Png(const Png&) = delete;
+  Png& operator=(const Png&) = delete;
 
-/// Bytes of pixels that a byte of the file can stand for, where the format bounds it; 0 where it does not.
-std::uint64_t mostExpansion(const std::string& format)
-{
-  struct Row
+  bool readHeader() override
   {
-    const char* format;
-    std::uint64_t expansion;
-  };
-  constexpr Row rows[] = {
-    { "hdr", 64 },    // a run of 127 bytes takes two; four bytes are a pixel
-    { "sgi", 64 },    // a run of 127 bytes takes two
-    { "targa", 128 }, // a run of 128 pixels of four bytes takes five
-    { "pnm", 8 },     // a bit a pixel
-    { "png", 1100 },  // deflate: 1032
-  };
-  for (const Row& row : rows)
-  {
-    if (format == row.format)
+    if (!this->Head)
     {
-      return row.expansion;
+      return false;
+    }
+    if (setjmp(this->Stop) != 0)
+    {
+      return false;
+    }
+    png_set_user_limits(this->Read, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+    png_set_read_fn(this->Read, this, &Png::read);
+    png_read_info(this->Read, this->Head);
+    png_set_expand(this->Read);
+    this->Passes = png_set_interlace_handling(this->Read);
+    png_read_update_info(this->Read, this->Head);
+    this->width = png_get_image_width(this->Read, this->Head);
+    this->height = png_get_image_height(this->Read, this->Head);
+    this->channels = png_get_channels(this->Read, this->Head);
+    this->expansion = pngExpansion;
+    return png_get_bit_depth(this->Read, this->Head) == 8;
+  }
+
+  bool decode(std::uint8_t* pixels) override
+  {
+    if (setjmp(this->Stop) != 0)
+    {
+      return false;
+    }
+    const std::size_t row = std::size_t(this->width) * std::size_t(this->channels);
+    for (int pass = 0; pass < this->Passes; ++pass)
+    {
+      for (std::int64_t y = 0; y < this->height; ++y)
+      {
+        png_read_row(this->Read, pixels + std::size_t(y) * row, nullptr);
+      }
+    }
+    png_read_end(this->Read, nullptr);
+    return true;
+  }
+
+private:
+  static void stop(png_structp read, png_const_charp)
+  {
+    std::longjmp(static_cast<Png*>(png_get_error_ptr(read))->Stop, 1);
+  }
+  static void read(png_structp read, png_bytep to, std::size_t count)
+  {
+    auto* const self = static_cast<Png*>(png_get_io_ptr(read));
+    if (count > self->size() - self->At)
+    {
+      std::longjmp(self->Stop, 1);
+    }
+    std::memcpy(to, self->bytes() + self->At, count);
+    self->At += count;
+  }
+
+  png_structp Read;
+  png_infop Head;
+  std::size_t At = 0;
+  int Passes = 1;
+};
+
+/// Gray or colour of 8 bits.
+class Jpeg final : public Sound
+{
+public:
+  explicit Jpeg(const Mapping& file)
+    : Sound(file)
+  {
+    this->Read.err = jpeg_std_error(&this->Errors);
+    this->Errors.error_exit = &Jpeg::stop;
+    this->Errors.emit_message = &Jpeg::message;
+    this->Read.client_data = this;
+  }
+  ~Jpeg() override { jpeg_destroy_decompress(&this->Read); }
+  Jpeg(const Jpeg&) = delete;
+  Jpeg& operator=(const Jpeg&) = delete;
+
+  bool readHeader() override
+  {
+    if (setjmp(this->Stop) != 0)
+    {
+      return false;
+    }
+    jpeg_create_decompress(&this->Read);
+    this->Read.client_data = this;
+    jpeg_mem_src(&this->Read, this->bytes(), static_cast<unsigned long>(this->size()));
+    jpeg_read_header(&this->Read, TRUE);
+    this->width = this->Read.image_width;
+    this->height = this->Read.image_height;
+    const bool gray = this->Read.jpeg_color_space == JCS_GRAYSCALE;
+    this->channels = gray ? 1 : 3;
+    return gray || this->Read.jpeg_color_space == JCS_YCbCr;
+  }
+
+  bool decode(std::uint8_t* pixels) override
+  {
+    if (setjmp(this->Stop) != 0)
+    {
+      return false;
+    }
+    jpeg_start_decompress(&this->Read);
+    if (this->Read.output_components != this->channels)
+    {
+      return false;
+    }
+    const std::size_t row = std::size_t(this->width) * std::size_t(this->channels);
+    while (this->Read.output_scanline < this->Read.output_height)
+    {
+      JSAMPROW line = pixels + this->Read.output_scanline * row;
+      jpeg_read_scanlines(&this->Read, &line, 1);
+    }
+    jpeg_finish_decompress(&this->Read);
+    return true;
+  }
+
+private:
+  static void stop(j_common_ptr read) { std::longjmp(static_cast<Jpeg*>(read->client_data)->Stop, 1); }
+  static void message(j_common_ptr read, int level)
+  {
+    if (level < 0) // a warning of damage
+    {
+      stop(read);
     }
   }
-  return 0;
-}
 
-/// The decoder of the extension first, then whichever wants the file.
-std::unique_ptr<OIIO::ImageInput> open(const Request& request, const std::string& path, std::string& problem)
-{
-  OIIO::ImageSpec config;
-  if (request.values == Values::Bytes)
-  {
-    config["oiio:UnassociatedAlpha"] = 1;
-  }
-  OIIO::ImageSpec spec;
-  if (request.extension[0] != '\0')
-  {
-    auto input = OIIO::ImageInput::create(request.extension);
-    if (input && input->open(path, spec, config))
-    {
-      return input;
-    }
-    problem = input ? input->geterror() : std::string();
-  }
-  OIIO::geterror(); // of the search for the extension
-  auto input = OIIO::ImageInput::open(path, &config);
-  const std::string other = OIIO::geterror();
-  problem = problem.empty() ? other : problem;
-  return input;
-}
+  jpeg_decompress_struct Read{};
+  jpeg_error_mgr Errors{};
+};
 
-std::uint64_t roomFor(const Request& request, const OIIO::ImageSpec& spec, const Answer& answer)
+void decodeSound(Sound& picture, const Request& request, int memory, Answer& answer)
 {
-  const std::uint64_t native = std::uint64_t(spec.width) * std::uint64_t(spec.height) * spec.pixel_bytes(true);
-  return pixelBytes(answer, request.values) + 2 * native + 4 * request.fileBytes + slackBytes;
-}
-
-/// False when the machine's limit is below that. The limit is never raised above the machine's.
-bool limitAddresses(std::uint64_t room)
-{
-  const std::uint64_t wanted = dgtk::helper::addressSpace() + room;
-  const bool fits = addressLimit == RLIM_INFINITY || wanted <= addressLimit;
-  if (!dgtk::helper::isSanitized)
+  if (!picture.readHeader())
   {
-    dgtk::helper::limitTo(RLIMIT_AS, std::min(wanted, addressLimit));
-  }
-  return fits;
-}
-
-void limitSeconds(std::uint64_t pixels)
-{
-  rusage used{};
-  ::getrusage(RUSAGE_SELF, &used);
-  const auto spent = static_cast<std::uint64_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec);
-  dgtk::helper::limitTo(RLIMIT_CPU, spent + slackSeconds + pixels / pixelsPerSecond);
-}
-
-/// What the header says. False, with `answer` refused, when it cannot be.
-bool measure(const Request& request, const OIIO::ImageInput& input, Answer& answer)
-{
-  const OIIO::ImageSpec& spec = input.spec();
-  if (spec.width < 1 || spec.height < 1 || spec.width > largestSide || spec.height > largestSide || spec.depth > 1 ||
-      spec.nchannels < 1)
-  {
-    refuse(answer, "is " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels, at most " +
-                     std::to_string(largestSide) + " a side");
-    return false;
-  }
-  const std::uint64_t expansion = mostExpansion(input.format_name());
-  const std::uint64_t native = std::uint64_t(spec.width) * std::uint64_t(spec.height) * spec.pixel_bytes(true);
-  if (expansion != 0 && native / expansion > request.fileBytes)
-  {
-    refuse(answer, "is cut short: " + std::to_string(request.fileBytes) + " bytes cannot hold " +
-                     std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels");
-    return false;
-  }
-  const bool floats = request.values == Values::Floats;
-  answer.width = spec.width;
-  answer.height = spec.height;
-  answer.channels = std::min(spec.nchannels, floats ? 3 : 4);
-  const std::string extension = request.extension;
-  answer.linear = extension == "hdr" || extension == "exr" || spec.format.is_floating_point() ? 1 : 0;
-  return true;
-}
-
-void decodeLibrary(const Request& request, int file, int memory, Answer& answer)
-{
-  const std::string path = descriptors + std::to_string(file);
-  std::string problem;
-  const auto input = open(request, path, problem);
-  if (!input)
-  {
-    refuse(answer, problem);
+    answer.status = Status::Elsewhere;
     return;
   }
-  if (!measure(request, *input, answer))
+  if (!admit(request, picture.width, picture.height, picture.channels, std::uint64_t(picture.channels),
+        picture.expansion, answer))
   {
     return;
-  }
-  const bool fits = limitAddresses(roomFor(request, input->spec(), answer));
-  answer.cramped = fits ? 0 : 1;
-  if (request.step == Step::Decode)
-  {
-    limitSeconds(std::uint64_t(answer.width) * std::uint64_t(answer.height));
-    struct stat status = {};
-    if (::fstat(memory, &status) != 0 || std::uint64_t(status.st_size) < pixelBytes(answer, request.values))
-    {
-      refuse(answer, "changed while it was read");
-      return;
-    }
-    const Mapping pixels(memory, pixelBytes(answer, request.values), PROT_READ | PROT_WRITE);
-    const auto type = request.values == Values::Floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
-    if (!input->read_image(0, 0, 0, answer.channels, type, pixels.data()))
-    {
-      refuse(answer, input->geterror());
-      return;
-    }
   }
   answer.status = Status::Done;
+  if (request.step == Step::Decode)
+  {
+    const PixelMemory pixels(request, answer, memory);
+    answer.status = picture.decode(static_cast<std::uint8_t*>(pixels.data())) ? Status::Done : Status::Elsewhere;
+  }
 }
 
-void decodePcxPicture(const Request& request, int file, int memory, Answer& answer)
+void decodePcx(const Mapping& file, const Request& request, int memory, Answer& answer)
 {
-  const Mapping bytes(file, request.fileBytes, PROT_READ);
-  const dgtk::PcxPicture picture(static_cast<const std::uint8_t*>(bytes.data()), bytes.size(), largestSide);
+  const dgtk::PcxPicture picture(static_cast<const std::uint8_t*>(file.data()), file.size(), largestSide);
   answer.width = static_cast<std::int32_t>(picture.width());
   answer.height = static_cast<std::int32_t>(picture.height());
   answer.channels = 3;
@@ -227,85 +228,37 @@ void decodePcxPicture(const Request& request, int file, int memory, Answer& answ
   }
   if (request.step == Step::Decode)
   {
-    const Mapping pixels(memory, pixelBytes(answer, Values::Bytes), PROT_WRITE);
+    const PixelMemory pixels(request, answer, memory);
     picture.decode(static_cast<std::uint8_t*>(pixels.data()));
   }
   answer.status = Status::Done;
 }
 
-Answer answerTo(const Request& request, const Descriptors& files)
+void decode(const Request& request, int file, int memory, Answer& answer)
 {
-  Answer answer;
-  limitSeconds(0);
-  const bool fits = limitAddresses(slackBytes + 4 * request.fileBytes);
-  try
+  answer.status = Status::Elsewhere;
+  if (request.values != Values::Bytes)
   {
-    const bool isPcx = std::string(request.extension) == "pcx" && request.values == Values::Bytes;
-    (isPcx ? decodePcxPicture : decodeLibrary)(request, files[0].get(), files[1].get(), answer);
+    return;
   }
-  catch (const std::bad_alloc&)
+  const Mapping bytes(file, request.fileBytes, PROT_READ);
+  const auto begins = [&](const char* with, std::size_t count)
+  { return bytes.size() > count && std::memcmp(bytes.data(), with, count) == 0; };
+  if (std::string(request.extension) == "pcx")
   {
-    refuse(answer, "needs more memory than a picture of its size may");
+    decodePcx(bytes, request, memory, answer);
   }
-  catch (const std::exception& error)
+  else if (begins("\x89PNG\r\n\x1a\n", 8))
   {
-    refuse(answer, error.what());
+    Png png(bytes);
+    decodeSound(png, request, memory, answer);
   }
-  answer.cramped = fits ? answer.cramped : 1;
-  if (answer.status == Status::Refused && answer.cramped != 0)
+  else if (begins("\xff\xd8\xff", 3))
   {
-    answer.status = Status::NoRoom;
+    Jpeg jpeg(bytes);
+    decodeSound(jpeg, request, memory, answer);
   }
-  return answer;
-}
-
-void rememberLimit()
-{
-  rlimit now{};
-  addressLimit = ::getrlimit(RLIMIT_AS, &now) == 0 ? now.rlim_cur : RLIM_INFINITY;
 }
 } // namespace
 
-int main()
-{
-  struct stat status = {};
-  if (::fstat(channel, &status) != 0 || !S_ISSOCK(status.st_mode))
-  {
-    std::fputs("dgtk-picture is a part of DGTk: it decodes pictures for the library\n", stderr);
-    return 2;
-  }
-  rememberLimit();
-  dgtk::helper::limitTo(RLIMIT_CORE, 0);
-  dgtk::helper::addressSpace();
-  // few threads: each takes addresses
-  ::mallopt(M_ARENA_MAX, 2);
-  OIIO::attribute("threads", 4);
-  OIIO::attribute("exr_threads", 4);
-  OIIO::get_string_attribute("format_list"); // whatever it loads for it is loaded
-  dgtk::helper::lockDown(dgtk::helper::Opening::Memory);
-  for (;;)
-  {
-    pollfd wait = { channel, POLLIN, 0 };
-    const int ready = ::poll(&wait, 1, idleMilliseconds);
-    if (ready == 0)
-    {
-      Answer bye;
-      bye.status = Status::Bye;
-      dgtk::helper::send(channel, bye);
-      return 0;
-    }
-    Request request;
-    Descriptors files;
-    if (ready > 0)
-    {
-      if (!dgtk::helper::receive(channel, request, files))
-      {
-        return 0;
-      }
-      if (!dgtk::helper::send(channel, answerTo(request, files)))
-      {
-        return 0;
-      }
-    }
-  }
-}
+int main() { return serve(&decode, nullptr); }
