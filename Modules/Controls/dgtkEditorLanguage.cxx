@@ -110,7 +110,7 @@ bool setEditorLanguage(const QString& language)
 QString editText(const std::string& text)
 {
   const QString words = QString::fromStdString(text);
-  const QString whole = QCoreApplication::translate("Edit", text.c_str());
+  QString whole = QCoreApplication::translate("Edit", text.c_str());
   if (whole != words)
   {
     return whole;

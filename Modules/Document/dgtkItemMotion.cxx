@@ -273,7 +273,7 @@ Quaternion ItemMotion::turnInParent(const Start& start, const WorldMotion& motio
 Eigen::Vector3d ItemMotion::stepInParent(const Start& start, const WorldMotion& motion)
 {
   const Eigen::Vector3d arm = motion.mode == HandleMode::Move ? motion.translation : start.place - motion.pivot;
-  const Eigen::Vector3d inParent =
+  Eigen::Vector3d inParent =
     isUnit(start.parent) || arm.isZero(0) ? arm : Eigen::Vector3d(start.parent.inverse() * arm);
   if (motion.mode == HandleMode::Rotate)
   {

@@ -179,7 +179,7 @@ std::string PovMeshesIncluded::declare(const Instance& instance, std::uint32_t i
 {
   if (!turned.empty())
   {
-    const std::string name = "Mesh" + std::to_string(id);
+    std::string name = "Mesh" + std::to_string(id);
     this->use(this->Library.declareTurned(this->Declared, name, instance, turned, this->Options));
     return name;
   }

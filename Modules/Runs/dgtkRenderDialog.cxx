@@ -199,7 +199,7 @@ QString RenderDialog::sceneFile()
   {
     return QFileInfo(toText(document.path())).absoluteFilePath();
   }
-  const QString copy = RunLog(this->folder()).sceneCopy();
+  QString copy = RunLog(this->folder()).sceneCopy();
   document.writeCopy(QFile::encodeName(copy).toStdString());
   return copy;
 }

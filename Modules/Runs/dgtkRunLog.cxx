@@ -44,7 +44,7 @@ RunRequest parseHead(const QString& line)
   RunRequest request;
   request.folder = head["folder"].toString();
   request.scene = head["scene"].toString().toLatin1();
-  for (const QJsonValue& word : head["arguments"].toArray())
+  for (const auto& word : head["arguments"].toArray())
   {
     request.arguments << word.toString();
   }

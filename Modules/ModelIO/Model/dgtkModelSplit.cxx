@@ -103,7 +103,7 @@ std::vector<std::uint32_t> ModelBuilder::addSplitVertices(const std::vector<Eige
   Model& model = *this->Result;
   const std::size_t base = this->Rest->positions.size();
   std::vector<std::uint32_t> cornerOf;
-  const std::vector<std::uint32_t> splitOf = splitCorners(object.corners, normals, base, cornerOf);
+  std::vector<std::uint32_t> splitOf = splitCorners(object.corners, normals, base, cornerOf);
   if (base + cornerOf.size() >= none || model.triangles.size() + object.triangles.size() >= none)
   {
     throw InputError(model.path, 0, "has too many triangles", "fewer than 4294967295 vertices");

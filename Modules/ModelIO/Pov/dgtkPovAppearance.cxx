@@ -226,7 +226,7 @@ PovTexturePointer PovAppearance::textureMap(PovTexture& to)
   {
     this->Session.evaluator.optional(value);
   }
-  const PovTexturePointer same = entries ? this->body(']', "texture_map", nullptr, to) : nullptr;
+  PovTexturePointer same = entries ? this->body(']', "texture_map", nullptr, to) : nullptr;
   if (!this->MapWarned)
   {
     this->Session.warn(begin, entries ? "a map of textures is drawn in its first one" : "texture_map is not drawn");

@@ -82,7 +82,7 @@ void PovMeshReader::triangle(bool smooth, PovShapeMaker& to)
   Eigen::Vector3d normals[3];
   const auto vector = [this](const char* where)
   {
-    const Eigen::Vector3d v = this->Session.evaluator.vector(where);
+    Eigen::Vector3d v = this->Session.evaluator.vector(where);
     this->Stream.accept(',');
     return v;
   };

@@ -87,7 +87,7 @@ std::uint32_t wordOf(Rgb color)
 
 std::string nameOfId(const DatasetPictures& dataset, const LayerSpec& spec, std::uint32_t id)
 {
-  const std::string number = std::to_string(id);
+  std::string number = std::to_string(id);
   const ObjectRecord* const object = dataset.object(id);
   switch (spec.meaning)
   {
