@@ -60,7 +60,14 @@ class Classes(Case):
         self.dgtk("convert", scene, self.path("again.json"))
         self.assertEqual(load_json(self.path("again.json"))["classes"], {"vehicle": 9, "tree": 4})
         self.render(scene, "out")
-        self.assertEqual(load_json(self.path("out", "objects.json"))["objects"][0]["class_id"], 4)
+        objects = self.path("out", "objects.json")
+        self.assertEqual(load_json(objects)["objects"][0]["class_id"], 4)
+        with open(objects, encoding="utf-8") as file:
+            text = file.read()
+        self.write("out/objects.json", text.replace('"class_id": 4', '"class_id": 5').replace('"id": 4,', '"id": 5,'))
+        rows = json.loads(self.dgtk("verify", self.path("out"), "--json", status=1).stdout)["residuals"]
+        found = [row for row in rows if (row["check"], row["layer"]) == ("cameras", "objects")]
+        self.assertEqual([row["bad"] for row in found], [1], rows)
 
 
 if __name__ == "__main__":

@@ -184,6 +184,26 @@ TEST(SceneDocument, SavedAndReopenedItIsTheSameScene)
   }
 }
 
+TEST(SceneDocument, NumbersOfClassesStay)
+{
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path("scenes"));
+  std::ofstream(folder.path("classes.json")) << R"({ "tree": 7, "house": 3 })";
+  for (const std::string classes : { R"("../classes.json")", R"({ "tree": 7, "house": 3 })" })
+  {
+    std::ofstream(folder.path("scenes/a.json")) << "{ \"classes\": " << classes << " }";
+    SceneDocument document;
+    document.open(folder.path("scenes/a.json"));
+    document.addLight({});
+    document.saveAs(folder.path("b.json"));
+    SceneDocument again;
+    again.open(folder.path("b.json"));
+    EXPECT_EQ(again.scene().classIdOf("tree"), 7) << classes;
+    EXPECT_EQ(again.scene().classIdOf("house"), 3) << classes;
+    EXPECT_EQ(again.scene().classFile, classes[0] == '"' ? "classes.json" : "");
+  }
+}
+
 TEST(SceneDocument, ThesisScenesSayWhatTheyCannotHold)
 {
   const test::TemporaryFolder folder;

@@ -113,6 +113,13 @@ void checkObjects(Dataset& dataset, Meter& meter)
     const std::string expected =
       text(i + 1, instances[i].name, instances[i].className, instances[i].model->triangles.size());
     meter.equal(found == expected, [&] { return Offender{ "objects.json", -1, -1, found, expected }; });
+    const std::uint32_t fixed = instances[i].classId;
+    meter.equal(fixed == 0 || objects[i].classId == fixed,
+      [&]
+      {
+        return Offender{ "objects.json", -1, -1,
+          "object " + std::to_string(i + 1) + " of class " + std::to_string(objects[i].classId), std::to_string(fixed) };
+      });
   }
   checkClassIds(objects, meter);
 }
