@@ -229,14 +229,13 @@ private:
             m.name = this->text(c, at);
             break;
           case Ambient:
-            m.ambient = this->color(c, m.ambient);
-            break;
           case Diffuse:
-            m.diffuse = this->color(c, m.diffuse);
-            break;
           case Specular:
-            m.specular = this->color(c, m.specular);
+          {
+            Eigen::Vector3d& to = c.id == Ambient ? m.ambient : c.id == Diffuse ? m.diffuse : m.specular;
+            to = this->color(c, to);
             break;
+          }
           case Shininess:
             m.shininess = 128 * this->percent(c, 0);
             break;
@@ -274,25 +273,17 @@ private:
       [&](const Chunk& c)
       {
         std::size_t at = c.begin;
-        switch (c.id)
+        if (c.id == TextureName)
         {
-          case TextureName:
-            name = this->text(c, at);
-            break;
-          case TextureScaleU:
-            mapped.scale[0] = this->scalar(c, 1);
-            break;
-          case TextureScaleV:
-            mapped.scale[1] = this->scalar(c, 1);
-            break;
-          case TextureOffsetU:
-            mapped.offset[0] = this->scalar(c, 0);
-            break;
-          case TextureOffsetV:
-            mapped.offset[1] = this->scalar(c, 0);
-            break;
-          default:
-            break;
+          name = this->text(c, at);
+        }
+        else if (c.id == TextureScaleU || c.id == TextureScaleV)
+        {
+          mapped.scale[c.id == TextureScaleU ? 0 : 1] = this->scalar(c, 1);
+        }
+        else if (c.id == TextureOffsetU || c.id == TextureOffsetV)
+        {
+          mapped.offset[c.id == TextureOffsetU ? 0 : 1] = this->scalar(c, 0);
         }
       });
     return name;

@@ -5,6 +5,7 @@
 #include "dgtkFile.h"
 
 #include <cctype>
+#include <map>
 
 namespace dgtk
 {
@@ -130,29 +131,16 @@ private:
       return;
     }
     Material m = this->Builder.model().materials[static_cast<std::size_t>(this->Materials.back())];
+    static const std::map<std::string_view, Eigen::Vector3d Material::*> colors = { { "rgb", &Material::diffuse },
+      { "amb", &Material::ambient }, { "emis", &Material::emission }, { "spec", &Material::specular } };
     while (at < words.size())
     {
       const std::string_view key = words[at++];
-      const auto color = [&](Eigen::Vector3d& into)
+      const auto color = colors.find(key);
+      if (color != colors.end())
       {
-        into = this->Lines.vector(words, at, "colour of a material");
+        m.*color->second = this->Lines.vector(words, at, "colour of a material");
         at += 3;
-      };
-      if (key == "rgb")
-      {
-        color(m.diffuse);
-      }
-      else if (key == "amb")
-      {
-        color(m.ambient);
-      }
-      else if (key == "emis")
-      {
-        color(m.emission);
-      }
-      else if (key == "spec")
-      {
-        color(m.specular);
       }
       else if (key == "shi")
       {

@@ -171,14 +171,17 @@ AssimpDeformation::AssimpDeformation(std::shared_ptr<const import::Scene> scene,
   }
 }
 
+const import::Animation* AssimpDeformation::animationOf(int animation) const
+{
+  const std::vector<import::Animation>& all = this->Scene->animations;
+  return animation >= 0 && static_cast<std::size_t>(animation) < all.size() ? &all[static_cast<std::size_t>(animation)]
+                                                                            : nullptr;
+}
+
 double AssimpDeformation::timeOf(int animation, double frame) const
 {
-  if (animation < 0 || static_cast<std::size_t>(animation) >= this->Scene->animations.size())
-  {
-    return 0;
-  }
-  const double duration = this->Scene->animations[static_cast<std::size_t>(animation)].duration;
-  return std::isnan(frame) ? 0 : std::clamp(frame / fps, 0.0, duration);
+  const import::Animation* known = this->animationOf(animation);
+  return !known || std::isnan(frame) ? 0 : std::clamp(frame / fps, 0.0, known->duration);
 }
 
 std::vector<Eigen::Affine3d> AssimpDeformation::pose(int animation, double time) const
@@ -190,9 +193,9 @@ std::vector<Eigen::Affine3d> AssimpDeformation::pose(int animation, double time)
   {
     pose.push_back(affine(node.parent_from_node));
   }
-  if (animation >= 0 && static_cast<std::size_t>(animation) < this->Scene->animations.size())
+  if (const import::Animation* known = this->animationOf(animation))
   {
-    for (const import::Channel& channel : this->Scene->animations[static_cast<std::size_t>(animation)].channels)
+    for (const import::Channel& channel : known->channels)
     {
       if (channel.node >= 0)
       {
@@ -219,11 +222,12 @@ std::vector<double> AssimpDeformation::weightsAt(const PosedMesh& posed, int ani
   {
     weights.push_back(target.weight);
   }
-  if (animation < 0 || static_cast<std::size_t>(animation) >= this->Scene->animations.size())
+  const import::Animation* known = this->animationOf(animation);
+  if (!known)
   {
     return weights;
   }
-  for (const import::MorphChannel& morph : this->Scene->animations[static_cast<std::size_t>(animation)].morphs)
+  for (const import::MorphChannel& morph : known->morphs)
   {
     if (morph.node != static_cast<std::int32_t>(posed.node) || morph.times.empty())
     {

@@ -58,6 +58,7 @@ private:
     std::vector<std::uint32_t> first;
     std::vector<Influence> list;
   };
+  const import::Animation* animationOf(int animation) const;
   std::vector<double> weightsAt(const PosedMesh& mesh, int animation, double time) const;
   double timeOf(int animation, double frame) const;
 

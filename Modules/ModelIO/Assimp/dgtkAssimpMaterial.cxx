@@ -200,8 +200,7 @@ void convertMaterials(const aiScene& from, bool gltf, Scene& to)
     // pictures that the file holds are also named by their file name
     for (Material& material : to.materials)
     {
-      for (std::string* name : { &material.texture, &material.normalMap, &material.metallicRoughnessMap,
-             &material.emissionMap, &material.occlusionMap })
+      for (std::string* name : material.pictures())
       {
         if (!name->empty() && *name == to.textures.back().name)
         {

@@ -49,6 +49,11 @@ struct Material
   std::string metallicRoughnessMap;
   std::string emissionMap;
   std::string occlusionMap;
+
+  std::array<std::string*, 5> pictures()
+  {
+    return { &this->texture, &this->normalMap, &this->metallicRoughnessMap, &this->emissionMap, &this->occlusionMap };
+  }
 };
 
 /// `height` is 0 for an encoded picture (PNG, JPEG), whose bytes are `data`; else RGBA rows, top to bottom.

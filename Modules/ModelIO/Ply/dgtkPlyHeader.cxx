@@ -2,6 +2,7 @@
 #include "dgtkPlyHeader.h"
 
 #include "dgtkError.h"
+#include "dgtkTextLines.h"
 
 #include <algorithm>
 #include <charconv>
@@ -33,6 +34,7 @@ public:
   HeaderParser(const std::string& path, const std::string& contents)
     : Path(path)
     , Contents(contents)
+    , Lines(contents)
   {
   }
 
@@ -57,37 +59,20 @@ public:
 private:
   [[noreturn]] void fail(const std::string& what, const std::string& expected, const std::string& found)
   {
-    throw InputError(this->Path, std::max(this->Line, 1L), what, expected, found);
+    throw InputError(this->Path, std::max(this->Lines.lineNumber(), 1L), what, expected, found);
   }
+
+  std::size_t at() const { return this->Contents.size() - this->Lines.remaining(); }
 
   bool nextLine()
   {
     this->Words.clear();
-    if (this->At >= std::min(this->Contents.size(), longestHeader))
+    if (this->at() >= longestHeader || !this->Lines.next())
     {
       return false;
     }
-    const std::size_t end = this->Contents.find_first_of("\r\n", this->At);
-    const std::size_t stop = std::min(end, this->Contents.size());
-    this->Text = this->Contents.substr(this->At, std::min<std::size_t>(stop - this->At, 4096));
-    this->At = stop;
-    if (this->At < this->Contents.size())
-    {
-      const bool both = this->Contents.compare(this->At, 2, "\r\n") == 0;
-      this->At += both ? 2 : 1;
-    }
-    ++this->Line;
-    for (std::size_t i = 0; i < this->Text.size();)
-    {
-      const std::size_t begin = this->Text.find_first_not_of(" \t", i);
-      if (begin == std::string::npos)
-      {
-        break;
-      }
-      const std::size_t after = std::min(this->Text.find_first_of(" \t", begin), this->Text.size());
-      this->Words.push_back(this->Text.substr(begin, after - begin));
-      i = after;
-    }
+    this->Text = this->Lines.line().substr(0, 4096);
+    this->Words.assign(this->Lines.words().begin(), this->Lines.words().end());
     return true;
   }
 
@@ -102,7 +87,9 @@ private:
     {
       if (this->Words.size() > 2 && this->Words[1] == "TextureFile" && this->Header.texture.empty())
       {
-        this->Header.texture = this->Text.substr(this->Text.find(this->Words[2], this->Text.find("TextureFile") + 11));
+        // a name may have blanks in it
+        const std::size_t at = this->Text.find(this->Words[2], this->Text.find("TextureFile") + 11);
+        this->Header.texture = this->Words.size() == 3 ? this->Words[2] : this->Text.substr(at);
       }
     }
     else if (word == "format")
@@ -203,8 +190,8 @@ private:
     {
       this->fail("header names no format", "format ascii 1.0", "none");
     }
-    this->Header.bodyAt = this->At;
-    std::uint64_t left = this->Contents.size() - this->At;
+    this->Header.bodyAt = this->at();
+    std::uint64_t left = this->Lines.remaining();
     const bool ascii = this->Header.encoding == PlyHeader::Encoding::Ascii;
     for (const PlyElement& element : this->Header.elements)
     {
@@ -226,8 +213,7 @@ private:
   const std::string& Path;
   const std::string& Contents;
   PlyHeader Header;
-  std::size_t At = 0;
-  long Line = 0;
+  TextLines Lines;
   std::string Text;
   std::vector<std::string> Words;
   bool HasFormat = false;

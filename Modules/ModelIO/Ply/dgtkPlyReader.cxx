@@ -134,25 +134,11 @@ private:
 
   double binary(PlyType type)
   {
-    switch (type)
-    {
-      case PlyType::Int8:
-        return this->binaryOf<std::int8_t>();
-      case PlyType::UInt8:
-        return this->binaryOf<std::uint8_t>();
-      case PlyType::Int16:
-        return this->binaryOf<std::int16_t>();
-      case PlyType::UInt16:
-        return this->binaryOf<std::uint16_t>();
-      case PlyType::Int32:
-        return this->binaryOf<std::int32_t>();
-      case PlyType::UInt32:
-        return this->binaryOf<std::uint32_t>();
-      case PlyType::Float32:
-        return this->binaryOf<float>();
-      default:
-        return this->binaryOf<double>();
-    }
+    static constexpr double (PlyBody::*readers[])() = { &PlyBody::binaryOf<std::int8_t>,
+      &PlyBody::binaryOf<std::uint8_t>, &PlyBody::binaryOf<std::int16_t>, &PlyBody::binaryOf<std::uint16_t>,
+      &PlyBody::binaryOf<std::int32_t>, &PlyBody::binaryOf<std::uint32_t>, &PlyBody::binaryOf<float>,
+      &PlyBody::binaryOf<double> }; // in the order of PlyType
+    return (this->*readers[static_cast<std::size_t>(type)])();
   }
 
   const std::string& Path;

@@ -19,7 +19,6 @@ public:
   {
   }
   PovSession(const PovSession&) = delete;
-  PovSession& operator=(const PovSession&) = delete;
 
   PovStream stream;
   PovSymbols symbols;
@@ -56,7 +55,6 @@ public:
   Block(PovSession& session, bool isMesh);
   ~Block() { this->Session.Blocks.pop_back(); }
   Block(const Block&) = delete;
-  Block& operator=(const Block&) = delete;
 
   const bool isMesh;
   PovProblem problem; ///< what a group lacks first

@@ -52,7 +52,7 @@ PovToken PovStream::take()
 {
   this->peek();
   this->drop();
-  return std::move(this->Look);
+  return std::exchange(this->Look, PovToken());
 }
 
 void PovStream::failAt(const PovToken& token, const std::string& what, const std::string& expected) const

@@ -79,7 +79,6 @@ public:
   explicit Level(PovStream& stream);
   ~Level() { --this->Stream.Depth; }
   Level(const Level&) = delete;
-  Level& operator=(const Level&) = delete;
 
 private:
   PovStream& Stream;

@@ -218,6 +218,19 @@ TEST(Ply, StripsEdgesAndWedges)
   EXPECT_EQ(model->uvs[model->triangles[2][2]], Eigen::Vector2d(0.5, 0.25));
 }
 
+TEST(Ply, ThePictureThatACommentNames)
+{
+  const std::pair<const char*, const char*> table[] = { { "skin.png", "skin.png" }, { "skin.png \t", "skin.png" },
+    { "my skin.png", "my skin.png" }, { "\"my skin.png\"", "my skin.png" } };
+  for (const auto& [written, name] : table)
+  {
+    const std::string comment = std::string("comment TextureFile ") + written + "\nelement vertex";
+    const auto model = readBytes("ply", changed(asciiQuad, "element vertex", comment));
+    ASSERT_EQ(model->textures.size(), 1u) << written;
+    EXPECT_EQ(model->textures[0].name, name);
+  }
+}
+
 TEST(Ply, ColoursOfTwoBytes)
 {
   std::string text = asciiQuad;
