@@ -113,7 +113,7 @@ class ImageFormation(harness.Case):
         focal = 300.0
         scene = {"objects": [{"model": "square.obj", "materials": GLOWING, "scale": 0.006}],
                  "cameras": [{**camera(161, 161, 161 * distance / focal, distance),
-                              "lens": {"aperture": aperture, "focus": focus, "exposures": 1500}}]}
+                              "lens": {"aperture": aperture, "focus": focus, "exposures": 600}}]}
         image = self.picture(scene, "--samples", 4)[..., 0].astype(float)
         x = np.arange(161) + 0.5 - 80.5
         total = image.sum()
@@ -340,13 +340,13 @@ class ImageFormation(harness.Case):
                         "attenuation": [1, 0, 0.5]},
                        {"kind": "spot", "position": [0, 3, 0], "target": [0, 0, 0], "shadows": True}],
             "environment": self.environment("sky", sky), "fog": {"density": 0.05},
-            "cameras": [{"name": "c", "eye": [1.5, 2, 3], "lookAt": [0, 0.7, 0], "width": 200, "height": 150,
+            "cameras": [{"name": "c", "eye": [1.5, 2, 3], "lookAt": [0, 0.7, 0], "width": 144, "height": 108,
                          "shutter": {"open": 0, "close": 0.5, "exposures": 4}, "lens": {"aperture": 0.05, "focus": 3}}]}
         scene["cameras"][0]["lens"]["exposures"] = 6
         layers = "color,color_sharp,color_noisy,depth_noisy,tiles,depth,objects,alpha"
-        first = self.render(scene, "--tile", "64x64", "--frames", "0:1", "--samples", 2, layers=layers, name="a")
+        first = self.render(scene, "--tile", "64x48", "--frames", "0:1", "--samples", 2, layers=layers, name="a")
         for name, options, threads in [("b", ("--frames", "0:1"), 1), ("c", ("--frames", "0:1", "--gl", "osmesa"), 3)]:
-            second = self.render(scene, "--tile", "64x64", "--samples", 2, *options, layers=layers, name=name,
+            second = self.render(scene, "--tile", "64x48", "--samples", 2, *options, layers=layers, name=name,
                                  threads=threads)
             self.assert_same_files(first, second)
         third = self.render(scene, "--tile", "37x1000", "--samples", 2, "--frames", "0:1", layers=layers, name="d")
@@ -355,7 +355,7 @@ class ImageFormation(harness.Case):
         self.assert_same_files(first, third, ignore=names)
         whole = self.read(os.path.join(first, "c", "color", "000000.png"))
         self.assertTrue(np.array_equal(self.read(os.path.join(first, "c", "tiles", "000000_1_1.png")),
-                                       whole[64:128, 64:128]))
+                                       whole[48:96, 64:128]))
 
 
 if __name__ == "__main__":
