@@ -115,6 +115,8 @@ TEST(SceneRefusals, JsonSyntax)
     { "{\n\"fps\": 25,\n\"fps\": 30\n}\n", "a.json:3: key 'fps' is given twice" },
     { "{} {}", "a.json:1: is not valid JSON" },
     { "{\n\"units\": \"m\xff\"\n}", "a.json:2: is not valid JSON" },
+    { "{\n\"units\": \"m\xff\"\n}", "last read: '\"m?'" }, // a terminal is shown no bytes that are no text
+    { "{\"units\": m\x7f}", "last read: '\"units\": m'" },
     { std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), "a.json:1: is not valid JSON" },
     { "{\"x\": " + std::string(1000, '['), "a.json:1: is nested too deeply (expected at most 32 levels)" },
     { "{\n/* open", "a.json:2: is not valid JSON" },
@@ -398,6 +400,37 @@ TEST(SceneRefusals, ScenesMadeByProgramObeyTheSameRules)
   EXPECT_THROW(validate(scene), InputError);
 }
 
+TEST(SceneRefusals, PropertiesOfAProgramsSceneObeyTheSameRules)
+{
+  const std::pair<std::function<void(SceneDescription&)>, const char*> table[] = { { [](auto& s) { s.units = "m\n"; },
+                                                                                     "units" },
+    { [](auto& s) { s.fps = 0; }, "fps" }, { [](auto& s) { s.background[2] = 2; }, "background[2]" },
+    { [](auto& s) { s.environment.intensity = -1; }, "environment.intensity" },
+    { [](auto& s) { s.fog.density = -1; }, "fog.density" }, { [](auto& s) { s.fog.start = -1; }, "fog.start" },
+    { [](auto& s) { s.fog.color[1] = 2; }, "fog.color[1]" },
+    { [](auto& s) { s.seed = std::uint64_t(1) << 60; }, "seed" },
+    { [](auto& s) {
+       s.classes = { { "a", 0 } };
+     },
+      "classes.a" },
+    { [](auto& s) { s.extraKeyFrames = { -1 }; }, "keyFrames[0]" } };
+  for (const auto& [change, what] : table)
+  {
+    SceneDescription scene;
+    EXPECT_NO_THROW(validate(scene));
+    change(scene);
+    try
+    {
+      validate(scene);
+      ADD_FAILURE() << what;
+    }
+    catch (const InputError& error)
+    {
+      EXPECT_THAT(error.what(), HasSubstr(std::string("scene: ") + what + ' '));
+    }
+  }
+}
+
 TEST(SceneRefusals, ScenesWithoutAFileAreCalledScene)
 {
   SceneDescription scene;
@@ -437,6 +470,7 @@ TEST(SceneRefusals, Classes)
   EXPECT_THAT(of("{\"tree\": 3, \"tree\": 4}"), HasSubstr("tree"));
   EXPECT_THAT(of("{}"), HasSubstr("classes names no class"));
   EXPECT_THAT(of("[]"), HasSubstr("classes has the wrong type"));
+  EXPECT_THAT(of("\"\""), HasSubstr("a.json:1: classes cannot be used"));
   EXPECT_THAT(of("\"none.json\""), HasSubstr("none.json: cannot be read"));
   // what is there needs a number, what is not there and has no class does not
   EXPECT_THAT(of("{\"tree\": 1}", "\"visible\": true"), HasSubstr("objects[0].class has no number"));

@@ -298,3 +298,18 @@ TEST(SceneTables, ModelsOfSceneFilesHaveTheExtensionOfTheirWord)
     }
   }
 }
+
+TEST(SceneTables, WithoutAnOrderObjectsComeFirstThenLightsThenCameras)
+{
+  using Kind = SceneItem::Kind;
+  SceneDescription scene;
+  scene.objects.resize(2);
+  scene.objects[0].model = scene.objects[1].model = "a.ac";
+  scene.lights.resize(1);
+  scene.cameras.resize(1);
+  const std::vector<SceneItem> expected = { { Kind::Object, 0 }, { Kind::Object, 1 }, { Kind::Light, 0 },
+    { Kind::Camera, 0 } };
+  EXPECT_EQ(scene.items(), expected);
+  scene.order = { { Kind::Camera, 0 }, { Kind::Object, 1 }, { Kind::Light, 0 }, { Kind::Object, 0 } };
+  EXPECT_EQ(scene.items(), scene.order);
+}

@@ -90,4 +90,85 @@ TEST(SensorJson, AScenePutTogetherByProgramObeysTheSameRules)
   EXPECT_THROW(validate(scene), InputError);
 }
 
+TEST(SensorJson, LimitsAreWithin)
+{
+  struct Row
+  {
+    const char* part;
+    const char* key; ///< with # for the value
+    std::vector<const char*> good, bad;
+  };
+  const Row table[] = { { "color", "\"psf\": {\"gaussian\": #}", { "0", "32" }, { "-0.001", "32.001" } },
+    { "color", "\"psf\": {\"disc\": #}", { "0", "32" }, { "-0.001", "32.001" } },
+    { "color", "\"psf\": {\"kernel\": [1, 0, 0, 0, 0, 0, 0, 0, #]}", { "0", "1e9" }, { "-1", "1.1e9" } },
+    { "color", "\"vignetting\": {\"cos4\": #}", { "0", "1" }, { "-0.001", "1.001" } },
+    { "color", "\"vignetting\": {\"polynomial\": [0, #, 0]}", { "-1e6", "1e6" }, { "-1000001", "1000001" } },
+    { "color", "\"texture\": {\"amplitude\": #}", { "0", "1e9" }, { "-1", "1.1e9" } },
+    { "color", "\"texture\": {\"period\": #}", { "1e-9", "1e9" }, { "0", "1.1e9" } },
+    { "color", "\"texture\": {\"octaves\": #}", { "1", "16" }, { "0", "17", "1.5" } },
+    { "color", "\"texture\": {\"persistence\": #}", { "0", "1" }, { "-0.001", "1.001" } },
+    { "color", "\"exposure\": #", { "0", "1e9" }, { "-1", "1.1e9" } },
+    { "color", "\"fullWell\": #", { "1e-9", "1e9" }, { "0", "1.1e9" } },
+    { "color", "\"gain\": #", { "1e-9", "1e9" }, { "0", "1.1e9" } },
+    { "color", "\"darkSignal\": #", { "0", "1e9" }, { "-1", "1.1e9" } },
+    { "color", "\"prnu\": #", { "0", "1e9" }, { "-1", "1.1e9" } },
+    { "color", "\"dsnu\": #", { "0", "1e9" }, { "-1", "1.1e9" } },
+    { "color", "\"rowNoise\": #", { "0", "1e9" }, { "-1", "1.1e9" } },
+    { "color", "\"columnNoise\": #", { "0", "1e9" }, { "-1", "1.1e9" } },
+    { "color", "\"readNoise\": #", { "0", "1e9" }, { "-1", "1.1e9" } },
+    { "color", "\"bits\": #", { "0", "24" }, { "-1", "25", "8.5" } },
+    { "color", "\"blackLevel\": #", { "0", "1" }, { "-0.001", "1.001" } },
+    { "color", "\"gamma\": #", { "1e-9", "10" }, { "0", "10.001" } },
+    { "color", "\"response\": \"table\", \"table\": [0, #]", { "0", "1" }, { "-0.001", "1.001" } },
+    { "color", "\"salt\": #", { "0", "1" }, { "-0.001", "1.001" } },
+    { "color", "\"pepper\": #", { "0", "1" }, { "-0.001", "1.001" } },
+    { "color", "\"salt\": 0.25, \"pepper\": #", { "0.75" }, { "0.751" } },
+    { "color", "\"jpegQuality\": #", { "0", "100" }, { "-1", "101", "50.5" } },
+    { "depth", "\"gaussian\": [0, 0, #]", { "-1e6", "1e6" }, { "-1000001", "1000001" } },
+    { "depth", "\"kinect\": {\"axial\": #}", { "0", "1e9" }, { "-1", "1.1e9" } },
+    { "depth", "\"kinect\": {\"lateral\": #}", { "0", "3" }, { "-0.001", "3.001" } },
+    { "depth", "\"kinect\": {\"metres\": #}", { "1e-9", "1e9" }, { "0", "1.1e9" } },
+    { "depth", "\"stereo\": {\"baseline\": #}", { "0", "1e9" }, { "-1", "1.1e9" } },
+    { "depth", "\"stereo\": {\"baseline\": 1, \"subpixel\": #}", { "0", "1e9" }, { "-1", "1.1e9" } },
+    { "depth", "\"stereo\": {\"baseline\": 1, \"sigma\": #}", { "0", "1e9" }, { "-1", "1.1e9" } },
+    { "depth", "\"least\": #", { "0", "1e9" }, { "-1", "1.1e9" } },
+    { "depth", "\"most\": #", { "0", "1e-9", "1e9" }, { "-1", "1.1e9" } },
+    { "depth", "\"least\": 2, \"most\": #", { "0", "2.001" }, { "1", "2" } },
+    { "depth", "\"dropout\": {\"random\": #}", { "0", "1" }, { "-0.001", "1.001" } },
+    { "depth", "\"stereo\": {\"baseline\": 1}, \"dropout\": {\"occluded\": #}", { "0", "1" }, { "-0.001", "1.001" } },
+    { "depth", "\"dropout\": {\"occluded\": #}", { "0" }, { "1" } },
+    { "depth", "\"dropout\": {\"edge\": #}", { "0", "1" }, { "-0.001", "1.001" } },
+    { "depth", "\"dropout\": {\"edgeJump\": #}", { "0", "1e9" }, { "-1", "1.1e9" } },
+    { "depth", "\"dropout\": {\"edgeRadius\": #}", { "1", "16" }, { "0", "17", "1.5" } },
+    { "depth", "\"dropout\": {\"grazing\": #}", { "0", "1" }, { "-0.001", "1.001" } },
+    { "depth", "\"dropout\": {\"grazingAngle\": #}", { "0", "90" }, { "-0.001", "90.001" } } };
+  const TemporaryFolder folder;
+  for (const Row& row : table)
+  {
+    const auto isRead = [&](const char* value)
+    {
+      std::string key = row.key;
+      key.replace(key.find('#'), 1, value);
+      try
+      {
+        read(folder, std::string(R"({ "cameras": [ { "eye": [0, 0, 1], "lookAt": [0, 0, 0], "sensor": { ")") +
+                       row.part + "\": {" + key + "} } } ] }");
+      }
+      catch (const InputError&)
+      {
+        return false;
+      }
+      return true;
+    };
+    for (const char* value : row.good)
+    {
+      EXPECT_TRUE(isRead(value)) << row.key << ' ' << value;
+    }
+    for (const char* value : row.bad)
+    {
+      EXPECT_FALSE(isRead(value)) << row.key << ' ' << value;
+    }
+  }
+}
+
 } // namespace dgtk::test

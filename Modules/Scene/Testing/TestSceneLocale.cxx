@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSceneSamples.h"
+
+#include <gtest/gtest.h>
+
+#include <clocale>
+
+using namespace dgtk;
+using namespace dgtk::test;
+
+namespace
+{
+bool hasComma = false;
+}
+
+/// In place of the system's, whose locales with a decimal comma need not be installed.
+extern "C" lconv* localeconv() noexcept
+{
+  static char point[] = ".";
+  static char comma[] = ",";
+  static char none[] = "";
+  static lconv made = {};
+  made.decimal_point = hasComma ? comma : point;
+  made.thousands_sep = made.grouping = none;
+  return &made;
+}
+
+// The JSON library hands numbers over as the locale writes them.
+TEST(SceneLocale, NumbersHaveAPointInEveryLocale)
+{
+  const TemporaryFolder folder;
+  for (const bool comma : { false, true })
+  {
+    hasComma = comma;
+    EXPECT_EQ(readText(folder, "a.json", R"({"fps": 12.5, "background": [0.25, 5e-1, 1]})").fps, 12.5) << comma;
+    EXPECT_NE(refusalOf("a.json", R"({"fps": 12,5})"), "") << comma;
+  }
+  hasComma = false;
+}
