@@ -4,6 +4,7 @@
 #include "dgtkDatasetDocuments.h"
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkLdi.h"
 #include "dgtkTestImages.h"
 #include "dgtkTestSupport.h"
 
@@ -97,6 +98,27 @@ TEST(Compare, OtherFormatsAndTypesByValue)
   EXPECT_THROW(compareFiles(folder.path("a.npy"), folder.path("none.npy")), InputError);
 }
 
+TEST(Compare, DeepFilesOnOneSideAreComparedByTheirBytes)
+{
+  const TemporaryFolder folder;
+  Rows rows(PixelType::Float32, 1, 2, 0, 1);
+  std::fill_n(rows.row<float>(0), 2, 1.0f);
+  writeImage("exr", folder.path("flat.exr"), specOf(PixelType::Float32, 1), rows, 1, {});
+  const auto writer = makeLdiWriter("exr", folder.path("deep.exr"), 2, 1);
+  LdiRows none;
+  none.y = 0;
+  none.height = 1;
+  none.counts = { 0, 0 };
+  writer->write(none);
+  writer->finish();
+  for (const auto& [a, b] : { std::pair("flat.exr", "deep.exr"), std::pair("deep.exr", "flat.exr") })
+  {
+    const CompareResult result = compareFiles(folder.path(a), folder.path(b));
+    EXPECT_FALSE(result.equal);
+    EXPECT_EQ(result.problem, "the bytes differ");
+  }
+}
+
 TEST(Compare, DatasetsFileByFile)
 {
   const TemporaryFolder folder;
@@ -133,4 +155,36 @@ TEST(Compare, DatasetsFileByFile)
   EXPECT_EQ(describe(result.differing[2]), "c.txt: the bytes differ");
   EXPECT_THAT(compareJson(result), HasSubstr("\"equal\": false"));
   EXPECT_THROW(compareDatasets(folder.path("one"), folder.path("none")), InputError);
+}
+
+TEST(Compare, TolerancesAreOfLayersThatTheDatasetHas)
+{
+  const TemporaryFolder folder;
+  Manifest manifest;
+  manifest.layers.push_back({ specOf(PixelType::UInt32, 1, "objects"), "npy" });
+  manifest.layers.back().spec.unit = "id";
+  manifest.layers.push_back({ specOf(PixelType::Float64, 1, "depth"), "npy" });
+  manifest.files = { { "a.npy", 0, std::string(64, '0'), "depth", "", -1 },
+    { "b.npy", 0, std::string(64, '0'), "objects", "", -1 }, { "c.txt", 0, std::string(64, '0'), "", "", -1 } };
+  writeFile(folder.path("manifest.json"), manifestText(manifest));
+  writeValues(folder.path("a.npy"), { 1, 2 }, 2);
+  writeValues(folder.path("b.npy"), { 1, 2 }, 2);
+  writeFile(folder.path("c.txt"), "text");
+  const auto refusal = [&](const std::string& layer, const CompareTolerance& tolerance) -> std::string
+  {
+    try
+    {
+      compareDatasets(folder.path(), folder.path(), { { layer, tolerance } });
+    }
+    catch (const UsageError& error)
+    {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(refusal("depth", { 1, {}, {} }), "");
+  EXPECT_THAT(refusal("colour", { 1, {}, {} }), HasSubstr("has no such layer (it has depth, objects)"));
+  EXPECT_THAT(refusal("", { 1, {}, {} }), HasSubstr("has no such layer")); // files of no layer are not one
+  EXPECT_THAT(refusal("objects", { 1, {}, {} }), HasSubstr("its values are names"));
+  EXPECT_EQ(refusal("objects", { 0, 3, {} }), "");
 }

@@ -103,6 +103,105 @@ TEST(LayerPicture, ValuesHaveTheColoursOfTheSheet)
   EXPECT_EQ(objects.pixels[1], idColor(7));
 }
 
+template <typename T>
+std::vector<Rgb> painted(PixelType type, int channels, Meaning meaning, const std::vector<T>& values)
+{
+  Rows rows(type, channels, int(values.size()) / channels, 0, 1);
+  std::copy(values.begin(), values.end(), rows.row<T>(0));
+  return paintLayer(rows, { "x", type, channels, "", "", "", "", meaning }).pixels;
+}
+
+TEST(LayerPicture, PicturesHaveTheirOwnColours)
+{
+  const std::vector<Rgb> expected = { { 0, 128, 255 }, { 127, 1, 254 } };
+  EXPECT_EQ(painted<std::uint8_t>(PixelType::UInt8, 3, Meaning::Picture, { 0, 128, 255, 127, 1, 254 }), expected);
+  // 128 / 255 of 65535, half a step more and less
+  EXPECT_EQ(painted<std::uint16_t>(PixelType::UInt16, 3, Meaning::Picture, { 32896, 33024, 32768 }),
+    (std::vector<Rgb>{ { 128, 128, 128 } }));
+  EXPECT_EQ(painted<std::uint16_t>(PixelType::UInt16, 3, Meaning::Picture, { 33025, 32767, 65535 }),
+    (std::vector<Rgb>{ { 129, 127, 255 } }));
+  EXPECT_EQ(painted<std::uint8_t>(PixelType::UInt8, 1, Meaning::Picture, { 9 }), (std::vector<Rgb>{ { 9, 9, 9 } }));
+  EXPECT_EQ(
+    painted<std::uint8_t>(PixelType::UInt8, 4, Meaning::Picture, { 9, 8, 7, 0 }), (std::vector<Rgb>{ { 9, 8, 7 } }));
+  // linear light: 255 (1.055 x^(1 / 2.4) - 0.055) is 187.5, 12.92 x up to 0.0031308
+  EXPECT_EQ(painted<float>(PixelType::Float32, 3, Meaning::Picture, { 0.5f, 0.002f, 4.0f, 0, -1, 1 }),
+    (std::vector<Rgb>{ { 188, 7, 255 }, { 0, 0, 255 } }));
+}
+
+TEST(LayerPicture, ValuesInTheirOwnRanges)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  // normals: x to the right, y up and towards the viewer are bright
+  EXPECT_EQ(painted<float>(PixelType::Float32, 3, Meaning::Direction, { 1, -1, -1, -1, 1, 1, 0, 0, 0 }),
+    (std::vector<Rgb>{ { 255, 255, 255 }, { 0, 0, 0 }, { 128, 128, 128 } }));
+  EXPECT_EQ(painted<double>(PixelType::Float64, 2, Meaning::TextureCoordinates, { 0.5, 2.25, -0.75, 0, nan, 0 }),
+    (std::vector<Rgb>{ { 128, 64, 64 }, { 64, 0, 64 }, nothingColor }));
+  // from the least to the largest of each channel
+  EXPECT_EQ(painted<double>(PixelType::Float64, 3, Meaning::Point, { 1, 10, 5, 3, 30, 5, 2, 25, 5 }),
+    (std::vector<Rgb>{ { 0, 0, 128 }, { 255, 255, 128 }, { 128, 191, 128 } }));
+  EXPECT_EQ(painted<double>(PixelType::Float64, 1, Meaning::InverseDepth, { 4, 8, 6 }),
+    (std::vector<Rgb>{ rampColor(0.15), rampColor(1), rampColor(0.575) }));
+  // depth by its logarithm: 1, 10 and 100
+  EXPECT_EQ(painted<double>(PixelType::Float64, 1, Meaning::Depth, { 1, 100, 10 }),
+    (std::vector<Rgb>{ rampColor(1), rampColor(0.15), rampColor(0.575) }));
+  // of many values, one hundredth at either end does not count
+  std::vector<double> many(200);
+  for (std::size_t i = 0; i < many.size(); ++i)
+  {
+    many[i] = i < 2 ? -1e6 : i >= 198 ? 1e6 : double(i);
+  }
+  const std::vector<Rgb> robust = painted<double>(PixelType::Float64, 1, Meaning::InverseDepth, many);
+  EXPECT_EQ(robust[2], rampColor(0.15));
+  EXPECT_EQ(robust[197], rampColor(1));
+}
+
+TEST(LayerPicture, ColoursOfRampsWheelsAndIds)
+{
+  EXPECT_EQ(rampColor(-1), (Rgb{ 24, 15, 61 }));
+  EXPECT_EQ(rampColor(2), (Rgb{ 250, 245, 170 }));
+  EXPECT_EQ(rampColor(0.5), (Rgb{ 203, 75, 79 }));
+  EXPECT_EQ(rampColor(1.0 / 12), (Rgb{ 54, 23, 84 })); // half way between two stops
+  EXPECT_EQ(wheelColor(1, 0), (Rgb{ 255, 0, 0 }));
+  EXPECT_EQ(wheelColor(0, 1), (Rgb{ 128, 255, 0 }));
+  EXPECT_EQ(wheelColor(-1, 0), (Rgb{ 0, 255, 255 }));
+  EXPECT_EQ(wheelColor(0, -1), (Rgb{ 128, 0, 255 }));
+  EXPECT_EQ(wheelColor(0.5, 0), (Rgb{ 255, 128, 128 }));
+  EXPECT_EQ(wheelColor(5, 0), (Rgb{ 255, 0, 0 }));
+  std::set<Rgb> colors;
+  for (std::uint32_t id = 0; id < 200; ++id)
+  {
+    colors.insert(idColor(id));
+  }
+  EXPECT_GE(colors.size(), 199u);
+  EXPECT_EQ(idColor(0), nothingColor);
+}
+
+TEST(Thumbnail, PicturesAreAveragedAndValuesPicked)
+{
+  const TemporaryFolder folder;
+  LayerSpec color = specOf(PixelType::UInt8, 3, "color");
+  Rows rows(PixelType::UInt8, 3, 4, 0, 2);
+  for (int y = 0; y < 2; ++y)
+  {
+    for (int i = 0; i < 12; ++i)
+    {
+      rows.row<std::uint8_t>(y)[i] = std::uint8_t(i / 3 * 20 + y * 100 + i % 3);
+    }
+  }
+  writeImage("png", folder.path("a.png"), color, rows, 1, {});
+  const Canvas small = makeThumbnail(folder.path("a.png"), color, 2, 1);
+  EXPECT_EQ(small.pixels(), (std::vector<Rgb>{ { 60, 61, 62 }, { 100, 101, 102 } }));
+  LayerSpec objects = specOf(PixelType::UInt32, 1, "objects");
+  Rows ids(PixelType::UInt32, 1, 6, 0, 1);
+  for (std::uint32_t i = 0; i < 6; ++i)
+  {
+    ids.row<std::uint32_t>(0)[i] = i + 1;
+  }
+  writeImage("npy", folder.path("a.npy"), objects, ids, 1, {});
+  // the middle one of each three
+  EXPECT_EQ(makeThumbnail(folder.path("a.npy"), objects, 2, 1).pixels(), (std::vector<Rgb>{ idColor(2), idColor(5) }));
+}
+
 TEST(LayerPicture, FlowHasTheColourWheel)
 {
   Rows flow(PixelType::Float64, 2, 4, 0, 1);

@@ -346,6 +346,14 @@ TEST(ObjectDocuments, RefusalsNameThePlace)
   EXPECT_EQ(amodal("[3, 18446744073709551615]").find(path + ": masks[0].counts[1]: has the wrong type or value"), 0u);
   EXPECT_EQ(amodal("[0, 7]"), path + ": masks[0]: a mask ends before the image");
   EXPECT_THAT(amodal("[-1]"), HasSubstr("masks[0].counts[0]: has the wrong type or value"));
+  for (const auto& [size, place] :
+    { std::pair(R"("width": 0, "height": 2)", "width"), std::pair(R"("width": 4, "height": 0)", "height"),
+      std::pair(R"("width": -4, "height": 2)", "width"), std::pair(R"("width": 4, "height": 2.5)", "height"),
+      std::pair(R"("width": 2147483648, "height": 2)", "width"), std::pair(R"("width": 4)", "height") })
+  {
+    writeFile(path, "{" + std::string(size) + ", \"masks\": []}");
+    EXPECT_THAT(messageOf([&] { readAmodal(path); }), HasSubstr(path + ": " + place)) << size;
+  }
   writeFile(path, "{\"frame\": 0, \"cameras\": [], \"points\": [{\"x\": [1, 2]}]}");
   EXPECT_THAT(messageOf([&] { readPoints(path); }), HasSubstr("points[0].x: has the wrong type or value"));
   writeFile(path, "{\"objects\": [{\"id\": 0}]}");

@@ -196,6 +196,32 @@ TEST(Png, OpenImageIOReadsTheSamePixels)
   }
 }
 
+TEST(Png, EveryFilterOfRowsIsUndone)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.path("x.png");
+  for (const int filter : { 8, 16, 32, 64, 128 }) // none, left, above, their mean, Paeth's
+  {
+    for (int channels = 1; channels <= 4; ++channels)
+    {
+      for (const PixelType type : { PixelType::UInt8, PixelType::UInt16 })
+      {
+        SCOPED_TRACE(std::to_string(filter) + ' ' + std::to_string(channels) + ' ' + nameOf(type));
+        const Rows image = testImage(specOf(type, channels, "color"), 61, 33);
+        const auto output = OIIO::ImageOutput::create(path);
+        const OIIO::TypeDesc stored = type == PixelType::UInt8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
+        OIIO::ImageSpec spec(61, 33, channels, stored);
+        spec.attribute("png:filter", filter);
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+        ASSERT_TRUE(output->open(path, spec) && output->write_image(stored, image.data()) && output->close());
+        const ImageData read = readLayerFile(path);
+        ASSERT_EQ(read.pixels.bytes(), image.bytes());
+        EXPECT_EQ(std::memcmp(read.pixels.data(), image.data(), image.bytes()), 0);
+      }
+    }
+  }
+}
+
 TEST(Png, ColorSaysSrgbAndNothingElseIsAdded)
 {
   const LayerSpec spec = specOf(PixelType::UInt8, 3, "color");

@@ -138,6 +138,26 @@ TEST(Ldi, ReadsWhatItWrote)
   }
 }
 
+TEST(Ldi, SurfacesOfOneDepthAreTwo)
+{
+  const TemporaryFolder folder;
+  const auto writer = makeLdiWriter("ldi", folder.path("a.ldi"), 1, 1);
+  LdiRows rows;
+  rows.y = 0;
+  rows.height = 1;
+  rows.counts = { 3 };
+  for (const double depth : { 2.0, 5.0, 5.0 })
+  {
+    rows.surfaces.push_back({ { 1, 1, 1, 1 }, depth, 0, 1, 0, 0 });
+  }
+  writer->write(rows);
+  writer->finish();
+  EXPECT_EQ(complaint(folder.path("a.ldi")), "");
+  const std::string bytes = contentsOf(folder.path("a.ldi"));
+  writeFile(folder.path("b.ldi"), with(bytes, bytes.size() - 12, std::nextafter(5.0, 0.0)));
+  EXPECT_THAT(complaint(folder.path("b.ldi")), HasSubstr("nearer than the one before"));
+}
+
 TEST(Ldi, LargeFilesAreReadTwice)
 {
   const TemporaryFolder folder;
