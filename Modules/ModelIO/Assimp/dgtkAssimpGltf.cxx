@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkAssimpGltf.h"
 
-#include "dgtkImportProtocol.h"
 
 #include <nlohmann/json.hpp>
 
@@ -153,7 +152,7 @@ private:
     std::string& bytes = this->Buffers[index];
     bytes = uri.empty()                  ? this->Binary
             : uri.rfind("data:", 0) == 0 ? fromBase64(uri, comma == std::string::npos ? uri.size() : comma + 1)
-                                         : this->ContentsOf((this->Folder / withoutPercents(uri)).string());
+                                         : this->ContentsOf((this->Folder / uri).string());
     return bytes;
   }
 

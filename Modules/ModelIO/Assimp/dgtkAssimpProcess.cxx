@@ -32,7 +32,7 @@ constexpr std::uint64_t streamBase = std::uint64_t(64) << 20;
 constexpr std::uint64_t streamPerByte = 64;
 
 /// The files that a model may have: regular ones in its folder or below it. Names are found as textures are found: as
-/// written, beside the model, in any case.
+/// written, beside the model, in any case; then as URIs, which glTF's are.
 class ModelFiles
 {
 public:
@@ -44,7 +44,8 @@ public:
 
   Descriptor open(const std::string& written, import::FileAnswer& answer)
   {
-    const std::string path = this->locate(written);
+    const std::string asWritten = this->locate(written);
+    const std::string path = asWritten.empty() ? this->locate(this->withoutEscapes(written)) : asWritten;
     Descriptor file(path.empty() ? -1 : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
     struct stat status = {};
     if (!file || ::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode) ||
@@ -63,6 +64,13 @@ public:
   const std::string& outside() const { return this->Outside; }
 
 private:
+  /// The importer puts the folder in front of what the model says.
+  std::string withoutEscapes(const std::string& written) const
+  {
+    const std::size_t own = written.compare(0, this->Folder.size(), this->Folder) == 0 ? this->Folder.size() : 0;
+    return written.substr(0, own) + import::withoutPercents(written.substr(own));
+  }
+
   std::string locate(const std::string& written)
   {
     std::string name = written;

@@ -315,6 +315,7 @@ TEST(Assimp, FilesOutsideOfTheModelsFolderAreRefused)
   EXPECT_THAT(refusalOf("a.gltf", gltf("../secret.bin")),
     HasSubstr("a.gltf: names the file '../secret.bin', which lies outside of the model's folder"));
   EXPECT_THAT(refusalOf("a.gltf", gltf("parts/../../secret.bin")), HasSubstr("outside of the model's folder"));
+  EXPECT_THAT(refusalOf("a.gltf", gltf("%2e%2E/secret.bi%6e")), HasSubstr("'../secret.bin', which lies outside"));
   std::filesystem::create_symlink(folder.path("secret.bin"), folder.path("model/link.bin"));
   EXPECT_THAT(refusalOf("a.gltf", gltf("link.bin")), HasSubstr("'link.bin', which lies outside"));
   const auto obj = [](const std::string& library)
@@ -327,6 +328,57 @@ TEST(Assimp, FilesOutsideOfTheModelsFolderAreRefused)
   EXPECT_EQ(dgtk::readModel(folder.path("model/a.obj"))->materials.back().name, "red");
   dgtk::writeFile(folder.path("model/quad.mtl"), quadMtl);
   EXPECT_EQ(refusalOf("a.obj", obj("../quad.mtl")), "") << "its base name is beside the model";
+}
+
+// Animations are read by us, geometry by the importer: both must find the same file.
+TEST(Assimp, BuffersBesideTheModel)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path("parts"));
+  const float numbers[] = { 0, 0, 0, 1, 0, 0, 0, 1, 0, /* times */ 0, 1, /* places */ 0, 0, 0, 0, 0, 8 };
+  const std::string bytes(reinterpret_cast<const char*>(numbers), sizeof numbers);
+  const auto read = [&folder](const std::string& uri)
+  {
+    dgtk::writeFile(folder.path("a.gltf"),
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"buffers":[{"byteLength":68,"uri":")" +
+        uri + R"("}],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":32}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+{"bufferView":1,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},
+{"bufferView":1,"byteOffset":8,"componentType":5126,"count":2,"type":"VEC3"}],
+"animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],
+"samplers":[{"input":1,"output":2}]}]})");
+    return dgtk::readModel(folder.path("a.gltf"));
+  };
+  const std::pair<const char*, const char*> table[] = { { "b.bin", "b.bin" }, { "parts/b.bin", "parts/b.bin" },
+    { "my%20b.bin", "my b.bin" }, { "b.bi%6E", "b.bin" }, { "b%2ebin", "b.bin" }, { "50%.bin", "50%.bin" },
+    { "b%2", "b%2" } };
+  for (const auto& [uri, file] : table)
+  {
+    dgtk::writeFile(folder.path(file), bytes);
+    try
+    {
+      const auto model = read(uri);
+      std::vector<Eigen::Vector3d> positions;
+      ASSERT_TRUE(model->deformation) << uri;
+      model->deformation->positionsAt(0, model->animations.at(0).last, positions);
+      EXPECT_EQ(positions.at(0), Eigen::Vector3d(0, 0, 8)) << uri;
+    }
+    catch (const dgtk::InputError& error)
+    {
+      ADD_FAILURE() << uri << ": " << error.what();
+    }
+    std::filesystem::remove(folder.path(file));
+  }
+  try
+  {
+    read("b.bin");
+    ADD_FAILURE();
+  }
+  catch (const dgtk::InputError& error)
+  {
+    EXPECT_THAT(error.what(), HasSubstr("b.bin"));
+  }
 }
 
 TEST(Assimp, ANumberOfTooManyDigitsIsRefusedAtOnce)

@@ -339,10 +339,11 @@ TEST(Gltf, MapsOfAPhysicallyBasedMaterial)
 TEST(Gltf, AlphaOfAnEmbeddedPicture)
 {
   const std::string png(reinterpret_cast<const char*>(tinyPng), sizeof tinyPng);
-  const auto read = [&png](const Json& mode)
+  const auto read = [&png](const Json& mode, double opacity = 1)
   {
     Json material = mode;
-    material["pbrMetallicRoughness"] = { { "baseColorTexture", { { "index", 0 } } } };
+    material["pbrMetallicRoughness"] = { { "baseColorTexture", { { "index", 0 } } },
+      { "baseColorFactor", { 1, 1, 1, opacity } } };
     GltfMaker maker = plain(material);
     maker.json["images"] = { { { "name", "picture" }, { "mimeType", "image/png" },
       { "bufferView", maker.view(png) } } };
@@ -366,4 +367,9 @@ TEST(Gltf, AlphaOfAnEmbeddedPicture)
   EXPECT_TRUE(mask->materials[0].cutOut);
   const auto low = read({ { "alphaMode", "MASK" }, { "alphaCutoff", 0.25 } });
   EXPECT_EQ(alphas(*low), std::pair(255, 255)); // 0.4 is above the file's cut-off: it stays
+  // the factor counts, too: 0.6 and 0.24; 0.4 and 0.16
+  EXPECT_EQ(alphas(*read({ { "alphaMode", "MASK" } }, 0.6)), std::pair(255, 0));
+  EXPECT_EQ(alphas(*read({ { "alphaMode", "MASK" }, { "alphaCutoff", 0.2 } }, 0.6)), std::pair(255, 255));
+  EXPECT_EQ(alphas(*read({ { "alphaMode", "MASK" }, { "alphaCutoff", 0.2 } }, 0.4)), std::pair(255, 0));
+  EXPECT_EQ(read({ { "alphaMode", "MASK" } }, 0.6)->materials[0].opacity, 1);
 }

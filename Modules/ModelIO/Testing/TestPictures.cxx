@@ -273,6 +273,46 @@ TEST(Pictures, EveryKindOfJpegIsWhatTheLibraryReads)
   }
 }
 
+TEST(Pictures, ChannelsAreGreyOrColourAndAlpha)
+{
+  const TemporaryFolder folder;
+  const auto write = [&folder](const std::string& name, int channels, const std::vector<float>& values)
+  {
+    const auto output = OIIO::ImageOutput::create(folder.path(name));
+    OIIO::ImageSpec spec(
+      2, 1, channels, name.find(".exr") == std::string::npos ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT);
+    spec["oiio:UnassociatedAlpha"] = 1;
+    output->open(folder.path(name), spec);
+    output->write_image(OIIO::TypeDesc::FLOAT, values.data());
+    return output->close();
+  };
+  const std::vector<float> first = { 0.2f, 0.4f, 0.6f, 0.8f }; // of 255: 51, 102, 153, 204
+  const std::vector<int> expected[] = { { 51, 51, 51, 255 }, { 51, 51, 51, 102 }, { 51, 102, 153, 255 },
+    { 51, 102, 153, 204 } };
+  for (int channels = 1; channels <= 4; ++channels)
+  {
+    std::vector<float> values(first.begin(), first.begin() + channels);
+    values.resize(2 * std::size_t(channels), 1);
+    ASSERT_TRUE(write("a.png", channels, values));
+    std::string problem;
+    const auto image = dgtk::decodeTexture(folder.path("a.png"), problem);
+    ASSERT_TRUE(image) << problem;
+    EXPECT_EQ(std::vector<int>(image->rgba.begin(), image->rgba.begin() + 4), expected[channels - 1]) << channels;
+    EXPECT_EQ(std::vector<int>(image->rgba.begin() + 4, image->rgba.end()), (std::vector<int>{ 255, 255, 255, 255 }));
+    EXPECT_EQ(image->hasAlpha, channels % 2 == 0) << channels;
+    // light has no alpha
+    ASSERT_TRUE(write("a.exr", channels, values));
+    const auto light = dgtk::decodeRadiance(folder.path("a.exr"), problem);
+    ASSERT_TRUE(light) << problem;
+    const bool grey = channels < 3;
+    EXPECT_NEAR(light->rgb.at(0), 0.2, 1e-3) << channels;
+    EXPECT_NEAR(light->rgb.at(1), grey ? 0.2 : 0.4, 1e-3) << channels;
+    EXPECT_NEAR(light->rgb.at(2), grey ? 0.2 : 0.6, 1e-3) << channels;
+    EXPECT_NEAR(light->rgb.at(3), 1, 1e-3) << channels;
+    EXPECT_NEAR(light->rgb.at(5), 1, 1e-3) << channels;
+  }
+}
+
 TEST(Pictures, APictureThatEndsItsDecoderCostsItself)
 {
   const TemporaryFolder folder;

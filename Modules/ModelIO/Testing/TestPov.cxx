@@ -356,6 +356,14 @@ TEST(Pov, DamageIsRefusedWithItsPlace)
     "face_indices point outside vertex_vectors (expected below 3, found 3)");
   expectRefusal(vertices + "face_indices { 1, <0,1,2>, 0 } }", "face_indices point outside texture_list");
   expectRefusal(vertices + "face_indices { 1, <0,1,-2> } }", "is no index or count");
+  const std::string face = "face_indices { 1, <0,1,2> } ";
+  const std::string two = "{ 2, <0,0,1>, <0,0,1> } ";
+  expectRefusal(vertices + "normal_vectors " + two + face + "normal_indices { 1, <0,1,2> } }",
+    "normal_indices point outside their list (expected below 2, found 2)");
+  expectRefusal(vertices + "uv_vectors { 2, <0,0>, <1,0> } " + face + "uv_indices { 1, <0,2,1> } }",
+    "uv_indices point outside their list (expected below 2, found 2)");
+  expectRefusal(vertices + "normal_vectors " + two + face + "normal_indices { 2, <0,1,1>, <0,1,1> } }",
+    "normal_indices do not match the faces (expected 1, found 2)");
   expectRefusal(vertices + "face_indices { 4000000000, <0,1,2> } }", "is no index or count");
   expectRefusal("mesh { triangle { <0,0,0>, <1,0",
     ":1: cannot understand a value (expected a number or vector, found end of file)");

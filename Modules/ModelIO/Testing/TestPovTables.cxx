@@ -74,14 +74,14 @@ TEST(PovTables, Expressions)
     { "<1,2,3,4,5>.filter", 4 }, { "<1,2,3>.red", 1 }, { "<1,2,3>.green", 2 }, { "<1,2,3>.blue", 3 }, { "<6,7>.u", 6 },
     { "<6,7>.v", 7 }, { "<6,7>.z", 0 }, { "(5).z", 5 }, { "(2*x+3*y+5*z).y", 3 }, { "(x+4).y", 4 },
     { "(<1,2,3>*<4,5,6>).z", 18 }, { "(<1,2,3>/<4,8,6>).z", 0.5 }, { "(<1,2,3>-1).z", 2 }, { "(8/<1,2,4>).z", 2 },
-    { "u.x", 1 }, { "v.y", 1 }, { "t.t", 1 }, { "x.y", 0 }, { "pi", 3.14159265358979323846 }, { "tau/pi", 2 },
-    { "true", 1 }, { "false", 0 }, { "yes", 1 }, { "no", 0 }, { "on", 1 }, { "off", 0 }, { "clock", 0 },
-    { "clock_delta", 1 }, { "clock_on", 0 }, { "frame_number", 1 }, { "initial_frame", 1 }, { "final_frame", 1 },
-    { "initial_clock", 0 }, { "final_clock", 0 }, { "image_width", 160 }, { "image_height", 120 }, { "version", 3.7 },
-    { "unix", 1 }, { "(1 < 2)", 1 }, { "(2 < 2)", 0 }, { "(2 > 1)", 1 }, { "(2 > 2)", 0 }, { "(2 = 2)", 1 },
-    { "(2 = 1)", 0 }, { "(2 != 2)", 0 }, { "(2 != 1)", 1 }, { "(1 & 2)", 1 }, { "(1 & 0)", 0 }, { "(0 | 3)", 1 },
-    { "(0 | 0)", 0 }, { "(1+1 = 2 & 1)", 1 }, { "(0 ? 3 : 1 ? 4 : 5)", 4 }, { "(2 ? 0 ? 3 : 6 : 5)", 6 },
-    { "(1 = 2 | 2 = 2 ? 8 : 9)", 8 } };
+    { "(<1,2,3>/<0,8,6>).y", 0.25 }, { "u.x", 1 }, { "v.y", 1 }, { "t.t", 1 }, { "x.y", 0 },
+    { "pi", 3.14159265358979323846 }, { "tau/pi", 2 }, { "true", 1 }, { "false", 0 }, { "yes", 1 }, { "no", 0 },
+    { "on", 1 }, { "off", 0 }, { "clock", 0 }, { "clock_delta", 1 }, { "clock_on", 0 }, { "frame_number", 1 },
+    { "initial_frame", 1 }, { "final_frame", 1 }, { "initial_clock", 0 }, { "final_clock", 0 }, { "image_width", 160 },
+    { "image_height", 120 }, { "version", 3.7 }, { "unix", 1 }, { "(1 < 2)", 1 }, { "(2 < 2)", 0 }, { "(2 > 1)", 1 },
+    { "(2 > 2)", 0 }, { "(2 = 2)", 1 }, { "(2 = 1)", 0 }, { "(2 != 2)", 0 }, { "(2 != 1)", 1 }, { "(1 & 2)", 1 },
+    { "(1 & 0)", 0 }, { "(0 | 3)", 1 }, { "(0 | 0)", 0 }, { "(1+1 = 2 & 1)", 1 }, { "(0 ? 3 : 1 ? 4 : 5)", 4 },
+    { "(2 ? 0 ? 3 : 6 : 5)", 6 }, { "(1 = 2 | 2 = 2 ? 8 : 9)", 8 } };
   for (const auto& [expression, expected] : table)
   {
     EXPECT_DOUBLE_EQ(value(expression), expected) << expression;
@@ -205,13 +205,15 @@ TEST(PovTables, TexturesOfManySources)
 {
   const std::string declared = "#declare P = pigment { rgb <1, 0.5, 0> }\n#declare F = finish { diffuse 0.5 }\n"
                                "#declare T = texture { pigment { P } finish { F } }\n#default { pigment { rgb <0, 0.5, "
-                               "1> } finish { diffuse 0.75 } }\n";
+                               "1> } finish { diffuse 0.75 } }\n"
+                               "#declare Layers = texture { T } texture { pigment { P } }\n";
   const std::pair<const char*, Eigen::Vector3d> table[] = { { "", { 0, 0.375, 0.75 } },
     { "texture { T }", { 0.5, 0.25, 0 } }, { "texture { T finish { diffuse 1 } }", { 1, 0.5, 0 } },
     { "texture { pigment { P } }", { 0.75, 0.375, 0 } }, { "pigment { P }", { 0.75, 0.375, 0 } },
     { "pigment { P } finish { F }", { 0.5, 0.25, 0 } }, { "finish { F }", { 0, 0.25, 0.5 } },
     { "material { texture { T } }", { 0.5, 0.25, 0 } }, { "texture { T } pigment { rgb 1 }", { 0.5, 0.5, 0.5 } },
-    { "texture { finish { F } } texture { T }", { 0.5, 0.25, 0 } } };
+    { "texture { finish { F } } texture { T }", { 0.5, 0.25, 0 } }, { "texture { Layers }", { 0.75, 0.375, 0 } },
+    { "pigment { P } texture { finish { F } }", { 0, 0.25, 0.5 } } };
   for (const auto& [modifiers, color] : table)
   {
     expectNear(color, drawn(modifiers, declared).material.diffuse, modifiers);

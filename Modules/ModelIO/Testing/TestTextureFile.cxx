@@ -204,6 +204,15 @@ TEST(TextureFile, Pcx)
   EXPECT_EQ(texel(*image, 2, 1), (std::vector<int>{ 9, 246, 7, 255 }));
 }
 
+TEST(TextureFile, RunsOfPcxAreOfUpToSixtyThree)
+{
+  const auto image = decoded("skin.pcx", pcx(70, 1, std::string("\xff\x05\xc7\x06\x01")));
+  ASSERT_TRUE(image);
+  EXPECT_EQ(texel(*image, 62, 0)[0], 5);
+  EXPECT_EQ(texel(*image, 63, 0)[0], 6);
+  EXPECT_EQ(texel(*image, 69, 0)[0], 6);
+}
+
 TEST(TextureFile, PcxOfThreePlanes)
 {
   std::string bytes = pcx(2, 1, "");
