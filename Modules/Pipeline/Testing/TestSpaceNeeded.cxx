@@ -41,6 +41,33 @@ TEST(SpaceNeeded, IsNeverMoreThanTheFilesAre)
   EXPECT_GE(needed.likely, needed.least);
 }
 
+TEST(SpaceNeeded, OfEachFormat)
+{
+  struct Row
+  {
+    PixelType type;
+    int channels;
+    const char* format;
+    std::uint64_t least, likely; ///< of 129 x 64 pixels
+  };
+  constexpr std::uint64_t pixels = 129 * 64; // 8 times 1032
+  const Row table[] = { { PixelType::Float64, 3, "npy", 24 * pixels, 24 * pixels },
+    { PixelType::UInt8, 1, "npy", pixels, pixels }, { PixelType::Float64, 1, "pfm", 4 * pixels, 4 * pixels },
+    { PixelType::Float64, 2, "flo", 8 * pixels, 8 * pixels }, { PixelType::Float64, 1, "dgd", 8 * pixels, 8 * pixels },
+    { PixelType::UInt32, 1, "ppm", 3 * pixels, 3 * pixels }, { PixelType::UInt8, 3, "ppm", 3 * pixels, 3 * pixels },
+    { PixelType::UInt8, 4, "png", 32, pixels }, { PixelType::Float32, 1, "exr", 8, pixels },
+    { PixelType::UInt8, 1, "json", 0, 0 } };
+  for (const Row& row : table)
+  {
+    LayerSpec spec;
+    spec.type = row.type;
+    spec.channels = row.channels;
+    const SpaceNeeded needed = spaceOf(spec, row.format, 129, 64);
+    EXPECT_EQ(needed.least, row.least) << row.format;
+    EXPECT_EQ(needed.likely, row.likely) << row.format;
+  }
+}
+
 TEST(SpaceNeeded, IsRefusedOnlyWhenItCannotFit)
 {
   const SpaceNeeded needed{ 1000, 5000000000 };
