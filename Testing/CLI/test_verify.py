@@ -124,6 +124,10 @@ class Planted(Spoiled):
         row = next(line for line in table.splitlines() if "cv::projectPoints" in line)
         self.assertIn("5.00e-01", row)
 
+    def test_camera_that_the_scene_has_not(self):
+        self.edit("cameras.json", lambda document: document["cameras"][0].update(name="middle"))
+        self.refused("verify", self.path("set"), status=3, says="cameras.json: camera 'middle' is not in the scene")
+
     def test_distance_for_depth(self):
         shutil.copy(self.path("set", "left", "distance", "000001.npy"), self.path("set", "left", "depth", "000001.npy"))
         self.accept("left/depth/000001.npy")
@@ -343,6 +347,53 @@ class PlantedSamples(Spoiled):
         shutil.copy(os.path.join(folder, "000000_background.png"), os.path.join(folder, "000000_composite.png"))
         self.accept("left/matting_vase/000000_composite.png")
         self.found("left/matting_vase/000000_composite.png: pixel", "matting")
+
+
+    def test_without_a_picture_of_the_set(self):
+        for missing in ("background", "foreground", "composite", "alpha", "trimap"):
+            name = f"left/matting_vase/000000_{missing}.png"
+            with self.subTest(missing):
+                manifest = load_json(self.path("set", "manifest.json"))
+                manifest["files"] = [entry for entry in manifest["files"] if entry["path"] != name]
+                self.write(os.path.join("set", "manifest.json"), json.dumps(manifest))
+                os.remove(self.path("set", name))
+                self.dgtk("verify", self.path("set"))
+
+
+class Placed(Case):
+    """Boxes before a wall, seen by cameras side by side, one raised, one turned and one far to the right."""
+
+    def verified(self, offset, layers, *options):
+        def box(name, position, scale):
+            return {"name": name, "model": os.path.join(SCENES, "..", "Models", "crate.ac"),
+                    "position": [a + b for a, b in zip(position, offset)], "scale": scale}
+
+        def camera(name, x, y, target):
+            return {"name": name, "width": 64, "height": 48, "fovY": 50, "near": 0.5, "far": 50,
+                    "eye": [x + offset[0], y + offset[1], 5 + offset[2]],
+                    "lookAt": [x + target + offset[0], y + offset[1], offset[2]]}
+
+        scene = {"version": 1, "objects": [box("wall", [0, 0, -4], [40, 40, 1]), box("one", [-0.4, 0.1, 0], [1, 1, 1]),
+                                           box("two", [0.7, -0.3, 1], [0.6, 0.5, 0.4])],
+                 "cameras": [camera("middle", 0, 0, 0), camera("raised", 0.25, 0.25, 0), camera("turned", 0.3, 0, 0.1),
+                             camera("right", 0.5, 0, 0)]}
+        scene["objects"][1]["position"] = {"keys": [[0, scene["objects"][1]["position"]],
+                                                    [1, [offset[0], 0.2 + offset[1], 0.3 + offset[2]]]]}
+        self.write("scene.json", json.dumps(scene))
+        self.dgtk("render", self.path("scene.json"), "-o", self.path("set"), "--quiet", "--replace", "--visibility", "ray",
+                  "--layers", layers, *options)
+        return json.loads(self.dgtk("verify", self.path("set"), "--json").stdout)
+
+    def test_disparities_are_of_cameras_side_by_side(self):
+        report = self.verified([0, 0, 0], "depth,objects,disparity", "--cameras", "middle,right")
+        counts = {(row["check"], row["layer"]): row["count"] for row in report["residuals"]}
+        self.assertEqual(counts["motion", "disparity"], 4 * 64 * 48)  # two cameras, two frames
+
+    def test_far_from_the_origin(self):
+        layers = "depth,objects,position,normal,edges,correspondence,flow_forward,sceneflow,disparity"
+        for offset in ([0, 0, 0], [3e7, -1e7, 2e7], [0, 0, 4e8]):
+            with self.subTest(offset):
+                self.verified(offset, layers, "--frames", "0:1", "--pairs", "middle:raised,turned:right")
 
 
 class Refusals(Case):

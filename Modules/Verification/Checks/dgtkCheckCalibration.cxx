@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 
+#include <Eigen/Geometry>
 #include <opencv2/calib3d.hpp>
 
 #include <cmath>
@@ -96,21 +97,21 @@ void checkOpenCV(Picture& picture, const Points& points, Results& results)
 {
   const CameraRecord& camera = picture.eye().record();
   cv::Matx33d K;
-  cv::Matx33d R;
   for (int i = 0; i < 3; ++i)
   {
     for (int j = 0; j < 3; ++j)
     {
       K(i, j) = camera.K(i, j);
-      R(i, j) = camera.R(i, j);
     }
   }
   if (K(0, 1) != 0) // projectPoints knows no skew
   {
     return;
   }
-  cv::Vec3d rotation;
-  cv::Rodrigues(R, rotation);
+  // cv::Rodrigues() takes square roots of roundings near half a turn, which level cameras make that look along -z.
+  const Eigen::AngleAxisd turn(camera.R);
+  const Eigen::Vector3d vector = turn.angle() * turn.axis();
+  const cv::Vec3d rotation(vector.x(), vector.y(), vector.z());
   const cv::Vec3d translation(camera.t.x(), camera.t.y(), camera.t.z());
   results.add({ "cv::projectPoints", "pixel", { points.file()->file() } },
     checkPoints(picture, points, points.file()->file(),
