@@ -67,15 +67,15 @@ class Models(Case):
     def test_everything_that_is_told_of_a_model(self):
         """Two flat squares across an edge: six vertices, of which the edge's two have two normals, so that eight are drawn."""
         model = self.write("roof.ac", 'AC3Db\nMATERIAL "" rgb 1 1 1 amb 0 0 0 emis 0 0 0 spec 0 0 0 shi 0 trans 0\n'
-                           "OBJECT poly\ntexture \"none.png\"\nnumvert 6\n0 0 0\n2 0 0\n2 3 0\n0 3 0\n2 0 -1\n2 3 -1\nnumsurf 3\n"
+                           "OBJECT poly\ntexture \"none.png\"\nnumvert 6\n0 0 0\n2 0 0\n2 3 0\n0 3 0\n2 0 -1\n2 3 -1\nnumsurf 5\n"
                            "SURF 0x20\nmat 0\nrefs 4\n0 0 0\n1 0 0\n2 0 0\n3 0 0\nSURF 0x00\nmat 0\nrefs 4\n1 0 0\n4 0 0\n5 0 0\n2 0 0\n"
-                           "SURF 0x02\nrefs 2\n0 0 0\n2 0 0\nkids 0\n")
+                           "SURF 0x02\nrefs 2\n0 0 0\n2 0 0\n" + 2 * "SURF 0x02\nrefs 2\n0 0 0\n1 0 0\n" + "kids 0\n")
         found = self.info(model)
         self.assertIn("none.png", found.pop("warnings")[0])
         self.assertEqual(found, {
             "file": model, "format": "ac3d", "triangles": 4, "drawn_triangles": 4, "vertices": 6, "parts": 1, "materials": 1,
             "textures": [{"name": "none.png", "found": False}], "bounds": [[0, 0, -1], [2, 3, 0]], "two_sided_triangles": 2,
-            "two_sided_surfaces": 1, "lines": 1, "frames": 1, "animations": [], "animations_beside": []})
+            "two_sided_surfaces": 1, "lines": 3, "frames": 1, "animations": [], "animations_beside": []})
 
 
 class Scenes(Case):
@@ -113,6 +113,21 @@ class Scenes(Case):
         self.assertAlmostEqual(camera["K"][0][0], 240 / math.tan(math.radians(30)), delta=1e-9)
         self.assertEqual(camera["K"][0][2], 320)
         self.assertEqual(camera["t"], [0, 0, 5])
+
+    def test_everything_that_is_told_of_a_dataset(self):
+        out = self.path("out")
+        self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", out, "--quiet", "--size", "16x12", "--frames", "1:2", "--cameras", "right",
+                  "--layers", "depth,objects", "--depth-format", "npy,pfm", "--visibility", "ray")
+        found = json.loads(self.dgtk("info", out, "--json").stdout)
+        manifest = load_json(os.path.join(out, "manifest.json"))
+        classes = load_json(os.path.join(out, "objects.json"))["classes"]
+        self.assertEqual(found, {
+            "dataset": out, "version": manifest["version"], "cameras": ["right"], "first_frame": 1, "last_frame": 2, "frames": 2,
+            "files": len(manifest["files"]), "bytes": sum(file["bytes"] for file in manifest["files"]), "units": manifest["units"],
+            "layers": [{"name": row["name"], "format": row["format"], "type": row["type"] if row["format"] != "pfm" else "float32",
+                        "channels": 1, "unit": row["unit"], "files": 4 if row["name"] == "depth" else 2} for row in manifest["layers"]],
+            "classes": classes, "request": manifest["request"]})
+        self.assertEqual([(row["name"], row["format"]) for row in found["layers"]], [("depth", "npy"), ("depth", "pfm"), ("objects", "ppm")])
 
     def test_layers_have_the_type_of_their_files(self):
         self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", self.path("out"), "--quiet", "--size", "16x12", "--frames", "0",

@@ -56,6 +56,23 @@ class Usage(Case):
         self.refused("list", "nothing", status=2, says="expected one of readers")
         self.assertFalse(os.path.exists(self.path("x")))
 
+    def test_each_command_takes_its_number_of_arguments(self):
+        for command, least, most in (("render", 1, 1), ("info", 1, 1), ("convert", 2, 2), ("verify", 1, 1), ("correspond", 1, 1),
+                                     ("compare", 2, 2), ("warp", 1, 1), ("list", 0, 1)):
+            with self.subTest(command):
+                if least > 0:
+                    self.refused(command, *["x"] * (least - 1), status=2, says="too few arguments; usage: dgtk " + command)
+                self.refused(command, *["x"] * (most + 1), status=2, says="too many arguments; usage: dgtk " + command)
+
+    def test_names_and_frames(self):
+        words = ("render", SCENE, "-o", self.path("x"), "--layers", "depth")
+        for names in (",", "depth,", ",depth", "depth,,objects"):
+            self.refused("render", SCENE, "-o", self.path("x"), "--layers", names, status=2, says="--layers: an empty name")
+        for frames, says in (("0:4:0", "STEP >= 1, found '0:4:0'"), ("0:4:-1", "STEP >= 1"), ("4:0", "A <= B"), ("a", "--frames"),
+                             ("0:1:1:1", "--frames"), ("", "--frames"), ("0:", "--frames")):
+            self.refused(*words, "--frames", frames, status=2, says=says)
+        self.assertFalse(os.path.exists(self.path("x")))
+
     def test_lines_of_progress_come_as_often_as_asked(self):
         words = ("render", SCENE, "-o", self.path("x"), "--size", "16x12", "--layers", "depth")
         often = self.dgtk(*words, environment={"DGTK_PROGRESS": "0.01"}).stderr
@@ -78,6 +95,11 @@ class Usage(Case):
         self.assertEqual(("float64", "depth", ["depth_format"]), (depth["outputs"][0]["type"], depth["outputs"][0]["meaning"], depth["options"]))
         samples = next(row for row in known["options"] if row["name"] == "samples")
         self.assertEqual(("integer", 1, 16), (samples["kind"], samples["least"], samples["most"]))
+        told = {row["name"]: {key: row[key] for key in ("kind", "least", "most", "choices") if key in row} for row in known["options"]}
+        for name, expected in (("color_bits", {"kind": "choice", "choices": ["8", "16"]}), ("pack", {"kind": "switch"}),
+                               ("matte", {"kind": "names"}), ("pov_position_colors", {"kind": "numbers"}),
+                               ("samples", {"kind": "integer", "least": 1, "most": 16})):
+            self.assertEqual(told[name], expected)
         for word in ("readers:", "layers:", "writers:", "cameras:", "gl:"):
             self.assertIn(word, everything)
 
