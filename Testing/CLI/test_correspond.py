@@ -6,9 +6,11 @@ import os
 import numpy
 
 from harness import SCENES, Case, load_json, main
+from pictures import read_png
 
 STEREO = os.path.join(SCENES, "dataset_stereo.json")
 FLOW = os.path.join(SCENES, "dataset_flow.json")
+CLASSES = ["no surface", "visible", "occluded", "self-occluded", "outside", "behind"]
 
 
 def camera_of(folder, name, frame=0):
@@ -49,15 +51,23 @@ class Correspond(Case):
             self.assertLess(numpy.nanmax(abs(disparity - left["K"][0, 0] * baseline / depth)), 1e-9)
 
     def test_given_points_are_the_dense_ones(self):
-        self.render(STEREO, "correspondence", "--cameras", "left", "--pairs", "left:right")
+        self.render(STEREO, "correspondence,objects", "--cameras", "left", "--pairs", "left:right", "--objects-format", "npy")
         dense = self.layer("left", "correspondence_right", "000000.npy")
+        objects = self.layer("left", "objects", "000000.npy")
+        kinds = read_png(self.path("out", "left", "correspondence_right", "000000.png"))[..., 0]
+        names = {row["id"]: row["name"] for row in load_json(self.path("out", "objects.json"))["objects"]}
         places = [(10, 20), (160, 120), (311, 200), (90, 150)]
+        places += [tuple(map(int, numpy.argwhere(kinds == kind)[0][::-1])) for kind in numpy.unique(kinds)]
         points = self.write("points.txt", "# x y\n" + "\n".join(f"{x + 0.5}, {y + 0.5}" for x, y in places))
         arguments = ["correspond", STEREO, "--from", "left", "--to", "right", "--points", points]
         matches = json.loads(self.dgtk(*arguments, "--json").stdout)["matches"]
         self.assertEqual(len(matches), len(places))
         for (x, y), match in zip(places, matches):
             self.assertLess(abs(numpy.array(match["to"]) - dense[y, x]).max(), 1e-9)
+            self.assertEqual(match["from"], [x + 0.5, y + 0.5])
+            self.assertEqual((match["class"], match["object"]), (kinds[y, x], objects[y, x]))
+            self.assertEqual(match["visibility"], CLASSES[match["class"]])
+            self.assertEqual(match["name"], names[match["object"]])
         lines = self.dgtk(*arguments).stdout.splitlines()
         self.assertEqual(len([line for line in lines if not line.startswith("#")]), len(places))
 
