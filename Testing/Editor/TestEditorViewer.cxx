@@ -283,6 +283,14 @@ void TestEditorViewer::presetsAndLayouts()
   QCOMPARE(paneCount(viewer), 2);
   QCOMPARE(this->cell(viewer, 0, Camera) + this->cell(viewer, 1, Camera), QString("leftright"));
   QCOMPARE(this->cell(viewer, 1, Layer), QString("depth"));
+  // a layer that the other camera does not have: another one is shown there
+  this->choose(viewer, 0, "left", "correspondence_right");
+  QTest::keyClick(viewer, Qt::Key_C);
+  this->waitForPictures(viewer);
+  QCOMPARE(this->cell(viewer, 0, Layer), QString("correspondence_right"));
+  const std::vector<std::string> others = dataset.layersOf("right");
+  QVERIFY(std::count(others.begin(), others.end(), this->cell(viewer, 1, Layer).toStdString()) == 1);
+  QVERIFY2(this->picture(viewer, 1)->toolTip().isEmpty(), qPrintable(this->picture(viewer, 1)->toolTip()));
   QTest::keyClick(viewer, Qt::Key_4, Qt::ControlModifier);
   this->waitForPictures(viewer);
   QCOMPARE(paneCount(viewer), 4);

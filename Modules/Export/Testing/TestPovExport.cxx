@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <regex>
 #include <unistd.h>
 
@@ -378,6 +379,56 @@ TEST_F(PovExport, BumpsAreInSceneUnits)
   }
   EXPECT_NEAR(sizes[0], 0.6, 1e-12);          // a texel is half a unit wide
   EXPECT_NEAR(sizes[1], sizes[0] / 2, 1e-12); // texels are twice as large
+  // also beside a material that is plain
+  quad->materials.emplace_back();
+  const auto state = test::SceneBuilder().add(quad, test::placement({ 0, 0, 0 }, 2)).state();
+  exportPov(*state, this->V, this->path("b.pov"));
+  EXPECT_NEAR(after(readFile(this->path("b.pov")), "bump_size "), sizes[1], 1e-12);
+}
+
+TEST_F(PovExport, NotesSayWhatIsNotWritten)
+{
+  const auto notesOf = [this](const std::function<void(Material&, SceneState&)>& change)
+  {
+    const auto box = test::makeBox();
+    SceneState state = *test::SceneBuilder().add(box).state();
+    change(box->materials.at(0), state);
+    return exportPov(state, this->V, this->path("n.pov")).warnings;
+  };
+  EXPECT_THAT(notesOf([](Material&, SceneState&) {}), testing::IsEmpty());
+  // what a model's file says counts in the light of an environment only
+  EXPECT_THAT(notesOf(
+                [](Material& material, SceneState&) {
+                  material.physical = Material::Physical{ 1, 0.5, false };
+                }),
+    testing::IsEmpty());
+  EXPECT_THAT(notesOf(
+                [](Material& material, SceneState&) {
+                  material.physical = Material::Physical{ 1, 0.5, true };
+                }),
+    testing::ElementsAre("metallic and roughness are not written"));
+  EXPECT_THAT(notesOf([](Material& material, SceneState&) { material.normalMap = 0; }),
+    testing::ElementsAre("normal maps are not written"));
+  EXPECT_THAT(notesOf(
+                [](Material&, SceneState& state)
+                {
+                  state.fog = { { 1, 1, 1 }, 0.5, 0 };
+                  state.background = Eigen::Vector3d(0, 0, 0);
+                }),
+    testing::ElementsAre("fog hides the background"));
+}
+
+TEST_F(PovExport, NamesEndInPov)
+{
+  const auto state = test::SceneBuilder().add(test::makeBox()).state();
+  for (const char* name : { "a.pov", "a.POV", "a.PoV" })
+  {
+    EXPECT_NO_THROW(exportPov(*state, this->V, this->path(name))) << name;
+  }
+  for (const char* name : { "a.inc", "a", "a.pov.txt", "pov" })
+  {
+    EXPECT_THROW(exportPov(*state, this->V, this->path(name)), InputError) << name;
+  }
 }
 
 TEST_F(PovExport, FogIsScaledAndNoted)
