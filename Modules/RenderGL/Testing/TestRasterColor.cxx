@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 using namespace dgtk;
 using namespace dgtk::test;
@@ -204,6 +205,42 @@ TEST(RasterColor, AmbientSpecularAndEmission)
   const Eigen::Vector3d expected =
     material.ambient * 0.7 + material.emission + material.diffuse * cosine + material.specular * std::pow(cosine, 8);
   expectColor(colorAt(renderColor(state, frontView()), 32, 24), expected);
+}
+
+// Microfacets by GGX, Smith and Schlick in linear light, seen along the normal, by double precision.
+TEST(RasterColor, MetalAndRoughness)
+{
+  const auto linear = [](double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); };
+  const auto displayed = [](double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055; };
+  for (const auto& [metal, rough, angle] :
+    { std::tuple(0.0, 1.0, 0.0), { 0.0, 0.5, 0.5 }, { 1.0, 0.5, 0.5 }, { 0.5, 0.75, 1.0 }, { 1.0, 0.6, 0.0 } })
+  {
+    Material material = matte({ 0.5, 0.25, 0.125 });
+    material.emission = { 0, 0.1, 0.4 };
+    material.physical = Material::Physical{ metal, rough, true };
+    auto state = stateOf({ square(material) });
+    LightState light;
+    light.kind = LightState::Kind::Directional;
+    light.position = { std::sin(angle), 0, std::cos(angle) };
+    light.ambient = { 0.25, 0.25, 0.25 };
+    state->lights.push_back(light);
+    const double nl = std::cos(angle);
+    const double nh = std::cos(angle / 2);
+    const double a2 = std::pow(rough, 4);
+    const double d = nh * nh * (a2 - 1) + 1;
+    const double masking = nl + std::sqrt(nl * nl * (1 - a2) + a2);
+    Eigen::Vector3d expected;
+    for (int c = 0; c < 3; ++c)
+    {
+      const double base = linear(material.diffuse[c]);
+      const double f0 = 0.04 + (base - 0.04) * metal;
+      const double albedo = base * (1 - metal);
+      const double fresnel = f0 + (1 - f0) * std::pow(1 - nh, 5);
+      const double lit = nl * (albedo * (1 - fresnel) + fresnel * a2 / (d * d) * 0.5 / masking);
+      expected[c] = displayed(lit + linear(0.25 + 0.2) * (albedo + f0) + linear(material.emission[c]));
+    }
+    expectColor(colorAt(renderColor(state, frontView()), 32, 24), expected.cwiseMin(1));
+  }
 }
 
 TEST(RasterColor, BothSidesAndMirroredInstancesAreLitAlike)
