@@ -335,10 +335,10 @@ class ImageFormation(harness.Case):
                          "position": {"keys": [[0, [0, 1, 0]], [2, [0.3, 1, 0]]]}, "scale": 0.02},
                         {"model": "square.obj", "position": [0.5, 1, 0.5], "scale": 0.3,
                          "materials": {"*": {"metallic": 1, "roughness": 0.2, "opacity": 0.5}}}],
-            "lights": [{"kind": "directional", "position": [1, 3, 2], "target": [0, 0, 0], "shadows": True},
+            "lights": [{"kind": "directional", "position": [1, 3, 2], "target": [0, 0, 0], "shadows": True, "shadowSize": 512},
                        {"kind": "point", "position": [-1, 2, 1], "shadows": True, "shadowSize": 256,
                         "attenuation": [1, 0, 0.5]},
-                       {"kind": "spot", "position": [0, 3, 0], "target": [0, 0, 0], "shadows": True}],
+                       {"kind": "spot", "position": [0, 3, 0], "target": [0, 0, 0], "shadows": True, "shadowSize": 256}],
             "environment": self.environment("sky", sky), "fog": {"density": 0.05},
             "cameras": [{"name": "c", "eye": [1.5, 2, 3], "lookAt": [0, 0.7, 0], "width": 144, "height": 108,
                          "shutter": {"open": 0, "close": 0.5, "exposures": 4}, "lens": {"aperture": 0.05, "focus": 3}}]}
