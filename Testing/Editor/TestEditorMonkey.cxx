@@ -24,7 +24,6 @@
 namespace
 {
 constexpr int usualEvents = 1000;
-constexpr int slowest = 150;       // milliseconds an event, with sanitizers and dialogs within dialogs
 constexpr int eventsBetween = 100; // checks that everything can be undone
 constexpr int mostOthers = 4;      // of so many checks one at least is of the scene that there was before
 constexpr int undoneBetween = 3;   // looks at the heap
@@ -337,9 +336,4 @@ void TestEditorMonkey::randomEventsDoNoHarm()
   QVERIFY2(late < 1.2 * early + memorySlack, qPrintable(QString("%1 MiB became %2 MiB").arg(early).arg(late)));
 }
 
-int main(int argc, char** argv)
-{
-  // Qt ends a case after five minutes; dialogs within dialogs may take a while to come to their end.
-  qputenv("QTEST_FUNCTION_TIMEOUT", QByteArray::number(600000 + qlonglong(slowest) * eventsAsked()));
-  return runEditorTest<TestEditorMonkey>(argc, argv);
-}
+int main(int argc, char** argv) { return runEditorTest<TestEditorMonkey>(argc, argv); }
