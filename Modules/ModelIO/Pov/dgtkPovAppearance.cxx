@@ -304,7 +304,7 @@ PovTexturePointer PovAppearance::texture(const std::string& kind, const PovTextu
     this->Stream.expect('{', kind.c_str());
     same = this->body('}', kind, base, *result);
   }
-  return same ? this->Session.symbols.nameTexture(same, result) : result;
+  return same ? same : result;
 }
 
 bool PovAppearance::modifier(PovModifiers& to)

@@ -30,6 +30,10 @@ void PovSymbols::declare(const std::string& name, PovValue value)
 {
   value.used = false;
   value.order = ++this->Declarations;
+  if (value.texture && value.texture->name.empty())
+  {
+    value.texture = std::make_shared<PovTexture>(PovTexture{ value.texture->pigment, value.texture->finish, name });
+  }
   this->Values[name] = std::move(value);
 }
 
@@ -60,13 +64,6 @@ void PovSymbols::declareColors()
     value.number = { { rgb[0], rgb[1], rgb[2] }, 5, true, nullptr };
     this->Values.emplace(name, value);
   }
-}
-
-PovTexturePointer PovSymbols::nameTexture(const PovTexturePointer& declared, const PovTexturePointer& named)
-{
-  const auto found = this->Values.find(named->name);
-  const bool isNew = found != this->Values.end() && found->second.texture == declared && declared->name.empty();
-  return isNew ? found->second.texture = named : declared;
 }
 
 bool PovSymbols::isMesh(const PovToken& token) const

@@ -75,6 +75,7 @@ public:
   /// Whether there is a value or a macro of that name.
   bool has(const std::string& name) const { return this->Values.count(name) > 0 || this->Macros.count(name) > 0; }
 
+  /// A texture that has no name yet gets that one.
   void declare(const std::string& name, PovValue value);
   void declareMacro(const std::string& name, const Macro& macro) { this->Macros[name] = macro; }
   void undeclare(const std::string& name) { this->Values.erase(name); }
@@ -82,9 +83,6 @@ public:
   void poison(const std::vector<std::string>& names, const PovPlace& place, const std::string& what);
   /// The library's colours of the same names, for scenes whose colors.inc is not at hand.
   void declareColors();
-
-  /// Gives a declared texture without a name that of `named`, which is the same, for all its users; returns it.
-  PovTexturePointer nameTexture(const PovTexturePointer& declared, const PovTexturePointer& named);
 
   /// Whether a token begins or stands for a mesh.
   bool isMesh(const PovToken& token) const;
