@@ -86,8 +86,7 @@ public:
   void render(const PixelRect& rect, VisibilityBuffer& hits) override;
   std::function<void()> drawColor(
     const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits) override;
-  std::function<void()> drawColorLater(const PixelRect& rect, ColorBuffer& colors) override;
-  void finish() override;
+  UnreadColor startColor(const PixelRect& rect, int samples, ColorBuffer& colors) override;
   void peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit) override;
 
 private:
@@ -96,11 +95,6 @@ private:
   {
     std::vector<float> pixels;
     std::vector<float> ids;
-  };
-  struct Unread
-  {
-    RasterTarget* target = nullptr;
-    std::shared_ptr<Drawn> to;
   };
   void aim(RasterTarget& target, const PixelRect& rect, int samples, bool color);
   void drawSamples(const PixelRect& rect, int samples, bool hits);
@@ -117,8 +111,7 @@ private:
   vtkOpenGLRenderWindow* Window;
   RasterScene Scene;
   RasterTarget Main{ false };
-  RasterTarget Other{ false }; // of drawColorLater(), in turn with Main
-  Unread Last;                 // not read yet when it has a target
+  std::vector<std::shared_ptr<RasterTarget>> Spare; // of startColor()
   RasterTarget Layers[2]{ RasterTarget{ true }, RasterTarget{ true } };
   std::shared_ptr<const SceneState> State;
   View TheView;
@@ -146,10 +139,6 @@ void VtkRasterSource::aim(RasterTarget& target, const PixelRect& rect, int sampl
     throw UsageError("no scene was set");
   }
   this->Window->MakeCurrent();
-  if (this->Last.target == &target)
-  {
-    this->finish();
-  }
   if (color)
   {
     this->Scene.prepareLight(this->ClipControl);
@@ -229,34 +218,34 @@ std::function<void()> VtkRasterSource::restOf(
   };
 }
 
-std::function<void()> VtkRasterSource::drawColorLater(const PixelRect& rect, ColorBuffer& colors)
+UnreadColor VtkRasterSource::startColor(const PixelRect& rect, int samples, ColorBuffer& colors)
 {
-  if (this->Scene.hasTranslucent())
+  if (samples != 1 || this->Scene.hasTranslucent())
   {
-    return this->drawColor(rect, 1, colors, nullptr);
+    return { nullptr, this->drawColor(rect, samples, colors, nullptr) };
   }
   colors.resize(rect);
-  RasterTarget& target = this->Last.target == &this->Main ? this->Other : this->Main;
-  this->aim(target, rect, 1, true);
+  if (this->Spare.empty())
+  {
+    this->Spare.push_back(std::make_shared<RasterTarget>(false));
+  }
+  const std::shared_ptr<RasterTarget> target = std::move(this->Spare.back());
+  this->Spare.pop_back();
+  this->aim(*target, rect, 1, true);
   const Eigen::Vector3f background = this->State->background.cast<float>();
-  target.bind(true, false);
-  target.clear({ background.x(), background.y(), background.z(), 1 });
+  target->bind(true, false);
+  target->clear({ background.x(), background.y(), background.z(), 1 });
   this->Scene.drawColor(Surfaces::All);
   glFlush();
-  this->finish();
-  this->Last = { &target, std::make_shared<Drawn>() };
-  return this->restOf(this->Last.to, rect, colors, nullptr);
-}
-
-void VtkRasterSource::finish()
-{
-  if (this->Last.target)
+  const auto drawn = std::make_shared<Drawn>();
+  const auto read = [this, target, drawn]
   {
     this->Window->MakeCurrent();
-    this->Last.target->readColor(this->Last.to->pixels);
-    this->Last = {};
+    target->readColor(drawn->pixels);
     check();
-  }
+    this->Spare.push_back(target);
+  };
+  return { read, this->restOf(drawn, rect, colors, nullptr) };
 }
 
 /// Leaves the samples of a piece of the image in Pixels.

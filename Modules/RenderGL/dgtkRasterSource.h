@@ -31,6 +31,14 @@ DGTKRENDERGL_EXPORT PixelFilter pixelFilterFromName(const std::string& name);
 /// Weights of `samples` samples a pixel along one axis, from `margin` pixels before the pixel to `margin` after it.
 DGTKRENDERGL_EXPORT std::vector<double> pixelFilterWeights(PixelFilter filter, int samples, int& margin);
 
+/// A picture that OpenGL may still be at work on.
+struct UnreadColor
+{
+  /// Reads its pixels, in the thread of the source, which must still be there; nothing where they were read.
+  std::function<void()> read;
+  std::function<void()> rest = [] {}; ///< to be done then, in any thread, until the colours are there
+};
+
 /// The raster engine: draws with VTK. All calls come from one thread.
 class DGTKRENDERGL_EXPORT RasterSource : public ColorSource
 {
@@ -42,11 +50,9 @@ public:
   virtual void setHits(bool wanted) = 0;
   /// Of drawColor() with several samples a pixel; box unless set.
   virtual void setFilter(PixelFilter filter) = 0;
-  /// drawColor() with one sample a pixel, whose pixels are read by the next call of any function that draws, or by
-  /// finish(): OpenGL transforms the vertices of a picture while it fills the one before. What it returns may be called
-  /// from then on.
-  virtual std::function<void()> drawColorLater(const PixelRect& rect, ColorBuffer& colors) = 0;
-  virtual void finish() = 0;
+  /// drawColor() that leaves its pixels with OpenGL, where it can: with one sample a pixel and nothing translucent.
+  /// OpenGL transforms the vertices of a picture while it fills the one before.
+  virtual UnreadColor startColor(const PixelRect& rect, int samples, ColorBuffer& colors) = 0;
   /// Peels all surfaces along the rays through the pixel centres of `rect` (as in render()), nearest first; surfaces at
   /// one depth in the order of (object, triangle). Calls `visit` for each rank until it returns false or no pixel has a
   /// surface of that rank.

@@ -103,26 +103,25 @@ struct FrameSource::Tile
   ColorBuffer sharp;
   std::vector<SurfaceLayer> ranks;
   std::vector<MattePixels> mattes;
-  std::function<void()> rest = [] {}; ///< to be done before the buffers are whole
+  UnreadColor color; ///< to be read and finished before the buffers are whole
 };
 
-void FrameSource::drawColor(const PixelRect& rect, Tile& tile, bool later)
+void FrameSource::drawColor(const PixelRect& rect, Tile& tile)
 {
   if (!this->Exposed->blurs())
   {
-    tile.rest = later ? this->Raster->drawColorLater(rect, tile.colors)
-                      : this->Raster->drawColor(rect, this->Options.samples, tile.colors, nullptr);
+    tile.color = this->Raster->startColor(rect, this->Options.samples, tile.colors);
     return;
   }
   if (this->Options.needs.sharp)
   {
-    tile.rest = this->Raster->drawColor(rect, this->Options.samples, tile.sharp, nullptr);
+    tile.color.rest = this->Raster->drawColor(rect, this->Options.samples, tile.sharp, nullptr);
   }
   this->Exposed->draw(rect, this->Options.samples, tile.colors);
   this->Raster->setScene(this->State, this->TheView);
 }
 
-std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect, bool later)
+std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect)
 {
   auto tile = std::make_shared<Tile>();
   // Software OpenGL leaves cores idle while it transforms vertices; rays are traced meanwhile.
@@ -140,8 +139,9 @@ std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect, 
     }
     if (this->rasterColor())
     {
-      this->drawColor(rect, *tile, later);
+      this->drawColor(rect, *tile);
     }
+    this->finish(); // of the band before, while OpenGL works on this one
     if (this->Options.needs.peeled)
     {
       const auto keep = [&tile](const SurfaceLayer& rank)
@@ -184,69 +184,58 @@ void place(const std::vector<T>& from, const PixelRect& tile, int channels, cons
 }
 } // namespace
 
-bool FrameSource::readsLater() const
-{
-  return this->rasterColor() && this->Options.samples == 1 && !this->Options.needs.peeled && !this->Matting &&
-         this->Grid->columns() == 1 && !this->Exposed->blurs();
-}
-
 void FrameSource::finish()
 {
-  if (this->Raster)
+  LateBand late = std::exchange(this->Late, {});
+  if (late.read)
   {
-    this->Raster->finish();
-  }
-  this->give();
-}
-
-void FrameSource::give()
-{
-  if (this->Waiting)
-  {
-    this->WaitsFor(std::exchange(this->Waiting, nullptr));
+    late.read();
+    late.receiver(std::move(late.band));
   }
 }
 
 void FrameSource::draw(int row, const Receiver& receiver)
 {
-  const bool later = this->readsLater();
-  if (!later)
-  {
-    this->finish();
-  }
   auto drawn = std::make_shared<DrawnBand>();
-  this->drawBand(row, *drawn);
+  std::function<void()> read = this->drawBand(row, *drawn);
   if (this->Pov)
   {
     drawn->color = [&band = drawn->band, draw = this->Pov->colorOf(drawn->band.rect)] { band.rgb = draw(); };
   }
-  this->give();
-  this->Waiting = std::move(drawn);
-  this->WaitsFor = receiver;
-  if (!later)
+  if (!read)
   {
-    this->give();
-  }
-}
-
-void FrameSource::drawBand(int row, DrawnBand& drawn)
-{
-  Band& band = drawn.band;
-  const int columns = this->Grid->columns();
-  if (columns == 1)
-  {
-    band.rect = this->Grid->tile(0, row);
-    drawn.rest = [&band, tile = this->drawTile(band.rect, this->readsLater())]
-    {
-      tile->rest();
-      band.rgb = std::move(tile->colors.rgb);
-      band.sharp = std::move(tile->sharp.rgb);
-      band.hits = std::move(tile->hits.hits);
-      band.peeled.push_back(std::move(tile->ranks));
-      band.mattes = std::move(tile->mattes);
-    };
+    receiver(std::move(drawn));
     return;
   }
+  this->Late = { std::move(drawn), std::move(read), receiver };
+}
+
+/// What is still to be called before the band's rest, in this thread; nothing where all is read.
+std::function<void()> FrameSource::drawBand(int row, DrawnBand& drawn)
+{
+  Band& band = drawn.band;
+  if (this->Grid->columns() > 1)
+  {
+    this->drawTiles(row, band);
+    return nullptr;
+  }
+  band.rect = this->Grid->tile(0, row);
+  const std::shared_ptr<Tile> tile = this->drawTile(band.rect);
+  drawn.rest = [&band, tile]
+  {
+    tile->color.rest();
+    band.rgb = std::move(tile->colors.rgb);
+    band.sharp = std::move(tile->sharp.rgb);
+    band.hits = std::move(tile->hits.hits);
+    band.peeled.push_back(std::move(tile->ranks));
+    band.mattes = std::move(tile->mattes);
+  };
+  return std::exchange(tile->color.read, nullptr);
+}
+
+void FrameSource::drawTiles(int row, Band& band)
+{
+  const int columns = this->Grid->columns();
   const PixelRect last = this->Grid->tile(columns - 1, row);
   band.rect = { 0, last.y, last.x + last.width, last.height };
   const std::size_t pixels = std::size_t(band.rect.width) * band.rect.height;
@@ -274,12 +263,16 @@ void FrameSource::drawBand(int row, DrawnBand& drawn)
     for (int column = 0; column < columns; ++column)
     {
       const PixelRect rect = this->Grid->tile(column, row);
-      std::shared_ptr<Tile> tile = this->drawTile(rect, false);
+      std::shared_ptr<Tile> tile = this->drawTile(rect);
+      if (tile->color.read)
+      {
+        tile->color.read();
+      }
       band.peeled.push_back(std::move(tile->ranks));
       placed.push_back(this->Pool.submit(
         [this, &band, rect, sharp, tile = std::move(tile)]
         {
-          tile->rest();
+          tile->color.rest();
           if (this->Options.needs.hits)
           {
             place(tile->hits.hits, rect, 1, band.rect, band.hits);

@@ -51,21 +51,26 @@ public:
   /// Draws band `row`, 0 <= row < bands(), which `receiver` gets: at once, or, while OpenGL still works on it, with the
   /// next draw() or finish(). Bands are given in the order in which they are drawn.
   void draw(int row, const Receiver& receiver);
-  /// Gives the band that is still waited for. To be called before anything waits for what receivers do.
+  /// Reads and gives the band that OpenGL still works on. To be called before anything waits for what receivers do.
   void finish();
   /// Forgets that band.
-  void drop() { this->Waiting = nullptr; }
+  void drop() { this->Late = {}; }
   /// How OpenGL was reached, one line; empty when it is not used.
   const std::string& glDescription() const { return this->Description; }
 
 private:
   struct Tile;
-  std::shared_ptr<Tile> drawTile(const PixelRect& rect, bool later);
-  void drawColor(const PixelRect& rect, Tile& tile, bool later);
-  void drawBand(int row, DrawnBand& drawn);
-  void give();
-  /// Whether the colours of a picture may be read while the next one is drawn.
-  bool readsLater() const;
+  /// A band whose colours OpenGL has not handed over yet.
+  struct LateBand
+  {
+    std::shared_ptr<DrawnBand> band;
+    std::function<void()> read;
+    Receiver receiver;
+  };
+  std::shared_ptr<Tile> drawTile(const PixelRect& rect);
+  void drawColor(const PixelRect& rect, Tile& tile);
+  std::function<void()> drawBand(int row, DrawnBand& drawn);
+  void drawTiles(int row, Band& band);
   /// Whether the raster engine gives the colours.
   bool rasterColor() const { return this->Options.needs.color && !this->Pov; }
   FrameSourceOptions Options;
@@ -79,9 +84,7 @@ private:
   View TheView;
   std::unique_ptr<TileGrid> Grid;
   std::string Description;
-  /// Whose colours OpenGL has not handed over yet, and who gets it.
-  std::shared_ptr<DrawnBand> Waiting;
-  Receiver WaitsFor;
+  LateBand Late; ///< the only one: nothing else remembers what is not read
 };
 
 } // namespace dgtk

@@ -416,7 +416,7 @@ TEST(RasterColor, PicturesReadLaterAreTheSame)
   const View view = frontView(96, 72);
   std::vector<std::shared_ptr<SceneState>> states;
   std::vector<ColorBuffer> colors(3);
-  std::vector<std::function<void()>> rests;
+  std::vector<UnreadColor> unread;
   for (std::size_t i = 0; i < 3; ++i)
   {
     states.push_back(std::make_shared<SceneState>());
@@ -424,14 +424,13 @@ TEST(RasterColor, PicturesReadLaterAreTheSame)
     states[i]->lights.emplace_back();
     states[i]->background = { 0.1, 0.2, 0.1 * double(i) };
     late->setScene(states[i], view);
-    rests.push_back(late->drawColorLater(whole(view), colors[i]));
-    if (i > 0)
-    {
-      rests[i - 1]();
-    }
+    unread.push_back(late->startColor(whole(view), 1, colors[i]));
   }
-  late->finish();
-  rests[2]();
+  for (const UnreadColor& picture : unread)
+  {
+    picture.read();
+    picture.rest();
+  }
   for (std::size_t i = 0; i < 3; ++i)
   {
     ColorBuffer expected;
