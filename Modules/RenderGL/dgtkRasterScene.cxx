@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRasterScene.h"
 
+#include "dgtkDrawOrder.h"
 #include "dgtkError.h"
-#include "dgtkRasterTexture.h"
-#include "dgtkSurfaceMaterial.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <vtkFloatArray.h>
+#include <cmath>
 #include <vtkOpenGLCamera.h>
 #include <vtkOpenGLLight.h>
 #include <vtkOpenGLProperty.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLRenderer.h>
+#include <vtkOpenGLShaderCache.h>
 #include <vtkOpenGLShaderProperty.h>
+#include <vtkOpenGLState.h>
 #include <vtkOpenGLTexture.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtk_glew.h>
 
 namespace dgtk
@@ -26,35 +25,69 @@ namespace dgtk
 namespace
 {
 
-constexpr std::uint32_t maxChunk = 1u << 24; // triangle numbers are exact in float
-
-std::array<float, 3> floats(const Eigen::Vector3d& v) { return { float(v.x()), float(v.y()), float(v.z()) }; }
-
-Eigen::Vector3d middleOf(const std::vector<Eigen::Vector3d>& positions)
+Eigen::Matrix4d matrixOf(const Affine3& transform, const Eigen::Vector3d& origin)
 {
-  if (positions.empty())
+  Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
+  m.topLeftCorner<3, 3>() = transform.linear;
+  m.topRightCorner<3, 1>() = transform * origin;
+  return m;
+}
+
+/// False when the box is wholly outside one plane of the frustum.
+bool maySee(const Eigen::Matrix4d& clip_from_object, const Eigen::Vector3d& low, const Eigen::Vector3d& high)
+{
+  unsigned int outsideAll = 63;
+  for (int corner = 0; corner < 8; ++corner)
   {
-    return Eigen::Vector3d::Zero();
+    const Eigen::Vector4d x(
+      (corner & 1 ? high : low).x(), (corner & 2 ? high : low).y(), (corner & 4 ? high : low).z(), 1);
+    const Eigen::Vector4d clip = clip_from_object * x;
+    const double w = clip.w() + std::abs(clip.w()) * 1e-6;
+    const double back = -std::abs(clip.w()) * 1e-6 - std::abs(w); // [-1, 1] or [0, 1]: not sharper than needed
+    outsideAll &= (clip.x() > w ? 1u : 0u) | (-clip.x() > w ? 2u : 0u) | (clip.y() > w ? 4u : 0u) |
+                  (-clip.y() > w ? 8u : 0u) | (clip.z() > w ? 16u : 0u) | (clip.z() < back ? 32u : 0u);
   }
-  Eigen::Vector3d low = positions[0];
-  Eigen::Vector3d high = positions[0];
-  for (const Eigen::Vector3d& x : positions)
+  return outsideAll == 0;
+}
+
+/// A box that is turned, a little larger than needed: surfaces at the same place may be rounded apart.
+ViewBox turned(const Eigen::Matrix4d& matrix, const Eigen::Vector3d& low, const Eigen::Vector3d& high)
+{
+  const Eigen::Matrix3d linear = matrix.topLeftCorner<3, 3>();
+  const Eigen::Vector3d center = linear * ((low + high) / 2) + matrix.topRightCorner<3, 1>();
+  Eigen::Vector3d half = linear.cwiseAbs() * ((high - low) / 2);
+  half.array() += 1e-6 * (half.maxCoeff() + center.cwiseAbs().maxCoeff());
+  return { center - half, center + half };
+}
+
+/// Normals' matrix: the cofactors, which also exist where the matrix has no inverse; scaled to about 1.
+Eigen::Matrix3d normalMatrix(const Eigen::Matrix3d& m)
+{
+  Eigen::Matrix3d cofactors;
+  for (int c = 0; c < 3; ++c)
   {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
+    cofactors.col(c) = m.col((c + 1) % 3).cross(m.col((c + 2) % 3));
   }
-  return (low + high) / 2;
+  const double size = cofactors.cwiseAbs().maxCoeff();
+  return cofactors * ((m.determinant() < 0 ? -1.0 : 1.0) / (size > 0 ? size : 1.0));
+}
+
+template <typename Array, typename Matrix>
+void store(Array& target, const Matrix& source)
+{
+  for (std::size_t i = 0; i < target.size(); ++i)
+  {
+    target[i] = float(source.data()[i]);
+  }
 }
 
 } // namespace
 
 RasterScene::RasterScene(vtkOpenGLRenderWindow* window)
   : Window(window)
+  , Models(window, this->Frame)
+  , Lighting(this->Frame)
 {
-  auto white = std::make_shared<Image>();
-  white->width = white->height = 1;
-  white->rgba.assign(4, 255);
-  this->White = white;
   this->Window->AddRenderer(this->Renderer);
   vtkNew<vtkOpenGLCamera> camera;
   this->Renderer->SetActiveCamera(camera);
@@ -70,49 +103,23 @@ RasterScene::~RasterScene()
   for (const Draw& draw : this->Draws)
   {
     draw.actor->SetMapper(nullptr);
-    if (draw.pieces)
-    {
-      draw.pieces->mapper->ReleaseGraphicsResources(this->Window);
-    }
   }
   this->Draws.clear();
-  for (const auto& variant : this->Variants)
-  {
-    for (const Chunk& chunk : variant->chunks)
-    {
-      chunk.mapper->ReleaseGraphicsResources(this->Window);
-    }
-  }
-  for (const auto& entry : this->Textures)
-  {
-    entry.second->ReleaseGraphicsResources(this->Window);
-  }
-  glDeleteTextures(1, &this->LightTexture);
-  glDeleteBuffers(1, &this->LightBuffer);
   this->Window->RemoveRenderer(this->Renderer);
 }
 
 void RasterScene::setState(std::shared_ptr<const SceneState> state, const View& view)
 {
-  this->setView(view);
+  this->Lighting.setView(view);
   if (state == this->State)
   {
     return;
   }
-  for (const auto& variant : this->Variants)
-  {
-    variant->used = false;
-    for (const Instance& instance : state->instances)
-    {
-      variant->used =
-        variant->used || (variant->shared->geometry == instance.geometry && variant->materials == instance.materials);
-    }
-  }
+  this->Models.begin(*state);
   this->State = std::move(state);
-  this->EnvironmentReady = this->ShadowsReady = false;
-  this->FirstShadows.clear();
+  this->Lighting.setState(this->State);
   this->makeDraws();
-  this->dropUnused();
+  this->Models.drop();
 }
 
 void RasterScene::makeDraws()
@@ -123,8 +130,8 @@ void RasterScene::makeDraws()
   for (std::size_t i = 0; i < this->State->instances.size(); ++i)
   {
     const Instance& instance = this->State->instances[i];
-    const Variant& variant = this->variantOf(instance);
-    for (const Chunk& chunk : variant.chunks)
+    const RasterModel& model = this->Models.of(instance);
+    for (const RasterChunk& chunk : model.chunks)
     {
       if (count == this->Draws.size())
       {
@@ -134,13 +141,12 @@ void RasterScene::makeDraws()
         this->Draws.back().actor->ForceOpaqueOn();
       }
       Draw& draw = this->Draws[count++];
-      if (draw.pieces && draw.chunk != &chunk)
+      if (draw.chunk != &chunk)
       {
-        draw.pieces->mapper->ReleaseGraphicsResources(this->Window);
         draw.pieces.reset();
       }
       draw.instance = i;
-      draw.variant = &variant;
+      draw.model = &model;
       draw.chunk = &chunk;
       draw.actor->SetMapper(chunk.mapper);
       draw.actor->SetProperty(chunk.property);
@@ -153,236 +159,229 @@ void RasterScene::makeDraws()
       this->Translucent = this->Translucent || chunk.translucent;
     }
   }
-  for (std::size_t i = count; i < this->Draws.size(); ++i)
-  {
-    if (this->Draws[i].pieces)
-    {
-      this->Draws[i].pieces->mapper->ReleaseGraphicsResources(this->Window);
-    }
-  }
   this->Draws.resize(count);
-  if (count >= maxChunk)
+  if (count >= RasterModels::mostTriangles)
   {
     throw UsageError("more than 16,777,215 parts of objects cannot be drawn at once");
   }
 }
 
-void RasterScene::dropUnused()
+void RasterScene::place(const RasterCamera& camera)
 {
-  for (const auto& variant : this->Variants)
+  std::vector<ViewBox> boxes;
+  std::vector<std::size_t> visible;
+  for (Draw& draw : this->Draws)
   {
-    if (!variant->used)
+    const Instance& instance = this->State->instances[draw.instance];
+    const Eigen::Matrix4d world_from_local = matrixOf(instance.world_from_object, draw.model->geometry->origin);
+    const Eigen::Matrix4d view_from_local = camera.view_from_world * world_from_local;
+    const Eigen::Matrix4d clip_from_local = camera.clip_from_view * view_from_local;
+    draw.visible = maySee(clip_from_local, draw.chunk->boxMin, draw.chunk->boxMax);
+    store(draw.actor->clip_from_object, clip_from_local);
+    store(draw.actor->view_from_object, view_from_local);
+    store(draw.actor->normal_view_from_object, normalMatrix(view_from_local.topLeftCorner<3, 3>()));
+    draw.cut = false;
+    draw.actor->runs.clear();
+    draw.actor->nothing = false;
+    if (draw.visible)
     {
-      for (const Chunk& chunk : variant->chunks)
+      this->cutDraw(draw, camera, view_from_local);
+      visible.push_back(std::size_t(&draw - this->Draws.data()));
+      boxes.push_back(turned(view_from_local, draw.chunk->boxMin, draw.chunk->boxMax));
+    }
+  }
+  this->Order = drawOrder(boxes);
+  for (std::size_t& i : this->Order)
+  {
+    i = visible[i];
+  }
+}
+
+void RasterScene::aim(const RasterCamera& camera, int width, int height)
+{
+  this->place(camera);
+  this->Camera = camera;
+  this->Width = width;
+  this->Height = height;
+  this->Frame.parallel = !camera.perspective;
+  this->Lighting.aim(camera);
+}
+
+/// Cuts the triangles of a draw that OpenGL would draw in the wrong place.
+void RasterScene::cutDraw(Draw& draw, const RasterCamera& camera, const Eigen::Matrix4d& view_from_local)
+{
+  const PieceRange range = pieceRange(*draw.model, *draw.chunk, view_from_local);
+  if (!mayNeedPieces(range, camera))
+  {
+    return;
+  }
+  makePieces(range, camera, this->Cut);
+  draw.cut = !this->Cut.empty();
+  if (draw.cut)
+  {
+    if (!draw.pieces)
+    {
+      draw.pieces =
+        std::make_unique<PieceDraw>(this->Window, this->Frame, this->ShaderProperty, *draw.model, *draw.chunk);
+    }
+    draw.pieces->fill(this->Cut, camera, *draw.actor);
+  }
+}
+
+void RasterScene::prepareLight(bool zeroToOne)
+{
+  this->Lighting.prepare(zeroToOne, [this](const RasterCamera& camera, int size) { this->drawShadows(camera, size); });
+}
+
+/// Depths of what is not translucent to the bound framebuffer.
+void RasterScene::drawShadows(const RasterCamera& camera, int size)
+{
+  this->Window->GetState()->vtkglViewport(0, 0, size, size);
+  this->place(camera);
+  this->Layer = 0;
+  this->Frame.peel = false;
+  this->setUpState();
+  const float farthest = 0;
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
+  this->drawAllIds(false);
+}
+
+void RasterScene::peelBehind(unsigned int layer)
+{
+  this->Layer = layer;
+  this->Frame.peel = layer != 0;
+  this->Frame.layerUnit = RasterUnits::layer;
+}
+
+/// What VTK's cache of OpenGL's state must know is set through it.
+void RasterScene::setUpState()
+{
+  vtkOpenGLState* state = this->Window->GetState();
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  state->vtkglDisable(GL_CULL_FACE);
+  state->vtkglDisable(GL_MULTISAMPLE);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDepthFunc(GL_GREATER);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  if (this->Layer)
+  {
+    glActiveTexture(GL_TEXTURE0 + RasterUnits::layer);
+    glBindTexture(GL_TEXTURE_2D, this->Layer);
+  }
+  this->Lighting.bind();
+  glActiveTexture(GL_TEXTURE0);
+  state->ResetGLActiveTexture();
+}
+
+void RasterScene::drawColor(Surfaces surfaces)
+{
+  this->setUpState();
+  if (surfaces != Surfaces::Translucent && this->Layer == 0 && this->Lighting.environment().background())
+  {
+    vtkOpenGLState* state = this->Window->GetState();
+    this->Window->GetShaderCache()->ReleaseCurrentShader();
+    state->vtkglDisable(GL_DEPTH_TEST);
+    this->Lighting.environment().drawBackground(this->Camera, this->Width, this->Height, RasterUnits::background);
+    state->ResetGLActiveTexture();
+    state->vtkglEnable(GL_DEPTH_TEST);
+  }
+  this->drawAll(surfaces);
+}
+
+void RasterScene::drawAll(Surfaces surfaces)
+{
+  this->Frame.uploaded.clear();
+  for (const std::size_t i : this->Order)
+  {
+    Draw& draw = this->Draws[i];
+    if ((surfaces == Surfaces::All || draw.chunk->translucent == (surfaces == Surfaces::Translucent)))
+    {
+      if (!draw.actor->nothing)
       {
-        chunk.mapper->ReleaseGraphicsResources(this->Window);
+        draw.actor->RenderOpaqueGeometry(this->Renderer);
+      }
+      if (draw.cut)
+      {
+        draw.pieces->actor().RenderOpaqueGeometry(this->Renderer);
       }
     }
   }
-  this->Variants.erase(std::remove_if(this->Variants.begin(), this->Variants.end(),
-                         [](const std::unique_ptr<Variant>& variant) { return !variant->used; }),
-    this->Variants.end());
 }
 
-RasterScene::Variant& RasterScene::variantOf(const Instance& instance)
+void RasterScene::drawFragments(int width, int first, int last)
 {
-  for (const auto& variant : this->Variants)
-  {
-    if (variant->shared->geometry == instance.geometry && variant->shared->model == instance.model &&
-        variant->materials == instance.materials)
-    {
-      variant->used = true;
-      return *variant;
-    }
-  }
-  // A deformed model takes over the buffers of an instant that is over.
-  for (const auto& variant : this->Variants)
-  {
-    if (!variant->used && variant->shared.use_count() == 1 && variant->shared->model == instance.model &&
-        variant->materials == instance.materials)
-    {
-      fill(*variant->shared, instance.geometry);
-      for (Chunk& chunk : variant->chunks)
-      {
-        measure(*variant->shared, chunk);
-      }
-      variant->used = true;
-      return *variant;
-    }
-  }
-  this->Variants.push_back(this->makeVariant(instance));
-  return *this->Variants.back();
+  vtkOpenGLState* state = this->Window->GetState();
+  this->Frame.collect = true;
+  this->setUpState();
+  state->vtkglDisable(GL_DEPTH_TEST);
+  state->vtkglDepthMask(GL_FALSE);
+  state->vtkglEnable(GL_SCISSOR_TEST);
+  state->vtkglScissor(0, first, width, last - first);
+  this->drawAll(Surfaces::All);
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  this->Frame.collect = false;
 }
 
-std::shared_ptr<RasterScene::Shared> RasterScene::sharedOf(const Instance& instance)
+void RasterScene::drawIds()
 {
-  for (const auto& variant : this->Variants)
-  {
-    if (variant->shared->geometry == instance.geometry && variant->shared->model == instance.model)
-    {
-      return variant->shared;
-    }
-  }
-  auto shared = std::make_shared<Shared>();
-  shared->model = instance.model;
-  shared->topology = this->topologyOf(instance.model);
-  shared->origin = middleOf(instance.model->rest->positions);
-  shared->points = vtkSmartPointer<vtkFloatArray>::New();
-  shared->points->SetNumberOfComponents(3);
-  shared->normals = vtkSmartPointer<vtkFloatArray>::New();
-  shared->normals->SetNumberOfComponents(3);
-  shared->data = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  points->SetData(shared->points);
-  shared->data->SetPoints(points);
-  shared->data->GetPointData()->SetNormals(shared->normals);
-  if (!instance.model->uvs.empty())
-  {
-    vtkNew<vtkFloatArray> uvs;
-    uvs->SetNumberOfComponents(2);
-    uvs->SetNumberOfTuples(vtkIdType(shared->topology->source.size()));
-    float* target = uvs->GetPointer(0);
-    for (const std::uint32_t vertex : shared->topology->source)
-    {
-      *target++ = float(instance.model->uvs[vertex].x());
-      *target++ = float(instance.model->uvs[vertex].y());
-    }
-    shared->data->GetPointData()->SetTCoords(uvs);
-  }
-  fill(*shared, instance.geometry);
-  return shared;
+  this->setUpState();
+  this->drawAllIds(true);
 }
 
-std::shared_ptr<const RasterTopology> RasterScene::topologyOf(const std::shared_ptr<const Model>& model)
+void RasterScene::drawAllIds(bool translucent)
 {
-  for (const auto& variant : this->Variants)
+  this->Window->GetShaderCache()->ReleaseCurrentShader();
+  this->CurrentIds = nullptr;
+  for (const std::size_t i : this->Order)
   {
-    if (variant->shared->model == model)
+    Draw& draw = this->Draws[i];
+    if (draw.chunk->translucent && !translucent)
     {
-      return variant->shared->topology;
+      continue;
+    }
+    if (!draw.actor->nothing)
+    {
+      this->drawIdsOf(*draw.chunk->mapper, *draw.actor, *draw.chunk);
+    }
+    if (draw.cut)
+    {
+      this->drawIdsOf(draw.pieces->mapper(), draw.pieces->actor(), *draw.chunk);
     }
   }
-  // Translucent surfaces are sorted by their numbers.
-  const auto isTranslucent = [](const Instance& instance)
-  {
-    return std::any_of(instance.materials->begin(), instance.materials->end(),
-      [](const Material& material) { return material.opacity < 1; });
-  };
-  const bool numbered =
-    this->Numbered || std::any_of(this->State->instances.begin(), this->State->instances.end(), isTranslucent);
-  return std::make_shared<const RasterTopology>(rasterTopology(*model, numbered));
+  glBindVertexArray(0);
+  glUseProgram(0);
 }
 
-void RasterScene::fill(Shared& shared, std::shared_ptr<const Geometry> geometry)
+void RasterScene::drawIdsOf(PartMapper& mapper, PartActor& actor, const RasterChunk& chunk)
 {
-  const std::size_t count = shared.topology->source.size();
-  shared.points->SetNumberOfTuples(vtkIdType(count));
-  shared.normals->SetNumberOfTuples(vtkIdType(count));
-  float* point = shared.points->GetPointer(0);
-  float* normal = shared.normals->GetPointer(0);
-  for (const std::uint32_t vertex : shared.topology->source)
+  mapper.prepare(this->Renderer, &actor);
+  ShaderVariant variant = mapper.material();
+  variant.peel = this->Frame.peel;
+  const IdPrograms::Program& program = this->Ids.program(variant);
+  if (&program != this->CurrentIds)
   {
-    const Eigen::Vector3d x = geometry->positions[vertex] - shared.origin;
-    for (int c = 0; c < 3; ++c)
-    {
-      *point++ = float(x[c]);
-      *normal++ = geometry->normals[vertex][c];
-    }
+    glUseProgram(program.name);
+    this->CurrentIds = &program;
+    glUniform1i(program.layer, this->Frame.layerUnit);
   }
-  shared.points->Modified();
-  shared.normals->Modified();
-  shared.data->Modified();
-  shared.geometry = std::move(geometry);
-}
-
-void RasterScene::measure(const Shared& shared, Chunk& chunk)
-{
-  const auto* triangles = shared.model->triangles.data() + chunk.firstTriangle;
-  chunk.boxMin.setConstant(1e300);
-  chunk.boxMax.setConstant(-1e300);
-  for (std::uint32_t t = 0; t < chunk.triangles; ++t)
+  glBindVertexArray(this->Ids.vertexArray());
+  glUniformMatrix4fv(program.matrix, 1, GL_FALSE, actor.clip_from_object.data());
+  glUniform2f(program.draw, actor.number, 0);
+  glUniform1i(program.first, mapper.firstTriangle());
+  if (variant.cutOut)
   {
-    for (const std::uint32_t corner : triangles[t])
-    {
-      const Eigen::Vector3d x = shared.geometry->positions[corner] - shared.origin;
-      chunk.boxMin = chunk.boxMin.cwiseMin(x);
-      chunk.boxMax = chunk.boxMax.cwiseMax(x);
-    }
+    chunk.texture->Render(this->Renderer);
+    glUniform1i(program.picture, chunk.texture->GetTextureUnit());
   }
-}
-
-std::unique_ptr<RasterScene::Variant> RasterScene::makeVariant(const Instance& instance)
-{
-  auto variant = std::make_unique<Variant>();
-  variant->shared = this->sharedOf(instance);
-  variant->materials = instance.materials;
-  variant->used = true;
-  for (const Part& part : instance.model->parts)
+  mapper.drawBare(actor);
+  if (variant.cutOut)
   {
-    for (std::uint32_t done = 0; done < part.triangles; done += maxChunk)
-    {
-      variant->chunks.push_back(
-        this->makeChunk(*variant, part, part.firstTriangle + done, std::min(maxChunk, part.triangles - done)));
-    }
+    chunk.texture->PostRender(this->Renderer);
   }
-  return variant;
-}
-
-RasterScene::Chunk RasterScene::makeChunk(
-  const Variant& variant, const Part& part, std::uint32_t first, std::uint32_t count)
-{
-  const Model& model = *variant.shared->model;
-  const Material& material = variant.materials->at(std::size_t(part.material));
-  Chunk chunk;
-  chunk.firstTriangle = first;
-  chunk.triangles = count;
-  chunk.emission = floats(material.emission);
-  chunk.translucent = material.opacity < 1;
-  measure(*variant.shared, chunk);
-  ShaderVariant shader;
-  shader.specular = !material.specular.isZero(0);
-  if (material.texture >= 0 && !model.uvs.empty() && model.textures.at(std::size_t(material.texture)).image)
-  {
-    shader.textured = true;
-    shader.cutOut = material.cutOut;
-    chunk.texture = this->textureOf(model.textures[std::size_t(material.texture)].image, material.cutOut);
-  }
-  chunk.surface = this->Maps.parameters(model, material);
-  shader.physical = material.physical && material.physical->wanted;
-  shader.normalMap = chunk.surface.normalMap != 0;
-  shader.bumpMap = chunk.surface.bumpMap != 0;
-  shader.metallicRoughnessMap = chunk.surface.metallicRoughnessMap != 0;
-  shader.emissionMap = chunk.surface.emissionMap != 0;
-  shader.occlusionMap = chunk.surface.occlusionMap != 0;
-  if (chunk.surface.hasMaps() && !shader.textured)
-  {
-    // VTK passes texture coordinates on where there is a texture.
-    shader.textured = true;
-    chunk.texture = this->textureOf(this->White, false);
-  }
-  std::vector<unsigned int> indices;
-  indices.reserve(std::size_t(count) * 3);
-  for (std::uint32_t t = first; t < first + count; ++t)
-  {
-    const auto& corners = variant.shared->topology->triangles[t];
-    indices.insert(indices.end(), corners.begin(), corners.end());
-  }
-  chunk.property = vtkSmartPointer<vtkOpenGLProperty>::New();
-  setProperty(material, *chunk.property);
-  chunk.mapper = vtkSmartPointer<PartMapper>::New();
-  chunk.mapper->configure(&this->Frame, shader, int(first), std::move(indices));
-  chunk.mapper->SetInputData(variant.shared->data);
-  return chunk;
-}
-
-vtkSmartPointer<vtkOpenGLTexture> RasterScene::textureOf(const std::shared_ptr<const Image>& image, bool cutOut)
-{
-  vtkSmartPointer<vtkOpenGLTexture>& texture = this->Textures[{ image, cutOut }];
-  if (!texture)
-  {
-    texture = makeTexture(*image, cutOut);
-  }
-  return texture;
 }
 
 } // namespace dgtk

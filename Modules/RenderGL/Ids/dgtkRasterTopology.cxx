@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkRasterScene.h"
+#include "dgtkRasterModels.h"
 
 #include <limits>
 #include <numeric>
