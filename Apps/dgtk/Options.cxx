@@ -2,6 +2,7 @@
 #include "Options.h"
 
 #include "dgtkError.h"
+#include "dgtkOption.h"
 #include "dgtkText.h"
 
 #include <algorithm>
@@ -137,23 +138,7 @@ void Arguments::size(const std::string& name, int most, int& width, int& height)
 
 std::vector<std::string> Arguments::list(const std::string& name) const
 {
-  std::vector<std::string> parts;
-  const std::string text = this->text(name);
-  for (std::size_t begin = 0; !text.empty();)
-  {
-    const std::size_t comma = text.find(',', begin);
-    parts.push_back(text.substr(begin, comma - begin));
-    if (parts.back().empty())
-    {
-      throw UsageError(name + ": an empty name in " + quoted(text));
-    }
-    if (comma == std::string::npos)
-    {
-      break;
-    }
-    begin = comma + 1;
-  }
-  return parts;
+  return splitNames(this->text(name), name);
 }
 
 std::string helpPage(const Command& command)

@@ -48,7 +48,7 @@ public:
   int integer(const std::string& name, int least, int most) const;
   /// "WxH", each in [1, most].
   void size(const std::string& name, int most, int& width, int& height) const;
-  /// Comma-separated; empty parts are refused.
+  /// Names, see splitNames().
   std::vector<std::string> list(const std::string& name) const;
 
 private:
