@@ -4,11 +4,11 @@
 #include "dgtkDatasetDocuments.h"
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkJson.h"
 #include "dgtkLdi.h"
 #include "dgtkWarp.h"
 
 #include <Eigen/Geometry>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -25,84 +25,22 @@ constexpr int farthestFrame = 1 << 30;
 
 bool isFile(const std::string& name) { return name.size() > 5 && name.compare(name.size() - 5, 5, ".json") == 0; }
 
-/// Number `key` of a camera file; `fallback` when it is missing.
-double numberOf(const nlohmann::json& json, const char* key, const std::string& path, double fallback)
-{
-  const auto found = json.find(key);
-  if (found == json.end())
-  {
-    return fallback;
-  }
-  if (!found->is_number() || !std::isfinite(found->get<double>()))
-  {
-    throw InputError(path, 0, std::string(key) + " is not a number");
-  }
-  return found->get<double>();
-}
-
-/// A matrix of rows (a vector: of numbers) of a camera file.
-template <typename Matrix>
-Matrix matrixOf(const nlohmann::json& json, const char* key, const std::string& path)
-{
-  Matrix matrix;
-  const auto refuse = [&]
-  {
-    throw InputError(path, 0, std::string(key) + " is missing or not of numbers",
-      Matrix::ColsAtCompileTime == 1 ? "3 numbers" : "3 rows of 3 numbers");
-  };
-  const auto found = json.find(key);
-  if (found == json.end() || !found->is_array() || found->size() != 3)
-  {
-    refuse();
-  }
-  for (Eigen::Index r = 0; r < 3; ++r)
-  {
-    const nlohmann::json& row = (*found)[static_cast<std::size_t>(r)];
-    for (Eigen::Index c = 0; c < matrix.cols(); ++c)
-    {
-      const bool vector = Matrix::ColsAtCompileTime == 1;
-      if (!vector && (!row.is_array() || row.size() != 3))
-      {
-        refuse();
-      }
-      const nlohmann::json& value = vector ? row : row[static_cast<std::size_t>(c)];
-      if (!value.is_number() || !std::isfinite(value.get<double>()))
-      {
-        refuse();
-      }
-      matrix(r, c) = value.get<double>();
-    }
-  }
-  return matrix;
-}
-
 /// A camera file: K, R, t, width, height and, where given, model, near and far.
 CameraRecord readCameraFile(const std::string& path)
 {
-  const nlohmann::json json = nlohmann::json::parse(readFile(path, largestDocument), nullptr, false, true);
-  if (!json.is_object())
-  {
-    throw InputError(path, 0, "is not a camera", "a JSON object with K, R, t, width and height");
-  }
+  static constexpr Range side{ 1, 65536, false, false, "a whole number from 1 to 65536" };
+  const JsonDocument document = parseJson(path, readFile(path, largestDocument));
+  const JsonCursor at(document);
   CameraRecord camera;
   camera.name = path;
-  camera.K = matrixOf<Eigen::Matrix3d>(json, "K", path);
-  camera.R = matrixOf<Eigen::Matrix3d>(json, "R", path);
-  camera.t = matrixOf<Eigen::Vector3d>(json, "t", path);
-  const double width = numberOf(json, "width", path, 0);
-  const double height = numberOf(json, "height", path, 0);
-  if (!(width >= 1 && width <= 65536 && height >= 1 && height <= 65536))
-  {
-    throw InputError(path, 0, "width or height is missing or out of range", "1 to 65536");
-  }
-  camera.width = static_cast<int>(width);
-  camera.height = static_cast<int>(height);
-  camera.near = numberOf(json, "near", path, 1e-6);
-  camera.far = numberOf(json, "far", path, std::numeric_limits<double>::max());
-  if (json.contains("model"))
-  {
-    camera.model = json["model"].is_string() ? json["model"].get<std::string>() : "";
-  }
+  camera.K = at["K"].matrix<Eigen::Matrix3d>();
+  camera.R = at["R"].matrix<Eigen::Matrix3d>();
+  camera.t = at["t"].matrix<Eigen::Vector3d>();
+  camera.width = static_cast<int>(at["width"].wholeNumber(side));
+  camera.height = static_cast<int>(at["height"].wholeNumber(side));
+  camera.near = at.has("near") ? at["near"].number() : 1e-6;
+  camera.far = at.has("far") ? at["far"].number() : std::numeric_limits<double>::max();
+  camera.model = at.has("model") ? at["model"].text() : camera.model;
   const Eigen::Matrix3d error = camera.R * camera.R.transpose() - Eigen::Matrix3d::Identity();
   if (error.cwiseAbs().maxCoeff() > 1e-6 || camera.R.row(0).cross(camera.R.row(1)).dot(camera.R.row(2)) < 0)
   {

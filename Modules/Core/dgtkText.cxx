@@ -43,6 +43,17 @@ std::string shortest(double value)
   return { text, std::to_chars(text, text + sizeof text, value).ptr };
 }
 
+std::string plainNumber(double value)
+{
+  const double size = std::abs(value);
+  if (size < 1e-6 || !(size < 1e15))
+  {
+    return shortest(value);
+  }
+  char text[64];
+  return { text, std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr };
+}
+
 namespace
 {
 std::size_t editDistance(const std::string& a, const std::string& b)

@@ -23,6 +23,9 @@ DGTKCORE_EXPORT std::string joined(const std::vector<std::string>& words, const 
 /// Shortest text that reads back to the same double; "inf", "-inf" and "nan" for what is not a number.
 DGTKCORE_EXPORT std::string shortest(double value);
 
+/// The same without an exponent from 1e-6 to 1e15.
+DGTKCORE_EXPORT std::string plainNumber(double value);
+
 /// The candidate with the smallest edit distance, the first of these, whatever the case of letters; "" when none is
 /// near: more than two letters, and more than half of them, must be changed.
 DGTKCORE_EXPORT std::string nearest(const std::string& word, const std::vector<std::string>& candidates);

@@ -314,9 +314,8 @@ SceneDescription readJsonScene(const std::string& file, const std::string& folde
   Scene scene;
   scene.file = file;
   scene.folder = folder;
-  const JsonNode root = parseJson(file, contents);
-  const std::string noLabel;
-  const JsonCursor at(root, file, noLabel);
+  const JsonDocument document = parseJson(file, contents);
+  const JsonCursor at(document);
   for (std::size_t i = 0, n = at.memberCount(); i < n; ++i)
   {
     if (at.key(i) == "upAxis") // cameras need it
@@ -339,8 +338,8 @@ SceneDescription readJsonScene(const std::string& file, const std::string& folde
     listed.begin(), listed.end(), frames.begin(), frames.end(), std::back_inserter(scene.extraKeyFrames));
   nameAll(scene);
   readClassFile(scene);
-  validateRelations(scene, [&root](SceneItem::Kind kind, std::size_t index, const std::string& property)
-    { return locate(root, kind, index, property); });
+  validateRelations(scene, [&at](SceneItem::Kind kind, std::size_t index, const std::string& property)
+    { return locate(at.node(), kind, index, property); });
   return scene;
 }
 

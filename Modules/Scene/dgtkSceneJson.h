@@ -4,8 +4,8 @@
 
 // Private to Scene (and its tests).
 
-#include "dgtkJsonCursor.h"
 #include "dgtkSceneDescription.h"
+#include "dgtkSceneRules.h"
 
 #include <map>
 #include <string>
@@ -52,6 +52,9 @@ std::vector<std::string> keysOf(const std::vector<JsonField<T>>& fields)
   return keys;
 }
 
+/// Fails at a key that is none of these.
+[[noreturn]] void failKey(const JsonCursor& at, std::size_t pair, const std::vector<std::string>& known);
+
 /// Reads the members of an object by a table; an unknown key is an error.
 template <typename T>
 void readFields(const JsonCursor& at, const std::vector<JsonField<T>>& fields, T& into)
@@ -65,7 +68,7 @@ void readFields(const JsonCursor& at, const std::vector<JsonField<T>>& fields, T
     }
     if (!field)
     {
-      at.failKey(i, keysOf(fields));
+      failKey(at, i, keysOf(fields));
     }
     field->read(at.member(i), into);
   }
@@ -94,8 +97,13 @@ void readClassFile(SceneDescription& scene);
 /// The keys that the reader knows, by the name of the definition in the published schema.
 DGTKSCENE_EXPORT std::map<std::string, std::vector<std::string>> jsonSceneKeys();
 
+/// Text of a tree, two spaces an indentation, arrays of scalars and short arrays on one line; ends with a newline.
+std::string printJson(const JsonNode& root);
+
 // Values shared by the tables.
 
+Eigen::Vector3d readScale(const JsonCursor& at); ///< a vector without zeros, or one number for all axes
+Quaternion readQuaternion(const JsonCursor& at);
 JsonNode writeValue(const Eigen::Vector3d& v);
 JsonNode writeValue(const Quaternion& q);
 /// The words of Interpolation, in the order of its values.
@@ -104,9 +112,9 @@ const std::vector<std::string>& interpolationWords();
 inline double readValue(const JsonCursor& at, const Range& range, const double*) { return at.number(range); }
 inline Eigen::Vector3d readValue(const JsonCursor& at, const Range& range, const Eigen::Vector3d*)
 {
-  return &range == &rules::scale ? at.scale() : at.vector(range);
+  return &range == &rules::scale ? readScale(at) : at.vector(range);
 }
-inline Quaternion readValue(const JsonCursor& at, const Range&, const Quaternion*) { return at.quaternion(); }
+inline Quaternion readValue(const JsonCursor& at, const Range&, const Quaternion*) { return readQuaternion(at); }
 inline JsonNode writeValue(double v) { return JsonNode::of(v); }
 inline JsonNode writeValue(const std::string& v) { return JsonNode::of(v); }
 inline JsonNode writeValue(Interpolation v) { return JsonNode::of(interpolationWords()[static_cast<std::size_t>(v)]); }
@@ -169,7 +177,7 @@ void readTrack(const JsonCursor& at, const Range& range, Track<T>& track)
     }
     else
     {
-      at.failKey(i, { "value", "keys", "interpolation" });
+      failKey(at, i, { "value", "keys", "interpolation" });
     }
   }
   if (track.keys.empty())

@@ -104,9 +104,8 @@ void readClassFile(SceneDescription& scene)
   if (!scene.classFile.empty())
   {
     const std::string path = scene.resolve(scene.classFile);
-    const JsonNode root = parseJson(path, readFile(path, largestFile));
-    const std::string noLabel;
-    scene.classes = readTable(JsonCursor(root, path, noLabel));
+    const JsonDocument document = parseJson(path, readFile(path, largestFile));
+    scene.classes = readTable(JsonCursor(document));
   }
 }
 

@@ -78,7 +78,15 @@ void readCameraName(const JsonCursor& at, Camera& camera)
   }
 }
 
-void readCameraMatrix(const JsonCursor& at, Camera& camera) { camera.K = at.cameraMatrix(); }
+void readCameraMatrix(const JsonCursor& at, Camera& camera)
+{
+  camera.K = at.matrix<Eigen::Matrix3d>(rules::coordinate);
+  const std::string fault = faultOf(*camera.K);
+  if (!fault.empty())
+  {
+    at.fail("is not a camera matrix", fault);
+  }
+}
 
 void writeCameraMatrix(const Camera& camera, const char* key, JsonNode& node)
 {

@@ -6,6 +6,8 @@
 
 #include "dgtkSceneJson.h"
 
+#include <array>
+
 namespace dgtk::scenefile
 {
 
@@ -19,6 +21,18 @@ inline void readInto(const JsonCursor& at, const Range& range, int& into)
 }
 inline void readInto(const JsonCursor& at, const Range& range, double& into) { into = at.number(range); }
 inline void readInto(const JsonCursor& at, const Range& range, Eigen::Vector3d& into) { into = at.vector(range); }
+inline void readInto(const JsonCursor& at, const Range& range, std::array<double, 3>& into)
+{
+  Eigen::Map<Eigen::Vector3d>(into.data()) = at.vector(range);
+}
+inline void readInto(const JsonCursor& at, const Range& range, std::vector<double>& into)
+{
+  into.clear();
+  for (const JsonCursor& item : at.items())
+  {
+    into.push_back(item.number(range));
+  }
+}
 template <typename T>
 inline void readInto(const JsonCursor& at, const Range& range, Track<T>& into)
 {
@@ -33,6 +47,18 @@ inline void readInto(const JsonCursor& at, const Range& range, std::optional<T>&
 
 // How it is written, and when it is its default.
 
+template <typename List>
+inline JsonNode writeNumbers(const List& values)
+{
+  JsonNode list(JsonNode::Type::Array);
+  for (const double value : values)
+  {
+    list.children.push_back(JsonNode::of(value));
+  }
+  return list;
+}
+inline JsonNode writeValue(const std::array<double, 3>& v) { return writeNumbers(v); }
+inline JsonNode writeValue(const std::vector<double>& v) { return writeNumbers(v); }
 template <typename T>
 inline void add(JsonNode& object, const char* key, const T& value, const T& usual)
 {

@@ -2,56 +2,8 @@
 #include "dgtkSceneJsonRows.h"
 #include "dgtkSensorDescription.h"
 
-#include <array>
-
 namespace dgtk::scenefile
 {
-
-// Found by the rows through their arguments' namespace.
-static void readInto(const JsonCursor& at, const Range& range, std::vector<double>& into)
-{
-  into.clear();
-  for (std::size_t i = 0, n = at.listSize(); i < n; ++i)
-  {
-    into.push_back(at.element(i).number(range));
-  }
-}
-static void readInto(const JsonCursor& at, const Range& range, std::array<double, 3>& into)
-{
-  const Eigen::Vector3d v = at.vector(range);
-  into = { v[0], v[1], v[2] };
-}
-static void addList(JsonNode& object, const char* key, const double* values, std::size_t count)
-{
-  JsonNode list(JsonNode::Type::Array);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    list.children.push_back(JsonNode::of(values[i]));
-  }
-  object.add(key, std::move(list));
-}
-static void add(JsonNode& object, const char* key, const std::vector<double>& value, const std::vector<double>& usual)
-{
-  if (value != usual)
-  {
-    addList(object, key, value.data(), value.size());
-  }
-}
-static void add(
-  JsonNode& object, const char* key, const std::array<double, 3>& value, const std::array<double, 3>& usual)
-{
-  if (value != usual)
-  {
-    addList(object, key, value.data(), value.size());
-  }
-}
-static void add(JsonNode& object, const char* key, int value, int usual)
-{
-  if (value != usual)
-  {
-    object.add(key, JsonNode::of(double(value)));
-  }
-}
 
 namespace
 {

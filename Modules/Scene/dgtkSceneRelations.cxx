@@ -230,7 +230,7 @@ private:
     if (!(camera.far > camera.near))
     {
       this->fail(
-        Kind::Camera, i, "far", "is not beyond near", "more than " + numberText(camera.near), numberText(camera.far));
+        Kind::Camera, i, "far", "is not beyond near", "more than " + plainNumber(camera.near), plainNumber(camera.far));
     }
     if ((camera.width == 0) != (camera.height == 0))
     {

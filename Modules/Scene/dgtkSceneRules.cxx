@@ -25,17 +25,6 @@ std::string faultOf(const Eigen::Matrix3d& K)
   return good ? "" : "[[fx, s, cx], [0, fy, cy], [0, 0, 1]] with fx and fy above 0";
 }
 
-std::string faultOfText(const std::string& text, bool mayBeEmpty)
-{
-  if (text.empty())
-  {
-    return mayBeEmpty ? "" : "a text that is not empty";
-  }
-  const bool control =
-    std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
-  return control || text.size() > 4096 ? "at most 4096 bytes without control characters" : "";
-}
-
 std::string faultOfCameraName(const std::string& name)
 {
   static const std::set<std::string> taken{ "manifest.json", "cameras.json", "objects.json", "scene.json",
@@ -99,24 +88,24 @@ void validate(const SceneDescription& scene)
   const std::string title = scene.title();
   for (const ObjectDescription& object : scene.objects)
   {
-    const std::string label = "object " + quoted(object.name) + ": ";
-    const JsonNode node = writeFields(object, objectFields());
+    const JsonDocument tree{ writeFields(object, objectFields()), title, "object " + quoted(object.name) + ": ",
+      object.line };
     ObjectDescription read;
-    readFields(JsonCursor(node, title, label, object.line), objectFields(), read);
+    readFields(JsonCursor(tree), objectFields(), read);
   }
   for (const LightDescription& light : scene.lights)
   {
-    const std::string label = "light " + quoted(light.name) + ": ";
-    const JsonNode node = writeFields(light, lightFields());
+    const JsonDocument tree{ writeFields(light, lightFields()), title, "light " + quoted(light.name) + ": ",
+      light.line };
     LightDescription read;
-    readFields(JsonCursor(node, title, label, light.line), lightFields(), read);
+    readFields(JsonCursor(tree), lightFields(), read);
   }
   for (const CameraDescription& camera : scene.cameras)
   {
-    const std::string label = "camera " + quoted(camera.name) + ": ";
-    const JsonNode node = writeCamera(camera, scene.upAxis);
+    const JsonDocument tree{ writeCamera(camera, scene.upAxis), title, "camera " + quoted(camera.name) + ": ",
+      camera.line };
     CameraDescription read;
-    readCamera(JsonCursor(node, title, label, camera.line), scene.upAxis, read);
+    readCamera(JsonCursor(tree), scene.upAxis, read);
   }
   SceneDescription rest;
   rest.units = scene.units;
@@ -128,10 +117,9 @@ void validate(const SceneDescription& scene)
   rest.seed = scene.seed;
   rest.classes = scene.classes; // whose file says no more
   rest.extraKeyFrames = scene.extraKeyFrames;
-  const JsonNode node = writeFields(rest, sceneFields());
-  const std::string label;
+  const JsonDocument tree{ writeFields(rest, sceneFields()), title };
   SceneDescription read;
-  readFields(JsonCursor(node, title, label, 0), sceneFields(), read);
+  readFields(JsonCursor(tree), sceneFields(), read);
   validateRelations(scene, locateByName(scene));
 }
 

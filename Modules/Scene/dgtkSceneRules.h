@@ -4,6 +4,7 @@
 
 // Private to Scene: what values may be, said once for the readers and for scenes made by program.
 
+#include "dgtkJson.h"
 #include "dgtkSceneDescription.h"
 
 #include <functional>
@@ -11,21 +12,6 @@
 
 namespace dgtk::scenefile
 {
-
-/// An interval. `text` says it in an error: "a number from 0 to 1".
-struct Range
-{
-  double least;
-  double most;
-  bool openLeast;
-  bool openMost;
-  const char* text;
-  bool holds(double v) const
-  {
-    return (this->openLeast ? v > this->least : v >= this->least) &&
-           (this->openMost ? v < this->most : v <= this->most);
-  }
-};
 
 namespace rules
 {
@@ -60,7 +46,6 @@ inline constexpr double quaternionTolerance =
 std::string faultOf(const Quaternion& q);
 std::string faultOf(const Eigen::Matrix3d& K);
 std::string faultOfCameraName(const std::string& name);
-std::string faultOfText(const std::string& text, bool mayBeEmpty);
 
 /// Where a property of an item stands, and how an error names it: "cameras[0].near" or "camera 'Camera0': near".
 struct Place

@@ -12,21 +12,6 @@ namespace dgtk::scenefile
 
 namespace fs = std::filesystem;
 
-std::string numberText(double value)
-{
-  char text[400];
-  const auto end = std::to_chars(text, text + sizeof text, value);
-  std::string shortest(text, end.ptr);
-  // to_chars prefers an exponent only where it is shorter; 100000 becomes 1e+05, which is harder to read.
-  const double size = std::abs(value);
-  if (shortest.find('e') != std::string::npos && size >= 1e-6 && size < 1e15)
-  {
-    const auto plain = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed);
-    shortest.assign(text, plain.ptr);
-  }
-  return shortest;
-}
-
 std::string parseNumber(std::string_view text, double& value)
 {
   if (!text.empty() && text[0] == '+')

@@ -10,9 +10,6 @@
 namespace dgtk::scenefile
 {
 
-/// The shortest decimal number that reads back as the same double; never an exponent where plain digits are as short.
-std::string numberText(double value);
-
 /// What a text is not, as an error says it; empty when `value` was read. Decimal, finite, the whole text.
 std::string parseNumber(std::string_view text, double& value);
 

@@ -229,7 +229,7 @@ private:
     if (!fault.empty())
     {
       throw InputError(this->Scene.file, before.line(), what + ": orientation is not a rotation", fault,
-        "length " + numberText(line.orientation.norm()));
+        "length " + plainNumber(line.orientation.norm()));
     }
     if (this->Lexer.take("["))
     {

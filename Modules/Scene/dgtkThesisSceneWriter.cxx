@@ -16,7 +16,10 @@ namespace
 using Kind = SceneItem::Kind;
 using Vector = Eigen::Vector3d;
 
-std::string vectorText(const Vector& v) { return numberText(v[0]) + ' ' + numberText(v[1]) + ' ' + numberText(v[2]); }
+std::string vectorText(const Vector& v)
+{
+  return plainNumber(v[0]) + ' ' + plainNumber(v[1]) + ' ' + plainNumber(v[2]);
+}
 
 class Writer
 {
@@ -224,8 +227,8 @@ private:
       camera.name == this->Usual.cameras[item.index].name, item, "name", quoted(this->Usual.cameras[item.index].name));
     this->needLinear(camera.eye, item, "eye");
     this->needLinear(camera.lookAt, item, "lookAt");
-    this->Out += "glObject_Camera: ( " + numberText(camera.fovY.value) + ", " + numberText(camera.near) + ", " +
-                 numberText(camera.far) + ", " + numberText(camera.aspect) + " )\n[ " + vectorText(camera.eye.value) +
+    this->Out += "glObject_Camera: ( " + plainNumber(camera.fovY.value) + ", " + plainNumber(camera.near) + ", " +
+                 plainNumber(camera.far) + ", " + plainNumber(camera.aspect) + " )\n[ " + vectorText(camera.eye.value) +
                  ", " + vectorText(camera.lookAt.value) + ", " + vectorText(camera.up.value) + " ]\n";
   }
 
@@ -264,8 +267,8 @@ private:
   void writeLine(const Vector& position, const Track<Quaternion>& orientation, const Track<Vector>& scale, int frame)
   {
     const Quaternion q = orientation.at(frame);
-    this->Out += "< " + vectorText(position) + " > { " + numberText(q.w) + ", < " + numberText(q.x) + ", " +
-                 numberText(q.y) + ", " + numberText(q.z) + " > }";
+    this->Out += "< " + vectorText(position) + " > { " + plainNumber(q.w) + ", < " + plainNumber(q.x) + ", " +
+                 plainNumber(q.y) + ", " + plainNumber(q.z) + " > }";
     if (scale.animated() || scale.value != Vector(1, 1, 1))
     {
       this->Out += " [ " + vectorText(scale.at(frame)) + " ]";

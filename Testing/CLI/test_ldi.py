@@ -332,13 +332,13 @@ class Warp(Case):
         self.refused("warp", self.ldi, "--to", "left@9", *out, status=2, says="frame 9")
         self.refused("warp", self.write("x.ldi", ""), "--to", "left", *out, status=2, says="DIR/CAMERA/ldi/FRAME.ldi")
         self.refused("warp", self.path("d", "left", "ldi", "000001.ldi"), "--to", "left", *out, status=3, says="000001.ldi")
-        for text, says in (("[]", "is not a camera"), ("{", "is not a camera"), ('{"K": 3}', "K"),
+        for text, says in (("[]", "expected an object"), ("{", "is not valid JSON"), ('{"K": 3}', "K has the wrong type"),
                            (json.dumps({"K": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "R": [[2, 0, 0], [0, 2, 0], [0, 0, 2]],
                                         "t": [0, 0, 0], "width": 4, "height": 4}), "not a rotation"),
                            (json.dumps({"K": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "R": [[-1, 0, 0], [0, 1, 0], [0, 0, 1]],
                                         "t": [0, 0, 0], "width": 4, "height": 4}), "not a rotation"),
                            (json.dumps({"K": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "R": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
-                                        "t": [0, 0, 0], "width": 0, "height": 4}), "width or height")):
+                                        "t": [0, 0, 0], "width": 0, "height": 4}), "width is out of range")):
             self.refused("warp", self.ldi, "--to", self.write("c.json", text), *out, status=3, says=["c.json", says])
         with open(self.ldi, "rb+") as file:
             file.truncate(os.path.getsize(self.ldi) - 1)

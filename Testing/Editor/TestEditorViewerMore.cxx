@@ -247,7 +247,7 @@ void TestEditorViewer::brokenDatasetsAreRefused()
   std::ofstream(folder + "/.dgtk-journal") << "DGTk journal 1 0\n";
   refused("not finished");
   std::ofstream(folder + "/manifest.json") << "{\"format\": \"DGTk dataset\", \"files\": [";
-  refused("is not JSON");
+  refused("is not valid JSON");
 
   fs::remove_all(folder);
   fs::copy(this->dataset().toStdString(), folder, fs::copy_options::recursive);

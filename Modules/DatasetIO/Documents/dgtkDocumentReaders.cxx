@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkDatasetDocuments.h"
+#include "dgtkDocumentValues.h"
 #include "dgtkError.h"
 #include "dgtkFolder.h"
 #include "dgtkJournal.h"
-#include "dgtkJsonValue.h"
 
 #include <limits>
 #include <map>
@@ -14,7 +14,7 @@ namespace dgtk
 
 namespace
 {
-PixelType typeOf(const JsonValue& value)
+PixelType typeOf(const JsonCursor& value)
 {
   const std::string name = value.text();
   for (const PixelType type :
@@ -25,16 +25,16 @@ PixelType typeOf(const JsonValue& value)
       return type;
     }
   }
-  value.fail("unknown type", "uint8, uint16, uint32, float32 or float64", quoted(name));
+  value.fail("is an unknown type", "uint8, uint16, uint32, float32 or float64", quoted(name));
 }
 
-LayerRecord layerOf(const JsonValue& value)
+LayerRecord layerOf(const JsonCursor& value)
 {
   LayerRecord layer;
   layer.spec.name = value["name"].text();
   layer.format = value["format"].text();
   layer.spec.type = typeOf(value["type"]);
-  layer.spec.channels = value["channels"].smallInteger(1);
+  layer.spec.channels = integerOf(value["channels"], aSize);
   layer.spec.unit = value["unit"].text();
   layer.spec.frame = value["frame"].text();
   layer.spec.invalid = value["invalid"].text();
@@ -43,7 +43,7 @@ LayerRecord layerOf(const JsonValue& value)
   return layer;
 }
 
-DatasetFile fileOf(const JsonValue& value)
+DatasetFile fileOf(const JsonCursor& value)
 {
   DatasetFile file;
   file.path = value["path"].text();
@@ -51,40 +51,41 @@ DatasetFile fileOf(const JsonValue& value)
   {
     value["path"].fail("leads out of the dataset", "a name beneath its folder", dgtk::quoted(file.path));
   }
-  file.bytes = value["bytes"].count();
-  file.sha256 = value["sha256"].hash();
+  file.bytes = countOf(value["bytes"]);
+  file.sha256 = hashOf(value["sha256"]);
   file.layer = value.has("layer") ? value["layer"].text() : "";
   file.camera = value.has("camera") ? value["camera"].text() : "";
-  file.frame = value.has("frame") ? value["frame"].smallInteger(std::numeric_limits<int>::min()) : -1;
+  file.frame = value.has("frame") ? integerOf(value["frame"], anyFrame) : -1;
   return file;
 }
 
-CameraRecord cameraOf(const JsonValue& value)
+CameraRecord cameraOf(const JsonCursor& value)
 {
   CameraRecord camera;
   camera.name = value["name"].text();
-  camera.frame = value["frame"].smallInteger(std::numeric_limits<int>::min());
-  camera.width = value["width"].smallInteger(1);
-  camera.height = value["height"].smallInteger(1);
+  camera.frame = integerOf(value["frame"], anyFrame);
+  camera.width = integerOf(value["width"], aSize);
+  camera.height = integerOf(value["height"], aSize);
   camera.K = value["K"].matrix<Eigen::Matrix3d>();
   camera.R = value["R"].matrix<Eigen::Matrix3d>();
   camera.t = value["t"].matrix<Eigen::Vector3d>();
   camera.model = value["model"].text();
-  for (const JsonValue& item : value["distortion"].items())
+  for (const JsonCursor& item : value["distortion"].items())
   {
     camera.distortion.push_back(item.number());
   }
   camera.near = value["near"].number();
-  camera.far = value["far"].range();
+  // JSON has no infinity
+  camera.far = value["far"].isNull() ? std::numeric_limits<double>::infinity() : value["far"].number();
   return camera;
 }
 } // namespace
 
 std::vector<CameraRecord> readCameras(const std::string& path)
 {
-  const nlohmann::ordered_json json = readJson(path);
+  const JsonDocument document = readJson(path);
   std::vector<CameraRecord> cameras;
-  for (const JsonValue& item : JsonValue(path, "", json)["cameras"].items())
+  for (const JsonCursor& item : JsonCursor(document)["cameras"].items())
   {
     cameras.push_back(cameraOf(item));
   }
@@ -93,17 +94,17 @@ std::vector<CameraRecord> readCameras(const std::string& path)
 
 std::vector<ObjectRecord> readObjects(const std::string& path)
 {
-  const nlohmann::ordered_json json = readJson(path);
+  const JsonDocument document = readJson(path);
   std::vector<ObjectRecord> objects;
-  for (const JsonValue& item : JsonValue(path, "", json)[objectsKey].items())
+  for (const JsonCursor& item : JsonCursor(document)[objectsKey].items())
   {
     ObjectRecord object;
-    object.id = std::uint32_t(item["id"].integer(1, std::numeric_limits<std::uint32_t>::max()));
+    object.id = idOf(item["id"]);
     object.name = item["name"].text();
     object.objectClass = item["class"].text();
-    object.classId = std::uint32_t(item["class_id"].integer(1, std::numeric_limits<std::uint32_t>::max()));
+    object.classId = idOf(item["class_id"]);
     object.model = item["model"].text();
-    object.triangles = item["triangles"].count();
+    object.triangles = countOf(item["triangles"]);
     objects.push_back(object);
   }
   return objects;
@@ -111,14 +112,13 @@ std::vector<ObjectRecord> readObjects(const std::string& path)
 
 std::vector<ClassRecord> readClasses(const std::string& path)
 {
-  const nlohmann::ordered_json json = readJson(path);
-  const JsonValue root(path, "", json);
+  const JsonDocument document = readJson(path);
+  const JsonCursor root(document);
   const bool table = root.has(classesKey); // not in the first datasets
   std::map<std::uint32_t, std::string> names;
-  for (const JsonValue& item : root[table ? classesKey : objectsKey].items())
+  for (const JsonCursor& item : root[table ? classesKey : objectsKey].items())
   {
-    const std::int64_t id = item[table ? "id" : "class_id"].integer(1, std::numeric_limits<std::uint32_t>::max());
-    names.emplace(std::uint32_t(id), item[table ? "name" : "class"].text());
+    names.emplace(idOf(item[table ? "id" : "class_id"]), item[table ? "name" : "class"].text());
   }
   std::vector<ClassRecord> classes;
   classes.reserve(names.size());
@@ -131,42 +131,46 @@ std::vector<ClassRecord> readClasses(const std::string& path)
 
 Manifest readManifest(const std::string& path)
 {
-  const nlohmann::ordered_json json = readJson(path);
-  const JsonValue root(path, "", json);
-  if (!root.has("format") || json["format"] != "DGTk dataset")
+  const JsonDocument document = readJson(path);
+  const JsonCursor root(document);
+  if (!root.has("format") || root["format"].node().text != "DGTk dataset")
   {
     root.fail("is not the manifest of a DGTk dataset");
   }
-  root["format_version"].integer(1, 1);
+  root["format_version"].number({ 1, 1, false, false, "1" });
   Manifest manifest;
   manifest.version = root["version"].text();
   manifest.requestHash = root["request_hash"].text();
-  manifest.request = root["request"].members();
-  manifest.units = root["units"].text();
-  for (const JsonValue& item : root["inputs"].items())
+  const JsonCursor request = root["request"];
+  for (std::size_t i = 0, n = request.memberCount(); i < n; ++i)
   {
-    manifest.inputs.push_back({ item["path"].text(), item["bytes"].count(), item["sha256"].hash() });
+    manifest.request.emplace_back(request.key(i), request.member(i).text());
   }
-  for (const JsonValue& item : root["layers"].items())
+  manifest.units = root["units"].text();
+  for (const JsonCursor& item : root["inputs"].items())
+  {
+    manifest.inputs.push_back({ item["path"].text(), countOf(item["bytes"]), hashOf(item["sha256"]) });
+  }
+  for (const JsonCursor& item : root["layers"].items())
   {
     manifest.layers.push_back(layerOf(item));
   }
   if (root.has("empty")) // not in the first datasets, nor are warnings
   {
-    for (const JsonValue& item : root["empty"].items())
+    for (const JsonCursor& item : root["empty"].items())
     {
       manifest.empty.push_back(
-        { item["layer"].text(), item["pictures"].count(), item["of"].count(), item["needs"].text() });
+        { item["layer"].text(), countOf(item["pictures"]), countOf(item["of"]), item["needs"].text() });
     }
   }
   if (root.has("warnings"))
   {
-    for (const JsonValue& item : root["warnings"].items())
+    for (const JsonCursor& item : root["warnings"].items())
     {
       manifest.warnings.push_back(item.text());
     }
   }
-  for (const JsonValue& item : root["files"].items())
+  for (const JsonCursor& item : root["files"].items())
   {
     manifest.files.push_back(fileOf(item));
   }

@@ -2,7 +2,6 @@
 #include "dgtkJsonText.h"
 
 #include "dgtkText.h"
-#include "dgtkUtf8.h"
 
 #include <cmath>
 
@@ -17,28 +16,6 @@ std::string jsonNumber(double value)
   }
   const std::string text = shortest(value);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
-}
-
-std::string jsonString(const std::string& text)
-{
-  constexpr char digits[] = "0123456789abcdef";
-  std::string out = "\"";
-  for (const char c : utf8FromBytes(text))
-  {
-    if (c == '"' || c == '\\')
-    {
-      out += { '\\', c };
-    }
-    else if (static_cast<unsigned char>(c) < 0x20)
-    {
-      out += std::string("\\u00") + digits[c >> 4] + digits[c & 15];
-    }
-    else
-    {
-      out += c;
-    }
-  }
-  return out + '"';
 }
 
 std::string jsonMatrix(const Eigen::Ref<const Eigen::MatrixXd>& matrix)

@@ -2,6 +2,8 @@
 #ifndef dgtkJsonText_h
 #define dgtkJsonText_h
 
+#include "dgtkJson.h"
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -10,9 +12,6 @@
 
 namespace dgtk
 {
-
-/// A JSON string with its quotes. Bytes that are not UTF-8 are written as utf8FromBytes() says.
-std::string jsonString(const std::string& text);
 
 /// A JSON number, with a point or an exponent, so that readers that tell them apart take it for a real one; null for
 /// what is not finite.

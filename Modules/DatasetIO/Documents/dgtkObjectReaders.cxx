@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkJsonValue.h"
+#include "dgtkDocumentValues.h"
 #include "dgtkObjectDocuments.h"
 
 namespace dgtk
@@ -7,21 +7,19 @@ namespace dgtk
 
 namespace
 {
-constexpr std::int64_t mostIds = std::numeric_limits<std::uint32_t>::max();
-
-std::optional<Eigen::Vector4d> boxOf(const JsonValue& value)
+std::optional<Eigen::Vector4d> boxOf(const JsonCursor& value)
 {
   return value.isNull() ? std::nullopt : std::optional<Eigen::Vector4d>(value.matrix<Eigen::Vector4d>());
 }
 
-BoxRecord recordOf(const JsonValue& value)
+BoxRecord recordOf(const JsonCursor& value)
 {
   BoxRecord record;
-  record.id = std::uint32_t(value["id"].integer(1, mostIds));
+  record.id = idOf(value["id"]);
   record.name = value["name"].text();
   record.objectClass = value["class"].text();
-  record.pixelsVisible = value["pixels_visible"].count();
-  record.pixelsAmodal = value["pixels_amodal"].count();
+  record.pixelsVisible = countOf(value["pixels_visible"]);
+  record.pixelsAmodal = countOf(value["pixels_amodal"]);
   record.visible = boxOf(value["box_visible"]);
   record.amodal = boxOf(value["box_amodal"]);
   record.projected = boxOf(value["box_projected"]);
@@ -37,38 +35,37 @@ BoxRecord recordOf(const JsonValue& value)
   return record;
 }
 
-MaskRecord maskOf(const JsonValue& value, std::uint64_t pixels)
+MaskRecord maskOf(const JsonCursor& value, std::uint64_t pixels)
 {
   MaskRecord mask;
-  mask.id = std::uint32_t(value["id"].integer(1, mostIds));
+  mask.id = idOf(value["id"]);
   std::uint64_t at = 0;
-  for (const JsonValue& count : value["counts"].items())
+  for (const JsonCursor& count : value["counts"].items())
   {
-    mask.counts.push_back(count.count());
+    mask.counts.push_back(countOf(count));
     if (mask.counts.back() > pixels - at)
     {
-      value.fail("a mask is longer than the image");
+      value.fail("is longer than the image");
     }
     at += mask.counts.back();
   }
   if (at != pixels)
   {
-    value.fail("a mask ends before the image");
+    value.fail("ends before the image");
   }
   return mask;
 }
 
-PointRecord pointOf(const JsonValue& value)
+PointRecord pointOf(const JsonCursor& value)
 {
   PointRecord point;
   point.x = value["x"].matrix<Eigen::Vector3d>();
-  point.object = std::uint32_t(value["object"].integer(0, mostIds));
-  point.triangle = std::uint32_t(value["triangle"].integer(0, mostIds));
-  for (const JsonValue& sight : value["track"].items())
+  point.object = idOf(value["object"], anIndex);
+  point.triangle = idOf(value["triangle"], anIndex);
+  for (const JsonCursor& sight : value["track"].items())
   {
-    const std::vector<JsonValue> numbers = sight.items();
-    sight.require(numbers.size() == 3, "a camera's index and two numbers");
-    point.track.push_back({ std::uint32_t(numbers[0].integer(0, mostIds)), numbers[1].number(), numbers[2].number() });
+    sight.listSize(3);
+    point.track.push_back({ idOf(sight.element(0), anIndex), sight.element(1).number(), sight.element(2).number() });
   }
   return point;
 }
@@ -76,9 +73,9 @@ PointRecord pointOf(const JsonValue& value)
 
 std::vector<BoxRecord> readBoxes(const std::string& path)
 {
-  const nlohmann::ordered_json json = readJson(path);
+  const JsonDocument document = readJson(path);
   std::vector<BoxRecord> records;
-  for (const JsonValue& item : JsonValue(path, "", json)["objects"].items())
+  for (const JsonCursor& item : JsonCursor(document)["objects"].items())
   {
     records.push_back(recordOf(item));
   }
@@ -87,12 +84,12 @@ std::vector<BoxRecord> readBoxes(const std::string& path)
 
 AmodalMasks readAmodal(const std::string& path)
 {
-  const nlohmann::ordered_json json = readJson(path);
-  const JsonValue root(path, "", json);
+  const JsonDocument document = readJson(path);
+  const JsonCursor root(document);
   AmodalMasks masks;
-  masks.width = root["width"].smallInteger(1);
-  masks.height = root["height"].smallInteger(1);
-  for (const JsonValue& item : root["masks"].items())
+  masks.width = integerOf(root["width"], aSize);
+  masks.height = integerOf(root["height"], aSize);
+  for (const JsonCursor& item : root["masks"].items())
   {
     masks.masks.push_back(maskOf(item, std::uint64_t(masks.width) * std::uint64_t(masks.height)));
   }
@@ -101,15 +98,15 @@ AmodalMasks readAmodal(const std::string& path)
 
 TrackedPoints readPoints(const std::string& path)
 {
-  const nlohmann::ordered_json json = readJson(path);
-  const JsonValue root(path, "", json);
+  const JsonDocument document = readJson(path);
+  const JsonCursor root(document);
   TrackedPoints points;
-  points.frame = root["frame"].smallInteger(std::numeric_limits<int>::min());
-  for (const JsonValue& item : root["cameras"].items())
+  points.frame = integerOf(root["frame"], anyFrame);
+  for (const JsonCursor& item : root["cameras"].items())
   {
     points.cameras.push_back(item.text());
   }
-  for (const JsonValue& item : root["points"].items())
+  for (const JsonCursor& item : root["points"].items())
   {
     points.points.push_back(pointOf(item));
   }

@@ -229,7 +229,7 @@ TEST(Journal, Refusals)
   EXPECT_EQ(contentsOf(folder.path("thesis.txt")), "mine");
   EXPECT_FALSE(fs::exists(folder.path(journalName)));
   writeFile(folder.path("manifest.json"), "{\"mine\": 1}");
-  EXPECT_THAT(refusal(folder.path(), "one", replace), HasSubstr("manifest.json: "));
+  EXPECT_THAT(refusal(folder.path(), "one", replace), HasSubstr("manifest.json:1: "));
 
   const TemporaryFolder other;
   {

@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkJsonTree.h"
+#include "dgtkJson.h"
 
 #include "dgtkError.h"
-#include "dgtkSceneText.h"
+#include "dgtkText.h"
 #include "dgtkUtf8.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <charconv>
 #include <cstdint>
 #include <iterator>
 #include <unordered_set>
 
-namespace dgtk::scenefile
+namespace dgtk
 {
 
 namespace
 {
 constexpr std::size_t largestDepth = 32;
-constexpr std::size_t largestCount = 10'000'000;
 
 /// Reads characters and counts the lines before the last one read.
 class LineIterator
@@ -65,9 +64,10 @@ private:
 class TreeBuilder : public nlohmann::json_sax<nlohmann::json>
 {
 public:
-  TreeBuilder(const std::string& file, const int& line)
+  TreeBuilder(const std::string& file, const int& line, std::size_t mostValues)
     : File(file)
     , Line(line)
+    , Most(mostValues)
   {
   }
   JsonNode take() { return std::move(this->Root); }
@@ -78,13 +78,13 @@ public:
   bool number_unsigned(number_unsigned_t value) override { return this->put(JsonNode::of(double(value))); }
   bool number_float(number_float_t, const string_t& text) override
   {
-    std::string plain = text; // the lexer may have put the locale's decimal point
+    std::string plain = text; // the lexer's point, and its value, are those of the locale
     std::replace(plain.begin(), plain.end(), ',', '.');
     double value = 0;
-    const std::string fault = parseNumber(plain, value);
-    if (!fault.empty())
+    if (std::from_chars(plain.data(), plain.data() + plain.size(), value).ec != std::errc())
     {
-      throw InputError(this->File, this->Line, "number cannot be used", fault, quoted(text));
+      throw InputError(
+        this->File, this->Line, "number cannot be used", "a number within the range of double precision", quoted(text));
     }
     return this->put(JsonNode::of(value));
   }
@@ -121,9 +121,9 @@ public:
 private:
   JsonNode* put(JsonNode node)
   {
-    if (++this->Count > largestCount)
+    if (++this->Count > this->Most)
     {
-      throw InputError(this->File, this->Line, "has too many values", "at most " + std::to_string(largestCount));
+      throw InputError(this->File, this->Line, "has too many values", "at most " + std::to_string(this->Most));
     }
     node.line = this->Line;
     if (this->Open.empty())
@@ -149,91 +149,12 @@ private:
 
   const std::string& File;
   const int& Line;
+  const std::size_t Most;
   JsonNode Root;
   std::vector<JsonNode*> Open;
   std::vector<std::unordered_set<std::string>> Keys;
   std::size_t Count = 0;
 };
-
-bool isShort(const JsonNode& node, std::size_t& budget)
-{
-  if (node.type == JsonNode::Type::Object)
-  {
-    return node.children.empty();
-  }
-  const std::size_t size = node.type == JsonNode::Type::Array    ? 2
-                           : node.type == JsonNode::Type::String ? node.text.size() + 4
-                           : node.type == JsonNode::Type::Number ? numberText(node.number).size() + 2
-                                                                 : 7;
-  if (size > budget)
-  {
-    return false;
-  }
-  budget -= size;
-  return std::all_of(
-    node.children.begin(), node.children.end(), [&budget](const JsonNode& child) { return isShort(child, budget); });
-}
-
-bool fitsOneLine(const JsonNode& node)
-{
-  std::size_t budget = 100;
-  return isShort(node, budget);
-}
-
-void print(const JsonNode& node, std::size_t indentation, std::string& out);
-
-void printContainer(const JsonNode& node, std::size_t indentation, std::string& out)
-{
-  const bool object = node.type == JsonNode::Type::Object;
-  const bool oneLine = fitsOneLine(node);
-  out += object ? '{' : '[';
-  for (std::size_t i = 0; i < node.children.size(); ++i)
-  {
-    if (oneLine)
-    {
-      out += i == 0 ? "" : ", ";
-    }
-    else
-    {
-      out += i == 0 ? "\n" : ",\n";
-      out.append(indentation + 2, ' ');
-    }
-    print(node.children[i], indentation + 2, out);
-    if (object)
-    {
-      out += ": ";
-      print(node.children[++i], indentation + 2, out);
-    }
-  }
-  if (!oneLine)
-  {
-    out += '\n';
-    out.append(indentation, ' ');
-  }
-  out += object ? '}' : ']';
-}
-
-void print(const JsonNode& node, std::size_t indentation, std::string& out)
-{
-  switch (node.type)
-  {
-    case JsonNode::Type::Null:
-      out += "null";
-      break;
-    case JsonNode::Type::Boolean:
-      out += node.boolean ? "true" : "false";
-      break;
-    case JsonNode::Type::Number:
-      // -0 would be read as an integer, which has no sign of zero.
-      out += node.number == 0 && std::signbit(node.number) ? "-0.0" : numberText(node.number);
-      break;
-    case JsonNode::Type::String:
-      out += nlohmann::json(utf8FromBytes(node.text)).dump();
-      break;
-    default:
-      printContainer(node, indentation, out);
-  }
-}
 } // namespace
 
 JsonNode JsonNode::of(double value)
@@ -284,7 +205,7 @@ std::string JsonNode::described() const
     case Type::Boolean:
       return this->boolean ? "true" : "false";
     case Type::Number:
-      return numberText(this->number);
+      return plainNumber(this->number);
     case Type::String:
       return quoted(this->text);
     case Type::Array:
@@ -294,20 +215,35 @@ std::string JsonNode::described() const
   }
 }
 
-JsonNode parseJson(const std::string& file, const std::string& contents)
+std::string jsonString(const std::string& text)
+{
+  constexpr char digits[] = "0123456789abcdef";
+  std::string out = "\"";
+  for (const char c : utf8FromBytes(text))
+  {
+    if (c == '"' || c == '\\')
+    {
+      out += { '\\', c };
+    }
+    else if (static_cast<unsigned char>(c) < 0x20)
+    {
+      out += std::string("\\u00") + digits[c >> 4] + digits[c & 15];
+    }
+    else
+    {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+JsonDocument parseJson(const std::string& file, const std::string& contents, std::size_t mostValues)
 {
   int line = 1;
-  TreeBuilder builder(file, line);
+  TreeBuilder builder(file, line, mostValues);
   nlohmann::json::sax_parse(LineIterator(contents.data(), &line),
     LineIterator(contents.data() + contents.size(), &line), &builder, nlohmann::json::input_format_t::json, true, true);
-  return builder.take();
+  return { builder.take(), file };
 }
 
-std::string printJson(const JsonNode& root)
-{
-  std::string out;
-  print(root, 0, out);
-  return out + '\n';
-}
-
-} // namespace dgtk::scenefile
+} // namespace dgtk

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkDocumentValues_h
+#define dgtkDocumentValues_h
+
+// Private to DatasetIO: values of a dataset's documents.
+
+#include "dgtkFile.h"
+#include "dgtkJson.h"
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace dgtk
+{
+
+inline constexpr Range anyFrame{ -2147483648.0, 2147483647.0, false, false,
+  "a whole number from -2147483648 to 2147483647" };
+inline constexpr Range aSize{ 1, 2147483647.0, false, false, "a whole number from 1 to 2147483647" };
+inline constexpr Range anId{ 1, 4294967295.0, false, false, "a whole number from 1 to 4294967295" };
+inline constexpr Range anIndex{ 0, 4294967295.0, false, false, "a whole number from 0 to 4294967295" };
+inline constexpr Range aCount{ 0, 9007199254740991.0, false, false, "a whole number from 0 to 2^53 - 1" };
+
+inline JsonDocument readJson(const std::string& path)
+{
+  return parseJson(path, readFile(path, std::uint64_t(1) << 30), 64'000'000);
+}
+
+inline int integerOf(const JsonCursor& at, const Range& range) { return static_cast<int>(at.wholeNumber(range)); }
+inline std::uint32_t idOf(const JsonCursor& at, const Range& range = anId)
+{
+  return static_cast<std::uint32_t>(at.wholeNumber(range));
+}
+inline std::uint64_t countOf(const JsonCursor& at) { return static_cast<std::uint64_t>(at.wholeNumber(aCount)); }
+inline std::string hashOf(const JsonCursor& at)
+{
+  const std::string& value = at.text();
+  if (value.size() != 64 || value.find_first_not_of("0123456789abcdef") != std::string::npos)
+  {
+    at.failType("64 hexadecimal digits");
+  }
+  return value;
+}
+
+} // namespace dgtk
+
+#endif
