@@ -90,6 +90,29 @@ void PovAppearance::colorMap(Colors& colors)
   }
 }
 
+/// What follows a word of a pigment; false when it is none that counts.
+bool PovAppearance::pigmentWord(const PovToken& word, PovPigment& to)
+{
+  if (const PovValue* texture = this->Session.symbols.find(word, PovValue::Kind::Texture))
+  {
+    to = texture->texture->pigment;
+  }
+  else if (word.is("image_map"))
+  {
+    this->imageMap(to);
+  }
+  else if (word.is("quick_color") || word.is("quick_colour"))
+  {
+    this->Session.evaluator.expression();
+  }
+  else
+  {
+    to.uvMapping = to.uvMapping || word.is("uv_mapping");
+    return word.is("uv_mapping");
+  }
+  return true;
+}
+
 void PovAppearance::pigment(PovPigment& to)
 {
   const PovPlace place = this->Stream.peek().place;
@@ -115,28 +138,13 @@ void PovAppearance::pigment(PovPigment& to)
       continue;
     }
     this->Stream.take();
-    if (const PovValue* texture = this->Session.symbols.find(token, PovValue::Kind::Texture))
-    {
-      to = texture->texture->pigment;
-    }
-    else if (token.is("image_map"))
-    {
-      this->imageMap(to);
-    }
-    else if (token.is("uv_mapping"))
-    {
-      to.uvMapping = true;
-    }
-    else if (token.is("quick_color") || token.is("quick_colour"))
-    {
-      this->Session.evaluator.expression();
-    }
-    else if (token.isOneOf(maps))
+    if (token.isOneOf(maps))
     {
       pattern = true;
       this->colorMap(colors);
     }
-    else if (token.kind == PovToken::Kind::Word && !this->Session.symbols.find(token) && token.text[0] >= 'A' &&
+    else if (!this->pigmentWord(token, to) && token.kind == PovToken::Kind::Word &&
+             !this->Session.symbols.find(token) && token.text[0] >= 'A' &&
              token.text[0] <= 'Z') // the language's own words are in lower case
     {
       this->Session.warn(token.place, quoted(token.text) + " is not declared: drawn without");

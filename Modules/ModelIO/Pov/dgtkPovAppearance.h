@@ -44,6 +44,7 @@ public:
 private:
   using Colors = std::vector<Eigen::Vector3d>;
   void pigment(PovPigment& to);
+  bool pigmentWord(const PovToken& word, PovPigment& to);
   void colorMap(Colors& colors);
   void imageMap(PovPigment& to);
   void finish(PovFinish& to);

@@ -233,14 +233,8 @@ PovNumber PovEvaluator::withComponents(PovNumber color)
 
 PovNumber PovEvaluator::colorWord(const PovToken& word)
 {
-  PovNumber color;
-  if (isColorMember(word))
-  {
-    this->component(word, color);
-    return this->withComponents(color);
-  }
   const int components = colorWords.at(word.text);
-  color = this->expression();
+  PovNumber color = this->expression();
   if (color.unknown || color.isColor)
   {
     return color;
@@ -281,9 +275,14 @@ PovNumber PovEvaluator::word()
   {
     value = named->number.isKnownColor() ? this->withComponents(named->number) : named->number;
   }
-  else if (colorWords.count(word.text) > 0 || isColorMember(word))
+  else if (colorWords.count(word.text) > 0)
   {
     return this->colorWord(word);
+  }
+  else if (isColorMember(word))
+  {
+    this->component(word, value);
+    return this->withComponents(value);
   }
   else if (constants.count(word.text) > 0)
   {

@@ -87,7 +87,7 @@ private:
   void message(const PovToken& token);
   void error(const PovToken& token);
   void file(const PovToken& token);
-  void scene(PovContents& result);
+  PovShape scene();
   void checkDrawn(const PovShape& shape) const;
 
   PovSession Session;
@@ -373,7 +373,7 @@ void PovParser::declare(const PovToken& directive)
   this->Session.symbols.declare(name.text, std::move(value));
 }
 
-void PovParser::scene(PovContents& result)
+PovShape PovParser::scene()
 {
   PovShapeMaker all;
   while (this->Stream.peek().kind != PovToken::Kind::End)
@@ -389,7 +389,7 @@ void PovParser::scene(PovContents& result)
     }
     this->Session.skipCall(token);
   }
-  result.shape = all.take();
+  return all.take();
 }
 
 void PovParser::checkDrawn(const PovShape& shape) const
@@ -410,7 +410,7 @@ void PovParser::checkDrawn(const PovShape& shape) const
 PovContents PovParser::run()
 {
   PovContents result;
-  this->scene(result);
+  result.shape = this->scene();
   if (result.shape.empty())
   {
     // a file of declarations only is drawn as if each mesh that no other one uses stood in the scene
