@@ -76,7 +76,7 @@ CameraPath pathOf(const QString& text, const Eigen::Vector3d& lookAt)
       }
       values.push_back(*value);
     }
-    if (values.size() != 0 && values.size() != 3 && values.size() != 6)
+    if (!values.empty() && values.size() != 3 && values.size() != 6)
     {
       throw UsageError(CameraArrayDialog::tr("path: line %1: expected 3 or 6 numbers, found %2")
                          .arg(number)

@@ -100,6 +100,7 @@ std::vector<Unchecked> uncheckedOf(const Dataset& dataset, const Results& result
     }
   }
   std::vector<Unchecked> unchecked;
+  unchecked.reserve(kinds.size());
   for (const auto& [kind, files] : kinds)
   {
     unchecked.push_back({ kind.first, kind.second, files });

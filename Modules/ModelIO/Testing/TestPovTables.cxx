@@ -7,7 +7,6 @@
 #include <cmath>
 
 using namespace dgtk::test;
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
