@@ -170,8 +170,9 @@ int chessboard(const std::string& folder)
   std::vector<std::vector<cv::Point3f>> points;
   std::vector<std::vector<cv::Point2f>> corners;
   cv::Size size;
-  for (const CameraRecord& camera : cameras)
+  for (std::size_t k = 0; k < cameras.size(); k += 2) // finding corners so well takes half a second a picture
   {
+    const CameraRecord& camera = cameras[k];
     char name[64];
     std::snprintf(name, sizeof name, "/%s/color/%06d.png", camera.name.c_str(), camera.frame);
     const cv::Mat picture = gray(folder + name);
@@ -203,7 +204,7 @@ int chessboard(const std::string& folder)
     largest = std::max(largest, std::abs(value - expected));
   }
   std::printf(
-    "chessboard found in %zu of %zu pictures, reprojection error %.4f pixel\n", corners.size(), cameras.size(), error);
+    "chessboard found in %zu of %zu pictures, reprojection error %.4f pixel\n", corners.size(), (cameras.size() + 1) / 2, error);
   return corners.size() >= 12 && largest <= calibrated ? 0 : 1;
 }
 } // namespace
