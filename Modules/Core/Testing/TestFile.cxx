@@ -11,6 +11,9 @@
 #include <atomic>
 #include <deque>
 #include <filesystem>
+#include <mutex>
+#include <set>
+#include <thread>
 
 #include <sys/resource.h>
 
@@ -144,6 +147,27 @@ TEST(ThreadPool, RunsEveryIndexOnceAlsoFromAJob)
   std::atomic<int> sum{ 0 };
   pool.submit([&] { pool.parallelFor(1000, [&](int i) { sum += i; }); }).get();
   EXPECT_EQ(sum, 499500);
+}
+
+TEST(ThreadPool, HasAsManyThreadsAsAskedWithTheOneThatWaits)
+{
+  for (const int threads : { 1, 2, 3 })
+  {
+    dgtk::ThreadPool pool(threads);
+    std::mutex mutex;
+    std::set<std::thread::id> seen;
+    for (int round = 0; round < 20; ++round)
+    {
+      pool.parallelFor(8,
+        [&](int)
+        {
+          const std::lock_guard<std::mutex> lock(mutex);
+          seen.insert(std::this_thread::get_id());
+        });
+    }
+    EXPECT_LE(int(seen.size()), threads);
+    EXPECT_EQ(pool.threads(), threads);
+  }
 }
 
 TEST(ThreadPool, RethrowsTheFirstFailure)

@@ -312,6 +312,23 @@ TEST(Pieces, CoverWhatTheyAreCutFromOnceWithDepthsThatDouble)
   EXPECT_NEAR(area[2] / beyond, 1, 1e-5);
 }
 
+TEST(Pieces, OfWhatBeginsInTheNearPlane)
+{
+  Ground ground;
+  ground.Range.view_from_object(2, 3) = -5.5; // depths from near on
+  Pieces pieces;
+  makePieces(ground.Range, ground.Camera, pieces);
+  double area[3] = { 0, 0, 0 };
+  for (std::size_t i = 0; i + 2 < pieces.triangles.size(); i += 3)
+  {
+    const float* p = &pieces.positions[3 * i];
+    const double ax = p[3] - p[0], az = p[5] - p[2], bx = p[6] - p[0], bz = p[8] - p[2];
+    area[static_cast<std::size_t>(pieces.triangles[i])] += std::abs(ax * bz - az * bx) / 2;
+  }
+  EXPECT_NEAR(area[0], 600 * 905 / 2.0, 3);
+  EXPECT_NEAR(area[2], 600 * 905 / 2.0, 3);
+}
+
 TEST(Pieces, AreNotMadeOfWhatIsNotSeenOrNeedsNone)
 {
   Ground ground;

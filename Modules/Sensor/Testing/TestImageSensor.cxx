@@ -399,6 +399,50 @@ TEST(ImageSensor, BayerCellsHaveTheirColoursInPlace)
   }
 }
 
+TEST(ImageSensor, PatternsStayFromFrameToFrameAndNoiseDoesNot)
+{
+  using Change = std::function<void(ColorSensorParameters&)>;
+  const std::tuple<const char*, Change, bool> table[] = { { "prnu", [](auto& p) { p.prnu = 0.1; }, true },
+    { "dsnu", [](auto& p) { p.dsnu = 500; }, true }, { "rowNoise", [](auto& p) { p.rowNoise = 500; }, true },
+    { "columnNoise", [](auto& p) { p.columnNoise = 500; }, true },
+    { "texture",
+      [](auto& p)
+      {
+        p.texture.amplitude = 0.2;
+        p.texture.period = 3;
+        p.texture.fixed = true;
+      },
+      true },
+    { "moving texture",
+      [](auto& p)
+      {
+        p.texture.amplitude = 0.2;
+        p.texture.period = 3;
+        p.texture.fixed = false;
+      },
+      false },
+    { "shotNoise", [](auto& p) { p.shotNoise = true; }, false },
+    { "readNoise", [](auto& p) { p.readNoise = 500; }, false }, { "salt", [](auto& p) { p.salt = 0.2; }, false },
+    { "pepper", [](auto& p) { p.pepper = 0.2; }, false } };
+  for (const auto& [name, change, fixed] : table)
+  {
+    ColorSensorParameters p = idealLinear();
+    change(p);
+    ImageSensorSetup setup = setupOf(p);
+    setup.width = setup.height = 24;
+    const std::vector<float> first = expose(setup, grey(0.4));
+    EXPECT_NE(*std::min_element(first.begin(), first.end()), *std::max_element(first.begin(), first.end())) << name;
+    setup.key.frame += 1;
+    EXPECT_EQ(expose(setup, grey(0.4)) == first, fixed) << name;
+    setup.key.frame -= 1;
+    setup.key.camera += 1;
+    EXPECT_NE(expose(setup, grey(0.4)), first) << name;
+    setup.key.camera -= 1;
+    setup.key.seed += 1;
+    EXPECT_NE(expose(setup, grey(0.4)), first) << name;
+  }
+}
+
 TEST(ImageSensor, RowsTogetherOrApartAndThreadsGiveTheSameBytes)
 {
   ColorSensorParameters p = defaultColorSensor();

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkEdgeMarks.h"
 #include "dgtkExactReference.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -57,6 +59,36 @@ std::size_t disturb(const dgtk::SceneState& state, const dgtk::View& view, doubl
   return disturbed;
 }
 } // namespace
+
+TEST(EdgeMarks, PolygonsAreClippedAtAPlaneThatTheirCornersMayLieIn)
+{
+  const auto clip = [](const std::array<double, 3>& depths, double side)
+  {
+    dgtk::SmallPolygon<dgtk::Vector3> triangle;
+    triangle.add({ 0, 0, depths[0] });
+    triangle.add({ 8, 0, depths[1] });
+    triangle.add({ 0, 8, depths[2] });
+    const auto kept = dgtk::clipped(triangle, side, 2);
+    double area = 0; // in x and y
+    for (int i = 0; i < kept.count; ++i)
+    {
+      const dgtk::Vector3& a = kept[i];
+      const dgtk::Vector3& b = kept[(i + 1) % kept.count];
+      EXPECT_GE(side * (a.z - 2), 0);
+      area += (a.x * b.y - a.y * b.x) / 2;
+    }
+    return area;
+  };
+  EXPECT_DOUBLE_EQ(clip({ 4, 4, 4 }, 1), 32);
+  EXPECT_DOUBLE_EQ(clip({ 1, 1, 1 }, 1), 0);
+  EXPECT_DOUBLE_EQ(clip({ 2, 4, 4 }, 1), 32); // a corner in the plane
+  EXPECT_DOUBLE_EQ(clip({ 2, 2, 4 }, 1), 32);
+  EXPECT_DOUBLE_EQ(clip({ 2, 2, 2 }, 1), 32);
+  EXPECT_DOUBLE_EQ(clip({ 4, 0, 2 }, 1), 16);
+  EXPECT_DOUBLE_EQ(clip({ 0, 4, 4 }, 1), 24); // half of both edges
+  EXPECT_DOUBLE_EQ(clip({ 4, 0, 0 }, 1), 8);
+  EXPECT_DOUBLE_EQ(clip({ 4, 0, 0 }, -1), 24);
+}
 
 TEST(SettleEdges, LeavesAnExactBufferAlone)
 {
