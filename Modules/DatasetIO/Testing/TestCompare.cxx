@@ -98,6 +98,18 @@ TEST(Compare, OtherFormatsAndTypesByValue)
   EXPECT_THROW(compareFiles(folder.path("a.npy"), folder.path("none.npy")), InputError);
 }
 
+TEST(Compare, TheBeginningOfAFileIsNotTheFile)
+{
+  const TemporaryFolder folder;
+  writeFile(folder.path("a.txt"), "text");
+  writeFile(folder.path("b.txt"), "text, and more");
+  for (const auto& [a, b] : { std::pair("a.txt", "b.txt"), std::pair("b.txt", "a.txt") })
+  {
+    const CompareResult result = compareFiles(folder.path(a), folder.path(b));
+    EXPECT_FALSE(result.equal || result.sameBytes) << a;
+  }
+}
+
 TEST(Compare, DeepFilesOnOneSideAreComparedByTheirBytes)
 {
   const TemporaryFolder folder;

@@ -141,6 +141,8 @@ TEST(LayerPicture, ValuesInTheirOwnRanges)
     (std::vector<Rgb>{ { 0, 0, 128 }, { 255, 255, 128 }, { 128, 191, 128 } }));
   EXPECT_EQ(painted<double>(PixelType::Float64, 1, Meaning::InverseDepth, { 4, 8, 6 }),
     (std::vector<Rgb>{ rampColor(0.15), rampColor(1), rampColor(0.575) }));
+  EXPECT_EQ(painted<double>(PixelType::Float64, 2, Meaning::Point, { 1, 30, 3, 10 }),
+    (std::vector<Rgb>{ { 0, 255, 64 }, { 255, 0, 64 } }));
   // depth by its logarithm: 1, 10 and 100
   EXPECT_EQ(painted<double>(PixelType::Float64, 1, Meaning::Depth, { 1, 100, 10 }),
     (std::vector<Rgb>{ rampColor(1), rampColor(0.15), rampColor(0.575) }));

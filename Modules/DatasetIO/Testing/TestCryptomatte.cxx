@@ -134,6 +134,30 @@ TEST(Cryptomatte, ReadBackByOpenImageIO)
   EXPECT_EQ(readLayerFile(path).info.channels, 16);
 }
 
+TEST(Cryptomatte, RunsMayPassTheEndsOfRowsAndBlocks)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.path("c.exr");
+  constexpr int width = 5;
+  constexpr int height = 300;
+  CryptomatteWriter writer(path, coverageSpec(), width, height, { "a", "b" }, 2);
+  writer.add({ { 1, 1.0f } }, 3);
+  writer.add({ { 2, 1.0f } }, width * height - 4);
+  writer.add({ { 1, 1.0f } }, 1);
+  writer.finish();
+  const ImageData read = readLayerFile(path);
+  std::vector<std::uint64_t> changes; // pixels whose channels differ from those before
+  for (std::uint64_t i = 1; i < std::uint64_t(width * height); ++i)
+  {
+    const float* own = read.pixels.row<float>(0) + i * std::uint64_t(read.info.channels);
+    if (!std::equal(own, own + read.info.channels, own - read.info.channels))
+    {
+      changes.push_back(i);
+    }
+  }
+  EXPECT_THAT(changes, testing::ElementsAre(3u, std::uint64_t(width * height - 1)));
+}
+
 TEST(Cryptomatte, RefusesAnIncompleteImage)
 {
   const TemporaryFolder folder;

@@ -172,6 +172,32 @@ TEST(LyingHeaders, AreRefusedWithTheirOffset)
   EXPECT_THAT(messageOf("x.exr", "not a picture"), HasSubstr("offset 0: is not an OpenEXR file"));
 }
 
+TEST(LyingHeaders, OffsetsOfBlocksLieWithinTheFile)
+{
+  const TemporaryFolder folder;
+  const LayerSpec spec = specOf(PixelType::Float32, 1);
+  writeImage("exr", folder.path("x.exr"), spec, testImage(spec, 4, 4), 4, {});
+  const std::string sound = contentsOf(folder.path("x.exr"));
+  // The table of the one block ends where the block begins.
+  std::size_t table = 0;
+  for (std::size_t at = 8; table == 0 && at + 8 <= sound.size(); ++at)
+  {
+    std::uint64_t offset = 0;
+    std::memcpy(&offset, &sound[at], 8);
+    table = offset == at + 8 ? at : 0;
+  }
+  ASSERT_GT(table, 0u);
+  for (const std::uint64_t wrong : { std::uint64_t(sound.size()) - 7, std::uint64_t(sound.size()),
+         std::uint64_t(sound.size()) + 1, ~std::uint64_t(0), ~std::uint64_t(3) })
+  {
+    std::string bytes = sound;
+    std::memcpy(&bytes[table], &wrong, 8);
+    EXPECT_THAT(messageOf("y.exr", bytes),
+      HasSubstr("offset " + std::to_string(table) + ": an offset beyond the end of the file"))
+      << wrong;
+  }
+}
+
 TEST(LyingHeaders, WholeImagesAboveTheLimitAreRefused)
 {
   const TemporaryFolder folder;

@@ -294,6 +294,14 @@ TEST(Md2, Refusals)
   EXPECT_THAT(refusedWith(8 + 8 * 4, 0), HasSubstr("bad frames in the header"));
   EXPECT_THAT(refusedWith(8 + 8 * 4, 0x7fffffff), HasSubstr("frames at byte"));
   EXPECT_THAT(refusedWith(8 + 12 * 4, -5), HasSubstr("bad offset of frames in the header"));
+  for (const auto& [number, offset, what] :
+    { std::tuple(3, 9, "skins"), { 5, 10, "texture coordinates" }, { 6, 11, "triangles" }, { 8, 12, "frames" } })
+  {
+    EXPECT_THAT(refusedWith(8 + std::size_t(number) * 4, 100000), HasSubstr(std::string(what) + " at byte"));
+    EXPECT_THAT(refusedWith(8 + std::size_t(offset) * 4, 67), HasSubstr(std::string("bad offset of ") + what));
+    EXPECT_THAT(refusedWith(8 + std::size_t(offset) * 4, 100000), HasSubstr(std::string(what) + " at byte"));
+    EXPECT_THAT(refusedWith(8 + std::size_t(number) * 4, -1), HasSubstr("in the header")) << what;
+  }
   dgtk::test::Md2File file = md2Seed();
   file.frames[1].scale[0] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THAT(refusal("md2", file.bytes()), HasSubstr("a frame's scale or translation is not a usable number at byte"));

@@ -95,6 +95,25 @@ TEST_F(Halves, WhatIsThereIsPackedAndNamedByTheScene)
   EXPECT_EQ(packing.scene.objects.at(1).model, "inputs/scene/wall.ac");
 }
 
+TEST_F(Halves, FoldersOfOneNameAreNumberedFromTwoOn)
+{
+  std::string objects;
+  for (const char* folder : { "a/parts", "b/parts", "c/parts" })
+  {
+    makeFolders(this->path(folder));
+    writeFile(this->path(std::string(folder) + "/wall.ac"), readFile(this->path("wall.ac")));
+    objects += std::string(objects.empty() ? "" : ", ") + "{\"model\": \"" + folder + "/wall.ac\"}";
+  }
+  writeFile(this->path("many.json"), "{\"objects\": [" + objects + "]}");
+  const Packing packing = planPacking(*Stage::load(readScene(this->path("many.json"))), this->path("d"));
+  std::vector<std::string> models;
+  for (const ObjectDescription& object : packing.scene.objects)
+  {
+    models.push_back(object.model);
+  }
+  EXPECT_THAT(models, testing::ElementsAre("inputs/parts/wall.ac", "inputs/parts-2/wall.ac", "inputs/parts-3/wall.ac"));
+}
+
 TEST_F(Halves, ARendererThatIsKeptDrawsWhatANewOneDraws)
 {
   const auto scene = vtkSmartPointer<dgtkScene>::New();

@@ -228,6 +228,15 @@ TEST(SceneTables, WhatSceneFilesHaveNoWordsFor)
 {
   const std::pair<std::function<void(SceneDescription&)>, const char*> table[] = {
     { [](auto& s) { s.environment.image = "sky.hdr"; }, "environment" }, { [](auto& s) { s.fog.density = 1; }, "fog" },
+    { [](auto& s) { s.fps = 30; }, "fps" }, { [](auto& s) { s.background[1] = 0.5; }, "background" },
+    { [](auto& s) { s.units = "m"; }, "units" }, { [](auto& s) { s.upAxis = UpAxis::Z; }, "upAxis" },
+    { [](auto& s) { s.seed = 7; }, "seed" },
+    { [](auto& s)
+      {
+        s.classes = { { "a", 1 } };
+        s.objects[0].className = "a";
+      },
+      "classes" },
     { [](auto& s) { s.objects[0].animation.start = 1; }, "object 'a-1': animation.start" },
     { [](auto& s) { s.objects[0].animation.offset = 1; }, "object 'a-1': animation.offset" },
     { [](auto& s) { s.objects[0].animation.loop = !s.objects[0].animation.loop; }, "object 'a-1': animation.loop" },
@@ -272,14 +281,18 @@ TEST(SceneTables, WhatSceneFilesHaveNoWordsFor)
     nameAll(scene);
     EXPECT_NO_THROW(toThesisScene(scene, ""));
     change(scene);
-    try
+    for (const std::vector<int>& frames : { std::vector<int>(), std::vector<int>{ 3, 7 } })
     {
-      toThesisScene(scene, "");
-      ADD_FAILURE() << what;
-    }
-    catch (const InputError& error)
-    {
-      EXPECT_THAT(error.what(), HasSubstr(std::string("scene: ") + what + " cannot be said in .scene"));
+      scene.extraKeyFrames = frames;
+      try
+      {
+        toThesisScene(scene, "");
+        ADD_FAILURE() << what;
+      }
+      catch (const InputError& error)
+      {
+        EXPECT_THAT(error.what(), HasSubstr(std::string("scene: ") + what + " cannot be said in .scene"));
+      }
     }
   }
 }
