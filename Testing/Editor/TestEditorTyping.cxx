@@ -19,6 +19,8 @@
 #include <QTreeWidget>
 
 #include <cmath>
+#include <functional>
+#include <vector>
 
 using dgtk::SceneItem;
 
@@ -221,6 +223,58 @@ void TestEditorTyping::unitsAreTyped()
 }
 
 /// What a layer needs is asked in the window, and what no camera has is not offered.
+void TestEditorTyping::everyNumberIsOfItsOwnProperty()
+{
+  QVERIFY(this->Window->openFile(demo()));
+  dgtk::SceneDocument& document = this->Window->document();
+  struct Row
+  {
+    const char* item;
+    const char* field;
+    double typed;
+    std::function<double(const dgtk::SceneDescription&)> value;
+  };
+  const Row table[] = { { "right", "near.0", 0.5, [](const auto& s) { return s.cameras[1].near; } },
+    { "right", "far.0", 300, [](const auto& s) { return s.cameras[1].far; } },
+    { "right", "fovY.0", 50, [](const auto& s) { return s.cameras[1].fovY.value; } },
+    { "right", "aspect.0", 1.5, [](const auto& s) { return s.cameras[1].aspect; } },
+    { "right", "eye.0", 0.25, [](const auto& s) { return s.cameras[1].eye.value.x(); } },
+    { "right", "eye.1", 2, [](const auto& s) { return s.cameras[1].eye.value.y(); } },
+    { "right", "lookAt.1", 1.5, [](const auto& s) { return s.cameras[1].lookAt.value.y(); } },
+    { "right", "lookAt.2", -1, [](const auto& s) { return s.cameras[1].lookAt.value.z(); } },
+    { "right", "up.0", 0.125, [](const auto& s) { return s.cameras[1].up.value.x(); } },
+    { "tree", "position.2", -4, [](const auto& s) { return s.objects[3].position.value.z(); } },
+    { "tree", "scale.1", 1.25, [](const auto& s) { return s.objects[3].scale.value.y(); } },
+    { "spot", "position.0", -1, [](const auto& s) { return s.lights[2].position.value.x(); } },
+    { "spot", "target.1", 0.5, [](const auto& s) { return s.lights[2].target.value.y(); } },
+    { "spot", "intensity.0", 2, [](const auto& s) { return s.lights[2].intensity; } },
+    { "spot", "coneAngle.0", 20, [](const auto& s) { return s.lights[2].coneAngle; } },
+    { "spot", "exponent.0", 16, [](const auto& s) { return s.lights[2].exponent; } } };
+  for (const Row& row : table)
+  {
+    this->select(row.item);
+    std::vector<double> before;
+    std::vector<double> after;
+    const auto values = [&]
+    {
+      std::vector<double> all;
+      for (const Row& other : table)
+      {
+        all.push_back(other.value(document.scene()));
+      }
+      return all;
+    };
+    before = values();
+    this->type(row.field, QString::number(row.typed));
+    after = values();
+    for (std::size_t i = 0; i < after.size(); ++i)
+    {
+      const double expected = &table[i] == &row ? row.typed : before[i];
+      QVERIFY2(after[i] == expected, qPrintable(QString("%1, then %2").arg(row.field, table[i].field)));
+    }
+  }
+}
+
 void TestEditorTyping::allLayersAreRendered()
 {
   QVERIFY(this->Window->openFile(this->copyOfDemo()));

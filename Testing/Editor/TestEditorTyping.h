@@ -17,6 +17,7 @@ private slots:
   void dialogsKeepWhatIsRefused();
   void hugeSizesAreRefused();
   void unitsAreTyped();
+  void everyNumberIsOfItsOwnProperty();
   void allLayersAreRendered();
   void rowsEndQuietly();
 };
