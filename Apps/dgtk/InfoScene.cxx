@@ -42,6 +42,10 @@ Json infoOfCamera(const Stage& stage, std::size_t index, int width, int height, 
     camera["resolution"] = { { "x", resolution.thesis.x() }, { "y", resolution.thesis.y() },
       { "far_plane", { { "x", resolution.farPlane.x() }, { "y", resolution.farPlane.y() } } } };
   }
+  for (const auto& [name, numbers] : view.model->parameters().numbers)
+  {
+    camera[name] = numbers.size() == 1 ? Json(numbers[0]) : Json(numbers);
+  }
   camera["R"] = matrix(view.camera_from_world.rotation);
   camera["t"] = vector(view.camera_from_world.translation);
   camera["near"] = view.near;
@@ -53,21 +57,6 @@ Json infoOfCamera(const Stage& stage, std::size_t index, int width, int height, 
       { "largest", seen.largest } };
   }
   return camera;
-}
-
-const char* nameOf(LightKind kind)
-{
-  switch (kind)
-  {
-    case LightKind::Head:
-      return "head";
-    case LightKind::Point:
-      return "point";
-    case LightKind::Directional:
-      return "directional";
-    default:
-      return "spot";
-  }
 }
 } // namespace
 
@@ -113,7 +102,7 @@ Json infoOfScene(const std::string& path, const Arguments& arguments)
   info["lights"] = Json::array();
   for (const LightDescription& light : scene.lights)
   {
-    info["lights"].push_back({ { "name", light.name }, { "kind", nameOf(light.kind) }, { "enabled", light.enabled } });
+    info["lights"].push_back({ { "name", light.name }, { "kind", traitsOf(light.kind).word }, { "enabled", light.enabled } });
   }
   info["first_frame"] = scene.firstFrame();
   info["last_frame"] = scene.lastFrame();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands.h"
 
+#include "dgtkCameraEntry.h"
 #include "dgtkError.h"
 #include "dgtkGLContext.h"
 #include "dgtkGenerator.h"
@@ -86,8 +87,12 @@ std::vector<Row> writers()
 
 std::vector<Row> cameras()
 {
-  return { { "pinhole", "perspective, by vertical field of view or by K (off-centre, fx != fy)" },
-    { "orthographic", "parallel projection" } };
+  std::vector<Row> rows;
+  for (const CameraRow& camera : cameraRows())
+  {
+    rows.push_back({ camera.model, camera.description });
+  }
+  return rows;
 }
 
 std::vector<Row> gl()
@@ -123,6 +128,21 @@ void describeLayers(Json& rows)
     for (const OptionRow* option : infos[i].options)
     {
       rows[i]["options"].push_back(option->name);
+    }
+  }
+}
+
+/// Size, pose, near and far are not among the parameters: all cameras have them.
+void describeCameras(Json& rows)
+{
+  for (Json& row : rows)
+  {
+    row["parameters"] = Json::array();
+    for (const CameraParameter& parameter : findCamera(row["model"].get<std::string>())->parameters)
+    {
+      row["parameters"].push_back({ { "name", parameter.name }, { "unit", parameter.unit },
+        { "description", parameter.help }, { "counts", parameter.counts }, { "default", parameter.usual },
+        { "moves", parameter.moves } });
     }
   }
 }
@@ -179,7 +199,7 @@ const std::vector<Section>& sections()
     { "layers", &layers, { "layer", "formats", "description" }, &describeLayers },
     { "options", &options, { "name", "value", "default", "help" }, &describeOptions },
     { "writers", &writers, { "format", "extension", "description" } },
-    { "cameras", &cameras, { "model", "description" } }, { "gl", &gl, { "backend", "state", "description" } } };
+    { "cameras", &cameras, { "model", "description" }, &describeCameras }, { "gl", &gl, { "backend", "state", "description" } } };
   return all;
 }
 

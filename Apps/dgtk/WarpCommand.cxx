@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands.h"
 
+#include "dgtkCameraEntry.h"
 #include "dgtkDatasetDocuments.h"
 #include "dgtkError.h"
 #include "dgtkFile.h"
@@ -58,13 +59,15 @@ View viewOf(const CameraRecord& camera, const std::string& file)
   view.far = camera.far;
   try
   {
-    view.model = makeRecordedCamera(camera.model, camera.width, camera.height, camera.K);
+    const std::optional<Eigen::Matrix3d> K = camera.hasK ? std::optional(camera.K) : std::nullopt;
+    const CameraParameters of{ camera.width, camera.height, K, camera.numbers, camera.files };
+    view.model = findCamera(camera.model) ? makeCamera(camera.model, of) : nullptr;
   }
   catch (const UsageError& error)
   {
     throw InputError(file, 0, "camera " + quoted(camera.name) + ": " + error.what());
   }
-  if (!view.model || !camera.distortion.empty())
+  if (!view.model || !view.model->linear())
   {
     throw UsageError("camera " + quoted(camera.name) + " of " + file + " is a lens (" + quoted(camera.model) +
                      "): only pinhole and orthographic cameras can be warped from and to");

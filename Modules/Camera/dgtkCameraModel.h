@@ -7,9 +7,12 @@
 
 #include <Eigen/Core>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace dgtk
 {
@@ -34,6 +37,19 @@ struct LinearProjection
   bool perspective = true;
 };
 
+/// What a camera is made of besides its model, under the names that scene files and cameras.json have for them.
+struct CameraParameters
+{
+  int width = 0;                    ///< pixels
+  int height = 0;                   ///< pixels
+  std::optional<Eigen::Matrix3d> K; ///< of an image of this size
+  std::map<std::string, std::vector<double>> numbers = {};
+  std::map<std::string, std::string> files = {}; ///< paths as they can be opened
+
+  /// The one number of a name that is there.
+  double number(const std::string& name) const { return this->numbers.at(name).front(); }
+};
+
 /// How image points and rays of a camera belong together. Immutable. Everything that is derived from a camera asks
 /// for rays and projections here; nothing else in the library assumes a kind of lens.
 class DGTKCAMERA_EXPORT CameraModel
@@ -45,11 +61,14 @@ public:
 
   /// Name as written in scene files and cameras.json: "pinhole", "orthographic".
   virtual std::string name() const = 0;
-  int width() const { return this->Width; }   ///< pixels
-  int height() const { return this->Height; } ///< pixels
+  int width() const { return this->Parameters.width; }   ///< pixels
+  int height() const { return this->Parameters.height; } ///< pixels
+  /// What makeCamera() makes the same camera of, under its name().
+  const CameraParameters& parameters() const { return this->Parameters; }
 
-  /// The ray through an image point (pixels), in the camera frame. For the models with a linear() projection
-  /// direction.z is 1 and origin.z is 0, so that the ray's parameter is the depth.
+  /// The ray through an image point (pixels), in the camera frame, also for points outside the image where there is
+  /// one. Of a linear() projection direction.z is 1 and origin.z is 0, so that the ray's parameter is the depth; of
+  /// another one the direction has length 1, so that it is the distance. Finite everywhere.
   virtual CameraRay rayThrough(const Eigen::Vector2d& pixel) const = 0;
 
   /// Image point of a point in the camera frame (scene units), also outside the image. False, and `pixel`
@@ -60,15 +79,17 @@ public:
   virtual std::optional<LinearProjection> linear() const { return std::nullopt; }
 
 protected:
+  explicit CameraModel(CameraParameters parameters)
+    : Parameters(std::move(parameters))
+  {
+  }
   CameraModel(int width, int height)
-    : Width(width)
-    , Height(height)
+    : CameraModel(CameraParameters{ width, height, std::nullopt })
   {
   }
 
 private:
-  int Width;
-  int Height;
+  CameraParameters Parameters;
 };
 
 /// A camera at one instant, as the ground truth needs it.
@@ -77,8 +98,8 @@ struct View
   std::string name;
   std::shared_ptr<const CameraModel> model;
   Rigid3 camera_from_world;
-  double near = 0.1;   ///< smallest depth that is seen, scene units, > 0
-  double far = 1000.0; ///< largest depth that is seen, scene units, > near
+  double near = 0.1;   ///< smallest parameter of a ray that is seen (depth, or distance), scene units, > 0
+  double far = 1000.0; ///< largest one, scene units, > near
 };
 
 /// K = [fx s cx; 0 fy cy; 0 0 1], pixels. Throws UsageError unless 1 <= width, height <= 2^20, K has that form, all its
@@ -95,11 +116,6 @@ DGTKCAMERA_EXPORT std::shared_ptr<const CameraModel> makePinholeFromFov(
 /// Throws UsageError unless viewHeight is finite and > 0.
 DGTKCAMERA_EXPORT std::shared_ptr<const CameraModel> makeOrthographic(
   int width, int height, double viewHeight, double aspect);
-
-/// A camera as cameras.json has it: of the model "pinhole", or "orthographic", whose K has pixels a scene unit. Null
-/// for any other model. Throws UsageError for a size or K that no camera has.
-DGTKCAMERA_EXPORT std::shared_ptr<const CameraModel> makeRecordedCamera(
-  const std::string& model, int width, int height, const Eigen::Matrix3d& K);
 
 /// camera_from_world of a camera at `eye` that looks at `lookAt` with `up` upwards in the image (gluLookAt).
 /// Throws UsageError when eye and lookAt coincide or up is parallel to the view.

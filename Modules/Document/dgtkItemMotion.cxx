@@ -186,7 +186,7 @@ ItemMotion::ItemMotion(const SceneDescription& scene, const ScenePlaces& places,
     {
       const LightDescription& light = scene.lights[item.index];
       start.target = light.target.at(frame);
-      directed = light.kind == LightKind::Directional || light.kind == LightKind::Spot;
+      directed = traitsOf(light.kind).aimed;
     }
     else
     {
@@ -318,7 +318,7 @@ void ItemMotion::applyToObject(ObjectDescription& object, const Start& start, co
 void ItemMotion::applyToLight(LightDescription& light, const Start& start, const WorldMotion& motion) const
 {
   putMoved(light.position, this->Frame, start.position, stepOf(start.position, motion));
-  if (light.kind == LightKind::Directional || light.kind == LightKind::Spot)
+  if (traitsOf(light.kind).aimed)
   {
     putMoved(light.target, this->Frame, start.target, stepOf(start.target, motion));
   }

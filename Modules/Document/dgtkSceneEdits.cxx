@@ -152,7 +152,7 @@ void setItemPosition(SceneDescription& scene, const SceneItem& item, int frame, 
   {
     LightDescription& light = scene.lights[item.index];
     setTrackAt(light.position, frame, position);
-    if (light.kind == LightKind::Directional || light.kind == LightKind::Spot)
+    if (traitsOf(light.kind).aimed)
     {
       setTrackAt<Eigen::Vector3d>(light.target, frame, light.target.at(frame) + step);
     }

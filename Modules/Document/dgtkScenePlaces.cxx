@@ -54,13 +54,13 @@ WorldBox transformed(const WorldBox& box, const Affine3& world_from_object)
   return result;
 }
 
-CameraPlace placeCamera(const CameraDescription& camera, double frame)
+CameraPlace placeCamera(const CameraDescription& camera, double frame, const std::string& folder)
 {
   CameraPlace place;
   place.center = camera.posed ? camera.position.at(frame) : camera.eye.at(frame);
   try
   {
-    place.view = cameraView(camera, frame);
+    place.view = cameraView(camera, frame, 0, 0, folder);
     place.valid = true;
   }
   catch (const Error&)
@@ -234,14 +234,14 @@ ScenePlaces placeScene(const SceneDescription& scene, const ModelLibrary& models
   for (const LightDescription& light : scene.lights)
   {
     places.lights.push_back(light.position.at(frame));
-    if (light.kind == LightKind::Point || light.kind == LightKind::Spot)
+    if (traitsOf(light.kind).placed && traitsOf(light.kind).near)
     {
       places.box.add(places.lights.back());
     }
   }
   for (const CameraDescription& camera : scene.cameras)
   {
-    places.cameras.push_back(placeCamera(camera, frame));
+    places.cameras.push_back(placeCamera(camera, frame, scene.folder));
     places.box.add(places.cameras.back().center);
   }
   return places;

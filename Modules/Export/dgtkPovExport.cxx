@@ -224,7 +224,7 @@ PovResult exportPov(const std::shared_ptr<const Model>& model, const std::string
   SceneState state;
   state.background = { 1, 1, 1 };
   state.lights.emplace_back();
-  state.lights[0].kind = LightState::Kind::Head;
+  state.lights[0].kind = LightKind::Head;
   Instance instance;
   instance.name = std::filesystem::path(model->path).filename().string();
   instance.model = model;

@@ -27,7 +27,12 @@ struct Fade
   int power = 0;
 };
 
-Fade fadeOf(const LightState& light, const PovBall& ball, std::vector<std::string>& warnings)
+Eigen::Vector3d positionOf(const LightState& light, const View& view)
+{
+  return traitsOf(light.kind).placed ? light.position : view.camera_from_world.inverse().translation;
+}
+
+Fade fadeOf(const LightState& light, const View& view, const PovBall& ball, std::vector<std::string>& warnings)
 {
   double constant = light.attenuation[0];
   double linear = light.attenuation[1];
@@ -38,7 +43,7 @@ Fade fadeOf(const LightState& light, const PovBall& ball, std::vector<std::strin
   }
   if (linear > 0 && quadratic > 0)
   {
-    const double away = std::max((ball.centre - light.position).norm(), ball.radius * nearestFade);
+    const double away = std::max((ball.centre - positionOf(light, view)).norm(), ball.radius * nearestFade);
     quadratic += linear / away;
     linear = 0;
     warnings.push_back("light " + quoted(light.name) +
@@ -58,25 +63,21 @@ std::string parallel(const Eigen::Vector3d& direction, const PovBall& ball)
 
 std::string place(const LightState& light, const View& view, const PovBall& ball)
 {
-  const Eigen::Vector3d axis = (light.target - light.position).normalized();
-  switch (light.kind)
+  const LightTraits& kind = traitsOf(light.kind);
+  const Eigen::Vector3d position = positionOf(light, view);
+  const Eigen::Vector3d ahead = view.camera_from_world.rotation.row(2);
+  const Eigen::Vector3d target = kind.placed ? light.target : Eigen::Vector3d(position + ahead);
+  if (!kind.near)
   {
-    case LightState::Kind::Head:
-      return parallel(view.camera_from_world.rotation.row(2).transpose(), ball);
-    case LightState::Kind::Directional:
-      return parallel(axis, ball);
-    case LightState::Kind::Spot:
-      if (light.coneAngle < 90)
-      {
-        const std::string cone = povNumber(light.coneAngle);
-        return povVector(light.position) + " COLOR spotlight point_at " + povVector(light.target) + " radius " + cone +
-               " falloff " + cone + " tightness " + povNumber(light.exponent);
-      }
-      break;
-    case LightState::Kind::Point:
-      break;
+    return parallel(kind.placed ? Eigen::Vector3d((target - position).normalized()) : ahead, ball);
   }
-  return povVector(light.position) + " COLOR";
+  if (!kind.cone || light.coneAngle >= 90)
+  {
+    return povVector(position) + " COLOR";
+  }
+  const std::string cone = povNumber(light.coneAngle);
+  return povVector(position) + " COLOR spotlight point_at " + povVector(target) + " radius " + cone + " falloff " +
+         cone + " tightness " + povNumber(light.exponent);
 }
 } // namespace
 
@@ -99,8 +100,8 @@ Eigen::Vector3d povAmbient(const SceneState& state)
 std::string povLight(const LightState& light, const PovLightContext& context, std::vector<std::string>& warnings)
 {
   const PovBall& ball = context.ball;
-  const bool fades = light.kind == LightState::Kind::Point || light.kind == LightState::Kind::Spot;
-  const Fade fade = fades ? fadeOf(light, ball, warnings) : Fade();
+  const bool fades = traitsOf(light.kind).near;
+  const Fade fade = fades ? fadeOf(light, context.view, ball, warnings) : Fade();
   std::string text = place(light, context.view, ball);
   const std::string word = "COLOR";
   text.replace(text.find(word), word.size(), povColor(light.diffuse * light.intensity * fade.scale));

@@ -128,7 +128,7 @@ PovSurfaceOptions povSurfaceOptions(const SceneState& state, const PovOptions& o
   static_cast<PovOptions&>(surface) = options;
   surface.cast = povShadows(state, options);
   surface.headLit = std::all_of(state.lights.begin(), state.lights.end(),
-    [](const LightState& light) { return light.kind == LightState::Kind::Head; });
+    [](const LightState& light) { return light.kind == LightKind::Head; });
   return surface;
 }
 

@@ -182,7 +182,8 @@ const std::vector<LiveLayer>& liveLayers()
 
 View viewOf(const LiveQuestion& question)
 {
-  return cameraView(question.camera, question.frame, question.width, question.height);
+  return cameraView(
+    question.camera, question.frame, question.width, question.height, question.scene->description().folder);
 }
 
 struct LiveEye::Impl

@@ -27,11 +27,6 @@ Eigen::Vector3d toLinear(const Eigen::Vector3d& display) { return display.unaryE
 
 Eigen::Vector3d toDisplay(const Eigen::Vector3d& linear) { return linear.unaryExpr(&portable::srgbFromLinear); }
 
-bool isFar(const LightState& light)
-{
-  return light.kind == LightState::Kind::Head || light.kind == LightState::Kind::Directional;
-}
-
 /// What the GGX lobe sends from a light to the viewer, times pi and the cosine of the light; `h` is between them.
 Eigen::Vector3d reflected(
   const Eigen::Vector3d& f0, double a2, double nl, double nv, double nh, double vh, Eigen::Vector3d& fresnel)
@@ -78,10 +73,14 @@ SurfaceShading::SurfaceShading(
   const Eigen::Matrix3d& rotation = view.camera_from_world.rotation;
   for (const LightState& light : state.lights)
   {
-    Light one{ &light, view.camera_from_world * light.position, rotation * (light.target - light.position) };
-    one.axis.normalize();
-    one.position = light.kind == LightState::Kind::Head ? Eigen::Vector3d(0, 0, -1) : one.position;
-    one.position = light.kind == LightState::Kind::Directional ? Eigen::Vector3d(-one.axis) : one.position;
+    const LightTraits& kind = traitsOf(light.kind);
+    Light one{ &light, &kind, Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, 1) };
+    if (kind.placed)
+    {
+      one.position = view.camera_from_world * light.position;
+      one.axis = (rotation * (light.target - light.position)).normalized();
+    }
+    one.position = kind.near ? one.position : Eigen::Vector3d(-one.axis);
     this->Lights.push_back(one);
   }
   if (state.environment != nullptr)
@@ -92,7 +91,7 @@ SurfaceShading::SurfaceShading(
 
 SurfaceShading::Ray SurfaceShading::rayOf(const Light& light, const Eigen::Vector3d& position)
 {
-  if (isFar(*light.state))
+  if (!light.kind->near)
   {
     return { light.position, 1 };
   }
@@ -100,7 +99,7 @@ SurfaceShading::Ray SurfaceShading::rayOf(const Light& light, const Eigen::Vecto
   const double distance = away.norm();
   const Eigen::Vector3d& k = light.state->attenuation;
   Ray ray{ away / std::max(distance, 1e-30), 1 / (k.x() + k.y() * distance + k.z() * distance * distance) };
-  if (light.state->kind == LightState::Kind::Spot && light.state->coneAngle < noCone)
+  if (light.kind->cone && light.state->coneAngle < noCone)
   {
     const double inside = -ray.toLight.dot(light.axis);
     ray.strength *=
@@ -113,7 +112,7 @@ Eigen::Vector3d SurfaceShading::phong(const Point& point) const
 {
   const Material& material = point.material;
   // A head light alone takes the viewer to be where it is.
-  const bool headOnly = this->Lights.size() == 1 && this->Lights.front().state->kind == LightState::Kind::Head;
+  const bool headOnly = this->Lights.size() == 1 && this->Lights.front().state->kind == LightKind::Head;
   Eigen::Vector3d ambient = Eigen::Vector3d::Constant(worldAmbient);
   Eigen::Vector3d diffuse = Eigen::Vector3d::Zero();
   Eigen::Vector3d specular = Eigen::Vector3d::Zero();

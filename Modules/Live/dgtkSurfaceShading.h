@@ -37,7 +37,8 @@ private:
   struct Light ///< in the camera frame
   {
     const LightState* state;
-    Eigen::Vector3d position; ///< of head and directional lights: towards the light
+    const LightTraits* kind;
+    Eigen::Vector3d position; ///< of one whose rays are parallel: towards the light
     Eigen::Vector3d axis;
   };
   /// A surface that is shaded, in the camera frame.

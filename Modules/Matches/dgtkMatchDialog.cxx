@@ -121,7 +121,8 @@ void MatchDialog::showView(std::size_t index)
     try
     {
       const int frame = side.frame->value();
-      const View view = cameraView(this->Scene->description().cameras[std::size_t(camera)], frame);
+      const SceneDescription& scene = this->Scene->description();
+      const View view = cameraView(scene.cameras[std::size_t(camera)], frame, 0, 0, scene.folder);
       side.view = MatchView{ view, frame };
       side.pane->setImageSize({ view.model->width(), view.model->height() });
       side.pane->setMessage({});

@@ -11,6 +11,8 @@
 #include <QLineEdit>
 #include <QPushButton>
 
+#include <QCoreApplication>
+
 #include <cmath>
 
 namespace dgtk
@@ -46,7 +48,24 @@ QDialogButtonBox* addButtons(QDialog* dialog, QFormLayout* form)
   dialog->setMinimumWidth(380);
   return buttons;
 }
+
+/// For the translators.
+[[maybe_unused]] constexpr const char* kindWords[] = { QT_TRANSLATE_NOOP("dgtk::LightKind", "point"),
+  QT_TRANSLATE_NOOP("dgtk::LightKind", "head"), QT_TRANSLATE_NOOP("dgtk::LightKind", "directional"),
+  QT_TRANSLATE_NOOP("dgtk::LightKind", "spot") };
 } // namespace
+
+QStringList lightKindNames()
+{
+  QStringList names;
+  for (const LightTraits& kind : lightKinds())
+  {
+    names << QCoreApplication::translate("dgtk::LightKind", kind.word);
+  }
+  return names;
+}
+
+int lightKindPlace(LightKind kind) { return static_cast<int>(&traitsOf(kind) - lightKinds().data()); }
 
 CameraDialog::CameraDialog(const CameraDescription& camera, QWidget* parent)
   : QDialog(parent)
@@ -143,8 +162,8 @@ LightDialog::LightDialog(const LightDescription& light, QWidget* parent)
   form->addRow(tr("&Name"), this->Name);
   this->Kind = new QComboBox;
   this->Kind->setObjectName("kind");
-  this->Kind->addItems({ tr("point"), tr("head"), tr("directional"), tr("spot") });
-  this->Kind->setCurrentIndex(static_cast<int>(light.kind));
+  this->Kind->addItems(lightKindNames());
+  this->Kind->setCurrentIndex(lightKindPlace(light.kind));
   form->addRow(tr("&Kind"), this->Kind);
   this->Position = addRow(form, tr("&Position"), "position", listOf(light.position.value));
   this->Target = addRow(form, tr("&Target (directional, spot)"), "target", listOf(light.target.value));
@@ -168,14 +187,15 @@ LightDialog::LightDialog(const LightDescription& light, QWidget* parent)
 /// What a kind of light does not have cannot be typed.
 void LightDialog::refreshKind()
 {
-  const auto kind = static_cast<LightKind>(this->Kind->currentIndex());
-  const bool spot = kind == LightKind::Spot;
-  this->Position->setEnabled(kind != LightKind::Head);
-  this->Target->setEnabled(spot || kind == LightKind::Directional);
-  this->Attenuation->setEnabled(spot || kind == LightKind::Point);
-  this->Cone->setEnabled(spot);
-  this->Exponent->setEnabled(spot);
+  const LightTraits& kind = this->kind();
+  this->Position->setEnabled(kind.placed);
+  this->Target->setEnabled(kind.aimed);
+  this->Attenuation->setEnabled(kind.near);
+  this->Cone->setEnabled(kind.cone);
+  this->Exponent->setEnabled(kind.cone);
 }
+
+const LightTraits& LightDialog::kind() const { return lightKinds()[std::size_t(this->Kind->currentIndex())]; }
 
 void LightDialog::accept()
 {
@@ -190,7 +210,7 @@ LightDescription LightDialog::light() const
 {
   LightDescription light;
   light.name = this->Name->text().toStdString();
-  light.kind = static_cast<LightKind>(this->Kind->currentIndex());
+  light.kind = this->kind().kind;
   light.enabled = this->Enabled->isChecked();
   light.position = vectorOf(this->Position);
   light.target = vectorOf(this->Target);

@@ -6,6 +6,7 @@
 #include "dgtkPanelsModule.h"
 
 #include <QDialog>
+#include <QStringList>
 
 #include <functional>
 #include <utility>
@@ -55,6 +56,10 @@ private:
   NumberRow* Range = nullptr;
 };
 
+/// The kinds of light in the language of the window, in the order of lightKinds(), and where one of them is.
+QStringList lightKindNames();
+int lightKindPlace(LightKind kind);
+
 /// The thesis's figure A.3: kind, position and colours of a new light.
 class DGTKPANELS_EXPORT LightDialog : public QDialog
 {
@@ -69,6 +74,7 @@ public:
 
 private:
   void refreshKind();
+  const LightTraits& kind() const;
 
   std::function<bool(const LightDescription&)> Adder;
   QLineEdit* Name = nullptr;

@@ -145,7 +145,11 @@ QString PropertiesPanel::rowsWanted() const
   if (item.kind == SceneItem::Kind::Camera && item.index < scene.cameras.size())
   {
     const CameraDescription& camera = scene.cameras[item.index];
-    rows += QString("\n%1 %2 %3").arg(static_cast<int>(camera.kind)).arg(camera.K.has_value()).arg(camera.posed);
+    rows += QString("\n%1 %2 %3").arg(toText(camera.model)).arg(camera.K.has_value()).arg(camera.posed);
+    for (const auto& [name, value] : camera.parameters)
+    {
+      rows += QString(" %1").arg(value.numbers.size());
+    }
   }
   return rows;
 }

@@ -46,6 +46,8 @@ private:
   void buildLight(std::size_t index);
   void buildCamera(std::size_t index);
   void buildLens(std::size_t index);
+  /// What the camera's model has besides.
+  void buildParameters(std::size_t index);
   /// What belongs to no item.
   void buildScene();
   /// Another text where the rows of the item shown, or their names, are others.

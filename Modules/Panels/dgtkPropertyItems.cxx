@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPropertiesPanel.h"
 
+#include "dgtkItemDialogs.h"
 #include "dgtkNumberRow.h"
 #include "dgtkScenePlaces.h"
 
@@ -78,20 +79,19 @@ void PropertiesPanel::buildObject(std::size_t index)
 void PropertiesPanel::buildLight(std::size_t index)
 {
   // In the order of Add light; what a kind does not have is not there.
-  const LightKind now = this->State.scene().lights[index].kind;
-  const bool spot = now == LightKind::Spot;
+  const LightTraits& now = traitsOf(this->State.scene().lights[index].kind);
   const auto light = [index](SceneDescription& scene) -> LightDescription& { return scene.lights[index]; };
   this->addChoice(
-    tr("Kind"), "kind", { tr("point"), tr("head"), tr("directional"), tr("spot") },
-    [index](const SceneDescription& scene) { return static_cast<int>(scene.lights[index].kind); },
-    [index](SceneDescription& scene, int kind) { scene.lights[index].kind = static_cast<LightKind>(kind); });
+    tr("Kind"), "kind", lightKindNames(),
+    [index](const SceneDescription& scene) { return lightKindPlace(scene.lights[index].kind); },
+    [index](SceneDescription& scene, int place) { scene.lights[index].kind = lightKinds()[std::size_t(place)].kind; });
   using Vectors = Track<Eigen::Vector3d>;
-  if (now != LightKind::Head)
+  if (now.placed)
   {
     this->addTrack(this->withUnits(tr("Position")), "position",
       [light](SceneDescription& scene) -> Vectors& { return light(scene).position; });
   }
-  if (spot || now == LightKind::Directional)
+  if (now.aimed)
   {
     this->addTrack(this->withUnits(tr("Target")), "target",
       [light](SceneDescription& scene) -> Vectors& { return light(scene).target; });
@@ -103,12 +103,12 @@ void PropertiesPanel::buildLight(std::size_t index)
   this->addColor(tr("Ambient"), "ambient", [light](SceneDescription& scene) -> Color& { return light(scene).ambient; });
   this->addNumber(
     tr("Intensity"), "intensity", [light](SceneDescription& scene) -> double& { return light(scene).intensity; });
-  if (spot || now == LightKind::Point)
+  if (now.near)
   {
     this->addColor(tr("Attenuation (constant, linear, quadratic)"), "attenuation",
       [light](SceneDescription& scene) -> Color& { return light(scene).attenuation; });
   }
-  if (spot)
+  if (now.cone)
   {
     this->addNumber(
       tr("Cone, \u00b0"), "coneAngle", [light](SceneDescription& scene) -> double& { return light(scene).coneAngle; });
@@ -138,15 +138,16 @@ void PropertiesPanel::buildCamera(std::size_t index)
       [camera](SceneDescription& scene) -> Vectors& { return camera(scene).lookAt; });
     this->addTrack(tr("Up"), "up", [camera](SceneDescription& scene) -> Vectors& { return camera(scene).up; });
   }
-  if (now.kind == CameraKind::Orthographic)
+  if (hasParameter(now, "viewHeight"))
   {
     this->addTrack(this->withUnits(tr("View height")), "viewHeight",
       [camera](SceneDescription& scene) -> Track<double>& { return camera(scene).viewHeight; });
   }
-  else
+  if (hasParameter(now, "fovY"))
   {
     this->buildLens(index);
   }
+  this->buildParameters(index);
   this->addNumber(
     this->withUnits(tr("Near")), "near", [camera](SceneDescription& scene) -> double& { return camera(scene).near; });
   this->addNumber(
@@ -177,20 +178,23 @@ void PropertiesPanel::buildCamera(std::size_t index)
 void PropertiesPanel::buildLens(std::size_t index)
 {
   const auto camera = [index](SceneDescription& scene) -> CameraDescription& { return scene.cameras[index]; };
-  this->addChoice(
-    tr("Lens"), "lens", { tr("by its field of view"), tr("by its matrix K") },
-    [index](const SceneDescription& scene) { return scene.cameras[index].K ? 1 : 0; },
-    [this, camera](SceneDescription& scene, int byMatrix)
-    {
-      if (byMatrix == 1 && !camera(scene).K)
+  if (hasParameter(this->State.scene().cameras[index], "K"))
+  {
+    this->addChoice(
+      tr("Lens"), "lens", { tr("by its field of view"), tr("by its matrix K") },
+      [index](const SceneDescription& scene) { return scene.cameras[index].K ? 1 : 0; },
+      [this, camera](SceneDescription& scene, int byMatrix)
       {
-        useMatrix(camera(scene), this->State.frame());
-      }
-      else if (byMatrix == 0 && camera(scene).K)
-      {
-        useFieldOfView(camera(scene));
-      }
-    });
+        if (byMatrix == 1 && !camera(scene).K)
+        {
+          useMatrix(camera(scene), this->State.frame());
+        }
+        else if (byMatrix == 0 && camera(scene).K)
+        {
+          useFieldOfView(camera(scene));
+        }
+      });
+  }
   if (!this->State.scene().cameras[index].K)
   {
     this->addTrack(tr("Field of view, \u00b0"), "fovY",
@@ -218,6 +222,43 @@ void PropertiesPanel::buildLens(std::size_t index)
   addPair(tr("cx, cy, pixels"), "principal", 0, 2, 1, 2);
   this->addNumber(
     tr("Skew, pixels"), "skew", [camera](SceneDescription& scene) -> double& { return (*camera(scene).K)(0, 1); });
+}
+
+void PropertiesPanel::buildParameters(std::size_t index)
+{
+  const CameraDescription& now = this->State.scene().cameras[index];
+  for (const CameraParameter& parameter : ownParameters(now.model))
+  {
+    const QString name = toText(parameter.name);
+    const auto given = now.parameters.find(parameter.name);
+    if (parameter.kind == CameraParameter::Kind::File)
+    {
+      this->addLine(name, given == now.parameters.end() ? QString() : toText(given->second.file));
+      continue;
+    }
+    const auto get = [this, index, parameter](const SceneDescription& scene)
+    {
+      const auto& values = scene.cameras[index].parameters;
+      const auto own = values.find(parameter.name);
+      Numbers numbers;
+      for (const Track<double>& track : own == values.end() ? std::vector<Track<double>>() : own->second.numbers)
+      {
+        numbers.push_back(track.at(this->State.frame()));
+      }
+      return numbers.empty() ? parameter.usual : numbers;
+    };
+    const auto set = [this, index, parameter](SceneDescription& scene, const Numbers& numbers)
+    {
+      std::vector<Track<double>>& tracks = scene.cameras[index].parameters[parameter.name].numbers;
+      tracks.resize(numbers.size());
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+      {
+        setTrackAt(tracks[i], this->State.frame(), numbers[i]);
+      }
+    };
+    this->addNumbers(parameter.unit.empty() ? name : tr("%1, %2").arg(name, toText(parameter.unit)), name,
+      static_cast<int>(get(this->State.scene()).size()), get, set);
+  }
 }
 
 void PropertiesPanel::buildScene()

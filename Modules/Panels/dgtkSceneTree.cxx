@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSceneTree.h"
 
+#include "dgtkItemDialogs.h"
+
 #include <QHeaderView>
 #include <QStyle>
 #include <QTimer>
@@ -90,7 +92,7 @@ void SceneTree::refresh()
   const SceneDescription& scene = this->State.scene();
   const std::vector<std::size_t> boxes = this->State.document().absent();
   const std::set<std::size_t> absent(boxes.begin(), boxes.end());
-  const QString lightKinds[4] = { tr("point"), tr("head"), tr("directional"), tr("spot") };
+  const QStringList lightNames = lightKindNames();
   for (const SceneItem& item : scene.items())
   {
     QString kind = tr("camera");
@@ -101,7 +103,7 @@ void SceneTree::refresh()
     }
     else if (item.kind == SceneItem::Kind::Light)
     {
-      kind = lightKinds[static_cast<int>(scene.lights[item.index].kind)];
+      kind = lightNames[lightKindPlace(scene.lights[item.index].kind)];
     }
     auto* row = new QTreeWidgetItem(this->Groups[static_cast<int>(item.kind)], { toText(itemName(scene, item)), kind });
     row->setData(0, kindRole, static_cast<int>(item.kind));

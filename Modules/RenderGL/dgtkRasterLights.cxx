@@ -15,27 +15,21 @@ std::array<float, 4> pack(const Eigen::Vector3d& xyz, double w = 0)
   return { float(xyz.x()), float(xyz.y()), float(xyz.z()), float(w) };
 }
 
-bool directional(const LightState& light)
-{
-  return light.kind == LightState::Kind::Head || light.kind == LightState::Kind::Directional;
-}
-
 /// A cone of 90 degrees and more is no cone, as in VTK.
-bool spot(const LightState& light) { return light.kind == LightState::Kind::Spot && light.coneAngle < 90; }
+bool spot(const LightState& light) { return traitsOf(light.kind).cone && light.coneAngle < 90; }
 
 void append(RasterLights& lights, const LightState& light, const Eigen::Matrix4d& view_from_world, int map)
 {
   const Eigen::Matrix3d rotation = view_from_world.topLeftCorner<3, 3>();
-  const Eigen::Vector3d axis = (rotation * (light.target - light.position)).normalized();
-  Eigen::Vector3d position = rotation * light.position + view_from_world.topRightCorner<3, 1>();
-  if (light.kind == LightState::Kind::Head)
+  const LightTraits& kind = traitsOf(light.kind);
+  Eigen::Vector3d axis(0, 0, -1);
+  Eigen::Vector3d position(0, 0, 0);
+  if (kind.placed)
   {
-    position = Eigen::Vector3d(0, 0, 1);
+    axis = (rotation * (light.target - light.position)).normalized();
+    position = rotation * light.position + view_from_world.topRightCorner<3, 1>();
   }
-  else if (light.kind == LightState::Kind::Directional)
-  {
-    position = -axis;
-  }
+  position = kind.near ? position : Eigen::Vector3d(-axis);
   lights.values.push_back(pack(position, std::cos(light.coneAngle * pi / 180)));
   lights.values.push_back(pack(axis, light.exponent));
   lights.values.push_back(pack(light.attenuation, map + 1));
@@ -55,7 +49,7 @@ RasterLights rasterLights(
     for (std::size_t i = 0; i < lights.size(); ++i)
     {
       const LightState& light = lights[i];
-      const int own = directional(light) ? 0 : spot(light) ? 2 : 1;
+      const int own = !traitsOf(light.kind).near ? 0 : spot(light) ? 2 : 1;
       if (own == group)
       {
         append(result, light, view_from_world, firstMaps.empty() ? -1 : firstMaps[i]);
@@ -63,7 +57,7 @@ RasterLights rasterLights(
       }
     }
   }
-  result.headOnly = lights.size() == 1 && lights[0].kind == LightState::Kind::Head;
+  result.headOnly = lights.size() == 1 && lights[0].kind == LightKind::Head;
   return result;
 }
 

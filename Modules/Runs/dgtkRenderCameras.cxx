@@ -49,9 +49,8 @@ RenderCameras::RenderCameras(EditorState& state, QWidget* parent)
   lens->setHorizontalSpacing(spacing);
   this->FovLabel = new QLabel;
   this->Fov = this->addNumber(lens, 0, 0, this->FovLabel, "renderFov",
-    [this](CameraDescription& camera, double value) {
-      setTrackAt(camera.kind == CameraKind::Orthographic ? camera.viewHeight : camera.fovY, this->State.frame(), value);
-    });
+    [this](CameraDescription& camera, double value)
+    { setTrackAt(hasParameter(camera, "viewHeight") ? camera.viewHeight : camera.fovY, this->State.frame(), value); });
   this->Aspect = this->addNumber(lens, 0, 2, new QLabel(tr("&Aspect (0: square pixels)")), "renderAspect",
     [](CameraDescription& camera, double value) { camera.aspect = value; });
   this->Near = this->addNumber(lens, 1, 0, new QLabel(tr("&Near plane")), "renderNear",
@@ -210,7 +209,7 @@ void RenderCameras::showCamera()
 void RenderCameras::showLens()
 {
   const CameraDescription* const camera = this->chosen();
-  const bool parallel = camera != nullptr && camera->kind == CameraKind::Orthographic;
+  const bool parallel = camera != nullptr && hasParameter(*camera, "viewHeight");
   const bool byMatrix = camera != nullptr && camera->K.has_value();
   this->FovLabel->setText(parallel ? tr("&View height") : tr("Field of &view, \u00b0 (vertical)"));
   for (NumberRow* field : { this->Fov, this->Aspect, this->Near, this->Far })
@@ -218,8 +217,9 @@ void RenderCameras::showLens()
     field->setEnabled(camera != nullptr);
   }
   // The matrix says them.
-  this->Fov->setEnabled(camera != nullptr && !byMatrix);
-  this->Aspect->setEnabled(camera != nullptr && !byMatrix);
+  const auto has = [&](const char* name) { return camera != nullptr && !byMatrix && hasParameter(*camera, name); };
+  this->Fov->setEnabled(has("fovY") || has("viewHeight"));
+  this->Aspect->setEnabled(has("aspect"));
   if (camera == nullptr)
   {
     return;
@@ -306,7 +306,8 @@ void RenderCameras::showResolution()
   const WorldResolution resolution = worldResolution(place.view);
   const QString units = (scene.units.empty() ? tr("units") : toText(scene.units)).toHtmlEscaped();
   QString rows;
-  if (camera->kind == CameraKind::Orthographic)
+  const std::optional<LinearProjection> linear = place.view.model->linear();
+  if (linear && !linear->perspective)
   {
     rows = resolutionRow(tr("at every depth"), resolution.farPlane, units);
   }

@@ -4,6 +4,8 @@
 
 #include "dgtkSceneModule.h"
 
+#include "dgtkCameraEntry.h"
+#include "dgtkLightKind.h"
 #include "dgtkSensorParameters.h"
 #include "dgtkTrack.h"
 
@@ -11,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -81,15 +84,6 @@ struct ObjectDescription
   long line = 0; ///< in the file it was read from; 0 unknown
 };
 
-/// Meanings as in LightState::Kind.
-enum class LightKind
-{
-  Point,
-  Head,
-  Directional,
-  Spot
-};
-
 /// Meanings as in LightState.
 struct LightDescription
 {
@@ -147,25 +141,28 @@ struct LensDescription
   bool blurs() const { return this->aperture > 0; }
 };
 
-enum class CameraKind
+/// A parameter that a camera model has besides those of every camera: numbers, of which a single one may move, or a
+/// file.
+struct CameraValue
 {
-  Pinhole,
-  Orthographic
+  std::vector<Track<double>> numbers;
+  std::string file; ///< path as written, relative to the scene's folder
 };
 
 /// A camera. Poses are given either by eye, lookAt and up, or, when `posed`, by position and orientation.
 struct CameraDescription
 {
-  std::string name; ///< unique among cameras; fit for a folder's name
-  CameraKind kind = CameraKind::Pinhole;
+  std::string name;                 ///< unique among cameras; fit for a folder's name
+  std::string model = "pinhole";    ///< one of cameraRows(); it says which of the parameters below the camera has
   int width = 0;                    ///< own image size, pixels; 0: the request's, or 640 x 480
   int height = 0;                   ///< 0 exactly when width is
   double aspect = 0;                ///< width / height of the view as of gluPerspective; 0: square pixels. Not with K
-  Track<double> fovY{ 60 };         ///< pinhole without K: vertical field of view, degrees, (0, 180)
-  std::optional<Eigen::Matrix3d> K; ///< pinhole: pixels of the own image size, which must then be given
+  Track<double> fovY{ 60 };         ///< without K: vertical field of view, degrees, (0, 180)
+  std::optional<Eigen::Matrix3d> K; ///< pixels of the own image size, which must then be given
   Track<double> viewHeight{ 2 };    ///< orthographic: height of the image in scene units, > 0
-  double near = 0.1;                ///< > 0
-  double far = 1000;                ///< > near
+  std::map<std::string, CameraValue> parameters; ///< further ones of the model, by name; others have their usual value
+  double near = 0.1;                             ///< > 0
+  double far = 1000;                             ///< > near
   Track<Eigen::Vector3d> eye{ Eigen::Vector3d(0, 0, 10) };
   Track<Eigen::Vector3d> lookAt{ Eigen::Vector3d(0, 0, 0) };
   Track<Eigen::Vector3d> up{ Eigen::Vector3d(0, 1, 0) };
@@ -248,6 +245,16 @@ struct DGTKSCENE_EXPORT SceneDescription
   /// `path` (of a model or texture) as it can be opened: absolute ones as they are, others below `folder`.
   std::string resolve(const std::string& path) const;
 };
+
+/// What makeCamera() makes a camera of at a frame, in an image of this size; K of another size is scaled per axis.
+/// Files are below `folder`.
+DGTKSCENE_EXPORT CameraParameters cameraParameters(
+  const CameraDescription& camera, double frame, int width, int height, const std::string& folder = {});
+
+/// Whether a camera's model has a parameter of this name.
+DGTKSCENE_EXPORT bool hasParameter(const CameraDescription& camera, const std::string& name);
+/// Those of a model's parameters that stand in CameraDescription::parameters; none for a model that is not known.
+DGTKSCENE_EXPORT std::vector<CameraParameter> ownParameters(const std::string& model);
 
 /// Reads a .scene or .json file, by extension (case-insensitive), with its file of classes, and validates it. Models
 /// are not opened. Throws InputError with file, line and key path.

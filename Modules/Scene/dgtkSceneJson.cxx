@@ -216,21 +216,6 @@ Place locate(const JsonNode& root, SceneItem::Kind kind, std::size_t index, cons
   const JsonNode* value = item.find(property);
   return { value ? value->line : item.line, list + '[' + std::to_string(index) + "]." + property };
 }
-
-void refuseTogether(const JsonCursor& at, const char* first, const char* second)
-{
-  if (!at.node().find(first) || !at.node().find(second))
-  {
-    return;
-  }
-  for (std::size_t i = 0; i < at.memberCount(); ++i)
-  {
-    if (at.key(i) == second)
-    {
-      at.member(i).fail(std::string("does not go together with ") + first, "one of them");
-    }
-  }
-}
 } // namespace
 
 const std::vector<JsonField<Scene>>& sceneFields()
@@ -253,60 +238,6 @@ const std::vector<JsonField<Scene>>& sceneFields()
     { "order", readOrder, writeOrder },
   };
   return fields;
-}
-
-void readCamera(const JsonCursor& at, UpAxis upAxis, CameraDescription& camera)
-{
-  if (upAxis == UpAxis::Z)
-  {
-    camera.up.value = { 0, 0, 1 };
-  }
-  readFields(at, cameraFields(), camera);
-  const JsonNode& node = at.node();
-  for (const char* lookAtKey : { "eye", "lookAt", "up" })
-  {
-    refuseTogether(at, lookAtKey, "position");
-    refuseTogether(at, lookAtKey, "orientation");
-  }
-  refuseTogether(at, "K", "fovY");
-  camera.posed = node.find("position") || node.find("orientation");
-  const bool whole =
-    camera.posed ? node.find("position") && node.find("orientation") : node.find("eye") && node.find("lookAt");
-  if (!whole)
-  {
-    at.fail("has no pose", "eye and lookAt, or position and orientation");
-  }
-  if (camera.kind == CameraKind::Orthographic)
-  {
-    if (const JsonNode* fovY = node.find("fovY"))
-    {
-      throw InputError(at.file(), fovY->line > 0 ? fovY->line : at.line(),
-        at.path() + ".fovY is not for an orthographic camera", "viewHeight");
-    }
-  }
-  else if (const JsonNode* viewHeight = node.find("viewHeight"))
-  {
-    throw InputError(at.file(), viewHeight->line > 0 ? viewHeight->line : at.line(),
-      at.path() + ".viewHeight is not for a pinhole camera", "fovY or K");
-  }
-}
-
-JsonNode writeCamera(const CameraDescription& camera, UpAxis upAxis)
-{
-  JsonNode node = writeFields(camera, cameraFields());
-  const Eigen::Vector3d usual = upAxis == UpAxis::Z ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(0, 1, 0);
-  if (!camera.posed && isConstant(camera.up, usual))
-  {
-    for (auto key = node.children.begin(); key != node.children.end(); key += 2)
-    {
-      if (key->text == "up")
-      {
-        node.children.erase(key, key + 2);
-        break;
-      }
-    }
-  }
-  return node;
 }
 
 SceneDescription readJsonScene(const std::string& file, const std::string& folder, const std::string& contents)
@@ -360,6 +291,13 @@ std::map<std::string, std::vector<std::string>> jsonSceneKeys()
     { "unused", keysOf(unusedFields()) },
     { "keys", { "value", "keys", "interpolation" } },
   };
+  for (const CameraRow& row : cameraRows())
+  {
+    for (const CameraParameter& parameter : ownParameters(row.model))
+    {
+      keys["camera"].push_back(parameter.name);
+    }
+  }
   keys.merge(sensorKeys());
   return keys;
 }
@@ -389,6 +327,13 @@ std::string toJson(const SceneDescription& scene, const std::string& newFolder)
           *picture = relocate(**picture, scene.folder, newFolder);
         }
       }
+    }
+  }
+  for (CameraDescription& camera : moved.cameras)
+  {
+    for (auto& [name, value] : camera.parameters)
+    {
+      value.file = relocate(value.file, scene.folder, newFolder);
     }
   }
   moved.environment.image = relocate(moved.environment.image, scene.folder, newFolder);

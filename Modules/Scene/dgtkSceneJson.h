@@ -55,9 +55,9 @@ std::vector<std::string> keysOf(const std::vector<JsonField<T>>& fields)
 /// Fails at a key that is none of these.
 [[noreturn]] void failKey(const JsonCursor& at, std::size_t pair, const std::vector<std::string>& known);
 
-/// Reads the members of an object by a table; an unknown key is an error.
-template <typename T>
-void readFields(const JsonCursor& at, const std::vector<JsonField<T>>& fields, T& into)
+/// Reads the members of an object by a table; `others` is called with the place of any other member.
+template <typename T, typename Others>
+void readFields(const JsonCursor& at, const std::vector<JsonField<T>>& fields, T& into, const Others& others)
 {
   for (std::size_t i = 0, n = at.memberCount(); i < n; ++i)
   {
@@ -66,12 +66,22 @@ void readFields(const JsonCursor& at, const std::vector<JsonField<T>>& fields, T
     {
       field = at.key(i) == candidate.key ? &candidate : field;
     }
-    if (!field)
+    if (field)
     {
-      failKey(at, i, keysOf(fields));
+      field->read(at.member(i), into);
     }
-    field->read(at.member(i), into);
+    else
+    {
+      others(i);
+    }
   }
+}
+
+/// An unknown key is an error.
+template <typename T>
+void readFields(const JsonCursor& at, const std::vector<JsonField<T>>& fields, T& into)
+{
+  readFields(at, fields, into, [&](std::size_t i) { failKey(at, i, keysOf(fields)); });
 }
 
 template <typename T>
@@ -85,6 +95,7 @@ JsonNode writeFields(const T& from, const std::vector<JsonField<T>>& fields)
   return object;
 }
 
+void readModel(const JsonCursor& at, CameraDescription& camera);
 void readCamera(const JsonCursor& at, UpAxis upAxis, CameraDescription& camera);
 JsonNode writeCamera(const CameraDescription& camera, UpAxis upAxis);
 

@@ -26,16 +26,22 @@ auto poseRow(const char* key)
     } };
 }
 
-const std::vector<std::string>& lightWords()
+void readLightKind(const JsonCursor& at, Light& light)
 {
-  static const std::vector<std::string> words{ "point", "head", "directional", "spot" };
-  return words;
+  std::vector<std::string> words;
+  for (const LightTraits& kind : lightKinds())
+  {
+    words.emplace_back(kind.word);
+  }
+  light.kind = lightKinds()[at.oneOf(words)].kind;
 }
 
-const std::vector<std::string>& cameraWords()
+void writeLightKind(const Light& light, const char* key, JsonNode& node)
 {
-  static const std::vector<std::string> words{ "pinhole", "orthographic" };
-  return words;
+  if (light.kind != Light().kind)
+  {
+    node.add(key, JsonNode::of(traitsOf(light.kind).word));
+  }
 }
 
 void readMaterials(const JsonCursor& at, Object& object)
@@ -187,7 +193,7 @@ const std::vector<JsonField<Light>>& lightFields()
 {
   static const std::vector<JsonField<Light>> fields{
     textRow<&Light::name>("name"),
-    wordRow<&Light::kind, lightWords>("kind"),
+    { "kind", readLightKind, writeLightKind },
     row<&Light::enabled>("enabled"),
     row<&Light::position, rules::coordinate>("position"),
     row<&Light::target, rules::coordinate>("target"),
@@ -209,7 +215,7 @@ const std::vector<JsonField<Camera>>& cameraFields()
 {
   static const std::vector<JsonField<Camera>> fields{
     { "name", readCameraName, textRow<&Camera::name>("name").write },
-    wordRow<&Camera::kind, cameraWords>("model"),
+    { "model", readModel, row<&Camera::model>("model").write },
     row<&Camera::width, rules::size>("width"),
     row<&Camera::height, rules::size>("height"),
     row<&Camera::aspect, rules::aspect>("aspect"),

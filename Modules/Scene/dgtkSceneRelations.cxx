@@ -180,7 +180,7 @@ private:
     {
       this->fail(Kind::Light, i, "attenuation", "is zero", "a constant, linear or quadratic part above 0");
     }
-    if (light.kind == LightKind::Directional || light.kind == LightKind::Spot)
+    if (traitsOf(light.kind).aimed)
     {
       for (const int frame : orAnyFrame(keyFramesOf({ &light.position, &light.target })))
       {
@@ -241,10 +241,6 @@ private:
     {
       this->fail(Kind::Camera, i, "K", "has no image size to which it belongs", "width and height");
     }
-    if (camera.K && camera.kind != CameraKind::Pinhole)
-    {
-      this->fail(Kind::Camera, i, "K", "is not for this camera", "model pinhole");
-    }
     if (camera.K && camera.aspect != 0)
     {
       this->fail(Kind::Camera, i, "aspect", "is said by K already", "one of them");
@@ -253,13 +249,34 @@ private:
     {
       this->fail(Kind::Camera, i, "shutter", "closes before it opens", "close not below open");
     }
-    if (camera.lens.blurs() && camera.kind != CameraKind::Pinhole)
-    {
-      this->fail(Kind::Camera, i, "lens", "is not for this camera", "model pinhole");
-    }
+    this->checkModel(i, camera);
     if (!camera.posed)
     {
       this->checkPose(i, camera);
+    }
+  }
+
+  /// What its parameters give together at the first frame; files are not opened.
+  void checkModel(std::size_t i, const CameraDescription& camera) const
+  {
+    const auto& values = camera.parameters;
+    const bool hasFile =
+      std::any_of(values.begin(), values.end(), [](const auto& value) { return !value.second.file.empty(); });
+    std::optional<LinearProjection> linear;
+    try
+    {
+      constexpr int anySize = 64;
+      const int width = camera.width > 0 ? camera.width : anySize;
+      const int height = camera.height > 0 ? camera.height : anySize;
+      linear = hasFile ? linear : makeCamera(camera.model, cameraParameters(camera, 0, width, height))->linear();
+    }
+    catch (const UsageError& error)
+    {
+      this->fail(Kind::Camera, i, "model", std::string("cannot be: ") + error.what());
+    }
+    if (camera.lens.blurs() && !(linear && linear->perspective))
+    {
+      this->fail(Kind::Camera, i, "lens", "is not for this camera", "a linear perspective, as of model pinhole");
     }
   }
 

@@ -41,6 +41,13 @@ void forEachTrackOf(Scene& scene, const SceneItem& item, Function&& function)
       function(camera.up, false);
       function(camera.fovY, false);
       function(camera.viewHeight, false);
+      for (auto& [name, value] : camera.parameters)
+      {
+        for (auto& number : value.numbers)
+        {
+          function(number, false);
+        }
+      }
       function(camera.lens.focus, false);
       for (auto* unused : { &camera.unusedEye, &camera.unusedLookAt })
       {

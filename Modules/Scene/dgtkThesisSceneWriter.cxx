@@ -213,7 +213,7 @@ private:
 
   void writeCamera(const SceneItem& item, const CameraDescription& camera)
   {
-    this->need(camera.kind == CameraKind::Pinhole, item, "model", "pinhole");
+    this->need(camera.model == CameraDescription().model, item, "model", "pinhole");
     this->need(!camera.K, item, "K");
     this->need(camera.width == 0, item, "width");
     this->need(camera.height == 0, item, "height");

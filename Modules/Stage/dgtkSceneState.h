@@ -5,6 +5,7 @@
 #include "dgtkStageModule.h"
 
 #include "dgtkCameraModel.h"
+#include "dgtkLightKind.h"
 #include "dgtkModel.h"
 #include "dgtkRigid3.h"
 
@@ -32,15 +33,8 @@ struct Instance
 /// A light at one instant, world frame. Attenuation: 1 / (constant + linear d + quadratic d^2).
 struct LightState
 {
-  enum class Kind
-  {
-    Head,        ///< at the camera, along its view
-    Point,       ///< at `position`
-    Directional, ///< from `position` towards `target`, infinitely far
-    Spot         ///< at `position`, cone towards `target`
-  };
   std::string name;
-  Kind kind = Kind::Point;
+  LightKind kind = LightKind::Point;
   Eigen::Vector3d position{ 0, 0, 0 };
   Eigen::Vector3d target{ 0, 0, 0 };
   Eigen::Vector3d ambient{ 0, 0, 0 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkStage.h"
 
+#include "dgtkCameraEntry.h"
 #include "dgtkError.h"
 #include "dgtkModelClock.h"
 #include "dgtkObjectPoses.h"
@@ -23,26 +24,11 @@ constexpr int usualWidth = 640;
 constexpr int usualHeight = 480;
 constexpr std::size_t keptStates = 4;
 
-LightState::Kind kindOf(LightKind kind)
-{
-  switch (kind)
-  {
-    case LightKind::Head:
-      return LightState::Kind::Head;
-    case LightKind::Directional:
-      return LightState::Kind::Directional;
-    case LightKind::Spot:
-      return LightState::Kind::Spot;
-    default:
-      return LightState::Kind::Point;
-  }
-}
-
 LightState lightAt(const LightDescription& light, double frame)
 {
   LightState state;
   state.name = light.name;
-  state.kind = kindOf(light.kind);
+  state.kind = light.kind;
   state.position = light.position.at(frame);
   state.target = light.target.at(frame);
   state.ambient = light.ambient;
@@ -71,7 +57,7 @@ std::vector<LightState> lightsAt(const SceneDescription& scene, double frame)
   {
     LightState head;
     head.name = "head";
-    head.kind = LightState::Kind::Head;
+    head.kind = LightKind::Head;
     lights.push_back(head);
   }
   return lights;
@@ -123,25 +109,10 @@ Rigid3 poseAt(const CameraDescription& camera, double frame)
   }
   return Rigid3{ camera.orientation.at(frame).matrix(), camera.position.at(frame) }.inverse();
 }
-
-std::shared_ptr<const CameraModel> lensAt(const CameraDescription& camera, double frame, int width, int height)
-{
-  if (camera.kind == CameraKind::Orthographic)
-  {
-    return makeOrthographic(width, height, camera.viewHeight.at(frame), camera.aspect);
-  }
-  if (!camera.K)
-  {
-    return makePinholeFromFov(width, height, camera.fovY.at(frame), camera.aspect);
-  }
-  Eigen::Matrix3d K = *camera.K;
-  K.row(0) *= double(width) / camera.width;
-  K.row(1) *= double(height) / camera.height;
-  return makePinhole(width, height, K);
-}
 } // namespace
 
-View cameraView(const CameraDescription& camera, double frame, int width, int height)
+View cameraView(
+  const CameraDescription& camera, double frame, int width, int height, const std::string& folder)
 {
   if (width == 0 && height == 0)
   {
@@ -152,7 +123,7 @@ View cameraView(const CameraDescription& camera, double frame, int width, int he
   view.name = camera.name;
   view.near = camera.near;
   view.far = camera.far;
-  view.model = lensAt(camera, frame, width, height);
+  view.model = makeCamera(camera.model, cameraParameters(camera, frame, width, height, folder));
   view.camera_from_world = poseAt(camera, frame);
   return view;
 }
@@ -355,7 +326,7 @@ View Stage::view(std::size_t index, double frame, int width, int height) const
     throw InputError(scene.title(), camera.line,
       "camera " + quoted(camera.name) + " at frame " + shortest(frame) + ": " + error.what());
   }
-  return cameraView(camera, frame, width, height);
+  return cameraView(camera, frame, width, height, scene.folder);
 }
 
 std::vector<Exposure> Stage::exposures(std::size_t index, int frame, int width, int height) const

@@ -26,9 +26,10 @@ struct Exposure
   View view;
 };
 
-/// A camera of any scene at a frame. 0, 0: its own size, or 640 x 480. K of another size is scaled per axis. Throws
-/// UsageError for a size out of range and a pose that is undefined (eye = look-at).
-DGTKSTAGE_EXPORT View cameraView(const CameraDescription& camera, double frame, int width = 0, int height = 0);
+/// A camera of any scene at a frame. 0, 0: its own size, or 640 x 480. K of another size is scaled per axis. Its files
+/// are below `folder`. Throws what makeCamera() throws, and UsageError for a pose that is undefined (eye = look-at).
+DGTKSTAGE_EXPORT View cameraView(const CameraDescription& camera, double frame, int width = 0, int height = 0,
+  const std::string& folder = {});
 
 /// A scene with everything that it names loaded. Immutable; all members are thread-safe.
 class DGTKSTAGE_EXPORT Stage

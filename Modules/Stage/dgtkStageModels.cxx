@@ -61,6 +61,13 @@ StageModels::StageModels(const SceneDescription& scene, const Stage::WarningSink
     this->Files.push_back(scene.file);
   }
   this->addFile(scene.resolve(scene.classFile));
+  for (const CameraDescription& camera : scene.cameras)
+  {
+    for (const auto& [name, value] : camera.parameters)
+    {
+      this->addFile(scene.resolve(value.file));
+    }
+  }
   for (const std::shared_ptr<const Model>& model : this->Models)
   {
     this->addFile(model->path);

@@ -250,7 +250,7 @@ void ViewActors::showLights(const SceneDescription& scene, const ScenePlaces& pl
     this->Lights[i]->SetScale(lightRadius(places));
     Eigen::Vector3d position = places.lights[i];
     this->Lights[i]->SetPosition(position.data());
-    this->Lights[i]->SetVisibility(light.kind != LightKind::Head);
+    this->Lights[i]->SetVisibility(traitsOf(light.kind).placed);
   }
 }
 

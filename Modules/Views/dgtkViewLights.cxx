@@ -71,15 +71,16 @@ void ViewLights::addHead()
 void ViewLights::add(const LightState& light)
 {
   vtkNew<vtkLight> added;
-  if (light.kind == LightState::Kind::Head)
+  const LightTraits& kind = traitsOf(light.kind);
+  added->SetPositional(kind.near);
+  added->SetConeAngle(kind.cone ? light.coneAngle : pointCone);
+  if (!kind.placed)
   {
     added->SetLightTypeToHeadlight();
   }
   else
   {
     added->SetLightTypeToSceneLight();
-    added->SetPositional(light.kind != LightState::Kind::Directional);
-    added->SetConeAngle(light.kind == LightState::Kind::Spot ? light.coneAngle : pointCone);
     added->SetPosition(light.position.x(), light.position.y(), light.position.z());
     added->SetFocalPoint(light.target.x(), light.target.y(), light.target.z());
   }

@@ -212,10 +212,10 @@ StockVTK::StockVTK(const SceneState& state, int width, int height)
   {
     vtkNew<vtkLight> light;
     light->SetDiffuseColor(state_.diffuse.data());
-    light->SetPositional(state_.kind != LightState::Kind::Directional && state_.kind != LightState::Kind::Head);
+    light->SetPositional(state_.kind != LightKind::Directional && state_.kind != LightKind::Head);
     light->SetPosition(state_.position.data());
     light->SetFocalPoint(state_.target.data());
-    if (state_.kind == LightState::Kind::Head)
+    if (state_.kind == LightKind::Head)
     {
       light->SetLightTypeToHeadlight();
     }

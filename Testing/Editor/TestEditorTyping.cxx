@@ -2,6 +2,7 @@
 #include "TestEditorTyping.h"
 #include "TestEditorSupport.h"
 
+#include "dgtkCameraEntry.h"
 #include "dgtkMainWindow.h"
 #include "dgtkSceneDocument.h"
 
@@ -33,6 +34,49 @@ void typeIntoField(QDialog& dialog, const char* name, const QString& text)
   field->selectAll();
   QTest::keyClicks(field, text);
 }
+
+/// A lens of a program of its own: r = f * angle, and a list that does nothing.
+class Lens final : public dgtk::CameraModel
+{
+public:
+  explicit Lens(const dgtk::CameraParameters& of)
+    : CameraModel(of)
+    , Focal(of.height / 2.0 / of.number("halfAngle"))
+  {
+  }
+  std::string name() const override { return "lens"; }
+  dgtk::CameraRay rayThrough(const Eigen::Vector2d& pixel) const override
+  {
+    const double x = (pixel.x() - this->width() / 2.0) / this->Focal;
+    const double y = (pixel.y() - this->height() / 2.0) / this->Focal;
+    const double angle = std::hypot(x, y);
+    const double across = angle > 0 ? std::sin(angle) / angle : 1;
+    return { { 0, 0, 0 }, { across * x, across * y, std::cos(angle) } };
+  }
+  bool project(const Eigen::Vector3d& x, Eigen::Vector2d& pixel) const override
+  {
+    const double across = std::hypot(x.x(), x.y());
+    const double scale = across > 0 ? this->Focal * std::atan2(across, x.z()) / across : 0;
+    pixel = { this->width() / 2.0 + scale * x.x(), this->height() / 2.0 + scale * x.y() };
+    return across > 0 || x.z() > 0;
+  }
+
+private:
+  double Focal;
+};
+
+std::shared_ptr<const dgtk::CameraModel> makeLens(const dgtk::CameraParameters& of)
+{
+  return std::make_shared<Lens>(of);
+}
+
+const dgtk::CameraEntry lens = {
+  { { "halfAngle", "radians", "of the image's height", { 0, 3, true, true, "a number above 0, below 3" }, { 1 }, { 1 },
+      true },
+    { "list", "", "does nothing", { -1, 1, false, false, "a number from -1 to 1" }, { 0, 0.5, 0, 0 }, { 4, 5 } } },
+  &makeLens
+};
+const bool lensAdded = dgtk::addCamera({ "lens", "for a test", &lens });
 
 void add(const QDialog& dialog) { QTest::mouseClick(dialog.findChild<QPushButton*>("add"), Qt::LeftButton); }
 } // namespace
@@ -220,6 +264,31 @@ void TestEditorTyping::unitsAreTyped()
     labelled = labelled || label->text() == "Position, m";
   }
   QVERIFY(labelled);
+}
+
+/// A model of a program of its own has its rows; what is typed is written, and taken back.
+void TestEditorTyping::parametersOfAModelAreTyped()
+{
+  QVERIFY(lensAdded && this->Window->openFile(this->copyOfDemo()));
+  dgtk::SceneDocument& document = this->Window->document();
+  document.edit("a lens", [](dgtk::SceneDescription& scene) { scene.cameras[0].model = "lens"; });
+  const std::string before = document.json();
+  this->select(document.scene().cameras[0].name.c_str());
+  QCOMPARE(this->field("halfAngle.0")->text(), QString("1"));
+  QCOMPARE(this->field("list.1")->text(), QString("0.5"));
+  this->type("halfAngle.0", "1.25");
+  this->type("list.3", "-0.25");
+  const auto& values = document.scene().cameras[0].parameters;
+  QCOMPARE(values.at("halfAngle").numbers.at(0).at(0), 1.25);
+  QCOMPARE(values.at("list").numbers.size(), std::size_t(4));
+  QVERIFY(document.json().find("\"list\": [0, 0.5, 0, -0.25]") != std::string::npos);
+  QString message;
+  expectRefusal(message);
+  this->type("halfAngle.0", "3");
+  QVERIFY2(message.contains("above 0, below 3"), qPrintable(message));
+  document.undo();
+  document.undo();
+  QCOMPARE(document.json(), before);
 }
 
 /// What a layer needs is asked in the window, and what no camera has is not offered.

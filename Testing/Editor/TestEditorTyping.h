@@ -18,6 +18,7 @@ private slots:
   void hugeSizesAreRefused();
   void unitsAreTyped();
   void everyNumberIsOfItsOwnProperty();
+  void parametersOfAModelAreTyped();
   void allLayersAreRendered();
   void rowsEndQuietly();
 };

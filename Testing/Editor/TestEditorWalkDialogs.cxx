@@ -17,7 +17,7 @@ void TestEditorWalk::aParallelCamera()
 {
   dgtk::CameraDescription camera;
   camera.name = "above";
-  camera.kind = dgtk::CameraKind::Orthographic;
+  camera.model = "orthographic";
   camera.viewHeight = 12;
   camera.width = 640;
   camera.height = 480;

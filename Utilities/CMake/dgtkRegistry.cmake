@@ -1,7 +1,7 @@
 # Registration tables: one row a newcomer. `dgtk_reader(Ac3d EXTENSIONS ac acc FORMAT ac3d DESCRIPTION "AC3D")` declares
 # that dgtkAc3dReader.cxx, in the module's folder or below, defines the factory of that name; the tables are generated, there are no static initialisers.
 #
-#   dgtk_registry_begin(<kind>)            kind: reader, representation, layer, writer
+#   dgtk_registry_begin(<kind>)            kind: camera, reader, representation, layer, writer
 #   dgtk_<kind>(<Name> KEY value... )
 #   dgtk_registry_end(<kind> <output.cxx>) configures <kind>Registry.cxx.in in the module's folder; @DGTK_DECLARATIONS@ and
 #                                          @DGTK_ROWS@ are replaced.
@@ -52,6 +52,14 @@ macro(dgtk_writer name)
     "  { { \"${name}\", \"${_row_FORMAT}\", \"${_row_EXTENSION}\", \"${_row_DESCRIPTION}\" }, &writer${name} },\n")
   dgtk_find_source(_source "dgtk${name}Writer.cxx")
   list(APPEND _dgtk_writer_sources "${_source}")
+endmacro()
+
+macro(dgtk_camera name)
+  cmake_parse_arguments(_row "" "MODEL;DESCRIPTION" "" ${ARGN})
+  string(APPEND _dgtk_camera_declarations "extern const CameraEntry camera${name};\n")
+  string(APPEND _dgtk_camera_rows "  { \"${_row_MODEL}\", \"${_row_DESCRIPTION}\", &camera${name} },\n")
+  dgtk_find_source(_source "dgtk${name}Camera.cxx")
+  list(APPEND _dgtk_camera_sources "${_source}")
 endmacro()
 
 macro(dgtk_layer name)

@@ -881,22 +881,6 @@
         <translation>Licht hinzufügen</translation>
     </message>
     <message>
-        <source>point</source>
-        <translation>Punktlicht</translation>
-    </message>
-    <message>
-        <source>head</source>
-        <translation>Kopflicht</translation>
-    </message>
-    <message>
-        <source>directional</source>
-        <translation>gerichtet</translation>
-    </message>
-    <message>
-        <source>spot</source>
-        <translation>Strahler</translation>
-    </message>
-    <message>
         <source>&amp;Name</source>
         <translation>&amp;Name</translation>
     </message>
@@ -943,6 +927,25 @@
     <message>
         <source>&amp;Enabled</source>
         <translation>E&amp;ingeschaltet</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::LightKind</name>
+    <message>
+        <source>point</source>
+        <translation>Punktlicht</translation>
+    </message>
+    <message>
+        <source>head</source>
+        <translation>Kopflicht</translation>
+    </message>
+    <message>
+        <source>directional</source>
+        <translation>gerichtet</translation>
+    </message>
+    <message>
+        <source>spot</source>
+        <translation>Strahler</translation>
     </message>
 </context>
 <context>
@@ -1559,22 +1562,6 @@
     <message>
         <source>Kind</source>
         <translation>Art</translation>
-    </message>
-    <message>
-        <source>point</source>
-        <translation>Punktlicht</translation>
-    </message>
-    <message>
-        <source>head</source>
-        <translation>Kopflicht</translation>
-    </message>
-    <message>
-        <source>directional</source>
-        <translation>gerichtet</translation>
-    </message>
-    <message>
-        <source>spot</source>
-        <translation>Strahler</translation>
     </message>
     <message>
         <source>Enabled</source>
@@ -2231,22 +2218,6 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
     <message>
         <source>Cameras</source>
         <translation>Kameras</translation>
-    </message>
-    <message>
-        <source>point</source>
-        <translation>Punktlicht</translation>
-    </message>
-    <message>
-        <source>head</source>
-        <translation>Kopflicht</translation>
-    </message>
-    <message>
-        <source>directional</source>
-        <translation>gerichtet</translation>
-    </message>
-    <message>
-        <source>spot</source>
-        <translation>Strahler</translation>
     </message>
     <message>
         <source>camera</source>

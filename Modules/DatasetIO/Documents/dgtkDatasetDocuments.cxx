@@ -16,24 +16,34 @@ namespace
 {
 std::string cameraText(const CameraRecord& camera)
 {
-  std::string distortion;
-  for (const double value : camera.distortion)
-  {
-    distortion += (distortion.empty() ? "" : ", ") + jsonNumber(value);
-  }
-  return JsonObject(6)
-    .text("name", camera.name)
+  JsonObject object(6);
+  object.text("name", camera.name)
     .integer("frame", camera.frame)
     .integer("width", camera.width)
-    .integer("height", camera.height)
-    .raw("K", jsonMatrix(camera.K))
-    .raw("R", jsonMatrix(camera.R))
-    .raw("t", jsonMatrix(camera.t))
-    .text("model", camera.model)
-    .raw("distortion", "[" + distortion + "]")
-    .number("near", camera.near)
-    .number("far", camera.far)
-    .block();
+    .integer("height", camera.height);
+  if (camera.hasK)
+  {
+    object.raw("K", jsonMatrix(camera.K));
+  }
+  object.raw("R", jsonMatrix(camera.R)).raw("t", jsonMatrix(camera.t)).text("model", camera.model);
+  if (camera.numbers.count("distortion") == 0)
+  {
+    object.raw("distortion", "[]");
+  }
+  for (const auto& [name, numbers] : camera.numbers)
+  {
+    std::string list;
+    for (const double number : numbers)
+    {
+      list += (list.empty() ? "" : ", ") + jsonNumber(number);
+    }
+    object.raw(name, numbers.size() == 1 ? list : "[" + list + "]");
+  }
+  for (const auto& [name, file] : camera.files)
+  {
+    object.text(name, file);
+  }
+  return object.number("near", camera.near).number("far", camera.far).block();
 }
 
 std::string layerText(const LayerRecord& layer)

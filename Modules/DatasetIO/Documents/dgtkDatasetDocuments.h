@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,11 +30,13 @@ struct CameraRecord
   int height = 0;
   /// Pixels from camera axes (x right, y down, z forward); pixel centres are at + 0.5.
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+  bool hasK = true;                                ///< false: no matrix says how the model projects
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity(); ///< x_camera = R x_world + t
   Eigen::Vector3d t = Eigen::Vector3d::Zero();     ///< scene units
   std::string model = "pinhole";
-  std::vector<double> distortion; ///< the model's coefficients; empty: none
-  double near = 0;                ///< scene units, camera z
+  std::map<std::string, std::vector<double>> numbers; ///< further parameters of the model, such as "distortion"
+  std::map<std::string, std::string> files; ///< likewise; relative to the dataset, and once read as they can be opened
+  double near = 0;                          ///< scene units, camera z
   double far = 0;
 };
 

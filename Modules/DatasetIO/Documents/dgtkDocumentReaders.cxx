@@ -5,6 +5,7 @@
 #include "dgtkFolder.h"
 #include "dgtkJournal.h"
 
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <set>
@@ -59,21 +60,49 @@ DatasetFile fileOf(const JsonCursor& value)
   return file;
 }
 
-CameraRecord cameraOf(const JsonCursor& value)
+/// What is not a key of every camera belongs to its model: a number, a list of them or the name of a file.
+void readParameters(const JsonCursor& value, const std::string& folder, CameraRecord& camera)
+{
+  static const std::set<std::string> common{ "name", "frame", "width", "height", "K", "R", "t", "model", "near",
+    "far" };
+  for (std::size_t i = 0; i < value.memberCount(); ++i)
+  {
+    const JsonCursor member = value.member(i);
+    if (common.count(value.key(i)) != 0)
+    {
+      continue;
+    }
+    if (member.node().type == JsonNode::Type::String)
+    {
+      camera.files[value.key(i)] = (std::filesystem::path(folder) / member.text()).string();
+      continue;
+    }
+    const bool list = member.node().type == JsonNode::Type::Array;
+    std::vector<double> numbers;
+    for (const JsonCursor& number : list ? member.items() : std::vector<JsonCursor>{ member })
+    {
+      numbers.push_back(number.number());
+    }
+    if (!numbers.empty())
+    {
+      camera.numbers[value.key(i)] = numbers;
+    }
+  }
+}
+
+CameraRecord cameraOf(const JsonCursor& value, const std::string& folder)
 {
   CameraRecord camera;
   camera.name = value["name"].text();
   camera.frame = integerOf(value["frame"], anyFrame);
   camera.width = integerOf(value["width"], aSize);
   camera.height = integerOf(value["height"], aSize);
-  camera.K = value["K"].matrix<Eigen::Matrix3d>();
+  camera.model = value["model"].text();
+  camera.hasK = value.has("K") || camera.model == "pinhole" || camera.model == "orthographic"; // K is all they have
+  camera.K = camera.hasK ? value["K"].matrix<Eigen::Matrix3d>() : camera.K;
   camera.R = value["R"].matrix<Eigen::Matrix3d>();
   camera.t = value["t"].matrix<Eigen::Vector3d>();
-  camera.model = value["model"].text();
-  for (const JsonCursor& item : value["distortion"].items())
-  {
-    camera.distortion.push_back(item.number());
-  }
+  readParameters(value, folder, camera);
   camera.near = value["near"].number();
   // JSON has no infinity
   camera.far = value["far"].isNull() ? std::numeric_limits<double>::infinity() : value["far"].number();
@@ -87,7 +116,7 @@ std::vector<CameraRecord> readCameras(const std::string& path)
   std::vector<CameraRecord> cameras;
   for (const JsonCursor& item : JsonCursor(document)["cameras"].items())
   {
-    cameras.push_back(cameraOf(item));
+    cameras.push_back(cameraOf(item, std::filesystem::path(path).parent_path().string()));
   }
   return cameras;
 }

@@ -136,7 +136,8 @@ TEST(Cameras, RoundTripIsExactAndSorted)
   a.R(0, 1) = -0.0;
   a.t << 1e-17, 2.5, -3;
   a.model = "brown";
-  a.distortion = { 0.1, -0.02 };
+  a.numbers["distortion"] = { 0.1, -0.02 };
+  a.numbers["xi"] = { 0.75 };
   a.near = 0.1;
   a.far = std::numeric_limits<double>::infinity();
   CameraRecord b = a;
@@ -151,9 +152,35 @@ TEST(Cameras, RoundTripIsExactAndSorted)
   EXPECT_EQ(read[1].K, a.K);
   EXPECT_EQ(read[1].R, a.R);
   EXPECT_EQ(read[1].t, a.t);
-  EXPECT_EQ(read[1].distortion, a.distortion);
+  EXPECT_EQ(read[1].numbers, a.numbers);
+  EXPECT_TRUE(read[1].hasK);
   EXPECT_EQ(read[1].far, a.far);
   EXPECT_EQ(camerasText(read), text);
+}
+
+TEST(Cameras, AModelWithoutMatrixHasItsOwnKeys)
+{
+  const TemporaryFolder folder;
+  CameraRecord camera;
+  camera.name = "c";
+  camera.width = camera.height = 8;
+  camera.model = "raytable";
+  camera.hasK = false;
+  camera.numbers["shift"] = { 1, 2 };
+  camera.files["rays"] = "inputs/rays.npy";
+  camera.far = 1;
+  const std::string text = camerasText({ camera });
+  EXPECT_EQ(text.find("\"K\""), std::string::npos);
+  EXPECT_THAT(text, HasSubstr("\"distortion\": [],\n      \"shift\": [1.0, 2.0],\n      \"rays\": \"inputs/rays.npy\""));
+  writeFile(folder.path("cameras.json"), text);
+  const CameraRecord read = readCameras(folder.path("cameras.json")).at(0);
+  EXPECT_FALSE(read.hasK);
+  EXPECT_EQ(read.numbers, camera.numbers);
+  EXPECT_EQ(read.files.at("rays"), folder.path("inputs/rays.npy"));
+  std::string wrong = text;
+  wrong.replace(wrong.find("[1.0, 2.0]"), 10, "true");
+  writeFile(folder.path("cameras.json"), wrong);
+  EXPECT_THAT(messageOf([&] { readCameras(folder.path("cameras.json")); }), HasSubstr("cameras[0].shift"));
 }
 
 TEST(Objects, RoundTrip)
@@ -270,7 +297,7 @@ TEST(Documents, RealNumbersHaveAPointAndCountsHaveNone)
   camera.K << 1e22, 0, 320, 0, 0.5, 240, 0, 0, 1;
   camera.t << -0.0, -3, 1e-9;
   camera.model = "pinhole";
-  camera.distortion = { 0, 2 };
+  camera.numbers["distortion"] = { 0, 2 };
   camera.near = 1;
   camera.far = 100;
   const std::string cameras = camerasText({ camera });

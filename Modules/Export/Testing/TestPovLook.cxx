@@ -167,9 +167,9 @@ TEST_F(PovLook, LightsStandWhereTheyShould)
   };
   const double radius = std::sqrt(3.0);
   EXPECT_NEAR(after(written(), "area_light "), 0.1 * radius, rounding);
-  light.kind = LightState::Kind::Directional;
+  light.kind = LightKind::Directional;
   EXPECT_NEAR(after(written(), "light_source { <0, "), 4 * radius, rounding);
-  light.kind = LightState::Kind::Spot;
+  light.kind = LightKind::Spot;
   light.coneAngle = 89;
   light.exponent = 8;
   EXPECT_EQ(after(written(), "spotlight point_at <0, 0, 0> radius "), 89);
@@ -214,7 +214,7 @@ TEST_F(PovLook, MissingTexelsHaveNoHighlights)
     quad->materials[0].cutOut = cutOut;
     this->State = *test::SceneBuilder().add(quad).state();
     this->State.lights.resize(1);
-    this->State.lights[0].kind = LightState::Kind::Directional;
+    this->State.lights[0].kind = LightKind::Directional;
     this->State.lights[0].target = { 0, 0, -1 };
     EXPECT_EQ(this->write().find("phong 1 phong_size 20") == std::string::npos, cutOut);
   }
@@ -386,15 +386,15 @@ TEST_F(PovLook, MaterialsOfALibraryAreThoseOfTheLight)
       material.shininess = 20;
     });
   PovLibrary library(this->Folder.path(), "");
-  const auto finishIn = [&](LightState::Kind kind)
+  const auto finishIn = [&](LightKind kind)
   {
     this->State.lights.resize(1);
     this->State.lights[0].kind = kind;
     this->State.lights[0].target = { 0, 0, -1 };
     return readFile(this->path(makePovScene(this->State, this->V, {}, library).uses.at(0).name));
   };
-  EXPECT_THAT(finishIn(LightState::Kind::Head), HasSubstr("specular 1 roughness 0.05"));
-  EXPECT_THAT(finishIn(LightState::Kind::Directional), HasSubstr("phong 1 phong_size 20"));
+  EXPECT_THAT(finishIn(LightKind::Head), HasSubstr("specular 1 roughness 0.05"));
+  EXPECT_THAT(finishIn(LightKind::Directional), HasSubstr("phong 1 phong_size 20"));
 }
 
 TEST_F(PovLook, WhatLightDoesNotReachNeedsNoTextureOfTheView)

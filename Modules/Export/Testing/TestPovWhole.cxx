@@ -145,7 +145,7 @@ TEST_F(PovWhole, LitScene)
   options.antialias = 3;
   state.lights.resize(4);
   state.lights[0].name = "sun";
-  state.lights[0].kind = LightState::Kind::Directional;
+  state.lights[0].kind = LightKind::Directional;
   state.lights[0].position = { 0, 0, 0 };
   state.lights[0].target = { 0, 9, 0 };
   state.lights[0].diffuse = { 1, 0.5, 0.25 };
@@ -156,7 +156,7 @@ TEST_F(PovWhole, LitScene)
   state.lights[1].attenuation = { 2, 0, 0 };
   state.lights[1].shadows = true;
   state.lights[2].name = "cone";
-  state.lights[2].kind = LightState::Kind::Spot;
+  state.lights[2].kind = LightKind::Spot;
   state.lights[2].position = { 0, -4, 4 };
   state.lights[2].target = { 0, 0, 4 };
   state.lights[2].attenuation = { 1, 0.5, 0 };
@@ -164,7 +164,7 @@ TEST_F(PovWhole, LitScene)
   state.lights[2].exponent = 5;
   state.lights[2].shadows = true;
   state.lights[3].name = "camera";
-  state.lights[3].kind = LightState::Kind::Head;
+  state.lights[3].kind = LightKind::Head;
   // The objects fill a ball of radius 5 around (0, 0, 4); lights of one direction stand 4 radii away.
   EXPECT_EQ(this->write(state, options), "// Camera 'c', frame 7.\n"
                                          "// povray +W8 +H4 +A0.0 +AM1 +R3 -J +FN8 File_Gamma=sRGB Dither=off FILE\n"

@@ -25,8 +25,10 @@ std::vector<InputRecord> inputsOf(const Stage& stage, const std::string& folder)
   return inputs;
 }
 
-std::vector<CameraRecord> cameraRecords(const WorkPlan& plan, const Stage& stage)
+std::vector<CameraRecord> cameraRecords(const WorkPlan& plan, const Stage& stage, const std::string& folder,
+  const std::map<std::string, std::string>& copies)
 {
+  namespace fs = std::filesystem;
   std::vector<Job> jobs = plan.jobs;
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.camera < b.camera; });
   std::vector<CameraRecord> records;
@@ -38,9 +40,17 @@ std::vector<CameraRecord> cameraRecords(const WorkPlan& plan, const Stage& stage
     record.frame = job.frame;
     record.width = view.model->width();
     record.height = view.model->height();
-    if (const auto linear = view.model->linear())
+    const auto linear = view.model->linear();
+    const CameraParameters& parameters = view.model->parameters();
+    record.hasK = linear || parameters.K;
+    record.K = linear ? linear->K : parameters.K.value_or(record.K);
+    record.numbers = parameters.numbers;
+    for (const auto& [name, file] : parameters.files)
     {
-      record.K = linear->K;
+      const auto copy = copies.find(file);
+      record.files[name] = copy != copies.end()
+                             ? copy->second
+                             : fs::relative(fs::absolute(file), fs::absolute(folder)).generic_string();
     }
     record.R = view.camera_from_world.rotation;
     record.t = view.camera_from_world.translation;

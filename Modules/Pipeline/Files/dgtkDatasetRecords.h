@@ -20,7 +20,8 @@ std::vector<InputRecord> inputsOf(const Stage& stage, const std::string& folder)
 std::string identityOf(const WorkPlan& plan, const Stage& stage, const std::vector<InputRecord>& inputs);
 
 /// One record for each camera and frame of the plan, cameras first.
-std::vector<CameraRecord> cameraRecords(const WorkPlan& plan, const Stage& stage);
+std::vector<CameraRecord> cameraRecords(const WorkPlan& plan, const Stage& stage, const std::string& folder,
+  const std::map<std::string, std::string>& copies);
 
 /// One record for each object with an id; models are relative to `folder`, or their copies in it.
 std::vector<ObjectRecord> objectRecords(

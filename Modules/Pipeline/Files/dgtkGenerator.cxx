@@ -452,11 +452,12 @@ void Run::writeDocuments()
   }
   manifest.files = this->Files->files();
   const std::size_t pictures = manifest.files.size();
-  manifest.files.push_back(
-    writeDocument(request.folder, camerasName, camerasText(cameraRecords(this->Plan, *this->Scene))));
+  const std::map<std::string, std::string> copies =
+    this->Packed ? this->Packed->copies : std::map<std::string, std::string>();
+  manifest.files.push_back(writeDocument(
+    request.folder, camerasName, camerasText(cameraRecords(this->Plan, *this->Scene, request.folder, copies))));
   manifest.files.push_back(writeDocument(request.folder, objectsName,
-    objectsText(objectRecords(*this->Scene, this->Plan.jobs.front().frame, request.folder,
-                  this->Packed ? this->Packed->copies : std::map<std::string, std::string>()),
+    objectsText(objectRecords(*this->Scene, this->Plan.jobs.front().frame, request.folder, copies),
       classRecords(*this->Scene))));
   manifest.files.push_back(writeDocument(request.folder, sceneName,
     toJson(this->Packed ? this->Packed->scene : this->Scene->description(), request.folder)));

@@ -79,6 +79,13 @@ public:
       object.model = this->Plan.copies.at(model.path);
       this->renamePictures(object);
     }
+    for (CameraDescription& camera : scene.cameras)
+    {
+      for (auto& [name, value] : camera.parameters)
+      {
+        this->rename(value.file);
+      }
+    }
     this->rename(scene.environment.image);
     this->rename(scene.classFile);
     return std::move(this->Plan);

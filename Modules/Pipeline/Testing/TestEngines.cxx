@@ -87,7 +87,7 @@ bool caseOfModel(const std::string& path, bool damaged, Case& result)
   instance.materials = std::make_shared<std::vector<Material>>(model->materials);
   state->instances.push_back(instance);
   state->lights.emplace_back();
-  state->lights.back().kind = LightState::Kind::Head;
+  state->lights.back().kind = LightKind::Head;
   const Eigen::Vector3d centre = (model->boundsMin + model->boundsMax) / 2;
   const double size = std::max((model->boundsMax - model->boundsMin).maxCoeff(), 1e-6);
   result.name = std::filesystem::path(path).filename().string();

@@ -104,7 +104,7 @@ public:
 
   void add(int slice, const Polygon& polygon)
   {
-    if (this->Light.kind == LightState::Kind::Directional)
+    if (!traitsOf(this->Light.kind).near)
     {
       this->addSlice(this->Slices[slice], polygon);
       return;
@@ -124,7 +124,7 @@ public:
 private:
   static bool oneCone(const LightState& light)
   {
-    return light.kind == LightState::Kind::Spot && light.coneAngle <= largestCone;
+    return traitsOf(light.kind).cone && light.coneAngle <= largestCone;
   }
   /// A rim of a texel or two, so that the comparisons at the cone's border find neighbours.
   static double halfAngle(const LightState& light)
@@ -338,7 +338,7 @@ void LightFit::addViews(
   }
 }
 
-bool castsShadows(const LightState& light) { return light.shadows && light.kind != LightState::Kind::Head; }
+bool castsShadows(const LightState& light) { return light.shadows && traitsOf(light.kind).shadows; }
 
 } // namespace
 

@@ -51,7 +51,7 @@ std::shared_ptr<SceneState> scene()
   for (int i = 0; i < 3; ++i)
   {
     LightState light;
-    light.kind = i == 0 ? LightState::Kind::Head : i == 1 ? LightState::Kind::Point : LightState::Kind::Spot;
+    light.kind = i == 0 ? LightKind::Head : i == 1 ? LightKind::Point : LightKind::Spot;
     light.position = { 3.0 * i, 4, 3 };
     light.diffuse = { 0.5, 0.4, 0.3 };
     state->lights.push_back(light);

@@ -131,8 +131,8 @@ TEST(RasterColor, SumOfTwelveLightsOfEveryKind)
   for (int i = 0; i < 12; ++i)
   {
     LightState light;
-    light.kind = std::array{ LightState::Kind::Head, LightState::Kind::Point, LightState::Kind::Directional,
-      LightState::Kind::Spot }[std::size_t(i % 4)];
+    light.kind = std::array{ LightKind::Head, LightKind::Point, LightKind::Directional,
+      LightKind::Spot }[std::size_t(i % 4)];
     light.position = { std::cos(i) * 2, std::sin(i) * 2, 1.0 + i % 3 };
     light.target = { 0.2 * i - 1, 0, 0 };
     light.diffuse = { 0.02 * i, 0.1, 0.2 - 0.01 * i };
@@ -153,17 +153,17 @@ TEST(RasterColor, SumOfTwelveLightsOfEveryKind)
       Eigen::Vector3d towards(0, 0, 1);
       double strength = 1;
       const Eigen::Vector3d axis = (light.target - light.position).normalized();
-      if (light.kind == LightState::Kind::Directional)
+      if (light.kind == LightKind::Directional)
       {
         towards = -axis;
       }
-      else if (light.kind != LightState::Kind::Head)
+      else if (light.kind != LightKind::Head)
       {
         const double d = (light.position - p).norm();
         towards = (light.position - p) / d;
         strength = 1 / (light.attenuation.x() + light.attenuation.y() * d + light.attenuation.z() * d * d);
         const double inside = -towards.dot(axis);
-        if (light.kind == LightState::Kind::Spot)
+        if (light.kind == LightKind::Spot)
         {
           strength *= inside >= std::cos(40 * M_PI / 180) ? inside * inside : 0;
         }
@@ -180,7 +180,7 @@ TEST(RasterColor, MoreLightsThanUniforms)
   for (int i = 0; i < 100; ++i)
   {
     LightState light;
-    light.kind = i % 2 ? LightState::Kind::Point : LightState::Kind::Head;
+    light.kind = i % 2 ? LightKind::Point : LightKind::Head;
     light.position = { 0, 0, 1e6 };
     light.diffuse = Eigen::Vector3d(0.005, 0.002, 0.001);
     state->lights.push_back(light);
@@ -197,7 +197,7 @@ TEST(RasterColor, AmbientSpecularAndEmission)
   material.shininess = 8;
   auto state = stateOf({ square(material) });
   LightState light;
-  light.kind = LightState::Kind::Directional;
+  light.kind = LightKind::Directional;
   light.position = { 1, 0, 2 };
   light.ambient = { 0.5, 0.5, 0.5 };
   state->lights.push_back(light);
@@ -247,7 +247,7 @@ TEST(RasterColor, BothSidesAndMirroredInstancesAreLitAlike)
 {
   auto state = stateOf({ square(matte({ 1, 1, 1 })) });
   LightState light;
-  light.kind = LightState::Kind::Directional;
+  light.kind = LightKind::Directional;
   light.position = { 1, 2, 3 };
   light.diffuse = { 0.9, 0.9, 0.9 };
   state->lights.push_back(light);

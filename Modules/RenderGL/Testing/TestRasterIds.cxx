@@ -20,7 +20,7 @@ std::shared_ptr<SceneState> emptyState()
 {
   auto state = std::make_shared<SceneState>();
   state->lights.emplace_back();
-  state->lights.back().kind = LightState::Kind::Head;
+  state->lights.back().kind = LightKind::Head;
   return state;
 }
 

@@ -59,7 +59,7 @@ TEST(Fragments, AreSortedByPixelDepthDrawAndTriangle)
 TEST(RasterLights, AreInViewCoordinatesDirectionalOnesFirst)
 {
   std::vector<LightState> lights(5);
-  lights[0].kind = LightState::Kind::Spot;
+  lights[0].kind = LightKind::Spot;
   lights[0].position = { 1, 2, 3 };
   lights[0].target = { 1, 2, 8 };
   lights[0].coneAngle = 60;
@@ -69,13 +69,13 @@ TEST(RasterLights, AreInViewCoordinatesDirectionalOnesFirst)
   lights[0].diffuse = { 0.4, 0.5, 0.6 };
   lights[0].specular = { 0.7, 0.8, 0.9 };
   lights[0].intensity = 2;
-  lights[1].kind = LightState::Kind::Point;
+  lights[1].kind = LightKind::Point;
   lights[1].position = { -4, 0, 1 };
-  lights[2].kind = LightState::Kind::Directional;
+  lights[2].kind = LightKind::Directional;
   lights[2].position = { 0, 3, 0 };
   lights[2].target = { 0, 1, 0 };
-  lights[3].kind = LightState::Kind::Head;
-  lights[4].kind = LightState::Kind::Spot;
+  lights[3].kind = LightKind::Head;
+  lights[4].kind = LightKind::Spot;
   lights[4].target = { 0, 0, -1 };
   lights[4].coneAngle = 90; // no cone
   // The world turned a quarter about z, then moved.

@@ -48,7 +48,7 @@ std::shared_ptr<SceneState> onGround(double half, const LightState& light, const
   return state;
 }
 
-LightState lamp(LightState::Kind kind, const Eigen::Vector3d& position)
+LightState lamp(LightKind kind, const Eigen::Vector3d& position)
 {
   LightState light;
   light.name = "lamp";
@@ -59,7 +59,7 @@ LightState lamp(LightState::Kind kind, const Eigen::Vector3d& position)
   light.shadows = true;
   return light;
 }
-LightState sun() { return lamp(LightState::Kind::Directional, { -6, 5, 2 }); }
+LightState sun() { return lamp(LightKind::Directional, { -6, 5, 2 }); }
 
 View camera(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, double far = 2000)
 {
@@ -69,7 +69,7 @@ View camera(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, double fa
 /// Whether the segment from x towards the light, at most to its place, meets a block.
 bool blocked(const LightState& light, const Eigen::Vector3d& x, const std::vector<Block>& blocks)
 {
-  const bool parallel = light.kind == LightState::Kind::Directional;
+  const bool parallel = light.kind == LightKind::Directional;
   const Eigen::Vector3d way = parallel ? Eigen::Vector3d(light.position - light.target) : light.position - x;
   return std::any_of(blocks.begin(), blocks.end(),
     [&](const Block& block)
@@ -90,7 +90,7 @@ bool blocked(const LightState& light, const Eigen::Vector3d& x, const std::vecto
 bool inCone(const LightState& light, const Eigen::Vector3d& x)
 {
   const Eigen::Vector3d axis = (light.target - light.position).normalized();
-  return light.kind != LightState::Kind::Spot ||
+  return light.kind != LightKind::Spot ||
          axis.dot((x - light.position).normalized()) > std::cos(light.coneAngle * 3.14159265358979323846 / 180);
 }
 
@@ -190,7 +190,7 @@ TEST(Shadows, InAValleyBelowTheCamera)
   const std::vector<Block> blocks{ { { -40, 0, 0 }, { 40, 60, 80 } }, { { -2, 0, -52 }, { 2, 20, -48 } } };
   for (const double aside : { -2.0, 0.0, 2.0 })
   {
-    const LightState light = lamp(LightState::Kind::Directional, { aside, 5, 3 });
+    const LightState light = lamp(LightKind::Directional, { aside, 5, 3 });
     const View view = camera({ 0, 62, 0.5 }, { -12 * aside, 0, -39 });
     const Count count = countWrong(onGround(500, light, blocks), view, blocks);
     EXPECT_GT(count.dark, 200);
@@ -202,7 +202,7 @@ TEST(Shadows, InAValleyBelowTheCamera)
 TEST(Shadows, RemainWhenSomethingIsParkedFarAway)
 {
   const View view = camera({ 4, 3, 5 }, { 0.5, 1, 0 });
-  using Kind = LightState::Kind;
+  using Kind = LightKind;
   for (const LightState& light : { sun(), lamp(Kind::Spot, { -3, 5, 1 }), lamp(Kind::Point, { -3, 4, 1 }) })
   {
     for (const double away : { 1e3, 1e6 })
@@ -280,7 +280,7 @@ TEST(Shadows, AreTheSameInEveryPartOfThePicture)
 TEST(Shadows, MapsThatAreTooCoarseAreNamed)
 {
   const View view = camera({ 4, 1.7, 5 }, { 0.5, 1, 0 });
-  using Kind = LightState::Kind;
+  using Kind = LightKind;
   for (LightState light : { sun(), lamp(Kind::Spot, { -3, 5, 1 }), lamp(Kind::Point, { -3, 5, 1 }) })
   {
     const auto state = onGround(500, light, { Head });
@@ -299,12 +299,12 @@ TEST(Shadows, MapsThatAreTooCoarseAreNamed)
 TEST(Shadows, MapsAreCoarseWhereLightIsSeen)
 {
   const View low = camera({ 4, 0.5, 5 }, { 0.5, 1, 0 });
-  LightState narrow = lamp(LightState::Kind::Spot, { -3, 5, 1 });
+  LightState narrow = lamp(LightKind::Spot, { -3, 5, 1 });
   narrow.shadowSize = 16;
   EXPECT_EQ(coarseShadows(*onGround(500, narrow, { Head }), low).size(), 1u);
   narrow.coneAngle = 5; // a spot of a metre, far from the camera
   EXPECT_TRUE(coarseShadows(*onGround(500, narrow, { Head }), low).empty());
-  LightState weak = lamp(LightState::Kind::Point, { -3, 5, 1 });
+  LightState weak = lamp(LightKind::Point, { -3, 5, 1 });
   weak.shadowSize = 16;
   EXPECT_EQ(coarseShadows(*onGround(500, weak, { Head }), low).size(), 1u);
   weak.attenuation = { 1, 0, 100 };
@@ -329,7 +329,7 @@ TEST(Shadows, MapsAreCoarseForWhatIsNearAndFar)
 TEST(Shadows, MapsAreAsLargeAsWhatIsSeen)
 {
   // The image is 8 x 6 units; 1/32 of its width is left at each side, and 4 of the 32 texels, and one for its place.
-  LightState light = lamp(LightState::Kind::Directional, { 0, 1, 0 });
+  LightState light = lamp(LightKind::Directional, { 0, 1, 0 });
   light.shadowSize = 32;
   const View view = viewOf(makeOrthographic(320, 240, 6, 0), { 0, 9, 0.001 }, { 0, 0, 0 }, 0.1, 100);
   const double least = 8 * 1.0625 / (1 - 9.0 / 32) / 32 * 240 / 6;

@@ -55,7 +55,7 @@ TEST(SceneJson, ReadsEveryKey)
   EXPECT_EQ((*scene.cameras[0].K)(1, 2), 480.25);
   EXPECT_EQ(scene.cameras[1].fovY.at(25), 40);
   EXPECT_EQ(scene.cameras[1].up.at(0), Vector(0, 1, 0));
-  EXPECT_EQ(scene.cameras[2].kind, CameraKind::Orthographic);
+  EXPECT_EQ(scene.cameras[2].model, "orthographic");
   EXPECT_EQ(scene.cameras[2].up.at(0), Vector(0, 0, 1)); // the default of a z-up scene
   EXPECT_EQ(scene.items()[0].kind, SceneItem::Kind::Camera);
 }

@@ -217,8 +217,10 @@ TEST(SceneRefusals, JsonValues)
       "cameras[0].fovY does not go together with K" },
     { withCamera("\"position\": [0, 0, 0]"), "a.json:4: cameras[0].position does not go together with eye" },
     { withCamera("\"model\": \"orthographic\", \"fovY\": 3"),
-      "a.json:4: cameras[0].fovY is not for an orthographic camera" },
-    { withCamera("\"viewHeight\": 3"), "a.json:4: cameras[0].viewHeight is not for a pinhole camera" },
+      "a.json:4: cameras[0].fovY is not for a camera of the model 'orthographic' (expected viewHeight, aspect, found "
+      "3)" },
+    { withCamera("\"viewHeight\": 3"), "a.json:4: cameras[0].viewHeight is not for a camera of the model 'pinhole' "
+                                       "(expected fovY, aspect, K, found 3)" },
     { withCamera("\"up\": [0, 0, 1]"), "a.json:4: cameras[0].up is zero or along the view" },
     { withCamera("\"name\": \"a/b\""), "a.json:4: cameras[0].name cannot be used" },
     { withCamera("\"name\": \"manifest.json\""), "cameras[0].name cannot be used" },
@@ -339,7 +341,7 @@ TEST(SceneRefusals, WhatThesisScenesCannotSay)
        s.lights[0].attenuation = { 1, 1, 0 };
      },
       "light 'Light0': attenuation cannot be said" },
-    { [](auto& s) { s.cameras[0].kind = CameraKind::Orthographic; }, "camera 'Camera0': model cannot be said" },
+    { [](auto& s) { s.cameras[0].model = "orthographic"; }, "camera 'Camera0': model cannot be said" },
     { [](auto& s) { s.cameras[0].width = s.cameras[0].height = 9; }, "camera 'Camera0': width cannot be said" },
     { [](auto& s) { s.cameras[0].posed = true; }, "camera 'Camera0': orientation cannot be said" },
     { [](auto& s) {

@@ -166,6 +166,23 @@ TEST(SceneTables, LimitsAreWithin)
   }
 }
 
+TEST(SceneTables, EveryKindOfLightIsReadAndWritten)
+{
+  const TemporaryFolder folder;
+  for (const LightTraits& kind : lightKinds())
+  {
+    const std::string key = "\"kind\": \"" + std::string(kind.word) + '"';
+    const SceneDescription scene = readText(folder, "a.json", sceneWith("light", key));
+    EXPECT_EQ(scene.lights.at(0).kind, kind.kind);
+    EXPECT_EQ(&traitsOf(kind.kind), &kind);
+    EXPECT_EQ(toJson(scene, folder.path()).find(key) == std::string::npos, kind.kind == LightKind::Point);
+    const std::string aimed = R"("target": [0, 0, 9], )" + key;
+    EXPECT_EQ(refusalOf("a.json", sceneWith("light", aimed)).empty(), !kind.aimed) << "a target at its position";
+  }
+  EXPECT_THAT(refusalOf("a.json", sceneWith("light", "\"kind\": \"sun\"")),
+    HasSubstr("lights[0].kind is not known (expected one of point, head, "));
+}
+
 TEST(SceneTables, CamerasHaveOneWholePose)
 {
   const std::pair<const char*, const char*> keys[] = { { "eye", "[0, 0, 9]" }, { "lookAt", "[0, 0, 0]" },

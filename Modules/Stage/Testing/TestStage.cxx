@@ -106,7 +106,7 @@ TEST(Stage, Lights)
   const ModelFolder folder;
   const auto none = folder.load("{}")->at(0);
   ASSERT_EQ(none->lights.size(), 1u);
-  EXPECT_EQ(none->lights[0].kind, LightState::Kind::Head);
+  EXPECT_EQ(none->lights[0].kind, LightKind::Head);
   const auto some = folder
                       .load(R"({"background": [0.1, 0.2, 0.3], "lights": [
     {"enabled": false}, {"name": "s", "kind": "spot", "position": {"keys": [[0, [0, 0, 0]], [4, [4, 0, 0]]]},
@@ -115,7 +115,7 @@ TEST(Stage, Lights)
     "shadows": true, "shadowSize": 512}]})")
                       ->at(1);
   ASSERT_EQ(some->lights.size(), 1u);
-  EXPECT_EQ(some->lights[0].kind, LightState::Kind::Spot);
+  EXPECT_EQ(some->lights[0].kind, LightKind::Spot);
   EXPECT_EQ(some->lights[0].name, "s");
   EXPECT_EQ(some->lights[0].position, Vector(1, 0, 0));
   EXPECT_EQ(some->lights[0].target, Vector(0, 0, 3));

@@ -19,6 +19,27 @@ double relative(const M& found, const M& expected)
   return (found - expected).cwiseAbs().maxCoeff() / std::max(1.0, expected.cwiseAbs().maxCoeff());
 }
 
+using Numbers = std::map<std::string, std::vector<double>>;
+
+/// The first name whose numbers are not the same.
+std::string differing(const Numbers& a, const Numbers& b)
+{
+  const auto [own, other] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  const bool isOwn = own != a.end() && (other == b.end() || own->first <= other->first);
+  return isOwn ? own->first : other->first;
+}
+
+std::string listed(const Numbers& numbers, const std::string& name)
+{
+  const auto found = numbers.find(name);
+  std::string text;
+  for (const double number : found == numbers.end() ? std::vector<double>() : found->second)
+  {
+    text += (text.empty() ? "" : ", ") + numberText(number);
+  }
+  return text.empty() ? "none" : text;
+}
+
 /// cameras.json against the scene.
 class CameraCheck
 {
@@ -32,9 +53,10 @@ public:
   void run()
   {
     const auto linear = this->Scene.model->linear();
-    if (linear)
+    const CameraParameters& expected = this->Scene.model->parameters();
+    if (linear || expected.K)
     {
-      this->matrix("K", this->Record.K, linear->K);
+      this->matrix("K", this->Record.K, linear ? linear->K : *expected.K);
     }
     this->matrix("R", this->Record.R, this->Scene.camera_from_world.rotation);
     this->matrix("t", this->Record.t, this->Scene.camera_from_world.translation);
@@ -42,8 +64,12 @@ public:
     this->number("far", this->Record.far, this->Scene.far);
     this->TheMeter.equal(this->Record.model == this->Scene.model->name(),
       [&] { return this->offender("model", this->Record.model, this->Scene.model->name()); });
-    this->TheMeter.equal(!linear || this->Record.distortion.empty(),
-      [&] { return this->offender("distortion", numberText(this->Record.distortion[0]), "none"); });
+    this->TheMeter.equal(this->Record.numbers == expected.numbers,
+      [&]
+      {
+        const std::string name = differing(this->Record.numbers, expected.numbers);
+        return this->offender(name.c_str(), listed(this->Record.numbers, name), listed(expected.numbers, name));
+      });
     const Eigen::Matrix3d square = this->Record.R * this->Record.R.transpose();
     this->matrix<Eigen::Matrix3d>("R R^T", square, Eigen::Matrix3d::Identity());
   }

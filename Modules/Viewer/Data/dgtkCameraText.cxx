@@ -47,16 +47,21 @@ QString rows(const QString& name, const Eigen::MatrixXd& matrix)
 
 QString recordText(const CameraRecord& record)
 {
-  QStringList distortion;
-  for (const double coefficient : record.distortion)
+  QString parameters;
+  for (const auto& [name, numbers] : record.numbers)
   {
-    distortion << text(coefficient);
+    QStringList list;
+    for (const double number : numbers)
+    {
+      list << text(number);
+    }
+    parameters += QString::fromStdString(name) + ": " + list.join(", ") + '\n';
   }
   return Words::tr("Size: %1 x %2 pixels").arg(record.width).arg(record.height) + '\n' +
          Words::tr("Lens: %1").arg(QString::fromStdString(record.model)) + '\n' +
-         Words::tr("Distortion: %1").arg(distortion.isEmpty() ? Words::tr("none") : distortion.join(", ")) + '\n' +
+         (parameters.isEmpty() ? Words::tr("Distortion: %1").arg(Words::tr("none")) + '\n' : parameters) +
          Words::tr("Near, far: %1, %2").arg(text(record.near), text(record.far)) + "\n\n" +
-         rows(Words::tr("K (pixels from camera axes)"), record.K) + '\n' +
+         (record.hasK ? rows(Words::tr("K (pixels from camera axes)"), record.K) + '\n' : QString()) +
          rows(Words::tr("R (x_camera = R x_world + t)"), record.R) + '\n' + rows("t", record.t);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkDatasetPoints.h"
 
+#include "dgtkCameraEntry.h"
 #include "dgtkError.h"
 #include "dgtkPictureColors.h"
 
@@ -16,7 +17,10 @@ constexpr std::array<std::uint8_t, 3> uncolored = { 200, 200, 205 };
 
 std::shared_ptr<const CameraModel> modelOf(const CameraRecord& camera)
 {
-  return camera.distortion.empty() ? makeRecordedCamera(camera.model, camera.width, camera.height, camera.K) : nullptr;
+  const std::optional<Eigen::Matrix3d> K = camera.hasK ? std::optional(camera.K) : std::nullopt;
+  return findCamera(camera.model)
+           ? makeCamera(camera.model, { camera.width, camera.height, K, camera.numbers, camera.files })
+           : nullptr;
 }
 
 /// The parameter of the ray's point at a distance from the origin of its frame.
@@ -51,7 +55,7 @@ View viewOf(const CameraRecord& record)
   if (!view.model)
   {
     throw InputError("cameras.json", 0, "camera " + quoted(record.name) + " has a model that is not known here",
-      "pinhole or orthographic", quoted(record.model));
+      "a camera model of this program", quoted(record.model));
   }
   view.camera_from_world = { record.R, record.t };
   view.near = record.near;

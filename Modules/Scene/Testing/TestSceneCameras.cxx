@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cameras of a model that has parameters of its own; they begin with "odd".
+#include "dgtkSceneSamples.h"
+
+#include "dgtkCameraEntry.h"
+#include "dgtkError.h"
+#include "dgtkSceneTracks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace dgtk;
+using namespace dgtk::test;
+using testing::HasSubstr;
+
+namespace
+{
+class Strange final : public CameraModel
+{
+public:
+  explicit Strange(const CameraParameters& of)
+    : CameraModel(of)
+  {
+  }
+  std::string name() const override { return "strange"; }
+  CameraRay rayThrough(const Eigen::Vector2d&) const override { return { { 0, 0, 0 }, { 0, 0, 1 } }; }
+  bool project(const Eigen::Vector3d&, Eigen::Vector2d&) const override { return false; }
+};
+
+std::shared_ptr<const CameraModel> makeStrange(const CameraParameters& of)
+{
+  if (of.number("oddXi") == 3)
+  {
+    throw UsageError("oddXi is 3");
+  }
+  return std::make_shared<Strange>(of);
+}
+
+CameraEntry entry()
+{
+  CameraParameter xi{ "oddXi", "", "a number that moves", { 0, 5, false, false, "a number from 0 to 5" }, { 1 } };
+  xi.moves = true;
+  CameraParameter still{ "oddStill", "", "a number", { 0, 5, false, false, "a number from 0 to 5" }, { 0 } };
+  CameraParameter list{ "oddList", "", "a list", { -1, 1, false, false, "a number from -1 to 1" }, { 0, 0, 0, 0 } };
+  list.counts = { 4, 5, 8, 12, 14 };
+  CameraParameter file{ "oddFile", "", "a file" };
+  file.kind = CameraParameter::Kind::File;
+  return { { xi, still, list, file, fieldOfViewParameter() }, &makeStrange };
+}
+
+const CameraEntry strange = entry();
+const bool added = addCamera({ "strange", "for a test", &strange });
+
+std::string sceneWith(const std::string& keys)
+{
+  return "{\"version\": 1, \"cameras\": [\n{\"model\": \"strange\", \"oddFile\": \"a.npy\", \"eye\": [0, 0, 9], "
+         "\"lookAt\": [0, 0, 0]" +
+         (keys.empty() ? "" : ", " + keys) + "}]}";
+}
+} // namespace
+
+TEST(SceneCameras, ParametersOfAModelAreReadAndWritten)
+{
+  ASSERT_TRUE(added);
+  const TemporaryFolder folder;
+  const std::string keys = "\"oddStill\": 2, \"fovY\": 90, \"oddList\": [0.1, 0, 0, 0, -0.5], "
+                           "\"oddXi\": {\"keys\": [[0, 1], [10, 2]]}";
+  std::string text = sceneWith(keys);
+  for (int time = 0; time < 2; ++time) // as read, and as read from what is written
+  {
+    const SceneDescription scene = readText(folder, "a.json", text);
+    const CameraDescription& camera = scene.cameras.at(0);
+    EXPECT_EQ(camera.model, "strange");
+    EXPECT_EQ(camera.parameters.at("oddFile").file, "a.npy");
+    EXPECT_EQ(scene.keyFrames(), (std::vector<int>{ 0, 10 })) << "its track counts";
+    const CameraParameters of = cameraParameters(camera, 5, 8, 6, folder.path());
+    EXPECT_EQ(of.number("oddXi"), 1.5);
+    EXPECT_EQ(of.number("oddStill"), 2);
+    EXPECT_EQ(of.number("fovY"), 90);
+    EXPECT_EQ(of.numbers.at("oddList"), (std::vector<double>{ 0.1, 0, 0, 0, -0.5 }));
+    EXPECT_EQ(of.numbers.count("viewHeight"), 0u);
+    EXPECT_EQ(of.files.at("oddFile"), folder.path("a.npy"));
+    text = toJson(scene, folder.path());
+    EXPECT_THAT(text, HasSubstr("\"oddList\": [0.1, 0, 0, 0, -0.5]"));
+  }
+  const SceneDescription usual = readText(folder, "a.json", sceneWith("\"oddXi\": 1, \"oddList\": [0, 0, 0, 0]"));
+  EXPECT_EQ(toJson(usual, folder.path()).find("oddXi"), std::string::npos) << "only what is not usual";
+  EXPECT_EQ(toJson(usual, folder.path()).find("oddList"), std::string::npos);
+}
+
+TEST(SceneCameras, FilesMoveWithTheScene)
+{
+  const TemporaryFolder folder;
+  makeFolders(folder.path("deep"));
+  writeScene(readText(folder, "a.json", sceneWith("")), folder.path("deep/b.json"));
+  EXPECT_EQ(readScene(folder.path("deep/b.json")).cameras.at(0).parameters.at("oddFile").file, "../a.npy");
+}
+
+TEST(SceneCameras, WhatAModelDoesNotHaveIsRefused)
+{
+  const std::pair<std::string, std::string> table[] = {
+    { "\"oddYi\": 1", "a.json:2: cameras[0].oddYi is an unknown key (expected perhaps 'oddXi', found 'oddYi')" },
+    { "\"oddXi\": 6", "a.json:2: cameras[0].oddXi is out of range (expected a number from 0 to 5, found 6)" },
+    { "\"oddXi\": {\"keys\": [[0, 1], [4, -1]]}", "cameras[0].oddXi.keys[1][1] is out of range" },
+    { "\"oddStill\": {\"keys\": [[0, 1]]}", "cameras[0].oddStill has the wrong type (expected a number from 0 to 5" },
+    { "\"oddList\": 1", "cameras[0].oddList has the wrong type" },
+    { "\"oddList\": [1, 1]", "cameras[0].oddList has the wrong length (expected 4, 5, 8, 12 or 14 numbers, found 2)" },
+    { "\"oddList\": [0, 0, 2, 0]", "cameras[0].oddList[2] is out of range (expected a number from -1 to 1" },
+    { "\"viewHeight\": 2",
+      "cameras[0].viewHeight is not for a camera of the model 'strange' (expected oddXi, oddStill, " },
+    { "\"lens\": {\"aperture\": 1}", "cameras[0].lens is not for this camera" },
+  };
+  for (const auto& [keys, expected] : table)
+  {
+    EXPECT_THAT(refusalOf("a.json", sceneWith(keys)), HasSubstr(expected)) << keys;
+  }
+  std::string pinhole = sceneWith("");
+  pinhole.replace(pinhole.find("strange"), 7, "pinhole");
+  EXPECT_THAT(refusalOf("a.json", pinhole), HasSubstr("cameras[0].oddFile is an unknown key"));
+  std::string unknown = sceneWith("");
+  unknown.replace(unknown.find("strange"), 7, "unknown");
+  EXPECT_THAT(refusalOf("a.json", unknown), HasSubstr("cameras[0].model is not known (expected one of pinhole, "));
+}
+
+TEST(SceneCameras, WhatDoesNotGoTogetherIsRefusedWithTheScene)
+{
+  SceneDescription scene;
+  scene.cameras.resize(1);
+  scene.cameras[0].model = "strange";
+  scene.cameras[0].parameters["oddXi"].numbers = { 3.0 };
+  EXPECT_THROW(validate(scene), InputError) << "it has no file";
+  const auto message = [&]
+  {
+    try
+    {
+      nameAll(scene);
+      validate(scene);
+    }
+    catch (const InputError& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(
+    message(), HasSubstr("camera 'Camera0': model cannot be: a camera of the model 'strange' needs 'oddFile'"));
+  scene.cameras[0].parameters["other"].numbers = { 3.0 };
+  EXPECT_THAT(message(), HasSubstr("camera 'Camera0': other is an unknown key"));
+  scene.cameras[0].model = "none";
+  EXPECT_THAT(message(), HasSubstr("camera 'Camera0': model is not known"));
+}
