@@ -55,6 +55,12 @@ bool canWrite(const std::string& format, const LayerSpec& spec)
   return row && spec.channels >= 1 && row->entry->canWrite(spec);
 }
 
+bool holdsMatrices(const std::string& format)
+{
+  const WriterRow* row = findWriter(format);
+  return row && row->entry->matrices;
+}
+
 PixelType storedType(const std::string& format, PixelType type)
 {
   const WriterRow* row = findWriter(format);

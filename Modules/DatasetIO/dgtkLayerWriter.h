@@ -61,6 +61,9 @@ DGTKDATASETIO_EXPORT const std::vector<WriterInfo>& layerWriters();
 /// Whether `format` can hold a layer of this specification.
 DGTKDATASETIO_EXPORT bool canWrite(const std::string& format, const LayerSpec& spec);
 
+/// Whether a file of `format` holds OpenGL's matrices, which a camera without a linear projection does not have.
+DGTKDATASETIO_EXPORT bool holdsMatrices(const std::string& format);
+
 /// The type of the real numbers that a file of `format` holds of a layer of `type`: float32 where float64 is rounded to
 /// it. Other types, and formats that are no images, are returned as they are.
 DGTKDATASETIO_EXPORT PixelType storedType(const std::string& format, PixelType type);

@@ -22,6 +22,7 @@ struct WriterEntry
   bool rounds = false;                  ///< float64 to float32
   std::uint32_t largestId = 0xffffffff; ///< of a uint32 layer
   bool marksNothing = false;            ///< it gives up its largest id where a layer's code for nothing does not fit
+  bool matrices = false;                ///< it stores those of OpenGL
 };
 
 struct WriterRow

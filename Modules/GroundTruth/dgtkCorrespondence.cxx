@@ -16,6 +16,17 @@ bool isInside(const Eigen::Vector2d& pixel, const CameraModel& model)
 {
   return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= model.width() && pixel.y() <= model.height();
 }
+
+/// Parameter of a point on its ray.
+double alongRay(const Eigen::Vector3d& x_in_camera, const Eigen::Vector2d& pixel, const CameraModel& model)
+{
+  if (model.linear())
+  {
+    return x_in_camera.z();
+  }
+  const CameraRay ray = model.rayThrough(pixel);
+  return (x_in_camera - ray.origin).dot(ray.direction) / ray.direction.squaredNorm();
+}
 } // namespace
 
 Eigen::Vector3d carriedPoint(const SceneState& state, const Hit& hit, const Eigen::Vector2d& barycentrics)
@@ -38,7 +49,8 @@ Correspondence correspond(const OtherView& other, const Hit& hit, const Eigen::V
     result.visibility = VisibilityClass::Behind;
     return result;
   }
-  if (!isInside(result.pixel, *other.view.model) || point.z() < other.view.near || point.z() > other.view.far)
+  const double t = alongRay(point, result.pixel, *other.view.model);
+  if (!isInside(result.pixel, *other.view.model) || t < other.view.near || t > other.view.far)
   {
     result.visibility = VisibilityClass::Outside;
     return result;

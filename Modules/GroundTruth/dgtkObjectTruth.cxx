@@ -214,7 +214,11 @@ void BlockObjects::markObject(std::uint32_t object, const Instance& instance, co
     Eigen::Vector2d pixel;
     double z;
   };
-  const bool linear = view.model->linear().has_value();
+  if (!view.model->linear()) // lines are curved
+  {
+    this->mark(object, 0, 0, view.model->width(), view.model->height());
+    return;
+  }
   const Affine3 camera_from_object = view.camera_from_world * instance.world_from_object;
   const std::vector<Eigen::Vector3d>& positions = instance.geometry->positions;
   std::vector<Projected> vertices(positions.size());
@@ -231,9 +235,9 @@ void BlockObjects::markObject(std::uint32_t object, const Instance& instance, co
     {
       continue;
     }
-    if (before < 3 || !linear)
+    if (before < 3)
     {
-      // lines of a lens are curved, and those through the near plane have no end in the image
+      // lines through the near plane have no end in the image
       this->mark(object, 0, 0, view.model->width(), view.model->height());
       return;
     }

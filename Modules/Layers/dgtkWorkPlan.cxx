@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 
 namespace dgtk
 {
@@ -166,6 +167,13 @@ LayerNeeds LayerNeeds::ofColor()
   return needs;
 }
 
+LayerNeeds LayerNeeds::ofLinear()
+{
+  LayerNeeds needs;
+  needs.linear = true;
+  return needs;
+}
+
 void LayerNeeds::add(const LayerNeeds& more)
 {
   this->hits = this->hits || more.hits;
@@ -174,6 +182,7 @@ void LayerNeeds::add(const LayerNeeds& more)
   this->peeled = this->peeled || more.peeled;
   this->samples = this->samples || more.samples;
   this->whole = this->whole || more.whole;
+  this->linear = this->linear || more.linear;
   this->mattes.insert(this->mattes.end(), more.mattes.begin(), more.mattes.end());
 }
 
@@ -227,6 +236,39 @@ void checkPictures(const WorkPlan& plan, const SceneDescription& scene)
     {
       throw UsageError("camera " + quoted(camera.name) + " has a " + (camera.lens.blurs() ? "lens" : "shutter") +
                        ": only the built-in renderer averages exposures (POV-Ray has a focal blur of its own)");
+    }
+  }
+}
+
+/// Drawing, and files that hold matrices of OpenGL, are for linear projections.
+void checkCameras(const WorkPlan& plan, const Stage& stage)
+{
+  std::set<std::size_t> seen;
+  for (const Job& job : plan.jobs)
+  {
+    const LayerRequest& request = plan.request;
+    if (!seen.insert(job.camera).second)
+    {
+      continue;
+    }
+    const View view = stage.view(job.camera, job.frame, request.width, request.height);
+    const std::string who = "camera " + quoted(view.name) + " (" + view.model->name() + ") has no linear projection";
+    for (const PlannedLayer& planned : view.model->linear() ? std::vector<PlannedLayer>() : plan.layers)
+    {
+      const LayerNeeds needs = planned.layer->needs(request, stage);
+      const bool drawn =
+        needs.color || needs.sharp || needs.peeled || !needs.mattes.empty() || (needs.hits && plan.raster);
+      if (needs.linear || drawn)
+      {
+        throw UsageError("layer " + planned.layer->info().layer + ": " + who + (drawn ? ", and cannot be drawn" : ""));
+      }
+      for (const std::string& format : planned.formats)
+      {
+        if (holdsMatrices(format))
+        {
+          throw UsageError("layer " + planned.layer->info().layer + " as " + format + ": " + who);
+        }
+      }
     }
   }
 }
@@ -301,6 +343,7 @@ WorkPlan makeWorkPlan(const LayerRequest& request, const Stage& stage)
   }
   checkPictures(plan, scene);
   checkPovOptions(plan);
+  checkCameras(plan, stage);
   for (const PlannedLayer& planned : plan.layers)
   {
     planned.layer->check(plan, stage, planned);

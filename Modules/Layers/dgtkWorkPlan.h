@@ -32,10 +32,12 @@ struct DGTKLAYERS_EXPORT LayerNeeds
   bool peeled = false;               ///< Band::peeled
   bool samples = false;              ///< several points a pixel
   bool whole = false;                ///< all rows, from the top: not some of them only
+  bool linear = false;               ///< cameras with a linear() projection, as what is drawn does
   std::vector<std::uint32_t> mattes; ///< objects of Band::mattes
 
   static LayerNeeds ofHits();
   static LayerNeeds ofColor();
+  static LayerNeeds ofLinear();
   /// Adds what others need; mattes are those of one layer.
   void add(const LayerNeeds& more);
 };

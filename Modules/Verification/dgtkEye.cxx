@@ -62,10 +62,17 @@ bool Eye::project(const Eigen::Vector3d& x, Eigen::Vector2d& pixel) const
   return true;
 }
 
-bool Eye::sees(const Eigen::Vector2d& pixel, double depth) const
+double Eye::range(const Eigen::Vector2d& pixel, const Eigen::Vector3d& x) const
 {
+  const CameraRay ray = this->ray(pixel);
+  return this->linear() ? x.z() : (x - ray.origin).dot(ray.direction) / ray.direction.squaredNorm();
+}
+
+bool Eye::sees(const Eigen::Vector2d& pixel, const Eigen::Vector3d& x) const
+{
+  const double range = this->range(pixel, x);
   return pixel.x() >= 0 && pixel.x() <= this->width() && pixel.y() >= 0 && pixel.y() <= this->height() &&
-         depth >= this->Record.near && depth <= this->Record.far;
+         range >= this->Record.near && range <= this->Record.far;
 }
 
 } // namespace dgtk

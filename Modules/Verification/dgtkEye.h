@@ -43,8 +43,11 @@ public:
   }
   /// False behind the camera.
   bool project(const Eigen::Vector3d& x_in_camera, Eigen::Vector2d& pixel) const;
+  /// What near and far bound of a point and the pixel that it is projected to: its depth, or the distance of a model that
+  /// is not linear.
+  double range(const Eigen::Vector2d& pixel, const Eigen::Vector3d& x_in_camera) const;
   /// Inside the image, and between near and far.
-  bool sees(const Eigen::Vector2d& pixel, double depth) const;
+  bool sees(const Eigen::Vector2d& pixel, const Eigen::Vector3d& x_in_camera) const;
 
   /// What a residual at a depth is divided by. Numbers of the world have 16 digits: of a camera a million times as far
   /// from the world's origin as from what it sees, ten are left. 1 up to a thousand times.

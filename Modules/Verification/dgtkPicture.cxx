@@ -74,7 +74,7 @@ bool Picture::agrees(const Claims& claims, const Hit& hit, int x, int y) const
     const double found = claims.depth->at(x, y);
     if (found != expected &&
         !(std::isfinite(expected) &&
-          std::abs(found - expected) <= claims.tolerance * this->eye().farness(expected) * expected))
+          std::abs(found - expected) <= claims.tolerance * this->eye().farness(expected) * std::abs(expected)))
     {
       return false;
     }
@@ -176,7 +176,7 @@ bool Picture::isEdgeAt(int x, int y, double depth) const
     {
       const Hit hit{ object, triangle };
       if (std::abs(this->TheSight->depthOf(hit, centreOf(x, y)) - depth) <=
-            wideDepthTolerance * this->eye().farness(depth) * depth &&
+            wideDepthTolerance * this->eye().farness(depth) * std::abs(depth) &&
           this->endsAt(hit, x, y))
       {
         return true;

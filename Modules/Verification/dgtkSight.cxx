@@ -58,7 +58,7 @@ double Sight::depthOf(const Hit& hit, const Eigen::Vector2d& pixel) const
   }
   const double t = n.dot(corner[nearest] - ray.origin) / n.dot(ray.direction);
   const double depth = ray.origin.z() + t * ray.direction.z();
-  return depth > 0 ? depth : std::numeric_limits<double>::infinity();
+  return (this->TheEye.linear() ? depth : t) > 0 ? depth : std::numeric_limits<double>::infinity();
 }
 
 void Sight::surfaces(const Eigen::Vector2d& pixel, std::vector<Hit>& hits, std::vector<double>& depths) const

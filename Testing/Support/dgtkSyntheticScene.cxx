@@ -316,6 +316,49 @@ std::shared_ptr<const CameraModel> hideLinear(std::shared_ptr<const CameraModel>
   return std::make_shared<Unsaid>(std::move(model));
 }
 
+namespace
+{
+class Equidistant final : public CameraModel
+{
+public:
+  Equidistant(int width, int height, double pixelsPerRadian)
+    : CameraModel(width, height)
+    , Focal(pixelsPerRadian)
+    , Middle(width / 2.0, height / 2.0)
+  {
+  }
+  std::string name() const override { return "equidistant"; }
+  CameraRay rayThrough(const Eigen::Vector2d& pixel) const override
+  {
+    const Eigen::Vector2d p = (pixel - this->Middle) / this->Focal;
+    const double angle = p.norm();
+    const double across = angle > 0 ? std::sin(angle) / angle : 1;
+    return { { 0, 0, 0 }, { across * p.x(), across * p.y(), std::cos(angle) } };
+  }
+  bool project(const Eigen::Vector3d& x, Eigen::Vector2d& pixel) const override
+  {
+    const double across = std::hypot(x.x(), x.y());
+    if (across == 0 && !(x.z() > 0))
+    {
+      return false;
+    }
+    pixel = this->Middle;
+    pixel += across > 0 ? Eigen::Vector2d(this->Focal * std::atan2(across, x.z()) / across * x.head<2>())
+                        : Eigen::Vector2d(0, 0);
+    return true;
+  }
+
+private:
+  double Focal;
+  Eigen::Vector2d Middle;
+};
+} // namespace
+
+std::shared_ptr<const CameraModel> makeEquidistant(int width, int height, double pixelsPerRadian)
+{
+  return std::make_shared<Equidistant>(width, height, pixelsPerRadian);
+}
+
 VisibilityBuffer bruteForce(const SceneState& state, const View& view, const PixelRect& rect)
 {
   constexpr long double same = 1e-12L;

@@ -101,6 +101,9 @@ View makeView(const ViewOptions& options = {});
 /// A pinhole or parallel camera that does not say that it is linear, as a lens would.
 std::shared_ptr<const CameraModel> hideLinear(std::shared_ptr<const CameraModel> model);
 
+/// A fisheye: image points are `pixelsPerRadian` times their angle from the axis away from the image's middle.
+std::shared_ptr<const CameraModel> makeEquidistant(int width, int height, double pixelsPerRadian);
+
 /// What the ray through each pixel's centre meets first, by trying all triangles in extended precision. Edges belong to
 /// their triangle; of equally near surfaces (relative 1e-12) the one with the lowest object, then triangle.
 VisibilityBuffer bruteForce(const SceneState& state, const View& view, const PixelRect& rect);

@@ -44,6 +44,6 @@ std::unique_ptr<LayerWriter> openDgd(
 } // namespace
 
 extern const WriterEntry writerDgd;
-const WriterEntry writerDgd = { &canWriteDgd, &openDgd };
+const WriterEntry writerDgd = { &canWriteDgd, &openDgd, false, 0xffffffff, false, true };
 
 } // namespace dgtk

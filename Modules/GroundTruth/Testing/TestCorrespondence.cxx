@@ -151,6 +151,25 @@ TEST(Correspond, NearerThanNearAndFartherThanFarAreOutside)
   EXPECT_EQ(Other(viewAt({ 0, 0, 0 }, 8.001, 9)).of({ 0, 0 }).visibility, VisibilityClass::Outside);
 }
 
+// A fisheye sees sideways and back: near and far are distances.
+TEST(Correspond, NearAndFarOfALensAreDistances)
+{
+  const auto lens = [](double z, double near, double far)
+  {
+    View view = viewAt({ 0, 0, z }, near, far);
+    view.model = makeEquidistant(width, height, 10); // 3.2 radians to the sides
+    return view;
+  };
+  const double distance = std::sqrt(16 * 16 + 0.25 * 0.25);
+  for (const double z : { 8 - 0.25, 8 + 0.25 }) // beside the wall, and past it
+  {
+    const Other other(lens(z, 0.5, distance + 1e-6));
+    EXPECT_EQ(other.of({ 16, 0 }).visibility, VisibilityClass::Visible) << z;
+    EXPECT_EQ(Other(lens(z, 0.5, distance - 1e-6)).of({ 16, 0 }).visibility, VisibilityClass::Outside) << z;
+    EXPECT_EQ(Other(lens(z, distance + 1e-6, 99)).of({ 16, 0 }).visibility, VisibilityClass::Outside) << z;
+  }
+}
+
 TEST(Correspond, BehindTheCameraIsNowhere)
 {
   const Correspondence found = Other(viewAt({ 0, 0, 9 })).of({ 0, 0 });

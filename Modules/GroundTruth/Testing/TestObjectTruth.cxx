@@ -36,6 +36,21 @@ TEST(BlockObjects, ObjectsThroughTheCameraMayHideAllOthers)
   }
 }
 
+// A lens sees what is beside it and behind: any object may be anywhere.
+TEST(BlockObjects, UnderALensAllMayHideOthers)
+{
+  View view = makeView();
+  view.model = makeEquidistant(64, 48, 10);
+  const auto state =
+    SceneBuilder()
+      .add(makeQuad({ { -9, -9, -3 }, { 18, 0, 0 }, { 0, 18, 0 } }))
+      .add(makeQuad({ { 3, -1, 6 }, { 0, 2, 0 }, { 0, 0, 2 } })) // beside the camera, no part before it
+      .state();
+  const BlockObjects blocks(*state, view);
+  EXPECT_TRUE(blocks.mayHideOthers(0, 0, 1));
+  EXPECT_TRUE(blocks.mayHideOthers(60, 40, 1));
+}
+
 namespace
 {
 /// Decodes run lengths column by column to a row-major mask.

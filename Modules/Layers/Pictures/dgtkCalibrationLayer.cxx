@@ -33,7 +33,7 @@ public:
   {
     return { "calibration", { "txt" }, "projection and pose of the camera, as the thesis writes them", true };
   }
-  LayerNeeds needs(const LayerRequest&, const Stage&) const override { return {}; }
+  LayerNeeds needs(const LayerRequest&, const Stage&) const override { return LayerNeeds::ofLinear(); }
   /// It has no image.
   std::vector<LayerRecord> records(const WorkPlan&, const std::string&) const override { return {}; }
   std::vector<LayerOutput> outputs(

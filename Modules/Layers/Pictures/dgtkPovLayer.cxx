@@ -52,19 +52,8 @@ class PovLayer final : public Layer
 {
 public:
   LayerInfo info() const override { return { "pov", { "pov" }, "scene for POV-Ray that shows what the camera sees" }; }
-  LayerNeeds needs(const LayerRequest&, const Stage&) const override { return {}; }
+  LayerNeeds needs(const LayerRequest&, const Stage&) const override { return LayerNeeds::ofLinear(); }
   std::vector<const OptionRow*> options() const override { return povOptionRows(); }
-  void check(const WorkPlan&, const Stage& stage, const PlannedLayer&) const override
-  {
-    const SceneDescription& scene = stage.description();
-    for (std::size_t camera = 0; camera < scene.cameras.size(); ++camera)
-    {
-      if (!stage.view(camera, scene.firstFrame()).model->linear())
-      {
-        throw UsageError("layer pov: camera " + quoted(scene.cameras[camera].name) + " cannot be written for POV-Ray");
-      }
-    }
-  }
   std::vector<LayerRecord> records(const WorkPlan&, const std::string& format) const override
   {
     return { { povSpec(), format } };

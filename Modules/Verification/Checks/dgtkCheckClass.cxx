@@ -71,7 +71,7 @@ private:
     {
       return Behind;
     }
-    if (!this->Other.eye().sees(target.pixel, target.there.z()))
+    if (!this->Other.eye().sees(target.pixel, target.there))
     {
       return Outside;
     }
@@ -80,7 +80,7 @@ private:
     this->Other.surfaces(pixel, hits, depths);
     for (std::size_t i = 0; i < hits.size(); ++i)
     {
-      if (hits[i] != hit && depths[i] < target.there.z() * (1 - slack))
+      if (hits[i] != hit && depths[i] / target.there.z() < 1 - slack)
       {
         return hits[i].object == hit.object ? OwnObject : OtherObject;
       }
@@ -143,7 +143,7 @@ private:
   {
     const Eye& eye = this->Other.eye();
     const auto near = [](double a, double b, double slack) { return std::abs(a - b) <= slack; };
-    const double z = target.there.z();
+    const double z = eye.range(target.pixel, target.there);
     return near(target.pixel.x(), 0, borderSlack) || near(target.pixel.x(), eye.width(), borderSlack) ||
            near(target.pixel.y(), 0, borderSlack) || near(target.pixel.y(), eye.height(), borderSlack) ||
            near(z, eye.record().near, surfaceSlack * z) || near(z, eye.record().far, surfaceSlack * z);

@@ -259,8 +259,9 @@ private:
 
   bool isSeen(const Sight& sight, const CloudPoint& point, const Eigen::Vector2d& pixel, double slack) const
   {
-    const double depth = sight.eye().toCamera(point.x).z();
-    if (!sight.eye().sees(pixel, depth))
+    const Eigen::Vector3d x = sight.eye().toCamera(point.x);
+    const double depth = x.z();
+    if (!sight.eye().sees(pixel, x))
     {
       return false;
     }
@@ -269,7 +270,7 @@ private:
     sight.surfaces(pixel, hits, depths);
     for (std::size_t i = 0; i < hits.size(); ++i)
     {
-      if (hits[i] != point.hit && depths[i] < depth * (1 - slack))
+      if (hits[i] != point.hit && depths[i] / depth < 1 - slack)
       {
         return false;
       }
