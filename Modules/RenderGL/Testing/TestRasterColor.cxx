@@ -220,7 +220,7 @@ TEST(RasterColor, MetalAndRoughness)
     material.physical = Material::Physical{ metal, rough, true };
     auto state = stateOf({ square(material) });
     LightState light;
-    light.kind = LightState::Kind::Directional;
+    light.kind = LightKind::Directional;
     light.position = { std::sin(angle), 0, std::cos(angle) };
     light.ambient = { 0.25, 0.25, 0.25 };
     state->lights.push_back(light);
