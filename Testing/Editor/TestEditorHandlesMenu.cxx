@@ -152,7 +152,7 @@ void TestEditorHandles::choose(QWidget* widget, const QPoint& at, const QString&
       {
         return;
       }
-      timer.stop();
+      // Again until it is gone: a menu that is just being shown does not take a click.
       for (QAction* action : menu->actions())
       {
         if (action->objectName() == name)

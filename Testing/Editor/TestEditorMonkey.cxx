@@ -23,7 +23,7 @@
 
 namespace
 {
-constexpr int usualEvents = 700;
+constexpr int usualEvents = 1500;
 constexpr int eventsBetween = 100; // checks that everything can be undone
 constexpr int mostOthers = 4;      // of so many checks one at least is of the scene that there was before
 constexpr int undoneBetween = 3;   // looks at the heap

@@ -11,7 +11,7 @@
 class QFileDialog;
 class QWidget;
 
-/// 700 random events, or DGTK_MONKEY_EVENTS; DGTK_MONKEY_SEED chooses others. The same seed gives the same ones.
+/// 1,500 random events, or DGTK_MONKEY_EVENTS; DGTK_MONKEY_SEED chooses others. The same seed gives the same ones.
 class TestEditorMonkey : public EditorTest
 {
   Q_OBJECT

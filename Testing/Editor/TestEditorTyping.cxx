@@ -271,7 +271,12 @@ void TestEditorTyping::parametersOfAModelAreTyped()
 {
   QVERIFY(lensAdded && this->Window->openFile(this->copyOfDemo()));
   dgtk::SceneDocument& document = this->Window->document();
-  document.edit("a lens", [](dgtk::SceneDescription& scene) { scene.cameras[0].model = "lens"; });
+  document.edit("a lens",
+    [](dgtk::SceneDescription& scene)
+    {
+      scene.cameras[0].model = "lens";
+      scene.cameras[0].fovY = dgtk::CameraDescription().fovY; // which that model does not have
+    });
   const std::string before = document.json();
   this->select(document.scene().cameras[0].name.c_str());
   QCOMPARE(this->field("halfAngle.0")->text(), QString("1"));
