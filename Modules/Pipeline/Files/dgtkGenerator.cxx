@@ -7,7 +7,7 @@
 #include "dgtkFrameOutput.h"
 #include "dgtkFrameSource.h"
 #include "dgtkLayers.h"
-#include "dgtkPacking.h"
+#include "dgtkRunDocuments.h"
 #include "dgtkRunFiles.h"
 #include "dgtkRunNotes.h"
 #include "dgtkSpaceNeeded.h"
@@ -15,14 +15,8 @@
 #include "dgtkTracedQueries.h"
 #include "dgtkWorkPlan.h"
 
-#include "dgtkContactSheet.h"
-#include "dgtkDatasetDocuments.h"
-
 #include <algorithm>
 #include <deque>
-#include <map>
-#include <optional>
-#include <set>
 #include <thread>
 #include <utility>
 
@@ -49,12 +43,6 @@ JournalStart startOf(const GeneratorRequest& request)
   return request.resume ? JournalStart::Resume : request.replace ? JournalStart::Replace : JournalStart::Fresh;
 }
 
-// Documents of every dataset, beside the manifest.
-constexpr const char* camerasName = "cameras.json";
-constexpr const char* objectsName = "objects.json";
-constexpr const char* sceneName = "scene.json";
-constexpr const char* sheetName = "contact.png";
-
 class Run
 {
 public:
@@ -75,10 +63,6 @@ private:
   std::shared_ptr<DrawnBand> counted(std::shared_ptr<DrawnBand> band);
   void completeOldest();
   bool keep(const Job& job);
-  std::vector<std::string> filesOf(const Job& job) const;
-  std::vector<std::string> documentNames() const;
-  std::vector<std::string> allNames() const;
-  void writeDocuments();
   bool cancelled() const { return this->Callbacks.cancel && *this->Callbacks.cancel; }
   void say(const std::string& line) const
   {
@@ -92,7 +76,6 @@ private:
     this->Result.warnings.push_back(line);
     this->say("warning: " + line);
   }
-  void pack();
   void sayNotes();
   const std::string& cameraName(const Job& job) const { return this->Scene->description().cameras[job.camera].name; }
   View viewOf(const Job& job) const
@@ -106,9 +89,7 @@ private:
   GeneratorRequest Request;
   WorkPlan Plan;
   int Threads;
-  std::vector<InputRecord> Inputs;
-  std::optional<Packing> Packed;
-  std::string RequestHash;
+  std::unique_ptr<RunDocuments> Documents;
   std::unique_ptr<RunFiles> Files;
   std::unique_ptr<ThreadPool> Pool;
   std::unique_ptr<FrameSource> Source;
@@ -142,20 +123,15 @@ GeneratorResult Run::execute()
   this->Source = std::make_unique<FrameSource>(options, *this->Pool);
   this->Result.glDescription = this->Source->glDescription();
   this->Result.visibility = this->Plan.raster ? "raster" : "ray";
-  this->Inputs = inputsOf(*this->Scene, request.folder);
-  this->RequestHash = identityOf(this->Plan, *this->Scene, this->Inputs);
-  refuseOwnInputs(*this->Scene, request.folder);
-  if (option::pack().of(request.options))
-  {
-    this->Packed = planPacking(*this->Scene, request.folder);
-  }
+  this->Documents = std::make_unique<RunDocuments>(*this->Scene, this->Plan, request.folder);
   const SpaceNeeded needed = spaceOf(this->Plan, *this->Scene);
   const std::string tight = checkSpace(request.folder, needed, spaceIn(request.folder, needed.likely));
   if (!tight.empty())
   {
     this->warn(tight);
   }
-  this->Files = std::make_unique<RunFiles>(request.folder, this->RequestHash, startOf(request), this->allNames());
+  this->Files = std::make_unique<RunFiles>(
+    request.folder, this->Documents->requestHash(), startOf(request), this->Documents->allNames());
   for (PlannedLayer& planned : this->Plan.layers)
   {
     planned.shared = planned.layer->makeShared(
@@ -167,7 +143,7 @@ GeneratorResult Run::execute()
     this->say(this->Result.glDescription);
   }
 
-  this->pack();
+  this->Documents->pack(*this->Files);
   this->sayNotes();
   try
   {
@@ -187,7 +163,7 @@ GeneratorResult Run::execute()
   this->Result.pictures = this->Done;
   if (!this->Result.interrupted)
   {
-    this->writeDocuments();
+    this->Result.files = this->Documents->write(*this->Files, this->Result.warnings);
     if (this->Callbacks.progress)
     {
       this->Callbacks.progress({ this->Done, this->Plan.jobs.size() });
@@ -195,41 +171,6 @@ GeneratorResult Run::execute()
   }
   this->Result.files += this->Files->files().size();
   return this->Result;
-}
-
-/// Puts copies of all inputs into the dataset, when they are wanted there.
-void Run::pack()
-{
-  const std::string& folder = this->Request.folder;
-  if (!this->Packed)
-  {
-    return;
-  }
-  const std::vector<std::string> files = this->Scene->inputFiles();
-  const std::vector<InputRecord> inputs = std::exchange(this->Inputs, {});
-  std::set<std::string> there; // a file may have two spellings
-  for (std::size_t i = 0; i < files.size(); ++i)
-  {
-    const std::string& to = this->Packed->copies.at(files[i]);
-    if (!there.insert(to).second)
-    {
-      continue;
-    }
-    this->Inputs.push_back({ to, inputs[i].bytes, inputs[i].sha256 });
-    if (this->Files->keep({ to }, {}))
-    {
-      continue;
-    }
-    Folder(folder).makeParents(to);
-    this->Files->plan({ to });
-    const DatasetFile copy = writeDocument(folder, to, readFile(files[i]));
-    if (copy.sha256 != inputs[i].sha256)
-    {
-      throw InputError(files[i], 0, "changed while it was copied");
-    }
-    this->Files->add(copy);
-  }
-  checkPacking(*this->Packed, *this->Scene);
 }
 
 /// What deserves a word before the first picture.
@@ -296,7 +237,7 @@ void Run::render(const Job& job)
   const GeneratorRequest& request = this->Request;
   const View view = this->viewOf(job);
   const std::shared_ptr<const SceneState> state = this->stateAt(job.frame);
-  const std::vector<std::string> names = this->filesOf(job);
+  const std::vector<std::string> names = filesOf(this->Plan, *this->Scene, job);
   this->Files->plan(names);
   for (const std::string& name : names)
   {
@@ -370,7 +311,7 @@ void Run::completeOldest()
 // sizes.
 bool Run::keep(const Job& job)
 {
-  const std::vector<std::string> own = this->filesOf(job);
+  const std::vector<std::string> own = filesOf(this->Plan, *this->Scene, job);
   if (!this->Files->has(own))
   {
     return false;
@@ -390,84 +331,6 @@ bool Run::keep(const Job& job)
   return this->Files->keep(own, shared);
 }
 
-std::vector<std::string> Run::filesOf(const Job& job) const
-{
-  std::vector<std::string> names;
-  for (const LayerOutput& output : outputsOf(this->Plan, *this->Scene, job))
-  {
-    const std::vector<std::string> own = output.files();
-    names.insert(names.end(), own.begin(), own.end());
-  }
-  return names;
-}
-
-std::vector<std::string> Run::documentNames() const
-{
-  std::vector<std::string> names = { camerasName, objectsName, sceneName };
-  if (option::contactSheet().of(this->Request.options))
-  {
-    names.emplace_back(sheetName);
-  }
-  return names;
-}
-
-/// Every file that the run writes, but those that layers share.
-std::vector<std::string> Run::allNames() const
-{
-  std::vector<std::string> names = this->documentNames();
-  for (const auto& [file, copy] : this->Packed ? this->Packed->copies : std::map<std::string, std::string>())
-  {
-    names.push_back(copy);
-  }
-  for (const Job& job : this->Plan.jobs)
-  {
-    const std::vector<std::string> own = this->filesOf(job);
-    names.insert(names.end(), own.begin(), own.end());
-  }
-  return names;
-}
-
-void Run::writeDocuments()
-{
-  this->Files->plan(this->documentNames());
-  const GeneratorRequest& request = this->Request;
-  Manifest manifest;
-  manifest.version = DGTK_VERSION;
-  manifest.requestHash = this->RequestHash;
-  manifest.request = describeRequest(this->Plan, *this->Scene);
-  manifest.units = this->Scene->description().units;
-  manifest.inputs = this->Inputs;
-  for (const PlannedLayer& planned : this->Plan.layers)
-  {
-    for (const std::string& format : planned.formats)
-    {
-      const std::vector<LayerRecord> records = planned.layer->records(this->Plan, format);
-      manifest.layers.insert(manifest.layers.end(), records.begin(), records.end());
-    }
-  }
-  manifest.empty = this->Plan.empty;
-  for (const std::string& line : this->Result.warnings)
-  {
-    manifest.warnings.push_back(placelessLine(line, this->Scene->description()));
-  }
-  manifest.files = this->Files->files();
-  const std::size_t pictures = manifest.files.size();
-  const std::map<std::string, std::string> copies =
-    this->Packed ? this->Packed->copies : std::map<std::string, std::string>();
-  manifest.files.push_back(writeDocument(
-    request.folder, camerasName, camerasText(cameraRecords(this->Plan, *this->Scene, request.folder, copies))));
-  manifest.files.push_back(writeDocument(request.folder, objectsName,
-    objectsText(objectRecords(*this->Scene, this->Plan.jobs.front().frame, request.folder, copies),
-      classRecords(*this->Scene))));
-  manifest.files.push_back(writeDocument(request.folder, sceneName,
-    toJson(this->Packed ? this->Packed->scene : this->Scene->description(), request.folder)));
-  if (option::contactSheet().of(request.options))
-  {
-    manifest.files.push_back(writeContactSheet(request.folder, manifest, sheetName));
-  }
-  this->Result.files = manifest.files.size() - pictures;
-  this->Files->close(manifest);
-}
 } // namespace
 
 std::string requestHash(const GeneratorRequest& request)

@@ -17,17 +17,17 @@ class DrawnBand
 {
 public:
   Band band;
-  std::function<void()> rest = [] {}; ///< to be done until `band` is whole; waits for no other job
+  std::function<void()> complete = [] {}; ///< to be done until `band` is whole; waits for no other job
 
-  std::function<void()> color = [] {}; ///< to be done until Band::rgb is there, where that takes longer than the rest
+  std::function<void()> fetchColor = [] {}; ///< to be done until Band::rgb is there, where that takes longer
 
-  /// Does the rest when it is called first, in whichever thread. With `colored`, Band::rgb is there as well.
+  /// Completes it when it is called first, in whichever thread. With `colored`, Band::rgb is there as well.
   const Band& whole(bool colored = true)
   {
-    std::call_once(this->Once, this->rest);
+    std::call_once(this->Once, this->complete);
     if (colored)
     {
-      std::call_once(this->ColorOnce, this->color);
+      std::call_once(this->ColorOnce, this->fetchColor);
     }
     return this->band;
   }

@@ -200,7 +200,7 @@ void FrameSource::draw(int row, const Receiver& receiver)
   std::function<void()> read = this->drawBand(row, *drawn);
   if (this->Pov)
   {
-    drawn->color = [&band = drawn->band, draw = this->Pov->colorOf(drawn->band.rect)] { band.rgb = draw(); };
+    drawn->fetchColor = [&band = drawn->band, draw = this->Pov->colorOf(drawn->band.rect)] { band.rgb = draw(); };
   }
   if (!read)
   {
@@ -221,7 +221,7 @@ std::function<void()> FrameSource::drawBand(int row, DrawnBand& drawn)
   }
   band.rect = this->Grid->tile(0, row);
   const std::shared_ptr<Tile> tile = this->drawTile(band.rect);
-  drawn.rest = [&band, tile]
+  drawn.complete = [&band, tile]
   {
     tile->color.rest();
     band.rgb = std::move(tile->colors.rgb);
@@ -264,9 +264,9 @@ void FrameSource::drawTiles(int row, Band& band)
     {
       const PixelRect rect = this->Grid->tile(column, row);
       std::shared_ptr<Tile> tile = this->drawTile(rect);
-      if (tile->color.read)
+      if (const std::function<void()> read = std::exchange(tile->color.read, nullptr))
       {
-        tile->color.read();
+        read();
       }
       band.peeled.push_back(std::move(tile->ranks));
       placed.push_back(this->Pool.submit(

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkRunDocuments.h"
+
+#include "dgtkDatasetRecords.h"
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkLayers.h"
+#include "dgtkRunNotes.h"
+
+#include "dgtkContactSheet.h"
+#include "dgtkDatasetDocuments.h"
+
+#include <set>
+#include <utility>
+
+namespace dgtk
+{
+
+namespace
+{
+// beside the manifest
+constexpr const char* camerasName = "cameras.json";
+constexpr const char* objectsName = "objects.json";
+constexpr const char* sceneName = "scene.json";
+constexpr const char* sheetName = "contact.png";
+} // namespace
+
+std::vector<std::string> filesOf(const WorkPlan& plan, const Stage& stage, const Job& job)
+{
+  std::vector<std::string> names;
+  for (const LayerOutput& output : outputsOf(plan, stage, job))
+  {
+    const std::vector<std::string> own = output.files();
+    names.insert(names.end(), own.begin(), own.end());
+  }
+  return names;
+}
+
+RunDocuments::RunDocuments(const Stage& stage, const WorkPlan& plan, const std::string& folder)
+  : Scene(stage)
+  , Plan(plan)
+  , Root(folder)
+  , Inputs(inputsOf(stage, folder))
+  , RequestHash(identityOf(plan, stage, this->Inputs))
+{
+  refuseOwnInputs(stage, folder);
+  if (option::pack().of(plan.request.options))
+  {
+    this->Packed = planPacking(stage, folder);
+  }
+}
+
+void RunDocuments::pack(RunFiles& run)
+{
+  if (!this->Packed)
+  {
+    return;
+  }
+  const std::vector<std::string> files = this->Scene.inputFiles();
+  const std::vector<InputRecord> inputs = std::exchange(this->Inputs, {});
+  std::set<std::string> there; // a file may have two spellings
+  for (std::size_t i = 0; i < files.size(); ++i)
+  {
+    const std::string& to = this->Packed->copies.at(files[i]);
+    if (!there.insert(to).second)
+    {
+      continue;
+    }
+    this->Inputs.push_back({ to, inputs[i].bytes, inputs[i].sha256 });
+    if (run.keep({ to }, {}))
+    {
+      continue;
+    }
+    Folder(this->Root).makeParents(to);
+    run.plan({ to });
+    const DatasetFile copy = writeDocument(this->Root, to, readFile(files[i]));
+    if (copy.sha256 != inputs[i].sha256)
+    {
+      throw InputError(files[i], 0, "changed while it was copied");
+    }
+    run.add(copy);
+  }
+  checkPacking(*this->Packed, this->Scene);
+}
+
+std::map<std::string, std::string> RunDocuments::copies() const
+{
+  return this->Packed ? this->Packed->copies : std::map<std::string, std::string>();
+}
+
+std::vector<std::string> RunDocuments::documentNames() const
+{
+  std::vector<std::string> names = { camerasName, objectsName, sceneName };
+  if (option::contactSheet().of(this->Plan.request.options))
+  {
+    names.emplace_back(sheetName);
+  }
+  return names;
+}
+
+std::vector<std::string> RunDocuments::allNames() const
+{
+  std::vector<std::string> names = this->documentNames();
+  for (const auto& [file, copy] : this->copies())
+  {
+    names.push_back(copy);
+  }
+  for (const Job& job : this->Plan.jobs)
+  {
+    const std::vector<std::string> own = filesOf(this->Plan, this->Scene, job);
+    names.insert(names.end(), own.begin(), own.end());
+  }
+  return names;
+}
+
+Manifest RunDocuments::manifest(const std::vector<std::string>& warnings) const
+{
+  Manifest manifest;
+  manifest.version = DGTK_VERSION;
+  manifest.requestHash = this->RequestHash;
+  manifest.request = describeRequest(this->Plan, this->Scene);
+  manifest.units = this->Scene.description().units;
+  manifest.inputs = this->Inputs;
+  for (const PlannedLayer& planned : this->Plan.layers)
+  {
+    for (const std::string& format : planned.formats)
+    {
+      const std::vector<LayerRecord> records = planned.layer->records(this->Plan, format);
+      manifest.layers.insert(manifest.layers.end(), records.begin(), records.end());
+    }
+  }
+  manifest.empty = this->Plan.empty;
+  for (const std::string& line : warnings)
+  {
+    manifest.warnings.push_back(placelessLine(line, this->Scene.description()));
+  }
+  return manifest;
+}
+
+std::size_t RunDocuments::write(RunFiles& files, const std::vector<std::string>& warnings)
+{
+  files.plan(this->documentNames());
+  Manifest manifest = this->manifest(warnings);
+  manifest.files = files.files();
+  const std::size_t pictures = manifest.files.size();
+  manifest.files.push_back(writeDocument(
+    this->Root, camerasName, camerasText(cameraRecords(this->Plan, this->Scene, this->Root, this->copies()))));
+  manifest.files.push_back(writeDocument(this->Root, objectsName,
+    objectsText(objectRecords(this->Scene, this->Plan.jobs.front().frame, this->Root, this->copies()),
+      classRecords(this->Scene))));
+  manifest.files.push_back(writeDocument(
+    this->Root, sceneName, toJson(this->Packed ? this->Packed->scene : this->Scene.description(), this->Root)));
+  if (option::contactSheet().of(this->Plan.request.options))
+  {
+    manifest.files.push_back(writeContactSheet(this->Root, manifest, sheetName));
+  }
+  files.close(manifest);
+  return manifest.files.size() - pictures;
+}
+
+} // namespace dgtk

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkRunDocuments_h
+#define dgtkRunDocuments_h
+
+// Private to Pipeline.
+
+#include "dgtkPacking.h"
+#include "dgtkRunFiles.h"
+#include "dgtkWorkPlan.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// The files of a picture, but those that layers share.
+std::vector<std::string> filesOf(const WorkPlan& plan, const Stage& stage, const Job& job);
+
+/// What a run writes beside its pictures: copies of its inputs, the dataset's documents, the manifest.
+class RunDocuments
+{
+public:
+  /// Reads the inputs. Throws UsageError where the run would write them.
+  RunDocuments(const Stage& stage, const WorkPlan& plan, const std::string& folder);
+
+  const std::string& requestHash() const { return this->RequestHash; }
+  /// Every file that the run writes, but those that layers share.
+  std::vector<std::string> allNames() const;
+  /// Puts copies of all inputs into the dataset, when they are wanted there.
+  void pack(RunFiles& files);
+  /// Ends the run; the number of documents.
+  std::size_t write(RunFiles& files, const std::vector<std::string>& warnings);
+
+private:
+  std::vector<std::string> documentNames() const;
+  Manifest manifest(const std::vector<std::string>& warnings) const;
+  std::map<std::string, std::string> copies() const;
+
+  const Stage& Scene;
+  const WorkPlan& Plan;
+  std::string Root;
+  std::vector<InputRecord> Inputs;
+  std::string RequestHash;
+  std::optional<Packing> Packed;
+};
+
+} // namespace dgtk
+
+#endif
