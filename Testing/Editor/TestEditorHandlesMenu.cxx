@@ -142,12 +142,19 @@ void TestEditorHandles::everyViewMovesTheSame()
 
 void TestEditorHandles::choose(QWidget* widget, const QPoint& at, const QString& name) const
 {
+  constexpr int longestWait = 500; // ticks
   bool found = false;
+  int waited = 0;
   QTimer timer;
   QObject::connect(&timer, &QTimer::timeout, &timer,
     [&]
     {
       auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+      if (++waited > longestWait && QApplication::activePopupWidget() != nullptr)
+      {
+        QApplication::activePopupWidget()->close(); // the test says what was not found, and goes on
+        return;
+      }
       if (menu == nullptr || menu->objectName() != "contextMenu")
       {
         return;
