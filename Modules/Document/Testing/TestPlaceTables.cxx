@@ -1,0 +1,563 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkCameraArray.h"
+#include "dgtkMeshClusters.h"
+#include "dgtkMissingFiles.h"
+#include "dgtkScenePlaces.h"
+#include "dgtkViewLines.h"
+
+#include "dgtkCameraModel.h"
+#include "dgtkError.h"
+#include "dgtkTestSupport.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace
+{
+using namespace dgtk;
+
+using V = Eigen::Vector3d;
+constexpr double tolerance = 1e-12; // world units
+
+void expectLines(const LineList& lines, const LineList& expected)
+{
+  ASSERT_EQ(lines.size(), expected.size());
+  for (std::size_t i = 0; i < lines.size(); ++i)
+  {
+    EXPECT_LT((lines[i].first - expected[i].first).norm(), tolerance) << i << ": " << lines[i].first.transpose();
+    EXPECT_LT((lines[i].second - expected[i].second).norm(), tolerance) << i << ": " << lines[i].second.transpose();
+  }
+}
+
+WorldBox boxOf(const V& low, const V& high)
+{
+  WorldBox box;
+  box.add(low);
+  box.add(high);
+  return box;
+}
+
+LineList edgesOf(const V& a, const V& b)
+{
+  const double x[2] = { a.x(), b.x() };
+  const double y[2] = { a.y(), b.y() };
+  const double z[2] = { a.z(), b.z() };
+  const auto at = [&](int i, int j, int k) { return V(x[i], y[j], z[k]); };
+  return { { at(0, 0, 0), at(1, 0, 0) }, { at(0, 0, 0), at(0, 1, 0) }, { at(0, 0, 0), at(0, 0, 1) },
+    { at(1, 0, 0), at(1, 1, 0) }, { at(1, 0, 0), at(1, 0, 1) }, { at(0, 1, 0), at(1, 1, 0) },
+    { at(0, 1, 0), at(0, 1, 1) }, { at(1, 1, 0), at(1, 1, 1) }, { at(0, 0, 1), at(1, 0, 1) },
+    { at(0, 0, 1), at(0, 1, 1) }, { at(1, 0, 1), at(1, 1, 1) }, { at(0, 1, 1), at(1, 1, 1) } };
+}
+
+/// A camera at (0, 0, 10) that looks at the origin with an image of 200 x 100, half of its height a third of its depth.
+SceneDescription lookout()
+{
+  SceneDescription scene;
+  scene.cameras.resize(3);
+  scene.cameras[0].name = "eye";
+  scene.cameras[0].width = 200;
+  scene.cameras[0].height = 100;
+  scene.cameras[0].fovY = 2 * std::atan(1.0 / 3) * 180 / M_PI;
+  scene.cameras[1].name = "beam";
+  scene.cameras[1].model = "orthographic";
+  scene.cameras[1].width = 200;
+  scene.cameras[1].height = 100;
+  scene.cameras[1].viewHeight = 4;
+  scene.cameras[1].near = 0;
+  scene.cameras[2].name = "lost";
+  scene.cameras[2].eye = V(0, 5, 0);
+  scene.cameras[2].lookAt = V(0, 5, 0);
+  scene.lights.resize(2);
+  scene.lights[0].position = V(30, 40, 10);
+  scene.lights[1].kind = LightKind::Directional;
+  scene.lights[1].position = V(1000, 0, 0);
+  return scene;
+}
+
+TEST(ViewLines, Boxes)
+{
+  LineList lines;
+  addBox(lines, boxOf({ 1, 2, 3 }, { 10, 20, 30 }));
+  expectLines(lines, edgesOf({ 1, 2, 3 }, { 10, 20, 30 }));
+}
+
+TEST(ViewLines, FrustaOfEachKind)
+{
+  const ScenePlaces places = placeScene(lookout(), ModelLibrary(), 0);
+  ASSERT_TRUE(places.cameras[0].valid);
+  LineList lines;
+  addFrustum(lines, places.cameras[0], 3);
+  const V eye(0, 0, 10);
+  const V corner[] = { { -2, 1, 7 }, { 2, 1, 7 }, { 2, -1, 7 }, { -2, -1, 7 } };
+  const V mark(0, 1.5, 7);
+  expectLines(lines, { { eye, corner[0] }, { corner[0], corner[1] }, { eye, corner[1] }, { corner[1], corner[2] },
+                       { eye, corner[2] }, { corner[2], corner[3] }, { eye, corner[3] }, { corner[3], corner[0] },
+                       { corner[0], mark }, { corner[1], mark } });
+  lines.clear();
+  addFrustum(lines, places.cameras[1], 3);
+  const V near[] = { { -4, 2, 10 }, { 4, 2, 10 }, { 4, -2, 10 }, { -4, -2, 10 } };
+  const V far[] = { { -4, 2, 7 }, { 4, 2, 7 }, { 4, -2, 7 }, { -4, -2, 7 } };
+  const V top(0, 3, 7);
+  expectLines(
+    lines, { { near[0], far[0] }, { far[0], far[1] }, { near[0], near[1] }, { near[1], far[1] }, { far[1], far[2] },
+             { near[1], near[2] }, { near[2], far[2] }, { far[2], far[3] }, { near[2], near[3] }, { near[3], far[3] },
+             { far[3], far[0] }, { near[3], near[0] }, { far[0], top }, { far[1], top } });
+  lines.clear();
+  EXPECT_FALSE(places.cameras[2].valid);
+  addFrustum(lines, places.cameras[2], 3);
+  EXPECT_TRUE(lines.empty());
+}
+
+TEST(ViewLines, SizesGoWithTheScene)
+{
+  const ScenePlaces places = placeScene(lookout(), ModelLibrary(), 0);
+  // A light that comes from everywhere is nowhere: (0, 0, 0), (0, 0, 10), (0, 5, 0), (30, 40, 10)
+  EXPECT_EQ(places.box.min, V(0, 0, 0));
+  EXPECT_EQ(places.box.max, V(30, 40, 10));
+  const double length = 0.04 * std::sqrt(900 + 1600 + 100.0);
+  EXPECT_NEAR(frustumLength(places), length, tolerance);
+  EXPECT_NEAR(lightRadius(places), 0.3 * length, tolerance);
+  EXPECT_NEAR(frustumLength(ScenePlaces()), 0.04, tolerance);
+  EXPECT_NEAR(lightRadius(ScenePlaces()), 0.012, tolerance);
+
+  const SceneItem light{ SceneItem::Kind::Light, 0 };
+  const SceneItem eye{ SceneItem::Kind::Camera, 0 };
+  const SceneItem lost{ SceneItem::Kind::Camera, 2 };
+  WorldBox drawn = drawnBox(places, light);
+  EXPECT_LT((drawn.min - V(30 - length, 40 - length, 10 - length)).norm(), tolerance);
+  EXPECT_LT((drawn.max - V(30 + length, 40 + length, 10 + length)).norm(), tolerance);
+  drawn = drawnBox(places, eye);
+  EXPECT_LT((drawn.min - length / 3 * V(-2, -1, -3) - V(0, 0, 10)).norm(), tolerance) << drawn.min.transpose();
+  EXPECT_LT((drawn.max - length / 3 * V(2, 1.5, 0) - V(0, 0, 10)).norm(), tolerance) << drawn.max.transpose();
+  drawn = drawnBox(places, lost);
+  EXPECT_LT((drawn.min - V(-length, 5 - length, -length)).norm(), tolerance);
+  EXPECT_TRUE(drawnBox(places, { SceneItem::Kind::Object, 0 }).empty());
+  EXPECT_TRUE(drawnBox(places, { SceneItem::Kind::Light, 2 }).empty());
+
+  LineList expected;
+  addFrustum(expected, places.cameras[0], length);
+  const V margin = V::Constant(1.4 * 0.3 * length);
+  const LineList about = edgesOf(V(30, 40, 10) - margin, V(30, 40, 10) + margin);
+  expected.insert(expected.end(), about.begin(), about.end());
+  expectLines(selectionLines(places, { eye, light, lost, { SceneItem::Kind::Camera, 3 } }), expected);
+}
+
+TEST(ViewLines, GridsHaveRoundSteps)
+{
+  for (const auto& [extent, step] : { std::pair(20.0, 1.0), std::pair(20.2, 2.0), std::pair(39.0, 2.0),
+         std::pair(41.0, 5.0), std::pair(99.0, 5.0), std::pair(101.0, 10.0), std::pair(199.0, 10.0),
+         std::pair(201.0, 20.0), std::pair(0.03, 0.002), std::pair(0.019, 0.001) })
+  {
+    EXPECT_NEAR(gridStep(extent), step, 1e-12 * step) << extent;
+  }
+  LineList lines;
+  addGrid(lines, { 1, 2, 3 }, { 1, 0, 0 }, { 0, 0, 1 }, 25); // squares of 2, 7 on each side
+  ASSERT_EQ(lines.size(), 30u);
+  expectLines({ lines[0], lines[1], lines[28], lines[29] },
+    { { { -13, 2, -11 }, { -13, 2, 17 } }, { { -13, 2, -11 }, { 15, 2, -11 } }, { { 15, 2, -11 }, { 15, 2, 17 } },
+      { { -13, 2, 17 }, { 15, 2, 17 } } });
+  expectLines({ lines[2] }, { { { -11, 2, -11 }, { -11, 2, 17 } } });
+}
+
+TEST(ScenePlaces, BoxesOfItemsAndFieldsOfView)
+{
+  SceneDescription scene = lookout();
+  scene.objects.resize(3);
+  scene.objects[0].name = "crate";
+  scene.objects[0].model = test::sourceFile("Data/Models/crate.ac");
+  scene.objects[0].position = V(10, 0, 0);
+  scene.objects[0].scale = V(2, 4, 6);
+  scene.objects[1] = scene.objects[0];
+  scene.objects[1].name = "hidden";
+  scene.objects[1].visible = false;
+  scene.objects[1].position = V(500, 0, 0);
+  scene.objects[2].name = "child";
+  scene.objects[2].model = scene.objects[0].model;
+  scene.objects[2].parent = "crate";
+  scene.objects[2].position = V(0, 1, 0);
+  ModelLibrary models;
+  models.load(scene);
+  const ScenePlaces places = placeScene(scene, models, 3);
+  EXPECT_EQ(places.frame, 3);
+  const ObjectPlace& crate = places.objects[0];
+  const V half = (crate.box.max - crate.box.min).cwiseQuotient(V(2, 4, 6)) / 2;
+  EXPECT_EQ(crate.instance.name, "crate");
+  EXPECT_TRUE(crate.visible);
+  EXPECT_FALSE(places.objects[1].visible);
+  EXPECT_EQ(crate.world_from_parent.linear, Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+  EXPECT_EQ(places.objects[2].world_from_parent.linear, Eigen::Matrix3d(V(2, 4, 6).asDiagonal()));
+  EXPECT_EQ(places.objects[2].world_from_parent.translation, V(10, 0, 0));
+  EXPECT_EQ(places.objects[2].instance.world_from_object.translation, V(10, 4, 0));
+  EXPECT_GT(half.minCoeff(), 0.1);
+  EXPECT_LT((places.objects[1].box.min - crate.box.min - V(490, 0, 0)).norm(), 1e-9);
+  EXPECT_LT(places.box.max.x(), 100) << "what is not visible is not there";
+  const WorldBox found = places.boxOf({ SceneItem::Kind::Object, 0 });
+  EXPECT_EQ(found.min, crate.box.min);
+  EXPECT_EQ(found.max, crate.box.max);
+  EXPECT_EQ(places.boxOf({ SceneItem::Kind::Light, 0 }).min, V(30, 40, 10));
+  EXPECT_EQ(places.boxOf({ SceneItem::Kind::Camera, 0 }).max, V(0, 0, 10));
+  for (const SceneItem::Kind kind : { SceneItem::Kind::Object, SceneItem::Kind::Light, SceneItem::Kind::Camera })
+  {
+    EXPECT_TRUE(places.boxOf({ kind, 3 }).empty());
+  }
+  EXPECT_EQ(WorldBox().diagonal(), 0);
+  EXPECT_EQ(boxOf({ 0, 0, 0 }, { 2, 3, 6 }).diagonal(), 7);
+  CameraDescription camera;
+  camera.width = 640;
+  camera.height = 400;
+  camera.K = Eigen::Matrix3d(V(300, 200, 1).asDiagonal());
+  EXPECT_NEAR(fieldOfViewOf(camera), 90, tolerance);
+}
+
+TEST(ScenePlaces, PicksTheNearestOfWhatIsMet)
+{
+  SceneDescription scene;
+  scene.objects.resize(2);
+  for (int i = 0; i < 2; ++i)
+  {
+    scene.objects[std::size_t(i)].name = i == 0 ? "near" : "far";
+    scene.objects[std::size_t(i)].model = test::sourceFile("Data/Models/crate.ac");
+    scene.objects[std::size_t(i)].position = V(0, 0, -10.0 * i);
+  }
+  scene.lights.resize(2);
+  scene.lights[0].position = V(0, 0, 5);
+  scene.lights[1].position = V(0, 0, -20);
+  scene.cameras.resize(1);
+  scene.cameras[0].eye = V(0, 0, 7);
+  ModelLibrary models;
+  models.load(scene);
+  const ScenePlaces places = placeScene(scene, models, 0);
+  const double front = places.objects[0].box.max.z();
+  const auto pick =
+    [&](const V& origin, const V& direction, double least = 0, double most = std::numeric_limits<double>::infinity())
+  {
+    const auto item = pickItem(places, { origin, direction, least, most }, { 0.5, 0 });
+    return item ? std::string(item->kind == SceneItem::Kind::Object  ? "object"
+                              : item->kind == SceneItem::Kind::Light ? "light"
+                                                                     : "camera") +
+                    std::to_string(item->index)
+                : std::string("nothing");
+  };
+  EXPECT_EQ(pick({ 0, 0, 20 }, { 0, 0, -1 }), "camera0");
+  EXPECT_EQ(pick({ 0, 0, 20 }, { 0, 0, -2 }, 6.4), "camera0");
+  EXPECT_EQ(pick({ 0, 0, 20 }, { 0, 0, -2 }, 6.6), "light0");
+  EXPECT_EQ(pick({ 0, 0, 20 }, { 0, 0, -2 }, 7.6), "object0");
+  EXPECT_EQ(pick({ 0, 0, 20 }, { 0, 0, -2 }, 14), "object1");
+  EXPECT_EQ(pick({ 0, 0, 20 }, { 0, 0, -2 }, 18), "light1");
+  EXPECT_EQ(pick({ 0, 0, 20 }, { 0, 0, -1 }, 16, 20 - front - 0.01), "nothing");
+  EXPECT_EQ(pick({ 0, 0, 20 }, { 0, 0, -1 }, 16, 20 - front + 0.01), "object0");
+  EXPECT_EQ(pick({ 0, 0, 6 }, { 0, 0, 1 }), "camera0");
+  EXPECT_EQ(pick({ 0, 0, 8 }, { 0, 0, 1 }), "nothing");
+  EXPECT_EQ(pick({ 0.49, 0, 20 }, { 0, 0, -1 }), "camera0");
+  EXPECT_NE(pick({ 0.51, 0, 20 }, { 0, 0, -1 }), "camera0");
+  EXPECT_EQ(pick({ 0, 0, 7 + 0.9e-6 }, { 0, 0, -1 }), "light0") << "the camera is at the eye";
+  EXPECT_EQ(pick({ 0, 0, 7 + 1.1e-6 }, { 0, 0, -1 }), "camera0");
+  ScenePlaces hidden = places;
+  hidden.objects[0].visible = false;
+  EXPECT_EQ(pickItem(hidden, { { 0, 0, 4 }, { 0, 0, -1 } }, { 0.5, 0 })->index, std::size_t(1));
+}
+
+/// A strip of four squares of 1 x 2: bottom vertices 0 to 4, top ones 5 to 9.
+struct Strip
+{
+  Geometry geometry;
+  Model model;
+  Part part;
+
+  Strip()
+  {
+    for (const double y : { 0.0, 2.0 })
+    {
+      for (int x = 0; x < 5; ++x)
+      {
+        this->geometry.positions.emplace_back(x, y, 0);
+      }
+    }
+    for (std::uint32_t i = 0; i < 4; ++i)
+    {
+      this->model.triangles.push_back({ i, i + 1, i + 6 });
+      this->model.triangles.push_back({ i, i + 6, i + 5 });
+    }
+    this->part.triangles = 8;
+  }
+  std::optional<ClusteredPart> clustered(double side) const
+  {
+    const auto& p = this->geometry.positions;
+    V low = p[0];
+    V high = p[0];
+    for (const V& x : p)
+    {
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+    return clusterPart(this->geometry, this->model, this->part, (high - low).norm() / side);
+  }
+};
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+TEST(MeshClusters, AStripByHand)
+{
+  Strip strip;
+  const std::optional<ClusteredPart> half = strip.clustered(2);
+  ASSERT_TRUE(half.has_value());
+  const std::vector<std::uint32_t> sources{ 0, 2, 7, 5, 4, 9 };
+  EXPECT_EQ(half->sources, sources);
+  ASSERT_EQ(half->positions.size(), sources.size());
+  for (std::size_t i = 0; i < sources.size(); ++i)
+  {
+    EXPECT_EQ(half->positions[i], strip.geometry.positions[sources[i]]);
+  }
+  EXPECT_EQ(half->triangles, (Triangles{ { 0, 1, 2 }, { 0, 2, 3 }, { 1, 4, 5 }, { 1, 5, 2 } }));
+  EXPECT_FALSE(strip.clustered(1).has_value()) << "nothing is saved";
+  EXPECT_FALSE(strip.clustered(5).has_value()) << "nothing is left";
+
+  // The second half of the strip is another part.
+  strip.part.firstTriangle = 4;
+  strip.part.triangles = 4;
+  const std::optional<ClusteredPart> part = strip.clustered(2);
+  ASSERT_TRUE(part.has_value());
+  EXPECT_EQ(part->sources, (std::vector<std::uint32_t>{ 2, 4, 9, 7 }));
+  EXPECT_EQ(part->triangles, (Triangles{ { 0, 1, 2 }, { 0, 2, 3 } }));
+}
+
+TEST(MeshClusters, SeamsKeepTheirTwoSides)
+{
+  for (const bool seam : { false, true })
+  {
+    // Vertices 2 and 7 again, for the right half of the strip.
+    Strip strip;
+    strip.geometry.positions.push_back(strip.geometry.positions[2]);
+    strip.geometry.positions.push_back(strip.geometry.positions[7]);
+    strip.model.uvs.assign(12, Eigen::Vector2d(0.25, 0.5));
+    strip.model.uvs[10] = strip.model.uvs[11] = Eigen::Vector2d(0.25, seam ? 0.75 : 0.5);
+    for (std::size_t t = 4; t < 8; ++t)
+    {
+      for (std::uint32_t& corner : strip.model.triangles[t])
+      {
+        corner = corner == 2 ? 10 : corner == 7 ? 11 : corner;
+      }
+    }
+    const std::optional<ClusteredPart> half = strip.clustered(2);
+    ASSERT_TRUE(half.has_value());
+    EXPECT_EQ(half->sources, seam ? (std::vector<std::uint32_t>{ 0, 2, 7, 5, 10, 4, 9, 11 })
+                                  : (std::vector<std::uint32_t>{ 0, 2, 7, 5, 4, 9 }));
+    EXPECT_EQ(half->triangles, seam ? (Triangles{ { 0, 1, 2 }, { 0, 2, 3 }, { 4, 5, 6 }, { 4, 6, 7 } })
+                                    : (Triangles{ { 0, 1, 2 }, { 0, 2, 3 }, { 1, 4, 5 }, { 1, 5, 2 } }));
+    EXPECT_EQ(half->positions[seam ? 4 : 1], strip.geometry.positions[2]);
+  }
+}
+
+/// `kept` triangles of half a unit that stay, and `lost` ones of nearly as much that fall into one cell each.
+std::optional<ClusteredPart> islandsOf(int kept, int lost)
+{
+  Strip parts;
+  parts.geometry.positions.clear();
+  parts.model.triangles.clear();
+  for (int i = 0; i < kept + lost; ++i)
+  {
+    const double side = i < kept ? 1 : 0.98;
+    const auto first = std::uint32_t(parts.geometry.positions.size());
+    for (const V& corner : { V(0, 0, 0), V(side, 0, 0), V(0, side, 0) })
+    {
+      parts.geometry.positions.push_back(corner + V(3 * (i % 4), 3 * (i / 4), 0));
+    }
+    parts.model.triangles.push_back({ first, first + 1, first + 2 });
+  }
+  parts.part.triangles = std::uint32_t(kept + lost);
+  return parts.clustered(1);
+}
+
+TEST(MeshClusters, HalfTheAreaAndSevenTenthsOfTheTriangles)
+{
+  EXPECT_TRUE(islandsOf(3, 3).has_value()) << "1.5 of 2.94";
+  EXPECT_FALSE(islandsOf(3, 4).has_value()) << "1.5 of 3.42";
+  EXPECT_TRUE(islandsOf(7, 3).has_value());
+  EXPECT_FALSE(islandsOf(8, 3).has_value());
+  EXPECT_EQ(islandsOf(7, 3)->triangles.size(), 7u);
+}
+
+TEST(CameraArray, EveryRefusalAndEveryLimit)
+{
+  struct Row
+  {
+    std::function<void(CameraArrayOptions&)> change;
+    const char* message;
+  };
+  const char* count = "number of cameras: expected 1 to 10000";
+  const char* grid = "columns and rows: expected 1 to 10000 cameras in all";
+  const char* spacing = "spacing: expected a number above 0";
+  const char* path = "path: expected at least two different points";
+  using Options = CameraArrayOptions;
+  for (const Row& row :
+    std::vector<Row>{
+      { [](Options& o) { o.count = 0; }, count },
+      { [](Options& o) { o.count = 1; }, "" },
+      { [](Options& o) { o.count = 10000; }, "" },
+      { [](Options& o) { o.count = 10001; }, count },
+      { [](Options& o) { o.columns = 0; }, grid },
+      { [](Options& o) { o.rows = 0; }, grid },
+      { [](Options& o) { o.columns = o.rows = 100; }, "" },
+      { [](Options& o) { o.columns = 101, o.rows = 100; }, grid },
+      { [](Options& o) { o.spacing = 0; }, spacing },
+      { [](Options& o) { o.spacing = std::nan(""); }, spacing },
+      { [](Options& o) { o.spacing = 1e-9; }, "" },
+      { [](Options& o) { o.kind = CameraArrayKind::Path; }, path },
+      { [](Options& o)
+        {
+          o.kind = CameraArrayKind::Path;
+          o.path = { { V(0, 0, 1) }, { V(0, 0, 0) } };
+        },
+        path },
+      { [](Options& o)
+        {
+          o.kind = CameraArrayKind::Path;
+          o.path = { { V(0, 0, 1), V(1, 0, 1) }, { V(0, 0, 0) } };
+        },
+        path },
+      { [](Options& o)
+        {
+          o.kind = CameraArrayKind::Path;
+          o.path = { { V(0, 0, 1), V(1, 0, 1) }, { V(0, 0, 0), V(0, 0, 0) } };
+        },
+        "" },
+    })
+  {
+    CameraArrayOptions options;
+    row.change(options);
+    std::string found;
+    try
+    {
+      cameraArray(options);
+    }
+    catch (const UsageError& error)
+    {
+      found = error.what();
+    }
+    EXPECT_EQ(found, row.message);
+  }
+}
+
+TEST(CameraArray, EveryKindByNumbers)
+{
+  CameraArrayOptions options;
+  options.first.name = "c";
+  options.first.eye = V(1, 5, 3);
+  options.first.lookAt = V(1, 2, -1);
+  options.first.up = V(0, 2, 0);
+  options.first.near = 0.5;
+  options.first.far = 70;
+  options.count = 4;
+  options.columns = 2;
+  options.rows = 3;
+  options.spacing = 0.5;
+  const auto expectArray = [&](CameraArrayKind kind, const std::vector<std::string>& names, const std::vector<V>& eyes,
+                             const std::vector<V>& targets)
+  {
+    options.kind = kind;
+    const std::vector<CameraDescription> cameras = cameraArray(options);
+    ASSERT_EQ(cameras.size(), eyes.size());
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+    {
+      EXPECT_EQ(cameras[i].name, names[i]);
+      EXPECT_LT((cameras[i].eye.value - eyes[i]).norm(), tolerance) << i;
+      EXPECT_LT((cameras[i].lookAt.value - targets[i]).norm(), tolerance) << i;
+      EXPECT_EQ(cameras[i].up.value, V(0, 2, 0));
+      EXPECT_EQ(cameras[i].near, 0.5);
+      EXPECT_EQ(cameras[i].far, 70);
+    }
+  };
+  const V middle(1, 2, -1);
+  expectArray(CameraArrayKind::Ring, { "c-1", "c-2", "c-3", "c-4" },
+    { { 1, 5, 3 }, { 5, 5, -1 }, { 1, 5, -5 }, { -3, 5, -1 } }, { middle, middle, middle, middle });
+  std::vector<V> spiral;
+  for (int i = 0; i < 4; ++i)
+  {
+    const double high = (i + 0.5) / 4;
+    const double angle = i * M_PI * (3 - std::sqrt(5.0));
+    spiral.push_back(middle + 5 * V(std::sqrt(1 - high * high) * std::cos(angle), high,
+                                    -std::sqrt(1 - high * high) * std::sin(angle)));
+  }
+  expectArray(CameraArrayKind::Hemisphere, { "c-1", "c-2", "c-3", "c-4" }, spiral, { middle, middle, middle, middle });
+  // Down in the image is (0, -4, 3) / 5.
+  std::vector<V> eyes;
+  std::vector<V> targets;
+  for (const double row : { -0.5, 0.0, 0.5 })
+  {
+    for (const double column : { -0.25, 0.25 })
+    {
+      eyes.push_back(V(1, 5, 3) + V(column, -0.8 * row, 0.6 * row));
+      targets.push_back(middle + V(column, -0.8 * row, 0.6 * row));
+    }
+  }
+  expectArray(CameraArrayKind::Grid, { "c-1", "c-2", "c-3", "c-4", "c-5", "c-6" }, eyes, targets);
+  expectArray(CameraArrayKind::Stereo, { "c-left", "c-right" }, { { 0.75, 5, 3 }, { 1.25, 5, 3 } },
+    { { 0.75, 2, -1 }, { 1.25, 2, -1 } });
+  options.path = { { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0, 0 }, { 1, 3, 0 } },
+    { { 0, 0, 9 }, { 1, 0, 9 }, { 2, 0, 9 }, { 5, 3, 9 } } };
+  options.count = 5;
+  expectArray(CameraArrayKind::Path, { "c-1", "c-2", "c-3", "c-4", "c-5" },
+    { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 1, 2, 0 }, { 1, 3, 0 } },
+    { { 0, 0, 9 }, { 1, 0, 9 }, { 3, 1, 9 }, { 4, 2, 9 }, { 5, 3, 9 } });
+  options.count = 1;
+  expectArray(CameraArrayKind::Path, { "c-1" }, { { 0, 0, 0 } }, { { 0, 0, 9 } });
+
+  CameraDescription posed;
+  posed.posed = true;
+  posed.position.keys = { { 2, V(1, 0, 0) }, { 4, V(3, 0, 0) } };
+  posed.orientation.keys = { { 3, Quaternion{ 0, 0, 1, 0 } } };
+  const CameraPath path = keyFramePath(posed);
+  EXPECT_EQ(path.eyes, (std::vector<V>{ { 1, 0, 0 }, { 2, 0, 0 }, { 3, 0, 0 } }));
+  EXPECT_EQ(path.targets, (std::vector<V>{ { 1, 0, -1 }, { 2, 0, -1 }, { 3, 0, -1 } }));
+}
+
+TEST(MissingFiles, TheLikeliestFileIsTaken)
+{
+  namespace fs = std::filesystem;
+  const test::TemporaryFolder folder;
+  for (const char* path : { "b/m.ac", "a/m.ac", "z/trees/m.ac", "z/old/trees/m.ac", "z/n.ac/inside.txt", "q/o.ac" })
+  {
+    fs::create_directories(fs::path(folder.path(path)).parent_path());
+    std::ofstream(folder.path(path)) << path;
+  }
+  std::size_t reports = 0;
+  const auto found = findModels({ "m.ac", "trees/m.ac", "old/trees/m.ac", "n.ac", "p.ac" }, folder.path());
+  EXPECT_EQ(found,
+    (std::map<std::string, std::string>{ { "m.ac", folder.path("a/m.ac") },
+      { "trees/m.ac", folder.path("z/old/trees/m.ac") }, { "old/trees/m.ac", folder.path("z/old/trees/m.ac") } }));
+  EXPECT_TRUE(findModels({ "m.ac" }, folder.path("nowhere")).empty());
+  for (int i = 0; i < 520; ++i)
+  {
+    std::ofstream(folder.path("q/" + std::to_string(i)));
+  }
+  findModels({ "p.ac" }, folder.path("q"),
+    [&](std::size_t looked, std::size_t)
+    {
+      EXPECT_EQ(looked, 256 * ++reports);
+      return true;
+    });
+  EXPECT_EQ(reports, 2u);
+  reports = 0;
+  findModels({ "p.ac" }, folder.path("q"), [&](std::size_t, std::size_t) { return ++reports > 1; });
+  EXPECT_EQ(reports, 1u) << "it stops where it is told to";
+
+  SceneDescription scene;
+  scene.folder = folder.path("z");
+  scene.objects.resize(3);
+  scene.objects[0].model = "m.ac";
+  scene.objects[1].model = "other.ac";
+  scene.objects[2].model = "m.ac";
+  EXPECT_EQ(modelsOf(scene, { 2, 1, 0 }), (std::vector<std::string>{ "m.ac", "other.ac" }));
+  replaceModels(scene, { { "m.ac", folder.path("a/m.ac") } });
+  EXPECT_EQ(scene.objects[0].model, "../a/m.ac");
+  EXPECT_EQ(scene.objects[1].model, "other.ac");
+  EXPECT_EQ(scene.objects[2].model, "../a/m.ac");
+}
+} // namespace
