@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkAssimpGltf.h"
 
-
 #include <nlohmann/json.hpp>
 
 #include <algorithm>

@@ -5,13 +5,11 @@
 #include "dgtkAssimpDeformation.h"
 #include "dgtkAssimpProcess.h"
 #include "dgtkAssimpTexture.h"
+#include "dgtkEqualItems.h"
 #include "dgtkError.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
 #include <numeric>
 
 namespace dgtk
@@ -22,71 +20,38 @@ namespace
 constexpr std::uint64_t mostCorners = 8'000'000;
 constexpr double mostFrames = 1e9;
 
-/// Orders the vertices of a mesh; those that are at the same place and move alike are equal.
-class VertexOrder
+using Influences = std::vector<std::vector<std::pair<std::uint32_t, float>>>;
+
+/// Bones and weights of each vertex; empty when there are none.
+Influences influencesOf(const import::Mesh& mesh)
 {
-public:
-  explicit VertexOrder(const import::Mesh& mesh)
-    : Mesh(mesh)
-    , Influences(mesh.bones.empty() ? 0 : mesh.positions.size())
+  Influences all(mesh.bones.empty() ? 0 : mesh.positions.size());
+  for (std::size_t b = 0; b < mesh.bones.size(); ++b)
   {
-    for (std::size_t b = 0; b < mesh.bones.size(); ++b)
+    for (std::size_t i = 0; i < mesh.bones[b].vertices.size(); ++i)
     {
-      for (std::size_t i = 0; i < mesh.bones[b].vertices.size(); ++i)
-      {
-        this->Influences[mesh.bones[b].vertices[i]].emplace_back(
-          static_cast<std::uint32_t>(b), mesh.bones[b].weights[i]);
-      }
+      all[mesh.bones[b].vertices[i]].emplace_back(static_cast<std::uint32_t>(b), mesh.bones[b].weights[i]);
     }
   }
+  return all;
+}
 
-  /// Below 0, 0 or above 0.
-  int compare(std::uint32_t a, std::uint32_t b) const
-  {
-    int difference = order(bits(this->Mesh.positions[a]), bits(this->Mesh.positions[b]));
-    for (std::size_t i = 0; difference == 0 && i < this->Mesh.targets.size(); ++i)
-    {
-      const std::vector<import::Float3>& positions = this->Mesh.targets[i].positions;
-      difference = order(bits(positions[a]), bits(positions[b]));
-    }
-    return difference != 0 || this->Influences.empty() ? difference : order(this->Influences[a], this->Influences[b]);
-  }
-
-private:
-  static std::array<std::uint32_t, 3> bits(const import::Float3& p)
-  {
-    const import::Float3 sum{ p[0] + 0.f, p[1] + 0.f, p[2] + 0.f }; // -0 is 0
-    std::array<std::uint32_t, 3> words;                             // NaN has its place in their order, too
-    std::memcpy(words.data(), sum.data(), sizeof words);
-    return words;
-  }
-  template <class Value>
-  static int order(const Value& a, const Value& b)
-  {
-    return a == b ? 0 : a < b ? -1 : 1;
-  }
-
-  const import::Mesh& Mesh;
-  std::vector<std::vector<std::pair<std::uint32_t, float>>> Influences; ///< of each vertex: bone, weight
-};
-
-/// The first vertex of a mesh that is equal to each one.
+/// The first vertex of a mesh that is at the same place as each one and moves alike.
 std::vector<std::uint32_t> weld(const import::Mesh& mesh)
 {
-  const VertexOrder vertices(mesh);
-  std::vector<std::uint32_t> sorted(mesh.positions.size());
-  std::iota(sorted.begin(), sorted.end(), 0u);
-  std::sort(sorted.begin(), sorted.end(),
-    [&](std::uint32_t a, std::uint32_t b)
-    {
-      const int difference = vertices.compare(a, b);
-      return difference != 0 ? difference < 0 : a < b;
-    });
-  std::vector<std::uint32_t> first(sorted.size());
-  for (std::size_t i = 0; i < sorted.size(); ++i)
+  const Influences influences = influencesOf(mesh);
+  const auto equal = [&](std::uint32_t a, std::uint32_t b)
   {
-    const bool same = i > 0 && vertices.compare(sorted[i - 1], sorted[i]) == 0;
-    first[sorted[i]] = same ? first[sorted[i - 1]] : sorted[i];
+    const auto alike = [a, b](const import::Target& target) { return target.positions[a] == target.positions[b]; };
+    return mesh.positions[a] == mesh.positions[b] && std::all_of(mesh.targets.begin(), mesh.targets.end(), alike) &&
+           (influences.empty() || influences[a] == influences[b]);
+  };
+  EqualItems known(mesh.positions.size());
+  std::vector<std::uint32_t> first(mesh.positions.size());
+  for (std::uint32_t i = 0; i < first.size(); ++i)
+  {
+    const import::Float3& p = mesh.positions[i];
+    first[i] = known.find(i, mixed(mixed(mixed(0, p[0]), p[1]), p[2]), equal);
   }
   return first;
 }
@@ -113,7 +78,7 @@ public:
     {
       throw InputError(this->Path, 0, std::string("is damaged: ") + error.what());
     }
-    this->nameCompanions();
+    this->Builder.model().companions = this->Scene->files;
     for (const std::string& warning : this->Scene->warnings)
     {
       this->Builder.warn(warning);
@@ -231,7 +196,7 @@ private:
     const std::vector<std::uint32_t> model = this->addVertices(deformation, posed, pose, animation);
     const std::vector<Eigen::Matrix3d> linear = deformation.linearOf(posed.mesh, posed.node, pose);
     std::vector<std::int32_t> normals;
-    for (std::size_t i = 0; i < mesh.normals.size() && this->Format != "stl"; ++i)
+    for (std::size_t i = 0; i < mesh.normals.size(); ++i)
     {
       const Eigen::Matrix3d& m = linear[linear.size() == 1 ? 0 : i];
       const Eigen::Vector3d n(mesh.normals[i][0], mesh.normals[i][1], mesh.normals[i][2]);
@@ -241,8 +206,8 @@ private:
     this->Builder.endObject();
   }
 
-  /// These formats have no materials; the importer makes one up.
-  bool isPlain() const { return this->Format == "stl" || this->Format == "off"; }
+  /// This format has no materials; the importer makes one up.
+  bool isPlain() const { return this->Format == "off"; }
 
   void prepareMaterials()
   {
@@ -260,7 +225,7 @@ private:
     SurfaceStyle style;
     style.material = this->isPlain() ? this->Builder.defaultMaterial() : this->Materials.add(mesh.material);
     style.twoSided = this->Builder.model().materials[static_cast<std::size_t>(style.material)].twoSided;
-    const bool smooth = this->Format == "obj" || this->Format == "off" || this->Format == "collada";
+    const bool smooth = this->Format == "off" || this->Format == "collada";
     style.shading = smooth ? Shading::Crease : Shading::Flat;
     if (!mesh.uvs.empty())
     {
@@ -287,23 +252,6 @@ private:
       else
       {
         this->Builder.addSurface(corners, style);
-      }
-    }
-  }
-
-  /// What the helper read beside the model, spelled as the model is.
-  void nameCompanions()
-  {
-    namespace fs = std::filesystem;
-    const fs::path model = fs::absolute(this->Path);
-    const std::string folder = (model.parent_path() / "").string();
-    for (const std::string& file : this->Scene->files)
-    {
-      const bool below = file.compare(0, folder.size(), folder) == 0;
-      if (file != model.string())
-      {
-        this->Builder.model().companions.push_back(
-          below ? (fs::path(this->Path).parent_path() / file.substr(folder.size())).string() : file);
       }
     }
   }

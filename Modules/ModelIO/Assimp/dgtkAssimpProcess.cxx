@@ -4,15 +4,13 @@
 #include "dgtkError.h"
 #include "dgtkHelperProcess.h"
 #include "dgtkImportProtocol.h"
-#include "dgtkModelFolder.h"
-#include "dgtkText.h"
+#include "dgtkModelFiles.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
-#include <set>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -31,96 +29,20 @@ constexpr std::uint64_t largestModel = std::uint64_t(1) << 32;
 constexpr std::uint64_t streamBase = std::uint64_t(64) << 20;
 constexpr std::uint64_t streamPerByte = 64;
 
-/// The files that a model may have: regular ones in its folder or below it. Names are found as textures are found: as
-/// written, beside the model, in any case; then as URIs, which glTF's are.
-class ModelFiles
+/// Opens a file that the model may have.
+Descriptor openFor(ModelFiles& files, const std::string& written, import::FileAnswer& answer)
 {
-public:
-  explicit ModelFiles(const std::string& model)
-    : Model(model)
-    , Folder(folderOfFile(model))
+  const std::string path = files.find(written);
+  Descriptor file(path.empty() ? -1 : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  struct stat status = {};
+  if (!file || ::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode) ||
+      std::uint64_t(status.st_size) > largestModel)
   {
+    return Descriptor();
   }
-
-  Descriptor open(const std::string& written, import::FileAnswer& answer)
-  {
-    const std::string asWritten = this->locate(written);
-    const std::string path = asWritten.empty() ? this->locate(this->withoutEscapes(written)) : asWritten;
-    Descriptor file(path.empty() ? -1 : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-    struct stat status = {};
-    if (!file || ::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode) ||
-        std::uint64_t(status.st_size) > largestModel)
-    {
-      return Descriptor();
-    }
-    helper::put(answer.path, path.c_str());
-    this->Given.insert(path);
-    return file;
-  }
-
-  /// The paths of what was opened.
-  const std::set<std::string>& given() const { return this->Given; }
-  /// A file that is there, and that the model may not have; as written. "" when there was none.
-  const std::string& outside() const { return this->Outside; }
-
-private:
-  /// The importer puts the folder in front of what the model says.
-  std::string withoutEscapes(const std::string& written) const
-  {
-    const std::size_t own = written.compare(0, this->Folder.size(), this->Folder) == 0 ? this->Folder.size() : 0;
-    return written.substr(0, own) + import::withoutPercents(written.substr(own));
-  }
-
-  std::string locate(const std::string& written)
-  {
-    std::string name = written;
-    std::replace(name.begin(), name.end(), '\\', '/');
-    if (name == this->Model)
-    {
-      return name;
-    }
-    const fs::path path(name);
-    const fs::path folder(this->Folder);
-    std::error_code code;
-    std::string outside;
-    for (const fs::path& candidate : { folder / path, folder / path.filename() }) // an absolute path stays one
-    {
-      if (fs::is_regular_file(candidate, code))
-      {
-        if (liesBeneath(candidate.string(), this->Folder))
-        {
-          return candidate.string();
-        }
-        outside = written;
-      }
-    }
-    std::string found = this->inAnyCase(lower(path.filename().string()));
-    this->Outside = found.empty() && this->Outside.empty() ? outside : this->Outside;
-    return found;
-  }
-
-  std::string inAnyCase(const std::string& wanted) const
-  {
-    std::string found;
-    std::error_code code;
-    for (fs::directory_iterator it(this->Folder, code), end; !code && it != end; it.increment(code))
-    {
-      const std::string other = it->path().filename().string();
-      std::error_code kind;
-      if (lower(other) == wanted && (found.empty() || other < found) && fs::is_regular_file(it->path(), kind) &&
-          liesBeneath(it->path().string(), this->Folder))
-      {
-        found = other;
-      }
-    }
-    return found.empty() ? found : (fs::path(this->Folder) / found).string();
-  }
-
-  std::string Model;
-  std::string Folder;
-  std::string Outside;
-  std::set<std::string> Given;
-};
+  helper::put(answer.path, path.c_str());
+  return file;
+}
 
 /// Appends what the pipe holds; false at its end.
 bool readSome(int from, std::string& to, std::size_t& size)
@@ -145,7 +67,7 @@ bool serve(int channel, ModelFiles& files)
   }
   request.name[sizeof request.name - 1] = '\0';
   import::FileAnswer answer;
-  const Descriptor file = files.open(request.name, answer);
+  const Descriptor file = openFor(files, request.name, answer);
   answer.found = file ? 1 : 0;
   return helper::send(channel, answer, file.get());
 }
@@ -170,24 +92,6 @@ bool converse(int channel, int from, ModelFiles& files, std::uint64_t limit, std
   }
   to.resize(size);
   return size <= limit;
-}
-
-/// One line, without the path that the error starts with anyway.
-std::string oneLine(std::string text, const std::string& path)
-{
-  for (std::size_t at = text.find(path); !path.empty() && at != std::string::npos; at = text.find(path))
-  {
-    text.erase(at, path.size());
-  }
-  for (char& c : text)
-  {
-    c = static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-  }
-  while (!text.empty() && (text.back() == ' ' || text.back() == '.'))
-  {
-    text.pop_back();
-  }
-  return text.substr(0, 300);
 }
 
 [[noreturn]] void reportDeath(const std::string& path, int status)
@@ -235,46 +139,43 @@ std::uint64_t sizeOfModel(const std::string& path)
 }
 } // namespace
 
-import::Scene importModel(const std::string& path, const std::string& format){
+auto importModel(const std::string& path, const std::string& format) -> import::Scene
+{
   const std::uint64_t bytes = sizeOfModel(path);
-std::error_code code;
-const std::string absolute = fs::absolute(path, code).string();
-const std::string program = helper::findProgram("dgtk-import", "DGTK_IMPORT");
-int ends[2] = { -1, -1 };
-if (::pipe2(ends, O_CLOEXEC) != 0)
-{
-  throw MachineError(path + ": no pipe to its importer: " + std::strerror(errno));
-}
-const Descriptor in(ends[0]);
-Descriptor out(ends[1]);
-helper::Process process({ program, absolute, format }, out.get());
-out.reset();
-ModelFiles files(absolute);
-std::string stream;
-const std::uint64_t limit = streamBase + streamPerByte * bytes + (std::uint64_t(1) << 30);
-const bool whole = converse(process.channel(), in.get(), files, limit, stream);
-const int ended = whole ? process.wait() : 0;
-if (!files.outside().empty())
-{
-  const std::string name = oneLine(files.outside(), folderOfFile(absolute) + '/');
-  throw InputError(path, 0, "names the file '" + name + "', which lies outside of the model's folder");
-}
-import::Scene scene;
-try
-{
-  import::StreamReader reader(stream.data(), whole ? stream.size() : 0);
-  io(reader, scene);
-}
-catch (const std::runtime_error&)
-{
-  reportDeath(path, ended);
-}
-if (!scene.error.empty())
-{
-  reportError(path, absolute, scene);
-}
-scene.files.assign(files.given().begin(), files.given().end());
-return scene;
+  std::error_code code;
+  const std::string absolute = fs::absolute(path, code).string();
+  const std::string program = helper::findProgram("dgtk-import", "DGTK_IMPORT");
+  int ends[2] = { -1, -1 };
+  if (::pipe2(ends, O_CLOEXEC) != 0)
+  {
+    throw MachineError(path + ": no pipe to its importer: " + std::strerror(errno));
+  }
+  const Descriptor in(ends[0]);
+  Descriptor out(ends[1]);
+  helper::Process process({ program, absolute, format }, out.get());
+  out.reset();
+  ModelFiles files(absolute);
+  std::string stream;
+  const std::uint64_t limit = streamBase + streamPerByte * bytes + (std::uint64_t(1) << 30);
+  const bool whole = converse(process.channel(), in.get(), files, limit, stream);
+  const int ended = whole ? process.wait() : 0;
+  files.refuseOutside(path);
+  import::Scene scene;
+  try
+  {
+    import::StreamReader reader(stream.data(), whole ? stream.size() : 0);
+    io(reader, scene);
+  }
+  catch (const std::runtime_error&)
+  {
+    reportDeath(path, ended);
+  }
+  if (!scene.error.empty())
+  {
+    reportError(path, absolute, scene);
+  }
+  scene.files = files.companions(path);
+  return scene;
 }
 
 } // namespace dgtk

@@ -156,7 +156,7 @@ struct Scene
   std::string errorFile;       ///< the file it is in, as the importer named it; "" where that is not known
   std::uint64_t errorLine = 0; ///< from 1; 0 where that is not known
   std::vector<std::string> warnings;
-  std::vector<std::string> files; ///< paths of all that it was given; not in the stream
+  std::vector<std::string> files; ///< read beside the model, spelled as it is; not in the stream
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<Mesh> meshes;

@@ -2,8 +2,10 @@
 #include "dgtkAssimpTexture.h"
 
 #include "dgtkError.h"
-#include "dgtkImportProtocol.h"
+#include "dgtkModelFiles.h"
 #include "dgtkTexturePixels.h"
+
+#include <charconv>
 
 namespace dgtk
 {
@@ -41,7 +43,7 @@ int AssimpMaterials::embeddedTexture(const std::string& name)
 
 int AssimpMaterials::fileTexture(const std::string& name)
 {
-  const std::string plain = import::withoutPercents(name.rfind("file://", 0) == 0 ? name.substr(7) : name);
+  const std::string plain = withoutPercents(name.rfind("file://", 0) == 0 ? name.substr(7) : name);
   const bool asWritten = plain == name || !locateTexture(this->Builder.model().path, name).empty();
   return this->Builder.addTexture(asWritten ? name : plain);
 }

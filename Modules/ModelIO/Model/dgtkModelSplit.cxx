@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkEqualItems.h"
 #include "dgtkError.h"
 #include "dgtkModelObject.h"
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <numeric>
 
@@ -14,78 +14,26 @@ namespace
 {
 constexpr std::uint32_t none = 0xffffffffu;
 
-/// The split vertices of an object, found by what they consist of: open addressing with linear probing.
-class SplitTable
-{
-public:
-  SplitTable(const std::vector<Corner>& corners, const std::vector<Eigen::Vector3f>& normals)
-    : Corners(corners)
-    , Normals(normals)
-  {
-    std::size_t size = 16;
-    while (size < corners.size() + corners.size() / 4)
-    {
-      size *= 2;
-    }
-    this->Slots.assign(size, none);
-  }
-  /// The corner whose split vertex corner `c` shares: an earlier one that is equal, or itself.
-  std::uint32_t find(std::uint32_t c)
-  {
-    const std::size_t mask = this->Slots.size() - 1;
-    std::size_t at = this->hash(c) & mask;
-    // beyond this many steps a vertex is not shared
-    for (int steps = 0; steps < 256 && this->Slots[at] != none; ++steps, at = (at + 1) & mask)
-    {
-      if (this->same(this->Slots[at], c))
-      {
-        return this->Slots[at];
-      }
-    }
-    if (this->Slots[at] == none)
-    {
-      this->Slots[at] = c;
-    }
-    return c;
-  }
-
-private:
-  bool same(std::uint32_t a, std::uint32_t b) const
-  {
-    const Corner& x = this->Corners[a];
-    const Corner& y = this->Corners[b];
-    return x.vertex == y.vertex && x.u == y.u && x.v == y.v && this->Normals[a] == this->Normals[b];
-  }
-  std::size_t hash(std::uint32_t c) const
-  {
-    const Corner& corner = this->Corners[c];
-    const Eigen::Vector3f& n = this->Normals[c];
-    std::uint64_t h = corner.vertex;
-    for (const float value : { corner.u, corner.v, n[0], n[1], n[2] })
-    {
-      const float positive = value + 0.0f; // -0 equals 0
-      std::uint32_t bits = 0;
-      std::memcpy(&bits, &positive, sizeof bits);
-      h = (h ^ bits) * 0x9e3779b97f4a7c15ull;
-      h ^= h >> 29;
-    }
-    return static_cast<std::size_t>(h);
-  }
-
-  const std::vector<Corner>& Corners;
-  const std::vector<Eigen::Vector3f>& Normals;
-  std::vector<std::uint32_t> Slots;
-};
-
 /// The vertex of each corner, from `base`; `cornerOf` gets the first corner of each vertex.
 std::vector<std::uint32_t> splitCorners(const std::vector<Corner>& corners, const std::vector<Eigen::Vector3f>& normals,
   std::size_t base, std::vector<std::uint32_t>& cornerOf)
 {
-  SplitTable table(corners, normals);
+  EqualItems known(corners.size());
+  const auto equal = [&](std::uint32_t a, std::uint32_t b)
+  {
+    const Corner& x = corners[a];
+    const Corner& y = corners[b];
+    return x.vertex == y.vertex && x.u == y.u && x.v == y.v && normals[a] == normals[b];
+  };
   std::vector<std::uint32_t> splitOf(corners.size());
   for (std::uint32_t c = 0; c < corners.size(); ++c)
   {
-    const std::uint32_t shared = table.find(c);
+    std::uint64_t hash = corners[c].vertex;
+    for (const float value : { corners[c].u, corners[c].v, normals[c][0], normals[c][1], normals[c][2] })
+    {
+      hash = mixed(hash, value);
+    }
+    const std::uint32_t shared = known.find(c, hash, equal);
     splitOf[c] = shared == c ? static_cast<std::uint32_t>(base + cornerOf.size()) : splitOf[shared];
     if (shared == c)
     {

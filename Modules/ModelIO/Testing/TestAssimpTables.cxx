@@ -201,31 +201,3 @@ TEST(GltfTables, InterpolationsBetweenKeys)
     EXPECT_NEAR(at("CUBICSPLINE", spline, 60 * s), expected, 4 * floatTolerance) << s;
   }
 }
-
-TEST(ObjTables, StatementsOfMaterials)
-{
-  const TemporaryFolder folder;
-  const auto read = [&](const std::string& statements)
-  {
-    dgtk::writeFile(folder.path("a.mtl"), "newmtl m\n" + statements + '\n');
-    dgtk::writeFile(folder.path("a.obj"), "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
-    const auto model = dgtk::readModel(folder.path("a.obj"));
-    return model->materials.at(static_cast<std::size_t>(model->parts.at(0).material));
-  };
-  const auto near = [](const Eigen::Vector3d& found, const Eigen::Vector3d& expected, const char* what)
-  { EXPECT_LE((found - expected).norm(), floatTolerance) << what << ": " << found.transpose(); };
-  const dgtk::Material all = read("Ka 0.1 0.2 0.3\nKd 0.4 0.5 0.6\nKs 0.7 0.8 0.9\nKe 0.2 0.4 0.8\nNs 20\nd 0.25");
-  near(all.ambient, { 0.1, 0.2, 0.3 }, "Ka");
-  near(all.diffuse, { 0.4, 0.5, 0.6 }, "Kd");
-  near(all.specular, { 0.7, 0.8, 0.9 }, "Ks");
-  near(all.emission, { 0.2, 0.4, 0.8 }, "Ke");
-  EXPECT_EQ(all.shininess, 20);
-  EXPECT_EQ(all.opacity, 0.25);
-  EXPECT_EQ(all.name, "m");
-  EXPECT_FALSE(all.twoSided);
-  EXPECT_FALSE(all.physical);
-  near(read("Ks 1 1 1\nNs 0").specular, { 0, 0, 0 }, "an exponent of 0 would shine everywhere");
-  EXPECT_EQ(read("Ks 1 1 1\nNs 1000").shininess, 128);
-  EXPECT_EQ(read("Kd 1 1 1").opacity, 1);
-  EXPECT_EQ(read("Tr 0.25").opacity, 0.75);
-}

@@ -24,8 +24,10 @@ std::string refusal(const std::string& extension, const std::string& bytes);
 
 /// Reads at least `variants` truncated and mutated copies of the seeds (seeded, always the same) and fails the running
 /// test for anything but a consistent model or an InputError of one line, for more than 2 s of the processor, for a
-/// partial model of a truncated file without a warning, and for more memory than 10 times the file and 64 MiB.
-void fuzzReader(const std::string& extension, const std::vector<std::string>& seeds, int variants = 2000);
+/// partial model of a truncated file without a warning where the format `knowsItsEnd`, and for more memory than 10
+/// times the file and 64 MiB.
+void fuzzReader(
+  const std::string& extension, const std::vector<std::string>& seeds, int variants = 2000, bool knowsItsEnd = true);
 
 /// A truncated (each fourth) or mutated copy, the same for the same variant everywhere.
 std::string damaged(const std::string& seed, std::uint64_t variant);

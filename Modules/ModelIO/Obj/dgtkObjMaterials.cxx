@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkObjMaterials.h"
+
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkModelFolder.h"
+#include "dgtkObjStatements.h"
+#include "dgtkText.h"
+#include "dgtkTextLines.h"
+
+#include <filesystem>
+#include <sstream>
+
+namespace dgtk
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+constexpr std::uint64_t largestLibrary = std::uint64_t(1) << 26;
+
+/// What a library does not say.
+Material unsaid(const std::string& name)
+{
+  Material material;
+  material.name = name;
+  material.ambient = { 0, 0, 0 };
+  material.diffuse = { 0.6, 0.6, 0.6 };
+  return material;
+}
+
+/// The name of a picture, behind options such as `-s 1 1 1`.
+std::string pictureOf(ObjStatements& statements)
+{
+  static const std::map<std::string_view, int> values{ { "-blendu", 1 }, { "-blendv", 1 }, { "-boost", 1 },
+    { "-mm", 2 }, { "-o", 3 }, { "-s", 3 }, { "-t", 3 }, { "-texres", 1 }, { "-clamp", 1 }, { "-bm", 1 },
+    { "-imfchan", 1 }, { "-type", 1 }, { "-cc", 1 } };
+  for (;;)
+  {
+    const std::string_view rest = statements.rest();
+    const auto option = values.find(rest.substr(0, rest.find_first_of(" \t")));
+    if (option == values.end())
+    {
+      const bool inQuotes = rest.size() > 1 && rest.front() == '"' && rest.back() == '"';
+      return std::string(inQuotes ? rest.substr(1, rest.size() - 2) : rest);
+    }
+    statements.word();
+    for (int i = 0; i < option->second; ++i)
+    {
+      const std::string_view ahead = statements.rest();
+      const std::string_view word = ahead.substr(0, ahead.find_first_of(" \t"));
+      if (option->second == 3 && i > 0 && !parseNumber(word))
+      {
+        break; // the second and third number may be left out
+      }
+      statements.word();
+    }
+  }
+}
+} // namespace
+
+ObjMaterials::ObjMaterials(const std::string& path, ModelBuilder& builder)
+  : Path(path)
+  , Builder(builder)
+  , Files(fs::absolute(path).string())
+{
+}
+
+void ObjMaterials::addLibraries(std::string_view names)
+{
+  const std::string whole(names);
+  if (this->addLibrary(whole))
+  {
+    return;
+  }
+  std::istringstream words(whole);
+  std::string missing;
+  for (std::string word; words >> word;)
+  {
+    missing = this->addLibrary(word) ? missing : missing.empty() ? word : whole;
+  }
+  if (!missing.empty() && !this->addLibrary(fs::path(this->Path).stem().string() + ".mtl"))
+  {
+    this->Builder.warn("file " + missing + " not found");
+  }
+}
+
+bool ObjMaterials::addLibrary(const std::string& name)
+{
+  const std::string path =
+    name.empty() ? name : this->Files.find(folderOfFile(fs::absolute(this->Path).string()) + '/' + name);
+  if (!path.empty() && this->Read.insert(path).second)
+  {
+    this->readLibrary(path);
+  }
+  return !path.empty();
+}
+
+void ObjMaterials::readLibrary(const std::string& path)
+{
+  const std::string text = toUtf8(readFile(path, largestLibrary));
+  ObjStatements statements(path, text);
+  Entry* entry = nullptr;
+  while (statements.next())
+  {
+    if (statements.keyword() == "newmtl")
+    {
+      const std::string name(statements.rest());
+      const auto [added, isNew] = this->Entries.try_emplace(name, Entry{ unsaid(name), {} });
+      entry = isNew ? &added->second : nullptr; // the first one of a name counts
+      this->Builder.model().declaredMaterials += isNew ? 1 : 0;
+    }
+    else if (entry)
+    {
+      this->readStatement(statements, *entry);
+    }
+  }
+}
+
+void ObjMaterials::readStatement(ObjStatements& statements, Entry& entry)
+{
+  Material& material = entry.material;
+  const std::string_view keyword = statements.keyword();
+  Eigen::Vector3d* const color = keyword == "Ka"   ? &material.ambient
+                                 : keyword == "Kd" ? &material.diffuse
+                                 : keyword == "Ks" ? &material.specular
+                                 : keyword == "Ke" ? &material.emission
+                                                   : nullptr;
+  const std::string_view rest = statements.rest();
+  if (color && rest.rfind("spectral", 0) != 0 && rest.rfind("xyz", 0) != 0)
+  {
+    Eigen::Vector3d value(0, 0, 0);
+    const std::size_t count = statements.numbers(value.data(), 3);
+    *color = count == 1 ? Eigen::Vector3d::Constant(value[0]) : value; // red alone is grey
+  }
+  else if (keyword == "Ns")
+  {
+    statements.number(material.shininess);
+  }
+  else if (keyword == "d" || keyword == "Tr")
+  {
+    double value = keyword == "d" ? 1 : 0;
+    if (rest.rfind("-halo", 0) == 0)
+    {
+      statements.word();
+    }
+    statements.number(value);
+    material.opacity = keyword == "d" ? value : 1 - value;
+  }
+  else if (keyword == "map_Kd")
+  {
+    entry.picture = pictureOf(statements);
+  }
+}
+
+int ObjMaterials::add(const Entry& entry)
+{
+  Material material = entry.material;
+  if (!(material.shininess > 0))
+  {
+    material.specular = { 0, 0, 0 }; // an exponent of 0 would shine everywhere
+  }
+  if (!(material.opacity > 0))
+  {
+    this->Builder.warn("material " + dgtk::quoted(material.name) + " has opacity 0: drawn opaque");
+    material.opacity = 1;
+  }
+  material.texture = this->Builder.addTexture(entry.picture);
+  return this->Builder.addMaterial(material);
+}
+
+int ObjMaterials::indexOf(const std::string& name)
+{
+  const auto made = this->Made.find(name);
+  if (made != this->Made.end())
+  {
+    return made->second;
+  }
+  const auto known = this->Entries.find(name);
+  if (known == this->Entries.end() && !name.empty() && !this->Entries.empty())
+  {
+    this->Builder.warn("material " + dgtk::quoted(name) + " is not defined: drawn grey");
+  }
+  const int index = this->add(
+    known != this->Entries.end() ? known->second : Entry{ unsaid(name.empty() ? "DefaultMaterial" : name), {} });
+  this->Made[name] = index;
+  return index;
+}
+
+void ObjMaterials::finish()
+{
+  this->Files.refuseOutside(this->Path);
+  this->Builder.model().companions = this->Files.companions(this->Path);
+}
+
+} // namespace dgtk

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkObjMaterials_h
+#define dgtkObjMaterials_h
+
+#include "dgtkModelBuilder.h"
+#include "dgtkModelFiles.h"
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace dgtk
+{
+
+/// The materials of a Wavefront model: those of its libraries (.mtl), made when they are used.
+class ObjMaterials
+{
+public:
+  /// `path`: of the model, as given.
+  ObjMaterials(const std::string& path, ModelBuilder& builder);
+
+  /// Reads the libraries that a statement `mtllib` names: one, whose name may have blanks, or several.
+  void addLibraries(std::string_view names);
+  /// Index of the material of that name; one that no library has is grey, and warned of once. "": none was named.
+  int indexOf(const std::string& name);
+  /// Says which other files were read. Throws InputError when one was named that the model may not have.
+  void finish();
+
+private:
+  /// A material of a library.
+  struct Entry
+  {
+    Material material;
+    std::string picture;
+  };
+
+  bool addLibrary(const std::string& name);
+  void readLibrary(const std::string& path);
+  void readStatement(class ObjStatements& statements, Entry& entry);
+  int add(const Entry& entry);
+
+  std::string Path;
+  ModelBuilder& Builder;
+  ModelFiles Files;
+  std::set<std::string> Read; ///< paths of libraries
+  std::map<std::string, Entry> Entries;
+  std::map<std::string, int> Made;
+};
+
+} // namespace dgtk
+
+#endif
