@@ -194,6 +194,29 @@ TEST(DocumentSteps, ModifiedIsWhatTheFileHasNot)
   changes = 0;
   document.abandon();
   expectChange(true);
+  // An abandoned drag does not close the way to the saved scene.
+  document.saveAs(folder.path("c.json"));
+  document.undo();
+  put(document, document.addLight({}), 1, "drag");
+  document.undo();
+  document.undo();
+  document.addLight({});
+  document.saveAs(folder.path("c.json"));
+  document.addLight({});
+  document.undo();
+  document.undo();
+  document.addLight({});
+  EXPECT_TRUE(document.modified());
+  document.saveAs(folder.path("c.json"));
+  document.addLight({});
+  document.saveAs(folder.path("c.json"));
+  document.undo();
+  ASSERT_TRUE(document.canRedo());
+  put(document, first, 1, "drag");
+  EXPECT_FALSE(document.canRedo());
+  document.abandon();
+  document.redo();
+  EXPECT_FALSE(document.modified());
 }
 
 TEST(DocumentSteps, WhatIsAdded)

@@ -216,6 +216,54 @@ TEST(ScenePlaces, BoxesOfItemsAndFieldsOfView)
   EXPECT_NEAR(fieldOfViewOf(camera), 90, tolerance);
 }
 
+TEST(ScenePlaces, SurroundingsAreThoseOfTheStage)
+{
+  SceneDescription scene;
+  scene.background = V(0.25, 0.5, 0.75);
+  scene.fog.color = V(0.1, 0.2, 0.3);
+  scene.fog.density = 0.5;
+  scene.fog.start = 7;
+  scene.upAxis = UpAxis::Z;
+  scene.lights.resize(2);
+  scene.lights[0].name = "a";
+  scene.lights[0].position.keys = { { 0, V(0, 0, 0) }, { 10, V(10, 20, 30) } };
+  scene.lights[1].name = "b";
+  scene.lights[1].intensity = 0.5;
+  const ScenePlaces places = placeScene(scene, ModelLibrary(), 4);
+  const SceneState& found = *places.surroundings;
+  EXPECT_EQ(found.background, V(0.25, 0.5, 0.75));
+  ASSERT_TRUE(found.fog.density > 0);
+  EXPECT_EQ(found.fog.color, V(0.1, 0.2, 0.3));
+  EXPECT_EQ(found.fog.density, 0.5);
+  EXPECT_EQ(found.fog.start, 7);
+  ASSERT_EQ(found.lights.size(), 2u);
+  EXPECT_EQ(found.lights[0].position, V(4, 8, 12));
+  EXPECT_EQ(found.lights[1].intensity, 0.5);
+  EXPECT_EQ(places.lights[0], V(4, 8, 12));
+}
+
+/// Files of single precision leave a little of a model's centre; more than a millionth of its size is meant.
+TEST(ScenePlaces, CentresBesideTheOriginAreMeant)
+{
+  const test::TemporaryFolder folder;
+  for (const bool isMeant : { false, true })
+  {
+    std::ofstream(folder.path("m.ac")) << "AC3Db\nOBJECT poly\nnumvert 3\n-1 -1 0\n1.00000" << (isMeant ? "8" : "4")
+                                       << " 1 0\n-1 1 0\nnumsurf 1\nSURF 0x00\nrefs 3\n0\n1\n2\nkids 0\n";
+    SceneDescription scene;
+    scene.objects.resize(1);
+    scene.objects[0].name = "m";
+    scene.objects[0].model = folder.path("m.ac");
+    scene.objects[0].position = V(5, 6, 7);
+    scene.objects[0].scale = V(2, 2, 2);
+    ModelLibrary models;
+    models.load(scene);
+    const ObjectPlace place = placeScene(scene, models, 0).objects[0];
+    EXPECT_EQ(place.center != V(5, 6, 7), isMeant);
+    EXPECT_NEAR(place.center.x(), isMeant ? 5.000008 : 5, 1e-12);
+  }
+}
+
 TEST(ScenePlaces, PicksTheNearestOfWhatIsMet)
 {
   SceneDescription scene;
@@ -522,16 +570,19 @@ TEST(MissingFiles, TheLikeliestFileIsTaken)
 {
   namespace fs = std::filesystem;
   const test::TemporaryFolder folder;
-  for (const char* path : { "b/m.ac", "a/m.ac", "z/trees/m.ac", "z/old/trees/m.ac", "z/n.ac/inside.txt", "q/o.ac" })
+  for (const char* path : { "b/m.ac", "a/m.ac", "z/trees/m.ac", "z/old/trees/m.ac", "z/n.ac/inside.txt", "q/o.ac",
+         "y/l.ac", "x/l.ac", "w/l.ac", "v/k.ac", "w/k.ac", "x/k.ac" })
   {
     fs::create_directories(fs::path(folder.path(path)).parent_path());
     std::ofstream(folder.path(path)) << path;
   }
   std::size_t reports = 0;
-  const auto found = findModels({ "m.ac", "trees/m.ac", "old/trees/m.ac", "n.ac", "p.ac" }, folder.path());
-  EXPECT_EQ(found,
-    (std::map<std::string, std::string>{ { "m.ac", folder.path("a/m.ac") },
-      { "trees/m.ac", folder.path("z/old/trees/m.ac") }, { "old/trees/m.ac", folder.path("z/old/trees/m.ac") } }));
+  const auto found =
+    findModels({ "m.ac", "trees/m.ac", "old/trees/m.ac", "n.ac", "p.ac", "l.ac", "k.ac" }, folder.path());
+  EXPECT_EQ(
+    found, (std::map<std::string, std::string>{ { "k.ac", folder.path("v/k.ac") }, { "l.ac", folder.path("w/l.ac") },
+             { "m.ac", folder.path("a/m.ac") }, { "trees/m.ac", folder.path("z/old/trees/m.ac") },
+             { "old/trees/m.ac", folder.path("z/old/trees/m.ac") } }));
   EXPECT_TRUE(findModels({ "m.ac" }, folder.path("nowhere")).empty());
   for (int i = 0; i < 520; ++i)
   {

@@ -56,6 +56,8 @@ TEST(SceneEdits, NamesStayUnique)
   EXPECT_EQ(uniqueName({ "7" }, "7"), "8");
   EXPECT_EQ(uniqueName({ "Light0", "Light1" }, "Light0"), "Light2");
   EXPECT_EQ(uniqueName({ "a12345678901" }, "a12345678901"), "a12345678901-2");
+  EXPECT_EQ(uniqueName({ "a123456789" }, "a123456789"), "a123456789-2");
+  EXPECT_EQ(uniqueName({ "a12345678" }, "a12345678"), "a12345679");
   EXPECT_EQ(uniqueName({}, "tree"), "tree");
 }
 

@@ -47,6 +47,8 @@ TEST(SequenceBar, LastsAsLongAsThePoses)
   EXPECT_EQ(barOf(document)->name, "walk");
   EXPECT_EQ(barOf(document)->start, 7);
   EXPECT_DOUBLE_EQ(barOf(document)->length, 11 * 2.5 / 2);
+  change(document, [](ObjectDescription& object) { object.animation.offset = 3; });
+  EXPECT_DOUBLE_EQ(barOf(document)->length, 8 * 2.5 / 2) << "what it leaves out at its beginning";
   change(document, [](ObjectDescription& object) { object.animation.rate = 0; });
   EXPECT_TRUE(std::isinf(barOf(document)->length));
   EXPECT_EQ(sequencesOf(document.scene(), only(document), document.models()),

@@ -135,7 +135,10 @@ TEST(PovTables, Colours)
     { "Teal*0.5", { 0, 0.25, 0.25 }, 0.875 },
     { "gradient x color_map { [0 rgb <1, 0, 0>] [1 Teal] }", { 0.5, 0.25, 0.25 }, 1 },
     { "checker rgb <1, 0, 1> rgb <0, 0, 0.5>", { 0.5, 0, 0.75 }, 1 }, { "Paint", { 0.25, 0.5, 0.75 }, 0.5 },
-    { "rgb 1 quick_color rgb 0", { 1, 1, 1 }, 1 }, { "bozo", { 0.8, 0.8, 0.8 }, 1 } };
+    { "rgb 1 quick_color rgb 0", { 1, 1, 1 }, 1 }, { "bozo", { 0.8, 0.8, 0.8 }, 1 },
+    { "gradient x color_map { [0 rgb <1, 0, 0>] [0.5 rgb f(1)] [1 rgb <0, 0, 1>] }", { 0.5, 0, 0.5 }, 1 },
+    { "gradient x color_map { [0 rgb f(1)] }", { 0.8, 0.8, 0.8 }, 1 }, { "rgbt f(1)", { 0.8, 0.8, 0.8 }, 1 },
+    { "checker rgb f(1) rgbt <0.5, 1, 0, 0.25>", { 0.5, 1, 0 }, 0.75 } };
   for (const Row& row : table)
   {
     const Drawn found = drawn(std::string("pigment { ") + row.pigment + " }",
