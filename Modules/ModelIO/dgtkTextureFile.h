@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -42,36 +43,47 @@ private:
   std::map<std::string, std::vector<std::string>> Listings;
 };
 
-/// How much memory the decoded pictures of a scene may take together, whatever the machine has: 4096 MiB, or as many
-/// as the environment variable DGTK_TEXTURE_MEMORY says. Thread-safe.
-class DGTKMODELIO_EXPORT TextureBudget
+/// The pictures of files that a scene shows: each is decoded once, whatever number of models names it. Together they
+/// may take 4096 MiB of memory, whatever the machine has, or as many as the environment variable DGTK_TEXTURE_MEMORY
+/// says. Thread-safe.
+class DGTKMODELIO_EXPORT TextureStore
 {
 public:
   /// Throws MachineError when the variable is no number of MiB.
-  TextureBudget();
-  explicit TextureBudget(std::uint64_t bytes)
-    : Limit(bytes)
-  {
-  }
+  TextureStore();
+  explicit TextureStore(std::uint64_t bytes);
+  ~TextureStore();
+  TextureStore(const TextureStore&) = delete;
+  TextureStore& operator=(const TextureStore&) = delete;
+
   /// Throws MachineError, with the picture and the sum, when it does not fit any more. Nothing has been decoded then.
   void take(const std::string& picture, int width, int height, std::uint64_t bytes);
+  /// Takes what the picture of a file will need, unless that was done. False, and `problem` set, when it is no picture.
+  bool reserve(const std::string& path, std::string& problem);
+  /// What decodeTexture() says of a picture that was reserved, decoded at the first call.
+  std::shared_ptr<const Image> decode(const std::string& path, std::string& problem);
 
 private:
+  struct Entry;
+  Entry& entryOf(const std::string& path);
+
   std::uint64_t Limit;
   std::atomic<std::uint64_t> Taken{ 0 };
+  std::mutex Mutex; ///< of Entries, not of what they hold
+  std::map<std::string, std::unique_ptr<Entry>> Entries;
 };
 
 /// Decodes a picture to RGBA, rows top to bottom, in a process of its own: whatever the file does to its decoder, the
 /// picture is lost and nothing else. Null, and `problem` set, when it cannot be decoded or is larger than 16384 a side.
 /// An alpha channel that is 0 everywhere is taken as absent. Throws MachineError when memory is short, or beyond
-/// `budget` (null: a budget of its own).
+/// what `store` may hold (null: one of its own).
 DGTKMODELIO_EXPORT std::shared_ptr<const Image> decodeTexture(
-  const std::string& path, std::string& problem, TextureBudget* budget = nullptr);
+  const std::string& path, std::string& problem, TextureStore* store = nullptr);
 
 /// Decodes a picture of light: .hdr and .exr as they are, others from sRGB. Null, and `problem` set, as above; also
 /// where a value is not finite. Negative values become 0.
 DGTKMODELIO_EXPORT std::shared_ptr<const RadianceImage> decodeRadiance(
-  const std::string& path, std::string& problem, TextureBudget* budget = nullptr);
+  const std::string& path, std::string& problem, TextureStore* store = nullptr);
 
 /// Whether a picture is a cut-out: some texels have alpha below 0.5 and some do not.
 DGTKMODELIO_EXPORT bool isCutOut(const Image& image);
@@ -105,7 +117,7 @@ private:
   std::string ModelPath;
   TextureFinder Finder;
   bool Wanted;
-  std::shared_ptr<TextureBudget> Budget;
+  std::shared_ptr<TextureStore> Store;
   std::size_t Decoded = 0; ///< textures that were seen by decode()
   std::map<std::string, int> ByName;
   std::map<int, EmbeddedPicture> Embedded;

@@ -5,12 +5,14 @@
 #include "dgtkMissingModels.h"
 #include "dgtkPortableMath.h"
 #include "dgtkTextureFile.h"
+#include "dgtkThreadPool.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
 #include <system_error>
+#include <thread>
 
 namespace dgtk
 {
@@ -48,7 +50,7 @@ void failObject(const SceneDescription& scene, const ObjectDescription& object, 
 StageModels::StageModels(const SceneDescription& scene, const Stage::WarningSink& warning)
   : Scene(scene)
   , Warning(warning)
-  , Budget(std::make_shared<TextureBudget>())
+  , Pictures(std::make_shared<TextureStore>())
 {
   this->readModels();
   this->addTextures();
@@ -102,7 +104,7 @@ void StageModels::readEnvironment()
   auto made = std::make_shared<EnvironmentState>();
   if (fs::is_regular_file(path, error))
   {
-    made->image = decodeRadiance(path, problem, this->Budget.get());
+    made->image = decodeRadiance(path, problem, this->Pictures.get());
   }
   if (!made->image)
   {
@@ -139,38 +141,49 @@ void StageModels::addFile(const std::string& path)
   }
 }
 
+/// Different files on as many threads as the machine has; what is said of them is said in the scene's order.
 void StageModels::readModels()
 {
   requireModels(this->Scene);
   std::map<std::string, std::size_t> known;
-  ReadOptions options;
-  options.budget = this->Budget;
-  options.sceneFolder = this->Scene.resolve(".");
+  std::vector<const ObjectDescription*> first; ///< that wants a model
   for (const ObjectDescription& object : this->Scene.objects)
   {
-    const std::string path = this->Scene.resolve(object.model);
-    const auto [entry, isNew] = known.emplace(canonicalPath(path), this->Models.size());
+    const auto [entry, isNew] = known.emplace(canonicalPath(this->Scene.resolve(object.model)), first.size());
     this->Uses.push_back(entry->second);
-    if (!isNew)
+    if (isNew)
     {
-      continue;
+      first.push_back(&object);
     }
+  }
+  ReadOptions options;
+  options.textures = this->Pictures;
+  options.sceneFolder = this->Scene.resolve(".");
+  this->Models.resize(first.size());
+  const auto read = [&](int i)
+  {
+    const ObjectDescription& object = *first[static_cast<std::size_t>(i)];
     try
     {
-      this->Models.push_back(readModel(path, options));
+      this->Models[static_cast<std::size_t>(i)] = readModel(this->Scene.resolve(object.model), options);
     }
     catch (const InputError& error)
     {
       failObject(this->Scene, object, std::string("model: ") + error.what());
     }
-    const Model& model = *this->Models.back();
-    for (const std::string& line : model.warnings)
+  };
+  const int models = static_cast<int>(first.size());
+  ThreadPool(std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, std::max(models, 1)))
+    .parallelFor(models, read);
+  for (const std::shared_ptr<const Model>& model : this->Models)
+  {
+    for (const std::string& line : model->warnings)
     {
-      this->warn(path + ": " + line);
+      this->warn(model->path + ": " + line);
     }
-    if (model.triangles.empty())
+    if (model->triangles.empty())
     {
-      this->warn(path + ": has no surfaces; its objects are not there and have no id");
+      this->warn(model->path + ": has no surfaces; its objects are not there and have no id");
     }
   }
 }
@@ -219,7 +232,7 @@ int StageModels::addTexture(Model& model, const std::string& written)
   std::string problem = "not found (tried: " + tried + ')';
   if (!texture.path.empty())
   {
-    texture.image = decodeTexture(texture.path, problem, this->Budget.get());
+    texture.image = decodeTexture(texture.path, problem, this->Pictures.get());
   }
   if (!texture.image)
   {

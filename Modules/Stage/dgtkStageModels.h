@@ -52,7 +52,7 @@ private:
 
   const SceneDescription& Scene;
   const Stage::WarningSink& Warning;
-  std::shared_ptr<TextureBudget> Budget; ///< of all pictures of the scene
+  std::shared_ptr<TextureStore> Pictures; ///< all of the scene
   std::vector<std::shared_ptr<const Model>> Models;
   std::vector<std::size_t> Uses; ///< object -> model
   std::vector<MaterialList> Materials;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures of strangers, decoded in processes of their own: damaged ones of every format, the budget, and what is short of
-// memory.
+// Pictures of strangers, decoded in processes of their own: damaged ones of every format, the budget, and what is short
+// of memory.
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkModelChecks.h"
@@ -345,7 +345,7 @@ TEST(Pictures, DamagedOnesOfEveryFormatAreDecodedOrRefused)
     {
       const std::string path = folder.path("damaged." + extension);
       dgtk::writeFile(path, damaged(bytes, i));
-      dgtk::TextureBudget budget(std::uint64_t(64) << 20);
+      dgtk::TextureStore budget(std::uint64_t(64) << 20);
       std::string problem;
       try
       {
@@ -407,18 +407,28 @@ TEST(Pictures, AllTexturesOfAModelHaveOneBudget)
   EXPECT_EQ(dgtk::readModel(folder.path("m.ac"), located)->textures.size(), 10u);
 }
 
-TEST(Pictures, ABudgetIsSharedAndSet)
+TEST(Pictures, AStoreIsSharedAndItsMemoryIsSet)
 {
   const TemporaryFolder folder;
   dgtk::writeFile(folder.path("a.ppm"), "P6 2 1 255\nabcdef");
   dgtk::writeFile(folder.path("m.ac"), modelWith({ "a.ppm", "A.ppm" })); // one file, once
   dgtk::ReadOptions options;
-  options.budget = std::make_shared<dgtk::TextureBudget>(16);
+  options.textures = std::make_shared<dgtk::TextureStore>(16);
   EXPECT_TRUE(dgtk::readModel(folder.path("m.ac"), options)->textures[1].image);
   std::string problem;
-  EXPECT_TRUE(dgtk::decodeTexture(folder.path("a.ppm"), problem, options.budget.get()));
-  EXPECT_THROW(dgtk::decodeTexture(folder.path("a.ppm"), problem, options.budget.get()), dgtk::MachineError);
-  dgtk::TextureBudget light(23); // three floats a pixel
+  const auto image = dgtk::decodeTexture(folder.path("a.ppm"), problem, options.textures.get());
+  EXPECT_EQ(image, dgtk::readModel(folder.path("m.ac"), options)->textures[1].image) << "decoded once";
+  dgtk::writeFile(folder.path("b.ppm"), "P6 2 1 255\nabcdef");
+  EXPECT_TRUE(dgtk::decodeTexture(folder.path("b.ppm"), problem, options.textures.get()));
+  dgtk::writeFile(folder.path("c.ppm"), "P6 2 1 255\nabcdef");
+  EXPECT_THROW(dgtk::decodeTexture(folder.path("c.ppm"), problem, options.textures.get()), dgtk::MachineError);
+  dgtk::TextureStore none(100);
+  for (int i = 0; i < 2; ++i)
+  {
+    EXPECT_FALSE(dgtk::decodeTexture(folder.path("d.ppm"), problem, &none)) << "each one is told";
+    EXPECT_THAT(problem, HasSubstr("cannot be opened"));
+  }
+  dgtk::TextureStore light(23); // three floats a pixel
   EXPECT_THROW(dgtk::decodeRadiance(folder.path("a.ppm"), problem, &light), dgtk::MachineError);
   ::setenv("DGTK_TEXTURE_MEMORY", "0", 1);
   EXPECT_THROW(dgtk::readModel(folder.path("m.ac")), dgtk::MachineError);

@@ -27,7 +27,7 @@ TextureCache::TextureCache(const std::string& modelPath, const ReadOptions& opti
   : ModelPath(modelPath)
   , Finder(modelPath, options.sceneFolder)
   , Wanted(options.decodeTextures)
-  , Budget(options.budget || !options.decodeTextures ? options.budget : std::make_shared<TextureBudget>())
+  , Store(options.textures || !options.decodeTextures ? options.textures : std::make_shared<TextureStore>())
 {
 }
 
@@ -83,7 +83,7 @@ std::vector<TextureCache::Job> TextureCache::jobsOf(std::vector<Texture>& textur
     const auto embedded = this->Embedded.find(static_cast<int>(this->Decoded));
     if (texture.image)
     {
-      this->Budget->take(texture.path, texture.image->width, texture.image->height, texture.image->rgba.size());
+      this->Store->take(texture.path, texture.image->width, texture.image->height, texture.image->rgba.size());
     }
     else if (embedded != this->Embedded.end())
     {
@@ -109,7 +109,8 @@ std::vector<std::string> TextureCache::decode(std::vector<Texture>& textures)
   std::vector<Job> jobs = this->jobsOf(textures);
   for (Job& job : jobs)
   {
-    job.isPicture = takeTexels(job.source, *this->Budget, job.problem);
+    job.isPicture = job.source.bytes ? takeTexels(job.source, *this->Store, job.problem)
+                                     : this->Store->reserve(job.source.path, job.problem);
   }
   for (Job& job : jobs)
   {
@@ -117,7 +118,8 @@ std::vector<std::string> TextureCache::decode(std::vector<Texture>& textures)
     const bool embedded = job.source.bytes != nullptr;
     if (job.isPicture)
     {
-      texture.image = decodeTexels(job.source, embedded ? AlphaRule::Meant : AlphaRule::Painted, job.problem);
+      texture.image = embedded ? decodeTexels(job.source, AlphaRule::Meant, job.problem)
+                               : this->Store->decode(job.source.path, job.problem);
     }
     if (!texture.image)
     {

@@ -39,12 +39,29 @@ std::uint64_t budgetOfEnvironment()
 std::string inMebibytes(std::uint64_t bytes) { return std::to_string((bytes + mebibyte - 1) / mebibyte) + " MiB"; }
 } // namespace
 
-TextureBudget::TextureBudget()
-  : Limit(budgetOfEnvironment())
+/// A picture of a scene.
+struct TextureStore::Entry
+{
+  std::once_flag measured;
+  std::once_flag decoded;
+  bool isPicture = false;
+  std::string problem;
+  std::shared_ptr<const Image> image;
+};
+
+TextureStore::TextureStore()
+  : TextureStore(budgetOfEnvironment())
 {
 }
 
-void TextureBudget::take(const std::string& picture, int width, int height, std::uint64_t bytes)
+TextureStore::TextureStore(std::uint64_t bytes)
+  : Limit(bytes)
+{
+}
+
+TextureStore::~TextureStore() = default;
+
+void TextureStore::take(const std::string& picture, int width, int height, std::uint64_t bytes)
 {
   const std::uint64_t sum = this->Taken += bytes;
   if (sum > this->Limit)
@@ -106,7 +123,7 @@ std::shared_ptr<RadianceImage> toLight(const picture::Answer& size, const float*
   return image;
 }
 
-bool takeBytes(const picture::Source& source, picture::Values values, std::uint64_t pixelBytes, TextureBudget& budget,
+bool takeBytes(const picture::Source& source, picture::Values values, std::uint64_t pixelBytes, TextureStore& store,
   std::string& problem)
 {
   picture::Answer size;
@@ -117,7 +134,7 @@ bool takeBytes(const picture::Source& source, picture::Values values, std::uint6
     return false;
   }
   const std::uint64_t pixels = std::uint64_t(size.width) * std::uint64_t(size.height);
-  budget.take(source.path, size.width, size.height, pixels * pixelBytes);
+  store.take(source.path, size.width, size.height, pixels * pixelBytes);
   return true;
 }
 
@@ -166,9 +183,9 @@ void settleAlpha(Image& image, AlphaRule rule)
   image.hasAlpha = least < 255;
 }
 
-bool takeTexels(const picture::Source& source, TextureBudget& budget, std::string& problem)
+bool takeTexels(const picture::Source& source, TextureStore& store, std::string& problem)
 {
-  return takeBytes(source, picture::Values::Bytes, 4, budget, problem);
+  return takeBytes(source, picture::Values::Bytes, 4, store, problem);
 }
 
 std::shared_ptr<const Image> decodeTexels(const picture::Source& source, AlphaRule rule, std::string& problem)
@@ -182,20 +199,43 @@ std::shared_ptr<const Image> decodeTexels(const picture::Source& source, AlphaRu
     });
 }
 
-std::shared_ptr<const Image> decodeTexture(const std::string& path, std::string& problem, TextureBudget* budget)
+TextureStore::Entry& TextureStore::entryOf(const std::string& path)
 {
-  TextureBudget own;
-  const picture::Source source = fileSource(path);
-  return takeTexels(source, budget ? *budget : own, problem) ? decodeTexels(source, AlphaRule::Painted, problem)
-                                                             : nullptr;
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  std::unique_ptr<Entry>& entry = this->Entries[path];
+  entry = entry ? std::move(entry) : std::make_unique<Entry>();
+  return *entry;
 }
 
-std::shared_ptr<const RadianceImage> decodeRadiance(
-  const std::string& path, std::string& problem, TextureBudget* budget)
+bool TextureStore::reserve(const std::string& path, std::string& problem)
 {
-  TextureBudget own;
+  Entry& entry = this->entryOf(path);
+  std::call_once(entry.measured, [&] { entry.isPicture = takeTexels(fileSource(path), *this, entry.problem); });
+  problem = entry.problem;
+  return entry.isPicture;
+}
+
+std::shared_ptr<const Image> TextureStore::decode(const std::string& path, std::string& problem)
+{
+  Entry& entry = this->entryOf(path);
+  std::call_once(
+    entry.decoded, [&] { entry.image = decodeTexels(fileSource(path), AlphaRule::Painted, entry.problem); });
+  problem = entry.problem;
+  return entry.image;
+}
+
+std::shared_ptr<const Image> decodeTexture(const std::string& path, std::string& problem, TextureStore* store)
+{
+  TextureStore own;
+  TextureStore& used = store ? *store : own;
+  return used.reserve(path, problem) ? used.decode(path, problem) : nullptr;
+}
+
+std::shared_ptr<const RadianceImage> decodeRadiance(const std::string& path, std::string& problem, TextureStore* store)
+{
+  TextureStore own;
   const picture::Source source = fileSource(path);
-  if (!takeBytes(source, picture::Values::Floats, 3 * sizeof(float), budget ? *budget : own, problem))
+  if (!takeBytes(source, picture::Values::Floats, 3 * sizeof(float), store ? *store : own, problem))
   {
     return nullptr;
   }

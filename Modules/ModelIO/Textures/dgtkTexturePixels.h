@@ -11,7 +11,7 @@
 namespace dgtk
 {
 
-class TextureBudget;
+class TextureStore;
 
 /// What is known of an alpha channel.
 enum class AlphaRule
@@ -21,9 +21,9 @@ enum class AlphaRule
 };
 
 /// Takes what the picture's pixels will need. False, and `problem` set, when it is no picture.
-bool takeTexels(const picture::Source& source, TextureBudget& budget, std::string& problem);
+bool takeTexels(const picture::Source& source, TextureStore& store, std::string& problem);
 
-/// Decodes, whatever the budget. Null, and `problem` set, when it cannot be decoded.
+/// Decodes, whatever the memory. Null, and `problem` set, when it cannot be decoded.
 std::shared_ptr<const Image> decodeTexels(const picture::Source& source, AlphaRule rule, std::string& problem);
 
 /// Settles Image::hasAlpha.

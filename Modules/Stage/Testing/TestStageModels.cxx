@@ -229,18 +229,24 @@ TEST(StageModels, WarningsOfAModelNameItsFile)
   EXPECT_EQ(warnings[0].rfind(folder.path("models/square.ac") + ": texture 'red.ppm' not found", 0), 0u) << warnings[0];
 }
 
-TEST(StageModels, AllPicturesOfASceneHaveOneBudget)
+TEST(StageModels, AllPicturesOfASceneAreInOneStore)
 {
   const ModelFolder folder;
+  const std::string picture = "P6 512 512 255\n" + std::string(512 * 512 * 3, 'r'); // 1 MiB of texels
   writeFile(folder.path("models/other.ac"), squareAc);
-  writeFile(folder.path("models/red.ppm"), "P6 512 512 255\n" + std::string(512 * 512 * 3, 'r')); // 1 MiB of texels
+  writeFile(folder.path("models/red.ppm"), picture);
+  writeFile(folder.path("models/blue.ppm"), picture);
   const auto load = [&folder](const std::string& more)
   { return folder.load(R"({"objects": [{"model": "models/square.ac"}, {"model": "models/square.ac"})" + more); };
   ::setenv("DGTK_TEXTURE_MEMORY", "1", 1);
   EXPECT_EQ(load("]}")->models().size(), 1u);
-  for (const std::string more :
-    { R"(, {"model": "models/other.ac"}]})", R"(], "environment": {"image": "models/red.ppm"}})",
-      R"(, {"model": "models/square.ac", "materials": {"*": {"texture": "models/red.ppm"}}}]})" })
+  const auto both = load(
+    R"(, {"model": "models/other.ac", "materials": {"*": {"texture": "models/red.ppm", "emissionMap": "red.ppm"}}}]})");
+  ASSERT_EQ(both->models().size(), 2u);
+  EXPECT_EQ(both->models()[0]->textures.at(0).image, both->models()[1]->textures.at(0).image) << "decoded once";
+  EXPECT_EQ(both->models()[0]->textures.at(0).image, both->models()[1]->textures.at(1).image);
+  for (const std::string more : { R"(], "environment": {"image": "models/red.ppm"}})",
+         R"(, {"model": "models/square.ac", "materials": {"*": {"texture": "models/blue.ppm"}}}]})" })
   {
     try
     {
@@ -249,10 +255,37 @@ TEST(StageModels, AllPicturesOfASceneHaveOneBudget)
     }
     catch (const MachineError& error)
     {
-      EXPECT_THAT(error.what(), HasSubstr("red.ppm: a texture of 512 x 512 pixels; with it, all textures take "));
+      EXPECT_THAT(error.what(), HasSubstr(".ppm: a texture of 512 x 512 pixels; with it, all textures take "));
     }
   }
   ::unsetenv("DGTK_TEXTURE_MEMORY");
+}
+
+// They are read beside one another.
+TEST(StageModels, ManyModelsAreToldOfInTheScenesOrder)
+{
+  const ModelFolder folder;
+  std::filesystem::remove(folder.path("models/red.ppm"));
+  std::string objects;
+  std::vector<std::string> expected;
+  for (int i = 0; i < 40; ++i)
+  {
+    const std::string name = "models/" + std::to_string(i) + ".ac";
+    writeFile(folder.path(name), squareAc);
+    objects += (i == 0 ? "" : ",\n") + ("{\"model\": \"" + name) + "\"}";
+    expected.push_back(folder.path(name));
+  }
+  std::vector<std::string> warned;
+  const auto stage = folder.load("{\"objects\": [" + objects + "]}",
+    [&](const std::string& line) { warned.push_back(line.substr(0, line.find(": "))); });
+  EXPECT_EQ(warned, expected) << "of the missing picture";
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    EXPECT_EQ(stage->models().at(i)->path, expected[i]);
+  }
+  writeFile(folder.path("models/38.ac"), "no model");
+  writeFile(folder.path("models/11.ac"), "no model");
+  EXPECT_THAT(folder.refusalOf("{\"objects\": [" + objects + "]}"), HasSubstr("scene.json:12: object '11-1': model: "));
 }
 
 TEST(StageModels, SkinsAreTexturesOfTheModel)
