@@ -485,3 +485,29 @@ TEST(Pictures, TooLittleMemoryIsTheMachinesFault)
   EXPECT_THROW(dgtk::decodeTexture(folder.path("a.pgm"), problem), dgtk::MachineError);
   EXPECT_THROW(dgtk::readModel(folder.path("m.ac")), dgtk::MachineError);
 }
+
+/// What is decoded where the machine has too little room for any picture: 0 a picture, 1 none, 2 the machine's fault.
+int decodedInLittleRoom(const std::string& path)
+{
+  const FewAddresses few(std::uint64_t(200) << 20); // a decoder has 512 MiB
+  std::string problem;
+  try
+  {
+    return dgtk::decodeTexture(path, problem) ? 0 : 1;
+  }
+  catch (const dgtk::MachineError&)
+  {
+    return 2;
+  }
+}
+
+TEST(Pictures, InTooLittleRoomNobodyCanSayThatAPictureIsDamaged)
+{
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers reserve terabytes of addresses";
+#endif
+  testing::FLAGS_gtest_death_test_style = "threadsafe"; // a program of its own has a decoder of its own
+  const TemporaryFolder folder;
+  dgtk::writeFile(folder.path("a.png"), "no picture");
+  EXPECT_EXIT(std::_Exit(decodedInLittleRoom(folder.path("a.png"))), testing::ExitedWithCode(2), "");
+}
