@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -75,6 +77,11 @@ public:
   /// untouched, when the point lies on no ray (behind the camera: pinhole z <= 0, orthographic z < 0).
   virtual bool project(const Eigen::Vector3d& x_in_camera, Eigen::Vector2d& pixel) const = 0;
 
+  /// The same of many at once; `seen` gets what project() returns.
+  virtual void raysThrough(const Eigen::Vector2d* pixels, std::size_t count, CameraRay* rays) const;
+  virtual void projectAll(
+    const Eigen::Vector3d* x_in_camera, std::size_t count, Eigen::Vector2d* pixels, std::uint8_t* seen) const;
+
   /// The projection's matrix where it is linear, nothing otherwise.
   virtual std::optional<LinearProjection> linear() const { return std::nullopt; }
 
@@ -90,6 +97,31 @@ protected:
 
 private:
   CameraParameters Parameters;
+};
+
+/// A model whose functions of many points are loops without a virtual call: class Mine final : public RowsOf<Mine>.
+template <class Model, class Base = CameraModel>
+class RowsOf : public Base
+{
+public:
+  using Base::Base;
+  void raysThrough(const Eigen::Vector2d* pixels, std::size_t count, CameraRay* rays) const override
+  {
+    const auto& model = static_cast<const Model&>(*this);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      rays[i] = model.Model::rayThrough(pixels[i]);
+    }
+  }
+  void projectAll(
+    const Eigen::Vector3d* x_in_camera, std::size_t count, Eigen::Vector2d* pixels, std::uint8_t* seen) const override
+  {
+    const auto& model = static_cast<const Model&>(*this);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      seen[i] = model.Model::project(x_in_camera[i], pixels[i]) ? 1 : 0;
+    }
+  }
 };
 
 /// A camera at one instant, as the ground truth needs it.

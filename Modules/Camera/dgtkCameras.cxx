@@ -9,6 +9,21 @@
 namespace dgtk
 {
 
+void CameraModel::raysThrough(const Eigen::Vector2d* pixels, std::size_t count, CameraRay* rays) const
+{
+  std::transform(
+    pixels, pixels + count, rays, [this](const Eigen::Vector2d& pixel) { return this->rayThrough(pixel); });
+}
+
+void CameraModel::projectAll(
+  const Eigen::Vector3d* x_in_camera, std::size_t count, Eigen::Vector2d* pixels, std::uint8_t* seen) const
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    seen[i] = this->project(x_in_camera[i], pixels[i]) ? 1 : 0;
+  }
+}
+
 namespace
 {
 constexpr int largestSide = 1 << 20;

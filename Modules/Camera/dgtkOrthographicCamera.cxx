@@ -12,11 +12,11 @@ namespace dgtk
 
 namespace
 {
-class Orthographic final : public LinearCamera
+class Orthographic final : public RowsOf<Orthographic, LinearCamera>
 {
 public:
   Orthographic(int width, int height, const Eigen::Matrix3d& K)
-    : LinearCamera(width, height, K, false)
+    : RowsOf(width, height, K, false)
   {
   }
   std::string name() const override { return "orthographic"; }

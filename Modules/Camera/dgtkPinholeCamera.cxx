@@ -13,11 +13,11 @@ namespace dgtk
 
 namespace
 {
-class Pinhole final : public LinearCamera
+class Pinhole final : public RowsOf<Pinhole, LinearCamera>
 {
 public:
   Pinhole(int width, int height, const Eigen::Matrix3d& K)
-    : LinearCamera(width, height, K, true)
+    : RowsOf(width, height, K, true)
   {
   }
   std::string name() const override { return "pinhole"; }

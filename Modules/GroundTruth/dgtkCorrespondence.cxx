@@ -17,16 +17,93 @@ bool isInside(const Eigen::Vector2d& pixel, const CameraModel& model)
   return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= model.width() && pixel.y() <= model.height();
 }
 
-/// Parameter of a point on its ray.
-double alongRay(const Eigen::Vector3d& x_in_camera, const Eigen::Vector2d& pixel, const CameraModel& model)
+VisibilityClass classOf(const Hit& hit, const Hit& before)
 {
-  if (model.linear())
-  {
-    return x_in_camera.z();
-  }
-  const CameraRay ray = model.rayThrough(pixel);
-  return (x_in_camera - ray.origin).dot(ray.direction) / ray.direction.squaredNorm();
+  return before.object == 0            ? VisibilityClass::Visible
+         : before.object == hit.object ? VisibilityClass::OccludedByOwn
+                                       : VisibilityClass::OccludedByOther;
 }
+
+/// Follows surface points into another view, any number at a time.
+class Follower
+{
+public:
+  explicit Follower(const OtherView& other)
+    : Other(other)
+    , Linear(other.view.model->linear().has_value())
+  {
+  }
+
+  /// One point, which follow() answers under `index`.
+  void add(std::size_t index, const Hit& hit, const Eigen::Vector2d& barycentrics)
+  {
+    this->Indices.push_back(index);
+    this->Hits.push_back(hit);
+    this->Worlds.push_back(carriedPoint(*this->Other.state, hit, barycentrics));
+    this->Points.emplace_back(this->Other.view.camera_from_world * this->Worlds.back());
+  }
+
+  /// Where they are: answer(index, pixel, class), with a pixel that is not-a-number where there is none.
+  template <class Answer>
+  void follow(const Answer& answer)
+  {
+    const CameraModel& model = *this->Other.view.model;
+    const std::size_t count = this->Points.size();
+    this->Pixels.assign(count, Eigen::Vector2d(nowhere, nowhere));
+    this->Seen.resize(count);
+    model.projectAll(this->Points.data(), count, this->Pixels.data(), this->Seen.data());
+    std::size_t asked = 0;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (this->Seen[i] == 0 || !this->isInView(this->Points[i], this->Pixels[i]))
+      {
+        answer(
+          this->Indices[i], this->Pixels[i], this->Seen[i] == 0 ? VisibilityClass::Behind : VisibilityClass::Outside);
+        continue;
+      }
+      this->Indices[asked] = this->Indices[i];
+      this->Hits[asked] = this->Hits[i];
+      this->Worlds[asked] = this->Worlds[i];
+      this->Pixels[asked] = this->Pixels[i];
+      ++asked;
+    }
+    this->Before.resize(asked);
+    this->Other.occlusion->occluders(
+      this->Other.view, this->Worlds.data(), this->Hits.data(), asked, this->Before.data());
+    for (std::size_t i = 0; i < asked; ++i)
+    {
+      answer(this->Indices[i], this->Pixels[i], classOf(this->Hits[i], this->Before[i]));
+    }
+    this->Indices.clear();
+    this->Hits.clear();
+    this->Worlds.clear();
+    this->Points.clear();
+  }
+
+private:
+  bool isInView(const Eigen::Vector3d& x_in_camera, const Eigen::Vector2d& pixel) const
+  {
+    const View& view = this->Other.view;
+    const double t = this->Linear ? x_in_camera.z() : alongRay(x_in_camera, view.model->rayThrough(pixel));
+    return isInside(pixel, *view.model) && t >= view.near && t <= view.far;
+  }
+  static double alongRay(const Eigen::Vector3d& x_in_camera, const CameraRay& ray)
+  {
+    return (x_in_camera - ray.origin).dot(ray.direction) / ray.direction.squaredNorm();
+  }
+
+  const OtherView& Other;
+  bool Linear;
+  // Of the points that were added ...
+  std::vector<std::size_t> Indices;
+  std::vector<Hit> Hits;
+  std::vector<Eigen::Vector3d> Worlds;
+  std::vector<Eigen::Vector3d> Points; ///< in the frame of the camera
+  std::vector<Eigen::Vector2d> Pixels;
+  std::vector<std::uint8_t> Seen;
+  // ... and of those that are asked for
+  std::vector<Hit> Before;
+};
 } // namespace
 
 Eigen::Vector3d carriedPoint(const SceneState& state, const Hit& hit, const Eigen::Vector2d& barycentrics)
@@ -42,23 +119,14 @@ Eigen::Vector3d carriedPoint(const SceneState& state, const Hit& hit, const Eige
 Correspondence correspond(const OtherView& other, const Hit& hit, const Eigen::Vector2d& barycentrics)
 {
   Correspondence result;
-  const Eigen::Vector3d world = carriedPoint(*other.state, hit, barycentrics);
-  const Eigen::Vector3d point = other.view.camera_from_world * world;
-  if (!other.view.model->project(point, result.pixel))
-  {
-    result.visibility = VisibilityClass::Behind;
-    return result;
-  }
-  const double t = alongRay(point, result.pixel, *other.view.model);
-  if (!isInside(result.pixel, *other.view.model) || t < other.view.near || t > other.view.far)
-  {
-    result.visibility = VisibilityClass::Outside;
-    return result;
-  }
-  const Hit before = other.occlusion->occluder(other.view, world, hit);
-  result.visibility = before.object == 0            ? VisibilityClass::Visible
-                      : before.object == hit.object ? VisibilityClass::OccludedByOwn
-                                                    : VisibilityClass::OccludedByOther;
+  Follower follower(other);
+  follower.add(0, hit, barycentrics);
+  follower.follow(
+    [&result](std::size_t, const Eigen::Vector2d& pixel, VisibilityClass visibility)
+    {
+      result.pixel = pixel;
+      result.visibility = visibility;
+    });
   return result;
 }
 
@@ -82,16 +150,27 @@ Correspondence correspondPixel(const SceneState& state, const View& view, const 
 
 void correspondRows(const SurfaceRows& in, const OtherView& other, double* pixels, std::uint8_t* classes)
 {
-  for (std::size_t i = 0; i < in.t.size(); ++i)
+  Follower follower(other);
+  const auto width = static_cast<std::size_t>(in.rect.width);
+  for (std::size_t first = 0; first < in.t.size(); first += width) // what goes together never depends on the strips
   {
-    Correspondence found;
-    if (std::isfinite(in.t[i]))
+    for (std::size_t i = first; i < first + width; ++i)
     {
-      found = correspond(other, in.hits[i], { in.barycentrics[2 * i], in.barycentrics[2 * i + 1] });
+      if (std::isfinite(in.t[i]))
+      {
+        follower.add(i, in.hits[i], { in.barycentrics[2 * i], in.barycentrics[2 * i + 1] });
+        continue;
+      }
+      pixels[2 * i] = pixels[2 * i + 1] = nowhere;
+      classes[i] = static_cast<std::uint8_t>(VisibilityClass::NoSurface);
     }
-    pixels[2 * i] = found.pixel.x();
-    pixels[2 * i + 1] = found.pixel.y();
-    classes[i] = static_cast<std::uint8_t>(found.visibility);
+    follower.follow(
+      [&](std::size_t i, const Eigen::Vector2d& pixel, VisibilityClass visibility)
+      {
+        pixels[2 * i] = pixel.x();
+        pixels[2 * i + 1] = pixel.y();
+        classes[i] = static_cast<std::uint8_t>(visibility);
+      });
   }
 }
 

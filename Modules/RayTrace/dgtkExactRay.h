@@ -76,12 +76,13 @@ inline ExactHit intersectExactly(const ExactRay& ray, const Eigen::Vector3d corn
 /// Whether a ray passes an edge at a distance below `slack`, in units of the scene at t.
 inline bool isMarginal(const ExactRay& ray, const Eigen::Vector3d corners[3], double slack)
 {
-  const double length = ray.direction.norm();
+  const double limit = slack * slack * ray.direction.squaredNorm();
   for (int i = 0; i < 3; ++i)
   {
     const Eigen::Vector3d a = corners[i] - ray.origin;
     const Eigen::Vector3d b = corners[(i + 1) % 3] - ray.origin;
-    if (!(std::abs(exact::cross(a, b).dot(ray.direction)) > slack * length * (b - a).norm()))
+    const double volume = exact::cross(a, b).dot(ray.direction);
+    if (!(volume * volume > limit * (b - a).squaredNorm()))
     {
       return true;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRaySource.h"
 
+#include "dgtkOccluderTracer.h"
 #include "dgtkRayScene.h"
 
 #include <algorithm>
@@ -15,15 +16,6 @@ namespace
 {
 /// Scenes kept placed, by pose of the camera.
 constexpr std::size_t mostPoses = 16;
-/// Part of the distance that keeps the surface around a point from hiding it.
-constexpr double pointSlack = 1e-9;
-
-/// Pixels: with a larger error of single precision, rays are looked around at once; an image that needs it is 30,000
-/// pixels wide.
-constexpr double coarseError = 1.0 / 16;
-
-bool isCoarse(const RayScene& scene, const View& view) { return scene.errorInPixels(view) > coarseError; }
-
 bool samePose(const Rigid3& a, const Rigid3& b) { return a.rotation == b.rotation && a.translation == b.translation; }
 
 class EmbreeQuery final : public OcclusionQuery
@@ -65,48 +57,22 @@ public:
 
   Hit occluder(const View& view, const Eigen::Vector3d& x_in_world, const Hit& target) const override
   {
-    const Eigen::Vector3d x = view.camera_from_world * x_in_world;
-    Eigen::Vector2d pixel;
-    if (!view.model->project(x, pixel))
+    Hit found;
+    this->occluders(view, &x_in_world, &target, 1, &found);
+    return found;
+  }
+
+  void occluders(const View& view, const Eigen::Vector3d* x_in_world, const Hit* targets, std::size_t count,
+    Hit* found) const override
+  {
+    OccluderTracer tracer(this->scene(view.camera_from_world), view);
+    for (std::size_t first = 0; first < count; first += OccluderTracer::lanes)
     {
-      return {};
+      tracer.trace(x_in_world + first, targets + first, std::min(count - first, OccluderTracer::lanes), found + first);
     }
-    ExactRay ray = rayOf(view, pixel);
-    const double t = (x - ray.origin).dot(ray.direction) / ray.direction.squaredNorm();
-    ray.direction = (x - ray.origin) / t; // through the point, whatever the projection's rounding
-    ray.most = t * (1 - pointSlack);
-    if (!(ray.most > ray.least))
-    {
-      return {};
-    }
-    const std::shared_ptr<const RayScene> scene = this->scene(view.camera_from_world);
-    return nearest(*scene, ray, target, isCoarse(*scene, view));
   }
 
 private:
-  static Hit nearest(const RayScene& scene, const ExactRay& ray, const Hit& skip, bool nearby)
-  {
-    RayContext context;
-    rtcInitIntersectContext(&context.context);
-    context.scene = &scene;
-    context.mode = RayContext::Mode::Checked;
-    context.context.filter = rayFilter;
-    context.ray = &ray;
-    context.skip = skip;
-    context.marginal = nearby;
-    context.t[0] = INFINITY;
-    alignas(16) RTCRayHit query = makeQuery(ray);
-    rtcIntersect1(scene.handle(), &context.context, &query);
-    if (!context.marginal)
-    {
-      return context.best[0];
-    }
-    std::vector<RayHit> found;
-    collectHits(scene, ray, true, found);
-    const auto first = std::find_if(found.begin(), found.end(), [&](const RayHit& hit) { return hit.hit != skip; });
-    return first == found.end() ? Hit{} : first->hit;
-  }
-
   std::shared_ptr<const RayScene> scene(const Rigid3& pose) const
   {
     const auto find = [&]() -> std::shared_ptr<const RayScene>

@@ -13,8 +13,8 @@ namespace
 
 ExactRay rayOfLane(const RayContext& context, unsigned int lane)
 {
-  return context.ray
-           ? *context.ray
+  return context.rays
+           ? context.rays[lane]
            : rayOf(*context.view, Eigen::Vector2d(context.x + int(lane % 4) + 0.5, context.y + int(lane / 4) + 0.5));
 }
 
@@ -67,9 +67,10 @@ bool accept(RayContext& context, const RayMesh& mesh, unsigned int geometry, uns
       return false;
     case RayContext::Mode::Checked:
     {
-      const ExactHit exactly = context.scene->intersect(*context.ray, hit);
-      context.marginal = context.marginal || context.scene->isUncertain(*context.ray, hit, exactly.t);
-      if (hit == context.skip || !exactly.inside)
+      bool uncertain = false;
+      const bool inside = context.scene->intersect(context.rays[lane], hit, uncertain).inside;
+      context.marginal |= unsigned(uncertain) << lane;
+      if (hit == context.skip[lane] || !inside)
       {
         return false;
       }

@@ -131,21 +131,29 @@ ExactHit RayScene::intersectTriangle(const ExactRay& ray, const Hit& hit) const
   return intersectExactly(ray, x);
 }
 
+bool RayScene::isThere(const ExactRay& ray, const Hit& hit, const ExactHit& exact) const
+{
+  return exact.inside && exact.t >= ray.least && exact.t <= ray.most &&
+         !(this->Instances[hit.object - 1].mesh->hasCutOuts &&
+           isCutOut(this->State->instances[hit.object - 1], hit.triangle, exact.barycentrics));
+}
+
 ExactHit RayScene::intersect(const ExactRay& ray, const Hit& hit) const
 {
   ExactHit exact = this->intersectTriangle(ray, hit);
-  exact.inside = exact.inside && exact.t >= ray.least && exact.t <= ray.most &&
-                 !(this->Instances[hit.object - 1].mesh->hasCutOuts &&
-                   isCutOut(this->State->instances[hit.object - 1], hit.triangle, exact.barycentrics));
+  exact.inside = this->isThere(ray, hit, exact);
   return exact;
 }
 
-bool RayScene::isUncertain(const ExactRay& ray, const Hit& hit, double t) const
+ExactHit RayScene::intersect(const ExactRay& ray, const Hit& hit, bool& uncertain) const
 {
   Eigen::Vector3d x[3];
   this->corners(hit, x);
-  return isMarginal(
-    ray, x, rayPrecision * (std::abs(t) * ray.direction.norm() + this->Instances[hit.object - 1].reach));
+  ExactHit exact = intersectExactly(ray, x);
+  const double reach = this->Instances[hit.object - 1].reach;
+  uncertain = isMarginal(ray, x, rayPrecision * (std::abs(exact.t) * ray.direction.norm() + reach));
+  exact.inside = this->isThere(ray, hit, exact);
+  return exact;
 }
 
 double RayScene::errorInPixels(const View& view) const
@@ -247,8 +255,9 @@ void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::v
   trace(scene, ray, found);
   for (const Hit& hit : found)
   {
-    const ExactHit exactly = scene.intersect(ray, hit);
-    nearby = nearby || scene.isUncertain(ray, hit, exactly.t);
+    bool uncertain = false;
+    const ExactHit exactly = scene.intersect(ray, hit, uncertain);
+    nearby = nearby || uncertain;
     if (exactly.inside)
     {
       hits.push_back({ exactly.t, hit });

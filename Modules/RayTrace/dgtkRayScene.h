@@ -51,15 +51,16 @@ public:
   {
     return { instance + 1, this->Instances[instance].mesh->firstTriangle[geometry] + primitive };
   }
-  /// Exact intersection with a triangle; inside is false outside the ray's range and at missing texels.
+  /// Exact intersection with a triangle; inside is false outside the ray's range and at missing texels. `uncertain`:
+  /// whether single precision cannot tell on which side of an edge the ray passes.
+  ExactHit intersect(const ExactRay& ray, const Hit& hit, bool& uncertain) const;
   ExactHit intersect(const ExactRay& ray, const Hit& hit) const;
   /// The same without the range and the texels.
   ExactHit intersectTriangle(const ExactRay& ray, const Hit& hit) const;
-  /// Whether single precision cannot tell on which side of an edge the ray passes, which meets the triangle at t.
-  bool isUncertain(const ExactRay& ray, const Hit& hit, double t) const;
 
 private:
   void corners(const Hit& hit, Eigen::Vector3d out[3]) const;
+  bool isThere(const ExactRay& ray, const Hit& hit, const ExactHit& exact) const;
   void placeInstance(std::size_t index, bool newState);
 
   std::shared_ptr<RayDevice> Device;
@@ -103,18 +104,18 @@ struct RayContext
   enum class Mode
   {
     Nearest, ///< the nearest surface of each lane, near ties decided exactly
-    Checked, ///< the nearest surface that is exactly inside the range of `ray` and is not `skip`
+    Checked, ///< the nearest surface of each lane that is exactly inside the range of `rays` and is not `skip`
     Collect  ///< all candidates
   } mode = Mode::Nearest;
   // Nearest: rays by lane (RTCRay::id), and what was accepted.
-  const View* view = nullptr;    ///< rays through 4 x 4 pixels of a view, the first one at (x, y) ...
-  const ExactRay* ray = nullptr; ///< ... or one given ray
+  const View* view = nullptr;     ///< rays through 4 x 4 pixels of a view, the first one at (x, y) ...
+  const ExactRay* rays = nullptr; ///< ... or one given ray a lane
   int x = 0;
   int y = 0;
   float t[16];
   Hit best[16];
-  Hit skip;                          ///< Checked: a triangle that is not there
-  bool marginal = false;             ///< Checked: single precision may have missed or mistaken something
+  const Hit* skip = nullptr;         ///< Checked: a triangle that is not there, a lane
+  unsigned int marginal = 0;         ///< Checked: bits of lanes in which single precision may have missed something
   std::vector<Hit>* found = nullptr; ///< Collect
 };
 

@@ -102,6 +102,9 @@ public:
   /// First surface strictly between the camera and a point of `target` at `x_in_world`; object 0 when there is none.
   /// The target triangle itself never hides the point.
   virtual Hit occluder(const View& view, const Eigen::Vector3d& x_in_world, const Hit& target) const = 0;
+  /// The same of many points at once, each of its target. Quicker; those that follow each other should be neighbours.
+  virtual void occluders(
+    const View& view, const Eigen::Vector3d* x_in_world, const Hit* targets, std::size_t count, Hit* found) const = 0;
 };
 
 /// The fixed grid of canonical tiles on which every image is drawn, whatever tile size is asked for: tiles are anchored

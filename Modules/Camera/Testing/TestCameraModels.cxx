@@ -163,6 +163,37 @@ TEST(CameraFamily, RefusesPointsBehindAndLeavesThePixel)
   }
 }
 
+TEST(CameraFamily, ManyAtOnceAreEachAlone)
+{
+  for (const Member& member : family())
+  {
+    std::vector<Eigen::Vector2d> pixels;
+    std::vector<Eigen::Vector3d> points;
+    for (int i = 0; i < 7; ++i)
+    {
+      pixels.emplace_back(13.25 * i - 20, 40 - 9.5 * i);
+      points.emplace_back(0.3 * i - 1, 0.7 - 0.1 * i, 2.0 - i); // the last ones behind the camera
+    }
+    std::vector<dgtk::CameraRay> rays(8);
+    std::vector<Eigen::Vector2d> found(8, Eigen::Vector2d(-7, -7));
+    std::vector<std::uint8_t> seen(8, 9);
+    member.model->raysThrough(pixels.data(), 7, rays.data());
+    member.model->projectAll(points.data(), 7, found.data(), seen.data());
+    for (std::size_t i = 0; i < 7; ++i)
+    {
+      const dgtk::CameraRay ray = member.model->rayThrough(pixels[i]);
+      EXPECT_EQ(rays[i].origin, ray.origin) << member.label;
+      EXPECT_EQ(rays[i].direction, ray.direction) << member.label;
+      Eigen::Vector2d pixel(-7, -7);
+      EXPECT_EQ(seen[i], member.model->project(points[i], pixel) ? 1 : 0) << member.label;
+      EXPECT_EQ(found[i], pixel) << member.label;
+    }
+    EXPECT_EQ(seen[0], 1) << member.label;
+    EXPECT_EQ(seen[6], 0) << member.label;
+    EXPECT_EQ(seen[7], 9) << "beyond their number";
+  }
+}
+
 TEST(CameraFamily, LinearProjectionIsTheModel)
 {
   for (const Member& member : family())

@@ -116,6 +116,7 @@ public:
     }
   }
   Hit occluder(const View&, const Eigen::Vector3d&, const Hit&) const override { return {}; }
+  void occluders(const View&, const Eigen::Vector3d*, const Hit*, std::size_t, Hit*) const override {}
   mutable int Asked = 0;
 
 private:

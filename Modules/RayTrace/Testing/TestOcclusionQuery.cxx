@@ -342,6 +342,9 @@ TEST(OcclusionQuery, OccludersOfAnotherViewAreThoseOfEveryTriangle)
     computeSurfaceRows(*c.state, c.view, rect, buffer.hits.data(), false, rows);
     View other = c.view;
     other.camera_from_world = lookAtPose({ 3, 4, 3.5 }, { 0, 0, 0 }, { 0, 1, 0 });
+    std::vector<Eigen::Vector3d> points;
+    std::vector<Hit> targets;
+    std::vector<Hit> alone;
     for (std::size_t i = 0; i < buffer.hits.size(); i += 13)
     {
       if (buffer.hits[i].object == 0)
@@ -350,6 +353,9 @@ TEST(OcclusionQuery, OccludersOfAnotherViewAreThoseOfEveryTriangle)
       }
       const CameraRay seen = c.view.model->rayThrough({ double(i % rect.width) + 0.5, double(i / rect.width) + 0.5 });
       const Eigen::Vector3d x = c.view.camera_from_world.inverse() * (seen.origin + rows.t[i] * seen.direction);
+      points.push_back(x);
+      targets.push_back(buffer.hits[i]);
+      alone.push_back(query->occluder(other, x, buffer.hits[i]));
       const Eigen::Vector3d x_in_other = other.camera_from_world * x;
       Eigen::Vector2d pixel;
       if (!other.model->project(x_in_other, pixel))
@@ -368,7 +374,22 @@ TEST(OcclusionQuery, OccludersOfAnotherViewAreThoseOfEveryTriangle)
       const Hit expected = first != all.end() && first->t < t ? first->hit : Hit{};
       ++compared;
       hidden += expected.object != 0;
-      EXPECT_EQ(query->occluder(other, x, buffer.hits[i]), expected) << c.name << " at " << i;
+      EXPECT_EQ(alone.back(), expected) << c.name << " at " << i;
+    }
+    for (const std::size_t together :
+      { std::size_t(1), std::size_t(2), std::size_t(16), std::size_t(17), points.size() })
+    {
+      std::vector<Hit> found(points.size());
+      for (std::size_t first = 0; first < points.size(); first += together)
+      {
+        query->occluders(
+          other, &points[first], &targets[first], std::min(together, points.size() - first), &found[first]);
+      }
+      for (std::size_t i = 0; i < found.size(); ++i)
+      {
+        EXPECT_EQ(found[i].object, alone[i].object) << c.name << ' ' << i << " of " << together << " together";
+        EXPECT_EQ(found[i].triangle, alone[i].triangle) << c.name << ' ' << i << " of " << together << " together";
+      }
     }
   }
   EXPECT_GT(compared, 1000U);

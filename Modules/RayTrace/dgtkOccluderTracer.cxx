@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkOccluderTracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+/// Part of the distance that keeps the surface around a point from hiding it.
+constexpr double pointSlack = 1e-9;
+/// Pixels.
+constexpr double coarseError = 1.0 / 16;
+} // namespace
+
+bool isCoarse(const RayScene& scene, const View& view) { return scene.errorInPixels(view) > coarseError; }
+
+OccluderTracer::OccluderTracer(std::shared_ptr<const RayScene> scene, const View& view)
+  : Scene(std::move(scene))
+  , TheView(view)
+  , Coarse(isCoarse(*this->Scene, view))
+{
+  rtcInitIntersectContext(&this->Context.context);
+  // Embree's bounds of coherent packets lose surfaces when the rays start at different points and run along an axis but
+  // for a rounding, as those of parallel projections do.
+  const std::optional<LinearProjection> linear = view.model->linear();
+  if (linear && linear->perspective)
+  {
+    this->Context.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  }
+  this->Context.context.filter = rayFilter;
+  this->Context.scene = this->Scene.get();
+  this->Context.mode = RayContext::Mode::Checked;
+  this->Context.rays = this->Rays;
+}
+
+unsigned int OccluderTracer::aim(const Eigen::Vector3d* x_in_world, std::size_t count)
+{
+  Eigen::Vector3d* const x = this->Points;
+  Eigen::Vector2d* const pixels = this->Pixels;
+  CameraRay* const rays = this->CameraRays;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    x[i] = this->TheView.camera_from_world * x_in_world[i];
+    pixels[i].setZero();
+  }
+  this->TheView.model->projectAll(x, count, pixels, this->Seen);
+  this->TheView.model->raysThrough(pixels, count, rays);
+  unsigned int active = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Eigen::Vector3d way = x[i] - rays[i].origin;
+    const double t = way.dot(rays[i].direction) / rays[i].direction.squaredNorm();
+    const double most = t * (1 - pointSlack);
+    this->Rays[i] = { rays[i].origin, way / t, this->TheView.near, most }; // whatever the projection's rounding
+    active |= unsigned(this->Seen[i] != 0 && most > this->TheView.near) << i;
+  }
+  return active;
+}
+
+void OccluderTracer::traceOne(std::size_t lane)
+{
+  alignas(16) RTCRayHit query = makeQuery(this->Rays[lane]);
+  query.ray.id = unsigned(lane);
+  rtcIntersect1(this->Scene->handle(), &this->Context.context, &query);
+}
+
+void OccluderTracer::traceAll(unsigned int active)
+{
+  alignas(64) RTCRayHit16 packet;
+  alignas(64) int valid[lanes];
+  for (std::size_t i = 0; i < lanes; ++i)
+  {
+    valid[i] = (active >> i & 1U) != 0 ? -1 : 0;
+    const RTCRayHit query = valid[i] != 0 ? makeQuery(this->Rays[i]) : RTCRayHit{};
+    packet.ray.org_x[i] = query.ray.org_x;
+    packet.ray.org_y[i] = query.ray.org_y;
+    packet.ray.org_z[i] = query.ray.org_z;
+    packet.ray.dir_x[i] = query.ray.dir_x;
+    packet.ray.dir_y[i] = query.ray.dir_y;
+    packet.ray.dir_z[i] = query.ray.dir_z;
+    packet.ray.tnear[i] = query.ray.tnear;
+    packet.ray.tfar[i] = query.ray.tfar;
+    packet.ray.time[i] = 0;
+    packet.ray.mask[i] = ~0U;
+    packet.ray.id[i] = unsigned(i);
+    packet.ray.flags[i] = 0;
+    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  rtcIntersect16(valid, this->Scene->handle(), &this->Context.context, &packet);
+}
+
+void OccluderTracer::trace(const Eigen::Vector3d* x_in_world, const Hit* targets, std::size_t count, Hit* found)
+{
+  const unsigned int active = this->aim(x_in_world, count);
+  std::fill(this->Context.t, this->Context.t + lanes, INFINITY);
+  std::fill(this->Context.best, this->Context.best + lanes, Hit{});
+  this->Context.skip = targets;
+  this->Context.marginal = this->Coarse ? active : 0;
+  if ((active & (active - 1)) == 0)
+  {
+    if (active != 0)
+    {
+      this->traceOne(std::size_t(__builtin_ctz(active)));
+    }
+  }
+  else
+  {
+    this->traceAll(active);
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    found[i] =
+      (this->Context.marginal >> i & 1U) != 0 ? this->traceAround(this->Rays[i], targets[i]) : this->Context.best[i];
+  }
+}
+
+Hit OccluderTracer::traceAround(const ExactRay& ray, const Hit& target) const
+{
+  std::vector<RayHit> all;
+  collectHits(*this->Scene, ray, true, all);
+  const auto first = std::find_if(all.begin(), all.end(), [&](const RayHit& hit) { return hit.hit != target; });
+  return first == all.end() ? Hit{} : first->hit;
+}
+
+} // namespace dgtk
