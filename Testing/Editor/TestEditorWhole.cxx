@@ -26,7 +26,8 @@
 
 namespace
 {
-constexpr int largeWidth = 2000; // pixels
+constexpr int largeWidth = 2000;    // pixels
+constexpr int endlessWidth = 20000; // pixels of a picture that nothing here lives to see
 
 /// Made in that folder.
 QString smallDataset(const QString& folder)
@@ -130,8 +131,8 @@ void TestEditorWhole::closingEndsTheProgram()
   auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
   dialog->findChild<QLineEdit*>("folder")->setText(this->path("interrupted"));
   dialog->findChild<QCheckBox*>("ownSize")->setChecked(false);
-  dialog->findChild<QSpinBox*>("width")->setValue(largeWidth);
-  dialog->findChild<QSpinBox*>("height")->setValue(largeWidth);
+  dialog->findChild<QSpinBox*>("width")->setValue(endlessWidth);
+  dialog->findChild<QSpinBox*>("height")->setValue(endlessWidth);
   auto* start = dialog->findChild<QPushButton*>("start");
   start->click();
   QTRY_VERIFY(!contents(this->path("interrupted")).isEmpty());

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <charconv>
 #include <clocale>
+#include <cstdlib>
+#include <string>
 
 using namespace dgtk;
 using namespace dgtk::test;
@@ -13,7 +16,25 @@ namespace
 bool hasComma = false;
 }
 
-/// In place of the system's, whose locales with a decimal comma need not be installed.
+// In place of the system's, whose locales with a decimal comma need not be installed.
+
+extern "C" double strtod(const char* text, char** end) noexcept
+{
+  std::string plain(text);
+  const std::size_t at = plain.find(hasComma ? ',' : '.');
+  if (at != std::string::npos)
+  {
+    plain[at] = '.';
+  }
+  double value = 0;
+  const std::from_chars_result parsed = std::from_chars(plain.data(), plain.data() + plain.size(), value);
+  if (end)
+  {
+    *end = const_cast<char*>(text) + (parsed.ptr - plain.data());
+  }
+  return value;
+}
+
 extern "C" lconv* localeconv() noexcept
 {
   static char point[] = ".";
