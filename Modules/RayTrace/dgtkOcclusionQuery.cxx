@@ -33,11 +33,7 @@ public:
       return;
     }
     // The meshes of the state are made, and kept, before those of the last one go.
-    std::vector<std::shared_ptr<const RayMesh>> meshes;
-    for (const Instance& instance : state->instances)
-    {
-      meshes.push_back(this->Device->mesh(instance, false));
-    }
+    std::vector<std::shared_ptr<const RayMesh>> meshes = this->Device->meshes(state->instances, false);
     this->Meshes.swap(meshes);
     this->Scenes.clear();
     this->State = std::move(state);

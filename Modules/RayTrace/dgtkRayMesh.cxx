@@ -2,11 +2,13 @@
 #include "dgtkRayMesh.h"
 
 #include "dgtkError.h"
+#include "dgtkThreadPool.h"
 
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 #include <tuple>
 
 namespace dgtk
@@ -18,6 +20,15 @@ namespace
 constexpr double largestCondition = 1e4;
 /// Sine of the angle at the first corner below which a triangle has no area.
 constexpr double degenerateSine = 1e-12;
+/// Fewer are not worth threads.
+constexpr std::size_t manyTriangles = 20000;
+constexpr std::size_t nothing = ~std::size_t(0);
+
+bool canBeHit(const Instance& instance)
+{
+  return instance.model && instance.geometry && !instance.model->triangles.empty() &&
+         instance.world_from_object.linear.allFinite() && instance.world_from_object.translation.allFinite();
+}
 
 bool needsBaking(const Eigen::Matrix3d& linear)
 {
@@ -226,20 +237,35 @@ void RayDevice::check() const
   }
 }
 
-std::shared_ptr<const RayMesh> RayDevice::mesh(const Instance& instance, bool bare)
+std::shared_ptr<const RayMesh> RayDevice::find(const RayMeshKey& key)
 {
-  if (!instance.model || !instance.geometry || instance.model->triangles.empty() ||
-      !instance.world_from_object.linear.allFinite() || !instance.world_from_object.translation.allFinite())
-  {
-    return nullptr;
-  }
-  RayMeshKey key = keyOf(instance, bare);
+  const std::lock_guard<std::mutex> guard(this->Lock);
+  const auto known = this->Meshes.find(key);
+  return known == this->Meshes.end() ? nullptr : known->second.lock();
+}
+
+std::shared_ptr<const RayMesh> RayDevice::keep(const RayMeshKey& key, std::shared_ptr<const RayMesh> mesh)
+{
   const std::lock_guard<std::mutex> guard(this->Lock);
   std::weak_ptr<const RayMesh>& known = this->Meshes[key];
-  if (std::shared_ptr<const RayMesh> mesh = known.lock())
+  if (std::shared_ptr<const RayMesh> first = known.lock())
   {
-    return mesh;
+    return first;
   }
+  known = mesh;
+  if (this->Meshes.size() > this->MostMeshes)
+  {
+    for (auto it = this->Meshes.begin(); it != this->Meshes.end();)
+    {
+      it = it->second.expired() ? this->Meshes.erase(it) : std::next(it);
+    }
+    this->MostMeshes = 2 * this->Meshes.size() + 16;
+  }
+  return mesh;
+}
+
+std::shared_ptr<const RayMesh> RayDevice::make(const Instance& instance, const RayMeshKey& key)
+{
   const auto mesh = std::make_shared<RayMesh>();
   mesh->device = this->shared_from_this();
   mesh->geometry = instance.geometry;
@@ -250,19 +276,57 @@ std::shared_ptr<const RayMesh> RayDevice::mesh(const Instance& instance, bool ba
   measure(*mesh);
   mesh->scene = rtcNewScene(this->Handle);
   rtcSetSceneFlags(
-    mesh->scene, bare ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    mesh->scene, key.bare ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   rtcSetSceneBuildQuality(mesh->scene, RTC_BUILD_QUALITY_MEDIUM);
   RTCBuffer vertices = makeVertices(*mesh, mesh->baked ? &instance.world_from_object.linear : nullptr);
   attachAll(*mesh, key, vertices);
   rtcReleaseBuffer(vertices);
   rtcCommitScene(mesh->scene);
   this->check();
-  known = mesh;
-  for (auto it = this->Meshes.begin(); it != this->Meshes.end();)
-  {
-    it = it->second.expired() ? this->Meshes.erase(it) : std::next(it);
-  }
   return mesh;
+}
+
+std::vector<std::shared_ptr<const RayMesh>> RayDevice::meshes(const std::vector<Instance>& instances, bool bare)
+{
+  struct Wanted
+  {
+    const Instance* instance;
+    const RayMeshKey* key;
+    std::shared_ptr<const RayMesh> mesh;
+  };
+  std::map<RayMeshKey, std::size_t> byKey;
+  std::vector<Wanted> wanted;
+  std::vector<std::size_t> uses(instances.size(), nothing);
+  std::size_t triangles = 0;
+  for (std::size_t i = 0; i < instances.size(); ++i)
+  {
+    if (!canBeHit(instances[i]))
+    {
+      continue;
+    }
+    const auto [entry, isNew] = byKey.emplace(keyOf(instances[i], bare), wanted.size());
+    uses[i] = entry->second;
+    if (isNew)
+    {
+      wanted.push_back({ &instances[i], &entry->first, this->find(entry->first) });
+      triangles += wanted.back().mesh ? 0 : instances[i].model->triangles.size();
+    }
+  }
+  const bool isWork = wanted.size() > 1 && triangles > manyTriangles;
+  ThreadPool(isWork ? std::max(1, static_cast<int>(std::thread::hardware_concurrency())) : 1)
+    .parallelFor(static_cast<int>(wanted.size()),
+      [&](int i)
+      {
+        Wanted& one = wanted[static_cast<std::size_t>(i)];
+        one.mesh = one.mesh ? one.mesh : this->keep(*one.key, this->make(*one.instance, *one.key));
+      });
+  std::vector<std::shared_ptr<const RayMesh>> meshes;
+  meshes.reserve(instances.size());
+  for (const std::size_t use : uses)
+  {
+    meshes.push_back(use == nothing ? nullptr : wanted[use].mesh);
+  }
+  return meshes;
 }
 
 } // namespace dgtk

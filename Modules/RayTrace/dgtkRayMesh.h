@@ -58,16 +58,22 @@ public:
   RayDevice& operator=(const RayDevice&) = delete;
 
   RTCDevice handle() const { return this->Handle; }
-  /// The mesh of an instance, made when nobody has it; `bare` ones know no cut-out textures and call no filters.
-  /// Thread-safe. Null when there is nothing to hit.
-  std::shared_ptr<const RayMesh> mesh(const Instance& instance, bool bare);
+  /// The meshes of instances, null where there is nothing to hit. Those that nobody has are made, on as many threads as
+  /// the machine has; `bare` ones know no cut-out textures and call no filters. Thread-safe.
+  std::vector<std::shared_ptr<const RayMesh>> meshes(const std::vector<Instance>& instances, bool bare);
   /// Throws MachineError when Embree reported an error.
   void check() const;
 
 private:
+  std::shared_ptr<const RayMesh> find(const RayMeshKey& key);
+  std::shared_ptr<const RayMesh> make(const Instance& instance, const RayMeshKey& key);
+  /// What the others find from now on; the first one of a key.
+  std::shared_ptr<const RayMesh> keep(const RayMeshKey& key, std::shared_ptr<const RayMesh> mesh);
+
   RTCDevice Handle = nullptr;
   std::mutex Lock;
   std::map<RayMeshKey, std::weak_ptr<const RayMesh>> Meshes;
+  std::size_t MostMeshes = 16; ///< with more, those that nobody has any more are dropped
 };
 
 } // namespace dgtk

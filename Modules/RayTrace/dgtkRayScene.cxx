@@ -56,39 +56,48 @@ void RayScene::place(std::shared_ptr<const SceneState> state, const Rigid3& came
   }
   this->Instances.resize(this->State->instances.size());
   this->Reach = 0;
+  if (newState)
+  {
+    const std::vector<std::shared_ptr<const RayMesh>> meshes = this->Device->meshes(this->State->instances, this->Bare);
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+    {
+      this->setMesh(i, meshes[i]);
+    }
+  }
   for (std::size_t i = 0; i < this->Instances.size(); ++i)
   {
-    this->placeInstance(i, newState);
+    this->placeInstance(i);
     this->Reach = std::max(this->Reach, this->Instances[i].reach);
   }
   rtcCommitScene(this->Scene);
   this->Device->check();
 }
 
-void RayScene::placeInstance(std::size_t index, bool newState)
+void RayScene::setMesh(std::size_t index, const std::shared_ptr<const RayMesh>& mesh)
+{
+  Placed& placed = this->Instances[index];
+  if (!mesh && placed.geometry)
+  {
+    rtcDetachGeometry(this->Scene, unsigned(index));
+    rtcReleaseGeometry(placed.geometry);
+    placed.geometry = nullptr;
+  }
+  if (mesh && mesh != placed.mesh)
+  {
+    if (!placed.geometry)
+    {
+      placed.geometry = rtcNewGeometry(this->Device->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
+      rtcAttachGeometryByID(this->Scene, placed.geometry, unsigned(index));
+    }
+    rtcSetGeometryInstancedScene(placed.geometry, mesh->scene);
+  }
+  placed.mesh = mesh;
+}
+
+void RayScene::placeInstance(std::size_t index)
 {
   const Instance& instance = this->State->instances[index];
   Placed& placed = this->Instances[index];
-  if (newState)
-  {
-    std::shared_ptr<const RayMesh> mesh = this->Device->mesh(instance, this->Bare);
-    if (!mesh && placed.geometry)
-    {
-      rtcDetachGeometry(this->Scene, unsigned(index));
-      rtcReleaseGeometry(placed.geometry);
-      placed.geometry = nullptr;
-    }
-    if (mesh && mesh != placed.mesh)
-    {
-      if (!placed.geometry)
-      {
-        placed.geometry = rtcNewGeometry(this->Device->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcAttachGeometryByID(this->Scene, placed.geometry, unsigned(index));
-      }
-      rtcSetGeometryInstancedScene(placed.geometry, mesh->scene);
-    }
-    placed.mesh = std::move(mesh);
-  }
   if (!placed.mesh)
   {
     placed.reach = 0;

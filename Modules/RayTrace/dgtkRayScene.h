@@ -61,7 +61,8 @@ public:
 private:
   void corners(const Hit& hit, Eigen::Vector3d out[3]) const;
   bool isThere(const ExactRay& ray, const Hit& hit, const ExactHit& exact) const;
-  void placeInstance(std::size_t index, bool newState);
+  void setMesh(std::size_t index, const std::shared_ptr<const RayMesh>& mesh);
+  void placeInstance(std::size_t index);
 
   std::shared_ptr<RayDevice> Device;
   bool Bare;

@@ -3,9 +3,11 @@
 
 #include "dgtkHash.h"
 #include "dgtkRepresentation.h"
+#include "dgtkThreadPool.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <thread>
 
 namespace dgtk
 {
@@ -13,20 +15,23 @@ namespace dgtk
 std::vector<InputRecord> inputsOf(const Stage& stage, const std::string& folder)
 {
   namespace fs = std::filesystem;
-  std::vector<InputRecord> inputs;
-  for (const std::string& file : stage.inputFiles())
-  {
-    InputRecord record;
-    record.path = fs::relative(fs::absolute(file), fs::absolute(folder)).generic_string();
-    record.bytes = fs::file_size(file);
-    record.sha256 = Sha256::ofFile(file);
-    inputs.push_back(record);
-  }
+  const std::vector<std::string> files = stage.inputFiles();
+  std::vector<InputRecord> inputs(files.size());
+  ThreadPool(std::max(1, static_cast<int>(std::thread::hardware_concurrency())))
+    .parallelFor(static_cast<int>(files.size()),
+      [&](int i)
+      {
+        const std::string& file = files[static_cast<std::size_t>(i)];
+        InputRecord& record = inputs[static_cast<std::size_t>(i)];
+        record.path = fs::relative(fs::absolute(file), fs::absolute(folder)).generic_string();
+        record.bytes = fs::file_size(file);
+        record.sha256 = Sha256::ofFile(file);
+      });
   return inputs;
 }
 
-std::vector<CameraRecord> cameraRecords(const WorkPlan& plan, const Stage& stage, const std::string& folder,
-  const std::map<std::string, std::string>& copies)
+std::vector<CameraRecord> cameraRecords(
+  const WorkPlan& plan, const Stage& stage, const std::string& folder, const std::map<std::string, std::string>& copies)
 {
   namespace fs = std::filesystem;
   std::vector<Job> jobs = plan.jobs;
@@ -48,9 +53,8 @@ std::vector<CameraRecord> cameraRecords(const WorkPlan& plan, const Stage& stage
     for (const auto& [name, file] : parameters.files)
     {
       const auto copy = copies.find(file);
-      record.files[name] = copy != copies.end()
-                             ? copy->second
-                             : fs::relative(fs::absolute(file), fs::absolute(folder)).generic_string();
+      record.files[name] =
+        copy != copies.end() ? copy->second : fs::relative(fs::absolute(file), fs::absolute(folder)).generic_string();
     }
     record.R = view.camera_from_world.rotation;
     record.t = view.camera_from_world.translation;
