@@ -286,6 +286,10 @@ TEST(Md2, Refusals)
 {
   EXPECT_EQ(refusal("md2", ""), "model.md2: is not an MD2 file (expected 'IDP2' at its start, found a shorter file)");
   EXPECT_THAT(refusal("md2", "IDP3aaaabbbb"), HasSubstr("is not an MD2 file"));
+  for (const std::size_t length : { 8, 40, 67 })
+  {
+    EXPECT_THAT(refusal("md2", md2Seed().bytes().substr(0, length)), HasSubstr("the header")) << length;
+  }
   EXPECT_EQ(refusedWith(4, 15), "model.md2: is an MD2 file of another version (expected 8, found 15)");
   EXPECT_THAT(refusedWith(8 + 4 * 4, -1), HasSubstr("bad number of vertices in the header"));
   EXPECT_THAT(refusedWith(8 + 4 * 4, 50), HasSubstr("bad frames in the header"));

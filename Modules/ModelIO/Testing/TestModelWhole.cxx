@@ -476,3 +476,72 @@ warning texture 'glow.png' not found (tried as written, 'glow.png' beside the mo
 warning texture 'dirt.png' not found (tried as written, 'dirt.png' beside the model, in any case, with other image extensions, as an 8.3 name, and in ../textures)
 )");
 }
+
+TEST(ModelWhole, Off)
+{
+  EXPECT_EQ(whole("off", "OFF\n5 3 0\n0 0 0\n2 0 0\n2 1 0\n0 1 0\n1 0 4\n4 0 1 2 3\n3 0 4 1\n3 2 4 3\n"),
+    R"(
+off: 5 vertices, 10 split, 4 triangles, declared 0, two-sided 0 of 0, lines 0, materials 0, frames 1
+bounds 0 0 0 to 2 1 4
+material '' ambient 0.2 0.2 0.2 diffuse 0.8 0.8 0.8 specular 0 0 0 emission 0 0 0 shininess 0 opacity 1
+part '' material 0, 4 from 0
+ triangle 0
+  0 0 0 | 0 0 1 | 0
+  2 0 0 | 0 0 1 | 1
+  2 1 0 | 0 0 1 | 2
+ triangle 1
+  0 0 0 | 0 0 1 | 0
+  2 1 0 | 0 0 1 | 2
+  0 1 0 | 0 0 1 | 3
+ triangle 2
+  0 0 0 | 0 1 0 | 0
+  1 0 4 | 0 1 0 | 4
+  2 0 0 | 0 1 0 | 1
+ triangle 3
+  2 1 0 | 0 -0.9701 -0.2425 | 2
+  1 0 4 | 0 -0.9701 -0.2425 | 4
+  0 1 0 | 0 -0.9701 -0.2425 | 3
+)");
+}
+
+TEST(ModelWhole, Collada)
+{
+  EXPECT_EQ(whole("dae", R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>
+<library_effects><effect id="paint-fx"><profile_COMMON><technique sid="common"><phong>
+<emission><color>0.1 0.2 0.3 1</color></emission><ambient><color>0.4 0.5 0.6 1</color></ambient>
+<diffuse><color>0.7 0.8 0.9 1</color></diffuse><specular><color>0.25 0.5 0.75 1</color></specular>
+<shininess><float>12</float></shininess></phong></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="paint" name="paint"><instance_effect url="#paint-fx"/></material></library_materials>
+<library_geometries><geometry id="g" name="sheet"><mesh>
+<source id="p"><float_array id="pa" count="12">0 0 0 1 0 0 1 1 0 0 1 0</float_array><technique_common>
+<accessor source="#pa" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<source id="t"><float_array id="ta" count="8">0 0 1 0 1 1 0 0.5</float_array><technique_common>
+<accessor source="#ta" count="4" stride="2"><param name="S" type="float"/><param name="T" type="float"/>
+</accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles material="m" count="2"><input semantic="VERTEX" source="#v" offset="0"/>
+<input semantic="TEXCOORD" source="#t" offset="1" set="0"/><p>0 0 1 1 2 2 0 0 2 2 3 3</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n" name="place"><translate>10 20 30</translate><scale>2 3 4</scale>
+<instance_geometry url="#g"><bind_material><technique_common><instance_material symbol="m" target="#paint"/>
+</technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>
+)"),
+    R"(
+collada: 4 vertices, 4 split, 2 triangles, declared 0, two-sided 0 of 0, lines 0, materials 1, frames 1
+bounds 10 20 30 to 12 23 30
+material 'paint' ambient 0.4 0.5 0.6 diffuse 0.7 0.8 0.9 specular 0.25 0.5 0.75 emission 0.1 0.2 0.3 shininess 12 opacity 1
+part 'place' material 0, 2 from 0
+ triangle 0
+  10 20 30 | 0 0 1 | 0 0 | 0
+  12 20 30 | 0 0 1 | 1 0 | 1
+  12 23 30 | 0 0 1 | 1 1 | 2
+ triangle 1
+  10 20 30 | 0 0 1 | 0 0 | 0
+  12 23 30 | 0 0 1 | 1 1 | 2
+  10 23 30 | 0 0 1 | 0 0.5 | 3
+)");
+}

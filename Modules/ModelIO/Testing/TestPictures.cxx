@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <map>
 
 #include <sys/resource.h>
@@ -310,6 +311,17 @@ TEST(Pictures, ChannelsAreGreyOrColourAndAlpha)
     EXPECT_NEAR(light->rgb.at(2), grey ? 0.2 : 0.6, 1e-3) << channels;
     EXPECT_NEAR(light->rgb.at(3), 1, 1e-3) << channels;
     EXPECT_NEAR(light->rgb.at(5), 1, 1e-3) << channels;
+  }
+  std::string problem;
+  ASSERT_TRUE(write("a.exr", 3, { -0.5f, 0, 2, 1000, -0.0f, 0.25f }));
+  const auto light = dgtk::decodeRadiance(folder.path("a.exr"), problem);
+  ASSERT_TRUE(light) << problem;
+  EXPECT_EQ(light->rgb, (std::vector<float>{ 0, 0, 2, 1000, 0, 0.25f })) << "there is no less than none";
+  for (const float wrong : { std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN() })
+  {
+    ASSERT_TRUE(write("a.exr", 3, { 0, 0, 0, 0, 0, wrong }));
+    EXPECT_FALSE(dgtk::decodeRadiance(folder.path("a.exr"), problem));
+    EXPECT_EQ(problem, "has a value that is not finite");
   }
 }
 
