@@ -5,18 +5,14 @@
 #include "dgtkSyntheticScene.h"
 #include "dgtkTestSupport.h"
 #include "dgtkViewActors.h"
+#include "dgtkViewChecks.h"
 #include "dgtkViewLines.h"
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
-#include <vtkActor.h>
-#include <vtkActorCollection.h>
 #include <vtkCellArray.h>
 #include <vtkGlyph3DMapper.h>
 #include <vtkImageData.h>
-#include <vtkLight.h>
-#include <vtkLightCollection.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -24,54 +20,22 @@
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkRenderer.h>
 #include <vtkTexture.h>
 
 #include <cmath>
-#include <map>
-#include <string>
 #include <vector>
 
 namespace
 {
 using namespace dgtk;
+using test::actorsOf;
+using test::expectVector;
+using test::viewTolerance;
 using V = Eigen::Vector3d;
-
-constexpr double tolerance = 1e-12;
-
-std::vector<vtkActor*> actorsOf(vtkRenderer* renderer)
-{
-  std::vector<vtkActor*> actors;
-  vtkActorCollection* const all = renderer->GetActors();
-  all->InitTraversal();
-  while (vtkActor* const actor = all->GetNextActor())
-  {
-    actors.push_back(actor);
-  }
-  return actors;
-}
-
-std::vector<vtkLight*> lightsOf(vtkRenderer* renderer)
-{
-  std::vector<vtkLight*> lights;
-  vtkLightCollection* const all = renderer->GetLights();
-  all->InitTraversal();
-  while (vtkLight* const light = all->GetNextItem())
-  {
-    lights.push_back(light);
-  }
-  return lights;
-}
 
 vtkPolyData* dataOf(vtkActor* actor) { return vtkPolyData::SafeDownCast(actor->GetMapper()->GetInputAsDataSet()); }
 
 vtkIdType trianglesOf(vtkActor* actor) { return dataOf(actor)->GetNumberOfPolys(); }
-
-void expectVector(const double* found, const V& expected, const char* what = "")
-{
-  EXPECT_LT((V(found[0], found[1], found[2]) - expected).norm(), tolerance)
-    << what << ": " << found[0] << ' ' << found[1] << ' ' << found[2];
-}
 
 TEST(ViewCopies, PlacesAreTurnedAndScaledButNotSheared)
 {
@@ -81,9 +45,9 @@ TEST(ViewCopies, PlacesAreTurnedAndScaledButNotSheared)
   auto found = ViewCopies::placeOf(place);
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->position, V(5, 6, 7));
-  EXPECT_LT((found->scale - V(2, 3, 4)).norm(), tolerance);
+  EXPECT_LT((found->scale - V(2, 3, 4)).norm(), viewTolerance);
   const Eigen::Vector4d turned(std::cos(0.25), std::sin(0.25) / 3, 2 * std::sin(0.25) / 3, 2 * std::sin(0.25) / 3);
-  EXPECT_LT((found->rotation - turned).norm(), tolerance);
+  EXPECT_LT((found->rotation - turned).norm(), viewTolerance);
   place.linear = V(2, -3, 4).asDiagonal();
   found = ViewCopies::placeOf(place);
   ASSERT_TRUE(found.has_value());
@@ -91,7 +55,7 @@ TEST(ViewCopies, PlacesAreTurnedAndScaledButNotSheared)
     Eigen::Quaterniond(found->rotation[0], found->rotation[1], found->rotation[2], found->rotation[3])
       .toRotationMatrix() *
     found->scale.asDiagonal();
-  EXPECT_LT((made - place.linear).norm(), tolerance) << "a mirrored one";
+  EXPECT_LT((made - place.linear).norm(), viewTolerance) << "a mirrored one";
   for (const auto& [shear, isPlace] : { std::pair(0.9e-6, true), std::pair(1.1e-6, false) })
   {
     place.linear = Eigen::Matrix3d::Identity();
@@ -134,8 +98,8 @@ TEST(ViewMeshes, EveryLevelOfASphere)
   {
     const auto k = std::size_t(i);
     ASSERT_LT((V(all->GetPoint(i)) - model->rest->positions[k]).norm(), 1e-6);
-    ASSERT_LT(
-      (V(all->GetPointData()->GetNormals()->GetTuple3(i)) - model->rest->normals[k].cast<double>()).norm(), tolerance);
+    ASSERT_LT((V(all->GetPointData()->GetNormals()->GetTuple3(i)) - model->rest->normals[k].cast<double>()).norm(),
+      viewTolerance);
   }
   const double cells[] = { 0, 14, 6 };
   for (int level = 1; level < 3; ++level)
@@ -152,7 +116,7 @@ TEST(ViewMeshes, EveryLevelOfASphere)
       ASSERT_LT(
         (V(coarse->GetPointData()->GetNormals()->GetTuple3(i)) - model->rest->normals[fewer->sources[k]].cast<double>())
           .norm(),
-        tolerance);
+        viewTolerance);
     }
     coarse->GetPolys()->InitTraversal();
     for (std::size_t t = 0; coarse->GetPolys()->GetNextCell(count, corners); ++t)
@@ -211,138 +175,6 @@ TEST(LineActor, IsThereWhenItHasLines)
   EXPECT_EQ(data->GetNumberOfLines(), 2);
   expectVector(data->GetPoint(1), V(4, 5, 6));
   expectVector(data->GetPoint(2), V(7, 8, 9));
-}
-
-class ViewLightsTable : public testing::Test
-{
-protected:
-  vtkNew<vtkRenderer> Renderer;
-  ViewLights Lights{ Renderer };
-  SceneState Surroundings;
-  ViewCamera Front{ ViewKind::Front };
-};
-
-TEST_F(ViewLightsTable, EveryKindOfLight)
-{
-  LightState light;
-  light.position = V(1, 2, 3);
-  light.target = V(4, 5, 6);
-  light.attenuation = V(0.5, 0.25, 0.125);
-  light.diffuse = V(0.1, 0.2, 0.3);
-  light.specular = V(0.4, 0.5, 0.6);
-  light.coneAngle = 35;
-  light.exponent = 7;
-  light.intensity = 0.75;
-  struct Row
-  {
-    LightKind kind;
-    bool head, positional;
-    double cone;
-  };
-  const Row rows[] = { { LightKind::Point, false, true, 180 }, { LightKind::Head, true, false, 180 },
-    { LightKind::Directional, false, false, 180 }, { LightKind::Spot, false, true, 35 } };
-  for (const Row& row : rows)
-  {
-    light.kind = row.kind;
-    this->Surroundings.lights.push_back(light);
-  }
-  EXPECT_TRUE(this->Lights.show(this->Surroundings, nullptr, this->Front));
-  EXPECT_FALSE(this->Lights.show(this->Surroundings, nullptr, this->Front)) << "nothing looks otherwise";
-  const std::vector<vtkLight*> lights = lightsOf(this->Renderer);
-  ASSERT_EQ(lights.size(), 4u);
-  for (std::size_t i = 0; i < 4; ++i)
-  {
-    EXPECT_EQ(bool(lights[i]->LightTypeIsHeadlight()), rows[i].head) << i;
-    EXPECT_EQ(bool(lights[i]->LightTypeIsSceneLight()), !rows[i].head) << i;
-    EXPECT_EQ(bool(lights[i]->GetPositional()), rows[i].positional) << i;
-    EXPECT_EQ(lights[i]->GetConeAngle(), rows[i].cone) << i;
-    EXPECT_EQ(lights[i]->GetExponent(), 7);
-    EXPECT_EQ(lights[i]->GetIntensity(), 0.75);
-    expectVector(lights[i]->GetAttenuationValues(), V(0.5, 0.25, 0.125));
-    expectVector(lights[i]->GetDiffuseColor(), V(0.1, 0.2, 0.3));
-    expectVector(lights[i]->GetSpecularColor(), V(0.4, 0.5, 0.6));
-    if (!rows[i].head)
-    {
-      expectVector(lights[i]->GetPosition(), V(1, 2, 3));
-      expectVector(lights[i]->GetFocalPoint(), V(4, 5, 6));
-    }
-  }
-  // Dark ones fill up to a power of two.
-  for (const auto& [added, shown] : { std::pair(1, 8u), std::pair(4, 8u), std::pair(5, 16u) })
-  {
-    this->Surroundings.lights.assign(std::size_t(4 + added), light);
-    this->Lights.show(this->Surroundings, nullptr, this->Front);
-    ASSERT_EQ(lightsOf(this->Renderer).size(), shown) << added;
-    if (added != 4)
-    {
-      expectVector(lightsOf(this->Renderer).back()->GetDiffuseColor(), V(0, 0, 0));
-    }
-  }
-  this->Lights.setSceneLights(false);
-  EXPECT_TRUE(this->Lights.show(this->Surroundings, nullptr, this->Front));
-  ASSERT_EQ(lightsOf(this->Renderer).size(), 1u);
-  EXPECT_TRUE(lightsOf(this->Renderer)[0]->LightTypeIsHeadlight());
-}
-
-TEST_F(ViewLightsTable, MaterialsOfEachLight)
-{
-  Material material;
-  material.ambient = V(0.1, 0.2, 0.4);
-  material.diffuse = V(0.5, 0.6, 0.8);
-  material.specular = V(0.3, 0.2, 0.1);
-  material.emission = V(0.05, 0.9, 0);
-  material.shininess = 0.25;
-  material.opacity = 0.75;
-  LightState light;
-  light.diffuse = V(1, 0.5, 0.5);
-  light.specular = V(0.25, 0.25, 0);
-  light.ambient = V(0.5, 0, 1);
-  light.intensity = 2;
-  this->Surroundings.lights = { light };
-  this->Lights.show(this->Surroundings, nullptr, this->Front);
-  vtkNew<vtkProperty> property;
-  this->Lights.fill(material, *property);
-  // The world's ambient light of 0.2 and the lights' own.
-  expectVector(property->GetAmbientColor(), V(0.05 + 1.2 * 0.1, 0.9 + 0.2 * 0.2, 2.2 * 0.4), "ambient");
-  expectVector(property->GetDiffuseColor(), material.diffuse, "diffuse");
-  expectVector(property->GetSpecularColor(), material.specular, "specular");
-  EXPECT_EQ(property->GetAmbient(), 1);
-  EXPECT_EQ(property->GetDiffuse(), 1);
-  EXPECT_DOUBLE_EQ(property->GetSpecular(), 0.25) << "the part of the lights' specular light";
-  EXPECT_EQ(property->GetSpecularPower(), 1);
-  EXPECT_EQ(property->GetOpacity(), 0.75);
-  material.shininess = 20;
-  material.emission = V(1, 1, 1);
-  this->Surroundings.lights[0].specular = V(1, 1, 1);
-  this->Surroundings.lights[0].diffuse = V(0, 0, 1);
-  EXPECT_TRUE(this->Lights.show(this->Surroundings, nullptr, this->Front));
-  this->Lights.fill(material, *property);
-  expectVector(property->GetAmbientColor(), V(1, 1, 1), "no more than white");
-  EXPECT_EQ(property->GetSpecular(), 1) << "no more than all";
-  EXPECT_EQ(property->GetSpecularPower(), 20);
-  this->Surroundings.lights[0].diffuse = V(0, 0, 0);
-  this->Lights.show(this->Surroundings, nullptr, this->Front);
-  this->Lights.fill(material, *property);
-  EXPECT_EQ(property->GetSpecular(), 1) << "nothing to compare with";
-  material.emission = V(0.05, 0.1, 0);
-  this->Lights.setSceneLights(false);
-  this->Lights.show(this->Surroundings, nullptr, this->Front);
-  this->Lights.fill(material, *property);
-  expectVector(property->GetAmbientColor(), V(0.05 + 0.125, 0.1 + 0.15, 0.2), "head");
-  EXPECT_EQ(property->GetDiffuse(), 0.85);
-  EXPECT_EQ(property->GetSpecular(), 0.5);
-}
-
-TEST_F(ViewLightsTable, Backgrounds)
-{
-  this->Surroundings.background = V(0.25, 0.5, 0.75);
-  this->Lights.show(this->Surroundings, nullptr, this->Front);
-  expectVector(this->Renderer->GetBackground(), V(0.25, 0.5, 0.75));
-  EXPECT_FALSE(this->Renderer->GetGradientBackground());
-  this->Lights.setSceneLights(false);
-  this->Lights.show(this->Surroundings, nullptr, this->Front);
-  expectVector(this->Renderer->GetBackground(), V(0, 0, 0), "the renderer's own");
-  EXPECT_TRUE(this->Renderer->GetGradientBackground());
 }
 
 /// A scene of `copies` spheres along x, 10 apart, a box that is not visible, lights and a camera.
@@ -434,6 +266,9 @@ TEST_F(ViewActorsTable, ObjectsLightsCamerasGridAndAxes)
   EXPECT_EQ(all[6]->GetProperty(), all[7]->GetProperty());
   expectVector(all[9]->GetProperty()->GetColor(), V(0.5, 1, 0), "as bright as can be");
   expectVector(all[9]->GetPosition(), V(1, 2, 3));
+  EXPECT_NEAR(dataOf(all[9])->GetBounds()[5], 1, 1e-6) << "a ball of radius 1";
+  EXPECT_EQ(all[9]->GetProperty()->GetAmbient(), 0.6);
+  EXPECT_EQ(all[9]->GetProperty()->GetDiffuse(), 0.4);
   EXPECT_DOUBLE_EQ(all[9]->GetScale()[0], lightRadius(this->Places));
   EXPECT_TRUE(all[9]->GetVisibility());
   expectVector(all[10]->GetProperty()->GetColor(), V(0.35, 0.35, 0.35), "not enabled");
@@ -545,6 +380,102 @@ TEST_F(ViewActorsTable, SixteenCopiesAreDrawnTogether)
         EXPECT_TRUE(together);
         EXPECT_EQ(vtkPolyData::SafeDownCast(mapper->GetInput())->GetNumberOfPoints(), 16);
         EXPECT_TRUE(actor->GetVisibility());
+      }
+    }
+  }
+}
+
+TEST_F(ViewActorsTable, ObjectsBecomeCopiesAndObjectsAgain)
+{
+  ViewActors actors(this->Renderer, ViewKind::Perspective);
+  ViewCamera camera(ViewKind::Perspective);
+  this->place(16);
+  camera.frame(this->Places.box, 4.0 / 3);
+  const auto actorsOfSpheres = [&]
+  {
+    this->show(actors);
+    actors.chooseDetail(camera, 4000, 3000, 10000000);
+    return actors.actors() - 9;
+  };
+  EXPECT_EQ(actorsOfSpheres(), 1);
+  EXPECT_TRUE(actors.takeFresh());
+  EXPECT_EQ(actorsOfSpheres(), 1);
+  EXPECT_FALSE(actors.takeFresh()) << "nothing is made anew";
+  const ObjectPlace last = this->Places.objects[15];
+  this->Places.objects.erase(this->Places.objects.begin() + 15);
+  EXPECT_EQ(actorsOfSpheres(), 15 + 1) << "and what drew them together";
+  this->Places.objects.push_back(last);
+  EXPECT_EQ(actorsOfSpheres(), 1);
+  // What is sheared, or seen through, is drawn alone.
+  this->Places.objects[0].instance.world_from_object.linear(0, 1) = 1;
+  EXPECT_EQ(actorsOfSpheres(), 2);
+}
+
+TEST_F(ViewActorsTable, WhatIsNearMayBeSeenAnywhere)
+{
+  this->place(1);
+  ViewActors actors(this->Renderer, ViewKind::Perspective);
+  this->show(actors);
+  ViewCamera away(ViewKind::Perspective);
+  const double radius = this->Places.objects[0].box.diagonal() / 2;
+  for (const auto& [distance, seen] : { std::pair(2.9 * radius, true), std::pair(3.1 * radius, false) })
+  {
+    away.look(V(0, 0, distance), V(0, 0, 2 * distance));
+    actors.chooseDetail(away, 400, 300, 10000000);
+    EXPECT_EQ(actors.triangles() > 0, seen) << distance;
+  }
+  // Beside the picture by one and a half of its radius.
+  ViewCamera front(ViewKind::Front);
+  front.look(V(0, 0, 0), V(0, 0, 0));
+  const double unit = front.unit(V(0, 0, 0), 300);
+  for (const auto& [x, y, seen] :
+    { std::tuple(200 * unit + 1.45 * radius, 0.0, true), std::tuple(200 * unit + 1.55 * radius, 0.0, false),
+      std::tuple(-200 * unit - 1.45 * radius, 0.0, true), std::tuple(-200 * unit - 1.55 * radius, 0.0, false),
+      std::tuple(0.0, 150 * unit + 1.45 * radius, true), std::tuple(0.0, 150 * unit + 1.55 * radius, false),
+      std::tuple(0.0, -150 * unit - 1.45 * radius, true), std::tuple(0.0, -150 * unit - 1.55 * radius, false) })
+  {
+    WorldBox moved;
+    moved.add(this->Places.objects[0].box.min + V(x, y, 0));
+    moved.add(this->Places.objects[0].box.max + V(x, y, 0));
+    ScenePlaces places = this->Places;
+    places.objects[0].box = moved;
+    actors.show(this->Scene, places, nullptr, this->Meshes);
+    actors.chooseDetail(front, 400, 300, 10000000);
+    EXPECT_EQ(actors.triangles() > 0, seen) << x << ' ' << y;
+  }
+}
+
+TEST_F(ViewActorsTable, TexturesAreOfTheirStyle)
+{
+  auto model = std::make_shared<Model>(*this->Sphere);
+  auto image = std::make_shared<Image>();
+  image->width = image->height = 2;
+  image->rgba.assign(16, 255);
+  model->textures.push_back({ "t", "", image });
+  model->uvs.assign(model->rest->positions.size(), Eigen::Vector2d(0, 0));
+  model->materials[0].texture = 0;
+  this->Sphere = model;
+  this->place(1);
+  ViewActors actors(this->Renderer, ViewKind::Perspective);
+  for (const ViewStyle style : { ViewStyle::Textured, ViewStyle::Shaded, ViewStyle::Wireframe })
+  {
+    actors.setStyle(style);
+    this->show(actors);
+    for (vtkActor* const actor : actorsOf(this->Renderer))
+    {
+      if (trianglesOf(actor) != vtkIdType(model->triangles.size()))
+      {
+        continue;
+      }
+      EXPECT_EQ(actor->GetTexture() != nullptr, style == ViewStyle::Textured);
+      EXPECT_EQ(actor->GetProperty()->GetRepresentation(), style == ViewStyle::Wireframe ? VTK_WIREFRAME : VTK_SURFACE);
+      EXPECT_TRUE(actor->GetForceOpaque());
+      if (actor->GetTexture() != nullptr)
+      {
+        EXPECT_TRUE(actor->GetTexture()->GetInterpolate() && actor->GetTexture()->GetMipmap());
+        EXPECT_TRUE(actor->GetTexture()->GetRepeat());
+        EXPECT_EQ(actor->GetTexture()->GetMaximumAnisotropicFiltering(), 1);
+        EXPECT_EQ(actor->GetTexture()->GetInput(), this->Meshes.picture(image, false));
       }
     }
   }
