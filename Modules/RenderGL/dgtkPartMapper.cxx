@@ -17,8 +17,32 @@
 namespace dgtk
 {
 
+namespace
+{
+constexpr std::size_t trianglesBetweenFences = 100'000;
+constexpr std::size_t mostFences = 2;
+constexpr GLuint64 longestWait = 1'000'000'000; // nanoseconds; it costs memory alone when that was not enough
+} // namespace
+
 vtkStandardNewMacro(PartActor);
 vtkStandardNewMacro(PartMapper);
+
+void DrawPacer::drew(std::size_t triangles)
+{
+  this->Since += triangles;
+  if (this->Since < trianglesBetweenFences)
+  {
+    return;
+  }
+  this->Since = 0;
+  this->Fences.push_back(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
+  if (this->Fences.size() > mostFences)
+  {
+    glClientWaitSync(this->Fences.front(), GL_SYNC_FLUSH_COMMANDS_BIT, longestWait);
+    glDeleteSync(this->Fences.front());
+    this->Fences.pop_front();
+  }
+}
 
 PartMapper::PartMapper()
 {
@@ -105,12 +129,14 @@ void PartMapper::drawElements(const PartActor& actor)
   {
     glDrawRangeElements(
       GL_TRIANGLES, 0, last, GLsizei(this->Primitives[PrimitiveTris].IBO->IndexCount), GL_UNSIGNED_INT, nullptr);
+    this->Frame->pacer.drew(this->Primitives[PrimitiveTris].IBO->IndexCount / 3);
   }
   for (const auto& run : actor.runs)
   {
     const std::uintptr_t offset = std::uintptr_t(run.first) * 3 * sizeof(unsigned int);
     const void* const place = reinterpret_cast<const void*>(offset); // NOLINT(performance-no-int-to-ptr): OpenGL's way
     glDrawRangeElements(GL_TRIANGLES, 0, last, GLsizei(run.second * 3), GL_UNSIGNED_INT, place);
+    this->Frame->pacer.drew(run.second);
   }
 }
 

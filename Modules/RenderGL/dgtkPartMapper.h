@@ -9,11 +9,14 @@
 #include "dgtkRasterShaders.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <unordered_map>
 #include <vector>
 #include <vtkOpenGLActor.h>
 #include <vtkOpenGLPolyDataMapper.h>
+#include <vtk_glew.h>
 
 namespace dgtk
 {
@@ -31,9 +34,23 @@ struct RasterUnits
   static constexpr int lights = 15;
 };
 
+/// Keeps the vertex stage of software OpenGL from running away from its fragment stage: it keeps some 250 bytes for
+/// each triangle between them, half a gigabyte for a picture of two million.
+class DrawPacer
+{
+public:
+  /// After a draw of so many triangles. Waits until not too many are on the way.
+  void drew(std::size_t triangles);
+
+private:
+  std::size_t Since = 0; ///< triangles since the last fence
+  std::deque<GLsync> Fences;
+};
+
 /// What all draws of a frame share.
 struct RasterFrame
 {
+  DrawPacer pacer;
   RasterLights lights;
   std::uint64_t lightsVersion = 1; ///< changes with `lights`
   bool parallel = false;

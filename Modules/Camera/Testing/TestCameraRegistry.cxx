@@ -9,7 +9,6 @@
 #include <limits>
 
 using namespace dgtk;
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 // A model of a program of its own, with each kind of parameter.
