@@ -191,6 +191,9 @@ void describe(const PictureValues& picture, LayerLook look, PictureLegend& legen
     case LayerLook::Picture:
       legend.kind = PictureLegend::Kind::None;
       break;
+    case LayerLook::Ids:
+      legend.kind = PictureLegend::Kind::Swatches; // see addSwatches()
+      break;
     default:
       legend.kind = ramp ? PictureLegend::Kind::Ramp : PictureLegend::Kind::Axes;
       legend.text = ramp                         ? ""
