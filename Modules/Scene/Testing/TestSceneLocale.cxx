@@ -5,8 +5,10 @@
 
 #include <charconv>
 #include <clocale>
+#include <cmath>
 #include <cstdlib>
 #include <string>
+#include <system_error>
 
 using namespace dgtk;
 using namespace dgtk::test;
@@ -28,6 +30,10 @@ extern "C" double strtod(const char* text, char** end) noexcept
   }
   double value = 0;
   const std::from_chars_result parsed = std::from_chars(plain.data(), plain.data() + plain.size(), value);
+  if (parsed.ec == std::errc::result_out_of_range && plain.find_first_of("eE") != plain.find("e-"))
+  {
+    value = plain[0] == '-' ? -HUGE_VAL : HUGE_VAL;
+  }
   if (end)
   {
     *end = const_cast<char*>(text) + (parsed.ptr - plain.data());
