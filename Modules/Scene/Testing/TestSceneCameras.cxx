@@ -149,3 +149,41 @@ TEST(SceneCameras, WhatDoesNotGoTogetherIsRefusedWithTheScene)
   scene.cameras[0].model = "none";
   EXPECT_THAT(message(), HasSubstr("camera 'Camera0': model is not known"));
 }
+
+/// What each model is made with in an image of another size, at a frame between keys.
+TEST(SceneCameras, ParametersAreThoseOfTheFrameAndTheSize)
+{
+  CameraDescription camera;
+  camera.fovY.keys = { { 0, 40 }, { 10, 60 } };
+  camera.viewHeight.keys = { { 0, 2 }, { 10, 4 } };
+  camera.aspect = 1.5;
+  using Numbers = std::map<std::string, std::vector<double>>;
+  CameraParameters made = cameraParameters(camera, 5, 320, 240);
+  EXPECT_EQ(made.width, 320);
+  EXPECT_EQ(made.height, 240);
+  EXPECT_FALSE(made.K);
+  EXPECT_EQ(made.numbers, (Numbers{ { "fovY", { 50 } }, { "aspect", { 1.5 } } }));
+  camera.model = "orthographic";
+  made = cameraParameters(camera, 5, 320, 240);
+  EXPECT_EQ(made.numbers, (Numbers{ { "viewHeight", { 3 } }, { "aspect", { 1.5 } } }));
+  camera.model = "pinhole";
+  camera.width = 200;
+  camera.height = 100;
+  camera.K = Eigen::Matrix3d();
+  *camera.K << 80, 0.5, 90, 0, 70, 40, 0, 0, 1;
+  made = cameraParameters(camera, 5, 600, 150);
+  ASSERT_TRUE(made.K);
+  Eigen::Matrix3d expected;
+  expected << 240, 1.5, 270, 0, 105, 60, 0, 0, 1;
+  EXPECT_EQ(*made.K, expected);
+  EXPECT_EQ(made.numbers, Numbers{}) << "K says them";
+  camera.model = "strange";
+  camera.K.reset();
+  camera.parameters["oddXi"].numbers.resize(1);
+  camera.parameters["oddXi"].numbers[0].keys = { { 0, 1 }, { 10, 2 } };
+  camera.parameters["oddFile"].file = "rays.npy";
+  made = cameraParameters(camera, 5, 320, 240, "/scenes");
+  EXPECT_EQ(made.numbers.at("oddXi"), std::vector<double>{ 1.5 });
+  EXPECT_EQ(made.numbers.at("fovY"), std::vector<double>{ 50 });
+  EXPECT_EQ(made.files, (std::map<std::string, std::string>{ { "oddFile", "/scenes/rays.npy" } }));
+}
