@@ -118,7 +118,7 @@ struct Geometry
 /// What a reader returns. Immutable once loaded and shared by all instances.
 struct Model
 {
-  std::string format; ///< "ac3d", "md2", "3ds", "pov", "obj", "stl", "ply", "gltf", "collada", "fbx", "off"
+  std::string format; ///< "ac3d", "md2", "3ds", "pov", "obj", "stl", "ply", "gltf", "collada", "fbx", "off", "blend"
   std::string path;
   std::vector<std::string> warnings;   ///< one line each
   std::vector<std::string> companions; ///< paths of other files that were read for it, its textures apart

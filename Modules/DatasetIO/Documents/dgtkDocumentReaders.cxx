@@ -17,7 +17,7 @@ namespace
 {
 PixelType typeOf(const JsonCursor& value)
 {
-  const std::string name = value.text();
+  const std::string& name = value.text();
   for (const PixelType type :
     { PixelType::UInt8, PixelType::UInt16, PixelType::UInt32, PixelType::Float32, PixelType::Float64 })
   {

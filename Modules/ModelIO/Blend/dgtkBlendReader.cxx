@@ -1,22 +1,179 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Blender's own files are read by Blender, which says what it finds as glTF.
+#include "dgtkAssimpModel.h"
 #include "dgtkError.h"
-#include "dgtkModelReader.h"
+#include "dgtkFile.h"
+#include "dgtkHelperProcess.h"
+#include "dgtkModelFolder.h"
 
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <sstream>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace dgtk
 {
 
-std::shared_ptr<Model> readBlend(const std::string& path, const ReadOptions&);
-std::shared_ptr<Model> readBlend(const std::string& path, const ReadOptions&)
+namespace
+{
+namespace fs = std::filesystem;
+constexpr std::uint64_t memoryBase = std::uint64_t(8) << 30;
+constexpr std::uint64_t memoryPerByte = 20;
+constexpr std::uint64_t seconds = 600;
+
+/// What Blender does with the file that it was started with: words behind "--" are the file, the model and a list of
+/// the files that are named in it. In the file's own axes, with all modifiers, of what a render shows.
+const char* const script = R"(
+import bpy, os, sys
+blend, model, files = sys.argv[sys.argv.index("--") + 1:]
+assert bpy.data.filepath and os.path.samefile(bpy.data.filepath, blend)
+bpy.ops.export_scene.gltf(filepath=model, export_format="GLB", export_yup=False, export_apply=True, use_renderable=True)
+with open(files, "wb") as file:
+    file.write(b"\n".join(os.fsencode(path) for path in bpy.utils.blend_paths(absolute=True)))
+)";
+
+/// A folder of our own, gone with its owner.
+class OwnFolder
+{
+public:
+  OwnFolder()
+    : Path((fs::temp_directory_path() / "dgtk-blend-XXXXXX").string())
+  {
+    if (!::mkdtemp(this->Path.data()))
+    {
+      throw MachineError(this->Path + ": cannot be made: " + std::strerror(errno));
+    }
+  }
+  ~OwnFolder()
+  {
+    std::error_code code;
+    fs::remove_all(this->Path, code);
+  }
+  OwnFolder(const OwnFolder&) = delete;
+  OwnFolder& operator=(const OwnFolder&) = delete;
+  std::string path(const std::string& name = {}) const { return name.empty() ? this->Path : this->Path + '/' + name; }
+
+private:
+  std::string Path;
+};
+
+bool isProgram(const fs::path& path)
 {
   std::error_code code;
-  if (!std::filesystem::exists(path, code))
+  return fs::is_regular_file(path, code) && ::access(path.c_str(), X_OK) == 0;
+}
+
+/// The program that DGTK_BLENDER names, else "blender" in the PATH; "" when there is none.
+std::string findBlender()
+{
+  const char* const set = std::getenv("DGTK_BLENDER");
+  if (set && *set)
   {
-    throw InputError(path, 0, "no such file");
+    return isProgram(set) ? fs::absolute(set).string() : std::string();
   }
-  throw InputError(path, 0,
-    "Blender's own files are not read: open it in Blender, choose File > Export > glTF 2.0 and use the .glb file");
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+  {
+    if (!folder.empty() && isProgram(fs::path(folder) / "blender"))
+    {
+      return fs::absolute(fs::path(folder) / "blender").string();
+    }
+  }
+  return {};
+}
+
+/// Files of the model's folder, and of the one above it, that the file names and Blender could read.
+std::vector<std::string> companionsOf(const std::string& path, const std::string& list)
+{
+  const std::string above = (fs::absolute(path).parent_path() / "..").lexically_normal().string();
+  std::vector<std::string> companions;
+  std::istringstream lines(readFile(list));
+  for (std::string line; std::getline(lines, line);)
+  {
+    std::error_code code;
+    if (fs::is_regular_file(line, code) && liesBeneath(line, above))
+    {
+      companions.push_back(fs::relative(line, fs::absolute(path).parent_path(), code).generic_string());
+      companions.back() = (fs::path(path).parent_path() / companions.back()).lexically_normal().string();
+    }
+  }
+  std::sort(companions.begin(), companions.end());
+  companions.erase(std::unique(companions.begin(), companions.end()), companions.end());
+  return companions;
+}
+
+void runBlender(const std::string& path, const std::string& blender, const OwnFolder& own)
+{
+  const std::string file = fs::absolute(path).lexically_normal().string();
+  const fs::path folder = fs::path(file).parent_path();
+  std::error_code code;
+  const fs::path program = fs::canonical(blender, code).parent_path();
+  const std::uint64_t bytes = memoryBase + memoryPerByte * fs::file_size(file);
+  helper::Process process(
+    { helper::findProgram("dgtk-fence", "DGTK_FENCE"), std::to_string(bytes), std::to_string(seconds), own.path(),
+      "/usr", "/lib", "/lib64", "/etc", "/proc", "/sys", program.string(), folder.parent_path().string(),
+      folder.string(), "--", blender, "--background", "--factory-startup", "--disable-autoexec", "-noaudio", file,
+      "--python-exit-code", "9", "--python-expr", script, "--", file, own.path("model.glb"), own.path("files") },
+    -1);
+  const int status = process.wait();
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (helper::isInterruption(signal))
+  {
+    throw MachineError(path + ": reading was interrupted");
+  }
+  if (signal != 0 || WEXITSTATUS(status) != 0 || !fs::is_regular_file(own.path("model.glb"), code) ||
+      !fs::is_regular_file(own.path("files"), code))
+  {
+    throw InputError(path, 0,
+      "cannot be read by Blender (" + blender + "), which ended with " +
+        (signal != 0 ? helper::signalText(signal) : "code " + std::to_string(WEXITSTATUS(status))));
+  }
+}
+} // namespace
+
+std::shared_ptr<Model> readBlend(const std::string& path, const ReadOptions& options);
+std::shared_ptr<Model> readBlend(const std::string& path, const ReadOptions& options)
+{
+  std::error_code code;
+  if (!fs::is_regular_file(path, code))
+  {
+    throw InputError(path, 0, fs::exists(path, code) ? "is not a regular file" : "no such file");
+  }
+  const std::string blender = findBlender();
+  if (blender.empty())
+  {
+    throw InputError(path, 0,
+      "Blender's own files are read by Blender, which is not installed: install it (DGTK_BLENDER can name it), or "
+      "choose "
+      "File > Export > glTF 2.0 in it and use the .glb file");
+  }
+  const OwnFolder own;
+  runBlender(path, blender, own);
+  std::shared_ptr<Model> model;
+  try
+  {
+    model = readThroughAssimp(own.path("model.glb"), "gltf", options);
+  }
+  catch (const InputError& error)
+  {
+    const std::string text = error.what();
+    const std::size_t colon = text.find(": ");
+    throw InputError(path, 0, "what Blender makes of it " + text.substr(colon == std::string::npos ? 0 : colon + 2));
+  }
+  model->format = "blend";
+  model->path = path;
+  model->companions = companionsOf(path, own.path("files"));
+  for (Texture& texture : model->textures)
+  {
+    texture.path = path;
+  }
+  return model;
 }
 
 } // namespace dgtk

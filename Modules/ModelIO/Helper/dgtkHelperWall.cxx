@@ -14,6 +14,7 @@
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -31,28 +32,72 @@ constexpr std::uint32_t architecture = 0;
 #endif
 
 constexpr int landlockCreateRuleset = 444;
+constexpr int landlockAddRule = 445;
 constexpr int landlockRestrictSelf = 446;
+// Rights of Landlock.
+constexpr std::uint64_t execute = 1;
+constexpr std::uint64_t writeFile = 2;
+constexpr std::uint64_t readFile = 4;
+constexpr std::uint64_t readFolder = 8;
+constexpr std::uint64_t truncate = std::uint64_t(1) << 14;
 
-/// All that Landlock knows is forbidden, for there is no rule that allows any of it. Descriptors that are open, and
-/// shared memory, stay usable.
-void denyFileSystem()
+/// Rules of files, of the network and of scopes. All that Landlock knows is forbidden, but for what is allowed.
+/// Descriptors that are open, and shared memory, stay usable.
+class Landlock
 {
-  const auto abi = static_cast<int>(::syscall(landlockCreateRuleset, nullptr, 0, 1));
-  if (abi < 1)
+public:
+  Landlock()
   {
-    return;
+    const auto abi = static_cast<int>(::syscall(landlockCreateRuleset, nullptr, 0, 1));
+    if (abi < 1)
+    {
+      return;
+    }
+    const int fileRights = abi < 2 ? 13 : abi < 3 ? 14 : abi < 5 ? 15 : 16; // as the interface grew
+    this->All = (std::uint64_t(1) << fileRights) - 1;
+    const std::uint64_t handled[3] = { this->All, 3, 3 };
+    const std::size_t size = sizeof(std::uint64_t) * (abi < 4 ? 1 : abi < 6 ? 2 : 3);
+    this->Rules = static_cast<int>(::syscall(landlockCreateRuleset, handled, size, 0));
   }
-  // rights of files, of the network, and scopes, as the interface grew
-  const int fileRights = abi < 2 ? 13 : abi < 3 ? 14 : abi < 5 ? 15 : 16;
-  const std::uint64_t handled[3] = { (std::uint64_t(1) << fileRights) - 1, 3, 3 };
-  const std::size_t size = sizeof(std::uint64_t) * (abi < 4 ? 1 : abi < 6 ? 2 : 3);
-  const auto rules = static_cast<int>(::syscall(landlockCreateRuleset, handled, size, 0));
-  if (rules >= 0)
+  ~Landlock()
   {
-    ::syscall(landlockRestrictSelf, rules, 0);
-    ::close(rules);
+    if (this->Rules >= 0)
+    {
+      ::close(this->Rules);
+    }
   }
-}
+  Landlock(const Landlock&) = delete;
+  Landlock& operator=(const Landlock&) = delete;
+
+  void allow(const std::string& path, std::uint64_t rights)
+  {
+    struct __attribute__((packed))
+    {
+      std::uint64_t rights;
+      std::int32_t place;
+    } rule = { rights & this->All, ::open(path.c_str(), O_PATH | O_CLOEXEC) };
+    if (this->Rules >= 0 && rule.place >= 0)
+    {
+      constexpr int pathBeneath = 1;
+      ::syscall(landlockAddRule, this->Rules, pathBeneath, &rule, 0);
+    }
+    if (rule.place >= 0)
+    {
+      ::close(rule.place);
+    }
+  }
+  void enforce() const
+  {
+    if (this->Rules >= 0)
+    {
+      ::syscall(landlockRestrictSelf, this->Rules, 0);
+    }
+  }
+
+private:
+  int Rules = -1;
+  std::uint64_t All = 0;
+};
 
 /// What decoders need: memory, threads, time, and the descriptors that they have. Everything else fails.
 constexpr int harmlessCalls[] = {
@@ -187,9 +232,10 @@ public:
     this->answer(SECCOMP_RET_ALLOW);
     this->fail(error);
   }
-  void install()
+  /// Everything else is refused, or allowed.
+  void install(bool elseAllowed = false)
   {
-    this->fail(EPERM);
+    this->answer(elseAllowed ? SECCOMP_RET_ALLOW : SECCOMP_RET_ERRNO | std::uint32_t(EPERM));
     sock_fprog program = { static_cast<unsigned short>(this->Code.size()), this->Code.data() };
     // threads that libraries have started are held to it as well
     if (::syscall(__NR_seccomp, SECCOMP_SET_MODE_FILTER, SECCOMP_FILTER_FLAG_TSYNC, &program) != 0)
@@ -241,10 +287,38 @@ void lockDown(Opening opening)
   {
     return;
   }
-  denyFileSystem();
+  Landlock().enforce();
   if (architecture != 0)
   {
     denyCalls(opening);
+  }
+}
+
+void fenceIn(const std::vector<std::string>& readable, const std::string& writable)
+{
+  if (isSanitized || ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
+  {
+    return;
+  }
+  Landlock landlock;
+  for (const std::string& folder : readable)
+  {
+    landlock.allow(folder, execute | readFile | readFolder);
+  }
+  landlock.allow(writable, ~execute);
+  landlock.allow("/dev/null", readFile | writeFile | truncate);
+  landlock.allow("/dev/urandom", readFile);
+  landlock.enforce();
+  if (architecture != 0)
+  {
+    Filter filter;
+    filter.allowWhen(__NR_socket, 0, 0xffffffffu, AF_UNIX, EACCES);
+    for (const int call : { __NR_ptrace, __NR_process_vm_readv, __NR_process_vm_writev, __NR_kill, __NR_tkill,
+           __NR_mount, __NR_umount2, __NR_bpf, __NR_perf_event_open, __NR_keyctl, __NR_add_key, __NR_request_key })
+    {
+      filter.refuse(call, EPERM);
+    }
+    filter.install(true);
   }
 }
 

@@ -3,6 +3,8 @@
 #define dgtkHelperWall_h
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 /// Walls around the helper programs, which decode files of strangers with other people's libraries.
 namespace dgtk::helper
@@ -17,6 +19,11 @@ enum class Opening
 /// From now on this process opens no file, writes none, has no network, starts no program and signals no other process,
 /// where the kernel can see to it (Landlock, seccomp); elsewhere nothing changes. Libraries have to be loaded before.
 void lockDown(Opening opening);
+
+/// For whole programs of other people: from now on this process, and what it executes, reads and executes beneath
+/// `readable` only, writes beneath `writable` only, has no network, and looks into no other process, where the kernel
+/// can see to it; elsewhere nothing changes.
+void fenceIn(const std::vector<std::string>& readable, const std::string& writable);
 
 /// Address space in use, bytes.
 std::uint64_t addressSpace();

@@ -164,11 +164,6 @@ TEST(Assimp, AMissingImporterIsTheMachinesFault)
   EXPECT_EQ(readBytes("off", quadOff)->triangles.size(), 2u);
 }
 
-TEST(Assimp, BlendIsRefusedWithTheWayOut)
-{
-  EXPECT_THAT(refusal("blend", "BLENDER-v300"), HasSubstr("File > Export > glTF 2.0"));
-}
-
 TEST(Assimp, FilesOutsideOfTheModelsFolderAreRefused)
 {
   const TemporaryFolder folder;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a helper program can still do behind its walls: nothing that it is not handed.
+#include "dgtkFile.h"
 #include "dgtkHelperWall.h"
+#include "dgtkTestSupport.h"
 
 #include <gtest/gtest.h>
 
@@ -41,6 +43,45 @@ constexpr int denied = 42;
 
 int outcome(long result) { return result < 0 && (errno == EPERM || errno == EACCES) ? denied : 0; }
 } // namespace
+
+TEST(HelperFence, ReadsAndWritesWhereItMay)
+{
+  if (dgtk::helper::isSanitized)
+  {
+    GTEST_SKIP() << "sanitizers need what the fence forbids";
+  }
+  const dgtk::test::TemporaryFolder readable;
+  const dgtk::test::TemporaryFolder writable;
+  const dgtk::test::TemporaryFolder other;
+  dgtk::writeFile(readable.path("a"), "a");
+  dgtk::writeFile(other.path("a"), "a");
+  const auto behindTheFence = [&](const auto& deed)
+  {
+    const pid_t child = ::fork();
+    if (child == 0)
+    {
+      dgtk::helper::fenceIn({ readable.path() }, writable.path());
+      ::_exit(outcome(deed()));
+    }
+    int status = 0;
+    EXPECT_EQ(::waitpid(child, &status, 0), child);
+    return WEXITSTATUS(status);
+  };
+  constexpr int creating = O_WRONLY | O_CREAT;
+  EXPECT_EQ(behindTheFence([&] { return ::open(readable.path("a").c_str(), O_RDONLY); }), 0);
+  EXPECT_EQ(behindTheFence([&] { return ::open(writable.path("b").c_str(), creating, 0600); }), 0);
+  EXPECT_EQ(behindTheFence([&] { return ::open("/dev/null", O_WRONLY); }), 0);
+  EXPECT_EQ(behindTheFence([&] { return ::socket(AF_UNIX, SOCK_STREAM, 0); }), 0);
+  EXPECT_EQ(behindTheFence([&] { return ::socket(AF_INET, SOCK_STREAM, 0); }), denied);
+  EXPECT_EQ(behindTheFence([&] { return ::kill(::getppid(), 0); }), denied);
+  if (::syscall(444, nullptr, 0, 1) >= 1) // Landlock
+  {
+    EXPECT_EQ(behindTheFence([&] { return ::open(other.path("a").c_str(), O_RDONLY); }), denied);
+    EXPECT_EQ(behindTheFence([&] { return ::open(readable.path("a").c_str(), O_WRONLY); }), denied);
+    EXPECT_EQ(behindTheFence([&] { return ::open(readable.path("b").c_str(), creating, 0600); }), denied);
+    EXPECT_EQ(behindTheFence([&] { return ::unlink(readable.path("a").c_str()); }), denied);
+  }
+}
 
 class HelperWall : public testing::TestWithParam<Opening>
 {
