@@ -447,6 +447,12 @@ TEST(ModelLibrary, LooksAreSharedAndWarningsSaidOnce)
   scene.objects[2].materials = { blue };
   scene.objects[3].materials = { blue };
   scene.objects[3].scale = Vector(2, 2, 2);
+  scene.objects[3].position = Vector(1, 2, 3);
+  scene.objects[3].orientation = Quaternion{ 0, 1, 0, 0 };
+  scene.objects[3].className = "third";
+  scene.objects[3].parent = "o1";
+  scene.objects[3].visible = false;
+  scene.objects[3].animation.start = 7;
   scene.environment.image = "none.hdr";
   ModelLibrary library;
   EXPECT_TRUE(library.load(scene));
