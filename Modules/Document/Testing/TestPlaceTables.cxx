@@ -198,6 +198,12 @@ TEST(ScenePlaces, BoxesOfItemsAndFieldsOfView)
   EXPECT_GT(half.minCoeff(), 0.1);
   EXPECT_LT((places.objects[1].box.min - crate.box.min - V(490, 0, 0)).norm(), 1e-9);
   EXPECT_LT(places.box.max.x(), 100) << "what is not visible is not there";
+  WorldBox all = crate.box;
+  all.add(places.objects[2].box);
+  all.add(boxOf({ 0, 0, 0 }, { 30, 40, 10 })); // lights and cameras
+  EXPECT_EQ(places.box.min, all.min);
+  EXPECT_EQ(places.box.max, all.max);
+  EXPECT_LT(all.min.z(), -1);
   const WorldBox found = places.boxOf({ SceneItem::Kind::Object, 0 });
   EXPECT_EQ(found.min, crate.box.min);
   EXPECT_EQ(found.max, crate.box.max);

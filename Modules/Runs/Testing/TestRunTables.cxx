@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The log of a run and the page of its options, on no display.
+#include "dgtkRenderOptions.h"
+#include "dgtkRunLog.h"
+
+#include "dgtkFile.h"
+#include "dgtkTestSupport.h"
+
+#include <QApplication>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDir>
+#include <QFileInfo>
+#include <QLineEdit>
+#include <QSettings>
+#include <QSpinBox>
+
+#include <gtest/gtest.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+using namespace dgtk;
+
+namespace
+{
+/// An application whose data and settings are in a folder of its own.
+class RunTables : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    static const test::TemporaryFolder folder;
+    qputenv("QT_QPA_PLATFORM", "offscreen");
+    qputenv("XDG_DATA_HOME", QByteArray::fromStdString(folder.path("data")));
+    qputenv("XDG_CONFIG_HOME", QByteArray::fromStdString(folder.path("config")));
+    if (QCoreApplication::instance() == nullptr)
+    {
+      static int count = 1;
+      static char name[] = "TestRuns";
+      static char* arguments[] = { name, nullptr };
+      static QApplication application(count, arguments);
+      QCoreApplication::setOrganizationName("dgtk-test");
+    }
+    QSettings().clear();
+    std::filesystem::remove_all(folder.path("data"));
+  }
+};
+
+/// What a log says behind these lines of the program.
+struct Told
+{
+  RunLog::End end;
+  int done, total;
+  std::string last;
+  std::vector<std::string> messages;
+};
+
+Told toldOf(const std::string& lines)
+{
+  RunLog log("/data/out");
+  RunRequest request;
+  request.folder = "/data/out";
+  request.arguments = QStringList{ "render", "a b.json", "-o", "/data/out" };
+  request.scene = "0123abcd";
+  const int file = log.begin(request);
+  EXPECT_GE(file, 0);
+  const std::string text = "4711\n" + lines;
+  EXPECT_EQ(::write(file, text.data(), text.size()), ssize_t(text.size()));
+  ::close(file);
+  Told told;
+  for (const QString& message : log.read())
+  {
+    told.messages.push_back(message.toStdString());
+  }
+  EXPECT_EQ(log.request().folder, request.folder);
+  EXPECT_EQ(log.request().arguments, request.arguments);
+  EXPECT_EQ(log.request().scene, request.scene);
+  EXPECT_EQ(log.process(), 4711);
+  told.end = log.end();
+  told.done = log.done();
+  told.total = log.total();
+  told.last = log.last().toStdString();
+  return told;
+}
+
+TEST_F(RunTables, WaysToEnd)
+{
+  using End = RunLog::End;
+  struct Row
+  {
+    const char* lines;
+    Told told;
+  };
+  const Row rows[] = {
+    { "", { End::Lost, 0, 0, "", {} } },
+    { "3/12 pictures, 1.5/s, 0:06 left\n", { End::Lost, 3, 12, "", {} } },
+    { "3/12 pictures, 1.5/s, 0:06 left\n7/12 pictures, 1.5/s, ? left\n", { End::Lost, 7, 12, "", {} } },
+    { "3/12 pictures, 1.5/s, 0:06 left", { End::Lost, 0, 0, "", {} } }, // no whole line yet
+    { "scene.json: a note\n12 pictures, 20 files in /data/out, 3.5 s\n",
+      { End::Done, 0, 0, "12 pictures, 20 files in /data/out, 3.5 s",
+        { "scene.json: a note", "12 pictures, 20 files in /data/out, 3.5 s" } } },
+    { "12 pictures, 20 files in /data/out, 3.5 s\nanother\n",
+      { End::Lost, 0, 0, "another", { "12 pictures, 20 files in /data/out, 3.5 s", "another" } } },
+    { "dgtk: interrupted; the same command\n", { End::Stopped, 0, 0, "interrupted; the same command", {} } },
+    { "a note\ndgtk: no space\n", { End::Failed, 0, 0, "no space", { "a note" } } },
+    { "dgtk: no space\na note\n", { End::Lost, 0, 0, "a note", { "a note" } } },
+    { "3/12 pictures\n", { End::Lost, 0, 0, "3/12 pictures", { "3/12 pictures" } } },
+  };
+  for (const Row& row : rows)
+  {
+    const Told found = toldOf(row.lines);
+    EXPECT_EQ(int(found.end), int(row.told.end)) << row.lines;
+    EXPECT_EQ(found.done, row.told.done) << row.lines;
+    EXPECT_EQ(found.total, row.told.total) << row.lines;
+    EXPECT_EQ(found.last, row.told.last) << row.lines;
+    EXPECT_EQ(found.messages, row.told.messages) << row.lines;
+  }
+}
+
+TEST_F(RunTables, ALogIsReadOnAndLockedWhileItsRunLives)
+{
+  RunLog log("/data/../data/one/");
+  EXPECT_EQ(log.request().folder, "/data/one");
+  EXPECT_FALSE(log.alive());
+  EXPECT_TRUE(log.read().isEmpty());
+  EXPECT_TRUE(RunLog::folders().isEmpty());
+  RunRequest request;
+  request.folder = "/data/one";
+  const int file = log.begin(request);
+  ASSERT_GE(file, 0);
+  EXPECT_TRUE(log.alive());
+  errno = 0;
+  EXPECT_EQ(log.begin(request), -1) << "it goes on";
+  EXPECT_EQ(errno, EWOULDBLOCK);
+  const auto write = [&](const std::string& text)
+  { EXPECT_EQ(::write(file, text.data(), text.size()), ssize_t(text.size())); };
+  write("12\n1/4 pictures, 1/s, 0:03 left\nfirst\nsec");
+  EXPECT_EQ(log.read(), QStringList{ "first" });
+  EXPECT_TRUE(log.read().isEmpty());
+  write("ond\n2/4 pictures, 1/s, 0:02 left\n");
+  EXPECT_EQ(log.read(), QStringList{ "second" });
+  EXPECT_EQ(log.done(), 2);
+  EXPECT_EQ(log.process(), 12);
+  EXPECT_FALSE(log.shown());
+  log.markShown();
+  EXPECT_TRUE(log.read().isEmpty());
+  EXPECT_TRUE(log.shown());
+  EXPECT_EQ(log.last(), "second") << "that is not the program's";
+  ::close(file);
+  EXPECT_FALSE(log.alive());
+  EXPECT_EQ(RunLog::folders(), QStringList{ "/data/one" });
+
+  const RunLog other("/data/two");
+  request.folder = "/data/two";
+  ::close(other.begin(request));
+  QStringList folders = RunLog::folders();
+  folders.sort(); // they are of one moment
+  EXPECT_EQ(folders, (QStringList{ "/data/one", "/data/two" }));
+  const QString copy = other.sceneCopy();
+  EXPECT_TRUE(copy.endsWith("/scene.json"));
+  EXPECT_NE(copy, log.sceneCopy());
+  EXPECT_TRUE(QFileInfo(QFileInfo(copy).path()).isDir());
+  // Another run into the folder begins anew.
+  ::close(other.begin(request));
+  RunLog again("/data/two");
+  EXPECT_TRUE(again.read().isEmpty());
+  EXPECT_EQ(again.process(), 0);
+  other.remove();
+  EXPECT_EQ(RunLog::folders(), QStringList{ "/data/one" });
+  other.markShown();
+  EXPECT_EQ(RunLog::folders(), QStringList{ "/data/one" }) << "no log is begun by that";
+}
+
+TEST_F(RunTables, OptionsAreWordsOfTheCommandLine)
+{
+  EXPECT_EQ(optionWord("points_step"), "--points-step");
+  RenderOptions options(nullptr);
+  EXPECT_TRUE(options.words().isEmpty()) << "nothing but defaults";
+  const auto expectWords = [&](const QStringList& expected, const char* what)
+  { EXPECT_EQ(options.words().join(' ').toStdString(), expected.join(' ').toStdString()) << what; };
+  auto* const samples = options.findChild<QSpinBox*>("samples");
+  auto* const filter = options.findChild<QComboBox*>("filter");
+  auto* const shadows = options.findChild<QCheckBox*>("pov_shadows");
+  auto* const pairs = options.findChild<QLineEdit*>("pairs");
+  auto* const depth = options.findChild<QLineEdit*>("depth_format");
+  auto* const step = options.findChild<QSpinBox*>("points_step");
+  ASSERT_TRUE(samples && filter && shadows && pairs && depth && step);
+  EXPECT_EQ(samples->minimum(), 1);
+  EXPECT_EQ(samples->maximum(), 16);
+  EXPECT_EQ(samples->value(), 1);
+  EXPECT_EQ(filter->count(), 5);
+  EXPECT_EQ(filter->currentText(), "box");
+  EXPECT_EQ(filter->itemText(4), "lanczos");
+  EXPECT_FALSE(shadows->isChecked());
+  EXPECT_EQ(pairs->text(), "all");
+  EXPECT_EQ(depth->text(), "npy");
+  EXPECT_EQ(depth->placeholderText(), "NAMES");
+  EXPECT_FALSE(samples->toolTip().isEmpty());
+  samples->setValue(4);
+  expectWords({ "--samples", "4" }, "a number");
+  filter->setCurrentText("mitchell");
+  shadows->setChecked(true);
+  depth->setText(" npy,exr ");
+  step->setValue(2);
+  const QStringList all{ "--samples", "4", "--filter", "mitchell", "--points-step", "2", "--pov-shadows",
+    "--depth-format", "npy,exr" };
+  expectWords(all, "one of each kind");
+  pairs->setText(" ");
+  expectWords(all, "what is empty is not said");
+  // Options of other layers are left out.
+  options.setLayers({ "depth" });
+  EXPECT_TRUE(depth->isEnabled());
+  EXPECT_FALSE(step->isEnabled());
+  EXPECT_TRUE(shadows->isEnabled()) << "a renderer has it, too";
+  EXPECT_TRUE(samples->isEnabled());
+  expectWords({ "--samples", "4", "--filter", "mitchell", "--pov-shadows", "--depth-format", "npy,exr" }, "depth");
+  options.setLayers({ "points", "pov" });
+  expectWords({ "--samples", "4", "--filter", "mitchell", "--points-step", "2", "--pov-shadows" }, "points and pov");
+  options.setLayers({});
+  expectWords({ "--samples", "4", "--filter", "mitchell", "--pov-shadows" }, "none");
+  options.offer("pairs", "left:right");
+  EXPECT_EQ(pairs->text(), "left:right");
+  pairs->setModified(true);
+  options.offer("pairs", "a:b");
+  EXPECT_EQ(pairs->text(), "left:right") << "somebody typed it";
+  EXPECT_EQ(options.inWindowsWords("--points-step: expected a number"), "points_step: expected a number");
+  EXPECT_EQ(options.inWindowsWords("points --points-step: x"), "points --points-step: x");
+}
+
+TEST_F(RunTables, OptionsThatFitAnySceneAreRemembered)
+{
+  {
+    RenderOptions options(nullptr);
+    options.findChild<QSpinBox*>("samples")->setValue(4);
+    options.findChild<QCheckBox*>("pov_shadows")->setChecked(true);
+    options.findChild<QLineEdit*>("depth_format")->setText("npy,exr");
+    options.findChild<QLineEdit*>("matte")->setText("tree");
+    options.findChild<QLineEdit*>("pov_focal_blur")->setText("1,2");
+    options.findChild<QComboBox*>("color_bits")->setCurrentText("16");
+    options.remember();
+  }
+  {
+    RenderOptions options(nullptr);
+    EXPECT_EQ(options.findChild<QSpinBox*>("samples")->value(), 4);
+    EXPECT_TRUE(options.findChild<QCheckBox*>("pov_shadows")->isChecked());
+    EXPECT_EQ(options.findChild<QLineEdit*>("depth_format")->text(), "npy,exr");
+    EXPECT_EQ(options.findChild<QLineEdit*>("matte")->text(), "") << "of another scene";
+    EXPECT_EQ(options.findChild<QLineEdit*>("pov_focal_blur")->text(), "");
+    EXPECT_EQ(options.findChild<QComboBox*>("color_bits")->currentText(), "16");
+    options.findChild<QSpinBox*>("samples")->setValue(1);
+    options.remember();
+  }
+  QSettings().setValue("render/options/color_bits", "17");
+  RenderOptions options(nullptr);
+  EXPECT_EQ(options.findChild<QSpinBox*>("samples")->value(), 1);
+  EXPECT_EQ(options.findChild<QComboBox*>("color_bits")->currentText(), "8") << "of another version";
+  EXPECT_TRUE(options.findChild<QCheckBox*>("pov_shadows")->isChecked());
+}
+} // namespace
