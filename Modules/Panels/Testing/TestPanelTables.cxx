@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rows of numbers, the tree of a scene and the dialog of camera arrays, on no display.
+#include "dgtkCameraArrayDialog.h"
+#include "dgtkEditorState.h"
+#include "dgtkNumberRow.h"
+#include "dgtkSceneTree.h"
+
+#include "dgtkTestSupport.h"
+
+#include <QApplication>
+#include <QComboBox>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPlainTextEdit>
+#include <QSpinBox>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace
+{
+using namespace dgtk;
+using V = Eigen::Vector3d;
+using Numbers = std::vector<double>;
+
+class PanelTables : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    if (QCoreApplication::instance() == nullptr)
+    {
+      qputenv("QT_QPA_PLATFORM", "offscreen");
+      static int count = 1;
+      static char name[] = "TestPanels";
+      static char* arguments[] = { name, nullptr };
+      static QApplication application(count, arguments);
+    }
+  }
+};
+
+TEST_F(PanelTables, TextsOfNumbers)
+{
+  for (const auto& [text, value] : std::vector<std::pair<const char*, std::optional<double>>>{ { "1", 1 },
+         { " 1.5 ", 1.5 }, { "1,5", 1.5 }, { "+2", 2 }, { "-0.25", -0.25 }, { "1e3", 1000 }, { "", {} }, { "1 2", {} },
+         { "1.5x", {} }, { "nan", {} }, { "inf", {} }, { "1e999", {} }, { "--1", {} }, { "+-1", -1 }, { "x", {} } })
+  {
+    EXPECT_EQ(numberOf(text), value) << text;
+  }
+  EXPECT_EQ(numberText(0.1), "0.1");
+  EXPECT_EQ(numberText(1e21), "1e+21");
+  for (const auto& [number, pixels] :
+    { std::pair(640.0, 640), std::pair(640.9, 640), std::pair(-5.0, -1), std::pair(1e30, 1 << 24), std::pair(0.0, 0) })
+  {
+    EXPECT_EQ(pixelsOf(number), pixels) << number;
+  }
+  QSpinBox* const box = makeNumber("n", 2, 9, 5);
+  EXPECT_EQ(box->objectName(), "n");
+  EXPECT_EQ(box->minimum(), 2);
+  EXPECT_EQ(box->maximum(), 9);
+  EXPECT_EQ(box->value(), 5);
+  delete box;
+}
+
+TEST_F(PanelTables, RowsTakeWhatIsTyped)
+{
+  NumberRow row("p", 3, nullptr);
+  std::vector<Numbers> edits;
+  row.onEdit([&](const Numbers& values) { edits.push_back(values); });
+  auto* const second = row.findChild<QLineEdit*>("p.1");
+  auto* const third = row.findChild<QLineEdit*>("p.2");
+  ASSERT_TRUE(second && third && row.findChild<QLineEdit*>("p.0"));
+  row.setValues({ 1, 2.5, -3 });
+  EXPECT_EQ(second->text(), "2.5");
+  EXPECT_EQ(second->toolTip(), "2.5");
+  EXPECT_TRUE(edits.empty());
+  const auto type = [](QLineEdit* field, const char* text)
+  {
+    field->setText(text);
+    field->setModified(true);
+  };
+  type(second, "7,25");
+  row.setValues({ 4, 5, 6 });
+  EXPECT_EQ(second->text(), "7,25") << "while something is typed there, it stays";
+  EXPECT_EQ(third->text(), "6");
+  row.commit();
+  EXPECT_EQ(edits, (std::vector<Numbers>{ { 4, 7.25, 6 } }));
+  EXPECT_EQ(row.values(), (Numbers{ 4, 7.25, 6 }));
+  EXPECT_EQ(second->text(), "7.25");
+  type(third, "no number");
+  row.commit();
+  EXPECT_EQ(edits.size(), 1u);
+  EXPECT_EQ(third->text(), "6") << "the old value";
+  type(third, "8");
+  emit third->returnPressed();
+  EXPECT_EQ(edits.back(), (Numbers{ 4, 7.25, 8 }));
+  type(third, "9");
+  emit third->editingFinished();
+  EXPECT_EQ(edits.back(), (Numbers{ 4, 7.25, 9 }));
+  row.takeTogether();
+  type(third, "10");
+  emit third->editingFinished();
+  EXPECT_EQ(edits.size(), 3u) << "the row is not left: the focus is nowhere";
+  emit third->returnPressed();
+  EXPECT_EQ(edits.back(), (Numbers{ 4, 7.25, 10 }));
+  // Undo is the window's where nothing is being typed.
+  for (const bool typed : { false, true })
+  {
+    third->setModified(typed);
+    QKeyEvent undo(QEvent::ShortcutOverride, Qt::Key_Z, Qt::ControlModifier);
+    undo.ignore();
+    QApplication::sendEvent(third, &undo);
+    EXPECT_EQ(undo.isAccepted(), typed);
+  }
+}
+
+/// The rows of a tree: name, kind, and what is selected.
+std::string textOf(const QTreeWidget& tree)
+{
+  std::string text;
+  for (int group = 0; group < tree.topLevelItemCount(); ++group)
+  {
+    const QTreeWidgetItem* const top = tree.topLevelItem(group);
+    text += top->text(0).toStdString() + ":";
+    for (int i = 0; i < top->childCount(); ++i)
+    {
+      text += " " + top->child(i)->text(0).toStdString() + "/" + top->child(i)->text(1).toStdString() +
+              (top->child(i)->isSelected() ? "*" : "") + (top->child(i)->icon(0).isNull() ? "" : "!");
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+TEST_F(PanelTables, TheTreeOfAScene)
+{
+  const test::TemporaryFolder folder;
+  std::filesystem::copy_file(test::sourceFile("Data/Models/crate.ac"), folder.path("crate.ac"));
+  std::ofstream(folder.path("s.json")) << R"({ "objects": [ { "name": "a", "model": "crate.ac", "class": "box" },
+    { "name": "b", "model": "crate.ac", "visible": false }, { "name": "c", "model": "lost.ac" } ],
+    "lights": [ { "name": "sun", "kind": "directional", "position": [0, 1, 0] }, { "name": "lamp" } ],
+    "cameras": [ { "name": "eye", "eye": [0, 0, 5], "lookAt": [0, 0, 0] } ] })";
+  EditorState state(nullptr);
+  SceneTree tree(state, nullptr);
+  EXPECT_EQ(textOf(tree), "Objects:\nLights:\nCameras:\n");
+  state.document().open(folder.path("s.json"));
+  EXPECT_EQ(
+    textOf(tree), "Objects: a/box b/hidden c/missing!\nLights: sun/directional lamp/point\nCameras: eye/camera\n");
+  EXPECT_TRUE(tree.topLevelItem(0)->child(2)->toolTip(0).contains("lost.ac"));
+  state.select({ { SceneItem::Kind::Object, 1 }, { SceneItem::Kind::Camera, 0 } });
+  EXPECT_EQ(
+    textOf(tree), "Objects: a/box b/hidden* c/missing!\nLights: sun/directional lamp/point\nCameras: eye/camera*\n");
+  state.select({ { SceneItem::Kind::Object, 0 }, { SceneItem::Kind::Object, 1 }, { SceneItem::Kind::Light, 1 } });
+  EXPECT_EQ(
+    textOf(tree), "Objects: a/box* b/hidden* c/missing!\nLights: sun/directional lamp/point*\nCameras: eye/camera\n");
+  tree.clearSelection();
+  EXPECT_TRUE(state.selection().empty());
+  tree.topLevelItem(1)->child(0)->setSelected(true);
+  EXPECT_EQ(state.selection(), (SceneItems{ { SceneItem::Kind::Light, 0 } }));
+  // What changes in the scene is seen; a name that is typed is an edit.
+  state.document().edit("Class", [](SceneDescription& scene) { scene.objects[1].visible = true; });
+  EXPECT_EQ(textOf(tree), "Objects: a/box b/ c/missing!\nLights: sun/directional* lamp/point\nCameras: eye/camera\n");
+  tree.topLevelItem(0)->child(0)->setText(0, "renamed");
+  QApplication::processEvents();
+  EXPECT_EQ(state.document().undoText(), "Rename");
+  EXPECT_EQ(state.scene().objects[0].name, "renamed");
+  std::string failure;
+  QObject::connect(&state, &EditorState::failed, [&](const QString& message) { failure = message.toStdString(); });
+  tree.topLevelItem(0)->child(1)->setText(0, "renamed");
+  QApplication::processEvents();
+  EXPECT_FALSE(failure.empty()) << "it is taken";
+  EXPECT_EQ(state.scene().objects[1].name, "b");
+  EXPECT_EQ(
+    textOf(tree), "Objects: renamed/box b/ c/missing!\nLights: sun/directional* lamp/point\nCameras: eye/camera\n");
+}
+
+/// What a dialog of camera arrays adds, or why not.
+class ArrayDialog
+{
+public:
+  explicit ArrayDialog(const CameraPath& path = {})
+    : Dialog(first(), path, nullptr)
+  {
+    this->Dialog.onAdd([this](const std::vector<CameraDescription>& cameras) { this->Added = cameras; });
+  }
+  static CameraDescription first()
+  {
+    CameraDescription camera;
+    camera.name = "c";
+    camera.eye = V(1, 2, 8);
+    camera.lookAt = V(1, 2, 0);
+    camera.fovY = 35;
+    camera.near = 0.5;
+    return camera;
+  }
+  template <typename Field>
+  Field* field(const char* name)
+  {
+    return this->Dialog.findChild<Field*>(name);
+  }
+  void type(const char* name, const char* text)
+  {
+    auto* const line = this->field<QLineEdit>(name);
+    line->setText(text);
+    line->setModified(true);
+  }
+  std::string add()
+  {
+    this->Added.clear();
+    this->Dialog.accept();
+    return this->Added.empty() ? this->field<QLabel>("fault")->text().toStdString() : std::string();
+  }
+  CameraArrayDialog Dialog;
+  std::vector<CameraDescription> Added;
+};
+
+TEST_F(PanelTables, EachKindOfArrayHasItsFields)
+{
+  ArrayDialog array;
+  auto* const kind = array.field<QComboBox>("kind");
+  EXPECT_EQ(kind->currentIndex(), 0);
+  ASSERT_EQ(kind->count(), 5);
+  const char* const fields[] = { "eye", "count", "columns", "rows", "spacing", "path" };
+  const char* const enabled[] = { "110000", "110000", "101110", "100010", "010001" };
+  for (int i = 0; i < 5; ++i)
+  {
+    kind->setCurrentIndex(i);
+    std::string found;
+    for (const char* const name : fields)
+    {
+      found += array.field<QWidget>(name)->isEnabled() ? '1' : '0';
+    }
+    EXPECT_EQ(found, enabled[i]) << i;
+    EXPECT_TRUE(array.field<QWidget>("lookAt")->isEnabled() && array.field<QWidget>("fovY")->isEnabled());
+  }
+  EXPECT_EQ(array.field<QSpinBox>("count")->value(), 8);
+  EXPECT_EQ(array.field<QSpinBox>("count")->maximum(), 10000);
+  EXPECT_EQ(array.field<QSpinBox>("columns")->value(), 3);
+  EXPECT_EQ(array.field<QSpinBox>("rows")->maximum(), 100);
+  EXPECT_EQ(array.field<QSpinBox>("rows")->minimum(), 1);
+  EXPECT_EQ(array.field<NumberRow>("spacing")->values(), Numbers{ 0.1 });
+  EXPECT_EQ(array.field<NumberRow>("eye")->values(), (Numbers{ 1, 2, 8 }));
+  EXPECT_EQ(array.field<NumberRow>("lookAt")->values(), (Numbers{ 1, 2, 0 }));
+  EXPECT_EQ(array.field<NumberRow>("fovY")->values(), Numbers{ 35 });
+}
+
+TEST_F(PanelTables, ArraysAreThoseOfTheFields)
+{
+  ArrayDialog array;
+  auto* const kind = array.field<QComboBox>("kind");
+  array.type("eye.0", "3");
+  array.type("lookAt.2", "-1");
+  array.type("fovY.0", "50");
+  array.field<QSpinBox>("count")->setValue(5);
+  ASSERT_EQ(array.add(), "");
+  ASSERT_EQ(array.Added.size(), 5u);
+  EXPECT_EQ(array.Added[0].name, "c-1");
+  EXPECT_LT((array.Added[0].eye.value - V(3, 2, 8)).norm(), 1e-12);
+  EXPECT_EQ(array.Added[0].lookAt.value, V(1, 2, -1));
+  EXPECT_EQ(array.Added[0].fovY.value, 50);
+  EXPECT_EQ(array.Added[0].near, 0.5);
+  kind->setCurrentIndex(1);
+  ASSERT_EQ(array.add(), "");
+  EXPECT_EQ(array.Added.size(), 5u);
+  EXPECT_GT(array.Added[4].eye.value.y(), array.Added[0].eye.value.y()) << "a hemisphere";
+  kind->setCurrentIndex(2);
+  array.field<QSpinBox>("columns")->setValue(4);
+  array.field<QSpinBox>("rows")->setValue(2);
+  array.type("spacing.0", "0.5");
+  ASSERT_EQ(array.add(), "");
+  ASSERT_EQ(array.Added.size(), 8u);
+  EXPECT_NEAR((array.Added[1].eye.value - array.Added[0].eye.value).norm(), 0.5, 1e-12);
+  kind->setCurrentIndex(3);
+  ASSERT_EQ(array.add(), "");
+  ASSERT_EQ(array.Added.size(), 2u);
+  EXPECT_EQ(array.Added[1].name, "c-right");
+  array.type("spacing.0", "0");
+  EXPECT_NE(array.add().find("spacing"), std::string::npos);
+  EXPECT_FALSE(array.field<QLabel>("fault")->isHidden());
+  array.type("spacing.0", "1");
+  kind->setCurrentIndex(0);
+  array.Dialog.onAdd([](const std::vector<CameraDescription>&) { throw std::runtime_error("no room"); });
+  EXPECT_EQ(array.add(), "no room");
+}
+
+TEST_F(PanelTables, PathsAreLinesOfPoints)
+{
+  ArrayDialog filled(CameraPath{ { V(0, 0, 5), V(1.5, 0, 5) }, { V(0, 0, 0), V(1, 2, 3) } });
+  EXPECT_EQ(filled.field<QComboBox>("kind")->currentIndex(), 4);
+  EXPECT_EQ(filled.field<QPlainTextEdit>("path")->toPlainText(), "0 0 5 0 0 0\n1.5 0 5 1 2 3");
+  filled.field<QSpinBox>("count")->setValue(2);
+  ASSERT_EQ(filled.add(), "");
+  ASSERT_EQ(filled.Added.size(), 2u);
+  EXPECT_EQ(filled.Added[1].eye.value, V(1.5, 0, 5));
+  EXPECT_EQ(filled.Added[1].lookAt.value, V(1, 2, 3));
+  EXPECT_EQ(ArrayDialog(CameraPath{ { V(0, 0, 5) }, { V(0, 0, 0) } }).field<QComboBox>("kind")->currentIndex(), 0)
+    << "one point is no path";
+  const auto path = [&](const char* text)
+  {
+    filled.field<QPlainTextEdit>("path")->setPlainText(text);
+    return filled.add();
+  };
+  EXPECT_EQ(path("0, 0; 5\n\n 2 0 5 \n"), "");
+  EXPECT_EQ(filled.Added[0].lookAt.value, V(1, 2, 0)) << "that of all";
+  EXPECT_EQ(filled.Added[1].eye.value, V(2, 0, 5));
+  EXPECT_EQ(path("0 0 5\n1 0\n").substr(0, 60), "path: line 2: expected 3 or 6 numbers, found 2");
+  EXPECT_EQ(path("0 0 5\n1 0 5 6\n").substr(0, 60), "path: line 2: expected 3 or 6 numbers, found 4");
+  EXPECT_EQ(path("0 0 5\n\n1 x 5\n"), "path: line 3: \"x\" is no number");
+  EXPECT_EQ(path("0 0 5"), "path: expected at least two different points");
+}
+} // namespace
