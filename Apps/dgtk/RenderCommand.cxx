@@ -4,6 +4,7 @@
 
 #include "dgtkError.h"
 #include "dgtkGenerator.h"
+#include "dgtkWorkTime.h"
 
 #include <algorithm>
 #include <atomic>
@@ -118,6 +119,26 @@ GeneratorRequest parseRequest(const Arguments& arguments)
   return request;
 }
 
+/// A line a stage: processor time of all threads, its share, and the peak of memory until its end.
+void printTimings(double seconds)
+{
+  constexpr double mebibyte = 1 << 20;
+  const std::vector<StageTime> all = workTimes();
+  double sum = 0;
+  std::printf("%-8s %12s %7s %12s\n", "stage", "processors s", "share", "memory MiB");
+  for (const StageTime& stage : all)
+  {
+    sum += stage.seconds;
+  }
+  for (const StageTime& stage : all)
+  {
+    std::printf("%-8s %12.3f %5.1f %% %12.0f\n", stage.name.c_str(), stage.seconds,
+      100 * stage.seconds / std::max(sum, 1e-9), double(stage.peakBytes) / mebibyte);
+  }
+  std::printf(
+    "%-8s %12.3f %7s %12.0f (%.3f s by the clock)\n", "all", sum, "", double(all.back().peakBytes) / mebibyte, seconds);
+}
+
 // What may be done about a folder that is refused.
 std::string wayOut(FolderContents contents)
 {
@@ -164,6 +185,10 @@ int render(const Arguments& arguments)
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
 
+  if (arguments.has("--timings"))
+  {
+    keepWorkTimes();
+  }
   Progress progress(arguments.has("--quiet"));
   GeneratorCallbacks callbacks;
   callbacks.cancel = &interrupted;
@@ -178,6 +203,10 @@ int render(const Arguments& arguments)
   std::snprintf(seconds, sizeof seconds, "%.1f s", progress.seconds());
   progress.message(std::to_string(result.pictures) + " pictures, " + std::to_string(result.files) + " files in " +
                    request.folder + ", " + seconds);
+  if (arguments.has("--timings"))
+  {
+    printTimings(progress.seconds());
+  }
   return 0;
 }
 
@@ -208,6 +237,7 @@ Command renderCommand()
   }
   const std::vector<Option> last = { { "--resume", "", "", "continue an interrupted run of the same request" },
     { "--replace", "", "", "remove the dataset of another request, or an interrupted run, that the folder holds" },
+    { "--timings", "", "", "print where processor time and memory went, at the end" },
     { "--quiet", "", "",
       "no progress and no messages (environment DGTK_PROGRESS: seconds between its lines, else 5)" } };
   command.options.insert(command.options.end(), last.begin(), last.end());

@@ -2,6 +2,7 @@
 #include "dgtkFile.h"
 
 #include "dgtkError.h"
+#include "dgtkWorkTime.h"
 
 #include <algorithm>
 #include <atomic>
@@ -207,6 +208,7 @@ void AtomicFile::write(const void* data, std::size_t bytes)
 
 void AtomicFile::writeAt(std::uint64_t offset, const void* data, std::size_t bytes)
 {
+  const WorkTime write(WorkStage::Write);
   FileDescriptor again = this->Kept ? FileDescriptor() : this->reopened();
   const int number = this->Kept ? this->Descriptor.number() : again.number();
   if (!writeAllAt(number, offset, data, bytes) || !again.close())
@@ -221,6 +223,7 @@ void AtomicFile::commitDurably() { this->finish(true); }
 
 void AtomicFile::finish(bool durably)
 {
+  const WorkTime write(WorkStage::Write);
   const std::string partial = partialName(this->Place.name());
   FileDescriptor file = this->Kept ? std::move(this->Descriptor) : durably ? this->reopened() : FileDescriptor();
   const bool whole = (!durably || ::fdatasync(file.number()) == 0) && file.close();

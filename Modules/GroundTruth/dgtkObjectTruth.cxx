@@ -254,31 +254,43 @@ void collectObjects(const SceneState& state, const View& view, const OcclusionQu
   const std::size_t objects = state.instances.size();
   rows.visible.assign(objects, {});
   rows.amodal.assign(objects, {});
-  std::vector<Hit> all;
+  std::vector<std::vector<Hit>> all(static_cast<std::size_t>(rect.width));
+  std::vector<Eigen::Vector2d> asked;
   std::vector<std::size_t> seen(objects, 0); // 1 + the pixel at which an object was met last
-  std::size_t pixel = 0;
   for (int y = rect.y; y < rect.y + rect.height; ++y)
   {
-    for (int x = rect.x; x < rect.x + rect.width; ++x, ++pixel)
+    const std::size_t row = static_cast<std::size_t>(y - rect.y) * static_cast<std::size_t>(rect.width);
+    const auto objectAt = [&](int x) { return hits[row + static_cast<std::size_t>(x - rect.x)].object; };
+    asked.clear();
+    for (int x = rect.x; x < rect.x + rect.width; ++x)
     {
-      const std::uint32_t first = hits[pixel].object;
+      if (objectAt(x) != 0 && blocks.mayHideOthers(x, y, objectAt(x)))
+      {
+        asked.emplace_back(x + 0.5, y + 0.5);
+      }
+    }
+    occlusion.allHits(view, asked.data(), asked.size(), all.data());
+    std::size_t answer = 0;
+    for (int x = rect.x; x < rect.x + rect.width; ++x)
+    {
+      const std::uint32_t first = objectAt(x);
       if (first == 0)
       {
         continue; // the ray meets nothing
       }
       rows.visible[first - 1].add(x, y, false);
       rows.amodal[first - 1].add(x, y, amodalRuns);
-      if (!blocks.mayHideOthers(x, y, first))
+      if (answer == asked.size() || asked[answer].x() != x + 0.5)
       {
         continue;
       }
-      seen[first - 1] = pixel + 1;
-      occlusion.allHits(view, { x + 0.5, y + 0.5 }, all);
-      for (const Hit& hit : all)
+      const std::size_t mark = row + static_cast<std::size_t>(x - rect.x) + 1;
+      seen[first - 1] = mark;
+      for (const Hit& hit : all[answer++])
       {
-        if (seen[hit.object - 1] != pixel + 1)
+        if (seen[hit.object - 1] != mark)
         {
-          seen[hit.object - 1] = pixel + 1;
+          seen[hit.object - 1] = mark;
           rows.amodal[hit.object - 1].add(x, y, amodalRuns);
         }
       }

@@ -6,6 +6,7 @@
 
 #include "dgtkBand.h"
 #include "dgtkThreadPool.h"
+#include "dgtkWorkTime.h"
 
 #include <algorithm>
 #include <type_traits>
@@ -31,6 +32,7 @@ void forStrips(const Band& band, int pixels, int batch, ThreadPool& pool, const 
     pool.parallelFor(static_cast<int>(done.size()),
       [&](int i)
       {
+        const WorkTime time(WorkStage::Derive);
         const int offset = (first + i) * rows;
         const PixelRect rect{ whole.x, whole.y + offset, whole.width, std::min(rows, whole.height - offset) };
         done[static_cast<std::size_t>(i)] =

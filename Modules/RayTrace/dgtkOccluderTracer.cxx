@@ -23,13 +23,8 @@ OccluderTracer::OccluderTracer(std::shared_ptr<const RayScene> scene, const View
   , Coarse(isCoarse(*this->Scene, view))
 {
   rtcInitIntersectContext(&this->Context.context);
-  // Embree's bounds of coherent packets lose surfaces when the rays start at different points and run along an axis but
-  // for a rounding, as those of parallel projections do.
-  const std::optional<LinearProjection> linear = view.model->linear();
-  if (linear && linear->perspective)
-  {
-    this->Context.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  }
+  this->Context.context.flags =
+    isCoherent(view) ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   this->Context.context.filter = rayFilter;
   this->Context.scene = this->Scene.get();
   this->Context.mode = RayContext::Mode::Checked;
@@ -71,25 +66,7 @@ void OccluderTracer::traceAll(unsigned int active)
 {
   alignas(64) RTCRayHit16 packet;
   alignas(64) int valid[lanes];
-  for (std::size_t i = 0; i < lanes; ++i)
-  {
-    valid[i] = (active >> i & 1U) != 0 ? -1 : 0;
-    const RTCRayHit query = valid[i] != 0 ? makeQuery(this->Rays[i]) : RTCRayHit{};
-    packet.ray.org_x[i] = query.ray.org_x;
-    packet.ray.org_y[i] = query.ray.org_y;
-    packet.ray.org_z[i] = query.ray.org_z;
-    packet.ray.dir_x[i] = query.ray.dir_x;
-    packet.ray.dir_y[i] = query.ray.dir_y;
-    packet.ray.dir_z[i] = query.ray.dir_z;
-    packet.ray.tnear[i] = query.ray.tnear;
-    packet.ray.tfar[i] = query.ray.tfar;
-    packet.ray.time[i] = 0;
-    packet.ray.mask[i] = ~0U;
-    packet.ray.id[i] = unsigned(i);
-    packet.ray.flags[i] = 0;
-    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-  }
+  fillPacket(this->Rays, active, packet, valid);
   rtcIntersect16(valid, this->Scene->handle(), &this->Context.context, &packet);
 }
 

@@ -3,6 +3,7 @@
 
 #include "dgtkOccluderTracer.h"
 #include "dgtkRayScene.h"
+#include "dgtkWorkTime.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,29 @@ namespace
 {
 /// Scenes kept placed, by pose of the camera.
 constexpr std::size_t mostPoses = 16;
+/// All surfaces that single precision finds along up to 16 rays, a list a ray.
+void collectCandidates(
+  const RayScene& scene, const ExactRay* rays, std::size_t count, bool coherent, std::vector<Hit>* candidates)
+{
+  RayContext context;
+  rtcInitIntersectContext(&context.context);
+  context.context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  context.context.filter = rayFilter;
+  context.scene = &scene;
+  context.mode = RayContext::Mode::Collect;
+  context.found = candidates;
+  if (count == 1)
+  {
+    alignas(16) RTCRayHit query = makeQuery(*rays);
+    rtcIntersect1(scene.handle(), &context.context, &query);
+    return;
+  }
+  alignas(64) RTCRayHit16 packet;
+  alignas(64) int valid[16];
+  fillPacket(rays, (1U << count) - 1, packet, valid);
+  rtcIntersect16(valid, scene.handle(), &context.context, &packet);
+}
+
 bool samePose(const Rigid3& a, const Rigid3& b) { return a.rotation == b.rotation && a.translation == b.translation; }
 
 class EmbreeQuery final : public OcclusionQuery
@@ -41,13 +65,37 @@ public:
 
   void allHits(const View& view, const Eigen::Vector2d& pixel, std::vector<Hit>& hits) const override
   {
+    this->allHits(view, &pixel, 1, &hits);
+  }
+
+  void allHits(
+    const View& view, const Eigen::Vector2d* pixels, std::size_t count, std::vector<Hit>* hits) const override
+  {
+    const WorkTime time(WorkStage::Trace);
     const std::shared_ptr<const RayScene> scene = this->scene(view.camera_from_world);
+    const bool coarse = isCoarse(*scene, view);
+    constexpr std::size_t lanes = OccluderTracer::lanes;
+    ExactRay rays[lanes];
+    std::vector<Hit> candidates[lanes];
     std::vector<RayHit> found;
-    collectHits(*scene, rayOf(view, pixel), isCoarse(*scene, view), found);
-    hits.clear();
-    for (const RayHit& hit : found)
+    for (std::size_t first = 0; first < count; first += lanes)
     {
-      hits.push_back(hit.hit);
+      const std::size_t many = std::min(count - first, lanes);
+      for (std::size_t i = 0; i < many; ++i)
+      {
+        rays[i] = rayOf(view, pixels[first + i]);
+        candidates[i].clear();
+      }
+      collectCandidates(*scene, rays, many, isCoherent(view), candidates);
+      for (std::size_t i = 0; i < many; ++i)
+      {
+        settleHits(*scene, rays[i], coarse, candidates[i], found);
+        hits[first + i].clear();
+        for (const RayHit& hit : found)
+        {
+          hits[first + i].push_back(hit.hit);
+        }
+      }
     }
   }
 
@@ -61,6 +109,7 @@ public:
   void occluders(const View& view, const Eigen::Vector3d* x_in_world, const Hit* targets, std::size_t count,
     Hit* found) const override
   {
+    const WorkTime time(WorkStage::Trace);
     OccluderTracer tracer(this->scene(view.camera_from_world), view);
     for (std::size_t first = 0; first < count; first += OccluderTracer::lanes)
     {

@@ -63,7 +63,7 @@ bool accept(RayContext& context, const RayMesh& mesh, unsigned int geometry, uns
   switch (context.mode)
   {
     case RayContext::Mode::Collect:
-      context.found->push_back(hit);
+      context.found[lane].push_back(hit);
       return false;
     case RayContext::Mode::Checked:
     {

@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkThreadPool.h"
+#include "dgtkWorkTime.h"
 
 #include <Eigen/LU>
 
@@ -266,6 +267,7 @@ std::shared_ptr<const RayMesh> RayDevice::keep(const RayMeshKey& key, std::share
 
 std::shared_ptr<const RayMesh> RayDevice::make(const Instance& instance, const RayMeshKey& key)
 {
+  const WorkTime build(WorkStage::Build);
   const auto mesh = std::make_shared<RayMesh>();
   mesh->device = this->shared_from_this();
   mesh->geometry = instance.geometry;

@@ -2,6 +2,7 @@
 #include "dgtkRayScene.h"
 
 #include "dgtkSurfaceRows.h"
+#include "dgtkWorkTime.h"
 
 #include <Eigen/LU>
 
@@ -37,6 +38,7 @@ RayScene::~RayScene()
 
 void RayScene::place(std::shared_ptr<const SceneState> state, const Rigid3& camera_from_world)
 {
+  const WorkTime build(WorkStage::Build);
   const bool newState = state != this->State;
   if (!newState && camera_from_world.rotation == this->Pose.rotation &&
       camera_from_world.translation == this->Pose.translation)
@@ -260,8 +262,14 @@ void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::v
 {
   thread_local std::vector<Hit> found;
   found.clear();
-  hits.clear();
   trace(scene, ray, found);
+  settleHits(scene, ray, nearby, found, hits);
+}
+
+void settleHits(
+  const RayScene& scene, const ExactRay& ray, bool nearby, std::vector<Hit>& found, std::vector<RayHit>& hits)
+{
+  hits.clear();
   for (const Hit& hit : found)
   {
     bool uncertain = false;
@@ -291,6 +299,35 @@ void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::v
     }
   }
   sortHits(hits);
+}
+
+void fillPacket(const ExactRay* rays, unsigned int active, RTCRayHit16& packet, int valid[16])
+{
+  for (unsigned int i = 0; i < 16; ++i)
+  {
+    valid[i] = (active >> i & 1U) != 0 ? -1 : 0;
+    const RTCRayHit query = valid[i] != 0 ? makeQuery(rays[i]) : RTCRayHit{};
+    packet.ray.org_x[i] = query.ray.org_x;
+    packet.ray.org_y[i] = query.ray.org_y;
+    packet.ray.org_z[i] = query.ray.org_z;
+    packet.ray.dir_x[i] = query.ray.dir_x;
+    packet.ray.dir_y[i] = query.ray.dir_y;
+    packet.ray.dir_z[i] = query.ray.dir_z;
+    packet.ray.tnear[i] = query.ray.tnear;
+    packet.ray.tfar[i] = query.ray.tfar;
+    packet.ray.time[i] = 0;
+    packet.ray.mask[i] = ~0U;
+    packet.ray.id[i] = i;
+    packet.ray.flags[i] = 0;
+    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+}
+
+bool isCoherent(const View& view)
+{
+  const std::optional<LinearProjection> linear = view.model->linear();
+  return linear && linear->perspective;
 }
 
 } // namespace dgtk

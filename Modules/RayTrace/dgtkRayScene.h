@@ -90,6 +90,15 @@ struct RayHit
 /// All surfaces along a ray in exact order. `nearby`: looks also beside the ray, for surfaces that single precision
 /// misses by a rounding; otherwise only when some surface is marginal.
 void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::vector<RayHit>& hits);
+/// The same where all candidates along the ray itself are in `found`, which gets those beside it.
+void settleHits(
+  const RayScene& scene, const ExactRay& ray, bool nearby, std::vector<Hit>& found, std::vector<RayHit>& hits);
+
+/// 16 rays as Embree takes them, those of `active` bits.
+void fillPacket(const ExactRay* rays, unsigned int active, RTCRayHit16& packet, int valid[16]);
+/// Whether Embree's bounds of coherent packets may be used for rays of a view: they lose surfaces when the rays start
+/// at different points and run along an axis but for a rounding, as those of parallel projections do.
+bool isCoherent(const View& view);
 
 /// Part of t by which equally near surfaces may differ: a few roundings of vertices far from the origin.
 constexpr double sameDistance = 1e-9;
@@ -117,7 +126,7 @@ struct RayContext
   Hit best[16];
   const Hit* skip = nullptr;         ///< Checked: a triangle that is not there, a lane
   unsigned int marginal = 0;         ///< Checked: bits of lanes in which single precision may have missed something
-  std::vector<Hit>* found = nullptr; ///< Collect
+  std::vector<Hit>* found = nullptr; ///< Collect: a list a lane
 };
 
 /// Embree's ray of an exact one, its range a little wider.

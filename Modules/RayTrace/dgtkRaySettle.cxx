@@ -2,6 +2,7 @@
 #include "dgtkRaySettle.h"
 
 #include "dgtkThreadPool.h"
+#include "dgtkWorkTime.h"
 
 #include <algorithm>
 #include <cmath>
@@ -205,6 +206,7 @@ void settleMarked(
   pool.parallelFor(chunks,
     [&](int chunk)
     {
+      const WorkTime time(WorkStage::Settle);
       Settler settler(scene, view, marks, buffer);
       const int first = chunk * chunkRows;
       for (int y = first; y < std::min(height, first + chunkRows); ++y)

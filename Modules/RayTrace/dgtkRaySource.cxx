@@ -5,6 +5,7 @@
 #include "dgtkRayScene.h"
 #include "dgtkRaySettle.h"
 #include "dgtkThreadPool.h"
+#include "dgtkWorkTime.h"
 
 #include <algorithm>
 
@@ -55,6 +56,7 @@ private:
     this->Pool.parallelFor((rect.height + bandRows - 1) / bandRows,
       [&](int band)
       {
+        const WorkTime time(WorkStage::Trace);
         const int first = band * bandRows;
         const int last = std::min(rect.height, first + bandRows);
         PacketTracer tracer(this->Scene, this->TheView);

@@ -8,6 +8,7 @@
 #include "dgtkRasterScene.h"
 #include "dgtkRasterTarget.h"
 #include "dgtkSurfaceRows.h"
+#include "dgtkWorkTime.h"
 
 #include <algorithm>
 #include <vtkOpenGLRenderWindow.h>
@@ -126,6 +127,7 @@ private:
 
 void VtkRasterSource::setScene(std::shared_ptr<const SceneState> state, const View& view)
 {
+  const WorkTime build(WorkStage::Build);
   this->Window->MakeCurrent();
   this->TheView = view;
   this->State = state;
@@ -156,6 +158,7 @@ void VtkRasterSource::aim(RasterTarget& target, const PixelRect& rect, int sampl
 
 void VtkRasterSource::render(const PixelRect& rect, VisibilityBuffer& hits)
 {
+  const WorkTime draw(WorkStage::Draw);
   this->aim(this->Main, rect, 1, false);
   this->Main.bind(false, true);
   this->Main.clear({});
@@ -164,6 +167,7 @@ void VtkRasterSource::render(const PixelRect& rect, VisibilityBuffer& hits)
   hits.resize(rect);
   takeHits(*this->Scene.firstHits(), this->Ids, rect, hits.hits);
   check();
+  const WorkTime settle(WorkStage::Settle);
   settleEdges(*this->State, this->TheView, hits);
 }
 
@@ -175,6 +179,7 @@ std::function<void()> VtkRasterSource::drawColor(
     throw UsageError(
       "samples must be between 1 and " + std::to_string(maxSamples) + " (found " + std::to_string(samples) + ")");
   }
+  const WorkTime draw(WorkStage::Draw);
   colors.resize(rect);
   if (samples == 1)
   {
@@ -209,6 +214,7 @@ std::function<void()> VtkRasterSource::restOf(
 {
   return [first = this->Scene.firstHits(), drawn = std::move(drawn), rect, &colors, hits]
   {
+    const WorkTime draw(WorkStage::Draw);
     take(drawn->pixels, rect, colors);
     if (hits)
     {
@@ -224,6 +230,7 @@ UnreadColor VtkRasterSource::startColor(const PixelRect& rect, int samples, Colo
   {
     return { nullptr, this->drawColor(rect, samples, colors, nullptr) };
   }
+  const WorkTime draw(WorkStage::Draw);
   colors.resize(rect);
   if (this->Spare.empty())
   {
@@ -240,6 +247,7 @@ UnreadColor VtkRasterSource::startColor(const PixelRect& rect, int samples, Colo
   const auto drawn = std::make_shared<Drawn>();
   const auto read = [this, target, drawn]
   {
+    const WorkTime reading(WorkStage::Draw);
     this->Window->MakeCurrent();
     target->readColor(drawn->pixels);
     check();

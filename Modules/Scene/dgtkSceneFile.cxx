@@ -7,6 +7,7 @@
 #include "dgtkSceneText.h"
 #include "dgtkText.h"
 #include "dgtkThesisScene.h"
+#include "dgtkWorkTime.h"
 
 #include <filesystem>
 
@@ -24,6 +25,7 @@ std::string folderOf(const std::string& path) { return std::filesystem::path(pat
 
 SceneDescription readScene(const std::string& path)
 {
+  const WorkTime load(WorkStage::Load);
   const std::string extension = extensionOf(path);
   const std::string contents = readFile(path, largestFile);
   if (extension == "scene")

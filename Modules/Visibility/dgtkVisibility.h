@@ -99,6 +99,9 @@ public:
   /// All surfaces along the ray through `pixel`, near to far within the view's near and far; coincident ones in the
   /// order of (object, triangle).
   virtual void allHits(const View& view, const Eigen::Vector2d& pixel, std::vector<Hit>& hits) const = 0;
+  /// The same of many at once; `hits` has as many lists. Quicker; those that follow each other should be neighbours.
+  virtual void allHits(
+    const View& view, const Eigen::Vector2d* pixels, std::size_t count, std::vector<Hit>* hits) const = 0;
   /// First surface strictly between the camera and a point of `target` at `x_in_world`; object 0 when there is none.
   /// The target triangle itself never hides the point.
   virtual Hit occluder(const View& view, const Eigen::Vector3d& x_in_world, const Hit& target) const = 0;

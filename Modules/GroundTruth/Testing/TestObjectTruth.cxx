@@ -116,6 +116,14 @@ public:
     }
   }
   Hit occluder(const View&, const Eigen::Vector3d&, const Hit&) const override { return {}; }
+  void allHits(
+    const View& view, const Eigen::Vector2d* pixels, std::size_t count, std::vector<Hit>* hits) const override
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      this->allHits(view, pixels[i], hits[i]);
+    }
+  }
   void occluders(const View&, const Eigen::Vector3d*, const Hit*, std::size_t, Hit*) const override {}
   mutable int Asked = 0;
 

@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkReaderRegistry.h"
 #include "dgtkText.h"
+#include "dgtkWorkTime.h"
 
 #include <algorithm>
 #include <new>
@@ -44,6 +45,7 @@ const std::vector<ReaderInfo>& modelReaders()
 
 std::shared_ptr<const Model> readModel(const std::string& path, const ReadOptions& options)
 {
+  const WorkTime load(WorkStage::Load);
   const std::string extension = extensionOf(path);
   for (const ReaderRow& row : readerRows())
   {

@@ -4,6 +4,7 @@
 #include "dgtkHash.h"
 #include "dgtkRepresentation.h"
 #include "dgtkThreadPool.h"
+#include "dgtkWorkTime.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -21,6 +22,7 @@ std::vector<InputRecord> inputsOf(const Stage& stage, const std::string& folder)
     .parallelFor(static_cast<int>(files.size()),
       [&](int i)
       {
+        const WorkTime load(WorkStage::Load);
         const std::string& file = files[static_cast<std::size_t>(i)];
         InputRecord& record = inputs[static_cast<std::size_t>(i)];
         record.path = fs::relative(fs::absolute(file), fs::absolute(folder)).generic_string();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkFileSink.h"
+#include "dgtkWorkTime.h"
 
 namespace dgtk
 {
@@ -49,6 +50,7 @@ FileSink::~FileSink() = default;
 
 void FileSink::rows(std::size_t output, const Rows& rows)
 {
+  const WorkTime encode(WorkStage::Encode);
   Files& files = *this->Outputs[output];
   const LayerOutput& what = files.output;
   const std::vector<std::string> names = rows.y() == 0 ? what.files() : std::vector<std::string>();
@@ -69,6 +71,7 @@ void FileSink::rows(std::size_t output, const Rows& rows)
 
 void FileSink::surfaces(std::size_t output, const LdiRows& rows)
 {
+  const WorkTime encode(WorkStage::Encode);
   Files& files = *this->Outputs[output];
   const LayerOutput& what = files.output;
   const std::vector<std::string> names = rows.y == 0 ? what.files() : std::vector<std::string>();
@@ -84,6 +87,7 @@ void FileSink::surfaces(std::size_t output, const LdiRows& rows)
 
 void FileSink::ranks(std::size_t output, const std::vector<CoveredId>& ranks, std::uint32_t pixels)
 {
+  const WorkTime encode(WorkStage::Encode);
   Files& files = *this->Outputs[output];
   if (!files.coverages)
   {
@@ -96,6 +100,7 @@ void FileSink::ranks(std::size_t output, const std::vector<CoveredId>& ranks, st
 
 void FileSink::document(std::size_t output, const std::string& text)
 {
+  const WorkTime encode(WorkStage::Encode);
   Files& files = *this->Outputs[output];
   const DatasetFile file = writeDocument(this->Folder, files.output.files().front(), text);
   files.finished.push_back({ file.path, file.bytes, file.sha256 });
@@ -108,6 +113,7 @@ void FileSink::shared(const std::string& layer, const FileRecord& file)
 
 std::vector<FinishedFile> FileSink::finish()
 {
+  const WorkTime encode(WorkStage::Encode);
   std::vector<FinishedFile> all = std::move(this->Shared);
   for (const std::unique_ptr<Files>& files : this->Outputs)
   {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkFrameOutput.h"
+#include "dgtkWorkTime.h"
 
 #include <exception>
 
@@ -25,7 +26,12 @@ void FrameOutput::submit(const std::shared_ptr<DrawnBand>& band)
   for (std::size_t i = 0; i < this->Lanes.size(); ++i)
   {
     Lane* lane = &this->Lanes[i];
-    this->Queues[i]->submit([lane, band] { lane->pass->band(band->whole(lane->readsColor), *lane->sink); });
+    this->Queues[i]->submit(
+      [lane, band]
+      {
+        const WorkTime derive(WorkStage::Derive);
+        lane->pass->band(band->whole(lane->readsColor), *lane->sink);
+      });
   }
 }
 

@@ -396,6 +396,41 @@ TEST(OcclusionQuery, OccludersOfAnotherViewAreThoseOfEveryTriangle)
   EXPECT_GT(hidden, 200U);
 }
 
+TEST(OcclusionQuery, AllHitsOfManyPixelsAreThoseOfEach)
+{
+  const auto query = makeOcclusionQuery();
+  std::size_t several = 0;
+  for (const RayCase& c : rayCases())
+  {
+    query->setScene(c.state);
+    std::vector<Eigen::Vector2d> pixels;
+    for (int i = 0; i < 500; ++i)
+    {
+      pixels.emplace_back(0.5 + 0.37 * (i % 100), 0.5 + 7.3 * (i / 100));
+    }
+    std::vector<std::vector<Hit>> alone(pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+    {
+      query->allHits(c.view, pixels[i], alone[i]);
+      several += alone[i].size() > 1;
+    }
+    for (const std::size_t together :
+      { std::size_t(1), std::size_t(15), std::size_t(16), std::size_t(33), pixels.size() })
+    {
+      std::vector<std::vector<Hit>> found(pixels.size(), { Hit{ 9, 9 } });
+      for (std::size_t first = 0; first < pixels.size(); first += together)
+      {
+        query->allHits(c.view, &pixels[first], std::min(together, pixels.size() - first), &found[first]);
+      }
+      for (std::size_t i = 0; i < pixels.size(); ++i)
+      {
+        EXPECT_TRUE(found[i] == alone[i]) << c.name << ' ' << i << " of " << together << " together";
+      }
+    }
+  }
+  EXPECT_GT(several, 500U);
+}
+
 TEST(OcclusionQuery, ThreadsMayAskForDifferentViews)
 {
   const RayCase c = rayCases().front();
