@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of numbers, the tree of a scene and the dialog of camera arrays, on no display.
+// Rows of numbers, the tree of a scene and the dialogs of cameras, lights and camera arrays, on no display.
 #include "dgtkCameraArrayDialog.h"
 #include "dgtkEditorState.h"
+#include "dgtkItemDialogs.h"
 #include "dgtkNumberRow.h"
 #include "dgtkSceneTree.h"
 
 #include "dgtkTestSupport.h"
 
 #include <QApplication>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QKeyEvent>
 #include <QLabel>
@@ -315,5 +317,146 @@ TEST_F(PanelTables, PathsAreLinesOfPoints)
   EXPECT_EQ(path("0 0 5\n1 0 5 6\n").substr(0, 60), "path: line 2: expected 3 or 6 numbers, found 4");
   EXPECT_EQ(path("0 0 5\n\n1 x 5\n"), "path: line 3: \"x\" is no number");
   EXPECT_EQ(path("0 0 5"), "path: expected at least two different points");
+}
+
+TEST_F(PanelTables, NewCamerasAreThoseOfTheDialog)
+{
+  CameraDescription from;
+  from.name = "c";
+  from.eye = V(1, 2, 3);
+  from.lookAt = V(4, 5, 6);
+  from.up = V(0, 0, 1);
+  from.fovY = 90;
+  from.aspect = 1.5;
+  from.width = 300;
+  from.height = 200;
+  from.near = 0.5;
+  from.far = 70;
+  CameraDialog dialog(from, nullptr);
+  const auto text = [](const CameraDescription& camera)
+  {
+    SceneDescription scene;
+    scene.cameras = { camera };
+    return toJson(scene, "");
+  };
+  EXPECT_EQ(text(dialog.camera()), text(from));
+  const auto enabled = [&]
+  {
+    std::string found;
+    for (const char* const name : { "fovY", "aspect", "K", "size" })
+    {
+      found += dialog.findChild<NumberRow*>(name)->isEnabled() ? '1' : '0';
+    }
+    return found;
+  };
+  EXPECT_EQ(enabled(), "1101");
+  dialog.findChild<QComboBox*>("lens")->setCurrentIndex(1);
+  EXPECT_EQ(enabled(), "0011");
+  CameraDescription wanted = from;
+  wanted.fovY = CameraDescription().fovY;
+  wanted.aspect = 0;
+  wanted.K = Eigen::Matrix3d::Identity();
+  wanted.K->diagonal() = V(100, 100, 1);
+  wanted.K->col(2) = V(150, 100, 1);
+  CameraDescription got = dialog.camera();
+  ASSERT_TRUE(got.K);
+  EXPECT_LT((*got.K - *wanted.K).norm(), 1e-9);
+  got.K = wanted.K;
+  EXPECT_EQ(text(got), text(wanted));
+  const auto type = [&](const char* name, const char* words)
+  {
+    auto* const line = dialog.findChild<QLineEdit*>(name);
+    line->setText(words);
+    line->setModified(true);
+  };
+  type("K.0", "11");
+  type("K.1", "12");
+  type("K.2", "13");
+  type("K.3", "14");
+  type("name", "d");
+  wanted.name = "d";
+  type("range.1", "80");
+  wanted.far = 80;
+  *wanted.K << 11, 0, 13, 0, 12, 14, 0, 0, 1;
+  bool taken = false;
+  dialog.onAdd(
+    [&](const CameraDescription& camera)
+    {
+      EXPECT_EQ(text(camera), text(wanted)) << "what is being typed is taken";
+      return taken;
+    });
+  dialog.show();
+  dialog.accept();
+  EXPECT_TRUE(dialog.isVisible()) << "it was refused";
+  // A matrix that was typed stays; without a size the usual one is taken.
+  dialog.findChild<QComboBox*>("lens")->setCurrentIndex(0);
+  dialog.findChild<QComboBox*>("lens")->setCurrentIndex(1);
+  taken = true;
+  dialog.accept();
+  EXPECT_FALSE(dialog.isVisible());
+  from.width = 0;
+  CameraDialog sizeless(from, nullptr);
+  sizeless.findChild<QComboBox*>("lens")->setCurrentIndex(1);
+  EXPECT_EQ(sizeless.camera().width, 640);
+  EXPECT_EQ(sizeless.camera().height, 480);
+  EXPECT_NEAR((*sizeless.camera().K)(0, 0), 240, 1e-9);
+  EXPECT_EQ((*sizeless.camera().K)(0, 2), 320);
+}
+
+TEST_F(PanelTables, NewLightsAreThoseOfTheDialog)
+{
+  EXPECT_EQ(lightKindNames(), (QStringList{ "point", "head", "directional", "spot" }));
+  EXPECT_EQ(lightKindPlace(LightKind::Directional), 2);
+  LightDescription from;
+  from.name = "l";
+  from.kind = LightKind::Spot;
+  from.enabled = false;
+  from.position = V(1, 2, 3);
+  from.target = V(4, 5, 6);
+  from.diffuse = V(0.1, 0.2, 0.3);
+  from.specular = V(0.4, 0.5, 0.6);
+  from.ambient = V(0.7, 0.8, 0.9);
+  from.intensity = 2;
+  from.attenuation = V(1, 0.5, 0.25);
+  from.coneAngle = 25;
+  from.exponent = 4;
+  LightDialog dialog(from, nullptr);
+  const auto text = [](const LightDescription& light)
+  {
+    SceneDescription scene;
+    scene.lights = { light };
+    return toJson(scene, "");
+  };
+  EXPECT_EQ(text(dialog.light()), text(from));
+  const char* const enabled[] = { "10100", "00000", "11000", "11111" };
+  for (int kind = 0; kind < 4; ++kind)
+  {
+    dialog.findChild<QComboBox*>("kind")->setCurrentIndex(kind);
+    std::string found;
+    for (const char* const name : { "position", "target", "attenuation", "coneAngle", "exponent" })
+    {
+      found += dialog.findChild<NumberRow*>(name)->isEnabled() ? '1' : '0';
+    }
+    EXPECT_EQ(found, enabled[kind]) << kind;
+    EXPECT_EQ(dialog.light().kind, lightKinds()[std::size_t(kind)].kind);
+  }
+  dialog.findChild<QCheckBox*>("enabled")->setChecked(true);
+  dialog.findChild<QLineEdit*>("intensity.0")->setText("3");
+  dialog.findChild<QLineEdit*>("intensity.0")->setModified(true);
+  bool taken = false;
+  from.enabled = true;
+  from.intensity = 3;
+  dialog.onAdd(
+    [&](const LightDescription& light)
+    {
+      EXPECT_EQ(text(light), text(from));
+      return taken;
+    });
+  dialog.show();
+  dialog.accept();
+  EXPECT_TRUE(dialog.isVisible());
+  taken = true;
+  dialog.accept();
+  EXPECT_FALSE(dialog.isVisible());
 }
 } // namespace
