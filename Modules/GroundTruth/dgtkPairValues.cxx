@@ -2,7 +2,6 @@
 #include "dgtkPairValues.h"
 
 #include <cmath>
-#include <vector>
 
 namespace dgtk
 {
@@ -21,22 +20,16 @@ int channelsOf(PairValue value)
   }
 }
 
-void pairRows(const SurfaceRows& in, const OtherView& other, PairValue value, double* values, std::uint8_t* classes)
+void pairRows(const PixelRect& rect, const double* pixels, PairValue value, double* values)
 {
-  if (value == PairValue::Motion)
+  const auto width = static_cast<std::size_t>(rect.width);
+  const std::size_t count = width * static_cast<std::size_t>(rect.height);
+  for (std::size_t i = 0; i < count; ++i)
   {
-    sceneFlowRows(in, *other.state, values);
-    return;
-  }
-  std::vector<double> found(2 * in.t.size());
-  correspondRows(in, other, found.data(), classes);
-  const auto width = static_cast<std::size_t>(in.rect.width);
-  for (std::size_t i = 0; i < in.t.size(); ++i)
-  {
-    const double x = found[2 * i];
-    const double y = found[2 * i + 1];
-    const double ownX = in.rect.x + double(i % width) + 0.5;
-    const double ownY = in.rect.y + double(i / width) + 0.5;
+    const double x = pixels[2 * i];
+    const double y = pixels[2 * i + 1];
+    const double ownX = rect.x + double(i % width) + 0.5;
+    const double ownY = rect.y + double(i / width) + 0.5;
     switch (value)
     {
       case PairValue::Position:

@@ -6,8 +6,6 @@
 
 #include "dgtkCorrespondence.h"
 
-#include <cstdint>
-
 namespace dgtk
 {
 
@@ -24,10 +22,9 @@ enum class PairValue
 /// Values a pixel: 2, 1 for disparities, 3 for motion.
 DGTKGROUNDTRUTH_EXPORT int channelsOf(PairValue value);
 
-/// One value of rows (full width, barycentrics computed): channelsOf(value) numbers a pixel in `values`, NaN where
-/// there is none, and in `classes` the VisibilityClass of each pixel, which motion does not have: it may be null then.
-DGTKGROUNDTRUTH_EXPORT void pairRows(
-  const SurfaceRows& in, const OtherView& other, PairValue value, double* values, std::uint8_t* classes);
+/// One value, other than motion, of rows of full width: channelsOf(value) numbers a pixel in `values`, NaN where there
+/// is none. `pixels` is what correspondRows() gives.
+DGTKGROUNDTRUTH_EXPORT void pairRows(const PixelRect& rect, const double* pixels, PairValue value, double* values);
 
 /// Centre of camera b on the x axis of camera a, when the two are a rectified pair: two perspectives of one size, the
 /// same K but for the column of the principal point, one orientation, displaced along x only (to 1e-9). Otherwise 0.

@@ -57,7 +57,10 @@ std::vector<std::string> layerNames()
   std::vector<std::string> names;
   for (const LayerInfo& info : generatorLayers())
   {
-    names.push_back(info.layer);
+    if (info.layer != "color_sharp") // of cameras with a shutter or a lens only
+    {
+      names.push_back(info.layer);
+    }
   }
   return names;
 }

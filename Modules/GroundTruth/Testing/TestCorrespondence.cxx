@@ -249,7 +249,15 @@ std::vector<double> pairOf(PairValue value, const Eigen::Vector3d& place, std::v
   query->setScene(state);
   std::vector<double> values(rows.t.size() * std::size_t(channelsOf(value)));
   classes.assign(rows.t.size(), 99);
-  pairRows(rows, { state.get(), viewAt(place), query.get() }, value, values.data(), classes.data());
+  const OtherView other{ state.get(), viewAt(place), query.get() };
+  if (value == PairValue::Motion)
+  {
+    sceneFlowRows(rows, *other.state, values.data());
+    return values;
+  }
+  std::vector<double> pixels(2 * rows.t.size());
+  correspondRows(rows, other, pixels.data(), classes.data());
+  pairRows(rows.rect, pixels.data(), value, values.data());
   return values;
 }
 } // namespace

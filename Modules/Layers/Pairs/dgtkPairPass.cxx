@@ -3,6 +3,8 @@
 
 #include "dgtkStrips.h"
 
+#include <algorithm>
+
 namespace dgtk
 {
 
@@ -20,6 +22,13 @@ public:
     for (const PairTarget& target : targets)
     {
       Output output;
+      const auto same = [&target](const Output& other)
+      {
+        return other.target.camera == target.camera && other.target.frame == target.frame &&
+               other.target.value != PairValue::Motion;
+      };
+      output.places = static_cast<std::size_t>(
+        std::find_if(this->Outputs.begin(), this->Outputs.end(), same) - this->Outputs.begin());
       output.target = target;
       output.moment = context.queries.at(target.frame);
       output.other = { output.moment.state.get(),
@@ -44,6 +53,13 @@ private:
     PairTarget target;
     SceneQueries::Moment moment;
     OtherView other;
+    std::size_t places = 0; ///< the first output whose places are the same
+  };
+  // Where the surface points of a strip are in another view.
+  struct Places
+  {
+    std::vector<double> pixels;
+    std::vector<std::uint8_t> classes;
   };
   // Of a strip and an output.
   struct Values
@@ -56,27 +72,37 @@ private:
   {
     SurfaceRows surface;
     computeSurfaceRows(*this->Context.state, this->Context.view, rect, hits, true, surface);
+    std::vector<Places> places(this->Outputs.size());
     std::vector<Values> strip;
-    for (const Output& output : this->Outputs)
+    for (std::size_t i = 0; i < this->Outputs.size(); ++i)
     {
-      strip.push_back(deriveOne(surface, output));
+      const Output& output = this->Outputs[i];
+      if (output.places == i && output.target.value != PairValue::Motion)
+      {
+        places[i].pixels.resize(2 * surface.t.size());
+        places[i].classes.resize(surface.t.size());
+        correspondRows(surface, output.other, places[i].pixels.data(), places[i].classes.data());
+      }
+      strip.push_back(deriveOne(surface, output, places[output.places]));
     }
     return strip;
   }
 
-  static Values deriveOne(const SurfaceRows& surface, const Output& output)
+  static Values deriveOne(const SurfaceRows& surface, const Output& output, const Places& places)
   {
     const PixelRect& rect = surface.rect;
     const PairValue value = output.target.value;
     Values result;
     result.values = Rows(PixelType::Float64, channelsOf(value), rect.width, rect.y, rect.height);
-    std::uint8_t* classes = nullptr;
-    if (value != PairValue::Motion)
+    double* const values = result.values.row<double>(rect.y);
+    if (value == PairValue::Motion)
     {
-      result.classes = Rows(PixelType::UInt8, 1, rect.width, rect.y, rect.height);
-      classes = result.classes.row<std::uint8_t>(rect.y);
+      sceneFlowRows(surface, *output.other.state, values);
+      return result;
     }
-    pairRows(surface, output.other, value, result.values.row<double>(rect.y), classes);
+    pairRows(rect, places.pixels.data(), value, values);
+    result.classes = Rows(PixelType::UInt8, 1, rect.width, rect.y, rect.height);
+    std::copy(places.classes.begin(), places.classes.end(), result.classes.row<std::uint8_t>(rect.y));
     return result;
   }
 
