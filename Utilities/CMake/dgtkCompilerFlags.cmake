@@ -5,7 +5,8 @@ if(DGTK_WERROR)
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Werror>)
 endif()
 if(DGTK_SANITIZE)
-  add_compile_options(-fsanitize=${DGTK_SANITIZE} -fno-omit-frame-pointer -g1)
+  # With sanitizers the compiler takes values for unset that are not.
+  add_compile_options(-fsanitize=${DGTK_SANITIZE} -fno-omit-frame-pointer -g1 -Wno-maybe-uninitialized)
   add_link_options(-fsanitize=${DGTK_SANITIZE})
   add_compile_definitions(_GLIBCXX_ASSERTIONS) # indices and iterators of the standard library are looked at, too
   if(DGTK_SANITIZE MATCHES "undefined")
