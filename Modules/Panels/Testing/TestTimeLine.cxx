@@ -422,6 +422,18 @@ TEST_F(TimeLineTable, TheFrameAndTheRowAreBroughtIntoSight)
   EXPECT_EQ(down->value(), std::min(70, 88 - (height - 26)));
   this->State->select({ creature });
   EXPECT_EQ(down->value(), 0);
+  // What an edit adds can be scrolled to.
+  const int before = down->maximum();
+  this->State->document().edit("Camera",
+    [](SceneDescription& scene)
+    {
+      CameraDescription more = scene.cameras.front();
+      more.name = "more";
+      more.eye.keys = { { 0, more.eye.at(0) }, { 200, more.eye.at(0) } };
+      scene.cameras.push_back(more);
+    });
+  EXPECT_GT(down->maximum(), before);
+  EXPECT_GE(across->maximum(), 130 + 201 * 12 - width);
 }
 
 TEST(EditorState, SelectionsFollowTheirNames)

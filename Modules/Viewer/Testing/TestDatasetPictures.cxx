@@ -281,6 +281,51 @@ TEST(PictureValues, LayeredImagesAreSeenInThreeWays)
     colors.get(i % SmallDataset::width, i / SmallDataset::width, value);
     EXPECT_TRUE(i % 3 == 2 ? value[0] == 255 && value[1] == 51 : std::isnan(value[0]));
   }
+  // Parts of it, thinned out.
+  for (const PixelRect& window : { PixelRect{ 2, 1, 7, 5 }, PixelRect{ 11, 6, 1, 1 }, PixelRect{ 0, 3, 5, 2 } })
+  {
+    for (int step = 1; step <= 3; ++step)
+    {
+      PictureRead how;
+      how.window = window;
+      how.step = step;
+      how.surface = 1;
+      const PictureValues part =
+        readPicture(dataset.file({ "left", 0, "ldi depth" }), *dataset.layer("ldi depth"), how);
+      ASSERT_EQ(part.columns(), (window.width + step - 1) / step);
+      ASSERT_EQ(part.ldi->first.size(), std::size_t(part.columns()) * std::size_t(part.rows()) + 1);
+      for (int at = 0; at < part.columns() * part.rows(); ++at)
+      {
+        const int column = at % part.columns();
+        const int row = at / part.columns();
+        const int i = part.y(row) * SmallDataset::width + part.x(column);
+        EXPECT_EQ(part.ldi->first[std::size_t(at) + 1] - part.ldi->first[std::size_t(at)], std::size_t(i % 3));
+        double value = 0;
+        part.get(column, row, &value);
+        EXPECT_EQ(value, i % 3 == 2 ? 2 + i : std::numeric_limits<double>::infinity());
+      }
+    }
+  }
+}
+
+/// The step is the smallest that keeps the budget, to the byte.
+TEST(PictureValues, StepsKeepTheBudget)
+{
+  SmallDataset files;
+  static_assert(SmallDataset::width == 12 && SmallDataset::height == 7, "the table is of these");
+  const LayerSpec ids{ "objects", PixelType::UInt16, 3, "id", "", "0", "" };
+  files.add("left", "objects", 0, "", "png", ids, ramp);
+  // bytes of a pixel: 2 * 3; kept are 12 x 7, 6 x 4, 4 x 3, 3 x 2, 2 x 2, 2 x 1 and 1 x 1
+  for (const auto& [budget, step] : { std::pair(504, 1), std::pair(503, 2), std::pair(144, 2), std::pair(143, 3),
+         std::pair(72, 3), std::pair(71, 4), std::pair(36, 4), std::pair(35, 6), std::pair(24, 6), std::pair(23, 7),
+         std::pair(12, 7), std::pair(11, 12), std::pair(6, 12) })
+  {
+    PictureRead read;
+    read.budget = std::uint64_t(budget);
+    EXPECT_EQ(readPicture(files.path("left/objects/000000.png"), layerOf(ids, "png"), read).step, step) << budget;
+    read.window = { 1, 1, 6, 4 };
+    EXPECT_EQ(readPicture(files.path("left/objects/000000.png"), layerOf(ids, "png"), read).step == 1, budget >= 144);
+  }
 }
 
 /// A dataset whose cameras see one box each; returns the names of the files.

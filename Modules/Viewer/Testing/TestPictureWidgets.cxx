@@ -10,6 +10,7 @@
 #include <QImage>
 #include <QKeyEvent>
 #include <QLineEdit>
+#include <QLocale>
 #include <QMouseEvent>
 #include <QToolButton>
 #include <QWheelEvent>
@@ -477,5 +478,26 @@ TEST_F(LegendTable, FieldsAskForARange)
   EXPECT_TRUE(asked[2] == (PictureRange{ 1, 2.5 }));
   EXPECT_TRUE(asked[3] == (PictureRange{ 1, 2.5 })) << "what is shown";
   EXPECT_FALSE(asked[4].has_value()) << "each picture's own";
+}
+
+TEST_F(LegendTable, NumbersHaveAPointInEveryLanguage)
+{
+  const QLocale before;
+  QLocale::setDefault(QLocale(QLocale::German, QLocale::Germany));
+  const LegendBar bar(nullptr);
+  QLocale::setDefault(before);
+  for (const char* const name : { "low", "high" })
+  {
+    auto* const field = bar.findChild<QLineEdit*>(name);
+    ASSERT_TRUE(field) << name;
+    for (const auto& [text, fine] : { std::pair("2.5", true), std::pair("-1e-3", true), std::pair("2,5", false),
+           std::pair("x", false), std::pair("", false) })
+    {
+      field->setText(text);
+      EXPECT_EQ(field->hasAcceptableInput(), fine) << text;
+    }
+    EXPECT_FALSE(field->toolTip().isEmpty());
+    EXPECT_EQ(field->accessibleName(), field->toolTip());
+  }
 }
 } // namespace
