@@ -379,6 +379,13 @@ TEST_F(PovExport, BumpsAreInSceneUnits)
   }
   EXPECT_NEAR(sizes[0], 0.6, 1e-12);          // a texel is half a unit wide
   EXPECT_NEAR(sizes[1], sizes[0] / 2, 1e-12); // texels are twice as large
+  // a picture that lies aslant, in as many texels
+  for (Eigen::Vector2d& uv : quad->uvs)
+  {
+    uv = Eigen::Vector2d(uv.x() + 0.75 * uv.y(), 0.5 * uv.x() + 1.375 * uv.y());
+  }
+  exportPov(*test::SceneBuilder().add(quad).state(), this->V, this->path("b.pov"));
+  EXPECT_NEAR(after(readFile(this->path("b.pov")), "bump_size "), 0.6, 1e-12);
   // also beside a material that is plain
   quad->materials.emplace_back();
   const auto state = test::SceneBuilder().add(quad, test::placement({ 0, 0, 0 }, 2)).state();

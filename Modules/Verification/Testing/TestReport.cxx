@@ -35,7 +35,7 @@ VerificationReport mixed()
   VerificationReport report;
   report.residuals.push_back(residualOf("hashes", "", 12, 0, 0, 0, 0));
   report.residuals.push_back(residualOf("flow", "flow_forward", 100, 3, 2, 1.5, 0.001));
-  report.residuals.back().worst = { "left/flow_forward/000001.flo", 4, 7, "(1, 2)", "(1, 3.5)" };
+  report.residuals.back().worst = { "left/flow_forward/000001.flo", 0, 7, "(1, 2)", "(1, 3.5)" };
   report.residuals.push_back(residualOf("classes", "classes", 50, 1, 1, inf, 0));
   report.residuals.back().worst = { "left/classes/000001.png", -1, -1, "damaged", "a file that can be used" };
   report.residuals.push_back(residualOf("depth", "depth", 10, 90, 0, 0.0000125, 1e-9));
@@ -91,7 +91,7 @@ TEST(Report, AsADocument)
       "worst": {
         "file": "left/flow_forward/000001.flo",
         "pixel": [
-          4,
+          0,
           7
         ],
         "value": "(1, 2)",
@@ -162,7 +162,7 @@ TEST(Report, AsALine)
   }
   EXPECT_EQ(lines,
     (std::vector<std::string>{ "",
-      "left/flow_forward/000001.flo: pixel (4, 7): found (1, 2), expected (1, 3.5) (check flow, layer flow_forward, "
+      "left/flow_forward/000001.flo: pixel (0, 7): found (1, 2), expected (1, 3.5) (check flow, layer flow_forward, "
       "residual 1.50e+00 pixel against 1.00e-03)",
       "left/classes/000001.png: found damaged, expected a file that can be used (check classes, layer classes)",
       "dataset: 90 of 100 values left open, expected at most 1.25e+01 % (check depth, layer depth)" }));

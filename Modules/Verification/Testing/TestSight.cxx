@@ -146,4 +146,25 @@ TEST(Carrier, FollowsPlacementAndDeformation)
   // The top corner has weight 1/2 there and rises by 2.
   EXPECT_LT((deformed.x_in_world - Eigen::Vector3d(0.25, 1.5, 2)).norm(), 1e-14);
 }
+
+TEST(Carrier, EachObjectHasItsOwnWay)
+{
+  const auto before = makeState(false);
+  before->instances.push_back(before->instances[0]);
+  before->instances[1].world_from_object.translation = { 1, 0, 0 };
+  before->instances.push_back(before->instances[0]);
+  before->instances[2].world_from_object.linear.col(2).setZero();
+  const Sight sight = makeSight(before);
+  auto after = std::make_shared<SceneState>(*before);
+  after->instances[0].world_from_object.translation = { 0, 0, 5 };
+  after->instances[1].world_from_object.translation = { 1, 3, 0 };
+  after->instances[2].world_from_object = {};
+  const Carrier carrier(sight, after);
+  const Carried first = carrier({ 1, 0 }, { 0.25, 0.5, 2 });
+  const Carried second = carrier({ 2, 1 }, { 0.25, 0.5, 2 });
+  ASSERT_TRUE(first.ok && second.ok);
+  EXPECT_LT((first.x_in_world - Eigen::Vector3d(0.25, 0.5, 7)).norm(), 1e-14);
+  EXPECT_LT((second.x_in_world - Eigen::Vector3d(0.25, 3.5, 2)).norm(), 1e-14);
+  EXPECT_FALSE(carrier({ 3, 0 }, { 0.25, 0.5, 0 }).ok) << "it was flat";
+}
 } // namespace
