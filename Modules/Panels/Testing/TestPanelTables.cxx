@@ -25,6 +25,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace
@@ -394,13 +395,20 @@ TEST_F(PanelTables, NewCamerasAreThoseOfTheDialog)
   taken = true;
   dialog.accept();
   EXPECT_FALSE(dialog.isVisible());
-  from.width = 0;
-  CameraDialog sizeless(from, nullptr);
-  sizeless.findChild<QComboBox*>("lens")->setCurrentIndex(1);
-  EXPECT_EQ(sizeless.camera().width, 640);
-  EXPECT_EQ(sizeless.camera().height, 480);
-  EXPECT_NEAR((*sizeless.camera().K)(0, 0), 240, 1e-9);
-  EXPECT_EQ((*sizeless.camera().K)(0, 2), 320);
+  // Without a whole size the usual one is taken.
+  for (const auto& [width, height, whole] : { std::tuple(0, 200, false), std::tuple(300, 0, false),
+         std::tuple(0, 0, false), std::tuple(1, 1, true), std::tuple(300, 200, true) })
+  {
+    from.width = width;
+    from.height = height;
+    CameraDialog sized(from, nullptr);
+    sized.findChild<QComboBox*>("lens")->setCurrentIndex(1);
+    EXPECT_EQ(sized.camera().width, whole ? width : 640);
+    EXPECT_EQ(sized.camera().height, whole ? height : 480);
+    EXPECT_NEAR((*sized.camera().K)(0, 0), sized.camera().height / 2.0, 1e-9);
+    EXPECT_EQ((*sized.camera().K)(0, 2), sized.camera().width / 2.0);
+    EXPECT_EQ((*sized.camera().K)(1, 2), sized.camera().height / 2.0);
+  }
 }
 
 TEST_F(PanelTables, NewLightsAreThoseOfTheDialog)

@@ -233,18 +233,18 @@ Visible | visible on
   EXPECT_EQ(toJson(this->scene(), ""), toJson(wanted, ""));
   // Four numbers of any length are a rotation; angles too.
   auto* const numbers = this->field<NumberRow>("orientation");
-  for (const auto& [name, text] : { std::pair("orientation.0", "0"), std::pair("orientation.1", "3"),
-         std::pair("orientation.2", "0"), std::pair("orientation.3", "4") })
+  for (const auto& [name, text] : { std::pair("orientation.0", "1"), std::pair("orientation.1", "4"),
+         std::pair("orientation.2", "2"), std::pair("orientation.3", "2") })
   {
     this->field<QLineEdit>(name)->setText(text);
     this->field<QLineEdit>(name)->setModified(true);
   }
   numbers->commit();
   const Quaternion q = this->scene().objects[0].orientation.at(0);
-  EXPECT_EQ(q.w, 0);
-  EXPECT_DOUBLE_EQ(q.x, 0.6);
-  EXPECT_EQ(q.y, 0);
-  EXPECT_DOUBLE_EQ(q.z, 0.8);
+  EXPECT_DOUBLE_EQ(q.w, 0.2);
+  EXPECT_DOUBLE_EQ(q.x, 0.8);
+  EXPECT_DOUBLE_EQ(q.y, 0.4);
+  EXPECT_DOUBLE_EQ(q.z, 0.4);
   this->type("rotation.0", "0");
   this->type("rotation.1", "0");
   this->type("rotation.2", "90");

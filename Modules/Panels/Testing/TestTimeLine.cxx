@@ -8,9 +8,11 @@
 #include "dgtkTestSupport.h"
 
 #include <QApplication>
+#include <QHelpEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QScrollBar>
+#include <QToolTip>
 
 #include <gtest/gtest.h>
 
@@ -400,6 +402,18 @@ TEST_F(TimeLineTable, CursorsSayWhatCanBeDragged)
   EXPECT_EQ(cursorAt(at(20, barY)), Qt::SizeAllCursor);
   EXPECT_EQ(cursorAt(at(38, barY)), Qt::SizeHorCursor);
   EXPECT_EQ(cursorAt(at(3.5, 26 + 60)), Qt::ArrowCursor);
+  const auto tipAt = [&](const QPoint& place)
+  {
+    QToolTip::hideText();
+    QHelpEvent event(QEvent::ToolTip, place, this->Cells->viewport()->mapToGlobal(place));
+    QApplication::sendEvent(this->Cells->viewport(), &event);
+    return QToolTip::text();
+  };
+  this->Cells->show();
+  EXPECT_EQ(tipAt(at(8.5, 26 + 60)), "Drag: move the key. Ctrl: copy it. Right click: interpolation.");
+  EXPECT_EQ(tipAt(at(12.5, 20)), "Drag: move this key frame of the whole scene. Ctrl: copy it.");
+  EXPECT_EQ(tipAt(at(20, barY)), "Drag: move the start of the sequence.");
+  EXPECT_EQ(tipAt(at(38, barY)), "Drag: change the speed of the sequence.");
 }
 
 TEST_F(TimeLineTable, TheFrameAndTheRowAreBroughtIntoSight)
