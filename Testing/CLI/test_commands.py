@@ -98,6 +98,7 @@ class Pages(Case):
                             row["help"] + (f" [{default}]" if value and default else "")))
         options += [("--resume", "continue an interrupted run of the same request"),
                     ("--replace", "remove the dataset of another request, or an interrupted run, that the folder holds"),
+                    ("--timings", "print where processor time and memory went, at the end"),
                     ("--quiet", "no progress and no messages (environment DGTK_PROGRESS: seconds between its lines, else 5)")]
         self.assertEqual(self.dgtk("render", "--help").stdout,
                          page("render", "SCENE", "Renders images and ground truth of a scene into a folder.", options))
@@ -160,7 +161,7 @@ class Pages(Case):
         self.refused("info", "-", status=3, says="-: ")
 
     def test_progress_is_asked_for_in_seconds(self):
-        words = ("render", os.path.join(SCENES, "demo.json"), "-o", self.path("x"), "--size", "16x12", "--layers", "depth", "--frames", "0")
+        words = ("render", os.path.join(SCENES, "demo.json"), "-o", self.path("x"), "--size", "640x480", "--layers", "depth,normal", "--frames", "0:2")
         for wrong in ("0.009", "3600.1", "1x", "1 ", "x", "1e400", "-5"):
             done = self.dgtk(*words, status=2, environment={"DGTK_PROGRESS": wrong})
             self.assertEqual(done.stderr, f"dgtk: DGTK_PROGRESS: expected seconds from 0.01 to 3600, found '{wrong}'\n")

@@ -22,8 +22,8 @@ ModelFiles::ModelFiles(const std::string& model)
 
 std::string ModelFiles::find(const std::string& written)
 {
-  const std::string asWritten = this->locate(written);
-  const std::string path = asWritten.empty() ? this->locate(this->withoutEscapes(written)) : asWritten;
+  std::string path = this->locate(written);
+  path = path.empty() ? this->locate(this->withoutEscapes(written)) : path;
   if (!path.empty())
   {
     this->Found.insert(path);

@@ -22,7 +22,7 @@ public:
     {
       size *= 2;
     }
-    this->Slots.assign(size, None);
+    this->Slots.assign(size, none);
   }
 
   /// The first of the items given so far that is equal to this one, or itself. Where too many others are in the way,
@@ -32,14 +32,14 @@ public:
   {
     const std::size_t mask = this->Slots.size() - 1;
     std::size_t at = static_cast<std::size_t>(hash) & mask;
-    for (int steps = 0; steps < MostSteps && this->Slots[at] != None; ++steps, at = (at + 1) & mask)
+    for (int steps = 0; steps < mostSteps && this->Slots[at] != none; ++steps, at = (at + 1) & mask)
     {
       if (equal(this->Slots[at], item))
       {
         return this->Slots[at];
       }
     }
-    if (this->Slots[at] == None)
+    if (this->Slots[at] == none)
     {
       this->Slots[at] = item;
     }
@@ -47,8 +47,8 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t None = 0xffffffffu;
-  static constexpr int MostSteps = 256;
+  static constexpr std::uint32_t none = 0xffffffffu;
+  static constexpr int mostSteps = 256;
   std::vector<std::uint32_t> Slots;
 };
 

@@ -14,7 +14,6 @@
 #include <filesystem>
 
 using namespace dgtk::test;
-using testing::Contains;
 using testing::HasSubstr;
 
 namespace
