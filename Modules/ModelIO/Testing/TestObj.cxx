@@ -402,7 +402,7 @@ TEST(Obj, LimitsOfWorkAndMemory)
     vertices += "v 0 0 0\n";
     faces += "f 1 2 3\n";
     objects += i < 50'000 ? "g " + std::to_string(i) + "\nf 1 2 3\n" : "";
-    turns += i < 50'000 ? "usemtl " + std::to_string(i % 7) + "\nf 1 2 3\n" : "";
+    turns += i < 20'000 ? "usemtl " + std::to_string(i % 7) + "\nf 1 2 3\n" : "";
   }
   ASSERT_TRUE(readWithinLimits("obj", vertices));
   EXPECT_FALSE(readWithinLimits("obj", faces)) << "faces without vertices of their own";
