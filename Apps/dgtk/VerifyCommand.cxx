@@ -3,12 +3,12 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkSystem.h"
 #include "dgtkUtf8.h"
 #include "dgtkVerification.h"
 
 #include <algorithm>
 #include <cstdio>
-#include <thread>
 
 namespace dgtk::app
 {
@@ -24,8 +24,7 @@ int run(const Arguments& arguments)
   {
     folder.pop_back();
   }
-  const int threads = arguments.has("--threads") ? arguments.integer("--threads", 1, mostThreads)
-                                                 : std::max(1, int(std::thread::hardware_concurrency()));
+  const int threads = arguments.has("--threads") ? arguments.integer("--threads", 1, mostThreads) : machineThreads();
   requireDataset(folder);
   const std::vector<std::string> checks =
     arguments.has("--check") ? arguments.list("--check") : std::vector<std::string>{};

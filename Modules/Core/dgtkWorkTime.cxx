@@ -62,7 +62,10 @@ WorkTime::~WorkTime()
   {
     this->stop();
     std::atomic<std::uint64_t>& peak = totals[static_cast<std::size_t>(this->Stage)].peakBytes;
-    peak = std::max(peak.load(), peakMemory());
+    const std::uint64_t now = peakMemory();
+    for (std::uint64_t before = peak; before < now && !peak.compare_exchange_weak(before, now);)
+    {
+    }
     current = this->Around;
     if (this->Around)
     {

@@ -5,6 +5,7 @@
 #include "dgtkError.h"
 #include "dgtkKeptSource.h"
 #include "dgtkScene.h"
+#include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWorkPlan.h"
 
@@ -72,36 +73,6 @@ void requireArrays(const std::vector<std::string>& layers)
     }
   }
 }
-
-/// A folder that is gone afterwards; made when it is first asked for.
-class ScratchFolder
-{
-public:
-  ~ScratchFolder()
-  {
-    if (!this->Path.empty())
-    {
-      std::error_code ignored;
-      std::filesystem::remove_all(this->Path, ignored);
-    }
-  }
-  std::string path()
-  {
-    if (this->Path.empty())
-    {
-      std::string name = (std::filesystem::temp_directory_path() / "dgtk-XXXXXX").string();
-      if (::mkdtemp(name.data()) == nullptr)
-      {
-        throw dgtk::MachineError(name + ": cannot be made");
-      }
-      this->Path = name;
-    }
-    return this->Path;
-  }
-
-private:
-  std::string Path;
-};
 } // namespace
 
 struct dgtkRenderer::Internal
@@ -159,7 +130,7 @@ std::vector<dgtk::LayerArray> dgtkRenderer::Internal::draw(const std::vector<std
     throw dgtk::UsageError("no scene is set");
   }
   const std::shared_ptr<const dgtk::Stage> stage = this->scene->GetStage();
-  ScratchFolder scratch;
+  dgtk::ScratchFolder scratch;
   dgtk::WorkPlan plan = this->planOf(layers, *stage);
   for (dgtk::PlannedLayer& planned : plan.layers)
   {

@@ -55,21 +55,6 @@ unsigned int OccluderTracer::aim(const Eigen::Vector3d* x_in_world, std::size_t 
   return active;
 }
 
-void OccluderTracer::traceOne(std::size_t lane)
-{
-  alignas(16) RTCRayHit query = makeQuery(this->Rays[lane]);
-  query.ray.id = unsigned(lane);
-  rtcIntersect1(this->Scene->handle(), &this->Context.context, &query);
-}
-
-void OccluderTracer::traceAll(unsigned int active)
-{
-  alignas(64) RTCRayHit16 packet;
-  alignas(64) int valid[lanes];
-  fillPacket(this->Rays, active, packet, valid);
-  rtcIntersect16(valid, this->Scene->handle(), &this->Context.context, &packet);
-}
-
 void OccluderTracer::trace(const Eigen::Vector3d* x_in_world, const Hit* targets, std::size_t count, Hit* found)
 {
   const unsigned int active = this->aim(x_in_world, count);
@@ -77,17 +62,7 @@ void OccluderTracer::trace(const Eigen::Vector3d* x_in_world, const Hit* targets
   std::fill(this->Context.best, this->Context.best + lanes, Hit{});
   this->Context.skip = targets;
   this->Context.marginal = this->Coarse ? active : 0;
-  if ((active & (active - 1)) == 0)
-  {
-    if (active != 0)
-    {
-      this->traceOne(std::size_t(__builtin_ctz(active)));
-    }
-  }
-  else
-  {
-    this->traceAll(active);
-  }
+  traceRays(*this->Scene, this->Rays, active, this->Context);
   for (std::size_t i = 0; i < count; ++i)
   {
     found[i] =

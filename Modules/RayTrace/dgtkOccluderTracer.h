@@ -28,8 +28,6 @@ private:
   /// Sets the lanes' rays, from the camera through the points and a little less far; returns the bits of those that
   /// there are.
   unsigned int aim(const Eigen::Vector3d* x_in_world, std::size_t count);
-  void traceOne(std::size_t lane);
-  void traceAll(unsigned int active);
   /// Where single precision cannot tell.
   Hit traceAround(const ExactRay& ray, const Hit& target) const;
 

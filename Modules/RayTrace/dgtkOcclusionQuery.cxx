@@ -28,16 +28,7 @@ void collectCandidates(
   context.scene = &scene;
   context.mode = RayContext::Mode::Collect;
   context.found = candidates;
-  if (count == 1)
-  {
-    alignas(16) RTCRayHit query = makeQuery(*rays);
-    rtcIntersect1(scene.handle(), &context.context, &query);
-    return;
-  }
-  alignas(64) RTCRayHit16 packet;
-  alignas(64) int valid[16];
-  fillPacket(rays, (1U << count) - 1, packet, valid);
-  rtcIntersect16(valid, scene.handle(), &context.context, &packet);
+  traceRays(scene, rays, (1U << count) - 1, context);
 }
 
 bool samePose(const Rigid3& a, const Rigid3& b) { return a.rotation == b.rotation && a.translation == b.translation; }

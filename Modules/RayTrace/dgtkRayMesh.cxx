@@ -2,6 +2,7 @@
 #include "dgtkRayMesh.h"
 
 #include "dgtkError.h"
+#include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWorkTime.h"
 
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 #include <tuple>
 
 namespace dgtk
@@ -315,7 +315,7 @@ std::vector<std::shared_ptr<const RayMesh>> RayDevice::meshes(const std::vector<
     }
   }
   const bool isWork = wanted.size() > 1 && triangles > manyTriangles;
-  ThreadPool(isWork ? std::max(1, static_cast<int>(std::thread::hardware_concurrency())) : 1)
+  ThreadPool(isWork ? machineThreads() : 1)
     .parallelFor(static_cast<int>(wanted.size()),
       [&](int i)
       {

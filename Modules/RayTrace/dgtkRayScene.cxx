@@ -236,8 +236,7 @@ void trace(const RayScene& scene, const ExactRay& ray, std::vector<Hit>& found)
   context.mode = RayContext::Mode::Collect;
   context.context.filter = rayFilter;
   context.found = &found;
-  alignas(16) RTCRayHit query = makeQuery(ray);
-  rtcIntersect1(scene.handle(), &context.context, &query);
+  traceRays(scene, &ray, 1, context);
 }
 
 /// Traces rays around `ray`, `offset` away at the origin and `turn` per unit of t.
@@ -301,8 +300,21 @@ void settleHits(
   sortHits(hits);
 }
 
-void fillPacket(const ExactRay* rays, unsigned int active, RTCRayHit16& packet, int valid[16])
+void traceRays(const RayScene& scene, const ExactRay* rays, unsigned int active, RayContext& context)
 {
+  if ((active & (active - 1)) == 0)
+  {
+    if (active != 0)
+    {
+      const auto lane = unsigned(__builtin_ctz(active));
+      alignas(16) RTCRayHit query = makeQuery(rays[lane]);
+      query.ray.id = lane;
+      rtcIntersect1(scene.handle(), &context.context, &query);
+    }
+    return;
+  }
+  alignas(64) RTCRayHit16 packet;
+  alignas(64) int valid[16];
   for (unsigned int i = 0; i < 16; ++i)
   {
     valid[i] = (active >> i & 1U) != 0 ? -1 : 0;
@@ -322,6 +334,7 @@ void fillPacket(const ExactRay* rays, unsigned int active, RTCRayHit16& packet, 
     packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
+  rtcIntersect16(valid, scene.handle(), &context.context, &packet);
 }
 
 bool isCoherent(const View& view)

@@ -94,8 +94,6 @@ void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::v
 void settleHits(
   const RayScene& scene, const ExactRay& ray, bool nearby, std::vector<Hit>& found, std::vector<RayHit>& hits);
 
-/// 16 rays as Embree takes them, those of `active` bits.
-void fillPacket(const ExactRay* rays, unsigned int active, RTCRayHit16& packet, int valid[16]);
 /// Whether Embree's bounds of coherent packets may be used for rays of a view: they lose surfaces when the rays start
 /// at different points and run along an axis but for a rounding, as those of parallel projections do.
 bool isCoherent(const View& view);
@@ -128,6 +126,9 @@ struct RayContext
   unsigned int marginal = 0;         ///< Checked: bits of lanes in which single precision may have missed something
   std::vector<Hit>* found = nullptr; ///< Collect: a list a lane
 };
+
+/// Traces those of up to 16 rays whose bits are set in `active`: one alone, several as a packet.
+void traceRays(const RayScene& scene, const ExactRay* rays, unsigned int active, RayContext& context);
 
 /// Embree's ray of an exact one, its range a little wider.
 RTCRayHit makeQuery(const ExactRay& ray);

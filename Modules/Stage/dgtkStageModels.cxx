@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkMissingModels.h"
 #include "dgtkPortableMath.h"
+#include "dgtkSystem.h"
 #include "dgtkTextureFile.h"
 #include "dgtkThreadPool.h"
 
@@ -12,7 +13,6 @@
 #include <filesystem>
 #include <set>
 #include <system_error>
-#include <thread>
 
 namespace dgtk
 {
@@ -173,8 +173,7 @@ void StageModels::readModels()
     }
   };
   const int models = static_cast<int>(first.size());
-  ThreadPool(std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, std::max(models, 1)))
-    .parallelFor(models, read);
+  ThreadPool(machineThreads(std::max(models, 1))).parallelFor(models, read);
   for (const std::shared_ptr<const Model>& model : this->Models)
   {
     for (const std::string& line : model->warnings)

@@ -5,13 +5,13 @@
 #include "dgtkFile.h"
 #include "dgtkFolderRecords.h"
 #include "dgtkHash.h"
+#include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
 
 #include <cerrno>
 #include <cstring>
 #include <map>
 #include <mutex>
-#include <thread>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -190,7 +190,7 @@ struct Journal::Impl
   {
     // A crash of the machine may leave a file with its name and size, and without its contents.
     std::vector<char> whole(records.finished.size(), 0);
-    ThreadPool pool(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+    ThreadPool pool(machineThreads());
     pool.parallelFor(static_cast<int>(whole.size()),
       [&](int i) { whole[std::size_t(i)] = this->isWhole(records.finished[std::size_t(i)]) ? 1 : 0; });
     for (std::size_t i = 0; i < whole.size(); ++i)

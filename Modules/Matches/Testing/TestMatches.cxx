@@ -2,6 +2,7 @@
 // The table of pairs and a picture with marks, on no display.
 #include "dgtkMatchPane.h"
 #include "dgtkMatchTable.h"
+#include "dgtkTestWidgets.h"
 
 #include <QApplication>
 #include <QImage>
@@ -20,18 +21,6 @@
 namespace
 {
 using namespace dgtk;
-
-void needApplication()
-{
-  if (QCoreApplication::instance() == nullptr)
-  {
-    qputenv("QT_QPA_PLATFORM", "offscreen");
-    static int count = 1;
-    static char name[] = "TestMatches";
-    static char* arguments[] = { name, nullptr };
-    static QApplication application(count, arguments);
-  }
-}
 
 const SparseView left{ "left", 3, 640, 480 };
 const SparseView right{ "right", 4, 320, 240 };
@@ -65,7 +54,7 @@ std::string textOf(const MatchTable& table)
 
 TEST(MatchTable, CellsOfAPair)
 {
-  needApplication();
+  test::needApplication();
   MatchTable table(nullptr);
   MatchRow nowhere = pairOf(2);
   nowhere.match.to = Correspondence();
@@ -89,7 +78,7 @@ TEST(MatchTable, CellsOfAPair)
 
 TEST(MatchTable, EveryStepIsUndoneAndRedone)
 {
-  needApplication();
+  test::needApplication();
   MatchTable table(nullptr);
   int changes = 0;
   QObject::connect(&table, &MatchTable::pairsChanged, [&] { ++changes; });
@@ -146,7 +135,7 @@ TEST(MatchTable, EveryStepIsUndoneAndRedone)
 
 TEST(MatchTable, FilesHavePairsOfTheSameViewsTogether)
 {
-  needApplication();
+  test::needApplication();
   MatchTable table(nullptr);
   EXPECT_EQ(table.text(), "");
   table.add({ pairOf(1), pairOf(2, right, left), pairOf(3) });
@@ -161,7 +150,7 @@ class MatchPaneTable : public testing::Test
 protected:
   void SetUp() override
   {
-    needApplication();
+    test::needApplication();
     this->Pane = std::make_unique<MatchPane>(nullptr);
     this->Pane->resize(400, 300);
     this->Pane->setImageSize({ 100, 50 }); // four times as large: from (0, 50) to (400, 250)
@@ -176,19 +165,10 @@ protected:
   }
   void mouse(QEvent::Type type, const QPoint& at, Qt::MouseButton button = Qt::LeftButton)
   {
-    QMouseEvent event(type, at, button, button, Qt::NoModifier);
-    QApplication::sendEvent(this->Pane.get(), &event);
+    test::sendMouse(*this->Pane, type, at, button);
   }
-  void key(int key, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
-  {
-    QKeyEvent event(QEvent::KeyPress, key, modifiers);
-    QApplication::sendEvent(this->Pane.get(), &event);
-  }
-  void wheel(const QPointF& at, int steps)
-  {
-    QWheelEvent event(at, at, QPoint(), QPoint(0, 120 * steps), Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
-    QApplication::sendEvent(this->Pane.get(), &event);
-  }
+  void key(int key, Qt::KeyboardModifiers modifiers = Qt::NoModifier) { test::sendKey(*this->Pane, key, modifiers); }
+  void wheel(const QPointF& at, int steps) { test::sendWheel(*this->Pane, at, steps); }
   void expectPlace(double x, double y, double zoom)
   {
     const QPointF origin = this->Pane->toWidget({ 0, 0 });

@@ -5,16 +5,14 @@
 #include "dgtkFile.h"
 #include "dgtkHelperProcess.h"
 #include "dgtkModelFolder.h"
+#include "dgtkSystem.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <sstream>
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 namespace dgtk
 {
@@ -37,37 +35,6 @@ with open(files, "wb") as file:
     file.write(b"\n".join(os.fsencode(path) for path in bpy.utils.blend_paths(absolute=True)))
 )";
 
-/// A folder of our own, gone with its owner.
-class OwnFolder
-{
-public:
-  OwnFolder()
-    : Path((fs::temp_directory_path() / "dgtk-blend-XXXXXX").string())
-  {
-    if (!::mkdtemp(this->Path.data()))
-    {
-      throw MachineError(this->Path + ": cannot be made: " + std::strerror(errno));
-    }
-  }
-  ~OwnFolder()
-  {
-    std::error_code code;
-    fs::remove_all(this->Path, code);
-  }
-  OwnFolder(const OwnFolder&) = delete;
-  OwnFolder& operator=(const OwnFolder&) = delete;
-  std::string path(const std::string& name = {}) const { return name.empty() ? this->Path : this->Path + '/' + name; }
-
-private:
-  std::string Path;
-};
-
-bool isProgram(const fs::path& path)
-{
-  std::error_code code;
-  return fs::is_regular_file(path, code) && ::access(path.c_str(), X_OK) == 0;
-}
-
 /// The program that DGTK_BLENDER names, else "blender" in the PATH; "" when there is none.
 std::string findBlender()
 {
@@ -76,16 +43,7 @@ std::string findBlender()
   {
     return isProgram(set) ? fs::absolute(set).string() : std::string();
   }
-  const char* const path = std::getenv("PATH");
-  std::istringstream folders(path ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');)
-  {
-    if (!folder.empty() && isProgram(fs::path(folder) / "blender"))
-    {
-      return fs::absolute(fs::path(folder) / "blender").string();
-    }
-  }
-  return {};
+  return programOnPath("blender");
 }
 
 /// Files of the model's folder, and of the one above it, that the file names and Blender could read.
@@ -108,7 +66,7 @@ std::vector<std::string> companionsOf(const std::string& path, const std::string
   return companions;
 }
 
-void runBlender(const std::string& path, const std::string& blender, const OwnFolder& own)
+void runBlender(const std::string& path, const std::string& blender, ScratchFolder& own)
 {
   const std::string file = fs::absolute(path).lexically_normal().string();
   const fs::path folder = fs::path(file).parent_path();
@@ -153,7 +111,7 @@ std::shared_ptr<Model> readBlend(const std::string& path, const ReadOptions& opt
       "choose "
       "File > Export > glTF 2.0 in it and use the .glb file");
   }
-  const OwnFolder own;
+  ScratchFolder own;
   runBlender(path, blender, own);
   std::shared_ptr<Model> model;
   try

@@ -2,6 +2,7 @@
 #include "dgtkHelperProcess.h"
 
 #include "dgtkError.h"
+#include "dgtkSystem.h"
 
 #include <csignal>
 #include <cstdlib>
@@ -19,12 +20,6 @@ namespace dgtk::helper
 namespace
 {
 namespace fs = std::filesystem;
-
-bool isProgram(const fs::path& path)
-{
-  std::error_code code;
-  return fs::is_regular_file(path, code) && ::access(path.c_str(), X_OK) == 0;
-}
 
 /// Folder of the shared library (or program) that holds this function.
 fs::path libraryFolder()
@@ -102,9 +97,10 @@ std::string findProgram(const char* name, const char* variable)
   {
     for (const char* below : { "libexec/dgtk", "bin" })
     {
-      if (isProgram(folder / below / name))
+      const std::string program = (folder / below / name).string();
+      if (isProgram(program))
       {
-        return (folder / below / name).string();
+        return program;
       }
     }
   }

@@ -7,6 +7,7 @@
 #include "dgtkSceneTree.h"
 
 #include "dgtkTestSupport.h"
+#include "dgtkTestWidgets.h"
 
 #include <QApplication>
 #include <QCheckBox>
@@ -37,17 +38,7 @@ using Numbers = std::vector<double>;
 class PanelTables : public testing::Test
 {
 protected:
-  void SetUp() override
-  {
-    if (QCoreApplication::instance() == nullptr)
-    {
-      qputenv("QT_QPA_PLATFORM", "offscreen");
-      static int count = 1;
-      static char name[] = "TestPanels";
-      static char* arguments[] = { name, nullptr };
-      static QApplication application(count, arguments);
-    }
-  }
+  void SetUp() override { test::needApplication(); }
 };
 
 TEST_F(PanelTables, TextsOfNumbers)

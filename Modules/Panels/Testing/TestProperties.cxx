@@ -9,6 +9,7 @@
 #include "dgtkScenePlaces.h"
 
 #include "dgtkTestSupport.h"
+#include "dgtkTestWidgets.h"
 
 #include <QApplication>
 #include <QCheckBox>
@@ -84,14 +85,7 @@ class Properties : public testing::Test
 protected:
   void SetUp() override
   {
-    if (QCoreApplication::instance() == nullptr)
-    {
-      qputenv("QT_QPA_PLATFORM", "offscreen");
-      static int count = 1;
-      static char name[] = "TestPanels";
-      static char* arguments[] = { name, nullptr };
-      static QApplication application(count, arguments);
-    }
+    test::needApplication();
     std::filesystem::copy_file(test::sourceFile("Data/Models/crate.ac"), this->Folder.path("crate.ac"));
     std::ofstream(this->Folder.path("s.json")) << whole;
     this->State = std::make_unique<EditorState>(nullptr);

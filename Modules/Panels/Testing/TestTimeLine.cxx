@@ -6,6 +6,7 @@
 
 #include "dgtkSequenceBar.h"
 #include "dgtkTestSupport.h"
+#include "dgtkTestWidgets.h"
 
 #include <QApplication>
 #include <QHelpEvent>
@@ -56,18 +57,6 @@ void fill(SceneDocument& document)
       scene.cameras[0].fovY.keys = { { 20, 50 } };
       scene.extraKeyFrames = { 12 };
     });
-}
-
-void needApplication()
-{
-  if (QCoreApplication::instance() == nullptr)
-  {
-    qputenv("QT_QPA_PLATFORM", "offscreen");
-    static int count = 1;
-    static char name[] = "TestPanels";
-    static char* arguments[] = { name, nullptr };
-    static QApplication application(count, arguments);
-  }
 }
 
 TEST(TimeLineRows, HaveTheirPlaces)
@@ -199,7 +188,7 @@ class TimeLineTable : public testing::Test
 protected:
   void SetUp() override
   {
-    needApplication();
+    test::needApplication();
     this->State = std::make_unique<EditorState>(nullptr);
     fill(this->State->document());
     this->Cells = std::make_unique<TimeLineCells>(*this->State, nullptr);

@@ -3,12 +3,12 @@
 
 #include "dgtkHash.h"
 #include "dgtkRepresentation.h"
+#include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWorkTime.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <thread>
 
 namespace dgtk
 {
@@ -18,7 +18,7 @@ std::vector<InputRecord> inputsOf(const Stage& stage, const std::string& folder)
   namespace fs = std::filesystem;
   const std::vector<std::string> files = stage.inputFiles();
   std::vector<InputRecord> inputs(files.size());
-  ThreadPool(std::max(1, static_cast<int>(std::thread::hardware_concurrency())))
+  ThreadPool(machineThreads())
     .parallelFor(static_cast<int>(files.size()),
       [&](int i)
       {

@@ -11,13 +11,13 @@
 #include "dgtkRunFiles.h"
 #include "dgtkRunNotes.h"
 #include "dgtkSpaceNeeded.h"
+#include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
 #include "dgtkTracedQueries.h"
 #include "dgtkWorkPlan.h"
 
 #include <algorithm>
 #include <deque>
-#include <thread>
 #include <utility>
 
 namespace dgtk
@@ -31,7 +31,7 @@ constexpr std::size_t mostPendingBytes = std::size_t(384) << 20;
 int threadsOf(const GeneratorRequest& request)
 {
   const int threads = option::threads().of(request.options);
-  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return threads > 0 ? threads : machineThreads();
 }
 
 JournalStart startOf(const GeneratorRequest& request)

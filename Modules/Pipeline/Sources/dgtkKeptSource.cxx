@@ -2,10 +2,10 @@
 #include "dgtkKeptSource.h"
 
 #include "dgtkGLContext.h"
+#include "dgtkSystem.h"
 
 #include <algorithm>
 #include <optional>
-#include <thread>
 #include <tuple>
 
 #include <unistd.h>
@@ -79,7 +79,7 @@ void KeptSource::leaveInherited()
     static_cast<void>(this->Pool.release());
     this->Scene = nullptr;
     this->Process = ::getpid();
-    this->Pool = std::make_unique<ThreadPool>(std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+    this->Pool = std::make_unique<ThreadPool>(machineThreads());
   }
 }
 

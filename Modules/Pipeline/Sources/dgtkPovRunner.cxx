@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkSystem.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -94,21 +95,12 @@ PovComplaint povComplaint(const std::string& printed)
 
 std::string findPovRay()
 {
-  const char* const path = std::getenv("PATH");
-  const std::string folders = path ? path : "";
-  for (std::size_t begin = 0; begin <= folders.size();)
+  const std::string program = programOnPath("povray");
+  if (program.empty())
   {
-    const std::size_t colon = std::min(folders.find(':', begin), folders.size());
-    const std::string folder = folders.substr(begin, colon - begin);
-    const std::string program = (folder.empty() ? "." : folder) + "/povray";
-    std::error_code error;
-    if (std::filesystem::is_regular_file(program, error) && ::access(program.c_str(), X_OK) == 0)
-    {
-      return std::filesystem::absolute(program).string();
-    }
-    begin = colon + 1;
+    throw MachineError("the renderer povray needs POV-Ray 3.7, which is not on PATH: install the package povray");
   }
-  throw MachineError("the renderer povray needs POV-Ray 3.7, which is not on PATH: install the package povray");
+  return program;
 }
 
 PovRunner::PovRunner(std::string program, std::string folder, const std::atomic<bool>* cancel)

@@ -5,11 +5,11 @@
 #include "dgtkRaySource.h"
 #include "dgtkStage.h"
 #include "dgtkSurfaceRows.h"
+#include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 #include <vector>
 
 namespace dgtk
@@ -24,7 +24,7 @@ SurfaceResolution surfaceResolution(const Stage& stage, std::size_t camera, doub
     throw UsageError("the resolution of camera " + view.name + " has no closed form");
   }
   const double focal = std::sqrt(linear->K(0, 0) * linear->K(1, 1));
-  ThreadPool pool(std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+  ThreadPool pool(machineThreads());
   const std::unique_ptr<VisibilitySource> source = makeRaySource(pool);
   const std::shared_ptr<const SceneState> state = stage.at(frame);
   source->setScene(state, view);

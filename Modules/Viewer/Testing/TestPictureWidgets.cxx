@@ -4,6 +4,7 @@
 #include "dgtkPictureView.h"
 
 #include "dgtkDepthPicture.h"
+#include "dgtkTestWidgets.h"
 
 #include <QApplication>
 #include <QFontMetrics>
@@ -26,18 +27,6 @@
 namespace
 {
 using namespace dgtk;
-
-void needApplication()
-{
-  if (QCoreApplication::instance() == nullptr)
-  {
-    qputenv("QT_QPA_PLATFORM", "offscreen");
-    static int count = 1;
-    static char name[] = "TestViewer";
-    static char* arguments[] = { name, nullptr };
-    static QApplication application(count, arguments);
-  }
-}
 
 QColor toQt(Rgb color) { return { color[0], color[1], color[2] }; }
 
@@ -73,7 +62,7 @@ class PictureViewTable : public testing::Test
 protected:
   void SetUp() override
   {
-    needApplication();
+    test::needApplication();
     this->View = std::make_unique<PictureView>(this->Sync, nullptr);
     this->View->resize(200, 120);
     this->Sync.area = { 200, 120 };
@@ -82,19 +71,10 @@ protected:
   }
   void mouse(QEvent::Type type, const QPoint& at, Qt::MouseButton button = Qt::LeftButton)
   {
-    QMouseEvent event(type, at, button, button, Qt::NoModifier);
-    QApplication::sendEvent(this->View.get(), &event);
+    test::sendMouse(*this->View, type, at, button);
   }
-  void key(int key, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
-  {
-    QKeyEvent event(QEvent::KeyPress, key, modifiers);
-    QApplication::sendEvent(this->View.get(), &event);
-  }
-  void wheel(const QPointF& at, int steps)
-  {
-    QWheelEvent event(at, at, QPoint(), QPoint(0, 120 * steps), Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
-    QApplication::sendEvent(this->View.get(), &event);
-  }
+  void key(int key, Qt::KeyboardModifiers modifiers = Qt::NoModifier) { test::sendKey(*this->View, key, modifiers); }
+  void wheel(const QPointF& at, int steps) { test::sendWheel(*this->View, at, steps); }
   QImage painted() { return this->View->grab().toImage(); }
   void expectCenter(double x, double y)
   {
@@ -315,7 +295,7 @@ TEST_F(PictureViewTable, WhatIsPainted)
 class LegendTable : public testing::Test
 {
 protected:
-  void SetUp() override { needApplication(); }
+  void SetUp() override { test::needApplication(); }
   static QImage painted(const std::shared_ptr<ShownPicture>& shown, int width, bool ends = false)
   {
     LegendStrip strip(nullptr);

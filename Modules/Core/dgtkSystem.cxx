@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSystem.h"
+
+#include "dgtkError.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <thread>
+
+#include <unistd.h>
+
+namespace dgtk
+{
+
+namespace fs = std::filesystem;
+
+int machineThreads(int most) { return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most); }
+
+bool isProgram(const std::string& path)
+{
+  std::error_code code;
+  return fs::is_regular_file(path, code) && ::access(path.c_str(), X_OK) == 0;
+}
+
+std::string programOnPath(const std::string& name)
+{
+  const char* const path = std::getenv("PATH");
+  const std::string folders = path ? path : "";
+  for (std::size_t begin = 0; begin <= folders.size();)
+  {
+    const std::size_t colon = std::min(folders.find(':', begin), folders.size());
+    const std::string folder = folders.substr(begin, colon - begin);
+    const std::string program = (folder.empty() ? "." : folder) + '/' + name;
+    if (isProgram(program))
+    {
+      return fs::absolute(program).string();
+    }
+    begin = colon + 1;
+  }
+  return {};
+}
+
+ScratchFolder::~ScratchFolder()
+{
+  std::error_code ignored;
+  if (!this->Path.empty())
+  {
+    fs::remove_all(this->Path, ignored);
+  }
+}
+
+const std::string& ScratchFolder::path()
+{
+  if (this->Path.empty())
+  {
+    std::string name = (fs::temp_directory_path() / "dgtk-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+    {
+      throw MachineError(name + ": cannot be made: " + std::strerror(errno));
+    }
+    this->Path = name;
+  }
+  return this->Path;
+}
+
+} // namespace dgtk
