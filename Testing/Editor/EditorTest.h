@@ -6,6 +6,7 @@
 
 #include <QObject>
 
+#include <functional>
 #include <memory>
 
 class QAction;
@@ -43,6 +44,8 @@ protected:
   QString path(const char* name) const;
   /// Opens the action's menu in the menu bar and clicks it. Returns when dialogs that it opened have been answered.
   void choose(const char* name) const;
+  /// Clicks an item of the context menu that `open` opens. Returns when the menu is closed.
+  static void chooseInMenu(const QString& item, const std::function<void()>& open);
   /// A click into the field, the text instead of its own, and Tab.
   static void typeInto(QWidget* field, const QString& text);
   /// Clicks the page's tab.

@@ -61,7 +61,7 @@ private:
   void release(int kind, const QPoint& at) const;
   void drag(int kind, const QPoint& from, const QPoint& to, Qt::KeyboardModifiers modifiers = Qt::NoModifier) const;
   /// Chooses an item of the menu that a right click opens.
-  void choose(QWidget* widget, const QPoint& at, const QString& name) const;
+  static void choose(QWidget* widget, const QPoint& at, const QString& name);
 
   dgtk::SceneDocument& document() const;
 };

@@ -16,12 +16,10 @@
 #include <QImage>
 #include <QLabel>
 #include <QLineEdit>
-#include <QMenu>
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QTest>
-#include <QTimer>
 #include <QTreeWidget>
 
 #include <cmath>
@@ -140,50 +138,20 @@ void TestEditorHandles::everyViewMovesTheSame()
   }
 }
 
-void TestEditorHandles::choose(QWidget* widget, const QPoint& at, const QString& name) const
+void TestEditorHandles::choose(QWidget* widget, const QPoint& at, const QString& name)
 {
-  constexpr int longestWait = 500; // ticks
-  bool found = false;
-  int waited = 0;
-  QTimer timer;
-  QObject::connect(&timer, &QTimer::timeout, &timer,
+  chooseInMenu(name,
     [&]
     {
-      auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
-      if (++waited > longestWait && QApplication::activePopupWidget() != nullptr)
+      if (widget->objectName().startsWith("view."))
       {
-        QApplication::activePopupWidget()->close(); // the test says what was not found, and goes on
+        QTest::mouseClick(widget, Qt::RightButton, {}, at);
         return;
       }
-      if (menu == nullptr || menu->objectName() != "contextMenu")
-      {
-        return;
-      }
-      // Again until it is gone: a menu that is just being shown does not take a click.
-      for (QAction* action : menu->actions())
-      {
-        if (action->objectName() == name)
-        {
-          found = true;
-          QTest::mouseClick(menu, Qt::LeftButton, {}, menu->actionGeometry(action).center());
-          return;
-        }
-      }
-      menu->close();
+      QTest::mouseClick(widget, Qt::LeftButton, {}, at);
+      QContextMenuEvent event(QContextMenuEvent::Mouse, at, widget->mapToGlobal(at));
+      QApplication::sendEvent(widget, &event);
     });
-  timer.start(20);
-  if (widget->objectName().startsWith("view."))
-  {
-    QTest::mouseClick(widget, Qt::RightButton, {}, at);
-  }
-  else
-  {
-    QTest::mouseClick(widget, Qt::LeftButton, {}, at);
-    QContextMenuEvent event(QContextMenuEvent::Mouse, at, widget->mapToGlobal(at));
-    QApplication::sendEvent(widget, &event);
-  }
-  QVERIFY2(found, qPrintable(name));
-  QCoreApplication::processEvents();
 }
 
 void TestEditorHandles::theContextMenu()
@@ -201,36 +169,36 @@ void TestEditorHandles::theContextMenu()
   {
     QWidget* const widget = inTree ? tree->viewport() : view;
     const auto at = [&] { return inTree ? row("crate-1") : this->pixelOf(front, { 0.3, 0.7, 0 }); };
-    this->choose(widget, at(), "rotate");
+    choose(widget, at(), "rotate");
     QVERIFY(this->action("rotate")->isChecked());
-    this->choose(widget, at(), "scale");
+    choose(widget, at(), "scale");
     QVERIFY(this->action("scale")->isChecked());
-    this->choose(widget, at(), "move");
+    choose(widget, at(), "move");
     QVERIFY(this->action("move")->isChecked());
-    this->choose(widget, at(), "keyFrame");
+    choose(widget, at(), "keyFrame");
     QCOMPARE(this->document().scene().keyFrames(), (std::vector<int>{ 0 }));
     this->action("undo")->trigger();
-    this->choose(widget, at(), "duplicate");
+    choose(widget, at(), "duplicate");
     QCOMPARE(this->document().scene().objects.size(), std::size_t(2));
     this->action("undo")->trigger();
-    this->choose(widget, at(), "copy");
-    this->choose(widget, at(), "paste");
+    choose(widget, at(), "copy");
+    choose(widget, at(), "paste");
     QCOMPARE(this->document().scene().objects.size(), std::size_t(2));
     this->action("undo")->trigger();
-    this->choose(widget, at(), "cut");
+    choose(widget, at(), "cut");
     QVERIFY(this->document().scene().objects.empty());
     this->action("undo")->trigger();
-    this->choose(widget, at(), "delete");
+    choose(widget, at(), "delete");
     QVERIFY(this->document().scene().objects.empty());
     this->action("undo")->trigger();
-    this->choose(widget, at(), "frameSelected");
-    this->choose(widget, at(), "properties");
+    choose(widget, at(), "frameSelected");
+    choose(widget, at(), "properties");
     QTRY_COMPARE(QApplication::focusWidget()->objectName(), QString("name"));
-    this->choose(widget, at(), "rename");
+    choose(widget, at(), "rename");
     QTRY_VERIFY(qobject_cast<QLineEdit*>(QApplication::focusWidget()) != nullptr);
     QTest::keyClick(QApplication::focusWidget(), Qt::Key_Escape);
   }
-  this->choose(tree->viewport(), row("eye"), "preview");
+  choose(tree->viewport(), row("eye"), "preview");
   this->select("crate-1");
   QVERIFY(!this->action("preview")->isEnabled());
 }
@@ -352,24 +320,14 @@ void TestEditorHandles::theThesissStaticScene()
   this->action("camera")->trigger();
   auto* tree = this->Window->findChild<QTreeWidget*>("sceneTree");
   this->select("Camera0");
-  this->choose(tree->viewport(),
+  choose(tree->viewport(),
     tree->visualItemRect(tree->findItems("Camera0", Qt::MatchExactly | Qt::MatchRecursive).first()).center(),
     "preview");
   // "Right click on the first frame: make key frame"; then on the third.
   auto* cells = this->Window->findChild<QAbstractScrollArea*>("timeLineCells")->viewport();
   for (const int frame : { 0, 2 })
   {
-    const QPoint cell(136 + frame * 12, 5);
-    QTest::mouseClick(cells, Qt::LeftButton, {}, cell);
-    QTimer::singleShot(300,
-      []
-      {
-        auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
-        QVERIFY(menu != nullptr);
-        QTest::mouseClick(menu, Qt::LeftButton, {}, menu->actionGeometry(menu->actions().first()).center());
-      });
-    QContextMenuEvent event(QContextMenuEvent::Mouse, cell, cells->mapToGlobal(cell));
-    QApplication::sendEvent(cells, &event);
+    choose(cells, QPoint(136 + frame * 12, 5), "makeKey");
   }
   QCOMPARE(this->document().scene().keyFrames(), (std::vector<int>{ 0, 2 }));
   const QString scene = this->path("static.scene");

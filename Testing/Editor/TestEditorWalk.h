@@ -33,8 +33,6 @@ private:
   static QPoint cellOf(int frame);
   /// A drag that the window follows.
   void drag(int kind, const QPoint& from, const QPoint& to) const;
-  /// Clicks an item of the context menu that `open` opens.
-  void inContextMenu(const char* item, const std::function<void()>& open) const;
   /// Click on the frame, right click, Make key frame.
   void makeKeyFrame(int frame) const;
   /// Of a view, with what is drawn over it.
