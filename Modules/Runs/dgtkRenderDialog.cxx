@@ -3,7 +3,6 @@
 
 #include "dgtkFolderContents.h"
 #include "dgtkGenerator.h"
-#include "dgtkJournal.h"
 #include "dgtkRenderCameras.h"
 #include "dgtkRenderOptions.h"
 #include "dgtkUsualFolder.h"
@@ -11,12 +10,10 @@
 
 #include <QCheckBox>
 #include <QCryptographicHash>
-#include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QLabel>
 #include <QLineEdit>
-#include <QMessageBox>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSettings>
@@ -27,7 +24,6 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
-#include <exception>
 #include <optional>
 #include <utility>
 
@@ -85,13 +81,6 @@ RenderDialog::RenderDialog(EditorState& state, QWidget* parent)
   this->lookAtFolder();
 }
 
-QString RenderDialog::usualFolder() const
-{
-  const std::string& path = this->State.document().path();
-  const QFileInfo file(toText(path));
-  return path.empty() ? QDir::home().filePath("dataset") : file.dir().filePath(file.completeBaseName() + "_dataset");
-}
-
 void RenderDialog::refresh()
 {
   const SceneDescription& scene = this->State.scene();
@@ -101,7 +90,7 @@ void RenderDialog::refresh()
     this->Opened = opened;
     this->Progress->setValue(0);
     this->Status->clear();
-    this->Folder->setText(this->usualFolder());
+    this->Folder->setText(RunFolder::usual(this->State.document().path()));
     this->lookAtFolder();
   }
   const std::vector<int> keys = scene.keyFrames();
@@ -171,7 +160,7 @@ void RenderDialog::offerSelection()
 QStringList RenderDialog::arguments(const QString& scene) const
 {
   const QStringList cameras = this->Cameras->checked();
-  QStringList words{ "render", scene, "-o", this->folder(), optionWord("layers"), this->checkedLayers().join(',') };
+  QStringList words{ "render", scene, "-o", this->Found.path(), optionWord("layers"), this->checkedLayers().join(',') };
   if (cameras.size() != this->Cameras->count())
   {
     words << optionWord("cameras") << cameras.join(',');
@@ -199,51 +188,18 @@ QString RenderDialog::sceneFile()
   {
     return QFileInfo(toText(document.path())).absoluteFilePath();
   }
-  QString copy = RunLog(this->folder()).sceneCopy();
+  QString copy = RunLog(this->Found.path()).sceneCopy();
   document.writeCopy(QFile::encodeName(copy).toStdString());
   return copy;
 }
 
-QString RenderDialog::folder() const { return QDir::cleanPath(QDir::current().absoluteFilePath(this->Folder->text())); }
-
-FolderContents RenderDialog::contents() const
-{
-  // Of another request, as far as this knows: to tell, the scene's models would have to be read.
-  try
-  {
-    return folderContents(QFile::encodeName(this->folder()).toStdString(), {});
-  }
-  catch (const std::exception&)
-  {
-    return FolderContents::Foreign; // the run says what is wrong with it
-  }
-}
-
 void RenderDialog::lookAtFolder()
 {
-  RunLog log(this->folder());
-  const FolderContents found = this->contents();
-  const bool unfinished = found == FolderContents::UnfinishedOther;
-  this->Interrupted.reset();
-  if (unfinished)
+  this->Found = RunFolder(this->Folder->text());
+  this->Resume->setChecked(this->Found.unfinished());
+  if (this->Status->text().isEmpty())
   {
-    log.read();
-  }
-  if (!log.request().arguments.isEmpty() && log.end() != RunLog::End::Done)
-  {
-    this->Interrupted = log.request();
-  }
-  this->Resume->setChecked(unfinished);
-  if (this->Status->text().isEmpty() && unfinished)
-  {
-    this->Status->setText(
-      tr("An interrupted run stands in this folder%1. Start goes on with it.")
-        .arg(log.total() == 0 ? QString() : tr(" (%1 of %2 pictures)").arg(log.done()).arg(log.total())));
-  }
-  else if (this->Status->text().isEmpty() && found == FolderContents::Running)
-  {
-    this->Status->setText(log.alive() ? tr("A run into this folder goes on. Start shows it.")
-                                      : tr("Another program is rendering into this folder."));
+    this->Status->setText(this->Found.text());
   }
   this->setRunning(false);
 }
@@ -255,48 +211,6 @@ void RenderDialog::browse()
   {
     this->Folder->setText(folder);
   }
-}
-
-RenderDialog::Begin RenderDialog::askToGoOn(const QString& what)
-{
-  QMessageBox box(QMessageBox::Question, QStringLiteral("DGTk"), what, QMessageBox::Cancel, this);
-  box.setObjectName("unfinishedRunBox");
-  box.setInformativeText(tr("Go on with it, or replace it by this run? What it has made so far goes then."));
-  QPushButton* const goOn = box.addButton(tr("Go on"), QMessageBox::AcceptRole);
-  goOn->setObjectName("goOn");
-  QPushButton* const replace = box.addButton(tr("Replace"), QMessageBox::DestructiveRole);
-  replace->setObjectName("replace");
-  box.button(QMessageBox::Cancel)->setText(tr("Another folder"));
-  box.setDefaultButton(goOn);
-  box.exec();
-  return box.clickedButton() == goOn ? Begin::GoOn : box.clickedButton() == replace ? Begin::Replace : Begin::Not;
-}
-
-RenderDialog::Begin RenderDialog::askAboutFolder()
-{
-  const QString name = QDir::toNativeSeparators(this->folder());
-  if (this->contents() == FolderContents::UnfinishedOther)
-  {
-    if (this->Resume->isChecked() && this->Interrupted && this->sceneChangedSince(*this->Interrupted))
-    {
-      return this->askToGoOn(
-        tr("%1 holds an interrupted run of another scene, or of this one before it was changed.").arg(name));
-    }
-    return this->Resume->isChecked() ? Begin::GoOn : this->askToGoOn(tr("%1 holds an interrupted run.").arg(name));
-  }
-  if (!QDir(this->folder()).exists(manifestName))
-  {
-    return Begin::Fresh;
-  }
-  QMessageBox box(QMessageBox::Question, QStringLiteral("DGTk"), tr("%1 holds a finished dataset.").arg(name),
-    QMessageBox::Cancel, this);
-  box.setObjectName("replaceDatasetBox");
-  box.setInformativeText(tr("Replace it by this run? Cancel to name another folder."));
-  QPushButton* const replace = box.addButton(tr("Replace"), QMessageBox::DestructiveRole);
-  replace->setObjectName("replace");
-  box.setDefaultButton(QMessageBox::Cancel);
-  box.exec();
-  return box.clickedButton() == replace ? Begin::Replace : Begin::Not;
 }
 
 QString RenderDialog::missing() const
@@ -316,43 +230,42 @@ QString RenderDialog::missing() const
   return {};
 }
 
-bool RenderDialog::sceneChangedSince(const RunRequest& request) const
-{
-  // Without a scene there is nothing else that could be meant.
-  return this->Cameras->count() > 0 && hashOf(this->State.document()) != request.scene;
-}
+bool RenderDialog::goesOn() const { return this->Resume->isChecked() && this->Found.interrupted(); }
 
 RunRequest RenderDialog::newRequest()
 {
-  return { this->folder(), this->arguments(this->sceneFile()), hashOf(this->State.document()) };
+  return { this->Found.path(), this->arguments(this->sceneFile()), hashOf(this->State.document()) };
 }
 
 void RenderDialog::start()
 {
+  using Begin = RunFolder::Begin;
   this->State.finishTyping();
-  const bool goesOn = this->Resume->isChecked() && this->Interrupted;
+  this->Found = RunFolder(this->Folder->text());
   const QString missing = this->Folder->text().trimmed().isEmpty() ? tr("Name a folder for the dataset.")
-                          : goesOn                                 ? QString()
+                          : this->goesOn()                         ? QString()
                                                                    : this->missing();
   if (!missing.isEmpty())
   {
     this->Status->setText(missing);
     return;
   }
-  if (RunLog(this->folder()).alive())
+  if (this->Found.rendering())
   {
-    this->follow(this->folder()); // another window's, or an earlier one's
+    this->follow(this->Found.path()); // another window's, or an earlier one's
     return;
   }
-  const Begin begin = this->askAboutFolder();
+  // Without a camera there is nothing else that could be meant.
+  const QByteArray scene = this->Cameras->count() > 0 ? hashOf(this->State.document()) : QByteArray();
+  const Begin begin = this->Found.begin(this->Resume->isChecked(), scene, this);
   RunRequest request;
   if (begin == Begin::Not)
   {
     this->Folder->setFocus();
   }
-  else if (begin == Begin::GoOn && this->Interrupted)
+  else if (begin == Begin::GoOn && this->Found.interrupted())
   {
-    request = *this->Interrupted;
+    request = *this->Found.interrupted();
   }
   else if (!this->State.attempt([&] { request = this->newRequest(); }))
   {
@@ -469,7 +382,7 @@ void RenderDialog::finish(RunLog::End end, const QString& message)
   this->lookAtFolder();
   if (end == RunLog::End::Done)
   {
-    rememberFolder(this->folder(), "dataset");
+    rememberFolder(this->Found.path(), "dataset");
   }
   const QString said = this->endText(end, message);
   this->Status->setText(said);
@@ -478,13 +391,13 @@ void RenderDialog::finish(RunLog::End end, const QString& message)
 
 void RenderDialog::setRunning(bool on)
 {
-  this->Tabs->setEnabled(!on && !(this->Resume->isChecked() && this->Interrupted)); // that goes on as it was begun
+  this->Tabs->setEnabled(!on && !this->goesOn()); // that goes on as it was begun
   this->Resume->setEnabled(!on);
   this->Folder->setEnabled(!on); // the result is there
   this->Browse->setEnabled(!on);
   this->Start->setEnabled(!on);
   this->Cancel->setEnabled(on);
-  const bool there = !on && QDir(this->folder()).exists(manifestName);
+  const bool there = !on && this->Found.finished();
   this->Open->setEnabled(there);
   this->Result->setEnabled(there);
 }

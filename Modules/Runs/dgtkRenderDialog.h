@@ -3,15 +3,14 @@
 #define dgtkRenderDialog_h
 
 #include "dgtkEditorState.h"
-#include "dgtkFolderContents.h"
 #include "dgtkProgressEstimate.h"
 #include "dgtkRenderProcess.h"
+#include "dgtkRunFolder.h"
 #include "dgtkRunsModule.h"
 
 #include <QDialog>
 #include <QElapsedTimer>
 
-#include <optional>
 #include <vector>
 
 class QCheckBox;
@@ -66,32 +65,18 @@ protected:
   void showEvent(QShowEvent* event) override;
 
 private:
-  enum class Begin
-  {
-    Not,
-    Fresh,
-    GoOn,
-    Replace
-  };
-
   QWidget* makeInfo();
   QWidget* makeControls();
   void makeRunRow(QVBoxLayout* layout);
   void refresh();
   void browse();
-  /// Beside the scene's file.
-  QString usualFolder() const;
-  QString folder() const; ///< absolute
-  FolderContents contents() const;
   /// What stands there: a finished dataset, a run to go on with.
   void lookAtFolder();
+  /// An interrupted run, as it was begun.
+  bool goesOn() const;
   /// What keeps a new run from beginning; "" for nothing.
   QString missing() const;
-  /// How the run begins in the folder; asks where something is there that would go.
-  Begin askAboutFolder();
-  Begin askToGoOn(const QString& what);
   RunRequest newRequest();
-  bool sceneChangedSince(const RunRequest& request) const;
   void start();
   void begin();
   QStringList checkedLayers() const;
@@ -122,9 +107,9 @@ private:
   int SceneRange[2] = { 0, 0 };
   std::vector<QCheckBox*> Layers;
   QLineEdit* Folder = nullptr;
+  RunFolder Found; ///< in the folder
   QPushButton* Browse = nullptr;
   QCheckBox* Resume = nullptr;
-  std::optional<RunRequest> Interrupted; ///< the run of the folder that can go on
   QPushButton* Start = nullptr;
   QPushButton* Cancel = nullptr;
   QPushButton* Open = nullptr;

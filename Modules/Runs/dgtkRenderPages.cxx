@@ -121,7 +121,7 @@ void RenderDialog::makeRunRow(QVBoxLayout* layout)
   auto* folder = new QHBoxLayout;
   auto* caption = new QLabel(tr("F&older"));
   folder->addWidget(caption);
-  this->Folder = new QLineEdit(this->usualFolder());
+  this->Folder = new QLineEdit(RunFolder::usual(this->State.document().path()));
   this->Folder->setObjectName("folder");
   caption->setBuddy(this->Folder);
   folder->addWidget(this->Folder, 1);
@@ -170,7 +170,7 @@ void RenderDialog::makeRunRow(QVBoxLayout* layout)
   connect(this->Start, &QPushButton::clicked, this, &RenderDialog::start);
   connect(this->Cancel, &QPushButton::clicked, this, &RenderDialog::cancel);
   connect(close, &QPushButton::clicked, this, &RenderDialog::reject);
-  connect(this->Result, &QPushButton::clicked, this, [this] { emit this->resultAsked(this->folder()); });
+  connect(this->Result, &QPushButton::clicked, this, [this] { emit this->resultAsked(this->Found.path()); });
   connect(this->Resume, &QCheckBox::toggled, this, [this] { this->setRunning(this->running()); });
   connect(this->Folder, &QLineEdit::textChanged, this,
     [this]
@@ -179,7 +179,7 @@ void RenderDialog::makeRunRow(QVBoxLayout* layout)
       this->lookAtFolder();
     });
   connect(this->Open, &QPushButton::clicked, this,
-    [this] { QDesktopServices::openUrl(QUrl::fromLocalFile(this->folder())); });
+    [this] { QDesktopServices::openUrl(QUrl::fromLocalFile(this->Found.path())); });
 }
 
 } // namespace dgtk

@@ -1885,18 +1885,6 @@
         <translation>Schließen</translation>
     </message>
     <message>
-        <source>%1 holds a finished dataset.</source>
-        <translation>%1 enthält einen fertigen Datensatz.</translation>
-    </message>
-    <message>
-        <source>Replace it by this run? Cancel to name another folder.</source>
-        <translation>Soll dieser Lauf ihn ersetzen? Abbrechen, um einen anderen Ordner zu nennen.</translation>
-    </message>
-    <message>
-        <source>Replace</source>
-        <translation>Ersetzen</translation>
-    </message>
-    <message>
         <source>Pictures: %1 of %2</source>
         <translation>Bilder: %1 von %2</translation>
     </message>
@@ -1957,38 +1945,6 @@
         <translation>Wird angehalten ... Noch einmal Abbrechen beendet auch, was gerade gezeichnet wird.</translation>
     </message>
     <message>
-        <source> (%1 of %2 pictures)</source>
-        <translation> (%1 von %2 Bildern)</translation>
-    </message>
-    <message>
-        <source>A run into this folder goes on. Start shows it.</source>
-        <translation>In diesen Ordner wird gerade berechnet. Start zeigt es.</translation>
-    </message>
-    <message>
-        <source>An interrupted run stands in this folder%1. Start goes on with it.</source>
-        <translation>In diesem Ordner steht ein unterbrochener Lauf%1. Start setzt ihn fort.</translation>
-    </message>
-    <message>
-        <source>Go on with it, or replace it by this run? What it has made so far goes then.</source>
-        <translation>Ihn fortsetzen oder durch diesen Lauf ersetzen? Dann ist fort, was er bisher gemacht hat.</translation>
-    </message>
-    <message>
-        <source>Go on</source>
-        <translation>Fortsetzen</translation>
-    </message>
-    <message>
-        <source>Another folder</source>
-        <translation>Anderer Ordner</translation>
-    </message>
-    <message>
-        <source>%1 holds an interrupted run of another scene, or of this one before it was changed.</source>
-        <translation>%1 enthält einen unterbrochenen Lauf einer anderen Szene oder von dieser, bevor sie geändert wurde.</translation>
-    </message>
-    <message>
-        <source>%1 holds an interrupted run.</source>
-        <translation>%1 enthält einen unterbrochenen Lauf.</translation>
-    </message>
-    <message>
         <source>The run was ended from outside. Start goes on where it ended.</source>
         <translation>Der Lauf wurde von außen beendet. Start macht dort weiter.</translation>
     </message>
@@ -2011,10 +1967,6 @@
     <message>
         <source>The interrupted run in this folder is of another request: untick to replace it, or name another folder.</source>
         <translation>Der unterbrochene Lauf in diesem Ordner gehört zu einem anderen Auftrag: Haken fortnehmen, um ihn zu ersetzen, oder einen anderen Ordner nennen.</translation>
-    </message>
-    <message>
-        <source>Another program is rendering into this folder.</source>
-        <translation>Ein anderes Programm rechnet in diesen Ordner.</translation>
     </message>
     <message>
         <source>Options</source>
@@ -2056,6 +2008,57 @@
     <message>
         <source>Click for the render configuration</source>
         <translation>Klicken, um die Berechnung zu sehen</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::RunFolder</name>
+    <message>
+        <source>An interrupted run stands in this folder%1. Start goes on with it.</source>
+        <translation>In diesem Ordner steht ein unterbrochener Lauf%1. Start setzt ihn fort.</translation>
+    </message>
+    <message>
+        <source> (%1 of %2 pictures)</source>
+        <translation> (%1 von %2 Bildern)</translation>
+    </message>
+    <message>
+        <source>A run into this folder goes on. Start shows it.</source>
+        <translation>In diesen Ordner wird gerade berechnet. Start zeigt es.</translation>
+    </message>
+    <message>
+        <source>Another program is rendering into this folder.</source>
+        <translation>Ein anderes Programm rechnet in diesen Ordner.</translation>
+    </message>
+    <message>
+        <source>%1 holds an interrupted run.</source>
+        <translation>%1 enthält einen unterbrochenen Lauf.</translation>
+    </message>
+    <message>
+        <source>%1 holds an interrupted run of another scene, or of this one before it was changed.</source>
+        <translation>%1 enthält einen unterbrochenen Lauf einer anderen Szene oder von dieser, bevor sie geändert wurde.</translation>
+    </message>
+    <message>
+        <source>%1 holds a finished dataset.</source>
+        <translation>%1 enthält einen fertigen Datensatz.</translation>
+    </message>
+    <message>
+        <source>Go on with it, or replace it by this run? What it has made so far goes then.</source>
+        <translation>Ihn fortsetzen oder durch diesen Lauf ersetzen? Dann ist fort, was er bisher gemacht hat.</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>Fortsetzen</translation>
+    </message>
+    <message>
+        <source>Replace</source>
+        <translation>Ersetzen</translation>
+    </message>
+    <message>
+        <source>Another folder</source>
+        <translation>Anderer Ordner</translation>
+    </message>
+    <message>
+        <source>Replace it by this run? Cancel to name another folder.</source>
+        <translation>Soll dieser Lauf ihn ersetzen? Abbrechen, um einen anderen Ordner zu nennen.</translation>
     </message>
 </context>
 <context>

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The log of a run and the page of its options, on no display.
 #include "dgtkRenderOptions.h"
+#include "dgtkRunFolder.h"
 #include "dgtkRunLog.h"
 
 #include "dgtkFile.h"
+#include "dgtkJournal.h"
 #include "dgtkTestSupport.h"
 
 #include <QApplication>
@@ -61,18 +63,25 @@ struct Told
   std::vector<std::string> messages;
 };
 
-Told toldOf(const std::string& lines)
+/// The log of a run that has ended, with these lines of the program.
+RunRequest writeLog(const QString& folder, const std::string& lines)
 {
-  RunLog log("/data/out");
   RunRequest request;
-  request.folder = "/data/out";
-  request.arguments = QStringList{ "render", "a b.json", "-o", "/data/out" };
+  request.folder = folder;
+  request.arguments = QStringList{ "render", "a b.json", "-o", folder };
   request.scene = "0123abcd";
-  const int file = log.begin(request);
+  const int file = RunLog(folder).begin(request);
   EXPECT_GE(file, 0);
   const std::string text = "4711\n" + lines;
   EXPECT_EQ(::write(file, text.data(), text.size()), ssize_t(text.size()));
   ::close(file);
+  return request;
+}
+
+Told toldOf(const std::string& lines)
+{
+  RunLog log("/data/out");
+  const RunRequest request = writeLog("/data/out", lines);
   Told told;
   for (const QString& message : log.read())
   {
@@ -175,6 +184,95 @@ TEST_F(RunTables, ALogIsReadOnAndLockedWhileItsRunLives)
   EXPECT_EQ(RunLog::folders(), QStringList{ "/data/one" });
   other.markShown();
   EXPECT_EQ(RunLog::folders(), QStringList{ "/data/one" }) << "no log is begun by that";
+}
+
+TEST_F(RunTables, WhatStandsInAFolder)
+{
+  using Question = RunFolder::Question;
+  const char* const oneOfTwo = "1/2 pictures, 1/s, 0:01 left\n";
+  struct Row
+  {
+    const char* holds;
+    std::string log;
+    bool finished, unfinished, ours;
+    Question goOn, goOnWithAnother, replace;
+    const char* text;
+  };
+  const Question none = Question::None;
+  const Row rows[] = {
+    { "", "", false, false, false, none, none, none, "" },
+    { "", oneOfTwo, false, false, false, none, none, none, "" }, // its folder was removed
+    { "notes.txt", "", false, false, false, none, none, none, "" },
+    { "journal", "", false, true, false, none, none, Question::Unfinished,
+      "An interrupted run stands in this folder. Start goes on with it." },
+    { "journal", oneOfTwo, false, true, true, none, Question::OtherScene, Question::Unfinished,
+      "An interrupted run stands in this folder (1 of 2 pictures). Start goes on with it." },
+    { "journal", "2 pictures, 3 files in out, 1 s\n", false, true, false, none, none, Question::Unfinished,
+      "An interrupted run stands in this folder. Start goes on with it." }, // of another program, after ours
+    { "manifest", oneOfTwo, true, false, false, Question::Finished, Question::Finished, Question::Finished, "" },
+    { "held", "", false, false, false, none, none, none, "Another program is rendering into this folder." },
+  };
+  for (const Row& row : rows)
+  {
+    SCOPED_TRACE(std::string(row.holds) + ", " + row.log);
+    const test::TemporaryFolder folder;
+    const std::string holds = row.holds;
+    if (!row.log.empty())
+    {
+      writeLog(QString::fromStdString(folder.path()), row.log);
+    }
+    std::unique_ptr<Journal> journal;
+    if (holds == "notes.txt")
+    {
+      writeFile(folder.path(holds), "mine");
+    }
+    else if (!holds.empty())
+    {
+      journal = std::make_unique<Journal>(folder.path(), "request", JournalStart::Fresh);
+      journal->plan({ "left/color/000000.png" });
+    }
+    if (holds == "manifest")
+    {
+      journal->close(Manifest());
+    }
+    if (holds != "held")
+    {
+      journal.reset();
+    }
+    const RunFolder found(QString::fromStdString(folder.path() + "/./"));
+    EXPECT_EQ(found.path().toStdString(), folder.path());
+    EXPECT_EQ(found.finished(), row.finished);
+    EXPECT_EQ(found.unfinished(), row.unfinished);
+    EXPECT_FALSE(found.rendering());
+    EXPECT_EQ(found.interrupted().has_value(), row.ours);
+    EXPECT_EQ(int(found.question(true, "0123abcd")), int(row.goOn));
+    EXPECT_EQ(int(found.question(true, "")), int(row.goOn)) << "no other scene could be meant";
+    EXPECT_EQ(int(found.question(true, "dcba")), int(row.goOnWithAnother));
+    EXPECT_EQ(int(found.question(false, "0123abcd")), int(row.replace));
+    EXPECT_EQ(found.text().toStdString(), row.text);
+  }
+}
+
+TEST_F(RunTables, ARunIntoAFolderIsFollowed)
+{
+  const test::TemporaryFolder folder;
+  const QString path = QString::fromStdString(folder.path());
+  const Journal journal(folder.path(), "request", JournalStart::Fresh);
+  RunRequest request;
+  request.folder = path;
+  const int file = RunLog(path).begin(request);
+  ASSERT_GE(file, 0);
+  EXPECT_TRUE(RunFolder(path).rendering());
+  EXPECT_EQ(RunFolder(path).text(), "A run into this folder goes on. Start shows it.");
+  ::close(file);
+  EXPECT_FALSE(RunFolder(path).rendering());
+}
+
+TEST_F(RunTables, TheUsualFolderIsBesideTheScene)
+{
+  EXPECT_EQ(RunFolder::usual("/data/a.b.json"), "/data/a.b_dataset");
+  EXPECT_EQ(RunFolder::usual(""), QDir::home().filePath("dataset"));
+  EXPECT_EQ(RunFolder("below").path(), QDir::current().filePath("below"));
 }
 
 TEST_F(RunTables, OptionsAreWordsOfTheCommandLine)
