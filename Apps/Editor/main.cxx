@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkEditorLanguage.h"
+#include "dgtkError.h"
 #include "dgtkMainWindow.h"
+#include "dgtkModelCache.h"
 
 #include <QApplication>
 #include <QTimer>
@@ -94,6 +96,14 @@ int main(int argc, char** argv)
   {
     return fail(
       "--language: expected one of " + dgtk::editorLanguages().join(", ") + ", found '" + words.language + "'");
+  }
+  try
+  {
+    dgtk::ModelCache::use(dgtk::ModelCache::ofUser());
+  }
+  catch (const dgtk::Error& error)
+  {
+    return fail(QString::fromLocal8Bit(error.what()));
   }
   dgtk::MainWindow window;
   window.show();

@@ -2,6 +2,7 @@
 #include "Commands.h"
 
 #include "dgtkError.h"
+#include "dgtkModelCache.h"
 #include "dgtkModelReader.h"
 #include "dgtkPovExport.h"
 #include "dgtkStage.h"
@@ -62,7 +63,9 @@ PovResult sceneToPov(const std::string& from, const std::string& to, const Argum
 
 PovResult modelToPov(const std::string& from, const std::string& to)
 {
-  const std::shared_ptr<const Model> model = readModel(from);
+  ReadOptions options;
+  options.cache = ModelCache::inUse();
+  const std::shared_ptr<const Model> model = readModel(from, options);
   for (const std::string& warning : model->warnings)
   {
     warn(warning);
@@ -107,7 +110,7 @@ Command convertCommand()
   command.options = { { "--camera", "NAME", "", "for .pov: the camera (default: the scene's first)" },
     { "--frame", "N", "", "for .pov: the frame (default: the scene's first)" },
     { "--flat-ids", "", "", "for .pov: every object in the colour of its id, without light" },
-    { "--shadows", "", "", "for .pov: objects cast shadows" } };
+    { "--shadows", "", "", "for .pov: objects cast shadows" }, noCacheOption };
   return command;
 }
 

@@ -113,7 +113,7 @@ Command correspondCommand()
     { "--to", "CAM[@FRAME]", "", "second view" },
     { "--points", "FILE|-", "", "image points x y, one a line, in pixels; - reads standard input" },
     { "--size", "WxH", "", "size of the images in pixels (default: the camera's own, else 640x480)" },
-    { "--json", "", "", "print JSON" } };
+    { "--json", "", "", "print JSON" }, noCacheOption };
   return command;
 }
 

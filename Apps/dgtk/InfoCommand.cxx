@@ -4,6 +4,7 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkModelCache.h"
 #include "dgtkModelReader.h"
 #include "dgtkText.h"
 #include "dgtkUtf8.h"
@@ -25,6 +26,7 @@ Json infoOfModel(const std::string& path)
 {
   ReadOptions options;
   options.decodeTextures = false;
+  options.cache = ModelCache::inUse();
   const std::shared_ptr<const Model> model = readModel(path, options);
   Json info;
   info["file"] = path;
@@ -149,7 +151,8 @@ Command infoCommand()
   return { "info", "FILE", 1, 1, "Tells what a scene, a model or a dataset holds.",
     { { "--json", "", "", "print one JSON object" },
       { "--size", "WxH", "", "of a scene: size of the images (default: the camera's own, else 640x480)" },
-      { "--surfaces", "", "", "of a scene: world units per pixel over what each camera sees at its first frame" } },
+      { "--surfaces", "", "", "of a scene: world units per pixel over what each camera sees at its first frame" },
+      noCacheOption },
     &run };
 }
 

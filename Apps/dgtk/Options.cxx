@@ -11,6 +11,8 @@
 namespace dgtk::app
 {
 
+const Option noCacheOption{ "--no-cache", "", "", "read models anew, and keep none of them for other runs" };
+
 namespace
 {
 const Option helpOption{ "--help", "", "", "show this page" };
@@ -136,10 +138,7 @@ void Arguments::size(const std::string& name, int most, int& width, int& height)
   height = parseInteger(text.substr(x + 1), name + " height", 1, most);
 }
 
-std::vector<std::string> Arguments::list(const std::string& name) const
-{
-  return splitNames(this->text(name), name);
-}
+std::vector<std::string> Arguments::list(const std::string& name) const { return splitNames(this->text(name), name); }
 
 std::string helpPage(const Command& command)
 {

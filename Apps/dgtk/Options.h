@@ -18,6 +18,9 @@ struct Option
   std::string help;     ///< one line
 };
 
+/// Switch of the commands that read models: without it, they use those that are kept for the user.
+extern const Option noCacheOption;
+
 /// A command: what it is called, what it takes, what it does.
 struct Command
 {

@@ -237,7 +237,7 @@ Command renderCommand()
   }
   const std::vector<Option> last = { { "--resume", "", "", "continue an interrupted run of the same request" },
     { "--replace", "", "", "remove the dataset of another request, or an interrupted run, that the folder holds" },
-    { "--timings", "", "", "print where processor time and memory went, at the end" },
+    noCacheOption, { "--timings", "", "", "print where processor time and memory went, at the end" },
     { "--quiet", "", "",
       "no progress and no messages (environment DGTK_PROGRESS: seconds between its lines, else 5)" } };
   command.options.insert(command.options.end(), last.begin(), last.end());

@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkGLContext.h"
+#include "dgtkModelCache.h"
 #include "dgtkText.h"
 #include "dgtkUtf8.h"
 
@@ -69,6 +70,11 @@ int dispatch(const std::vector<std::string>& words)
   {
     print(helpPage(*command));
     return 0;
+  }
+  const auto isSwitch = [](const Option& option) { return option.name == noCacheOption.name; };
+  if (std::any_of(command->options.begin(), command->options.end(), isSwitch) && !arguments.has(noCacheOption.name))
+  {
+    dgtk::ModelCache::use(dgtk::ModelCache::ofUser());
   }
   return command->run(arguments);
 }

@@ -4,7 +4,9 @@
 
 #include "dgtkCoreModule.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -31,6 +33,30 @@ private:
   struct Impl;
   std::unique_ptr<Impl> Self;
 };
+
+/// When a file was last changed, as its file system counts.
+class DGTKCORE_EXPORT FileAge
+{
+public:
+  /// Of a regular file, links followed; of none when there is no such file.
+  explicit FileAge(const std::string& path);
+
+  bool isFile() const { return this->Numbers[0] != 0; }
+  std::uint64_t bytes() const { return this->Numbers[3]; }
+  /// Whether a change at a time (nanoseconds since 1970) or later would be seen in another age.
+  bool isOlderThan(std::int64_t time) const;
+  bool operator==(const FileAge& other) const { return this->Numbers == other.Numbers; }
+  bool operator!=(const FileAge& other) const { return !(*this == other); }
+
+private:
+  std::array<std::uint64_t, 6> Numbers{}; ///< 1 for a file, device, number, bytes, times of contents and of state
+};
+
+/// Nanoseconds since 1970, as files' times are counted.
+DGTKCORE_EXPORT std::int64_t timeOfFiles();
+
+/// Sha256::ofFile(); a file of the same age as when it was last asked for is not read again. Thread-safe.
+DGTKCORE_EXPORT std::string hashOfFile(const std::string& path);
 
 } // namespace dgtk
 

@@ -106,6 +106,8 @@ public:
   /// frame; fractions interpolate between neighbouring frames of the same animation, values outside are clamped to
   /// [first, last]. `animation` indexes Model::animations. Thread-safe.
   virtual void positionsAt(int animation, double frame, std::vector<Eigen::Vector3d>& sourcePositions) const = 0;
+  /// All of it as bytes, for models that are kept for other runs.
+  virtual std::string saved() const { return {}; }
 };
 
 /// Geometry of a model at one instant. Vertices are split so that each has one normal and one texture coordinate.

@@ -23,12 +23,14 @@ struct ReaderInfo
 /// All readers, in the order of their rows in CMakeLists.txt.
 DGTKMODELIO_EXPORT const std::vector<ReaderInfo>& modelReaders();
 
+class ModelCache;
 class TextureStore;
 
 struct ReadOptions
 {
   bool decodeTextures = true;             ///< false: textures are located, not decoded (Texture::image stays null)
   std::shared_ptr<TextureStore> textures; ///< all pictures of the scene; null: the model has its own
+  std::shared_ptr<ModelCache> cache;      ///< models that were read before; null: none
   std::string sceneFolder; ///< the folder of the scene that the model is read for, whose pictures it may name; or ""
 };
 

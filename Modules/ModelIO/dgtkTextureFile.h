@@ -88,42 +88,6 @@ DGTKMODELIO_EXPORT std::shared_ptr<const RadianceImage> decodeRadiance(
 /// Whether a picture is a cut-out: some texels have alpha below 0.5 and some do not.
 DGTKMODELIO_EXPORT bool isCutOut(const Image& image);
 
-/// A picture that a model file holds.
-struct EmbeddedPicture
-{
-  std::string extension;                            ///< "png", "jpg"
-  const std::vector<std::uint8_t>* bytes = nullptr; ///< has to outlive TextureCache::decode
-};
-
-/// The textures of one model: each name is looked up once, each file decoded once.
-class DGTKMODELIO_EXPORT TextureCache
-{
-public:
-  TextureCache(const std::string& modelPath, const ReadOptions& options);
-  /// Appends the texture to `textures` unless it is there; returns its index, or -1 when there are too many. `warning`
-  /// is set when neither it nor `alternative` was found. Nothing is decoded.
-  int add(
-    std::vector<Texture>& textures, const std::string& name, std::string& warning, const std::string& alternative = {});
-  /// Appends a picture that the model's file holds, and returns its index.
-  int addEmbedded(std::vector<Texture>& textures, const std::string& name, const EmbeddedPicture& picture);
-  /// Decodes what was added since, if pictures are wanted at all: first all sizes are counted, then pixels are made.
-  /// Returns a line for each that cannot be decoded. Throws MachineError as decodeTexture does.
-  std::vector<std::string> decode(std::vector<Texture>& textures);
-
-private:
-  struct Job;
-  std::vector<Job> jobsOf(std::vector<Texture>& textures);
-
-  std::string ModelPath;
-  TextureFinder Finder;
-  bool Wanted;
-  std::shared_ptr<TextureStore> Store;
-  std::size_t Decoded = 0; ///< textures that were seen by decode()
-  std::map<std::string, int> ByName;
-  std::map<int, EmbeddedPicture> Embedded;
-  std::map<std::string, std::shared_ptr<const Image>> ByPath;
-};
-
 } // namespace dgtk
 
 #endif

@@ -2,6 +2,7 @@
 #include "dgtkScene.h"
 
 #include "dgtkError.h"
+#include "dgtkModelCache.h"
 #include "dgtkStage.h"
 
 #include "vtkObjectFactory.h"
@@ -26,6 +27,7 @@ bool dgtkScene::Load(const std::string& path)
   this->Modified();
   try
   {
+    dgtk::ModelCache::use(dgtk::ModelCache::ofUser());
     this->Stage = dgtk::Stage::load(dgtk::readScene(path));
   }
   catch (const std::exception& error)

@@ -10,12 +10,14 @@ HELP = {
     "info": ("FILE", "Tells what a scene, a model or a dataset holds.", [
         ("--json", "print one JSON object"),
         ("--size WxH", "of a scene: size of the images (default: the camera's own, else 640x480)"),
-        ("--surfaces", "of a scene: world units per pixel over what each camera sees at its first frame")]),
+        ("--surfaces", "of a scene: world units per pixel over what each camera sees at its first frame"),
+        ("--no-cache", "read models anew, and keep none of them for other runs")]),
     "convert": ("IN OUT", "Converts a scene between .scene and .json, and a scene or model to a POV-Ray scene .pov.", [
         ("--camera NAME", "for .pov: the camera (default: the scene's first)"),
         ("--frame N", "for .pov: the frame (default: the scene's first)"),
         ("--flat-ids", "for .pov: every object in the colour of its id, without light"),
-        ("--shadows", "for .pov: objects cast shadows")]),
+        ("--shadows", "for .pov: objects cast shadows"),
+        ("--no-cache", "read models anew, and keep none of them for other runs")]),
     "verify": ("DIR", "Derives anew what a dataset claims, prints residuals; exits with 1 on a breach.", [
         ("--check NAME,...", "only these checks, by the names of the table [all]"),
         ("--json", "print one JSON object"),
@@ -26,7 +28,8 @@ HELP = {
         ("--to CAM[@FRAME]", "second view"),
         ("--points FILE|-", "image points x y, one a line, in pixels; - reads standard input"),
         ("--size WxH", "size of the images in pixels (default: the camera's own, else 640x480)"),
-        ("--json", "print JSON")]),
+        ("--json", "print JSON"),
+        ("--no-cache", "read models anew, and keep none of them for other runs")]),
     "compare": ("A B", "Compares two images or two datasets; exits with 1 if they differ.", [
         ("--tolerance LAYER:value=V,pixels=N,share=S",
          "pixels of the layer may differ by V, and N of them, or a share S of all, by more; may be repeated"),
@@ -98,6 +101,7 @@ class Pages(Case):
                             row["help"] + (f" [{default}]" if value and default else "")))
         options += [("--resume", "continue an interrupted run of the same request"),
                     ("--replace", "remove the dataset of another request, or an interrupted run, that the folder holds"),
+                    ("--no-cache", "read models anew, and keep none of them for other runs"),
                     ("--timings", "print where processor time and memory went, at the end"),
                     ("--quiet", "no progress and no messages (environment DGTK_PROGRESS: seconds between its lines, else 5)")]
         self.assertEqual(self.dgtk("render", "--help").stdout,

@@ -2,6 +2,7 @@
 """Every sample model renders: something is seen, and raster and ray agree on the object but at edges."""
 import json
 import os
+import time
 
 from harness import EXTRA, SOURCE, Case, main
 
@@ -29,6 +30,35 @@ class Models(Case):
                 "cameras": [{"name": "view", "fovY": 40, "near": 0.01 * size, "far": 100 * size,
                              "eye": [c + size * o for c, o in zip(centre, offset)], "lookAt": centre,
                              "up": [0, 0, 1] if z_up else [0, 1, 0]}]}
+
+    def test_models_are_kept(self):
+        """By contents, for the user alone, unless that is not wanted; and nothing depends on what is kept."""
+        model = os.path.join(self.folder, "tiles.ply")
+        with open(model, "w", encoding="ascii") as file:
+            file.write("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                       "element face 50000\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0.5\n"
+                       + "3 0 1 2\n" * 50000)
+        time.sleep(0.1)
+        caches = os.path.join(self.folder, "caches")
+        kept = os.path.join(caches, "dgtk")
+        environment = {"XDG_CACHE_HOME": caches, "DGTK_CACHE": "", "HOME": self.folder}
+        plain = self.dgtk("info", model, "--json", "--no-cache", environment=environment).stdout
+        self.assertEqual(self.dgtk("info", model, "--json", environment=dict(environment, DGTK_CACHE="0")).stdout, plain)
+        self.assertFalse(os.path.exists(caches))
+        self.assertEqual(self.dgtk("info", model, "--json", environment=environment).stdout, plain)
+        [entry] = os.listdir(kept)
+        self.assertEqual(os.stat(kept).st_mode & 0o777, 0o700)
+        self.assertEqual(self.dgtk("info", model, "--json", environment=environment).stdout, plain)
+        with open(os.path.join(kept, entry), "r+b") as file:
+            file.seek(1000)
+            file.write(b"damage")
+        self.assertEqual(self.dgtk("info", model, "--json", environment=environment).stdout, plain)
+        self.assertEqual(os.listdir(kept), [entry])
+        os.chmod(kept, 0)
+        self.assertEqual(self.dgtk("info", model, "--json", environment=environment).stdout, plain)
+        os.chmod(kept, 0o700)
+        self.assertEqual(self.dgtk("info", model, status=4, environment=dict(environment, DGTK_CACHE="much")).stderr,
+                         "dgtk: DGTK_CACHE is not a number of MiB: 'much'\n")
 
     def test_every_model_renders(self):
         import numpy

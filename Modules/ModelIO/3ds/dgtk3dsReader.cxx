@@ -75,7 +75,7 @@ public:
   {
   }
 
-  std::shared_ptr<Model> read()
+  ModelContents read()
   {
     const Chunk main = this->chunkAt(0, this->In.size());
     // materials first: objects name them, whatever the order in the file
@@ -86,6 +86,7 @@ public:
       this->In.fail(main.begin, "no model in the file", "a chunk 3D3D");
     }
     this->report();
+    this->Builder.keep({}, ModelContents::worthwhile);
     return this->Builder.finish();
   }
 
@@ -449,8 +450,8 @@ private:
 };
 } // namespace
 
-std::shared_ptr<Model> read3ds(const std::string& path, const ReadOptions& options);
-std::shared_ptr<Model> read3ds(const std::string& path, const ReadOptions& options)
+ModelContents read3ds(const std::string& path, const ReadOptions& options);
+ModelContents read3ds(const std::string& path, const ReadOptions& options)
 {
   const std::string bytes = readFile(path);
   if (bytes.empty())

@@ -33,7 +33,7 @@ public:
   {
   }
 
-  std::shared_ptr<Model> parse()
+  ModelContents parse()
   {
     this->header();
     while (this->Lines.next())
@@ -52,6 +52,7 @@ public:
       this->Levels.pop_back();
     }
     this->report();
+    this->Builder.keep({}, ModelContents::worthwhile);
     return this->Builder.finish();
   }
 
@@ -263,8 +264,8 @@ private:
 };
 } // namespace
 
-std::shared_ptr<Model> readAc3d(const std::string& path, const ReadOptions& options);
-std::shared_ptr<Model> readAc3d(const std::string& path, const ReadOptions& options)
+ModelContents readAc3d(const std::string& path, const ReadOptions& options);
+ModelContents readAc3d(const std::string& path, const ReadOptions& options)
 {
   std::string bytes = readFile(path);
   const std::size_t size = bytes.size();

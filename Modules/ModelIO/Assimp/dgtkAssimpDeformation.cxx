@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkAssimpDeformation.h"
 
+#include "dgtkAssimpCheck.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -322,6 +324,43 @@ void AssimpDeformation::positionsAt(int animation, double frame, std::vector<Eig
   {
     this->positionsOf(mesh, all, animation, time, sourcePositions);
   }
+}
+
+template <class A>
+void io(A& a, PosedMesh& posed)
+{
+  a(posed.node), a(posed.mesh), a(posed.vertices);
+}
+
+std::string AssimpDeformation::saved() const
+{
+  std::string bytes;
+  const auto put = [&bytes](const void* data, std::size_t size) { bytes.append(static_cast<const char*>(data), size); };
+  StreamWriter<decltype(put)> writer(put);
+  writer(const_cast<import::Scene&>(*this->Scene)); // which a writer does not change
+  writer(const_cast<std::vector<PosedMesh>&>(this->Meshes));
+  return bytes;
+}
+
+std::shared_ptr<AssimpDeformation> AssimpDeformation::restored(const std::string& bytes)
+{
+  const auto scene = std::make_shared<import::Scene>();
+  std::vector<PosedMesh> meshes;
+  MemoryReader reader({ bytes.data() }, bytes.size());
+  reader(*scene);
+  reader(meshes);
+  checkScene(*scene);
+  for (const PosedMesh& posed : meshes)
+  {
+    const bool known = posed.node < scene->nodes.size() && posed.mesh < scene->meshes.size();
+    const std::size_t vertices = known ? scene->meshes[posed.mesh].positions.size() : 0;
+    const auto inside = [vertices](std::uint32_t vertex) { return vertex < vertices; };
+    if (!known || !std::all_of(posed.vertices.begin(), posed.vertices.end(), inside))
+    {
+      throw std::runtime_error("posed mesh");
+    }
+  }
+  return std::make_shared<AssimpDeformation>(scene, std::move(meshes));
 }
 
 bool AssimpDeformation::moves() const

@@ -34,6 +34,9 @@ public:
   static constexpr double fps = 30;
 
   void positionsAt(int animation, double frame, std::vector<Eigen::Vector3d>& sourcePositions) const override;
+  std::string saved() const override;
+  /// What saved() said. Throws std::runtime_error when an index is not within its list.
+  static std::shared_ptr<AssimpDeformation> restored(const std::string& bytes);
 
   /// Transforms model_from_node of all nodes; animation -1: as the nodes stand in the file. Time in seconds.
   std::vector<Eigen::Affine3d> pose(int animation, double time) const;

@@ -62,13 +62,13 @@ public:
   Assembly(const std::string& path, const std::string& format, const ReadOptions& options)
     : Path(path)
     , Format(format)
-    , Scene(std::make_shared<import::Scene>(importModel(path, format)))
+    , Scene(std::make_shared<ImportedScene>(importModel(path, format)))
     , Builder(path, format, this->Scene->bytesRead, options)
     , Materials(*this->Scene, this->Builder)
   {
   }
 
-  std::shared_ptr<Model> run()
+  ModelContents run()
   {
     try
     {
@@ -79,6 +79,7 @@ public:
       throw InputError(this->Path, 0, std::string("is damaged: ") + error.what());
     }
     this->Builder.model().companions = this->Scene->files;
+    this->Builder.keep(this->Scene->dependencies, 0);
     for (const std::string& warning : this->Scene->warnings)
     {
       this->Builder.warn(warning);
@@ -90,7 +91,7 @@ public:
     {
       this->weldVertices();
     }
-    this->prepareMaterials();
+    this->nameTextures();
     auto deformation = std::make_shared<AssimpDeformation>(this->Scene, this->Posed);
     const std::vector<Eigen::Affine3d> pose = deformation->pose(moves ? 0 : -1, 0);
     for (std::size_t i = 0; i < this->Posed.size(); ++i)
@@ -209,14 +210,14 @@ private:
   /// This format has no materials; the importer makes one up.
   bool isPlain() const { return this->Format == "off"; }
 
-  void prepareMaterials()
+  void nameTextures()
   {
     std::vector<std::int32_t> used;
     for (std::size_t i = 0; i < this->Posed.size() && !this->isPlain(); ++i)
     {
       used.push_back(this->Scene->meshes[this->Posed[i].mesh].material);
     }
-    this->Materials.prepare(used);
+    this->Materials.nameTextures(used);
   }
 
   void addSurfaces(const import::Mesh& mesh, const std::vector<std::uint32_t>& model,
@@ -287,7 +288,7 @@ private:
 
   std::string Path;
   std::string Format;
-  std::shared_ptr<import::Scene> Scene;
+  std::shared_ptr<ImportedScene> Scene;
   ModelBuilder Builder;
   AssimpMaterials Materials;
   std::vector<PosedMesh> Posed;
@@ -296,7 +297,7 @@ private:
 };
 } // namespace
 
-std::shared_ptr<Model> readThroughAssimp(const std::string& path, const std::string& format, const ReadOptions& options)
+ModelContents readThroughAssimp(const std::string& path, const std::string& format, const ReadOptions& options)
 {
   return Assembly(path, format, options).run();
 }

@@ -2,7 +2,7 @@
 #ifndef dgtkAssimpModel_h
 #define dgtkAssimpModel_h
 
-#include "dgtkModelReader.h"
+#include "dgtkModelContents.h"
 
 #include <memory>
 #include <string>
@@ -11,8 +11,7 @@ namespace dgtk
 {
 
 /// Reads a model with Assimp, in a process of its own. `format` is the reader's. Throws InputError.
-std::shared_ptr<Model> readThroughAssimp(
-  const std::string& path, const std::string& format, const ReadOptions& options);
+ModelContents readThroughAssimp(const std::string& path, const std::string& format, const ReadOptions& options);
 
 } // namespace dgtk
 

@@ -139,7 +139,7 @@ std::uint64_t sizeOfModel(const std::string& path)
 }
 } // namespace
 
-auto importModel(const std::string& path, const std::string& format) -> import::Scene
+auto importModel(const std::string& path, const std::string& format) -> ImportedScene
 {
   const std::uint64_t bytes = sizeOfModel(path);
   std::error_code code;
@@ -160,11 +160,11 @@ auto importModel(const std::string& path, const std::string& format) -> import::
   const bool whole = converse(process.channel(), in.get(), files, limit, stream);
   const int ended = whole ? process.wait() : 0;
   files.refuseOutside(path);
-  import::Scene scene;
+  ImportedScene scene;
   try
   {
-    import::StreamReader reader(stream.data(), whole ? stream.size() : 0);
-    io(reader, scene);
+    MemoryReader reader({ stream.data() }, whole ? stream.size() : 0);
+    import::io(reader, scene);
   }
   catch (const std::runtime_error&)
   {
@@ -175,6 +175,9 @@ auto importModel(const std::string& path, const std::string& format) -> import::
     reportError(path, absolute, scene);
   }
   scene.files = files.companions(path);
+  scene.dependencies = files.dependencies();
+  scene.dependencies.push_back({ ModelDependency::Kind::Program, "dgtk-import", "DGTK_IMPORT" });
+  scene.dependencies.push_back({ ModelDependency::Kind::Program, DGTK_ASSIMP_LIBRARY, {} });
   return scene;
 }
 

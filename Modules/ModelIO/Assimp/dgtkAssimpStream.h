@@ -2,15 +2,14 @@
 #ifndef dgtkAssimpStream_h
 #define dgtkAssimpStream_h
 
+#include "dgtkStream.h"
+
 #include <array>
 #include <cstdint>
-#include <cstring>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-/// What the helper program dgtk-import hands to the library: plain values, in the byte order of the machine, every list
-/// preceded by its count. One function for each structure both writes and reads it.
+/// What the helper program dgtk-import hands to the library (dgtkStream.h).
 namespace dgtk::import
 {
 
@@ -156,7 +155,6 @@ struct Scene
   std::string errorFile;       ///< the file it is in, as the importer named it; "" where that is not known
   std::uint64_t errorLine = 0; ///< from 1; 0 where that is not known
   std::vector<std::string> warnings;
-  std::vector<std::string> files; ///< read beside the model, spelled as it is; not in the stream
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<Mesh> meshes;
@@ -228,151 +226,6 @@ void io(A& a, Scene& s)
     a(s.nodes), a(s.animations);
   a.mark(streamEnd);
 }
-
-/// Types whose bytes are the stream's.
-template <class T>
-struct IsPlain : std::integral_constant<bool, std::is_arithmetic_v<T> || std::is_enum_v<T>>
-{
-};
-template <class T, std::size_t N>
-struct IsPlain<std::array<T, N>> : IsPlain<T>
-{
-};
-
-/// Writes to `put(const void*, size_t)`.
-template <class Put>
-class StreamWriter
-{
-public:
-  explicit StreamWriter(Put put)
-    : Out(put)
-  {
-  }
-  void mark(std::uint32_t value) { (*this)(value); }
-  template <class T>
-  void operator()(T& value)
-  {
-    if constexpr (IsPlain<T>::value)
-    {
-      this->Out(&value, sizeof value);
-    }
-    else
-    {
-      io(*this, value);
-    }
-  }
-  void operator()(std::string& text) { this->block(text); }
-  template <class T>
-  void operator()(std::vector<T>& list)
-  {
-    if constexpr (IsPlain<T>::value)
-    {
-      this->block(list);
-    }
-    else
-    {
-      std::uint64_t count = list.size();
-      this->Out(&count, sizeof count);
-      for (T& item : list)
-      {
-        (*this)(item);
-      }
-    }
-  }
-
-private:
-  template <class L>
-  void block(L& list)
-  {
-    std::uint64_t count = list.size();
-    this->Out(&count, sizeof count);
-    this->Out(list.data(), list.size() * sizeof(typename L::value_type));
-  }
-  Put Out;
-};
-
-/// Reads what StreamWriter wrote; a count is believed only when as many bytes follow. Throws std::runtime_error.
-class StreamReader
-{
-public:
-  StreamReader(const char* data, std::size_t size)
-    : At(data)
-    , Left(size)
-  {
-  }
-  void mark(std::uint32_t expected)
-  {
-    std::uint32_t found = 0;
-    (*this)(found);
-    if (found != expected)
-    {
-      throw std::runtime_error("mark");
-    }
-  }
-  template <class T>
-  void operator()(T& value)
-  {
-    if constexpr (IsPlain<T>::value)
-    {
-      this->take(&value, sizeof value);
-    }
-    else
-    {
-      io(*this, value);
-    }
-  }
-  void operator()(std::string& text)
-  {
-    text.resize(this->count(1));
-    this->take(text.data(), text.size());
-  }
-  template <class T>
-  void operator()(std::vector<T>& list)
-  {
-    if constexpr (IsPlain<T>::value)
-    {
-      list.resize(this->count(sizeof(T)));
-      this->take(list.data(), list.size() * sizeof(T));
-    }
-    else
-    {
-      // every structure of the stream takes at least eight bytes
-      const std::size_t items = this->count(8);
-      for (std::size_t i = 0; i < items; ++i)
-      {
-        list.emplace_back();
-        (*this)(list.back());
-      }
-    }
-  }
-
-private:
-  std::size_t count(std::size_t itemBytes)
-  {
-    std::uint64_t value = 0;
-    this->take(&value, sizeof value);
-    if (value > this->Left / itemBytes)
-    {
-      throw std::runtime_error("count");
-    }
-    return static_cast<std::size_t>(value);
-  }
-  void take(void* to, std::size_t bytes)
-  {
-    if (bytes > this->Left)
-    {
-      throw std::runtime_error("end");
-    }
-    if (bytes > 0)
-    {
-      std::memcpy(to, this->At, bytes);
-    }
-    this->At += bytes;
-    this->Left -= bytes;
-  }
-  const char* At;
-  std::size_t Left;
-};
 
 } // namespace dgtk::import
 

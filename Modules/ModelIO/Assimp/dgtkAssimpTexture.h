@@ -7,7 +7,6 @@
 
 #include <map>
 #include <string>
-#include <tuple>
 
 namespace dgtk
 {
@@ -16,28 +15,26 @@ namespace dgtk
 class AssimpMaterials
 {
 public:
-  AssimpMaterials(const import::Scene& scene, ModelBuilder& builder)
+  /// Takes the pictures out of the scene.
+  AssimpMaterials(import::Scene& scene, ModelBuilder& builder)
     : Scene(scene)
     , Builder(builder)
   {
   }
-  /// Looks for the textures of materials that are going to be added, and decodes them together.
-  void prepare(const std::vector<std::int32_t>& indices);
+  /// Gives the textures of materials that are going to be added their places.
+  void nameTextures(const std::vector<std::int32_t>& indices);
   /// Index in the model of material `index` of the scene, which may be out of range.
   int add(std::int32_t index);
 
 private:
   const import::Material* find(std::int32_t index) const;
   int textureOf(const std::string& name);
-  int fileTexture(const std::string& name);
   int embeddedTexture(const std::string& name);
-  void settleAlpha(const import::Material& from, Material& to);
 
-  const import::Scene& Scene;
+  import::Scene& Scene;
   ModelBuilder& Builder;
   std::map<std::int32_t, int> Known;
   std::map<std::string, int> Named;
-  std::map<std::tuple<int, double, double>, int> Remade; ///< (texture, cut-off, opacity)
 };
 
 } // namespace dgtk

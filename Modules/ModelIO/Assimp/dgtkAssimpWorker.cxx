@@ -247,7 +247,7 @@ bool send(Scene& scene)
   bool good = true;
   const auto put = [&good](const void* data, std::size_t bytes)
   { good = good && (bytes == 0 || std::fwrite(data, 1, bytes, stdout) == bytes); };
-  dgtk::import::StreamWriter<decltype(put)> writer(put);
+  dgtk::StreamWriter<decltype(put)> writer(put);
   io(writer, scene);
   return std::fflush(stdout) == 0 && good;
 }

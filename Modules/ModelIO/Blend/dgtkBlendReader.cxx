@@ -8,8 +8,8 @@
 #include "dgtkSystem.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 #include <sys/wait.h>
@@ -35,35 +35,40 @@ with open(files, "wb") as file:
     file.write(b"\n".join(os.fsencode(path) for path in bpy.utils.blend_paths(absolute=True)))
 )";
 
-/// The program that DGTK_BLENDER names, else "blender" in the PATH; "" when there is none.
-std::string findBlender()
+/// Files of the model's folder, and of the one above it, that the file names and Blender could read if they are there;
+/// relative to the model's folder.
+std::vector<std::string> namedFiles(const std::string& path, const std::string& list)
 {
-  const char* const set = std::getenv("DGTK_BLENDER");
-  if (set && *set)
-  {
-    return isProgram(set) ? fs::absolute(set).string() : std::string();
-  }
-  return programOnPath("blender");
-}
-
-/// Files of the model's folder, and of the one above it, that the file names and Blender could read.
-std::vector<std::string> companionsOf(const std::string& path, const std::string& list)
-{
-  const std::string above = (fs::absolute(path).parent_path() / "..").lexically_normal().string();
-  std::vector<std::string> companions;
+  const fs::path folder = fs::absolute(path).lexically_normal().parent_path();
+  std::set<std::string> names;
   std::istringstream lines(readFile(list));
   for (std::string line; std::getline(lines, line);)
   {
-    std::error_code code;
-    if (fs::is_regular_file(line, code) && liesBeneath(line, above))
+    if (isNamedBeneath(line, folder.parent_path().string()))
     {
-      companions.push_back(fs::relative(line, fs::absolute(path).parent_path(), code).generic_string());
-      companions.back() = (fs::path(path).parent_path() / companions.back()).lexically_normal().string();
+      names.insert(fs::path(line).lexically_normal().lexically_relative(folder).generic_string());
     }
   }
-  std::sort(companions.begin(), companions.end());
-  companions.erase(std::unique(companions.begin(), companions.end()), companions.end());
-  return companions;
+  return { names.begin(), names.end() };
+}
+
+/// Says which files were read, and what the model depends on.
+void nameFiles(const std::string& path, const std::string& list, ModelContents& contents)
+{
+  const std::string above = fs::absolute(path).parent_path().parent_path().string();
+  contents.model->companions.clear();
+  contents.dependencies.push_back({ ModelDependency::Kind::Program, "blender", "DGTK_BLENDER" });
+  for (const std::string& name : namedFiles(path, list))
+  {
+    contents.dependencies.push_back({ ModelDependency::Kind::Beside, name, {} });
+    const std::string file = (fs::path(path).parent_path() / name).lexically_normal().string();
+    std::error_code code;
+    if (fs::is_regular_file(file, code) && liesBeneath(file, above))
+    {
+      contents.model->companions.push_back(file);
+    }
+  }
+  std::sort(contents.model->companions.begin(), contents.model->companions.end());
 }
 
 void runBlender(const std::string& path, const std::string& blender, ScratchFolder& own)
@@ -95,15 +100,15 @@ void runBlender(const std::string& path, const std::string& blender, ScratchFold
 }
 } // namespace
 
-std::shared_ptr<Model> readBlend(const std::string& path, const ReadOptions& options);
-std::shared_ptr<Model> readBlend(const std::string& path, const ReadOptions& options)
+ModelContents readBlend(const std::string& path, const ReadOptions& options);
+ModelContents readBlend(const std::string& path, const ReadOptions& options)
 {
   std::error_code code;
   if (!fs::is_regular_file(path, code))
   {
     throw InputError(path, 0, fs::exists(path, code) ? "is not a regular file" : "no such file");
   }
-  const std::string blender = findBlender();
+  const std::string blender = helper::installedProgram("blender", "DGTK_BLENDER");
   if (blender.empty())
   {
     throw InputError(path, 0,
@@ -113,10 +118,10 @@ std::shared_ptr<Model> readBlend(const std::string& path, const ReadOptions& opt
   }
   ScratchFolder own;
   runBlender(path, blender, own);
-  std::shared_ptr<Model> model;
+  ModelContents contents;
   try
   {
-    model = readThroughAssimp(own.path("model.glb"), "gltf", options);
+    contents = readThroughAssimp(own.path("model.glb"), "gltf", options);
   }
   catch (const InputError& error)
   {
@@ -124,14 +129,10 @@ std::shared_ptr<Model> readBlend(const std::string& path, const ReadOptions& opt
     const std::size_t colon = text.find(": ");
     throw InputError(path, 0, "what Blender makes of it " + text.substr(colon == std::string::npos ? 0 : colon + 2));
   }
-  model->format = "blend";
-  model->path = path;
-  model->companions = companionsOf(path, own.path("files"));
-  for (Texture& texture : model->textures)
-  {
-    texture.path = path;
-  }
-  return model;
+  contents.model->format = "blend";
+  contents.model->path = path;
+  nameFiles(path, own.path("files"), contents);
+  return contents;
 }
 
 } // namespace dgtk

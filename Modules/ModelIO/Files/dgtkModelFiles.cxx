@@ -28,7 +28,26 @@ std::string ModelFiles::find(const std::string& written)
   {
     this->Found.insert(path);
   }
+  if (path != this->Model)
+  {
+    this->Asked[this->withoutFolder(written)] = path;
+  }
   return path;
+}
+
+std::vector<ModelDependency> ModelFiles::dependencies() const
+{
+  std::vector<ModelDependency> all;
+  for (const auto& [name, path] : this->Asked)
+  {
+    all.push_back({ ModelDependency::Kind::Named, name, this->relative(path) });
+  }
+  return all;
+}
+
+std::string ModelFiles::relative(const std::string& path) const
+{
+  return path.empty() ? path : fs::path(path).lexically_relative(this->Folder).string();
 }
 
 std::vector<std::string> ModelFiles::companions(const std::string& modelAsGiven) const
@@ -56,10 +75,16 @@ void ModelFiles::refuseOutside(const std::string& modelAsGiven) const
 }
 
 /// The importer puts the folder in front of what the model says.
+std::string ModelFiles::withoutFolder(const std::string& written) const
+{
+  const std::string folder = (fs::path(this->Folder) / "").string();
+  return written.substr(written.compare(0, folder.size(), folder) == 0 ? folder.size() : 0);
+}
+
 std::string ModelFiles::withoutEscapes(const std::string& written) const
 {
-  const std::size_t own = written.compare(0, this->Folder.size(), this->Folder) == 0 ? this->Folder.size() : 0;
-  return written.substr(0, own) + withoutPercents(written.substr(own));
+  const std::string own = this->withoutFolder(written);
+  return written.substr(0, written.size() - own.size()) + withoutPercents(own);
 }
 
 std::string ModelFiles::locate(const std::string& written)

@@ -2,6 +2,9 @@
 #ifndef dgtkModelFiles_h
 #define dgtkModelFiles_h
 
+#include "dgtkModelContents.h"
+
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -22,17 +25,23 @@ public:
   std::string find(const std::string& written);
   /// What was found, in order of path, spelled as the model is: for Model::companions.
   std::vector<std::string> companions(const std::string& modelAsGiven) const;
+  /// What was asked for, and found or not.
+  std::vector<ModelDependency> dependencies() const;
+  /// Path of a file as dependencies() has it.
+  std::string relative(const std::string& path) const;
   /// Throws InputError when a name led to a file that is there, and that the model may not have.
   void refuseOutside(const std::string& modelAsGiven) const;
 
 private:
+  std::string withoutFolder(const std::string& written) const;
   std::string withoutEscapes(const std::string& written) const;
   std::string locate(const std::string& written);
   std::string inAnyCase(const std::string& wanted) const;
 
   std::string Model;
   std::string Folder;
-  std::string Outside; ///< as written
+  std::string Outside;                      ///< as written
+  std::map<std::string, std::string> Asked; ///< name -> path, or ""
   std::set<std::string> Found;
 };
 

@@ -108,6 +108,16 @@ std::string findProgram(const char* name, const char* variable)
                      library.string() + " (" + variable + " can name it)");
 }
 
+std::string installedProgram(const std::string& name, const std::string& variable)
+{
+  const char* const set = std::getenv(variable.c_str());
+  if (set && *set)
+  {
+    return isProgram(set) ? fs::absolute(set).string() : std::string();
+  }
+  return programOnPath(name);
+}
+
 Process::Process(const std::vector<std::string>& command, int output)
   : Owner(::getpid())
 {

@@ -16,6 +16,10 @@ namespace dgtk::helper
 /// libexec/dgtk/ of the folders above it). Throws MachineError when it is not there.
 std::string findProgram(const char* name, const char* variable);
 
+/// Path of a program of the machine: the value of the environment variable `variable`, else the first in PATH; "" when
+/// there is none.
+std::string installedProgram(const std::string& name, const std::string& variable);
+
 /// A running helper. What it says on its standard error is dropped.
 class Process
 {

@@ -5,6 +5,7 @@
 #include "dgtkMd2Sequences.h"
 #include "dgtkModelBuilder.h"
 #include "dgtkTextLines.h"
+#include "dgtkTextureFile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -165,15 +166,22 @@ std::shared_ptr<Md2Frames> readFrames(const ByteReader& in, const Header& h, std
 }
 
 /// Variants of one picture; the first is the default. Without one that is found, a picture named like the model.
-int readSkins(const ByteReader& in, const Header& h, const std::string& path, ModelBuilder& builder)
+int readSkins(
+  const ByteReader& in, const Header& h, const std::string& path, const ReadOptions& options, ModelBuilder& builder)
 {
+  TextureFinder finder(path, options.sceneFolder);
   const std::string stem = std::filesystem::path(path).stem().string();
   int skin = -1;
+  bool found = false; ///< some skin so far
   for (std::size_t s = 0; s < index(h.skins); ++s)
   {
-    const int texture = builder.addTexture(in.text(index(h.skinsAt) + s * skinBytes, skinBytes), s == 0 ? stem : "");
-    const auto found = [&builder](int i) { return i >= 0 && !builder.model().textures[index(i)].path.empty(); };
-    skin = skin < 0 || (!found(skin) && found(texture)) ? texture : skin;
+    const std::string name = in.text(index(h.skinsAt) + s * skinBytes, skinBytes);
+    const std::string alternative = s == 0 ? stem : "";
+    const int texture = builder.addTexture(name, alternative);
+    const bool isFound =
+      texture >= 0 && !(finder.find(name).empty() && (alternative.empty() || finder.find(alternative).empty()));
+    skin = skin < 0 || (!found && isFound) ? texture : skin;
+    found = found || isFound;
   }
   if (h.skins == 0 && !locateTexture(path, stem).empty())
   {
@@ -250,8 +258,8 @@ void addAnm(const std::string& path, int frames, std::vector<Animation>& animati
 }
 } // namespace
 
-std::shared_ptr<Model> readMd2(const std::string& path, const ReadOptions& options);
-std::shared_ptr<Model> readMd2(const std::string& path, const ReadOptions& options)
+ModelContents readMd2(const std::string& path, const ReadOptions& options);
+ModelContents readMd2(const std::string& path, const ReadOptions& options)
 {
   const std::string bytes = readFile(path, std::uint64_t(1) << 30);
   const ByteReader in(path, bytes);
@@ -262,7 +270,7 @@ std::shared_ptr<Model> readMd2(const std::string& path, const ReadOptions& optio
   ModelBuilder builder(path, "md2", bytes.size(), options);
   Material material;
   material.name = "skin";
-  material.texture = readSkins(in, h, path, builder);
+  material.texture = readSkins(in, h, path, options, builder);
   if (material.texture >= 0)
   {
     material.ambient = material.diffuse = Eigen::Vector3d(1, 1, 1);

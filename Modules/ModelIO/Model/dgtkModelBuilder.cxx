@@ -3,6 +3,8 @@
 
 #include "dgtkError.h"
 #include "dgtkModelObject.h"
+#include "dgtkPictureProcess.h"
+#include "dgtkText.h"
 #include "dgtkTextLines.h"
 
 #include <algorithm>
@@ -13,8 +15,8 @@ namespace dgtk
 
 namespace
 {
-constexpr std::size_t mostWarnings = 50;
 constexpr std::size_t mostMaterials = 65536;
+constexpr std::size_t mostTextures = 4096;
 /// Corners from which on scratch memory is given back after use.
 constexpr std::size_t largeSurface = 10000;
 constexpr std::uint32_t none = 0xffffffffu;
@@ -41,17 +43,9 @@ void makeTextsValid(Model& model)
   {
     fix(material.name);
   }
-  for (Texture& texture : model.textures)
-  {
-    fix(texture.name);
-  }
   for (Animation& animation : model.animations)
   {
     fix(animation.name);
-  }
-  for (std::string& warning : model.warnings)
-  {
-    fix(warning);
   }
 }
 
@@ -63,45 +57,53 @@ std::string counted(std::size_t count, const char* what, const char* whats)
 
 ModelBuilder::ModelBuilder(
   const std::string& path, const std::string& format, std::size_t fileBytes, const ReadOptions& options)
-  : Result(std::make_shared<Model>())
-  , Rest(std::make_shared<Geometry>())
-  , Textures(path, options)
+  : Rest(std::make_shared<Geometry>())
+  , WantsPictures(options.decodeTextures)
   , MemoryLimit((std::uint64_t(48) << 20) + std::uint64_t(8) * fileBytes)
   , WorkLimit(20'000'000 + std::uint64_t(20) * fileBytes)
 {
-  this->Result->format = format;
-  this->Result->path = path;
+  this->Contents.model = std::make_shared<Model>();
+  this->model().format = format;
+  this->model().path = path;
 }
 
 ModelBuilder::~ModelBuilder() = default;
 
 void ModelBuilder::warn(const std::string& text)
 {
-  if (this->Result->warnings.size() < mostWarnings)
+  if (this->Warnings < mostModelWarnings)
   {
-    this->Result->warnings.push_back(text);
+    this->Contents.notes.push_back({ text, ModelNote::none });
+    ++this->Warnings;
   }
   else
   {
-    ++this->DroppedWarnings;
+    ++this->Contents.moreNotes;
   }
 }
 
-int ModelBuilder::addMaterial(const Material& material)
+void ModelBuilder::keep(std::vector<ModelDependency> dependencies, std::uint64_t fromBytes)
 {
-  std::vector<Material>& materials = this->Result->materials;
+  this->Contents.dependencies = std::move(dependencies);
+  this->Contents.keptFrom = fromBytes;
+}
+
+int ModelBuilder::addMaterial(const Material& material, const MaterialAlpha& alpha)
+{
+  std::vector<Material>& materials = this->model().materials;
   if (materials.size() >= mostMaterials)
   {
-    throw InputError(this->Result->path, 0, "has too many materials", "at most " + std::to_string(mostMaterials));
+    throw InputError(this->model().path, 0, "has too many materials", "at most " + std::to_string(mostMaterials));
   }
   materials.emplace_back();
+  this->Contents.alpha.push_back(alpha);
   this->setMaterial(static_cast<int>(materials.size()) - 1, material);
   return static_cast<int>(materials.size()) - 1;
 }
 
 void ModelBuilder::setMaterial(int index, const Material& material)
 {
-  Material& m = this->Result->materials[static_cast<std::size_t>(index)];
+  Material& m = this->model().materials[static_cast<std::size_t>(index)];
   m = material;
   m.ambient = clampedColor(m.ambient);
   m.diffuse = clampedColor(m.diffuse);
@@ -116,48 +118,41 @@ void ModelBuilder::setMaterial(int index, const Material& material)
   }
   m.normalScale = clamped(m.normalScale, -1000, 1000, 1);
   m.occlusionStrength = clamped(m.occlusionStrength, 0, 1, 1);
-  m.texture = m.texture < static_cast<int>(this->Result->textures.size()) ? m.texture : -1;
+  m.texture = m.texture < static_cast<int>(this->Contents.pictures.size()) ? m.texture : -1;
 }
 
-int ModelBuilder::addTexture(const std::string& name, const std::string& alternative)
+int ModelBuilder::addTexture(const std::string& name, const std::string& alternative, const std::string& unescaped)
 {
   if (name.empty())
   {
     return -1;
   }
-  std::string warning;
-  const int index = this->Textures.add(this->Result->textures, name, warning, alternative);
-  if (!warning.empty())
+  std::vector<ModelPicture>& pictures = this->Contents.pictures;
+  const auto [known, isNew] = this->Pictures.try_emplace(name, static_cast<int>(pictures.size()));
+  if (isNew && pictures.size() >= mostTextures)
   {
-    this->warn(warning);
+    known->second = -1;
   }
-  return index;
+  else if (isNew)
+  {
+    this->Contents.notes.push_back({ {}, known->second });
+    pictures.push_back({ name, alternative, unescaped, {}, 0, 0, {} });
+    if (this->WantsPictures)
+    {
+      picture::prepare();
+    }
+  }
+  if (known->second < 0)
+  {
+    this->warn("texture " + quoted(name) + " left out: more than " + std::to_string(mostTextures) + " textures");
+  }
+  return known->second;
 }
 
-int ModelBuilder::addEmbedded(const std::string& name, const EmbeddedPicture& picture)
+int ModelBuilder::addEmbedded(ModelPicture picture)
 {
-  return this->Textures.addEmbedded(this->Result->textures, name, picture);
-}
-
-void ModelBuilder::decodeTextures()
-{
-  for (const std::string& warning : this->Textures.decode(this->Result->textures))
-  {
-    this->warn(warning);
-  }
-}
-
-void ModelBuilder::settleCutOuts()
-{
-  std::vector<bool> cutOut;
-  for (const Texture& texture : this->Result->textures)
-  {
-    cutOut.push_back(texture.image && isCutOut(*texture.image));
-  }
-  for (Material& material : this->Result->materials)
-  {
-    material.cutOut = material.texture >= 0 && cutOut[static_cast<std::size_t>(material.texture)];
-  }
+  this->Contents.pictures.push_back(std::move(picture));
+  return static_cast<int>(this->Contents.pictures.size()) - 1;
 }
 
 int ModelBuilder::withTexture(int material, int texture)
@@ -172,7 +167,7 @@ int ModelBuilder::withTexture(int material, int texture)
   {
     return known->second;
   }
-  Material textured = this->Result->materials[index];
+  Material textured = this->model().materials[index];
   textured.texture = texture;
   const int made = this->addMaterial(textured);
   this->Textured[{ material, texture }] = made;
@@ -206,7 +201,7 @@ std::uint32_t ModelBuilder::addVertex(const Eigen::Vector3d& position)
 {
   if (this->SourceVertices >= none)
   {
-    throw InputError(this->Result->path, 0, "has too many vertices", "fewer than 4294967295");
+    throw InputError(this->model().path, 0, "has too many vertices", "fewer than 4294967295");
   }
   this->Current->positions.push_back(position);
   return static_cast<std::uint32_t>(this->SourceVertices++);
@@ -274,7 +269,7 @@ bool ModelBuilder::addSurface(const Corner* corners, std::size_t count, const Su
   const auto first = static_cast<std::uint32_t>(object.corners.size());
   if (object.corners.size() + count >= none)
   {
-    throw InputError(this->Result->path, 0, "has too many surfaces in one object");
+    throw InputError(this->model().path, 0, "has too many surfaces in one object");
   }
   this->addCorners(corners, count);
   object.cut.reserve(count - 2);
@@ -301,15 +296,15 @@ bool ModelBuilder::addSurface(const Corner* corners, std::size_t count, const Su
   }
   if (style.twoSided)
   {
-    this->Result->materials[static_cast<std::size_t>(surface.style.material)].twoSided = true;
-    this->Result->twoSidedTriangles += surface.triangles;
+    this->model().materials[static_cast<std::size_t>(surface.style.material)].twoSided = true;
+    this->model().twoSidedTriangles += surface.triangles;
   }
   return true;
 }
 
 void ModelBuilder::growBounds(const Eigen::Vector3d& position)
 {
-  Model& model = *this->Result;
+  Model& model = this->model();
   if (model.boundsMin.x() > model.boundsMax.x())
   {
     model.boundsMin = model.boundsMax = position;
@@ -323,7 +318,7 @@ void ModelBuilder::addLine(std::uint32_t a, std::uint32_t b)
   const Corner ends[3] = { { a, -1, 0, 0 }, { b, -1, 0, 0 }, { b, -1, 0, 0 } };
   if (this->usable(ends, 3))
   {
-    ++this->Result->lines;
+    ++this->model().lines;
     this->growBounds(this->Current->positions[this->Current->local(ends[0])]);
     this->growBounds(this->Current->positions[this->Current->local(ends[1])]);
   }
@@ -342,11 +337,10 @@ void ModelBuilder::endObject()
   this->Current.reset();
 }
 
-std::shared_ptr<Model> ModelBuilder::finish()
+ModelContents ModelBuilder::finish()
 {
-  Model& model = *this->Result;
-  this->decodeTextures();
-  this->settleCutOuts();
+  Model& model = this->model();
+  this->Contents.notes.push_back({ {}, ModelNote::ofDecoding });
   model.sourceVertices = this->SourceVertices;
   if (this->HasUvs)
   {
@@ -376,12 +370,8 @@ std::shared_ptr<Model> ModelBuilder::finish()
   {
     this->warn("some surfaces are triangulated or smoothed in a simple way: their shape would take too long to settle");
   }
-  if (this->DroppedWarnings > 0)
-  {
-    model.warnings.push_back("and " + counted(this->DroppedWarnings, "more warning", "more warnings"));
-  }
   makeTextsValid(model);
-  return std::move(this->Result);
+  return std::move(this->Contents);
 }
 
 } // namespace dgtk

@@ -2,8 +2,8 @@
 #ifndef dgtkModelBuilder_h
 #define dgtkModelBuilder_h
 
+#include "dgtkModelContents.h"
 #include "dgtkModelReader.h"
-#include "dgtkTextureFile.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -68,23 +68,23 @@ public:
   ModelBuilder& operator=(const ModelBuilder&) = delete;
 
   /// The model under construction; for format-specific fields and counts.
-  Model& model() { return *this->Result; }
-  /// One line; at most 50 are kept, the rest is counted.
+  Model& model() { return *this->Contents.model; }
+  /// One line; at most `mostModelWarnings` are kept, the rest is counted.
   void warn(const std::string& text);
+  /// What the model depends on beside its file. Without this call, it is not kept for other runs.
+  void keep(std::vector<ModelDependency> dependencies, std::uint64_t fromBytes);
 
   /// Adds a material and returns its index. Colours are clamped to [0, 1], values that are not finite replaced;
-  /// finish() settles `cutOut` by its texture.
-  int addMaterial(const Material& material);
+  /// withPictures() settles `cutOut` and what alpha means.
+  int addMaterial(const Material& material, const MaterialAlpha& alpha = {});
   /// Changes a material that addMaterial returned and nothing uses yet.
   void setMaterial(int index, const Material& material);
-  std::size_t materials() const { return this->Result->materials.size(); }
-  /// Index of the texture of that name in Model::textures (found at the first call), or -1 for "". When it is not
-  /// found, `alternative` is looked for.
-  int addTexture(const std::string& name, const std::string& alternative = {});
-  /// The same for a picture that the model's file holds; its bytes have to stay until it is decoded.
-  int addEmbedded(const std::string& name, const EmbeddedPicture& picture);
-  /// Decodes the textures added since the last call. finish() does it, too; for readers that look at the texels.
-  void decodeTextures();
+  std::size_t materials() const { return this->Contents.model->materials.size(); }
+  /// Index of the picture of that name, or -1 for "". When it is not found, `alternative` is looked for; `unescaped` is
+  /// what it is called then.
+  int addTexture(const std::string& name, const std::string& alternative = {}, const std::string& unescaped = {});
+  /// The same for a picture that the model's file holds.
+  int addEmbedded(ModelPicture picture);
   /// Index of a material that is `material` with that texture: shared by all calls with the same arguments.
   int withTexture(int material, int texture);
   /// Index of a grey material for surfaces that name none.
@@ -111,13 +111,13 @@ public:
   /// Makes the model deform: vertices are the file's vertices in the order of addVertex.
   void setDeformation(std::shared_ptr<const Deformation> deformation)
   {
-    this->Result->deformation = std::move(deformation);
+    this->Contents.model->deformation = std::move(deformation);
   }
   /// Makes Model::uvs be filled also when all texture coordinates are 0.
   void setHasUvs() { this->HasUvs = true; }
 
-  /// The finished model; the builder is empty afterwards.
-  std::shared_ptr<Model> finish();
+  /// All of the model but its pictures; the builder is empty afterwards.
+  ModelContents finish();
 
 private:
   std::vector<Eigen::Vector3f> smooth();
@@ -126,17 +126,17 @@ private:
   void addCorners(const Corner* corners, std::size_t count);
   void growBounds(const Eigen::Vector3d& position);
   bool usable(const Corner* corners, std::size_t count);
-  void settleCutOuts();
 
-  std::shared_ptr<Model> Result;
+  ModelContents Contents;
   std::shared_ptr<Geometry> Rest;
-  TextureCache Textures;
+  bool WantsPictures;
+  std::map<std::string, int> Pictures; ///< by name
   std::unique_ptr<ModelObject> Current;
   std::uint64_t MemoryLimit;
   std::uint64_t WorkLimit; ///< of ear clipping and smoothing together
   std::uint64_t Work = 0;
   std::size_t SourceVertices = 0;
-  std::size_t DroppedWarnings = 0;
+  std::size_t Warnings = 0; ///< kept
   std::size_t BadIndexSurfaces = 0;
   std::size_t NotFiniteSurfaces = 0;
   std::size_t SmallSurfaces = 0;

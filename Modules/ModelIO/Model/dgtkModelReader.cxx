@@ -2,6 +2,7 @@
 #include "dgtkModelReader.h"
 
 #include "dgtkError.h"
+#include "dgtkKeptModel.h"
 #include "dgtkReaderRegistry.h"
 #include "dgtkText.h"
 #include "dgtkWorkTime.h"
@@ -26,6 +27,13 @@ std::string knownExtensions()
     }
   }
   return known;
+}
+
+ModelContents contentsOf(const ReaderRow& row, const std::string& path, const ReadOptions& options)
+{
+  const KeptModel kept(options.cache, path, row.info.format);
+  std::optional<ModelContents> found = kept.find();
+  return found ? std::move(*found) : kept.keep(row.read(path, options));
 }
 } // namespace
 
@@ -54,7 +62,7 @@ std::shared_ptr<const Model> readModel(const std::string& path, const ReadOption
     {
       try
       {
-        return row.read(path, options);
+        return withPictures(contentsOf(row, path, options), options);
       }
       catch (const std::bad_alloc&)
       {

@@ -48,7 +48,7 @@ std::vector<std::uint32_t> splitCorners(const std::vector<Corner>& corners, cons
 std::vector<std::uint32_t> ModelBuilder::addSplitVertices(const std::vector<Eigen::Vector3f>& normals)
 {
   const ModelObject& object = *this->Current;
-  Model& model = *this->Result;
+  Model& model = this->model();
   const std::size_t base = this->Rest->positions.size();
   std::vector<std::uint32_t> cornerOf;
   std::vector<std::uint32_t> splitOf = splitCorners(object.corners, normals, base, cornerOf);
@@ -84,7 +84,7 @@ std::vector<std::uint32_t> ModelBuilder::addSplitVertices(const std::vector<Eige
 void ModelBuilder::addParts(const std::vector<std::uint32_t>& splitOf)
 {
   const ModelObject& object = *this->Current;
-  Model& model = *this->Result;
+  Model& model = this->model();
   std::map<int, std::uint32_t> rank;
   for (const ModelObject::Surface& surface : object.surfaces)
   {

@@ -2,13 +2,13 @@
 #ifndef dgtkReaderRegistry_h
 #define dgtkReaderRegistry_h
 
-#include "dgtkModelReader.h"
+#include "dgtkModelContents.h"
 
 namespace dgtk
 {
 
-/// Reads one file. Throws InputError; never returns null.
-using ReadFunction = std::shared_ptr<Model> (*)(const std::string& path, const ReadOptions& options);
+/// Reads one file. Throws InputError.
+using ReadFunction = ModelContents (*)(const std::string& path, const ReadOptions& options);
 
 struct ReaderRow
 {

@@ -191,6 +191,7 @@ void ObjMaterials::finish()
 {
   this->Files.refuseOutside(this->Path);
   this->Builder.model().companions = this->Files.companions(this->Path);
+  this->Builder.keep(this->Files.dependencies(), ModelContents::worthwhile);
 }
 
 } // namespace dgtk

@@ -95,7 +95,7 @@ public:
   {
   }
 
-  std::shared_ptr<Model> run()
+  ModelContents run()
   {
     bool understood = false;
     while (this->Statements.next())
@@ -348,8 +348,8 @@ private:
 };
 } // namespace
 
-std::shared_ptr<Model> readObj(const std::string& path, const ReadOptions& options);
-std::shared_ptr<Model> readObj(const std::string& path, const ReadOptions& options)
+ModelContents readObj(const std::string& path, const ReadOptions& options);
+ModelContents readObj(const std::string& path, const ReadOptions& options)
 {
   std::string text = toUtf8(readFile(path));
   if (text.find('\n') == std::string::npos)

@@ -164,7 +164,7 @@ public:
   {
   }
 
-  std::shared_ptr<Model> run(const std::string& path)
+  ModelContents run(const std::string& path)
   {
     std::vector<std::pair<const PlyElement*, std::size_t>> later;
     bool vertices = false;
@@ -382,7 +382,7 @@ private:
     }
   }
 
-  std::shared_ptr<Model> finish()
+  ModelContents finish()
   {
     if (this->HasUvs || this->HasWedges)
     {
@@ -398,6 +398,7 @@ private:
     {
       this->Builder.warn("colours of vertices are not drawn");
     }
+    this->Builder.keep({}, ModelContents::worthwhile);
     return this->Builder.finish();
   }
 
@@ -417,8 +418,8 @@ private:
 };
 } // namespace
 
-std::shared_ptr<Model> readPly(const std::string& path, const ReadOptions& options);
-std::shared_ptr<Model> readPly(const std::string& path, const ReadOptions& options)
+ModelContents readPly(const std::string& path, const ReadOptions& options);
+ModelContents readPly(const std::string& path, const ReadOptions& options)
 {
   const std::string contents = readFile(path);
   return PlyAssembly(path, contents, options).run(path);

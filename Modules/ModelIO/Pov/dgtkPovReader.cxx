@@ -24,7 +24,7 @@ public:
   {
   }
 
-  std::shared_ptr<Model> run()
+  ModelContents run()
   {
     this->checkSize();
     this->Builder.model().companions.assign(this->Scene.files.begin() + 1, this->Scene.files.end());
@@ -39,15 +39,15 @@ public:
     Model& model = this->Builder.model();
     model.declaredMaterials = this->Materials.size();
     model.declaredTriangles = this->trianglesOfRepeatedMeshes();
-    std::shared_ptr<Model> result = this->Builder.finish();
-    if (!this->Scene.rightHanded && result->boundsMin.z() <= result->boundsMax.z())
+    ModelContents contents = this->Builder.finish();
+    if (!this->Scene.rightHanded && contents.model->boundsMin.z() <= contents.model->boundsMax.z())
     {
       // bounds are in the file's axes
-      const double low = result->boundsMin.z();
-      result->boundsMin.z() = 0 - result->boundsMax.z();
-      result->boundsMax.z() = 0 - low;
+      double& low = contents.model->boundsMin.z();
+      double& high = contents.model->boundsMax.z();
+      std::swap(low = 0 - low, high = 0 - high);
     }
-    return result;
+    return contents;
   }
 
 private:
@@ -216,10 +216,7 @@ private:
 };
 } // namespace
 
-std::shared_ptr<Model> readPov(const std::string& path, const ReadOptions& options);
-std::shared_ptr<Model> readPov(const std::string& path, const ReadOptions& options)
-{
-  return PovAssembly(path, options).run();
-}
+ModelContents readPov(const std::string& path, const ReadOptions& options);
+ModelContents readPov(const std::string& path, const ReadOptions& options) { return PovAssembly(path, options).run(); }
 
 } // namespace dgtk

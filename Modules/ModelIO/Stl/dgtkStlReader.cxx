@@ -192,8 +192,8 @@ void addSolid(ModelBuilder& builder, const Solid& solid)
 }
 } // namespace
 
-std::shared_ptr<Model> readStl(const std::string& path, const ReadOptions& options);
-std::shared_ptr<Model> readStl(const std::string& path, const ReadOptions& options)
+ModelContents readStl(const std::string& path, const ReadOptions& options);
+ModelContents readStl(const std::string& path, const ReadOptions& options)
 {
   const std::string bytes = readFile(path);
   ModelBuilder builder(path, "stl", bytes.size(), options);
@@ -213,6 +213,7 @@ std::shared_ptr<Model> readStl(const std::string& path, const ReadOptions& optio
   {
     builder.warn("colours of triangles are not drawn");
   }
+  builder.keep({}, ModelContents::worthwhile);
   return builder.finish();
 }
 

@@ -27,7 +27,7 @@ std::vector<InputRecord> inputsOf(const Stage& stage, const std::string& folder)
         InputRecord& record = inputs[static_cast<std::size_t>(i)];
         record.path = fs::relative(fs::absolute(file), fs::absolute(folder)).generic_string();
         record.bytes = fs::file_size(file);
-        record.sha256 = Sha256::ofFile(file);
+        record.sha256 = hashOfFile(file);
       });
   return inputs;
 }
