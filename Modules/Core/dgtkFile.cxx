@@ -226,6 +226,10 @@ void AtomicFile::finish(bool durably)
   const WorkTime write(WorkStage::Write);
   const std::string partial = partialName(this->Place.name());
   FileDescriptor file = this->Kept ? std::move(this->Descriptor) : durably ? this->reopened() : FileDescriptor();
+  if (!durably && file)
+  {
+    ::sync_file_range(file.number(), 0, 0, SYNC_FILE_RANGE_WRITE); // on its way, for whoever waits for all files
+  }
   const bool whole = (!durably || ::fdatasync(file.number()) == 0) && file.close();
   if (!whole)
   {

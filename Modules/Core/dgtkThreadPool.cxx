@@ -33,6 +33,16 @@ struct ThreadPool::Impl
     return true;
   }
 
+  /// Runs a job; whoever waits for it looks again.
+  void run(std::packaged_task<void()>& task)
+  {
+    task();
+    {
+      const std::lock_guard<std::mutex> lock(this->mutex); // between another's look and its sleep nothing happens
+    }
+    this->wake.notify_all();
+  }
+
   void work()
   {
     for (;;)
@@ -46,7 +56,7 @@ struct ThreadPool::Impl
           return;
         }
       }
-      task();
+      this->run(task);
     }
   }
 };
@@ -88,28 +98,27 @@ std::future<void> ThreadPool::submit(std::function<void()> job)
     const std::lock_guard<std::mutex> lock(this->Self->mutex);
     this->Self->queue.push_back(std::move(task));
   }
-  this->Self->wake.notify_one();
+  this->Self->wake.notify_all(); // one that is woken may find its own job done, and not take this one
   return future;
 }
 
 void ThreadPool::wait(std::future<void>& job)
 {
   using namespace std::chrono_literals;
-  while (job.wait_for(0s) != std::future_status::ready)
+  const auto isDone = [&job] { return job.wait_for(0s) == std::future_status::ready; };
+  while (!isDone())
   {
     std::packaged_task<void()> task;
     bool taken = false;
     {
-      const std::lock_guard<std::mutex> lock(this->Self->mutex);
-      taken = this->Self->take(task);
+      // jobs may come while the last ones are running, from these foremost
+      std::unique_lock<std::mutex> lock(this->Self->mutex);
+      this->Self->wake.wait(lock, [&] { return isDone() || !this->Self->queue.empty(); });
+      taken = !isDone() && this->Self->take(task);
     }
     if (taken)
     {
-      task();
-    }
-    else
-    {
-      job.wait(); // every queued job is running somewhere, this one too
+      this->Self->run(task);
     }
   }
   job.get();

@@ -2,13 +2,15 @@
 #include "dgtkFrameOutput.h"
 #include "dgtkWorkTime.h"
 
+#include <algorithm>
 #include <exception>
 
 namespace dgtk
 {
 
-FrameOutput::FrameOutput(const std::string& folder, const JobContext& context)
+FrameOutput::FrameOutput(const std::string& folder, const JobContext& context, int bands)
   : Pool(context.pool)
+  , Missing(bands)
 {
   for (PlannedPass& planned : passesOf(context.plan, context.queries.stage(), context.job))
   {
@@ -18,6 +20,10 @@ FrameOutput::FrameOutput(const std::string& folder, const JobContext& context)
     lane.sink = std::make_unique<FileSink>(folder, context, planned.outputs());
     this->Lanes.push_back(std::move(lane));
     this->Queues.push_back(std::make_unique<SerialQueue>(this->Pool));
+  }
+  if (bands == 0)
+  {
+    this->complete();
   }
 }
 
@@ -33,6 +39,31 @@ void FrameOutput::submit(const std::shared_ptr<DrawnBand>& band)
         lane->pass->band(band->whole(lane->readsColor), *lane->sink);
       });
   }
+  if (--this->Missing == 0)
+  {
+    this->complete();
+  }
+}
+
+/// The last encoding (PNG compresses at the end) is work for the pool as well.
+void FrameOutput::complete()
+{
+  for (std::size_t i = 0; i < this->Lanes.size(); ++i)
+  {
+    Lane* lane = &this->Lanes[i];
+    this->Queues[i]->submit(
+      [lane]
+      {
+        lane->pass->finish(*lane->sink);
+        lane->finished = lane->sink->finish();
+      });
+  }
+}
+
+bool FrameOutput::isDone() const
+{
+  return this->Missing == 0 &&
+         std::all_of(this->Queues.begin(), this->Queues.end(), [](const auto& queue) { return queue->isDone(); });
 }
 
 void FrameOutput::wait()
@@ -58,23 +89,11 @@ void FrameOutput::wait()
 
 std::vector<FinishedFile> FrameOutput::finish()
 {
-  // the last encoding (PNG compresses at the end) is work for the pool as well
-  std::vector<std::vector<FinishedFile>> finished(this->Lanes.size());
-  for (std::size_t i = 0; i < this->Lanes.size(); ++i)
-  {
-    Lane* lane = &this->Lanes[i];
-    this->Queues[i]->submit(
-      [lane, out = &finished[i]]
-      {
-        lane->pass->finish(*lane->sink);
-        *out = lane->sink->finish();
-      });
-  }
   this->wait();
   std::vector<FinishedFile> all;
-  for (std::vector<FinishedFile>& files : finished)
+  for (const Lane& lane : this->Lanes)
   {
-    all.insert(all.end(), files.begin(), files.end());
+    all.insert(all.end(), lane.finished.begin(), lane.finished.end());
   }
   return all;
 }

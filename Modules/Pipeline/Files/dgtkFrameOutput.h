@@ -13,18 +13,20 @@
 namespace dgtk
 {
 
-/// Derives and writes all files of one job while its bands arrive, top to bottom. The work is done by the pool;
-/// submit() returns at once.
+/// Derives and writes all files of one job while its bands arrive, top to bottom, and completes them after the last.
+/// The work is done by the pool; submit() returns at once.
 class FrameOutput
 {
 public:
-  /// `folder`: the dataset.
-  FrameOutput(const std::string& folder, const JobContext& context);
+  /// `folder`: the dataset. `bands`: how many are going to be submitted.
+  FrameOutput(const std::string& folder, const JobContext& context, int bands);
 
   void submit(const std::shared_ptr<DrawnBand>& band);
   /// Waits for everything submitted; rethrows what failed.
   void wait();
-  /// Waits and completes the files. To be called once, after the last band.
+  /// Whether finish() need not wait.
+  bool isDone() const;
+  /// Waits until the files are complete. To be called once, after the last band.
   std::vector<FinishedFile> finish();
 
 private:
@@ -34,8 +36,12 @@ private:
     std::unique_ptr<LayerPass> pass;
     std::unique_ptr<FileSink> sink;
     bool readsColor = false;
+    std::vector<FinishedFile> finished;
   };
+  void complete();
+
   ThreadPool& Pool;
+  int Missing; ///< bands
   std::vector<Lane> Lanes;
   std::vector<std::unique_ptr<SerialQueue>> Queues; // one a lane; destroyed first: they wait for their jobs
 };

@@ -243,17 +243,22 @@ void Run::render(const Job& job)
   {
     Folder(request.folder).makeParents(name);
   }
-  auto output = std::make_unique<FrameOutput>(this->Request.folder,
-    JobContext{ this->Plan, job, this->cameraName(job), state, view, this->Queries, *this->Pool });
+  int bands = 0;
   if (this->Source->drawsAnything())
   {
     this->Source->setScene(state, view);
+    bands = this->Source->bands();
+  }
+  auto output = std::make_unique<FrameOutput>(this->Request.folder,
+    JobContext{ this->Plan, job, this->cameraName(job), state, view, this->Queries, *this->Pool }, bands);
+  if (bands > 0)
+  {
     if (this->Plan.drawsColor() && drawsItself(request))
     {
       this->Source->expose(this->Scene->exposures(job.camera, job.frame, request.width, request.height),
         [this](double frame) { return this->Scene->at(frame); });
     }
-    for (int row = 0; row < this->Source->bands(); ++row)
+    for (int row = 0; row < bands; ++row)
     {
       if (this->cancelled())
       {
@@ -271,7 +276,9 @@ void Run::render(const Job& job)
     }
   }
   this->Opened.push_back({ job, std::move(output) });
-  while (this->Opened.size() > static_cast<std::size_t>(this->Threads))
+  // Others than this thread derive and write, as long as they keep up: it draws.
+  while (!this->Opened.empty() &&
+         (this->Opened.front().output->isDone() || this->Opened.size() > 3 * static_cast<std::size_t>(this->Threads)))
   {
     this->completeOldest();
   }

@@ -66,6 +66,12 @@ void SerialQueue::drain()
   }
 }
 
+bool SerialQueue::isDone() const
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  return !this->Running;
+}
+
 void SerialQueue::wait()
 {
   if (this->Runner.valid())

@@ -26,13 +26,15 @@ public:
   SerialQueue& operator=(const SerialQueue&) = delete;
 
   void submit(std::function<void()> job);
+  /// Whether wait() need not wait.
+  bool isDone() const;
   /// Waits until all are done, working meanwhile; rethrows the first failure.
   void wait();
 
 private:
   void drain();
   ThreadPool& Pool;
-  std::mutex Mutex;
+  mutable std::mutex Mutex;
   std::deque<std::function<void()>> Jobs;
   bool Running = false;
   std::future<void> Runner;
