@@ -53,36 +53,43 @@ inline int side(double value, const Eigen::Vector3d& line)
 
 } // namespace exact
 
-inline ExactHit intersectExactly(const ExactRay& ray, const Eigen::Vector3d corners[3])
+/// A triangle as seen from the origin of a ray.
+struct SeenTriangle
 {
-  const Eigen::Vector3d x[3] = { corners[0] - ray.origin, corners[1] - ray.origin, corners[2] - ray.origin };
-  ExactHit hit;
-  double value[3];
-  int sides = 0;
-  for (int i = 0; i < 3; ++i)
+  SeenTriangle(const ExactRay& ray, const Eigen::Vector3d corners[3])
+    : x{ corners[0] - ray.origin, corners[1] - ray.origin, corners[2] - ray.origin }
   {
-    const Eigen::Vector3d line = exact::cross(x[(i + 1) % 3], x[(i + 2) % 3]);
-    value[i] = line.dot(ray.direction);
-    sides += exact::side(value[i], line);
+    for (int i = 0; i < 3; ++i)
+    {
+      const Eigen::Vector3d line = exact::cross(x[(i + 1) % 3], x[(i + 2) % 3]);
+      this->volume[i] = line.dot(ray.direction);
+      this->sides += exact::side(this->volume[i], line);
+    }
   }
-  const double sum = value[0] + value[1] + value[2];
-  hit.inside = (sides == 3 || sides == -3) && sum != 0;
-  const Eigen::Vector3d point = value[0] * x[0] + value[1] * x[1] + value[2] * x[2];
+  Eigen::Vector3d x[3]; ///< corners
+  double volume[3];     ///< six times that of the ray's direction and the edge opposite of a corner
+  int sides = 0;        ///< of the edges on which the ray passes, summed: 3 or -3 inside
+};
+
+inline ExactHit intersectExactly(const ExactRay& ray, const SeenTriangle& seen)
+{
+  ExactHit hit;
+  const double sum = seen.volume[0] + seen.volume[1] + seen.volume[2];
+  hit.inside = (seen.sides == 3 || seen.sides == -3) && sum != 0;
+  const Eigen::Vector3d point = seen.volume[0] * seen.x[0] + seen.volume[1] * seen.x[1] + seen.volume[2] * seen.x[2];
   hit.t = point.dot(ray.direction) / (sum * ray.direction.squaredNorm());
-  hit.barycentrics = { value[1] / sum, value[2] / sum };
+  hit.barycentrics = { seen.volume[1] / sum, seen.volume[2] / sum };
   return hit;
 }
 
 /// Whether a ray passes an edge at a distance below `slack`, in units of the scene at t.
-inline bool isMarginal(const ExactRay& ray, const Eigen::Vector3d corners[3], double slack)
+inline bool isMarginal(const ExactRay& ray, const SeenTriangle& seen, double slack)
 {
   const double limit = slack * slack * ray.direction.squaredNorm();
   for (int i = 0; i < 3; ++i)
   {
-    const Eigen::Vector3d a = corners[i] - ray.origin;
-    const Eigen::Vector3d b = corners[(i + 1) % 3] - ray.origin;
-    const double volume = exact::cross(a, b).dot(ray.direction);
-    if (!(volume * volume > limit * (b - a).squaredNorm()))
+    const double volume = seen.volume[(i + 2) % 3];
+    if (!(volume * volume > limit * (seen.x[(i + 1) % 3] - seen.x[i]).squaredNorm()))
     {
       return true;
     }

@@ -139,7 +139,7 @@ ExactHit RayScene::intersectTriangle(const ExactRay& ray, const Hit& hit) const
 {
   Eigen::Vector3d x[3];
   this->corners(hit, x);
-  return intersectExactly(ray, x);
+  return intersectExactly(ray, SeenTriangle(ray, x));
 }
 
 bool RayScene::isThere(const ExactRay& ray, const Hit& hit, const ExactHit& exact) const
@@ -160,9 +160,10 @@ ExactHit RayScene::intersect(const ExactRay& ray, const Hit& hit, bool& uncertai
 {
   Eigen::Vector3d x[3];
   this->corners(hit, x);
-  ExactHit exact = intersectExactly(ray, x);
+  const SeenTriangle seen(ray, x);
+  ExactHit exact = intersectExactly(ray, seen);
   const double reach = this->Instances[hit.object - 1].reach;
-  uncertain = isMarginal(ray, x, rayPrecision * (std::abs(exact.t) * ray.direction.norm() + reach));
+  uncertain = isMarginal(ray, seen, rayPrecision * (std::abs(exact.t) * ray.direction.norm() + reach));
   exact.inside = this->isThere(ray, hit, exact);
   return exact;
 }
