@@ -18,7 +18,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double noCone = 90;        // degrees; a wider cone is none
 constexpr double leastRough = 0.03;  // as in the shaders, like what follows
 constexpr double leastCosine = 1e-4; // between normal and viewer
 constexpr double leastMasking = 1e-7;
@@ -73,39 +72,13 @@ SurfaceShading::SurfaceShading(
   const Eigen::Matrix3d& rotation = view.camera_from_world.rotation;
   for (const LightState& light : state.lights)
   {
-    const LightTraits& kind = traitsOf(light.kind);
-    Light one{ &light, &kind, Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, 1) };
-    if (kind.placed)
-    {
-      one.position = view.camera_from_world * light.position;
-      one.axis = (rotation * (light.target - light.position)).normalized();
-    }
-    one.position = kind.near ? one.position : Eigen::Vector3d(-one.axis);
-    this->Lights.push_back(one);
+    const LightShape shape = lightShape(light, rotation, view.camera_from_world.translation, Eigen::Vector3d(0, 0, 1));
+    this->Lights.push_back({ &light, &lightLaw(lightLawOf(light)), shape });
   }
   if (state.environment != nullptr)
   {
     this->image_from_camera = state.environment->image_from_world * this->world_from_camera;
   }
-}
-
-SurfaceShading::Ray SurfaceShading::rayOf(const Light& light, const Eigen::Vector3d& position)
-{
-  if (!light.kind->near)
-  {
-    return { light.position, 1 };
-  }
-  const Eigen::Vector3d away = light.position - position;
-  const double distance = away.norm();
-  const Eigen::Vector3d& k = light.state->attenuation;
-  Ray ray{ away / std::max(distance, 1e-30), 1 / (k.x() + k.y() * distance + k.z() * distance * distance) };
-  if (light.kind->cone && light.state->coneAngle < noCone)
-  {
-    const double inside = -ray.toLight.dot(light.axis);
-    ray.strength *=
-      inside >= std::cos(light.state->coneAngle * pi / 180) ? std::pow(inside, light.state->exponent) : 0.0;
-  }
-  return ray;
 }
 
 Eigen::Vector3d SurfaceShading::phong(const Point& point) const
@@ -118,7 +91,7 @@ Eigen::Vector3d SurfaceShading::phong(const Point& point) const
   Eigen::Vector3d specular = Eigen::Vector3d::Zero();
   for (const Light& light : this->Lights)
   {
-    const Ray ray = rayOf(light, point.position);
+    const LightRay ray = light.law->ray(light.shape, point.position);
     const double cosine = point.normal.dot(ray.toLight);
     const double strength = ray.strength * light.state->intensity;
     ambient += strength * light.state->ambient;
@@ -166,7 +139,7 @@ Eigen::Vector3d SurfaceShading::physical(const Point& point) const
   Eigen::Vector3d sum = toLinear(material.emission.cwiseProduct(point.texel(material.emissionMap)));
   for (const Light& light : this->Lights)
   {
-    const Ray ray = rayOf(light, point.position);
+    const LightRay ray = light.law->ray(light.shape, point.position);
     const double cosine = point.normal.dot(ray.toLight);
     const double strength = ray.strength * light.state->intensity;
     ambient += strength * light.state->ambient;

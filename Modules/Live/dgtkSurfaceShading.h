@@ -3,6 +3,7 @@
 #define dgtkSurfaceShading_h
 
 #include "dgtkEnvironmentLight.h"
+#include "dgtkLightLaw.h"
 #include "dgtkSurfaceRows.h"
 
 #include <Eigen/Core>
@@ -37,9 +38,8 @@ private:
   struct Light ///< in the camera frame
   {
     const LightState* state;
-    const LightTraits* kind;
-    Eigen::Vector3d position; ///< of one whose rays are parallel: towards the light
-    Eigen::Vector3d axis;
+    const LightLawRow* law;
+    LightShape shape;
   };
   /// A surface that is shaded, in the camera frame.
   struct Point
@@ -53,14 +53,6 @@ private:
     Eigen::Vector2d barycentrics;
     Eigen::Vector3d texel(int texture) const;
   };
-  /// What a light does to a point: its direction, and the factor of its colours without that of the angle.
-  struct Ray
-  {
-    Eigen::Vector3d toLight;
-    double strength = 1;
-  };
-
-  static Ray rayOf(const Light& light, const Eigen::Vector3d& position);
   Eigen::Vector3d phong(const Point& point) const;
   Eigen::Vector3d physical(const Point& point) const; ///< linear
   Eigen::Vector3d surroundings(const Point& point, const Eigen::Vector3d& albedo, const Eigen::Vector3d& f0,

@@ -48,11 +48,6 @@ QDialogButtonBox* addButtons(QDialog* dialog, QFormLayout* form)
   dialog->setMinimumWidth(380);
   return buttons;
 }
-
-/// For the translators.
-[[maybe_unused]] constexpr const char* kindWords[] = { QT_TRANSLATE_NOOP("dgtk::LightKind", "point"),
-  QT_TRANSLATE_NOOP("dgtk::LightKind", "head"), QT_TRANSLATE_NOOP("dgtk::LightKind", "directional"),
-  QT_TRANSLATE_NOOP("dgtk::LightKind", "spot") };
 } // namespace
 
 QStringList lightKindNames()

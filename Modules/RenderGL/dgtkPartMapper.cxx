@@ -143,9 +143,7 @@ void PartMapper::drawElements(const PartActor& actor)
 ShaderVariant PartMapper::currentVariant() const
 {
   ShaderVariant variant = this->Material;
-  variant.directional = this->Frame->lights.directional;
-  variant.points = this->Frame->lights.points;
-  variant.spots = this->Frame->lights.spots;
+  variant.lights = this->Frame->lights.counts;
   variant.headOnly = this->Frame->lights.headOnly;
   variant.lightTexture = this->Frame->lights.count() > this->Frame->maxUniformLights;
   variant.peel = this->Frame->peel;

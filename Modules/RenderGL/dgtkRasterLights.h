@@ -12,21 +12,17 @@
 namespace dgtk
 {
 
-/// Lights in view coordinates, as the fragment shader reads them: first the directional ones (head lights among them),
-/// then the points, then the spots.
+/// Lights in view coordinates, as the fragment shader reads them: law by law.
 struct RasterLights
 {
   static constexpr int stride = 6;
-  /// Per light: position (directional: towards the light) and cosine of the cone; axis and exponent; attenuation and
-  /// number of its first shadow map, from 1, 0 for none;
-  /// ambient; diffuse; specular. Colours are multiplied by the intensity.
+  /// Per light: position and cosine of the cone; axis and exponent; attenuation and number of its first shadow map,
+  /// from 1, 0 for none; ambient; diffuse; specular. Colours are multiplied by the intensity.
   std::vector<std::array<float, 4>> values;
-  int directional = 0;
-  int points = 0;
-  int spots = 0;
-  bool headOnly = false; ///< a single head light
+  std::array<int, lightLawCount> counts{}; ///< of each law
+  bool headOnly = false;                   ///< a single head light
 
-  int count() const { return this->directional + this->points + this->spots; }
+  int count() const { return static_cast<int>(this->values.size()) / stride; }
 };
 
 /// `firstMaps`: each light's first shadow map, -1 for none; empty: no light has one.

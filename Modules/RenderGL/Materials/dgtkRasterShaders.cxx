@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRasterShaders.h"
 
+#include "dgtkLightLaw.h"
 #include "dgtkSurfaceMaterial.h"
 #include "dgtkSurfaceShaders.h"
 #include "dgtkText.h"
 
 #include <vtkShaderProgram.h>
+
+#include <numeric>
 
 namespace dgtk
 {
@@ -173,26 +176,22 @@ std::string headLighting(const ShaderVariant& variant)
   return text + (variant.specular ? " + pow(df, specularPower) * specularColor * dgtkLights[5].rgb;\n" : ";\n");
 }
 
+std::string lawCode(const ShaderVariant& variant, std::string code)
+{
+  const char* const words[] = { "POSITION", "AXIS", "FADING" };
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    vtkShaderProgram::Substitute(code, words[slot], lightValue(variant, slot), true);
+  }
+  return code;
+}
+
 std::string lighting(const ShaderVariant& variant)
 {
   if (variant.headOnly && !variant.physical)
   {
     return headLighting(variant);
   }
-  const std::string toPoint = "    vec3 away = " + lightValue(variant, 0) +
-                              ".xyz - vertexVC.xyz;\n"
-                              "    float d = length(away);\n"
-                              "    vec3 L = away / max(d, 1e-30);\n"
-                              "    vec3 k = " +
-                              lightValue(variant, 2) +
-                              ".xyz;\n"
-                              "    float s = 1.0 / (k.x + k.y * d + k.z * d * d);\n";
-  const std::string cone = "    vec4 axis = " + lightValue(variant, 1) +
-                           ";\n"
-                           "    float inside = dot(-L, axis.xyz);\n"
-                           "    s = inside >= " +
-                           lightValue(variant, 0) + ".w ? s * pow(inside, axis.w) : 0.0;\n";
-  const std::string far = "    vec3 L = " + lightValue(variant, 0) + ".xyz;\n    float s = 1.0;\n";
   std::string text = variant.physical ? beginPhysical(variant)
                                       : "  vec3 dgtkAmbient = vec3(" + shortest(worldAmbient) +
                                           ");\n"
@@ -203,9 +202,12 @@ std::string lighting(const ShaderVariant& variant)
             "  vec3 dgtkViewer = cameraParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-vertexVC.xyz);\n";
   }
   const std::string add = addLight(variant);
-  text += loop(0, variant.directional, far + add);
-  text += loop(variant.directional, variant.points, toPoint + add);
-  text += loop(variant.directional + variant.points, variant.spots, toPoint + cone + add);
+  int first = 0;
+  for (std::size_t law = 0; law < variant.lights.size(); ++law)
+  {
+    text += loop(first, variant.lights[law], lawCode(variant, lightLaw(LightLaw(law)).code) + add);
+    first += variant.lights[law];
+  }
   if (variant.physical)
   {
     return text + endPhysical(variant);
@@ -221,7 +223,7 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
 {
   std::string declarations = "uniform vec2 dgtkDraw; // number of the draw; 1 when its instance is mirrored\n"
                              "uniform vec3 dgtkEmission;\n";
-  const int lights = variant.directional + variant.points + variant.spots;
+  const int lights = std::accumulate(variant.lights.begin(), variant.lights.end(), 0);
   if (lights > 0)
   {
     declarations += variant.lightTexture

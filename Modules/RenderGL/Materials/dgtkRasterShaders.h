@@ -8,6 +8,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 
 namespace dgtk
 {
@@ -15,11 +16,9 @@ namespace dgtk
 /// What a fragment shader has to do.
 struct ShaderVariant
 {
-  int directional = 0; ///< lights of each kind
-  int points = 0;
-  int spots = 0;
-  bool headOnly = false;     ///< one head light and nothing else: VTK's short form
-  bool lightTexture = false; ///< lights come from a buffer texture: more than fit in uniforms
+  std::array<int, lightLawCount> lights{}; ///< number of those of each law
+  bool headOnly = false;                   ///< one head light and nothing else: VTK's short form
+  bool lightTexture = false;               ///< lights come from a buffer texture: more than fit in uniforms
   bool specular = false;
   bool textured = false;
   bool cutOut = false;
@@ -44,12 +43,12 @@ struct ShaderVariant
   }
 
   /// Everything above.
-  std::array<int, 20> key() const
+  auto key() const
   {
-    return { this->directional, this->points, this->spots, this->headOnly, this->lightTexture, this->specular,
-      this->textured, this->cutOut, this->pieces, this->peel, this->collect, this->shadows, this->fog,
-      this->environment, this->physical, this->normalMap, this->bumpMap, this->metallicRoughnessMap, this->emissionMap,
-      this->occlusionMap };
+    return std::make_pair(this->lights,
+      std::array<bool, 17>{ this->headOnly, this->lightTexture, this->specular, this->textured, this->cutOut,
+        this->pieces, this->peel, this->collect, this->shadows, this->fog, this->environment, this->physical,
+        this->normalMap, this->bumpMap, this->metallicRoughnessMap, this->emissionMap, this->occlusionMap });
   }
   bool operator==(const ShaderVariant& o) const { return this->key() == o.key(); }
 };
