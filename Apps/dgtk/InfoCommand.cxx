@@ -58,16 +58,20 @@ Json infoOfModel(const std::string& path)
   return info;
 }
 
-/// Names of files may be any bytes; JSON holds UTF-8.
-void toUtf8(Json& value)
+/// Names of files may be any bytes; JSON holds UTF-8. No zero has a sign.
+void toPrint(Json& value)
 {
   if (value.is_string())
   {
     value = utf8FromBytes(value.get<std::string>());
   }
+  else if (value.is_number_float())
+  {
+    value = value.get<double>() + 0.0;
+  }
   else if (value.is_structured())
   {
-    std::for_each(value.begin(), value.end(), toUtf8);
+    std::for_each(value.begin(), value.end(), toPrint);
   }
 }
 
@@ -77,7 +81,7 @@ std::string shown(Json value)
   {
     return printable(value.get<std::string>());
   }
-  toUtf8(value);
+  toPrint(value);
   return value.dump();
 }
 
@@ -134,7 +138,7 @@ int run(const Arguments& arguments)
   std::string text;
   if (arguments.has("--json"))
   {
-    toUtf8(info);
+    toPrint(info);
     text = info.dump(2) + '\n';
   }
   else

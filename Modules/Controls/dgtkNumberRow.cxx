@@ -56,7 +56,8 @@ QString numberText(double value) { return QString::fromStdString(shortest(value)
 std::optional<double> numberOf(const QString& text)
 {
   const std::string word = text.trimmed().replace(',', '.').toStdString();
-  const char* const begin = word.c_str() + (word.rfind('+', 0) == 0 ? 1 : 0);
+  const bool plus = word.rfind('+', 0) == 0 && word.rfind("+-", 0) != 0;
+  const char* const begin = word.c_str() + (plus ? 1 : 0);
   const char* const end = word.c_str() + word.size();
   double value = 0;
   const auto [rest, code] = std::from_chars(begin, end, value);

@@ -10,6 +10,7 @@
 #include "dgtkLayerReader.h"
 #include "dgtkLdi.h"
 #include "dgtkText.h"
+#include "dgtkUtf8.h"
 
 #include <algorithm>
 #include <cmath>
@@ -367,10 +368,10 @@ DatasetComparison compareDatasets(
 
 std::string describe(const CompareResult& result)
 {
-  const std::string name = result.path.empty() ? "" : result.path + ": ";
+  const std::string name = result.path.empty() ? "" : printable(result.path) + ": ";
   if (!result.problem.empty())
   {
-    return name + result.problem;
+    return name + printable(result.problem);
   }
   if (result.differing == 0)
   {

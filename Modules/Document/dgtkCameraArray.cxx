@@ -24,15 +24,17 @@ constexpr double leastHeight = 1e-3; // sine of the elevation of the hemisphere'
 
 void check(const CameraArrayOptions& options)
 {
-  if (options.count < 1 || options.count > mostCameras)
+  const CameraArrayKind kind = options.kind;
+  if (isCounted(kind) && (options.count < 1 || options.count > mostCameras))
   {
     throw UsageError("number of cameras: expected 1 to 10000");
   }
-  if (options.columns < 1 || options.rows < 1 || long(options.columns) * options.rows > mostCameras)
+  const long gridCameras = long(options.columns) * options.rows;
+  if (kind == CameraArrayKind::Grid && (options.columns < 1 || options.rows < 1 || gridCameras > mostCameras))
   {
     throw UsageError("columns and rows: expected 1 to 10000 cameras in all");
   }
-  if (!(options.spacing > 0))
+  if (isSpaced(kind) && !(options.spacing > 0))
   {
     throw UsageError("spacing: expected a number above 0");
   }

@@ -20,6 +20,13 @@ enum class CameraArrayKind
   Path        ///< evenly by length along the segments between the points of `path`, both ends included
 };
 
+// What a kind asks for beside lens and look-at point.
+constexpr bool isCounted(CameraArrayKind kind)
+{
+  return kind != CameraArrayKind::Grid && kind != CameraArrayKind::Stereo;
+}
+constexpr bool isSpaced(CameraArrayKind kind) { return !isCounted(kind); }
+
 /// Where cameras go by, and where they look there.
 struct CameraPath
 {
@@ -41,8 +48,8 @@ struct CameraArrayOptions
   double spacing = 0.1;    ///< scene units, > 0
 };
 
-/// The cameras, named <name>-1, <name>-2, ... (Stereo: <name>-left, <name>-right). Throws UsageError for values out of
-/// their range, and for an eye at its look-at point or looking along `up`.
+/// The cameras, named <name>-1, <name>-2, ... (Stereo: <name>-left, <name>-right). Throws UsageError for values of its
+/// kind out of their range, and for an eye at its look-at point or looking along `up`.
 DGTKDOCUMENT_EXPORT std::vector<CameraDescription> cameraArray(const CameraArrayOptions& options);
 
 } // namespace dgtk

@@ -172,13 +172,12 @@ void CameraArrayDialog::accept()
 void CameraArrayDialog::showKind()
 {
   const auto kind = static_cast<CameraArrayKind>(this->Kind->currentIndex());
-  const bool around = kind == CameraArrayKind::Ring || kind == CameraArrayKind::Hemisphere;
   const bool path = kind == CameraArrayKind::Path;
   this->Eye->setEnabled(!path);
-  this->Count->setEnabled(around || path);
+  this->Count->setEnabled(isCounted(kind));
   this->Columns->setEnabled(kind == CameraArrayKind::Grid);
   this->Rows->setEnabled(kind == CameraArrayKind::Grid);
-  this->Spacing->setEnabled(kind == CameraArrayKind::Grid || kind == CameraArrayKind::Stereo);
+  this->Spacing->setEnabled(isSpaced(kind));
   this->Path->setEnabled(path);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkMeter.h"
+#include "dgtkUtf8.h"
 
 #include <nlohmann/json.hpp>
 
@@ -31,7 +32,7 @@ Json residualJson(const Residual& residual)
 {
   Json json;
   json["check"] = residual.check;
-  json["layer"] = residual.layer;
+  json["layer"] = utf8FromBytes(residual.layer);
   json["count"] = residual.count;
   json["skipped"] = residual.skipped;
   json["most_open"] = residual.mostOpen;
@@ -43,17 +44,17 @@ Json residualJson(const Residual& residual)
   if (!residual.worst.file.empty())
   {
     Json& worst = json["worst"];
-    worst["file"] = residual.worst.file;
+    worst["file"] = utf8FromBytes(residual.worst.file);
     worst["pixel"] = residual.worst.x < 0 ? Json(nullptr) : Json::array({ residual.worst.x, residual.worst.y });
-    worst["value"] = residual.worst.value;
-    worst["expected"] = residual.worst.expected;
+    worst["value"] = utf8FromBytes(residual.worst.value);
+    worst["expected"] = utf8FromBytes(residual.worst.expected);
   }
   return json;
 }
 
 std::vector<std::string> cellsOf(const Residual& residual)
 {
-  return { residual.check, residual.layer, std::to_string(residual.count), std::to_string(residual.skipped),
+  return { residual.check, printable(residual.layer), std::to_string(residual.count), std::to_string(residual.skipped),
     brief(residual.largest), brief(residual.tolerance), residual.unit,
     residual.bad > 0         ? "BREACH (" + std::to_string(residual.bad) + ")"
     : residual.tooMuchOpen() ? "BREACH (open)"
@@ -64,7 +65,7 @@ std::vector<std::string> cellsOf(const Residual& residual)
 std::string kindText(const Unchecked& kind)
 {
   const std::string format = kind.layer.find('.') == std::string::npos ? " ." + kind.format : "";
-  return kind.layer + format + " (" + std::to_string(kind.files) + (kind.files == 1 ? " file)" : " files)");
+  return printable(kind.layer + format) + " (" + std::to_string(kind.files) + (kind.files == 1 ? " file)" : " files)");
 }
 
 std::string openText(const Residual& residual)
@@ -139,9 +140,10 @@ std::string verificationText(const VerificationReport& report)
   json["not_checked"] = Json::array();
   for (const Unchecked& kind : report.unchecked)
   {
-    json["not_checked"].push_back({ { "layer", kind.layer }, { "format", kind.format }, { "files", kind.files } });
+    json["not_checked"].push_back(
+      { { "layer", utf8FromBytes(kind.layer) }, { "format", utf8FromBytes(kind.format) }, { "files", kind.files } });
   }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json.dump(2) + '\n';
 }
 
 std::string describe(const Residual& residual)

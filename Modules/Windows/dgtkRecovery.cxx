@@ -2,8 +2,10 @@
 #include "dgtkAutosave.h"
 #include "dgtkEditorLog.h"
 #include "dgtkEditorState.h"
+#include "dgtkError.h"
 #include "dgtkSceneFiles.h"
 #include "dgtkSceneViews.h"
+#include "dgtkUtf8.h"
 
 #include <QDateTime>
 #include <QDir>
@@ -17,6 +19,16 @@
 
 namespace dgtk
 {
+
+namespace
+{
+/// The same fault told of the scene: where its copy is kept is the program's own business.
+Error toldOf(const Error& error, const std::string& copy, const QString& scene)
+{
+  const QString place = toText(printable(copy));
+  return Error(error.code(), toText(error.what()).replace(place, scene).toStdString());
+}
+} // namespace
 
 void SceneFiles::offerRecovery()
 {
@@ -39,17 +51,25 @@ void SceneFiles::offerRecovery()
       Autosave::discard(copy);
     }
     const auto loaded = std::make_shared<std::optional<LoadedScene>>();
-    if (choice == QMessageBox::Open &&
-        this->work(tr("Reading what was kept ..."),
-          [loaded, file = QFile::encodeName(copy).toStdString()](const LoadProgress& p)
-          { *loaded = SceneDocument::read(file, p); }) &&
-        *loaded)
+    const QString name = origin.isEmpty() ? tr("a scene without a name") : origin;
+    const auto read = [loaded, name, file = QFile::encodeName(copy).toStdString()](const LoadProgress& p)
+    {
+      try
+      {
+        *loaded = SceneDocument::read(file, p);
+      }
+      catch (const Error& error)
+      {
+        throw toldOf(error, file, name);
+      }
+    };
+    if (choice == QMessageBox::Open && this->work(tr("Reading what was kept ..."), read) && *loaded)
     {
       this->Copies->adopt(copy); // before anything is drawn, which may be what ended the editor
       // A file that was saved since is not replaced unasked.
       this->State.document().recover(std::move(**loaded), outdated ? std::string() : origin.toStdString());
       this->Views.showWhole();
-      this->Log.note(tr("Recovered: %1").arg(origin.isEmpty() ? tr("a scene without a name") : origin));
+      this->Log.note(tr("Recovered: %1").arg(name));
       this->findMissing();
       if (const int others = Autosave::leftBehind().size(); others > 0)
       {

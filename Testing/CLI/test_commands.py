@@ -220,6 +220,8 @@ class Documents(Case):
             "first_frame": 0, "last_frame": 2, "key_frames": [0, 2], "warnings": []}
         found = json.loads(self.dgtk("info", self.scene, "--json", "--surfaces").stdout)
         self.assertEqual(self.rounded(found), expected)
+        for words in ([], ["--json"]):
+            self.assertNotRegex(self.dgtk("info", self.scene, *words).stdout, r"-0(\.0)?[^.0-9]", "zero has no sign")
         for row in found["cameras"]:
             del row["surfaces"]
         self.assertEqual(json.loads(self.dgtk("info", self.scene, "--json").stdout), found)

@@ -20,6 +20,7 @@ private slots:
   void asksAboutUnsavedWork();
   void theViewsLookAsTheyWereLeft();
   void unsavedWorkSurvivesACrash();
+  void aDamagedCopyIsToldOfItsScene();
 };
 
 #endif

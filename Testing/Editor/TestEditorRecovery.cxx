@@ -15,6 +15,33 @@
 #include <QTest>
 #include <QTimer>
 
+void TestEditor::aDamagedCopyIsToldOfItsScene()
+{
+  const QDir folder(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + "/unsaved");
+  QVERIFY(folder.mkpath("."));
+  for (const QString& scene : { QString(), QString("/data/mine.json") })
+  {
+    for (const char* const text : { "{\n  \"objects\": [", "{ \"objects\": [{ \"model\": \"\" }] }" })
+    {
+      QFile copy(folder.filePath("left.json"));
+      QFile lock(folder.filePath("left.json.lock"));
+      QVERIFY(copy.open(QIODevice::WriteOnly) && lock.open(QIODevice::WriteOnly));
+      copy.write(text);
+      lock.write(scene.toUtf8());
+      copy.close();
+      lock.close();
+      answer<QMessageBox>("recoverBox", [](QMessageBox& box) { box.button(QMessageBox::Open)->click(); });
+      QString message;
+      expectRefusal(message);
+      this->Window->offerRecovery();
+      const QString named = scene.isEmpty() ? "a scene without a name:" : scene + ':';
+      QVERIFY2(message.startsWith(named) && !message.contains("unsaved"), qPrintable(message));
+      QVERIFY2(copy.exists(), "it is not lost by that");
+    }
+  }
+  QVERIFY(QFile::remove(folder.filePath("left.json")) && QFile::remove(folder.filePath("left.json.lock")));
+}
+
 void TestEditor::unsavedWorkSurvivesACrash()
 {
   const QDir folder(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + "/unsaved");

@@ -30,6 +30,15 @@ void writeValues(const std::string& path, const std::vector<double>& values, int
 }
 } // namespace
 
+TEST(Compare, NamesOfAnyBytesArePrintable)
+{
+  CompareResult result;
+  result.path = "l\xe4"
+                "ft\n/x.png";
+  result.problem = "only in b\x1b\xfc";
+  EXPECT_EQ(describe(result), "l\\xE4ft\\x0A/x.png: only in b\\x1B\\xFC");
+}
+
 TEST(Compare, CountsAndPlacesDifferences)
 {
   const TemporaryFolder folder;

@@ -450,19 +450,33 @@ TEST(CameraArray, EveryRefusalAndEveryLimit)
   const char* spacing = "spacing: expected a number above 0";
   const char* path = "path: expected at least two different points";
   using Options = CameraArrayOptions;
+  using Kind = CameraArrayKind;
+  const auto of = [](Kind kind, const std::function<void(Options&)>& change)
+  {
+    return [kind, change](Options& o)
+    {
+      o.kind = kind;
+      change(o);
+    };
+  };
   for (const Row& row :
     std::vector<Row>{
       { [](Options& o) { o.count = 0; }, count },
       { [](Options& o) { o.count = 1; }, "" },
       { [](Options& o) { o.count = 10000; }, "" },
       { [](Options& o) { o.count = 10001; }, count },
-      { [](Options& o) { o.columns = 0; }, grid },
-      { [](Options& o) { o.rows = 0; }, grid },
-      { [](Options& o) { o.columns = o.rows = 100; }, "" },
-      { [](Options& o) { o.columns = 101, o.rows = 100; }, grid },
-      { [](Options& o) { o.spacing = 0; }, spacing },
-      { [](Options& o) { o.spacing = std::nan(""); }, spacing },
-      { [](Options& o) { o.spacing = 1e-9; }, "" },
+      { of(Kind::Grid, [](Options& o) { o.columns = 0; }), grid },
+      { of(Kind::Grid, [](Options& o) { o.rows = 0; }), grid },
+      { of(Kind::Grid, [](Options& o) { o.columns = o.rows = 100; }), "" },
+      { of(Kind::Grid, [](Options& o) { o.columns = 101, o.rows = 100; }), grid },
+      { of(Kind::Grid, [](Options& o) { o.spacing = 0; }), spacing },
+      { of(Kind::Stereo, [](Options& o) { o.spacing = std::nan(""); }), spacing },
+      { of(Kind::Stereo, [](Options& o) { o.spacing = 1e-9; }), "" },
+      // What a kind does not have may be anything.
+      { of(Kind::Ring, [](Options& o) { o.columns = o.rows = 0, o.spacing = 0; }), "" },
+      { of(Kind::Hemisphere, [](Options& o) { o.columns = o.rows = 0, o.spacing = -1; }), "" },
+      { of(Kind::Grid, [](Options& o) { o.count = 0; }), "" },
+      { of(Kind::Stereo, [](Options& o) { o.columns = o.rows = o.count = 0; }), "" },
       { [](Options& o) { o.kind = CameraArrayKind::Path; }, path },
       { [](Options& o)
         {

@@ -45,7 +45,7 @@ TEST_F(PanelTables, TextsOfNumbers)
 {
   for (const auto& [text, value] : std::vector<std::pair<const char*, std::optional<double>>>{ { "1", 1 },
          { " 1.5 ", 1.5 }, { "1,5", 1.5 }, { "+2", 2 }, { "-0.25", -0.25 }, { "1e3", 1000 }, { "", {} }, { "1 2", {} },
-         { "1.5x", {} }, { "nan", {} }, { "inf", {} }, { "1e999", {} }, { "--1", {} }, { "+-1", -1 }, { "x", {} } })
+         { "1.5x", {} }, { "nan", {} }, { "inf", {} }, { "1e999", {} }, { "--1", {} }, { "+-1", {} }, { "++1", {} }, { "+", {} }, { "x", {} } })
   {
     EXPECT_EQ(numberOf(text), value) << text;
   }
@@ -279,6 +279,11 @@ TEST_F(PanelTables, ArraysAreThoseOfTheFields)
   array.type("spacing.0", "0");
   EXPECT_NE(array.add().find("spacing"), std::string::npos);
   EXPECT_FALSE(array.field<QLabel>("fault")->isHidden());
+  for (const int without : { 0, 1 })
+  {
+    kind->setCurrentIndex(without);
+    EXPECT_EQ(array.add(), "") << "what a kind does not have is not asked about";
+  }
   array.type("spacing.0", "1");
   kind->setCurrentIndex(0);
   array.Dialog.onAdd([](const std::vector<CameraDescription>&) { throw std::runtime_error("no room"); });

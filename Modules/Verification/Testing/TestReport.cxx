@@ -58,6 +58,23 @@ TEST(Report, AsATable)
                                       "a      b           1     0  2.50e-01   1.00e+00  pixel  ok\n");
 }
 
+TEST(Report, NamesOfAnyBytes)
+{
+  VerificationReport report;
+  report.residuals.push_back(residualOf("depth", "de\xe4\npth", 1, 0, 1, 2, 1));
+  report.residuals.back().worst = { "l\xe4/x.npy", 1, 2, "\xfc", "\xf6" };
+  report.unchecked = { { "no\x1btes\xe4.txt", "txt", 1 } };
+  const std::string table = verificationTable(report);
+  EXPECT_NE(table.find("\ndepth  de\\xE4\\x0Apth       1 "), std::string::npos) << table;
+  EXPECT_NE(table.find(": no\\x1Btes\\xE4.txt (1 file)\n"), std::string::npos) << table;
+  const std::string text = verificationText(report);
+  for (const char* const part :
+    { "\"de\xee\xbf\xa4\\npth\"", "\"l\xee\xbf\xa4/x.npy\"", "\"\xee\xbf\xbc\"", "\"no\\u001btes\xee\xbf\xa4.txt\"" })
+  {
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
+  }
+}
+
 TEST(Report, AsADocument)
 {
   EXPECT_EQ(verificationText(mixed()), R"json({
