@@ -11,9 +11,12 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <memory>
+#include <mutex>
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -28,6 +31,7 @@ using helper::Descriptor;
 constexpr std::uint64_t largestModel = std::uint64_t(1) << 32;
 constexpr std::uint64_t streamBase = std::uint64_t(64) << 20;
 constexpr std::uint64_t streamPerByte = 64;
+constexpr int mostStarts = 3;
 
 /// Opens a file that the model may have.
 Descriptor openFor(ModelFiles& files, const std::string& written, import::FileAnswer& answer)
@@ -56,42 +60,147 @@ bool readSome(int from, std::string& to, std::size_t& size)
   return got > 0 || (got < 0 && errno == EINTR);
 }
 
-/// One question of the importer; false when it has hung up.
-bool serve(int channel, ModelFiles& files)
+/// What the importer of one model has said.
+struct Answer
 {
-  import::FileRequest request;
+  std::string stream;
+  bool isWhole = true;   ///< not more than it may be
+  bool hasEnded = false; ///< and the program knows how:
+  int status = 0;        ///< as of waitpid()
+  int server = 0;        ///< the number of the process that was asked
+};
+
+/// One question of the importer; false when it has hung up, or ended.
+bool serve(int channel, ModelFiles& files, Answer& end)
+{
+  import::Question question;
   helper::Descriptors none;
-  if (!helper::receive(channel, request, none))
+  if (!helper::receive(channel, question, none))
   {
     return false;
   }
-  request.name[sizeof request.name - 1] = '\0';
+  if (question.hasEnded != 0)
+  {
+    end.hasEnded = true;
+    end.status = question.status;
+    return false;
+  }
+  question.name[sizeof question.name - 1] = '\0';
   import::FileAnswer answer;
-  const Descriptor file = openFor(files, request.name, answer);
+  const Descriptor file = openFor(files, question.name, answer);
   answer.found = file ? 1 : 0;
   return helper::send(channel, answer, file.get());
 }
 
-/// All that comes out of the pipe, while the importer is given the files that it asks for; false when it is more than
-/// `limit` bytes.
-bool converse(int channel, int from, ModelFiles& files, std::uint64_t limit, std::string& to)
+/// All that comes out of the pipe, while the importer is given the files that it asks for, to its end or up to more
+/// than `limit` bytes.
+Answer converse(int channel, int from, ModelFiles& files, std::uint64_t limit)
 {
+  Answer answer;
   std::size_t size = 0;
   pollfd waits[2] = { { from, POLLIN, 0 }, { channel, POLLIN, 0 } };
-  for (bool open = true; open && size <= limit;)
+  while ((waits[0].fd >= 0 || waits[1].fd >= 0) && size <= limit)
   {
     if (::poll(waits, 2, -1) < 0)
     {
       continue; // interrupted
     }
-    if (waits[1].revents != 0 && !serve(channel, files))
+    if (waits[1].fd >= 0 && waits[1].revents != 0 && !serve(channel, files, answer))
     {
       waits[1].fd = -1;
     }
-    open = waits[0].revents == 0 || readSome(from, to, size);
+    if (waits[0].fd >= 0 && waits[0].revents != 0 && !readSome(from, answer.stream, size))
+    {
+      waits[0].fd = -1;
+    }
   }
-  to.resize(size);
-  return size <= limit;
+  answer.stream.resize(size);
+  answer.isWhole = size <= limit;
+  return answer;
+}
+
+/// The running dgtk-import, of which each model has a copy.
+class ImportServer
+{
+public:
+  static ImportServer& get()
+  {
+    static ImportServer one;
+    return one;
+  }
+
+  /// Asks for a copy; returns the number of the process that was asked. Throws MachineError when there is no such
+  /// program.
+  int ask(const import::ModelRequest& request, int channel, int out)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    const std::string program = helper::findProgram("dgtk-import", "DGTK_IMPORT");
+    if (!this->Running || !this->Running->isOurs() || this->Program != program)
+    {
+      this->start(program);
+    }
+    if (!helper::send(this->Running->channel(), request, channel, out))
+    {
+      this->start(program); // it had nothing to do for long, and ended
+      helper::send(this->Running->channel(), request, channel, out);
+    }
+    return this->Number;
+  }
+
+  /// A copy ended without a word, and so the process of that number did: how, unless another has asked before.
+  int end(int number)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    if (!this->Running || this->Number != number)
+    {
+      return 0;
+    }
+    const int status = this->Running->wait();
+    this->Running.reset();
+    return status;
+  }
+
+private:
+  void start(const std::string& program)
+  {
+    this->Running = std::make_unique<helper::Process>(std::vector<std::string>{ program }, -1);
+    this->Program = program;
+    ++this->Number;
+  }
+
+  std::mutex Mutex;
+  std::unique_ptr<helper::Process> Running;
+  std::string Program;
+  int Number = 0; ///< of processes that were started
+};
+
+/// One attempt to have a model imported.
+Answer askOnce(const std::string& path, const std::string& absolute, const std::string& format, std::uint64_t bytes,
+  ModelFiles& files)
+{
+  int pipe[2] = { -1, -1 };
+  int socket[2] = { -1, -1 };
+  if (::pipe2(pipe, O_CLOEXEC) != 0 || ::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, socket) != 0)
+  {
+    const std::string why = std::strerror(errno);
+    Descriptor(pipe[0]).reset();
+    Descriptor(pipe[1]).reset();
+    throw MachineError(path + ": no pipe to its importer: " + why);
+  }
+  const Descriptor in(pipe[0]);
+  Descriptor out(pipe[1]);
+  const Descriptor channel(socket[0]);
+  Descriptor theirs(socket[1]);
+  import::ModelRequest request;
+  helper::put(request.path, absolute.c_str());
+  helper::put(request.format, format.c_str());
+  const int server = ImportServer::get().ask(request, theirs.get(), out.get());
+  theirs.reset();
+  out.reset();
+  Answer answer =
+    converse(channel.get(), in.get(), files, streamBase + streamPerByte * bytes + (std::uint64_t(1) << 30));
+  answer.server = server;
+  return answer;
 }
 
 [[noreturn]] void reportDeath(const std::string& path, int status)
@@ -144,31 +253,27 @@ auto importModel(const std::string& path, const std::string& format) -> Imported
   const std::uint64_t bytes = sizeOfModel(path);
   std::error_code code;
   const std::string absolute = fs::absolute(path, code).string();
-  const std::string program = helper::findProgram("dgtk-import", "DGTK_IMPORT");
-  int ends[2] = { -1, -1 };
-  if (::pipe2(ends, O_CLOEXEC) != 0)
-  {
-    throw MachineError(path + ": no pipe to its importer: " + std::strerror(errno));
-  }
-  const Descriptor in(ends[0]);
-  Descriptor out(ends[1]);
-  helper::Process process({ program, absolute, format }, out.get());
-  out.reset();
   ModelFiles files(absolute);
-  std::string stream;
-  const std::uint64_t limit = streamBase + streamPerByte * bytes + (std::uint64_t(1) << 30);
-  const bool whole = converse(process.channel(), in.get(), files, limit, stream);
-  const int ended = whole ? process.wait() : 0;
+  Answer answer = askOnce(path, absolute, format, bytes, files);
+  for (int again = 1; !answer.hasEnded && answer.stream.empty() && answer.isWhole && again < mostStarts; ++again)
+  {
+    ImportServer::get().end(answer.server);
+    answer = askOnce(path, absolute, format, bytes, files);
+  }
+  if (!answer.hasEnded && answer.isWhole)
+  {
+    answer.status = ImportServer::get().end(answer.server);
+  }
   files.refuseOutside(path);
   ImportedScene scene;
   try
   {
-    MemoryReader reader({ stream.data() }, whole ? stream.size() : 0);
+    MemoryReader reader({ answer.stream.data() }, answer.isWhole ? answer.stream.size() : 0);
     import::io(reader, scene);
   }
   catch (const std::runtime_error&)
   {
-    reportDeath(path, ended);
+    reportDeath(path, answer.status);
   }
   if (!scene.error.empty())
   {

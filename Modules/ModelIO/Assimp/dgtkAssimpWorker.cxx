@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// dgtk-import FILE FORMAT: reads a model with Assimp and writes it to standard output (dgtkAssimpStream.h). A program
-// of its own, so that an assertion, an endless loop or a flood of memory in an importer ends here. It opens no file: it
-// asks the library for each (dgtkImportProtocol.h).
+// dgtk-import: reads models with Assimp, each in a copy of the process that the library has started, and writes it
+// through a pipe (dgtkAssimpStream.h). A program of its own, so that an assertion, an endless loop or a flood of memory
+// in an importer ends here, with that one model. It opens no file: it asks the library for each (dgtkImportProtocol.h).
 #include "dgtkAssimpConvert.h"
 #include "dgtkAssimpGltf.h"
 #include "dgtkHelperChannel.h"
@@ -19,17 +19,24 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <memory>
 #include <set>
 
+#include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/signalfd.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 
 namespace
 {
 using dgtk::helper::Descriptor;
 using dgtk::helper::Descriptors;
 using dgtk::helper::limitTo;
+using dgtk::import::ModelRequest;
+using dgtk::import::Question;
 using dgtk::import::Scene;
 
 constexpr int channel = 0;
@@ -161,7 +168,7 @@ private:
 
   static Found ask(const std::string& name)
   {
-    dgtk::import::FileRequest request;
+    Question request;
     dgtk::import::FileAnswer answer;
     Descriptors files;
     if (name.size() >= sizeof request.name)
@@ -251,16 +258,10 @@ bool send(Scene& scene)
   io(writer, scene);
   return std::fflush(stdout) == 0 && good;
 }
-} // namespace
 
-int main(int argc, char** argv)
+/// One model, behind the wall; its status.
+int importOne(const ModelRequest& request)
 {
-  if (argc != 3)
-  {
-    std::fputs("dgtk-import is a part of DGTk: it reads one model for the library\n", stderr);
-    return 2;
-  }
-  limitTo(RLIMIT_CORE, 0);
   limitTo(RLIMIT_CPU, seconds);
   if (!dgtk::helper::isSanitized)
   {
@@ -270,7 +271,7 @@ int main(int argc, char** argv)
   Scene scene;
   try
   {
-    read(argv[1], argv[2], scene);
+    read(request.path, request.format, scene);
   }
   catch (const std::bad_alloc&)
   {
@@ -283,4 +284,110 @@ int main(int argc, char** argv)
     scene.error = inWords(error.what());
   }
   return send(scene) ? 0 : 1;
+}
+
+/// Starts copies, and says how they ended.
+class Server
+{
+public:
+  Server()
+  {
+    sigset_t child;
+    sigemptyset(&child);
+    sigaddset(&child, SIGCHLD);
+    ::sigprocmask(SIG_BLOCK, &child, &this->Before);
+    this->Ends = Descriptor(::signalfd(-1, &child, SFD_CLOEXEC));
+  }
+
+  void run()
+  {
+    pollfd waits[2] = { { channel, POLLIN, 0 }, { this->Ends.get(), POLLIN, 0 } };
+    bool wanted = true;
+    while (wanted)
+    {
+      const int ready = ::poll(waits, 2, this->Channels.empty() ? idleMilliseconds : -1);
+      if (ready > 0 && waits[1].revents != 0)
+      {
+        this->collect();
+      }
+      wanted = ready < 0 || (ready > 0 && (waits[0].revents == 0 || this->start()));
+    }
+  }
+
+private:
+  static constexpr int idleMilliseconds = 10000;
+
+  /// False when nobody asks any more. The copies end with this process.
+  bool start()
+  {
+    ModelRequest request;
+    Descriptors files;
+    if (!dgtk::helper::receive(channel, request, files))
+    {
+      return false;
+    }
+    request.path[sizeof request.path - 1] = '\0';
+    request.format[sizeof request.format - 1] = '\0';
+    const pid_t copy = ::fork();
+    if (copy == 0)
+    {
+      ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+      ::sigprocmask(SIG_SETMASK, &this->Before, nullptr);
+      ::dup2(files[0].get(), channel);
+      ::dup2(files[1].get(), STDOUT_FILENO);
+      files[0].reset();
+      files[1].reset();
+      this->Channels.clear();
+      this->Ends.reset();
+      ::_exit(importOne(request));
+    }
+    if (copy > 0)
+    {
+      this->Channels[copy] = std::move(files[0]);
+    }
+    else
+    {
+      sayEnd(files[0].get(), SIGKILL); // no memory for it
+    }
+    return true;
+  }
+
+  static void sayEnd(int to, int status)
+  {
+    Question last;
+    last.hasEnded = 1;
+    last.status = status;
+    dgtk::helper::send(to, last);
+  }
+
+  void collect()
+  {
+    signalfd_siginfo ignored;
+    int status = 0;
+    if (::read(this->Ends.get(), &ignored, sizeof ignored) > 0)
+    {
+      for (pid_t copy = 0; (copy = ::waitpid(-1, &status, WNOHANG)) > 0;)
+      {
+        sayEnd(this->Channels[copy].get(), status);
+        this->Channels.erase(copy);
+      }
+    }
+  }
+
+  sigset_t Before{};
+  Descriptor Ends;
+  std::map<pid_t, Descriptor> Channels;
+};
+} // namespace
+
+int main()
+{
+  struct stat status = {};
+  if (::fstat(channel, &status) != 0 || !S_ISSOCK(status.st_mode))
+  {
+    std::fputs("dgtk-import is a part of DGTk: it reads models for the library\n", stderr);
+    return 2;
+  }
+  limitTo(RLIMIT_CORE, 0);
+  Server().run();
 }

@@ -4,13 +4,24 @@
 
 #include <cstdint>
 
-/// How dgtk-import, which opens nothing itself, asks the library for files (dgtkHelperChannel.h).
+/// What the library and dgtk-import say to each other (dgtkHelperChannel.h). dgtk-import starts once, and makes a copy
+/// of itself for each model, with a channel of its own. That opens nothing itself: it asks for files.
 namespace dgtk::import
 {
 
-struct FileRequest
+/// Beside it come the copy's end of a channel, and where it writes the model.
+struct ModelRequest
 {
-  char name[4096] = {}; ///< as the importer names it
+  char path[4096] = {};
+  char format[16] = {};
+};
+
+/// What comes through the channel of a model.
+struct Question
+{
+  std::uint32_t hasEnded = 0; ///< 1: the copy has come to its end
+  std::int32_t status = 0;    ///< then: as of waitpid()
+  char name[4096] = {};       ///< else: of the file that is wanted, as the importer names it
 };
 
 struct FileAnswer

@@ -9,9 +9,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <thread>
 
 using namespace dgtk::test;
 using testing::HasSubstr;
@@ -153,6 +157,69 @@ TEST(Assimp, AnImporterThatDiesIsAnInputError)
   // a count of 2^64 - 1
   expectMessage("printf 'DGI1\\0\\0\\0\\0\\0\\0\\0\\0\\377\\377\\377\\377\\377\\377\\377\\377'", "(incomplete answer)");
   expectMessage("yes nonsense | head -c 1000000", "(incomplete answer)");
+}
+
+namespace
+{
+/// Parent of a process, 0 when there is none of that number.
+int parentOf(int process)
+{
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string words;
+  std::getline(file, words);
+  const std::size_t name = words.rfind(')');
+  return name == std::string::npos ? 0 : std::atoi(words.c_str() + name + 4);
+}
+
+/// Kills the first copy that a program started by this one makes of itself within some seconds.
+bool killCopy()
+{
+  const auto start = std::chrono::steady_clock::now();
+  while (std::chrono::steady_clock::now() - start < std::chrono::seconds(20))
+  {
+    for (const auto& entry : std::filesystem::directory_iterator("/proc"))
+    {
+      const int process = std::atoi(entry.path().filename().c_str());
+      if (process > 0 && parentOf(parentOf(process)) == ::getpid() && ::kill(process, SIGSEGV) == 0)
+      {
+        return true;
+      }
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+} // namespace
+
+TEST(Assimp, OneProgramImportsAllModelsAndACrashCostsOne)
+{
+  const TemporaryFolder folder;
+  const std::string real = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "dgtk-import";
+  const OtherImporter counted("echo started >> '" + folder.path("log") + "'; exec '" + real + "'");
+  const auto reads = []
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      EXPECT_EQ(readBytes("off", quadOff)->triangles.size(), 2u);
+      EXPECT_THAT(refusal("glb", "glTF"), HasSubstr("model.glb: cannot be read: "));
+    }
+  };
+  std::thread beside(reads);
+  reads();
+  beside.join();
+  std::string large = "OFF\n3 400000 0\n0 0 0\n1 0 0\n0 1 0\n";
+  for (int i = 0; i < 400000; ++i)
+  {
+    large += "3 0 1 2\n";
+  }
+  bool killed = false;
+  std::thread killer([&killed] { killed = killCopy(); });
+  const std::string said = refusal("off", large);
+  killer.join();
+  ASSERT_TRUE(killed);
+  EXPECT_THAT(said, HasSubstr("model.off: is damaged: its importer ended abnormally (signal 11"));
+  reads();
+  EXPECT_EQ(dgtk::readFile(folder.path("log")), "started\n");
 }
 
 TEST(Assimp, AMissingImporterIsTheMachinesFault)
