@@ -84,6 +84,16 @@ KeptModel::KeptModel(std::shared_ptr<ModelCache> cache, const std::string& path,
   }
 }
 
+/// "" for a name that led to nothing, or that leads by links to where the model may not look.
+std::string KeptModel::fileOf(const ModelDependency& dependency) const
+{
+  const bool isNamed = dependency.kind == ModelDependency::Kind::Named;
+  const std::string& name = isNamed ? dependency.found : dependency.name;
+  const fs::path folder = fs::path(this->Absolute).parent_path();
+  const std::string file = name.empty() ? name : (folder / name).string();
+  return isNamed || liesBeneath(file, folder.parent_path().string()) ? file : std::string();
+}
+
 /// "" for a file that is not there.
 std::string KeptModel::identityOf(const ModelDependency& dependency) const
 {
@@ -91,25 +101,15 @@ std::string KeptModel::identityOf(const ModelDependency& dependency) const
   {
     return stampOf(programPath(dependency));
   }
-  const bool isNamed = dependency.kind == ModelDependency::Kind::Named;
-  if (isNamed && dependency.found.empty())
-  {
-    return {};
-  }
-  const fs::path file = fs::path(this->Absolute).parent_path() / (isNamed ? dependency.found : dependency.name);
-  return FileAge(file.string()).isFile() ? hashOfFile(file.string()) : std::string();
+  const std::string file = this->fileOf(dependency);
+  return FileAge(file).isFile() ? hashOfFile(file) : std::string();
 }
 
 /// Since reading began.
 bool KeptModel::isUnchanged(const ModelDependency& dependency) const
 {
-  if (dependency.kind == ModelDependency::Kind::Program)
-  {
-    return true;
-  }
-  const bool isNamed = dependency.kind == ModelDependency::Kind::Named;
-  const FileAge age((fs::path(this->Absolute).parent_path() / (isNamed ? dependency.found : dependency.name)).string());
-  return !age.isFile() || age.isOlderThan(this->Begin);
+  const FileAge age(this->fileOf(dependency));
+  return dependency.kind == ModelDependency::Kind::Program || !age.isFile() || age.isOlderThan(this->Begin);
 }
 
 std::optional<ModelContents> KeptModel::find() const
@@ -169,7 +169,7 @@ ModelContents KeptModel::keep(ModelContents contents) const
       this->Cache->added(this->File);
     }
   }
-  catch (const std::runtime_error&)
+  catch (const std::exception&)
   {
     // it is read again next time
   }

@@ -24,6 +24,7 @@ public:
   ModelContents keep(ModelContents contents) const;
 
 private:
+  std::string fileOf(const ModelDependency& dependency) const;
   std::string identityOf(const ModelDependency& dependency) const;
   bool isUnchanged(const ModelDependency& dependency) const;
 

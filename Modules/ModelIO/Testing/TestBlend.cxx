@@ -2,14 +2,17 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkGltfMaker.h"
+#include "dgtkModelCache.h"
 #include "dgtkModelChecks.h"
 #include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <thread>
 
 using namespace dgtk::test;
 using testing::ElementsAre;
@@ -58,12 +61,12 @@ private:
 };
 
 /// One triangle.
-std::string glb()
+std::string glb(const std::string& name = "Thing")
 {
   GltfMaker maker;
   const int positions = maker.floats("VEC3", { 1, 0, 0, 0, 1, 0, 0, 0, 1 });
   maker.json["scenes"] = { { { "nodes", { 0 } } } };
-  maker.json["nodes"] = { { { "mesh", 0 }, { "name", "Thing" } } };
+  maker.json["nodes"] = { { { "mesh", 0 }, { "name", name } } };
   maker.json["meshes"] = { { { "primitives", { { { "attributes", { { "POSITION", positions } } } } } } } };
   return maker.glb();
 }
@@ -100,6 +103,41 @@ TEST(Blend, IsWhatBlenderMakesOfIt)
   EXPECT_EQ(model->triangles.size(), 1u);
   EXPECT_EQ(model->parts.at(0).name, "Thing");
   EXPECT_THAT(model->companions, ElementsAre(folder.path("scene/tiles.png"), folder.path("stone.png")));
+}
+
+TEST(Blend, IsKeptAsLongAsItsFilesAndBlenderAreTheSame)
+{
+  const BlendFolder folder;
+  const std::string stone = folder.path("stone.png");
+  const std::string later = folder.path("scene/later.png");
+  dgtk::writeFile(stone, "");
+  std::filesystem::create_symlink("/etc/passwd", folder.path("scene/link.png"));
+  const std::string script = "cp '" + folder.path("bin/made.glb") + "' \"$model\"; printf '%s\n%s\n%s' '" +
+                             folder.path("scene/link.png") + "' '" + stone + "' '" + later + "' > \"$files\"";
+  folder.program(script);
+  dgtk::ReadOptions options;
+  options.cache = std::make_shared<dgtk::ModelCache>(folder.path("cache"), std::uint64_t(1) << 30);
+  // what Blender makes of it is another thing each time
+  const auto read = [&](const std::string& name, const std::vector<std::string>& companions)
+  {
+    dgtk::writeFile(folder.path("bin/made.glb"), glb(name));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    const auto model = dgtk::readModel(folder.path("scene/a.blend"), options);
+    EXPECT_EQ(model->format, "blend");
+    EXPECT_EQ(model->companions, companions);
+    return model->parts.at(0).name;
+  };
+  EXPECT_EQ(read("1", { stone }), "1");
+  EXPECT_EQ(read("2", { stone }), "1");
+  dgtk::writeFile(stone, "changed");
+  EXPECT_EQ(read("3", { stone }), "3");
+  EXPECT_EQ(read("4", { stone }), "3");
+  dgtk::writeFile(later, "");
+  EXPECT_EQ(read("5", { later, stone }), "5");
+  EXPECT_EQ(read("6", { later, stone }), "5");
+  folder.program(script + "\n# another release");
+  EXPECT_EQ(read("7", { later, stone }), "7");
+  EXPECT_EQ(read("8", { later, stone }), "7");
 }
 
 TEST(Blend, WhatGoesWrongIsSaid)
