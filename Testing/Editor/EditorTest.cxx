@@ -5,6 +5,7 @@
 #include "dgtkMainWindow.h"
 #include "dgtkSceneDocument.h"
 
+#include <QAbstractEventDispatcher>
 #include <QAction>
 #include <QApplication>
 #include <QCheckBox>
@@ -64,6 +65,28 @@ void activate(QWidget& window)
   QVERIFY2(window.isActiveWindow(), qPrintable("no focus: " + window.objectName()));
 }
 
+void untilQuiet()
+{
+  constexpr int quiet = 25; // milliseconds; Qt draws a window at most some 5 after it was asked to
+  QElapsedTimer clock;
+  clock.start();
+  QElapsedTimer still;
+  still.start();
+  while (still.elapsed() < quiet && clock.elapsed() < longestRun)
+  {
+    QGuiApplication::sync(); // what the X server has to say is there
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    if (QAbstractEventDispatcher::instance()->processEvents(QEventLoop::AllEvents))
+    {
+      still.start();
+    }
+    else
+    {
+      QTest::qSleep(1);
+    }
+  }
+}
+
 /// Whether the X server has given the keyboard to the open menu: it does so a moment after the menu is shown, and
 /// before any click of a user. After a test's click, which is there at once, that word would take the focus from what
 /// was chosen, and a name that is being edited would be left.
@@ -105,7 +128,7 @@ void EditorTest::init()
   this->Window = std::make_unique<dgtk::MainWindow>();
   this->Window->show();
   activate(*this->Window);
-  QTest::qWait(settle);
+  untilQuiet();
 }
 
 void EditorTest::cleanup()

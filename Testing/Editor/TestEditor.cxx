@@ -61,7 +61,7 @@ void TestEditor::opensSelectsMovesUndoesSavesAndRenders()
 void TestEditor::clicksSelectAndDragsMove()
 {
   QVERIFY(this->Window->importFile(QString::fromStdString(sourceFile("Data/Models/crate.ac"))));
-  QTest::qWait(settle);
+  untilQuiet();
   dgtk::SceneDocument& document = this->Window->document();
   auto* front = this->Window->findChild<QOpenGLWidget*>("view.0");
   const QPoint middle = front->rect().center();

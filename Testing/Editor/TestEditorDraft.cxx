@@ -110,7 +110,7 @@ void TestEditorTruth::viewsHaveTheRenderersColours()
     QTest::keyClick(view, Qt::Key_Left);
   }
   QVERIFY(!picture->isVisible());
-  QTest::qWait(settle);
+  untilQuiet();
   const double worst = worstSquare(view->grabFramebuffer(), rendered);
   QVERIFY2(worst < tolerance, QByteArray::number(worst));
 }

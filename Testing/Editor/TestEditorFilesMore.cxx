@@ -235,7 +235,7 @@ void TestEditorFiles::theWindowIsAsItWasLeft()
 {
   this->Window->resize(1111, 777);
   this->Window->findChild<QDockWidget*>("logDock")->hide();
-  QTest::qWait(settle);
+  untilQuiet();
   const QSize size = this->Window->size();
   QVERIFY(this->Window->close());
   this->Window = std::make_unique<dgtk::MainWindow>();

@@ -163,7 +163,7 @@ void TestEditorForest::aForestOpensAndAnswersAtOnce()
   { QTest::mouseClick(cells, Qt::LeftButton, {}, QPoint(cells->width() - 12 * (i + 1), 5)); };
   QVERIFY(this->longest("scrub", scrub) < patience() * eventLimit);
   this->action("frameSelected")->trigger();
-  QTest::qWait(settle);
+  untilQuiet();
   const QPoint middle = this->view(front)->rect().center();
   const auto drag = [&](int i)
   {
@@ -244,7 +244,7 @@ void TestEditorForest::copiesLookAsIfEachWereAlone()
     {
       const auto picture = [&]
       {
-        QTest::qWait(settle);
+        untilQuiet();
         return qobject_cast<QOpenGLWidget*>(this->view(kind))->grabFramebuffer();
       };
       const QImage alone = picture();
@@ -286,7 +286,7 @@ void TestEditorForest::whatIsOutOfSightIsNotMadeCoarser()
 {
   QVERIFY(this->Window->importFile(QString::fromStdString(dgtk::test::sourceFile("Data/Models/crate.ac"))));
   this->action("frameAll")->trigger();
-  QTest::qWait(settle);
+  untilQuiet();
   this->Window->document().edit("Away",
     [](dgtk::SceneDescription& scene)
     {
@@ -297,13 +297,13 @@ void TestEditorForest::whatIsOutOfSightIsNotMadeCoarser()
       scene.objects[2].name = "hidden";
       scene.objects[2].visible = false;
     });
-  QTest::qWait(settle);
+  untilQuiet();
   for (int kind = front; kind <= perspective; ++kind)
   {
     QCOMPARE(this->view(kind)->property("coarserMeshes").toInt(), 0);
   }
   this->action("frameAll")->trigger();
-  QTest::qWait(settle);
+  untilQuiet();
   QVERIFY(this->view(front)->property("coarserMeshes").toInt() > 0);
 }
 

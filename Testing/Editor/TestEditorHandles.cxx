@@ -77,7 +77,7 @@ void TestEditorHandles::openCrate()
   QVERIFY(this->Window->importFile(QString::fromStdString(sourceFile("Data/Models/crate.ac"))));
   this->action("handlesAtOrigin")->trigger(); // in the middle of its base
   this->action("frameAll")->trigger();
-  QTest::qWait(settle);
+  untilQuiet();
 }
 
 void TestEditorHandles::press(int kind, const QPoint& at) const
@@ -237,7 +237,7 @@ void TestEditorHandles::modelsFarFromTheirOriginTurnInPlace()
   dgtk::writeFile(this->Folder.path("far.obj"), obj);
   QVERIFY(this->Window->importFile(this->path("far.obj")));
   this->action("frameAll")->trigger();
-  QTest::qWait(settle);
+  untilQuiet();
   const std::string first = this->document().json();
   const QPoint center = this->pixelOf(front, middle);
   const Eigen::Vector2d exact = this->exactPixelOf(front, middle);
@@ -295,7 +295,7 @@ void TestEditorHandles::severalTurnAboutTheirCommonBox()
   this->action("selectAll")->trigger();
   this->action("frameAll")->trigger();
   this->action("rotate")->trigger();
-  QTest::qWait(settle);
+  untilQuiet();
   const auto halfTurn = [&](const Eigen::Vector3d& pivot)
   {
     const QPoint center = this->pixelOf(front, pivot);

@@ -280,7 +280,7 @@ void TestEditorHandles::theScenesLightsLightTheViews()
   const QPoint on = this->pixelOf(front, { 0.2, 0.5, 0 });
   const auto brightness = [&]
   {
-    QTest::qWait(settle);
+    untilQuiet();
     return widget->grab().toImage().pixelColor(on).value();
   };
   this->action("sceneLights")->trigger(); // a light at the eye
@@ -305,7 +305,7 @@ void TestEditorHandles::theThesissStaticScene()
   QVERIFY(this->Window->importFile(QString::fromStdString(sourceFile("Data/Models/crate.ac"))));
   QVERIFY(this->Window->importFile(QString::fromStdString(sourceFile("Data/Models/ball.ac"))));
   this->action("frameAll")->trigger();
-  QTest::qWait(settle);
+  untilQuiet();
   // "Click and drag the object to place it"
   QTest::mouseClick(this->view(front), Qt::LeftButton, {}, QPoint(2, 2));
   const double u = this->unit(front);

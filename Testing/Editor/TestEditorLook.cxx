@@ -143,7 +143,7 @@ QStringList written(const QWidget& widget)
 QImage TestEditorLook::picture(const char* view) const
 {
   auto* widget = this->Window->findChild<QOpenGLWidget*>(view);
-  QTest::qWait(settle);
+  untilQuiet();
   return widget->grabFramebuffer();
 }
 
@@ -224,7 +224,7 @@ void TestEditorLook::camerasAndLightsAreFramedAsTheyAreDrawn()
     {
       this->select(name);
       this->action("frameSelected")->trigger();
-      QTest::qWait(settle);
+      untilQuiet();
       for (const char* view : { "view.0", "view.1", "view.2", "view.3" })
       {
         // The green lines about it are in sight as a whole, and large enough to be worked with.
@@ -263,7 +263,7 @@ void TestEditorLook::theUpAxisTurnsTheViews()
   QVERIFY(this->Window->importFile(text("Data/Models/tree.ac")));
   this->action("frameAll")->trigger();
   QTest::mouseClick(this->Window->findChild<QWidget*>("view.0"), Qt::LeftButton, {}, QPoint(3, 3)); // selects nothing
-  QTest::qWait(settle);
+  untilQuiet();
   const QList<QImage> yUp = pictures();
   auto* axis = this->Window->findChild<QComboBox*>("upAxis");
   QVERIFY(axis != nullptr);
@@ -281,7 +281,7 @@ void TestEditorLook::theUpAxisTurnsTheViews()
   this->Window->show();
   QVERIFY(this->Window->openFile(path));
   this->action("frameAll")->trigger();
-  QTest::qWait(settle);
+  untilQuiet();
   const QList<QImage> opened = pictures();
   for (int i = 0; i < yUp.size(); ++i)
   {

@@ -130,7 +130,7 @@ void TestEditorMenus::everyMenuItemWorks()
     }
     const QString name = item->objectName() + " " + item->text();
     QVERIFY2(item->isEnabled(), qPrintable(name));
-    QTest::qWait(settle);
+    untilQuiet();
     auto* picture = this->Window->findChild<QWidget*>("truthPicture");
     QTRY_VERIFY(!picture->isVisible() || picture->property("settled").toBool());
     const QByteArray before = stateOf(*this->Window);

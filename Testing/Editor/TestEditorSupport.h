@@ -43,7 +43,7 @@ constexpr int longestCase = 86400000; // in place of Qt's five minutes: CTest kn
 #define QTRY_VERIFY(condition) QTRY_VERIFY_WITH_TIMEOUT(condition, longestRun)
 #define QTRY_VERIFY2(condition, message) QTRY_VERIFY2_WITH_TIMEOUT(condition, message, longestRun)
 #define QTRY_COMPARE(actual, expected) QTRY_COMPARE_WITH_TIMEOUT(actual, expected, longestRun)
-constexpr int settle = 150; // milliseconds for a window to lay itself out and draw
+constexpr int settle = 150; // milliseconds in which something could happen that must not, or threads go on
 
 inline QString demo() { return QString::fromStdString(dgtk::test::sourceFile("Data/Scenes/demo.json")); }
 
@@ -54,6 +54,9 @@ double patience();
 /// Waits until the window has the focus, and asks for it as often as that takes: where no window manager asks, the X
 /// server refuses the focus to a window that it has not drawn yet, and Qt takes no notice of it while a menu is open.
 void activate(QWidget& window);
+
+/// Until the window has laid itself out and drawn: nothing waits to be done in it. Work beside the window may go on.
+void untilQuiet();
 
 /// When the next dialog of that name is shown and has the focus, does something with it. It ends with a failure.
 template <typename Dialog>

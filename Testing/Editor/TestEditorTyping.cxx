@@ -252,7 +252,7 @@ void TestEditorTyping::unitsAreTyped()
     this->field("units")->selectAll();
     QTest::keyClicks(this->field("units"), units);
     QTest::keyClick(this->field("units"), Qt::Key_Return);
-    QTest::qWait(settle); // what went is deleted
+    untilQuiet(); // what went is deleted
     QCOMPARE(scene.units, std::string(units));
     QCOMPARE(this->field("units")->text(), QString(units));
     QVERIFY(this->field("units")->hasFocus());

@@ -159,7 +159,7 @@ void TestEditorViewer::camerasAndPointsInTheWorld()
   QMainWindow* const viewer = this->open(this->dataset());
   QVERIFY(viewer != nullptr);
   auto* const cloud = viewer->findChild<QOpenGLWidget*>("cloudView");
-  QTest::qWait(settle);
+  untilQuiet();
   const QImage first = cloud->grabFramebuffer();
   QVERIFY(colorsOf(first) > 200);
   QVERIFY(countOf(first, QColor(51, 255, 51)) > 20); // the chosen camera's frustum
@@ -174,7 +174,7 @@ void TestEditorViewer::camerasAndPointsInTheWorld()
   this->waitForPictures(viewer);
   QVERIFY(pointsOf(viewer) > 3 * points / 2);
   QTest::keyClick(viewer, Qt::Key_T);
-  QTest::qWait(settle);
+  untilQuiet();
   const QImage through = cloud->grabFramebuffer();
   QVERIFY(through != first);
   QTest::keyClick(cloud, Qt::Key_Left);

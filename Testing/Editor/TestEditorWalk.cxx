@@ -66,7 +66,7 @@ void TestEditorWalk::import(const char* model) const
   answer<QFileDialog>({}, [path](QFileDialog& dialog) { confirm(dialog, path); });
   this->choose("import");
   QTRY_COMPARE(this->Window->document().scene().objects.size(), before + 1);
-  QTest::qWait(settle);
+  untilQuiet();
 }
 
 void TestEditorWalk::saveAs(const QString& path) const
@@ -128,7 +128,7 @@ void TestEditorWalk::makeKeyFrame(int frame) const
 
 QImage TestEditorWalk::pictureOf(int kind) const
 {
-  QTest::qWait(settle);
+  untilQuiet();
   const QWidget* const view = this->view(kind);
   return this->Window->grab(QRect(view->mapTo(this->Window.get(), QPoint(0, 0)), view->size())).toImage();
 }
@@ -205,7 +205,7 @@ void TestEditorWalk::aDynamicScene()
   const double radius = dgtk::ViewHandles::length();
   const auto onRing = [&](double angle)
   { return center + QPoint(int(radius * std::cos(angle)), -int(radius * std::sin(angle))); };
-  QTest::qWait(settle);
+  untilQuiet();
   this->drag(front, onRing(0.5), onRing(1.3));
   const dgtk::Quaternion turned = scene.objects[0].orientation.at(20);
   QVERIFY2(std::abs(turned.z - std::sin(0.4)) < 0.02, qPrintable(QString::number(turned.z)));

@@ -169,7 +169,7 @@ void TestEditorWhole::parallelViewsCutNothing()
   auto* front = this->Window->findChild<QOpenGLWidget*>("view.0");
   const auto middle = [front]
   {
-    QTest::qWait(settle);
+    untilQuiet();
     const QImage image = front->grabFramebuffer();
     return image.pixelColor(image.rect().center() + QPoint(9, 7));
   };
@@ -189,7 +189,7 @@ void TestEditorWhole::parallelViewsCutNothing()
 void TestEditorWhole::viewsMoveByKeys()
 {
   QVERIFY(this->Window->openFile(demo()));
-  QTest::qWait(settle);
+  untilQuiet();
   QVERIFY2(this->Window->findChild<QWidget*>("view.3")->hasFocus(), "the perspective begins");
   for (const char* name : { "view.0", "view.3" })
   {
@@ -200,7 +200,7 @@ void TestEditorWhole::viewsMoveByKeys()
     {
       const QImage before = view->grabFramebuffer();
       QTest::keyClick(view, Qt::Key(key), modifiers);
-      QTest::qWait(settle);
+      untilQuiet();
       return view->grabFramebuffer() != before;
     };
     QVERIFY(differs(Qt::Key_Right));
@@ -223,7 +223,7 @@ void TestEditorWhole::stylesLookDifferent()
   const auto seen = [&](const char* action)
   {
     this->action(action)->trigger();
-    QTest::qWait(settle);
+    untilQuiet();
     return view->grabFramebuffer();
   };
   const QImage textured = seen("textured");
@@ -289,7 +289,7 @@ void TestEditorWhole::lightsHaveAllTheirNumbers()
   auto* kind = this->Window->findChild<QWidget*>("propertiesPanel")->findChild<QComboBox*>("kind");
   QTest::keyClick(kind, Qt::Key_Home);
   QTRY_COMPARE(this->Window->document().scene().lights.at(0).kind, dgtk::LightKind::Point);
-  QTest::qWait(settle);
+  untilQuiet();
   QVERIFY(this->field("exponent.0") == nullptr);
   QVERIFY(this->field("target.0") == nullptr);
   QVERIFY(this->field("attenuation.1") != nullptr);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCameraEntry.h"
 #include "dgtkError.h"
+#include "dgtkStrangeCamera.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,25 +16,13 @@ using testing::HasSubstr;
 
 namespace
 {
-class Strange final : public CameraModel
-{
-public:
-  explicit Strange(const CameraParameters& of)
-    : CameraModel(of)
-  {
-  }
-  std::string name() const override { return "strange"; }
-  CameraRay rayThrough(const Eigen::Vector2d&) const override { return { { 0, 0, 0 }, { 0, 0, 1 } }; }
-  bool project(const Eigen::Vector3d&, Eigen::Vector2d&) const override { return false; }
-};
-
 std::shared_ptr<const CameraModel> makeStrange(const CameraParameters& of)
 {
   if (of.numbers.at("xi") == of.numbers.at("distortion"))
   {
     throw UsageError("xi and distortion are the same");
   }
-  return std::make_shared<Strange>(of);
+  return std::make_shared<test::StrangeCamera>(of);
 }
 
 CameraParameter coefficients()

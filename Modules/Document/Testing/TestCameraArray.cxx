@@ -8,11 +8,14 @@
 
 #include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace
 {
 using namespace dgtk;
 
+using V = Eigen::Vector3d;
 constexpr double tolerance = 1e-12; // scene units
 
 CameraArrayOptions optionsOf(CameraArrayKind kind)
@@ -23,6 +26,19 @@ CameraArrayOptions optionsOf(CameraArrayKind kind)
   options.first.eye = Eigen::Vector3d(1, 3, 8);
   options.first.lookAt = Eigen::Vector3d(1, 1, 0);
   return options;
+}
+
+std::string refusalOf(const CameraArrayOptions& options)
+{
+  try
+  {
+    cameraArray(options);
+  }
+  catch (const UsageError& error)
+  {
+    return error.what();
+  }
+  return "";
 }
 
 void expectSound(const std::vector<CameraDescription>& cameras)
@@ -89,17 +105,134 @@ TEST(CameraArray, GridsAreRowsFromTheTopLeft)
   EXPECT_TRUE((middle * cameras[5].eye.value - Eigen::Vector3d(2, 1, 0)).norm() < tolerance);
 }
 
-TEST(CameraArray, NonsenseIsRefused)
+TEST(CameraArray, EveryRefusalAndEveryLimit)
 {
-  CameraArrayOptions options = optionsOf(CameraArrayKind::Ring);
-  options.count = 0;
-  EXPECT_THROW(cameraArray(options), UsageError);
-  options = optionsOf(CameraArrayKind::Stereo);
-  options.spacing = 0;
-  EXPECT_THROW(cameraArray(options), UsageError);
-  options = optionsOf(CameraArrayKind::Grid);
+  using Kind = CameraArrayKind;
+  const char* const number = "number of cameras: expected 1 to 10000";
+  const char* const grid = "columns and rows: expected 1 to 10000 cameras in all";
+  const char* const far = "spacing: expected a number above 0";
+  const char* const way = "path: expected at least two different points";
+  const V a(0, 0, 1);
+  const V b(1, 0, 1);
+  const V o(0, 0, 0);
+  const double none = std::nan("");
+  struct Row
+  {
+    Kind kind;
+    int count, columns, rows;
+    double spacing;
+    CameraPath path;
+    const char* message;
+  };
+  // What a kind does not have may be anything.
+  const std::vector<Row> table{
+    { Kind::Ring, 0, 3, 3, 1, {}, number },
+    { Kind::Ring, 1, 0, 0, 0, {}, "" },
+    { Kind::Ring, 10000, 3, 3, none, {}, "" },
+    { Kind::Ring, 10001, 3, 3, 1, {}, number },
+    { Kind::Hemisphere, 0, 3, 3, 1, {}, number },
+    { Kind::Hemisphere, 8, 0, 0, -1, {}, "" },
+    { Kind::Grid, 0, 100, 100, 1, {}, "" },
+    { Kind::Grid, 8, 0, 3, 1, {}, grid },
+    { Kind::Grid, 8, 3, 0, 1, {}, grid },
+    { Kind::Grid, 8, 101, 100, 1, {}, grid },
+    { Kind::Grid, 8, 3, 3, 0, {}, far },
+    { Kind::Stereo, 0, 0, 0, 1e-9, {}, "" },
+    { Kind::Stereo, 8, 3, 3, 0, {}, far },
+    { Kind::Stereo, 8, 3, 3, none, {}, far },
+    { Kind::Path, 8, 0, 0, 0, {}, way },
+    { Kind::Path, 8, 3, 3, 1, { { a }, { o } }, way },
+    { Kind::Path, 8, 3, 3, 1, { { a, b }, { o } }, way },
+    { Kind::Path, 8, 3, 3, 1, { { a, b }, { o, o } }, "" },
+    { Kind::Path, 0, 3, 3, 1, { { a, b }, { o, o } }, number },
+  };
+  for (std::size_t i = 0; i < table.size(); ++i)
+  {
+    const Row& row = table[i];
+    CameraArrayOptions options = optionsOf(row.kind);
+    options.count = row.count;
+    options.columns = row.columns;
+    options.rows = row.rows;
+    options.spacing = row.spacing;
+    options.path = row.path;
+    EXPECT_EQ(refusalOf(options), row.message) << "row " << i;
+  }
+  CameraArrayOptions options = optionsOf(Kind::Grid);
   options.first.lookAt = options.first.eye;
-  EXPECT_THROW(cameraArray(options), UsageError);
+  EXPECT_NE(refusalOf(options), "") << "there is no pose";
+}
+
+TEST(CameraArray, EveryKindByNumbers)
+{
+  CameraArrayOptions options;
+  options.first.name = "c";
+  options.first.eye = V(1, 5, 3);
+  options.first.lookAt = V(1, 2, -1);
+  options.first.up = V(0, 2, 0);
+  options.first.near = 0.5;
+  options.first.far = 70;
+  options.count = 4;
+  options.columns = 2;
+  options.rows = 3;
+  options.spacing = 0.5;
+  const auto expectArray = [&](CameraArrayKind kind, const std::vector<std::string>& names, const std::vector<V>& eyes,
+                             const std::vector<V>& targets)
+  {
+    options.kind = kind;
+    const std::vector<CameraDescription> cameras = cameraArray(options);
+    ASSERT_EQ(cameras.size(), eyes.size());
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+    {
+      EXPECT_EQ(cameras[i].name, names[i]);
+      EXPECT_LT((cameras[i].eye.value - eyes[i]).norm(), tolerance) << i;
+      EXPECT_LT((cameras[i].lookAt.value - targets[i]).norm(), tolerance) << i;
+      EXPECT_EQ(cameras[i].up.value, V(0, 2, 0));
+      EXPECT_EQ(cameras[i].near, 0.5);
+      EXPECT_EQ(cameras[i].far, 70);
+    }
+  };
+  const V middle(1, 2, -1);
+  expectArray(CameraArrayKind::Ring, { "c-1", "c-2", "c-3", "c-4" },
+    { { 1, 5, 3 }, { 5, 5, -1 }, { 1, 5, -5 }, { -3, 5, -1 } }, { middle, middle, middle, middle });
+  std::vector<V> spiral;
+  for (int i = 0; i < 4; ++i)
+  {
+    const double high = (i + 0.5) / 4;
+    const double angle = i * M_PI * (3 - std::sqrt(5.0));
+    spiral.push_back(middle + 5 * V(std::sqrt(1 - high * high) * std::cos(angle), high,
+                                    -std::sqrt(1 - high * high) * std::sin(angle)));
+  }
+  expectArray(CameraArrayKind::Hemisphere, { "c-1", "c-2", "c-3", "c-4" }, spiral, { middle, middle, middle, middle });
+  // Down in the image is (0, -4, 3) / 5.
+  std::vector<V> eyes;
+  std::vector<V> targets;
+  for (const double row : { -0.5, 0.0, 0.5 })
+  {
+    for (const double column : { -0.25, 0.25 })
+    {
+      eyes.push_back(V(1, 5, 3) + V(column, -0.8 * row, 0.6 * row));
+      targets.push_back(middle + V(column, -0.8 * row, 0.6 * row));
+    }
+  }
+  expectArray(CameraArrayKind::Grid, { "c-1", "c-2", "c-3", "c-4", "c-5", "c-6" }, eyes, targets);
+  expectArray(CameraArrayKind::Stereo, { "c-left", "c-right" }, { { 0.75, 5, 3 }, { 1.25, 5, 3 } },
+    { { 0.75, 2, -1 }, { 1.25, 2, -1 } });
+  options.path = { { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0, 0 }, { 1, 3, 0 } },
+    { { 0, 0, 9 }, { 1, 0, 9 }, { 2, 0, 9 }, { 5, 3, 9 } } };
+  options.count = 5;
+  expectArray(CameraArrayKind::Path, { "c-1", "c-2", "c-3", "c-4", "c-5" },
+    { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 1, 2, 0 }, { 1, 3, 0 } },
+    { { 0, 0, 9 }, { 1, 0, 9 }, { 3, 1, 9 }, { 4, 2, 9 }, { 5, 3, 9 } });
+  options.count = 1;
+  expectArray(CameraArrayKind::Path, { "c-1" }, { { 0, 0, 0 } }, { { 0, 0, 9 } });
+
+  CameraDescription posed;
+  posed.posed = true;
+  posed.position.keys = { { 2, V(1, 0, 0) }, { 4, V(3, 0, 0) } };
+  posed.orientation.keys = { { 3, Quaternion{ 0, 0, 1, 0 } } };
+  const CameraPath path = keyFramePath(posed);
+  EXPECT_EQ(path.eyes, (std::vector<V>{ { 1, 0, 0 }, { 2, 0, 0 }, { 3, 0, 0 } }));
+  EXPECT_EQ(path.targets, (std::vector<V>{ { 1, 0, -1 }, { 2, 0, -1 }, { 3, 0, -1 } }));
 }
 
 TEST(CameraArray, PathIsWalkedEvenly)

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkCameraArray.h"
 #include "dgtkMeshClusters.h"
 #include "dgtkMissingFiles.h"
 #include "dgtkScenePlaces.h"
 #include "dgtkViewLines.h"
 
 #include "dgtkCameraModel.h"
-#include "dgtkError.h"
 #include "dgtkTestSupport.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +12,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -436,154 +433,6 @@ TEST(MeshClusters, HalfTheAreaAndSevenTenthsOfTheTriangles)
   EXPECT_TRUE(islandsOf(7, 3).has_value());
   EXPECT_FALSE(islandsOf(8, 3).has_value());
   EXPECT_EQ(islandsOf(7, 3)->triangles.size(), 7u);
-}
-
-TEST(CameraArray, EveryRefusalAndEveryLimit)
-{
-  struct Row
-  {
-    std::function<void(CameraArrayOptions&)> change;
-    const char* message;
-  };
-  const char* count = "number of cameras: expected 1 to 10000";
-  const char* grid = "columns and rows: expected 1 to 10000 cameras in all";
-  const char* spacing = "spacing: expected a number above 0";
-  const char* path = "path: expected at least two different points";
-  using Options = CameraArrayOptions;
-  using Kind = CameraArrayKind;
-  const auto of = [](Kind kind, const std::function<void(Options&)>& change)
-  {
-    return [kind, change](Options& o)
-    {
-      o.kind = kind;
-      change(o);
-    };
-  };
-  for (const Row& row :
-    std::vector<Row>{
-      { [](Options& o) { o.count = 0; }, count },
-      { [](Options& o) { o.count = 1; }, "" },
-      { [](Options& o) { o.count = 10000; }, "" },
-      { [](Options& o) { o.count = 10001; }, count },
-      { of(Kind::Grid, [](Options& o) { o.columns = 0; }), grid },
-      { of(Kind::Grid, [](Options& o) { o.rows = 0; }), grid },
-      { of(Kind::Grid, [](Options& o) { o.columns = o.rows = 100; }), "" },
-      { of(Kind::Grid, [](Options& o) { o.columns = 101, o.rows = 100; }), grid },
-      { of(Kind::Grid, [](Options& o) { o.spacing = 0; }), spacing },
-      { of(Kind::Stereo, [](Options& o) { o.spacing = std::nan(""); }), spacing },
-      { of(Kind::Stereo, [](Options& o) { o.spacing = 1e-9; }), "" },
-      // What a kind does not have may be anything.
-      { of(Kind::Ring, [](Options& o) { o.columns = o.rows = 0, o.spacing = 0; }), "" },
-      { of(Kind::Hemisphere, [](Options& o) { o.columns = o.rows = 0, o.spacing = -1; }), "" },
-      { of(Kind::Grid, [](Options& o) { o.count = 0; }), "" },
-      { of(Kind::Stereo, [](Options& o) { o.columns = o.rows = o.count = 0; }), "" },
-      { [](Options& o) { o.kind = CameraArrayKind::Path; }, path },
-      { [](Options& o)
-        {
-          o.kind = CameraArrayKind::Path;
-          o.path = { { V(0, 0, 1) }, { V(0, 0, 0) } };
-        },
-        path },
-      { [](Options& o)
-        {
-          o.kind = CameraArrayKind::Path;
-          o.path = { { V(0, 0, 1), V(1, 0, 1) }, { V(0, 0, 0) } };
-        },
-        path },
-      { [](Options& o)
-        {
-          o.kind = CameraArrayKind::Path;
-          o.path = { { V(0, 0, 1), V(1, 0, 1) }, { V(0, 0, 0), V(0, 0, 0) } };
-        },
-        "" },
-    })
-  {
-    CameraArrayOptions options;
-    row.change(options);
-    std::string found;
-    try
-    {
-      cameraArray(options);
-    }
-    catch (const UsageError& error)
-    {
-      found = error.what();
-    }
-    EXPECT_EQ(found, row.message);
-  }
-}
-
-TEST(CameraArray, EveryKindByNumbers)
-{
-  CameraArrayOptions options;
-  options.first.name = "c";
-  options.first.eye = V(1, 5, 3);
-  options.first.lookAt = V(1, 2, -1);
-  options.first.up = V(0, 2, 0);
-  options.first.near = 0.5;
-  options.first.far = 70;
-  options.count = 4;
-  options.columns = 2;
-  options.rows = 3;
-  options.spacing = 0.5;
-  const auto expectArray = [&](CameraArrayKind kind, const std::vector<std::string>& names, const std::vector<V>& eyes,
-                             const std::vector<V>& targets)
-  {
-    options.kind = kind;
-    const std::vector<CameraDescription> cameras = cameraArray(options);
-    ASSERT_EQ(cameras.size(), eyes.size());
-    for (std::size_t i = 0; i < cameras.size(); ++i)
-    {
-      EXPECT_EQ(cameras[i].name, names[i]);
-      EXPECT_LT((cameras[i].eye.value - eyes[i]).norm(), tolerance) << i;
-      EXPECT_LT((cameras[i].lookAt.value - targets[i]).norm(), tolerance) << i;
-      EXPECT_EQ(cameras[i].up.value, V(0, 2, 0));
-      EXPECT_EQ(cameras[i].near, 0.5);
-      EXPECT_EQ(cameras[i].far, 70);
-    }
-  };
-  const V middle(1, 2, -1);
-  expectArray(CameraArrayKind::Ring, { "c-1", "c-2", "c-3", "c-4" },
-    { { 1, 5, 3 }, { 5, 5, -1 }, { 1, 5, -5 }, { -3, 5, -1 } }, { middle, middle, middle, middle });
-  std::vector<V> spiral;
-  for (int i = 0; i < 4; ++i)
-  {
-    const double high = (i + 0.5) / 4;
-    const double angle = i * M_PI * (3 - std::sqrt(5.0));
-    spiral.push_back(middle + 5 * V(std::sqrt(1 - high * high) * std::cos(angle), high,
-                                    -std::sqrt(1 - high * high) * std::sin(angle)));
-  }
-  expectArray(CameraArrayKind::Hemisphere, { "c-1", "c-2", "c-3", "c-4" }, spiral, { middle, middle, middle, middle });
-  // Down in the image is (0, -4, 3) / 5.
-  std::vector<V> eyes;
-  std::vector<V> targets;
-  for (const double row : { -0.5, 0.0, 0.5 })
-  {
-    for (const double column : { -0.25, 0.25 })
-    {
-      eyes.push_back(V(1, 5, 3) + V(column, -0.8 * row, 0.6 * row));
-      targets.push_back(middle + V(column, -0.8 * row, 0.6 * row));
-    }
-  }
-  expectArray(CameraArrayKind::Grid, { "c-1", "c-2", "c-3", "c-4", "c-5", "c-6" }, eyes, targets);
-  expectArray(CameraArrayKind::Stereo, { "c-left", "c-right" }, { { 0.75, 5, 3 }, { 1.25, 5, 3 } },
-    { { 0.75, 2, -1 }, { 1.25, 2, -1 } });
-  options.path = { { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0, 0 }, { 1, 3, 0 } },
-    { { 0, 0, 9 }, { 1, 0, 9 }, { 2, 0, 9 }, { 5, 3, 9 } } };
-  options.count = 5;
-  expectArray(CameraArrayKind::Path, { "c-1", "c-2", "c-3", "c-4", "c-5" },
-    { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 1, 2, 0 }, { 1, 3, 0 } },
-    { { 0, 0, 9 }, { 1, 0, 9 }, { 3, 1, 9 }, { 4, 2, 9 }, { 5, 3, 9 } });
-  options.count = 1;
-  expectArray(CameraArrayKind::Path, { "c-1" }, { { 0, 0, 0 } }, { { 0, 0, 9 } });
-
-  CameraDescription posed;
-  posed.posed = true;
-  posed.position.keys = { { 2, V(1, 0, 0) }, { 4, V(3, 0, 0) } };
-  posed.orientation.keys = { { 3, Quaternion{ 0, 0, 1, 0 } } };
-  const CameraPath path = keyFramePath(posed);
-  EXPECT_EQ(path.eyes, (std::vector<V>{ { 1, 0, 0 }, { 2, 0, 0 }, { 3, 0, 0 } }));
-  EXPECT_EQ(path.targets, (std::vector<V>{ { 1, 0, -1 }, { 2, 0, -1 }, { 3, 0, -1 } }));
 }
 
 TEST(MissingFiles, TheLikeliestFileIsTaken)
