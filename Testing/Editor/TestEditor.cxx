@@ -271,15 +271,8 @@ void TestEditor::theViewsLookAsTheyWereLeft()
   const auto picture = [this](const char* view)
   {
     auto* widget = this->Window->findChild<QOpenGLWidget*>(view);
-    QImage now;
-    QImage before;
-    do // until it is still
-    {
-      before = now;
-      QTest::qWait(2 * settle);
-      now = widget->grabFramebuffer();
-    } while (now != before);
-    return now;
+    untilQuiet();
+    return widget->grabFramebuffer();
   };
   const auto again = [this]
   {

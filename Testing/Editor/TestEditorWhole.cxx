@@ -26,7 +26,7 @@
 
 namespace
 {
-constexpr int largeWidth = 2000;    // pixels
+constexpr int largeWidth = 1600;    // pixels
 constexpr int endlessWidth = 20000; // pixels of a picture that nothing here lives to see
 
 /// Made in that folder.
@@ -94,7 +94,8 @@ void TestEditorWhole::cancelledRunsResume()
   this->action("render")->trigger();
   auto* dialog = this->Window->findChild<QDialog*>("renderDialog");
   dialog->findChild<QLineEdit*>("folder")->setText(this->path("stopped"));
-  // Large enough that the run is far from its end when its first file is seen.
+  // Large enough that the run is far from its end when its first file is seen; two frames are enough of it.
+  dialog->findChild<QSpinBox*>("lastFrame")->setValue(1);
   dialog->findChild<QCheckBox*>("ownSize")->setChecked(false);
   dialog->findChild<QSpinBox*>("width")->setValue(largeWidth);
   dialog->findChild<QSpinBox*>("height")->setValue(largeWidth);
