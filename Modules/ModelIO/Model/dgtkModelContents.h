@@ -70,7 +70,7 @@ struct ModelContents
 {
   static constexpr std::uint64_t never = ~std::uint64_t(0);
   /// Files that our own readers read within some milliseconds are not worth it.
-  static constexpr std::uint64_t worthwhile = std::uint64_t(1) << 18;
+  static constexpr std::uint64_t worthwhile = std::uint64_t(1) << 16;
 
   std::shared_ptr<Model> model;       ///< its textures are in `pictures`, its warnings in `notes`
   std::vector<ModelPicture> pictures; ///< of the materials' indices
