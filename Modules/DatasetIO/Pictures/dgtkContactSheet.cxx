@@ -31,11 +31,10 @@ struct Grid
   int rows;
   int cellWidth;
   int cellHeight;
-  int left;  ///< for the rows' names
-  int top;   ///< for the columns' names
-  int lines; ///< of text above each cell
+  int left; ///< for the rows' names
+  int top;  ///< for the columns' names
   int x(int column) const { return this->left + gap + column * (this->cellWidth + gap); }
-  int y(int row) const { return this->top + gap + row * (this->cellHeight + this->lines * line + gap); }
+  int y(int row) const { return this->top + gap + row * (this->cellHeight + gap); }
   Canvas sheet() const { return { this->x(this->columns), this->y(this->rows), paper }; }
 };
 
@@ -68,7 +67,7 @@ void drawCell(Canvas& sheet, const std::string& path, const LayerSpec& spec, con
 {
   const auto [width, height] = fit(openLayerFile(path)->info(), grid.cellWidth, grid.cellHeight);
   sheet.paste(makeThumbnail(path, spec, width, height), grid.x(column) + (grid.cellWidth - width) / 2,
-    grid.y(row) + grid.lines * line + (grid.cellHeight - height) / 2);
+    grid.y(row) + (grid.cellHeight - height) / 2);
 }
 
 /// One image of the dataset: where it is drawn.
@@ -199,33 +198,6 @@ DatasetFile writeContactSheet(
 DatasetFile writeContactSheet(const std::string& folder, const std::string& path, const ContactSheetOptions& options)
 {
   return writeContactSheet(folder, readManifest((fs::path(folder) / manifestName).string()), path, options);
-}
-
-DatasetFile writePictureSheet(const std::vector<std::pair<std::string, std::string>>& labelAndPath,
-  const std::string& path, int columns, int thumbnailWidth)
-{
-  if (labelAndPath.empty())
-  {
-    throw UsageError(path + ": a sheet of no pictures");
-  }
-  const int count = static_cast<int>(labelAndPath.size());
-  Grid grid{};
-  grid.columns = std::min(count, columns > 0 ? columns : static_cast<int>(std::ceil(std::sqrt(double(count)))));
-  grid.rows = (count + grid.columns - 1) / grid.columns;
-  grid.cellWidth = std::max(16, thumbnailWidth);
-  grid.cellHeight = grid.cellWidth * 3 / 4;
-  grid.lines = 1;
-  Canvas sheet = grid.sheet();
-  LayerSpec spec;
-  spec.meaning = Meaning::Picture;
-  for (int i = 0; i < count; ++i)
-  {
-    const int column = i % grid.columns;
-    const int row = i / grid.columns;
-    sheet.text(labelAndPath[std::size_t(i)].first, grid.x(column), grid.y(row) + 2, grid.cellWidth, ink);
-    drawCell(sheet, labelAndPath[std::size_t(i)].second, spec, grid, column, row);
-  }
-  return sheet.write(path);
 }
 
 } // namespace dgtk

@@ -7,8 +7,6 @@
 #include "dgtkDatasetDocuments.h"
 
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace dgtk
 {
@@ -29,10 +27,6 @@ DGTKDATASETIO_EXPORT DatasetFile writeContactSheet(const std::string& folder, co
 /// The same by the folder's manifest.json.
 DGTKDATASETIO_EXPORT DatasetFile writeContactSheet(
   const std::string& folder, const std::string& path, const ContactSheetOptions& options = {});
-
-/// Draws labelled pictures, in reading order, in `columns` columns (0: a square sheet).
-DGTKDATASETIO_EXPORT DatasetFile writePictureSheet(const std::vector<std::pair<std::string, std::string>>& labelAndPath,
-  const std::string& path, int columns = 0, int thumbnailWidth = 200);
 
 } // namespace dgtk
 

@@ -267,23 +267,9 @@ TEST(ContactSheet, FramesAreChosenEvenly)
   EXPECT_EQ(readLayerFile(folder.path("contact.png")).info.height, 13 + 6 + 3 * 66);
 }
 
-TEST(ContactSheet, PictureSheet)
-{
-  const TemporaryFolder folder;
-  makeDataset(folder.path(), 2);
-  const std::vector<std::pair<std::string, std::string>> pictures(
-    5, { "Ball & table (frame 0)", folder.path("left/color/000000.png") });
-  const DatasetFile file = writePictureSheet(pictures, folder.path("sheet.png"), 0, 100);
-  EXPECT_EQ(file.path, folder.path("sheet.png"));
-  const ImageInfo info = readLayerFile(folder.path("sheet.png")).info;
-  EXPECT_EQ(info.width, 6 + 3 * 106);
-  EXPECT_EQ(info.height, 6 + 2 * (75 + 13 + 6));
-}
-
 TEST(ContactSheet, Refusals)
 {
   const TemporaryFolder folder;
   EXPECT_THROW(writeContactSheet(folder.path(), Manifest{}, "contact.png"), UsageError);
   EXPECT_THROW(writeContactSheet(folder.path(), "contact.png"), InputError);
-  EXPECT_THROW(writePictureSheet({}, folder.path("x.png")), UsageError);
 }
