@@ -3,32 +3,13 @@
 
 #include "dgtkError.h"
 #include "dgtkJsonText.h"
+#include "dgtkPortableMath.h"
 #include "dgtkText.h"
 
 #include <cmath>
 
 namespace dgtk
 {
-
-double portableLog(double x)
-{
-  // x = m 2^e with m in [sqrt(1/2), sqrt(2)); log m = 2 atanh((m - 1) / (m + 1)) by its series
-  int exponent = 0;
-  double m = std::frexp(x, &exponent);
-  if (m < 0.70710678118654752)
-  {
-    m *= 2;
-    --exponent;
-  }
-  const double s = (m - 1) / (m + 1);
-  const double s2 = s * s;
-  double sum = 0;
-  for (int k = 19; k >= 1; k -= 2)
-  {
-    sum = sum * s2 + 1.0 / k;
-  }
-  return 2 * s * sum + exponent * 0.69314718055994531;
-}
 
 DepthPicture::DepthPicture(double near, double far, const std::string& path)
   : Near(near)
@@ -39,7 +20,7 @@ DepthPicture::DepthPicture(double near, double far, const std::string& path)
     throw UsageError(
       path + ": a picture of depth needs finite near < far (found " + shortest(near) + " and " + shortest(far) + ")");
   }
-  this->Scale = 254 / (near > 0 ? portableLog(far / near) : far - near);
+  this->Scale = 254 / (near > 0 ? portable::log(far / near) : far - near);
 }
 
 unsigned char DepthPicture::operator()(double depth) const
@@ -56,7 +37,7 @@ unsigned char DepthPicture::operator()(double depth) const
   {
     return 1;
   }
-  const double steps = this->Scale * (this->Near > 0 ? portableLog(this->Far / depth) : this->Far - depth);
+  const double steps = this->Scale * (this->Near > 0 ? portable::log(this->Far / depth) : this->Far - depth);
   return static_cast<unsigned char>(1.5 + steps);
 }
 

@@ -7,10 +7,6 @@
 namespace dgtk
 {
 
-/// Natural logarithm of a positive finite number, from additions, multiplications and divisions only: the same bits on
-/// every machine, which std::log does not promise. Relative error below 1e-14.
-double portableLog(double x);
-
 /// The fixed mapping of the 8-bit depth picture: 0 where there is nothing, else 255 at `near` down to 1 at `far`, in
 /// equal steps of log(depth); outside the range it stays at 255 or 1. With near <= 0 (orthographic cameras) in equal
 /// steps of depth.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkLayerColors.h"
 
-#include "dgtkDepthPicture.h"
 #include "dgtkPortableMath.h"
 
 #include <algorithm>
@@ -118,7 +117,7 @@ void LayerColors::setRange(int channel, double low, double high)
 {
   this->Logarithmic = this->Look == LayerLook::Depth && low > 0;
   this->Range[std::size_t(channel)] =
-    this->Logarithmic ? std::make_pair(portableLog(low), portableLog(high)) : std::make_pair(low, high);
+    this->Logarithmic ? std::make_pair(portable::log(low), portable::log(high)) : std::make_pair(low, high);
 }
 
 double LayerColors::unit(double value, int channel) const
@@ -168,7 +167,7 @@ Rgb LayerColors::depth(double z) const
 {
   // the farthest surface still differs from nothing
   const auto [low, high] = this->Range[0];
-  const double at = this->Logarithmic ? (z > 0 ? portableLog(z) : low) : z;
+  const double at = this->Logarithmic ? (z > 0 ? portable::log(z) : low) : z;
   return rampColor(1 - 0.85 * (high > low ? std::min(std::max((at - low) / (high - low), 0.0), 1.0) : 0.0));
 }
 
