@@ -5,6 +5,7 @@
 #include "dgtkCameraModel.h"
 
 #include <string>
+#include <utility>
 
 namespace dgtk::test
 {
@@ -13,13 +14,17 @@ namespace dgtk::test
 class StrangeCamera final : public CameraModel
 {
 public:
-  explicit StrangeCamera(const CameraParameters& of)
+  explicit StrangeCamera(const CameraParameters& of, std::string name = "strange")
     : CameraModel(of)
+    , Name(std::move(name))
   {
   }
-  std::string name() const override { return "strange"; }
+  std::string name() const override { return this->Name; }
   CameraRay rayThrough(const Eigen::Vector2d&) const override { return { { 0, 0, 0 }, { 0, 0, 1 } }; }
   bool project(const Eigen::Vector3d&, Eigen::Vector2d&) const override { return false; }
+
+private:
+  std::string Name;
 };
 
 } // namespace dgtk::test

@@ -43,9 +43,10 @@ protected:
 
 TEST_F(PanelTables, TextsOfNumbers)
 {
-  for (const auto& [text, value] : std::vector<std::pair<const char*, std::optional<double>>>{ { "1", 1 },
-         { " 1.5 ", 1.5 }, { "1,5", 1.5 }, { "+2", 2 }, { "-0.25", -0.25 }, { "1e3", 1000 }, { "", {} }, { "1 2", {} },
-         { "1.5x", {} }, { "nan", {} }, { "inf", {} }, { "1e999", {} }, { "--1", {} }, { "+-1", {} }, { "++1", {} }, { "+", {} }, { "x", {} } })
+  for (const auto& [text, value] :
+    std::vector<std::pair<const char*, std::optional<double>>>{ { "1", 1 }, { " 1.5 ", 1.5 }, { "1,5", 1.5 },
+      { "+2", 2 }, { "-0.25", -0.25 }, { "1e3", 1000 }, { "", {} }, { "1 2", {} }, { "1.5x", {} }, { "nan", {} },
+      { "inf", {} }, { "1e999", {} }, { "--1", {} }, { "+-1", {} }, { "++1", {} }, { "+", {} }, { "x", {} } })
   {
     EXPECT_EQ(numberOf(text), value) << text;
   }
