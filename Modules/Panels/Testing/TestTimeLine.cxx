@@ -4,8 +4,8 @@
 #include "dgtkTimeLineCells.h"
 #include "dgtkTimeLineRows.h"
 
+#include "dgtkFourItems.h"
 #include "dgtkSequenceBar.h"
-#include "dgtkTestSupport.h"
 #include "dgtkTestWidgets.h"
 
 #include <QApplication>
@@ -28,41 +28,15 @@ namespace
 {
 using namespace dgtk;
 using namespace dgtk::timeline;
-
-const SceneItem creature{ SceneItem::Kind::Object, 0 };
-const SceneItem crate{ SceneItem::Kind::Object, 1 };
-const SceneItem lamp{ SceneItem::Kind::Light, 0 };
-const SceneItem eye{ SceneItem::Kind::Camera, 0 };
-
-/// An animated model, a rigid one, a light with keys at 4 and 8, a camera with one at 20; 12 is the scene's own.
-void fill(SceneDocument& document)
-{
-  document.edit("all",
-    [](SceneDescription& scene)
-    {
-      scene.objects.resize(2);
-      scene.objects[0].name = "creature";
-      scene.objects[0].model = test::sourceFile("Data/Models/creature.md2");
-      scene.objects[0].animation.start = 10;
-      scene.objects[0].animation.loop = false;
-      scene.objects[0].animation.sequence = "walk";
-      scene.objects[1].name = "crate";
-      scene.objects[1].model = test::sourceFile("Data/Models/crate.ac");
-      scene.lights.resize(1);
-      scene.lights[0].name = "lamp";
-      scene.lights[0].position.keys = { { 4, Eigen::Vector3d(0, 0, 0), Interpolation::Step },
-        { 8, Eigen::Vector3d(1, 0, 0) } };
-      scene.cameras.resize(1);
-      scene.cameras[0].name = "eye";
-      scene.cameras[0].fovY.keys = { { 20, 50 } };
-      scene.extraKeyFrames = { 12 };
-    });
-}
+using test::crate;
+using test::creature;
+using test::eye;
+using test::lamp;
 
 TEST(TimeLineRows, HaveTheirPlaces)
 {
   SceneDocument document;
-  fill(document);
+  test::fill(document);
   TimeLineRows shown;
   shown.fill(document.scene(), document.models());
   shown.width = 800;
@@ -116,7 +90,7 @@ TEST(TimeLineRows, HaveTheirPlaces)
 TEST(TimeLineRows, WhatIsUnderTheMouse)
 {
   SceneDocument document;
-  fill(document);
+  test::fill(document);
   TimeLineRows shown;
   shown.fill(document.scene(), document.models());
   shown.width = 800;
@@ -157,7 +131,7 @@ TEST(TimeLineRows, WhatIsUnderTheMouse)
 TEST(TimeLineRows, BarsThatAreDragged)
 {
   SceneDocument document;
-  fill(document);
+  test::fill(document);
   TimeLineRows shown;
   shown.fill(document.scene(), document.models());
   shown.rows[0].bar->start = 10.4;
@@ -190,7 +164,7 @@ protected:
   {
     test::needApplication();
     this->State = std::make_unique<EditorState>(nullptr);
-    fill(this->State->document());
+    test::fill(this->State->document());
     this->Cells = std::make_unique<TimeLineCells>(*this->State, nullptr);
     this->Cells->resize(900, 200);
     QResizeEvent event(this->Cells->size(), QSize(1, 1));
@@ -439,98 +413,4 @@ TEST_F(TimeLineTable, TheFrameAndTheRowAreBroughtIntoSight)
   EXPECT_GE(across->maximum(), 130 + 201 * 12 - width);
 }
 
-TEST(EditorState, SelectionsFollowTheirNames)
-{
-  EditorState state(nullptr);
-  fill(state.document());
-  int selections = 0;
-  int changes = 0;
-  std::vector<int> frames;
-  QObject::connect(&state, &EditorState::selectionChanged, [&] { ++selections; });
-  QObject::connect(&state, &EditorState::changed, [&] { ++changes; });
-  QObject::connect(&state, &EditorState::frameChanged, [&](int frame) { frames.push_back(frame); });
-  state.select({ lamp });
-  state.select({ lamp });
-  EXPECT_EQ(selections, 1);
-  state.toggle(eye);
-  EXPECT_EQ(state.selection(), (SceneItems{ lamp, eye }));
-  EXPECT_TRUE(state.isSelected(eye) && !state.isSelected(crate));
-  state.toggle(lamp);
-  EXPECT_EQ(state.selection(), SceneItems{ eye });
-  EXPECT_EQ(selections, 3);
-  state.select({ crate });
-  state.document().remove({ creature });
-  EXPECT_EQ(state.selection(), SceneItems{ creature }) << "the crate is the first object now";
-  EXPECT_EQ(itemName(state.scene(), state.selection()[0]), "crate");
-  EXPECT_EQ(changes, 1);
-  EXPECT_EQ(selections, 5);
-  state.document().edit("Rename",
-    [](SceneDescription& scene) {
-      renameItem(scene, { SceneItem::Kind::Object, 0 }, "box");
-    });
-  EXPECT_EQ(selections, 5) << "it is the same";
-  state.document().remove({ creature });
-  EXPECT_TRUE(state.selection().empty());
-  state.document().undo();
-  state.document().undo();
-  state.document().undo();
-  state.selectAll();
-  EXPECT_EQ(state.selection(), (SceneItems{ creature, crate, lamp, eye }));
-  for (const auto& [frame, expected] : { std::pair(7, 7), std::pair(-3, 0), std::pair(5000000, largestFrame) })
-  {
-    state.setFrame(frame);
-    state.setFrame(frame);
-    EXPECT_EQ(state.frame(), expected);
-  }
-  EXPECT_EQ(frames, (std::vector<int>{ 7, 0, largestFrame }));
-}
-
-TEST(EditorState, TheClipboardHoldsFamilies)
-{
-  EditorState state(nullptr);
-  fill(state.document());
-  state.document().edit("Parent", [](SceneDescription& scene) { scene.objects[1].parent = "creature"; });
-  std::vector<std::string> failures;
-  QObject::connect(&state, &EditorState::failed, [&](const QString& text) { failures.push_back(text.toStdString()); });
-  EXPECT_FALSE(state.canPaste());
-  const std::string before = state.document().json();
-  state.copy();
-  state.paste();
-  state.duplicate();
-  state.cut();
-  state.remove();
-  EXPECT_FALSE(state.canPaste());
-  EXPECT_EQ(state.document().json(), before) << "nothing is selected";
-  state.select({ creature });
-  state.copy();
-  EXPECT_TRUE(state.canPaste());
-  state.paste();
-  EXPECT_EQ(state.document().undoText(), "Paste");
-  ASSERT_EQ(state.scene().objects.size(), 4u) << "with what hangs on it";
-  EXPECT_EQ(state.scene().objects[3].parent, state.scene().objects[2].name);
-  EXPECT_EQ(state.selection().size(), 2u) << "the copies";
-  state.document().undo();
-  state.select({ lamp });
-  state.duplicate();
-  EXPECT_EQ(state.document().undoText(), "Duplicate");
-  EXPECT_EQ(state.scene().lights.size(), 2u);
-  EXPECT_EQ(state.selection(), (SceneItems{ { SceneItem::Kind::Light, 1 } }));
-  state.cut();
-  EXPECT_EQ(state.document().undoText(), "Cut");
-  EXPECT_EQ(state.scene().lights.size(), 1u);
-  EXPECT_TRUE(state.selection().empty());
-  state.select({ creature });
-  state.remove();
-  EXPECT_EQ(state.document().undoText(), "Delete");
-  EXPECT_TRUE(state.scene().objects.empty());
-  state.paste();
-  EXPECT_EQ(state.scene().lights.size(), 2u) << "what was cut last";
-  EXPECT_TRUE(failures.empty());
-  EXPECT_TRUE(state.attempt([] {}));
-  EXPECT_FALSE(state.attempt([&] { state.document().addModel("/none.ac"); }));
-  EXPECT_FALSE(state.attempt([] { throw std::bad_alloc(); }));
-  ASSERT_EQ(failures.size(), 2u);
-  EXPECT_NE(failures[0].find("/none.ac"), std::string::npos);
-  EXPECT_EQ(failures[1], "The memory of this machine is not enough.");
-}
 } // namespace

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is selected, the current frame and the clipboard; on no display.
+#include "dgtkEditorState.h"
+
+#include "dgtkFourItems.h"
+
+#include <gtest/gtest.h>
+
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace
+{
+using namespace dgtk;
+using namespace dgtk::test;
+
+TEST(EditorState, SelectionsFollowTheirNames)
+{
+  EditorState state(nullptr);
+  fill(state.document());
+  int selections = 0;
+  int changes = 0;
+  std::vector<int> frames;
+  QObject::connect(&state, &EditorState::selectionChanged, [&] { ++selections; });
+  QObject::connect(&state, &EditorState::changed, [&] { ++changes; });
+  QObject::connect(&state, &EditorState::frameChanged, [&](int frame) { frames.push_back(frame); });
+  state.select({ lamp });
+  state.select({ lamp });
+  EXPECT_EQ(selections, 1);
+  state.toggle(eye);
+  EXPECT_EQ(state.selection(), (SceneItems{ lamp, eye }));
+  EXPECT_TRUE(state.isSelected(eye) && !state.isSelected(crate));
+  state.toggle(lamp);
+  EXPECT_EQ(state.selection(), SceneItems{ eye });
+  EXPECT_EQ(selections, 3);
+  state.select({ crate });
+  state.document().remove({ creature });
+  EXPECT_EQ(state.selection(), SceneItems{ creature }) << "the crate is the first object now";
+  EXPECT_EQ(itemName(state.scene(), state.selection()[0]), "crate");
+  EXPECT_EQ(changes, 1);
+  EXPECT_EQ(selections, 5);
+  state.document().edit("Rename",
+    [](SceneDescription& scene) {
+      renameItem(scene, { SceneItem::Kind::Object, 0 }, "box");
+    });
+  EXPECT_EQ(selections, 5) << "it is the same";
+  state.document().remove({ creature });
+  EXPECT_TRUE(state.selection().empty());
+  state.document().undo();
+  state.document().undo();
+  state.document().undo();
+  state.selectAll();
+  EXPECT_EQ(state.selection(), (SceneItems{ creature, crate, lamp, eye }));
+  for (const auto& [frame, expected] : { std::pair(7, 7), std::pair(-3, 0), std::pair(5000000, largestFrame) })
+  {
+    state.setFrame(frame);
+    state.setFrame(frame);
+    EXPECT_EQ(state.frame(), expected);
+  }
+  EXPECT_EQ(frames, (std::vector<int>{ 7, 0, largestFrame }));
+}
+
+TEST(EditorState, TheClipboardHoldsFamilies)
+{
+  EditorState state(nullptr);
+  fill(state.document());
+  state.document().edit("Parent", [](SceneDescription& scene) { scene.objects[1].parent = "creature"; });
+  std::vector<std::string> failures;
+  QObject::connect(&state, &EditorState::failed, [&](const QString& text) { failures.push_back(text.toStdString()); });
+  EXPECT_FALSE(state.canPaste());
+  const std::string before = state.document().json();
+  state.copy();
+  state.paste();
+  state.duplicate();
+  state.cut();
+  state.remove();
+  EXPECT_FALSE(state.canPaste());
+  EXPECT_EQ(state.document().json(), before) << "nothing is selected";
+  state.select({ creature });
+  state.copy();
+  EXPECT_TRUE(state.canPaste());
+  state.paste();
+  EXPECT_EQ(state.document().undoText(), "Paste");
+  ASSERT_EQ(state.scene().objects.size(), 4u) << "with what hangs on it";
+  EXPECT_EQ(state.scene().objects[3].parent, state.scene().objects[2].name);
+  EXPECT_EQ(state.selection().size(), 2u) << "the copies";
+  state.document().undo();
+  state.select({ lamp });
+  state.duplicate();
+  EXPECT_EQ(state.document().undoText(), "Duplicate");
+  EXPECT_EQ(state.scene().lights.size(), 2u);
+  EXPECT_EQ(state.selection(), (SceneItems{ { SceneItem::Kind::Light, 1 } }));
+  state.cut();
+  EXPECT_EQ(state.document().undoText(), "Cut");
+  EXPECT_EQ(state.scene().lights.size(), 1u);
+  EXPECT_TRUE(state.selection().empty());
+  state.select({ creature });
+  state.remove();
+  EXPECT_EQ(state.document().undoText(), "Delete");
+  EXPECT_TRUE(state.scene().objects.empty());
+  state.paste();
+  EXPECT_EQ(state.scene().lights.size(), 2u) << "what was cut last";
+  EXPECT_TRUE(failures.empty());
+  EXPECT_TRUE(state.attempt([] {}));
+  EXPECT_FALSE(state.attempt([&] { state.document().addModel("/none.ac"); }));
+  EXPECT_FALSE(state.attempt([] { throw std::bad_alloc(); }));
+  ASSERT_EQ(failures.size(), 2u);
+  EXPECT_NE(failures[0].find("/none.ac"), std::string::npos);
+  EXPECT_EQ(failures[1], "The memory of this machine is not enough.");
+}
+} // namespace
