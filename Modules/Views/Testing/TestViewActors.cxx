@@ -10,12 +10,10 @@
 
 #include <Eigen/Geometry>
 
-#include <vtkCellArray.h>
 #include <vtkGlyph3DMapper.h>
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -67,89 +65,6 @@ TEST(ViewCopies, PlacesAreTurnedAndScaledButNotSheared)
     place.linear = V(1, scale, 1).asDiagonal();
     EXPECT_EQ(ViewCopies::placeOf(place).has_value(), isPlace) << scale;
   }
-}
-
-TEST(ViewMeshes, EveryLevelOfASphere)
-{
-  const auto model = test::makeSphere();
-  const auto state = test::SceneBuilder().add(model).state();
-  const Instance& instance = state->instances[0];
-  EXPECT_EQ(ViewMeshes::pixels(0), 0);
-  EXPECT_EQ(ViewMeshes::pixels(1), 56);
-  EXPECT_EQ(ViewMeshes::pixels(2), 22);
-  ViewMeshes meshes;
-  vtkPolyData* const all = meshes.part(instance, 0);
-  EXPECT_EQ(all, meshes.part(instance, 0)) << "made once";
-  EXPECT_EQ(all, meshes.part(*instance.geometry, *model, 0, 0));
-  ASSERT_EQ(all->GetNumberOfPoints(), vtkIdType(model->rest->positions.size()));
-  ASSERT_EQ(all->GetNumberOfPolys(), vtkIdType(model->triangles.size()));
-  vtkIdType count = 0;
-  const vtkIdType* corners = nullptr;
-  all->GetPolys()->InitTraversal();
-  for (std::size_t t = 0; all->GetPolys()->GetNextCell(count, corners); ++t)
-  {
-    ASSERT_EQ(count, 3);
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      ASSERT_EQ(corners[k], vtkIdType(model->triangles[t][k]));
-    }
-  }
-  for (vtkIdType i = 0; i < all->GetNumberOfPoints(); ++i)
-  {
-    const auto k = std::size_t(i);
-    ASSERT_LT((V(all->GetPoint(i)) - model->rest->positions[k]).norm(), 1e-6);
-    ASSERT_LT((V(all->GetPointData()->GetNormals()->GetTuple3(i)) - model->rest->normals[k].cast<double>()).norm(),
-      viewTolerance);
-  }
-  const double cells[] = { 0, 14, 6 };
-  for (int level = 1; level < 3; ++level)
-  {
-    const auto fewer = clusterPart(*instance.geometry, *model, model->parts[0], cells[level]);
-    ASSERT_TRUE(fewer.has_value());
-    vtkPolyData* const coarse = meshes.part(*instance.geometry, *model, 0, level);
-    EXPECT_EQ(coarse->GetNumberOfPolys(), vtkIdType(fewer->triangles.size()));
-    ASSERT_EQ(coarse->GetNumberOfPoints(), vtkIdType(fewer->positions.size()));
-    for (vtkIdType i = 0; i < coarse->GetNumberOfPoints(); ++i)
-    {
-      const auto k = std::size_t(i);
-      ASSERT_LT((V(coarse->GetPoint(i)) - fewer->positions[k]).norm(), 1e-6);
-      ASSERT_LT(
-        (V(coarse->GetPointData()->GetNormals()->GetTuple3(i)) - model->rest->normals[fewer->sources[k]].cast<double>())
-          .norm(),
-        viewTolerance);
-    }
-    coarse->GetPolys()->InitTraversal();
-    for (std::size_t t = 0; coarse->GetPolys()->GetNextCell(count, corners); ++t)
-    {
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        ASSERT_EQ(corners[k], vtkIdType(fewer->triangles[t][k]));
-      }
-    }
-  }
-  // A box has no fewer triangles.
-  const auto box = test::SceneBuilder().add(test::makeBox()).state();
-  vtkPolyData* const own = meshes.part(box->instances[0], 0);
-  EXPECT_EQ(meshes.part(*box->instances[0].geometry, *box->instances[0].model, 0, 2), own);
-}
-
-TEST(ViewMeshes, PicturesAreFromBelow)
-{
-  ViewMeshes meshes;
-  auto image = std::make_shared<Image>();
-  EXPECT_EQ(meshes.picture(nullptr, false), nullptr);
-  EXPECT_EQ(meshes.picture(image, false), nullptr);
-  image->width = 2;
-  image->height = 2;
-  image->rgba = { 1, 2, 3, 255, 4, 5, 6, 255, 7, 8, 9, 255, 10, 11, 12, 200 };
-  vtkImageData* const plain = meshes.picture(image, false);
-  vtkImageData* const cut = meshes.picture(image, true);
-  EXPECT_NE(plain, cut);
-  EXPECT_EQ(meshes.picture(image, false), plain);
-  ASSERT_EQ(plain->GetNumberOfScalarComponents(), 3);
-  ASSERT_EQ(cut->GetNumberOfScalarComponents(), 4);
-  const auto* rgb = static_cast<const unsigned char*>(plain->GetScalarPointer());
-  EXPECT_EQ(std::vector<int>(rgb, rgb + 12), (std::vector<int>{ 7, 8, 9, 10, 11, 12, 1, 2, 3, 4, 5, 6 }));
 }
 
 TEST(LineActor, IsThereWhenItHasLines)
