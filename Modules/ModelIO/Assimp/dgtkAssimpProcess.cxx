@@ -203,6 +203,26 @@ Answer askOnce(const std::string& path, const std::string& absolute, const std::
   return answer;
 }
 
+/// A program that ends before it knows of the model is started again, some times.
+Answer askUntilAnswered(const std::string& path, const std::string& absolute, const std::string& format,
+  std::uint64_t bytes, ModelFiles& files)
+{
+  for (int starts = 1;; ++starts)
+  {
+    Answer answer = askOnce(path, absolute, format, bytes, files);
+    if (answer.hasEnded || !answer.isWhole)
+    {
+      return answer;
+    }
+    answer.status = ImportServer::get().end(answer.server);
+    const bool isInterrupted = WIFSIGNALED(answer.status) && helper::isInterruption(WTERMSIG(answer.status));
+    if (!answer.stream.empty() || isInterrupted || starts == mostStarts)
+    {
+      return answer;
+    }
+  }
+}
+
 [[noreturn]] void reportDeath(const std::string& path, int status)
 {
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
@@ -254,16 +274,7 @@ auto importModel(const std::string& path, const std::string& format) -> Imported
   std::error_code code;
   const std::string absolute = fs::absolute(path, code).string();
   ModelFiles files(absolute);
-  Answer answer = askOnce(path, absolute, format, bytes, files);
-  for (int again = 1; !answer.hasEnded && answer.stream.empty() && answer.isWhole && again < mostStarts; ++again)
-  {
-    ImportServer::get().end(answer.server);
-    answer = askOnce(path, absolute, format, bytes, files);
-  }
-  if (!answer.hasEnded && answer.isWhole)
-  {
-    answer.status = ImportServer::get().end(answer.server);
-  }
+  const Answer answer = askUntilAnswered(path, absolute, format, bytes, files);
   files.refuseOutside(path);
   ImportedScene scene;
   try

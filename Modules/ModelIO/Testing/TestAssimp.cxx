@@ -222,6 +222,15 @@ TEST(Assimp, OneProgramImportsAllModelsAndACrashCostsOne)
   EXPECT_EQ(dgtk::readFile(folder.path("log")), "started\n");
 }
 
+TEST(Assimp, AnInterruptionIsNoDamage)
+{
+  for (const char* signal : { "INT", "TERM", "HUP" })
+  {
+    const OtherImporter interrupted(std::string("kill -") + signal + " $$");
+    EXPECT_THROW(readBytes("off", quadOff), dgtk::MachineError) << signal;
+  }
+}
+
 TEST(Assimp, AMissingImporterIsTheMachinesFault)
 {
   ::setenv("DGTK_IMPORT", "/nowhere/dgtk-import", 1);
