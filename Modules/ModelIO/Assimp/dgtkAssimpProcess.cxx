@@ -89,7 +89,8 @@ bool serve(int channel, ModelFiles& files, Answer& end)
   import::FileAnswer answer;
   const Descriptor file = openFor(files, question.name, answer);
   answer.found = file ? 1 : 0;
-  return helper::send(channel, answer, file.get());
+  helper::send(channel, answer, file.get()); // if nobody is there any more, how that came is what is received next
+  return true;
 }
 
 /// All that comes out of the pipe, while the importer is given the files that it asks for, to its end or up to more

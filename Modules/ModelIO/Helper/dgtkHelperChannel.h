@@ -109,7 +109,8 @@ bool receive(int socket, Message& message, Descriptors& files)
   do
   {
     got = ::recvmsg(socket, &header, MSG_CMSG_CLOEXEC);
-  } while (got < 0 && errno == EINTR);
+    // told once, when the other side went without reading all: what it had sent comes after that
+  } while (got < 0 && (errno == EINTR || errno == ECONNRESET));
   for (cmsghdr* part = got < 0 ? nullptr : CMSG_FIRSTHDR(&header); part; part = CMSG_NXTHDR(&header, part))
   {
     const std::size_t count = (part->cmsg_len - CMSG_LEN(0)) / sizeof(int);

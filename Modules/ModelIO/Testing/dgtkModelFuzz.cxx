@@ -66,7 +66,7 @@ constexpr std::size_t memoryFactor = 10;
 constexpr std::size_t memorySlack = std::size_t(64) << 20;
 constexpr double longestSeconds = 2;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr double longestOfLarge = 30; ///< files of megabytes, in a build that is five to fifteen times slower
+constexpr double longestOfLarge = 30; ///< files of 256 KiB and more, in a build that is five to fifteen times slower
 #else
 constexpr double longestOfLarge = longestSeconds;
 #endif
@@ -200,7 +200,7 @@ Outcome readOnce(const std::string& path, const std::string& bytes, const std::s
     outcome.bytes = peakBytes() - before;
     outcome.seconds = processorSeconds() - start;
   }
-  EXPECT_LT(outcome.seconds, bytes.size() > (std::size_t(1) << 20) ? longestOfLarge : longestSeconds) << what;
+  EXPECT_LT(outcome.seconds, bytes.size() > (std::size_t(1) << 18) ? longestOfLarge : longestSeconds) << what;
   EXPECT_LT(outcome.bytes, memoryFactor * bytes.size() + memorySlack) << what;
   return outcome;
 }
