@@ -103,7 +103,8 @@ int main(int argc, char** argv)
   }
   catch (const dgtk::Error& error)
   {
-    return fail(QString::fromLocal8Bit(error.what()));
+    std::fprintf(stderr, "dgtk-editor: %s\n", error.what());
+    return static_cast<int>(error.code());
   }
   dgtk::MainWindow window;
   window.show();

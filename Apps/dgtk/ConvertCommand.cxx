@@ -2,7 +2,6 @@
 #include "Commands.h"
 
 #include "dgtkError.h"
-#include "dgtkModelCache.h"
 #include "dgtkModelReader.h"
 #include "dgtkPovExport.h"
 #include "dgtkStage.h"
@@ -63,9 +62,7 @@ PovResult sceneToPov(const std::string& from, const std::string& to, const Argum
 
 PovResult modelToPov(const std::string& from, const std::string& to)
 {
-  ReadOptions options;
-  options.cache = ModelCache::inUse();
-  const std::shared_ptr<const Model> model = readModel(from, options);
+  const std::shared_ptr<const Model> model = readModel(from);
   for (const std::string& warning : model->warnings)
   {
     warn(warning);

@@ -4,7 +4,6 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
-#include "dgtkModelCache.h"
 #include "dgtkModelReader.h"
 #include "dgtkText.h"
 #include "dgtkUtf8.h"
@@ -26,7 +25,6 @@ Json infoOfModel(const std::string& path)
 {
   ReadOptions options;
   options.decodeTextures = false;
-  options.cache = ModelCache::inUse();
   const std::shared_ptr<const Model> model = readModel(path, options);
   Json info;
   info["file"] = path;

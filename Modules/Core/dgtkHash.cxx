@@ -12,6 +12,7 @@
 #include <ctime>
 #include <map>
 #include <mutex>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -75,10 +76,7 @@ namespace
 {
 constexpr std::int64_t second = 1'000'000'000;
 
-std::uint64_t nanoseconds(const timespec& time)
-{
-  return static_cast<std::uint64_t>(std::int64_t(time.tv_sec) * second + time.tv_nsec);
-}
+std::int64_t nanoseconds(const timespec& time) { return std::int64_t(time.tv_sec) * second + time.tv_nsec; }
 } // namespace
 
 FileAge::FileAge(const std::string& path)
@@ -86,24 +84,35 @@ FileAge::FileAge(const std::string& path)
   struct stat status = {};
   if (::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode))
   {
-    this->Numbers = { 1, status.st_dev, status.st_ino, std::uint64_t(status.st_size), nanoseconds(status.st_mtim),
-      nanoseconds(status.st_ctim) };
+    this->File = true;
+    this->Device = status.st_dev;
+    this->Number = status.st_ino;
+    this->Bytes = static_cast<std::uint64_t>(status.st_size);
+    this->Contents = nanoseconds(status.st_mtim);
+    this->State = nanoseconds(status.st_ctim);
   }
+}
+
+bool FileAge::operator==(const FileAge& other) const
+{
+  const auto all = [](const FileAge& age)
+  { return std::tie(age.File, age.Device, age.Number, age.Bytes, age.Contents, age.State); };
+  return all(*this) == all(other);
 }
 
 /// Kernels count files' times in steps of some milliseconds, some file systems in whole seconds.
 bool FileAge::isOlderThan(std::int64_t time) const
 {
-  const bool coarse = this->Numbers[4] % second == 0 || this->Numbers[5] % second == 0;
+  const bool coarse = this->Contents % second == 0 || this->State % second == 0;
   const std::int64_t step = coarse ? 2 * second : second / 80;
-  return static_cast<std::int64_t>(std::max(this->Numbers[4], this->Numbers[5])) < time - step;
+  return std::max(this->Contents, this->State) < time - step;
 }
 
 std::int64_t timeOfFiles()
 {
   timespec now = {};
   ::clock_gettime(CLOCK_REALTIME, &now);
-  return static_cast<std::int64_t>(nanoseconds(now));
+  return nanoseconds(now);
 }
 
 std::string hashOfFile(const std::string& path)

@@ -4,7 +4,6 @@
 
 #include "dgtkCoreModule.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -41,15 +40,19 @@ public:
   /// Of a regular file, links followed; of none when there is no such file.
   explicit FileAge(const std::string& path);
 
-  bool isFile() const { return this->Numbers[0] != 0; }
-  std::uint64_t bytes() const { return this->Numbers[3]; }
+  bool isFile() const { return this->File; }
+  std::uint64_t bytes() const { return this->Bytes; }
   /// Whether a change at a time (nanoseconds since 1970) or later would be seen in another age.
   bool isOlderThan(std::int64_t time) const;
-  bool operator==(const FileAge& other) const { return this->Numbers == other.Numbers; }
-  bool operator!=(const FileAge& other) const { return !(*this == other); }
+  bool operator==(const FileAge& other) const;
 
 private:
-  std::array<std::uint64_t, 6> Numbers{}; ///< 1 for a file, device, number, bytes, times of contents and of state
+  bool File = false;
+  std::uint64_t Device = 0;
+  std::uint64_t Number = 0;
+  std::uint64_t Bytes = 0;
+  std::int64_t Contents = 0; ///< when they changed, nanoseconds since 1970
+  std::int64_t State = 0;    ///< the same, of names and rights, too
 };
 
 /// Nanoseconds since 1970, as files' times are counted.

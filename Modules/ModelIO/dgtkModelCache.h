@@ -27,8 +27,8 @@ public:
   /// DGTK_CACHE says. Null when that is 0, or there is no such folder. Throws MachineError when it is no number.
   static std::shared_ptr<ModelCache> ofUser();
 
-  /// Makes a cache that of all models that are read for stages and by readModel(), null for none. Programs call it when
-  /// they start.
+  /// Makes a cache that of all models that are read where ReadOptions names no other, null for none. Programs call it
+  /// when they start; before, there is none.
   static void use(std::shared_ptr<ModelCache> cache);
   static std::shared_ptr<ModelCache> inUse();
 

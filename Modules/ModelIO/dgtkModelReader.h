@@ -3,6 +3,7 @@
 #define dgtkModelReader_h
 
 #include "dgtkModel.h"
+#include "dgtkModelCache.h"
 
 #include <memory>
 #include <string>
@@ -23,14 +24,13 @@ struct ReaderInfo
 /// All readers, in the order of their rows in CMakeLists.txt.
 DGTKMODELIO_EXPORT const std::vector<ReaderInfo>& modelReaders();
 
-class ModelCache;
 class TextureStore;
 
 struct ReadOptions
 {
   bool decodeTextures = true;             ///< false: textures are located, not decoded (Texture::image stays null)
   std::shared_ptr<TextureStore> textures; ///< all pictures of the scene; null: the model has its own
-  std::shared_ptr<ModelCache> cache;      ///< models that were read before; null: none
+  std::shared_ptr<ModelCache> cache = ModelCache::inUse(); ///< models that were read before; null: none
   std::string sceneFolder; ///< the folder of the scene that the model is read for, whose pictures it may name; or ""
 };
 

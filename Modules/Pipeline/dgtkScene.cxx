@@ -27,7 +27,10 @@ bool dgtkScene::Load(const std::string& path)
   this->Modified();
   try
   {
-    dgtk::ModelCache::use(dgtk::ModelCache::ofUser());
+    if (!dgtk::ModelCache::inUse())
+    {
+      dgtk::ModelCache::use(dgtk::ModelCache::ofUser());
+    }
     this->Stage = dgtk::Stage::load(dgtk::readScene(path));
   }
   catch (const std::exception& error)

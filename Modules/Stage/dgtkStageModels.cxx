@@ -3,7 +3,6 @@
 
 #include "dgtkError.h"
 #include "dgtkMissingModels.h"
-#include "dgtkModelCache.h"
 #include "dgtkPortableMath.h"
 #include "dgtkSystem.h"
 #include "dgtkTextureFile.h"
@@ -159,7 +158,6 @@ void StageModels::readModels()
   }
   ReadOptions options;
   options.textures = this->Pictures;
-  options.cache = ModelCache::inUse();
   options.sceneFolder = this->Scene.resolve(".");
   this->Models.resize(first.size());
   const auto read = [&](int i)
