@@ -39,7 +39,8 @@ const ChoiceOption& colorBits()
 
 const ChoiceOption& renderer()
 {
-  static const ChoiceOption row("renderer", { "vtk", "povray" }, "what draws colour; POV-Ray 3.7 must be installed");
+  static const ChoiceOption row("renderer", { "vtk", "ray", "povray" },
+    "what makes colour: ray shades where the rays hit, vtk draws by OpenGL, povray is POV-Ray 3.7, installed");
   return row;
 }
 

@@ -205,7 +205,7 @@ std::vector<std::string> WorkPlan::formatsOf(const std::string& layer) const
   return {};
 }
 
-bool drawsItself(const LayerRequest& request) { return option::renderer().isDefault(request.options); }
+bool drawsItself(const LayerRequest& request) { return option::renderer().of(request.options) != "povray"; }
 
 namespace
 {
@@ -256,8 +256,9 @@ void checkCameras(const WorkPlan& plan, const Stage& stage)
     for (const PlannedLayer& planned : view.model->linear() ? std::vector<PlannedLayer>() : plan.layers)
     {
       const LayerNeeds needs = planned.layer->needs(request, stage);
-      const bool drawn =
-        needs.color || needs.sharp || needs.peeled || !needs.mattes.empty() || (needs.hits && plan.raster);
+      const bool picture = needs.color || needs.sharp;
+      const bool drawn = (needs.hits && plan.raster) || (picture && !drawsItself(request)) ||
+                         (plan.drawn && (picture || needs.peeled || !needs.mattes.empty()));
       if (needs.linear || drawn)
       {
         throw UsageError("layer " + planned.layer->info().layer + ": " + who + (drawn ? ", and cannot be drawn" : ""));
@@ -334,6 +335,7 @@ WorkPlan makeWorkPlan(const LayerRequest& request, const Stage& stage)
     }
   }
   plan.raster = option::visibility().of(plan.request.options) == "raster";
+  plan.drawn = option::renderer().of(plan.request.options) == "vtk";
   for (const int frame : resolveFrames(request.frames, scene))
   {
     for (const std::size_t camera : resolveCameras(request.cameras, scene))

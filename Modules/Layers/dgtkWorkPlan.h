@@ -59,6 +59,7 @@ struct DGTKLAYERS_EXPORT WorkPlan
   std::vector<PlannedLayer> layers; ///< in the order of generatorLayers()
   LayerNeeds needs;                 ///< of all of them
   bool raster = false;              ///< engine of the visibility buffer: raster or ray
+  bool drawn = false;               ///< OpenGL makes the colours; else, but for POV-Ray's, rays do
   /// What decides the noise of the noisy layers, besides the scene.
   std::vector<std::pair<std::string, std::string>> noise;
   std::vector<Job> jobs;
@@ -71,7 +72,7 @@ struct DGTKLAYERS_EXPORT WorkPlan
   static std::string stem(const std::string& camera, const std::string& layer, int frame);
 };
 
-/// Whether the built-in renderer makes the colours, if any are made.
+/// Whether a built-in renderer makes the colours, if any are made: OpenGL or rays.
 DGTKLAYERS_EXPORT bool drawsItself(const LayerRequest& request);
 
 /// Throws UsageError for a request that does not fit the scene.

@@ -152,9 +152,9 @@ std::vector<dgtk::LayerArray> dgtkRenderer::Internal::draw(const std::vector<std
 dgtk::WorkPlan dgtkRenderer::Internal::planOf(const std::vector<std::string>& layers, const dgtk::Stage& stage)
 {
   requireArrays(layers);
-  if (!dgtk::option::renderer().isDefault(this->request.options))
+  if (!dgtk::drawsItself(this->request))
   {
-    throw dgtk::UsageError("renderer: arrays are drawn by the built-in one");
+    throw dgtk::UsageError("renderer: arrays are not drawn by POV-Ray");
   }
   this->request.layers = layers;
   const int at = this->frameSet ? this->frame : stage.description().firstFrame();

@@ -2,7 +2,7 @@
 #include "dgtkRasterModels.h"
 
 #include "dgtkRasterTexture.h"
-#include "dgtkSurfaceMaterial.h"
+#include "dgtkPhongProperty.h"
 
 #include <algorithm>
 #include <vtkFloatArray.h>

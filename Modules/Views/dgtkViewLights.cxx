@@ -2,6 +2,7 @@
 #include "dgtkViewLights.h"
 
 #include "dgtkPortableMath.h"
+#include "dgtkPhongProperty.h"
 #include "dgtkSurfaceMaterial.h"
 #include "dgtkSurfaceShading.h"
 

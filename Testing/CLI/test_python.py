@@ -213,7 +213,7 @@ pickle.dump(given, open(sys.argv[2] + "/given.pickle", "wb"))
                 ({"sample": 4}, "there is no option 'sample' .expected one of samples, filter, "),
                 ({"matte": ["tree", ""], "layers": "matting"}, "matte: an empty name in 'tree,'"),
                 ({"layers": "color", "color_format": ["png", "exr"]}, "color_format: an array has one format, found 'png,exr'"),
-                ({"renderer": "povray"}, "renderer: arrays are drawn by the built-in one"),
+                ({"renderer": "povray"}, "renderer: arrays are not drawn by POV-Ray"),
                 ({"frame": 77}, "the scene has frames 0 to 2, found 77"),
                 ({"frame": -1}, "found -1"),
                 ({"size": (-1, 5)}, "image size out of range"),

@@ -13,55 +13,7 @@ namespace
 constexpr int leastRows = 8;
 constexpr int mostSamples = 1 << 22; // of a strip, unless it has the least rows
 
-class ResampledCamera final : public CameraModel
-{
-public:
-  ResampledCamera(
-    std::shared_ptr<const CameraModel> model, int width, int height, double scale, const Eigen::Vector2d& offset)
-    : CameraModel(width, height)
-    , Model(std::move(model))
-    , Scale(scale)
-    , Offset(offset)
-  {
-  }
-  std::string name() const override { return this->Model->name(); }
-  CameraRay rayThrough(const Eigen::Vector2d& pixel) const override
-  {
-    return this->Model->rayThrough(this->Scale * pixel + this->Offset);
-  }
-  bool project(const Eigen::Vector3d& x_in_camera, Eigen::Vector2d& pixel) const override
-  {
-    Eigen::Vector2d point;
-    if (!this->Model->project(x_in_camera, point))
-    {
-      return false;
-    }
-    pixel = (point - this->Offset) / this->Scale;
-    return true;
-  }
-  std::optional<LinearProjection> linear() const override
-  {
-    std::optional<LinearProjection> projection = this->Model->linear();
-    if (projection)
-    {
-      projection->K.topRightCorner<2, 1>() -= this->Offset;
-      projection->K.topRows<2>() /= this->Scale;
-    }
-    return projection;
-  }
-
-private:
-  std::shared_ptr<const CameraModel> Model;
-  double Scale;
-  Eigen::Vector2d Offset;
-};
 } // namespace
-
-std::shared_ptr<const CameraModel> resampledCamera(
-  std::shared_ptr<const CameraModel> model, int width, int height, double scale, const Eigen::Vector2d& offset)
-{
-  return std::make_shared<ResampledCamera>(std::move(model), width, height, scale, offset);
-}
 
 View sampleView(const View& view, int i, int j, int count)
 {

@@ -5,6 +5,7 @@
 #include "dgtkLayersModule.h"
 
 #include "dgtkCoverage.h"
+#include "dgtkResampledCamera.h"
 #include "dgtkSurfaceRows.h"
 #include "dgtkThreadPool.h"
 #include "dgtkVisibility.h"
@@ -14,11 +15,6 @@
 
 namespace dgtk
 {
-
-/// A camera of width x height pixels whose image point p is the point scale * p + offset of `model`: the same lens on
-/// another grid of pixels. scale > 0.
-DGTKLAYERS_EXPORT std::shared_ptr<const CameraModel> resampledCamera(
-  std::shared_ptr<const CameraModel> model, int width, int height, double scale, const Eigen::Vector2d& offset);
 
 /// The view whose pixel centres are sample (i, j) of the count x count samples of the pixels of `view`.
 DGTKLAYERS_EXPORT View sampleView(const View& view, int i, int j, int count);

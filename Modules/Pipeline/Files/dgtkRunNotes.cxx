@@ -130,10 +130,10 @@ std::vector<std::string> blindPictures(const WorkPlan& plan, const Stage& stage)
   return lines;
 }
 
-/// None where colours are not the built-in renderer's.
+/// Of shadow maps: none where OpenGL does not make the colours.
 std::vector<std::string> coarseShadowLines(const WorkPlan& plan, const Stage& stage)
 {
-  if (!plan.drawsColor() || !drawsItself(plan.request) || !castsShadows(stage.description()))
+  if (!plan.drawsColor() || !plan.drawn || !castsShadows(stage.description()))
   {
     return {};
   }

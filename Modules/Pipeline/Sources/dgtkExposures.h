@@ -2,7 +2,7 @@
 #ifndef dgtkExposures_h
 #define dgtkExposures_h
 
-#include "dgtkRasterSource.h"
+#include "dgtkPictureSource.h"
 #include "dgtkStage.h"
 
 #include <functional>
@@ -22,7 +22,7 @@ public:
   /// Gives the scene at a frame, fractions included.
   using StateAt = std::function<std::shared_ptr<const SceneState>(double frame)>;
 
-  ExposedColor(RasterSource& source, ThreadPool& pool)
+  ExposedColor(PictureSource& source, ThreadPool& pool)
     : Source(source)
     , Pool(pool)
   {
@@ -34,7 +34,7 @@ public:
   void draw(const PixelRect& rect, int samples, ColorBuffer& colors);
 
 private:
-  RasterSource& Source;
+  PictureSource& Source;
   ThreadPool& Pool;
   std::vector<Exposure> Exposures;
   StateAt At;

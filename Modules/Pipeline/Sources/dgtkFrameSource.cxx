@@ -2,7 +2,7 @@
 #include "dgtkFrameSource.h"
 
 #include "dgtkError.h"
-#include "dgtkRasterSource.h"
+#include "dgtkRayPictures.h"
 #include "dgtkRaySource.h"
 #include "dgtkThreadPool.h"
 
@@ -19,6 +19,7 @@ FrameSourceOptions sourceOptions(const WorkPlan& plan)
   FrameSourceOptions options;
   options.needs = plan.needs;
   options.raster = plan.raster;
+  options.drawn = plan.drawn;
   options.samples = option::samples().of(plan.request.options);
   options.filter = pixelFilterFromName(option::filter().of(plan.request.options));
   options.gl = option::gl().of(plan.request.options);
@@ -29,27 +30,32 @@ FrameSource::FrameSource(const FrameSourceOptions& options, ThreadPool& pool)
   : Options(options)
   , Pool(pool)
 {
-  if (options.needs.hits && !options.raster)
-  {
-    this->Ray = makeRaySource(pool);
-  }
   if (options.needs.color && options.pov)
   {
     this->Pov = std::make_unique<PovColorSource>(*options.pov, pool);
   }
-  if (this->rasterColor() || options.needs.peeled || !options.needs.mattes.empty() ||
-      (options.needs.hits && options.raster))
+  const bool pictures = this->ownColor() || options.needs.peeled || !options.needs.mattes.empty();
+  if ((pictures && options.drawn) || (options.needs.hits && options.raster))
   {
-    std::unique_ptr<RasterSource> raster = makeRasterSource(glBackendFromName(options.gl));
-    this->Description = raster->choice().description;
-    raster->setFilter(options.filter);
-    raster->setHits(options.needs.peeled || !options.needs.mattes.empty() || (options.needs.hits && options.raster));
-    this->Raster = std::move(raster);
-    this->Exposed = std::make_unique<ExposedColor>(*this->Raster, pool);
+    this->Raster = makeRasterSource(glBackendFromName(options.gl));
+    this->Description = this->Raster->choice().description;
+    this->Raster->setHits(
+      options.needs.peeled || !options.needs.mattes.empty() || (options.needs.hits && options.raster));
+  }
+  if (pictures)
+  {
+    this->Shaded = options.drawn ? nullptr : makeRayPictures(pool);
+    this->Pictures = options.drawn ? this->Raster.get() : this->Shaded.get();
+    this->Pictures->setFilter(options.filter);
+    this->Exposed = std::make_unique<ExposedColor>(*this->Pictures, pool);
+  }
+  if (options.needs.hits && !options.raster && !this->Shaded)
+  {
+    this->Ray = makeRaySource(pool);
   }
   if (!options.needs.mattes.empty())
   {
-    this->Matting = std::make_unique<MattingSource>(*this->Raster, options.needs.mattes, options.samples);
+    this->Matting = std::make_unique<MattingSource>(*this->Pictures, options.needs.mattes, options.samples);
   }
 }
 
@@ -66,6 +72,13 @@ void FrameSource::setScene(const std::shared_ptr<const SceneState>& state, const
   if (this->Raster)
   {
     this->Raster->setScene(state, view);
+  }
+  if (this->Shaded)
+  {
+    this->Shaded->setScene(state, view);
+  }
+  if (this->Exposed)
+  {
     this->Exposed->set({}, {});
   }
   if (this->Matting)
@@ -108,17 +121,30 @@ struct FrameSource::Tile
 
 void FrameSource::drawColor(const PixelRect& rect, Tile& tile)
 {
+  const int samples = this->Options.samples;
+  if (!this->Exposed->blurs() && this->Shaded)
+  {
+    tile.color.rest = this->Shaded->drawColor(rect, samples, tile.colors, this->shadesHits() ? &tile.hits : nullptr);
+    return;
+  }
   if (!this->Exposed->blurs())
   {
-    tile.color = this->Raster->startColor(rect, this->Options.samples, tile.colors);
+    tile.color = this->Raster->startColor(rect, samples, tile.colors);
     return;
   }
   if (this->Options.needs.sharp)
   {
-    tile.color.rest = this->Raster->drawColor(rect, this->Options.samples, tile.sharp, nullptr);
+    tile.color.rest = this->Pictures->drawColor(rect, samples, tile.sharp, nullptr);
   }
-  this->Exposed->draw(rect, this->Options.samples, tile.colors);
-  this->Raster->setScene(this->State, this->TheView);
+  this->Exposed->draw(rect, samples, tile.colors);
+  this->Pictures->setScene(this->State, this->TheView);
+}
+
+/// Whether the hits are those of which the colours are made.
+bool FrameSource::shadesHits() const
+{
+  return this->Options.needs.hits && !this->Options.raster && this->Shaded && this->ownColor() &&
+         !this->Exposed->blurs();
 }
 
 std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect)
@@ -126,6 +152,10 @@ std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect)
   auto tile = std::make_shared<Tile>();
   // Software OpenGL leaves cores idle while it transforms vertices; rays are traced meanwhile.
   std::future<void> traced;
+  if (this->Shaded && this->Options.needs.hits && !this->Options.raster && !this->shadesHits())
+  {
+    this->Shaded->render(rect, tile->hits);
+  }
   if (this->Ray)
   {
     traced = this->Pool.submit([this, &rect, &tile] { this->Ray->render(rect, tile->hits); });
@@ -137,7 +167,7 @@ std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect)
     {
       this->Raster->render(rect, tile->hits);
     }
-    if (this->rasterColor())
+    if (this->ownColor())
     {
       this->drawColor(rect, *tile);
     }
@@ -149,7 +179,7 @@ std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect)
         tile->ranks.push_back(rank);
         return true;
       };
-      this->Raster->peel(rect, keep);
+      this->Pictures->peel(rect, keep);
     }
     if (this->Matting)
     {
@@ -240,8 +270,8 @@ void FrameSource::drawTiles(int row, Band& band)
   band.rect = { 0, last.y, last.x + last.width, last.height };
   const std::size_t pixels = std::size_t(band.rect.width) * band.rect.height;
   band.hits.resize(this->Options.needs.hits ? pixels : 0);
-  band.rgb.resize(this->rasterColor() ? pixels * 3 : 0);
-  const bool sharp = this->Options.needs.sharp && this->rasterColor() && this->Exposed->blurs();
+  band.rgb.resize(this->ownColor() ? pixels * 3 : 0);
+  const bool sharp = this->Options.needs.sharp && this->ownColor() && this->Exposed->blurs();
   band.sharp.resize(sharp ? pixels * 3 : 0);
   band.mattes.resize(this->Options.needs.mattes.size());
   for (MattePixels& matte : band.mattes)
@@ -277,7 +307,7 @@ void FrameSource::drawTiles(int row, Band& band)
           {
             place(tile->hits.hits, rect, 1, band.rect, band.hits);
           }
-          if (this->rasterColor())
+          if (this->ownColor())
           {
             place(tile->colors.rgb, rect, 3, band.rect, band.rgb);
           }

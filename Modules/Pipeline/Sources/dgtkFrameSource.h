@@ -6,6 +6,7 @@
 #include "dgtkExposures.h"
 #include "dgtkMattingSource.h"
 #include "dgtkPovColorSource.h"
+#include "dgtkRasterSource.h"
 #include "dgtkWorkPlan.h"
 
 #include "dgtkVisibility.h"
@@ -22,6 +23,7 @@ struct FrameSourceOptions
 {
   LayerNeeds needs;
   bool raster = false; ///< engine of the hits
+  bool drawn = false;  ///< colours are OpenGL's; else they are shaded where rays hit
   int samples = 1;
   PixelFilter filter = PixelFilter::Box;
   std::string gl = "auto";
@@ -71,12 +73,15 @@ private:
   void drawColor(const PixelRect& rect, Tile& tile);
   std::function<void()> drawBand(int row, DrawnBand& drawn);
   void drawTiles(int row, Band& band);
-  /// Whether the raster engine gives the colours.
-  bool rasterColor() const { return this->Options.needs.color && !this->Pov; }
+  /// Whether this source makes the colours.
+  bool ownColor() const { return this->Options.needs.color && !this->Pov; }
+  bool shadesHits() const;
   FrameSourceOptions Options;
   ThreadPool& Pool;
-  std::unique_ptr<VisibilitySource> Ray;
+  std::unique_ptr<VisibilitySource> Ray; ///< of hits where no picture is made of them
   std::unique_ptr<RasterSource> Raster;
+  std::unique_ptr<PictureSource> Shaded;
+  PictureSource* Pictures = nullptr; ///< Raster or Shaded; null where no colours are needed
   std::unique_ptr<MattingSource> Matting;
   std::unique_ptr<PovColorSource> Pov;
   std::unique_ptr<ExposedColor> Exposed;

@@ -18,7 +18,7 @@ namespace
 bool usesGL(const FrameSourceOptions& options)
 {
   const LayerNeeds& needs = options.needs;
-  return needs.color || needs.peeled || !needs.mattes.empty() || (needs.hits && options.raster);
+  return (options.drawn && (needs.color || needs.peeled || !needs.mattes.empty())) || (needs.hits && options.raster);
 }
 
 bool same(const FrameSourceOptions& a, const FrameSourceOptions& b)
@@ -26,8 +26,8 @@ bool same(const FrameSourceOptions& a, const FrameSourceOptions& b)
   const auto all = [](const FrameSourceOptions& options)
   {
     const LayerNeeds& needs = options.needs;
-    return std::tie(needs.hits, needs.color, needs.sharp, needs.peeled, needs.mattes, options.raster, options.samples,
-      options.filter, options.gl);
+    return std::tie(needs.hits, needs.color, needs.sharp, needs.peeled, needs.mattes, options.raster, options.drawn,
+      options.samples, options.filter, options.gl);
   };
   return all(a) == all(b);
 }

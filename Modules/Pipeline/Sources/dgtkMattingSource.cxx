@@ -13,8 +13,8 @@ namespace
 constexpr int mostSide = 2048; // of a picture of samples
 }
 
-MattingSource::MattingSource(RasterSource& raster, std::vector<std::uint32_t> objects, int samples)
-  : Raster(raster)
+MattingSource::MattingSource(PictureSource& pictures, std::vector<std::uint32_t> objects, int samples)
+  : Pictures(pictures)
   , Objects(std::move(objects))
   , Samples(samples)
 {
@@ -39,11 +39,11 @@ std::vector<MattePixels> MattingSource::draw(const PixelRect& rect)
   for (std::size_t i = 0; i < mattes.size(); ++i)
   {
     ColorBuffer colors;
-    this->Raster.setScene(this->without(this->Objects[i]), this->TheView);
-    this->Raster.renderColor(rect, this->Samples, colors, nullptr);
+    this->Pictures.setScene(this->without(this->Objects[i]), this->TheView);
+    this->Pictures.renderColor(rect, this->Samples, colors, nullptr);
     mattes[i].background = std::move(colors.rgb);
   }
-  this->Raster.setScene(this->State, this->TheView);
+  this->Pictures.setScene(this->State, this->TheView);
   return mattes;
 }
 
@@ -55,7 +55,7 @@ void MattingSource::drawForegrounds(const PixelRect& rect, std::vector<MattePixe
   const CameraModel& model = *this->TheView.model;
   large.model = resampledCamera(
     this->TheView.model, model.width() * this->Samples, model.height() * this->Samples, 1.0 / this->Samples, { 0, 0 });
-  this->Raster.setScene(this->State, large);
+  this->Pictures.setScene(this->State, large);
   const int side = std::max(1, mostSide / this->Samples);
   for (int y = 0; y < rect.height; y += side)
   {
@@ -73,7 +73,7 @@ void MattingSource::drawPiece(const PixelRect& piece, const PixelRect& rect, std
   VisibilityBuffer hits;
   const int n = this->Samples;
   const PixelRect large{ (rect.x + piece.x) * n, (rect.y + piece.y) * n, piece.width * n, piece.height * n };
-  this->Raster.renderColor(large, 1, colors, &hits);
+  this->Pictures.renderColor(large, 1, colors, &hits);
   for (std::size_t m = 0; m < mattes.size(); ++m)
   {
     for (int y = 0; y < piece.height; ++y)

@@ -2,7 +2,7 @@
 #ifndef dgtkMattingSource_h
 #define dgtkMattingSource_h
 
-#include "dgtkRasterSource.h"
+#include "dgtkPictureSource.h"
 
 #include <cstdint>
 #include <memory>
@@ -16,7 +16,7 @@ namespace dgtk
 class MattingSource
 {
 public:
-  MattingSource(RasterSource& raster, std::vector<std::uint32_t> objects, int samples);
+  MattingSource(PictureSource& pictures, std::vector<std::uint32_t> objects, int samples);
 
   void setScene(const std::shared_ptr<const SceneState>& state, const View& view);
   /// One for each object. Leaves the raster engine with the scene and view of setScene().
@@ -26,7 +26,7 @@ private:
   void drawForegrounds(const PixelRect& rect, std::vector<MattePixels>& mattes);
   void drawPiece(const PixelRect& piece, const PixelRect& rect, std::vector<MattePixels>& mattes);
   std::shared_ptr<const SceneState> without(std::uint32_t object) const;
-  RasterSource& Raster;
+  PictureSource& Pictures;
   std::vector<std::uint32_t> Objects;
   int Samples;
   std::shared_ptr<const SceneState> State;

@@ -13,9 +13,6 @@ namespace dgtk
 namespace
 {
 
-float clamped(double value) { return value > 0 ? (value < 1 ? float(value) : 1.0f) : 0.0f; }
-float clamped(float value) { return value > 0 ? (value < 1 ? value : 1.0f) : 0.0f; }
-
 struct FilterShape
 {
   const char* name;
@@ -79,9 +76,10 @@ std::vector<double> pixelFilterWeights(PixelFilter filter, int samples, int& mar
   return weights;
 }
 
-SampleFilter::SampleFilter(PixelFilter filter, int samples)
+SampleFilter::SampleFilter(PixelFilter filter, int samples, float most)
   : Filter(filter)
   , Samples(samples)
+  , Most(most)
 {
   this->Weights = pixelFilterWeights(filter, samples, this->Margin);
 }
@@ -107,7 +105,7 @@ void SampleFilter::apply(const std::vector<float>& samples, const PixelRect& pie
       {
         for (int c = 0; c < 3; ++c)
         {
-          row[std::size_t(x) * 3 + c] += this->Weights[k] * clamped(source[c]);
+          row[std::size_t(x) * 3 + c] += this->Weights[k] * this->clamped(source[c]);
         }
       }
     }
@@ -125,7 +123,7 @@ void SampleFilter::apply(const std::vector<float>& samples, const PixelRect& pie
           sum[c] += this->Weights[k] * source[c];
         }
       }
-      std::transform(sum, sum + 3, target + std::size_t(x) * 3, [](double v) { return clamped(v); });
+      std::transform(sum, sum + 3, target + std::size_t(x) * 3, [this](double v) { return this->clamped(v); });
     }
   }
 }
@@ -147,9 +145,9 @@ void SampleFilter::applyBox(const std::vector<float>& samples, const PixelRect& 
       for (int x = 0; x < width; ++x, source += 4)
       {
         float* pixel = target + x / this->Samples * 3;
-        pixel[0] += clamped(source[0]);
-        pixel[1] += clamped(source[1]);
-        pixel[2] += clamped(source[2]);
+        pixel[0] += this->clamped(source[0]);
+        pixel[1] += this->clamped(source[1]);
+        pixel[2] += this->clamped(source[2]);
       }
     }
     for (int i = 0; i < piece.width * 3; ++i)

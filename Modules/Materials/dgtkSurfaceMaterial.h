@@ -2,12 +2,10 @@
 #ifndef dgtkSurfaceMaterial_h
 #define dgtkSurfaceMaterial_h
 
+#include "dgtkMaterialsModule.h"
 #include "dgtkModel.h"
-#include "dgtkRenderGLModule.h"
 
 #include <Eigen/Core>
-
-class vtkProperty;
 
 namespace dgtk
 {
@@ -15,9 +13,6 @@ namespace dgtk
 /// Ambient light of the world, lights add theirs. It is OpenGL's light model, for which the ambient colours of AC3D,
 /// 3DS and MD2 models are made: they are mostly the diffuse colour over again.
 constexpr double worldAmbient = 0.2;
-
-/// VTK's property of Phong's colours, each with intensity 1. VTK has no emission beside them.
-DGTKRENDERGL_EXPORT void setProperty(const Material& material, vtkProperty& property);
 
 /// What a material is made of where it is shaded by microfacets.
 struct FacetedSurface
@@ -28,13 +23,13 @@ struct FacetedSurface
 };
 
 /// Of a material without metal and roughness: the lobe that is as wide as Phong's.
-DGTKRENDERGL_EXPORT FacetedSurface facetsOf(const Material& material);
+DGTKMATERIALS_EXPORT FacetedSurface facetsOf(const Material& material);
 
 /// GLSL: dgtkToLinear() and dgtkToDisplay(), the transfer function of IEC 61966-2-1.
-DGTKRENDERGL_EXPORT const char* transferShader();
+DGTKMATERIALS_EXPORT const char* transferShader();
 
 /// GLSL: dgtkIrradianceFrom(), which is EnvironmentLight::irradianceOn(). Needs uniform vec3 dgtkIrradiance[9].
-DGTKRENDERGL_EXPORT const char* irradianceShader();
+DGTKMATERIALS_EXPORT const char* irradianceShader();
 
 } // namespace dgtk
 

@@ -2,7 +2,7 @@
 #ifndef dgtkLightLaw_h
 #define dgtkLightLaw_h
 
-#include "dgtkRenderGLModule.h"
+#include "dgtkMaterialsModule.h"
 
 #include "dgtkSceneState.h"
 
@@ -39,13 +39,13 @@ struct LightLawRow
   std::string code;
 };
 
-DGTKRENDERGL_EXPORT const LightLawRow& lightLaw(LightLaw law);
+DGTKMATERIALS_EXPORT const LightLawRow& lightLaw(LightLaw law);
 
 /// The law of a light. A cone of 90 degrees and more is none, as in VTK.
-DGTKRENDERGL_EXPORT LightLaw lightLawOf(const LightState& light);
+DGTKMATERIALS_EXPORT LightLaw lightLawOf(const LightState& light);
 
 /// A light where its kind puts it, in another frame; at the camera, along `ahead`, if that is not in the world.
-DGTKRENDERGL_EXPORT LightShape lightShape(const LightState& light, const Eigen::Matrix3d& rotation,
+DGTKMATERIALS_EXPORT LightShape lightShape(const LightState& light, const Eigen::Matrix3d& rotation,
   const Eigen::Vector3d& translation, const Eigen::Vector3d& ahead);
 
 } // namespace dgtk

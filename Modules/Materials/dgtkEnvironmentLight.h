@@ -2,8 +2,8 @@
 #ifndef dgtkEnvironmentLight_h
 #define dgtkEnvironmentLight_h
 
+#include "dgtkMaterialsModule.h"
 #include "dgtkModel.h"
-#include "dgtkRenderGLModule.h"
 
 #include <Eigen/Core>
 
@@ -15,7 +15,7 @@ namespace dgtk
 {
 
 /// What surfaces get from an environment, computed on the CPU in a fixed order. Linear light.
-struct DGTKRENDERGL_EXPORT EnvironmentLight
+struct DGTKMATERIALS_EXPORT EnvironmentLight
 {
   /// Radiance filtered for roughness 0, 1/5, ... 1, each half the size of the one before.
   static constexpr int levels = 6;
@@ -34,19 +34,19 @@ struct DGTKRENDERGL_EXPORT EnvironmentLight
   Eigen::Vector3d reflectedFrom(const Eigen::Vector3d& direction, double roughness) const;
 };
 
-DGTKRENDERGL_EXPORT EnvironmentLight environmentLight(const RadianceImage& image, double intensity);
+DGTKMATERIALS_EXPORT EnvironmentLight environmentLight(const RadianceImage& image, double intensity);
 
 struct EnvironmentState;
 /// The same of a scene's environment, computed once while that is in use; null for null. Thread-safe.
-DGTKRENDERGL_EXPORT std::shared_ptr<const EnvironmentLight> environmentLight(
+DGTKMATERIALS_EXPORT std::shared_ptr<const EnvironmentLight> environmentLight(
   const std::shared_ptr<const EnvironmentState>& environment);
 
 /// Radiance along a direction (any length but 0) in the image's axes, interpolated between texels; RGB.
-DGTKRENDERGL_EXPORT Eigen::Vector3d radianceFrom(const RadianceImage& image, const Eigen::Vector3d& direction);
+DGTKMATERIALS_EXPORT Eigen::Vector3d radianceFrom(const RadianceImage& image, const Eigen::Vector3d& direction);
 
 /// Scale and bias of the reflectance at normal incidence (Karis 2013), for the cosine of the viewer's angle (columns)
 /// and roughness (rows) at the centres of ReflectanceSize x ReflectanceSize cells.
-DGTKRENDERGL_EXPORT std::vector<float> reflectanceTable();
+DGTKMATERIALS_EXPORT std::vector<float> reflectanceTable();
 
 } // namespace dgtk
 

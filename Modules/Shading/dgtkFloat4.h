@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkFloat4_h
+#define dgtkFloat4_h
+
+// Private to Shading: colours and vectors in single precision, and functions of them that give the same bits on every
+// machine (those of the C library depend on the processor).
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+namespace dgtk
+{
+
+/// Red, green, blue, or x, y, z; the fourth is free. Operators work on each.
+using Float4 = float __attribute__((vector_size(16)));
+
+inline Float4 float4(float x, float y, float z, float w = 0) { return Float4{ x, y, z, w }; }
+inline Float4 float4(float all) { return Float4{ all, all, all, all }; }
+template <typename Vector>
+inline Float4 toFloat4(const Vector& v)
+{
+  return Float4{ float(v[0]), float(v[1]), float(v[2]), 0 };
+}
+
+inline Eigen::Vector3d toVector3d(Float4 v) { return { double(v[0]), double(v[1]), double(v[2]) }; }
+inline Float4 loadFloat4(const float* values)
+{
+  Float4 v;
+  std::memcpy(&v, values, sizeof v);
+  return v;
+}
+
+inline float dot(Float4 a, Float4 b)
+{
+  const Float4 product = a * b;
+  return product[0] + product[1] + product[2];
+}
+inline Float4 cross(Float4 a, Float4 b)
+{
+  return float4(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+}
+inline Float4 normalized(Float4 v, float least = 1e-30F) { return v / std::sqrt(std::max(dot(v, v), least)); }
+/// The larger one of each.
+inline Float4 atLeast(Float4 v, float least) { return v > least ? v : float4(least); }
+
+/// Columns.
+struct Matrix3
+{
+  Matrix3() = default;
+  explicit Matrix3(const Eigen::Matrix3d& m)
+    : x(toFloat4(m.col(0)))
+    , y(toFloat4(m.col(1)))
+    , z(toFloat4(m.col(2)))
+  {
+  }
+  Float4 operator*(Float4 v) const { return this->x * v[0] + this->y * v[1] + this->z * v[2]; }
+  Float4 x{ 1, 0, 0, 0 };
+  Float4 y{ 0, 1, 0, 0 };
+  Float4 z{ 0, 0, 1, 0 };
+};
+
+namespace portable
+{
+
+/// Logarithm to base 2 of a positive normal number; absolute error below 2e-7 beside that of rounding the result.
+inline float log2(float x)
+{
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &x, sizeof bits);
+  // to [sqrt(1/2), sqrt(2)): 0x3F3504F3 are the bits of the lower end
+  const std::uint32_t shifted = bits - 0x3F3504F3U;
+  const auto exponent = float(std::int32_t(shifted) >> 23);
+  const std::uint32_t mantissa = (shifted & 0x007FFFFFU) + 0x3F3504F3U;
+  float m = 0;
+  std::memcpy(&m, &mantissa, sizeof m);
+  const float s = (m - 1) / (m + 1);
+  const float ss = s * s;
+  // 2 artanh(s) / ln 2
+  const float series = 2.885390082F + ss * (0.961796694F + ss * (0.577078016F + ss * (0.412198583F + ss * 0.3205988F)));
+  return exponent + s * series;
+}
+
+/// 2^x, relative error below 3e-7; 0 below -126, and infinitely large from 128 on.
+inline float exp2(float x)
+{
+  if (!(x >= -126))
+  {
+    return 0;
+  }
+  if (x >= 128)
+  {
+    return INFINITY;
+  }
+  const auto whole = std::int32_t(x + (x < 0 ? -0.5F : 0.5F));
+  const float f = (x - float(whole)) * 0.693147181F;
+  const float e =
+    1 + f * (1 + f * (0.5F + f * (0.166666667F + f * (0.0416666667F + f * (0.00833333333F + f * 0.00138888889F)))));
+  const std::uint32_t bits = std::uint32_t(whole + 126) << 23;
+  float half = 0;
+  std::memcpy(&half, &bits, sizeof half);
+  return e * half * 2;
+}
+
+/// x^y for x >= 0; 0^0 is 1.
+inline float pow(float x, float y) { return x > 1e-37F ? exp2(y * log2(x)) : (y == 0 ? 1.0F : 0.0F); }
+/// e^x
+inline float exp(float x) { return exp2(x * 1.442695041F); }
+
+/// Angle of the point (x, y) in (-pi, pi], absolute error below 3e-7.
+inline float atan2(float y, float x)
+{
+  constexpr float half = 1.57079633F;
+  const float ax = std::abs(x);
+  const float ay = std::abs(y);
+  const float large = std::max(ax, ay);
+  float r = large > 0 ? std::min(ax, ay) / large : 0.0F; // [0, 1]
+  float angle = 0;
+  if (r > 0.414213562F) // tan(pi / 8)
+  {
+    r = (r - 1) / (r + 1);
+    angle = half / 2;
+  }
+  const float s = r * r;
+  angle += r * (1 - s * (1.0F / 3 - s * (1.0F / 5 - s * (1.0F / 7 - s * (1.0F / 9 - s * (1.0F / 11 - s / 13))))));
+  angle = ay > ax ? half - angle : angle;
+  angle = x < 0 ? 2 * half - angle : angle;
+  return y < 0 ? -angle : angle;
+}
+
+} // namespace portable
+
+/// IEC 61966-2-1, of each of three channels, >= 0; both go on above 1.
+inline float linearOf(float v)
+{
+  return v < 0.04045F ? v * (1 / 12.92F) : portable::exp2(2.4F * portable::log2((v + 0.055F) * (1 / 1.055F)));
+}
+inline float displayOf(float v)
+{
+  return v < 0.0031308F ? v * 12.92F : 1.055F * portable::exp2(portable::log2(v) * (1 / 2.4F)) - 0.055F;
+}
+inline Float4 toLinear(Float4 c) { return float4(linearOf(c[0]), linearOf(c[1]), linearOf(c[2])); }
+inline Float4 toDisplay(Float4 c)
+{
+  c = atLeast(c, 0);
+  return float4(displayOf(c[0]), displayOf(c[1]), displayOf(c[2]));
+}
+
+/// Of a coordinate in which pictures repeat: its place in [0, 1); 0 for what is no number.
+inline float repeated(double v)
+{
+  if (!(std::abs(v) < 1e9))
+  {
+    return 0;
+  }
+  const double whole = double(std::int32_t(v));
+  const auto part = float(v - (v < whole ? whole - 1 : whole));
+  return part < 1 ? part : 0.0F;
+}
+
+} // namespace dgtk
+
+#endif

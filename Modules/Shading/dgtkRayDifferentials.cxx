@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkRayDifferentials.h"
+
+#include <algorithm>
+
+namespace dgtk
+{
+
+namespace
+{
+CameraRay difference(const CameraRay& to, const CameraRay& from, double factor = 1)
+{
+  return { (to.origin - from.origin) * factor, (to.direction - from.direction) * factor };
+}
+} // namespace
+
+RayDifferentials::RayDifferentials(const CameraModel& model)
+  : Model(model)
+  , Linear(model.linear().has_value())
+{
+  const CameraRay first = model.rayThrough({ 0.5, 0.5 });
+  this->Right = difference(model.rayThrough({ 1.5, 0.5 }), first);
+  this->Down = difference(model.rayThrough({ 0.5, 1.5 }), first);
+}
+
+const std::vector<PixelRay>& RayDifferentials::row(int y, int first, int count)
+{
+  this->Row.resize(std::size_t(count));
+  this->Linear ? this->linearRow(y, first, count) : this->generalRow(y, first, count);
+  return this->Row;
+}
+
+void RayDifferentials::linearRow(int y, int first, int count)
+{
+  this->Pixels.resize(std::size_t(count));
+  this->Own.resize(std::size_t(count));
+  for (int i = 0; i < count; ++i)
+  {
+    this->Pixels[std::size_t(i)] = { first + i + 0.5, y + 0.5 };
+  }
+  this->Model.raysThrough(this->Pixels.data(), std::size_t(count), this->Own.data());
+  for (std::size_t i = 0; i < std::size_t(count); ++i)
+  {
+    this->Row[i] = { this->Own[i], this->Right, this->Down };
+  }
+}
+
+/// To the right and left along the row, at the image's border to one side; down to the next row, on the last one from
+/// that above.
+void RayDifferentials::generalRow(int y, int first, int count)
+{
+  const int low = std::max(first - 1, std::min(first, 0));
+  const int high = std::min(first + count, std::max(first + count, this->Model.width()) - 1); // included
+  const auto wide = std::size_t(high - low + 1);
+  const bool last = y + 1 >= this->Model.height() && y > 0;
+  this->Pixels.resize(wide);
+  this->Own.resize(wide);
+  this->Below.resize(wide);
+  const auto trace = [&](int row, std::vector<CameraRay>& rays)
+  {
+    for (std::size_t i = 0; i < wide; ++i)
+    {
+      this->Pixels[i] = { low + int(i) + 0.5, row + 0.5 };
+    }
+    this->Model.raysThrough(this->Pixels.data(), wide, rays.data());
+  };
+  trace(y, this->Own);
+  trace(last ? y - 1 : y + 1, this->Below);
+  for (int i = 0; i < count; ++i)
+  {
+    const auto at = std::size_t(first + i - low);
+    const std::size_t before = at > 0 ? at - 1 : at;
+    const std::size_t after = std::min(at + 1, wide - 1);
+    const double steps = double(std::max<std::size_t>(after - before, 1));
+    this->Row[std::size_t(i)] = { this->Own[at], difference(this->Own[after], this->Own[before], 1 / steps),
+      difference(this->Below[at], this->Own[at], last ? -1 : 1) };
+  }
+}
+
+} // namespace dgtk

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkRayDifferentials_h
+#define dgtkRayDifferentials_h
+
+// Private to Shading.
+
+#include "dgtkCameraModel.h"
+
+#include <vector>
+
+namespace dgtk
+{
+
+/// A ray through a pixel's centre and how it changes to its neighbours (Igehy 1999, Tracing Ray Differentials).
+struct PixelRay
+{
+  CameraRay ray;
+  CameraRay right; ///< differences
+  CameraRay down;
+};
+
+/// Rays of pixels of one row of an image, functions of the pixel alone. One thread.
+class RayDifferentials
+{
+public:
+  explicit RayDifferentials(const CameraModel& model);
+  /// Of columns [first, first + count) of row y.
+  const std::vector<PixelRay>& row(int y, int first, int count);
+
+private:
+  void linearRow(int y, int first, int count);
+  void generalRow(int y, int first, int count);
+
+  const CameraModel& Model;
+  bool Linear;
+  CameraRay Right; ///< linear: everywhere the same
+  CameraRay Down;
+  std::vector<Eigen::Vector2d> Pixels;
+  std::vector<CameraRay> Own;
+  std::vector<CameraRay> Below;
+  std::vector<PixelRay> Row;
+};
+
+} // namespace dgtk
+
+#endif

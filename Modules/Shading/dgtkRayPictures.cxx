@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkRayPictures.h"
+
+#include "dgtkShadedView.h"
+
+#include "dgtkError.h"
+#include "dgtkRaySource.h"
+#include "dgtkResampledCamera.h"
+#include "dgtkThreadPool.h"
+#include "dgtkWorkTime.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr int maxSamples = 64;
+constexpr int maxPiece = 2048; ///< side of what is drawn at once with several samples a pixel
+constexpr int jobRows = 8;     ///< rows that are shaded as one job
+
+float clamped(float value) { return std::min(std::max(value, 0.0F), 1.0F); }
+
+class RayPictures final : public PictureSource
+{
+public:
+  explicit RayPictures(ThreadPool& pool)
+    : Pool(pool)
+    , Rays(makeRaySource(pool))
+  {
+  }
+  std::string name() const override { return this->Rays->name(); }
+  void setFilter(PixelFilter filter) override { this->Filter = filter; }
+  void setScene(std::shared_ptr<const SceneState> state, const View& view) override;
+  void render(const PixelRect& rect, VisibilityBuffer& hits) override
+  {
+    this->placeRays(this->TheView);
+    this->Rays->render(rect, hits);
+  }
+  std::function<void()> drawColor(
+    const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits) override;
+  void peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit) override;
+
+private:
+  void placeRays(const View& view);
+  std::shared_ptr<const ShadedView> shaded();
+  void drawSamples(const PixelRect& rect, int samples, ColorBuffer& colors);
+
+  ThreadPool& Pool;
+  std::unique_ptr<VisibilitySource> Rays;
+  ShadedMaterialLibrary Materials;
+  PixelFilter Filter = PixelFilter::Box;
+  std::shared_ptr<const SceneState> State;
+  View TheView;
+  std::shared_ptr<const CameraModel> RaysModel; ///< of the view that Rays has; null: none of this scene
+  std::shared_ptr<const ShadedView> Shaded;     ///< of State and TheView; null until it is needed
+  std::shared_ptr<const ShadedView> ShadedSamples;
+  int SamplesOfIt = 0;
+};
+
+void RayPictures::setScene(std::shared_ptr<const SceneState> state, const View& view)
+{
+  this->State = std::move(state);
+  this->TheView = view;
+  this->RaysModel.reset();
+  this->Shaded.reset();
+  this->ShadedSamples.reset();
+}
+
+/// The scene of the rays, with the view or one of its samples.
+void RayPictures::placeRays(const View& view)
+{
+  if (!this->State)
+  {
+    throw UsageError("no scene was set");
+  }
+  if (this->RaysModel != view.model)
+  {
+    this->Rays->setScene(this->State, view);
+    this->RaysModel = view.model;
+  }
+}
+
+std::shared_ptr<const ShadedView> RayPictures::shaded()
+{
+  if (!this->Shaded)
+  {
+    const WorkTime build(WorkStage::Build);
+    this->Shaded = std::make_shared<const ShadedView>(this->State, this->TheView, this->Materials);
+  }
+  return this->Shaded;
+}
+
+std::function<void()> RayPictures::drawColor(
+  const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits)
+{
+  if (samples < 1 || samples > maxSamples)
+  {
+    throw UsageError(
+      "samples must be between 1 and " + std::to_string(maxSamples) + " (found " + std::to_string(samples) + ")");
+  }
+  colors.resize(rect);
+  if (samples > 1)
+  {
+    this->drawSamples(rect, samples, colors);
+    if (hits)
+    {
+      this->render(rect, *hits);
+    }
+    return [] {};
+  }
+  const auto own = hits ? nullptr : std::make_shared<VisibilityBuffer>();
+  VisibilityBuffer& seen = hits ? *hits : *own;
+  this->render(rect, seen);
+  return [view = this->shaded(), own, &seen, &colors, &pool = this->Pool]
+  {
+    const PixelRect& all = seen.rect;
+    pool.parallelFor((all.height + jobRows - 1) / jobRows,
+      [&](int job)
+      {
+        const WorkTime time(WorkStage::Draw);
+        for (int y = job * jobRows; y < std::min(all.height, (job + 1) * jobRows); ++y)
+        {
+          const std::size_t first = std::size_t(y) * std::size_t(all.width);
+          view->row(all.x, all.y + y, all.width, &seen.hits[first], &colors.rgb[3 * first]);
+        }
+      });
+  };
+}
+
+/// The samples are the pixels of a picture `samples` times as large.
+void RayPictures::drawSamples(const PixelRect& rect, int samples, ColorBuffer& colors)
+{
+  if (!this->ShadedSamples || this->SamplesOfIt != samples)
+  {
+    const WorkTime build(WorkStage::Build);
+    View large = this->TheView;
+    large.model = resampledCamera(this->TheView.model, this->TheView.model->width() * samples,
+      this->TheView.model->height() * samples, 1.0 / samples, { 0, 0 });
+    this->ShadedSamples = std::make_shared<const ShadedView>(this->State, large, this->Materials);
+    this->SamplesOfIt = samples;
+  }
+  const SampleFilter filter(this->Filter, samples, std::numeric_limits<float>::max());
+  const int side = std::max(1, maxPiece / samples - 2 * filter.margin());
+  const ShadedView& view = *this->ShadedSamples;
+  this->placeRays(view.view());
+  VisibilityBuffer hits;
+  std::vector<float> rgba;
+  for (int y = 0; y < rect.height; y += side)
+  {
+    for (int x = 0; x < rect.width; x += side)
+    {
+      const PixelRect piece{ rect.x + x, rect.y + y, std::min(side, rect.width - x), std::min(side, rect.height - y) };
+      const PixelRect drawn = filter.drawn(piece);
+      const PixelRect all{ drawn.x * samples, drawn.y * samples, drawn.width * samples, drawn.height * samples };
+      this->Rays->render(all, hits);
+      rgba.resize(std::size_t(all.width) * std::size_t(all.height) * 4);
+      this->Pool.parallelFor((all.height + jobRows - 1) / jobRows,
+        [&](int job)
+        {
+          const WorkTime time(WorkStage::Draw);
+          std::vector<float> rgb(std::size_t(all.width) * 3);
+          for (int row = job * jobRows; row < std::min(all.height, (job + 1) * jobRows); ++row)
+          {
+            view.row(all.x, all.y + row, all.width, &hits.hits[std::size_t(row) * std::size_t(all.width)], rgb.data());
+            float* to = &rgba[std::size_t(all.height - 1 - row) * std::size_t(all.width) * 4];
+            for (std::size_t i = 0; i < std::size_t(all.width); ++i, to += 4)
+            {
+              std::copy_n(&rgb[3 * i], 3, to);
+            }
+          }
+        });
+      filter.apply(rgba, piece, colors);
+    }
+  }
+}
+
+void RayPictures::peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit)
+{
+  const std::shared_ptr<const ShadedView> view = this->shaded();
+  const auto width = std::size_t(rect.width);
+  std::vector<std::vector<Hit>> lists(width * std::size_t(rect.height));
+  const int jobs = (rect.height + jobRows - 1) / jobRows;
+  const auto forRows = [&](const std::function<void(int)>& body)
+  {
+    this->Pool.parallelFor(jobs,
+      [&](int job)
+      {
+        const WorkTime time(WorkStage::Draw);
+        for (int y = job * jobRows; y < std::min(rect.height, (job + 1) * jobRows); ++y)
+        {
+          body(y);
+        }
+      });
+  };
+  forRows([&](int y) { view->allHits(rect.x, rect.y + y, rect.width, &lists[std::size_t(y) * width]); });
+  std::size_t most = 0;
+  for (const std::vector<Hit>& list : lists)
+  {
+    most = std::max(most, list.size());
+  }
+  SurfaceLayer layer;
+  layer.rect = rect;
+  for (std::size_t rank = 0; rank < most; ++rank)
+  {
+    layer.hits.assign(lists.size(), Hit{});
+    layer.rgba.assign(lists.size() * 4, 0.0F);
+    forRows(
+      [&](int y)
+      {
+        std::vector<ShadedView::Surface> surfaces;
+        std::vector<float> rgba;
+        for (std::size_t x = 0; x < width; ++x)
+        {
+          const std::vector<Hit>& list = lists[std::size_t(y) * width + x];
+          if (rank < list.size())
+          {
+            surfaces.push_back({ int(x), list[rank] });
+          }
+        }
+        rgba.resize(4 * surfaces.size());
+        view->shadeRow(rect.x, rect.y + y, rect.width, surfaces, rgba.data());
+        for (std::size_t i = 0; i < surfaces.size(); ++i)
+        {
+          const std::size_t at = std::size_t(y) * width + std::size_t(surfaces[i].pixel);
+          layer.hits[at] = surfaces[i].hit;
+          std::transform(&rgba[4 * i], &rgba[4 * i] + 4, &layer.rgba[4 * at], clamped);
+        }
+      });
+    if (!visit(layer))
+    {
+      return;
+    }
+  }
+}
+
+} // namespace
+
+std::unique_ptr<PictureSource> makeRayPictures(ThreadPool& pool) { return std::make_unique<RayPictures>(pool); }
+
+} // namespace dgtk

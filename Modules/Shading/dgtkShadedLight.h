@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkShadedLight_h
+#define dgtkShadedLight_h
+
+// Private to Shading.
+
+#include "dgtkShadedMaterials.h"
+
+#include "dgtkEnvironmentLight.h"
+#include "dgtkLightLaw.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace dgtk
+{
+
+/// A surface at a pixel, in the frame of the camera.
+struct ShadedPoint
+{
+  const ShadedMaterial* material = nullptr;
+  Float4 position;
+  Float4 normal; ///< unit, of the side that is seen
+  Float4 viewer; ///< unit, towards the eye
+  Float4 right;  ///< how the position changes to the pixel on the right, on the triangle's plane ...
+  Float4 down;   ///< ... and to that below
+  Footprint footprint;
+  float distance = 0; ///< from the eye
+  // Of the paths to lights that cast shadows.
+  std::uint32_t object = 0;
+  Eigen::Vector3d lifted;  ///< position, off flat triangles towards the surface that they stand for
+  Eigen::Vector3d outward; ///< unit normal of the triangle, of the side that is seen
+};
+
+/// Turns the normal as the material's pictures say.
+void turnNormal(ShadedPoint& point);
+
+/// What a light does to a point.
+struct PointLight
+{
+  Float4 toLight; ///< unit
+  float cosine = 0;
+  float strength = 0;
+  float lit = 1; ///< 0 in its shadow
+};
+
+/// The light of a scene at one instant in the frame of a camera, and what surfaces make of it. VTK's renderer computes
+/// the same (image_formation.md). Immutable.
+class ShadedLight
+{
+public:
+  ShadedLight(const SceneState& state, const View& view);
+
+  std::size_t lights() const { return this->Lights.size(); }
+  bool castsShadows(std::size_t light) const { return this->Lights[light].shadows; }
+  bool castsShadows() const { return this->Shadows; }
+  PointLight of(std::size_t light, const ShadedPoint& point) const;
+  /// Along the way of a path: how far a light is; infinite for parallel light.
+  double distanceTo(std::size_t light, const Eigen::Vector3d& position) const;
+
+  /// The display-referred colour of a point that is lit so by lights(); not cut off at white.
+  Float4 shade(const ShadedPoint& point, const PointLight* lit) const;
+  /// What is seen where nothing is; `angle` between neighbouring pixels, radians.
+  Float4 sky(Float4 direction, float angle) const;
+
+private:
+  struct Light
+  {
+    LightRay (*ray)(const LightShape& light, const Eigen::Vector3d& point);
+    LightShape shape;
+    Float4 ambient;
+    Float4 diffuse;
+    Float4 specular;
+    bool shadows;
+    bool near;     ///< at its place
+    bool atViewer; ///< head light of a camera whose view has no one direction
+  };
+  Float4 phong(const ShadedPoint& point, const PointLight* lit) const;
+  Float4 physical(const ShadedPoint& point, const PointLight* lit) const;
+  Float4 surroundings(const ShadedPoint& point, Float4 albedo, Float4 f0, float nv, float rough) const;
+  Float4 fogged(Float4 color, float distance) const;
+
+  std::vector<Light> Lights;
+  bool HeadOnly;
+  bool Shadows = false;
+  Float4 Background;
+  Float4 Fog;
+  float FogDensity;
+  float FogStart;
+  bool SeesEnvironment = false;
+  float Intensity = 1;
+  float TexelAngle = 1;
+  Matrix3 ImageFromCamera;
+  std::array<Float4, 9> Irradiance{};
+  std::shared_ptr<const RadiancePyramid> Reflected; ///< null without environment
+  std::shared_ptr<const RadiancePyramid> Picture;
+  std::shared_ptr<const std::vector<float>> Reflectance;
+};
+
+} // namespace dgtk
+
+#endif

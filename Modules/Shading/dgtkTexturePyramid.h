@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkTexturePyramid_h
+#define dgtkTexturePyramid_h
+
+// Private to Shading.
+
+#include "dgtkFloat4.h"
+
+#include "dgtkModel.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace dgtk
+{
+
+/// Texture coordinates at a pixel and how they change to its neighbours.
+struct Footprint
+{
+  double u = 0;
+  double v = 0;
+  float rightU = 0; ///< towards the pixel on the right
+  float rightV = 0;
+  float downU = 0; ///< towards the pixel below
+  float downV = 0;
+};
+
+/// A picture at all resolutions, each half as wide and high as the one before; it repeats.
+class TexturePyramid
+{
+public:
+  /// With `cutOut` the colours of what is cut out are those beside it.
+  TexturePyramid(const Image& image, bool cutOut);
+
+  int width() const { return this->Levels.front().width; }
+  int height() const { return this->Levels.front().height; }
+
+  /// What a pixel sees of the picture, RGB in [0, 1]: one to four trilinear probes along the longer axis of its
+  /// footprint, as EXT_texture_filter_anisotropic defines it.
+  Float4 at(const Footprint& f) const;
+
+private:
+  struct Level
+  {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgba; ///< rows from bottom to top
+  };
+  static Level half(const Level& from);
+  static Float4 bilinear(const Level& level, float u, float v);
+
+  std::vector<Level> Levels;
+};
+
+/// An equirectangular picture of light at all resolutions.
+class RadiancePyramid
+{
+public:
+  explicit RadiancePyramid(const RadianceImage& image);
+  /// Levels that are given, each half as wide as the one before: RGB, width x width / 2.
+  RadiancePyramid(const std::vector<float>* levels, int count, int width);
+
+  int height() const { return this->Levels.front().height; }
+  /// Along a unit vector in the axes of the picture, between levels.
+  Float4 at(Float4 direction, float level) const;
+
+private:
+  struct Level
+  {
+    int width = 0;
+    int height = 0;
+    std::vector<float> rgbx; ///< rows from top to bottom, four a texel
+    void add(Float4 rgb) { this->rgbx.insert(this->rgbx.end(), { rgb[0], rgb[1], rgb[2], 0.0F }); }
+    Float4 texel(std::size_t i) const { return loadFloat4(&this->rgbx[4 * i]); }
+  };
+  static Float4 bilinear(const Level& level, float u, float v);
+
+  std::vector<Level> Levels;
+};
+
+} // namespace dgtk
+
+#endif
