@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkTestScene.h"
 
+#include "dgtkRayPictures.h"
+#include "dgtkThreadPool.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -281,6 +284,20 @@ RasterSource& source()
   return *one;
 }
 
+namespace
+{
+bool byRays = false;
+}
+
+PictureSource& pictures()
+{
+  static ThreadPool pool(2);
+  static const std::unique_ptr<PictureSource> rays = makeRayPictures(pool);
+  return byRays ? *rays : source();
+}
+
+void usePictures(const std::string& renderer) { byRays = renderer == "ray"; }
+
 VisibilityBuffer render(std::shared_ptr<const SceneState> state, const View& view)
 {
   VisibilityBuffer hits;
@@ -292,8 +309,8 @@ VisibilityBuffer render(std::shared_ptr<const SceneState> state, const View& vie
 ColorBuffer renderColor(std::shared_ptr<const SceneState> state, const View& view, int samples, VisibilityBuffer* hits)
 {
   ColorBuffer colors;
-  source().setScene(std::move(state), view);
-  source().renderColor(whole(view), samples, colors, hits);
+  pictures().setScene(std::move(state), view);
+  pictures().renderColor(whole(view), samples, colors, hits);
   return colors;
 }
 

@@ -74,6 +74,9 @@ private:
 
 /// One engine for all tests of the process.
 RasterSource& source();
+/// What makes colours: source(), unless usePictures() said "ray".
+PictureSource& pictures();
+void usePictures(const std::string& renderer);
 VisibilityBuffer render(std::shared_ptr<const SceneState> state, const View& view);
 ColorBuffer renderColor(
   std::shared_ptr<const SceneState> state, const View& view, int samples = 1, VisibilityBuffer* hits = nullptr);

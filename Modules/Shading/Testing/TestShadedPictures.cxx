@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Light against closed forms; the renderers are compared in RenderGL and Pipeline.
+#include "dgtkRayPictures.h"
+
+#include "dgtkSyntheticScene.h"
+#include "dgtkThreadPool.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+using namespace dgtk;
+using namespace dgtk::test;
+
+namespace
+{
+constexpr double step = 1.0 / 255;
+
+struct Picture
+{
+  ColorBuffer colors;
+  VisibilityBuffer hits;
+  double at(int x, int y, int channel = 0) const
+  {
+    return double(this->colors.rgb[(std::size_t(y) * this->colors.rect.width + x) * 3 + channel]);
+  }
+};
+
+Picture draw(const std::shared_ptr<const SceneState>& state, const View& view, int samples = 1, int threads = 2)
+{
+  ThreadPool pool(threads);
+  const auto source = makeRayPictures(pool);
+  source->setScene(state, view);
+  Picture picture;
+  source->renderColor({ 0, 0, view.model->width(), view.model->height() }, samples, picture.colors, &picture.hits);
+  return picture;
+}
+
+/// White, with the normals of its triangles; `round`: those of a ball around the middle of its vertices.
+std::shared_ptr<Model> matte(const std::shared_ptr<Model>& from, bool round = false)
+{
+  auto model = std::make_shared<Model>(*from);
+  auto geometry = std::make_shared<Geometry>();
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& x : from->rest->positions)
+  {
+    middle += x / double(from->rest->positions.size());
+  }
+  model->uvs.clear();
+  for (auto& triangle : model->triangles)
+  {
+    Eigen::Vector3d x[3];
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      x[i] = from->rest->positions[triangle[i]];
+      model->uvs.push_back(from->uvs[triangle[i]]);
+    }
+    const Eigen::Vector3d flat = (x[1] - x[0]).cross(x[2] - x[0]);
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      triangle[i] = std::uint32_t(geometry->positions.size());
+      geometry->positions.push_back(x[i]);
+      geometry->normals.push_back((round ? Eigen::Vector3d(x[i] - middle) : flat).normalized().cast<float>());
+    }
+  }
+  model->rest = geometry;
+  model->materials.assign(1, Material{});
+  model->materials[0].ambient.setZero();
+  model->materials[0].diffuse.setOnes();
+  return model;
+}
+
+LightState lightAt(LightKind kind, const Eigen::Vector3d& position, const Eigen::Vector3d& target = { 0, 0, 0 })
+{
+  LightState light;
+  light.kind = kind;
+  light.position = position;
+  light.target = target;
+  return light;
+}
+
+/// The plane y = 0 and a view of it from above.
+SceneBuilder ground(double half = 4)
+{
+  QuadOptions floor;
+  floor.corner = { -half, 0, half };
+  floor.sideU = { 2 * half, 0, 0 };
+  floor.sideV = { 0, 0, -2 * half };
+  return SceneBuilder().add(matte(makeQuad(floor)));
+}
+
+View fromAbove()
+{
+  ViewOptions options;
+  options.width = 160;
+  options.height = 120;
+  options.eye = { 0.5, 6, 4 };
+  return makeView(options);
+}
+
+Eigen::Vector3d onGround(const View& view, int x, int y)
+{
+  const CameraRay ray = view.model->rayThrough({ x + 0.5, y + 0.5 });
+  const Rigid3 world_from_camera = view.camera_from_world.inverse();
+  const Eigen::Vector3d eye = world_from_camera * ray.origin;
+  const Eigen::Vector3d d = world_from_camera.rotation * ray.direction;
+  return eye - d * (eye.y() / d.y());
+}
+
+/// Calls body(x, y, point) for pixels that show the ground.
+int forGround(
+  const View& view, const Picture& picture, const std::function<void(int, int, const Eigen::Vector3d&)>& body)
+{
+  int count = 0;
+  for (int y = 0; y < view.model->height(); ++y)
+  {
+    for (int x = 0; x < view.model->width(); ++x)
+    {
+      if (picture.hits.at(x, y).object == 1)
+      {
+        body(x, y, onGround(view, x, y));
+        ++count;
+      }
+    }
+  }
+  return count;
+}
+
+/// Whether the way from a point of the ground to a light is cut by a box, and by one that is `more` larger.
+bool isCut(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::AlignedBox3d& box, double more)
+{
+  double first = 0;
+  double last = 1;
+  for (int c = 0; c < 3; ++c)
+  {
+    const double a = (box.min()[c] - more - from[c]) / (to[c] - from[c]);
+    const double b = (box.max()[c] + more - from[c]) / (to[c] - from[c]);
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  return first < last;
+}
+} // namespace
+
+TEST(ShadedPictures, PlaneUnderAPointLightThatFades)
+{
+  const auto state = ground().state();
+  LightState light = lightAt(LightKind::Point, { 1, 2, 0.5 });
+  light.attenuation = { 0.5, 0.2, 0.1 };
+  light.intensity = 0.9;
+  state->lights.push_back(light);
+  const View view = fromAbove();
+  const Picture picture = draw(state, view);
+  const int seen = forGround(view, picture,
+    [&](int x, int y, const Eigen::Vector3d& p)
+    {
+      const double d = (light.position - p).norm();
+      const double expected = 0.9 * (light.position.y() / d) / (0.5 + 0.2 * d + 0.1 * d * d);
+      ASSERT_NEAR(picture.at(x, y), expected, 0.01 * step) << x << ' ' << y;
+    });
+  EXPECT_GT(seen, 10000);
+}
+
+TEST(ShadedPictures, ConeOfASpot)
+{
+  const auto state = ground().state();
+  LightState light = lightAt(LightKind::Spot, { 0, 3, 0 }, { 0.5, 0, 0.2 });
+  light.coneAngle = 25;
+  light.exponent = 3;
+  state->lights.push_back(light);
+  const View view = fromAbove();
+  const Picture picture = draw(state, view);
+  const Eigen::Vector3d axis = (light.target - light.position).normalized();
+  int lit = 0;
+  forGround(view, picture,
+    [&](int x, int y, const Eigen::Vector3d& p)
+    {
+      const Eigen::Vector3d way = (p - light.position).normalized();
+      const double inside = way.dot(axis);
+      const double edge = std::cos(25 * M_PI / 180);
+      if (std::abs(inside - edge) > 1e-6)
+      {
+        const double expected = inside > edge ? std::pow(inside, 3) * -way.y() : 0;
+        ASSERT_NEAR(picture.at(x, y), expected, 0.01 * step) << x << ' ' << y;
+        lit += inside > edge;
+      }
+    });
+  EXPECT_GT(lit, 1000);
+}
+
+// A smooth ball of flat triangles: its shadow ends where its shading does, and it does not shadow itself elsewhere.
+TEST(ShadedPictures, TerminatorOfABall)
+{
+  ViewOptions options;
+  options.width = options.height = 120;
+  options.eye = { 0, 0, 4 };
+  for (const bool shadows : { false, true })
+  {
+    SceneBuilder scene;
+    scene.add(matte(makeSphere({ { 0, 0, 0 }, 1, 96, 192 }), true));
+    const auto state = scene.state();
+    LightState light = lightAt(LightKind::Directional, { 5, 1, 1 });
+    light.shadows = shadows;
+    state->lights.push_back(light);
+    const View view = makeView(options);
+    const Picture picture = draw(state, view);
+    const Eigen::Vector3d toLight = light.position.normalized();
+    int lit = 0;
+    for (int i = 0; i < options.width * options.height; ++i)
+    {
+      const int x = i % options.width;
+      const int y = i / options.width;
+      const Eigen::Vector3d d = view.model->rayThrough({ x + 0.5, y + 0.5 }).direction.normalized();
+      const double middle = 4 * d.z();
+      const double inside = middle * middle - 15;
+      if (inside > 0.05 && picture.hits.at(x, y).object == 1)
+      {
+        const Eigen::Vector3d p = (middle - std::sqrt(inside)) * d;
+        const Eigen::Vector3d normal(p.x(), -p.y(), 4 - p.z()); // of the world: y up, z towards the eye
+        const double expected = std::max(0.0, normal.dot(toLight));
+        ASSERT_NEAR(picture.at(x, y), expected, 1.5 * step) << x << ' ' << y << " shadows " << shadows;
+        lit += expected > 0;
+      }
+    }
+    EXPECT_GT(lit, 1000);
+  }
+}
+
+TEST(ShadedPictures, HardShadowOfABoxOnAPlane)
+{
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(-0.5, 0, -0.4), Eigen::Vector3d(0.3, 1.2, 0.4)); // stands on the plane
+  for (const LightKind kind : { LightKind::Point, LightKind::Directional, LightKind::Spot })
+  {
+    SceneBuilder scene = ground();
+    scene.add(matte(makeBox({ box.min(), box.max() })));
+    const auto state = scene.state();
+    LightState light = lightAt(kind, { 2, 3, 1.5 });
+    light.coneAngle = 80;
+    light.exponent = 0;
+    light.shadows = true;
+    state->lights.push_back(light);
+    const View view = fromAbove();
+    const Picture picture = draw(state, view);
+    const double pixel = (onGround(view, 81, 60) - onGround(view, 80, 60)).norm();
+    int shadowed = 0;
+    int lit = 0;
+    forGround(view, picture,
+      [&](int x, int y, const Eigen::Vector3d& p)
+      {
+        const Eigen::Vector3d to =
+          kind == LightKind::Directional ? Eigen::Vector3d(p + 10 * light.position) : light.position;
+        const bool cut = isCut(p, to, box, -pixel / 2);
+        if (cut == isCut(p, to, box, pixel / 2)) // not at the edge
+        {
+          ASSERT_EQ(picture.at(x, y) == 0, cut) << x << ' ' << y << " kind " << int(kind);
+          ++(cut ? shadowed : lit);
+        }
+      });
+    EXPECT_GT(shadowed, 100) << int(kind);
+    EXPECT_GT(lit, 5000) << int(kind);
+  }
+}
+
+TEST(ShadedPictures, LightGoesThroughGlassAndHoles)
+{
+  QuadOptions quad;
+  quad.corner = { -1, 1, 1 };
+  quad.sideU = { 2, 0, 0 };
+  quad.sideV = { 0, 0, -2 };
+  const auto opaque = matte(makeQuad(quad));
+  const auto glass = matte(makeQuad(quad));
+  glass->materials[0].opacity = 0.5;
+  const auto leaf = matte(makeQuad(quad));
+  addCutOut(*leaf, 2, 3);
+  const auto litShare = [](const std::shared_ptr<Model>& cover)
+  {
+    SceneBuilder scene = ground();
+    scene.add(cover);
+    const auto state = scene.state();
+    LightState light = lightAt(LightKind::Directional, { 0, 5, 0 });
+    light.shadows = true;
+    state->lights.push_back(light);
+    ViewOptions options;
+    options.eye = { 0, 0.5, 3 };
+    options.lookAt = { 0, 0, 0 };
+    const View view = makeView(options);
+    const Picture picture = draw(state, view);
+    double lit = 0;
+    double all = 0;
+    forGround(view, picture,
+      [&](int x, int y, const Eigen::Vector3d& p)
+      {
+        const bool under = p.cwiseAbs().maxCoeff() < 0.99;
+        all += under;
+        lit += under && picture.at(x, y) > 0;
+      });
+    return lit / all;
+  };
+  EXPECT_EQ(litShare(opaque), 0);
+  EXPECT_EQ(litShare(glass), 1);
+  const double holes = litShare(leaf);
+  EXPECT_GT(holes, 0.1);
+  EXPECT_LT(holes, 0.9);
+}
+
+TEST(ShadedPictures, WhatStandsBehindALightCastsNoShadow)
+{
+  SceneBuilder scene = ground();
+  scene.add(matte(makeBox({ { -3, 2, -3 }, { 3, 2.5, 3 } }))); // a ceiling just above the light
+  const auto state = scene.state();
+  LightState light = lightAt(LightKind::Point, { 0, 1.99, 0 });
+  light.shadows = true;
+  state->lights.push_back(light);
+  ViewOptions options;
+  options.eye = { 0, 1, 3.9 };
+  options.lookAt = { 0, 0, 0 };
+  const View view = makeView(options);
+  const Picture picture = draw(state, view);
+  const int seen = forGround(
+    view, picture, [&](int x, int y, const Eigen::Vector3d&) { ASSERT_GT(picture.at(x, y), 0) << x << ' ' << y; });
+  EXPECT_GT(seen, 1000);
+}
+
+// The same surface point has the same colour under every lens.
+TEST(ShadedPictures, LensesSeeTheSameColours)
+{
+  SceneBuilder scene = ground(6);
+  scene.add(matte(makeSphere({ { 0, 0.5, 0 }, 1, 40, 80 })));
+  const auto state = scene.state();
+  state->lights.push_back(lightAt(LightKind::Point, { 2, 4, 3 }));
+  const View pinhole = fromAbove();
+  View hidden = pinhole;
+  hidden.model = hideLinear(pinhole.model);
+  const Picture straight = draw(state, pinhole);
+  const Picture general = draw(state, hidden);
+  ASSERT_EQ(straight.colors.rgb.size(), general.colors.rgb.size());
+  for (std::size_t i = 0; i < straight.colors.rgb.size(); ++i)
+  {
+    ASSERT_NEAR(double(straight.colors.rgb[i]), double(general.colors.rgb[i]), 1e-5) << i;
+  }
+  View round = pinhole;
+  round.model = makeEquidistant(400, 400, 150);
+  const Picture fisheye = draw(state, round);
+  int compared = 0;
+  for (int y = 4; y < 116; y += 3)
+  {
+    for (int x = 4; x < 156; x += 3)
+    {
+      Eigen::Vector2d at;
+      const CameraRay ray = pinhole.model->rayThrough({ x + 0.5, y + 0.5 });
+      ASSERT_TRUE(round.model->project(ray.direction, at));
+      const int column = int(at.x());
+      const int row = int(at.y());
+      const Hit& hit = straight.hits.at(x, y);
+      if (hit.object == 1 && fisheye.hits.at(column, row).object == 1)
+      {
+        EXPECT_NEAR(straight.at(x, y), fisheye.at(column, row), 0.01) << x << ' ' << y;
+        ++compared;
+      }
+    }
+  }
+  EXPECT_GT(compared, 300);
+}
+
+TEST(ShadedPictures, FootprintsOfLensesAreThoseOfTheirRays)
+{
+  const auto floor = ground(20).state();
+  auto model = std::make_shared<Model>(*floor->instances[0].model);
+  auto image = std::make_shared<Image>();
+  image->width = image->height = 256;
+  for (int i = 0; i < 256 * 256; ++i)
+  {
+    const auto value = std::uint8_t((i / 4 + i / 1024) % 2 ? 255 : 0);
+    image->rgba.insert(image->rgba.end(), { value, value, value, 255 });
+  }
+  model->textures.push_back({ "checks", "", image });
+  model->materials[0].texture = 0;
+  const auto materials = std::make_shared<const std::vector<Material>>(model->materials);
+  floor->instances[0].model = model;
+  floor->instances[0].materials = materials;
+  floor->lights.push_back(lightAt(LightKind::Directional, { 0, 1, 0 }));
+  View view = fromAbove();
+  const Picture straight = draw(floor, view);
+  view.model = hideLinear(view.model);
+  const Picture general = draw(floor, view);
+  double sum = 0;
+  for (std::size_t i = 0; i < straight.colors.rgb.size(); ++i)
+  {
+    sum += std::abs(double(straight.colors.rgb[i]) - double(general.colors.rgb[i]));
+  }
+  EXPECT_LT(sum / double(straight.colors.rgb.size()), 0.5 * step); // differences instead of the derivative
+}
+
+TEST(ShadedPictures, AreTheSameForAnyThreadsAndAnyPieces)
+{
+  SceneBuilder scene = ground();
+  const auto glass = matte(makeSphere({ { 0.5, 1, 0 }, 0.7, 12, 20 }));
+  glass->materials[0].opacity = 0.4;
+  scene.add(matte(makeSphere({ { -0.5, 0.5, 0 }, 1, 12, 20 }))).add(glass);
+  const auto state = scene.state();
+  LightState light = lightAt(LightKind::Point, { 2, 4, 3 });
+  light.shadows = true;
+  state->lights = { light, lightAt(LightKind::Head, { 0, 0, 0 }) };
+  const View view = fromAbove();
+  for (const int samples : { 1, 3 })
+  {
+    const Picture one = draw(state, view, samples, 1);
+    EXPECT_EQ(draw(state, view, samples, 2).colors.rgb, one.colors.rgb);
+    EXPECT_EQ(draw(state, view, samples, 5).colors.rgb, one.colors.rgb);
+    ThreadPool pool(2);
+    const auto source = makeRayPictures(pool);
+    source->setScene(state, view);
+    ColorBuffer piece;
+    const PixelRect rect{ 33, 21, 70, 50 };
+    source->renderColor(rect, samples, piece, nullptr);
+    for (int y = 0; y < rect.height; ++y)
+    {
+      for (int i = 0; i < rect.width * 3; ++i)
+      {
+        ASSERT_EQ(piece.rgb[std::size_t(y) * rect.width * 3 + i],
+          one.colors.rgb[(std::size_t(rect.y + y) * 160 + rect.x) * 3 + i])
+          << samples << ' ' << y << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST(ShadedPictures, WhatIsLeftToBeDoneNeedsNoSource)
+{
+  const auto state = ground().state();
+  state->lights.push_back(lightAt(LightKind::Point, { 1, 2, 0.5 }));
+  const View view = fromAbove();
+  const PixelRect whole{ 0, 0, 160, 120 };
+  ThreadPool pool(2);
+  auto source = makeRayPictures(pool);
+  source->setScene(state, view);
+  ColorBuffer late;
+  VisibilityBuffer hits;
+  const auto rest = source->drawColor(whole, 1, late, &hits);
+  ColorBuffer other;
+  source->setScene(SceneBuilder().state(), view);
+  source->renderColor(whole, 1, other, nullptr);
+  source.reset();
+  rest();
+  EXPECT_EQ(late.rgb, draw(state, view).colors.rgb);
+}
+
+TEST(ShadedPictures, LightAboveWhiteIsKept)
+{
+  const auto state = ground().state();
+  LightState light = lightAt(LightKind::Directional, { 0, 1, 0 });
+  light.intensity = 7;
+  state->lights.push_back(light);
+  EXPECT_NEAR(draw(state, fromAbove()).at(80, 60), 7, 1e-5);
+  EXPECT_NEAR(draw(state, fromAbove(), 2).at(80, 60), 7, 1e-5);
+}
