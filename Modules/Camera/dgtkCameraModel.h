@@ -23,11 +23,14 @@ namespace dgtk
 // Camera frame: x right, y down, z forward (OpenCV). x_camera = R * x_world + t.
 // Pixels: the image's top-left corner is (0, 0); the centre of the pixel in column i, row j is (i + 0.5, j + 0.5).
 
-/// A half line in the camera frame: x(t) = origin + t * direction, t >= 0. Directions are not normalised.
+/// A half line in the camera frame: x(t) = origin + t * direction, t >= 0. Directions are not normalised. One of zero
+/// is no ray: nothing is seen there.
 struct CameraRay
 {
   Eigen::Vector3d origin;
   Eigen::Vector3d direction;
+
+  bool exists() const { return !this->direction.isZero(0); }
 };
 
 /// Projections that a 3x3 matrix describes, which OpenGL can draw and for which depth has a closed form per triangle.
@@ -70,11 +73,13 @@ public:
 
   /// The ray through an image point (pixels), in the camera frame, also for points outside the image where there is
   /// one. Of a linear() projection direction.z is 1 and origin.z is 0, so that the ray's parameter is the depth; of
-  /// another one the direction has length 1, so that it is the distance. Finite everywhere.
+  /// another one the direction has length 1, so that it is the distance, and is zero where no ray is: beyond the
+  /// domain of the model, as around the image circle of a fisheye. Finite everywhere.
   virtual CameraRay rayThrough(const Eigen::Vector2d& pixel) const = 0;
 
   /// Image point of a point in the camera frame (scene units), also outside the image. False, and `pixel`
-  /// untouched, when the point lies on no ray (behind the camera: pinhole z <= 0, orthographic z < 0).
+  /// untouched, when the point lies on no ray (behind the camera: pinhole z <= 0, orthographic z < 0; beyond the
+  /// domain of a lens).
   virtual bool project(const Eigen::Vector3d& x_in_camera, Eigen::Vector2d& pixel) const = 0;
 
   /// The same of many at once; `seen` gets what project() returns.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Perspective: rays through a point.
+// Perspective: rays through a point, and OpenCV's distortion of their image.
+#include "dgtkDistortion.h"
+#include "dgtkLensCamera.h"
 #include "dgtkLinearCamera.h"
 
 #include "dgtkError.h"
@@ -37,8 +39,46 @@ public:
   }
 };
 
+class DistortedPinhole final : public RowsOf<DistortedPinhole, LensCamera>
+{
+public:
+  DistortedPinhole(const CameraParameters& of, const Eigen::Matrix3d& K)
+    : RowsOf(of, K)
+    , Lens(of.numbers.at("distortion"), this->imageRadius())
+  {
+  }
+  std::string name() const override { return "pinhole"; }
+  CameraRay rayThrough(const Eigen::Vector2d& pixel) const override
+  {
+    Eigen::Vector2d p;
+    if (!this->Lens.undo(this->plane().onPlane(pixel), p))
+    {
+      return noRay();
+    }
+    const double scale = 1 / std::sqrt(1 + p.squaredNorm());
+    return { Eigen::Vector3d::Zero(), Eigen::Vector3d(scale * p.x(), scale * p.y(), scale) };
+  }
+  bool project(const Eigen::Vector3d& x, Eigen::Vector2d& pixel) const override
+  {
+    Eigen::Vector2d p;
+    if (!(x.z() > 0) || !this->Lens.apply(x.head<2>() / x.z(), p))
+    {
+      return false;
+    }
+    pixel = this->plane().inImage(p.x(), p.y());
+    return true;
+  }
+
+private:
+  Distortion Lens;
+};
+
 std::shared_ptr<const CameraModel> make(const CameraParameters& of)
 {
+  if (!Distortion::isNone(of.numbers.at("distortion")))
+  {
+    return std::make_shared<DistortedPinhole>(of, lensMatrix(of, [](double angle) { return std::tan(angle); }));
+  }
   return of.K ? makePinhole(of.width, of.height, *of.K)
               : makePinholeFromFov(of.width, of.height, of.number("fovY"), of.number("aspect"));
 }
@@ -61,6 +101,10 @@ std::shared_ptr<const CameraModel> makePinholeFromFov(int width, int height, dou
 }
 
 extern const CameraEntry cameraPinhole;
-const CameraEntry cameraPinhole = { { fieldOfViewParameter(), aspectParameter(), matrixParameter() }, &make };
+const CameraEntry cameraPinhole = { { fieldOfViewParameter(), aspectParameter(), matrixParameter(),
+                                      distortionParameter("OpenCV's k1, k2, p1, p2, k3, k4, k5, k6, s1, s2, s3, s4, "
+                                                          "tx, ty; the image without it where it is zero",
+                                        { 4, 5, 8, 12, 14 }) },
+  &make };
 
 } // namespace dgtk

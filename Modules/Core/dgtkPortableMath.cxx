@@ -31,11 +31,11 @@ constexpr OddReciprocals odd;
 
 struct FactorialReciprocals // 1 / n!
 {
-  double reciprocal[15]{};
+  double reciprocal[18]{};
   constexpr FactorialReciprocals()
   {
     double factorial = 1;
-    for (int n = 0; n < 15; ++n)
+    for (int n = 0; n < 18; ++n)
     {
       factorial *= n > 0 ? n : 1;
       this->reciprocal[n] = 1 / factorial;
@@ -151,6 +151,66 @@ double pow(double x, double y) { return x > 0 ? exp(y * log(x)) : 0; }
 double acos(double c)
 {
   return c <= 0.5 ? halfPi - asinSmall(c) : 2 * asinSmall(std::sqrt((1 - std::min(c, 1.0)) / 2));
+}
+
+SineCosine sinCos(double x)
+{
+  constexpr double halfPiHigh = 1.5707963267341256; // 33 bits: times a small integer it is exact
+  constexpr double halfPiLow = 6.077100506506192e-11;
+  const double k = std::floor(x / halfPi + 0.5);
+  const double r = (x - k * halfPiHigh) - k * halfPiLow;
+  const double rr = r * r;
+  double sine = factorials.reciprocal[17];
+  double cosine = factorials.reciprocal[16];
+  for (int n = 14; n > 0; n -= 2)
+  {
+    sine = factorials.reciprocal[n + 1] - rr * sine;
+    cosine = factorials.reciprocal[n] - rr * cosine;
+  }
+  sine = r - r * rr * sine;
+  cosine = 1 - rr * cosine;
+  switch (static_cast<int>(k) & 3)
+  {
+    case 0:
+      return { sine, cosine };
+    case 1:
+      return { cosine, -sine };
+    case 2:
+      return { -sine, -cosine };
+    default:
+      return { -cosine, sine };
+  }
+}
+
+double atan2(double y, double x)
+{
+  const double ax = std::abs(x);
+  const double ay = std::abs(y);
+  const bool steep = ay > ax;
+  const double near = steep ? ay : ax; // the angle to its axis is at most pi / 4
+  const double off = steep ? ax : ay;
+  if (near == 0)
+  {
+    return 0;
+  }
+  constexpr double tangents[] = { 0, 0.19891236737965800, 0.41421356237309505, 0.66817863791929892, 1 }; // of pi / 16
+  const double slope = off / near;
+  int node = 0;
+  while (node < 4 && slope > 0.5 * (tangents[node] + tangents[node + 1]))
+  {
+    ++node;
+  }
+  const double t = (slope - tangents[node]) / (1 + tangents[node] * slope); // of the angle from there
+  const double tt = t * t;
+  double sum = 0;
+  for (int i = 9; i > 0; --i)
+  {
+    sum = odd.reciprocal[i] - tt * sum;
+  }
+  double angle = node * (pi / 16) + (t - t * tt * sum);
+  angle = steep ? halfPi - angle : angle;
+  angle = x < 0 ? pi - angle : angle;
+  return y < 0 ? -angle : angle;
 }
 
 double logFactorial(double n)

@@ -24,6 +24,15 @@ DGTKCORE_EXPORT double exp(double x);
 DGTKCORE_EXPORT double pow(double x, double y);
 /// Arc cosine, radians, of c in [0, 1].
 DGTKCORE_EXPORT double acos(double c);
+/// Sine and cosine of x radians, |x| <= 1e5; absolute error below 1e-15.
+struct SineCosine
+{
+  double sine;
+  double cosine;
+};
+DGTKCORE_EXPORT SineCosine sinCos(double x);
+/// Angle of the point (x, y), radians from -pi to pi; 0 for the origin.
+DGTKCORE_EXPORT double atan2(double y, double x);
 /// Logarithm of n!, n >= 0; absolute error below 1e-10 and a relative 1e-15.
 DGTKCORE_EXPORT double logFactorial(double n);
 

@@ -11,7 +11,7 @@ namespace dgtk
 
 namespace
 {
-constexpr double tolerance = 0.01; // of the smaller depth
+constexpr double tolerance = 0.01; // of the smaller range
 
 bool holds(const PixelPlane& plane, const Eigen::Vector3d& other, double slack)
 {
@@ -33,7 +33,7 @@ std::uint8_t edgeBetween(const PixelPlane& a, const PixelPlane& b)
   {
     return objectEdge;
   }
-  const double slack = tolerance * std::min(a.point.z(), b.point.z());
+  const double slack = tolerance * std::min(a.range, b.range);
   return a.object != 0 && !holds(a, b.point, slack) && !holds(b, a.point, slack) ? depthEdge : noEdge;
 }
 
@@ -49,6 +49,7 @@ std::vector<PixelPlane> pixelPlanes(const SurfaceRows& row)
     const CameraRay ray = row.view->model->rayThrough({ double(x) + 0.5, row.rect.y + 0.5 });
     planes[x].object = row.hits[x].object;
     planes[x].point = ray.origin + row.t[x] * ray.direction;
+    planes[x].range = row.t[x];
     planes[x].normal =
       x > 0 && row.hits[x] == row.hits[x - 1] ? planes[x - 1].normal : normalInCamera(row, row.hits[x]);
   }

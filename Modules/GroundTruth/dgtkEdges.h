@@ -25,10 +25,11 @@ struct PixelPlane
   std::uint32_t object = 0; ///< 0: no surface
   Eigen::Vector3d point{ 0, 0, 0 };
   Eigen::Vector3d normal{ 0, 0, 0 }; ///< unit length
+  double range = 0;                  ///< SurfaceRows::t: depth, or the distance of a lens
 };
 
 /// What two neighbouring pixels are to one another. A depth edge: either point is off the other's tangent plane by more
-/// than 1 % of the smaller depth.
+/// than 1 % of the smaller range.
 DGTKGROUNDTRUTH_EXPORT std::uint8_t edgeBetween(const PixelPlane& a, const PixelPlane& b);
 
 /// The pixels' planes of one row of surfaces.

@@ -70,11 +70,19 @@ void PacketTracer::setLinear(const PixelRect& block)
 void PacketTracer::setGeneral(const PixelRect& block)
 {
   RTCRay16& out = this->Packet.ray;
+  Eigen::Vector2d pixels[lanes];
+  CameraRay rays[lanes];
   for (int lane = 0; lane < lanes; ++lane)
   {
     const int x = block.x + std::min(lane % side, block.width - 1);
     const int y = block.y + std::min(lane / side, block.height - 1);
-    const CameraRay ray = this->TheView.model->rayThrough({ x + 0.5, y + 0.5 });
+    pixels[lane] = { x + 0.5, y + 0.5 };
+  }
+  this->TheView.model->raysThrough(pixels, lanes, rays);
+  for (int lane = 0; lane < lanes; ++lane)
+  {
+    const CameraRay& ray = rays[lane];
+    this->Valid[lane] = ray.exists() ? this->Valid[lane] : 0;
     out.org_x[lane] = float(ray.origin.x());
     out.org_y[lane] = float(ray.origin.y());
     out.org_z[lane] = float(ray.origin.z());
@@ -198,6 +206,10 @@ void PacketTracer::mark(const PixelRect& block, const VisibilityBuffer& buffer, 
 template <TraceMode Mode>
 void PacketTracer::trace(const PixelRect& block, VisibilityBuffer& buffer, RayMarks& marks)
 {
+  for (int lane = 0; lane < lanes; ++lane)
+  {
+    this->Valid[lane] = lane % side < block.width && lane / side < block.height ? -1 : 0;
+  }
   if (this->Linear)
   {
     this->setLinear(block);
@@ -209,7 +221,6 @@ void PacketTracer::trace(const PixelRect& block, VisibilityBuffer& buffer, RayMa
   RTCHit16& hit = this->Packet.hit;
   for (int lane = 0; lane < lanes; ++lane)
   {
-    this->Valid[lane] = lane % side < block.width && lane / side < block.height ? -1 : 0;
     this->Packet.ray.tfar[lane] = this->Far * (1 + rangeSlack);
     hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
     hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace dgtk
@@ -170,18 +171,28 @@ ExactHit RayScene::intersect(const ExactRay& ray, const Hit& hit, bool& uncertai
 
 double RayScene::errorInPixels(const View& view) const
 {
-  const Eigen::Vector2d middle(0.5 * view.model->width(), 0.5 * view.model->height());
-  const CameraRay ray = view.model->rayThrough(middle);
-  const CameraRay next = view.model->rayThrough({ middle.x() + 1, middle.y() });
-  const double pixel =
-    (next.origin - ray.origin).norm() + this->Reach * (next.direction - ray.direction).norm() / ray.direction.norm();
-  return this->Reach > 0 ? 2 * rayPrecision * this->Reach / pixel : 0;
+  const CameraModel& model = *view.model;
+  double finest = std::numeric_limits<double>::infinity(); // pixel at the farthest point
+  for (const double part :
+    model.linear() ? std::vector<double>{ 0.5 } : std::vector<double>{ 0.2, 0.35, 0.5, 0.65, 0.8 })
+  {
+    const Eigen::Vector2d pixel(part * model.width(), 0.5 * model.height());
+    const CameraRay ray = model.rayThrough(pixel);
+    const CameraRay next = model.rayThrough({ pixel.x() + 1, pixel.y() });
+    if (ray.exists() && next.exists())
+    {
+      finest = std::min(finest, (next.origin - ray.origin).norm() +
+                                  this->Reach * (next.direction - ray.direction).norm() / ray.direction.norm());
+    }
+  }
+  return this->Reach > 0 ? 2 * rayPrecision * this->Reach / finest : 0;
 }
 
 ExactRay rayOf(const View& view, const Eigen::Vector2d& pixel)
 {
   const CameraRay ray = view.model->rayThrough(pixel);
-  return { ray.origin, ray.direction, view.near, view.far };
+  return ray.exists() ? ExactRay{ ray.origin, ray.direction, view.near, view.far }
+                      : ExactRay{ ray.origin, Eigen::Vector3d(0, 0, 1), view.near, 0 };
 }
 
 bool comesBefore(double ta, const Hit& a, double tb, const Hit& b)

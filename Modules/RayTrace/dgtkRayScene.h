@@ -41,8 +41,8 @@ public:
   const Placed& placed(std::size_t instance) const { return this->Instances[instance]; }
   /// Largest `reach` of all instances.
   double reach() const { return this->Reach; }
-  /// Pixels: a bound of the error of single precision in the middle of an image, at distances of about the scene's
-  /// size.
+  /// Pixels: a bound of the error of single precision in the middle of an image (of a lens, where its middle row is
+  /// finest), at distances of about the scene's size.
   double errorInPixels(const View& view) const;
   /// Surfaces whose single-precision t differ by less are compared exactly.
   float slack(float t) const { return float(2 * rayPrecision) * (t + float(this->Reach)); }
@@ -73,7 +73,7 @@ private:
   double Reach = 0;
 };
 
-/// The ray through an image point with the view's near and far.
+/// The ray through an image point with the view's near and far; with an empty range where none is.
 ExactRay rayOf(const View& view, const Eigen::Vector2d& pixel);
 
 /// Whether `a` at `ta` comes before `b` at `tb` on a ray: nearer, or equally near and of the lower object, then

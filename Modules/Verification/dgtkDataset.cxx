@@ -222,7 +222,10 @@ std::optional<Eye> Dataset::eye(const std::string& name, int frame, const Camera
   record.frame = frame;
   record.width = view.model->width();
   record.height = view.model->height();
-  record.K = view.model->linear() ? view.model->linear()->K : record.K;
+  const CameraParameters& parameters = view.model->parameters();
+  record.hasK = view.model->linear() || parameters.K;
+  record.K = view.model->linear() ? view.model->linear()->K : parameters.K.value_or(record.K);
+  record.numbers = parameters.numbers;
   record.R = view.camera_from_world.rotation;
   record.t = view.camera_from_world.translation;
   record.model = view.model->name();

@@ -19,7 +19,7 @@ std::shared_ptr<const CameraModel> linearModel(const CameraRecord& camera)
 
 Eye::Eye(const CameraRecord& record, std::shared_ptr<const CameraModel> model)
   : Record(record)
-  , Pinhole(record.model == "pinhole")
+  , Pinhole(record.model == "pinhole" && record.numbers.count("distortion") == 0)
   , Parallel(record.model == "orthographic")
 {
   this->TheView.name = record.name;
@@ -51,7 +51,12 @@ bool Eye::project(const Eigen::Vector3d& x, Eigen::Vector2d& pixel) const
 {
   if (!this->linear())
   {
-    return this->TheView.model->project(x, pixel);
+    const bool seen = this->TheView.model->project(x, pixel);
+    if (seen && this->lens().exists())
+    {
+      pixel = this->lens().project({ x }).front();
+    }
+    return seen;
   }
   if (this->Pinhole ? !(x.z() > 0) : !(x.z() >= 0))
   {

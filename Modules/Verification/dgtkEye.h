@@ -6,6 +6,7 @@
 
 #include "dgtkCameraModel.h"
 #include "dgtkDatasetDocuments.h"
+#include "dgtkEyeLens.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +15,14 @@
 namespace dgtk
 {
 
-/// A camera of cameras.json with arithmetic of its own for the linear models. Other models are asked for their rays
-/// and projections.
+/// A camera of cameras.json with arithmetic of its own: rays and projections of the linear models, projections of the
+/// lenses that EyeLens knows. A lens is asked for its rays (which a check projects) and its domain; a model of a
+/// program of its own for all.
 class Eye
 {
 public:
-  /// `model` is used unless the record's model is "pinhole" or "orthographic". Throws UsageError for a K that no camera
-  /// has.
+  /// `model` is used unless the record says a camera without a lens, "pinhole" or "orthographic". Throws UsageError for
+  /// a K that no camera has.
   Eye(const CameraRecord& record, std::shared_ptr<const CameraModel> model);
 
   const CameraRecord& record() const { return this->Record; }
@@ -28,6 +30,7 @@ public:
   int height() const { return this->Record.height; }
   bool linear() const { return this->Pinhole || this->Parallel; }
   bool pinhole() const { return this->Pinhole; }
+  EyeLens lens() const { return EyeLens(this->Record); }
 
   /// Origin and direction in the camera frame; direction.z is 1 for the linear models.
   CameraRay ray(const Eigen::Vector2d& pixel) const;
@@ -43,8 +46,8 @@ public:
   }
   /// False behind the camera.
   bool project(const Eigen::Vector3d& x_in_camera, Eigen::Vector2d& pixel) const;
-  /// What near and far bound of a point and the pixel that it is projected to: its depth, or the distance of a model that
-  /// is not linear.
+  /// What near and far bound of a point and the pixel that it is projected to: its depth, or the distance of a model
+  /// that is not linear.
   double range(const Eigen::Vector2d& pixel, const Eigen::Vector3d& x_in_camera) const;
   /// Inside the image, and between near and far.
   bool sees(const Eigen::Vector2d& pixel, const Eigen::Vector3d& x_in_camera) const;

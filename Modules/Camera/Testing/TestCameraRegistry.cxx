@@ -71,7 +71,7 @@ TEST(CameraRegistry, HasTheModelsOfTheTreeAndOfPrograms)
     EXPECT_FALSE(row.description.empty());
     EXPECT_EQ(findCamera(row.model), row.entry);
   }
-  EXPECT_THAT(models, testing::IsSupersetOf({ "pinhole", "orthographic", "strange" }));
+  EXPECT_THAT(models, testing::IsSupersetOf({ "pinhole", "orthographic", "fisheye", "strange" }));
   EXPECT_EQ(findCamera("no such model"), nullptr);
   EXPECT_FALSE(addCamera({ "pinhole", "another", &strange })) << "a second one of a name";
   EXPECT_EQ(cameraRows().size(), models.size());
@@ -109,7 +109,7 @@ TEST(CameraRegistry, RefusesWhatTheRowsDoNotSay)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(
-    refusalOf("fisheye", { 4, 3, std::nullopt }), HasSubstr("no such camera model: 'fisheye' (there are pinhole, "));
+    refusalOf("no such", { 4, 3, std::nullopt }), HasSubstr("no such camera model: 'no such' (there are pinhole, "));
   EXPECT_THAT(refusalOf("pinhole", { 0, 3, std::nullopt }), HasSubstr("image size out of range"));
   EXPECT_THAT(refusalOf("pinhole", { 4, 3, std::nullopt, { { "xi", { 1 } } } }), HasSubstr("'pinhole' has no 'xi'"));
   EXPECT_THAT(refusalOf("pinhole", { 4, 3, std::nullopt, {}, { { "fovY", "a" } } }), HasSubstr("has no 'fovY'"));

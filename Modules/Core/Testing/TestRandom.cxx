@@ -189,6 +189,25 @@ TEST(PortableMath, AgreesWithTheLibrary)
   EXPECT_EQ(portable::acos(1), 0);
 }
 
+TEST(PortableMath, AnglesAgreeWithTheLibrary)
+{
+  for (int i = -20000; i <= 20000; ++i)
+  {
+    const double x = i * 0.00137;
+    const portable::SineCosine both = portable::sinCos(x);
+    ASSERT_NEAR(both.sine, std::sin(x), 1e-15) << x;
+    ASSERT_NEAR(both.cosine, std::cos(x), 1e-15) << x;
+    const double radius = std::exp(i * 1e-3);
+    ASSERT_NEAR(portable::atan2(radius * std::sin(x), radius * std::cos(x)),
+      std::atan2(radius * std::sin(x), radius * std::cos(x)), 1e-15)
+      << x;
+  }
+  EXPECT_EQ(portable::atan2(0, 0), 0);
+  EXPECT_EQ(portable::atan2(0, -3), dgtk::pi);
+  EXPECT_EQ(portable::atan2(-3, 0), -dgtk::pi / 2);
+  EXPECT_EQ(portable::sinCos(0).sine, 0);
+}
+
 TEST(PortableMath, SrgbIsThatOfTheStandard)
 {
   EXPECT_EQ(portable::linearFromSrgb(0), 0);

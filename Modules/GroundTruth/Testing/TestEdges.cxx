@@ -14,7 +14,7 @@ using Marks = std::vector<std::vector<int>>;
 /// A plane that faces the camera at a depth; object 0 is none.
 PixelPlane facing(std::uint32_t object, double x, double y, double depth)
 {
-  return { object, { x, y, depth }, { 0, 0, -1 } };
+  return { object, { x, y, depth }, { 0, 0, -1 }, depth };
 }
 
 Marks marksOf(const std::vector<std::vector<PixelPlane>>& rows)
@@ -83,7 +83,7 @@ TEST(Edges, NeedBothPointsOffTheOthersPlane)
 {
   // A corner of a room: the second pixel's plane is the other wall, which holds the first point.
   const PixelPlane wall = facing(1, 0, 0, 10);
-  PixelPlane other{ 1, { 0, 0, 5 }, { 1, 0, 0 } };
+  PixelPlane other{ 1, { 0, 0, 5 }, { 1, 0, 0 }, 5 };
   EXPECT_EQ(edgeBetween(wall, other), noEdge);
   EXPECT_EQ(edgeBetween(other, wall), noEdge);
   other.point.x() = 0.0501; // by more than 1 % of 5

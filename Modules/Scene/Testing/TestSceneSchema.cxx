@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 using namespace dgtk;
@@ -53,7 +54,9 @@ std::string sceneWithKeys(
   }
   else if (kind == "camera")
   {
-    item = { { "model", property == "viewHeight" ? "orthographic" : "pinhole" }, { "eye", { 9, 0, 0 } },
+    const std::map<std::string, std::string> models{ { "viewHeight", "orthographic" }, { "xi", "omnidirectional" },
+      { "alpha", "eucm" }, { "beta", "eucm" } };
+    item = { { "model", models.count(property) != 0 ? models.at(property) : "pinhole" }, { "eye", { 9, 0, 0 } },
       { "lookAt", { 0, 0, 0 } } };
   }
   item[property] = inner.empty() ? keys : json{ { inner, keys } };
@@ -127,7 +130,7 @@ TEST(SceneSchema, EveryTrackHasKeyFrames)
       }
     }
   }
-  EXPECT_EQ(tracks, 3 + 4 + 12) << "tracks of objects, lights and cameras";
+  EXPECT_EQ(tracks, 3 + 4 + 15) << "tracks of objects, lights and cameras";
 }
 
 TEST(SceneSchema, EveryReferenceHasADefinition)

@@ -84,8 +84,9 @@ Meter checkPoints(Picture& picture, const Points& points, const std::string& fil
       {
         const cv::Point2d centre(row.columns[i] + 0.5, y + 0.5);
         const cv::Point3d& X = row.points[i];
-        const double depth = picture.eye().toCamera({ X.x, X.y, X.z }).z();
-        meter.add(cv::norm(projected[i] - centre) / picture.eye().farness(depth),
+        const double range =
+          picture.eye().range(centreOf(row.columns[i], y), picture.eye().toCamera({ X.x, X.y, X.z }));
+        meter.add(cv::norm(projected[i] - centre) / picture.eye().farness(range),
           [&] {
             return Offender{ file, row.columns[i], y, numbersText(&projected[i].x, 2), numbersText(&centre.x, 2) };
           });
@@ -119,6 +120,28 @@ void checkOpenCV(Picture& picture, const Points& points, Results& results)
       {
         std::vector<cv::Point2d> projected;
         cv::projectPoints(world, rotation, translation, K, cv::noArray(), projected);
+        return projected;
+      }));
+}
+
+/// Of a lens, whose rays are its model's: so that these are checked.
+void checkLens(Picture& picture, const Points& points, Results& results)
+{
+  const EyeLens lens = picture.eye().lens();
+  results.add({ lens.name(), "pixel", { points.file()->file() } },
+    checkPoints(picture, points, points.file()->file(),
+      [&](const std::vector<cv::Point3d>& world)
+      {
+        std::vector<Eigen::Vector3d> x_in_camera;
+        for (const cv::Point3d& X : world)
+        {
+          x_in_camera.push_back(picture.eye().toCamera({ X.x, X.y, X.z }));
+        }
+        std::vector<cv::Point2d> projected;
+        for (const Eigen::Vector2d& pixel : lens.project(x_in_camera))
+        {
+          projected.emplace_back(pixel.x(), pixel.y());
+        }
         return projected;
       }));
 }
@@ -171,6 +194,10 @@ void checkCalibration(Picture& picture, Results& results)
   if (points.file() && picture.eye().pinhole())
   {
     checkOpenCV(picture, points, results);
+  }
+  else if (points.file() && picture.eye().lens().exists())
+  {
+    checkLens(picture, points, results);
   }
   if (picture.eye().linear() && !text.empty())
   {

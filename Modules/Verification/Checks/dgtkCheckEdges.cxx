@@ -72,7 +72,8 @@ private:
     }
     const Eigen::Vector3d a = this->Owner.point(x, y);
     const Eigen::Vector3d b = this->Owner.point(i, j);
-    const double depth = std::min(a.z(), b.z());
+    const Eye& eye = this->Owner.eye();
+    const double depth = std::min(eye.range(centreOf(x, y), a), eye.range(centreOf(i, j), b)); // of a lens, distance
     const double least = std::min(this->off(x, y, b), this->off(i, j, a));
     close = close || std::abs(least - depthStep * depth) <= stepSlack * depth;
     return least > depthStep * depth ? depthEdge : 0;

@@ -81,10 +81,13 @@ private:
       return near ? -1 : std::all_of(found, found + 3, [](double v) { return std::isnan(v); }) ? 0 : infinite;
     }
     this->derive(x, y, target, expected);
+    const double seam =
+      this->ThePair.kind == PairKind::Motion ? 0 : this->ThePair.other->eye().lens().seam(target.pixel);
     double error = 0;
     for (int c = 0; c < this->Channels; ++c)
     {
-      const double difference = std::abs(found[c] - expected[c]);
+      double difference = std::abs(found[c] - expected[c]);
+      difference = c == 0 ? std::min(difference, std::abs(difference - seam)) : difference;
       error = std::isnan(difference) ? infinite : std::max(error, difference - this->File.rounding(found[c]));
     }
     return error / this->scale(target) / this->Owner.eye().farness(target.here.z()) /

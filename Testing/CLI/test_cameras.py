@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every camera model through the program: all exact layers, verified; what a model has no meaning for is refused."""
+import json
+import os
+
+import numpy
+
+from dataset_edits import Edits
+from harness import SOURCE, Case, load_json, main
+
+MODELS = os.path.join(SOURCE, "Data", "Models")
+WIDTH, HEIGHT = 48, 36
+LAYERS = ("depth,distance,inversedepth,objects,classes,parts,triangles,normal,shadingnormal,position,objectcoords,uv,"
+          "barycentrics,edges,flow_forward,flow_backward,sceneflow,alpha,coverage,boxes,amodal")
+
+
+def matrix(focal, skew=0):
+    return [[focal, skew, 24.5], [0, 1.02 * focal, 17.25], [0, 0, 1]]
+
+
+# Where a picture has an end it lies inside of these images: of the fisheye's, the mirror's and the double sphere's.
+LENSES = {
+    "radial": {"K": matrix(26), "distortion": [-0.2, 0.03, 0, 0]},
+    "five": {"K": matrix(26, 0.4), "distortion": [-0.21, 0.05, 0.004, -0.003, -0.004]},
+    "rational": {"K": matrix(26), "distortion": [0.3, 0.02, 0.001, -0.002, 0.001, 0.5, 0.06, 0.002]},
+    "tilted": {"K": matrix(30), "distortion": [-0.1, 0.01, 0.001, 0.002, 0, 0, 0, 0, 0.003, -0.001, 0.002, 0.001, 0.05, -0.08]},
+    "fisheye": {"model": "fisheye", "K": matrix(7.5), "distortion": [0.02, -0.004, 0.001, -0.0002]},
+    "fisheye without K": {"model": "fisheye", "fovY": 150},
+    "mirror": {"model": "omnidirectional", "K": matrix(26), "xi": 1.6, "distortion": [-0.05, 0.01, 0.002, -0.001]},
+    "sphere": {"model": "omnidirectional", "K": matrix(20), "xi": 0.8},
+    "double sphere": {"model": "double-sphere", "K": matrix(12), "xi": -0.2, "alpha": 0.65},
+    "enhanced": {"model": "eucm", "K": matrix(14), "alpha": 0.6, "beta": 1.1},
+    "panorama": {"model": "equirectangular"},
+    "parallel": {"model": "orthographic", "viewHeight": 3},
+}
+
+
+def scene():
+    """A closed room with a moving ball, seen by cameras that move and turn."""
+    keys = [[0, [0.1, 1.4, 2.2]], [2, [0.3, 1.5, 2.0]]]
+    room = {"position": [0, -1, 0], "scale": [9, 6, 11]}
+    objects = [
+        {"name": "room", "model": "crate.ac", **room},
+        {"name": "ball", "model": "ball.ac", "position": {"keys": [[0, [-0.4, 1.2, 0.3]], [2, [0.3, 1.3, 0.6]]]},
+         "orientation": {"keys": [[0, [1, 0, 0, 0]], [2, [0.96, 0, 0.28, 0]]]}, "scale": [2, 2, 2]},
+        {"name": "crate", "model": "crate.ac", "position": [1.5, 0.5, 0.5]},
+        {"name": "behind", "model": "crate.ac", "position": [0.3, 1.2, 4], "orientation": [0.9, 0.3, 0.3, 0]},
+    ]
+    cameras = [{"name": name, "width": WIDTH, "height": HEIGHT, "near": 0.05, "far": 100, "eye": {"keys": keys},
+                "lookAt": {"keys": [[0, [0, 1.1, 0]], [2, [0.4, 1.0, 0.2]]]}, **lens} for name, lens in LENSES.items()]
+    for item in objects:
+        item["model"] = os.path.join(MODELS, item["model"])
+    return {"version": 1, "objects": objects, "cameras": cameras}
+
+
+class Cameras(Case):
+    def setUp(self):
+        super().setUp()
+        self.scene = self.write("scene.json", json.dumps(scene()))
+
+    def render(self, layers, *options):
+        self.dgtk("render", self.scene, "-o", self.path("set"), "--quiet", "--visibility", "ray", "--frames", "0:1",
+                  "--layers", layers, *options)
+
+    def layer(self, camera, layer, frame=0):
+        return numpy.load(self.path("set", camera, layer, f"{frame:06}.npy"))
+
+    def verify(self):
+        report = json.loads(self.dgtk("verify", self.path("set"), "--json", "--threads", 2).stdout)
+        self.assertTrue(report["passed"])
+        return report["residuals"]
+
+    def test_all_layers_are_verified(self):
+        self.render(LAYERS + ",correspondence,points", "--pairs",
+                    "fisheye:panorama,panorama:mirror+1,mirror:radial,radial:fisheye,double sphere:enhanced,parallel:five",
+                    "--objects-format", "npy", "--flow_forward-format", "npy", "--flow_backward-format", "npy")
+        residuals = self.verify()
+        self.assertEqual({residual["layer"] for residual in residuals if residual["check"] == "calibration"},
+                         {"cv::projectPoints", "cv::fisheye::projectPoints", "cv::projectPoints of the sphere", "projection"})
+        self.assertEqual({residual["check"] for residual in residuals if residual["skipped"] > 0.01 * residual["count"]},
+                         {"forward-backward"})  # of the parallel projection, where no triangle holds four pixels
+        self.around_an_image_circle()
+        self.negative_depth()
+
+    def around_an_image_circle(self):
+        """Nothing is seen there, in no layer; inside there is a room all around."""
+        for name in ("fisheye", "mirror", "double sphere"):
+            objects = self.layer(name, "objects")
+            self.assertEqual(objects[0, 0], 0, name)
+            self.assertGreater((objects > 0).mean(), 0.3, name)
+            beyond = objects == 0
+            for layer in ("depth", "distance"):
+                self.assertTrue(numpy.isposinf(self.layer(name, layer)[beyond]).all(), (name, layer))
+            for layer in ("position", "normal", "flow_forward"):
+                self.assertTrue(numpy.isnan(self.layer(name, layer)[beyond]).all(), (name, layer))
+        self.assertTrue((self.layer("panorama", "objects") > 0).all())
+
+    def negative_depth(self):
+        """Behind the camera depth is negative and distance is not."""
+        depth, distance = self.layer("panorama", "depth"), self.layer("panorama", "distance")
+        behind = numpy.abs(numpy.arange(WIDTH) + 0.5 - WIDTH / 2) > WIDTH / 4
+        self.assertTrue((depth[:, behind] < 0).all() and (depth[:, ~behind] > 0).all())
+        self.assertTrue((distance > abs(depth) - 1e-12).all())
+
+    def test_a_wrong_coefficient_is_found(self):
+        self.render("position,depth")
+        edits = Edits(self.path("set"))
+
+        def spoil(document):
+            record = next(r for r in document["cameras"] if r["name"] == "fisheye" and r["frame"] == 0)
+            record["distortion"][0] += 1e-4
+        edits.document("cameras.json", spoil)
+        edits.accept()
+        self.refused("verify", self.path("set"), status=1, says=["cameras.json", "check cameras", "distortion"])
+        table = self.dgtk("verify", self.path("set"), status=1).stdout
+        row = next(line for line in table.splitlines() if "cv::fisheye::projectPoints" in line)
+        self.assertIn("BREACH", row)
+
+    def test_a_wrong_position_is_found(self):
+        self.render("position")
+        edits = Edits(self.path("set"))
+        edits.change("mirror/position/000001.npy", (24, 20), lambda v: v + [0, 1e-6, 0])
+        edits.accept()
+        self.refused("verify", self.path("set"), status=1,
+                     says=["mirror/position/000001.npy", "cv::projectPoints of the sphere", "(24, 20)"])
+
+    def test_other_sizes_see_the_same(self):
+        self.render("position", "--cameras", "fisheye,mirror,five,panorama")
+        half = {name: self.layer(name, "position") for name in ("fisheye", "mirror", "five", "panorama")}
+        self.render("position", "--cameras", "fisheye,mirror,five,panorama", "--size", f"{3 * WIDTH}x{3 * HEIGHT}",
+                    "--replace")
+        for name, small in half.items():
+            large = self.layer(name, "position")[1::3, 1::3]
+            numpy.testing.assert_allclose(large, small, atol=1e-9, err_msg=name)
+        self.verify()
+
+    def test_cameras_are_written_under_the_scenes_names(self):
+        self.render("depth", "--cameras", "five,mirror,double sphere,enhanced,panorama,fisheye without K")
+        for record in load_json(self.path("set", "cameras.json"))["cameras"]:
+            lens = LENSES[record["name"]]
+            self.assertEqual(record["model"], lens.get("model", "pinhole"))
+            for key in ("K", "distortion", "xi", "alpha", "beta"):
+                if key in lens:
+                    self.assertEqual(record[key], lens[key], record["name"])
+            self.assertEqual("K" in record, record["name"] != "panorama")
+
+    def test_what_has_no_meaning_is_refused(self):
+        for layer, options in {"calibration": (), "pov": (), "disparity": ("--pairs", "fisheye:mirror")}.items():
+            self.refused("render", self.scene, "-o", self.path("no"), "--cameras", "fisheye,mirror", "--layers", layer,
+                         *options, status=2, says=layer)
+            self.assertFalse(os.path.exists(self.path("no")))
+
+
+class Wrong(Case):
+    def refuse(self, lens, *says):
+        document = scene()
+        document["cameras"] = [{"name": "c", "eye": [0, 0, 1], "lookAt": [0, 0, 0], "width": 8, "height": 8, **lens}]
+        path = self.write("scene.json", json.dumps(document))
+        self.refused("render", path, "-o", self.path("set"), "--layers", "depth", status=3, says=says)
+
+    def test_lenses_that_cannot_be(self):
+        self.refuse({"distortion": [1, 2, 3]}, "distortion", "4, 5, 8, 12 or 14 numbers")
+        self.refuse({"model": "fisheye", "xi": 1}, "xi")
+        self.refuse({"model": "double-sphere", "xi": 1}, "xi")
+        self.refuse({"model": "equirectangular", "fovY": 60}, "fovY", "equirectangular")
+        self.refuse({"model": "eucm", "alpha": 2}, "alpha")
+        self.refuse({"distortion": [0] * 12 + [2, 0]}, "tilt of the sensor")
+
+
+if __name__ == "__main__":
+    main()
