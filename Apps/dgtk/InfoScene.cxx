@@ -42,6 +42,10 @@ Json infoOfCamera(const Stage& stage, std::size_t index, int width, int height, 
     camera["resolution"] = { { "x", resolution.thesis.x() }, { "y", resolution.thesis.y() },
       { "far_plane", { { "x", resolution.farPlane.x() }, { "y", resolution.farPlane.y() } } } };
   }
+  else if (view.model->parameters().K)
+  {
+    camera["K"] = matrix(*view.model->parameters().K);
+  }
   for (const auto& [name, numbers] : view.model->parameters().numbers)
   {
     camera[name] = numbers.size() == 1 ? Json(numbers[0]) : Json(numbers);
@@ -102,7 +106,8 @@ Json infoOfScene(const std::string& path, const Arguments& arguments)
   info["lights"] = Json::array();
   for (const LightDescription& light : scene.lights)
   {
-    info["lights"].push_back({ { "name", light.name }, { "kind", traitsOf(light.kind).word }, { "enabled", light.enabled } });
+    info["lights"].push_back(
+      { { "name", light.name }, { "kind", traitsOf(light.kind).word }, { "enabled", light.enabled } });
   }
   info["first_frame"] = scene.firstFrame();
   info["last_frame"] = scene.lastFrame();

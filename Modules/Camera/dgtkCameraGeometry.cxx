@@ -80,9 +80,11 @@ WorldResolution worldResolution(const View& view)
   }
   else
   {
-    const auto direction = [&](double x, double y) { return model.rayThrough({ x, y }).direction; };
-    perPixel = { extentBetween(direction(0, height / 2), direction(width, height / 2)) / width,
-      extentBetween(direction(width / 2, 0), direction(width / 2, height)) / height };
+    const auto direction = [&](double column, double row) { return model.rayThrough({ column, row }).direction; };
+    const double x = width / 2;
+    const double y = height / 2;
+    perPixel = { extentBetween(direction(x - 0.5, y), direction(x + 0.5, y)),
+      extentBetween(direction(x, y - 0.5), direction(x, y + 0.5)) };
   }
   return { (view.far - view.near) * perPixel, view.far * perPixel };
 }

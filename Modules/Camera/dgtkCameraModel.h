@@ -161,8 +161,8 @@ DGTKCAMERA_EXPORT Rigid3 lookAtPose(
 
 /// World units per pixel by the thesis's equations 4.1 and 4.2, per axis with the field of view of that axis:
 /// 2 (far - near) tan(fov / 2) / pixels; and the same at the far plane: 2 far tan(fov / 2) / pixels. 2 tan(fov / 2) of
-/// a pinhole is the full extent of the image at depth 1, W / fx, wherever its principal point is; of a lens, fov is the
-/// angle between the rays through the middles of opposite sides. Orthographic: the size of a pixel, at any depth.
+/// a pinhole is the full extent of the image at depth 1, W / fx, wherever its principal point is; of a lens, all pixels
+/// count as those in the middle of the image. Orthographic: the size of a pixel, at any depth.
 /// Throws UsageError unless 0 < near < far.
 struct WorldResolution
 {

@@ -38,8 +38,19 @@ constexpr double firstStep = 1.0 / 256;
 constexpr double stepRatio = 1.02;
 constexpr int mostSteps = 50;
 constexpr int mostHalves = 12;
-constexpr double settled = 1e-15; // a step of Newton's method on the plane, as part of 1 + the point's distance
+constexpr double settled = 1e-15; // a step of Newton's method on the plane, as part of its distance, or of 1
 constexpr double solved = 1e-13;  // what may be left, alike
+
+std::vector<Eigen::Vector2d> allAround()
+{
+  std::vector<Eigen::Vector2d> ways;
+  for (int i = 0; i < directions; ++i)
+  {
+    const portable::SineCosine way = portable::sinCos(2 * pi / directions * i);
+    ways.emplace_back(way.cosine, way.sine);
+  }
+  return ways;
+}
 
 std::array<double, 14> filledUp(const std::vector<double>& numbers)
 {
@@ -78,6 +89,10 @@ ValueSlope Distortion::Radial::factor(double s) const
   const double below = 1 + s * (k[k4] + s * (k[k5] + s * k[k6]));
   const double aboveSlope = k[k1] + s * (2 * k[k2] + s * 3 * k[k3]);
   const double belowSlope = k[k4] + s * (2 * k[k5] + s * 3 * k[k6]);
+  if (!this->HasPoles)
+  {
+    return { above, aboveSlope };
+  }
   const double value = below > 0 ? above / below : 0; // nothing beyond a pole
   return { value, below > 0 ? (aboveSlope - value * belowSlope) / below : 0 };
 }
@@ -117,11 +132,11 @@ bool Distortion::isNone(const std::vector<double>& numbers)
 /// The smallest eigenvalue of the symmetric part of the slope, on a circle.
 double Distortion::leastStretchAt(double radius) const
 {
+  static const std::vector<Eigen::Vector2d> ways = allAround();
   double least = std::min(this->Rule(radius).slope, this->Rule.factor(radius * radius).value);
   for (int i = 0; i < directions && !this->OnlyRadial && least > leastStretch; ++i)
   {
-    const portable::SineCosine way = portable::sinCos(2 * pi / directions * i);
-    const Eigen::Matrix2d slope = this->map(radius * Eigen::Vector2d(way.cosine, way.sine)).slope;
+    const Eigen::Matrix2d slope = this->map(radius * ways[std::size_t(i)]).slope;
     const double half = 0.5 * (slope(0, 0) - slope(1, 1));
     const double cross = 0.5 * (slope(0, 1) + slope(1, 0));
     least = std::min(least, 0.5 * slope.trace() - std::sqrt(half * half + cross * cross));
@@ -182,7 +197,8 @@ bool Distortion::undo(const Eigen::Vector2d& distorted, Eigen::Vector2d& point) 
   {
     return false;
   }
-  const double start = this->Radius->inverse(std::min(radius, this->Radius->most()));
+  const double reached = std::min(radius, this->Radius->most());
+  const double start = this->OnlyRadial ? this->Radius->inverse(reached) : this->Radius->nearInverse(reached);
   point = radius > 0 ? Eigen::Vector2d(wanted * (start / radius)) : Eigen::Vector2d(wanted);
   return this->OnlyRadial || this->descend(wanted, point);
 }
@@ -195,13 +211,21 @@ bool Distortion::descend(const Eigen::Vector2d& wanted, Eigen::Vector2d& point) 
   Eigen::Vector2d left = wanted - here.point;
   for (int tries = 0; tries < mostSteps; ++tries)
   {
-    Eigen::Vector2d step = here.slope.inverse() * left;
+    const Eigen::Matrix2d& slope = here.slope;
+    const double determinant = slope(0, 0) * slope(1, 1) - slope(0, 1) * slope(1, 0);
+    Eigen::Vector2d step(
+      slope(1, 1) * left.x() - slope(0, 1) * left.y(), slope(0, 0) * left.y() - slope(1, 0) * left.x());
+    step /= determinant;
+    if (step.squaredNorm() <= settled * settled * (1 + point.squaredNorm()))
+    {
+      break;
+    }
     bool better = false;
     for (int halves = 0; halves < mostHalves && !better; ++halves, step *= 0.5)
     {
       Eigen::Vector2d next = point + step;
-      const double radius = next.norm();
-      next = radius > last ? Eigen::Vector2d(next * (last / radius)) : next;
+      const double square = next.squaredNorm();
+      next = square > last * last ? Eigen::Vector2d(next * (last / std::sqrt(square))) : next;
       const Mapped there = this->map(next);
       const Eigen::Vector2d still = wanted - there.point;
       better = still.squaredNorm() < left.squaredNorm();
@@ -212,7 +236,7 @@ bool Distortion::descend(const Eigen::Vector2d& wanted, Eigen::Vector2d& point) 
         left = still;
       }
     }
-    if (!better || step.norm() * 2 <= settled * (1 + point.norm()))
+    if (!better)
     {
       break;
     }

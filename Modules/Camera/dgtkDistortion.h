@@ -45,6 +45,7 @@ private:
   public:
     explicit Radial(const std::array<double, 14>& k)
       : K(k)
+      , HasPoles(k[5] != 0 || k[6] != 0 || k[7] != 0)
     {
     }
     /// The factor and its slope, of r^2.
@@ -53,6 +54,7 @@ private:
 
   private:
     std::array<double, 14> K;
+    bool HasPoles; ///< or may have: k4, k5 or k6 is not 0
   };
   Mapped map(const Eigen::Vector2d& point) const; ///< without the tilt
   double leastStretchAt(double radius) const;

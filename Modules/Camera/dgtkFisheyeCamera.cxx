@@ -4,6 +4,7 @@
 #include "dgtkGrowing.h"
 #include "dgtkLensCamera.h"
 #include "dgtkPortableMath.h"
+#include "dgtkRadialRays.h"
 
 #include <array>
 #include <cmath>
@@ -45,20 +46,25 @@ public:
   Fisheye(const CameraParameters& of, const Eigen::Matrix3d& K)
     : RowsOf(of, K)
     , Angles(Radius(of.numbers.at("distortion")), lastAngle(Radius(of.numbers.at("distortion"))), this->imageRadius())
+    , Rays([this](double radius) { return this->rayAt(radius); }, std::min(this->Angles.most(), this->imageRadius()))
   {
   }
   std::string name() const override { return "fisheye"; }
   CameraRay rayThrough(const Eigen::Vector2d& pixel) const override
   {
     const Eigen::Vector2d p = this->plane().onPlane(pixel);
-    const double radius = std::sqrt(p.squaredNorm());
-    if (!(radius <= this->Angles.most()))
+    const double square = p.squaredNorm();
+    RadialRay ray;
+    if (!this->Rays.find(square, ray))
     {
-      return noRay();
+      const double radius = std::sqrt(square);
+      if (!(radius <= this->Angles.most()))
+      {
+        return noRay();
+      }
+      ray = this->rayAt(radius);
     }
-    const portable::SineCosine angle = portable::sinCos(this->Angles.inverse(radius));
-    const double across = radius > 0 ? angle.sine / radius : 1;
-    return { Eigen::Vector3d::Zero(), Eigen::Vector3d(across * p.x(), across * p.y(), angle.cosine) };
+    return { Eigen::Vector3d::Zero(), Eigen::Vector3d(ray.across * p.x(), ray.across * p.y(), ray.z) };
   }
   bool project(const Eigen::Vector3d& x, Eigen::Vector2d& pixel) const override
   {
@@ -74,7 +80,14 @@ public:
   }
 
 private:
+  RadialRay rayAt(double radius) const
+  {
+    const portable::SineCosine angle = portable::sinCos(this->Angles.inverse(radius));
+    return { radius > 0 ? angle.sine / radius : 1, angle.cosine };
+  }
+
   Growing<Radius> Angles;
+  RadialRays Rays;
 };
 
 std::shared_ptr<const CameraModel> make(const CameraParameters& of)

@@ -50,11 +50,22 @@ public:
     {
       return this->solve(value, { this->Starts.back(), this->Last }, this->Starts.back());
     }
+    const int i = std::min(static_cast<int>(value / this->Usual * steps), steps - 1);
+    return this->solve(
+      value, { this->Starts[std::size_t(i)], this->Starts[std::size_t(i) + 1] }, this->nearInverse(value));
+  }
+
+  /// To some six digits, for a start.
+  double nearInverse(double value) const
+  {
+    if (value >= this->Usual)
+    {
+      return this->inverse(value);
+    }
     const double at = value / this->Usual * steps;
     const int i = std::min(static_cast<int>(at), steps - 1);
     const double low = this->Starts[std::size_t(i)];
-    const double high = this->Starts[std::size_t(i) + 1];
-    return this->solve(value, { low, high }, low + (at - i) * (high - low));
+    return low + (at - i) * (this->Starts[std::size_t(i) + 1] - low);
   }
 
 private:

@@ -38,10 +38,60 @@ void addBox(LineList& lines, const WorldBox& box)
   }
 }
 
+namespace
+{
+/// Where the picture ends on the way from the middle of the image to a point of it.
+CameraRay outermostRay(const CameraModel& model, const Eigen::Vector2d& pixel)
+{
+  const Eigen::Vector2d middle(model.width() / 2.0, model.height() / 2.0);
+  CameraRay found = model.rayThrough(pixel);
+  double inside = 0;
+  double outside = 1;
+  for (int i = 0; i < 20 && !model.rayThrough(pixel).exists(); ++i)
+  {
+    const double half = (inside + outside) / 2;
+    const CameraRay ray = model.rayThrough(middle + half * (pixel - middle));
+    found = ray.exists() ? ray : found;
+    (ray.exists() ? inside : outside) = half;
+  }
+  return found;
+}
+
+/// The border of what a lens sees, at a distance, and its corners.
+void addLens(LineList& lines, const View& view, double length)
+{
+  constexpr int parts = 12; // of a side of the image
+  const CameraModel& model = *view.model;
+  const Rigid3 world_from_camera = view.camera_from_world.inverse();
+  const Eigen::Vector2d corners[4] = { { 0, 0 }, { model.width(), 0 }, { model.width(), model.height() },
+    { 0, model.height() } };
+  std::vector<Eigen::Vector3d> border;
+  for (int i = 0; i < 4 * parts; ++i)
+  {
+    const double part = double(i % parts) / parts;
+    const CameraRay ray = outermostRay(model, (1 - part) * corners[i / parts] + part * corners[(i / parts + 1) % 4]);
+    border.push_back(world_from_camera * (ray.origin + length * ray.direction));
+    if (i % parts == 0)
+    {
+      lines.emplace_back(world_from_camera * ray.origin, border.back());
+    }
+  }
+  for (std::size_t i = 0; i < border.size(); ++i)
+  {
+    lines.emplace_back(border[i], border[(i + 1) % border.size()]);
+  }
+}
+} // namespace
+
 void addFrustum(LineList& lines, const CameraPlace& camera, double length)
 {
   if (!camera.valid)
   {
+    return;
+  }
+  if (!camera.view.model->linear())
+  {
+    addLens(lines, camera.view, length);
     return;
   }
   const Rigid3 world_from_camera = camera.view.camera_from_world.inverse();

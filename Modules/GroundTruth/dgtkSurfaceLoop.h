@@ -116,10 +116,15 @@ private:
   std::uint32_t Count = 0;
 };
 
-/// Rays through the centres of pixels without a virtual call where the lens is linear.
+/// Rays through the centres of pixels without a virtual call: of a linear lens, or of rows whose rays are known.
 class PixelRays
 {
 public:
+  explicit PixelRays(const SurfaceRows& in)
+    : PixelRays(*in.view->model)
+  {
+    this->Known = in.rays.empty() ? nullptr : &in;
+  }
   explicit PixelRays(const CameraModel& model)
     : Model(model)
     , Linear(model.linear())
@@ -138,7 +143,7 @@ public:
   {
     if (!this->Linear)
     {
-      const CameraRay ray = this->Model.rayThrough({ x + 0.5, y + 0.5 });
+      const CameraRay ray = this->ray(x, y);
       return ray.origin + t * ray.direction;
     }
     const double v = (y + 0.5 - this->K(1, 2)) * this->InverseFy;
@@ -151,13 +156,22 @@ public:
   {
     if (!this->Linear)
     {
-      return this->Model.rayThrough({ x + 0.5, y + 0.5 }).direction;
+      return this->ray(x, y).direction;
     }
     return this->Perspective ? this->point(x, y, 1) : Eigen::Vector3d(0, 0, 1);
   }
 
 private:
+  CameraRay ray(int x, int y) const
+  {
+    return this->Known
+             ? this->Known
+                 ->rays[std::size_t(y - this->Known->rect.y) * this->Known->rect.width + x - this->Known->rect.x]
+             : this->Model.rayThrough({ x + 0.5, y + 0.5 });
+  }
+
   const CameraModel& Model;
+  const SurfaceRows* Known = nullptr;
   std::optional<LinearProjection> Linear;
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
   double InverseFx = 1;

@@ -190,7 +190,8 @@ std::vector<Eigen::Vector3d> SurfaceShading::colors(const SurfaceRows& in) const
     const Eigen::Vector3d direction = ray.direction.normalized();
     if (!std::isfinite(in.t[i]))
     {
-      colors.push_back(backgroundOf(this->State, this->world_from_camera * direction));
+      colors.push_back(
+        ray.exists() ? backgroundOf(this->State, this->world_from_camera * direction) : this->State.background);
       continue;
     }
     const Hit& hit = in.hits[i];

@@ -286,6 +286,10 @@ std::optional<WorldRay> TruthView::rayAt(const QPoint& position)
       return std::nullopt;
     }
     const CameraRay ray = view.model->rayThrough({ pixel->x() + 0.5, pixel->y() + 0.5 });
+    if (!ray.exists())
+    {
+      return std::nullopt;
+    }
     const Rigid3 world_from_camera = view.camera_from_world.inverse();
     return WorldRay{ world_from_camera * ray.origin, world_from_camera.rotation * ray.direction, view.near, view.far };
   }

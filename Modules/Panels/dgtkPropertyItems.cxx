@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPropertiesPanel.h"
 
+#include "dgtkCameraEntry.h"
 #include "dgtkItemDialogs.h"
 #include "dgtkNumberRow.h"
 #include "dgtkScenePlaces.h"
@@ -36,12 +37,12 @@ void useMatrix(CameraDescription& camera, int frame)
     camera.width = usualImageSize[0];
     camera.height = usualImageSize[1];
   }
-  camera.K = makePinholeFromFov(camera.width, camera.height, camera.fovY.at(frame), camera.aspect)->linear()->K;
+  camera.K = makeCamera(camera.model, cameraParameters(camera, frame, camera.width, camera.height))->parameters().K;
   camera.fovY = Track<double>{ CameraDescription().fovY.value };
   camera.aspect = 0;
 }
 
-/// What the matrix says, without its principal point and skew.
+/// What the matrix says of a pinhole, without its principal point and skew.
 void useFieldOfView(CameraDescription& camera)
 {
   const Eigen::Matrix3d& K = *camera.K;

@@ -21,6 +21,7 @@ Eye::Eye(const CameraRecord& record, std::shared_ptr<const CameraModel> model)
   : Record(record)
   , Pinhole(record.model == "pinhole" && record.numbers.count("distortion") == 0)
   , Parallel(record.model == "orthographic")
+  , Lens(Pinhole || Parallel ? nullptr : EyeLens::of(record))
 {
   this->TheView.name = record.name;
   this->TheView.model = this->linear() ? linearModel(record) : std::move(model);
@@ -52,9 +53,9 @@ bool Eye::project(const Eigen::Vector3d& x, Eigen::Vector2d& pixel) const
   if (!this->linear())
   {
     const bool seen = this->TheView.model->project(x, pixel);
-    if (seen && this->lens().exists())
+    if (seen && this->Lens)
     {
-      pixel = this->lens().project({ x }).front();
+      pixel = this->Lens->project({ x }).front();
     }
     return seen;
   }

@@ -30,7 +30,8 @@ public:
   int height() const { return this->Record.height; }
   bool linear() const { return this->Pinhole || this->Parallel; }
   bool pinhole() const { return this->Pinhole; }
-  EyeLens lens() const { return EyeLens(this->Record); }
+  /// Null for the linear models and those of a program of its own.
+  const EyeLens* lens() const { return this->Lens.get(); }
 
   /// Origin and direction in the camera frame; direction.z is 1 for the linear models.
   CameraRay ray(const Eigen::Vector2d& pixel) const;
@@ -67,6 +68,7 @@ private:
   CameraRecord Record;
   bool Pinhole;
   bool Parallel;
+  std::shared_ptr<const EyeLens> Lens;
   View TheView;
 };
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkEyeLens.h"
 
+#include "dgtkCameraEntry.h"
+#include "dgtkError.h"
+
 #include <opencv2/calib3d.hpp>
 
 #include <algorithm>
@@ -142,9 +145,30 @@ const EyeLens::Row* EyeLens::rowOf(const std::string& model)
   return found == std::end(rows) ? nullptr : found;
 }
 
+std::shared_ptr<const EyeLens> EyeLens::of(const CameraRecord& record)
+{
+  const Row* const row = rowOf(record.model);
+  try
+  {
+    const std::optional<Eigen::Matrix3d> K = record.hasK ? std::optional(record.K) : std::nullopt;
+    const CameraParameters of{ record.width, record.height, K, record.numbers, record.files };
+    if (row == nullptr)
+    {
+      return nullptr;
+    }
+    CameraRecord whole = record; // with usual values
+    whole.numbers = makeCamera(record.model, of)->parameters().numbers;
+    return std::shared_ptr<const EyeLens>(new EyeLens(whole, *row));
+  }
+  catch (const UsageError&)
+  {
+    return nullptr;
+  }
+}
+
 std::vector<Eigen::Vector2d> EyeLens::project(const std::vector<Eigen::Vector3d>& x_in_camera) const
 {
-  Pixels pixels = rowOf(this->Record.model)->onPlane(this->Record, x_in_camera);
+  Pixels pixels = this->Model.onPlane(this->Record, x_in_camera);
   const Eigen::Matrix3d& K = this->Record.K;
   for (Eigen::Vector2d& pixel : pixels)
   {
@@ -159,9 +183,8 @@ std::vector<Eigen::Vector2d> EyeLens::project(const std::vector<Eigen::Vector3d>
 double EyeLens::seam(const Eigen::Vector2d& pixel) const
 {
   constexpr double rounding = 1e-9; // pixels
-  const Row* const row = rowOf(this->Record.model);
   const double width = this->Record.width;
-  return row != nullptr && row->round && std::min(pixel.x(), width - pixel.x()) <= rounding ? width : 0;
+  return this->Model.round && std::min(pixel.x(), width - pixel.x()) <= rounding ? width : 0;
 }
 
 } // namespace dgtk

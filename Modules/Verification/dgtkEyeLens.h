@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,14 +20,10 @@ namespace dgtk
 class EyeLens
 {
 public:
-  explicit EyeLens(const CameraRecord& record)
-    : Record(record)
-  {
-  }
-  /// Whether the camera's model is known here.
-  bool exists() const { return rowOf(this->Record.model) != nullptr; }
+  /// Null for a model that is not known here, and for parameters that no camera of the model has.
+  static std::shared_ptr<const EyeLens> of(const CameraRecord& record);
   /// "cv::fisheye::projectPoints": as results are called.
-  std::string name() const { return rowOf(this->Record.model)->name; }
+  std::string name() const { return this->Model.name; }
   /// Pixels of points in the camera frame.
   std::vector<Eigen::Vector2d> project(const std::vector<Eigen::Vector3d>& x_in_camera) const;
 
@@ -45,8 +42,14 @@ private:
     bool round;                                                          ///< left and right border are one
   };
   static const Row* rowOf(const std::string& model);
+  EyeLens(const CameraRecord& record, const Row& row)
+    : Record(record)
+    , Model(row)
+  {
+  }
 
-  const CameraRecord& Record;
+  CameraRecord Record;
+  const Row& Model;
 };
 
 } // namespace dgtk

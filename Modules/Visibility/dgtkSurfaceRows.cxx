@@ -44,22 +44,35 @@ void linearRow(TriangleSolver& solver, const PixelRect& rect, int row, const Hit
   }
 }
 
-void generalRow(
-  TriangleSolver& solver, const PixelRect& rect, int row, const Hit* hits, double* t, double* barycentrics)
+void generalRows(
+  TriangleSolver& solver, const Hit* hits, const std::vector<CameraRay>& rays, double* t, double* barycentrics)
 {
-  for (int i = 0; i < rect.width; ++i)
+  for (std::size_t i = 0; i < rays.size(); ++i)
   {
-    PlanePoint point;
-    if (hits[i].object != 0)
-    {
-      point = solver.point(hits[i], rect.x + i + 0.5, row + 0.5, barycentrics != nullptr);
-    }
+    const PlanePoint point =
+      hits[i].object != 0 ? solver.pointOnRay(hits[i], rays[i], barycentrics != nullptr) : PlanePoint{};
     t[i] = point.t;
     if (barycentrics)
     {
       barycentrics[2 * i] = point.second;
       barycentrics[2 * i + 1] = point.third;
     }
+  }
+}
+
+/// Through the centres of the pixels.
+void raysOf(const CameraModel& model, const PixelRect& rect, std::vector<CameraRay>& rays)
+{
+  const std::size_t width = std::size_t(rect.width);
+  std::vector<Eigen::Vector2d> centres(width);
+  rays.resize(width * std::size_t(rect.height));
+  for (int y = 0; y < rect.height; ++y)
+  {
+    for (int x = 0; x < rect.width; ++x)
+    {
+      centres[std::size_t(x)] = { rect.x + x + 0.5, rect.y + y + 0.5 };
+    }
+    model.raysThrough(centres.data(), width, rays.data() + std::size_t(y) * width);
   }
 }
 
@@ -84,16 +97,23 @@ void computeSurfaceRows(const SceneState& state, const View& view, const PixelRe
   rows.barycentrics.resize(barycentrics ? 2 * pixels : 0);
   TriangleSolver solver(state, view);
   const LensKind kind = solver.lens().Kind;
+  double* const coordinates = barycentrics ? rows.barycentrics.data() : nullptr;
+  rows.rays.clear();
+  if (kind == LensKind::General)
+  {
+    raysOf(*view.model, rect, rows.rays);
+    generalRows(solver, hits, rows.rays, rows.t.data(), coordinates);
+    return;
+  }
   const auto body =
-    kind == LensKind::General ? generalRow
-    : kind == LensKind::Perspective
+    kind == LensKind::Perspective
       ? (barycentrics ? linearRow<LensKind::Perspective, true> : linearRow<LensKind::Perspective, false>)
       : (barycentrics ? linearRow<LensKind::Parallel, true> : linearRow<LensKind::Parallel, false>);
   for (int y = 0; y < rect.height; ++y)
   {
     const std::size_t first = std::size_t(y) * rect.width;
-    body(solver, rect, rect.y + y, hits + first, rows.t.data() + first,
-      barycentrics ? rows.barycentrics.data() + 2 * first : nullptr);
+    body(
+      solver, rect, rect.y + y, hits + first, rows.t.data() + first, coordinates ? coordinates + 2 * first : nullptr);
   }
 }
 

@@ -27,9 +27,11 @@ struct SurfaceRows
   /// Barycentric coordinates of the triangle's second and third corner, perspective-correct, 2 per pixel; empty unless
   /// asked for. NaN where there is nothing.
   std::vector<double> barycentrics;
+  /// Rays through the pixels' centres, one a pixel; empty for linear cameras.
+  std::vector<CameraRay> rays;
 };
 
-/// Computes `t`, and `barycentrics` when wanted, of rows. Thread-safe.
+/// Computes `t` and `rays`, and `barycentrics` when wanted, of rows. Thread-safe.
 DGTKVISIBILITY_EXPORT void computeSurfaceRows(const SceneState& state, const View& view, const PixelRect& rect,
   const Hit* hits, bool barycentrics, SurfaceRows& rows);
 

@@ -263,11 +263,25 @@ const ExactTriangle& TriangleSolver::exact(const Hit& hit)
   return entry;
 }
 
-GeneralRay TriangleSolver::generalRay(double u, double v) const
+namespace
 {
-  const CameraRay ray = this->Seen.Model->rayThrough({ u, v });
+GeneralRay generalOf(const CameraRay& ray)
+{
   return { { ray.origin.x(), ray.origin.y(), ray.origin.z() },
     { ray.direction.x(), ray.direction.y(), ray.direction.z() } };
+}
+} // namespace
+
+GeneralRay TriangleSolver::generalRay(double u, double v) const
+{
+  return generalOf(this->Seen.Model->rayThrough({ u, v }));
+}
+
+PlanePoint TriangleSolver::pointOnRay(const Hit& hit, const CameraRay& ray, bool barycentrics)
+{
+  const Plane& prepared = this->plane(hit);
+  return prepared.state == Plane::State::None ? PlanePoint{}
+                                              : this->generalPoint(hit, generalOf(ray), prepared, barycentrics);
 }
 
 PlanePoint TriangleSolver::exactPoint(const Hit& hit, double u, double v)

@@ -143,7 +143,8 @@ public:
   PlanePoint exactPoint(const Hit& hit, double u, double v);
   /// Intersection of the ray through an image point with the plane of a triangle, as accurate as it takes.
   PlanePoint point(const Hit& hit, double u, double v, bool barycentrics);
-  GeneralRay generalRay(double u, double v) const;
+  /// The same of a ray of a camera that is not linear.
+  PlanePoint pointOnRay(const Hit& hit, const CameraRay& ray, bool barycentrics);
 
   static std::size_t slot(const Hit& hit)
   {
@@ -151,6 +152,7 @@ public:
   }
 
 private:
+  GeneralRay generalRay(double u, double v) const;
   static constexpr std::size_t planeCount = 512;
   static constexpr std::size_t exactCount = 32;
 

@@ -134,6 +134,28 @@ class Cameras(Case):
             numpy.testing.assert_allclose(large, small, atol=1e-9, err_msg=name)
         self.verify()
 
+    def test_points_correspond_as_pixels_do(self):
+        """Also outside of the image circle, where there is nothing to follow."""
+        self.render("correspondence", "--pairs", "fisheye:mirror+1", "--cameras", "fisheye")
+        dense = self.layer("fisheye", "correspondence_mirror+1")
+        places = [(0, 0), (24, 17), (20, 9), (30, 25), (12, 17)]
+        points = self.write("points.txt", "".join(f"{x + 0.5} {y + 0.5}\n" for x, y in places))
+        found = json.loads(self.dgtk("correspond", self.scene, "--from", "fisheye", "--to", "mirror@1", "--points", points,
+                                     "--json").stdout)["matches"]
+        for (x, y), match in zip(places, found):
+            there = numpy.array([numpy.nan if v is None else v for v in match["to"] or [None, None]], float)
+            numpy.testing.assert_allclose(there, dense[y, x], atol=1e-9)
+        self.assertEqual(found[0]["class"], 0)
+
+    def test_info_says_lenses_and_their_pixels(self):
+        cameras = json.loads(self.dgtk("info", self.scene, "--surfaces", "--json").stdout)["cameras"]
+        for camera in cameras:
+            lens = LENSES[camera["name"]]
+            self.assertEqual(camera.get("distortion", lens.get("distortion")), lens.get("distortion", camera.get("distortion")))
+            self.assertEqual("K" in camera, camera["model"] != "equirectangular")
+            self.assertGreater(camera["surfaces"]["pixels"], 0.2 * WIDTH * HEIGHT)
+            self.assertGreater(camera["surfaces"]["smallest"], 0)
+
     def test_cameras_are_written_under_the_scenes_names(self):
         self.render("depth", "--cameras", "five,mirror,double sphere,enhanced,panorama,fisheye without K")
         for record in load_json(self.path("set", "cameras.json"))["cameras"]:

@@ -136,7 +136,8 @@ class Pages(Case):
     def test_cameras_and_their_parameters(self):
         cameras = {row["model"]: row["parameters"] for row in json.loads(self.dgtk("list", "cameras", "--json").stdout)["cameras"]}
         told_of = lambda model: [(p["name"], p["unit"], p["counts"], p["default"], p["moves"]) for p in cameras[model]]
-        self.assertEqual(told_of("pinhole"), [("fovY", "degrees", [1], [60], True), ("aspect", "", [1], [0], False), ("K", "pixels", [1], [], False)])
+        self.assertEqual(told_of("pinhole"), [("fovY", "degrees", [1], [60], True), ("aspect", "", [1], [0], False), ("K", "pixels", [1], [], False),
+                                              ("distortion", "", [4, 5, 8, 12, 14], [0, 0, 0, 0], False)])
         self.assertEqual(told_of("orthographic"), [("viewHeight", "scene units", [1], [2], True), ("aspect", "", [1], [0], False)])
         for model, parameters in cameras.items():
             for parameter in parameters:

@@ -4,7 +4,7 @@
 #include "dgtkScenePlaces.h"
 #include "dgtkViewLines.h"
 
-#include "dgtkCameraModel.h"
+#include "dgtkCameraEntry.h"
 #include "dgtkTestSupport.h"
 
 #include <gtest/gtest.h>
@@ -110,6 +110,24 @@ TEST(ViewLines, FrustaOfEachKind)
   EXPECT_FALSE(places.cameras[2].valid);
   addFrustum(lines, places.cameras[2], 3);
   EXPECT_TRUE(lines.empty());
+}
+
+TEST(ViewLines, AFisheyeIsItsBorder)
+{
+  CameraPlace place;
+  place.valid = true;
+  Eigen::Matrix3d K;
+  K << 10, 0, 50, 0, 10, 40, 0, 0, 1; // its circle is within the image
+  place.view.model = makeCamera("fisheye", { 100, 80, K, { { "distortion", { -0.1, 0, 0, 0 } } } });
+  LineList lines;
+  addFrustum(lines, place, 3);
+  EXPECT_EQ(lines.size(), 4u + 48u);
+  const double last = std::sqrt(10.0 / 3); // where angle - angle^3 / 10 turns
+  for (const auto& [from, to] : lines)
+  {
+    EXPECT_TRUE(from.isZero(0) || std::abs(from.norm() - 3) < tolerance);
+    EXPECT_NEAR(to.z(), 3 * std::cos(last), 0.02); // where rays turn fastest
+  }
 }
 
 TEST(ViewLines, SizesGoWithTheScene)

@@ -18,7 +18,7 @@ public:
 
   void compute(const SurfaceRows& in, Rows& out) const override
   {
-    const PixelRays rays(*in.view->model);
+    const PixelRays rays(in);
     forSurface<double, 1>(
       in, out, 0.0, [&](std::size_t i, int x, int y, double* value) { *value = 1 / rays.point(x, y, in.t[i]).z(); });
   }

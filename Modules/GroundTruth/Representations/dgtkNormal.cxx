@@ -56,7 +56,7 @@ public:
 
   void compute(const SurfaceRows& in, Rows& out) const override
   {
-    const PixelRays rays(*in.view->model);
+    const PixelRays rays(in);
     auto normalOf = cachePerTriangle<Eigen::Vector3d>(UnitNormal(in));
     forSurface<float, 3>(in, out, std::numeric_limits<float>::quiet_NaN(),
       [&](std::size_t i, int x, int y, float* value)

@@ -18,7 +18,7 @@ public:
 
   void compute(const SurfaceRows& in, Rows& out) const override
   {
-    const PixelRays rays(*in.view->model);
+    const PixelRays rays(in);
     const Rigid3 world_from_camera = in.view->camera_from_world.inverse();
     forSurface<double, 3>(in, out, std::numeric_limits<double>::quiet_NaN(),
       [&](std::size_t i, int x, int y, double* value)

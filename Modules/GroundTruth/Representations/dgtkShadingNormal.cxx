@@ -70,7 +70,7 @@ public:
 
   void compute(const SurfaceRows& in, Rows& out) const override
   {
-    const PixelRays rays(*in.view->model);
+    const PixelRays rays(in);
     auto cornersOf = cachePerTriangle<CornerNormals>(CornersOf(in));
     forSurface<double, 3>(in, out, std::numeric_limits<double>::quiet_NaN(),
       [&](std::size_t i, int x, int y, double* value)

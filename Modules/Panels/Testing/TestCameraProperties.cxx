@@ -48,6 +48,7 @@ Up | up 0 0 1
 Lens | lens by its field of view of 2
 Field of view, ° | fovY 40
 Aspect (0: square) | aspect 1.5
+distortion | distortion 0 0 0 0
 Near, m | near 0.5
 Far, m | far 50
 Size, pixels | size 640 480
@@ -116,6 +117,7 @@ Lens | lens by its matrix K of 2
 fx, fy, pixels | focal 90 80
 cx, cy, pixels | principal 50 40
 Skew, pixels | skew 1
+distortion | distortion 0 0 0 0
 Near, m | near 0.1
 Far, m | far 1000
 Size, pixels | size 100 80

@@ -80,6 +80,19 @@ TEST_F(Halves, WorldUnitsOfAPixel)
   EXPECT_DOUBLE_EQ(twice.smallest, 5 / 80.0);
 }
 
+/// A pinhole's pixel, seen along its own ray: the solid angle falls with the cube of the ray's length at depth 1.
+TEST_F(Halves, WorldUnitsOfALensesPixel)
+{
+  std::string text = readFile(this->path("scene.json"));
+  const std::string mark = R"("name": "pinhole",)";
+  text.insert(text.find(mark), R"("distortion": [1e-12, 0, 0, 0], )");
+  writeFile(this->path("lens.json"), text);
+  const SurfaceResolution lens = surfaceResolution(*Stage::load(readScene(this->path("lens.json"))), 0, 0);
+  EXPECT_EQ(lens.pixels, std::size_t(width * height));
+  EXPECT_NEAR(lens.smallest, 5 / 40.0 / std::sqrt(Eigen::Vector3d(15.5 / 40, 11.5 / 40, 1).norm()), 1e-4);
+  EXPECT_NEAR(lens.largest, 8 / 40.0 / std::sqrt(Eigen::Vector3d(0.5 / 40, 0.5 / 40, 1).norm()), 1e-4);
+}
+
 TEST_F(Halves, WhatIsThereIsPackedAndNamedByTheScene)
 {
   const Packing packing = planPacking(*this->stage(), this->path("d"));

@@ -224,7 +224,7 @@ TEST(SceneRefusals, JsonValues)
       "a.json:4: cameras[0].fovY is not for a camera of the model 'orthographic' (expected viewHeight, aspect, found "
       "3)" },
     { withCamera("\"viewHeight\": 3"), "a.json:4: cameras[0].viewHeight is not for a camera of the model 'pinhole' "
-                                       "(expected fovY, aspect, K, found 3)" },
+                                       "(expected fovY, aspect, K, distortion, found 3)" },
     { withCamera("\"up\": [0, 0, 1]"), "a.json:4: cameras[0].up is zero or along the view" },
     { withCamera("\"name\": \"a/b\""), "a.json:4: cameras[0].name cannot be used" },
     { withCamera("\"name\": \"manifest.json\""), "cameras[0].name cannot be used" },

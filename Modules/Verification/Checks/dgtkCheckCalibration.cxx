@@ -127,7 +127,7 @@ void checkOpenCV(Picture& picture, const Points& points, Results& results)
 /// Of a lens, whose rays are its model's: so that these are checked.
 void checkLens(Picture& picture, const Points& points, Results& results)
 {
-  const EyeLens lens = picture.eye().lens();
+  const EyeLens& lens = *picture.eye().lens();
   results.add({ lens.name(), "pixel", { points.file()->file() } },
     checkPoints(picture, points, points.file()->file(),
       [&](const std::vector<cv::Point3d>& world)
@@ -195,7 +195,7 @@ void checkCalibration(Picture& picture, Results& results)
   {
     checkOpenCV(picture, points, results);
   }
-  else if (points.file() && picture.eye().lens().exists())
+  else if (points.file() && picture.eye().lens() != nullptr)
   {
     checkLens(picture, points, results);
   }

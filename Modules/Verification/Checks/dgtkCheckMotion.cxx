@@ -81,8 +81,8 @@ private:
       return near ? -1 : std::all_of(found, found + 3, [](double v) { return std::isnan(v); }) ? 0 : infinite;
     }
     this->derive(x, y, target, expected);
-    const double seam =
-      this->ThePair.kind == PairKind::Motion ? 0 : this->ThePair.other->eye().lens().seam(target.pixel);
+    const EyeLens* const lens = this->ThePair.kind == PairKind::Motion ? nullptr : this->ThePair.other->eye().lens();
+    const double seam = lens != nullptr ? lens->seam(target.pixel) : 0;
     double error = 0;
     for (int c = 0; c < this->Channels; ++c)
     {

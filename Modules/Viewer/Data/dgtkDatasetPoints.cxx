@@ -84,6 +84,10 @@ std::optional<Eigen::Vector3d> pointOf(const LayerSpec& spec, const View& view, 
   const CameraRay ray = view.model->rayThrough(Eigen::Vector2d(x + 0.5, y + 0.5));
   const double along =
     spec.meaning == Meaning::Distance ? parameterAt(ray, value) : (value - ray.origin.z()) / ray.direction.z();
+  if (!ray.exists() || !std::isfinite(along))
+  {
+    return std::nullopt; // depth says no place on a ray along the image plane
+  }
   return view.camera_from_world.inverse() * (ray.origin + along * ray.direction);
 }
 

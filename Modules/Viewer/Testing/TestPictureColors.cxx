@@ -217,7 +217,7 @@ TEST(DatasetPoints, CloudsHoldEverySurfaceWithItsColour)
   EXPECT_LE(few.points.size(), 20u);
   EXPECT_GT(few.points.size(), 5u);
   CameraRecord lens = SmallDataset::left(0);
-  lens.model = "fisheye";
+  lens.model = "of a program";
   EXPECT_THROW(viewOf(lens), InputError);
   const PictureValues picture = readPicture(dataset.file({ "left", 0, "depth" }), *dataset.layer("depth"));
   EXPECT_LT((*worldPoint(dataset, { "left", 0, "depth" }, picture, 5, 2) - cloud.points[at]).norm(), tolerance);
@@ -230,7 +230,7 @@ TEST(DatasetPoints, PositionsNeedNoLens)
   SmallDataset files;
   for (CameraRecord& camera : files.Cameras)
   {
-    camera.model = "fisheye";
+    camera.model = "of a program";
   }
   files.add("left", "depth", 0, "", "npy", depth, [](int, int, int) { return 2.0; });
   files.add("left", "position", 0, "", "npy", { "position", PixelType::Float64, 3, "scene units", "world", "nan", "" },
