@@ -32,7 +32,20 @@ LENSES = {
     "enhanced": {"model": "eucm", "K": matrix(14), "alpha": 0.6, "beta": 1.1},
     "panorama": {"model": "equirectangular"},
     "parallel": {"model": "orthographic", "viewHeight": 3},
+    "table": {"model": "raytable", "rays": "rays.npy"},
+    "origins": {"model": "raytable", "rays": "origins.npy"},
 }
+
+
+def tables(folder):
+    """Rays of a lens with a picture all around up to 150 degrees; from one point, and from points of a pupil that moves."""
+    y, x = numpy.mgrid[0:HEIGHT // 2, 0:WIDTH // 2] * 2 + 1.0
+    x, y = (x - WIDTH / 2) / (HEIGHT / 2), (y - HEIGHT / 2) / (HEIGHT / 2)
+    radius = numpy.hypot(x, y)
+    angle = numpy.where(radius < 1, numpy.radians(75) * radius, numpy.nan)
+    rays = numpy.stack([numpy.sin(angle) * x / radius, numpy.sin(angle) * y / radius, numpy.cos(angle)], axis=-1)
+    numpy.save(os.path.join(folder, "rays.npy"), rays)
+    numpy.save(os.path.join(folder, "origins.npy"), numpy.concatenate([0.01 * rays * angle[..., None] ** 2, rays], axis=-1))
 
 
 def scene():
@@ -57,6 +70,7 @@ class Cameras(Case):
     def setUp(self):
         super().setUp()
         self.scene = self.write("scene.json", json.dumps(scene()))
+        tables(self.folder)
 
     def render(self, layers, *options):
         self.dgtk("render", self.scene, "-o", self.path("set"), "--quiet", "--visibility", "ray", "--frames", "0:1",
@@ -72,7 +86,8 @@ class Cameras(Case):
 
     def test_all_layers_are_verified(self):
         self.render(LAYERS + ",correspondence,points", "--pairs",
-                    "fisheye:panorama,panorama:mirror+1,mirror:radial,radial:fisheye,double sphere:enhanced,parallel:five",
+                    "fisheye:panorama,panorama:mirror+1,mirror:radial,radial:fisheye,double sphere:enhanced,parallel:five,"
+                    "table:origins,origins:table+1,radial:table",
                     "--objects-format", "npy", "--flow_forward-format", "npy", "--flow_backward-format", "npy")
         residuals = self.verify()
         self.assertEqual({residual["layer"] for residual in residuals if residual["check"] == "calibration"},
@@ -84,7 +99,7 @@ class Cameras(Case):
 
     def around_an_image_circle(self):
         """Nothing is seen there, in no layer; inside there is a room all around."""
-        for name in ("fisheye", "mirror", "double sphere"):
+        for name in ("fisheye", "mirror", "double sphere", "table", "origins"):
             objects = self.layer(name, "objects")
             self.assertEqual(objects[0, 0], 0, name)
             self.assertGreater((objects > 0).mean(), 0.3, name)
@@ -152,7 +167,7 @@ class Cameras(Case):
         for camera in cameras:
             lens = LENSES[camera["name"]]
             self.assertEqual(camera.get("distortion", lens.get("distortion")), lens.get("distortion", camera.get("distortion")))
-            self.assertEqual("K" in camera, camera["model"] != "equirectangular")
+            self.assertEqual("K" in camera, camera["model"] not in ("equirectangular", "raytable"))
             self.assertGreater(camera["surfaces"]["pixels"], 0.2 * WIDTH * HEIGHT)
             self.assertGreater(camera["surfaces"]["smallest"], 0)
 
@@ -165,6 +180,22 @@ class Cameras(Case):
                 if key in lens:
                     self.assertEqual(record[key], lens[key], record["name"])
             self.assertEqual("K" in record, record["name"] != "panorama")
+
+    def test_tables_of_rays_go_along(self):
+        """The dataset names them; one that is packed has them."""
+        self.render("depth,position", "--cameras", "table,origins", "--pack")
+        records = load_json(self.path("set", "cameras.json"))["cameras"]
+        self.assertEqual({record["rays"].split("/")[-1] for record in records}, {"rays.npy", "origins.npy"})
+        for record in records:
+            self.assertTrue(os.path.exists(self.path("set", record["rays"])), record["rays"])
+        for name in ("scene.json", "rays.npy", "origins.npy"):
+            os.remove(self.path(name))
+        os.rename(self.path("set"), self.path("moved"))
+        self.dgtk("verify", self.path("moved"))
+        self.dgtk("render", self.path("moved", "scene.json"), "-o", self.path("again"), "--quiet", "--visibility", "ray",
+                  "--frames", "0:1", "--layers", "depth", "--cameras", "table")
+        numpy.testing.assert_array_equal(numpy.load(self.path("again", "table", "depth", "000001.npy")),
+                                         numpy.load(self.path("moved", "table", "depth", "000001.npy")))
 
     def test_what_has_no_meaning_is_refused(self):
         for layer, options in {"calibration": (), "pov": (), "disparity": ("--pairs", "fisheye:mirror")}.items():
@@ -187,6 +218,8 @@ class Wrong(Case):
         self.refuse({"model": "equirectangular", "fovY": 60}, "fovY", "equirectangular")
         self.refuse({"model": "eucm", "alpha": 2}, "alpha")
         self.refuse({"distortion": [0] * 12 + [2, 0]}, "tilt of the sensor")
+        self.refuse({"model": "raytable"}, "rays")
+        self.refuse({"model": "raytable", "rays": "none.npy"}, "none.npy")
 
 
 if __name__ == "__main__":

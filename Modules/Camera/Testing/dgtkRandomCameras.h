@@ -4,8 +4,11 @@
 
 #include "dgtkCameraEntry.h"
 #include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkTestSupport.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <random>
 #include <string>
@@ -44,6 +47,10 @@ public:
       {
         of.numbers[parameter.name] = this->draw(parameter, numbers);
       }
+      if (parameter.kind == CameraParameter::Kind::File)
+      {
+        of.files[parameter.name] = this->writeRays();
+      }
     }
     try
     {
@@ -53,6 +60,47 @@ public:
     {
       return nullptr;
     }
+  }
+
+  /// A table of the rays of an equidistant fisheye with some lens's aberrations; half of them from one point, some with
+  /// nothing around a circle.
+  std::string writeRays()
+  {
+    const int rows = int(this->between(9, 60));
+    const int columns = int(this->between(9, 60));
+    const bool fromOnePoint = this->between(0, 1) < 0.5;
+    const double widest = this->between(0.4, 2.2);
+    const double aberration = this->between(0, 1e-3); // rays cross as near
+    std::vector<double> numbers;
+    for (int i = 0; i < rows * columns; ++i)
+    {
+      const double x = (i % columns + 0.5) / columns * 2 - 1;
+      const double y = (i / columns + 0.5) / rows * 2 - 1; // NOLINT: of the row
+      const double radius = std::hypot(x, y);
+      const double angle = radius > 1.05 ? std::nan("") : widest * radius;
+      const double across = std::sin(angle) / std::max(radius, 1e-9);
+      const std::vector<double> origin{ aberration * x * y, aberration * x, aberration * radius };
+      numbers.insert(numbers.end(), origin.begin(), fromOnePoint ? origin.begin() : origin.end());
+      for (const double v : { across * x, across * y * 1.02, std::cos(angle) })
+      {
+        numbers.push_back(2.5 * v);
+      }
+    }
+    const std::string path = this->Folder.path(std::to_string(++this->Files) + ".npy");
+    writeNpy(path, rows, columns, fromOnePoint ? 3 : 6, numbers);
+    return path;
+  }
+
+  static void writeNpy(const std::string& path, int rows, int columns, int channels, const std::vector<double>& numbers)
+  {
+    std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" + std::to_string(rows) + ", " +
+                         std::to_string(columns) + ", " + std::to_string(channels) + "), }";
+    header.resize(117, ' ');
+    header += '\n';
+    std::string file("\x93NUMPY\x01\x00v\x00", 10);
+    file += header;
+    file.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
+    writeFile(path, file);
   }
 
 private:
@@ -88,6 +136,8 @@ private:
   }
 
   std::mt19937_64 Random;
+  TemporaryFolder Folder;
+  int Files = 0;
 };
 
 } // namespace dgtk::test

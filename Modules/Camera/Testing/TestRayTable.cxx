@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkRandomCameras.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace dgtk;
+using testing::HasSubstr;
+
+namespace
+{
+constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
+
+class RayTables : public testing::Test
+{
+protected:
+  std::shared_ptr<const CameraModel> camera(int width, int height, const std::string& name = "rays.npy") const
+  {
+    return makeCamera("raytable", { width, height, std::nullopt, {}, { { "rays", this->Folder.path(name) } } });
+  }
+  /// 4 x 3 directions towards a plane of unit squares.
+  std::vector<double> plane() const
+  {
+    std::vector<double> numbers;
+    for (int i = 0; i < 12; ++i)
+    {
+      numbers.insert(numbers.end(), { i % 4 - 1.5, double(i / 4) - 1, 2.0 });
+    }
+    return numbers;
+  }
+  void write(int rows, int columns, int channels, const std::vector<double>& numbers) const
+  {
+    test::RandomCameras::writeNpy(this->Folder.path("rays.npy"), rows, columns, channels, numbers);
+  }
+  std::string refusal() const
+  {
+    try
+    {
+      this->camera(4, 3);
+    }
+    catch (const InputError& error)
+    {
+      return error.what();
+    }
+    return "";
+  }
+
+  test::TemporaryFolder Folder;
+};
+} // namespace
+
+TEST_F(RayTables, HoldTheRaysOfPixels)
+{
+  this->write(3, 4, 3, this->plane());
+  const auto camera = this->camera(4, 3);
+  for (int i = 0; i < 12; ++i)
+  {
+    const Eigen::Vector3d expected(i % 4 - 1.5, i / 4 - 1, 2); // NOLINT: of the row
+    const CameraRay ray = camera->rayThrough({ i % 4 + 0.5, i / 4 + 0.5 });
+    EXPECT_LE((ray.direction - expected.normalized()).norm(), 1e-15);
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(camera->project(3 * expected, pixel));
+    EXPECT_LE((pixel - Eigen::Vector2d(i % 4 + 0.5, i / 4 + 0.5)).norm(), 1e-12);
+  }
+  EXPECT_TRUE(camera->rayThrough({ 0, 0 }).exists()) << "up to the border";
+  EXPECT_FALSE(camera->rayThrough({ -0.01, 1 }).exists());
+  Eigen::Vector2d pixel;
+  EXPECT_FALSE(camera->project({ 9, 0, 2 }, pixel));
+  EXPECT_FALSE(camera->project({ 0.5, 0, -2 }, pixel)) << "behind";
+  // finer
+  const CameraRay fine = this->camera(12, 9)->rayThrough({ 4.5, 4.5 });
+  EXPECT_LE((fine.direction - camera->rayThrough({ 1.5, 1.5 }).direction).norm(), 1e-15);
+}
+
+TEST_F(RayTables, OriginsComeFirst)
+{
+  std::vector<double> numbers;
+  for (int i = 0; i < 12; ++i)
+  {
+    numbers.insert(numbers.end(), { i % 4 - 1.5, i / 4 - 1.0, 0.0, 0.0, 0.0, 5.0 }); // NOLINT: a parallel projection
+  }
+  this->write(3, 4, 6, numbers);
+  const auto camera = this->camera(4, 3);
+  const CameraRay ray = camera->rayThrough({ 2.5, 0.5 });
+  EXPECT_LE((ray.origin - Eigen::Vector3d(0.5, -1, 0)).norm(), 1e-15);
+  EXPECT_EQ(ray.direction, Eigen::Vector3d(0, 0, 1));
+  Eigen::Vector2d pixel;
+  ASSERT_TRUE(camera->project({ 1, 0.25, 7 }, pixel));
+  EXPECT_LE((pixel - Eigen::Vector2d(3, 1.75)).norm(), 1e-12);
+}
+
+TEST_F(RayTables, NothingIsSeenBesideARayThatIsNotThere)
+{
+  std::vector<double> numbers = this->plane();
+  numbers[0] = notANumber;          // the first pixel
+  std::fill_n(&numbers[9], 3, 0.0); // the last one of the first row
+  this->write(3, 4, 3, numbers);
+  const auto camera = this->camera(4, 3);
+  EXPECT_FALSE(camera->rayThrough({ 0.5, 0.5 }).exists());
+  EXPECT_FALSE(camera->rayThrough({ 1.2, 0.8 }).exists());
+  EXPECT_FALSE(camera->rayThrough({ 3.5, 0.5 }).exists());
+  EXPECT_TRUE(camera->rayThrough({ 0.5, 1.5 }).exists()) << "the cell below is whole";
+  EXPECT_TRUE(camera->rayThrough({ 1.5, 0.5 }).exists()) << "the cell beside it is";
+  Eigen::Vector2d pixel;
+  EXPECT_FALSE(camera->project({ -1.2, -0.9, 2 }, pixel));
+  EXPECT_TRUE(camera->project({ 0, -0.9, 2 }, pixel));
+}
+
+TEST_F(RayTables, AreReadAnewWhenTheyHaveChanged)
+{
+  this->write(3, 4, 3, this->plane());
+  const auto before = this->camera(4, 3);
+  std::vector<double> numbers = this->plane();
+  numbers.resize(9 * 2);
+  this->write(3, 2, 3, numbers);
+  EXPECT_NE(this->camera(4, 3)->rayThrough({ 3, 2 }).direction, before->rayThrough({ 3, 2 }).direction);
+}
+
+TEST_F(RayTables, RefuseWhatIsNone)
+{
+  const std::string path = this->Folder.path("rays.npy");
+  EXPECT_THAT(this->refusal(), HasSubstr("rays.npy"));
+  writeFile(path, "nothing");
+  EXPECT_THAT(this->refusal(), HasSubstr("rays.npy: is no table of rays"));
+  this->write(3, 4, 3, { 1, 2, 3 });
+  EXPECT_THAT(this->refusal(), HasSubstr("and 24 bytes"));
+  this->write(4, 3, 2, std::vector<double>(24));
+  EXPECT_THAT(this->refusal(), HasSubstr("height x width x 3 (directions) or x 6"));
+  this->write(1, 12, 3, this->plane());
+  EXPECT_THAT(this->refusal(), HasSubstr("2 x 2 at least"));
+  this->write(3, 4, 4, std::vector<double>(48));
+  EXPECT_THAT(this->refusal(), HasSubstr("has a time with each ray, and rolling shutters are not known"));
+}
