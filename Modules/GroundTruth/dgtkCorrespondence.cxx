@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCorrespondence.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -10,6 +11,7 @@ namespace dgtk
 
 namespace
 {
+constexpr int blockSide = 4; ///< pixels that are asked about at once are neighbours
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 bool isInside(const Eigen::Vector2d& pixel, const CameraModel& model)
@@ -151,18 +153,31 @@ Correspondence correspondPixel(const SceneState& state, const View& view, const 
 void correspondRows(const SurfaceRows& in, const OtherView& other, double* pixels, std::uint8_t* classes)
 {
   Follower follower(other);
-  const auto width = static_cast<std::size_t>(in.rect.width);
-  for (std::size_t first = 0; first < in.t.size(); first += width) // what goes together never depends on the strips
+  const int width = in.rect.width;
+  const auto add = [&](int x, int y)
   {
-    for (std::size_t i = first; i < first + width; ++i)
+    const std::size_t i = std::size_t(y - in.rect.y) * std::size_t(width) + std::size_t(x);
+    if (std::isfinite(in.t[i]))
     {
-      if (std::isfinite(in.t[i]))
+      follower.add(i, in.hits[i], { in.barycentrics[2 * i], in.barycentrics[2 * i + 1] });
+      return;
+    }
+    pixels[2 * i] = pixels[2 * i + 1] = nowhere;
+    classes[i] = static_cast<std::uint8_t>(VisibilityClass::NoSurface);
+  };
+  const int last = in.rect.y + in.rect.height;
+  for (int top = in.rect.y; top < last;)
+  {
+    const int bottom = std::min(last, (top / blockSide + 1) * blockSide); // of the image's blocks, not of the strip's
+    for (int left = 0; left < width; left += blockSide)
+    {
+      for (int y = top; y < bottom; ++y)
       {
-        follower.add(i, in.hits[i], { in.barycentrics[2 * i], in.barycentrics[2 * i + 1] });
-        continue;
+        for (int x = left; x < std::min(width, left + blockSide); ++x)
+        {
+          add(x, y);
+        }
       }
-      pixels[2 * i] = pixels[2 * i + 1] = nowhere;
-      classes[i] = static_cast<std::uint8_t>(VisibilityClass::NoSurface);
     }
     follower.follow(
       [&](std::size_t i, const Eigen::Vector2d& pixel, VisibilityClass visibility)
@@ -171,6 +186,7 @@ void correspondRows(const SurfaceRows& in, const OtherView& other, double* pixel
         pixels[2 * i + 1] = pixel.y();
         classes[i] = static_cast<std::uint8_t>(visibility);
       });
+    top = bottom;
   }
 }
 

@@ -122,10 +122,11 @@ std::function<void()> RayPictures::drawColor(
       [&](int job)
       {
         const WorkTime time(WorkStage::Draw);
+        ShadedView::Worker worker(*view);
         for (int y = job * jobRows; y < std::min(all.height, (job + 1) * jobRows); ++y)
         {
           const std::size_t first = std::size_t(y) * std::size_t(all.width);
-          view->row(all.x, all.y + y, all.width, &seen.hits[first], &colors.rgb[3 * first]);
+          view->row(worker, all.x, all.y + y, all.width, &seen.hits[first], &colors.rgb[3 * first]);
         }
       });
   };
@@ -162,10 +163,12 @@ void RayPictures::drawSamples(const PixelRect& rect, int samples, ColorBuffer& c
         [&](int job)
         {
           const WorkTime time(WorkStage::Draw);
+          ShadedView::Worker worker(view);
           std::vector<float> rgb(std::size_t(all.width) * 3);
           for (int row = job * jobRows; row < std::min(all.height, (job + 1) * jobRows); ++row)
           {
-            view.row(all.x, all.y + row, all.width, &hits.hits[std::size_t(row) * std::size_t(all.width)], rgb.data());
+            view.row(
+              worker, all.x, all.y + row, all.width, &hits.hits[std::size_t(row) * std::size_t(all.width)], rgb.data());
             float* to = &rgba[std::size_t(all.height - 1 - row) * std::size_t(all.width) * 4];
             for (std::size_t i = 0; i < std::size_t(all.width); ++i, to += 4)
             {
@@ -213,6 +216,7 @@ void RayPictures::peel(const PixelRect& rect, const std::function<bool(const Sur
       {
         std::vector<ShadedView::Surface> surfaces;
         std::vector<float> rgba;
+        ShadedView::Worker worker(*view);
         for (std::size_t x = 0; x < width; ++x)
         {
           const std::vector<Hit>& list = lists[std::size_t(y) * width + x];
@@ -222,7 +226,7 @@ void RayPictures::peel(const PixelRect& rect, const std::function<bool(const Sur
           }
         }
         rgba.resize(4 * surfaces.size());
-        view->shadeRow(rect.x, rect.y + y, rect.width, surfaces, rgba.data());
+        view->shadeRow(worker, rect.x, rect.y + y, rect.width, surfaces, rgba.data());
         for (std::size_t i = 0; i < surfaces.size(); ++i)
         {
           const std::size_t at = std::size_t(y) * width + std::size_t(surfaces[i].pixel);

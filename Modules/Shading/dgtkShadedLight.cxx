@@ -163,8 +163,10 @@ ShadedLight::ShadedLight(const SceneState& state, const View& view)
     light.near = traits.near;
     light.atViewer = !traits.placed && !view.model->linear();
     this->Shadows = this->Shadows || light.shadows;
+    this->Always = this->Always || light.atViewer;
     this->Lights.push_back(light);
   }
+  this->Always = this->Always || state.environment || state.fog.density > 0;
   if (state.environment)
   {
     const EnvironmentState& environment = *state.environment;
@@ -339,10 +341,6 @@ Float4 ShadedLight::shade(const ShadedPoint& point, const PointLight* lit) const
 
 Float4 ShadedLight::sky(Float4 direction, float angle) const
 {
-  if (!this->SeesEnvironment)
-  {
-    return this->Background;
-  }
   const float ratio = std::max(angle / this->TexelAngle, 1.0F);
   return toDisplay(this->Picture->at(this->ImageFromCamera * direction, portable::log2(ratio)) * this->Intensity);
 }

@@ -61,7 +61,14 @@ public:
 
   /// The display-referred colour of a point that is lit so by lights(); not cut off at white.
   Float4 shade(const ShadedPoint& point, const PointLight* lit) const;
-  /// What is seen where nothing is; `angle` between neighbouring pixels, radians.
+  /// Whether shade() asks for the viewer and the distance.
+  bool needsViewer(const ShadedMaterial& material) const
+  {
+    return this->Always || material.shines || material.physical;
+  }
+  bool seesEnvironment() const { return this->SeesEnvironment; }
+  Float4 background() const { return this->Background; }
+  /// The environment where nothing is in front of it; `angle` between neighbouring pixels, radians.
   Float4 sky(Float4 direction, float angle) const;
 
 private:
@@ -84,6 +91,7 @@ private:
   std::vector<Light> Lights;
   bool HeadOnly;
   bool Shadows = false;
+  bool Always = false; ///< every material is seen from somewhere: for fog, environment or a light at the eye
   Float4 Background;
   Float4 Fog;
   float FogDensity;

@@ -49,7 +49,7 @@ ShadedView::ShadedView(std::shared_ptr<const SceneState> state, const View& view
   }
 }
 
-void ShadedView::place(const PixelRay& ray, const Hit& hit, ShadedPoint& point) const
+void ShadedView::prepare(const Hit& hit, Triangle& triangle) const
 {
   const Instance& instance = this->State->instances[hit.object - 1];
   const Placed& placed = this->Objects[hit.object - 1];
@@ -57,69 +57,101 @@ void ShadedView::place(const PixelRay& ray, const Hit& hit, ShadedPoint& point) 
   const Geometry& geometry = *instance.geometry;
   const auto& corners = model.triangles[hit.triangle];
   const Eigen::Vector3d a = placed.camera_from_object * geometry.positions[corners[0]];
-  const Eigen::Vector3d b = placed.camera_from_object * geometry.positions[corners[1]];
-  const Eigen::Vector3d c = placed.camera_from_object * geometry.positions[corners[2]];
-  const Eigen::Vector3d ab = b - a;
-  const Eigen::Vector3d ac = c - a;
-  const Eigen::Vector3d n = ab.cross(ac);
-  const double along = n.dot(ray.ray.direction);
-  const double perAlong = along != 0 ? 1 / along : 0.0;
-  const double t = n.dot(a - ray.ray.origin) * perAlong;
-  const Eigen::Vector3d position = ray.ray.origin + t * ray.ray.direction;
-  const double area = n.squaredNorm();
+  const Eigen::Vector3d ab = placed.camera_from_object * geometry.positions[corners[1]] - a;
+  const Eigen::Vector3d ac = placed.camera_from_object * geometry.positions[corners[2]] - a;
+  triangle.hit = hit;
+  triangle.material = &placed.materials->of(hit.triangle);
+  triangle.side = placed.side;
+  triangle.corner = a;
+  triangle.normal = ab.cross(ac);
+  const double area = triangle.normal.squaredNorm();
   const double perArea = area > 0 ? 1 / area : 0.0;
-  const Eigen::Vector3d toB = ac.cross(n) * perArea; // gradients of the barycentric coordinates
-  const Eigen::Vector3d toC = n.cross(ab) * perArea;
-  const Eigen::Vector3d inside = position - a;
-  const double second = toB.dot(inside);
-  const double third = toC.dot(inside);
+  triangle.second = ac.cross(triangle.normal) * perArea;
+  triangle.third = triangle.normal.cross(ab) * perArea;
+  Float4 normals[3];
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    normals[i] = placed.normals * toFloat4(geometry.normals[corners[i]]);
+  }
+  triangle.shading = normals[0];
+  triangle.shadingSecond = normals[1] - normals[0];
+  triangle.shadingThird = normals[2] - normals[0];
+  if (triangle.material->mapped)
+  {
+    triangle.uv = model.uvs[corners[0]];
+    const Eigen::Vector2d toSecond = model.uvs[corners[1]] - triangle.uv;
+    const Eigen::Vector2d toThird = model.uvs[corners[2]] - triangle.uv;
+    triangle.toU = toSecond.x() * triangle.second + toThird.x() * triangle.third;
+    triangle.toV = toSecond.y() * triangle.second + toThird.y() * triangle.third;
+  }
+}
 
-  point.object = hit.object;
-  point.material = &placed.materials->of(hit.triangle);
+void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoint& point) const
+{
+  const Eigen::Vector3d& d = ray.ray.direction;
+  const double along = triangle.normal.dot(d);
+  const double perAlong = along != 0 ? 1 / along : 0.0;
+  const double t = triangle.normal.dot(triangle.corner - ray.ray.origin) * perAlong;
+  const Eigen::Vector3d position = ray.ray.origin + t * d;
+  const Eigen::Vector3d inside = position - triangle.corner;
+  const double second = triangle.second.dot(inside);
+  const double third = triangle.third.dot(inside);
+  const bool front = along * triangle.side < 0; // what is seen from behind has its normal turned
+  const ShadedMaterial& material = *triangle.material;
+
+  point.object = triangle.hit.object;
+  point.material = &material;
   point.position = toFloat4(position);
-  point.viewer = normalized(toFloat4(-ray.ray.direction));
-  point.distance = float(t * ray.ray.direction.norm());
-  const double side = along * placed.side < 0 ? 1 : -1; // what is seen from behind has its normal turned
-  const auto u = float(second);
-  const auto v = float(third);
-  const Float4 normal = toFloat4(geometry.normals[corners[0]]) * (1 - u - v) +
-                        toFloat4(geometry.normals[corners[1]]) * u + toFloat4(geometry.normals[corners[2]]) * v;
-  point.normal = normalized(placed.normals * normal) * float(side);
+  if (this->Light.needsViewer(material))
+  {
+    const double length = d.norm();
+    point.viewer = toFloat4(d * (-1 / length));
+    point.distance = float(t * length);
+  }
+  const Float4 normal =
+    normalized(triangle.shading + triangle.shadingSecond * float(second) + triangle.shadingThird * float(third));
+  point.normal = front ? normal : -normal;
   if (this->Shadows)
   {
-    // Off the flat triangle to where the corners' tangent planes are: shadows end where smooth shading does (Hanika
-    // 2021, Hacking the Shadow Terminator).
-    point.outward = n * ((along < 0 ? 1 : -1) * std::sqrt(perArea));
-    point.lifted = position;
-    const Eigen::Vector3d* const at[3] = { &a, &b, &c };
     const double parts[3] = { 1 - second - third, second, third };
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const Float4 own = normalized(placed.normals * toFloat4(geometry.normals[corners[i]])) * float(side);
-      const Eigen::Vector3d tangent = toVector3d(own);
-      point.lifted -= parts[i] * std::min(0.0, (position - *at[i]).dot(tangent)) * tangent;
-    }
+    this->lift(triangle, position, parts, front, point);
+    point.distance = float(t * d.norm());
   }
-  if (point.material->mapped)
+  if (material.mapped)
   {
     const auto moved = [&](const CameraRay& by)
     {
       const Eigen::Vector3d across = by.origin + t * by.direction;
-      return Eigen::Vector3d(across - n.dot(across) * perAlong * ray.ray.direction);
+      return Eigen::Vector3d(across - triangle.normal.dot(across) * perAlong * d);
     };
     const Eigen::Vector3d right = moved(ray.right);
     const Eigen::Vector3d down = moved(ray.down);
     point.right = toFloat4(right);
     point.down = toFloat4(down);
-    const Eigen::Vector2d& origin = model.uvs[corners[0]];
-    const Eigen::Vector2d toSecond = model.uvs[corners[1]] - origin;
-    const Eigen::Vector2d toThird = model.uvs[corners[2]] - origin;
-    const auto coordinates = [&](double s, double r) { return Eigen::Vector2d(s * toSecond + r * toThird); };
-    const Eigen::Vector2d uv = origin + coordinates(second, third);
-    const Eigen::Vector2d uvRight = coordinates(toB.dot(right), toC.dot(right));
-    const Eigen::Vector2d uvDown = coordinates(toB.dot(down), toC.dot(down));
-    point.footprint = { uv.x(), uv.y(), float(uvRight.x()), float(uvRight.y()), float(uvDown.x()), float(uvDown.y()) };
+    point.footprint = { triangle.uv.x() + triangle.toU.dot(inside), triangle.uv.y() + triangle.toV.dot(inside),
+      float(triangle.toU.dot(right)), float(triangle.toV.dot(right)), float(triangle.toU.dot(down)),
+      float(triangle.toV.dot(down)) };
     turnNormal(point);
+  }
+}
+
+/// Off the flat triangle to where the corners' tangent planes are: shadows end where smooth shading does (Hanika 2021,
+/// Hacking the Shadow Terminator).
+void ShadedView::lift(const Triangle& triangle, const Eigen::Vector3d& position, const double parts[3], bool front,
+  ShadedPoint& point) const
+{
+  const double towards = front == (triangle.side > 0) ? 1 : -1; // of the flat normal, to the side that is seen
+  point.outward = triangle.normal.normalized() * towards;
+  point.lifted = position;
+  const Affine3& placed = this->Objects[triangle.hit.object - 1].camera_from_object;
+  const Instance& instance = this->State->instances[triangle.hit.object - 1];
+  const auto& corners = instance.model->triangles[triangle.hit.triangle];
+  const Float4 more[3] = { float4(0), triangle.shadingSecond, triangle.shadingThird };
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const Eigen::Vector3d tangent = toVector3d(normalized(triangle.shading + more[i])) * (front ? 1.0 : -1.0);
+    const Eigen::Vector3d above = position - placed * instance.geometry->positions[corners[i]];
+    point.lifted -= parts[i] * std::min(0.0, above.dot(tangent)) * tangent;
   }
 }
 
@@ -155,24 +187,25 @@ void ShadedView::findShadows(const ShadedPoint* points, std::size_t count, Point
   }
 }
 
-void ShadedView::shadeRow(int x, int y, int count, const std::vector<Surface>& surfaces, float* rgba) const
+void ShadedView::shadeRow(
+  Worker& worker, int x, int y, int count, const std::vector<Surface>& surfaces, float* rgba) const
 {
-  RayDifferentials source(*this->TheView.model);
-  this->shade(source.row(y, x, count), surfaces, rgba);
+  this->shade(worker, worker.Rays.row(y, x, count), surfaces, rgba);
 }
 
-void ShadedView::shade(const std::vector<PixelRay>& rays, const std::vector<Surface>& surfaces, float* rgba) const
+void ShadedView::shade(
+  Worker& worker, const std::vector<PixelRay>& rays, const std::vector<Surface>& surfaces, float* rgba) const
 {
   const std::size_t lights = this->Light.lights();
   ShadedPoint points[lanes];
-  thread_local std::vector<PointLight> lit;
-  lit.resize(lanes * lights + 1);
+  PointLight* const lit = worker.Lit.data();
   for (std::size_t first = 0; first < surfaces.size(); first += lanes)
   {
     const std::size_t many = std::min(surfaces.size() - first, lanes);
     for (std::size_t i = 0; i < many; ++i)
     {
-      this->place(rays[std::size_t(surfaces[first + i].pixel)], surfaces[first + i].hit, points[i]);
+      const Surface& surface = surfaces[first + i];
+      this->place(rays[std::size_t(surface.pixel)], worker.triangle(*this, surface.hit), points[i]);
       for (std::size_t light = 0; light < lights; ++light)
       {
         lit[i * lights + light] = this->Light.of(light, points[i]);
@@ -180,11 +213,11 @@ void ShadedView::shade(const std::vector<PixelRay>& rays, const std::vector<Surf
     }
     if (this->Shadows)
     {
-      this->findShadows(points, many, lit.data());
+      this->findShadows(points, many, lit);
     }
     for (std::size_t i = 0; i < many; ++i)
     {
-      Float4 color = atLeast(this->Light.shade(points[i], &lit[i * lights]), 0);
+      Float4 color = atLeast(this->Light.shade(points[i], lit + i * lights), 0);
       color[3] = points[i].material->opacity;
       std::memcpy(rgba + 4 * (first + i), &color, sizeof color);
     }
@@ -193,19 +226,19 @@ void ShadedView::shade(const std::vector<PixelRay>& rays, const std::vector<Surf
 
 Float4 ShadedView::skyAt(const PixelRay& ray) const
 {
+  if (!this->Light.seesEnvironment())
+  {
+    return this->Light.background();
+  }
   const Eigen::Vector3d& d = ray.ray.direction;
   const double square = d.squaredNorm();
   const double angle = std::sqrt(d.cross(ray.right.direction).norm() * d.cross(ray.down.direction).norm()) / square;
   return this->Light.sky(toFloat4(d / std::sqrt(square)), float(angle));
 }
 
-void ShadedView::row(int x, int y, int count, const Hit* hits, float* rgb) const
+void ShadedView::row(Worker& worker, int x, int y, int count, const Hit* hits, float* rgb) const
 {
-  thread_local std::vector<Surface> surfaces;
-  thread_local std::vector<float> colors;
-  std::vector<int> translucent;
-  RayDifferentials source(*this->TheView.model);
-  const std::vector<PixelRay>& rays = source.row(y, x, count);
+  const std::vector<PixelRay>& rays = worker.Rays.row(y, x, count);
   const auto put = [rgb](int pixel, Float4 color)
   {
     float* const to = rgb + 3 * std::size_t(pixel);
@@ -213,7 +246,9 @@ void ShadedView::row(int x, int y, int count, const Hit* hits, float* rgb) const
     to[1] = color[1];
     to[2] = color[2];
   };
+  std::vector<Surface>& surfaces = worker.Surfaces;
   surfaces.clear();
+  worker.Translucent.clear();
   for (int i = 0; i < count; ++i)
   {
     if (hits[i].object == 0)
@@ -222,22 +257,22 @@ void ShadedView::row(int x, int y, int count, const Hit* hits, float* rgb) const
     }
     else if (this->Translucent && this->materialOf(hits[i]).opacity < 1)
     {
-      translucent.push_back(i);
+      worker.Translucent.push_back(i);
     }
     else
     {
       surfaces.push_back({ i, hits[i] });
     }
   }
-  colors.resize(4 * surfaces.size());
-  this->shade(rays, surfaces, colors.data());
+  worker.Colors.resize(4 * surfaces.size());
+  this->shade(worker, rays, surfaces, worker.Colors.data());
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
-    put(surfaces[i].pixel, loadFloat4(&colors[4 * i]));
+    put(surfaces[i].pixel, loadFloat4(&worker.Colors[4 * i]));
   }
-  if (!translucent.empty())
+  if (!worker.Translucent.empty())
   {
-    this->seeThrough(x, y, rays, translucent, rgb);
+    this->seeThrough(worker, x, y, rays, rgb);
   }
 }
 
@@ -259,13 +294,12 @@ void ShadedView::allHits(int x, int y, int count, std::vector<Hit>* hits) const
 }
 
 /// Surfaces in order, nearest first, until one is opaque.
-void ShadedView::seeThrough(
-  int x, int y, const std::vector<PixelRay>& rays, const std::vector<int>& pixels, float* rgb) const
+void ShadedView::seeThrough(Worker& worker, int x, int y, const std::vector<PixelRay>& rays, float* rgb) const
 {
   std::vector<std::vector<Hit>> hits(1);
-  std::vector<Surface> surfaces;
-  std::vector<float> colors;
-  for (const int pixel : pixels)
+  std::vector<Surface>& surfaces = worker.Behind;
+  std::vector<float>& colors = worker.Colors;
+  for (const int pixel : worker.Translucent)
   {
     this->allHits(x + pixel, y, 1, hits.data());
     surfaces.clear();
@@ -278,7 +312,7 @@ void ShadedView::seeThrough(
     Float4 over = float4(0);
     float through = 1;
     colors.resize(4 * surfaces.size());
-    this->shade(rays, surfaces, colors.data());
+    this->shade(worker, rays, surfaces, colors.data());
     for (std::size_t i = 0; i < surfaces.size(); ++i)
     {
       const float opacity = std::min(std::max(colors[4 * i + 3], 0.0F), 1.0F);

@@ -24,18 +24,22 @@ class ShadedView
 public:
   ShadedView(std::shared_ptr<const SceneState> state, const View& view, ShadedMaterialLibrary& materials);
 
-  /// Colours of pixels [x, x + count) of row y with these hits: RGB, display-referred, >= 0. Surfaces that are not
-  /// opaque let see what is behind them.
-  void row(int x, int y, int count, const Hit* hits, float* rgb) const;
-
   /// A surface to be shaded by itself.
   struct Surface
   {
     int pixel = 0; ///< of a row, from its first
     Hit hit;
   };
+
+  /// What one thread needs while it shades rows of a view, which outlives it.
+  class Worker;
+
+  /// Colours of pixels [x, x + count) of row y with these hits: RGB, display-referred, >= 0. Surfaces that are not
+  /// opaque let see what is behind them.
+  void row(Worker& worker, int x, int y, int count, const Hit* hits, float* rgb) const;
+
   /// Colour, cut off at black, and opacity of surfaces of pixels [x, x + count) of row y, four values each.
-  void shadeRow(int x, int y, int count, const std::vector<Surface>& surfaces, float* rgba) const;
+  void shadeRow(Worker& worker, int x, int y, int count, const std::vector<Surface>& surfaces, float* rgba) const;
   /// All surfaces along the rays of a row, near to far.
   void allHits(int x, int y, int count, std::vector<Hit>* hits) const;
 
@@ -51,10 +55,31 @@ private:
     double side = 1; ///< -1: mirrored
   };
   static constexpr std::size_t lanes = ShadowQuery::mostPaths;
-  void shade(const std::vector<PixelRay>& rays, const std::vector<Surface>& surfaces, float* rgba) const;
-  void place(const PixelRay& ray, const Hit& hit, ShadedPoint& point) const;
+  /// A triangle in the frame of the camera: what does not depend on the pixel.
+  struct Triangle
+  {
+    Hit hit;
+    const ShadedMaterial* material = nullptr;
+    double side = 1; ///< -1: of a mirrored object
+    Eigen::Vector3d corner;
+    Eigen::Vector3d normal; ///< (second - first) x (third - first)
+    Eigen::Vector3d second; ///< gradients of the barycentric coordinates
+    Eigen::Vector3d third;
+    Eigen::Vector3d toU; ///< and of the texture's
+    Eigen::Vector3d toV;
+    Eigen::Vector2d uv; ///< of the first corner
+    Float4 shading;     ///< normals: of the first corner, and what the others have more; not of unit length
+    Float4 shadingSecond;
+    Float4 shadingThird;
+  };
+  void prepare(const Hit& hit, Triangle& triangle) const;
+  void place(const PixelRay& ray, const Triangle& triangle, ShadedPoint& point) const;
+  void lift(const Triangle& triangle, const Eigen::Vector3d& position, const double parts[3], bool front,
+    ShadedPoint& point) const;
+  void shade(
+    Worker& worker, const std::vector<PixelRay>& rays, const std::vector<Surface>& surfaces, float* rgba) const;
   void findShadows(const ShadedPoint* points, std::size_t count, PointLight* lit) const;
-  void seeThrough(int x, int y, const std::vector<PixelRay>& rays, const std::vector<int>& pixels, float* rgb) const;
+  void seeThrough(Worker& worker, int x, int y, const std::vector<PixelRay>& rays, float* rgb) const;
   Float4 skyAt(const PixelRay& ray) const;
   const ShadedMaterial& materialOf(const Hit& hit) const
   {
@@ -69,6 +94,39 @@ private:
   std::shared_ptr<const ShadowQuery> Shadows; ///< null where no light casts any
   mutable std::once_flag QueryMade;
   mutable std::unique_ptr<OcclusionQuery> Query; ///< of what is behind what is seen
+};
+
+class ShadedView::Worker
+{
+public:
+  explicit Worker(const ShadedView& view)
+    : Rays(*view.TheView.model)
+    , Triangles(triangles)
+    , Lit(lanes * view.Light.lights() + 1)
+  {
+  }
+
+private:
+  friend class ShadedView;
+  static constexpr std::size_t triangles = 256;
+  const Triangle& triangle(const ShadedView& view, const Hit& hit)
+  {
+    const std::size_t slot = (hit.triangle * 0x9E3779B1U ^ hit.object * 0x85EBCA77U) >> 24U;
+    Triangle& kept = this->Triangles[slot];
+    if (kept.hit != hit)
+    {
+      view.prepare(hit, kept);
+    }
+    return kept;
+  }
+
+  RayDifferentials Rays;
+  std::vector<Triangle> Triangles; ///< those met last
+  std::vector<PointLight> Lit;
+  std::vector<Surface> Surfaces;
+  std::vector<Surface> Behind;
+  std::vector<int> Translucent;
+  std::vector<float> Colors;
 };
 
 } // namespace dgtk

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <emmintrin.h>
 
 namespace dgtk
 {
@@ -56,7 +57,14 @@ struct Neighbours
   }
 };
 
-Float4 texel(const std::uint8_t* rgba) { return Float4{ float(rgba[0]), float(rgba[1]), float(rgba[2]), 0 }; }
+Float4 texel(const std::uint8_t* rgba)
+{
+  std::int32_t bytes = 0;
+  std::memcpy(&bytes, rgba, sizeof bytes);
+  const __m128i zero = _mm_setzero_si128();
+  const __m128i shorts = _mm_unpacklo_epi8(_mm_cvtsi32_si128(bytes), zero);
+  return _mm_cvtepi32_ps(_mm_unpacklo_epi16(shorts, zero));
+}
 
 template <typename Level>
 float lastOf(const std::vector<Level>& levels)
