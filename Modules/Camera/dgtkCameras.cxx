@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <mutex>
 
 namespace dgtk
 {
@@ -58,6 +60,45 @@ void checkNames(const std::string& model, const CameraEntry& entry, const Values
     }
   }
 }
+
+/// Cameras that were made last: one is asked for at each frame, and its tables take as long as thousands of rays.
+class MadeCameras
+{
+public:
+  std::shared_ptr<const CameraModel> make(const CameraEntry& entry, const CameraParameters& of)
+  {
+    if (!of.files.empty()) // what they hold may change
+    {
+      return entry.make(of);
+    }
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    for (const Made& made : this->Last)
+    {
+      if (made.entry == &entry && made.of.width == of.width && made.of.height == of.height && made.of.K == of.K &&
+          made.of.numbers == of.numbers)
+      {
+        return made.camera;
+      }
+    }
+    this->Last.push_back({ &entry, of, entry.make(of) });
+    if (this->Last.size() > most)
+    {
+      this->Last.pop_front();
+    }
+    return this->Last.back().camera;
+  }
+
+private:
+  static constexpr std::size_t most = 16;
+  struct Made
+  {
+    const CameraEntry* entry;
+    CameraParameters of;
+    std::shared_ptr<const CameraModel> camera;
+  };
+  std::mutex Mutex;
+  std::deque<Made> Last;
+};
 } // namespace
 
 std::string countsText(const CameraParameter& parameter)
@@ -145,7 +186,8 @@ std::shared_ptr<const CameraModel> makeCamera(const std::string& model, const Ca
       checkNumbers(parameter, whole.numbers.try_emplace(parameter.name, parameter.usual).first->second);
     }
   }
-  return entry->make(whole);
+  static MadeCameras made;
+  return made.make(*entry, whole);
 }
 
 } // namespace dgtk

@@ -280,8 +280,28 @@ GeneralRay TriangleSolver::generalRay(double u, double v) const
 PlanePoint TriangleSolver::pointOnRay(const Hit& hit, const CameraRay& ray, bool barycentrics)
 {
   const Plane& prepared = this->plane(hit);
-  return prepared.state == Plane::State::None ? PlanePoint{}
-                                              : this->generalPoint(hit, generalOf(ray), prepared, barycentrics);
+  if (prepared.state == Plane::State::None)
+  {
+    return {};
+  }
+  const GeneralRay general = generalOf(ray);
+  // A ray from the camera's centre: the plane and its lines are those of a perspective.
+  const double divisor = dot(prepared.n, general.direction);
+  constexpr double factor = 16 * unitRoundoff / acceptedError;
+  if (prepared.state != Plane::State::Plain || !ray.origin.isZero(0) ||
+      !(std::abs(divisor) > factor * sumNorm(prepared.n) * sumNorm(general.direction)))
+  {
+    return this->generalPoint(hit, general, prepared, barycentrics);
+  }
+  PlanePoint point;
+  const double t = prepared.d / divisor;
+  if (t > 0)
+  {
+    point.t = t;
+    point.second = barycentrics ? dot(prepared.second, general.direction) / divisor : point.second;
+    point.third = barycentrics ? dot(prepared.third, general.direction) / divisor : point.third;
+  }
+  return point;
 }
 
 PlanePoint TriangleSolver::exactPoint(const Hit& hit, double u, double v)
