@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace dgtk
@@ -42,6 +43,11 @@ TriangleFacts factsOf(const SceneState& state, const View& view, const Hit& hit)
   if (normal.squaredNorm() > 0)
   {
     facts.normal = normal.stableNormalized();
+  }
+  if (!view.model->linear())
+  {
+    facts.farthest = std::numeric_limits<double>::infinity(); // rays have found it
+    return facts;
   }
   const auto [least, most] = std::minmax({ corner[0].z(), corner[1].z(), corner[2].z() });
   const double slack = rangeSlack * std::abs(most);
@@ -100,7 +106,7 @@ private:
     const Eigen::Vector3d direction = this->Rays.direction(x, y);
     LayeredSurface surface;
     surface.hit = hit;
-    surface.depth = this->Linear ? t : point.z();
+    surface.depth = t;
     surface.splatIndex = splatIndex(point.norm(), normal.dot(direction) > 0 ? Eigen::Vector3d(-normal) : normal,
       this->TheView.near, this->TheView.far);
     return surface;
@@ -178,7 +184,6 @@ private:
   LayeredRows& Out;
   PixelRays Rays;
   TriangleCache<TriangleFacts, std::function<TriangleFacts(const Hit&)>> Facts;
-  bool Linear = this->TheView.model->linear().has_value();
   SurfaceRows First;
   std::vector<SurfaceRows> Ranks;
   std::vector<LayeredSurface> Pixel;

@@ -19,7 +19,7 @@ namespace dgtk
 struct LayeredSurface
 {
   std::array<float, 4> rgba{}; ///< display-referred colour of this surface alone and its opacity, in [0, 1]
-  double depth = 0;            ///< z in the camera frame, scene units
+  double depth = 0;            ///< z in the camera frame, scene units; of a lens the distance along the ray
   std::uint32_t splatIndex = 0;
   Hit hit;
 };

@@ -74,6 +74,16 @@ double Eye::range(const Eigen::Vector2d& pixel, const Eigen::Vector3d& x) const
   return this->linear() ? x.z() : (x - ray.origin).dot(ray.direction) / ray.direction.squaredNorm();
 }
 
+Eigen::Vector2d Eye::reach(double angle, const Eigen::Vector3d& x) const
+{
+  const Eigen::Vector2d focal = this->Record.K.diagonal().head<2>();
+  if (!this->linear())
+  {
+    return angle * focal.cwiseMax(Eigen::Vector2d(this->width(), this->height()));
+  }
+  return angle * (this->Pinhole ? 1 : x.z()) * focal;
+}
+
 bool Eye::sees(const Eigen::Vector2d& pixel, const Eigen::Vector3d& x) const
 {
   const double range = this->range(pixel, x);

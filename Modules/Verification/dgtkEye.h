@@ -50,6 +50,9 @@ public:
   /// What near and far bound of a point and the pixel that it is projected to: its depth, or the distance of a model
   /// that is not linear.
   double range(const Eigen::Vector2d& pixel, const Eigen::Vector3d& x_in_camera) const;
+  /// Pixels that a small angle turns a ray by, at most about; of a parallel projection, that a small part of the depth
+  /// is.
+  Eigen::Vector2d reach(double angle, const Eigen::Vector3d& x_in_camera) const;
   /// Inside the image, and between near and far.
   bool sees(const Eigen::Vector2d& pixel, const Eigen::Vector3d& x_in_camera) const;
 

@@ -166,7 +166,7 @@ bool Picture::findCutOut(const Claims& claims, int x, int y, Hit& hit) const
   return false;
 }
 
-bool Picture::isEdgeAt(int x, int y, double depth) const
+bool Picture::isEdgeAt(int x, int y, double range) const
 {
   const std::vector<Instance>& instances = this->TheSight->state().instances;
   for (std::uint32_t object = 1; object <= instances.size(); ++object)
@@ -175,8 +175,8 @@ bool Picture::isEdgeAt(int x, int y, double depth) const
     for (std::uint32_t triangle = 0; triangle < triangles; ++triangle)
     {
       const Hit hit{ object, triangle };
-      if (std::abs(this->TheSight->depthOf(hit, centreOf(x, y)) - depth) <=
-            wideDepthTolerance * this->eye().farness(depth) * std::abs(depth) &&
+      if (std::abs(this->TheSight->rangeOf(hit, centreOf(x, y)) - range) <=
+            wideDepthTolerance * this->eye().farness(range) * std::abs(range) &&
           this->endsAt(hit, x, y))
       {
         return true;
@@ -219,7 +219,7 @@ bool Picture::isOnEdge(const Hit& hit, int x, int y) const
   std::vector<double> depths;
   this->TheSight->surfaces(centreOf(x, y), hits, depths);
   const double before = depths.empty() ? infinite : depths.front();
-  return this->TheSight->depthOf(hit, centreOf(x, y)) <= before * (1 + wideDepthTolerance);
+  return this->TheSight->rangeOf(hit, centreOf(x, y)) <= before * (1 + wideDepthTolerance);
 }
 
 void Picture::resolveRow(const Claims& claims, int y, int& patience)

@@ -90,9 +90,9 @@ public:
   Eigen::Vector3d point(int x, int y) const;
   /// Surfaces first met within EdgeReach of a pixel's centre, or coincident with those; object 0 for none.
   std::vector<Hit> nearby(int x, int y) const;
-  /// Whether some triangle of this depth at a pixel's centre ends within EdgeReach of it: on the border of a texel that
+  /// Whether some triangle at this range at a pixel's centre ends within EdgeReach of it: on the border of a texel that
   /// is there and one that is not, rays beside the centre may all miss what the one through it meets.
-  bool isEdgeAt(int x, int y, double depth) const;
+  bool isEdgeAt(int x, int y, double range) const;
   /// To be called before point() is used by several threads.
   void preparePoints();
 

@@ -42,13 +42,25 @@ Eigen::Vector3d Sight::normal(const Hit& hit) const
 
 double Sight::depthOf(const Hit& hit, const Eigen::Vector2d& pixel) const
 {
+  const CameraRay ray = this->TheEye.ray(pixel);
+  const double t = this->along(hit, ray);
+  return std::isfinite(t) ? ray.origin.z() + t * ray.direction.z() : t;
+}
+
+double Sight::rangeOf(const Hit& hit, const Eigen::Vector2d& pixel) const
+{
+  return this->TheEye.linear() ? this->depthOf(hit, pixel) : this->along(hit, this->TheEye.ray(pixel));
+}
+
+/// Parameter of the ray; infinite where it does not meet the plane before the camera.
+double Sight::along(const Hit& hit, const CameraRay& ray) const
+{
   if (hit.object == 0)
   {
     return std::numeric_limits<double>::infinity();
   }
   Eigen::Vector3d corner[3];
   this->corners(hit, corner);
-  const CameraRay ray = this->TheEye.ray(pixel);
   // The nearest corner in view of the ray rounds least.
   const Eigen::Vector3d n = this->normal(hit);
   int nearest = 0;
@@ -57,17 +69,16 @@ double Sight::depthOf(const Hit& hit, const Eigen::Vector2d& pixel) const
     nearest = corner[i].squaredNorm() < corner[nearest].squaredNorm() ? i : nearest;
   }
   const double t = n.dot(corner[nearest] - ray.origin) / n.dot(ray.direction);
-  const double depth = ray.origin.z() + t * ray.direction.z();
-  return (this->TheEye.linear() ? depth : t) > 0 ? depth : std::numeric_limits<double>::infinity();
+  return t > 0 && std::isfinite(t) ? t : std::numeric_limits<double>::infinity();
 }
 
-void Sight::surfaces(const Eigen::Vector2d& pixel, std::vector<Hit>& hits, std::vector<double>& depths) const
+void Sight::surfaces(const Eigen::Vector2d& pixel, std::vector<Hit>& hits, std::vector<double>& ranges) const
 {
   this->Query->allHits(this->TheEye.view(), pixel, hits);
-  depths.clear();
+  ranges.clear();
   for (const Hit& hit : hits)
   {
-    depths.push_back(this->depthOf(hit, pixel));
+    ranges.push_back(this->rangeOf(hit, pixel));
   }
 }
 

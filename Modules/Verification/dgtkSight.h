@@ -25,8 +25,10 @@ public:
 
   /// Depth at which the ray through a pixel meets the plane of a triangle; infinite for no hit or no meeting.
   double depthOf(const Hit& hit, const Eigen::Vector2d& pixel) const;
-  /// All surfaces along a ray with their depths, near to far.
-  void surfaces(const Eigen::Vector2d& pixel, std::vector<Hit>& hits, std::vector<double>& depths) const;
+  /// The same as Eye::range(): of a lens, the distance.
+  double rangeOf(const Hit& hit, const Eigen::Vector2d& pixel) const;
+  /// All surfaces along a ray with their ranges, near to far.
+  void surfaces(const Eigen::Vector2d& pixel, std::vector<Hit>& hits, std::vector<double>& ranges) const;
   /// Weights of the corners of a triangle at a point of its plane, camera frame.
   Eigen::Vector3d weights(const Hit& hit, const Eigen::Vector3d& x_in_camera) const;
   /// Normal of a triangle by the order of its corners, camera frame, not normalised.
@@ -36,6 +38,8 @@ public:
   const Instance& instance(std::uint32_t object) const { return this->State->instances[object - 1]; }
 
 private:
+  double along(const Hit& hit, const CameraRay& ray) const;
+
   Eye TheEye;
   std::shared_ptr<const SceneState> State;
   std::shared_ptr<const OcclusionQuery> Query;

@@ -117,6 +117,17 @@ class Cameras(Case):
         self.assertTrue((depth[:, behind] < 0).all() and (depth[:, ~behind] > 0).all())
         self.assertTrue((distance > abs(depth) - 1e-12).all())
 
+    def test_colours_and_what_lies_behind(self):
+        """All surfaces of a pixel, in order along its ray, also behind the camera; with the layers' own bytes."""
+        self.render("depth,position,objects")
+        before = {name: self.layer(name, "depth") for name in LENSES}
+        self.dgtk("render", self.scene, "-o", self.path("set"), "--quiet", "--replace", "--renderer", "ray", "--frames", "0",
+                  "--layers", "color,depth,position,objects,ldi,points")
+        for name, depth in before.items():
+            numpy.testing.assert_array_equal(self.layer(name, "depth"), depth, err_msg=name)
+        checks = {(residual["check"], residual["layer"]) for residual in self.verify()}
+        self.assertLessEqual({("ldi", "surfaces"), ("ldi", "order"), ("ldi", "first = depth"), ("points", "colors")}, checks)
+
     def test_a_wrong_coefficient_is_found(self):
         self.render("position,depth")
         edits = Edits(self.path("set"))

@@ -144,7 +144,8 @@ void checkObjects(Dataset& dataset, Meter& meter)
       [&]
       {
         return Offender{ "objects.json", -1, -1,
-          "object " + std::to_string(i + 1) + " of class " + std::to_string(objects[i].classId), std::to_string(fixed) };
+          "object " + std::to_string(i + 1) + " of class " + std::to_string(objects[i].classId),
+          std::to_string(fixed) };
       });
   }
   checkClassIds(objects, meter);

@@ -76,11 +76,12 @@ private:
       return Outside;
     }
     std::vector<Hit> hits;
-    std::vector<double> depths;
-    this->Other.surfaces(pixel, hits, depths);
+    std::vector<double> ranges;
+    this->Other.surfaces(pixel, hits, ranges);
+    const double own = this->Other.eye().range(target.pixel, target.there);
     for (std::size_t i = 0; i < hits.size(); ++i)
     {
-      if (hits[i] != hit && depths[i] / target.there.z() < 1 - slack)
+      if (hits[i] != hit && ranges[i] / own < 1 - slack)
       {
         return hits[i].object == hit.object ? OwnObject : OtherObject;
       }
@@ -111,9 +112,7 @@ private:
     {
       return true;
     }
-    const CameraRecord& camera = this->Other.eye().record();
-    const double unit = this->Other.eye().pinhole() ? 1 : target.there.z();
-    const Eigen::Vector2d reach = silhouetteReach * unit * camera.K.diagonal().head<2>();
+    const Eigen::Vector2d reach = this->Other.eye().reach(silhouetteReach, target.there);
     for (int i = 0; i < 32; ++i)
     {
       const Eigen::Vector2d direction(std::cos(i * pi / 8), std::sin(i * pi / 8));

@@ -110,7 +110,7 @@ public:
 
   void firstDepth(const PictureFile& depth, int x, int y, Meter& meter) const
   {
-    const double found = this->Ldi.count(x, y) > 0 ? this->Ldi.depth(x, y, 0) : infinite;
+    const double found = this->Ldi.count(x, y) > 0 ? this->depthAt(x, y, this->Ldi.depth(x, y, 0)) : infinite;
     const double expected = depth.at(x, y);
     meter.add(found == expected ? 0 : found - expected,
       [&] {
@@ -141,6 +141,14 @@ public:
   }
 
 private:
+  /// Of a lens records have the parameter of the ray.
+  double depthAt(int x, int y, double range) const
+  {
+    const Eye& eye = this->Owner.eye();
+    const CameraRay ray = eye.linear() ? CameraRay{} : eye.ray(centreOf(x, y));
+    return eye.linear() ? range : (ray.origin + range * ray.direction).z();
+  }
+
   std::string problem(int x, int y, const std::vector<double>& depths) const
   {
     const std::size_t count = this->Ldi.count(x, y);
@@ -186,11 +194,11 @@ private:
     }
     // What the other layers show, which may be the edge of a cut-out texture that rays pass on either side.
     const Surfaces& seen = this->Owner.surfaces();
-    std::vector<double> possible{ this->Owner.sight().depthOf(seen.hits[seen.index(x, y)], centreOf(x, y)) };
+    std::vector<double> possible{ this->Owner.sight().rangeOf(seen.hits[seen.index(x, y)], centreOf(x, y)) };
     bool complete = true;
     for (const Nearby& nearby : all)
     {
-      possible.push_back(this->Owner.sight().depthOf(nearby.hit, centreOf(x, y)));
+      possible.push_back(this->Owner.sight().rangeOf(nearby.hit, centreOf(x, y)));
       complete = complete && (nearby.rays < raysAround || this->hasRecord(x, y, possible.back()));
     }
     for (std::size_t i = 0; i < this->Ldi.count(x, y); ++i)

@@ -127,8 +127,8 @@ public:
       return;
     }
     const Sight& sight = *this->Sights[point.track[0].camera];
-    const double found = sight.eye().toCamera(point.x).z();
-    const double expected = sight.depthOf(point.hit, point.track[0].pixel);
+    const double found = sight.eye().range(point.track[0].pixel, sight.eye().toCamera(point.x));
+    const double expected = sight.rangeOf(point.hit, point.track[0].pixel);
     meter.add((found - expected) / expected / sight.eye().farness(expected),
       [&] { return this->offender(index, "depth " + numberText(found), numberText(expected)); });
   }
@@ -260,17 +260,17 @@ private:
   bool isSeen(const Sight& sight, const CloudPoint& point, const Eigen::Vector2d& pixel, double slack) const
   {
     const Eigen::Vector3d x = sight.eye().toCamera(point.x);
-    const double depth = x.z();
     if (!sight.eye().sees(pixel, x))
     {
       return false;
     }
     std::vector<Hit> hits;
-    std::vector<double> depths;
-    sight.surfaces(pixel, hits, depths);
+    std::vector<double> ranges;
+    sight.surfaces(pixel, hits, ranges);
+    const double own = sight.eye().range(pixel, x);
     for (std::size_t i = 0; i < hits.size(); ++i)
     {
-      if (hits[i] != point.hit && depths[i] / depth < 1 - slack)
+      if (hits[i] != point.hit && ranges[i] / own < 1 - slack)
       {
         return false;
       }
@@ -280,8 +280,7 @@ private:
 
   bool isOpen(const Sight& sight, const CloudPoint& point, const Eigen::Vector2d& pixel) const
   {
-    const double unit = sight.eye().pinhole() ? 1 : sight.eye().toCamera(point.x).z();
-    const Eigen::Vector2d reach = silhouetteReach * unit * sight.eye().record().K.diagonal().head<2>();
+    const Eigen::Vector2d reach = sight.eye().reach(silhouetteReach, sight.eye().toCamera(point.x));
     for (int i = 0; i <= 16; ++i)
     {
       constexpr double sixteenth = 0.39269908169872414;
