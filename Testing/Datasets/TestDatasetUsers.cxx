@@ -2,7 +2,7 @@
 // OpenCV as a user of rendered datasets: what its matchers and its calibration find from the colours alone must be what
 // the ground truth says. This catches wrong signs, axes and half pixels that agreement with ourselves would hide.
 //
-//   TestDatasetUsers stereo|flow|chessboard DIR
+//   TestDatasetUsers stereo|flow|chessboard|lenses DIR
 #include "dgtkDatasetDocuments.h"
 #include "dgtkError.h"
 #include "dgtkLayerReader.h"
@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -29,6 +30,12 @@ constexpr double wanted = 0.85;
 constexpr double unbiased = 0.1;
 /// Pixels: how well the chessboard must recover fx, fy, cx and cy.
 constexpr double calibrated = 0.05;
+/// The same of lenses, whose coefficients are found beside: a thousandth of fx; of cx and cy what tangential
+/// coefficients stand for as well.
+constexpr double calibratedFocal = 0.665;
+constexpr double calibratedCentre = 1;
+/// Pixels: mean of what calibrations leave of the corners.
+constexpr double reprojected = 0.05;
 constexpr int border = 16; // pixels without a whole window around them
 
 /// All rows of an image file; CV_64F for float64, CV_32F for float32, CV_8U for uint8.
@@ -154,7 +161,17 @@ int flow(const std::string& folder)
   return failed;
 }
 
-int chessboard(const std::string& folder)
+/// Corners of the board in the pictures of a camera.
+struct Boards
+{
+  std::vector<std::vector<cv::Point3f>> points;
+  std::vector<std::vector<cv::Point2f>> corners;
+  cv::Size size;
+  std::size_t pictures = 0;
+};
+
+Boards findBoards(
+  const std::string& folder, const std::string& name, const std::vector<CameraRecord>& cameras, int step)
 {
   const cv::Size inner(9, 6);
   constexpr float square = 0.03f;
@@ -166,17 +183,18 @@ int chessboard(const std::string& folder)
       board.emplace_back(square * float(i), square * float(j), 0.0f);
     }
   }
-  const std::vector<CameraRecord> cameras = readCameras(folder + "/cameras.json");
-  std::vector<std::vector<cv::Point3f>> points;
-  std::vector<std::vector<cv::Point2f>> corners;
-  cv::Size size;
-  for (std::size_t k = 0; k < cameras.size(); k += 2) // finding corners so well takes half a second a picture
+  Boards boards;
+  for (const CameraRecord& camera : cameras)
   {
-    const CameraRecord& camera = cameras[k];
-    char name[64];
-    std::snprintf(name, sizeof name, "/%s/color/%06d.png", camera.name.c_str(), camera.frame);
-    const cv::Mat picture = gray(folder + name);
-    size = picture.size();
+    if (camera.name != name || camera.frame % step != 0)
+    {
+      continue;
+    }
+    char file[64];
+    std::snprintf(file, sizeof file, "/%s/color/%06d.png", camera.name.c_str(), camera.frame);
+    const cv::Mat picture = gray(folder + file);
+    boards.size = picture.size();
+    ++boards.pictures;
     std::vector<cv::Point2f> found;
     if (cv::findChessboardCornersSB(picture, inner, found, cv::CALIB_CB_ACCURACY))
     {
@@ -184,15 +202,49 @@ int chessboard(const std::string& folder)
       {
         corner += cv::Point2f(0.5f, 0.5f); // OpenCV counts from the centre of the first pixel
       }
-      points.push_back(board);
-      corners.push_back(found);
+      boards.points.push_back(board);
+      boards.corners.push_back(found);
     }
   }
-  cv::Mat K = cv::Mat::eye(3, 3, CV_64F), distortion = cv::Mat::zeros(5, 1, CV_64F);
+  return boards;
+}
+
+/// Root of the mean square of what is left, pixels; K receives the camera's matrix.
+double calibrate(const CameraRecord& camera, const Boards& boards, cv::Mat& K)
+{
+  const auto distortion = camera.numbers.find("distortion");
+  const std::size_t numbers = distortion == camera.numbers.end() ? 0 : distortion->second.size();
+  cv::Mat found;
   std::vector<cv::Mat> rotations, translations;
-  const double error = cv::calibrateCamera(points, corners, size, K, distortion, rotations, translations,
-    cv::CALIB_FIX_K1 | cv::CALIB_FIX_K2 | cv::CALIB_FIX_K3 | cv::CALIB_ZERO_TANGENT_DIST);
-  const Eigen::Matrix3d& truth = cameras.front().K;
+  if (camera.model == "fisheye")
+  {
+    return cv::fisheye::calibrate(boards.points, boards.corners, boards.size, K, found, rotations, translations,
+      cv::fisheye::CALIB_RECOMPUTE_EXTRINSIC | cv::fisheye::CALIB_FIX_SKEW);
+  }
+  const int none = cv::CALIB_FIX_K1 | cv::CALIB_FIX_K2 | cv::CALIB_FIX_K3 | cv::CALIB_ZERO_TANGENT_DIST;
+  return cv::calibrateCamera(boards.points, boards.corners, boards.size, K, found, rotations, translations,
+    numbers == 0   ? none
+    : numbers == 8 ? cv::CALIB_RATIONAL_MODEL
+                   : 0);
+}
+
+/// Pixels.
+struct Bounds
+{
+  double focal;
+  double centre;
+};
+
+/// `step`: of so many frames one, as finding corners so well takes half a second a picture.
+int calibrateBy(const std::string& folder, const std::string& name, int step, const Bounds& bounds)
+{
+  const std::vector<CameraRecord> cameras = readCameras(folder + "/cameras.json");
+  const CameraRecord& camera =
+    *std::find_if(cameras.begin(), cameras.end(), [&](const CameraRecord& one) { return one.name == name; });
+  const Boards boards = findBoards(folder, name, cameras, step);
+  cv::Mat K = cv::Mat::eye(3, 3, CV_64F);
+  const double error = calibrate(camera, boards, K);
+  const Eigen::Matrix3d& truth = camera.K;
   double largest = 0;
   const int places[4][2] = { { 0, 0 }, { 1, 1 }, { 0, 2 }, { 1, 2 } };
   const char* const names[4] = { "fx", "fy", "cx", "cy" };
@@ -201,11 +253,24 @@ int chessboard(const std::string& folder)
     const double value = K.at<double>(places[k][0], places[k][1]);
     const double expected = truth(places[k][0], places[k][1]);
     std::printf("%s %.4f, truth %.4f, difference %+.4f\n", names[k], value, expected, value - expected);
-    largest = std::max(largest, std::abs(value - expected));
+    largest = std::max(largest, std::abs(value - expected) / (k < 2 ? bounds.focal : bounds.centre));
   }
-  std::printf(
-    "chessboard found in %zu of %zu pictures, reprojection error %.4f pixel\n", corners.size(), (cameras.size() + 1) / 2, error);
-  return corners.size() >= 12 && largest <= calibrated ? 0 : 1;
+  std::printf("%s: chessboard found in %zu of %zu pictures, reprojection error %.4f pixel\n", name.c_str(),
+    boards.corners.size(), boards.pictures, error);
+  return boards.corners.size() >= 12 && largest <= 1 && error <= reprojected ? 0 : 1;
+}
+
+int chessboard(const std::string& folder) { return calibrateBy(folder, "camera", 2, { calibrated, calibrated }); }
+
+/// Cameras with lenses: of their parameters OpenCV finds those that it was given.
+int lenses(const std::string& folder)
+{
+  int failed = 0;
+  for (const char* name : { "five", "eight", "fisheye" })
+  {
+    failed = std::max(failed, calibrateBy(folder, name, 1, { calibratedFocal, calibratedCentre }));
+  }
+  return failed;
 }
 } // namespace
 
@@ -214,11 +279,13 @@ int main(int argc, char** argv)
   try
   {
     const std::string kind = argc == 3 ? argv[1] : "";
-    if (kind == "stereo" || kind == "flow" || kind == "chessboard")
+    const std::map<std::string, int (*)(const std::string&)> kinds{ { "stereo", &stereo }, { "flow", &flow },
+      { "chessboard", &chessboard }, { "lenses", &lenses } };
+    if (kinds.count(kind) != 0)
     {
-      return kind == "stereo" ? stereo(argv[2]) : kind == "flow" ? flow(argv[2]) : chessboard(argv[2]);
+      return kinds.at(kind)(argv[2]);
     }
-    std::fprintf(stderr, "usage: TestDatasetUsers stereo|flow|chessboard DIR\n");
+    std::fprintf(stderr, "usage: TestDatasetUsers stereo|flow|chessboard|lenses DIR\n");
     return 2;
   }
   catch (const std::exception& error)

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 using namespace dgtk;
 using namespace dgtk::test;
 
@@ -88,6 +90,13 @@ TEST(Edges, NeedBothPointsOffTheOthersPlane)
   EXPECT_EQ(edgeBetween(other, wall), noEdge);
   other.point.x() = 0.0501; // by more than 1 % of 5
   EXPECT_EQ(edgeBetween(wall, other), depthEdge);
+}
+
+TEST(Edges, AreNoneOnAPlaneBehindALens)
+{
+  const PixelPlane one{ 1, { 0, 0, -10 }, { 0, 0, 1 }, 10 };
+  const PixelPlane next{ 1, { 1, 0, -10 }, { 0, 0, 1 }, std::sqrt(101) };
+  EXPECT_EQ(edgeBetween(one, next), noEdge);
 }
 
 TEST(Edges, PlanesAreThoseOfTheTriangles)
