@@ -117,6 +117,69 @@ TEST(LiveTruth, EveryLayerIsTheDatasetBitForBit)
   EXPECT_THROW(eye.values("color", hits), UsageError);
 }
 
+/// The demo through lenses: what ends within the image, and what has no end.
+std::string writeLenses(const test::TemporaryFolder& folder)
+{
+  SceneDescription scene = readScene(sourceFile("Data/Scenes/demo.json"));
+  scene.cameras.resize(1);
+  scene.cameras.push_back(scene.cameras[0]);
+  CameraDescription& fisheye = scene.cameras[0];
+  fisheye.model = "fisheye";
+  fisheye.fovY = Track<double>{ 179 };
+  fisheye.aspect = 0.75; // narrower pixels, so that the circle ends within
+  fisheye.parameters["distortion"].numbers.assign(4, Track<double>{ -0.05 });
+  CameraDescription& panorama = scene.cameras[1];
+  panorama.name = "panorama";
+  panorama.model = "equirectangular";
+  panorama.fovY = CameraDescription().fovY;
+  writeScene(scene, folder.path("lenses.json"));
+  return folder.path("lenses.json");
+}
+
+TEST(LiveTruth, LensesAreTheDatasetBitForBit)
+{
+  const test::TemporaryFolder folder;
+  GeneratorRequest request;
+  request.scene = writeLenses(folder);
+  request.folder = folder.path("out");
+  request.layers = { "depth", "distance", "objects", "triangles", "normal", "shadingnormal", "position", "uv",
+    "flow_forward", "edges" };
+  request.options = { { "objects_format", "npy" }, { "triangles_format", "npy" }, { "flow_forward_format", "npy" },
+    { "edges_format", "npy" }, { "threads", "1" }, { "visibility", "ray" } };
+  request.frames = FrameRange{ 1, 1, 1 };
+  request.width = width;
+  request.height = height;
+  generate(request);
+  ThreadPool pool(1);
+  for (const std::size_t camera : { 0, 1 })
+  {
+    LiveQuestion question = questionOf("Data/Scenes/demo.json", 0, 1);
+    const SceneDescription scene = readScene(request.scene);
+    ModelLibrary models;
+    models.load(scene);
+    question.scene = std::make_shared<LiveScene>(scene, models);
+    question.camera = scene.cameras[camera];
+    LiveEye eye(question, 1, pool);
+    VisibilityBuffer hits;
+    ASSERT_TRUE(eye.trace(0, height, hits));
+    std::size_t compared = 0;
+    for (const auto& [layer, file] : filesOf(request.folder, question.camera.name))
+    {
+      const ImageData stored = readLayerFile(file);
+      const Rows live = eye.values(layer, hits);
+      ASSERT_EQ(live.bytes(), stored.pixels.bytes()) << layer;
+      EXPECT_EQ(std::memcmp(live.data(), stored.pixels.data(), live.bytes()), 0) << layer;
+      ++compared;
+    }
+    EXPECT_GE(compared, request.layers.size());
+    const Rows draft = eye.values(draftLayer, hits);
+    const Eigen::Vector3d background = 255 * scene.background;
+    const std::uint8_t* const corner = draft.row<std::uint8_t>(0);
+    EXPECT_EQ(hits.hits[0].object, 0u) << "around the circle, or the sky";
+    EXPECT_NEAR(corner[1], background[1], 1);
+  }
+}
+
 TEST(LiveTruth, APixelIsThePictures)
 {
   const LiveQuestion question = questionOf("Data/Scenes/dataset_flow.json", 0, 1);
