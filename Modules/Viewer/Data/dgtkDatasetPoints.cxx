@@ -38,7 +38,7 @@ bool knowsLens(const CameraRecord& camera)
   {
     return modelOf(camera) != nullptr;
   }
-  catch (const UsageError&)
+  catch (const Error&)
   {
     return true;
   }

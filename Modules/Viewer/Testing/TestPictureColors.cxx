@@ -225,6 +225,29 @@ TEST(DatasetPoints, CloudsHoldEverySurfaceWithItsColour)
   EXPECT_FALSE(worldPoint(dataset, { "left", 7, "depth" }, picture, 5, 2)) << "no such camera";
 }
 
+TEST(DatasetPoints, LensesSeeBehindThemselves)
+{
+  CameraRecord record = SmallDataset::left(0);
+  record.model = "fisheye";
+  record.K << 2, 0, 8, 0, 2, 8, 0, 0, 1; // two pixels a radian
+  record.numbers["distortion"] = { 0, 0, 0, 0 };
+  const View view = viewOf(record);
+  LayerSpec spec{ "depth", PixelType::Float64, 1, "", "camera", "+inf", "", Meaning::Depth };
+  const Eigen::Vector3d direction(std::sin(2.25), 0, std::cos(2.25)); // 4.5 pixels from the middle
+  const auto expectPoint = [&](double value)
+  {
+    record.K(1, 2) = 7.5;
+    const auto found = pointOf(spec, viewOf(record), 12, 7, &value);
+    ASSERT_TRUE(found);
+    EXPECT_LT((*found - view.camera_from_world.inverse() * Eigen::Vector3d(3 * direction)).norm(), tolerance);
+  };
+  expectPoint(3 * direction.z()); // below 0
+  spec.meaning = Meaning::Distance;
+  expectPoint(3);
+  const double one = 1;
+  EXPECT_FALSE(pointOf(spec, view, 0, 0, &one)) << "outside of the picture";
+}
+
 TEST(DatasetPoints, PositionsNeedNoLens)
 {
   SmallDataset files;
