@@ -39,7 +39,7 @@ const ChoiceOption& colorBits()
 
 const ChoiceOption& renderer()
 {
-  static const ChoiceOption row("renderer", { "vtk", "ray", "povray" },
+  static const ChoiceOption row("renderer", { "ray", "vtk", "povray" },
     "what makes colour: ray shades where the rays hit, vtk draws by OpenGL, povray is POV-Ray 3.7, installed");
   return row;
 }

@@ -446,7 +446,10 @@ Pairs describeRequest(const WorkPlan& plan, const Stage& stage)
   {
     addLayer(pairs, plan, planned, stage);
   }
-  addGiven(pairs, { &option::renderer() }, options);
+  if (plan.drawsColor() || plan.needs.peeled || !plan.needs.mattes.empty())
+  {
+    add(pairs, { &option::renderer() }, options);
+  }
   addGiven(pairs, povOptionRows(), options);
   pairs.emplace_back(option::visibility().name, plan.raster ? "raster" : "ray");
   add(pairs, { &option::seed() }, options);

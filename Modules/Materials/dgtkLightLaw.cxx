@@ -28,7 +28,7 @@ LightRay coneRay(const LightShape& light, const Eigen::Vector3d& point)
 {
   LightRay ray = pointRay(light, point);
   const double inside = -ray.toLight.dot(light.axis);
-  ray.strength *= inside >= light.coneCosine ? std::pow(inside, light.exponent) : 0.0;
+  ray.strength *= inside >= light.coneCosine ? portable::pow(inside, light.exponent) : 0.0;
   return ray;
 }
 

@@ -45,7 +45,7 @@ void RayDifferentials::linearRow(int y, int first, int count)
   }
 }
 
-/// To the right and left along the row, at the image's border to one side; down to the next row, on the last one from
+/// To the right and left along the row, at the border of what is seen to one side; down to the next row, on the last one from
 /// that above.
 void RayDifferentials::generalRow(int y, int first, int count)
 {
@@ -69,11 +69,12 @@ void RayDifferentials::generalRow(int y, int first, int count)
   for (int i = 0; i < count; ++i)
   {
     const auto at = std::size_t(first + i - low);
-    const std::size_t before = at > 0 ? at - 1 : at;
-    const std::size_t after = std::min(at + 1, wide - 1);
+    const auto isRay = [](const CameraRay& ray) { return ray.exists(); };
+    const std::size_t before = at > 0 && isRay(this->Own[at - 1]) ? at - 1 : at;
+    const std::size_t after = at + 1 < wide && isRay(this->Own[at + 1]) ? at + 1 : at;
     const double steps = double(std::max<std::size_t>(after - before, 1));
     this->Row[std::size_t(i)] = { this->Own[at], difference(this->Own[after], this->Own[before], 1 / steps),
-      difference(this->Below[at], this->Own[at], last ? -1 : 1) };
+      difference(isRay(this->Below[at]) ? this->Below[at] : this->Own[at], this->Own[at], last ? -1 : 1) };
   }
 }
 

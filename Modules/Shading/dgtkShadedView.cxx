@@ -253,7 +253,8 @@ void ShadedView::row(Worker& worker, int x, int y, int count, const Hit* hits, f
   {
     if (hits[i].object == 0)
     {
-      put(i, this->skyAt(rays[std::size_t(i)]));
+      const PixelRay& ray = rays[std::size_t(i)];
+      put(i, ray.ray.exists() ? this->skyAt(ray) : float4(0)); // no light comes to where the lens does not reach
     }
     else if (this->Translucent && this->materialOf(hits[i]).opacity < 1)
     {

@@ -34,8 +34,8 @@ public:
   /// What one thread needs while it shades rows of a view, which outlives it.
   class Worker;
 
-  /// Colours of pixels [x, x + count) of row y with these hits: RGB, display-referred, >= 0. Surfaces that are not
-  /// opaque let see what is behind them.
+  /// Colours of pixels [x, x + count) of row y with these hits: RGB, display-referred, >= 0; black where
+  /// there is no ray. Surfaces that are not opaque let see what is behind them.
   void row(Worker& worker, int x, int y, int count, const Hit* hits, float* rgb) const;
 
   /// Colour, cut off at black, and opacity of surfaces of pixels [x, x + count) of row y, four values each.

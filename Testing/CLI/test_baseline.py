@@ -20,7 +20,7 @@ class Baseline(Case):
     def setUp(self):
         super().setUp()
         self.dgtk("render", os.path.join(SCENES, "dataset_stereo.json"), "-o", self.path("set"), "--quiet", "--size", "64x48",
-                  "--layers", "color,depth", "--visibility", "ray")
+                  "--layers", "color,depth", "--renderer", "vtk")
         self.check(0, "--update")
         self.check(0)
         self.assertFalse(os.path.exists(self.path("failures")))
@@ -32,6 +32,13 @@ class Baseline(Case):
         self.write(listed, ("0" if text[0] != "0" else "1") + text[1:])
         self.assertIn("left/depth/000000.npy: other bytes", self.check(1))
         self.assertEqual(os.listdir(self.path("failures")), ["result_left_depth_000000.npy"])
+
+    def test_colour_by_rays_is_exact(self):
+        self.dgtk("render", os.path.join(SCENES, "dataset_stereo.json"), "-o", self.path("set"), "--replace", "--quiet", "--size", "64x48",
+                  "--layers", "color")
+        self.check(0, "--update")
+        with open(self.path("baseline", "exact.sha256"), encoding="utf-8") as file:
+            self.assertIn("left/color/000000.png", file.read())
 
     def test_missing_and_additional_files(self):
         self.write(self.path("baseline", "exact.sha256"), "0" * 64 + "  left/depth/000009.npy\n")

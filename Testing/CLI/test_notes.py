@@ -127,15 +127,17 @@ class Notes(Case):
                  {"name": "plain", "position": [0, 0, 4]}]
         close = camera("close", eye={"keys": [[0, [0, 0, 5]], [2, [0, 0, 0.2]]]}, width=200, height=150)
         self.scene(lights=lamps, cameras=[camera(), close])
-        said = self.render("color", "--frames", "0").stderr
+        maps = ("--renderer", "vtk")
+        said = self.render("color", "--frames", "0", *maps).stderr
         self.assertNotIn("shadow", said)
         self.assertEqual(self.manifest()["warnings"], [])
-        said = self.render("color,objects", out="closer").stderr
+        said = self.render("color,objects", *maps, out="closer").stderr
         self.assertEqual(said.count("shadows are coarse"), 1)
         self.assertIn("warning: light 'lamp': its shadows are coarse", said)
         [line] = self.manifest("closer")["warnings"]
         self.assertRegex(line, r"shadowSize 64\) is up to \d+ pixels large \(camera 'close', frame 2\)")
-        self.render("objects", "--quiet", out="none")
+        self.assertNotIn("shadow", self.render("color", out="rays").stderr)
+        self.render("objects", "--quiet", *maps, out="none")
         self.assertEqual(self.manifest("none")["warnings"], [])
 
     def test_the_demo_has_nothing_to_say(self):

@@ -262,8 +262,8 @@ class ThreadsAndProcesses(Interpreter):
     START = """
 import os, signal, sys, threading, dgtk, numpy
 scene, size = dgtk.load(sys.argv[1]), (64, 48)
-def render(layer="color", renderer=None):
-    return dgtk.render(scene, layer, size=size, renderer=renderer)
+def render(layer="color", renderer=None, by="ray"):
+    return dgtk.render(scene, layer, size=size, renderer=by, keep=renderer)
 def forked(job):
     '''What job() returns or raises in a forked process, as text.'''
     ours, theirs = os.pipe()
@@ -331,21 +331,26 @@ with multiprocessing.get_context("fork").Pool(2) as pool:
     assert pool.map_async(total, (0, 1, 2)).get(60) == expected
 """, DEMO)
 
+
+class ThreadsAndOpenGL(ThreadsAndProcesses):
+    START = ThreadsAndProcesses.START.replace('"ray"', '"vtk"')
+
     def test_what_a_fork_cannot_have_is_refused_in_words(self):
         """A fork of a fork: both displays that Mesa's software renderer has are in use."""
         words = "RuntimeError: OpenGL was used before this process was forked and cannot be used in the copy"
         done = self.python(self.START + """
 render()
-print(forked(lambda: [render() is None, forked(render), forked(lambda: render("depth").shape)]))
+print(forked(lambda: [render() is None, forked(render), forked(lambda: render("depth").shape), forked(lambda: render(by="ray").shape)]))
 """, DEMO)
         self.assertIn(f"[False, '{words}", done.stdout)
-        self.assertIn("'(48, 64)']", done.stdout)
+        self.assertIn("'(48, 64)', '(48, 64, 3)']", done.stdout)  # rays need none
 
     def test_no_other_way_to_opengl_after_a_fork(self):
         done = subprocess.run(["xvfb-run", "-a", "/usr/bin/python3", "-c", f"import sys; sys.path.insert(0, {PACKAGES!r})" + self.START + """
-dgtk.render(scene, "color", size=size, gl="glx")
-print(forked(render))
-print(forked(lambda: dgtk.render(scene, "color", size=size, gl="egl")))
+draw = lambda gl: dgtk.render(scene, "color", size=size, renderer="vtk", gl=gl)
+draw("glx")
+print(forked(lambda: draw("auto")))
+print(forked(lambda: draw("egl")))
 """, DEMO], capture_output=True, text=True, timeout=120)
         self.assertEqual(done.returncode, 0, done.stderr)
         first, second = done.stdout.splitlines()

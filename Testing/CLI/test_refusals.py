@@ -123,11 +123,12 @@ class Machine(Case):
     def test_no_opengl(self):
         broken = {"__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent", "LIBGL_DRIVERS_PATH": "/nonexistent", "DISPLAY": ""}
         done = self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", self.path("x"), "--quiet", "--gl", "egl",
-                         status=4, environment=broken)
+                         "--renderer", "vtk", status=4, environment=broken)
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         fallback = self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", self.path("y"), "--frames", "0", "--size", "64x48",
-                             "--layers", "color", environment={**broken, "LIBGL_DRIVERS_PATH": ""})
+                             "--layers", "color", "--renderer", "vtk", environment={**broken, "LIBGL_DRIVERS_PATH": ""})
         self.assertIn("OSMesa", fallback.stderr)
+        self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", self.path("z"), "--frames", "0", "--size", "64x48", "--quiet", environment=broken)
 
     def test_no_opengl_is_needed_without_colour(self):
         broken = {"__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent", "LIBGL_DRIVERS_PATH": "/nonexistent", "DISPLAY": ""}

@@ -12,7 +12,7 @@ namespace
 class ColorLayer final : public Layer
 {
 public:
-  LayerInfo info() const override { return { pictureLayer, { "png", "exr" }, "the picture, by VTK or POV-Ray", true }; }
+  LayerInfo info() const override { return { pictureLayer, { "png", "exr" }, "the picture", true }; }
   LayerNeeds needs(const LayerRequest&, const Stage&) const override { return LayerNeeds::ofColor(); }
   std::vector<LayerRecord> records(const WorkPlan& plan, const std::string& format) const override
   {

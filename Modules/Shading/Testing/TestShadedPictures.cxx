@@ -2,6 +2,7 @@
 // Light against closed forms; the renderers are compared in RenderGL and Pipeline.
 #include "dgtkRayPictures.h"
 
+#include "dgtkCameraEntry.h"
 #include "dgtkSyntheticScene.h"
 #include "dgtkThreadPool.h"
 
@@ -362,6 +363,25 @@ TEST(ShadedPictures, LensesSeeTheSameColours)
     }
   }
   EXPECT_GT(compared, 300);
+}
+
+TEST(ShadedPictures, IsBlackWhereTheLensDoesNotReach)
+{
+  const auto state = SceneBuilder().state();
+  state->background = { 0.25, 0.5, 0.75 };
+  View view = makeView();
+  CameraParameters parameters{ 64, 48, std::nullopt };
+  parameters.K = Eigen::Matrix3d::Identity();
+  parameters.K->topRows<2>() << 7, 0, 32, 0, 7, 24; // 180 degrees from the axis are 22 pixels
+  parameters.numbers["distortion"] = { 0, 0, 0, 0 };
+  view.model = makeCamera("fisheye", parameters);
+  const Picture picture = draw(state, view);
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    EXPECT_EQ(picture.at(32, 24, channel), 0.25 * (channel + 1));
+    EXPECT_EQ(picture.at(60, 24, channel), 0);
+    EXPECT_EQ(picture.at(2, 2, channel), 0);
+  }
 }
 
 TEST(ShadedPictures, FootprintsOfLensesAreThoseOfTheirRays)

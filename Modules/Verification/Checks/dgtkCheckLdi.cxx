@@ -237,7 +237,10 @@ bool showsFirstSurface(const Picture& picture)
   const Manifest& manifest = picture.dataset().manifest();
   const bool asked = std::none_of(manifest.request.begin(), manifest.request.end(),
     [](const auto& option)
-    { return (option.first == "samples" && option.second != "1") || option.first == "renderer"; });
+    {
+      return (option.first == "samples" && option.second != "1") ||
+             (option.first == "renderer" && option.second == "povray");
+    });
   const std::vector<CameraDescription>& cameras = picture.dataset().stage().description().cameras;
   return asked && std::none_of(cameras.begin(), cameras.end(),
                     [&](const CameraDescription& camera)

@@ -143,10 +143,13 @@ int main(int, char** argv)
   const std::string folder = argv[2];
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
-  // What is drawn, what is said by matrices, and what needs another camera.
-  const std::set<std::string> wanted{ "calibration", "color", "color_noisy", "color_sharp", "correspondence",
-    "disparity", "ldi", "matting", "pov", "tiles" };
+  // What is said by matrices, and what needs another camera or a lens that blurs.
+  const std::set<std::string> wanted{ "calibration", "color_sharp", "correspondence", "disparity", "pov" };
   require(refused(request, folder) == wanted, "these layers are refused, and all others hold");
+  std::set<std::string> drawn{ "color", "color_noisy", "ldi", "matting", "tiles" };
+  drawn.insert(wanted.begin(), wanted.end());
+  request.options["renderer"] = "vtk";
+  require(refused(request, folder + "/drawn") == drawn, "OpenGL does not draw it");
   request.layers = { "depth" };
   request.folder = folder + "/dgd";
   request.options = { { "depth_format", "npy,dgd" } };
@@ -154,7 +157,7 @@ int main(int, char** argv)
     messageOf(request) == "layer depth as dgd: camera 'wide' (equidistant) has no linear projection", "so is .dgd");
 
   request.layers.clear();
-  request.options.clear();
+  request.options = { { "matte", "wall" } };
   for (const dgtk::LayerInfo& info : dgtk::generatorLayers())
   {
     if (wanted.count(info.layer) == 0)
