@@ -26,7 +26,43 @@ constexpr int farthestFrame = 1 << 30;
 
 bool isFile(const std::string& name) { return name.size() > 5 && name.compare(name.size() - 5, 5, ".json") == 0; }
 
-/// A camera file: K, R, t, width, height and, where given, model, near and far.
+/// What the model of a camera has, as it has it in cameras.json.
+void readLens(const JsonCursor& at, const std::string& path, CameraRecord& camera)
+{
+  const CameraEntry* const entry = findCamera(camera.model);
+  const std::vector<CameraParameter> parameters = entry ? entry->parameters : std::vector<CameraParameter>();
+  camera.hasK = entry == nullptr || std::any_of(parameters.begin(), parameters.end(),
+                                      [](const CameraParameter& parameter) { return parameter.saidByK; });
+  if (camera.hasK)
+  {
+    camera.K = at["K"].matrix<Eigen::Matrix3d>();
+  }
+  for (const CameraParameter& parameter : parameters)
+  {
+    if (parameter.kind == CameraParameter::Kind::Matrix || parameter.saidByK || !at.has(parameter.name))
+    {
+      continue;
+    }
+    const JsonCursor value = at[parameter.name];
+    if (parameter.kind == CameraParameter::Kind::File)
+    {
+      camera.files[parameter.name] = (std::filesystem::path(path).parent_path() / value.text()).string();
+    }
+    else if (parameter.counts == std::vector<std::size_t>{ 1 })
+    {
+      camera.numbers[parameter.name] = { value.number() };
+    }
+    else
+    {
+      for (const JsonCursor& number : value.items())
+      {
+        camera.numbers[parameter.name].push_back(number.number());
+      }
+    }
+  }
+}
+
+/// A camera file: R, t, width, height and, where given, model, near and far; K and what else the model has.
 CameraRecord readCameraFile(const std::string& path)
 {
   static constexpr Range side{ 1, 65536, false, false, "a whole number from 1 to 65536" };
@@ -34,14 +70,14 @@ CameraRecord readCameraFile(const std::string& path)
   const JsonCursor at(document);
   CameraRecord camera;
   camera.name = path;
-  camera.K = at["K"].matrix<Eigen::Matrix3d>();
+  camera.model = at.has("model") ? at["model"].text() : camera.model;
+  readLens(at, path, camera);
   camera.R = at["R"].matrix<Eigen::Matrix3d>();
   camera.t = at["t"].matrix<Eigen::Vector3d>();
   camera.width = static_cast<int>(at["width"].wholeNumber(side));
   camera.height = static_cast<int>(at["height"].wholeNumber(side));
   camera.near = at.has("near") ? at["near"].number() : 1e-6;
   camera.far = at.has("far") ? at["far"].number() : std::numeric_limits<double>::max();
-  camera.model = at.has("model") ? at["model"].text() : camera.model;
   const Eigen::Matrix3d error = camera.R * camera.R.transpose() - Eigen::Matrix3d::Identity();
   if (error.cwiseAbs().maxCoeff() > 1e-6 || camera.R.row(0).cross(camera.R.row(1)).dot(camera.R.row(2)) < 0)
   {
@@ -67,10 +103,10 @@ View viewOf(const CameraRecord& camera, const std::string& file)
   {
     throw InputError(file, 0, "camera " + quoted(camera.name) + ": " + error.what());
   }
-  if (!view.model || !view.model->linear())
+  if (!view.model)
   {
-    throw UsageError("camera " + quoted(camera.name) + " of " + file + " is a lens (" + quoted(camera.model) +
-                     "): only pinhole and orthographic cameras can be warped from and to");
+    throw UsageError("camera " + quoted(camera.name) + " of " + file + " has a model that is not known here (" +
+                     quoted(camera.model) + "): it cannot be warped from and to");
   }
   return view;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkWarp.h"
 
-#include "dgtkError.h"
 #include "dgtkLayeredDepth.h"
+
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -24,17 +25,6 @@ constexpr double leastWeight = 1e-3;
 constexpr double uncertainShare = 0.05;
 /// Square pixels: a splat seen flatter than this has no slope.
 constexpr double leastArea = 1e-3;
-
-LinearProjection linearOf(const View& view)
-{
-  const std::optional<LinearProjection> linear = view.model->linear();
-  if (!linear)
-  {
-    throw UsageError("a layered depth image cannot be warped from or to camera " + view.name + ", a lens (" +
-                     view.model->name() + ")");
-  }
-  return *linear;
-}
 
 /// A sample in the other view: the rectangle centre +- half on a plane.
 struct Splat
@@ -58,8 +48,8 @@ class Reprojection
 {
 public:
   Reprojection(const View& from, const View& to)
-    : From(linearOf(from))
-    , To(linearOf(to))
+    : From(*from.model->linear())
+    , To(*to.model->linear())
     , To_from_From(to.camera_from_world * from.camera_from_world.inverse())
     , Near(to.near)
     , Far(to.far)
@@ -134,6 +124,145 @@ private:
   Rigid3 To_from_From;
   double Near;
   double Far;
+};
+
+/// The same where one of the cameras is a lens: samples have the parameter of their ray, pictures are by rays and
+/// projections, depth is what near and far bound.
+class LensReprojection
+{
+public:
+  LensReprojection(const View& from, const View& to)
+    : From(*from.model)
+    , To(to)
+    , To_from_From(to.camera_from_world * from.camera_from_world.inverse())
+  {
+  }
+
+  /// False when the sample is not seen in the other view.
+  bool splat(int column, int row, const WarpSample& sample, Splat& out) const
+  {
+    const Eigen::Vector2d centre(column + 0.5, row + 0.5);
+    const CameraRay ray = this->From.rayThrough(centre);
+    const Eigen::Vector3d point = ray.origin + sample.depth * ray.direction;
+    Place place;
+    if (!ray.exists() || !this->place(point, place) || !(place.range >= this->To.near && place.range <= this->To.far))
+    {
+      return false;
+    }
+    const Eigen::Vector3d normal = towards(splatNormal(sample.splatIndex), ray.direction);
+    Footprint prints[2]; // to the right, down
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      if (!this->footprint(centre, axis, sample.depth, point, normal, place, prints[axis]))
+      {
+        return false;
+      }
+    }
+    this->write(place, prints, out);
+    return true;
+  }
+
+private:
+  struct Place
+  {
+    Eigen::Vector2d pixel;
+    double range;
+  };
+  /// What a step of a pixel on the surface is in the other view.
+  struct Footprint
+  {
+    double length = 0; ///< scene units
+    Eigen::Vector2d pixels{ 0, 0 };
+    double range = 0;
+    double front = 0; ///< pixels, of a surface across the ray
+  };
+
+  /// The normal's z is known but for its sign.
+  static Eigen::Vector3d towards(const Eigen::Vector3d& normal, const Eigen::Vector3d& direction)
+  {
+    const Eigen::Vector3d other(normal.x(), normal.y(), -normal.z());
+    return other.dot(direction) < normal.dot(direction) ? other : normal;
+  }
+
+  bool place(const Eigen::Vector3d& x_in_from, Place& place) const
+  {
+    const CameraModel& model = *this->To.model;
+    const Eigen::Vector3d x = this->To_from_From * x_in_from;
+    if (!model.project(x, place.pixel))
+    {
+      return false;
+    }
+    const CameraRay ray = model.rayThrough(place.pixel);
+    place.range = (x - ray.origin).dot(ray.direction) / ray.direction.squaredNorm();
+    return std::isfinite(place.range);
+  }
+
+  /// Where a step leads to, or where the opposite one comes from: not across the end of a picture or the seam of a
+  /// panorama.
+  bool step(const Eigen::Vector3d& from, const Eigen::Vector3d& step, const Place& place, Place& difference) const
+  {
+    for (const int sign : { 1, -1 })
+    {
+      Place there;
+      if (this->place(from + sign * step, there))
+      {
+        difference = { sign * (there.pixel - place.pixel), sign * (there.range - place.range) };
+        if (std::abs(difference.pixel.x()) < 0.5 * this->To.model->width())
+        {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  bool footprint(const Eigen::Vector2d& centre, int axis, double t, const Eigen::Vector3d& point,
+    const Eigen::Vector3d& normal, const Place& place, Footprint& out) const
+  {
+    for (const int sign : { 1, -1 })
+    {
+      Eigen::Vector2d beside = centre;
+      beside[axis] += sign;
+      const CameraRay ray = this->From.rayThrough(beside);
+      if (!ray.exists())
+      {
+        continue;
+      }
+      const Eigen::Vector3d front = sign * (ray.origin + t * ray.direction - point);
+      const double facing = std::min(normal.dot(ray.direction), -flattestSine * ray.direction.norm());
+      const Eigen::Vector3d along = front - ray.direction * (normal.dot(front) / facing);
+      Place moved;
+      Place acrossRay;
+      if (this->step(point, along, place, moved) && this->step(point, front, place, acrossRay))
+      {
+        out = { along.norm(), moved.pixel, moved.range, acrossRay.pixel.norm() };
+        return true;
+      }
+    }
+    return false;
+  }
+
+  static void write(const Place& place, const Footprint (&prints)[2], Splat& out)
+  {
+    Eigen::Matrix2d steps; // columns: to the right, down
+    steps << prints[0].pixels, prints[1].pixels;
+    const double largest = largestSplat * std::max({ 1.0, prints[0].front, prints[1].front });
+    out.x = place.pixel.x();
+    out.y = place.pixel.y();
+    out.halfX = std::clamp(splatReach * steps.row(0).cwiseAbs().sum(), 0.5, largest);
+    out.halfY = std::clamp(splatReach * steps.row(1).cwiseAbs().sum(), 0.5, largest);
+    out.depth = place.range;
+    out.reach = splatReach * (std::abs(prints[0].range) + std::abs(prints[1].range));
+    out.slack = uncertainShare * (prints[0].length + prints[1].length);
+    const double area = steps.determinant();
+    const bool flat = std::abs(area) < leastArea;
+    out.slopeX = flat ? 0 : (prints[0].range * steps(1, 1) - prints[1].range * steps(1, 0)) / area;
+    out.slopeY = flat ? 0 : (prints[1].range * steps(0, 0) - prints[0].range * steps(0, 1)) / area;
+  }
+
+  const CameraModel& From;
+  const View& To;
+  Rigid3 To_from_From;
 };
 
 /// A sample that is not opaque, at a pixel.
@@ -272,10 +401,12 @@ private:
 };
 } // namespace
 
-WarpedImage warpLayeredDepth(const WarpSource& source, const View& from, const View& to)
+namespace
 {
-  const Reprojection reprojection(from, to);
-  Picture picture(to.model->width(), to.model->height());
+template <class Reprojected>
+WarpedImage warp(const WarpSource& source, const Reprojected& reprojection, const CameraModel& to)
+{
+  Picture picture(to.width(), to.height());
   Splat splat{};
   source(
     [&](int x, int y, const WarpSample& sample)
@@ -294,6 +425,13 @@ WarpedImage warpLayeredDepth(const WarpSource& source, const View& from, const V
       }
     });
   return picture.finish();
+}
+} // namespace
+
+WarpedImage warpLayeredDepth(const WarpSource& source, const View& from, const View& to)
+{
+  return from.model->linear() && to.model->linear() ? warp(source, Reprojection(from, to), *to.model)
+                                                    : warp(source, LensReprojection(from, to), *to.model);
 }
 
 } // namespace dgtk

@@ -18,8 +18,8 @@ namespace dgtk
 struct WarpSample
 {
   std::array<std::uint8_t, 4> rgba{}; ///< display-referred, A opacity, not premultiplied
-  double depth = 0;                   ///< z in the frame of the camera of the layered depth image
-  std::uint32_t splatIndex = 0;       ///< splatIndex()
+  double depth = 0;             ///< z in the frame of the camera of the layered depth image; of a lens along the ray
+  std::uint32_t splatIndex = 0; ///< splatIndex()
 };
 
 /// Calls its argument for every sample of every pixel (column, row), in an order that is always the same.
@@ -38,8 +38,8 @@ struct WarpedImage
 /// Forward warping: every sample is moved into the other view and drawn as a rectangle as large as the picture there of
 /// its pixel on the surface, by the plane through the sample with the splat index's normal; the first surface of each
 /// pixel by a z-buffer, samples of one surface blended by their distance from the pixel's centre. Samples that are not
-/// opaque are laid over what is behind them and leave holes where nothing is. `source` is called twice. Throws
-/// UsageError unless both cameras are linear().
+/// opaque are laid over what is behind them and leave holes where nothing is. `source` is called twice. Cameras of any
+/// model.
 DGTKGROUNDTRUTH_EXPORT WarpedImage warpLayeredDepth(const WarpSource& source, const View& from, const View& to);
 
 } // namespace dgtk

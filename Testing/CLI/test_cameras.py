@@ -2,6 +2,7 @@
 """Every camera model through the program: all exact layers, verified; what a model has no meaning for is refused."""
 import json
 import os
+import shutil
 
 import numpy
 
@@ -126,6 +127,16 @@ class Cameras(Case):
         for name, depth in before.items():
             numpy.testing.assert_array_equal(self.layer(name, "depth"), depth, err_msg=name)
         checks = {(residual["check"], residual["layer"]) for residual in self.verify()}
+        for camera in ("radial", "mirror", "panorama", "table"):
+            said = self.dgtk("warp", self.path("set", "fisheye", "ldi", "000000.ldi"), "--to", camera, "-o", self.path("w.png"))
+            holes = int((said.stdout + said.stderr).split()[0])
+            self.assertLess(holes, 0.6 * WIDTH * HEIGHT, camera)
+            shutil.copy(self.path("w.png"), self.path(camera + ".png"))
+        record = next(r for r in load_json(self.path("set", "cameras.json"))["cameras"] if r["name"] == "mirror")
+        alike = self.write("mirror.json", json.dumps(record))
+        self.dgtk("warp", self.path("set", "fisheye", "ldi", "000000.ldi"), "--to", alike, "-o", self.path("w.png"))
+        with open(self.path("w.png"), "rb") as one, open(self.path("mirror.png"), "rb") as other:
+            self.assertEqual(one.read(), other.read())
         self.assertLessEqual({("ldi", "surfaces"), ("ldi", "order"), ("ldi", "first = depth"), ("points", "colors")}, checks)
 
     def test_a_wrong_coefficient_is_found(self):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkError.h"
+#include "dgtkCameraEntry.h"
 #include "dgtkLayeredDepth.h"
 #include "dgtkSyntheticScene.h"
 #include "dgtkWarp.h"
@@ -247,9 +247,99 @@ TEST(Warp, WhatIsBehindTheCameraIsGone)
     warpLayeredDepth(wall(5), viewAt({ 0, 0, 0 }), viewAt({ 0, 0, 6 })).holeCount, std::uint64_t(width * height));
 }
 
-TEST(Warp, ALensIsRefused)
+namespace
+{
+View lensAt(const std::string& model, const CameraParameters& of)
+{
+  View view = viewAt({ 0, 0, 0 });
+  view.model = makeCamera(model, of);
+  return view;
+}
+
+View fisheye()
+{
+  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+  K(0, 0) = K(1, 1) = 30;
+  K(0, 2) = 60;
+  K(1, 2) = 60;
+  return lensAt("fisheye", { 120, 120, K, { { "distortion", { 0, 0, 0, 0 } } } });
+}
+
+/// The inside of a ball around the camera, of the colours of directions.
+std::array<std::uint8_t, 4> colourOf(const Eigen::Vector3d& direction)
+{
+  const auto channel = [](double v) { return std::uint8_t(std::lround(127 + 120 * v)); };
+  const Eigen::Vector3d d = direction.normalized();
+  return { channel(d.x()), channel(d.y()), channel(d.z()), 255 };
+}
+
+WarpSource ball(const View& view, double radius)
+{
+  return [view, radius](const std::function<void(int, int, const WarpSample&)>& visit)
+  {
+    for (int y = 0; y < view.model->height(); ++y)
+    {
+      for (int x = 0; x < view.model->width(); ++x)
+      {
+        const CameraRay ray = view.model->rayThrough({ x + 0.5, y + 0.5 });
+        if (ray.exists())
+        {
+          visit(
+            x, y, { colourOf(ray.direction), radius / ray.direction.norm(), splatIndex(1, -ray.direction, 0.1, 10) });
+        }
+      }
+    }
+  };
+}
+
+/// Largest difference from the colours of the directions; pixels without a ray are holes.
+void expectBall(const WarpedImage& image, const View& view, int most)
+{
+  int worst = 0;
+  for (int i = 0; i < image.width * image.height; ++i)
+  {
+    const CameraRay ray = view.model->rayThrough({ i % image.width + 0.5, i / image.width + 0.5 }); // NOLINT: its row
+    ASSERT_EQ(image.holes[std::size_t(i)] == 0, ray.exists()) << i % image.width << ' ' << i / image.width;
+    const auto expected = colourOf(ray.direction);
+    for (int c = 0; c < 3 && ray.exists(); ++c)
+    {
+      worst = std::max(worst, std::abs(image.rgb[std::size_t(3 * i + c)] - expected[std::size_t(c)]));
+    }
+  }
+  EXPECT_LE(worst, most);
+}
+} // namespace
+
+TEST(Warp, ALensThatIsAPinholeIsWarpedAsIt)
 {
   View lens = viewAt({ 0, 0, 0 });
   lens.model = hideLinear(lens.model);
-  EXPECT_THROW(warpLayeredDepth(wall(5), lens, viewAt({ 0, 0, 0 })), UsageError);
+  const View there = viewAt({ 0.3, 0.1, 0.2 }, 0.05);
+  const WarpedImage expected = warpLayeredDepth(both(patch(2), wall(5)), viewAt({ 0, 0, 0 }), there);
+  const WarpedImage image = warpLayeredDepth(both(patch(2), wall(5)), lens, there);
+  int differing = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); ++i)
+  {
+    differing += std::abs(image.rgb[i] - expected.rgb[i]) > 1 ? 1 : 0;
+  }
+  EXPECT_LE(differing, int(image.rgb.size() / 100)) << "edges of splats";
+  EXPECT_NEAR(double(image.holeCount), double(expected.holeCount), 3);
+}
+
+TEST(Warp, FromAFisheyeToAPinholeAndBack)
+{
+  const View wide = fisheye();
+  const View narrow = viewAt({ 0, 0, 0 });
+  expectBall(warpLayeredDepth(ball(wide, 3), wide, narrow), narrow, 6);
+  const WarpedImage back = warpLayeredDepth(ball(narrow, 3), narrow, wide);
+  EXPECT_GT(back.holeCount, std::uint64_t(10000)) << "all that the pinhole does not see";
+  EXPECT_LT(back.holeCount, std::uint64_t(120 * 120 - 350));
+}
+
+TEST(Warp, AllAroundToItself)
+{
+  const View wide = fisheye();
+  expectBall(warpLayeredDepth(ball(wide, 3), wide, wide), wide, 3); // a pixel's step is 4
+  const View panorama = lensAt("equirectangular", { 60, 30, std::nullopt });
+  expectBall(warpLayeredDepth(ball(panorama, 3), panorama, panorama), panorama, 12); // 12; normals are known coarsely
 }
