@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkLiveLayers.h"
 
-#include "dgtkAlbedo.h"
-#include "dgtkEnvironmentLight.h"
 #include "dgtkError.h"
 #include "dgtkLayerWriter.h"
 #include "dgtkLayers.h"
+#include "dgtkRayPictures.h"
 #include "dgtkRaySource.h"
 #include "dgtkSurfaceRows.h"
-#include "dgtkSurfaceShading.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -30,8 +27,7 @@ constexpr int stripPixels = 1 << 14;
 
 LayerSpec draftSpec()
 {
-  return { draftLayer, PixelType::UInt8, 3, "sRGB", "image", "0", "draft of the colours, without shadows and bumps",
-    Meaning::Picture };
+  return { draftLayer, PixelType::UInt8, 3, "sRGB", "image", "0", "the picture, one sample a pixel", Meaning::Picture };
 }
 
 const Layer* findLayer(const std::string& name)
@@ -79,13 +75,6 @@ const LiveImage& liveImage(const std::string& name)
     throw UsageError("there is no live layer " + quoted(name));
   }
   return *found;
-}
-
-bool isTranslucent(const SceneState& state, const Hit& hit)
-{
-  const Material* const material =
-    hit.object == 0 ? nullptr : materialOf(state.instances[hit.object - 1], hit.triangle);
-  return material != nullptr && material->opacity < 1;
 }
 
 /// The queries of a scene that is being edited, for the stage of an eye, which has a camera more.
@@ -192,8 +181,6 @@ struct LiveEye::Impl
 
   /// The plan of one layer at the question's frame, with all cameras; this one's job is the first.
   WorkPlan planOf(const std::string& layer) const;
-  void shade(const SurfaceRows& in, Rows& out);
-  Eigen::Vector3d through(int x, int y) const;
   void draft(const Band& band, LayerSink& sink);
 
   LiveQuestion Question;
@@ -204,7 +191,7 @@ struct LiveEye::Impl
   View Eye;
   LiveScene::Moment Now;
   std::unique_ptr<VisibilitySource> Source;
-  std::optional<SurfaceShading> Shading;
+  std::shared_ptr<const HitShader> Shader; ///< made when colours are asked for
 };
 
 LiveEye::Impl::Impl(const LiveQuestion& question, int step, ThreadPool& pool)
@@ -241,57 +228,19 @@ WorkPlan LiveEye::Impl::planOf(const std::string& layer) const
   return plan;
 }
 
-/// The colour of a pixel where the nearest surface is seen through.
-Eigen::Vector3d LiveEye::Impl::through(int x, int y) const
-{
-  const SceneState& state = *this->Now.state;
-  const View& view = this->Eye;
-  std::vector<Hit> hits;
-  this->Now.occlusion->allHits(view, { x + 0.5, y + 0.5 }, hits);
-  hits.push_back({}); // the background
-  Eigen::Vector3d color = Eigen::Vector3d::Zero();
-  double left = 1;
-  for (auto hit = hits.begin(); hit != hits.end() && left > 0; ++hit)
-  {
-    SurfaceRows one;
-    computeSurfaceRows(state, view, { x, y, 1, 1 }, &*hit, true, one);
-    const double opacity =
-      isTranslucent(state, *hit) ? materialOf(state.instances[hit->object - 1], hit->triangle)->opacity : 1.0;
-    color += left * opacity * this->Shading->colors(one).front().cwiseMin(1.0);
-    left *= 1 - opacity;
-  }
-  return color;
-}
-
-/// Points of the surface without rows of the full width: all that reads SurfaceRows takes any rectangle.
-void LiveEye::Impl::shade(const SurfaceRows& in, Rows& out)
-{
-  if (!this->Shading)
-  {
-    this->Shading.emplace(*this->Now.state, this->Eye, this->Question.scene->environmentLight());
-  }
-  const std::vector<Eigen::Vector3d> colors = this->Shading->colors(in);
-  std::uint8_t* rgb = out.row<std::uint8_t>(in.rect.y);
-  for (std::size_t i = 0; i < colors.size(); ++i)
-  {
-    const auto width = std::size_t(in.rect.width);
-    const Eigen::Vector3d color = isTranslucent(*in.state, in.hits[i])
-                                    ? this->through(in.rect.x + int(i % width), in.rect.y + int(i / width))
-                                    : colors[i];
-    for (int c = 0; c < 3; ++c)
-    {
-      *rgb++ = static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[c], 0.0, 1.0)));
-    }
-  }
-}
-
 void LiveEye::Impl::draft(const Band& band, LayerSink& sink)
 {
+  if (!this->Shader)
+  {
+    this->Shader = makeHitShader(this->Now.state, this->Eye);
+    this->Question.scene->keep(this->Shader);
+  }
+  std::vector<float> rgb(band.hits.size() * 3);
+  this->Shader->shade({ band.rect, band.hits }, this->Pool, rgb.data());
   const LayerSpec spec = draftSpec();
   Rows out(spec.type, spec.channels, band.rect.width, band.rect.y, band.rect.height);
-  SurfaceRows surface;
-  computeSurfaceRows(*this->Now.state, this->Eye, band.rect, band.hits.data(), true, surface);
-  this->shade(surface, out);
+  std::transform(rgb.begin(), rgb.end(), out.row<std::uint8_t>(band.rect.y),
+    [](float v) { return static_cast<std::uint8_t>(std::clamp(v, 0.0F, 1.0F) * 255 + 0.5F); });
   sink.rows(0, out);
 }
 

@@ -18,7 +18,8 @@ class Layer;
 struct LayerInfo;
 class ThreadPool;
 
-/// The draft of the colours, see SurfaceShading: no layer of a dataset.
+/// The picture with one sample a pixel and nothing blurred: no layer of a dataset, but the same bytes where a dataset's
+/// is so, too.
 extern DGTKLIVE_EXPORT const char* const draftLayer;
 
 struct LiveLayer
@@ -27,7 +28,7 @@ struct LiveLayer
   std::string description; ///< one sentence
 };
 
-/// What can be shown of a view: the draft, and the images of all layers but those of liveRefusal().
+/// What can be shown of a view: the picture, and the images of all layers but those of liveRefusal().
 DGTKLIVE_EXPORT const std::vector<LiveLayer>& liveLayers();
 
 /// Why the images of a layer cannot be seen while a scene is edited, one line; empty: they can. Rays give what pixels

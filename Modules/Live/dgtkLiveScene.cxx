@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkLiveScene.h"
 
-#include "dgtkEnvironmentLight.h"
+#include "dgtkRayPictures.h"
 #include "dgtkScenePlaces.h"
 
 #include <algorithm>
@@ -46,6 +46,7 @@ LiveScene::LiveScene(const SceneDescription& scene, const ModelLibrary& models, 
   {
     const std::lock_guard<std::mutex> lock(before->Mutex);
     this->Before = before->Before ? before->Before : before->Queries;
+    this->Shader = before->Shader;
   }
 }
 
@@ -95,9 +96,10 @@ std::shared_ptr<const Stage> LiveScene::stageWith(const CameraDescription& camer
   return Stage::make(std::move(more), this->Models);
 }
 
-std::shared_ptr<const EnvironmentLight> LiveScene::environmentLight() const
+void LiveScene::keep(std::shared_ptr<const HitShader> shader) const
 {
-  return dgtk::environmentLight(this->Models.environment(this->Scene));
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  this->Shader = std::move(shader);
 }
 
 } // namespace dgtk

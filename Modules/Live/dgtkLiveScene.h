@@ -17,7 +17,7 @@
 namespace dgtk
 {
 
-struct EnvironmentLight;
+class HitShader;
 
 /// The eye of a perspective view of the editor, the same at all frames, as a camera without a name. near and far hold
 /// all of `box` that is not very near: far is 10,000 times near.
@@ -40,8 +40,8 @@ public:
   /// The stage with this camera among its own, and the camera's index. One without a name is none of the scene's.
   std::shared_ptr<const Stage> stageWith(const CameraDescription& camera, std::size_t& index) const;
 
-  /// What surfaces get from the environment; null where there is none.
-  std::shared_ptr<const EnvironmentLight> environmentLight() const;
+  /// Keeps what was made to shade it, for the textures that it holds, until the next one.
+  void keep(std::shared_ptr<const HitShader> shader) const;
 
   /// Names of the objects with an id: objectNames()[id - 1].
   std::vector<std::string> objectNames() const { return this->stage()->objectNames(); }
@@ -59,7 +59,8 @@ private:
   int Last = 0;
   mutable std::mutex Mutex;
   mutable std::shared_ptr<TracedQueries> Queries; ///< made when it is first asked for
-  mutable std::shared_ptr<TracedQueries> Before;  ///< of the scene before, until there is an own moment
+  mutable std::shared_ptr<const HitShader> Shader;
+  mutable std::shared_ptr<TracedQueries> Before; ///< of the scene before, until there is an own moment
 };
 
 } // namespace dgtk

@@ -242,7 +242,7 @@ void TruthView::receive(const LivePicture& picture, const QString& layer, const 
   {
     return;
   }
-  QString caption = layer == draftLayer ? tr("draft of the colours, without shadows and bumps") : layer;
+  QString caption = layer == draftLayer ? tr("the picture, one sample a pixel") : layer;
   if (!picture.message.empty())
   {
     caption += ": " + messageText(picture.message);

@@ -45,6 +45,8 @@ Eigen::Vector3f bilinear(const RadianceImage& image, const Eigen::Vector3d& d)
   return bilinear(image.rgb.data(), image.width, image.height, d);
 }
 
+Eigen::Vector3d encoded(const Eigen::Vector3d& linear) { return linear.unaryExpr(&portable::srgbFromLinear); }
+
 /// Equirectangular radiance at several resolutions.
 class Pyramid
 {
@@ -325,6 +327,26 @@ std::vector<float> reflectanceTable()
     }
   }
   return table;
+}
+
+/// Of the nearest cell.
+Eigen::Vector2d reflectanceOf(double cosine, double roughness)
+{
+  static const std::vector<float> table = reflectanceTable();
+  constexpr int size = EnvironmentLight::reflectanceSize;
+  const int column = std::clamp(int(cosine * size), 0, size - 1);
+  const int row = std::clamp(int(roughness * size), 0, size - 1);
+  const float* const cell = &table[2 * (std::size_t(row) * size + std::size_t(column))];
+  return { cell[0], cell[1] };
+}
+
+Eigen::Vector3d backgroundOf(const SceneState& state, const Eigen::Vector3d& direction)
+{
+  const EnvironmentState* const environment = state.environment.get();
+  return environment != nullptr && environment->background
+           ? encoded(
+               environment->intensity * radianceFrom(*environment->image, environment->image_from_world * direction))
+           : state.background;
 }
 
 std::shared_ptr<const EnvironmentLight> environmentLight(const std::shared_ptr<const EnvironmentState>& environment)

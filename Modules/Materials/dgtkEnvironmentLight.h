@@ -48,6 +48,13 @@ DGTKMATERIALS_EXPORT Eigen::Vector3d radianceFrom(const RadianceImage& image, co
 /// and roughness (rows) at the centres of ReflectanceSize x ReflectanceSize cells.
 DGTKMATERIALS_EXPORT std::vector<float> reflectanceTable();
 
+/// One cell of it, the nearest.
+DGTKMATERIALS_EXPORT Eigen::Vector2d reflectanceOf(double cosine, double roughness);
+
+struct SceneState;
+/// What is seen along a direction (world) where nothing is: background colour or environment, sRGB in [0, 1].
+DGTKMATERIALS_EXPORT Eigen::Vector3d backgroundOf(const SceneState& state, const Eigen::Vector3d& direction);
+
 } // namespace dgtk
 
 #endif

@@ -45,8 +45,8 @@ void RayDifferentials::linearRow(int y, int first, int count)
   }
 }
 
-/// To the right and left along the row, at the border of what is seen to one side; down to the next row, on the last one from
-/// that above.
+/// To the right and left along the row, at the border of what is seen to one side; down to the next row, on the last
+/// one from that above.
 void RayDifferentials::generalRow(int y, int first, int count)
 {
   const int low = std::max(first - 1, std::min(first, 0));

@@ -24,6 +24,38 @@ constexpr int jobRows = 8;     ///< rows that are shaded as one job
 
 float clamped(float value) { return std::min(std::max(value, 0.0F), 1.0F); }
 
+void shadeHits(const ShadedView& view, const VisibilityBuffer& hits, ThreadPool& pool, float* rgb)
+{
+  const PixelRect& all = hits.rect;
+  pool.parallelFor((all.height + jobRows - 1) / jobRows,
+    [&](int job)
+    {
+      const WorkTime time(WorkStage::Draw);
+      ShadedView::Worker worker(view);
+      for (int y = job * jobRows; y < std::min(all.height, (job + 1) * jobRows); ++y)
+      {
+        const std::size_t first = std::size_t(y) * std::size_t(all.width);
+        view.row(worker, all.x, all.y + y, all.width, &hits.hits[first], rgb + 3 * first);
+      }
+    });
+}
+
+class KnownHits final : public HitShader
+{
+public:
+  KnownHits(const std::shared_ptr<const SceneState>& state, const View& view)
+    : Seen(state, view)
+  {
+  }
+  void shade(const VisibilityBuffer& hits, ThreadPool& pool, float* rgb) const override
+  {
+    shadeHits(this->Seen, hits, pool, rgb);
+  }
+
+private:
+  ShadedView Seen;
+};
+
 class RayPictures final : public PictureSource
 {
 public:
@@ -51,13 +83,15 @@ private:
 
   ThreadPool& Pool;
   std::unique_ptr<VisibilitySource> Rays;
-  ShadedMaterialLibrary Materials;
   PixelFilter Filter = PixelFilter::Box;
   std::shared_ptr<const SceneState> State;
   View TheView;
   std::shared_ptr<const CameraModel> RaysModel; ///< of the view that Rays has; null: none of this scene
   std::shared_ptr<const ShadedView> Shaded;     ///< of State and TheView; null until it is needed
   std::shared_ptr<const ShadedView> ShadedSamples;
+  // Of the scene before, until there are new ones: they hold the textures.
+  std::shared_ptr<const ShadedView> Before;
+  std::shared_ptr<const ShadedView> BeforeSamples;
   int SamplesOfIt = 0;
 };
 
@@ -66,8 +100,8 @@ void RayPictures::setScene(std::shared_ptr<const SceneState> state, const View& 
   this->State = std::move(state);
   this->TheView = view;
   this->RaysModel.reset();
-  this->Shaded.reset();
-  this->ShadedSamples.reset();
+  this->Before = this->Shaded ? std::move(this->Shaded) : std::move(this->Before);
+  this->BeforeSamples = this->ShadedSamples ? std::move(this->ShadedSamples) : std::move(this->BeforeSamples);
 }
 
 /// The scene of the rays, with the view or one of its samples.
@@ -89,7 +123,8 @@ std::shared_ptr<const ShadedView> RayPictures::shaded()
   if (!this->Shaded)
   {
     const WorkTime build(WorkStage::Build);
-    this->Shaded = std::make_shared<const ShadedView>(this->State, this->TheView, this->Materials);
+    this->Shaded = std::make_shared<const ShadedView>(this->State, this->TheView);
+    this->Before.reset();
   }
   return this->Shaded;
 }
@@ -116,20 +151,7 @@ std::function<void()> RayPictures::drawColor(
   VisibilityBuffer& seen = hits ? *hits : *own;
   this->render(rect, seen);
   return [view = this->shaded(), own, &seen, &colors, &pool = this->Pool]
-  {
-    const PixelRect& all = seen.rect;
-    pool.parallelFor((all.height + jobRows - 1) / jobRows,
-      [&](int job)
-      {
-        const WorkTime time(WorkStage::Draw);
-        ShadedView::Worker worker(*view);
-        for (int y = job * jobRows; y < std::min(all.height, (job + 1) * jobRows); ++y)
-        {
-          const std::size_t first = std::size_t(y) * std::size_t(all.width);
-          view->row(worker, all.x, all.y + y, all.width, &seen.hits[first], &colors.rgb[3 * first]);
-        }
-      });
-  };
+  { shadeHits(*view, seen, pool, colors.rgb.data()); };
 }
 
 /// The samples are the pixels of a picture `samples` times as large.
@@ -141,7 +163,8 @@ void RayPictures::drawSamples(const PixelRect& rect, int samples, ColorBuffer& c
     View large = this->TheView;
     large.model = resampledCamera(this->TheView.model, this->TheView.model->width() * samples,
       this->TheView.model->height() * samples, 1.0 / samples, { 0, 0 });
-    this->ShadedSamples = std::make_shared<const ShadedView>(this->State, large, this->Materials);
+    this->ShadedSamples = std::make_shared<const ShadedView>(this->State, large);
+    this->BeforeSamples.reset();
     this->SamplesOfIt = samples;
   }
   const SampleFilter filter(this->Filter, samples, std::numeric_limits<float>::max());
@@ -242,6 +265,11 @@ void RayPictures::peel(const PixelRect& rect, const std::function<bool(const Sur
 }
 
 } // namespace
+
+std::shared_ptr<const HitShader> makeHitShader(const std::shared_ptr<const SceneState>& state, const View& view)
+{
+  return std::make_shared<const KnownHits>(state, view);
+}
 
 std::unique_ptr<PictureSource> makeRayPictures(ThreadPool& pool) { return std::make_unique<RayPictures>(pool); }
 

@@ -13,6 +13,20 @@ namespace dgtk
 
 class ThreadPool;
 
+/// Colours of hits that are known. Immutable and thread-safe.
+class DGTKSHADING_EXPORT HitShader
+{
+public:
+  virtual ~HitShader() = default;
+  /// Fills RGB of the pixels of `hits`, three values each: what makeRayPictures() makes of them with one sample a
+  /// pixel. `pool` shares the work.
+  virtual void shade(const VisibilityBuffer& hits, ThreadPool& pool, float* rgb) const = 0;
+};
+
+/// Of a scene and a view of it. While there is one, others share its textures.
+DGTKSHADING_EXPORT std::shared_ptr<const HitShader> makeHitShader(
+  const std::shared_ptr<const SceneState>& state, const View& view);
+
 /// Pictures whose colours are shaded where the rays of the engine "ray" hit, for every camera: the hits are that
 /// engine's, to the bit. Materials, lights, environment and fog are those of the raster engine, by the same equations;
 /// shadows are rays; nothing is cut off at white. `pool` shares the work and must outlive the source; what drawColor()

@@ -3,18 +3,26 @@
 
 #include "dgtkSurfaceMaterial.h"
 
+#include <iterator>
+
 namespace dgtk
 {
+
+ShadedMaterialLibrary& ShadedMaterialLibrary::shared()
+{
+  static ShadedMaterialLibrary all;
+  return all;
+}
 
 std::shared_ptr<const ShadedMaterials> ShadedMaterialLibrary::of(const Instance& instance)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
   const Key key{ instance.model.get(), instance.materials.get() };
-  std::weak_ptr<const ShadedMaterials>& known = this->Sets[key];
-  if (std::shared_ptr<const ShadedMaterials> set = known.lock())
+  if (std::shared_ptr<const ShadedMaterials> set = this->Sets[key].lock())
   {
     return set; // holds what the key points to
   }
+  this->dropUnused();
   const auto set = std::make_shared<ShadedMaterials>();
   set->model = instance.model;
   set->materials = instance.materials;
@@ -24,8 +32,21 @@ std::shared_ptr<const ShadedMaterials> ShadedMaterialLibrary::of(const Instance&
     set->ofPart.push_back(this->make(*instance.model, material, *set));
     set->translucent = set->translucent || material.opacity < 1;
   }
-  known = set;
+  this->Sets[key] = set;
   return set;
+}
+
+void ShadedMaterialLibrary::dropUnused()
+{
+  const auto drop = [](auto& all, const auto& isUnused)
+  {
+    for (auto it = all.begin(); it != all.end();)
+    {
+      it = isUnused(it->second) ? all.erase(it) : std::next(it);
+    }
+  };
+  drop(this->Sets, [](const auto& set) { return set.expired(); });
+  drop(this->Textures, [](const KnownTexture& texture) { return texture.pyramid.expired(); });
 }
 
 std::shared_ptr<const TexturePyramid> ShadedMaterialLibrary::textureOf(const Model& model, int index, bool cutOut)

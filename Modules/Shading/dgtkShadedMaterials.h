@@ -62,6 +62,7 @@ struct ShadedMaterials
 class ShadedMaterialLibrary
 {
 public:
+  static ShadedMaterialLibrary& shared();
   std::shared_ptr<const ShadedMaterials> of(const Instance& instance);
 
 private:
@@ -72,6 +73,7 @@ private:
     std::weak_ptr<const TexturePyramid> pyramid;
   };
   std::shared_ptr<const TexturePyramid> textureOf(const Model& model, int index, bool cutOut);
+  void dropUnused();
   ShadedMaterial make(const Model& model, const Material& material, ShadedMaterials& set);
 
   std::mutex Mutex;

@@ -28,7 +28,7 @@ Eigen::Matrix3d normalMatrix(const Eigen::Matrix3d& m, double side)
 
 } // namespace
 
-ShadedView::ShadedView(std::shared_ptr<const SceneState> state, const View& view, ShadedMaterialLibrary& materials)
+ShadedView::ShadedView(std::shared_ptr<const SceneState> state, const View& view)
   : State(std::move(state))
   , TheView(view)
   , Light(*this->State, view)
@@ -36,7 +36,7 @@ ShadedView::ShadedView(std::shared_ptr<const SceneState> state, const View& view
   for (const Instance& instance : this->State->instances)
   {
     Placed placed;
-    placed.materials = materials.of(instance);
+    placed.materials = ShadedMaterialLibrary::shared().of(instance);
     placed.camera_from_object = view.camera_from_world * instance.world_from_object;
     placed.side = placed.camera_from_object.linear.determinant() < 0 ? -1 : 1;
     placed.normals = Matrix3(normalMatrix(placed.camera_from_object.linear, placed.side));

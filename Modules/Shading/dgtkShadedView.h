@@ -22,7 +22,7 @@ namespace dgtk
 class ShadedView
 {
 public:
-  ShadedView(std::shared_ptr<const SceneState> state, const View& view, ShadedMaterialLibrary& materials);
+  ShadedView(std::shared_ptr<const SceneState> state, const View& view);
 
   /// A surface to be shaded by itself.
   struct Surface

@@ -4,7 +4,7 @@
 #include "dgtkPortableMath.h"
 #include "dgtkPhongProperty.h"
 #include "dgtkSurfaceMaterial.h"
-#include "dgtkSurfaceShading.h"
+#include "dgtkEnvironmentLight.h"
 
 #include <vtkImageData.h>
 #include <vtkLight.h>

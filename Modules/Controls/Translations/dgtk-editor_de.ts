@@ -2511,8 +2511,8 @@ Teil %2, Dreieck %3</translation>
         <translation>%1: volle Farbe bei %2 Pixeln</translation>
     </message>
     <message>
-        <source>draft of the colours, without shadows and bumps</source>
-        <translation>Entwurf der Farben, ohne Schatten und Unebenheiten</translation>
+        <source>the picture, one sample a pixel</source>
+        <translation>das Bild, ein Abtastpunkt je Pixel</translation>
     </message>
 </context>
 </TS>

@@ -142,7 +142,7 @@ TEST(LiveTruth, LensesAreTheDatasetBitForBit)
   GeneratorRequest request;
   request.scene = writeLenses(folder);
   request.folder = folder.path("out");
-  request.layers = { "depth", "distance", "objects", "triangles", "normal", "shadingnormal", "position", "uv",
+  request.layers = { "color", "depth", "distance", "objects", "triangles", "normal", "shadingnormal", "position", "uv",
     "flow_forward", "edges" };
   request.options = { { "objects_format", "npy" }, { "triangles_format", "npy" }, { "flow_forward_format", "npy" },
     { "edges_format", "npy" }, { "threads", "1" }, { "visibility", "ray" } };
@@ -166,14 +166,13 @@ TEST(LiveTruth, LensesAreTheDatasetBitForBit)
     for (const auto& [layer, file] : filesOf(request.folder, question.camera.name))
     {
       const ImageData stored = readLayerFile(file);
-      const Rows live = eye.values(layer, hits);
+      const Rows live = eye.values(layer == "color" ? draftLayer : layer, hits);
       ASSERT_EQ(live.bytes(), stored.pixels.bytes()) << layer;
       EXPECT_EQ(std::memcmp(live.data(), stored.pixels.data(), live.bytes()), 0) << layer;
       ++compared;
     }
     EXPECT_GE(compared, request.layers.size());
     EXPECT_EQ(hits.hits[0].object, 0u) << "around the circle, or the sky";
-    EXPECT_NO_THROW(eye.values(draftLayer, hits));
   }
 }
 
