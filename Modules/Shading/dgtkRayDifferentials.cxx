@@ -41,7 +41,7 @@ void RayDifferentials::linearRow(int y, int first, int count)
   this->Model.raysThrough(this->Pixels.data(), std::size_t(count), this->Own.data());
   for (std::size_t i = 0; i < std::size_t(count); ++i)
   {
-    this->Row[i] = { this->Own[i], this->Right, this->Down };
+    this->Row[i] = { this->Own[i], &this->Right, &this->Down };
   }
 }
 
@@ -64,6 +64,7 @@ void RayDifferentials::generalRow(int y, int first, int count)
     }
     this->Model.raysThrough(this->Pixels.data(), wide, rays.data());
   };
+  this->Differences.resize(2 * std::size_t(count));
   trace(y, this->Own);
   trace(last ? y - 1 : y + 1, this->Below);
   for (int i = 0; i < count; ++i)
@@ -73,8 +74,10 @@ void RayDifferentials::generalRow(int y, int first, int count)
     const std::size_t before = at > 0 && isRay(this->Own[at - 1]) ? at - 1 : at;
     const std::size_t after = at + 1 < wide && isRay(this->Own[at + 1]) ? at + 1 : at;
     const double steps = double(std::max<std::size_t>(after - before, 1));
-    this->Row[std::size_t(i)] = { this->Own[at], difference(this->Own[after], this->Own[before], 1 / steps),
-      difference(isRay(this->Below[at]) ? this->Below[at] : this->Own[at], this->Own[at], last ? -1 : 1) };
+    CameraRay* const own = &this->Differences[2 * std::size_t(i)];
+    own[0] = difference(this->Own[after], this->Own[before], 1 / steps);
+    own[1] = difference(isRay(this->Below[at]) ? this->Below[at] : this->Own[at], this->Own[at], last ? -1 : 1);
+    this->Row[std::size_t(i)] = { this->Own[at], own, own + 1 };
   }
 }
 

@@ -15,8 +15,8 @@ namespace dgtk
 struct PixelRay
 {
   CameraRay ray;
-  CameraRay right; ///< differences
-  CameraRay down;
+  const CameraRay* right; ///< differences
+  const CameraRay* down;
 };
 
 /// Rays of pixels of one row of an image, functions of the pixel alone. One thread.
@@ -38,6 +38,7 @@ private:
   std::vector<Eigen::Vector2d> Pixels;
   std::vector<CameraRay> Own;
   std::vector<CameraRay> Below;
+  std::vector<CameraRay> Differences; ///< general: right and down of each pixel
   std::vector<PixelRay> Row;
 };
 

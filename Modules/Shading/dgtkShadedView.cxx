@@ -124,8 +124,8 @@ void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoin
       const Eigen::Vector3d across = by.origin + t * by.direction;
       return Eigen::Vector3d(across - triangle.normal.dot(across) * perAlong * d);
     };
-    const Eigen::Vector3d right = moved(ray.right);
-    const Eigen::Vector3d down = moved(ray.down);
+    const Eigen::Vector3d right = moved(*ray.right);
+    const Eigen::Vector3d down = moved(*ray.down);
     point.right = toFloat4(right);
     point.down = toFloat4(down);
     point.footprint = { triangle.uv.x() + triangle.toU.dot(inside), triangle.uv.y() + triangle.toV.dot(inside),
@@ -232,7 +232,7 @@ Float4 ShadedView::skyAt(const PixelRay& ray) const
   }
   const Eigen::Vector3d& d = ray.ray.direction;
   const double square = d.squaredNorm();
-  const double angle = std::sqrt(d.cross(ray.right.direction).norm() * d.cross(ray.down.direction).norm()) / square;
+  const double angle = std::sqrt(d.cross(ray.right->direction).norm() * d.cross(ray.down->direction).norm()) / square;
   return this->Light.sky(toFloat4(d / std::sqrt(square)), float(angle));
 }
 
