@@ -2,7 +2,7 @@
 #ifndef dgtkBand_h
 #define dgtkBand_h
 
-#include "dgtkSurfaceLayer.h"
+#include "dgtkSurfaceLists.h"
 
 #include <vector>
 
@@ -16,9 +16,8 @@ struct Band
   std::vector<Hit> hits;    ///< empty unless asked for
   std::vector<float> rgb;   ///< display-referred; empty unless asked for
   std::vector<float> sharp; ///< colours of the frame's own instant and the lens's centre; empty unless asked for
-  /// Surfaces behind one another as OpenGL peels them, for each tile from left to right the ranks from near to far;
-  /// empty unless asked for.
-  std::vector<std::vector<SurfaceLayer>> peeled;
+  /// Surfaces behind one another, one for each tile from left to right; empty unless asked for.
+  std::vector<SurfaceLists> peeled;
   std::vector<MattePixels> mattes; ///< one for each of LayerNeeds::mattes
 };
 

@@ -11,6 +11,8 @@
 #include "dgtkWorkTime.h"
 
 #include <algorithm>
+#include <iterator>
+#include <numeric>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
 #include <vtk_glew.h>
@@ -88,7 +90,7 @@ public:
   std::function<void()> drawColor(
     const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits) override;
   UnreadColor startColor(const PixelRect& rect, int samples, ColorBuffer& colors) override;
-  void peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit) override;
+  std::function<void()> peel(const PixelRect& rect, SurfaceLists& lists) override;
 
 private:
   /// What is read of a target.
@@ -103,7 +105,7 @@ private:
   bool drawLayer(int rank, Surfaces surfaces, const RasterTarget* base);
   bool firstHitsTranslucent() const;
   void collect(int first, int last, std::vector<Fragment>& fragments);
-  void peelOneByOne(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit);
+  std::vector<Fragment> peelOneByOne(const PixelRect& rect);
   std::function<void()> restOf(
     std::shared_ptr<const Drawn> drawn, const PixelRect& rect, ColorBuffer& colors, VisibilityBuffer* hits) const;
   static void check();
@@ -384,78 +386,67 @@ void VtkRasterSource::collect(int first, int last, std::vector<Fragment>& fragme
   fragments.insert(fragments.end(), found.begin(), found.end());
 }
 
-void VtkRasterSource::peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit)
+std::function<void()> VtkRasterSource::peel(const PixelRect& rect, SurfaceLists& lists)
 {
   this->aim(this->Main, rect, 1, true);
-  if (!FragmentList::supported())
-  {
-    this->peelOneByOne(rect, visit);
-    return;
-  }
   std::vector<Fragment> fragments;
-  this->collect(0, rect.height, fragments);
+  if (FragmentList::supported())
+  {
+    this->collect(0, rect.height, fragments);
+  }
+  else
+  {
+    fragments = this->peelOneByOne(rect);
+  }
   check();
   sortFragments(fragments, std::size_t(rect.width) * rect.height);
   const std::vector<Hit>& firstHits = *this->Scene.firstHits();
-  std::vector<std::size_t> begins; // of each pixel that still has surfaces
-  for (std::size_t i = 0; i < fragments.size(); ++i)
+  lists.rect = rect;
+  lists.first.assign(1, 0);
+  std::vector<std::size_t> begins(std::size_t(rect.width) * rect.height + 1, 0); // of pixels from the bottom
+  for (const Fragment& f : fragments)
   {
-    if (i == 0 || fragments[i].pixel != fragments[i - 1].pixel)
-    {
-      begins.push_back(i);
-    }
+    ++begins[std::size_t(f.pixel) + 1];
   }
-  SurfaceLayer layer;
-  layer.rect = rect;
-  while (!begins.empty())
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  lists.hits.reserve(fragments.size());
+  lists.rgba.reserve(4 * fragments.size());
+  for (std::size_t i = 0; i < begins.size() - 1; ++i)
   {
-    layer.hits.assign(std::size_t(rect.width) * rect.height, Hit{});
-    layer.rgba.assign(layer.hits.size() * 4, 0.0f);
-    std::size_t left = 0;
-    for (const std::size_t i : begins)
+    const std::size_t pixel = (std::size_t(rect.height) - 1 - i / rect.width) * rect.width + i % rect.width;
+    for (std::size_t at = begins[pixel]; at < begins[pixel + 1]; ++at)
     {
-      const Fragment& f = fragments[i];
-      const auto fromBottom = std::size_t(f.pixel);
-      const std::size_t row = std::size_t(rect.height) - 1 - fromBottom / rect.width;
-      const std::size_t at = row * rect.width + fromBottom % rect.width;
-      layer.hits[at] = firstHits[std::size_t(f.number)];
-      layer.hits[at].triangle += std::uint32_t(f.triangle);
-      std::transform(f.rgba.begin(), f.rgba.end(), layer.rgba.begin() + std::ptrdiff_t(4 * at), clamped);
-      if (i + 1 < fragments.size() && fragments[i + 1].pixel == f.pixel)
-      {
-        begins[left++] = i + 1;
-      }
+      const Fragment& f = fragments[at];
+      lists.hits.push_back(firstHits[std::size_t(f.number)]);
+      lists.hits.back().triangle += std::uint32_t(f.triangle);
+      std::transform(f.rgba.begin(), f.rgba.end(), std::back_inserter(lists.rgba), clamped);
     }
-    begins.resize(left);
-    if (!visit(layer))
-    {
-      return;
-    }
+    lists.first.push_back(std::uint32_t(lists.hits.size()));
   }
+  return [] {};
 }
 
-/// For OpenGL without storage buffers: as many passes as there are ranks.
-void VtkRasterSource::peelOneByOne(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit)
+/// For OpenGL without storage buffers: as many passes as there are surfaces behind one another.
+std::vector<Fragment> VtkRasterSource::peelOneByOne(const PixelRect& rect)
 {
-  SurfaceLayer layer;
-  layer.rect = rect;
+  std::vector<Fragment> fragments;
   for (int rank = 0; rank < maxLayers && this->drawLayer(rank, Surfaces::All, nullptr); ++rank)
   {
-    layer.hits.resize(std::size_t(rect.width) * rect.height);
-    takeHits(*this->Scene.firstHits(), this->LayerIds, rect, layer.hits);
-    layer.rgba.resize(layer.hits.size() * 4);
-    for (int y = 0; y < rect.height; ++y)
+    for (std::size_t i = 0; i < std::size_t(rect.width) * rect.height; ++i)
     {
-      const float* source = rowFromTop(this->LayerPixels, rect, y, 4);
-      std::transform(
-        source, source + std::size_t(rect.width) * 4, layer.rgba.data() + std::size_t(y) * rect.width * 4, clamped);
-    }
-    check();
-    if (!visit(layer))
-    {
-      return;
+      if (this->LayerIds[2 * i] != 0)
+      {
+        Fragment f;
+        f.pixel = float(i);
+        f.depth = float(maxLayers - rank); // larger is nearer
+        f.number = this->LayerIds[2 * i];
+        f.triangle = this->LayerIds[2 * i + 1];
+        std::copy_n(&this->LayerPixels[4 * i], 4, f.rgba.begin());
+        fragments.push_back(f);
+      }
     }
   }
+  return fragments;
 }
 
 void VtkRasterSource::check()

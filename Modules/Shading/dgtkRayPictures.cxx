@@ -10,6 +10,7 @@
 #include "dgtkWorkTime.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -21,8 +22,6 @@ namespace
 constexpr int maxSamples = 64;
 constexpr int maxPiece = 2048; ///< side of what is drawn at once with several samples a pixel
 constexpr int jobRows = 8;     ///< rows that are shaded as one job
-
-float clamped(float value) { return std::min(std::max(value, 0.0F), 1.0F); }
 
 void shadeHits(const ShadedView& view, const VisibilityBuffer& hits, ThreadPool& pool, float* rgb)
 {
@@ -74,7 +73,7 @@ public:
   }
   std::function<void()> drawColor(
     const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits) override;
-  void peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit) override;
+  std::function<void()> peel(const PixelRect& rect, SurfaceLists& lists) override;
 
 private:
   void placeRays(const View& view);
@@ -204,64 +203,57 @@ void RayPictures::drawSamples(const PixelRect& rect, int samples, ColorBuffer& c
   }
 }
 
-void RayPictures::peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit)
+/// All surfaces along the rays of a row of pixels.
+void peelRow(
+  const ShadedView& view, ShadedView::Worker& worker, std::vector<std::vector<Hit>>& space, SurfaceLists& row)
 {
-  const std::shared_ptr<const ShadedView> view = this->shaded();
-  const auto width = std::size_t(rect.width);
-  std::vector<std::vector<Hit>> lists(width * std::size_t(rect.height));
-  const int jobs = (rect.height + jobRows - 1) / jobRows;
-  const auto forRows = [&](const std::function<void(int)>& body)
+  const PixelRect& rect = row.rect;
+  space.resize(std::size_t(rect.width));
+  view.allHits(rect.x, rect.y, rect.width, space.data());
+  std::vector<ShadedView::Surface> surfaces;
+  for (int x = 0; x < rect.width; ++x)
   {
-    this->Pool.parallelFor(jobs,
+    row.first.push_back(std::uint32_t(surfaces.size()));
+    for (const Hit& hit : space[std::size_t(x)])
+    {
+      surfaces.push_back({ x, hit });
+      row.hits.push_back(hit);
+    }
+  }
+  row.rgba.resize(4 * surfaces.size());
+  view.shadeRow(worker, rect.x, rect.y, rect.width, surfaces, row.rgba.data());
+  std::transform(
+    row.rgba.begin(), row.rgba.end(), row.rgba.begin(), [](float v) { return std::min(std::max(v, 0.0F), 1.0F); });
+}
+
+std::function<void()> RayPictures::peel(const PixelRect& rect, SurfaceLists& lists)
+{
+  return [view = this->shaded(), rect, &lists, &pool = this->Pool]
+  {
+    std::vector<SurfaceLists> rows(static_cast<std::size_t>(rect.height));
+    pool.parallelFor((rect.height + jobRows - 1) / jobRows,
       [&](int job)
       {
         const WorkTime time(WorkStage::Draw);
+        ShadedView::Worker worker(*view);
+        std::vector<std::vector<Hit>> space;
         for (int y = job * jobRows; y < std::min(rect.height, (job + 1) * jobRows); ++y)
         {
-          body(y);
+          rows[std::size_t(y)].rect = { rect.x, rect.y + y, rect.width, 1 };
+          peelRow(*view, worker, space, rows[std::size_t(y)]);
         }
       });
-  };
-  forRows([&](int y) { view->allHits(rect.x, rect.y + y, rect.width, &lists[std::size_t(y) * width]); });
-  std::size_t most = 0;
-  for (const std::vector<Hit>& list : lists)
-  {
-    most = std::max(most, list.size());
-  }
-  SurfaceLayer layer;
-  layer.rect = rect;
-  for (std::size_t rank = 0; rank < most; ++rank)
-  {
-    layer.hits.assign(lists.size(), Hit{});
-    layer.rgba.assign(lists.size() * 4, 0.0F);
-    forRows(
-      [&](int y)
-      {
-        std::vector<ShadedView::Surface> surfaces;
-        std::vector<float> rgba;
-        ShadedView::Worker worker(*view);
-        for (std::size_t x = 0; x < width; ++x)
-        {
-          const std::vector<Hit>& list = lists[std::size_t(y) * width + x];
-          if (rank < list.size())
-          {
-            surfaces.push_back({ int(x), list[rank] });
-          }
-        }
-        rgba.resize(4 * surfaces.size());
-        view->shadeRow(worker, rect.x, rect.y + y, rect.width, surfaces, rgba.data());
-        for (std::size_t i = 0; i < surfaces.size(); ++i)
-        {
-          const std::size_t at = std::size_t(y) * width + std::size_t(surfaces[i].pixel);
-          layer.hits[at] = surfaces[i].hit;
-          std::transform(&rgba[4 * i], &rgba[4 * i] + 4, &layer.rgba[4 * at], clamped);
-        }
-      });
-    if (!visit(layer))
+    lists = { rect, {}, {}, {} };
+    for (const SurfaceLists& row : rows)
     {
-      return;
+      const auto before = std::uint32_t(lists.hits.size());
+      std::transform(row.first.begin(), row.first.end(), std::back_inserter(lists.first),
+        [before](std::uint32_t first) { return before + first; });
+      lists.hits.insert(lists.hits.end(), row.hits.begin(), row.hits.end());
+      lists.rgba.insert(lists.rgba.end(), row.rgba.begin(), row.rgba.end());
     }
-  }
+    lists.first.push_back(std::uint32_t(lists.hits.size()));
+  };
 }
 
 } // namespace

@@ -5,7 +5,7 @@
 #include "dgtkVisibilityModule.h"
 
 #include "dgtkPixelFilter.h"
-#include "dgtkSurfaceLayer.h"
+#include "dgtkSurfaceLists.h"
 
 #include <functional>
 
@@ -18,10 +18,9 @@ class DGTKVISIBILITY_EXPORT PictureSource : public ColorSource
 public:
   /// Of drawColor() with several samples a pixel; box unless set.
   virtual void setFilter(PixelFilter filter) = 0;
-  /// Peels all surfaces along the rays through the pixel centres of `rect` (as in render()), nearest first; surfaces at
-  /// one depth in the order of (object, triangle). Calls `visit` for each rank until it returns false or no pixel has a
-  /// surface of that rank.
-  virtual void peel(const PixelRect& rect, const std::function<bool(const SurfaceLayer&)>& visit) = 0;
+  /// All surfaces along the rays through the pixel centres of `rect` (as in render()); surfaces at one depth in the
+  /// order of (object, triangle). Draws, and returns what remains to be done until `lists` is filled, as drawColor().
+  virtual std::function<void()> peel(const PixelRect& rect, SurfaceLists& lists) = 0;
 };
 
 } // namespace dgtk

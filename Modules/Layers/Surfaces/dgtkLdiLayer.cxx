@@ -14,64 +14,57 @@ namespace
 // Pixels that are one job of the pool; the records of a batch of jobs are held at once.
 constexpr int stripPixels = 1 << 14;
 
-/// Full-width rows of the ranks of a band; ranks of several tiles are put side by side.
+/// Full-width rows of the surfaces of a band by their rank: all that are nearest, all that stand behind one, and so on.
 class Ranks
 {
 public:
   Ranks(const Band& band, const PixelRect& rows)
+    : Pixels(std::size_t(rows.width) * rows.height)
   {
-    const bool whole = band.peeled.size() == 1;
-    std::size_t count = 0;
-    for (const auto& tile : band.peeled)
+    for (const SurfaceLists& tile : band.peeled)
     {
-      count = std::max(count, tile.size());
+      for (int y = 0; y < rows.height; ++y)
+      {
+        this->add(tile, rows.y + y - tile.rect.y, std::size_t(y) * rows.width + std::size_t(tile.rect.x));
+      }
     }
-    const std::size_t pixels = std::size_t(rows.width) * rows.height;
-    this->Hits.resize(whole ? 0 : count * pixels);
-    this->Colors.resize(whole ? 0 : count * pixels * 4);
-    for (std::size_t r = 0; r < count; ++r)
+    for (const Rank& rank : this->All)
     {
-      if (whole)
-      {
-        const SurfaceLayer& layer = band.peeled[0][r];
-        const std::size_t first = std::size_t(rows.y - layer.rect.y) * layer.rect.width;
-        this->Rows.push_back({ layer.hits.data() + first, layer.rgba.data() + 4 * first });
-      }
-      else
-      {
-        this->gather(band, rows, r, pixels);
-      }
+      this->Rows.push_back({ rank.hits.data(), rank.rgba.data() });
     }
   }
 
   const std::vector<PeeledRows>& rows() const { return this->Rows; }
 
 private:
-  void gather(const Band& band, const PixelRect& rows, std::size_t rank, std::size_t pixels)
+  struct Rank
   {
-    Hit* hits = this->Hits.data() + rank * pixels;
-    float* colors = this->Colors.data() + rank * pixels * 4;
-    this->Rows.push_back({ hits, colors });
-    for (const auto& tile : band.peeled)
+    std::vector<Hit> hits;
+    std::vector<float> rgba;
+  };
+
+  /// A row of a tile, whose first pixel is `to`.
+  void add(const SurfaceLists& tile, int row, std::size_t to)
+  {
+    const std::uint32_t* const first = tile.first.data() + std::size_t(row) * tile.rect.width;
+    for (std::size_t x = 0; x < std::size_t(tile.rect.width); ++x)
     {
-      if (rank >= tile.size())
+      for (std::uint32_t i = first[x]; i < first[x + 1]; ++i)
       {
-        continue;
-      }
-      const PixelRect& rect = tile[rank].rect;
-      for (int y = 0; y < rows.height; ++y)
-      {
-        const std::size_t from = std::size_t(rows.y + y - rect.y) * rect.width;
-        const std::size_t to = std::size_t(y) * rows.width + rect.x;
-        std::copy_n(tile[rank].hits.data() + from, rect.width, hits + to);
-        std::copy_n(tile[rank].rgba.data() + 4 * from, 4 * std::size_t(rect.width), colors + 4 * to);
+        const std::size_t rank = i - first[x];
+        if (rank == this->All.size())
+        {
+          this->All.push_back({ std::vector<Hit>(this->Pixels), std::vector<float>(4 * this->Pixels) });
+        }
+        this->All[rank].hits[to + x] = tile.hits[i];
+        std::copy_n(tile.rgba.data() + 4 * std::size_t(i), 4, this->All[rank].rgba.data() + 4 * (to + x));
       }
     }
   }
 
+  std::size_t Pixels;
+  std::vector<Rank> All;
   std::vector<PeeledRows> Rows;
-  std::vector<Hit> Hits;
-  std::vector<float> Colors;
 };
 
 class LdiPass : public LayerPass

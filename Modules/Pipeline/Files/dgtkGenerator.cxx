@@ -289,12 +289,9 @@ std::shared_ptr<DrawnBand> Run::counted(std::shared_ptr<DrawnBand> band)
 {
   std::size_t bytes = std::size_t(band->band.rect.width) * band->band.rect.height * 2 *
                       (sizeof(Hit) + 3 * sizeof(float)); // as drawn, and whole
-  for (const std::vector<SurfaceLayer>& ranks : band->band.peeled)
+  for (const SurfaceLists& lists : band->band.peeled)
   {
-    for (const SurfaceLayer& rank : ranks)
-    {
-      bytes += rank.rgba.size() * sizeof(float) + rank.hits.size() * sizeof(Hit);
-    }
+    bytes += lists.rgba.size() * sizeof(float) + lists.hits.size() * sizeof(Hit);
   }
   this->PendingBytes += bytes;
   DrawnBand* const drawn = band.get();

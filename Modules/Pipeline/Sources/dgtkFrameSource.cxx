@@ -114,7 +114,8 @@ struct FrameSource::Tile
   VisibilityBuffer hits;
   ColorBuffer colors;
   ColorBuffer sharp;
-  std::vector<SurfaceLayer> ranks;
+  SurfaceLists surfaces;
+  std::function<void()> peel = [] {}; ///< to be done until `surfaces` is whole
   std::vector<MattePixels> mattes;
   UnreadColor color; ///< to be read and finished before the buffers are whole
 };
@@ -174,12 +175,7 @@ std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect)
     this->finish(); // of the band before, while OpenGL works on this one
     if (this->Options.needs.peeled)
     {
-      const auto keep = [&tile](const SurfaceLayer& rank)
-      {
-        tile->ranks.push_back(rank);
-        return true;
-      };
-      this->Pictures->peel(rect, keep);
+      tile->peel = this->Pictures->peel(rect, tile->surfaces);
     }
     if (this->Matting)
     {
@@ -254,10 +250,11 @@ std::function<void()> FrameSource::drawBand(int row, DrawnBand& drawn)
   drawn.complete = [&band, tile]
   {
     tile->color.rest();
+    tile->peel();
     band.rgb = std::move(tile->colors.rgb);
     band.sharp = std::move(tile->sharp.rgb);
     band.hits = std::move(tile->hits.hits);
-    band.peeled.push_back(std::move(tile->ranks));
+    band.peeled.push_back(std::move(tile->surfaces));
     band.mattes = std::move(tile->mattes);
   };
   return std::exchange(tile->color.read, nullptr);
@@ -273,6 +270,7 @@ void FrameSource::drawTiles(int row, Band& band)
   band.rgb.resize(this->ownColor() ? pixels * 3 : 0);
   const bool sharp = this->Options.needs.sharp && this->ownColor() && this->Exposed->blurs();
   band.sharp.resize(sharp ? pixels * 3 : 0);
+  band.peeled.resize(std::size_t(columns));
   band.mattes.resize(this->Options.needs.mattes.size());
   for (MattePixels& matte : band.mattes)
   {
@@ -298,11 +296,12 @@ void FrameSource::drawTiles(int row, Band& band)
       {
         read();
       }
-      band.peeled.push_back(std::move(tile->ranks));
       placed.push_back(this->Pool.submit(
-        [this, &band, rect, sharp, tile = std::move(tile)]
+        [this, &band, rect, sharp, column, tile = std::move(tile)]
         {
           tile->color.rest();
+          tile->peel();
+          band.peeled[std::size_t(column)] = std::move(tile->surfaces);
           if (this->Options.needs.hits)
           {
             place(tile->hits.hits, rect, 1, band.rect, band.hits);

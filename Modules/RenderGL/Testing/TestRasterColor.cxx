@@ -351,26 +351,27 @@ TEST_P(PictureColor, PeeledLayersAreAllSurfacesInOrder)
   auto state = stateOf({ square(flat({ 0, 0, 1 }), -1), square(glass, 0), square(flat({ 1, 0, 0 }), 0, 0.5) });
   const View view = frontView();
   pictures().setScene(state, view);
-  std::vector<SurfaceLayer> layers;
-  pictures().peel(whole(view),
-    [&layers](const SurfaceLayer& layer)
-    {
-      layers.push_back(layer);
-      return true;
-    });
-  ASSERT_EQ(layers.size(), 3u);
-  const std::size_t middle = 30 + 24 * 64;
-  const std::size_t side = 12 + 24 * 64;
-  EXPECT_EQ(layers[0].hits[middle].object, 2u);
-  EXPECT_EQ(layers[1].hits[middle].object, 3u); // coincident with the first
-  EXPECT_EQ(layers[2].hits[middle].object, 1u);
-  EXPECT_EQ(layers[0].hits[side].object, 2u);
-  EXPECT_EQ(layers[1].hits[side].object, 1u);
-  EXPECT_EQ(layers[2].hits[side].object, 0u);
-  EXPECT_FLOAT_EQ(layers[0].rgba[middle * 4 + 3], 0.5f);
-  EXPECT_FLOAT_EQ(layers[1].rgba[middle * 4], 1.0f);
-  EXPECT_FLOAT_EQ(layers[2].rgba[side * 4 + 3], 0.0f);
-  EXPECT_EQ(layers[0].hits, render(state, view).hits);
+  SurfaceLists lists;
+  pictures().peel(whole(view), lists)();
+  ASSERT_EQ(lists.first.size(), std::size_t(64 * 48 + 1));
+  const std::uint32_t* const middle = &lists.first[30 + 24 * 64];
+  const std::uint32_t* const side = &lists.first[12 + 24 * 64];
+  ASSERT_EQ(middle[1] - middle[0], 3u);
+  EXPECT_EQ(lists.hits[middle[0]].object, 2u);
+  EXPECT_EQ(lists.hits[middle[0] + 1].object, 3u); // coincident with the first
+  EXPECT_EQ(lists.hits[middle[0] + 2].object, 1u);
+  ASSERT_EQ(side[1] - side[0], 2u);
+  EXPECT_EQ(lists.hits[side[0]].object, 2u);
+  EXPECT_EQ(lists.hits[side[0] + 1].object, 1u);
+  EXPECT_FLOAT_EQ(lists.rgba[std::size_t(middle[0]) * 4 + 3], 0.5f);
+  EXPECT_FLOAT_EQ(lists.rgba[std::size_t(middle[0] + 1) * 4], 1.0f);
+  EXPECT_FLOAT_EQ(lists.rgba[std::size_t(side[0] + 1) * 4 + 2], 1.0f);
+  const VisibilityBuffer hits = render(state, view);
+  for (std::size_t i = 0; i < hits.hits.size(); ++i)
+  {
+    const bool any = lists.first[i] < lists.first[i + 1];
+    ASSERT_EQ(any ? lists.hits[lists.first[i]] : Hit{}, hits.hits[i]) << i;
+  }
 }
 
 TEST_P(PictureColor, SamplesAverageAnEdge)

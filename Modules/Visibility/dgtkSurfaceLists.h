@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef dgtkSurfaceLayer_h
-#define dgtkSurfaceLayer_h
+#ifndef dgtkSurfaceLists_h
+#define dgtkSurfaceLists_h
 
 #include "dgtkVisibility.h"
 
@@ -12,13 +12,13 @@
 namespace dgtk
 {
 
-/// The surfaces of one rank along the rays of a rectangle's pixels: rank 0 is the nearest, rank 1 what stands behind
-/// it, and so on.
-struct SurfaceLayer
+/// All surfaces along the rays of a rectangle's pixels, near to far.
+struct SurfaceLists
 {
   PixelRect rect;
-  std::vector<float> rgba; ///< 4 per pixel, rows top to bottom: shaded colour in [0, 1] and opacity; 0 without surface
-  std::vector<Hit> hits;   ///< object 0 where the ray meets no surface of this rank
+  std::vector<std::uint32_t> first; ///< of each pixel, rows top to bottom, and the end of the last one's
+  std::vector<Hit> hits;
+  std::vector<float> rgba; ///< 4 a surface: shaded colour in [0, 1] and opacity
 };
 
 /// What is drawn of an object for its matte, for the pixels of a rectangle.
