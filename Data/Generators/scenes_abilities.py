@@ -95,5 +95,27 @@ def all_cameras():
     return base(objects, cameras)
 
 
+def fisheye_rig():
+    """A vehicle on its way past a house: a pinhole ahead, fisheyes of 200 degrees to four sides, a panorama above."""
+    objects = [model("terrain", "terrain.acc"), model("house", "house.ac", (-5, 0, -3)), model("tree", "tree.ac", (4.6, 0, 1.6)),
+               model("fir", "fir.ac", (3.2, 0, 4)), model("crate", "crate.ac", (-2.6, 0, 1.1), turn=27),
+               upright("creature", "creature.md2", (2.4, 0, 3.6), -90, 0.02, animation={"sequence": "walk"}),
+               model("column", "column.obj", (-2.2, 0, 4.2))]
+
+    def on_the_way(name, right, up, back, degrees, **lens):
+        """Its place on the vehicle and where it looks, from ahead to the left."""
+        turned = product(quaternion("y", degrees), quaternion("x", 180))
+        return {"name": name, "near": 0.05, "far": 200, **lens,
+                "position": {"keys": [[0, [right, up, 3 + back]], [8, [right, up, -1 + back]]]}, "orientation": list(turned)}
+
+    fisheye = {"model": "fisheye", "width": 640, "height": 640, "K": [[175, 0, 320], [0, 175, 320], [0, 0, 1]],
+               "distortion": [0.02, -0.004, 0.0006, -0.00005]}
+    return base(objects, [on_the_way("ahead", 0.13, 1.4, -0.63, 3, width=640, height=400, fovY=50),
+                          on_the_way("front", 0, 0.7, -2, 0, **fisheye), on_the_way("left", -0.9, 1, 0, 90, **fisheye),
+                          on_the_way("back", 0, 0.9, 2, 180, **fisheye), on_the_way("right", 0.9, 1, 0, -90, **fisheye),
+                          on_the_way("above", 0, 1.9, 0, 0, model="equirectangular", width=720, height=360)])
+
+
 FILES = {"appendix_b3.scene": lambda: APPENDIX_B3, "ground_plane_behind.json": ground_behind, "lights_many.json": many_lights,
-         "parenting.json": parenting, "cameras_all_kinds.json": all_cameras}
+         "parenting.json": parenting, "cameras_all_kinds.json": all_cameras,
+         "fisheye_rig.json": fisheye_rig}

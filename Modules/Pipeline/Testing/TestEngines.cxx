@@ -152,8 +152,11 @@ std::vector<Case> sampleScenes()
     for (std::size_t camera = 0; camera < cameras; ++camera)
     {
       const int frame = camera == 0 ? first : middle;
-      cases.push_back({ std::filesystem::path(path).filename().string() + '/' + stage->cameraNames()[camera],
-        stage->at(frame), stage->view(camera, frame, width, height) });
+      const View view = stage->view(camera, frame, width, height);
+      if (view.model->linear())
+      {
+        cases.push_back({ std::filesystem::path(path).filename().string() + '/' + view.name, stage->at(frame), view });
+      }
     }
   }
   return cases;
