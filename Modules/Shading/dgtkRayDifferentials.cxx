@@ -53,11 +53,10 @@ void RayDifferentials::generalRow(int y, int first, int count)
   const int high = std::min(first + count, std::max(first + count, this->Model.width()) - 1); // included
   const auto wide = std::size_t(high - low + 1);
   const bool last = y + 1 >= this->Model.height() && y > 0;
-  this->Pixels.resize(wide);
-  this->Own.resize(wide);
-  this->Below.resize(wide);
   const auto trace = [&](int row, std::vector<CameraRay>& rays)
   {
+    this->Pixels.resize(wide);
+    rays.resize(wide);
     for (std::size_t i = 0; i < wide; ++i)
     {
       this->Pixels[i] = { low + int(i) + 0.5, row + 0.5 };
@@ -65,8 +64,18 @@ void RayDifferentials::generalRow(int y, int first, int count)
     this->Model.raysThrough(this->Pixels.data(), wide, rays.data());
   };
   this->Differences.resize(2 * std::size_t(count));
-  trace(y, this->Own);
+  if (y == this->BelowRow && low == this->BelowLow && wide == this->BelowWide)
+  {
+    this->Own.swap(this->Below);
+  }
+  else
+  {
+    trace(y, this->Own);
+  }
   trace(last ? y - 1 : y + 1, this->Below);
+  this->BelowRow = last ? -1 : y + 1;
+  this->BelowLow = low;
+  this->BelowWide = wide;
   for (int i = 0; i < count; ++i)
   {
     const auto at = std::size_t(first + i - low);

@@ -38,6 +38,9 @@ private:
   std::vector<Eigen::Vector2d> Pixels;
   std::vector<CameraRay> Own;
   std::vector<CameraRay> Below;
+  int BelowRow = -1; ///< of the image; rows are mostly asked for one after another
+  int BelowLow = 0;
+  std::size_t BelowWide = 0;
   std::vector<CameraRay> Differences; ///< general: right and down of each pixel
   std::vector<PixelRay> Row;
 };
