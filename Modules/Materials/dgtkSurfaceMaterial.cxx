@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSurfaceMaterial.h"
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
 #include <cmath>
 
 namespace dgtk
@@ -15,6 +18,17 @@ FacetedSurface facetsOf(const Material& material)
   }
   // The width of the GGX lobe that is as wide as Phong's.
   return { 0, std::sqrt(std::sqrt(2 / (material.shininess + 2))), dielectric * material.specular };
+}
+
+Eigen::Matrix3d normalMatrix(const Eigen::Matrix3d& m)
+{
+  Eigen::Matrix3d cofactors;
+  for (int c = 0; c < 3; ++c)
+  {
+    cofactors.col(c) = m.col((c + 1) % 3).cross(m.col((c + 2) % 3));
+  }
+  const double size = cofactors.cwiseAbs().maxCoeff();
+  return cofactors * ((m.determinant() < 0 ? -1.0 : 1.0) / (size > 0 ? size : 1.0));
 }
 
 const char* transferShader()

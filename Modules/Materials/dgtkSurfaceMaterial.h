@@ -25,6 +25,10 @@ struct FacetedSurface
 /// Of a material without metal and roughness: the lobe that is as wide as Phong's.
 DGTKMATERIALS_EXPORT FacetedSurface facetsOf(const Material& material);
 
+/// What turns normals where `m` turns positions: the cofactors, which also exist where it has no inverse, scaled to
+/// about 1; of a mirroring one negative, so that they stay on their side.
+DGTKMATERIALS_EXPORT Eigen::Matrix3d normalMatrix(const Eigen::Matrix3d& m);
+
 /// GLSL: dgtkToLinear() and dgtkToDisplay(), the transfer function of IEC 61966-2-1.
 DGTKMATERIALS_EXPORT const char* transferShader();
 

@@ -3,6 +3,7 @@
 
 #include "dgtkDrawOrder.h"
 #include "dgtkError.h"
+#include "dgtkSurfaceMaterial.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -58,18 +59,6 @@ ViewBox turned(const Eigen::Matrix4d& matrix, const Eigen::Vector3d& low, const 
   Eigen::Vector3d half = linear.cwiseAbs() * ((high - low) / 2);
   half.array() += 1e-6 * (half.maxCoeff() + center.cwiseAbs().maxCoeff());
   return { center - half, center + half };
-}
-
-/// Normals' matrix: the cofactors, which also exist where the matrix has no inverse; scaled to about 1.
-Eigen::Matrix3d normalMatrix(const Eigen::Matrix3d& m)
-{
-  Eigen::Matrix3d cofactors;
-  for (int c = 0; c < 3; ++c)
-  {
-    cofactors.col(c) = m.col((c + 1) % 3).cross(m.col((c + 2) % 3));
-  }
-  const double size = cofactors.cwiseAbs().maxCoeff();
-  return cofactors * ((m.determinant() < 0 ? -1.0 : 1.0) / (size > 0 ? size : 1.0));
 }
 
 template <typename Array, typename Matrix>

@@ -2,6 +2,7 @@
 #include "dgtkShadedView.h"
 
 #include "dgtkRaySource.h"
+#include "dgtkSurfaceMaterial.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -11,22 +12,6 @@
 
 namespace dgtk
 {
-
-namespace
-{
-/// Cofactors: they also exist where the matrix has no inverse. Scaled to about 1.
-Eigen::Matrix3d normalMatrix(const Eigen::Matrix3d& m, double side)
-{
-  Eigen::Matrix3d cofactors;
-  for (int c = 0; c < 3; ++c)
-  {
-    cofactors.col(c) = m.col((c + 1) % 3).cross(m.col((c + 2) % 3));
-  }
-  const double size = cofactors.cwiseAbs().maxCoeff();
-  return cofactors * (side / (size > 0 ? size : 1.0));
-}
-
-} // namespace
 
 ShadedView::ShadedView(std::shared_ptr<const SceneState> state, const View& view)
   : State(std::move(state))
@@ -39,7 +24,7 @@ ShadedView::ShadedView(std::shared_ptr<const SceneState> state, const View& view
     placed.materials = ShadedMaterialLibrary::shared().of(instance);
     placed.camera_from_object = view.camera_from_world * instance.world_from_object;
     placed.side = placed.camera_from_object.linear.determinant() < 0 ? -1 : 1;
-    placed.normals = Matrix3(normalMatrix(placed.camera_from_object.linear, placed.side));
+    placed.normals = Matrix3(normalMatrix(placed.camera_from_object.linear));
     this->Translucent = this->Translucent || placed.materials->translucent;
     this->Objects.push_back(std::move(placed));
   }
