@@ -16,6 +16,7 @@ namespace option
 {
 constexpr int mostSamples = 16;
 constexpr int mostThreads = 256;
+constexpr double leastStops = -33;
 
 const IntegerOption& samples()
 {
@@ -41,6 +42,19 @@ const ChoiceOption& renderer()
 {
   static const ChoiceOption row("renderer", { "ray", "vtk", "povray" },
     "what makes colour: ray shades where the rays hit, vtk draws by OpenGL, povray is POV-Ray 3.7, installed");
+  return row;
+}
+
+const NumbersOption& exposure()
+{
+  static const NumbersOption row(
+    "exposure", "STOPS", 1, leastStops, "pictures: twice the light for each; what is above white is kept until then");
+  return row;
+}
+
+const ChoiceOption& tone()
+{
+  static const ChoiceOption row("tone", { "none", "filmic" }, "pictures: curve that bends light to white");
   return row;
 }
 
@@ -102,8 +116,8 @@ std::vector<std::unique_ptr<NamesOption>> makeFormatRows()
 
 std::vector<const OptionRow*> makeRequestOptions()
 {
-  std::vector<const OptionRow*> rows{ &option::samples(), &option::filter(), &option::colorBits(),
-    &option::renderer() };
+  std::vector<const OptionRow*> rows{ &option::samples(), &option::filter(), &option::colorBits(), &option::renderer(),
+    &option::exposure(), &option::tone() };
   const auto add = [&rows](const OptionRow* row)
   {
     if (std::find(rows.begin(), rows.end(), row) == rows.end())

@@ -27,6 +27,8 @@ DGTKLAYERS_EXPORT const IntegerOption& samples();
 DGTKLAYERS_EXPORT const ChoiceOption& filter();
 DGTKLAYERS_EXPORT const ChoiceOption& colorBits();
 DGTKLAYERS_EXPORT const ChoiceOption& renderer();
+DGTKLAYERS_EXPORT const NumbersOption& exposure();
+DGTKLAYERS_EXPORT const ChoiceOption& tone();
 DGTKLAYERS_EXPORT const ChoiceOption& visibility();
 DGTKLAYERS_EXPORT const ChoiceOption& gl();
 DGTKLAYERS_EXPORT const IntegerOption& seed();

@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkLayerWriter.h"
 #include "dgtkLayers.h"
+#include "dgtkPictureCurve.h"
 #include "dgtkPovRenderOptions.h"
 
 #include <algorithm>
@@ -229,6 +230,10 @@ void checkPictures(const WorkPlan& plan, const SceneDescription& scene)
     throw UsageError("the filter " + option::filter().of(request.options) +
                      " needs several samples a pixel (2 or more) and the built-in renderer");
   }
+  if (PictureCurve(request).changes() && !plan.drawsColor())
+  {
+    throw UsageError("exposure, tone: are for pictures, and this run makes none");
+  }
   for (const Job& job : plan.jobs)
   {
     const CameraDescription& camera = scene.cameras[job.camera];
@@ -440,6 +445,7 @@ Pairs describeRequest(const WorkPlan& plan, const Stage& stage)
     add(pairs, { &option::samples() }, options);
     addGiven(pairs, { &option::filter() }, options);
     add(pairs, { &option::colorBits() }, options);
+    addGiven(pairs, { &option::exposure(), &option::tone() }, options);
     pairs.emplace_back(formatOption(pictureLayer), joinedNames(plan.formatsOf(pictureLayer)));
   }
   for (const PlannedLayer& planned : plan.layers)

@@ -30,6 +30,7 @@ public:
   ColorPass(const JobContext& context, const std::vector<PassLayer>& layers, std::vector<float> Band::*rgb)
     : Pool(context.pool)
     , Rgb(rgb)
+    , Curve(context.plan.request)
   {
     for (const PassLayer& layer : layers)
     {
@@ -50,7 +51,7 @@ public:
         for (int y = 0; y < band.rect.height; y += rows)
         {
           const int height = std::min(rows, band.rect.height - y);
-          sink.rows(output, quantise(band, this->Specs[output], band.rect.y + y, height, this->Rgb));
+          sink.rows(output, quantise(band, this->Specs[output], band.rect.y + y, height, this->Rgb, this->Curve));
         }
       });
   }
@@ -58,15 +59,24 @@ public:
 private:
   ThreadPool& Pool;
   std::vector<float> Band::*Rgb;
+  PictureCurve Curve;
   std::vector<LayerSpec> Specs; // one an output
 };
 } // namespace
 
-Rows quantise(const Band& band, const LayerSpec& spec, int y, int height, std::vector<float> Band::*rgb)
+Rows quantise(
+  const Band& band, const LayerSpec& spec, int y, int height, std::vector<float> Band::*rgb, const PictureCurve& curve)
 {
   const std::size_t rowValues = std::size_t(band.rect.width) * 3;
   const std::size_t count = rowValues * height;
   const float* from = (band.*rgb).data() + std::size_t(y - band.rect.y) * rowValues;
+  std::vector<float> curved;
+  if (curve.changes())
+  {
+    curved.resize(count);
+    std::transform(from, from + count, curved.begin(), curve);
+    from = curved.data();
+  }
   Rows rows(spec.type, 3, band.rect.width, y, height);
   switch (spec.type)
   {

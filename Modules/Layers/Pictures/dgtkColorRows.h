@@ -5,6 +5,7 @@
 // Private to Layers.
 
 #include "dgtkLayers.h"
+#include "dgtkPictureCurve.h"
 
 namespace dgtk
 {
@@ -13,8 +14,9 @@ namespace dgtk
 LayerSpec colorSpec(const LayerRequest& request, const std::string& format);
 
 /// Colours of rows [y, y + height) of a band as a layer of the type of `spec`: 8 and 16 bits are rounded, float32 is
-/// linear light (IEC 61966-2-1).
-Rows quantise(const Band& band, const LayerSpec& spec, int y, int height, std::vector<float> Band::*rgb = &Band::rgb);
+/// linear light (IEC 61966-2-1). `curve` is applied before.
+Rows quantise(const Band& band, const LayerSpec& spec, int y, int height, std::vector<float> Band::*rgb = &Band::rgb,
+  const PictureCurve& curve = {});
 
 /// Colours of a band, in the layers' outputs.
 std::unique_ptr<LayerPass> makeColorPass(

@@ -23,6 +23,7 @@ class TilesPass : public LayerPass
 public:
   TilesPass(const LayerRequest& request, const CameraModel& model)
     : Spec(colorSpec(request, "png"))
+    , Curve(request)
     , Width(model.width())
     , TileWidth(std::min(tileOption.width(request.options), model.width()))
     , TileHeight(std::min(tileOption.height(request.options), model.height()))
@@ -36,7 +37,7 @@ public:
     {
       const int row = y / this->TileHeight;
       const int stop = std::min({ end, (row + 1) * this->TileHeight, y + std::max(1, blockPixels / this->Width) });
-      this->cut(quantise(band, this->Spec, y, stop - y), row, sink);
+      this->cut(quantise(band, this->Spec, y, stop - y, &Band::rgb, this->Curve), row, sink);
       y = stop;
     }
   }
@@ -61,6 +62,7 @@ private:
   }
 
   LayerSpec Spec;
+  PictureCurve Curve;
   int Width;
   int TileWidth;
   int TileHeight;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkColorRows.h"
 
+#include "dgtkError.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -49,6 +51,34 @@ TEST(Quantise, FloatIsLinearLight)
   EXPECT_FLOAT_EQ(v[1], 1.0f);
   EXPECT_NEAR(v[2], 0.2140411, 1e-6);
   EXPECT_NEAR(v[3], 0.04 / 12.92, 1e-8);
+}
+
+TEST(Quantise, LightAboveWhiteIsKeptForTheCurve)
+{
+  const auto curveOf = [](const std::string& name, const std::string& value)
+  {
+    LayerRequest request;
+    request.options[name] = value;
+    return PictureCurve(request);
+  };
+  const Band band = bandOf({ 0.0f, 1.0f, 0.5f, 1.5f, 3.0f, 0.04f }); // encoded 1.5 is 2.5371 of light
+  const auto light = [&](const PictureCurve& curve)
+  {
+    const Rows rows = quantise(band, colorOf(PixelType::Float32), 5, 1, &Band::rgb, curve);
+    return std::vector<float>(rows.row<float>(5), rows.row<float>(5) + 6);
+  };
+  const std::vector<float> plain = light({});
+  const std::vector<float> darker = light(curveOf("exposure", "-1.5"));
+  const std::vector<float> filmic = light(curveOf("tone", "filmic"));
+  for (std::size_t i = 0; i < plain.size(); ++i)
+  {
+    const double x = double(plain[i]);
+    EXPECT_NEAR(double(darker[i]), x * std::pow(2, -1.5), 1e-5 * x) << i;
+    EXPECT_NEAR(double(filmic[i]), std::min(1.0, x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)), 1e-5) << i;
+  }
+  EXPECT_NEAR(double(plain[3]), 2.5371, 1e-3);
+  EXPECT_THROW(curveOf("exposure", "33"), UsageError);
+  EXPECT_THROW(curveOf("exposure", "-40"), UsageError);
 }
 
 TEST(Quantise, EightBitsAreTheRoundingOfSixteen)

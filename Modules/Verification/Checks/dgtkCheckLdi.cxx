@@ -239,7 +239,8 @@ bool showsFirstSurface(const Picture& picture)
     [](const auto& option)
     {
       return (option.first == "samples" && option.second != "1") ||
-             (option.first == "renderer" && option.second == "povray");
+             (option.first == "renderer" && option.second == "povray") || option.first == "exposure" ||
+             option.first == "tone";
     });
   const std::vector<CameraDescription>& cameras = picture.dataset().stage().description().cameras;
   return asked && std::none_of(cameras.begin(), cameras.end(),
