@@ -32,7 +32,7 @@ constexpr double unbiased = 0.1;
 constexpr double calibrated = 0.05;
 /// The same of lenses, whose coefficients are found beside: a thousandth of fx; of cx and cy what tangential
 /// coefficients stand for as well.
-constexpr double calibratedFocal = 0.665;
+constexpr double calibratedFocal = 0.532;
 constexpr double calibratedCentre = 1;
 /// Pixels: mean of what calibrations leave of the corners.
 constexpr double reprojected = 0.05;
@@ -170,8 +170,7 @@ struct Boards
   std::size_t pictures = 0;
 };
 
-Boards findBoards(
-  const std::string& folder, const std::string& name, const std::vector<CameraRecord>& cameras, int step)
+Boards findBoards(const std::string& folder, const std::string& name, const std::vector<CameraRecord>& cameras)
 {
   const cv::Size inner(9, 6);
   constexpr float square = 0.03f;
@@ -186,7 +185,7 @@ Boards findBoards(
   Boards boards;
   for (const CameraRecord& camera : cameras)
   {
-    if (camera.name != name || camera.frame % step != 0)
+    if (camera.name != name)
     {
       continue;
     }
@@ -235,13 +234,12 @@ struct Bounds
   double centre;
 };
 
-/// `step`: of so many frames one, as finding corners so well takes half a second a picture.
-int calibrateBy(const std::string& folder, const std::string& name, int step, const Bounds& bounds)
+int calibrateBy(const std::string& folder, const std::string& name, const Bounds& bounds)
 {
   const std::vector<CameraRecord> cameras = readCameras(folder + "/cameras.json");
   const CameraRecord& camera =
     *std::find_if(cameras.begin(), cameras.end(), [&](const CameraRecord& one) { return one.name == name; });
-  const Boards boards = findBoards(folder, name, cameras, step);
+  const Boards boards = findBoards(folder, name, cameras);
   cv::Mat K = cv::Mat::eye(3, 3, CV_64F);
   const double error = calibrate(camera, boards, K);
   const Eigen::Matrix3d& truth = camera.K;
@@ -260,7 +258,7 @@ int calibrateBy(const std::string& folder, const std::string& name, int step, co
   return boards.corners.size() >= 12 && largest <= 1 && error <= reprojected ? 0 : 1;
 }
 
-int chessboard(const std::string& folder) { return calibrateBy(folder, "camera", 2, { calibrated, calibrated }); }
+int chessboard(const std::string& folder) { return calibrateBy(folder, "camera", { calibrated, calibrated }); }
 
 /// Cameras with lenses: of their parameters OpenCV finds those that it was given.
 int lenses(const std::string& folder)
@@ -268,7 +266,7 @@ int lenses(const std::string& folder)
   int failed = 0;
   for (const char* name : { "five", "eight", "fisheye" })
   {
-    failed = std::max(failed, calibrateBy(folder, name, 1, { calibratedFocal, calibratedCentre }));
+    failed = std::max(failed, calibrateBy(folder, name, { calibratedFocal, calibratedCentre }));
   }
   return failed;
 }
