@@ -19,13 +19,13 @@ namespace dgtk
 /// A surface at a pixel, in the frame of the camera.
 struct ShadedPoint
 {
-  const ShadedMaterial* material = nullptr;
   Float4 position;
   Float4 normal; ///< unit, of the side that is seen
   Float4 viewer; ///< unit, towards the eye
   Float4 right;  ///< how the position changes to the pixel on the right, on the triangle's plane ...
   Float4 down;   ///< ... and to that below
   Footprint footprint;
+  const ShadedMaterial* material = nullptr;
   float distance = 0; ///< from the eye
   // Of the paths to lights that cast shadows.
   std::uint32_t object = 0;

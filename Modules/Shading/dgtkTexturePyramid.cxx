@@ -188,9 +188,9 @@ Float4 TexturePyramid::at(const Footprint& f) const
   const double axisU = double(across > along ? f.rightU : f.downU);
   const double axisV = double(across > along ? f.rightV : f.downV);
   Float4 sum = float4(0);
-  for (float i = 0.5F; i < probes; i += 1)
+  for (int i = 0; i < int(probes); ++i)
   {
-    const double place = double(i / probes - 0.5F);
+    const double place = double((float(i) + 0.5F) / probes - 0.5F);
     const float u = repeated(f.u + axisU * place);
     const float v = repeated(f.v + axisV * place);
     sum += bilinear(this->Levels[low], u, v) * (1 - part);

@@ -9,14 +9,15 @@ using namespace dgtk;
 
 namespace
 {
-/// Largest difference relative to the exact value, over `steps` values of x from `first` by a constant factor.
+/// Largest difference relative to the exact value, over values of x from `first` to `last` by a constant factor.
 template <typename Own, typename Exact>
 double worstRelative(double first, double last, const Own& own, const Exact& exact)
 {
   double worst = 0;
-  const double factor = std::pow(last / first, 1.0 / 100000);
-  for (double x = first; x < last; x *= factor)
+  constexpr int steps = 100000;
+  for (int i = 0; i < steps; ++i)
   {
+    const double x = first * std::pow(last / first, double(i) / steps);
     const double expected = exact(double(float(x)));
     worst = std::max(worst, std::abs(double(own(float(x))) - expected) / std::abs(expected));
   }
