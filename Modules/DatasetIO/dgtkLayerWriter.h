@@ -52,7 +52,7 @@ public:
 struct WriterInfo
 {
   std::string name;      ///< "Npy"
-  std::string format;    ///< "npy": as in --depth-format
+  std::string format;    ///< "npy": as the formats of a layer are chosen
   std::string extension; ///< "npy"
   std::string description;
 };

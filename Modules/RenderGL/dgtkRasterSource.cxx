@@ -200,7 +200,7 @@ std::function<void()> VtkRasterSource::drawColor(
     {
       const PixelRect piece{ rect.x + x, rect.y + y, std::min(side, rect.width - x), std::min(side, rect.height - y) };
       this->drawSamples(filter.drawn(piece), samples, false);
-      filter.apply(this->Pixels, piece, colors);
+      filter.apply(SampleImage::upwards(this->Pixels, filter.drawn(piece).width * samples), piece, colors);
     }
   }
   check();

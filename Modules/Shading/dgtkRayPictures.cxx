@@ -88,9 +88,7 @@ private:
   std::shared_ptr<const CameraModel> RaysModel; ///< of the view that Rays has; null: none of this scene
   std::shared_ptr<const ShadedView> Shaded;     ///< of State and TheView; null until it is needed
   std::shared_ptr<const ShadedView> ShadedSamples;
-  // Of the scene before, until there are new ones: they hold the textures.
-  std::shared_ptr<const ShadedView> Before;
-  std::shared_ptr<const ShadedView> BeforeSamples;
+  std::shared_ptr<const ShadedView> Before; ///< of the scene before, until there is a new one: it holds the textures
   int SamplesOfIt = 0;
 };
 
@@ -99,8 +97,13 @@ void RayPictures::setScene(std::shared_ptr<const SceneState> state, const View& 
   this->State = std::move(state);
   this->TheView = view;
   this->RaysModel.reset();
-  this->Before = this->Shaded ? std::move(this->Shaded) : std::move(this->Before);
-  this->BeforeSamples = this->ShadedSamples ? std::move(this->ShadedSamples) : std::move(this->BeforeSamples);
+  for (std::shared_ptr<const ShadedView>* made : { &this->Shaded, &this->ShadedSamples })
+  {
+    if (*made)
+    {
+      this->Before = std::move(*made);
+    }
+  }
 }
 
 /// The scene of the rays, with the view or one of its samples.
@@ -163,7 +166,7 @@ void RayPictures::drawSamples(const PixelRect& rect, int samples, ColorBuffer& c
     large.model = resampledCamera(this->TheView.model, this->TheView.model->width() * samples,
       this->TheView.model->height() * samples, 1.0 / samples, { 0, 0 });
     this->ShadedSamples = std::make_shared<const ShadedView>(this->State, large);
-    this->BeforeSamples.reset();
+    this->Before.reset();
     this->SamplesOfIt = samples;
   }
   const SampleFilter filter(this->Filter, samples, std::numeric_limits<float>::max());
@@ -171,7 +174,7 @@ void RayPictures::drawSamples(const PixelRect& rect, int samples, ColorBuffer& c
   const ShadedView& view = *this->ShadedSamples;
   this->placeRays(view.view());
   VisibilityBuffer hits;
-  std::vector<float> rgba;
+  std::vector<float> rgb;
   for (int y = 0; y < rect.height; y += side)
   {
     for (int x = 0; x < rect.width; x += side)
@@ -180,25 +183,9 @@ void RayPictures::drawSamples(const PixelRect& rect, int samples, ColorBuffer& c
       const PixelRect drawn = filter.drawn(piece);
       const PixelRect all{ drawn.x * samples, drawn.y * samples, drawn.width * samples, drawn.height * samples };
       this->Rays->render(all, hits);
-      rgba.resize(std::size_t(all.width) * std::size_t(all.height) * 4);
-      this->Pool.parallelFor((all.height + jobRows - 1) / jobRows,
-        [&](int job)
-        {
-          const WorkTime time(WorkStage::Draw);
-          ShadedView::Worker worker(view);
-          std::vector<float> rgb(std::size_t(all.width) * 3);
-          for (int row = job * jobRows; row < std::min(all.height, (job + 1) * jobRows); ++row)
-          {
-            view.row(
-              worker, all.x, all.y + row, all.width, &hits.hits[std::size_t(row) * std::size_t(all.width)], rgb.data());
-            float* to = &rgba[std::size_t(all.height - 1 - row) * std::size_t(all.width) * 4];
-            for (std::size_t i = 0; i < std::size_t(all.width); ++i, to += 4)
-            {
-              std::copy_n(&rgb[3 * i], 3, to);
-            }
-          }
-        });
-      filter.apply(rgba, piece, colors);
+      rgb.resize(hits.hits.size() * 3);
+      shadeHits(view, hits, this->Pool, rgb.data());
+      filter.apply({ rgb.data(), 3 * std::ptrdiff_t(all.width), 3 }, piece, colors);
     }
   }
 }

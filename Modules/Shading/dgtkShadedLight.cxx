@@ -163,7 +163,7 @@ ShadedLight::ShadedLight(const SceneState& state, const View& view)
     light.near = traits.near;
     light.atViewer = !traits.placed && !view.model->linear();
     this->Shadows = this->Shadows || light.shadows;
-    this->Always = this->Always || light.atViewer;
+    this->Always = this->Always || light.atViewer || light.shadows;
     this->Lights.push_back(light);
   }
   this->Always = this->Always || state.environment || state.fog.density > 0;

@@ -61,7 +61,7 @@ public:
 
   /// The display-referred colour of a point that is lit so by lights(); not cut off at white.
   Float4 shade(const ShadedPoint& point, const PointLight* lit) const;
-  /// Whether shade() asks for the viewer and the distance.
+  /// Whether the viewer and the distance of a point are asked for.
   bool needsViewer(const ShadedMaterial& material) const
   {
     return this->Always || material.shines || material.physical;
@@ -91,7 +91,7 @@ private:
   std::vector<Light> Lights;
   bool HeadOnly;
   bool Shadows = false;
-  bool Always = false; ///< every material is seen from somewhere: for fog, environment or a light at the eye
+  bool Always = false; ///< every material is seen from somewhere: for fog, environment, shadows or a light at the eye
   Float4 Background;
   Float4 Fog;
   float FogDensity;

@@ -100,7 +100,6 @@ void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoin
   {
     const double parts[3] = { 1 - second - third, second, third };
     this->lift(triangle, position, parts, front, point);
-    point.distance = float(t * d.norm());
   }
   if (material.mapped)
   {

@@ -84,7 +84,7 @@ SampleFilter::SampleFilter(PixelFilter filter, int samples, float most)
   this->Weights = pixelFilterWeights(filter, samples, this->Margin);
 }
 
-void SampleFilter::apply(const std::vector<float>& samples, const PixelRect& piece, ColorBuffer& colors) const
+void SampleFilter::apply(const SampleImage& samples, const PixelRect& piece, ColorBuffer& colors) const
 {
   if (this->Filter == PixelFilter::Box)
   {
@@ -92,7 +92,6 @@ void SampleFilter::apply(const std::vector<float>& samples, const PixelRect& pie
     return;
   }
   const int width = (piece.width + 2 * this->Margin) * this->Samples;
-  const int height = (piece.height + 2 * this->Margin) * this->Samples;
   const int count = int(this->Weights.size());
   std::vector<double> row(std::size_t(width) * 3);
   for (int y = 0; y < piece.height; ++y)
@@ -100,8 +99,8 @@ void SampleFilter::apply(const std::vector<float>& samples, const PixelRect& pie
     std::fill(row.begin(), row.end(), 0.0);
     for (int k = 0; k < count; ++k)
     {
-      const float* source = samples.data() + std::size_t(height - 1 - (y * this->Samples + k)) * width * 4;
-      for (int x = 0; x < width; ++x, source += 4)
+      const float* source = samples.top + samples.toNextRow * (y * this->Samples + k);
+      for (int x = 0; x < width; ++x, source += samples.channels)
       {
         for (int c = 0; c < 3; ++c)
         {
@@ -128,10 +127,9 @@ void SampleFilter::apply(const std::vector<float>& samples, const PixelRect& pie
   }
 }
 
-void SampleFilter::applyBox(const std::vector<float>& samples, const PixelRect& piece, ColorBuffer& colors) const
+void SampleFilter::applyBox(const SampleImage& samples, const PixelRect& piece, ColorBuffer& colors) const
 {
   const int width = piece.width * this->Samples;
-  const int height = piece.height * this->Samples;
   const float weight = 1.0f / float(this->Samples * this->Samples);
   for (int y = 0; y < piece.height; ++y)
   {
@@ -141,8 +139,8 @@ void SampleFilter::applyBox(const std::vector<float>& samples, const PixelRect& 
     std::fill_n(target, std::size_t(piece.width) * 3, 0.0f);
     for (int k = 0; k < this->Samples; ++k)
     {
-      const float* source = samples.data() + std::size_t(height - 1 - (y * this->Samples + k)) * width * 4;
-      for (int x = 0; x < width; ++x, source += 4)
+      const float* source = samples.top + samples.toNextRow * (y * this->Samples + k);
+      for (int x = 0; x < width; ++x, source += samples.channels)
       {
         float* pixel = target + x / this->Samples * 3;
         pixel[0] += this->clamped(source[0]);

@@ -4,6 +4,7 @@
 
 #include "dgtkVisibility.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,21 @@ DGTKVISIBILITY_EXPORT PixelFilter pixelFilterFromName(const std::string& name);
 /// Weights of `samples` samples a pixel along one axis, from `margin` pixels before the pixel to `margin` after it.
 DGTKVISIBILITY_EXPORT std::vector<double> pixelFilterWeights(PixelFilter filter, int samples, int& margin);
 
+/// Samples of a picture, red, green and blue first.
+struct SampleImage
+{
+  const float* top = nullptr;   ///< the uppermost row
+  std::ptrdiff_t toNextRow = 0; ///< values from a row to the one below
+  int channels = 3;
+
+  /// RGBA, rows bottom to top, as OpenGL gives them.
+  static SampleImage upwards(const std::vector<float>& rgba, int width)
+  {
+    const std::ptrdiff_t row = 4 * std::ptrdiff_t(width);
+    return { rgba.data() + rgba.size() - row, -row, 4 };
+  }
+};
+
 /// Makes pixels of samples x samples points each.
 class DGTKVISIBILITY_EXPORT SampleFilter
 {
@@ -39,8 +55,8 @@ public:
     return { piece.x - this->Margin, piece.y - this->Margin, piece.width + 2 * this->Margin,
       piece.height + 2 * this->Margin };
   }
-  /// Fills a piece of `colors` from the samples of drawn(piece): RGBA, rows bottom to top.
-  void apply(const std::vector<float>& samples, const PixelRect& piece, ColorBuffer& colors) const;
+  /// Fills a piece of `colors` from the samples of drawn(piece).
+  void apply(const SampleImage& samples, const PixelRect& piece, ColorBuffer& colors) const;
 
 private:
   template <typename T>
@@ -48,7 +64,7 @@ private:
   {
     return value > 0 ? (value < this->Most ? float(value) : this->Most) : 0.0f;
   }
-  void applyBox(const std::vector<float>& samples, const PixelRect& piece, ColorBuffer& colors) const;
+  void applyBox(const SampleImage& samples, const PixelRect& piece, ColorBuffer& colors) const;
   PixelFilter Filter;
   int Samples;
   float Most;

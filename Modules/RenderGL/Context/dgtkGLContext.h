@@ -19,7 +19,7 @@ enum class GLBackend
   Glx     ///< an X server (DISPLAY)
 };
 
-/// "auto", "egl", "osmesa", "glx": the names of --gl.
+/// "auto", "egl", "osmesa", "glx": the names of the ways to OpenGL.
 DGTKRENDERGL_EXPORT const char* nameOf(GLBackend backend);
 /// Throws UsageError for a name that is none of them.
 DGTKRENDERGL_EXPORT GLBackend glBackendFromName(const std::string& name);

@@ -214,7 +214,7 @@ TEST(PixelFilters, PiecesAreMadeOfTheirSamples)
     ColorBuffer colors;
     colors.rect = { 1, 0, 5, 4 };
     colors.rgb.assign(std::size_t(5) * 4 * 3, 0.125f);
-    filter.apply(samples, piece, colors);
+    filter.apply(SampleImage::upwards(samples, width), piece, colors);
     const double own = margin ? 0.375 * 0.375 : 0.25;
     const double beside = margin ? 0.125 * 0.375 : 0;
     for (int i = 0; i < 20; ++i)
