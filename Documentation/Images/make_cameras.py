@@ -11,9 +11,8 @@ import sys
 import tempfile
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+
+from png_files import read, write
 
 HERE = pathlib.Path(__file__).resolve().parent
 COLUMNS, WIDTH, HEIGHT, CELLS = 4, 240, 180, 12
@@ -82,13 +81,6 @@ def write_scene(folder):
     (folder / "scene.json").write_text(json.dumps(scene))
 
 
-def read(path):
-    reader = vtkPNGReader()
-    reader.SetFileName(str(path))
-    reader.Update()
-    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).reshape(HEIGHT, WIDTH, -1)[::-1, :, :3]
-
-
 def main(arguments):
     if len(arguments) != 1:
         print(__doc__, file=sys.stderr)
@@ -100,17 +92,10 @@ def main(arguments):
         write_scene(folder)
         subprocess.run([arguments[0], "render", str(folder / "scene.json"), "-o", str(folder / "set"), "--quiet", "--renderer",
                         "ray", "--samples", "4", "--layers", "color"], check=True)
-        panels = [read(folder / "set" / lens["name"] / "color" / "000000.png") for lens in LENSES]
+        panels = [read(folder / "set" / lens["name"] / "color" / "000000.png")[:, :, :3] for lens in LENSES]
     rows = [np.hstack(panels[i:i + COLUMNS]) for i in range(0, len(panels), COLUMNS)]
-    pixels = np.ascontiguousarray(np.vstack(rows)[::-1])
-    image = vtkImageData()
-    image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
-    image.GetPointData().SetScalars(numpy_to_vtk(pixels.reshape(-1, 3)))
-    writer = vtkPNGWriter()
-    writer.SetInputData(image)
-    writer.SetCompressionLevel(9)
-    writer.SetFileName(str(HERE / "cameras.png"))
-    writer.Write()
+    pixels = np.vstack(rows)
+    write(HERE / "cameras.png", pixels)
     return 0
 
 

@@ -11,9 +11,9 @@ import subprocess
 import sys
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+
+import png_files
+from png_files import write
 
 HERE = pathlib.Path(__file__).resolve().parent
 SCENES = HERE.parents[1] / "Data" / "Scenes"
@@ -24,23 +24,8 @@ GAP = 6
 
 def read(path):
     """Rows x columns x RGB, uint8."""
-    reader = vtkPNGReader()
-    reader.SetFileName(str(path))
-    reader.Update()
-    width, height, _ = reader.GetOutput().GetDimensions()
-    pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).reshape(height, width, -1)[::-1]
+    pixels = png_files.read(path)
     return np.repeat(pixels, 3, axis=2) if pixels.shape[2] == 1 else pixels
-
-
-def write(path, pixels):
-    pixels = np.ascontiguousarray(pixels[::-1])
-    image = vtkImageData()
-    image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
-    image.GetPointData().SetScalars(numpy_to_vtk(pixels.reshape(-1, 3), deep=True))
-    writer = vtkPNGWriter()
-    writer.SetInputData(image)
-    writer.SetFileName(str(path))
-    writer.Write()
 
 
 def depth_picture(path):

@@ -13,20 +13,15 @@ import pathlib
 import sys
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+
+from png_files import read, write
 
 COLUMNS = 6
 LEFT, TOP, WIDTH, HEIGHT = 36, 50, 160, 120  # of each picture
 
 
 def color(path):
-    reader = vtkPNGReader()
-    reader.SetFileName(str(path))
-    reader.Update()
-    width, height, _ = reader.GetOutput().GetDimensions()
-    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).reshape(height, width, -1)[::-1, :, :3] / 255
+    return read(path)[:, :, :3] / 255
 
 
 def depth(path):
@@ -48,15 +43,8 @@ def main(arguments):
     all_panels = [*panels(pathlib.Path(arguments[0]), "color_noisy", "png", color),
                   *panels(pathlib.Path(arguments[1]), "depth_noisy", "npy", depth)]
     rows = [np.hstack(all_panels[i:i + COLUMNS]) for i in range(0, len(all_panels), COLUMNS)]
-    pixels = np.ascontiguousarray((np.clip(np.vstack(rows), 0, 1) * 255 + 0.5).astype(np.uint8)[::-1])
-    image = vtkImageData()
-    image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
-    image.GetPointData().SetScalars(numpy_to_vtk(pixels.reshape(-1, 3)))
-    writer = vtkPNGWriter()
-    writer.SetInputData(image)
-    writer.SetCompressionLevel(9)
-    writer.SetFileName(str(pathlib.Path(__file__).resolve().parent / "noise.png"))
-    writer.Write()
+    pixels = (np.clip(np.vstack(rows), 0, 1) * 255 + 0.5).astype(np.uint8)
+    write(pathlib.Path(__file__).resolve().parent / "noise.png", pixels)
     return 0
 
 

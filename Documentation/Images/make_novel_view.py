@@ -12,34 +12,13 @@ import subprocess
 import sys
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+
+from png_files import read, write
 
 HERE = pathlib.Path(__file__).resolve().parent
 SCENE = HERE.parents[1] / "Data" / "Scenes" / "fig_4_7_stereo.json"
 HOLE = (255, 0, 200)
 GAP = 6
-
-
-def read(path):
-    reader = vtkPNGReader()
-    reader.SetFileName(str(path))
-    reader.Update()
-    width, height, _ = reader.GetOutput().GetDimensions()
-    pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
-    return pixels.reshape(height, width, -1)[::-1]
-
-
-def write(path, pixels):
-    pixels = np.ascontiguousarray(pixels[::-1])
-    image = vtkImageData()
-    image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
-    image.GetPointData().SetScalars(numpy_to_vtk(pixels.reshape(-1, pixels.shape[2]), deep=True))
-    writer = vtkPNGWriter()
-    writer.SetInputData(image)
-    writer.SetFileName(str(path))
-    writer.Write()
 
 
 def two_cameras(degrees):

@@ -11,20 +11,14 @@ import pathlib
 import sys
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+
+from png_files import read, write
 
 FRAME = "000001"
 
 
 def color(folder):
-    reader = vtkPNGReader()
-    reader.SetFileName(str(folder / "color" / f"{FRAME}.png"))
-    reader.Update()
-    width, height, _ = reader.GetOutput().GetDimensions()
-    pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
-    return pixels.reshape(height, width, -1)[::-1, :, :3] / 255
+    return read(folder / "color" / f"{FRAME}.png")[:, :, :3] / 255
 
 
 def readable(ids, there):
@@ -55,15 +49,8 @@ def main(arguments):
         print(__doc__, file=sys.stderr)
         return 2
     picture = np.vstack([np.hstack(row) for row in panels(pathlib.Path(arguments[0]))])
-    pixels = np.ascontiguousarray((np.clip(picture, 0, 1) * 255 + 0.5).astype(np.uint8)[::-1])
-    image = vtkImageData()
-    image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
-    image.GetPointData().SetScalars(numpy_to_vtk(pixels.reshape(-1, 3)))
-    writer = vtkPNGWriter()
-    writer.SetInputData(image)
-    writer.SetCompressionLevel(9)
-    writer.SetFileName(str(pathlib.Path(__file__).resolve().parent / "overview.png"))
-    writer.Write()
+    pixels = (np.clip(picture, 0, 1) * 255 + 0.5).astype(np.uint8)
+    write(pathlib.Path(__file__).resolve().parent / "overview.png", pixels)
     return 0
 
 
