@@ -108,6 +108,11 @@ View viewOf(const CameraRecord& camera, const std::string& file)
     throw UsageError("camera " + quoted(camera.name) + " of " + file + " has a model that is not known here (" +
                      quoted(camera.model) + "): it cannot be warped from and to");
   }
+  if (camera.rollingShutter.duration > 0 || view.model->rolls())
+  {
+    throw UsageError("camera " + quoted(camera.name) + " of " + file +
+                     " has a rolling shutter: its picture is of many instants and cannot be warped from or to");
+  }
   return view;
 }
 

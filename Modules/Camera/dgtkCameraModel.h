@@ -4,6 +4,7 @@
 
 #include "dgtkCameraModule.h"
 #include "dgtkRigid3.h"
+#include "dgtkRollingShutter.h"
 
 #include <Eigen/Core>
 
@@ -33,6 +34,13 @@ struct CameraRay
   bool exists() const { return !this->direction.isZero(0); }
 };
 
+/// Frames, ends included.
+struct TimeSpan
+{
+  double first = 0;
+  double last = 0;
+};
+
 /// Projections that a 3x3 matrix describes, which OpenGL can draw and for which depth has a closed form per triangle.
 /// perspective: pixel = (K x / z); otherwise (orthographic): pixel = K * (x, y, 1), K in pixels per scene unit.
 /// K is [fx s cx; 0 fy cy; 0 0 1].
@@ -50,6 +58,7 @@ struct CameraParameters
   std::optional<Eigen::Matrix3d> K; ///< of an image of this size
   std::map<std::string, std::vector<double>> numbers = {};
   std::map<std::string, std::string> files = {}; ///< paths as they can be opened
+  RollingShutter rollingShutter = {};
 
   /// The one number of a name that is there.
   double number(const std::string& name) const { return this->numbers.at(name).front(); }
@@ -87,7 +96,15 @@ public:
   virtual void projectAll(
     const Eigen::Vector3d* x_in_camera, std::size_t count, Eigen::Vector2d* pixels, std::uint8_t* seen) const;
 
-  /// The projection's matrix where it is linear, nothing otherwise.
+  /// When an image point is seen, frames after the picture's own. Continuous; all points of a row, or of a column, have
+  /// the time of its centre where pixels are sampled.
+  virtual double timeAt(const Eigen::Vector2d&) const { return 0; }
+  /// The least and the largest timeAt().
+  virtual TimeSpan times() const { return {}; }
+  /// Whether timeAt() is not 0 throughout.
+  bool rolls() const { return this->times().first != 0 || this->times().last != 0; }
+
+  /// The projection's matrix where it is linear, nothing otherwise. With a rolling shutter it is that of each instant.
   virtual std::optional<LinearProjection> linear() const { return std::nullopt; }
 
 protected:
@@ -129,14 +146,19 @@ public:
   }
 };
 
-/// A camera at one instant, as the ground truth needs it.
+class InstantSource;
+
+/// A camera at one instant, as the ground truth needs it; or at the instants of a rolling shutter.
 struct View
 {
   std::string name;
   std::shared_ptr<const CameraModel> model;
-  Rigid3 camera_from_world;
-  double near = 0.1;   ///< smallest parameter of a ray that is seen (depth, or distance), scene units, > 0
-  double far = 1000.0; ///< largest one, scene units, > near
+  Rigid3 camera_from_world; ///< at the picture's own time
+  double near = 0.1;        ///< smallest parameter of a ray that is seen (depth, or distance), scene units, > 0
+  double far = 1000.0;      ///< largest one, scene units, > near
+  /// Where the camera and the scene are when its image points are seen (dgtkInstantSource.h); null: the whole image is
+  /// seen at once.
+  std::shared_ptr<const InstantSource> instants = nullptr;
 };
 
 /// K = [fx s cx; 0 fy cy; 0 0 1], pixels. Throws UsageError unless 1 <= width, height <= 2^20, K has that form, all its

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkError.h"
 #include "dgtkLinearCamera.h"
+#include "dgtkRollingCamera.h"
 #include "dgtkText.h"
 
 #include <algorithm>
@@ -69,18 +70,18 @@ public:
   {
     if (!of.files.empty()) // what they hold may change
     {
-      return entry.make(of);
+      return withRollingShutter(entry.make(of), of.rollingShutter);
     }
     const std::lock_guard<std::mutex> lock(this->Mutex);
     for (const Made& made : this->Last)
     {
       if (made.entry == &entry && made.of.width == of.width && made.of.height == of.height && made.of.K == of.K &&
-          made.of.numbers == of.numbers)
+          made.of.numbers == of.numbers && made.of.rollingShutter == of.rollingShutter)
       {
         return made.camera;
       }
     }
-    this->Last.push_back({ &entry, of, entry.make(of) });
+    this->Last.push_back({ &entry, of, withRollingShutter(entry.make(of), of.rollingShutter) });
     if (this->Last.size() > most)
     {
       this->Last.pop_front();

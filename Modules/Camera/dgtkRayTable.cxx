@@ -27,11 +27,17 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 }
 } // namespace
 
-RayTable::RayTable(int rows, int columns, std::vector<CameraRay> rays)
+RayTable::RayTable(int rows, int columns, std::vector<CameraRay> rays, std::vector<double> times)
   : Rows(rows)
   , Columns(columns)
   , Rays(std::move(rays))
+  , Times(std::move(times))
 {
+  if (!this->Times.empty())
+  {
+    const auto ends = std::minmax_element(this->Times.begin(), this->Times.end());
+    this->Span = { *ends.first, *ends.second };
+  }
   const auto blocks = [](int cells) { return (cells + blockSide - 1) / blockSide; };
   Level level{ blocks(columns - 1), blocks(rows - 1), {} };
   for (int row = 0; row < level.rows; ++row)
@@ -119,6 +125,24 @@ CameraRay RayTable::ray(const Eigen::Vector2d& point) const
     }
   }
   return { Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero() };
+}
+
+double RayTable::time(const Eigen::Vector2d& point) const
+{
+  if (this->Times.empty())
+  {
+    return 0;
+  }
+  const Eigen::Vector2d last(this->Columns - 1, this->Rows - 1);
+  const Eigen::Vector2d at = Eigen::Vector2d(point.array() - 0.5).cwiseMax(0.0).cwiseMin(last);
+  const int column = std::clamp(static_cast<int>(std::floor(at.x())), 0, this->Columns - 2);
+  const int row = std::clamp(static_cast<int>(std::floor(at.y())), 0, this->Rows - 2);
+  const double* const first = this->Times.data() + std::size_t(row) * this->Columns + column;
+  // Equal times give the same one, whatever the weights round to.
+  const auto between = [](double from, double to, double part) { return from + part * (to - from); };
+  const double above = between(first[0], first[1], at.x() - column);
+  const double below = between(first[this->Columns], first[this->Columns + 1], at.x() - column);
+  return between(above, below, at.y() - row);
 }
 
 /// Where the way to the point is along the ray: Newton's method on what it is across.

@@ -14,17 +14,22 @@ namespace dgtk
 {
 
 /// Rays through the centres of the pixels of an image; between them directions and origins are interpolated, each from
-/// four, and up to the image's border continued. Where one of the four is not there, there is none.
+/// four, and up to the image's border continued. Where one of the four is not there, there is none. They may have
+/// times, which are interpolated in the same way.
 class RayTable
 {
 public:
-  /// Of a .npy file: float32 or float64, rows x columns x 3 (directions) or x 6 (origins, directions), camera frame.
-  /// Rays with a direction of zero or a number that is not finite are not there. Throws InputError. Files that were
-  /// read last are kept.
+  /// Of a .npy file: float32 or float64, rows x columns x 3 (directions) or x 6 (origins, directions), camera frame, or
+  /// one more for the time in frames. Rays with a direction of zero or a number that is not finite are not there.
+  /// Throws InputError. Files that were read last are kept.
   static std::shared_ptr<const RayTable> read(const std::string& path);
 
   int rows() const { return this->Rows; }
   int columns() const { return this->Columns; }
+  /// The least and the largest time of a ray, frames after the picture's own.
+  TimeSpan times() const { return this->Span; }
+  /// At a point of the table, frames after the picture's own; beyond the centres of its outermost pixels as there.
+  double time(const Eigen::Vector2d& point) const;
 
   /// At a point of the table, in pixels. Its direction has length 1, or is zero.
   CameraRay ray(const Eigen::Vector2d& point) const;
@@ -60,7 +65,7 @@ private:
     std::vector<Bounds> blocks;
   };
 
-  RayTable(int rows, int columns, std::vector<CameraRay> rays);
+  RayTable(int rows, int columns, std::vector<CameraRay> rays, std::vector<double> times);
   const CameraRay& at(int column, int row) const { return this->Rays[std::size_t(row) * this->Columns + column]; }
   bool isWhole(int column, int row) const;
   Cell cell(int column, int row) const;
@@ -72,6 +77,8 @@ private:
   int Rows;
   int Columns;
   std::vector<CameraRay> Rays;
+  std::vector<double> Times; ///< frames, one a ray; empty: all 0
+  TimeSpan Span;
   std::vector<Level> Levels; ///< the last one has one block
 };
 

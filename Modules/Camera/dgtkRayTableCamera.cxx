@@ -33,6 +33,12 @@ public:
     return true;
   }
 
+  double timeAt(const Eigen::Vector2d& pixel) const override
+  {
+    return this->Table->time(pixel.cwiseProduct(this->Scale));
+  }
+  TimeSpan times() const override { return this->Table->times(); }
+
 private:
   std::shared_ptr<const RayTable> Table;
   Eigen::Vector2d Scale; ///< pixels of the table a pixel
@@ -43,7 +49,8 @@ std::shared_ptr<const CameraModel> make(const CameraParameters& of) { return std
 CameraParameter raysParameter()
 {
   CameraParameter parameter{ "rays", "",
-    "rays of the pixels, camera frame: .npy, height x width x 3 or x 6 (origins first)" };
+    "rays of the pixels, camera frame: .npy, height x width x 3 or x 6 (origins first), or one more with times in "
+    "frames" };
   parameter.kind = CameraParameter::Kind::File;
   return parameter;
 }

@@ -11,6 +11,7 @@
 #include <deque>
 #include <filesystem>
 #include <mutex>
+#include <utility>
 
 namespace dgtk
 {
@@ -19,6 +20,7 @@ namespace
 {
 constexpr std::size_t mostKept = 4;
 constexpr int mostSide = 1 << 16;
+constexpr double mostFrames = 1000; ///< between a ray and its picture
 
 /// As numpy.save() writes it.
 struct Header
@@ -33,7 +35,8 @@ struct Header
 [[noreturn]] void fail(const std::string& path, const std::string& found)
 {
   throw InputError(path, 0, "is no table of rays",
-    "a NumPy array of float32 or float64, height x width x 3 (directions) or x 6 (origins, directions), 2 x 2 at least",
+    "a NumPy array of float32 or float64, height x width x 3 (directions) or x 6 (origins, directions), or one more "
+    "(times in frames), 2 x 2 at least",
     found);
 }
 
@@ -60,14 +63,10 @@ Header readHeader(const std::string& path, const std::string& file)
   {
     fail(path, quoted(shown));
   }
-  if (header.channels == 4 || header.channels == 7)
-  {
-    throw InputError(path, 0, "has a time with each ray, and rolling shutters are not known", "3 or 6 numbers a pixel",
-      std::to_string(header.channels));
-  }
   header.bytes = std::size_t(bytes);
   const std::size_t numbers = std::size_t(header.rows) * std::size_t(header.columns) * std::size_t(header.channels);
-  if ((header.channels != 3 && header.channels != 6) || file.size() != header.start + numbers * header.bytes)
+  const int lines = header.channels % 3 == 1 ? header.channels - 1 : header.channels; // without the time
+  if ((lines != 3 && lines != 6) || file.size() != header.start + numbers * header.bytes)
   {
     fail(path, quoted(shown) + " and " + std::to_string(file.size() - std::min(file.size(), header.start)) + " bytes");
   }
@@ -83,16 +82,19 @@ double numberAt(const std::string& file, const Header& header, std::size_t index
   return header.bytes == 8 ? wide : double(narrow);
 }
 
-std::vector<CameraRay> raysOf(const std::string& file, const Header& header)
+/// `times` stays empty where there are none but 0.
+std::vector<CameraRay> raysOf(
+  const std::string& path, const std::string& file, const Header& header, std::vector<double>& times)
 {
   std::vector<CameraRay> rays(std::size_t(header.rows) * std::size_t(header.columns));
+  bool timed = false;
   std::size_t index = 0;
   for (CameraRay& ray : rays)
   {
     ray = { Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero() };
     for (Eigen::Vector3d* part : { &ray.origin, &ray.direction })
     {
-      for (int i = 0; i < 3 && (header.channels == 6 || part == &ray.direction); ++i)
+      for (int i = 0; i < 3 && (header.channels >= 6 || part == &ray.direction); ++i)
       {
         (*part)[i] = numberAt(file, header, index++);
       }
@@ -101,6 +103,21 @@ std::vector<CameraRay> raysOf(const std::string& file, const Header& header)
     const bool there = ray.origin.allFinite() && std::isfinite(length) && length > 0;
     ray = there ? CameraRay{ ray.origin, ray.direction / length }
                 : CameraRay{ Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero() };
+    if (header.channels % 3 == 1)
+    {
+      const double time = numberAt(file, header, index++);
+      if (there && !(std::abs(time) <= mostFrames))
+      {
+        fail(path, "a time of " + shortest(time) + " frames (expected -" + shortest(mostFrames) + " to " +
+                     shortest(mostFrames) + ")");
+      }
+      times.push_back(there ? time : 0);
+      timed = timed || times.back() != 0;
+    }
+  }
+  if (!timed)
+  {
+    times.clear();
   }
   return rays;
 }
@@ -130,7 +147,9 @@ std::shared_ptr<const RayTable> RayTable::read(const std::string& path)
   }
   const std::string file = readFile(path);
   const Header header = readHeader(path, file);
-  now.table.reset(new RayTable(header.rows, header.columns, raysOf(file, header)));
+  std::vector<double> times;
+  std::vector<CameraRay> rays = raysOf(path, file, header, times);
+  now.table.reset(new RayTable(header.rows, header.columns, std::move(rays), std::move(times)));
   kept.push_back(now);
   if (kept.size() > mostKept)
   {

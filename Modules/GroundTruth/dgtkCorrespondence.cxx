@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCorrespondence.h"
 
+#include "dgtkSeenInTime.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -41,19 +43,31 @@ public:
   {
     this->Indices.push_back(index);
     this->Hits.push_back(hit);
-    this->Worlds.push_back(carriedPoint(*this->Other.state, hit, barycentrics));
-    this->Points.emplace_back(this->Other.view.camera_from_world * this->Worlds.back());
+    if (!this->Other.view.instants)
+    {
+      this->Worlds.push_back(carriedPoint(*this->Other.state, hit, barycentrics));
+      this->Points.emplace_back(this->Other.view.camera_from_world * this->Worlds.back());
+      return;
+    }
+    const SeenInTime seen = seenInTime(this->Other.view, hit, barycentrics);
+    this->Worlds.push_back(seen.x_in_world);
+    this->Points.push_back(seen.x_in_camera);
+    this->Pixels.push_back(seen.pixel);
+    this->Seen.push_back(seen.seen ? 1 : 0);
+    this->Frames.push_back(seen.frame);
   }
 
   /// Where they are: answer(index, pixel, class), with a pixel that is not-a-number where there is none.
   template <class Answer>
   void follow(const Answer& answer)
   {
-    const CameraModel& model = *this->Other.view.model;
     const std::size_t count = this->Points.size();
-    this->Pixels.assign(count, Eigen::Vector2d(nowhere, nowhere));
-    this->Seen.resize(count);
-    model.projectAll(this->Points.data(), count, this->Pixels.data(), this->Seen.data());
+    if (!this->Other.view.instants)
+    {
+      this->Pixels.assign(count, Eigen::Vector2d(nowhere, nowhere));
+      this->Seen.resize(count);
+      this->Other.view.model->projectAll(this->Points.data(), count, this->Pixels.data(), this->Seen.data());
+    }
     std::size_t asked = 0;
     for (std::size_t i = 0; i < count; ++i)
     {
@@ -67,11 +81,14 @@ public:
       this->Hits[asked] = this->Hits[i];
       this->Worlds[asked] = this->Worlds[i];
       this->Pixels[asked] = this->Pixels[i];
+      if (this->Other.view.instants)
+      {
+        this->Frames[asked] = this->Frames[i];
+      }
       ++asked;
     }
     this->Before.resize(asked);
-    this->Other.occlusion->occluders(
-      this->Other.view, this->Worlds.data(), this->Hits.data(), asked, this->Before.data());
+    this->findOccluders(asked);
     for (std::size_t i = 0; i < asked; ++i)
     {
       answer(this->Indices[i], this->Pixels[i], classOf(this->Hits[i], this->Before[i]));
@@ -80,9 +97,23 @@ public:
     this->Hits.clear();
     this->Worlds.clear();
     this->Points.clear();
+    this->Pixels.clear();
+    this->Seen.clear();
+    this->Frames.clear();
   }
 
 private:
+  void findOccluders(std::size_t count)
+  {
+    const View& view = this->Other.view;
+    const OcclusionQuery& query = *this->Other.occlusion;
+    if (view.instants)
+    {
+      query.occludersAt(view, this->Frames.data(), this->Worlds.data(), this->Hits.data(), count, this->Before.data());
+      return;
+    }
+    query.occluders(view, this->Worlds.data(), this->Hits.data(), count, this->Before.data());
+  }
   bool isInView(const Eigen::Vector3d& x_in_camera, const Eigen::Vector2d& pixel) const
   {
     const View& view = this->Other.view;
@@ -103,6 +134,7 @@ private:
   std::vector<Eigen::Vector3d> Points; ///< in the frame of the camera
   std::vector<Eigen::Vector2d> Pixels;
   std::vector<std::uint8_t> Seen;
+  std::vector<double> Frames; ///< of a view with instants
   // ... and of those that are asked for
   std::vector<Hit> Before;
 };
@@ -146,7 +178,7 @@ Correspondence correspondPixel(const SceneState& state, const View& view, const 
   {
     return {};
   }
-  const SurfacePoint point = surfacePointAt(state, view, pixel, first);
+  const SurfacePoint point = surfacePointSeen(state, view, pixel, first);
   return std::isfinite(point.t) ? correspond(other, first, point.barycentrics) : Correspondence{};
 }
 
@@ -190,18 +222,26 @@ void correspondRows(const SurfaceRows& in, const OtherView& other, double* pixel
   }
 }
 
-void sceneFlowRows(const SurfaceRows& in, const SceneState& next, double* motion)
+void sceneFlowRows(const SurfaceRows& in, const OtherView& next, double* motion)
 {
   const Eigen::Matrix3d& rotation = in.view->camera_from_world.rotation;
   for (std::size_t i = 0; i < in.t.size(); ++i)
   {
     Eigen::Map<Eigen::Vector3d> value(motion + 3 * i);
     value.setConstant(nowhere);
-    if (std::isfinite(in.t[i]))
+    if (!std::isfinite(in.t[i]))
     {
-      const Eigen::Vector2d barycentrics(in.barycentrics[2 * i], in.barycentrics[2 * i + 1]);
-      value =
-        rotation * (carriedPoint(next, in.hits[i], barycentrics) - carriedPoint(*in.state, in.hits[i], barycentrics));
+      continue;
+    }
+    const Eigen::Vector2d barycentrics(in.barycentrics[2 * i], in.barycentrics[2 * i + 1]);
+    const Eigen::Vector3d now = carriedPoint(*in.state, in.hits[i], barycentrics);
+    if (!next.view.instants)
+    {
+      value = rotation * (carriedPoint(*next.state, in.hits[i], barycentrics) - now);
+    }
+    else if (const SeenInTime then = seenInTime(next.view, in.hits[i], barycentrics); then.seen)
+    {
+      value = rotation * (then.x_in_world - now);
     }
   }
 }

@@ -27,7 +27,7 @@ enum class VisibilityClass : std::uint8_t
 /// A view of a scene, maybe at another time; the objects are those of the first view's scene.
 struct OtherView
 {
-  const SceneState* state = nullptr;
+  const SceneState* state = nullptr; ///< of a view with `instants` it is not used
   View view;
   const OcclusionQuery* occlusion = nullptr; ///< of `state`
 };
@@ -59,9 +59,10 @@ DGTKGROUNDTRUTH_EXPORT Correspondence correspondPixel(const SceneState& state, c
 DGTKGROUNDTRUTH_EXPORT void correspondRows(
   const SurfaceRows& in, const OtherView& other, double* pixels, std::uint8_t* classes);
 
-/// Motion of the surface points of rows (barycentrics computed) to the scene `next`: camera_from_world.rotation *
-/// (X(next) - X), scene units, axes of the camera of the rows; 3 values a pixel, NaN where there is nothing.
-DGTKGROUNDTRUTH_EXPORT void sceneFlowRows(const SurfaceRows& in, const SceneState& next, double* motion);
+/// Motion of the surface points of rows (barycentrics computed) to the scene of the next view:
+/// camera_from_world.rotation * (X(next) - X), scene units, axes of the camera of the rows; 3 values a pixel, NaN where
+/// there is nothing. Of a next view with `instants` until the point is seen there; NaN where it is not, at any time.
+DGTKGROUNDTRUTH_EXPORT void sceneFlowRows(const SurfaceRows& in, const OtherView& next, double* motion);
 
 } // namespace dgtk
 

@@ -46,7 +46,7 @@ std::vector<PixelPlane> pixelPlanes(const SurfaceRows& row)
     {
       continue;
     }
-    const CameraRay ray = row.view->model->rayThrough({ double(x) + 0.5, row.rect.y + 0.5 });
+    const CameraRay ray = row.view->model->rayThrough({ row.rect.x + double(x) + 0.5, row.rect.y + 0.5 });
     planes[x].object = row.hits[x].object;
     planes[x].point = ray.origin + row.t[x] * ray.direction;
     planes[x].range = row.t[x];

@@ -19,7 +19,7 @@ constexpr std::uint8_t noEdge = 0;
 constexpr std::uint8_t depthEdge = 128;  ///< a neighbour of the same object lies off the plane, and vice versa
 constexpr std::uint8_t objectEdge = 255; ///< a neighbour has another object
 
-/// A pixel's surface: its point and the plane of its triangle in the camera frame.
+/// A pixel's surface: its point and the plane of its triangle in the camera frame of the time at which it is seen.
 struct PixelPlane
 {
   std::uint32_t object = 0; ///< 0: no surface
@@ -32,7 +32,7 @@ struct PixelPlane
 /// than 1 % of the smaller range.
 DGTKGROUNDTRUTH_EXPORT std::uint8_t edgeBetween(const PixelPlane& a, const PixelPlane& b);
 
-/// The pixels' planes of one row of surfaces.
+/// The pixels' planes of one row of surfaces, or a part of one.
 DGTKGROUNDTRUTH_EXPORT std::vector<PixelPlane> pixelPlanes(const SurfaceRows& row);
 
 /// Marks the pixels of an image with the largest edge to their four neighbours. Two rows are known at a time: a row's

@@ -85,7 +85,7 @@ public:
     std::size_t i = 0;
     for (int y = this->In.rect.y; y < this->In.rect.y + this->In.rect.height; ++y)
     {
-      for (int x = 0; x < this->In.rect.width; ++x, ++i)
+      for (int x = this->In.rect.x; x < this->In.rect.x + this->In.rect.width; ++x, ++i)
       {
         this->Pixel.clear();
         if (this->In.first[i].object != 0)

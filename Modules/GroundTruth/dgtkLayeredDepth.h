@@ -24,7 +24,7 @@ struct LayeredSurface
   Hit hit;
 };
 
-/// Surfaces of one rank as OpenGL peels them: full-width rows of the input's rectangle.
+/// Surfaces of one rank, of the pixels of the input's rectangle.
 struct PeeledRows
 {
   const Hit* hits = nullptr;   ///< 1 per pixel; object 0: no surface of this rank
@@ -34,13 +34,13 @@ struct PeeledRows
 /// What layered depth rows are made of.
 struct LayeredInput
 {
-  PixelRect rect;             ///< x = 0, full width
+  PixelRect rect;             ///< full-width rows, or a part of one row
   const Hit* first = nullptr; ///< the visibility buffer: what every other layer takes for the first surface
   const float* rgb = nullptr; ///< the picture, 3 per pixel, where it has one sample a pixel; else null
   std::vector<PeeledRows> ranks;
 };
 
-/// Layered depth pixels of full-width rows.
+/// Layered depth pixels of the input's rectangle.
 struct LayeredRows
 {
   std::vector<std::uint32_t> counts; ///< surfaces of each pixel, rows top to bottom

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkObjectTruth.h"
 
+#include "dgtkSeenInTime.h"
+
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace dgtk
 {
@@ -131,7 +134,17 @@ void decompose(const Eigen::Matrix3d& linear, ObjectPose& pose)
 }
 } // namespace
 
-ObjectPose objectPose(const Instance& instance, const View& view)
+namespace
+{
+bool seesInTime(const View& view, const Hit& hit, const Eigen::Vector2d& weights, Eigen::Vector2d& pixel)
+{
+  const SeenInTime seen = seenInTime(view, hit, weights);
+  pixel = seen.pixel;
+  return seen.seen;
+}
+} // namespace
+
+ObjectPose objectPose(const Instance& instance, std::uint32_t id, const View& view)
 {
   ObjectPose pose;
   const Affine3 camera_from_object = view.camera_from_world * instance.world_from_object;
@@ -143,26 +156,25 @@ ObjectPose objectPose(const Instance& instance, const View& view)
   Eigen::Vector4d projected(infinite, infinite, -infinite, -infinite);
   const std::vector<Eigen::Vector3d>& positions = instance.geometry->positions;
   std::vector<char> used(positions.size(), 0);
-  for (const auto& triangle : instance.model->triangles)
+  for (std::size_t t = 0; t < instance.model->triangles.size(); ++t)
   {
-    for (const std::uint32_t corner : triangle)
+    for (int k = 0; k < 3; ++k)
     {
-      used[corner] = 1;
-    }
-  }
-  for (std::size_t i = 0; i < positions.size(); ++i)
-  {
-    if (!used[i])
-    {
-      continue;
-    }
-    least = least.cwiseMin(positions[i]);
-    most = most.cwiseMax(positions[i]);
-    Eigen::Vector2d pixel;
-    if (view.model->project(camera_from_object * positions[i], pixel))
-    {
-      projected.head<2>() = projected.head<2>().cwiseMin(pixel);
-      projected.tail<2>() = projected.tail<2>().cwiseMax(pixel);
+      const std::uint32_t corner = instance.model->triangles[t][std::size_t(k)];
+      if (std::exchange(used[corner], 1) != 0)
+      {
+        continue;
+      }
+      least = least.cwiseMin(positions[corner]);
+      most = most.cwiseMax(positions[corner]);
+      Eigen::Vector2d pixel;
+      const Eigen::Vector2d weights(k == 1 ? 1 : 0, k == 2 ? 1 : 0);
+      if (view.instants ? seesInTime(view, { id, std::uint32_t(t) }, weights, pixel)
+                        : view.model->project(camera_from_object * positions[corner], pixel))
+      {
+        projected.head<2>() = projected.head<2>().cwiseMin(pixel);
+        projected.tail<2>() = projected.tail<2>().cwiseMax(pixel);
+      }
     }
   }
   if (projected[0] <= projected[2])
@@ -214,7 +226,7 @@ void BlockObjects::markObject(std::uint32_t object, const Instance& instance, co
     Eigen::Vector2d pixel;
     double z;
   };
-  if (!view.model->linear()) // lines are curved
+  if (!view.model->linear() || view.instants) // lines are curved
   {
     this->mark(object, 0, 0, view.model->width(), view.model->height());
     return;

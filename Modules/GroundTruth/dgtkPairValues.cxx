@@ -51,8 +51,9 @@ void pairRows(const PixelRect& rect, const double* pixels, PairValue value, doub
 
 double rectifiedBaseline(const View& a, const View& b)
 {
-  const auto own = a.model->linear();
-  const auto other = b.model->linear();
+  const auto linear = [](const View& view) { return view.instants ? std::nullopt : view.model->linear(); };
+  const auto own = linear(a);
+  const auto other = linear(b);
   if (!own || !other || !own->perspective || !other->perspective || a.model->width() != b.model->width() ||
       a.model->height() != b.model->height())
   {

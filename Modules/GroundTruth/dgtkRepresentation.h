@@ -43,10 +43,6 @@ DGTKGROUNDTRUTH_EXPORT const std::vector<RepresentationInfo>& representations();
 /// The representation of a layer. Throws UsageError for an unknown one.
 DGTKGROUNDTRUTH_EXPORT std::unique_ptr<Representation> makeRepresentation(const std::string& layer);
 
-/// Unit normals interpolated between the vertices, on the camera's side, camera frame: three numbers a pixel, NaN where
-/// there is no surface. Reads SurfaceRows::barycentrics.
-DGTKGROUNDTRUTH_EXPORT std::vector<double> shadingNormals(const SurfaceRows& in);
-
 /// Class id of each object of a state: the one that the scene fixes, else from 1 in the order in which the classes
 /// first appear; objects without a class share the class of the empty name.
 DGTKGROUNDTRUTH_EXPORT std::vector<std::uint32_t> classIds(const SceneState& state);

@@ -5,6 +5,7 @@
 #include "dgtkRepresentation.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -14,15 +15,15 @@ namespace dgtk
 /// Value of `parts` and `triangles` where there is nothing.
 constexpr std::uint32_t noId = 0xFFFFFFFFu;
 
-/// Calls body(index, x, y, value) for every pixel with a surface, in rows top to bottom; `index` into SurfaceRows::t
-/// and hits, `value` the pixel's channels. The others get `invalid` in all channels.
+/// Calls body(index, x, y, value) for every pixel of `in` with a surface, in rows top to bottom; `index` into
+/// SurfaceRows::t and hits, `value` the pixel's channels. The others get `invalid` in all channels.
 template <typename T, int Channels, typename Body>
 void forSurface(const SurfaceRows& in, Rows& out, T invalid, const Body& body)
 {
   std::size_t index = 0;
   for (int y = in.rect.y; y < in.rect.y + in.rect.height; ++y)
   {
-    T* value = out.row<T>(y);
+    T* value = out.row<T>(y) + std::ptrdiff_t(in.rect.x) * Channels;
     for (int x = in.rect.x; x < in.rect.x + in.rect.width; ++x, ++index, value += Channels)
     {
       if (in.t[index] < std::numeric_limits<double>::infinity())

@@ -257,8 +257,10 @@ void checkCameras(const WorkPlan& plan, const Stage& stage)
       continue;
     }
     const View view = stage.view(job.camera, job.frame, request.width, request.height);
-    const std::string who = "camera " + quoted(view.name) + " (" + view.model->name() + ") has no linear projection";
-    for (const PlannedLayer& planned : view.model->linear() ? std::vector<PlannedLayer>() : plan.layers)
+    const bool linear = view.model->linear() && !view.instants;
+    const std::string who = "camera " + quoted(view.name) + " (" + view.model->name() + ") has " +
+                            (view.instants ? "a rolling shutter" : "no linear projection");
+    for (const PlannedLayer& planned : linear ? std::vector<PlannedLayer>() : plan.layers)
     {
       const LayerNeeds needs = planned.layer->needs(request, stage);
       const bool picture = needs.color || needs.sharp;

@@ -23,7 +23,7 @@ Eigen::Vector3d imageOf(const LinearProjection& projection, const Eigen::Vector3
 std::optional<Eigen::Vector3d> epipolarLine(const View& from, const Eigen::Vector2d& pixel, const View& to)
 {
   const std::optional<LinearProjection> projection = to.model->linear();
-  if (!projection || !from.model->linear())
+  if (!projection || !from.model->linear() || from.instants || to.instants)
   {
     return std::nullopt;
   }

@@ -17,7 +17,8 @@ namespace dgtk
 /// `from` sees at `pixel`. With o + s d the pixel's ray in the frame of `to`, the line joins K o and K d, also where
 /// one of them is a point at infinity (Hartley and Zisserman, Multiple View Geometry, 9.2; the same for parallel
 /// projections). Nothing where the ray's image is a point: it passes through the centre of `to`, or is parallel to the
-/// view of a parallel projection. Nothing for cameras that are not linear().
+/// view of a parallel projection. Nothing for cameras that are not linear(), or have a
+/// rolling shutter.
 DGTKLIVE_EXPORT std::optional<Eigen::Vector3d> epipolarLine(
   const View& from, const Eigen::Vector2d& pixel, const View& to);
 

@@ -3,8 +3,10 @@
 
 #include "dgtkEpipolarLine.h"
 #include "dgtkError.h"
+#include "dgtkSeenInTime.h"
 #include "dgtkSurfaceRows.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,21 +22,52 @@ void describe(LiveMatch& match, const LiveScene::Moment& now, const LiveScene::M
   match.object = instance.name;
   match.part = instance.model->partOf(match.hit.triangle);
   match.triangle = match.hit.triangle - instance.model->parts[match.part].firstTriangle;
-  const SurfacePoint point = surfacePointAt(*now.state, from.view, match.from, match.hit);
-  match.worldFrom = carriedPoint(*now.state, match.hit, point.barycentrics);
-  match.worldTo = carriedPoint(*then.state, match.hit, point.barycentrics);
+  const SurfacePoint point = surfacePointSeen(*now.state, from.view, match.from, match.hit);
+  const Eigen::Vector2d& weights = point.barycentrics;
+  match.worldFrom = from.view.instants ? carriedPoint(*instantOf(from.view, from.view.model->timeAt(match.from)).state,
+                                           match.hit, weights)
+                                       : carriedPoint(*now.state, match.hit, weights);
+  const SeenInTime seen = to.view.instants ? seenInTime(to.view, match.hit, weights) : SeenInTime{};
+  match.worldTo = to.view.instants ? seen.x_in_world : carriedPoint(*then.state, match.hit, weights);
   match.depthFrom = point.t;
-  match.depthTo = (to.view.camera_from_world * match.worldTo).z();
+  match.depthTo = to.view.instants ? seen.x_in_camera.z() : (to.view.camera_from_world * match.worldTo).z();
   if (match.to.visibility == VisibilityClass::OccludedByOther || match.to.visibility == VisibilityClass::OccludedByOwn)
   {
-    const Hit before = then.occlusion->occluder(to.view, match.worldTo, match.hit);
+    Hit before;
+    if (to.view.instants)
+    {
+      then.occlusion->occludersAt(to.view, &seen.frame, &match.worldTo, &match.hit, 1, &before);
+    }
+    else
+    {
+      before = then.occlusion->occluder(to.view, match.worldTo, match.hit);
+    }
     match.occluder = before.object != 0 ? then.state->instances[before.object - 1].name : std::string();
   }
 }
 } // namespace
 
-LiveMatch liveMatch(const LiveScene& scene, const MatchView& from, const Eigen::Vector2d& pixel, const MatchView& to)
+namespace
 {
+/// A rolling shutter's view with what it sees at which time.
+MatchView inTime(const LiveScene& scene, const MatchView& place)
+{
+  if (place.view.instants || !place.view.model->rolls())
+  {
+    return place;
+  }
+  const std::vector<std::string> names = scene.stage()->cameraNames();
+  const auto camera = static_cast<std::size_t>(std::find(names.begin(), names.end(), place.view.name) - names.begin());
+  const CameraModel& model = *place.view.model;
+  return { scene.stage()->view(camera, place.frame, model.width(), model.height()), place.frame };
+}
+} // namespace
+
+LiveMatch liveMatch(
+  const LiveScene& scene, const MatchView& fromPlace, const Eigen::Vector2d& pixel, const MatchView& toPlace)
+{
+  const MatchView from = inTime(scene, fromPlace);
+  const MatchView to = inTime(scene, toPlace);
   const CameraModel& model = *from.view.model;
   if (!(pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= model.width() && pixel.y() <= model.height()))
   {

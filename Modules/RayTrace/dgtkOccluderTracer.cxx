@@ -13,9 +13,35 @@ namespace
 constexpr double pointSlack = 1e-9;
 /// Pixels.
 constexpr double coarseError = 1.0 / 16;
+
+/// Where single precision cannot tell.
+Hit firstAround(const RayScene& scene, const ExactRay& ray, const Hit& target)
+{
+  std::vector<RayHit> all;
+  collectHits(scene, ray, true, all);
+  const auto first = std::find_if(all.begin(), all.end(), [&](const RayHit& hit) { return hit.hit != target; });
+  return first == all.end() ? Hit{} : first->hit;
+}
 } // namespace
 
 bool isCoarse(const RayScene& scene, const View& view) { return scene.errorInPixels(view) > coarseError; }
+
+Hit nearestOnRay(const RayScene& scene, const ExactRay& ray, const Hit& target, bool coarse)
+{
+  RayContext context;
+  rtcInitIntersectContext(&context.context);
+  context.context.filter = rayFilter;
+  context.scene = &scene;
+  context.mode = RayContext::Mode::Checked;
+  context.rays = &ray;
+  context.skip = &target;
+  context.t[0] = INFINITY;
+  if (!coarse)
+  {
+    traceRays(scene, &ray, 1, context);
+  }
+  return coarse || context.marginal != 0 ? firstAround(scene, ray, target) : context.best[0];
+}
 
 OccluderTracer::OccluderTracer(std::shared_ptr<const RayScene> scene, const View& view)
   : Scene(std::move(scene))
@@ -24,21 +50,21 @@ OccluderTracer::OccluderTracer(std::shared_ptr<const RayScene> scene, const View
 {
   rtcInitIntersectContext(&this->Context.context);
   this->Context.context.flags =
-    isCoherent(view) ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    isCoherent(view) && !view.instants ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   this->Context.context.filter = rayFilter;
   this->Context.scene = this->Scene.get();
   this->Context.mode = RayContext::Mode::Checked;
   this->Context.rays = this->Rays;
 }
 
-unsigned int OccluderTracer::aim(const Eigen::Vector3d* x_in_world, std::size_t count)
+unsigned int OccluderTracer::aim(const Eigen::Vector3d* x_in_world, std::size_t count, const Rigid3* poses)
 {
   Eigen::Vector3d* const x = this->Points;
   Eigen::Vector2d* const pixels = this->Pixels;
   CameraRay* const rays = this->CameraRays;
   for (std::size_t i = 0; i < count; ++i)
   {
-    x[i] = this->TheView.camera_from_world * x_in_world[i];
+    x[i] = (poses ? poses[i] : this->TheView.camera_from_world) * x_in_world[i];
     pixels[i].setZero();
   }
   this->TheView.model->projectAll(x, count, pixels, this->Seen);
@@ -50,14 +76,22 @@ unsigned int OccluderTracer::aim(const Eigen::Vector3d* x_in_world, std::size_t 
     const double t = way.dot(rays[i].direction) / rays[i].direction.squaredNorm();
     const double most = t * (1 - pointSlack);
     this->Rays[i] = { rays[i].origin, way / t, this->TheView.near, most }; // whatever the projection's rounding
+    if (poses)
+    {
+      const Rigid3 scene_from_camera = this->Scene->pose() * poses[i].inverse();
+      this->Rays[i].origin = scene_from_camera * this->Rays[i].origin;
+      this->Rays[i].direction = scene_from_camera.rotation * this->Rays[i].direction;
+    }
     active |= unsigned(this->Seen[i] != 0 && most > this->TheView.near) << i;
   }
   return active;
 }
 
-void OccluderTracer::trace(const Eigen::Vector3d* x_in_world, const Hit* targets, std::size_t count, Hit* found)
+void OccluderTracer::trace(
+  const Eigen::Vector3d* x_in_world, const Hit* targets, std::size_t count, Hit* found, const Rigid3* poses)
 {
-  const unsigned int active = this->aim(x_in_world, count);
+  const unsigned int active = this->aim(x_in_world, count, poses);
+  this->Active = active;
   std::fill(this->Context.t, this->Context.t + lanes, INFINITY);
   std::fill(this->Context.best, this->Context.best + lanes, Hit{});
   this->Context.skip = targets;
@@ -65,17 +99,9 @@ void OccluderTracer::trace(const Eigen::Vector3d* x_in_world, const Hit* targets
   traceRays(*this->Scene, this->Rays, active, this->Context);
   for (std::size_t i = 0; i < count; ++i)
   {
-    found[i] =
-      (this->Context.marginal >> i & 1U) != 0 ? this->traceAround(this->Rays[i], targets[i]) : this->Context.best[i];
+    found[i] = (this->Context.marginal >> i & 1U) != 0 ? firstAround(*this->Scene, this->Rays[i], targets[i])
+                                                       : this->Context.best[i];
   }
-}
-
-Hit OccluderTracer::traceAround(const ExactRay& ray, const Hit& target) const
-{
-  std::vector<RayHit> all;
-  collectHits(*this->Scene, ray, true, all);
-  const auto first = std::find_if(all.begin(), all.end(), [&](const RayHit& hit) { return hit.hit != target; });
-  return first == all.end() ? Hit{} : first->hit;
 }
 
 } // namespace dgtk

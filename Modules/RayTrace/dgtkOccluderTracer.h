@@ -13,6 +13,9 @@ namespace dgtk
 /// 30,000 pixels wide. Rays are looked around at once then.
 bool isCoarse(const RayScene& scene, const View& view);
 
+/// The first surface on a ray that is not `target`; object 0 when there is none. `coarse`: see isCoarse().
+Hit nearestOnRay(const RayScene& scene, const ExactRay& ray, const Hit& target, bool coarse);
+
 /// What stands between a camera and points, up to 16 at a time. One thread.
 class OccluderTracer
 {
@@ -21,20 +24,22 @@ public:
 
   OccluderTracer(std::shared_ptr<const RayScene> scene, const View& view);
 
-  /// OcclusionQuery::occluder() of `count` <= 16 points; what is found for one does not depend on the others.
-  void trace(const Eigen::Vector3d* x_in_world, const Hit* targets, std::size_t count, Hit* found);
+  /// OcclusionQuery::occluder() of `count` <= 16 points; what is found for one does not depend on the others. `poses`:
+  /// camera_from_world of each, where they are others than that of the scene.
+  void trace(const Eigen::Vector3d* x_in_world, const Hit* targets, std::size_t count, Hit* found,
+    const Rigid3* poses = nullptr);
+  /// The ray that trace() asked last for a point, in the frame of the scene; null where there is none.
+  const ExactRay* rayOfLane(std::size_t i) const { return (this->Active >> i & 1U) != 0 ? &this->Rays[i] : nullptr; }
 
 private:
   /// Sets the lanes' rays, from the camera through the points and a little less far; returns the bits of those that
   /// there are.
-  unsigned int aim(const Eigen::Vector3d* x_in_world, std::size_t count);
-  /// Where single precision cannot tell.
-  Hit traceAround(const ExactRay& ray, const Hit& target) const;
-
+  unsigned int aim(const Eigen::Vector3d* x_in_world, std::size_t count, const Rigid3* poses);
   std::shared_ptr<const RayScene> Scene;
   const View& TheView;
   bool Coarse;
   RayContext Context;
+  unsigned int Active = 0; ///< bits of the lanes that have a ray
   ExactRay Rays[lanes];
   // Of the points, in the frame of the camera.
   Eigen::Vector3d Points[lanes];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRaySource.h"
 
+#include "dgtkInstantSource.h"
+#include "dgtkMovingOccluders.h"
 #include "dgtkOccluderTracer.h"
 #include "dgtkRayScene.h"
 #include "dgtkWorkTime.h"
@@ -17,6 +19,7 @@ namespace
 {
 /// Scenes kept placed, by pose of the camera.
 constexpr std::size_t mostPoses = 16;
+constexpr std::size_t mostMoving = 2; ///< by instants
 /// All surfaces that single precision finds along up to 16 rays, a list a ray.
 void collectCandidates(
   const RayScene& scene, const ExactRay* rays, std::size_t count, bool coherent, std::vector<Hit>* candidates)
@@ -62,9 +65,30 @@ public:
   void allHits(
     const View& view, const Eigen::Vector2d* pixels, std::size_t count, std::vector<Hit>* hits) const override
   {
+    for (std::size_t first = 0; view.instants && first < count;)
+    {
+      const double time = view.model->timeAt(pixels[first]);
+      std::size_t last = first + 1;
+      while (last < count && view.model->timeAt(pixels[last]) == time)
+      {
+        ++last;
+      }
+      const SeenInstant now = instantOf(view, time);
+      this->allHitsIn(
+        *this->scene(now.state, now.view.camera_from_world), now.view, pixels + first, last - first, hits + first);
+      first = last;
+    }
+    if (!view.instants)
+    {
+      this->allHitsIn(*this->scene(this->State, view.camera_from_world), view, pixels, count, hits);
+    }
+  }
+
+  static void allHitsIn(
+    const RayScene& scene, const View& view, const Eigen::Vector2d* pixels, std::size_t count, std::vector<Hit>* hits)
+  {
     const WorkTime time(WorkStage::Trace);
-    const std::shared_ptr<const RayScene> scene = this->scene(view.camera_from_world);
-    const bool coarse = isCoarse(*scene, view);
+    const bool coarse = isCoarse(scene, view);
     constexpr std::size_t lanes = OccluderTracer::lanes;
     ExactRay rays[lanes];
     std::vector<Hit> candidates[lanes];
@@ -77,10 +101,10 @@ public:
         rays[i] = rayOf(view, pixels[first + i]);
         candidates[i].clear();
       }
-      collectCandidates(*scene, rays, many, isCoherent(view), candidates);
+      collectCandidates(scene, rays, many, isCoherent(view), candidates);
       for (std::size_t i = 0; i < many; ++i)
       {
-        settleHits(*scene, rays[i], coarse, candidates[i], found);
+        settleHits(scene, rays[i], coarse, candidates[i], found);
         hits[first + i].clear();
         for (const RayHit& hit : found)
         {
@@ -101,20 +125,44 @@ public:
     Hit* found) const override
   {
     const WorkTime time(WorkStage::Trace);
-    OccluderTracer tracer(this->scene(view.camera_from_world), view);
+    OccluderTracer tracer(this->scene(this->State, view.camera_from_world), view);
     for (std::size_t first = 0; first < count; first += OccluderTracer::lanes)
     {
       tracer.trace(x_in_world + first, targets + first, std::min(count - first, OccluderTracer::lanes), found + first);
     }
   }
 
+  void occludersAt(const View& view, const double* frames, const Eigen::Vector3d* x_in_world, const Hit* targets,
+    std::size_t count, Hit* found) const override
+  {
+    this->moving(view)->trace(view, frames, x_in_world, targets, count, found);
+  }
+
 private:
-  std::shared_ptr<const RayScene> scene(const Rigid3& pose) const
+  std::shared_ptr<const MovingOccluders> moving(const View& view) const
+  {
+    const std::unique_lock<std::shared_mutex> lock(this->Lock);
+    for (const std::shared_ptr<const MovingOccluders>& known : this->Moving)
+    {
+      if (known->isOf(view))
+      {
+        return known;
+      }
+    }
+    if (this->Moving.size() == mostMoving)
+    {
+      this->Moving.erase(this->Moving.begin());
+    }
+    this->Moving.push_back(std::make_shared<const MovingOccluders>(this->Device, view));
+    return this->Moving.back();
+  }
+
+  std::shared_ptr<const RayScene> scene(const std::shared_ptr<const SceneState>& state, const Rigid3& pose) const
   {
     const auto find = [&]() -> std::shared_ptr<const RayScene>
     {
-      const auto it = std::find_if(
-        this->Scenes.begin(), this->Scenes.end(), [&](const auto& s) { return samePose(s->pose(), pose); });
+      const auto it = std::find_if(this->Scenes.begin(), this->Scenes.end(),
+        [&](const auto& s) { return &s->state() == state.get() && samePose(s->pose(), pose); });
       return it == this->Scenes.end() ? nullptr : *it;
     };
     {
@@ -130,7 +178,7 @@ private:
       return known;
     }
     const auto placed = std::make_shared<RayScene>(this->Device, false);
-    placed->place(this->State, pose);
+    placed->place(state, pose);
     if (this->Scenes.size() == mostPoses)
     {
       this->Scenes.erase(this->Scenes.begin());
@@ -144,6 +192,7 @@ private:
   std::vector<std::shared_ptr<const RayMesh>> Meshes;
   mutable std::shared_mutex Lock;
   mutable std::vector<std::shared_ptr<const RayScene>> Scenes;
+  mutable std::vector<std::shared_ptr<const MovingOccluders>> Moving;
 };
 
 } // namespace

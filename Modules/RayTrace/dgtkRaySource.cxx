@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRaySource.h"
 
+#include "dgtkInstantSource.h"
 #include "dgtkRayPacket.h"
 #include "dgtkRayScene.h"
 #include "dgtkRaySettle.h"
@@ -16,6 +17,7 @@ namespace
 {
 constexpr int bandRows = 8; ///< rows that are traced as one job
 constexpr int side = PacketTracer::side;
+constexpr std::size_t partsOfJob = 16; ///< parts of a picture of many instants
 
 /// Primary rays in packets; `Bare` is the yardstick.
 template <bool Bare>
@@ -31,13 +33,21 @@ public:
 
   void setScene(std::shared_ptr<const SceneState> state, const View& view) override
   {
-    this->Scene.place(std::move(state), view.camera_from_world);
+    if (!view.instants)
+    {
+      this->Scene.place(std::move(state), view.camera_from_world);
+    }
     this->TheView = view;
   }
 
   void render(const PixelRect& rect, VisibilityBuffer& hits) override
   {
     hits.resize(rect);
+    if (this->TheView.instants)
+    {
+      this->renderInstants(hits);
+      return;
+    }
     if (Bare)
     {
       this->trace<TraceMode::Bare>(hits);
@@ -49,6 +59,36 @@ public:
   }
 
 private:
+  /// Each part as the camera of its instant sees it, with the neighbours that settling looks at.
+  void renderInstants(VisibilityBuffer& hits)
+  {
+    const CameraModel& model = *this->TheView.model;
+    const std::vector<TimedRect> parts = timedRects(model, hits.rect);
+    const auto jobs = static_cast<int>((parts.size() + partsOfJob - 1) / partsOfJob);
+    this->Pool.parallelFor(jobs,
+      [&](int job)
+      {
+        ThreadPool alone(1);
+        RaySource source(alone);
+        VisibilityBuffer around;
+        for (std::size_t i = job * partsOfJob; i < std::min(parts.size(), (job + 1) * partsOfJob); ++i)
+        {
+          const PixelRect& rect = parts[i].rect;
+          const int left = std::max(0, rect.x - 1);
+          const int top = std::max(0, rect.y - 1);
+          const SeenInstant now = instantOf(this->TheView, parts[i].time);
+          source.setScene(now.state, now.view);
+          source.render({ left, top, std::min(model.width(), rect.x + rect.width + 1) - left,
+                          std::min(model.height(), rect.y + rect.height + 1) - top },
+            around);
+          for (int y = rect.y; y < rect.y + rect.height; ++y)
+          {
+            std::copy_n(&around.at(rect.x, y), rect.width, &hits.at(rect.x, y));
+          }
+        }
+      });
+  }
+
   template <TraceMode Mode>
   void trace(VisibilityBuffer& hits)
   {

@@ -237,6 +237,7 @@ CameraParameters cameraParameters(
       made.numbers[name] = { number };
     }
   }
+  made.rollingShutter = camera.rollingShutter;
   SceneDescription place;
   place.folder = folder;
   for (const auto& [name, value] : camera.parameters)

@@ -6,6 +6,7 @@
 
 #include "dgtkCameraEntry.h"
 #include "dgtkLightKind.h"
+#include "dgtkRollingShutter.h"
 #include "dgtkSensorParameters.h"
 #include "dgtkTrack.h"
 
@@ -170,6 +171,7 @@ struct CameraDescription
   Track<Eigen::Vector3d> position{ Eigen::Vector3d(0, 0, 0) };
   Track<Quaternion> orientation; ///< world_from_camera; camera axes x right, y down, z forward
   ShutterDescription shutter;
+  RollingShutter rollingShutter;
   LensDescription lens;                   ///< pinhole only
   std::optional<SensorParameters> sensor; ///< none: the default sensor
   UnusedKeys unusedEye;

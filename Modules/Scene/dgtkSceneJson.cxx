@@ -287,6 +287,7 @@ std::map<std::string, std::vector<std::string>> jsonSceneKeys()
     { "environment", keysOf(environmentFields()) },
     { "fog", keysOf(fogFields()) },
     { "shutter", keysOf(shutterFields()) },
+    { "rollingShutter", keysOf(rollingShutterFields()) },
     { "lens", keysOf(lensFields()) },
     { "unused", keysOf(unusedFields()) },
     { "keys", { "value", "keys", "interpolation" } },

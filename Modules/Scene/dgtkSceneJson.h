@@ -34,6 +34,7 @@ const std::vector<JsonField<SceneDescription>>& sceneFields();
 const std::vector<JsonField<EnvironmentDescription>>& environmentFields();
 const std::vector<JsonField<FogDescription>>& fogFields();
 const std::vector<JsonField<ShutterDescription>>& shutterFields();
+const std::vector<JsonField<RollingShutter>>& rollingShutterFields();
 const std::vector<JsonField<LensDescription>>& lensFields();
 const std::vector<JsonField<ClassDescription>>& classFields();
 JsonField<SceneDescription> classesRow();

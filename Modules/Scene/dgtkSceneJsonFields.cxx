@@ -230,6 +230,7 @@ const std::vector<JsonField<Camera>>& cameraFields()
     poseRow<&Camera::position, rules::coordinate, true>("position"),
     poseRow<&Camera::orientation, rules::unit, true>("orientation"),
     structRow<&Camera::shutter, shutterFields>("shutter"),
+    structRow<&Camera::rollingShutter, rollingShutterFields>("rollingShutter"),
     structRow<&Camera::lens, lensFields>("lens"),
     sensorRow(),
     structRow<&Camera::unusedEye, unusedFields>("unusedEye"),

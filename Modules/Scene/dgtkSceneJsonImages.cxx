@@ -43,6 +43,15 @@ const std::vector<JsonField<Shutter>>& shutterFields()
   return fields;
 }
 
+const std::vector<JsonField<RollingShutter>>& rollingShutterFields()
+{
+  static const std::vector<JsonField<RollingShutter>> fields{
+    row<&RollingShutter::duration, rules::rollingShutter>("duration"),
+    wordRow<&RollingShutter::direction, rollingDirections>("direction"),
+  };
+  return fields;
+}
+
 const std::vector<JsonField<Lens>>& lensFields()
 {
   static const std::vector<JsonField<Lens>> fields{

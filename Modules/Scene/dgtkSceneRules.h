@@ -35,6 +35,7 @@ inline constexpr Range degrees{ -36000, 36000, false, false, "degrees from -3600
 inline constexpr Range shadowSize{ 16, 16384, false, false, "a whole number from 16 to 16384" };
 inline constexpr Range exposures{ 1, 65536, false, false, "a whole number from 1 to 65536" };
 inline constexpr Range shutter{ -1000, 1000, false, false, "frames from -1000 to 1000" };
+inline constexpr Range rollingShutter{ 0, 1000, false, false, "frames from 0 to 1000" };
 inline constexpr Range notNegative{ 0, 1e15, false, false, "a number from 0 to 1e15" };
 inline constexpr Range classId{ 1, largestClassId, false, false, "a whole number from 1 to 65535" };
 inline constexpr Range seed{ 0, 9007199254740991.0, false, false, "a whole number from 0 to 2^53 - 1" };

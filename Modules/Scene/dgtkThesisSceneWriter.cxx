@@ -218,6 +218,7 @@ private:
     this->need(camera.width == 0, item, "width");
     this->need(camera.height == 0, item, "height");
     this->need(!camera.shutter.blurs(), item, "shutter");
+    this->need(!(camera.rollingShutter.duration > 0), item, "rollingShutter");
     this->need(!camera.lens.blurs() && !camera.lens.focus.animated(), item, "lens");
     this->need(!camera.sensor, item, "sensor");
     this->need(!camera.posed, item, "orientation", "eye and lookAt");

@@ -4,6 +4,7 @@
 #include "dgtkShadedView.h"
 
 #include "dgtkError.h"
+#include "dgtkInstantSource.h"
 #include "dgtkRaySource.h"
 #include "dgtkResampledCamera.h"
 #include "dgtkThreadPool.h"
@@ -23,19 +24,59 @@ constexpr int maxSamples = 64;
 constexpr int maxPiece = 2048; ///< side of what is drawn at once with several samples a pixel
 constexpr int jobRows = 8;     ///< rows that are shaded as one job
 
-void shadeHits(const ShadedView& view, const VisibilityBuffer& hits, ThreadPool& pool, float* rgb)
+/// A scene shaded as a view sees it: at one instant, or at those of the parts of the picture.
+class ShadedScene
+{
+public:
+  ShadedScene(std::shared_ptr<const SceneState> state, const View& view)
+    : TheView(view)
+    , Whole(view.instants ? nullptr : std::make_shared<const ShadedView>(std::move(state), view))
+  {
+  }
+  const View& view() const { return this->TheView; }
+  bool isWhole() const { return this->Whole != nullptr; }
+  /// `time`: of the part, frames after the picture's own.
+  std::shared_ptr<const ShadedView> at(double time) const
+  {
+    if (this->Whole)
+    {
+      return this->Whole;
+    }
+    const SeenInstant now = instantOf(this->TheView, time);
+    return std::make_shared<const ShadedView>(now.state, now.view);
+  }
+
+private:
+  View TheView;
+  std::shared_ptr<const ShadedView> Whole; ///< null where the view has many instants
+};
+
+void shadePart(const ShadedView& view, const VisibilityBuffer& hits, const PixelRect& part, float* rgb)
+{
+  const WorkTime time(WorkStage::Draw);
+  const PixelRect& all = hits.rect;
+  ShadedView::Worker worker(view);
+  for (int y = part.y; y < part.y + part.height; ++y)
+  {
+    const std::size_t first = std::size_t(y - all.y) * std::size_t(all.width) + std::size_t(part.x - all.x);
+    view.row(worker, part.x, y, part.width, &hits.hits[first], rgb + 3 * first);
+  }
+}
+
+void shadeHits(const ShadedScene& scene, const VisibilityBuffer& hits, ThreadPool& pool, float* rgb)
 {
   const PixelRect& all = hits.rect;
-  pool.parallelFor((all.height + jobRows - 1) / jobRows,
-    [&](int job)
+  std::vector<TimedRect> parts;
+  for (int y = 0; scene.isWhole() && y < all.height; y += jobRows)
+  {
+    parts.push_back({ { all.x, all.y + y, all.width, std::min(jobRows, all.height - y) }, 0 });
+  }
+  parts = scene.isWhole() ? std::move(parts) : timedRects(*scene.view().model, all);
+  pool.parallelFor(static_cast<int>(parts.size()),
+    [&](int i)
     {
-      const WorkTime time(WorkStage::Draw);
-      ShadedView::Worker worker(view);
-      for (int y = job * jobRows; y < std::min(all.height, (job + 1) * jobRows); ++y)
-      {
-        const std::size_t first = std::size_t(y) * std::size_t(all.width);
-        view.row(worker, all.x, all.y + y, all.width, &hits.hits[first], rgb + 3 * first);
-      }
+      const TimedRect& part = parts[std::size_t(i)];
+      shadePart(*scene.at(part.time), hits, part.rect, rgb);
     });
 }
 
@@ -52,7 +93,7 @@ public:
   }
 
 private:
-  ShadedView Seen;
+  ShadedScene Seen;
 };
 
 class RayPictures final : public PictureSource
@@ -77,7 +118,7 @@ public:
 
 private:
   void placeRays(const View& view);
-  std::shared_ptr<const ShadedView> shaded();
+  std::shared_ptr<const ShadedScene> shaded();
   void drawSamples(const PixelRect& rect, int samples, ColorBuffer& colors);
 
   ThreadPool& Pool;
@@ -86,9 +127,9 @@ private:
   std::shared_ptr<const SceneState> State;
   View TheView;
   std::shared_ptr<const CameraModel> RaysModel; ///< of the view that Rays has; null: none of this scene
-  std::shared_ptr<const ShadedView> Shaded;     ///< of State and TheView; null until it is needed
-  std::shared_ptr<const ShadedView> ShadedSamples;
-  std::shared_ptr<const ShadedView> Before; ///< of the scene before, until there is a new one: it holds the textures
+  std::shared_ptr<const ShadedScene> Shaded;    ///< of State and TheView; null until it is needed
+  std::shared_ptr<const ShadedScene> ShadedSamples;
+  std::shared_ptr<const ShadedScene> Before; ///< of the scene before, until there is a new one: it holds the textures
   int SamplesOfIt = 0;
 };
 
@@ -97,7 +138,7 @@ void RayPictures::setScene(std::shared_ptr<const SceneState> state, const View& 
   this->State = std::move(state);
   this->TheView = view;
   this->RaysModel.reset();
-  for (std::shared_ptr<const ShadedView>* made : { &this->Shaded, &this->ShadedSamples })
+  for (std::shared_ptr<const ShadedScene>* made : { &this->Shaded, &this->ShadedSamples })
   {
     if (*made)
     {
@@ -120,12 +161,12 @@ void RayPictures::placeRays(const View& view)
   }
 }
 
-std::shared_ptr<const ShadedView> RayPictures::shaded()
+std::shared_ptr<const ShadedScene> RayPictures::shaded()
 {
   if (!this->Shaded)
   {
     const WorkTime build(WorkStage::Build);
-    this->Shaded = std::make_shared<const ShadedView>(this->State, this->TheView);
+    this->Shaded = std::make_shared<const ShadedScene>(this->State, this->TheView);
     this->Before.reset();
   }
   return this->Shaded;
@@ -152,8 +193,8 @@ std::function<void()> RayPictures::drawColor(
   const auto own = hits ? nullptr : std::make_shared<VisibilityBuffer>();
   VisibilityBuffer& seen = hits ? *hits : *own;
   this->render(rect, seen);
-  return [view = this->shaded(), own, &seen, &colors, &pool = this->Pool]
-  { shadeHits(*view, seen, pool, colors.rgb.data()); };
+  return [scene = this->shaded(), own, &seen, &colors, &pool = this->Pool]
+  { shadeHits(*scene, seen, pool, colors.rgb.data()); };
 }
 
 /// The samples are the pixels of a picture `samples` times as large.
@@ -165,14 +206,14 @@ void RayPictures::drawSamples(const PixelRect& rect, int samples, ColorBuffer& c
     View large = this->TheView;
     large.model = resampledCamera(this->TheView.model, this->TheView.model->width() * samples,
       this->TheView.model->height() * samples, 1.0 / samples, { 0, 0 });
-    this->ShadedSamples = std::make_shared<const ShadedView>(this->State, large);
+    this->ShadedSamples = std::make_shared<const ShadedScene>(this->State, large);
     this->Before.reset();
     this->SamplesOfIt = samples;
   }
   const SampleFilter filter(this->Filter, samples, std::numeric_limits<float>::max());
   const int side = std::max(1, maxPiece / samples - 2 * filter.margin());
-  const ShadedView& view = *this->ShadedSamples;
-  this->placeRays(view.view());
+  const ShadedScene& scene = *this->ShadedSamples;
+  this->placeRays(scene.view());
   VisibilityBuffer hits;
   std::vector<float> rgb;
   for (int y = 0; y < rect.height; y += side)
@@ -184,7 +225,7 @@ void RayPictures::drawSamples(const PixelRect& rect, int samples, ColorBuffer& c
       const PixelRect all{ drawn.x * samples, drawn.y * samples, drawn.width * samples, drawn.height * samples };
       this->Rays->render(all, hits);
       rgb.resize(hits.hits.size() * 3);
-      shadeHits(view, hits, this->Pool, rgb.data());
+      shadeHits(scene, hits, this->Pool, rgb.data());
       filter.apply({ rgb.data(), 3 * std::ptrdiff_t(all.width), 3 }, piece, colors);
     }
   }
@@ -215,19 +256,28 @@ void peelRow(
 
 std::function<void()> RayPictures::peel(const PixelRect& rect, SurfaceLists& lists)
 {
-  return [view = this->shaded(), rect, &lists, &pool = this->Pool]
+  return [scene = this->shaded(), rect, &lists, &pool = this->Pool]
   {
-    std::vector<SurfaceLists> rows(static_cast<std::size_t>(rect.height));
-    pool.parallelFor((rect.height + jobRows - 1) / jobRows,
+    std::vector<TimedRect> runs;
+    for (int y = 0; scene->isWhole() && y < rect.height; ++y)
+    {
+      runs.push_back({ { rect.x, rect.y + y, rect.width, 1 }, 0 });
+    }
+    runs = scene->isWhole() ? std::move(runs) : timedRuns(*scene->view().model, rect);
+    const int count = static_cast<int>(runs.size());
+    std::vector<SurfaceLists> rows(runs.size());
+    pool.parallelFor((count + jobRows - 1) / jobRows,
       [&](int job)
       {
         const WorkTime time(WorkStage::Draw);
-        ShadedView::Worker worker(*view);
         std::vector<std::vector<Hit>> space;
-        for (int y = job * jobRows; y < std::min(rect.height, (job + 1) * jobRows); ++y)
+        for (int i = job * jobRows; i < std::min(count, (job + 1) * jobRows); ++i)
         {
-          rows[std::size_t(y)].rect = { rect.x, rect.y + y, rect.width, 1 };
-          peelRow(*view, worker, space, rows[std::size_t(y)]);
+          const TimedRect& run = runs[std::size_t(i)];
+          const std::shared_ptr<const ShadedView> view = scene->at(run.time);
+          ShadedView::Worker worker(*view);
+          rows[std::size_t(i)].rect = run.rect;
+          peelRow(*view, worker, space, rows[std::size_t(i)]);
         }
       });
     lists = { rect, {}, {}, {} };

@@ -128,4 +128,34 @@ std::shared_ptr<const Geometry> geometryAt(const SceneDescription& scene, const 
   return animation < 0 ? model.rest : cache.get(model, momentAt(object.animation, model, animation, frame, scene.fps));
 }
 
+std::array<Eigen::Vector3d, 3> cornersAt(const SceneDescription& scene, const ObjectDescription& object,
+  const Model& model, double frame, std::uint32_t triangle)
+{
+  const auto& vertices = model.triangles[triangle];
+  const int animation = model.deformation ? findAnimation(scene, object, model) : -1;
+  if (animation < 0)
+  {
+    const std::vector<Eigen::Vector3d>& p = model.rest->positions;
+    return { p[vertices[0]], p[vertices[1]], p[vertices[2]] };
+  }
+  const ModelMoment moment = momentAt(object.animation, model, animation, frame, scene.fps);
+  thread_local std::vector<Eigen::Vector3d> source;
+  const auto cornersOf = [&](double at)
+  {
+    model.deformation->positionsAt(animation, at, source);
+    const auto corner = [&](int i) { return source[model.sourceVertex[vertices[std::size_t(i)]]]; };
+    return std::array<Eigen::Vector3d, 3>{ corner(0), corner(1), corner(2) };
+  };
+  std::array<Eigen::Vector3d, 3> corners = cornersOf(moment.frame);
+  if (moment.wrap != 0)
+  {
+    const std::array<Eigen::Vector3d, 3> first = cornersOf(model.animations[std::size_t(animation)].first);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+    {
+      corners[i] += (first[i] - corners[i]) * moment.wrap; // as blended()
+    }
+  }
+  return corners;
+}
+
 } // namespace dgtk

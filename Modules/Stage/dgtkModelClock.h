@@ -7,6 +7,8 @@
 #include "dgtkModel.h"
 #include "dgtkSceneDescription.h"
 
+#include <array>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -54,6 +56,10 @@ private:
 /// findAnimation() throws.
 DGTKSTAGE_EXPORT std::shared_ptr<const Geometry> geometryAt(const SceneDescription& scene,
   const ObjectDescription& object, const Model& model, double frame, GeometryCache& cache);
+
+/// The corners of one triangle of that geometry, for less.
+DGTKSTAGE_EXPORT std::array<Eigen::Vector3d, 3> cornersAt(const SceneDescription& scene,
+  const ObjectDescription& object, const Model& model, double frame, std::uint32_t triangle);
 
 } // namespace dgtk
 

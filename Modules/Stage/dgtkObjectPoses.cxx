@@ -52,6 +52,17 @@ ObjectPoses::ObjectPoses(const SceneDescription& scene)
   }
 }
 
+Affine3 ObjectPoses::of(std::size_t object, double frame) const
+{
+  const Place& place = this->Places[object];
+  if (!place.moves)
+  {
+    return place.world_from_object;
+  }
+  const Affine3 local = localPose(this->Scene.objects[object], frame);
+  return place.parent == noParent ? local : this->of(place.parent, frame) * local;
+}
+
 std::vector<Affine3> ObjectPoses::at(double frame) const
 {
   std::vector<Affine3> world(this->Places.size());

@@ -25,9 +25,13 @@ public:
 
   explicit ObjectPoses(const SceneDescription& scene);
 
+  /// Whether it or one of its ancestors has key frames.
+  bool moves(std::size_t object) const { return this->Places[object].moves; }
   std::size_t parentOf(std::size_t object) const { return this->Places[object].parent; }
   /// world_from_object of all objects at a frame; a scale of 0 is no error here.
   std::vector<Affine3> at(double frame) const;
+  /// That of one object.
+  Affine3 of(std::size_t object, double frame) const;
 
 private:
   struct Place

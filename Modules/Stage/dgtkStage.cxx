@@ -3,14 +3,17 @@
 
 #include "dgtkCameraEntry.h"
 #include "dgtkError.h"
+#include "dgtkInstantSource.h"
 #include "dgtkModelClock.h"
 #include "dgtkObjectPoses.h"
+#include "dgtkSceneTracks.h"
 #include "dgtkStageModels.h"
 #include "dgtkText.h"
 
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -96,7 +99,9 @@ View throughLens(const View& view, const Eigen::Vector2d& point, double focus)
   Eigen::Matrix3d K = view.model->linear()->K;
   K.topRightCorner<2, 1>() += K.topLeftCorner<2, 2>() * point / focus;
   View moved = view;
-  moved.model = makePinhole(view.model->width(), view.model->height(), K);
+  CameraParameters parameters{ view.model->width(), view.model->height(), K };
+  parameters.rollingShutter = view.model->parameters().rollingShutter;
+  moved.model = makeCamera("pinhole", parameters);
   moved.camera_from_world.translation -= Eigen::Vector3d(point.x(), point.y(), 0);
   return moved;
 }
@@ -111,8 +116,7 @@ Rigid3 poseAt(const CameraDescription& camera, double frame)
 }
 } // namespace
 
-View cameraView(
-  const CameraDescription& camera, double frame, int width, int height, const std::string& folder)
+View cameraView(const CameraDescription& camera, double frame, int width, int height, const std::string& folder)
 {
   if (width == 0 && height == 0)
   {
@@ -157,7 +161,8 @@ struct Stage::Impl
   void checkScale(const ObjectDescription& object, double frame) const;
   /// It has an id.
   bool isPresent(std::size_t object) const;
-  std::shared_ptr<const SceneState> compute(double frame);
+  std::shared_ptr<const SceneState> compute(double frame) const;
+  Instance instance(std::size_t object, const Affine3& world_from_object, double frame) const;
 
   SceneDescription Scene;
   std::vector<ObjectLook> Looks; ///< one an object
@@ -214,7 +219,7 @@ bool Stage::Impl::isPresent(std::size_t object) const
   return this->Scene.objects[object].visible && model != nullptr && !model->triangles.empty();
 }
 
-std::shared_ptr<const SceneState> Stage::Impl::compute(double frame)
+std::shared_ptr<const SceneState> Stage::Impl::compute(double frame) const
 {
   for (const ObjectDescription& object : this->Scene.objects)
   {
@@ -236,19 +241,24 @@ std::shared_ptr<const SceneState> Stage::Impl::compute(double frame)
     {
       continue;
     }
-    const ObjectDescription& object = this->Scene.objects[item.index];
-    Instance instance;
-    instance.name = object.name;
-    instance.className = object.className;
-    instance.classId = std::uint32_t(this->Scene.classIdOf(object.className));
-    const ObjectLook& look = this->Looks[item.index];
-    instance.model = look.model;
-    instance.geometry = geometryAt(this->Scene, object, *look.model, frame, *this->Geometries);
-    instance.materials = look.materials;
-    instance.world_from_object = world[item.index];
-    state->instances.push_back(std::move(instance));
+    state->instances.push_back(this->instance(item.index, world[item.index], frame));
   }
   return state;
+}
+
+Instance Stage::Impl::instance(std::size_t index, const Affine3& world_from_object, double frame) const
+{
+  const ObjectDescription& object = this->Scene.objects[index];
+  const ObjectLook& look = this->Looks[index];
+  Instance instance;
+  instance.name = object.name;
+  instance.className = object.className;
+  instance.classId = std::uint32_t(this->Scene.classIdOf(object.className));
+  instance.model = look.model;
+  instance.geometry = geometryAt(this->Scene, object, *look.model, frame, *this->Geometries);
+  instance.materials = look.materials;
+  instance.world_from_object = world_from_object;
+  return instance;
 }
 
 Stage::Stage(std::unique_ptr<Impl> impl)
@@ -304,6 +314,128 @@ std::shared_ptr<const SceneState> Stage::at(double frame) const
   return state;
 }
 
+namespace
+{
+/// Whether tracks of an item have keys: those of its pose, the others.
+std::pair<bool, bool> animatedTracks(const SceneDescription& scene, const SceneItem& item)
+{
+  std::pair<bool, bool> animated{ false, false };
+  forEachTrackOf(scene, item,
+    [&animated](const auto& track, bool pose)
+    {
+      bool& which = pose ? animated.first : animated.second;
+      which = which || track.animated();
+    });
+  return animated;
+}
+} // namespace
+
+class Stage::Instants final : public InstantSource
+{
+public:
+  /// Through a point of the lens: camera axes, scene units from its centre.
+  Instants(
+    std::shared_ptr<const Stage> stage, std::size_t camera, double frame, const Eigen::Vector2d& point = { 0, 0 })
+    : Owner(std::move(stage))
+    , Camera(Owner->description().cameras[camera])
+    , Frame(frame)
+    , LensPoint(point.x(), point.y(), 0)
+  {
+    const Impl& impl = *this->Owner->Self;
+    std::size_t weight = 1;
+    bool still = true;
+    for (const SceneItem& item : impl.Scene.items())
+    {
+      const std::pair<bool, bool> animated = animatedTracks(impl.Scene, item);
+      if (item.kind == SceneItem::Kind::Object && impl.isPresent(item.index))
+      {
+        this->Objects.push_back(item.index);
+        const Model& model = *impl.Looks[item.index].model;
+        weight += 1 + (model.deformation ? model.sourceVertex.size() / verticesAnObject : 0);
+        const bool changes = model.deformation || animated.second;
+        this->Motions.push_back(changes ? Motion::Any : impl.Poses->moves(item.index) ? Motion::Rigid : Motion::None);
+        still = still && this->Motions.back() == Motion::None;
+      }
+      still = still && (item.kind == SceneItem::Kind::Camera || !(animated.first || animated.second));
+    }
+    this->MostKept = std::max(leastKept, objectsKept / weight);
+    this->Still = still ? this->Owner->at(frame) : nullptr;
+  }
+
+  double frame() const override { return this->Frame; }
+
+  Instant at(double frame) const override
+  {
+    Instant now{ this->Still, this->poseAt(frame) };
+    if (now.state)
+    {
+      return now;
+    }
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      const auto found = this->Kept.find(frame);
+      if (found != this->Kept.end())
+      {
+        now.state = found->second;
+        return now;
+      }
+    }
+    now.state = this->Owner->Self->compute(frame);
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    if (this->Kept.size() >= this->MostKept)
+    {
+      this->Kept.clear();
+    }
+    this->Kept[frame] = now.state;
+    return now;
+  }
+
+  Instance instanceAt(double frame, std::uint32_t object) const override
+  {
+    return this->Owner->Self->instance(this->Objects[object - 1], this->placeAt(frame, object), frame);
+  }
+
+  const std::vector<Motion>& motions() const override { return this->Motions; }
+  Rigid3 poseAt(double frame) const override
+  {
+    Rigid3 pose = dgtk::poseAt(this->Camera, frame);
+    pose.translation -= this->LensPoint;
+    return pose;
+  }
+  Affine3 placeAt(double frame, std::uint32_t object) const override
+  {
+    return this->Owner->Self->Poses->of(this->Objects[object - 1], frame);
+  }
+
+  Point pointAt(
+    double frame, std::uint32_t object, std::uint32_t triangle, const Eigen::Vector2d& barycentrics) const override
+  {
+    const Impl& impl = *this->Owner->Self;
+    const std::size_t index = this->Objects[object - 1];
+    const Model& model = *impl.Looks[index].model;
+    const auto p = cornersAt(impl.Scene, impl.Scene.objects[index], model, frame, triangle);
+    return { this->placeAt(frame, object) *
+               (p[0] + barycentrics.x() * (p[1] - p[0]) + barycentrics.y() * (p[2] - p[0])),
+      this->poseAt(frame) };
+  }
+
+private:
+  static constexpr std::size_t objectsKept = 200000; ///< of all states together
+  static constexpr std::size_t verticesAnObject = 8; ///< of memory
+  static constexpr std::size_t leastKept = 16;
+
+  std::shared_ptr<const Stage> Owner;
+  const CameraDescription& Camera;
+  double Frame;
+  Eigen::Vector3d LensPoint;
+  std::vector<std::size_t> Objects; ///< by id - 1
+  std::vector<Motion> Motions;
+  std::size_t MostKept = leastKept;
+  std::shared_ptr<const SceneState> Still; ///< at all times; null where it changes
+  mutable std::mutex Mutex;
+  mutable std::map<double, std::shared_ptr<const SceneState>> Kept;
+};
+
 View Stage::view(std::size_t index, double frame, int width, int height) const
 {
   const SceneDescription& scene = this->Self->Scene;
@@ -326,7 +458,12 @@ View Stage::view(std::size_t index, double frame, int width, int height) const
     throw InputError(scene.title(), camera.line,
       "camera " + quoted(camera.name) + " at frame " + shortest(frame) + ": " + error.what());
   }
-  return cameraView(camera, frame, width, height, scene.folder);
+  View view = cameraView(camera, frame, width, height, scene.folder);
+  if (view.model->rolls())
+  {
+    view.instants = std::make_shared<Instants>(this->shared_from_this(), index, frame);
+  }
+  return view;
 }
 
 std::vector<Exposure> Stage::exposures(std::size_t index, int frame, int width, int height) const
@@ -350,8 +487,12 @@ std::vector<Exposure> Stage::exposures(std::size_t index, int frame, int width, 
     one.view = this->view(index, one.frame, width, height);
     if (blurs)
     {
-      one.view =
-        throughLens(one.view, points[std::size_t(i)] * (camera.lens.aperture / 2), camera.lens.focus.at(one.frame));
+      const Eigen::Vector2d point = points[std::size_t(i)] * (camera.lens.aperture / 2);
+      one.view = throughLens(one.view, point, camera.lens.focus.at(one.frame));
+      if (one.view.instants)
+      {
+        one.view.instants = std::make_shared<Instants>(this->shared_from_this(), index, one.frame, point);
+      }
     }
     all.push_back(std::move(one));
   }

@@ -28,11 +28,11 @@ struct Exposure
 
 /// A camera of any scene at a frame. 0, 0: its own size, or 640 x 480. K of another size is scaled per axis. Its files
 /// are below `folder`. Throws what makeCamera() throws, and UsageError for a pose that is undefined (eye = look-at).
-DGTKSTAGE_EXPORT View cameraView(const CameraDescription& camera, double frame, int width = 0, int height = 0,
-  const std::string& folder = {});
+DGTKSTAGE_EXPORT View cameraView(
+  const CameraDescription& camera, double frame, int width = 0, int height = 0, const std::string& folder = {});
 
 /// A scene with everything that it names loaded. Immutable; all members are thread-safe.
-class DGTKSTAGE_EXPORT Stage
+class DGTKSTAGE_EXPORT Stage : public std::enable_shared_from_this<Stage>
 {
 public:
   /// Called with one line for each warning.
@@ -59,8 +59,9 @@ public:
   /// ones that show the same model frame share one Geometry, also between states while it is in use.
   std::shared_ptr<const SceneState> at(double frame) const;
 
-  /// A camera at a frame. 0, 0: the camera's own size, or 640 x 480. K of another size is scaled per axis.
-  /// Throws UsageError for an index or a size out of range, InputError where the pose is undefined (eye = look-at).
+  /// A camera at a frame, with `instants` where it has a rolling shutter; they keep the stage. 0, 0: the camera's own
+  /// size, or 640 x 480. K of another size is scaled per axis. Throws UsageError for an index or a size out of range,
+  /// InputError where the pose is undefined (eye = look-at).
   View view(std::size_t camera, double frame, int width = 0, int height = 0) const;
 
   /// The exposures of a frame, one for a camera without shutter and lens: that of view(). Exposure i of N is at the
@@ -79,6 +80,7 @@ public:
 
 private:
   struct Impl;
+  class Instants;
   explicit Stage(std::unique_ptr<Impl> impl);
   static void check(SceneDescription& scene);
   std::unique_ptr<Impl> Self;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkResampledCamera.h"
 
+#include <cmath>
 #include <utility>
 
 namespace dgtk
@@ -34,6 +35,13 @@ public:
     pixel = (point - this->Offset) / this->Scale;
     return true;
   }
+  /// That of the pixel of the other image.
+  double timeAt(const Eigen::Vector2d& pixel) const override
+  {
+    const Eigen::Vector2d point = this->Scale * pixel + this->Offset;
+    return this->Model->timeAt({ std::floor(point.x()) + 0.5, std::floor(point.y()) + 0.5 });
+  }
+  TimeSpan times() const override { return this->Model->times(); }
   std::optional<LinearProjection> linear() const override
   {
     std::optional<LinearProjection> projection = this->Model->linear();

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSurfaceRows.h"
 
+#include "dgtkInstantSource.h"
 #include "dgtkTriangleSolver.h"
+
+#include <algorithm>
 
 namespace dgtk
 {
@@ -85,6 +88,16 @@ SurfacePoint surfacePointAt(const SceneState& state, const View& view, const Eig
   return { point.t, { point.second, point.third } };
 }
 
+SurfacePoint surfacePointSeen(const SceneState& state, const View& view, const Eigen::Vector2d& pixel, const Hit& hit)
+{
+  if (!view.instants)
+  {
+    return surfacePointAt(state, view, pixel, hit);
+  }
+  const SeenInstant now = instantOf(view, view.model->timeAt(pixel));
+  return surfacePointAt(*now.state, now.view, pixel, hit);
+}
+
 void computeSurfaceRows(const SceneState& state, const View& view, const PixelRect& rect, const Hit* hits,
   bool barycentrics, SurfaceRows& rows)
 {
@@ -114,6 +127,31 @@ void computeSurfaceRows(const SceneState& state, const View& view, const PixelRe
     const std::size_t first = std::size_t(y) * rect.width;
     body(
       solver, rect, rect.y + y, hits + first, rows.t.data() + first, coordinates ? coordinates + 2 * first : nullptr);
+  }
+}
+
+void forSurfaceRows(const SceneState& state, const View& view, const PixelRect& rect, const Hit* hits,
+  bool barycentrics, const std::function<void(const SurfaceRows&)>& body)
+{
+  SurfaceRows rows;
+  if (!view.instants)
+  {
+    computeSurfaceRows(state, view, rect, hits, barycentrics, rows);
+    body(rows);
+    return;
+  }
+  std::vector<Hit> own;
+  for (const TimedRect& part : timedRects(*view.model, rect))
+  {
+    own.clear();
+    for (int y = part.rect.y; y < part.rect.y + part.rect.height; ++y)
+    {
+      const Hit* const first = hits + std::size_t(y - rect.y) * rect.width + (part.rect.x - rect.x);
+      own.insert(own.end(), first, first + part.rect.width);
+    }
+    const SeenInstant now = instantOf(view, part.time);
+    computeSurfaceRows(*now.state, now.view, part.rect, own.data(), barycentrics, rows);
+    body(rows);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct SurfaceRows
 {
   const SceneState* state = nullptr;
   const View* view = nullptr;
-  PixelRect rect;            ///< x = 0, width = image width
+  PixelRect rect;            ///< full-width rows, or a part of them that is seen at one instant
   const Hit* hits = nullptr; ///< rect.width * rect.height
   /// Parameter t of CameraModel::rayThrough(pixel centre) at the surface; for linear cameras the depth. +inf where
   /// there is nothing.
@@ -35,6 +36,11 @@ struct SurfaceRows
 DGTKVISIBILITY_EXPORT void computeSurfaceRows(const SceneState& state, const View& view, const PixelRect& rect,
   const Hit* hits, bool barycentrics, SurfaceRows& rows);
 
+/// Gets computeSurfaceRows() of the parts of full-width rows, which are seen at one instant each: of a view without
+/// `instants` they are one part. Takes `hits` of all rows. Thread-safe.
+DGTKVISIBILITY_EXPORT void forSurfaceRows(const SceneState& state, const View& view, const PixelRect& rect,
+  const Hit* hits, bool barycentrics, const std::function<void(const SurfaceRows&)>& body);
+
 /// Where the ray through an image point meets the plane of a triangle.
 struct SurfacePoint
 {
@@ -46,6 +52,10 @@ struct SurfacePoint
 /// The same as computeSurfaceRows() for one image point (pixels, need not be a pixel's centre). hit.object != 0.
 /// Thread-safe.
 DGTKVISIBILITY_EXPORT SurfacePoint surfacePointAt(
+  const SceneState& state, const View& view, const Eigen::Vector2d& pixel, const Hit& hit);
+
+/// The same for a view that may have `instants`: in the scene of the point's own time.
+DGTKVISIBILITY_EXPORT SurfacePoint surfacePointSeen(
   const SceneState& state, const View& view, const Eigen::Vector2d& pixel, const Hit& hit);
 
 /// World position of the corners of the triangle of `hit` (object != 0).

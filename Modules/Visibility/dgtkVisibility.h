@@ -102,12 +102,16 @@ public:
   /// The same of many at once; `hits` has as many lists. Quicker; those that follow each other should be neighbours.
   virtual void allHits(
     const View& view, const Eigen::Vector2d* pixels, std::size_t count, std::vector<Hit>* hits) const = 0;
+  /// Views with `instants` are looked at in the state of each pixel's own time, not in that of setScene().
   /// First surface strictly between the camera and a point of `target` at `x_in_world`; object 0 when there is none.
   /// The target triangle itself never hides the point.
   virtual Hit occluder(const View& view, const Eigen::Vector3d& x_in_world, const Hit& target) const = 0;
   /// The same of many points at once, each of its target. Quicker; those that follow each other should be neighbours.
   virtual void occluders(
     const View& view, const Eigen::Vector3d* x_in_world, const Hit* targets, std::size_t count, Hit* found) const = 0;
+  /// The same for a view with `instants`, each point at its own frame, in the scene of that time.
+  virtual void occludersAt(const View& view, const double* frames, const Eigen::Vector3d* x_in_world,
+    const Hit* targets, std::size_t count, Hit* found) const = 0;
 };
 
 /// The fixed grid of canonical tiles on which every image is drawn, whatever tile size is asked for: tiles are anchored

@@ -108,6 +108,29 @@ TEST_F(RayTables, NothingIsSeenBesideARayThatIsNotThere)
   EXPECT_TRUE(camera->project({ 0, -0.9, 2 }, pixel));
 }
 
+TEST_F(RayTables, HaveTimesBetweenThoseOfPixels)
+{
+  std::vector<double> numbers;
+  for (int i = 0; i < 12; ++i)
+  {
+    numbers.insert(numbers.end(), { i % 4 - 1.5, double(i / 4) - 1, 2.0, 0.5 * double(i / 4) - 0.25 });
+  }
+  this->write(3, 4, 4, numbers);
+  const auto camera = this->camera(4, 3);
+  EXPECT_TRUE(camera->rolls());
+  EXPECT_EQ(camera->times().first, -0.25);
+  EXPECT_EQ(camera->times().last, 0.75);
+  EXPECT_EQ(camera->timeAt({ 1.5, 1.5 }), 0.25);
+  EXPECT_EQ(camera->timeAt({ 2.3, 2.0 }), 0.5) << "between the rows, whatever the column";
+  EXPECT_EQ(camera->timeAt({ 2.3, -4 }), -0.25) << "beside the image as its border";
+  EXPECT_EQ(this->camera(8, 6)->timeAt({ 3.4, 5.1 }), this->camera(8, 6)->timeAt({ 6.7, 5.1 }));
+  CameraParameters rolling{ 4, 3, std::nullopt, {}, { { "rays", this->Folder.path("rays.npy") } } };
+  rolling.rollingShutter = { 0.6, RollingShutter::Direction::Left };
+  const auto both = makeCamera("raytable", rolling);
+  EXPECT_NEAR(both->timeAt({ 3.5, 1.5 }), 0.25 - 0.6 * (3.5 / 4 - 0.5), 1e-15);
+  EXPECT_NEAR(both->times().last, 0.75 + 0.3, 1e-15);
+}
+
 TEST_F(RayTables, AreReadAnewWhenTheyHaveChanged)
 {
   this->write(3, 4, 3, this->plane());
@@ -130,6 +153,8 @@ TEST_F(RayTables, RefuseWhatIsNone)
   EXPECT_THAT(this->refusal(), HasSubstr("height x width x 3 (directions) or x 6"));
   this->write(1, 12, 3, this->plane());
   EXPECT_THAT(this->refusal(), HasSubstr("2 x 2 at least"));
-  this->write(3, 4, 4, std::vector<double>(48));
-  EXPECT_THAT(this->refusal(), HasSubstr("has a time with each ray, and rolling shutters are not known"));
+  std::vector<double> timed(48, 1);
+  timed[3] = 1e4;
+  this->write(3, 4, 4, timed);
+  EXPECT_THAT(this->refusal(), HasSubstr("a time of 10000 frames (expected -1000 to 1000)"));
 }

@@ -43,6 +43,13 @@ std::string cameraText(const CameraRecord& camera)
   {
     object.text(name, file);
   }
+  if (camera.rollingShutter.duration > 0)
+  {
+    object.raw("rollingShutter", JsonObject(8)
+                                   .number("duration", camera.rollingShutter.duration)
+                                   .text("direction", rollingDirections()[std::size_t(camera.rollingShutter.direction)])
+                                   .line());
+  }
   return object.number("near", camera.near).number("far", camera.far).block();
 }
 

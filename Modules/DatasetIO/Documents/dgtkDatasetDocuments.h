@@ -5,6 +5,7 @@
 #include "dgtkDatasetIOModule.h"
 
 #include "dgtkLayer.h"
+#include "dgtkRollingShutter.h"
 
 #include <Eigen/Core>
 
@@ -36,6 +37,7 @@ struct CameraRecord
   std::string model = "pinhole";
   std::map<std::string, std::vector<double>> numbers; ///< further parameters of the model, such as "distortion"
   std::map<std::string, std::string> files; ///< likewise; relative to the dataset, and once read as they can be opened
+  RollingShutter rollingShutter;            ///< R and t are at the frame's own time
   double near = 0;                          ///< scene units, camera z
   double far = 0;
 };

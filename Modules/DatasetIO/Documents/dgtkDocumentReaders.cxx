@@ -63,8 +63,8 @@ DatasetFile fileOf(const JsonCursor& value)
 /// What is not a key of every camera belongs to its model: a number, a list of them or the name of a file.
 void readParameters(const JsonCursor& value, const std::string& folder, CameraRecord& camera)
 {
-  static const std::set<std::string> common{ "name", "frame", "width", "height", "K", "R", "t", "model", "near",
-    "far" };
+  static const std::set<std::string> common{ "name", "frame", "width", "height", "K", "R", "t", "model", "near", "far",
+    "rollingShutter" };
   for (std::size_t i = 0; i < value.memberCount(); ++i)
   {
     const JsonCursor member = value.member(i);
@@ -103,6 +103,13 @@ CameraRecord cameraOf(const JsonCursor& value, const std::string& folder)
   camera.R = value["R"].matrix<Eigen::Matrix3d>();
   camera.t = value["t"].matrix<Eigen::Vector3d>();
   readParameters(value, folder, camera);
+  if (value.has("rollingShutter"))
+  {
+    constexpr Range frames{ 0, 1000, false, false, "frames from 0 to 1000" };
+    camera.rollingShutter.duration = value["rollingShutter"]["duration"].number(frames);
+    camera.rollingShutter.direction =
+      static_cast<RollingShutter::Direction>(value["rollingShutter"]["direction"].oneOf(rollingDirections()));
+  }
   camera.near = value["near"].number();
   // JSON has no infinity
   camera.far = value["far"].isNull() ? std::numeric_limits<double>::infinity() : value["far"].number();

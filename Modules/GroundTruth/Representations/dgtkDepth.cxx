@@ -22,9 +22,10 @@ public:
   {
     if (in.view->model->linear())
     {
-      if (!in.t.empty())
+      const std::size_t bytes = std::size_t(in.rect.width) * sizeof(double);
+      for (int y = 0; y < in.rect.height; ++y)
       {
-        std::memcpy(out.data(), in.t.data(), in.t.size() * sizeof(double));
+        std::memcpy(out.row<double>(in.rect.y + y) + in.rect.x, in.t.data() + std::size_t(y) * in.rect.width, bytes);
       }
       return;
     }

@@ -89,14 +89,6 @@ public:
 };
 } // namespace
 
-std::vector<double> shadingNormals(const SurfaceRows& in)
-{
-  Rows rows(PixelType::Float64, 3, in.rect.width, in.rect.y, in.rect.height);
-  ShadingNormal().compute(in, rows);
-  const double* const first = rows.row<double>(in.rect.y);
-  return { first, first + 3 * in.t.size() };
-}
-
 std::unique_ptr<Representation> makeShadingNormal();
 std::unique_ptr<Representation> makeShadingNormal() { return std::make_unique<ShadingNormal>(); }
 

@@ -227,7 +227,7 @@ TEST(SceneFlowRows, IsTheMotionInTheAxesOfTheCamera)
   VisibilityBuffer buffer = bruteForce(*state, view);
   buffer.hits[0] = {};
   std::vector<double> motion(buffer.hits.size() * 3);
-  sceneFlowRows(surfaceOf(*state, view, buffer), *next, motion.data());
+  sceneFlowRows(surfaceOf(*state, view, buffer), { next.get(), view, nullptr }, motion.data());
   EXPECT_TRUE(std::isnan(motion[0]) && std::isnan(motion[1]) && std::isnan(motion[2]));
   for (std::size_t i = 1; i < buffer.hits.size(); ++i)
   {
@@ -252,7 +252,7 @@ std::vector<double> pairOf(PairValue value, const Eigen::Vector3d& place, std::v
   const OtherView other{ state.get(), viewAt(place), query.get() };
   if (value == PairValue::Motion)
   {
-    sceneFlowRows(rows, *other.state, values.data());
+    sceneFlowRows(rows, other, values.data());
     return values;
   }
   std::vector<double> pixels(2 * rows.t.size());

@@ -55,7 +55,7 @@ private:
     OtherView other;
     std::size_t places = 0; ///< the first output whose places are the same
   };
-  // Where the surface points of a strip are in another view.
+  // Where the surface points of a part of a strip are in another view.
   struct Places
   {
     std::vector<double> pixels;
@@ -70,40 +70,58 @@ private:
 
   std::vector<Values> derive(const PixelRect& rect, const Hit* hits) const
   {
-    SurfaceRows surface;
-    computeSurfaceRows(*this->Context.state, this->Context.view, rect, hits, true, surface);
-    std::vector<Places> places(this->Outputs.size());
-    std::vector<Values> strip;
-    for (std::size_t i = 0; i < this->Outputs.size(); ++i)
+    std::vector<Values> strip(this->Outputs.size());
+    for (std::size_t i = 0; i < strip.size(); ++i)
     {
-      const Output& output = this->Outputs[i];
-      if (output.places == i && output.target.value != PairValue::Motion)
-      {
-        places[i].pixels.resize(2 * surface.t.size());
-        places[i].classes.resize(surface.t.size());
-        correspondRows(surface, output.other, places[i].pixels.data(), places[i].classes.data());
-      }
-      strip.push_back(deriveOne(surface, output, places[output.places]));
+      const PairValue value = this->Outputs[i].target.value;
+      strip[i].values = Rows(PixelType::Float64, channelsOf(value), rect.width, rect.y, rect.height);
+      strip[i].classes = Rows(PixelType::UInt8, value == PairValue::Motion ? 0 : 1, rect.width, rect.y, rect.height);
     }
+    forSurfaceRows(*this->Context.state, this->Context.view, rect, hits, true,
+      [&](const SurfaceRows& surface)
+      {
+        std::vector<Places> places(this->Outputs.size());
+        for (std::size_t i = 0; i < this->Outputs.size(); ++i)
+        {
+          const Output& output = this->Outputs[i];
+          if (output.places == i && output.target.value != PairValue::Motion)
+          {
+            places[i].pixels.resize(2 * surface.t.size());
+            places[i].classes.resize(surface.t.size());
+            correspondRows(surface, output.other, places[i].pixels.data(), places[i].classes.data());
+          }
+          deriveOne(surface, output, places[output.places], strip[i]);
+        }
+      });
     return strip;
   }
 
-  static Values deriveOne(const SurfaceRows& surface, const Output& output, const Places& places)
+  static void deriveOne(const SurfaceRows& surface, const Output& output, const Places& places, Values& strip)
   {
-    const PixelRect& rect = surface.rect;
     const PairValue value = output.target.value;
-    Values result;
-    result.values = Rows(PixelType::Float64, channelsOf(value), rect.width, rect.y, rect.height);
-    double* const values = result.values.row<double>(rect.y);
+    std::vector<double> values(static_cast<std::size_t>(channelsOf(value)) * surface.t.size());
     if (value == PairValue::Motion)
     {
-      sceneFlowRows(surface, *output.other.state, values);
-      return result;
+      sceneFlowRows(surface, output.other, values.data());
     }
-    pairRows(rect, places.pixels.data(), value, values);
-    result.classes = Rows(PixelType::UInt8, 1, rect.width, rect.y, rect.height);
-    std::copy(places.classes.begin(), places.classes.end(), result.classes.row<std::uint8_t>(rect.y));
-    return result;
+    else
+    {
+      pairRows(surface.rect, places.pixels.data(), value, values.data());
+      place(places.classes, surface.rect, strip.classes);
+    }
+    place(values, surface.rect, strip.values);
+  }
+
+  /// Copies the values of a part into rows.
+  template <typename T>
+  static void place(const std::vector<T>& values, const PixelRect& part, Rows& rows)
+  {
+    const auto width = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(rows.channels());
+    for (int y = 0; y < part.height; ++y)
+    {
+      std::copy_n(values.data() + static_cast<std::size_t>(y) * width, width,
+        rows.row<T>(part.y + y) + static_cast<std::ptrdiff_t>(part.x) * rows.channels());
+    }
   }
 
   void append(const std::vector<Values>& strip, LayerSink& sink) const

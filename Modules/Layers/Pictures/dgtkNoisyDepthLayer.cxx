@@ -73,18 +73,20 @@ private:
   Strip derive(const PixelRect& rect, const Hit* hits) const
   {
     const View& view = this->Context.view;
-    SurfaceRows surface;
-    computeSurfaceRows(*this->Context.state, view, rect, hits, false, surface);
     Strip strip;
     strip.depth = Rows(PixelType::Float64, 1, rect.width, rect.y, rect.height);
-    this->Depth->compute(surface, strip.depth);
     Rows normals(PixelType::Float32, 3, rect.width, rect.y, rect.height);
-    this->Normal->compute(surface, normals);
+    forSurfaceRows(*this->Context.state, view, rect, hits, false,
+      [&](const SurfaceRows& surface)
+      {
+        this->Depth->compute(surface, strip.depth);
+        this->Normal->compute(surface, normals);
+      });
     const float* n = normals.row<float>(rect.y);
-    strip.cosines.resize(surface.t.size());
-    for (std::size_t i = 0; i < surface.t.size(); ++i, n += 3)
+    strip.cosines.resize(std::size_t(rect.width) * rect.height);
+    for (std::size_t i = 0; i < strip.cosines.size(); ++i, n += 3)
     {
-      if (std::isfinite(surface.t[i]))
+      if (hits[i].object != 0)
       {
         const double x = rect.x + double(i % rect.width) + 0.5;
         const double y = rect.y + double(i / rect.width) + 0.5;

@@ -124,9 +124,18 @@ void PixelSampler::findDepths(SampledRows& rows) const
       {
         wanted[i] = rows.mixed[i] ? wanted[i] : Hit{};
       }
-      SurfaceRows surface;
-      computeSurfaceRows(*this->State, this->Views[k], rows.rect, wanted.data(), false, surface);
-      rows.depth[k] = std::move(surface.t);
+      std::vector<double>& depth = rows.depth[k];
+      depth.resize(wanted.size());
+      forSurfaceRows(*this->State, this->Views[k], rows.rect, wanted.data(), false,
+        [&](const SurfaceRows& surface)
+        {
+          const PixelRect& part = surface.rect;
+          for (int y = 0; y < part.height; ++y)
+          {
+            std::copy_n(surface.t.data() + std::size_t(y) * part.width, part.width,
+              depth.data() + std::size_t(part.y - rows.rect.y + y) * rows.rect.width + (part.x - rows.rect.x));
+          }
+        });
     });
 }
 

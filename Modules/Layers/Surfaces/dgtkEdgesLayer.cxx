@@ -30,10 +30,15 @@ public:
   {
     for (int y = 0; y < band.rect.height; ++y)
     {
-      SurfaceRows row;
-      computeSurfaceRows(*this->State, this->TheView, { 0, band.rect.y + y, band.rect.width, 1 },
-        band.hits.data() + std::size_t(y) * std::size_t(band.rect.width), false, row);
-      const std::vector<std::uint8_t> above = this->Edges.next(pixelPlanes(row));
+      std::vector<PixelPlane> planes;
+      forSurfaceRows(*this->State, this->TheView, { 0, band.rect.y + y, band.rect.width, 1 },
+        band.hits.data() + std::size_t(y) * std::size_t(band.rect.width), false,
+        [&planes](const SurfaceRows& row)
+        {
+          const std::vector<PixelPlane> part = pixelPlanes(row);
+          planes.insert(planes.end(), part.begin(), part.end());
+        });
+      const std::vector<std::uint8_t> above = this->Edges.next(std::move(planes));
       this->Last = band.rect.y + y;
       if (!above.empty())
       {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Layered depth images: every surface along the ray through a pixel's centre.
+#include "dgtkInstantSource.h"
 #include "dgtkLayeredDepth.h"
 #include "dgtkLayers.h"
 #include "dgtkStrips.h"
@@ -25,7 +26,7 @@ public:
     {
       for (int y = 0; y < rows.height; ++y)
       {
-        this->add(tile, rows.y + y - tile.rect.y, std::size_t(y) * rows.width + std::size_t(tile.rect.x));
+        this->add(tile, rows, y);
       }
     }
     for (const Rank& rank : this->All)
@@ -43,21 +44,24 @@ private:
     std::vector<float> rgba;
   };
 
-  /// A row of a tile, whose first pixel is `to`.
-  void add(const SurfaceLists& tile, int row, std::size_t to)
+  /// What a tile has of row `y` of `rows`.
+  void add(const SurfaceLists& tile, const PixelRect& rows, int y)
   {
-    const std::uint32_t* const first = tile.first.data() + std::size_t(row) * tile.rect.width;
-    for (std::size_t x = 0; x < std::size_t(tile.rect.width); ++x)
+    const std::uint32_t* const first = tile.first.data() + std::size_t(rows.y + y - tile.rect.y) * tile.rect.width;
+    const int begin = std::max(tile.rect.x, rows.x);
+    const int end = std::min(tile.rect.x + tile.rect.width, rows.x + rows.width);
+    for (int x = begin; x < end; ++x)
     {
-      for (std::uint32_t i = first[x]; i < first[x + 1]; ++i)
+      const std::size_t to = std::size_t(y) * rows.width + std::size_t(x - rows.x);
+      for (std::uint32_t i = first[x - tile.rect.x]; i < first[x - tile.rect.x + 1]; ++i)
       {
-        const std::size_t rank = i - first[x];
+        const std::size_t rank = i - first[x - tile.rect.x];
         if (rank == this->All.size())
         {
           this->All.push_back({ std::vector<Hit>(this->Pixels), std::vector<float>(4 * this->Pixels) });
         }
-        this->All[rank].hits[to + x] = tile.hits[i];
-        std::copy_n(tile.rgba.data() + 4 * std::size_t(i), 4, this->All[rank].rgba.data() + 4 * (to + x));
+        this->All[rank].hits[to] = tile.hits[i];
+        std::copy_n(tile.rgba.data() + 4 * std::size_t(i), 4, this->All[rank].rgba.data() + 4 * to);
       }
     }
   }
@@ -90,28 +94,51 @@ public:
 private:
   LdiRows derive(const Band& band, const PixelRect& rect, const Hit* hits) const
   {
-    LayeredInput in;
-    in.rect = rect;
-    in.first = hits;
-    in.rgb = this->OwnColor && !band.rgb.empty() ? band.rgb.data() + 3 * (hits - band.hits.data()) : nullptr;
-    const Ranks ranks(band, in.rect);
-    in.ranks = ranks.rows();
-    LayeredRows layered;
-    layeredDepthRows(*this->Context.state, this->Context.view, in, layered);
-
     LdiRows rows;
-    rows.y = in.rect.y;
-    rows.height = in.rect.height;
-    rows.counts = std::move(layered.counts);
-    rows.surfaces.reserve(layered.surfaces.size());
-    for (const LayeredSurface& surface : layered.surfaces)
+    rows.y = rect.y;
+    rows.height = rect.height;
+    const View& view = this->Context.view;
+    if (!view.instants)
     {
-      const Model& model = *this->Context.state->instances[surface.hit.object - 1].model;
-      const std::uint32_t part = model.partOf(surface.hit.triangle);
-      rows.surfaces.push_back({ surface.rgba, surface.depth, surface.splatIndex, surface.hit.object, part,
-        surface.hit.triangle - model.parts[part].firstTriangle });
+      this->addPart(*this->Context.state, view, { band, rect, hits }, rows);
+      return rows;
+    }
+    for (const TimedRect& run : timedRuns(*view.model, rect))
+    {
+      const SeenInstant now = instantOf(view, run.time);
+      const std::ptrdiff_t first = std::ptrdiff_t(run.rect.y - rect.y) * rect.width + (run.rect.x - rect.x);
+      this->addPart(*now.state, now.view, { band, run.rect, hits + first }, rows);
     }
     return rows;
+  }
+
+  /// Pixels of a band, whole rows or a run of one row, with their hits.
+  struct Part
+  {
+    const Band& band;
+    PixelRect rect;
+    const Hit* hits;
+  };
+
+  void addPart(const SceneState& state, const View& view, const Part& part, LdiRows& rows) const
+  {
+    LayeredInput in;
+    in.rect = part.rect;
+    in.first = part.hits;
+    in.rgb = this->OwnColor && !part.band.rgb.empty() ? part.band.rgb.data() + 3 * (part.hits - part.band.hits.data())
+                                                      : nullptr;
+    const Ranks ranks(part.band, in.rect);
+    in.ranks = ranks.rows();
+    LayeredRows layered;
+    layeredDepthRows(state, view, in, layered);
+    rows.counts.insert(rows.counts.end(), layered.counts.begin(), layered.counts.end());
+    for (const LayeredSurface& surface : layered.surfaces)
+    {
+      const Model& model = *state.instances[surface.hit.object - 1].model;
+      const std::uint32_t of = model.partOf(surface.hit.triangle);
+      rows.surfaces.push_back({ surface.rgba, surface.depth, surface.splatIndex, surface.hit.object, of,
+        surface.hit.triangle - model.parts[of].firstTriangle });
+    }
   }
 
   JobContext Context;

@@ -131,7 +131,7 @@ std::string boxes(const JobContext& context, const ObjectRows& objects)
   context.pool.parallelFor(static_cast<int>(instances.size()),
     [&](int i)
     {
-      const ObjectPose pose = objectPose(instances[i], context.view);
+      const ObjectPose pose = objectPose(instances[i], static_cast<std::uint32_t>(i + 1), context.view);
       BoxRecord& record = records[i];
       record.id = static_cast<std::uint32_t>(i + 1);
       record.name = instances[i].name;

@@ -105,19 +105,22 @@ private:
     this->Context.pool.parallelFor(rect.height,
       [&](int y)
       {
-        SurfaceRows surface;
-        computeSurfaceRows(*this->Context.state, sparse, { 0, y, rect.width, 1 },
-          buffer.hits.data() + std::size_t(y) * rect.width, true, surface);
-        for (int x = 0; x < rect.width; ++x)
-        {
-          PointRecord point;
-          const Eigen::Vector2d barycentrics(surface.barycentrics[2 * x], surface.barycentrics[2 * x + 1]);
-          if (std::isfinite(surface.t[x]) && this->track(camera, x, y, surface.hits[x], barycentrics, point))
+        forSurfaceRows(*this->Context.state, sparse, { 0, y, rect.width, 1 },
+          buffer.hits.data() + std::size_t(y) * rect.width, true,
+          [&](const SurfaceRows& surface)
           {
-            this->describe(view, surface.hits[x], barycentrics, point);
-            rows[y].push_back(std::move(point));
-          }
-        }
+            for (int i = 0; i < surface.rect.width; ++i)
+            {
+              PointRecord point;
+              const Eigen::Vector2d barycentrics(surface.barycentrics[2 * i], surface.barycentrics[2 * i + 1]);
+              const int x = surface.rect.x + i;
+              if (std::isfinite(surface.t[i]) && this->track(camera, x, y, surface.hits[i], barycentrics, point))
+              {
+                describe(surface, view, surface.hits[i], barycentrics, point);
+                rows[y].push_back(std::move(point));
+              }
+            }
+          });
       });
     std::vector<PointRecord> points;
     for (std::vector<PointRecord>& row : rows)
@@ -153,9 +156,12 @@ private:
     return true;
   }
 
-  void describe(const View& view, const Hit& hit, const Eigen::Vector2d& barycentrics, PointRecord& point) const
+  /// `in`: rows with the point, of the view's scene and pose at the time at which it is seen.
+  static void describe(
+    const SurfaceRows& in, const View& view, const Hit& hit, const Eigen::Vector2d& barycentrics, PointRecord& point)
   {
-    const SceneState& state = *this->Context.state;
+    const SceneState& state = *in.state;
+    const Rigid3& camera_from_world = in.view->camera_from_world;
     point.x = carriedPoint(state, hit, barycentrics);
     point.object = hit.object;
     point.triangle = hit.triangle;
@@ -164,11 +170,10 @@ private:
     Eigen::Vector3d corners[3];
     triangleInWorld(state, hit, corners);
     const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
-    const Eigen::Vector3d x_in_camera = view.camera_from_world * point.x;
+    const Eigen::Vector3d x_in_camera = camera_from_world * point.x;
     Eigen::Vector2d pixel;
     view.model->project(x_in_camera, pixel);
-    const Eigen::Vector3d direction =
-      view.camera_from_world.rotation.transpose() * view.model->rayThrough(pixel).direction;
+    const Eigen::Vector3d direction = camera_from_world.rotation.transpose() * view.model->rayThrough(pixel).direction;
     point.normal = (normal.dot(direction) > 0 ? Eigen::Vector3d(-normal) : normal).cast<float>();
   }
 

@@ -98,15 +98,19 @@ private:
 
   std::vector<Rows> derive(const PixelRect& rect, const Hit* hits) const
   {
-    SurfaceRows surface;
-    computeSurfaceRows(*this->State, this->TheView, rect, hits, this->Barycentrics, surface);
     std::vector<Rows> out;
     for (const Values& layer : this->Layers)
     {
-      Rows rows(layer.spec.type, layer.spec.channels, rect.width, rect.y, rect.height);
-      layer.representation->compute(surface, rows);
-      out.push_back(std::move(rows));
+      out.emplace_back(layer.spec.type, layer.spec.channels, rect.width, rect.y, rect.height);
     }
+    forSurfaceRows(*this->State, this->TheView, rect, hits, this->Barycentrics,
+      [&](const SurfaceRows& surface)
+      {
+        for (std::size_t i = 0; i < out.size(); ++i)
+        {
+          this->Layers[i].representation->compute(surface, out[i]);
+        }
+      });
     return out;
   }
 

@@ -58,6 +58,7 @@ std::vector<CameraRecord> cameraRecords(
       record.files[name] =
         copy != copies.end() ? copy->second : fs::relative(fs::absolute(file), fs::absolute(folder)).generic_string();
     }
+    record.rollingShutter = parameters.rollingShutter;
     record.R = view.camera_from_world.rotation;
     record.t = view.camera_from_world.translation;
     record.model = view.model->name();

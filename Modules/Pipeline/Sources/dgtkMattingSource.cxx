@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkMattingSource.h"
 
+#include "dgtkInstantSource.h"
 #include "dgtkSamples.h"
 
 #include <algorithm>
@@ -11,7 +12,43 @@ namespace dgtk
 namespace
 {
 constexpr int mostSide = 2048; // of a picture of samples
-}
+
+/// Instants at which an object cannot be hit.
+class InstantsWithout final : public InstantSource
+{
+public:
+  InstantsWithout(std::shared_ptr<const InstantSource> all, std::uint32_t object)
+    : All(std::move(all))
+    , Object(object)
+  {
+  }
+  double frame() const override { return this->All->frame(); }
+  Instant at(double frame) const override { return this->without(this->All->at(frame)); }
+  Instance instanceAt(double frame, std::uint32_t object) const override
+  {
+    return this->All->instanceAt(frame, object);
+  }
+  const std::vector<Motion>& motions() const override { return this->All->motions(); }
+  Rigid3 poseAt(double frame) const override { return this->All->poseAt(frame); }
+  Affine3 placeAt(double frame, std::uint32_t object) const override { return this->All->placeAt(frame, object); }
+  Point pointAt(
+    double frame, std::uint32_t object, std::uint32_t triangle, const Eigen::Vector2d& barycentrics) const override
+  {
+    return this->All->pointAt(frame, object, triangle, barycentrics);
+  }
+
+private:
+  Instant without(Instant now) const
+  {
+    auto state = std::make_shared<SceneState>(*now.state);
+    state->instances[this->Object - 1].geometry = nullptr;
+    return { std::move(state), now.camera_from_world };
+  }
+
+  std::shared_ptr<const InstantSource> All;
+  std::uint32_t Object;
+};
+} // namespace
 
 MattingSource::MattingSource(PictureSource& pictures, std::vector<std::uint32_t> objects, int samples)
   : Pictures(pictures)
@@ -39,7 +76,12 @@ std::vector<MattePixels> MattingSource::draw(const PixelRect& rect)
   for (std::size_t i = 0; i < mattes.size(); ++i)
   {
     ColorBuffer colors;
-    this->Pictures.setScene(this->without(this->Objects[i]), this->TheView);
+    View view = this->TheView;
+    if (view.instants)
+    {
+      view.instants = std::make_shared<InstantsWithout>(view.instants, this->Objects[i]);
+    }
+    this->Pictures.setScene(view.instants ? this->State : this->without(this->Objects[i]), view);
     this->Pictures.renderColor(rect, this->Samples, colors, nullptr);
     mattes[i].background = std::move(colors.rgb);
   }

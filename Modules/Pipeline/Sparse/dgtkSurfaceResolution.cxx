@@ -54,17 +54,19 @@ SurfaceResolution surfaceResolution(const Stage& stage, std::size_t camera, doub
     {
       VisibilityBuffer hits;
       source->render(grid.tile(column, row), hits);
-      SurfaceRows surface;
-      computeSurfaceRows(*state, view, hits.rect, hits.hits.data(), false, surface);
-      for (std::size_t i = 0; i < surface.t.size(); ++i)
-      {
-        const int x = hits.rect.x + int(i % std::size_t(hits.rect.width));
-        const int y = hits.rect.y + int(i / std::size_t(hits.rect.width));
-        if (const auto side = std::isfinite(surface.t[i]) ? sideOf(x, y, surface.t[i]) : std::nullopt)
+      forSurfaceRows(*state, view, hits.rect, hits.hits.data(), false,
+        [&](const SurfaceRows& surface)
         {
-          sides.push_back(*side);
-        }
-      }
+          for (std::size_t i = 0; i < surface.t.size(); ++i)
+          {
+            const int x = surface.rect.x + int(i % std::size_t(surface.rect.width));
+            const int y = surface.rect.y + int(i / std::size_t(surface.rect.width));
+            if (const auto side = std::isfinite(surface.t[i]) ? sideOf(x, y, surface.t[i]) : std::nullopt)
+            {
+              sides.push_back(*side);
+            }
+          }
+        });
     }
   }
   SurfaceResolution result;

@@ -17,7 +17,7 @@ using Vector = Eigen::Vector3d;
 namespace
 {
 /// How far the runner is from where it is at frame 0.
-double advance(const Stage& stage, double frame)
+double advanced(const Stage& stage, double frame)
 {
   const auto first = stage.at(0)->instances[0].geometry;
   const auto here = stage.at(frame)->instances[0].geometry;
@@ -331,13 +331,13 @@ TEST(StageModels, AnimationsFollowTheirClock)
   for (const auto& [frame, expected] : std::vector<std::pair<double, double>>{
          { 0, 0 }, { 1, 0.5 }, { 2, 1 }, { 6, 3 }, { 7, 1.5 }, { 8, 0 }, { 9, 0.5 } })
   {
-    EXPECT_NEAR(advance(*looped, frame), expected, 1e-12) << frame;
+    EXPECT_NEAR(advanced(*looped, frame), expected, 1e-12) << frame;
   }
   const auto held = folder.load(runner(R"("loop": false, "start": 4, "rate": 2)"));
   for (const auto& [frame, expected] :
     std::vector<std::pair<double, double>>{ { 0, 0 }, { 4, 0 }, { 5, 1 }, { 7, 3 }, { 8, 3 }, { 1e6, 3 } })
   {
-    EXPECT_NEAR(advance(*held, frame), expected, 1e-12) << frame;
+    EXPECT_NEAR(advanced(*held, frame), expected, 1e-12) << frame;
   }
   EXPECT_EQ(held->at(8)->instances[0].geometry, held->at(1e6)->instances[0].geometry);
   const Model& model = *looped->models().at(0);
@@ -345,14 +345,14 @@ TEST(StageModels, AnimationsFollowTheirClock)
   EXPECT_EQ(sequenceSpan(model, 0, false), 3);
   EXPECT_EQ(sequenceSpan(model, 1, true), 0);
   const auto still = folder.load(runner(R"("rate": 0, "offset": 2)"));
-  EXPECT_EQ(advance(*still, 50), 0);
+  EXPECT_EQ(advanced(*still, 50), 0);
   const auto other = folder.load(runner(R"("sequence": "rest")"));
   const auto number = folder.load(runner(R"("sequence": "1")"));
   writeFile(folder.path("models/runner.anm"), "pair 0 1 10\n");
   const auto pair = folder.load(runner(R"("sequence": "pair")"));
   for (const auto& [frame, expected] : std::vector<std::pair<double, double>>{ { 2, 1 }, { 3, 0.5 }, { 4, 0 } })
   {
-    EXPECT_NEAR(advance(*pair, frame), expected, 1e-12) << frame;
+    EXPECT_NEAR(advanced(*pair, frame), expected, 1e-12) << frame;
   }
   const Vector moved =
     other->at(0)->instances[0].geometry->positions[0] - looped->at(0)->instances[0].geometry->positions[0];

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSeenInTime.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr int mostSteps = 12;
+constexpr int coarseSteps = 64;
+constexpr int mostHalvings = 60;
+constexpr double settled = 1e-12; ///< of the shutter's duration
+
+class PointInTime
+{
+public:
+  PointInTime(const View& view, const Hit& hit, const Eigen::Vector2d& barycentrics)
+    : TheView(view)
+    , TheHit(hit)
+    , Barycentrics(barycentrics)
+  {
+  }
+
+  /// How much later than tau the image point is seen that shows the point at tau; not-a-number where none does.
+  double lateness(double tau)
+  {
+    const InstantSource::Point point =
+      this->TheView.instants->pointAt(tau, this->TheHit.object, this->TheHit.triangle, this->Barycentrics);
+    this->Seen.frame = tau;
+    this->Seen.x_in_world = point.x_in_world;
+    this->Seen.x_in_camera = point.camera_from_world * point.x_in_world;
+    this->Seen.seen = this->TheView.model->project(this->Seen.x_in_camera, this->Seen.pixel);
+    return this->Seen.seen ? this->TheView.instants->frame() - tau + this->TheView.model->timeAt(this->Seen.pixel)
+                           : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  /// Of the last lateness().
+  const SeenInTime& seen() const { return this->Seen; }
+
+private:
+  const View& TheView;
+  const Hit& TheHit;
+  const Eigen::Vector2d& Barycentrics;
+  SeenInTime Seen;
+};
+
+/// Whether the secant method settles within the shutter's time.
+bool settles(PointInTime& point, double frame, const TimeSpan& times, double most)
+{
+  double before = frame;
+  double lateBefore = point.lateness(before);
+  double tau = before + lateBefore;
+  for (int step = 0; step < mostSteps && std::abs(lateBefore) > most; ++step)
+  {
+    tau = std::min(std::max(tau, times.first), times.last);
+    const double late = point.lateness(tau);
+    const double slope = (late - lateBefore) / (tau - before);
+    before = tau;
+    lateBefore = late;
+    tau += slope < 0 && slope > -std::numeric_limits<double>::infinity() ? -late / slope : late;
+  }
+  return std::abs(lateBefore) <= most;
+}
+
+/// Whether halving finds a time; the first one between equal steps.
+bool bisects(PointInTime& point, const TimeSpan& times, double most)
+{
+  double low = times.first;
+  double lateLow = point.lateness(low);
+  for (int i = 1; i <= coarseSteps && !(std::abs(lateLow) <= most); ++i)
+  {
+    double high = times.first + (times.last - times.first) * i / coarseSteps;
+    const double lateHigh = point.lateness(high);
+    const bool between = lateLow > 0 && lateHigh <= 0;
+    for (int halving = 0; between && halving < mostHalvings; ++halving)
+    {
+      const double middle = low + (high - low) / 2;
+      const double late = point.lateness(middle);
+      if (std::isnan(late) || std::abs(late) <= most)
+      {
+        return !std::isnan(late);
+      }
+      (late > 0 ? low : high) = middle;
+    }
+    if (between)
+    {
+      return true;
+    }
+    low = high;
+    lateLow = lateHigh;
+  }
+  return std::abs(lateLow) <= most;
+}
+} // namespace
+
+SeenInTime seenInTime(const View& view, const Hit& hit, const Eigen::Vector2d& barycentrics)
+{
+  PointInTime point(view, hit, barycentrics);
+  const double frame = view.instants->frame();
+  const TimeSpan offsets = view.model->times();
+  const TimeSpan times{ frame + offsets.first, frame + offsets.last };
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon(); // frames have 16 digits, too
+  const double most =
+    std::max(settled * (times.last - times.first), rounding * std::max(std::abs(times.first), std::abs(times.last)));
+  return settles(point, frame, times, most) || bisects(point, times, most) ? point.seen() : SeenInTime{};
+}
+
+} // namespace dgtk

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rolling shutters: every row or column is what a camera of its own instant sees, to the byte; where a moving point is
+seen in another picture agrees with a dense time line."""
+import copy
+import json
+import os
+
+import numpy
+
+from harness import SOURCE, Case, load_json, main
+from pictures import read_png
+
+MODELS = os.path.join(SOURCE, "Data", "Models")
+WIDTH, HEIGHT = 32, 16
+LAYERS = ("depth,distance,inversedepth,objects,classes,parts,triangles,normal,shadingnormal,position,objectcoords,uv,"
+          "barycentrics,color").split(",")
+FORMATS = [text for layer in ("objects", "classes", "parts", "triangles") for text in (f"--{layer}-format", "npy")]
+# A frame of the dense time line is as long as 1/STEPS of one: the centres of rows and columns are on it.
+STEPS = 64
+DURATION = 1.0
+
+
+def scene(camera, steps=1):
+    """A scene in which all move, with its time stretched; all numbers of frames are exact in binary."""
+    def keys(*values):
+        return {"keys": [[8 * steps * i, value] for i, value in enumerate(values)]}
+
+    objects = [
+        {"name": "room", "model": "crate.ac", "position": [0, -1, 0], "scale": [9, 6, 11]},
+        {"name": "ball", "model": "ball.ac", "position": keys([-2.4, 1.2, 0.3], [2.3, 1.5, 0.6]),
+         "orientation": keys([1, 0, 0, 0], [0.6, 0, 0.8, 0]), "scale": [2, 2, 2]},
+        {"name": "crate", "model": "crate.ac", "position": keys([1.5, 0.1, 0.5], [0.8, 1.9, 0.5])},
+        {"name": "creature", "model": "creature.md2", "position": keys([-1, 0.4, -0.6], [0.4, 0.4, 0.4]),
+         "orientation": [0.5, -0.5, -0.5, -0.5], "scale": [0.03, 0.03, 0.03], "animation": {"sequence": "walk"}},
+    ]
+    for item in objects:
+        item["model"] = os.path.join(MODELS, item["model"])
+    eye = {"name": "eye", "width": WIDTH, "height": HEIGHT, "near": 0.05, "far": 100,
+           "eye": keys([0.1, 1.4, 2.2], [0.9, 1.7, 1.8]), "lookAt": keys([0, 1.1, 0], [0.8, 1.0, 0.2]), **camera}
+    lights = [{"name": "lamp", "kind": "point", "position": keys([1, 3, 2], [-1, 2.5, 2]), "shadows": True}]
+    return {"version": 1, "fps": 25 * steps, "objects": objects, "lights": lights, "cameras": [eye]}
+
+
+CAMERAS = {
+    "down": {"rollingShutter": {"duration": DURATION}},
+    "up": {"rollingShutter": {"duration": DURATION, "direction": "up"}},
+    "right": {"rollingShutter": {"duration": DURATION, "direction": "right"}},
+    "fisheye": {"model": "fisheye", "fovY": 150, "rollingShutter": {"duration": DURATION, "direction": "left"}},
+    "table": {"model": "raytable", "rays": "timed.npy"},
+}
+
+
+def steps_of(name):
+    """Steps of the dense time line after the frame's own, of every pixel's centre."""
+    y, x = numpy.mgrid[0:HEIGHT, 0:WIDTH]
+    rows = (2 * y + 1 - HEIGHT) * STEPS // (2 * HEIGHT)
+    columns = (2 * x + 1 - WIDTH) * STEPS // (2 * WIDTH)
+    return {"down": rows, "up": -rows, "right": columns, "fisheye": -columns, "table": (x // 8 - 3 * (y // 4)) * 4}[name]
+
+
+class RollingShutters(Case):
+    def save_table(self):
+        """Rays of a pinhole, with a time for each block of 8 x 4 pixels."""
+        y, x = numpy.mgrid[0:HEIGHT, 0:WIDTH]
+        rays = numpy.stack([(x + 0.5 - WIDTH / 2) / 20, (y + 0.5 - HEIGHT / 2) / 20, numpy.ones((HEIGHT, WIDTH)),
+                            steps_of("table") / STEPS], axis=-1)
+        numpy.save(self.path("timed.npy"), rays)
+        rays[..., 3] = 0
+        numpy.save(self.path("still.npy"), rays)
+
+    def render(self, folder, description, layers, frames, *options):
+        path = self.write(folder + ".json", json.dumps(description))
+        self.dgtk("render", path, "-o", self.path(folder), "--layers", layers, "--frames", frames, "--quiet", "--replace",
+                  *options)
+        return path
+
+    def values(self, folder, layer, frame, camera="eye"):
+        if layer == "color":
+            return numpy.array(read_png(self.path(folder, camera, layer, f"{frame:06d}.png")))
+        return numpy.load(self.path(folder, camera, layer, f"{frame:06d}.npy"))
+
+    def still(self, name, steps):
+        camera = copy.deepcopy(CAMERAS[name])
+        camera.pop("rollingShutter", None)
+        if "rays" in camera:
+            camera["rays"] = "still.npy"
+        return scene(camera, steps)
+
+    def test_every_pixel_is_what_a_camera_of_its_instant_sees(self):
+        self.save_table()
+        for name, camera in CAMERAS.items():
+            with self.subTest(name):
+                steps = steps_of(name)
+                self.render("rolling", scene(camera), ",".join(LAYERS), "4", *FORMATS)
+                instants = sorted(set(steps.flat))
+                self.assertGreater(len(instants), 8)
+                first, last = 4 * STEPS + instants[0], 4 * STEPS + instants[-1]
+                self.render("still", self.still(name, STEPS), ",".join(LAYERS), f"{first}:{last}",
+                            *FORMATS)
+                for layer in LAYERS:
+                    rolling = self.values("rolling", layer, 4)
+                    for step in instants:
+                        then = self.values("still", layer, 4 * STEPS + step)
+                        self.assertEqual(rolling[steps == step].tobytes(), then[steps == step].tobytes(), f"{layer} {step}")
+
+    def test_moving_points_are_seen_where_a_dense_time_line_sees_them(self):
+        """Flow and its classes, against positions of the same points by still cameras at times on either side."""
+        fine = 4096
+        rows = {"down": lambda x, y: y / HEIGHT - 0.5, "right": lambda x, y: x / WIDTH - 0.5}
+        kinds = set()
+        for name, when in rows.items():
+            self.render("rolling", scene(CAMERAS[name]), "flow_forward,objects", "4",
+                        "--flow_forward-format", "npy", "--objects-format", "npy")
+            flow = self.values("rolling", "flow_forward", 4)
+            objects = self.values("rolling", "objects", 4)
+            classes = read_png(self.path("rolling", "eye", "flow_forward", "000004.png"))[..., 0]
+            dense = self.write("dense.json", json.dumps(self.still(name, fine)))
+            picked = [(x, y) for y in range(1, HEIGHT, 4) for x in range(2 + y % 3, WIDTH, 6)]
+            self.assertGreater(len({int(objects[y, x]) for x, y in picked}), 2)
+            for x, y in picked:
+                here = numpy.array([x + 0.5, y + 0.5])
+                there = here + flow[y, x]
+                clipped = numpy.clip(there, 0, [WIDTH, HEIGHT])
+                at = fine * (5 + DURATION * when(*clipped))
+                start = round(fine * (4 + DURATION * when(*here)))
+                found = []
+                for end in (int(at), int(at) + 1):
+                    done = self.dgtk("correspond", dense, "--from", f"eye@{start}", "--to", f"eye@{end}", "--points",
+                                     self.write("points", f"{here[0]} {here[1]}\n"), "--json")
+                    found.append(json.loads(done.stdout))
+                between = [numpy.array(one["matches"][0]["to"]) for one in found]
+                expected = between[0] + (at - int(at)) * (between[1] - between[0])
+                self.assertLess(numpy.abs(expected - there).max(), 1e-6, f"{name} {x} {y}")
+                seen = {one["matches"][0]["class"] for one in found}
+                self.assertIn(classes[y, x], seen, f"{name} {x} {y}")
+                kinds |= seen
+        self.assertGreaterEqual(len(kinds), 3)
+
+    def test_what_knows_one_instant_only_refuses(self):
+        path = self.write("one.json", json.dumps(scene(CAMERAS["down"])))
+        run = ("render", path, "-o", self.path("out"), "--frames", "4")
+        for layers, *options in (["calibration"], ["depth", "--visibility", "raster"], ["color", "--renderer", "vtk"],
+                                 ["color", "--renderer", "povray"], ["pov"], ["depth", "--depth-format", "dgd"]):
+            self.refused(*run, "--layers", layers, *options, status=2, says=("'eye' (pinhole) has a rolling shutter"))
+        self.dgtk(*run, "--layers", "ldi", "--quiet")
+        self.refused("warp", self.path("out", "eye", "ldi", "000004.ldi"), "--to", "eye", "-o", self.path("warped"),
+                     status=2, says="rolling shutter")
+        record = load_json(self.path("out", "cameras.json"))["cameras"][0]
+        self.assertEqual(record["rollingShutter"], {"duration": DURATION, "direction": "down"})
+        for bad in ({"duration": -1}, {"duration": 1, "direction": "inward"}):
+            self.write("bad.json", json.dumps(scene({"rollingShutter": bad})))
+            self.refused("info", self.path("bad.json"), status=3, says="rollingShutter")
+
+
+if __name__ == "__main__":
+    main()
