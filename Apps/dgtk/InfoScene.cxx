@@ -106,8 +106,8 @@ Json infoOfScene(const std::string& path, const Arguments& arguments)
   info["lights"] = Json::array();
   for (const LightDescription& light : scene.lights)
   {
-    info["lights"].push_back(
-      { { "name", light.name }, { "kind", traitsOf(light.kind).word }, { "enabled", light.enabled } });
+    info["lights"].push_back({ { "name", light.name }, { "kind", traitsOf(light.kind).word },
+      { "enabled", light.enabled.at(scene.firstFrame()) } });
   }
   info["first_frame"] = scene.firstFrame();
   info["last_frame"] = scene.lastFrame();

@@ -71,10 +71,7 @@ void addExtra(SceneDescription& scene, int frame)
 /// A key frame of the scene alone, which no track has, goes along.
 void copyFrame(SceneDescription& scene, int from, int to, bool move)
 {
-  for (const SceneItem& item : scene.items())
-  {
-    copyKeys(scene, item, from, to, move);
-  }
+  forEachTrack(scene, [&](auto& track, bool) { copyKey(track, from, to, move); });
   const std::vector<int>& extra = scene.extraKeyFrames;
   if (std::binary_search(extra.begin(), extra.end(), from) && from != to)
   {
@@ -89,22 +86,19 @@ void copyFrame(SceneDescription& scene, int from, int to, bool move)
 
 void makeKeyFrame(SceneDescription& scene, int frame)
 {
-  for (const SceneItem& item : scene.items())
-  {
-    forEachTrackOf(scene, item,
-      [frame](auto& track, bool always)
+  forEachTrack(scene,
+    [frame](auto& track, bool always)
+    {
+      if (always || track.animated())
       {
-        if (always || track.animated())
+        const auto value = track.at(frame);
+        if (!track.animated())
         {
-          const auto value = track.at(frame);
-          if (!track.animated())
-          {
-            track.keys.push_back({ frame, value });
-          }
-          setTrackAt(track, frame, value);
+          track.keys.push_back({ frame, value });
         }
-      });
-  }
+        setTrackAt(track, frame, value);
+      }
+    });
   const std::vector<int> frames = scene.keyFrames();
   if (!std::binary_search(frames.begin(), frames.end(), frame))
   {
@@ -114,10 +108,7 @@ void makeKeyFrame(SceneDescription& scene, int frame)
 
 void removeKeyFrame(SceneDescription& scene, int frame)
 {
-  for (const SceneItem& item : scene.items())
-  {
-    removeItemKeys(scene, item, frame);
-  }
+  forEachTrack(scene, [frame](auto& track, bool) { removeKey(track, frame); });
   dropExtra(scene, frame);
 }
 

@@ -214,7 +214,7 @@ ScenePlaces placeScene(const SceneDescription& scene, const ModelLibrary& models
     place.instance.world_from_object = world[i];
     const std::size_t parent = poses.parentOf(i);
     place.world_from_parent = parent == ObjectPoses::noParent ? Affine3{} : world[parent];
-    place.visible = scene.objects[i].visible;
+    place.visible = scene.objects[i].visible.at(frame);
     place.center = place.instance.world_from_object.translation;
     if (place.instance.geometry != nullptr)
     {

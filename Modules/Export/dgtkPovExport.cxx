@@ -50,6 +50,10 @@ PovBall ballOf(const SceneState& state)
   Eigen::Vector3d high = -low;
   for (const Instance& instance : state.instances)
   {
+    if (!instance.visible)
+    {
+      continue;
+    }
     for (const Eigen::Vector3d& position : instance.geometry->positions)
     {
       const Eigen::Vector3d x_in_world = instance.world_from_object * position;
@@ -173,7 +177,11 @@ void addObjects(const SceneState& state, PovObjects&& objects)
   std::uint32_t id = 0;
   for (const Instance& instance : state.instances)
   {
-    objects.add(instance, ++id, users[{ instance.geometry.get(), &povMaterialsOf(instance) }] > 1);
+    ++id;
+    if (instance.visible)
+    {
+      objects.add(instance, id, users[{ instance.geometry.get(), &povMaterialsOf(instance) }] > 1);
+    }
   }
 }
 } // namespace

@@ -120,7 +120,8 @@ std::string PovLibrary::Impl::image(const ImageKey& key, Make make)
 std::shared_ptr<PovLibrary::Impl::Entry> PovLibrary::Impl::entryOf(
   const Instance& instance, std::uint32_t ownId, bool headLit)
 {
-  const auto gone = [](const Entry& entry) { return entry.geometry.expired(); };
+  const auto gone = [](const Entry& entry)
+  { return entry.geometry.expired() || (entry.materials && entry.materials->expired()); };
   const std::lock_guard<std::mutex> lock(this->Mutex);
   for (auto at = this->Entries.begin(); this->Entries.size() > manyEntries && at != this->Entries.end();)
   {
@@ -132,6 +133,8 @@ std::shared_ptr<PovLibrary::Impl::Entry> PovLibrary::Impl::entryOf(
   {
     entry = std::make_shared<Entry>();
     entry->geometry = instance.geometry;
+    entry->materials =
+      instance.materials ? std::optional<std::weak_ptr<const std::vector<Material>>>(instance.materials) : std::nullopt;
   }
   return entry;
 }

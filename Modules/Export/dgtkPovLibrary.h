@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -50,6 +51,7 @@ private:
   struct Entry
   {
     std::weak_ptr<const Geometry> geometry;
+    std::optional<std::weak_ptr<const std::vector<Material>>> materials; ///< none: the model's
     std::once_flag once;
     PovIncluded included;
   };

@@ -71,10 +71,13 @@ public:
     std::size_t asked = 0;
     for (std::size_t i = 0; i < count; ++i)
     {
-      if (this->Seen[i] == 0 || !this->isInView(this->Points[i], this->Pixels[i]))
+      const bool isThere = this->isThere(i);
+      if (!isThere || this->Seen[i] == 0 || !this->isInView(this->Points[i], this->Pixels[i]))
       {
-        answer(
-          this->Indices[i], this->Pixels[i], this->Seen[i] == 0 ? VisibilityClass::Behind : VisibilityClass::Outside);
+        answer(this->Indices[i], this->Pixels[i],
+          !isThere             ? VisibilityClass::NoSurface
+          : this->Seen[i] == 0 ? VisibilityClass::Behind
+                               : VisibilityClass::Outside);
         continue;
       }
       this->Indices[asked] = this->Indices[i];
@@ -103,6 +106,12 @@ public:
   }
 
 private:
+  bool isThere(std::size_t i) const
+  {
+    const std::uint32_t object = this->Hits[i].object;
+    return this->Other.view.instants ? this->Other.view.instants->isVisibleAt(this->Frames[i], object)
+                                     : this->Other.state->instances[object - 1].visible;
+  }
   void findOccluders(std::size_t count)
   {
     const View& view = this->Other.view;

@@ -16,7 +16,7 @@ namespace dgtk
 /// What becomes of a surface point in another view; the values of class images.
 enum class VisibilityClass : std::uint8_t
 {
-  NoSurface = 0,
+  NoSurface = 0, ///< in the first view, or no longer: its object is not visible at the other time
   Visible = 1,
   OccludedByOther = 2, ///< another object stands before it
   OccludedByOwn = 3,   ///< its own object stands before it
@@ -35,7 +35,8 @@ struct OtherView
 /// Where a surface point is in another view.
 struct Correspondence
 {
-  /// Image point in pixels, the top-left corner of the image is (0, 0); NaN for NoSurface and Behind.
+  /// Image point in pixels, the top-left corner of the image is (0, 0); NaN for Behind, and for NoSurface
+  /// in the first view.
   Eigen::Vector2d pixel{ std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN() };
   VisibilityClass visibility = VisibilityClass::NoSurface;
 };

@@ -197,7 +197,10 @@ BlockObjects::BlockObjects(const SceneState& state, const View& view)
 {
   for (std::size_t i = 0; i < state.instances.size(); ++i)
   {
-    this->markObject(static_cast<std::uint32_t>(i + 1), state.instances[i], view);
+    if (state.instances[i].visible)
+    {
+      this->markObject(static_cast<std::uint32_t>(i + 1), state.instances[i], view);
+    }
   }
 }
 

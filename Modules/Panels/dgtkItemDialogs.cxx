@@ -162,19 +162,19 @@ LightDialog::LightDialog(const LightDescription& light, QWidget* parent)
   form->addRow(tr("&Kind"), this->Kind);
   this->Position = addRow(form, tr("&Position"), "position", listOf(light.position.value));
   this->Target = addRow(form, tr("&Target (directional, spot)"), "target", listOf(light.target.value));
-  this->Diffuse = addRow(form, tr("&Diffuse"), "diffuse", listOf(light.diffuse));
-  this->Specular = addRow(form, tr("&Specular"), "specular", listOf(light.specular));
-  this->Ambient = addRow(form, tr("A&mbient"), "ambient", listOf(light.ambient));
-  this->Intensity = addRow(form, tr("&Intensity"), "intensity", { light.intensity });
+  this->Diffuse = addRow(form, tr("&Diffuse"), "diffuse", listOf(light.diffuse.value));
+  this->Specular = addRow(form, tr("&Specular"), "specular", listOf(light.specular.value));
+  this->Ambient = addRow(form, tr("A&mbient"), "ambient", listOf(light.ambient.value));
+  this->Intensity = addRow(form, tr("&Intensity"), "intensity", { light.intensity.value });
   this->Attenuation =
     addRow(form, tr("Atten&uation (constant, linear, quadratic)"), "attenuation", listOf(light.attenuation));
-  this->Cone = addRow(form, tr("&Cone of a spot, \u00b0"), "coneAngle", { light.coneAngle });
-  this->Exponent = addRow(form, tr("E&xponent of a spot"), "exponent", { light.exponent });
+  this->Cone = addRow(form, tr("&Cone of a spot, \u00b0"), "coneAngle", { light.coneAngle.value });
+  this->Exponent = addRow(form, tr("E&xponent of a spot"), "exponent", { light.exponent.value });
   connect(this->Kind, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &LightDialog::refreshKind);
   this->refreshKind();
   this->Enabled = new QCheckBox(tr("&Enabled"));
   this->Enabled->setObjectName("enabled");
-  this->Enabled->setChecked(light.enabled);
+  this->Enabled->setChecked(light.enabled.value);
   form->addRow(QString(), this->Enabled);
   addButtons(this, form);
 }

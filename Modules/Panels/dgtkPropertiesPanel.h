@@ -62,14 +62,17 @@ private:
     const QString& label, const QString& name, int count, const GetNumbers& get, const SetNumbers& set);
   /// A value that does not move.
   void addNumber(const QString& label, const QString& name, const std::function<double&(SceneDescription&)>& value);
-  void addColor(
+  void addVector(
     const QString& label, const QString& name, const std::function<Eigen::Vector3d&(SceneDescription&)>& value);
   void addTrack(
     const QString& label, const QString& name, const std::function<Track<Eigen::Vector3d>&(SceneDescription&)>& track);
   void addTrack(
     const QString& label, const QString& name, const std::function<Track<double>&(SceneDescription&)>& track);
   void addOrientation(const std::function<Track<Quaternion>&(SceneDescription&)>& track);
+  void addTrack(const QString& label, const QString& name, const std::function<Track<bool>&(SceneDescription&)>& track);
   void addCheck(const QString& label, const QString& name, const std::function<bool&(SceneDescription&)>& value);
+  void addCheck(const QString& label, const QString& name, const std::function<bool(const SceneDescription&)>& get,
+    const std::function<void(SceneDescription&, bool)>& set);
   void addChoice(const QString& label, const QString& name, const QStringList& words,
     const std::function<int(const SceneDescription&)>& get, const std::function<void(SceneDescription&, int)>& set);
   void edit(const QString& label, const std::function<void(SceneDescription&)>& change);

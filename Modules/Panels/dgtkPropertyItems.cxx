@@ -72,8 +72,8 @@ void PropertiesPanel::buildObject(std::size_t index)
   this->addOrientation([object](SceneDescription& scene) -> Track<Quaternion>& { return object(scene).orientation; });
   this->addTrack(
     tr("Scale"), "scale", [object](SceneDescription& scene) -> Track<Eigen::Vector3d>& { return object(scene).scale; });
-  this->addCheck(
-    tr("Visible"), "visible", [object](SceneDescription& scene) -> bool& { return object(scene).visible; });
+  this->addTrack(
+    tr("Visible"), "visible", [object](SceneDescription& scene) -> Track<bool>& { return object(scene).visible; });
   this->buildSequence(index);
 }
 
@@ -97,26 +97,29 @@ void PropertiesPanel::buildLight(std::size_t index)
     this->addTrack(this->withUnits(tr("Target")), "target",
       [light](SceneDescription& scene) -> Vectors& { return light(scene).target; });
   }
-  using Color = Eigen::Vector3d;
-  this->addColor(tr("Diffuse"), "diffuse", [light](SceneDescription& scene) -> Color& { return light(scene).diffuse; });
-  this->addColor(
-    tr("Specular"), "specular", [light](SceneDescription& scene) -> Color& { return light(scene).specular; });
-  this->addColor(tr("Ambient"), "ambient", [light](SceneDescription& scene) -> Color& { return light(scene).ambient; });
-  this->addNumber(
-    tr("Intensity"), "intensity", [light](SceneDescription& scene) -> double& { return light(scene).intensity; });
+  using Scalars = Track<double>;
+  this->addTrack(
+    tr("Diffuse"), "diffuse", [light](SceneDescription& scene) -> Vectors& { return light(scene).diffuse; });
+  this->addTrack(
+    tr("Specular"), "specular", [light](SceneDescription& scene) -> Vectors& { return light(scene).specular; });
+  this->addTrack(
+    tr("Ambient"), "ambient", [light](SceneDescription& scene) -> Vectors& { return light(scene).ambient; });
+  this->addTrack(
+    tr("Intensity"), "intensity", [light](SceneDescription& scene) -> Scalars& { return light(scene).intensity; });
   if (now.near)
   {
-    this->addColor(tr("Attenuation (constant, linear, quadratic)"), "attenuation",
-      [light](SceneDescription& scene) -> Color& { return light(scene).attenuation; });
+    this->addVector(tr("Attenuation (constant, linear, quadratic)"), "attenuation",
+      [light](SceneDescription& scene) -> Eigen::Vector3d& { return light(scene).attenuation; });
   }
   if (now.cone)
   {
-    this->addNumber(
-      tr("Cone, \u00b0"), "coneAngle", [light](SceneDescription& scene) -> double& { return light(scene).coneAngle; });
-    this->addNumber(
-      tr("Exponent"), "exponent", [light](SceneDescription& scene) -> double& { return light(scene).exponent; });
+    this->addTrack(
+      tr("Cone, \u00b0"), "coneAngle", [light](SceneDescription& scene) -> Scalars& { return light(scene).coneAngle; });
+    this->addTrack(
+      tr("Exponent"), "exponent", [light](SceneDescription& scene) -> Scalars& { return light(scene).exponent; });
   }
-  this->addCheck(tr("Enabled"), "enabled", [light](SceneDescription& scene) -> bool& { return light(scene).enabled; });
+  this->addTrack(
+    tr("Enabled"), "enabled", [light](SceneDescription& scene) -> Track<bool>& { return light(scene).enabled; });
   this->addCheck(tr("Shadows"), "shadows", [light](SceneDescription& scene) -> bool& { return light(scene).shadows; });
 }
 
@@ -270,13 +273,13 @@ void PropertiesPanel::buildScene()
   this->addChoice(
     tr("Up axis"), "upAxis", { "y", "z" }, [](const SceneDescription& scene) { return static_cast<int>(scene.upAxis); },
     [](SceneDescription& scene, int axis) { scene.upAxis = static_cast<UpAxis>(axis); });
-  this->addColor(
-    tr("Background"), "background", [](SceneDescription& scene) -> Eigen::Vector3d& { return scene.background; });
-  this->addColor(tr("Fog"), "fogColor", [](SceneDescription& scene) -> Eigen::Vector3d& { return scene.fog.color; });
-  this->addNumber(
-    tr("Fog's density"), "fogDensity", [](SceneDescription& scene) -> double& { return scene.fog.density; });
-  this->addNumber(this->withUnits(tr("Fog begins at")), "fogStart",
-    [](SceneDescription& scene) -> double& { return scene.fog.start; });
+  using Vectors = Track<Eigen::Vector3d>;
+  this->addTrack(tr("Background"), "background", [](SceneDescription& scene) -> Vectors& { return scene.background; });
+  this->addTrack(tr("Fog"), "fogColor", [](SceneDescription& scene) -> Vectors& { return scene.fog.color; });
+  this->addTrack(
+    tr("Fog's density"), "fogDensity", [](SceneDescription& scene) -> Track<double>& { return scene.fog.density; });
+  this->addTrack(this->withUnits(tr("Fog begins at")), "fogStart",
+    [](SceneDescription& scene) -> Track<double>& { return scene.fog.start; });
 }
 
 } // namespace dgtk

@@ -88,7 +88,7 @@ void PropertiesPanel::addNumber(
     [value](SceneDescription& scene, const Numbers& numbers) { value(scene) = numbers[0]; });
 }
 
-void PropertiesPanel::addColor(
+void PropertiesPanel::addVector(
   const QString& label, const QString& name, const std::function<Eigen::Vector3d&(SceneDescription&)>& value)
 {
   this->addNumbers(
@@ -137,21 +137,38 @@ void PropertiesPanel::addOrientation(const std::function<Track<Quaternion>&(Scen
   quaternion->takeTogether();
 }
 
+void PropertiesPanel::addTrack(
+  const QString& label, const QString& name, const std::function<Track<bool>&(SceneDescription&)>& track)
+{
+  this->addCheck(
+    label, name,
+    [this, track](const SceneDescription& scene) { return track(readable(scene)).at(this->State.frame()); },
+    [this, track](SceneDescription& scene, bool on) { setTrackAt(track(scene), this->State.frame(), on); });
+}
+
 void PropertiesPanel::addCheck(
   const QString& label, const QString& name, const std::function<bool&(SceneDescription&)>& value)
+{
+  this->addCheck(
+    label, name, [value](const SceneDescription& scene) { return value(readable(scene)); },
+    [value](SceneDescription& scene, bool on) { value(scene) = on; });
+}
+
+void PropertiesPanel::addCheck(const QString& label, const QString& name,
+  const std::function<bool(const SceneDescription&)>& get, const std::function<void(SceneDescription&, bool)>& set)
 {
   auto* box = new QCheckBox(this->Form->parentWidget());
   box->setObjectName(name);
   this->Form->addRow(label, box);
   this->Refreshers.push_back(
-    [box, value](SceneDescription& scene)
+    [box, get](SceneDescription& scene)
     {
       const bool blocked = box->blockSignals(true);
-      box->setChecked(value(scene));
+      box->setChecked(get(scene));
       box->blockSignals(blocked);
     });
   connect(box, &QCheckBox::toggled, this,
-    [this, label, value](bool on) { this->edit(label, [&](SceneDescription& scene) { value(scene) = on; }); });
+    [this, label, set](bool on) { this->edit(label, [&](SceneDescription& scene) { set(scene, on); }); });
 }
 
 void PropertiesPanel::addChoice(const QString& label, const QString& name, const QStringList& words,

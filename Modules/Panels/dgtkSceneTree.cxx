@@ -63,7 +63,7 @@ std::vector<std::string> SceneTree::listing() const
   }
   for (const ObjectDescription& object : scene.objects)
   {
-    lines.push_back("o" + object.name + '\n' + object.className + (object.visible ? "+" : "-"));
+    lines.push_back("o" + object.name + '\n' + object.className + (isEver(object.visible) ? "+" : "-"));
   }
   for (const LightDescription& light : scene.lights)
   {
@@ -99,7 +99,7 @@ void SceneTree::refresh()
     if (item.kind == SceneItem::Kind::Object)
     {
       const ObjectDescription& object = scene.objects[item.index];
-      kind = object.visible ? toText(object.className) : tr("hidden");
+      kind = isEver(object.visible) ? toText(object.className) : tr("hidden");
     }
     else if (item.kind == SceneItem::Kind::Light)
     {

@@ -27,7 +27,7 @@ constexpr std::size_t nothing = ~std::size_t(0);
 
 bool canBeHit(const Instance& instance)
 {
-  return instance.model && instance.geometry && !instance.model->triangles.empty() &&
+  return instance.visible && instance.model && instance.geometry && !instance.model->triangles.empty() &&
          instance.world_from_object.linear.allFinite() && instance.world_from_object.translation.allFinite();
 }
 

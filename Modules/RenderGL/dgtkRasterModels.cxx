@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRasterModels.h"
 
-#include "dgtkRasterTexture.h"
 #include "dgtkPhongProperty.h"
+#include "dgtkRasterTexture.h"
 
 #include <algorithm>
 #include <vtkFloatArray.h>
@@ -102,12 +102,6 @@ RasterModels::~RasterModels()
 
 void RasterModels::begin(const SceneState& state)
 {
-  for (const auto& model : this->Models)
-  {
-    model->used = std::any_of(state.instances.begin(), state.instances.end(),
-      [&model](const Instance& instance)
-      { return model->geometry->geometry == instance.geometry && model->materials == instance.materials; });
-  }
   // Translucent surfaces are sorted by their numbers.
   const auto isTranslucent = [](const Instance& instance)
   {
@@ -115,6 +109,14 @@ void RasterModels::begin(const SceneState& state)
       [](const Material& material) { return material.opacity < 1; });
   };
   this->StateNumbered = this->Numbered || std::any_of(state.instances.begin(), state.instances.end(), isTranslucent);
+  for (const auto& model : this->Models)
+  {
+    model->used = this->fits(*model) && std::any_of(state.instances.begin(), state.instances.end(),
+                                          [&model](const Instance& instance) {
+                                            return model->geometry->geometry == instance.geometry &&
+                                                   model->materials == instance.materials;
+                                          });
+  }
 }
 
 void RasterModels::drop()
@@ -138,7 +140,7 @@ const RasterModel& RasterModels::of(const Instance& instance)
 {
   for (const auto& made : this->Models)
   {
-    if (made->geometry->geometry == instance.geometry && made->geometry->model == instance.model &&
+    if (this->fits(*made) && made->geometry->geometry == instance.geometry && made->geometry->model == instance.model &&
         made->materials == instance.materials)
     {
       made->used = true;
@@ -148,8 +150,8 @@ const RasterModel& RasterModels::of(const Instance& instance)
   // A deformed model takes over the buffers of an instant that is over.
   for (const auto& made : this->Models)
   {
-    if (!made->used && made->geometry.use_count() == 1 && made->geometry->model == instance.model &&
-        made->materials == instance.materials)
+    if (!made->used && this->fits(*made) && made->geometry.use_count() == 1 &&
+        made->geometry->model == instance.model && made->materials == instance.materials)
     {
       fill(*made->geometry, instance.geometry);
       for (RasterChunk& chunk : made->chunks)
@@ -168,7 +170,7 @@ std::shared_ptr<RasterGeometry> RasterModels::geometryOf(const Instance& instanc
 {
   for (const auto& made : this->Models)
   {
-    if (made->geometry->geometry == instance.geometry && made->geometry->model == instance.model)
+    if (this->fits(*made) && made->geometry->geometry == instance.geometry && made->geometry->model == instance.model)
     {
       return made->geometry;
     }
@@ -207,7 +209,7 @@ std::shared_ptr<const RasterTopology> RasterModels::topologyOf(const std::shared
 {
   for (const auto& made : this->Models)
   {
-    if (made->geometry->model == model)
+    if (this->fits(*made) && made->geometry->model == model)
     {
       return made->geometry->topology;
     }

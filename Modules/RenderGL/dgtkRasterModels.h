@@ -28,6 +28,7 @@ struct RasterTopology
 {
   std::vector<std::uint32_t> source; ///< vertex -> vertex of the model
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  bool numbered = true;
 };
 /// Where numbers are not wanted, the model's own vertices, fewer, with each triangle's corners in the same order: the
 /// same pixels.
@@ -90,6 +91,8 @@ public:
   void drop();
 
 private:
+  /// Its triangles have the numbers that the state needs.
+  bool fits(const RasterModel& made) const { return made.geometry->topology->numbered || !this->StateNumbered; }
   std::shared_ptr<RasterGeometry> geometryOf(const Instance& instance);
   std::shared_ptr<const RasterTopology> topologyOf(const std::shared_ptr<const Model>& model);
   std::unique_ptr<RasterModel> make(const Instance& instance);

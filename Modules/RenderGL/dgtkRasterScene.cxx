@@ -119,6 +119,10 @@ void RasterScene::makeDraws()
   for (std::size_t i = 0; i < this->State->instances.size(); ++i)
   {
     const Instance& instance = this->State->instances[i];
+    if (!instance.visible)
+    {
+      continue;
+    }
     const RasterModel& model = this->Models.of(instance);
     for (const RasterChunk& chunk : model.chunks)
     {

@@ -20,16 +20,17 @@ void sortUnique(std::vector<int>& frames)
 std::vector<int> SceneDescription::keyFrames() const
 {
   std::vector<int> frames = this->extraKeyFrames;
+  const auto add = [&frames](const auto& track, bool)
+  {
+    for (const auto& key : track.keys)
+    {
+      frames.push_back(key.frame);
+    }
+  };
+  forEachTrackOfScene(*this, add);
   for (const SceneItem& item : this->items())
   {
-    forEachTrackOf(*this, item,
-      [&frames](const auto& track, bool)
-      {
-        for (const auto& key : track.keys)
-        {
-          frames.push_back(key.frame);
-        }
-      });
+    forEachTrackOf(*this, item, add);
     sortUnique(frames); // bounded by the longest tracks, not by their sum
   }
   sortUnique(frames);

@@ -37,18 +37,18 @@ struct UnusedKeys
 struct MaterialOverride
 {
   std::string material; ///< name of a material of the model, or "*": all of them
-  std::optional<Eigen::Vector3d> ambient;
-  std::optional<Eigen::Vector3d> diffuse;
-  std::optional<Eigen::Vector3d> specular;
-  std::optional<Eigen::Vector3d> emission;
-  std::optional<double> shininess;      ///< Phong exponent, [0, 128]
-  std::optional<double> opacity;        ///< [0, 1]
-  std::optional<std::string> texture;   ///< picture file relative to the scene's folder; "": none
-  std::optional<double> metallic;       ///< [0, 1]; this or roughness makes the material a physically based one
-  std::optional<double> roughness;      ///< [0, 1], perceptual: the square root of the microfacets' width
-  std::optional<std::string> normalMap; ///< tangent-space normals as glTF has them; picture file or ""
-  std::optional<std::string> bump;      ///< heights, black low; picture file or ""
-  std::optional<double> bumpScale;      ///< scene units between black and white
+  std::optional<Track<Eigen::Vector3d>> ambient;
+  std::optional<Track<Eigen::Vector3d>> diffuse;
+  std::optional<Track<Eigen::Vector3d>> specular;
+  std::optional<Track<Eigen::Vector3d>> emission;
+  std::optional<Track<double>> shininess; ///< Phong exponent, [0, 128]
+  std::optional<Track<double>> opacity;   ///< [0, 1]
+  std::optional<std::string> texture;     ///< picture file relative to the scene's folder; "": none
+  std::optional<Track<double>> metallic;  ///< [0, 1]; this or roughness makes the material a physically based one
+  std::optional<Track<double>> roughness; ///< [0, 1], perceptual: the square root of the microfacets' width
+  std::optional<std::string> normalMap;   ///< tangent-space normals as glTF has them; picture file or ""
+  std::optional<std::string> bump;        ///< heights, black low; picture file or ""
+  std::optional<Track<double>> bumpScale; ///< scene units between black and white
   std::optional<std::string> metallicRoughnessMap; ///< blue times metallic, green times roughness; picture file or ""
   std::optional<std::string> emissionMap;          ///< times the emission, sRGB; picture file or ""
   std::optional<std::string> occlusionMap;         ///< red times the light of the environment; picture file or ""
@@ -73,7 +73,9 @@ struct ObjectDescription
   std::string className; ///< semantic class, free text; may be empty
   std::string model;     ///< path as written, relative to the scene's folder
   std::string parent;    ///< name of an object; "": the world
-  bool visible = true;   ///< an invisible object is not there, and has no id, but still carries its children
+  /// An object that is not visible at a frame is not there, but for its id, and still carries its children; one that is
+  /// never visible has no id.
+  Track<bool> visible{ true };
   Track<Eigen::Vector3d> position{ Eigen::Vector3d(0, 0, 0) };
   Track<Quaternion> orientation;
   Track<Eigen::Vector3d> scale{ Eigen::Vector3d(1, 1, 1) }; ///< no component 0
@@ -90,16 +92,16 @@ struct LightDescription
 {
   std::string name; ///< unique among lights
   LightKind kind = LightKind::Point;
-  bool enabled = true;
+  Track<bool> enabled{ true };
   Track<Eigen::Vector3d> position{ Eigen::Vector3d(0, 0, 0) };
   Track<Eigen::Vector3d> target{ Eigen::Vector3d(0, 0, 0) };
-  Eigen::Vector3d ambient{ 0, 0, 0 };
-  Eigen::Vector3d diffuse{ 1, 1, 1 };
-  Eigen::Vector3d specular{ 1, 1, 1 };
+  Track<Eigen::Vector3d> ambient{ Eigen::Vector3d(0, 0, 0) };
+  Track<Eigen::Vector3d> diffuse{ Eigen::Vector3d(1, 1, 1) };
+  Track<Eigen::Vector3d> specular{ Eigen::Vector3d(1, 1, 1) };
   Eigen::Vector3d attenuation{ 1, 0, 0 }; ///< constant, linear, quadratic; >= 0, not all 0
-  double coneAngle = 30;                  ///< degrees, half the opening, (0, 90]
-  double exponent = 1;                    ///< [0, 128]
-  double intensity = 1;                   ///< >= 0
+  Track<double> coneAngle{ 30 };          ///< degrees, half the opening, (0, 90]
+  Track<double> exponent{ 1 };            ///< [0, 128]
+  Track<double> intensity{ 1 };           ///< >= 0
   bool shadows = false;                   ///< objects cast shadows
   int shadowSize = 2048;                  ///< texels a side of its shadow map, [16, 16384]
   UnusedKeys unused;
@@ -119,9 +121,9 @@ struct EnvironmentDescription
 /// exp(-density (distance - start)) of a surface's colour is left at a distance beyond `start`.
 struct FogDescription
 {
-  Eigen::Vector3d color{ 0.5, 0.5, 0.5 }; ///< sRGB in [0, 1]
-  double density = 0;                     ///< 1 / scene units; 0: there is no fog
-  double start = 0;                       ///< scene units from the camera
+  Track<Eigen::Vector3d> color{ Eigen::Vector3d(0.5, 0.5, 0.5) }; ///< sRGB in [0, 1]
+  Track<double> density;                                          ///< 1 / scene units; 0: there is no fog
+  Track<double> start;                                            ///< scene units from the camera
 };
 
 /// Motion blur: the colour of a frame is the mean over an interval of time.
@@ -221,9 +223,9 @@ struct DGTKSCENE_EXPORT SceneDescription
   /// As the file lists them, those of each kind in their own order; empty: objects, lights, cameras.
   std::vector<SceneItem> order;
 
-  std::vector<int> extraKeyFrames;       ///< ascending; key frames at which no track has a key
-  double fps = 25;                       ///< scene frames a second, > 0
-  Eigen::Vector3d background{ 0, 0, 0 }; ///< sRGB in [0, 1]
+  std::vector<int> extraKeyFrames;   ///< ascending; key frames at which no track has a key
+  double fps = 25;                   ///< scene frames a second, > 0
+  Track<Eigen::Vector3d> background; ///< sRGB in [0, 1]
   EnvironmentDescription environment;
   FogDescription fog;
   std::string units; ///< name of the unit of length, free text

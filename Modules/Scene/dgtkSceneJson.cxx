@@ -63,15 +63,6 @@ void writeFps(const Scene& scene, const char* key, JsonNode& node)
   }
 }
 
-void readBackground(const JsonCursor& at, Scene& scene) { scene.background = at.vector(rules::unit); }
-void writeBackground(const Scene& scene, const char* key, JsonNode& node)
-{
-  if (!scene.background.isZero(0))
-  {
-    node.add(key, writeValue(scene.background));
-  }
-}
-
 void readSeed(const JsonCursor& at, Scene& scene)
 {
   scene.seed = static_cast<std::uint64_t>(at.wholeNumber(rules::seed));
@@ -226,7 +217,7 @@ const std::vector<JsonField<Scene>>& sceneFields()
     { "units", readUnits, writeUnits },
     { "upAxis", readUpAxis, writeUpAxis },
     { "fps", readFps, writeFps },
-    { "background", readBackground, writeBackground },
+    backgroundRow(),
     environmentRow(),
     fogRow(),
     { "seed", readSeed, writeSeed },

@@ -9,6 +9,7 @@
 
 #include <map>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace dgtk::scenefile
@@ -38,6 +39,7 @@ const std::vector<JsonField<RollingShutter>>& rollingShutterFields();
 const std::vector<JsonField<LensDescription>>& lensFields();
 const std::vector<JsonField<ClassDescription>>& classFields();
 JsonField<SceneDescription> classesRow();
+JsonField<SceneDescription> backgroundRow();
 JsonField<SceneDescription> environmentRow();
 JsonField<SceneDescription> fogRow();
 
@@ -121,15 +123,33 @@ JsonNode writeValue(const Quaternion& q);
 /// The words of Interpolation, in the order of its values.
 const std::vector<std::string>& interpolationWords();
 
+inline bool readValue(const JsonCursor& at, const Range&, const bool*) { return at.boolean(); }
 inline double readValue(const JsonCursor& at, const Range& range, const double*) { return at.number(range); }
 inline Eigen::Vector3d readValue(const JsonCursor& at, const Range& range, const Eigen::Vector3d*)
 {
   return &range == &rules::scale ? readScale(at) : at.vector(range);
 }
 inline Quaternion readValue(const JsonCursor& at, const Range&, const Quaternion*) { return readQuaternion(at); }
+inline JsonNode writeValue(bool v) { return JsonNode::of(v); }
+inline JsonNode writeValue(int v) { return JsonNode::of(double(v)); }
 inline JsonNode writeValue(double v) { return JsonNode::of(v); }
 inline JsonNode writeValue(const std::string& v) { return JsonNode::of(v); }
 inline JsonNode writeValue(Interpolation v) { return JsonNode::of(interpolationWords()[static_cast<std::size_t>(v)]); }
+/// What is true or false has steps, said or not.
+template <typename T>
+Interpolation readInterpolation(const JsonCursor& at)
+{
+  if constexpr (std::is_same_v<T, bool>)
+  {
+    at.oneOf({ "step" });
+    return Track<T>().interpolation;
+  }
+  else
+  {
+    return static_cast<Interpolation>(at.oneOf(interpolationWords()));
+  }
+}
+
 /// [frame, value] or [frame, value, interpolation]; frames must ascend.
 template <typename T>
 void readKeys(const JsonCursor& at, const Range& range, std::vector<Key<T>>& keys)
@@ -155,7 +175,7 @@ void readKeys(const JsonCursor& at, const Range& range, std::vector<Key<T>>& key
     key.value = readValue(entry.element(1), range, static_cast<const T*>(nullptr));
     if (parts == 3)
     {
-      key.interpolation = static_cast<Interpolation>(entry.element(2).oneOf(interpolationWords()));
+      key.interpolation = readInterpolation<T>(entry.element(2));
     }
     keys.push_back(key);
   }
@@ -185,7 +205,7 @@ void readTrack(const JsonCursor& at, const Range& range, Track<T>& track)
     }
     else if (at.key(i) == "interpolation")
     {
-      track.interpolation = static_cast<Interpolation>(member.oneOf(interpolationWords()));
+      track.interpolation = readInterpolation<T>(member);
     }
     else
     {
@@ -220,14 +240,14 @@ JsonNode writeTrack(const Track<T>& track)
     JsonNode entry(JsonNode::Type::Array);
     entry.children.push_back(JsonNode::of(double(key.frame)));
     entry.children.push_back(writeValue(key.value));
-    if (key.interpolation)
+    if (key.interpolation && !std::is_same_v<T, bool>)
     {
       entry.children.push_back(writeValue(*key.interpolation));
     }
     keys.children.push_back(std::move(entry));
   }
   object.add("keys", std::move(keys));
-  if (track.interpolation != Interpolation::Linear)
+  if (track.interpolation != Interpolation::Linear && !std::is_same_v<T, bool>)
   {
     object.add("interpolation", writeValue(track.interpolation));
   }

@@ -62,6 +62,7 @@ const std::vector<JsonField<Lens>>& lensFields()
   return fields;
 }
 
+JsonField<SceneDescription> backgroundRow() { return row<&SceneDescription::background, rules::unit>("background"); }
 JsonField<SceneDescription> environmentRow()
 {
   return structRow<&SceneDescription::environment, environmentFields>("environment");

@@ -60,6 +60,11 @@ inline JsonNode writeNumbers(const List& values)
 inline JsonNode writeValue(const std::array<double, 3>& v) { return writeNumbers(v); }
 inline JsonNode writeValue(const std::vector<double>& v) { return writeNumbers(v); }
 template <typename T>
+inline JsonNode writeValue(const Track<T>& track)
+{
+  return writeTrack(track);
+}
+template <typename T>
 inline void add(JsonNode& object, const char* key, const T& value, const T& usual)
 {
   if (!(value == usual))

@@ -142,7 +142,7 @@ private:
     for (std::size_t i = 0; i < this->Scene.objects.size(); ++i)
     {
       const ObjectDescription& object = this->Scene.objects[i];
-      if ((object.visible || !object.className.empty()) && this->Scene.classIdOf(object.className) == 0)
+      if ((isEver(object.visible) || !object.className.empty()) && this->Scene.classIdOf(object.className) == 0)
       {
         const std::string& file = this->Scene.classFile;
         this->fail(Kind::Object, i, "class", "has no number in " + (file.empty() ? "\"classes\"" : file),

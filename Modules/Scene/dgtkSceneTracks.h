@@ -7,8 +7,42 @@
 namespace dgtk
 {
 
-/// Calls function(track, pose) for every track of an item, and there is no other list of them; pose: it is position,
-/// orientation or scale of an object, position of a light, or of the pose of a camera that is in use.
+// The lists of tracks: there are no others. Each calls function(track, pose); pose: it is position, orientation or
+// scale of an object, position of a light, or of the pose of a camera that is in use.
+
+/// The tracks that belong to no item.
+template <typename Scene, typename Function>
+void forEachTrackOfScene(Scene& scene, Function&& function)
+{
+  function(scene.background, false);
+  function(scene.fog.color, false);
+  function(scene.fog.density, false);
+  function(scene.fog.start, false);
+}
+
+/// The tracks that an override has: function(track).
+template <typename Override, typename Function>
+void forEachTrackOf(Override& material, Function&& function)
+{
+  const auto offer = [&function](auto& track)
+  {
+    if (track)
+    {
+      function(*track);
+    }
+  };
+  offer(material.ambient);
+  offer(material.diffuse);
+  offer(material.specular);
+  offer(material.emission);
+  offer(material.shininess);
+  offer(material.opacity);
+  offer(material.metallic);
+  offer(material.roughness);
+  offer(material.bumpScale);
+}
+
+/// Every track of an item.
 template <typename Scene, typename Function>
 void forEachTrackOf(Scene& scene, const SceneItem& item, Function&& function)
 {
@@ -20,6 +54,11 @@ void forEachTrackOf(Scene& scene, const SceneItem& item, Function&& function)
       function(object.position, true);
       function(object.orientation, true);
       function(object.scale, true);
+      function(object.visible, false);
+      for (auto& material : object.materials)
+      {
+        forEachTrackOf(material, [&function](auto& track) { function(track, false); });
+      }
       break;
     }
     case SceneItem::Kind::Light:
@@ -27,6 +66,13 @@ void forEachTrackOf(Scene& scene, const SceneItem& item, Function&& function)
       auto& light = scene.lights[item.index];
       function(light.position, true);
       function(light.target, false);
+      function(light.ambient, false);
+      function(light.diffuse, false);
+      function(light.specular, false);
+      function(light.coneAngle, false);
+      function(light.exponent, false);
+      function(light.intensity, false);
+      function(light.enabled, false);
       function(light.unused.orientation, false);
       function(light.unused.scale, false);
       break;
@@ -56,6 +102,17 @@ void forEachTrackOf(Scene& scene, const SceneItem& item, Function&& function)
       }
       break;
     }
+  }
+}
+
+/// Every track of a scene.
+template <typename Scene, typename Function>
+void forEachTrack(Scene& scene, Function&& function)
+{
+  forEachTrackOfScene(scene, function);
+  for (const SceneItem& item : scene.items())
+  {
+    forEachTrackOf(scene, item, function);
   }
 }
 

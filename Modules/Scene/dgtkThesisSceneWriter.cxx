@@ -2,7 +2,7 @@
 #include "dgtkThesisScene.h"
 
 #include "dgtkError.h"
-#include "dgtkSceneRules.h"
+#include "dgtkSceneJson.h"
 #include "dgtkSceneText.h"
 #include "dgtkText.h"
 
@@ -103,9 +103,10 @@ private:
   {
     const SceneDescription usual;
     this->needScene(this->Scene.fps == usual.fps, "fps");
-    this->needScene(this->Scene.background == usual.background, "background");
+    this->needScene(isConstant(this->Scene.background, usual.background.value), "background");
     this->needScene(this->Scene.environment.image.empty(), "environment");
-    this->needScene(this->Scene.fog.density == 0, "fog");
+    const FogDescription& fog = this->Scene.fog;
+    this->needScene(isConstant(fog.density, 0.0) && !fog.color.animated() && !fog.start.animated(), "fog");
     this->needScene(this->Scene.units.empty(), "units");
     this->needScene(this->Scene.upAxis == usual.upAxis, "upAxis");
     this->needScene(this->Scene.seed == 0, "seed");
@@ -138,7 +139,7 @@ private:
       object.name == this->Usual.objects[item.index].name, item, "name", quoted(this->Usual.objects[item.index].name));
     this->need(object.className.empty(), item, "class");
     this->need(object.parent.empty(), item, "parent");
-    this->need(object.visible, item, "visible");
+    this->need(isConstant(object.visible, true), item, "visible");
     this->need(animation.sequence.empty(), item, "animation.sequence");
     this->need(animation.start == usual.start, item, "animation.start");
     this->need(animation.offset == usual.offset, item, "animation.offset");
@@ -156,12 +157,15 @@ private:
   {
     const LightDescription usual;
     this->need(light.kind == usual.kind, item, "kind", "a point light");
-    this->need(light.enabled, item, "enabled");
-    this->need(isDefault(light.target), item, "target");
+    this->need(isConstant(light.enabled, true), item, "enabled");
+    this->need(isConstant(light.target, usual.target.value), item, "target");
     this->need(light.attenuation == usual.attenuation, item, "attenuation");
-    this->need(light.coneAngle == usual.coneAngle, item, "coneAngle");
-    this->need(light.exponent == usual.exponent, item, "exponent");
-    this->need(light.intensity == usual.intensity, item, "intensity");
+    this->need(isConstant(light.coneAngle, usual.coneAngle.value), item, "coneAngle");
+    this->need(isConstant(light.exponent, usual.exponent.value), item, "exponent");
+    this->need(isConstant(light.intensity, usual.intensity.value), item, "intensity");
+    this->needOneColor(light.diffuse, item, "diffuse");
+    this->needOneColor(light.specular, item, "specular");
+    this->needOneColor(light.ambient, item, "ambient");
     this->need(!light.shadows, item, "shadows");
     this->need(
       light.name.find('(') == std::string::npos && light.name.front() != ' ' && light.name.back() != ' ', item, "name");
@@ -169,15 +173,20 @@ private:
     this->Out += "glObject_Light:";
     // A name of the usual form is left out where the reader gives the same one.
     this->Out += light.name == this->usualLightName(item.index) ? "" : ' ' + light.name;
-    if (light.diffuse != usual.diffuse || light.specular != usual.specular || light.ambient != usual.ambient)
+    const Vector& diffuse = light.diffuse.value;
+    const Vector& specular = light.specular.value;
+    const Vector& ambient = light.ambient.value;
+    if (diffuse != usual.diffuse.value || specular != usual.specular.value || ambient != usual.ambient.value)
     {
-      this->Out +=
-        " ( " + vectorText(light.diffuse) + ", " + vectorText(light.specular) + ", " + vectorText(light.ambient) + " )";
+      this->Out += " ( " + vectorText(diffuse) + ", " + vectorText(specular) + ", " + vectorText(ambient) + " )";
     }
     this->Out += '\n';
   }
 
-  static bool isDefault(const Track<Vector>& track) { return !track.animated() && track.value.isZero(0); }
+  void needOneColor(const Track<Vector>& color, const SceneItem& item, const std::string& property) const
+  {
+    this->need(!color.animated(), item, property, "one value for all frames");
+  }
 
   /// The name that nameAll() gives when exactly the lights of usual names have none.
   std::string usualLightName(std::size_t index) const

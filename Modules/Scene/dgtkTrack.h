@@ -92,7 +92,7 @@ struct Key
 
 /// A value over time. Without keys it is `value` at every frame; with keys `value` has no effect (it is kept because a
 /// .scene camera has both). Keys ascend strictly. Outside of them the nearest key's value holds; at a key frame at()
-/// is exactly that key's value.
+/// is exactly that key's value. What is true or false has steps, whatever is asked for.
 template <typename T>
 struct Track
 {
@@ -122,9 +122,16 @@ struct Track
   /// How the value goes from a key to the next; key < keys.size().
   Interpolation interpolationAfter(std::size_t key) const
   {
-    return this->keys[key].interpolation.value_or(this->interpolation);
+    return std::is_same_v<T, bool> ? Interpolation::Step : this->keys[key].interpolation.value_or(this->interpolation);
   }
 };
+
+/// Whether it is true at some frame.
+inline bool isEver(const Track<bool>& track)
+{
+  return track.animated() ? std::any_of(track.keys.begin(), track.keys.end(), [](const auto& key) { return key.value; })
+                          : track.value;
+}
 
 namespace detail
 {
@@ -136,6 +143,9 @@ template <typename T>
 void alignTo(const T&, T&)
 {
 }
+
+inline double& component(double& value, int) { return value; }
+inline double& component(Eigen::Vector3d& value, int i) { return value[i]; }
 
 /// Cubic Hermite between keys i and i + 1 with Catmull-Rom tangents, one-sided at the ends.
 template <typename T>
@@ -175,7 +185,11 @@ T Track<T>::at(double frame) const
     return a.value;
   }
   const double u = (frame - a.frame) / (double(after->frame) - a.frame);
-  if constexpr (std::is_same_v<T, Quaternion>)
+  if constexpr (std::is_same_v<T, bool>)
+  {
+    return a.value;
+  }
+  else if constexpr (std::is_same_v<T, Quaternion>)
   {
     const Quaternion q =
       how == Interpolation::Smooth ? detail::smooth(this->keys, i, u) : slerp(a.value, after->value, u);
@@ -185,6 +199,32 @@ T Track<T>::at(double frame) const
   {
     return how == Interpolation::Smooth ? detail::smooth(this->keys, i, u) : T(a.value + (after->value - a.value) * u);
   }
+}
+
+/// at(), but never beyond the smallest and the largest key, each component by itself: for values with a range, which a
+/// smooth curve could leave between keys.
+template <typename T>
+T boundedAt(const Track<T>& track, double frame)
+{
+  T value = track.at(frame);
+  if (!track.animated())
+  {
+    return value;
+  }
+  T least = track.keys.front().value;
+  T most = least;
+  for (int i = 0; i < (std::is_same_v<T, double> ? 1 : 3); ++i)
+  {
+    for (Key<T> key : track.keys)
+    {
+      const double number = detail::component(key.value, i);
+      detail::component(least, i) = std::min(detail::component(least, i), number);
+      detail::component(most, i) = std::max(detail::component(most, i), number);
+    }
+    double& number = detail::component(value, i);
+    number = std::clamp(number, detail::component(least, i), detail::component(most, i));
+  }
+  return value;
 }
 
 } // namespace dgtk

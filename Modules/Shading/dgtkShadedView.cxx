@@ -25,7 +25,7 @@ ShadedView::ShadedView(std::shared_ptr<const SceneState> state, const View& view
     placed.camera_from_object = view.camera_from_world * instance.world_from_object;
     placed.side = placed.camera_from_object.linear.determinant() < 0 ? -1 : 1;
     placed.normals = Matrix3(normalMatrix(placed.camera_from_object.linear));
-    this->Translucent = this->Translucent || placed.materials->translucent;
+    this->Translucent = this->Translucent || (instance.visible && placed.materials->translucent);
     this->Objects.push_back(std::move(placed));
   }
   if (this->Light.castsShadows())

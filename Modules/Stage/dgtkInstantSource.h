@@ -49,6 +49,8 @@ public:
   virtual Rigid3 poseAt(double frame) const = 0;
   /// world_from_object at a frame: that of at(), for less.
   virtual Affine3 placeAt(double frame, std::uint32_t object) const = 0;
+  /// Whether an object is there at a frame.
+  virtual bool isVisibleAt(double frame, std::uint32_t object) const = 0;
   /// A point of a triangle of an object (id >= 1) by the weights of the second and third corner, and the camera:
   /// those of at(), for less.
   virtual Point pointAt(

@@ -2,7 +2,9 @@
 #include "dgtkModelLibrary.h"
 
 #include "dgtkError.h"
+#include "dgtkMaterialNumbers.h"
 #include "dgtkModelClock.h"
+#include "dgtkSceneTracks.h"
 
 #include <Eigen/Geometry>
 
@@ -18,7 +20,7 @@ namespace dgtk
 
 namespace
 {
-/// A description of the object alone, at rest in the world.
+/// A description of the object alone, at rest in the world; what moves of its materials is given by their tracks.
 ObjectDescription bare(const ObjectDescription& object)
 {
   ObjectDescription alone = object;
@@ -28,6 +30,17 @@ ObjectDescription bare(const ObjectDescription& object)
   alone.orientation = {};
   alone.scale = Eigen::Vector3d(1, 1, 1);
   alone.animation = {};
+  for (MaterialOverride& material : alone.materials)
+  {
+    forEachTrackOf(material,
+      [](auto& track)
+      {
+        if (track.animated())
+        {
+          track = {};
+        }
+      });
+  }
   return alone;
 }
 
@@ -88,6 +101,7 @@ SceneDescription environmentAlone(const SceneDescription& scene)
 
 ModelLibrary::ModelLibrary()
   : Moving(std::make_shared<GeometryCache>())
+  , Materials(std::make_shared<MaterialNumbers>())
 {
 }
 
@@ -300,7 +314,7 @@ Instance ModelLibrary::at(const SceneDescription& scene, const ObjectDescription
   if (look.model != nullptr && !look.model->triangles.empty())
   {
     instance.model = look.model;
-    instance.materials = look.materials;
+    instance.materials = this->Materials->at(object, look.materials, frame);
     instance.geometry = geometryAt(scene, object, *look.model, frame, *this->Moving);
   }
   return instance;

@@ -18,6 +18,8 @@
 namespace dgtk
 {
 
+class MaterialNumbers;
+
 /// Called between files with how many are read, of how many; false stops.
 using LoadProgress = std::function<bool(std::size_t done, std::size_t total)>;
 
@@ -88,6 +90,7 @@ private:
   std::set<std::string> Absent; ///< files
   std::vector<std::string> Warnings;
   std::shared_ptr<GeometryCache> Moving;
+  std::shared_ptr<MaterialNumbers> Materials;
 };
 
 } // namespace dgtk

@@ -28,6 +28,7 @@ struct Instance
   std::shared_ptr<const std::vector<Material>>
     materials;               ///< model's, or overridden by the scene; one per Model::materials
   Affine3 world_from_object; ///< includes scale and parents; may mirror
+  bool visible = true;       ///< otherwise nothing of it is there at this instant, but it has its place and its id
 };
 
 /// A light at one instant, world frame. Attenuation: 1 / (constant + linear d + quadratic d^2).

@@ -4,6 +4,7 @@
 #include "dgtkCameraEntry.h"
 #include "dgtkError.h"
 #include "dgtkInstantSource.h"
+#include "dgtkMaterialNumbers.h"
 #include "dgtkModelClock.h"
 #include "dgtkObjectPoses.h"
 #include "dgtkSceneTracks.h"
@@ -34,13 +35,13 @@ LightState lightAt(const LightDescription& light, double frame)
   state.kind = light.kind;
   state.position = light.position.at(frame);
   state.target = light.target.at(frame);
-  state.ambient = light.ambient;
-  state.diffuse = light.diffuse;
-  state.specular = light.specular;
+  state.ambient = boundedAt(light.ambient, frame);
+  state.diffuse = boundedAt(light.diffuse, frame);
+  state.specular = boundedAt(light.specular, frame);
   state.attenuation = light.attenuation;
-  state.coneAngle = light.coneAngle;
-  state.exponent = light.exponent;
-  state.intensity = light.intensity;
+  state.coneAngle = boundedAt(light.coneAngle, frame);
+  state.exponent = boundedAt(light.exponent, frame);
+  state.intensity = boundedAt(light.intensity, frame);
   state.shadows = light.shadows;
   state.shadowSize = light.shadowSize;
   return state;
@@ -51,7 +52,7 @@ std::vector<LightState> lightsAt(const SceneDescription& scene, double frame)
   std::vector<LightState> lights;
   for (const LightDescription& light : scene.lights)
   {
-    if (light.enabled)
+    if (light.enabled.at(frame))
     {
       lights.push_back(lightAt(light, frame));
     }
@@ -171,6 +172,7 @@ struct Stage::Impl
   std::vector<std::string> Files;
   std::optional<ObjectPoses> Poses;
   std::shared_ptr<GeometryCache> Geometries;
+  mutable MaterialNumbers Materials;
 
   // The latest states: the cameras of a frame, and what looks a frame ahead and back, ask for the same ones.
   std::mutex Mutex;
@@ -216,7 +218,7 @@ void Stage::Impl::checkScale(const ObjectDescription& object, double frame) cons
 bool Stage::Impl::isPresent(std::size_t object) const
 {
   const Model* const model = this->Looks[object].model.get();
-  return this->Scene.objects[object].visible && model != nullptr && !model->triangles.empty();
+  return isEver(this->Scene.objects[object].visible) && model != nullptr && !model->triangles.empty();
 }
 
 std::shared_ptr<const SceneState> Stage::Impl::compute(double frame) const
@@ -231,9 +233,10 @@ std::shared_ptr<const SceneState> Stage::Impl::compute(double frame) const
   const std::vector<Affine3> world = this->Poses->at(frame);
   auto state = std::make_shared<SceneState>();
   state->frame = frame;
-  state->background = this->Scene.background;
+  state->background = boundedAt(this->Scene.background, frame);
   state->environment = this->Environment;
-  state->fog = { this->Scene.fog.color, this->Scene.fog.density, this->Scene.fog.start };
+  const FogDescription& fog = this->Scene.fog;
+  state->fog = { boundedAt(fog.color, frame), boundedAt(fog.density, frame), boundedAt(fog.start, frame) };
   state->lights = lightsAt(this->Scene, frame);
   for (const SceneItem& item : this->Scene.items())
   {
@@ -256,8 +259,9 @@ Instance Stage::Impl::instance(std::size_t index, const Affine3& world_from_obje
   instance.classId = std::uint32_t(this->Scene.classIdOf(object.className));
   instance.model = look.model;
   instance.geometry = geometryAt(this->Scene, object, *look.model, frame, *this->Geometries);
-  instance.materials = look.materials;
+  instance.materials = this->Materials.at(object, look.materials, frame);
   instance.world_from_object = world_from_object;
+  instance.visible = object.visible.at(frame);
   return instance;
 }
 
@@ -344,6 +348,7 @@ public:
     const Impl& impl = *this->Owner->Self;
     std::size_t weight = 1;
     bool still = true;
+    forEachTrackOfScene(impl.Scene, [&still](const auto& track, bool) { still = still && !track.animated(); });
     for (const SceneItem& item : impl.Scene.items())
     {
       const std::pair<bool, bool> animated = animatedTracks(impl.Scene, item);
@@ -401,6 +406,10 @@ public:
     Rigid3 pose = dgtk::poseAt(this->Camera, frame);
     pose.translation -= this->LensPoint;
     return pose;
+  }
+  bool isVisibleAt(double frame, std::uint32_t object) const override
+  {
+    return this->Owner->description().objects[this->Objects[object - 1]].visible.at(frame);
   }
   Affine3 placeAt(double frame, std::uint32_t object) const override
   {

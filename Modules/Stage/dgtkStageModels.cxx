@@ -292,29 +292,16 @@ void StageModels::applyOverride(const ObjectDescription& object, const Model& mo
   bool used = false;
   for (Material& material : materials)
   {
-    if (change.material != "*" && change.material != material.name)
+    if (!isFor(change, material))
     {
       continue;
     }
     used = true;
-    material.ambient = change.ambient.value_or(material.ambient);
-    material.diffuse = change.diffuse.value_or(material.diffuse);
-    material.specular = change.specular.value_or(material.specular);
-    material.emission = change.emission.value_or(material.emission);
-    material.shininess = change.shininess.value_or(material.shininess);
-    material.opacity = change.opacity.value_or(material.opacity);
+    overrideNumbers(change, 0, material); // of those that move, MaterialNumbers has the frame's
     if (change.texture)
     {
       setTexture(material, model, this->textureOf(model, *change.texture));
     }
-    if (change.metallic || change.roughness)
-    {
-      material.physical = material.physical.value_or(Material::Physical());
-      material.physical->metallic = change.metallic.value_or(material.physical->metallic);
-      material.physical->roughness = change.roughness.value_or(material.physical->roughness);
-      material.physical->wanted = true;
-    }
-    material.bumpScale = change.bumpScale.value_or(material.bumpScale);
     const std::pair<const std::optional<std::string>*, int*> maps[] = { { &change.normalMap, &material.normalMap },
       { &change.bump, &material.bumpMap }, { &change.metallicRoughnessMap, &material.metallicRoughnessMap },
       { &change.emissionMap, &material.emissionMap }, { &change.occlusionMap, &material.occlusionMap } };

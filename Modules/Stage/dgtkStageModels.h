@@ -4,6 +4,7 @@
 
 // Private to Stage.
 
+#include "dgtkMaterialNumbers.h"
 #include "dgtkModelReader.h"
 #include "dgtkModelSource.h"
 #include "dgtkStage.h"
@@ -15,8 +16,6 @@
 
 namespace dgtk
 {
-
-using MaterialList = std::shared_ptr<const std::vector<Material>>;
 
 /// Everything that the objects of a scene need from files, each file read once.
 class StageModels : public ModelSource

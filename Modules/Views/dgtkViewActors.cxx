@@ -244,8 +244,9 @@ void ViewActors::showLights(const SceneDescription& scene, const ScenePlaces& pl
   for (std::size_t i = 0; i < places.lights.size(); ++i)
   {
     const LightDescription& light = scene.lights[i];
-    Eigen::Vector3d color = light.diffuse / std::max(light.diffuse.maxCoeff(), 1e-9);
-    color = light.enabled ? color : Eigen::Vector3d(0.35, 0.35, 0.35);
+    const Eigen::Vector3d diffuse = light.diffuse.at(places.frame);
+    Eigen::Vector3d color = diffuse / std::max(diffuse.maxCoeff(), 1e-9);
+    color = light.enabled.at(places.frame) ? color : Eigen::Vector3d(0.35, 0.35, 0.35);
     this->Lights[i]->GetProperty()->SetColor(color.x(), color.y(), color.z());
     this->Lights[i]->SetScale(lightRadius(places));
     Eigen::Vector3d position = places.lights[i];

@@ -86,6 +86,10 @@ private:
     for (std::size_t i = 0; i < this->State.instances.size(); ++i)
     {
       const Instance& instance = this->State.instances[i];
+      if (!instance.visible)
+      {
+        continue;
+      }
       const std::vector<Material>& materials = instance.materials ? *instance.materials : instance.model->materials;
       for (const Part& part : instance.model->parts)
       {

@@ -200,7 +200,7 @@ void TestEditor::addsCamerasAndLights()
   this->action("light")->trigger();
   QCOMPARE(document.scene().lights.size(), std::size_t(1));
   this->type("diffuse.0", "0.25");
-  QCOMPARE(document.scene().lights[0].diffuse.x(), 0.25);
+  QCOMPARE(document.scene().lights[0].diffuse.value.x(), 0.25);
 }
 
 void TestEditor::refusesWithAMessage()

@@ -321,9 +321,9 @@ void TestEditorTyping::everyNumberIsOfItsOwnProperty()
     { "tree", "scale.1", 1.25, [](const auto& s) { return s.objects[3].scale.value.y(); } },
     { "spot", "position.0", -1, [](const auto& s) { return s.lights[2].position.value.x(); } },
     { "spot", "target.1", 0.5, [](const auto& s) { return s.lights[2].target.value.y(); } },
-    { "spot", "intensity.0", 2, [](const auto& s) { return s.lights[2].intensity; } },
-    { "spot", "coneAngle.0", 20, [](const auto& s) { return s.lights[2].coneAngle; } },
-    { "spot", "exponent.0", 16, [](const auto& s) { return s.lights[2].exponent; } } };
+    { "spot", "intensity.0", 2, [](const auto& s) { return s.lights[2].intensity.value; } },
+    { "spot", "coneAngle.0", 20, [](const auto& s) { return s.lights[2].coneAngle.value; } },
+    { "spot", "exponent.0", 16, [](const auto& s) { return s.lights[2].exponent.value; } } };
   for (const Row& row : table)
   {
     this->select(row.item);

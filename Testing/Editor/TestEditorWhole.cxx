@@ -281,10 +281,10 @@ void TestEditorWhole::lightsHaveAllTheirNumbers()
   this->action("light")->trigger();
   const dgtk::LightDescription& light = this->Window->document().scene().lights.at(0);
   QCOMPARE(light.kind, dgtk::LightKind::Spot);
-  QCOMPARE(light.intensity, 0.5);
+  QCOMPARE(light.intensity.value, 0.5);
   QCOMPARE(light.attenuation, Eigen::Vector3d(1, 0.25, 0.125));
-  QCOMPARE(light.coneAngle, 20.0);
-  QCOMPARE(light.exponent, 3.0);
+  QCOMPARE(light.coneAngle.value, 20.0);
+  QCOMPARE(light.exponent.value, 3.0);
   // Its properties have the rows of its kind.
   QVERIFY(this->field("exponent.0") != nullptr);
   auto* kind = this->Window->findChild<QWidget*>("propertiesPanel")->findChild<QComboBox*>("kind");

@@ -304,7 +304,7 @@ TEST(DocumentSteps, OldStepsOfLargeScenesAreForgotten)
     {
       for (std::size_t i = 0; i < count; ++i)
       {
-        document.edit("Fog", [](SceneDescription& scene) { scene.fog.density += 0.5; });
+        document.edit("Fog", [](SceneDescription& scene) { scene.fog.density.value += 0.5; });
       }
     };
     edit(row.before);
@@ -314,7 +314,7 @@ TEST(DocumentSteps, OldStepsOfLargeScenesAreForgotten)
     }
     edit(row.behind);
     EXPECT_EQ(stepsOf(document).size(), row.undone);
-    EXPECT_EQ(document.scene().fog.density, 0.5 * double(row.before + row.behind - row.undone));
+    EXPECT_EQ(document.scene().fog.density.value, 0.5 * double(row.before + row.behind - row.undone));
     EXPECT_EQ(document.modified(), row.modified) << row.before;
   }
   // Steps of an item hold two.
@@ -324,7 +324,7 @@ TEST(DocumentSteps, OldStepsOfLargeScenesAreForgotten)
   document.install(std::move(loaded));
   for (int i = 0; i < 10; ++i)
   {
-    document.edit("Fog", [](SceneDescription& scene) { scene.fog.density += 0.5; });
+    document.edit("Fog", [](SceneDescription& scene) { scene.fog.density.value += 0.5; });
   }
   put(document, first, 1, "");
   put(document, first, 2, "");

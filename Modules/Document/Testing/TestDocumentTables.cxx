@@ -190,6 +190,43 @@ TEST(KeyFrameTables, EveryEditOfKeys)
   }
 }
 
+/// Those of the scene itself, of what is true or false, and of materials.
+TEST(KeyFrameTables, TracksOfEveryKindGoAlong)
+{
+  SceneDescription scene = keyed();
+  scene.background.keys = { { 10, Eigen::Vector3d(1, 0, 0) } };
+  scene.fog.density.keys = { { 0, 1 }, { 10, 2 } };
+  scene.objects[1].visible.keys = { { 0, true }, { 10, false } };
+  scene.objects[1].materials.resize(1);
+  scene.objects[1].materials[0].material = "*";
+  scene.objects[1].materials[0].opacity = Track<double>(1);
+  scene.objects[1].materials[0].opacity->keys = { { 10, 0.5 } };
+  scene.lights[0].enabled.keys = { { 10, false } };
+  const auto texts = [&scene]
+  {
+    return std::vector<std::string>{ text(scene.background), text(scene.fog.density), text(scene.objects[1].visible),
+      text(*scene.objects[1].materials[0].opacity), text(scene.lights[0].enabled) };
+  };
+  using Strings = std::vector<std::string>;
+  EXPECT_EQ(keyFramesOf(scene, anotherObject), (std::vector<int>{ 0, 10 }));
+  EXPECT_EQ(keyInterpolationOf(scene, aLight, 10)->kind, Interpolation::Linear) << "of the target, the first";
+  EXPECT_EQ(keyInterpolationOf(scene, anotherObject, 10)->kind, Interpolation::Step);
+  moveKeyFrame(scene, 10, 12);
+  EXPECT_EQ(texts(), (Strings{ "l 12:1,0,0", "l 0:1 12:2", "l 0:1 12:0", "l 12:0.5", "l 12:0" }));
+  copyKeyFrame(scene, 12, 4);
+  EXPECT_EQ(
+    texts(), (Strings{ "l 4:1,0,0 12:1,0,0", "l 0:1 4:2 12:2", "l 0:1 4:0 12:0", "l 4:0.5 12:0.5", "l 4:0 12:0" }));
+  makeKeyFrame(scene, 2);
+  EXPECT_EQ(texts(), (Strings{ "l 2:1,0,0 4:1,0,0 12:1,0,0", "l 0:1 2:1.5 4:2 12:2", "l 0:1 2:1 4:0 12:0",
+                       "l 2:0.5 4:0.5 12:0.5", "l 2:0 4:0 12:0" }));
+  for (const int frame : { 0, 2, 4, 12 })
+  {
+    removeKeyFrame(scene, frame);
+  }
+  EXPECT_EQ(texts(), (Strings{ "=1,0,0", "=2", "=0", "=0.5", "=0" })) << "what the last keys said";
+  EXPECT_EQ(scene.keyFrames(), (std::vector<int>{ 5, 15, 20 })) << "the rest stays";
+}
+
 TEST(KeyFrameTables, WhatTheLastKeySaidStays)
 {
   SceneDescription scene = keyed();

@@ -213,6 +213,10 @@ TEST(ScenePlaces, BoxesOfItemsAndFieldsOfView)
   EXPECT_GT(half.minCoeff(), 0.1);
   EXPECT_LT((places.objects[1].box.min - crate.box.min - V(490, 0, 0)).norm(), 1e-9);
   EXPECT_LT(places.box.max.x(), 100) << "what is not visible is not there";
+  scene.objects[1].visible.keys = { { 0, false }, { 4, true } };
+  EXPECT_FALSE(placeScene(scene, models, 3).objects[1].visible);
+  EXPECT_TRUE(placeScene(scene, models, 4).objects[1].visible);
+  EXPECT_GT(placeScene(scene, models, 4).box.max.x(), 400);
   WorldBox all = crate.box;
   all.add(places.objects[2].box);
   all.add(boxOf({ 0, 0, 0 }, { 30, 40, 10 })); // lights and cameras

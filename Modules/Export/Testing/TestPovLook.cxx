@@ -397,6 +397,36 @@ TEST_F(PovLook, MaterialsOfALibraryAreThoseOfTheLight)
   EXPECT_THAT(finishIn(LightKind::Directional), HasSubstr("phong 1 phong_size 20"));
 }
 
+// As those of one frame may be taken for those of another, with the same geometry.
+TEST_F(PovLook, ALibraryTakesNoMaterialsForOthersThatStoodAtTheirAddress)
+{
+  PovLibrary library(this->Folder.path(), "");
+  std::vector<Material> place = *this->State.instances[0].materials;
+  const auto fileOf = [&](const Eigen::Vector3d& diffuse)
+  {
+    place[0].diffuse = diffuse;
+    this->State.instances[0].materials = std::shared_ptr<const std::vector<Material>>(&place, [](const auto*) {});
+    return makePovScene(this->State, this->V, {}, library).uses.at(0).name;
+  };
+  const std::string red = fileOf({ 1, 0, 0 });
+  EXPECT_NE(fileOf({ 0, 1, 0 }), red);
+  EXPECT_EQ(fileOf({ 1, 0, 0 }), red);
+}
+
+TEST_F(PovLook, ObjectsThatAreNotVisibleAreNotWritten)
+{
+  this->State = *test::SceneBuilder().add(test::makeBox(), {}, "a").add(test::makeBox(), {}, "b").state();
+  const auto objects = [this]
+  {
+    const std::string text = this->write();
+    const std::regex object("\\bobject \\{");
+    return std::distance(std::sregex_iterator(text.begin(), text.end(), object), std::sregex_iterator());
+  };
+  const auto both = objects();
+  this->State.instances[0].visible = false;
+  EXPECT_EQ(objects(), both - 1);
+}
+
 TEST_F(PovLook, WhatLightDoesNotReachNeedsNoTextureOfTheView)
 {
   test::SphereOptions options;

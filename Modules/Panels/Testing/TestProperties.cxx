@@ -34,10 +34,10 @@ Fog begins at, m | fogStart 3
 )");
   SceneDescription wanted = this->scene();
   this->type("background.1", "0.9");
-  wanted.background.y() = 0.9;
+  wanted.background.value.y() = 0.9;
   EXPECT_EQ(this->State->document().undoText(), "Change Background");
   this->type("fogColor.2", "1");
-  wanted.fog.color.z() = 1;
+  wanted.fog.color.value.z() = 1;
   this->type("fogDensity.0", "0.5");
   wanted.fog.density = 0.5;
   this->type("fogStart.0", "6");
@@ -53,8 +53,47 @@ Fog begins at, m | fogStart 3
   EXPECT_NE(this->rows().find("Fog begins at | fogStart 6\n"), std::string::npos);
   this->type("fogDensity.0", "-1");
   EXPECT_FALSE(this->Failure.empty());
-  EXPECT_EQ(this->scene().fog.density, 0.5);
+  EXPECT_EQ(this->scene().fog.density.value, 0.5);
   EXPECT_NE(this->rows().find("fogDensity 0.5\n"), std::string::npos) << "what is shown is what holds";
+}
+
+// The value at the frame; what is typed is a key there. Undo takes it away.
+TEST_F(Properties, ValuesWithKeyFramesAreThoseOfTheFrame)
+{
+  this->State->document().edit("keys",
+    [](SceneDescription& scene)
+    {
+      scene.background.keys = { { 0, V(0, 0, 0) }, { 4, V(1, 0.5, 0) } };
+      scene.fog.density.keys = { { 0, 0 }, { 4, 1 } };
+      scene.objects[0].visible.keys = { { 0, true }, { 3, false } };
+      scene.lights[1].intensity.keys = { { 0, 1 }, { 4, 5 } };
+      scene.lights[1].enabled.keys = { { 0, false }, { 2, true } };
+    });
+  const std::string before = toJson(this->scene(), "");
+  this->State->setFrame(2);
+  EXPECT_NE(this->rows().find("background 0.5 0.25 0\n"), std::string::npos) << this->rows();
+  EXPECT_NE(this->rows().find("fogDensity 0.5\n"), std::string::npos);
+  this->type("background.2", "1");
+  ASSERT_EQ(this->scene().background.keys.size(), 3u);
+  EXPECT_EQ(this->scene().background.at(2), V(0.5, 0.25, 1));
+  this->State->document().undo();
+  this->select(Kind::Object, 0);
+  EXPECT_TRUE(this->field<QCheckBox>("visible")->isChecked());
+  this->State->setFrame(3);
+  EXPECT_FALSE(this->field<QCheckBox>("visible")->isChecked());
+  this->State->setFrame(5);
+  this->field<QCheckBox>("visible")->setChecked(true);
+  EXPECT_FALSE(this->scene().objects[0].visible.at(4));
+  EXPECT_TRUE(this->scene().objects[0].visible.at(5));
+  EXPECT_EQ(this->State->document().undoText(), "Change Visible");
+  this->State->document().undo();
+  this->select(Kind::Light, 1);
+  this->State->setFrame(1);
+  EXPECT_NE(this->rows().find("intensity 2\n"), std::string::npos);
+  EXPECT_NE(this->rows().find("enabled off\n"), std::string::npos);
+  this->State->setFrame(2);
+  EXPECT_NE(this->rows().find("enabled on\n"), std::string::npos);
+  EXPECT_EQ(toJson(this->scene(), ""), before);
 }
 
 TEST_F(Properties, RowsOfObjects)
@@ -174,11 +213,11 @@ Shadows | shadows off
   this->type("target.0", "-1");
   spot.target = V(-1, 0, 1);
   this->type("diffuse.0", "0.5");
-  spot.diffuse.x() = 0.5;
+  spot.diffuse.value.x() = 0.5;
   this->type("specular.1", "0.5");
-  spot.specular.y() = 0.5;
+  spot.specular.value.y() = 0.5;
   this->type("ambient.2", "0.5");
-  spot.ambient.z() = 0.5;
+  spot.ambient.value.z() = 0.5;
   this->type("intensity.0", "4");
   spot.intensity = 4;
   this->type("attenuation.1", "2");

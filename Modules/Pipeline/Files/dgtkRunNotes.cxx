@@ -80,7 +80,7 @@ constexpr std::size_t mostLookedAt = 64; // pictures of a run, for how coarse sh
 bool castsShadows(const SceneDescription& scene)
 {
   return std::any_of(
-    scene.lights.begin(), scene.lights.end(), [](const auto& light) { return light.enabled && light.shadows; });
+    scene.lights.begin(), scene.lights.end(), [](const auto& light) { return isEver(light.enabled) && light.shadows; });
 }
 
 bool seesAnything(const View& view, const SceneState& state, std::map<const Geometry*, Box>& boxes)
@@ -91,7 +91,7 @@ bool seesAnything(const View& view, const SceneState& state, std::map<const Geom
                     {
                       const auto [box, isNew] = boxes.try_emplace(instance.geometry.get());
                       box->second = isNew ? boxOf(*instance.geometry) : box->second;
-                      return reaches(view, *lens, box->second, instance.world_from_object);
+                      return instance.visible && reaches(view, *lens, box->second, instance.world_from_object);
                     });
 }
 

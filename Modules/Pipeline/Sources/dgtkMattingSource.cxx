@@ -31,6 +31,7 @@ public:
   const std::vector<Motion>& motions() const override { return this->All->motions(); }
   Rigid3 poseAt(double frame) const override { return this->All->poseAt(frame); }
   Affine3 placeAt(double frame, std::uint32_t object) const override { return this->All->placeAt(frame, object); }
+  bool isVisibleAt(double frame, std::uint32_t object) const override { return this->All->isVisibleAt(frame, object); }
   Point pointAt(
     double frame, std::uint32_t object, std::uint32_t triangle, const Eigen::Vector2d& barycentrics) const override
   {

@@ -12,6 +12,7 @@ RasterTopology rasterTopology(const Model& model, bool numbered)
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   const std::size_t count = model.triangles.size();
   RasterTopology result;
+  result.numbered = numbered;
   result.source.resize(count);
   result.triangles.resize(count);
   std::vector<std::uint32_t> renumbered(model.rest->positions.size(), none); // vertex of the model -> vertex

@@ -61,6 +61,10 @@ void SeenSurfaces::visit(const SceneState& state, const std::function<void(int s
   std::vector<unsigned int> outside; // a bit for each side
   for (const Instance& instance : state.instances)
   {
+    if (!instance.visible)
+    {
+      continue;
+    }
     positions.clear();
     outside.clear();
     for (const Eigen::Vector3d& position : instance.geometry->positions)

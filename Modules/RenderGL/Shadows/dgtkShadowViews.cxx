@@ -253,6 +253,10 @@ double LightFit::nearestCaster(const SceneState& state) const
   double nearest = -std::numeric_limits<double>::infinity();
   for (const Instance& instance : state.instances)
   {
+    if (!instance.visible)
+    {
+      continue;
+    }
     for (const Eigen::Vector3d& position : instance.geometry->positions)
     {
       nearest = std::max(nearest, this->Axes.row(2).dot(instance.world_from_object * position));

@@ -471,3 +471,44 @@ TEST(RasterColor, ColoursAloneAreTheSameAsWithHits)
   alone->renderColor(whole(view), 1, colors, nullptr);
   EXPECT_EQ(colors.rgb, expected.rgb);
 }
+
+// Of two translucent surfaces at one place, the one that the model lists first is drawn first, by its number; numbers
+// are made when they are needed.
+TEST(RasterColor, SurfacesThatBecomeTranslucentAreSortedAsThoseThatAlwaysWere)
+{
+  ModelBuilder twice;
+  twice.part(matte({ 1, 1, 1 }));
+  twice.quad({ -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 });
+  twice.quad({ -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 });
+  const auto model = std::make_shared<Model>(*twice.finish());
+  std::swap(model->triangles[0], model->triangles[2]); // the later vertices are those of the earlier triangles
+  std::swap(model->triangles[1], model->triangles[3]);
+  const auto tilted = std::make_shared<Geometry>(*model->rest);
+  std::fill(tilted->normals.begin() + 4, tilted->normals.end(), Eigen::Vector3f(0.8f, 0, 0.6f));
+  model->rest = tilted;
+  const auto withOpacity = [&model](double opacity)
+  {
+    auto state = stateOf({ model });
+    auto materials = std::make_shared<std::vector<Material>>(model->materials);
+    (*materials)[0].opacity = opacity;
+    state->instances[0].materials = materials;
+    state->lights.emplace_back().kind = LightKind::Head;
+    return state;
+  };
+  const auto opaque = withOpacity(1);
+  const auto half = withOpacity(0.5);
+  const View view = frontView();
+  ColorBuffer expected;
+  const auto fresh = makeRasterSource();
+  fresh->setHits(false);
+  fresh->setScene(half, view);
+  fresh->renderColor(whole(view), 1, expected, nullptr);
+  ColorBuffer colors;
+  const auto used = makeRasterSource();
+  used->setHits(false);
+  used->setScene(opaque, view);
+  used->renderColor(whole(view), 1, colors, nullptr);
+  used->setScene(half, view);
+  used->renderColor(whole(view), 1, colors, nullptr);
+  EXPECT_EQ(colors.rgb, expected.rgb);
+}

@@ -193,6 +193,15 @@ TEST(SceneRefusals, JsonValues)
     { "{\"objects\": [\n{\"model\": \"a.ac\", \"name\": \"a\"},\n{\"model\": \"a.ac\", \"name\": \"a\"}]}",
       "a.json:3: objects[1].name is taken (expected a name that no other has, found 'a')" },
     { withObject("\"visible\": 1"), "objects[0].visible has the wrong type (expected true or false, found 1)" },
+    { withObject("\"visible\": {\"keys\": [[0, 1]]}"),
+      "objects[0].visible.keys[0][1] has the wrong type (expected true or false, found 1)" },
+    { withObject("\"visible\": {\"keys\": [[0, true, \"linear\"]]}"),
+      "objects[0].visible.keys[0][2] is not known (expected one of step, found 'linear')" },
+    { withObject("\"visible\": {\"keys\": [[0, true]], \"interpolation\": \"smooth\"}"),
+      "objects[0].visible.interpolation is not known (expected one of step, found 'smooth')" },
+    { withObject("\"visible\": {\"keys\": []}"), "objects[0].visible has no key frames" },
+    { withObject("\"materials\": {\"*\": {\"texture\": {\"keys\": [[0, \"a.png\"]]}}}"),
+      "objects[0].materials.*.texture has the wrong type" },
     { withObject("\"animation\": {\"rate\": -1}"), "objects[0].animation.rate is out of range" },
     { withObject("\"materials\": {\"*\": {\"opacity\": 1.5}}"),
       "a.json:4: objects[0].materials.*.opacity is out of range" },
@@ -297,10 +306,7 @@ TEST(SceneRefusals, WhatThesisScenesCannotSay)
   }();
   const std::vector<Change> changes{
     { [](auto& s) { s.fps = 30; }, "scene: fps cannot be said in .scene" },
-    { [](auto& s) {
-       s.background = { 1, 0, 0 };
-     },
-      "scene: background cannot be said" },
+    { [](auto& s) { s.background = Vector(1, 0, 0); }, "scene: background cannot be said" },
     { [](auto& s) { s.units = "m"; }, "scene: units cannot be said" },
     { [](auto& s) { s.upAxis = UpAxis::Z; }, "scene: upAxis cannot be said" },
     { [](auto& s) { s.seed = 1; }, "scene: seed cannot be said" },
@@ -410,10 +416,10 @@ TEST(SceneRefusals, PropertiesOfAProgramsSceneObeyTheSameRules)
 {
   const std::pair<std::function<void(SceneDescription&)>, const char*> table[] = { { [](auto& s) { s.units = "m\n"; },
                                                                                      "units" },
-    { [](auto& s) { s.fps = 0; }, "fps" }, { [](auto& s) { s.background[2] = 2; }, "background[2]" },
+    { [](auto& s) { s.fps = 0; }, "fps" }, { [](auto& s) { s.background.value[2] = 2; }, "background[2]" },
     { [](auto& s) { s.environment.intensity = -1; }, "environment.intensity" },
     { [](auto& s) { s.fog.density = -1; }, "fog.density" }, { [](auto& s) { s.fog.start = -1; }, "fog.start" },
-    { [](auto& s) { s.fog.color[1] = 2; }, "fog.color[1]" },
+    { [](auto& s) { s.fog.color.value[1] = 2; }, "fog.color[1]" },
     { [](auto& s) { s.seed = std::uint64_t(1) << 60; }, "seed" },
     { [](auto& s) {
        s.classes = { { "a", 0 } };

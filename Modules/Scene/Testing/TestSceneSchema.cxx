@@ -34,14 +34,16 @@ std::set<std::string> keysOfSchema(const nlohmann::json& definition)
   return keys;
 }
 
-/// A scene whose one item has keys at frames 5 and 8 for one property, `inner` of `property` where that is not empty.
+/// A scene whose one item, or which itself, has keys at frames 5 and 8 for one property, `inner` of `property` where
+/// that is not empty.
 std::string sceneWithKeys(
   const std::string& kind, const std::string& property, const std::string& inner, const std::string& track)
 {
   using nlohmann::json;
-  const json value = track == "numberTrack"     ? json(1)
-                     : track == "rotationTrack" ? json({ 1, 0, 0, 0 })
-                                                : json({ 1, 2, 3 });
+  static const std::map<std::string, json> values{ { "booleanTrack", true }, { "colorTrack", { 1, 0, 1 } },
+    { "lightColorTrack", { 1, 2, 3 } }, { "rotationTrack", { 1, 0, 0, 0 } }, { "scaleTrack", { 1, 2, 3 } },
+    { "vectorTrack", { 1, 2, 3 } } };
+  const json value = values.count(track) != 0 ? values.at(track) : json(1);
   const json keys{ { "keys", { { 5, value }, { 8, value } } } };
   json item = json::object();
   if (kind == "object")
@@ -60,6 +62,14 @@ std::string sceneWithKeys(
       { "lookAt", { 0, 0, 0 } } };
   }
   item[property] = inner.empty() ? keys : json{ { inner, keys } };
+  if (kind == "scene")
+  {
+    return item.dump();
+  }
+  if (kind == "material")
+  {
+    return json{ { "objects", { { { "model", "a.ac" }, { "materials", { { "*", item } } } } } } }.dump();
+  }
   return json{ { kind + 's', { item } } }.dump();
 }
 
@@ -87,7 +97,9 @@ TEST(SceneSchema, HasTheKeysOfTheReader)
     SCOPED_TRACE(name);
     if (name == "keys") // one definition a type of value
     {
-      for (const char* type : { "numberTrack", "vectorTrack", "scaleTrack", "rotationTrack" })
+      for (const char* type :
+        { "numberTrack", "vectorTrack", "scaleTrack", "rotationTrack", "booleanTrack", "unitTrack", "colorTrack",
+          "lightColorTrack", "lightNumberTrack", "exponentTrack", "notNegativeTrack", "coneAngleTrack" })
       {
         EXPECT_EQ(keysOfSchema(schema.at("$defs").at(type).at("anyOf").at(1)), asSet(keys)) << type;
       }
@@ -101,14 +113,15 @@ TEST(SceneSchema, HasTheKeysOfTheReader)
 
 TEST(SceneSchema, EveryTrackHasKeyFrames)
 {
-  const nlohmann::json definitions =
-    nlohmann::json::parse(contentsOf(sourceFile("Documentation/Formats/scene.schema.json"))).at("$defs");
+  const nlohmann::json schema =
+    nlohmann::json::parse(contentsOf(sourceFile("Documentation/Formats/scene.schema.json")));
+  const nlohmann::json& definitions = schema.at("$defs");
   const TemporaryFolder folder;
   int tracks = 0;
   const auto check =
-    [&](const std::string& kind, const std::string& property, const std::string& inner, const nlohmann::json& schema)
+    [&](const std::string& kind, const std::string& property, const std::string& inner, const nlohmann::json& value)
   {
-    const std::string type = schema.value("$ref", "");
+    const std::string type = value.value("$ref", "");
     if (type.size() > 5 && type.substr(type.size() - 5) == "Track")
     {
       const std::string text = sceneWithKeys(kind, property, inner, type.substr(type.rfind('/') + 1));
@@ -116,9 +129,9 @@ TEST(SceneSchema, EveryTrackHasKeyFrames)
       ++tracks;
     }
   };
-  for (const char* kind : { "object", "light", "camera" })
+  for (const std::string kind : { "scene", "object", "material", "light", "camera" })
   {
-    for (const auto& property : definitions.at(kind).at("properties").items())
+    for (const auto& property : (kind == "scene" ? schema : definitions.at(kind)).at("properties").items())
     {
       check(kind, property.key(), {}, property.value());
       const std::string type = property.value().value("$ref", "");
@@ -130,7 +143,7 @@ TEST(SceneSchema, EveryTrackHasKeyFrames)
       }
     }
   }
-  EXPECT_EQ(tracks, 3 + 4 + 15) << "tracks of objects, lights and cameras";
+  EXPECT_EQ(tracks, 4 + 4 + 9 + 11 + 15) << "tracks of the scene, objects, materials, lights and cameras";
 }
 
 TEST(SceneSchema, EveryReferenceHasADefinition)

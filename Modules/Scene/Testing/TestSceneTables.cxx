@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <functional>
+#include <numeric>
 
 using namespace dgtk;
 using namespace dgtk::test;
@@ -25,6 +26,12 @@ std::string sceneWith(const std::string& where, const std::string& key)
   return "{\"version\": 1" + of("scene") + ", \"objects\": [{\"model\": \"a.ac\"" + of("object") +
          "}], \"lights\": [{\"position\": [0, 0, 9]" + of("light") +
          "}], \"cameras\": [{\"eye\": [0, 0, 9], \"lookAt\": [0, 0, 0]" + of("camera") + "}]}";
+}
+
+std::string withoutBlanks(std::string text)
+{
+  text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c == ' ' || c == '\n'; }), text.end());
+  return text;
 }
 } // namespace
 
@@ -52,23 +59,23 @@ TEST(SceneTables, EveryKeyOfPicturesAndImageFormationIsReadAndWritten)
     EXPECT_EQ(scene.environment.intensity, 2);
     EXPECT_EQ(scene.environment.rotation, 30);
     EXPECT_FALSE(scene.environment.background);
-    EXPECT_EQ(scene.fog.color, Vector(0.25, 0.5, 0.75));
-    EXPECT_EQ(scene.fog.density, 0.125);
-    EXPECT_EQ(scene.fog.start, 3);
+    EXPECT_EQ(scene.fog.color.value, Vector(0.25, 0.5, 0.75));
+    EXPECT_EQ(scene.fog.density.value, 0.125);
+    EXPECT_EQ(scene.fog.start.value, 3);
     const MaterialOverride& material = scene.objects.at(0).materials.at(0);
     EXPECT_EQ(material.material, "m");
-    EXPECT_EQ(material.ambient->x(), 0.125);
-    EXPECT_EQ(material.diffuse->x(), 0.25);
-    EXPECT_EQ(material.specular->x(), 0.375);
-    EXPECT_EQ(material.emission->x(), 0.5);
-    EXPECT_EQ(material.shininess, 7);
-    EXPECT_EQ(material.opacity, 0.625);
+    EXPECT_EQ(material.ambient->value.x(), 0.125);
+    EXPECT_EQ(material.diffuse->value.x(), 0.25);
+    EXPECT_EQ(material.specular->value.x(), 0.375);
+    EXPECT_EQ(material.emission->value.x(), 0.5);
+    EXPECT_EQ(material.shininess->value, 7);
+    EXPECT_EQ(material.opacity->value, 0.625);
     EXPECT_EQ(material.texture, "t.png");
-    EXPECT_EQ(material.metallic, 0.75);
-    EXPECT_EQ(material.roughness, 0.875);
+    EXPECT_EQ(material.metallic->value, 0.75);
+    EXPECT_EQ(material.roughness->value, 0.875);
     EXPECT_EQ(material.normalMap, "n.png");
     EXPECT_EQ(material.bump, "b.png");
-    EXPECT_EQ(material.bumpScale, 9);
+    EXPECT_EQ(material.bumpScale->value, 9);
     EXPECT_EQ(material.metallicRoughnessMap, "mr.png");
     EXPECT_EQ(material.emissionMap, "e.png");
     EXPECT_EQ(material.occlusionMap, "o.png");
@@ -83,6 +90,66 @@ TEST(SceneTables, EveryKeyOfPicturesAndImageFormationIsReadAndWritten)
     EXPECT_EQ(camera.lens.exposures, 32);
     written = toJson(scene, folder.path());
   }
+}
+
+TEST(SceneTables, EveryValueThatMayMoveIsReadAndWrittenWithItsKeys)
+{
+  const TemporaryFolder folder;
+  const char* const keys[] = { "\"background\": { \"keys\": [[1, [0, 0, 0]], [9, [1, 0.5, 0.25], \"step\"]] }",
+    "\"color\": { \"keys\": [[1, [0, 0, 1]], [3, [0.5, 0, 1]]] }", "\"density\": { \"keys\": [[2, 0], [3, 4]] }",
+    "\"start\": { \"keys\": [[4, 0.5]] }", "\"visible\": { \"keys\": [[0, true], [5, false], [7, true]] }",
+    "\"ambient\": { \"keys\": [[6, [0.125, 0, 0]]] }", "\"diffuse\": { \"keys\": [[7, [0.25, 0, 0]]] }",
+    "\"specular\": { \"keys\": [[8, [0.375, 0, 0]]] }", "\"emission\": { \"keys\": [[9, [0.5, 0, 0]]] }",
+    "\"shininess\": { \"keys\": [[10, 7]] }",
+    "\"opacity\": { \"keys\": [[11, 1], [12, 0.5]], \"interpolation\": \"smooth\" }",
+    "\"metallic\": { \"keys\": [[13, 1]] }", "\"roughness\": { \"keys\": [[14, 0.25]] }",
+    "\"bumpScale\": { \"keys\": [[15, -2]] }", "\"enabled\": { \"keys\": [[16, false]] }",
+    "\"ambient\": { \"keys\": [[17, [4, 0, 0]]] }", "\"diffuse\": { \"keys\": [[18, [5, 0, 0]]] }",
+    "\"specular\": { \"keys\": [[19, [6, 0, 0]]] }", "\"coneAngle\": { \"keys\": [[20, 10], [21, 90]] }",
+    "\"exponent\": { \"keys\": [[22, 0], [23, 128]] }", "\"intensity\": { \"keys\": [[24, 2]] }" };
+  const auto list = [&keys](int first, int count)
+  {
+    std::string text;
+    for (int i = first; i < first + count; ++i)
+    {
+      text += (i == first ? "" : ", ") + std::string(keys[i]);
+    }
+    return text;
+  };
+  const std::string text = "{\"version\": 1, " + list(0, 1) + ", \"fog\": {" + list(1, 3) +
+                           "}, \"objects\": [{\"model\": \"a.ac\", " + list(4, 1) + ", \"materials\": {\"m\": {" +
+                           list(5, 9) + "}}}], \"lights\": [{" + list(14, 7) + "}]}";
+  const std::string written = toJson(readText(folder, "a.json", text), folder.path());
+  for (const char* const key : keys)
+  {
+    EXPECT_NE(withoutBlanks(written).find(withoutBlanks(key)), std::string::npos) << key;
+  }
+  EXPECT_EQ(toJson(readText(folder, "b.json", written), folder.path()), written);
+  std::vector<int> frames(25);
+  std::iota(frames.begin(), frames.end(), 0);
+  EXPECT_EQ(readText(folder, "b.json", written).keyFrames(), frames);
+}
+
+TEST(SceneTables, WhatIsTrueOrFalseHasSteps)
+{
+  const TemporaryFolder folder;
+  SceneDescription scene = readText(folder, "a.json",
+    sceneWith("object", R"("visible": {"keys": [[2, false], [4, true, "step"]], "interpolation": "step"})"));
+  const Track<bool>& visible = scene.objects[0].visible;
+  std::string over;
+  for (const double frame : { 0.0, 2.0, 3.9, 4.0, 5.0 })
+  {
+    over += visible.at(frame) ? '1' : '0';
+  }
+  EXPECT_EQ(over, "00011");
+  EXPECT_TRUE(isEver(visible));
+  // No other way is kept, nor written.
+  scene.objects[0].visible.interpolation = Interpolation::Smooth;
+  scene.objects[0].visible.keys[0].interpolation = Interpolation::Linear;
+  EXPECT_FALSE(visible.at(3.9));
+  EXPECT_THAT(withoutBlanks(toJson(scene, "")), HasSubstr("\"visible\":{\"keys\":[[2,false],[4,true]]}"));
+  scene.objects[0].visible.keys[1].value = false;
+  EXPECT_FALSE(isEver(visible));
 }
 
 TEST(SceneTables, EveryPathMovesWithTheScene)
@@ -135,6 +202,13 @@ TEST(SceneTables, LimitsAreWithin)
     { "light", "\"exponent\": #", { "0", "128" }, { "-1", "129" } },
     { "light", "\"intensity\": #", { "0", "1e6" }, { "-1", "1000001" } },
     { "light", "\"diffuse\": [#, 0, 0]", { "0", "1e6" }, { "-1", "1000001" } },
+    { "scene", "\"background\": {\"keys\": [[0, [0, 0, 0]], [1, [0, #, 0]]]}", { "0", "1" }, { "-0.001", "1.001" } },
+    { "scene", "\"fog\": {\"density\": {\"keys\": [[0, #]]}}", { "0", "1e15" }, { "-1", "1.1e15" } },
+    { "object", "\"materials\": {\"*\": {\"opacity\": {\"keys\": [[0, #]]}}}", { "0", "1" }, { "-0.001", "1.001" } },
+    { "object", "\"materials\": {\"*\": {\"shininess\": {\"keys\": [[0, #]]}}}", { "0", "128" }, { "-1", "129" } },
+    { "light", "\"intensity\": {\"keys\": [[0, #]]}", { "0", "1e6" }, { "-1", "1000001" } },
+    { "light", "\"coneAngle\": {\"keys\": [[0, #]]}", { "0.001", "90" }, { "0", "90.001" } },
+    { "light", "\"diffuse\": {\"keys\": [[0, [#, 0, 0]]]}", { "0", "1e6" }, { "-1", "1000001" } },
     { "light", "\"shadowSize\": #", { "16", "16384" }, { "15", "16385", "16.5" } },
     { "camera", "\"fovY\": #", { "0.001", "179.999" }, { "0", "180" } },
     { "camera", "\"aspect\": #", { "0", "1e6" }, { "-1", "1000001" } },
@@ -245,7 +319,7 @@ TEST(SceneTables, WhatSceneFilesHaveNoWordsFor)
 {
   const std::pair<std::function<void(SceneDescription&)>, const char*> table[] = {
     { [](auto& s) { s.environment.image = "sky.hdr"; }, "environment" }, { [](auto& s) { s.fog.density = 1; }, "fog" },
-    { [](auto& s) { s.fps = 30; }, "fps" }, { [](auto& s) { s.background[1] = 0.5; }, "background" },
+    { [](auto& s) { s.fps = 30; }, "fps" }, { [](auto& s) { s.background.value[1] = 0.5; }, "background" },
     { [](auto& s) { s.units = "m"; }, "units" }, { [](auto& s) { s.upAxis = UpAxis::Z; }, "upAxis" },
     { [](auto& s) { s.seed = 7; }, "seed" },
     { [](auto& s)
@@ -265,6 +339,54 @@ TEST(SceneTables, WhatSceneFilesHaveNoWordsFor)
        s.objects[0].scale.keys = { { 0, { 1, 1, 1 }, Interpolation::Step }, { 1, { 1, 1, 1 } } };
      },
       "object 'a-1': scale" },
+    { [](auto& s) {
+       s.background.keys = { { 0, Vector(0, 0, 0) } };
+     },
+      "background" },
+    { [](auto& s) {
+       s.fog.density.keys = { { 0, 0 } };
+     },
+      "fog" },
+    { [](auto& s) {
+       s.fog.color.keys = { { 0, Vector(0, 0, 0) } };
+     },
+      "fog" },
+    { [](auto& s) {
+       s.fog.start.keys = { { 0, 0 } };
+     },
+      "fog" },
+    { [](auto& s) {
+       s.objects[0].visible.keys = { { 0, true } };
+     },
+      "object 'a-1': visible" },
+    { [](auto& s) {
+       s.lights[0].enabled.keys = { { 0, true } };
+     },
+      "light 'Light0': enabled" },
+    { [](auto& s) {
+       s.lights[0].ambient.keys = { { 0, Vector(0, 0, 0) } };
+     },
+      "light 'Light0': ambient" },
+    { [](auto& s) {
+       s.lights[0].diffuse.keys = { { 0, Vector(1, 1, 1) } };
+     },
+      "light 'Light0': diffuse" },
+    { [](auto& s) {
+       s.lights[0].specular.keys = { { 0, Vector(1, 1, 1) } };
+     },
+      "light 'Light0': specular" },
+    { [](auto& s) {
+       s.lights[0].coneAngle.keys = { { 0, 30 } };
+     },
+      "light 'Light0': coneAngle" },
+    { [](auto& s) {
+       s.lights[0].exponent.keys = { { 0, 1 } };
+     },
+      "light 'Light0': exponent" },
+    { [](auto& s) {
+       s.lights[0].intensity.keys = { { 0, 1 } };
+     },
+      "light 'Light0': intensity" },
     { [](auto& s) { s.lights[0].target.value = Vector(1, 0, 0); }, "light 'Light0': target" },
     { [](auto& s) { s.lights[0].coneAngle = 31; }, "light 'Light0': coneAngle" },
     { [](auto& s) { s.lights[0].exponent = 2; }, "light 'Light0': exponent" },

@@ -92,7 +92,7 @@ TEST(ThesisScene, KeepsTheOrderOfItsLines)
   EXPECT_EQ(scene.objects[0].scale.at(0), Vector(2, 2, 0.5));
   EXPECT_EQ(scene.objects[1].scale.at(0), Vector(1, 1, 1));
   EXPECT_EQ(scene.lights[0].name, "sun");
-  EXPECT_EQ(scene.lights[0].diffuse, Vector(1, 0.9, 0.8));
+  EXPECT_EQ(scene.lights[0].diffuse.value, Vector(1, 0.9, 0.8));
   EXPECT_EQ(scene.lights[1].name, "Light0");
   EXPECT_EQ(scene.lights[1].position.at(7), Vector(0, 7, 8));
 }

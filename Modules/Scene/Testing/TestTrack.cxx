@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -209,4 +210,29 @@ TEST(Track, RotationMatrixIsTheUsualOne)
   const Vector expected =
     v * std::cos(angle) + axis.cross(v) * std::sin(angle) + axis * axis.dot(v) * (1 - std::cos(angle));
   EXPECT_LE((q.matrix() * v - expected).norm(), rounding);
+}
+
+TEST(Track, BoundedValuesStayBetweenTheirKeys)
+{
+  // From 1 on two keys of 0, whose tangents lead below it and above 1.
+  Track<double> number;
+  number.keys = { { 0, 1 }, { 10, 0 }, { 20, 0 }, { 30, 1 } };
+  number.interpolation = Interpolation::Smooth;
+  Track<Vector> vector;
+  vector.interpolation = Interpolation::Smooth;
+  for (const Key<double>& key : number.keys)
+  {
+    vector.keys.push_back({ key.frame, Vector(key.value, 2 - key.value, 3) });
+  }
+  EXPECT_LT(number.at(15), -0.1);
+  EXPECT_EQ(boundedAt(number, 15), 0);
+  EXPECT_GT(vector.at(15).y(), 2.1);
+  EXPECT_EQ(boundedAt(vector, 15), Vector(0, 2, 3));
+  for (const double frame : steps(-1, 31, 0.25))
+  {
+    const double value = number.at(frame);
+    EXPECT_EQ(boundedAt(number, frame), std::clamp(value, 0.0, 1.0)) << frame;
+    EXPECT_EQ(boundedAt(vector, frame), vector.at(frame).cwiseMax(Vector(0, 1, 3)).cwiseMin(Vector(1, 2, 3))) << frame;
+  }
+  EXPECT_EQ(boundedAt(Track<double>(-7), 3), -7) << "without keys";
 }

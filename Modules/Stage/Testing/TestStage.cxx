@@ -217,6 +217,60 @@ TEST(Stage, FogIsThatOfTheScene)
   EXPECT_EQ(state->fog.start, 2);
 }
 
+TEST(Stage, LightsBackgroundAndFogHaveTheirTracksValues)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"background": {"keys": [[0, [0, 0, 0]], [4, [1, 0.5, 0]]]},
+    "fog": {"color": {"keys": [[0, [0, 0, 0]], [4, [0, 0, 1]]]}, "density": {"keys": [[0, 0], [4, 2]]},
+      "start": {"keys": [[0, 4], [4, 8]], "interpolation": "step"}},
+    "lights": [{"name": "a", "enabled": {"keys": [[0, true], [2, false], [3, true]]},
+      "intensity": {"keys": [[0, 0], [4, 8]]}, "coneAngle": {"keys": [[0, 10], [4, 30]]},
+      "exponent": {"keys": [[0, 0], [4, 4]]}, "ambient": {"keys": [[0, [0, 0, 0]], [4, [4, 0, 0]]]},
+      "diffuse": {"keys": [[0, [0, 0, 0]], [4, [0, 4, 0]]]}, "specular": {"keys": [[0, [0, 0, 0]], [4, [0, 0, 4]]]}},
+      {"name": "b", "intensity": {"keys": [[0, 1], [2, 0], [4, 0], [6, 1]], "interpolation": "smooth"}}]})");
+  const auto state = stage->at(1);
+  EXPECT_EQ(state->background, Vector(0.25, 0.125, 0));
+  EXPECT_EQ(state->fog.color, Vector(0, 0, 0.25));
+  EXPECT_EQ(state->fog.density, 0.5);
+  EXPECT_EQ(state->fog.start, 4);
+  ASSERT_EQ(state->lights.size(), 2u);
+  const LightState& light = state->lights[0];
+  EXPECT_EQ(light.intensity, 2);
+  EXPECT_EQ(light.coneAngle, 15);
+  EXPECT_EQ(light.exponent, 1);
+  EXPECT_EQ(light.ambient, Vector(1, 0, 0));
+  EXPECT_EQ(light.diffuse, Vector(0, 1, 0));
+  EXPECT_EQ(light.specular, Vector(0, 0, 1));
+  ASSERT_EQ(stage->at(2.5)->lights.size(), 1u);
+  EXPECT_EQ(stage->at(2.5)->lights[0].name, "b");
+  EXPECT_EQ(stage->at(3)->lights.size(), 2u);
+  EXPECT_EQ(stage->at(3)->lights[1].intensity, 0) << "not below the range";
+  EXPECT_EQ(stage->at(4)->fog.start, 8);
+}
+
+TEST(Stage, ObjectsKeepTheirIdsWhileTheyAreNotVisible)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"objects": [
+    {"name": "a", "model": "models/square.ac", "visible": {"keys": [[0, true], [2, false], [4, true]]},
+      "position": {"keys": [[0, [0, 0, 0]], [4, [4, 0, 0]]]}},
+    {"name": "never", "model": "models/square.ac", "visible": {"keys": [[0, false], [3, false]]}},
+    {"name": "b", "model": "models/square.ac", "parent": "a"},
+    {"name": "hidden", "model": "models/square.ac", "visible": false}]})");
+  EXPECT_EQ(stage->objectNames(), (std::vector<std::string>{ "a", "b" }));
+  for (const double frame : { 0.0, 1.5, 2.0, 3.5, 4.0 })
+  {
+    SCOPED_TRACE(frame);
+    const auto state = stage->at(frame);
+    ASSERT_EQ(state->instances.size(), 2u);
+    EXPECT_EQ(state->instances[0].name, "a");
+    EXPECT_EQ(state->instances[0].visible, frame < 2 || frame >= 4);
+    EXPECT_EQ(state->instances[0].world_from_object.translation, Vector(frame, 0, 0)) << "it moves on";
+    EXPECT_TRUE(state->instances[1].visible);
+    EXPECT_EQ(state->instances[1].world_from_object.translation, Vector(frame, 0, 0)) << "its child is there";
+  }
+}
+
 TEST(Stage, IsTheSameFromManyThreads)
 {
   const ModelFolder folder;

@@ -119,6 +119,43 @@ TEST(StageModels, MaterialsAreReplaced)
   EXPECT_EQ(state->instances[3].model, state->instances[0].model);
 }
 
+TEST(StageModels, MaterialsHaveTheNumbersOfTheirTracks)
+{
+  const ModelFolder folder;
+  const auto stage = folder.load(R"({"objects": [
+    {"name": "plain", "model": "models/square.ac", "materials": {"red": {"diffuse": [0, 1, 0]}}},
+    {"name": "all", "model": "models/square.ac", "materials": {
+      "*": {"diffuse": {"keys": [[0, [0, 0, 0]], [4, [1, 1, 1]]]}, "opacity": {"keys": [[0, 1], [4, 0]]}},
+      "red": {"opacity": 0.75, "ambient": {"keys": [[0, [0, 0, 0]], [4, [0, 1, 0]]]},
+        "specular": {"keys": [[0, [0, 0, 0]], [4, [0, 0, 1]]]}, "emission": {"keys": [[0, [0, 0, 0]], [4, [1, 0, 0]]]},
+        "shininess": {"keys": [[0, 0], [4, 100]]}, "metallic": {"keys": [[0, 0], [4, 1]]}, "roughness": 0.5,
+        "bumpScale": {"keys": [[0, -4], [4, 4]]}, "texture": ""}}},
+    {"name": "steps", "model": "models/square.ac",
+      "materials": {"*": {"opacity": {"keys": [[0, 1], [2, 0.5]], "interpolation": "step"}}}}]})");
+  const auto state = stage->at(1);
+  const auto material = [](const std::shared_ptr<const SceneState>& of, std::size_t i)
+  { return of->instances[i].materials->at(0); };
+  const Material all = material(state, 1);
+  EXPECT_EQ(all.diffuse, Vector(0.25, 0.25, 0.25));
+  EXPECT_EQ(all.opacity, 0.75) << "the last override that has it counts, moving or not";
+  EXPECT_EQ(all.ambient, Vector(0, 0.25, 0));
+  EXPECT_EQ(all.specular, Vector(0, 0, 0.25));
+  EXPECT_EQ(all.emission, Vector(0.25, 0, 0));
+  EXPECT_EQ(all.shininess, 25);
+  EXPECT_EQ(all.physical->metallic, 0.25);
+  EXPECT_EQ(all.physical->roughness, 0.5);
+  EXPECT_EQ(all.bumpScale, -2);
+  EXPECT_EQ(all.texture, -1);
+  EXPECT_EQ(material(stage->at(4), 1).diffuse, Vector(1, 1, 1));
+  EXPECT_EQ(material(state, 0).diffuse, Vector(0, 1, 0));
+  // What has no tracks is the same at all frames; equal numbers share a list.
+  EXPECT_EQ(stage->at(3)->instances[0].materials, state->instances[0].materials);
+  EXPECT_NE(stage->at(3)->instances[1].materials, state->instances[1].materials);
+  EXPECT_EQ(stage->at(5)->instances[2].materials, stage->at(3)->instances[2].materials);
+  EXPECT_EQ(material(state, 2).opacity, 1);
+  EXPECT_EQ(material(stage->at(3), 2).opacity, 0.5);
+}
+
 TEST(StageModels, MissingTexelsAreThoseOfTheTextureThatIsUsed)
 {
   const ModelFolder folder;

@@ -490,6 +490,35 @@ TEST(ModelLibrary, LooksAreSharedAndWarningsSaidOnce)
   EXPECT_THROW(library.load(scene), InputError);
 }
 
+TEST(ModelLibrary, LooksThatMoveAreOneLook)
+{
+  const ModelFolder folder;
+  SceneDescription scene;
+  scene.folder = folder.path();
+  scene.objects.resize(2);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+  {
+    scene.objects[i].name = "o" + std::to_string(i);
+    scene.objects[i].model = "models/square.ac";
+    scene.objects[i].materials.resize(1);
+    scene.objects[i].materials[0].material = "*";
+    scene.objects[i].materials[0].opacity = Track<double>();
+    scene.objects[i].materials[0].opacity->keys = { { 0, 1 }, { 4, 0.5 * double(i) } };
+  }
+  ModelLibrary library;
+  EXPECT_TRUE(library.load(scene));
+  EXPECT_EQ(library.size(), 1u) << "key frames are no other look";
+  const auto at = [&](std::size_t i, double frame) { return library.at(scene, scene.objects[i], frame).materials; };
+  EXPECT_EQ(at(0, 2)->at(0).opacity, 0.5);
+  EXPECT_EQ(at(1, 2)->at(0).opacity, 0.75);
+  EXPECT_EQ(at(0, 2), at(0, 2)) << "nothing to draw anew";
+  scene.objects[0].materials[0].opacity->keys[1].value = 0.75;
+  EXPECT_EQ(at(0, 4)->at(0).opacity, 0.75) << "without loading";
+  const auto stage = Stage::make(scene, library);
+  EXPECT_EQ(stage->at(4)->instances[0].materials->at(0).opacity, 0.75);
+  EXPECT_EQ(stage->at(4)->instances[1].materials->at(0).opacity, 0.5);
+}
+
 /// A stage whose models somebody else has.
 TEST(ModelLibrary, FeedsAStage)
 {
