@@ -11,6 +11,7 @@ namespace dgtk
 namespace
 {
 constexpr int mostSteps = 12;
+constexpr int mostPlainSteps = 60;
 constexpr int coarseSteps = 64;
 constexpr int mostHalvings = 60;
 constexpr double settled = 1e-12; ///< of the shutter's duration
@@ -48,20 +49,27 @@ private:
   SeenInTime Seen;
 };
 
-/// Whether the secant method settles within the shutter's time.
-bool settles(PointInTime& point, double frame, const TimeSpan& times, double most)
+enum class Way
+{
+  Secant,
+  Plain ///< iteration; slower, and goes on where times have corners
+};
+
+/// Whether a way from the picture's own time settles within the shutter's time.
+bool settles(PointInTime& point, double frame, const TimeSpan& times, double most, Way way)
 {
   double before = frame;
   double lateBefore = point.lateness(before);
   double tau = before + lateBefore;
-  for (int step = 0; step < mostSteps && std::abs(lateBefore) > most; ++step)
+  for (int step = 0; step < (way == Way::Secant ? mostSteps : mostPlainSteps) && std::abs(lateBefore) > most; ++step)
   {
     tau = std::min(std::max(tau, times.first), times.last);
     const double late = point.lateness(tau);
     const double slope = (late - lateBefore) / (tau - before);
     before = tau;
     lateBefore = late;
-    tau += slope < 0 && slope > -std::numeric_limits<double>::infinity() ? -late / slope : late;
+    const bool falls = slope < 0 && slope > -std::numeric_limits<double>::infinity();
+    tau += way == Way::Secant && falls ? -late / slope : late;
   }
   return std::abs(lateBefore) <= most;
 }
@@ -106,7 +114,9 @@ SeenInTime seenInTime(const View& view, const Hit& hit, const Eigen::Vector2d& b
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon(); // frames have 16 digits, too
   const double most =
     std::max(settled * (times.last - times.first), rounding * std::max(std::abs(times.first), std::abs(times.last)));
-  return settles(point, frame, times, most) || bisects(point, times, most) ? point.seen() : SeenInTime{};
+  const bool found = settles(point, frame, times, most, Way::Secant) ||
+                     settles(point, frame, times, most, Way::Plain) || bisects(point, times, most);
+  return found ? point.seen() : SeenInTime{};
 }
 
 } // namespace dgtk

@@ -28,8 +28,8 @@ struct SeenInTime
 /// Finds the time tau at which a moving point X is seen: tau = frame + timeAt(project(camera(tau) X(tau))), by the
 /// secant method from the picture's own time, to a residual of 1e-12 of the shutter's duration. Motion that is slower
 /// in the image than the shutter has one such time. Of faster motion, which may be seen several times, it is one of
-/// them; where the secant method leaves the shutter's time, the first one that bisection finds between 64 equal steps.
-/// `view` has instants; hit.object != 0.
+/// them; where neither the secant method nor plain iteration settles, the first one that bisection finds between 64
+/// equal steps. `view` has instants; hit.object != 0.
 DGTKGROUNDTRUTH_EXPORT SeenInTime seenInTime(const View& view, const Hit& hit, const Eigen::Vector2d& barycentrics);
 
 } // namespace dgtk

@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkFolder.h"
 #include "dgtkRaySource.h"
+#include "dgtkTimedSight.h"
 
 #include <algorithm>
 #include <charconv>
@@ -226,6 +227,7 @@ std::optional<Eye> Dataset::eye(const std::string& name, int frame, const Camera
   record.hasK = view.model->linear() || parameters.K;
   record.K = view.model->linear() ? view.model->linear()->K : parameters.K.value_or(record.K);
   record.numbers = parameters.numbers;
+  record.rollingShutter = parameters.rollingShutter;
   record.R = view.camera_from_world.rotation;
   record.t = view.camera_from_world.translation;
   record.model = view.model->name();
@@ -263,6 +265,15 @@ std::shared_ptr<const Sight> Dataset::sight(const Eye& eye, int frame)
 {
   const Moment& moment = this->moment(frame);
   return std::make_shared<Sight>(eye, moment.state, moment.query);
+}
+
+std::shared_ptr<const TimedSight> Dataset::timedSight(const Eye& eye, int frame)
+{
+  const int index = this->cameraIndex(eye.record().name);
+  const View view =
+    index < 0 ? View() : this->TheStage->view(static_cast<std::size_t>(index), frame, eye.width(), eye.height());
+  const bool table = view.model && !view.model->parameters().files.empty();
+  return std::make_shared<TimedSight>(this->sight(eye, frame), view.instants, table ? view.model : nullptr);
 }
 
 bool Dataset::hasFrame(int frame) const { return frame >= this->First && frame <= this->Last; }

@@ -21,6 +21,8 @@
 namespace dgtk
 {
 
+class TimedSight;
+
 /// An image of the dataset, any type read as double.
 class PictureFile
 {
@@ -97,6 +99,8 @@ public:
   std::shared_ptr<const SceneState> state(int frame);
   std::shared_ptr<const OcclusionQuery> query(int frame);
   std::shared_ptr<const Sight> sight(const Eye& eye, int frame);
+  /// The same with the times of its rolling shutter, as the scene's camera moves.
+  std::shared_ptr<const TimedSight> timedSight(const Eye& eye, int frame);
   bool hasFrame(int frame) const; ///< of the scene
 
 private:

@@ -64,6 +64,16 @@ public:
     return std::max(1.0, this->Record.t.norm() / (most * std::abs(depth)));
   }
 
+  /// The same camera elsewhere.
+  Eye movedTo(const Rigid3& camera_from_world) const
+  {
+    Eye moved = *this;
+    moved.Record.R = camera_from_world.rotation;
+    moved.Record.t = camera_from_world.translation;
+    moved.TheView.camera_from_world = camera_from_world;
+    return moved;
+  }
+
   /// For the ray engine.
   const View& view() const { return this->TheView; }
 

@@ -124,7 +124,8 @@ std::vector<Pair> pairsOf(Picture& picture)
       throw InputError(dataset.absolute(dataset.find(picture.camera(), layer, picture.frame(), suffixes)), 0,
         "there is no other view for layer " + quoted(layer) + " in the scene");
     }
-    pair->other = dataset.sight(*eye, pair->frame);
+    pair->timed = dataset.timedSight(*eye, pair->frame);
+    pair->other = pair->timed->middle();
     pairs.push_back(*pair);
   }
   return pairs;
@@ -140,10 +141,28 @@ PicturePointer pairClasses(Picture& picture, const Pair& pair) { return picture.
 PairTargets::PairTargets(Picture& picture, const Pair& pair)
   : Owner(picture)
   , Seen(picture.surfaces())
-  , Other(*pair.other)
-  , Carry(picture.sight(), pair.other->statePointer())
+  , ThePair(pair)
+  , Values(pair.timed->rolls() && pair.kind != PairKind::Motion
+             ? picture.quietly([&] { return pairValues(picture, pair); })
+             : nullptr)
 {
   picture.preparePoints();
+}
+
+/// When a rolling shutter sees the point: near the time of the place that the file claims, else of the picture's own.
+/// Where that does not settle, the place must at least be its own answer. False where it is seen at no time.
+bool PairTargets::findTime(int x, int y, const Hit& hit, Target& target) const
+{
+  const TimedSight& other = *this->ThePair.timed;
+  const Eigen::Vector2d value = this->Values ? this->Values->at2(x, y) : Eigen::Vector2d(std::nan(""), 0);
+  const Eigen::Vector2d place = this->ThePair.kind == PairKind::Place ? value : centreOf(x, y) + value;
+  const double claimed = place.allFinite() ? other.timeAt(place) : 0;
+  target.time = claimed;
+  const auto weights = this->Owner.sight(x, y).weights(hit, target.here);
+  const TimedSight::Search search = other.findTime(hit, weights, target.time);
+  target.timed = search == TimedSight::Search::Settled;
+  target.time = search == TimedSight::Search::Unsettled ? claimed : target.time;
+  return target.timed || place.allFinite();
 }
 
 Target PairTargets::at(int x, int y, const Hit& hit) const
@@ -155,11 +174,19 @@ Target PairTargets::at(int x, int y, const Hit& hit) const
     return target;
   }
   target.here = this->Owner.point(x, y);
-  const Carried carried = this->Carry(hit, target.here);
-  target.ok = carried.ok;
-  target.world = carried.x_in_world;
-  target.there = this->Other.eye().toCamera(carried.x_in_world);
-  target.projects = this->Other.eye().project(target.there, target.pixel);
+  const TimedSight& other = *this->ThePair.timed;
+  const bool seen = !other.rolls() || this->findTime(x, y, hit, target);
+  const Carried there =
+    other.rolls() ? carried(this->Owner.sight(x, y), other.instanceAt(target.time, hit.object), hit, target.here)
+                  : carried(this->Owner.sight(x, y), other.middle()->instance(hit.object), hit, target.here);
+  target.ok = there.ok;
+  target.world = there.x_in_world;
+  const auto project = [&](const Eye& eye)
+  {
+    target.there = eye.toCamera(there.x_in_world);
+    target.projects = seen && eye.project(target.there, target.pixel);
+  };
+  project(other.rolls() ? other.eyeAt(target.time) : other.middle()->eye());
   return target;
 }
 

@@ -28,11 +28,12 @@ struct Pair
 {
   std::string layer; ///< its folder
   PairKind kind = PairKind::Place;
-  std::string camera; ///< the other one
-  int frame = 0;      ///< the other one
-  std::shared_ptr<const Sight> other;
+  std::string camera;                 ///< the other one
+  int frame = 0;                      ///< the other one
+  std::shared_ptr<const Sight> other; ///< at the other frame's own time
   /// Fundamental matrices and triangulation hold: nothing moves in between.
   bool sameFrame = false;
+  std::shared_ptr<const TimedSight> timed = nullptr; ///< the other one with the times of its pixels
 };
 
 /// The layers of a picture that relate it to other views, of those that the dataset has.
@@ -52,6 +53,8 @@ struct Target
   Eigen::Vector3d world{ 0, 0, 0 }; ///< the point at the other frame
   Eigen::Vector3d there{ 0, 0, 0 }; ///< the point at the other frame, other camera
   Eigen::Vector2d pixel{ 0, 0 };    ///< its projection, where it projects
+  double time = 0;                  ///< when it is seen there, frames after the other picture's own
+  bool timed = true;                ///< that is known; false where it does not settle
 };
 
 class PairTargets
@@ -64,10 +67,12 @@ public:
   const Hit& hit(int x, int y) const { return this->Seen.hits[this->Seen.index(x, y)]; }
 
 private:
+  bool findTime(int x, int y, const Hit& hit, Target& target) const;
+
   Picture& Owner;
   const Surfaces& Seen;
-  const Sight& Other;
-  Carrier Carry;
+  const Pair& ThePair;
+  PicturePointer Values; ///< places of which the other camera's times are taken
 };
 
 } // namespace dgtk

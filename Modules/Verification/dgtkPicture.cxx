@@ -31,8 +31,19 @@ struct Picture::Claims
 Picture::Picture(Dataset& dataset, const CameraRecord& record)
   : Owner(dataset)
   , Record(record)
-  , TheSight(dataset.sight(Eye(record, dataset.sceneView(record).model), record.frame))
+  , Time(dataset.timedSight(Eye(record, dataset.sceneView(record).model), record.frame))
 {
+  std::map<double, std::shared_ptr<const Sight>> known;
+  for (int y = 0; this->Time->rolls() && y < this->height(); ++y)
+  {
+    for (int x = 0; x < this->width(); ++x)
+    {
+      const double time = this->Time->timeAt(centreOf(x, y));
+      std::shared_ptr<const Sight>& sight = known[time];
+      sight = sight ? sight : this->Time->at(time);
+      this->Sights.push_back(sight);
+    }
+  }
 }
 
 PicturePointer Picture::image(const std::string& layer, const std::vector<std::string>& suffixes)
@@ -70,7 +81,7 @@ bool Picture::agrees(const Claims& claims, const Hit& hit, int x, int y) const
   }
   if (claims.depth)
   {
-    const double expected = this->TheSight->depthOf(hit, centreOf(x, y));
+    const double expected = this->sight(x, y).depthOf(hit, centreOf(x, y));
     const double found = claims.depth->at(x, y);
     if (found != expected &&
         !(std::isfinite(expected) &&
@@ -83,7 +94,7 @@ bool Picture::agrees(const Claims& claims, const Hit& hit, int x, int y) const
   {
     return true;
   }
-  const Model& model = *this->TheSight->instance(hit.object).model;
+  const Model& model = *this->sight().instance(hit.object).model;
   const std::uint32_t part = model.partOf(hit.triangle);
   return (!claims.parts || claims.parts->id(x, y) == part) &&
          (!claims.triangles || claims.triangles->id(x, y) == hit.triangle - model.parts[part].firstTriangle);
@@ -98,7 +109,7 @@ std::vector<Hit> Picture::nearby(int x, int y) const
   {
     const double radius = i == 0 ? 0 : i <= 16 ? edgeReach : edgeReach / 4;
     const Eigen::Vector2d offset(std::cos(i * pi / 8), std::sin(i * pi / 8));
-    this->TheSight->surfaces(centreOf(x, y) + radius * offset, hits[i], depths[i]);
+    this->sight(x, y).surfaces(centreOf(x, y) + radius * offset, hits[i], depths[i]);
   }
   // A surface that some probe misses has an edge here, and may or may not hide what is behind.
   const auto hasEdge = [&](const Hit& hit)
@@ -144,14 +155,15 @@ bool Picture::findNearby(const Claims& claims, int x, int y, Hit& hit) const
 
 bool Picture::findCutOut(const Claims& claims, int x, int y, Hit& hit) const
 {
-  const std::size_t objects = this->TheSight->state().instances.size();
+  const std::size_t objects = this->sight().state().instances.size();
   const std::size_t claimed = claims.objects ? claims.objects->id(x, y) : 0;
   for (std::size_t object = 1; object <= objects; ++object)
   {
-    const Instance& instance = this->TheSight->instance(static_cast<std::uint32_t>(object));
+    const Instance& instance = this->sight(x, y).instance(static_cast<std::uint32_t>(object));
     for (const Part& part : instance.model->parts)
     {
-      const bool mayBe = (!claims.objects || object == claimed) && (*instance.materials)[part.material].cutOut;
+      const bool mayBe =
+        (!claims.objects || object == claimed) && instance.visible && (*instance.materials)[part.material].cutOut;
       for (std::uint32_t i = 0; i < (mayBe ? part.triangles : 0); ++i)
       {
         const Hit candidate{ static_cast<std::uint32_t>(object), part.firstTriangle + i };
@@ -168,14 +180,14 @@ bool Picture::findCutOut(const Claims& claims, int x, int y, Hit& hit) const
 
 bool Picture::isEdgeAt(int x, int y, double range) const
 {
-  const std::vector<Instance>& instances = this->TheSight->state().instances;
+  const std::vector<Instance>& instances = this->sight(x, y).state().instances;
   for (std::uint32_t object = 1; object <= instances.size(); ++object)
   {
-    const std::size_t triangles = instances[object - 1].model->triangles.size();
+    const std::size_t triangles = instances[object - 1].visible ? instances[object - 1].model->triangles.size() : 0;
     for (std::uint32_t triangle = 0; triangle < triangles; ++triangle)
     {
       const Hit hit{ object, triangle };
-      if (std::abs(this->TheSight->rangeOf(hit, centreOf(x, y)) - range) <=
+      if (std::abs(this->sight(x, y).rangeOf(hit, centreOf(x, y)) - range) <=
             wideDepthTolerance * this->eye().farness(range) * std::abs(range) &&
           this->endsAt(hit, x, y))
       {
@@ -190,7 +202,7 @@ bool Picture::endsAt(const Hit& hit, int x, int y) const
 {
   Eigen::Vector3d corner[3];
   Eigen::Vector2d p[3];
-  this->TheSight->corners(hit, corner);
+  this->sight(x, y).corners(hit, corner);
   for (int i = 0; i < 3; ++i)
   {
     if (!this->eye().project(corner[i], p[i]))
@@ -217,9 +229,9 @@ bool Picture::isOnEdge(const Hit& hit, int x, int y) const
   }
   std::vector<Hit> hits;
   std::vector<double> depths;
-  this->TheSight->surfaces(centreOf(x, y), hits, depths);
+  this->sight(x, y).surfaces(centreOf(x, y), hits, depths);
   const double before = depths.empty() ? infinite : depths.front();
-  return this->TheSight->rangeOf(hit, centreOf(x, y)) <= before * (1 + wideDepthTolerance);
+  return this->sight(x, y).rangeOf(hit, centreOf(x, y)) <= before * (1 + wideDepthTolerance);
 }
 
 void Picture::resolveRow(const Claims& claims, int y, int& patience)
@@ -246,6 +258,43 @@ void Picture::resolveRow(const Claims& claims, int y, int& patience)
   }
 }
 
+std::vector<Hit> Picture::ownHits() const
+{
+  VisibilityBuffer buffer;
+  const std::unique_ptr<VisibilitySource> rays = makeRaySource(this->pool());
+  if (!this->Time->rolls())
+  {
+    rays->setScene(this->sight().statePointer(), this->eye().view());
+    rays->render({ 0, 0, this->width(), this->height() }, buffer);
+    return std::move(buffer.hits);
+  }
+  std::vector<Hit> hits(this->Sights.size());
+  std::map<const Sight*, std::vector<std::size_t>> pixels;
+  for (std::size_t i = 0; i < hits.size(); ++i)
+  {
+    pixels[this->Sights[i].get()].push_back(i);
+  }
+  const auto width = static_cast<std::size_t>(this->width());
+  for (const auto& [sight, of] : pixels)
+  {
+    rays->setScene(sight->statePointer(), sight->eye().view());
+    for (std::size_t first = 0; first < of.size();)
+    {
+      std::size_t end = first + 1;
+      while (end < of.size() && of[end] == of[end - 1] + 1 && of[end] % width != 0)
+      {
+        ++end;
+      }
+      const int x = static_cast<int>(of[first] % width);
+      const int y = static_cast<int>(of[first] / width);
+      rays->render({ x, y, static_cast<int>(end - first), 1 }, buffer);
+      std::copy(buffer.hits.begin(), buffer.hits.end(), hits.begin() + static_cast<std::ptrdiff_t>(of[first]));
+      first = end;
+    }
+  }
+  return hits;
+}
+
 const Surfaces& Picture::surfaces()
 {
   if (this->TheSurfaces)
@@ -254,12 +303,8 @@ const Surfaces& Picture::surfaces()
   }
   this->TheSurfaces = std::make_unique<Surfaces>();
   Surfaces& s = *this->TheSurfaces;
-  VisibilityBuffer buffer;
-  const std::unique_ptr<VisibilitySource> rays = makeRaySource(this->pool());
-  rays->setScene(this->TheSight->statePointer(), this->eye().view());
-  rays->render({ 0, 0, this->width(), this->height() }, buffer);
   s.width = this->width();
-  s.own = std::move(buffer.hits);
+  s.own = this->ownHits();
   s.hits = s.own;
   s.marks.assign(s.own.size(), Mark::Same);
   Claims claims;
@@ -295,8 +340,8 @@ Eigen::Vector3d Picture::point(int x, int y) const
   const std::size_t i = this->TheSurfaces->index(x, y);
   const double depth = this->Depth && this->TheSurfaces->marks[i] != Mark::Wrong
                          ? this->Depth->at(x, y)
-                         : this->TheSight->depthOf(this->TheSurfaces->hits[i], centreOf(x, y));
-  return this->eye().at(centreOf(x, y), depth);
+                         : this->sight(x, y).depthOf(this->TheSurfaces->hits[i], centreOf(x, y));
+  return this->sight(x, y).eye().at(centreOf(x, y), depth);
 }
 
 } // namespace dgtk

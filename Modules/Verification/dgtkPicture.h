@@ -6,6 +6,7 @@
 
 #include "dgtkDataset.h"
 #include "dgtkMeter.h"
+#include "dgtkTimedSight.h"
 
 #include <map>
 #include <memory>
@@ -59,8 +60,16 @@ public:
   int frame() const { return this->Record.frame; }
   int width() const { return this->Record.width; }
   int height() const { return this->Record.height; }
-  const Sight& sight() const { return *this->TheSight; }
-  const Eye& eye() const { return this->TheSight->eye(); }
+  /// At the picture's own time.
+  const Sight& sight() const { return *this->Time->middle(); }
+  const Eye& eye() const { return this->sight().eye(); }
+  /// At the time of a pixel; the camera frame of all that is said of it.
+  const Sight& sight(int x, int y) const
+  {
+    return this->Time->rolls() ? *this->Sights[std::size_t(y) * std::size_t(this->width()) + std::size_t(x)]
+                               : this->sight();
+  }
+  const TimedSight& time() const { return *this->Time; }
   ThreadPool& pool() const { return this->Owner.pool(); }
 
   /// The first of the suffixes that exists, null for none. Throws InputError for a damaged file.
@@ -106,11 +115,14 @@ private:
   bool endsAt(const Hit& hit, int x, int y) const;
   /// The same, and nothing hides it.
   bool isOnEdge(const Hit& hit, int x, int y) const;
+  /// Embree's hits.
+  std::vector<Hit> ownHits() const;
   void resolveRow(const Claims& claims, int y, int& patience);
 
   Dataset& Owner;
   CameraRecord Record;
-  std::shared_ptr<const Sight> TheSight;
+  std::shared_ptr<const TimedSight> Time;
+  std::vector<std::shared_ptr<const Sight>> Sights; ///< of pixels with times of their own
   std::map<std::string, PicturePointer> Images;
   std::unique_ptr<Surfaces> TheSurfaces;
   PicturePointer Depth;

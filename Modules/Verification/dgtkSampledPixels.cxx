@@ -25,7 +25,7 @@ int samplesOf(const Manifest& manifest)
 } // namespace
 
 Samples::Samples(Picture& picture)
-  : TheSight(picture.sight())
+  : Owner(picture)
   , Width(picture.width())
   , Side(samplesOf(picture.dataset().manifest()))
   , Known(std::size_t(picture.width()) * picture.height())
@@ -51,7 +51,7 @@ SampledPixel Samples::count(int x, int y) const
     for (int i = 0; i < this->Side; ++i)
     {
       const Eigen::Vector2d place(x + (i + 0.5) / this->Side, y + (j + 0.5) / this->Side);
-      const First first = this->firstAt(place);
+      const First first = this->firstAt(x, y, place);
       ++pixel.counts[first.id];
       if (first.depth < least || (first.depth == least && first.id < pixel.nearest))
       {
@@ -62,7 +62,7 @@ SampledPixel Samples::count(int x, int y) const
       for (const Eigen::Vector2d& offset :
         { Eigen::Vector2d(1, 0), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, -1) })
       {
-        around.insert(this->firstAt(place + edgeReach * offset).id);
+        around.insert(this->firstAt(x, y, place + edgeReach * offset).id);
       }
       around.erase(first.id);
       for (const std::uint32_t other : around)
@@ -76,11 +76,12 @@ SampledPixel Samples::count(int x, int y) const
   return pixel;
 }
 
-Samples::First Samples::firstAt(const Eigen::Vector2d& place) const
+/// Samples have the time of their pixel.
+Samples::First Samples::firstAt(int x, int y, const Eigen::Vector2d& place) const
 {
   std::vector<Hit> hits;
   std::vector<double> depths;
-  this->TheSight.surfaces(place, hits, depths);
+  this->Owner.sight(x, y).surfaces(place, hits, depths);
   return hits.empty() ? First{} : First{ hits.front().object, depths.front() };
 }
 

@@ -61,10 +61,10 @@ private:
     std::uint32_t id = 0;
     double depth = infinite;
   };
-  First firstAt(const Eigen::Vector2d& place) const;
+  First firstAt(int x, int y, const Eigen::Vector2d& place) const;
   SampledPixel count(int x, int y) const;
 
-  const Sight& TheSight;
+  const Picture& Owner;
   int Width;
   int Side;
   mutable std::vector<std::unique_ptr<const SampledPixel>> Known;

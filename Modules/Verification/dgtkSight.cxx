@@ -99,43 +99,30 @@ Eigen::Vector3d Sight::weights(const Hit& hit, const Eigen::Vector3d& x) const
   return weight;
 }
 
-Carrier::Carrier(const Sight& from, std::shared_ptr<const SceneState> to)
-  : From(from)
-  , To(std::move(to))
+Eigen::Vector3d pointOf(const Instance& instance, const Hit& hit, const Eigen::Vector3d& weights)
 {
-  for (std::size_t i = 0; i < this->To->instances.size(); ++i)
-  {
-    const Instance& then = this->To->instances[i];
-    const Affine3& camera_from_object = from.cameraFromObject(static_cast<std::uint32_t>(i + 1));
-    Way way;
-    way.rigid = then.geometry == from.instance(static_cast<std::uint32_t>(i + 1)).geometry;
-    const double determinant = camera_from_object.linear.determinant();
-    way.regular = std::isfinite(1 / determinant);
-    if (way.rigid && way.regular)
-    {
-      const Eigen::Matrix3d inverse = camera_from_object.linear.inverse();
-      way.world_from_camera.linear = then.world_from_object.linear * inverse;
-      way.world_from_camera.translation =
-        then.world_from_object.translation - way.world_from_camera.linear * camera_from_object.translation;
-    }
-    this->Ways.push_back(way);
-  }
+  const auto& triangle = instance.model->triangles[hit.triangle];
+  const std::vector<Eigen::Vector3d>& p = instance.geometry->positions;
+  const Eigen::Vector3d& first = p[triangle[0]];
+  return instance.world_from_object *
+         (first + weights[1] * (p[triangle[1]] - first) + weights[2] * (p[triangle[2]] - first));
 }
 
-Carried Carrier::operator()(const Hit& hit, const Eigen::Vector3d& x_in_camera) const
+Carried carried(const Sight& from, const Instance& then, const Hit& hit, const Eigen::Vector3d& x_in_camera)
 {
-  const Way& way = this->Ways[hit.object - 1];
-  if (way.rigid)
+  if (then.geometry != from.instance(hit.object).geometry)
   {
-    return { way.regular, way.world_from_camera * x_in_camera };
+    const Eigen::Vector3d weights = from.weights(hit, x_in_camera);
+    return { weights.allFinite(), pointOf(then, hit, weights) };
   }
-  const Eigen::Vector3d weight = this->From.weights(hit, x_in_camera);
-  const Instance& then = this->To->instances[hit.object - 1];
-  const auto& triangle = then.model->triangles[hit.triangle];
-  const std::vector<Eigen::Vector3d>& p = then.geometry->positions;
-  const Eigen::Vector3d& first = p[triangle[0]];
-  const Eigen::Vector3d point = first + weight[1] * (p[triangle[1]] - first) + weight[2] * (p[triangle[2]] - first);
-  return { weight.allFinite(), then.world_from_object * point };
+  const Affine3& camera_from_object = from.cameraFromObject(hit.object);
+  if (!std::isfinite(1 / camera_from_object.linear.determinant()))
+  {
+    return {};
+  }
+  const Eigen::Matrix3d linear = then.world_from_object.linear * camera_from_object.linear.inverse();
+  const Eigen::Vector3d translation = then.world_from_object.translation - linear * camera_from_object.translation;
+  return { true, linear * x_in_camera + translation };
 }
 
 } // namespace dgtk

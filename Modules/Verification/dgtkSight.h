@@ -46,6 +46,9 @@ private:
   std::vector<Affine3> Placed;
 };
 
+/// A point of a triangle by weights of its corners, world frame.
+Eigen::Vector3d pointOf(const Instance& instance, const Hit& hit, const Eigen::Vector3d& weights);
+
 /// A point of an object's surface, carried from one instant to another: by the object's placement where the model is
 /// rigid, otherwise by the triangle. World frame. `ok` is false for an object that is flattened.
 struct Carried
@@ -53,23 +56,8 @@ struct Carried
   bool ok = false;
   Eigen::Vector3d x_in_world{ 0, 0, 0 };
 };
-class Carrier
-{
-public:
-  Carrier(const Sight& from, std::shared_ptr<const SceneState> to);
-  Carried operator()(const Hit& hit, const Eigen::Vector3d& x_in_camera) const;
-
-private:
-  struct Way
-  {
-    bool rigid = false;
-    bool regular = false;
-    Affine3 world_from_camera; ///< of the points of a rigid model
-  };
-  const Sight& From;
-  std::shared_ptr<const SceneState> To;
-  std::vector<Way> Ways;
-};
+/// `then`: the object at the other instant.
+Carried carried(const Sight& from, const Instance& then, const Hit& hit, const Eigen::Vector3d& x_in_camera);
 
 } // namespace dgtk
 

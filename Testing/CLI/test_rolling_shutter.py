@@ -33,6 +33,9 @@ def scene(camera, steps=1):
         {"name": "creature", "model": "creature.md2", "position": keys([-1, 0.4, -0.6], [0.4, 0.4, 0.4]),
          "orientation": [0.5, -0.5, -0.5, -0.5], "scale": [0.03, 0.03, 0.03], "animation": {"sequence": "walk"}},
     ]
+    # it goes while frame 4 is seen, and comes while frame 5 is
+    objects.append({"name": "blink", "model": "crate.ac", "position": [-0.9, 1.6, 0.9], "scale": [0.6, 0.6, 0.6],
+                    "visible": {"keys": [[0, True], [4 * steps, False], [5 * steps, True]]}})
     for item in objects:
         item["model"] = os.path.join(MODELS, item["model"])
     eye = {"name": "eye", "width": WIDTH, "height": HEIGHT, "near": 0.05, "far": 100,
@@ -103,6 +106,18 @@ class RollingShutters(Case):
                         then = self.values("still", layer, 4 * STEPS + step)
                         self.assertEqual(rolling[steps == step].tobytes(), then[steps == step].tobytes(), f"{layer} {step}")
 
+    def test_samples_of_a_pixel_have_the_time_of_its_row(self):
+        steps = steps_of("down")
+        options = ("--samples", "3")
+        self.render("rolling", scene(CAMERAS["down"]), "color,alpha", "4", *options)
+        first, last = 4 * STEPS + steps.min(), 4 * STEPS + steps.max()
+        self.render("still", self.still("down", STEPS), "color,alpha", f"{first}:{last}", *options)
+        for layer in ("color", "alpha"):
+            rolling = read_png(self.path("rolling", "eye", layer, "000004.png"))
+            for y in range(HEIGHT):
+                then = read_png(self.path("still", "eye", layer, f"{4 * STEPS + steps[y, 0]:06d}.png"))
+                self.assertTrue((rolling[y] == then[y]).all(), f"{layer} {y}")
+
     def test_moving_points_are_seen_where_a_dense_time_line_sees_them(self):
         """Flow and its classes, against positions of the same points by still cameras at times on either side."""
         fine = 4096
@@ -135,6 +150,25 @@ class RollingShutters(Case):
                 self.assertIn(classes[y, x], seen, f"{name} {x} {y}")
                 kinds |= seen
         self.assertGreaterEqual(len(kinds), 3)
+
+    def test_datasets_of_rolling_cameras_are_verified(self):
+        self.save_table()
+        description = scene(CAMERAS["down"])
+        plain = description["cameras"][0]
+        description["cameras"] = []
+        for name, camera in {**CAMERAS, "still": {}, "table rolling": {**CAMERAS["table"], "rollingShutter": {"duration": 0.25, "direction": "up"}}}.items():
+            own = {key: value for key, value in plain.items() if key != "rollingShutter"}
+            description["cameras"].append({**own, **camera, "name": name})
+        layers = (",".join(LAYERS) + ",edges,flow_forward,flow_backward,sceneflow,correspondence,alpha,coverage,ldi,"
+                  "boxes,amodal,points,matting,depth_noisy")
+        self.render("all", description, layers, "3:4", "--flow_forward-format", "npy,flo", "--matte", "ball,crate",
+                    "--points-step", "2", "--pairs", "down:still,still:down+1,fisheye:right,table:up", "--samples", "2")
+        report = json.loads(self.dgtk("verify", self.path("all"), "--json").stdout)
+        counts = {(row["check"], row["layer"]): row["count"] for row in report["residuals"]}
+        for key in (("motion", "flow_forward"), ("class", "flow_forward"), ("motion", "sceneflow"),
+                    ("class", "correspondence_down+1"), ("boxes", "projected"), ("points", "tracks"), ("ldi", "surfaces"),
+                    ("alpha", "coverage"), ("cameras", "cameras")):
+            self.assertGreater(counts.get(key, 0), 0, f"{key} of {sorted(counts)}")
 
     def test_what_knows_one_instant_only_refuses(self):
         path = self.write("one.json", json.dumps(scene(CAMERAS["down"])))

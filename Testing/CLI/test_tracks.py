@@ -100,6 +100,7 @@ class Tracks(Case):
             with self.subTest(engine=engine):
                 out = self.render(SCENE, engine, "--visibility", engine, "--layers", "all", "--matte", "ball",
                                   "--objects-format", "npy")
+                self.assertNotIn("BREACH", self.dgtk("verify", out).stdout)
                 self.assertEqual([(o["id"], o["name"]) for o in load_json(os.path.join(out, "objects.json"))["objects"]],
                                  [(1, "floor"), (2, "ball"), (3, "crate")])
                 for frame in range(LAST + 1):
@@ -118,6 +119,7 @@ class Tracks(Case):
         out = self.render(scene, "out", "--layers", "objects,flow_forward,flow_backward",
                           "--flow-forward-format", "npy", "--flow-backward-format", "npy",
                           "--objects-format", "npy")
+        self.assertNotIn("BREACH", self.dgtk("verify", out).stdout)
         for layer, frame in (("flow_forward", 1), ("flow_backward", 3)):
             with self.subTest(layer=layer):
                 ball = np.load(self.file(out, "objects", frame, "npy")) == 2

@@ -42,7 +42,7 @@ private:
   Instant without(Instant now) const
   {
     auto state = std::make_shared<SceneState>(*now.state);
-    state->instances[this->Object - 1].geometry = nullptr;
+    state->instances[this->Object - 1].visible = false;
     return { std::move(state), now.camera_from_world };
   }
 

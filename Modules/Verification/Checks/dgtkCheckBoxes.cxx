@@ -185,27 +185,48 @@ private:
   void forVertices(const Body& body) const
   {
     const Instance& instance = this->Owner.sight().instance(this->Id);
-    for (const auto& triangle : instance.model->triangles)
+    const auto& triangles = instance.model->triangles;
+    for (std::uint32_t i = 0; i < triangles.size(); ++i)
     {
-      for (const std::uint32_t corner : triangle)
+      for (int k = 0; k < 3; ++k)
       {
-        body(instance.geometry->positions[corner]);
+        body(instance.geometry->positions[triangles[i][std::size_t(k)]], i, k);
       }
     }
+  }
+
+  /// Where a corner is seen at its own time; `open` where that does not settle.
+  bool sees(const Hit& hit, const Eigen::Vector3d& weights, Eigen::Vector2d& pixel, bool& open) const
+  {
+    const TimedSight& sight = this->Owner.time();
+    double time = 0;
+    const TimedSight::Search search = sight.findTime(hit, weights, time);
+    open = open || search != TimedSight::Search::Settled;
+    const Eye eye = sight.eyeAt(time);
+    return search == TimedSight::Search::Settled &&
+           eye.project(eye.toCamera(pointOf(sight.instanceAt(time, hit.object), hit, weights)), pixel);
   }
 
   void projected(const Json& found)
   {
     Extent extent;
+    bool open = false;
     this->forVertices(
-      [&](const Eigen::Vector3d& vertex)
+      [&](const Eigen::Vector3d& vertex, std::uint32_t triangle, int corner)
       {
         Eigen::Vector2d p;
-        if (this->Owner.eye().project(this->Owner.sight().cameraFromObject(this->Id) * vertex, p))
+        if (this->Owner.time().rolls()
+              ? this->sees({ this->Id, triangle }, Eigen::Vector3d::Unit(corner), p, open)
+              : this->Owner.eye().project(this->Owner.sight().cameraFromObject(this->Id) * vertex, p))
         {
           extent.add(p.x(), p.y(), p.x(), p.y());
         }
       });
+    if (open) // of vertices beside the camera, which a moving camera sees several times or for a part of the time
+    {
+      this->Projected.skip();
+      return;
+    }
     this->box(this->Projected, "box_projected", found, extent);
   }
 
@@ -239,7 +260,7 @@ private:
     Eigen::Vector3d least(infinite, infinite, infinite);
     Eigen::Vector3d most = -least;
     this->forVertices(
-      [&](const Eigen::Vector3d& vertex)
+      [&](const Eigen::Vector3d& vertex, std::uint32_t, int)
       {
         least = least.cwiseMin(vertex);
         most = most.cwiseMax(vertex);

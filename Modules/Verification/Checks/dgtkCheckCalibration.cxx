@@ -48,9 +48,10 @@ public:
     RowPoints row;
     for (int x = 0; x < this->Owner.width(); ++x)
     {
-      const Eigen::Vector3d X =
-        this->Position ? this->Position->at3(x, y)
-                       : this->Owner.eye().toWorld(this->Owner.eye().at(centreOf(x, y), this->Depth->at(x, y)));
+      const Eye& eye = this->Owner.sight(x, y).eye();
+      Eigen::Vector3d X =
+        this->Position ? this->Position->at3(x, y) : eye.toWorld(eye.at(centreOf(x, y), this->Depth->at(x, y)));
+      X = this->Owner.time().rolls() ? this->Owner.eye().toWorld(eye.toCamera(X)) : X; // as if the camera stood still
       if (X.allFinite())
       {
         row.columns.push_back(x);

@@ -70,6 +70,15 @@ public:
         const std::string name = differing(this->Record.numbers, expected.numbers);
         return this->offender(name.c_str(), listed(this->Record.numbers, name), listed(expected.numbers, name));
       });
+    const std::pair<const RollingShutter&, const RollingShutter&> shutters(
+      this->Record.rollingShutter, expected.rollingShutter);
+    this->number("rollingShutter duration", shutters.first.duration, shutters.second.duration);
+    this->TheMeter.equal(shutters.first.direction == shutters.second.direction,
+      [&]
+      {
+        return this->offender("rollingShutter direction", rollingDirections()[std::size_t(shutters.first.direction)],
+          rollingDirections()[std::size_t(shutters.second.direction)]);
+      });
     const Eigen::Matrix3d square = this->Record.R * this->Record.R.transpose();
     this->matrix<Eigen::Matrix3d>("R R^T", square, Eigen::Matrix3d::Identity());
   }

@@ -28,13 +28,15 @@ constexpr double silhouetteReach = 1e-4;
 constexpr double surfaceSlack = 1e-9;
 /// Pixels: as near to the image's border, inside and outside are a matter of rounding.
 constexpr double borderSlack = 1e-6;
+/// Of a rolling shutter one of so many pixels is looked at.
+constexpr int instantStep = 8;
 
 class ClassCheck
 {
 public:
   ClassCheck(Picture& picture, const Pair& pair, const PictureFile& file)
     : Owner(picture)
-    , Other(*pair.other)
+    , ThePair(pair)
     , File(file)
     , Targets(picture, pair)
   {
@@ -42,16 +44,23 @@ public:
 
   void pixel(int x, int y, Meter& meter) const
   {
+    // A scene of its own for each pixel takes its time.
+    if (this->ThePair.timed->rolls() && (x + 3 * y) % instantStep != 0)
+    {
+      return;
+    }
     const int found = static_cast<int>(this->File.at(x, y));
     const Hit& hit = this->Targets.hit(x, y);
     const Target target = this->Targets.at(x, y);
-    const int expected = this->classOf(target, hit, target.pixel, surfaceSlack);
+    const std::shared_ptr<const Sight> other =
+      this->ThePair.timed->rolls() ? this->ThePair.timed->at(target.time) : this->ThePair.other;
+    const int expected = classOf(*other, target, hit, target.pixel, surfaceSlack);
     if (found == expected)
     {
       meter.good();
       return;
     }
-    if (meter.Bad < usualPatience && this->isOpen(x, y, target, hit, found))
+    if (meter.Bad < usualPatience && this->isOpen(*other, x, y, target, hit, found))
     {
       meter.skip();
       return;
@@ -61,9 +70,12 @@ public:
 
 private:
   /// By the ray through `pixel`, on which the point has the same depth as on its own.
-  int classOf(const Target& target, const Hit& hit, const Eigen::Vector2d& pixel, double slack) const
+  int classOf(
+    const Sight& other, const Target& target, const Hit& hit, const Eigen::Vector2d& pixel, double slack) const
   {
-    if (!target.surface)
+    // What a rolling shutter sees at no time has no time at which it might be visible.
+    const bool never = !target.projects && this->ThePair.timed->rolls();
+    if (!target.surface || (!never && !other.instance(hit.object).visible))
     {
       return Nothing;
     }
@@ -71,14 +83,14 @@ private:
     {
       return Behind;
     }
-    if (!this->Other.eye().sees(target.pixel, target.there))
+    if (!other.eye().sees(target.pixel, target.there))
     {
       return Outside;
     }
     std::vector<Hit> hits;
     std::vector<double> ranges;
-    this->Other.surfaces(pixel, hits, ranges);
-    const double own = this->Other.eye().range(target.pixel, target.there);
+    other.surfaces(pixel, hits, ranges);
+    const double own = other.eye().range(target.pixel, target.there);
     for (std::size_t i = 0; i < hits.size(); ++i)
     {
       if (hits[i] != hit && ranges[i] / own < 1 - slack)
@@ -90,7 +102,7 @@ private:
   }
 
   /// Whether another class is as right: beside a silhouette, an edge, the border or the limits of depth.
-  bool isOpen(int x, int y, const Target& target, const Hit& hit, int found) const
+  bool isOpen(const Sight& other, int x, int y, const Target& target, const Hit& hit, int found) const
   {
     if (!target.surface || !target.ok)
     {
@@ -100,7 +112,7 @@ private:
     {
       return true;
     }
-    if (target.projects && this->isAtLimit(target))
+    if (target.projects && isAtLimit(other.eye(), target))
     {
       return true;
     }
@@ -108,39 +120,38 @@ private:
     {
       return false;
     }
-    if (this->classOf(target, hit, target.pixel, silhouetteReach) == found)
+    if (classOf(other, target, hit, target.pixel, silhouetteReach) == found)
     {
       return true;
     }
-    const Eigen::Vector2d reach = this->Other.eye().reach(silhouetteReach, target.there);
+    const Eigen::Vector2d reach = other.eye().reach(silhouetteReach, target.there);
     for (int i = 0; i < 32; ++i)
     {
       const Eigen::Vector2d direction(std::cos(i * pi / 8), std::sin(i * pi / 8));
       const Eigen::Vector2d pixel = target.pixel + (i < 16 ? 1.0 : 0.25) * reach.cwiseProduct(direction);
-      if (this->classOf(target, hit, pixel, surfaceSlack) == found ||
-          this->classOf(target, hit, pixel, silhouetteReach) == found)
+      if (classOf(other, target, hit, pixel, surfaceSlack) == found ||
+          classOf(other, target, hit, pixel, silhouetteReach) == found)
       {
         return true;
       }
     }
-    return this->isOtherSurface(x, y, hit, found);
+    return this->isOtherSurface(other, x, y, hit, found);
   }
 
   /// Beside an edge the file may follow the neighbour of the same object and depth.
-  bool isOtherSurface(int x, int y, const Hit& hit, int found) const
+  bool isOtherSurface(const Sight& other, int x, int y, const Hit& hit, int found) const
   {
     const std::vector<Hit> nearby = this->Owner.nearby(x, y);
     return std::any_of(nearby.begin(), nearby.end(),
-      [&](const Hit& other)
+      [&](const Hit& near)
       {
-        const Target target = other.object == hit.object ? this->Targets.at(x, y, other) : Target{};
-        return target.ok && this->classOf(target, other, target.pixel, surfaceSlack) == found;
+        const Target target = near.object == hit.object ? this->Targets.at(x, y, near) : Target{};
+        return target.ok && classOf(other, target, near, target.pixel, surfaceSlack) == found;
       });
   }
 
-  bool isAtLimit(const Target& target) const
+  static bool isAtLimit(const Eye& eye, const Target& target)
   {
-    const Eye& eye = this->Other.eye();
     const auto near = [](double a, double b, double slack) { return std::abs(a - b) <= slack; };
     const double z = eye.range(target.pixel, target.there);
     return near(target.pixel.x(), 0, borderSlack) || near(target.pixel.x(), eye.width(), borderSlack) ||
@@ -149,7 +160,7 @@ private:
   }
 
   Picture& Owner;
-  const Sight& Other;
+  const Pair& ThePair;
   const PictureFile& File;
   PairTargets Targets;
 };

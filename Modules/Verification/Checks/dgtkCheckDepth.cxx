@@ -21,7 +21,6 @@ void checkFile(Picture& picture, const std::string& suffix, Results& results)
 {
   const PicturePointer depth = picture.image("depth", { suffix });
   const Surfaces& surfaces = picture.surfaces();
-  const Sight& sight = picture.sight();
   const double tolerance = depthTolerance(*depth);
   const Meter meter = meterRows(picture.pool(), picture.height(), tolerance,
     [&](int y, Meter& row)
@@ -30,7 +29,7 @@ void checkFile(Picture& picture, const std::string& suffix, Results& results)
       {
         const std::size_t i = surfaces.index(x, y);
         const double found = depth->at(x, y);
-        const double expected = sight.depthOf(surfaces.hits[i], centreOf(x, y));
+        const double expected = picture.sight(x, y).depthOf(surfaces.hits[i], centreOf(x, y));
         const double error = relative(found, expected) / (found == expected ? 1 : picture.eye().farness(expected));
         if (surfaces.marks[i] == Mark::Edge && error <= tolerance)
         {

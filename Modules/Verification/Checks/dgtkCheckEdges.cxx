@@ -56,7 +56,7 @@ private:
   /// How far a point lies off the plane of the triangle that a pixel shows.
   double off(int x, int y, const Eigen::Vector3d& point) const
   {
-    const Eigen::Vector3d normal = this->Owner.sight().normal(this->hit(x, y)).stableNormalized();
+    const Eigen::Vector3d normal = this->Owner.sight(x, y).normal(this->hit(x, y)).stableNormalized();
     return std::abs(normal.dot(point - this->Owner.point(x, y)));
   }
 

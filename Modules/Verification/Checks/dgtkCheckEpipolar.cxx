@@ -58,7 +58,8 @@ bool isApart(const Eye& a, const Eye& b)
 
 PairImages imagesOf(Picture& picture, const Pair& pair)
 {
-  if (pair.kind != PairKind::Place || !pair.sameFrame || !isApart(picture.eye(), pair.other->eye()))
+  if (pair.kind != PairKind::Place || !pair.sameFrame || !isApart(picture.eye(), pair.other->eye()) ||
+      picture.time().rolls() || pair.timed->rolls())
   {
     return {};
   }
@@ -207,7 +208,8 @@ void checkTriangulation(Picture& picture, Results& results)
   for (const Pair& pair : pairsOf(picture))
   {
     const PairImages images = imagesOf(picture, pair);
-    if (!images.values || !picture.eye().pinhole() || !pair.other->eye().pinhole())
+    if (!images.values || !picture.eye().pinhole() || !pair.other->eye().pinhole() || picture.time().rolls() ||
+        pair.timed->rolls())
     {
       continue;
     }

@@ -105,7 +105,7 @@ void checkForwardBackward(Picture& picture, Results& results)
     return;
   }
   Picture later(dataset, *next);
-  if (!picture.eye().linear() || !later.eye().linear())
+  if (!picture.eye().linear() || !later.eye().linear() || picture.time().rolls())
   {
     return;
   }

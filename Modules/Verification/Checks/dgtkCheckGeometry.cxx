@@ -216,7 +216,7 @@ void checkPixel(Picture& picture, const Surfaces& surfaces, const PictureFile& f
   const auto measure = [&](const Hit& surface)
   {
     const Eigen::Vector3d point = picture.point(x, y);
-    return layer.measure({ picture.sight(), surface, centreOf(x, y), point }, found, expected) /
+    return layer.measure({ picture.sight(x, y), surface, centreOf(x, y), point }, found, expected) /
            picture.eye().farness(point.z());
   };
   double error = measure(hit);

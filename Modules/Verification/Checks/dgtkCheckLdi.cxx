@@ -82,7 +82,7 @@ public:
   {
     std::vector<Hit> hits;
     std::vector<double> depths;
-    this->Owner.sight().surfaces(centreOf(x, y), hits, depths);
+    this->Owner.sight(x, y).surfaces(centreOf(x, y), hits, depths);
     const std::string problem = this->problem(x, y, depths);
     if (!problem.empty() && meter.Bad < usualPatience && this->isOpen(x, y))
     {
@@ -184,7 +184,7 @@ private:
     for (int i = 0; i < raysAround; ++i)
     {
       const Eigen::Vector2d offset(std::cos(i * sixteenth), std::sin(i * sixteenth));
-      this->Owner.sight().surfaces(centreOf(x, y) + edgeReach * ((i + 15) / 16) / 5 * offset, hits, depths);
+      this->Owner.sight(x, y).surfaces(centreOf(x, y) + edgeReach * ((i + 15) / 16) / 5 * offset, hits, depths);
       for (const Hit& hit : hits)
       {
         auto known = std::find_if(all.begin(), all.end(), [&](const Nearby& n) { return n.hit == hit; });
@@ -194,11 +194,11 @@ private:
     }
     // What the other layers show, which may be the edge of a cut-out texture that rays pass on either side.
     const Surfaces& seen = this->Owner.surfaces();
-    std::vector<double> possible{ this->Owner.sight().rangeOf(seen.hits[seen.index(x, y)], centreOf(x, y)) };
+    std::vector<double> possible{ this->Owner.sight(x, y).rangeOf(seen.hits[seen.index(x, y)], centreOf(x, y)) };
     bool complete = true;
     for (const Nearby& nearby : all)
     {
-      possible.push_back(this->Owner.sight().rangeOf(nearby.hit, centreOf(x, y)));
+      possible.push_back(this->Owner.sight(x, y).rangeOf(nearby.hit, centreOf(x, y)));
       complete = complete && (nearby.rays < raysAround || this->hasRecord(x, y, possible.back()));
     }
     for (std::size_t i = 0; i < this->Ldi.count(x, y); ++i)

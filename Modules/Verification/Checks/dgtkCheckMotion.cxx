@@ -69,10 +69,15 @@ private:
   double measure(int x, int y, const Hit& hit, const double* found, double* expected) const
   {
     const Target target = this->Targets.at(x, y, hit);
-    const bool exists = target.surface && (this->ThePair.kind == PairKind::Motion || target.projects);
+    const bool still = this->ThePair.kind == PairKind::Motion && !this->ThePair.timed->rolls();
+    const bool exists = target.surface && (still || target.projects);
     if (target.surface && !target.ok)
     {
       return -1;
+    }
+    if (!exists && !target.timed && this->ThePair.kind == PairKind::Motion && !std::isnan(found[0]))
+    {
+      return -1; // seen at a time that cannot be found from the picture's own
     }
     if (!exists)
     {
@@ -97,6 +102,7 @@ private:
   void derive(int x, int y, const Target& target, double* expected) const
   {
     const Eigen::Vector2d centre = centreOf(x, y);
+    const Eye& here = this->Owner.sight(x, y).eye();
     Eigen::Map<Eigen::Vector2d> two(expected);
     switch (this->ThePair.kind)
     {
@@ -113,8 +119,7 @@ private:
         *expected = target.pixel.x() - centre.x();
         break;
       case PairKind::Motion:
-        Eigen::Map<Eigen::Vector3d>(expected, 3) =
-          this->Owner.eye().record().R * (target.world - this->Owner.eye().toWorld(target.here));
+        Eigen::Map<Eigen::Vector3d>(expected, 3) = here.record().R * (target.world - here.toWorld(target.here));
         break;
     }
   }

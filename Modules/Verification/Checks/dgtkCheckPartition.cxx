@@ -70,7 +70,7 @@ void checkMasks(
     {
       constexpr double eighth = 0.78539816339744831;
       const Eigen::Vector2d offset(std::cos(i * eighth), std::sin(i * eighth));
-      if (contains(objectsAlong(picture.sight(), centreOf(x, y) + edgeReach * offset), id) == found)
+      if (contains(objectsAlong(picture.sight(x, y), centreOf(x, y) + edgeReach * offset), id) == found)
       {
         return true;
       }
@@ -82,7 +82,7 @@ void checkMasks(
     everyPixel(picture,
       [&](int x, int y, Meter& meter)
       {
-        const std::vector<std::uint32_t> along = objectsAlong(picture.sight(), centreOf(x, y));
+        const std::vector<std::uint32_t> along = objectsAlong(picture.sight(x, y), centreOf(x, y));
         for (std::uint32_t id = 1; id <= objects; ++id)
         {
           const bool found = masks.inside(id, x, y);

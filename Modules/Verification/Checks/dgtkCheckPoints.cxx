@@ -76,15 +76,17 @@ public:
       {
         throw InputError(dataset.absolute(this->File), 0, "names a camera that cameras.json lacks", {}, quoted(camera));
       }
-      this->Sights.push_back(dataset.sight(Eye(*record, dataset.sceneView(*record).model), frame));
+      this->Sights.push_back(dataset.timedSight(Eye(*record, dataset.sceneView(*record).model), frame));
+      this->Rolls = this->Rolls || this->Sights.back()->rolls();
     }
   }
   const std::vector<CloudPoint>& points() const { return this->Points; }
 
   bool isSound(const CloudPoint& point) const
   {
-    if (this->Sights.empty() || point.hit.object == 0 || point.hit.object > this->Sights[0]->state().instances.size() ||
-        point.hit.triangle >= this->Sights[0]->instance(point.hit.object).model->triangles.size() ||
+    if (this->Sights.empty() || point.hit.object == 0 ||
+        point.hit.object > this->Sights[0]->middle()->state().instances.size() ||
+        point.hit.triangle >= this->Sights[0]->middle()->instance(point.hit.object).model->triangles.size() ||
         point.track.empty())
     {
       return false;
@@ -102,13 +104,14 @@ public:
       meter.equal(false, [&] { return this->offender(index, "an unknown object, triangle or camera", "known ones"); });
       return;
     }
-    for (const TrackPoint& sight : point.track)
+    for (const TrackPoint& track : point.track)
     {
-      const Eye& eye = this->Sights[sight.camera]->eye();
+      const Look look = this->lookOf(point, track);
+      const Eye& eye = look.sight->eye();
       Eigen::Vector2d expected(std::nan(""), std::nan(""));
-      eye.project(eye.toCamera(point.x), expected);
-      meter.add((expected - sight.pixel).norm() / eye.farness(eye.toCamera(point.x).z()),
-        [&] { return this->offender(index, numbersText(sight.pixel.data(), 2), numbersText(expected.data(), 2)); });
+      eye.project(eye.toCamera(look.x_in_world), expected);
+      meter.add((expected - track.pixel).norm() / eye.farness(eye.toCamera(look.x_in_world).z()),
+        [&] { return this->offender(index, numbersText(track.pixel.data(), 2), numbersText(expected.data(), 2)); });
     }
     const Eigen::Vector2d centre = point.track[0].pixel.array().floor() + 0.5;
     meter.add((centre - point.track[0].pixel).norm(),
@@ -126,7 +129,8 @@ public:
     {
       return;
     }
-    const Sight& sight = *this->Sights[point.track[0].camera];
+    const std::shared_ptr<const Sight> first = this->lookOf(point, point.track[0]).sight;
+    const Sight& sight = *first;
     const double found = sight.eye().range(point.track[0].pixel, sight.eye().toCamera(point.x));
     const double expected = sight.rangeOf(point.hit, point.track[0].pixel);
     meter.add((found - expected) / expected / sight.eye().farness(expected),
@@ -138,16 +142,18 @@ public:
     const CloudPoint& point = this->Points[index];
     for (const TrackPoint& track : this->isSound(point) ? point.track : std::vector<TrackPoint>{})
     {
-      const Sight& sight = *this->Sights[track.camera];
-      const bool seen = this->isSeen(sight, point, track.pixel, surfaceTolerance);
-      if (!seen && this->isOpen(sight, point, track.pixel))
+      const Look look = this->lookOf(point, track);
+      const bool seen = isSeen(look, point.hit, track.pixel, surfaceTolerance);
+      if (!seen && isOpen(look, point.hit, track.pixel))
       {
         meter.skip();
         continue;
       }
       meter.equal(seen,
-        [&] {
-          return this->offender(index, "seen by camera '" + sight.eye().record().name + "'", "hidden or outside there");
+        [&]
+        {
+          return this->offender(
+            index, "seen by camera '" + look.sight->eye().record().name + "'", "hidden or outside there");
         });
     }
   }
@@ -193,7 +199,8 @@ private:
   void normal(const std::string& file, std::size_t index, const char* bytes, Meter& meter) const
   {
     const CloudPoint& point = this->Points[index];
-    const Sight& sight = *this->Sights[point.track[0].camera];
+    const std::shared_ptr<const Sight> first = this->lookOf(point, point.track[0]).sight;
+    const Sight& sight = *first;
     float narrow[3];
     std::memcpy(narrow, bytes, sizeof narrow);
     const Eigen::Vector3d found(narrow[0], narrow[1], narrow[2]);
@@ -212,7 +219,8 @@ private:
   void color(const std::string& file, std::size_t index, const char* bytes, Meter& meter) const
   {
     const CloudPoint& point = this->Points[index];
-    const Sight& sight = *this->Sights[point.track[0].camera];
+    const std::shared_ptr<const Sight> first = this->lookOf(point, point.track[0]).sight;
+    const Sight& sight = *first;
     const Instance& instance = sight.instance(point.hit.object);
     const Model& model = *instance.model;
     const Material& material = (*instance.materials)[model.parts[model.partOf(point.hit.triangle)].material];
@@ -257,20 +265,46 @@ private:
     return { this->File, -1, -1, "point " + std::to_string(index) + ' ' + found, expected };
   }
 
-  bool isSeen(const Sight& sight, const CloudPoint& point, const Eigen::Vector2d& pixel, double slack) const
+  /// A camera at the time at which it sees a point, and where the point is then.
+  struct Look
   {
-    const Eigen::Vector3d x = sight.eye().toCamera(point.x);
-    if (!sight.eye().sees(pixel, x))
+    std::shared_ptr<const Sight> sight;
+    Eigen::Vector3d x_in_world{ 0, 0, 0 };
+  };
+
+  Look lookOf(const CloudPoint& point, const TrackPoint& track) const
+  {
+    if (!this->Rolls)
+    {
+      return { this->Sights[track.camera]->middle(), point.x };
+    }
+    const auto sightOf = [this](const TrackPoint& of)
+    {
+      const TimedSight& timed = *this->Sights[of.camera];
+      return timed.at(timed.timeAt(of.pixel));
+    };
+    const std::shared_ptr<const Sight> first = sightOf(point.track[0]);
+    Look look{ sightOf(track), point.x };
+    look.x_in_world =
+      carried(*first, look.sight->instance(point.hit.object), point.hit, first->eye().toCamera(point.x)).x_in_world;
+    return look;
+  }
+
+  static bool isSeen(const Look& look, const Hit& own, const Eigen::Vector2d& pixel, double slack)
+  {
+    const Eye& eye = look.sight->eye();
+    const Eigen::Vector3d x = eye.toCamera(look.x_in_world);
+    if (!eye.sees(pixel, x))
     {
       return false;
     }
     std::vector<Hit> hits;
     std::vector<double> ranges;
-    sight.surfaces(pixel, hits, ranges);
-    const double own = sight.eye().range(pixel, x);
+    look.sight->surfaces(pixel, hits, ranges);
+    const double range = eye.range(pixel, x);
     for (std::size_t i = 0; i < hits.size(); ++i)
     {
-      if (hits[i] != point.hit && ranges[i] / own < 1 - slack)
+      if (hits[i] != own && ranges[i] / range < 1 - slack)
       {
         return false;
       }
@@ -278,14 +312,14 @@ private:
     return true;
   }
 
-  bool isOpen(const Sight& sight, const CloudPoint& point, const Eigen::Vector2d& pixel) const
+  static bool isOpen(const Look& look, const Hit& own, const Eigen::Vector2d& pixel)
   {
-    const Eigen::Vector2d reach = sight.eye().reach(silhouetteReach, sight.eye().toCamera(point.x));
+    const Eigen::Vector2d reach = look.sight->eye().reach(silhouetteReach, look.sight->eye().toCamera(look.x_in_world));
     for (int i = 0; i <= 16; ++i)
     {
       constexpr double sixteenth = 0.39269908169872414;
       const Eigen::Vector2d direction(std::cos(i * sixteenth), std::sin(i * sixteenth));
-      if (this->isSeen(sight, point, pixel + (i == 16 ? 0.0 : 1.0) * reach.cwiseProduct(direction), silhouetteReach))
+      if (isSeen(look, own, pixel + (i == 16 ? 0.0 : 1.0) * reach.cwiseProduct(direction), silhouetteReach))
       {
         return true;
       }
@@ -295,7 +329,8 @@ private:
 
   std::string File;
   std::vector<CloudPoint> Points;
-  std::vector<std::shared_ptr<const Sight>> Sights;
+  std::vector<std::shared_ptr<const TimedSight>> Sights;
+  bool Rolls = false; ///< any of them
 };
 
 void checkCloud(Dataset& dataset, const std::string& file, int frame, Results& results)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRaySource.h"
 #include "dgtkSight.h"
+#include "dgtkTimedSight.h"
 
 #include <gtest/gtest.h>
 
@@ -126,7 +127,7 @@ TEST(Sight, DepthsBehindTheCameraAreNone)
   EXPECT_LT((sight.weights({ 1, 0 }, { 0.5, 0.5, 3.5 }) - Eigen::Vector3d(0, 0.5, 0.5)).norm(), 1e-15);
 }
 
-TEST(Carrier, FollowsPlacementAndDeformation)
+TEST(Carried, FollowsPlacementAndDeformation)
 {
   const auto before = makeState(false);
   const Sight sight = makeSight(before);
@@ -135,19 +136,19 @@ TEST(Carrier, FollowsPlacementAndDeformation)
   auto moved = std::make_shared<SceneState>(*before); // the same geometry, placed elsewhere
   moved->instances[0].world_from_object.linear = Eigen::Vector3d(2, 3, -1).asDiagonal();
   moved->instances[0].world_from_object.translation = { 0, 0, 5 };
-  const Carried rigid = Carrier(sight, moved)({ 1, 0 }, point);
+  const Carried rigid = carried(sight, moved->instances[0], { 1, 0 }, point);
   ASSERT_TRUE(rigid.ok);
   EXPECT_LT((rigid.x_in_world - Eigen::Vector3d(0.5, 1.5, 3)).norm(), 1e-14);
 
   auto bent = makeState(true);
   bent->instances[0].model = before->instances[0].model;
-  const Carried deformed = Carrier(sight, bent)({ 1, 0 }, point);
+  const Carried deformed = carried(sight, bent->instances[0], { 1, 0 }, point);
   ASSERT_TRUE(deformed.ok);
   // The top corner has weight 1/2 there and rises by 2.
   EXPECT_LT((deformed.x_in_world - Eigen::Vector3d(0.25, 1.5, 2)).norm(), 1e-14);
 }
 
-TEST(Carrier, EachObjectHasItsOwnWay)
+TEST(Carried, EachObjectHasItsOwnWay)
 {
   const auto before = makeState(false);
   before->instances.push_back(before->instances[0]);
@@ -159,12 +160,47 @@ TEST(Carrier, EachObjectHasItsOwnWay)
   after->instances[0].world_from_object.translation = { 0, 0, 5 };
   after->instances[1].world_from_object.translation = { 1, 3, 0 };
   after->instances[2].world_from_object = {};
-  const Carrier carrier(sight, after);
-  const Carried first = carrier({ 1, 0 }, { 0.25, 0.5, 2 });
-  const Carried second = carrier({ 2, 1 }, { 0.25, 0.5, 2 });
+  const Carried first = carried(sight, after->instances[0], { 1, 0 }, { 0.25, 0.5, 2 });
+  const Carried second = carried(sight, after->instances[1], { 2, 1 }, { 0.25, 0.5, 2 });
   ASSERT_TRUE(first.ok && second.ok);
   EXPECT_LT((first.x_in_world - Eigen::Vector3d(0.25, 0.5, 7)).norm(), 1e-14);
   EXPECT_LT((second.x_in_world - Eigen::Vector3d(0.25, 3.5, 2)).norm(), 1e-14);
-  EXPECT_FALSE(carrier({ 3, 0 }, { 0.25, 0.5, 0 }).ok) << "it was flat";
+  EXPECT_FALSE(carried(sight, after->instances[2], { 3, 0 }, { 0.25, 0.5, 0 }).ok) << "it was flat";
+}
+
+TEST(TimedSight, HasTheTimesOfItsRecord)
+{
+  using Direction = RollingShutter::Direction;
+  const auto timeAt = [](Direction direction, double x, double y)
+  {
+    CameraRecord record;
+    record.width = 40;
+    record.height = 20;
+    record.K << 30, 0, 20, 0, 30, 10, 0, 0, 1;
+    record.near = 0.1;
+    record.far = 100;
+    record.rollingShutter = { 0.5, direction };
+    const auto state = makeState(false);
+    class Still final : public InstantSource
+    {
+      double frame() const override { return 7; }
+      Instant at(double) const override { return {}; }
+      Instance instanceAt(double, std::uint32_t) const override { return {}; }
+      const std::vector<Motion>& motions() const override { return this->None; }
+      bool isVisibleAt(double, std::uint32_t) const override { return true; }
+      Rigid3 poseAt(double) const override { return {}; }
+      Affine3 placeAt(double, std::uint32_t) const override { return {}; }
+      Point pointAt(double, std::uint32_t, std::uint32_t, const Eigen::Vector2d&) const override { return {}; }
+      std::vector<Motion> None;
+    };
+    return TimedSight(std::make_shared<Sight>(Eye(record, nullptr), state, nullptr), std::make_shared<Still>(), nullptr)
+      .timeAt({ x, y });
+  };
+  EXPECT_DOUBLE_EQ(timeAt(Direction::Down, 3, 5), -0.125);
+  EXPECT_DOUBLE_EQ(timeAt(Direction::Up, 3, 5), 0.125);
+  EXPECT_DOUBLE_EQ(timeAt(Direction::Right, 10, 2), -0.125);
+  EXPECT_DOUBLE_EQ(timeAt(Direction::Left, 10, 2), 0.125);
+  EXPECT_DOUBLE_EQ(timeAt(Direction::Down, 3, -5), -0.25) << "beside the image as its border";
+  EXPECT_DOUBLE_EQ(timeAt(Direction::Left, 50, 5), -0.25);
 }
 } // namespace
