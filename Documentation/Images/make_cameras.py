@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes cameras.png beside it: one room of checked walls through each camera model, four pictures a row in the order of LENSES.
+"""Makes cameras.png beside it: one room of checked walls through each camera model, four pictures a row in the order of LENSES;
+and rolling_shutter.png: a frame from a passing train, seen at once and by a rolling shutter.
 
     Documentation/Images/make_cameras.py build/release/bin/dgtk
 """
@@ -81,6 +82,11 @@ def write_scene(folder):
     (folder / "scene.json").write_text(json.dumps(scene))
 
 
+def render(dgtk, scene, folder, *options):
+    subprocess.run([dgtk, "render", str(scene), "-o", str(folder), "--quiet", "--renderer", "ray", "--samples", "4", "--layers",
+                    "color", *options], check=True)
+
+
 def main(arguments):
     if len(arguments) != 1:
         print(__doc__, file=sys.stderr)
@@ -90,12 +96,14 @@ def main(arguments):
         write_room(folder)
         write_rays(folder)
         write_scene(folder)
-        subprocess.run([arguments[0], "render", str(folder / "scene.json"), "-o", str(folder / "set"), "--quiet", "--renderer",
-                        "ray", "--samples", "4", "--layers", "color"], check=True)
+        render(arguments[0], folder / "scene.json", folder / "set")
+        render(arguments[0], HERE.parents[1] / "Data" / "Scenes" / "rolling_shutter.json", folder / "train", "--frames", "2")
+        passing = [read(folder / "train" / camera / "color" / "000002.png")[:, :, :3] for camera in ("still", "train")]
         panels = [read(folder / "set" / lens["name"] / "color" / "000000.png")[:, :, :3] for lens in LENSES]
     rows = [np.hstack(panels[i:i + COLUMNS]) for i in range(0, len(panels), COLUMNS)]
     pixels = np.vstack(rows)
     write(HERE / "cameras.png", pixels)
+    write(HERE / "rolling_shutter.png", np.hstack(passing))
     return 0
 
 

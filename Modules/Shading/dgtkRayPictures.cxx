@@ -30,17 +30,17 @@ class ShadedScene
 public:
   ShadedScene(std::shared_ptr<const SceneState> state, const View& view)
     : TheView(view)
-    , Whole(view.instants ? nullptr : std::make_shared<const ShadedView>(std::move(state), view))
+    , Middle(std::make_shared<const ShadedView>(std::move(state), view))
   {
   }
   const View& view() const { return this->TheView; }
-  bool isWhole() const { return this->Whole != nullptr; }
+  bool isWhole() const { return !this->TheView.instants; }
   /// `time`: of the part, frames after the picture's own.
   std::shared_ptr<const ShadedView> at(double time) const
   {
-    if (this->Whole)
+    if (this->isWhole())
     {
-      return this->Whole;
+      return this->Middle;
     }
     const SeenInstant now = instantOf(this->TheView, time);
     return std::make_shared<const ShadedView>(now.state, now.view);
@@ -48,7 +48,7 @@ public:
 
 private:
   View TheView;
-  std::shared_ptr<const ShadedView> Whole; ///< null where the view has many instants
+  std::shared_ptr<const ShadedView> Middle; ///< of the picture's own time; holds the textures of the others
 };
 
 void shadePart(const ShadedView& view, const VisibilityBuffer& hits, const PixelRect& part, float* rgb)

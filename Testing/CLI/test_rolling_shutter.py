@@ -7,6 +7,7 @@ import os
 
 import numpy
 
+from dataset_edits import contents
 from harness import SOURCE, Case, load_json, main
 from pictures import read_png
 
@@ -169,6 +170,17 @@ class RollingShutters(Case):
                     ("class", "correspondence_down+1"), ("boxes", "projected"), ("points", "tracks"), ("ldi", "surfaces"),
                     ("alpha", "coverage"), ("cameras", "cameras")):
             self.assertGreater(counts.get(key, 0), 0, f"{key} of {sorted(counts)}")
+
+    def test_bytes_do_not_depend_on_threads_nor_on_what_else_is_asked(self):
+        self.save_table()
+        layers = "color,depth,objects,flow_forward,alpha,ldi,boxes"
+        for name in ("right", "table"):
+            self.render("one", scene(CAMERAS[name]), layers, "4", "--threads", "1")
+            self.render("five", scene(CAMERAS[name]), layers, "4", "--threads", "5")
+            self.assert_same_files(self.path("one", "eye"), self.path("five", "eye"))
+            self.render("some", scene(CAMERAS[name]), "depth,flow_forward", "4")
+            for file in ("depth/000004.npy", "flow_forward/000004.flo", "flow_forward/000004.png"):
+                self.assertEqual(contents(self.path("one", "eye", file)), contents(self.path("some", "eye", file)))
 
     def test_what_knows_one_instant_only_refuses(self):
         path = self.write("one.json", json.dumps(scene(CAMERAS["down"])))
