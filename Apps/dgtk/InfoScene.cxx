@@ -50,6 +50,11 @@ Json infoOfCamera(const Stage& stage, std::size_t index, int width, int height, 
   {
     camera[name] = numbers.size() == 1 ? Json(numbers[0]) : Json(numbers);
   }
+  if (const RollingShutter& shutter = view.model->parameters().rollingShutter; shutter.duration > 0)
+  {
+    camera["rollingShutter"] = { { "duration", shutter.duration },
+      { "direction", rollingDirections()[std::size_t(shutter.direction)] } };
+  }
   camera["R"] = matrix(view.camera_from_world.rotation);
   camera["t"] = vector(view.camera_from_world.translation);
   camera["near"] = view.near;

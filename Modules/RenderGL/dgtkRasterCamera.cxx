@@ -11,9 +11,10 @@ namespace dgtk
 RasterCamera rasterCamera(const View& view, const PixelRect& rect, int samples, bool zeroToOne)
 {
   const std::optional<LinearProjection> linear = view.model->linear();
-  if (!linear)
+  if (!linear || view.instants)
   {
-    throw UsageError("camera " + quoted(view.name) + " (" + view.model->name() + ") cannot be drawn with OpenGL");
+    throw UsageError("camera " + quoted(view.name) + " (" + view.model->name() +
+                     (view.instants ? ", with a rolling shutter)" : ")") + " cannot be drawn with OpenGL");
   }
   const double sx = 2.0 / rect.width;
   const double sy = 2.0 / rect.height;

@@ -131,13 +131,14 @@ class FlatIds(Case):
         self.check([lambda path=path: self.model(path) for path in paths])
 
     def sharp(self, path):
-        """The scene, without what only the built-in renderer has: motion blur and depth of field."""
+        """The scene, without what only the built-in renderer has: motion blur, depth of field, rolling shutters."""
         text = load_json(path) if path.endswith(".json") else {"cameras": []}
-        if not any("shutter" in camera or "lens" in camera for camera in text["cameras"]):
+        if not any({"shutter", "rollingShutter", "lens"} & set(camera) for camera in text["cameras"]):
             return path
         for camera in text["cameras"]:
             camera.pop("shutter", None)
             camera.pop("lens", None)
+            camera.pop("rollingShutter", None)
         for thing in text["objects"]:
             thing["model"] = os.path.join(SCENES, thing["model"])
         return self.write("sharp_" + os.path.basename(path), json.dumps(text))

@@ -191,6 +191,8 @@ class RollingShutters(Case):
         self.dgtk(*run, "--layers", "ldi", "--quiet")
         self.refused("warp", self.path("out", "eye", "ldi", "000004.ldi"), "--to", "eye", "-o", self.path("warped"),
                      status=2, says="rolling shutter")
+        known = json.loads(self.dgtk("info", path, "--json").stdout)["cameras"][0]
+        self.assertEqual(known["rollingShutter"], {"duration": DURATION, "direction": "down"})
         record = load_json(self.path("out", "cameras.json"))["cameras"][0]
         self.assertEqual(record["rollingShutter"], {"duration": DURATION, "direction": "down"})
         for bad in ({"duration": -1}, {"duration": 1, "direction": "inward"}):

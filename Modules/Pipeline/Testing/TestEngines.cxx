@@ -153,7 +153,7 @@ std::vector<Case> sampleScenes()
     {
       const int frame = camera == 0 ? first : middle;
       const View view = stage->view(camera, frame, width, height);
-      if (view.model->linear())
+      if (view.model->linear() && !view.instants)
       {
         cases.push_back({ std::filesystem::path(path).filename().string() + '/' + view.name, stage->at(frame), view });
       }
