@@ -69,13 +69,21 @@ std::shared_ptr<const Sight> TimedSight::at(double time) const
   return std::make_shared<Sight>(this->eyeAt(time), now.state, std::move(query));
 }
 
+Eigen::Vector3d TimedSight::pointAt(double time, const Hit& hit, const Eigen::Vector3d& weights) const
+{
+  return this->rolls()
+           ? this->Instants->pointAt(this->Instants->frame() + time, hit.object, hit.triangle, weights.tail<2>())
+               .x_in_world
+           : pointOf(this->Middle->instance(hit.object), hit, weights);
+}
+
 TimedSight::Search TimedSight::findTime(const Hit& hit, const Eigen::Vector3d& weights, double& time) const
 {
   for (int step = 0; this->rolls() && step < mostSteps; ++step)
   {
     const Eye eye = this->eyeAt(time);
     Eigen::Vector2d pixel;
-    if (!eye.project(eye.toCamera(pointOf(this->instanceAt(time, hit.object), hit, weights)), pixel))
+    if (!eye.project(eye.toCamera(this->pointAt(time, hit, weights)), pixel))
     {
       return Search::Behind;
     }

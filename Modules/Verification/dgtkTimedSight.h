@@ -35,6 +35,8 @@ public:
     return this->rolls() ? this->Instants->instanceAt(this->Instants->frame() + time, object)
                          : this->Middle->instance(object);
   }
+  /// A point of an object's triangle by weights of its corners, world frame.
+  Eigen::Vector3d pointAt(double time, const Hit& hit, const Eigen::Vector3d& weights) const;
   /// When a point of an object's triangle is seen, by weights of its corners: plain iteration of time = timeAt(place at
   /// time) from a time that is given.
   enum class Search

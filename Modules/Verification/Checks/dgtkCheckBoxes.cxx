@@ -203,8 +203,7 @@ private:
     const TimedSight::Search search = sight.findTime(hit, weights, time);
     open = open || search != TimedSight::Search::Settled;
     const Eye eye = sight.eyeAt(time);
-    return search == TimedSight::Search::Settled &&
-           eye.project(eye.toCamera(pointOf(sight.instanceAt(time, hit.object), hit, weights)), pixel);
+    return search == TimedSight::Search::Settled && eye.project(eye.toCamera(sight.pointAt(time, hit, weights)), pixel);
   }
 
   void projected(const Json& found)
