@@ -196,4 +196,46 @@ TEST(LiveMatch, IsTheDatasetsAtEveryPixel)
   EXPECT_GT(seen[4], 10);
   EXPECT_EQ(live.objectNames(), Stage::load(scene)->objectNames());
 }
+
+TEST(LiveMatch, OfARollingShutterIsTheDatasets)
+{
+  const std::string file = sourceFile("Data/Scenes/rolling_shutter.json");
+  const test::TemporaryFolder folder;
+  GeneratorRequest request;
+  request.scene = file;
+  request.folder = folder.path("out");
+  request.layers = { "correspondence" };
+  request.options = { { "pairs", "train:train+1" }, { "threads", "1" } };
+  request.frames = FrameRange{ 2, 2, 1 };
+  request.width = 60;
+  request.height = 40;
+  generate(request);
+  const ImageData places = readLayerFile(folder.path("out/train/correspondence_train+1/000002.npy"));
+  const ImageData classes = readLayerFile(folder.path("out/train/correspondence_train+1/000002.png"));
+  const SceneDescription scene = readScene(file);
+  ModelLibrary models;
+  models.load(scene);
+  const LiveScene live(scene, models);
+  const MatchView from{ cameraView(scene.cameras[0], 2, 60, 40), 2 };
+  const MatchView to{ cameraView(scene.cameras[0], 3, 60, 40), 3 };
+  int hidden = 0;
+  for (int row = 1; row < 40; row += 3)
+  {
+    for (int column = 0; column < 60; column += 2)
+    {
+      const LiveMatch match = liveMatch(live, from, { column + 0.5, row + 0.5 }, to);
+      const int kind = classes.pixels.row<std::uint8_t>(row)[column];
+      ASSERT_EQ(int(match.to.visibility), kind) << column << ' ' << row;
+      EXPECT_EQ(match.occluder.empty(), kind != 2 && kind != 3);
+      EXPECT_FALSE(match.line.has_value());
+      hidden += kind == 2 || kind == 3 ? 1 : 0;
+      if (kind != 0)
+      {
+        EXPECT_EQ(match.to.pixel.x(), places.pixels.row<double>(row)[2 * column]);
+        EXPECT_EQ(match.to.pixel.y(), places.pixels.row<double>(row)[2 * column + 1]);
+      }
+    }
+  }
+  EXPECT_GT(hidden, 3);
+}
 } // namespace

@@ -132,6 +132,12 @@ std::string writeLenses(const test::TemporaryFolder& folder)
   panorama.name = "panorama";
   panorama.model = "equirectangular";
   panorama.fovY = CameraDescription().fovY;
+  fisheye.rollingShutter = { 0.7, RollingShutter::Direction::Left };
+  fisheye.eye.keys = { { 0, { 0.5, 2, 9 } }, { 4, { -0.5, 2.5, 8 } } };
+  fisheye.lookAt.keys.clear();
+  scene.cameras.push_back(scene.cameras[1]);
+  scene.cameras[2].name = "rolling";
+  scene.cameras[2].rollingShutter = { 0.4, RollingShutter::Direction::Down };
   writeScene(scene, folder.path("lenses.json"));
   return folder.path("lenses.json");
 }
@@ -151,7 +157,7 @@ TEST(LiveTruth, LensesAreTheDatasetBitForBit)
   request.height = height;
   generate(request);
   ThreadPool pool(1);
-  for (const std::size_t camera : { 0, 1 })
+  for (const std::size_t camera : { 0, 1, 2 })
   {
     LiveQuestion question = questionOf("Data/Scenes/demo.json", 0, 1);
     const SceneDescription scene = readScene(request.scene);
