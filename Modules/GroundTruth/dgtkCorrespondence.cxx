@@ -106,11 +106,13 @@ public:
   }
 
 private:
+  /// What a rolling shutter sees at no time has no time at which it might be visible.
   bool isThere(std::size_t i) const
   {
     const std::uint32_t object = this->Hits[i].object;
-    return this->Other.view.instants ? this->Other.view.instants->isVisibleAt(this->Frames[i], object)
-                                     : this->Other.state->instances[object - 1].visible;
+    return this->Other.view.instants
+             ? this->Seen[i] == 0 || this->Other.view.instants->isVisibleAt(this->Frames[i], object)
+             : this->Other.state->instances[object - 1].visible;
   }
   void findOccluders(std::size_t count)
   {

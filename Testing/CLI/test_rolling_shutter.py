@@ -36,7 +36,7 @@ def scene(camera, steps=1):
     ]
     # it goes while frame 4 is seen, and comes while frame 5 is
     objects.append({"name": "blink", "model": "crate.ac", "position": [-0.9, 1.6, 0.9], "scale": [0.6, 0.6, 0.6],
-                    "visible": {"keys": [[0, True], [4 * steps, False], [5 * steps, True]]}})
+                    "visible": {"keys": [[0, False], [2 * steps, True], [4 * steps, False], [5 * steps, True]]}})
     for item in objects:
         item["model"] = os.path.join(MODELS, item["model"])
     eye = {"name": "eye", "width": WIDTH, "height": HEIGHT, "near": 0.05, "far": 100,

@@ -86,7 +86,7 @@ private:
     strip.cosines.resize(std::size_t(rect.width) * rect.height);
     for (std::size_t i = 0; i < strip.cosines.size(); ++i, n += 3)
     {
-      if (hits[i].object != 0)
+      if (std::isfinite(n[0]))
       {
         const double x = rect.x + double(i % rect.width) + 0.5;
         const double y = rect.y + double(i / rect.width) + 0.5;

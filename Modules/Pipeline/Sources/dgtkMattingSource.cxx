@@ -13,6 +13,14 @@ namespace
 {
 constexpr int mostSide = 2048; // of a picture of samples
 
+/// The scene with an object out of sight; ids and what the engine has loaded stay as they are.
+std::shared_ptr<const SceneState> without(const SceneState& all, std::uint32_t object)
+{
+  auto state = std::make_shared<SceneState>(all);
+  state->instances[object - 1].visible = false;
+  return state;
+}
+
 /// Instants at which an object cannot be hit.
 class InstantsWithout final : public InstantSource
 {
@@ -23,7 +31,11 @@ public:
   {
   }
   double frame() const override { return this->All->frame(); }
-  Instant at(double frame) const override { return this->without(this->All->at(frame)); }
+  Instant at(double frame) const override
+  {
+    const Instant now = this->All->at(frame);
+    return { without(*now.state, this->Object), now.camera_from_world };
+  }
   Instance instanceAt(double frame, std::uint32_t object) const override
   {
     return this->All->instanceAt(frame, object);
@@ -39,13 +51,6 @@ public:
   }
 
 private:
-  Instant without(Instant now) const
-  {
-    auto state = std::make_shared<SceneState>(*now.state);
-    state->instances[this->Object - 1].visible = false;
-    return { std::move(state), now.camera_from_world };
-  }
-
   std::shared_ptr<const InstantSource> All;
   std::uint32_t Object;
 };
@@ -82,7 +87,7 @@ std::vector<MattePixels> MattingSource::draw(const PixelRect& rect)
     {
       view.instants = std::make_shared<InstantsWithout>(view.instants, this->Objects[i]);
     }
-    this->Pictures.setScene(view.instants ? this->State : this->without(this->Objects[i]), view);
+    this->Pictures.setScene(without(*this->State, this->Objects[i]), view);
     this->Pictures.renderColor(rect, this->Samples, colors, nullptr);
     mattes[i].background = std::move(colors.rgb);
   }
@@ -146,22 +151,6 @@ void MattingSource::drawPiece(const PixelRect& piece, const PixelRect& rect, std
       }
     }
   }
-}
-
-/// The scene with an object put out of sight, behind the camera; ids and what the engine has loaded stay as they are.
-std::shared_ptr<const SceneState> MattingSource::without(std::uint32_t object) const
-{
-  auto state = std::make_shared<SceneState>(*this->State);
-  Instance& instance = state->instances[object - 1];
-  const Affine3 camera_from_object = this->TheView.camera_from_world * instance.world_from_object;
-  double farthest = this->TheView.far;
-  for (const Eigen::Vector3d& position : instance.geometry->positions)
-  {
-    farthest = std::max(farthest, (camera_from_object * position).norm());
-  }
-  const Eigen::Vector3d forward = this->TheView.camera_from_world.rotation.row(2).transpose();
-  instance.world_from_object.translation -= 4 * farthest * forward;
-  return state;
 }
 
 } // namespace dgtk

@@ -25,7 +25,6 @@ public:
 private:
   void drawForegrounds(const PixelRect& rect, std::vector<MattePixels>& mattes);
   void drawPiece(const PixelRect& piece, const PixelRect& rect, std::vector<MattePixels>& mattes);
-  std::shared_ptr<const SceneState> without(std::uint32_t object) const;
   PictureSource& Pictures;
   std::vector<std::uint32_t> Objects;
   int Samples;
