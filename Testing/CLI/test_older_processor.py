@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A processor without AVX and fused operations, emulated, makes the same bytes: of exact layers and of colours."""
+import os
+import shutil
+import subprocess
+
+from harness import DGTK, SCENES, Case, main
+
+EMULATED = ("qemu-x86_64", "-cpu", "Nehalem")
+WORK = {
+    "demo.json": "color,depth,objects,triangles,normal,shadingnormal,position,uv,flow_forward,edges,alpha,ldi,boxes",
+    "rolling_shutter.json": "color,depth,flow_forward,sceneflow,alpha",
+    "fisheye_rig.json": "color,distance,position,flow_forward,coverage",
+    "lights_many.json": "color,depth",
+    "fig_4_5_bump_mapping.json": "color,shadingnormal",
+}
+
+
+class OlderProcessor(Case):
+    def test_same_bytes(self):
+        self.assertTrue(shutil.which(EMULATED[0]), "qemu-user is not installed (Utilities/Setup/packages.txt)")
+        loader = subprocess.run([*EMULATED, "/lib64/ld-linux-x86-64.so.2", "--help"], capture_output=True, text=True, check=True)
+        self.assertIn("x86-64-v2 (supported", loader.stdout)
+        self.assertNotIn("x86-64-v3 (supported", loader.stdout)
+        for scene, layers in WORK.items():
+            with self.subTest(scene):
+                options = ("--layers", layers, "--size", "64x48", "--frames", "0:1" if scene == "demo.json" else "0", "--samples",
+                           "1" if scene == "demo.json" else "2", "--threads", "1", "--quiet", "--replace")
+                run = ("render", os.path.join(SCENES, scene), *options)
+                self.dgtk(*run, "-o", self.path("here"))
+                done = subprocess.run([*EMULATED, DGTK, *run, "-o", self.path("there")], capture_output=True, text=True, timeout=300)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assert_same_files(self.path("here"), self.path("there"))
+
+
+if __name__ == "__main__":
+    main()
