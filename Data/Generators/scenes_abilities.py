@@ -116,6 +116,21 @@ def fisheye_rig():
                           on_the_way("above", 0, 1.9, 0, 0, model="equirectangular", width=720, height=360)])
 
 
+def passing_train():
+    """A house with posts before it and a crate that turns, from a train: by a rolling shutter, and seen at once."""
+    crate = model("crate", "crate.ac")
+    crate["position"] = {"keys": [[0, [-1.8, 0.5, 1.6]], [4, [0.2, 2.1, 1.6]]]}
+    crate["orientation"] = {"keys": [[0, [1, 0, 0, 0]], [2, [0, 0, 0, 1]], [4, [-1, 0, 0, 0]]]}
+    objects = [model("terrain", "terrain.acc"), model("house", "house.ac", (-3.2, 0, -3)), model("tree", "tree.ac", (3.4, 0, -1.2)),
+               model("fir", "fir.ac", (1.2, 0, -2)), model("post", "column.obj", (-0.6, 0, 2.2)),
+               model("second post", "column.obj", (1.4, 0, 2.2)), crate]
+    window = {"near": 0.05, "far": 200, "width": 480, "height": 320, "fovY": 42,
+              "eye": {"keys": [[0, [-2.5, 1.3, 6.4]], [4, [1.5, 1.3, 6.4]]]},
+              "lookAt": {"keys": [[0, [-2.5, 1.1, 0]], [4, [1.5, 1.1, 0]]]}}
+    return base(objects, [{"name": "train", "rollingShutter": {"duration": 0.9}, **window}, {"name": "still", **window}],
+                lights=[{**SUN, "shadows": True}])
+
+
 FILES = {"appendix_b3.scene": lambda: APPENDIX_B3, "ground_plane_behind.json": ground_behind, "lights_many.json": many_lights,
          "parenting.json": parenting, "cameras_all_kinds.json": all_cameras,
-         "fisheye_rig.json": fisheye_rig}
+         "fisheye_rig.json": fisheye_rig, "rolling_shutter.json": passing_train}
