@@ -49,7 +49,7 @@ struct LayerInfo
   /// What datasets say of its images, format by format; set by generatorLayers().
   std::vector<LayerRecord> records = {};
 };
-/// Every layer that can be asked for, in the order of `--layers all`.
+/// Every layer that can be asked for, in the order of "all".
 DGTKLAYERS_EXPORT std::vector<LayerInfo> generatorLayers();
 
 } // namespace dgtk

@@ -64,7 +64,7 @@ class DGTKVISIBILITY_EXPORT VisibilitySource
 {
 public:
   virtual ~VisibilitySource() = default;
-  /// Name as in --visibility: "raster" or "ray".
+  /// "raster" or "ray".
   virtual std::string name() const = 0;
   /// Prepares for a scene and a view; what did not change since the last call is kept. `state` must stay alive.
   virtual void setScene(std::shared_ptr<const SceneState> state, const View& view) = 0;
@@ -90,7 +90,8 @@ public:
     const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits) = 0;
 };
 
-/// Asks whether something stands between two points. Thread-safe after setScene.
+/// Asks whether something stands between two points. Thread-safe after setScene. Pixels of views with `instants` are
+/// looked at in the scene of their own times, not in that of setScene.
 class DGTKVISIBILITY_EXPORT OcclusionQuery
 {
 public:
@@ -102,7 +103,6 @@ public:
   /// The same of many at once; `hits` has as many lists. Quicker; those that follow each other should be neighbours.
   virtual void allHits(
     const View& view, const Eigen::Vector2d* pixels, std::size_t count, std::vector<Hit>* hits) const = 0;
-  /// Views with `instants` are looked at in the state of each pixel's own time, not in that of setScene().
   /// First surface strictly between the camera and a point of `target` at `x_in_world`; object 0 when there is none.
   /// The target triangle itself never hides the point.
   virtual Hit occluder(const View& view, const Eigen::Vector3d& x_in_world, const Hit& target) const = 0;

@@ -131,6 +131,20 @@ TEST_F(RayTables, HaveTimesBetweenThoseOfPixels)
   EXPECT_NEAR(both->times().last, 0.75 + 0.3, 1e-15);
 }
 
+TEST_F(RayTables, HaveOriginsAndTimes)
+{
+  std::vector<double> numbers;
+  for (int i = 0; i < 12; ++i)
+  {
+    numbers.insert(numbers.end(), { 0.1 * i, 0, -1, i % 4 - 1.5, double(i / 4) - 1, 2.0, 0.25 * i });
+  }
+  this->write(3, 4, 7, numbers);
+  const auto camera = this->camera(4, 3);
+  EXPECT_EQ(camera->timeAt({ 1.5, 2.5 }), 0.25 * 9);
+  EXPECT_EQ(camera->rayThrough({ 1.5, 2.5 }).origin, Eigen::Vector3d(0.1 * 9, 0, -1));
+  EXPECT_LT((camera->rayThrough({ 1.5, 2.5 }).direction - Eigen::Vector3d(-0.5, 1, 2).normalized()).norm(), 1e-15);
+}
+
 TEST_F(RayTables, AreReadAnewWhenTheyHaveChanged)
 {
   this->write(3, 4, 3, this->plane());

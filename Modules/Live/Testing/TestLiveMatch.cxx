@@ -134,25 +134,34 @@ TEST(ClippedLine, EndsAtTheBorder)
   EXPECT_FALSE(clippedLine({ 0, 1, -70 }, 100, 60).has_value());
 }
 
+/// A file of correspondences of a pair as a run makes it.
+struct Rendered
+{
+  Rendered(const std::string& scene, const std::string& pair, const std::string& stem, int width, int height)
+  {
+    const test::TemporaryFolder folder;
+    const int frame = std::stoi(stem.substr(stem.size() - 6));
+    GeneratorRequest request;
+    request.scene = scene;
+    request.folder = folder.path("out");
+    request.layers = { "correspondence" };
+    request.options = { { "pairs", pair }, { "threads", "1" }, { "visibility", "ray" } };
+    request.cameras = { pair.substr(0, pair.find(':')) };
+    request.frames = FrameRange{ frame, frame, 1 };
+    request.width = width;
+    request.height = height;
+    generate(request);
+    this->places = readLayerFile(folder.path("out/" + stem + ".npy"));
+    this->classes = readLayerFile(folder.path("out/" + stem + ".png"));
+  }
+  ImageData places;
+  ImageData classes;
+};
+
 TEST(LiveMatch, IsTheDatasetsAtEveryPixel)
 {
   const std::string file = sourceFile("Data/Scenes/dataset_stereo.json");
-  const test::TemporaryFolder folder;
-  GeneratorRequest request;
-  request.scene = file;
-  request.folder = folder.path("out");
-  request.layers = { "correspondence" };
-  request.options["pairs"] = "left:right";
-  request.cameras = { "left" };
-  request.frames = FrameRange{ 0, 0, 1 };
-  request.width = 80;
-  request.height = 60;
-  request.options["visibility"] = "ray";
-  request.options["threads"] = "1";
-  generate(request);
-  const ImageData places = readLayerFile(folder.path("out/left/correspondence_right/000000.npy"));
-  const ImageData classes = readLayerFile(folder.path("out/left/correspondence_right/000000.png"));
-
+  const Rendered stored(file, "left:right", "left/correspondence_right/000000", 80, 60);
   const SceneDescription scene = readScene(file);
   ModelLibrary models;
   models.load(scene);
@@ -176,10 +185,10 @@ TEST(LiveMatch, IsTheDatasetsAtEveryPixel)
     for (int column = 0; column < 80; ++column)
     {
       const LiveMatch match = liveMatch(live, left, { column + 0.5, row + 0.5 }, right);
-      const int kind = classes.pixels.row<std::uint8_t>(row)[column];
+      const int kind = stored.classes.pixels.row<std::uint8_t>(row)[column];
       ASSERT_EQ(int(match.to.visibility), kind) << column << ' ' << row;
       ++seen[std::size_t(kind)];
-      const double* place = places.pixels.row<double>(row) + 2 * column;
+      const double* place = stored.places.pixels.row<double>(row) + 2 * column;
       EXPECT_EQ(match.hit.object == 0, kind == 0);
       EXPECT_EQ(match.occluder.empty(), kind != 2 && kind != 3);
       if (kind != 0)
@@ -200,18 +209,7 @@ TEST(LiveMatch, IsTheDatasetsAtEveryPixel)
 TEST(LiveMatch, OfARollingShutterIsTheDatasets)
 {
   const std::string file = sourceFile("Data/Scenes/rolling_shutter.json");
-  const test::TemporaryFolder folder;
-  GeneratorRequest request;
-  request.scene = file;
-  request.folder = folder.path("out");
-  request.layers = { "correspondence" };
-  request.options = { { "pairs", "train:train+1" }, { "threads", "1" } };
-  request.frames = FrameRange{ 2, 2, 1 };
-  request.width = 60;
-  request.height = 40;
-  generate(request);
-  const ImageData places = readLayerFile(folder.path("out/train/correspondence_train+1/000002.npy"));
-  const ImageData classes = readLayerFile(folder.path("out/train/correspondence_train+1/000002.png"));
+  const Rendered stored(file, "train:train+1", "train/correspondence_train+1/000002", 60, 40);
   const SceneDescription scene = readScene(file);
   ModelLibrary models;
   models.load(scene);
@@ -224,15 +222,15 @@ TEST(LiveMatch, OfARollingShutterIsTheDatasets)
     for (int column = 0; column < 60; column += 2)
     {
       const LiveMatch match = liveMatch(live, from, { column + 0.5, row + 0.5 }, to);
-      const int kind = classes.pixels.row<std::uint8_t>(row)[column];
+      const int kind = stored.classes.pixels.row<std::uint8_t>(row)[column];
       ASSERT_EQ(int(match.to.visibility), kind) << column << ' ' << row;
       EXPECT_EQ(match.occluder.empty(), kind != 2 && kind != 3);
       EXPECT_FALSE(match.line.has_value());
       hidden += kind == 2 || kind == 3 ? 1 : 0;
       if (kind != 0)
       {
-        EXPECT_EQ(match.to.pixel.x(), places.pixels.row<double>(row)[2 * column]);
-        EXPECT_EQ(match.to.pixel.y(), places.pixels.row<double>(row)[2 * column + 1]);
+        EXPECT_EQ(match.to.pixel.x(), stored.places.pixels.row<double>(row)[2 * column]);
+        EXPECT_EQ(match.to.pixel.y(), stored.places.pixels.row<double>(row)[2 * column + 1]);
       }
     }
   }
