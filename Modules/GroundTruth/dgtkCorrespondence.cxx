@@ -189,7 +189,7 @@ Correspondence correspondPixel(const SceneState& state, const View& view, const 
   {
     return {};
   }
-  const SurfacePoint point = surfacePointSeen(state, view, pixel, first);
+  const SurfacePoint point = surfacePointAt(state, view, pixel, first);
   return std::isfinite(point.t) ? correspond(other, first, point.barycentrics) : Correspondence{};
 }
 

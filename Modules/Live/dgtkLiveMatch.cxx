@@ -22,7 +22,7 @@ void describe(LiveMatch& match, const LiveScene::Moment& now, const LiveScene::M
   match.object = instance.name;
   match.part = instance.model->partOf(match.hit.triangle);
   match.triangle = match.hit.triangle - instance.model->parts[match.part].firstTriangle;
-  const SurfacePoint point = surfacePointSeen(*now.state, from.view, match.from, match.hit);
+  const SurfacePoint point = surfacePointAt(*now.state, from.view, match.from, match.hit);
   const Eigen::Vector2d& weights = point.barycentrics;
   match.worldFrom = from.view.instants ? carriedPoint(*instantOf(from.view, from.view.model->timeAt(match.from)).state,
                                            match.hit, weights)

@@ -188,7 +188,7 @@ PixelTruth pixelTruth(const LiveQuestion& question, int column, int row, ThreadP
   eye.moment().occlusion->allHits(view, center, surfaces);
   for (const Hit& hit : surfaces)
   {
-    truth.layers.push_back(layerOf(state, hit, surfacePointSeen(state, view, center, hit)));
+    truth.layers.push_back(layerOf(state, hit, surfacePointAt(state, view, center, hit)));
   }
   return truth;
 }

@@ -83,19 +83,14 @@ void raysOf(const CameraModel& model, const PixelRect& rect, std::vector<CameraR
 
 SurfacePoint surfacePointAt(const SceneState& state, const View& view, const Eigen::Vector2d& pixel, const Hit& hit)
 {
+  if (view.instants)
+  {
+    const SeenInstant now = instantOf(view, view.model->timeAt(pixel));
+    return surfacePointAt(*now.state, now.view, pixel, hit);
+  }
   TriangleSolver solver(state, view);
   const PlanePoint point = solver.point(hit, pixel.x(), pixel.y(), true);
   return { point.t, { point.second, point.third } };
-}
-
-SurfacePoint surfacePointSeen(const SceneState& state, const View& view, const Eigen::Vector2d& pixel, const Hit& hit)
-{
-  if (!view.instants)
-  {
-    return surfacePointAt(state, view, pixel, hit);
-  }
-  const SeenInstant now = instantOf(view, view.model->timeAt(pixel));
-  return surfacePointAt(*now.state, now.view, pixel, hit);
 }
 
 void computeSurfaceRows(const SceneState& state, const View& view, const PixelRect& rect, const Hit* hits,

@@ -49,13 +49,9 @@ struct SurfacePoint
   Eigen::Vector2d barycentrics{ 0, 0 }; ///< of the second and third corner
 };
 
-/// The same as computeSurfaceRows() for one image point (pixels, need not be a pixel's centre). hit.object != 0.
-/// Thread-safe.
+/// The same as computeSurfaceRows() for one image point (pixels, need not be a pixel's centre), of a view with
+/// `instants` in the scene of the point's own time. hit.object != 0. Thread-safe.
 DGTKVISIBILITY_EXPORT SurfacePoint surfacePointAt(
-  const SceneState& state, const View& view, const Eigen::Vector2d& pixel, const Hit& hit);
-
-/// The same for a view that may have `instants`: in the scene of the point's own time.
-DGTKVISIBILITY_EXPORT SurfacePoint surfacePointSeen(
   const SceneState& state, const View& view, const Eigen::Vector2d& pixel, const Hit& hit);
 
 /// World position of the corners of the triangle of `hit` (object != 0).
