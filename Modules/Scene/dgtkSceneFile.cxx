@@ -39,6 +39,11 @@ SceneDescription readScene(const std::string& path)
   throw InputError(path, 0, "is no scene", "a name in .scene or .json", extension.empty() ? "none" : '.' + extension);
 }
 
+SceneDescription readSceneText(const std::string& json, const std::string& folder)
+{
+  return readJsonScene({}, folder, json);
+}
+
 void writeScene(const SceneDescription& scene, const std::string& path)
 {
   const std::string extension = extensionOf(path);

@@ -207,6 +207,12 @@ Place locate(const JsonNode& root, SceneItem::Kind kind, std::size_t index, cons
   const JsonNode* value = item.find(property);
   return { value ? value->line : item.line, list + '[' + std::to_string(index) + "]." + property };
 }
+
+void forgetLines(JsonNode& node)
+{
+  node.line = 0;
+  std::for_each(node.children.begin(), node.children.end(), forgetLines);
+}
 } // namespace
 
 const std::vector<JsonField<Scene>>& sceneFields()
@@ -236,7 +242,11 @@ SceneDescription readJsonScene(const std::string& file, const std::string& folde
   Scene scene;
   scene.file = file;
   scene.folder = folder;
-  const JsonDocument document = parseJson(file, contents);
+  JsonDocument document = parseJson(scene.title(), contents);
+  if (file.empty())
+  {
+    forgetLines(document.root);
+  }
   const JsonCursor at(document);
   for (std::size_t i = 0, n = at.memberCount(); i < n; ++i)
   {

@@ -102,7 +102,7 @@ void readModel(const JsonCursor& at, CameraDescription& camera);
 void readCamera(const JsonCursor& at, UpAxis upAxis, CameraDescription& camera);
 JsonNode writeCamera(const CameraDescription& camera, UpAxis upAxis);
 
-/// Reads the contents of a .json scene; names are given, relations are checked.
+/// Reads the contents of a .json scene; names are given, relations are checked. Without a file nothing has a line.
 SceneDescription readJsonScene(const std::string& file, const std::string& folder, const std::string& contents);
 
 /// Reads the file that `classFile` names into `classes`; nothing when it names none.

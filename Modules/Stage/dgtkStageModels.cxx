@@ -47,9 +47,10 @@ void failObject(const SceneDescription& scene, const ObjectDescription& object, 
   throw InputError(scene.title(), object.line, "object " + quoted(object.name) + ": " + what, expected, found);
 }
 
-StageModels::StageModels(const SceneDescription& scene, const Stage::WarningSink& warning)
+StageModels::StageModels(const SceneDescription& scene, const Stage::WarningSink& warning, const ReadFiles& known)
   : Scene(scene)
   , Warning(warning)
+  , Known(known)
   , Pictures(std::make_shared<TextureStore>())
 {
   this->readModels();
@@ -102,7 +103,13 @@ void StageModels::readEnvironment()
   std::string problem = "not found";
   std::error_code error;
   auto made = std::make_shared<EnvironmentState>();
-  if (fs::is_regular_file(path, error))
+  this->Read.environment = canonicalPath(path);
+  if (this->Read.environment == this->Known.environment)
+  {
+    made->image = this->Known.light;
+    this->Pictures->take(path, made->image->width, made->image->height, made->image->rgb.size() * sizeof(float));
+  }
+  else if (fs::is_regular_file(path, error))
   {
     made->image = decodeRadiance(path, problem, this->Pictures.get());
   }
@@ -123,6 +130,7 @@ void StageModels::readEnvironment()
   }
   made->image_from_world = unturn * upright;
   this->Environment = made;
+  this->Read.light = made->image;
 }
 
 void StageModels::warn(const std::string& line) const
@@ -141,19 +149,30 @@ void StageModels::addFile(const std::string& path)
   }
 }
 
+/// Models that are known may be missing.
+void StageModels::requireUnread() const
+{
+  SceneDescription unread = this->Scene;
+  const auto isKnown = [this](const ObjectDescription& object)
+  { return this->Known.models.count(canonicalPath(this->Scene.resolve(object.model))) != 0; };
+  unread.objects.erase(std::remove_if(unread.objects.begin(), unread.objects.end(), isKnown), unread.objects.end());
+  requireModels(unread);
+}
+
 /// Different files on as many threads as the machine has; what is said of them is said in the scene's order.
 void StageModels::readModels()
 {
-  requireModels(this->Scene);
-  std::map<std::string, std::size_t> known;
+  this->requireUnread();
+  std::map<std::string, std::size_t> places;
   std::vector<const ObjectDescription*> first; ///< that wants a model
   for (const ObjectDescription& object : this->Scene.objects)
   {
-    const auto [entry, isNew] = known.emplace(canonicalPath(this->Scene.resolve(object.model)), first.size());
+    const auto [entry, isNew] = places.emplace(canonicalPath(this->Scene.resolve(object.model)), first.size());
     this->Uses.push_back(entry->second);
     if (isNew)
     {
       first.push_back(&object);
+      this->Places.push_back(entry->first);
     }
   }
   ReadOptions options;
@@ -162,10 +181,17 @@ void StageModels::readModels()
   this->Models.resize(first.size());
   const auto read = [&](int i)
   {
-    const ObjectDescription& object = *first[static_cast<std::size_t>(i)];
+    const auto place = static_cast<std::size_t>(i);
+    const auto known = this->Known.models.find(this->Places[place]);
+    if (known != this->Known.models.end())
+    {
+      this->Models[place] = known->second.model;
+      return;
+    }
+    const ObjectDescription& object = *first[place];
     try
     {
-      this->Models[static_cast<std::size_t>(i)] = readModel(this->Scene.resolve(object.model), options);
+      this->Models[place] = readModel(this->Scene.resolve(object.model), options);
     }
     catch (const InputError& error)
     {
@@ -174,15 +200,53 @@ void StageModels::readModels()
   };
   const int models = static_cast<int>(first.size());
   ThreadPool(machineThreads(std::max(models, 1))).parallelFor(models, read);
-  for (const std::shared_ptr<const Model>& model : this->Models)
+  for (std::size_t i = 0; i < this->Models.size(); ++i)
   {
-    for (const std::string& line : model->warnings)
+    const Model& model = *this->Models[i];
+    for (const std::string& line : model.warnings)
     {
-      this->warn(model->path + ": " + line);
+      this->warn(model.path + ": " + line);
     }
-    if (model->triangles.empty())
+    if (model.triangles.empty())
     {
-      this->warn(model->path + ": has no surfaces; its objects are not there and have no id");
+      this->warn(model.path + ": has no surfaces; its objects are not there and have no id");
+    }
+    const auto known = this->Known.models.find(this->Places[i]);
+    const std::size_t own = known == this->Known.models.end() ? model.textures.size() : known->second.ownTextures;
+    this->Read.models[this->Places[i]] = { this->Models[i], own, {} };
+  }
+  this->Read.folder = canonicalPath(this->Scene.resolve("."));
+}
+
+/// Those of a model that was read before take as much memory as others.
+void StageModels::countPictures(const Model& model, std::size_t textures)
+{
+  for (std::size_t i = 0; i < textures; ++i)
+  {
+    const Image* const image = model.textures[i].image.get();
+    if (image && this->Counted.insert(image).second)
+    {
+      this->Pictures->take(model.textures[i].path, image->width, image->height, image->rgba.size());
+    }
+  }
+}
+
+void StageModels::listPictures()
+{
+  for (std::size_t i = 0; i < this->Scene.objects.size(); ++i)
+  {
+    std::vector<std::string>& listed = this->Read.models[this->Places[this->Uses[i]]].pictures;
+    for (const MaterialOverride& material : this->Scene.objects[i].materials)
+    {
+      for (const std::optional<std::string>* picture : { &material.texture, &material.normalMap, &material.bump,
+             &material.metallicRoughnessMap, &material.emissionMap, &material.occlusionMap })
+      {
+        const std::string name = picture->value_or("");
+        if (!name.empty() && std::find(listed.begin(), listed.end(), name) == listed.end())
+        {
+          listed.push_back(name);
+        }
+      }
     }
   }
 }
@@ -190,35 +254,47 @@ void StageModels::readModels()
 /// Textures that the scene gives are appended to the textures of the model, for all its instances.
 void StageModels::addTextures()
 {
-  std::map<std::size_t, std::shared_ptr<Model>> changed;
-  for (std::size_t i = 0; i < this->Scene.objects.size(); ++i)
+  this->listPictures();
+  for (std::size_t i = 0; i < this->Models.size(); ++i)
   {
-    for (const MaterialOverride& material : this->Scene.objects[i].materials)
+    ReadFiles::File& file = this->Read.models[this->Places[i]];
+    const bool isRead = this->Known.models.count(this->Places[i]) == 0;
+    const bool has = isRead ? file.pictures.empty() : this->hasPictures(this->Places[i], file);
+    if (!isRead)
     {
-      for (const std::optional<std::string>* picture : { &material.texture, &material.normalMap, &material.bump,
-             &material.metallicRoughnessMap, &material.emissionMap, &material.occlusionMap })
-      {
-        if (!*picture || (*picture)->empty())
-        {
-          continue;
-        }
-        std::shared_ptr<Model>& copy = changed[this->Uses[i]];
-        copy = copy ? copy : std::make_shared<Model>(*this->modelOf(i));
-        const auto [entry, isNew] = this->Textures.emplace(std::make_pair(copy.get(), **picture), -1);
-        if (isNew)
-        {
-          entry->second = this->addTexture(*copy, **picture);
-        }
-      }
+      this->countPictures(*file.model, has ? file.model->textures.size() : file.ownTextures);
     }
-  }
-  for (const auto& [index, model] : changed)
-  {
-    this->Models[index] = model;
+    file.model = has ? file.model : this->withPictures(file);
+    this->Models[i] = file.model;
+    for (std::size_t k = 0; k < file.pictures.size(); ++k)
+    {
+      this->Textures[{ file.model.get(), file.pictures[k] }] = static_cast<int>(file.ownTextures + k);
+    }
   }
 }
 
-int StageModels::addTexture(Model& model, const std::string& written)
+/// Whether a known model has the scene's pictures, all of them found, and no others.
+bool StageModels::hasPictures(const std::string& place, const ReadFiles::File& file) const
+{
+  const std::vector<Texture>& textures = file.model->textures;
+  return this->Known.models.at(place).pictures == file.pictures &&
+         (file.pictures.empty() || this->Known.folder == this->Read.folder) &&
+         std::all_of(textures.begin() + std::ptrdiff_t(file.ownTextures), textures.end(),
+           [](const Texture& texture) { return texture.image != nullptr; });
+}
+
+std::shared_ptr<const Model> StageModels::withPictures(const ReadFiles::File& file)
+{
+  auto copy = std::make_shared<Model>(*file.model);
+  copy->textures.resize(file.ownTextures);
+  for (const std::string& written : file.pictures)
+  {
+    copy->textures.push_back(this->makeTexture(*copy, written));
+  }
+  return copy;
+}
+
+Texture StageModels::makeTexture(const Model& model, const std::string& written)
 {
   Texture texture;
   texture.name = written;
@@ -242,8 +318,7 @@ int StageModels::addTexture(Model& model, const std::string& written)
     this->warn(
       this->Scene.title() + ": texture " + quoted(written) + ": " + model.path + " has no texture coordinates");
   }
-  model.textures.push_back(texture);
-  return static_cast<int>(model.textures.size()) - 1;
+  return texture;
 }
 
 namespace

@@ -11,18 +11,35 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace dgtk
 {
 
+/// What was read for a scene.
+struct ReadFiles
+{
+  struct File
+  {
+    std::shared_ptr<const Model> model;
+    std::size_t ownTextures = 0;       ///< the others are the scene's:
+    std::vector<std::string> pictures; ///< as written
+  };
+  std::map<std::string, File> models; ///< by canonicalPath(), as the other paths
+  std::string folder;                 ///< where the scene's paths start
+  std::string environment;            ///< its picture's path
+  std::shared_ptr<const RadianceImage> light;
+};
+
 /// Everything that the objects of a scene need from files, each file read once.
 class StageModels : public ModelSource
 {
 public:
   /// Throws InputError with the scene's file and the line of the object that wants the model.
-  StageModels(const SceneDescription& scene, const Stage::WarningSink& warning);
+  /// What is among the known files is not read again.
+  StageModels(const SceneDescription& scene, const Stage::WarningSink& warning, const ReadFiles& known);
 
   /// Of this scene and its objects only.
   ObjectLook lookOf(const SceneDescription& scene, const ObjectDescription& object) const override;
@@ -34,12 +51,18 @@ public:
 
   const std::vector<std::shared_ptr<const Model>>& models() const { return this->Models; }
   const std::vector<std::string>& files() const { return this->Files; }
+  const ReadFiles& read() const { return this->Read; }
 
 private:
   const std::shared_ptr<const Model>& modelOf(std::size_t object) const { return this->Models[this->Uses[object]]; }
+  void requireUnread() const;
   void readModels();
+  void countPictures(const Model& model, std::size_t textures);
+  void listPictures();
   void addTextures();
-  int addTexture(Model& model, const std::string& written);
+  bool hasPictures(const std::string& place, const ReadFiles::File& file) const;
+  std::shared_ptr<const Model> withPictures(const ReadFiles::File& file);
+  Texture makeTexture(const Model& model, const std::string& written);
   MaterialList makeMaterials(std::size_t object) const;
   void applySkin(const ObjectDescription& object, const Model& model, std::vector<Material>& materials) const;
   void applyOverride(const ObjectDescription& object, const Model& model, const MaterialOverride& change,
@@ -51,9 +74,13 @@ private:
 
   const SceneDescription& Scene;
   const Stage::WarningSink& Warning;
+  const ReadFiles& Known;
+  ReadFiles Read;
   std::shared_ptr<TextureStore> Pictures; ///< all of the scene
+  std::set<const Image*> Counted;         ///< those of known models
   std::vector<std::shared_ptr<const Model>> Models;
-  std::vector<std::size_t> Uses; ///< object -> model
+  std::vector<std::string> Places; ///< of the models: canonicalPath()
+  std::vector<std::size_t> Uses;   ///< object -> model
   std::vector<MaterialList> Materials;
   std::shared_ptr<const EnvironmentState> Environment;
   std::shared_ptr<GeometryCache> Geometries = std::make_shared<GeometryCache>();
