@@ -2,7 +2,8 @@
 #include "dgtkRenderer.h"
 
 #include "dgtkArraySink.h"
-#include "dgtkError.h"
+#include "dgtkFailure.h"
+#include "dgtkInterpreterPause.h"
 #include "dgtkKeptSource.h"
 #include "dgtkScene.h"
 #include "dgtkSystem.h"
@@ -20,10 +21,12 @@
 #include "vtkUnsignedShortArray.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
+#include <atomic>
 #include <functional>
 #include <map>
+#include <optional>
+
+#include <unistd.h>
 
 vtkStandardNewMacro(dgtkRenderer);
 
@@ -75,99 +78,38 @@ void requireArrays(const std::vector<std::string>& layers)
 }
 } // namespace
 
-struct dgtkRenderer::Internal
+namespace
 {
-  vtkSmartPointer<dgtkScene> scene;
+/// A picture that was asked for, beside which the renderer may be given another one.
+struct Wanted
+{
+  std::shared_ptr<const dgtk::Stage> stage;
   dgtk::LayerRequest request;
   std::string camera;
-  int frame = 0;
-  bool frameSet = false;
-  std::string errorMessage;
-  int width = 0;
-  int height = 0;
-  dgtk::KeptSource source;
-  std::vector<dgtk::LayerArray> results;
-  std::vector<vtkSmartPointer<vtkDataArray>> arrays; // one a result
+  std::optional<int> frame;
 
-  bool render(const std::function<std::vector<std::string>()>& layers);
-  std::vector<dgtk::LayerArray> draw(const std::vector<std::string>& layers);
-  dgtk::WorkPlan planOf(const std::vector<std::string>& layers, const dgtk::Stage& stage);
-  std::vector<dgtk::LayerArray> drawWith(dgtk::FrameSource& frames, const dgtk::JobContext& context);
+  dgtk::WorkPlan plan();
 };
 
-bool dgtkRenderer::Internal::render(const std::function<std::vector<std::string>()>& layers)
-{
-  this->errorMessage.clear();
-  this->results.clear();
-  this->arrays.clear();
-  try
-  {
-    this->results = this->draw(layers());
-    for (dgtk::LayerArray& result : this->results)
-    {
-      const vtkSmartPointer<vtkDataArray> array = arrayFor(result.type);
-      const std::size_t tuple = dgtk::bytesOf(result.type) * std::size_t(result.channels);
-      array->SetName(result.name.c_str());
-      array->SetNumberOfComponents(result.channels);
-      array->SetNumberOfTuples(static_cast<vtkIdType>(result.data.size() / tuple));
-      std::copy_n(result.data.data(), result.data.size(), static_cast<std::byte*>(array->GetVoidPointer(0)));
-      result.data = {};
-      this->arrays.push_back(array);
-    }
-    return true;
-  }
-  catch (const std::exception& error)
-  {
-    this->errorMessage = error.what();
-    return false;
-  }
-}
-
-std::vector<dgtk::LayerArray> dgtkRenderer::Internal::draw(const std::vector<std::string>& layers)
-{
-  if (!this->scene || !this->scene->GetStage())
-  {
-    throw dgtk::UsageError("no scene is set");
-  }
-  const std::shared_ptr<const dgtk::Stage> stage = this->scene->GetStage();
-  dgtk::ScratchFolder scratch;
-  dgtk::WorkPlan plan = this->planOf(layers, *stage);
-  for (dgtk::PlannedLayer& planned : plan.layers)
-  {
-    planned.shared = planned.layer->makeShared({ [&scratch] { return scratch.path(); }, [](const std::string&) {} });
-  }
-  std::vector<dgtk::LayerArray> drawn;
-  this->source.use(sourceOptions(plan), stage,
-    [&](dgtk::FrameSource& frames, dgtk::SceneQueries& queries, dgtk::ThreadPool& pool)
-    {
-      const dgtk::Job job = plan.jobs.front();
-      const dgtk::View view = stage->view(job.camera, job.frame, this->request.width, this->request.height);
-      drawn = this->drawWith(
-        frames, { plan, job, stage->cameraNames()[job.camera], stage->at(job.frame), view, queries, pool });
-    });
-  return drawn;
-}
-
 /// The plan of all cameras, which layers may relate to one another; the first job is the picture.
-dgtk::WorkPlan dgtkRenderer::Internal::planOf(const std::vector<std::string>& layers, const dgtk::Stage& stage)
+dgtk::WorkPlan Wanted::plan()
 {
-  requireArrays(layers);
+  requireArrays(this->request.layers);
   if (!dgtk::drawsItself(this->request))
   {
     throw dgtk::UsageError("renderer: arrays are not drawn by POV-Ray");
   }
-  this->request.layers = layers;
-  const int at = this->frameSet ? this->frame : stage.description().firstFrame();
+  const int at = this->frame.value_or(this->stage->description().firstFrame());
   this->request.frames = dgtk::FrameRange{ at, at, 1 };
-  dgtk::WorkPlan plan = dgtk::makeWorkPlan(this->request, stage);
-  const std::vector<std::string> names = stage.cameraNames();
+  dgtk::WorkPlan plan = dgtk::makeWorkPlan(this->request, *this->stage);
+  const std::vector<std::string> names = this->stage->cameraNames();
   const auto own = std::find_if(plan.jobs.begin(), plan.jobs.end(),
     [&](const dgtk::Job& job) { return this->camera.empty() || names[job.camera] == this->camera; });
   if (own == plan.jobs.end())
   {
     dgtk::LayerRequest wrong = this->request;
     wrong.cameras = { this->camera };
-    dgtk::makeWorkPlan(wrong, stage); // says which there are
+    dgtk::makeWorkPlan(wrong, *this->stage); // says which there are
   }
   std::rotate(plan.jobs.begin(), own, own + 1);
   for (const dgtk::PlannedLayer& planned : plan.layers)
@@ -177,7 +119,7 @@ dgtk::WorkPlan dgtkRenderer::Internal::planOf(const std::vector<std::string>& la
       throw dgtk::UsageError(dgtk::formatOption(planned.layer->info().layer) + ": an array has one format, found " +
                              dgtk::quoted(dgtk::joinedNames(planned.formats)));
     }
-    if (planned.layer->outputs(plan, stage, plan.jobs.front(), planned).empty())
+    if (planned.layer->outputs(plan, *this->stage, plan.jobs.front(), planned).empty())
     {
       throw dgtk::UsageError("there is no layer " + planned.layer->info().layer + " of camera " +
                              dgtk::quoted(names[plan.jobs.front().camera]) + " at frame " + std::to_string(at) +
@@ -187,14 +129,11 @@ dgtk::WorkPlan dgtkRenderer::Internal::planOf(const std::vector<std::string>& la
   return plan;
 }
 
-std::vector<dgtk::LayerArray> dgtkRenderer::Internal::drawWith(
-  dgtk::FrameSource& frames, const dgtk::JobContext& context)
+std::vector<dgtk::LayerArray> drawWith(dgtk::FrameSource& frames, const dgtk::JobContext& context)
 {
   using namespace dgtk;
   const Stage& stage = context.queries.stage();
   const Job& job = context.job;
-  this->width = context.view.model->width();
-  this->height = context.view.model->height();
   struct Lane
   {
     std::unique_ptr<LayerPass> pass;
@@ -212,7 +151,8 @@ std::vector<dgtk::LayerArray> dgtkRenderer::Internal::drawWith(
     frames.setScene(context.state, context.view);
     if (context.plan.drawsColor())
     {
-      frames.expose(stage.exposures(job.camera, job.frame, this->request.width, this->request.height),
+      const LayerRequest& request = context.plan.request;
+      frames.expose(stage.exposures(job.camera, job.frame, request.width, request.height),
         [&stage](double instant) { return stage.at(instant); });
     }
     for (int row = 0; row < frames.bands(); ++row)
@@ -237,6 +177,116 @@ std::vector<dgtk::LayerArray> dgtkRenderer::Internal::drawWith(
   }
   return all;
 }
+} // namespace
+
+struct dgtkRenderer::Internal
+{
+  vtkSmartPointer<dgtkScene> scene;
+  dgtk::LayerRequest request;
+  std::string camera;
+  std::optional<int> frame;
+  dgtk::Failure failure;
+  int width = 0;
+  int height = 0;
+  dgtk::KeptSource source;
+  std::atomic<pid_t> drawing{ 0 }; // the process in which one is under way; one that was forked may go on
+  std::vector<dgtk::LayerArray> results;
+  std::vector<vtkSmartPointer<vtkDataArray>> arrays; // one a result
+
+  bool render(const std::function<std::vector<std::string>()>& layers);
+  std::vector<dgtk::LayerArray> draw(Wanted wanted, int& columns, int& rows);
+  std::vector<dgtk::LayerArray> drawPicture(Wanted& wanted, int& columns, int& rows);
+  void keep(std::vector<dgtk::LayerArray> drawn);
+};
+
+bool dgtkRenderer::Internal::render(const std::function<std::vector<std::string>()>& layers)
+{
+  try
+  {
+    Wanted wanted{ this->scene ? this->scene->GetStage() : nullptr, this->request, this->camera, this->frame };
+    if (!wanted.stage)
+    {
+      throw dgtk::UsageError("no scene is set");
+    }
+    wanted.request.layers = layers();
+    int columns = 0;
+    int rows = 0;
+    std::vector<dgtk::LayerArray> drawn = this->draw(std::move(wanted), columns, rows);
+    this->width = columns;
+    this->height = rows;
+    this->failure.clear();
+    this->keep(std::move(drawn));
+    return true;
+  }
+  catch (...)
+  {
+    this->results.clear();
+    this->arrays.clear();
+    this->failure.take();
+    return false;
+  }
+}
+
+void dgtkRenderer::Internal::keep(std::vector<dgtk::LayerArray> drawn)
+{
+  this->arrays.clear();
+  this->results = std::move(drawn);
+  for (dgtk::LayerArray& result : this->results)
+  {
+    const vtkSmartPointer<vtkDataArray> array = arrayFor(result.type);
+    const std::size_t tuple = dgtk::bytesOf(result.type) * std::size_t(result.channels);
+    array->SetName(result.name.c_str());
+    array->SetNumberOfComponents(result.channels);
+    array->SetNumberOfTuples(static_cast<vtkIdType>(result.data.size() / tuple));
+    std::copy_n(result.data.data(), result.data.size(), static_cast<std::byte*>(array->GetVoidPointer(0)));
+    result.data = {};
+    this->arrays.push_back(array);
+  }
+}
+
+std::vector<dgtk::LayerArray> dgtkRenderer::Internal::draw(Wanted wanted, int& columns, int& rows)
+{
+  const dgtk::InterpreterPause pause;
+  pid_t before = this->drawing;
+  if (before == ::getpid() || !this->drawing.compare_exchange_strong(before, ::getpid()))
+  {
+    throw dgtk::UsageError("the renderer draws for another thread; each has its own");
+  }
+  try
+  {
+    std::vector<dgtk::LayerArray> drawn = this->drawPicture(wanted, columns, rows);
+    this->drawing = 0;
+    return drawn;
+  }
+  catch (...)
+  {
+    this->drawing = 0;
+    throw;
+  }
+}
+
+std::vector<dgtk::LayerArray> dgtkRenderer::Internal::drawPicture(Wanted& wanted, int& columns, int& rows)
+{
+  const dgtk::Stage& stage = *wanted.stage;
+  dgtk::ScratchFolder scratch;
+  dgtk::WorkPlan plan = wanted.plan();
+  for (dgtk::PlannedLayer& planned : plan.layers)
+  {
+    planned.shared = planned.layer->makeShared({ [&scratch] { return scratch.path(); }, [](const std::string&) {} });
+  }
+  std::vector<dgtk::LayerArray> drawn;
+  this->source.use(sourceOptions(plan), wanted.stage,
+    [&](dgtk::FrameSource& frames, dgtk::SceneQueries& queries, dgtk::ThreadPool& pool)
+    {
+      const dgtk::Job job = plan.jobs.front();
+      const dgtk::View view = stage.view(job.camera, job.frame, plan.request.width, plan.request.height);
+      columns = view.model->width();
+      rows = view.model->height();
+      drawn =
+        drawWith(frames, { plan, job, stage.cameraNames()[job.camera], stage.at(job.frame), view, queries, pool });
+    });
+  return drawn;
+}
 
 dgtkRenderer::dgtkRenderer()
   : Self(new Internal)
@@ -249,7 +299,7 @@ void dgtkRenderer::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Camera: " << this->Self->camera << "\n";
-  os << indent << "Frame: " << this->Self->frame << "\n";
+  os << indent << "Frame: " << this->Self->frame.value_or(0) << "\n";
   os << indent << "Size: " << this->Self->request.width << " x " << this->Self->request.height << "\n";
 }
 
@@ -268,7 +318,6 @@ void dgtkRenderer::SetCamera(const std::string& name)
 void dgtkRenderer::SetFrame(int frame)
 {
   this->Self->frame = frame;
-  this->Self->frameSet = true;
   this->Modified();
 }
 
@@ -343,4 +392,6 @@ int dgtkRenderer::GetWidth() const { return this->Self->width; }
 
 int dgtkRenderer::GetHeight() const { return this->Self->height; }
 
-std::string dgtkRenderer::GetErrorMessage() const { return this->Self->errorMessage; }
+std::string dgtkRenderer::GetErrorMessage() const { return this->Self->failure.message; }
+
+int dgtkRenderer::GetErrorCode() const { return this->Self->failure.code; }

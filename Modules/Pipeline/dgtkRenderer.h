@@ -3,9 +3,9 @@
  * @class dgtkRenderer
  * @brief Renders layers of one camera at one frame into arrays.
  *
- * The arrays hold exactly what `dgtk render` writes: rows from top to bottom, one tuple a pixel. Threads may render in
- * turns, each with a renderer of its own. In a process that was forked after its first picture was drawn by OpenGL, a
- * renderer draws on where OpenGL can be had anew, and says so where it cannot.
+ * The arrays hold exactly what `dgtk render` writes: rows from top to bottom, one tuple a pixel. Threads may render at
+ * the same time, each with a renderer of its own; Python's lock is free meanwhile. In a process that was forked after
+ * its first picture was drawn by OpenGL, a renderer draws on where OpenGL can be had anew, and says so where it cannot.
  */
 #ifndef dgtkRenderer_h
 #define dgtkRenderer_h
@@ -101,10 +101,14 @@ public:
   int GetHeight() const;
   ///@}
 
+  ///@{
   /**
-   * What went wrong last, one line; empty after success.
+   * What went wrong last, one line; empty after success. The code is the exit status that it means for a program: 2
+   * for a wrong request, 3 for input that cannot be used, 4 for what the machine cannot do; 0 after success.
    */
   std::string GetErrorMessage() const;
+  int GetErrorCode() const;
+  ///@}
 
 protected:
   dgtkRenderer();

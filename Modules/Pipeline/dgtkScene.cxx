@@ -1,17 +1,71 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkScene.h"
 
-#include "dgtkError.h"
+#include "dgtkFailure.h"
+#include "dgtkInterpreterPause.h"
 #include "dgtkModelCache.h"
 #include "dgtkStage.h"
 
 #include "vtkObjectFactory.h"
 
+#include <filesystem>
+#include <functional>
 #include <utility>
 
 vtkStandardNewMacro(dgtkScene);
 
-dgtkScene::dgtkScene() = default;
+namespace
+{
+std::string absolutePath(const std::string& path)
+{
+  return std::filesystem::absolute(path.empty() ? "." : path).lexically_normal().string();
+}
+} // namespace
+
+struct dgtkScene::Internal
+{
+  std::shared_ptr<const dgtk::Stage> stage;
+  std::string folder;
+  std::string file;
+  dgtk::Failure failure;
+
+  void hold(std::shared_ptr<const dgtk::Stage> loaded);
+  void load(const std::function<std::shared_ptr<const dgtk::Stage>()>& make);
+};
+
+void dgtkScene::Internal::hold(std::shared_ptr<const dgtk::Stage> loaded)
+{
+  this->stage = std::move(loaded);
+  this->folder = this->stage ? absolutePath(this->stage->description().folder) : "";
+  const bool ofFile = this->stage && !this->stage->description().file.empty();
+  this->file = ofFile ? absolutePath(this->stage->description().file) : "";
+}
+
+void dgtkScene::Internal::load(const std::function<std::shared_ptr<const dgtk::Stage>()>& make)
+{
+  this->hold(nullptr);
+  this->failure.clear();
+  try
+  {
+    std::shared_ptr<const dgtk::Stage> loaded;
+    {
+      const dgtk::InterpreterPause pause;
+      UseModelCache();
+      loaded = make();
+    }
+    this->hold(std::move(loaded));
+  }
+  catch (...)
+  {
+    this->failure.take();
+  }
+}
+
+dgtkScene::dgtkScene()
+  : Self(new Internal)
+{
+}
+
 dgtkScene::~dgtkScene() = default;
 
 void dgtkScene::PrintSelf(ostream& os, vtkIndent indent)
@@ -22,56 +76,71 @@ void dgtkScene::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Frames: " << this->GetFirstFrame() << " to " << this->GetLastFrame() << "\n";
 }
 
+void dgtkScene::UseModelCache()
+{
+  if (!dgtk::ModelCache::inUse())
+  {
+    dgtk::ModelCache::use(dgtk::ModelCache::ofUser());
+  }
+}
+
 bool dgtkScene::Load(const std::string& path)
 {
-  this->Stage.reset();
-  this->ErrorMessage.clear();
+  this->Self->load([&path] { return dgtk::Stage::load(dgtk::readScene(path)); });
   this->Modified();
-  try
-  {
-    if (!dgtk::ModelCache::inUse())
-    {
-      dgtk::ModelCache::use(dgtk::ModelCache::ofUser());
-    }
-    this->Stage = dgtk::Stage::load(dgtk::readScene(path));
-  }
-  catch (const std::exception& error)
-  {
-    this->ErrorMessage = error.what();
-  }
-  return this->Stage != nullptr;
+  return this->Self->stage != nullptr;
+}
+
+bool dgtkScene::LoadText(const std::string& json, const std::string& folder, dgtkScene* like)
+{
+  const std::shared_ptr<const dgtk::Stage> known = like ? like->GetStage() : nullptr;
+  this->Self->load([&] { return dgtk::Stage::load(dgtk::readSceneText(json, folder), {}, known.get()); });
+  this->Modified();
+  return this->Self->stage != nullptr;
 }
 
 void dgtkScene::SetStage(std::shared_ptr<const dgtk::Stage> stage)
 {
-  this->Stage = std::move(stage);
+  this->Self->failure.clear();
+  this->Self->hold(std::move(stage));
   this->Modified();
 }
 
-std::string dgtkScene::GetErrorMessage() const { return this->ErrorMessage; }
+std::shared_ptr<const dgtk::Stage> dgtkScene::GetStage() const { return this->Self->stage; }
+
+std::string dgtkScene::GetDescription() const
+{
+  return this->Self->stage ? toJson(this->Self->stage->description(), this->Self->stage->description().folder) : "";
+}
+
+std::string dgtkScene::GetFolder() const { return this->Self->folder; }
+
+std::string dgtkScene::GetFile() const { return this->Self->file; }
+
+std::string dgtkScene::GetErrorMessage() const { return this->Self->failure.message; }
+
+int dgtkScene::GetErrorCode() const { return this->Self->failure.code; }
 
 int dgtkScene::GetNumberOfCameras() const
 {
-  return this->Stage ? static_cast<int>(this->Stage->description().cameras.size()) : 0;
+  return this->Self->stage ? static_cast<int>(this->Self->stage->description().cameras.size()) : 0;
 }
 
 std::string dgtkScene::GetCameraName(int index) const
 {
-  return index >= 0 && index < this->GetNumberOfCameras() ? this->Stage->description().cameras[index].name : "";
+  return index >= 0 && index < this->GetNumberOfCameras() ? this->Self->stage->description().cameras[index].name : "";
 }
 
 int dgtkScene::GetNumberOfObjects() const
 {
-  return this->Stage ? static_cast<int>(this->Stage->at(this->GetFirstFrame())->instances.size()) : 0;
+  return this->Self->stage ? static_cast<int>(this->Self->stage->objectNames().size()) : 0;
 }
 
 std::string dgtkScene::GetObjectName(int index) const
 {
-  return index >= 0 && index < this->GetNumberOfObjects()
-           ? this->Stage->at(this->GetFirstFrame())->instances[index].name
-           : "";
+  return index >= 0 && index < this->GetNumberOfObjects() ? this->Self->stage->objectNames()[index] : "";
 }
 
-int dgtkScene::GetFirstFrame() const { return this->Stage ? this->Stage->description().firstFrame() : 0; }
+int dgtkScene::GetFirstFrame() const { return this->Self->stage ? this->Self->stage->description().firstFrame() : 0; }
 
-int dgtkScene::GetLastFrame() const { return this->Stage ? this->Stage->description().lastFrame() : 0; }
+int dgtkScene::GetLastFrame() const { return this->Self->stage ? this->Self->stage->description().lastFrame() : 0; }

@@ -31,9 +31,31 @@ public:
    */
   bool Load(const std::string& path);
   /**
-   * What went wrong last, one line; empty after success.
+   * The same of a scene's .json text; its relative paths start in `folder`. Models that `like` has loaded are not read
+   * again, whatever became of their files; `like`, which may be null, stays as it is.
+   */
+  bool LoadText(const std::string& json, const std::string& folder, dgtkScene* like = nullptr);
+
+  ///@{
+  /**
+   * The scene's canonical .json text, empty without a scene, and where its relative paths start: an absolute path.
+   */
+  std::string GetDescription() const;
+  std::string GetFolder() const;
+  ///@}
+  /**
+   * The absolute path that the scene was loaded from; empty for one of a text.
+   */
+  std::string GetFile() const;
+
+  ///@{
+  /**
+   * What went wrong last, one line; empty after success. The code is the exit status that it means for a program: 3
+   * for input that cannot be used, 4 for what the machine cannot do; 0 after success.
    */
   std::string GetErrorMessage() const;
+  int GetErrorCode() const;
+  ///@}
 
   ///@{
   /**
@@ -60,7 +82,11 @@ public:
   ///@}
 
 #ifndef __VTK_WRAP__
-  std::shared_ptr<const dgtk::Stage> GetStage() const { return this->Stage; }
+  std::shared_ptr<const dgtk::Stage> GetStage() const;
+  /**
+   * Models are kept in the user's folder of models that were read, unless the program has said otherwise.
+   */
+  static void UseModelCache();
 #endif
 
 protected:
@@ -78,8 +104,8 @@ private:
   dgtkScene(const dgtkScene&) = delete;
   void operator=(const dgtkScene&) = delete;
 
-  std::shared_ptr<const dgtk::Stage> Stage;
-  std::string ErrorMessage;
+  struct Internal;
+  std::unique_ptr<Internal> Self;
 };
 
 #endif

@@ -121,6 +121,11 @@ std::string hashOf(const std::vector<std::pair<std::string, std::string>>& pairs
 std::string identityOf(const WorkPlan& plan, const Stage& stage, const std::vector<InputRecord>& inputs)
 {
   std::vector<std::pair<std::string, std::string>> identity = describeRequest(plan, stage);
+  const SceneDescription& scene = stage.description();
+  if (scene.file.empty())
+  {
+    identity.emplace_back("scene", toJson(scene, scene.folder));
+  }
   for (const InputRecord& input : inputs)
   {
     identity.emplace_back(input.path, input.sha256);

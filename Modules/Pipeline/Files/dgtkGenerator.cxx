@@ -6,6 +6,7 @@
 #include "dgtkFile.h"
 #include "dgtkFrameOutput.h"
 #include "dgtkFrameSource.h"
+#include "dgtkGLContext.h"
 #include "dgtkLayers.h"
 #include "dgtkRunDocuments.h"
 #include "dgtkRunFiles.h"
@@ -18,6 +19,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <optional>
 #include <utility>
 
 namespace dgtk
@@ -32,6 +34,11 @@ int threadsOf(const GeneratorRequest& request)
 {
   const int threads = option::threads().of(request.options);
   return threads > 0 ? threads : machineThreads();
+}
+
+SceneDescription sceneOf(const GeneratorRequest& request)
+{
+  return request.description ? *request.description : readScene(request.scene);
 }
 
 JournalStart startOf(const GeneratorRequest& request)
@@ -92,6 +99,7 @@ private:
   std::unique_ptr<RunDocuments> Documents;
   std::unique_ptr<RunFiles> Files;
   std::unique_ptr<ThreadPool> Pool;
+  std::optional<GLTurn> Turn; ///< a run's whole time
   std::unique_ptr<FrameSource> Source;
   TracedQueries Queries;
   std::atomic<std::size_t> PendingBytes{ 0 };
@@ -102,7 +110,7 @@ private:
 
 Run::Run(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
   : Callbacks(callbacks)
-  , Scene(Stage::load(readScene(request.scene), [this](const std::string& line) { this->warn(line); }))
+  , Scene(Stage::load(sceneOf(request), [this](const std::string& line) { this->warn(line); }))
   , Request(request)
   , Plan(makeWorkPlan(request, *this->Scene))
   , Threads(threadsOf(request))
@@ -120,6 +128,10 @@ GeneratorResult Run::execute()
       this->Callbacks.cancel };
   }
   this->Pool = std::make_unique<ThreadPool>(this->Threads);
+  if (usesGL(options))
+  {
+    this->Turn.emplace();
+  }
   this->Source = std::make_unique<FrameSource>(options, *this->Pool);
   this->Result.glDescription = this->Source->glDescription();
   this->Result.visibility = this->Plan.raster ? "raster" : "ray";
@@ -339,7 +351,7 @@ bool Run::keep(const Job& job)
 
 std::string requestHash(const GeneratorRequest& request)
 {
-  const std::shared_ptr<const Stage> scene = Stage::load(readScene(request.scene), [](const std::string&) {});
+  const std::shared_ptr<const Stage> scene = Stage::load(sceneOf(request), [](const std::string&) {});
   return identityOf(makeWorkPlan(request, *scene), *scene, inputsOf(*scene, request.folder));
 }
 

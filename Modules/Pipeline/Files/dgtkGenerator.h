@@ -7,10 +7,12 @@
 #include "dgtkFolderContents.h"
 #include "dgtkLayerRequest.h"
 #include "dgtkRequestOptions.h"
+#include "dgtkSceneDescription.h"
 
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,9 +22,10 @@ namespace dgtk
 /// A dataset: what it holds, which is all that decides its bytes, and how the run is made.
 struct GeneratorRequest : LayerRequest
 {
-  std::string scene;    ///< path of a .scene or .json file
-  std::string folder;   ///< where the dataset goes
-  bool resume = false;  ///< keep the finished files of an interrupted run of the same request
+  std::string scene;                           ///< path of a .scene or .json file
+  std::optional<SceneDescription> description; ///< instead of `scene`; its own `file` is empty
+  std::string folder;                          ///< where the dataset goes
+  bool resume = false;                         ///< keep the finished files of an interrupted run of the same request
   bool replace = false; ///< remove what another request, or an interrupted run, has left; not with resume
 };
 
