@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What arguments may be: values that cannot be used are ValueError, one line that begins with the argument's name."""
+import operator
+import os
+import reprlib
+
+import numpy
+
+LARGEST_SIDE = 1 << 20  # pixels
+_INTEGERS = range(-(1 << 31), 1 << 31)
+
+
+def found(value):
+    """What an error says was found: a short text on one line."""
+    if value is None or isinstance(value, (bool, int, float, str, bytes, list, tuple, dict, set)):
+        try:
+            return " ".join(reprlib.repr(value).split())
+        except Exception:  # of an element's own making, or a number of too many digits
+            pass
+    return "an object of " + type(value).__name__
+
+
+def fail(name, expected, value):
+    raise ValueError(f"{name}: expected {expected}, found {found(value)}")
+
+
+def raise_error(source):
+    """Raises what an object of the library says went wrong: ValueError for a request or an input, else RuntimeError."""
+    raise (ValueError if source.GetErrorCode() in (2, 3) else RuntimeError)(source.GetErrorMessage())
+
+
+def text(name, value, expected="a name"):
+    try:
+        if isinstance(value, str) and value and "\0" not in value and value.encode():
+            return value
+    except UnicodeEncodeError:
+        pass
+    return fail(name, expected, value)
+
+
+def path(name, value):
+    """The bytes of a path."""
+    try:
+        given = os.fsencode(value)
+    except (TypeError, ValueError):
+        given = b""
+    if not given or b"\0" in given or isinstance(value, bytes):
+        fail(name, "a path", value)
+    return given
+
+
+def integer(name, value):
+    try:
+        if not isinstance(value, (bool, numpy.bool_)) and operator.index(value) in _INTEGERS:
+            return operator.index(value)
+    except TypeError:
+        pass
+    return fail(name, "an integer", value)
+
+
+def switch(name, value):
+    if not isinstance(value, (bool, numpy.bool_)):
+        fail(name, "True or False", value)
+    return bool(value)
+
+
+def _sequence(value):
+    return isinstance(value, (list, tuple, range)) or (isinstance(value, numpy.ndarray) and value.ndim == 1)
+
+
+def size(value):
+    """(width, height); (0, 0) for None."""
+    if value is None:
+        return 0, 0
+    try:
+        width, height = (integer("size", side) for side in value) if _sequence(value) else (0, 0)
+    except ValueError:
+        width, height = 0, 0
+    if not (0 < width <= LARGEST_SIDE and 0 < height <= LARGEST_SIDE):
+        fail("size", f"(width, height), two integers from 1 to {LARGEST_SIDE}; image size out of range", value)
+    return width, height
+
+
+def joined(words):
+    """A list of names as the library takes it."""
+    return ",".join(word.replace("\\", "\\\\").replace(",", "\\,") for word in words)
+
+
+def names(name, value):
+    """A name, or several, as the library takes them."""
+    if isinstance(value, str):
+        return joined([text(name, value)])
+    if not _sequence(value) or len(value) == 0:
+        fail(name, "a name or a list of names", value)
+    return joined(text(name, one, "a list of names") for one in value)
+
+
+def _word(name, value):
+    if isinstance(value, (bool, numpy.bool_)):
+        return "on" if value else "off"
+    if isinstance(value, str):
+        return text(name, value) if value else value
+    if isinstance(value, (int, float, numpy.integer, numpy.floating)):
+        return str(value)
+    return fail(name, "a number, a name, a list of them, or True or False", value)
+
+
+def option(name, value):
+    """The text of an option's value."""
+    if _sequence(value):
+        return joined(_word(name, one) for one in value)
+    return _word(name, value)

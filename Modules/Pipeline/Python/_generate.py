@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Datasets on disk."""
+import json
+import os
+
+from . import _check
+from ._render import require_scene, with_options
+from .dgtkPipeline import dgtkDatasetGenerator
+
+_PATIENCE = 100  # milliseconds until an interrupt is noticed
+
+
+def _frames(value):
+    """first, last, step."""
+    numbers = list(value) if isinstance(value, (list, tuple)) else [value]
+    try:
+        first, last, step = [_check.integer("frames", one) for one in (numbers + numbers[:1] if len(numbers) == 1 else numbers) + [1] * (len(numbers) < 3)]
+    except ValueError:
+        first, last, step = 0, -1, 0
+    if last < first or step < 1:
+        _check.fail("frames", "an integer, (first, last) or (first, last, step) with first <= last and step >= 1", value)
+    return first, last, step
+
+
+def _run(generator, progress):
+    """Waits for the end; whatever is raised meanwhile ends the run, and is raised on."""
+    try:
+        generator.Start()
+        while generator.IsRunning():
+            if generator.Wait(_PATIENCE) and progress:
+                progress(generator.GetDone(), generator.GetTotal())
+    except BaseException:
+        generator.Cancel()
+        while generator.IsRunning():
+            generator.Wait(_PATIENCE)
+        raise
+    if generator.GetErrorCode():
+        _check.raise_error(generator)
+
+
+def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, progress=None, resume=False, replace=False, **options):
+    """Writes a dataset: what `dgtk render` does, to the byte.
+
+    scene: the path of a .json or .scene file, or a Scene. One of a file is read again with its models, and must not have
+    changed since; one of a description is in the dataset as scene.json, and its model files are read again. folder:
+    where the dataset goes, str or path-like. layers: a name or a list of names, "all", or the usual ones. frames: an
+    integer, (first, last) or (first, last, step), both ends included; default: all. cameras: a name or a list of names;
+    default: all. size: (width, height) in pixels; default: each camera's own, else 640 x 480. progress: called in this
+    thread as progress(done, total), pictures (one camera at one frame), at the start, after each and at the end.
+    resume: complete an interrupted run of the same request. replace: remove the dataset of another request, or an
+    interrupted run, that the folder holds; not with resume. Options, which are listed below, are those of
+    `dgtk render`: numbers, names, lists of names or numbers, and True for a switch.
+
+    Returns the manifest as a dict; Documentation/Formats/dataset.md says what it holds. Raises ValueError for a wrong
+    request, an input that cannot be used, and a folder that holds something else, and RuntimeError for what the machine
+    cannot do (no space, no permission), one line each. What `progress` raises, and an interrupt by Ctrl-C, ends the run
+    and is raised on; `resume=True` then completes it to the same bytes. Other threads run meanwhile.
+    """
+    generator = dgtkDatasetGenerator()
+    if isinstance(scene, (str, os.PathLike)):
+        generator.SetSceneFile(_check.path("scene", scene))
+    else:
+        require_scene(scene)
+        generator.SetScene(scene)
+    generator.SetFolder(_check.path("folder", folder))
+    if layers is not None:
+        generator.SetLayers(_check.names("layers", layers))
+    if cameras is not None:
+        generator.SetCameras(_check.names("cameras", cameras))
+    if frames is not None:
+        generator.SetFrames(*_frames(frames))
+    if progress is not None and not callable(progress):
+        _check.fail("progress", "something to call", progress)
+    generator.SetSize(*_check.size(size))
+    generator.SetResume(_check.switch("resume", resume))
+    generator.SetReplace(_check.switch("replace", replace))
+    for name, value in options.items():
+        generator.SetOption(name, _check.option(name, value))
+    _run(generator, progress)
+    with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
+        return json.load(file)
+
+
+with_options(generate, dgtkDatasetGenerator.GetOptions())

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenes of files and of descriptions."""
+import json
+import math
+import os
+
+import numpy
+
+from . import _check
+from .dgtkPipeline import dgtkScene
+
+_DEEPEST = 32
+
+
+class Scene(dgtkScene):
+    """A loaded scene, from `load()` or `scene()`. It does not change: another description makes another scene.
+
+    It is a VTK object and has the methods of `dgtkScene`, too.
+    """
+
+    @property
+    def cameras(self):
+        """The names of the cameras, in the scene's order: a list of str."""
+        return [self.GetCameraName(i) for i in range(self.GetNumberOfCameras())]
+
+    @property
+    def objects(self):
+        """The names of the objects with geometry: a list of str. `objects[i]` has id i + 1 in the layer `objects`."""
+        return [self.GetObjectName(i) for i in range(self.GetNumberOfObjects())]
+
+    @property
+    def frames(self):
+        """The scene's frames, from its first to its last key frame: a range."""
+        return range(self.GetFirstFrame(), self.GetLastFrame() + 1)
+
+    @property
+    def folder(self):
+        """Where the relative paths of the description start: an absolute path."""
+        return self.GetFolder()
+
+    def description(self):
+        """The scene as a dict, as in a .json file: what `scene()` takes.
+
+        Only values that are not the default are there, and every object, light and camera has a name. The dict is the
+        caller's; changing it does not change the scene.
+        """
+        return json.loads(self.GetDescription() or "{}")
+
+
+def load(path):
+    """Loads a scene with its models.
+
+    path: a .json or .scene file, str or path-like.
+
+    Returns a Scene. Raises ValueError, one line with file, line and what is wrong, for a file that cannot be used, and
+    RuntimeError for what the machine cannot do (memory).
+    """
+    loaded = Scene()
+    if not loaded.Load(_check.path("path", path)):
+        _check.raise_error(loaded)
+    return loaded
+
+
+def scene(description, folder=None, like=None):
+    """Makes a scene of a description, and loads its models.
+
+    description: a dict as in a .json file (Documentation/Formats/scene.md); NumPy scalars and arrays may stand where
+    numbers and lists do. folder: where its relative paths start, str or path-like; default: the current folder, or that
+    of `like`. like: another Scene; models and pictures that it has loaded are not read again, whatever became of their
+    files, and what a kept renderer made of them is used again. `like` does not change.
+
+        more = scene.description()
+        more["objects"][0]["position"] = [0, 2, 0]
+        moved = dgtk.scene(more, like=scene)
+
+    Returns a Scene. Raises ValueError, one line that names the value ("scene: objects[2].position[1]: expected a number,
+    found 'far'"), and RuntimeError for what the machine cannot do.
+    """
+    if not isinstance(description, dict):
+        _check.fail("description", "a dict", description)
+    if like is not None and not isinstance(like, dgtkScene):
+        _check.fail("like", "a scene", like)
+    if folder is None:
+        folder = (like.GetFolder() if like else "") or "."
+    text = json.dumps(_plain(description, ""), allow_nan=False)
+    made = Scene()
+    if not made.LoadText(text, os.path.abspath(_check.path("folder", folder)), like):
+        _check.raise_error(made)
+    return made
+
+
+def _fail(path, expected, value):
+    _check.fail("scene: " + path if path else "scene", expected, value)
+
+
+def _plain(value, path, depth=0):
+    """The value in the types of the json module."""
+    if depth > _DEEPEST:
+        _fail("", f"at most {_DEEPEST} lists and dicts in one another", value)
+    if isinstance(value, (numpy.ndarray, numpy.generic)):
+        value = value.tolist()
+    if isinstance(value, dict):
+        for key in value:
+            if not isinstance(key, str):
+                _fail(path, "keys that are text", key)
+        return {key: _plain(one, f"{path}.{key}" if path else key, depth + 1) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(one, f"{path}[{i}]", depth + 1) for i, one in enumerate(value)]
+    if value is None or isinstance(value, bool):
+        return value
+    if isinstance(value, str):
+        return _check.text("scene: " + path, value, "text") if value else value
+    if isinstance(value, (int, float)):
+        return _number(value, path)
+    return _fail(path, "a number, text, True or False, a list or a dict", value)
+
+
+def _number(value, path):
+    try:
+        if math.isfinite(float(value)):
+            return value
+    except OverflowError:
+        pass
+    return _fail(path, "a finite number", value)
