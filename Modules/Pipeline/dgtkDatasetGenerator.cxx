@@ -2,6 +2,7 @@
 #include "dgtkDatasetGenerator.h"
 
 #include "dgtkFailure.h"
+#include "dgtkGLContext.h"
 #include "dgtkGenerator.h"
 #include "dgtkInterpreterPause.h"
 #include "dgtkScene.h"
@@ -15,6 +16,7 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -32,6 +34,13 @@ void requireSame(const dgtk::SceneDescription& loaded, const std::string& file)
   {
     throw dgtk::InputError(file, 0, "has changed since the scene was loaded");
   }
+}
+
+/// Whether it starts OpenGL, see GLTurn.
+bool usesGL(const dgtk::LayerRequest& request)
+{
+  return dgtk::option::renderer().of(request.options) == "vtk" ||
+         dgtk::option::visibility().of(request.options) == "raster";
 }
 
 /// What may be done about a folder that is refused.
@@ -78,6 +87,10 @@ struct dgtkDatasetGenerator::Internal
 
 dgtk::GeneratorRequest dgtkDatasetGenerator::Internal::wholeRequest() const
 {
+  if ((!this->stage && this->request.scene.empty()) || this->request.folder.empty())
+  {
+    throw dgtk::UsageError(this->request.folder.empty() ? "no folder is set" : "no scene is set");
+  }
   dgtk::GeneratorRequest whole = this->request;
   whole.layers = dgtk::splitNames(this->layers, "layers");
   whole.cameras = dgtk::splitNames(this->cameras, "cameras");
@@ -133,6 +146,11 @@ void dgtkDatasetGenerator::Internal::generate()
     this->reports.push_back(report);
     this->change.notify_all();
   };
+  std::optional<dgtk::GLTurn> turn;
+  if (usesGL(this->request))
+  {
+    turn.emplace();
+  }
   try
   {
     if (dgtk::generate(this->wholeRequest(), callbacks).interrupted)

@@ -3,8 +3,9 @@
 
 #include "dgtkFailure.h"
 #include "dgtkInterpreterPause.h"
+#include "dgtkLikeScene.h"
 #include "dgtkModelCache.h"
-#include "dgtkStage.h"
+#include "dgtkSceneFromText.h"
 
 #include "vtkObjectFactory.h"
 
@@ -25,29 +26,31 @@ std::string absolutePath(const std::string& path)
 struct dgtkScene::Internal
 {
   std::shared_ptr<const dgtk::Stage> stage;
+  std::shared_ptr<const dgtk::ReadFiles> files;
   std::string folder;
   std::string file;
   dgtk::Failure failure;
 
-  void hold(std::shared_ptr<const dgtk::Stage> loaded);
-  void load(const std::function<std::shared_ptr<const dgtk::Stage>()>& make);
+  void hold(dgtk::LoadedScene loaded);
+  void load(const std::function<dgtk::LoadedScene()>& make);
 };
 
-void dgtkScene::Internal::hold(std::shared_ptr<const dgtk::Stage> loaded)
+void dgtkScene::Internal::hold(dgtk::LoadedScene loaded)
 {
-  this->stage = std::move(loaded);
+  this->stage = std::move(loaded.stage);
+  this->files = std::move(loaded.files);
   this->folder = this->stage ? absolutePath(this->stage->description().folder) : "";
   const bool ofFile = this->stage && !this->stage->description().file.empty();
   this->file = ofFile ? absolutePath(this->stage->description().file) : "";
 }
 
-void dgtkScene::Internal::load(const std::function<std::shared_ptr<const dgtk::Stage>()>& make)
+void dgtkScene::Internal::load(const std::function<dgtk::LoadedScene()>& make)
 {
-  this->hold(nullptr);
+  this->hold({});
   this->failure.clear();
   try
   {
-    std::shared_ptr<const dgtk::Stage> loaded;
+    dgtk::LoadedScene loaded;
     {
       const dgtk::InterpreterPause pause;
       UseModelCache();
@@ -86,15 +89,15 @@ void dgtkScene::UseModelCache()
 
 bool dgtkScene::Load(const std::string& path)
 {
-  this->Self->load([&path] { return dgtk::Stage::load(dgtk::readScene(path)); });
+  this->Self->load([&path] { return dgtk::loadLike(dgtk::readScene(path), nullptr); });
   this->Modified();
   return this->Self->stage != nullptr;
 }
 
 bool dgtkScene::LoadText(const std::string& json, const std::string& folder, dgtkScene* like)
 {
-  const std::shared_ptr<const dgtk::Stage> known = like ? like->GetStage() : nullptr;
-  this->Self->load([&] { return dgtk::Stage::load(dgtk::readSceneText(json, folder), {}, known.get()); });
+  const std::shared_ptr<const dgtk::ReadFiles> known = like ? like->Self->files : nullptr;
+  this->Self->load([&] { return dgtk::loadLike(dgtk::readSceneText(json, folder), known.get()); });
   this->Modified();
   return this->Self->stage != nullptr;
 }
@@ -102,7 +105,7 @@ bool dgtkScene::LoadText(const std::string& json, const std::string& folder, dgt
 void dgtkScene::SetStage(std::shared_ptr<const dgtk::Stage> stage)
 {
   this->Self->failure.clear();
-  this->Self->hold(std::move(stage));
+  this->Self->hold({ std::move(stage), nullptr });
   this->Modified();
 }
 

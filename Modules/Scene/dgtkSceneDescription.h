@@ -264,10 +264,6 @@ DGTKSCENE_EXPORT std::vector<CameraParameter> ownParameters(const std::string& m
 /// are not opened. Throws InputError with file, line and key path.
 DGTKSCENE_EXPORT SceneDescription readScene(const std::string& path);
 
-/// The same of the text of a .json scene that is in no file; relative paths start in `folder`. Errors name the path of
-/// the value: "scene: objects[2].position: ...", and the line only of what is no JSON.
-DGTKSCENE_EXPORT SceneDescription readSceneText(const std::string& json, const std::string& folder);
-
 /// Writes a scene, by extension, atomically; relative paths are rewritten relative to the new file's folder. Throws
 /// InputError for what the format cannot say or what is not valid, naming object and property, and MachineError; what
 /// stood under the name before is then untouched.

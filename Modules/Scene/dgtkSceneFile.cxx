@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkSceneDescription.h"
+#include "dgtkSceneFromText.h"
 
 #include "dgtkError.h"
 #include "dgtkFile.h"

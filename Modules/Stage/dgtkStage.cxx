@@ -135,13 +135,12 @@ View cameraView(const CameraDescription& camera, double frame, int width, int he
 
 struct Stage::Impl
 {
-  Impl(SceneDescription scene, const WarningSink& warning, const ReadFiles& known)
+  Impl(SceneDescription scene, const WarningSink& warning)
     : Scene(std::move(scene))
   {
-    const StageModels read(this->Scene, warning, known);
+    const StageModels read(this->Scene, warning);
     this->Models = read.models();
     this->Files = read.files();
-    this->Read = read.read();
     this->take(read);
   }
   Impl(SceneDescription scene, const ModelSource& models)
@@ -171,7 +170,6 @@ struct Stage::Impl
   std::shared_ptr<const EnvironmentState> Environment;
   std::vector<std::shared_ptr<const Model>> Models; ///< in the order of their first use
   std::vector<std::string> Files;
-  ReadFiles Read; ///< for scenes that are like this one
   std::optional<ObjectPoses> Poses;
   std::shared_ptr<GeometryCache> Geometries;
   mutable MaterialNumbers Materials;
@@ -274,11 +272,10 @@ Stage::Stage(std::unique_ptr<Impl> impl)
 
 Stage::~Stage() = default;
 
-std::shared_ptr<const Stage> Stage::load(SceneDescription scene, const WarningSink& warning, const Stage* like)
+std::shared_ptr<const Stage> Stage::load(SceneDescription scene, const WarningSink& warning)
 {
   check(scene);
-  const ReadFiles known = like ? like->Self->Read : ReadFiles();
-  return std::shared_ptr<const Stage>(new Stage(std::make_unique<Impl>(std::move(scene), warning, known)));
+  return std::shared_ptr<const Stage>(new Stage(std::make_unique<Impl>(std::move(scene), warning)));
 }
 
 std::shared_ptr<const Stage> Stage::make(SceneDescription scene, const ModelSource& models)

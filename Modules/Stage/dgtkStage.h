@@ -41,10 +41,8 @@ public:
   /// Validates the scene and reads each model file once, however its path is spelled, and each replacing texture.
   /// Throws InputError, with the scene's file and line, for models that are missing (all of them in one line) or one
   /// that cannot be used, an unknown sequence or skin, and cameras or objects that are invalid at a key frame. Missing
-  /// textures are warnings. Models and the picture of the environment that `like`, another loaded scene, has are not
-  /// read again, whatever became of their files; models with the same textures are the same ones.
-  static std::shared_ptr<const Stage> load(
-    SceneDescription scene, const WarningSink& warning = {}, const Stage* like = nullptr);
+  /// textures are warnings.
+  static std::shared_ptr<const Stage> load(SceneDescription scene, const WarningSink& warning = {});
 
   /// A stage over models that are there already: cheap, so that a description that changes gets a new one. Objects
   /// without a look, or with one without triangles, are not there and have no id. Throws what load() throws of

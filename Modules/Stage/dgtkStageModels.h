@@ -18,7 +18,7 @@
 namespace dgtk
 {
 
-/// What was read for a scene.
+/// What was read for a scene, for those that are like it.
 struct ReadFiles
 {
   struct File
@@ -39,7 +39,7 @@ class StageModels : public ModelSource
 public:
   /// Throws InputError with the scene's file and the line of the object that wants the model.
   /// What is among the known files is not read again.
-  StageModels(const SceneDescription& scene, const Stage::WarningSink& warning, const ReadFiles& known);
+  StageModels(const SceneDescription& scene, const Stage::WarningSink& warning, const ReadFiles& known = {});
 
   /// Of this scene and its objects only.
   ObjectLook lookOf(const SceneDescription& scene, const ObjectDescription& object) const override;
@@ -74,7 +74,7 @@ private:
 
   const SceneDescription& Scene;
   const Stage::WarningSink& Warning;
-  const ReadFiles& Known;
+  const ReadFiles Known;
   ReadFiles Read;
   std::shared_ptr<TextureStore> Pictures; ///< all of the scene
   std::set<const Image*> Counted;         ///< those of known models

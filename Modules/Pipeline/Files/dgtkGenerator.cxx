@@ -6,7 +6,6 @@
 #include "dgtkFile.h"
 #include "dgtkFrameOutput.h"
 #include "dgtkFrameSource.h"
-#include "dgtkGLContext.h"
 #include "dgtkLayers.h"
 #include "dgtkRunDocuments.h"
 #include "dgtkRunFiles.h"
@@ -19,7 +18,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <optional>
 #include <utility>
 
 namespace dgtk
@@ -99,7 +97,6 @@ private:
   std::unique_ptr<RunDocuments> Documents;
   std::unique_ptr<RunFiles> Files;
   std::unique_ptr<ThreadPool> Pool;
-  std::optional<GLTurn> Turn; ///< a run's whole time
   std::unique_ptr<FrameSource> Source;
   TracedQueries Queries;
   std::atomic<std::size_t> PendingBytes{ 0 };
@@ -128,10 +125,6 @@ GeneratorResult Run::execute()
       this->Callbacks.cancel };
   }
   this->Pool = std::make_unique<ThreadPool>(this->Threads);
-  if (usesGL(options))
-  {
-    this->Turn.emplace();
-  }
   this->Source = std::make_unique<FrameSource>(options, *this->Pool);
   this->Result.glDescription = this->Source->glDescription();
   this->Result.visibility = this->Plan.raster ? "raster" : "ray";

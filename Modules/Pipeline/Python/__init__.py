@@ -13,7 +13,7 @@ import sys
 from ._build import EXECUTABLE, PYTHON, VERSION
 
 __version__ = VERSION
-__all__ = ["Scene", "dgtkDatasetGenerator", "dgtkRenderer", "dgtkScene", "generate", "load", "render", "scene"]
+__all__ = ["load", "scene", "Scene", "render", "generate", "dgtkScene", "dgtkRenderer", "dgtkDatasetGenerator"]
 
 if sys.version_info[:2] != PYTHON:
     raise ImportError("dgtk %s is for Python %d.%d (%s), this is %d.%d (%s)" % (VERSION, *PYTHON, EXECUTABLE, *sys.version_info[:2], sys.executable))

@@ -14,11 +14,13 @@ def require_scene(scene):
 
 
 def with_options(function, lines):
-    """Adds the list of options to a docstring: name, what stands for a value, default and help in each line."""
-    for line in lines.splitlines() if function.__doc__ else ():  # none with python -OO
+    """Adds the list of options to a docstring, from lines of name, what stands for a value, default and help."""
+    if not function.__doc__:  # python -OO
+        return
+    function.__doc__ += "\n    Options:\n"
+    for line in lines.splitlines():
         name, value, default, text = line.split("\t")
         function.__doc__ += f"\n    {name}: {text}" + (f" [{default}]" if value and default else "")
-    return function
 
 
 def _turn(renderer):

@@ -26,12 +26,6 @@ FrameSourceOptions sourceOptions(const WorkPlan& plan)
   return options;
 }
 
-bool usesGL(const FrameSourceOptions& options)
-{
-  const LayerNeeds& needs = options.needs;
-  return (options.drawn && (needs.color || needs.peeled || !needs.mattes.empty())) || (needs.hits && options.raster);
-}
-
 FrameSource::FrameSource(const FrameSourceOptions& options, ThreadPool& pool)
   : Options(options)
   , Pool(pool)

@@ -32,8 +32,6 @@ struct FrameSourceOptions
 
 /// What the built-in renderer has to do for a plan. Throws UsageError for an unknown filter.
 FrameSourceOptions sourceOptions(const WorkPlan& plan);
-/// Whether it starts OpenGL: threads do that in turns, see GLTurn.
-bool usesGL(const FrameSourceOptions& options);
 
 /// Draws the bands of pictures with the engines that the options need. To be used from one thread: that of OpenGL.
 class FrameSource

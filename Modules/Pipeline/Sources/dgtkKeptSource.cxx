@@ -15,6 +15,12 @@ namespace dgtk
 
 namespace
 {
+bool usesGL(const FrameSourceOptions& options)
+{
+  const LayerNeeds& needs = options.needs;
+  return (options.drawn && (needs.color || needs.peeled || !needs.mattes.empty())) || (needs.hits && options.raster);
+}
+
 bool same(const FrameSourceOptions& a, const FrameSourceOptions& b)
 {
   const auto all = [](const FrameSourceOptions& options)

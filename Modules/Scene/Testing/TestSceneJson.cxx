@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSceneFromText.h"
 #include "dgtkSceneSamples.h"
 
 #include <gtest/gtest.h>
@@ -158,4 +159,29 @@ TEST(SceneJson, ClassesKeepTheirNumbersAndTheirFile)
   EXPECT_EQ(moved.classFile, "../classes.json");
   EXPECT_EQ(moved.classIdOf("vehicle"), 7);
   EXPECT_EQ(moved.classes.size(), 2u);
+}
+
+TEST(SceneJson, ATextThatIsInNoFile)
+{
+  const TemporaryFolder folder;
+  const SceneDescription scene = readSceneText(richJson, folder.path());
+  EXPECT_EQ(scene.file, "");
+  EXPECT_EQ(scene.objects.at(0).line, 0);
+  EXPECT_EQ(toJson(scene, folder.path()), toJson(readText(folder, "rich.json", richJson), folder.path()));
+  const auto refusal = [&folder](const std::string& text)
+  {
+    try
+    {
+      readSceneText(text, folder.path());
+    }
+    catch (const InputError& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string("is read");
+  };
+  EXPECT_EQ(refusal("{\"objects\": [\n{\"model\": \"a.ac\", \"position\": [0, \"far\", 0]}]}"),
+    "scene: objects[0].position[1]: expected a number from -1e15 to 1e15, found 'far'");
+  EXPECT_EQ(refusal("{\"cameras\": [{\"near\": 2, \"far\": 1}]}").rfind("scene: cameras[0].far ", 0), 0u);
+  EXPECT_EQ(refusal("{\n\"fps\": }").rfind("scene:2: ", 0), 0u) << "what is no JSON has a line";
 }

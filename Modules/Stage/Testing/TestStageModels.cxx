@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkLikeScene.h"
 #include "dgtkMissingModels.h"
 #include "dgtkModelClock.h"
+#include "dgtkSceneFromText.h"
 #include "dgtkStageSamples.h"
 
 #include <gmock/gmock.h>
@@ -49,6 +51,49 @@ TEST(StageModels, AreLoadedOnceAndShared)
   const auto next = stage->at(1);
   EXPECT_EQ(next->instances[0].geometry, state->instances[0].geometry);
   EXPECT_EQ(stage->at(1), next);
+}
+
+TEST(StageModels, ThoseOfASceneLikeItAreNotReadAgain)
+{
+  const ModelFolder folder;
+  const std::string picture = R"("materials": {"*": {"texture": "models/other.ppm"}})";
+  const std::string square = R"({"model": "models/square.ac")";
+  const auto like = [&folder](const LoadedScene* known, const std::string& text)
+  { return loadLike(readSceneText(text, folder.path()), known ? known->files.get() : nullptr); };
+  const std::string light = R"({"environment": {"image": "models/red.ppm")";
+  const LoadedScene first =
+    like(nullptr, light + R"(}, "objects": [)" + square + ", " + picture + R"(}, {"model": "models/runner.md2"}]})");
+  ASSERT_EQ(first.stage->models().size(), 2u);
+  const std::shared_ptr<const Model> model = first.stage->models()[0];
+  std::filesystem::rename(folder.path("models/other.ppm"), folder.path("other.ppm"));
+  for (const char* const name : { "models/square.ac", "models/runner.md2", "models/red.ppm" })
+  {
+    std::filesystem::remove(folder.path(name));
+  }
+
+  const LoadedScene moved = like(&first, light + R"(, "intensity": 2}, "objects": [)" + square +
+                                           R"(, "position": [1, 0, 0], )" + picture + "}, " + square + "}]}");
+  const auto state = moved.stage->at(0);
+  ASSERT_EQ(state->instances.size(), 2u);
+  EXPECT_EQ(state->instances[0].model, model) << "the same pictures";
+  EXPECT_EQ(state->instances[0].geometry, model->rest);
+  EXPECT_EQ(state->instances[0].world_from_object.translation, Vector(1, 0, 0));
+  EXPECT_EQ(state->environment->image, first.stage->at(0)->environment->image);
+  EXPECT_EQ(state->environment->intensity, 2);
+  EXPECT_EQ(moved.stage->models().size(), 1u);
+
+  const LoadedScene plain = like(&moved, R"({"objects": [)" + square + "}]}"); // without the picture
+  EXPECT_EQ(plain.stage->models()[0]->textures.size(), 1u);
+  EXPECT_EQ(plain.stage->models()[0]->rest, model->rest);
+  std::filesystem::rename(folder.path("other.ppm"), folder.path("models/other.ppm"));
+  const LoadedScene again = like(&plain, R"({"objects": [)" + square + ", " + picture + "}]}");
+  EXPECT_NE(again.stage->models()[0]->textures.at(1).image, nullptr);
+  EXPECT_EQ(again.stage->models()[0]->rest, model->rest);
+
+  EXPECT_THROW(like(&first, R"({"objects": [{"model": "models/other.ac"}]})"), InputError);
+  EXPECT_THROW(like(&plain, R"({"objects": [{"model": "models/runner.md2"}]})"), InputError)
+    << "it was in no scene of late";
+  EXPECT_THROW(like(nullptr, R"({"objects": [)" + square + "}]}"), InputError);
 }
 
 TEST(StageModels, FilesAreListed)
