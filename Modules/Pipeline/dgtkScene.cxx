@@ -94,7 +94,12 @@ bool dgtkScene::Load(const std::string& path)
   return this->Self->stage != nullptr;
 }
 
-bool dgtkScene::LoadText(const std::string& json, const std::string& folder, dgtkScene* like)
+bool dgtkScene::LoadText(const std::string& json, const std::string& folder)
+{
+  return this->LoadTextLike(json, folder, nullptr);
+}
+
+bool dgtkScene::LoadTextLike(const std::string& json, const std::string& folder, dgtkScene* like)
 {
   const std::shared_ptr<const dgtk::ReadFiles> known = like ? like->Self->files : nullptr;
   this->Self->load([&] { return dgtk::loadLike(dgtk::readSceneText(json, folder), known.get()); });

@@ -30,11 +30,14 @@ public:
    * Reads a .scene or .json file and the models that it names. On failure the scene is empty.
    */
   bool Load(const std::string& path);
+  ///@{
   /**
    * The same of a scene's .json text; its relative paths start in `folder`. Models that `like` has loaded are not read
-   * again, whatever became of their files; `like`, which may be null, stays as it is.
+   * again, whatever became of their files; `like` stays as it is.
    */
-  bool LoadText(const std::string& json, const std::string& folder, dgtkScene* like = nullptr);
+  bool LoadText(const std::string& json, const std::string& folder);
+  bool LoadTextLike(const std::string& json, const std::string& folder, dgtkScene* like);
+  ///@}
 
   ///@{
   /**

@@ -219,7 +219,7 @@ pickle.dump(given, open(sys.argv[2] + "/given.pickle", "wb"))
                 ({"size": (-1, 5)}, "image size out of range"),
                 ({"camera": "nobody"}, "no camera 'nobody'")):
             with self.subTest(wrong):
-                with self.assertRaisesRegex(RuntimeError, says) as caught:
+                with self.assertRaisesRegex(ValueError, says) as caught:
                     dgtk.render(scene, **{"layers": "depth", "size": (8, 6), **wrong})
                 self.assertNotIn("--", str(caught.exception))
                 self.assertNotIn("\n", str(caught.exception))
@@ -233,6 +233,8 @@ class Guide(Interpreter):
         said = self.python(f"import os; os.chdir({SOURCE!r})\n" + "\n".join(blocks)).stdout
         self.assertIn("(240, 320) float64 (240, 320, 3) uint8", said)
         self.assertIn("the layer tiles is not given as an array", said)
+        self.assertIn("scene: objects[0].position[1]: expected a number", said)
+        self.assertIn("\n4 of 4\n11 files, request ", said)
 
 
 class Import(Interpreter):

@@ -84,7 +84,7 @@ def scene(description, folder=None, like=None):
         folder = (like.GetFolder() if like else "") or "."
     text = json.dumps(_plain(description, ""), allow_nan=False)
     made = Scene()
-    if not made.LoadText(text, os.path.abspath(_check.path("folder", folder)), like):
+    if not made.LoadTextLike(text, os.path.abspath(_check.path("folder", folder)), like):
         _check.raise_error(made)
     return made
 
