@@ -26,6 +26,8 @@ vtkStandardNewMacro(dgtkDatasetGenerator);
 
 namespace
 {
+constexpr std::chrono::milliseconds patience(20);
+
 /// The scene again, as its file is now.
 void requireSame(const dgtk::SceneDescription& loaded, const std::string& file)
 {
@@ -82,6 +84,7 @@ struct dgtkDatasetGenerator::Internal
   void start();
   void run();
   void generate();
+  void report(const dgtk::GeneratorProgress& one);
   void end();
 };
 
@@ -140,12 +143,7 @@ void dgtkDatasetGenerator::Internal::generate()
   dgtkScene::UseModelCache();
   dgtk::GeneratorCallbacks callbacks;
   callbacks.cancel = &this->cancel;
-  callbacks.progress = [this](const dgtk::GeneratorProgress& report)
-  {
-    const std::lock_guard<std::mutex> lock(this->mutex);
-    this->reports.push_back(report);
-    this->change.notify_all();
-  };
+  callbacks.progress = [this](const dgtk::GeneratorProgress& one) { this->report(one); };
   std::optional<dgtk::GLTurn> turn;
   if (usesGL(this->request))
   {
@@ -162,6 +160,15 @@ void dgtkDatasetGenerator::Internal::generate()
   {
     throw dgtk::UsageError(error.what() + wayOut(error.contents()));
   }
+}
+
+/// Whoever waits for it may cancel the run before the next picture.
+void dgtkDatasetGenerator::Internal::report(const dgtk::GeneratorProgress& one)
+{
+  std::unique_lock<std::mutex> lock(this->mutex);
+  this->reports.push_back(one);
+  this->change.notify_all();
+  this->change.wait_for(lock, patience, [this] { return this->cancel || this->reports.empty(); });
 }
 
 /// Of a run that is over, or soon.
@@ -298,6 +305,7 @@ bool dgtkDatasetGenerator::Wait(int milliseconds)
   }
   self.last = self.reports.front();
   self.reports.pop_front();
+  self.change.notify_all();
   return true;
 }
 

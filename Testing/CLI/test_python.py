@@ -233,7 +233,7 @@ class Guide(Interpreter):
         said = self.python(f"import os; os.chdir({SOURCE!r})\n" + "\n".join(blocks)).stdout
         self.assertIn("(240, 320) float64 (240, 320, 3) uint8", said)
         self.assertIn("the layer tiles is not given as an array", said)
-        self.assertIn("scene: objects[0].position[1]: expected a number", said)
+        self.assertIn("scene: objects[0].position[1] has the wrong type (expected a number", said)
         self.assertIn("\n4 of 4\n11 files, request ", said)
 
 

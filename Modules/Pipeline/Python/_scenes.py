@@ -73,8 +73,8 @@ def scene(description, folder=None, like=None):
         more["objects"][0]["position"] = [0, 2, 0]
         moved = dgtk.scene(more, like=scene)
 
-    Returns a Scene. Raises ValueError, one line that names the value ("scene: objects[2].position[1]: expected a number,
-    found 'far'"), and RuntimeError for what the machine cannot do.
+    Returns a Scene. Raises ValueError, one line that names the value ("scene: objects[2].position[1] has the wrong type
+    (expected a number from -1e15 to 1e15, found 'far')"), and RuntimeError for what the machine cannot do.
     """
     if not isinstance(description, dict):
         _check.fail("description", "a dict", description)
@@ -89,30 +89,39 @@ def scene(description, folder=None, like=None):
     return made
 
 
-def _fail(path, expected, value):
-    _check.fail("scene: " + path if path else "scene", expected, value)
+def _fail(path, expected, value, what="has the wrong type"):
+    """As the reader of scenes says it."""
+    raise ValueError(f"scene: {path + ' ' if path else ''}{what} (expected {expected}, found {_check.found(value)})")
 
 
 def _plain(value, path, depth=0):
     """The value in the types of the json module."""
     if depth > _DEEPEST:
-        _fail("", f"at most {_DEEPEST} lists and dicts in one another", value)
+        _fail("", f"at most {_DEEPEST} lists and dicts in one another", value, "is nested too deeply")
     if isinstance(value, (numpy.ndarray, numpy.generic)):
         value = value.tolist()
     if isinstance(value, dict):
         for key in value:
             if not isinstance(key, str):
-                _fail(path, "keys that are text", key)
+                _fail(path, "text", key, "has a key that is none")
         return {key: _plain(one, f"{path}.{key}" if path else key, depth + 1) for key, one in value.items()}
     if isinstance(value, (list, tuple)):
         return [_plain(one, f"{path}[{i}]", depth + 1) for i, one in enumerate(value)]
     if value is None or isinstance(value, bool):
         return value
     if isinstance(value, str):
-        return _check.text("scene: " + path, value, "text") if value else value
+        return _text(value, path)
     if isinstance(value, (int, float)):
         return _number(value, path)
     return _fail(path, "a number, text, True or False, a list or a dict", value)
+
+
+def _text(value, path):
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        _fail(path, "text of Unicode", value, "has no meaning")
+    return value
 
 
 def _number(value, path):
@@ -121,4 +130,4 @@ def _number(value, path):
             return value
     except OverflowError:
         pass
-    return _fail(path, "a finite number", value)
+    return _fail(path, "a finite number", value, "is out of range")

@@ -181,7 +181,7 @@ TEST(SceneJson, ATextThatIsInNoFile)
     return std::string("is read");
   };
   EXPECT_EQ(refusal("{\"objects\": [\n{\"model\": \"a.ac\", \"position\": [0, \"far\", 0]}]}"),
-    "scene: objects[0].position[1]: expected a number from -1e15 to 1e15, found 'far'");
-  EXPECT_EQ(refusal("{\"cameras\": [{\"near\": 2, \"far\": 1}]}").rfind("scene: cameras[0].far ", 0), 0u);
+    "scene: objects[0].position[1] has the wrong type (expected a number from -1e15 to 1e15, found 'far')");
+  EXPECT_EQ(refusal("{\"cameras\": [{\"near\": 2, \"far\": 1}]}").rfind("scene: cameras[0] has no pose ", 0), 0u);
   EXPECT_EQ(refusal("{\n\"fps\": }").rfind("scene:2: ", 0), 0u) << "what is no JSON has a line";
 }
