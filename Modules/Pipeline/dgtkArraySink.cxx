@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkArraySink.h"
 
+#include "dgtkError.h"
+#include "dgtkSpaceNeeded.h"
+
 #include <algorithm>
+#include <cstdint>
+
+#include <unistd.h>
 
 namespace dgtk
 {
@@ -142,6 +148,29 @@ std::vector<LayerArray> ArraySink::finish()
     }
   }
   return all;
+}
+
+void requireMemory(const WorkPlan& plan, const Stage& stage, const Job& job)
+{
+  constexpr double gigabyte = 1e9;
+  double needed = 0;
+  std::string size;
+  for (const LayerOutput& output : outputsOf(plan, stage, job))
+  {
+    const bool isImage = std::any_of(output.formats.begin(), output.formats.end(),
+      [&output](const std::string& format)
+      { return spaceOf(output.spec, format, 1, 1).likely > 0 || format == "png"; });
+    needed +=
+      isImage ? double(output.width) * output.height * output.spec.channels * double(bytesOf(output.spec.type)) : 0;
+    size = std::to_string(output.width) + " x " + std::to_string(output.height);
+  }
+  const double there = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
+  if (needed > there)
+  {
+    throw MachineError("not enough memory: arrays of " + size + " pixels take " +
+                       std::to_string(std::uint64_t(needed / gigabyte)) + " GB, and there are " +
+                       std::to_string(std::uint64_t(there / gigabyte)));
+  }
 }
 
 } // namespace dgtk

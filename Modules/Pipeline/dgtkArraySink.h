@@ -53,6 +53,9 @@ private:
   std::vector<Values> Outputs;
 };
 
+/// Throws MachineError where a picture's arrays could not fit into the machine's memory.
+void requireMemory(const WorkPlan& plan, const Stage& stage, const Job& job);
+
 } // namespace dgtk
 
 #endif

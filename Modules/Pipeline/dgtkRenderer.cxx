@@ -270,6 +270,7 @@ std::vector<dgtk::LayerArray> dgtkRenderer::Internal::drawPicture(Wanted& wanted
   const dgtk::Stage& stage = *wanted.stage;
   dgtk::ScratchFolder scratch;
   dgtk::WorkPlan plan = wanted.plan();
+  requireMemory(plan, stage, plan.jobs.front());
   for (dgtk::PlannedLayer& planned : plan.layers)
   {
     planned.shared = planned.layer->makeShared({ [&scratch] { return scratch.path(); }, [](const std::string&) {} });

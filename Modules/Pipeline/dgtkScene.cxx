@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <system_error>
 #include <utility>
 
 vtkStandardNewMacro(dgtkScene);
@@ -19,7 +20,9 @@ namespace
 {
 std::string absolutePath(const std::string& path)
 {
-  return std::filesystem::absolute(path.empty() ? "." : path).lexically_normal().string();
+  std::error_code error; // where there is no current folder any more
+  const std::filesystem::path whole = std::filesystem::absolute(path.empty() ? "." : path, error);
+  return error ? path : whole.lexically_normal().string();
 }
 } // namespace
 

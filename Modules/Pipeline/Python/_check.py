@@ -7,6 +7,8 @@ import reprlib
 import numpy
 
 LARGEST_SIDE = 1 << 20  # pixels
+_LONGEST_PATH = 4096  # bytes
+_LONGEST_LIST = 65536
 _INTEGERS = range(-(1 << 31), 1 << 31)
 
 
@@ -44,9 +46,18 @@ def path(name, value):
         given = os.fsencode(value)
     except (TypeError, ValueError):
         given = b""
-    if not given or b"\0" in given or isinstance(value, bytes):
+    if not 0 < len(given) < _LONGEST_PATH or b"\0" in given or isinstance(value, bytes):
         fail(name, "a path", value)
     return given
+
+
+def absolute(name, value):
+    """The bytes of a path, which the current folder is no part of any more."""
+    given = path(name, value)
+    try:
+        return os.path.abspath(given)
+    except OSError as error:
+        raise RuntimeError(f"{name}: the current folder: {error.strerror}") from None
 
 
 def integer(name, value):
@@ -105,8 +116,12 @@ def _word(name, value):
     return fail(name, "a number, a name, a list of them, or True or False", value)
 
 
-def option(name, value):
-    """The text of an option's value."""
-    if _sequence(value):
+def options(given):
+    """Names and texts of options."""
+    return [(text("options", name, "names"), _option(name, value)) for name, value in given.items()]
+
+
+def _option(name, value):
+    if _sequence(value) and len(value) <= _LONGEST_LIST:
         return joined(_word(name, one) for one in value)
     return _word(name, value)

@@ -63,6 +63,7 @@ def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, p
         require_scene(scene)
         generator.SetScene(scene)
     generator.SetFolder(_check.path("folder", folder))
+    written = _check.absolute("folder", folder)
     if layers is not None:
         generator.SetLayers(_check.names("layers", layers))
     if cameras is not None:
@@ -74,10 +75,10 @@ def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, p
     generator.SetSize(*_check.size(size))
     generator.SetResume(_check.switch("resume", resume))
     generator.SetReplace(_check.switch("replace", replace))
-    for name, value in options.items():
-        generator.SetOption(name, _check.option(name, value))
+    for name, value in _check.options(options):
+        generator.SetOption(name, value)
     _run(generator, progress)
-    with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
+    with open(os.path.join(written, b"manifest.json"), encoding="utf-8") as file:
         return json.load(file)
 
 

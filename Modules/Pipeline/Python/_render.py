@@ -62,8 +62,8 @@ def render(scene, layers, camera=None, frame=None, size=None, renderer=None, kee
         renderer.SetFrame(scene.GetFirstFrame() if frame is None else _check.integer("frame", frame))
         renderer.SetSize(*_check.size(size))
         renderer.ClearOptions()
-        for name, value in options.items():
-            renderer.SetOption(name, _check.option(name, value))
+        for name, value in _check.options(options):
+            renderer.SetOption(name, value)
         if not renderer.RenderLayers(names):
             _check.raise_error(renderer)
         outputs = outputs_of(renderer)

@@ -2,7 +2,6 @@
 """Scenes of files and of descriptions."""
 import json
 import math
-import os
 
 import numpy
 
@@ -84,7 +83,7 @@ def scene(description, folder=None, like=None):
         folder = (like.GetFolder() if like else "") or "."
     text = json.dumps(_plain(description, ""), allow_nan=False)
     made = Scene()
-    if not made.LoadTextLike(text, os.path.abspath(_check.path("folder", folder)), like):
+    if not made.LoadTextLike(text, _check.absolute("folder", folder), like):
         _check.raise_error(made)
     return made
 
