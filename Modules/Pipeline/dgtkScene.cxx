@@ -34,11 +34,11 @@ struct dgtkScene::Internal
   std::string file;
   dgtk::Failure failure;
 
-  void hold(dgtk::LoadedScene loaded);
-  void load(const std::function<dgtk::LoadedScene()>& make);
+  void hold(dgtk::StageWithFiles loaded);
+  void load(const std::function<dgtk::StageWithFiles()>& make);
 };
 
-void dgtkScene::Internal::hold(dgtk::LoadedScene loaded)
+void dgtkScene::Internal::hold(dgtk::StageWithFiles loaded)
 {
   this->stage = std::move(loaded.stage);
   this->files = std::move(loaded.files);
@@ -47,13 +47,13 @@ void dgtkScene::Internal::hold(dgtk::LoadedScene loaded)
   this->file = ofFile ? absolutePath(this->stage->description().file) : "";
 }
 
-void dgtkScene::Internal::load(const std::function<dgtk::LoadedScene()>& make)
+void dgtkScene::Internal::load(const std::function<dgtk::StageWithFiles()>& make)
 {
   this->hold({});
   this->failure.clear();
   try
   {
-    dgtk::LoadedScene loaded;
+    dgtk::StageWithFiles loaded;
     {
       const dgtk::InterpreterPause pause;
       UseModelCache();

@@ -8,7 +8,7 @@
 namespace dgtk
 {
 
-LoadedScene loadLike(SceneDescription scene, const ReadFiles* known, const Stage::WarningSink& warning)
+StageWithFiles loadLike(SceneDescription scene, const ReadFiles* known, const Stage::WarningSink& warning)
 {
   nameAll(scene);
   validate(scene);

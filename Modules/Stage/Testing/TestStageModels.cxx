@@ -58,10 +58,10 @@ TEST(StageModels, ThoseOfASceneLikeItAreNotReadAgain)
   const ModelFolder folder;
   const std::string picture = R"("materials": {"*": {"texture": "models/other.ppm"}})";
   const std::string square = R"({"model": "models/square.ac")";
-  const auto like = [&folder](const LoadedScene* known, const std::string& text)
+  const auto like = [&folder](const StageWithFiles* known, const std::string& text)
   { return loadLike(readSceneText(text, folder.path()), known ? known->files.get() : nullptr); };
   const std::string light = R"({"environment": {"image": "models/red.ppm")";
-  const LoadedScene first =
+  const StageWithFiles first =
     like(nullptr, light + R"(}, "objects": [)" + square + ", " + picture + R"(}, {"model": "models/runner.md2"}]})");
   ASSERT_EQ(first.stage->models().size(), 2u);
   const std::shared_ptr<const Model> model = first.stage->models()[0];
@@ -71,8 +71,8 @@ TEST(StageModels, ThoseOfASceneLikeItAreNotReadAgain)
     std::filesystem::remove(folder.path(name));
   }
 
-  const LoadedScene moved = like(&first, light + R"(, "intensity": 2}, "objects": [)" + square +
-                                           R"(, "position": [1, 0, 0], )" + picture + "}, " + square + "}]}");
+  const StageWithFiles moved = like(&first, light + R"(, "intensity": 2}, "objects": [)" + square +
+                                              R"(, "position": [1, 0, 0], )" + picture + "}, " + square + "}]}");
   const auto state = moved.stage->at(0);
   ASSERT_EQ(state->instances.size(), 2u);
   EXPECT_EQ(state->instances[0].model, model) << "the same pictures";
@@ -82,11 +82,11 @@ TEST(StageModels, ThoseOfASceneLikeItAreNotReadAgain)
   EXPECT_EQ(state->environment->intensity, 2);
   EXPECT_EQ(moved.stage->models().size(), 1u);
 
-  const LoadedScene plain = like(&moved, R"({"objects": [)" + square + "}]}"); // without the picture
+  const StageWithFiles plain = like(&moved, R"({"objects": [)" + square + "}]}"); // without the picture
   EXPECT_EQ(plain.stage->models()[0]->textures.size(), 1u);
   EXPECT_EQ(plain.stage->models()[0]->rest, model->rest);
   std::filesystem::rename(folder.path("other.ppm"), folder.path("models/other.ppm"));
-  const LoadedScene again = like(&plain, R"({"objects": [)" + square + ", " + picture + "}]}");
+  const StageWithFiles again = like(&plain, R"({"objects": [)" + square + ", " + picture + "}]}");
   EXPECT_NE(again.stage->models()[0]->textures.at(1).image, nullptr);
   EXPECT_EQ(again.stage->models()[0]->rest, model->rest);
 
