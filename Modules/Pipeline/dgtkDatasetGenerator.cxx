@@ -118,7 +118,15 @@ void dgtkDatasetGenerator::Internal::start()
   this->reports.clear();
   this->failure.clear();
   this->process = ::getpid();
-  this->thread = std::thread([this] { this->run(); });
+  try
+  {
+    this->thread = std::thread([this] { this->run(); });
+  }
+  catch (...) // too many threads
+  {
+    this->failure.take();
+    this->over = true;
+  }
 }
 
 void dgtkDatasetGenerator::Internal::run()

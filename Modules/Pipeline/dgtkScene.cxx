@@ -13,6 +13,7 @@
 #include <functional>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 vtkStandardNewMacro(dgtkScene);
 
@@ -30,6 +31,7 @@ struct dgtkScene::Internal
 {
   std::shared_ptr<const dgtk::Stage> stage;
   std::shared_ptr<const dgtk::ReadFiles> files;
+  std::vector<std::string> objects; ///< names by id - 1
   std::string folder;
   std::string file;
   dgtk::Failure failure;
@@ -42,6 +44,7 @@ void dgtkScene::Internal::hold(dgtk::StageWithFiles loaded)
 {
   this->stage = std::move(loaded.stage);
   this->files = std::move(loaded.files);
+  this->objects = this->stage ? this->stage->objectNames() : std::vector<std::string>();
   this->folder = this->stage ? absolutePath(this->stage->description().folder) : "";
   const bool ofFile = this->stage && !this->stage->description().file.empty();
   this->file = ofFile ? absolutePath(this->stage->description().file) : "";
@@ -121,7 +124,15 @@ std::shared_ptr<const dgtk::Stage> dgtkScene::GetStage() const { return this->Se
 
 std::string dgtkScene::GetDescription() const
 {
-  return this->Self->stage ? toJson(this->Self->stage->description(), this->Self->stage->description().folder) : "";
+  try
+  {
+    return this->Self->stage ? toJson(this->Self->stage->description(), this->Self->stage->description().folder) : "";
+  }
+  catch (...) // a stage that comes from elsewhere
+  {
+    this->Self->failure.take();
+    return "";
+  }
 }
 
 std::string dgtkScene::GetFolder() const { return this->Self->folder; }
@@ -142,14 +153,11 @@ std::string dgtkScene::GetCameraName(int index) const
   return index >= 0 && index < this->GetNumberOfCameras() ? this->Self->stage->description().cameras[index].name : "";
 }
 
-int dgtkScene::GetNumberOfObjects() const
-{
-  return this->Self->stage ? static_cast<int>(this->Self->stage->objectNames().size()) : 0;
-}
+int dgtkScene::GetNumberOfObjects() const { return static_cast<int>(this->Self->objects.size()); }
 
 std::string dgtkScene::GetObjectName(int index) const
 {
-  return index >= 0 && index < this->GetNumberOfObjects() ? this->Self->stage->objectNames()[index] : "";
+  return index >= 0 && index < this->GetNumberOfObjects() ? this->Self->objects[index] : "";
 }
 
 int dgtkScene::GetFirstFrame() const { return this->Self->stage ? this->Self->stage->description().firstFrame() : 0; }
