@@ -5,6 +5,7 @@ import inspect
 import json
 import math
 import os
+import pickle
 import shutil
 import subprocess
 
@@ -109,6 +110,11 @@ class Scenes(Case):
         with self.assertRaisesRegex(ValueError, "model files are missing"):
             dgtk.scene(first.description(), folder=first.folder)
 
+    def test_a_scene_can_be_pickled(self):
+        again = pickle.loads(pickle.dumps(dgtk.load(DEMO)))
+        self.assertEqual(type(again), dgtk.Scene)
+        self.assertEqual((again.description(), again.folder), (dgtk.load(DEMO).description(), dgtk.load(DEMO).folder))
+
     def test_an_empty_scene_and_an_empty_dict(self):
         self.assertEqual(dgtk.Scene().description(), {})
         with self.assertRaisesRegex(ValueError, "no scene is set"):
@@ -201,7 +207,11 @@ class Datasets(Case):
 
     INTERRUPTED = """
 import os, signal, sys, threading, time, dgtk
-threading.Timer(1.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+def interrupt():
+    while not os.path.isdir(sys.argv[2] + "/left"):  # it draws
+        time.sleep(0.005)
+    os.kill(os.getpid(), signal.SIGINT)
+threading.Thread(target=interrupt, daemon=True).start()
 began = time.monotonic()
 try:
     dgtk.generate(sys.argv[1], sys.argv[2], layers=["depth", "normal", "ldi"], size=(2000, 1500), samples=4)

@@ -14,7 +14,8 @@ _DEEPEST = 32
 class Scene(dgtkScene):
     """A loaded scene, from `load()` or `scene()`. It does not change: another description makes another scene.
 
-    It is a VTK object and has the methods of `dgtkScene`, too.
+    It is a VTK object and has the methods of `dgtkScene`, too. Pickled, it is its description and its folder: who
+    unpickles it loads the models.
     """
 
     @property
@@ -44,6 +45,9 @@ class Scene(dgtkScene):
         caller's; changing it does not change the scene.
         """
         return json.loads(self.GetDescription() or "{}")
+
+    def __reduce__(self):
+        return scene, (self.description(), self.folder)
 
 
 def load(path):
