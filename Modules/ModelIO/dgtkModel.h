@@ -33,6 +33,14 @@ struct RadianceImage
   std::vector<float> rgb; ///< finite, >= 0
 };
 
+/// What a picture gives between its texels, and where it is minified.
+enum class TextureFilter
+{
+  Smooth, ///< the mean of what a pixel covers: pyramid of pictures, anisotropic
+  Linear, ///< interpolated between four texels, whatever a pixel covers
+  Nearest ///< the texel
+};
+
 /// A texture as the model names it. `image` is null when it was not found or cannot be decoded; a warning of the
 /// model says what was tried. Texture coordinates: (0, 0) is the lower left corner of the picture, (1, 1) the upper
 /// right; outside [0, 1] the picture repeats.
@@ -41,6 +49,8 @@ struct Texture
   std::string name; ///< as written in the model
   std::string path; ///< file that was found, or empty
   std::shared_ptr<const Image> image;
+  TextureFilter filter = TextureFilter::Smooth;
+  bool repeats = true; ///< outside [0, 1]; otherwise its border goes on
 };
 
 /// Colours are display-referred (sRGB) in [0, 1], multiplied with the texture's.
@@ -130,8 +140,15 @@ struct Model
   std::vector<Part> parts;
   std::vector<std::array<std::uint32_t, 3>> triangles; ///< indices of split vertices, counter-clockwise from outside
 
-  std::shared_ptr<const Geometry> rest;    ///< geometry of the first frame; never null
-  std::vector<Eigen::Vector2d> uvs;        ///< one per split vertex, or empty when no part has a texture coordinate
+  std::shared_ptr<const Geometry> rest; ///< geometry of the first frame; never null
+  std::vector<Eigen::Vector2d> uvs;     ///< one per split vertex, or empty when no part has a texture coordinate
+  /// Colours of the split vertices, R, G, B, A, 8 bits, sRGB, interpolated: times the ambient and diffuse colour, A
+  /// times the opacity. Empty: none.
+  std::vector<std::array<std::uint8_t, 4>> colors;
+  /// Instead of `colors`, places in this picture, (0, 0) its lower left corner: the nearest texel at the interpolated
+  /// place is the colour.
+  std::shared_ptr<const Image> colorMap;
+  std::vector<Eigen::Vector2d> colorMapAt;
   std::vector<std::uint32_t> sourceVertex; ///< split vertex -> vertex of the file
   std::size_t sourceVertices = 0;          ///< vertices of the file: what `dgtk info` counts
   /// Split vertex -> smoothing group; on deformation a group's normal is the normalised sum of its triangles'
