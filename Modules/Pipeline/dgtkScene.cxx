@@ -7,6 +7,8 @@
 
 #include "vtkObjectFactory.h"
 
+#include <utility>
+
 vtkStandardNewMacro(dgtkScene);
 
 dgtkScene::dgtkScene() = default;
@@ -38,6 +40,12 @@ bool dgtkScene::Load(const std::string& path)
     this->ErrorMessage = error.what();
   }
   return this->Stage != nullptr;
+}
+
+void dgtkScene::SetStage(std::shared_ptr<const dgtk::Stage> stage)
+{
+  this->Stage = std::move(stage);
+  this->Modified();
 }
 
 std::string dgtkScene::GetErrorMessage() const { return this->ErrorMessage; }

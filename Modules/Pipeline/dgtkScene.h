@@ -67,6 +67,13 @@ protected:
   dgtkScene();
   ~dgtkScene() override;
 
+#ifndef __VTK_WRAP__
+  /**
+   * For scenes that come from elsewhere than a file; null empties the scene.
+   */
+  void SetStage(std::shared_ptr<const dgtk::Stage> stage);
+#endif
+
 private:
   dgtkScene(const dgtkScene&) = delete;
   void operator=(const dgtkScene&) = delete;
