@@ -11,6 +11,17 @@ vtk_module_wrap_python(
   INSTALL_HEADERS OFF
   BUILD_STATIC OFF)
 set(CMAKE_INSTALL_RPATH "${dgtk_install_rpath}")
-set(dgtk_python_init "${CMAKE_BINARY_DIR}/${dgtk_python_destination}/dgtk/__init__.py")
-configure_file("${CMAKE_CURRENT_LIST_DIR}/dgtk__init__.py.in" "${dgtk_python_init}" @ONLY)
-install(FILES "${dgtk_python_init}" DESTINATION "${dgtk_python_destination}/dgtk")
+# The package's own files; those in .in learn what was built.
+set(dgtk_python_sources "${PROJECT_SOURCE_DIR}/Modules/Pipeline/Python")
+set(dgtk_python_package "${CMAKE_BINARY_DIR}/${dgtk_python_destination}/dgtk")
+file(GLOB dgtk_python_files CONFIGURE_DEPENDS RELATIVE "${dgtk_python_sources}"
+  "${dgtk_python_sources}/*.py" "${dgtk_python_sources}/*.py.in" "${dgtk_python_sources}/*.pyi" "${dgtk_python_sources}/py.typed")
+foreach(dgtk_python_file IN LISTS dgtk_python_files)
+  string(REGEX REPLACE "\\.in$" "" dgtk_python_built "${dgtk_python_file}")
+  if(dgtk_python_built STREQUAL dgtk_python_file)
+    configure_file("${dgtk_python_sources}/${dgtk_python_file}" "${dgtk_python_package}/${dgtk_python_built}" COPYONLY)
+  else()
+    configure_file("${dgtk_python_sources}/${dgtk_python_file}" "${dgtk_python_package}/${dgtk_python_built}" @ONLY)
+  endif()
+  install(FILES "${dgtk_python_package}/${dgtk_python_built}" DESTINATION "${dgtk_python_destination}/dgtk")
+endforeach()

@@ -10,20 +10,21 @@ dgtkScene and dgtkRenderer are VTK classes and can be used as such.
 import json
 import sys
 
-__version__ = "@PROJECT_VERSION@"
+from ._build import EXECUTABLE, PYTHON, VERSION
+
+__version__ = VERSION
 __all__ = ["dgtkRenderer", "dgtkScene", "load", "render"]
 
-if sys.version_info[:2] != (@Python3_VERSION_MAJOR@, @Python3_VERSION_MINOR@):
-    raise ImportError("dgtk @PROJECT_VERSION@ is for Python @Python3_VERSION_MAJOR@.@Python3_VERSION_MINOR@ (@Python3_EXECUTABLE@), "
-                      "this is %d.%d (%s)" % (*sys.version_info[:2], sys.executable))
+if sys.version_info[:2] != PYTHON:
+    raise ImportError("dgtk %s is for Python %d.%d (%s), this is %d.%d (%s)" % (VERSION, *PYTHON, EXECUTABLE, *sys.version_info[:2], sys.executable))
 try:
     import numpy
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     from .dgtkPipeline import dgtkRenderer, dgtkScene
 except ImportError as error:
-    raise ImportError("dgtk @PROJECT_VERSION@ needs NumPy and VTK as @Python3_EXECUTABLE@ has them (Debian: python3-numpy, python3-vtk9), "
-                      "this is %s: %s" % (sys.executable, error)) from None
+    raise ImportError("dgtk %s needs NumPy and VTK as %s has them (Debian: python3-numpy, python3-vtk9), this is %s: %s"
+                      % (VERSION, EXECUTABLE, sys.executable, error)) from None
 
 
 def load(path):
