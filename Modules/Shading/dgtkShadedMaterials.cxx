@@ -3,10 +3,20 @@
 
 #include "dgtkSurfaceMaterial.h"
 
+#include <algorithm>
 #include <iterator>
 
 namespace dgtk
 {
+
+namespace
+{
+bool hasTranslucentColors(const Model& model)
+{
+  return (model.colorMap && model.colorMap->hasAlpha) ||
+         std::any_of(model.colors.begin(), model.colors.end(), [](const auto& color) { return color[3] < 255; });
+}
+} // namespace
 
 ShadedMaterialLibrary& ShadedMaterialLibrary::shared()
 {
@@ -32,6 +42,8 @@ std::shared_ptr<const ShadedMaterials> ShadedMaterialLibrary::of(const Instance&
     set->ofPart.push_back(this->make(*instance.model, material, *set));
     set->translucent = set->translucent || material.opacity < 1;
   }
+  set->translucentColors = hasTranslucentColors(*instance.model);
+  set->translucent = set->translucent || set->translucentColors;
   this->Sets[key] = set;
   return set;
 }
@@ -55,12 +67,14 @@ std::shared_ptr<const TexturePyramid> ShadedMaterialLibrary::textureOf(const Mod
   {
     return nullptr;
   }
-  const std::shared_ptr<const Image>& image = model.textures[std::size_t(index)].image;
-  KnownTexture& known = this->Textures[{ image.get(), cutOut }];
+  const Texture& texture = model.textures[std::size_t(index)];
+  const std::shared_ptr<const Image>& image = texture.image;
+  const PictureUse use{ cutOut, texture.filter, texture.repeats };
+  KnownTexture& known = this->Textures[{ image.get(), use }];
   std::shared_ptr<const TexturePyramid> pyramid = known.pyramid.lock();
   if (!pyramid || known.image.lock() != image)
   {
-    pyramid = std::make_shared<const TexturePyramid>(*image, cutOut);
+    pyramid = std::make_shared<const TexturePyramid>(*image, use);
     known = { image, pyramid };
   }
   return pyramid;

@@ -3,7 +3,7 @@ set(dgtk_python_destination "lib/python3/dist-packages")
 set(dgtk_install_rpath "${CMAKE_INSTALL_RPATH}")
 set(CMAKE_INSTALL_RPATH "$ORIGIN/../../../../${CMAKE_INSTALL_LIBDIR}")
 vtk_module_wrap_python(
-  MODULES DGTk::Pipeline
+  MODULES DGTk::Pipeline DGTk::FromVTK
   TARGET DGTk::PythonWrapped
   PYTHON_PACKAGE "dgtk"
   MODULE_DESTINATION "${dgtk_python_destination}"

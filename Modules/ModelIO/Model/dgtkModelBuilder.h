@@ -4,6 +4,7 @@
 
 #include "dgtkModelContents.h"
 #include "dgtkModelReader.h"
+#include "dgtkTriangulate.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -146,12 +147,6 @@ private:
   bool GaveUpShape = false;
   std::map<std::pair<int, int>, int> Textured; ///< (material, texture) -> material
 };
-
-/// Splits a polygon in space into count - 2 triangles of indices into `points`, keeping its direction. Concave polygons
-/// are ear-clipped; what has no ear (self-crossing, degenerate) is cut as it comes. `work` is increased by the steps
-/// spent; above `workLimit` polygons are cut into fans and false is returned.
-bool triangulate(const std::vector<Eigen::Vector3d>& points, std::vector<std::array<std::uint32_t, 3>>& triangles,
-  std::uint64_t& work, std::uint64_t workLimit);
 
 /// A normal, not of unit length, where points go by `linear`: by its cofactors, which are the inverse transpose times
 /// the determinant, also where a scale is 0.

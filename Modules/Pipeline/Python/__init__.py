@@ -153,3 +153,8 @@ def render(scene, layers, camera=None, frame=None, size=None, renderer=None, kee
 for _line in dgtkRenderer.GetOptions().splitlines() if render.__doc__ else ():  # none with python -OO
     _name, _value, _default, _help = _line.split("\t")
     render.__doc__ += f"\n    {_name}: {_help}" + (f" [{_default}]" if _value and _default else "")
+
+
+from ._vtk import Snapshot, Truth, correspond, snapshot, truth, visible_cells  # noqa: E402: they render
+
+__all__ += ["Snapshot", "Truth", "correspond", "snapshot", "truth", "visible_cells"]
