@@ -23,6 +23,13 @@ inline std::array<std::uint8_t, 4> colorMapTexel(const Image& map, const Eigen::
   return { texel[0], texel[1], texel[2], texel[3] };
 }
 
+/// Whether some colour of the vertices lets see what is behind.
+inline bool hasTranslucentColors(const Model& model)
+{
+  return (model.colorMap && model.colorMap->hasAlpha) ||
+         std::any_of(model.colors.begin(), model.colors.end(), [](const auto& color) { return color[3] < 255; });
+}
+
 } // namespace dgtk
 
 #endif

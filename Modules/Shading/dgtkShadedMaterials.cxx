@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkShadedMaterials.h"
 
+#include "dgtkColorMap.h"
 #include "dgtkSurfaceMaterial.h"
 
-#include <algorithm>
 #include <iterator>
 
 namespace dgtk
 {
-
-namespace
-{
-bool hasTranslucentColors(const Model& model)
-{
-  return (model.colorMap && model.colorMap->hasAlpha) ||
-         std::any_of(model.colors.begin(), model.colors.end(), [](const auto& color) { return color[3] < 255; });
-}
-} // namespace
 
 ShadedMaterialLibrary& ShadedMaterialLibrary::shared()
 {

@@ -168,13 +168,14 @@ class Judge:
         self.position = numpy.full((count, 3), numpy.nan)
         self.plane = numpy.full((count, 3), numpy.nan)
         self.near_edge = numpy.zeros(count, bool)
+        self.polygons, self.polygon = {}, numpy.full(count, -1)
         centre = numpy.stack(numpy.meshgrid(numpy.arange(self.width) + 0.5, numpy.arange(self.height) + 0.5), -1).reshape(-1, 2)
         for number, (actor, world) in enumerate(visible_actors(renderer), 1):
             corners, cells = surface(actor)
             planes = actor.GetMapper().GetClippingPlanes()
             cull = actor.GetProperty().GetFrontfaceCulling() - actor.GetProperty().GetBackfaceCulling()
-            for polygon, cell in zip(corners, cells):
-                p = polygon @ world[:3, :3].T + world[:3, 3]
+            self.polygons[number] = [polygon @ world[:3, :3].T + world[:3, 3] for polygon in corners]
+            for index, (p, cell) in enumerate(zip(self.polygons[number], cells)):
                 normal = newell(p - p[0])
                 area = normal @ normal
                 if area == 0:
@@ -198,6 +199,7 @@ class Judge:
                 hit = within & shown & (t < best)
                 best[hit] = t[hit]
                 self.objects[hit], self.cells[hit] = number, cell
+                self.polygon[hit] = index
                 self.position[hit], self.plane[hit] = at[hit], normal / numpy.sqrt(area)
         self.direction = direction
 
@@ -212,3 +214,42 @@ class Judge:
             away = centre - p - part[:, None] * along
             close |= (away ** 2).sum(-1) < EDGE ** 2
         return close
+
+    def follow(self, other):
+        """Where what the pixels see is in another view of the same cells, and its class; every cell is a triangle."""
+        places = numpy.full((len(self.objects), 2), numpy.nan)
+        classes = numpy.zeros(len(self.objects), numpy.uint8)
+        for i in numpy.flatnonzero(self.objects):
+            number, index = self.objects[i], self.polygon[i]
+            a, b, c = self.polygons[number][index]
+            v, w = numpy.linalg.lstsq(numpy.stack([b - a, c - a], -1), self.position[i] - a, rcond=None)[0]
+            a, b, c = other.polygons[number][index]
+            point = a + v * (b - a) + w * (c - a)
+            if other.clip[3] @ numpy.append(point, 1) <= 0:
+                classes[i] = 5
+                continue
+            places[i] = other.project(point)
+            inside = (places[i] >= 0).all() and (places[i] <= [other.width, other.height]).all()
+            classes[i] = other.hides(number, index, point) if inside else 4
+        return places, classes
+
+    def hides(self, number, index, point):
+        """1 where nothing is before a point of a triangle, 2 for another object, 3 for its own."""
+        eye = numpy.linalg.inv(self.view)[:3, 3]
+        first, found = 1 - 1e-9, 1
+        for other, polygons in self.polygons.items():
+            p = numpy.array(polygons)
+            e1, e2, d = p[:, 1] - p[:, 0], p[:, 2] - p[:, 0], point - eye
+            n = numpy.cross(e1, e2)
+            with numpy.errstate(divide="ignore", invalid="ignore"):
+                t = ((p[:, 0] - eye) * n).sum(-1) / (n @ d)
+                at = eye + t[:, None] * d - p[:, 0]
+                area = (n * n).sum(-1)
+                v = (numpy.cross(at, e2) * n).sum(-1) / area
+                w = (numpy.cross(e1, at) * n).sum(-1) / area
+                hit = (v >= 0) & (w >= 0) & (v + w <= 1) & (t > 1e-9) & (t < 1 - 1e-9)
+            if other == number:
+                hit[index] = False
+            if hit.any() and t[hit].min() < first:
+                first, found = t[hit].min(), 2 if other != number else 3
+        return found

@@ -300,14 +300,12 @@ def cut_open():
 
 @scene
 def parallel():
-    """A parallel view with a window centre and an aspect of its own."""
+    """A parallel view with a window centre."""
     made = robot_arm()
     camera = made.GetActiveCamera()
     camera.ParallelProjectionOn()
     camera.SetParallelScale(1.7)
     camera.SetWindowCenter(0.15, -0.1)
-    camera.SetUseExplicitAspectRatio(True)
-    camera.SetExplicitAspectRatio(1.1)
     return made
 
 
@@ -329,7 +327,7 @@ def off_centre():
 
 @scene
 def star():
-    """A polygon that is not convex, one with a hole by a bridge, and its colours."""
+    """A polygon that is not convex, one with a hole by a bridge; an aspect of the camera's own."""
     points = vtk.vtkPoints()
     data = vtk.vtkPolyData()
     cells = vtk.vtkCellArray()
@@ -343,4 +341,7 @@ def star():
              (0.7, -0.5, 0), (0.7, 0.5, 0), (1.7, 0.5, 0), (1.7, -0.5, 0), (0.7, -0.5, 0)])
     data.SetPoints(points)
     data.SetPolys(cells)
-    return renderer(actor(data, color=(0.9, 0.6, 0.1)), eye=(0.5, 0.4, 5))
+    made = renderer(actor(data, color=(0.9, 0.6, 0.1)), eye=(0.5, 0.4, 5))
+    made.GetActiveCamera().SetUseExplicitAspectRatio(True)
+    made.GetActiveCamera().SetExplicitAspectRatio(1.1)
+    return made

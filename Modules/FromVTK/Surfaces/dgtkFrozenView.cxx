@@ -89,14 +89,14 @@ class Freezer
 public:
   Freezer(vtkRenderer& renderer, int width, int height)
     : Renderer(renderer)
-    , Size(width > 0 ? std::make_pair(width, height) : viewSize(renderer))
+    , Size(width > 0 ? std::make_pair(width, height) : rendererSize(renderer))
     , Lit(isLit(renderer))
   {
   }
 
   FrozenView run(bool skip)
   {
-    for (const ViewActor& actor : viewActors(this->Renderer, this->Out))
+    for (const ViewActor& actor : rendererActors(this->Renderer, this->Out))
     {
       this->addActor(actor);
     }
@@ -105,7 +105,7 @@ public:
     {
       this->Out.refuse();
     }
-    ViewCamera camera = viewCamera(this->Renderer, this->Size.first, this->Size.second);
+    RendererCamera camera = rendererCamera(this->Renderer, this->Size.first, this->Size.second);
     this->fitCamera(camera);
     for (std::size_t i = 0; i < this->View.actors.size(); ++i)
     {
@@ -113,7 +113,7 @@ public:
       this->describe(this->View.actors[i], i);
     }
     this->Scene.cameras.push_back(camera.description);
-    this->Scene.lights = viewLights(this->Renderer, *camera.camera);
+    this->Scene.lights = rendererLights(this->Renderer, *camera.camera);
     this->softenForPhysical();
     const double* const background = this->Renderer.GetBackground();
     this->Scene.background = Eigen::Vector3d(background[0], background[1], background[2]);
@@ -176,7 +176,7 @@ private:
     }
   }
 
-  void fitCamera(ViewCamera& camera) const
+  void fitCamera(RendererCamera& camera) const
   {
     double nearest = std::numeric_limits<double>::infinity();
     double farthest = 0;

@@ -4,8 +4,8 @@
 
 // Private to FromVTK.
 
-#include "dgtkUnsupported.h"
 #include "dgtkRendererProps.h"
+#include "dgtkUnsupported.h"
 
 #include <Eigen/Core>
 #include <vtkDataArray.h>

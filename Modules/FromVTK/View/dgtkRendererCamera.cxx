@@ -161,7 +161,7 @@ bool wasDrawn(vtkRenderer& renderer)
 }
 } // namespace
 
-std::pair<int, int> viewSize(vtkRenderer& renderer)
+std::pair<int, int> rendererSize(vtkRenderer& renderer)
 {
   vtkRenderWindow* const window = renderer.GetRenderWindow();
   const int* const asked = window != nullptr ? window->GetSize() : nullptr;
@@ -174,9 +174,9 @@ std::pair<int, int> viewSize(vtkRenderer& renderer)
   return { side(0), side(1) };
 }
 
-ViewCamera viewCamera(vtkRenderer& renderer, int width, int height)
+RendererCamera rendererCamera(vtkRenderer& renderer, int width, int height)
 {
-  ViewCamera view;
+  RendererCamera view;
   const bool made = renderer.IsActiveCameraCreated() != 0;
   view.camera = made ? vtkSmartPointer<vtkCamera>(renderer.GetActiveCamera()) : overview(renderer);
   view.drawn = made && wasDrawn(renderer);
@@ -200,7 +200,7 @@ ViewCamera viewCamera(vtkRenderer& renderer, int width, int height)
   return view;
 }
 
-void setRange(ViewCamera& view, double nearest, double farthest)
+void setRange(RendererCamera& view, double nearest, double farthest)
 {
   CameraDescription& camera = view.description;
   if (view.drawn)

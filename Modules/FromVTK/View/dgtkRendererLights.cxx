@@ -72,7 +72,7 @@ bool isLit(vtkRenderer& renderer)
   return makesOne || !lightsOf(renderer).empty();
 }
 
-std::vector<LightDescription> viewLights(vtkRenderer& renderer, vtkCamera& camera)
+std::vector<LightDescription> rendererLights(vtkRenderer& renderer, vtkCamera& camera)
 {
   std::vector<LightDescription> lights;
   for (vtkLight* const light : lightsOf(renderer))

@@ -19,7 +19,7 @@ bool isLit(vtkRenderer& renderer);
 
 /// The lights that are on, in the world: head lights and camera lights where the camera carries them. None stands for
 /// the head light that a renderer makes itself.
-std::vector<LightDescription> viewLights(vtkRenderer& renderer, vtkCamera& camera);
+std::vector<LightDescription> rendererLights(vtkRenderer& renderer, vtkCamera& camera);
 
 } // namespace dgtk
 

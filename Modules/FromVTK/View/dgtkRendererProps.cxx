@@ -117,7 +117,7 @@ std::string classOf(vtkObject& object)
   return name.compare(0, opengl.size(), opengl) == 0 ? "vtk" + name.substr(opengl.size()) : name;
 }
 
-std::vector<ViewActor> viewActors(vtkRenderer& renderer, Unsupported& unsupported)
+std::vector<ViewActor> rendererActors(vtkRenderer& renderer, Unsupported& unsupported)
 {
   std::vector<ViewActor> actors;
   Leaves leaves(actors, unsupported);

@@ -29,7 +29,7 @@ struct ViewActor
 
 /// The visible actors with a mapper in the order in which the renderer has its props, assemblies flattened. What else
 /// is visible is unsupported.
-std::vector<ViewActor> viewActors(vtkRenderer& renderer, Unsupported& unsupported);
+std::vector<ViewActor> rendererActors(vtkRenderer& renderer, Unsupported& unsupported);
 
 /// How messages call something of VTK: its class without the prefix of its OpenGL implementation.
 std::string classOf(vtkObject& object);
