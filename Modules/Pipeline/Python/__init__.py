@@ -155,6 +155,8 @@ for _line in dgtkRenderer.GetOptions().splitlines() if render.__doc__ else ():  
     render.__doc__ += f"\n    {_name}: {_help}" + (f" [{_default}]" if _value and _default else "")
 
 
-from ._vtk import Snapshot, Truth, correspond, snapshot, truth, visible_cells  # noqa: E402: they render
+from ._vtk import (Snapshot, Truth, correspond, dgtkDepthFromZBuffer, dgtkGroundTruthSource, dgtkPointCloudSource,  # noqa: E402: they render
+                   dgtkSnapshot, snapshot, truth, visible_cells)
 
-__all__ += ["Snapshot", "Truth", "correspond", "snapshot", "truth", "visible_cells"]
+__all__ += ["Snapshot", "Truth", "correspond", "dgtkDepthFromZBuffer", "dgtkGroundTruthSource", "dgtkPointCloudSource", "dgtkSnapshot",
+            "snapshot", "truth", "visible_cells"]

@@ -6,7 +6,7 @@ import numpy
 import vtkmodules.vtkRenderingCore as vtkcore
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from .dgtkFromVTK import dgtkSnapshot
+from .dgtkFromVTK import dgtkDepthFromZBuffer, dgtkGroundTruthSource, dgtkPointCloudSource, dgtkSnapshot
 
 _HOLDERS = ("renderer", "ren_win", "render_window", "window")  # PyVista, vedo, Mayavi's scenes and figures
 _CONTAINERS = ("scene", "plotter", "_vtk_obj")
