@@ -3,7 +3,6 @@
 
 #include "dgtkCorrespondence.h"
 #include "dgtkError.h"
-#include "dgtkRaySource.h"
 #include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
 #include "dgtkTracedView.h"
@@ -53,11 +52,9 @@ public:
     , FromView(from.stage->view(0, 0))
     , ToView(to.stage->view(0, 0))
     , Hits(traceView(*from.stage, FromView))
-    , Query(makeOcclusionQuery())
   {
     this->match();
-    this->Query->setScene(this->ToState);
-    this->Other = { this->ToState.get(), this->ToView, this->Query.get() };
+    this->Other = { this->ToState.get(), this->ToView, to.trees.get() };
   }
 
   void row(int y, double* pixels, std::uint8_t* classes) const
@@ -152,7 +149,6 @@ private:
   View ToView;
   std::vector<Hit> Hits;
   std::vector<std::uint32_t> ObjectOf; ///< in the other view, by actor; 0: it is not there
-  std::unique_ptr<OcclusionQuery> Query;
   OtherView Other;
 };
 } // namespace

@@ -5,6 +5,7 @@
 #include "dgtkRendererCamera.h"
 #include "dgtkRendererLights.h"
 #include "dgtkRendererProps.h"
+#include "dgtkSharedModels.h"
 #include "dgtkSurfaceModel.h"
 
 #include <Eigen/Geometry>
@@ -118,6 +119,7 @@ public:
     const double* const background = this->Renderer.GetBackground();
     this->Scene.background = Eigen::Vector3d(background[0], background[1], background[2]);
     this->View.stage = Stage::make(std::move(this->Scene), this->Models);
+    this->View.trees = keptTrees(this->View.stage->at(0));
     this->View.left = this->Out.lines();
     return std::move(this->View);
   }
@@ -142,7 +144,7 @@ private:
     frozen.actor = actor.actor;
     frozen.occurrence = actor.occurrence;
     frozen.name = actor.name;
-    frozen.whole = surface.model;
+    frozen.whole = sharedModel(surface.model);
     frozen.cells = std::move(surface.cells);
     frozen.world_from_object = place.world_from_object;
     this->View.actors.push_back(std::move(frozen));
@@ -223,7 +225,7 @@ private:
       };
     }
     ShownModel shown = shownModel(actor.whole, actor.shown);
-    actor.model = shown.model;
+    actor.model = sharedModel(shown.model);
     actor.parents = std::move(shown.parents);
   }
 
@@ -256,6 +258,10 @@ private:
     }
     if (physical > 0 && physical == all)
     {
+      if (this->Scene.lights.empty() && this->Lit)
+      {
+        this->Scene.lights.push_back(headLight());
+      }
       for (LightDescription& light : this->Scene.lights)
       {
         light.intensity = light.intensity.at(0) / EIGEN_PI;

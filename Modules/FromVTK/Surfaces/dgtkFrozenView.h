@@ -6,6 +6,7 @@
 
 #include "dgtkShownModel.h"
 #include "dgtkStage.h"
+#include "dgtkVisibility.h"
 
 #include <vtkSmartPointer.h>
 
@@ -45,7 +46,8 @@ struct FrozenView
 {
   std::shared_ptr<const Stage> stage;
   std::vector<FrozenActor> actors; ///< by object id - 1
-  std::vector<std::string> left;   ///< what is no surface or could not be honoured, and was left out
+  std::shared_ptr<const OcclusionQuery> trees;
+  std::vector<std::string> left; ///< what is no surface or could not be honoured, and was left out
 };
 
 /// Takes the view of a renderer, in an image of a size (0, 0: its own). What cannot be honoured is left out if `skip`,

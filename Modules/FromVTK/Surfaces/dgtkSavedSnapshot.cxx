@@ -4,6 +4,7 @@
 #include "dgtkColorMap.h"
 #include "dgtkFile.h"
 #include "dgtkLayerWriter.h"
+#include "dgtkRendererLights.h"
 #include "dgtkText.h"
 
 #include <cstring>
@@ -164,10 +165,7 @@ void addAmbientLight(SceneDescription& scene)
 {
   if (scene.lights.empty())
   {
-    LightDescription head;
-    head.name = "head";
-    head.kind = LightKind::Head;
-    scene.lights.push_back(head);
+    scene.lights.push_back(headLight());
   }
   LightDescription ambient;
   ambient.name = "ambient";

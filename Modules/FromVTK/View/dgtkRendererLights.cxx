@@ -72,6 +72,14 @@ bool isLit(vtkRenderer& renderer)
   return makesOne || !lightsOf(renderer).empty();
 }
 
+LightDescription headLight()
+{
+  LightDescription head;
+  head.name = "head";
+  head.kind = LightKind::Head;
+  return head;
+}
+
 std::vector<LightDescription> rendererLights(vtkRenderer& renderer, vtkCamera& camera)
 {
   std::vector<LightDescription> lights;

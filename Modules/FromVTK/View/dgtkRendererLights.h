@@ -21,6 +21,9 @@ bool isLit(vtkRenderer& renderer);
 /// the head light that a renderer makes itself.
 std::vector<LightDescription> rendererLights(vtkRenderer& renderer, vtkCamera& camera);
 
+/// The light that a renderer makes where it has none.
+LightDescription headLight();
+
 } // namespace dgtk
 
 #endif
