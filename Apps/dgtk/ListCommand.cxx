@@ -236,14 +236,13 @@ Json jsonOf(const Section& section)
 
 const std::vector<Section>& sections()
 {
-  static const std::vector<Section> all{ { "commands", &commandRows, { "command", "arguments", "help" },
-                                           &describeCommands },
-    { "readers", &readers, { "format", "extensions", "description" } },
+  static const std::vector<Section> all{ { "readers", &readers, { "format", "extensions", "description" } },
     { "layers", &layers, { "layer", "formats", "description" }, &describeLayers },
     { "options", &options, { "name", "value", "default", "help" }, &describeOptions },
     { "writers", &writers, { "format", "extension", "description" } },
     { "cameras", &cameras, { "model", "description" }, &describeCameras },
-    { "gl", &gl, { "backend", "state", "description" } } };
+    { "gl", &gl, { "backend", "state", "description" } },
+    { "commands", &commandRows, { "command", "arguments", "help" }, &describeCommands } };
   return all;
 }
 
@@ -274,7 +273,7 @@ int run(const Arguments& arguments)
 
 Command listCommand()
 {
-  return { "list", "[commands|readers|layers|options|writers|cameras|gl]", 0, 1,
+  return { "list", "[readers|layers|options|writers|cameras|gl|commands]", 0, 1,
     "Lists what this program can read, derive and write.",
     { { "--json", "", "", "as JSON, with all that is known of commands, layers and options" } }, &run };
 }

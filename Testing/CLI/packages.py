@@ -38,6 +38,11 @@ def files(package):
     return found
 
 
+def unpacked_size(package):
+    """Bytes of its files. CPack's Installed-Size counts a library again for each of its links."""
+    return sum(int(line.split()[2]) for line in run("dpkg-deb", "--contents", package).splitlines() if line.startswith("-"))
+
+
 def field(package, name):
     return run("dpkg-deb", "--field", package, name).strip()
 

@@ -39,7 +39,7 @@ HELP = {
         ("--to CAMERA", "a camera of the dataset, NAME[@FRAME], or a .json file with K, R, t, width, height"),
         ("--layers N", "use the first N surfaces of each pixel (1: a depth map); 0: all [0]"),
         ("--mask FILE.png", "also write where no sample fell (255)")]),
-    "list": ("[commands|readers|layers|options|writers|cameras|gl]", "Lists what this program can read, derive and write.", [
+    "list": ("[readers|layers|options|writers|cameras|gl|commands]", "Lists what this program can read, derive and write.", [
         ("--json", "as JSON, with all that is known of commands, layers and options")]),
 }
 
@@ -119,7 +119,8 @@ class Pages(Case):
     def test_every_table_has_the_rows_of_its_document(self):
         keys = {"readers": ["format", "extensions", "description"], "layers": ["layer", "formats", "description"],
                 "options": ["name", "value", "default", "help"], "writers": ["format", "extension", "description"],
-                "cameras": ["model", "description"], "gl": ["backend", "state", "description"]}
+                "cameras": ["model", "description"], "gl": ["backend", "state", "description"],
+                "commands": ["command", "arguments", "help"]}
         everything = json.loads(self.dgtk("list", "--json").stdout)
         self.assertEqual(list(everything), list(keys))
         tables = []
