@@ -15,7 +15,6 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnsignedIntArray.h"
 
-#include <algorithm>
 #include <functional>
 
 vtkStandardNewMacro(dgtkSnapshot);
@@ -113,12 +112,7 @@ vtkProp* dgtkSnapshot::GetProp(int index) const
 
 vtkIdType dgtkSnapshot::GetNumberOfCells(int index) const
 {
-  if (this->GetProp(index) == nullptr)
-  {
-    return 0;
-  }
-  const std::vector<std::int64_t>& cells = this->Self->view.actors[std::size_t(index)].cells;
-  return vtkIdType(*std::max_element(cells.begin(), cells.end()) + 1);
+  return this->GetProp(index) != nullptr ? vtkIdType(this->Self->view.actors[std::size_t(index)].inputCells) : 0;
 }
 
 int dgtkSnapshot::GetWidth() const { return this->Self->view.stage ? this->Self->camera.model->width() : 0; }

@@ -53,8 +53,7 @@ public:
   vtkProp* GetProp(int index) const;
   ///@}
   /**
-   * Number of cells that the input of a prop's mapper has, as the snapshot found it (the largest cell that has a
-   * triangle, plus 1).
+   * Number of cells that the input of a prop's mapper had, or of points that glyphs stand at.
    */
   vtkIdType GetNumberOfCells(int index) const;
 

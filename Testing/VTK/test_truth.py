@@ -174,6 +174,23 @@ class Snapshots(unittest.TestCase):
         numpy.testing.assert_array_equal(counted[0], numpy.bincount(cells, minlength=len(counted[0])))
         self.assertEqual(counted[0].dtype, numpy.uint32)
 
+    def test_every_cell_of_the_input_is_counted(self):
+        points = vtk.vtkPoints()
+        for x, y in ((0, 0), (1, 0), (0, 1), (1, 1)):
+            points.InsertNextPoint(x, y, 0)
+        data = vtk.vtkPolyData()
+        data.SetPoints(points)
+        data.Allocate()
+        for corners in ((0, 1, 2), (1, 1, 2), (3, 3, 3)):  # the last two have no area
+            data.InsertNextCell(vtk.VTK_TRIANGLE, 3, corners)
+        cells = dgtk.visible_cells(scenes.renderer(scenes.actor(data), eye=(0.5, 0.5, 3), target=(0.5, 0.5, 0)), size=SIZE)
+        self.assertEqual([len(one) for one in cells], [3])
+        self.assertGreater(cells[0][0], 10)
+        self.assertEqual(list(cells[0][1:]), [0, 0])
+        glyphs = scenes.glyph_mapper()
+        mapper = next(iter(glyphs.GetActors())).GetMapper()
+        self.assertEqual(len(dgtk.visible_cells(glyphs, size=SIZE)[0]), mapper.GetInput().GetNumberOfPoints())
+
     def test_a_saved_snapshot_is_the_same_scene(self):
         with tempfile.TemporaryDirectory() as folder:
             for name, make in scenes.ALL.items():

@@ -133,9 +133,9 @@ private:
       this->Out.add(actor.name + ": drawn as " + property.GetRepresentationAsString());
       return;
     }
-    const std::vector<SurfacePiece> pieces = surfacePieces(actor, this->Out);
+    const DrawnSurface drawn = surfacePieces(actor, this->Out);
     const Placement place = placementOf(actor.world_from_object);
-    SurfaceModel surface = surfaceModel(*actor.actor, pieces, place.bake, this->Lit, this->Out);
+    SurfaceModel surface = surfaceModel(*actor.actor, drawn.pieces, place.bake, this->Lit, this->Out);
     if (surface.model->triangles.empty())
     {
       return;
@@ -146,6 +146,7 @@ private:
     frozen.name = actor.name;
     frozen.whole = sharedModel(surface.model);
     frozen.cells = std::move(surface.cells);
+    frozen.inputCells = drawn.cells;
     frozen.world_from_object = place.world_from_object;
     this->View.actors.push_back(std::move(frozen));
     this->Places.push_back(place);

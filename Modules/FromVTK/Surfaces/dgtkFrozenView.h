@@ -30,6 +30,7 @@ struct FrozenActor
   std::string name;                   ///< of its object
   std::shared_ptr<const Model> whole; ///< all triangles ...
   std::vector<std::int64_t> cells;    ///< ... and the cells of the mapper's input that they are of
+  std::int64_t inputCells = 0;        ///< how many that input has
   ShownSurface shown;                 ///< what the camera sees of them
   std::shared_ptr<const Model> model; ///< that, in the stage
   std::vector<std::uint32_t> parents; ///< triangles of `whole` by triangle of `model`; empty: the same

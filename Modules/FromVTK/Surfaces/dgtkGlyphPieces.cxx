@@ -147,7 +147,7 @@ private:
 };
 } // namespace
 
-std::vector<SurfacePiece> glyphPieces(const ViewActor& actor, vtkMapper& mapper, Unsupported& unsupported)
+DrawnSurface glyphPieces(const ViewActor& actor, vtkMapper& mapper, Unsupported& unsupported)
 {
   auto& glyphs = dynamic_cast<vtkGlyph3DMapper&>(mapper);
   vtkDataSet* const points = vtkDataSet::SafeDownCast(mapper.GetInputDataObject(0, 0));
@@ -184,7 +184,7 @@ std::vector<SurfacePiece> glyphPieces(const ViewActor& actor, vtkMapper& mapper,
   pieces.erase(std::remove_if(pieces.begin(), pieces.end(),
                  [](const SurfacePiece& piece) { return piece.data == nullptr || piece.glyphs.empty(); }),
     pieces.end());
-  return pieces;
+  return { std::move(pieces), points->GetNumberOfPoints() };
 }
 
 } // namespace dgtk

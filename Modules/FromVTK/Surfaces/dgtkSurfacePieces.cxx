@@ -73,6 +73,9 @@ public:
     this->add(data, {});
   }
 
+  /// Of all leaves.
+  vtkIdType cells() const { return this->FirstCell; }
+
   std::vector<SurfacePiece> Pieces;
 
 private:
@@ -185,7 +188,7 @@ void mapColors(vtkMapper& mapper, vtkDataSet& data, SurfacePiece& piece)
   }
 }
 
-std::vector<SurfacePiece> surfacePieces(const ViewActor& actor, Unsupported& unsupported)
+DrawnSurface surfacePieces(const ViewActor& actor, Unsupported& unsupported)
 {
   vtkMapper& mapper = *actor.actor->GetMapper();
   if (mapper.GetNumberOfInputConnections(0) == 0)
@@ -207,7 +210,7 @@ std::vector<SurfacePiece> surfacePieces(const ViewActor& actor, Unsupported& uns
   }
   PieceMaker maker(actor, unsupported);
   maker.addAll(mapper.GetInputDataObject(0, 0));
-  return std::move(maker.Pieces);
+  return { std::move(maker.Pieces), maker.cells() };
 }
 
 } // namespace dgtk

@@ -49,12 +49,19 @@ struct SurfacePiece
   std::optional<double> blockOpacity;        ///< instead of the property's
 };
 
+/// What a mapper draws.
+struct DrawnSurface
+{
+  std::vector<SurfacePiece> pieces;
+  vtkIdType cells = 0; ///< of the mapper's input, also those that are no surface
+};
+
 /// What the actor's mapper draws: its pipeline is brought up to date. Cells are numbered as the input of the mapper has
 /// them: of composite data through all leaves, one after the other; of glyphs by the point of the input.
-std::vector<SurfacePiece> surfacePieces(const ViewActor& actor, Unsupported& unsupported);
+DrawnSurface surfacePieces(const ViewActor& actor, Unsupported& unsupported);
 
 /// The glyphs of a vtkGlyph3DMapper.
-std::vector<SurfacePiece> glyphPieces(const ViewActor& actor, vtkMapper& mapper, Unsupported& unsupported);
+DrawnSurface glyphPieces(const ViewActor& actor, vtkMapper& mapper, Unsupported& unsupported);
 
 /// The colours that a mapper gives to a data set, which need not be its input.
 void mapColors(vtkMapper& mapper, vtkDataSet& data, SurfacePiece& piece);
