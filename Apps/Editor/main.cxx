@@ -5,6 +5,7 @@
 #include "dgtkModelCache.h"
 
 #include <QApplication>
+#include <QIcon>
 #include <QTimer>
 
 #include <cstdio>
@@ -19,7 +20,7 @@ constexpr const char* help =
   "usage: dgtk-editor [--language LANGUAGE] [FILE|FOLDER...]\n\n"
   "The desktop editor of DGTk. A scene (.json, .scene) is opened; models are imported into\n"
   "it; the folder of a finished dataset is shown in a window of its own.\n\n"
-  "  --language LANGUAGE   of the window: de, en (default: the system's)\n"
+  "  --language LANGUAGE   language of the window: de, en (default: the system's)\n"
   "  --help                this page\n"
   "  --version             the version\n\n"
   "DGTK of the environment names the dgtk program that renders (default: beside this one).\n";
@@ -87,6 +88,8 @@ int main(int argc, char** argv)
   dgtk::MainWindow::prepareApplication();
   QApplication application(argc, argv);
   dgtk::MainWindow::setupApplication();
+  QApplication::setDesktopFileName("dgtk-editor"); // its row in the menu, by which desktops know its windows
+  QApplication::setWindowIcon(QIcon::fromTheme("dgtk-editor"));
   const Words words = parse(QApplication::arguments());
   if (!words.problem.isEmpty())
   {

@@ -17,6 +17,9 @@ Command verifyCommand();
 Command warpCommand();
 Command listCommand();
 
+/// All of them, in the order of the help.
+std::vector<Command> commands();
+
 /// Text on standard output; MachineError when it cannot be written (a full disk behind a redirection).
 void print(const std::string& text);
 

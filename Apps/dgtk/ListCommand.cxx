@@ -45,6 +45,16 @@ std::string table(const std::vector<Row>& rows)
   return text;
 }
 
+std::vector<Row> commandRows()
+{
+  std::vector<Row> rows;
+  for (const Command& command : commands())
+  {
+    rows.push_back({ command.name, command.arguments, command.help });
+  }
+  return rows;
+}
+
 std::vector<Row> readers()
 {
   std::vector<Row> rows;
@@ -140,9 +150,9 @@ void describeCameras(Json& rows)
     row["parameters"] = Json::array();
     for (const CameraParameter& parameter : findCamera(row["model"].get<std::string>())->parameters)
     {
-      row["parameters"].push_back({ { "name", parameter.name }, { "unit", parameter.unit },
-        { "description", parameter.help }, { "counts", parameter.counts }, { "default", parameter.usual },
-        { "moves", parameter.moves } });
+      row["parameters"].push_back(
+        { { "name", parameter.name }, { "unit", parameter.unit }, { "description", parameter.help },
+          { "counts", parameter.counts }, { "default", parameter.usual }, { "moves", parameter.moves } });
     }
   }
 }
@@ -162,6 +172,37 @@ void describeOptions(Json& rows)
     if (!option.choices.empty())
     {
       row["choices"] = option.choices;
+    }
+  }
+}
+
+Json describeOption(const Option& option)
+{
+  Json row{ { "name", option.name } };
+  if (const std::string brief = shortName(option.name); !brief.empty())
+  {
+    row["short"] = brief;
+  }
+  row["value"] = option.value;
+  row["default"] = option.fallback;
+  row["help"] = option.help;
+  if (!option.choices.empty())
+  {
+    row["choices"] = option.choices;
+    row["many"] = option.many;
+  }
+  return row;
+}
+
+void describeCommands(Json& rows)
+{
+  const std::vector<Command> all = commands();
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    rows[i]["options"] = Json::array();
+    for (const Option& option : shownOptions(all[i]))
+    {
+      rows[i]["options"].push_back(describeOption(option));
     }
   }
 }
@@ -199,7 +240,9 @@ const std::vector<Section>& sections()
     { "layers", &layers, { "layer", "formats", "description" }, &describeLayers },
     { "options", &options, { "name", "value", "default", "help" }, &describeOptions },
     { "writers", &writers, { "format", "extension", "description" } },
-    { "cameras", &cameras, { "model", "description" }, &describeCameras }, { "gl", &gl, { "backend", "state", "description" } } };
+    { "cameras", &cameras, { "model", "description" }, &describeCameras },
+    { "gl", &gl, { "backend", "state", "description" } },
+    { "commands", &commandRows, { "command", "arguments", "help" }, &describeCommands } };
   return all;
 }
 
@@ -230,9 +273,9 @@ int run(const Arguments& arguments)
 
 Command listCommand()
 {
-  return { "list", "[readers|layers|options|writers|cameras|gl]", 0, 1,
+  return { "list", "[readers|layers|options|writers|cameras|gl|commands]", 0, 1,
     "Lists what this program can read, derive and write.",
-    { { "--json", "", "", "as JSON, with all that is known of layers and options" } }, &run };
+    { { "--json", "", "", "as JSON, with all that is known of commands, layers and options" } }, &run };
 }
 
 } // namespace dgtk::app

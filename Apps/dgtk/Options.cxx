@@ -16,6 +16,7 @@ const Option noCacheOption{ "--no-cache", "", "", "read models anew, and keep no
 namespace
 {
 const Option helpOption{ "--help", "", "", "show this page" };
+const std::map<std::string, std::string> shortNames{ { "--output", "-o" }, { "--help", "-h" } };
 
 const Option* find(const Command& command, const std::string& name)
 {
@@ -31,7 +32,9 @@ const Option* find(const Command& command, const std::string& name)
 /// Names may be written with '_' for '-'.
 std::string longName(const std::string& word)
 {
-  std::string name = word == "-o" ? "--output" : word == "-h" ? "--help" : word;
+  const auto known =
+    std::find_if(shortNames.begin(), shortNames.end(), [&](const auto& names) { return names.second == word; });
+  std::string name = known != shortNames.end() ? known->first : word;
   std::replace(name.begin(), name.end(), '_', '-');
   return name;
 }
@@ -140,16 +143,29 @@ void Arguments::size(const std::string& name, int most, int& width, int& height)
 
 std::vector<std::string> Arguments::list(const std::string& name) const { return splitNames(this->text(name), name); }
 
-std::string helpPage(const Command& command)
+std::vector<Option> shownOptions(const Command& command)
 {
   std::vector<Option> options = command.options;
   options.push_back(helpOption);
+  return options;
+}
+
+std::string shortName(const std::string& name)
+{
+  const auto known = shortNames.find(name);
+  return known == shortNames.end() ? "" : known->second;
+}
+
+std::string helpPage(const Command& command)
+{
+  const std::vector<Option> options = shownOptions(command);
   std::size_t width = 0;
   std::vector<std::string> left;
   for (const Option& option : options)
   {
+    const std::string brief = shortName(option.name);
     left.push_back(
-      (option.name == "--output" ? "-o, " : "    ") + option.name + (option.value.empty() ? "" : ' ' + option.value));
+      (brief.empty() ? "    " : brief + ", ") + option.name + (option.value.empty() ? "" : ' ' + option.value));
     width = std::max(width, left.back().size());
   }
   std::string page = "usage: dgtk " + command.name + ' ' + command.arguments + " [options]\n\n" + command.help + "\n\n";

@@ -12,10 +12,12 @@ namespace dgtk::app
 /// One row of a command's table of options.
 struct Option
 {
-  std::string name;     ///< with its dashes: "--size"
-  std::string value;    ///< what stands for the value in the help, "" for a switch: "WxH"
-  std::string fallback; ///< shown as the default; "" for none
-  std::string help;     ///< one line
+  std::string name;                      ///< with its dashes: "--size"
+  std::string value;                     ///< what stands for the value in the help, "" for a switch: "WxH"
+  std::string fallback;                  ///< shown as the default; "" for none
+  std::string help;                      ///< one line
+  std::vector<std::string> choices = {}; ///< all words that it takes; none where they are not known beforehand
+  bool many = false;                     ///< some of them, separated by commas
 };
 
 /// Switch of the commands that read models: without it, they use those that are kept for the user.
@@ -60,6 +62,10 @@ private:
   std::map<std::string, std::vector<std::string>> Values;
 };
 
+/// The options that the help of a command shows: its own, then --help.
+std::vector<Option> shownOptions(const Command& command);
+/// "-o" of "--output"; "" for an option that has no short name.
+std::string shortName(const std::string& name);
 /// The page that `dgtk COMMAND --help` prints.
 std::string helpPage(const Command& command);
 

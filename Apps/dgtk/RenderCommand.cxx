@@ -84,6 +84,16 @@ std::string usualLayers()
   return joinedNames(usual);
 }
 
+std::vector<std::string> layerWords()
+{
+  std::vector<std::string> words{ "all" };
+  for (const LayerInfo& info : generatorLayers())
+  {
+    words.push_back(info.layer);
+  }
+  return words;
+}
+
 GeneratorRequest parseRequest(const Arguments& arguments)
 {
   GeneratorRequest request;
@@ -227,13 +237,14 @@ Command renderCommand()
 {
   Command command{ "render", "SCENE", 1, 1, "Renders images and ground truth of a scene into a folder.", {}, &run };
   command.options = { { "--output", "DIR", "", "folder of the dataset" },
-    { "--layers", "NAMES|all", usualLayers(), "what to write; see dgtk list layers" },
+    { "--layers", "NAMES|all", usualLayers(), "what to write; see dgtk list layers", layerWords(), true },
     { "--cameras", "NAMES", "", "some of the cameras (default: all)" },
     { "--frames", "A[:B[:STEP]]", "", "some of the frames (default: all)" },
     { "--size", "WxH", "", "size of the images in pixels (default: the camera's own, else 640x480)" } };
   for (const OptionRow* row : allOptions())
   {
-    command.options.push_back({ optionWord(*row), row->value, row->value.empty() ? "" : row->fallback, row->help });
+    command.options.push_back({ optionWord(*row), row->value, row->value.empty() ? "" : row->fallback, row->help,
+      row->choices, row->kind == OptionRow::Kind::Names });
   }
   const std::vector<Option> last = { { "--resume", "", "", "continue an interrupted run of the same request" },
     { "--replace", "", "", "remove the dataset of another request, or an interrupted run, that the folder holds" },

@@ -45,7 +45,7 @@ int run(const Arguments& arguments)
 Command verifyCommand()
 {
   return { "verify", "DIR", 1, 1, "Derives anew what a dataset claims, prints residuals; exits with 1 on a breach.",
-    { { "--check", "NAME,...", "all", "only these checks, by the names of the table" },
+    { { "--check", "NAME,...", "all", "only these checks, by the names of the table", verificationChecks(), true },
       { "--json", "", "", "print one JSON object" }, { "--write", "", "", "also write DIR/verification.json" },
       { "--threads", "N", "all processors", "threads to work with" } },
     &run };

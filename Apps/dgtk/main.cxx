@@ -22,12 +22,6 @@ namespace
 {
 using namespace dgtk::app;
 
-std::vector<Command> commands()
-{
-  return { renderCommand(), infoCommand(), convertCommand(), verifyCommand(), correspondCommand(), compareCommand(),
-    warpCommand(), listCommand() };
-}
-
 std::string overview()
 {
   std::string text = "usage: dgtk COMMAND [arguments] [options]\n\n"
@@ -79,6 +73,12 @@ int dispatch(const std::vector<std::string>& words)
   return command->run(arguments);
 }
 } // namespace
+
+std::vector<Command> dgtk::app::commands()
+{
+  return { renderCommand(), infoCommand(), convertCommand(), verifyCommand(), correspondCommand(), compareCommand(),
+    warpCommand(), listCommand() };
+}
 
 void dgtk::app::print(const std::string& text)
 {

@@ -27,15 +27,16 @@ BOXES = [
     ("Layers", "what pictures are given out as: layers, options, plan", 4.3, 10, 6, 7, VIOLET),
     ("Pipeline", "bands, threads, files, resume, VTK classes, Python", 0, 10, 7, 8, VIOLET),
     ("Verification", "also on Stage, RayTrace", 10, 12, 6, 8, VIOLET),
-    ("Document", "what the editor edits; on Stage alone", 5, 10, 8, 9, VIOLET),
+    ("Document", "what the editor edits; on Stage alone", 5, 8.5, 8, 9, VIOLET),
     ("Live", "ground truth while editing", 0, 5, 8, 9, VIOLET),
-    ("Controls", "state, small widgets", 5, 10, 9, 10, VIOLET),
+    ("Controls", "state, small widgets", 5, 8.5, 9, 10, VIOLET),
     ("Views", "3D views, handles", 0, 5, 9, 11, VIOLET),
-    ("Panels", "properties, time line", 5, 7.5, 10, 12, VIOLET),
-    ("Runs", "renders into files", 7.5, 10, 10, 12, VIOLET),
+    ("Panels", "properties, time line", 5, 6.75, 10, 12, VIOLET),
+    ("Runs", "renders into files", 6.75, 8.5, 10, 12, VIOLET),
     ("Viewer", "datasets", 0, 2.5, 11, 12, VIOLET),
     ("Matches", "live truth, matches", 2.5, 5, 11, 12, VIOLET),
-    ("Windows", "the editor's main window", 0, 10, 12, 13, VIOLET),
+    ("Windows", "the editor's main window", 0, 8.5, 12, 13, VIOLET),
+    ("FromVTK", "VTK renderers", 8.5, 10, 8, 13, VIOLET),
 ]
 
 

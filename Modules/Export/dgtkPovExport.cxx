@@ -103,8 +103,10 @@ void noteMissing(const SceneState& state, std::vector<std::string>& warnings)
 {
   bool physical = false;
   bool normals = false;
+  bool colors = false;
   for (const Instance& instance : state.instances)
   {
+    colors = colors || !instance.model->colors.empty() || instance.model->colorMap;
     for (const Material& material : povMaterialsOf(instance))
     {
       physical = physical || (material.physical && material.physical->wanted);
@@ -118,6 +120,7 @@ void noteMissing(const SceneState& state, std::vector<std::string>& warnings)
       warnings.emplace_back(text);
     }
   };
+  note(colors, "colours of vertices are not written");
   note(state.environment != nullptr, "the environment is not written");
   note(physical, "metallic and roughness are not written");
   note(normals, "normal maps are not written");

@@ -57,6 +57,7 @@ void PartMapper::configure(
   this->FirstTriangle = firstTriangle;
   this->Frame = frame;
   this->Material = material;
+  this->SetScalarVisibility(material.colored);
   this->Indices = std::move(indices);
 }
 

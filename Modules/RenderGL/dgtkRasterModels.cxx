@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRasterModels.h"
 
+#include "dgtkColorMap.h"
 #include "dgtkPhongProperty.h"
 #include "dgtkRasterTexture.h"
 
@@ -13,11 +14,31 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
 
 namespace dgtk
 {
 namespace
 {
+
+/// Colours of the vertices that are drawn, or null. A table is looked up at the vertices.
+vtkSmartPointer<vtkUnsignedCharArray> colorsOf(const Model& model, const RasterTopology& topology)
+{
+  if (model.colors.empty() && !model.colorMap)
+  {
+    return nullptr;
+  }
+  const auto colors = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  colors->SetNumberOfComponents(4);
+  colors->SetNumberOfTuples(vtkIdType(topology.source.size()));
+  vtkIdType at = 0;
+  for (const std::uint32_t vertex : topology.source)
+  {
+    const auto color = model.colorMap ? colorMapTexel(*model.colorMap, model.colorMapAt[vertex]) : model.colors[vertex];
+    colors->SetTypedTuple(at++, color.data());
+  }
+  return colors;
+}
 
 std::array<float, 3> floats(const Eigen::Vector3d& v) { return { float(v.x()), float(v.y()), float(v.z()) }; }
 
@@ -105,8 +126,8 @@ void RasterModels::begin(const SceneState& state)
   // Translucent surfaces are sorted by their numbers.
   const auto isTranslucent = [](const Instance& instance)
   {
-    return std::any_of(instance.materials->begin(), instance.materials->end(),
-      [](const Material& material) { return material.opacity < 1; });
+    return hasTranslucentColors(*instance.model) || std::any_of(instance.materials->begin(), instance.materials->end(),
+                                                      [](const Material& material) { return material.opacity < 1; });
   };
   this->StateNumbered = this->Numbered || std::any_of(state.instances.begin(), state.instances.end(), isTranslucent);
   for (const auto& model : this->Models)
@@ -201,6 +222,10 @@ std::shared_ptr<RasterGeometry> RasterModels::geometryOf(const Instance& instanc
     }
     shared->data->GetPointData()->SetTCoords(uvs);
   }
+  if (const vtkSmartPointer<vtkUnsignedCharArray> colors = colorsOf(*instance.model, *shared->topology))
+  {
+    shared->data->GetPointData()->SetScalars(colors);
+  }
   fill(*shared, instance.geometry);
   return shared;
 }
@@ -242,10 +267,11 @@ RasterChunk RasterModels::makeChunk(const RasterModel& made, const Part& part, s
   chunk.firstTriangle = first;
   chunk.triangles = count;
   chunk.emission = floats(material.emission);
-  chunk.translucent = material.opacity < 1;
+  chunk.translucent = material.opacity < 1 || hasTranslucentColors(model);
   measure(*made.geometry, chunk);
   ShaderVariant shader;
   shader.specular = !material.specular.isZero(0);
+  shader.colored = !model.colors.empty() || model.colorMap;
   if (material.texture >= 0 && !model.uvs.empty() && model.textures.at(std::size_t(material.texture)).image)
   {
     shader.textured = true;

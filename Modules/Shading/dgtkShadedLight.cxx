@@ -233,7 +233,7 @@ Float4 ShadedLight::phong(const ShadedPoint& p, const PointLight* lit) const
       }
     }
   }
-  Float4 color = ambient * m.ambient + diffuse * m.diffuse + specular * m.specular;
+  Float4 color = (ambient * m.ambient + diffuse * m.diffuse) * p.tint + specular * m.specular;
   if (m.emissionMap == nullptr)
   {
     color += m.emission;
@@ -262,7 +262,8 @@ Float4 ShadedLight::physical(const ShadedPoint& p, const PointLight* lit) const
 {
   const ShadedMaterial& m = *p.material;
   const Footprint& f = p.footprint;
-  const Float4 base = toLinear(m.texture != nullptr ? m.diffuse * m.texture->at(f) : m.diffuse);
+  const Float4 tinted = m.diffuse * p.tint;
+  const Float4 base = toLinear(m.texture != nullptr ? tinted * m.texture->at(f) : tinted);
   float metallic = m.metallic;
   float rough = m.roughness;
   if (m.metallicRoughnessMap != nullptr)

@@ -25,6 +25,7 @@ struct ShadedPoint
   Float4 right;  ///< how the position changes to the pixel on the right, on the triangle's plane ...
   Float4 down;   ///< ... and to that below
   Footprint footprint;
+  Float4 tint; ///< of the vertices: times ambient and diffuse colour, and opacity
   const ShadedMaterial* material = nullptr;
   float distance = 0; ///< from the eye
   // Of the paths to lights that cast shadows.

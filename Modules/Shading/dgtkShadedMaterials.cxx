@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkShadedMaterials.h"
 
+#include "dgtkColorMap.h"
 #include "dgtkSurfaceMaterial.h"
 
 #include <iterator>
@@ -32,6 +33,8 @@ std::shared_ptr<const ShadedMaterials> ShadedMaterialLibrary::of(const Instance&
     set->ofPart.push_back(this->make(*instance.model, material, *set));
     set->translucent = set->translucent || material.opacity < 1;
   }
+  set->translucentColors = hasTranslucentColors(*instance.model);
+  set->translucent = set->translucent || set->translucentColors;
   this->Sets[key] = set;
   return set;
 }
@@ -55,12 +58,14 @@ std::shared_ptr<const TexturePyramid> ShadedMaterialLibrary::textureOf(const Mod
   {
     return nullptr;
   }
-  const std::shared_ptr<const Image>& image = model.textures[std::size_t(index)].image;
-  KnownTexture& known = this->Textures[{ image.get(), cutOut }];
+  const Texture& texture = model.textures[std::size_t(index)];
+  const std::shared_ptr<const Image>& image = texture.image;
+  const PictureUse use{ cutOut, texture.filter, texture.repeats };
+  KnownTexture& known = this->Textures[{ image.get(), use }];
   std::shared_ptr<const TexturePyramid> pyramid = known.pyramid.lock();
   if (!pyramid || known.image.lock() != image)
   {
-    pyramid = std::make_shared<const TexturePyramid>(*image, cutOut);
+    pyramid = std::make_shared<const TexturePyramid>(*image, use);
     known = { image, pyramid };
   }
   return pyramid;

@@ -51,6 +51,7 @@ struct ShadedMaterials
   std::vector<ShadedMaterial> ofPart;
   std::vector<std::shared_ptr<const TexturePyramid>> textures; ///< those that `ofPart` has
   bool translucent = false;                                    ///< some
+  bool translucentColors = false;                              ///< colours of vertices let see what is behind
 
   const ShadedMaterial& of(std::uint32_t triangle) const
   {
@@ -78,7 +79,7 @@ private:
 
   std::mutex Mutex;
   std::map<Key, std::weak_ptr<const ShadedMaterials>> Sets;
-  std::map<std::pair<const Image*, bool>, KnownTexture> Textures;
+  std::map<std::pair<const Image*, PictureUse>, KnownTexture> Textures;
 };
 
 } // namespace dgtk

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkShadedView.h"
 
+#include "dgtkColorMap.h"
 #include "dgtkRaySource.h"
 #include "dgtkSurfaceMaterial.h"
 
@@ -12,6 +13,15 @@
 
 namespace dgtk
 {
+
+namespace
+{
+Float4 tintOf(const std::array<std::uint8_t, 4>& color)
+{
+  const Float4 bytes = { float(color[0]), float(color[1]), float(color[2]), float(color[3]) };
+  return bytes * (1 / 255.0F);
+}
+} // namespace
 
 ShadedView::ShadedView(std::shared_ptr<const SceneState> state, const View& view)
   : State(std::move(state))
@@ -69,6 +79,37 @@ void ShadedView::prepare(const Hit& hit, Triangle& triangle) const
     triangle.toU = toSecond.x() * triangle.second + toThird.x() * triangle.third;
     triangle.toV = toSecond.y() * triangle.second + toThird.y() * triangle.third;
   }
+  prepareTint(model, corners, triangle);
+}
+
+void ShadedView::prepareTint(const Model& model, const std::array<std::uint32_t, 3>& corners, Triangle& triangle)
+{
+  triangle.tint = float4(1);
+  triangle.tintSecond = triangle.tintThird = float4(0);
+  triangle.map = nullptr;
+  if (!model.colors.empty())
+  {
+    triangle.tint = dgtk::tintOf(model.colors[corners[0]]);
+    triangle.tintSecond = dgtk::tintOf(model.colors[corners[1]]) - triangle.tint;
+    triangle.tintThird = dgtk::tintOf(model.colors[corners[2]]) - triangle.tint;
+  }
+  else if (model.colorMap)
+  {
+    triangle.map = &model;
+    triangle.mapAt = model.colorMapAt[corners[0]];
+    triangle.mapSecond = model.colorMapAt[corners[1]] - triangle.mapAt;
+    triangle.mapThird = model.colorMapAt[corners[2]] - triangle.mapAt;
+  }
+}
+
+Float4 ShadedView::tintOf(const Triangle& triangle, double second, double third)
+{
+  if (triangle.map == nullptr)
+  {
+    return triangle.tint + triangle.tintSecond * float(second) + triangle.tintThird * float(third);
+  }
+  const Eigen::Vector2d at = triangle.mapAt + second * triangle.mapSecond + third * triangle.mapThird;
+  return dgtk::tintOf(colorMapTexel(*triangle.map->colorMap, at));
 }
 
 void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoint& point) const
@@ -96,6 +137,7 @@ void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoin
   const Float4 normal =
     normalized(triangle.shading + triangle.shadingSecond * float(second) + triangle.shadingThird * float(third));
   point.normal = front ? normal : -normal;
+  point.tint = tintOf(triangle, second, third);
   if (this->Shadows)
   {
     const double parts[3] = { 1 - second - third, second, third };
@@ -202,7 +244,7 @@ void ShadedView::shade(
     for (std::size_t i = 0; i < many; ++i)
     {
       Float4 color = atLeast(this->Light.shade(points[i], lit + i * lights), 0);
-      color[3] = points[i].material->opacity;
+      color[3] = points[i].material->opacity * points[i].tint[3];
       std::memcpy(rgba + 4 * (first + i), &color, sizeof color);
     }
   }
@@ -240,7 +282,7 @@ void ShadedView::row(Worker& worker, int x, int y, int count, const Hit* hits, f
       const PixelRay& ray = rays[std::size_t(i)];
       put(i, ray.ray.exists() ? this->skyAt(ray) : float4(0)); // no light comes to where the lens does not reach
     }
-    else if (this->Translucent && this->materialOf(hits[i]).opacity < 1)
+    else if (this->Translucent && !this->isOpaque(hits[i]))
     {
       worker.Translucent.push_back(i);
     }
@@ -292,7 +334,7 @@ void ShadedView::seeThrough(Worker& worker, int x, int y, const std::vector<Pixe
     for (std::size_t i = 0; i < hits[0].size() && !closed; ++i)
     {
       surfaces.push_back({ pixel, hits[0][i] });
-      closed = this->materialOf(hits[0][i]).opacity >= 1;
+      closed = this->isOpaque(hits[0][i]);
     }
     Float4 over = float4(0);
     float through = 1;

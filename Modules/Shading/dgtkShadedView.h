@@ -10,6 +10,7 @@
 #include "dgtkShadowQuery.h"
 #include "dgtkVisibility.h"
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -71,8 +72,17 @@ private:
     Float4 shading;     ///< normals: of the first corner, and what the others have more; not of unit length
     Float4 shadingSecond;
     Float4 shadingThird;
+    Float4 tint; ///< colours of vertices, in the same way; ones where there are none
+    Float4 tintSecond;
+    Float4 tintThird;
+    const Model* map = nullptr; ///< whose colorMap has them
+    Eigen::Vector2d mapAt;
+    Eigen::Vector2d mapSecond;
+    Eigen::Vector2d mapThird;
   };
   void prepare(const Hit& hit, Triangle& triangle) const;
+  static void prepareTint(const Model& model, const std::array<std::uint32_t, 3>& corners, Triangle& triangle);
+  static Float4 tintOf(const Triangle& triangle, double second, double third);
   void place(const PixelRay& ray, const Triangle& triangle, ShadedPoint& point) const;
   void lift(const Triangle& triangle, const Eigen::Vector3d& position, const double parts[3], bool front,
     ShadedPoint& point) const;
@@ -81,9 +91,10 @@ private:
   void findShadows(const ShadedPoint* points, std::size_t count, PointLight* lit) const;
   void seeThrough(Worker& worker, int x, int y, const std::vector<PixelRay>& rays, float* rgb) const;
   Float4 skyAt(const PixelRay& ray) const;
-  const ShadedMaterial& materialOf(const Hit& hit) const
+  bool isOpaque(const Hit& hit) const
   {
-    return this->Objects[hit.object - 1].materials->of(hit.triangle);
+    const ShadedMaterials& materials = *this->Objects[hit.object - 1].materials;
+    return !materials.translucentColors && materials.of(hit.triangle).opacity >= 1;
   }
 
   std::shared_ptr<const SceneState> State;

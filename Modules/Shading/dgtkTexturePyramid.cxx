@@ -73,13 +73,14 @@ float lastOf(const std::vector<Level>& levels)
 }
 } // namespace
 
-TexturePyramid::TexturePyramid(const Image& image, bool cutOut)
+TexturePyramid::TexturePyramid(const Image& image, const PictureUse& use)
+  : Use(use)
 {
   Level finest;
   finest.width = image.width;
   finest.height = image.height;
-  const std::vector<std::uint8_t> filled = cutOut ? withoutHoles(image) : std::vector<std::uint8_t>();
-  const std::uint8_t* source = cutOut ? filled.data() : image.rgba.data();
+  const std::vector<std::uint8_t> filled = use.cutOut ? withoutHoles(image) : std::vector<std::uint8_t>();
+  const std::uint8_t* source = use.cutOut ? filled.data() : image.rgba.data();
   const std::size_t row = std::size_t(image.width) * 4;
   finest.rgba.resize(row * std::size_t(image.height));
   for (int y = 0; y < image.height; ++y)
@@ -87,7 +88,7 @@ TexturePyramid::TexturePyramid(const Image& image, bool cutOut)
     std::memcpy(&finest.rgba[std::size_t(image.height - 1 - y) * row], source + std::size_t(y) * row, row);
   }
   this->Levels.push_back(std::move(finest));
-  while (this->Levels.back().width > 1 || this->Levels.back().height > 1)
+  while (use.filter == TextureFilter::Smooth && (this->Levels.back().width > 1 || this->Levels.back().height > 1))
   {
     this->Levels.push_back(half(this->Levels.back()));
   }
@@ -165,16 +166,41 @@ Float4 TexturePyramid::bilinear(const Level& level, float u, float v)
   return below + (above - below) * y.part;
 }
 
+Float4 TexturePyramid::nearest(const Level& level, float u, float v)
+{
+  const int x = std::min(int(u * float(level.width)), level.width - 1);
+  const int y = std::min(int(v * float(level.height)), level.height - 1);
+  return texel(&level.rgba[(std::size_t(y) * std::size_t(level.width) + std::size_t(x)) * 4]);
+}
+
+float TexturePyramid::within(double coordinate, int size) const
+{
+  if (this->Use.repeats)
+  {
+    return repeated(coordinate);
+  }
+  const double half = 0.5 / size;
+  return float(coordinate > half ? std::min(coordinate, 1 - half) : half);
+}
+
 Float4 TexturePyramid::at(const Footprint& f) const
 {
   const auto w = float(this->width());
   const auto h = float(this->height());
+  if (this->Use.filter != TextureFilter::Smooth)
+  {
+    const float u = this->within(f.u, this->width());
+    const float v = this->within(f.v, this->height());
+    const bool linear = this->Use.filter == TextureFilter::Linear;
+    return (linear ? bilinear(this->Levels.front(), u, v) : nearest(this->Levels.front(), u, v)) * (1 / 255.0F);
+  }
   const float across = f.rightU * w * (f.rightU * w) + f.rightV * h * (f.rightV * h);
   const float along = f.downU * w * (f.downU * w) + f.downV * h * (f.downV * h);
   const float longest = std::max(across, along);
   if (!(longest > 1)) // enlarged, or not a number
   {
-    return bilinear(this->Levels.front(), repeated(f.u), repeated(f.v)) * (1 / 255.0F);
+    return bilinear(this->Levels.front(), this->within(f.u, this->width()), this->within(f.v, this->height())) *
+           (1 / 255.0F);
   }
   const float ratio = longest / std::max(std::min(across, along), 1e-30F);
   float probes = 1;
@@ -191,8 +217,8 @@ Float4 TexturePyramid::at(const Footprint& f) const
   for (int i = 0; i < int(probes); ++i)
   {
     const double place = double((float(i) + 0.5F) / probes - 0.5F);
-    const float u = repeated(f.u + axisU * place);
-    const float v = repeated(f.v + axisV * place);
+    const float u = this->within(f.u + axisU * place, this->Levels[low].width);
+    const float v = this->within(f.v + axisV * place, this->Levels[low].height);
     sum += bilinear(this->Levels[low], u, v) * (1 - part);
     if (part > 0)
     {

@@ -9,6 +9,7 @@
 #include "dgtkModel.h"
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace dgtk
@@ -25,18 +26,30 @@ struct Footprint
   float downV = 0;
 };
 
-/// A picture at all resolutions, each half as wide and high as the one before; it repeats.
+/// How a picture is looked at.
+struct PictureUse
+{
+  bool cutOut = false; ///< the colours of what is cut out are those beside it
+  TextureFilter filter = TextureFilter::Smooth;
+  bool repeats = true;
+
+  bool operator<(const PictureUse& o) const
+  {
+    return std::tie(this->cutOut, this->filter, this->repeats) < std::tie(o.cutOut, o.filter, o.repeats);
+  }
+};
+
+/// A picture at all resolutions, each half as wide and high as the one before; at its own only where it is not smooth.
 class TexturePyramid
 {
 public:
-  /// With `cutOut` the colours of what is cut out are those beside it.
-  TexturePyramid(const Image& image, bool cutOut);
+  TexturePyramid(const Image& image, const PictureUse& use);
 
   int width() const { return this->Levels.front().width; }
   int height() const { return this->Levels.front().height; }
 
   /// What a pixel sees of the picture, RGB in [0, 1]: one to four trilinear probes along the longer axis of its
-  /// footprint, as EXT_texture_filter_anisotropic defines it.
+  /// footprint, as EXT_texture_filter_anisotropic defines it. Of a picture that is not smooth what is at its middle.
   Float4 at(const Footprint& f) const;
 
 private:
@@ -48,7 +61,11 @@ private:
   };
   static Level half(const Level& from);
   static Float4 bilinear(const Level& level, float u, float v);
+  static Float4 nearest(const Level& level, float u, float v);
+  /// A coordinate in [0, 1) on a side of so many texels.
+  float within(double coordinate, int size) const;
 
+  PictureUse Use;
   std::vector<Level> Levels;
 };
 

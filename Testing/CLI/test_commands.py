@@ -39,13 +39,13 @@ HELP = {
         ("--to CAMERA", "a camera of the dataset, NAME[@FRAME], or a .json file with K, R, t, width, height"),
         ("--layers N", "use the first N surfaces of each pixel (1: a depth map); 0: all [0]"),
         ("--mask FILE.png", "also write where no sample fell (255)")]),
-    "list": ("[readers|layers|options|writers|cameras|gl]", "Lists what this program can read, derive and write.", [
-        ("--json", "as JSON, with all that is known of layers and options")]),
+    "list": ("[readers|layers|options|writers|cameras|gl|commands]", "Lists what this program can read, derive and write.", [
+        ("--json", "as JSON, with all that is known of commands, layers and options")]),
 }
 
 
 def page(command, arguments, help_, options):
-    rows = [("-o, " if name.startswith("--output") else "    ") + name for name, _ in options] + ["    --help"]
+    rows = [("-o, " if name.startswith("--output") else "    ") + name for name, _ in options] + ["-h, --help"]
     width = max(map(len, rows)) + 2
     texts = [text for _, text in options] + ["show this page"]
     return (f"usage: dgtk {command} {arguments} [options]\n\n{help_}\n\n"
@@ -119,7 +119,8 @@ class Pages(Case):
     def test_every_table_has_the_rows_of_its_document(self):
         keys = {"readers": ["format", "extensions", "description"], "layers": ["layer", "formats", "description"],
                 "options": ["name", "value", "default", "help"], "writers": ["format", "extension", "description"],
-                "cameras": ["model", "description"], "gl": ["backend", "state", "description"]}
+                "cameras": ["model", "description"], "gl": ["backend", "state", "description"],
+                "commands": ["command", "arguments", "help"]}
         everything = json.loads(self.dgtk("list", "--json").stdout)
         self.assertEqual(list(everything), list(keys))
         tables = []

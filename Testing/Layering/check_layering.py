@@ -17,7 +17,7 @@ import os
 import re
 import sys
 
-USES_VTK = {"RenderGL", "Pipeline", "Live", "Views", "Viewer", "Matches"}
+USES_VTK = {"RenderGL", "Pipeline", "FromVTK", "Live", "Views", "Viewer", "Matches"}
 PRIVATE_LIBRARIES = re.compile(
     r"#\s*include\s*[<\"](GL/|EGL/|embree|assimp|opencv|OpenImageIO|OpenEXR|nlohmann|openssl|libdeflate|png\.h|zlib|vtkgl|vtk_glew)")
 

@@ -14,7 +14,7 @@ if(DGTK_EDITOR)
   find_package(Qt5 5.15 REQUIRED COMPONENTS Widgets Test)
   set(dgtk_editor_vtk CommonExecutionModel FiltersSources GUISupportQt)
 endif()
-find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonMath CommonTransforms RenderingCore
+find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMath CommonTransforms FiltersCore FiltersGeometry FiltersSources ImagingCore RenderingCore
   RenderingOpenGL2 glew WrappingPythonCore Python ${dgtk_editor_vtk})
 
 # dgtk_find_library(<target> <header> <library>): libraries whose own CMake packages ask for programs we do not need.

@@ -5,4 +5,4 @@ configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/DGTkConfig.cmake.in" "$
   INSTALL_DESTINATION "${dgtk_cmake_dir}")
 write_basic_package_version_file("${CMAKE_BINARY_DIR}/DGTkConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${CMAKE_BINARY_DIR}/DGTkConfig.cmake" "${CMAKE_BINARY_DIR}/DGTkConfigVersion.cmake"
-  DESTINATION "${dgtk_cmake_dir}")
+  DESTINATION "${dgtk_cmake_dir}" COMPONENT libdgtk-dev)

@@ -3,11 +3,12 @@ set(dgtk_python_destination "lib/python3/dist-packages")
 set(dgtk_install_rpath "${CMAKE_INSTALL_RPATH}")
 set(CMAKE_INSTALL_RPATH "$ORIGIN/../../../../${CMAKE_INSTALL_LIBDIR}")
 vtk_module_wrap_python(
-  MODULES DGTk::Pipeline
+  MODULES DGTk::Pipeline DGTk::FromVTK
   TARGET DGTk::PythonWrapped
   PYTHON_PACKAGE "dgtk"
   MODULE_DESTINATION "${dgtk_python_destination}"
   CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/DGTk"
+  COMPONENT python3-dgtk
   INSTALL_HEADERS OFF
   BUILD_STATIC OFF)
 set(CMAKE_INSTALL_RPATH "${dgtk_install_rpath}")
@@ -23,5 +24,5 @@ foreach(dgtk_python_file IN LISTS dgtk_python_files)
   else()
     configure_file("${dgtk_python_sources}/${dgtk_python_file}" "${dgtk_python_package}/${dgtk_python_built}" @ONLY)
   endif()
-  install(FILES "${dgtk_python_package}/${dgtk_python_built}" DESTINATION "${dgtk_python_destination}/dgtk")
+  install(FILES "${dgtk_python_package}/${dgtk_python_built}" DESTINATION "${dgtk_python_destination}/dgtk" COMPONENT python3-dgtk)
 endforeach()

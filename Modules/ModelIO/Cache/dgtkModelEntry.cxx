@@ -237,7 +237,7 @@ void io(A& a, Model& m)
   auto rest = A::isReader ? std::make_shared<Geometry>() : std::const_pointer_cast<Geometry>(m.rest);
   a(*rest);
   m.rest = rest;
-  a(m.uvs), a(m.sourceVertex), a(m.sourceVertices), a(m.normalGroup), a(m.animations), a(m.frames);
+  a(m.uvs), a(m.colors), a(m.sourceVertex), a(m.sourceVertices), a(m.normalGroup), a(m.animations), a(m.frames);
   motion(a, m);
   a(m.lines), a(m.declaredTriangles), a(m.twoSidedTriangles), a(m.twoSidedSurfaces), a(m.declaredMaterials);
   a(m.boundsMin), a(m.boundsMax);
@@ -274,7 +274,8 @@ bool hasGeometry(const Model& m)
 {
   const std::size_t vertices = m.rest->positions.size();
   const bool sizes = m.rest->normals.size() == vertices && (m.uvs.empty() || m.uvs.size() == vertices) &&
-                     m.sourceVertex.size() == vertices && (m.normalGroup.empty() || m.normalGroup.size() == vertices);
+                     (m.colors.empty() || m.colors.size() == vertices) && m.sourceVertex.size() == vertices &&
+                     (m.normalGroup.empty() || m.normalGroup.size() == vertices);
   const auto inside = [vertices](const std::array<std::uint32_t, 3>& t)
   { return t[0] < vertices && t[1] < vertices && t[2] < vertices; };
   return sizes && allBelow(m.sourceVertex, m.sourceVertices) && allBelow(m.normalGroup, vertices) &&

@@ -4,7 +4,9 @@
 
 #include "dgtkModelContents.h"
 #include "dgtkModelReader.h"
+#include "dgtkTriangulate.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -23,7 +25,11 @@ struct Corner
   std::int32_t normal = -1; ///< as returned by ModelBuilder::addNormal, of the current object; -1: computed
   float u = 0;
   float v = 0;
+  std::array<std::uint8_t, 4> color{ 255, 255, 255, 255 }; ///< R, G, B, A; see ModelBuilder::setHasColors()
 };
+
+/// The bytes of a colour of 3 or 4 numbers, white at 1; what is none of these is cut off.
+std::array<std::uint8_t, 4> colorBytes(const double* rgb, double alpha = 1);
 
 /// How the normals of a surface are computed where its corners name none.
 enum class Shading : std::uint8_t
@@ -115,6 +121,8 @@ public:
   }
   /// Makes Model::uvs be filled also when all texture coordinates are 0.
   void setHasUvs() { this->HasUvs = true; }
+  /// Makes Model::colors be filled, from here on; comes before the first endObject().
+  void setHasColors() { this->HasColors = true; }
 
   /// All of the model but its pictures; the builder is empty afterwards.
   ModelContents finish();
@@ -142,16 +150,11 @@ private:
   std::size_t SmallSurfaces = 0;
   int DefaultMaterial = -1;
   bool HasUvs = false;
+  bool HasColors = false;
   bool GaveUpFlat = false;
   bool GaveUpShape = false;
   std::map<std::pair<int, int>, int> Textured; ///< (material, texture) -> material
 };
-
-/// Splits a polygon in space into count - 2 triangles of indices into `points`, keeping its direction. Concave polygons
-/// are ear-clipped; what has no ear (self-crossing, degenerate) is cut as it comes. `work` is increased by the steps
-/// spent; above `workLimit` polygons are cut into fans and false is returned.
-bool triangulate(const std::vector<Eigen::Vector3d>& points, std::vector<std::array<std::uint32_t, 3>>& triangles,
-  std::uint64_t& work, std::uint64_t workLimit);
 
 /// A normal, not of unit length, where points go by `linear`: by its cofactors, which are the inverse transpose times
 /// the determinant, also where a scale is 0.

@@ -23,12 +23,16 @@ std::vector<std::uint32_t> splitCorners(const std::vector<Corner>& corners, cons
   {
     const Corner& x = corners[a];
     const Corner& y = corners[b];
-    return x.vertex == y.vertex && x.u == y.u && x.v == y.v && normals[a] == normals[b];
+    return x.vertex == y.vertex && x.u == y.u && x.v == y.v && x.color == y.color && normals[a] == normals[b];
   };
   std::vector<std::uint32_t> splitOf(corners.size());
   for (std::uint32_t c = 0; c < corners.size(); ++c)
   {
     std::uint64_t hash = corners[c].vertex;
+    for (const std::uint8_t value : corners[c].color)
+    {
+      hash = hash * 31 + value;
+    }
     for (const float value : { corners[c].u, corners[c].v, normals[c][0], normals[c][1], normals[c][2] })
     {
       hash = mixed(hash, value);
@@ -43,6 +47,12 @@ std::vector<std::uint32_t> splitCorners(const std::vector<Corner>& corners, cons
   return splitOf;
 }
 } // namespace
+
+std::array<std::uint8_t, 4> colorBytes(const double* rgb, double alpha)
+{
+  const auto byte = [](double v) { return std::uint8_t(v > 0 ? std::min(v, 1.0) * 255 + 0.5 : 0.0); };
+  return { byte(rgb[0]), byte(rgb[1]), byte(rgb[2]), byte(alpha) };
+}
 
 /// Makes the vertices of the current object; returns the one of each corner.
 std::vector<std::uint32_t> ModelBuilder::addSplitVertices(const std::vector<Eigen::Vector3f>& normals)
@@ -64,6 +74,10 @@ std::vector<std::uint32_t> ModelBuilder::addSplitVertices(const std::vector<Eige
     model.uvs.resize(base, Eigen::Vector2d(0, 0));
     makeRoom(model.uvs, cornerOf.size());
   }
+  if (this->HasColors)
+  {
+    makeRoom(model.colors, cornerOf.size());
+  }
   for (const std::uint32_t c : cornerOf)
   {
     const Corner& corner = object.corners[c];
@@ -75,6 +89,10 @@ std::vector<std::uint32_t> ModelBuilder::addSplitVertices(const std::vector<Eige
     if (this->HasUvs)
     {
       model.uvs.emplace_back(double(corner.u), double(corner.v));
+    }
+    if (this->HasColors)
+    {
+      model.colors.push_back(corner.color);
     }
   }
   return splitOf;

@@ -27,7 +27,8 @@ struct ObjValues
   std::vector<Eigen::Vector3d> positions;
   std::vector<std::array<float, 2>> uvs;
   std::vector<Eigen::Vector3f> normals;
-  bool colored = false; ///< some vertex has a colour that is not white
+  std::vector<std::array<std::uint8_t, 4>> colors; ///< one a vertex from the first that has one; the rest is white
+  bool colored = false;                            ///< some vertex has a colour that is not white
 };
 
 void addVertex(ObjStatements& statements, ObjValues& values)
@@ -41,7 +42,9 @@ void addVertex(ObjStatements& statements, ObjValues& values)
   }
   else if (count >= 6)
   {
-    values.colored = values.colored || v[3] != 1 || v[4] != 1 || v[5] != 1;
+    values.colored = values.colored || v[3] != 1 || v[4] != 1 || v[5] != 1 || (count == 7 && v[6] != 1);
+    values.colors.resize(values.positions.size(), { 255, 255, 255, 255 });
+    values.colors.push_back(colorBytes(v + 3, count == 7 ? v[6] : 1.0));
   }
   values.positions.push_back(position);
 }
@@ -93,6 +96,10 @@ public:
     , Builder(path, "obj", text.size(), options)
     , Materials(path, this->Builder)
   {
+    if (this->Values.colored)
+    {
+      this->Builder.setHasColors();
+    }
   }
 
   ModelContents run()
@@ -234,6 +241,11 @@ private:
     {
       corner.normal = this->normalAt(normal);
     }
+    const std::uint32_t place = placeOf(indices[0], this->Before.vertices, this->Values.positions.size());
+    if (this->Values.colored && place < this->Values.colors.size())
+    {
+      corner.color = this->Values.colors[place];
+    }
     this->Lost += (indices[1] != 0 && uv == none ? 1 : 0) + (indices[2] != 0 && normal == none ? 1 : 0);
     return true;
   }
@@ -301,10 +313,6 @@ private:
       this->FreeForms, " free-form curve or surface is not drawn", " free-form curves and surfaces are not drawn");
     this->warnOf(this->Lost, " corner names a texture coordinate or normal that does not exist",
       " corners name texture coordinates or normals that do not exist");
-    if (this->Values.colored)
-    {
-      this->Builder.warn("colours of vertices are not drawn");
-    }
   }
 
   /// A normal of the file in the object that used it last.

@@ -213,6 +213,7 @@ private:
     const int normals[3] = { element.find({ "nx" }), element.find({ "ny" }), element.find({ "nz" }) };
     const int colors[3] = { element.find({ "red", "diffuse_red", "r" }),
       element.find({ "green", "diffuse_green", "g" }), element.find({ "blue", "diffuse_blue", "b" }) };
+    const int alpha = element.find({ "alpha", "diffuse_alpha", "a" });
     const int uvs[2] = { element.find({ "s", "u", "texture_u", "texture_s" }),
       element.find({ "t", "v", "texture_v", "texture_t" }) };
     this->HasUvs = uvs[0] >= 0 && uvs[1] >= 0;
@@ -248,6 +249,8 @@ private:
         const double scale = white(element.properties[static_cast<std::size_t>(colors[0])].type);
         const Eigen::Vector3d color = Eigen::Vector3d(at(colors[0]), at(colors[1]), at(colors[2])) / scale;
         this->ColorsVary = this->ColorsVary || (i > 0 && color != this->Color);
+        this->Colors.push_back(colorBytes(color.data(), alpha >= 0 ? at(alpha) / scale : 1.0));
+        this->ColorsVary = this->ColorsVary || this->Colors.back()[3] < 255;
         this->Color = color;
         this->HasColors = true;
       }
@@ -269,6 +272,10 @@ private:
       corner.u = this->Uvs[corner.vertex][0];
       corner.v = this->Uvs[corner.vertex][1];
     }
+    if (known && this->ColorsVary)
+    {
+      corner.color = this->Colors[corner.vertex];
+    }
     return corner;
   }
 
@@ -283,6 +290,11 @@ private:
       {
         made.diffuse = this->Color;
         made.ambient = 0.2 * this->Color;
+      }
+      if (this->ColorsVary)
+      {
+        made.diffuse.setOnes();
+        this->Builder.setHasColors();
       }
       this->Material = this->Builder.addMaterial(made);
       if (!this->Header.texture.empty())
@@ -394,10 +406,6 @@ private:
     {
       this->Builder.warn("has no surfaces: points are not drawn");
     }
-    if (this->ColorsVary)
-    {
-      this->Builder.warn("colours of vertices are not drawn");
-    }
     this->Builder.keep({}, ModelContents::worthwhile);
     return this->Builder.finish();
   }
@@ -407,6 +415,7 @@ private:
   ModelBuilder Builder;
   std::vector<std::int32_t> Normals;
   std::vector<std::array<float, 2>> Uvs;
+  std::vector<std::array<std::uint8_t, 4>> Colors;
   std::vector<Corner> Corners;
   std::uint64_t Vertices = 0;
   Eigen::Vector3d Color{ 0.8, 0.8, 0.8 };

@@ -128,16 +128,22 @@ TEST(Obj, CoordinatesAreThoseOfTheText)
                                  "1 surface left out: a coordinate that is not a finite number"));
 }
 
-TEST(Obj, ColoursOfVerticesAreWarnedOfUnlessWhite)
+TEST(Obj, ColoursOfVerticesAreThoseOfTheirCorners)
 {
-  const auto warnings = [](const std::string& color)
-  { return readBytes("obj", triangle + "v 1 1 1 " + color + "\nf 1 2 3\n")->warnings; };
-  for (const char* color : { "0.5 1 1", "1 0.5 1", "1 1 0.5", "0 0 0 1" })
-  {
-    EXPECT_THAT(warnings(color), ElementsAre("colours of vertices are not drawn")) << color;
-  }
-  EXPECT_THAT(warnings("1 1 1"), IsEmpty());
-  EXPECT_THAT(warnings("1"), IsEmpty());
+  using Colors = std::vector<std::array<std::uint8_t, 4>>;
+  const auto colors = [](const std::string& color)
+  { return readBytes("obj", triangle + "v 1 1 1 " + color + "\nf 1 2 4\n")->colors; };
+  const std::array<std::uint8_t, 4> white{ 255, 255, 255, 255 };
+  EXPECT_EQ(colors("0.5 1 1"), Colors({ white, white, { 128, 255, 255, 255 } }));
+  EXPECT_EQ(colors("1 0.2 1"), Colors({ white, white, { 255, 51, 255, 255 } }));
+  EXPECT_EQ(colors("1 1 0"), Colors({ white, white, { 255, 255, 0, 255 } }));
+  EXPECT_EQ(colors("1 1 1 0.4"), Colors({ white, white, { 255, 255, 255, 102 } }));
+  EXPECT_EQ(colors("2 -1 nan"), Colors({ white, white, { 255, 0, 0, 255 } })) << "cut off";
+  EXPECT_TRUE(colors("1 1 1").empty());
+  EXPECT_TRUE(colors("1").empty());
+  const auto seam = readBytes("obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nv 0 0 0 0 0 1\nv 1 0 0 0 0 1\n"
+                                     "v 0 -1 0 0 0 1\nf 1 2 3\nf 5 4 6\n");
+  EXPECT_EQ(seam->colors.size(), 6u) << "vertices at one place keep their colours";
 }
 
 TEST(Obj, ConcavePolygonsAndTheOrderOfObjects)

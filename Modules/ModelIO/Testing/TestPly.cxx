@@ -169,17 +169,33 @@ TEST(Ply, NamesOfPropertiesInManyDialects)
   }
 }
 
-TEST(Ply, ColoursThatVaryAreReported)
+using Colors = std::vector<std::array<std::uint8_t, 4>>;
+
+TEST(Ply, ColoursThatVaryAreOfTheVertices)
 {
   const auto model = readBytes("ply", changed(asciiQuad, "1 0 255 51 0", "1 0 0 51 0"));
-  EXPECT_THAT(model->warnings, testing::ElementsAre("colours of vertices are not drawn"));
-  EXPECT_EQ(model->materials[0].diffuse, Eigen::Vector3d(0.8, 0.8, 0.8));
+  EXPECT_THAT(model->warnings, testing::IsEmpty());
+  EXPECT_EQ(model->materials[0].diffuse, Eigen::Vector3d(1, 1, 1));
+  EXPECT_EQ(
+    model->colors, Colors({ { 255, 51, 0, 255 }, { 0, 51, 0, 255 }, { 255, 51, 0, 255 }, { 255, 51, 0, 255 } }));
+  EXPECT_TRUE(readBytes("ply", asciiQuad)->colors.empty()) << "one colour is the material's";
+}
+
+TEST(Ply, ColoursMayBeTranslucent)
+{
+  std::string text = changed(asciiQuad, "uchar blue", "uchar blue\nproperty uchar alpha");
+  for (const char* row : { "0 0 255 51 0", "1 0 255 51 0", "1 1 255 51 0", "0 1 255 51 0" })
+  {
+    text = changed(text, row, std::string(row) + " 128");
+  }
+  EXPECT_EQ(readBytes("ply", text)->colors, Colors(4, { 255, 51, 0, 128 }));
 }
 
 TEST(Ply, TheFirstVertexMayHaveAColourOfItsOwn)
 {
   const auto model = readBytes("ply", changed(asciiQuad, "1 0 0 255 51 0", "1 0 0 0 51 0"));
-  EXPECT_THAT(model->warnings, testing::ElementsAre("colours of vertices are not drawn"));
+  ASSERT_EQ(model->colors.size(), 4u);
+  EXPECT_EQ(model->colors.front(), (std::array<std::uint8_t, 4>{ 0, 51, 0, 255 }));
 }
 
 TEST(Ply, WedgesOfAnotherCountAreNotUsed)

@@ -6,14 +6,16 @@
     depth = dgtk.render(scene, "depth", camera="left", frame=3)   # numpy, height x width, float64
     dgtk.generate(scene, "out", layers=["color", "depth"], frames=(0, 9))
 
-dgtkScene, dgtkRenderer and dgtkDatasetGenerator are VTK classes and can be used as such.
+Classes whose names begin with dgtk are VTK's and can be used as such.
 """
 import sys
 
 from ._build import EXECUTABLE, PYTHON, VERSION
 
 __version__ = VERSION
-__all__ = ["load", "scene", "Scene", "render", "generate", "dgtkScene", "dgtkRenderer", "dgtkDatasetGenerator"]
+__all__ = ["load", "scene", "Scene", "render", "generate", "truth", "Truth", "snapshot", "Snapshot", "correspond", "visible_cells",
+           "dgtkScene", "dgtkRenderer", "dgtkDatasetGenerator", "dgtkSnapshot", "dgtkGroundTruthSource", "dgtkPointCloudSource",
+           "dgtkDepthFromZBuffer"]
 
 if sys.version_info[:2] != PYTHON:
     raise ImportError("dgtk %s is for Python %d.%d (%s), this is %d.%d (%s)" % (VERSION, *PYTHON, EXECUTABLE, *sys.version_info[:2], sys.executable))
@@ -21,6 +23,8 @@ try:
     from ._generate import generate
     from ._render import render
     from ._scenes import Scene, load, scene
+    from ._vtk import Snapshot, Truth, correspond, snapshot, truth, visible_cells
+    from .dgtkFromVTK import dgtkDepthFromZBuffer, dgtkGroundTruthSource, dgtkPointCloudSource, dgtkSnapshot
     from .dgtkPipeline import dgtkDatasetGenerator, dgtkRenderer, dgtkScene
 except ImportError as error:
     raise ImportError("dgtk %s needs NumPy and VTK as %s has them (Debian: python3-numpy, python3-vtk9), this is %s: %s"

@@ -256,7 +256,9 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
     const std::string plain = " + dgtkEmission";
     light.erase(light.find(plain), plain.size());
   }
-  put(fragment, "//VTK::Light::Impl", light);
+  // VTK has the vertices' colours in place of the material's.
+  const char* const tint = "  ambientColor *= ambientColorUniform;\n  diffuseColor *= diffuseColorUniform;\n";
+  put(fragment, "//VTK::Light::Impl", (variant.colored ? tint : "") + light);
   std::string finish =
     variant.textured && !variant.physical ? "  dgtkColor *= dgtkTexel(actortexture, tcoordVCVSOutput);\n" : "";
   finish += ownEmission ? "  dgtkColor += dgtkEmission * dgtkTexel(dgtkEmissionMap, tcoordVCVSOutput).rgb;\n" : "";

@@ -21,6 +21,7 @@ struct ShaderVariant
   bool lightTexture = false;               ///< lights come from a buffer texture: more than fit in uniforms
   bool specular = false;
   bool textured = false;
+  bool colored = false; ///< vertices have colours
   bool cutOut = false;
   bool pieces = false;  ///< the triangle comes from a vertex attribute
   bool peel = false;    ///< fragments up to those of the layer before are not there
@@ -45,10 +46,11 @@ struct ShaderVariant
   /// Everything above.
   auto key() const
   {
-    return std::make_pair(this->lights,
-      std::array<bool, 17>{ this->headOnly, this->lightTexture, this->specular, this->textured, this->cutOut,
-        this->pieces, this->peel, this->collect, this->shadows, this->fog, this->environment, this->physical,
-        this->normalMap, this->bumpMap, this->metallicRoughnessMap, this->emissionMap, this->occlusionMap });
+    return std::make_pair(
+      this->lights, std::array<bool, 18>{ this->colored, this->headOnly, this->lightTexture, this->specular,
+                      this->textured, this->cutOut, this->pieces, this->peel, this->collect, this->shadows, this->fog,
+                      this->environment, this->physical, this->normalMap, this->bumpMap, this->metallicRoughnessMap,
+                      this->emissionMap, this->occlusionMap });
   }
   bool operator==(const ShaderVariant& o) const { return this->key() == o.key(); }
 };

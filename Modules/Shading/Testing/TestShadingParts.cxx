@@ -93,7 +93,7 @@ TEST(TexturePyramid, SmallerLevelsAreMeansByArea)
     {
       mean[i % 4 % 3] += i % 4 < 3 ? image->rgba[i] / 255.0 / (width * height) : 0;
     }
-    const TexturePyramid pyramid(*image, false);
+    const TexturePyramid pyramid(*image, {});
     const Float4 whole = pyramid.at({ 0.3, 0.8, 4, 0, 0, 4 }); // four pictures wide
     for (int c = 0; c < 3; ++c)
     {
@@ -108,7 +108,7 @@ TEST(TexturePyramid, EnlargedTexelsAreInterpolatedAndWrapAround)
   image->width = 2;
   image->height = 2; // from the top: red, green / blue, white
   image->rgba = { 255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255 };
-  const TexturePyramid pyramid(*image, false);
+  const TexturePyramid pyramid(*image, {});
   const auto expect = [&](double u, double v, Float4 color)
   {
     const Float4 found = pyramid.at({ u, v, 0.01F, 0, 0, 0.01F });
@@ -127,6 +127,23 @@ TEST(TexturePyramid, EnlargedTexelsAreInterpolatedAndWrapAround)
   expect(0.25, 0, float4(0.5F, 0, 0.5F));
 }
 
+TEST(TexturePyramid, OthersThanSmoothOnesAreWhatIsAtTheirPoint)
+{
+  const auto image = std::make_shared<Image>();
+  image->width = 2;
+  image->height = 1; // red, green
+  image->rgba = { 255, 0, 0, 255, 0, 255, 0, 255 };
+  const Footprint wide{ 0.4, 0.5, 8, 0, 0, 8 };
+  const TexturePyramid nearest(*image, { false, TextureFilter::Nearest, true });
+  EXPECT_EQ(nearest.at(wide)[0], 1);
+  EXPECT_EQ(nearest.at({ 0.6, 0.5, 0, 0, 0, 0 })[1], 1);
+  EXPECT_EQ(nearest.at({ 1.1, 0.5, 0, 0, 0, 0 })[0], 1) << "it repeats";
+  const TexturePyramid linear(*image, { false, TextureFilter::Linear, false });
+  EXPECT_NEAR(double(linear.at(wide)[0]), 0.7, 1e-6);
+  EXPECT_EQ(linear.at({ 1.4, 0.5, 0, 0, 0, 0 })[1], 1) << "its border goes on";
+  EXPECT_EQ(linear.at({ -3, 0.5, 0, 0, 0, 0 })[0], 1);
+}
+
 // A grating that a pixel sees lengthwise stays sharp across while it is averaged along.
 TEST(TexturePyramid, ProbesFollowTheLongerAxis)
 {
@@ -137,7 +154,7 @@ TEST(TexturePyramid, ProbesFollowTheLongerAxis)
     const auto value = std::uint8_t(i % 64 / 8 % 2 ? 255 : 0); // stripes along v, 8 texels wide
     image->rgba.insert(image->rgba.end(), { value, value, value, 255 });
   }
-  const TexturePyramid pyramid(*image, false);
+  const TexturePyramid pyramid(*image, {});
   const double inStripe = 9.0 / 64; // white; a texel beside black
   EXPECT_NEAR(double(pyramid.at({ inStripe, 0.5, 1.0F / 64, 0, 0, 4.0F / 64 })[0]), 1, 1e-6);   // four texels along
   EXPECT_LT(double(pyramid.at({ inStripe, 0.5, 16.0F / 64, 0, 0, 16.0F / 64 })[0]), 0.9);       // as wide: blurred

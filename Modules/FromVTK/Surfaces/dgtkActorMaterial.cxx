@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkActorMaterial.h"
+
+#include "dgtkPortableMath.h"
+#include "dgtkSurfacePieces.h"
+
+#include <vtkActor.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkPointData.h>
+#include <vtkProperty.h>
+#include <vtkTexture.h>
+
+#include <algorithm>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr double ambientPerWorld = 5; ///< 1 / worldAmbient
+
+Eigen::Vector3d vectorOf(const double* from) { return { from[0], from[1], from[2] }; }
+
+/// Light that a surface of VTK's physically based kind has is linear; ours is display-referred.
+Eigen::Vector3d toDisplay(const Eigen::Vector3d& linear)
+{
+  return linear.unaryExpr([](double v) { return portable::srgbFromLinear(v); });
+}
+
+/// What surfaces have without regard to how they are lit.
+struct PieceColors
+{
+  Eigen::Vector3d ambient;
+  Eigen::Vector3d diffuse;
+};
+
+PieceColors colorsOf(vtkProperty& property, const SurfacePiece& piece)
+{
+  const bool mapped = piece.colors || piece.colorMapAt || (!piece.glyphs.empty() && piece.glyphs.front().color);
+  if (mapped)
+  {
+    return { Eigen::Vector3d::Ones(), Eigen::Vector3d::Ones() };
+  }
+  if (piece.blockColor)
+  {
+    return { *piece.blockColor, *piece.blockColor };
+  }
+  return { vectorOf(property.GetAmbientColor()), vectorOf(property.GetDiffuseColor()) };
+}
+
+int addTexture(vtkTexture& texture, Model& model, const std::string& what, Unsupported& unsupported)
+{
+  texture.Update();
+  vtkImageData* const input = texture.GetInput();
+  std::shared_ptr<const Image> image;
+  if (input != nullptr && input->GetPointData()->GetScalars() != nullptr)
+  {
+    vtkDataArray* const scalars = input->GetPointData()->GetScalars();
+    const bool direct =
+      texture.GetColorMode() == VTK_COLOR_MODE_DIRECT_SCALARS ||
+      (texture.GetColorMode() == VTK_COLOR_MODE_DEFAULT && scalars->GetDataType() == VTK_UNSIGNED_CHAR);
+    vtkSmartPointer<vtkImageData> mapped = input;
+    if (!direct)
+    {
+      mapped = vtkSmartPointer<vtkImageData>::New();
+      mapped->CopyStructure(input);
+      mapped->GetPointData()->SetScalars(
+        texture.MapScalarsToColors(scalars) != nullptr ? texture.GetMappedScalars() : nullptr);
+    }
+    image = imageOf(*mapped);
+  }
+  if (!image)
+  {
+    unsupported.add(what + ": a texture that is no picture of bytes");
+    return -1;
+  }
+  Texture made;
+  made.name = "texture-" + std::to_string(model.textures.size() + 1);
+  made.image = image;
+  made.filter = texture.GetMipmap()             ? TextureFilter::Smooth
+                : texture.GetInterpolate() != 0 ? TextureFilter::Linear
+                                                : TextureFilter::Nearest;
+  made.repeats = texture.GetRepeat() != 0;
+  model.textures.push_back(made);
+  return int(model.textures.size()) - 1;
+}
+
+void setPhysical(vtkProperty& property, const std::string& name, Material& material, Unsupported& unsupported)
+{
+  material.physical = Material::Physical{ property.GetMetallic(), property.GetRoughness(), true };
+  material.diffuse = toDisplay(material.diffuse);
+  if (!property.GetAllTextures().empty())
+  {
+    unsupported.add(name + ": textures of its physically based property");
+  }
+  if (property.GetAnisotropy() != 0 || property.GetCoatStrength() != 0)
+  {
+    unsupported.add(name + ": anisotropy or coat of its physically based property");
+  }
+}
+
+std::uint8_t byteAt(vtkDataArray& scalars, vtkIdType tuple, int component)
+{
+  return std::uint8_t(std::clamp(scalars.GetComponent(tuple, component), 0.0, 255.0));
+}
+} // namespace
+
+std::shared_ptr<const Image> imageOf(vtkImageData& data)
+{
+  vtkDataArray* const scalars = data.GetPointData()->GetScalars();
+  const int* const size = data.GetDimensions();
+  if (scalars == nullptr || scalars->GetDataType() != VTK_UNSIGNED_CHAR || size[0] < 1 || size[1] < 1 || size[2] != 1)
+  {
+    return nullptr;
+  }
+  const int components = scalars->GetNumberOfComponents();
+  const int step = components >= 3 ? 1 : 0; // grey is R, G and B
+  auto image = std::make_shared<Image>();
+  image->width = size[0];
+  image->height = size[1];
+  image->rgba.resize(std::size_t(size[0]) * std::size_t(size[1]) * 4);
+  std::uint8_t* to = image->rgba.data();
+  for (int y = size[1] - 1; y >= 0; --y)
+  {
+    for (int x = 0; x < size[0]; ++x, to += 4)
+    {
+      const vtkIdType at = vtkIdType(y) * size[0] + x;
+      for (int c = 0; c < 3; ++c)
+      {
+        to[c] = byteAt(*scalars, at, c * step);
+      }
+      const bool alpha = components == 2 || components == 4;
+      to[3] = alpha ? byteAt(*scalars, at, components - 1) : 255;
+      image->hasAlpha = image->hasAlpha || to[3] < 255;
+    }
+  }
+  return image;
+}
+
+Material actorMaterial(
+  vtkActor& actor, const SurfacePiece& piece, bool lit, const std::string& name, Model& model, Unsupported& unsupported)
+{
+  vtkProperty& property = *actor.GetProperty();
+  const PieceColors colors = colorsOf(property, piece);
+  Material material;
+  material.name = name;
+  material.opacity = piece.blockOpacity.value_or(property.GetOpacity());
+  const Eigen::Vector3d ambient = property.GetAmbient() * colors.ambient;
+  const Eigen::Vector3d diffuse = property.GetDiffuse() * colors.diffuse;
+  if (lit && property.GetLighting())
+  {
+    material.ambient = ambientPerWorld * ambient;
+    material.diffuse = diffuse;
+    material.specular = property.GetSpecular() * vectorOf(property.GetSpecularColor());
+    material.shininess = property.GetSpecularPower();
+    if (property.GetInterpolation() == VTK_PBR)
+    {
+      setPhysical(property, name, material, unsupported);
+    }
+  }
+  else
+  {
+    material.ambient = ambientPerWorld * (ambient + diffuse);
+    material.diffuse.setZero();
+  }
+  if (vtkTexture* const texture = actor.GetTexture())
+  {
+    if (material.texture = addTexture(*texture, model, name, unsupported); material.texture >= 0)
+    {
+      material.cutOut = model.textures[std::size_t(material.texture)].image->hasAlpha;
+    }
+  }
+  if (property.GetEdgeVisibility() != 0)
+  {
+    unsupported.add(name + ": visible edges");
+  }
+  if (actor.GetBackfaceProperty() != nullptr)
+  {
+    unsupported.add(name + ": a property of its back faces");
+  }
+  return material;
+}
+
+} // namespace dgtk

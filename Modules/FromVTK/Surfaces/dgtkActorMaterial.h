@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkActorMaterial_h
+#define dgtkActorMaterial_h
+
+// Private to FromVTK.
+
+#include "dgtkUnsupported.h"
+
+#include "dgtkModel.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+
+class vtkActor;
+class vtkImageData;
+
+namespace dgtk
+{
+
+struct SurfacePiece;
+
+/// The material of a piece of an actor, with its texture among the model's. Its ambient colour is what VTK adds without
+/// a light, for the renderer's worldAmbient; without lights that is all of it.
+Material actorMaterial(vtkActor& actor, const SurfacePiece& piece, bool lit, const std::string& name, Model& model,
+  Unsupported& unsupported);
+
+/// The texels of an image of 1 to 4 components, rows top to bottom; null for what is no picture of bytes.
+std::shared_ptr<const Image> imageOf(vtkImageData& data);
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkFrozenPair.h"
+
+#include "dgtkCorrespondence.h"
+#include "dgtkError.h"
+#include "dgtkSystem.h"
+#include "dgtkThreadPool.h"
+#include "dgtkTracedView.h"
+
+#include <Eigen/Geometry>
+#include <vtkActor.h>
+
+#include <algorithm>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr int blockRows = 16;
+constexpr double roundingOfPlaces = 1e-9; ///< barycentric, of points on the edge of a cut
+
+/// Barycentric coordinates of the second and third corner of a point in the plane of a triangle.
+Eigen::Vector2d placeIn(const Model& model, std::uint32_t triangle, const Eigen::Vector3d& point)
+{
+  const auto& corners = model.triangles[triangle];
+  const std::vector<Eigen::Vector3d>& p = model.rest->positions;
+  const Eigen::Vector3d ab = p[corners[1]] - p[corners[0]];
+  const Eigen::Vector3d ac = p[corners[2]] - p[corners[0]];
+  const Eigen::Vector3d normal = ab.cross(ac);
+  const Eigen::Vector3d inside = point - p[corners[0]];
+  const double area = normal.squaredNorm();
+  return { inside.cross(ac).dot(normal) / area, ab.cross(inside).dot(normal) / area };
+}
+
+Eigen::Vector3d pointOf(const Model& model, std::uint32_t triangle, const Eigen::Vector2d& place)
+{
+  const auto& corners = model.triangles[triangle];
+  const std::vector<Eigen::Vector3d>& p = model.rest->positions;
+  const Eigen::Vector3d& first = p[corners[0]];
+  return first + place.x() * (p[corners[1]] - first) + place.y() * (p[corners[2]] - first);
+}
+
+class Pair
+{
+public:
+  Pair(const FrozenView& from, const FrozenView& to)
+    : From(from)
+    , To(to)
+    , FromState(from.stage->at(0))
+    , ToState(to.stage->at(0))
+    , FromView(from.stage->view(0, 0))
+    , ToView(to.stage->view(0, 0))
+    , Hits(traceView(*from.stage, FromView))
+  {
+    this->match();
+    this->Other = { this->ToState.get(), this->ToView, to.trees.get() };
+  }
+
+  void row(int y, double* pixels, std::uint8_t* classes) const
+  {
+    const int width = this->FromView.model->width();
+    for (int x = 0; x < width; ++x)
+    {
+      const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
+      const Correspondence found = this->follow({ x + 0.5, y + 0.5 }, this->Hits[i]);
+      pixels[2 * i] = found.pixel.x();
+      pixels[2 * i + 1] = found.pixel.y();
+      classes[i] = static_cast<std::uint8_t>(found.visibility);
+    }
+  }
+
+private:
+  /// Which actor of the other view each of this one is.
+  void match()
+  {
+    for (const FrozenActor& actor : this->From.actors)
+    {
+      const auto same = std::find_if(this->To.actors.begin(), this->To.actors.end(),
+        [&actor](const FrozenActor& one)
+        { return one.actor.Get() == actor.actor.Get() && one.occurrence == actor.occurrence; });
+      const bool there = same != this->To.actors.end();
+      if (there && same->cells != actor.cells)
+      {
+        throw InputError("VTK scene", 0, actor.name + " has other cells in the second view",
+          "the same cells, whose points may move",
+          std::to_string(same->cells.size()) + " triangles, not " + std::to_string(actor.cells.size()));
+      }
+      this->ObjectOf.push_back(there ? std::uint32_t(same - this->To.actors.begin()) + 1 : 0);
+    }
+  }
+
+  Correspondence follow(const Eigen::Vector2d& pixel, const Hit& hit) const
+  {
+    const std::uint32_t object = hit.object == 0 ? 0 : this->ObjectOf[hit.object - 1];
+    if (object == 0)
+    {
+      return {};
+    }
+    const FrozenActor& actor = this->From.actors[hit.object - 1];
+    const SurfacePoint at = surfacePointAt(*this->FromState, this->FromView, pixel, hit);
+    Surface point{ hit.triangle, at.barycentrics };
+    if (!actor.parents.empty())
+    {
+      point.triangle = actor.wholeTriangle(hit.triangle);
+      point.place = placeIn(*actor.whole, point.triangle, pointOf(*actor.model, hit.triangle, at.barycentrics));
+    }
+    const FrozenActor& other = this->To.actors[object - 1];
+    if (!other.parents.empty() && !findShown(other, point))
+    {
+      return {};
+    }
+    return correspond(this->Other, { object, point.triangle }, point.place);
+  }
+
+  struct Surface
+  {
+    std::uint32_t triangle;
+    Eigen::Vector2d place; ///< barycentric coordinates of the second and third corner
+  };
+
+  /// The piece of a triangle of the whole that has its point; false where that is not shown.
+  static bool findShown(const FrozenActor& actor, Surface& point)
+  {
+    const Eigen::Vector3d wanted = pointOf(*actor.whole, point.triangle, point.place);
+    const auto pieces = std::equal_range(actor.parents.begin(), actor.parents.end(), point.triangle);
+    double best = -roundingOfPlaces;
+    bool found = false;
+    for (auto piece = pieces.first; piece != pieces.second; ++piece)
+    {
+      const auto triangle = std::uint32_t(piece - actor.parents.begin());
+      const Eigen::Vector2d place = placeIn(*actor.model, triangle, wanted);
+      const double inside = std::min(place.minCoeff(), 1 - place.sum());
+      if (inside >= best)
+      {
+        best = inside;
+        point = { triangle, place };
+        found = true;
+      }
+    }
+    return found;
+  }
+
+  const FrozenView& From;
+  const FrozenView& To;
+  std::shared_ptr<const SceneState> FromState;
+  std::shared_ptr<const SceneState> ToState;
+  View FromView;
+  View ToView;
+  std::vector<Hit> Hits;
+  std::vector<std::uint32_t> ObjectOf; ///< in the other view, by actor; 0: it is not there
+  OtherView Other;
+};
+} // namespace
+
+void correspondViews(const FrozenView& from, const FrozenView& to, double* pixels, std::uint8_t* classes)
+{
+  const Pair pair(from, to);
+  const int height = from.stage->view(0, 0).model->height();
+  ThreadPool pool(machineThreads());
+  pool.parallelFor((height + blockRows - 1) / blockRows,
+    [&](int block)
+    {
+      for (int y = block * blockRows; y < std::min(height, (block + 1) * blockRows); ++y)
+      {
+        pair.row(y, pixels, classes);
+      }
+    });
+}
+
+} // namespace dgtk

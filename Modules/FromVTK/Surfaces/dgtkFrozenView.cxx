@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkFrozenView.h"
+
+#include "dgtkModelSource.h"
+#include "dgtkRendererCamera.h"
+#include "dgtkRendererLights.h"
+#include "dgtkRendererProps.h"
+#include "dgtkSharedModels.h"
+#include "dgtkSurfaceModel.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkMapper.h>
+#include <vtkPlane.h>
+#include <vtkPlaneCollection.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr double skewed = 1e-12;
+
+/// Models in memory, under the names that objects have for them.
+class FrozenModels : public ModelSource
+{
+public:
+  ObjectLook lookOf(const SceneDescription&, const ObjectDescription& object) const override
+  {
+    const std::shared_ptr<const Model>& model = this->Models.at(object.model);
+    return { model, std::shared_ptr<const std::vector<Material>>(model, &model->materials) };
+  }
+  std::shared_ptr<const EnvironmentState> environment(const SceneDescription&) const override { return nullptr; }
+  std::shared_ptr<GeometryCache> geometries() const override { return this->Geometries; }
+
+  std::map<std::string, std::shared_ptr<const Model>> Models;
+
+private:
+  std::shared_ptr<GeometryCache> Geometries = std::make_shared<GeometryCache>();
+};
+
+/// An object's place: position, orientation and scale where the matrix is made of them; what it is not is baked into
+/// the points.
+struct Placement
+{
+  Affine3 bake;
+  Affine3 world_from_object;
+  Eigen::Vector3d scale{ 1, 1, 1 };
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+};
+
+Placement placementOf(const Affine3& world)
+{
+  Placement place;
+  Eigen::Matrix3d turn;
+  for (int i = 0; i < 3; ++i)
+  {
+    place.scale[i] = world.linear.col(i).norm();
+    turn.col(i) = world.linear.col(i) / place.scale[i];
+  }
+  if (turn.determinant() < 0)
+  {
+    turn.col(0) = -turn.col(0);
+    place.scale[0] = -place.scale[0];
+  }
+  const bool made =
+    turn.allFinite() && (turn.transpose() * turn - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < skewed;
+  if (made)
+  {
+    place.orientation = Eigen::Quaterniond(turn);
+    place.world_from_object = world;
+    return place;
+  }
+  place.scale.setOnes();
+  place.bake = world;
+  return place;
+}
+
+class Freezer
+{
+public:
+  Freezer(vtkRenderer& renderer, int width, int height)
+    : Renderer(renderer)
+    , Size(width > 0 ? std::make_pair(width, height) : rendererSize(renderer))
+    , Lit(isLit(renderer))
+  {
+  }
+
+  FrozenView run(bool skip)
+  {
+    for (const ViewActor& actor : rendererActors(this->Renderer, this->Out))
+    {
+      this->addActor(actor);
+    }
+    this->lookAround();
+    if (!skip)
+    {
+      this->Out.refuse();
+    }
+    RendererCamera camera = rendererCamera(this->Renderer, this->Size.first, this->Size.second);
+    this->fitCamera(camera);
+    for (std::size_t i = 0; i < this->View.actors.size(); ++i)
+    {
+      this->show(this->View.actors[i], camera.description);
+      this->describe(this->View.actors[i], i);
+    }
+    this->Scene.cameras.push_back(camera.description);
+    this->Scene.lights = rendererLights(this->Renderer, *camera.camera);
+    this->softenForPhysical();
+    const double* const background = this->Renderer.GetBackground();
+    this->Scene.background = Eigen::Vector3d(background[0], background[1], background[2]);
+    this->View.stage = Stage::make(std::move(this->Scene), this->Models);
+    this->View.trees = keptTrees(this->View.stage->at(0));
+    this->View.left = this->Out.lines();
+    return std::move(this->View);
+  }
+
+private:
+  void addActor(const ViewActor& actor)
+  {
+    vtkProperty& property = *actor.actor->GetProperty();
+    if (property.GetRepresentation() != VTK_SURFACE)
+    {
+      this->Out.add(actor.name + ": drawn as " + property.GetRepresentationAsString());
+      return;
+    }
+    const DrawnSurface drawn = surfacePieces(actor, this->Out);
+    const Placement place = placementOf(actor.world_from_object);
+    SurfaceModel surface = surfaceModel(*actor.actor, drawn.pieces, place.bake, this->Lit, this->Out);
+    if (surface.model->triangles.empty())
+    {
+      return;
+    }
+    FrozenActor frozen;
+    frozen.actor = actor.actor;
+    frozen.occurrence = actor.occurrence;
+    frozen.name = actor.name;
+    frozen.whole = sharedModel(surface.model);
+    frozen.cells = std::move(surface.cells);
+    frozen.inputCells = drawn.cells;
+    frozen.world_from_object = place.world_from_object;
+    this->View.actors.push_back(std::move(frozen));
+    this->Places.push_back(place);
+  }
+
+  /// What is in a picture beside its actors.
+  void lookAround()
+  {
+    const std::pair<bool, const char*> parts[] = { { this->Renderer.GetGradientBackground(), "a gradient background" },
+      { this->Renderer.GetTexturedBackground(), "a textured background" },
+      { this->Renderer.GetUseImageBasedLighting(), "image based lighting" } };
+    for (const auto& [there, what] : parts)
+    {
+      if (there)
+      {
+        this->Out.add(what);
+      }
+    }
+  }
+
+  template <class Body>
+  void forPoints(const Body& body) const
+  {
+    for (const FrozenActor& actor : this->View.actors)
+    {
+      for (const Eigen::Vector3d& point : actor.whole->rest->positions)
+      {
+        body(Eigen::Vector3d(actor.world_from_object * point));
+      }
+    }
+  }
+
+  void fitCamera(RendererCamera& camera) const
+  {
+    double nearest = std::numeric_limits<double>::infinity();
+    double farthest = 0;
+    const Eigen::Vector3d eye = camera.description.position.at(0);
+    const Eigen::Vector3d ahead = camera.description.orientation.at(0).matrix().col(2);
+    this->forPoints(
+      [&](const Eigen::Vector3d& point)
+      {
+        const double depth = ahead.dot(point - eye);
+        nearest = std::min(nearest, depth);
+        farthest = std::max(farthest, depth);
+      });
+    setRange(camera, std::isfinite(nearest) ? nearest : 0.0, farthest);
+  }
+
+  void show(FrozenActor& actor, const CameraDescription& camera)
+  {
+    const Affine3& world = actor.world_from_object;
+    if (vtkPlaneCollection* const planes = actor.actor->GetMapper()->GetClippingPlanes())
+    {
+      for (int i = 0; i < planes->GetNumberOfItems(); ++i)
+      {
+        vtkPlane& plane = *planes->GetItem(i);
+        const Eigen::Vector3d normal(plane.GetNormal());
+        const Eigen::Vector3d origin(plane.GetOrigin());
+        Eigen::Vector4d own;
+        own << world.linear.transpose() * normal, normal.dot(world.translation - origin);
+        actor.shown.planes.push_back(own);
+      }
+    }
+    const bool back = actor.actor->GetProperty()->GetBackfaceCulling() != 0;
+    const bool front = actor.actor->GetProperty()->GetFrontfaceCulling() != 0;
+    if (back || front)
+    {
+      const bool perspective = camera.model == "pinhole";
+      actor.shown.isCulled = [back, front, perspective, world, eye = Eigen::Vector3d(camera.position.at(0)),
+                               ahead = Eigen::Vector3d(camera.orientation.at(0).matrix().col(2))](
+                               const Eigen::Vector3d corners[3])
+      {
+        const Eigen::Vector3d a = world * corners[0];
+        const Eigen::Vector3d normal = (world * corners[1] - a).cross(world * corners[2] - a);
+        const double towards = -normal.dot(perspective ? Eigen::Vector3d(a - eye) : ahead);
+        return towards > 0 ? front : back;
+      };
+    }
+    ShownModel shown = shownModel(actor.whole, actor.shown);
+    actor.model = sharedModel(shown.model);
+    actor.parents = std::move(shown.parents);
+  }
+
+  void describe(const FrozenActor& actor, std::size_t index)
+  {
+    ObjectDescription object;
+    object.name = actor.name;
+    object.model = "models/" + actor.name + ".obj";
+    const Placement& place = this->Places[index];
+    object.position = Eigen::Vector3d(actor.world_from_object.translation);
+    object.orientation =
+      Quaternion{ place.orientation.w(), place.orientation.x(), place.orientation.y(), place.orientation.z() };
+    object.scale = place.scale;
+    this->Models.Models[object.model] = actor.model;
+    this->Scene.objects.push_back(object);
+  }
+
+  /// A physically based surface of VTK shows 1 / pi of the light, ours all of it.
+  void softenForPhysical()
+  {
+    std::size_t physical = 0;
+    std::size_t all = 0;
+    for (const FrozenActor& actor : this->View.actors)
+    {
+      for (const Material& material : actor.whole->materials)
+      {
+        ++all;
+        physical += material.physical ? 1 : 0;
+      }
+    }
+    if (physical > 0 && physical == all)
+    {
+      if (this->Scene.lights.empty() && this->Lit)
+      {
+        this->Scene.lights.push_back(headLight());
+      }
+      for (LightDescription& light : this->Scene.lights)
+      {
+        light.intensity = light.intensity.at(0) / EIGEN_PI;
+      }
+    }
+  }
+
+  vtkRenderer& Renderer;
+  std::pair<int, int> Size;
+  bool Lit;
+  Unsupported Out;
+  FrozenView View;
+  std::vector<Placement> Places; ///< one an actor
+  SceneDescription Scene;
+  FrozenModels Models;
+};
+} // namespace
+
+FrozenView freeze(vtkRenderer& renderer, int width, int height, bool skip)
+{
+  return Freezer(renderer, width, height).run(skip);
+}
+
+} // namespace dgtk

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSavedSnapshot.h"
+
+#include "dgtkColorMap.h"
+#include "dgtkFile.h"
+#include "dgtkLayerWriter.h"
+#include "dgtkRendererLights.h"
+#include "dgtkText.h"
+
+#include <cstring>
+#include <filesystem>
+#include <map>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr double worldShare = 0.2; ///< of ambient light, which is there without a light
+constexpr const char* modelFolder = "models";
+
+std::string joinedNumbers(const double* numbers, std::size_t count)
+{
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    text += ' ' + shortest(numbers[i]);
+  }
+  return text;
+}
+
+std::string rowOf(const char* keyword, const Eigen::Vector3d& v) { return keyword + joinedNumbers(v.data(), 3) + '\n'; }
+
+void writePicture(const Image& image, const std::string& path)
+{
+  const LayerSpec spec{ "texture", PixelType::UInt8, 4, "", "", "", "", Meaning::Picture };
+  const auto writer = makeLayerWriter("png", FilePlace(path), spec, image.width, image.height);
+  Rows rows(PixelType::UInt8, 4, image.width, 0, image.height);
+  std::memcpy(rows.data(), image.rgba.data(), rows.bytes());
+  writer->write(rows);
+  writer->finish();
+}
+
+/// One model as OBJ with its library of materials.
+class ObjFile
+{
+public:
+  ObjFile(const Model& model, const std::string& folder, const std::string& name)
+    : From(model)
+    , Folder(folder)
+    , Name(name)
+    , MapIsTexture(model.colorMap && model.uvs.empty())
+  {
+  }
+
+  /// `ambientScale`: of the materials' ambient colours.
+  void write(double ambientScale) const
+  {
+    writeFile(FilePlace(this->Folder + '/' + this->Name + ".mtl"), this->library(ambientScale));
+    writeFile(FilePlace(this->Folder + '/' + this->Name + ".obj"), this->text());
+    for (std::size_t i = 0; i < this->From.textures.size(); ++i)
+    {
+      writePicture(*this->From.textures[i].image, this->Folder + '/' + this->picture(i));
+    }
+    if (this->MapIsTexture)
+    {
+      writePicture(*this->From.colorMap, this->Folder + '/' + this->picture(this->From.textures.size()));
+    }
+  }
+
+private:
+  std::string picture(std::size_t index) const { return this->Name + "-texture-" + std::to_string(index + 1) + ".png"; }
+
+  std::string library(double ambientScale) const
+  {
+    std::string text;
+    for (const Material& m : this->From.materials)
+    {
+      text += "newmtl " + m.name + '\n' + rowOf("Ka", ambientScale * m.ambient) + rowOf("Kd", m.diffuse) +
+              rowOf("Ks", m.specular) + "Ns " + shortest(m.shininess) + "\nd " + shortest(m.opacity) + '\n';
+      if (m.texture >= 0 || this->MapIsTexture)
+      {
+        text += "map_Kd " + this->picture(m.texture >= 0 ? std::size_t(m.texture) : this->From.textures.size()) + '\n';
+      }
+    }
+    return text;
+  }
+
+  std::string text() const
+  {
+    const Model& m = this->From;
+    const Geometry& g = *m.rest;
+    const std::vector<Eigen::Vector2d>& uvs = this->MapIsTexture ? m.colorMapAt : m.uvs;
+    std::string text = "mtllib " + this->Name + ".mtl\no " + this->Name + '\n';
+    for (std::size_t i = 0; i < g.positions.size(); ++i)
+    {
+      text += 'v' + joinedNumbers(g.positions[i].data(), 3) + this->color(i) + '\n';
+    }
+    for (const Eigen::Vector2d& uv : uvs)
+    {
+      text += "vt" + joinedNumbers(uv.data(), 2) + '\n';
+    }
+    for (const Eigen::Vector3f& normal : g.normals)
+    {
+      text += rowOf("vn", normal.cast<double>());
+    }
+    for (const Part& part : m.parts)
+    {
+      text += "usemtl " + m.materials[std::size_t(part.material)].name + '\n';
+      for (std::uint32_t t = part.firstTriangle; t < part.firstTriangle + part.triangles; ++t)
+      {
+        text += 'f';
+        for (const std::uint32_t corner : m.triangles[t])
+        {
+          const std::string index = std::to_string(corner + 1);
+          text += ' ' + index + '/' + (uvs.empty() ? "" : index) + '/' + index;
+        }
+        text += '\n';
+      }
+    }
+    return text;
+  }
+
+  /// R, G, B and, where it is not opaque, A behind a vertex.
+  std::string color(std::size_t vertex) const
+  {
+    const bool mapped = this->From.colorMap && !this->MapIsTexture;
+    if (this->From.colors.empty() && !mapped)
+    {
+      return {};
+    }
+    const auto bytes =
+      mapped ? colorMapTexel(*this->From.colorMap, this->From.colorMapAt[vertex]) : this->From.colors[vertex];
+    double numbers[4];
+    for (std::size_t c = 0; c < 4; ++c)
+    {
+      numbers[c] = bytes[c] / 255.0;
+    }
+    return joinedNumbers(numbers, bytes[3] < 255 ? 4 : 3);
+  }
+
+  const Model& From;
+  const std::string& Folder;
+  const std::string& Name;
+  bool MapIsTexture;
+};
+
+/// Files hold ambient colours up to 1: more of them needs more ambient light.
+bool needsAmbientLight(const FrozenView& view)
+{
+  for (const FrozenActor& actor : view.actors)
+  {
+    for (const Material& material : actor.model->materials)
+    {
+      if (material.ambient.maxCoeff() > 1)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+void addAmbientLight(SceneDescription& scene)
+{
+  if (scene.lights.empty())
+  {
+    scene.lights.push_back(headLight());
+  }
+  LightDescription ambient;
+  ambient.name = "ambient";
+  ambient.kind = LightKind::Directional;
+  ambient.position = Eigen::Vector3d(0, 1, 0);
+  ambient.ambient = Eigen::Vector3d(Eigen::Vector3d::Constant(1 - worldShare));
+  ambient.diffuse = Eigen::Vector3d(0, 0, 0);
+  ambient.specular = Eigen::Vector3d(0, 0, 0);
+  scene.lights.push_back(ambient);
+}
+} // namespace
+
+void saveSnapshot(const FrozenView& view, const std::string& path)
+{
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const std::string models = (std::filesystem::path(folder) / modelFolder).string();
+  makeFolders(models);
+  SceneDescription scene = view.stage->description();
+  const bool ambient = needsAmbientLight(view);
+  for (std::size_t i = 0; i < view.actors.size(); ++i)
+  {
+    ObjFile(*view.actors[i].model, models, view.actors[i].name).write(ambient ? worldShare : 1.0);
+    scene.objects[i].model = (std::filesystem::path(models) / (view.actors[i].name + ".obj")).string();
+  }
+  if (ambient)
+  {
+    addAmbientLight(scene);
+  }
+  writeScene(scene, path);
+}
+
+} // namespace dgtk

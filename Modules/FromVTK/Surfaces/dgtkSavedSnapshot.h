@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkSavedSnapshot_h
+#define dgtkSavedSnapshot_h
+
+// Private to FromVTK.
+
+#include "dgtkFrozenView.h"
+
+#include <string>
+
+namespace dgtk
+{
+
+/// Writes a view as a scene with its models (OBJ) and textures (PNG) in the folder `models` beside it. Throws
+/// InputError for what they cannot say, and MachineError.
+void saveSnapshot(const FrozenView& view, const std::string& path);
+
+} // namespace dgtk
+
+#endif

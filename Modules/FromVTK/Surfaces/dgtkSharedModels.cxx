@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSharedModels.h"
+
+#include "dgtkRaySource.h"
+
+#include <algorithm>
+#include <mutex>
+#include <tuple>
+#include <vector>
+
+namespace dgtk
+{
+
+namespace
+{
+bool equalMaterials(const Material& a, const Material& b)
+{
+  const auto physical = [](const Material& m)
+  {
+    return m.physical ? std::make_tuple(true, m.physical->metallic, m.physical->roughness, m.physical->wanted)
+                      : std::make_tuple(false, 0.0, 0.0, false);
+  };
+  const auto numbers = [](const Material& m) { return std::tie(m.shininess, m.opacity, m.texture, m.cutOut); };
+  return a.name == b.name && a.ambient == b.ambient && a.diffuse == b.diffuse && a.specular == b.specular &&
+         a.emission == b.emission && numbers(a) == numbers(b) && physical(a) == physical(b);
+}
+
+bool equalImages(const std::shared_ptr<const Image>& a, const std::shared_ptr<const Image>& b)
+{
+  return a == b || (a && b && a->width == b->width && a->height == b->height && a->rgba == b->rgba);
+}
+
+bool equalTextures(const Texture& a, const Texture& b)
+{
+  return a.filter == b.filter && a.repeats == b.repeats && equalImages(a.image, b.image);
+}
+
+bool equalParts(const Part& a, const Part& b)
+{
+  return a.firstTriangle == b.firstTriangle && a.triangles == b.triangles && a.material == b.material;
+}
+
+template <class Items, class Equal>
+bool equalAll(const Items& a, const Items& b, const Equal& equal)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), equal);
+}
+
+bool equalModels(const Model& a, const Model& b)
+{
+  return a.triangles == b.triangles && a.rest->positions == b.rest->positions && a.rest->normals == b.rest->normals &&
+         a.uvs == b.uvs && a.colors == b.colors && a.colorMapAt == b.colorMapAt &&
+         equalImages(a.colorMap, b.colorMap) && equalAll(a.parts, b.parts, equalParts) &&
+         equalAll(a.materials, b.materials, equalMaterials) && equalAll(a.textures, b.textures, equalTextures);
+}
+} // namespace
+
+std::shared_ptr<const Model> sharedModel(std::shared_ptr<const Model> model)
+{
+  static std::mutex lock;
+  static std::vector<std::weak_ptr<const Model>> known;
+  const std::lock_guard<std::mutex> guard(lock);
+  known.erase(std::remove_if(known.begin(), known.end(), [](const auto& one) { return one.expired(); }), known.end());
+  for (const std::weak_ptr<const Model>& one : known)
+  {
+    const std::shared_ptr<const Model> other = one.lock();
+    if (other && (other == model || equalModels(*other, *model)))
+    {
+      return other;
+    }
+  }
+  known.push_back(model);
+  return model;
+}
+
+std::shared_ptr<const OcclusionQuery> keptTrees(const std::shared_ptr<const SceneState>& state)
+{
+  static std::mutex lock;
+  static std::shared_ptr<const OcclusionQuery> latest;
+  const std::shared_ptr<OcclusionQuery> made = makeOcclusionQuery();
+  made->setScene(state);
+  const std::lock_guard<std::mutex> guard(lock);
+  latest = made;
+  return made;
+}
+
+} // namespace dgtk

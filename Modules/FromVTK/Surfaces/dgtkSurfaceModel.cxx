@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSurfaceModel.h"
+
+#include "dgtkActorMaterial.h"
+#include "dgtkTriangulate.h"
+
+#include <Eigen/Geometry>
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
+#include <vtkCellData.h>
+#include <vtkMatrix4x4.h>
+#include <vtkPointData.h>
+#include <vtkProperty.h>
+#include <vtkTexture.h>
+#include <vtkTransform.h>
+
+#include <limits>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr std::size_t mostWork = std::size_t(1) << 32; ///< of cutting ears, in steps
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+/// How the normals of a piece come about, as VTK's mapper has it.
+enum class Normals
+{
+  OfPoints,
+  OfCells,
+  OfTriangles
+};
+
+/// Appends the triangles of one piece to a model.
+class PieceReader
+{
+public:
+  PieceReader(SurfaceModel& to, Model& model, Geometry& geometry, vtkActor& actor, const SurfacePiece& piece)
+    : To(to)
+    , ToModel(model)
+    , ToGeometry(geometry)
+    , Piece(piece)
+    , Data(*piece.data)
+    , PointNormals(Data.GetPointData()->GetNormals())
+    , CellNormals(Data.GetCellData()->GetNormals())
+    , Uvs(Data.GetPointData()->GetTCoords())
+  {
+    const bool flat = actor.GetProperty()->GetInterpolation() == VTK_FLAT;
+    this->Kind = flat                            ? Normals::OfTriangles
+                 : this->PointNormals != nullptr ? Normals::OfPoints
+                 : this->CellNormals != nullptr  ? Normals::OfCells
+                                                 : Normals::OfTriangles;
+    this->Split = this->Kind != Normals::OfPoints || piece.colorsOfCells;
+    if (actor.GetTexture() != nullptr && actor.GetTexture()->GetTransform() != nullptr)
+    {
+      this->Transform = actor.GetTexture()->GetTransform()->GetMatrix();
+    }
+  }
+
+  void readAll(const Affine3& bake)
+  {
+    if (!this->Piece.isGlyph)
+    {
+      this->read(bake, nullptr);
+      return;
+    }
+    for (const GlyphPlace& place : this->Piece.glyphs)
+    {
+      this->read(bake * place.mapper_from_glyph, &place);
+    }
+  }
+
+private:
+  void read(const Affine3& place, const GlyphPlace* glyph)
+  {
+    this->Place = place;
+    this->Turn = turnedBy(place.linear);
+    this->Glyph = glyph;
+    this->VertexOf.assign(this->Split ? 0 : std::size_t(this->Data.GetNumberOfPoints()), none);
+    vtkIdType cell = this->Data.GetNumberOfVerts() + this->Data.GetNumberOfLines();
+    this->forCells(
+      this->Data.GetPolys(), cell, [this](vtkIdType n, const vtkIdType* points) { this->polygon(n, points); });
+    this->forCells(
+      this->Data.GetStrips(), cell, [this](vtkIdType n, const vtkIdType* points) { this->strip(n, points); });
+  }
+
+  /// Of normals: the cofactors, with their sign, so that mirrored surfaces keep their outside.
+  static Eigen::Matrix3d turnedBy(const Eigen::Matrix3d& m)
+  {
+    Eigen::Matrix3d cofactors;
+    cofactors << m.col(1).cross(m.col(2)), m.col(2).cross(m.col(0)), m.col(0).cross(m.col(1));
+    return m.determinant() < 0 ? Eigen::Matrix3d(-cofactors) : cofactors;
+  }
+
+  template <class Body>
+  void forCells(vtkCellArray* cells, vtkIdType& cell, const Body& body)
+  {
+    if (cells == nullptr)
+    {
+      return;
+    }
+    const auto at = vtk::TakeSmartPointer(cells->NewIterator());
+    for (at->GoToFirstCell(); !at->IsDoneWithTraversal(); at->GoToNextCell(), ++cell)
+    {
+      vtkIdType count = 0;
+      const vtkIdType* points = nullptr;
+      at->GetCurrentCell(count, points);
+      this->Cell = cell;
+      body(count, points);
+    }
+  }
+
+  void polygon(vtkIdType count, const vtkIdType* points)
+  {
+    if (count <= 4 || this->isFan(count, points))
+    {
+      for (vtkIdType i = 1; i + 1 < count; ++i)
+      {
+        this->triangle({ points[0], points[i], points[i + 1] });
+      }
+      return;
+    }
+    std::vector<Eigen::Vector3d> corners;
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      corners.push_back(this->point(points[i]));
+    }
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    triangulate(corners, triangles, this->Work, mostWork);
+    for (const auto& t : triangles)
+    {
+      this->triangle({ points[t[0]], points[t[1]], points[t[2]] });
+    }
+  }
+
+  /// Whether the triangles of a fan all turn as the polygon does.
+  bool isFan(vtkIdType count, const vtkIdType* points) const
+  {
+    std::vector<Eigen::Vector3d> normals;
+    Eigen::Vector3d sum(0, 0, 0);
+    const Eigen::Vector3d first = this->point(points[0]);
+    for (vtkIdType i = 1; i + 1 < count; ++i)
+    {
+      normals.push_back((this->point(points[i]) - first).cross(this->point(points[i + 1]) - first));
+      sum += normals.back();
+    }
+    return std::all_of(normals.begin(), normals.end(), [&sum](const Eigen::Vector3d& n) { return n.dot(sum) >= 0; });
+  }
+
+  void strip(vtkIdType count, const vtkIdType* points)
+  {
+    for (vtkIdType j = 0; j + 2 < count; ++j)
+    {
+      this->triangle({ points[j], points[j + 1 + j % 2], points[j + 1 + (j + 1) % 2] });
+    }
+  }
+
+  void triangle(const std::array<vtkIdType, 3>& points)
+  {
+    const Eigen::Vector3d p[3] = { this->point(points[0]), this->point(points[1]), this->point(points[2]) };
+    if (p[0] == p[1] || p[1] == p[2] || p[0] == p[2])
+    {
+      return;
+    }
+    const Eigen::Vector3d flat = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
+    std::array<std::uint32_t, 3> corners{};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      corners[i] = this->vertex(points[i], p[i], flat);
+    }
+    this->ToModel.triangles.push_back(corners);
+    this->To.cells.push_back(this->cellNumber());
+  }
+
+  std::int64_t cellNumber() const
+  {
+    return this->Glyph != nullptr ? this->Glyph->point
+           : this->Piece.cells    ? this->Piece.firstCell + std::int64_t(this->Piece.cells->GetComponent(this->Cell, 0))
+                                  : this->Piece.firstCell + this->Cell;
+  }
+
+  Eigen::Vector3d point(vtkIdType index) const
+  {
+    double p[3];
+    this->Data.GetPoint(index, p);
+    return { p[0], p[1], p[2] };
+  }
+
+  std::uint32_t vertex(vtkIdType index, const Eigen::Vector3d& position, const Eigen::Vector3d& flat)
+  {
+    if (!this->Split && this->VertexOf[std::size_t(index)] != none)
+    {
+      return this->VertexOf[std::size_t(index)];
+    }
+    const auto made = std::uint32_t(this->ToGeometry.positions.size());
+    this->ToGeometry.positions.push_back(this->Place * position);
+    this->ToGeometry.normals.push_back(this->normal(index, flat));
+    this->ToModel.sourceVertex.push_back(made);
+    this->addLooks(index);
+    if (!this->Split)
+    {
+      this->VertexOf[std::size_t(index)] = made;
+    }
+    return made;
+  }
+
+  Eigen::Vector3f normal(vtkIdType index, const Eigen::Vector3d& flat) const
+  {
+    Eigen::Vector3d n = flat;
+    if (this->Kind != Normals::OfTriangles)
+    {
+      const bool ofPoint = this->Kind == Normals::OfPoints;
+      (ofPoint ? this->PointNormals : this->CellNormals)->GetTuple(ofPoint ? index : this->Cell, n.data());
+    }
+    n = (this->Turn * n).eval();
+    const double size = n.norm();
+    return size > 0 && std::isfinite(size) ? Eigen::Vector3f((n / size).cast<float>()) : Eigen::Vector3f(0, 0, 1);
+  }
+
+  void addLooks(vtkIdType index)
+  {
+    if (!this->ToModel.uvs.empty() || this->Uvs != nullptr)
+    {
+      this->ToModel.uvs.resize(this->ToGeometry.positions.size() - 1, Eigen::Vector2d(0, 0));
+      this->ToModel.uvs.push_back(this->uv(index));
+    }
+    std::array<std::uint8_t, 4> color{ 255, 255, 255, 255 };
+    bool colored = false;
+    if (this->Piece.colors)
+    {
+      this->Piece.colors->GetTypedTuple(this->Piece.colorsOfCells ? this->Cell : index, color.data());
+      colored = true;
+    }
+    else if (this->Glyph != nullptr && this->Glyph->color)
+    {
+      color = *this->Glyph->color;
+      colored = true;
+    }
+    if (colored || !this->ToModel.colors.empty())
+    {
+      this->ToModel.colors.resize(this->ToGeometry.positions.size() - 1, { 255, 255, 255, 255 });
+      this->ToModel.colors.push_back(color);
+    }
+    if (this->Piece.colorMapAt)
+    {
+      this->ToModel.colorMapAt.emplace_back(
+        this->Piece.colorMapAt->GetComponent(index, 0), this->Piece.colorMapAt->GetComponent(index, 1));
+    }
+  }
+
+  Eigen::Vector2d uv(vtkIdType index) const
+  {
+    if (this->Uvs == nullptr)
+    {
+      return { 0, 0 };
+    }
+    const double v = this->Uvs->GetNumberOfComponents() > 1 ? this->Uvs->GetComponent(index, 1) : 0.0;
+    const double written[4] = { this->Uvs->GetComponent(index, 0), v, 0, 1 };
+    if (this->Transform == nullptr)
+    {
+      return { written[0], written[1] };
+    }
+    double moved[4];
+    this->Transform->MultiplyPoint(written, moved);
+    return { moved[0] / moved[3], moved[1] / moved[3] };
+  }
+
+  SurfaceModel& To;
+  Model& ToModel;
+  Geometry& ToGeometry;
+  const SurfacePiece& Piece;
+  vtkPolyData& Data;
+  vtkDataArray* PointNormals;
+  vtkDataArray* CellNormals;
+  vtkDataArray* Uvs;
+  vtkMatrix4x4* Transform = nullptr; ///< of texture coordinates
+  Normals Kind = Normals::OfTriangles;
+  bool Split = true; ///< every triangle has vertices of its own
+  Affine3 Place;
+  Eigen::Matrix3d Turn = Eigen::Matrix3d::Identity();
+  const GlyphPlace* Glyph = nullptr;
+  vtkIdType Cell = 0;
+  std::uint64_t Work = 0;
+  std::vector<std::uint32_t> VertexOf; ///< by point
+};
+
+void complete(Model& model, Geometry& geometry)
+{
+  const std::size_t vertices = geometry.positions.size();
+  model.sourceVertices = vertices;
+  if (!model.colors.empty())
+  {
+    model.colors.resize(vertices, { 255, 255, 255, 255 });
+  }
+  if (!model.uvs.empty())
+  {
+    model.uvs.resize(vertices, Eigen::Vector2d(0, 0));
+  }
+  for (const Eigen::Vector3d& p : geometry.positions)
+  {
+    const bool first = model.boundsMin.x() > model.boundsMax.x();
+    model.boundsMin = first ? p : Eigen::Vector3d(model.boundsMin.cwiseMin(p));
+    model.boundsMax = first ? p : Eigen::Vector3d(model.boundsMax.cwiseMax(p));
+  }
+}
+} // namespace
+
+SurfaceModel surfaceModel(
+  vtkActor& actor, const std::vector<SurfacePiece>& pieces, const Affine3& bake, bool lit, Unsupported& unsupported)
+{
+  auto model = std::make_shared<Model>();
+  auto geometry = std::make_shared<Geometry>();
+  model->format = "vtk";
+  SurfaceModel made;
+  for (const SurfacePiece& piece : pieces)
+  {
+    const std::string name = "material-" + std::to_string(model->materials.size() + 1);
+    const auto first = std::uint32_t(model->triangles.size());
+    PieceReader(made, *model, *geometry, actor, piece).readAll(bake);
+    const auto count = std::uint32_t(model->triangles.size()) - first;
+    if (count > 0)
+    {
+      model->materials.push_back(actorMaterial(actor, piece, lit, name, *model, unsupported));
+      model->parts.push_back(
+        { "part-" + std::to_string(model->parts.size() + 1), int(model->materials.size()) - 1, first, count });
+    }
+    if (piece.colorMap && !model->colorMap)
+    {
+      model->colorMap = imageOf(*piece.colorMap);
+    }
+  }
+  complete(*model, *geometry);
+  model->rest = geometry;
+  made.model = model;
+  return made;
+}
+
+} // namespace dgtk

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSurfacePieces.h"
+
+#include <vtkActor.h>
+#include <vtkCellData.h>
+#include <vtkCompositeDataDisplayAttributes.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkCompositePolyDataMapper2.h>
+#include <vtkDataObjectTree.h>
+#include <vtkDataObjectTreeRange.h>
+#include <vtkDataSetSurfaceFilter.h>
+#include <vtkMapper.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+
+namespace dgtk
+{
+
+namespace
+{
+/// VTK's mapping of scalars to colours with the settings of a mapper, which keeps its own results.
+class ScalarMapper : public vtkMapper
+{
+public:
+  static ScalarMapper* New();
+  vtkTypeMacro(ScalarMapper, vtkMapper);
+  void Render(vtkRenderer*, vtkActor*) override {}
+  double* GetBounds() override { return this->Bounds; }
+  using vtkMapper::GetBounds;
+
+protected:
+  ScalarMapper() = default;
+};
+vtkStandardNewMacro(ScalarMapper);
+
+vtkSmartPointer<vtkPolyData> surfaceOf(vtkDataSet& data, vtkSmartPointer<vtkDataArray>& cells)
+{
+  if (vtkPolyData* const poly = vtkPolyData::SafeDownCast(&data))
+  {
+    return poly;
+  }
+  vtkNew<vtkDataSetSurfaceFilter> surface;
+  surface->SetInputDataObject(&data);
+  surface->PassThroughCellIdsOn();
+  surface->Update();
+  const vtkSmartPointer<vtkPolyData> made = surface->GetOutput();
+  cells = made->GetCellData()->GetArray(surface->GetOriginalCellIdsName());
+  return made;
+}
+
+/// What the blocks of a composite data set inherit from those above.
+struct BlockStyle
+{
+  bool visible = true;
+  std::optional<Eigen::Vector3d> color;
+  std::optional<double> opacity;
+};
+
+class PieceMaker
+{
+public:
+  PieceMaker(const ViewActor& actor, Unsupported& unsupported)
+    : Actor(actor)
+    , Mapper(*actor.actor->GetMapper())
+    , Out(unsupported)
+  {
+  }
+
+  void addAll(vtkDataObject* data)
+  {
+    auto* const composite = vtkCompositePolyDataMapper2::SafeDownCast(&this->Mapper);
+    this->Attributes = composite != nullptr ? composite->GetCompositeDataDisplayAttributes() : nullptr;
+    this->add(data, {});
+  }
+
+  /// Of all leaves.
+  vtkIdType cells() const { return this->FirstCell; }
+
+  std::vector<SurfacePiece> Pieces;
+
+private:
+  void add(vtkDataObject* data, BlockStyle style)
+  {
+    this->inherit(data, style);
+    if (auto* const tree = vtkDataObjectTree::SafeDownCast(data))
+    {
+      using Options = vtk::DataObjectTreeOptions;
+      for (const auto& child : vtk::Range(tree, Options::None))
+      {
+        this->add(child, style);
+      }
+      return;
+    }
+    if (vtkDataSet* const leaf = vtkDataSet::SafeDownCast(data))
+    {
+      this->addLeaf(*leaf, style);
+      this->FirstCell += leaf->GetNumberOfCells();
+    }
+    else if (data != nullptr)
+    {
+      this->Out.add(this->Actor.name + ": " + classOf(*data));
+    }
+  }
+
+  void inherit(vtkDataObject* data, BlockStyle& style) const
+  {
+    if (this->Attributes == nullptr || data == nullptr)
+    {
+      return;
+    }
+    vtkCompositeDataDisplayAttributes& a = *this->Attributes;
+    style.visible = a.HasBlockVisibility(data) ? a.GetBlockVisibility(data) : style.visible;
+    if (a.HasBlockOpacity(data))
+    {
+      style.opacity = a.GetBlockOpacity(data);
+    }
+    if (a.HasBlockColor(data))
+    {
+      const vtkColor3d color = a.GetBlockColor(data);
+      style.color = Eigen::Vector3d(color[0], color[1], color[2]);
+    }
+  }
+
+  void addLeaf(vtkDataSet& leaf, const BlockStyle& style)
+  {
+    if (!style.visible || leaf.GetNumberOfCells() == 0)
+    {
+      return;
+    }
+    SurfacePiece piece;
+    piece.data = surfaceOf(leaf, piece.cells);
+    piece.firstCell = this->FirstCell;
+    piece.blockColor = style.color;
+    piece.blockOpacity = style.opacity;
+    if (piece.data->GetNumberOfVerts() > 0)
+    {
+      this->Out.add(this->Actor.name + ": points of its data");
+    }
+    if (piece.data->GetNumberOfLines() > 0)
+    {
+      this->Out.add(this->Actor.name + ": lines of its data");
+    }
+    if (piece.data->GetNumberOfPolys() + piece.data->GetNumberOfStrips() == 0)
+    {
+      return;
+    }
+    if (!style.color)
+    {
+      mapColors(this->Mapper, *piece.data, piece);
+    }
+    this->Pieces.push_back(std::move(piece));
+  }
+
+  const ViewActor& Actor;
+  vtkMapper& Mapper;
+  Unsupported& Out;
+  vtkCompositeDataDisplayAttributes* Attributes = nullptr;
+  vtkIdType FirstCell = 0;
+};
+
+bool drawsSurfaces(vtkMapper& mapper)
+{
+  const std::string name = classOf(mapper);
+  return name == "vtkPolyDataMapper" || name == "vtkDataSetMapper" || name == "vtkCompositePolyDataMapper" ||
+         name == "vtkCompositePolyDataMapper2" || name == "vtkHierarchicalPolyDataMapper";
+}
+} // namespace
+
+void mapColors(vtkMapper& mapper, vtkDataSet& data, SurfacePiece& piece)
+{
+  if (mapper.GetScalarVisibility() == 0)
+  {
+    return;
+  }
+  vtkNew<ScalarMapper> colors;
+  colors->ShallowCopy(&mapper);
+  int ofCells = 0;
+  vtkUnsignedCharArray* const found = colors->MapScalars(&data, 1, ofCells);
+  if (found != nullptr)
+  {
+    piece.colors = found;
+    piece.colorsOfCells = ofCells != 0;
+  }
+  else if (colors->GetColorCoordinates() != nullptr)
+  {
+    piece.colorMapAt = colors->GetColorCoordinates();
+    piece.colorMap = colors->GetColorTextureMap();
+  }
+}
+
+DrawnSurface surfacePieces(const ViewActor& actor, Unsupported& unsupported)
+{
+  vtkMapper& mapper = *actor.actor->GetMapper();
+  if (mapper.GetNumberOfInputConnections(0) == 0)
+  {
+    return {};
+  }
+  if (mapper.GetStatic() == 0)
+  {
+    mapper.Update();
+  }
+  if (mapper.IsA("vtkGlyph3DMapper") != 0)
+  {
+    return glyphPieces(actor, mapper, unsupported);
+  }
+  if (!drawsSurfaces(mapper))
+  {
+    unsupported.add(actor.name + ": " + classOf(mapper));
+    return {};
+  }
+  PieceMaker maker(actor, unsupported);
+  maker.addAll(mapper.GetInputDataObject(0, 0));
+  return { std::move(maker.Pieces), maker.cells() };
+}
+
+} // namespace dgtk

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkTracedView_h
+#define dgtkTracedView_h
+
+// Private to FromVTK.
+
+#include "dgtkFrozenView.h"
+#include "dgtkVisibility.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace dgtk
+{
+
+/// What every pixel of a stage's view sees at frame 0, rows top to bottom.
+std::vector<Hit> traceView(const Stage& stage, const View& view);
+
+/// The cell of the mapper's input that a hit of the view is of; -1 for nothing.
+inline std::int64_t cellOf(const FrozenView& view, const Hit& hit)
+{
+  if (hit.object == 0)
+  {
+    return -1;
+  }
+  const FrozenActor& actor = view.actors[hit.object - 1];
+  return actor.cells[actor.wholeTriangle(hit.triangle)];
+}
+
+} // namespace dgtk
+
+#endif

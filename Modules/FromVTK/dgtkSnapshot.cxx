@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSnapshot.h"
+
+#include "dgtkError.h"
+#include "dgtkFrozenPair.h"
+#include "dgtkFrozenView.h"
+#include "dgtkSavedSnapshot.h"
+#include "dgtkTracedView.h"
+
+#include "vtkActor.h"
+#include "vtkDoubleArray.h"
+#include "vtkObjectFactory.h"
+#include "vtkRenderer.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnsignedIntArray.h"
+
+#include <functional>
+
+vtkStandardNewMacro(dgtkSnapshot);
+
+struct dgtkSnapshot::Internal
+{
+  dgtk::FrozenView view;
+  dgtk::View camera;
+  std::vector<dgtk::Hit> hits; // of TraceCells()
+  vtkSmartPointer<vtkDataArray> cells;
+  vtkSmartPointer<vtkDataArray> counts;
+  vtkSmartPointer<vtkDoubleArray> positions;
+  vtkSmartPointer<vtkUnsignedCharArray> classes;
+  std::string errorMessage;
+
+  bool attempt(const std::function<void()>& work)
+  {
+    this->errorMessage.clear();
+    try
+    {
+      work();
+      return true;
+    }
+    catch (const std::exception& error)
+    {
+      this->errorMessage = error.what();
+      return false;
+    }
+  }
+
+  const dgtk::FrozenView& taken() const
+  {
+    if (!this->view.stage)
+    {
+      throw dgtk::UsageError("no renderer was taken");
+    }
+    return this->view;
+  }
+};
+
+dgtkSnapshot::dgtkSnapshot()
+  : Self(new Internal)
+{
+}
+
+dgtkSnapshot::~dgtkSnapshot() = default;
+
+void dgtkSnapshot::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Size: " << this->GetWidth() << " x " << this->GetHeight() << "\n";
+  os << indent << "SkipUnsupported: " << this->SkipUnsupported << "\n";
+}
+
+bool dgtkSnapshot::Take(vtkRenderer* renderer, int width, int height)
+{
+  *this->Self = Internal();
+  this->SetStage(nullptr);
+  return this->Self->attempt(
+    [&]
+    {
+      if (renderer == nullptr)
+      {
+        throw dgtk::UsageError("there is no renderer");
+      }
+      if ((width != 0 || height != 0) && (width < 1 || height < 1))
+      {
+        throw dgtk::UsageError("size out of range (expected two numbers from 1)");
+      }
+      this->Self->view = dgtk::freeze(*renderer, width, height, this->SkipUnsupported);
+      this->Self->camera = this->Self->view.stage->view(0, 0);
+      this->SetStage(this->Self->view.stage);
+    });
+}
+
+std::string dgtkSnapshot::GetLeftOut() const
+{
+  std::string lines;
+  for (const std::string& line : this->Self->view.left)
+  {
+    lines += line + '\n';
+  }
+  return lines;
+}
+
+std::string dgtkSnapshot::GetSnapshotError() const { return this->Self->errorMessage; }
+
+int dgtkSnapshot::GetNumberOfProps() const { return static_cast<int>(this->Self->view.actors.size()); }
+
+vtkProp* dgtkSnapshot::GetProp(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfProps() ? this->Self->view.actors[std::size_t(index)].actor.Get()
+                                                        : nullptr;
+}
+
+vtkIdType dgtkSnapshot::GetNumberOfCells(int index) const
+{
+  return this->GetProp(index) != nullptr ? vtkIdType(this->Self->view.actors[std::size_t(index)].inputCells) : 0;
+}
+
+int dgtkSnapshot::GetWidth() const { return this->Self->view.stage ? this->Self->camera.model->width() : 0; }
+
+int dgtkSnapshot::GetHeight() const { return this->Self->view.stage ? this->Self->camera.model->height() : 0; }
+
+void dgtkSnapshot::GetK(double K[9]) const
+{
+  using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  Eigen::Map<Rows> to(K);
+  to = this->Self->view.stage ? this->Self->camera.model->linear()->K : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
+}
+
+void dgtkSnapshot::GetR(double R[9]) const
+{
+  using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  Eigen::Map<Rows> to(R);
+  to = this->Self->camera.camera_from_world.rotation;
+}
+
+void dgtkSnapshot::GetT(double t[3]) const
+{
+  Eigen::Map<Eigen::Vector3d> to(t);
+  to = this->Self->camera.camera_from_world.translation;
+}
+
+vtkDataArray* dgtkSnapshot::TraceCells()
+{
+  Internal& self = *this->Self;
+  const bool done = self.attempt(
+    [&]
+    {
+      const dgtk::FrozenView& view = self.taken();
+      self.hits = dgtk::traceView(*view.stage, self.camera);
+      const auto cells = vtkSmartPointer<vtkTypeInt64Array>::New();
+      cells->SetName("cells");
+      cells->SetNumberOfValues(vtkIdType(self.hits.size()));
+      for (std::size_t i = 0; i < self.hits.size(); ++i)
+      {
+        cells->SetValue(vtkIdType(i), dgtk::cellOf(view, self.hits[i]));
+      }
+      self.cells = cells;
+    });
+  return done ? self.cells.Get() : nullptr;
+}
+
+vtkDataArray* dgtkSnapshot::CountPixels(int index)
+{
+  Internal& self = *this->Self;
+  const bool done = self.attempt(
+    [&]
+    {
+      if (this->GetProp(index) == nullptr || self.cells == nullptr)
+      {
+        throw dgtk::UsageError("there is no such prop, or its cells were not traced");
+      }
+      const auto counts = vtkSmartPointer<vtkUnsignedIntArray>::New();
+      counts->SetNumberOfValues(this->GetNumberOfCells(index));
+      counts->Fill(0);
+      for (const dgtk::Hit& hit : self.hits)
+      {
+        if (hit.object == std::uint32_t(index) + 1)
+        {
+          ++*counts->GetPointer(vtkIdType(dgtk::cellOf(self.view, hit)));
+        }
+      }
+      self.counts = counts;
+    });
+  return done ? self.counts.Get() : nullptr;
+}
+
+bool dgtkSnapshot::Correspond(dgtkSnapshot* other)
+{
+  Internal& self = *this->Self;
+  self.positions = vtkSmartPointer<vtkDoubleArray>::New();
+  self.positions->SetNumberOfComponents(2);
+  self.classes = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  return self.attempt(
+    [&]
+    {
+      if (other == nullptr)
+      {
+        throw dgtk::UsageError("there is no other snapshot");
+      }
+      const vtkIdType pixels = vtkIdType(this->GetWidth()) * this->GetHeight();
+      self.positions->SetNumberOfTuples(pixels);
+      self.classes->SetNumberOfTuples(pixels);
+      dgtk::correspondViews(
+        self.taken(), other->Self->taken(), self.positions->GetPointer(0), self.classes->GetPointer(0));
+    });
+}
+
+vtkDataArray* dgtkSnapshot::GetPositions() const { return this->Self->positions; }
+
+vtkDataArray* dgtkSnapshot::GetClasses() const { return this->Self->classes; }
+
+bool dgtkSnapshot::Save(const std::string& path)
+{
+  return this->Self->attempt([&] { dgtk::saveSnapshot(this->Self->taken(), path); });
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkColorMap_h
+#define dgtkColorMap_h
+
+#include "dgtkModel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace dgtk
+{
+
+/// The texel of Model::colorMap at a place: R, G, B, A. Its border goes on.
+inline std::array<std::uint8_t, 4> colorMapTexel(const Image& map, const Eigen::Vector2d& at)
+{
+  const auto within = [](double place, int size)
+  { return place > 0 ? std::size_t(std::min(std::floor(place * size), size - 1.0)) : std::size_t(0); };
+  const std::size_t x = within(at.x(), map.width);
+  const std::size_t y = std::size_t(map.height) - 1 - within(at.y(), map.height);
+  const std::uint8_t* const texel = &map.rgba[4 * (y * std::size_t(map.width) + x)];
+  return { texel[0], texel[1], texel[2], texel[3] };
+}
+
+/// Whether some colour of the vertices lets see what is behind.
+inline bool hasTranslucentColors(const Model& model)
+{
+  return (model.colorMap && model.colorMap->hasAlpha) ||
+         std::any_of(model.colors.begin(), model.colors.end(), [](const auto& color) { return color[3] < 255; });
+}
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,347 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenes as people who script VTK have them; each function returns a renderer that was never drawn."""
+import math
+
+import numpy
+import vtk
+from vtkmodules.util.numpy_support import numpy_to_vtk
+
+ALL = {}
+
+
+def scene(function):
+    ALL[function.__name__] = function
+    return function
+
+
+def actor(source, mapper=None, color=None):
+    mapper = mapper or vtk.vtkPolyDataMapper()
+    if isinstance(source, vtk.vtkDataObject):
+        mapper.SetInputDataObject(source)
+    else:
+        mapper.SetInputConnection(source.GetOutputPort())
+    made = vtk.vtkActor()
+    made.SetMapper(mapper)
+    if color:
+        made.GetProperty().SetColor(*color)
+    return made
+
+
+def renderer(*actors, eye=None, target=(0, 0, 0), up=(0, 1, 0)):
+    made = vtk.vtkRenderer()
+    for one in actors:
+        made.AddViewProp(one)
+    if eye:
+        camera = made.GetActiveCamera()
+        camera.SetPosition(*eye)
+        camera.SetFocalPoint(*target)
+        camera.SetViewUp(*up)
+    return made
+
+
+def picture(width=64, height=32):
+    """A smooth picture with a hard edge."""
+    x, y = numpy.meshgrid(numpy.arange(width), numpy.arange(height))
+    rgb = numpy.stack([127 + 120 * numpy.sin(6.28 * x / width), 255 * y / height, numpy.where(x < width // 2, 60, 180)], -1)
+    image = vtk.vtkImageData()
+    image.SetDimensions(width, height, 1)
+    image.GetPointData().SetScalars(numpy_to_vtk(rgb.astype(numpy.uint8).reshape(-1, 3), deep=1))
+    texture = vtk.vtkTexture()
+    texture.SetInputData(image)
+    texture.InterpolateOn()
+    return texture
+
+
+@scene
+def contour():
+    """A surface of equal value, coloured by another scalar through a lookup table: points."""
+    quadric = vtk.vtkQuadric()
+    quadric.SetCoefficients(0.5, 1, 0.2, 0, 0.1, 0, 0, 0.2, 0, 0)
+    sample = vtk.vtkSampleFunction()
+    sample.SetImplicitFunction(quadric)
+    sample.SetSampleDimensions(18, 18, 18)
+    surface = vtk.vtkContourFilter()
+    surface.SetInputConnection(sample.GetOutputPort())
+    surface.SetValue(0, 0.4)
+    elevation = vtk.vtkElevationFilter()
+    elevation.SetInputConnection(surface.GetOutputPort())
+    elevation.SetLowPoint(-1, -1, -1)
+    elevation.SetHighPoint(1, 1, 1)
+    made = actor(elevation)
+    made.GetMapper().SetScalarRange(0.2, 0.8)
+    return renderer(made, eye=(2.5, 1.6, 3.1))
+
+
+@scene
+def transforms():
+    """Position, origin, orientation, scale, a user's matrix and a mirror; a material that shines."""
+    cone = vtk.vtkConeSource()
+    cone.SetResolution(12)
+    one = actor(cone, color=(0.9, 0.4, 0.2))
+    one.SetOrigin(0.3, 0.1, 0)
+    one.SetScale(1.5, 0.7, 1)
+    one.RotateX(30)
+    one.RotateZ(50)
+    one.SetPosition(-0.8, 0.2, 0)
+    one.GetProperty().SetSpecular(0.5)
+    one.GetProperty().SetSpecularPower(20)
+    one.GetProperty().SetAmbient(0.3)
+    cube = actor(vtk.vtkCubeSource(), color=(0.2, 0.6, 0.9))
+    matrix = vtk.vtkMatrix4x4()
+    for i, row in enumerate(((0.7, 0.4, 0, 0.9), (-0.2, 0.6, 0.3, 0), (0.1, 0, -0.8, 0.2))):
+        for j, value in enumerate(row):
+            matrix.SetElement(i, j, value)
+    cube.SetUserMatrix(matrix)
+    return renderer(one, cube, eye=(0.4, 1, 4))
+
+
+@scene
+def spikes():
+    """The spheres and cones of a hedgehog by the filter that copies them."""
+    sphere = vtk.vtkSphereSource()
+    sphere.SetThetaResolution(8)
+    sphere.SetPhiResolution(8)
+    cone = vtk.vtkConeSource()
+    cone.SetResolution(6)
+    glyphs = vtk.vtkGlyph3D()
+    glyphs.SetInputConnection(sphere.GetOutputPort())
+    glyphs.SetSourceConnection(cone.GetOutputPort())
+    glyphs.SetVectorModeToUseNormal()
+    glyphs.SetScaleModeToScaleByVector()
+    glyphs.SetScaleFactor(0.25)
+    return renderer(actor(sphere, color=(1, 0.8, 0.6)), actor(glyphs, color=(0.4, 0.7, 0.3)))
+
+
+@scene
+def glyph_mapper():
+    """The same by the mapper: two shapes, chosen, turned, scaled and coloured by arrays of the points."""
+    sphere = vtk.vtkSphereSource()
+    sphere.SetThetaResolution(7)
+    sphere.SetPhiResolution(6)
+    sphere.Update()
+    points = vtk.vtkPolyData()
+    points.DeepCopy(sphere.GetOutput())
+    count = points.GetNumberOfPoints()
+    for name, values in (("size", numpy.linspace(0.5, 1.5, count)), ("shape", numpy.arange(count) % 2), ("shade", numpy.cos(numpy.arange(count)))):
+        array = numpy_to_vtk(values.astype(float), deep=1)
+        array.SetName(name)
+        points.GetPointData().AddArray(array)
+    points.GetPointData().SetActiveScalars("shade")
+    mapper = vtk.vtkGlyph3DMapper()
+    mapper.SetInputData(points)
+    for index, source in enumerate((vtk.vtkArrowSource(), vtk.vtkCubeSource())):
+        source.Update()
+        mapper.SetSourceData(index, source.GetOutput())
+    mapper.SetOrientationArray("Normals")
+    mapper.SetScaleArray("size")
+    mapper.SetScaleModeToScaleByMagnitude()
+    mapper.SetScaleFactor(0.2)
+    mapper.SetSourceIndexArray("shape")
+    mapper.SourceIndexingOn()
+    mapper.SetScalarRange(-1, 1)
+    made = vtk.vtkActor()
+    made.SetMapper(mapper)
+    return renderer(made, eye=(1.2, 0.9, 1.4))
+
+
+@scene
+def earth():
+    """A picture on a sphere."""
+    sphere = vtk.vtkTexturedSphereSource()
+    sphere.SetThetaResolution(24)
+    sphere.SetPhiResolution(12)
+    made = actor(sphere)
+    made.SetTexture(picture())
+    made.RotateX(-60)
+    return renderer(made)
+
+
+@scene
+def robot_arm():
+    """Assemblies of assemblies, one of whose parts is used twice."""
+    def link(color):
+        cylinder = vtk.vtkCylinderSource()
+        cylinder.SetResolution(10)
+        cylinder.SetRadius(0.15)
+        made = actor(cylinder, color=color)
+        made.SetPosition(0, 0.5, 0)
+        return made
+    joint = vtk.vtkSphereSource()
+    joint.SetRadius(0.22)
+    shared = actor(joint, color=(0.9, 0.8, 0.2))
+    hand = vtk.vtkAssembly()
+    hand.AddPart(link((0.3, 0.3, 0.9)))
+    hand.AddPart(shared)
+    hand.SetPosition(0, 1, 0)
+    hand.RotateZ(-60)
+    arm = vtk.vtkAssembly()
+    arm.AddPart(link((0.8, 0.3, 0.3)))
+    arm.AddPart(shared)
+    arm.AddPart(hand)
+    arm.RotateZ(25)
+    floor = vtk.vtkPlaneSource()
+    floor.SetOrigin(-2, -0.3, -2)
+    floor.SetPoint1(-2, -0.3, 2)
+    floor.SetPoint2(2, -0.3, -2)
+    return renderer(actor(floor, color=(0.7, 0.7, 0.7)), arm, eye=(1.5, 2, 4.5), target=(0.2, 0.6, 0))
+
+
+@scene
+def quad_sphere():
+    """Quads and triangles, with normals of points, shaded smoothly."""
+    sphere = vtk.vtkSphereSource()
+    sphere.LatLongTessellationOn()
+    sphere.SetThetaResolution(14)
+    sphere.SetPhiResolution(9)
+    made = actor(sphere, color=(0.7, 0.5, 0.9))
+    made.GetProperty().SetInterpolationToPhong()
+    made.GetProperty().SetSpecular(0.4)
+    made.GetProperty().SetSpecularPower(30)
+    return renderer(made)
+
+
+@scene
+def strips():
+    """Strips of triangles, coloured by a scalar of the cells."""
+    torus = vtk.vtkParametricTorus()
+    source = vtk.vtkParametricFunctionSource()
+    source.SetParametricFunction(torus)
+    source.SetUResolution(16)
+    source.SetVResolution(10)
+    source.SetWResolution(4)
+    source.GenerateNormalsOff()
+    stripper = vtk.vtkStripper()
+    stripper.SetInputConnection(source.GetOutputPort())
+    stripper.Update()
+    data = vtk.vtkPolyData()
+    data.DeepCopy(stripper.GetOutput())
+    data.GetPointData().SetScalars(None)
+    shade = numpy_to_vtk(numpy.arange(data.GetNumberOfCells()).astype(float), deep=1)
+    shade.SetName("shade")
+    data.GetCellData().SetScalars(shade)
+    made = actor(data)
+    made.GetMapper().SetScalarRange(0, data.GetNumberOfCells())
+    return renderer(made, eye=(2, 2, 4))
+
+
+@scene
+def blocks():
+    """Composite data: a block of another colour, one that is not seen, one in a block of blocks."""
+    def ball(x, resolution):
+        sphere = vtk.vtkSphereSource()
+        sphere.SetCenter(x, 0, 0)
+        sphere.SetThetaResolution(resolution)
+        sphere.SetPhiResolution(resolution)
+        sphere.Update()
+        return sphere.GetOutput()
+    inner = vtk.vtkMultiBlockDataSet()
+    inner.SetBlock(0, ball(1.2, 10))
+    inner.SetBlock(1, ball(2.4, 9))
+    data = vtk.vtkMultiBlockDataSet()
+    data.SetBlock(0, ball(-1.2, 8))
+    data.SetBlock(1, ball(0, 12))
+    data.SetBlock(2, inner)
+    mapper = vtk.vtkCompositePolyDataMapper2()
+    attributes = vtk.vtkCompositeDataDisplayAttributes()
+    mapper.SetCompositeDataDisplayAttributes(attributes)
+    made = actor(data, mapper, color=(0.6, 0.6, 0.6))
+    attributes.SetBlockColor(data.GetBlock(1), (0.9, 0.2, 0.2))
+    attributes.SetBlockVisibility(inner.GetBlock(1), False)
+    return renderer(made, eye=(0.5, 1.5, 6))
+
+
+@scene
+def solids():
+    """The surface of hexahedra and tetrahedra, coloured by the cells' own scalar."""
+    points = vtk.vtkPoints()
+    grid = vtk.vtkUnstructuredGrid()
+    for z in range(3):
+        for y in range(3):
+            for x in range(4):
+                points.InsertNextPoint(x + 0.2 * math.sin(y), y, z + 0.1 * x)
+    grid.SetPoints(points)
+    at = lambda x, y, z: x + 4 * (y + 3 * z)
+    for z in range(2):
+        for y in range(2):
+            for x in range(3):
+                c = [at(x, y, z), at(x + 1, y, z), at(x + 1, y + 1, z), at(x, y + 1, z)]
+                c += [i + 12 for i in c]
+                if (x + y + z) % 2:
+                    grid.InsertNextCell(vtk.VTK_HEXAHEDRON, 8, c)
+                else:
+                    grid.InsertNextCell(vtk.VTK_TETRA, 4, [c[0], c[1], c[3], c[4]])
+    values = numpy_to_vtk(numpy.arange(grid.GetNumberOfCells()).astype(float), deep=1)
+    values.SetName("number")
+    grid.GetCellData().SetScalars(values)
+    made = actor(grid, vtk.vtkDataSetMapper())
+    made.GetMapper().SetScalarRange(0, grid.GetNumberOfCells())
+    made.GetProperty().SetInterpolationToFlat()
+    return renderer(made, eye=(6, 5, 7), target=(1.5, 1, 1))
+
+
+@scene
+def cut_open():
+    """Planes of the mapper and culling of back faces."""
+    sphere = vtk.vtkSphereSource()
+    sphere.SetThetaResolution(16)
+    sphere.SetPhiResolution(16)
+    made = actor(sphere, color=(0.8, 0.7, 0.3))
+    for normal in ((0.3, -1, 0.1), (-1, 0.2, 0.4)):
+        plane = vtk.vtkPlane()
+        plane.SetOrigin(0.05, 0.1, 0)
+        plane.SetNormal(normal)
+        made.GetMapper().AddClippingPlane(plane)
+    culled = actor(vtk.vtkCubeSource(), color=(0.3, 0.8, 0.8))
+    culled.SetPosition(1.2, 0, 0)
+    culled.RotateY(20)
+    culled.GetProperty().FrontfaceCullingOn()
+    return renderer(made, culled, eye=(0.7, 1.5, 3), target=(0.5, 0, 0))
+
+
+@scene
+def parallel():
+    """A parallel view with a window centre."""
+    made = robot_arm()
+    camera = made.GetActiveCamera()
+    camera.ParallelProjectionOn()
+    camera.SetParallelScale(1.7)
+    camera.SetWindowCenter(0.15, -0.1)
+    return made
+
+
+@scene
+def off_centre():
+    """A perspective with a window centre, a horizontal view angle, shear and a user's transform."""
+    made = transforms()
+    camera = made.GetActiveCamera()
+    camera.SetWindowCenter(0.2, 0.1)
+    camera.UseHorizontalViewAngleOn()
+    camera.SetViewAngle(40)
+    camera.SetViewShear(0.1, -0.05, 1.0)
+    move = vtk.vtkTransform()
+    move.Translate(0.1, 0.05, 0)
+    move.Scale(1.1, 0.9, 1)
+    camera.SetUserTransform(move)
+    return made
+
+
+@scene
+def star():
+    """A polygon that is not convex, one with a hole by a bridge; an aspect of the camera's own."""
+    points = vtk.vtkPoints()
+    data = vtk.vtkPolyData()
+    cells = vtk.vtkCellArray()
+
+    def polygon(corners):
+        cells.InsertNextCell(len(corners))
+        for x, y, z in corners:
+            cells.InsertCellPoint(points.InsertNextPoint(x, y, z))
+    polygon([((1 if k % 2 else 0.4) * math.cos(k * 0.6283) - 1.1, (1 if k % 2 else 0.4) * math.sin(k * 0.6283), 0) for k in range(10)])
+    polygon([(0.2, -1, 0), (2.2, -1, 0), (2.2, 1, 0), (0.2, 1, 0), (0.2, -1, 0),
+             (0.7, -0.5, 0), (0.7, 0.5, 0), (1.7, 0.5, 0), (1.7, -0.5, 0), (0.7, -0.5, 0)])
+    data.SetPoints(points)
+    data.SetPolys(cells)
+    made = renderer(actor(data, color=(0.9, 0.6, 0.1)), eye=(0.5, 0.4, 5))
+    made.GetActiveCamera().SetUseExplicitAspectRatio(True)
+    made.GetActiveCamera().SetExplicitAspectRatio(1.1)
+    return made
