@@ -199,6 +199,17 @@ class Misuse(Case):
                         self.refused(function, {**arguments, argument: value}, self.may_work(name, argument, value)
                                      or (name, argument) == ("generate", "folder") and isinstance(value, str))
 
+    def test_every_argument_about_views(self):
+        from vtkmodules.vtkRenderingCore import vtkRenderer
+
+        good = {"snapshot": {"view": vtkRenderer()}, "truth": {"view": vtkRenderer(), "layers": "depth", "size": (8, 6)},
+                "visible_cells": {"view": vtkRenderer(), "size": (8, 6)}, "correspond": {"first": dgtk.Snapshot(), "second": dgtk.Snapshot()}}
+        for name, arguments in good.items():
+            for argument, parameter in inspect.signature(getattr(dgtk, name)).parameters.items():
+                for value in self.WRONG if parameter.kind is not parameter.VAR_KEYWORD else ():
+                    with self.subTest(f"{name}({argument}={self.label(value)})"):
+                        self.refused(getattr(dgtk, name), {**arguments, argument: value}, argument == "size" and (value is None or isinstance(value, list)))
+
     def test_every_option(self):
         scene = dgtk.scene(square())
         for name in (line.split("\t")[0] for line in dgtk.dgtkRenderer.GetOptions().splitlines()):

@@ -5,6 +5,7 @@ import os
 
 from . import _check
 from ._render import require_scene, with_options
+from .dgtkFromVTK import dgtkSnapshot
 from .dgtkPipeline import dgtkDatasetGenerator
 
 _PATIENCE = 100  # milliseconds until an interrupt is noticed
@@ -61,6 +62,8 @@ def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, p
         generator.SetSceneFile(_check.path("scene", scene))
     else:
         require_scene(scene)
+        if isinstance(scene, dgtkSnapshot):
+            raise ValueError("scene: a snapshot has no files to read again: save() it, and give that file")
         generator.SetScene(scene)
     generator.SetFolder(_check.path("folder", folder))
     written = _check.absolute("folder", folder)

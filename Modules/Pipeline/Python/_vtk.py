@@ -6,6 +6,7 @@ import numpy
 import vtkmodules.vtkRenderingCore as vtkcore
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
+from . import _check
 from ._render import render
 from .dgtkFromVTK import dgtkSnapshot
 
@@ -18,7 +19,7 @@ class Snapshot(dgtkSnapshot):
 
     def save(self, path):
         """Writes the snapshot as a .json scene, with its models as OBJ and their textures in a folder `models` beside it."""
-        if not self.Save(str(path)):
+        if not self.Save(_check.path("path", path)):
             raise ValueError(self.GetSnapshotError())
 
 
@@ -52,12 +53,6 @@ def _renderer(view):
                      f"as {', '.join(_HOLDERS)})")
 
 
-def _whole(number, name):
-    if isinstance(number, bool) or int(number) != number or not 1 <= number <= 1 << 20:
-        raise ValueError(f"{name} out of range (expected a whole number from 1 to 1048576, found {number!r})")
-    return int(number)
-
-
 def snapshot(view, size=None, unsupported="refuse"):
     """Freezes what a VTK view shows: a scene of one camera ("camera"), one frame (0) and an object for each visible actor.
 
@@ -68,9 +63,9 @@ def snapshot(view, size=None, unsupported="refuse"):
 
     Returns a Snapshot, which render() takes as a scene. Its save("scene.json") writes it with its models, for generate().
     """
-    if unsupported not in ("refuse", "skip"):
-        raise ValueError(f"unsupported: expected refuse or skip, found {unsupported!r}")
-    width, height = (0, 0) if size is None else (_whole(size[0], "width"), _whole(size[1], "height"))
+    if not isinstance(unsupported, str) or unsupported not in ("refuse", "skip"):
+        _check.fail("unsupported", "refuse or skip", unsupported)
+    width, height = _check.size(size)
     made = Snapshot()
     made.SetSkipUnsupported(unsupported == "skip")
     if not made.Take(_renderer(view), width, height):
@@ -109,6 +104,7 @@ def truth(view, layers, size=None, unsupported="refuse", **options):
     1, 2, ... in the order of the view's visible actors, assemblies flattened. view, size and unsupported as in snapshot(),
     options as in render(). Returns a Truth: a dict of outputs, height x width, rows from the top.
     """
+    _check.names("layers", layers)
     names = [layers] if isinstance(layers, str) else list(layers)
     shot = view if isinstance(view, dgtkSnapshot) else snapshot(view, size, unsupported)
     outputs = Truth(shot)
