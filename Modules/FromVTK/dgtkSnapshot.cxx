@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkFrozenPair.h"
 #include "dgtkFrozenView.h"
+#include "dgtkInterpreterPause.h"
 #include "dgtkSavedSnapshot.h"
 #include "dgtkTracedView.h"
 
@@ -146,7 +147,10 @@ vtkDataArray* dgtkSnapshot::TraceCells()
     [&]
     {
       const dgtk::FrozenView& view = self.taken();
-      self.hits = dgtk::traceView(*view.stage, self.camera);
+      {
+        const dgtk::InterpreterPause pause;
+        self.hits = dgtk::traceView(*view.stage, self.camera);
+      }
       const auto cells = vtkSmartPointer<vtkTypeInt64Array>::New();
       cells->SetName("cells");
       cells->SetNumberOfValues(vtkIdType(self.hits.size()));
@@ -200,6 +204,7 @@ bool dgtkSnapshot::Correspond(dgtkSnapshot* other)
       const vtkIdType pixels = vtkIdType(this->GetWidth()) * this->GetHeight();
       self.positions->SetNumberOfTuples(pixels);
       self.classes->SetNumberOfTuples(pixels);
+      const dgtk::InterpreterPause pause;
       dgtk::correspondViews(
         self.taken(), other->Self->taken(), self.positions->GetPointer(0), self.classes->GetPointer(0));
     });

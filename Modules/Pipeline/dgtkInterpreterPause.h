@@ -2,14 +2,14 @@
 #ifndef dgtkInterpreterPause_h
 #define dgtkInterpreterPause_h
 
-// Private to Pipeline.
+#include "dgtkPipelineModule.h"
 
 namespace dgtk
 {
 
 /// While it lives, the lock of the Python interpreter that calls is free, so that its other threads run. Elsewhere it
 /// does nothing. VTK's objects are used under the lock: nothing that lives while it does may touch one that others see.
-class InterpreterPause
+class DGTKPIPELINE_EXPORT InterpreterPause
 {
 public:
   InterpreterPause();

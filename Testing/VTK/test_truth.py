@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """dgtk.truth() of scenes of VTK against rays in NumPy; what VTK's own window draws; what is refused."""
+import contextlib
+import io
 import os
+import re
 import sys
 import tempfile
 import unittest
@@ -275,6 +278,20 @@ class Refused(unittest.TestCase):
     def test_an_empty_renderer(self):
         truth = dgtk.truth(vtk.vtkRenderer(), ["objects", "depth", "cells", "color"], size=(4, 3))
         self.assertEqual((truth["objects"].max(), truth["cells"].max(), len(truth.props)), (0, -1, 0))
+
+
+class Guide(unittest.TestCase):
+    def test_the_page_runs_as_it_stands(self):
+        with open(os.path.join(os.environ["DGTK_SOURCE"], "Documentation", "UserGuide", "vtk.md"), encoding="utf-8") as file:
+            blocks = re.findall(r"^```python\n(.*?)^```$", file.read(), re.MULTILINE | re.DOTALL)
+        self.assertGreater(len(blocks), 3)
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            exec("\n".join(blocks), {})  # pylint: disable=exec-used
+        self.assertIn("(240, 320) 3 True", said.getvalue())
+        self.assertIn("vtkTextActor (prop 2)", said.getvalue())
+        self.assertIn("pixels are seen again\n(0.0, 1.0)", said.getvalue())
 
 
 if __name__ == "__main__":

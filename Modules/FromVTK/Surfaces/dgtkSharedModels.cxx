@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSharedModels.h"
 
+#include "dgtkInterpreterPause.h"
 #include "dgtkRaySource.h"
 
 #include <algorithm>
@@ -78,7 +79,10 @@ std::shared_ptr<const OcclusionQuery> keptTrees(const std::shared_ptr<const Scen
   static std::mutex lock;
   static std::shared_ptr<const OcclusionQuery> latest;
   const std::shared_ptr<OcclusionQuery> made = makeOcclusionQuery();
-  made->setScene(state);
+  {
+    const InterpreterPause pause;
+    made->setScene(state);
+  }
   const std::lock_guard<std::mutex> guard(lock);
   latest = made;
   return made;
