@@ -250,6 +250,30 @@ class Refused(unittest.TestCase):
         squeezed.SetUserMatrix(matrix)
         self.refused(squeezed, "projective matrix")
 
+    def test_data_that_do_not_hold_together(self):
+        def view(change):
+            data = vtk.vtkPolyData()
+            points = vtk.vtkPoints()
+            for x, y in ((0, 0), (1, 0), (0, 1)):
+                points.InsertNextPoint(x, y, 0)
+            data.SetPoints(points)
+            data.Allocate()
+            data.InsertNextCell(vtk.VTK_TRIANGLE, 3, (0, 1, 2))
+            change(data)
+            return scenes.renderer(scenes.actor(data), eye=(0.3, 0.3, 3), target=(0.3, 0.3, 0))
+        cells = vtk.vtkCellArray()
+        cells.InsertNextCell(3, (0, 1, 7))
+        for change in (lambda data: data.SetPolys(cells), lambda data: data.SetPoints(None)):
+            with self.assertRaisesRegex(ValueError, "cell 0 has a point that does not exist"):
+                dgtk.truth(view(change), "depth", size=SIZE)
+        few = vtk.vtkFloatArray()
+        few.SetNumberOfTuples(2)
+        with self.assertRaisesRegex(ValueError, "scalars are fewer"):
+            dgtk.truth(view(lambda data: data.GetPointData().SetScalars(few)), "depth", size=SIZE)
+        nowhere = dgtk.truth(view(lambda data: data.GetPoints().SetPoint(1, float("nan"), 0, 0)), "objects", size=SIZE)
+        self.assertEqual(nowhere["objects"].max(), 0)
+        self.assertEqual(dgtk.truth(view(lambda data: None), "objects", size=SIZE)["objects"].max(), 1)
+
     def test_cameras(self):
         renderer = scenes.parallel()
         renderer.GetActiveCamera().SetViewShear(0.2, 0, 1)

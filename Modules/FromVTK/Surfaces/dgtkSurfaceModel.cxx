@@ -2,6 +2,7 @@
 #include "dgtkSurfaceModel.h"
 
 #include "dgtkActorMaterial.h"
+#include "dgtkError.h"
 #include "dgtkTriangulate.h"
 
 #include <Eigen/Geometry>
@@ -15,6 +16,8 @@
 #include <vtkTexture.h>
 #include <vtkTransform.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace dgtk
@@ -43,10 +46,17 @@ public:
     , ToGeometry(geometry)
     , Piece(piece)
     , Data(*piece.data)
-    , PointNormals(Data.GetPointData()->GetNormals())
-    , CellNormals(Data.GetCellData()->GetNormals())
-    , Uvs(Data.GetPointData()->GetTCoords())
+    , PointCount(Data.GetPoints() != nullptr ? Data.GetNumberOfPoints() : 0)
+    , PointNormals(asLong(Data.GetPointData()->GetNormals(), PointCount))
+    , CellNormals(asLong(Data.GetCellData()->GetNormals(), Data.GetNumberOfCells()))
+    , Uvs(asLong(Data.GetPointData()->GetTCoords(), PointCount))
   {
+    const bool ofCells = piece.colorsOfCells;
+    if ((piece.colors && !asLong(piece.colors, ofCells ? Data.GetNumberOfCells() : PointCount)) ||
+        (piece.colorMapAt && !asLong(piece.colorMapAt, PointCount)))
+    {
+      fail("scalars are fewer than what they colour");
+    }
     const bool flat = actor.GetProperty()->GetInterpolation() == VTK_FLAT;
     this->Kind = flat                            ? Normals::OfTriangles
                  : this->PointNormals != nullptr ? Normals::OfPoints
@@ -73,12 +83,23 @@ public:
   }
 
 private:
+  [[noreturn]] static void fail(const std::string& what)
+  {
+    throw InputError("VTK scene", 0, "has data that do not hold together: " + what);
+  }
+
+  /// An array that has a tuple for each of so many, or null.
+  static vtkDataArray* asLong(vtkDataArray* array, vtkIdType count)
+  {
+    return array != nullptr && array->GetNumberOfTuples() >= count ? array : nullptr;
+  }
+
   void read(const Affine3& place, const GlyphPlace* glyph)
   {
     this->Place = place;
     this->Turn = turnedBy(place.linear);
     this->Glyph = glyph;
-    this->VertexOf.assign(this->Split ? 0 : std::size_t(this->Data.GetNumberOfPoints()), none);
+    this->VertexOf.assign(this->Split ? 0 : std::size_t(this->PointCount), none);
     vtkIdType cell = this->Data.GetNumberOfVerts() + this->Data.GetNumberOfLines();
     this->forCells(
       this->Data.GetPolys(), cell, [this](vtkIdType n, const vtkIdType* points) { this->polygon(n, points); });
@@ -108,6 +129,10 @@ private:
       const vtkIdType* points = nullptr;
       at->GetCurrentCell(count, points);
       this->Cell = cell;
+      if (std::any_of(points, points + count, [this](vtkIdType p) { return p < 0 || p >= this->PointCount; }))
+      {
+        fail("cell " + std::to_string(cell) + " has a point that does not exist");
+      }
       body(count, points);
     }
   }
@@ -160,7 +185,8 @@ private:
   void triangle(const std::array<vtkIdType, 3>& points)
   {
     const Eigen::Vector3d p[3] = { this->point(points[0]), this->point(points[1]), this->point(points[2]) };
-    if (p[0] == p[1] || p[1] == p[2] || p[0] == p[2])
+    const bool finite = p[0].allFinite() && p[1].allFinite() && p[2].allFinite();
+    if (!finite || p[0] == p[1] || p[1] == p[2] || p[0] == p[2])
     {
       return;
     }
@@ -272,6 +298,7 @@ private:
   Geometry& ToGeometry;
   const SurfacePiece& Piece;
   vtkPolyData& Data;
+  vtkIdType PointCount;
   vtkDataArray* PointNormals;
   vtkDataArray* CellNormals;
   vtkDataArray* Uvs;

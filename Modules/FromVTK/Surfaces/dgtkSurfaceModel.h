@@ -26,8 +26,9 @@ struct SurfaceModel
 
 /// The triangles of pieces in their order: polygons before strips, as VTK numbers cells. A polygon is cut as VTK draws
 /// it, a fan from its first corner, where that covers the polygon; others, which VTK draws wrongly, by ears. Triangles
-/// of which two corners coincide are left out, as VTK does. `bake` is applied to the points. Materials are the actor's;
-/// `lit` says whether the renderer has lights.
+/// of which two corners coincide, as in VTK, or with a coordinate that is no finite number, are left out. `bake` is
+/// applied to the points. Materials are the actor's; `lit` says whether the renderer has lights. Throws InputError for
+/// cells and arrays that do not fit the points.
 SurfaceModel surfaceModel(
   vtkActor& actor, const std::vector<SurfacePiece>& pieces, const Affine3& bake, bool lit, Unsupported& unsupported);
 
