@@ -19,7 +19,7 @@ import vtk
 import judge
 import scenes
 
-SIZE = (72, 54)
+SIZE = (60, 45)
 
 
 class Truth(unittest.TestCase):

@@ -256,7 +256,7 @@ class Pipelines(unittest.TestCase):
 
 
 class ZBuffers(unittest.TestCase):
-    SIZE = (60, 45)
+    SIZE = (48, 36)
 
     def test_the_exact_depth_lies_within_the_half_width(self):
         for name, make in scenes.ALL.items():
