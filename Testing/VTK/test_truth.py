@@ -7,6 +7,7 @@ import re
 import sys
 import tempfile
 import unittest
+import unittest.mock
 import warnings
 
 import numpy
@@ -287,7 +288,7 @@ class Refused(unittest.TestCase):
             dgtk.snapshot(mirrored, SIZE)
 
     def test_what_is_no_view(self):
-        for view in (None, 3, "renderer", object(), {}, vtk.vtkActor()):
+        for view in (None, 3, "renderer", object(), {}, vtk.vtkActor(), unittest.mock.Mock()):
             with self.assertRaises(ValueError):
                 dgtk.truth(view, "depth")
         renderer = scenes.transforms()

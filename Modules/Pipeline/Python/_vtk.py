@@ -12,6 +12,7 @@ from .dgtkFromVTK import dgtkSnapshot
 
 _HOLDERS = ("renderer", "ren_win", "render_window", "window")  # PyVista, vedo, Mayavi's scenes and figures
 _CONTAINERS = ("scene", "plotter", "_vtk_obj")
+_MOST_HOLDERS = 50  # objects that are looked into: some make attributes without end
 
 
 class Snapshot(dgtkSnapshot):
@@ -35,7 +36,7 @@ def _renderer_of_window(window):
 def _renderer(view):
     """The vtkRenderer of what the user calls a view."""
     seen, queue = set(), [view]
-    while queue:
+    while queue and len(seen) < _MOST_HOLDERS:
         found = queue.pop(0)
         if isinstance(found, vtkcore.vtkRenderer):
             return found
