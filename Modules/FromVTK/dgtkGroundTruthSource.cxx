@@ -25,7 +25,7 @@ namespace
 /// The same rows from bottom to top.
 vtkSmartPointer<vtkDataArray> upwards(vtkDataArray& from, int width, int height)
 {
-  const vtkSmartPointer<vtkDataArray> to = vtkSmartPointer<vtkDataArray>::Take(from.NewInstance());
+  vtkSmartPointer<vtkDataArray> to = vtkSmartPointer<vtkDataArray>::Take(from.NewInstance());
   to->SetName(from.GetName());
   to->SetNumberOfComponents(from.GetNumberOfComponents());
   to->SetNumberOfTuples(from.GetNumberOfTuples());

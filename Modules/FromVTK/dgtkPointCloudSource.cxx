@@ -27,7 +27,7 @@ namespace
 /// The tuples of an array at some places.
 vtkSmartPointer<vtkDataArray> chosen(vtkDataArray& from, const std::vector<vtkIdType>& places, const char* name)
 {
-  const vtkSmartPointer<vtkDataArray> to = vtkSmartPointer<vtkDataArray>::Take(from.NewInstance());
+  vtkSmartPointer<vtkDataArray> to = vtkSmartPointer<vtkDataArray>::Take(from.NewInstance());
   to->SetName(name);
   to->SetNumberOfComponents(from.GetNumberOfComponents());
   to->SetNumberOfTuples(vtkIdType(places.size()));

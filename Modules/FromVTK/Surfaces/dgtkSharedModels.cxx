@@ -64,7 +64,7 @@ std::shared_ptr<const Model> sharedModel(std::shared_ptr<const Model> model)
   known.erase(std::remove_if(known.begin(), known.end(), [](const auto& one) { return one.expired(); }), known.end());
   for (const std::weak_ptr<const Model>& one : known)
   {
-    const std::shared_ptr<const Model> other = one.lock();
+    std::shared_ptr<const Model> other = one.lock();
     if (other && (other == model || equalModels(*other, *model)))
     {
       return other;

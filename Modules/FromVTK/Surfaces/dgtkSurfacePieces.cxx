@@ -43,7 +43,7 @@ vtkSmartPointer<vtkPolyData> surfaceOf(vtkDataSet& data, vtkSmartPointer<vtkData
   surface->SetInputDataObject(&data);
   surface->PassThroughCellIdsOn();
   surface->Update();
-  const vtkSmartPointer<vtkPolyData> made = surface->GetOutput();
+  vtkSmartPointer<vtkPolyData> made = surface->GetOutput();
   cells = made->GetCellData()->GetArray(surface->GetOriginalCellIdsName());
   return made;
 }
@@ -129,6 +129,10 @@ private:
     }
     SurfacePiece piece;
     piece.data = surfaceOf(leaf, piece.cells);
+    if (piece.data == nullptr)
+    {
+      return;
+    }
     piece.firstCell = this->FirstCell;
     piece.blockColor = style.color;
     piece.blockOpacity = style.opacity;
