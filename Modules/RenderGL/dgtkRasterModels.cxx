@@ -28,7 +28,7 @@ vtkSmartPointer<vtkUnsignedCharArray> colorsOf(const Model& model, const RasterT
   {
     return nullptr;
   }
-  const auto colors = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  auto colors = vtkSmartPointer<vtkUnsignedCharArray>::New();
   colors->SetNumberOfComponents(4);
   colors->SetNumberOfTuples(vtkIdType(topology.source.size()));
   vtkIdType at = 0;
