@@ -16,8 +16,6 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnsignedIntArray.h"
 
-#include <functional>
-
 vtkStandardNewMacro(dgtkSnapshot);
 
 struct dgtkSnapshot::Internal
@@ -29,23 +27,6 @@ struct dgtkSnapshot::Internal
   vtkSmartPointer<vtkDataArray> counts;
   vtkSmartPointer<vtkDoubleArray> positions;
   vtkSmartPointer<vtkUnsignedCharArray> classes;
-  std::string errorMessage;
-
-  bool attempt(const std::function<void()>& work)
-  {
-    this->errorMessage.clear();
-    try
-    {
-      work();
-      return true;
-    }
-    catch (const std::exception& error)
-    {
-      this->errorMessage = error.what();
-      return false;
-    }
-  }
-
   const dgtk::FrozenView& taken() const
   {
     if (!this->view.stage)
@@ -74,7 +55,7 @@ bool dgtkSnapshot::Take(vtkRenderer* renderer, int width, int height)
 {
   *this->Self = Internal();
   this->SetStage(nullptr);
-  return this->Self->attempt(
+  return this->Attempt(
     [&]
     {
       if (renderer == nullptr)
@@ -100,8 +81,6 @@ std::string dgtkSnapshot::GetLeftOut() const
   }
   return lines;
 }
-
-std::string dgtkSnapshot::GetSnapshotError() const { return this->Self->errorMessage; }
 
 int dgtkSnapshot::GetNumberOfProps() const { return static_cast<int>(this->Self->view.actors.size()); }
 
@@ -143,7 +122,7 @@ void dgtkSnapshot::GetT(double t[3]) const
 vtkDataArray* dgtkSnapshot::TraceCells()
 {
   Internal& self = *this->Self;
-  const bool done = self.attempt(
+  const bool done = this->Attempt(
     [&]
     {
       const dgtk::FrozenView& view = self.taken();
@@ -166,7 +145,7 @@ vtkDataArray* dgtkSnapshot::TraceCells()
 vtkDataArray* dgtkSnapshot::CountPixels(int index)
 {
   Internal& self = *this->Self;
-  const bool done = self.attempt(
+  const bool done = this->Attempt(
     [&]
     {
       if (this->GetProp(index) == nullptr || self.cells == nullptr)
@@ -194,7 +173,7 @@ bool dgtkSnapshot::Correspond(dgtkSnapshot* other)
   self.positions = vtkSmartPointer<vtkDoubleArray>::New();
   self.positions->SetNumberOfComponents(2);
   self.classes = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  return self.attempt(
+  return this->Attempt(
     [&]
     {
       if (other == nullptr)
@@ -216,5 +195,5 @@ vtkDataArray* dgtkSnapshot::GetClasses() const { return this->Self->classes; }
 
 bool dgtkSnapshot::Save(const std::string& path)
 {
-  return this->Self->attempt([&] { dgtk::saveSnapshot(this->Self->taken(), path); });
+  return this->Attempt([&] { dgtk::saveSnapshot(this->Self->taken(), path); });
 }

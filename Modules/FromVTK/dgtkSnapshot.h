@@ -96,11 +96,6 @@ public:
    */
   bool Save(const std::string& path);
 
-  /**
-   * What went wrong last, one line; empty after success.
-   */
-  std::string GetSnapshotError() const;
-
 protected:
   dgtkSnapshot();
   ~dgtkSnapshot() override;

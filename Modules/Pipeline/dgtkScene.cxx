@@ -120,6 +120,21 @@ void dgtkScene::SetStage(std::shared_ptr<const dgtk::Stage> stage)
   this->Modified();
 }
 
+bool dgtkScene::Attempt(const std::function<void()>& work)
+{
+  this->Self->failure.clear();
+  try
+  {
+    work();
+    return true;
+  }
+  catch (...)
+  {
+    this->Self->failure.take();
+    return false;
+  }
+}
+
 std::shared_ptr<const dgtk::Stage> dgtkScene::GetStage() const { return this->Self->stage; }
 
 std::string dgtkScene::GetDescription() const

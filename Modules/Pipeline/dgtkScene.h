@@ -11,8 +11,9 @@
 #include "dgtkPipelineModule.h"
 #include "vtkObject.h"
 
-#include <memory> // private state
-#include <string> // names
+#include <functional> // work that may fail
+#include <memory>     // private state
+#include <string>     // names
 
 namespace dgtk
 {
@@ -101,6 +102,10 @@ protected:
    * For scenes that come from elsewhere than a file; null empties the scene.
    */
   void SetStage(std::shared_ptr<const dgtk::Stage> stage);
+  /**
+   * Does what may throw: false then, and GetErrorMessage() says why.
+   */
+  bool Attempt(const std::function<void()>& work);
 #endif
 
 private:

@@ -28,11 +28,16 @@ def window(*renderers, size=SIZE):
     return made
 
 
-def drawn(shown):
+def grabbed(shown):
     shown.Render()
     grab = vtk.vtkWindowToImageFilter()
     grab.SetInput(shown)
     grab.ReadFrontBufferOff()
+    return grab
+
+
+def drawn(shown):
+    grab = grabbed(shown)
     grab.Update()
     image = grab.GetOutput()
     width, height, _ = image.GetDimensions()
@@ -178,6 +183,9 @@ class Pipelines(unittest.TestCase):
         truth = dgtk.truth(renderer, ["depth", "objects", "cells", "normal", "color"], size=(90, 70))
         image = source.GetOutput()
         self.assertEqual(image.GetPointData().GetScalars().GetName(), "depth")
+        source.SetRenderer(renderer)
+        source.SetCamera("of a scene")  # is none of a renderer's
+        source.Update()
         for name, expected in truth.items():
             found = vtk_to_numpy(image.GetPointData().GetArray(name))
             self.assertEqual(found.dtype, expected.dtype)
@@ -268,10 +276,7 @@ class ZBuffers(unittest.TestCase):
         shown = window(renderer, size=self.SIZE)
         right = judge.Judge(renderer, *self.SIZE)
         renderer.ResetCameraClippingRange()
-        shown.Render()
-        grab = vtk.vtkWindowToImageFilter()
-        grab.SetInput(shown)
-        grab.ReadFrontBufferOff()
+        grab = grabbed(shown)
         grab.SetInputBufferTypeToZBuffer()
         depth = dgtk.dgtkDepthFromZBuffer()
         depth.SetInputConnection(grab.GetOutputPort())

@@ -24,14 +24,14 @@ void draw(const ViewRequest& request, dgtkScene& scene, const std::string& layer
 {
   vtkNew<dgtkRenderer> renderer;
   renderer->SetScene(&scene);
-  renderer->SetCamera(request.camera);
-  if (request.frameSet)
+  if (!request.renderer) // a snapshot has one camera, one frame and one size
   {
-    renderer->SetFrame(request.frame);
-  }
-  if (!request.renderer)
-  {
+    renderer->SetCamera(request.camera);
     renderer->SetSize(request.width, request.height);
+    if (request.frameSet)
+    {
+      renderer->SetFrame(request.frame);
+    }
   }
   for (const auto& [name, value] : request.options)
   {
@@ -64,6 +64,7 @@ vtkDataArray* ViewOutputs::find(const char* name) const
 ViewOutputs outputsOf(const ViewRequest& request)
 {
   std::vector<std::string> names = splitNames(request.layers, "layers");
+  const std::string first = names.front();
   const auto cells = std::find(names.begin(), names.end(), cellsLayer);
   const bool wantsCells = request.renderer && cells != names.end();
   if (wantsCells)
@@ -78,7 +79,7 @@ ViewOutputs outputsOf(const ViewRequest& request)
     to.shot->SetSkipUnsupported(request.skip);
     if (!to.shot->Take(request.renderer, request.width, request.height))
     {
-      throw UsageError(to.shot->GetSnapshotError());
+      throw UsageError(to.shot->GetErrorMessage());
     }
     scene = to.shot;
   }
@@ -95,11 +96,18 @@ ViewOutputs outputsOf(const ViewRequest& request)
     to.width = to.shot->GetWidth();
     to.height = to.shot->GetHeight();
     to.arrays.emplace_back(to.shot->TraceCells());
+    if (to.arrays.back() == nullptr)
+    {
+      throw MachineError(to.shot->GetErrorMessage());
+    }
   }
-  const std::string first = splitNames(request.layers, "layers").front();
-  std::stable_partition(to.arrays.begin(), to.arrays.end(),
-    [&first](const vtkSmartPointer<vtkDataArray>& array)
-    { return std::string(array->GetName()).compare(0, first.size(), first) == 0; });
+  const auto rank = [&first](const vtkSmartPointer<vtkDataArray>& array)
+  {
+    const std::string name = array->GetName();
+    return name == first ? 0 : name.compare(0, first.size() + 1, first + '_') == 0 ? 1 : 2;
+  };
+  std::stable_sort(
+    to.arrays.begin(), to.arrays.end(), [&rank](const auto& a, const auto& b) { return rank(a) < rank(b); });
   return to;
 }
 

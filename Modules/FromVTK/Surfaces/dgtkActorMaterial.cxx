@@ -2,6 +2,7 @@
 #include "dgtkActorMaterial.h"
 
 #include "dgtkPortableMath.h"
+#include "dgtkSurfaceMaterial.h"
 #include "dgtkSurfacePieces.h"
 
 #include <vtkActor.h>
@@ -18,8 +19,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double ambientPerWorld = 5; ///< 1 / worldAmbient
-
 Eigen::Vector3d vectorOf(const double* from) { return { from[0], from[1], from[2] }; }
 
 /// Light that a surface of VTK's physically based kind has is linear; ours is display-referred.
@@ -150,7 +149,7 @@ Material actorMaterial(
   const Eigen::Vector3d diffuse = property.GetDiffuse() * colors.diffuse;
   if (lit && property.GetLighting())
   {
-    material.ambient = ambientPerWorld * ambient;
+    material.ambient = ambient / worldAmbient;
     material.diffuse = diffuse;
     material.specular = property.GetSpecular() * vectorOf(property.GetSpecularColor());
     material.shininess = property.GetSpecularPower();
@@ -161,7 +160,7 @@ Material actorMaterial(
   }
   else
   {
-    material.ambient = ambientPerWorld * (ambient + diffuse);
+    material.ambient = (ambient + diffuse) / worldAmbient;
     material.diffuse.setZero();
   }
   if (vtkTexture* const texture = actor.GetTexture())

@@ -5,6 +5,7 @@
 #include "dgtkFile.h"
 #include "dgtkLayerWriter.h"
 #include "dgtkRendererLights.h"
+#include "dgtkSurfaceMaterial.h"
 #include "dgtkText.h"
 
 #include <cstring>
@@ -16,7 +17,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double worldShare = 0.2; ///< of ambient light, which is there without a light
 constexpr const char* modelFolder = "models";
 
 std::string joinedNumbers(const double* numbers, std::size_t count)
@@ -171,7 +171,7 @@ void addAmbientLight(SceneDescription& scene)
   ambient.name = "ambient";
   ambient.kind = LightKind::Directional;
   ambient.position = Eigen::Vector3d(0, 1, 0);
-  ambient.ambient = Eigen::Vector3d(Eigen::Vector3d::Constant(1 - worldShare));
+  ambient.ambient = Eigen::Vector3d(Eigen::Vector3d::Constant(1 - worldAmbient));
   ambient.diffuse = Eigen::Vector3d(0, 0, 0);
   ambient.specular = Eigen::Vector3d(0, 0, 0);
   scene.lights.push_back(ambient);
@@ -187,7 +187,7 @@ void saveSnapshot(const FrozenView& view, const std::string& path)
   const bool ambient = needsAmbientLight(view);
   for (std::size_t i = 0; i < view.actors.size(); ++i)
   {
-    ObjFile(*view.actors[i].model, models, view.actors[i].name).write(ambient ? worldShare : 1.0);
+    ObjFile(*view.actors[i].model, models, view.actors[i].name).write(ambient ? worldAmbient : 1.0);
     scene.objects[i].model = (std::filesystem::path(models) / (view.actors[i].name + ".obj")).string();
   }
   if (ambient)

@@ -3,6 +3,7 @@
 
 #include "dgtkActorMaterial.h"
 #include "dgtkError.h"
+#include "dgtkSurfaceMaterial.h"
 #include "dgtkTriangulate.h"
 
 #include <Eigen/Geometry>
@@ -97,7 +98,7 @@ private:
   void read(const Affine3& place, const GlyphPlace* glyph)
   {
     this->Place = place;
-    this->Turn = turnedBy(place.linear);
+    this->Turn = normalMatrix(place.linear);
     this->Glyph = glyph;
     this->VertexOf.assign(this->Split ? 0 : std::size_t(this->PointCount), none);
     vtkIdType cell = this->Data.GetNumberOfVerts() + this->Data.GetNumberOfLines();
@@ -105,14 +106,6 @@ private:
       this->Data.GetPolys(), cell, [this](vtkIdType n, const vtkIdType* points) { this->polygon(n, points); });
     this->forCells(
       this->Data.GetStrips(), cell, [this](vtkIdType n, const vtkIdType* points) { this->strip(n, points); });
-  }
-
-  /// Of normals: the cofactors, with their sign, so that mirrored surfaces keep their outside.
-  static Eigen::Matrix3d turnedBy(const Eigen::Matrix3d& m)
-  {
-    Eigen::Matrix3d cofactors;
-    cofactors << m.col(1).cross(m.col(2)), m.col(2).cross(m.col(0)), m.col(0).cross(m.col(1));
-    return m.determinant() < 0 ? Eigen::Matrix3d(-cofactors) : cofactors;
   }
 
   template <class Body>

@@ -23,7 +23,7 @@ bool isPlain(vtkActor& actor)
   return name == "vtkActor" || name == "vtkFollower" || name == "vtkLODActor" || name == "vtkQuadricLODActor";
 }
 
-std::string article(const std::string& name, std::size_t number)
+std::string numbered(const std::string& name, std::size_t number)
 {
   return name + " (prop " + std::to_string(number) + ')';
 }
@@ -83,7 +83,7 @@ private:
     vtkActor* const actor = vtkActor::SafeDownCast(&leaf);
     if (actor == nullptr || !isPlain(*actor))
     {
-      this->Out.add(article(classOf(leaf), this->Props));
+      this->Out.add(numbered(classOf(leaf), this->Props));
       return;
     }
     if (actor->GetMapper() == nullptr)
@@ -92,7 +92,7 @@ private:
     }
     if (matrix != nullptr && !isAffine(*matrix))
     {
-      this->Out.add(article(classOf(leaf), this->Props) + " with a projective matrix");
+      this->Out.add(numbered(classOf(leaf), this->Props) + " with a projective matrix");
       return;
     }
     ViewActor found;

@@ -21,7 +21,7 @@ class Snapshot(dgtkSnapshot):
     def save(self, path):
         """Writes the snapshot as a .json scene, with its models as OBJ and their textures in a folder `models` beside it."""
         if not self.Save(_check.path("path", path)):
-            raise ValueError(self.GetSnapshotError())
+            _check.raise_error(self)
 
 
 def _renderer_of_window(window):
@@ -70,7 +70,7 @@ def snapshot(view, size=None, unsupported="refuse"):
     made = Snapshot()
     made.SetSkipUnsupported(unsupported == "skip")
     if not made.Take(_renderer(view), width, height):
-        raise ValueError(made.GetSnapshotError())
+        _check.raise_error(made)
     for line in made.GetLeftOut().splitlines():
         warnings.warn(f"left out: {line}", stacklevel=3)
     return made
@@ -93,7 +93,7 @@ class Truth(dict):
 def _cells(shot):
     cells = shot.TraceCells()
     if cells is None:
-        raise RuntimeError(shot.GetSnapshotError())
+        _check.raise_error(shot)
     return vtk_to_numpy(cells)
 
 
@@ -128,7 +128,7 @@ def correspond(first, second):
         if not isinstance(shot, dgtkSnapshot):
             raise ValueError(f"expected two snapshots, found {type(shot).__name__}")
     if not first.Correspond(second):
-        raise ValueError(first.GetSnapshotError())
+        _check.raise_error(first)
     shape = (first.GetHeight(), first.GetWidth())
     return vtk_to_numpy(first.GetPositions()).reshape(shape + (2,)), vtk_to_numpy(first.GetClasses()).reshape(shape)
 
