@@ -21,7 +21,7 @@ BOXES = [
     ("RenderGL", "VTK / OpenGL: colour, ids", 0, 2.15, 5, 7, GREEN),
     ("RayTrace", "Embree: ids, queries", 2.15, 4.3, 5, 7, GREEN),
     ("GroundTruth", "values from hits", 4.3, 6.5, 5, 6, GREEN),
-    ("Export", "POV-Ray", 6.5, 8, 4, 6, GREEN),
+    ("SceneExport", "POV-Ray", 6.5, 8, 4, 6, GREEN),
     ("Sensor", "blur, noise", 8, 9.5, 1, 6, PINK),
     ("DatasetIO", "writers, readers, manifest", 9.5, 12, 1, 6, PINK),
     ("Layers", "what pictures are given out as: layers, options, plan", 4.3, 10, 6, 7, VIOLET),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkDatasetDocuments.h"
 
+#include "dgtkDocumentValues.h"
 #include "dgtkFile.h"
 #include "dgtkHash.h"
 #include "dgtkJsonText.h"
@@ -72,7 +73,21 @@ std::string layerText(const LayerRecord& layer)
   return object.line();
 }
 
-std::string fileText(const DatasetFile& file)
+std::string fileText(const DatasetFile& file) { return fileObject(file).line(); }
+
+template <typename T, typename F>
+std::string arrayText(const std::vector<T>& items, F text)
+{
+  JsonArray array(4);
+  for (const T& item : items)
+  {
+    array.add(text(item));
+  }
+  return array.block();
+}
+} // namespace
+
+JsonObject fileObject(const DatasetFile& file)
 {
   JsonObject object(6);
   object.text("path", file.path).integer("bytes", static_cast<std::int64_t>(file.bytes)).text("sha256", file.sha256);
@@ -88,20 +103,8 @@ std::string fileText(const DatasetFile& file)
   {
     object.integer("frame", file.frame);
   }
-  return object.line();
+  return object;
 }
-
-template <typename T, typename F>
-std::string arrayText(const std::vector<T>& items, F text)
-{
-  JsonArray array(4);
-  for (const T& item : items)
-  {
-    array.add(text(item));
-  }
-  return array.block();
-}
-} // namespace
 
 std::string camerasText(std::vector<CameraRecord> cameras)
 {

@@ -44,22 +44,6 @@ LayerRecord layerOf(const JsonCursor& value)
   return layer;
 }
 
-DatasetFile fileOf(const JsonCursor& value)
-{
-  DatasetFile file;
-  file.path = value["path"].text();
-  if (!Folder::isPlain(file.path))
-  {
-    value["path"].fail("leads out of the dataset", "a name beneath its folder", dgtk::quoted(file.path));
-  }
-  file.bytes = countOf(value["bytes"]);
-  file.sha256 = hashOf(value["sha256"]);
-  file.layer = value.has("layer") ? value["layer"].text() : "";
-  file.camera = value.has("camera") ? value["camera"].text() : "";
-  file.frame = value.has("frame") ? integerOf(value["frame"], anyFrame) : -1;
-  return file;
-}
-
 /// What is not a key of every camera belongs to its model: a number, a list of them or the name of a file.
 void readParameters(const JsonCursor& value, const std::string& folder, CameraRecord& camera)
 {
@@ -165,6 +149,22 @@ std::vector<ClassRecord> readClasses(const std::string& path)
   return classes;
 }
 
+DatasetFile fileOf(const JsonCursor& value)
+{
+  DatasetFile file;
+  file.path = value["path"].text();
+  if (!Folder::isPlain(file.path))
+  {
+    value["path"].fail("leads out of the dataset", "a name beneath its folder", dgtk::quoted(file.path));
+  }
+  file.bytes = countOf(value["bytes"]);
+  file.sha256 = hashOf(value["sha256"]);
+  file.layer = value.has("layer") ? value["layer"].text() : "";
+  file.camera = value.has("camera") ? value["camera"].text() : "";
+  file.frame = value.has("frame") ? integerOf(value["frame"], anyFrame) : -1;
+  return file;
+}
+
 Manifest readManifest(const std::string& path)
 {
   const JsonDocument document = readJson(path);
@@ -213,6 +213,18 @@ Manifest readManifest(const std::string& path)
   return manifest;
 }
 
+void refuseLinks(const Folder& folder, const std::set<std::string>& names)
+{
+  folder.look(names,
+    [&](const std::string& name, EntryKind kind)
+    {
+      if (kind != EntryKind::Nothing && kind != EntryKind::File)
+      {
+        folder.fileAt(name);
+      }
+    });
+}
+
 Manifest readManifestIn(const std::string& path)
 {
   const Folder folder(path);
@@ -222,14 +234,7 @@ Manifest readManifestIn(const std::string& path)
   {
     names.insert(file.path);
   }
-  folder.look(names,
-    [&](const std::string& name, EntryKind kind)
-    {
-      if (kind != EntryKind::Nothing && kind != EntryKind::File)
-      {
-        folder.fileAt(name);
-      }
-    });
+  refuseLinks(folder, names);
   return manifest;
 }
 

@@ -4,11 +4,14 @@
 
 // Private to DatasetIO: values of a dataset's documents.
 
+#include "dgtkDatasetDocuments.h"
 #include "dgtkFile.h"
 #include "dgtkJson.h"
+#include "dgtkJsonText.h"
 
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <string>
 
 namespace dgtk
@@ -41,6 +44,13 @@ inline std::string hashOf(const JsonCursor& at)
   }
   return value;
 }
+
+/// A file of a manifest.
+DatasetFile fileOf(const JsonCursor& value);
+JsonObject fileObject(const DatasetFile& file);
+
+/// Throws InputError where a link stands in place of one of these files, or of a folder that leads there.
+void refuseLinks(const Folder& folder, const std::set<std::string>& names);
 
 } // namespace dgtk
 

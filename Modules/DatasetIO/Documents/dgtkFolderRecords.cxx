@@ -2,11 +2,13 @@
 #include "dgtkFolderRecords.h"
 
 #include "dgtkError.h"
+#include "dgtkExportDocument.h"
 #include "dgtkFile.h"
-#include "dgtkJournal.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
+#include <iterator>
 
 namespace dgtk
 {
@@ -122,18 +124,33 @@ void readJournal(const std::string& text, FolderRecords& records)
   }
 }
 
-void addManifest(const Manifest& manifest, FolderRecords& records)
+void addWhole(const std::vector<DatasetFile>& files, const std::string& requestHash, FolderRecords& records)
 {
-  for (const DatasetFile& file : manifest.files)
+  for (const DatasetFile& file : files)
   {
     records.names.insert(file.path);
   }
-  if (!records.journal || records.requestHash == manifest.requestHash)
+  if (!records.journal || records.requestHash == requestHash)
   {
     records.whole = true;
-    records.requestHash = manifest.requestHash;
-    records.finished = manifest.files;
+    records.requestHash = requestHash;
+    records.finished = files;
   }
+}
+
+void addDocument(const std::string& path, const std::string& document, FolderRecords& records)
+{
+  if (document == manifestName)
+  {
+    const Manifest manifest = readManifest(path);
+    addWhole(manifest.files, manifest.requestHash, records);
+    return;
+  }
+  const ExportRecord whole = readExport(path);
+  std::vector<DatasetFile> files;
+  std::transform(whole.files.begin(), whole.files.end(), std::back_inserter(files),
+    [](const ExportedFile& exported) { return exported.file; });
+  addWhole(files, whole.requestHash, records);
 }
 
 /// Whether a document is there; what is no file cannot be ours.
@@ -148,7 +165,7 @@ bool holds(const Folder& folder, const std::string& name, FolderRecords& records
 }
 } // namespace
 
-FolderRecords readFolderRecords(const Folder& folder)
+FolderRecords readFolderRecords(const Folder& folder, const std::string& document)
 {
   FolderRecords records;
   try
@@ -157,9 +174,9 @@ FolderRecords readFolderRecords(const Folder& folder)
     {
       readJournal(readFile(folder.pathOf(journalName)), records);
     }
-    if (holds(folder, manifestName, records))
+    if (holds(folder, document, records))
     {
-      addManifest(readManifest(folder.pathOf(manifestName)), records);
+      addDocument(folder.pathOf(document), document, records);
     }
   }
   catch (const InputError& error)

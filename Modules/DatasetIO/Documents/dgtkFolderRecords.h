@@ -7,6 +7,7 @@
 #include "dgtkDatasetDocuments.h"
 #include "dgtkFolder.h"
 #include "dgtkFolderContents.h"
+#include "dgtkJournal.h"
 
 #include <set>
 #include <string>
@@ -26,8 +27,8 @@ struct FolderRecords
   std::string foreign;               ///< not empty: why manifest or journal are not DGTk's
 };
 
-/// Throws MachineError when the folder cannot be read.
-FolderRecords readFolderRecords(const Folder& folder);
+/// `document`: manifestName or exportName. Throws MachineError when the folder cannot be read.
+FolderRecords readFolderRecords(const Folder& folder, const std::string& document = manifestName);
 
 /// Whether nothing stands there but what is left of a run that was killed at its very beginning.
 bool holdsNothing(const std::string& folder);

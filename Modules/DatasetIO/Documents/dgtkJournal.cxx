@@ -110,14 +110,16 @@ bool isSameFile(const FileDescriptor& a, const FileDescriptor& b)
 struct Journal::Impl
 {
   Folder folder;
+  std::string document;
   FileDescriptor descriptor;
   std::mutex mutex;
   std::vector<DatasetFile> finished;
   std::map<std::string, std::size_t> byPath;
   std::set<std::string> before; ///< names that a run that is resumed has announced
 
-  explicit Impl(const std::string& path)
+  Impl(const std::string& path, const std::string& last)
     : folder(path)
+    , document(last)
   {
   }
 
@@ -232,9 +234,9 @@ std::string planOf(const std::set<std::string>& names)
 }
 } // namespace
 
-Journal::Journal(
-  const std::string& path, const std::string& requestHash, JournalStart start, const std::vector<std::string>& names)
-  : Self(new Impl(path))
+Journal::Journal(const std::string& path, const std::string& requestHash, JournalStart start,
+  const std::vector<std::string>& names, const std::string& document)
+  : Self(new Impl(path, document))
 {
   makeFolders(path);
   const Folder& folder = this->Self->folder;
@@ -243,11 +245,11 @@ Journal::Journal(
     throw FolderError(path, FolderContents::Running);
   }
   // once without the lock, so that a refusal leaves no trace, and once with it
-  FolderRecords before = readFolderRecords(folder);
+  FolderRecords before = readFolderRecords(folder, document);
   refuseIfNeeded(path, before, contentsOf(folder, before, requestHash), start);
   checkNames(folder, before, names);
   this->Self->lock();
-  before = readFolderRecords(folder);
+  before = readFolderRecords(folder, document);
   const FolderContents contents = contentsOf(folder, before, requestHash);
   refuseIfNeeded(path, before, contents, start);
   const bool resumes = start == JournalStart::Resume && contents != FolderContents::Nothing;
@@ -261,7 +263,7 @@ Journal::Journal(
     text += journalLine(file);
   }
   this->Self->rewrite(text);
-  folder.remove(manifestName);
+  folder.remove(document);
   if (!resumes && !before.names.empty())
   {
     // killed in between, everything is in the journal still
@@ -310,9 +312,16 @@ void Journal::add(const DatasetFile& file)
 
 void Journal::close(const Manifest& manifest)
 {
+  this->close([&](AtomicFile& document) { document.write(manifestText(manifest)); });
+}
+
+void Journal::close(const std::function<void(AtomicFile& document)>& write)
+{
   // whoever finds a manifest finds whole files, also when the power fails
   this->Self->folder.syncAll();
-  writeFileDurably(FilePlace(this->Self->folder.path(), manifestName), manifestText(manifest));
+  AtomicFile document(FilePlace(this->Self->folder.path(), this->Self->document));
+  write(document);
+  document.commitDurably();
   this->Self->folder.remove(journalName);
 }
 

@@ -5,8 +5,10 @@
 #include "dgtkDatasetIOModule.h"
 
 #include "dgtkDatasetDocuments.h"
+#include "dgtkFile.h"
 #include "dgtkFolderContents.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -52,8 +54,9 @@ public:
   /// `names` are the files that the run is going to write, relative to the folder. A file in the way of one of them
   /// that neither manifest nor journal lists, or a link in place of a folder, is a UsageError before anything is
   /// changed. Throws MachineError when the folder cannot be made or written.
+  /// `document`: the name of the one that a whole run ends with, manifestName or exportName.
   Journal(const std::string& folder, const std::string& requestHash, JournalStart start,
-    const std::vector<std::string>& names = {});
+    const std::vector<std::string>& names = {}, const std::string& document = manifestName);
   ~Journal(); ///< keeps the journal for a later resume
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
@@ -73,6 +76,8 @@ public:
 
   /// Writes manifest.json and removes the journal; the last step of a run. Throws MachineError.
   void close(const Manifest& manifest);
+  /// The same with a document that `write` makes.
+  void close(const std::function<void(AtomicFile& document)>& write);
 
 private:
   struct Impl;

@@ -2,7 +2,7 @@
 #ifndef dgtkPovTurned_h
 #define dgtkPovTurned_h
 
-// Private to Export.
+// Private to SceneExport.
 
 #include "dgtkPovText.h"
 

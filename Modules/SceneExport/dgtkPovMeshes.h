@@ -2,7 +2,7 @@
 #ifndef dgtkPovMeshes_h
 #define dgtkPovMeshes_h
 
-// Private to Export.
+// Private to SceneExport.
 
 #include "dgtkPovExport.h"
 #include "dgtkPovImages.h"

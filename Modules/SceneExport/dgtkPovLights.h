@@ -2,7 +2,7 @@
 #ifndef dgtkPovLights_h
 #define dgtkPovLights_h
 
-// Private to Export.
+// Private to SceneExport.
 
 #include "dgtkPovExport.h"
 

@@ -2,7 +2,7 @@
 #ifndef dgtkPovImages_h
 #define dgtkPovImages_h
 
-// Private to Export.
+// Private to SceneExport.
 
 #include "dgtkModel.h"
 

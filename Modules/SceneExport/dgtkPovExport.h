@@ -2,7 +2,7 @@
 #ifndef dgtkPovExport_h
 #define dgtkPovExport_h
 
-#include "dgtkExportModule.h"
+#include "dgtkSceneExportModule.h"
 
 #include "dgtkSceneState.h"
 
@@ -63,16 +63,16 @@ struct PovResult
 /// .pgm. All files appear when they are whole, the scene last. Throws UsageError for a camera that is not linear,
 /// InputError for a name that does not end in .pov and for more objects than 24 bits count, MachineError for what
 /// cannot be written.
-DGTKEXPORT_EXPORT PovResult exportPov(
+DGTKSCENEEXPORT_EXPORT PovResult exportPov(
   const SceneState& state, const View& view, const std::string& path, const PovOptions& options = {});
 
 /// Writes a model in its own axes and size, at its first frame, with a camera before it that shows it whole and that
 /// tells readers that the axes are right-handed. Throws as above.
-DGTKEXPORT_EXPORT PovResult exportPov(const std::shared_ptr<const Model>& model, const std::string& path);
+DGTKSCENEEXPORT_EXPORT PovResult exportPov(const std::shared_ptr<const Model>& model, const std::string& path);
 
 /// Meshes and pictures that several scenes use: each is written once into a folder, under a name that holds a hash of
 /// its contents. Thread-safe.
-class DGTKEXPORT_EXPORT PovLibrary
+class DGTKSCENEEXPORT_EXPORT PovLibrary
 {
 public:
   /// `reference` is the folder as scenes name it, with its '/' at the end, or "": names of files that begin with it
@@ -119,18 +119,18 @@ struct PovScene
 /// The small file of a camera at a frame; what it includes has been written into the library. With `rows`, its camera
 /// shows these rows only, by the same rays. `name` is the file's, for the command in its second line. Throws as
 /// exportPov().
-DGTKEXPORT_EXPORT PovScene makePovScene(const SceneState& state, const View& view, const PovOptions& options,
+DGTKSCENEEXPORT_EXPORT PovScene makePovScene(const SceneState& state, const View& view, const PovOptions& options,
   PovLibrary& library, const PovRows& rows = {}, const std::string& name = "FILE");
 
 /// What POV-Ray will show otherwise than the built-in renderer, one line each: PovScene::warnings.
-DGTKEXPORT_EXPORT std::vector<std::string> povNotes(
+DGTKSCENEEXPORT_EXPORT std::vector<std::string> povNotes(
   const SceneState& state, const View& view, const PovOptions& options);
 
 /// POV-Ray's options for N x N points a pixel on a grid, without noise.
-DGTKEXPORT_EXPORT std::vector<std::string> povAntialias(int points);
+DGTKSCENEEXPORT_EXPORT std::vector<std::string> povAntialias(int points);
 
 /// The files of the library that a written scene names, without folder. Throws InputError for an unreadable file.
-DGTKEXPORT_EXPORT std::vector<std::string> povSceneUses(const std::string& path);
+DGTKSCENEEXPORT_EXPORT std::vector<std::string> povSceneUses(const std::string& path);
 
 } // namespace dgtk
 

@@ -2,7 +2,7 @@
 #ifndef dgtkPovMaterials_h
 #define dgtkPovMaterials_h
 
-// Private to Export.
+// Private to SceneExport.
 
 #include "dgtkPovExport.h"
 #include "dgtkPovImages.h"

@@ -2,7 +2,7 @@
 #ifndef dgtkPovCamera_h
 #define dgtkPovCamera_h
 
-// Private to Export.
+// Private to SceneExport.
 
 #include "dgtkPovExport.h"
 #include "dgtkPovLights.h"

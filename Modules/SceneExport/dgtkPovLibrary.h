@@ -2,7 +2,7 @@
 #ifndef dgtkPovLibrary_h
 #define dgtkPovLibrary_h
 
-// Private to Export.
+// Private to SceneExport.
 
 #include "dgtkPovExport.h"
 #include "dgtkPovMeshes.h"

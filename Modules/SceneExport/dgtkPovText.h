@@ -2,7 +2,7 @@
 #ifndef dgtkPovText_h
 #define dgtkPovText_h
 
-// Private to Export.
+// Private to SceneExport.
 
 #include "dgtkFile.h"
 #include "dgtkRigid3.h"
