@@ -12,6 +12,7 @@ Command renderCommand();
 Command infoCommand();
 Command convertCommand();
 Command correspondCommand();
+Command exportCommand();
 Command compareCommand();
 Command verifyCommand();
 Command warpCommand();

@@ -3,6 +3,7 @@
 
 #include "dgtkCameraEntry.h"
 #include "dgtkError.h"
+#include "dgtkExporterEntry.h"
 #include "dgtkGLContext.h"
 #include "dgtkGenerator.h"
 #include "dgtkLayerWriter.h"
@@ -101,6 +102,16 @@ std::vector<Row> cameras()
   for (const CameraRow& camera : cameraRows())
   {
     rows.push_back({ camera.model, camera.description });
+  }
+  return rows;
+}
+
+std::vector<Row> exporters()
+{
+  std::vector<Row> rows;
+  for (const ExporterRow& row : exporterRows())
+  {
+    rows.push_back({ row.info.name, joinedNames(row.make()->needs({}).layers), row.info.description });
   }
   return rows;
 }
@@ -241,6 +252,7 @@ const std::vector<Section>& sections()
     { "options", &options, { "name", "value", "default", "help" }, &describeOptions },
     { "writers", &writers, { "format", "extension", "description" } },
     { "cameras", &cameras, { "model", "description" }, &describeCameras },
+    { "exporters", &exporters, { "format", "layers", "description" } },
     { "gl", &gl, { "backend", "state", "description" } },
     { "commands", &commandRows, { "command", "arguments", "help" }, &describeCommands } };
   return all;
@@ -273,7 +285,7 @@ int run(const Arguments& arguments)
 
 Command listCommand()
 {
-  return { "list", "[readers|layers|options|writers|cameras|gl|commands]", 0, 1,
+  return { "list", "[readers|layers|options|writers|cameras|exporters|gl|commands]", 0, 1,
     "Lists what this program can read, derive and write.",
     { { "--json", "", "", "as JSON, with all that is known of commands, layers and options" } }, &run };
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands.h"
+#include "Interrupt.h"
 #include "Progress.h"
 
 #include "dgtkError.h"
@@ -10,7 +11,6 @@
 #include <atomic>
 #include <cstdio>
 
-#include <signal.h>
 #include <sys/resource.h>
 
 namespace dgtk::app
@@ -19,14 +19,6 @@ namespace dgtk::app
 namespace
 {
 constexpr int largestImage = 1 << 20;
-std::atomic<bool> interrupted{ false };
-
-void onInterrupt(int signal)
-{
-  interrupted = true;
-  ::signal(signal, SIG_DFL); // a second one ends the program at once
-}
-
 // Tiles of one row are open together.
 void allowManyFiles()
 {
@@ -36,39 +28,6 @@ void allowManyFiles()
     limit.rlim_cur = limit.rlim_max;
     ::setrlimit(RLIMIT_NOFILE, &limit);
   }
-}
-
-FrameRange parseFrames(const std::string& text)
-{
-  constexpr int most = 1 << 30;
-  std::vector<int> numbers;
-  for (std::size_t begin = 0; begin <= text.size();)
-  {
-    const std::size_t colon = std::min(text.find(':', begin), text.size());
-    numbers.push_back(parseInteger(text.substr(begin, colon - begin), "--frames", -most, most));
-    begin = colon + 1;
-  }
-  if (numbers.size() > 3)
-  {
-    throw UsageError("--frames: expected A[:B[:STEP]], found " + quoted(text));
-  }
-  FrameRange range;
-  range.first = numbers[0];
-  range.last = numbers.size() > 1 ? numbers[1] : numbers[0];
-  range.step = numbers.size() > 2 ? numbers[2] : 1;
-  if (range.last < range.first || range.step < 1)
-  {
-    throw UsageError("--frames: expected A <= B and STEP >= 1, found " + quoted(text));
-  }
-  return range;
-}
-
-/// "--points-step" of the option points_step.
-std::string optionWord(const OptionRow& row)
-{
-  std::string word = "--" + row.name;
-  std::replace(word.begin(), word.end(), '_', '-');
-  return word;
 }
 
 std::string usualLayers()
@@ -107,7 +66,8 @@ GeneratorRequest parseRequest(const Arguments& arguments)
   request.cameras = arguments.list("--cameras");
   if (arguments.has("--frames"))
   {
-    request.frames = parseFrames(arguments.text("--frames"));
+    const FrameSteps frames = parseFrames(arguments.text("--frames"));
+    request.frames = { frames.first, frames.last, frames.step };
   }
   if (arguments.has("--size"))
   {
@@ -149,30 +109,6 @@ void printTimings(double seconds)
     "%-8s %12.3f %7s %12.0f (%.3f s by the clock)\n", "all", sum, "", double(all.back().peakBytes) / mebibyte, seconds);
 }
 
-// What may be done about a folder that is refused.
-std::string wayOut(FolderContents contents)
-{
-  switch (contents)
-  {
-    case FolderContents::Unfinished:
-      return "; --resume completes it, --replace starts over";
-    case FolderContents::FinishedOther:
-    case FolderContents::UnfinishedOther:
-      return "; --replace removes it, or name another folder";
-    default:
-      return "";
-  }
-}
-
-/// A refusal that begins with the name of an option ("points_step: ..."), as the command line has it.
-std::string withOption(const std::string& line)
-{
-  const std::string name = line.substr(0, line.find(": "));
-  const auto named =
-    std::find_if(allOptions().begin(), allOptions().end(), [&](const OptionRow* row) { return row->name == name; });
-  return named == allOptions().end() ? line : optionWord(**named) + line.substr(name.size());
-}
-
 GeneratorResult generated(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
 {
   try
@@ -190,11 +126,7 @@ int render(const Arguments& arguments)
   const GeneratorRequest request = parseRequest(arguments);
   prepareGL(option::gl().of(request.options), option::threads().of(request.options));
   allowManyFiles();
-  struct sigaction action = {};
-  action.sa_handler = &onInterrupt;
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-
+  const std::atomic<bool>& interrupted = catchInterrupts();
   if (arguments.has("--timings"))
   {
     keepWorkTimes();
@@ -228,7 +160,7 @@ int run(const Arguments& arguments)
   }
   catch (const UsageError& error)
   {
-    throw UsageError(withOption(error.what()));
+    throw UsageError(withOption(error.what(), allOptions()));
   }
 }
 } // namespace

@@ -2,6 +2,7 @@
 #include "Commands.h"
 
 #include "dgtkError.h"
+#include "dgtkExportVerification.h"
 #include "dgtkFile.h"
 #include "dgtkSystem.h"
 #include "dgtkUtf8.h"
@@ -28,15 +29,18 @@ int run(const Arguments& arguments)
   requireDataset(folder);
   const std::vector<std::string> checks =
     arguments.has("--check") ? arguments.list("--check") : std::vector<std::string>{};
-  const VerificationReport report = verifyDataset(folder, threads, checks);
-  if (arguments.has("--write"))
+  const std::string exported = arguments.text("--export");
+  const VerificationReport report =
+    exported.empty() ? verifyDataset(folder, threads, checks) : verifyExport(folder, exported, threads);
+  if (arguments.has("--write") && exported.empty())
   {
     writeFile(folder + "/verification.json", verificationText(report));
   }
   print(arguments.has("--json") ? verificationText(report) : verificationTable(report));
   if (const Residual* breach = report.firstBreach())
   {
-    std::fprintf(stderr, "dgtk: %s\n", printable(folder + '/' + describe(*breach)).c_str());
+    std::fprintf(
+      stderr, "dgtk: %s\n", printable((exported.empty() ? folder : exported) + '/' + describe(*breach)).c_str());
   }
   return static_cast<int>(report.passed() ? ExitCode::Done : ExitCode::Difference);
 }
@@ -45,7 +49,8 @@ int run(const Arguments& arguments)
 Command verifyCommand()
 {
   return { "verify", "DIR", 1, 1, "Derives anew what a dataset claims, prints residuals; exits with 1 on a breach.",
-    { { "--check", "NAME,...", "all", "only these checks, by the names of the table", verificationChecks(), true },
+    { { "--export", "DIR", "", "read an export of the dataset back and compare it, instead of the dataset itself" },
+      { "--check", "NAME,...", "all", "only these checks, by the names of the table", verificationChecks(), true },
       { "--json", "", "", "print one JSON object" }, { "--write", "", "", "also write DIR/verification.json" },
       { "--threads", "N", "all processors", "threads to work with" } },
     &run };

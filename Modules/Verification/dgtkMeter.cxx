@@ -56,23 +56,34 @@ void Results::startCheck(int index, const std::string& name)
 void Results::add(const Row& row, const Meter& meter)
 {
   this->Compared.insert(row.files.begin(), row.files.end());
-  const auto [at, isNew] = this->Residuals.try_emplace({ this->Index, row.layer });
-  Residual& residual = at->second;
+  this->add({ this->Index, row.layer }, { this->Check, row.layer, row.unit, meter.Count, meter.Skipped, meter.Bad,
+                                          meter.Largest, meter.Tolerance, row.mostOpen, meter.Worst });
+}
+
+void Results::add(const std::pair<int, std::string>& key, const Residual& found)
+{
+  const auto [at, isNew] = this->Residuals.try_emplace(key, found);
   if (isNew)
   {
-    residual.check = this->Check;
-    residual.layer = row.layer;
-    residual.unit = row.unit;
-    residual.tolerance = meter.Tolerance;
-    residual.mostOpen = row.mostOpen;
+    return;
   }
-  residual.count += meter.Count;
-  residual.skipped += meter.Skipped;
-  residual.bad += meter.Bad;
-  if (meter.Largest > residual.largest)
+  Residual& residual = at->second;
+  residual.count += found.count;
+  residual.skipped += found.skipped;
+  residual.bad += found.bad;
+  if (found.largest > residual.largest)
   {
-    residual.largest = meter.Largest;
-    residual.worst = meter.Worst;
+    residual.largest = found.largest;
+    residual.worst = found.worst;
+  }
+}
+
+void Results::merge(const Results& other)
+{
+  this->Compared.insert(other.Compared.begin(), other.Compared.end());
+  for (const auto& [key, residual] : other.Residuals)
+  {
+    this->add(key, residual);
   }
 }
 

@@ -91,9 +91,12 @@ public:
   void unusable(const std::string& layer, const std::string& file, const std::string& what);
   /// Whether some row compares the contents of a file.
   bool compares(const std::string& file) const { return this->Compared.count(file) > 0; }
+  /// Adds what other threads found of the same checks.
+  void merge(const Results& other);
   VerificationReport report() const;
 
 private:
+  void add(const std::pair<int, std::string>& key, const Residual& found);
   int Index = 0;
   std::string Check;
   std::map<std::pair<int, std::string>, Residual> Residuals;

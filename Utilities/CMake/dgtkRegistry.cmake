@@ -1,7 +1,7 @@
 # Registration tables: one row a newcomer. `dgtk_reader(Ac3d EXTENSIONS ac acc FORMAT ac3d DESCRIPTION "AC3D")` declares
 # that dgtkAc3dReader.cxx, in the module's folder or below, defines the factory of that name; the tables are generated, there are no static initialisers.
 #
-#   dgtk_registry_begin(<kind>)            kind: camera, reader, representation, layer, writer
+#   dgtk_registry_begin(<kind>)            kind: camera, exporter, reader, representation, layer, writer
 #   dgtk_<kind>(<Name> KEY value... )
 #   dgtk_registry_end(<kind> <output.cxx>) configures <kind>Registry.cxx.in in the module's folder; @DGTK_DECLARATIONS@ and
 #                                          @DGTK_ROWS@ are replaced.
@@ -70,6 +70,14 @@ macro(dgtk_layer name)
   string(APPEND _dgtk_layer_rows "&${_first}${_rest}Layers, ")
   dgtk_find_source(_source "dgtk${name}Layer.cxx")
   list(APPEND _dgtk_layer_sources "${_source}")
+endmacro()
+
+macro(dgtk_exporter name)
+  cmake_parse_arguments(_row "" "FORMAT;DESCRIPTION" "" ${ARGN})
+  string(APPEND _dgtk_exporter_declarations "std::unique_ptr<Exporter> make${name}Exporter();\n")
+  string(APPEND _dgtk_exporter_rows "  { { \"${_row_FORMAT}\", \"${_row_DESCRIPTION}\" }, &make${name}Exporter },\n")
+  dgtk_find_source(_source "dgtk${name}Exporter.cxx")
+  list(APPEND _dgtk_exporter_sources "${_source}")
 endmacro()
 
 macro(dgtk_registry_end kind template output)

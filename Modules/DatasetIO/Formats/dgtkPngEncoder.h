@@ -2,6 +2,8 @@
 #ifndef dgtkPngEncoder_h
 #define dgtkPngEncoder_h
 
+#include "dgtkDatasetIOModule.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -22,7 +24,7 @@ enum class PngPrediction
 /// libdeflate), larger ones while they arrive (by zlib); which of the two depends on the image's size alone.
 /// Not libpng's: of 320 x 240 pixels it takes 3.9 ms at its fastest level and 19 by default, this 1.9; and its filters
 /// may choose otherwise in its next version, while a dataset's bytes stay.
-class PngEncoder
+class DGTKDATASETIO_EXPORT PngEncoder
 {
 public:
   using Sink = std::function<void(const void* data, std::size_t bytes)>;

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands.h"
+#include "Interrupt.h"
+#include "Progress.h"
+
+#include "dgtkError.h"
+#include "dgtkExport.h"
+#include "dgtkExporterEntry.h"
+
+#include <algorithm>
+
+namespace dgtk::app
+{
+
+namespace
+{
+std::vector<std::string> exporterNames()
+{
+  std::vector<std::string> names;
+  for (const ExporterRow& row : exporterRows())
+  {
+    names.push_back(row.info.name);
+  }
+  return names;
+}
+
+ExportRequest parseRequest(const Arguments& arguments)
+{
+  ExportRequest request;
+  request.dataset = arguments.positional()[0];
+  request.folder = arguments.text("--output");
+  request.format = arguments.text("--format");
+  if (request.folder.empty() || request.format.empty())
+  {
+    throw UsageError("export needs a format and a folder for it: --format EXPORTER -o DIR");
+  }
+  requireDataset(request.dataset);
+  if (arguments.has("--frames"))
+  {
+    const FrameSteps frames = parseFrames(arguments.text("--frames"));
+    request.selection.someFrames = true;
+    request.selection.first = frames.first;
+    request.selection.last = frames.last;
+    request.selection.step = frames.step;
+  }
+  for (const OptionRow* row : allExportOptions())
+  {
+    if (arguments.has(optionWord(*row)))
+    {
+      const std::string given = arguments.text(optionWord(*row));
+      request.options[row->name] = row->normal(given);
+    }
+  }
+  request.resume = arguments.has("--resume");
+  request.replace = arguments.has("--replace");
+  return request;
+}
+
+ExportResult exported(const ExportRequest& request, const ExportCallbacks& callbacks)
+{
+  try
+  {
+    return exportDataset(request, callbacks);
+  }
+  catch (const FolderError& error)
+  {
+    throw UsageError(error.what() + wayOut(error.contents()));
+  }
+}
+
+std::string numberText(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+int exportRun(const Arguments& arguments)
+{
+  const ExportRequest request = parseRequest(arguments);
+  Progress progress(arguments.has("--quiet"));
+  ExportCallbacks callbacks;
+  callbacks.cancel = &catchInterrupts();
+  callbacks.progress = [&](const ExportProgress& state) { progress.update(state.done, state.total); };
+  callbacks.message = [&](const std::string& line) { progress.message(line); };
+  const ExportResult result = exported(request, callbacks);
+  if (result.interrupted)
+  {
+    throw MachineError("interrupted; the same command with --resume completes " + request.folder);
+  }
+  for (const LayerRounding& layer : result.layers)
+  {
+    if (layer.withoutCode > 0)
+    {
+      progress.message("warning: " + std::to_string(layer.withoutCode) + " of " + std::to_string(layer.values) +
+                       " values of " + layer.layer + " have no code in the format and are marked as nothing");
+    }
+    if (layer.largest > 0)
+    {
+      progress.message(layer.layer + ": rounded by at most " + numberText(layer.largest) + ' ' + layer.unit);
+    }
+  }
+  progress.message(
+    std::to_string(result.files) + " files in " + request.folder + ", " + numberText(progress.seconds()) + " s");
+  return 0;
+}
+
+int run(const Arguments& arguments)
+{
+  try
+  {
+    return exportRun(arguments);
+  }
+  catch (const UsageError& error)
+  {
+    throw UsageError(withOption(error.what(), allExportOptions()));
+  }
+}
+} // namespace
+
+Command exportCommand()
+{
+  Command command{ "export", "DATASET", 1, 1, "Writes a dataset in the format of other people's tools.", {}, &run };
+  command.options = { { "--format", "EXPORTER", "", "the format; see dgtk list exporters", exporterNames() },
+    { "--output", "DIR", "", "folder of the export" },
+    { "--frames", "A[:B[:STEP]]", "", "some of the frames (default: all)" } };
+  for (const OptionRow* row : allExportOptions())
+  {
+    command.options.push_back({ optionWord(*row), row->value, row->value.empty() ? "" : row->fallback, row->help,
+      row->choices, row->kind == OptionRow::Kind::Names });
+  }
+  const std::vector<Option> last = { { "--resume", "", "", "continue an interrupted export of the same request" },
+    { "--replace", "", "", "remove the export of another request, or an interrupted one, that the folder holds" },
+    { "--quiet", "", "", "no progress and no messages" } };
+  command.options.insert(command.options.end(), last.begin(), last.end());
+  return command;
+}
+
+} // namespace dgtk::app

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkDatasetView.h"
+
+#include "dgtkError.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+namespace dgtk
+{
+
+double valueAt(const Rows& rows, int x, int y, int channel)
+{
+  const std::size_t i = std::size_t(x) * rows.channels() + channel;
+  switch (rows.type())
+  {
+    case PixelType::UInt8:
+      return rows.row<std::uint8_t>(y)[i];
+    case PixelType::UInt16:
+      return rows.row<std::uint16_t>(y)[i];
+    case PixelType::UInt32:
+      return rows.row<std::uint32_t>(y)[i];
+    case PixelType::Float32:
+      return double(rows.row<float>(y)[i]);
+    case PixelType::Float64:
+      return rows.row<double>(y)[i];
+  }
+  return 0;
+}
+
+std::uint32_t idAt(const Rows& rows, int x, int y)
+{
+  const auto channel = [&](int c) { return static_cast<std::uint32_t>(valueAt(rows, x, y, c)); };
+  return rows.channels() >= 3 ? channel(0) << 16 | channel(1) << 8 | channel(2) : channel(0);
+}
+
+Eigen::Matrix3d intrinsicsOf(const CameraRecord& camera, PixelCentre centre)
+{
+  if (!camera.hasK)
+  {
+    throw UsageError("camera " + quoted(camera.name) + ": no matrix says how model " + camera.model + " projects");
+  }
+  Eigen::Matrix3d K = camera.K;
+  if (centre == PixelCentre::Integer)
+  {
+    constexpr double half = 0.5;
+    K(0, 2) -= half;
+    K(1, 2) -= half;
+  }
+  return K;
+}
+
+Rigid3 cameraFromWorld(const CameraRecord& camera) { return { camera.R, camera.t }; }
+
+Rigid3 worldFromCameraGL(const CameraRecord& camera)
+{
+  const Rigid3 pose = cameraFromWorld(camera).inverse();
+  const Eigen::DiagonalMatrix<double, 3> flip(1, -1, -1);
+  return { pose.rotation * flip, pose.translation };
+}
+
+Eigen::Vector4d quaternionOf(const Eigen::Matrix3d& rotation)
+{
+  const Eigen::Quaterniond q = Eigen::Quaterniond(rotation).normalized();
+  const Eigen::Vector4d wxyz(q.w(), q.x(), q.y(), q.z());
+  return wxyz[0] < 0 ? Eigen::Vector4d(-wxyz) : wxyz;
+}
+
+std::vector<double> distortionOf(const CameraRecord& camera)
+{
+  const auto found = camera.numbers.find("distortion");
+  std::vector<double> numbers = found == camera.numbers.end() ? std::vector<double>() : found->second;
+  const bool none = std::all_of(numbers.begin(), numbers.end(), [](double k) { return k == 0; });
+  return none ? std::vector<double>() : numbers;
+}
+
+bool isPinhole(const CameraRecord& camera)
+{
+  return camera.model == "pinhole" && distortionOf(camera).empty() && camera.rollingShutter.duration == 0;
+}
+
+void requirePinholes(const DatasetView& dataset, const std::string& format)
+{
+  for (const DatasetShot& shot : dataset.shots())
+  {
+    if (!isPinhole(shot.camera))
+    {
+      throw UsageError(format + ": camera " + quoted(shot.name()) + " is not a plain pinhole (" + shot.camera.model +
+                       (distortionOf(shot.camera).empty() ? "" : " with distortion") +
+                       (shot.camera.rollingShutter.duration == 0 ? "" : " with a rolling shutter") +
+                       "), which the format cannot say; render a pinhole twin of it");
+    }
+  }
+}
+
+std::string SafeNames::of(const std::string& original)
+{
+  const auto known = this->Given.find(original);
+  if (known != this->Given.end())
+  {
+    return known->second;
+  }
+  std::string safe;
+  for (const char c : original)
+  {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
+    safe += plain ? c : '_';
+  }
+  safe = safe.empty() ? "_" : safe;
+  std::string unique = safe;
+  for (int i = 2; this->Taken.count(unique) > 0; ++i)
+  {
+    unique = safe + "_" + std::to_string(i);
+  }
+  this->Taken[unique] = original;
+  this->Given[original] = unique;
+  return unique;
+}
+
+} // namespace dgtk

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkDatasetView.h"
+
+#include "dgtkError.h"
+#include "dgtkFolder.h"
+#include "dgtkHash.h"
+#include "dgtkJournal.h"
+#include "dgtkText.h"
+
+#include <algorithm>
+#include <set>
+
+namespace dgtk
+{
+
+namespace
+{
+/// Of which formats of a layer values are taken: the exact ones first.
+const std::vector<std::string>& usualExtensions()
+{
+  static const std::vector<std::string> all{ "npy", "dgd", "exr", "pfm", "flo", "png", "ppm", "json", "txt" };
+  return all;
+}
+
+bool isOneOf(const std::string& word, const std::vector<std::string>& words)
+{
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+bool holdsFrame(const DatasetSelection& selection, int frame)
+{
+  return !selection.someFrames ||
+         (frame >= selection.first && frame <= selection.last && (frame - selection.first) % selection.step == 0);
+}
+
+/// The folder's own name of a file: "correspondence_right" of "left/correspondence_right/000000.npy".
+std::string folderOf(const std::string& path)
+{
+  const std::size_t end = path.rfind('/');
+  const std::size_t begin = end == std::string::npos || end == 0 ? std::string::npos : path.rfind('/', end - 1);
+  return end == std::string::npos ? "" : path.substr(begin + 1, end - begin - 1);
+}
+
+bool isSame(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b, double scale)
+{
+  constexpr double rounding = 1e-9;
+  return (a - b).cwiseAbs().maxCoeff() <= rounding * std::max(scale, 1.0);
+}
+
+/// The baseline of a left and a right camera at one frame, when they are rectified.
+std::optional<double> baselineOf(const CameraRecord& left, const CameraRecord& right)
+{
+  const bool like = isPinhole(left) && isPinhole(right) && left.width == right.width && left.height == right.height;
+  if (!like || !isSame(left.R, right.R, 1) || !isSame(left.K.leftCols(2), right.K.leftCols(2), left.K(0, 0)) ||
+      std::abs(left.K(1, 2) - right.K(1, 2)) > 1e-9 * left.K(1, 1))
+  {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d apart = left.t - right.t; // the right centre in the left camera's axes
+  const double size = std::max({ left.t.norm(), right.t.norm(), 1e-300 });
+  const bool along = std::abs(apart.y()) <= 1e-9 * size && std::abs(apart.z()) <= 1e-9 * size;
+  return along && apart.x() > 1e-9 * size ? std::optional<double>(apart.x()) : std::nullopt;
+}
+} // namespace
+
+DatasetView::DatasetView(const std::string& folder, const DatasetSelection& selection)
+  : Folder(folder)
+  , TheManifest(readManifestIn(folder))
+  , MetresPerUnit(selection.metresPerUnit > 0 ? selection.metresPerUnit : 0)
+{
+  const dgtk::Folder place(folder);
+  this->ManifestHash = Sha256::ofFile(place.fileAt(manifestName));
+  this->Objects = readObjects(place.fileAt("objects.json"));
+  this->Classes = readClasses(place.fileAt("objects.json"));
+  this->readShots(selection);
+  this->index();
+}
+
+void DatasetView::readShots(const DatasetSelection& selection)
+{
+  std::set<std::string> known;
+  for (const CameraRecord& camera : readCameras(dgtk::Folder(this->Folder).fileAt("cameras.json")))
+  {
+    known.insert(camera.name);
+    if ((selection.cameras.empty() || isOneOf(camera.name, selection.cameras)) && holdsFrame(selection, camera.frame))
+    {
+      this->Shots.push_back({ 0, camera });
+    }
+  }
+  for (const std::string& name : selection.cameras)
+  {
+    if (known.count(name) == 0)
+    {
+      const std::string near = nearest(name, { known.begin(), known.end() });
+      throw UsageError("cameras: the dataset has no camera " + quoted(name) +
+                       (near.empty() ? "" : ", did you mean " + quoted(near) + "?"));
+    }
+  }
+  if (this->Shots.empty())
+  {
+    throw UsageError("frames: none of the dataset's pictures is meant");
+  }
+  std::stable_sort(this->Shots.begin(), this->Shots.end(),
+    [](const DatasetShot& a, const DatasetShot& b)
+    { return std::tie(a.camera.name, a.camera.frame) < std::tie(b.camera.name, b.camera.frame); });
+  for (std::size_t i = 0; i < this->Shots.size(); ++i)
+  {
+    this->Shots[i].index = i;
+    this->ByPlace[{ this->Shots[i].name(), this->Shots[i].frame() }] = i;
+  }
+}
+
+void DatasetView::index()
+{
+  for (std::size_t i = 0; i < this->TheManifest.files.size(); ++i)
+  {
+    const DatasetFile& file = this->TheManifest.files[i];
+    if (!file.layer.empty() && this->ByPlace.count({ file.camera, file.frame }) > 0)
+    {
+      this->Files[{ file.camera, file.frame, file.layer }].push_back(i);
+      ++this->Layers[file.layer];
+    }
+  }
+}
+
+const DatasetShot* DatasetView::shot(const std::string& camera, int frame) const
+{
+  const auto found = this->ByPlace.find({ camera, frame });
+  return found == this->ByPlace.end() ? nullptr : &this->Shots[found->second];
+}
+
+std::vector<std::string> DatasetView::cameras() const
+{
+  std::set<std::string> names;
+  for (const DatasetShot& shot : this->Shots)
+  {
+    names.insert(shot.name());
+  }
+  return { names.begin(), names.end() };
+}
+
+std::vector<int> DatasetView::frames() const
+{
+  std::set<int> frames;
+  for (const DatasetShot& shot : this->Shots)
+  {
+    frames.insert(shot.frame());
+  }
+  return { frames.begin(), frames.end() };
+}
+
+std::vector<const DatasetShot*> DatasetView::shotsOf(const std::string& camera) const
+{
+  std::vector<const DatasetShot*> found;
+  for (const DatasetShot& shot : this->Shots)
+  {
+    if (shot.name() == camera)
+    {
+      found.push_back(&shot);
+    }
+  }
+  return found;
+}
+
+std::vector<const DatasetShot*> DatasetView::shotsAt(int frame) const
+{
+  std::vector<const DatasetShot*> found;
+  for (const DatasetShot& shot : this->Shots)
+  {
+    if (shot.frame() == frame)
+    {
+      found.push_back(&shot);
+    }
+  }
+  return found;
+}
+
+const ObjectRecord* DatasetView::object(std::uint32_t id) const
+{
+  const auto found = std::find_if(
+    this->Objects.begin(), this->Objects.end(), [&](const ObjectRecord& object) { return object.id == id; });
+  return found == this->Objects.end() ? nullptr : &*found;
+}
+
+std::string DatasetView::file(const DatasetShot& shot, const std::string& layer,
+  const std::vector<std::string>& extensions, const std::string& folder) const
+{
+  const auto found = this->Files.find({ shot.name(), shot.frame(), layer });
+  if (found == this->Files.end())
+  {
+    return {};
+  }
+  for (const std::string& extension : extensions.empty() ? usualExtensions() : extensions)
+  {
+    for (const std::size_t i : found->second)
+    {
+      const std::string& path = this->TheManifest.files[i].path;
+      if (extensionOf(path) == extension && (folder.empty() || folderOf(path) == folder))
+      {
+        return path;
+      }
+    }
+  }
+  return {};
+}
+
+std::unique_ptr<RowReader> DatasetView::open(
+  const DatasetShot& shot, const std::string& layer, const std::vector<std::string>& extensions) const
+{
+  const std::string name = this->file(shot, layer, extensions);
+  if (name.empty())
+  {
+    throw InputError(this->Folder, 0,
+      "camera " + quoted(shot.name()) + " has no file of layer " + layer + " at frame " + std::to_string(shot.frame()));
+  }
+  return openLayerFile(this->pathOf(name));
+}
+
+ImageData DatasetView::read(
+  const DatasetShot& shot, const std::string& layer, const std::vector<std::string>& extensions) const
+{
+  const std::unique_ptr<RowReader> reader = this->open(shot, layer, extensions);
+  ImageData data;
+  data.info = reader->info();
+  data.pixels = reader->read(reader->info().height);
+  return data;
+}
+
+namespace
+{
+std::string documentOf(const DatasetView& dataset, const DatasetShot& shot, const std::string& layer)
+{
+  const std::string name = dataset.file(shot, layer, { "json" });
+  if (name.empty())
+  {
+    throw InputError(dataset.folder(), 0,
+      "camera " + quoted(shot.name()) + " has no file of layer " + layer + " at frame " + std::to_string(shot.frame()));
+  }
+  return dataset.pathOf(name);
+}
+} // namespace
+
+std::vector<BoxRecord> DatasetView::boxes(const DatasetShot& shot) const
+{
+  return readBoxes(documentOf(*this, shot, "boxes"));
+}
+
+AmodalMasks DatasetView::amodal(const DatasetShot& shot) const { return readAmodal(documentOf(*this, shot, "amodal")); }
+
+double DatasetView::metres() const
+{
+  if (this->MetresPerUnit <= 0)
+  {
+    throw UsageError("unit_metres: the dataset does not say how long its unit is; the format needs metres");
+  }
+  return this->MetresPerUnit;
+}
+
+std::vector<RectifiedPair> DatasetView::rectifiedPairs() const
+{
+  std::vector<RectifiedPair> pairs;
+  for (const std::string& left : this->cameras())
+  {
+    for (const std::string& right : this->cameras())
+    {
+      std::optional<double> baseline;
+      bool all = left != right;
+      for (const DatasetShot* shot : this->shotsOf(left))
+      {
+        const DatasetShot* other = all ? this->shot(right, shot->frame()) : nullptr;
+        baseline = other ? baselineOf(shot->camera, other->camera) : std::nullopt;
+        all = all && baseline.has_value();
+      }
+      if (all && baseline)
+      {
+        pairs.push_back({ left, right, *baseline });
+      }
+    }
+  }
+  return pairs;
+}
+
+} // namespace dgtk

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkDatasetView_h
+#define dgtkDatasetView_h
+
+#include "dgtkExportModule.h"
+
+#include "dgtkDatasetDocuments.h"
+#include "dgtkLayerReader.h"
+#include "dgtkObjectDocuments.h"
+#include "dgtkRigid3.h"
+
+#include <Eigen/Core>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace dgtk
+{
+
+/// Which pictures of a dataset are meant.
+struct DatasetSelection
+{
+  std::vector<std::string> cameras; ///< none: all
+  bool someFrames = false;
+  int first = 0; ///< of some frames: first, first + step, ... up to last
+  int last = 0;
+  int step = 1;
+  double metresPerUnit = 0; ///< 0: what the dataset says
+};
+
+/// A picture's place in a dataset: a camera at a frame.
+struct DatasetShot
+{
+  std::size_t index = 0; ///< among the shots, from 0
+  CameraRecord camera;
+  const std::string& name() const { return this->camera.name; }
+  int frame() const { return this->camera.frame; }
+};
+
+/// Two cameras with parallel image planes and rows in common, at every frame.
+struct RectifiedPair
+{
+  std::string left;
+  std::string right;
+  double baseline = 0; ///< scene units, positive: the right camera's centre along the left one's x
+};
+
+/// Where a format puts the centre of the first pixel.
+enum class PixelCentre
+{
+  Half,   ///< (0.5, 0.5): DGTk, COLMAP, instant-ngp, nerfstudio
+  Integer ///< (0, 0): OpenCV, BOP, KITTI, TUM, Sintel: cx and cy are 0.5 less
+};
+
+/// A finished dataset on disk, as exporters see it. Immutable; every function may be called from any thread. Files that
+/// cannot be read are InputErrors.
+class DGTKEXPORT_EXPORT DatasetView
+{
+public:
+  /// Throws UsageError for a camera that there is not and for a selection without a picture.
+  explicit DatasetView(const std::string& folder, const DatasetSelection& selection = {});
+
+  const std::string& folder() const { return this->Folder; }
+  const Manifest& manifest() const { return this->TheManifest; }
+  const std::string& manifestHash() const { return this->ManifestHash; }
+
+  /// Sorted by camera, then frame.
+  const std::vector<DatasetShot>& shots() const { return this->Shots; }
+  const DatasetShot* shot(const std::string& camera, int frame) const; ///< null for none
+  std::vector<std::string> cameras() const;                            ///< of the shots, sorted
+  std::vector<int> frames() const;                                     ///< of the shots, sorted
+  std::vector<const DatasetShot*> shotsOf(const std::string& camera) const;
+  std::vector<const DatasetShot*> shotsAt(int frame) const;
+
+  const std::vector<ObjectRecord>& objects() const { return this->Objects; }
+  const ObjectRecord* object(std::uint32_t id) const; ///< null for none
+  const std::vector<ClassRecord>& classes() const { return this->Classes; }
+
+  /// Whether some shot has a file of the layer.
+  bool has(const std::string& layer) const { return this->Layers.count(layer) > 0; }
+  /// The file of a layer, relative to the dataset; the first of these extensions that there is (of any: npy before
+  /// others). "" for none. For layers with several folders (correspondence) the one whose folder is named.
+  std::string file(const DatasetShot& shot, const std::string& layer, const std::vector<std::string>& extensions = {},
+    const std::string& folder = {}) const;
+  std::string pathOf(const std::string& file) const { return this->Folder + '/' + file; }
+  /// Throws InputError where the shot has no file of the layer.
+  std::unique_ptr<RowReader> open(
+    const DatasetShot& shot, const std::string& layer, const std::vector<std::string>& extensions = {}) const;
+  /// The same, whole.
+  ImageData read(
+    const DatasetShot& shot, const std::string& layer, const std::vector<std::string>& extensions = {}) const;
+  /// Values of the layer `boxes`, `amodal`; throws where the shot has none.
+  std::vector<BoxRecord> boxes(const DatasetShot& shot) const;
+  AmodalMasks amodal(const DatasetShot& shot) const;
+
+  /// Metres of a scene unit; throws UsageError where neither dataset nor selection say it.
+  double metres() const;
+  /// Seconds of a frame: frame / frames per second. Throws UsageError where the dataset does not say a rate.
+  double seconds(int frame) const;
+  /// Cameras whose pictures are rectified with each other in all frames, left one first.
+  std::vector<RectifiedPair> rectifiedPairs() const;
+
+private:
+  void readShots(const DatasetSelection& selection);
+  void index();
+  std::string Folder;
+  Manifest TheManifest;
+  std::string ManifestHash;
+  std::vector<DatasetShot> Shots;
+  std::vector<ObjectRecord> Objects;
+  std::vector<ClassRecord> Classes;
+  double MetresPerUnit = 0;
+  std::map<std::pair<std::string, int>, std::size_t> ByPlace;
+  std::map<std::string, std::size_t> Layers; ///< files of shots
+  std::map<std::tuple<std::string, int, std::string>, std::vector<std::size_t>> Files;
+};
+
+/// An object id per pixel of rows of the layer `objects`, whatever its file; 24 bits of R, G, B where it has three
+/// channels.
+DGTKEXPORT_EXPORT std::uint32_t idAt(const Rows& rows, int x, int y);
+/// A channel of a pixel as a double, whatever the type.
+DGTKEXPORT_EXPORT double valueAt(const Rows& rows, int x, int y, int channel = 0);
+
+/// The camera's matrix in a format's pixels. Throws UsageError for a model without one.
+DGTKEXPORT_EXPORT Eigen::Matrix3d intrinsicsOf(const CameraRecord& camera, PixelCentre centre);
+/// x_camera from x_world, x right, y down, z forward; scene units.
+DGTKEXPORT_EXPORT Rigid3 cameraFromWorld(const CameraRecord& camera);
+/// x_world from x_camera with OpenGL's axes: x right, y up, z back.
+DGTKEXPORT_EXPORT Rigid3 worldFromCameraGL(const CameraRecord& camera);
+/// Unit quaternion (w, x, y, z), w >= 0, of a rotation matrix.
+DGTKEXPORT_EXPORT Eigen::Vector4d quaternionOf(const Eigen::Matrix3d& rotation);
+/// Whether K alone says how the camera projects.
+DGTKEXPORT_EXPORT bool isPinhole(const CameraRecord& camera);
+/// The model's distortion coefficients, empty for none.
+DGTKEXPORT_EXPORT std::vector<double> distortionOf(const CameraRecord& camera);
+/// Throws a UsageError that names camera and format for what isPinhole() denies.
+DGTKEXPORT_EXPORT void requirePinholes(const DatasetView& dataset, const std::string& format);
+
+/// Names that are safe in every format: letters, digits, '_' and '-' of ASCII; unique among those that were asked for.
+class DGTKEXPORT_EXPORT SafeNames
+{
+public:
+  /// The name of an original, the same for the same.
+  std::string of(const std::string& original);
+
+private:
+  std::map<std::string, std::string> Given;
+  std::map<std::string, std::string> Taken;
+};
+
+} // namespace dgtk
+
+#endif

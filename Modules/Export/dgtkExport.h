@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkExport_h
+#define dgtkExport_h
+
+#include "dgtkExportModule.h"
+
+#include "dgtkExporter.h"
+#include "dgtkJournal.h"
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// A dataset, and what is to become of it.
+struct ExportRequest
+{
+  std::string dataset;        ///< its folder
+  std::string folder;         ///< of the export
+  std::string format;         ///< name of an exporter
+  DatasetSelection selection; ///< its frames; cameras and unit are options
+  OptionValues options;
+  bool resume = false;
+  bool replace = false;
+};
+
+struct ExportProgress
+{
+  std::size_t done = 0;
+  std::size_t total = 0;
+};
+
+/// May be called from any thread, one at a time.
+struct ExportCallbacks
+{
+  std::function<void(const ExportProgress&)> progress;
+  std::function<void(const std::string&)> message; ///< a line
+  const std::atomic<bool>* cancel = nullptr;
+};
+
+struct ExportResult
+{
+  std::size_t files = 0;
+  std::size_t kept = 0; ///< items taken over from an interrupted run
+  bool interrupted = false;
+  std::vector<LayerRounding> layers;
+};
+
+/// Writes a dataset in another format; export.json last. The same bytes whatever the threads, resumed or not. Throws
+/// UsageError for what the format cannot say and for a folder that is in the way, InputError for a dataset that cannot
+/// be read, MachineError for a folder that cannot be written.
+DGTKEXPORT_EXPORT ExportResult exportDataset(const ExportRequest& request, const ExportCallbacks& callbacks = {});
+
+/// What a dataset has to hold for formats; UsageError for an unknown one. Layers sorted, each once.
+DGTKEXPORT_EXPORT ExportNeeds needsOf(const std::vector<std::string>& formats);
+
+/// Options that all formats have.
+DGTKEXPORT_EXPORT const std::vector<const OptionRow*>& exportOptions();
+/// These and those of every exporter, each once.
+DGTKEXPORT_EXPORT std::vector<const OptionRow*> allExportOptions();
+/// Throws UsageError with the nearest name for one that there is not.
+DGTKEXPORT_EXPORT const struct ExporterRow& findExporter(const std::string& name);
+
+// Typed rows of the options that all formats have.
+namespace exported
+{
+DGTKEXPORT_EXPORT const NamesOption& cameras();
+DGTKEXPORT_EXPORT const NamesOption& split();        ///< "train=0:79,val=80:99"
+DGTKEXPORT_EXPORT const NumbersOption& unitMetres(); ///< metres of a scene unit
+DGTKEXPORT_EXPORT const ChoiceOption& color();       ///< layer of the pictures
+DGTKEXPORT_EXPORT const ChoiceOption& depth();       ///< layer of the depth maps
+DGTKEXPORT_EXPORT const ChoiceOption& imageFormat(); ///< "png" or "jpg"
+DGTKEXPORT_EXPORT const IntegerOption& quality();    ///< of JPEG
+DGTKEXPORT_EXPORT const ChoiceOption& outOfRange();  ///< "void" or "refuse"
+DGTKEXPORT_EXPORT const SwitchOption& link();        ///< hard links for equal bytes
+DGTKEXPORT_EXPORT const IntegerOption& threads();
+} // namespace exported
+
+/// A part of a dataset by frames, as the option `split` names it.
+struct DatasetSplit
+{
+  std::string name;
+  int first = 0;
+  int last = 0;
+  bool holds(int frame) const { return frame >= this->first && frame <= this->last; }
+};
+/// Without the option: one split of all frames, of this name. Throws UsageError for what is not NAME=A:B, for parts
+/// that overlap and for one without a picture.
+DGTKEXPORT_EXPORT std::vector<DatasetSplit> splitsOf(
+  const DatasetView& dataset, const OptionValues& options, const std::string& usual);
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkExportNotes_h
+#define dgtkExportNotes_h
+
+// Private to Export.
+
+#include "dgtkExporter.h"
+#include "dgtkFolder.h"
+
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dgtk
+{
+
+/// What a finished item leaves: its files, and what it says for the documents of the whole.
+struct ItemRecord
+{
+  std::vector<ExportedFile> files;
+  std::vector<LayerRounding> rounding;
+  std::vector<std::pair<std::string, std::string>> notes; ///< list and text
+};
+
+/// The records of the items of an export, in a file beside the journal: an export that is resumed finds them, and
+/// memory does not hold them. A record that a crash tore is not there.
+class ExportNotes
+{
+public:
+  /// Begins anew, or takes over the whole records of the same request (64 hexadecimal digits) that are there. Throws
+  /// MachineError.
+  ExportNotes(const std::string& folder, const std::string& requestHash, std::size_t items, bool resume);
+
+  bool has(std::size_t item) const { return this->Places[item].has_value(); }
+  /// Throws MachineError.
+  void add(std::size_t item, const ItemRecord& record);
+  /// The record of a finished item.
+  ItemRecord read(std::size_t item) const;
+  /// Removes the file.
+  void remove();
+
+private:
+  struct Place
+  {
+    std::uint64_t offset = 0;
+    std::uint64_t bytes = 0;
+  };
+  [[noreturn]] void fail() const;
+  void begin(const std::string& requestHash);
+  void takeOver();
+  Folder Holder;
+  FileDescriptor File;
+  std::uint64_t End = 0;
+  std::vector<std::optional<Place>> Places;
+  std::mutex Mutex;
+};
+
+} // namespace dgtk
+
+#endif

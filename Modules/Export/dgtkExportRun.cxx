@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkExport.h"
+
+#include "dgtkError.h"
+#include "dgtkExportNotes.h"
+#include "dgtkExporterEntry.h"
+#include "dgtkFile.h"
+#include "dgtkHash.h"
+#include "dgtkItemSink.h"
+#include "dgtkSystem.h"
+#include "dgtkText.h"
+#include "dgtkThreadPool.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <tuple>
+
+namespace dgtk
+{
+
+namespace
+{
+class ExportRun
+{
+public:
+  ExportRun(const ExportRequest& request, const ExportCallbacks& callbacks);
+  ExportResult execute();
+
+private:
+  TextPairs described() const;
+  std::string identity() const;
+  std::vector<std::string> allNames() const;
+  bool isKept(std::size_t item) const;
+  void writeItems();
+  void write(std::size_t item);
+  void writeDocuments();
+  void close();
+  void forRecords(const std::function<void(const ItemRecord&)>& visit) const;
+  const ExportItem& item(std::size_t index) const
+  {
+    const std::size_t items = this->Plan.items.size();
+    return index < items ? this->Plan.items[index] : this->Plan.documents[index - items];
+  }
+  bool cancelled() const { return this->Callbacks.cancel && *this->Callbacks.cancel; }
+  void advance();
+
+  ExportRequest Request;
+  ExportCallbacks Callbacks;
+  const ExporterRow& Row;
+  std::unique_ptr<Exporter> Format;
+  DatasetView Dataset;
+  ExportPlan Plan;
+  std::string Hash;
+  std::unique_ptr<Journal> Log;
+  std::unique_ptr<ExportNotes> Notes;
+  std::mutex ProgressMutex;
+  std::size_t Done = 0;
+  ExportResult Result;
+};
+
+void requireOptions(const ExporterRow& row, const Exporter& format, const OptionValues& given)
+{
+  std::set<std::string> known;
+  for (const OptionRow* option : exportOptions())
+  {
+    known.insert(option->name);
+  }
+  for (const OptionRow* option : format.options())
+  {
+    known.insert(option->name);
+  }
+  for (const auto& [name, value] : given)
+  {
+    if (known.count(name) == 0)
+    {
+      throw UsageError(name + ": format " + row.info.name + " has no such option");
+    }
+  }
+}
+
+DatasetSelection selectionOf(const ExportRequest& request)
+{
+  DatasetSelection selection = request.selection;
+  selection.cameras = exported::cameras().of(request.options);
+  const std::vector<double> metres = exported::unitMetres().of(request.options);
+  selection.metresPerUnit = metres.empty() ? 0 : metres[0];
+  return selection;
+}
+
+void requireLayers(const DatasetView& dataset, const ExportNeeds& needs, const std::string& format)
+{
+  std::vector<std::string> missing;
+  std::copy_if(needs.layers.begin(), needs.layers.end(), std::back_inserter(missing),
+    [&](const std::string& layer) { return !dataset.has(layer); });
+  if (!missing.empty())
+  {
+    throw UsageError(format + ": the dataset lacks layers that the format needs: " + joined(missing) + " (it needs " +
+                     joined(needs.layers) + ")");
+  }
+}
+
+/// The export is a folder of its own.
+void requireOther(const ExportRequest& request)
+{
+  std::error_code code;
+  if (std::filesystem::equivalent(request.dataset, request.folder, code))
+  {
+    throw UsageError(request.folder + ": is the dataset's own folder; name another one for the export");
+  }
+}
+
+ExportRun::ExportRun(const ExportRequest& request, const ExportCallbacks& callbacks)
+  : Request(request)
+  , Callbacks(callbacks)
+  , Row(findExporter(request.format))
+  , Format(this->Row.make())
+  , Dataset(request.dataset, selectionOf(request))
+{
+  requireOptions(this->Row, *this->Format, request.options);
+  requireOther(request);
+  requireLayers(this->Dataset, this->Format->needs(request.options), this->Row.info.name);
+  this->Format->check(this->Dataset, request.options);
+  this->Plan = this->Format->plan(this->Dataset, request.options);
+  this->Hash = this->identity();
+}
+
+/// What decides bytes: neither threads nor links.
+TextPairs ExportRun::described() const
+{
+  TextPairs pairs;
+  const DatasetSelection& frames = this->Request.selection;
+  pairs.emplace_back("frames", frames.someFrames ? std::to_string(frames.first) + ':' + std::to_string(frames.last) +
+                                                     ':' + std::to_string(frames.step)
+                                                 : "all");
+  const auto add = [&](const OptionRow* row) { pairs.emplace_back(row->name, row->text(this->Request.options)); };
+  for (const OptionRow* row : exportOptions())
+  {
+    if (row->name != exported::threads().name && row->name != exported::link().name)
+    {
+      add(row);
+    }
+  }
+  for (const OptionRow* row : this->Format->options())
+  {
+    add(row);
+  }
+  return pairs;
+}
+
+std::string ExportRun::identity() const
+{
+  std::string text = std::string(DGTK_VERSION) + '\n' + this->Row.info.name + '\n' + this->Dataset.manifestHash();
+  for (const auto& [name, value] : this->described())
+  {
+    text += '\n' + name + '=' + value;
+  }
+  Sha256 hash;
+  hash.update(text.data(), text.size());
+  return hash.hex();
+}
+
+std::vector<std::string> ExportRun::allNames() const
+{
+  std::vector<std::string> names;
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < this->Plan.items.size() + this->Plan.documents.size(); ++i)
+  {
+    for (const std::string& name : this->item(i).files)
+    {
+      if (!seen.insert(name).second)
+      {
+        throw std::logic_error("an exporter announces a file twice: " + name);
+      }
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+ExportResult ExportRun::execute()
+{
+  if (this->Request.resume && this->Request.replace)
+  {
+    throw UsageError("a run is either resumed or replaced");
+  }
+  const JournalStart start = this->Request.resume    ? JournalStart::Resume
+                             : this->Request.replace ? JournalStart::Replace
+                                                     : JournalStart::Fresh;
+  this->Log = std::make_unique<Journal>(this->Request.folder, this->Hash, start, this->allNames(), exportName);
+  this->Notes = std::make_unique<ExportNotes>(
+    this->Request.folder, this->Hash, this->Plan.items.size() + this->Plan.documents.size(), this->Request.resume);
+  this->writeItems();
+  if (!this->cancelled())
+  {
+    this->writeDocuments();
+  }
+  this->Result.interrupted = this->cancelled();
+  if (!this->Result.interrupted)
+  {
+    this->close();
+  }
+  return this->Result;
+}
+
+bool ExportRun::isKept(std::size_t item) const
+{
+  if (!this->Notes->has(item))
+  {
+    return false;
+  }
+  const ItemRecord record = this->Notes->read(item);
+  return std::all_of(record.files.begin(), record.files.end(),
+    [&](const ExportedFile& one)
+    {
+      const DatasetFile* file = this->Log->find(one.file.path);
+      return file && file->sha256 == one.file.sha256;
+    });
+}
+
+void ExportRun::advance()
+{
+  const std::lock_guard<std::mutex> guard(this->ProgressMutex);
+  ++this->Done;
+  if (this->Callbacks.progress)
+  {
+    this->Callbacks.progress({ this->Done, this->Plan.items.size() + this->Plan.documents.size() });
+  }
+}
+
+void ExportRun::writeItems()
+{
+  const int threads = exported::threads().of(this->Request.options);
+  ThreadPool pool(threads > 0 ? threads : machineThreads());
+  std::atomic<bool> failed{ false };
+  std::atomic<std::size_t> kept{ 0 };
+  pool.parallelFor(static_cast<int>(this->Plan.items.size()),
+    [&](int i)
+    {
+      if (failed || this->cancelled())
+      {
+        return;
+      }
+      try
+      {
+        if (this->isKept(std::size_t(i)))
+        {
+          ++kept;
+        }
+        else
+        {
+          this->write(std::size_t(i));
+        }
+      }
+      catch (...)
+      {
+        failed = true;
+        throw;
+      }
+      this->advance();
+    });
+  this->Result.kept = kept;
+}
+
+void ExportRun::write(std::size_t index)
+{
+  const ExportItem& item = this->item(index);
+  ItemSink sink(this->Dataset, this->Request.folder, item, *this->Log, exported::link().of(this->Request.options));
+  if (index >= this->Plan.items.size())
+  {
+    sink.readsNotes([this](const auto& visit) { this->forRecords(visit); });
+  }
+  item.write(sink);
+  this->Notes->add(index, sink.record());
+}
+
+void ExportRun::writeDocuments()
+{
+  for (std::size_t i = 0; i < this->Plan.documents.size() && !this->cancelled(); ++i)
+  {
+    this->write(this->Plan.items.size() + i);
+    this->advance();
+  }
+}
+
+void ExportRun::forRecords(const std::function<void(const ItemRecord&)>& visit) const
+{
+  for (std::size_t i = 0; i < this->Plan.items.size() + this->Plan.documents.size(); ++i)
+  {
+    if (this->Notes->has(i)) // documents are written one after another
+    {
+      visit(this->Notes->read(i));
+    }
+  }
+}
+
+void ExportRun::close()
+{
+  ExportRecord record;
+  record.version = DGTK_VERSION;
+  record.exporter = this->Row.info.name;
+  record.requestHash = this->Hash;
+  record.manifestHash = this->Dataset.manifestHash();
+  record.request = this->described();
+  record.conventions = this->Plan.conventions;
+  record.names = this->Plan.names;
+  this->forRecords(
+    [&](const ItemRecord& item)
+    {
+      for (const LayerRounding& one : item.rounding)
+      {
+        addRounding(record.layers, one);
+      }
+    });
+  std::sort(record.layers.begin(), record.layers.end(),
+    [](const LayerRounding& a, const LayerRounding& b)
+    { return std::tie(a.layer, a.unit) < std::tie(b.layer, b.unit); });
+  this->Log->close(
+    [&](AtomicFile& document)
+    {
+      document.write(exportHead(record));
+      this->forRecords(
+        [&](const ItemRecord& item)
+        {
+          for (const ExportedFile& file : item.files)
+          {
+            document.write(exportFileLine(file, this->Result.files++ == 0));
+          }
+        });
+      document.write(exportTail());
+    });
+  this->Notes->remove();
+  this->Result.layers = record.layers;
+}
+} // namespace
+
+ExportResult exportDataset(const ExportRequest& request, const ExportCallbacks& callbacks)
+{
+  return ExportRun(request, callbacks).execute();
+}
+
+} // namespace dgtk

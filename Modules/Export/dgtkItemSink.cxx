@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkItemSink.h"
+
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkHash.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace dgtk
+{
+
+namespace
+{
+DatasetFile describedAs(const std::string& name, const ExportedPixels& pixels)
+{
+  DatasetFile file;
+  file.path = name;
+  file.layer = pixels.layer;
+  file.camera = pixels.shot ? pixels.shot->name() : "";
+  file.frame = pixels.shot ? pixels.shot->frame() : -1;
+  return file;
+}
+} // namespace
+
+class ItemSink::Piecewise : public ExportFile
+{
+public:
+  Piecewise(ItemSink& owner, const std::string& name, const ExportedPixels& pixels)
+    : Owner(owner)
+    , File(FilePlace(owner.Holder.path(), name))
+    , Described(describedAs(name, pixels))
+    , Encoding(pixels.encoding)
+  {
+  }
+  using ExportFile::write;
+  void write(const void* data, std::size_t bytes) override
+  {
+    this->File.write(data, bytes);
+    this->Hash.update(data, bytes);
+    this->Described.bytes += bytes;
+  }
+  void finish() override
+  {
+    this->File.commit();
+    this->Described.sha256 = this->Hash.hex();
+    this->Owner.finished(this->Described, this->Encoding);
+  }
+
+private:
+  ItemSink& Owner;
+  AtomicFile File;
+  Sha256 Hash;
+  DatasetFile Described;
+  PixelEncoding Encoding;
+};
+
+ItemSink::ItemSink(
+  const DatasetView& dataset, const std::string& folder, const ExportItem& item, Journal& journal, bool links)
+  : Dataset(dataset)
+  , Holder(folder)
+  , Item(item)
+  , Log(journal)
+  , Links(links)
+{
+  if (!item.files.empty())
+  {
+    this->Log.plan(item.files);
+  }
+}
+
+void ItemSink::expect(const std::string& name) const
+{
+  if (std::find(this->Item.files.begin(), this->Item.files.end(), name) == this->Item.files.end())
+  {
+    throw std::logic_error("an exporter writes a file that it has not announced: " + name);
+  }
+  this->Holder.makeParents(name);
+}
+
+std::unique_ptr<ExportFile> ItemSink::open(const std::string& name, const ExportedPixels& pixels)
+{
+  this->expect(name);
+  return std::make_unique<Piecewise>(*this, name, pixels);
+}
+
+void ItemSink::finished(const DatasetFile& file, const PixelEncoding& encoding)
+{
+  this->Log.add(file);
+  this->Record.files.push_back({ file, encoding });
+}
+
+bool ItemSink::link(const std::string& name, const std::string& datasetFile) const
+{
+  const std::string partial = partialName(name);
+  this->Holder.remove(partial);
+  if (::linkat(
+        AT_FDCWD, this->Dataset.pathOf(datasetFile).c_str(), AT_FDCWD, this->Holder.pathOf(partial).c_str(), 0) != 0)
+  {
+    return false; // on another disk, or one without links: a copy does
+  }
+  this->Holder.rename(partial, name);
+  return true;
+}
+
+void ItemSink::copy(const std::string& name, const std::string& datasetFile, const ExportedPixels& pixels)
+{
+  const std::vector<DatasetFile>& all = this->Dataset.manifest().files; // sorted by path
+  const auto known = std::lower_bound(all.begin(), all.end(), datasetFile,
+    [](const DatasetFile& file, const std::string& path) { return file.path < path; });
+  if (known == all.end() || known->path != datasetFile)
+  {
+    throw InputError(this->Dataset.folder(), 0, "the manifest does not list " + quoted(datasetFile));
+  }
+  const std::string source = Folder(this->Dataset.folder()).fileAt(datasetFile);
+  this->expect(name);
+  DatasetFile file = describedAs(name, pixels);
+  file.sha256 = known->sha256;
+  file.bytes = known->bytes;
+  const auto changed = [&]
+  { throw InputError(source, 0, "is not the file that the manifest lists: its hash differs"); };
+  if (this->Links && Sha256::ofFile(source) == known->sha256 && this->link(name, datasetFile))
+  {
+    this->finished(file, pixels.encoding);
+    return;
+  }
+  const std::string bytes = readFile(source);
+  Sha256 hash;
+  hash.update(bytes.data(), bytes.size());
+  if (hash.hex() != known->sha256)
+  {
+    changed();
+  }
+  AtomicFile target(FilePlace(this->Holder.path(), name));
+  target.write(bytes);
+  target.commit();
+  this->finished(file, pixels.encoding);
+}
+
+void ItemSink::notes(const std::string& list, const std::function<void(const std::string&)>& visit)
+{
+  if (!this->Others)
+  {
+    throw std::logic_error("an item that is no document reads notes");
+  }
+  this->Others(
+    [&](const ItemRecord& record)
+    {
+      for (const auto& [name, text] : record.notes)
+      {
+        if (name == list)
+        {
+          visit(text);
+        }
+      }
+    });
+}
+
+void addRounding(std::vector<LayerRounding>& all, const LayerRounding& one)
+{
+  const auto same = std::find_if(all.begin(), all.end(),
+    [&](const LayerRounding& other) { return other.layer == one.layer && other.unit == one.unit; });
+  if (same == all.end())
+  {
+    all.push_back(one);
+    return;
+  }
+  same->largest = std::max(same->largest, one.largest);
+  same->values += one.values;
+  same->withoutCode += one.withoutCode;
+}
+
+} // namespace dgtk

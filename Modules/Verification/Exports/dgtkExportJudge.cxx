@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkExportJudge.h"
+
+#include "dgtkError.h"
+#include "dgtkFolder.h"
+#include "dgtkHash.h"
+#include "dgtkJournal.h"
+#include "dgtkMasks.h"
+#include "dgtkText.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+std::string placeText(const std::string& camera, int frame) { return camera + " at frame " + std::to_string(frame); }
+
+std::string objectText(const std::string& camera, int frame, std::uint32_t object)
+{
+  return "object " + std::to_string(object) + " of " + placeText(camera, frame);
+}
+
+template <typename Matrix>
+std::string matrixText(const Matrix& matrix)
+{
+  std::vector<double> values;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+  {
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+    {
+      values.push_back(matrix(i, j));
+    }
+  }
+  return numbersText(values.data(), static_cast<int>(values.size()));
+}
+} // namespace
+
+ExportedFrom::ExportedFrom(const std::string& dataset, const std::string& folder)
+  : DatasetFolder(dataset)
+  , Folder(folder)
+  , Record(readExportIn(folder))
+  , TheManifest(readManifestIn(dataset))
+{
+  const dgtk::Folder place(dataset);
+  if (Sha256::ofFile(place.fileAt(manifestName)) != this->Record.manifestHash)
+  {
+    throw UsageError(folder + ": was made from another dataset, or from an earlier state of " + dataset);
+  }
+  for (const CameraRecord& camera : readCameras(place.fileAt("cameras.json")))
+  {
+    this->Cameras.emplace(std::make_pair(camera.name, camera.frame), camera);
+  }
+  this->Objects = readObjects(place.fileAt("objects.json"));
+  for (const ExportedName& name : this->Record.names)
+  {
+    this->ByPlace[{ name.camera, name.frame }] = &name;
+    this->ByName[name.name] = &name;
+  }
+  for (const DatasetFile& file : this->TheManifest.files)
+  {
+    this->Files[{ file.camera, file.frame, file.layer }].push_back(file.path);
+  }
+}
+
+std::string ExportedFrom::convention(const std::string& key) const
+{
+  const auto found = std::find_if(this->Record.conventions.begin(), this->Record.conventions.end(),
+    [&](const auto& pair) { return pair.first == key; });
+  return found == this->Record.conventions.end() ? "" : found->second;
+}
+
+const ExportedName* ExportedFrom::nameOf(const std::string& camera, int frame) const
+{
+  const auto found = this->ByPlace.find({ camera, frame });
+  return found == this->ByPlace.end() ? nullptr : found->second;
+}
+
+const ExportedName* ExportedFrom::named(const std::string& name) const
+{
+  const auto found = this->ByName.find(name);
+  return found == this->ByName.end() ? nullptr : found->second;
+}
+
+const CameraRecord* ExportedFrom::camera(const std::string& name, int frame) const
+{
+  const auto found = this->Cameras.find({ name, frame });
+  return found == this->Cameras.end() ? nullptr : &found->second;
+}
+
+const ObjectRecord* ExportedFrom::object(std::uint32_t id) const
+{
+  const auto found = std::find_if(
+    this->Objects.begin(), this->Objects.end(), [&](const ObjectRecord& object) { return object.id == id; });
+  return found == this->Objects.end() ? nullptr : &*found;
+}
+
+const std::vector<BoxRecord>& ExportedFrom::boxes(const std::string& camera, int frame) const
+{
+  const std::lock_guard<std::mutex> guard(this->Mutex);
+  if (this->BoxesOf != std::make_pair(camera, frame) || this->Boxes.empty())
+  {
+    const std::string file = this->file(camera, frame, "boxes", { "json" });
+    this->Boxes = file.empty() ? std::vector<BoxRecord>() : readBoxes(this->DatasetFolder + '/' + file);
+    this->BoxesOf = { camera, frame };
+  }
+  return this->Boxes;
+}
+
+std::string ExportedFrom::file(
+  const std::string& camera, int frame, const std::string& layer, const std::vector<std::string>& extensions) const
+{
+  static const std::vector<std::string> usual{ "npy", "dgd", "exr", "pfm", "flo", "png", "ppm", "json" };
+  const auto found = this->Files.find({ camera, frame, layer });
+  if (found == this->Files.end())
+  {
+    return {};
+  }
+  for (const std::string& extension : extensions.empty() ? usual : extensions)
+  {
+    for (const std::string& path : found->second)
+    {
+      if (extensionOf(path) == extension)
+      {
+        return path;
+      }
+    }
+  }
+  return {};
+}
+
+PicturePointer ExportedFrom::picture(
+  const std::string& camera, int frame, const std::string& layer, const std::vector<std::string>& extensions) const
+{
+  const std::string name = this->file(camera, frame, layer, extensions);
+  const CameraRecord* record = this->camera(camera, frame);
+  if (name.empty() || !record)
+  {
+    throw InputError(this->DatasetFolder, 0, "has no file of layer " + layer + " of " + placeText(camera, frame));
+  }
+  return std::make_shared<PictureFile>(this->DatasetFolder, name, record->width, record->height);
+}
+
+ExportJudge::~ExportJudge()
+{
+  for (const auto& [what, line] : this->Lines)
+  {
+    this->TheResults.add({ what, line.unit, { line.files.begin(), line.files.end() } }, line.meter);
+  }
+}
+
+Meter& ExportJudge::meter(const std::string& what, const std::string& unit, double tolerance, const std::string& file)
+{
+  Line& line = this->Lines[what];
+  line.unit = unit;
+  line.meter.Tolerance = tolerance;
+  line.files.insert(file);
+  return line.meter;
+}
+
+void ExportJudge::number(const std::string& what, const std::string& unit, const std::string& file,
+  const std::string& where, double found, double expected, double tolerance)
+{
+  this->meter(what, unit, tolerance, file)
+    .add(found == expected ? 0 : found - expected,
+      [&] {
+        return Offender{ file, -1, -1, numberText(found) + " (" + where + ")", numberText(expected) };
+      });
+}
+
+void ExportJudge::holds(const std::string& what, const std::string& file, const std::string& where, bool right,
+  const std::string& found, const std::string& expected)
+{
+  this->meter(what, "", 0, file)
+    .equal(right,
+      [&] {
+        return Offender{ file, -1, -1, found + " (" + where + ")", expected };
+      });
+}
+
+void ExportJudge::size(const std::string& file, const std::string& camera, int frame, int width, int height)
+{
+  const CameraRecord* record = this->Source.camera(camera, frame);
+  const auto text = [](int w, int h) { return std::to_string(w) + "x" + std::to_string(h); };
+  this->holds("size", file, placeText(camera, frame), record && record->width == width && record->height == height,
+    text(width, height), record ? text(record->width, record->height) : "no such picture");
+}
+
+void ExportJudge::intrinsics(
+  const std::string& file, const std::string& camera, int frame, const Eigen::Matrix3d& K, double tolerance)
+{
+  const CameraRecord* record = this->Source.camera(camera, frame);
+  if (!record || !record->hasK)
+  {
+    this->holds("intrinsics", file, placeText(camera, frame), false, "a camera", "none that has a matrix");
+    return;
+  }
+  this->meter("intrinsics", "px", tolerance, file)
+    .add((K - record->K).cwiseAbs().maxCoeff(),
+      [&] {
+        return Offender{ file, -1, -1, matrixText(K) + " (" + placeText(camera, frame) + ")", matrixText(record->K) };
+      });
+}
+
+void ExportJudge::pose(const std::string& file, const std::string& camera, int frame, const Eigen::Matrix3d& R,
+  const Eigen::Vector3d& t, double tolerance)
+{
+  const CameraRecord* record = this->Source.camera(camera, frame);
+  if (!record)
+  {
+    this->holds("pose", file, placeText(camera, frame), false, "a camera", "no such picture");
+    return;
+  }
+  const double size = std::max(1.0, record->t.norm());
+  const double error = std::max((R - record->R).cwiseAbs().maxCoeff(), (t - record->t).cwiseAbs().maxCoeff() / size);
+  this->meter("pose", "1", tolerance, file)
+    .add(error,
+      [&]
+      {
+        return Offender{ file, -1, -1, matrixText(R) + " " + matrixText(t) + " (" + placeText(camera, frame) + ")",
+          matrixText(record->R) + " " + matrixText(record->t) };
+      });
+}
+
+void ExportJudge::box(const std::string& file, const std::string& camera, int frame, std::uint32_t object,
+  const Eigen::Vector4d& box, double tolerance)
+{
+  const std::vector<BoxRecord>& boxes = this->Source.boxes(camera, frame);
+  const auto found = std::find_if(boxes.begin(), boxes.end(), [&](const BoxRecord& one) { return one.id == object; });
+  if (found == boxes.end() || !found->visible)
+  {
+    this->holds("box", file, objectText(camera, frame, object), false, "a box", "no visible pixel");
+    return;
+  }
+  this->meter("box", "px", tolerance, file)
+    .add((box - *found->visible).cwiseAbs().maxCoeff(),
+      [&]
+      {
+        return Offender{ file, -1, -1, matrixText(box) + " (" + objectText(camera, frame, object) + ")",
+          matrixText(*found->visible) };
+      });
+}
+
+void ExportJudge::mask(
+  const std::string& file, const std::string& camera, int frame, std::uint32_t object, const std::vector<char>& inside)
+{
+  const PicturePointer ids = this->Source.picture(camera, frame, "objects");
+  Meter& meter = this->meter("mask", "", 0, file);
+  if (inside.size() != std::size_t(ids->width()) * ids->height())
+  {
+    this->holds("mask", file, objectText(camera, frame, object), false, std::to_string(inside.size()) + " pixels",
+      "those of the picture");
+    return;
+  }
+  for (int y = 0; y < ids->height(); ++y)
+  {
+    for (int x = 0; x < ids->width(); ++x)
+    {
+      const bool in = inside[std::size_t(y) * ids->width() + x] != 0;
+      meter.equal(in == (ids->id(x, y) == object),
+        [&]
+        {
+          return Offender{ file, x, y, (in ? "inside (" : "outside (") + objectText(camera, frame, object) + ")",
+            "object " + std::to_string(ids->id(x, y)) };
+        });
+    }
+  }
+}
+
+void ExportJudge::amodalMask(
+  const std::string& file, const std::string& camera, int frame, std::uint32_t object, const std::vector<char>& inside)
+{
+  const CameraRecord* record = this->Source.camera(camera, frame);
+  const std::string name = this->Source.file(camera, frame, "amodal", { "json" });
+  if (!record || name.empty())
+  {
+    this->holds("amodal mask", file, objectText(camera, frame, object), false, "a mask", "no file of layer amodal");
+    return;
+  }
+  const Masks masks = readMasks(this->Source.dataset() + '/' + name, record->width, record->height);
+  const auto mask = masks.byId.find(object);
+  this->holds("amodal mask", file, objectText(camera, frame, object),
+    mask != masks.byId.end() && mask->second == inside, "other pixels", "those of " + name);
+}
+
+} // namespace dgtk

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkExportJudge_h
+#define dgtkExportJudge_h
+
+// Private to Verification.
+
+#include "dgtkDataset.h"
+#include "dgtkMeter.h"
+
+#include "dgtkExportDocument.h"
+#include "dgtkObjectDocuments.h"
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dgtk
+{
+
+/// The dataset that an export was made from, and the export's own record. Pictures are those of names in export.json.
+class ExportedFrom
+{
+public:
+  /// Throws InputError and UsageError as verifyExport().
+  ExportedFrom(const std::string& dataset, const std::string& folder);
+
+  const std::string& dataset() const { return this->DatasetFolder; }
+  const std::string& folder() const { return this->Folder; }
+  const ExportRecord& record() const { return this->Record; }
+  const Manifest& manifest() const { return this->TheManifest; }
+  std::string path(const std::string& name) const { return this->Folder + '/' + name; } ///< of a file of the export
+  /// The text of a convention that the export states; "" for one that it does not.
+  std::string convention(const std::string& key) const;
+  /// The export's name of a picture, or null; and the picture of a name.
+  const ExportedName* nameOf(const std::string& camera, int frame) const;
+  const ExportedName* named(const std::string& name) const;
+
+  const CameraRecord* camera(const std::string& name, int frame) const;
+  const std::vector<ObjectRecord>& objects() const { return this->Objects; }
+  const ObjectRecord* object(std::uint32_t id) const;
+  /// Records of the layer `boxes` of a picture; empty without the layer. Kept for the last picture only.
+  const std::vector<BoxRecord>& boxes(const std::string& camera, int frame) const;
+  /// A layer's file of a picture, exact formats first; "" for none.
+  std::string file(const std::string& camera, int frame, const std::string& layer,
+    const std::vector<std::string>& extensions = {}) const;
+  /// The same, read. Throws InputError without a file.
+  PicturePointer picture(const std::string& camera, int frame, const std::string& layer,
+    const std::vector<std::string>& extensions = {}) const;
+
+private:
+  std::string DatasetFolder;
+  std::string Folder;
+  ExportRecord Record;
+  Manifest TheManifest;
+  std::map<std::pair<std::string, int>, CameraRecord> Cameras;
+  std::vector<ObjectRecord> Objects;
+  std::map<std::pair<std::string, int>, const ExportedName*> ByPlace;
+  std::map<std::string, const ExportedName*> ByName;
+  std::map<std::tuple<std::string, int, std::string>, std::vector<std::string>> Files;
+  mutable std::mutex Mutex;
+  mutable std::pair<std::string, int> BoxesOf;
+  mutable std::vector<BoxRecord> Boxes;
+};
+
+/// What a format's reader tells of an export's documents; each value is compared with the dataset's at once.
+class ExportJudge
+{
+public:
+  ExportJudge(const ExportedFrom& source, Results& results)
+    : Source(source)
+    , TheResults(results)
+  {
+  }
+  ~ExportJudge();
+  const ExportedFrom& source() const { return this->Source; }
+
+  /// `file`: the document that says it, relative to the export. Tolerances are absolute but for K, whose is in pixels.
+  /// K with pixel centres at + 0.5.
+  void intrinsics(
+    const std::string& file, const std::string& camera, int frame, const Eigen::Matrix3d& K, double tolerance);
+  void size(const std::string& file, const std::string& camera, int frame, int width, int height);
+  /// x_camera = R x_world + t, x right, y down, z forward, scene units. `tolerance` of R's numbers, and of t's as a
+  /// share of the larger of 1 and its length.
+  void pose(const std::string& file, const std::string& camera, int frame, const Eigen::Matrix3d& R,
+    const Eigen::Vector3d& t, double tolerance);
+  /// The visible box of an object, [x0, y0, x1, y1] of pixels' borders.
+  void box(const std::string& file, const std::string& camera, int frame, std::uint32_t object,
+    const Eigen::Vector4d& box, double tolerance);
+  /// The pixels that show an object, rows top to bottom.
+  void mask(const std::string& file, const std::string& camera, int frame, std::uint32_t object,
+    const std::vector<char>& inside);
+  /// The same of all its pixels, hidden ones included.
+  void amodalMask(const std::string& file, const std::string& camera, int frame, std::uint32_t object,
+    const std::vector<char>& inside);
+  /// Any number of a document: "what" is the row's layer ("visible fraction"), `where` says which in words.
+  void number(const std::string& what, const std::string& unit, const std::string& file, const std::string& where,
+    double found, double expected, double tolerance);
+  /// Something that is right or wrong.
+  void holds(const std::string& what, const std::string& file, const std::string& where, bool right,
+    const std::string& found, const std::string& expected);
+
+private:
+  Meter& meter(const std::string& what, const std::string& unit, double tolerance, const std::string& file);
+  struct Line
+  {
+    std::string unit;
+    Meter meter{ 0 };
+    std::set<std::string> files;
+  };
+  const ExportedFrom& Source;
+  Results& TheResults;
+  std::map<std::string, Line> Lines;
+};
+
+/// A format's reader: reads its documents from the specification and tells the judge.
+using ReadExport = void (*)(ExportJudge& judge);
+/// Null for a format all of whose contents are pixels.
+ReadExport exportReader(const std::string& exporter);
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkExportPixels_h
+#define dgtkExportPixels_h
+
+// Private to Verification.
+
+#include "dgtkExportJudge.h"
+
+namespace dgtk
+{
+
+/// Pixels of a file of an export, in the format's unit; NaN where the file says that there is nothing.
+struct DecodedPixels
+{
+  int width = 0;
+  int height = 0;
+  int channels = 1;
+  std::vector<double> values; ///< rows top to bottom, channels interleaved
+  double at(int x, int y, int c = 0) const
+  {
+    return this->values[(std::size_t(y) * this->width + x) * this->channels + c];
+  }
+};
+
+/// Reads a file as its encoding says; see the table in dgtkExportPixels.cxx. Damaged files are InputErrors.
+using DecodePixels = DecodedPixels (*)(const std::string& path, const PixelEncoding& encoding);
+
+/// The number of an encoding, or the one given for none.
+double numberOf(const PixelEncoding& encoding, const std::string& key, double usual);
+
+/// Compares the pixels of a file with the dataset's, as its encoding says.
+void judgePixels(const ExportedFrom& source, const ExportedFile& file, Results& results);
+
+/// Whether there is a decoder or comparison of that name.
+bool knowsPixels(const std::string& kind);
+
+/// Decoders of single formats; others stand in the file of the format's reader.
+DecodedPixels decodePng(const std::string& path, const PixelEncoding& encoding);
+/// A JPEG or PNG picture as levels of 8 bits.
+DecodedPixels decodePicture(const std::string& path);
+
+} // namespace dgtk
+
+#endif

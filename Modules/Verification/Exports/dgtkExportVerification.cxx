@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkExportVerification.h"
+
+#include "dgtkError.h"
+#include "dgtkExportJudge.h"
+#include "dgtkExportPixels.h"
+#include "dgtkFile.h"
+#include "dgtkHash.h"
+#include "dgtkText.h"
+
+#include <filesystem>
+
+namespace dgtk
+{
+
+void readCoco(ExportJudge& judge);
+
+namespace
+{
+struct Reader
+{
+  const char* exporter;
+  ReadExport read;
+};
+/// Each is dgtkRead<Name>.cxx.
+constexpr Reader readers[] = {
+  { "coco", &readCoco },
+};
+
+/// Files that export.json lists are there and as it says, and there are no others.
+void checkFiles(const ExportedFrom& source, Results& results)
+{
+  namespace fs = std::filesystem;
+  Meter meter(0);
+  std::set<std::string> listed{ exportName };
+  for (const ExportedFile& one : source.record().files)
+  {
+    const std::string path = source.path(one.file.path);
+    listed.insert(one.file.path);
+    std::error_code error;
+    const std::string found = fs::is_regular_file(path, error) ? Sha256::ofFile(path) : "no file";
+    meter.equal(found == one.file.sha256, [&] { return Offender{ one.file.path, -1, -1, found, one.file.sha256 }; });
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(source.folder()))
+  {
+    const std::string name = entry.path().lexically_relative(source.folder()).generic_string();
+    if (entry.is_symlink() || !entry.is_directory())
+    {
+      meter.equal(listed.count(name) > 0, [&] { return Offender{ name, -1, -1, "a file", "none of this name" }; });
+    }
+  }
+  results.add({ "export", "", {} }, meter);
+}
+
+/// What throws is a file that cannot be used.
+template <typename Body>
+void attempt(const ExportedFrom& source, const std::string& layer, Results& results, const Body& body)
+{
+  const std::string prefix = source.folder() + '/';
+  try
+  {
+    body();
+  }
+  catch (const InputError& error)
+  {
+    const bool own = error.file().compare(0, prefix.size(), prefix) == 0;
+    results.unusable(layer, own ? error.file().substr(prefix.size()) : error.file(), error.what());
+  }
+  catch (const UsageError& error)
+  {
+    results.unusable(layer, "", error.what());
+  }
+}
+
+std::vector<Unchecked> uncheckedOf(const ExportedFrom& source, const Results& results)
+{
+  std::map<std::pair<std::string, std::string>, std::uint64_t> kinds;
+  for (const ExportedFile& one : source.record().files)
+  {
+    if (!results.compares(one.file.path))
+    {
+      ++kinds[{ one.file.layer.empty() ? one.file.path : one.file.layer, extensionOf(one.file.path) }];
+    }
+  }
+  std::vector<Unchecked> unchecked;
+  for (const auto& [kind, files] : kinds)
+  {
+    unchecked.push_back({ kind.first, kind.second, files });
+  }
+  return unchecked;
+}
+} // namespace
+
+ReadExport exportReader(const std::string& exporter)
+{
+  for (const Reader& reader : readers)
+  {
+    if (exporter == reader.exporter)
+    {
+      return reader.read;
+    }
+  }
+  return nullptr;
+}
+
+VerificationReport verifyExport(const std::string& dataset, const std::string& folder, int threads)
+{
+  const ExportedFrom source(dataset, folder);
+  Results results;
+  results.startCheck(0, "hashes");
+  checkFiles(source, results);
+  results.startCheck(1, "pixels");
+  std::vector<const ExportedFile*> files;
+  for (const ExportedFile& file : source.record().files)
+  {
+    if (!file.encoding.kind.empty())
+    {
+      files.push_back(&file);
+    }
+  }
+  ThreadPool pool(threads);
+  constexpr std::size_t block = 64;
+  for (std::size_t begin = 0; begin < files.size(); begin += block)
+  {
+    const std::size_t count = std::min(block, files.size() - begin);
+    std::vector<Results> parts(count);
+    pool.parallelFor(static_cast<int>(count),
+      [&](int i)
+      {
+        Results& part = parts[std::size_t(i)];
+        const ExportedFile& file = *files[begin + std::size_t(i)];
+        part.startCheck(1, "pixels");
+        attempt(source, file.file.layer, part, [&] { judgePixels(source, file, part); });
+      });
+    for (const Results& part : parts)
+    {
+      results.merge(part);
+    }
+  }
+  results.startCheck(2, "documents");
+  if (const ReadExport read = exportReader(source.record().exporter))
+  {
+    attempt(source, "documents", results,
+      [&]
+      {
+        ExportJudge judge(source, results);
+        read(judge);
+      });
+  }
+  VerificationReport report = results.report();
+  report.unchecked = uncheckedOf(source, results);
+  return report;
+}
+
+} // namespace dgtk

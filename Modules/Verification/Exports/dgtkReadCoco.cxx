@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkExportJudge.h"
+#include "dgtkJsonFile.h"
+
+#include <algorithm>
+#include <cmath>
+
+// COCO's data format (cocodataset.org/#format-data) and cocoapi's maskApi.c.
+
+namespace dgtk
+{
+
+namespace
+{
+using Json = nlohmann::json;
+
+std::vector<std::uint64_t> countsOf(const std::string& text)
+{
+  std::vector<std::uint64_t> counts;
+  for (std::size_t at = 0; at < text.size();)
+  {
+    std::int64_t value = 0;
+    int shift = 0;
+    int code = 0;
+    do
+    {
+      code = text[at++] - 48;
+      value |= std::int64_t(code & 0x1f) << shift;
+      shift += 5;
+    } while ((code & 0x20) != 0 && at < text.size());
+    if ((code & 0x10) != 0)
+    {
+      value |= -1 * (std::int64_t(1) << shift);
+    }
+    const std::size_t n = counts.size();
+    counts.push_back(static_cast<std::uint64_t>(n > 2 ? value + std::int64_t(counts[n - 2]) : value));
+  }
+  return counts;
+}
+
+/// Rows top to bottom of a mask given column by column.
+std::vector<char> filled(const std::vector<std::uint64_t>& counts, int width, int height)
+{
+  std::vector<char> mask(std::size_t(width) * height);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+  {
+    for (std::uint64_t k = 0; k < counts[i] && at < mask.size(); ++k, ++at)
+    {
+      mask[at % std::size_t(height) * std::size_t(width) + at / std::size_t(height)] = char(i % 2);
+    }
+  }
+  return mask;
+}
+
+/// Pixels whose centres lie in a polygon: even-odd rule along rows.
+void fill(const std::vector<double>& polygon, int width, int height, std::vector<char>& mask)
+{
+  const std::size_t corners = polygon.size() / 2;
+  for (int y = 0; y < height; ++y)
+  {
+    std::vector<double> crossings;
+    for (std::size_t i = 0; i < corners; ++i)
+    {
+      const std::size_t j = (i + 1) % corners;
+      const double y0 = polygon[2 * i + 1] - (y + 0.5);
+      const double y1 = polygon[2 * j + 1] - (y + 0.5);
+      if ((y0 < 0) != (y1 < 0))
+      {
+        crossings.push_back(polygon[2 * i] + (polygon[2 * j] - polygon[2 * i]) * y0 / (y0 - y1));
+      }
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
+    {
+      for (int x = std::max(0, int(std::ceil(crossings[i] - 0.5))); x < width && x + 0.5 < crossings[i + 1]; ++x)
+      {
+        mask[std::size_t(y) * width + x] = 1;
+      }
+    }
+  }
+}
+
+std::vector<char> maskOf(const Json& segmentation, int width, int height)
+{
+  if (segmentation.is_array())
+  {
+    std::vector<char> mask(std::size_t(width) * height);
+    for (const Json& polygon : segmentation)
+    {
+      fill(polygon.get<std::vector<double>>(), width, height, mask);
+    }
+    return mask;
+  }
+  const Json& counts = segmentation.at("counts");
+  return filled(counts.is_string() ? countsOf(counts.get<std::string>()) : counts.get<std::vector<std::uint64_t>>(),
+    segmentation.at("size").at(1), segmentation.at("size").at(0));
+}
+
+Eigen::Vector4d cornersOf(const Json& box)
+{
+  const double x = box.at(0);
+  const double y = box.at(1);
+  return { x, y, x + box.at(2).get<double>(), y + box.at(3).get<double>() };
+}
+
+struct Image
+{
+  std::string camera;
+  int frame = 0;
+  int width = 0;
+  int height = 0;
+  std::uint64_t annotations = 0;
+};
+
+std::uint64_t visibleObjects(const ExportedFrom& source, const Image& image)
+{
+  const std::vector<BoxRecord>& boxes = source.boxes(image.camera, image.frame);
+  return static_cast<std::uint64_t>(
+    std::count_if(boxes.begin(), boxes.end(), [](const BoxRecord& box) { return box.visible.has_value(); }));
+}
+
+void readAnnotation(ExportJudge& judge, const std::string& file, const Json& one, Image& image)
+{
+  const auto object = one.at("object_id").get<std::uint32_t>();
+  const std::string where = "annotation " + one.at("id").dump();
+  const std::vector<char> mask = maskOf(one.at("segmentation"), image.width, image.height);
+  judge.box(file, image.camera, image.frame, object, cornersOf(one.at("bbox")), 0);
+  judge.mask(file, image.camera, image.frame, object, mask);
+  judge.number("area", "px", file, where, one.at("area"), double(std::count(mask.begin(), mask.end(), char(1))), 0);
+  judge.amodalMask(
+    file, image.camera, image.frame, object, maskOf(one.at("amodal_segmentation"), image.width, image.height));
+  const ObjectRecord* record = judge.source().object(object);
+  judge.number("category", "id", file, where, one.at("category_id"), record ? record->classId : 0, 0);
+  ++image.annotations;
+}
+
+void readInstances(ExportJudge& judge, const std::string& file)
+{
+  const std::string path = judge.source().path(file);
+  const Json document = readJsonFile(path);
+  const std::size_t slash = file.rfind('/') + 1;
+  const std::string split = file.substr(slash + 10, file.size() - slash - 15); // instances_SPLIT.json
+  useJson(path,
+    [&]
+    {
+      std::map<std::int64_t, Image> images;
+      for (const Json& one : document.at("images"))
+      {
+        const ExportedName* name = judge.source().named(split + "/" + one.at("file_name").get<std::string>());
+        judge.holds("names", file, one.at("file_name"), name != nullptr, "a picture", "one of export.json");
+        const Image image{ name ? name->camera : "", name ? name->frame : 0, one.at("width"), one.at("height") };
+        judge.size(file, image.camera, image.frame, image.width, image.height);
+        judge.holds("ids", file, "image", images.emplace(one.at("id"), image).second, "an id twice", "each once");
+      }
+      std::set<std::int64_t> ids;
+      for (const Json& one : document.at("annotations"))
+      {
+        const auto id = one.at("id").get<std::int64_t>();
+        judge.holds(
+          "ids", file, "annotation", id > 0 && ids.insert(id).second, one.at("id").dump(), "each once, from 1");
+        readAnnotation(judge, file, one, images.at(one.at("image_id")));
+      }
+      for (const auto& [id, image] : images)
+      {
+        judge.number("annotations", "objects", file, image.camera + " at frame " + std::to_string(image.frame),
+          double(image.annotations), double(visibleObjects(judge.source(), image)), 0);
+      }
+    });
+}
+} // namespace
+
+void readCoco(ExportJudge& judge)
+{
+  for (const ExportedFile& one : judge.source().record().files)
+  {
+    if (one.file.path.rfind("annotations/instances_", 0) == 0)
+    {
+      readInstances(judge, one.file.path);
+    }
+  }
+}
+
+} // namespace dgtk
