@@ -24,6 +24,9 @@ std::vector<Command> commands();
 /// Text on standard output; MachineError when it cannot be written (a full disk behind a redirection).
 void print(const std::string& text);
 
+/// Of the formats that datasets can be exported to.
+std::vector<std::string> exporterNames();
+
 /// Throws InputError for what is not the folder of a complete dataset.
 void requireDataset(const std::string& folder);
 

@@ -12,8 +12,6 @@
 namespace dgtk::app
 {
 
-namespace
-{
 std::vector<std::string> exporterNames()
 {
   std::vector<std::string> names;
@@ -24,6 +22,8 @@ std::vector<std::string> exporterNames()
   return names;
 }
 
+namespace
+{
 ExportRequest parseRequest(const Arguments& arguments)
 {
   ExportRequest request;
@@ -48,7 +48,7 @@ ExportRequest parseRequest(const Arguments& arguments)
     if (arguments.has(optionWord(*row)))
     {
       const std::string given = arguments.text(optionWord(*row));
-      request.options[row->name] = row->normal(given);
+      request.options[row->name] = row->value.empty() ? row->normal(given) : given;
     }
   }
   request.resume = arguments.has("--resume");
@@ -113,7 +113,8 @@ int run(const Arguments& arguments)
   }
   catch (const UsageError& error)
   {
-    throw UsageError(withOption(error.what(), allExportOptions()));
+    const std::string line = error.what();
+    throw UsageError(line.rfind("format: ", 0) == 0 ? "--" + line : withOption(line, allExportOptions()));
   }
 }
 } // namespace

@@ -4,6 +4,7 @@
 #include "Progress.h"
 
 #include "dgtkError.h"
+#include "dgtkExport.h"
 #include "dgtkGenerator.h"
 #include "dgtkWorkTime.h"
 
@@ -79,6 +80,11 @@ GeneratorRequest parseRequest(const Arguments& arguments)
     {
       request.options[row->name] = row->normal(arguments.text(optionWord(*row)));
     }
+  }
+  if (arguments.has("--for"))
+  {
+    request.layers = arguments.has("--layers") ? request.layers : std::vector<std::string>();
+    addNeeds(arguments.list("--for"), request.layers, request.options);
   }
   request.resume = arguments.has("--resume");
   request.replace = arguments.has("--replace");
@@ -170,6 +176,7 @@ Command renderCommand()
   Command command{ "render", "SCENE", 1, 1, "Renders images and ground truth of a scene into a folder.", {}, &run };
   command.options = { { "--output", "DIR", "", "folder of the dataset" },
     { "--layers", "NAMES|all", usualLayers(), "what to write; see dgtk list layers", layerWords(), true },
+    { "--for", "EXPORTER,...", "", "what these exports need, beside the layers that are given", exporterNames(), true },
     { "--cameras", "NAMES", "", "some of the cameras (default: all)" },
     { "--frames", "A[:B[:STEP]]", "", "some of the frames (default: all)" },
     { "--size", "WxH", "", "size of the images in pixels (default: the camera's own, else 640x480)" } };

@@ -58,6 +58,10 @@ DGTKEXPORT_EXPORT ExportResult exportDataset(const ExportRequest& request, const
 /// What a dataset has to hold for formats; UsageError for an unknown one. Layers sorted, each once.
 DGTKEXPORT_EXPORT ExportNeeds needsOf(const std::vector<std::string>& formats);
 
+/// Adds these to a request: to its layers, and to its options where they are not given.
+DGTKEXPORT_EXPORT void addNeeds(
+  const std::vector<std::string>& formats, std::vector<std::string>& layers, OptionValues& options);
+
 /// Options that all formats have.
 DGTKEXPORT_EXPORT const std::vector<const OptionRow*>& exportOptions();
 /// These and those of every exporter, each once.

@@ -127,6 +127,19 @@ ExportNeeds needsOf(const std::vector<std::string>& formats)
   return all;
 }
 
+void addNeeds(const std::vector<std::string>& formats, std::vector<std::string>& layers, OptionValues& options)
+{
+  const ExportNeeds needs = needsOf(formats);
+  for (const std::string& layer : needs.layers)
+  {
+    if (std::find(layers.begin(), layers.end(), layer) == layers.end())
+    {
+      layers.push_back(layer);
+    }
+  }
+  options.insert(needs.options.begin(), needs.options.end());
+}
+
 namespace
 {
 [[noreturn]] void refuseSplit(const std::string& what, const std::string& found)

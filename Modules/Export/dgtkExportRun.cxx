@@ -61,24 +61,24 @@ private:
   ExportResult Result;
 };
 
-void requireOptions(const ExporterRow& row, const Exporter& format, const OptionValues& given)
+/// The options as they stand in export.json.
+ExportRequest checked(ExportRequest request)
 {
-  std::set<std::string> known;
-  for (const OptionRow* option : exportOptions())
+  const ExporterRow& row = findExporter(request.format);
+  std::vector<const OptionRow*> known = exportOptions();
+  const std::vector<const OptionRow*> own = row.make()->options();
+  known.insert(known.end(), own.begin(), own.end());
+  for (auto& [name, value] : request.options)
   {
-    known.insert(option->name);
-  }
-  for (const OptionRow* option : format.options())
-  {
-    known.insert(option->name);
-  }
-  for (const auto& [name, value] : given)
-  {
-    if (known.count(name) == 0)
+    const auto option =
+      std::find_if(known.begin(), known.end(), [&key = name](const OptionRow* one) { return one->name == key; });
+    if (option == known.end())
     {
       throw UsageError(name + ": format " + row.info.name + " has no such option");
     }
+    value = (*option)->normal(value);
   }
+  return request;
 }
 
 DatasetSelection selectionOf(const ExportRequest& request)
@@ -113,17 +113,17 @@ void requireOther(const ExportRequest& request)
 }
 
 ExportRun::ExportRun(const ExportRequest& request, const ExportCallbacks& callbacks)
-  : Request(request)
+  : Request(checked(request))
   , Callbacks(callbacks)
   , Row(findExporter(request.format))
   , Format(this->Row.make())
-  , Dataset(request.dataset, selectionOf(request))
+  , Dataset(request.dataset, selectionOf(this->Request))
 {
-  requireOptions(this->Row, *this->Format, request.options);
+  const OptionValues& options = this->Request.options;
   requireOther(request);
-  requireLayers(this->Dataset, this->Format->needs(request.options), this->Row.info.name);
-  this->Format->check(this->Dataset, request.options);
-  this->Plan = this->Format->plan(this->Dataset, request.options);
+  requireLayers(this->Dataset, this->Format->needs(options), this->Row.info.name);
+  this->Format->check(this->Dataset, options);
+  this->Plan = this->Format->plan(this->Dataset, options);
   this->Hash = this->identity();
 }
 

@@ -1,33 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkDatasetGenerator.h"
 
-#include "dgtkFailure.h"
+#include "dgtkBackgroundRun.h"
+#include "dgtkExport.h"
+#include "dgtkFolderWay.h"
 #include "dgtkGLContext.h"
 #include "dgtkGenerator.h"
-#include "dgtkInterpreterPause.h"
 #include "dgtkScene.h"
 #include "dgtkStage.h"
 
 #include "vtkObjectFactory.h"
 
-#include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <condition_variable>
-#include <deque>
-#include <mutex>
+#include <functional>
 #include <optional>
-#include <thread>
 #include <utility>
-
-#include <unistd.h>
 
 vtkStandardNewMacro(dgtkDatasetGenerator);
 
 namespace
 {
-constexpr std::chrono::milliseconds patience(20);
-
 /// The scene again, as its file is now.
 void requireSame(const dgtk::SceneDescription& loaded, const std::string& file)
 {
@@ -44,21 +36,6 @@ bool usesGL(const dgtk::LayerRequest& request)
   return dgtk::option::renderer().of(request.options) == "vtk" ||
          dgtk::option::visibility().of(request.options) == "raster";
 }
-
-/// What may be done about a folder that is refused.
-std::string wayOut(dgtk::FolderContents contents)
-{
-  switch (contents)
-  {
-    case dgtk::FolderContents::Unfinished:
-      return "; resume completes it, replace starts over";
-    case dgtk::FolderContents::FinishedOther:
-    case dgtk::FolderContents::UnfinishedOther:
-      return "; replace removes it";
-    default:
-      return "";
-  }
-}
 } // namespace
 
 struct dgtkDatasetGenerator::Internal
@@ -66,26 +43,14 @@ struct dgtkDatasetGenerator::Internal
   dgtk::GeneratorRequest request;
   std::string layers;
   std::string cameras;
+  std::string formats;                      ///< of exports
   std::shared_ptr<const dgtk::Stage> stage; ///< null: of a file
   std::string stageFile;                    ///< that the stage was loaded from
 
-  std::thread thread;
-  pid_t process = 0; ///< that has the thread
-  std::atomic<bool> cancel{ false };
-  dgtk::GeneratorProgress last;
-
-  mutable std::mutex mutex; ///< of the following
-  std::condition_variable change;
-  std::deque<dgtk::GeneratorProgress> reports;
-  bool over = true;
-  dgtk::Failure failure;
+  dgtkBackgroundRun background;
 
   dgtk::GeneratorRequest wholeRequest() const;
-  void start();
-  void run();
-  void generate();
-  void report(const dgtk::GeneratorProgress& one);
-  void end();
+  void generate(const std::atomic<bool>& cancel, const std::function<void(dgtkBackgroundRun::Report)>& report) const;
 };
 
 dgtk::GeneratorRequest dgtkDatasetGenerator::Internal::wholeRequest() const
@@ -97,6 +62,10 @@ dgtk::GeneratorRequest dgtkDatasetGenerator::Internal::wholeRequest() const
   dgtk::GeneratorRequest whole = this->request;
   whole.layers = dgtk::splitNames(this->layers, "layers");
   whole.cameras = dgtk::splitNames(this->cameras, "cameras");
+  if (!this->formats.empty())
+  {
+    dgtk::addNeeds(dgtk::splitNames(this->formats, "formats"), whole.layers, whole.options);
+  }
   if (this->stage && !this->stageFile.empty())
   {
     requireSame(this->stage->description(), this->stageFile);
@@ -109,85 +78,26 @@ dgtk::GeneratorRequest dgtkDatasetGenerator::Internal::wholeRequest() const
   return whole;
 }
 
-void dgtkDatasetGenerator::Internal::start()
-{
-  this->end();
-  this->cancel = false;
-  this->over = false;
-  this->last = {};
-  this->reports.clear();
-  this->failure.clear();
-  this->process = ::getpid();
-  try
-  {
-    this->thread = std::thread([this] { this->run(); });
-  }
-  catch (...) // too many threads
-  {
-    this->failure.take();
-    this->over = true;
-  }
-}
-
-void dgtkDatasetGenerator::Internal::run()
-{
-  dgtk::Failure how;
-  try
-  {
-    this->generate();
-  }
-  catch (...)
-  {
-    how.take();
-  }
-  const std::lock_guard<std::mutex> lock(this->mutex);
-  this->failure = how;
-  this->over = true;
-  this->change.notify_all();
-}
-
-void dgtkDatasetGenerator::Internal::generate()
+void dgtkDatasetGenerator::Internal::generate(
+  const std::atomic<bool>& cancel, const std::function<void(dgtkBackgroundRun::Report)>& report) const
 {
   dgtkScene::UseModelCache();
   dgtk::GeneratorCallbacks callbacks;
-  callbacks.cancel = &this->cancel;
-  callbacks.progress = [this](const dgtk::GeneratorProgress& one) { this->report(one); };
+  callbacks.cancel = &cancel;
+  callbacks.progress = [&](const dgtk::GeneratorProgress& one) { report({ one.done, one.total }); };
   std::optional<dgtk::GLTurn> turn;
   if (usesGL(this->request))
   {
     turn.emplace();
   }
-  try
-  {
-    if (dgtk::generate(this->wholeRequest(), callbacks).interrupted)
+  dgtk::withWayOut(
+    [&]
     {
-      throw dgtk::MachineError(this->request.folder + ": interrupted; resume completes it");
-    }
-  }
-  catch (const dgtk::FolderError& error)
-  {
-    throw dgtk::UsageError(error.what() + wayOut(error.contents()));
-  }
-}
-
-/// Whoever waits for it may cancel the run before the next picture.
-void dgtkDatasetGenerator::Internal::report(const dgtk::GeneratorProgress& one)
-{
-  std::unique_lock<std::mutex> lock(this->mutex);
-  this->reports.push_back(one);
-  this->change.notify_all();
-  this->change.wait_for(lock, patience, [this] { return this->cancel || this->reports.empty(); });
-}
-
-/// Of a run that is over, or soon.
-void dgtkDatasetGenerator::Internal::end()
-{
-  this->cancel = true;
-  if (this->thread.joinable())
-  {
-    const dgtk::InterpreterPause pause;
-    this->thread.join();
-  }
+      if (dgtk::generate(this->wholeRequest(), callbacks).interrupted)
+      {
+        throw dgtk::MachineError(this->request.folder + ": interrupted; resume completes it");
+      }
+    });
 }
 
 dgtkDatasetGenerator::dgtkDatasetGenerator()
@@ -195,15 +105,7 @@ dgtkDatasetGenerator::dgtkDatasetGenerator()
 {
 }
 
-dgtkDatasetGenerator::~dgtkDatasetGenerator()
-{
-  if (this->Self->process != ::getpid() && this->Self->thread.joinable())
-  {
-    static_cast<void>(this->Self.release()); // in a process that was forked while it ran: the thread is not there
-    return;
-  }
-  this->Self->end();
-}
+dgtkDatasetGenerator::~dgtkDatasetGenerator() = default;
 
 void dgtkDatasetGenerator::PrintSelf(ostream& os, vtkIndent indent)
 {
@@ -242,6 +144,12 @@ void dgtkDatasetGenerator::SetLayers(const std::string& names)
 void dgtkDatasetGenerator::SetCameras(const std::string& names)
 {
   this->Self->cameras = names;
+  this->Modified();
+}
+
+void dgtkDatasetGenerator::SetFormats(const std::string& names)
+{
+  this->Self->formats = names;
   this->Modified();
 }
 
@@ -288,49 +196,20 @@ void dgtkDatasetGenerator::SetReplace(bool replace)
 
 void dgtkDatasetGenerator::Start()
 {
-  if (!this->IsRunning())
-  {
-    this->Self->start();
-  }
+  this->Self->background.start(
+    [self = this->Self.get()](const auto& cancel, const auto& report) { self->generate(cancel, report); });
 }
 
-bool dgtkDatasetGenerator::IsRunning() const
-{
-  const std::lock_guard<std::mutex> lock(this->Self->mutex);
-  return !this->Self->over || !this->Self->reports.empty();
-}
+bool dgtkDatasetGenerator::IsRunning() const { return this->Self->background.isRunning(); }
 
-bool dgtkDatasetGenerator::Wait(int milliseconds)
-{
-  const dgtk::InterpreterPause pause;
-  Internal& self = *this->Self;
-  std::unique_lock<std::mutex> lock(self.mutex);
-  self.change.wait_for(lock, std::chrono::milliseconds(std::clamp(milliseconds, 0, 1000000)),
-    [&self] { return self.over || !self.reports.empty(); });
-  if (self.reports.empty())
-  {
-    return false;
-  }
-  self.last = self.reports.front();
-  self.reports.pop_front();
-  self.change.notify_all();
-  return true;
-}
+bool dgtkDatasetGenerator::Wait(int milliseconds) { return this->Self->background.wait(milliseconds); }
 
-int dgtkDatasetGenerator::GetDone() const { return static_cast<int>(this->Self->last.done); }
+int dgtkDatasetGenerator::GetDone() const { return static_cast<int>(this->Self->background.last().done); }
 
-int dgtkDatasetGenerator::GetTotal() const { return static_cast<int>(this->Self->last.total); }
+int dgtkDatasetGenerator::GetTotal() const { return static_cast<int>(this->Self->background.last().total); }
 
-void dgtkDatasetGenerator::Cancel() { this->Self->cancel = true; }
+void dgtkDatasetGenerator::Cancel() { this->Self->background.cancel(); }
 
-std::string dgtkDatasetGenerator::GetErrorMessage() const
-{
-  const std::lock_guard<std::mutex> lock(this->Self->mutex);
-  return this->Self->failure.message;
-}
+std::string dgtkDatasetGenerator::GetErrorMessage() const { return this->Self->background.failure().message; }
 
-int dgtkDatasetGenerator::GetErrorCode() const
-{
-  const std::lock_guard<std::mutex> lock(this->Self->mutex);
-  return this->Self->failure.code;
-}
+int dgtkDatasetGenerator::GetErrorCode() const { return this->Self->background.failure().code; }

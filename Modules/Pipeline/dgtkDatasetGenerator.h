@@ -45,6 +45,11 @@ public:
   void SetCameras(const std::string& names);
   ///@}
   /**
+   * Formats of exports, separated by commas: the layers and options that they need are added; without SetLayers() they
+   * are all there are.
+   */
+  void SetFormats(const std::string& names);
+  /**
    * Frames first, first + step, ... up to last, included. Default: all.
    */
   void SetFrames(int first, int last, int step);

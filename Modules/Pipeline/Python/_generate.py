@@ -11,7 +11,7 @@ from .dgtkPipeline import dgtkDatasetGenerator
 _PATIENCE = 100  # milliseconds until an interrupt is noticed
 
 
-def _frames(value):
+def frames_of(value):
     """first, last, step."""
     numbers = list(value) if isinstance(value, (list, tuple)) else [value]
     try:
@@ -23,7 +23,7 @@ def _frames(value):
     return first, last, step
 
 
-def _run(generator, progress):
+def wait_for(generator, progress):
     """Waits for the end; whatever is raised meanwhile ends the run, and is raised on."""
     try:
         generator.Start()
@@ -39,7 +39,7 @@ def _run(generator, progress):
         _check.raise_error(generator)
 
 
-def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, progress=None, resume=False, replace=False, **options):
+def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, progress=None, resume=False, replace=False, formats=None, **options):
     """Writes a dataset: what `dgtk render` does, to the byte.
 
     scene: the path of a .json or .scene file, or a Scene. One of a file is read again with its models, and must not have
@@ -49,7 +49,8 @@ def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, p
     default: all. size: (width, height) in pixels; default: each camera's own, else 640 x 480. progress: called in this
     thread as progress(done, total), pictures (one camera at one frame), at the start, after each and at the end.
     resume: complete an interrupted run of the same request. replace: remove the dataset of another request, or an
-    interrupted run, that the folder holds; not with resume. Options, which are listed below, are those of
+    interrupted run, that the folder holds; not with resume. formats: a name or a list of names of exports, whose layers and
+    options are added; without layers they are all there are. Options, which are listed below, are those of
     `dgtk render`: numbers, names, lists of names or numbers, and True for a switch.
 
     Returns the manifest as a dict; Documentation/Formats/dataset.md says what it holds. Raises ValueError for a wrong
@@ -69,10 +70,12 @@ def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, p
     written = _check.absolute("folder", folder)
     if layers is not None:
         generator.SetLayers(_check.names("layers", layers))
+    if formats is not None:
+        generator.SetFormats(_check.names("formats", formats))
     if cameras is not None:
         generator.SetCameras(_check.names("cameras", cameras))
     if frames is not None:
-        generator.SetFrames(*_frames(frames))
+        generator.SetFrames(*frames_of(frames))
     if progress is not None and not callable(progress):
         _check.fail("progress", "something to call", progress)
     generator.SetSize(*_check.size(size))
@@ -80,7 +83,7 @@ def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, p
     generator.SetReplace(_check.switch("replace", replace))
     for name, value in _check.options(options):
         generator.SetOption(name, value)
-    _run(generator, progress)
+    wait_for(generator, progress)
     with open(os.path.join(written, b"manifest.json"), encoding="utf-8") as file:
         return json.load(file)
 
