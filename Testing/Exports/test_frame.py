@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What holds for every exporter: the same bytes however it ran, refusals in one line, nothing that looks whole and is not."""
+import json
+import os
+import resource
+import shutil
+import subprocess
+import time
+
+import datasets
+from datasets import load_json, main
+from harness import DGTK, digests
+
+KILLS = 20
+
+
+def exporters():
+    listed = subprocess.run([DGTK, "list", "exporters", "--json"], check=True, capture_output=True, text=True).stdout
+    return [row["format"] for row in json.loads(listed)["exporters"]]
+
+
+class Frame(datasets.ExportCase):
+    def rendered_for(self, form, scene):
+        """A dataset for a format, or what it is refused with."""
+        folder = self.path("for-" + form)
+        done = self.dgtk_any("render", scene, "-o", folder, "--for", form, "--quiet")
+        return folder, done.stderr if done.returncode else ""
+
+    def dgtk_any(self, *arguments):
+        done = subprocess.run([DGTK, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+        self.assertIn(done.returncode, (0, 2), done.stderr)
+        self.assertLessEqual(len(done.stderr.splitlines()), 1 if done.returncode else 99, done.stderr)
+        return done
+
+    def test_every_exporter_gives_the_same_bytes_and_is_read_back(self):
+        """Threads, links, resuming and Python change nothing; what comes out passes the referee; or it is refused in words."""
+        scenes = [datasets.stereo(self.path("stereo")), datasets.walk(self.path("walk"), empty=False)]
+        never = []
+        for form in exporters():
+            with self.subTest(form):
+                exported = 0
+                for number, scene in enumerate(scenes):
+                    dataset, refused = self.rendered_for(form, scene)
+                    if refused:
+                        continue
+                    one, two = self.path(f"{form}-1-{number}"), self.path(f"{form}-2-{number}")
+                    done = self.dgtk_any("export", dataset, "--format", form, "-o", one, "--threads", 1, "--quiet")
+                    if not done.returncode:
+                        self.dgtk("export", dataset, "--format", form, "-o", two, "--threads", 3, "--link", "--quiet")
+                        self.assert_same_files(one, two)
+                        rows = self.referee(dataset, one)
+                        self.assertGreater(len(rows["residuals"]), 1)
+                        exported += 1
+                    else:
+                        self.assertIn(":", done.stderr)
+                    self.dgtk_any("render", scene, "-o", dataset, "--for", form, "--quiet", "--replace")
+                if not exported:
+                    never.append(form)
+        self.assertEqual(never, [], "formats that neither scene can be exported to")
+
+    def test_killed_twenty_times_and_resumed(self):
+        scene = datasets.walk(self.path("scene"), frames=60, empty=False)
+        dataset = self.render(scene)
+        whole, part = self.path("whole"), self.path("part")
+        command = [DGTK, "export", dataset, "--format", "coco", "--image-format", "jpg", "--quiet"]
+        started = time.monotonic()
+        subprocess.run([*command, "-o", whole], check=True)
+        seconds = time.monotonic() - started
+        killed = 0
+        for i in range(KILLS):
+            shutil.rmtree(part, ignore_errors=True)
+            process = subprocess.Popen([*command, "-o", part])
+            time.sleep(seconds * (0.15 + 0.04 * i))
+            process.kill()
+            process.wait()
+            unfinished = not os.path.exists(os.path.join(part, "export.json"))
+            killed += unfinished
+            subprocess.run([*command, "-o", part, "--resume"], check=True)
+            self.assert_same_files(whole, part)
+        self.assertGreater(killed, KILLS // 4)
+
+    def test_another_export_is_not_mixed_in(self):
+        dataset = self.render(datasets.walk(self.path("scene")))
+        folder, _ = self.export(dataset, "coco")
+        before = digests(folder)
+        self.refused("export", dataset, "--format", "coco", "-o", folder, "--masks", "polygon", status=2, says=("another request", "--replace"))
+        self.refused("export", dataset, "--format", "coco", "-o", dataset, status=2, says="the dataset's own folder")
+        self.refused("export", dataset, "--format", "coco", "-o", self.path("scene"), status=2, says="name a new or an empty folder")
+        self.assertEqual(digests(folder), before)
+        self.write(os.path.join(os.path.basename(folder), "notes.txt"), "mine")
+        self.dgtk("export", dataset, "--format", "coco", "-o", folder, "--masks", "polygon", "--replace", "--quiet")
+        self.assertTrue(os.path.exists(os.path.join(folder, "notes.txt")))
+        self.refused("verify", self.render(datasets.stereo(self.path("other"))), "--export", folder, status=2, says="another dataset")
+
+    def test_refusals(self):
+        dataset = self.render(datasets.walk(self.path("scene")), "color")
+        target = self.path("target")
+        whole = self.render(self.path("scene", "walk.json"))
+        for says, *more in (("did you mean coco", "cocoo"), ("did you mean", "coco", "--cameras", "Kamera 2"),
+                            ("none of the dataset's pictures", "coco", "--frames", "7:9"), ("--split: expected", "coco", "--split", "train"),
+                            ("--out-of-range: expected one of void, refuse", "coco", "--out-of-range", "clamp")):
+            self.refused("export", whole, "--format", *more, "-o", target, status=2, says=says)
+            self.assertFalse(os.path.exists(target))
+        for says, *more in (("lacks layers", "coco"),):
+            self.refused("export", dataset, "--format", *more, "-o", target, status=2, says=says)
+            self.assertFalse(os.path.exists(target))
+        self.refused("export", self.path("scene"), "--format", "coco", "-o", target, status=3, says="scene")
+        self.refused("export", dataset, "-o", target, status=2, says="--format")
+
+    def test_a_full_disk_leaves_one_line_and_nothing_whole(self):
+        dataset = self.render(datasets.stereo(self.path("scene")), datasets.LAYERS)
+        folder = self.path("full")
+        done = subprocess.run([DGTK, "export", dataset, "--format", "coco", "-o", folder, "--quiet"], capture_output=True, text=True,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (6000, 6000)))
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertFalse(os.path.exists(os.path.join(folder, "export.json")))
+        self.dgtk("export", dataset, "--format", "coco", "-o", folder, "--quiet", "--resume")
+        self.referee(dataset, folder)
+
+    def test_links_share_what_is_equal(self):
+        dataset = self.render(datasets.walk(self.path("scene")))
+        folder, _ = self.export(dataset, "coco", "--link")
+        name = load_json(os.path.join(folder, "annotations", "instances_train.json"))["images"][0]["file_name"]
+        ours = os.stat(os.path.join(dataset, "Kamera 1", "color", "000000.png"))
+        self.assertEqual(os.stat(os.path.join(folder, "train", name)).st_ino, ours.st_ino)
+
+    def test_a_changed_dataset_is_not_exported(self):
+        dataset = self.render(datasets.walk(self.path("scene")))
+        picture = os.path.join(dataset, "Kamera 1", "color", "000001.png")
+        with open(picture, "r+b") as file:
+            file.seek(200)
+            file.write(b"\0\1\2")
+        self.refused("export", dataset, "--format", "coco", "-o", self.path("out"), "--quiet", status=3, says=("000001.png", "manifest"))
+
+
+if __name__ == "__main__":
+    main()
