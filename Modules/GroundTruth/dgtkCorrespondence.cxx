@@ -175,6 +175,19 @@ Correspondence correspond(const OtherView& other, const Hit& hit, const Eigen::V
   return result;
 }
 
+void correspondPoints(const OtherView& other, const FixedPoint* points, std::size_t count, Correspondence* found)
+{
+  Follower follower(other);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    follower.add(i, points[i].hit, points[i].barycentrics);
+  }
+  follower.follow(
+    [found](std::size_t i, const Eigen::Vector2d& pixel, VisibilityClass visibility) {
+      found[i] = { pixel, visibility };
+    });
+}
+
 Correspondence correspondPixel(const SceneState& state, const View& view, const OcclusionQuery& occlusion,
   const Eigen::Vector2d& pixel, const OtherView& other, Hit* hit)
 {

@@ -531,6 +531,22 @@ std::vector<std::string> Stage::objectNames() const
   return names;
 }
 
+std::vector<bool> Stage::movingObjects() const
+{
+  const Impl& impl = *this->Self;
+  std::vector<bool> moving;
+  for (const SceneItem& item : impl.Scene.items())
+  {
+    if (item.kind == SceneItem::Kind::Object && impl.isPresent(item.index))
+    {
+      const Model& model = *impl.Looks[item.index].model;
+      const bool deforms = model.deformation && findAnimation(impl.Scene, impl.Scene.objects[item.index], model) >= 0;
+      moving.push_back(deforms || impl.Poses->moves(item.index));
+    }
+  }
+  return moving;
+}
+
 std::vector<std::shared_ptr<const Model>> Stage::models() const { return this->Self->Models; }
 
 std::vector<std::string> Stage::inputFiles() const { return this->Self->Files; }
