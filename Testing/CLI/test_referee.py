@@ -520,7 +520,18 @@ def boxes():
         objects[3]["box_amodal"][1] -= 1
         objects[4]["visible_fraction"] *= 1 - 1e-12
 
-    yield Plant("boxes", "masks", 0, lambda data, _: data.document("moving/boxes/000000.json", masks), bad=5)
+    yield Plant("boxes", "masks", 0, lambda data, _: data.document("moving/boxes/000000.json", masks),
+                {("boxes", "whole"): "amodal pixels are whole ones"}, bad=5)
+
+    def whole(document):
+        objects = document["objects"]
+        objects[0]["pixels_whole"] -= 50  # the floor reaches beyond the picture, and some pixels of its edge are open
+        objects[0]["box_whole"][2] += 1
+        objects[1]["pixels_whole"] += 1
+        objects[2]["box_whole"][1] -= 1
+
+    for camera in ("left", "right", "parallel"):
+        yield Plant("boxes", "whole", 0, lambda data, _, c=camera: data.document(f"{c}/boxes/000000.json", whole), bad=4)
 
     def projected(factor):
         def edit(document):
