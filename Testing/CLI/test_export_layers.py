@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What exporters to other people's formats read: boxes with what the image cuts off, from files on disk by plain numpy."""
+"""What exporters to other people's formats read: boxes with what the image cuts off, disparities of the
+frames beside, from files on disk by plain numpy."""
 import json
 import os
 
 import numpy as np
 
 from harness import SCENES, SOURCE, Case, load_json, main
+from pictures import read_png
 
 MODELS = os.path.join(SOURCE, "Data", "Models")
 DEMO = os.path.join(SCENES, "demo.json")
@@ -104,6 +106,89 @@ class WholeBoxes(Case):
         self.assertNotEqual(counts["fish"][1], counts["straight"][1])
         # nothing of the rigid scene moves: time does not matter
         self.assertEqual(counts["rolling"][:2] + counts["rolling"][3:], counts["straight"][:2] + counts["straight"][3:])
+
+
+def rig(name, x, **more):
+    """A camera of a rig that goes forward (along -z) by 0.3 a frame; keys turn it with the rig."""
+    return {"name": name, "K": [[100, 0, 48], [0, 100, 36], [0, 0, 1]], **SIZE, "orientation": [0, 1, 0, 0],
+            "position": {"keys": [[0, [x, 1, 4]], [2, [x, 1, 3.4]]]}, **more}
+
+
+class MovedDisparities(Case):
+    """Layers disparity_forward and disparity_backward."""
+
+    def render(self, cameras, *options, frames=2, status=0, layers="disparity,disparity_forward,disparity_backward"):
+        crate = model("crate", "crate.ac", scale=[1.2, 1.2, 1.2],
+                      position={"keys": [[0, [-0.7, 0.03, 0.3]], [2, [-0.1, 0.03, 0.5]]]},
+                      orientation={"keys": [[0, [0.98, 0, 0.2, 0]], [2, [0.9, 0, 0.43, 0]]]})
+        objects = [model("floor", "floor.ac", scale=[3, 1, 3]), crate, model("grass", "grass.ac", position=[0.6, 0, 1])]
+        scene = {"version": 1, "keyFrames": [0, frames], "objects": objects, "lights": [], "cameras": cameras}
+        self.write("scene.json", json.dumps(scene))
+        self.dgtk("render", self.path("scene.json"), "-o", self.path("out"), "--layers", layers, "--quiet",
+                  "--disparity-format", "npy", "--objects-format", "npy", "--disparity_forward-format", "npy,pfm", "--disparity_backward-format", "npy",
+                  *options, status=status)
+
+    def load(self, camera, layer, frame):
+        return np.load(self.path("out", camera, layer, f"{frame:06d}.npy"))
+
+    def classes(self, camera, layer, frame):
+        return read_png(self.path("out", camera, layer, f"{frame:06d}.png"))[..., 0]
+
+    def files(self, layer, camera="left"):
+        folder = self.path("out", camera, layer)
+        return sorted(os.listdir(folder)) if os.path.isdir(folder) else []
+
+    def test_they_are_what_correspondences_say(self):
+        """The place in the one camera less that in the other, both at the other frame; the class is the partner's."""
+        pairs = [f"{a}:{b}{step}" for a, b in (("left", "right"), ("right", "left"), ("left", "left"), ("right", "right"))
+                 for step in ("+1", "-1")]
+        self.render([rig("left", 0), rig("right", 0.12)], "--pairs", ",".join(pairs),
+                    layers="disparity,disparity_forward,disparity_backward,correspondence,objects,depth,flow_forward")
+        self.dgtk("verify", self.path("out"))
+        seen = set()
+        for camera, other, sign in (("left", "right", 1), ("right", "left", -1)):
+            self.assertEqual(self.files("disparity_backward", camera)[::2], ["000001.npy", "000002.npy"])
+            self.assertEqual(self.files("disparity_forward", camera)[::3], ["000000.npy", "000001.npy"])
+            for layer, step, frame in (("disparity_forward", "+1", 0), ("disparity_forward", "+1", 1),
+                                       ("disparity_backward", "-1", 1), ("disparity_backward", "-1", 2)):
+                found = self.load(camera, layer, frame)
+                own = self.load(camera, f"correspondence_{camera}{step}", frame)[..., 0]
+                partner = self.load(camera, f"correspondence_{other}{step}", frame)[..., 0]
+                np.testing.assert_array_equal(np.isnan(found), np.isnan(partner))
+                self.assertLess(np.nanmax(abs(found - sign * (own - partner))), 1e-12)
+                kinds = self.classes(camera, layer, frame)
+                np.testing.assert_array_equal(kinds, self.classes(camera, f"correspondence_{other}{step}", frame))
+                self.assertTrue(np.isnan(found[kinds == 0]).all() and np.isfinite(found[kinds == 1]).all())
+                seen |= set(np.unique(kinds).tolist())
+        self.assertTrue({0, 1, 2, 4} <= seen, seen)
+
+    def test_of_what_stands_still_it_follows_from_depth(self):
+        """The rig goes 0.3 forward: z - 0.3 a frame later, z + 0.3 a frame earlier."""
+        self.render([rig("left", 0), rig("right", 0.12)], layers="disparity,disparity_forward,disparity_backward,depth,objects",
+                    frames=2)
+        still = self.load("left", "objects", 1) != 2
+        depth = self.load("left", "depth", 1)
+        still &= np.isfinite(depth)
+        self.assertGreater(still.sum(), 1000)
+        for layer, step in (("disparity", 0), ("disparity_forward", -0.3), ("disparity_backward", 0.3)):
+            found = self.load("left", layer, 1)[still]
+            np.testing.assert_allclose(found, 100 * 0.12 / (depth[still] + step), rtol=1e-12)
+
+    def test_where_there_is_none(self):
+        self.render([rig("left", 0), rig("right", 0.12)], "--frames", "0", layers="disparity,disparity_forward")
+        self.assertEqual(self.files("disparity_forward"), ["000000.npy", "000000.pfm", "000000.png"])
+        path = self.path("scene.json")
+        self.refused("render", path, "-o", self.path("last"), "--layers", "disparity_forward", "--frames", "2", status=2,
+                     says=("disparity_forward", "a frame of the scene after"))
+        # one that turns away from frame 0 on has no partner then, and none that lies behind a turn
+        turning = rig("right", 0.12, orientation={"keys": [[0, [0, 1, 0, 0]], [1, [0.01, 0.99995, 0, 0]], [2, [0, 1, 0, 0]]]})
+        scene = load_json(path)
+        scene["cameras"][1] = turning
+        self.write("scene.json", json.dumps(scene))
+        self.refused("render", path, "-o", self.path("turned"), "--layers", "disparity_forward", status=2,
+                     says=("disparity_forward", "two cameras side by side at both"))
+        self.dgtk("render", path, "-o", self.path("turned"), "--layers", "disparity", "--quiet")
+        self.assertEqual(sorted(os.listdir(self.path("turned/left/disparity")))[::2], ["000000.pfm", "000002.pfm"])
 
 
 if __name__ == "__main__":
