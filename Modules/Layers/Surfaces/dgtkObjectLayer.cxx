@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The layers of whole objects: boxes and amodal. One pass casts the rays for both.
+#include "dgtkKeypointTruth.h"
 #include "dgtkLayers.h"
 #include "dgtkObjectDocuments.h"
 #include "dgtkObjectTruth.h"
@@ -47,7 +48,9 @@ public:
   virtual LayerSpec spec() const = 0;
   /// Whether it reads the runs of ObjectRows::amodal.
   virtual bool needsRuns() const { return false; }
-  virtual std::string text(const JobContext& context, const ObjectRows& objects) const = 0;
+  /// `occlusion` is of the picture's own time.
+  virtual std::string text(
+    const JobContext& context, const OcclusionQuery& occlusion, const ObjectRows& objects) const = 0;
 };
 
 class ObjectsPass : public LayerPass
@@ -97,7 +100,7 @@ public:
   {
     for (std::size_t i = 0; i < this->Layers.size(); ++i)
     {
-      sink.document(i, this->Layers[i]->text(this->Context, this->All));
+      sink.document(i, this->Layers[i]->text(this->Context, *this->Moment.occlusion, this->All));
     }
   }
 
@@ -124,7 +127,21 @@ std::optional<Eigen::Vector4d> boxOf(const ObjectPixels& pixels)
   return Eigen::Vector4d(pixels.x0, pixels.y0, pixels.x1, pixels.y1);
 }
 
-std::string boxes(const JobContext& context, const ObjectRows& objects)
+std::vector<KeypointRecord> keypointsOf(
+  const JobContext& context, const OcclusionQuery& occlusion, const BoxRecord& box)
+{
+  const double depth = keypointDepth * (box.corners.row(7) - box.corners.row(0)).norm();
+  const std::vector<SeenKeypoint> seen = seeKeypoints(*context.state, box.id, context.view, occlusion, depth);
+  std::vector<KeypointRecord> records;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+  {
+    records.push_back({ context.state->instances[box.id - 1].keypoints[i].name, seen[i].x_in_camera, seen[i].pixel,
+      static_cast<int>(seen[i].visibility) });
+  }
+  return records;
+}
+
+std::string boxes(const JobContext& context, const OcclusionQuery& occlusion, const ObjectRows& objects)
 {
   const std::vector<Instance>& instances = context.state->instances;
   std::vector<BoxRecord> records(instances.size());
@@ -150,6 +167,7 @@ std::string boxes(const JobContext& context, const ObjectRows& objects)
       }
       record.matrix = pose.matrix;
       record.corners = pose.corners;
+      record.keypoints = keypointsOf(context, occlusion, record);
     });
   return boxesText(context.camera, context.job.frame, records);
 }
@@ -177,9 +195,9 @@ public:
     return { "boxes", { "json" }, "2D and 3D boxes, visible fraction and pose of every object" };
   }
   LayerSpec spec() const override { return boxesSpec(); }
-  std::string text(const JobContext& context, const ObjectRows& objects) const override
+  std::string text(const JobContext& context, const OcclusionQuery& occlusion, const ObjectRows& objects) const override
   {
-    return boxes(context, objects);
+    return boxes(context, occlusion, objects);
   }
 };
 
@@ -192,7 +210,7 @@ public:
   }
   LayerSpec spec() const override { return amodalSpec(); }
   bool needsRuns() const override { return true; }
-  std::string text(const JobContext& context, const ObjectRows& objects) const override
+  std::string text(const JobContext& context, const OcclusionQuery&, const ObjectRows& objects) const override
   {
     return masks(context, objects);
   }
