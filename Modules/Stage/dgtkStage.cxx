@@ -4,6 +4,7 @@
 #include "dgtkCameraEntry.h"
 #include "dgtkError.h"
 #include "dgtkInstantSource.h"
+#include "dgtkKeypoints.h"
 #include "dgtkMaterialNumbers.h"
 #include "dgtkModelClock.h"
 #include "dgtkObjectPoses.h"
@@ -199,6 +200,7 @@ void Stage::Impl::checkObjects() const
     if (this->Looks[i].model != nullptr && !this->Looks[i].standsIn)
     {
       findAnimation(this->Scene, object, *this->Looks[i].model);
+      checkKeypoints(this->Scene, object, *this->Looks[i].model);
     }
     if (!object.scale.animated())
     {
@@ -262,6 +264,7 @@ Instance Stage::Impl::instance(std::size_t index, const Affine3& world_from_obje
   instance.materials = this->Materials.at(object, look.materials, frame);
   instance.world_from_object = world_from_object;
   instance.visible = object.visible.at(frame);
+  instance.keypoints = keypointsAt(object, *look.model, *instance.geometry);
   return instance;
 }
 
