@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Times `dgtk` as users run it: whole processes on scenes of OBJ files, which the first run makes.
 
-usage: whole_processes.py DGTK [--scenes S,M,L] [--rounds 3] [--work FOLDER] [--growth]
+usage: whole_processes.py DGTK [--scenes S,M,L] [--rounds 3] [--work FOLDER] [--growth] [--exports]
 
 S, M, L: 10,000, 200,000 and 2,000,000 triangles in 10, 50 and 200 objects, 20 frames, one of them moving, 640x480.
 Prints medians. start: dgtk --help, info of a model, and one 320x240 frame of depth and ids, beside `true`.
 load: a frame of 16x12 pixels of depth, as a whole process; beside it, sha256sum of the same files, and the ratio.
 again: the same with models that are kept; all else is measured without.
 frame: (time of N frames - time of 2) / (N - 2), of colour, exact layers, both flows, and of all six, and the most memory.
---growth: many pictures, cameras and objects of a tiny scene, time and memory for each."""
+--growth: many pictures, cameras and objects of a tiny scene, time and memory for each.
+--exports: 200 and 1000 pictures of 640x480 to COCO, COLMAP and BOP, beside rendering them."""
 import argparse
 import json
 import math
@@ -133,6 +134,33 @@ class Bench:
             print(f"growth {count:>7} {what:<14} {seconds:8.2f} s {memory:9.0f} MB {1e6 * seconds / count:8.0f} us each")
 
 
+    def exports(self):
+        """Exports of a dataset beside rendering what they need, and memory for five times the pictures."""
+        folder = os.path.join(self.work, "S")
+        if not os.path.exists(folder + "/scene.json"):
+            make_scene(folder, *SCENES["S"])
+        with open(folder + "/scene.json", encoding="ascii") as file:
+            scene = json.load(file)
+        scene.update(units="metre", keyFrames=[0, 999])
+        with open(folder + "/long.json", "w", encoding="ascii") as file:
+            json.dump(scene, file)
+        formats = ["coco", "colmap", "bop"]
+        for frames in (200, 1000):
+            data = os.path.join(self.work, f"exported{frames}")
+            rendered = timed([self.dgtk, "render", folder + "/long.json", "-o", data, "--replace", "--quiet", "--size", "640x480",
+                              "--frames", f"0:{frames - 1}", "--for", ",".join(formats)])
+            print(f"export {f'{frames} pictures, rendered':<24} {rendered[0]:8.1f} s {rendered[1]:8.0f} MB")
+            total = 0
+            for form in formats:
+                out = os.path.join(self.work, "export")
+                shutil.rmtree(out, ignore_errors=True)
+                seconds, memory = timed([self.dgtk, "export", data, "--format", form, "-o", out, "--quiet"])
+                total += seconds
+                print(f"export {f'{frames} pictures, {form}':<24} {seconds:8.1f} s {memory:8.0f} MB")
+            print(f"export {f'{frames} pictures, all':<24} {total:8.1f} s {total / rendered[0]:8.2f} x rendering")
+            shutil.rmtree(data)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("dgtk")
@@ -140,14 +168,17 @@ def main():
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--work", default=os.path.join(tempfile.gettempdir(), "dgtk-whole-processes"))
     parser.add_argument("--growth", action="store_true")
+    parser.add_argument("--exports", action="store_true")
     words = parser.parse_args()
     os.makedirs(words.work, exist_ok=True)
     os.environ.update(XDG_CACHE_HOME=os.path.abspath(words.work), DGTK_CACHE="0")
     bench = Bench(words.dgtk, words.rounds, words.work)
-    for name in words.scenes.split(","):
+    for name in words.scenes.split(",") if words.scenes else []:
         bench.scene(name)
     if words.growth:
         bench.growth()
+    if words.exports:
+        bench.exports()
 
 
 if __name__ == "__main__":
