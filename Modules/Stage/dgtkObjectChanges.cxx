@@ -27,10 +27,10 @@ ObjectChanges::ObjectChanges(const Stage& stage)
   }
 }
 
-std::vector<ObjectPlace> ObjectChanges::placesAt(double frame) const
+std::vector<PlacedObject> ObjectChanges::placesAt(double frame) const
 {
   const std::vector<Affine3> world = this->Poses.at(frame);
-  std::vector<ObjectPlace> places;
+  std::vector<PlacedObject> places;
   places.reserve(this->Objects.size());
   for (const std::size_t object : this->Objects)
   {

@@ -15,7 +15,7 @@ namespace dgtk
 {
 
 /// Where an object is at a frame, and whether it is there.
-struct ObjectPlace
+struct PlacedObject
 {
   Affine3 world_from_object;
   bool visible = true;
@@ -36,7 +36,7 @@ public:
   explicit ObjectChanges(const Stage& stage);
 
   /// By object id - 1.
-  std::vector<ObjectPlace> placesAt(double frame) const;
+  std::vector<PlacedObject> placesAt(double frame) const;
   std::vector<ObjectChange> changes() const;
 
 private:

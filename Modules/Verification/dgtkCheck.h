@@ -21,6 +21,9 @@ struct Check
 
 void checkHashes(Dataset& dataset, Results& results);
 void checkCameras(Dataset& dataset, Results& results);
+void checkMetadata(Dataset& dataset, Results& results);
+void checkPoses(Dataset& dataset, Results& results);
+void checkModels(Dataset& dataset, Results& results);
 void checkDepth(Picture& picture, Results& results);
 void checkObjects(Picture& picture, Results& results);
 void checkCalibration(Picture& picture, Results& results);
@@ -36,6 +39,7 @@ void checkLdi(Picture& picture, Results& results);
 void checkAlpha(Picture& picture, Results& results);
 void checkMatting(Picture& picture, Results& results);
 void checkBoxes(Picture& picture, Results& results);
+void checkKeypoints(Picture& picture, Results& results);
 void checkPoints(Dataset& dataset, Results& results);
 void checkTracks(Dataset& dataset, Results& results);
 

@@ -18,6 +18,9 @@ namespace
 constexpr Check allChecks[] = {
   { "hashes", checkHashes, nullptr },
   { "cameras", checkCameras, nullptr },
+  { "metadata", checkMetadata, nullptr },
+  { "poses", checkPoses, nullptr },
+  { "models", checkModels, nullptr },
   { "depth", nullptr, checkDepth },
   { "objects", nullptr, checkObjects },
   { "calibration", nullptr, checkCalibration },
@@ -33,6 +36,7 @@ constexpr Check allChecks[] = {
   { "alpha", nullptr, checkAlpha },
   { "matting", nullptr, checkMatting },
   { "boxes", nullptr, checkBoxes },
+  { "keypoints", nullptr, checkKeypoints },
   { "points", checkPoints, nullptr },
   { "tracks", checkTracks, nullptr },
 };

@@ -26,14 +26,19 @@ def model(name, file, kind, **more):
 
 
 SCENE = {
-    "version": 1, "background": [0.5, 0.6, 0.7],
+    "version": 1, "units": "m", "background": [0.5, 0.6, 0.7],
+    "dataset": {"name": "Refereed", "license": "CC0-1.0"},
+    "classes": {"ground": {"id": 1, "supercategory": "place", "thing": False},
+                "box": {"id": 2, "color": [200, 120, 40], "keypoints": ["lid", "side"], "skeleton": [[1, 2]]},
+                "animal": 3, "plant": 4, "vessel": 5},
     "objects": [
         model("floor", "floor.ac", "ground"),
-        model("crate", "crate.ac", "box", scale=[1.2, 1.2, 1.2],
+        model("crate", "crate.ac", "box", scale=[1.2, 1.2, 1.2], keypoints={"lid": [0.1, 1, 0.1], "side": [0.3, 0.4, 0.5]},
               position={"keys": [[0, [-0.9, 0.03, 0.3]], [1, [-0.86, 0.03, 0.33]]]},
               orientation={"keys": [[0, [0.98, 0, 0.2, 0]], [1, [0.975, 0, 0.222, 0]]]}),
         model("creature", "creature.md2", "animal", position=[0.75, 0.03, 0.2], scale=[0.02, 0.02, 0.02],
-              orientation=[0.541675, -0.541675, -0.454519, -0.454519], animation={"sequence": "walk"}),
+              orientation=[0.541675, -0.541675, -0.454519, -0.454519], animation={"sequence": "walk"},
+              keypoints={"vertex": 7}),
         model("grass", "grass.ac", "plant", position=[0.2, 0.03, 1.0]),
         model("vase", "vase.pov", "vessel", position=[-0.9, 1.23, 0.3])],
     "lights": [{"name": "sun", "kind": "directional", "position": [-6, 10, 8], "target": [0, 0, 0],
@@ -46,7 +51,7 @@ SCENE = {
         {"name": "parallel", "model": "orthographic", "viewHeight": 3.2, "eye": [2, 3, 5], "lookAt": [0, 0.5, 0], **PINHOLE},
         {"name": "moving", "fovY": 50, "position": {"keys": [[0, [-1, 1.2, 4]], [1, [-0.97, 1.21, 3.97]]]},
          "orientation": [0.05, 0.99875, 0, 0], "lens": {"aperture": 0.02, "focus": 4, "exposures": 4}, **PINHOLE}]}
-OPTIONS = ["--layers", "all", "--frames", "0:1", "--samples", "2", "--matte", "crate", "--points-step", "2", "--tracks-step", "6",
+OPTIONS = ["--layers", "all", "--models", "--frames", "0:1", "--samples", "2", "--matte", "crate", "--points-step", "2", "--tracks-step", "6",
            "--tracks-every", "2", "--pairs",
            "left:right,left:matrix,parallel:moving,moving:left+1"]
 # Inside a box there is no background, which PNG could not say of parts and triangles; with one sample a pixel, colour is
@@ -84,6 +89,10 @@ class Sound(Edits):
         parts = [self.load(f"{camera}/{layer}/{frame:06d}.npy")[..., 0].astype(np.int64)
                  for layer in ("objects", "parts", "triangles")]
         return np.stack(parts, axis=-1)
+
+    def object(self, number):
+        with open(self.path("objects.json"), encoding="utf-8") as file:
+            return json.load(file)["objects"][number]
 
     def interior(self, camera, frame):
         """Pixels whose neighbours, two all around, show the same triangle."""
@@ -570,6 +579,102 @@ def boxes():
     yield Plant("boxes", "pose", 1e-12, lambda data, factor: data.document("left/boxes/000000.json", scale(factor)))
 
 
+def keypoints():
+    def places(factor):
+        def edit(document):
+            lid, side = document["objects"][1]["keypoints"]
+            lid["u"] += 1e-9 * factor
+            side["x"][2] += 5e-9 * factor
+
+        return edit
+
+    yield Plant("keypoints", "places", 1e-9, lambda data, factor: data.document("right/boxes/000001.json", places(factor)), bad=2)
+
+    def names(document):
+        document["objects"][2]["keypoints"][0]["name"] = "nose"
+        document["objects"][1]["keypoints"][0]["u"] = document["objects"][1]["keypoints"][0]["v"] = None
+        document["objects"][1]["keypoints"][1]["visibility"] = 5
+
+    yield Plant("keypoints", "places", 1e-9, lambda data, _: data.document("parallel/boxes/000000.json", names), bad=2, small=False,
+                also={("keypoints", "visible"): "a class of its own"})
+
+    def hidden(document):
+        document["objects"][1]["keypoints"][0]["visibility"] = 2
+
+    yield Plant("keypoints", "visible", 0, lambda data, _: data.document("left/boxes/000000.json", hidden))
+
+
+def metadata():
+    def manifest(data, _):
+        with open(data.path("manifest.json"), encoding="utf-8") as file:
+            document = json.load(file)
+        document["metres_per_unit"], document["fps"] = 0.01, 24.0
+        document["info"]["license"] = "none"
+        document["info"]["author"] = "nobody"
+        with open(data.path("manifest.json"), "w", encoding="utf-8") as file:
+            json.dump(document, file)
+        return "manifest.json", None
+
+    yield Plant("metadata", "manifest", 0, manifest, bad=4)
+
+    def classes(document):
+        document["classes"][0]["thing"] = True
+        document["classes"][1]["color"][2] += 1
+
+    yield Plant("metadata", "classes", 0, lambda data, _: data.document("objects.json", classes), bad=2)
+
+    def flags(document):
+        document["objects"][0]["static"] = False
+        document["objects"][1]["static"] = True
+        document["objects"][2]["deforming"] = False
+
+    yield Plant("metadata", "flags", 0, lambda data, _: data.document("objects.json", flags), bad=3)
+
+    def identity(document):
+        document["objects"][4]["geometry"] = document["objects"][3]["geometry"]
+
+    yield Plant("metadata", "identity", 0, lambda data, _: data.document("objects.json", identity),
+                also={("models", "shapes"): "its file has another name"})
+
+
+def poses():
+    def edit(factor):
+        """The floor is where the world is: its first number of R is seen in R R^T and in R diag(scale)."""
+        def change(document):
+            floor, crate, creature = document["poses"][:3]
+            step = 1e-12 * factor
+            floor["R"][0][0] += step
+            crate["matrix"][0][3] += step
+            crate["scale"][1] += step
+            creature["t"][0] += step
+            if factor > 1:
+                document["poses"][5]["visible"] = False
+
+        return change
+
+    yield Plant("poses", "poses", 1e-12, lambda data, factor: data.document("poses.json", edit(factor)), bad=0, small=True)
+    yield Plant("poses", "poses", 1e-12, lambda data, _: data.document("poses.json", lambda d: d["poses"].pop(7)), bad=0, small=False)
+
+
+def models():
+    def edit(at, kind, step):
+        def change(data, _):
+            name = data.object(1)["geometry_file"]
+            with open(data.path(name), "rb") as file:
+                start = file.read().index(b"end_header\n") + 11
+
+            def bytes_of(content):
+                value = struct.unpack_from(kind, content, start + at)[0]
+                struct.pack_into(kind, content, start + at, value + (-step if value > 128 else step))
+
+            return data.bytes(name, bytes_of)
+
+        return change
+
+    yield Plant("models", "shapes", 0, edit(0, "<d", 1e-14), bad=0)
+    yield Plant("models", "looks", 0.500001, edit(52, "B", 2), bad=0, small=False)
+
+
 def masks():
     def run(camera, inside):
         """The floor's mask: a pixel of background inside, or one of the floor outside."""
@@ -818,11 +923,11 @@ def cameras():
 
     # The stretched axis of R is seen by comparison, and by R R^T.
     yield Plant("cameras", "cameras", 1e-12, lambda data, factor: records(factor)(data), bad=9)
-    yield Plant("cameras", "objects", 0, lambda data, _: data.document("objects.json", objects), bad=5, small=False)
+    yield Plant("cameras", "objects", 0, lambda data, _: data.document("objects.json", objects), bad=6, small=False)
 
 
-ALL = [plant for group in (files, depths, labels, calibrations, geometry, pairs, layered, covered, mattes, boxes, masks, clouds,
-                             tracks)
+ALL = [plant for group in (files, depths, labels, calibrations, geometry, pairs, layered, covered, mattes, boxes,
+                                metadata, poses, models, keypoints, masks, clouds, tracks)
        for plant in group()]
 
 

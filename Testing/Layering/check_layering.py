@@ -25,7 +25,7 @@ PRIVATE_LIBRARIES = re.compile(
 ALLOWED = {}
 TABLE = os.path.join("Documentation", "DeveloperGuide", "architecture.md")
 STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
-START_PROGRAMS = {"dgtkRenderOptions.cxx", "dgtkBlendReader.cxx", "dgtkFence.cxx"}
+START_PROGRAMS = {"dgtkOptionFields.cxx", "dgtkBlendReader.cxx", "dgtkFence.cxx"}
 # Modules (and the program) that meet layers of whatever name. In Scene, ModelIO, SceneExport and Export the same words are those of files.
 MEET_LAYERS = ["Core", "DatasetIO", "Document", "Layers", "Live", "Pipeline", "RayTrace", "RenderGL", "Sensor", "Stage", "Visibility", "Controls", "Views", "Viewer", "Matches", "Panels", "Runs", "Windows", "../Apps/dgtk", "../Apps/Editor"]
 # A literal beside == or !=, or looked for in a text, or given to what takes a layer's name.

@@ -111,7 +111,7 @@ std::vector<PoseRecord> poseRecords(const WorkPlan& plan, const Stage& stage)
   std::vector<PoseRecord> records;
   for (const int frame : frames)
   {
-    const std::vector<ObjectPlace> places = objects.placesAt(frame);
+    const std::vector<PlacedObject> places = objects.placesAt(frame);
     for (std::size_t i = 0; i < places.size(); ++i)
     {
       const Affine3& world_from_object = places[i].world_from_object;

@@ -170,7 +170,7 @@ std::size_t RunDocuments::write(RunFiles& files, const std::vector<std::string>&
   for (std::size_t i = 0; i < objects.size(); ++i)
   {
     objects[i].geometry = this->Geometry[i];
-    objects[i].geometryFile = this->Models ? ModelFiles::nameOf(this->Geometry[i]) : "";
+    objects[i].geometryFile = this->Models ? WrittenModels::nameOf(this->Geometry[i]) : "";
   }
   manifest.files.push_back(
     writeDocument(this->Root, objectsName, objectsText(std::move(objects), classRecords(this->Scene))));

@@ -4,10 +4,10 @@
 
 // Private to Pipeline.
 
-#include "dgtkModelFiles.h"
 #include "dgtkPacking.h"
 #include "dgtkRunFiles.h"
 #include "dgtkWorkPlan.h"
+#include "dgtkWrittenModels.h"
 
 #include <map>
 #include <optional>
@@ -49,7 +49,7 @@ private:
   std::string RequestHash;
   std::optional<Packing> Packed;
   std::vector<std::string> Geometry; ///< hashes by object id - 1
-  std::optional<ModelFiles> Models;
+  std::optional<WrittenModels> Models;
 };
 
 } // namespace dgtk

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef dgtkModelFiles_h
-#define dgtkModelFiles_h
+#ifndef dgtkWrittenModels_h
+#define dgtkWrittenModels_h
 
 // Private to Pipeline.
 
@@ -19,11 +19,11 @@ namespace dgtk
 
 /// The geometries of a scene as files of a dataset: models/<16 digits of the hash>.ply, each once, with the textures
 /// that its materials show beside it.
-class ModelFiles
+class WrittenModels
 {
 public:
   /// `geometry`: geometryHashes() of the stage.
-  ModelFiles(const Stage& stage, const std::vector<std::string>& geometry);
+  WrittenModels(const Stage& stage, const std::vector<std::string>& geometry);
 
   /// Relative to the dataset.
   std::vector<std::string> names() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkModelFiles.h"
+#include "dgtkWrittenModels.h"
 
 #include "dgtkFile.h"
 #include "dgtkFolder.h"
@@ -165,7 +165,7 @@ DatasetFile writePicture(const std::string& folder, const std::string& name, con
 }
 } // namespace
 
-ModelFiles::ModelFiles(const Stage& stage, const std::vector<std::string>& geometry)
+WrittenModels::WrittenModels(const Stage& stage, const std::vector<std::string>& geometry)
   : State(stage.at(stage.description().firstFrame()))
 {
   for (std::size_t i = 0; i < geometry.size(); ++i)
@@ -178,12 +178,12 @@ ModelFiles::ModelFiles(const Stage& stage, const std::vector<std::string>& geome
   }
 }
 
-std::string ModelFiles::nameOf(const std::string& geometry)
+std::string WrittenModels::nameOf(const std::string& geometry)
 {
   return "models/" + geometry.substr(0, nameDigits) + ".ply";
 }
 
-ModelFiles::File ModelFiles::fileOf(std::size_t object, const std::string& stem) const
+WrittenModels::File WrittenModels::fileOf(std::size_t object, const std::string& stem) const
 {
   const Instance& instance = this->State->instances[object];
   File file;
@@ -201,7 +201,7 @@ ModelFiles::File ModelFiles::fileOf(std::size_t object, const std::string& stem)
   return file;
 }
 
-std::vector<std::string> ModelFiles::names() const
+std::vector<std::string> WrittenModels::names() const
 {
   std::vector<std::string> names;
   for (const auto& [name, file] : this->Files)
@@ -215,7 +215,7 @@ std::vector<std::string> ModelFiles::names() const
   return names;
 }
 
-std::string ModelFiles::ply(const File& file) const
+std::string WrittenModels::ply(const File& file) const
 {
   std::vector<std::string> pictures;
   for (const Texture* texture : file.order)
@@ -225,7 +225,7 @@ std::string ModelFiles::ply(const File& file) const
   return PlyBody(this->State->instances[file.object], file.order).text(pictures);
 }
 
-void ModelFiles::write(const std::string& folder, RunFiles& run) const
+void WrittenModels::write(const std::string& folder, RunFiles& run) const
 {
   const auto writeOne = [&](const std::string& name, const auto& written)
   {

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The files of models against the triangles of the scene's first frame, by a reader of its own.
+#include "dgtkCheck.h"
+
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkHash.h"
+
+#include <array>
+#include <cstring>
+#include <set>
+#include <sstream>
+
+namespace dgtk
+{
+
+namespace
+{
+/// Steps of 8 bits.
+constexpr double colorTolerance = 0.500001;
+
+/// One corner of a triangle in the file.
+struct PlyVertex
+{
+  Eigen::Vector3d x{ 0, 0, 0 };
+  Eigen::Vector3f normal{ 0, 0, 0 };
+  Eigen::Vector2d uv{ 0, 0 };
+  std::array<std::uint8_t, 3> color{ 0, 0, 0 };
+};
+
+/// A .ply as DGTk writes models.
+class PlyFile
+{
+public:
+  explicit PlyFile(const std::string& path)
+    : Path(path)
+    , Data(readFile(path))
+  {
+    std::istringstream header(this->Data);
+    std::string line;
+    std::string element;
+    while (std::getline(header, line) && line != "end_header")
+    {
+      std::istringstream words(line);
+      std::string first;
+      std::string second;
+      words >> first >> second;
+      if (first == "element")
+      {
+        element = second;
+        words >> (element == "vertex" ? this->VertexCount : this->TriangleCount);
+      }
+      else if (first == "comment" && second == "TextureFile")
+      {
+        words >> second;
+        this->Pictures.push_back(second);
+      }
+      else if (first == "property")
+      {
+        std::string name;
+        words >> name;
+        this->HasUvs = this->HasUvs || name == "s";
+        this->HasNumbers = this->HasNumbers || name == "texnumber";
+      }
+    }
+    this->At = std::size_t(header.tellg());
+    this->readVertices();
+    this->readTriangles();
+  }
+
+  const std::vector<std::string>& pictures() const { return this->Pictures; }
+  bool hasUvs() const { return this->HasUvs; }
+  std::size_t triangles() const { return this->Triangles.size(); }
+  const PlyVertex& corner(std::size_t triangle, int k) const
+  {
+    return this->Vertices[std::size_t(this->Triangles[triangle][std::size_t(k)])];
+  }
+  /// Name of the picture on a triangle; "" for none.
+  std::string picture(std::size_t triangle) const
+  {
+    const std::int32_t number = this->HasNumbers ? this->Numbers[triangle] : 0;
+    return number < 0 || std::size_t(number) >= this->Pictures.size() ? "" : this->Pictures[std::size_t(number)];
+  }
+
+private:
+  template <typename T>
+  void take(T* values, std::size_t count)
+  {
+    if (this->Data.size() - this->At < sizeof(T) * count)
+    {
+      throw InputError(this->Path, 0, "ends too early");
+    }
+    std::memcpy(values, this->Data.data() + this->At, sizeof(T) * count);
+    this->At += sizeof(T) * count;
+  }
+
+  void readVertices()
+  {
+    for (std::size_t i = 0; i < this->VertexCount; ++i)
+    {
+      PlyVertex vertex;
+      this->take(vertex.x.data(), 3);
+      this->take(vertex.normal.data(), 3);
+      this->take(vertex.uv.data(), this->HasUvs ? 2 : 0);
+      this->take(vertex.color.data(), 3);
+      this->Vertices.push_back(vertex);
+    }
+  }
+  void readTriangles()
+  {
+    for (std::size_t i = 0; i < this->TriangleCount; ++i)
+    {
+      std::uint8_t corners = 0;
+      std::array<std::int32_t, 3> vertices{};
+      std::int32_t number = 0;
+      this->take(&corners, 1);
+      this->take(vertices.data(), 3);
+      this->take(&number, this->HasNumbers ? 1 : 0);
+      for (const std::int32_t vertex : vertices)
+      {
+        if (corners != 3 || vertex < 0 || std::size_t(vertex) >= this->Vertices.size())
+        {
+          throw InputError(this->Path, 0, "has a face that is no triangle of its vertices");
+        }
+      }
+      this->Triangles.push_back(vertices);
+      this->Numbers.push_back(number);
+    }
+  }
+
+  std::string Path;
+  std::string Data;
+  std::size_t At = 0;
+  std::size_t VertexCount = 0;
+  std::size_t TriangleCount = 0;
+  bool HasUvs = false;
+  bool HasNumbers = false;
+  std::vector<std::string> Pictures;
+  std::vector<PlyVertex> Vertices;
+  std::vector<std::array<std::int32_t, 3>> Triangles;
+  std::vector<std::int32_t> Numbers;
+};
+
+class ModelCheck
+{
+public:
+  ModelCheck(const Dataset& dataset, const std::string& file, const Instance& instance)
+    : Owner(dataset)
+    , File(file)
+    , TheInstance(instance)
+    , Ply(dataset.absolute(file))
+  {
+  }
+
+  void run(Meter& shapes, Meter& looks, std::vector<std::string>& files)
+  {
+    files.push_back(this->File);
+    const Model& model = *this->TheInstance.model;
+    shapes.equal(this->Ply.triangles() == model.triangles.size(),
+      [&]
+      {
+        return this->offender(
+          std::to_string(this->Ply.triangles()) + " triangles", std::to_string(model.triangles.size()));
+      });
+    for (std::size_t t = 0; t < std::min(this->Ply.triangles(), model.triangles.size()); ++t)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        this->corner(t, k, shapes, looks);
+      }
+      this->picture(t, looks);
+    }
+    for (const std::string& picture : this->Ply.pictures())
+    {
+      files.push_back("models/" + picture);
+    }
+  }
+
+private:
+  Offender offender(const std::string& found, const std::string& expected) const
+  {
+    return { this->File, -1, -1, found, expected };
+  }
+  static std::string cornerName(std::size_t triangle, int k)
+  {
+    return "corner " + std::to_string(k) + " of triangle " + std::to_string(triangle);
+  }
+
+  void corner(std::size_t t, int k, Meter& shapes, Meter& looks) const
+  {
+    const Model& model = *this->TheInstance.model;
+    const std::uint32_t vertex = model.triangles[t][std::size_t(k)];
+    const Eigen::Vector3d& x = this->TheInstance.geometry->positions[vertex];
+    const PlyVertex& found = this->Ply.corner(t, k);
+    const bool same = found.x == x && found.normal == this->TheInstance.geometry->normals[vertex] &&
+                      this->Ply.hasUvs() != model.uvs.empty() && (model.uvs.empty() || found.uv == model.uvs[vertex]);
+    shapes.equal(same, [&]
+      { return this->offender(cornerName(t, k) + ' ' + numbersText(found.x.data(), 3), numbersText(x.data(), 3)); });
+    if (model.colorMap)
+    {
+      looks.skip();
+      return;
+    }
+    Eigen::Vector3d color = this->materialOf(t).diffuse * 255;
+    for (int i = 0; i < 3 && !model.colors.empty(); ++i)
+    {
+      color[i] *= model.colors[vertex][std::size_t(i)] / 255.0;
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      const double value = found.color[std::size_t(i)];
+      looks.add(value - color[i],
+        [&] { return this->offender(cornerName(t, k) + " colour " + numberText(value), numberText(color[i])); });
+    }
+  }
+
+  const Material& materialOf(std::size_t triangle) const
+  {
+    const Part& part = this->TheInstance.model->parts[this->TheInstance.model->partOf(std::uint32_t(triangle))];
+    return (*this->TheInstance.materials)[std::size_t(part.material)];
+  }
+
+  /// The file beside the model is the texture's own.
+  void picture(std::size_t triangle, Meter& looks)
+  {
+    const int index = this->materialOf(triangle).texture;
+    const Texture* const texture = index < 0 ? nullptr : &this->TheInstance.model->textures[std::size_t(index)];
+    const std::string name = this->Ply.picture(triangle);
+    if (texture == nullptr || !texture->image || !this->Seen.insert({ name, texture }).second)
+    {
+      return;
+    }
+    const std::string path = this->Owner.absolute("models/" + name);
+    const bool same = !name.empty() && (texture->path.empty() || hashOfFile(path) == hashOfFile(texture->path));
+    looks.equal(
+      same, [&] { return this->offender("picture '" + name + '\'', "the bytes of '" + texture->path + '\''); });
+  }
+
+  const Dataset& Owner;
+  std::string File;
+  const Instance& TheInstance;
+  PlyFile Ply;
+  std::set<std::pair<std::string, const Texture*>> Seen;
+};
+} // namespace
+
+void checkModels(Dataset& dataset, Results& results)
+{
+  const std::shared_ptr<const SceneState> state = dataset.stage().at(dataset.stage().description().firstFrame());
+  const std::vector<ObjectRecord>& objects = dataset.objects();
+  Meter shapes(0);
+  Meter looks(colorTolerance);
+  std::vector<std::string> files;
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < std::min(objects.size(), state->instances.size()); ++i)
+  {
+    const std::string& file = objects[i].geometryFile;
+    if (file.empty() || !seen.insert(file).second)
+    {
+      continue;
+    }
+    const std::string expected = "models/" + objects[i].geometry.substr(0, 16) + ".ply";
+    shapes.equal(file == expected,
+      [&] {
+        return Offender{ "objects.json", -1, -1, "geometry_file " + file, expected };
+      });
+    if (file == expected)
+    {
+      ModelCheck(dataset, file, state->instances[i]).run(shapes, looks, files);
+    }
+  }
+  if (!seen.empty())
+  {
+    results.add({ "shapes", "", files }, shapes);
+    results.add({ "looks", "step of 8 bits", files }, looks);
+  }
+}
+
+} // namespace dgtk
