@@ -54,6 +54,8 @@ TEST(DatasetPictures, ListsWhatThereIs)
   files.add("left", "depth", 0, "", "npy", depth, ramp);
   files.add("left", "correspondence_right", 0, "", "npy", matches, ramp);
   files.add("left", "correspondence_right", 0, "", "png", classes, small);
+  files.add("left", "tracks", 0, "", "npy",
+    { "tracks", PixelType::Float64, 1, "pixels, class", "image", "u, v nan", "" }, ramp); // no picture
   files.add("right", "tiles", 0, "_0_1", "png", { "tiles", PixelType::UInt8, 3, "sRGB", "", "", "" }, small);
   files.finish();
   const DatasetPictures dataset(files.path());
