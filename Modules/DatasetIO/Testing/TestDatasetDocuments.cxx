@@ -171,7 +171,8 @@ TEST(Cameras, AModelWithoutMatrixHasItsOwnKeys)
   camera.far = 1;
   const std::string text = camerasText({ camera });
   EXPECT_EQ(text.find("\"K\""), std::string::npos);
-  EXPECT_THAT(text, HasSubstr("\"distortion\": [],\n      \"shift\": [1.0, 2.0],\n      \"rays\": \"inputs/rays.npy\""));
+  EXPECT_THAT(
+    text, HasSubstr("\"distortion\": [],\n      \"shift\": [1.0, 2.0],\n      \"rays\": \"inputs/rays.npy\""));
   writeFile(folder.path("cameras.json"), text);
   const CameraRecord read = readCameras(folder.path("cameras.json")).at(0);
   EXPECT_FALSE(read.hasK);
@@ -190,9 +191,9 @@ TEST(Objects, RoundTrip)
   EXPECT_EQ(text,
     "{\n  \"objects\": [\n"
     "    {\"id\": 1, \"name\": \"\xc3\xa4\", \"class\": \"tree\", \"class_id\": 1, \"model\": \"t.ac\", "
-    "\"triangles\": 12},\n"
+    "\"triangles\": 12, \"static\": false, \"deforming\": false},\n"
     "    {\"id\": 2, \"name\": \"b\xee\xbf\xbf\", \"class\": \"\", \"class_id\": 2, \"model\": "
-    "\"m.obj\", \"triangles\": 7}\n"
+    "\"m.obj\", \"triangles\": 7, \"static\": false, \"deforming\": false}\n"
     "  ],\n  \"classes\": [\n    {\"id\": 1, \"name\": \"tree\"},\n    {\"id\": 2, \"name\": \"\"}\n  ]\n}\n");
   writeFile(folder.path("objects.json"), text);
   EXPECT_EQ(objectsText(readObjects(folder.path("objects.json"))), text);
@@ -385,4 +386,107 @@ TEST(ObjectDocuments, RefusalsNameThePlace)
   EXPECT_THAT(messageOf([&] { readPoints(path); }), HasSubstr("points[0].x has the wrong type"));
   writeFile(path, "{\"objects\": [{\"id\": 0}]}");
   EXPECT_THAT(messageOf([&] { readBoxes(path); }), HasSubstr("objects[0].id is out of range"));
+}
+
+TEST(DatasetDocuments, ClassesObjectsAndPosesReadBack)
+{
+  const TemporaryFolder folder;
+  ObjectRecord object{ 2, "o", "car", 3, "t.ac", 12 };
+  object.isStatic = true;
+  object.geometry = std::string(64, 'a');
+  object.geometryFile = "models/aaaaaaaaaaaaaaaa.ply";
+  ClassRecord car{ 3, "car" };
+  car.supercategory = "vehicle";
+  car.thing = false;
+  car.color = { 1, 2, 255 };
+  car.keypoints = { "nose", "tail" };
+  car.skeleton = { { 1, 2 } };
+  writeFile(folder.path("objects.json"), objectsText({ object }, { car, { 1, "tree" } }));
+  const ObjectRecord read = readObjects(folder.path("objects.json")).at(0);
+  EXPECT_TRUE(read.isStatic);
+  EXPECT_FALSE(read.deforming);
+  EXPECT_EQ(read.geometry, object.geometry);
+  EXPECT_EQ(read.geometryFile, object.geometryFile);
+  const std::vector<ClassRecord> classes = readClasses(folder.path("objects.json"));
+  ASSERT_EQ(classes.size(), 2u);
+  EXPECT_FALSE(classes[0].thing);
+  EXPECT_EQ(classes[1].supercategory, "vehicle");
+  EXPECT_EQ(classes[1].thing, false);
+  EXPECT_EQ(classes[1].color, car.color);
+  EXPECT_EQ(classes[1].keypoints, car.keypoints);
+  EXPECT_EQ(classes[1].skeleton, car.skeleton);
+
+  PoseRecord sheared;
+  sheared.frame = 7;
+  sheared.id = 2;
+  sheared.visible = false;
+  sheared.matrix(0, 1) = 0.1 + 0.2;
+  sheared.t = { 1, 2, 3 };
+  PoseRecord first;
+  first.id = 2;
+  first.rigid = true;
+  first.scale = { -1, 1, 2 };
+  PoseRecord second = first;
+  second.id = 1;
+  writeFile(folder.path("poses.json"), posesText({ sheared, first, second }));
+  const std::vector<PoseRecord> poses = readPoses(folder.path("poses.json"));
+  ASSERT_EQ(poses.size(), 3u);
+  EXPECT_EQ(poses[0].id, 1u);
+  EXPECT_EQ(poses[1].scale, first.scale);
+  EXPECT_TRUE(poses[1].rigid);
+  EXPECT_EQ(poses[2].frame, 7);
+  EXPECT_FALSE(poses[2].visible);
+  EXPECT_FALSE(poses[2].rigid);
+  EXPECT_EQ(poses[2].matrix, sheared.matrix);
+  EXPECT_EQ(poses[2].t, sheared.t);
+}
+
+TEST(DatasetDocuments, WhatTheFirstDatasetsDoNotSay)
+{
+  const TemporaryFolder folder;
+  writeFile(folder.path("objects.json"),
+    R"({"objects": [{"id": 1, "name": "o", "class": "c", "class_id": 4, "model": "m", "triangles": 1}]})");
+  EXPECT_EQ(readObjects(folder.path("objects.json")).at(0).geometry, "");
+  EXPECT_EQ(readClasses(folder.path("objects.json")).at(0).name, "c");
+  Manifest manifest;
+  writeFile(folder.path("manifest.json"), manifestText(manifest));
+  EXPECT_EQ(readManifest(folder.path("manifest.json")).metresPerUnit, 0);
+  manifest.metresPerUnit = 0.001;
+  manifest.fps = 12.5;
+  manifest.info = { { "license", "CC0" } };
+  std::string text = manifestText(manifest);
+  writeFile(folder.path("manifest.json"), text);
+  EXPECT_EQ(readManifest(folder.path("manifest.json")).metresPerUnit, 0.001);
+  EXPECT_EQ(readManifest(folder.path("manifest.json")).fps, 12.5);
+  EXPECT_EQ(readManifest(folder.path("manifest.json")).info, manifest.info);
+  for (const char* key : { "\"metres_per_unit\"", "\"fps\"", "\"info\"" })
+  {
+    text.replace(text.find(key) + 1, 1, "_"); // of no meaning to anybody
+  }
+  writeFile(folder.path("manifest.json"), text);
+  const Manifest old = readManifest(folder.path("manifest.json"));
+  EXPECT_EQ(old.metresPerUnit, 0);
+  EXPECT_EQ(old.fps, 0);
+  EXPECT_TRUE(old.info.empty());
+}
+
+TEST(DatasetDocuments, KeypointsOfBoxesReadBack)
+{
+  const TemporaryFolder folder;
+  BoxRecord with;
+  with.id = 1;
+  with.keypoints = { { "nose", { 1, 2, 3 }, Eigen::Vector2d(4.5, -6), 3 }, { "tail", { 0, 0, -1 }, std::nullopt, 5 } };
+  BoxRecord without;
+  without.id = 2;
+  const std::string text = boxesText("left", 0, { with, without });
+  EXPECT_EQ(text.find("keypoints"), text.rfind("keypoints")) << text;
+  writeFile(folder.path("b.json"), text);
+  const std::vector<BoxRecord> read = readBoxes(folder.path("b.json"));
+  ASSERT_EQ(read.at(0).keypoints.size(), 2u);
+  EXPECT_EQ(read[0].keypoints[0].name, "nose");
+  EXPECT_EQ(read[0].keypoints[0].x, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(read[0].keypoints[0].pixel, Eigen::Vector2d(4.5, -6));
+  EXPECT_EQ(read[0].keypoints[0].visibility, 3);
+  EXPECT_FALSE(read[0].keypoints[1].pixel);
+  EXPECT_TRUE(read[1].keypoints.empty());
 }
