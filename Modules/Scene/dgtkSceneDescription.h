@@ -219,9 +219,9 @@ struct ClassDescription
 {
   std::string name;                              ///< "": of objects without a class
   int id = 0;                                    ///< 1 to largestClassId, unique
-  std::string supercategory;                     ///< a class of classes, free text; may be empty
-  std::optional<bool> thing;                     ///< what can be counted; false: stuff, such as sky
-  std::optional<std::array<int, 3>> color;       ///< sRGB, 0 to 255
+  std::string supercategory = {};                ///< a class of classes, free text; may be empty
+  std::optional<bool> thing = {};                ///< what can be counted; false: stuff, such as sky
+  std::optional<std::array<int, 3>> color = {};  ///< sRGB, 0 to 255
   std::vector<std::string> keypoints = {};       ///< names; not empty: those that its objects may have
   std::vector<std::array<int, 2>> skeleton = {}; ///< pairs of `keypoints`, from 1
 };

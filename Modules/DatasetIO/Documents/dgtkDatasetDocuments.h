@@ -57,8 +57,8 @@ struct ObjectRecord
   bool deforming = false; ///< its vertices move in its own frame
   /// 64 hexadecimal digits, of its triangles and their look at the scene's first frame: equal for objects of equal
   /// model. "": not known, in the first datasets.
-  std::string geometry;
-  std::string geometryFile; ///< a PLY file of it, relative to the dataset; "": none
+  std::string geometry = {};
+  std::string geometryFile = {}; ///< a PLY file of it, relative to the dataset; "": none
 };
 
 /// A class of objects, as in objects.json. Only id and name are always known.
@@ -66,11 +66,11 @@ struct ClassRecord
 {
   std::uint32_t id = 0; ///< value of the `classes` layer, >= 1
   std::string name;
-  std::string supercategory;
-  std::optional<bool> thing;                ///< what can be counted; false: stuff
-  std::optional<std::array<int, 3>> color;  ///< sRGB, 0 to 255
-  std::vector<std::string> keypoints;       ///< names
-  std::vector<std::array<int, 2>> skeleton; ///< pairs of `keypoints`, from 1
+  std::string supercategory = {};
+  std::optional<bool> thing = {};                ///< what can be counted; false: stuff
+  std::optional<std::array<int, 3>> color = {};  ///< sRGB, 0 to 255
+  std::vector<std::string> keypoints = {};       ///< names
+  std::vector<std::array<int, 2>> skeleton = {}; ///< pairs of `keypoints`, from 1
 };
 
 /// Where an object is at a frame, as in poses.json.

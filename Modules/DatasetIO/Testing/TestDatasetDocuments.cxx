@@ -8,7 +8,6 @@
 #include "dgtkObjectDocuments.h"
 #include "dgtkTestImages.h"
 #include "dgtkTestSupport.h"
-#include "dgtkTrackDocuments.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -193,9 +192,9 @@ TEST(Objects, RoundTrip)
   EXPECT_EQ(text,
     "{\n  \"objects\": [\n"
     "    {\"id\": 1, \"name\": \"\xc3\xa4\", \"class\": \"tree\", \"class_id\": 1, \"model\": \"t.ac\", "
-    "\"triangles\": 12},\n"
+    "\"triangles\": 12, \"static\": false, \"deforming\": false},\n"
     "    {\"id\": 2, \"name\": \"b\xee\xbf\xbf\", \"class\": \"\", \"class_id\": 2, \"model\": "
-    "\"m.obj\", \"triangles\": 7}\n"
+    "\"m.obj\", \"triangles\": 7, \"static\": false, \"deforming\": false}\n"
     "  ],\n  \"classes\": [\n    {\"id\": 1, \"name\": \"tree\"},\n    {\"id\": 2, \"name\": \"\"}\n  ]\n}\n");
   writeFile(folder.path("objects.json"), text);
   EXPECT_EQ(objectsText(readObjects(folder.path("objects.json"))), text);
@@ -405,67 +404,105 @@ TEST(ObjectDocuments, RefusalsNameThePlace)
   EXPECT_THAT(messageOf([&] { readBoxes(path); }), HasSubstr("objects[0].id is out of range"));
 }
 
-TEST(TrackDocuments, PointsAndPlacesAreReadAsWritten)
+TEST(DatasetDocuments, ClassesObjectsAndPosesReadBack)
 {
   const TemporaryFolder folder;
-  TrackPoint point;
-  point.object = 3;
-  point.triangle = 12;
-  point.barycentric = Eigen::Vector3d(0.1, 0.2, 0.7);
-  point.x = Eigen::Vector3d(1e-300, -2, 1.0 / 3);
-  point.color[0] = 255;
-  point.color[2] = 7;
-  point.isStatic = true;
-  point.camera = "left \"1\"";
-  point.frame = -4;
-  TrackPoint other;
-  other.object = 1;
-  const std::string text = tracksText({ point, other });
-  const std::string path = folder.path("points.json");
-  writeFile(path, text);
-  const std::vector<TrackPoint> read = readTrackPoints(path);
-  EXPECT_EQ(tracksText(read), text);
-  ASSERT_EQ(read.size(), 2u);
-  EXPECT_EQ(read[0].barycentric, point.barycentric);
-  EXPECT_EQ(read[0].x, point.x);
-  EXPECT_EQ(read[0].camera, point.camera);
-  EXPECT_TRUE(read[0].isStatic);
-  EXPECT_FALSE(read[1].isStatic);
-  writeFile(path, tracksText({}));
-  EXPECT_TRUE(readTrackPoints(path).empty());
+  ObjectRecord object{ 2, "o", "car", 3, "t.ac", 12 };
+  object.isStatic = true;
+  object.geometry = std::string(64, 'a');
+  object.geometryFile = "models/aaaaaaaaaaaaaaaa.ply";
+  ClassRecord car{ 3, "car" };
+  car.supercategory = "vehicle";
+  car.thing = false;
+  car.color = { 1, 2, 255 };
+  car.keypoints = { "nose", "tail" };
+  car.skeleton = { { 1, 2 } };
+  writeFile(folder.path("objects.json"), objectsText({ object }, { car, { 1, "tree" } }));
+  const ObjectRecord read = readObjects(folder.path("objects.json")).at(0);
+  EXPECT_TRUE(read.isStatic);
+  EXPECT_FALSE(read.deforming);
+  EXPECT_EQ(read.geometry, object.geometry);
+  EXPECT_EQ(read.geometryFile, object.geometryFile);
+  const std::vector<ClassRecord> classes = readClasses(folder.path("objects.json"));
+  ASSERT_EQ(classes.size(), 2u);
+  EXPECT_FALSE(classes[0].thing);
+  EXPECT_EQ(classes[1].supercategory, "vehicle");
+  EXPECT_EQ(classes[1].thing, false);
+  EXPECT_EQ(classes[1].color, car.color);
+  EXPECT_EQ(classes[1].keypoints, car.keypoints);
+  EXPECT_EQ(classes[1].skeleton, car.skeleton);
 
-  const std::string file = folder.path("000001.npy");
-  writeFile(file, trackPlacesNpy({ { 1.5, -2.25, 1 }, { std::nan(""), std::nan(""), 5 } }));
-  const std::vector<TrackPlace> places = readTrackPlaces(file, 2);
-  ASSERT_EQ(places.size(), 2u);
-  EXPECT_EQ(places[0].v, -2.25);
-  EXPECT_EQ(places[0].visibility, 1);
-  EXPECT_TRUE(std::isnan(places[1].u));
-  const ImageData image = readLayerFile(file);
-  EXPECT_EQ(image.info.width, 3);
-  EXPECT_EQ(image.info.height, 2);
-  EXPECT_EQ(image.pixels.row<double>(0)[1], -2.25);
-  EXPECT_THAT(messageOf([&] { readTrackPlaces(file, 3); }), HasSubstr("expected 3 x 3 float64, found 2 x 3 float64"));
-  EXPECT_TRUE(readTrackPlaces(file, 0).empty());
+  PoseRecord sheared;
+  sheared.frame = 7;
+  sheared.id = 2;
+  sheared.visible = false;
+  sheared.matrix(0, 1) = 0.1 + 0.2;
+  sheared.t = { 1, 2, 3 };
+  PoseRecord first;
+  first.id = 2;
+  first.rigid = true;
+  first.scale = { -1, 1, 2 };
+  PoseRecord second = first;
+  second.id = 1;
+  writeFile(folder.path("poses.json"), posesText({ sheared, first, second }));
+  const std::vector<PoseRecord> poses = readPoses(folder.path("poses.json"));
+  ASSERT_EQ(poses.size(), 3u);
+  EXPECT_EQ(poses[0].id, 1u);
+  EXPECT_EQ(poses[1].scale, first.scale);
+  EXPECT_TRUE(poses[1].rigid);
+  EXPECT_EQ(poses[2].frame, 7);
+  EXPECT_FALSE(poses[2].visible);
+  EXPECT_FALSE(poses[2].rigid);
+  EXPECT_EQ(poses[2].matrix, sheared.matrix);
+  EXPECT_EQ(poses[2].t, sheared.t);
 }
 
-TEST(TrackDocuments, RefusalsNameThePlace)
+TEST(DatasetDocuments, WhatTheFirstDatasetsDoNotSay)
 {
   const TemporaryFolder folder;
-  const std::string path = folder.path("points.json");
-  TrackPoint point;
-  point.object = 1;
-  const std::string text = tracksText({ point });
-  const auto with = [&](const std::string& from, const std::string& to)
+  writeFile(folder.path("objects.json"),
+    R"({"objects": [{"id": 1, "name": "o", "class": "c", "class_id": 4, "model": "m", "triangles": 1}]})");
+  EXPECT_EQ(readObjects(folder.path("objects.json")).at(0).geometry, "");
+  EXPECT_EQ(readClasses(folder.path("objects.json")).at(0).name, "c");
+  Manifest manifest;
+  writeFile(folder.path("manifest.json"), manifestText(manifest));
+  EXPECT_EQ(readManifest(folder.path("manifest.json")).metresPerUnit, 0);
+  manifest.metresPerUnit = 0.001;
+  manifest.fps = 12.5;
+  manifest.info = { { "license", "CC0" } };
+  std::string text = manifestText(manifest);
+  writeFile(folder.path("manifest.json"), text);
+  EXPECT_EQ(readManifest(folder.path("manifest.json")).metresPerUnit, 0.001);
+  EXPECT_EQ(readManifest(folder.path("manifest.json")).fps, 12.5);
+  EXPECT_EQ(readManifest(folder.path("manifest.json")).info, manifest.info);
+  for (const char* key : { "\"metres_per_unit\"", "\"fps\"", "\"info\"" })
   {
-    std::string changed = text;
-    changed.replace(changed.find(from), from.size(), to);
-    writeFile(path, changed);
-    return messageOf([&] { readTrackPoints(path); });
-  };
-  EXPECT_EQ(with("[0, 0, 0]", "[0, 255, 0]"), "");
-  EXPECT_THAT(with("[0, 0, 0]", "[0, 256, 0]"), HasSubstr(path + ":3: points[0].color[1] is out of range"));
-  EXPECT_THAT(with("\"object\": 1", "\"object\": 0"), HasSubstr("points[0].object is out of range"));
-  EXPECT_THAT(with("false", "0"), HasSubstr("points[0].static has the wrong type"));
-  EXPECT_THAT(with("\"frame\": 0", "\"time\": 0"), HasSubstr("points[0]"));
+    text.replace(text.find(key) + 1, 1, "_"); // of no meaning to anybody
+  }
+  writeFile(folder.path("manifest.json"), text);
+  const Manifest old = readManifest(folder.path("manifest.json"));
+  EXPECT_EQ(old.metresPerUnit, 0);
+  EXPECT_EQ(old.fps, 0);
+  EXPECT_TRUE(old.info.empty());
+}
+
+TEST(DatasetDocuments, KeypointsOfBoxesReadBack)
+{
+  const TemporaryFolder folder;
+  BoxRecord with;
+  with.id = 1;
+  with.keypoints = { { "nose", { 1, 2, 3 }, Eigen::Vector2d(4.5, -6), 3 }, { "tail", { 0, 0, -1 }, std::nullopt, 5 } };
+  BoxRecord without;
+  without.id = 2;
+  const std::string text = boxesText("left", 0, { with, without });
+  EXPECT_EQ(text.find("keypoints"), text.rfind("keypoints")) << text;
+  writeFile(folder.path("b.json"), text);
+  const std::vector<BoxRecord> read = readBoxes(folder.path("b.json"));
+  ASSERT_EQ(read.at(0).keypoints.size(), 2u);
+  EXPECT_EQ(read[0].keypoints[0].name, "nose");
+  EXPECT_EQ(read[0].keypoints[0].x, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(read[0].keypoints[0].pixel, Eigen::Vector2d(4.5, -6));
+  EXPECT_EQ(read[0].keypoints[0].visibility, 3);
+  EXPECT_FALSE(read[0].keypoints[1].pixel);
+  EXPECT_TRUE(read[1].keypoints.empty());
 }

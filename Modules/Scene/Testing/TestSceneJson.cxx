@@ -161,6 +161,60 @@ TEST(SceneJson, ClassesKeepTheirNumbersAndTheirFile)
   EXPECT_EQ(moved.classes.size(), 2u);
 }
 
+TEST(SceneJson, WhatClassesSayIsKept)
+{
+  const TemporaryFolder folder;
+  const SceneDescription scene = readText(folder, "a.json",
+    R"({"classes": {"car": {"id": 3, "supercategory": "vehicle", "thing": true, "color": [1, 2, 255],
+      "keypoints": ["nose", "tail"], "skeleton": [[1, 2], [2, 1]]}, "sky": {"thing": false, "id": 1}, "tree": {"id": 2}}})");
+  const ClassDescription& car = scene.classes.at(0);
+  EXPECT_EQ(car.supercategory, "vehicle");
+  EXPECT_EQ(car.thing, true);
+  EXPECT_EQ(car.color, (std::array<int, 3>{ 1, 2, 255 }));
+  EXPECT_EQ(car.keypoints, (std::vector<std::string>{ "nose", "tail" }));
+  EXPECT_EQ(car.skeleton, (std::vector<std::array<int, 2>>{ { 1, 2 }, { 2, 1 } }));
+  EXPECT_EQ(scene.classes.at(1).thing, false);
+  EXPECT_FALSE(scene.classes.at(2).thing);
+  const std::string once = toJson(scene, folder.path());
+  EXPECT_EQ(toJson(readText(folder, "b.json", once), folder.path()), once);
+  EXPECT_NE(once.find("\"skeleton\": [[1, 2], [2, 1]]"), std::string::npos) << once;
+  EXPECT_NE(once.find("\"tree\": 2"), std::string::npos) << "a number alone stays one: " << once;
+}
+
+TEST(SceneJson, KeypointsAndTheDatasetAreKept)
+{
+  const TemporaryFolder folder;
+  const SceneDescription scene = readText(folder, "a.json",
+    R"({"metresPerUnit": 0.25, "dataset": {"url": "u", "name": "n"},
+      "objects": [{"model": "a.ac", "keypoints": {"nose": [1, 2.5, 3], "tip": 7}}]})");
+  EXPECT_EQ(scene.metres(), 0.25);
+  EXPECT_EQ(scene.dataset, (std::map<std::string, std::string>{ { "name", "n" }, { "url", "u" } }));
+  const std::vector<KeypointDescription>& points = scene.objects.at(0).keypoints;
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points[0].name, "nose");
+  EXPECT_EQ(points[0].position, Vector(1, 2.5, 3));
+  EXPECT_FALSE(points[0].vertex);
+  EXPECT_EQ(points[1].vertex, 7u);
+  const std::string once = toJson(scene, folder.path());
+  EXPECT_EQ(toJson(readText(folder, "b.json", once), folder.path()), once);
+  EXPECT_LT(once.find("\"name\": \"n\""), once.find("\"url\": \"u\"")) << "in the order of the words";
+}
+
+TEST(SceneJson, UnitsOfLength)
+{
+  const std::pair<const char*, double> table[] = { { "m", 1 }, { "mm", 1e-3 }, { "Metres", 1 }, { "meter", 1 },
+    { "MILLIMETERS", 1e-3 }, { "kilometre", 1e3 }, { "\xc2\xb5m", 1e-6 }, { "inches", 0.0254 }, { "in", 0.0254 },
+    { "Feet", 0.3048 }, { "foot", 0.3048 }, { "yards", 0.9144 }, { "mile", 1609.344 }, { "dm", 0.1 }, { "", 0 },
+    { "Mm", 0 }, { "s", 0 }, { "ms", 0 }, { "units", 0 }, { "meterx", 0 } };
+  for (const auto& [name, metres] : table)
+  {
+    EXPECT_EQ(metresOfUnit(name), metres) << name;
+    SceneDescription scene;
+    scene.units = name;
+    EXPECT_EQ(scene.metres(), metres);
+  }
+}
+
 TEST(SceneJson, ATextThatIsInNoFile)
 {
   const TemporaryFolder folder;

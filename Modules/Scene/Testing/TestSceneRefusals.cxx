@@ -136,7 +136,8 @@ TEST(SceneRefusals, JsonValues)
   const std::vector<Case> cases{
     { "{\n\"backgroud\": [0, 0, 0]\n}", "a.json:2: backgroud is an unknown key (expected perhaps 'background', found "
                                         "'backgroud')" },
-    { "{\n\"zzz\": 1\n}", "a.json:2: zzz is an unknown key (expected one of $schema, version, units, upAxis, fps" },
+    { "{\n\"zzz\": 1\n}",
+      "a.json:2: zzz is an unknown key (expected one of $schema, version, dataset, units, metresPerUnit, upAxis, fps" },
     { "{\n\"version\": 2\n}", "a.json:2: version is out of range (expected 1, found 2)" },
     { "{\n\"fps\": \"25\"\n}", "a.json:2: fps has the wrong type (expected a number above 0, up to 1e6, found '25')" },
     { "{\n\"fps\": 0\n}", "a.json:2: fps is out of range" },
@@ -308,6 +309,14 @@ TEST(SceneRefusals, WhatThesisScenesCannotSay)
     { [](auto& s) { s.fps = 30; }, "scene: fps cannot be said in .scene" },
     { [](auto& s) { s.background = Vector(1, 0, 0); }, "scene: background cannot be said" },
     { [](auto& s) { s.units = "m"; }, "scene: units cannot be said" },
+    { [](auto& s) { s.metresPerUnit = 2; }, "scene: metresPerUnit cannot be said" },
+    { [](auto& s) { s.dataset["name"] = "x"; }, "scene: dataset cannot be said" },
+    { [](auto& s)
+      {
+        s.objects[0].keypoints.resize(1);
+        s.objects[0].keypoints[0].name = "a";
+      },
+      "object 'a-1': keypoints cannot be said" },
     { [](auto& s) { s.upAxis = UpAxis::Z; }, "scene: upAxis cannot be said" },
     { [](auto& s) { s.seed = 1; }, "scene: seed cannot be said" },
     { [](auto& s) {
@@ -477,7 +486,18 @@ TEST(SceneRefusals, Classes)
   EXPECT_THAT(of("{\"tree\": 1.5}"), HasSubstr("classes.tree is not a whole number"));
   EXPECT_THAT(of("{\"tree\": \"1\"}"), HasSubstr("classes.tree has the wrong type"));
   EXPECT_THAT(of("{\"tree\": {}}"), HasSubstr("classes.tree has no number"));
-  EXPECT_THAT(of("{\"tree\": {\"id\": 1, \"color\": 2}}"), HasSubstr("classes.tree.color is an unknown key"));
+  EXPECT_THAT(of("{\"tree\": {\"id\": 1, \"colour\": 2}}"), HasSubstr("classes.tree.colour is an unknown key"));
+  EXPECT_THAT(of("{\"tree\": {\"id\": 1, \"color\": 2}}"), HasSubstr("classes.tree.color has the wrong type"));
+  EXPECT_THAT(of("{\"tree\": {\"id\": 1, \"color\": [0, 1]}}"), HasSubstr("classes.tree.color"));
+  EXPECT_THAT(of("{\"tree\": {\"id\": 1, \"color\": [0, -1, 1]}}"), HasSubstr("color[1] is out of range"));
+  EXPECT_THAT(of("{\"tree\": {\"id\": 1, \"skeleton\": [[1, 2]], \"keypoints\": [\"a\"]}}"), HasSubstr("[1, 2]"));
+  EXPECT_EQ(of("{\"tree\": {\"id\": 1, \"skeleton\": [[1, 2]], \"keypoints\": [\"a\", \"b\"]}}"), "");
+  EXPECT_THAT(
+    of("{\"tree\": {\"id\": 1, \"skeleton\": [[2, 2]], \"keypoints\": [\"a\", \"b\"]}}"), HasSubstr("[2, 2]"));
+  EXPECT_THAT(of("{\"tree\": {\"id\": 1, \"keypoints\": [\"a\", \"a\"]}}"), HasSubstr("keypoints[1] is named twice"));
+  EXPECT_THAT(
+    of("{\"tree\": {\"id\": 1, \"keypoints\": [\"nose\"]}}", "\"class\": \"tree\", \"keypoints\": {\"nase\": 1}"),
+    HasSubstr("objects[0].keypoints names what is none of class 'tree' (expected perhaps 'nose', found 'nase')"));
   EXPECT_THAT(of("{\"tree\": 3, \"car\": 3}"), HasSubstr("a.json:1: classes.car is taken"));
   EXPECT_THAT(of("{\"tree\": 3, \"tree\": 4}"), HasSubstr("tree"));
   EXPECT_THAT(of("{}"), HasSubstr("classes names no class"));
