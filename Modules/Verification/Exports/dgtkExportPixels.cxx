@@ -66,6 +66,10 @@ struct Decoder
 constexpr Decoder decoders[] = {
   { "linear", &decodeLinear },
   { "float", &decodeFloat },
+  { "dpt", &decodeDpt },
+  { "flow-pfm", &decodeFlowPfm },
+  { "kitti-flow", &decodeKittiFlow },
+  { "sintel-disparity", &decodeSintelDisparity },
 };
 
 const Decoder* findDecoder(const std::string& kind)
@@ -253,11 +257,17 @@ void judgeValues(const Comparison& one, const Decoder& decoder, Meter& meter)
   forPixels(found.width, found.height,
     [&](int x, int y)
     {
-      for (int c = 0; c < found.channels && c < expected.channels(); ++c)
+      const int channels = std::min(found.channels, expected.channels());
+      bool there = true; // a pixel is there with all its values, or not at all
+      for (int c = 0; c < channels; ++c)
+      {
+        const double want = expected.at(x, y, c);
+        there = there && std::isfinite(want) && hasCode(one.encoding(), want);
+      }
+      for (int c = 0; c < channels; ++c)
       {
         const double value = found.at(x, y, c);
         const double want = expected.at(x, y, c);
-        const bool there = std::isfinite(want) && hasCode(one.encoding(), want);
         const double slack = codes ? 1e-12 * std::abs(want) : half * std::abs(want);
         const double apart = there ? std::max(0.0, std::abs(value - want) - slack) : 0;
         meter.add(std::isfinite(value) == there ? apart : infinite, [&] { return offenderAt(one, x, y, value, want); });

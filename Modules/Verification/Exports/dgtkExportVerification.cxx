@@ -14,6 +14,7 @@ namespace dgtk
 {
 
 void readCoco(ExportJudge& judge);
+void readKitti2015(ExportJudge& judge);
 
 namespace
 {
@@ -25,6 +26,7 @@ struct Reader
 /// Each is dgtkRead<Name>.cxx.
 constexpr Reader readers[] = {
   { "coco", &readCoco },
+  { "kitti2015", &readKitti2015 },
 };
 
 /// Files that export.json lists are there and as it says, and there are no others.
