@@ -3,6 +3,7 @@
 
 #include "dgtkCameraEntry.h"
 #include "dgtkError.h"
+#include "dgtkExport.h"
 #include "dgtkExporterEntry.h"
 #include "dgtkGLContext.h"
 #include "dgtkGenerator.h"
@@ -168,21 +169,41 @@ void describeCameras(Json& rows)
   }
 }
 
-void describeOptions(Json& rows)
+void describeOption(Json& row, const OptionRow& option)
 {
   static const char* const kinds[] = { "switch", "integer", "choice", "names", "size", "numbers" };
+  row["kind"] = kinds[static_cast<int>(option.kind)];
+  if (option.most > 0)
+  {
+    row["least"] = option.least;
+    row["most"] = option.most;
+  }
+  if (!option.choices.empty())
+  {
+    row["choices"] = option.choices;
+  }
+}
+
+void describeOptions(Json& rows)
+{
   for (Json& row : rows)
   {
-    const OptionRow& option = requestOption(row["name"].get<std::string>());
-    row["kind"] = kinds[static_cast<int>(option.kind)];
-    if (option.most > 0)
+    describeOption(row, requestOption(row["name"].get<std::string>()));
+  }
+}
+
+/// Options that a format has beside those of all.
+void describeExporters(Json& rows)
+{
+  for (Json& row : rows)
+  {
+    row["options"] = Json::array();
+    for (const OptionRow* option : findExporter(row["format"].get<std::string>()).make()->options())
     {
-      row["least"] = option.least;
-      row["most"] = option.most;
-    }
-    if (!option.choices.empty())
-    {
-      row["choices"] = option.choices;
+      Json described{ { "name", option->name }, { "value", option->value }, { "default", option->fallback },
+        { "help", option->help } };
+      describeOption(described, *option);
+      row["options"].push_back(described);
     }
   }
 }
@@ -252,7 +273,7 @@ const std::vector<Section>& sections()
     { "options", &options, { "name", "value", "default", "help" }, &describeOptions },
     { "writers", &writers, { "format", "extension", "description" } },
     { "cameras", &cameras, { "model", "description" }, &describeCameras },
-    { "exporters", &exporters, { "format", "layers", "description" } },
+    { "exporters", &exporters, { "format", "layers", "description" }, &describeExporters },
     { "gl", &gl, { "backend", "state", "description" } },
     { "commands", &commandRows, { "command", "arguments", "help" }, &describeCommands } };
   return all;

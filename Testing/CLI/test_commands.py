@@ -19,6 +19,7 @@ HELP = {
         ("--shadows", "for .pov: objects cast shadows"),
         ("--no-cache", "read models anew, and keep none of them for other runs")]),
     "verify": ("DIR", "Derives anew what a dataset claims, prints residuals; exits with 1 on a breach.", [
+        ("--export DIR", "read an export of the dataset back and compare it, instead of the dataset itself"),
         ("--check NAME,...", "only these checks, by the names of the table [all]"),
         ("--json", "print one JSON object"),
         ("--write", "also write DIR/verification.json"),
@@ -39,7 +40,7 @@ HELP = {
         ("--to CAMERA", "a camera of the dataset, NAME[@FRAME], or a .json file with K, R, t, width, height"),
         ("--layers N", "use the first N surfaces of each pixel (1: a depth map); 0: all [0]"),
         ("--mask FILE.png", "also write where no sample fell (255)")]),
-    "list": ("[readers|layers|options|writers|cameras|gl|commands]", "Lists what this program can read, derive and write.", [
+    "list": ("[readers|layers|options|writers|cameras|exporters|gl|commands]", "Lists what this program can read, derive and write.", [
         ("--json", "as JSON, with all that is known of commands, layers and options")]),
 }
 
@@ -83,6 +84,10 @@ def told(value, indent=""):
     return text
 
 
+LONG = {"render": "Renders images and ground truth of a scene into a folder.",
+        "export": "Writes a dataset in the format of other people's tools."}
+
+
 class Pages(Case):
     def test_every_page_of_help(self):
         for command, (arguments, help_, options) in HELP.items():
@@ -93,6 +98,7 @@ class Pages(Case):
         layers = ",".join(row.split()[0] for row in self.dgtk("list", "layers").stdout.splitlines()
                           if row.split()[0] in ("color", "depth", "objects", "calibration"))
         options = [("--output DIR", "folder of the dataset"), ("--layers NAMES|all", f"what to write; see dgtk list layers [{layers}]"),
+                   ("--for EXPORTER,...", "what these exports need, beside the layers that are given"),
                    ("--cameras NAMES", "some of the cameras (default: all)"), ("--frames A[:B[:STEP]]", "some of the frames (default: all)"),
                    ("--size WxH", "size of the images in pixels (default: the camera's own, else 640x480)")]
         for row in rows:
@@ -109,8 +115,8 @@ class Pages(Case):
 
     def test_the_overview(self):
         expected = "usage: dgtk COMMAND [arguments] [options]\n\nImages and exact ground truth from described 3D scenes.\n\n"
-        for command in ("render", "info", "convert", "verify", "correspond", "compare", "warp", "list"):
-            help_ = HELP[command][1] if command in HELP else "Renders images and ground truth of a scene into a folder."
+        for command in ("render", "export", "info", "convert", "verify", "correspond", "compare", "warp", "list"):
+            help_ = HELP[command][1] if command in HELP else LONG[command]
             expected += f"  {command:12}{help_}\n"
         expected += "\ndgtk COMMAND --help tells more; dgtk --version prints the version.\n"
         for word in ("--help", "-h", "help"):
@@ -119,7 +125,7 @@ class Pages(Case):
     def test_every_table_has_the_rows_of_its_document(self):
         keys = {"readers": ["format", "extensions", "description"], "layers": ["layer", "formats", "description"],
                 "options": ["name", "value", "default", "help"], "writers": ["format", "extension", "description"],
-                "cameras": ["model", "description"], "gl": ["backend", "state", "description"],
+                "cameras": ["model", "description"], "exporters": ["format", "layers", "description"], "gl": ["backend", "state", "description"],
                 "commands": ["command", "arguments", "help"]}
         everything = json.loads(self.dgtk("list", "--json").stdout)
         self.assertEqual(list(everything), list(keys))
