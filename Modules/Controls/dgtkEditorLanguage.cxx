@@ -37,7 +37,11 @@ constexpr const char* stem = "dgtk-editor_";
 // Sentences of parts without Qt, and of the library where a dialog shows them beside the value.
 [[maybe_unused]] const char* const messages[] = { QT_TRANSLATE_NOOP(
                                                     "Message", "it needs a frame of the scene after the picture's own"),
+  QT_TRANSLATE_NOOP(
+    "Message", "it needs a frame of the scene after the picture's own, and two cameras side by side at both"),
   QT_TRANSLATE_NOOP("Message", "it needs a frame of the scene before the picture's own"),
+  QT_TRANSLATE_NOOP(
+    "Message", "it needs a frame of the scene before the picture's own, and two cameras side by side at both"),
   QT_TRANSLATE_NOOP(
     "Message", "it needs another camera in the run, or a pair of cameras that ends within the frames of the scene"),
   QT_TRANSLATE_NOOP("Message",

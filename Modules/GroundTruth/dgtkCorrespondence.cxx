@@ -117,6 +117,11 @@ private:
   void findOccluders(std::size_t count)
   {
     const View& view = this->Other.view;
+    if (this->Other.occlusion == nullptr)
+    {
+      std::fill(this->Before.begin(), this->Before.end(), Hit());
+      return;
+    }
     const OcclusionQuery& query = *this->Other.occlusion;
     if (view.instants)
     {

@@ -29,7 +29,7 @@ struct OtherView
 {
   const SceneState* state = nullptr; ///< of a view with `instants` it is not used
   View view;
-  const OcclusionQuery* occlusion = nullptr; ///< of `state`
+  const OcclusionQuery* occlusion = nullptr; ///< of `state`; null: what is in view counts as visible
 };
 
 /// Where a surface point is in another view.

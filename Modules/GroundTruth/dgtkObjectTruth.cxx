@@ -14,6 +14,8 @@ namespace dgtk
 namespace
 {
 constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Pixels around what is projected that count as its own.
+constexpr double margin = 0.5;
 /// Cosine between axes up to which they count as perpendicular.
 constexpr double perpendicular = 1e-9;
 
@@ -48,6 +50,20 @@ void ObjectPixels::append(const ObjectPixels& below)
   this->x1 = std::max(this->x1, below.x1);
   this->y1 = below.y1;
   this->runs.insert(this->runs.end(), below.runs.begin(), below.runs.end());
+}
+
+void ObjectPixels::unite(const ObjectPixels& others)
+{
+  if (others.count == 0)
+  {
+    return;
+  }
+  const bool first = this->count == 0;
+  this->count += others.count;
+  this->x0 = first ? others.x0 : std::min(this->x0, others.x0);
+  this->y0 = first ? others.y0 : std::min(this->y0, others.y0);
+  this->x1 = first ? others.x1 : std::max(this->x1, others.x1);
+  this->y1 = first ? others.y1 : std::max(this->y1, others.y1);
 }
 
 std::vector<std::uint64_t> columnRunLengths(const std::vector<PixelRun>& runs, int width, int height)
@@ -197,7 +213,7 @@ BlockObjects::BlockObjects(const SceneState& state, const View& view)
 {
   for (std::size_t i = 0; i < state.instances.size(); ++i)
   {
-    if (state.instances[i].visible)
+    if (state.instances[i].visible || view.instants)
     {
       this->markObject(static_cast<std::uint32_t>(i + 1), state.instances[i], view);
     }
@@ -221,45 +237,110 @@ void BlockObjects::mark(std::uint32_t object, double x0, double y0, double x1, d
   }
 }
 
-void BlockObjects::markObject(std::uint32_t object, const Instance& instance, const View& view)
+PixelRect BlockObjects::occupied(const PixelRect& rect) const
 {
-  constexpr double margin = 0.5; // pixels
-  struct Projected
+  const int left = rect.x >> shift;
+  const int right = (rect.x + rect.width - 1) >> shift;
+  int x0 = right + 1;
+  int x1 = left - 1;
+  int y0 = 0;
+  int y1 = -1;
+  for (int y = rect.y >> shift; y <= (rect.y + rect.height - 1) >> shift; ++y)
+  {
+    const std::uint32_t* row = this->Blocks.data() + std::size_t(y) * this->Columns;
+    for (int x = left; x <= right; ++x)
+    {
+      if (row[x] != 0)
+      {
+        x0 = std::min(x0, x);
+        x1 = std::max(x1, x);
+        y0 = y1 < 0 ? y : y0;
+        y1 = y;
+      }
+    }
+  }
+  PixelRect found{ rect.x, rect.y, 0, 0 };
+  if (x0 <= x1)
+  {
+    found.x = std::max(rect.x, x0 << shift);
+    found.y = std::max(rect.y, y0 << shift);
+    found.width = std::min(rect.x + rect.width, (x1 + 1) << shift) - found.x;
+    found.height = std::min(rect.y + rect.height, (y1 + 1) << shift) - found.y;
+  }
+  return found;
+}
+
+/// The part of a triangle beyond near, by its corners in the camera frame: a triangle that reaches behind the camera.
+void BlockObjects::markCut(std::uint32_t object, const Eigen::Vector3d corners[3], const View& view)
+{
+  Eigen::Array2d least = Eigen::Array2d::Constant(infinite);
+  Eigen::Array2d most = -least;
+  const auto add = [&](const Eigen::Vector3d& x)
   {
     Eigen::Vector2d pixel;
-    double z;
+    if (view.model->project(x, pixel))
+    {
+      least = least.min(pixel.array());
+      most = most.max(pixel.array());
+    }
   };
+  for (int i = 0; i < 3; ++i)
+  {
+    const Eigen::Vector3d& a = corners[i];
+    const Eigen::Vector3d& b = corners[(i + 1) % 3];
+    if (a.z() >= view.near)
+    {
+      add(a);
+    }
+    if ((a.z() >= view.near) != (b.z() >= view.near))
+    {
+      Eigen::Vector3d cut = a + (view.near - a.z()) / (b.z() - a.z()) * (b - a);
+      cut.z() = view.near;
+      add(cut);
+    }
+  }
+  if (least.x() <= most.x())
+  {
+    this->mark(object, least.x() - margin, least.y() - margin, most.x() + margin, most.y() + margin);
+  }
+}
+
+void BlockObjects::markObject(std::uint32_t object, const Instance& instance, const View& view)
+{
   if (!view.model->linear() || view.instants) // lines are curved
   {
     this->mark(object, 0, 0, view.model->width(), view.model->height());
     return;
   }
+  struct Projected
+  {
+    Eigen::Vector2d pixel;
+    bool seen;
+  };
   const Affine3 camera_from_object = view.camera_from_world * instance.world_from_object;
   const std::vector<Eigen::Vector3d>& positions = instance.geometry->positions;
   std::vector<Projected> vertices(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i)
   {
     const Eigen::Vector3d x = camera_from_object * positions[i];
-    vertices[i].z = x.z() >= view.near && view.model->project(x, vertices[i].pixel) ? x.z() : -infinite;
+    vertices[i].seen = x.z() >= view.near && view.model->project(x, vertices[i].pixel);
   }
   for (const auto& corners : instance.model->triangles)
   {
     const Projected* v[3] = { &vertices[corners[0]], &vertices[corners[1]], &vertices[corners[2]] };
-    const int before = (v[0]->z > 0) + (v[1]->z > 0) + (v[2]->z > 0);
-    if (before == 0)
+    if (v[0]->seen && v[1]->seen && v[2]->seen)
     {
-      continue;
+      this->mark(object, std::min({ v[0]->pixel.x(), v[1]->pixel.x(), v[2]->pixel.x() }) - margin,
+        std::min({ v[0]->pixel.y(), v[1]->pixel.y(), v[2]->pixel.y() }) - margin,
+        std::max({ v[0]->pixel.x(), v[1]->pixel.x(), v[2]->pixel.x() }) + margin,
+        std::max({ v[0]->pixel.y(), v[1]->pixel.y(), v[2]->pixel.y() }) + margin);
     }
-    if (before < 3)
+    else if (v[0]->seen || v[1]->seen || v[2]->seen)
     {
-      // lines through the near plane have no end in the image
-      this->mark(object, 0, 0, view.model->width(), view.model->height());
-      return;
+      const Eigen::Vector3d cut[3] = { camera_from_object * positions[corners[0]],
+        camera_from_object * positions[corners[1]], camera_from_object * positions[corners[2]] };
+      this->markCut(object, cut, view);
     }
-    this->mark(object, std::min({ v[0]->pixel.x(), v[1]->pixel.x(), v[2]->pixel.x() }) - margin,
-      std::min({ v[0]->pixel.y(), v[1]->pixel.y(), v[2]->pixel.y() }) - margin,
-      std::max({ v[0]->pixel.x(), v[1]->pixel.x(), v[2]->pixel.x() }) + margin,
-      std::max({ v[0]->pixel.y(), v[1]->pixel.y(), v[2]->pixel.y() }) + margin);
   }
 }
 

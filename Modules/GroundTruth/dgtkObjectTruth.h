@@ -50,6 +50,8 @@ struct ObjectPixels
   }
   /// Appends pixels of rows below these.
   DGTKGROUNDTRUTH_EXPORT void append(const ObjectPixels& below);
+  /// Adds other pixels from anywhere, without their runs.
+  DGTKGROUNDTRUTH_EXPORT void unite(const ObjectPixels& others);
 };
 
 /// COCO's uncompressed run lengths of a mask, column by column: outside first, then inside, in turn; they sum to
@@ -87,12 +89,15 @@ public:
   {
     return this->Blocks[std::size_t(y >> shift) * this->Columns + (x >> shift)] != object;
   }
+  /// The smallest part of a rectangle of the image outside which rays meet nothing; without height for none.
+  PixelRect occupied(const PixelRect& rect) const;
 
 private:
   static constexpr int shift = 3;
   static constexpr std::uint32_t several = 0xffffffff;
   void mark(std::uint32_t object, double x0, double y0, double x1, double y1);
   void markObject(std::uint32_t object, const Instance& instance, const View& view);
+  void markCut(std::uint32_t object, const Eigen::Vector3d corners[3], const View& view);
   int Columns;
   int RowCount;
   std::vector<std::uint32_t> Blocks; ///< 0, an id, or Several

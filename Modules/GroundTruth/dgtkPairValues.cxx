@@ -20,7 +20,7 @@ int channelsOf(PairValue value)
   }
 }
 
-void pairRows(const PixelRect& rect, const double* pixels, PairValue value, double* values)
+void pairRows(const PixelRect& rect, const double* pixels, PairValue value, double* values, const double* own)
 {
   const auto width = static_cast<std::size_t>(rect.width);
   const std::size_t count = width * static_cast<std::size_t>(rect.height);
@@ -28,8 +28,8 @@ void pairRows(const PixelRect& rect, const double* pixels, PairValue value, doub
   {
     const double x = pixels[2 * i];
     const double y = pixels[2 * i + 1];
-    const double ownX = rect.x + double(i % width) + 0.5;
-    const double ownY = rect.y + double(i / width) + 0.5;
+    const double ownX = own != nullptr ? own[2 * i] : rect.x + double(i % width) + 0.5;
+    const double ownY = own != nullptr ? own[2 * i + 1] : rect.y + double(i / width) + 0.5;
     switch (value)
     {
       case PairValue::Position:

@@ -23,8 +23,10 @@ enum class PairValue
 DGTKGROUNDTRUTH_EXPORT int channelsOf(PairValue value);
 
 /// One value, other than motion, of rows of full width: channelsOf(value) numbers a pixel in `values`, NaN where there
-/// is none. `pixels` is what correspondRows() gives.
-DGTKGROUNDTRUTH_EXPORT void pairRows(const PixelRect& rect, const double* pixels, PairValue value, double* values);
+/// is none. `pixels` is what correspondRows() gives. `own`, likewise: where the points are in the own camera at the
+/// time of the other view, in place of (x, y); null for the pixels' centres.
+DGTKGROUNDTRUTH_EXPORT void pairRows(
+  const PixelRect& rect, const double* pixels, PairValue value, double* values, const double* own = nullptr);
 
 /// Centre of camera b on the x axis of camera a, when the two are a rectified pair: two perspectives of one size, the
 /// same K but for the column of the principal point, one orientation, displaced along x only (to 1e-9). Otherwise 0.

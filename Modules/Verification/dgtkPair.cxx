@@ -52,6 +52,32 @@ std::optional<Pair> disparityPair(Picture& picture)
   return best;
 }
 
+int stepOf(const std::string& layer) { return layer.find("_forward") != std::string::npos ? 1 : -1; }
+
+/// The pair of `disparity`, where it still is one at the neighbouring frame.
+std::optional<Pair> movedDisparityPair(Picture& picture, const std::string& layer)
+{
+  Dataset& dataset = picture.dataset();
+  std::optional<Pair> pair = disparityPair(picture);
+  const int frame = picture.frame() + stepOf(layer);
+  if (!pair || !dataset.hasFrame(frame))
+  {
+    return std::nullopt;
+  }
+  const std::optional<Eye> own = dataset.eye(picture.camera(), frame, picture.eye().record());
+  const std::optional<Eye> other = dataset.eye(pair->camera, frame, picture.eye().record());
+  const double baseline = own && other ? rectifiedBaseline(*own, *other) : 0;
+  if (baseline == 0 || (baseline > 0) != (pair->kind == PairKind::FromLeft))
+  {
+    return std::nullopt;
+  }
+  pair->layer = layer;
+  pair->frame = frame;
+  pair->sameFrame = false;
+  pair->ownThen = dataset.timedSight(*own, frame)->middle();
+  return pair;
+}
+
 /// correspondence_<camera>, with +N or -N frames.
 std::optional<Pair> correspondencePair(Picture& picture, const std::string& layer)
 {
@@ -79,8 +105,7 @@ std::optional<Pair> pairOf(Picture& picture, const std::string& layer)
 {
   if (layer == "flow_forward" || layer == "flow_backward")
   {
-    const int step = layer == "flow_forward" ? 1 : -1;
-    return Pair{ layer, PairKind::Displacement, picture.camera(), picture.frame() + step, nullptr, false };
+    return Pair{ layer, PairKind::Displacement, picture.camera(), picture.frame() + stepOf(layer), nullptr, false };
   }
   if (layer == "sceneflow")
   {
@@ -89,6 +114,10 @@ std::optional<Pair> pairOf(Picture& picture, const std::string& layer)
   if (layer == "disparity")
   {
     return disparityPair(picture);
+  }
+  if (layer == "disparity_forward" || layer == "disparity_backward")
+  {
+    return movedDisparityPair(picture, layer);
   }
   if (layer.compare(0, 15, "correspondence_") == 0)
   {
@@ -100,7 +129,7 @@ std::optional<Pair> pairOf(Picture& picture, const std::string& layer)
 bool isPairLayer(const std::string& layer)
 {
   return layer == "flow_forward" || layer == "flow_backward" || layer == "sceneflow" || layer == "disparity" ||
-         layer.compare(0, 15, "correspondence_") == 0;
+         layer == "disparity_forward" || layer == "disparity_backward" || layer.compare(0, 15, "correspondence_") == 0;
 }
 } // namespace
 

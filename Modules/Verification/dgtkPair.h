@@ -34,6 +34,8 @@ struct Pair
   /// Fundamental matrices and triangulation hold: nothing moves in between.
   bool sameFrame = false;
   std::shared_ptr<const TimedSight> timed = nullptr; ///< the other one with the times of its pixels
+  /// The picture's own camera at the other frame: a disparity of then. Null for one of the pixels.
+  std::shared_ptr<const Sight> ownThen = nullptr;
 };
 
 /// The layers of a picture that relate it to other views, of those that the dataset has.

@@ -38,6 +38,7 @@ class Notes(Case):
             self.empty("depth," + layer, [f"layer {layer} would have no file", "a frame of the scene"])
         self.empty("correspondence", ["layer correspondence would have no file", "another camera"])
         self.empty("disparity", ["layer disparity would have no file", "two cameras side by side"])
+        self.empty("disparity_forward", ["layer disparity_forward would have no file", "two cameras side by side at both"])
         self.empty("color_sharp", ["layer color_sharp would have no file", "a shutter or a lens"])
         self.empty("matting", ["layer matting would have no file", "names of the objects"])
 
@@ -70,7 +71,8 @@ class Notes(Case):
         self.assertEqual(len(line), 1, said)
         files = self.manifest()["files"]
         empty = {e["layer"] for e in self.manifest()["empty"]}
-        self.assertEqual(empty, {"color_sharp", "correspondence", "disparity", "flow_forward", "flow_backward", "sceneflow",
+        self.assertEqual(empty, {"color_sharp", "correspondence", "disparity", "disparity_forward",
+                                 "disparity_backward", "flow_forward", "flow_backward", "sceneflow",
                                  "matting"})
         for layer in empty:
             self.assertIn(layer, line[0])

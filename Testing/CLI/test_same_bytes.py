@@ -7,8 +7,8 @@ from harness import SCENES, Case, digests, main
 from test_tiles import PIXEL_LAYERS, without_tiles
 
 # What needs neighbours, other views, every surface along the ray or many samples a pixel: small pictures of one scene.
-WIDE_LAYERS = ("edges,correspondence,disparity,flow_forward,flow_backward,sceneflow,ldi,alpha,coverage,boxes,amodal,points,"
-               "tiles")
+WIDE_LAYERS = ("edges,correspondence,disparity,disparity_forward,disparity_backward,flow_forward,flow_backward,sceneflow,ldi,alpha,coverage,"
+               "boxes,amodal,points,tiles")
 
 
 class SameBytes(Case):

@@ -14,7 +14,7 @@ import numpy
 from harness import SCENES, Case, load_json, main
 
 LAYERS = "color,depth,distance,position,normal,uv,objectcoords,objects,parts,triangles,calibration,classes"
-PAIRS = ",correspondence,disparity,flow_forward,flow_backward,sceneflow"
+PAIRS = ",correspondence,disparity,disparity_forward,disparity_backward,flow_forward,flow_backward,sceneflow"
 
 
 def contents(path):

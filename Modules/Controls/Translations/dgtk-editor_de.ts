@@ -178,8 +178,16 @@
         <translation>dafür braucht es ein Bild der Szene nach diesem</translation>
     </message>
     <message>
+        <source>it needs a frame of the scene after the picture&apos;s own, and two cameras side by side at both</source>
+        <translation>dafür braucht es ein Bild der Szene nach diesem und bei beiden zwei Kameras nebeneinander</translation>
+    </message>
+    <message>
         <source>it needs a frame of the scene before the picture&apos;s own</source>
         <translation>dafür braucht es ein Bild der Szene vor diesem</translation>
+    </message>
+    <message>
+        <source>it needs a frame of the scene before the picture&apos;s own, and two cameras side by side at both</source>
+        <translation>dafür braucht es ein Bild der Szene vor diesem und bei beiden zwei Kameras nebeneinander</translation>
     </message>
     <message>
         <source>it needs another camera in the run, or a pair of cameras that ends within the frames of the scene</source>

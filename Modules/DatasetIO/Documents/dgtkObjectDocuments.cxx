@@ -34,10 +34,12 @@ std::string boxText(const BoxRecord& record)
   object.text("class", record.objectClass);
   object.integer("pixels_visible", static_cast<std::int64_t>(record.pixelsVisible));
   object.integer("pixels_amodal", static_cast<std::int64_t>(record.pixelsAmodal));
+  object.integer("pixels_whole", static_cast<std::int64_t>(record.pixelsWhole));
   object.number(
     "visible_fraction", record.pixelsAmodal > 0 ? double(record.pixelsVisible) / double(record.pixelsAmodal) : 0.0);
   object.raw("box_visible", bordersOrNull(record.visible));
   object.raw("box_amodal", bordersOrNull(record.amodal));
+  object.raw("box_whole", bordersOrNull(record.whole));
   object.raw("box_projected", record.projected ? jsonMatrix(*record.projected) : "null");
   object.raw("R", record.rigid ? jsonMatrix(record.R) : "null");
   object.raw("t", record.rigid ? jsonMatrix(record.t) : "null");

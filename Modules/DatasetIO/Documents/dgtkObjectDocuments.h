@@ -26,8 +26,10 @@ struct BoxRecord
   std::string objectClass;
   std::uint64_t pixelsVisible = 0;
   std::uint64_t pixelsAmodal = 0;
+  std::uint64_t pixelsWhole = 0;            ///< with those around the image; 0 in files of older versions
   std::optional<Eigen::Vector4d> visible;   ///< [x0, y0, x1, y1], pixel borders
   std::optional<Eigen::Vector4d> amodal;    ///< likewise
+  std::optional<Eigen::Vector4d> whole;     ///< likewise, with pixels around the image
   std::optional<Eigen::Vector4d> projected; ///< pixels
   bool rigid = false;                       ///< whether R and scale are known; null in the file otherwise
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();

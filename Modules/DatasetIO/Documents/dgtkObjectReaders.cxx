@@ -22,6 +22,11 @@ BoxRecord recordOf(const JsonCursor& value)
   record.pixelsAmodal = countOf(value["pixels_amodal"]);
   record.visible = boxOf(value["box_visible"]);
   record.amodal = boxOf(value["box_amodal"]);
+  if (value.has("box_whole")) // of newer versions
+  {
+    record.pixelsWhole = countOf(value["pixels_whole"]);
+    record.whole = boxOf(value["box_whole"]);
+  }
   record.projected = boxOf(value["box_projected"]);
   record.rigid = !value["R"].isNull();
   if (record.rigid)

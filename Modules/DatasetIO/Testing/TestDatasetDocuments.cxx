@@ -171,7 +171,8 @@ TEST(Cameras, AModelWithoutMatrixHasItsOwnKeys)
   camera.far = 1;
   const std::string text = camerasText({ camera });
   EXPECT_EQ(text.find("\"K\""), std::string::npos);
-  EXPECT_THAT(text, HasSubstr("\"distortion\": [],\n      \"shift\": [1.0, 2.0],\n      \"rays\": \"inputs/rays.npy\""));
+  EXPECT_THAT(
+    text, HasSubstr("\"distortion\": [],\n      \"shift\": [1.0, 2.0],\n      \"rays\": \"inputs/rays.npy\""));
   writeFile(folder.path("cameras.json"), text);
   const CameraRecord read = readCameras(folder.path("cameras.json")).at(0);
   EXPECT_FALSE(read.hasK);
@@ -329,7 +330,9 @@ TEST(ObjectDocuments, ReadBackAsWritten)
   box.objectClass = "building";
   box.pixelsVisible = 5;
   box.pixelsAmodal = 8;
+  box.pixelsWhole = 11;
   box.visible = Eigen::Vector4d(1, 2, 3, 4);
+  box.whole = Eigen::Vector4d(-3, 2, 13, 4);
   box.projected = Eigen::Vector4d(0.5, -2.25, 1e9, 4);
   box.rigid = true;
   box.R << 0, 1, 0, 0, 0, 1, 1, 0, 0;
@@ -342,6 +345,19 @@ TEST(ObjectDocuments, ReadBackAsWritten)
   writeFile(path, boxes);
   EXPECT_EQ(boxesText("left", 7, readBoxes(path)), boxes);
   EXPECT_FALSE(readBoxes(path)[1].rigid);
+  EXPECT_EQ(readBoxes(path)[0].whole, box.whole);
+  std::string old = boxes; // without what version 1 did not have
+  for (const char* const key : { "\"pixels_whole\"", "\"box_whole\"" })
+  {
+    for (std::size_t at = old.find(key); at != std::string::npos; at = old.find(key))
+    {
+      old.erase(at, old.find('\n', at) + 1 - at);
+    }
+  }
+  writeFile(path, old);
+  EXPECT_EQ(readBoxes(path)[0].pixelsWhole, 0u);
+  EXPECT_FALSE(readBoxes(path)[0].whole.has_value());
+  EXPECT_EQ(readBoxes(path)[0].visible, box.visible);
 
   const std::string masks = amodalText(4, 2, { { 1, { 0, 3, 5 } }, { 9, { 8 } } });
   writeFile(path, masks);

@@ -25,6 +25,15 @@ LayerSpec disparitySpec()
     "x_left - x_right of the pixel's surface point in the two images of a rectified pair", Meaning::Displacement };
 }
 
+LayerSpec movedDisparitySpec(bool forward)
+{
+  LayerSpec spec = disparitySpec();
+  spec.name = forward ? "disparity_forward" : "disparity_backward";
+  spec.description = std::string("x_left - x_right that the pixel's surface point has one frame ") +
+                     (forward ? "later" : "earlier") + ", in the two images of the rectified pair then";
+  return spec;
+}
+
 LayerSpec flowSpec(bool forward)
 {
   return { forward ? "flow_forward" : "flow_backward", PixelType::Float64, 2, "pixels", "image", "nan",
@@ -328,6 +337,70 @@ protected:
   }
 };
 
+/// Why the frame that a layer leads to is not one of the run's.
+std::vector<std::string> notesOnStep(const WorkPlan& plan, const std::string& layer, int step, const std::string& other)
+{
+  const int taken = plan.request.frames ? plan.request.frames->step : 1;
+  if (taken == 1)
+  {
+    return {};
+  }
+  return { "layer " + layer + " leads to the scene's frame one " + (step > 0 ? "later" : "earlier") +
+           ", which this run of every " + std::to_string(taken) + " frames does not have" + other };
+}
+
+/// The pair's disparity of surface points at a neighbouring frame.
+class MovedDisparityLayer final : public PairLayer
+{
+public:
+  explicit MovedDisparityLayer(int step)
+    : Step(step)
+  {
+  }
+  LayerInfo info() const override
+  {
+    return { this->valueSpec().name, { "pfm", "npy", "exr" },
+      std::string("disparity that each pixel's surface point has ") +
+        (this->Step > 0 ? "at the next frame" : "at the frame before") + ", and visibility in the other image then",
+      false, {}, &hasFrames };
+  }
+  std::vector<std::string> notes(const WorkPlan& plan, const Stage&) const override
+  {
+    return notesOnStep(plan, this->valueSpec().name, this->Step, "");
+  }
+  std::string requirement() const override
+  {
+    return std::string("a frame of the scene ") + (this->Step > 0 ? "after" : "before") +
+           " the picture's own, and two cameras side by side at both";
+  }
+
+protected:
+  LayerSpec valueSpec() const override { return movedDisparitySpec(this->Step > 0); }
+  std::vector<PairTarget> targets(const WorkPlan& plan, const Stage& stage, const Job& job) const override
+  {
+    PairTarget target;
+    target.frame = job.frame + this->Step;
+    const std::optional<Partner> partner = rectifiedPartner(plan, stage, job.camera, job.frame);
+    if (!partner || !isFrame(stage, target.frame))
+    {
+      return {};
+    }
+    const auto then = [&](std::size_t camera)
+    { return stage.view(camera, target.frame, plan.request.width, plan.request.height); };
+    if (!(rectifiedBaseline(then(job.camera), then(partner->camera)) * partner->baseline > 0))
+    {
+      return {};
+    }
+    target.camera = partner->camera;
+    target.value = partner->baseline > 0 ? PairValue::FromLeft : PairValue::FromRight;
+    target.isMoved = true;
+    return { target };
+  }
+
+private:
+  int Step;
+};
+
 /// The same camera at a neighbouring frame.
 class MotionLayer : public PairLayer
 {
@@ -339,15 +412,9 @@ public:
   }
   std::vector<std::string> notes(const WorkPlan& plan, const Stage&) const override
   {
-    const int taken = plan.request.frames ? plan.request.frames->step : 1;
-    if (taken == 1)
-    {
-      return {};
-    }
-    return { "layer " + this->valueSpec().name + " leads to the scene's frame one " +
-             (this->Step > 0 ? "later" : "earlier") + ", which this run of every " + std::to_string(taken) +
-             " frames does not have (correspondence of the pair NAME:NAME+" + std::to_string(taken) +
-             " leads on to its next one)" };
+    const std::string taken = std::to_string(plan.request.frames ? plan.request.frames->step : 1);
+    return notesOnStep(plan, this->valueSpec().name, this->Step,
+      " (correspondence of the pair NAME:NAME+" + taken + " leads on to its next one)");
   }
   LayerInfo info() const override
   {
@@ -395,6 +462,7 @@ private:
 LayerList pairLayers()
 {
   return { std::make_shared<CorrespondenceLayer>(), std::make_shared<DisparityLayer>(),
+    std::make_shared<MovedDisparityLayer>(1), std::make_shared<MovedDisparityLayer>(-1),
     std::make_shared<MotionLayer>(PairValue::Displacement, 1),
     std::make_shared<MotionLayer>(PairValue::Displacement, -1), std::make_shared<MotionLayer>(PairValue::Motion, 1) };
 }

@@ -31,10 +31,15 @@ public:
         std::find_if(this->Outputs.begin(), this->Outputs.end(), same) - this->Outputs.begin());
       output.target = target;
       output.moment = context.queries.at(target.frame);
-      output.other = { output.moment.state.get(),
-        context.queries.stage().view(
-          target.camera, target.frame, context.plan.request.width, context.plan.request.height),
-        output.moment.occlusion.get() };
+      const auto view = [&](std::size_t camera) {
+        return context.queries.stage().view(
+          camera, target.frame, context.plan.request.width, context.plan.request.height);
+      };
+      output.other = { output.moment.state.get(), view(target.camera), output.moment.occlusion.get() };
+      if (target.isMoved)
+      {
+        output.own = { output.moment.state.get(), view(context.job.camera), nullptr };
+      }
       this->Outputs.push_back(std::move(output));
     }
   }
@@ -53,6 +58,7 @@ private:
     PairTarget target;
     SceneQueries::Moment moment;
     OtherView other;
+    OtherView own;          ///< of a moved target: the picture's camera at that moment
     std::size_t places = 0; ///< the first output whose places are the same
   };
   // Where the surface points of a part of a strip are in another view.
@@ -86,14 +92,21 @@ private:
           const Output& output = this->Outputs[i];
           if (output.places == i && output.target.value != PairValue::Motion)
           {
-            places[i].pixels.resize(2 * surface.t.size());
-            places[i].classes.resize(surface.t.size());
-            correspondRows(surface, output.other, places[i].pixels.data(), places[i].classes.data());
+            places[i] = placesIn(surface, output.other);
           }
           deriveOne(surface, output, places[output.places], strip[i]);
         }
       });
     return strip;
+  }
+
+  static Places placesIn(const SurfaceRows& surface, const OtherView& other)
+  {
+    Places places;
+    places.pixels.resize(2 * surface.t.size());
+    places.classes.resize(surface.t.size());
+    correspondRows(surface, other, places.pixels.data(), places.classes.data());
+    return places;
   }
 
   static void deriveOne(const SurfaceRows& surface, const Output& output, const Places& places, Values& strip)
@@ -106,7 +119,9 @@ private:
     }
     else
     {
-      pairRows(surface.rect, places.pixels.data(), value, values.data());
+      const Places own = output.target.isMoved ? placesIn(surface, output.own) : Places();
+      pairRows(
+        surface.rect, places.pixels.data(), value, values.data(), output.target.isMoved ? own.pixels.data() : nullptr);
       place(places.classes, surface.rect, strip.classes);
     }
     place(values, surface.rect, strip.values);

@@ -3,6 +3,7 @@
 #include "dgtkLayers.h"
 #include "dgtkObjectDocuments.h"
 #include "dgtkObjectTruth.h"
+#include "dgtkWholeObjects.h"
 
 #include <algorithm>
 #include <optional>
@@ -18,7 +19,8 @@ constexpr int stripPixels = 1 << 12;
 LayerSpec boxesSpec()
 {
   return { "boxes", PixelType::Float64, 1, "pixels", "image", "null",
-    "2D boxes of the visible and the amodal pixels of each object, its 3D box and pose in the camera frame",
+    "2D boxes of the visible and the amodal pixels of each object, in the image and around it, its 3D box and pose in "
+    "the camera frame",
     Meaning::Record };
 }
 
@@ -47,7 +49,9 @@ public:
   virtual LayerSpec spec() const = 0;
   /// Whether it reads the runs of ObjectRows::amodal.
   virtual bool needsRuns() const { return false; }
-  virtual std::string text(const JobContext& context, const ObjectRows& objects) const = 0;
+  /// `occlusion`: of the picture's scene.
+  virtual std::string text(
+    const JobContext& context, const OcclusionQuery& occlusion, const ObjectRows& objects) const = 0;
 };
 
 class ObjectsPass : public LayerPass
@@ -97,7 +101,7 @@ public:
   {
     for (std::size_t i = 0; i < this->Layers.size(); ++i)
     {
-      sink.document(i, this->Layers[i]->text(this->Context, this->All));
+      sink.document(i, this->Layers[i]->text(this->Context, *this->Moment.occlusion, this->All));
     }
   }
 
@@ -124,8 +128,10 @@ std::optional<Eigen::Vector4d> boxOf(const ObjectPixels& pixels)
   return Eigen::Vector4d(pixels.x0, pixels.y0, pixels.x1, pixels.y1);
 }
 
-std::string boxes(const JobContext& context, const ObjectRows& objects)
+std::string boxes(const JobContext& context, const OcclusionQuery& occlusion, const ObjectRows& objects)
 {
+  const std::unique_ptr<VisibilitySource> source = context.queries.makeSource(context.pool);
+  std::vector<ObjectPixels> whole = objectsAround(context.state, context.view, occlusion, *source, context.pool);
   const std::vector<Instance>& instances = context.state->instances;
   std::vector<BoxRecord> records(instances.size());
   context.pool.parallelFor(static_cast<int>(instances.size()),
@@ -138,8 +144,11 @@ std::string boxes(const JobContext& context, const ObjectRows& objects)
       record.objectClass = instances[i].className;
       record.pixelsVisible = objects.visible[i].count;
       record.pixelsAmodal = objects.amodal[i].count;
+      whole[i].unite(objects.amodal[i]);
+      record.pixelsWhole = whole[i].count;
       record.visible = boxOf(objects.visible[i]);
       record.amodal = boxOf(objects.amodal[i]);
+      record.whole = boxOf(whole[i]);
       record.projected = pose.projected;
       record.rigid = pose.rigid;
       if (pose.rigid)
@@ -177,9 +186,9 @@ public:
     return { "boxes", { "json" }, "2D and 3D boxes, visible fraction and pose of every object" };
   }
   LayerSpec spec() const override { return boxesSpec(); }
-  std::string text(const JobContext& context, const ObjectRows& objects) const override
+  std::string text(const JobContext& context, const OcclusionQuery& occlusion, const ObjectRows& objects) const override
   {
-    return boxes(context, objects);
+    return boxes(context, occlusion, objects);
   }
 };
 
@@ -192,7 +201,7 @@ public:
   }
   LayerSpec spec() const override { return amodalSpec(); }
   bool needsRuns() const override { return true; }
-  std::string text(const JobContext& context, const ObjectRows& objects) const override
+  std::string text(const JobContext& context, const OcclusionQuery&, const ObjectRows& objects) const override
   {
     return masks(context, objects);
   }

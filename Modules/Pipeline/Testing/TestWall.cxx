@@ -108,6 +108,27 @@ TEST_F(Wall, Disparities)
   }
 }
 
+TEST_F(Wall, DisparitiesOfTheNextFrame)
+{
+  // the wall goes away by 1 a frame, the far one, 3 behind, stays: hidden now, seen from frame 4
+  for (const auto& [name, baseline] : { std::pair("a", 0.5), std::pair("b", 0.5), std::pair("c", 2.5) })
+  {
+    auto found = this->render("disparity_forward", name);
+    const double expected = focal * baseline / (depth + 1);
+    expectPixels(found["disparity_forward"], 0, [&](double, double) { return expected; });
+    // of the left camera of a pair x' = x at the next frame - disparity, of the right one +
+    const double side = name == std::string("a") ? -1 : 1;
+    const auto place = [&](double x)
+    { return 16 + focal * ((x - 16) / focal * depth + 0.5) / (depth + 1) + side * expected; };
+    expectPixels(found["disparity_forward_class"], 0,
+      [&](double x, double y)
+      {
+        const double down = 12 - focal * ((12 - y) / focal * depth + 0.25) / (depth + 1);
+        return place(x) >= 0 && place(x) <= width && down >= 0 && down <= height ? 1 : 4;
+      });
+  }
+}
+
 TEST_F(Wall, CorrespondencesAndFlows)
 {
   auto found = this->render("correspondence,flow_forward,sceneflow,depth", "a", "a:b,a:b+2,a:a+1,c:a");

@@ -2,9 +2,10 @@
 #include "dgtkCheck.h"
 #include "dgtkJsonFile.h"
 #include "dgtkMasks.h"
+#include "dgtkWideCanvas.h"
 
 #include <algorithm>
-#include <array>
+#include <memory>
 #include <optional>
 #include <set>
 
@@ -14,29 +15,10 @@ namespace dgtk
 namespace
 {
 using Json = nlohmann::json;
-using Box = std::array<double, 4>;
 /// Part of the largest number of a matrix or corner: products of two placements.
 constexpr double poseTolerance = 1e-12;
 /// Pixels, or that part of a place far outside.
 constexpr double projectedTolerance = 1e-9;
-
-/// Pixels of a mask and the borders of the smallest box around them.
-struct Extent
-{
-  std::uint64_t pixels = 0;
-  Box box{ infinite, infinite, -infinite, -infinite };
-  void add(double x0, double y0, double x1, double y1)
-  {
-    this->box = { std::min(this->box[0], x0), std::min(this->box[1], y0), std::max(this->box[2], x1),
-      std::max(this->box[3], y1) };
-  }
-  void addPixel(int x, int y)
-  {
-    ++this->pixels;
-    this->add(x, y, x + 1, y + 1);
-  }
-  bool empty() const { return this->box[0] > this->box[2]; }
-};
 
 template <typename Inside>
 Extent extentOf(const Picture& picture, const Inside& inside)
@@ -114,6 +96,10 @@ public:
     }
     this->number(this->Masks, "visible_fraction", object.at("visible_fraction").get<double>(),
       amodal > 0 ? double(visible) / double(amodal) : 0);
+    if (object.contains("pixels_whole")) // of newer versions
+    {
+      this->whole(object);
+    }
     this->projected(object.at("box_projected"));
     this->pose(object);
   }
@@ -127,6 +113,10 @@ public:
       });
     results.add({ "names", "", { this->File } }, this->Names);
     results.add({ "masks", "", { this->File } }, this->Masks);
+    if (this->Whole.Count > 0)
+    {
+      results.add({ "whole", "", { this->File } }, this->Whole);
+    }
     results.add({ "projected", "pixel", { this->File } }, this->Projected);
     results.add({ "pose", "relative", { this->File } }, this->Pose);
   }
@@ -178,6 +168,60 @@ private:
   {
     this->number(this->Masks, "pixels_" + name, double(pixels), double(expected.pixels));
     this->box(this->Masks, "box_" + name, found, expected);
+  }
+
+  /// As the document has it.
+  static Extent amodal(const Json& object)
+  {
+    Extent claimed;
+    claimed.pixels = object.at("pixels_amodal").get<std::uint64_t>();
+    const Json& box = object.at("box_amodal");
+    if (!box.is_null())
+    {
+      claimed.add(box.at(0), box.at(1), box.at(2), box.at(3));
+    }
+    return claimed;
+  }
+
+  /// The amodal pixels and those around the picture.
+  void whole(const Json& object)
+  {
+    const std::uint64_t pixels = object.at("pixels_whole").get<std::uint64_t>();
+    const Extent inside = amodal(object);
+    const auto with = [&](const Extent& around)
+    {
+      Extent whole = inside;
+      whole.add(around);
+      return whole;
+    };
+    this->Around = this->Around ? std::move(this->Around) : std::make_unique<WideCanvas>(this->Owner);
+    Extent expected = with(this->Around->around(this->Id));
+    const Json& box = object.at("box_whole");
+    if (pixels != expected.pixels || !isBox(box, expected))
+    {
+      const WideCanvas::Bounds bounds = this->Around->boundsAround(this->Id);
+      expected = nearest(pixels, box, with(bounds.least), with(bounds.most));
+    }
+    this->number(this->Whole, "pixels_whole", double(pixels), double(expected.pixels));
+    this->box(this->Whole, "box_whole", box, expected);
+  }
+
+  static bool isBox(const Json& box, const Extent& expected)
+  {
+    return box.is_null() ? expected.empty() : !expected.empty() && box == Json(expected.box);
+  }
+
+  /// What is closest to the claims of all that may be right.
+  static Extent nearest(std::uint64_t pixels, const Json& box, const Extent& least, const Extent& most)
+  {
+    Extent found = most;
+    found.pixels = std::clamp(pixels, least.pixels, most.pixels);
+    for (std::size_t i = 0; i < 4 && box.is_array() && !most.empty(); ++i)
+    {
+      const double inner = least.empty() ? most.box[(i + 2) % 4] : least.box[i];
+      found.box[i] = std::clamp(box.at(i).get<double>(), std::min(inner, most.box[i]), std::max(inner, most.box[i]));
+    }
+    return found.pixels == 0 ? Extent() : found;
   }
 
   /// Vertices that the object's triangles use.
@@ -278,10 +322,12 @@ private:
   std::string File;
   PicturePointer Objects;
   std::optional<dgtk::Masks> Amodal;
+  std::unique_ptr<WideCanvas> Around;
   std::uint32_t Id = 0;
   std::size_t Number = 0; ///< of objects so far
   Meter Names{ 0 };
   Meter Masks{ 0 };
+  Meter Whole{ 0 };
   Meter Projected{ projectedTolerance };
   Meter Pose{ poseTolerance };
 };

@@ -113,15 +113,27 @@ private:
         two = target.pixel - centre;
         break;
       case PairKind::FromLeft:
-        *expected = centre.x() - target.pixel.x();
+        *expected = this->own(target, centre).x() - target.pixel.x();
         break;
       case PairKind::FromRight:
-        *expected = target.pixel.x() - centre.x();
+        *expected = target.pixel.x() - this->own(target, centre).x();
         break;
       case PairKind::Motion:
         Eigen::Map<Eigen::Vector3d>(expected, 3) = here.record().R * (target.world - here.toWorld(target.here));
         break;
     }
+  }
+
+  /// Where the picture's camera sees the point at the time of the disparity.
+  Eigen::Vector2d own(const Target& target, const Eigen::Vector2d& centre) const
+  {
+    Eigen::Vector2d pixel = centre;
+    if (this->ThePair.ownThen)
+    {
+      const Eye& eye = this->ThePair.ownThen->eye();
+      eye.project(eye.toCamera(target.world), pixel);
+    }
+    return pixel;
   }
 
   /// What a unit of the residual is worth in pixels. Beside the image, where a point nears the camera's plane, its

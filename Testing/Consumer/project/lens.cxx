@@ -144,7 +144,8 @@ int main(int, char** argv)
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   // What is said by matrices, and what needs another camera or a lens that blurs.
-  const std::set<std::string> wanted{ "calibration", "color_sharp", "correspondence", "disparity", "pov" };
+  const std::set<std::string> wanted{ "calibration", "color_sharp", "correspondence", "disparity", "disparity_forward",
+    "disparity_backward", "pov" };
   require(refused(request, folder) == wanted, "these layers are refused, and all others hold");
   std::set<std::string> drawn{ "color", "color_noisy", "ldi", "matting", "tiles" };
   drawn.insert(wanted.begin(), wanted.end());
