@@ -15,6 +15,8 @@ namespace dgtk
 
 void readCoco(ExportJudge& judge);
 void readKitti2015(ExportJudge& judge);
+void readKittiDepth(ExportJudge& judge);
+void readKittiObject(ExportJudge& judge);
 
 namespace
 {
@@ -27,6 +29,8 @@ struct Reader
 constexpr Reader readers[] = {
   { "coco", &readCoco },
   { "kitti2015", &readKitti2015 },
+  { "kitti-depth", &readKittiDepth },
+  { "kitti-object", &readKittiObject },
 };
 
 /// Files that export.json lists are there and as it says, and there are no others.

@@ -80,4 +80,12 @@ void readKitti2015(ExportJudge& judge)
   }
 }
 
+void readKittiDepth(ExportJudge& judge)
+{
+  for (const ExportedFile* one : filesIn(judge.source(), "", "txt"))
+  {
+    judgeCamToCam(judge, one->file.path, { one->file.camera, one->file.frame, "" }, nullptr);
+  }
+}
+
 } // namespace dgtk
