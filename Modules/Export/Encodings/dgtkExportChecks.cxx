@@ -31,17 +31,23 @@ void requireWhole(const OptionValues& options, const std::string& format)
   }
 }
 
+void requireFile(const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
+  const std::string& format, const std::vector<std::string>& extensions)
+{
+  if (dataset.file(shot, layer, extensions).empty())
+  {
+    throw UsageError(format + ": camera " + quoted(shot.name()) + " has no file of layer " + layer +
+                     (extensions.empty() ? "" : " as ." + joined(extensions, " or .")) + " at frame " +
+                     std::to_string(shot.frame()));
+  }
+}
+
 void requireEverywhere(const DatasetView& dataset, const std::string& layer, const std::string& format,
   const std::vector<std::string>& extensions)
 {
   for (const DatasetShot& shot : dataset.shots())
   {
-    if (dataset.file(shot, layer, extensions).empty())
-    {
-      throw UsageError(format + ": camera " + quoted(shot.name()) + " has no file of layer " + layer +
-                       (extensions.empty() ? "" : " as ." + joined(extensions, " or .")) + " at frame " +
-                       std::to_string(shot.frame()));
-    }
+    requireFile(dataset, shot, layer, format, extensions);
   }
 }
 

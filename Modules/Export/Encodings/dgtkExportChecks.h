@@ -17,7 +17,9 @@ namespace dgtk
 void requirePng(const OptionValues& options, const std::string& format);
 /// The format has no parts.
 void requireWhole(const OptionValues& options, const std::string& format);
-/// Every picture has a file of the layer with one of the extensions.
+/// A picture has a file of the layer with one of the extensions; every picture has.
+void requireFile(const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
+  const std::string& format, const std::vector<std::string>& extensions = {});
 void requireEverywhere(const DatasetView& dataset, const std::string& layer, const std::string& format,
   const std::vector<std::string>& extensions = {});
 /// The format has one matrix, and one size, for all frames of a camera.

@@ -103,17 +103,16 @@ public:
     requirePng(options, format);
     requireWhole(options, format);
     dataset.metres();
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
     objectCodes(dataset, options);
     for (const Sample& one : samplesOf(dataset))
     {
+      for (const DatasetShot* shot : { one.left, one.right, one.nextLeft, one.nextRight })
+      {
+        requireFile(dataset, *shot, exported::color().of(options), format, { "png" });
+      }
       for (const char* layer : { "disparity", "flow_forward", "objects" })
       {
-        if (dataset.file(*one.left, layer).empty())
-        {
-          throw UsageError(std::string(format) + ": camera " + quoted(one.left->name()) + " has no file of layer " +
-                           layer + " at frame " + std::to_string(one.left->frame()));
-        }
+        requireFile(dataset, *one.left, layer, format);
       }
     }
   }
