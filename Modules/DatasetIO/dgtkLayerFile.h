@@ -49,6 +49,10 @@ private:
   int NextRow = 0;
 };
 
+/// NPY format 1.0: magic, version, header length, a Python dictionary padded so that the data start at a multiple
+/// of 64. `shape` as it stands in its parentheses: "480, 640".
+DGTKDATASETIO_EXPORT std::string npyHeader(PixelType type, const std::string& shape);
+
 /// Little-endian bytes, whatever the machine.
 template <typename T>
 void putLittle(std::string& to, T value)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCorrespondence.h"
 
+#include "dgtkInView.h"
 #include "dgtkSeenInTime.h"
 
 #include <algorithm>
@@ -15,11 +16,6 @@ namespace
 {
 constexpr int blockSide = 4; ///< pixels that are asked about at once are neighbours
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
-
-bool isInside(const Eigen::Vector2d& pixel, const CameraModel& model)
-{
-  return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= model.width() && pixel.y() <= model.height();
-}
 
 VisibilityClass classOf(const Hit& hit, const Hit& before)
 {
@@ -72,7 +68,7 @@ public:
     for (std::size_t i = 0; i < count; ++i)
     {
       const bool isThere = this->isThere(i);
-      if (!isThere || this->Seen[i] == 0 || !this->isInView(this->Points[i], this->Pixels[i]))
+      if (!isThere || this->Seen[i] == 0 || !isInView(this->Other.view, this->Linear, this->Points[i], this->Pixels[i]))
       {
         answer(this->Indices[i], this->Pixels[i],
           !isThere             ? VisibilityClass::NoSurface
@@ -130,17 +126,6 @@ private:
     }
     query.occluders(view, this->Worlds.data(), this->Hits.data(), count, this->Before.data());
   }
-  bool isInView(const Eigen::Vector3d& x_in_camera, const Eigen::Vector2d& pixel) const
-  {
-    const View& view = this->Other.view;
-    const double t = this->Linear ? x_in_camera.z() : alongRay(x_in_camera, view.model->rayThrough(pixel));
-    return isInside(pixel, *view.model) && t >= view.near && t <= view.far;
-  }
-  static double alongRay(const Eigen::Vector3d& x_in_camera, const CameraRay& ray)
-  {
-    return (x_in_camera - ray.origin).dot(ray.direction) / ray.direction.squaredNorm();
-  }
-
   const OtherView& Other;
   bool Linear;
   // Of the points that were added ...
@@ -178,6 +163,19 @@ Correspondence correspond(const OtherView& other, const Hit& hit, const Eigen::V
       result.visibility = visibility;
     });
   return result;
+}
+
+void correspondPoints(const OtherView& other, const FixedPoint* points, std::size_t count, Correspondence* found)
+{
+  Follower follower(other);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    follower.add(i, points[i].hit, points[i].barycentrics);
+  }
+  follower.follow(
+    [found](std::size_t i, const Eigen::Vector2d& pixel, VisibilityClass visibility) {
+      found[i] = { pixel, visibility };
+    });
 }
 
 Correspondence correspondPixel(const SceneState& state, const View& view, const OcclusionQuery& occlusion,

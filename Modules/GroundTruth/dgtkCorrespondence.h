@@ -51,6 +51,17 @@ DGTKGROUNDTRUTH_EXPORT Eigen::Vector3d carriedPoint(
 DGTKGROUNDTRUTH_EXPORT Correspondence correspond(
   const OtherView& other, const Hit& hit, const Eigen::Vector2d& barycentrics);
 
+/// A point that is fixed on its triangle.
+struct FixedPoint
+{
+  Hit hit;                              ///< object != 0
+  Eigen::Vector2d barycentrics{ 0, 0 }; ///< of the second and third corner
+};
+
+/// correspond() for many points, `found` as many. Quicker; those that follow each other should be neighbours.
+DGTKGROUNDTRUTH_EXPORT void correspondPoints(
+  const OtherView& other, const FixedPoint* points, std::size_t count, Correspondence* found);
+
 /// The correspondence of an image point of `view` (pixels, anywhere inside the image); `occlusion` is of `state`.
 /// `hit`, when given, receives the surface of the first view.
 DGTKGROUNDTRUTH_EXPORT Correspondence correspondPixel(const SceneState& state, const View& view,

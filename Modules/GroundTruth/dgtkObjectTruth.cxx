@@ -120,22 +120,21 @@ std::vector<std::uint64_t> columnRunLengths(const std::vector<PixelRun>& runs, i
   return lengths;
 }
 
-namespace
+PlacedAxes placedAxes(const Eigen::Matrix3d& linear)
 {
-void decompose(const Eigen::Matrix3d& linear, ObjectPose& pose)
-{
-  pose.scale = linear.colwise().norm().transpose();
-  if (!(pose.scale.minCoeff() > 0))
+  PlacedAxes axes;
+  axes.scale = linear.colwise().norm().transpose();
+  axes.rotation = linear * axes.scale.cwiseInverse().asDiagonal();
+  if (!(axes.scale.minCoeff() > 0))
   {
-    return;
+    return axes;
   }
-  pose.rotation = linear * pose.scale.cwiseInverse().asDiagonal();
-  const Eigen::Matrix3d& r = pose.rotation;
+  const Eigen::Matrix3d& r = axes.rotation;
   const double cosine =
     std::max({ std::abs(r.col(0).dot(r.col(1))), std::abs(r.col(1).dot(r.col(2))), std::abs(r.col(2).dot(r.col(0))) });
   if (!(cosine <= perpendicular))
   {
-    return;
+    return axes;
   }
   const Eigen::Vector3d a = r.col(0);
   const Eigen::Vector3d b = r.col(1);
@@ -143,12 +142,12 @@ void decompose(const Eigen::Matrix3d& linear, ObjectPose& pose)
     a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x());
   if (third.dot(r.col(2)) < 0)
   {
-    pose.rotation.col(0) *= -1;
-    pose.scale.x() *= -1;
+    axes.rotation.col(0) *= -1;
+    axes.scale.x() *= -1;
   }
-  pose.rigid = true;
+  axes.rigid = true;
+  return axes;
 }
-} // namespace
 
 namespace
 {
@@ -166,7 +165,10 @@ ObjectPose objectPose(const Instance& instance, std::uint32_t id, const View& vi
   const Affine3 camera_from_object = view.camera_from_world * instance.world_from_object;
   pose.matrix << camera_from_object.linear, camera_from_object.translation;
   pose.translation = camera_from_object.translation;
-  decompose(camera_from_object.linear, pose);
+  const PlacedAxes axes = placedAxes(camera_from_object.linear);
+  pose.rigid = axes.rigid;
+  pose.rotation = axes.rotation;
+  pose.scale = axes.scale;
   Eigen::Vector3d least = Eigen::Vector3d::Constant(infinite);
   Eigen::Vector3d most = -least;
   Eigen::Vector4d projected(infinite, infinite, -infinite, -infinite);

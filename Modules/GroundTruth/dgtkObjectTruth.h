@@ -59,6 +59,15 @@ struct ObjectPixels
 DGTKGROUNDTRUTH_EXPORT std::vector<std::uint64_t> columnRunLengths(
   const std::vector<PixelRun>& runs, int width, int height);
 
+/// What a linear map makes of an object's axes: rotation diag(scale), where they stay perpendicular.
+struct PlacedAxes
+{
+  bool rigid = false;       ///< known; not of sheared objects and those without extent
+  Eigen::Matrix3d rotation; ///< proper
+  Eigen::Vector3d scale;    ///< x negative for a mirroring
+};
+DGTKGROUNDTRUTH_EXPORT PlacedAxes placedAxes(const Eigen::Matrix3d& linear);
+
 /// Where an object is in a camera's frame.
 struct ObjectPose
 {

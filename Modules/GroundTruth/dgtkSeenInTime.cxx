@@ -19,18 +19,16 @@ constexpr double settled = 1e-12; ///< of the shutter's duration
 class PointInTime
 {
 public:
-  PointInTime(const View& view, const Hit& hit, const Eigen::Vector2d& barycentrics)
+  PointInTime(const View& view, const PointAt& pointAt)
     : TheView(view)
-    , TheHit(hit)
-    , Barycentrics(barycentrics)
+    , ThePoint(pointAt)
   {
   }
 
   /// How much later than tau the image point is seen that shows the point at tau; not-a-number where none does.
   double lateness(double tau)
   {
-    const InstantSource::Point point =
-      this->TheView.instants->pointAt(tau, this->TheHit.object, this->TheHit.triangle, this->Barycentrics);
+    const InstantSource::Point point = this->ThePoint(tau);
     this->Seen.frame = tau;
     this->Seen.x_in_world = point.x_in_world;
     this->Seen.x_in_camera = point.camera_from_world * point.x_in_world;
@@ -44,8 +42,7 @@ public:
 
 private:
   const View& TheView;
-  const Hit& TheHit;
-  const Eigen::Vector2d& Barycentrics;
+  const PointAt& ThePoint;
   SeenInTime Seen;
 };
 
@@ -107,7 +104,13 @@ bool bisects(PointInTime& point, const TimeSpan& times, double most)
 
 SeenInTime seenInTime(const View& view, const Hit& hit, const Eigen::Vector2d& barycentrics)
 {
-  PointInTime point(view, hit, barycentrics);
+  return seenInTime(
+    view, [&](double tau) { return view.instants->pointAt(tau, hit.object, hit.triangle, barycentrics); });
+}
+
+SeenInTime seenInTime(const View& view, const PointAt& pointAt)
+{
+  PointInTime point(view, pointAt);
   const double frame = view.instants->frame();
   const TimeSpan offsets = view.model->times();
   const TimeSpan times{ frame + offsets.first, frame + offsets.last };

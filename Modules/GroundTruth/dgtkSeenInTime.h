@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <limits>
 
 namespace dgtk
@@ -31,6 +32,10 @@ struct SeenInTime
 /// them; where neither the secant method nor plain iteration settles, the first one that bisection finds between 64
 /// equal steps. `view` has instants; hit.object != 0.
 DGTKGROUNDTRUTH_EXPORT SeenInTime seenInTime(const View& view, const Hit& hit, const Eigen::Vector2d& barycentrics);
+
+/// The same of any point: X and the camera at a frame.
+using PointAt = std::function<InstantSource::Point(double frame)>;
+DGTKGROUNDTRUTH_EXPORT SeenInTime seenInTime(const View& view, const PointAt& pointAt);
 
 } // namespace dgtk
 

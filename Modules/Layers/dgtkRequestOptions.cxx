@@ -89,6 +89,13 @@ const SwitchOption& pack()
   return row;
 }
 
+const SwitchOption& models()
+{
+  static const SwitchOption row(
+    "models", "also write DIR/models: the geometry of each model as PLY, with its textures");
+  return row;
+}
+
 const SwitchOption& contactSheet()
 {
   static const SwitchOption row("contact_sheet", "also write DIR/contact.png: cameras and frames by layer");
@@ -153,7 +160,7 @@ const std::vector<const OptionRow*>& allOptions()
   static const std::vector<const OptionRow*> rows = []
   {
     std::vector<const OptionRow*> all = requestOptions();
-    all.insert(all.end(), { &option::threads(), &option::pack(), &option::contactSheet() });
+    all.insert(all.end(), { &option::threads(), &option::pack(), &option::models(), &option::contactSheet() });
     return all;
   }();
   return rows;

@@ -34,6 +34,7 @@ DGTKLAYERS_EXPORT const ChoiceOption& gl();
 DGTKLAYERS_EXPORT const IntegerOption& seed();
 DGTKLAYERS_EXPORT const IntegerOption& threads();
 DGTKLAYERS_EXPORT const SwitchOption& pack();
+DGTKLAYERS_EXPORT const SwitchOption& models();
 DGTKLAYERS_EXPORT const SwitchOption& contactSheet();
 } // namespace option
 

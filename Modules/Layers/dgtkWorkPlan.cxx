@@ -462,9 +462,12 @@ Pairs describeRequest(const WorkPlan& plan, const Stage& stage)
   pairs.emplace_back(option::visibility().name, plan.raster ? "raster" : "ray");
   add(pairs, { &option::seed() }, options);
   pairs.insert(pairs.end(), plan.noise.begin(), plan.noise.end());
-  if (option::pack().of(options))
+  for (const SwitchOption* row : { &option::pack(), &option::models() })
   {
-    pairs.emplace_back(option::pack().name, "yes");
+    if (row->of(options))
+    {
+      pairs.emplace_back(row->name, "yes");
+    }
   }
   return pairs;
 }

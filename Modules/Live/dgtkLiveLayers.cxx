@@ -148,6 +148,10 @@ std::string liveRefusal(const LayerInfo& info)
   {
     return "it has no image of its own";
   }
+  if (!info.filesOnly.empty())
+  {
+    return info.filesOnly;
+  }
   if (!needs.hits || needs.color || needs.sharp || needs.peeled)
   {
     return "it needs the renderer's pictures";

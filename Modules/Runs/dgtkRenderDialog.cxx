@@ -9,6 +9,7 @@
 #include "dgtkWindowSize.h"
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QCryptographicHash>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -64,7 +65,7 @@ RenderDialog::RenderDialog(EditorState& state, QWidget* parent)
   this->Options = new RenderOptions(this);
   this->Tabs->addTab(this->makeControls(), tr("Controls"));
   this->Tabs->addTab(this->Options, tr("Options"));
-  this->Options->setLayers(this->checkedLayers());
+  this->Options->setOwners(this->checkedLayers());
   this->Tabs->setCurrentIndex(2);
   layout->addWidget(this->Tabs, 1);
   this->makeRunRow(layout);
@@ -173,6 +174,10 @@ QStringList RenderDialog::arguments(const QString& scene) const
     words
       << optionWord("frames")
       << QString("%1:%2:%3").arg(this->Frames[0]->value()).arg(this->Frames[1]->value()).arg(this->Frames[2]->value());
+  }
+  if (const QString format = this->Export->currentData().toString(); !format.isEmpty())
+  {
+    words << optionWord("for") << format;
   }
   if (const std::optional<QSize> size = this->Cameras->commonSize())
   {

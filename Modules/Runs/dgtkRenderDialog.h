@@ -14,6 +14,7 @@
 #include <vector>
 
 class QCheckBox;
+class QComboBox;
 class QLabel;
 class QLineEdit;
 class QProgressBar;
@@ -102,6 +103,7 @@ private:
   QLabel* Info = nullptr;
   RenderCameras* Cameras = nullptr;
   RenderOptions* Options = nullptr;
+  QComboBox* Export = nullptr; ///< that the dataset is for
   QSpinBox* Frames[3] = { nullptr, nullptr, nullptr };
   std::size_t Opened = 0; ///< SceneDocument::opened() of what is shown
   int SceneRange[2] = { 0, 0 };

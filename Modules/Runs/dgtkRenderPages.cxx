@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRenderDialog.h"
 
+#include "dgtkExporterEntry.h"
 #include "dgtkGenerator.h"
 #include "dgtkNumberRow.h"
 #include "dgtkRenderCameras.h"
 #include "dgtkRenderOptions.h"
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDesktopServices>
 #include <QDir>
 #include <QGridLayout>
@@ -65,7 +67,7 @@ QWidget* RenderDialog::makeControls()
     box->setObjectName("layer." + toText(layer.layer));
     box->setToolTip(toText(layer.description));
     box->setChecked(chosen.contains(box->text()));
-    connect(box, &QCheckBox::toggled, this, [this] { this->Options->setLayers(this->checkedLayers()); });
+    connect(box, &QCheckBox::toggled, this, [this] { this->Options->setOwners(this->checkedLayers()); });
     grid->addWidget(box, i % rows, i / rows);
     this->Layers.push_back(box);
   }
@@ -112,6 +114,15 @@ QWidget* RenderDialog::makeControls()
   put(0, 0, tr("&First frame"), this->Frames[0], tr("Until you choose another, the first of the scene"));
   put(0, 1, tr("&Last frame"), this->Frames[1], tr("Until you choose another, the last of the scene"));
   put(0, 2, tr("E&very"), this->Frames[2], tr("2 renders every second frame"));
+  this->Export = new QComboBox;
+  this->Export->setObjectName("for");
+  this->Export->addItem(tr("none"), QString());
+  for (const ExporterRow& row : exporterRows())
+  {
+    this->Export->addItem(toText(row.info.name), toText(row.info.name));
+    this->Export->setItemData(this->Export->count() - 1, toText(row.info.description), Qt::ToolTipRole);
+  }
+  put(1, 0, tr("For e&xport"), this->Export, tr("Adds the layers and options that this export needs"));
   layout->addLayout(numbers);
   return page;
 }

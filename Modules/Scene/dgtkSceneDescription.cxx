@@ -56,6 +56,11 @@ int SceneDescription::classIdOf(const std::string& className) const
   return found == this->classes.end() ? 0 : found->id;
 }
 
+double SceneDescription::metres() const
+{
+  return this->metresPerUnit > 0 ? this->metresPerUnit : metresOfUnit(this->units);
+}
+
 std::string SceneDescription::title() const { return this->file.empty() ? "scene" : this->file; }
 
 std::vector<SceneItem> SceneDescription::items() const

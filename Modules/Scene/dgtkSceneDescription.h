@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -66,6 +67,14 @@ struct AnimationDescription
   bool loop = true;     ///< begin again at the end; otherwise hold the last frame
 };
 
+/// A point of an object that has a name: where it is on the object, or the vertex of the model that it goes with.
+struct KeypointDescription
+{
+  std::string name;
+  Eigen::Vector3d position{ 0, 0, 0 }; ///< object coordinates: before scale and placement
+  std::optional<std::uint32_t> vertex; ///< instead: from 0, of the vertices of the model's file
+};
+
 /// A model placed in the scene. world_from_object = world_from_parent * T(position) * R(orientation) * S(scale).
 struct ObjectDescription
 {
@@ -84,7 +93,8 @@ struct ObjectDescription
   /// Texture variant: name (with or without folder and extension) or number from 0 of one of the model's textures,
   /// which then replaces the texture of all its textured materials; "": as the model says.
   std::string skin;
-  long line = 0; ///< in the file it was read from; 0 unknown
+  std::vector<KeypointDescription> keypoints; ///< names are unique
+  long line = 0;                              ///< in the file it was read from; 0 unknown
 };
 
 /// Meanings as in LightState.
@@ -207,8 +217,13 @@ constexpr int largestClassId = 65535;
 /// A class of objects with the number that it has in every scene.
 struct ClassDescription
 {
-  std::string name; ///< "": of objects without a class
-  int id = 0;       ///< 1 to largestClassId, unique
+  std::string name;                              ///< "": of objects without a class
+  int id = 0;                                    ///< 1 to largestClassId, unique
+  std::string supercategory;                     ///< a class of classes, free text; may be empty
+  std::optional<bool> thing;                     ///< what can be counted; false: stuff, such as sky
+  std::optional<std::array<int, 3>> color;       ///< sRGB, 0 to 255
+  std::vector<std::string> keypoints = {};       ///< names; not empty: those that its objects may have
+  std::vector<std::array<int, 2>> skeleton = {}; ///< pairs of `keypoints`, from 1
 };
 
 /// A scene as written. The world is right-handed; upAxis changes nothing but the `up` that a camera has by default.
@@ -228,7 +243,10 @@ struct DGTKSCENE_EXPORT SceneDescription
   Track<Eigen::Vector3d> background; ///< sRGB in [0, 1]
   EnvironmentDescription environment;
   FogDescription fog;
-  std::string units; ///< name of the unit of length, free text
+  std::string units;        ///< name of the unit of length, free text
+  double metresPerUnit = 0; ///< as written; 0: as `units` has it, see metresOfUnit()
+  /// What a dataset of it says of itself, by the words of datasetWords(); texts that are not empty.
+  std::map<std::string, std::string> dataset;
   UpAxis upAxis = UpAxis::Y;
   std::uint64_t seed = 0; ///< below 2^53
   /// Fixed numbers of the classes; empty: numbered in the order of the objects. Otherwise every class of an object is
@@ -246,9 +264,16 @@ struct DGTKSCENE_EXPORT SceneDescription
   std::string title() const;
   /// `order`, filled in.
   std::vector<SceneItem> items() const;
+  /// Metres in a scene unit; 0 where neither the number nor the name of the unit says it.
+  double metres() const;
   /// `path` (of a model or texture) as it can be opened: absolute ones as they are, others below `folder`.
   std::string resolve(const std::string& path) const;
 };
+
+/// Metres in a unit of length of this name ("mm", "metres", "inch" ...); 0 for one that is not known.
+DGTKSCENE_EXPORT double metresOfUnit(const std::string& name);
+/// The keys of a scene's `dataset`.
+DGTKSCENE_EXPORT const std::vector<std::string>& datasetWords();
 
 /// What makeCamera() makes a camera of at a frame, in an image of this size; K of another size is scaled per axis.
 /// Files are below `folder`.

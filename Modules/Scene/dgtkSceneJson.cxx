@@ -220,7 +220,9 @@ const std::vector<JsonField<Scene>>& sceneFields()
   static const std::vector<JsonField<Scene>> fields{
     { "$schema", readSchema, writeNothing },
     { "version", readVersion, writeVersion },
+    datasetRow(),
     { "units", readUnits, writeUnits },
+    metresRow(),
     { "upAxis", readUpAxis, writeUpAxis },
     { "fps", readFps, writeFps },
     backgroundRow(),
@@ -285,6 +287,7 @@ std::map<std::string, std::vector<std::string>> jsonSceneKeys()
     { "light", keysOf(lightFields()) },
     { "camera", keysOf(cameraFields()) },
     { "class", keysOf(classFields()) },
+    { "dataset", datasetWords() },
     { "environment", keysOf(environmentFields()) },
     { "fog", keysOf(fogFields()) },
     { "shutter", keysOf(shutterFields()) },

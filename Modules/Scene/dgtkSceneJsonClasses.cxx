@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkSceneJsonRows.h"
 
+#include <algorithm>
 #include <set>
 
 namespace dgtk::scenefile
@@ -11,12 +13,69 @@ namespace
 {
 constexpr std::uint64_t largestFile = std::uint64_t(64) << 20;
 
+void readKeypointNames(const JsonCursor& at, ClassDescription& one)
+{
+  for (const JsonCursor& name : at.items())
+  {
+    const std::string& text = name.string(false);
+    if (std::find(one.keypoints.begin(), one.keypoints.end(), text) != one.keypoints.end())
+    {
+      name.fail("is named twice", "names of which each is another", quoted(text));
+    }
+    one.keypoints.push_back(text);
+  }
+}
+
+void readSkeleton(const JsonCursor& at, ClassDescription& one)
+{
+  for (const JsonCursor& pair : at.items())
+  {
+    pair.listSize(2);
+    one.skeleton.push_back({ static_cast<int>(pair.element(0).wholeNumber(rules::keypoint)),
+      static_cast<int>(pair.element(1).wholeNumber(rules::keypoint)) });
+  }
+}
+
+void checkSkeleton(const JsonCursor& at, const ClassDescription& one)
+{
+  const int count = static_cast<int>(one.keypoints.size());
+  for (const std::array<int, 2>& pair : one.skeleton)
+  {
+    if (pair[0] == pair[1] || std::max(pair[0], pair[1]) > count)
+    {
+      at.fail("has a skeleton that joins no keypoints",
+        "pairs of different numbers from 1 to " + std::to_string(count) + ", of \"keypoints\"",
+        '[' + std::to_string(pair[0]) + ", " + std::to_string(pair[1]) + ']');
+    }
+  }
+}
+
+template <auto Member>
+void writeList(const ClassDescription& one, const char* key, JsonNode& node)
+{
+  JsonNode list(JsonNode::Type::Array);
+  for (const auto& item : one.*Member)
+  {
+    list.children.push_back(writeValue(item));
+  }
+  if (!list.children.empty())
+  {
+    node.add(key, std::move(list));
+  }
+}
+
+bool isMoreThanNumber(const ClassDescription& one)
+{
+  return !one.supercategory.empty() || one.thing || one.color || !one.keypoints.empty() || !one.skeleton.empty();
+}
+
 ClassDescription readClass(const JsonCursor& at, const std::string& name)
 {
   ClassDescription one;
-  if (at.node().type == JsonNode::Type::Object) // room for more than the number
+  if (at.node().type == JsonNode::Type::Object)
   {
     readFields(at, classFields(), one);
+    checkSkeleton(at, one);
     if (one.id == 0)
     {
       at.fail("has no number", "\"id\": " + std::string(rules::classId.text));
@@ -82,7 +141,7 @@ void writeClasses(const SceneDescription& scene, const char* key, JsonNode& node
   JsonNode table(JsonNode::Type::Object);
   for (const ClassDescription& one : scene.classes)
   {
-    table.add(one.name, JsonNode::of(double(one.id)));
+    table.add(one.name, isMoreThanNumber(one) ? writeFields(one, classFields()) : JsonNode::of(double(one.id)));
   }
   if (!table.children.empty())
   {
@@ -93,7 +152,11 @@ void writeClasses(const SceneDescription& scene, const char* key, JsonNode& node
 
 const std::vector<JsonField<ClassDescription>>& classFields()
 {
-  static const std::vector<JsonField<ClassDescription>> fields{ row<&ClassDescription::id, rules::classId>("id") };
+  using Class = ClassDescription;
+  static const std::vector<JsonField<Class>> fields{ row<&Class::id, rules::classId>("id"),
+    row<&Class::supercategory>("supercategory"), row<&Class::thing>("thing"),
+    row<&Class::color, rules::colorByte>("color"), { "keypoints", readKeypointNames, writeList<&Class::keypoints> },
+    { "skeleton", readSkeleton, writeList<&Class::skeleton> } };
   return fields;
 }
 

@@ -142,6 +142,7 @@ const std::vector<JsonField<Object>>& objectFields()
     structRow<&Object::animation, animationFields>("animation"),
     { "materials", readMaterials, writeMaterials },
     row<&Object::skin>("skin"),
+    keypointsRow(),
   };
   return fields;
 }

@@ -25,6 +25,14 @@ inline void readInto(const JsonCursor& at, const Range& range, std::array<double
 {
   Eigen::Map<Eigen::Vector3d>(into.data()) = at.vector(range);
 }
+inline void readInto(const JsonCursor& at, const Range& range, std::array<int, 3>& into)
+{
+  at.listSize(into.size());
+  for (std::size_t i = 0; i < into.size(); ++i)
+  {
+    into[i] = static_cast<int>(at.element(i).wholeNumber(range));
+  }
+}
 inline void readInto(const JsonCursor& at, const Range& range, std::vector<double>& into)
 {
   into.clear();
@@ -58,6 +66,8 @@ inline JsonNode writeNumbers(const List& values)
   return list;
 }
 inline JsonNode writeValue(const std::array<double, 3>& v) { return writeNumbers(v); }
+inline JsonNode writeValue(const std::array<int, 3>& v) { return writeNumbers(v); }
+inline JsonNode writeValue(const std::array<int, 2>& v) { return writeNumbers(v); }
 inline JsonNode writeValue(const std::vector<double>& v) { return writeNumbers(v); }
 template <typename T>
 inline JsonNode writeValue(const Track<T>& track)

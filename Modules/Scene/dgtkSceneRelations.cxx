@@ -7,6 +7,7 @@
 #include "dgtkText.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 #include <unordered_map>
@@ -34,9 +35,11 @@ public:
     this->checkNames(Kind::Camera, this->Scene.cameras);
     this->checkParents();
     this->checkClasses();
+    this->checkMetres();
     for (std::size_t i = 0; i < this->Scene.objects.size(); ++i)
     {
       this->checkScale(i);
+      this->checkKeypoints(i);
     }
     for (std::size_t i = 0; i < this->Scene.lights.size(); ++i)
     {
@@ -147,6 +150,43 @@ private:
         const std::string& file = this->Scene.classFile;
         this->fail(Kind::Object, i, "class", "has no number in " + (file.empty() ? "\"classes\"" : file),
           "one of " + names, quoted(object.className));
+      }
+    }
+  }
+
+  void checkMetres() const
+  {
+    constexpr double tolerance = 1e-6;
+    const double said = this->Scene.metresPerUnit;
+    const double named = metresOfUnit(this->Scene.units);
+    if (said > 0 && named > 0 && std::abs(said / named - 1) > tolerance)
+    {
+      throw InputError(this->Scene.title(), 0, "metresPerUnit contradicts units " + quoted(this->Scene.units),
+        plainNumber(named) + ", or units of another name", plainNumber(said));
+    }
+  }
+
+  /// Where a class says which keypoints there are, its objects have no others.
+  void checkKeypoints(std::size_t i) const
+  {
+    const ObjectDescription& object = this->Scene.objects[i];
+    std::vector<std::string> known;
+    for (const ClassDescription& one : this->Scene.classes)
+    {
+      known = one.name == object.className ? one.keypoints : known;
+    }
+    std::set<std::string> seen;
+    for (const KeypointDescription& point : object.keypoints)
+    {
+      if (!seen.insert(point.name).second)
+      {
+        this->fail(Kind::Object, i, "keypoints", "names " + quoted(point.name) + " twice");
+      }
+      if (!known.empty() && std::find(known.begin(), known.end(), point.name) == known.end())
+      {
+        const std::string near = nearest(point.name, known);
+        this->fail(Kind::Object, i, "keypoints", "names what is none of class " + quoted(object.className),
+          near.empty() ? "one of its keypoints" : "perhaps " + quoted(near), quoted(point.name));
       }
     }
   }

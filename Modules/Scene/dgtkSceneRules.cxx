@@ -27,7 +27,7 @@ std::string faultOf(const Eigen::Matrix3d& K)
 
 std::string faultOfCameraName(const std::string& name)
 {
-  static const std::set<std::string> taken{ "manifest.json", "cameras.json", "objects.json", "scene.json",
+  static const std::set<std::string> taken{ "manifest.json", "cameras.json", "objects.json", "poses.json", "scene.json",
     "contact.png" };
   const bool good = name.size() <= 128 && name.find_first_of("/\\,@:") == std::string::npos && name[0] != '.' &&
                     name[0] != ' ' && name[0] != '-' && name.back() != ' ' && taken.count(name) == 0;
@@ -108,7 +108,9 @@ void validate(const SceneDescription& scene)
     readCamera(JsonCursor(tree), scene.upAxis, read);
   }
   SceneDescription rest;
+  rest.dataset = scene.dataset;
   rest.units = scene.units;
+  rest.metresPerUnit = scene.metresPerUnit;
   rest.upAxis = scene.upAxis;
   rest.fps = scene.fps;
   rest.background = scene.background;

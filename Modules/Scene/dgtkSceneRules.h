@@ -38,6 +38,10 @@ inline constexpr Range shutter{ -1000, 1000, false, false, "frames from -1000 to
 inline constexpr Range rollingShutter{ 0, 1000, false, false, "frames from 0 to 1000" };
 inline constexpr Range notNegative{ 0, 1e15, false, false, "a number from 0 to 1e15" };
 inline constexpr Range classId{ 1, largestClassId, false, false, "a whole number from 1 to 65535" };
+inline constexpr Range colorByte{ 0, 255, false, false, "a whole number from 0 to 255" };
+inline constexpr Range keypoint{ 1, 65535, false, false, "a whole number from 1 to 65535" };
+inline constexpr Range vertex{ 0, 4294967295.0, false, false, "a whole number from 0 to 4294967295" };
+inline constexpr Range metres{ 0, 1e15, true, false, "metres above 0, up to 1e15" };
 inline constexpr Range seed{ 0, 9007199254740991.0, false, false, "a whole number from 0 to 2^53 - 1" };
 inline constexpr double quaternionTolerance =
   0.01; ///< of the norm: numbers with two decimals, as the thesis prints them

@@ -108,6 +108,8 @@ private:
     const FogDescription& fog = this->Scene.fog;
     this->needScene(isConstant(fog.density, 0.0) && !fog.color.animated() && !fog.start.animated(), "fog");
     this->needScene(this->Scene.units.empty(), "units");
+    this->needScene(this->Scene.metresPerUnit == 0, "metresPerUnit");
+    this->needScene(this->Scene.dataset.empty(), "dataset");
     this->needScene(this->Scene.upAxis == usual.upAxis, "upAxis");
     this->needScene(this->Scene.seed == 0, "seed");
     this->needScene(this->Scene.classes.empty(), "classes");
@@ -147,6 +149,7 @@ private:
     this->need(animation.loop == usual.loop, item, "animation.loop");
     this->need(object.materials.empty(), item, "materials");
     this->need(object.skin.empty(), item, "skin");
+    this->need(object.keypoints.empty(), item, "keypoints");
     this->needLinear(object.position, item, "position");
     this->needLinear(object.orientation, item, "orientation");
     this->needLinear(object.scale, item, "scale");

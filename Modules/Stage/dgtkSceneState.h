@@ -17,6 +17,13 @@
 namespace dgtk
 {
 
+/// A named point of an object at one instant.
+struct KeypointState
+{
+  std::string name;
+  Eigen::Vector3d x_in_object{ 0, 0, 0 };
+};
+
 /// One object of the scene at one instant. Its object id is its index in SceneState::instances plus 1.
 struct Instance
 {
@@ -29,6 +36,7 @@ struct Instance
     materials;               ///< model's, or overridden by the scene; one per Model::materials
   Affine3 world_from_object; ///< includes scale and parents; may mirror
   bool visible = true;       ///< otherwise nothing of it is there at this instant, but it has its place and its id
+  std::vector<KeypointState> keypoints; ///< as the scene lists them
 };
 
 /// A light at one instant, world frame. Attenuation: 1 / (constant + linear d + quadratic d^2).

@@ -4,6 +4,7 @@
 #include "dgtkCameraEntry.h"
 #include "dgtkError.h"
 #include "dgtkInstantSource.h"
+#include "dgtkKeypoints.h"
 #include "dgtkMaterialNumbers.h"
 #include "dgtkModelClock.h"
 #include "dgtkObjectPoses.h"
@@ -199,6 +200,7 @@ void Stage::Impl::checkObjects() const
     if (this->Looks[i].model != nullptr && !this->Looks[i].standsIn)
     {
       findAnimation(this->Scene, object, *this->Looks[i].model);
+      checkKeypoints(this->Scene, object, *this->Looks[i].model);
     }
     if (!object.scale.animated())
     {
@@ -262,6 +264,7 @@ Instance Stage::Impl::instance(std::size_t index, const Affine3& world_from_obje
   instance.materials = this->Materials.at(object, look.materials, frame);
   instance.world_from_object = world_from_object;
   instance.visible = object.visible.at(frame);
+  instance.keypoints = keypointsAt(object, *look.model, *instance.geometry);
   return instance;
 }
 
@@ -529,6 +532,22 @@ std::vector<std::string> Stage::objectNames() const
     }
   }
   return names;
+}
+
+std::vector<bool> Stage::movingObjects() const
+{
+  const Impl& impl = *this->Self;
+  std::vector<bool> moving;
+  for (const SceneItem& item : impl.Scene.items())
+  {
+    if (item.kind == SceneItem::Kind::Object && impl.isPresent(item.index))
+    {
+      const Model& model = *impl.Looks[item.index].model;
+      const bool deforms = model.deformation && findAnimation(impl.Scene, impl.Scene.objects[item.index], model) >= 0;
+      moving.push_back(deforms || impl.Poses->moves(item.index));
+    }
+  }
+  return moving;
 }
 
 std::vector<std::shared_ptr<const Model>> Stage::models() const { return this->Self->Models; }

@@ -72,6 +72,9 @@ public:
   std::vector<std::string> cameraNames() const;
   /// Names of the objects with an id, in the order of the ids: objectNames()[id - 1].
   std::vector<std::string> objectNames() const;
+  /// Of the objects with an id, in the order of the ids: whether it or what it hangs on has key frames of its place, or
+  /// its model plays an animation. Others are the same at all frames but for their looks and whether they are visible.
+  std::vector<bool> movingObjects() const;
 
   /// Models in the order of their first use, each once.
   std::vector<std::shared_ptr<const Model>> models() const;

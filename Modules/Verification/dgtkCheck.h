@@ -37,6 +37,7 @@ void checkAlpha(Picture& picture, Results& results);
 void checkMatting(Picture& picture, Results& results);
 void checkBoxes(Picture& picture, Results& results);
 void checkPoints(Dataset& dataset, Results& results);
+void checkTracks(Dataset& dataset, Results& results);
 
 } // namespace dgtk
 

@@ -34,6 +34,7 @@ constexpr Check allChecks[] = {
   { "matting", nullptr, checkMatting },
   { "boxes", nullptr, checkBoxes },
   { "points", checkPoints, nullptr },
+  { "tracks", checkTracks, nullptr },
 };
 
 /// Runs one function of a check; a file that cannot be used becomes a residual.

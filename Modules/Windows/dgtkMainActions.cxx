@@ -44,7 +44,7 @@ Eigen::Vector3d placeOfLight(const WorldBox& box, UpAxis up)
 QAction* MainWindow::addAction(QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys)
 {
   // The tool bar has what is used often.
-  static const QStringList menuOnly{ "saveAs", "exportPov", "selectAll", "rename", "properties" };
+  static const QStringList menuOnly{ "saveAs", "exportPov", "exportDataset", "selectAll", "rename", "properties" };
   auto* tools = menuOnly.contains(name) ? nullptr : this->findChild<QToolBar*>("toolBar");
   QAction* const action = addNamedAction(this, menu, tools, name, text, keys);
   connect(action, &QAction::triggered, this->State, &EditorState::finishTyping); // before what the action does
@@ -108,6 +108,7 @@ void MainWindow::makeFileMenu()
   connect(add("import", tr("&Import ..."), QKeySequence("Ctrl+I")), &QAction::triggered, files, &SceneFiles::askImport);
   connect(add("findModels", tr("Find &missing models ..."), {}), &QAction::triggered, files, &SceneFiles::findMissing);
   connect(add("exportPov", tr("Export &POV-Ray ..."), {}), &QAction::triggered, files, &SceneFiles::exportPov);
+  connect(add("exportDataset", tr("E&xport a dataset ..."), {}), &QAction::triggered, this, &MainWindow::exportDataset);
   menu->addSeparator();
   QAction* const leave = menu->addAction(tr("E&xit"));
   leave->setObjectName("exit");

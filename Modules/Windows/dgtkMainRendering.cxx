@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkExportDialog.h"
 #include "dgtkMainWindow.h"
 #include "dgtkRenderDialog.h"
 #include "dgtkRenderStatus.h"
 #include "dgtkRunLog.h"
+#include "dgtkUsualFolder.h"
 
 #include <QDir>
 #include <QMessageBox>
@@ -28,10 +30,17 @@ QString endTitle(RunLog::End end)
   }
 }
 
+bool isExport(const RunLog& log) { return log.request().arguments.value(0) == "export"; }
+
 /// Of a run that ended while no window was there.
 QString endText(const RunLog& log)
 {
   const QString name = QDir::toNativeSeparators(log.request().folder);
+  if (isExport(log))
+  {
+    return log.end() == RunLog::End::Done ? MainWindow::tr("Exported meanwhile: %1").arg(log.last())
+                                          : MainWindow::tr("The export into %1 has ended: %2").arg(name, log.last());
+  }
   switch (log.end())
   {
     case RunLog::End::Done:
@@ -79,6 +88,20 @@ void MainWindow::configureRendering()
   dialog.activateWindow();
 }
 
+void MainWindow::exportDataset()
+{
+  if (this->Exporting == nullptr)
+  {
+    this->Exporting = new ExportDialog(this);
+    connect(this->Exporting, &ExportDialog::noted, this, &MainWindow::note);
+    connect(this, &MainWindow::closed, this->Exporting, &QWidget::hide);
+  }
+  this->Exporting->offer(usualFolder("dataset"));
+  this->Exporting->show();
+  this->Exporting->raise();
+  this->Exporting->activateWindow();
+}
+
 void MainWindow::findRuns()
 {
   QStringList running;
@@ -89,18 +112,26 @@ void MainWindow::findRuns()
     RunLog log(folder);
     const bool alive = log.alive(); // before its last words are read
     log.read();
-    if (alive)
+    if (alive && !isExport(log))
     {
       running << folder;
     }
-    else if (!log.shown())
+    else if (!alive && isExport(log))
+    {
+      if (!log.shown())
+      {
+        this->note(endText(log));
+      }
+      log.remove();
+    }
+    else if (!alive && !log.shown())
     {
       this->note(endText(log));
       this->rendering().offer(folder);
       this->Run->showEnd(endTitle(log.end()), QDir::toNativeSeparators(folder));
       log.markShown();
     }
-    else if (log.end() == RunLog::End::Done || !QDir(folder).exists())
+    else if (!alive && (log.end() == RunLog::End::Done || !QDir(folder).exists()))
     {
       log.remove(); // there is nothing to go on with
     }

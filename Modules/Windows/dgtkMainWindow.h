@@ -24,6 +24,7 @@ class BackgroundWork;
 class EditorLog;
 class EditorState;
 class MatchDialog;
+class ExportDialog;
 class RenderDialog;
 class RenderStatus;
 class SceneDocument;
@@ -90,6 +91,7 @@ private:
   void addLight();
   RenderDialog& rendering();
   void configureRendering();
+  void exportDataset();
   /// False when the window is to stay because of a run that goes on, after asking.
   bool mayLeaveRun();
   void showCorrespondence();
@@ -115,6 +117,7 @@ private:
   QMenu* Recent = nullptr;
   QMenu* ViewMenu = nullptr;
   RenderDialog* Rendering = nullptr;
+  ExportDialog* Exporting = nullptr;
   RenderStatus* Run = nullptr;
   MatchDialog* Matching = nullptr;
 };

@@ -86,7 +86,7 @@ class Cameras(Case):
         return report["residuals"]
 
     def test_all_layers_are_verified(self):
-        self.render(LAYERS + ",correspondence,points", "--pairs",
+        self.render(LAYERS + ",correspondence,points,tracks", "--tracks-step", "8", "--tracks-every", "1", "--pairs",
                     "fisheye:panorama,panorama:mirror+1,mirror:radial,radial:fisheye,double sphere:enhanced,parallel:five,"
                     "table:origins,origins:table+1,radial:table",
                     "--objects-format", "npy", "--flow_forward-format", "npy", "--flow_backward-format", "npy")

@@ -56,6 +56,7 @@ pickle.dump(given, open(sys.argv[2] + "/given.pickle", "wb"))
         self.dgtk("render", DEMO, "-o", self.path("demo"), "--quiet", "--size", "64x48", "--frames", "1", "--samples", "2", "--layers",
                   ",".join(usual), *(word for layer in usual for word in self.format_of(layer)))
         self.assertEqual(given.pop("tiles"), "the layer tiles is not given as an array: it is color cut into files")
+        self.assertEqual(given.pop("tracks"), "the layer tracks is not given as an array: its points are those of a run of views")
         for layer, outputs in given.items():
             self.compare(layer, outputs, self.path("demo"))
         for layer, (scene, options, words) in self.SPECIAL.items():

@@ -46,7 +46,8 @@ SCENE = {
         {"name": "parallel", "model": "orthographic", "viewHeight": 3.2, "eye": [2, 3, 5], "lookAt": [0, 0.5, 0], **PINHOLE},
         {"name": "moving", "fovY": 50, "position": {"keys": [[0, [-1, 1.2, 4]], [1, [-0.97, 1.21, 3.97]]]},
          "orientation": [0.05, 0.99875, 0, 0], "lens": {"aperture": 0.02, "focus": 4, "exposures": 4}, **PINHOLE}]}
-OPTIONS = ["--layers", "all", "--frames", "0:1", "--samples", "2", "--matte", "crate", "--points-step", "2", "--pairs",
+OPTIONS = ["--layers", "all", "--frames", "0:1", "--samples", "2", "--matte", "crate", "--points-step", "2", "--tracks-step", "6",
+           "--tracks-every", "2", "--pairs",
            "left:right,left:matrix,parallel:moving,moving:left+1"]
 # Inside a box there is no background, which PNG could not say of parts and triangles; with one sample a pixel, colour is
 # that of the first record of ldi.
@@ -678,6 +679,86 @@ def clouds():
         yield Plant("points", row, tolerance, edit, small=False)
 
 
+def tracks():
+    name = "tracks/points.json"
+
+    def points(data):
+        with open(data.path(name), encoding="utf-8") as file:
+            return json.load(file)["points"]
+
+    def visible(data, camera, frame, skip):
+        """A point that a view sees and that is another view's."""
+        places = np.load(data.path(f"{camera}/tracks/{frame:06d}.npy"))
+        return [i for i, point in enumerate(points(data))
+                if places[i, 2] == 1 and (point["camera"], point["frame"]) != (camera, frame)][skip]
+
+    def value(camera, frame, column, edit, skip):
+        def plant(data, factor):
+            file = f"{camera}/tracks/{frame:06d}.npy"
+            index = visible(data, camera, frame, skip)
+            return data.change(file, (column, index), lambda v: v + edit(factor))[0], None
+
+        return plant
+
+    def field(skip, edit):
+        def plant(data, factor):
+            return data.document(name, lambda document: edit(document["points"][skip], factor))
+
+        return plant
+
+    yield Plant("tracks", "places", 1e-8, value("left", 1, 0, lambda factor: 1e-8 * factor, 3))
+    yield Plant("tracks", "places", 1e-8, value("parallel", 1, 1, lambda factor: 1e-8 * factor, 3))
+    yield Plant("tracks", "places", 1e-8, value("left", 1, 1, lambda factor: float("nan"), 6), small=False)
+    yield Plant("tracks", "classes", 0, value("right", 1, 2, lambda factor: 1, 5))
+    yield Plant("tracks", "classes", 0, value("moving", 1, 2, lambda factor: 2, 5))
+    yield Plant("tracks", "classes", 0, value("moving", 1, 2, lambda factor: 0.5, 9))
+
+    def move(point, factor):
+        point["x"] = [x * (1 + 1e-9 * factor) for x in point["x"]]
+
+    def weigh(point, factor):
+        point["barycentric"][0] += 1e-9 * factor
+
+    def flip(point, _):
+        point["static"] = not point["static"]
+
+    def paint(point, factor):
+        point["color"][1] += round(0.2 * factor) * (-1 if point["color"][1] > 128 else 1)
+
+    yield Plant("tracks", "points", 1e-9, field(4, move))
+    yield Plant("tracks", "points", 1e-9, field(7, weigh))
+    yield Plant("tracks", "static", 0, field(11, flip), bad=2)  # at both frames
+    yield Plant("tracks", "colors", 0.500001, field(13, paint), small=False)
+
+    def of_kind(data, static):
+        return next(i for i, point in enumerate(points(data)) if point["static"] == static)
+
+    def flip_moving(data, _):
+        return data.document(name, lambda document: flip(document["points"][of_kind(data, False)], 0))
+
+    yield Plant("tracks", "static", 0, flip_moving, bad=2)
+
+    def elsewhere(data, _):
+        """As if another camera had sampled it: where it was sampled no point is left."""
+        index = 20
+        point = points(data)[index]
+        file = f"{point['camera']}/tracks/000000.npy"
+        u, v, _ = np.load(data.path(file))[index]
+        data.document(name, lambda document: document["points"][index].update(camera="moving"))
+        return file, [int(u), int(v)]
+
+    def unsampled(data, _):
+        """As if it had been sampled at a frame that is not."""
+        index = len(points(data)) - 1
+        camera = points(data)[index]["camera"]
+        data.document(name, lambda document: document["points"][index].update(frame=1))
+        u, v, _ = np.load(data.path(f"{camera}/tracks/000000.npy"))[index]
+        return f"{camera}/tracks/000000.npy", [int(u), int(v)]
+
+    for edit in (elsewhere, unsampled):
+        yield Plant("tracks", "samples", 0, edit, bad=None)
+
+
 def files():
     def flip(data, _):
         path = data.path("left/color/000000.png")
@@ -740,7 +821,8 @@ def cameras():
     yield Plant("cameras", "objects", 0, lambda data, _: data.document("objects.json", objects), bad=5, small=False)
 
 
-ALL = [plant for group in (files, depths, labels, calibrations, geometry, pairs, layered, covered, mattes, boxes, masks, clouds)
+ALL = [plant for group in (files, depths, labels, calibrations, geometry, pairs, layered, covered, mattes, boxes, masks, clouds,
+                             tracks)
        for plant in group()]
 
 

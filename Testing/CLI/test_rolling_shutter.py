@@ -161,13 +161,13 @@ class RollingShutters(Case):
             own = {key: value for key, value in plain.items() if key != "rollingShutter"}
             description["cameras"].append({**own, **camera, "name": name})
         layers = (",".join(LAYERS) + ",edges,flow_forward,flow_backward,sceneflow,correspondence,alpha,coverage,ldi,"
-                  "boxes,amodal,points,matting,depth_noisy")
+                  "boxes,amodal,points,tracks,matting,depth_noisy")
         self.render("all", description, layers, "3:4", "--flow_forward-format", "npy,flo", "--matte", "ball,crate",
-                    "--points-step", "2", "--pairs", "down:still,still:down+1,fisheye:right,table:up", "--samples", "2")
+                    "--points-step", "2", "--tracks-step", "8", "--tracks-every", "1", "--pairs", "down:still,still:down+1,fisheye:right,table:up", "--samples", "2")
         report = json.loads(self.dgtk("verify", self.path("all"), "--json").stdout)
         counts = {(row["check"], row["layer"]): row["count"] for row in report["residuals"]}
         for key in (("motion", "flow_forward"), ("class", "flow_forward"), ("motion", "sceneflow"),
-                    ("class", "correspondence_down+1"), ("boxes", "projected"), ("points", "tracks"), ("ldi", "surfaces"),
+                    ("class", "correspondence_down+1"), ("boxes", "projected"), ("points", "tracks"), ("tracks", "classes"), ("ldi", "surfaces"),
                     ("alpha", "coverage"), ("cameras", "cameras")):
             self.assertGreater(counts.get(key, 0), 0, f"{key} of {sorted(counts)}")
 

@@ -49,192 +49,6 @@
     </message>
 </context>
 <context>
-    <name>Edit</name>
-    <message>
-        <source>Add camera</source>
-        <translation>Kamera hinzufügen</translation>
-    </message>
-    <message>
-        <source>Add camera array</source>
-        <translation>Kamerafeld hinzufügen</translation>
-    </message>
-    <message>
-        <source>Add light</source>
-        <translation>Licht hinzufügen</translation>
-    </message>
-    <message>
-        <source>Change frame rate</source>
-        <translation>Bildrate ändern</translation>
-    </message>
-    <message>
-        <source>Change interpolation</source>
-        <translation>Interpolation ändern</translation>
-    </message>
-    <message>
-        <source>Change interpolation of keys</source>
-        <translation>Interpolation von Schlüsseln ändern</translation>
-    </message>
-    <message>
-        <source>Change speed of sequence</source>
-        <translation>Tempo der Sequenz ändern</translation>
-    </message>
-    <message>
-        <source>Choose sequence</source>
-        <translation>Sequenz wählen</translation>
-    </message>
-    <message>
-        <source>Copy key frame</source>
-        <translation>Schlüsselbild kopieren</translation>
-    </message>
-    <message>
-        <source>Copy keys</source>
-        <translation>Schlüssel kopieren</translation>
-    </message>
-    <message>
-        <source>Cut</source>
-        <translation>Ausschneiden</translation>
-    </message>
-    <message>
-        <source>Delete</source>
-        <translation>Löschen</translation>
-    </message>
-    <message>
-        <source>Duplicate</source>
-        <translation>Duplizieren</translation>
-    </message>
-    <message>
-        <source>Import</source>
-        <translation>Importieren</translation>
-    </message>
-    <message>
-        <source>Make key frame</source>
-        <translation>Schlüsselbild setzen</translation>
-    </message>
-    <message>
-        <source>Move</source>
-        <translation>Verschieben</translation>
-    </message>
-    <message>
-        <source>Move key frame</source>
-        <translation>Schlüsselbild verschieben</translation>
-    </message>
-    <message>
-        <source>Move keys</source>
-        <translation>Schlüssel verschieben</translation>
-    </message>
-    <message>
-        <source>Move sequence</source>
-        <translation>Sequenz verschieben</translation>
-    </message>
-    <message>
-        <source>Paste</source>
-        <translation>Einfügen</translation>
-    </message>
-    <message>
-        <source>Paste key frame</source>
-        <translation>Schlüsselbild einfügen</translation>
-    </message>
-    <message>
-        <source>Remove key frame</source>
-        <translation>Schlüsselbild entfernen</translation>
-    </message>
-    <message>
-        <source>Remove keys</source>
-        <translation>Schlüssel entfernen</translation>
-    </message>
-    <message>
-        <source>Rename</source>
-        <translation>Umbenennen</translation>
-    </message>
-    <message>
-        <source>Repeat sequence</source>
-        <translation>Sequenz wiederholen</translation>
-    </message>
-    <message>
-        <source>Rotate</source>
-        <translation>Drehen</translation>
-    </message>
-    <message>
-        <source>Scale</source>
-        <translation>Skalieren</translation>
-    </message>
-    <message>
-        <source>Set image size</source>
-        <translation>Bildgröße setzen</translation>
-    </message>
-    <message>
-        <source>Change the lens</source>
-        <translation>Objektiv ändern</translation>
-    </message>
-    <message>
-        <source>Find models</source>
-        <translation>Modelle suchen</translation>
-    </message>
-</context>
-<context>
-    <name>Message</name>
-    <message>
-        <source>it needs a frame of the scene after the picture&apos;s own</source>
-        <translation>dafür braucht es ein Bild der Szene nach diesem</translation>
-    </message>
-    <message>
-        <source>it needs a frame of the scene after the picture&apos;s own, and two cameras side by side at both</source>
-        <translation>dafür braucht es ein Bild der Szene nach diesem und bei beiden zwei Kameras nebeneinander</translation>
-    </message>
-    <message>
-        <source>it needs a frame of the scene before the picture&apos;s own</source>
-        <translation>dafür braucht es ein Bild der Szene vor diesem</translation>
-    </message>
-    <message>
-        <source>it needs a frame of the scene before the picture&apos;s own, and two cameras side by side at both</source>
-        <translation>dafür braucht es ein Bild der Szene vor diesem und bei beiden zwei Kameras nebeneinander</translation>
-    </message>
-    <message>
-        <source>it needs another camera in the run, or a pair of cameras that ends within the frames of the scene</source>
-        <translation>dafür braucht es eine weitere Kamera</translation>
-    </message>
-    <message>
-        <source>it needs two cameras side by side: the same K but cx, the same orientation, displaced along the x axis</source>
-        <translation>dafür braucht es zwei Kameras nebeneinander: gleiches K bis auf cx, gleich ausgerichtet, entlang der x-Achse versetzt</translation>
-    </message>
-    <message>
-        <source>the pixel is outside the image</source>
-        <translation>das Pixel liegt außerhalb des Bildes</translation>
-    </message>
-    <message>
-        <source>the point is outside the image</source>
-        <translation>der Punkt liegt außerhalb des Bildes</translation>
-    </message>
-    <message>
-        <source>number of cameras: expected 1 to 10000</source>
-        <translation>Zahl der Kameras: 1 bis 10000 erwartet</translation>
-    </message>
-    <message>
-        <source>columns and rows: expected 1 to 10000 cameras in all</source>
-        <translation>Spalten und Zeilen: zusammen 1 bis 10000 Kameras erwartet</translation>
-    </message>
-    <message>
-        <source>spacing: expected a number above 0</source>
-        <translation>Abstand: eine Zahl über 0 erwartet</translation>
-    </message>
-    <message>
-        <source>path: expected at least two different points</source>
-        <translation>Weg: mindestens zwei verschiedene Punkte erwartet</translation>
-    </message>
-    <message>
-        <source>eye, look-at or up of a camera is not finite</source>
-        <translation>Auge, Blickpunkt oder Oben einer Kamera ist nicht endlich</translation>
-    </message>
-    <message>
-        <source>eye and look-at of a camera coincide</source>
-        <translation>Auge und Blickpunkt einer Kamera fallen zusammen</translation>
-    </message>
-    <message>
-        <source>up vector of a camera is zero or parallel to its view</source>
-        <translation>Oben einer Kamera ist null oder parallel zu ihrem Blick</translation>
-    </message>
-</context>
-<context>
     <name>PixelText</name>
     <message>
         <source>background</source>
@@ -281,101 +95,7 @@
     </message>
 </context>
 <context>
-    <name>QPlatformTheme</name>
-    <message>
-        <source>OK</source>
-        <translation>OK</translation>
-    </message>
-    <message>
-        <source>Save</source>
-        <translation>Speichern</translation>
-    </message>
-    <message>
-        <source>Open</source>
-        <translation>Öffnen</translation>
-    </message>
-    <message>
-        <source>&amp;Yes</source>
-        <translation>&amp;Ja</translation>
-    </message>
-    <message>
-        <source>&amp;No</source>
-        <translation>&amp;Nein</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>Abbrechen</translation>
-    </message>
-    <message>
-        <source>Close</source>
-        <translation>Schließen</translation>
-    </message>
-    <message>
-        <source>Discard</source>
-        <translation>Verwerfen</translation>
-    </message>
-    <message>
-        <source>Apply</source>
-        <translation>Anwenden</translation>
-    </message>
-    <message>
-        <source>Reset</source>
-        <translation>Zurücksetzen</translation>
-    </message>
-</context>
-<context>
-    <name>Unit</name>
-    <message>
-        <source>pixels</source>
-        <translation>Pixel</translation>
-    </message>
-    <message>
-        <source>scene units</source>
-        <translation>Szeneneinheiten</translation>
-    </message>
-    <message>
-        <source>1 / scene units</source>
-        <translation>1 / Szeneneinheiten</translation>
-    </message>
-    <message>
-        <source>object units</source>
-        <translation>Objekteinheiten</translation>
-    </message>
-    <message>
-        <source>linear sRGB</source>
-        <translation>lineares sRGB</translation>
-    </message>
-    <message>
-        <source>camera response</source>
-        <translation>Kennlinie der Kamera</translation>
-    </message>
-</context>
-<context>
     <name>Visibility</name>
-    <message>
-        <source>no surface</source>
-        <translation>keine Fläche</translation>
-    </message>
-    <message>
-        <source>visible</source>
-        <translation>sichtbar</translation>
-    </message>
-    <message>
-        <source>occluded by another object</source>
-        <translation>von einem anderen Objekt verdeckt</translation>
-    </message>
-    <message>
-        <source>occluded by its own object</source>
-        <translation>vom eigenen Objekt verdeckt</translation>
-    </message>
-    <message>
-        <source>outside the image</source>
-        <translation>außerhalb des Bildes</translation>
-    </message>
-    <message>
-        <source>behind the camera</source>
-        <translation>hinter der Kamera</translation>
-    </message>
     <message>
         <source>unknown class</source>
         <translation>unbekannte Klasse</translation>
@@ -779,6 +499,65 @@
     </message>
 </context>
 <context>
+    <name>dgtk::ExportDialog</name>
+    <message>
+        <source>Browse ...</source>
+        <translation>Durchsuchen ...</translation>
+    </message>
+    <message>
+        <source>Export a dataset</source>
+        <translation>Datensatz exportieren</translation>
+    </message>
+    <message>
+        <source>&amp;Dataset</source>
+        <translation>&amp;Datensatz</translation>
+    </message>
+    <message>
+        <source>Folder of the dataset</source>
+        <translation>Ordner des Datensatzes</translation>
+    </message>
+    <message>
+        <source>&amp;Format</source>
+        <translation>&amp;Format</translation>
+    </message>
+    <message>
+        <source>F&amp;older</source>
+        <translation>&amp;Ordner</translation>
+    </message>
+    <message>
+        <source>Folder of the export</source>
+        <translation>Ordner des Exports</translation>
+    </message>
+    <message>
+        <source>&amp;Replace another export in this folder</source>
+        <translation>&amp;Anderen Export in diesem Ordner ersetzen</translation>
+    </message>
+    <message>
+        <source>&amp;Start</source>
+        <translation>&amp;Start</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>Name the folders of the dataset and of the export.</source>
+        <translation>Nennen Sie die Ordner des Datensatzes und des Exports.</translation>
+    </message>
+    <message>
+        <source>Exporting ...</source>
+        <translation>Exportieren ...</translation>
+    </message>
+    <message>
+        <source>Stopped.</source>
+        <translation>Angehalten.</translation>
+    </message>
+</context>
+<context>
     <name>dgtk::FrameRow</name>
     <message>
         <source>Loop</source>
@@ -860,26 +639,6 @@
     <message>
         <source>and %1 more</source>
         <translation>und %1 weitere</translation>
-    </message>
-    <message>
-        <source>red right, green up, blue towards the camera</source>
-        <translation>rot rechts, grün oben, blau zur Kamera</translation>
-    </message>
-    <message>
-        <source>red u, green v, without whole numbers</source>
-        <translation>rot u, grün v, ohne ganze Zahlen</translation>
-    </message>
-    <message>
-        <source>red x, green y, over the range of each</source>
-        <translation>rot x, grün y, je über ihren Bereich</translation>
-    </message>
-    <message>
-        <source>red x, green y, blue z, over the range of each</source>
-        <translation>rot x, grün y, blau z, je über ihren Bereich</translation>
-    </message>
-    <message>
-        <source>each id has a colour of its own</source>
-        <translation>jede Nummer hat eine eigene Farbe</translation>
     </message>
 </context>
 <context>
@@ -1269,6 +1028,18 @@
     <message>
         <source>S&amp;tay here</source>
         <translation>Hier &amp;bleiben</translation>
+    </message>
+    <message>
+        <source>E&amp;xport a dataset ...</source>
+        <translation>Datensatz e&amp;xportieren ...</translation>
+    </message>
+    <message>
+        <source>Exported meanwhile: %1</source>
+        <translation>Inzwischen exportiert: %1</translation>
+    </message>
+    <message>
+        <source>The export into %1 has ended: %2</source>
+        <translation>Der Export nach %1 ist beendet: %2</translation>
     </message>
 </context>
 <context>
@@ -1979,6 +1750,18 @@
     <message>
         <source>Options</source>
         <translation>Optionen</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>keine</translation>
+    </message>
+    <message>
+        <source>For e&amp;xport</source>
+        <translation>Für E&amp;xport</translation>
+    </message>
+    <message>
+        <source>Adds the layers and options that this export needs</source>
+        <translation>Fügt die Ebenen und Optionen hinzu, die dieser Export braucht</translation>
     </message>
 </context>
 <context>

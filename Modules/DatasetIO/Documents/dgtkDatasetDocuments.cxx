@@ -7,7 +7,6 @@
 #include "dgtkJsonText.h"
 
 #include <algorithm>
-#include <map>
 #include <tuple>
 
 namespace dgtk
@@ -113,38 +112,6 @@ std::string camerasText(std::vector<CameraRecord> cameras)
   return JsonObject(2).raw("cameras", arrayText(cameras, cameraText)).block() + "\n";
 }
 
-std::string objectsText(std::vector<ObjectRecord> objects, const std::vector<ClassRecord>& classes)
-{
-  std::map<std::uint32_t, std::string> names;
-  for (const ClassRecord& one : classes)
-  {
-    names.emplace(one.id, one.name);
-  }
-  for (const ObjectRecord& object : objects)
-  {
-    names.emplace(object.classId, object.objectClass);
-  }
-  std::stable_sort(
-    objects.begin(), objects.end(), [](const ObjectRecord& a, const ObjectRecord& b) { return a.id < b.id; });
-  const auto text = [](const ObjectRecord& object)
-  {
-    return JsonObject(6)
-      .integer("id", object.id)
-      .text("name", object.name)
-      .text("class", object.objectClass)
-      .integer("class_id", object.classId)
-      .text("model", object.model)
-      .integer("triangles", static_cast<std::int64_t>(object.triangles))
-      .line();
-  };
-  JsonArray table(4);
-  for (const auto& [id, name] : names)
-  {
-    table.add(JsonObject(6).integer("id", id).text("name", name).line());
-  }
-  return JsonObject(2).raw(objectsKey, arrayText(objects, text)).raw(classesKey, table.block()).block() + "\n";
-}
-
 std::string manifestText(Manifest manifest)
 {
   std::sort(manifest.files.begin(), manifest.files.end(),
@@ -164,6 +131,11 @@ std::string manifestText(Manifest manifest)
       .text("sha256", file.sha256)
       .line();
   };
+  JsonObject info(4);
+  for (const auto& [key, value] : manifest.info)
+  {
+    info.text(key, value);
+  }
   const auto empty = [](const EmptyRecord& one)
   {
     return JsonObject(6)
@@ -180,6 +152,9 @@ std::string manifestText(Manifest manifest)
            .text("request_hash", manifest.requestHash)
            .raw("request", manifest.request.empty() ? "{}" : request.block())
            .text("units", manifest.units)
+           .raw("metres_per_unit", manifest.metresPerUnit > 0 ? jsonNumber(manifest.metresPerUnit) : "null")
+           .raw("fps", manifest.fps > 0 ? jsonNumber(manifest.fps) : "null")
+           .raw("info", manifest.info.empty() ? "{}" : info.block())
            .raw("inputs", arrayText(manifest.inputs, input))
            .raw("layers", arrayText(manifest.layers, layerText))
            .raw("empty", arrayText(manifest.empty, empty))

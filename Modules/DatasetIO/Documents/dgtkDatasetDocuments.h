@@ -9,8 +9,10 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,13 +53,37 @@ struct ObjectRecord
   std::uint32_t classId = 0; ///< value of the `classes` layer, >= 1
   std::string model;         ///< path relative to the dataset, or the name of a built-in model
   std::uint64_t triangles = 0;
+  bool isStatic = false;  ///< the same world matrix and no deformation at all frames of the scene
+  bool deforming = false; ///< its vertices move in its own frame
+  /// 64 hexadecimal digits, of its triangles and their look at the scene's first frame: equal for objects of equal
+  /// model. "": not known, in the first datasets.
+  std::string geometry;
+  std::string geometryFile; ///< a PLY file of it, relative to the dataset; "": none
 };
 
-/// A class of objects, as in objects.json.
+/// A class of objects, as in objects.json. Only id and name are always known.
 struct ClassRecord
 {
   std::uint32_t id = 0; ///< value of the `classes` layer, >= 1
   std::string name;
+  std::string supercategory;
+  std::optional<bool> thing;                ///< what can be counted; false: stuff
+  std::optional<std::array<int, 3>> color;  ///< sRGB, 0 to 255
+  std::vector<std::string> keypoints;       ///< names
+  std::vector<std::array<int, 2>> skeleton; ///< pairs of `keypoints`, from 1
+};
+
+/// Where an object is at a frame, as in poses.json.
+struct PoseRecord
+{
+  int frame = 0;
+  std::uint32_t id = 0;
+  bool visible = true; ///< otherwise it is not there at this frame
+  Eigen::Matrix<double, 3, 4> matrix = Eigen::Matrix<double, 3, 4>::Identity(); ///< x_world = matrix (x_object, 1)
+  bool rigid = false; ///< x_world = R diag(scale) x_object + t; otherwise R and scale are not known
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity(); ///< proper; a mirrored object has scale.x < 0
+  Eigen::Vector3d t = Eigen::Vector3d::Zero();     ///< scene units
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();
 };
 
 /// A file that the dataset was made from.
@@ -82,6 +108,8 @@ struct DatasetFile
 /// Keys of objects.json; also the names of the layers whose values they list.
 constexpr const char* objectsKey = "objects";
 constexpr const char* classesKey = "classes";
+/// Documents beside the manifest.
+constexpr const char* posesName = "poses.json";
 
 /// The meaning of a layer whose manifest does not say one: as its unit, frame, value for nothing and channels have it.
 DGTKDATASETIO_EXPORT Meaning impliedMeaning(const LayerSpec& spec);
@@ -108,6 +136,9 @@ struct Manifest
   std::string requestHash;                                  ///< the one that Journal was given
   std::vector<std::pair<std::string, std::string>> request; ///< option and value, in this order
   std::string units;                                        ///< of the scene; "" when it does not say
+  double metresPerUnit = 0;                                 ///< 0: not known
+  double fps = 0;                                           ///< frames a second: frame / fps is its time; 0: not known
+  std::map<std::string, std::string> info; ///< of the dataset: "name", "license" ...; those that are known
   std::vector<InputRecord> inputs;
   std::vector<LayerRecord> layers;
   std::vector<EmptyRecord> empty;
@@ -119,12 +150,14 @@ DGTKDATASETIO_EXPORT std::string camerasText(std::vector<CameraRecord> cameras);
 /// `classes` are those that the scene fixes; those of the objects are added.
 DGTKDATASETIO_EXPORT std::string objectsText(
   std::vector<ObjectRecord> objects, const std::vector<ClassRecord>& classes = {});
+DGTKDATASETIO_EXPORT std::string posesText(std::vector<PoseRecord> poses);
 DGTKDATASETIO_EXPORT std::string manifestText(Manifest manifest);
 
 DGTKDATASETIO_EXPORT std::vector<CameraRecord> readCameras(const std::string& path);
 DGTKDATASETIO_EXPORT std::vector<ObjectRecord> readObjects(const std::string& path);
 /// The classes in objects.json, also those that no object has; by their numbers.
 DGTKDATASETIO_EXPORT std::vector<ClassRecord> readClasses(const std::string& path);
+DGTKDATASETIO_EXPORT std::vector<PoseRecord> readPoses(const std::string& path);
 DGTKDATASETIO_EXPORT Manifest readManifest(const std::string& path);
 /// The manifest of the dataset in a folder. Throws InputError also when a link stands in place of it or of a file that
 /// it lists, or of a folder that leads there: what is read of a dataset is in its folder. Files may be missing.

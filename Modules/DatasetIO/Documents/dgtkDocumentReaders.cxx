@@ -7,7 +7,6 @@
 
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <set>
 
 namespace dgtk
@@ -112,43 +111,6 @@ std::vector<CameraRecord> readCameras(const std::string& path)
   return cameras;
 }
 
-std::vector<ObjectRecord> readObjects(const std::string& path)
-{
-  const JsonDocument document = readJson(path);
-  std::vector<ObjectRecord> objects;
-  for (const JsonCursor& item : JsonCursor(document)[objectsKey].items())
-  {
-    ObjectRecord object;
-    object.id = idOf(item["id"]);
-    object.name = item["name"].text();
-    object.objectClass = item["class"].text();
-    object.classId = idOf(item["class_id"]);
-    object.model = item["model"].text();
-    object.triangles = countOf(item["triangles"]);
-    objects.push_back(object);
-  }
-  return objects;
-}
-
-std::vector<ClassRecord> readClasses(const std::string& path)
-{
-  const JsonDocument document = readJson(path);
-  const JsonCursor root(document);
-  const bool table = root.has(classesKey); // not in the first datasets
-  std::map<std::uint32_t, std::string> names;
-  for (const JsonCursor& item : root[table ? classesKey : objectsKey].items())
-  {
-    names.emplace(idOf(item[table ? "id" : "class_id"]), item[table ? "name" : "class"].text());
-  }
-  std::vector<ClassRecord> classes;
-  classes.reserve(names.size());
-  for (const auto& [id, name] : names)
-  {
-    classes.push_back({ id, name });
-  }
-  return classes;
-}
-
 DatasetFile fileOf(const JsonCursor& value)
 {
   DatasetFile file;
@@ -183,6 +145,14 @@ Manifest readManifest(const std::string& path)
     manifest.request.emplace_back(request.key(i), request.member(i).text());
   }
   manifest.units = root["units"].text();
+  const auto numberOrNone = [&root](const char* key) // not in the first datasets, nor is info
+  { return root.has(key) && !root[key].isNull() ? root[key].number(aboveZero) : 0; };
+  manifest.metresPerUnit = numberOrNone("metres_per_unit");
+  manifest.fps = numberOrNone("fps");
+  for (std::size_t i = 0, n = root.has("info") ? root["info"].memberCount() : 0; i < n; ++i)
+  {
+    manifest.info[root["info"].key(i)] = root["info"].member(i).text();
+  }
   for (const JsonCursor& item : root["inputs"].items())
   {
     manifest.inputs.push_back({ item["path"].text(), countOf(item["bytes"]), hashOf(item["sha256"]) });

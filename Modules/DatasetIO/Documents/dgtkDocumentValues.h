@@ -23,6 +23,7 @@ inline constexpr Range aSize{ 1, 2147483647.0, false, false, "a whole number fro
 inline constexpr Range anId{ 1, 4294967295.0, false, false, "a whole number from 1 to 4294967295" };
 inline constexpr Range anIndex{ 0, 4294967295.0, false, false, "a whole number from 0 to 4294967295" };
 inline constexpr Range aCount{ 0, 9007199254740991.0, false, false, "a whole number from 0 to 2^53 - 1" };
+inline constexpr Range aboveZero{ 0, 1.7976931348623157e308, true, false, "a number above 0" };
 
 inline JsonDocument readJson(const std::string& path)
 {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace dgtk
 {
@@ -59,6 +60,18 @@ private:
   int Indent;
   std::string Items;
 };
+
+/// A list under a key of a document's root: text(item) one a line.
+template <typename T, typename F>
+std::string arrayText(const std::vector<T>& items, F text)
+{
+  JsonArray array(4);
+  for (const T& item : items)
+  {
+    array.add(text(item));
+  }
+  return array.block();
+}
 
 } // namespace dgtk
 

@@ -26,6 +26,27 @@ std::string bordersOrNull(const std::optional<Eigen::Vector4d>& box)
   return text + ']';
 }
 
+std::string keypointText(const KeypointRecord& point)
+{
+  return JsonObject(10)
+    .text("name", point.name)
+    .raw("x", jsonMatrix(point.x))
+    .raw("u", point.pixel ? jsonNumber(point.pixel->x()) : "null")
+    .raw("v", point.pixel ? jsonNumber(point.pixel->y()) : "null")
+    .integer("visibility", point.visibility)
+    .line();
+}
+
+std::string keypointsText(const std::vector<KeypointRecord>& points)
+{
+  JsonArray list(8);
+  for (const KeypointRecord& point : points)
+  {
+    list.add(keypointText(point));
+  }
+  return list.block();
+}
+
 std::string boxText(const BoxRecord& record)
 {
   JsonObject object(6);
@@ -46,6 +67,10 @@ std::string boxText(const BoxRecord& record)
   object.raw("scale", record.rigid ? jsonMatrix(record.scale) : "null");
   object.raw("matrix", jsonMatrix(record.matrix));
   object.raw("box3d", jsonMatrix(record.corners));
+  if (!record.keypoints.empty())
+  {
+    object.raw("keypoints", keypointsText(record.keypoints));
+  }
   return object.block();
 }
 

@@ -18,6 +18,15 @@
 namespace dgtk
 {
 
+/// A named point of an object in a picture.
+struct KeypointRecord
+{
+  std::string name;
+  Eigen::Vector3d x{ 0, 0, 0 };         ///< camera frame
+  std::optional<Eigen::Vector2d> pixel; ///< "u", "v" in the file; null there for what is behind the camera
+  int visibility = 0;                   ///< class as in class images, 0 to 5
+};
+
 /// One object in the file of `boxes`.
 struct BoxRecord
 {
@@ -37,6 +46,7 @@ struct BoxRecord
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
   Eigen::Matrix<double, 3, 4> matrix = Eigen::Matrix<double, 3, 4>::Identity();
   Eigen::Matrix<double, 8, 3> corners = Eigen::Matrix<double, 8, 3>::Zero();
+  std::vector<KeypointRecord> keypoints; ///< in the file only where there are any
 };
 DGTKDATASETIO_EXPORT std::string boxesText(const std::string& camera, int frame, const std::vector<BoxRecord>& objects);
 DGTKDATASETIO_EXPORT std::vector<BoxRecord> readBoxes(const std::string& path);

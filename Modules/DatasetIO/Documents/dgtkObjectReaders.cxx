@@ -12,6 +12,21 @@ std::optional<Eigen::Vector4d> boxOf(const JsonCursor& value)
   return value.isNull() ? std::nullopt : std::optional<Eigen::Vector4d>(value.matrix<Eigen::Vector4d>());
 }
 
+constexpr Range aVisibilityClass{ 0, 5, false, false, "a whole number from 0 to 5" };
+
+KeypointRecord keypointOf(const JsonCursor& value)
+{
+  KeypointRecord point;
+  point.name = value["name"].text();
+  point.x = value["x"].matrix<Eigen::Vector3d>();
+  if (!value["u"].isNull())
+  {
+    point.pixel = Eigen::Vector2d(value["u"].number(), value["v"].number());
+  }
+  point.visibility = integerOf(value["visibility"], aVisibilityClass);
+  return point;
+}
+
 BoxRecord recordOf(const JsonCursor& value)
 {
   BoxRecord record;
@@ -37,6 +52,10 @@ BoxRecord recordOf(const JsonCursor& value)
   }
   record.matrix = value["matrix"].matrix<Eigen::Matrix<double, 3, 4>>();
   record.corners = value["box3d"].matrix<Eigen::Matrix<double, 8, 3>>();
+  for (const JsonCursor& point : value.has("keypoints") ? value["keypoints"].items() : std::vector<JsonCursor>())
+  {
+    record.keypoints.push_back(keypointOf(point));
+  }
   return record;
 }
 

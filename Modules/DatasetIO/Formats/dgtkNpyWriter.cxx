@@ -25,23 +25,14 @@ const char* descriptorOf(PixelType type)
   return "";
 }
 
-/// NPY format 1.0: magic, version, header length, a Python dictionary padded so that the data start at a multiple
-/// of 64.
 class NpyWriter : public LayerFileWriter
 {
 public:
   NpyWriter(const FilePlace& path, const LayerSpec& spec, int width, int height)
     : LayerFileWriter(path, spec, width, height)
   {
-    std::string text = std::string("{'descr': '") + descriptorOf(spec.type) + "', 'fortran_order': False, 'shape': (" +
-                       std::to_string(height) + ", " + std::to_string(width) +
-                       (spec.channels > 1 ? ", " + std::to_string(spec.channels) : std::string()) + "), }";
-    constexpr std::size_t prefix = 10;
-    text.append(63 - (prefix + text.size()) % 64, ' ');
-    text += '\n';
-    std::string header("\x93NUMPY\x01\x00", 8);
-    putLittle(header, static_cast<std::uint16_t>(text.size()));
-    this->append(header + text);
+    this->append(npyHeader(spec.type, std::to_string(height) + ", " + std::to_string(width) +
+                                        (spec.channels > 1 ? ", " + std::to_string(spec.channels) : std::string())));
   }
 
 protected:
@@ -56,6 +47,18 @@ std::unique_ptr<LayerWriter> openNpy(
   return std::make_unique<NpyWriter>(path, spec, width, height);
 }
 } // namespace
+
+std::string npyHeader(PixelType type, const std::string& shape)
+{
+  std::string text =
+    std::string("{'descr': '") + descriptorOf(type) + "', 'fortran_order': False, 'shape': (" + shape + "), }";
+  constexpr std::size_t prefix = 10;
+  text.append(63 - (prefix + text.size()) % 64, ' ');
+  text += '\n';
+  std::string header("\x93NUMPY\x01\x00", 8);
+  putLittle(header, static_cast<std::uint16_t>(text.size()));
+  return header + text;
+}
 
 extern const WriterEntry writerNpy;
 const WriterEntry writerNpy = { &canWriteNpy, &openNpy };

@@ -217,6 +217,36 @@ TEST(CorrespondRows, AStepToTheRightMovesTheWallToTheLeft)
   }
 }
 
+TEST(CorrespondPoints, ManyAtOnceAreWhatEachIs)
+{
+  // A pane hides the middle of the wall; what is farther to the right is beside the image.
+  const auto pane = makeQuad({ { -1, -1, 4 }, { 2, 0, 0 }, { 0, 2, 0 }, 1, 1 });
+  const auto state = SceneBuilder().add(wallAt(8)).add(pane).state();
+  const std::unique_ptr<OcclusionQuery> query = makeOcclusionQuery();
+  query->setScene(state);
+  const OtherView other{ state.get(), viewAt({ 0, 0, 0 }), query.get() };
+  std::vector<FixedPoint> points;
+  for (int i = -40; i <= 40; ++i)
+  {
+    const OnWall point = onWall(*state, 1, { i / 4.0 + 0.125, 0.25 });
+    points.push_back({ point.hit, point.barycentrics });
+  }
+  std::vector<Correspondence> found(points.size());
+  correspondPoints(other, points.data(), points.size(), found.data());
+  for (int i = -40; i <= 40; ++i)
+  {
+    const Correspondence& one = found[std::size_t(i + 40)];
+    const double x = i / 4.0 + 0.125;
+    EXPECT_NEAR(one.pixel.x(), 32 + focal * x / 8, 1e-12);
+    EXPECT_NEAR(one.pixel.y(), 24 + focal * 0.25 / 8, 1e-12);
+    EXPECT_EQ(one.visibility, std::abs(x) > 8    ? VisibilityClass::Outside
+                              : std::abs(x) <= 2 ? VisibilityClass::OccludedByOther
+                                                 : VisibilityClass::Visible)
+      << x;
+  }
+  correspondPoints(other, nullptr, 0, nullptr);
+}
+
 TEST(SceneFlowRows, IsTheMotionInTheAxesOfTheCamera)
 {
   // A wall that moves by (0.5, -0.25, 1) in the world, seen by a camera turned by a quarter about z.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The layers of whole objects: boxes and amodal. One pass casts the rays for both.
+#include "dgtkKeypointTruth.h"
 #include "dgtkLayers.h"
 #include "dgtkObjectDocuments.h"
 #include "dgtkObjectTruth.h"
@@ -128,6 +129,20 @@ std::optional<Eigen::Vector4d> boxOf(const ObjectPixels& pixels)
   return Eigen::Vector4d(pixels.x0, pixels.y0, pixels.x1, pixels.y1);
 }
 
+std::vector<KeypointRecord> keypointsOf(
+  const JobContext& context, const OcclusionQuery& occlusion, const BoxRecord& box)
+{
+  const double depth = keypointDepth * (box.corners.row(7) - box.corners.row(0)).norm();
+  const std::vector<SeenKeypoint> seen = seeKeypoints(*context.state, box.id, context.view, occlusion, depth);
+  std::vector<KeypointRecord> records;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+  {
+    records.push_back({ context.state->instances[box.id - 1].keypoints[i].name, seen[i].x_in_camera, seen[i].pixel,
+      static_cast<int>(seen[i].visibility) });
+  }
+  return records;
+}
+
 std::string boxes(const JobContext& context, const OcclusionQuery& occlusion, const ObjectRows& objects)
 {
   const std::unique_ptr<VisibilitySource> source = context.queries.makeSource(context.pool);
@@ -159,6 +174,7 @@ std::string boxes(const JobContext& context, const OcclusionQuery& occlusion, co
       }
       record.matrix = pose.matrix;
       record.corners = pose.corners;
+      record.keypoints = keypointsOf(context, occlusion, record);
     });
   return boxesText(context.camera, context.job.frame, records);
 }

@@ -4,7 +4,7 @@
 #include "dgtkCorrespondence.h"
 #include "dgtkLayers.h"
 #include "dgtkObjectDocuments.h"
-#include "dgtkSamples.h"
+#include "dgtkPixelGrid.h"
 
 #include <Eigen/Geometry>
 
@@ -37,18 +37,6 @@ std::set<std::size_t> camerasOf(const WorkPlan& plan)
     cameras.insert(job.camera);
   }
   return cameras;
-}
-
-/// A view of every step-th pixel of another: pixels step / 2, step / 2 + step, ...; none where there is no such pixel.
-View sparseView(const View& view, int step)
-{
-  View sparse = view;
-  const int first = step / 2;
-  const int columns = (view.model->width() - first + step - 1) / step;
-  const int rows = (view.model->height() - first + step - 1) / step;
-  const double offset = first + 0.5 - 0.5 * step;
-  sparse.model = resampledCamera(view.model, std::max(1, columns), std::max(1, rows), step, { offset, offset });
-  return sparse;
 }
 
 class PointsPass : public LayerPass
@@ -91,36 +79,22 @@ private:
   std::vector<PointRecord> pointsOf(std::size_t camera) const
   {
     const View& view = this->Views[camera].view;
-    if (view.model->width() <= this->Step / 2 || view.model->height() <= this->Step / 2)
-    {
-      return {};
-    }
-    const View sparse = sparseView(view, this->Step);
-    const PixelRect rect{ 0, 0, sparse.model->width(), sparse.model->height() };
-    VisibilityBuffer buffer;
-    const std::unique_ptr<VisibilitySource> source = this->Context.queries.makeSource(this->Context.pool);
-    source->setScene(this->Context.state, sparse);
-    source->render(rect, buffer);
-    std::vector<std::vector<PointRecord>> rows(rect.height);
-    this->Context.pool.parallelFor(rect.height,
-      [&](int y)
+    const PixelGrid grid(*view.model, this->Step);
+    std::vector<std::vector<PointRecord>> rows(std::size_t(grid.rows()));
+    grid.forSurfaces(this->Context.state, view, this->Context.queries, this->Context.pool,
+      [&](int y, const SurfaceRows& surface)
       {
-        forSurfaceRows(*this->Context.state, sparse, { 0, y, rect.width, 1 },
-          buffer.hits.data() + std::size_t(y) * rect.width, true,
-          [&](const SurfaceRows& surface)
+        for (int i = 0; i < surface.rect.width; ++i)
+        {
+          PointRecord point;
+          const Eigen::Vector2d barycentrics(surface.barycentrics[2 * i], surface.barycentrics[2 * i + 1]);
+          const Eigen::Vector2d pixel = grid.centre(surface.rect.x + i, y);
+          if (std::isfinite(surface.t[i]) && this->track(camera, pixel, surface.hits[i], barycentrics, point))
           {
-            for (int i = 0; i < surface.rect.width; ++i)
-            {
-              PointRecord point;
-              const Eigen::Vector2d barycentrics(surface.barycentrics[2 * i], surface.barycentrics[2 * i + 1]);
-              const int x = surface.rect.x + i;
-              if (std::isfinite(surface.t[i]) && this->track(camera, x, y, surface.hits[i], barycentrics, point))
-              {
-                describe(surface, view, surface.hits[i], barycentrics, point);
-                rows[y].push_back(std::move(point));
-              }
-            }
-          });
+            describe(surface, view, surface.hits[i], barycentrics, point);
+            rows[y].push_back(std::move(point));
+          }
+        }
       });
     std::vector<PointRecord> points;
     for (std::vector<PointRecord>& row : rows)
@@ -131,16 +105,15 @@ private:
   }
 
   /// False when an earlier camera sees the point.
-  bool track(
-    std::size_t own, int x, int y, const Hit& hit, const Eigen::Vector2d& barycentrics, PointRecord& point) const
+  bool track(std::size_t own, const Eigen::Vector2d& pixel, const Hit& hit, const Eigen::Vector2d& barycentrics,
+    PointRecord& point) const
   {
     for (std::size_t camera = 0; camera < this->Views.size(); ++camera)
     {
       const auto index = static_cast<std::uint32_t>(camera);
       if (camera == own)
       {
-        const double first = this->Step / 2 + 0.5;
-        point.track.push_back({ index, first + double(x) * this->Step, first + double(y) * this->Step });
+        point.track.push_back({ index, pixel.x(), pixel.y() });
         continue;
       }
       const Correspondence seen = correspond(this->Views[camera], hit, barycentrics);

@@ -2,6 +2,8 @@
 #include "dgtkDatasetRecords.h"
 
 #include "dgtkHash.h"
+#include "dgtkObjectChanges.h"
+#include "dgtkObjectTruth.h"
 #include "dgtkRepresentation.h"
 #include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
@@ -9,6 +11,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 namespace dgtk
 {
@@ -75,6 +78,7 @@ std::vector<ObjectRecord> objectRecords(
   namespace fs = std::filesystem;
   const std::shared_ptr<const SceneState> state = stage.at(frame);
   const std::vector<std::uint32_t> classes = classIds(*state);
+  const std::vector<ObjectChange> changes = ObjectChanges(stage).changes();
   std::vector<ObjectRecord> records;
   for (std::size_t i = 0; i < state->instances.size(); ++i)
   {
@@ -89,7 +93,40 @@ std::vector<ObjectRecord> objectRecords(
                      ? copy->second
                      : fs::relative(fs::absolute(instance.model->path), fs::absolute(folder)).generic_string();
     record.triangles = instance.model->triangles.size();
+    record.isStatic = !changes[i].moves && !changes[i].deforms;
+    record.deforming = changes[i].deforms;
     records.push_back(record);
+  }
+  return records;
+}
+
+std::vector<PoseRecord> poseRecords(const WorkPlan& plan, const Stage& stage)
+{
+  std::set<int> frames;
+  for (const Job& job : plan.jobs)
+  {
+    frames.insert(job.frame);
+  }
+  const ObjectChanges objects(stage);
+  std::vector<PoseRecord> records;
+  for (const int frame : frames)
+  {
+    const std::vector<ObjectPlace> places = objects.placesAt(frame);
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      const Affine3& world_from_object = places[i].world_from_object;
+      const PlacedAxes axes = placedAxes(world_from_object.linear);
+      PoseRecord record;
+      record.frame = frame;
+      record.id = static_cast<std::uint32_t>(i + 1);
+      record.visible = places[i].visible;
+      record.matrix << world_from_object.linear, world_from_object.translation;
+      record.rigid = axes.rigid;
+      record.R = axes.rotation;
+      record.t = world_from_object.translation;
+      record.scale = axes.scale;
+      records.push_back(record);
+    }
   }
   return records;
 }
@@ -99,7 +136,8 @@ std::vector<ClassRecord> classRecords(const Stage& stage)
   std::vector<ClassRecord> records;
   for (const ClassDescription& one : stage.description().classes)
   {
-    records.push_back({ std::uint32_t(one.id), one.name });
+    records.push_back(
+      { std::uint32_t(one.id), one.name, one.supercategory, one.thing, one.color, one.keypoints, one.skeleton });
   }
   return records;
 }

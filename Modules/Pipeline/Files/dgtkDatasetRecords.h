@@ -24,8 +24,12 @@ std::vector<CameraRecord> cameraRecords(const WorkPlan& plan, const Stage& stage
   const std::map<std::string, std::string>& copies);
 
 /// One record for each object with an id; models are relative to `folder`, or their copies in it.
+/// Without their geometry.
 std::vector<ObjectRecord> objectRecords(
   const Stage& stage, int frame, const std::string& folder, const std::map<std::string, std::string>& copies);
+
+/// One record for each frame of the plan and object with an id.
+std::vector<PoseRecord> poseRecords(const WorkPlan& plan, const Stage& stage);
 
 /// The classes whose numbers the scene fixes.
 std::vector<ClassRecord> classRecords(const Stage& stage);

@@ -149,6 +149,7 @@ GeneratorResult Run::execute()
   }
 
   this->Documents->pack(*this->Files);
+  this->Documents->writeModels(*this->Files);
   this->sayNotes();
   try
   {

@@ -4,6 +4,7 @@
 #include "dgtkDatasetRecords.h"
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkGeometryHash.h"
 #include "dgtkLayers.h"
 #include "dgtkRunNotes.h"
 
@@ -42,11 +43,16 @@ RunDocuments::RunDocuments(const Stage& stage, const WorkPlan& plan, const std::
   , Root(folder)
   , Inputs(inputsOf(stage, folder))
   , RequestHash(identityOf(plan, stage, this->Inputs))
+  , Geometry(geometryHashes(stage))
 {
   refuseOwnInputs(stage, folder);
   if (option::pack().of(plan.request.options))
   {
     this->Packed = planPacking(stage, folder);
+  }
+  if (option::models().of(plan.request.options))
+  {
+    this->Models.emplace(stage, this->Geometry);
   }
 }
 
@@ -83,6 +89,14 @@ void RunDocuments::pack(RunFiles& run)
   checkPacking(*this->Packed, this->Scene);
 }
 
+void RunDocuments::writeModels(RunFiles& files) const
+{
+  if (this->Models)
+  {
+    this->Models->write(this->Root, files);
+  }
+}
+
 std::map<std::string, std::string> RunDocuments::copies() const
 {
   return this->Packed ? this->Packed->copies : std::map<std::string, std::string>();
@@ -90,7 +104,7 @@ std::map<std::string, std::string> RunDocuments::copies() const
 
 std::vector<std::string> RunDocuments::documentNames() const
 {
-  std::vector<std::string> names = { camerasName, objectsName, sceneName };
+  std::vector<std::string> names = { camerasName, objectsName, posesName, sceneName };
   if (option::contactSheet().of(this->Plan.request.options))
   {
     names.emplace_back(sheetName);
@@ -105,6 +119,8 @@ std::vector<std::string> RunDocuments::allNames() const
   {
     names.push_back(copy);
   }
+  const std::vector<std::string> models = this->Models ? this->Models->names() : std::vector<std::string>();
+  names.insert(names.end(), models.begin(), models.end());
   for (const Job& job : this->Plan.jobs)
   {
     const std::vector<std::string> own = filesOf(this->Plan, this->Scene, job);
@@ -119,7 +135,11 @@ Manifest RunDocuments::manifest(const std::vector<std::string>& warnings) const
   manifest.version = DGTK_VERSION;
   manifest.requestHash = this->RequestHash;
   manifest.request = describeRequest(this->Plan, this->Scene);
-  manifest.units = this->Scene.description().units;
+  const SceneDescription& scene = this->Scene.description();
+  manifest.units = scene.units;
+  manifest.metresPerUnit = scene.metres();
+  manifest.fps = scene.fps;
+  manifest.info = scene.dataset;
   manifest.inputs = this->Inputs;
   for (const PlannedLayer& planned : this->Plan.layers)
   {
@@ -132,7 +152,7 @@ Manifest RunDocuments::manifest(const std::vector<std::string>& warnings) const
   manifest.empty = this->Plan.empty;
   for (const std::string& line : warnings)
   {
-    manifest.warnings.push_back(placelessLine(line, this->Scene.description()));
+    manifest.warnings.push_back(placelessLine(line, scene));
   }
   return manifest;
 }
@@ -145,9 +165,16 @@ std::size_t RunDocuments::write(RunFiles& files, const std::vector<std::string>&
   const std::size_t pictures = manifest.files.size();
   manifest.files.push_back(writeDocument(
     this->Root, camerasName, camerasText(cameraRecords(this->Plan, this->Scene, this->Root, this->copies()))));
-  manifest.files.push_back(writeDocument(this->Root, objectsName,
-    objectsText(objectRecords(this->Scene, this->Plan.jobs.front().frame, this->Root, this->copies()),
-      classRecords(this->Scene))));
+  std::vector<ObjectRecord> objects =
+    objectRecords(this->Scene, this->Plan.jobs.front().frame, this->Root, this->copies());
+  for (std::size_t i = 0; i < objects.size(); ++i)
+  {
+    objects[i].geometry = this->Geometry[i];
+    objects[i].geometryFile = this->Models ? ModelFiles::nameOf(this->Geometry[i]) : "";
+  }
+  manifest.files.push_back(
+    writeDocument(this->Root, objectsName, objectsText(std::move(objects), classRecords(this->Scene))));
+  manifest.files.push_back(writeDocument(this->Root, posesName, posesText(poseRecords(this->Plan, this->Scene))));
   manifest.files.push_back(writeDocument(
     this->Root, sceneName, toJson(this->Packed ? this->Packed->scene : this->Scene.description(), this->Root)));
   if (option::contactSheet().of(this->Plan.request.options))

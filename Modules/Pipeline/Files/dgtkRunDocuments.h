@@ -4,6 +4,7 @@
 
 // Private to Pipeline.
 
+#include "dgtkModelFiles.h"
 #include "dgtkPacking.h"
 #include "dgtkRunFiles.h"
 #include "dgtkWorkPlan.h"
@@ -31,6 +32,8 @@ public:
   std::vector<std::string> allNames() const;
   /// Puts copies of all inputs into the dataset, when they are wanted there.
   void pack(RunFiles& files);
+  /// Writes the geometry of the objects' models, when it is wanted.
+  void writeModels(RunFiles& files) const;
   /// Ends the run; the number of documents.
   std::size_t write(RunFiles& files, const std::vector<std::string>& warnings);
 
@@ -45,6 +48,8 @@ private:
   std::vector<InputRecord> Inputs;
   std::string RequestHash;
   std::optional<Packing> Packed;
+  std::vector<std::string> Geometry; ///< hashes by object id - 1
+  std::optional<ModelFiles> Models;
 };
 
 } // namespace dgtk

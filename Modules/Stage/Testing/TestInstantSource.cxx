@@ -45,6 +45,7 @@ TEST(InstantSource, IsTheSceneAtAnyTime)
   EXPECT_EQ(stage->view(0, 3, 16, 8).model->timeAt({ 15.5, 1 }), -0.9375);
   using Motion = InstantSource::Motion;
   EXPECT_EQ(view.instants->motions(), (std::vector<Motion>{ Motion::Rigid, Motion::Any, Motion::None, Motion::Any }));
+  EXPECT_EQ(stage->movingObjects(), (std::vector<bool>{ true, true, false, false }));
   for (const double frame : { 2.1, 2.9375, 3.0, 3.7 })
   {
     const InstantSource::Instant now = view.instants->at(frame);

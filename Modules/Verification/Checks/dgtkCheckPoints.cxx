@@ -3,6 +3,7 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkObjectDocuments.h"
+#include "dgtkSurfaceColor.h"
 
 #include <Eigen/Geometry>
 
@@ -26,12 +27,6 @@ constexpr double silhouetteReach = 1e-4;
 constexpr std::size_t plyVertexBytes = 47;
 /// One rounding of float32.
 constexpr double normalTolerance = 1e-7;
-/// Of 8 bits: rounding to the nearest, either way in the middle.
-constexpr double colorTolerance = 0.5 + 1e-6;
-/// Texels: as close to the border of two, either is right.
-constexpr double texelSlack = 1e-6;
-/// Share: on a surface seen straight on, many points may lie on borders.
-constexpr double mostOpenTexels = 0.5;
 
 struct TrackPoint
 {
@@ -215,49 +210,17 @@ private:
       });
   }
 
-  /// The material's diffuse colour times the texel that the point lies in; open on the border of two texels.
   void color(const std::string& file, std::size_t index, const char* bytes, Meter& meter) const
   {
     const CloudPoint& point = this->Points[index];
-    const std::shared_ptr<const Sight> first = this->lookOf(point, point.track[0]).sight;
-    const Sight& sight = *first;
-    const Instance& instance = sight.instance(point.hit.object);
-    const Model& model = *instance.model;
-    const Material& material = (*instance.materials)[model.parts[model.partOf(point.hit.triangle)].material];
-    Eigen::Vector3d expected = material.diffuse;
-    if (material.texture >= 0 && !model.uvs.empty() && model.textures[material.texture].image)
-    {
-      const Eigen::Vector3d weight = sight.weights(point.hit, sight.eye().toCamera(point.x));
-      Eigen::Vector2d uv(0, 0);
-      for (int i = 0; i < 3; ++i)
-      {
-        uv += weight[i] * model.uvs[model.triangles[point.hit.triangle][i]];
-      }
-      const Image& image = *model.textures[material.texture].image;
-      const Eigen::Array2d size(image.width, image.height);
-      const Eigen::Array2d texel = uv.array() * size;
-      if (!((texel - texel.round()).abs() > texelSlack).all())
-      {
-        meter.skip();
-        return;
-      }
-      const Eigen::Array2d cell = texel.floor() - (texel.floor() / size).floor() * size;
-      const std::size_t row = std::size_t(image.height) - 1 - std::size_t(cell.y());
-      const std::uint8_t* rgba = &image.rgba[(row * image.width + std::size_t(cell.x())) * 4];
-      expected = expected.cwiseProduct(Eigen::Vector3d(rgba[0], rgba[1], rgba[2]) / 255);
-    }
-    Eigen::Vector3d found;
-    for (int i = 0; i < 3; ++i)
-    {
-      found[i] = static_cast<unsigned char>(bytes[i]);
-      expected[i] = 255 * std::clamp(expected[i], 0.0, 1.0);
-    }
-    meter.add((found - expected).cwiseAbs().maxCoeff(),
-      [&]
-      {
-        return Offender{ file, -1, -1, "vertex " + std::to_string(index) + " colour " + numbersText(found.data(), 3),
-          numbersText(expected.data(), 3) };
-      });
+    const std::shared_ptr<const Sight> sight = this->lookOf(point, point.track[0]).sight;
+    const Eigen::Vector3d weights = sight->weights(point.hit, sight->eye().toCamera(point.x));
+    std::uint8_t color[3];
+    std::memcpy(color, bytes, sizeof color);
+    const auto where = [&](const std::string& found, const std::string& expected) {
+      return Offender{ file, -1, -1, "vertex " + std::to_string(index) + " colour " + found, expected };
+    };
+    meterColor(sight->instance(point.hit.object), point.hit, weights, color, where, meter);
   }
 
   Offender offender(std::size_t index, const std::string& found, const std::string& expected) const

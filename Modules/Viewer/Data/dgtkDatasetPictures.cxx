@@ -33,7 +33,7 @@ bool leavesFolder(const fs::path& path)
 
 bool isPicture(const DatasetFile& file, const LayerSpec& layer)
 {
-  if (file.camera.empty() || file.layer.empty() || leavesFolder(file.path))
+  if (file.camera.empty() || file.layer.empty() || layer.meaning == Meaning::Record || leavesFolder(file.path))
   {
     return false;
   }

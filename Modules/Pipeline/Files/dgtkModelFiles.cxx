@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkModelFiles.h"
+
+#include "dgtkFile.h"
+#include "dgtkFolder.h"
+#include "dgtkLayerWriter.h"
+#include "dgtkText.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr std::size_t nameDigits = 16;
+constexpr double most8 = 255;
+using Color = std::array<std::uint8_t, 3>;
+
+/// The picture of a material's diffuse colour; null where it has none, or one that was not found.
+const Texture* textureOf(const Model& model, const Material& material)
+{
+  const Texture* const texture = material.texture < 0 ? nullptr : &model.textures[std::size_t(material.texture)];
+  return texture != nullptr && texture->image ? texture : nullptr;
+}
+
+/// Of a vertex, R, G, B, in [0, 1], that its material's colours are multiplied with.
+Eigen::Vector3d ownColor(const Model& model, std::uint32_t vertex)
+{
+  if (!model.colors.empty())
+  {
+    const std::array<std::uint8_t, 4>& color = model.colors[vertex];
+    return Eigen::Vector3d(color[0], color[1], color[2]) / most8;
+  }
+  if (model.colorMap)
+  {
+    const Image& image = *model.colorMap;
+    const Eigen::Vector2d& at = model.colorMapAt[vertex];
+    const auto place = [](double part, int size) { return std::clamp(int(std::floor(part * size)), 0, size - 1); };
+    const std::size_t texel =
+      std::size_t(place(1 - at.y(), image.height)) * std::size_t(image.width) + std::size_t(place(at.x(), image.width));
+    return Eigen::Vector3d(image.rgba[4 * texel], image.rgba[4 * texel + 1], image.rgba[4 * texel + 2]) / most8;
+  }
+  return Eigen::Vector3d::Ones();
+}
+
+Color colorOf(const Model& model, const Material& material, std::uint32_t vertex)
+{
+  const Eigen::Vector3d color = ownColor(model, vertex).cwiseProduct(material.diffuse) * most8;
+  Color bytes;
+  for (int i = 0; i < 3; ++i)
+  {
+    bytes[std::size_t(i)] = static_cast<std::uint8_t>(std::lround(std::clamp(color[i], 0.0, most8)));
+  }
+  return bytes;
+}
+
+template <typename T>
+void append(std::string& bytes, const T* values, std::size_t count)
+{
+  bytes.append(reinterpret_cast<const char*>(values), sizeof(T) * count);
+}
+
+/// Vertices and triangles of a .ply; a vertex for each colour that its parts give it.
+class PlyBody
+{
+public:
+  PlyBody(const Instance& instance, const std::vector<const Texture*>& textures)
+    : TheInstance(instance)
+    , Textures(textures)
+  {
+    for (const Part& part : instance.model->parts)
+    {
+      this->part(part);
+    }
+  }
+
+  std::string text(const std::vector<std::string>& pictures) const
+  {
+    std::string text = "ply\nformat binary_little_endian 1.0\n";
+    for (const std::string& picture : pictures)
+    {
+      text += "comment TextureFile " + picture + '\n';
+    }
+    text += "element vertex " + std::to_string(this->Numbers.size()) +
+            "\nproperty double x\nproperty double y\nproperty double z"
+            "\nproperty float nx\nproperty float ny\nproperty float nz";
+    text += this->hasUvs() ? "\nproperty double s\nproperty double t" : "";
+    text += "\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nelement face " +
+            std::to_string(this->TheInstance.model->triangles.size()) + "\nproperty list uchar int vertex_indices";
+    text += this->hasNumbers() ? "\nproperty int texnumber" : "";
+    return text + "\nend_header\n" + this->Vertices + this->Triangles;
+  }
+
+private:
+  bool hasUvs() const { return !this->TheInstance.model->uvs.empty(); }
+  bool hasNumbers() const { return this->Textures.size() > 1; }
+
+  void part(const Part& part)
+  {
+    const Model& model = *this->TheInstance.model;
+    const Material& material = (*this->TheInstance.materials)[std::size_t(part.material)];
+    const auto found = std::find(this->Textures.begin(), this->Textures.end(), textureOf(model, material));
+    const std::int32_t texture = found == this->Textures.end() ? -1 : int(found - this->Textures.begin());
+    for (std::uint32_t i = 0; i < part.triangles; ++i)
+    {
+      this->Triangles += '\3';
+      for (const std::uint32_t vertex : model.triangles[part.firstTriangle + i])
+      {
+        const std::int32_t number = this->vertex(vertex, colorOf(model, material, vertex));
+        append(this->Triangles, &number, 1);
+      }
+      if (this->hasNumbers())
+      {
+        append(this->Triangles, &texture, 1);
+      }
+    }
+  }
+
+  std::int32_t vertex(std::uint32_t vertex, const Color& color)
+  {
+    const auto [place, isNew] = this->Numbers.emplace(std::pair(vertex, color), int(this->Numbers.size()));
+    if (isNew)
+    {
+      const Geometry& geometry = *this->TheInstance.geometry;
+      append(this->Vertices, geometry.positions[vertex].data(), 3);
+      append(this->Vertices, geometry.normals[vertex].data(), 3);
+      if (this->hasUvs())
+      {
+        append(this->Vertices, this->TheInstance.model->uvs[vertex].data(), 2);
+      }
+      append(this->Vertices, color.data(), color.size());
+    }
+    return place->second;
+  }
+
+  const Instance& TheInstance;
+  const std::vector<const Texture*>& Textures;
+  std::map<std::pair<std::uint32_t, Color>, std::int32_t> Numbers;
+  std::string Vertices;
+  std::string Triangles;
+};
+
+DatasetFile writePicture(const std::string& folder, const std::string& name, const Texture& texture)
+{
+  if (!texture.path.empty())
+  {
+    return writeDocument(folder, name, readFile(texture.path));
+  }
+  const Image& image = *texture.image;
+  LayerSpec spec;
+  spec.name = "picture";
+  spec.meaning = Meaning::Picture;
+  spec.channels = 4;
+  const auto writer = makeLayerWriter("png", FilePlace(folder, name), spec, image.width, image.height);
+  Rows rows(PixelType::UInt8, 4, image.width, 0, image.height);
+  std::memcpy(rows.data(), image.rgba.data(), rows.bytes());
+  writer->write(rows);
+  const FileRecord record = writer->finish();
+  return { name, record.bytes, record.sha256, {}, {}, -1 };
+}
+} // namespace
+
+ModelFiles::ModelFiles(const Stage& stage, const std::vector<std::string>& geometry)
+  : State(stage.at(stage.description().firstFrame()))
+{
+  for (std::size_t i = 0; i < geometry.size(); ++i)
+  {
+    const std::string name = nameOf(geometry[i]);
+    if (this->Files.count(name) == 0)
+    {
+      this->Files[name] = this->fileOf(i, name.substr(0, name.size() - std::string(".ply").size()));
+    }
+  }
+}
+
+std::string ModelFiles::nameOf(const std::string& geometry)
+{
+  return "models/" + geometry.substr(0, nameDigits) + ".ply";
+}
+
+ModelFiles::File ModelFiles::fileOf(std::size_t object, const std::string& stem) const
+{
+  const Instance& instance = this->State->instances[object];
+  File file;
+  file.object = object;
+  for (const Part& part : instance.model->parts)
+  {
+    const Texture* const texture = textureOf(*instance.model, (*instance.materials)[std::size_t(part.material)]);
+    if (texture != nullptr && file.pictures.count(texture) == 0)
+    {
+      const std::string extension = texture->path.empty() ? "png" : extensionOf(texture->path);
+      file.pictures[texture] = stem + '_' + std::to_string(file.order.size()) + '.' + extension;
+      file.order.push_back(texture);
+    }
+  }
+  return file;
+}
+
+std::vector<std::string> ModelFiles::names() const
+{
+  std::vector<std::string> names;
+  for (const auto& [name, file] : this->Files)
+  {
+    names.push_back(name);
+    for (const Texture* texture : file.order)
+    {
+      names.push_back(file.pictures.at(texture));
+    }
+  }
+  return names;
+}
+
+std::string ModelFiles::ply(const File& file) const
+{
+  std::vector<std::string> pictures;
+  for (const Texture* texture : file.order)
+  {
+    pictures.push_back(std::filesystem::path(file.pictures.at(texture)).filename().string());
+  }
+  return PlyBody(this->State->instances[file.object], file.order).text(pictures);
+}
+
+void ModelFiles::write(const std::string& folder, RunFiles& run) const
+{
+  const auto writeOne = [&](const std::string& name, const auto& written)
+  {
+    if (!run.keep({ name }, {}))
+    {
+      Folder(folder).makeParents(name);
+      run.plan({ name });
+      run.add(written());
+    }
+  };
+  for (const auto& [name, file] : this->Files)
+  {
+    const File& one = file;
+    for (const Texture* texture : one.order)
+    {
+      const std::string& picture = one.pictures.at(texture);
+      writeOne(picture, [&] { return writePicture(folder, picture, *texture); });
+    }
+    const std::string& own = name;
+    writeOne(own, [&] { return writeDocument(folder, own, this->ply(one)); });
+  }
+}
+
+} // namespace dgtk

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef TestEditorExport_h
+#define TestEditorExport_h
+
+#include "EditorTest.h"
+
+#include <QStringList>
+
+class QDialog;
+
+class TestEditorExport : public EditorTest
+{
+  Q_OBJECT
+
+private slots:
+  void anExportHasTheBytesOfTheCommandLine();
+  void refusalsAreInTheWindowsWords();
+  void aRenderForAnExportHasItsLayers();
+  void pictures();
+
+private:
+  /// A dataset for COCO, made by the command line.
+  QString dataset() const;
+  QDialog* dialog(const QString& folder) const;
+  /// Clicks Start and waits; what the dialog says then.
+  static QString started(const QDialog& shown);
+};
+
+#endif
