@@ -66,12 +66,18 @@ std::optional<double> baselineOf(const CameraRecord& left, const CameraRecord& r
 DatasetView::DatasetView(const std::string& folder, const DatasetSelection& selection)
   : Folder(folder)
   , TheManifest(readManifestIn(folder))
-  , MetresPerUnit(selection.metresPerUnit > 0 ? selection.metresPerUnit : 0)
+  , MetresPerUnit(selection.metresPerUnit > 0 ? selection.metresPerUnit : this->TheManifest.metresPerUnit)
 {
   const dgtk::Folder place(folder);
   this->ManifestHash = Sha256::ofFile(place.fileAt(manifestName));
   this->Objects = readObjects(place.fileAt("objects.json"));
   this->Classes = readClasses(place.fileAt("objects.json"));
+  if (place.look(posesName) == EntryKind::File)
+  {
+    this->Poses = readPoses(place.fileAt(posesName));
+    std::stable_sort(this->Poses.begin(), this->Poses.end(),
+      [](const PoseRecord& a, const PoseRecord& b) { return std::tie(a.frame, a.id) < std::tie(b.frame, b.id); });
+  }
   this->readShots(selection);
   this->index();
 }
@@ -246,6 +252,27 @@ std::vector<BoxRecord> DatasetView::boxes(const DatasetShot& shot) const
 }
 
 AmodalMasks DatasetView::amodal(const DatasetShot& shot) const { return readAmodal(documentOf(*this, shot, "amodal")); }
+
+std::vector<PoseRecord> DatasetView::poses(int frame) const
+{
+  const auto before = [](const PoseRecord& pose, int at) { return pose.frame < at; };
+  const auto first = std::lower_bound(this->Poses.begin(), this->Poses.end(), frame, before);
+  return { first, std::lower_bound(first, this->Poses.end(), frame + 1, before) };
+}
+
+std::vector<TrackPoint> DatasetView::trackPoints() const
+{
+  return readTrackPoints(dgtk::Folder(this->Folder).fileAt(trackPointsFile));
+}
+
+double DatasetView::seconds(int frame) const
+{
+  if (this->TheManifest.fps <= 0)
+  {
+    throw UsageError("the dataset does not say how many frames a second it has; the format needs times");
+  }
+  return frame / this->TheManifest.fps;
+}
 
 double DatasetView::metres() const
 {

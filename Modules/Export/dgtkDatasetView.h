@@ -8,6 +8,7 @@
 #include "dgtkLayerReader.h"
 #include "dgtkObjectDocuments.h"
 #include "dgtkRigid3.h"
+#include "dgtkTrackDocuments.h"
 
 #include <Eigen/Core>
 
@@ -97,6 +98,11 @@ public:
   std::vector<BoxRecord> boxes(const DatasetShot& shot) const;
   AmodalMasks amodal(const DatasetShot& shot) const;
 
+  /// Of all objects; none of datasets that do not say them (poses.json).
+  std::vector<PoseRecord> poses(int frame) const;
+  /// Points of the layer `tracks`. Throws InputError where there are none.
+  std::vector<TrackPoint> trackPoints() const;
+
   /// Metres of a scene unit; throws UsageError where neither dataset nor selection say it.
   double metres() const;
   /// Seconds of a frame: frame / frames per second. Throws UsageError where the dataset does not say a rate.
@@ -113,6 +119,7 @@ private:
   std::vector<DatasetShot> Shots;
   std::vector<ObjectRecord> Objects;
   std::vector<ClassRecord> Classes;
+  std::vector<PoseRecord> Poses;
   double MetresPerUnit = 0;
   std::map<std::pair<std::string, int>, std::size_t> ByPlace;
   std::map<std::string, std::size_t> Layers; ///< files of shots

@@ -73,17 +73,6 @@ std::string layerText(const LayerRecord& layer)
 }
 
 std::string fileText(const DatasetFile& file) { return fileObject(file).line(); }
-
-template <typename T, typename F>
-std::string arrayText(const std::vector<T>& items, F text)
-{
-  JsonArray array(4);
-  for (const T& item : items)
-  {
-    array.add(text(item));
-  }
-  return array.block();
-}
 } // namespace
 
 JsonObject fileObject(const DatasetFile& file)
