@@ -95,7 +95,7 @@ public:
 
   ExportNeeds needs(const OptionValues& options) const override
   {
-    return { { exported::color().of(options), "disparity", "flow_forward", "objects" } };
+    return { { exported::color().of(options), "disparity", later, "flow_forward", "objects" } };
   }
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
@@ -110,7 +110,7 @@ public:
       {
         requireFile(dataset, *shot, exported::color().of(options), format, { "png" });
       }
-      for (const char* layer : { "disparity", "flow_forward", "objects" })
+      for (const char* layer : { "disparity", later, "flow_forward", "objects" })
       {
         requireFile(dataset, *one.left, layer, format);
       }
@@ -152,7 +152,6 @@ private:
   static ExportItem item(
     const DatasetView& dataset, const Sample& one, const std::string& number, const OptionValues& options)
   {
-    const bool moves = !dataset.file(*one.left, later).empty();
     const auto path = [number](const char* folder, const char* end)
     { return "training/" + (folder + ('/' + number)) + end; };
     ExportItem item;
@@ -161,17 +160,13 @@ private:
       item.files.push_back(path("image_2", picture));
       item.files.push_back(path("image_3", picture));
     }
-    for (const char* folder : { "disp_noc_0", "disp_occ_0", "flow_noc", "flow_occ", "obj_map" })
+    for (const char* folder :
+      { "disp_noc_0", "disp_occ_0", "disp_noc_1", "disp_occ_1", "flow_noc", "flow_occ", "obj_map" })
     {
       item.files.push_back(path(folder, "_10.png"));
     }
-    if (moves)
-    {
-      item.files.push_back(path("disp_noc_1", "_10.png"));
-      item.files.push_back(path("disp_occ_1", "_10.png"));
-    }
     item.files.push_back("training/calib_cam_to_cam/" + number + ".txt");
-    item.write = [&dataset, one, number, options, path, moves](ExportSink& sink)
+    item.write = [&dataset, one, number, options, path](ExportSink& sink)
     {
       const std::string color = exported::color().of(options);
       writePicture(sink, dataset, *one.left, color, path("image_2", "_10.png"), options);
@@ -184,11 +179,8 @@ private:
       };
       disparity("disparity", "disp_noc_0", seenClasses());
       disparity("disparity", "disp_occ_0", placedClasses());
-      if (moves)
-      {
-        disparity(later, "disp_noc_1", seenClasses());
-        disparity(later, "disp_occ_1", placedClasses());
-      }
+      disparity(later, "disp_noc_1", seenClasses());
+      disparity(later, "disp_occ_1", placedClasses());
       kitti::writeFlow(sink, dataset, *one.left, "flow_forward", path("flow_noc", "_10.png"), seenClasses(), options);
       kitti::writeFlow(sink, dataset, *one.left, "flow_forward", path("flow_occ", "_10.png"), placedClasses(), options);
       writeIdPng(sink, dataset, *one.left, "objects", path("obj_map", "_10.png"), objectCodes(dataset, options), false);

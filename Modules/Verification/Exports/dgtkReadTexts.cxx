@@ -88,7 +88,11 @@ double metresOf(const ExportedFrom& source)
       return numberIn(source.path(exportName), 0, value);
     }
   }
-  throw InputError(source.path(exportName), 0, "nobody says how long the dataset's unit is");
+  if (source.manifest().metresPerUnit <= 0)
+  {
+    throw InputError(source.path(exportName), 0, "nobody says how long the dataset's unit is");
+  }
+  return source.manifest().metresPerUnit;
 }
 
 std::vector<const ExportedFile*> filesIn(
