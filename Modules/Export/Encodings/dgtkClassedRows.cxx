@@ -8,36 +8,43 @@
 namespace dgtk
 {
 
-ClassedRows::ClassedRows(
-  const DatasetView& dataset, const DatasetShot& shot, const std::string& layer, const std::vector<double>& classes)
-  : Values(dataset.open(shot, layer))
-  , Wanted(classes)
+void addClasses(PixelEncoding& encoding, const std::string& layer, const WantedClasses& classes)
 {
-  if (!classes.empty())
+  for (const auto& [other, wanted] : classes)
   {
-    this->Classes = dataset.open(shot, layer + "_class", { "png" });
+    encoding.numbers[other == layer ? "classes" : "classes_of_" + other] = wanted;
+  }
+}
+
+ClassedRows::ClassedRows(
+  const DatasetView& dataset, const DatasetShot& shot, const std::string& layer, const WantedClasses& classes)
+  : Values(dataset.open(shot, layer))
+{
+  for (const auto& [other, wanted] : classes)
+  {
+    this->Filters.push_back({ dataset.open(shot, other + "_class", { "png" }), wanted, {} });
   }
 }
 
 void ClassedRows::next()
 {
   this->Row = this->Values->read(1);
-  if (this->Classes)
+  for (Filter& filter : this->Filters)
   {
-    this->ClassRow = this->Classes->read(1);
+    filter.row = filter.reader->read(1);
   }
 }
 
 double ClassedRows::at(int x, int channel) const
 {
-  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  if (this->Classes && std::find(this->Wanted.begin(), this->Wanted.end(),
-                         valueAt(this->ClassRow, x, this->ClassRow.y())) == this->Wanted.end())
-  {
-    return nothing;
-  }
+  const bool wanted = std::all_of(this->Filters.begin(), this->Filters.end(),
+    [x](const Filter& filter)
+    {
+      const double found = valueAt(filter.row, x, filter.row.y());
+      return std::find(filter.wanted.begin(), filter.wanted.end(), found) != filter.wanted.end();
+    });
   const double value = valueAt(this->Row, x, this->Row.y(), channel);
-  return std::isfinite(value) ? value : nothing;
+  return wanted && std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 } // namespace dgtk

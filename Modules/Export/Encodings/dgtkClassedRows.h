@@ -6,6 +6,9 @@
 
 #include "dgtkDatasetView.h"
 
+#include "dgtkExportDocument.h"
+
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,23 +16,32 @@
 namespace dgtk
 {
 
-/// Rows of a layer from top to bottom. Values that are not finite are NaN, and so are those whose visibility class, in
-/// the class image of the layer, is not among `classes` (none: all count).
+/// Visibility classes that are wanted, by the layer whose class image says them.
+using WantedClasses = std::map<std::string, std::vector<double>>;
+/// Says them in the encoding of a file of pixels of a layer.
+void addClasses(PixelEncoding& encoding, const std::string& layer, const WantedClasses& classes);
+
+/// Rows of a layer from top to bottom. Values that are not finite are NaN, and so are those of pixels with a class that
+/// is not wanted.
 class ClassedRows
 {
 public:
-  ClassedRows(const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
-    const std::vector<double>& classes = {});
+  ClassedRows(
+    const DatasetView& dataset, const DatasetShot& shot, const std::string& layer, const WantedClasses& classes = {});
   const ImageInfo& info() const { return this->Values->info(); }
   void next();
   double at(int x, int channel = 0) const;
 
 private:
+  struct Filter
+  {
+    std::unique_ptr<RowReader> reader;
+    std::vector<double> wanted;
+    Rows row;
+  };
   std::unique_ptr<RowReader> Values;
-  std::unique_ptr<RowReader> Classes; ///< null: all count
-  std::vector<double> Wanted;
+  std::vector<Filter> Filters;
   Rows Row;
-  Rows ClassRow;
 };
 
 /// Visibility classes of surface points that are seen in the other image, and of all that have a place there.

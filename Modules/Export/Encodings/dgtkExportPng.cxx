@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkExportPng.h"
 
-#include "dgtkClassedRows.h"
 #include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkExportJpeg.h"
@@ -87,7 +86,7 @@ void CodeCounter::report(ExportSink& sink, const DatasetShot& shot, const Option
 }
 
 void writeCodedPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
-  const std::string& name, const LinearCode& code, const OptionValues& options, const std::vector<double>& classes)
+  const std::string& name, const LinearCode& code, const OptionValues& options, const WantedClasses& classes)
 {
   ClassedRows rows(dataset, shot, layer, classes);
   CodeCounter counter(code, layer);
@@ -97,10 +96,7 @@ void writeCodedPng(ExportSink& sink, const DatasetView& dataset, const DatasetSh
   header.bitDepth = 16;
   header.channels = 1;
   ExportedPixels pixels{ layer, &shot, code.encoding() };
-  if (!classes.empty())
-  {
-    pixels.encoding.numbers["classes"] = classes;
-  }
+  addClasses(pixels.encoding, layer, classes);
   writePng(sink, name, pixels, header,
     [&](int, unsigned char* row)
     {

@@ -4,6 +4,7 @@
 
 // Private to Export: pictures and coded values as other formats have them.
 
+#include "dgtkClassedRows.h"
 #include "dgtkExporter.h"
 #include "dgtkPngEncoder.h"
 
@@ -71,10 +72,9 @@ private:
   std::uint64_t Without = 0;
 };
 
-/// A one-channel layer as 16-bit gray PNG; of visibility classes only those that are named (none: all).
+/// A one-channel layer as 16-bit gray PNG; where classes are wanted, pixels of these only.
 void writeCodedPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
-  const std::string& name, const LinearCode& code, const OptionValues& options,
-  const std::vector<double>& classes = {});
+  const std::string& name, const LinearCode& code, const OptionValues& options, const WantedClasses& classes = {});
 
 /// A code for each id or class of a layer as gray PNG of 8 bits, or 24 bits as R, G, B with R highest; ids without one
 /// are 0.

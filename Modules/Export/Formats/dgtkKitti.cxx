@@ -54,7 +54,7 @@ void putFlow(double u, double v, CodeCounter& counter, unsigned char* pixel)
 } // namespace
 
 void writeFlow(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
-  const std::string& name, const std::vector<double>& classes, const OptionValues& options)
+  const std::string& name, const WantedClasses& classes, const OptionValues& options)
 {
   ClassedRows rows(dataset, shot, layer, classes);
   PngEncoder::Header header;
@@ -62,7 +62,7 @@ void writeFlow(ExportSink& sink, const DatasetView& dataset, const DatasetShot& 
   header.height = rows.info().height;
   header.bitDepth = 16;
   ExportedPixels pixels{ layer, &shot, flowCode().encoding("kitti-flow") };
-  pixels.encoding.numbers["classes"] = classes;
+  addClasses(pixels.encoding, layer, classes);
   CodeCounter counter(flowCode(), layer);
   writePng(sink, name, pixels, header,
     [&](int, unsigned char* row)

@@ -16,7 +16,7 @@ namespace dgtk::kitti
 LinearCode code256(double factor, const std::string& unit);
 /// Flow as 16-bit R, G (64 a pixel, 32768 is 0) and B, 1 where there is one; of these visibility classes.
 void writeFlow(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
-  const std::string& name, const std::vector<double>& classes, const OptionValues& options);
+  const std::string& name, const WantedClasses& classes, const OptionValues& options);
 
 /// K [I | offset] of a camera, 12 numbers, in KITTI's pixels; offset in metres along x.
 std::string projectionLine(const CameraRecord& camera, double offset);

@@ -121,7 +121,7 @@ public:
   {
     ExportPlan plan;
     plan.conventions = kitti::conventions(dataset);
-    plan.conventions.push_back({ "noc", "visibility class 1; occ: classes 1 to 4" });
+    plan.conventions.push_back({ "noc", "visibility class 1, of disp_noc_1 of the flow, too; occ: classes 1 to 4" });
     const std::vector<Sample> samples = samplesOf(dataset);
     for (std::size_t i = 0; i < samples.size(); ++i)
     {
@@ -173,16 +173,18 @@ private:
       writePicture(sink, dataset, *one.right, color, path("image_3", "_10.png"), options);
       writePicture(sink, dataset, *one.nextLeft, color, path("image_2", "_11.png"), options);
       writePicture(sink, dataset, *one.nextRight, color, path("image_3", "_11.png"), options);
-      const auto disparity = [&](const char* layer, const char* folder, const std::vector<double>& classes) {
+      const auto disparity = [&](const char* layer, const char* folder, const WantedClasses& classes) {
         writeCodedPng(
           sink, dataset, *one.left, layer, path(folder, "_10.png"), kitti::code256(1, "px"), options, classes);
       };
-      disparity("disparity", "disp_noc_0", seenClasses());
-      disparity("disparity", "disp_occ_0", placedClasses());
-      disparity(later, "disp_noc_1", seenClasses());
-      disparity(later, "disp_occ_1", placedClasses());
-      kitti::writeFlow(sink, dataset, *one.left, "flow_forward", path("flow_noc", "_10.png"), seenClasses(), options);
-      kitti::writeFlow(sink, dataset, *one.left, "flow_forward", path("flow_occ", "_10.png"), placedClasses(), options);
+      disparity("disparity", "disp_noc_0", { { "disparity", seenClasses() } });
+      disparity("disparity", "disp_occ_0", { { "disparity", placedClasses() } });
+      disparity(later, "disp_noc_1", { { later, seenClasses() }, { "flow_forward", seenClasses() } });
+      disparity(later, "disp_occ_1", { { later, placedClasses() } });
+      kitti::writeFlow(sink, dataset, *one.left, "flow_forward", path("flow_noc", "_10.png"),
+        { { "flow_forward", seenClasses() } }, options);
+      kitti::writeFlow(sink, dataset, *one.left, "flow_forward", path("flow_occ", "_10.png"),
+        { { "flow_forward", placedClasses() } }, options);
       writeIdPng(sink, dataset, *one.left, "objects", path("obj_map", "_10.png"), objectCodes(dataset, options), false);
       sink.write("training/calib_cam_to_cam/" + number + ".txt",
         kitti::camToCam(one.left->camera, &one.right->camera, baselineMetres(dataset, *one.left, *one.right)),

@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
