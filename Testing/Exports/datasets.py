@@ -124,6 +124,21 @@ def lenses(folder):
          "distortion": [0.02, -0.004, 0.0006, -5e-05]}]})
 
 
+def street(folder, frames=2):
+    """What stands upright before an upright rectified pair: turned about the vertical alone, cut off by the border, in two sizes."""
+    last = frames - 1
+    objects = [{"name": "back wall", "model": "wall.obj", "position": [0, 0, -3], "class": "wall"},
+               {"name": "car, röt", "model": "block.obj", "position": {"keys": [[0, [0.4, -0.2, 0]], [last, [0.6, -0.2, 0.3]]]},
+                "class": "Car", "orientation": [0.955336, 0, 0.29552, 0]},
+               {"name": "van", "model": "block.obj", "position": [-1.9, 0, 0.4], "class": "delivery van", "scale": [1.5, 1.5, 1.5],
+                "orientation": [0.5, 0, -0.866025, 0]},
+               {"name": "hidden", "model": "block.obj", "position": [0.7, -0.1, -1.2], "class": "Car"},
+               {"name": "nameless", "model": "ring.obj", "position": [-0.3, 0.6, -1]}]
+    return _write(folder, "street", {"objects": objects, "cameras": [
+        _camera("cam L", {"keys": [[0, [-0.1, 0.2, 4.5]], [last, [-0.1, 0.2, 4.3]]]}, {"keys": [[0, [-0.1, 0.2, 0]], [last, [-0.1, 0.2, -0.2]]]}),
+        _camera("cam R", {"keys": [[0, [0.1, 0.2, 4.5]], [last, [0.1, 0.2, 4.3]]]}, {"keys": [[0, [0.1, 0.2, 0]], [last, [0.1, 0.2, -0.2]]]})]})
+
+
 def _without_view(camera):
     """K says the view: neither is given twice."""
     return {key: value for key, value in camera.items() if key != "fovY" or "K" not in camera}

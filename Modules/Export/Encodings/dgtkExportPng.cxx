@@ -86,26 +86,71 @@ void CodeCounter::report(ExportSink& sink, const DatasetShot& shot, const Option
 }
 
 void writeCodedPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
-  const std::string& name, const LinearCode& code, const OptionValues& options)
+  const std::string& name, const LinearCode& code, const OptionValues& options, const WantedClasses& classes)
 {
-  const std::unique_ptr<RowReader> reader = dataset.open(shot, layer);
-  const ImageInfo& info = reader->info();
+  ClassedRows rows(dataset, shot, layer, classes);
   CodeCounter counter(code, layer);
   PngEncoder::Header header;
-  header.width = info.width;
-  header.height = info.height;
+  header.width = rows.info().width;
+  header.height = rows.info().height;
   header.bitDepth = 16;
   header.channels = 1;
-  writePng(sink, name, { layer, &shot, code.encoding() }, header,
-    [&](int y, unsigned char* row)
+  ExportedPixels pixels{ layer, &shot, code.encoding() };
+  addClasses(pixels.encoding, layer, classes);
+  writePng(sink, name, pixels, header,
+    [&](int, unsigned char* row)
     {
-      const Rows rows = reader->read(1);
-      for (int x = 0; x < info.width; ++x)
+      rows.next();
+      for (int x = 0; x < header.width; ++x)
       {
-        putBig16(row + 2 * std::size_t(x), counter(valueAt(rows, x, y)));
+        putBig16(row + 2 * std::size_t(x), counter(rows.at(x)));
       }
     });
   counter.report(sink, shot, options);
+}
+
+namespace
+{
+PixelEncoding encodingOfIds(const std::map<std::uint32_t, std::uint32_t>& codes, bool color)
+{
+  PixelEncoding encoding{ "ids", { { "nothing", { 0 } } } };
+  std::vector<double>& pairs = encoding.numbers["codes"];
+  for (const auto& [id, code] : codes)
+  {
+    pairs.insert(pairs.end(), { double(id), double(code) });
+  }
+  if (color)
+  {
+    encoding.numbers["high_first"] = { 1 };
+  }
+  return encoding;
+}
+} // namespace
+
+void writeIdPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
+  const std::string& name, const std::map<std::uint32_t, std::uint32_t>& codes, bool color)
+{
+  const std::unique_ptr<RowReader> reader = dataset.open(shot, layer);
+  PngEncoder::Header header;
+  header.width = reader->info().width;
+  header.height = reader->info().height;
+  header.channels = color ? 3 : 1;
+  header.prediction = PngPrediction::Labels;
+  writePng(sink, name, { layer, &shot, encodingOfIds(codes, color) }, header,
+    [&](int y, unsigned char* row)
+    {
+      const Rows rows = reader->read(1);
+      for (int x = 0; x < header.width; ++x)
+      {
+        const auto found = codes.find(idAt(rows, x, y));
+        const std::uint32_t code = found == codes.end() ? 0 : found->second;
+        for (int c = 0; c < header.channels; ++c)
+        {
+          *row++ = static_cast<unsigned char>(code >> (8 * (header.channels - 1 - c)));
+        }
+      }
+    });
+  sink.rounding({ layer, "id", 0, std::uint64_t(header.width) * header.height, 0 });
 }
 
 } // namespace dgtk

@@ -4,12 +4,15 @@
 
 // Private to Export: pictures and coded values as other formats have them.
 
+#include "dgtkClassedRows.h"
 #include "dgtkExporter.h"
 #include "dgtkPngEncoder.h"
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
+#include <vector>
 
 namespace dgtk
 {
@@ -53,6 +56,12 @@ public:
   }
   /// The code; a value that is not finite is none.
   std::uint32_t operator()(double value);
+  /// Of a pixel of several values: whether all have a code.
+  void count(bool hasCode)
+  {
+    ++this->Values;
+    this->Without += hasCode ? 0 : 1;
+  }
   /// Throws UsageError where values without a code are to be refused (option out_of_range).
   void report(ExportSink& sink, const DatasetShot& shot, const OptionValues& options) const;
 
@@ -63,9 +72,14 @@ private:
   std::uint64_t Without = 0;
 };
 
-/// A one-channel layer as 16-bit gray PNG.
+/// A one-channel layer as 16-bit gray PNG; where classes are wanted, pixels of these only.
 void writeCodedPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
-  const std::string& name, const LinearCode& code, const OptionValues& options);
+  const std::string& name, const LinearCode& code, const OptionValues& options, const WantedClasses& classes = {});
+
+/// A code for each id or class of a layer as gray PNG of 8 bits, or 24 bits as R, G, B with R highest; ids without one
+/// are 0.
+void writeIdPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
+  const std::string& name, const std::map<std::uint32_t, std::uint32_t>& codes, bool color);
 
 } // namespace dgtk
 

@@ -66,6 +66,10 @@ struct Decoder
 constexpr Decoder decoders[] = {
   { "linear", &decodeLinear },
   { "float", &decodeFloat },
+  { "dpt", &decodeDpt },
+  { "flow-pfm", &decodeFlowPfm },
+  { "kitti-flow", &decodeKittiFlow },
+  { "sintel-disparity", &decodeSintelDisparity },
 };
 
 const Decoder* findDecoder(const std::string& kind)
@@ -202,19 +206,24 @@ public:
     : Layer(one.layer())
     , Factors(factorsOf(one.encoding()))
   {
-    const auto classes = one.encoding().numbers.find("classes");
-    if (classes != one.encoding().numbers.end())
+    const DatasetFile& file = one.file();
+    for (const auto& [key, wanted] : one.encoding().numbers)
     {
-      this->Wanted = classes->second;
-      this->Classes = one.source.picture(one.file().camera, one.file().frame, one.file().layer + "_class", { "png" });
+      if (key.rfind("classes", 0) == 0)
+      {
+        const std::string layer = key == "classes" ? file.layer : key.substr(std::string("classes_of_").size());
+        this->Classes.push_back({ one.source.picture(file.camera, file.frame, layer + "_class", { "png" }), wanted });
+      }
     }
   }
   double at(int x, int y, int c) const
   {
-    if (this->Classes &&
-        std::find(this->Wanted.begin(), this->Wanted.end(), this->Classes->at(x, y)) == this->Wanted.end())
+    for (const auto& [picture, wanted] : this->Classes)
     {
-      return nothing;
+      if (std::find(wanted.begin(), wanted.end(), picture->at(x, y)) == wanted.end())
+      {
+        return nothing;
+      }
     }
     const double value = this->Layer->at(x, y, c);
     return std::isfinite(value) ? value * this->Factors[std::size_t(c) % this->Factors.size()] : nothing;
@@ -229,8 +238,7 @@ private:
     return found == encoding.numbers.end() ? std::vector<double>{ 1 } : found->second;
   }
   PicturePointer Layer;
-  PicturePointer Classes;
-  std::vector<double> Wanted;
+  std::vector<std::pair<PicturePointer, std::vector<double>>> Classes;
   std::vector<double> Factors;
 };
 
@@ -253,15 +261,40 @@ void judgeValues(const Comparison& one, const Decoder& decoder, Meter& meter)
   forPixels(found.width, found.height,
     [&](int x, int y)
     {
-      for (int c = 0; c < found.channels && c < expected.channels(); ++c)
+      const int channels = std::min(found.channels, expected.channels());
+      bool there = true; // a pixel is there with all its values, or not at all
+      for (int c = 0; c < channels; ++c)
+      {
+        const double want = expected.at(x, y, c);
+        there = there && std::isfinite(want) && hasCode(one.encoding(), want);
+      }
+      for (int c = 0; c < channels; ++c)
       {
         const double value = found.at(x, y, c);
         const double want = expected.at(x, y, c);
-        const bool there = std::isfinite(want) && hasCode(one.encoding(), want);
         const double slack = codes ? 1e-12 * std::abs(want) : half * std::abs(want);
         const double apart = there ? std::max(0.0, std::abs(value - want) - slack) : 0;
         meter.add(std::isfinite(value) == there ? apart : infinite, [&] { return offenderAt(one, x, y, value, want); });
       }
+    });
+}
+
+/// What a layer of the moved point's disparities gains over the layer `disparity`, as float32.
+void judgeChange(const Comparison& one, Meter& meter)
+{
+  constexpr double half = 5.97e-8;
+  const DecodedPixels found = decodeFloat(one.path(), one.encoding());
+  const PicturePointer there = one.layer();
+  const PicturePointer here = one.source.picture(one.file().camera, one.file().frame, "disparity");
+  one.requireSize(found.width, found.height);
+  forPixels(found.width, found.height,
+    [&](int x, int y)
+    {
+      const double want = there->at(x, y) - here->at(x, y);
+      const double value = found.at(x, y);
+      const bool same = std::isfinite(value) == std::isfinite(want);
+      const double apart = std::isfinite(want) ? std::max(0.0, std::abs(value - want) - half * std::abs(want)) : 0;
+      meter.add(same ? apart : infinite, [&] { return offenderAt(one, x, y, value, want); });
     });
 }
 
@@ -276,6 +309,7 @@ constexpr Judge judges[] = {
   { "picture", &judgePicture, "levels" },
   { "mask", &judgeMask, "" },
   { "ids", &judgeIds, "" },
+  { "disparity-change", &judgeChange, "px" },
 };
 } // namespace
 

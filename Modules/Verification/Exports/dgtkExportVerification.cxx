@@ -14,6 +14,14 @@ namespace dgtk
 {
 
 void readCoco(ExportJudge& judge);
+void readKitti2015(ExportJudge& judge);
+void readKittiDepth(ExportJudge& judge);
+void readKittiObject(ExportJudge& judge);
+void readKittiOdometry(ExportJudge& judge);
+void readStereo(ExportJudge& judge);
+void readSintel(ExportJudge& judge);
+void readTum(ExportJudge& judge);
+void readFlyingThings(ExportJudge& judge);
 
 namespace
 {
@@ -25,6 +33,15 @@ struct Reader
 /// Each is dgtkRead<Name>.cxx.
 constexpr Reader readers[] = {
   { "coco", &readCoco },
+  { "kitti2015", &readKitti2015 },
+  { "kitti-depth", &readKittiDepth },
+  { "kitti-object", &readKittiObject },
+  { "kitti-odometry", &readKittiOdometry },
+  { "middlebury", &readStereo },
+  { "eth3d", &readStereo },
+  { "sintel", &readSintel },
+  { "tum", &readTum },
+  { "flyingthings", &readFlyingThings },
 };
 
 /// Files that export.json lists are there and as it says, and there are no others.

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkExportChecks.h"
+
+#include "dgtkError.h"
+#include "dgtkExport.h"
+#include "dgtkExportPng.h"
+#include "dgtkText.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+namespace dgtk
+{
+
+void requirePng(const OptionValues& options, const std::string& format)
+{
+  if (pictureExtension(options) != "png")
+  {
+    throw UsageError(
+      "image_format: the pictures of " + format + " are PNG (expected png, found " + pictureExtension(options) + ')');
+  }
+}
+
+void requireWhole(const OptionValues& options, const std::string& format)
+{
+  if (!exported::split().of(options).empty())
+  {
+    throw UsageError("split: " + format + " has no parts");
+  }
+}
+
+void requireFile(const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
+  const std::string& format, const std::vector<std::string>& extensions)
+{
+  if (dataset.file(shot, layer, extensions).empty())
+  {
+    throw UsageError(format + ": camera " + quoted(shot.name()) + " has no file of layer " + layer +
+                     (extensions.empty() ? "" : " as ." + joined(extensions, " or .")) + " at frame " +
+                     std::to_string(shot.frame()));
+  }
+}
+
+void requireEverywhere(const DatasetView& dataset, const std::string& layer, const std::string& format,
+  const std::vector<std::string>& extensions)
+{
+  for (const DatasetShot& shot : dataset.shots())
+  {
+    requireFile(dataset, shot, layer, format, extensions);
+  }
+}
+
+void requireFixedIntrinsics(const DatasetView& dataset, const std::string& format)
+{
+  for (const DatasetShot& shot : dataset.shots())
+  {
+    const CameraRecord& first = dataset.shotsOf(shot.name()).front()->camera;
+    const CameraRecord& camera = shot.camera;
+    if (camera.K != first.K || camera.width != first.width || camera.height != first.height)
+    {
+      throw UsageError(format + ": camera " + quoted(shot.name()) + " has another matrix at frame " +
+                       std::to_string(shot.frame()) + " than at frame " + std::to_string(first.frame) +
+                       ", which the format cannot say");
+    }
+  }
+}
+
+void requireConsecutive(const DatasetView& dataset, const std::string& format)
+{
+  for (const std::string& camera : dataset.cameras())
+  {
+    const std::vector<const DatasetShot*> shots = dataset.shotsOf(camera);
+    if (shots.back()->frame() - shots.front()->frame() + 1 != static_cast<int>(shots.size()))
+    {
+      throw UsageError(
+        format + ": the frames of camera " + quoted(camera) + " are not consecutive, but flow leads to the next one");
+    }
+  }
+}
+
+std::vector<CameraEyes> eyesOf(const DatasetView& dataset)
+{
+  std::vector<RectifiedPair> pairs = dataset.rectifiedPairs();
+  std::sort(pairs.begin(), pairs.end(),
+    [](const RectifiedPair& a, const RectifiedPair& b)
+    { return std::tie(a.baseline, a.left, a.right) < std::tie(b.baseline, b.left, b.right); });
+  std::vector<CameraEyes> eyes;
+  std::set<std::string> used;
+  for (const RectifiedPair& pair : pairs)
+  {
+    if (used.count(pair.left) == 0 && used.count(pair.right) == 0)
+    {
+      used.insert({ pair.left, pair.right });
+      eyes.push_back({ pair.left, pair.right, "" });
+    }
+  }
+  for (const std::string& camera : dataset.cameras())
+  {
+    if (used.count(camera) == 0)
+    {
+      eyes.push_back({ camera, "", "" });
+    }
+  }
+  std::sort(eyes.begin(), eyes.end(), [](const CameraEyes& a, const CameraEyes& b) { return a.left < b.left; });
+  SafeNames names;
+  for (CameraEyes& one : eyes)
+  {
+    one.name = names.of(one.left);
+  }
+  return eyes;
+}
+
+std::vector<CameraEyes> pairsOf(const DatasetView& dataset, const std::string& format)
+{
+  std::vector<CameraEyes> pairs;
+  for (const CameraEyes& one : eyesOf(dataset))
+  {
+    if (!one.right.empty())
+    {
+      pairs.push_back(one);
+    }
+  }
+  if (pairs.empty())
+  {
+    throw UsageError(format + ": no two cameras are a rectified pair: plain pinholes of one size and matrix, alike "
+                              "turned, the right one along the left one's x");
+  }
+  return pairs;
+}
+
+double baselineMetres(const DatasetView& dataset, const DatasetShot& left, const DatasetShot& right)
+{
+  return (left.camera.t - right.camera.t).x() * dataset.metres();
+}
+
+std::string numbersLine(const std::vector<double>& numbers)
+{
+  std::vector<std::string> words;
+  words.reserve(numbers.size());
+  for (const double number : numbers)
+  {
+    words.push_back(shortest(number + 0.0)); // no -0
+  }
+  return joined(words, " ");
+}
+
+std::string padded(int number, int digits)
+{
+  std::string text = std::to_string(number);
+  return text.size() < std::size_t(digits) ? std::string(std::size_t(digits) - text.size(), '0') + text : text;
+}
+
+} // namespace dgtk

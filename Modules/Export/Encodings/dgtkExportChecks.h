@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkExportChecks_h
+#define dgtkExportChecks_h
+
+// Private to Export: what several formats cannot say, and how they choose cameras. Each throws a UsageError that begins
+// with the format's name.
+
+#include "dgtkExporter.h"
+
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// The format's readers look for .png.
+void requirePng(const OptionValues& options, const std::string& format);
+/// The format has no parts.
+void requireWhole(const OptionValues& options, const std::string& format);
+/// A picture has a file of the layer with one of the extensions; every picture has.
+void requireFile(const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
+  const std::string& format, const std::vector<std::string>& extensions = {});
+void requireEverywhere(const DatasetView& dataset, const std::string& layer, const std::string& format,
+  const std::vector<std::string>& extensions = {});
+/// The format has one matrix, and one size, for all frames of a camera.
+void requireFixedIntrinsics(const DatasetView& dataset, const std::string& format);
+/// The frames of every camera follow each other without a gap.
+void requireConsecutive(const DatasetView& dataset, const std::string& format);
+
+/// A camera, and the right one of its rectified pair where it has one.
+struct CameraEyes
+{
+  std::string left;
+  std::string right; ///< "" for none
+  std::string name;  ///< of both: the left one as SafeNames has it
+};
+/// Every camera once. A camera with several partners has the nearest one.
+std::vector<CameraEyes> eyesOf(const DatasetView& dataset);
+/// The same, pairs only; at least one.
+std::vector<CameraEyes> pairsOf(const DatasetView& dataset, const std::string& format);
+
+/// Metres between the cameras of a rectified pair at one frame.
+double baselineMetres(const DatasetView& dataset, const DatasetShot& left, const DatasetShot& right);
+/// Numbers as their shortest texts, one space between.
+std::string numbersLine(const std::vector<double>& numbers);
+/// A number with leading zeros.
+std::string padded(int number, int digits);
+
+} // namespace dgtk
+
+#endif

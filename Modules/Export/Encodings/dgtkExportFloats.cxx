@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkExportFloats.h"
+
+#include "dgtkClassedRows.h"
+#include "dgtkLayerFile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr float magic = 202021.25F; ///< of .flo and .dpt
+
+std::string headOf(const FloatFile& form, int width, int height)
+{
+  std::string head;
+  if (form.kind == FloatFile::Kind::Pfm)
+  {
+    return (form.channels == 1 ? "Pf\n" : "PF\n") + std::to_string(width) + ' ' + std::to_string(height) + "\n-1\n";
+  }
+  putLittle(head, magic);
+  putLittle(head, width);
+  putLittle(head, height);
+  return head;
+}
+
+/// Rounds values to float32 and keeps account of it.
+class Rounder
+{
+public:
+  explicit Rounder(const FloatFile& form)
+    : Nothing(form.nothing)
+  {
+  }
+  float operator()(double value)
+  {
+    if (std::isnan(value))
+    {
+      return this->Nothing;
+    }
+    ++this->Account.values;
+    const auto rounded = static_cast<float>(value);
+    if (!std::isfinite(rounded))
+    {
+      ++this->Account.withoutCode;
+      return this->Nothing;
+    }
+    this->Account.largest = std::max(this->Account.largest, std::abs(double(rounded) - value));
+    return rounded;
+  }
+  LayerRounding Account;
+
+private:
+  float Nothing;
+};
+
+PixelEncoding encodingOf(const FloatFile& form)
+{
+  PixelEncoding encoding{ form.kind == FloatFile::Kind::Dpt ? "dpt" : "float", {} };
+  if (std::isfinite(form.nothing))
+  {
+    encoding.numbers["nothing"] = { double(form.nothing) };
+  }
+  return encoding;
+}
+} // namespace
+
+void writeFloats(ExportSink& sink, const std::string& name, const ExportedPixels& pixels, const FloatFile& form,
+  int width, int height, int filled, const std::function<void(int y, double* row)>& fill)
+{
+  Rounder rounder(form);
+  const std::size_t rowValues = std::size_t(width) * static_cast<unsigned>(form.channels);
+  std::vector<double> row(std::size_t(width) * static_cast<unsigned>(filled));
+  std::vector<float> all(rowValues * static_cast<unsigned>(height));
+  for (int y = 0; y < height; ++y)
+  {
+    fill(y, row.data());
+    const int line = form.kind == FloatFile::Kind::Pfm ? height - 1 - y : y;
+    for (int x = 0; x < width; ++x)
+    {
+      for (int c = 0; c < filled; ++c)
+      {
+        all[line * rowValues + std::size_t(x) * form.channels + c] = rounder(row[std::size_t(x) * filled + c]);
+      }
+    }
+  }
+  ExportedPixels described = pixels;
+  if (described.encoding.kind.empty())
+  {
+    described.encoding = encodingOf(form);
+  }
+  const std::unique_ptr<ExportFile> file = sink.open(name, described);
+  file->write(headOf(form, width, height));
+  file->write(all.data(), all.size() * sizeof(float));
+  file->finish();
+  rounder.Account.layer = pixels.layer;
+  rounder.Account.unit = form.unit;
+  sink.rounding(rounder.Account);
+}
+
+void writeFloatLayer(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
+  const std::string& name, const FloatFile& form)
+{
+  ClassedRows rows(dataset, shot, layer);
+  const int filled = rows.info().channels;
+  writeFloats(sink, name, { layer, &shot, {} }, form, rows.info().width, rows.info().height, filled,
+    [&](int, double* row)
+    {
+      rows.next();
+      for (int i = 0; i < rows.info().width * filled; ++i)
+      {
+        row[i] = rows.at(i / filled, i % filled);
+      }
+    });
+}
+
+} // namespace dgtk

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkExportFloats_h
+#define dgtkExportFloats_h
+
+// Private to Export: float32 values as other formats have them.
+
+#include "dgtkExporter.h"
+
+#include <functional>
+#include <string>
+
+namespace dgtk
+{
+
+/// A file of float32 values, little-endian.
+struct FloatFile
+{
+  enum class Kind
+  {
+    Pfm, ///< one channel, or three; bottom row first
+    Dpt, ///< Sintel's depth, one channel
+    Flo  ///< Middlebury's flow, two channels
+  };
+  Kind kind = Kind::Pfm;
+  int channels = 1;
+  float nothing = 0; ///< stands where there is no value
+  std::string unit;
+};
+
+/// `fill` makes the rows from top to bottom, channels interleaved, NaN for no value; channels of the file beyond
+/// `filled` are 0. Reports the largest rounding to float32; a value too large for it is none, and counted.
+void writeFloats(ExportSink& sink, const std::string& name, const ExportedPixels& pixels, const FloatFile& form,
+  int width, int height, int filled, const std::function<void(int y, double* row)>& fill);
+
+/// The layer of a shot, all values that are finite.
+void writeFloatLayer(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
+  const std::string& name, const FloatFile& form);
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkClassedRows.h"
+#include "dgtkExport.h"
+#include "dgtkExportChecks.h"
+#include "dgtkExportFloats.h"
+#include "dgtkExportPng.h"
+
+#include <cctype>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr const char* format = "flyingthings";
+constexpr float nothing = 1e10F; ///< finite, so that a masked loss stays a number
+constexpr int firstNumber = 6;   ///< of a sequence's pictures
+
+FloatFile pfm(int channels, const std::string& unit)
+{
+  FloatFile form;
+  form.channels = channels;
+  form.nothing = nothing;
+  form.unit = unit;
+  return form;
+}
+
+/// One eye at one frame.
+struct Eye
+{
+  const DatasetShot* shot = nullptr;
+  std::string sequence; ///< "TRAIN/A/0000/"
+  std::string side;     ///< "left" or "right"
+  std::string number;   ///< "0006"
+  std::string path(const std::string& folder, const std::string& extension) const
+  {
+    return folder + this->sequence + this->side + '/' + this->number + extension;
+  }
+};
+
+/// Layers that lead to the frame after, or before.
+struct Direction
+{
+  const char* flow;
+  const char* disparity;
+  const char* folder;
+  const char* flowFile;
+};
+constexpr Direction directions[] = {
+  { "flow_forward", "disparity_forward", "into_future/", "OpticalFlowIntoFuture_" },
+  { "flow_backward", "disparity_backward", "into_past/", "OpticalFlowIntoPast_" },
+};
+
+std::string flowPath(const Eye& eye, const Direction& way)
+{
+  return "optical_flow/" + eye.sequence + way.folder + eye.side + '/' + way.flowFile + eye.number +
+         (eye.side == "left" ? "_L.pfm" : "_R.pfm");
+}
+std::string changePath(const Eye& eye, const Direction& way)
+{
+  return "disparity_change/" + eye.sequence + way.folder + eye.side + '/' + eye.number + ".pfm";
+}
+
+void writeFlow(ExportSink& sink, const DatasetView& dataset, const Eye& eye, const Direction& way)
+{
+  ClassedRows rows(dataset, *eye.shot, way.flow);
+  writeFloats(sink, flowPath(eye, way), { way.flow, eye.shot, { "flow-pfm", { { "nothing", { double(nothing) } } } } },
+    pfm(3, "px"), rows.info().width, rows.info().height, 2,
+    [&](int, double* row)
+    {
+      rows.next();
+      for (int i = 0; i < 2 * rows.info().width; ++i)
+      {
+        row[i] = rows.at(i / 2, i % 2);
+      }
+    });
+}
+
+void writeChange(ExportSink& sink, const DatasetView& dataset, const Eye& eye, const Direction& way)
+{
+  ClassedRows there(dataset, *eye.shot, way.disparity);
+  ClassedRows here(dataset, *eye.shot, "disparity");
+  writeFloats(sink, changePath(eye, way),
+    { way.disparity, eye.shot, { "disparity-change", { { "nothing", { double(nothing) } } } } }, pfm(1, "px"),
+    here.info().width, here.info().height, 1,
+    [&](int, double* row)
+    {
+      there.next();
+      here.next();
+      for (int x = 0; x < here.info().width; ++x)
+      {
+        row[x] = there.at(x) - here.at(x);
+      }
+    });
+}
+
+void writeObjects(ExportSink& sink, const DatasetView& dataset, const Eye& eye)
+{
+  PixelEncoding encoding{ "ids", { { "nothing", { 0 } } } };
+  std::vector<double>& codes = encoding.numbers["codes"];
+  for (const ObjectRecord& object : dataset.objects())
+  {
+    codes.insert(codes.end(), { double(object.id), double(object.id) });
+  }
+  const std::unique_ptr<RowReader> reader = dataset.open(*eye.shot, "objects");
+  writeFloats(sink, eye.path("object_index/", ".pfm"), { "objects", eye.shot, encoding }, pfm(1, "id"),
+    reader->info().width, reader->info().height, 1,
+    [&](int y, double* row)
+    {
+      const Rows rows = reader->read(1);
+      for (int x = 0; x < rows.width(); ++x)
+      {
+        row[x] = idAt(rows, x, y);
+      }
+    });
+}
+
+std::string matrixLine(const char* name, const CameraRecord& camera)
+{
+  const Rigid3 pose = worldFromCameraGL(camera);
+  std::vector<double> numbers;
+  for (int i = 0; i < 3; ++i)
+  {
+    numbers.insert(
+      numbers.end(), { pose.rotation(i, 0), pose.rotation(i, 1), pose.rotation(i, 2), pose.translation[i] });
+  }
+  numbers.insert(numbers.end(), { 0, 0, 0, 1 });
+  return name + numbersLine(numbers) + '\n';
+}
+
+std::string upper(std::string text)
+{
+  for (char& c : text)
+  {
+    c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  }
+  return text;
+}
+
+class FlyingThingsExporter : public Exporter
+{
+public:
+  ExportNeeds needs(const OptionValues& options) const override
+  {
+    return { { exported::color().of(options), "disparity", "disparity_forward", "disparity_backward", "flow_forward",
+      "flow_backward", "objects" } };
+  }
+
+  void check(const DatasetView& dataset, const OptionValues& options) const override
+  {
+    requirePng(options, format);
+    requireConsecutive(dataset, format);
+    for (const CameraEyes& eyes : pairsOf(dataset, format))
+    {
+      for (const std::string& camera : { eyes.left, eyes.right })
+      {
+        for (const DatasetShot* shot : dataset.shotsOf(camera))
+        {
+          requireFile(dataset, *shot, exported::color().of(options), format, { "png" });
+          requireFile(dataset, *shot, "disparity", format);
+          requireFile(dataset, *shot, "objects", format);
+        }
+      }
+    }
+  }
+
+  ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override
+  {
+    ExportPlan plan;
+    plan.conventions = { { "pixel_centre", "integer: cx and cy are 0.5 less; files hold neither K nor baseline" },
+      { "axes", "cameras: world's axes from the camera's, x right, y up, z back; flow: y down" },
+      { "unit", "the dataset's" }, { "nothing", "1e10, in every .pfm" } };
+    for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
+    {
+      int number = 0;
+      for (const CameraEyes& eyes : pairsOf(dataset, format))
+      {
+        addSequence(plan, dataset, eyes, split, upper(split.name) + "/A/" + padded(number++, 4) + '/', options);
+      }
+    }
+    return plan;
+  }
+
+private:
+  static void addSequence(ExportPlan& plan, const DatasetView& dataset, const CameraEyes& eyes,
+    const DatasetSplit& split, const std::string& sequence, const OptionValues& options)
+  {
+    std::string text;
+    int number = firstNumber;
+    for (const DatasetShot* left : dataset.shotsOf(eyes.left))
+    {
+      if (!split.holds(left->frame()))
+      {
+        continue;
+      }
+      const DatasetShot* right = dataset.shot(eyes.right, left->frame());
+      const std::string digits = padded(number, 4);
+      addEye(plan, dataset, { left, sequence, "left", digits }, options);
+      addEye(plan, dataset, { right, sequence, "right", digits }, options);
+      text += "Frame " + std::to_string(number++) + '\n' + matrixLine("L ", left->camera) +
+              matrixLine("R ", right->camera) + '\n';
+    }
+    const std::string name = "camera_data/" + sequence + "camera_data.txt";
+    plan.items.push_back({ { name }, [name, text](ExportSink& sink) { sink.write(name, text); } });
+  }
+
+  static void addEye(ExportPlan& plan, const DatasetView& dataset, const Eye& eye, const OptionValues& options)
+  {
+    ExportItem item;
+    item.files = { eye.path("frames_finalpass/", ".png"), eye.path("disparity/", ".pfm"),
+      eye.path("object_index/", ".pfm") };
+    for (const Direction& way : directions)
+    {
+      if (!dataset.file(*eye.shot, way.flow).empty())
+      {
+        item.files.push_back(flowPath(eye, way));
+      }
+      if (!dataset.file(*eye.shot, way.disparity).empty())
+      {
+        item.files.push_back(changePath(eye, way));
+      }
+    }
+    item.write = [&dataset, eye, options](ExportSink& sink)
+    {
+      writePicture(
+        sink, dataset, *eye.shot, exported::color().of(options), eye.path("frames_finalpass/", ".png"), options);
+      writeFloatLayer(sink, dataset, *eye.shot, "disparity", eye.path("disparity/", ".pfm"), pfm(1, "px"));
+      writeObjects(sink, dataset, eye);
+      for (const Direction& way : directions)
+      {
+        if (!dataset.file(*eye.shot, way.flow).empty())
+        {
+          writeFlow(sink, dataset, eye, way);
+        }
+        if (!dataset.file(*eye.shot, way.disparity).empty())
+        {
+          writeChange(sink, dataset, eye, way);
+        }
+      }
+    };
+    plan.names.push_back({ eye.shot->name(), eye.shot->frame(), item.files[0] });
+    plan.items.push_back(item);
+  }
+};
+} // namespace
+
+std::unique_ptr<Exporter> makeFlyingThingsExporter() { return std::make_unique<FlyingThingsExporter>(); }
+
+} // namespace dgtk

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkExport.h"
+#include "dgtkExportChecks.h"
+#include "dgtkExportFloats.h"
+#include "dgtkExportPng.h"
+#include "dgtkSintelFiles.h"
+
+#include <limits>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr const char* format = "sintel";
+
+const ChoiceOption& occlusions()
+{
+  static const ChoiceOption row("occlusions", { "flow", "stereo" },
+    "what the folder of this name says: hidden in the next picture, as the flow's set; or in the right one, as "
+    "stereo's");
+  return row;
+}
+
+/// What a frame of a scene has.
+struct Frame
+{
+  const DatasetShot* left = nullptr;
+  const DatasetShot* right = nullptr; ///< null: no pair, or no disparity
+  bool flows = false;                 ///< to a next picture
+  std::string place;                  ///< "SCENE/frame_0001"
+};
+
+class SintelExporter : public Exporter
+{
+public:
+  std::vector<const OptionRow*> options() const override { return { &occlusions() }; }
+
+  ExportNeeds needs(const OptionValues& options) const override
+  {
+    return { { exported::color().of(options), exported::depth().of(options), "flow_forward", "objects" } };
+  }
+
+  void check(const DatasetView& dataset, const OptionValues& options) const override
+  {
+    requirePng(options, format);
+    requireWhole(options, format);
+    requirePinholes(dataset, format);
+    requireConsecutive(dataset, format);
+    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
+    for (const Frame& one : framesOf(dataset))
+    {
+      requireFile(dataset, *one.left, exported::depth().of(options), format);
+      requireFile(dataset, *one.left, "objects", format);
+      if (one.flows)
+      {
+        requireFile(dataset, *one.left, "flow_forward", format);
+      }
+    }
+  }
+
+  ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override
+  {
+    ExportPlan plan;
+    plan.conventions = { { "pixel_centre", "integer: cx and cy are 0.5 less" },
+      { "axes", "x right, y down, z forward; cameras are the camera's axes from the world's" },
+      { "unit", "the dataset's; depth +inf for none" },
+      { "occlusions",
+        "255 where the classes of the flow are 2 to 5; invalid: class 0; outofframe: disparity's class 4" },
+      { "of_occlusions", occlusions().of(options) } };
+    for (const Frame& one : framesOf(dataset))
+    {
+      plan.items.push_back(item(dataset, one, options));
+      plan.names.push_back({ one.left->name(), one.left->frame(), "training/final/" + one.place + ".png" });
+      if (one.right)
+      {
+        plan.names.push_back({ one.right->name(), one.right->frame(), "training/final_right/" + one.place + ".png" });
+      }
+    }
+    return plan;
+  }
+
+private:
+  static std::vector<Frame> framesOf(const DatasetView& dataset)
+  {
+    std::vector<Frame> frames;
+    for (const CameraEyes& eyes : eyesOf(dataset))
+    {
+      int number = 1;
+      for (const DatasetShot* left : dataset.shotsOf(eyes.left))
+      {
+        Frame frame;
+        frame.left = left;
+        frame.right = dataset.file(*left, "disparity").empty() ? nullptr : dataset.shot(eyes.right, left->frame());
+        frame.flows = dataset.shot(left->name(), left->frame() + 1) != nullptr;
+        frame.place = eyes.name + "/frame_" + padded(number++, 4);
+        frames.push_back(frame);
+      }
+      addLonelyRight(dataset, eyes, frames);
+    }
+    return frames;
+  }
+
+  /// Without disparities the right camera of a pair is a scene like any other.
+  static void addLonelyRight(const DatasetView& dataset, const CameraEyes& eyes, std::vector<Frame>& frames)
+  {
+    int number = 1;
+    for (const DatasetShot* right : dataset.shotsOf(eyes.right))
+    {
+      const DatasetShot* left = dataset.shot(eyes.left, right->frame());
+      if (!left || dataset.file(*left, "disparity").empty())
+      {
+        frames.push_back({ right, nullptr, dataset.shot(right->name(), right->frame() + 1) != nullptr,
+          eyes.name + "_right/frame_" + padded(number++, 4) });
+      }
+    }
+  }
+
+  static std::string path(const char* folder, const Frame& one, const char* extension)
+  {
+    return std::string("training/") + folder + '/' + one.place + extension;
+  }
+
+  static ExportItem item(const DatasetView& dataset, const Frame& one, const OptionValues& options)
+  {
+    const bool ofFlow = occlusions().of(options) == "flow";
+    ExportItem item;
+    item.files = { path("final", one, ".png"), path("depth", one, ".dpt"), path("camdata_left", one, ".cam"),
+      path("segmentation", one, ".png") };
+    if (one.flows)
+    {
+      item.files.insert(item.files.end(), { path("flow", one, ".flo"), path("invalid", one, ".png") });
+    }
+    if (one.right)
+    {
+      item.files.insert(item.files.end(), { path("final_left", one, ".png"), path("final_right", one, ".png"),
+                                            path("disparities", one, ".png"), path("outofframe", one, ".png") });
+    }
+    if (ofFlow ? one.flows : one.right != nullptr)
+    {
+      item.files.push_back(path("occlusions", one, ".png"));
+    }
+    item.write = [&dataset, one, options, ofFlow](ExportSink& sink)
+    {
+      writeAlways(sink, dataset, one, options);
+      if (one.flows)
+      {
+        writeFlow(sink, dataset, one, ofFlow);
+      }
+      if (one.right)
+      {
+        writeStereo(sink, dataset, one, options, !ofFlow);
+      }
+    };
+    return item;
+  }
+
+  static void writeAlways(ExportSink& sink, const DatasetView& dataset, const Frame& one, const OptionValues& options)
+  {
+    writePicture(sink, dataset, *one.left, exported::color().of(options), path("final", one, ".png"), options);
+    FloatFile depth;
+    depth.kind = FloatFile::Kind::Dpt;
+    depth.nothing = std::numeric_limits<float>::infinity();
+    depth.unit = "scene units";
+    writeFloatLayer(sink, dataset, *one.left, exported::depth().of(options), path("depth", one, ".dpt"), depth);
+    sink.write(path("camdata_left", one, ".cam"), sintel::cameraBytes(one.left->camera), { "", one.left, {} });
+    std::map<std::uint32_t, std::uint32_t> ids;
+    for (const ObjectRecord& object : dataset.objects())
+    {
+      ids[object.id] = object.id;
+    }
+    writeIdPng(sink, dataset, *one.left, "objects", path("segmentation", one, ".png"), ids, true);
+  }
+
+  static void writeFlow(ExportSink& sink, const DatasetView& dataset, const Frame& one, bool occluded)
+  {
+    FloatFile flow;
+    flow.kind = FloatFile::Kind::Flo;
+    flow.channels = 2;
+    flow.nothing = 1e10F;
+    flow.unit = "px";
+    writeFloatLayer(sink, dataset, *one.left, "flow_forward", path("flow", one, ".flo"), flow);
+    writeIdPng(sink, dataset, *one.left, "flow_forward_class", path("invalid", one, ".png"), { { 0, 255 } }, false);
+    if (occluded)
+    {
+      writeIdPng(sink, dataset, *one.left, "flow_forward_class", path("occlusions", one, ".png"),
+        { { 2, 255 }, { 3, 255 }, { 4, 255 }, { 5, 255 } }, false);
+    }
+  }
+
+  static void writeStereo(
+    ExportSink& sink, const DatasetView& dataset, const Frame& one, const OptionValues& options, bool occluded)
+  {
+    const std::string color = exported::color().of(options);
+    writePicture(sink, dataset, *one.left, color, path("final_left", one, ".png"), options);
+    writePicture(sink, dataset, *one.right, color, path("final_right", one, ".png"), options);
+    sintel::writeDisparity(sink, dataset, *one.left, path("disparities", one, ".png"), options);
+    writeIdPng(sink, dataset, *one.left, "disparity_class", path("outofframe", one, ".png"), { { 4, 255 } }, false);
+    if (occluded)
+    {
+      writeIdPng(sink, dataset, *one.left, "disparity_class", path("occlusions", one, ".png"),
+        { { 2, 255 }, { 3, 255 } }, false);
+    }
+  }
+};
+} // namespace
+
+std::unique_ptr<Exporter> makeSintelExporter() { return std::make_unique<SintelExporter>(); }
+
+} // namespace dgtk

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkExportPixels.h"
+
+#include "dgtkError.h"
+#include "dgtkFile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+void requireChannels(const std::string& path, const DecodedPixels& pixels, int channels)
+{
+  if (pixels.channels != channels)
+  {
+    throw InputError(
+      path, 0, "expected " + std::to_string(channels) + " channels, found " + std::to_string(pixels.channels));
+  }
+}
+} // namespace
+
+// KITTI's development kit, io_flow.h: u = (R - 2^15) / 64, v = (G - 2^15) / 64, valid where B is not 0.
+DecodedPixels decodeKittiFlow(const std::string& path, const PixelEncoding& encoding)
+{
+  const DecodedPixels codes = decodePng(path, encoding);
+  requireChannels(path, codes, 3);
+  DecodedPixels flow{ codes.width, codes.height, 2, {} };
+  for (std::size_t i = 0; i + 2 < codes.values.size(); i += 3)
+  {
+    const bool valid = codes.values[i + 2] != 0;
+    if (!valid && (codes.values[i] != 0 || codes.values[i + 1] != 0))
+    {
+      throw InputError(path, 0, "has flow where it is marked as not valid");
+    }
+    flow.values.push_back(valid ? (codes.values[i] - 32768) / 64 : nothing);
+    flow.values.push_back(valid ? (codes.values[i + 1] - 32768) / 64 : nothing);
+  }
+  return flow;
+}
+
+// sintel_io.py: d = R 4 + G / 64 + B / 16384.
+DecodedPixels decodeSintelDisparity(const std::string& path, const PixelEncoding& encoding)
+{
+  const DecodedPixels codes = decodePng(path, encoding);
+  requireChannels(path, codes, 3);
+  DecodedPixels pixels{ codes.width, codes.height, 1, {} };
+  for (std::size_t i = 0; i + 2 < codes.values.size(); i += 3)
+  {
+    const double d = codes.values[i] * 4 + codes.values[i + 1] / 64 + codes.values[i + 2] / 16384;
+    pixels.values.push_back(d == 0 ? nothing : d);
+  }
+  return pixels;
+}
+
+// sintel_io.py: float32 202021.25, int32 width, int32 height, float32 rows.
+DecodedPixels decodeDpt(const std::string& path, const PixelEncoding&)
+{
+  const std::string bytes = readFile(path);
+  float tag = 0;
+  std::int32_t size[2] = { 0, 0 };
+  if (bytes.size() >= 12)
+  {
+    std::memcpy(&tag, bytes.data(), 4);
+    std::memcpy(size, bytes.data() + 4, 8);
+  }
+  const std::size_t count = std::size_t(std::max(size[0], 0)) * std::size_t(std::max(size[1], 0));
+  if (tag != 202021.25F || count == 0 || bytes.size() != 12 + 4 * count)
+  {
+    throw InputError(path, 0, "is no depth map of Sintel");
+  }
+  DecodedPixels pixels{ size[0], size[1], 1, {} };
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    float value = 0;
+    std::memcpy(&value, bytes.data() + 12 + 4 * i, 4);
+    pixels.values.push_back(std::isfinite(value) ? double(value) : nothing);
+  }
+  return pixels;
+}
+
+// SceneFlow's flow as colour .pfm: u, v, 0.
+DecodedPixels decodeFlowPfm(const std::string& path, const PixelEncoding& encoding)
+{
+  const DecodedPixels codes = decodePng(path, {});
+  requireChannels(path, codes, 3);
+  const double none = numberOf(encoding, "nothing", nothing);
+  DecodedPixels flow{ codes.width, codes.height, 2, {} };
+  for (std::size_t i = 0; i + 2 < codes.values.size(); i += 3)
+  {
+    if (codes.values[i + 2] != 0)
+    {
+      throw InputError(path, 0, "has a third component");
+    }
+    for (std::size_t c = 0; c < 2; ++c)
+    {
+      const double value = codes.values[i + c];
+      flow.values.push_back(std::isfinite(value) && value != none ? value : nothing);
+    }
+  }
+  return flow;
+}
+
+} // namespace dgtk

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkReadTexts.h"
+
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkText.h"
+
+#include <charconv>
+#include <sstream>
+
+namespace dgtk
+{
+
+std::vector<std::vector<std::string>> linesOf(const std::string& path)
+{
+  std::istringstream text(readFile(path));
+  std::vector<std::vector<std::string>> lines;
+  for (std::string line; std::getline(text, line);)
+  {
+    if (!line.empty() && line[0] == '#')
+    {
+      continue;
+    }
+    std::vector<std::string> words(1);
+    for (const char c : line)
+    {
+      if (c == ' ')
+      {
+        words.emplace_back();
+      }
+      else
+      {
+        words.back() += c;
+      }
+    }
+    lines.push_back(words);
+  }
+  return lines;
+}
+
+double numberIn(const std::string& path, std::size_t line, const std::string& word)
+{
+  double value = 0;
+  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (code != std::errc() || end != word.data() + word.size())
+  {
+    throw InputError(path, line, "expected a number, found " + quoted(word));
+  }
+  return value;
+}
+
+std::map<std::string, std::vector<double>> keyedNumbers(const std::string& path)
+{
+  std::map<std::string, std::vector<double>> found;
+  std::size_t at = 0;
+  for (const std::vector<std::string>& words : linesOf(path))
+  {
+    ++at;
+    if (words[0].size() > 1 && words[0].back() == ':')
+    {
+      std::vector<double>& numbers = found[words[0].substr(0, words[0].size() - 1)];
+      for (std::size_t i = 1; i < words.size(); ++i)
+      {
+        numbers.push_back(numberIn(path, at, words[i]));
+      }
+    }
+  }
+  return found;
+}
+
+const std::vector<double>& numbersOf(
+  const std::map<std::string, std::vector<double>>& all, const std::string& path, const std::string& key, int count)
+{
+  const auto found = all.find(key);
+  if (found == all.end() || found->second.size() != std::size_t(count))
+  {
+    throw InputError(path, 0, "expected " + std::to_string(count) + " numbers of " + key);
+  }
+  return found->second;
+}
+
+double metresOf(const ExportedFrom& source)
+{
+  for (const auto& [key, value] : source.record().request)
+  {
+    if (key == "unit_metres" && !value.empty())
+    {
+      return numberIn(source.path(exportName), 0, value);
+    }
+  }
+  if (source.manifest().metresPerUnit <= 0)
+  {
+    throw InputError(source.path(exportName), 0, "nobody says how long the dataset's unit is");
+  }
+  return source.manifest().metresPerUnit;
+}
+
+std::vector<const ExportedFile*> filesIn(
+  const ExportedFrom& source, const std::string& folder, const std::string& extension)
+{
+  std::vector<const ExportedFile*> files;
+  for (const ExportedFile& one : source.record().files)
+  {
+    const std::string& path = one.file.path;
+    if (path.rfind(folder, 0) == 0 && extensionOf(path) == extension)
+    {
+      files.push_back(&one);
+    }
+  }
+  return files;
+}
+
+const ExportedName* pictureOf(ExportJudge& judge, const std::string& file, const std::string& name)
+{
+  const ExportedName* found = judge.source().named(name);
+  judge.holds("names", file, name, found != nullptr, "a picture", "one of export.json");
+  return found;
+}
+
+std::string stemOf(const std::string& path)
+{
+  const std::size_t begin = path.rfind('/') + 1;
+  return path.substr(begin, path.rfind('.') - begin);
+}
+
+} // namespace dgtk

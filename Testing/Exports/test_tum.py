@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""TUM RGB-D, read as the benchmark's tools do: associate.py, evaluate_ate.py, generate_pointcloud.py."""
+import os
+
+import numpy as np
+
+import datasets
+from datasets import layer_of, main, read_png
+
+
+def read_file_list(path):
+    """associate.py: stamps to words; lines that begin with # are left out."""
+    with open(path) as file:
+        rows = [line.split(" ") for line in file.read().split("\n") if line and line[0] != "#"]
+    return {float(row[0]): row[1:] for row in rows}
+
+
+def associate(first, second, most=0.02):
+    """associate.py: each stamp with the nearest of the other list, each once."""
+    close = sorted((abs(a - b), a, b) for a in first for b in second if abs(a - b) < most)
+    found, used_a, used_b = [], set(), set()
+    for _, a, b in close:
+        if a not in used_a and b not in used_b:
+            used_a.add(a)
+            used_b.add(b)
+            found.append((a, b))
+    return sorted(found)
+
+
+def align(model, data):
+    """evaluate_ate.py: Horn's rotation and translation, and the remaining distances."""
+    centred = [points - points.mean(axis=1, keepdims=True) for points in (model, data)]
+    u, _, vh = np.linalg.svd((centred[0] @ centred[1].T).T)
+    fix = np.diag([1, 1, np.sign(np.linalg.det(u) * np.linalg.det(vh))])
+    rotation = u @ fix @ vh
+    shift = data.mean(axis=1, keepdims=True) - rotation @ model.mean(axis=1, keepdims=True)
+    return np.linalg.norm(rotation @ model + shift - data, axis=0)
+
+
+def transform44(row):
+    """evaluate_rpe.py: tx ty tz qx qy qz qw."""
+    t, q = np.array(row[:3], float), np.array(row[3:], float)
+    q = q * np.sqrt(2 / q.dot(q))
+    q = np.outer(q, q)
+    return np.array([[1 - q[1, 1] - q[2, 2], q[0, 1] - q[2, 3], q[0, 2] + q[1, 3], t[0]],
+                     [q[0, 1] + q[2, 3], 1 - q[0, 0] - q[2, 2], q[1, 2] - q[0, 3], t[1]],
+                     [q[0, 2] - q[1, 3], q[1, 2] + q[0, 3], 1 - q[0, 0] - q[1, 1], t[2]], [0, 0, 0, 1]])
+
+
+def cloud(sequence, stamp, depth_name, pose):
+    """generate_pointcloud.py with the intrinsics of calibration.txt: world points of the pixels that have a depth."""
+    with open(os.path.join(sequence, "calibration.txt")) as file:
+        fx, fy, cx, cy = map(float, file.read().split())
+    codes = read_png(os.path.join(sequence, depth_name), (16, 1))[..., 0]
+    v, u = np.nonzero(codes)
+    z = codes[v, u] / 5000
+    points = np.stack([(u - cx) * z / fx, (v - cy) * z / fy, z, np.ones(len(z))])
+    return (pose @ points)[:3], u, v
+
+
+class Tum(datasets.ExportCase):
+    METRES = 0.5
+
+    def setUp(self):
+        super().setUp()
+        self.dataset = self.render(datasets.walk(self.path("scene"), empty=False), "color,depth,position")
+        self.sequence, self.record = self.export(self.dataset, "tum", "--unit-metres", self.METRES)
+
+    def lists(self):
+        return [read_file_list(os.path.join(self.sequence, name)) for name in ("rgb.txt", "depth.txt", "groundtruth.txt")]
+
+    def test_lists_and_times(self):
+        rgb, depth, truth = self.lists()
+        self.assertEqual(associate(rgb, depth), [(f / 25, f / 25) for f in range(4)])
+        self.assertEqual(associate(rgb, truth), [(f / 25, f / 25) for f in range(4)])
+        with open(os.path.join(self.sequence, "associations.txt")) as file:
+            for line, (stamp, name) in zip(file, sorted(rgb.items())):
+                text = f"{stamp:.6f}"
+                self.assertEqual(line, f"{text} rgb/{text}.png {text} depth/{text}.png\n")
+        for row in truth.values():
+            self.assertEqual(len(row), 7)  # one space between, none behind
+            self.assertAlmostEqual(np.linalg.norm(np.array(row[3:], float)), 1, places=12)
+
+    def test_trajectory(self):
+        """The absolute trajectory error against the dataset's cameras is 0."""
+        _, _, truth = self.lists()
+        cameras = datasets.cameras_of(self.dataset)
+        found = np.array([truth[stamp][:3] for stamp in sorted(truth)], float).T
+        expected = np.array([-cameras["Kamera 1", f]["R"].T @ cameras["Kamera 1", f]["t"] for f in range(4)]).T * self.METRES
+        self.assertLess(align(found, expected).max(), 1e-12)
+        self.assertLess(np.abs(found - expected).max(), 1e-12)
+
+    def test_clouds_coincide(self):
+        """Points of every frame lie where the scene's surface is, within the rounding of depth: K, poses and quaternions agree."""
+        rgb, depth, truth = self.lists()
+        largest = 0
+        for frame, stamp in enumerate(sorted(depth)):
+            points, u, v = cloud(self.sequence, stamp, depth[stamp][0], transform44(truth[stamp]))
+            expected = layer_of(self.dataset, "position", "Kamera 1", frame)[v, u].T * self.METRES
+            largest = max(largest, np.abs(points - expected).max())
+        self.assertLess(largest, 1.3e-4)
+        self.assertGreater(largest, 5e-5)
+        print(f"clouds are {largest:.2e} m off, depth is rounded by 1e-4 m")
+
+    def test_the_clouds_of_two_frames(self):
+        """Points of one frame, seen in another, have that frame's depth where both see the surface."""
+        _, depth, truth = self.lists()
+        stamps = sorted(depth)
+        points, _, _ = cloud(self.sequence, stamps[0], depth[stamps[0]][0], transform44(truth[stamps[0]]))
+        camera = np.linalg.inv(transform44(truth[stamps[1]])) @ np.vstack([points, np.ones(points.shape[1])])
+        with open(os.path.join(self.sequence, "calibration.txt")) as file:
+            fx, fy, cx, cy = map(float, file.read().split())
+        u, v = fx * camera[0] / camera[2] + cx, fy * camera[1] / camera[2] + cy
+        codes = read_png(os.path.join(self.sequence, depth[stamps[1]][0]), (16, 1))[..., 0] / 5000
+        inside = (u > 1) & (v > 1) & (u < codes.shape[1] - 2) & (v < codes.shape[0] - 2)
+        x, y = np.floor(u[inside]).astype(int), np.floor(v[inside]).astype(int)
+        a, b = u[inside] - x, v[inside] - y
+        four = [codes[y, x], codes[y, x + 1], codes[y + 1, x], codes[y + 1, x + 1]]
+        smooth = (np.max(four, axis=0) - np.min(four, axis=0) < 0.01) & (np.min(four, axis=0) > 0)
+        there = (1 - b) * ((1 - a) * four[0] + a * four[1]) + b * ((1 - a) * four[2] + a * four[3])
+        apart = np.abs(there - camera[2][inside])[smooth]
+        self.assertGreater(len(apart), 1000)
+        self.assertLess(np.median(apart), 2e-4)
+
+    def test_several_cameras_and_the_referee(self):
+        dataset = self.render(datasets.stereo(self.path("stereo")), "color,depth")
+        folder, _ = self.export(dataset, "tum", "--image-format", "jpg")
+        self.assertEqual(sorted(os.listdir(folder)), ["export.json", "left_eye", "right_eye"])
+        planted = lambda name, change: self.planted(self.dataset, self.sequence, name, change)  # noqa: E731
+
+        def swapped(text):
+            head, *rows = text.split(b"\n0.040000 ")
+            words = rows[0].split(b" ")
+            words[3], words[4] = words[4], words[3]
+            return head + b"\n0.040000 " + b" ".join(words)
+
+        self.assertIn("layer pose", planted("groundtruth.txt", swapped))
+        self.assertIn("layer time", planted("rgb.txt", lambda text: text.replace(b"\n0.080000", b"\n0.081000", 1)))
+        self.assertIn("layer associations", planted("associations.txt", lambda text: text.replace(b"depth/0.080000", b"depth/0.120000", 1)))
+        self.assertIn("layer intrinsics", planted("calibration.txt", lambda text: text.replace(b" 47.5 ", b" 48 ")))
+        with open(os.path.join(self.sequence, "depth", "0.080000.png"), "rb") as file:
+            other = file.read()
+        self.assertIn("layer depth", planted("depth/0.040000.png", lambda data: other))
+
+
+if __name__ == "__main__":
+    main()
