@@ -96,3 +96,4 @@ TEST(TrackDocuments, RefusalsNameThePlace)
   EXPECT_THAT(with("\"object\": 1", "\"object\": 0"), HasSubstr("points[0].object is out of range"));
   EXPECT_THAT(with("false", "0"), HasSubstr("points[0].static has the wrong type"));
   EXPECT_THAT(with("\"frame\": 0", "\"time\": 0"), HasSubstr("points[0]"));
+}
