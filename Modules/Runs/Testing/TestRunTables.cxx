@@ -312,15 +312,15 @@ TEST_F(RunTables, OptionsAreWordsOfTheCommandLine)
   pairs->setText(" ");
   expectWords(all, "what is empty is not said");
   // Options of other layers are left out.
-  options.setLayers({ "depth" });
+  options.setOwners({ "depth" });
   EXPECT_TRUE(depth->isEnabled());
   EXPECT_FALSE(step->isEnabled());
   EXPECT_TRUE(shadows->isEnabled()) << "a renderer has it, too";
   EXPECT_TRUE(samples->isEnabled());
   expectWords({ "--samples", "4", "--filter", "mitchell", "--pov-shadows", "--depth-format", "npy,exr" }, "depth");
-  options.setLayers({ "points", "pov" });
+  options.setOwners({ "points", "pov" });
   expectWords({ "--samples", "4", "--filter", "mitchell", "--points-step", "2", "--pov-shadows" }, "points and pov");
-  options.setLayers({});
+  options.setOwners({});
   expectWords({ "--samples", "4", "--filter", "mitchell", "--pov-shadows" }, "none");
   options.offer("pairs", "left:right");
   EXPECT_EQ(pairs->text(), "left:right");
