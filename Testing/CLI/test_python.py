@@ -235,7 +235,7 @@ class Guide(Interpreter):
         self.assertIn("(240, 320) float64 (240, 320, 3) uint8", said)
         self.assertIn("the layer tiles is not given as an array", said)
         self.assertIn("scene: objects[0].position[1] has the wrong type (expected a number", said)
-        self.assertIn("\n4 of 4\n11 files, request ", said)
+        self.assertIn("\n4 of 4\n12 files, request ", said)
 
 
 class Import(Interpreter):
@@ -245,7 +245,7 @@ class Import(Interpreter):
     def test_help_lists_every_option_and_is_not_needed(self):
         said = self.python("import dgtk; print(dgtk.render.__doc__)").stdout
         for row in json.loads(self.dgtk("list", "options", "--json").stdout)["options"]:
-            self.assertEqual(f"\n    {row['name']}: " in said, row["name"] not in ("threads", "pack", "contact_sheet"), row["name"])
+            self.assertEqual(f"\n    {row['name']}: " in said, row["name"] not in ("threads", "pack", "models", "contact_sheet"), row["name"])
         self.python("import dgtk", flags=("-OO",))
 
     def test_another_python_is_told_which_one_is_needed(self):

@@ -30,7 +30,7 @@ class Resume(Case):
         manifest = load_json(os.path.join(folder, "manifest.json"))
         files = [f for f in manifest["files"] if "frame" in f]
         os.remove(os.path.join(folder, files.pop()["path"]))
-        for name in ("manifest.json", "cameras.json", "objects.json", "scene.json"):
+        for name in ("manifest.json", "cameras.json", "objects.json", "poses.json", "scene.json"):
             os.remove(os.path.join(folder, name))
         with open(os.path.join(folder, ".dgtk-journal"), "w", encoding="utf-8") as journal:
             journal.write(f"DGTk journal 1 {manifest['request_hash']}\n")

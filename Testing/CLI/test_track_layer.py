@@ -168,7 +168,7 @@ class TrackLayer(Case):
 
     def unfinish(self, manifest, lost):
         """What a run that was killed leaves, without a file."""
-        for name in ("manifest.json", "cameras.json", "objects.json", "scene.json", *([lost] if lost else [])):
+        for name in ("manifest.json", "cameras.json", "objects.json", "poses.json", "scene.json", *([lost] if lost else [])):
             os.remove(self.path("five", name))
         with open(self.path("five", ".dgtk-journal"), "w", encoding="utf-8") as journal:
             journal.write(f"DGTk journal 1 {manifest['request_hash']}\n")

@@ -199,7 +199,7 @@ class Planted(Spoiled):
         scene["objects"][1]["position"][0] += 0.01
         self.write(os.path.join("set", "scene.json"), json.dumps(scene))
         self.accept("scene.json")
-        self.found("/depth/00000", "depth")
+        self.found("poses.json", "poses")
 
     def test_damaged_documents(self):
         for name in ("cameras.json", "objects.json", "scene.json"):

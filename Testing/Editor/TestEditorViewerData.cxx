@@ -66,7 +66,8 @@ void TestEditorViewer::longNamesAreLegible()
   const std::string folder = this->Folder.path("names");
   const std::string camera = "camera-above-the-mill-left";
   dgtk::Manifest manifest;
-  const dgtk::LayerSpec spec{ "correspondence", dgtk::PixelType::UInt8, 1, "", "", "none", "" };
+  const dgtk::LayerSpec spec{ "correspondence", dgtk::PixelType::UInt8, 1, "", "", "none", "",
+    dgtk::Meaning::Visibility };
   manifest.layers.push_back({ spec, "png" });
   for (int i = 0; i < 12; ++i)
   {

@@ -178,10 +178,12 @@ class ExportCase(Case):
         record = os.path.join(folder, "export.json")
         with open(record, encoding="utf-8") as file:
             whole = file.read()
-        mended = whole.replace(hashlib.sha256(old).hexdigest(), hashlib.sha256(new).hexdigest())
-        self.assertNotEqual(whole, mended)
+        mended = json.loads(whole)
+        row = next(one for one in mended["files"] if one["path"] == name)
+        self.assertEqual((row["sha256"], row["bytes"]), (hashlib.sha256(old).hexdigest(), len(old)))
+        row.update(sha256=hashlib.sha256(new).hexdigest(), bytes=len(new))
         try:
-            for where, text in [(path, new), (record, mended.encode())]:
+            for where, text in [(path, new), (record, json.dumps(mended).encode())]:
                 os.remove(where)
                 with open(where, "wb") as file:
                     file.write(text)

@@ -22,7 +22,7 @@ def exporters():
 class Frame(datasets.ExportCase):
     def rendered_for(self, form, scene):
         """A dataset for a format, or what it is refused with."""
-        folder = self.path("for-" + form)
+        folder = self.path(f"for-{form}-{os.path.basename(scene)}")
         done = self.dgtk_any("render", scene, "-o", folder, "--for", form, "--quiet")
         return folder, done.stderr if done.returncode else ""
 
@@ -34,7 +34,7 @@ class Frame(datasets.ExportCase):
 
     def test_every_exporter_gives_the_same_bytes_and_is_read_back(self):
         """Threads, links, resuming and Python change nothing; what comes out passes the referee; or it is refused in words."""
-        scenes = [datasets.stereo(self.path("stereo")), datasets.walk(self.path("walk"), empty=False)]
+        scenes = [datasets.stereo(self.path("stereo")), datasets.walk(self.path("walk"), empty=False), datasets.street(self.path("street"))]
         never = []
         for form in exporters():
             with self.subTest(form):
@@ -53,10 +53,9 @@ class Frame(datasets.ExportCase):
                         exported += 1
                     else:
                         self.assertIn(":", done.stderr)
-                    self.dgtk_any("render", scene, "-o", dataset, "--for", form, "--quiet", "--replace")
                 if not exported:
                     never.append(form)
-        self.assertEqual(never, [], "formats that neither scene can be exported to")
+        self.assertEqual(never, [], "formats that no scene can be exported to")
 
     def test_killed_twenty_times_and_resumed(self):
         scene = datasets.walk(self.path("scene"), frames=60, empty=False)
