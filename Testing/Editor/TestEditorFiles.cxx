@@ -202,7 +202,8 @@ void TestEditorFiles::filesThatEndEarlyAreRefused()
 
 void TestEditorFiles::useImporter(const QByteArray& line) const
 {
-  QFile script(this->write("importer", "#!/bin/sh\n" + line + '\n'));
+  static int number = 0; // of another name each, or the one that runs already is asked
+  QFile script(this->write(QString("importer%1").arg(++number), "#!/bin/sh\n" + line + '\n'));
   script.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
   qputenv("DGTK_IMPORT", script.fileName().toLocal8Bit());
 }
