@@ -203,7 +203,7 @@ void TestEditorFiles::filesThatEndEarlyAreRefused()
 void TestEditorFiles::useImporter(const QByteArray& line) const
 {
   static int number = 0; // of another name each, or the one that runs already is asked
-  QFile script(this->write(QString("importer%1").arg(++number), "#!/bin/sh\n" + line + '\n'));
+  QFile script(this->write(("importer" + QByteArray::number(++number)).constData(), "#!/bin/sh\n" + line + '\n'));
   script.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
   qputenv("DGTK_IMPORT", script.fileName().toLocal8Bit());
 }

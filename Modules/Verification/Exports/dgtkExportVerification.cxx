@@ -14,6 +14,8 @@ namespace dgtk
 {
 
 void readCoco(ExportJudge& judge);
+void readColmap(ExportJudge& judge);
+void readColmapDense(ExportJudge& judge);
 void readKitti2015(ExportJudge& judge);
 void readKittiDepth(ExportJudge& judge);
 void readKittiObject(ExportJudge& judge);
@@ -33,6 +35,8 @@ struct Reader
 /// Each is dgtkRead<Name>.cxx.
 constexpr Reader readers[] = {
   { "coco", &readCoco },
+  { "colmap", &readColmap },
+  { "colmap-dense", &readColmapDense },
   { "kitti2015", &readKitti2015 },
   { "kitti-depth", &readKittiDepth },
   { "kitti-object", &readKittiObject },
