@@ -79,7 +79,7 @@ private:
           writePicture(sink, dataset, shot, exported::color().of(options), picture, options);
           if (!mask.empty())
           {
-            writeIdPng(sink, dataset, shot, "objects", mask, maskCodes(dataset, black), false);
+            writeIdPng(sink, dataset, shot, "objects", mask, maskCodes(dataset, black));
           }
         } };
       if (!mask.empty())

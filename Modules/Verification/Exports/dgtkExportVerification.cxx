@@ -14,6 +14,7 @@ namespace dgtk
 {
 
 void readCoco(ExportJudge& judge);
+void readCocoPanoptic(ExportJudge& judge);
 void readColmap(ExportJudge& judge);
 void readColmapDense(ExportJudge& judge);
 void readKitti2015(ExportJudge& judge);
@@ -35,6 +36,7 @@ struct Reader
 /// Each is dgtkRead<Name>.cxx.
 constexpr Reader readers[] = {
   { "coco", &readCoco },
+  { "coco-panoptic", &readCocoPanoptic },
   { "colmap", &readColmap },
   { "colmap-dense", &readColmapDense },
   { "kitti2015", &readKitti2015 },
