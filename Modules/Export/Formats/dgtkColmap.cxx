@@ -5,6 +5,7 @@
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
+#include "dgtkMovingObjects.h"
 #include "dgtkText.h"
 
 #include <algorithm>
@@ -120,15 +121,7 @@ std::optional<int> frameOf(const Views& views)
 
 std::vector<std::uint32_t> leftOut(const DatasetView& dataset, const Views& views)
 {
-  std::vector<std::uint32_t> ids;
-  for (const ObjectRecord& object : dataset.objects())
-  {
-    if (!object.isStatic && !frameOf(views))
-    {
-      ids.push_back(object.id);
-    }
-  }
-  return ids;
+  return frameOf(views) ? std::vector<std::uint32_t>() : movingObjects(dataset);
 }
 
 } // namespace dgtk::colmap

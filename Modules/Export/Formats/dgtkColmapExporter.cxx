@@ -3,8 +3,7 @@
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
-
-#include <algorithm>
+#include "dgtkMovingObjects.h"
 
 namespace dgtk
 {
@@ -12,18 +11,6 @@ namespace dgtk
 namespace
 {
 constexpr const char* format = "colmap";
-
-/// Codes of a mask: white for what the model holds, and for nothing.
-std::map<std::uint32_t, std::uint32_t> maskCodes(const DatasetView& dataset, const std::vector<std::uint32_t>& black)
-{
-  constexpr std::uint32_t white = 255;
-  std::map<std::uint32_t, std::uint32_t> codes{ { 0, white } };
-  for (const ObjectRecord& object : dataset.objects())
-  {
-    codes[object.id] = std::find(black.begin(), black.end(), object.id) == black.end() ? white : 0;
-  }
-  return codes;
-}
 
 class ColmapExporter : public Exporter
 {
@@ -79,7 +66,7 @@ private:
           writePicture(sink, dataset, shot, exported::color().of(options), picture, options);
           if (!mask.empty())
           {
-            writeIdPng(sink, dataset, shot, "objects", mask, maskCodes(dataset, black));
+            writeMovingMask(sink, dataset, shot, mask, black, true);
           }
         } };
       if (!mask.empty())

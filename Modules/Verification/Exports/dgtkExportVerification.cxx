@@ -23,6 +23,7 @@ void readKittiObject(ExportJudge& judge);
 void readKittiOdometry(ExportJudge& judge);
 void readStereo(ExportJudge& judge);
 void readSintel(ExportJudge& judge);
+void readTransforms(ExportJudge& judge);
 void readTum(ExportJudge& judge);
 void readFlyingThings(ExportJudge& judge);
 
@@ -46,6 +47,7 @@ constexpr Reader readers[] = {
   { "middlebury", &readStereo },
   { "eth3d", &readStereo },
   { "sintel", &readSintel },
+  { "transforms", &readTransforms },
   { "tum", &readTum },
   { "flyingthings", &readFlyingThings },
 };
