@@ -43,6 +43,8 @@ DecodedPixels decodeColmap(const std::string& path, const PixelEncoding& encodin
 DecodedPixels decodeFlowPfm(const std::string& path, const PixelEncoding& encoding);
 /// A JPEG or PNG picture as levels of 8 bits.
 DecodedPixels decodePicture(const std::string& path);
+/// The bytes of a JPEG picture; `path` stands in errors.
+DecodedPixels decodeJpeg(const std::string& path, const std::string& bytes);
 
 } // namespace dgtk
 

@@ -26,6 +26,8 @@ void readSintel(ExportJudge& judge);
 void readTransforms(ExportJudge& judge);
 void readTum(ExportJudge& judge);
 void readFlyingThings(ExportJudge& judge);
+void readWebdataset(ExportJudge& judge);
+void readImagefolder(ExportJudge& judge);
 
 namespace
 {
@@ -50,6 +52,8 @@ constexpr Reader readers[] = {
   { "transforms", &readTransforms },
   { "tum", &readTum },
   { "flyingthings", &readFlyingThings },
+  { "webdataset", &readWebdataset },
+  { "imagefolder", &readImagefolder },
 };
 
 /// Files that export.json lists are there and as it says, and there are no others.
