@@ -20,9 +20,10 @@ struct Damaged
 void fail(j_common_ptr) { throw Damaged(); }
 void ignore(j_common_ptr, int) {}
 
-DecodedPixels decodeJpeg(const std::string& path)
+} // namespace
+
+DecodedPixels decodeJpeg(const std::string& bytes, const std::string& path)
 {
-  const std::string bytes = readFile(path);
   jpeg_error_mgr errors = {};
   jpeg_decompress_struct decoder = {};
   decoder.err = jpeg_std_error(&errors);
@@ -56,14 +57,13 @@ DecodedPixels decodeJpeg(const std::string& path)
   jpeg_destroy_decompress(&decoder);
   return pixels;
 }
-} // namespace
 
 DecodedPixels decodePicture(const std::string& path)
 {
   const std::string extension = extensionOf(path);
   if (extension == "jpg" || extension == "jpeg")
   {
-    return decodeJpeg(path);
+    return decodeJpeg(readFile(path), path);
   }
   DecodedPixels pixels = decodePng(path, {});
   if (readLayerFile(path).info.type == PixelType::UInt16)

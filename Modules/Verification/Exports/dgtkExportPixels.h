@@ -42,6 +42,8 @@ DecodedPixels decodeDpt(const std::string& path, const PixelEncoding& encoding);
 DecodedPixels decodeFlowPfm(const std::string& path, const PixelEncoding& encoding);
 /// A JPEG or PNG picture as levels of 8 bits.
 DecodedPixels decodePicture(const std::string& path);
+/// A JPEG picture's bytes likewise; `path` is named where they are damaged.
+DecodedPixels decodeJpeg(const std::string& bytes, const std::string& path);
 
 } // namespace dgtk
 

@@ -22,6 +22,8 @@ void readStereo(ExportJudge& judge);
 void readSintel(ExportJudge& judge);
 void readTum(ExportJudge& judge);
 void readFlyingThings(ExportJudge& judge);
+void readRosbag(ExportJudge& judge);
+void readMcap(ExportJudge& judge);
 
 namespace
 {
@@ -42,6 +44,8 @@ constexpr Reader readers[] = {
   { "sintel", &readSintel },
   { "tum", &readTum },
   { "flyingthings", &readFlyingThings },
+  { "rosbag", &readRosbag },
+  { "mcap", &readMcap },
 };
 
 /// Files that export.json lists are there and as it says, and there are no others.
