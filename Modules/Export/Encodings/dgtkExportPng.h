@@ -29,6 +29,18 @@ std::string pictureExtension(const OptionValues& options);
 void writePicture(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
   const std::string& name, const OptionValues& options);
 
+/// A picture as writePicture() would write it.
+struct EncodedPicture
+{
+  std::string bytes;
+  LayerRounding rounding;
+};
+/// For containers of pictures. Throws InputError for a file that is not as the manifest says.
+EncodedPicture encodePicture(
+  const DatasetView& dataset, const DatasetShot& shot, const std::string& layer, const OptionValues& options);
+/// Bytes of a shot's PNG, as the manifest says.
+std::uint64_t pictureBytes(const DatasetView& dataset, const DatasetShot& shot, const std::string& layer);
+
 /// Numbers as whole codes: a value v becomes round(v factor / scale + offset) where that lies in [least, most].
 struct LinearCode
 {

@@ -28,6 +28,8 @@ void readTum(ExportJudge& judge);
 void readFlyingThings(ExportJudge& judge);
 void readWebdataset(ExportJudge& judge);
 void readImagefolder(ExportJudge& judge);
+void readRosbag(ExportJudge& judge);
+void readMcap(ExportJudge& judge);
 
 namespace
 {
@@ -54,6 +56,8 @@ constexpr Reader readers[] = {
   { "flyingthings", &readFlyingThings },
   { "webdataset", &readWebdataset },
   { "imagefolder", &readImagefolder },
+  { "rosbag", &readRosbag },
+  { "mcap", &readMcap },
 };
 
 /// Files that export.json lists are there and as it says, and there are no others.
