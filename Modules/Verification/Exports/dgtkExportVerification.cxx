@@ -24,6 +24,7 @@ void readTum(ExportJudge& judge);
 void readFlyingThings(ExportJudge& judge);
 void readWebdataset(ExportJudge& judge);
 void readImagefolder(ExportJudge& judge);
+void readHdf5Frames(ExportJudge& judge);
 
 namespace
 {
@@ -46,6 +47,7 @@ constexpr Reader readers[] = {
   { "flyingthings", &readFlyingThings },
   { "webdataset", &readWebdataset },
   { "imagefolder", &readImagefolder },
+  { "hdf5", &readHdf5Frames },
 };
 
 /// Files that export.json lists are there and as it says, and there are no others.
