@@ -33,36 +33,6 @@ std::string headOf(const FloatFile& form, int width, int height)
   return head;
 }
 
-/// Rounds values to float32 and keeps account of it.
-class Rounder
-{
-public:
-  explicit Rounder(const FloatFile& form)
-    : Nothing(form.nothing)
-  {
-  }
-  float operator()(double value)
-  {
-    if (std::isnan(value))
-    {
-      return this->Nothing;
-    }
-    ++this->Account.values;
-    const auto rounded = static_cast<float>(value);
-    if (!std::isfinite(rounded))
-    {
-      ++this->Account.withoutCode;
-      return this->Nothing;
-    }
-    this->Account.largest = std::max(this->Account.largest, std::abs(double(rounded) - value));
-    return rounded;
-  }
-  LayerRounding Account;
-
-private:
-  float Nothing;
-};
-
 PixelEncoding encodingOf(const FloatFile& form)
 {
   const char* kind = form.kind == FloatFile::Kind::Dpt      ? "dpt"
@@ -77,10 +47,27 @@ PixelEncoding encodingOf(const FloatFile& form)
 }
 } // namespace
 
+float FloatRounder::operator()(double value)
+{
+  if (std::isnan(value))
+  {
+    return this->Nothing;
+  }
+  ++this->Account.values;
+  const auto rounded = static_cast<float>(value);
+  if (!std::isfinite(rounded))
+  {
+    ++this->Account.withoutCode;
+    return this->Nothing;
+  }
+  this->Account.largest = std::max(this->Account.largest, std::abs(double(rounded) - value));
+  return rounded;
+}
+
 void writeFloats(ExportSink& sink, const std::string& name, const ExportedPixels& pixels, const FloatFile& form,
   int width, int height, int filled, const std::function<void(int y, double* row)>& fill)
 {
-  Rounder rounder(form);
+  FloatRounder rounder(form.nothing, pixels.layer, form.unit);
   const bool planes = form.kind == FloatFile::Kind::Colmap;
   const std::size_t rowValues = std::size_t(width) * static_cast<unsigned>(planes ? 1 : form.channels);
   const std::size_t nextValue = planes ? 1 : static_cast<unsigned>(form.channels);
@@ -108,9 +95,7 @@ void writeFloats(ExportSink& sink, const std::string& name, const ExportedPixels
   file->write(headOf(form, width, height));
   file->write(all.data(), all.size() * sizeof(float));
   file->finish();
-  rounder.Account.layer = pixels.layer;
-  rounder.Account.unit = form.unit;
-  sink.rounding(rounder.Account);
+  sink.rounding(rounder.account());
 }
 
 void writeFloatLayer(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,

@@ -14,6 +14,24 @@
 namespace dgtk
 {
 
+/// Rounds values to float32 and keeps account of it.
+class FloatRounder
+{
+public:
+  FloatRounder(float nothing, const std::string& layer, const std::string& unit)
+    : Nothing(nothing)
+    , Account{ layer, unit, 0, 0, 0 }
+  {
+  }
+  /// `nothing` for NaN, and for what is too large, which is counted.
+  float operator()(double value);
+  const LayerRounding& account() const { return this->Account; }
+
+private:
+  float Nothing;
+  LayerRounding Account;
+};
+
 /// A file of float32 values, little-endian.
 struct FloatFile
 {

@@ -30,6 +30,7 @@ void readWebdataset(ExportJudge& judge);
 void readImagefolder(ExportJudge& judge);
 void readRosbag(ExportJudge& judge);
 void readMcap(ExportJudge& judge);
+void readHdf5Frames(ExportJudge& judge);
 
 namespace
 {
@@ -58,6 +59,7 @@ constexpr Reader readers[] = {
   { "imagefolder", &readImagefolder },
   { "rosbag", &readRosbag },
   { "mcap", &readMcap },
+  { "hdf5", &readHdf5Frames },
 };
 
 /// Files that export.json lists are there and as it says, and there are no others.
