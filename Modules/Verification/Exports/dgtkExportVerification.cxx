@@ -13,6 +13,7 @@
 namespace dgtk
 {
 
+void readBop(ExportJudge& judge);
 void readCoco(ExportJudge& judge);
 void readCocoPanoptic(ExportJudge& judge);
 void readColmap(ExportJudge& judge);
@@ -41,6 +42,7 @@ struct Reader
 };
 /// Each is dgtkRead<Name>.cxx.
 constexpr Reader readers[] = {
+  { "bop", &readBop },
   { "coco", &readCoco },
   { "coco-panoptic", &readCocoPanoptic },
   { "colmap", &readColmap },
