@@ -25,6 +25,7 @@ void readFlyingThings(ExportJudge& judge);
 void readWebdataset(ExportJudge& judge);
 void readImagefolder(ExportJudge& judge);
 void readHdf5Frames(ExportJudge& judge);
+void readSpring(ExportJudge& judge);
 
 namespace
 {
@@ -48,6 +49,7 @@ constexpr Reader readers[] = {
   { "webdataset", &readWebdataset },
   { "imagefolder", &readImagefolder },
   { "hdf5", &readHdf5Frames },
+  { "spring", &readSpring },
 };
 
 /// Files that export.json lists are there and as it says, and there are no others.
