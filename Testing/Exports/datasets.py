@@ -62,7 +62,8 @@ def _write(folder, name, scene):
     with open(path, "w", encoding="utf-8") as file:
         json.dump({"version": 1, "units": "metre", "fps": 25, "background": [0.2, 0.3, 0.4],
                    "lights": [{"name": "lamp", "kind": "directional", "position": [1, 2, 4], "target": [0, 0, 0],
-                               "diffuse": [0.8, 0.8, 0.8], "ambient": [0.2, 0.2, 0.2]}], **scene}, file, ensure_ascii=False)
+                               "diffuse": [0.8, 0.8, 0.8], "ambient": [0.2, 0.2, 0.2]}], **scene,
+                   "cameras": [_without_view(camera) for camera in scene["cameras"]]}, file, ensure_ascii=False)
     return path
 
 

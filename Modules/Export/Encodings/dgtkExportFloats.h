@@ -6,8 +6,10 @@
 
 #include "dgtkExporter.h"
 
+#include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace dgtk
 {
@@ -35,9 +37,10 @@ struct FloatFile
 {
   enum class Kind
   {
-    Pfm, ///< one channel, or three; bottom row first
-    Dpt, ///< Sintel's depth, one channel
-    Flo  ///< Middlebury's flow, two channels
+    Pfm,   ///< one channel, or three; bottom row first
+    Dpt,   ///< Sintel's depth, one channel
+    Flo,   ///< Middlebury's flow, two channels
+    Colmap ///< COLMAP's depth and normal maps, channel after channel
   };
   Kind kind = Kind::Pfm;
   int channels = 1;
@@ -50,9 +53,9 @@ struct FloatFile
 void writeFloats(ExportSink& sink, const std::string& name, const ExportedPixels& pixels, const FloatFile& form,
   int width, int height, int filled, const std::function<void(int y, double* row)>& fill);
 
-/// The layer of a shot, all values that are finite.
+/// The layer of a shot, all values that are finite, but for pixels of the objects that are left out.
 void writeFloatLayer(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
-  const std::string& name, const FloatFile& form);
+  const std::string& name, const FloatFile& form, const std::vector<std::uint32_t>& leftOut = {});
 
 } // namespace dgtk
 

@@ -4,8 +4,11 @@
 #include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkExportJpeg.h"
+#include "dgtkFile.h"
+#include "dgtkHash.h"
 #include "dgtkLayerFile.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -29,24 +32,69 @@ void writePng(ExportSink& sink, const std::string& name, const ExportedPixels& p
 
 std::string pictureExtension(const OptionValues& options) { return exported::imageFormat().of(options); }
 
-void writePicture(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
-  const std::string& name, const OptionValues& options)
+namespace
 {
-  const std::string source = dataset.file(shot, layer, { "png" });
+std::string pngOf(const DatasetView& dataset, const DatasetShot& shot, const std::string& layer)
+{
+  std::string source = dataset.file(shot, layer, { "png" });
   if (source.empty())
   {
     throw UsageError("the pictures of layer " + layer + " are no PNG, which the format needs (camera " +
                      quoted(shot.name()) + ", frame " + std::to_string(shot.frame()) + ')');
   }
+  return source;
+}
+
+const DatasetFile& listedFile(const DatasetView& dataset, const std::string& name)
+{
+  const std::vector<DatasetFile>& all = dataset.manifest().files; // sorted by path
+  return *std::lower_bound(
+    all.begin(), all.end(), name, [](const DatasetFile& file, const std::string& path) { return file.path < path; });
+}
+
+LayerRounding roundingOf(const DatasetShot& shot, const std::string& layer, int largest)
+{
+  return { layer, "levels", double(largest), std::uint64_t(shot.camera.width) * shot.camera.height, 0 };
+}
+} // namespace
+
+EncodedPicture encodePicture(
+  const DatasetView& dataset, const DatasetShot& shot, const std::string& layer, const OptionValues& options)
+{
+  const std::string source = pngOf(dataset, shot, layer);
+  if (pictureExtension(options) != "png")
+  {
+    JpegPicture picture = encodeJpeg(readLayerFile(dataset.pathOf(source)), exported::quality().of(options));
+    return { std::move(picture.bytes), roundingOf(shot, layer, picture.largest) };
+  }
+  const std::string path = Folder(dataset.folder()).fileAt(source);
+  EncodedPicture picture{ readFile(path), roundingOf(shot, layer, 0) };
+  Sha256 hash;
+  hash.update(picture.bytes.data(), picture.bytes.size());
+  if (hash.hex() != listedFile(dataset, source).sha256)
+  {
+    throw InputError(path, 0, "is not the file that the manifest lists: its hash differs");
+  }
+  return picture;
+}
+
+std::uint64_t pictureBytes(const DatasetView& dataset, const DatasetShot& shot, const std::string& layer)
+{
+  return listedFile(dataset, pngOf(dataset, shot, layer)).bytes;
+}
+
+void writePicture(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
+  const std::string& name, const OptionValues& options)
+{
   if (pictureExtension(options) == "png")
   {
-    sink.copy(name, source, { layer, &shot, { "copy", {} } });
-    sink.rounding({ layer, "levels", 0, std::uint64_t(shot.camera.width) * shot.camera.height, 0 });
+    sink.copy(name, pngOf(dataset, shot, layer), { layer, &shot, { "copy", {} } });
+    sink.rounding(roundingOf(shot, layer, 0));
     return;
   }
-  const JpegPicture picture = encodeJpeg(readLayerFile(dataset.pathOf(source)), exported::quality().of(options));
-  sink.write(name, picture.bytes, { layer, &shot, { "picture", { { "rounding", { double(picture.largest) } } } } });
-  sink.rounding({ layer, "levels", double(picture.largest), std::uint64_t(shot.camera.width) * shot.camera.height, 0 });
+  const EncodedPicture picture = encodePicture(dataset, shot, layer, options);
+  sink.write(name, picture.bytes, { layer, &shot, { "picture", { { "rounding", { picture.rounding.largest } } } } });
+  sink.rounding(picture.rounding);
 }
 
 std::uint32_t LinearCode::of(double value) const
@@ -111,7 +159,7 @@ void writeCodedPng(ExportSink& sink, const DatasetView& dataset, const DatasetSh
 
 namespace
 {
-PixelEncoding encodingOfIds(const std::map<std::uint32_t, std::uint32_t>& codes, bool color)
+PixelEncoding encodingOfIds(const std::map<std::uint32_t, std::uint32_t>& codes, IdBytes bytes)
 {
   PixelEncoding encoding{ "ids", { { "nothing", { 0 } } } };
   std::vector<double>& pairs = encoding.numbers["codes"];
@@ -119,7 +167,7 @@ PixelEncoding encodingOfIds(const std::map<std::uint32_t, std::uint32_t>& codes,
   {
     pairs.insert(pairs.end(), { double(id), double(code) });
   }
-  if (color)
+  if (bytes == IdBytes::RedHigh)
   {
     encoding.numbers["high_first"] = { 1 };
   }
@@ -128,15 +176,15 @@ PixelEncoding encodingOfIds(const std::map<std::uint32_t, std::uint32_t>& codes,
 } // namespace
 
 void writeIdPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
-  const std::string& name, const std::map<std::uint32_t, std::uint32_t>& codes, bool color)
+  const std::string& name, const std::map<std::uint32_t, std::uint32_t>& codes, IdBytes bytes)
 {
   const std::unique_ptr<RowReader> reader = dataset.open(shot, layer);
   PngEncoder::Header header;
   header.width = reader->info().width;
   header.height = reader->info().height;
-  header.channels = color ? 3 : 1;
+  header.channels = bytes == IdBytes::Gray ? 1 : 3;
   header.prediction = PngPrediction::Labels;
-  writePng(sink, name, { layer, &shot, encodingOfIds(codes, color) }, header,
+  writePng(sink, name, { layer, &shot, encodingOfIds(codes, bytes) }, header,
     [&](int y, unsigned char* row)
     {
       const Rows rows = reader->read(1);
@@ -146,7 +194,8 @@ void writeIdPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot&
         const std::uint32_t code = found == codes.end() ? 0 : found->second;
         for (int c = 0; c < header.channels; ++c)
         {
-          *row++ = static_cast<unsigned char>(code >> (8 * (header.channels - 1 - c)));
+          const int place = bytes == IdBytes::RedLow ? c : header.channels - 1 - c;
+          *row++ = static_cast<unsigned char>(code >> (8 * place));
         }
       }
     });

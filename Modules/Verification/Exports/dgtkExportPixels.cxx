@@ -67,6 +67,7 @@ constexpr Decoder decoders[] = {
   { "linear", &decodeLinear },
   { "float", &decodeFloat },
   { "dpt", &decodeDpt },
+  { "colmap", &decodeColmap },
   { "flow-pfm", &decodeFlowPfm },
   { "hdf5", &decodeHdf5 },
   { "kitti-flow", &decodeKittiFlow },
@@ -237,6 +238,11 @@ public:
     const DatasetFile& file = one.file();
     for (const auto& [key, wanted] : one.encoding().numbers)
     {
+      if (key == "left_out")
+      {
+        this->Objects = one.source.picture(file.camera, file.frame, "objects");
+        this->LeftOut = wanted;
+      }
       if (key.rfind("classes", 0) == 0)
       {
         const std::string layer = key == "classes" ? file.layer : key.substr(std::string("classes_of_").size());
@@ -253,6 +259,11 @@ public:
         return nothing;
       }
     }
+    if (this->Objects &&
+        std::find(this->LeftOut.begin(), this->LeftOut.end(), double(this->Objects->id(x, y))) != this->LeftOut.end())
+    {
+      return nothing;
+    }
     const double value = this->Layer->at(x, y, c);
     return std::isfinite(value) ? value * this->Factors[std::size_t(c) % this->Factors.size()] : nothing;
   }
@@ -268,6 +279,8 @@ private:
   PicturePointer Layer;
   std::vector<std::pair<PicturePointer, std::vector<double>>> Classes;
   std::vector<double> Factors;
+  PicturePointer Objects; ///< where some are left out
+  std::vector<double> LeftOut;
 };
 
 /// Whether the format has a code for a value.

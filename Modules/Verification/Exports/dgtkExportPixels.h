@@ -40,6 +40,7 @@ DecodedPixels decodeKittiFlow(const std::string& path, const PixelEncoding& enco
 DecodedPixels decodeSintelDisparity(const std::string& path, const PixelEncoding& encoding);
 DecodedPixels decodeDpt(const std::string& path, const PixelEncoding& encoding);
 DecodedPixels decodeHdf5(const std::string& path, const PixelEncoding& encoding);
+DecodedPixels decodeColmap(const std::string& path, const PixelEncoding& encoding);
 DecodedPixels decodeFlowPfm(const std::string& path, const PixelEncoding& encoding);
 /// A JPEG or PNG picture as levels of 8 bits.
 DecodedPixels decodePicture(const std::string& path);

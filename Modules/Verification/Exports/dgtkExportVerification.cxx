@@ -14,16 +14,22 @@ namespace dgtk
 {
 
 void readCoco(ExportJudge& judge);
+void readCocoPanoptic(ExportJudge& judge);
+void readColmap(ExportJudge& judge);
+void readColmapDense(ExportJudge& judge);
 void readKitti2015(ExportJudge& judge);
 void readKittiDepth(ExportJudge& judge);
 void readKittiObject(ExportJudge& judge);
 void readKittiOdometry(ExportJudge& judge);
 void readStereo(ExportJudge& judge);
 void readSintel(ExportJudge& judge);
+void readTransforms(ExportJudge& judge);
 void readTum(ExportJudge& judge);
 void readFlyingThings(ExportJudge& judge);
 void readWebdataset(ExportJudge& judge);
 void readImagefolder(ExportJudge& judge);
+void readRosbag(ExportJudge& judge);
+void readMcap(ExportJudge& judge);
 void readHdf5Frames(ExportJudge& judge);
 void readSpring(ExportJudge& judge);
 
@@ -37,6 +43,9 @@ struct Reader
 /// Each is dgtkRead<Name>.cxx.
 constexpr Reader readers[] = {
   { "coco", &readCoco },
+  { "coco-panoptic", &readCocoPanoptic },
+  { "colmap", &readColmap },
+  { "colmap-dense", &readColmapDense },
   { "kitti2015", &readKitti2015 },
   { "kitti-depth", &readKittiDepth },
   { "kitti-object", &readKittiObject },
@@ -44,10 +53,13 @@ constexpr Reader readers[] = {
   { "middlebury", &readStereo },
   { "eth3d", &readStereo },
   { "sintel", &readSintel },
+  { "transforms", &readTransforms },
   { "tum", &readTum },
   { "flyingthings", &readFlyingThings },
   { "webdataset", &readWebdataset },
   { "imagefolder", &readImagefolder },
+  { "rosbag", &readRosbag },
+  { "mcap", &readMcap },
   { "hdf5", &readHdf5Frames },
   { "spring", &readSpring },
 };

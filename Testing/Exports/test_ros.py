@@ -1,0 +1,295 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bags read by ROS's own rosbag and its message classes; MCAP by a reader written from the specification."""
+import hashlib
+import json
+import os
+import re
+import struct
+import zlib
+
+import numpy as np
+import rosbag
+import sensor_msgs.msg
+import tf2_msgs.msg
+
+import datasets
+from datasets import cameras_of, layer_of, load_json, main
+
+TYPES = {cls._type: cls for cls in (sensor_msgs.msg.Image, sensor_msgs.msg.CompressedImage, sensor_msgs.msg.CameraInfo,
+                                    tf2_msgs.msg.TFMessage)}
+
+
+def messages_of_bag(path):
+    """(topic, nanoseconds, message) in the order of times, by rosbag. Classes are made anew from the bag's own definitions."""
+    with rosbag.Bag(path) as bag:
+        for connection in bag._get_connections():
+            cls = TYPES[connection.datatype]
+            assert connection.md5sum == cls._md5sum, connection.datatype
+        return [(topic, time.to_nsec(), message) for topic, message, time in bag.read_messages()]
+
+
+class Reader:
+    """Numbers and texts one after another."""
+
+    def __init__(self, data):
+        self.data, self.at = data, 0
+
+    def take(self, code):
+        values = struct.unpack_from("<" + code, self.data, self.at)
+        self.at += struct.calcsize("<" + code)
+        return values[0] if len(values) == 1 else values
+
+    def bytes(self):
+        size = self.take("I")
+        self.at += size
+        return self.data[self.at - size:self.at]
+
+    def text(self):
+        return self.bytes().decode()
+
+    def pairs(self, code):
+        inner, found = Reader(self.bytes()), []
+        while inner.at < len(inner.data):
+            found.append(inner.take(code))
+        return found
+
+
+def records(data, at, end):
+    while at < end:
+        op, size = struct.unpack_from("<BQ", data, at)
+        yield op, at, Reader(data[at + 9:at + 9 + size]), at + 9 + size
+        at += 9 + size
+
+
+def messages_of_mcap(path):
+    """The same of an MCAP file, through its summary; sums, indices and statistics are held to the specification."""
+    with open(path, "rb") as file:
+        data = file.read()
+    magic = b"\x89MCAP0\r\n"
+    assert data[:8] == data[-8:] == magic
+    footer = len(data) - 8 - 29
+    assert data[footer] == 2
+    summary, offsets, total = struct.unpack_from("<QQI", data, footer + 9)
+    assert zlib.crc32(data[summary:len(data) - 12]) == total
+    end = summary - 13
+    assert data[end] == 15 and struct.unpack_from("<I", data, end + 9)[0] == zlib.crc32(data[:end])
+    schemas, channels, chunks, groups = {}, {}, [], {}
+    statistics = None
+    for op, at, reader, after in records(data, summary, footer):
+        groups.setdefault(op, [at, at])[1] = after
+        if op == 3:
+            number, name, encoding, definition = reader.take("H"), reader.text(), reader.text(), reader.bytes()
+            assert encoding == "ros1msg"
+            schemas[number] = name, definition.decode()
+        elif op == 4:
+            number, schema, topic, encoding = reader.take("H"), reader.take("H"), reader.text(), reader.text()
+            metadata = Reader(reader.bytes())
+            words = {metadata.text(): metadata.text() for _ in range(2)}
+            cls = TYPES[schemas[schema][0]]
+            assert encoding == "ros1" and words == {"md5sum": cls._md5sum, "topic": topic}
+            assert md5_of(schemas[schema][1]) == cls._md5sum
+            channels[number] = topic, cls
+        elif op == 8:
+            times, place = reader.take("QQ"), reader.take("QQ")
+            chunks.append((times, place, dict(reader.pairs("HQ")), reader.take("Q"), reader.text(), reader.take("QQ")))
+        elif op == 11:
+            statistics = reader.take("QHIIIIQQ"), dict(reader.pairs("HQ"))
+        elif op == 14:
+            group, begin, size = reader.take("BQQ")
+            assert groups[group] == [begin, begin + size] and at >= offsets
+    found, counts = [], {}
+    for (first, last), (start, length), indices, index_bytes, packed, (a, b) in chunks:
+        assert data[start] == 6 and packed == "" and a == b
+        chunk = Reader(data[start + 9:start + length])
+        assert chunk.take("QQQ") == (first, last, a)
+        total, packed, size = chunk.take("I"), chunk.text(), chunk.take("Q")
+        inside = chunk.data[chunk.at:]
+        assert packed == "" and size == len(inside) == a and zlib.crc32(inside) == total
+        listed = []
+        for number, position in indices.items():
+            op, size = struct.unpack_from("<BQ", data, position)
+            entry = Reader(data[position + 9:position + 9 + size])
+            assert op == 7 and entry.take("H") == number
+            listed += [(offset, number, time) for time, offset in entry.pairs("QQ")]
+        there = []
+        for op, at, reader, _ in records(inside, 0, len(inside)):
+            number, _, time, published = reader.take("HIQQ")
+            assert op == 5 and time == published and first <= time <= last
+            there.append((at, number, time))
+            topic, cls = channels[number]
+            found.append((topic, time, cls().deserialize(reader.data[reader.at:])))
+            counts[number] = counts.get(number, 0) + 1
+        assert sorted(listed) == there and index_bytes > 0
+    times = [time for _, time, _ in found]
+    assert statistics == ((len(found), len(schemas), len(channels), 0, 0, len(chunks), min(times), max(times)), counts)
+    return found
+
+
+def md5_of(definition):
+    """ROS's sum: constants first, then fields, the types of others by their own sums."""
+    first, *others = re.split("=+\nMSG: ", definition)
+    parts = {text.split("\n", 1)[0].split("/")[1]: text.split("\n", 1)[1] for text in others}
+
+    def total(fields):
+        lines = []
+        for line in fields.strip().split("\n"):
+            kind, name = line.split()
+            base = kind.split("[")[0].split("/")[-1]
+            lines.append(f"{total(parts[base])} {name}" if base in parts else line)
+        return hashlib.md5("\n".join(lines).encode()).hexdigest()
+
+    return total(first)
+
+
+def turned(q):
+    """A rotation of x y z w."""
+    x, y, z, w = q.x, q.y, q.z, q.w
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+
+
+def transforms_of(messages):
+    """nanoseconds -> child -> (R, t)."""
+    found = {}
+    for topic, time, message in messages:
+        for one in message.transforms if topic == "/tf" else ():
+            assert one.header.frame_id == "world" and one.header.stamp.to_nsec() == time
+            t = one.transform.translation
+            assert one.child_frame_id not in found.setdefault(time, {})
+            found[time][one.child_frame_id] = turned(one.transform.rotation), np.array([t.x, t.y, t.z])
+    return found
+
+
+class Ros(datasets.ExportCase):
+    METRES = 0.5
+    NAMES = {"left eye": "left_eye", "right.eye": "right_eye"}
+
+    def setUp(self):
+        super().setUp()
+        self.dataset = self.render(datasets.stereo(self.path("scene")), "color,depth,position")
+        self.folders = {form: self.export(self.dataset, form, "--unit-metres", self.METRES)[0] for form in ("rosbag", "mcap")}
+        self.messages = messages_of_bag(os.path.join(self.folders["rosbag"], "dataset.bag"))
+
+    def by_topic(self, topic):
+        return {round((time / 1e9 - 1) * 25): message for name, time, message in self.messages if name == topic}
+
+    def test_both_hold_the_same(self):
+        found = messages_of_mcap(os.path.join(self.folders["mcap"], "dataset.mcap"))
+        both = [sorted((time, topic, str(message)) for topic, time, message in rows) for rows in (found, self.messages)]
+        self.assertEqual(*both)
+        self.assertEqual({time for _, time, _ in found}, {1000000000, 1040000000, 1080000000})
+        with rosbag.Bag(os.path.join(self.folders["rosbag"], "dataset.bag")) as bag:
+            for connection in bag._get_connections():
+                self.assertEqual(md5_of(connection.msg_def), connection.md5sum)
+            self.assertEqual(bag.get_message_count(), 30)
+
+    def test_pictures(self):
+        for camera, name in self.NAMES.items():
+            colors, depths = self.by_topic(f"/{name}/image_raw/compressed"), self.by_topic(f"/{name}/depth/image_raw")
+            self.assertEqual((sorted(colors), sorted(depths)), ([0, 1, 2], [0, 1, 2]))
+            for frame in range(3):
+                with open(os.path.join(self.dataset, camera, "color", f"{frame:06d}.png"), "rb") as file:
+                    self.assertEqual(colors[frame].data, file.read())
+                image = depths[frame]
+                self.assertEqual((image.encoding, image.is_bigendian, image.header.frame_id), ("32FC1", 0, name + "_optical_frame"))
+                values = np.frombuffer(image.data, "<f4").reshape(image.height, image.step // 4)
+                expected = layer_of(self.dataset, "depth", camera, frame) * self.METRES
+                expected[~np.isfinite(expected)] = np.nan
+                np.testing.assert_array_equal(values, expected.astype(np.float32))
+
+    def test_points_are_where_the_surface_is(self):
+        """depth_image_proc's formula with K of CameraInfo, then tf: the layer of positions comes out."""
+        places = transforms_of(self.messages)
+        largest = 0
+        for camera, name in self.NAMES.items():
+            infos, depths = self.by_topic(f"/{name}/depth/camera_info"), self.by_topic(f"/{name}/depth/image_raw")
+            self.assertEqual(str(infos), str(self.by_topic(f"/{name}/camera_info")))
+            for frame, image in depths.items():
+                K = np.array(infos[frame].K).reshape(3, 3)
+                z = np.frombuffer(image.data, "<f4").reshape(image.height, image.width).astype(float)
+                v, u = np.nonzero(np.isfinite(z))
+                z = z[v, u]
+                points = np.stack([(u - K[0, 2]) * z / K[0, 0], (v - K[1, 2]) * z / K[1, 1], z])
+                R, t = places[image.header.stamp.to_nsec()][name + "_optical_frame"]
+                expected = layer_of(self.dataset, "position", camera, frame)[v, u].T * self.METRES
+                largest = max(largest, np.abs(R @ points + t[:, None] - expected).max())
+        self.assertLess(largest, 1e-6)
+        print(f"points are {largest:.1e} m off the surface")
+
+    def test_transforms(self):
+        poses = load_json(os.path.join(self.dataset, "poses.json"))["poses"]
+        cameras = cameras_of(self.dataset)
+        for time, there in transforms_of(self.messages).items():
+            frame = round((time / 1e9 - 1) * 25)
+            self.assertEqual(sorted(there), ["back_wall_1", "block_3", "block__kleiner___schr__g_4", "left_eye_optical_frame",
+                                             "r__ter_Ring_v2_2", "right_eye_optical_frame"])
+            for child, (R, t) in there.items():
+                if child.endswith("_frame"):
+                    camera = next(one for name, one in cameras.items() if name[1] == frame and self.NAMES[name[0]] + "_optical_frame" == child)
+                    expected = camera["R"].T, -camera["R"].T @ camera["t"]
+                else:
+                    pose = next(one for one in poses if one["frame"] == frame and one["id"] == int(child.rsplit("_", 1)[1]))
+                    expected = np.array(pose["R"]), np.array(pose["t"])
+                self.assertLess(np.abs(R - expected[0]).max(), 1e-12)
+                self.assertLess(np.abs(t - expected[1] * self.METRES).max(), 1e-12)
+
+    def test_a_pair_rectifies(self):
+        """stereo_image_proc: z = fx baseline / disparity, baseline = -P[3] / fx of the right camera."""
+        left, right = self.by_topic("/left_eye/camera_info")[1], self.by_topic("/right_eye/camera_info")[1]
+        self.assertEqual(left.P[3], 0)
+        self.assertAlmostEqual(-right.P[3] / right.P[0], 0.12 * self.METRES, places=12)
+        self.assertEqual((left.K[2], left.K[5], left.distortion_model, tuple(left.D)), (47.5, 35.5, "plumb_bob", (0,) * 5))
+
+    def test_lenses(self):
+        dataset = self.render(datasets.lenses(self.path("lenses")), "color,depth")
+        folder, record = self.export(dataset, "rosbag", "--image-format", "jpg")
+        infos = {topic: message for topic, _, message in messages_of_bag(os.path.join(folder, "dataset.bag"))}
+        models = {name: (infos[f"/{name}/camera_info"].distortion_model, len(infos[f"/{name}/camera_info"].D)) for name in ("plain", "radial", "mild", "fish")}
+        self.assertEqual(models, {"plain": ("plumb_bob", 5), "radial": ("rational_polynomial", 8), "mild": ("plumb_bob", 5), "fish": ("equidistant", 4)})
+        self.assertEqual(tuple(infos["/mild/camera_info"].D), (-0.2, 0.05, 0.001, -0.002, 0))
+        self.assertEqual(infos["/fish/camera_info"].K[2], 47)
+        self.assertEqual(infos["/fish/image_raw/compressed"].format, "jpeg")
+        self.assertEqual(infos["/fish/image_raw/compressed"].data[:2], b"\xff\xd8")
+        self.assertGreater(next(row for row in record["layers"] if row["layer"] == "color")["largest_rounding"], 0)
+
+    def test_names_parts_and_what_is_refused(self):
+        path = datasets.many(self.path("many"), 4)
+        with open(path, encoding="utf-8") as file:
+            scene = json.load(file)
+        for camera, name in zip(scene["cameras"], ("a-b", "a_b", "a b", "3d")):
+            camera["name"] = name
+        scene["cameras"][3]["eye"] = {"keys": [[0, [0, 0, 5]], [3, [0, 1, 5]]]}
+        datasets._write(self.path("many"), "many", scene)
+        dataset = self.render(path, "color,depth")
+        folder, _ = self.export(dataset, "mcap", "--split", "train=0:1,val=2:3")
+        self.assertEqual(sorted(os.listdir(folder)), ["export.json", "train.mcap", "val.mcap"])
+        topics = {topic for topic, _, _ in messages_of_mcap(os.path.join(folder, "val.mcap"))}
+        self.assertLessEqual({"/a_b/camera_info", "/a_b_2/camera_info", "/a_b_3/camera_info", "/3d/camera_info"}, topics)
+        scene["cameras"][1].update(model="eucm", alpha=0.5, beta=1, K=[[80, 0, 48], [0, 80, 36], [0, 0, 1]])
+        dataset = self.render(datasets._write(self.path("many"), "many", scene), "color,depth")
+        for form in ("rosbag", "mcap"):
+            self.refused("export", dataset, "--format", form, "-o", self.path("none"), status=2, says=("a_b", "eucm", "plumb_bob"))
+        self.assertFalse(os.path.exists(self.path("none")))
+
+    def test_the_referee_finds(self):
+        bag = lambda change: self.planted(self.dataset, self.folders["rosbag"], "dataset.bag", change)  # noqa: E731
+        mcap = lambda change: self.planted(self.dataset, self.folders["mcap"], "dataset.mcap", change)  # noqa: E731
+        number = lambda value: struct.pack("<d", value)  # noqa: E731
+        for file in (bag, mcap):
+            self.assertIn("layer intrinsics", file(lambda data: data.replace(number(47.5), number(48), 1)))
+            self.assertIn("layer color", file(lambda data: data.replace(b"IDAT", b"IDAU", 1)))
+        right = next(message for topic, _, message in self.messages if topic == "/right_eye/camera_info")
+        self.assertIn("layer baseline", bag(lambda data: data.replace(number(right.P[3]), number(0))))
+        image = next(message for topic, _, message in self.messages if topic == "/left_eye/depth/image_raw")
+        row = image.data[4 * 96 * 30:4 * 96 * 31]
+        self.assertIn("layer depth", bag(lambda data: data.replace(row, row[4:] + row[:4], 1)))
+        ring = next(one for one in self.messages[0][2].transforms if one.child_frame_id.startswith("r__ter"))
+        x = number(ring.transform.translation.x)
+        self.assertIn("layer pose of objects", bag(lambda data: data.replace(x, number(1.5), 1)))
+        self.assertIn("layer recording", bag(lambda data: data.replace(b"float64 w\n", b"float32 w\n", 1)))
+        self.assertIn("layer recording", mcap(lambda data: data[:-20] + b"\1" + data[-19:]))
+
+
+if __name__ == "__main__":
+    main()
