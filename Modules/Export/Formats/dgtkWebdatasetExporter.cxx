@@ -3,7 +3,7 @@
 #include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
-#include "dgtkSamples.h"
+#include "dgtkPictureSamples.h"
 #include "dgtkTarFile.h"
 #include "dgtkText.h"
 
