@@ -134,5 +134,84 @@ class BlenderProc(datasets.ExportCase):
         self.assertFalse(os.path.exists(self.path("no")))
 
 
+def read_flow(path, name="flow"):
+    """flow_IO.py, readFlo5Flow and readDsp5Disp."""
+    with h5py.File(path, "r") as file:
+        assert list(file) == [name] and file[name].compression == "gzip" and file[name].compression_opts == 5
+        return file[name][()]
+
+
+class Spring(datasets.ExportCase):
+    LAYERS = "color,disparity,disparity_forward,disparity_backward,flow_forward,flow_backward"
+
+    def path_of(self, kind, side, frame, end):
+        return os.path.join(self.sequence, f"{kind}_{side}", f"{kind}_{side}_{frame + 1:04d}.{end}")
+
+    def test_all_files(self):
+        dataset = self.render(datasets.stereo(self.path("scene")), self.LAYERS, "--size", "192x144")
+        folder, _ = self.export(dataset, "spring", "--unit-metres", 0.5)
+        self.sequence = os.path.join(folder, "train", "0001")
+        lines = [np.loadtxt(os.path.join(self.sequence, "cam_data", name)) for name in ("intrinsics.txt", "extrinsics.txt")]
+        cameras = cameras_of(dataset)
+        for frame in range(3):
+            left, right = cameras[LEFT, frame], cameras[RIGHT, frame]
+            fx, fy, cx, cy = lines[0][frame]
+            self.assertTrue(np.allclose([[2 * fx, 0, 2 * cx], [0, 2 * fy, 2 * cy], [0, 0, 1]], left["K"], rtol=1e-15))
+            self.assertTrue(np.allclose(lines[1][frame].reshape(4, 4)[:3], np.column_stack([left["R"], left["t"] * 0.5]), rtol=1e-15))
+            baseline = np.linalg.norm(left["R"].T @ left["t"] - right["R"].T @ right["t"]) * 0.5
+            for camera, side in ((LEFT, "left"), (RIGHT, "right")):
+                stem = os.path.join(dataset, camera, "color", f"{frame:06d}.png")
+                code = read_png(stem).astype(float) / 255
+                light = np.where(code <= 0.04045, code / 12.92, ((code + 0.055) / 1.055) ** 2.4)
+                mean = light.reshape(72, 2, 96, 2, 3).mean(axis=(1, 3))
+                want = 255 * np.where(mean <= 0.0031308, 12.92 * mean, 1.055 * mean ** (1 / 2.4) - 0.055)
+                found = read_png(self.path_of("frame", side, frame, "png"), (8, 3))
+                self.assertLessEqual(np.abs(found - want).max(), 0.5 + 1e-6)
+                for kind, layer, step in (("disp1", "disparity", 0), ("disp2_FW", "disparity_forward", 1), ("disp2_BW", "disparity_backward", -1)):
+                    path = self.path_of(kind, side, frame, "dsp5")
+                    self.assertEqual(os.path.exists(path), 0 <= frame + step < 3)
+                    if os.path.exists(path):
+                        disparity, values = read_flow(path, "disparity"), layer_of(dataset, layer, camera, frame)
+                        self.assertEqual((disparity.dtype, disparity.shape), (np.float32, (144, 192)))
+                        self.assertTrue(np.array_equal(disparity, np.where(np.isfinite(values), values / 2, np.nan), equal_nan=True))
+                        self.assertGreater(np.isfinite(disparity).sum(), 5000)
+                for kind, way, step in (("flow_FW", "forward", 1), ("flow_BW", "backward", -1)):
+                    path = self.path_of(kind, side, frame, "flo5")
+                    self.assertEqual(os.path.exists(path), 0 <= frame + step < 3)
+                    if os.path.exists(path):
+                        with open(os.path.join(dataset, camera, "flow_" + way, f"{frame:06d}.flo"), "rb") as file:
+                            values = np.frombuffer(file.read()[12:], "<f4").reshape(144, 192, 2)
+                        self.assertTrue(np.array_equal(read_flow(path), np.where(np.abs(values) < 1e9, values / 2, np.nan), equal_nan=True))
+            # readers of Spring: depth = fx baseline / disparity, with every second value in both directions
+            depth = fx * baseline / read_flow(self.path_of("disp1", "left", frame, "dsp5"), "disparity")[::2, ::2]
+            self.assertTrue(1 < np.nanmin(depth) and np.nanmax(depth) < 4.2)
+        flo5 = "train/0001/flow_FW_left/flow_FW_left_0001.flo5"
+
+        def changed(data):
+            path = self.write("planted.flo5", data)
+            with h5py.File(path, "r+") as file:
+                values = file["flow"][()]
+                values[100, 90] += 0.001
+                file["flow"][...] = values
+            with open(path, "rb") as file:
+                return file.read()
+
+        self.assertIn("layer flow_forward", self.planted(dataset, folder, flo5, changed))
+        for name, layer in (("intrinsics", "intrinsics"), ("extrinsics", "pose")):
+            self.assertIn("layer " + layer, self.planted(dataset, folder, f"train/0001/cam_data/{name}.txt", lambda text: b"2" + text))
+        with open(self.path_of("frame", "right", 1, "png"), "rb") as file:
+            other = file.read()
+        self.assertIn("layer color", self.planted(dataset, folder, "train/0001/frame_left/frame_left_0002.png", lambda data: other))
+
+    def test_refusals(self):
+        odd = self.render(datasets.stereo(self.path("scene")), self.LAYERS, "--size", "97x72")
+        self.refused("export", odd, "--format", "spring", "-o", self.path("no"), status=2, says="odd width or height")
+        even = self.render(self.path("scene", "stereo.json"), self.LAYERS)
+        self.refused("export", even, "--format", "spring", "-o", self.path("no"), "--frames", "0:2:2", status=2, says="not consecutive")
+        self.refused("export", even, "--format", "spring", "-o", self.path("no"), "--image-format", "jpg", status=2, says="PNG")
+        self.refused("export", even, "--format", "spring", "-o", self.path("no"), "--cameras", LEFT, status=2, says="no two cameras")
+        self.assertFalse(os.path.exists(self.path("no")))
+
+
 if __name__ == "__main__":
     main()

@@ -3,7 +3,7 @@
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
-#include "dgtkSamples.h"
+#include "dgtkPictureSamples.h"
 #include "dgtkUtf8.h"
 
 namespace dgtk

@@ -3,7 +3,7 @@
 #include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
-#include "dgtkSamples.h"
+#include "dgtkPictureSamples.h"
 #include "dgtkTarFile.h"
 #include "dgtkText.h"
 
@@ -178,9 +178,8 @@ private:
   static void addDocuments(ExportPlan& plan, const DatasetView& dataset, const std::vector<card::Part>& parts,
     const std::vector<std::string>& kinds)
   {
-    plan.documents.push_back({ { "objects.json" }, [](ExportSink& sink) {
-                                sink.copy("objects.json", "objects.json");
-                              } });
+    plan.documents.push_back(
+      { { "objects.json" }, [](ExportSink& sink) { sink.copy("objects.json", "objects.json"); } });
     plan.documents.push_back({ { "README.md" }, [&dataset, parts](ExportSink& sink)
       { sink.write("README.md", card::readmeText(dataset, parts, layoutText())); } });
     plan.documents.push_back({ { "croissant.json" }, [&dataset, kinds](ExportSink& sink)

@@ -69,6 +69,7 @@ constexpr Decoder decoders[] = {
   { "dpt", &decodeDpt },
   { "colmap", &decodeColmap },
   { "flow-pfm", &decodeFlowPfm },
+  { "hdf5", &decodeHdf5 },
   { "kitti-flow", &decodeKittiFlow },
   { "sintel-disparity", &decodeSintelDisparity },
 };
@@ -147,6 +148,33 @@ void judgePicture(const Comparison& one, Meter& meter)
         const double want = expected->at(x, y, c) / level;
         const double apart = std::max(0.0, std::abs(found.at(x, y, c) - want) - (level > 1 ? 0.5 : 0));
         meter.add(apart, [&] { return offenderAt(one, x, y, found.at(x, y, c), want); });
+      }
+    });
+}
+
+/// The transfer function of IEC 61966-2-1, of 0 to 1.
+double lightOf(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
+double codeOf(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
+
+/// Pixels that are the mean light of four of the layer's.
+void judgeHalfPicture(const Comparison& one, Meter& meter)
+{
+  const DecodedPixels found = decodePicture(one.path());
+  const PicturePointer expected = one.layer({ "png" });
+  one.requireSize(2 * found.width, 2 * found.height);
+  meter.Tolerance = numberOf(one.encoding(), "rounding", 0) + 1e-6; // a tie may be taken either way
+  forPixels(found.width, found.height,
+    [&](int x, int y)
+    {
+      for (int c = 0; c < std::min(found.channels, expected->channels()); ++c)
+      {
+        double light = 0;
+        for (int k = 0; k < 4; ++k)
+        {
+          light += lightOf(expected->at(2 * x + k % 2, 2 * y + k / 2, c) / 255) / 4;
+        }
+        const double want = 255 * codeOf(light);
+        meter.add(found.at(x, y, c) - want, [&] { return offenderAt(one, x, y, found.at(x, y, c), want); });
       }
     });
 }
@@ -320,6 +348,7 @@ struct Judge
 constexpr Judge judges[] = {
   { "copy", &judgeCopy, "" },
   { "picture", &judgePicture, "levels" },
+  { "half-picture", &judgeHalfPicture, "levels" },
   { "mask", &judgeMask, "" },
   { "ids", &judgeIds, "" },
   { "disparity-change", &judgeChange, "px" },

@@ -39,6 +39,7 @@ DecodedPixels decodePng(const std::string& path, const PixelEncoding& encoding);
 DecodedPixels decodeKittiFlow(const std::string& path, const PixelEncoding& encoding);
 DecodedPixels decodeSintelDisparity(const std::string& path, const PixelEncoding& encoding);
 DecodedPixels decodeDpt(const std::string& path, const PixelEncoding& encoding);
+DecodedPixels decodeHdf5(const std::string& path, const PixelEncoding& encoding);
 DecodedPixels decodeColmap(const std::string& path, const PixelEncoding& encoding);
 DecodedPixels decodeFlowPfm(const std::string& path, const PixelEncoding& encoding);
 /// A JPEG or PNG picture as levels of 8 bits.

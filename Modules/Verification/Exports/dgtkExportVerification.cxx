@@ -32,6 +32,7 @@ void readImagefolder(ExportJudge& judge);
 void readRosbag(ExportJudge& judge);
 void readMcap(ExportJudge& judge);
 void readHdf5Frames(ExportJudge& judge);
+void readSpring(ExportJudge& judge);
 
 namespace
 {
@@ -62,6 +63,7 @@ constexpr Reader readers[] = {
   { "rosbag", &readRosbag },
   { "mcap", &readMcap },
   { "hdf5", &readHdf5Frames },
+  { "spring", &readSpring },
 };
 
 /// Files that export.json lists are there and as it says, and there are no others.

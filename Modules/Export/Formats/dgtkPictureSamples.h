@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef dgtkSamples_h
-#define dgtkSamples_h
+#ifndef dgtkPictureSamples_h
+#define dgtkPictureSamples_h
 
 // Private to Export: a picture with all that the dataset knows of it, as formats of samples have them.
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkSamples.h"
+#include "dgtkPictureSamples.h"
 
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
