@@ -38,6 +38,7 @@ void checkPartition(Picture& picture, Results& results);
 void checkLdi(Picture& picture, Results& results);
 void checkAlpha(Picture& picture, Results& results);
 void checkMatting(Picture& picture, Results& results);
+void checkRgba(Picture& picture, Results& results);
 void checkBoxes(Picture& picture, Results& results);
 void checkKeypoints(Picture& picture, Results& results);
 void checkPoints(Dataset& dataset, Results& results);

@@ -35,6 +35,7 @@ constexpr Check allChecks[] = {
   { "ldi", nullptr, checkLdi },
   { "alpha", nullptr, checkAlpha },
   { "matting", nullptr, checkMatting },
+  { "rgba", nullptr, checkRgba },
   { "boxes", nullptr, checkBoxes },
   { "keypoints", nullptr, checkKeypoints },
   { "points", checkPoints, nullptr },

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The layer color_rgba: the picture without its background.
+#include "dgtkError.h"
+#include "dgtkLayers.h"
+#include "dgtkSamples.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr const char* layerName = "color_rgba";
+
+LayerSpec rgbaSpec()
+{
+  return { layerName, PixelType::UInt8, 4, "sRGB", "image", "none",
+    "R, G, B: the picture's colour without the background's share, not multiplied by A; A: 255 times the share of the "
+    "pixel's N x N samples that meet an object, rounded; R, G, B of A = 0 are 0",
+    Meaning::Picture };
+}
+
+/// How many samples of each pixel of the rows meet an object.
+std::vector<int> covered(const SampledRows& samples)
+{
+  std::vector<int> counts(samples.mixed.size(), 0);
+  for (const VisibilityBuffer& hits : samples.hits)
+  {
+    for (std::size_t i = 0; i < counts.size(); ++i)
+    {
+      counts[i] += hits.hits[i].object != 0 ? 1 : 0;
+    }
+  }
+  return counts;
+}
+
+/// In display values, which are what the picture's samples are averaged in.
+void writePixel(const float* rgb, const Eigen::Vector3d& background, double share, std::uint8_t* out)
+{
+  constexpr double top = 255;
+  for (int c = 0; c < 3; ++c)
+  {
+    const double color = share > 0 ? (double(rgb[c]) - (1 - share) * background[c]) / share : 0;
+    out[c] = static_cast<std::uint8_t>(std::lround(top * std::min(std::max(color, 0.0), 1.0)));
+  }
+  out[3] = static_cast<std::uint8_t>(std::lround(top * share));
+}
+
+class RgbaPass : public LayerPass
+{
+public:
+  explicit RgbaPass(const JobContext& context)
+    : Background(context.state->background)
+    , Sampler(context.state, context.view, option::samples().of(context.plan.request.options),
+        context.queries.makeSource(context.pool), context.pool)
+  {
+  }
+
+  void band(const Band& band, LayerSink& sink) override
+  {
+    const int step = this->Sampler.stripRows();
+    for (int y = 0; y < band.rect.height; y += step)
+    {
+      PixelRect rect = band.rect;
+      rect.y += y;
+      rect.height = std::min(step, band.rect.height - y);
+      const std::size_t first = std::size_t(y) * std::size_t(rect.width);
+      this->Sampler.sample(rect, band.hits.data() + first, this->Samples);
+      const std::vector<int> counts = covered(this->Samples);
+      Rows rows(PixelType::UInt8, 4, rect.width, rect.y, rect.height);
+      std::uint8_t* out = rows.row<std::uint8_t>(rect.y);
+      for (std::size_t i = 0; i < counts.size(); ++i)
+      {
+        const double share = double(counts[i]) / this->Samples.samples;
+        writePixel(band.rgb.data() + 3 * (first + i), this->Background, share, out + 4 * i);
+      }
+      sink.rows(0, rows);
+    }
+  }
+
+private:
+  Eigen::Vector3d Background; ///< sRGB
+  PixelSampler Sampler;
+  SampledRows Samples;
+};
+
+/// What mixes with the background in another way than by samples, or is no one colour.
+void refuse(const std::string& what)
+{
+  throw UsageError("layer " + std::string(layerName) + ": the background cannot be taken from pictures with " + what);
+}
+
+class RgbaLayer final : public Layer
+{
+public:
+  LayerInfo info() const override
+  {
+    return { layerName, { "png" }, "the picture with a transparent background, by N x N samples" };
+  }
+  void check(const WorkPlan& plan, const Stage& stage, const PlannedLayer&) const override
+  {
+    if (!drawsItself(plan.request))
+    {
+      refuse("colours of POV-Ray");
+    }
+    for (const CameraDescription& camera : stage.description().cameras)
+    {
+      const std::vector<std::string>& wanted = plan.request.cameras;
+      const bool drawn = wanted.empty() || std::find(wanted.begin(), wanted.end(), camera.name) != wanted.end();
+      if (drawn && (camera.shutter.blurs() || camera.lens.blurs()))
+      {
+        refuse("motion blur or depth of field (camera " + quoted(camera.name) + ')');
+      }
+    }
+    const SceneDescription& scene = stage.description();
+    if (!scene.environment.image.empty() && scene.environment.background)
+    {
+      refuse("an environment in the background");
+    }
+  }
+  LayerNeeds needs(const LayerRequest&, const Stage&) const override
+  {
+    LayerNeeds needs = LayerNeeds::ofColor();
+    needs.hits = true;
+    needs.samples = true;
+    return needs;
+  }
+  std::vector<LayerRecord> records(const WorkPlan&, const std::string& format) const override
+  {
+    return { { rgbaSpec(), format } };
+  }
+  std::vector<LayerOutput> outputs(
+    const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
+  {
+    return { imageOutput(plan, stage, job, rgbaSpec(), planned.formats) };
+  }
+  std::unique_ptr<LayerPass> makePass(const JobContext& context, const std::vector<PassLayer>&) const override
+  {
+    return std::make_unique<RgbaPass>(context);
+  }
+};
+} // namespace
+
+LayerList rgbaLayers() { return { std::make_shared<RgbaLayer>() }; }
+
+} // namespace dgtk

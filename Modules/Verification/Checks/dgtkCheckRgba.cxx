@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The picture without its background: shares counted anew, and the picture that comes out when the background is back.
+#include "dgtkCheck.h"
+#include "dgtkSampledPixels.h"
+
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr double full = 255;
+constexpr double shareRounding = 0.5 / full;
+/// Levels: what rounding of both files and of the share can make.
+constexpr double levels = 2;
+
+/// The share of the samples that meet nothing: all divided pixels, and some of the others.
+void checkShare(const PictureFile& file, const Samples& samples, int x, int y, Meter& meter)
+{
+  const double share = 1 - file.at(x, y, 3) / full;
+  if ((share == 0 || share == 1) && !Samples::isChosen(x, y))
+  {
+    return;
+  }
+  samples.compare(x, y, 0, share, shareRounding, meter,
+    [&](double expected) { return file.offender(x, y, "alpha " + numberText(1 - share), numberText(1 - expected)); });
+}
+
+/// The colour of the background: that of a pixel which nothing covers.
+std::optional<Eigen::Vector3d> backgroundOf(const PictureFile& file, const PictureFile& color)
+{
+  for (int y = 0; y < file.height(); ++y)
+  {
+    for (int x = 0; x < file.width(); ++x)
+    {
+      if (file.at(x, y, 3) == 0)
+      {
+        return Eigen::Vector3d(color.at(x, y, 0), color.at(x, y, 1), color.at(x, y, 2));
+      }
+    }
+  }
+  return std::nullopt;
+}
+} // namespace
+
+void checkRgba(Picture& picture, Results& results)
+{
+  const PicturePointer file = picture.image("color_rgba", { ".png" });
+  if (!file || file->channels() != 4)
+  {
+    return;
+  }
+  const auto measure = [&](const Row& row, double tolerance, const auto& pixel)
+  {
+    results.add(row, meterRows(picture.pool(), picture.height(), tolerance,
+                       [&](int y, Meter& meter)
+                       {
+                         for (int x = 0; x < picture.width(); ++x)
+                         {
+                           pixel(x, y, meter);
+                         }
+                       }));
+  };
+  const Samples samples(picture);
+  measure({ "color_rgba alpha", "coverage", { file->file() }, mostOpenSamples }, coverageTolerance,
+    [&](int x, int y, Meter& meter) { checkShare(*file, samples, x, y, meter); });
+  const PicturePointer color = picture.image("color", { ".png" });
+  const std::optional<Eigen::Vector3d> background =
+    color && color->type() == PixelType::UInt8 ? backgroundOf(*file, *color) : std::nullopt;
+  if (!background)
+  {
+    return;
+  }
+  measure({ "color_rgba", "levels", { file->file() }, mostOpenSamples }, levels,
+    [&](int x, int y, Meter& meter)
+    {
+      const double alpha = file->at(x, y, 3) / full;
+      const bool whole = alpha == 0 || alpha == 1;
+      for (int c = 0; c < 3; ++c)
+      {
+        const double found = alpha * file->at(x, y, c) + (1 - alpha) * (*background)[c];
+        const double apart = found - color->at(x, y, c);
+        if (!whole && std::abs(apart) > levels && samples.at(x, y).isDoubtful(0))
+        {
+          meter.skip(); // what is drawn and what is traced may differ by a sample at an edge
+          continue;
+        }
+        meter.add(apart, [&] { return file->offender(x, y, numberText(found), numberText(color->at(x, y, c))); });
+      }
+    });
+}
+
+} // namespace dgtk
