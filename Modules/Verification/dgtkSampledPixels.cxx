@@ -12,9 +12,11 @@ namespace
 /// The samples a side of a pixel that the request asked for.
 int samplesOf(const Manifest& manifest)
 {
+  static const std::set<std::string> options{ "alpha_samples", "color_rgba_samples", "coverage_samples",
+    "matting_samples" };
   for (const auto& [option, value] : manifest.request)
   {
-    const int samples = option == "coverage_samples" && value.size() < 4 ? std::atoi(value.c_str()) : 0;
+    const int samples = options.count(option) > 0 && value.size() < 4 ? std::atoi(value.c_str()) : 0;
     if (samples > 0)
     {
       return samples;
