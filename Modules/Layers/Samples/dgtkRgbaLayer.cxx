@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The layer color_rgba: the picture without its background.
-#include "dgtkError.h"
 #include "dgtkLayers.h"
 #include "dgtkSamples.h"
 
@@ -86,10 +85,13 @@ private:
   SampledRows Samples;
 };
 
-/// What mixes with the background in another way than by samples, or is no one colour.
-void refuse(const std::string& what)
+bool blurs(const CameraDescription& camera) { return camera.shutter.blurs() || camera.lens.blurs(); }
+
+/// The background is one colour, and mixes with the rest by samples.
+bool hasPlainBackground(const SceneDescription& scene)
 {
-  throw UsageError("layer " + std::string(layerName) + ": the background cannot be taken from pictures with " + what);
+  const bool seen = !scene.environment.image.empty() && scene.environment.background;
+  return !seen && !std::all_of(scene.cameras.begin(), scene.cameras.end(), &blurs);
 }
 
 class RgbaLayer final : public Layer
@@ -97,28 +99,12 @@ class RgbaLayer final : public Layer
 public:
   LayerInfo info() const override
   {
-    return { layerName, { "png" }, "the picture with a transparent background, by N x N samples" };
+    return { layerName, { "png" }, "the picture with a transparent background, by N x N samples", false, {},
+      &hasPlainBackground };
   }
-  void check(const WorkPlan& plan, const Stage& stage, const PlannedLayer&) const override
+  std::string requirement() const override
   {
-    if (!drawsItself(plan.request))
-    {
-      refuse("colours of POV-Ray");
-    }
-    for (const CameraDescription& camera : stage.description().cameras)
-    {
-      const std::vector<std::string>& wanted = plan.request.cameras;
-      const bool drawn = wanted.empty() || std::find(wanted.begin(), wanted.end(), camera.name) != wanted.end();
-      if (drawn && (camera.shutter.blurs() || camera.lens.blurs()))
-      {
-        refuse("motion blur or depth of field (camera " + quoted(camera.name) + ')');
-      }
-    }
-    const SceneDescription& scene = stage.description();
-    if (!scene.environment.image.empty() && scene.environment.background)
-    {
-      refuse("an environment in the background");
-    }
+    return "a camera without shutter and lens, drawn by the built-in renderer, and a background of one colour";
   }
   LayerNeeds needs(const LayerRequest&, const Stage&) const override
   {
@@ -134,6 +120,11 @@ public:
   std::vector<LayerOutput> outputs(
     const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {
+    const SceneDescription& scene = stage.description();
+    if (!drawsItself(plan.request) || blurs(scene.cameras[job.camera]) || !hasPlainBackground(scene))
+    {
+      return {};
+    }
     return { imageOutput(plan, stage, job, rgbaSpec(), planned.formats) };
   }
   std::unique_ptr<LayerPass> makePass(const JobContext& context, const std::vector<PassLayer>&) const override

@@ -113,7 +113,7 @@ TEST(LiveTruth, EveryLayerIsTheDatasetBitForBit)
       EXPECT_EQ(shown.count(record.spec.name) == 1, liveRefusal(info).empty()) << record.spec.name;
     }
   }
-  EXPECT_EQ(refused, 13) << "a new layer is seen live, or this number says that it is not";
+  EXPECT_EQ(refused, 14) << "a new layer is seen live, or this number says that it is not";
   EXPECT_THROW(eye.values("color", hits), UsageError);
 }
 
