@@ -24,6 +24,7 @@ void readTum(ExportJudge& judge);
 void readFlyingThings(ExportJudge& judge);
 void readRosbag(ExportJudge& judge);
 void readMcap(ExportJudge& judge);
+void readGltf(ExportJudge& judge);
 
 namespace
 {
@@ -46,6 +47,7 @@ constexpr Reader readers[] = {
   { "flyingthings", &readFlyingThings },
   { "rosbag", &readRosbag },
   { "mcap", &readMcap },
+  { "gltf", &readGltf },
 };
 
 /// Files that export.json lists are there and as it says, and there are no others.
