@@ -2,6 +2,7 @@
 #include "dgtkDatasetView.h"
 
 #include "dgtkError.h"
+#include "dgtkFile.h"
 #include "dgtkFolder.h"
 #include "dgtkHash.h"
 #include "dgtkJournal.h"
@@ -208,6 +209,47 @@ std::string DatasetView::file(const DatasetShot& shot, const std::string& layer,
     }
   }
   return {};
+}
+
+std::vector<DatasetFile> DatasetView::filesOf(const DatasetShot& shot) const
+{
+  std::vector<DatasetFile> files;
+  const auto first = this->Files.lower_bound({ shot.name(), shot.frame(), "" });
+  for (auto one = first;
+       one != this->Files.end() && std::get<0>(one->first) == shot.name() && std::get<1>(one->first) == shot.frame();
+       ++one)
+  {
+    for (const std::size_t i : one->second)
+    {
+      files.push_back(this->TheManifest.files[i]);
+    }
+  }
+  return files;
+}
+
+const DatasetFile& DatasetView::listed(const std::string& file) const
+{
+  const std::vector<DatasetFile>& all = this->TheManifest.files; // sorted by path
+  const auto known = std::lower_bound(
+    all.begin(), all.end(), file, [](const DatasetFile& one, const std::string& path) { return one.path < path; });
+  if (known == all.end() || known->path != file)
+  {
+    throw InputError(this->Folder, 0, "the manifest does not list " + quoted(file));
+  }
+  return *known;
+}
+
+std::string DatasetView::bytesOf(const std::string& file) const
+{
+  const std::string source = dgtk::Folder(this->Folder).fileAt(file);
+  std::string bytes = readFile(source);
+  Sha256 hash;
+  hash.update(bytes.data(), bytes.size());
+  if (hash.hex() != this->listed(file).sha256)
+  {
+    throw InputError(source, 0, "is not the file that the manifest lists: its hash differs");
+  }
+  return bytes;
 }
 
 std::unique_ptr<RowReader> DatasetView::open(

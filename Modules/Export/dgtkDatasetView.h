@@ -88,6 +88,12 @@ public:
   std::string file(const DatasetShot& shot, const std::string& layer, const std::vector<std::string>& extensions = {},
     const std::string& folder = {}) const;
   std::string pathOf(const std::string& file) const { return this->Folder + '/' + file; }
+  /// All files of a picture, of all layers, as the manifest lists them.
+  std::vector<DatasetFile> filesOf(const DatasetShot& shot) const;
+  /// What the manifest says of a file; throws InputError where it does not list it.
+  const DatasetFile& listed(const std::string& file) const;
+  /// The whole file; throws InputError where it is not the one that the manifest lists.
+  std::string bytesOf(const std::string& file) const;
   /// Throws InputError where the shot has no file of the layer.
   std::unique_ptr<RowReader> open(
     const DatasetShot& shot, const std::string& layer, const std::vector<std::string>& extensions = {}) const;
@@ -103,6 +109,7 @@ public:
   /// Points of the layer `tracks`. Throws InputError where there are none.
   std::vector<TrackPoint> trackPoints() const;
 
+  bool knowsMetres() const { return this->MetresPerUnit > 0; }
   /// Metres of a scene unit; throws UsageError where neither dataset nor selection say it.
   double metres() const;
   /// Seconds of a frame: frame / frames per second. Throws UsageError where the dataset does not say a rate.

@@ -40,8 +40,8 @@ public:
   virtual ~ExportFile() = default;
   virtual void write(const void* data, std::size_t bytes) = 0;
   void write(const std::string& text) { this->write(text.data(), text.size()); }
-  /// The file gets its name. Without it nothing is left behind.
-  virtual void finish() = 0;
+  /// The file gets its name. Without it nothing is left behind. What it turned out to be: path, bytes, hash.
+  virtual DatasetFile finish() = 0;
 };
 
 /// Takes what an item writes. Names are relative to the export's folder, with '/'. Failures are MachineErrors.

@@ -6,8 +6,6 @@
 #include "dgtkHash.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <stdexcept>
 
 #include <fcntl.h>
@@ -46,11 +44,12 @@ public:
     this->Hash.update(data, bytes);
     this->Described.bytes += bytes;
   }
-  void finish() override
+  DatasetFile finish() override
   {
     this->File.commit();
     this->Described.sha256 = this->Hash.hex();
     this->Owner.finished(this->Described, this->Encoding);
+    return this->Described;
   }
 
 private:
@@ -111,32 +110,18 @@ bool ItemSink::link(const std::string& name, const std::string& datasetFile) con
 
 void ItemSink::copy(const std::string& name, const std::string& datasetFile, const ExportedPixels& pixels)
 {
-  const std::vector<DatasetFile>& all = this->Dataset.manifest().files; // sorted by path
-  const auto known = std::lower_bound(all.begin(), all.end(), datasetFile,
-    [](const DatasetFile& file, const std::string& path) { return file.path < path; });
-  if (known == all.end() || known->path != datasetFile)
-  {
-    throw InputError(this->Dataset.folder(), 0, "the manifest does not list " + quoted(datasetFile));
-  }
-  const std::string source = Folder(this->Dataset.folder()).fileAt(datasetFile);
+  const DatasetFile& known = this->Dataset.listed(datasetFile);
   this->expect(name);
   DatasetFile file = describedAs(name, pixels);
-  file.sha256 = known->sha256;
-  file.bytes = known->bytes;
-  const auto changed = [&]
-  { throw InputError(source, 0, "is not the file that the manifest lists: its hash differs"); };
-  if (this->Links && Sha256::ofFile(source) == known->sha256 && this->link(name, datasetFile))
+  file.sha256 = known.sha256;
+  file.bytes = known.bytes;
+  if (this->Links && Sha256::ofFile(Folder(this->Dataset.folder()).fileAt(datasetFile)) == known.sha256 &&
+      this->link(name, datasetFile))
   {
     this->finished(file, pixels.encoding);
     return;
   }
-  const std::string bytes = readFile(source);
-  Sha256 hash;
-  hash.update(bytes.data(), bytes.size());
-  if (hash.hex() != known->sha256)
-  {
-    changed();
-  }
+  const std::string bytes = this->Dataset.bytesOf(datasetFile);
   AtomicFile target(FilePlace(this->Holder.path(), name));
   target.write(bytes);
   target.commit();

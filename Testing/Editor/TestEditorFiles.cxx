@@ -202,7 +202,8 @@ void TestEditorFiles::filesThatEndEarlyAreRefused()
 
 void TestEditorFiles::useImporter(const QByteArray& line) const
 {
-  QFile script(this->write("importer", "#!/bin/sh\n" + line + '\n'));
+  static int number = 0; // of another name each, or the one that runs already is asked
+  QFile script(this->write(("importer" + QByteArray::number(++number)).constData(), "#!/bin/sh\n" + line + '\n'));
   script.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
   qputenv("DGTK_IMPORT", script.fileName().toLocal8Bit());
 }

@@ -304,7 +304,8 @@ void TestEditorViewer::largePicturesAreReadInDetail()
   std::ofstream(file, std::ios::binary) << "\x93NUMPY" << '\x01' << '\0' << '\x76' << '\0' << header << '\n';
   fs::resize_file(file, 128 + std::uint64_t(width) * height); // no bytes on the disk
   dgtk::Manifest manifest;
-  manifest.layers.push_back({ { "color", dgtk::PixelType::UInt8, 1, "", "", "none", "" }, "npy" });
+  manifest.layers.push_back(
+    { { "color", dgtk::PixelType::UInt8, 1, "", "", "none", "", dgtk::Meaning::Picture }, "npy" });
   manifest.files.push_back({ "left/color/000000.npy", 1, std::string(64, '0'), "color", "left", 0 });
   dgtk::writeDocument(folder, "manifest.json", dgtk::manifestText(manifest));
   QMainWindow* const viewer = this->open(QString::fromStdString(folder));

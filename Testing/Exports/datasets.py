@@ -119,10 +119,11 @@ def lenses(folder):
     K = [[80, 0, 47.3], [0, 82, 36.9], [0, 0, 1]]
     return _write(folder, "lenses", {"objects": _objects(), "cameras": [
         _camera("plain", [0, 0.2, 4.5], [0, 0, 0]),
-        {**_camera("radial", [0.3, 0.2, 4.5], [0, 0, 0]), "K": K, "distortion": [-0.2, 0.05, 0.001, -0.002, 0.003, 0.01, 0.002, 0.001]},
-        {**_camera("mild", [0.1, 0.2, 4.5], [0, 0, 0]), "K": K, "distortion": [-0.2, 0.05, 0.001, -0.002]},
-        {**_camera("fish", [-0.3, 0.2, 4.2], [0, 0, 0]), "model": "fisheye", "K": [[40, 0, 47.5], [0, 40, 36.2], [0, 0, 1]],
-         "distortion": [0.02, -0.004, 0.0006, -5e-05]}]})
+        _without_view({**_camera("radial", [0.3, 0.2, 4.5], [0, 0, 0]), "K": K,
+                       "distortion": [-0.2, 0.05, 0.001, -0.002, 0.003, 0.01, 0.002, 0.001]}),
+        _without_view({**_camera("mild", [0.1, 0.2, 4.5], [0, 0, 0]), "K": K, "distortion": [-0.2, 0.05, 0.001, -0.002]}),
+        _without_view({**_camera("fish", [-0.3, 0.2, 4.2], [0, 0, 0]), "model": "fisheye", "K": [[40, 0, 47.5], [0, 40, 36.2], [0, 0, 1]],
+                       "distortion": [0.02, -0.004, 0.0006, -5e-05]})]})
 
 
 def street(folder, frames=2):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""COCO instances, read from the format's description: masks, boxes and average precision of the ground truth against itself."""
+"""COCO instances, keypoints and panoptic segments, read from the format's description: masks, boxes and average precision of the ground truth against itself."""
+import json
 import os
 
 import numpy as np
@@ -126,6 +127,96 @@ class Coco(datasets.ExportCase):
         other = os.path.join(self.dataset, "right.eye", "color", "000002.png")
         with open(other, "rb") as file:
             self.assertIn("check", self.planted(self.dataset, folder, "train/" + picture, lambda old, new=file.read(): new))
+
+    def test_licence_and_supercategories(self):
+        scene = load_json(datasets.walk(self.path("scene"), empty=False))
+        scene["dataset"] = {"name": "Walk", "license": "CC0-1.0", "licenseUrl": "https://example.org/cc0", "author": "Ä. B."}
+        scene["classes"] = {"wall": {"id": 7, "supercategory": "building", "thing": False}, "ring": 2, "block": {"id": 9, "supercategory": "toy"}}
+        document = self.instances(self.export(self.render(self.write("scene/named.json", json.dumps(scene))), "coco")[0])
+        self.assertEqual(document["info"]["contributor"], "Ä. B.")
+        self.assertEqual(document["licenses"], [{"id": 1, "name": "CC0-1.0", "url": "https://example.org/cc0"}])
+        self.assertEqual({image["license"] for image in document["images"]}, {1})
+        self.assertEqual([(c["id"], c["supercategory"]) for c in document["categories"]], [(2, ""), (7, "building"), (9, "toy")])
+
+
+class Keypoints(datasets.ExportCase):
+    CORNERS = {"low": [-0.5, -0.4, 0.3], "high": [0.5, 0.4, 0.3], "back": [-0.5, -0.4, -0.3]}
+
+    def test_points_are_projections(self):
+        scene = load_json(datasets.stereo(self.path("scene")))
+        scene["classes"] = {"wall": 1, "ring": 2, "block": {"id": 3, "keypoints": ["low", "high", "tail", "back"], "skeleton": [[1, 2], [2, 4]]}}
+        for one in scene["objects"][2:]:
+            one["keypoints"] = self.CORNERS
+        dataset = self.render(self.write("scene/pointed.json", json.dumps(scene)))
+        folder, record = self.export(dataset, "coco")
+        document = load_json(os.path.join(folder, "annotations", "person_keypoints_train.json"))
+        self.assertEqual([(c["name"], c["keypoints"], c["skeleton"]) for c in document["categories"]],
+                         [("block", ["low", "high", "tail", "back"], [[1, 2], [2, 4]])])
+        names = {entry["name"]: (entry["camera"], entry["frame"]) for entry in record["names"]}
+        images = {image["id"]: names["train/" + image["file_name"]] for image in document["images"]}
+        cameras = datasets.cameras_of(dataset)
+        poses = {(pose["frame"], pose["id"]): np.array(pose["matrix"]).reshape(3, 4) for pose in load_json(os.path.join(dataset, "poses.json"))["poses"]}
+        codes = set()
+        for one in document["annotations"]:
+            self.assertEqual(one["category_id"], 3)
+            camera = cameras[images[one["image_id"]]]
+            points = np.array(one["keypoints"]).reshape(4, 3)
+            self.assertEqual(points[2].tolist(), [0, 0, 0])
+            self.assertEqual(one["num_keypoints"], np.count_nonzero(points[:, 2]))
+            for (x, y, v), name in zip(points, ("low", "high", None, "back")):
+                codes.add(v)
+                if v:
+                    world = poses[images[one["image_id"]][1], one["object_id"]] @ [*self.CORNERS[name], 1]
+                    pixel = camera["K"] @ (camera["R"] @ world + camera["t"])
+                    self.assertLess(np.abs(pixel[:2] / pixel[2] - 0.5 - [x, y]).max(), 1e-9)
+        self.assertEqual(codes, {0, 1, 2})
+        said = self.planted(dataset, folder, "annotations/person_keypoints_train.json", lambda text: text.replace(b'"keypoints":[', b'"keypoints":[1', 1))
+        self.assertIn("layer keypoints", said)
+
+
+class Panoptic(datasets.ExportCase):
+    def test_every_pixel_has_its_segment(self):
+        """As pq_compute reads a set and compares it with itself: PQ is 1."""
+        dataset = self.render(datasets.stereo(self.path("scene")), "color,objects")
+        folder, record = self.export(dataset, "coco-panoptic", "--stuff", "wall,block")
+        document = load_json(os.path.join(folder, "annotations", "panoptic_train.json"))
+        things = {c["id"]: c["isthing"] for c in document["categories"]}
+        self.assertEqual([(c["name"], c["isthing"]) for c in document["categories"]], [("wall", 0), ("ring", 1), ("block", 0)])
+        names = {entry["name"]: (entry["camera"], entry["frame"]) for entry in record["names"]}
+        images = {image["id"]: names["train/" + image["file_name"]] for image in document["images"]}
+        classes = {o["id"]: o["class_id"] for o in load_json(os.path.join(dataset, "objects.json"))["objects"]}
+        self.assertEqual(len(document["annotations"]), 6)
+        for one in document["annotations"]:
+            colors = datasets.read_png(os.path.join(folder, "annotations", "panoptic_train", one["file_name"])).astype(int)
+            codes = colors[..., 0] + 256 * colors[..., 1] + 65536 * colors[..., 2]
+            segments = {segment["id"]: segment for segment in one["segments_info"]}
+            self.assertEqual(set(np.unique(codes)) - {0}, set(segments))
+            ids = datasets.layer_of(dataset, "objects", *images[one["image_id"]])
+            self.assertTrue(np.array_equal(codes == 0, ids == 0))
+            seen = [segment["category_id"] for segment in segments.values()]
+            self.assertEqual(len([c for c in seen if not things[c]]), len({c for c in seen if not things[c]}), "stuff is one segment")
+            for number, segment in segments.items():
+                rows, columns = np.nonzero(codes == number)
+                self.assertEqual(segment["area"], len(rows))
+                self.assertEqual(segment["bbox"], [columns.min(), rows.min(), np.ptp(columns) + 1, np.ptp(rows) + 1])
+                self.assertEqual({classes[i] for i in np.unique(ids[codes == number])}, {segment["category_id"]})
+        said = self.planted(dataset, folder, "annotations/panoptic_train.json", lambda text: text.replace(b'"area":', b'"area":1', 1))
+        self.assertIn("layer area", said)
+        other = os.path.join(folder, "annotations", "panoptic_train", "right_eye_000002.png")
+        with open(other, "rb") as file:
+            said = self.planted(dataset, folder, "annotations/panoptic_train/left_eye_000000.png", lambda old, new=file.read(): new)
+        self.assertIn("layer objects", said)
+
+    def test_things_of_the_dataset_and_refusals(self):
+        scene = load_json(datasets.walk(self.path("scene")))  # its last frame is empty
+        scene["classes"] = {"wall": {"id": 7, "thing": False, "color": [1, 2, 3]}, "ring": 2, "block": 9}
+        dataset = self.render(self.write("scene/named.json", json.dumps(scene)), "color,objects")
+        folder, _ = self.export(dataset, "coco-panoptic", "--split", "train=0:1,val=2:3")
+        document = load_json(os.path.join(folder, "annotations", "panoptic_val.json"))
+        self.assertEqual([c["isthing"] for c in document["categories"]], [1, 0, 1])
+        self.assertEqual(document["annotations"][1]["segments_info"], [])
+        self.refused("export", dataset, "--format", "coco-panoptic", "-o", self.path("no"), "--stuff", "wal", status=2, says=("stuff", "wall"))
+        self.assertFalse(os.path.exists(self.path("no")))
 
 
 if __name__ == "__main__":

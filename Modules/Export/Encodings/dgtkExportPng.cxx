@@ -159,7 +159,7 @@ void writeCodedPng(ExportSink& sink, const DatasetView& dataset, const DatasetSh
 
 namespace
 {
-PixelEncoding encodingOfIds(const std::map<std::uint32_t, std::uint32_t>& codes, bool color)
+PixelEncoding encodingOfIds(const std::map<std::uint32_t, std::uint32_t>& codes, IdBytes bytes)
 {
   PixelEncoding encoding{ "ids", { { "nothing", { 0 } } } };
   std::vector<double>& pairs = encoding.numbers["codes"];
@@ -167,7 +167,7 @@ PixelEncoding encodingOfIds(const std::map<std::uint32_t, std::uint32_t>& codes,
   {
     pairs.insert(pairs.end(), { double(id), double(code) });
   }
-  if (color)
+  if (bytes == IdBytes::RedHigh)
   {
     encoding.numbers["high_first"] = { 1 };
   }
@@ -176,15 +176,15 @@ PixelEncoding encodingOfIds(const std::map<std::uint32_t, std::uint32_t>& codes,
 } // namespace
 
 void writeIdPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
-  const std::string& name, const std::map<std::uint32_t, std::uint32_t>& codes, bool color)
+  const std::string& name, const std::map<std::uint32_t, std::uint32_t>& codes, IdBytes bytes)
 {
   const std::unique_ptr<RowReader> reader = dataset.open(shot, layer);
   PngEncoder::Header header;
   header.width = reader->info().width;
   header.height = reader->info().height;
-  header.channels = color ? 3 : 1;
+  header.channels = bytes == IdBytes::Gray ? 1 : 3;
   header.prediction = PngPrediction::Labels;
-  writePng(sink, name, { layer, &shot, encodingOfIds(codes, color) }, header,
+  writePng(sink, name, { layer, &shot, encodingOfIds(codes, bytes) }, header,
     [&](int y, unsigned char* row)
     {
       const Rows rows = reader->read(1);
@@ -194,7 +194,8 @@ void writeIdPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot&
         const std::uint32_t code = found == codes.end() ? 0 : found->second;
         for (int c = 0; c < header.channels; ++c)
         {
-          *row++ = static_cast<unsigned char>(code >> (8 * (header.channels - 1 - c)));
+          const int place = bytes == IdBytes::RedLow ? c : header.channels - 1 - c;
+          *row++ = static_cast<unsigned char>(code >> (8 * place));
         }
       }
     });

@@ -88,10 +88,16 @@ private:
 void writeCodedPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
   const std::string& name, const LinearCode& code, const OptionValues& options, const WantedClasses& classes = {});
 
-/// A code for each id or class of a layer as gray PNG of 8 bits, or 24 bits as R, G, B with R highest; ids without one
-/// are 0.
+/// How a code stands in a PNG: 8 bits, or 24 bits as R, G, B.
+enum class IdBytes
+{
+  Gray,
+  RedHigh,
+  RedLow
+};
+/// A code for each id or class of a layer; ids without one are 0.
 void writeIdPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
-  const std::string& name, const std::map<std::uint32_t, std::uint32_t>& codes, bool color);
+  const std::string& name, const std::map<std::uint32_t, std::uint32_t>& codes, IdBytes bytes = IdBytes::Gray);
 
 } // namespace dgtk
 

@@ -30,10 +30,15 @@ std::int64_t annotationIdOf(const DatasetView& dataset, const DatasetShot& shot,
   return static_cast<std::int64_t>(shot.index) * largest + object;
 }
 
-std::string imageText(const DatasetShot& shot, const std::string& file)
+std::string imageText(const DatasetView& dataset, const DatasetShot& shot, const std::string& file)
 {
-  return textOf({ { "id", imageIdOf(shot) }, { "file_name", file }, { "width", shot.camera.width },
-    { "height", shot.camera.height }, { "camera", utf8FromBytes(shot.name()) }, { "frame", shot.frame() } });
+  Json image{ { "id", imageIdOf(shot) }, { "file_name", file }, { "width", shot.camera.width },
+    { "height", shot.camera.height }, { "camera", utf8FromBytes(shot.name()) }, { "frame", shot.frame() } };
+  if (dataset.manifest().info.count("license") > 0)
+  {
+    image["license"] = 1;
+  }
+  return textOf(image);
 }
 
 Json boxOf(const RunLengths& mask)
@@ -56,7 +61,8 @@ Json categoriesOf(const DatasetView& dataset)
   Json categories = Json::array();
   for (const ClassRecord& one : dataset.classes())
   {
-    categories.push_back({ { "id", one.id }, { "name", utf8FromBytes(one.name) }, { "supercategory", "" } });
+    categories.push_back(
+      { { "id", one.id }, { "name", utf8FromBytes(one.name) }, { "supercategory", utf8FromBytes(one.supercategory) } });
   }
   return categories;
 }
@@ -77,24 +83,52 @@ void writeList(ExportFile& file, ExportSink& sink, const char* key, const std::s
 }
 } // namespace
 
-ExportItem document(const DatasetView& dataset, const std::string& name, const std::string& split,
-  const std::map<std::uint32_t, Json>& more)
+namespace
 {
-  return { { name }, [&dataset, name, split, more](ExportSink& sink)
+/// What the dataset says of itself, in COCO's words.
+Json infoOf(const DatasetView& dataset)
+{
+  Json info = Json::object();
+  const std::map<std::string, std::string>& known = dataset.manifest().info;
+  for (const auto& [key, name] : std::initializer_list<std::pair<const char*, const char*>>{
+         { "description", "description" }, { "version", "version" }, { "author", "contributor" }, { "url", "url" },
+         { "name", "name" }, { "citation", "citation" } })
+  {
+    const auto found = known.find(key);
+    if (found != known.end())
     {
-      Json categories = categoriesOf(dataset);
-      for (Json& category : categories)
-      {
-        const auto found = more.find(category["id"].get<std::uint32_t>());
-        if (found != more.end())
-        {
-          category.update(found->second);
-        }
-      }
+      info[name] = utf8FromBytes(found->second);
+    }
+  }
+  info["made_by"] = "DGTk";
+  return info;
+}
+
+Json licensesOf(const DatasetView& dataset)
+{
+  const std::map<std::string, std::string>& known = dataset.manifest().info;
+  const auto name = known.find("license");
+  const auto url = known.find("licenseUrl");
+  Json licenses = Json::array();
+  if (name != known.end())
+  {
+    licenses.push_back({ { "id", 1 }, { "name", utf8FromBytes(name->second) },
+      { "url", url == known.end() ? std::string() : utf8FromBytes(url->second) } });
+  }
+  return licenses;
+}
+} // namespace
+
+ExportItem document(const DatasetView& dataset, const std::string& name, const std::string& split,
+  const std::string& annotations, const Json& categories)
+{
+  return { { name }, [&dataset, name, split, annotations, categories](ExportSink& sink)
+    {
       const std::unique_ptr<ExportFile> file = sink.open(name);
-      file->write("{\n  \"info\": " + textOf({ { "description", "made by DGTk" } }) + ",\n  \"licenses\": [],\n");
+      file->write(
+        "{\n  \"info\": " + textOf(infoOf(dataset)) + ",\n  \"licenses\": " + textOf(licensesOf(dataset)) + ",\n");
       writeList(*file, sink, "images", "images:" + split);
-      writeList(*file, sink, "annotations", "annotations:" + split);
+      writeList(*file, sink, "annotations", annotations + ':' + split);
       file->write("  \"categories\": " + textOf(categories) + "\n}\n");
       file->finish();
     } };

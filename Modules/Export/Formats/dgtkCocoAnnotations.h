@@ -2,7 +2,7 @@
 #ifndef dgtkCocoAnnotations_h
 #define dgtkCocoAnnotations_h
 
-// Private to Export: what COCO's instances and panoptic share.
+// Private to Export: what COCO's instances, keypoints and panoptic share.
 
 #include "dgtkExporter.h"
 #include "dgtkRunLengths.h"
@@ -24,16 +24,17 @@ std::string pictureName(const DatasetShot& shot, SafeNames& names, const std::st
 /// Numbers of images and annotations count from 1: COCOeval takes 0 for none.
 std::int64_t imageIdOf(const DatasetShot& shot);
 std::int64_t annotationIdOf(const DatasetView& dataset, const DatasetShot& shot, std::uint32_t object);
-std::string imageText(const DatasetShot& shot, const std::string& file);
+std::string imageText(const DatasetView& dataset, const DatasetShot& shot, const std::string& file);
 /// [x, y, width, height]
 Json boxOf(const RunLengths& mask);
 /// Everything but the segmentation.
 Json annotationOf(const DatasetView& dataset, const DatasetShot& shot, std::uint32_t object, const RunLengths& visible);
+/// id, name, supercategory of every class.
 Json categoriesOf(const DatasetView& dataset);
 /// The document of a split: info, licenses, the images of notes "images:SPLIT", the annotations of
-/// "annotations:SPLIT", categories (with `things` more keys where it is not empty, by number).
+/// "`annotations`:SPLIT", these categories.
 ExportItem document(const DatasetView& dataset, const std::string& name, const std::string& split,
-  const std::map<std::uint32_t, Json>& more = {});
+  const std::string& annotations, const Json& categories);
 
 } // namespace dgtk::coco
 

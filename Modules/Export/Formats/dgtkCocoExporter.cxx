@@ -26,6 +26,52 @@ Json segmentationOf(const RunLengths& mask, bool polygons)
   return loops.empty() ? Json{ { "size", { mask.height, mask.width } }, { "counts", mask.compressed() } } : Json(loops);
 }
 
+/// A class with keypoints.
+const ClassRecord* pointedClass(const DatasetView& dataset, std::uint32_t id)
+{
+  const auto found = std::find_if(dataset.classes().begin(), dataset.classes().end(),
+    [id](const ClassRecord& one) { return one.id == id && !one.keypoints.empty(); });
+  return found == dataset.classes().end() ? nullptr : &*found;
+}
+
+/// The classes that have keypoints, as COCO's categories.
+Json pointedCategories(const DatasetView& dataset)
+{
+  Json categories = Json::array();
+  for (Json& category : coco::categoriesOf(dataset))
+  {
+    if (const ClassRecord* one = pointedClass(dataset, category["id"].get<std::uint32_t>()))
+    {
+      category["keypoints"] = one->keypoints;
+      category["skeleton"] = one->skeleton;
+      categories.push_back(category);
+    }
+  }
+  return categories;
+}
+
+/// x, y, v of every keypoint of the class: v is 2 for visible, 1 for hidden; 0, 0, 0 for what is not in the image.
+void addKeypoints(Json& annotation, const BoxRecord& box, const ClassRecord& one)
+{
+  Json numbers = Json::array();
+  int labelled = 0;
+  for (const std::string& name : one.keypoints)
+  {
+    const auto found = std::find_if(
+      box.keypoints.begin(), box.keypoints.end(), [&](const KeypointRecord& point) { return point.name == name; });
+    const int seen = found == box.keypoints.end() ? 0 : found->visibility;
+    const int code = seen == 1 ? 2 : seen == 2 || seen == 3 ? 1 : 0;
+    const bool there = code > 0 && found->pixel;
+    constexpr double half = 0.5; // COCO's keypoints are whole numbers at pixel centres
+    numbers.push_back(there ? found->pixel->x() - half : 0);
+    numbers.push_back(there ? found->pixel->y() - half : 0);
+    numbers.push_back(there ? code : 0);
+    labelled += there;
+  }
+  annotation["keypoints"] = numbers;
+  annotation["num_keypoints"] = labelled;
+}
+
 class CocoExporter : public Exporter
 {
 public:
@@ -52,7 +98,14 @@ public:
           plan.names.push_back({ shot.name(), shot.frame(), plan.items.back().files[0] });
         }
       }
-      plan.documents.push_back(coco::document(dataset, "annotations/instances_" + split.name + ".json", split.name));
+      plan.documents.push_back(coco::document(dataset, "annotations/instances_" + split.name + ".json", split.name,
+        "annotations", coco::categoriesOf(dataset)));
+      const Json pointed = pointedCategories(dataset);
+      if (!pointed.empty())
+      {
+        plan.documents.push_back(coco::document(
+          dataset, "annotations/person_keypoints_" + split.name + ".json", split.name, "keypoints", pointed));
+      }
     }
     return plan;
   }
@@ -66,19 +119,16 @@ private:
     return { { path }, [&dataset, &shot, split, file, path, options](ExportSink& sink)
       {
         writePicture(sink, dataset, shot, exported::color().of(options), path, options);
-        sink.note("images:" + split, coco::imageText(shot, file));
-        for (const Json& annotation : annotationsOf(dataset, shot, masks().of(options) == "polygon"))
-        {
-          sink.note("annotations:" + split, coco::textOf(annotation));
-        }
+        sink.note("images:" + split, coco::imageText(dataset, shot, file));
+        noteAnnotations(sink, dataset, shot, split, masks().of(options) == "polygon");
       } };
   }
 
-  static std::vector<Json> annotationsOf(const DatasetView& dataset, const DatasetShot& shot, bool polygons)
+  static void noteAnnotations(
+    ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& split, bool polygons)
   {
     const std::map<std::uint32_t, RunLengths> visible = masksOf(dataset.read(shot, "objects").pixels);
     const AmodalMasks whole = dataset.amodal(shot);
-    std::vector<Json> annotations;
     for (const BoxRecord& box : dataset.boxes(shot))
     {
       const auto mask = visible.find(box.id);
@@ -94,9 +144,13 @@ private:
       annotation["amodal_segmentation"] = segmentationOf(all, false);
       annotation["amodal_bbox"] = coco::boxOf(all);
       annotation["visible_fraction"] = double(box.pixelsVisible) / double(box.pixelsAmodal);
-      annotations.push_back(annotation);
+      sink.note("annotations:" + split, coco::textOf(annotation));
+      if (const ClassRecord* one = pointedClass(dataset, annotation["category_id"].get<std::uint32_t>()))
+      {
+        addKeypoints(annotation, box, *one);
+        sink.note("keypoints:" + split, coco::textOf(annotation));
+      }
     }
-    return annotations;
   }
 };
 } // namespace

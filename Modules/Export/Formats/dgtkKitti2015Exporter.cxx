@@ -185,7 +185,7 @@ private:
         { { "flow_forward", seenClasses() } }, options);
       kitti::writeFlow(sink, dataset, *one.left, "flow_forward", path("flow_occ", "_10.png"),
         { { "flow_forward", placedClasses() } }, options);
-      writeIdPng(sink, dataset, *one.left, "objects", path("obj_map", "_10.png"), objectCodes(dataset, options), false);
+      writeIdPng(sink, dataset, *one.left, "objects", path("obj_map", "_10.png"), objectCodes(dataset, options));
       sink.write("training/calib_cam_to_cam/" + number + ".txt",
         kitti::camToCam(one.left->camera, &one.right->camera, baselineMetres(dataset, *one.left, *one.right)),
         { "", one.left, {} });

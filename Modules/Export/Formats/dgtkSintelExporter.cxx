@@ -169,7 +169,7 @@ private:
     {
       ids[object.id] = object.id;
     }
-    writeIdPng(sink, dataset, *one.left, "objects", path("segmentation", one, ".png"), ids, true);
+    writeIdPng(sink, dataset, *one.left, "objects", path("segmentation", one, ".png"), ids, IdBytes::RedHigh);
   }
 
   static void writeFlow(ExportSink& sink, const DatasetView& dataset, const Frame& one, bool occluded)
@@ -180,11 +180,11 @@ private:
     flow.nothing = 1e10F;
     flow.unit = "px";
     writeFloatLayer(sink, dataset, *one.left, "flow_forward", path("flow", one, ".flo"), flow);
-    writeIdPng(sink, dataset, *one.left, "flow_forward_class", path("invalid", one, ".png"), { { 0, 255 } }, false);
+    writeIdPng(sink, dataset, *one.left, "flow_forward_class", path("invalid", one, ".png"), { { 0, 255 } });
     if (occluded)
     {
       writeIdPng(sink, dataset, *one.left, "flow_forward_class", path("occlusions", one, ".png"),
-        { { 2, 255 }, { 3, 255 }, { 4, 255 }, { 5, 255 } }, false);
+        { { 2, 255 }, { 3, 255 }, { 4, 255 }, { 5, 255 } });
     }
   }
 
@@ -195,11 +195,11 @@ private:
     writePicture(sink, dataset, *one.left, color, path("final_left", one, ".png"), options);
     writePicture(sink, dataset, *one.right, color, path("final_right", one, ".png"), options);
     sintel::writeDisparity(sink, dataset, *one.left, path("disparities", one, ".png"), options);
-    writeIdPng(sink, dataset, *one.left, "disparity_class", path("outofframe", one, ".png"), { { 4, 255 } }, false);
+    writeIdPng(sink, dataset, *one.left, "disparity_class", path("outofframe", one, ".png"), { { 4, 255 } });
     if (occluded)
     {
-      writeIdPng(sink, dataset, *one.left, "disparity_class", path("occlusions", one, ".png"),
-        { { 2, 255 }, { 3, 255 } }, false);
+      writeIdPng(
+        sink, dataset, *one.left, "disparity_class", path("occlusions", one, ".png"), { { 2, 255 }, { 3, 255 } });
     }
   }
 };

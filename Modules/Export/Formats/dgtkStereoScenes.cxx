@@ -117,7 +117,7 @@ ExportItem itemOf(
       writeFloatLayer(sink, dataset, *scene.right, "disparity", truth + layout.rightMap, form);
     }
     writeIdPng(sink, dataset, *scene.left, "disparity_class", truth + "mask0nocc.png",
-      { { 1, 255 }, { 2, 128 }, { 3, 128 }, { 4, 128 } }, false);
+      { { 1, 255 }, { 2, 128 }, { 3, 128 }, { 4, 128 } });
   };
   return item;
 }

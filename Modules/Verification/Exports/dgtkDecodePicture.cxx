@@ -22,7 +22,7 @@ void ignore(j_common_ptr, int) {}
 
 } // namespace
 
-DecodedPixels decodeJpeg(const std::string& bytes, const std::string& path)
+DecodedPixels decodeJpeg(const std::string& path, const std::string& bytes)
 {
   jpeg_error_mgr errors = {};
   jpeg_decompress_struct decoder = {};
@@ -63,7 +63,7 @@ DecodedPixels decodePicture(const std::string& path)
   const std::string extension = extensionOf(path);
   if (extension == "jpg" || extension == "jpeg")
   {
-    return decodeJpeg(readFile(path), path);
+    return decodeJpeg(path, readFile(path));
   }
   DecodedPixels pixels = decodePng(path, {});
   if (readLayerFile(path).info.type == PixelType::UInt16)

@@ -67,7 +67,9 @@ constexpr Decoder decoders[] = {
   { "linear", &decodeLinear },
   { "float", &decodeFloat },
   { "dpt", &decodeDpt },
+  { "colmap", &decodeColmap },
   { "flow-pfm", &decodeFlowPfm },
+  { "hdf5", &decodeHdf5 },
   { "kitti-flow", &decodeKittiFlow },
   { "sintel-disparity", &decodeSintelDisparity },
 };
@@ -150,6 +152,33 @@ void judgePicture(const Comparison& one, Meter& meter)
     });
 }
 
+/// The transfer function of IEC 61966-2-1, of 0 to 1.
+double lightOf(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
+double codeOf(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
+
+/// Pixels that are the mean light of four of the layer's.
+void judgeHalfPicture(const Comparison& one, Meter& meter)
+{
+  const DecodedPixels found = decodePicture(one.path());
+  const PicturePointer expected = one.layer({ "png" });
+  one.requireSize(2 * found.width, 2 * found.height);
+  meter.Tolerance = numberOf(one.encoding(), "rounding", 0) + 1e-6; // a tie may be taken either way
+  forPixels(found.width, found.height,
+    [&](int x, int y)
+    {
+      for (int c = 0; c < std::min(found.channels, expected->channels()); ++c)
+      {
+        double light = 0;
+        for (int k = 0; k < 4; ++k)
+        {
+          light += lightOf(expected->at(2 * x + k % 2, 2 * y + k / 2, c) / 255) / 4;
+        }
+        const double want = 255 * codeOf(light);
+        meter.add(found.at(x, y, c) - want, [&] { return offenderAt(one, x, y, found.at(x, y, c), want); });
+      }
+    });
+}
+
 /// Not zero where the layer `objects` has one of the ids.
 void judgeMask(const Comparison& one, Meter& meter)
 {
@@ -209,6 +238,11 @@ public:
     const DatasetFile& file = one.file();
     for (const auto& [key, wanted] : one.encoding().numbers)
     {
+      if (key == "left_out")
+      {
+        this->Objects = one.source.picture(file.camera, file.frame, "objects");
+        this->LeftOut = wanted;
+      }
       if (key.rfind("classes", 0) == 0)
       {
         const std::string layer = key == "classes" ? file.layer : key.substr(std::string("classes_of_").size());
@@ -225,6 +259,11 @@ public:
         return nothing;
       }
     }
+    if (this->Objects &&
+        std::find(this->LeftOut.begin(), this->LeftOut.end(), double(this->Objects->id(x, y))) != this->LeftOut.end())
+    {
+      return nothing;
+    }
     const double value = this->Layer->at(x, y, c);
     return std::isfinite(value) ? value * this->Factors[std::size_t(c) % this->Factors.size()] : nothing;
   }
@@ -240,6 +279,8 @@ private:
   PicturePointer Layer;
   std::vector<std::pair<PicturePointer, std::vector<double>>> Classes;
   std::vector<double> Factors;
+  PicturePointer Objects; ///< where some are left out
+  std::vector<double> LeftOut;
 };
 
 /// Whether the format has a code for a value.
@@ -307,6 +348,7 @@ struct Judge
 constexpr Judge judges[] = {
   { "copy", &judgeCopy, "" },
   { "picture", &judgePicture, "levels" },
+  { "half-picture", &judgeHalfPicture, "levels" },
   { "mask", &judgeMask, "" },
   { "ids", &judgeIds, "" },
   { "disparity-change", &judgeChange, "px" },

@@ -39,11 +39,13 @@ DecodedPixels decodePng(const std::string& path, const PixelEncoding& encoding);
 DecodedPixels decodeKittiFlow(const std::string& path, const PixelEncoding& encoding);
 DecodedPixels decodeSintelDisparity(const std::string& path, const PixelEncoding& encoding);
 DecodedPixels decodeDpt(const std::string& path, const PixelEncoding& encoding);
+DecodedPixels decodeHdf5(const std::string& path, const PixelEncoding& encoding);
+DecodedPixels decodeColmap(const std::string& path, const PixelEncoding& encoding);
 DecodedPixels decodeFlowPfm(const std::string& path, const PixelEncoding& encoding);
 /// A JPEG or PNG picture as levels of 8 bits.
 DecodedPixels decodePicture(const std::string& path);
-/// A JPEG picture's bytes likewise; `path` is named where they are damaged.
-DecodedPixels decodeJpeg(const std::string& bytes, const std::string& path);
+/// The bytes of a JPEG picture; `path` stands in errors.
+DecodedPixels decodeJpeg(const std::string& path, const std::string& bytes);
 
 } // namespace dgtk
 

@@ -13,18 +13,27 @@
 namespace dgtk
 {
 
+void readBop(ExportJudge& judge);
 void readCoco(ExportJudge& judge);
+void readCocoPanoptic(ExportJudge& judge);
+void readColmap(ExportJudge& judge);
+void readColmapDense(ExportJudge& judge);
 void readKitti2015(ExportJudge& judge);
 void readKittiDepth(ExportJudge& judge);
 void readKittiObject(ExportJudge& judge);
 void readKittiOdometry(ExportJudge& judge);
 void readStereo(ExportJudge& judge);
 void readSintel(ExportJudge& judge);
+void readTransforms(ExportJudge& judge);
 void readTum(ExportJudge& judge);
 void readFlyingThings(ExportJudge& judge);
+void readWebdataset(ExportJudge& judge);
+void readImagefolder(ExportJudge& judge);
 void readRosbag(ExportJudge& judge);
 void readMcap(ExportJudge& judge);
 void readGltf(ExportJudge& judge);
+void readHdf5Frames(ExportJudge& judge);
+void readSpring(ExportJudge& judge);
 
 namespace
 {
@@ -35,7 +44,11 @@ struct Reader
 };
 /// Each is dgtkRead<Name>.cxx.
 constexpr Reader readers[] = {
+  { "bop", &readBop },
   { "coco", &readCoco },
+  { "coco-panoptic", &readCocoPanoptic },
+  { "colmap", &readColmap },
+  { "colmap-dense", &readColmapDense },
   { "kitti2015", &readKitti2015 },
   { "kitti-depth", &readKittiDepth },
   { "kitti-object", &readKittiObject },
@@ -43,11 +56,16 @@ constexpr Reader readers[] = {
   { "middlebury", &readStereo },
   { "eth3d", &readStereo },
   { "sintel", &readSintel },
+  { "transforms", &readTransforms },
   { "tum", &readTum },
   { "flyingthings", &readFlyingThings },
+  { "webdataset", &readWebdataset },
+  { "imagefolder", &readImagefolder },
   { "rosbag", &readRosbag },
   { "mcap", &readMcap },
   { "gltf", &readGltf },
+  { "hdf5", &readHdf5Frames },
+  { "spring", &readSpring },
 };
 
 /// Files that export.json lists are there and as it says, and there are no others.

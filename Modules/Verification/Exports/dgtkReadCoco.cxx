@@ -135,12 +135,61 @@ void readAnnotation(ExportJudge& judge, const std::string& file, const Json& one
   ++image.annotations;
 }
 
-void readInstances(ExportJudge& judge, const std::string& file)
+/// x, y, v of the keypoints that a category names; pixels' centres are whole numbers.
+void readKeypoints(
+  ExportJudge& judge, const std::string& file, const Json& categories, const Json& one, const Image& image)
+{
+  const auto object = one.at("object_id").get<std::uint32_t>();
+  const std::vector<BoxRecord>& boxes = judge.source().boxes(image.camera, image.frame);
+  const auto box = std::find_if(boxes.begin(), boxes.end(), [&](const BoxRecord& each) { return each.id == object; });
+  const auto category = std::find_if(
+    categories.begin(), categories.end(), [&](const Json& each) { return each.at("id") == one.at("category_id"); });
+  const std::string where = "annotation " + one.at("id").dump();
+  judge.holds("keypoints", file, where, category != categories.end() && box != boxes.end(), "no category", "one");
+  if (category == categories.end() || box == boxes.end())
+  {
+    return;
+  }
+  int labelled = 0;
+  const std::vector<std::string> names = category->at("keypoints");
+  const std::vector<double> numbers = one.at("keypoints");
+  judge.number("keypoints", "px", file, where, double(numbers.size()), double(3 * names.size()), 0);
+  for (std::size_t i = 0; i < names.size() && numbers.size() == 3 * names.size(); ++i)
+  {
+    const double v = numbers[3 * i + 2];
+    labelled += v > 0;
+    const auto own = std::find_if(box->keypoints.begin(), box->keypoints.end(),
+      [&](const KeypointRecord& point) { return point.name == names[i]; });
+    const int seen = own == box->keypoints.end() ? 0 : own->visibility;
+    const std::string what = where + ", " + names[i];
+    judge.number("keypoints", "px", file, what, v, seen == 1 ? 2 : seen == 2 || seen == 3 ? 1 : 0, 0);
+    const bool there = v > 0 && own != box->keypoints.end() && own->pixel;
+    judge.number("keypoints", "px", file, what, numbers[3 * i], there ? own->pixel->x() - 0.5 : 0, 0);
+    judge.number("keypoints", "px", file, what, numbers[3 * i + 1], there ? own->pixel->y() - 0.5 : 0, 0);
+  }
+  judge.number("keypoints", "px", file, where, one.at("num_keypoints"), labelled, 0);
+}
+
+std::uint64_t pointedObjects(const ExportedFrom& source, const Image& image, const Json& categories)
+{
+  const std::vector<BoxRecord>& boxes = source.boxes(image.camera, image.frame);
+  return static_cast<std::uint64_t>(std::count_if(boxes.begin(), boxes.end(),
+    [&](const BoxRecord& box)
+    {
+      const ObjectRecord* object = source.object(box.id);
+      return box.visible && object &&
+             std::any_of(
+               categories.begin(), categories.end(), [&](const Json& one) { return one.at("id") == object->classId; });
+    }));
+}
+
+void readInstances(ExportJudge& judge, const std::string& file, const std::string& kind)
 {
   const std::string path = judge.source().path(file);
   const Json document = readJsonFile(path);
   const std::size_t slash = file.rfind('/') + 1;
-  const std::string split = file.substr(slash + 10, file.size() - slash - 15); // instances_SPLIT.json
+  const std::string split = file.substr(slash + kind.size(), file.size() - slash - kind.size() - 5); // KINDSPLIT.json
+  const bool pointed = kind == "person_keypoints_";
   useJson(path,
     [&]
     {
@@ -159,12 +208,20 @@ void readInstances(ExportJudge& judge, const std::string& file)
         const auto id = one.at("id").get<std::int64_t>();
         judge.holds(
           "ids", file, "annotation", id > 0 && ids.insert(id).second, one.at("id").dump(), "each once, from 1");
-        readAnnotation(judge, file, one, images.at(one.at("image_id")));
+        Image& image = images.at(one.at("image_id"));
+        readAnnotation(judge, file, one, image);
+        if (pointed)
+        {
+          readKeypoints(judge, file, document.at("categories"), one, image);
+        }
       }
       for (const auto& [id, image] : images)
       {
         judge.number("annotations", "objects", file, image.camera + " at frame " + std::to_string(image.frame),
-          double(image.annotations), double(visibleObjects(judge.source(), image)), 0);
+          double(image.annotations),
+          double(pointed ? pointedObjects(judge.source(), image, document.at("categories"))
+                         : visibleObjects(judge.source(), image)),
+          0);
       }
     });
 }
@@ -174,9 +231,12 @@ void readCoco(ExportJudge& judge)
 {
   for (const ExportedFile& one : judge.source().record().files)
   {
-    if (one.file.path.rfind("annotations/instances_", 0) == 0)
+    for (const char* kind : { "instances_", "person_keypoints_" })
     {
-      readInstances(judge, one.file.path);
+      if (one.file.path.rfind(std::string("annotations/") + kind, 0) == 0)
+      {
+        readInstances(judge, one.file.path, kind);
+      }
     }
   }
 }

@@ -299,7 +299,7 @@ void RosReferee::picture(RosBytes& bytes, const ExportedName& name)
     return;
   }
   this->holds(where, format == "jpeg", format, "jpeg");
-  const DecodedPixels found = decodeJpeg(data, this->File);
+  const DecodedPixels found = decodeJpeg(this->File, data);
   const PicturePointer expected = source.picture(name.camera, name.frame, this->Color, { "png" });
   this->Judge.size(this->File, name.camera, name.frame, found.width, found.height);
   double largest = 0;

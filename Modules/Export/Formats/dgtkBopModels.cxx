@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkBopModels.h"
+
+#include "dgtkError.h"
+#include "dgtkExportChecks.h"
+#include "dgtkModelPly.h"
+#include "dgtkText.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <utility>
+
+namespace dgtk::bop
+{
+
+namespace
+{
+constexpr double millimetres = 1000; ///< of a metre
+constexpr double sameScale = 1e-9;
+
+[[noreturn]] void refuse(const ObjectRecord& object, const std::string& what)
+{
+  throw UsageError(
+    "bop: object " + quoted(object.name) + ' ' + what + ", which a rigid model cannot say; leave it out with objects");
+}
+
+/// The one scale of an object at all frames.
+Eigen::Vector3d scaleOf(const DatasetView& dataset, const ObjectRecord& object)
+{
+  Eigen::Vector3d scale(0, 0, 0);
+  for (const int frame : dataset.frames())
+  {
+    for (const PoseRecord& pose : dataset.poses(frame))
+    {
+      if (pose.id != object.id)
+      {
+        continue;
+      }
+      if (!pose.rigid)
+      {
+        refuse(object, "is sheared");
+      }
+      if (pose.scale.minCoeff() <= 0)
+      {
+        refuse(object, "is mirrored");
+      }
+      if (!scale.isZero(0) && (pose.scale - scale).norm() > sameScale * scale.norm())
+      {
+        refuse(object, "changes its size");
+      }
+      scale = scale.isZero(0) ? pose.scale : scale;
+    }
+  }
+  if (scale.isZero(0))
+  {
+    throw UsageError("bop: the dataset does not say where objects are (poses.json); render it again");
+  }
+  return scale;
+}
+
+Eigen::Vector3d scaled(const std::array<double, 3>& x, const Eigen::Vector3d& scale)
+{
+  return scale.cwiseProduct(Eigen::Vector3d(x[0], x[1], x[2]));
+}
+
+/// A group of points in a tree.
+struct Node
+{
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  Eigen::Vector3d least{ 0, 0, 0 };
+  Eigen::Vector3d most{ 0, 0, 0 };
+};
+
+Node nodeOf(const std::vector<Eigen::Vector3d>& points, std::size_t begin, std::size_t end)
+{
+  Node node{ begin, end, points[begin], points[begin] };
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    node.least = node.least.cwiseMin(points[i]);
+    node.most = node.most.cwiseMax(points[i]);
+  }
+  return node;
+}
+
+/// Both halves of a group, which are made when they are asked for.
+std::pair<Node, Node> halves(std::vector<Eigen::Vector3d>& points, const Node& node)
+{
+  Eigen::Index axis = 0;
+  (node.most - node.least).maxCoeff(&axis);
+  const std::size_t middle = node.begin + (node.end - node.begin) / 2;
+  const auto at = [&](std::size_t i) { return points.begin() + std::ptrdiff_t(i); };
+  std::nth_element(at(node.begin), at(middle), at(node.end),
+    [axis](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a[axis] < b[axis]; });
+  return { nodeOf(points, node.begin, middle), nodeOf(points, middle, node.end) };
+}
+
+/// Groups as a binary tree: the children of i are 2 i + 1 and 2 i + 2.
+std::vector<Node> treeOf(std::vector<Eigen::Vector3d>& points)
+{
+  constexpr std::size_t few = 16;
+  std::vector<Node> tree{ nodeOf(points, 0, points.size()) };
+  for (std::size_t i = 0; 2 * i + 1 < 2 * points.size() / few + 1; ++i)
+  {
+    if (i < tree.size() && tree[i].end - tree[i].begin > few)
+    {
+      const auto [first, second] = halves(points, tree[i]);
+      tree.resize(std::max(tree.size(), 2 * i + 3));
+      tree[2 * i + 1] = first;
+      tree[2 * i + 2] = second;
+    }
+  }
+  return tree;
+}
+
+/// No point of one group is farther from one of the other.
+double bound(const Node& a, const Node& b)
+{
+  return (a.most - b.least).cwiseAbs().cwiseMax((b.most - a.least).cwiseAbs()).norm();
+}
+
+std::string modelName(const Model& model) { return "obj_" + padded(model.id, 6); }
+
+/// The picture of a model that has one alone.
+std::string pictureOf(const ModelPly& model)
+{
+  return model.pictures.size() == 1 && !model.uvs.empty() ? model.pictures.front() : "";
+}
+
+std::string plyText(const ModelPly& ply, const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& scale,
+  const std::string& picture)
+{
+  std::string text = "ply\nformat ascii 1.0\n";
+  text += picture.empty() ? "" : "comment TextureFile " + picture + '\n';
+  text += "element vertex " + std::to_string(points.size()) + '\n';
+  for (const char* name : { "x", "y", "z", "nx", "ny", "nz" })
+  {
+    text += std::string("property double ") + name + '\n';
+  }
+  if (!picture.empty())
+  {
+    text += "property double texture_u\nproperty double texture_v\n";
+  }
+  text += "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face " +
+          std::to_string(ply.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const std::array<float, 3>& n = ply.normals[i];
+    const Eigen::Vector3d normal =
+      Eigen::Vector3d(double(n[0]), double(n[1]), double(n[2])).cwiseQuotient(scale).stableNormalized();
+    std::vector<double> numbers{ points[i][0], points[i][1], points[i][2], normal[0], normal[1], normal[2] };
+    if (!picture.empty())
+    {
+      numbers.insert(numbers.end(), ply.uvs[i].begin(), ply.uvs[i].end());
+    }
+    numbers.insert(numbers.end(), ply.colors[i].begin(), ply.colors[i].end());
+    text += numbersLine(numbers) + '\n';
+  }
+  for (const auto& triangle : ply.triangles)
+  {
+    text +=
+      "3 " + std::to_string(triangle[0]) + ' ' + std::to_string(triangle[1]) + ' ' + std::to_string(triangle[2]) + '\n';
+  }
+  return text;
+}
+} // namespace
+
+double diameterOf(const std::vector<Eigen::Vector3d>& points)
+{
+  if (points.empty())
+  {
+    return 0;
+  }
+  std::vector<Eigen::Vector3d> sorted = points;
+  const std::vector<Node> tree = treeOf(sorted);
+  const auto isLeaf = [&](std::size_t i) { return 2 * i + 2 >= tree.size() || tree[2 * i + 1].end == 0; };
+  using Pair = std::pair<double, std::pair<std::size_t, std::size_t>>;
+  std::priority_queue<Pair> pairs;
+  const auto push = [&](std::size_t a, std::size_t b) { pairs.push({ bound(tree[a], tree[b]), { a, b } }); };
+  push(0, 0);
+  double best = 0;
+  while (!pairs.empty() && pairs.top().first > best)
+  {
+    const auto [a, b] = pairs.top().second;
+    pairs.pop();
+    const bool first = !isLeaf(a) && (isLeaf(b) || tree[a].end - tree[a].begin >= tree[b].end - tree[b].begin);
+    if (first || !isLeaf(b))
+    {
+      const std::size_t split = first ? a : b;
+      const std::size_t other = first ? b : a;
+      push(2 * split + 1, other);
+      push(2 * split + 2, other);
+      continue;
+    }
+    for (std::size_t i = tree[a].begin; i < tree[a].end; ++i)
+    {
+      for (std::size_t k = tree[b].begin; k < tree[b].end; ++k)
+      {
+        best = std::max(best, (sorted[i] - sorted[k]).norm());
+      }
+    }
+  }
+  return best;
+}
+
+Models modelsOf(const DatasetView& dataset, const std::vector<std::uint32_t>& objects)
+{
+  Models all;
+  for (const std::uint32_t id : objects)
+  {
+    const ObjectRecord& object = *dataset.object(id);
+    if (object.deforming)
+    {
+      refuse(object, "deforms");
+    }
+    if (object.geometryFile.empty())
+    {
+      throw UsageError(
+        "bop: the dataset has no file of the model of " + quoted(object.name) + "; render it for bop, or with models");
+    }
+    const Eigen::Vector3d scale = scaleOf(dataset, object);
+    auto found = std::find_if(all.models.begin(), all.models.end(),
+      [&](const Model& one)
+      { return one.file == object.geometryFile && (one.scale - scale).norm() <= sameScale * scale.norm(); });
+    if (found == all.models.end())
+    {
+      all.models.push_back({ int(all.models.size()) + 1, object.geometryFile, scale });
+      found = all.models.end() - 1;
+    }
+    all.idOf[id] = found->id;
+  }
+  return all;
+}
+
+Eigen::Vector3d originOf(const DatasetView& dataset, const Model& model)
+{
+  const ModelPly ply = readModelPly(dataset.pathOf(model.file));
+  Eigen::Vector3d least = scaled(ply.positions.at(0), model.scale);
+  Eigen::Vector3d most = least;
+  for (const auto& x : ply.positions)
+  {
+    least = least.cwiseMin(scaled(x, model.scale));
+    most = most.cwiseMax(scaled(x, model.scale));
+  }
+  return (least + most) / 2;
+}
+
+ExportItem modelItem(const DatasetView& dataset, const Model& model)
+{
+  const std::string picture = pictureOf(readModelPly(dataset.pathOf(model.file)));
+  const std::string texture = picture.empty() ? "" : modelName(model) + '.' + extensionOf(picture);
+  ExportItem item;
+  for (const char* folder : { "models/", "models_eval/" })
+  {
+    item.files.push_back(folder + modelName(model) + ".ply");
+    if (!texture.empty())
+    {
+      item.files.push_back(folder + texture);
+    }
+  }
+  item.write = [&dataset, model, picture, texture](ExportSink& sink)
+  {
+    const ModelPly ply = readModelPly(dataset.pathOf(model.file));
+    const Eigen::Vector3d origin = originOf(dataset, model);
+    std::vector<Eigen::Vector3d> points;
+    for (const auto& x : ply.positions)
+    {
+      points.emplace_back((scaled(x, model.scale) - origin) * (millimetres * dataset.metres()));
+    }
+    const std::string text = plyText(ply, points, model.scale, texture);
+    const std::string beside = model.file.substr(0, model.file.rfind('/') + 1);
+    for (const char* folder : { "models/", "models_eval/" })
+    {
+      sink.write(folder + modelName(model) + ".ply", text);
+      if (!texture.empty())
+      {
+        sink.copy(folder + texture, beside + picture);
+      }
+    }
+    const Node box = nodeOf(points, 0, points.size());
+    const Eigen::Vector3d size = box.most - box.least;
+    const nlohmann::ordered_json info{ { "diameter", diameterOf(points) }, { "min_x", box.least[0] },
+      { "min_y", box.least[1] }, { "min_z", box.least[2] }, { "size_x", size[0] }, { "size_y", size[1] },
+      { "size_z", size[2] } };
+    sink.note("models", '"' + std::to_string(model.id) + "\": " + info.dump());
+  };
+  return item;
+}
+
+} // namespace dgtk::bop

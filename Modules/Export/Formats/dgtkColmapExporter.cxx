@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkColmap.h"
+#include "dgtkExport.h"
+#include "dgtkExportChecks.h"
+#include "dgtkExportPng.h"
+#include "dgtkMovingObjects.h"
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr const char* format = "colmap";
+
+class ColmapExporter : public Exporter
+{
+public:
+  std::vector<const OptionRow*> options() const override { return colmap::optionRows(); }
+
+  ExportNeeds needs(const OptionValues& options) const override
+  {
+    return { { exported::color().of(options), "objects", "tracks" } };
+  }
+
+  void check(const DatasetView& dataset, const OptionValues& options) const override
+  {
+    requireWhole(options, format);
+    for (const DatasetShot& shot : dataset.shots())
+    {
+      colmap::modelOf(shot.camera, PixelCentre::Half, format);
+    }
+    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
+    requireEverywhere(dataset, "objects", format);
+    requireEverywhere(dataset, "tracks", format, { "npy" });
+  }
+
+  ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override
+  {
+    ExportPlan plan;
+    plan.conventions = { { "pixel_centre", "(0.5, 0.5)" },
+      { "axes", "x right, y down, z forward; poses are the camera's axes from the world's" },
+      { "quaternion", "w x y z" }, { "points", "ids are places in tracks/points.json, from 1; two pictures or more" },
+      { "moving", colmap::moving().of(options) } };
+    for (const colmap::Views& views : colmap::viewsOf(dataset, options, PixelCentre::Half))
+    {
+      addPictures(plan, dataset, views, options);
+      const bool each = colmap::moving().of(options) == "frame";
+      const std::string folder = "sparse/" + (each ? padded(*colmap::frameOf(views), 6) : std::string("0")) + '/';
+      plan.items.push_back(colmap::modelItem(dataset, views, folder, options));
+    }
+    return plan;
+  }
+
+private:
+  static void addPictures(
+    ExportPlan& plan, const DatasetView& dataset, const colmap::Views& views, const OptionValues& options)
+  {
+    const std::vector<std::uint32_t> black = colmap::leftOut(dataset, views);
+    for (std::size_t i = 0; i < views.shots.size(); ++i)
+    {
+      const DatasetShot& shot = *views.shots[i];
+      const std::string picture = "images/" + views.names[i];
+      const std::string mask = black.empty() ? "" : "masks/" + views.names[i] + ".png";
+      ExportItem item{ { picture }, [&dataset, &shot, options, picture, mask, black](ExportSink& sink)
+        {
+          writePicture(sink, dataset, shot, exported::color().of(options), picture, options);
+          if (!mask.empty())
+          {
+            writeMovingMask(sink, dataset, shot, mask, black, true);
+          }
+        } };
+      if (!mask.empty())
+      {
+        item.files.push_back(mask);
+      }
+      plan.items.push_back(std::move(item));
+      plan.names.push_back({ shot.name(), shot.frame(), picture });
+    }
+  }
+};
+} // namespace
+
+std::unique_ptr<Exporter> makeColmapExporter() { return std::make_unique<ColmapExporter>(); }
+
+} // namespace dgtk

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkError.h"
+#include "dgtkExport.h"
+#include "dgtkExportChecks.h"
+#include "dgtkExportPng.h"
+#include "dgtkLayerFile.h"
+#include "dgtkMovingObjects.h"
+#include "dgtkText.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+using Json = nlohmann::ordered_json;
+constexpr const char* format = "transforms";
+
+const NumbersOption& depthStep()
+{
+  static const NumbersOption row(
+    "depth_step", "X", 1, 0, "a code of the depth maps, in scene units; default 0.001, as nerfstudio has it");
+  return row;
+}
+
+double stepOf(const OptionValues& options)
+{
+  const std::vector<double> given = depthStep().of(options);
+  return given.empty() ? 0.001 : given[0];
+}
+
+[[noreturn]] void refuse(const CameraRecord& camera, const std::string& what)
+{
+  throw UsageError(std::string(format) + ": camera " + quoted(camera.name) + " has " + what +
+                   ", which the format cannot say; render a twin of it");
+}
+
+void requireSayable(const CameraRecord& camera)
+{
+  constexpr std::ptrdiff_t most = 4;
+  const std::vector<double> k = distortionOf(camera);
+  if (camera.model != "pinhole" && camera.model != "fisheye")
+  {
+    refuse(camera, "the model " + camera.model);
+  }
+  if (camera.rollingShutter.duration != 0)
+  {
+    refuse(camera, "a rolling shutter");
+  }
+  if (intrinsicsOf(camera, PixelCentre::Half)(0, 1) != 0)
+  {
+    refuse(camera, "a skew");
+  }
+  if (k.size() > most && std::any_of(k.begin() + most, k.end(), [](double c) { return c != 0; }))
+  {
+    refuse(camera, "a distortion of more than k1 k2 p1 p2");
+  }
+}
+
+/// The keys of a camera, of the whole document or of a frame.
+Json lensOf(const CameraRecord& camera)
+{
+  const Eigen::Matrix3d K = intrinsicsOf(camera, PixelCentre::Half);
+  Json lens{ { "w", camera.width }, { "h", camera.height }, { "fl_x", K(0, 0) }, { "fl_y", K(1, 1) }, { "cx", K(0, 2) },
+    { "cy", K(1, 2) }, { "camera_angle_x", 2 * std::atan(camera.width / (2 * K(0, 0))) },
+    { "camera_angle_y", 2 * std::atan(camera.height / (2 * K(1, 1))) } };
+  std::vector<double> k = distortionOf(camera);
+  k.resize(4);
+  const bool fisheye = camera.model == "fisheye";
+  lens["k1"] = k[0];
+  lens["k2"] = k[1];
+  lens[fisheye ? "k3" : "p1"] = k[2];
+  lens[fisheye ? "k4" : "p2"] = k[3];
+  return lens;
+}
+
+Json matrixOf(const CameraRecord& camera)
+{
+  const Rigid3 pose = worldFromCameraGL(camera);
+  Json rows = Json::array();
+  for (int i = 0; i < 3; ++i)
+  {
+    rows.push_back({ pose.rotation(i, 0), pose.rotation(i, 1), pose.rotation(i, 2), pose.translation[i] });
+  }
+  rows.push_back({ 0.0, 0.0, 0.0, 1.0 });
+  return rows;
+}
+
+/// Names of the files of a picture.
+struct Names
+{
+  std::string picture;
+  std::string depth;
+  std::string mask;    ///< "" for none; black is left out (nerfstudio)
+  std::string dynamic; ///< likewise; white is left out (instant-ngp)
+};
+
+class TransformsExporter : public Exporter
+{
+public:
+  std::vector<const OptionRow*> options() const override { return { &depthStep() }; }
+
+  ExportNeeds needs(const OptionValues& options) const override
+  {
+    return { { exported::color().of(options), exported::depth().of(options), "objects", "tracks" } };
+  }
+
+  void check(const DatasetView& dataset, const OptionValues& options) const override
+  {
+    const CameraRecord& first = dataset.shots().front().camera;
+    for (const DatasetShot& shot : dataset.shots())
+    {
+      requireSayable(shot.camera);
+      if (shot.camera.model != first.model)
+      {
+        throw UsageError(std::string(format) + ": cameras " + quoted(first.name) + " and " + quoted(shot.name()) +
+                         " have models of their own (" + first.model + ", " + shot.camera.model +
+                         "), and a document has one; name some with cameras");
+      }
+    }
+    for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
+    {
+      if (split.name != "train" && split.name != "val" && split.name != "test")
+      {
+        throw UsageError("split: parts of " + std::string(format) + " are train, val and test, found " + split.name);
+      }
+    }
+    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
+    requireEverywhere(dataset, exported::depth().of(options), format);
+    requireEverywhere(dataset, "objects", format);
+    requireEverywhere(dataset, "tracks", format, { "npy" });
+  }
+
+  ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override
+  {
+    ExportPlan plan;
+    plan.conventions = { { "pixel_centre", "(0.5, 0.5)" }, { "axes", "x right, y up, z back; world from camera" },
+      { "depth", "z, codes of depth_step scene units, 0 for none" },
+      { "masks", "mask_path: black moves; dynamic_mask_*.png: white moves" } };
+    const bool several = dataset.frames().size() > 1;
+    const std::vector<std::uint32_t> moving = several ? movingObjects(dataset) : std::vector<std::uint32_t>();
+    const bool same = haveOneLens(dataset);
+    SafeNames safe;
+    for (const DatasetShot& shot : dataset.shots())
+    {
+      const std::string stem = safe.of(shot.name()) + '_' + padded(shot.frame(), 6);
+      Names names{ "images/" + stem + '.' + pictureExtension(options), "depth/" + stem + ".png", "", "" };
+      if (!moving.empty())
+      {
+        names.mask = "masks/" + stem + ".png";
+        names.dynamic = "images/dynamic_mask_" + stem + ".png";
+      }
+      plan.items.push_back(item(dataset, shot, names, moving, !same, options));
+      plan.names.push_back({ shot.name(), shot.frame(), names.picture });
+    }
+    plan.documents.push_back(points(dataset));
+    plan.documents.push_back(document(dataset, same, options));
+    return plan;
+  }
+
+private:
+  static bool haveOneLens(const DatasetView& dataset)
+  {
+    const Json first = lensOf(dataset.shots().front().camera);
+    return std::all_of(dataset.shots().begin(), dataset.shots().end(),
+      [&](const DatasetShot& shot) { return lensOf(shot.camera) == first; });
+  }
+
+  static ExportItem item(const DatasetView& dataset, const DatasetShot& shot, const Names& names,
+    const std::vector<std::uint32_t>& moving, bool ownLens, const OptionValues& options)
+  {
+    ExportItem item{ { names.picture, names.depth }, {} };
+    if (!names.mask.empty())
+    {
+      item.files.insert(item.files.end(), { names.mask, names.dynamic });
+    }
+    item.write = [&dataset, &shot, names, moving, ownLens, options](ExportSink& sink)
+    {
+      LinearCode code;
+      code.scale = stepOf(options);
+      code.unit = "scene units";
+      writePicture(sink, dataset, shot, exported::color().of(options), names.picture, options);
+      writeCodedPng(sink, dataset, shot, exported::depth().of(options), names.depth, code, options);
+      Json frame{ { "file_path", names.picture }, { "depth_path", names.depth }, { "depth_file_path", names.depth } };
+      if (!names.mask.empty())
+      {
+        writeMovingMask(sink, dataset, shot, names.mask, moving, true);
+        writeMovingMask(sink, dataset, shot, names.dynamic, moving, false);
+        frame["mask_path"] = names.mask;
+      }
+      if (ownLens)
+      {
+        frame.update(lensOf(shot.camera));
+      }
+      frame["transform_matrix"] = matrixOf(shot.camera);
+      sink.note("frames", frame.dump());
+    };
+    return item;
+  }
+
+  /// Points of surfaces that stay, as float32, to begin a reconstruction with.
+  static ExportItem points(const DatasetView& dataset)
+  {
+    return { { "points.ply" }, [&dataset](ExportSink& sink)
+      {
+        std::string rows;
+        std::size_t count = 0;
+        for (const TrackPoint& point : dataset.trackPoints())
+        {
+          if (point.isStatic)
+          {
+            ++count;
+            for (const double x : point.x)
+            {
+              putLittle(rows, static_cast<float>(x));
+            }
+            rows.append(point.color, point.color + 3);
+          }
+        }
+        std::string head = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) + '\n';
+        for (const char* axis : { "x", "y", "z" })
+        {
+          head += std::string("property float ") + axis + '\n';
+        }
+        for (const char* color : { "red", "green", "blue" })
+        {
+          head += std::string("property uchar ") + color + '\n';
+        }
+        sink.write("points.ply", head + "end_header\n" + rows);
+      } };
+  }
+
+  /// The smallest cube, of 1 to 128 times instant-ngp's usual one, around cameras and points.
+  static int boxScale(const DatasetView& dataset)
+  {
+    constexpr double usual = 0.33; ///< instant-ngp's own scale of the scene
+    constexpr int most = 128;
+    double size = 0;
+    for (const DatasetShot& shot : dataset.shots())
+    {
+      size = std::max(size, cameraFromWorld(shot.camera).inverse().translation.cwiseAbs().maxCoeff());
+    }
+    for (const TrackPoint& point : dataset.trackPoints())
+    {
+      size = std::max(size, point.x.cwiseAbs().maxCoeff());
+    }
+    int scale = 1;
+    while (scale < most && scale < 2 * usual * size)
+    {
+      scale *= 2;
+    }
+    return scale;
+  }
+
+  static ExportItem document(const DatasetView& dataset, bool same, const OptionValues& options)
+  {
+    return { { "transforms.json" }, [&dataset, same, options](ExportSink& sink)
+      {
+        const CameraRecord& first = dataset.shots().front().camera;
+        const bool fisheye = first.model == "fisheye";
+        Json head{ { "camera_model", fisheye ? "OPENCV_FISHEYE" : "OPENCV" }, { "is_fisheye", fisheye },
+          { "aabb_scale", boxScale(dataset) }, { "enable_depth_loading", true },
+          { "integer_depth_scale", stepOf(options) }, { "ply_file_path", "points.ply" } };
+        if (same)
+        {
+          head.update(lensOf(first));
+        }
+        addSplits(head, dataset, options);
+        const std::string text = head.dump(1);
+        const std::unique_ptr<ExportFile> file = sink.open("transforms.json");
+        file->write(text.substr(0, text.size() - 2) + ",\n \"frames\": [");
+        const char* between = "\n  ";
+        sink.notes("frames",
+          [&](const std::string& frame)
+          {
+            file->write(between + frame);
+            between = ",\n  ";
+          });
+        file->write(std::string("\n ]\n}\n"));
+        file->finish();
+      } };
+  }
+
+  static void addSplits(Json& head, const DatasetView& dataset, const OptionValues& options)
+  {
+    if (exported::split().of(options).empty())
+    {
+      return;
+    }
+    SafeNames safe;
+    for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
+    {
+      Json names = Json::array();
+      for (const DatasetShot& shot : dataset.shots())
+      {
+        const std::string name = safe.of(shot.name()) + '_' + padded(shot.frame(), 6) + '.' + pictureExtension(options);
+        if (split.holds(shot.frame()))
+        {
+          names.push_back("images/" + name);
+        }
+      }
+      head[split.name + "_filenames"] = names;
+    }
+  }
+};
+} // namespace
+
+std::unique_ptr<Exporter> makeTransformsExporter() { return std::make_unique<TransformsExporter>(); }
+
+} // namespace dgtk

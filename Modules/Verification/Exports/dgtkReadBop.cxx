@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkExportPixels.h"
+#include "dgtkJsonFile.h"
+#include "dgtkReadTexts.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cstring>
+#include <sstream>
+
+// bop_toolkit's docs/bop_datasets_format.md and inout.py.
+
+namespace dgtk
+{
+
+namespace
+{
+using Json = nlohmann::json;
+using Points = std::vector<Eigen::Vector3d>;
+
+std::string digits(const std::string& number)
+{
+  return std::string(6 - std::min<std::size_t>(6, number.size()), '0') + number;
+}
+
+Eigen::Matrix3d matrixOf(const Json& list)
+{
+  Eigen::Matrix3d matrix;
+  for (int i = 0; i < 9; ++i)
+  {
+    matrix(i / 3, i % 3) = list.at(std::size_t(i));
+  }
+  return matrix;
+}
+Eigen::Vector3d vectorOf(const Json& list)
+{
+  const std::vector<double> numbers = list;
+  return { numbers.at(0), numbers.at(1), numbers.at(2) };
+}
+
+/// Vertices of a .ply, as text or as doubles that begin each row.
+Points verticesOf(const std::string& path)
+{
+  const std::string bytes = readFile(path);
+  std::istringstream stream(bytes);
+  std::size_t count = 0;
+  std::size_t rowBytes = 0;
+  bool ascii = false;
+  bool vertices = false;
+  for (std::string line; std::getline(stream, line) && line != "end_header";)
+  {
+    std::istringstream words(line);
+    std::string first;
+    std::string second;
+    words >> first >> second;
+    ascii = ascii || line == "format ascii 1.0";
+    vertices = first == "element" ? second == "vertex" : vertices;
+    if (first == "element" && vertices)
+    {
+      words >> count;
+    }
+    rowBytes += first == "property" && vertices ? (second == "double" ? 8 : second == "float" ? 4 : 1) : 0;
+  }
+  Points points;
+  const auto start = std::size_t(std::max<std::streamoff>(0, stream.tellg()));
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    Eigen::Vector3d x(0, 0, 0);
+    std::string line;
+    if (ascii && std::getline(stream, line))
+    {
+      std::istringstream(line) >> x[0] >> x[1] >> x[2];
+    }
+    else if (!ascii && start + (i + 1) * rowBytes <= bytes.size())
+    {
+      std::memcpy(x.data(), bytes.data() + start + i * rowBytes, sizeof(double) * 3);
+    }
+    else
+    {
+      throw InputError(path, 0, "ends too early");
+    }
+    points.push_back(x);
+  }
+  return points;
+}
+
+class SetJudge
+{
+public:
+  explicit SetJudge(ExportJudge& judge)
+    : Judge(judge)
+    , Unit(1000 * metresOf(judge.source()))
+  {
+    for (const PoseRecord& pose : readPoses(judge.source().dataset() + "/" + posesName))
+    {
+      this->Poses[{ pose.frame, pose.id }] = pose;
+    }
+    this->Infos = this->document("models/models_info.json");
+    for (const auto& [id, info] : this->Infos.items())
+    {
+      const std::string file = "models/obj_" + digits(id) + ".ply";
+      this->Models[std::stoi(id)] = verticesOf(judge.source().path(file));
+      this->judgeInfo(file, info, this->Models[std::stoi(id)]);
+      const bool same =
+        readFile(judge.source().path(file)) == readFile(judge.source().path("models_eval" + file.substr(6)));
+      judge.holds("models", "models_eval" + file.substr(6), id, same, "another", "as in models");
+    }
+  }
+
+  void judgeScene(const std::string& folder)
+  {
+    const Json cameras = this->document(folder + "scene_camera.json");
+    const Json poses = this->document(folder + "scene_gt.json");
+    const Json infos = this->document(folder + "scene_gt_info.json");
+    const Json coco = this->document(folder + "scene_gt_coco.json");
+    for (const auto& [image, camera] : cameras.items())
+    {
+      const std::string stem = folder + "rgb/" + digits(image);
+      const ExportedName* picture = this->Judge.source().named(stem + ".png");
+      picture = picture ? picture : pictureOf(this->Judge, folder + "scene_camera.json", stem + ".jpg");
+      if (picture)
+      {
+        this->judgeCamera(folder + "scene_camera.json", camera, *picture);
+        this->judgeInstances(folder, image, poses.at(image), infos.at(image), *picture, coco);
+      }
+    }
+  }
+
+private:
+  Json document(const std::string& name) const { return readJsonFile(this->Judge.source().path(name)); }
+
+  void judgeInfo(const std::string& file, const Json& info, const Points& points)
+  {
+    Eigen::Vector3d least = points.at(0);
+    Eigen::Vector3d most = least;
+    double widest = 0;
+    for (const Eigen::Vector3d& x : points)
+    {
+      least = least.cwiseMin(x);
+      most = most.cwiseMax(x);
+      widest = points.size() > 5000 ? widest : std::max(widest, (x - points[0]).norm());
+    }
+    const char* axes = "xyz";
+    for (int i = 0; i < 3; ++i)
+    {
+      this->Judge.number("models_info", "mm", file, "min", info.at(std::string("min_") + axes[i]), least[i], 1e-9);
+      this->Judge.number(
+        "models_info", "mm", file, "size", info.at(std::string("size_") + axes[i]), most[i] - least[i], 1e-9);
+    }
+    const double diameter = info.at("diameter");
+    const bool possible = diameter >= widest && diameter <= (most - least).norm() * (1 + 1e-12) &&
+                          diameter >= (most - least).maxCoeff() * (1 - 1e-12);
+    this->Judge.holds("models_info", file, "diameter", possible, std::to_string(diameter), "one of the model");
+  }
+
+  void judgeCamera(const std::string& file, const Json& camera, const ExportedName& picture)
+  {
+    Eigen::Matrix3d K = matrixOf(camera.at("cam_K"));
+    K(0, 2) += 0.5;
+    K(1, 2) += 0.5;
+    this->Judge.intrinsics(file, picture.camera, picture.frame, K, 1e-9);
+    this->Judge.pose(file, picture.camera, picture.frame, matrixOf(camera.at("cam_R_w2c")),
+      vectorOf(camera.at("cam_t_w2c")) / this->Unit, 1e-9);
+  }
+
+  /// The objects of a picture, found by where their models' vertices are.
+  void judgeInstances(const std::string& folder, const std::string& image, const Json& poses, const Json& infos,
+    const ExportedName& picture, const Json& coco)
+  {
+    const std::string file = folder + "scene_gt.json";
+    const std::vector<BoxRecord>& boxes = this->Judge.source().boxes(picture.camera, picture.frame);
+    this->Judge.number("instances", "", file, picture.name, double(poses.size()), double(infos.size()), 0);
+    std::set<std::uint32_t> found;
+    for (std::size_t i = 0; i < poses.size() && i < infos.size(); ++i)
+    {
+      const std::string where = picture.name + ", instance " + std::to_string(i);
+      const BoxRecord* box = this->boxOf(poses[i], picture, boxes);
+      this->Judge.holds("poses", file, where, box && found.insert(box->id).second, "a pose", "that of an object, once");
+      if (box)
+      {
+        this->judgeNumbers(folder, where, infos[i], *box);
+        this->judgeMasks(folder, image, i, *box, picture, coco, poses[i].at("obj_id"));
+      }
+    }
+    for (const BoxRecord& box : boxes)
+    {
+      const bool wanted = this->isPosed(box.id) && box.pixelsWhole > 0;
+      this->Judge.holds("instances", file, picture.name, found.count(box.id) > 0 || !wanted, "none", box.name);
+    }
+  }
+
+  bool isPosed(std::uint32_t id) const
+  {
+    for (const auto& [key, text] : this->Judge.source().record().request)
+    {
+      if (key == "objects" && !text.empty())
+      {
+        const ObjectRecord* object = this->Judge.source().object(id);
+        const std::string list = ',' + text + ',';
+        return object && (list.find(',' + object->name + ',') != std::string::npos ||
+                           list.find(',' + object->objectClass + ',') != std::string::npos);
+      }
+    }
+    return true;
+  }
+
+  const BoxRecord* boxOf(const Json& pose, const ExportedName& picture, const std::vector<BoxRecord>& boxes)
+  {
+    const Points& model = this->Models.at(pose.at("obj_id"));
+    const Eigen::Matrix3d R = matrixOf(pose.at("cam_R_m2c"));
+    const Eigen::Vector3d t = vectorOf(pose.at("cam_t_m2c"));
+    const CameraRecord* camera = this->Judge.source().camera(picture.camera, picture.frame);
+    for (const BoxRecord& box : boxes)
+    {
+      const auto known = this->Poses.find({ picture.frame, box.id });
+      const ObjectRecord* object = this->Judge.source().object(box.id);
+      if (known == this->Poses.end() || !object || object->geometryFile.empty())
+      {
+        continue;
+      }
+      const Points& own = this->geometry(object->geometryFile);
+      double apart = own.size() == model.size() ? 0 : infinite;
+      for (std::size_t k = 0; k < own.size() && apart < 1e-6; ++k)
+      {
+        const Eigen::Vector3d world = known->second.matrix * own[k].homogeneous();
+        const Eigen::Vector3d there = (camera->R * world + camera->t) * this->Unit;
+        apart = std::max(apart, (R * model[k] + t - there).norm() / std::max(1.0, there.norm()));
+      }
+      if (apart < 1e-6)
+      {
+        this->Judge.number("vertices", "share", "models/models_info.json", picture.name, apart, 0, 1e-9);
+        return &box;
+      }
+    }
+    return nullptr;
+  }
+
+  const Points& geometry(const std::string& file)
+  {
+    auto known = this->Geometries.find(file);
+    if (known == this->Geometries.end())
+    {
+      known = this->Geometries.emplace(file, verticesOf(this->Judge.source().dataset() + '/' + file)).first;
+    }
+    return known->second;
+  }
+
+  void judgeNumbers(const std::string& folder, const std::string& where, const Json& info, const BoxRecord& box)
+  {
+    const std::string file = folder + "scene_gt_info.json";
+    const auto number = [&](const char* key, double expected)
+    { this->Judge.number(key, "px", file, where, info.at(key), expected, 0); };
+    number("px_count_all", double(box.pixelsWhole));
+    number("px_count_visib", double(box.pixelsVisible));
+    this->Judge.number("visib_fract", "1", file, where, info.at("visib_fract"),
+      double(box.pixelsVisible) / double(box.pixelsWhole), 1e-12);
+    const double valid = info.at("px_count_valid");
+    this->Judge.holds("px_count_valid", file, where, valid <= double(box.pixelsAmodal), std::to_string(valid),
+      "at most those in the image");
+    for (const char* key : { "bbox_obj", "bbox_visib" })
+    {
+      const auto& borders = std::string(key) == "bbox_obj" ? box.whole : box.visible;
+      const Json& found = info.at(key);
+      std::vector<double> expected(4, -1);
+      if (box.pixelsVisible > 0 && borders)
+      {
+        const Eigen::Vector4d& b = *borders;
+        expected = { b[0], b[1], b[2] - b[0] - 1, b[3] - b[1] - 1 };
+      }
+      this->Judge.holds(key, file, where, found.get<std::vector<double>>() == expected, found.dump(), "its box");
+    }
+  }
+
+  void judgeMasks(const std::string& folder, const std::string& image, std::size_t instance, const BoxRecord& box,
+    const ExportedName& picture, const Json& coco, int model)
+  {
+    const std::string name = digits(image) + '_' + digits(std::to_string(instance)) + ".png";
+    const auto inside = [&](const std::string& file)
+    {
+      const DecodedPixels pixels = decodePng(this->Judge.source().path(file), {});
+      std::vector<char> mask;
+      for (const double value : pixels.values)
+      {
+        mask.push_back(value != 0);
+      }
+      return mask;
+    };
+    const std::string visible = folder + "mask_visib/" + name;
+    const std::string whole = folder + "mask/" + name;
+    const std::vector<char> own = inside(visible);
+    this->Judge.mask(visible, picture.camera, picture.frame, box.id, own);
+    if (box.pixelsAmodal > 0)
+    {
+      this->Judge.amodalMask(whole, picture.camera, picture.frame, box.id, inside(whole));
+    }
+    if (box.pixelsVisible == 0)
+    {
+      return;
+    }
+    const std::string file = folder + "scene_gt_coco.json";
+    for (const Json& one : coco.at("annotations"))
+    {
+      const std::int64_t id = one.at("id");
+      if (one.at("image_id") == std::stoll(image) && id % 100000 == std::int64_t(instance) + 1)
+      {
+        this->Judge.number("coco", "", file, picture.name, one.at("category_id"), model, 0);
+        this->Judge.number("coco", "", file, picture.name, one.at("area"), double(box.pixelsVisible), 0);
+        std::uint64_t at = 0;
+        bool same = true;
+        const std::uint64_t height = one.at("segmentation").at("size").at(0);
+        const std::uint64_t width = one.at("segmentation").at("size").at(1);
+        bool in = false;
+        for (const std::uint64_t count : one.at("segmentation").at("counts"))
+        {
+          for (std::uint64_t end = std::min(at + count, std::uint64_t(own.size())); at < end; ++at)
+          {
+            same = same && (own[at % height * width + at / height] != 0) == in;
+          }
+          in = !in;
+        }
+        this->Judge.holds("coco", file, picture.name, same && at == own.size(), "another mask", "mask_visib");
+        return;
+      }
+    }
+    this->Judge.holds(
+      "coco", file, picture.name, false, "no annotation", "one of instance " + std::to_string(instance));
+  }
+
+  ExportJudge& Judge;
+  double Unit;
+  Json Infos;
+  std::map<int, Points> Models;
+  std::map<std::string, Points> Geometries;
+  std::map<std::pair<int, std::uint32_t>, PoseRecord> Poses;
+};
+} // namespace
+
+void readBop(ExportJudge& judge)
+{
+  useJson(judge.source().path("models/models_info.json"),
+    [&]
+    {
+      SetJudge set(judge);
+      for (const ExportedFile& one : judge.source().record().files)
+      {
+        const std::string& path = one.file.path;
+        const std::string name = "scene_camera.json";
+        if (path.size() > name.size() && path.substr(path.size() - name.size()) == name)
+        {
+          set.judgeScene(path.substr(0, path.size() - name.size()));
+        }
+      }
+    });
+}
+
+} // namespace dgtk

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""transforms.json and NeRF-synthetic sets: points of the dataset are projected by each reader's own formulas."""
+import math
+import os
+
+import numpy as np
+
+import datasets
+from datasets import layer_of, load_json, main, read_png
+
+TRACKS = ("--tracks-step", 6, "--tracks-every", 1)
+
+
+def nerf_pixel(document, frame, points):
+    """instant-ngp's and nerfstudio's camera: the world through the inverse matrix, y up, z back, then the lens in OpenCV's axes."""
+    value = {**document, **frame}
+    back = np.linalg.inv(np.array(frame["transform_matrix"]))
+    x, y, z = (back @ np.column_stack([points, np.ones(len(points))]).T)[:3]
+    a, b = x / -z, -y / -z
+    square = a * a + b * b
+    if document["is_fisheye"]:  # nerfstudio, fisheye_undistort: theta by a polynomial
+        r = np.sqrt(square)
+        angle = np.arctan(r)
+        bent = angle * (1 + value["k1"] * angle**2 + value["k2"] * angle**4 + value["k3"] * angle**6 + value["k4"] * angle**8)
+        a, b = a * bent / r, b * bent / r
+    else:  # instant-ngp, opencv_lens_distortion_delta
+        radial = value["k1"] * square + value["k2"] * square**2
+        p1, p2 = value["p1"], value["p2"]
+        a, b = (a + a * radial + 2 * p1 * a * b + p2 * (square + 2 * a * a), b + b * radial + 2 * p2 * a * b + p1 * (square + 2 * b * b))
+    return np.column_stack([value["fl_x"] * a + value["cx"], value["fl_y"] * b + value["cy"]]), -z
+
+
+class Transforms(datasets.ExportCase):
+    LAYERS = "color,depth,objects,tracks"
+
+    def reprojection(self, dataset, folder, record):
+        """The largest distance, in pixels, of a static point's projection from where the dataset sees it."""
+        document = load_json(os.path.join(folder, "transforms.json"))
+        places = {entry["name"]: (entry["camera"], entry["frame"]) for entry in record["names"]}
+        points = load_json(os.path.join(dataset, "tracks", "points.json"))["points"]
+        static = np.array([point["static"] for point in points])
+        x = np.array([point["x"] for point in points])
+        largest, count = 0, 0
+        for frame in document["frames"]:
+            camera, number = places[frame["file_path"]]
+            seen = np.load(os.path.join(dataset, camera, "tracks", f"{number:06d}.npy"))
+            use = static & (seen[:, 2] == 1)
+            pixels, z = nerf_pixel(document, frame, x[use])
+            largest = max(largest, np.abs(pixels - seen[use, :2]).max(initial=0))
+            codes = read_png(os.path.join(folder, frame["depth_path"]), (16, 1))[..., 0]
+            truth = layer_of(dataset, "depth", camera, number)
+            step = document["integer_depth_scale"]
+            self.assertTrue(np.array_equal(codes > 0, (truth > step / 2) & (truth < 65535.5 * step)))
+            self.assertLess(np.abs(codes * step - truth)[codes > 0].max(initial=0), step / 2 + 1e-12)
+            count += use.sum()
+        return document, largest, count
+
+    def test_a_moving_camera_and_its_parts(self):
+        dataset = self.render(datasets.walk(self.path("scene")), self.LAYERS, *TRACKS)  # its last frame is empty
+        folder, record = self.export(dataset, "transforms", "--split", "train=0:1,val=2:2,test=3:3")
+        document, largest, count = self.reprojection(dataset, folder, record)
+        self.assertGreater(count, 200)
+        self.assertLess(largest, 1e-9)
+        self.assertEqual(document["val_filenames"], ["images/Kamera_1_000002.png"])
+        self.assertEqual((document["w"], document["h"], document["cx"], document["camera_model"]), (96, 72, 48, "OPENCV"))
+        self.assertNotIn("fl_x", document["frames"][0])
+        self.assertNotIn("mask_path", document["frames"][0])
+        self.assertAlmostEqual(document["camera_angle_y"], math.radians(45))
+        self.assertGreaterEqual(document["aabb_scale"], 4)
+        with open(os.path.join(folder, "points.ply"), "rb") as file:
+            head, rows = file.read().split(b"end_header\n", 1)
+        found = np.frombuffer(rows, np.dtype([("x", "<f4", 3), ("c", "u1", 3)]))
+        points = load_json(os.path.join(dataset, "tracks", "points.json"))["points"]
+        self.assertEqual(found["x"].tolist(), np.array([p["x"] for p in points], np.float32).tolist())
+        self.assertEqual(found["c"].tolist(), [p["color"] for p in points])
+        said = self.planted(dataset, folder, "transforms.json", lambda text: text.replace(b'"cx": 48', b'"cx": 47', 1))
+        self.assertIn("layer intrinsics", said)
+        said = self.planted(dataset, folder, "transforms.json", lambda text: text.replace(b'0.0,0.0,0.0,1.0]]', b'0.0,0.0,0.0,2.0]]', 1))
+        self.assertIn("layer pose", said)
+        said = self.planted(dataset, folder, "points.ply", lambda data: data[:-13] + bytes([data[-13] ^ 64]) + data[-12:])
+        self.assertIn("layer points", said)
+
+    def test_what_moves_is_masked(self):
+        dataset = self.render(datasets.stereo(self.path("scene")), self.LAYERS, *TRACKS)
+        folder, record = self.export(dataset, "transforms", "--image-format", "jpg")
+        document, largest, count = self.reprojection(dataset, folder, record)
+        self.assertGreater(count, 500)
+        self.assertLess(largest, 1e-9)
+        places = {entry["name"]: (entry["camera"], entry["frame"]) for entry in record["names"]}
+        for frame in document["frames"]:
+            moves = np.isin(layer_of(dataset, "objects", *places[frame["file_path"]]), [3, 4])
+            stem = os.path.splitext(os.path.basename(frame["file_path"]))[0]
+            self.assertTrue(np.array_equal(read_png(os.path.join(folder, frame["mask_path"]))[..., 0] == 0, moves))
+            self.assertTrue(np.array_equal(read_png(os.path.join(folder, "images", f"dynamic_mask_{stem}.png"))[..., 0] > 0, moves))
+
+    def test_lenses(self):
+        dataset = self.render(datasets.lenses(self.path("scene")), self.LAYERS, *TRACKS)
+        for cameras, model in (("plain,mild", "OPENCV"), ("fish", "OPENCV_FISHEYE")):
+            folder, record = self.export(dataset, "transforms", "--cameras", cameras)
+            document, largest, count = self.reprojection(dataset, folder, record)
+            self.assertEqual(document["camera_model"], model)
+            self.assertGreater(count, 50)
+            self.assertLess(largest, 1e-4)
+            self.assertEqual(model == "OPENCV", "fl_x" in document["frames"][0])
+        for says, cameras in ((("radial", "k1 k2 p1 p2"), "radial"), (("models of their own", "fish"), "plain,fish")):
+            self.refused("export", dataset, "--format", "transforms", "-o", self.path("no"), "--cameras", cameras, status=2, says=says)
+        self.refused("export", dataset, "--format", "transforms", "-o", self.path("no"), "--cameras", "plain", "--split", "eval=0:0", status=2, says="train, val and test")
+        self.assertFalse(os.path.exists(self.path("no")))
+
+
+if __name__ == "__main__":
+    main()
