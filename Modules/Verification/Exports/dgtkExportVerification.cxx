@@ -31,6 +31,7 @@ void readWebdataset(ExportJudge& judge);
 void readImagefolder(ExportJudge& judge);
 void readRosbag(ExportJudge& judge);
 void readMcap(ExportJudge& judge);
+void readGltf(ExportJudge& judge);
 void readHdf5Frames(ExportJudge& judge);
 void readSpring(ExportJudge& judge);
 
@@ -62,6 +63,7 @@ constexpr Reader readers[] = {
   { "imagefolder", &readImagefolder },
   { "rosbag", &readRosbag },
   { "mcap", &readMcap },
+  { "gltf", &readGltf },
   { "hdf5", &readHdf5Frames },
   { "spring", &readSpring },
 };

@@ -1,0 +1,486 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkError.h"
+#include "dgtkExportJudge.h"
+#include "dgtkFile.h"
+#include "dgtkJsonFile.h"
+#include "dgtkPlyFile.h"
+#include "dgtkReadTexts.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+// glTF 2.0 (Khronos, ISO/IEC 12113), KHR_lights_punctual.
+
+namespace dgtk
+{
+
+namespace
+{
+using Json = nlohmann::json;
+constexpr double single = 5e-7; // of float32 numbers that have been multiplied a few times
+
+/// The numbers of an accessor, a row for each element.
+class Accessors
+{
+public:
+  Accessors(const Json& asset, const std::string& folder)
+    : Asset(asset)
+    , Folder(folder)
+  {
+    for (const Json& one : asset.value("buffers", Json::array()))
+    {
+      this->Buffers.push_back(readFile(folder + '/' + one.at("uri").get<std::string>()));
+      this->Right = this->Right && this->Buffers.back().size() == one.at("byteLength").get<std::size_t>();
+    }
+  }
+
+  Eigen::MatrixXd read(std::size_t index) const
+  {
+    const Json& one = this->Asset.at("accessors").at(index);
+    const Json& view = this->Asset.at("bufferViews").at(one.at("bufferView").get<std::size_t>());
+    const std::string& buffer = this->Buffers.at(view.at("buffer").get<std::size_t>());
+    const std::string type = one.at("type");
+    const auto columns = static_cast<std::size_t>(type == "SCALAR" ? 1 : type.back() - '0');
+    const std::size_t rows = one.at("count");
+    const bool whole = one.at("componentType") == 5125;
+    const std::size_t at = view.value("byteOffset", std::size_t(0)) + one.value("byteOffset", std::size_t(0));
+    const std::size_t bytes = 4 * rows * columns;
+    if ((!whole && one.at("componentType") != 5126) || view.contains("byteStride") || at + bytes > buffer.size() ||
+        bytes > view.at("byteLength").get<std::size_t>())
+    {
+      throw InputError(this->Folder + "/scene.gltf", 0, "accessor " + std::to_string(index) + " cannot be read");
+    }
+    Eigen::MatrixXd values(rows, columns);
+    for (std::size_t i = 0; i < rows * columns; ++i)
+    {
+      std::uint32_t number = 0;
+      float real = 0;
+      std::memcpy(&number, buffer.data() + at + 4 * i, 4);
+      std::memcpy(&real, &number, 4);
+      values(Eigen::Index(i / columns), Eigen::Index(i % columns)) = whole ? double(number) : double(real);
+    }
+    return values;
+  }
+  bool hasRightSizes() const { return this->Right; }
+
+private:
+  const Json& Asset;
+  std::string Folder;
+  std::vector<std::string> Buffers;
+  bool Right = true;
+};
+
+/// What moves a node.
+struct Channel
+{
+  Eigen::VectorXd times;
+  Eigen::MatrixXd values;
+  /// The row at a key's time; the nearest one.
+  Eigen::VectorXd at(double time) const
+  {
+    Eigen::Index row = 0;
+    (this->times.array() - time).abs().minCoeff(&row);
+    return this->values.row(row);
+  }
+};
+
+Eigen::VectorXd listOf(const Json& list)
+{
+  Eigen::VectorXd values(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i)
+  {
+    values[Eigen::Index(i)] = list[i];
+  }
+  return values;
+}
+
+class Asset
+{
+public:
+  Asset(ExportJudge& judge, const std::string& file, const Json& document)
+    : Judge(judge)
+    , File(file)
+    , Document(document)
+    , Numbers(document, judge.source().folder())
+    , Metres(metresOf(judge.source()))
+  {
+    for (const PoseRecord& pose : readPoses(judge.source().dataset() + '/' + posesName))
+    {
+      this->Poses[{ pose.frame, pose.id }] = pose;
+    }
+    for (const ExportedName& name : judge.source().record().names)
+    {
+      this->Frames.insert(name.frame);
+    }
+    const Json scene = readJsonFile(judge.source().dataset() + "/scene.json");
+    this->Up = scene.value("upAxis", "y") == "z" ? Eigen::AngleAxisd(-std::acos(0.0), Eigen::Vector3d::UnitX()).matrix()
+                                                 : Eigen::Matrix3d::Identity();
+    this->Lights = scene.value("lights", Json::array());
+    for (std::size_t i = 0; i < this->Lights.size(); ++i)
+    {
+      this->Lights[i].emplace("name", "Light" + std::to_string(i));
+    }
+  }
+
+  void judge()
+  {
+    this->holds("asset", this->Document.at("asset").at("version") == "2.0" && this->Numbers.hasRightSizes());
+    this->readAnimations();
+    const Json& nodes = this->Document.at("nodes");
+    std::set<std::size_t> children;
+    for (const Json& child : nodes.at(0).at("children"))
+    {
+      children.insert(child.get<std::size_t>());
+    }
+    this->holds("nodes", children.size() == nodes.size() - 1 && children.count(0) == 0);
+    const Eigen::Matrix3d turn = this->affine(0, 0).linear();
+    this->holds("world", (turn - this->Up).cwiseAbs().maxCoeff() < 1e-12 && this->Channels.count(0) == 0);
+    for (std::size_t i = 1; i < nodes.size(); ++i)
+    {
+      const Json& node = nodes[i];
+      if (node.contains("camera"))
+      {
+        this->judgeCamera(i, node);
+      }
+      else if (node.contains("mesh"))
+      {
+        this->judgeObject(i, node);
+      }
+      else
+      {
+        this->judgeLight(i, node);
+      }
+    }
+    this->Judge.number("cameras", "pictures", this->File, "of nodes", double(this->Pictures),
+      double(this->Judge.source().record().names.size()), 0);
+    this->Judge.number("objects", "objects", this->File, "of nodes", double(this->Ids.size()),
+      double(this->Judge.source().objects().size()), 0);
+    this->judgeTextures();
+  }
+
+private:
+  void holds(const std::string& where, bool right)
+  {
+    this->Judge.holds("asset", this->File, where, right, "another", "as the dataset has it");
+  }
+
+  void readAnimations()
+  {
+    for (const Json& animation : this->Document.value("animations", Json::array()))
+    {
+      for (const Json& channel : animation.at("channels"))
+      {
+        const Json& sampler = animation.at("samplers").at(channel.at("sampler").get<std::size_t>());
+        const Json& target = channel.at("target");
+        Channel one;
+        one.times = this->Numbers.read(sampler.at("input")).col(0);
+        one.values = this->Numbers.read(sampler.at("output"));
+        const bool rising = std::is_sorted(one.times.data(), one.times.data() + one.times.size());
+        this->holds(
+          "animation", sampler.at("interpolation") == "LINEAR" && rising && one.values.rows() == one.times.size());
+        this->Channels[target.at("node")][target.at("path")] = one;
+      }
+    }
+  }
+
+  Eigen::VectorXd valueOf(std::size_t node, const std::string& path, const Eigen::VectorXd& usual, int frame) const
+  {
+    const auto channels = this->Channels.find(node);
+    const auto channel =
+      channels == this->Channels.end() ? std::map<std::string, Channel>::const_iterator() : channels->second.find(path);
+    if (channels != this->Channels.end() && channel != channels->second.end())
+    {
+      return channel->second.at(this->timeOf(frame));
+    }
+    const Json& one = this->Document.at("nodes").at(node);
+    return one.contains(path) ? listOf(one.at(path)) : usual;
+  }
+
+  double timeOf(int frame) const { return frame / this->Judge.source().manifest().fps; }
+
+  Eigen::Affine3d affine(std::size_t node, int frame) const
+  {
+    const Eigen::Vector3d t = this->valueOf(node, "translation", Eigen::Vector3d::Zero(), frame);
+    const Eigen::Vector4d q = this->valueOf(node, "rotation", Eigen::Vector4d(0, 0, 0, 1), frame);
+    const Eigen::Vector3d scale = this->valueOf(node, "scale", Eigen::Vector3d::Ones(), frame);
+    this->Judge.number("quaternion", "1", this->File, "nodes/" + std::to_string(node), q.norm(), 1, single);
+    return Eigen::Translation3d(t) * Eigen::Quaterniond(q[3], q[0], q[1], q[2]) * Eigen::Scaling(scale);
+  }
+
+  void judgeTimes(std::size_t node)
+  {
+    const auto channels = this->Channels.find(node);
+    if (channels == this->Channels.end())
+    {
+      return;
+    }
+    for (const auto& [path, channel] : channels->second)
+    {
+      for (const double time : channel.times)
+      {
+        double nearest = infinite;
+        for (const int frame : this->Frames)
+        {
+          const double expected = this->timeOf(frame);
+          nearest = std::abs(expected - time) < std::abs(nearest - time) ? expected : nearest;
+        }
+        this->Judge.number("time", "s", this->File, "nodes/" + std::to_string(node) + ' ' + path, time, nearest,
+          1e-7 * (1 + std::abs(time)));
+      }
+    }
+  }
+
+  void judgeCamera(std::size_t index, const Json& node)
+  {
+    const Json& camera = this->Document.at("cameras").at(node.at("camera").get<std::size_t>());
+    const Json& extras = camera.at("extras");
+    const Json& perspective = camera.at("perspective");
+    const Eigen::Vector3d flip(1, -1, -1);
+    this->judgeTimes(index);
+    for (const int frame : this->Frames)
+    {
+      const ExportedName* name =
+        this->Judge.source().named("nodes/" + std::to_string(index) + '@' + std::to_string(frame));
+      if (!name)
+      {
+        continue;
+      }
+      ++this->Pictures;
+      const Eigen::Affine3d pose = this->affine(index, frame);
+      const Eigen::Matrix3d R = flip.asDiagonal() * pose.linear().transpose();
+      this->Judge.pose(this->File, name->camera, frame, R, -(R * pose.translation()) / this->Metres, 2e-6);
+      Eigen::Matrix3d K;
+      for (int i = 0; i < 9; ++i)
+      {
+        K(i / 3, i % 3) = extras.at("K").at(std::size_t(i / 3)).at(std::size_t(i % 3));
+      }
+      this->Judge.size(this->File, name->camera, frame, extras.at("width"), extras.at("height"));
+      this->Judge.intrinsics(this->File, name->camera, frame, K, 1e-9);
+      const double high = 2 * std::tan(perspective.at("yfov").get<double>() / 2);
+      const double wide = high * perspective.at("aspectRatio").get<double>();
+      this->Judge.number("field of view", "px", this->File, name->camera, extras.at("height").get<double>() / high,
+        K(1, 1), 1e-9 * K(1, 1));
+      this->Judge.number("field of view", "px", this->File, name->camera, extras.at("width").get<double>() / wide,
+        K(0, 0), 1e-9 * K(0, 0));
+    }
+  }
+
+  void judgeObject(std::size_t index, const Json& node)
+  {
+    const Json& extras = node.at("extras");
+    const std::uint32_t id = extras.at("id");
+    const ObjectRecord* object = this->Judge.source().object(id);
+    this->holds("object", object && this->Ids.insert(id).second && extras.at("class") == object->objectClass &&
+                            extras.at("deforming") == object->deforming);
+    if (!object)
+    {
+      return;
+    }
+    const std::string path = this->Judge.source().dataset() + '/' + object->geometryFile;
+    const PlyFile model(path);
+    const Json& mesh = this->Document.at("meshes").at(node.at("mesh").get<std::size_t>());
+    const Eigen::MatrixXd points =
+      this->Numbers.read(mesh.at("primitives").at(0).at("attributes").at("POSITION")).transpose();
+    this->judgeTimes(index);
+    for (const int frame : this->Frames)
+    {
+      const PoseRecord& pose = this->Poses.at({ frame, id });
+      bool listed = false;
+      for (const Json& range : extras.at("visible_frames"))
+      {
+        listed = listed || (frame >= range.at(0).get<int>() && frame <= range.at(1).get<int>());
+      }
+      this->holds("visible frames", listed == pose.visible);
+      const Eigen::Affine3d world = this->affine(index, frame);
+      this->holds("determinant", world.linear().determinant() > 0);
+      double largest = points.cols() == Eigen::Index(model.vertices()) ? 0 : infinite;
+      double size = 1e-300;
+      for (std::size_t i = 0; i < model.vertices() && largest < infinite; ++i)
+      {
+        const Eigen::Vector3d expected = this->Metres * (pose.matrix * model.vertex(i).x.homogeneous());
+        const Eigen::Vector3d found = world * Eigen::Vector3d(points.col(Eigen::Index(i)));
+        size = std::max(size, expected.norm());
+        largest = std::max(largest, (found - expected).norm());
+      }
+      this->Judge.number(
+        "vertices", "of the distance from the origin", this->File, object->name, largest / size, 0, 1e-6);
+    }
+    this->judgeMesh(mesh, model, this->Poses.at({ *this->Frames.begin(), id }).matrix.leftCols<3>().determinant() < 0);
+  }
+
+  static std::array<std::size_t, 3> sortedCorners(std::array<std::size_t, 3> corners)
+  {
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    return corners;
+  }
+
+  /// The picture on a primitive; "" for none.
+  std::string pictureOf(const Json& material) const
+  {
+    const Json& look = material.at("pbrMetallicRoughness");
+    if (!look.contains("baseColorTexture"))
+    {
+      return {};
+    }
+    const Json& texture = this->Document.at("textures").at(look.at("baseColorTexture").at("index").get<std::size_t>());
+    const std::string uri = this->Document.at("images").at(texture.at("source").get<std::size_t>()).at("uri");
+    return uri.substr(uri.rfind('/') + 1);
+  }
+
+  void judgeMesh(const Json& mesh, const PlyFile& model, bool mirrored)
+  {
+    std::multimap<std::array<std::size_t, 3>, std::string> triangles; // and their pictures
+    for (std::size_t i = 0; i < model.triangles(); ++i)
+    {
+      const auto& t = model.triangle(i);
+      const auto corner = [&](std::size_t k) { return std::size_t(t[k]); };
+      const auto corners = sortedCorners({ corner(0), corner(mirrored ? 2 : 1), corner(mirrored ? 1 : 2) });
+      triangles.emplace(corners, model.picture(i));
+    }
+    for (const Json& primitive : mesh.at("primitives"))
+    {
+      const Json& attributes = primitive.at("attributes");
+      const Json& material = this->Document.at("materials").at(primitive.at("material").get<std::size_t>());
+      const std::string picture = this->pictureOf(material);
+      const Eigen::VectorXd factor = listOf(material.at("pbrMetallicRoughness").at("baseColorFactor"));
+      const Eigen::MatrixXd colors = attributes.contains("COLOR_0")
+                                       ? this->Numbers.read(attributes["COLOR_0"])
+                                       : Eigen::MatrixXd::Ones(Eigen::Index(model.vertices()), 3);
+      const Eigen::VectorXd indices = this->Numbers.read(primitive.at("indices")).col(0);
+      for (Eigen::Index i = 0; i + 2 < indices.size(); i += 3)
+      {
+        const auto corners =
+          sortedCorners({ std::size_t(indices[i]), std::size_t(indices[i + 1]), std::size_t(indices[i + 2]) });
+        const auto found = triangles.find(corners);
+        const bool there = found != triangles.end();
+        this->Judge.holds("triangles", this->File, mesh.at("name"), there, "another triangle", "those of the model");
+        if (!there)
+        {
+          continue;
+        }
+        const std::string expected = found->second;
+        triangles.erase(found);
+        this->Judge.holds("textures", this->File, mesh.at("name"),
+          picture == expected || (picture.empty() && this->isLeftOut(expected)), picture, expected);
+        for (const std::size_t corner : corners)
+        {
+          const Eigen::Vector3d color = factor.head(3).cwiseProduct(colors.row(Eigen::Index(corner)).transpose());
+          this->judgeColor(mesh.at("name"), color, model.vertex(corner).color);
+        }
+      }
+      this->judgeAttributes(mesh.at("name"), attributes, model, mirrored);
+    }
+    this->Judge.holds("triangles", this->File, mesh.at("name"), triangles.empty(),
+      std::to_string(triangles.size()) + " missing", "those of the model");
+  }
+
+  bool isLeftOut(const std::string& picture) const
+  {
+    return (", " + this->Judge.source().convention("textures_left_out") + ',').find(", " + picture + ',') !=
+           std::string::npos;
+  }
+
+  void judgeColor(const std::string& where, const Eigen::Vector3d& found, const std::array<std::uint8_t, 3>& expected)
+  {
+    for (Eigen::Index c = 0; c < 3; ++c)
+    {
+      const double v = found[c] <= 0.0031308 ? 12.92 * found[c] : 1.055 * std::pow(found[c], 1 / 2.4) - 0.055;
+      this->Judge.number("colors", "levels", this->File, where, 255 * v, expected[std::size_t(c)], 1e-3);
+    }
+  }
+
+  void judgeAttributes(const std::string& where, const Json& attributes, const PlyFile& model, bool mirrored)
+  {
+    if (attributes.contains("NORMAL"))
+    {
+      const Eigen::MatrixXd normals = this->Numbers.read(attributes["NORMAL"]);
+      for (std::size_t i = 0; i < model.vertices(); ++i)
+      {
+        Eigen::Vector3d expected = model.vertex(i).normal.cast<double>().normalized();
+        expected.x() *= mirrored ? -1 : 1;
+        const double apart = (normals.row(Eigen::Index(i)).transpose() - expected).norm();
+        this->Judge.number("normals", "1", this->File, where, apart, 0, single);
+      }
+    }
+    this->Judge.holds("texture coordinates", this->File, where, attributes.contains("TEXCOORD_0") == model.hasUvs(),
+      "another", "as the model");
+    if (attributes.contains("TEXCOORD_0"))
+    {
+      const Eigen::MatrixXd uvs = this->Numbers.read(attributes["TEXCOORD_0"]);
+      for (std::size_t i = 0; i < model.vertices(); ++i)
+      {
+        const Eigen::Vector2d expected(model.vertex(i).uv.x(), 1 - model.vertex(i).uv.y());
+        const double apart = (uvs.row(Eigen::Index(i)).transpose() - expected).cwiseAbs().maxCoeff();
+        this->Judge.number(
+          "texture coordinates", "1", this->File, where, apart / std::max(1.0, expected.norm()), 0, single);
+      }
+    }
+  }
+
+  /// Kinds and places of lights that do not move; how bright they are is a convention.
+  void judgeLight(std::size_t index, const Json& node)
+  {
+    const std::size_t number = node.at("extensions").at("KHR_lights_punctual").at("light");
+    const Json& light = this->Document.at("extensions").at("KHR_lights_punctual").at("lights").at(number);
+    const auto found = std::find_if(this->Lights.begin(), this->Lights.end(),
+      [&](const Json& one) { return one.value("name", "") == light.at("name"); });
+    const bool known = found != this->Lights.end() && found->value("kind", "point") == light.at("type");
+    this->Judge.holds("lights", this->File, light.at("name"), known, light.at("type"), "a light of the scene");
+    const bool still = known && (!found->contains("position") || found->at("position").is_array()) &&
+                       (!found->contains("target") || found->at("target").is_array());
+    if (!still)
+    {
+      return;
+    }
+    const Eigen::Vector3d place = found->contains("position") ? listOf(found->at("position")) : Eigen::Vector3d::Zero();
+    const Eigen::Vector3d target = found->contains("target") ? listOf(found->at("target")) : Eigen::Vector3d::Zero();
+    const Eigen::Affine3d world = this->affine(index, *this->Frames.begin());
+    const Eigen::Vector3d along = (target - place).normalized();
+    const double apart = (world.translation() / this->Metres - place).norm() / std::max(1.0, place.norm());
+    const double turn = light.at("type") == "point" ? 0 : (world.linear() * Eigen::Vector3d(0, 0, -1) - along).norm();
+    this->Judge.number("lights", "1", this->File, light.at("name"), apart + turn, 0, 1e-9);
+  }
+
+  /// Pictures are the dataset's.
+  void judgeTextures()
+  {
+    for (const ExportedFile& one : this->Judge.source().record().files)
+    {
+      if (one.file.path.rfind("textures/", 0) == 0)
+      {
+        const std::vector<DatasetFile>& all = this->Judge.source().manifest().files;
+        const std::string expected = "models/" + one.file.path.substr(std::string("textures/").size());
+        const bool same = std::any_of(all.begin(), all.end(),
+          [&](const DatasetFile& file) { return file.path == expected && file.sha256 == one.file.sha256; });
+        this->Judge.holds("textures", one.file.path, expected, same, "other bytes", "the dataset's file");
+      }
+    }
+    this->Judge.holds("asset", "scene.bin", "size", this->Numbers.hasRightSizes(), "another", "that of the document");
+  }
+
+  ExportJudge& Judge;
+  std::string File;
+  const Json& Document;
+  Accessors Numbers;
+  double Metres;
+  Eigen::Matrix3d Up;
+  Json Lights;
+  std::map<std::pair<int, std::uint32_t>, PoseRecord> Poses;
+  std::map<std::size_t, std::map<std::string, Channel>> Channels;
+  std::set<int> Frames;
+  std::set<std::uint32_t> Ids;
+  std::size_t Pictures = 0;
+};
+} // namespace
+
+void readGltf(ExportJudge& judge)
+{
+  const std::string file = "scene.gltf";
+  const std::string path = judge.source().path(file);
+  const Json document = readJsonFile(path);
+  useJson(path, [&] { Asset(judge, file, document).judge(); });
+}
+
+} // namespace dgtk
