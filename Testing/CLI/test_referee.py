@@ -66,6 +66,7 @@ NOT_CHECKED = ("color", "color_noisy", "color_sharp", "depth png", "depth_noisy"
 OPEN = {("forward-backward", "flow"): 0.5,  # no four pixels on one triangle
         ("ldi", "surfaces"): 4e-3,  # every surface along the ray may have an edge there
         ("alpha", "samples"): 0.05, ("alpha", "nearest"): 0.05, ("matting", "matting_crate alpha"): 0.05,  # divided pixels
+        ("rgba", "color_rgba alpha"): 0.05, ("rgba", "color_rgba"): 0.05,
         ("points", "colors"): 0.05}  # borders of texels
 
 
@@ -490,6 +491,18 @@ def covered():
     yield Plant("alpha", "nearest", 1e-7, other_object, small=False)
 
 
+def pictures_without_background():
+    name = "right/color_rgba/000000.png"
+
+    def share(data, _):
+        """A pixel that is wholly covered, of those that are looked at."""
+        rows, columns = np.nonzero(data.interior("right", 0)[::4, ::4])
+        return data.change(name, (4 * int(columns[0]), 4 * int(rows[0])), lambda v: v - [0, 0, 0, 1])
+
+    yield Plant("rgba", "color_rgba alpha", 1e-7, share, small=False)
+    yield Plant("rgba", "color_rgba", 2, lambda data, _: data.change(name, data.spot("right", 0), lambda v: v + np.where(v < 128, [4, 0, 0, 0], [-4, 0, 0, 0])), small=False)
+
+
 def mattes():
     folder = "left/matting_crate/000000"
 
@@ -866,13 +879,13 @@ def tracks():
 
 def files():
     def flip(data, _):
-        path = data.path("left/color/000000.png")
+        path = data.path("left/color_noisy/000000.png")
         with open(path, "r+b") as file:
             file.seek(200)
             byte = file.read(1)[0]
             file.seek(200)
             file.write(bytes([byte ^ 1]))
-        return "left/color/000000.png", None
+        return "left/color_noisy/000000.png", None
 
     def unlisted(data, _):
         with open(data.path("left/notes.txt"), "w", encoding="utf-8") as file:
@@ -926,7 +939,7 @@ def cameras():
     yield Plant("cameras", "objects", 0, lambda data, _: data.document("objects.json", objects), bad=6, small=False)
 
 
-ALL = [plant for group in (files, depths, labels, calibrations, geometry, pairs, layered, covered, mattes, boxes,
+ALL = [plant for group in (files, depths, labels, calibrations, geometry, pairs, layered, covered, pictures_without_background, mattes, boxes,
                                 metadata, poses, models, keypoints, masks, clouds, tracks)
        for plant in group()]
 

@@ -213,7 +213,7 @@ class Gltf(datasets.ExportCase):
             options = ("--cameras", "radial") if says == "radial" else ()
             self.refused("export", dataset, "--format", "gltf", "-o", target, *options, status=2, says=says)
         dataset = self.render(datasets.walk(self.path("walk")), "depth")
-        self.refused("export", dataset, "--format", "gltf", "-o", target, status=2, says=("--models", "back wall"))
+        self.refused("export", dataset, "--format", "gltf", "-o", target, status=2, says=("with models", "back wall"))
         self.assertFalse(os.path.exists(target))
 
     def test_the_referee_finds(self):

@@ -108,5 +108,53 @@ class Transforms(datasets.ExportCase):
         self.assertFalse(os.path.exists(self.path("no")))
 
 
+def load_blender(folder, split):
+    """load_blender.py of the original NeRF: pictures in [0, 1], poses, focal length in pixels."""
+    document = load_json(os.path.join(folder, f"transforms_{split}.json"))
+    pictures = np.array([read_png(os.path.join(folder, frame["file_path"] + ".png")) for frame in document["frames"]]) / 255
+    poses = np.array([frame["transform_matrix"] for frame in document["frames"]])
+    width = pictures.shape[2]
+    return pictures, poses, 0.5 * width / math.tan(0.5 * document["camera_angle_x"])
+
+
+class NerfSynthetic(datasets.ExportCase):
+    def test_pictures_without_their_background(self):
+        """Over the background they are the picture again; rays of the loader meet the points that pixels show."""
+        dataset = self.render(datasets.walk(self.path("scene")), "color,color_rgba,position,objects", "--samples", 5)
+        folder, _ = self.export(dataset, "nerf-synthetic", "--split", "train=0:1,test=2:3")
+        self.assertEqual(sorted(os.listdir(folder)), ["export.json", "test", "train", "transforms_test.json", "transforms_train.json"])
+        background = np.array([0.2, 0.3, 0.4])
+        mixed = 0
+        for split, frames in (("train", (0, 1)), ("test", (2, 3))):
+            pictures, poses, focal = load_blender(folder, split)
+            for picture, pose, frame in zip(pictures, poses, frames):
+                alpha = picture[..., 3:]
+                color = read_png(os.path.join(dataset, "Kamera 1", "color", f"{frame:06d}.png")) / 255
+                self.assertLess(np.abs(picture[..., :3] * alpha + background * (1 - alpha) - color).max(), 2.01 / 255)
+                mixed += np.count_nonzero((alpha > 0) & (alpha < 1))
+                points = layer_of(dataset, "position", "Kamera 1", frame)
+                height, width = points.shape[:2]
+                x, y = np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5)  # centres of pixels, which the original's own rays miss by half a pixel
+                rays = np.stack([(x - width / 2) / focal, -(y - height / 2) / focal, -np.ones_like(x)], axis=-1) @ pose[:3, :3].T
+                away = points - pose[:3, 3]
+                there = np.isfinite(points[..., 0])
+                if there.any():
+                    cross = np.cross(away[there], rays[there] / np.linalg.norm(rays[there], axis=-1, keepdims=True))
+                    self.assertLess(np.linalg.norm(cross, axis=-1).max(), 1e-6)
+        self.assertGreater(mixed, 100)
+        self.assertFalse(pictures[1][..., 3].any(), "the last frame is empty")
+        said = self.planted(dataset, folder, "transforms_train.json", lambda text: text.replace(b'"camera_angle_x": ', b'"camera_angle_x": 1', 1))
+        self.assertIn("layer intrinsics", said)
+        said = self.planted(dataset, folder, "transforms_train.json", lambda text: text.replace(b"0.0,0.0,0.0,1.0]]", b"0.0,0.0,0.0,2.0]]", 1))
+        self.assertIn("layer pose", said)
+
+    def test_refusals(self):
+        dataset = self.render(datasets.lenses(self.path("scene")), "color_rgba")
+        for says, cameras in (("not a plain pinhole", "mild"), ("angle of view", "plain,mild")):
+            self.refused("export", dataset, "--format", "nerf-synthetic", "-o", self.path("no"), "--cameras", cameras, status=2, says="nerf-synthetic")
+        self.refused("export", dataset, "--format", "nerf-synthetic", "-o", self.path("no"), "--cameras", "plain", "--image-format", "jpg", status=2, says="PNG")
+        self.assertFalse(os.path.exists(self.path("no")))
+
+
 if __name__ == "__main__":
     main()

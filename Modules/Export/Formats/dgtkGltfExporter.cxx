@@ -330,7 +330,7 @@ public:
       if (object.geometryFile.empty())
       {
         throw UsageError(
-          "gltf: the dataset has no model of object " + quoted(object.name) + " (render it with --models)");
+          "gltf: the dataset has no model of object " + quoted(object.name) + " (render it for gltf, or with models)");
       }
     }
     requirePoses(dataset);

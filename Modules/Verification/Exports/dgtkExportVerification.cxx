@@ -24,6 +24,7 @@ void readKittiObject(ExportJudge& judge);
 void readKittiOdometry(ExportJudge& judge);
 void readStereo(ExportJudge& judge);
 void readSintel(ExportJudge& judge);
+void readNerfSynthetic(ExportJudge& judge);
 void readTransforms(ExportJudge& judge);
 void readTum(ExportJudge& judge);
 void readFlyingThings(ExportJudge& judge);
@@ -56,6 +57,7 @@ constexpr Reader readers[] = {
   { "middlebury", &readStereo },
   { "eth3d", &readStereo },
   { "sintel", &readSintel },
+  { "nerf-synthetic", &readNerfSynthetic },
   { "transforms", &readTransforms },
   { "tum", &readTum },
   { "flyingthings", &readFlyingThings },

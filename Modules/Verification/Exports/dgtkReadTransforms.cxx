@@ -145,4 +145,42 @@ void readTransforms(ExportJudge& judge)
     });
 }
 
+// load_blender.py of the original NeRF: focal = w / 2 / tan(angle / 2), the middle at w/2, h/2.
+void readNerfSynthetic(ExportJudge& judge)
+{
+  std::size_t frames = 0;
+  for (const char* split : { "train", "val", "test" })
+  {
+    const std::string file = std::string("transforms_") + split + ".json";
+    const auto& files = judge.source().record().files;
+    const auto listed = [&](const ExportedFile& one) { return one.file.path == file; };
+    if (std::none_of(files.begin(), files.end(), listed))
+    {
+      continue;
+    }
+    const std::string path = judge.source().path(file);
+    const Json document = readJsonFile(path);
+    useJson(path,
+      [&]
+      {
+        for (const Json& frame : document.at("frames"))
+        {
+          ++frames;
+          const std::string name = frame.at("file_path").get<std::string>().substr(2) + ".png";
+          const ExportedName* picture = pictureOf(judge, file, name);
+          const CameraRecord* camera = picture ? judge.source().camera(picture->camera, picture->frame) : nullptr;
+          if (camera)
+          {
+            const double focal = camera->width / 2.0 / std::tan(document.at("camera_angle_x").get<double>() / 2);
+            Eigen::Matrix3d K;
+            K << focal, 0, camera->width / 2.0, 0, focal, camera->height / 2.0, 0, 0, 1;
+            judge.intrinsics(file, picture->camera, picture->frame, K, 1e-6);
+            judgePose(judge, file, frame.at("transform_matrix"), *picture);
+          }
+        }
+      });
+  }
+  judge.number("frames", "", "", "all parts", double(frames), double(judge.source().record().names.size()), 0);
+}
+
 } // namespace dgtk

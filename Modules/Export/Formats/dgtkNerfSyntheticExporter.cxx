@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkError.h"
+#include "dgtkExport.h"
+#include "dgtkExportChecks.h"
+#include "dgtkExportPng.h"
+#include "dgtkText.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace dgtk
+{
+
+namespace
+{
+using Json = nlohmann::ordered_json;
+constexpr const char* format = "nerf-synthetic";
+constexpr const char* layer = "color_rgba";
+
+[[noreturn]] void refuse(const CameraRecord& camera, const std::string& what)
+{
+  throw UsageError(std::string(format) + ": camera " + quoted(camera.name) + ' ' + what +
+                   ", and the format has one angle of view around the middle of square pixels");
+}
+
+void requireSayable(const CameraRecord& camera, const CameraRecord& first)
+{
+  constexpr double pixels = 1e-9;
+  const Eigen::Matrix3d& K = camera.K;
+  if (std::abs(K(0, 0) - K(1, 1)) > pixels * K(0, 0) || K(0, 1) != 0)
+  {
+    refuse(camera, "has pixels that are not square");
+  }
+  if (std::abs(2 * K(0, 2) - camera.width) > pixels * camera.width ||
+      std::abs(2 * K(1, 2) - camera.height) > pixels * camera.height)
+  {
+    refuse(camera, "has its principal point beside the middle");
+  }
+  if (std::abs(K(0, 0) - first.K(0, 0)) > pixels * K(0, 0) || camera.width != first.width ||
+      camera.height != first.height)
+  {
+    refuse(camera, "has another size or angle of view than " + quoted(first.name));
+  }
+}
+
+Json matrixOf(const CameraRecord& camera)
+{
+  const Rigid3 pose = worldFromCameraGL(camera);
+  Json rows = Json::array();
+  for (int i = 0; i < 3; ++i)
+  {
+    rows.push_back({ pose.rotation(i, 0), pose.rotation(i, 1), pose.rotation(i, 2), pose.translation[i] });
+  }
+  rows.push_back({ 0.0, 0.0, 0.0, 1.0 });
+  return rows;
+}
+
+class NerfSyntheticExporter : public Exporter
+{
+public:
+  ExportNeeds needs(const OptionValues&) const override { return { { layer }, { { "samples", "8" } } }; }
+
+  void check(const DatasetView& dataset, const OptionValues& options) const override
+  {
+    requirePng(options, format);
+    requirePinholes(dataset, format);
+    for (const DatasetShot& shot : dataset.shots())
+    {
+      requireSayable(shot.camera, dataset.shots().front().camera);
+    }
+    for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
+    {
+      if (split.name != "train" && split.name != "val" && split.name != "test")
+      {
+        throw UsageError("split: parts of " + std::string(format) + " are train, val and test, found " + split.name);
+      }
+    }
+    requireEverywhere(dataset, layer, format, { "png" });
+  }
+
+  ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override
+  {
+    ExportPlan plan;
+    plan.conventions = { { "pixel_centre", "the angle of view is that of the whole width; the middle is at w/2, h/2" },
+      { "axes", "x right, y up, z back; world from camera" }, { "alpha", "straight" } };
+    for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
+    {
+      int number = 0;
+      for (const DatasetShot& shot : dataset.shots())
+      {
+        if (!split.holds(shot.frame()))
+        {
+          continue;
+        }
+        const std::string stem = split.name + "/r_" + std::to_string(number++);
+        plan.items.push_back(item(dataset, shot, stem, split.name, options));
+        plan.names.push_back({ shot.name(), shot.frame(), stem + ".png" });
+      }
+      plan.documents.push_back(document(dataset, split.name));
+    }
+    return plan;
+  }
+
+private:
+  static ExportItem item(const DatasetView& dataset, const DatasetShot& shot, const std::string& stem,
+    const std::string& split, const OptionValues& options)
+  {
+    return { { stem + ".png" }, [&dataset, &shot, stem, split, options](ExportSink& sink)
+      {
+        writePicture(sink, dataset, shot, layer, stem + ".png", options);
+        const Json frame{ { "file_path", "./" + stem }, { "rotation", 0.0 },
+          { "transform_matrix", matrixOf(shot.camera) } };
+        sink.note("frames:" + split, frame.dump());
+      } };
+  }
+
+  static ExportItem document(const DatasetView& dataset, const std::string& split)
+  {
+    const std::string name = "transforms_" + split + ".json";
+    return { { name }, [&dataset, name, split](ExportSink& sink)
+      {
+        const CameraRecord& first = dataset.shots().front().camera;
+        const Json angle = 2 * std::atan(first.width / (2 * first.K(0, 0)));
+        const std::unique_ptr<ExportFile> file = sink.open(name);
+        file->write("{\n \"camera_angle_x\": " + angle.dump() + ",\n \"frames\": [");
+        const char* between = "\n  ";
+        sink.notes("frames:" + split,
+          [&](const std::string& frame)
+          {
+            file->write(between + frame);
+            between = ",\n  ";
+          });
+        file->write(std::string("\n ]\n}\n"));
+        file->finish();
+      } };
+  }
+};
+} // namespace
+
+std::unique_ptr<Exporter> makeNerfSyntheticExporter() { return std::make_unique<NerfSyntheticExporter>(); }
+
+} // namespace dgtk
