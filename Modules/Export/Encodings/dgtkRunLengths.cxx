@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace dgtk
 {
@@ -167,7 +169,7 @@ double signedArea(const std::vector<double>& loop)
 }
 } // namespace
 
-std::vector<std::vector<double>> polygonsOf(const RunLengths& mask)
+std::vector<std::vector<double>> bordersOf(const RunLengths& mask)
 {
   const MaskPixels inside(mask);
   // tops of pixels that a loop has passed, from left to right
@@ -208,14 +210,48 @@ std::vector<std::vector<double>> polygonsOf(const RunLengths& mask)
         direction = turned;
       } while (px != x || py != y || direction != 0);
       loop.resize(loop.size() - 2); // the first corner again
-      if (signedArea(loop) < 0)
-      {
-        return {}; // around a hole
-      }
       loops.push_back(loop);
     }
   }
   return loops;
+}
+
+std::vector<std::vector<double>> polygonsOf(const RunLengths& mask)
+{
+  std::vector<std::vector<double>> loops = bordersOf(mask);
+  const bool hole =
+    std::any_of(loops.begin(), loops.end(), [](const std::vector<double>& loop) { return signedArea(loop) < 0; });
+  return hole ? std::vector<std::vector<double>>() : loops;
+}
+
+std::vector<double> joinedBorder(const RunLengths& mask)
+{
+  std::vector<double> joined;
+  for (const std::vector<double>& loop : bordersOf(mask))
+  {
+    std::size_t from = 0; // the nearest corners of what there is and of the loop
+    std::size_t to = 0;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < joined.size(); i += 2)
+    {
+      for (std::size_t k = 0; k < loop.size(); k += 2)
+      {
+        const double apart = std::hypot(joined[i] - loop[k], joined[i + 1] - loop[k + 1]);
+        from = apart < nearest ? i : from;
+        to = apart < nearest ? k : to;
+        nearest = std::min(nearest, apart);
+      }
+    }
+    std::vector<double> way(loop.begin() + std::ptrdiff_t(to), loop.end());
+    way.insert(way.end(), loop.begin(), loop.begin() + std::ptrdiff_t(to));
+    if (!joined.empty())
+    {
+      way.insert(way.end(), { loop[to], loop[to + 1], joined[from], joined[from + 1] });
+      from += 2;
+    }
+    joined.insert(joined.begin() + std::ptrdiff_t(joined.empty() ? 0 : from), way.begin(), way.end());
+  }
+  return joined;
 }
 
 } // namespace dgtk

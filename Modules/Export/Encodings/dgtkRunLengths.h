@@ -38,6 +38,12 @@ std::map<std::uint32_t, RunLengths> masksOf(const Rows& objects);
 /// the screen, corners only. Pixels that touch at a corner alone are apart. None where the mask has a hole.
 std::vector<std::vector<double>> polygonsOf(const RunLengths& mask);
 
+/// The same of any mask, holes too, which go round counter-clockwise.
+std::vector<std::vector<double>> bordersOf(const RunLengths& mask);
+/// All of them as one polygon: from one to the next and back on one line. By the even-odd rule it has the mask's
+/// pixels.
+std::vector<double> joinedBorder(const RunLengths& mask);
+
 } // namespace dgtk
 
 #endif

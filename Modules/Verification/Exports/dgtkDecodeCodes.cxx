@@ -107,4 +107,31 @@ DecodedPixels decodeFlowPfm(const std::string& path, const PixelEncoding& encodi
   return flow;
 }
 
+void fillPolygon(const std::vector<double>& polygon, int width, int height, std::vector<char>& mask)
+{
+  const std::size_t corners = polygon.size() / 2;
+  for (int y = 0; y < height; ++y)
+  {
+    std::vector<double> crossings;
+    for (std::size_t i = 0; i < corners; ++i)
+    {
+      const std::size_t j = (i + 1) % corners;
+      const double y0 = polygon[2 * i + 1] - (y + 0.5);
+      const double y1 = polygon[2 * j + 1] - (y + 0.5);
+      if ((y0 < 0) != (y1 < 0))
+      {
+        crossings.push_back(polygon[2 * i] + (polygon[2 * j] - polygon[2 * i]) * y0 / (y0 - y1));
+      }
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
+    {
+      for (int x = std::max(0, int(std::ceil(crossings[i] - 0.5))); x < width && x + 0.5 < crossings[i + 1]; ++x)
+      {
+        mask[std::size_t(y) * width + x] = 1;
+      }
+    }
+  }
+}
+
 } // namespace dgtk

@@ -47,6 +47,10 @@ DecodedPixels decodePicture(const std::string& path);
 /// The bytes of a JPEG picture; `path` stands in errors.
 DecodedPixels decodeJpeg(const std::string& path, const std::string& bytes);
 
+/// Marks the pixels whose centres lie in a polygon, by the even-odd rule along rows: x, y in turn, pixels from the
+/// image's corner.
+void fillPolygon(const std::vector<double>& polygon, int width, int height, std::vector<char>& mask);
+
 } // namespace dgtk
 
 #endif

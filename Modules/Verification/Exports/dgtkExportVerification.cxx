@@ -27,6 +27,7 @@ void readSintel(ExportJudge& judge);
 void readNerfSynthetic(ExportJudge& judge);
 void readTransforms(ExportJudge& judge);
 void readTum(ExportJudge& judge);
+void readYolo(ExportJudge& judge);
 void readFlyingThings(ExportJudge& judge);
 void readWebdataset(ExportJudge& judge);
 void readImagefolder(ExportJudge& judge);
@@ -60,6 +61,7 @@ constexpr Reader readers[] = {
   { "nerf-synthetic", &readNerfSynthetic },
   { "transforms", &readTransforms },
   { "tum", &readTum },
+  { "yolo", &readYolo },
   { "flyingthings", &readFlyingThings },
   { "webdataset", &readWebdataset },
   { "imagefolder", &readImagefolder },

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkExportJudge.h"
+#include "dgtkExportPixels.h"
 #include "dgtkJsonFile.h"
 
 #include <algorithm>
@@ -53,34 +53,6 @@ std::vector<char> filled(const std::vector<std::uint64_t>& counts, int width, in
   return mask;
 }
 
-/// Pixels whose centres lie in a polygon: even-odd rule along rows.
-void fill(const std::vector<double>& polygon, int width, int height, std::vector<char>& mask)
-{
-  const std::size_t corners = polygon.size() / 2;
-  for (int y = 0; y < height; ++y)
-  {
-    std::vector<double> crossings;
-    for (std::size_t i = 0; i < corners; ++i)
-    {
-      const std::size_t j = (i + 1) % corners;
-      const double y0 = polygon[2 * i + 1] - (y + 0.5);
-      const double y1 = polygon[2 * j + 1] - (y + 0.5);
-      if ((y0 < 0) != (y1 < 0))
-      {
-        crossings.push_back(polygon[2 * i] + (polygon[2 * j] - polygon[2 * i]) * y0 / (y0 - y1));
-      }
-    }
-    std::sort(crossings.begin(), crossings.end());
-    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
-    {
-      for (int x = std::max(0, int(std::ceil(crossings[i] - 0.5))); x < width && x + 0.5 < crossings[i + 1]; ++x)
-      {
-        mask[std::size_t(y) * width + x] = 1;
-      }
-    }
-  }
-}
-
 std::vector<char> maskOf(const Json& segmentation, int width, int height)
 {
   if (segmentation.is_array())
@@ -88,7 +60,7 @@ std::vector<char> maskOf(const Json& segmentation, int width, int height)
     std::vector<char> mask(std::size_t(width) * height);
     for (const Json& polygon : segmentation)
     {
-      fill(polygon.get<std::vector<double>>(), width, height, mask);
+      fillPolygon(polygon.get<std::vector<double>>(), width, height, mask);
     }
     return mask;
   }
