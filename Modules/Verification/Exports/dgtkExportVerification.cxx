@@ -24,6 +24,7 @@ void readKittiObject(ExportJudge& judge);
 void readKittiOdometry(ExportJudge& judge);
 void readStereo(ExportJudge& judge);
 void readSintel(ExportJudge& judge);
+void readMvsnet(ExportJudge& judge);
 void readNerfSynthetic(ExportJudge& judge);
 void readTransforms(ExportJudge& judge);
 void readTum(ExportJudge& judge);
@@ -58,6 +59,7 @@ constexpr Reader readers[] = {
   { "middlebury", &readStereo },
   { "eth3d", &readStereo },
   { "sintel", &readSintel },
+  { "mvsnet", &readMvsnet },
   { "nerf-synthetic", &readNerfSynthetic },
   { "transforms", &readTransforms },
   { "tum", &readTum },
