@@ -147,7 +147,7 @@ int main(int, char** argv)
   const std::set<std::string> wanted{ "calibration", "color_sharp", "correspondence", "disparity", "disparity_forward",
     "disparity_backward", "pov" };
   require(refused(request, folder) == wanted, "these layers are refused, and all others hold");
-  std::set<std::string> drawn{ "color", "color_noisy", "ldi", "matting", "tiles" };
+  std::set<std::string> drawn{ "color", "color_noisy", "color_rgba", "ldi", "matting", "tiles" };
   drawn.insert(wanted.begin(), wanted.end());
   request.options["renderer"] = "vtk";
   require(refused(request, folder + "/drawn") == drawn, "OpenGL does not draw it");
