@@ -26,6 +26,7 @@ void readStereo(ExportJudge& judge);
 void readSintel(ExportJudge& judge);
 void readMvsnet(ExportJudge& judge);
 void readNerfSynthetic(ExportJudge& judge);
+void readTapvid(ExportJudge& judge);
 void readTransforms(ExportJudge& judge);
 void readTum(ExportJudge& judge);
 void readYolo(ExportJudge& judge);
@@ -61,6 +62,7 @@ constexpr Reader readers[] = {
   { "sintel", &readSintel },
   { "mvsnet", &readMvsnet },
   { "nerf-synthetic", &readNerfSynthetic },
+  { "tapvid", &readTapvid },
   { "transforms", &readTransforms },
   { "tum", &readTum },
   { "yolo", &readYolo },

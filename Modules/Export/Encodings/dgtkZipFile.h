@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkZipFile_h
+#define dgtkZipFile_h
+
+// Private to Export.
+
+#include "dgtkExporter.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace dgtk
+{
+
+/// Writes a ZIP archive whose members are stored as they are (APPNOTE 6.3.4, without ZIP64), as numpy.savez does. All
+/// that is not contents is fixed: the time is 1980-01-01; so the same members give the same bytes.
+class ZipFile
+{
+public:
+  ZipFile(ExportSink& sink, const std::string& name);
+  /// Throws UsageError where the archive would have 4 GiB or more.
+  void add(const std::string& name, const std::string& bytes);
+  void finish();
+
+private:
+  std::unique_ptr<ExportFile> File;
+  std::string Directory;
+  std::uint64_t At = 0;
+  std::uint16_t Members = 0;
+};
+
+} // namespace dgtk
+
+#endif
