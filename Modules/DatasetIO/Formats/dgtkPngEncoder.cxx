@@ -175,12 +175,17 @@ PngEncoder::PngEncoder(const Header& header, Sink sink)
   putBig32(start, static_cast<std::uint32_t>(header.width));
   putBig32(start + 4, static_cast<std::uint32_t>(header.height));
   start[8] = static_cast<unsigned char>(header.bitDepth);
-  start[9] = colorTypes[header.channels - 1];
+  constexpr unsigned char indices = 3;
+  start[9] = header.palette.empty() ? colorTypes[header.channels - 1] : indices;
   this->Out("\x89PNG\r\n\x1a\n", 8);
   this->chunk("IHDR", start, sizeof start);
   if (header.srgb)
   {
     this->chunk("sRGB", "\0", 1);
+  }
+  if (!header.palette.empty())
+  {
+    this->chunk("PLTE", header.palette.data(), header.palette.size());
   }
   if (header.nothing)
   {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace dgtk
@@ -39,6 +40,7 @@ public:
     bool srgb = false;    ///< adds an sRGB chunk, perceptual intent
     bool nothing = false; ///< adds a tRNS chunk: of 16-bit gray, 65535 is no value
     PngPrediction prediction = PngPrediction::Smooth;
+    std::string palette = {}; ///< of one channel of 8 bits: R, G, B of the codes from 0; adds a PLTE chunk
   };
 
   /// Writes the signature and the header to the sink.

@@ -29,6 +29,7 @@ void readNerfSynthetic(ExportJudge& judge);
 void readTapvid(ExportJudge& judge);
 void readTransforms(ExportJudge& judge);
 void readTum(ExportJudge& judge);
+void readVoc(ExportJudge& judge);
 void readYolo(ExportJudge& judge);
 void readFlyingThings(ExportJudge& judge);
 void readWebdataset(ExportJudge& judge);
@@ -65,6 +66,7 @@ constexpr Reader readers[] = {
   { "tapvid", &readTapvid },
   { "transforms", &readTransforms },
   { "tum", &readTum },
+  { "voc", &readVoc },
   { "yolo", &readYolo },
   { "flyingthings", &readFlyingThings },
   { "webdataset", &readWebdataset },

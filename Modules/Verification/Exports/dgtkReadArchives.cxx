@@ -204,7 +204,8 @@ DecodedPixels decodeGrayPngBytes(const std::string& path, const std::string& byt
         pixels.width = static_cast<int>(big32(bytes, at + 8));
         pixels.height = static_cast<int>(big32(bytes, at + 12));
         depth = static_cast<unsigned char>(bytes.at(at + 16)) / 8U;
-        depth = bytes.at(at + 17) == 0 && bytes.at(at + 20) == 0 ? depth : 0; // gray, not interlaced
+        const bool codes = bytes.at(at + 17) == 0 || bytes.at(at + 17) == 3; // gray, or a palette's
+        depth = codes && bytes.at(at + 20) == 0 ? depth : 0;                 // not interlaced
       }
       packed += type == "IDAT" ? bytes.substr(at + 8, big32(bytes, at)) : "";
     }

@@ -18,7 +18,7 @@ namespace dgtk
 void forTarMembers(
   const std::string& path, const std::function<void(const std::string& name, const std::string& bytes)>& visit);
 
-/// The values of a .npy of rows, or of a gray PNG, as they stand there; `path` stands in errors.
+/// The values of a .npy of rows, or of a PNG, gray or codes of a palette, as they stand there; `path` stands in errors.
 DecodedPixels decodeNpyBytes(const std::string& path, const std::string& bytes);
 DecodedPixels decodeGrayPngBytes(const std::string& path, const std::string& bytes);
 
