@@ -118,4 +118,14 @@ std::string SafeNames::of(const std::string& original)
   return unique;
 }
 
+std::shared_ptr<const SafeNames> safeNamesOf(const DatasetView& dataset)
+{
+  auto names = std::make_shared<SafeNames>();
+  for (const std::string& camera : dataset.cameras())
+  {
+    names->of(camera);
+  }
+  return names;
+}
+
 } // namespace dgtk

@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -80,6 +81,7 @@ DGTKEXPORT_EXPORT const ChoiceOption& depth();       ///< layer of the depth map
 DGTKEXPORT_EXPORT const ChoiceOption& imageFormat(); ///< "png" or "jpg"
 DGTKEXPORT_EXPORT const IntegerOption& quality();    ///< of JPEG
 DGTKEXPORT_EXPORT const ChoiceOption& outOfRange();  ///< "void" or "refuse"
+DGTKEXPORT_EXPORT const SwitchOption& undistort();   ///< pinhole twins in place of lenses
 DGTKEXPORT_EXPORT const SwitchOption& link();        ///< hard links for equal bytes
 DGTKEXPORT_EXPORT const IntegerOption& threads();
 } // namespace exported
@@ -96,6 +98,9 @@ struct DatasetSplit
 /// that overlap and for one without a picture.
 DGTKEXPORT_EXPORT std::vector<DatasetSplit> splitsOf(
   const DatasetView& dataset, const OptionValues& options, const std::string& usual);
+
+/// Numbers of a split's shots, in their order.
+DGTKEXPORT_EXPORT std::vector<std::uint32_t> shotsIn(const DatasetView& dataset, const DatasetSplit& split);
 
 } // namespace dgtk
 

@@ -39,6 +39,11 @@ Json jsonOf(const ItemRecord& record)
     json["files"].push_back({ file.path, file.bytes, file.sha256, file.layer, file.camera, file.frame,
       one.encoding.kind, one.encoding.numbers });
   }
+  json["names"] = Json::array();
+  for (const ExportedName& one : record.names)
+  {
+    json["names"].push_back({ one.camera, one.frame, one.name });
+  }
   for (const LayerRounding& one : record.rounding)
   {
     json["rounding"].push_back({ one.layer, one.unit, one.largest, one.values, one.withoutCode });
@@ -57,6 +62,10 @@ ItemRecord recordOf(const Json& json)
   for (const Json& one : json.at("rounding"))
   {
     record.rounding.push_back({ one.at(0), one.at(1), one.at(2), one.at(3), one.at(4) });
+  }
+  for (const Json& one : json.at("names"))
+  {
+    record.names.push_back({ one.at(0), one.at(1), one.at(2) });
   }
   record.notes = json.at("notes").get<std::vector<std::pair<std::string, std::string>>>();
   return record;

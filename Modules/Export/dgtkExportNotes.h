@@ -23,6 +23,7 @@ struct ItemRecord
   std::vector<ExportedFile> files;
   std::vector<LayerRounding> rounding;
   std::vector<std::pair<std::string, std::string>> notes; ///< list and text
+  std::vector<ExportedName> names;
 };
 
 /// The records of the items of an export, in a file beside the journal: an export that is resumed finds them, and

@@ -56,6 +56,12 @@ const ChoiceOption& outOfRange()
     "what becomes of values that a format has no code for: nothing there, counted; or no export");
   return row;
 }
+const SwitchOption& undistort()
+{
+  static const SwitchOption row("undistort", "plain pinholes alone: a camera with a lens gives way to its pinhole twin "
+                                             "in the dataset, or is refused with the twin that is needed");
+  return row;
+}
 const SwitchOption& link()
 {
   static const SwitchOption row("link", "hard links to the dataset's files where bytes are equal");
@@ -72,7 +78,7 @@ const std::vector<const OptionRow*>& exportOptions()
 {
   static const std::vector<const OptionRow*> all{ &exported::cameras(), &exported::split(), &exported::unitMetres(),
     &exported::color(), &exported::depth(), &exported::imageFormat(), &exported::quality(), &exported::outOfRange(),
-    &exported::link(), &exported::threads() };
+    &exported::undistort(), &exported::link(), &exported::threads() };
   return all;
 }
 
@@ -198,6 +204,19 @@ std::vector<DatasetSplit> splitsOf(const DatasetView& dataset, const OptionValue
     splits.push_back(split);
   }
   return splits.empty() ? std::vector<DatasetSplit>{ { usual, frames.front(), frames.back() } } : splits;
+}
+
+std::vector<std::uint32_t> shotsIn(const DatasetView& dataset, const DatasetSplit& split)
+{
+  std::vector<std::uint32_t> numbers;
+  for (const DatasetShot& shot : dataset.shots())
+  {
+    if (split.holds(shot.frame()))
+    {
+      numbers.push_back(static_cast<std::uint32_t>(shot.index));
+    }
+  }
+  return numbers;
 }
 
 } // namespace dgtk

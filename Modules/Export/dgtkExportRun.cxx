@@ -39,11 +39,9 @@ private:
   void writeDocuments();
   void close();
   void forRecords(const std::function<void(const ItemRecord&)>& visit) const;
-  const ExportItem& item(std::size_t index) const
-  {
-    const std::size_t items = this->Plan.items.size();
-    return index < items ? this->Plan.items[index] : this->Plan.documents[index - items];
-  }
+  ExportItem item(std::size_t index) const;
+  std::size_t items() const { return this->Items; } ///< without documents
+  std::size_t all() const { return this->Items + this->Plan.documents.size(); }
   bool cancelled() const { return this->Callbacks.cancel && *this->Callbacks.cancel; }
   void advance();
 
@@ -53,6 +51,7 @@ private:
   std::unique_ptr<Exporter> Format;
   DatasetView Dataset;
   ExportPlan Plan;
+  std::size_t Items = 0;
   std::string Hash;
   std::unique_ptr<Journal> Log;
   std::unique_ptr<ExportNotes> Notes;
@@ -87,6 +86,7 @@ DatasetSelection selectionOf(const ExportRequest& request)
   selection.cameras = exported::cameras().of(request.options);
   const std::vector<double> metres = exported::unitMetres().of(request.options);
   selection.metresPerUnit = metres.empty() ? 0 : metres[0];
+  selection.pinholeTwins = exported::undistort().of(request.options);
   return selection;
 }
 
@@ -124,7 +124,30 @@ ExportRun::ExportRun(const ExportRequest& request, const ExportCallbacks& callba
   requireLayers(this->Dataset, this->Format->needs(options), this->Row.info.name);
   this->Format->check(this->Dataset, options);
   this->Plan = this->Format->plan(this->Dataset, options);
+  this->Items = this->Plan.items.size();
+  for (const ExportSeries& series : this->Plan.series)
+  {
+    this->Items += series.count;
+  }
   this->Hash = this->identity();
+}
+
+ExportItem ExportRun::item(std::size_t index) const
+{
+  if (index < this->Plan.items.size())
+  {
+    return this->Plan.items[index];
+  }
+  index -= this->Plan.items.size();
+  for (const ExportSeries& series : this->Plan.series)
+  {
+    if (index < series.count)
+    {
+      return series.item(index);
+    }
+    index -= series.count;
+  }
+  return this->Plan.documents.at(index);
 }
 
 /// What decides bytes: neither threads nor links.
@@ -162,11 +185,16 @@ std::string ExportRun::identity() const
   return hash.hex();
 }
 
+/// What may be in the way of files; nothing is in an empty folder, however many they are.
 std::vector<std::string> ExportRun::allNames() const
 {
   std::vector<std::string> names;
   std::set<std::string> seen;
-  for (std::size_t i = 0; i < this->Plan.items.size() + this->Plan.documents.size(); ++i)
+  std::error_code code;
+  const bool anew =
+    !std::filesystem::exists(this->Request.folder, code) || std::filesystem::is_empty(this->Request.folder, code);
+  const std::size_t announced = anew ? 0 : this->all();
+  for (std::size_t i = 0; i < announced; ++i)
   {
     for (const std::string& name : this->item(i).files)
     {
@@ -190,8 +218,7 @@ ExportResult ExportRun::execute()
                              : this->Request.replace ? JournalStart::Replace
                                                      : JournalStart::Fresh;
   this->Log = std::make_unique<Journal>(this->Request.folder, this->Hash, start, this->allNames(), exportName);
-  this->Notes = std::make_unique<ExportNotes>(
-    this->Request.folder, this->Hash, this->Plan.items.size() + this->Plan.documents.size(), this->Request.resume);
+  this->Notes = std::make_unique<ExportNotes>(this->Request.folder, this->Hash, this->all(), this->Request.resume);
   this->writeItems();
   if (!this->cancelled())
   {
@@ -226,7 +253,7 @@ void ExportRun::advance()
   ++this->Done;
   if (this->Callbacks.progress)
   {
-    this->Callbacks.progress({ this->Done, this->Plan.items.size() + this->Plan.documents.size() });
+    this->Callbacks.progress({ this->Done, this->all() });
   }
 }
 
@@ -236,7 +263,7 @@ void ExportRun::writeItems()
   ThreadPool pool(threads > 0 ? threads : machineThreads());
   std::atomic<bool> failed{ false };
   std::atomic<std::size_t> kept{ 0 };
-  pool.parallelFor(static_cast<int>(this->Plan.items.size()),
+  pool.parallelFor(static_cast<int>(this->items()),
     [&](int i)
     {
       if (failed || this->cancelled())
@@ -266,9 +293,9 @@ void ExportRun::writeItems()
 
 void ExportRun::write(std::size_t index)
 {
-  const ExportItem& item = this->item(index);
+  const ExportItem item = this->item(index);
   ItemSink sink(this->Dataset, this->Request.folder, item, *this->Log, exported::link().of(this->Request.options));
-  if (index >= this->Plan.items.size())
+  if (index >= this->items())
   {
     sink.readsNotes([this](const auto& visit) { this->forRecords(visit); });
   }
@@ -280,14 +307,14 @@ void ExportRun::writeDocuments()
 {
   for (std::size_t i = 0; i < this->Plan.documents.size() && !this->cancelled(); ++i)
   {
-    this->write(this->Plan.items.size() + i);
+    this->write(this->items() + i);
     this->advance();
   }
 }
 
 void ExportRun::forRecords(const std::function<void(const ItemRecord&)>& visit) const
 {
-  for (std::size_t i = 0; i < this->Plan.items.size() + this->Plan.documents.size(); ++i)
+  for (std::size_t i = 0; i < this->all(); ++i)
   {
     if (this->Notes->has(i)) // documents are written one after another
     {
@@ -321,6 +348,17 @@ void ExportRun::close()
     [&](AtomicFile& document)
     {
       document.write(exportHead(record));
+      bool first = record.names.empty();
+      this->forRecords(
+        [&](const ItemRecord& item)
+        {
+          for (const ExportedName& name : item.names)
+          {
+            document.write(exportNameLine(name, first));
+            first = false;
+          }
+        });
+      document.write(exportMiddle(first));
       this->forRecords(
         [&](const ItemRecord& item)
         {

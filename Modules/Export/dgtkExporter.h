@@ -72,14 +72,24 @@ struct ExportItem
 {
   std::vector<std::string> files; ///< all that it writes; an item without files leaves notes only
   std::function<void(ExportSink&)> write;
+  std::vector<ExportedName> names = {}; ///< of pictures, as the format calls them; beside those of the plan
+};
+
+/// Items that are made when it is their turn, so that a plan of many pictures is small: item(i) is a pure function, and
+/// may be called from any thread, several times.
+struct ExportSeries
+{
+  std::size_t count = 0;
+  std::function<ExportItem(std::size_t)> item;
 };
 
 struct ExportPlan
 {
   std::vector<ExportItem> items;
+  std::vector<ExportSeries> series;  ///< behind the items, in this order
   std::vector<ExportItem> documents; ///< written one by one after all items; they may read their notes
   TextPairs conventions;             ///< { "pixel_centre", "integer: cx and cy are 0.5 less" }, ...
-  std::vector<ExportedName> names;   ///< of the pictures, as the format calls them
+  std::vector<ExportedName> names;   ///< of the pictures, as the format calls them; those of items follow
 };
 
 /// A format of other people's datasets. Stateless; sees a dataset, and nothing of how it was made.

@@ -27,18 +27,19 @@ constexpr double sameScale = 1e-9;
     "bop: object " + quoted(object.name) + ' ' + what + ", which a rigid model cannot say; leave it out with objects");
 }
 
-/// The one scale of an object at all frames.
-Eigen::Vector3d scaleOf(const DatasetView& dataset, const ObjectRecord& object)
+/// The one scale of each object at all frames.
+std::map<std::uint32_t, Eigen::Vector3d> scalesOf(const DatasetView& dataset, const std::vector<std::uint32_t>& objects)
 {
-  Eigen::Vector3d scale(0, 0, 0);
+  std::map<std::uint32_t, Eigen::Vector3d> scales;
   for (const int frame : dataset.frames())
   {
     for (const PoseRecord& pose : dataset.poses(frame))
     {
-      if (pose.id != object.id)
+      if (std::find(objects.begin(), objects.end(), pose.id) == objects.end())
       {
         continue;
       }
+      const ObjectRecord& object = *dataset.object(pose.id);
       if (!pose.rigid)
       {
         refuse(object, "is sheared");
@@ -47,18 +48,14 @@ Eigen::Vector3d scaleOf(const DatasetView& dataset, const ObjectRecord& object)
       {
         refuse(object, "is mirrored");
       }
-      if (!scale.isZero(0) && (pose.scale - scale).norm() > sameScale * scale.norm())
+      const Eigen::Vector3d& scale = scales.emplace(pose.id, pose.scale).first->second;
+      if ((pose.scale - scale).norm() > sameScale * scale.norm())
       {
         refuse(object, "changes its size");
       }
-      scale = scale.isZero(0) ? pose.scale : scale;
     }
   }
-  if (scale.isZero(0))
-  {
-    throw UsageError("bop: the dataset does not say where objects are (poses.json); render it again");
-  }
-  return scale;
+  return scales;
 }
 
 Eigen::Vector3d scaled(const std::array<double, 3>& x, const Eigen::Vector3d& scale)
@@ -221,7 +218,16 @@ Models modelsOf(const DatasetView& dataset, const std::vector<std::uint32_t>& ob
       throw UsageError(
         "bop: the dataset has no file of the model of " + quoted(object.name) + "; render it for bop, or with models");
     }
-    const Eigen::Vector3d scale = scaleOf(dataset, object);
+  }
+  const std::map<std::uint32_t, Eigen::Vector3d> scales = scalesOf(dataset, objects);
+  for (const std::uint32_t id : objects)
+  {
+    const ObjectRecord& object = *dataset.object(id);
+    if (scales.count(id) == 0)
+    {
+      throw UsageError("bop: the dataset does not say where objects are (poses.json); render it again");
+    }
+    const Eigen::Vector3d& scale = scales.at(id);
     auto found = std::find_if(all.models.begin(), all.models.end(),
       [&](const Model& one)
       { return one.file == object.geometryFile && (one.scale - scale).norm() <= sameScale * scale.norm(); });

@@ -11,11 +11,11 @@ namespace dgtk::coco
 
 std::string textOf(const Json& value) { return value.dump(); }
 
-std::string pictureName(const DatasetShot& shot, SafeNames& names, const std::string& extension)
+std::string pictureName(const DatasetShot& shot, const SafeNames& names, const std::string& extension)
 {
   char frame[16];
   std::snprintf(frame, sizeof frame, "_%06d.", shot.frame());
-  return names.of(shot.name()) + frame + extension;
+  return names.known(shot.name()) + frame + extension;
 }
 
 std::int64_t imageIdOf(const DatasetShot& shot) { return static_cast<std::int64_t>(shot.index) + 1; }
