@@ -92,8 +92,9 @@ private:
   std::optional<PoseIndex> Index;
 };
 
-DatasetView::DatasetView(const std::string& folder, const DatasetSelection& selection)
+DatasetView::DatasetView(const std::string& folder, const DatasetSelection& selection, const SceneOfMany& scene)
   : Folder(folder)
+  , Scene(scene)
   , Files(std::make_unique<FileTable>())
   , AllPoses(std::make_unique<Poses>())
 {
@@ -146,10 +147,21 @@ void DatasetView::readShots(const DatasetSelection& selection)
   std::stable_sort(this->Shots.begin(), this->Shots.end(),
     [](const DatasetShot& a, const DatasetShot& b)
     { return std::tie(a.camera.name, a.camera.frame) < std::tie(b.camera.name, b.camera.frame); });
+  const bool many = !this->Scene.name.empty();
   for (std::size_t i = 0; i < this->Shots.size(); ++i)
   {
-    this->Shots[i].index = i;
+    DatasetShot& shot = this->Shots[i];
+    shot.index = i;
+    shot.number = this->Scene.shotsBefore + i;
+    shot.part = many ? this->Scene.place : shot.frame();
+    shot.camera.name = this->nameOf(shot.camera.name);
   }
+}
+
+/// Of a camera, among those of all scenes.
+std::string DatasetView::nameOf(const std::string& camera) const
+{
+  return this->Scene.name.empty() ? camera : this->Scene.name + '/' + camera;
 }
 
 void DatasetView::readFiles()
@@ -157,7 +169,7 @@ void DatasetView::readFiles()
   this->TheManifest = readManifestIn(this->Folder,
     [this](DatasetFile&& file)
     {
-      const DatasetShot* owner = file.layer.empty() ? nullptr : this->shot(file.camera, file.frame);
+      const DatasetShot* owner = file.layer.empty() ? nullptr : this->shot(this->nameOf(file.camera), file.frame);
       this->Files->add(file, owner ? static_cast<std::uint32_t>(owner->index) : FileTable::noShot);
       const bool earlier = this->FirstFrame < 0 || file.frame < this->FirstFrame;
       this->FirstFrame = file.frame >= 0 && earlier ? file.frame : this->FirstFrame;
@@ -227,6 +239,16 @@ const ObjectRecord* DatasetView::object(std::uint32_t id) const
   const auto found = std::find_if(
     this->Objects.begin(), this->Objects.end(), [&](const ObjectRecord& object) { return object.id == id; });
   return found == this->Objects.end() ? nullptr : &*found;
+}
+
+std::uint32_t DatasetView::largestObject() const
+{
+  std::uint32_t largest = this->Scene.largestObject;
+  for (const ObjectRecord& object : this->Objects)
+  {
+    largest = std::max(largest, object.id);
+  }
+  return largest;
 }
 
 std::string DatasetView::file(const DatasetShot& shot, const std::string& layer,

@@ -34,11 +34,22 @@ struct DatasetSelection
   bool pinholeTwins = false; ///< a camera with a lens or a shutter gives way to a plain pinhole with the same poses
 };
 
+/// A dataset as one scene of a folder of datasets, when all of them are looked at together.
+struct SceneOfMany
+{
+  std::string name = {};             ///< its folder; cameras are then called NAME/CAMERA. "": there are no others
+  int place = 0;                     ///< among the scenes, from 0
+  std::size_t shotsBefore = 0;       ///< shots of the scenes before
+  std::uint32_t largestObject = 0;   ///< the largest object id of all scenes
+};
+
 /// A picture's place in a dataset: a camera at a frame.
 struct DatasetShot
 {
   std::size_t index = 0; ///< among the shots, from 0
   CameraRecord camera;
+  std::size_t number = 0; ///< the same among those of all scenes
+  int part = 0;           ///< what splits count: its frame, or, of many scenes, the scene's place
   const std::string& name() const { return this->camera.name; }
   int frame() const { return this->camera.frame; }
 };
@@ -65,7 +76,8 @@ class DGTKEXPORT_EXPORT DatasetView
 public:
   /// Throws UsageError for a camera that there is not, for a selection without a picture and for a camera that lacks
   /// the pinhole twin that is to take its place: it says which one is needed.
-  explicit DatasetView(const std::string& folder, const DatasetSelection& selection = {});
+  explicit DatasetView(
+    const std::string& folder, const DatasetSelection& selection = {}, const SceneOfMany& scene = {});
   ~DatasetView();
   DatasetView(const DatasetView&) = delete;
   DatasetView& operator=(const DatasetView&) = delete;
@@ -85,6 +97,9 @@ public:
 
   const std::vector<ObjectRecord>& objects() const { return this->Objects; }
   const ObjectRecord* object(std::uint32_t id) const; ///< null for none
+  /// Of all scenes.
+  std::uint32_t largestObject() const;
+  const SceneOfMany& scene() const { return this->Scene; }
   const std::vector<ClassRecord>& classes() const { return this->Classes; }
 
   /// Whether some shot has a file of the layer.
@@ -131,7 +146,9 @@ private:
   void readShots(const DatasetSelection& selection);
   void readFiles();
   DatasetFile describedFile(std::uint32_t number) const;
+  std::string nameOf(const std::string& camera) const;
   std::string Folder;
+  SceneOfMany Scene;
   Manifest TheManifest;
   std::string ManifestHash;
   std::vector<DatasetShot> Shots;

@@ -86,13 +86,13 @@ DGTKEXPORT_EXPORT const SwitchOption& link();        ///< hard links for equal b
 DGTKEXPORT_EXPORT const IntegerOption& threads();
 } // namespace exported
 
-/// A part of a dataset by frames, as the option `split` names it.
+/// A part of a dataset by frames, or of many scenes by their places, as the option `split` names it.
 struct DatasetSplit
 {
   std::string name;
   int first = 0;
   int last = 0;
-  bool holds(int frame) const { return frame >= this->first && frame <= this->last; }
+  bool holds(const DatasetShot& shot) const { return shot.part >= this->first && shot.part <= this->last; }
 };
 /// Without the option: one split of all frames, of this name. Throws UsageError for what is not NAME=A:B, for parts
 /// that overlap and for one without a picture.

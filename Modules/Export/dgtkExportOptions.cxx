@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <set>
 
 namespace dgtk
@@ -185,7 +186,8 @@ DatasetSplit splitOf(const std::string& part)
 
 std::vector<DatasetSplit> splitsOf(const DatasetView& dataset, const OptionValues& options, const std::string& usual)
 {
-  const std::vector<int> frames = dataset.frames();
+  const std::vector<DatasetShot>& shots = dataset.shots();
+  const bool alone = dataset.scene().name.empty(); // of many, others may be in it
   std::vector<DatasetSplit> splits;
   for (const std::string& part : exported::split().of(options))
   {
@@ -197,13 +199,13 @@ std::vector<DatasetSplit> splitsOf(const DatasetView& dataset, const OptionValue
         refuseSplit("parts that do not overlap", part);
       }
     }
-    if (std::none_of(frames.begin(), frames.end(), [&](int frame) { return split.holds(frame); }))
+    if (alone && std::none_of(shots.begin(), shots.end(), [&](const auto& shot) { return split.holds(shot); }))
     {
       refuseSplit("frames of the dataset", part);
     }
     splits.push_back(split);
   }
-  return splits.empty() ? std::vector<DatasetSplit>{ { usual, frames.front(), frames.back() } } : splits;
+  return splits.empty() ? std::vector<DatasetSplit>{ { usual, 0, std::numeric_limits<int>::max() } } : splits;
 }
 
 std::vector<std::uint32_t> shotsIn(const DatasetView& dataset, const DatasetSplit& split)
@@ -211,7 +213,7 @@ std::vector<std::uint32_t> shotsIn(const DatasetView& dataset, const DatasetSpli
   std::vector<std::uint32_t> numbers;
   for (const DatasetShot& shot : dataset.shots())
   {
-    if (split.holds(shot.frame()))
+    if (split.holds(shot))
     {
       numbers.push_back(static_cast<std::uint32_t>(shot.index));
     }

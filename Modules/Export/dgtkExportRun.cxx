@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkExport.h"
 
+#include "dgtkDatasetScenes.h"
 #include "dgtkError.h"
 #include "dgtkExportNotes.h"
 #include "dgtkExporterEntry.h"
 #include "dgtkFile.h"
 #include "dgtkHash.h"
 #include "dgtkItemSink.h"
+#include "dgtkSceneFolders.h"
 #include "dgtkSystem.h"
 #include "dgtkText.h"
 #include "dgtkThreadPool.h"
@@ -49,7 +51,7 @@ private:
   ExportCallbacks Callbacks;
   const ExporterRow& Row;
   std::unique_ptr<Exporter> Format;
-  DatasetView Dataset;
+  DatasetScenes Datasets;
   ExportPlan Plan;
   std::size_t Items = 0;
   std::string Hash;
@@ -117,13 +119,17 @@ ExportRun::ExportRun(const ExportRequest& request, const ExportCallbacks& callba
   , Callbacks(callbacks)
   , Row(findExporter(request.format))
   , Format(this->Row.make())
-  , Dataset(request.dataset, selectionOf(this->Request))
+  , Datasets(request.dataset, selectionOf(this->Request))
 {
   const OptionValues& options = this->Request.options;
   requireOther(request);
-  requireLayers(this->Dataset, this->Format->needs(options), this->Row.info.name);
-  this->Format->check(this->Dataset, options);
-  this->Plan = this->Format->plan(this->Dataset, options);
+  for (const DatasetView* dataset : this->Datasets.views())
+  {
+    requireLayers(*dataset, this->Format->needs(options), this->Row.info.name);
+    this->Format->check(*dataset, options);
+  }
+  this->Plan = this->Datasets.many() ? this->Format->planScenes(this->Datasets.views(), options)
+                                     : this->Format->plan(this->Datasets.first(), options);
   this->Items = this->Plan.items.size();
   for (const ExportSeries& series : this->Plan.series)
   {
@@ -175,7 +181,7 @@ TextPairs ExportRun::described() const
 
 std::string ExportRun::identity() const
 {
-  std::string text = std::string(DGTK_VERSION) + '\n' + this->Row.info.name + '\n' + this->Dataset.manifestHash();
+  std::string text = std::string(DGTK_VERSION) + '\n' + this->Row.info.name + '\n' + this->Datasets.manifestHash();
   for (const auto& [name, value] : this->described())
   {
     text += '\n' + name + '=' + value;
@@ -294,7 +300,8 @@ void ExportRun::writeItems()
 void ExportRun::write(std::size_t index)
 {
   const ExportItem item = this->item(index);
-  ItemSink sink(this->Dataset, this->Request.folder, item, *this->Log, exported::link().of(this->Request.options));
+  const DatasetView& dataset = item.dataset ? *item.dataset : this->Datasets.first();
+  ItemSink sink(dataset, this->Request.folder, item, *this->Log, exported::link().of(this->Request.options));
   if (index >= this->items())
   {
     sink.readsNotes([this](const auto& visit) { this->forRecords(visit); });
@@ -329,7 +336,7 @@ void ExportRun::close()
   record.version = DGTK_VERSION;
   record.exporter = this->Row.info.name;
   record.requestHash = this->Hash;
-  record.manifestHash = this->Dataset.manifestHash();
+  record.manifestHash = this->Datasets.manifestHash();
   record.request = this->described();
   record.conventions = this->Plan.conventions;
   record.names = this->Plan.names;
@@ -374,9 +381,47 @@ void ExportRun::close()
 }
 } // namespace
 
+namespace
+{
+/// Each scene as an export of its own, in a folder of its name.
+ExportResult exportScenes(
+  const ExportRequest& request, const std::vector<std::string>& scenes, const ExportCallbacks& callbacks)
+{
+  ExportResult all;
+  for (std::size_t i = 0; i < scenes.size() && !all.interrupted; ++i)
+  {
+    ExportRequest one = request;
+    one.dataset += '/' + scenes[i];
+    one.folder += '/' + scenes[i];
+    ExportCallbacks own = callbacks;
+    own.progress = [&](const ExportProgress& state)
+    {
+      if (callbacks.progress) // of scenes; each counts as many as it has
+      {
+        callbacks.progress({ i * state.total + state.done, scenes.size() * state.total });
+      }
+    };
+    const ExportResult result = ExportRun(one, own).execute();
+    all.files += result.files;
+    all.kept += result.kept;
+    all.interrupted = result.interrupted;
+    for (const LayerRounding& layer : result.layers)
+    {
+      addRounding(all.layers, layer);
+    }
+  }
+  return all;
+}
+} // namespace
+
 ExportResult exportDataset(const ExportRequest& request, const ExportCallbacks& callbacks)
 {
-  return ExportRun(request, callbacks).execute();
+  const std::vector<std::string> scenes = sceneFoldersIn(request.dataset);
+  if (scenes.empty() || findExporter(request.format).make()->joinsScenes())
+  {
+    return ExportRun(request, callbacks).execute();
+  }
+  return exportScenes(request, scenes, callbacks);
 }
 
 } // namespace dgtk

@@ -68,6 +68,8 @@ class BopExporter : public Exporter
 public:
   std::vector<const OptionRow*> options() const override { return { &depthScale(), &objectNames() }; }
 
+  bool joinsScenes() const override { return true; }
+
   ExportNeeds needs(const OptionValues& options) const override
   {
     return { { exported::color().of(options), exported::depth().of(options), "objects", "boxes", "amodal" },
@@ -88,42 +90,40 @@ public:
 
   ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override
   {
+    return this->planScenes({ &dataset }, options);
+  }
+
+  /// Each camera of each scene is a scene of BOP's; models are those of all.
+  ExportPlan planScenes(const std::vector<const DatasetView*>& scenes, const OptionValues& options) const override
+  {
     ExportPlan plan;
+    const DatasetView& dataset = *scenes.front();
     plan.conventions = { { "pixel_centre", "integer: cx and cy are 0.5 less" },
       { "axes", "x right, y down, z forward; R and t lead to the camera's axes" }, { "unit", "mm" },
       { "models", "origin in the middle of their box, scale in them" },
       { "mask", "all pixels in the image, hidden or not; exact, not by a tolerance of depth" },
       { "metres_per_unit", shortest(dataset.metres()) } };
-    const auto setting = std::make_shared<bop::Setting>();
-    setting->models = bop::modelsOf(dataset, objectsOf(dataset, options));
-    setting->depthScale = scaleOf(options);
-    setting->options = options;
-    for (const bop::Model& model : setting->models.models)
+    std::vector<bop::Model> models;
+    std::vector<std::shared_ptr<bop::Setting>> settings;
+    for (const DatasetView* scene : scenes)
     {
-      plan.items.push_back(bop::modelItem(dataset, model));
-      setting->origins[model.id] = bop::originOf(dataset, model);
+      settings.push_back(std::make_shared<bop::Setting>());
+      settings.back()->idOf = bop::addModels(*scene, objectsOf(*scene, options), models);
     }
-    const std::vector<std::string> cameras = dataset.cameras();
-    for (const DatasetSplit& split : splitsOf(dataset, options, "test"))
+    std::map<int, Eigen::Vector3d> origins;
+    for (const bop::Model& model : models)
     {
-      for (std::size_t camera = 0; camera < cameras.size(); ++camera)
-      {
-        std::vector<std::uint32_t> shots = shotsIn(dataset, split);
-        shots.erase(std::remove_if(shots.begin(), shots.end(),
-                      [&](std::uint32_t i) { return dataset.shots()[i].name() != cameras[camera]; }),
-          shots.end());
-        bop::Place scene{ split.name, split.name + '/' + padded(int(camera) + 1, 6) + '/', int(camera) + 1, 0 };
-        if (!shots.empty())
-        {
-          addDocuments(plan, scene, setting->models);
-        }
-        plan.series.push_back({ shots.size(), [&dataset, shots, scene, setting](std::size_t i)
-          {
-            bop::Place place = scene;
-            place.image = int(i);
-            return bop::pictureItem(dataset, dataset.shots()[shots[i]], place, setting);
-          } });
-      }
+      plan.items.push_back(bop::modelItem(model));
+      plan.items.back().dataset = model.dataset;
+      origins[model.id] = bop::originOf(model);
+    }
+    int place = 0;
+    for (std::size_t i = 0; i < scenes.size(); ++i)
+    {
+      settings[i]->origins = origins;
+      settings[i]->depthScale = scaleOf(options);
+      settings[i]->options = options;
+      place = addScene(plan, *scenes[i], settings[i], models, place);
     }
     plan.documents.push_back(listing("models/models_info.json", "models", "{\n  ", ",\n  ", "\n}\n"));
     plan.documents.push_back(listing("models_eval/models_info.json", "models", "{\n  ", ",\n  ", "\n}\n"));
@@ -133,6 +133,38 @@ public:
   }
 
 private:
+  /// The cameras of a dataset, whose scenes are numbered behind `before`. The last number.
+  static int addScene(ExportPlan& plan, const DatasetView& dataset, const std::shared_ptr<const bop::Setting>& setting,
+    const std::vector<bop::Model>& models, int before)
+  {
+    const std::vector<std::string> cameras = dataset.cameras();
+    for (const DatasetSplit& split : splitsOf(dataset, setting->options, "test"))
+    {
+      for (std::size_t camera = 0; camera < cameras.size(); ++camera)
+      {
+        std::vector<std::uint32_t> shots = shotsIn(dataset, split);
+        shots.erase(std::remove_if(shots.begin(), shots.end(),
+                      [&](std::uint32_t i) { return dataset.shots()[i].name() != cameras[camera]; }),
+          shots.end());
+        const int number = before + int(camera) + 1;
+        const bop::Place scene{ split.name, split.name + '/' + padded(number, 6) + '/', number, 0 };
+        if (!shots.empty())
+        {
+          addDocuments(plan, scene, models);
+        }
+        plan.series.push_back({ shots.size(), [&dataset, shots, scene, setting](std::size_t i)
+          {
+            bop::Place place = scene;
+            place.image = int(i);
+            ExportItem item = bop::pictureItem(dataset, dataset.shots()[shots[i]], place, setting);
+            item.dataset = &dataset;
+            return item;
+          } });
+      }
+    }
+    return before + int(cameras.size());
+  }
+
   /// A document of the notes of a list.
   static ExportItem listing(const std::string& name, const std::string& list, const std::string& before,
     const std::string& between, const std::string& after)
@@ -152,7 +184,7 @@ private:
       } };
   }
 
-  static void addDocuments(ExportPlan& plan, const bop::Place& scene, const bop::Models& models)
+  static void addDocuments(ExportPlan& plan, const bop::Place& scene, const std::vector<bop::Model>& models)
   {
     const auto add = [&](const std::string& name, const std::string& list)
     { plan.documents.push_back(listing(scene.folder + name, scene.list(list), "{\n  ", ",\n  ", "\n}\n")); };
@@ -160,7 +192,7 @@ private:
     add("scene_gt.json", "gt");
     add("scene_gt_info.json", "info");
     Json categories = Json::array();
-    for (const bop::Model& model : models.models)
+    for (const bop::Model& model : models)
     {
       categories.push_back({ { "id", model.id }, { "name", std::to_string(model.id) }, { "supercategory", "bop" } });
     }

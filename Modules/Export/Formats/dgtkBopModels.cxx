@@ -203,9 +203,10 @@ double diameterOf(const std::vector<Eigen::Vector3d>& points)
   return best;
 }
 
-Models modelsOf(const DatasetView& dataset, const std::vector<std::uint32_t>& objects)
+std::map<std::uint32_t, int> addModels(
+  const DatasetView& dataset, const std::vector<std::uint32_t>& objects, std::vector<Model>& models)
 {
-  Models all;
+  std::map<std::uint32_t, int> idOf;
   for (const std::uint32_t id : objects)
   {
     const ObjectRecord& object = *dataset.object(id);
@@ -228,22 +229,22 @@ Models modelsOf(const DatasetView& dataset, const std::vector<std::uint32_t>& ob
       throw UsageError("bop: the dataset does not say where objects are (poses.json); render it again");
     }
     const Eigen::Vector3d& scale = scales.at(id);
-    auto found = std::find_if(all.models.begin(), all.models.end(),
+    auto found = std::find_if(models.begin(), models.end(),
       [&](const Model& one)
       { return one.file == object.geometryFile && (one.scale - scale).norm() <= sameScale * scale.norm(); });
-    if (found == all.models.end())
+    if (found == models.end())
     {
-      all.models.push_back({ int(all.models.size()) + 1, object.geometryFile, scale });
-      found = all.models.end() - 1;
+      models.push_back({ int(models.size()) + 1, object.geometryFile, scale, &dataset });
+      found = models.end() - 1;
     }
-    all.idOf[id] = found->id;
+    idOf[id] = found->id;
   }
-  return all;
+  return idOf;
 }
 
-Eigen::Vector3d originOf(const DatasetView& dataset, const Model& model)
+Eigen::Vector3d originOf(const Model& model)
 {
-  const ModelPly ply = readModelPly(dataset.pathOf(model.file));
+  const ModelPly ply = readModelPly(model.dataset->pathOf(model.file));
   Eigen::Vector3d least = scaled(ply.positions.at(0), model.scale);
   Eigen::Vector3d most = least;
   for (const auto& x : ply.positions)
@@ -254,9 +255,10 @@ Eigen::Vector3d originOf(const DatasetView& dataset, const Model& model)
   return (least + most) / 2;
 }
 
-ExportItem modelItem(const DatasetView& dataset, const Model& model)
+ExportItem modelItem(const Model& model)
 {
-  const std::string picture = pictureOf(readModelPly(dataset.pathOf(model.file)));
+  const DatasetView& dataset = *model.dataset;
+  const std::string picture = pictureOf(readModelPly(model.dataset->pathOf(model.file)));
   const std::string texture = picture.empty() ? "" : modelName(model) + '.' + extensionOf(picture);
   ExportItem item;
   for (const char* folder : { "models/", "models_eval/" })
@@ -269,8 +271,8 @@ ExportItem modelItem(const DatasetView& dataset, const Model& model)
   }
   item.write = [&dataset, model, picture, texture](ExportSink& sink)
   {
-    const ModelPly ply = readModelPly(dataset.pathOf(model.file));
-    const Eigen::Vector3d origin = originOf(dataset, model);
+    const ModelPly ply = readModelPly(model.dataset->pathOf(model.file));
+    const Eigen::Vector3d origin = originOf(model);
     std::vector<Eigen::Vector3d> points;
     for (const auto& x : ply.positions)
     {

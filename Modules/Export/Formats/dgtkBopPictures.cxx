@@ -54,12 +54,12 @@ std::uint64_t countIn(const RunLengths& mask, const std::vector<char>& valid)
 }
 
 /// Objects of a picture that are in it or around it, in the order of their instances.
-std::vector<BoxRecord> instancesOf(const DatasetView& dataset, const DatasetShot& shot, const Models& models)
+std::vector<BoxRecord> instancesOf(const DatasetView& dataset, const DatasetShot& shot, const std::map<std::uint32_t, int>& idOf)
 {
   std::vector<BoxRecord> instances;
   for (const BoxRecord& box : dataset.boxes(shot))
   {
-    if (models.idOf.count(box.id) > 0 && box.pixelsWhole > 0)
+    if (idOf.count(box.id) > 0 && box.pixelsWhole > 0)
     {
       instances.push_back(box);
     }
@@ -157,7 +157,7 @@ private:
   void writeInstance(const BoxRecord& box, const RunLengths& own, const RunLengths& all)
   {
     const std::size_t instance = this->Poses.size();
-    const int id = this->Set.models.idOf.at(box.id);
+    const int id = this->Set.idOf.at(box.id);
     this->writeMask("mask", instance, all);
     this->writeMask("mask_visib", instance, own);
     const Eigen::Vector3d t = (box.t + box.R * this->Set.origins.at(id)) * this->Factor;
@@ -213,7 +213,7 @@ ExportItem pictureItem(const DatasetView& dataset, const DatasetShot& shot, cons
 {
   const std::string rgb = place.file("rgb", pictureExtension(setting->options));
   ExportItem item{ { rgb, place.file("depth") }, {}, { { shot.name(), shot.frame(), rgb } } };
-  const auto instances = std::make_shared<const std::vector<BoxRecord>>(instancesOf(dataset, shot, setting->models));
+  const auto instances = std::make_shared<const std::vector<BoxRecord>>(instancesOf(dataset, shot, setting->idOf));
   for (std::size_t i = 0; i < instances->size(); ++i)
   {
     item.files.push_back(place.mask("mask", i));

@@ -77,6 +77,8 @@ class CocoExporter : public Exporter
 public:
   std::vector<const OptionRow*> options() const override { return { &masks() }; }
 
+  bool joinsScenes() const override { return true; }
+
   ExportNeeds needs(const OptionValues& options) const override
   {
     return { { exported::color().of(options), "objects", "boxes", "amodal" } };

@@ -27,6 +27,8 @@ class CocoPanopticExporter : public Exporter
 public:
   std::vector<const OptionRow*> options() const override { return { &stuff() }; }
 
+  bool joinsScenes() const override { return true; }
+
   ExportNeeds needs(const OptionValues& options) const override
   {
     return { { exported::color().of(options), "objects" } };
