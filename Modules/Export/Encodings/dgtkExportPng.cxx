@@ -131,15 +131,17 @@ void writeCodedPng(ExportSink& sink, const DatasetView& dataset, const DatasetSh
   header.channels = 1;
   ExportedPixels pixels{ layer, &shot, code.encoding() };
   addClasses(pixels.encoding, layer, classes);
-  std::vector<std::uint32_t> codes(std::size_t(header.width));
+  std::vector<double> values(std::size_t(header.width));
+  std::vector<std::uint32_t> codes(values.size());
   writePng(sink, name, pixels, header,
     [&](int y, unsigned char* bytes)
     {
       rows.next();
-      for (int x = 0; x < header.width; ++x)
+      rows.row(values);
+      for (std::size_t x = 0; x < values.size(); ++x)
       {
-        codes[std::size_t(x)] = counter(rows.at(x));
-        putBig16(bytes + 2 * std::size_t(x), codes[std::size_t(x)]);
+        codes[x] = counter(values[x]);
+        putBig16(bytes + 2 * x, codes[x]);
       }
       if (row)
       {
