@@ -132,7 +132,7 @@ def twins(folder):
     return _write(folder, "twins", {"objects": _objects(), "cameras": [
         _without_view({**_camera("fish.auge", eyes, looks), "model": "fisheye", "K": [[40, 0, 47.5], [0, 40, 36.2], [0, 0, 1]],
                        "distortion": [0.02, -0.004, 0.0006, -5e-05]}),
-        _camera("a wider view", [-0.3, 0.2, 5.2], [0, 0, 0]), _camera("fish, flach", eyes, looks)]})
+        _camera("a wider view", [-0.3, 0.2, 5.2], [0, 0, 0]), _camera("fish flach", eyes, looks)]})
 
 
 def street(folder, frames=2):
