@@ -184,11 +184,12 @@ void saveSnapshot(const FrozenView& view, const std::string& path)
   const std::string models = (std::filesystem::path(folder) / modelFolder).string();
   makeFolders(models);
   SceneDescription scene = view.stage->description();
+  scene.folder = folder;
   const bool ambient = needsAmbientLight(view);
   for (std::size_t i = 0; i < view.actors.size(); ++i)
   {
     ObjFile(*view.actors[i].model, models, view.actors[i].name).write(ambient ? worldAmbient : 1.0);
-    scene.objects[i].model = (std::filesystem::path(models) / (view.actors[i].name + ".obj")).string();
+    scene.objects[i].model = std::string(modelFolder) + '/' + view.actors[i].name + ".obj";
   }
   if (ambient)
   {
