@@ -24,7 +24,10 @@ bool equalMaterials(const Material& a, const Material& b)
     return m.physical ? std::make_tuple(true, m.physical->metallic, m.physical->roughness, m.physical->wanted)
                       : std::make_tuple(false, 0.0, 0.0, false);
   };
-  const auto numbers = [](const Material& m) { return std::tie(m.shininess, m.opacity, m.texture, m.cutOut); };
+  const auto numbers = [](const Material& m)
+  {
+    return std::tie(m.shininess, m.opacity, m.texture, m.cutOut, m.metallicRoughnessMap, m.emissionMap, m.occlusionMap);
+  };
   return a.name == b.name && a.ambient == b.ambient && a.diffuse == b.diffuse && a.specular == b.specular &&
          a.emission == b.emission && numbers(a) == numbers(b) && physical(a) == physical(b);
 }

@@ -314,7 +314,9 @@ void complete(Model& model, Geometry& geometry)
   {
     model.colors.resize(vertices, { 255, 255, 255, 255 });
   }
-  if (!model.uvs.empty())
+  const bool maps = std::any_of(model.materials.begin(), model.materials.end(),
+    [](const Material& material) { return material.occlusionMap >= 0; });
+  if (!model.uvs.empty() || maps)
   {
     model.uvs.resize(vertices, Eigen::Vector2d(0, 0));
   }
