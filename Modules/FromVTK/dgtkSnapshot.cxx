@@ -17,6 +17,7 @@
 #include "vtkUnsignedIntArray.h"
 
 #include <algorithm>
+#include <limits>
 
 vtkStandardNewMacro(dgtkSnapshot);
 
@@ -149,6 +150,11 @@ bool dgtkSnapshot::CountCells()
     [&]
     {
       const dgtk::FrozenView& view = self.taken();
+      if (std::uint64_t(this->GetWidth()) * std::uint64_t(this->GetHeight()) >
+          std::numeric_limits<std::uint32_t>::max())
+      {
+        throw dgtk::UsageError("image size out of range: it has more pixels than a cell's count may be");
+      }
       std::vector<std::uint32_t*> pixels;
       std::vector<vtkSmartPointer<vtkUnsignedIntArray>> counts;
       for (const dgtk::FrozenActor& actor : view.actors)
