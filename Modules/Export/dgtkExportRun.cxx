@@ -41,6 +41,7 @@ private:
   void writeDocuments();
   void close();
   void forRecords(const std::function<void(const ItemRecord&)>& visit) const;
+  void forNotes(const std::string& list, const std::function<void(const std::string&)>& visit) const;
   ExportItem item(std::size_t index) const;
   std::size_t items() const { return this->Items; } ///< without documents
   std::size_t all() const { return this->Items + this->Plan.documents.size(); }
@@ -304,7 +305,7 @@ void ExportRun::write(std::size_t index)
   ItemSink sink(dataset, this->Request.folder, item, *this->Log, exported::link().of(this->Request.options));
   if (index >= this->items())
   {
-    sink.readsNotes([this](const auto& visit) { this->forRecords(visit); });
+    sink.readsNotes([this](const std::string& list, const auto& visit) { this->forNotes(list, visit); });
   }
   item.write(sink);
   this->Notes->add(index, sink.record());
@@ -326,6 +327,17 @@ void ExportRun::forRecords(const std::function<void(const ItemRecord&)>& visit) 
     if (this->Notes->has(i)) // documents are written one after another
     {
       visit(this->Notes->read(i));
+    }
+  }
+}
+
+void ExportRun::forNotes(const std::string& list, const std::function<void(const std::string&)>& visit) const
+{
+  for (std::size_t i = 0; i < this->all(); ++i)
+  {
+    if (this->Notes->has(i))
+    {
+      this->Notes->forNotes(i, list, visit);
     }
   }
 }

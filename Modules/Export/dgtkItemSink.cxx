@@ -135,17 +135,7 @@ void ItemSink::notes(const std::string& list, const std::function<void(const std
   {
     throw std::logic_error("an item that is no document reads notes");
   }
-  this->Others(
-    [&](const ItemRecord& record)
-    {
-      for (const auto& [name, text] : record.notes)
-      {
-        if (name == list)
-        {
-          visit(text);
-        }
-      }
-    });
+  this->Others(list, visit);
 }
 
 void addRounding(std::vector<LayerRounding>& all, const LayerRounding& one)

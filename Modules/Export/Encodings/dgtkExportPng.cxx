@@ -131,15 +131,17 @@ void writeCodedPng(ExportSink& sink, const DatasetView& dataset, const DatasetSh
   header.channels = 1;
   ExportedPixels pixels{ layer, &shot, code.encoding() };
   addClasses(pixels.encoding, layer, classes);
-  std::vector<std::uint32_t> codes(std::size_t(header.width));
+  std::vector<double> values(std::size_t(header.width));
+  std::vector<std::uint32_t> codes(values.size());
   writePng(sink, name, pixels, header,
     [&](int y, unsigned char* bytes)
     {
       rows.next();
-      for (int x = 0; x < header.width; ++x)
+      rows.row(values);
+      for (std::size_t x = 0; x < values.size(); ++x)
       {
-        codes[std::size_t(x)] = counter(rows.at(x));
-        putBig16(bytes + 2 * std::size_t(x), codes[std::size_t(x)]);
+        codes[x] = counter(values[x]);
+        putBig16(bytes + 2 * x, codes[x]);
       }
       if (row)
       {
@@ -180,10 +182,17 @@ void writeIdPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot&
     [&](int y, unsigned char* row)
     {
       const Rows rows = reader->read(1);
+      std::uint32_t last = ~std::uint32_t(0); // neighbours are mostly of one object
+      std::uint32_t code = 0;
       for (int x = 0; x < header.width; ++x)
       {
-        const auto found = codes.find(idAt(rows, x, y));
-        const std::uint32_t code = found == codes.end() ? 0 : found->second;
+        const std::uint32_t id = idAt(rows, x, y);
+        if (id != last || x == 0)
+        {
+          const auto found = codes.find(id);
+          code = found == codes.end() ? 0 : found->second;
+          last = id;
+        }
         for (int c = 0; c < header.channels; ++c)
         {
           const int place = bytes == IdBytes::RedLow ? c : header.channels - 1 - c;
