@@ -15,6 +15,7 @@ import models_moving
 import models_other
 import models_plants
 import models_still
+import models_tableware
 import models_targets
 import models_windmill
 import pictures
@@ -44,6 +45,8 @@ def products():
                  models_still.room, models_plants.tree, models_plants.fir, models_plants.grass, models_plants.reeds, models_targets.chessboard,
                  models_targets.speckled_wall, models_targets.speckled_box, models_targets.speckled_ball):
         yield f"Models/{make.__name__}.ac", make()
+    for make in (models_tableware.bowl, models_tableware.bottle, models_tableware.torus, models_tableware.brick, models_tableware.bin_):
+        yield f"Models/{make.__name__.rstrip('_')}.ac", make()
     yield "Models/terrain.acc", models_still.terrain()
     for make in (models_moving.creature, models_moving.flag):
         yield f"Models/{make.__name__}.md2", make()
