@@ -5,6 +5,7 @@
 #include "dgtkPlacement.h"
 #include "dgtkTestSupport.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct PlaceScene
   {
     ObjectDescription object;
     object.name = name;
-    object.model = model.find('/') == std::string::npos ? sourceFile("Data/Models/" + model) : model;
+    object.model = model.find('/') == std::string::npos ? test::sourceFile("Data/Models/" + model) : model;
     this->scene.objects.push_back(object);
     if (!rule.empty())
     {
@@ -56,10 +57,11 @@ inline double measured(const PlacedObject& placed, const std::string& name)
 /// A quaternion uniform over rotations, of three uniforms (Shoemake 1992).
 inline Quaternion anyRotation(double u, double v, double w)
 {
+  constexpr double pi = 3.14159265358979323846;
   const double a = std::sqrt(1 - u);
   const double b = std::sqrt(u);
-  return { b * std::cos(2 * EIGEN_PI * w), a * std::sin(2 * EIGEN_PI * v), a * std::cos(2 * EIGEN_PI * v),
-    b * std::sin(2 * EIGEN_PI * w) };
+  return { b * std::cos(2 * pi * w), a * std::sin(2 * pi * v), a * std::cos(2 * pi * v),
+    b * std::sin(2 * pi * w) };
 }
 
 /// Twenty things, turned anyhow: bottles, bowls, bricks, chairs, rings and a crate, each about 0.1 m in size.
