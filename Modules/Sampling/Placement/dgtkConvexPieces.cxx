@@ -115,30 +115,34 @@ Piece half(const Piece& piece, const HalfSpace& side, double size)
   return result;
 }
 
-/// Both sides of the cut, along an axis, that leaves the least volume in the hulls; none that cuts anything off.
+/// Both sides of the cut that leaves the least volume in the hulls; none that cuts anything off.
 std::optional<std::array<Piece, 2>> bestCut(const Piece& piece, double size)
 {
-  constexpr int cuts = 4;
+  constexpr int cuts = 3;
   std::optional<std::array<Piece, 2>> best;
   double least = std::numeric_limits<double>::max();
-  for (int axis = 0; axis < 3; ++axis)
+  // The axes of the model, and between those that turn things most often have.
+  static const double c = std::sqrt(0.5);
+  static const Eigen::Vector3d axes[] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { c, 0, c },
+    { c, 0, -c } };
+  for (const Eigen::Vector3d& axis : axes)
   {
     double low = std::numeric_limits<double>::max();
     double high = -low;
     for (const Eigen::Vector3d& p : piece.hull.points)
     {
-      low = std::min(low, p[axis]);
-      high = std::max(high, p[axis]);
+      low = std::min(low, axis.dot(p));
+      high = std::max(high, axis.dot(p));
     }
     for (int i = 0; i <= cuts; ++i)
     {
-      const double at = i == cuts ? piece.deepest[axis] : low + (high - low) * (i + 1) / (cuts + 1);
+      const double at = i == cuts ? axis.dot(piece.deepest) : low + (high - low) * (i + 1) / (cuts + 1);
       if (at - low < 0.02 * size || high - at < 0.02 * size)
       {
         continue;
       }
       HalfSpace side;
-      side.normal = Eigen::Vector3d::Unit(axis);
+      side.normal = axis;
       side.offset = at;
       std::array<Piece, 2> parts = { half(piece, side, size), half(piece, { -side.normal, -at }, size) };
       if (parts[0].surface.empty() || parts[1].surface.empty())

@@ -148,8 +148,6 @@ void Fall::Impl::addStill(const PlaceBody& it)
   btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, one->shape.get());
   one->body = std::make_unique<btRigidBody>(info);
   one->body->setFriction(1);
-  one->body->setRollingFriction(1);
-  one->body->setSpinningFriction(1);
   one->body->setRestitution(1);
   this->world.addRigidBody(one->body.get());
   this->still.push_back(std::move(one));
@@ -195,7 +193,7 @@ void Fall::Impl::addFalling(const PlaceBody& it, const FallMatter& matter)
       toBullet(pose.translation / size));
   info.m_friction = matter.friction;
   info.m_restitution = matter.restitution;
-  info.m_rollingFriction = 0.01;
+  info.m_rollingFriction = 0.01; // lever, of the size: Bullet multiplies it with the other's friction
   info.m_spinningFriction = 0.01;
   info.m_linearDamping = 0.05;
   info.m_angularDamping = 0.2;

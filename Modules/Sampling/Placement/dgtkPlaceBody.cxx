@@ -240,41 +240,51 @@ double wayToEdge(const Eigen::Vector3d& p, const Eigen::Vector3d& e, const Eigen
   return u >= 0 && u <= 1 && v >= 0 && v <= 1 ? normal.dot(w) / det : std::numeric_limits<double>::infinity();
 }
 
-double wayOfTriangles(const Corners& a, const Corners& b, const Eigen::Vector3d& down, double depth)
+/// Calls found(way along `down`, point of a) for all points in which triangle a meets triangle b on that way, those
+/// that are ends of the common polygon.
+template <typename Found>
+void meetings(const Corners& a, const Corners& b, const Eigen::Vector3d& down, const Found& found)
 {
-  double way = std::numeric_limits<double>::infinity();
-  const auto take = [&](double t) { way = t >= -depth ? std::min(way, std::max(t, 0.0)) : way; };
   for (std::size_t i = 0; i < 3; ++i)
   {
-    take(wayToTriangle(a[i], down, b));
-    take(wayToTriangle(b[i], -down, a));
+    found(wayToTriangle(a[i], down, b), a[i]);
+    const double up = wayToTriangle(b[i], -down, a);
+    found(up, b[i] - up * down);
     for (std::size_t j = 0; j < 3; ++j)
     {
-      take(wayToEdge(a[i], a[(i + 1) % 3] - a[i], b[j], b[(j + 1) % 3] - b[j], down));
+      const Eigen::Vector3d f = b[(j + 1) % 3] - b[j];
+      const double way = wayToEdge(a[i], a[(i + 1) % 3] - a[i], b[j], f, down);
+      if (std::isfinite(way))
+      {
+        const Eigen::Vector3d e = a[(i + 1) % 3] - a[i];
+        found(way, a[i] + e * (down.dot((b[j] - a[i]).cross(f)) / e.cross(f).dot(down)));
+      }
     }
   }
-  return way;
 }
-} // namespace
 
-double wayDown(const PlaceBody& a, const PlaceBody& b, const Eigen::Vector3d& down, double most, double depth)
+/// Calls visit(triangle of a, triangle of b, down) in the frame of b for those that meet where `a` moves along `down`
+/// from -`depth` to `reach`(), which may become less on the way.
+template <typename Reach, typename Visit>
+void pairsBelow(const PlaceBody& a, const PlaceBody& b, const Eigen::Vector3d& down, double depth, const Reach& reach,
+  const Visit& visit)
 {
   Eigen::AlignedBox3d swept = a.box();
-  swept.extend(a.box().min() + most * down).extend(a.box().max() + most * down);
+  swept.extend(Eigen::Vector3d(a.box().min() + reach() * down)).extend(Eigen::Vector3d(a.box().max() + reach() * down));
+  swept.extend(Eigen::Vector3d(a.box().min() - depth * down)).extend(Eigen::Vector3d(a.box().max() - depth * down));
   if (a.mesh().triangles.empty() || !swept.intersects(b.box()))
   {
-    return most;
+    return;
   }
   const Rigid3 b_from_world = b.pose().inverse();
   const Eigen::Vector3d down_in_b = b_from_world.rotation * down;
-  double way = most;
   for (std::size_t t = 0; t < a.mesh().triangles.size(); ++t)
   {
     Corners corners = cornersOf(a, t);
     Eigen::AlignedBox3d inWorld;
     for (const Eigen::Vector3d& x : corners)
     {
-      inWorld.extend(x).extend(Eigen::Vector3d(x + way * down));
+      inWorld.extend(Eigen::Vector3d(x - depth * down)).extend(Eigen::Vector3d(x + reach() * down));
     }
     if (!inWorld.intersects(b.box()))
     {
@@ -284,33 +294,49 @@ double wayDown(const PlaceBody& a, const PlaceBody& b, const Eigen::Vector3d& do
     for (Eigen::Vector3d& x : corners)
     {
       x = b_from_world * x;
-      box.extend(Eigen::Vector3d(x - depth * down_in_b)).extend(Eigen::Vector3d(x + way * down_in_b));
+      box.extend(Eigen::Vector3d(x - depth * down_in_b)).extend(Eigen::Vector3d(x + reach() * down_in_b));
     }
     b.impl().tree.within(box,
       [&](std::uint32_t other)
       {
         const auto& of = b.mesh().triangles[other];
-        const Corners there = { b.mesh().points[of[0]], b.mesh().points[of[1]], b.mesh().points[of[2]] };
-        way = std::min(way, wayOfTriangles(corners, there, down_in_b, depth));
+        visit(corners, Corners{ b.mesh().points[of[0]], b.mesh().points[of[1]], b.mesh().points[of[2]] }, down_in_b);
       });
   }
+}
+} // namespace
+
+double wayDown(const PlaceBody& a, const PlaceBody& b, const Eigen::Vector3d& down, double most, double depth)
+{
+  double way = most;
+  pairsBelow(
+    a, b, down, depth, [&] { return way; },
+    [&](const Corners& p, const Corners& q, const Eigen::Vector3d& down_in_b)
+    {
+      meetings(p, q, down_in_b,
+        [&](double t, const Eigen::Vector3d&) { way = t >= -depth ? std::min(way, std::max(t, 0.0)) : way; });
+    });
   return way;
 }
 
-bool crosses(const PlaceBody& body, const Eigen::Vector3d& x, const Eigen::Vector3d& way)
+std::vector<Eigen::Vector3d> touches(
+  const PlaceBody& a, const PlaceBody& b, const Eigen::Vector3d& down, double tolerance)
 {
-  Eigen::AlignedBox3d box(x);
-  box.extend(Eigen::Vector3d(x + way));
-  bool found = false;
-  body.impl().tree.within(box,
-    [&](std::uint32_t triangle)
+  std::vector<Eigen::Vector3d> points;
+  pairsBelow(
+    a, b, down, tolerance, [&] { return tolerance; },
+    [&](const Corners& p, const Corners& q, const Eigen::Vector3d& down_in_b)
     {
-      const auto& of = body.mesh().triangles[triangle];
-      const double t =
-        wayToTriangle(x, way, { body.mesh().points[of[0]], body.mesh().points[of[1]], body.mesh().points[of[2]] });
-      found = found || (t >= 0 && t <= 1);
+      meetings(p, q, down_in_b,
+        [&](double t, const Eigen::Vector3d& x)
+        {
+          if (std::abs(t) <= tolerance)
+          {
+            points.push_back(b.pose() * x);
+          }
+        });
     });
-  return found;
+  return points;
 }
 
 } // namespace dgtk

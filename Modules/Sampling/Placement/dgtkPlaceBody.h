@@ -122,8 +122,9 @@ double distance(const PlaceBody& a, const PlaceBody& b, double most);
 /// it already, along that way.
 double wayDown(const PlaceBody& a, const PlaceBody& b, const Eigen::Vector3d& down, double most, double depth);
 
-/// Whether the segment from x along `way` meets the body's surface; body frame.
-bool crosses(const PlaceBody& body, const Eigen::Vector3d& x, const Eigen::Vector3d& way);
+/// Where bodies touch when one comes down on the other, to `tolerance` along that way: points of the first.
+std::vector<Eigen::Vector3d> touches(
+  const PlaceBody& a, const PlaceBody& b, const Eigen::Vector3d& down, double tolerance);
 
 } // namespace dgtk
 

@@ -12,6 +12,7 @@ namespace dgtk
 
 namespace
 {
+constexpr double pi = 3.14159265358979323846;
 constexpr double touch = 1e-6; ///< of the size: what counts as touching
 
 bool isThere(const SceneDescription& scene, std::size_t object)
@@ -169,48 +170,21 @@ void layDown(PlaceBody& body, const std::vector<const PlaceBody*>& others, const
 
 bool stands(const PlaceBody& body, const PlaceBody& support, const Eigen::Vector3d& down, double tolerance)
 {
-  // Where a body that is a little lower would be in the support, seen from above.
   int up = 0;
   down.cwiseAbs().maxCoeff(&up);
   const std::array<int, 2> level = { up == 0 ? 1 : 0, up == 2 ? 1 : 2 };
-  std::vector<Eigen::Vector2d> held;
-  const auto hold = [&](const Eigen::Vector3d& x) { held.emplace_back(x[level[0]], x[level[1]]); };
-  const Rigid3 body_from_world = body.pose().inverse();
-  const Rigid3 support_from_world = support.pose().inverse();
-  const auto meets = [&](const PlaceBody& what, const Rigid3& from_world, const Eigen::Vector3d& x,
-                       const Eigen::Vector3d& way) { return crosses(what, from_world * x, from_world.rotation * way); };
-  const Eigen::Vector3d way = 2 * tolerance * down;
-  for (const Eigen::Vector3d& x : body.points())
-  {
-    if (meets(support, support_from_world, x - 0.5 * way, way))
-    {
-      hold(x);
-    }
-  }
-  for (const Eigen::Vector3d& x : support.points())
-  {
-    if (body.box().exteriorDistance(x) <= 2 * tolerance && meets(body, body_from_world, x + 0.5 * way, -way))
-    {
-      hold(x);
-    }
-  }
-  // The middle is outside exactly when all of them lie on one side of a line through it.
+  // The middle is held exactly when what touches does not lie on one side of a line through it.
   const Eigen::Vector3d middle = body.middle();
-  const Eigen::Vector2d at(middle[level[0]], middle[level[1]]);
   std::vector<double> angles;
-  for (const Eigen::Vector2d& p : held)
+  for (const Eigen::Vector3d& x : touches(body, support, down, tolerance))
   {
-    if ((p - at).norm() <= 1e-9 * body.size())
-    {
-      return true;
-    }
-    angles.push_back(std::atan2(p.y() - at.y(), p.x() - at.x()));
+    angles.push_back(std::atan2(x[level[1]] - middle[level[1]], x[level[0]] - middle[level[0]]));
   }
   std::sort(angles.begin(), angles.end());
   for (std::size_t i = 0; i < angles.size(); ++i)
   {
-    const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2 * EIGEN_PI;
-    if (next - angles[i] > EIGEN_PI + 1e-9)
+    const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2 * pi;
+    if (next - angles[i] > pi * (1 - 1e-6))
     {
       return false;
     }
