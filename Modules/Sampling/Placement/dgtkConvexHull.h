@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace dgtk
@@ -31,9 +32,11 @@ struct ConvexHull
 ConvexHull convexHull(const std::vector<Eigen::Vector3d>& points, double shrink = 0);
 
 /// A surface cut into pieces whose convex hulls are true to it: no point of the surface lies deeper than `tolerance`
-/// below its piece's hull, unless that needed more than `most` pieces. Each piece is the points of its hull.
+/// below its piece's hull, unless that needed more than `most` pieces. `inside` says which points are within a closed
+/// surface: corners of cuts, which no surface has, belong to the pieces then.
 std::vector<ConvexHull> convexPieces(const std::vector<Eigen::Vector3d>& points,
-  const std::vector<std::array<std::uint32_t, 3>>& triangles, double tolerance, std::size_t most);
+  const std::vector<std::array<std::uint32_t, 3>>& triangles, double tolerance, std::size_t most,
+  const std::function<bool(const Eigen::Vector3d&)>& inside);
 
 } // namespace dgtk
 

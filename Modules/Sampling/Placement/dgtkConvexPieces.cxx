@@ -11,6 +11,7 @@ namespace dgtk
 
 namespace
 {
+using Inside = std::function<bool(const Eigen::Vector3d&)>;
 using Polygon = std::vector<Eigen::Vector3d>;
 
 /// The part of a surface within some cuts.
@@ -18,6 +19,7 @@ struct Piece
 {
   std::vector<Polygon> surface;
   std::vector<HalfSpace> cuts;
+  std::vector<Eigen::Vector3d> corners; ///< where three cuts meet within the solid
   ConvexHull hull;
   double concavity = 0;
   Eigen::Vector3d deepest{ 0, 0, 0 };
@@ -33,7 +35,7 @@ bool isCut(const Piece& piece, const HalfSpace& face, double size)
 /// Fills in hull and concavity: how deep below its hull the surface lies, the cuts apart, which are not surface.
 void measure(Piece& piece, double size)
 {
-  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> points = piece.corners;
   for (const Polygon& polygon : piece.surface)
   {
     points.insert(points.end(), polygon.begin(), polygon.end());
@@ -95,10 +97,46 @@ Polygon clipped(const Polygon& polygon, const HalfSpace& half)
   return result;
 }
 
-Piece half(const Piece& piece, const HalfSpace& side, double size)
+/// Adds the points of a solid in which a further cut meets two that were made before.
+void addCorners(Piece& piece, const HalfSpace& side, double size, const Inside& inside)
+{
+  const double slack = 1e-9 * size;
+  for (std::size_t i = 0; i < piece.cuts.size(); ++i)
+  {
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      const HalfSpace& p = piece.cuts[i];
+      const HalfSpace& q = piece.cuts[j];
+      const double det = side.normal.dot(p.normal.cross(q.normal));
+      if (std::abs(det) < 1e-6)
+      {
+        continue;
+      }
+      const Eigen::Vector3d x = (side.offset * p.normal.cross(q.normal) + p.offset * q.normal.cross(side.normal) +
+                                  q.offset * side.normal.cross(p.normal)) /
+                                det;
+      const bool within =
+        std::all_of(piece.cuts.begin(), piece.cuts.end(), [&](const HalfSpace& cut) { return cut.above(x) <= slack; });
+      if (within && inside(x))
+      {
+        piece.corners.push_back(x);
+      }
+    }
+  }
+}
+
+Piece half(const Piece& piece, const HalfSpace& side, double size, const Inside& inside)
 {
   Piece result;
   result.cuts = piece.cuts;
+  for (const Eigen::Vector3d& corner : piece.corners)
+  {
+    if (side.above(corner) <= 1e-9 * size)
+    {
+      result.corners.push_back(corner);
+    }
+  }
+  addCorners(result, side, size, inside);
   result.cuts.push_back(side);
   for (const Polygon& polygon : piece.surface)
   {
@@ -116,15 +154,14 @@ Piece half(const Piece& piece, const HalfSpace& side, double size)
 }
 
 /// Both sides of the cut that leaves the least volume in the hulls; none that cuts anything off.
-std::optional<std::array<Piece, 2>> bestCut(const Piece& piece, double size)
+std::optional<std::array<Piece, 2>> bestCut(const Piece& piece, double size, const Inside& inside)
 {
   constexpr int cuts = 3;
   std::optional<std::array<Piece, 2>> best;
   double least = std::numeric_limits<double>::max();
   // The axes of the model, and between those that turn things most often have.
   static const double c = std::sqrt(0.5);
-  static const Eigen::Vector3d axes[] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { c, 0, c },
-    { c, 0, -c } };
+  static const Eigen::Vector3d axes[] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { c, 0, c }, { c, 0, -c } };
   for (const Eigen::Vector3d& axis : axes)
   {
     double low = std::numeric_limits<double>::max();
@@ -144,7 +181,8 @@ std::optional<std::array<Piece, 2>> bestCut(const Piece& piece, double size)
       HalfSpace side;
       side.normal = axis;
       side.offset = at;
-      std::array<Piece, 2> parts = { half(piece, side, size), half(piece, { -side.normal, -at }, size) };
+      std::array<Piece, 2> parts = { half(piece, side, size, inside),
+        half(piece, { -side.normal, -at }, size, inside) };
       if (parts[0].surface.empty() || parts[1].surface.empty())
       {
         continue;
@@ -162,7 +200,7 @@ std::optional<std::array<Piece, 2>> bestCut(const Piece& piece, double size)
 } // namespace
 
 std::vector<ConvexHull> convexPieces(const std::vector<Eigen::Vector3d>& points,
-  const std::vector<std::array<std::uint32_t, 3>>& triangles, double tolerance, std::size_t most)
+  const std::vector<std::array<std::uint32_t, 3>>& triangles, double tolerance, std::size_t most, const Inside& inside)
 {
   Piece whole;
   Eigen::Vector3d low = points[triangles.front()[0]];
@@ -187,7 +225,7 @@ std::vector<ConvexHull> convexPieces(const std::vector<Eigen::Vector3d>& points,
     {
       break;
     }
-    std::optional<std::array<Piece, 2>> parts = bestCut(*worst, size);
+    std::optional<std::array<Piece, 2>> parts = bestCut(*worst, size, inside);
     if (!parts)
     {
       worst->concavity = 0; // as small as pieces get

@@ -2,6 +2,7 @@
 #include "dgtkSolidModel.h"
 
 #include "dgtkModel.h"
+#include "dgtkPlaceBody.h"
 
 #include <algorithm>
 #include <limits>
@@ -14,8 +15,8 @@ namespace dgtk
 
 namespace
 {
-constexpr double pieceTolerance = 0.02; ///< of the model's size
-constexpr std::size_t mostPieces = 64;  ///< of a model
+constexpr double pieceTolerance = 0.025; ///< of the model's size
+constexpr std::size_t mostPieces = 32;  ///< of a model
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
@@ -161,10 +162,12 @@ std::shared_ptr<const std::vector<ConvexHull>> piecesOf(SampleModels& models, co
       }
       for (const SolidMesh::Part& part : parts)
       {
+        const TriangleTree tree(*mesh, part.first, part.count);
+        const auto inside = [&](const Eigen::Vector3d& x) { return part.closed && tree.holds(x); };
         const auto first = mesh->triangles.begin() + std::ptrdiff_t(part.first);
         const std::vector<ConvexHull> some =
           convexPieces(mesh->points, Triangles(first, first + std::ptrdiff_t(part.count)), tolerance,
-            std::max<std::size_t>(1, mostPieces / parts.size()));
+            std::max<std::size_t>(1, mostPieces / parts.size()), inside);
         pieces->insert(pieces->end(), some.begin(), some.end());
       }
       return std::shared_ptr<const std::vector<ConvexHull>>(pieces);
