@@ -287,7 +287,7 @@ SceneDescription readJsonScene(const std::string& file, const std::string& folde
   }
   if (const std::optional<JsonCursor> random = firstRandom(document))
   {
-    random->fail("is random", "a plain scene, as dgtk sample makes of a random one");
+    random->fail("makes the scene random", "a plain scene, as dgtk sample makes of it");
   }
   return readTree(document, file, folder);
 }

@@ -307,7 +307,9 @@ SceneSample SampleMaker::make()
   JsonNode rest = this->Tree;
   this->settle(rest, {}, {});
   this->Tree = std::move(rest);
-  this->KeyFrames = this->readTree(this->Tree).keyFrames();
+  JsonNode unordered = this->Tree; // there are no cameras yet
+  removeMember(unordered, "order");
+  this->KeyFrames = this->readTree(unordered).keyFrames();
   this->Out.clear();
   if (this->Expansion.cameras() > 0)
   {

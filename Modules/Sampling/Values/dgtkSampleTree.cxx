@@ -41,6 +41,19 @@ void setMember(JsonNode& object, const std::string& key, JsonNode value)
   object.add(key, std::move(value));
 }
 
+void removeMember(JsonNode& object, const std::string& key)
+{
+  for (std::size_t i = 0; i + 1 < object.children.size(); i += 2)
+  {
+    if (object.children[i].text == key)
+    {
+      object.children.erase(
+        object.children.begin() + std::ptrdiff_t(i), object.children.begin() + std::ptrdiff_t(i + 2));
+      return;
+    }
+  }
+}
+
 JsonNode keysNode(const std::vector<Key<Eigen::Vector3d>>& keys)
 {
   JsonNode list(JsonNode::Type::Array);

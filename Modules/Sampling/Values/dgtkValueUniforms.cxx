@@ -62,16 +62,6 @@ std::uint32_t nested(std::uint32_t place, PhiloxKey key, std::uint32_t purpose)
   }
   return out;
 }
-
-std::uint32_t reversed(std::uint32_t bits)
-{
-  std::uint32_t out = 0;
-  for (int i = 0; i < digits; ++i)
-  {
-    out = (out << 1) | ((bits >> i) & 1U);
-  }
-  return out;
-}
 } // namespace
 
 double ValueUniforms::operator()(std::uint32_t dimension) const
@@ -83,7 +73,7 @@ double ValueUniforms::operator()(std::uint32_t dimension) const
   const PhiloxCounter bits = SampleDraws(this->Draws->seed(), 0).block(this->Path + "\nstratify");
   const PhiloxKey key{ bits[0], bits[1] };
   const auto sample = std::uint32_t(this->Draws->sample());
-  const std::uint32_t index = reversed(nested(reversed(sample), key, 0));
+  const std::uint32_t index = nested(sample, key, 0);
   const std::uint32_t place = sobol(index, dimension);
   const std::uint32_t high = nested(place, key, 1 + dimension);
   const std::uint32_t low = philox({ place, digits, 1 + dimension, 0 }, key)[0] >> 11;
