@@ -321,9 +321,13 @@ std::string startPlace(PlaceWorld& world, const PlaceRule& rule, const SampleDra
       least = rule.region->min()[Eigen::Index(i)];
       most = rule.region->max()[Eigen::Index(i)];
     }
+    else if (least > most && rule.in)
+    {
+      return "it is wider than what it is put in";
+    }
     else if (least > most)
     {
-      return "it is wider than what it is put " + std::string(rule.in ? "in" : "on");
+      least = most = 0.5 * (least + most);
     }
     target[axis] = least + (most - least) * first[i];
   }
