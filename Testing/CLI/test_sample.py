@@ -2,9 +2,11 @@
 """`dgtk sample`: a sample depends on its number alone, folders of others are left alone, scenes can be rendered."""
 import json
 import os
+import subprocess
 
 from harness import Case, digests, main
 
+SOURCE = os.environ["DGTK_SOURCE"]
 SCENE = {
     "seed": 7,
     "parameters": {"n": {"integer": [2, 5]}},
@@ -105,6 +107,17 @@ class Sample(Case):
         self.refused("sample", scene, "-o", self.path("own"), "--samples", "0:1", status=2, says="--replace")
         self.dgtk("sample", scene, "-o", self.path("own"), "--samples", "0:1", "--replace", "--quiet")
         self.assertEqual(sorted(os.listdir(self.path("own"))), ["000000.json", "000001.json", "samples.json"])
+
+    def test_the_guide_s_example_is_sampled_and_rendered(self):
+        with open(os.path.join(SOURCE, "Documentation/UserGuide/sampling.md"), encoding="utf-8") as file:
+            example = file.read().split("```jsonc\n")[1].split("```")[0]
+        scene = self.write("table.json", example.replace("../Models", os.path.join(SOURCE, "Data/Models")))
+        self.dgtk("sample", scene, "-o", self.path("out"), "--samples", "0:2", "--quiet")
+        self.dgtk("render", self.path("out/000001.json"), "-o", self.path("dataset"), "--layers", "depth", "--frames", "0",
+                  "--size", "64x48", "--quiet")
+
+    def test_the_schema_is_what_its_maker_makes(self):
+        subprocess.run([os.path.join(SOURCE, "Utilities/Maintenance/make_random_schema"), "--check"], check=True)
 
     def test_usage(self):
         scene = self.scene()

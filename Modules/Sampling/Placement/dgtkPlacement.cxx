@@ -27,7 +27,7 @@ public:
   {
     for (const PlaceRule& rule : this->Rules)
     {
-      PlacedObject placed;
+      PlaceOutcome placed;
       placed.index = rule.object;
       placed.note.path = rule.path;
       placed.note.kept = false;
@@ -35,7 +35,7 @@ public:
     }
   }
 
-  std::vector<PlacedObject> run()
+  std::vector<PlaceOutcome> run()
   {
     for (std::size_t i = 0; i < this->Rules.size(); ++i)
     {
@@ -78,7 +78,7 @@ private:
   bool isIn(std::size_t object) const
   {
     return std::all_of(this->Placed.begin(), this->Placed.end(),
-      [object](const PlacedObject& placed) { return placed.index != object || placed.note.kept; });
+      [object](const PlaceOutcome& placed) { return placed.index != object || placed.note.kept; });
   }
 
   void put(std::size_t i);
@@ -99,7 +99,7 @@ private:
   const SampleDraws& Draws;
   std::vector<PlaceRule> Rules;
   PlaceWorld World;
-  std::vector<PlacedObject> Placed;
+  std::vector<PlaceOutcome> Placed;
 };
 
 /// Why an object cannot be where it is; "": it can.
@@ -219,13 +219,13 @@ void Placing::write(std::size_t i)
 }
 } // namespace
 
-std::vector<PlacedObject> placeObjects(
+std::vector<PlaceOutcome> placeObjects(
   SceneDescription& scene, const std::vector<SampleRule>& rules, const SampleDraws& draws, SampleModels& models)
 {
-  return rules.empty() ? std::vector<PlacedObject>() : Placing(scene, rules, draws, models).run();
+  return rules.empty() ? std::vector<PlaceOutcome>() : Placing(scene, rules, draws, models).run();
 }
 
-SurfacePoint pointOnSurface(const SceneDescription& scene, std::size_t object, double frame,
+DrawnSurfacePoint pointOnSurface(const SceneDescription& scene, std::size_t object, double frame,
   const std::array<double, 3>& uniforms, SampleModels& models)
 {
   const ObjectDescription& it = scene.objects[object];
@@ -247,7 +247,7 @@ SurfacePoint pointOnSurface(const SceneDescription& scene, std::size_t object, d
   const auto chosen = std::upper_bound(sums.begin(), sums.end(), uniforms[0] * sums.back());
   const std::size_t t = std::size_t(std::min(chosen, sums.end() - 1) - sums.begin());
   const double root = std::sqrt(uniforms[1]);
-  SurfacePoint point;
+  DrawnSurfacePoint point;
   point.x_in_world =
     corner(t, 0) * (1 - root) + corner(t, 1) * (root * (1 - uniforms[2])) + corner(t, 2) * (root * uniforms[2]);
   const double side = world_from_object.linear.determinant() < 0 ? -1 : 1;

@@ -16,7 +16,7 @@ namespace dgtk
 namespace
 {
 constexpr double pieceTolerance = 0.025; ///< of the model's size
-constexpr std::size_t mostPieces = 32;  ///< of a model
+constexpr std::size_t mostPieces = 32;   ///< of a model
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 

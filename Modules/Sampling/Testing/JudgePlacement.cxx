@@ -23,10 +23,10 @@ void judge(const char* support, const char* rule, int first, int samples)
   {
     PlaceScene made = twentyThings(support, rule, std::uint64_t(sample));
     const std::clock_t start = std::clock();
-    const std::vector<PlacedObject> placed = made.place(std::uint64_t(sample));
+    const std::vector<PlaceOutcome> placed = made.place(std::uint64_t(sample));
     seconds.push_back(double(std::clock() - start) / CLOCKS_PER_SEC);
     std::string left;
-    for (const PlacedObject& one : placed)
+    for (const PlaceOutcome& one : placed)
     {
       if (one.note.kept)
       {

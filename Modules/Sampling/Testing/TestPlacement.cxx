@@ -154,9 +154,9 @@ TEST(Placement, PutsOnASurface)
     made.add("bowl#" + std::to_string(i + 1), "bowl.ac",
       R"({ "on": "table", "clearance": 0.03, "region": [[-0.3, -0.2], [0.3, 0.2]] })");
   }
-  const std::vector<PlacedObject> placed = made.place();
+  const std::vector<PlaceOutcome> placed = made.place();
   ASSERT_EQ(placed.size(), 6u);
-  for (const PlacedObject& one : placed)
+  for (const PlaceOutcome& one : placed)
   {
     ASSERT_TRUE(one.note.kept) << one.note.why;
     const Eigen::Vector3d at = made.scene.objects[one.index].position.value;
@@ -165,7 +165,7 @@ TEST(Placement, PutsOnASurface)
     EXPECT_LE(std::abs(at.z()), 0.2);
     EXPECT_LT(measured(one, "gap"), 1e-6);
     EXPECT_EQ(measured(one, "penetration"), 0);
-    for (const PlacedObject& other : placed)
+    for (const PlaceOutcome& other : placed)
     {
       const Eigen::Vector3d there = made.scene.objects[other.index].position.value;
       EXPECT_TRUE(&one == &other || (at - there).norm() > 0.138 * 0.99 + 0.03); // two rims and the clearance
@@ -188,7 +188,7 @@ TEST(Placement, LeavesOutOrRefusesWhatHasNoPlace)
     return made;
   };
   PlaceScene omits = crowded("omit");
-  const std::vector<PlacedObject> placed = omits.place();
+  const std::vector<PlaceOutcome> placed = omits.place();
   EXPECT_TRUE(placed[0].note.kept);
   EXPECT_FALSE(placed[1].note.kept);
   EXPECT_EQ(placed[1].note.attempts, 7);
@@ -211,9 +211,9 @@ TEST(Placement, FillsAVolumeWithoutOverlap)
         R"({ "in": [[0, 0, 0], [0.3, 0.3, 0.3]], "clearance": 0.005, "attempts": 500 })")
       .orientation = anyRotation(0.1 * (i % 10), 0.3 * i - int(0.3 * i), 0.7 * i - int(0.7 * i));
   }
-  const std::vector<PlacedObject> placed = made.place();
+  const std::vector<PlaceOutcome> placed = made.place();
   std::vector<PlaceBody> bodies;
-  for (const PlacedObject& one : placed)
+  for (const PlaceOutcome& one : placed)
   {
     const ObjectDescription& it = made.scene.objects[one.index];
     EXPECT_TRUE(one.note.kept) << one.note.why;
@@ -242,8 +242,8 @@ TEST(Placement, WhatFallsLiesAsClosedFormsSay)
   made.add("bowl", "bowl.ac").position = Eigen::Vector3d(2, 0, 0);
   made.add("ball", "ball.ac", R"({ "in": "bowl", "drop": { "height": 0.05, "seconds": 30 } })").scale =
     Eigen::Vector3d(0.04, 0.04, 0.04);
-  const std::vector<PlacedObject> placed = made.place();
-  for (const PlacedObject& one : placed)
+  const std::vector<PlaceOutcome> placed = made.place();
+  for (const PlaceOutcome& one : placed)
   {
     ASSERT_TRUE(one.note.kept) << one.note.path << one.note.why;
     EXPECT_LT(measured(one, "gap"), 1e-6);
@@ -283,7 +283,7 @@ TEST(Placement, ABrickSlidesOffWhatIsTooSteep)
         R"({ "on": "slope", "drop": { "height": 0, "friction": )" + std::to_string(friction) +
           R"( }, "region": [[-0.01, -0.01], [0.01, 0.01]] })")
       .orientation = slope.orientation;
-    const std::vector<PlacedObject> placed = made.place();
+    const std::vector<PlaceOutcome> placed = made.place();
     return placed[0].note.why;
   };
   EXPECT_EQ(onSlope(0.5), "");
@@ -319,7 +319,7 @@ TEST(Placement, AFallBecomesKeyFrames)
   made.scene.fps = 100;
   made.add("table", "table.ac");
   made.add("brick", "brick.ac", R"({ "on": "table", "drop": { "height": 0.2, "bake": "keys", "from": 10 } })");
-  const std::vector<PlacedObject> placed = made.place();
+  const std::vector<PlaceOutcome> placed = made.place();
   ASSERT_TRUE(placed[0].note.kept) << placed[0].note.why;
   const Track<Eigen::Vector3d>& track = object(made, "brick").position;
   ASSERT_GT(track.keys.size(), 30u);
@@ -363,7 +363,7 @@ TEST(PointOnSurface, IsUniformOverTheArea)
   for (int i = 0; i < side * side * side; ++i)
   {
     const auto at = [&](int k) { return (k % side + 0.5) / side; };
-    const SurfacePoint point =
+    const DrawnSurfacePoint point =
       pointOnSurface(made.scene, 0, 0, { at(i), at(i / side), at(i / side / side) }, PlaceScene::models());
     const Eigen::Vector3d off =
       (point.x_in_world - Eigen::Vector3d(3, 0.05, 0)).cwiseQuotient(Eigen::Vector3d(0.05, 0.05, 0.03));
@@ -388,9 +388,9 @@ TEST(Placement, NothingHoversOrSinks)
       bin ? twentyThings("bin.ac", R"({ "in": "support", "drop": { "height": 0.05 } })", 0)
           : twentyThings("table.ac",
               R"({ "on": "support", "region": [[-0.5, -0.3], [0.5, 0.3]], "drop": { "height": 0.05 } })", 0);
-    const std::vector<PlacedObject> placed = made.place();
+    const std::vector<PlaceOutcome> placed = made.place();
     int kept = 0;
-    for (const PlacedObject& one : placed)
+    for (const PlaceOutcome& one : placed)
     {
       kept += one.note.kept;
       EXPECT_LE(measured(one, "penetration"), 5e-4);

@@ -403,7 +403,7 @@ TEST(SampleValues, StandWhereValuesStand)
     }
   };
   each(document.root, {}, 0);
-  EXPECT_GT(places, 120);
+  EXPECT_GT(places, 110);
 }
 
 TEST(SampleValues, PatternsAreLikeNames)

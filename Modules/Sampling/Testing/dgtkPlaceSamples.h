@@ -31,7 +31,7 @@ struct PlaceScene
     }
     return this->scene.objects.back();
   }
-  std::vector<PlacedObject> place(std::uint64_t sample = 0)
+  std::vector<PlaceOutcome> place(std::uint64_t sample = 0)
   {
     return placeObjects(this->scene, this->rules, SampleDraws(5, sample), this->models());
   }
@@ -42,7 +42,7 @@ struct PlaceScene
   }
 };
 
-inline double measured(const PlacedObject& placed, const std::string& name)
+inline double measured(const PlaceOutcome& placed, const std::string& name)
 {
   for (const auto& one : placed.note.measured)
   {
@@ -60,8 +60,7 @@ inline Quaternion anyRotation(double u, double v, double w)
   constexpr double pi = 3.14159265358979323846;
   const double a = std::sqrt(1 - u);
   const double b = std::sqrt(u);
-  return { b * std::cos(2 * pi * w), a * std::sin(2 * pi * v), a * std::cos(2 * pi * v),
-    b * std::sin(2 * pi * w) };
+  return { b * std::cos(2 * pi * w), a * std::sin(2 * pi * v), a * std::cos(2 * pi * v), b * std::sin(2 * pi * w) };
 }
 
 /// Twenty things, turned anyhow: bottles, bowls, bricks, chairs, rings and a crate, each about 0.1 m in size.
