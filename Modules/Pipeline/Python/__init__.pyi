@@ -9,7 +9,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkImageAlgorithm, vtkPolyDataAlg
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkProp, vtkRenderer
 
 __version__: str
-__all__ = ["load", "scene", "Scene", "render", "generate", "export", "exporters", "truth", "Truth", "snapshot", "Snapshot", "correspond", "visible_cells",
+__all__ = ["load", "scene", "Scene", "sample", "random", "render", "generate", "export", "exporters", "truth", "Truth", "snapshot", "Snapshot", "correspond", "visible_cells",
            "dgtkScene", "dgtkSceneSampler", "dgtkRenderer", "dgtkDatasetGenerator", "dgtkDatasetExporter", "dgtkSnapshot", "dgtkGroundTruthSource", "dgtkPointCloudSource",
            "dgtkDepthFromZBuffer"]
 
