@@ -17,6 +17,7 @@ import models_parts
 import models_plants
 import models_still
 import models_street
+import models_tableware
 import models_targets
 import models_windmill
 import pictures
@@ -48,6 +49,8 @@ def products():
                  models_parts.bracket, models_parts.gear, models_parts.cup, models_parts.plate, models_parts.book, models_street.car,
                  models_street.van, models_street.road, models_street.sign):
         yield f"Models/{make.__name__}.ac", make()
+    for make in (models_tableware.bowl, models_tableware.bottle, models_tableware.torus, models_tableware.brick, models_tableware.bin_):
+        yield f"Models/{make.__name__.rstrip('_')}.ac", make()
     yield "Models/terrain.acc", models_still.terrain()
     for make in (models_moving.creature, models_moving.flag):
         yield f"Models/{make.__name__}.md2", make()
