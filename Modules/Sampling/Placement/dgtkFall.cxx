@@ -193,10 +193,10 @@ void Fall::Impl::addFalling(const PlaceBody& it, const FallMatter& matter)
       toBullet(pose.translation / size));
   info.m_friction = matter.friction;
   info.m_restitution = matter.restitution;
-  info.m_rollingFriction = 0.01; // lever, of the size: Bullet multiplies it with the other's friction
-  info.m_spinningFriction = 0.01;
+  info.m_rollingFriction = 0.02; // lever, of the size: Bullet multiplies it with the other's friction
+  info.m_spinningFriction = 0.02;
   info.m_linearDamping = 0.05;
-  info.m_angularDamping = 0.2;
+  info.m_angularDamping = 0.4;
   one->body = std::make_unique<btRigidBody>(info);
   one->body->setActivationState(DISABLE_DEACTIVATION);
   this->world.addRigidBody(one->body.get());
