@@ -193,10 +193,10 @@ void Fall::Impl::addFalling(const PlaceBody& it, const FallMatter& matter)
       toBullet(pose.translation / size));
   info.m_friction = matter.friction;
   info.m_restitution = matter.restitution;
-  info.m_rollingFriction = 0.02; // lever, of the size: Bullet multiplies it with the other's friction
-  info.m_spinningFriction = 0.02;
+  info.m_rollingFriction = 0.01; // lever, of the size: Bullet multiplies it with the other's friction
+  info.m_spinningFriction = 0.01;
   info.m_linearDamping = 0.05;
-  info.m_angularDamping = 0.4;
+  info.m_angularDamping = 0.2;
   one->body = std::make_unique<btRigidBody>(info);
   one->body->setActivationState(DISABLE_DEACTIVATION);
   this->world.addRigidBody(one->body.get());
@@ -227,6 +227,14 @@ bool Fall::Impl::advance(double lowest)
   // Speeds in sizes a second, of what falls a size: sqrt(gravity / size).
   const double slowly = 0.02 * std::sqrt(this->settings.gravity / this->settings.size);
   bool rest = true;
+  // What rocks and rolls for long comes to rest as in thick air.
+  if (this->steps == int(15 * stepsOfFall))
+  {
+    for (const auto& body : this->falling)
+    {
+      body->body->setDamping(0.5, 0.95);
+    }
+  }
   for (const auto& body : this->falling)
   {
     if (!body->in)
