@@ -85,11 +85,15 @@ std::string randomWordOf(const std::string& key, const JsonNode& node)
   {
     return {};
   }
+  const bool alone = node.children.size() <= 2 || (node.children.size() == 4 && node.find("stratify") != nullptr);
   for (std::size_t i = 0; i + 1 < node.children.size(); i += 2)
   {
-    if (isAmong(node.children[i].text, randomWords()))
+    const std::string& word = node.children[i].text;
+    // Somebody may write these for an orientation or a map of normals.
+    const bool isMeant = alone || (word != "rotation" && word != "normal");
+    if (isMeant && isAmong(word, randomWords()))
     {
-      return node.children[i].text;
+      return word;
     }
   }
   return {};

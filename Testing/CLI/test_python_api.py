@@ -267,7 +267,7 @@ except KeyboardInterrupt:
                 ({"sample": 4}, ValueError, "there is no option 'sample'"),
                 ({"scene": "/nothing.json"}, ValueError, "/nothing.json: "),
                 ({"scene": 3}, ValueError, "scene: expected"),
-                ({"scene": dgtk.Snapshot()}, ValueError, "a snapshot has no files to read again: save"),
+                ({"scene": dgtk.Snapshot()}, ValueError, "no renderer was taken"),
                 ({"folder": SCENES}, ValueError, "holds"),
                 ({"folder": self.path("file")}, (ValueError, RuntimeError), "file"),
                 ({"folder": "/proc/none/out"}, RuntimeError, "/proc/none")):

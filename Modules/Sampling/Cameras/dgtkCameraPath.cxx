@@ -20,7 +20,7 @@ double fractionOf(const std::vector<int>& frames, std::size_t i)
   return double(frames[i] - frames.front()) / double(frames.back() - frames.front());
 }
 
-CameraPath orbit(const JsonCursor& at, const SampleWorld& world, UpAxis up, bool looks)
+TravelledPath orbit(const JsonCursor& at, const SampleWorld& world, UpAxis up, bool looks)
 {
   onlyKeys(at, { "center", "radius", "elevation", "azimuth", "frames", "every" });
   constexpr Range latitude{ -90, 90, true, true, "degrees between -90 and 90" };
@@ -29,7 +29,7 @@ CameraPath orbit(const JsonCursor& at, const SampleWorld& world, UpAxis up, bool
   const FromTo elevation = at.has("elevation") ? fromTo(at["elevation"], latitude) : FromTo{ 0, 0 };
   const FromTo azimuth = at.has("azimuth") ? fromTo(at["azimuth"], degrees) : FromTo{ 0, 360 };
   const std::vector<int> frames = framesOf(at);
-  CameraPath path;
+  TravelledPath path;
   for (std::size_t i = 0; i < frames.size(); ++i)
   {
     const double u = fractionOf(frames, i);
@@ -80,13 +80,13 @@ Track<Eigen::Vector3d> curveThrough(const JsonCursor& at, const SampleWorld& wor
   return curve;
 }
 
-CameraPath spline(const JsonCursor& at, const SampleWorld& world, bool looks)
+TravelledPath spline(const JsonCursor& at, const SampleWorld& world, bool looks)
 {
   onlyKeys(at, { "points", "frames", "every" });
   const Track<Eigen::Vector3d> curve = curveThrough(at["points"], world);
   const std::vector<int> frames = framesOf(at);
   const double whole = curve.keys.back().frame;
-  CameraPath path;
+  TravelledPath path;
   for (std::size_t i = 0; i < frames.size(); ++i)
   {
     const double u = whole * fractionOf(frames, i);
@@ -106,7 +106,7 @@ CameraPath spline(const JsonCursor& at, const SampleWorld& world, bool looks)
 }
 } // namespace
 
-CameraPath bakedPath(
+TravelledPath bakedPath(
   const SampleRule& rule, SampleWorld& world, UpAxis up, const SampleDraws& draws, std::uint32_t attempt, bool looks)
 {
   const JsonCursor at(rule.rule);

@@ -14,7 +14,7 @@ namespace dgtk
 {
 
 /// A path of a camera as key frames.
-struct CameraPath
+struct TravelledPath
 {
   std::vector<Key<Eigen::Vector3d>> eye;
   std::vector<Key<Eigen::Vector3d>> lookAt; ///< empty where the camera says where it looks
@@ -23,7 +23,7 @@ struct CameraPath
 
 /// What a rule `path` (orbit, spline or walk) gives in an attempt of its camera. `looks`: the camera has a lookAt of
 /// its own. Throws InputError for what the rule cannot mean, SampleRefused for a walk that finds no way.
-CameraPath bakedPath(
+TravelledPath bakedPath(
   const SampleRule& rule, SampleWorld& world, UpAxis up, const SampleDraws& draws, std::uint32_t attempt, bool looks);
 
 } // namespace dgtk

@@ -208,7 +208,7 @@ private:
 };
 } // namespace
 
-CameraPath walkedPath(const JsonCursor& at, const std::string& path, SampleWorld& world, UpAxis up,
+TravelledPath walkedPath(const JsonCursor& at, const std::string& path, SampleWorld& world, UpAxis up,
   const SampleDraws& draws, std::uint32_t attempt, bool looks)
 {
   const WalkRule rule = readWalk(at, world);
@@ -219,7 +219,7 @@ CameraPath walkedPath(const JsonCursor& at, const std::string& path, SampleWorld
     {
       continue;
     }
-    CameraPath found;
+    TravelledPath found;
     found.attempts = i + 1;
     for (std::size_t k = 0; k < rule.frames.size(); ++k)
     {

@@ -11,7 +11,7 @@ namespace dgtk
 {
 
 /// A walk at random that keeps its distance from all surfaces, see bakedPath(); `path`: of its draws.
-CameraPath walkedPath(const JsonCursor& at, const std::string& path, SampleWorld& world, UpAxis up,
+TravelledPath walkedPath(const JsonCursor& at, const std::string& path, SampleWorld& world, UpAxis up,
   const SampleDraws& draws, std::uint32_t attempt, bool looks);
 
 } // namespace dgtk

@@ -211,7 +211,7 @@ bool SampleMaker::makeCamera(std::size_t index, std::uint32_t attempt, JsonNode&
     }
     this->settle(path->second.rule.root, shown + ".path", {});
     const bool looks = camera.find("lookAt") != nullptr;
-    const CameraPath baked = bakedPath({ index, path->second.path, path->second.rule }, this->world(),
+    const TravelledPath baked = bakedPath({ index, path->second.path, path->second.rule }, this->world(),
       this->Scene.upAxis(), this->Draws, attempt, looks);
     setMember(camera, "eye", keysNode(baked.eye));
     if (!looks)
