@@ -155,15 +155,14 @@ Piece half(const Piece& piece, const HalfSpace& side, double size, const Inside&
   return result;
 }
 
-/// Both sides of the cut that leaves the least volume in the hulls; none that cuts anything off.
+/// Both sides of the cut, across an axis of the model, that leaves the least volume in the hulls; none that cuts
+/// anything off.
 std::optional<std::array<Piece, 2>> bestCut(const Piece& piece, double size, const Inside& inside)
 {
-  constexpr int cuts = 3;
+  constexpr int cuts = 4;
   std::optional<std::array<Piece, 2>> best;
   double least = std::numeric_limits<double>::max();
-  // The axes of the model, and between those that turn things most often have.
-  static const double c = std::sqrt(0.5);
-  static const Eigen::Vector3d axes[] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { c, 0, c }, { c, 0, -c } };
+  static const Eigen::Vector3d axes[] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
   for (const Eigen::Vector3d& axis : axes)
   {
     double low = std::numeric_limits<double>::max();

@@ -227,6 +227,14 @@ bool Fall::Impl::advance(double lowest)
   // Speeds in sizes a second, of what falls a size: sqrt(gravity / size).
   const double slowly = 0.02 * std::sqrt(this->settings.gravity / this->settings.size);
   bool rest = true;
+  // What rocks and rolls for long comes to rest as in thick air.
+  if (this->steps == int(15 * stepsOfFall))
+  {
+    for (const auto& body : this->falling)
+    {
+      body->body->setDamping(0.5, 0.95);
+    }
+  }
   for (const auto& body : this->falling)
   {
     if (!body->in)

@@ -250,8 +250,8 @@ bool Drop::leaveOutUnfit()
     }
     const PlaceRule& rule = *this->Falling[i].rule;
     const double tolerance = this->World.tolerance(rule);
-    const PlaceMeasure measure = measurePlace(this->body(i), this->World.others({ rule.object }), this->Settings.down,
-      std::max(2 * tolerance, this->body(i).size()));
+    const PlaceMeasure measure =
+      measurePlace(this->body(i), this->World.others({ rule.object }), this->Settings.down, 4 * tolerance);
     this->Falling[i].note->measured = { { "penetration", measure.penetration }, { "gap", measure.gap },
       { "tolerance", tolerance } };
     const double fault = std::max(measure.penetration, measure.gap) / tolerance;

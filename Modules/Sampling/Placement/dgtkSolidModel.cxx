@@ -15,8 +15,8 @@ namespace dgtk
 
 namespace
 {
-constexpr double pieceTolerance = 0.025; ///< of the model's size
-constexpr std::size_t mostPieces = 32;   ///< of a model
+constexpr double pieceTolerance = 0.02; ///< of the model's size
+constexpr std::size_t mostPieces = 24;   ///< of a model
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 

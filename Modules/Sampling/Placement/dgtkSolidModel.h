@@ -36,7 +36,7 @@ SolidMesh solidMesh(
 
 /// The model's surface at its first frame, in its own axes.
 std::shared_ptr<const SolidMesh> solidOf(SampleModels& models, const std::string& path);
-/// Convex pieces of it, true to 2.5 % of the model's size: of each connected part, one where that is convex.
+/// Convex pieces of it, true to 2 % of the model's size: of each connected part, one where that is convex.
 std::shared_ptr<const std::vector<ConvexHull>> piecesOf(SampleModels& models, const std::string& path);
 
 } // namespace dgtk
