@@ -76,7 +76,7 @@ int dispatch(const std::vector<std::string>& words)
 
 std::vector<Command> dgtk::app::commands()
 {
-  return { renderCommand(), sampleCommand(), exportCommand(), infoCommand(), convertCommand(), verifyCommand(),
+  return { renderCommand(), sampleCommand(), mergeCommand(), exportCommand(), infoCommand(), convertCommand(), verifyCommand(),
     correspondCommand(), compareCommand(), warpCommand(), listCommand() };
 }
 

@@ -266,6 +266,24 @@ private:
 };
 } // namespace
 
+void endScenes(const std::string& folder, const RunParts& run)
+{
+  DatasetsManifest manifest{ run.version, run.requestHash, run.request, run.leftOut, {} };
+  const Folder home(folder);
+  for (const std::string& scene : run.scenes)
+  {
+    const std::string name = scene + '/' + manifestName;
+    const std::string path = home.fileAt(name);
+    DatasetFile file;
+    file.path = name;
+    file.bytes = std::filesystem::file_size(path);
+    file.sha256 = Sha256::ofFile(path);
+    manifest.datasets.push_back(file);
+  }
+  writeFileDurably(FilePlace(folder, manifestName), datasetsManifestText(manifest));
+  std::filesystem::remove_all(folder + '/' + partsName);
+}
+
 std::string MergeReport::processes(std::size_t of) const
 {
   std::set<std::size_t> numbers;

@@ -5,6 +5,7 @@
 #include "dgtkError.h"
 #include "dgtkFolderContents.h"
 #include "dgtkJournal.h"
+#include "dgtkSceneFolders.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -186,8 +187,7 @@ bool holdsDatasets(const std::string& folder)
   {
     return false;
   }
-  const JsonDocument document = readJson(folder + '/' + manifestName);
-  return isFormat(JsonCursor(document), datasetsFormat);
+  return !sceneFoldersIn(folder).empty();
 }
 
 DatasetsManifest readDatasets(const std::string& path)

@@ -44,6 +44,10 @@ DGTKDATASETIO_EXPORT RunParts readParts(const std::string& folder);
 /// same time. Throws UsageError when parts of another request are there, MachineError when it cannot be written.
 DGTKDATASETIO_EXPORT void beginParts(const std::string& folder, const RunParts& run, std::size_t workers);
 
+/// Writes the manifest of a folder whose scenes' datasets have just been finished by this process; their files are not
+/// looked at. Its parts' record goes.
+DGTKDATASETIO_EXPORT void endScenes(const std::string& folder, const RunParts& run);
+
 /// What mergeParts() found.
 struct MergeReport
 {
