@@ -20,7 +20,8 @@ std::string again(const MergeReport& report)
   std::string text;
   for (const std::size_t count : report.workers)
   {
-    text += (text.empty() ? "" : "; ") + std::string("of ") + std::to_string(count) + ": --array=" + report.processes(count);
+    text +=
+      (text.empty() ? "" : "; ") + std::string("of ") + std::to_string(count) + ": --array=" + report.processes(count);
   }
   return text;
 }
@@ -45,7 +46,8 @@ int run(const Arguments& arguments)
   }
   else if (report.merged)
   {
-    print(folder + ": whole, " + std::to_string(report.files) + " files of " + std::to_string(report.blocks) + " blocks\n");
+    print(
+      folder + ": whole, " + std::to_string(report.files) + " files of " + std::to_string(report.blocks) + " blocks\n");
   }
   for (const std::string& problem : report.problems)
   {
@@ -62,8 +64,7 @@ int run(const Arguments& arguments)
 
 Command mergeCommand()
 {
-  return { "merge", "DIR", 1, 1,
-    "Makes one dataset of a run in shards; names what is missing and exits with 1 then.",
+  return { "merge", "DIR", 1, 1, "Makes one dataset of a run in shards; names what is missing and exits with 1 then.",
     { { "--json", "", "", "print one JSON object" } }, &run };
 }
 

@@ -187,7 +187,8 @@ int run(const Arguments& arguments)
 
 Command renderCommand()
 {
-  Command command{ "render", "SCENE|FOLDER", 1, 1, "Renders images and ground truth of a scene, or of all scenes of a folder, into a folder.", {}, &run };
+  Command command{ "render", "SCENE|FOLDER", 1, 1,
+    "Renders images and ground truth of a scene, or of all scenes of a folder, into a folder.", {}, &run };
   command.options = { { "--output", "DIR", "", "folder of the dataset" },
     { "--layers", "NAMES|all", usualLayers(), "what to write; see dgtk list layers", layerWords(), true },
     { "--for", "EXPORTER,...", "", "what these exports need, beside the layers that are given", exporterNames(), true },
@@ -199,12 +200,13 @@ Command renderCommand()
     command.options.push_back({ optionWord(*row), row->value, row->value.empty() ? "" : row->fallback, row->help,
       row->choices, row->kind == OptionRow::Kind::Names });
   }
-  const std::vector<Option> last = { { "--shard", "I/N|auto", "", "a share of the run, from 0; dgtk merge ends it when all are there" },
+  const std::vector<Option> last = {
+    { "--shard", "I/N|auto", "", "a share of the run, from 0; dgtk merge ends it when all are there" },
     { "--resume", "", "", "continue an interrupted run of the same request" },
     { "--replace", "", "", "remove the dataset of another request, or an interrupted run, that the folder holds" },
     noCacheOption, { "--timings", "", "", "print where processor time and memory went, at the end" },
-    { "--quiet", "", "",
-      "no progress and no messages (environment DGTK_PROGRESS: seconds between its lines, else 5)" } };
+    { "--quiet", "", "", "no progress and no messages (environment DGTK_PROGRESS: seconds between its lines, else 5)" }
+  };
   command.options.insert(command.options.end(), last.begin(), last.end());
   return command;
 }

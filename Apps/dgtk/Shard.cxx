@@ -43,8 +43,8 @@ RunShard checked(std::size_t index, std::size_t count, const std::string& from)
 {
   if (count < 1 || count > mostShards || index >= count)
   {
-    throw UsageError(
-      "--shard: expected I/N with I from 0 below N, found " + std::to_string(index) + '/' + std::to_string(count) + from);
+    throw UsageError("--shard: expected I/N with I from 0 below N, found " + std::to_string(index) + '/' +
+                     std::to_string(count) + from);
   }
   return { index, count };
 }

@@ -31,15 +31,7 @@ int verifyScenes(const std::string& folder, const std::vector<std::string>& scen
   {
     const std::string path = folder + '/' + scene;
     requireDataset(path);
-    if (!scenes.empty() && exported.empty())
-  {
-    if (arguments.has("--write"))
-    {
-      throw UsageError(folder + ": holds many datasets; --write is for one of them");
-    }
-    return verifyScenes(folder, scenes, threads, checks, arguments.has("--json"));
-  }
-  const VerificationReport report = verifyDataset(path, threads, checks);
+    const VerificationReport report = verifyDataset(path, threads, checks);
     if (json)
     {
       all += (all.empty() ? "" : ",\n") + jsonString(scene) + ": " + verificationText(report);
@@ -54,8 +46,9 @@ int verifyScenes(const std::string& folder, const std::vector<std::string>& scen
     }
     bad += report.passed() ? 0 : 1;
   }
-  print(json ? "{\n" + all + "}\n"
-             : folder + ": " + std::to_string(scenes.size()) + " datasets, " + std::to_string(bad) + " with a breach\n");
+  print(json
+          ? "{\n" + all + "}\n"
+          : folder + ": " + std::to_string(scenes.size()) + " datasets, " + std::to_string(bad) + " with a breach\n");
   return static_cast<int>(bad == 0 ? ExitCode::Done : ExitCode::Difference);
 }
 

@@ -69,7 +69,8 @@ SceneFiles scenesIn(const std::string& folder)
     const std::string stem = name.substr(0, name.rfind('.'));
     if (!byName.emplace(stem, name).second)
     {
-      throw UsageError(folder + ": " + dgtk::quoted(byName[stem]) + " and " + dgtk::quoted(name) + " would become one dataset");
+      throw UsageError(
+        folder + ": " + dgtk::quoted(byName[stem]) + " and " + dgtk::quoted(name) + " would become one dataset");
     }
     files.scenes.emplace_back(stem, path);
   }
