@@ -38,6 +38,23 @@ bool isWhole(const Folder& folder, const DatasetFile& file)
          Sha256::ofFile(path) == file.sha256;
 }
 
+/// Takes a dataset that is not whole away, so that it can be made again: what its manifest lists, and no other file.
+void removeListed(const Folder& folder, const Manifest& manifest)
+{
+  namespace fs = std::filesystem;
+  std::error_code code;
+  for (const DatasetFile& file : manifest.files)
+  {
+    folder.remove(file.path);
+    for (fs::path above = fs::path(file.path).parent_path(); !above.empty(); above = above.parent_path())
+    {
+      fs::remove(folder.pathOf(above.string()), code); // unless there is something in it
+    }
+  }
+  folder.remove(manifestName);
+  fs::remove(folder.path(), code);
+}
+
 bool hasManifest(const Folder& folder, const std::string& in)
 {
   return folder.look(in + '/' + manifestName) == EntryKind::File;
@@ -175,7 +192,7 @@ private:
     }
     for (const std::size_t block : missing)
     {
-      this->Home.remove(partName(block) + '/' + manifestName); // it is made again; whole files are kept
+      std::filesystem::remove_all(this->Home.pathOf(partName(block))); // it is made again
       this->Report.missing.push_back(block);
     }
   }
@@ -226,7 +243,11 @@ private:
         const Folder own(this->Home.pathOf(scene));
         const bool whole = std::all_of(manifest.files.begin(), manifest.files.end(),
           [&](const DatasetFile& file) { return isWhole(own, file); });
-        if (whole)
+        if (!whole)
+        {
+          removeListed(own, manifest);
+        }
+        else
         {
           const std::uint64_t bytes = std::filesystem::file_size(path);
           found[std::size_t(i)] = { scene + '/' + manifestName, bytes, Sha256::ofFile(path), "", "", -1 };
