@@ -77,7 +77,7 @@ int dispatch(const std::vector<std::string>& words)
 std::vector<Command> dgtk::app::commands()
 {
   return { renderCommand(), exportCommand(), infoCommand(), convertCommand(), verifyCommand(), correspondCommand(),
-    compareCommand(), warpCommand(), listCommand() };
+    compareCommand(), warpCommand(), reportCommand(), listCommand() };
 }
 
 void dgtk::app::print(const std::string& text)
