@@ -21,7 +21,7 @@ namespace dgtk
 
 namespace
 {
-constexpr double mostCells = 5e6; ///< samples of all pictures and layers together: some 20 MB of page
+constexpr double mostCells = 3e6; ///< samples of all pictures and layers together: some 10 MB of page
 constexpr int smallestSide = 64;  ///< of a picture on the sheet, pixels
 constexpr int largestSide = 640;
 constexpr std::size_t mostNotes = 200;

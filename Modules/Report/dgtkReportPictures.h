@@ -55,9 +55,6 @@ struct LayerResult
 LayerResult readLayer(const ReportSource& source, const ReportLayer& layer, int side, ThreadPool& pool,
   const std::function<void(std::size_t shown, const std::string& text)>& write);
 
-/// Bytes as base64 (RFC 4648).
-std::string base64Of(const std::string& bytes);
-
 } // namespace dgtk
 
 #endif

@@ -394,15 +394,15 @@ function niceStep(size) {
 function planPicture(plan, frame) {
   const extent = extentOf(plan);
   if (!extent) return make('p', { class: 'note' }, 'The dataset does not say where its objects are.');
-  const scale = Math.min(1000 / extent.width, 620 / extent.height);
-  const width = Math.max(400, extent.width * scale);
-  const height = Math.max(260, extent.height * scale);
+  const width = 1000;
+  const height = Math.min(600, Math.max(320, width * extent.height / extent.width));
+  const scale = Math.min(width / extent.width, height / extent.height);
   const X = (x) => (x - extent.left - extent.width / 2) * scale + width / 2;
   const Y = (y) => (y - extent.top - extent.height / 2) * scale + height / 2;
   const svg = draw('svg', { viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': `Plan: ${plan.cameras.length} cameras and ${plan.objects.length} objects from above at frame ${frame}` });
   const step = niceStep(Math.max(extent.width, extent.height) / 5);
-  for (let x = Math.ceil((extent.left - extent.width) / step) * step; X(x) < width; x += step) svg.append(draw('line', { class: 'grid', x1: X(x), x2: X(x), y1: 0, y2: height }));
-  for (let y = Math.ceil((extent.top - extent.height) / step) * step; Y(y) < height; y += step) svg.append(draw('line', { class: 'grid', x1: 0, x2: width, y1: Y(y), y2: Y(y) }));
+  for (let x = Math.ceil((extent.left + extent.width / 2 - width / scale) / step) * step; X(x) < width; x += step) if (X(x) > 0) svg.append(draw('line', { class: 'grid', x1: X(x), x2: X(x), y1: 0, y2: height }));
+  for (let y = Math.ceil((extent.top + extent.height / 2 - height / scale) / step) * step; Y(y) < height; y += step) svg.append(draw('line', { class: 'grid', x1: 0, x2: width, y1: Y(y), y2: Y(y) }));
   const labels = [];
   const area = (object) => { const f = footprint(object.places[0]); return f.length ? Math.max(...f.map((p) => p[0])) - Math.min(...f.map((p) => p[0])) : 0; };
   for (const object of [...plan.objects].sort((a, b) => area(b) - area(a))) {
@@ -504,18 +504,19 @@ function bars(values, ticks, label) {
   return svg;
 }
 const edgeOf = (bin) => { const octave = Math.floor(bin / 8); return 2 ** octave * (1 + (bin - 8 * octave) / 8); };
+const mostOctaves = 14;
 function numberBars(tally, label) {
   if (tally.bins.length === 0) return make('p', {}, tally.values > 0 ? 'All values are zero or less.' : 'No values.');
-  const first = tally.bins[0][0];
   const last = tally.bins[tally.bins.length - 1][0];
+  const first = Math.max(tally.bins[0][0], last - 8 * mostOctaves + 1); // what is below stands in the first bar
   const fold = Math.max(1, Math.ceil((last - first + 1) / 96));
   const values = new Array(Math.ceil((last - first + 1) / fold)).fill(0);
-  for (const [bin, n] of tally.bins) values[Math.floor((bin - first) / fold)] += n;
+  for (const [bin, n] of tally.bins) values[Math.max(0, Math.floor((bin - first) / fold))] += n;
   const ticks = [];
   let before = -1;
   for (let i = 0; i <= values.length; ++i) {
     const place = i / values.length;
-    if (place - before >= 0.22 || before < 0) { ticks.push([place, short(edgeOf(first + i * fold), 2)]); before = place; }
+    if (place - before >= 0.22 || before < 0) { ticks.push([place, (i === 0 && first > tally.bins[0][0] ? '≤ ' : '') + short(edgeOf(first + i * fold), 2)]); before = place; }
   }
   return bars(values, ticks, label);
 }
