@@ -427,7 +427,7 @@ function planPicture(plan, frame) {
     const flat = Math.hypot(place[4], place[5]);
     if (flat > 1e-3) {
       const direction = Math.atan2(place[5], place[4]);
-      const half = Math.min(camera.half ?? 0.35, 1.4);
+      const half = Math.min(camera.half ?? 0.12, 1.4);
       const end = (turn) => `${X(place[1]) + long * flat * Math.cos(direction + turn)},${Y(place[2]) + long * flat * Math.sin(direction + turn)}`;
       group.append(draw('polygon', { class: 'cone', points: `${X(place[1])},${Y(place[2])} ${end(-half)} ${end(half)}` }));
     }
@@ -475,7 +475,7 @@ function plans() {
     slider.max = plan.frames.length - 1;
     slider.value = 0;
     slider.parentElement.hidden = plan.frames.length < 2;
-    at('plan-note').textContent = 'Cameras in blue with the angle that they see, objects in the colours of their ids with the box around them where the dataset has boxes, lines where they move. '
+    at('plan-note').textContent = 'Cameras in blue with the angle that they see (of lenses that are no pinholes the direction alone), objects in the colours of their ids with the box around them where the dataset has boxes, lines where they move. '
       + (plan.frames.length < plan.allFrames ? `${plan.frames.length} of ${count(plan.allFrames)} frames. ` : '') + (plan.objects.length < plan.allObjects ? `${plan.objects.length} of ${count(plan.allObjects)} objects have a place. ` : '');
     side();
     show();
