@@ -15,6 +15,9 @@ using Json = nlohmann::ordered_json;
 
 /// What `dgtk info` prints of a scene (options --size and --surfaces) and of a dataset's folder.
 Json infoOfScene(const std::string& path, const Arguments& arguments);
+/// Of a .json scene with random values: where they stand.
+bool isRandomScene(const std::string& path);
+Json infoOfRandomScene(const std::string& path);
 Json infoOfDataset(const std::string& folder);
 
 } // namespace dgtk::app

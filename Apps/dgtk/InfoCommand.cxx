@@ -125,7 +125,7 @@ Json infoOf(const Arguments& arguments)
   }
   if (extensionOf(path) == "scene" || extensionOf(path) == "json")
   {
-    return infoOfScene(path, arguments);
+    return isRandomScene(path) ? infoOfRandomScene(path) : infoOfScene(path, arguments);
   }
   return infoOfModel(path);
 }

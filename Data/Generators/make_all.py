@@ -13,8 +13,11 @@ import models_appendix
 import models_head
 import models_moving
 import models_other
+import models_parts
 import models_plants
 import models_still
+import models_street
+import models_tableware
 import models_targets
 import models_windmill
 import pictures
@@ -42,8 +45,12 @@ def products():
     yield "Models/flag.pcx", pictures.pcx(models_moving.flag_skin())
     for make in (models_still.table, models_still.crate, models_still.ball, models_still.house, models_still.ground, models_still.floor,
                  models_still.room, models_plants.tree, models_plants.fir, models_plants.grass, models_plants.reeds, models_targets.chessboard,
-                 models_targets.speckled_wall, models_targets.speckled_box, models_targets.speckled_ball):
+                 models_targets.speckled_wall, models_targets.speckled_box, models_targets.speckled_ball, models_parts.bolt, models_parts.nut,
+                 models_parts.bracket, models_parts.gear, models_parts.cup, models_parts.plate, models_parts.book, models_street.car,
+                 models_street.van, models_street.road, models_street.sign):
         yield f"Models/{make.__name__}.ac", make()
+    for make in (models_tableware.bowl, models_tableware.bottle, models_tableware.torus, models_tableware.brick, models_tableware.bin_):
+        yield f"Models/{make.__name__.rstrip('_')}.ac", make()
     yield "Models/terrain.acc", models_still.terrain()
     for make in (models_moving.creature, models_moving.flag):
         yield f"Models/{make.__name__}.md2", make()

@@ -132,8 +132,12 @@ AtomicFile::AtomicFile(const FilePlace& place)
   , Temporary(partialName(place.path()))
 {
   const std::string name = partialName(place.name());
-  place.folder().remove(name);
   this->Descriptor = place.folder().open(name, O_RDWR | O_CREAT | O_EXCL);
+  if (!this->Descriptor && errno == EEXIST)
+  {
+    place.folder().remove(name);
+    this->Descriptor = place.folder().open(name, O_RDWR | O_CREAT | O_EXCL);
+  }
   if (!this->Descriptor)
   {
     this->fail("cannot be written");
@@ -226,7 +230,8 @@ void AtomicFile::finish(bool durably)
   const WorkTime write(WorkStage::Write);
   const std::string partial = partialName(this->Place.name());
   FileDescriptor file = this->Kept ? std::move(this->Descriptor) : durably ? this->reopened() : FileDescriptor();
-  if (!durably && file)
+  constexpr std::uint64_t large = std::uint64_t(1) << 18; ///< what is smaller costs more than it takes
+  if (!durably && file && this->Position >= large)
   {
     ::sync_file_range(file.number(), 0, 0, SYNC_FILE_RANGE_WRITE); // on its way, for whoever waits for all files
   }

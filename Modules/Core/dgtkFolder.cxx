@@ -3,11 +3,14 @@
 
 #include "dgtkError.h"
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 
 #include <fcntl.h>
+#include <linux/openat2.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 namespace dgtk
@@ -32,6 +35,29 @@ void forEachParent(const std::string& name, Visit visit)
 }
 
 constexpr int folderFlags = O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
+
+/// The folder that leads to a name, in one step, by a system that can refuse links on all of the way. Empty, with
+/// errno: ENOSYS where it cannot.
+FileDescriptor holderAtOnce(const FileDescriptor& top, const std::string& name)
+{
+  static std::atomic<bool> unknown{ false };
+  if (unknown)
+  {
+    errno = ENOSYS;
+    return FileDescriptor();
+  }
+  struct open_how how = {};
+  how.flags = folderFlags;
+  how.resolve = RESOLVE_NO_SYMLINKS;
+  const std::string way = name.substr(0, name.rfind('/'));
+  const long found = ::syscall(SYS_openat2, top.number(), way.c_str(), &how, sizeof how);
+  if (found < 0 && (errno == EPERM || errno == EINVAL || errno == E2BIG || errno == ENOSYS))
+  {
+    unknown = true; // an old system, or one that is fenced in
+    errno = ENOSYS;
+  }
+  return FileDescriptor(static_cast<int>(found));
+}
 } // namespace
 
 bool FileDescriptor::close()
@@ -70,7 +96,8 @@ void Folder::fail(const std::string& name, const char* what) const
                      (blocked ? "a link or a file stands where a folder has to be" : std::strerror(errno)));
 }
 
-// Step by step, for the system's own walk follows links. Empty, with errno, when a step fails.
+// The system's own walk follows links, unless it is told not to, or goes step by step. Empty, with errno, when a step
+// fails.
 FileDescriptor Folder::holderOf(const std::string& name) const
 {
   if (!isPlain(name))
@@ -78,6 +105,17 @@ FileDescriptor Folder::holderOf(const std::string& name) const
     throw UsageError(this->Path + ": " + quoted(name) + " does not name a file of this folder");
   }
   FileDescriptor at(::open(this->Path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  if (at && name.find('/') != std::string::npos)
+  {
+    FileDescriptor holder = holderAtOnce(at, name);
+    const int reason = errno;
+    if (holder || reason != ENOSYS)
+    {
+      at = std::move(holder); // closes the other one
+      errno = reason;
+      return at;
+    }
+  }
   forEachParent(name,
     [&at](const std::string& part)
     {
@@ -136,6 +174,10 @@ EntryKind Folder::lookFrom(const FileDescriptor& holder, const std::string& name
 
 void Folder::makeParents(const std::string& name) const
 {
+  if (this->holderOf(name))
+  {
+    return;
+  }
   std::string made;
   forEachParent(name,
     [&](const std::string& part)

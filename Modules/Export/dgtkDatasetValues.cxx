@@ -31,6 +31,11 @@ double valueAt(const Rows& rows, int x, int y, int channel)
 
 std::uint32_t idAt(const Rows& rows, int x, int y)
 {
+  if (rows.type() == PixelType::UInt8 && rows.channels() == 3) // what they usually are
+  {
+    const std::uint8_t* const pixel = rows.row<std::uint8_t>(y) + 3 * std::size_t(x);
+    return std::uint32_t(pixel[0]) << 16 | std::uint32_t(pixel[1]) << 8 | pixel[2];
+  }
   const auto channel = [&](int c) { return static_cast<std::uint32_t>(valueAt(rows, x, y, c)); };
   return rows.channels() >= 3 ? channel(0) << 16 | channel(1) << 8 | channel(2) : channel(0);
 }
@@ -116,6 +121,16 @@ std::string SafeNames::of(const std::string& original)
   this->Taken[unique] = original;
   this->Given[original] = unique;
   return unique;
+}
+
+std::shared_ptr<const SafeNames> safeNamesOf(const DatasetView& dataset)
+{
+  auto names = std::make_shared<SafeNames>();
+  for (const std::string& camera : dataset.cameras())
+  {
+    names->of(camera);
+  }
+  return names;
 }
 
 } // namespace dgtk

@@ -3,13 +3,18 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkFileTable.h"
 #include "dgtkFolder.h"
 #include "dgtkHash.h"
 #include "dgtkJournal.h"
+#include "dgtkLongDocuments.h"
+#include "dgtkPinholeTwins.h"
 #include "dgtkText.h"
 
 #include <algorithm>
+#include <mutex>
 #include <set>
+#include <tuple>
 
 namespace dgtk
 {
@@ -64,36 +69,63 @@ std::optional<double> baselineOf(const CameraRecord& left, const CameraRecord& r
 }
 } // namespace
 
-DatasetView::DatasetView(const std::string& folder, const DatasetSelection& selection)
+/// poses.json, which is read when poses are first asked for.
+class DatasetView::Poses
+{
+public:
+  std::vector<PoseRecord> at(const std::string& folder, int frame)
+  {
+    std::call_once(this->Once,
+      [&]
+      {
+        const dgtk::Folder place(folder);
+        if (place.look(posesName) == EntryKind::File)
+        {
+          this->Index.emplace(place.fileAt(posesName));
+        }
+      });
+    return this->Index ? this->Index->at(frame) : std::vector<PoseRecord>();
+  }
+
+private:
+  std::once_flag Once;
+  std::optional<PoseIndex> Index;
+};
+
+DatasetView::DatasetView(const std::string& folder, const DatasetSelection& selection, const SceneOfMany& scene)
   : Folder(folder)
-  , TheManifest(readManifestIn(folder))
-  , MetresPerUnit(selection.metresPerUnit > 0 ? selection.metresPerUnit : this->TheManifest.metresPerUnit)
+  , Scene(scene)
+  , Files(std::make_unique<FileTable>())
+  , AllPoses(std::make_unique<Poses>())
 {
   const dgtk::Folder place(folder);
   this->ManifestHash = Sha256::ofFile(place.fileAt(manifestName));
   this->Objects = readObjects(place.fileAt("objects.json"));
   this->Classes = readClasses(place.fileAt("objects.json"));
-  if (place.look(posesName) == EntryKind::File)
-  {
-    this->Poses = readPoses(place.fileAt(posesName));
-    std::stable_sort(this->Poses.begin(), this->Poses.end(),
-      [](const PoseRecord& a, const PoseRecord& b) { return std::tie(a.frame, a.id) < std::tie(b.frame, b.id); });
-  }
   this->readShots(selection);
-  this->index();
+  this->readFiles();
+  this->MetresPerUnit = selection.metresPerUnit > 0 ? selection.metresPerUnit : this->TheManifest.metresPerUnit;
 }
+
+DatasetView::~DatasetView() = default;
 
 void DatasetView::readShots(const DatasetSelection& selection)
 {
   std::set<std::string> known;
-  for (const CameraRecord& camera : readCameras(dgtk::Folder(this->Folder).fileAt("cameras.json")))
-  {
-    known.insert(camera.name);
-    if ((selection.cameras.empty() || isOneOf(camera.name, selection.cameras)) && holdsFrame(selection, camera.frame))
+  std::vector<DatasetShot> all; // for twins, which may be of any name
+  readCameras(dgtk::Folder(this->Folder).fileAt("cameras.json"),
+    [&](CameraRecord&& camera)
     {
-      this->Shots.push_back({ 0, camera });
-    }
-  }
+      known.insert(camera.name);
+      if (holdsFrame(selection, camera.frame) && selection.pinholeTwins)
+      {
+        all.push_back({ 0, camera });
+      }
+      if ((selection.cameras.empty() || isOneOf(camera.name, selection.cameras)) && holdsFrame(selection, camera.frame))
+      {
+        this->Shots.push_back({ 0, std::move(camera) });
+      }
+    });
   for (const std::string& name : selection.cameras)
   {
     if (known.count(name) == 0)
@@ -107,34 +139,54 @@ void DatasetView::readShots(const DatasetSelection& selection)
   {
     throw UsageError("frames: none of the dataset's pictures is meant");
   }
+  if (selection.pinholeTwins)
+  {
+    this->Shots = withTwins(this->Shots, all);
+  }
+  this->Shots.shrink_to_fit();
   std::stable_sort(this->Shots.begin(), this->Shots.end(),
     [](const DatasetShot& a, const DatasetShot& b)
     { return std::tie(a.camera.name, a.camera.frame) < std::tie(b.camera.name, b.camera.frame); });
+  const bool many = !this->Scene.name.empty();
   for (std::size_t i = 0; i < this->Shots.size(); ++i)
   {
-    this->Shots[i].index = i;
-    this->ByPlace[{ this->Shots[i].name(), this->Shots[i].frame() }] = i;
+    DatasetShot& shot = this->Shots[i];
+    shot.index = i;
+    shot.number = this->Scene.shotsBefore + i;
+    shot.part = many ? this->Scene.place : shot.frame();
+    shot.camera.name = this->nameOf(shot.camera.name);
   }
 }
 
-void DatasetView::index()
+/// Of a camera, among those of all scenes.
+std::string DatasetView::nameOf(const std::string& camera) const
 {
-  for (std::size_t i = 0; i < this->TheManifest.files.size(); ++i)
-  {
-    const DatasetFile& file = this->TheManifest.files[i];
-    if (!file.layer.empty() && this->ByPlace.count({ file.camera, file.frame }) > 0)
+  return this->Scene.name.empty() ? camera : this->Scene.name + '/' + camera;
+}
+
+void DatasetView::readFiles()
+{
+  this->TheManifest = readManifestIn(this->Folder,
+    [this](DatasetFile&& file)
     {
-      this->Files[{ file.camera, file.frame, file.layer }].push_back(i);
-      ++this->Layers[file.layer];
-    }
-  }
+      const DatasetShot* owner = file.layer.empty() ? nullptr : this->shot(this->nameOf(file.camera), file.frame);
+      this->Files->add(file, owner ? static_cast<std::uint32_t>(owner->index) : FileTable::noShot);
+      const bool earlier = this->FirstFrame < 0 || file.frame < this->FirstFrame;
+      this->FirstFrame = file.frame >= 0 && earlier ? file.frame : this->FirstFrame;
+    });
+  this->Files->finish();
 }
 
 const DatasetShot* DatasetView::shot(const std::string& camera, int frame) const
 {
-  const auto found = this->ByPlace.find({ camera, frame });
-  return found == this->ByPlace.end() ? nullptr : &this->Shots[found->second];
+  const auto found = std::lower_bound(this->Shots.begin(), this->Shots.end(), std::tie(camera, frame),
+    [](const DatasetShot& one, const std::tuple<const std::string&, const int&>& place)
+    { return std::tie(one.camera.name, one.camera.frame) < place; });
+  const bool there = found != this->Shots.end() && found->name() == camera && found->frame() == frame;
+  return there ? &*found : nullptr;
 }
+
+bool DatasetView::has(const std::string& layer) const { return !layer.empty() && this->Files->hasLayer(layer); }
 
 std::vector<std::string> DatasetView::cameras() const
 {
@@ -189,19 +241,25 @@ const ObjectRecord* DatasetView::object(std::uint32_t id) const
   return found == this->Objects.end() ? nullptr : &*found;
 }
 
+std::uint32_t DatasetView::largestObject() const
+{
+  std::uint32_t largest = this->Scene.largestObject;
+  for (const ObjectRecord& object : this->Objects)
+  {
+    largest = std::max(largest, object.id);
+  }
+  return largest;
+}
+
 std::string DatasetView::file(const DatasetShot& shot, const std::string& layer,
   const std::vector<std::string>& extensions, const std::string& folder) const
 {
-  const auto found = this->Files.find({ shot.name(), shot.frame(), layer });
-  if (found == this->Files.end())
-  {
-    return {};
-  }
+  const std::vector<std::uint32_t> files = this->Files->ofShot(static_cast<std::uint32_t>(shot.index), layer);
   for (const std::string& extension : extensions.empty() ? usualExtensions() : extensions)
   {
-    for (const std::size_t i : found->second)
+    for (const std::uint32_t number : files)
     {
-      const std::string& path = this->TheManifest.files[i].path;
+      std::string path = this->Files->pathOf(number);
       if (extensionOf(path) == extension && (folder.empty() || folderOf(path) == folder))
       {
         return path;
@@ -211,32 +269,38 @@ std::string DatasetView::file(const DatasetShot& shot, const std::string& layer,
   return {};
 }
 
+DatasetFile DatasetView::describedFile(std::uint32_t number) const
+{
+  DatasetFile file = this->Files->at(number);
+  if (this->Files->shotOf(number) != FileTable::noShot)
+  {
+    const DatasetShot& owner = this->Shots[this->Files->shotOf(number)];
+    file.camera = owner.name();
+    file.frame = owner.frame();
+  }
+  return file;
+}
+
 std::vector<DatasetFile> DatasetView::filesOf(const DatasetShot& shot) const
 {
   std::vector<DatasetFile> files;
-  const auto first = this->Files.lower_bound({ shot.name(), shot.frame(), "" });
-  for (auto one = first;
-       one != this->Files.end() && std::get<0>(one->first) == shot.name() && std::get<1>(one->first) == shot.frame();
-       ++one)
+  for (const std::uint32_t number : this->Files->ofShot(static_cast<std::uint32_t>(shot.index)))
   {
-    for (const std::size_t i : one->second)
-    {
-      files.push_back(this->TheManifest.files[i]);
-    }
+    files.push_back(this->describedFile(number));
   }
+  std::stable_sort(files.begin(), files.end(),
+    [](const DatasetFile& a, const DatasetFile& b) { return std::tie(a.layer, a.path) < std::tie(b.layer, b.path); });
   return files;
 }
 
-const DatasetFile& DatasetView::listed(const std::string& file) const
+DatasetFile DatasetView::listed(const std::string& file) const
 {
-  const std::vector<DatasetFile>& all = this->TheManifest.files; // sorted by path
-  const auto known = std::lower_bound(
-    all.begin(), all.end(), file, [](const DatasetFile& one, const std::string& path) { return one.path < path; });
-  if (known == all.end() || known->path != file)
+  const std::optional<std::uint32_t> number = this->Files->find(file);
+  if (!number)
   {
     throw InputError(this->Folder, 0, "the manifest does not list " + quoted(file));
   }
-  return *known;
+  return this->describedFile(*number);
 }
 
 std::string DatasetView::bytesOf(const std::string& file) const
@@ -295,12 +359,7 @@ std::vector<BoxRecord> DatasetView::boxes(const DatasetShot& shot) const
 
 AmodalMasks DatasetView::amodal(const DatasetShot& shot) const { return readAmodal(documentOf(*this, shot, "amodal")); }
 
-std::vector<PoseRecord> DatasetView::poses(int frame) const
-{
-  const auto before = [](const PoseRecord& pose, int at) { return pose.frame < at; };
-  const auto first = std::lower_bound(this->Poses.begin(), this->Poses.end(), frame, before);
-  return { first, std::lower_bound(first, this->Poses.end(), frame + 1, before) };
-}
+std::vector<PoseRecord> DatasetView::poses(int frame) const { return this->AllPoses->at(this->Folder, frame); }
 
 std::vector<TrackPoint> DatasetView::trackPoints() const
 {

@@ -12,11 +12,11 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace dgtk
@@ -30,7 +30,17 @@ struct DatasetSelection
   int first = 0; ///< of some frames: first, first + step, ... up to last
   int last = 0;
   int step = 1;
-  double metresPerUnit = 0; ///< 0: what the dataset says
+  double metresPerUnit = 0;  ///< 0: what the dataset says
+  bool pinholeTwins = false; ///< a camera with a lens or a shutter gives way to a plain pinhole with the same poses
+};
+
+/// A dataset as one scene of a folder of datasets, when all of them are looked at together.
+struct SceneOfMany
+{
+  std::string name = {};             ///< its folder; cameras are then called NAME/CAMERA. "": there are no others
+  int place = 0;                     ///< among the scenes, from 0
+  std::size_t shotsBefore = 0;       ///< shots of the scenes before
+  std::uint32_t largestObject = 0;   ///< the largest object id of all scenes
 };
 
 /// A picture's place in a dataset: a camera at a frame.
@@ -38,6 +48,8 @@ struct DatasetShot
 {
   std::size_t index = 0; ///< among the shots, from 0
   CameraRecord camera;
+  std::size_t number = 0; ///< the same among those of all scenes
+  int part = 0;           ///< what splits count: its frame, or, of many scenes, the scene's place
   const std::string& name() const { return this->camera.name; }
   int frame() const { return this->camera.frame; }
 };
@@ -62,10 +74,16 @@ enum class PixelCentre
 class DGTKEXPORT_EXPORT DatasetView
 {
 public:
-  /// Throws UsageError for a camera that there is not and for a selection without a picture.
-  explicit DatasetView(const std::string& folder, const DatasetSelection& selection = {});
+  /// Throws UsageError for a camera that there is not, for a selection without a picture and for a camera that lacks
+  /// the pinhole twin that is to take its place: it says which one is needed.
+  explicit DatasetView(
+    const std::string& folder, const DatasetSelection& selection = {}, const SceneOfMany& scene = {});
+  ~DatasetView();
+  DatasetView(const DatasetView&) = delete;
+  DatasetView& operator=(const DatasetView&) = delete;
 
   const std::string& folder() const { return this->Folder; }
+  /// Without its files, which are listed().
   const Manifest& manifest() const { return this->TheManifest; }
   const std::string& manifestHash() const { return this->ManifestHash; }
 
@@ -79,10 +97,13 @@ public:
 
   const std::vector<ObjectRecord>& objects() const { return this->Objects; }
   const ObjectRecord* object(std::uint32_t id) const; ///< null for none
+  /// Of all scenes.
+  std::uint32_t largestObject() const;
+  const SceneOfMany& scene() const { return this->Scene; }
   const std::vector<ClassRecord>& classes() const { return this->Classes; }
 
   /// Whether some shot has a file of the layer.
-  bool has(const std::string& layer) const { return this->Layers.count(layer) > 0; }
+  bool has(const std::string& layer) const;
   /// The file of a layer, relative to the dataset; the first of these extensions that there is (of any: npy before
   /// others). "" for none. For layers with several folders (correspondence) the one whose folder is named.
   std::string file(const DatasetShot& shot, const std::string& layer, const std::vector<std::string>& extensions = {},
@@ -90,8 +111,9 @@ public:
   std::string pathOf(const std::string& file) const { return this->Folder + '/' + file; }
   /// All files of a picture, of all layers, as the manifest lists them.
   std::vector<DatasetFile> filesOf(const DatasetShot& shot) const;
-  /// What the manifest says of a file; throws InputError where it does not list it.
-  const DatasetFile& listed(const std::string& file) const;
+  /// What the manifest says of a file, camera and frame of the shots' ones; throws InputError where it does not list
+  /// it.
+  DatasetFile listed(const std::string& file) const;
   /// The whole file; throws InputError where it is not the one that the manifest lists.
   std::string bytesOf(const std::string& file) const;
   /// Throws InputError where the shot has no file of the layer.
@@ -106,6 +128,8 @@ public:
 
   /// Of all objects; none of datasets that do not say them (poses.json).
   std::vector<PoseRecord> poses(int frame) const;
+  /// The first frame of the run, selected or not; -1 for a dataset without pictures.
+  int firstFrame() const { return this->FirstFrame; }
   /// Points of the layer `tracks`. Throws InputError where there are none.
   std::vector<TrackPoint> trackPoints() const;
 
@@ -118,19 +142,22 @@ public:
   std::vector<RectifiedPair> rectifiedPairs() const;
 
 private:
+  class Poses;
   void readShots(const DatasetSelection& selection);
-  void index();
+  void readFiles();
+  DatasetFile describedFile(std::uint32_t number) const;
+  std::string nameOf(const std::string& camera) const;
   std::string Folder;
+  SceneOfMany Scene;
   Manifest TheManifest;
   std::string ManifestHash;
   std::vector<DatasetShot> Shots;
   std::vector<ObjectRecord> Objects;
   std::vector<ClassRecord> Classes;
-  std::vector<PoseRecord> Poses;
   double MetresPerUnit = 0;
-  std::map<std::pair<std::string, int>, std::size_t> ByPlace;
-  std::map<std::string, std::size_t> Layers; ///< files of shots
-  std::map<std::tuple<std::string, int, std::string>, std::vector<std::size_t>> Files;
+  int FirstFrame = -1;
+  std::unique_ptr<class FileTable> Files;
+  std::unique_ptr<Poses> AllPoses;
 };
 
 /// An object id per pixel of rows of the layer `objects`, whatever its file; 24 bits of R, G, B where it has three
@@ -160,11 +187,16 @@ class DGTKEXPORT_EXPORT SafeNames
 public:
   /// The name of an original, the same for the same.
   std::string of(const std::string& original);
+  /// Of one that was asked for before; throws std::out_of_range otherwise.
+  const std::string& known(const std::string& original) const { return this->Given.at(original); }
 
 private:
   std::map<std::string, std::string> Given;
   std::map<std::string, std::string> Taken;
 };
+
+/// Of the cameras of a dataset, in their order.
+DGTKEXPORT_EXPORT std::shared_ptr<const SafeNames> safeNamesOf(const DatasetView& dataset);
 
 } // namespace dgtk
 

@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -80,22 +81,26 @@ DGTKEXPORT_EXPORT const ChoiceOption& depth();       ///< layer of the depth map
 DGTKEXPORT_EXPORT const ChoiceOption& imageFormat(); ///< "png" or "jpg"
 DGTKEXPORT_EXPORT const IntegerOption& quality();    ///< of JPEG
 DGTKEXPORT_EXPORT const ChoiceOption& outOfRange();  ///< "void" or "refuse"
+DGTKEXPORT_EXPORT const SwitchOption& undistort();   ///< pinhole twins in place of lenses
 DGTKEXPORT_EXPORT const SwitchOption& link();        ///< hard links for equal bytes
 DGTKEXPORT_EXPORT const IntegerOption& threads();
 } // namespace exported
 
-/// A part of a dataset by frames, as the option `split` names it.
+/// A part of a dataset by frames, or of many scenes by their places, as the option `split` names it.
 struct DatasetSplit
 {
   std::string name;
   int first = 0;
   int last = 0;
-  bool holds(int frame) const { return frame >= this->first && frame <= this->last; }
+  bool holds(const DatasetShot& shot) const { return shot.part >= this->first && shot.part <= this->last; }
 };
 /// Without the option: one split of all frames, of this name. Throws UsageError for what is not NAME=A:B, for parts
 /// that overlap and for one without a picture.
 DGTKEXPORT_EXPORT std::vector<DatasetSplit> splitsOf(
   const DatasetView& dataset, const OptionValues& options, const std::string& usual);
+
+/// Numbers of a split's shots, in their order.
+DGTKEXPORT_EXPORT std::vector<std::uint32_t> shotsIn(const DatasetView& dataset, const DatasetSplit& split);
 
 } // namespace dgtk
 

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -32,12 +33,17 @@ const std::string& notesName()
 
 Json jsonOf(const ItemRecord& record)
 {
-  Json json{ { "files", Json::array() }, { "rounding", Json::array() }, { "notes", record.notes } };
+  Json json{ { "files", Json::array() }, { "rounding", Json::array() } };
   for (const ExportedFile& one : record.files)
   {
     const DatasetFile& file = one.file;
     json["files"].push_back({ file.path, file.bytes, file.sha256, file.layer, file.camera, file.frame,
       one.encoding.kind, one.encoding.numbers });
+  }
+  json["names"] = Json::array();
+  for (const ExportedName& one : record.names)
+  {
+    json["names"].push_back({ one.camera, one.frame, one.name });
   }
   for (const LayerRounding& one : record.rounding)
   {
@@ -58,15 +64,42 @@ ItemRecord recordOf(const Json& json)
   {
     record.rounding.push_back({ one.at(0), one.at(1), one.at(2), one.at(3), one.at(4) });
   }
-  record.notes = json.at("notes").get<std::vector<std::pair<std::string, std::string>>>();
+  for (const Json& one : json.at("names"))
+  {
+    record.names.push_back({ one.at(0), one.at(1), one.at(2) });
+  }
   return record;
 }
 
-// Texts may be any bytes, which CBOR keeps.
+void putSize(std::string& to, std::uint64_t size) { to.append(reinterpret_cast<const char*>(&size), sizeof size); }
+
+/// Takes what putSize() put, and what follows it.
+std::uint64_t takeSize(const std::string& from, std::size_t& at)
+{
+  std::uint64_t size = from.size();
+  if (from.size() - at >= sizeof size)
+  {
+    std::memcpy(&size, from.data() + at, sizeof size);
+  }
+  at += sizeof size;
+  return size;
+}
+
+/// The size of all but the notes, these as CBOR (texts may be any bytes), then the notes: sizes of list and text, list,
+/// text.
 std::string packed(const ItemRecord& record)
 {
   const std::vector<std::uint8_t> bytes = Json::to_cbor(jsonOf(record));
-  return { bytes.begin(), bytes.end() };
+  std::string text;
+  putSize(text, bytes.size());
+  text.append(bytes.begin(), bytes.end());
+  for (const auto& [list, note] : record.notes)
+  {
+    putSize(text, list.size());
+    putSize(text, note.size());
+    text += list + note;
+  }
+  return text;
 }
 } // namespace
 
@@ -149,28 +182,69 @@ void ExportNotes::add(std::size_t item, const ItemRecord& record)
   this->End += text.size();
 }
 
-ItemRecord ExportNotes::read(std::size_t item) const
+std::string ExportNotes::bytesAt(std::uint64_t offset, std::uint64_t bytes) const
 {
-  const Place& place = *this->Places[item];
-  std::vector<std::uint8_t> bytes(place.bytes);
+  std::string text(bytes, '\0');
   std::size_t done = 0;
-  while (done < bytes.size())
+  while (done < text.size())
   {
     const ssize_t got =
-      ::pread(this->File.number(), bytes.data() + done, bytes.size() - done, static_cast<off_t>(place.offset + done));
+      ::pread(this->File.number(), text.data() + done, text.size() - done, static_cast<off_t>(offset + done));
     if (got <= 0)
     {
       throw MachineError(this->Holder.pathOf(notesName()) + ": cannot be read back");
     }
     done += static_cast<std::size_t>(got);
   }
+  return text;
+}
+
+void ExportNotes::failDamaged() const
+{
+  throw MachineError(this->Holder.pathOf(notesName()) + ": is damaged; start over");
+}
+
+ItemRecord ExportNotes::read(std::size_t item) const
+{
+  const Place& place = *this->Places[item];
+  std::size_t at = 0;
+  const std::uint64_t size = takeSize(this->bytesAt(place.offset, std::min<std::uint64_t>(8, place.bytes)), at);
+  if (size > place.bytes - std::min<std::uint64_t>(at, place.bytes))
+  {
+    this->failDamaged();
+  }
+  const std::string bytes = this->bytesAt(place.offset + at, size);
   try
   {
-    return recordOf(Json::from_cbor(bytes));
+    return recordOf(Json::from_cbor(bytes.begin(), bytes.end()));
   }
   catch (const Json::exception&)
   {
-    throw MachineError(this->Holder.pathOf(notesName()) + ": is damaged; start over");
+    this->failDamaged();
+  }
+}
+
+void ExportNotes::forNotes(
+  std::size_t item, const std::string& list, const std::function<void(const std::string&)>& visit) const
+{
+  const Place& place = *this->Places[item];
+  const std::string bytes = this->bytesAt(place.offset, place.bytes);
+  std::size_t at = 0;
+  const std::uint64_t rest = takeSize(bytes, at);
+  at += rest;
+  while (at < bytes.size())
+  {
+    const std::uint64_t name = takeSize(bytes, at);
+    const std::uint64_t text = takeSize(bytes, at);
+    if (at > bytes.size() || name > bytes.size() - at || text > bytes.size() - at - name)
+    {
+      this->failDamaged();
+    }
+    if (bytes.compare(at, name, list) == 0)
+    {
+      visit(bytes.substr(at + name, text));
+    }
+    at += name + text;
   }
 }
 

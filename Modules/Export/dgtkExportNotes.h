@@ -23,6 +23,7 @@ struct ItemRecord
   std::vector<ExportedFile> files;
   std::vector<LayerRounding> rounding;
   std::vector<std::pair<std::string, std::string>> notes; ///< list and text
+  std::vector<ExportedName> names;
 };
 
 /// The records of the items of an export, in a file beside the journal: an export that is resumed finds them, and
@@ -37,8 +38,10 @@ public:
   bool has(std::size_t item) const { return this->Places[item].has_value(); }
   /// Throws MachineError.
   void add(std::size_t item, const ItemRecord& record);
-  /// The record of a finished item.
+  /// The record of a finished item, without its notes.
   ItemRecord read(std::size_t item) const;
+  /// Calls visit(text) for the notes of a finished item in a list.
+  void forNotes(std::size_t item, const std::string& list, const std::function<void(const std::string&)>& visit) const;
   /// Removes the file.
   void remove();
 
@@ -46,9 +49,11 @@ private:
   struct Place
   {
     std::uint64_t offset = 0;
-    std::uint64_t bytes = 0;
+    std::uint64_t bytes = 0; ///< of all
   };
   [[noreturn]] void fail() const;
+  [[noreturn]] void failDamaged() const;
+  std::string bytesAt(std::uint64_t offset, std::uint64_t bytes) const;
   void begin(const std::string& requestHash);
   void takeOver();
   Folder Holder;

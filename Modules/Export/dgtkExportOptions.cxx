@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <set>
 
 namespace dgtk
@@ -56,6 +57,12 @@ const ChoiceOption& outOfRange()
     "what becomes of values that a format has no code for: nothing there, counted; or no export");
   return row;
 }
+const SwitchOption& undistort()
+{
+  static const SwitchOption row("undistort", "plain pinholes alone: a camera with a lens gives way to its pinhole twin "
+                                             "in the dataset, or is refused with the twin that is needed");
+  return row;
+}
 const SwitchOption& link()
 {
   static const SwitchOption row("link", "hard links to the dataset's files where bytes are equal");
@@ -72,7 +79,7 @@ const std::vector<const OptionRow*>& exportOptions()
 {
   static const std::vector<const OptionRow*> all{ &exported::cameras(), &exported::split(), &exported::unitMetres(),
     &exported::color(), &exported::depth(), &exported::imageFormat(), &exported::quality(), &exported::outOfRange(),
-    &exported::link(), &exported::threads() };
+    &exported::undistort(), &exported::link(), &exported::threads() };
   return all;
 }
 
@@ -179,7 +186,8 @@ DatasetSplit splitOf(const std::string& part)
 
 std::vector<DatasetSplit> splitsOf(const DatasetView& dataset, const OptionValues& options, const std::string& usual)
 {
-  const std::vector<int> frames = dataset.frames();
+  const std::vector<DatasetShot>& shots = dataset.shots();
+  const bool alone = dataset.scene().name.empty(); // of many, others may be in it
   std::vector<DatasetSplit> splits;
   for (const std::string& part : exported::split().of(options))
   {
@@ -191,13 +199,26 @@ std::vector<DatasetSplit> splitsOf(const DatasetView& dataset, const OptionValue
         refuseSplit("parts that do not overlap", part);
       }
     }
-    if (std::none_of(frames.begin(), frames.end(), [&](int frame) { return split.holds(frame); }))
+    if (alone && std::none_of(shots.begin(), shots.end(), [&](const auto& shot) { return split.holds(shot); }))
     {
       refuseSplit("frames of the dataset", part);
     }
     splits.push_back(split);
   }
-  return splits.empty() ? std::vector<DatasetSplit>{ { usual, frames.front(), frames.back() } } : splits;
+  return splits.empty() ? std::vector<DatasetSplit>{ { usual, 0, std::numeric_limits<int>::max() } } : splits;
+}
+
+std::vector<std::uint32_t> shotsIn(const DatasetView& dataset, const DatasetSplit& split)
+{
+  std::vector<std::uint32_t> numbers;
+  for (const DatasetShot& shot : dataset.shots())
+  {
+    if (split.holds(shot))
+    {
+      numbers.push_back(static_cast<std::uint32_t>(shot.index));
+    }
+  }
+  return numbers;
 }
 
 } // namespace dgtk

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkExport.h"
 
+#include "dgtkDatasetScenes.h"
 #include "dgtkError.h"
 #include "dgtkExportNotes.h"
 #include "dgtkExporterEntry.h"
 #include "dgtkFile.h"
 #include "dgtkHash.h"
 #include "dgtkItemSink.h"
+#include "dgtkSceneFolders.h"
 #include "dgtkSystem.h"
 #include "dgtkText.h"
 #include "dgtkThreadPool.h"
@@ -39,11 +41,10 @@ private:
   void writeDocuments();
   void close();
   void forRecords(const std::function<void(const ItemRecord&)>& visit) const;
-  const ExportItem& item(std::size_t index) const
-  {
-    const std::size_t items = this->Plan.items.size();
-    return index < items ? this->Plan.items[index] : this->Plan.documents[index - items];
-  }
+  void forNotes(const std::string& list, const std::function<void(const std::string&)>& visit) const;
+  ExportItem item(std::size_t index) const;
+  std::size_t items() const { return this->Items; } ///< without documents
+  std::size_t all() const { return this->Items + this->Plan.documents.size(); }
   bool cancelled() const { return this->Callbacks.cancel && *this->Callbacks.cancel; }
   void advance();
 
@@ -51,8 +52,9 @@ private:
   ExportCallbacks Callbacks;
   const ExporterRow& Row;
   std::unique_ptr<Exporter> Format;
-  DatasetView Dataset;
+  DatasetScenes Datasets;
   ExportPlan Plan;
+  std::size_t Items = 0;
   std::string Hash;
   std::unique_ptr<Journal> Log;
   std::unique_ptr<ExportNotes> Notes;
@@ -87,6 +89,7 @@ DatasetSelection selectionOf(const ExportRequest& request)
   selection.cameras = exported::cameras().of(request.options);
   const std::vector<double> metres = exported::unitMetres().of(request.options);
   selection.metresPerUnit = metres.empty() ? 0 : metres[0];
+  selection.pinholeTwins = exported::undistort().of(request.options);
   return selection;
 }
 
@@ -117,14 +120,41 @@ ExportRun::ExportRun(const ExportRequest& request, const ExportCallbacks& callba
   , Callbacks(callbacks)
   , Row(findExporter(request.format))
   , Format(this->Row.make())
-  , Dataset(request.dataset, selectionOf(this->Request))
+  , Datasets(request.dataset, selectionOf(this->Request))
 {
   const OptionValues& options = this->Request.options;
   requireOther(request);
-  requireLayers(this->Dataset, this->Format->needs(options), this->Row.info.name);
-  this->Format->check(this->Dataset, options);
-  this->Plan = this->Format->plan(this->Dataset, options);
+  for (const DatasetView* dataset : this->Datasets.views())
+  {
+    requireLayers(*dataset, this->Format->needs(options), this->Row.info.name);
+    this->Format->check(*dataset, options);
+  }
+  this->Plan = this->Datasets.many() ? this->Format->planScenes(this->Datasets.views(), options)
+                                     : this->Format->plan(this->Datasets.first(), options);
+  this->Items = this->Plan.items.size();
+  for (const ExportSeries& series : this->Plan.series)
+  {
+    this->Items += series.count;
+  }
   this->Hash = this->identity();
+}
+
+ExportItem ExportRun::item(std::size_t index) const
+{
+  if (index < this->Plan.items.size())
+  {
+    return this->Plan.items[index];
+  }
+  index -= this->Plan.items.size();
+  for (const ExportSeries& series : this->Plan.series)
+  {
+    if (index < series.count)
+    {
+      return series.item(index);
+    }
+    index -= series.count;
+  }
+  return this->Plan.documents.at(index);
 }
 
 /// What decides bytes: neither threads nor links.
@@ -152,7 +182,7 @@ TextPairs ExportRun::described() const
 
 std::string ExportRun::identity() const
 {
-  std::string text = std::string(DGTK_VERSION) + '\n' + this->Row.info.name + '\n' + this->Dataset.manifestHash();
+  std::string text = std::string(DGTK_VERSION) + '\n' + this->Row.info.name + '\n' + this->Datasets.manifestHash();
   for (const auto& [name, value] : this->described())
   {
     text += '\n' + name + '=' + value;
@@ -162,11 +192,16 @@ std::string ExportRun::identity() const
   return hash.hex();
 }
 
+/// What may be in the way of files; nothing is in an empty folder, however many they are.
 std::vector<std::string> ExportRun::allNames() const
 {
   std::vector<std::string> names;
   std::set<std::string> seen;
-  for (std::size_t i = 0; i < this->Plan.items.size() + this->Plan.documents.size(); ++i)
+  std::error_code code;
+  const bool anew =
+    !std::filesystem::exists(this->Request.folder, code) || std::filesystem::is_empty(this->Request.folder, code);
+  const std::size_t announced = anew ? 0 : this->all();
+  for (std::size_t i = 0; i < announced; ++i)
   {
     for (const std::string& name : this->item(i).files)
     {
@@ -190,8 +225,7 @@ ExportResult ExportRun::execute()
                              : this->Request.replace ? JournalStart::Replace
                                                      : JournalStart::Fresh;
   this->Log = std::make_unique<Journal>(this->Request.folder, this->Hash, start, this->allNames(), exportName);
-  this->Notes = std::make_unique<ExportNotes>(
-    this->Request.folder, this->Hash, this->Plan.items.size() + this->Plan.documents.size(), this->Request.resume);
+  this->Notes = std::make_unique<ExportNotes>(this->Request.folder, this->Hash, this->all(), this->Request.resume);
   this->writeItems();
   if (!this->cancelled())
   {
@@ -226,7 +260,7 @@ void ExportRun::advance()
   ++this->Done;
   if (this->Callbacks.progress)
   {
-    this->Callbacks.progress({ this->Done, this->Plan.items.size() + this->Plan.documents.size() });
+    this->Callbacks.progress({ this->Done, this->all() });
   }
 }
 
@@ -236,7 +270,7 @@ void ExportRun::writeItems()
   ThreadPool pool(threads > 0 ? threads : machineThreads());
   std::atomic<bool> failed{ false };
   std::atomic<std::size_t> kept{ 0 };
-  pool.parallelFor(static_cast<int>(this->Plan.items.size()),
+  pool.parallelFor(static_cast<int>(this->items()),
     [&](int i)
     {
       if (failed || this->cancelled())
@@ -266,11 +300,12 @@ void ExportRun::writeItems()
 
 void ExportRun::write(std::size_t index)
 {
-  const ExportItem& item = this->item(index);
-  ItemSink sink(this->Dataset, this->Request.folder, item, *this->Log, exported::link().of(this->Request.options));
-  if (index >= this->Plan.items.size())
+  const ExportItem item = this->item(index);
+  const DatasetView& dataset = item.dataset ? *item.dataset : this->Datasets.first();
+  ItemSink sink(dataset, this->Request.folder, item, *this->Log, exported::link().of(this->Request.options));
+  if (index >= this->items())
   {
-    sink.readsNotes([this](const auto& visit) { this->forRecords(visit); });
+    sink.readsNotes([this](const std::string& list, const auto& visit) { this->forNotes(list, visit); });
   }
   item.write(sink);
   this->Notes->add(index, sink.record());
@@ -280,18 +315,29 @@ void ExportRun::writeDocuments()
 {
   for (std::size_t i = 0; i < this->Plan.documents.size() && !this->cancelled(); ++i)
   {
-    this->write(this->Plan.items.size() + i);
+    this->write(this->items() + i);
     this->advance();
   }
 }
 
 void ExportRun::forRecords(const std::function<void(const ItemRecord&)>& visit) const
 {
-  for (std::size_t i = 0; i < this->Plan.items.size() + this->Plan.documents.size(); ++i)
+  for (std::size_t i = 0; i < this->all(); ++i)
   {
     if (this->Notes->has(i)) // documents are written one after another
     {
       visit(this->Notes->read(i));
+    }
+  }
+}
+
+void ExportRun::forNotes(const std::string& list, const std::function<void(const std::string&)>& visit) const
+{
+  for (std::size_t i = 0; i < this->all(); ++i)
+  {
+    if (this->Notes->has(i))
+    {
+      this->Notes->forNotes(i, list, visit);
     }
   }
 }
@@ -302,7 +348,7 @@ void ExportRun::close()
   record.version = DGTK_VERSION;
   record.exporter = this->Row.info.name;
   record.requestHash = this->Hash;
-  record.manifestHash = this->Dataset.manifestHash();
+  record.manifestHash = this->Datasets.manifestHash();
   record.request = this->described();
   record.conventions = this->Plan.conventions;
   record.names = this->Plan.names;
@@ -321,6 +367,17 @@ void ExportRun::close()
     [&](AtomicFile& document)
     {
       document.write(exportHead(record));
+      bool first = record.names.empty();
+      this->forRecords(
+        [&](const ItemRecord& item)
+        {
+          for (const ExportedName& name : item.names)
+          {
+            document.write(exportNameLine(name, first));
+            first = false;
+          }
+        });
+      document.write(exportMiddle(first));
       this->forRecords(
         [&](const ItemRecord& item)
         {
@@ -336,9 +393,47 @@ void ExportRun::close()
 }
 } // namespace
 
+namespace
+{
+/// Each scene as an export of its own, in a folder of its name.
+ExportResult exportScenes(
+  const ExportRequest& request, const std::vector<std::string>& scenes, const ExportCallbacks& callbacks)
+{
+  ExportResult all;
+  for (std::size_t i = 0; i < scenes.size() && !all.interrupted; ++i)
+  {
+    ExportRequest one = request;
+    one.dataset += '/' + scenes[i];
+    one.folder += '/' + scenes[i];
+    ExportCallbacks own = callbacks;
+    own.progress = [&](const ExportProgress& state)
+    {
+      if (callbacks.progress) // of scenes; each counts as many as it has
+      {
+        callbacks.progress({ i * state.total + state.done, scenes.size() * state.total });
+      }
+    };
+    const ExportResult result = ExportRun(one, own).execute();
+    all.files += result.files;
+    all.kept += result.kept;
+    all.interrupted = result.interrupted;
+    for (const LayerRounding& layer : result.layers)
+    {
+      addRounding(all.layers, layer);
+    }
+  }
+  return all;
+}
+} // namespace
+
 ExportResult exportDataset(const ExportRequest& request, const ExportCallbacks& callbacks)
 {
-  return ExportRun(request, callbacks).execute();
+  const std::vector<std::string> scenes = sceneFoldersIn(request.dataset);
+  if (scenes.empty() || findExporter(request.format).make()->joinsScenes())
+  {
+    return ExportRun(request, callbacks).execute();
+  }
+  return exportScenes(request, scenes, callbacks);
 }
 
 } // namespace dgtk

@@ -72,14 +72,25 @@ struct ExportItem
 {
   std::vector<std::string> files; ///< all that it writes; an item without files leaves notes only
   std::function<void(ExportSink&)> write;
+  std::vector<ExportedName> names = {}; ///< of pictures, as the format calls them; beside those of the plan
+  const DatasetView* dataset = nullptr; ///< whose files it copies, where there are several
+};
+
+/// Items that are made when it is their turn, so that a plan of many pictures is small: item(i) is a pure function, and
+/// may be called from any thread, several times.
+struct ExportSeries
+{
+  std::size_t count = 0;
+  std::function<ExportItem(std::size_t)> item;
 };
 
 struct ExportPlan
 {
   std::vector<ExportItem> items;
+  std::vector<ExportSeries> series;  ///< behind the items, in this order
   std::vector<ExportItem> documents; ///< written one by one after all items; they may read their notes
   TextPairs conventions;             ///< { "pixel_centre", "integer: cx and cy are 0.5 less" }, ...
-  std::vector<ExportedName> names;   ///< of the pictures, as the format calls them
+  std::vector<ExportedName> names;   ///< of the pictures, as the format calls them; those of items follow
 };
 
 /// A format of other people's datasets. Stateless; sees a dataset, and nothing of how it was made.
@@ -94,6 +105,13 @@ public:
   /// have been looked for in every picture.
   virtual void check(const DatasetView& dataset, const OptionValues& options) const;
   virtual ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const = 0;
+
+  /// Whether the datasets of many scenes become one of the format, with pictures side by side. Otherwise each is an
+  /// export of its own.
+  virtual bool joinsScenes() const { return false; }
+  /// Of such datasets, which have the same classes and the same length of a unit: what plan() says of each, one behind
+  /// the other, and documents of one name once. So documents are made of notes, and of what all scenes share.
+  virtual ExportPlan planScenes(const std::vector<const DatasetView*>& scenes, const OptionValues& options) const;
 };
 
 } // namespace dgtk

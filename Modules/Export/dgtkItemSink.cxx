@@ -68,6 +68,7 @@ ItemSink::ItemSink(
   , Log(journal)
   , Links(links)
 {
+  this->Record.names = item.names;
   if (!item.files.empty())
   {
     this->Log.plan(item.files);
@@ -110,7 +111,7 @@ bool ItemSink::link(const std::string& name, const std::string& datasetFile) con
 
 void ItemSink::copy(const std::string& name, const std::string& datasetFile, const ExportedPixels& pixels)
 {
-  const DatasetFile& known = this->Dataset.listed(datasetFile);
+  const DatasetFile known = this->Dataset.listed(datasetFile);
   this->expect(name);
   DatasetFile file = describedAs(name, pixels);
   file.sha256 = known.sha256;
@@ -134,17 +135,7 @@ void ItemSink::notes(const std::string& list, const std::function<void(const std
   {
     throw std::logic_error("an item that is no document reads notes");
   }
-  this->Others(
-    [&](const ItemRecord& record)
-    {
-      for (const auto& [name, text] : record.notes)
-      {
-        if (name == list)
-        {
-          visit(text);
-        }
-      }
-    });
+  this->Others(list, visit);
 }
 
 void addRounding(std::vector<LayerRounding>& all, const LayerRounding& one)

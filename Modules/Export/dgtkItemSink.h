@@ -18,7 +18,7 @@ class ItemSink : public ExportSink
 {
 public:
   /// Reads notes of finished items; where there are none, null.
-  using Notes = std::function<void(const std::function<void(const ItemRecord&)>&)>;
+  using Notes = std::function<void(const std::string& list, const std::function<void(const std::string&)>& visit)>;
 
   ItemSink(const DatasetView& dataset, const std::string& folder, const ExportItem& item, Journal& journal, bool links);
   void readsNotes(Notes notes) { this->Others = std::move(notes); }

@@ -16,15 +16,17 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnsignedIntArray.h"
 
+#include <algorithm>
+#include <limits>
+
 vtkStandardNewMacro(dgtkSnapshot);
 
 struct dgtkSnapshot::Internal
 {
   dgtk::FrozenView view;
   dgtk::View camera;
-  std::vector<dgtk::Hit> hits; // of TraceCells()
   vtkSmartPointer<vtkDataArray> cells;
-  vtkSmartPointer<vtkDataArray> counts;
+  std::vector<vtkSmartPointer<vtkUnsignedIntArray>> counts; // one a prop
   vtkSmartPointer<vtkDoubleArray> positions;
   vtkSmartPointer<vtkUnsignedCharArray> classes;
   const dgtk::FrozenView& taken() const
@@ -126,20 +128,56 @@ vtkDataArray* dgtkSnapshot::TraceCells()
     [&]
     {
       const dgtk::FrozenView& view = self.taken();
-      {
-        const dgtk::InterpreterPause pause;
-        self.hits = dgtk::traceView(*view.stage, self.camera);
-      }
       const auto cells = vtkSmartPointer<vtkTypeInt64Array>::New();
       cells->SetName("cells");
-      cells->SetNumberOfValues(vtkIdType(self.hits.size()));
-      for (std::size_t i = 0; i < self.hits.size(); ++i)
+      cells->SetNumberOfValues(vtkIdType(this->GetWidth()) * this->GetHeight());
       {
-        cells->SetValue(vtkIdType(i), dgtk::cellOf(view, self.hits[i]));
+        const dgtk::InterpreterPause pause;
+        const std::vector<dgtk::Hit> hits = dgtk::traceView(*view.stage, self.camera);
+        std::transform(hits.begin(), hits.end(), cells->GetPointer(0),
+          [&view](const dgtk::Hit& hit) { return dgtk::cellOf(view, hit); });
       }
       self.cells = cells;
     });
   return done ? self.cells.Get() : nullptr;
+}
+
+bool dgtkSnapshot::CountCells()
+{
+  Internal& self = *this->Self;
+  self.counts.clear();
+  return this->Attempt(
+    [&]
+    {
+      const dgtk::FrozenView& view = self.taken();
+      if (std::uint64_t(this->GetWidth()) * std::uint64_t(this->GetHeight()) >
+          std::numeric_limits<std::uint32_t>::max())
+      {
+        throw dgtk::UsageError("image size out of range: it has more pixels than a cell's count may be");
+      }
+      std::vector<std::uint32_t*> pixels;
+      std::vector<vtkSmartPointer<vtkUnsignedIntArray>> counts;
+      for (const dgtk::FrozenActor& actor : view.actors)
+      {
+        counts.push_back(vtkSmartPointer<vtkUnsignedIntArray>::New());
+        counts.back()->SetNumberOfValues(vtkIdType(actor.inputCells));
+        counts.back()->Fill(0);
+        pixels.push_back(counts.back()->GetPointer(0));
+      }
+      const dgtk::InterpreterPause pause;
+      dgtk::traceTiles(*view.stage, self.camera,
+        [&](const dgtk::VisibilityBuffer& tile)
+        {
+          for (const dgtk::Hit& hit : tile.hits)
+          {
+            if (hit.object != 0)
+            {
+              ++pixels[hit.object - 1][dgtk::cellOf(view, hit)];
+            }
+          }
+        });
+      self.counts.swap(counts);
+    });
 }
 
 vtkDataArray* dgtkSnapshot::CountPixels(int index)
@@ -148,23 +186,12 @@ vtkDataArray* dgtkSnapshot::CountPixels(int index)
   const bool done = this->Attempt(
     [&]
     {
-      if (this->GetProp(index) == nullptr || self.cells == nullptr)
+      if (index < 0 || std::size_t(index) >= self.counts.size())
       {
-        throw dgtk::UsageError("there is no such prop, or its cells were not traced");
+        throw dgtk::UsageError("there is no such prop, or its cells were not counted");
       }
-      const auto counts = vtkSmartPointer<vtkUnsignedIntArray>::New();
-      counts->SetNumberOfValues(this->GetNumberOfCells(index));
-      counts->Fill(0);
-      for (const dgtk::Hit& hit : self.hits)
-      {
-        if (hit.object == std::uint32_t(index) + 1)
-        {
-          ++*counts->GetPointer(vtkIdType(dgtk::cellOf(self.view, hit)));
-        }
-      }
-      self.counts = counts;
     });
-  return done ? self.counts.Get() : nullptr;
+  return done ? self.counts[std::size_t(index)].Get() : nullptr;
 }
 
 bool dgtkSnapshot::Correspond(dgtkSnapshot* other)

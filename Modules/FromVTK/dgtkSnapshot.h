@@ -75,10 +75,13 @@ public:
    * Cells of composite data are counted through its blocks; those of glyphs are the points that they stand at.
    */
   vtkDataArray* TraceCells();
+  ///@{
   /**
-   * For the prop with id index + 1 the number of pixels that see each of its cells, after TraceCells().
+   * For the prop with id index + 1 the number of pixels that see each of its cells, after CountCells().
    */
+  bool CountCells();
   vtkDataArray* CountPixels(int index);
+  ///@}
 
   ///@{
   /**

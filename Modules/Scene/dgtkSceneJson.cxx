@@ -2,6 +2,7 @@
 #include "dgtkSceneJson.h"
 
 #include "dgtkError.h"
+#include "dgtkSceneRandom.h"
 #include "dgtkSceneText.h"
 #include "dgtkSensorDescription.h"
 
@@ -239,16 +240,13 @@ const std::vector<JsonField<Scene>>& sceneFields()
   return fields;
 }
 
-SceneDescription readJsonScene(const std::string& file, const std::string& folder, const std::string& contents)
+namespace
+{
+Scene readTree(const JsonDocument& document, const std::string& file, const std::string& folder)
 {
   Scene scene;
   scene.file = file;
   scene.folder = folder;
-  JsonDocument document = parseJson(scene.title(), contents);
-  if (file.empty())
-  {
-    forgetLines(document.root);
-  }
   const JsonCursor at(document);
   for (std::size_t i = 0, n = at.memberCount(); i < n; ++i)
   {
@@ -275,6 +273,23 @@ SceneDescription readJsonScene(const std::string& file, const std::string& folde
   validateRelations(scene, [&at](SceneItem::Kind kind, std::size_t index, const std::string& property)
     { return locate(at.node(), kind, index, property); });
   return scene;
+}
+} // namespace
+
+SceneDescription readJsonScene(const std::string& file, const std::string& folder, const std::string& contents)
+{
+  Scene untitled;
+  untitled.file = file;
+  JsonDocument document = parseJson(untitled.title(), contents);
+  if (file.empty())
+  {
+    forgetLines(document.root);
+  }
+  if (const std::optional<JsonCursor> random = firstRandom(document))
+  {
+    random->fail("makes the scene random", "a plain scene, as dgtk sample makes of it");
+  }
+  return readTree(document, file, folder);
 }
 
 std::map<std::string, std::vector<std::string>> jsonSceneKeys()
@@ -313,6 +328,11 @@ namespace dgtk
 {
 
 using namespace scenefile;
+
+SceneDescription readSceneTree(const JsonDocument& document, const std::string& file, const std::string& folder)
+{
+  return readTree(document, file, folder);
+}
 
 std::string toJson(const SceneDescription& scene, const std::string& newFolder)
 {

@@ -7,6 +7,14 @@ import subprocess
 from harness import DGTK, SCENES, SOURCE, Case, main
 
 HELP = {
+    "sample": ("SCENE", "Draws plain scenes from one with random values.", [
+        ("--output DIR", "folder of the scenes"),
+        ("--samples A:B", "numbers of the samples, both included"),
+        ("--seed N", "instead of the scene's seed"),
+        ("--threads N", "threads that work (default: those of the machine)"),
+        ("--replace", "remove the samples of another run, or of an interrupted one, that the folder holds"),
+        ("--quiet", "no progress and no messages"),
+        ("--no-cache", "read models anew, and keep none of them for other runs")]),
     "info": ("FILE", "Tells what a scene, a model or a dataset holds.", [
         ("--json", "print one JSON object"),
         ("--size WxH", "of a scene: size of the images (default: the camera's own, else 640x480)"),
@@ -115,7 +123,7 @@ class Pages(Case):
 
     def test_the_overview(self):
         expected = "usage: dgtk COMMAND [arguments] [options]\n\nImages and exact ground truth from described 3D scenes.\n\n"
-        for command in ("render", "export", "info", "convert", "verify", "correspond", "compare", "warp", "list"):
+        for command in ("render", "sample", "export", "info", "convert", "verify", "correspond", "compare", "warp", "list"):
             help_ = HELP[command][1] if command in HELP else LONG[command]
             expected += f"  {command:12}{help_}\n"
         expected += "\ndgtk COMMAND --help tells more; dgtk --version prints the version.\n"

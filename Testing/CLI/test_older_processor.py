@@ -32,6 +32,14 @@ class OlderProcessor(Case):
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assert_same_files(self.path("here"), self.path("there"))
 
+    def test_same_samples(self):
+        scene = os.path.join(os.path.dirname(os.path.abspath(__file__)), "sampled_scene.json")
+        run = ("sample", scene, "--samples", "0:9", "--threads", "1", "--quiet")
+        self.dgtk(*run, "-o", self.path("scenes"))
+        done = subprocess.run([*EMULATED, DGTK, *run, "-o", self.path("emulated")], capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_same_files(self.path("scenes"), self.path("emulated"))
+
 
 if __name__ == "__main__":
     main()

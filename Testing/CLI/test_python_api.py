@@ -14,6 +14,32 @@ from harness import SCENES, SOURCE, Case, digests, main
 from python_package import DEMO, OF_VTK, PACKAGES, SIZE, dgtk, square
 
 
+class Samples(Case):
+    SCENE = {"seed": 5, "lights": [{"name": "sun", "intensity": {"uniform": [2, 4]}}]}
+
+    def test_a_sample_is_that_of_the_command(self):
+        path = self.write("random.json", json.dumps(self.SCENE))
+        self.dgtk("sample", path, "-o", self.path("out"), "--samples", "7", "--quiet")
+        with open(self.path("out/000007.json"), encoding="utf-8") as file:
+            written = json.load(file)
+        self.assertEqual(dgtk.sample(self.SCENE, 7), written)
+        self.assertEqual(dgtk.sample(path, 7), written)
+        self.assertNotEqual(dgtk.sample(path, 7, seed=6), written)
+        self.assertEqual(dgtk.scene(dgtk.sample(path, 7)).cameras, [])
+        self.assertEqual(written["lights"][0]["intensity"], 2 + 2 * dgtk.random(5, 7, "lights/sun/intensity"))
+
+    def test_refusals(self):
+        wrong = {"lights": [{"name": "l", "intensity": {"uniform": [2, 1]}}]}
+        for call, says in ((lambda: dgtk.sample(wrong, 0), r"lights\[0\].intensity.uniform is empty"), (lambda: dgtk.sample(self.SCENE, -1), "number: "),
+                           (lambda: dgtk.sample(self.SCENE, 1.5), "number: "), (lambda: dgtk.sample(self.SCENE, 0, seed=-1), "seed: "),
+                           (lambda: dgtk.sample("a.json", 0, folder="."), "folder: "), (lambda: dgtk.random(0, -1, "a"), "sample: "),
+                           (lambda: dgtk.random(0, 0, ""), "path: "), (lambda: dgtk.random(0, 0, "a", -1), "draw: "), (lambda: dgtk.sample(3, 0), "scene: ")):
+            with self.assertRaisesRegex(ValueError, says):
+                call()
+        with self.assertRaisesRegex(ValueError, "makes the scene random"):
+            dgtk.scene(self.SCENE)
+
+
 class Scenes(Case):
     def test_a_description_is_the_scene_again(self):
         loaded = dgtk.load(DEMO)
@@ -241,7 +267,7 @@ except KeyboardInterrupt:
                 ({"sample": 4}, ValueError, "there is no option 'sample'"),
                 ({"scene": "/nothing.json"}, ValueError, "/nothing.json: "),
                 ({"scene": 3}, ValueError, "scene: expected"),
-                ({"scene": dgtk.Snapshot()}, ValueError, "a snapshot has no files to read again: save"),
+                ({"scene": dgtk.Snapshot()}, ValueError, "no renderer was taken"),
                 ({"folder": SCENES}, ValueError, "holds"),
                 ({"folder": self.path("file")}, (ValueError, RuntimeError), "file"),
                 ({"folder": "/proc/none/out"}, RuntimeError, "/proc/none")):

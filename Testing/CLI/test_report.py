@@ -156,14 +156,17 @@ class Report(Case):
             self.render(f"scenes/{name}", layers="color,objects")
         os.symlink(self.path("scenes", "000000"), self.path("scenes", "linked"))
         self.write("scenes/manifest.json", "{}")
-        self.write("scenes/samples.json", json.dumps({"samples": [{"sample": 0, "rules": [{"path": "objects/cup#1/place", "kept": False, "why": "no room <b>here</b>", "attempts": 9}]}, {"sample": 1, "rules": []}]}))
+        self.write("scenes/samples.json", json.dumps({"version": 1, "samples": [
+            {"sample": 4, "file": "000004.json", "notes": [{"path": "objects/cup#1/place", "kept": False, "why": "no room <b>here</b>", "attempts": 9}, {"path": "cameras/left/require", "kept": True, "attempts": 2}]},
+            {"sample": 5, "refused": {"path": "objects/bowl/place", "why": "no room", "attempts": 20}}, {"sample": 6, "file": "000006.json"}]}))
         os.makedirs(self.path("scenes", "broken"))
         self.write("scenes/broken/manifest.json", "{")
         model = model_of(self.report(self.path("scenes")))
         self.assertEqual((model["dataset"]["scenesFound"], model["dataset"]["scenes"], model["dataset"]["pictures"]), (3, 2, 12))
         self.assertEqual([names["name"] for names in model["names"].values()], ["000000", "000001"])
-        self.assertEqual(model["samples"]["reasons"], [{"path": "objects/cup#1/place", "why": "no room <b>here</b>", "times": 1, "example": "0"}])
-        self.assertEqual(model["samples"]["touched"], 1)
+        self.assertEqual(model["samples"]["reasons"], [{"path": "objects/bowl/place", "why": "no room", "times": 1, "example": "5"},
+                                                       {"path": "objects/cup#1/place", "why": "no room <b>here</b>", "times": 1, "example": "4"}])
+        self.assertEqual((model["samples"]["samples"], model["samples"]["touched"]), (3, 2))
         self.assertIn("broken", model["notes"][0])
         self.assertEqual(model["seen"]["objects"][0]["scenes"], 2)
 

@@ -126,6 +126,15 @@ def lenses(folder):
                        "distortion": [0.02, -0.004, 0.0006, -5e-05]})]})
 
 
+def twins(folder):
+    """A fisheye that moves, and beside another pinhole one that goes its way."""
+    eyes, looks = {"keys": [[0, [-0.3, 0.2, 4.2]], [1, [-0.1, 0.2, 4.1]]]}, {"keys": [[0, [0, 0, 0]], [1, [0.1, 0, 0]]]}
+    return _write(folder, "twins", {"objects": _objects(), "cameras": [
+        _without_view({**_camera("fish.auge", eyes, looks), "model": "fisheye", "K": [[40, 0, 47.5], [0, 40, 36.2], [0, 0, 1]],
+                       "distortion": [0.02, -0.004, 0.0006, -5e-05]}),
+        _camera("a wider view", [-0.3, 0.2, 5.2], [0, 0, 0]), _camera("fish flach", eyes, looks)]})
+
+
 def street(folder, frames=2):
     """What stands upright before an upright rectified pair: turned about the vertical alone, cut off by the border, in two sizes."""
     last = frames - 1

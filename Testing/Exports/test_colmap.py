@@ -180,6 +180,10 @@ class Sparse(datasets.ExportCase):
         truth = np.array([x for x, _, _ in points.values()])
         apart = np.array([np.linalg.norm(truth - x, axis=1).min() for x, _, _ in found.values()])
         print(f"{len(found)} of {len(points)} points triangulated, {np.median(apart):.1e} apart")
+        # COLMAP leaves out some tracks of two pictures alone (2 of 29 here, whose rays meet at 2 degrees like those of others that it takes)
+        tracks = [frozenset(map(tuple, track)) for _, _, track in points.values()]
+        taken = {frozenset(map(tuple, track)) for _, _, track in found.values()}
+        self.assertTrue({track for track in tracks if len(track) > 2} <= taken)
         self.assertGreaterEqual(len(found), 0.98 * len(points))
         self.assertLess(np.median(apart), 1e-5 * 5)
         self.assertLess(apart.max(), 0.01)

@@ -106,6 +106,21 @@ class Frame(datasets.ExportCase):
         self.refused("export", self.path("scene"), "--format", "coco", "-o", target, status=3, says="scene")
         self.refused("export", dataset, "-o", target, status=2, says="--format")
 
+    def test_pinhole_twins_take_the_place_of_lenses(self):
+        """Nothing is rendered anew: the twin is in the dataset, or the line says which one is needed."""
+        dataset = self.render(datasets.twins(self.path("twins")), "color,depth")
+        self.refused("export", dataset, "--format", "tum", "-o", self.path("no"), status=2, says="render a pinhole twin")
+        folder, record = self.export(dataset, "tum", "--undistort", "--cameras", "fish.auge")
+        self.assertEqual([(one["camera"], one["frame"]) for one in record["names"]], [("fish flach", 0), ("fish flach", 1)])
+        _, record = self.export(dataset, "tum", "--undistort")
+        self.assertEqual(sorted({one["camera"] for one in record["names"]}), ["a wider view", "fish flach"])
+        lenses = self.render(datasets.lenses(self.path("lenses")), "color,depth")
+        said = self.dgtk("export", lenses, "--format", "tum", "-o", self.path("no"), "--undistort", status=2).stderr
+        self.assertIn("camera 'fish' (fisheye) needs a pinhole twin", said)
+        self.assertIn('"K": [[40, 0, 47.5], [0, 40, 36.2], [0, 0, 1]]', said)
+        self.assertEqual(len(said.splitlines()), 1)
+        self.assertFalse(os.path.exists(self.path("no")))
+
     def test_a_full_disk_leaves_one_line_and_nothing_whole(self):
         dataset = self.render(datasets.stereo(self.path("scene")), datasets.LAYERS)
         folder = self.path("full")

@@ -11,7 +11,7 @@ import datasets
 from datasets import cameras_of, layer_of, main, read_png  # noqa: F401
 
 LEFT, RIGHT = "left eye", "right.eye"
-LAYERS = "color,depth,objects,classes,distance,normal,flow_forward,flow_backward,disparity"
+LAYERS = "color,depth,objects,classes,distance,normal,objectcoords,flow_forward,flow_backward,disparity"
 
 
 class BlenderProc(datasets.ExportCase):
@@ -45,6 +45,13 @@ class BlenderProc(datasets.ExportCase):
         decoded = 2 * found["normals" + suffix].astype(float) - 1
         self.assertLess(np.abs(decoded - normals * [1, -1, -1])[there].max(), 1e-6)
         self.assertFalse(decoded[~there].any())
+        # nocs: what BlenderProc's material makes of Object coordinates, 0.5 x + 0.5, and an alpha
+        local = read("objectcoords")
+        seen = np.isfinite(local).all(axis=2)
+        self.assertEqual(found["nocs" + suffix].shape, (72, 96, 4))
+        self.assertTrue(np.array_equal(found["nocs" + suffix][..., 3] == 1, seen))
+        self.assertLess(np.abs(found["nocs" + suffix][..., :3] - (0.5 * local + 0.5))[seen].max(initial=0), 1e-6)
+        self.assertFalse(found["nocs" + suffix][~seen].any())
         for key, layer in (("instance_segmaps", "objects"), ("class_segmaps", "classes")):
             self.assertTrue(np.array_equal(found[key + suffix], read(layer).reshape(72, 96)))
         for key, way, last in (("forward_flow", "forward", 2), ("backward_flow", "backward", 0)):
@@ -119,7 +126,7 @@ class BlenderProc(datasets.ExportCase):
             return values
 
         for key, layer in (("depth_0", "depth"), ("instance_segmaps_1", "objects"), ("normals_0", "normal"), ("forward_flow_1", "flow_forward"),
-                           ("colors_1", "color"), ("distance_0", "distance")):
+                           ("colors_1", "color"), ("distance_0", "distance"), ("nocs_0", "objectcoords")):
             self.assertIn("layer " + layer, self.planted_value(dataset, folder, key, one))
         for old, new, layer in ((b'"cam_t_w2c":[0', b'"cam_t_w2c":[1', "pose"), (b'47.5', b'48.0', "intrinsics"), (b'"back wall"', b'"back well"', "attributes")):
             self.assertIn("layer " + layer, self.planted(dataset, folder, "1.hdf5", lambda data, old=old, new=new: data.replace(old, new, 1)))

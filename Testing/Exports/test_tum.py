@@ -122,6 +122,33 @@ class Tum(datasets.ExportCase):
         self.assertGreater(len(apart), 1000)
         self.assertLess(np.median(apart), 2e-4)
 
+    def test_icl_nuim(self):
+        """Numbered frames, depth first, fy < 0: points of all frames lie on the surface of a world whose y is turned round."""
+        folder, record = self.export(self.dataset, "tum", "--unit-metres", self.METRES, "--dialect", "icl-nuim")
+        self.assertEqual(record["conventions"]["dialect"], "icl-nuim")
+        with open(os.path.join(folder, "associations.txt")) as file:
+            self.assertEqual(file.read().split("\n")[:2], ["0 depth/0.png 0 rgb/0.png", "1 depth/1.png 1 rgb/1.png"])
+        with open(os.path.join(folder, "calibration.txt")) as file:
+            fy = float(file.read().split()[1])
+        self.assertLess(fy, 0)
+        truth = read_file_list(os.path.join(folder, "groundtruth.txt"))
+        self.assertEqual(sorted(truth), [0, 1, 2, 3])
+        for frame in range(4):
+            pose = transform44(truth[frame])
+            self.assertAlmostEqual(np.linalg.det(pose[:3, :3]), 1, places=9)
+            points, u, v = cloud(folder, frame, f"depth/{frame}.png", pose)
+            expected = layer_of(self.dataset, "position", "Kamera 1", frame)[v, u].T * self.METRES * np.array([[1], [-1], [1]])
+            self.assertLess(np.abs(points - expected).max(), 1.3e-4)
+        self.assertIn("layer pose", self.planted(self.dataset, folder, "groundtruth.txt", lambda text: text.replace(b"0.15", b"0.25", 1)))
+        self.assertIn("layer intrinsics", self.planted(self.dataset, folder, "calibration.txt", lambda text: text.replace(b" -", b" ", 1)))
+
+    def test_eth3d_slam(self):
+        folder, _ = self.export(self.dataset, "tum", "--unit-metres", self.METRES, "--dialect", "eth3d-slam")
+        self.assertFalse(os.path.exists(os.path.join(folder, "associations.txt")))
+        for name, other in (("associated.txt", "associations.txt"), ("groundtruth.txt", "groundtruth.txt"), ("calibration.txt", "calibration.txt")):
+            with open(os.path.join(folder, name)) as file, open(os.path.join(self.sequence, other)) as own:
+                self.assertEqual(file.read(), own.read())
+
     def test_several_cameras_and_the_referee(self):
         dataset = self.render(datasets.stereo(self.path("stereo")), "color,depth")
         folder, _ = self.export(dataset, "tum", "--image-format", "jpg")

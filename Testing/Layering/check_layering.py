@@ -19,7 +19,7 @@ import sys
 
 USES_VTK = {"RenderGL", "Pipeline", "FromVTK", "Live", "Views", "Viewer", "Matches"}
 PRIVATE_LIBRARIES = re.compile(
-    r"#\s*include\s*[<\"](GL/|EGL/|embree|assimp|opencv|OpenImageIO|OpenEXR|nlohmann|openssl|libdeflate|png\.h|zlib|vtkgl|vtk_glew)")
+    r"#\s*include\s*[<\"](GL/|EGL/|embree|assimp|opencv|OpenImageIO|OpenEXR|nlohmann|openssl|libdeflate|bullet|bt[A-Z]|fcl/|ccd/|png\.h|zlib|vtkgl|vtk_glew)")
 
 
 ALLOWED = {}

@@ -4,6 +4,7 @@ import contextlib
 import io
 import os
 import re
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -16,6 +17,7 @@ sys.path.insert(0, os.path.join(os.environ["DGTK_BUILD"], "lib", "python3", "dis
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import dgtk
 import vtk
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import judge
 import scenes
@@ -210,6 +212,104 @@ class Snapshots(unittest.TestCase):
                             self.assertLess(numpy.abs(one.astype(int) - other).mean(), 1)
                         else:
                             numpy.testing.assert_allclose(one, other, rtol=1e-12)
+
+
+class Datasets(unittest.TestCase):
+    """generate() of a snapshot: the dataset of the scene that save() writes, packed, wherever that was."""
+
+    def files(self, folder):
+        found = {}
+        for place, _, names in os.walk(folder):
+            for name in names:
+                with open(os.path.join(place, name), "rb") as file:
+                    found[os.path.relpath(os.path.join(place, name), folder)] = file.read()
+        return found
+
+    def test_a_dataset_of_a_snapshot(self):
+        request = {"layers": ["color", "depth", "objects", "normal", "boxes"], "samples": 2}
+        for name in ("earth", "blocks", "cut_open", "glyph_mapper"):
+            with self.subTest(scene=name), tempfile.TemporaryDirectory() as folder:
+                renderer = scenes.ALL[name]()
+                shot = dgtk.snapshot(renderer, SIZE)
+                done = []
+                manifest = dgtk.generate(shot, folder + "/out", progress=lambda *now: done.append(now), **request)
+                self.assertEqual(done[-1], (1, 1))
+                os.mkdir(folder + "/elsewhere")
+                shot.save(folder + "/elsewhere/scene.json")
+                self.assertEqual(manifest, dgtk.generate(folder + "/elsewhere/scene.json", folder + "/saved", pack=True, **request))
+                self.assertEqual(self.files(folder + "/out"), self.files(folder + "/saved"))
+                self.assertEqual(sorted(os.listdir(folder)), ["elsewhere", "out", "saved"])
+                verified = subprocess.run([os.environ["DGTK"], "verify", folder + "/out"], capture_output=True, text=True, timeout=120)
+                self.assertEqual(verified.returncode, 0, verified.stdout + verified.stderr)
+                depth = numpy.load(folder + "/out/camera/depth/000000.npy")
+                numpy.testing.assert_allclose(depth, dgtk.truth(renderer, "depth", size=SIZE)["depth"], rtol=1e-9)
+
+    def test_an_interrupted_run_is_completed(self):
+        class Stop(Exception):
+            pass
+
+        def stop(*_):
+            raise Stop
+        with tempfile.TemporaryDirectory() as folder:
+            shot = dgtk.snapshot(scenes.solids(), SIZE)
+            with self.assertRaises(Stop):
+                dgtk.generate(shot, folder + "/out", layers="depth", progress=stop)
+            manifest = dgtk.generate(shot, folder + "/out", layers="depth", resume=True)
+            self.assertEqual(manifest, dgtk.generate(shot, folder + "/again", layers="depth"))
+
+    def test_what_a_snapshot_cannot_be(self):
+        with tempfile.TemporaryDirectory() as folder:
+            shot = dgtk.snapshot(scenes.solids(), SIZE)
+            for wrong, words in (({"pack": False}, "pack: a snapshot has no files of its own"), ({"layers": "cells"}, "'cells'"),
+                                 ({"scene": dgtk.Snapshot()}, "no renderer was taken"), ({"frames": 3}, "frames 0 to 0")):
+                with self.subTest(wrong), self.assertRaisesRegex(ValueError, words):
+                    dgtk.generate(**{"scene": shot, "folder": folder + "/out", **wrong})
+            self.assertEqual(os.listdir(folder), [])
+
+
+class Known(unittest.TestCase):
+    """What did not change is known again, what did is not, whether VTK was told or not."""
+
+    def test_writing_without_telling_vtk_is_seen(self):
+        sphere = vtk.vtkSphereSource()
+        sphere.SetThetaResolution(30)
+        sphere.Update()
+        data = vtk.vtkPolyData()
+        data.DeepCopy(sphere.GetOutput())
+        renderer = scenes.renderer(scenes.actor(data), eye=(0, 0, 4))
+        points = vtk_to_numpy(data.GetPoints().GetData())
+        shot = dgtk.snapshot(renderer, SIZE)
+        before = dgtk.truth(renderer, ["depth", "cells"], size=SIZE)
+        counted = dgtk.visible_cells(renderer, size=SIZE)[0]
+        points *= 0.5
+        after = dgtk.truth(renderer, ["depth", "cells"], size=SIZE)
+        self.assertLess(numpy.isfinite(after["depth"]).sum(), 0.5 * numpy.isfinite(before["depth"]).sum())
+        self.assertLess(dgtk.visible_cells(renderer, size=SIZE)[0].sum(), 0.5 * counted.sum())
+        numpy.testing.assert_array_equal(dgtk.render(shot, "depth"), before["depth"])  # which does not change
+        points *= 2
+        numpy.testing.assert_array_equal(dgtk.truth(renderer, "depth", size=SIZE)["depth"], before["depth"])
+
+    def test_every_setting_counts(self):
+        quad = vtk.vtkPlaneSource()
+        made = scenes.actor(quad, color=(0.5, 0.5, 0.5))
+        made.SetTexture(scenes.picture())
+        renderer = scenes.renderer(made, eye=(0, 0, 3))
+        texels = vtk_to_numpy(made.GetTexture().GetInput().GetPointData().GetScalars())
+
+        def darken():
+            texels[:] //= 2
+
+        def look():
+            truth = dgtk.truth(renderer, ["color", "cells"], size=SIZE)
+            return numpy.dstack([truth["color"], truth["cells"]])
+        seen = look()
+        for change in (lambda: made.GetProperty().SetColor(0.9, 0.2, 0.1), lambda: made.GetProperty().SetAmbient(0.4), darken,
+                       lambda: made.GetTexture().InterpolateOff(), lambda: made.SetTexture(None), lambda: quad.SetResolution(2, 3),
+                       lambda: made.SetPosition(0.3, 0, 0), lambda: renderer.SetBackground(0.1, 0.2, 0.3)):
+            change()
+            now = look()
+            self.assertTrue((now != seen).any())
+            seen = now
 
 
 class Refused(unittest.TestCase):

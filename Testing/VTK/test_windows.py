@@ -2,6 +2,7 @@
 """Colours of dgtk.truth() beside what vtkRenderWindow draws of the same renderer; windows, viewports, sizes and z-buffers."""
 import os
 import sys
+import tempfile
 import unittest
 
 import numpy
@@ -85,6 +86,73 @@ class Colours(unittest.TestCase):
                     other.SetIntensity(0.4)
                     renderer.AddLight(other)
                     self.compare(renderer)
+
+    def physical(self, change):
+        sphere = vtk.vtkTexturedSphereSource()
+        sphere.SetThetaResolution(40)
+        sphere.SetPhiResolution(30)
+        made = scenes.actor(sphere, color=(0.7, 0.4, 0.2))
+        made.GetProperty().SetInterpolationToPBR()
+        change(made.GetProperty())
+        renderer = scenes.renderer(made, eye=(0.4, 0.3, 2.2))
+        renderer.AutomaticLightCreationOff()
+        light = vtk.vtkLight()
+        light.SetLightTypeToSceneLight()
+        light.SetPosition(2, 1, 1)
+        light.SetIntensity(2)
+        renderer.AddLight(light)
+        return renderer
+
+    def test_physically_based_surfaces(self):
+        """Also where no light falls, which is dark without an environment."""
+        for metallic, roughness in ((0, 0.5), (0.6, 0.35), (1, 0.6)):
+            with self.subTest(metallic=metallic, roughness=roughness):
+                def change(of):
+                    of.SetMetallic(metallic)
+                    of.SetRoughness(roughness)
+                renderer = self.physical(change)
+                truth = dgtk.truth(renderer, ["color", "objects"], size=SIZE)
+                self.assertEqual(truth["color"][truth["objects"] == 1].min(), 0)
+                self.compare(renderer, mean=1.5, unlike=0.4)  # VTK takes the power 2.2 for sRGB
+
+    def test_their_textures(self):
+        def picture(srgb, *channels):
+            made = scenes.picture()
+            texels = vtk_to_numpy(made.GetInput().GetPointData().GetScalars())
+            for channel, value in channels:
+                texels[:, channel] = value
+            made.SetUseSRGBColorSpace(srgb)
+            return made
+        for name, change in (("albedo", lambda of: of.SetBaseColorTexture(picture(True))),
+                             ("material", lambda of: (of.SetORMTexture(picture(False, (0, 255))), of.SetMetallic(1), of.SetRoughness(1))),
+                             ("emissive", lambda of: of.SetEmissiveTexture(picture(True)))):
+            with self.subTest(texture=name):
+                self.compare(self.physical(change), mean=1.5, unlike=0.3)
+
+    def test_what_of_them_cannot_be_honoured(self):
+        def picture():
+            made = scenes.picture()
+            made.SetUseSRGBColorSpace(False)
+            return made
+        for words, change in (("a coat", lambda of: of.SetCoatStrength(0.5)), ("anisotropy", lambda of: of.SetAnisotropy(0.5)),
+                              ("normalTex", lambda of: of.SetNormalTexture(picture())), ("anisotropyTex", lambda of: of.SetAnisotropyTexture(picture())),
+                              ("occlusion in the texture materialTex", lambda of: of.SetORMTexture(picture())),
+                              ("index of refraction", lambda of: of.SetBaseIOR(1.8)), ("an edge tint", lambda of: of.SetEdgeTint(1, 0.5, 0.5))):
+            with self.subTest(words), self.assertRaisesRegex(ValueError, words):
+                dgtk.snapshot(self.physical(change), SIZE)
+
+    def test_a_saved_one(self):
+        def change(of):
+            of.SetMetallic(0.3)
+            of.SetRoughness(0.4)
+            texture = scenes.picture()
+            texture.SetUseSRGBColorSpace(True)
+            of.SetBaseColorTexture(texture)
+        shot = dgtk.snapshot(self.physical(change), SIZE)
+        with tempfile.TemporaryDirectory() as folder:
+            shot.save(folder + "/scene.json")
+            again = dgtk.render(dgtk.load(folder + "/scene.json"), "color").astype(int)
+        self.assertLess(numpy.abs(again - dgtk.render(shot, "color")).mean(), 0.2)
 
     def test_without_lights(self):
         renderer = scenes.contour()

@@ -4,6 +4,8 @@
 #include "dgtkError.h"
 #include "dgtkFolder.h"
 #include "dgtkJournal.h"
+#include "dgtkJsonPieces.h"
+#include "dgtkLongDocuments.h"
 
 #include <filesystem>
 #include <limits>
@@ -100,14 +102,18 @@ CameraRecord cameraOf(const JsonCursor& value, const std::string& folder)
 }
 } // namespace
 
+void readCameras(const std::string& path, const std::function<void(CameraRecord&&)>& visit)
+{
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const JsonDocument document =
+    readJsonPieces(path, { { "cameras", [&](const JsonPiece& piece) { visit(cameraOf(piece.value, folder)); } } });
+  JsonCursor(document)["cameras"].listSize();
+}
+
 std::vector<CameraRecord> readCameras(const std::string& path)
 {
-  const JsonDocument document = readJson(path);
   std::vector<CameraRecord> cameras;
-  for (const JsonCursor& item : JsonCursor(document)["cameras"].items())
-  {
-    cameras.push_back(cameraOf(item, std::filesystem::path(path).parent_path().string()));
-  }
+  readCameras(path, [&](CameraRecord&& camera) { cameras.push_back(std::move(camera)); });
   return cameras;
 }
 
@@ -127,9 +133,10 @@ DatasetFile fileOf(const JsonCursor& value)
   return file;
 }
 
-Manifest readManifest(const std::string& path)
+Manifest readManifest(const std::string& path, const std::function<void(DatasetFile&&)>& visit)
 {
-  const JsonDocument document = readJson(path);
+  const JsonDocument document =
+    readJsonPieces(path, { { "files", [&](const JsonPiece& piece) { visit(fileOf(piece.value)); } } });
   const JsonCursor root(document);
   if (!root.has("format") || root["format"].node().text != "DGTk dataset")
   {
@@ -176,10 +183,15 @@ Manifest readManifest(const std::string& path)
       manifest.warnings.push_back(item.text());
     }
   }
-  for (const JsonCursor& item : root["files"].items())
-  {
-    manifest.files.push_back(fileOf(item));
-  }
+  root["files"].listSize();
+  return manifest;
+}
+
+Manifest readManifest(const std::string& path)
+{
+  std::vector<DatasetFile> files;
+  Manifest manifest = readManifest(path, [&](DatasetFile&& file) { files.push_back(std::move(file)); });
+  manifest.files = std::move(files);
   return manifest;
 }
 
@@ -195,16 +207,31 @@ void refuseLinks(const Folder& folder, const std::set<std::string>& names)
     });
 }
 
+Manifest readManifestIn(const std::string& path, const std::function<void(DatasetFile&&)>& visit)
+{
+  constexpr std::size_t together = 4096; ///< names that are looked up at a time
+  const Folder folder(path);
+  std::set<std::string> names;
+  Manifest manifest = readManifest(folder.fileAt(manifestName),
+    [&](DatasetFile&& file)
+    {
+      names.insert(file.path);
+      if (names.size() == together)
+      {
+        refuseLinks(folder, names);
+        names.clear();
+      }
+      visit(std::move(file));
+    });
+  refuseLinks(folder, names);
+  return manifest;
+}
+
 Manifest readManifestIn(const std::string& path)
 {
-  const Folder folder(path);
-  Manifest manifest = readManifest(folder.fileAt(manifestName));
-  std::set<std::string> names;
-  for (const DatasetFile& file : manifest.files)
-  {
-    names.insert(file.path);
-  }
-  refuseLinks(folder, names);
+  std::vector<DatasetFile> files;
+  Manifest manifest = readManifestIn(path, [&](DatasetFile&& file) { files.push_back(std::move(file)); });
+  manifest.files = std::move(files);
   return manifest;
 }
 

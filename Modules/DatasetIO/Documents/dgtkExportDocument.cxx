@@ -37,16 +37,6 @@ std::string layersText(const std::vector<LayerRounding>& layers)
   return array.block();
 }
 
-std::string namesText(const std::vector<ExportedName>& names)
-{
-  JsonArray array(4);
-  for (const ExportedName& one : names)
-  {
-    array.add(JsonObject(6).text("camera", one.camera).integer("frame", one.frame).text("name", one.name).line());
-  }
-  return array.block();
-}
-
 std::string listText(const std::vector<double>& numbers)
 {
   std::string text;
@@ -121,12 +111,25 @@ std::string exportHead(const ExportRecord& record)
     .text("dataset_manifest", record.manifestHash)
     .raw("request", pairsText(record.request))
     .raw("conventions", pairsText(record.conventions))
-    .raw("layers", layersText(record.layers))
-    .raw("names", namesText(record.names));
+    .raw("layers", layersText(record.layers));
   std::string text = object.block();
   text.resize(text.size() - 2); // the brace
-  return text + ",\n  \"files\": [";
+  text += ",\n  \"names\": [";
+  for (const ExportedName& one : record.names)
+  {
+    text += exportNameLine(one, &one == record.names.data());
+  }
+  return text;
 }
+
+std::string exportNameLine(const ExportedName& name, bool isFirst)
+{
+  JsonObject object(6);
+  object.text("camera", name.camera).integer("frame", name.frame).text("name", name.name);
+  return (isFirst ? "\n    " : ",\n    ") + object.line();
+}
+
+std::string exportMiddle(bool noNames) { return noNames ? "],\n  \"files\": [" : "\n  ],\n  \"files\": ["; }
 
 std::string exportFileLine(const ExportedFile& file, bool isFirst)
 {

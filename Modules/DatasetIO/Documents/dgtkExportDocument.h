@@ -70,8 +70,12 @@ struct ExportRecord
   std::vector<ExportedFile> files;
 };
 
-/// Everything before the files, and what follows them.
+// The document in the order of its parts: exportHead(), further names, exportMiddle(), files, exportTail().
+
+/// Everything before the files, and the record's names.
 DGTKDATASETIO_EXPORT std::string exportHead(const ExportRecord& record);
+DGTKDATASETIO_EXPORT std::string exportNameLine(const ExportedName& name, bool isFirst);
+DGTKDATASETIO_EXPORT std::string exportMiddle(bool noNames);
 DGTKDATASETIO_EXPORT std::string exportFileLine(const ExportedFile& file, bool isFirst);
 DGTKDATASETIO_EXPORT std::string exportTail();
 

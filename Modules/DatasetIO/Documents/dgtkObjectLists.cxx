@@ -2,7 +2,9 @@
 // objects.json and poses.json.
 #include "dgtkDatasetDocuments.h"
 #include "dgtkDocumentValues.h"
+#include "dgtkJsonPieces.h"
 #include "dgtkJsonText.h"
+#include "dgtkLongDocuments.h"
 
 #include <algorithm>
 #include <map>
@@ -247,12 +249,51 @@ std::vector<ClassRecord> readClasses(const std::string& path)
 
 std::vector<PoseRecord> readPoses(const std::string& path)
 {
-  const JsonDocument document = readJson(path);
   std::vector<PoseRecord> poses;
-  for (const JsonCursor& item : JsonCursor(document)["poses"].items())
+  readPoses(path, [&](PoseRecord&& pose) { poses.push_back(std::move(pose)); });
+  return poses;
+}
+
+void readPoses(const std::string& path, const std::function<void(PoseRecord&&)>& visit)
+{
+  const JsonDocument document =
+    readJsonPieces(path, { { "poses", [&](const JsonPiece& piece) { visit(poseOf(piece.value)); } } });
+  JsonCursor(document)["poses"].listSize();
+}
+
+PoseIndex::PoseIndex(const std::string& path)
+  : Path(path)
+{
+  const JsonDocument document =
+    readJsonPieces(path, { { "poses", [this](const JsonPiece& piece)
+                           {
+                             const int frame = poseOf(piece.value).frame;
+                             if (!this->Ranges.empty() && this->Ranges.back().frame == frame)
+                             {
+                               this->Ranges.back().end = piece.end;
+                               return;
+                             }
+                             this->Ranges.push_back({ frame, piece.begin, piece.end });
+                           } } });
+  JsonCursor(document)["poses"].listSize();
+  std::stable_sort(
+    this->Ranges.begin(), this->Ranges.end(), [](const Range& a, const Range& b) { return a.frame < b.frame; });
+}
+
+std::vector<PoseRecord> PoseIndex::at(int frame) const
+{
+  const auto before = [](const Range& range, int wanted) { return range.frame < wanted; };
+  std::vector<PoseRecord> poses;
+  for (auto range = std::lower_bound(this->Ranges.begin(), this->Ranges.end(), frame, before);
+       range != this->Ranges.end() && range->frame == frame; ++range)
   {
-    poses.push_back(poseOf(item));
+    const JsonDocument document = readJsonPieces(this->Path, range->begin, range->end, "poses");
+    for (const JsonCursor& item : JsonCursor(document).items())
+    {
+      poses.push_back(poseOf(item));
+    }
   }
+  std::stable_sort(poses.begin(), poses.end(), [](const PoseRecord& a, const PoseRecord& b) { return a.id < b.id; });
   return poses;
 }
 

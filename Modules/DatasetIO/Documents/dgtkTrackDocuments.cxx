@@ -3,6 +3,7 @@
 
 #include "dgtkDocumentValues.h"
 #include "dgtkError.h"
+#include "dgtkJsonPieces.h"
 #include "dgtkJsonText.h"
 #include "dgtkLayerFile.h"
 #include "dgtkLayerReader.h"
@@ -58,12 +59,10 @@ std::string tracksText(const std::vector<TrackPoint>& points)
 
 std::vector<TrackPoint> readTrackPoints(const std::string& path)
 {
-  const JsonDocument document = readJson(path);
   std::vector<TrackPoint> points;
-  for (const JsonCursor& item : JsonCursor(document)["points"].items())
-  {
-    points.push_back(pointOf(item));
-  }
+  const JsonDocument document =
+    readJsonPieces(path, { { "points", [&](const JsonPiece& piece) { points.push_back(pointOf(piece.value)); } } });
+  JsonCursor(document)["points"].listSize();
   return points;
 }
 

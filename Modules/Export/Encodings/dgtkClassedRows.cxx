@@ -28,23 +28,44 @@ ClassedRows::ClassedRows(
 
 void ClassedRows::next()
 {
-  this->Row = this->Values->read(1);
+  constexpr int together = 16;
+  ++this->Y;
+  if (this->Y < this->Block.y() + this->Block.height())
+  {
+    return;
+  }
+  this->Block = this->Values->read(together);
   for (Filter& filter : this->Filters)
   {
-    filter.row = filter.reader->read(1);
+    filter.rows = filter.reader->read(together);
   }
 }
 
 double ClassedRows::at(int x, int channel) const
 {
   const bool wanted = std::all_of(this->Filters.begin(), this->Filters.end(),
-    [x](const Filter& filter)
+    [this, x](const Filter& filter)
     {
-      const double found = valueAt(filter.row, x, filter.row.y());
+      const double found = valueAt(filter.rows, x, this->Y);
       return std::find(filter.wanted.begin(), filter.wanted.end(), found) != filter.wanted.end();
     });
-  const double value = valueAt(this->Row, x, this->Row.y(), channel);
+  const double value = valueAt(this->Block, x, this->Y, channel);
   return wanted && std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+void ClassedRows::row(std::vector<double>& values) const
+{
+  if (this->Filters.empty() && this->Block.type() == PixelType::Float64 && this->Block.channels() == 1)
+  {
+    const double* const from = this->Block.row<double>(this->Y);
+    std::transform(from, from + values.size(), values.begin(),
+      [](double v) { return std::isfinite(v) ? v : std::numeric_limits<double>::quiet_NaN(); });
+    return;
+  }
+  for (std::size_t x = 0; x < values.size(); ++x)
+  {
+    values[x] = this->at(static_cast<int>(x));
+  }
 }
 
 } // namespace dgtk

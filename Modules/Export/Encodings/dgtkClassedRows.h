@@ -31,17 +31,20 @@ public:
   const ImageInfo& info() const { return this->Values->info(); }
   void next();
   double at(int x, int channel = 0) const;
+  /// The values of a row's first channel.
+  void row(std::vector<double>& values) const;
 
 private:
   struct Filter
   {
     std::unique_ptr<RowReader> reader;
     std::vector<double> wanted;
-    Rows row;
+    Rows rows;
   };
   std::unique_ptr<RowReader> Values;
   std::vector<Filter> Filters;
-  Rows Row;
+  Rows Block; ///< several rows at a time
+  int Y = -1;
 };
 
 /// Visibility classes of surface points that are seen in the other image, and of all that have a place there.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -53,9 +54,10 @@ void requireEverywhere(const DatasetView& dataset, const std::string& layer, con
 
 void requireFixedIntrinsics(const DatasetView& dataset, const std::string& format)
 {
+  std::map<std::string, const DatasetShot*> firsts;
   for (const DatasetShot& shot : dataset.shots())
   {
-    const CameraRecord& first = dataset.shotsOf(shot.name()).front()->camera;
+    const CameraRecord& first = firsts.emplace(shot.name(), &shot).first->second->camera;
     const CameraRecord& camera = shot.camera;
     if (camera.K != first.K || camera.width != first.width || camera.height != first.height)
     {

@@ -45,13 +45,6 @@ std::string pngOf(const DatasetView& dataset, const DatasetShot& shot, const std
   return source;
 }
 
-const DatasetFile& listedFile(const DatasetView& dataset, const std::string& name)
-{
-  const std::vector<DatasetFile>& all = dataset.manifest().files; // sorted by path
-  return *std::lower_bound(
-    all.begin(), all.end(), name, [](const DatasetFile& file, const std::string& path) { return file.path < path; });
-}
-
 LayerRounding roundingOf(const DatasetShot& shot, const std::string& layer, int largest)
 {
   return { layer, "levels", double(largest), std::uint64_t(shot.camera.width) * shot.camera.height, 0 };
@@ -67,20 +60,12 @@ EncodedPicture encodePicture(
     JpegPicture picture = encodeJpeg(readLayerFile(dataset.pathOf(source)), exported::quality().of(options));
     return { std::move(picture.bytes), roundingOf(shot, layer, picture.largest) };
   }
-  const std::string path = Folder(dataset.folder()).fileAt(source);
-  EncodedPicture picture{ readFile(path), roundingOf(shot, layer, 0) };
-  Sha256 hash;
-  hash.update(picture.bytes.data(), picture.bytes.size());
-  if (hash.hex() != listedFile(dataset, source).sha256)
-  {
-    throw InputError(path, 0, "is not the file that the manifest lists: its hash differs");
-  }
-  return picture;
+  return { dataset.bytesOf(source), roundingOf(shot, layer, 0) };
 }
 
 std::uint64_t pictureBytes(const DatasetView& dataset, const DatasetShot& shot, const std::string& layer)
 {
-  return listedFile(dataset, pngOf(dataset, shot, layer)).bytes;
+  return dataset.listed(pngOf(dataset, shot, layer)).bytes;
 }
 
 void writePicture(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
@@ -134,7 +119,8 @@ void CodeCounter::report(ExportSink& sink, const DatasetShot& shot, const Option
 }
 
 void writeCodedPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
-  const std::string& name, const LinearCode& code, const OptionValues& options, const WantedClasses& classes)
+  const std::string& name, const LinearCode& code, const OptionValues& options, const WantedClasses& classes,
+  const std::function<void(int y, const std::vector<std::uint32_t>& codes)>& row)
 {
   ClassedRows rows(dataset, shot, layer, classes);
   CodeCounter counter(code, layer);
@@ -145,13 +131,21 @@ void writeCodedPng(ExportSink& sink, const DatasetView& dataset, const DatasetSh
   header.channels = 1;
   ExportedPixels pixels{ layer, &shot, code.encoding() };
   addClasses(pixels.encoding, layer, classes);
+  std::vector<double> values(std::size_t(header.width));
+  std::vector<std::uint32_t> codes(values.size());
   writePng(sink, name, pixels, header,
-    [&](int, unsigned char* row)
+    [&](int y, unsigned char* bytes)
     {
       rows.next();
-      for (int x = 0; x < header.width; ++x)
+      rows.row(values);
+      for (std::size_t x = 0; x < values.size(); ++x)
       {
-        putBig16(row + 2 * std::size_t(x), counter(rows.at(x)));
+        codes[x] = counter(values[x]);
+        putBig16(bytes + 2 * x, codes[x]);
+      }
+      if (row)
+      {
+        row(y, codes);
       }
     });
   counter.report(sink, shot, options);
@@ -188,10 +182,17 @@ void writeIdPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot&
     [&](int y, unsigned char* row)
     {
       const Rows rows = reader->read(1);
+      std::uint32_t last = ~std::uint32_t(0); // neighbours are mostly of one object
+      std::uint32_t code = 0;
       for (int x = 0; x < header.width; ++x)
       {
-        const auto found = codes.find(idAt(rows, x, y));
-        const std::uint32_t code = found == codes.end() ? 0 : found->second;
+        const std::uint32_t id = idAt(rows, x, y);
+        if (id != last || x == 0)
+        {
+          const auto found = codes.find(id);
+          code = found == codes.end() ? 0 : found->second;
+          last = id;
+        }
         for (int c = 0; c < header.channels; ++c)
         {
           const int place = bytes == IdBytes::RedLow ? c : header.channels - 1 - c;

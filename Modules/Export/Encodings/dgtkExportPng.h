@@ -84,9 +84,11 @@ private:
   std::uint64_t Without = 0;
 };
 
-/// A one-channel layer as 16-bit gray PNG; where classes are wanted, pixels of these only.
+/// A one-channel layer as 16-bit gray PNG; where classes are wanted, pixels of these only. `row` is told every row's
+/// codes.
 void writeCodedPng(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
-  const std::string& name, const LinearCode& code, const OptionValues& options, const WantedClasses& classes = {});
+  const std::string& name, const LinearCode& code, const OptionValues& options, const WantedClasses& classes = {},
+  const std::function<void(int y, const std::vector<std::uint32_t>& codes)>& row = {});
 
 /// How a code stands in a PNG: 8 bits, or 24 bits as R, G, B.
 enum class IdBytes

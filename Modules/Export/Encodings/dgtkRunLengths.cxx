@@ -70,6 +70,54 @@ std::string RunLengths::compressed() const
   return text;
 }
 
+namespace
+{
+/// Ids of a row, whatever its type.
+void idsOf(const Rows& objects, int y, std::vector<std::uint32_t>& ids)
+{
+  const auto width = ids.size();
+  if (objects.type() == PixelType::UInt8 && objects.channels() == 3)
+  {
+    const std::uint8_t* const row = objects.row<std::uint8_t>(y);
+    for (std::size_t x = 0; x < width; ++x)
+    {
+      ids[x] = std::uint32_t(row[3 * x]) << 16 | std::uint32_t(row[3 * x + 1]) << 8 | row[3 * x + 2];
+    }
+    return;
+  }
+  for (std::size_t x = 0; x < width; ++x)
+  {
+    ids[x] = idAt(objects, int(x), y);
+  }
+}
+
+/// Ids of all pixels, column by column.
+std::vector<std::uint32_t> columnsOf(const Rows& objects)
+{
+  constexpr int together = 16; ///< rows: of a column they are what a processor writes at a time
+  const auto width = std::size_t(objects.width());
+  const auto height = std::size_t(objects.height());
+  std::vector<std::uint32_t> columns(width * height);
+  std::vector<std::vector<std::uint32_t>> rows(together, std::vector<std::uint32_t>(width));
+  for (int y = 0; y < objects.height(); y += together)
+  {
+    const int count = std::min(together, objects.height() - y);
+    for (int i = 0; i < count; ++i)
+    {
+      idsOf(objects, y + i, rows[std::size_t(i)]);
+    }
+    for (std::size_t x = 0; x < width; ++x)
+    {
+      for (int i = 0; i < count; ++i)
+      {
+        columns[x * height + std::size_t(y + i)] = rows[std::size_t(i)][x];
+      }
+    }
+  }
+  return columns;
+}
+} // namespace
+
 std::map<std::uint32_t, RunLengths> masksOf(const Rows& objects)
 {
   const int width = objects.width();
@@ -90,17 +138,14 @@ std::map<std::uint32_t, RunLengths> masksOf(const Rows& objects)
     begin = end;
   };
   std::uint64_t at = 0;
-  for (int x = 0; x < width; ++x)
+  for (const std::uint32_t id : columnsOf(objects))
   {
-    for (int y = 0; y < height; ++y, ++at)
+    if (id != current)
     {
-      const std::uint32_t id = idAt(objects, x, y);
-      if (id != current)
-      {
-        close(at);
-        current = id;
-      }
+      close(at);
+      current = id;
     }
+    ++at;
   }
   close(at);
   for (auto& [id, mask] : masks)

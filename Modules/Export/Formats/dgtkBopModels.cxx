@@ -27,18 +27,19 @@ constexpr double sameScale = 1e-9;
     "bop: object " + quoted(object.name) + ' ' + what + ", which a rigid model cannot say; leave it out with objects");
 }
 
-/// The one scale of an object at all frames.
-Eigen::Vector3d scaleOf(const DatasetView& dataset, const ObjectRecord& object)
+/// The one scale of each object at all frames.
+std::map<std::uint32_t, Eigen::Vector3d> scalesOf(const DatasetView& dataset, const std::vector<std::uint32_t>& objects)
 {
-  Eigen::Vector3d scale(0, 0, 0);
+  std::map<std::uint32_t, Eigen::Vector3d> scales;
   for (const int frame : dataset.frames())
   {
     for (const PoseRecord& pose : dataset.poses(frame))
     {
-      if (pose.id != object.id)
+      if (std::find(objects.begin(), objects.end(), pose.id) == objects.end())
       {
         continue;
       }
+      const ObjectRecord& object = *dataset.object(pose.id);
       if (!pose.rigid)
       {
         refuse(object, "is sheared");
@@ -47,18 +48,14 @@ Eigen::Vector3d scaleOf(const DatasetView& dataset, const ObjectRecord& object)
       {
         refuse(object, "is mirrored");
       }
-      if (!scale.isZero(0) && (pose.scale - scale).norm() > sameScale * scale.norm())
+      const Eigen::Vector3d& scale = scales.emplace(pose.id, pose.scale).first->second;
+      if ((pose.scale - scale).norm() > sameScale * scale.norm())
       {
         refuse(object, "changes its size");
       }
-      scale = scale.isZero(0) ? pose.scale : scale;
     }
   }
-  if (scale.isZero(0))
-  {
-    throw UsageError("bop: the dataset does not say where objects are (poses.json); render it again");
-  }
-  return scale;
+  return scales;
 }
 
 Eigen::Vector3d scaled(const std::array<double, 3>& x, const Eigen::Vector3d& scale)
@@ -206,9 +203,10 @@ double diameterOf(const std::vector<Eigen::Vector3d>& points)
   return best;
 }
 
-Models modelsOf(const DatasetView& dataset, const std::vector<std::uint32_t>& objects)
+std::map<std::uint32_t, int> addModels(
+  const DatasetView& dataset, const std::vector<std::uint32_t>& objects, std::vector<Model>& models)
 {
-  Models all;
+  std::map<std::uint32_t, int> idOf;
   for (const std::uint32_t id : objects)
   {
     const ObjectRecord& object = *dataset.object(id);
@@ -221,23 +219,32 @@ Models modelsOf(const DatasetView& dataset, const std::vector<std::uint32_t>& ob
       throw UsageError(
         "bop: the dataset has no file of the model of " + quoted(object.name) + "; render it for bop, or with models");
     }
-    const Eigen::Vector3d scale = scaleOf(dataset, object);
-    auto found = std::find_if(all.models.begin(), all.models.end(),
+  }
+  const std::map<std::uint32_t, Eigen::Vector3d> scales = scalesOf(dataset, objects);
+  for (const std::uint32_t id : objects)
+  {
+    const ObjectRecord& object = *dataset.object(id);
+    if (scales.count(id) == 0)
+    {
+      throw UsageError("bop: the dataset does not say where objects are (poses.json); render it again");
+    }
+    const Eigen::Vector3d& scale = scales.at(id);
+    auto found = std::find_if(models.begin(), models.end(),
       [&](const Model& one)
       { return one.file == object.geometryFile && (one.scale - scale).norm() <= sameScale * scale.norm(); });
-    if (found == all.models.end())
+    if (found == models.end())
     {
-      all.models.push_back({ int(all.models.size()) + 1, object.geometryFile, scale });
-      found = all.models.end() - 1;
+      models.push_back({ int(models.size()) + 1, object.geometryFile, scale, &dataset });
+      found = models.end() - 1;
     }
-    all.idOf[id] = found->id;
+    idOf[id] = found->id;
   }
-  return all;
+  return idOf;
 }
 
-Eigen::Vector3d originOf(const DatasetView& dataset, const Model& model)
+Eigen::Vector3d originOf(const Model& model)
 {
-  const ModelPly ply = readModelPly(dataset.pathOf(model.file));
+  const ModelPly ply = readModelPly(model.dataset->pathOf(model.file));
   Eigen::Vector3d least = scaled(ply.positions.at(0), model.scale);
   Eigen::Vector3d most = least;
   for (const auto& x : ply.positions)
@@ -248,9 +255,10 @@ Eigen::Vector3d originOf(const DatasetView& dataset, const Model& model)
   return (least + most) / 2;
 }
 
-ExportItem modelItem(const DatasetView& dataset, const Model& model)
+ExportItem modelItem(const Model& model)
 {
-  const std::string picture = pictureOf(readModelPly(dataset.pathOf(model.file)));
+  const DatasetView& dataset = *model.dataset;
+  const std::string picture = pictureOf(readModelPly(model.dataset->pathOf(model.file)));
   const std::string texture = picture.empty() ? "" : modelName(model) + '.' + extensionOf(picture);
   ExportItem item;
   for (const char* folder : { "models/", "models_eval/" })
@@ -263,8 +271,8 @@ ExportItem modelItem(const DatasetView& dataset, const Model& model)
   }
   item.write = [&dataset, model, picture, texture](ExportSink& sink)
   {
-    const ModelPly ply = readModelPly(dataset.pathOf(model.file));
-    const Eigen::Vector3d origin = originOf(dataset, model);
+    const ModelPly ply = readModelPly(model.dataset->pathOf(model.file));
+    const Eigen::Vector3d origin = originOf(model);
     std::vector<Eigen::Vector3d> points;
     for (const auto& x : ply.positions)
     {

@@ -21,23 +21,19 @@ struct Model
   int id = 0;       ///< from 1
   std::string file; ///< of the dataset
   Eigen::Vector3d scale{ 1, 1, 1 };
+  const DatasetView* dataset = nullptr; ///< one that has the file
 };
 
-/// The models of objects, and which object shows which.
-struct Models
-{
-  std::vector<Model> models;
-  std::map<std::uint32_t, int> idOf; ///< of an object: its obj_id
-};
-/// Of these objects. Throws UsageError for one that deforms, is sheared, mirrored, or changes its size, and for
-/// datasets without files of models.
-Models modelsOf(const DatasetView& dataset, const std::vector<std::uint32_t>& objects);
+/// Adds the models of these objects to those that are known, and gives the obj_id of each object. Throws UsageError for
+/// one that deforms, is sheared, mirrored, or changes its size, and for datasets without files of models.
+std::map<std::uint32_t, int> addModels(
+  const DatasetView& dataset, const std::vector<std::uint32_t>& objects, std::vector<Model>& models);
 
 /// The middle of the model's box, in object coordinates after the scale, scene units: the origin of BOP's model.
-Eigen::Vector3d originOf(const DatasetView& dataset, const Model& model);
+Eigen::Vector3d originOf(const Model& model);
 
 /// models/, models_eval/ and, as a note "models", the model's row of models_info.json.
-ExportItem modelItem(const DatasetView& dataset, const Model& model);
+ExportItem modelItem(const Model& model);
 
 /// The largest distance of two points, exactly.
 double diameterOf(const std::vector<Eigen::Vector3d>& points);

@@ -11,23 +11,18 @@ namespace dgtk::coco
 
 std::string textOf(const Json& value) { return value.dump(); }
 
-std::string pictureName(const DatasetShot& shot, SafeNames& names, const std::string& extension)
+std::string pictureName(const DatasetShot& shot, const SafeNames& names, const std::string& extension)
 {
   char frame[16];
   std::snprintf(frame, sizeof frame, "_%06d.", shot.frame());
-  return names.of(shot.name()) + frame + extension;
+  return names.known(shot.name()) + frame + extension;
 }
 
-std::int64_t imageIdOf(const DatasetShot& shot) { return static_cast<std::int64_t>(shot.index) + 1; }
+std::int64_t imageIdOf(const DatasetShot& shot) { return static_cast<std::int64_t>(shot.number) + 1; }
 
 std::int64_t annotationIdOf(const DatasetView& dataset, const DatasetShot& shot, std::uint32_t object)
 {
-  std::uint32_t largest = 0;
-  for (const ObjectRecord& one : dataset.objects())
-  {
-    largest = std::max(largest, one.id);
-  }
-  return static_cast<std::int64_t>(shot.index) * largest + object;
+  return static_cast<std::int64_t>(shot.number) * dataset.largestObject() + object;
 }
 
 std::string imageText(const DatasetView& dataset, const DatasetShot& shot, const std::string& file)

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 std::string textOf(const Json& value);
 
 /// "left_000000.png"
-std::string pictureName(const DatasetShot& shot, SafeNames& names, const std::string& extension);
+std::string pictureName(const DatasetShot& shot, const SafeNames& names, const std::string& extension);
 /// Numbers of images and annotations count from 1: COCOeval takes 0 for none.
 std::int64_t imageIdOf(const DatasetShot& shot);
 std::int64_t annotationIdOf(const DatasetView& dataset, const DatasetShot& shot, std::uint32_t object);

@@ -77,6 +77,8 @@ class CocoExporter : public Exporter
 public:
   std::vector<const OptionRow*> options() const override { return { &masks() }; }
 
+  bool joinsScenes() const override { return true; }
+
   ExportNeeds needs(const OptionValues& options) const override
   {
     return { { exported::color().of(options), "objects", "boxes", "amodal" } };
@@ -87,17 +89,12 @@ public:
     ExportPlan plan;
     plan.conventions = { { "boxes", "[x, y, width, height], pixels from the image's corner" },
       { "pixel_centre", "(0.5, 0.5); keypoints have integer centres: 0.5 less" }, { "masks", masks().of(options) } };
-    SafeNames names;
+    const auto names = safeNamesOf(dataset);
     for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
     {
-      for (const DatasetShot& shot : dataset.shots())
-      {
-        if (split.holds(shot.frame()))
-        {
-          plan.items.push_back(this->item(dataset, shot, split.name, names, options));
-          plan.names.push_back({ shot.name(), shot.frame(), plan.items.back().files[0] });
-        }
-      }
+      const std::vector<std::uint32_t> shots = shotsIn(dataset, split);
+      plan.series.push_back({ shots.size(), [&dataset, shots, split, names, options](std::size_t i)
+        { return item(dataset, dataset.shots()[shots[i]], split.name, *names, options); } });
       plan.documents.push_back(coco::document(dataset, "annotations/instances_" + split.name + ".json", split.name,
         "annotations", coco::categoriesOf(dataset)));
       const Json pointed = pointedCategories(dataset);
@@ -112,16 +109,18 @@ public:
 
 private:
   static ExportItem item(const DatasetView& dataset, const DatasetShot& shot, const std::string& split,
-    SafeNames& names, const OptionValues& options)
+    const SafeNames& names, const OptionValues& options)
   {
     const std::string file = coco::pictureName(shot, names, pictureExtension(options));
     const std::string path = split + "/" + file;
-    return { { path }, [&dataset, &shot, split, file, path, options](ExportSink& sink)
+    return { { path },
+      [&dataset, &shot, split, file, path, options](ExportSink& sink)
       {
         writePicture(sink, dataset, shot, exported::color().of(options), path, options);
         sink.note("images:" + split, coco::imageText(dataset, shot, file));
         noteAnnotations(sink, dataset, shot, split, masks().of(options) == "polygon");
-      } };
+      },
+      { { shot.name(), shot.frame(), path } } };
   }
 
   static void noteAnnotations(

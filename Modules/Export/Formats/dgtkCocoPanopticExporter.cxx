@@ -27,6 +27,8 @@ class CocoPanopticExporter : public Exporter
 public:
   std::vector<const OptionRow*> options() const override { return { &stuff() }; }
 
+  bool joinsScenes() const override { return true; }
+
   ExportNeeds needs(const OptionValues& options) const override
   {
     return { { exported::color().of(options), "objects" } };
@@ -62,17 +64,12 @@ public:
     ExportPlan plan;
     plan.conventions = { { "segments", "R + 256 G + 65536 B; things have their objects' ids, stuff the next ones" },
       { "boxes", "[x, y, width, height], pixels from the image's corner" } };
-    SafeNames names;
+    const auto names = safeNamesOf(dataset);
     for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
     {
-      for (const DatasetShot& shot : dataset.shots())
-      {
-        if (split.holds(shot.frame()))
-        {
-          plan.items.push_back(item(dataset, shot, split.name, names, options));
-          plan.names.push_back({ shot.name(), shot.frame(), plan.items.back().files[0] });
-        }
-      }
+      const std::vector<std::uint32_t> shots = shotsIn(dataset, split);
+      plan.series.push_back({ shots.size(), [&dataset, shots, split, names, options](std::size_t i)
+        { return item(dataset, dataset.shots()[shots[i]], split.name, *names, options); } });
       plan.documents.push_back(coco::document(dataset, "annotations/panoptic_" + split.name + ".json", split.name,
         "annotations", categoriesOf(dataset, options)));
     }
@@ -131,13 +128,14 @@ private:
   }
 
   static ExportItem item(const DatasetView& dataset, const DatasetShot& shot, const std::string& split,
-    SafeNames& names, const OptionValues& options)
+    const SafeNames& names, const OptionValues& options)
   {
     const std::string file = coco::pictureName(shot, names, pictureExtension(options));
     const std::string picture = split + '/' + file;
     const std::string segments = file.substr(0, file.rfind('.')) + ".png";
     const std::string map = "annotations/panoptic_" + split + '/' + segments;
-    return { { picture, map }, [&dataset, &shot, split, file, picture, segments, map, options](ExportSink& sink)
+    return { { picture, map },
+      [&dataset, &shot, split, file, picture, segments, map, options](ExportSink& sink)
       {
         writePicture(sink, dataset, shot, exported::color().of(options), picture, options);
         const std::map<std::uint32_t, std::uint32_t> ids = segmentIds(dataset, options);
@@ -146,7 +144,8 @@ private:
         sink.note(
           "annotations:" + split, coco::textOf({ { "image_id", coco::imageIdOf(shot) }, { "file_name", segments },
                                     { "segments_info", segmentsOf(dataset, shot, ids) } }));
-      } };
+      },
+      { { shot.name(), shot.frame(), picture } } };
   }
 
   static Json segmentsOf(

@@ -91,22 +91,27 @@ const ChoiceOption& pictureNames()
 
 std::vector<const OptionRow*> optionRows() { return { &modelFormat(), &moving(), &pictureNames() }; }
 
-std::vector<Views> viewsOf(const DatasetView& dataset, const OptionValues& options, PixelCentre centre)
+std::vector<std::shared_ptr<const Views>> viewsOf(
+  const DatasetView& dataset, const OptionValues& options, PixelCentre centre)
 {
   const std::string between = pictureNames().of(options) == "flat" ? "_" : "/";
-  SafeNames names;
-  std::map<int, Views> byFrame;
+  const std::string extension = '.' + pictureExtension(options);
+  const auto name = [names = safeNamesOf(dataset), between, extension](const DatasetShot& shot)
+  { return names->known(shot.name()) + between + padded(shot.frame(), 6) + extension; };
+  std::map<int, std::shared_ptr<Views>> byFrame;
   for (const DatasetShot& shot : dataset.shots())
   {
-    Views& views = byFrame[moving().of(options) == "frame" ? shot.frame() : 0];
-    views.centre = centre;
-    views.shots.push_back(&shot);
-    views.names.push_back(names.of(shot.name()) + between + padded(shot.frame(), 6) + '.' + pictureExtension(options));
+    std::shared_ptr<Views>& views = byFrame[moving().of(options) == "frame" ? shot.frame() : 0];
+    if (!views)
+    {
+      views = std::make_shared<Views>(Views{ {}, name, centre });
+    }
+    views->shots.push_back(&shot);
   }
-  std::vector<Views> all;
-  for (auto& [frame, views] : byFrame)
+  std::vector<std::shared_ptr<const Views>> all;
+  for (const auto& [frame, views] : byFrame)
   {
-    all.push_back(std::move(views));
+    all.push_back(views);
   }
   return all;
 }

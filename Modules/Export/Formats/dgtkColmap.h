@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,7 +31,7 @@ CameraModel modelOf(const CameraRecord& camera, PixelCentre centre, const std::s
 struct Views
 {
   std::vector<const DatasetShot*> shots;
-  std::vector<std::string> names; ///< of their pictures, relative to images/
+  std::function<std::string(const DatasetShot&)> name; ///< of a shot's picture, relative to images/
   PixelCentre centre = PixelCentre::Half;
 };
 
@@ -43,7 +45,8 @@ const ChoiceOption& pictureNames();
 std::vector<const OptionRow*> optionRows();
 
 /// Pictures by model: all of them, or those of each frame.
-std::vector<Views> viewsOf(const DatasetView& dataset, const OptionValues& options, PixelCentre centre);
+std::vector<std::shared_ptr<const Views>> viewsOf(
+  const DatasetView& dataset, const OptionValues& options, PixelCentre centre);
 /// The frame of a model's pictures; none where they are of several.
 std::optional<int> frameOf(const Views& views);
 /// Ids of the objects that a model of these pictures does not hold: they move between them.
@@ -52,8 +55,8 @@ std::vector<std::uint32_t> leftOut(const DatasetView& dataset, const Views& view
 /// cameras, images, points3D in a folder ("sparse/0/"). Points are those of the layer `tracks` that two or more of the
 /// pictures see, of objects that do not move between the pictures; their numbers are their places in the dataset's
 /// list, from 1. In memory are the points, and a bounded number of places.
-ExportItem modelItem(
-  const DatasetView& dataset, const Views& views, const std::string& folder, const OptionValues& options);
+ExportItem modelItem(const DatasetView& dataset, const std::shared_ptr<const Views>& views, const std::string& folder,
+  const OptionValues& options);
 
 } // namespace dgtk::colmap
 

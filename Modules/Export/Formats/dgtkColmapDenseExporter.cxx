@@ -45,11 +45,13 @@ public:
       { "axes", "x right, y down, z forward; poses are the camera's axes from the world's" },
       { "quaternion", "w x y z" }, { "depth", "z, 0 for none" }, { "normals", "camera frame, towards the camera" },
       { "moving", colmap::moving().of(options) } };
-    for (const colmap::Views& views : colmap::viewsOf(dataset, options, PixelCentre::Integer))
+    for (const std::shared_ptr<const colmap::Views>& views : colmap::viewsOf(dataset, options, PixelCentre::Integer))
     {
       const bool each = colmap::moving().of(options) == "frame";
-      const std::string folder = each ? "frame_" + padded(*colmap::frameOf(views), 6) + '/' : "";
-      addMaps(plan, dataset, views, folder, options);
+      const std::string folder = each ? "frame_" + padded(*colmap::frameOf(*views), 6) + '/' : "";
+      const std::vector<std::uint32_t> leftOut = colmap::leftOut(dataset, *views);
+      plan.series.push_back({ views->shots.size(), [&dataset, views, folder, leftOut, options](std::size_t i)
+        { return maps(dataset, *views, *views->shots[i], folder, leftOut, options); } });
       plan.items.push_back(colmap::modelItem(dataset, views, folder + "sparse/", options));
       plan.items.push_back(lists(views, folder));
     }
@@ -57,47 +59,43 @@ public:
   }
 
 private:
-  static void addMaps(ExportPlan& plan, const DatasetView& dataset, const colmap::Views& views,
-    const std::string& folder, const OptionValues& options)
+  static ExportItem maps(const DatasetView& dataset, const colmap::Views& views, const DatasetShot& shot,
+    const std::string& folder, const std::vector<std::uint32_t>& leftOut, const OptionValues& options)
   {
-    const std::vector<std::uint32_t> leftOut = colmap::leftOut(dataset, views);
-    for (std::size_t i = 0; i < views.shots.size(); ++i)
-    {
-      const DatasetShot& shot = *views.shots[i];
-      const std::string picture = folder + "images/" + views.names[i];
-      const std::string depth = folder + "stereo/depth_maps/" + views.names[i] + ".geometric.bin";
-      const std::string normals = folder + "stereo/normal_maps/" + views.names[i] + ".geometric.bin";
-      plan.items.push_back(
-        { { picture, depth, normals }, [&dataset, &shot, options, picture, depth, normals, leftOut](ExportSink& sink)
-          {
-            FloatFile form;
-            form.kind = FloatFile::Kind::Colmap;
-            form.unit = "scene units";
-            writePicture(sink, dataset, shot, exported::color().of(options), picture, options);
-            writeFloatLayer(sink, dataset, shot, exported::depth().of(options), depth, form, leftOut);
-            form.channels = 3;
-            form.unit = "1";
-            writeFloatLayer(sink, dataset, shot, "normal", normals, form, leftOut);
-          } });
-      plan.names.push_back({ shot.name(), shot.frame(), picture });
-    }
+    const std::string name = views.name(shot);
+    const std::string picture = folder + "images/" + name;
+    const std::string depth = folder + "stereo/depth_maps/" + name + ".geometric.bin";
+    const std::string normals = folder + "stereo/normal_maps/" + name + ".geometric.bin";
+    return { { picture, depth, normals },
+      [&dataset, &shot, options, picture, depth, normals, leftOut](ExportSink& sink)
+      {
+        FloatFile form;
+        form.kind = FloatFile::Kind::Colmap;
+        form.unit = "scene units";
+        writePicture(sink, dataset, shot, exported::color().of(options), picture, options);
+        writeFloatLayer(sink, dataset, shot, exported::depth().of(options), depth, form, leftOut);
+        form.channels = 3;
+        form.unit = "1";
+        writeFloatLayer(sink, dataset, shot, "normal", normals, form, leftOut);
+      },
+      { { shot.name(), shot.frame(), picture } } };
   }
 
-  static ExportItem lists(const colmap::Views& views, const std::string& folder)
+  static ExportItem lists(const std::shared_ptr<const colmap::Views>& views, const std::string& folder)
   {
     const std::string fusion = folder + "stereo/fusion.cfg";
     const std::string match = folder + "stereo/patch-match.cfg";
-    return { { fusion, match }, [names = views.names, fusion, match](ExportSink& sink)
+    return { { fusion, match }, [views, fusion, match](ExportSink& sink)
       {
-        std::string all;
-        std::string pairs;
-        for (const std::string& name : names)
+        const std::unique_ptr<ExportFile> all = sink.open(fusion);
+        const std::unique_ptr<ExportFile> pairs = sink.open(match);
+        for (const DatasetShot* shot : views->shots)
         {
-          all += name + '\n';
-          pairs += name + "\n__auto__, 20\n";
+          all->write(views->name(*shot) + '\n');
+          pairs->write(views->name(*shot) + "\n__auto__, 20\n");
         }
-        sink.write(fusion, all);
-        sink.write(match, pairs);
+        all->finish();
+        pairs->finish();
       } };
   }
 };

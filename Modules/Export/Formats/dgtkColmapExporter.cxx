@@ -41,41 +41,40 @@ public:
       { "axes", "x right, y down, z forward; poses are the camera's axes from the world's" },
       { "quaternion", "w x y z" }, { "points", "ids are places in tracks/points.json, from 1; two pictures or more" },
       { "moving", colmap::moving().of(options) } };
-    for (const colmap::Views& views : colmap::viewsOf(dataset, options, PixelCentre::Half))
+    for (const std::shared_ptr<const colmap::Views>& views : colmap::viewsOf(dataset, options, PixelCentre::Half))
     {
-      addPictures(plan, dataset, views, options);
+      const std::vector<std::uint32_t> black = colmap::leftOut(dataset, *views);
+      plan.series.push_back({ views->shots.size(), [&dataset, views, black, options](std::size_t i)
+        { return picture(dataset, *views, *views->shots[i], black, options); } });
       const bool each = colmap::moving().of(options) == "frame";
-      const std::string folder = "sparse/" + (each ? padded(*colmap::frameOf(views), 6) : std::string("0")) + '/';
+      const std::string folder = "sparse/" + (each ? padded(*colmap::frameOf(*views), 6) : std::string("0")) + '/';
       plan.items.push_back(colmap::modelItem(dataset, views, folder, options));
     }
     return plan;
   }
 
 private:
-  static void addPictures(
-    ExportPlan& plan, const DatasetView& dataset, const colmap::Views& views, const OptionValues& options)
+  static ExportItem picture(const DatasetView& dataset, const colmap::Views& views, const DatasetShot& shot,
+    const std::vector<std::uint32_t>& black, const OptionValues& options)
   {
-    const std::vector<std::uint32_t> black = colmap::leftOut(dataset, views);
-    for (std::size_t i = 0; i < views.shots.size(); ++i)
-    {
-      const DatasetShot& shot = *views.shots[i];
-      const std::string picture = "images/" + views.names[i];
-      const std::string mask = black.empty() ? "" : "masks/" + views.names[i] + ".png";
-      ExportItem item{ { picture }, [&dataset, &shot, options, picture, mask, black](ExportSink& sink)
-        {
-          writePicture(sink, dataset, shot, exported::color().of(options), picture, options);
-          if (!mask.empty())
-          {
-            writeMovingMask(sink, dataset, shot, mask, black, true);
-          }
-        } };
-      if (!mask.empty())
+    const std::string name = views.name(shot);
+    const std::string picture = "images/" + name;
+    const std::string mask = black.empty() ? "" : "masks/" + name + ".png";
+    ExportItem item{ { picture },
+      [&dataset, &shot, options, picture, mask, black](ExportSink& sink)
       {
-        item.files.push_back(mask);
-      }
-      plan.items.push_back(std::move(item));
-      plan.names.push_back({ shot.name(), shot.frame(), picture });
+        writePicture(sink, dataset, shot, exported::color().of(options), picture, options);
+        if (!mask.empty())
+        {
+          writeMovingMask(sink, dataset, shot, mask, black, true);
+        }
+      },
+      { { shot.name(), shot.frame(), picture } } };
+    if (!mask.empty())
+    {
+      item.files.push_back(mask);
     }
+    return item;
   }
 };
 } // namespace

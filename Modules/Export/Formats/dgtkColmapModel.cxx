@@ -16,20 +16,10 @@ namespace dgtk::colmap
 
 namespace
 {
-constexpr std::size_t mostPlaces = std::size_t(1) << 22; ///< of tracks in memory at a time
+constexpr std::size_t mostPlaces = std::size_t(1) << 19; ///< of tracks in memory at a time
 
 /// Where a point of the dataset's list stands in a model; none of points that the model does not hold.
 using Positions = std::vector<std::optional<Eigen::Vector3d>>;
-
-int firstFrame(const DatasetView& dataset)
-{
-  int first = -1;
-  for (const DatasetFile& file : dataset.manifest().files)
-  {
-    first = file.frame >= 0 && (first < 0 || file.frame < first) ? file.frame : first;
-  }
-  return first;
-}
 
 /// World matrices of the objects that are rigid or at least affine, from those at the first frame of the run.
 std::map<std::uint32_t, Eigen::Matrix4d> motionsOf(const DatasetView& dataset, int frame)
@@ -41,7 +31,7 @@ std::map<std::uint32_t, Eigen::Matrix4d> motionsOf(const DatasetView& dataset, i
     return matrix;
   };
   std::map<std::uint32_t, Eigen::Matrix4d> first;
-  for (const PoseRecord& pose : dataset.poses(firstFrame(dataset)))
+  for (const PoseRecord& pose : dataset.poses(dataset.firstFrame()))
   {
     first[pose.id] = whole(pose);
   }
@@ -227,12 +217,12 @@ private:
     if (!this->Binary)
     {
       return std::to_string(id) + ' ' + numbersLine(numbers) + ' ' + std::to_string(this->CameraIds[picture]) + ' ' +
-             this->Shown.names[picture] + '\n' + places + '\n';
+             this->Shown.name(*this->Shown.shots[picture]) + '\n' + places + '\n';
     }
     putLittle(row, id);
     putAll(row, numbers);
     putLittle(row, this->CameraIds[picture]);
-    row += this->Shown.names[picture] + '\0';
+    row += this->Shown.name(*this->Shown.shots[picture]) + '\0';
     putLittle(row, count);
     return row + places;
   }
@@ -308,8 +298,8 @@ private:
 };
 } // namespace
 
-ExportItem modelItem(
-  const DatasetView& dataset, const Views& views, const std::string& folder, const OptionValues& options)
+ExportItem modelItem(const DatasetView& dataset, const std::shared_ptr<const Views>& views, const std::string& folder,
+  const OptionValues& options)
 {
   const std::string extension = '.' + modelFormat().of(options);
   const std::string cameras = folder + "cameras" + extension;
@@ -317,7 +307,7 @@ ExportItem modelItem(
   const std::string points = folder + "points3D" + extension;
   return { { cameras, images, points }, [&dataset, views, cameras, images, points, extension](ExportSink& sink)
     {
-      Writer writer(dataset, views, extension == ".bin");
+      Writer writer(dataset, *views, extension == ".bin");
       const auto write = [&](const std::string& name, void (Writer::*part)(ExportFile&))
       {
         const std::unique_ptr<ExportFile> file = sink.open(name);

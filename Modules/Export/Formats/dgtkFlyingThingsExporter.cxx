@@ -189,7 +189,7 @@ private:
     int number = firstNumber;
     for (const DatasetShot* left : dataset.shotsOf(eyes.left))
     {
-      if (!split.holds(left->frame()))
+      if (!split.holds(*left))
       {
         continue;
       }

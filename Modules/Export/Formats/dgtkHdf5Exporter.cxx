@@ -66,6 +66,10 @@ public:
     {
       this->addNormals(eye);
     }
+    if (!this->Dataset.file(*eye.shot, "objectcoords").empty())
+    {
+      this->addObjectCoordinates(eye);
+    }
     this->File.add("instance_attribute_maps" + eye.suffix, this->attributes(this->addIds(eye, "objects", "instance")));
     this->addIds(eye, "classes", "class");
     this->File.add("camera_pose" + eye.suffix, this->pose(eye.shot->camera));
@@ -128,6 +132,29 @@ private:
         {
           const double sign = i % 3 == 0 ? 1 : -1;
           static_cast<float*>(row)[i] = rounder((sign * rows.at(i / 3, i % 3) + 1) / 2);
+        }
+      });
+    this->Sink.rounding(rounder.account());
+  }
+
+  /// Half of the point in its object's frame, and a half; then 1 where there is one. Zeros for none.
+  void addObjectCoordinates(const Eye& eye)
+  {
+    ClassedRows rows(this->Dataset, *eye.shot, "objectcoords");
+    const ImageInfo& info = rows.info();
+    FloatRounder rounder(0, "objectcoords", "1");
+    this->File.add("nocs" + eye.suffix, Type::Float32, { info.height, info.width, 4 },
+      [&](int, void* row)
+      {
+        rows.next();
+        for (int x = 0; x < info.width; ++x)
+        {
+          float* const pixel = static_cast<float*>(row) + 4 * std::size_t(x);
+          for (int c = 0; c < 3; ++c)
+          {
+            pixel[c] = rounder((rows.at(x, c) + 1) / 2);
+          }
+          pixel[3] = std::isfinite(rows.at(x)) ? 1 : 0;
         }
       });
     this->Sink.rounding(rounder.account());
@@ -211,7 +238,7 @@ public:
     ExportPlan plan;
     plan.conventions = { { "pixel_centre", "integer: cx and cy are 0.5 less" },
       { "axes", "camera_pose: x right, y down, z forward; normals: x right, y up, z back, (n + 1) / 2" },
-      { "nothing", "depth, distance: 1e10; normals: 0.5; flow, disparity: NaN" }, { "unit", "metres" },
+      { "nothing", "depth, distance: 1e10; normals: 0.5; nocs: 0; flow, disparity: NaN" }, { "unit", "metres" },
       { "metres_per_unit", shortest(dataset.metres()) } };
     const std::vector<CameraEyes> cameras = eyesOf(dataset);
     for (const CameraEyes& eyes : cameras)

@@ -45,6 +45,8 @@ std::string metadataLine(const DatasetView& dataset, const DatasetShot& shot, co
 class ImagefolderExporter : public Exporter
 {
 public:
+  bool joinsScenes() const override { return true; }
+
   ExportNeeds needs(const OptionValues& options) const override { return { { exported::color().of(options) } }; }
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
@@ -69,7 +71,7 @@ public:
     {
       for (const DatasetShot& shot : dataset.shots())
       {
-        if (split.holds(shot.frame()))
+        if (split.holds(shot))
         {
           plan.items.push_back(picture(dataset, shot, split.name, samples::keyOf(shot, names), options));
           plan.names.push_back({ shot.name(), shot.frame(), plan.items.back().files[0] });

@@ -42,7 +42,7 @@ public:
         const DatasetShot* first = nullptr;
         for (const DatasetShot* shot : dataset.shotsOf(camera))
         {
-          if (split.holds(shot->frame()))
+          if (split.holds(*shot))
           {
             plan.items.push_back(item(dataset, *shot, drive, options));
             plan.names.push_back({ camera, shot->frame(), plan.items.back().files[0] });

@@ -139,7 +139,7 @@ public:
           std::string text;
           for (const DatasetShot& shot : dataset.shots())
           {
-            text += split.holds(shot.frame()) ? numberOf(shot) + '\n' : "";
+            text += split.holds(shot) ? numberOf(shot) + '\n' : "";
           }
           sink.write("ImageSets/" + split.name + ".txt", text);
         } });
@@ -148,7 +148,7 @@ public:
   }
 
 private:
-  static std::string numberOf(const DatasetShot& shot) { return padded(static_cast<int>(shot.index), 6); }
+  static std::string numberOf(const DatasetShot& shot) { return padded(static_cast<int>(shot.number), 6); }
 
   static ExportItem item(const DatasetView& dataset, const DatasetShot& shot, const OptionValues& options)
   {

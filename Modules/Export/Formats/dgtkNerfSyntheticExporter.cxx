@@ -89,7 +89,7 @@ public:
       int number = 0;
       for (const DatasetShot& shot : dataset.shots())
       {
-        if (!split.holds(shot.frame()))
+        if (!split.holds(shot))
         {
           continue;
         }

@@ -178,7 +178,7 @@ ExportPlan planRecordings(const DatasetView& dataset, const OptionValues& option
     const std::string file = split.name + '.' + extension;
     for (const DatasetShot& shot : dataset.shots())
     {
-      if (split.holds(shot.frame()))
+      if (split.holds(shot))
       {
         plan.names.push_back(
           { shot.name(), shot.frame(), pictureName(file, names.at(shot.name()), timeOf(dataset, shot.frame())) });
@@ -204,7 +204,7 @@ Recording::Recording(const DatasetView& dataset, const OptionValues& options, co
   }
   for (const DatasetShot& shot : dataset.shots())
   {
-    if (split.holds(shot.frame()))
+    if (split.holds(shot))
     {
       this->Shots.push_back(&shot);
     }

@@ -4,6 +4,7 @@
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
 #include "dgtkLayerFile.h"
+#include "dgtkPickleFile.h"
 #include "dgtkText.h"
 #include "dgtkZipFile.h"
 
@@ -85,9 +86,19 @@ std::string npyOf(const std::string& type, const std::string& shape, const std::
   return bytes;
 }
 
+/// Whether the videos are also in one file as the benchmark hands them out.
+const ChoiceOption& pickle()
+{
+  static const ChoiceOption row(
+    "pickle", { "on", "off" }, "tapvid.pkl as TAP-Vid's loaders read it, with all pictures uncompressed");
+  return row;
+}
+
 class TapvidExporter : public Exporter
 {
 public:
+  std::vector<const OptionRow*> options() const override { return { &pickle() }; }
+
   ExportNeeds needs(const OptionValues& options) const override
   {
     return { { exported::color().of(options), "tracks" } };
@@ -96,9 +107,10 @@ public:
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
     requireWhole(options, format);
+    std::map<std::string, const DatasetShot*> firsts;
     for (const DatasetShot& shot : dataset.shots())
     {
-      const CameraRecord& first = dataset.shotsOf(shot.name()).front()->camera;
+      const CameraRecord& first = firsts.emplace(shot.name(), &shot).first->second->camera;
       if (shot.camera.width != first.width || shot.camera.height != first.height)
       {
         throw UsageError(std::string(format) + ": camera " + quoted(shot.name()) + " has pictures of several sizes");
@@ -114,10 +126,10 @@ public:
     plan.conventions = { { "points", "x, y as shares of width and height from the image's corner; 0, 0 for no place" },
       { "query_points", "frame, y, x in pixels from the image's corner: where a point is seen first" },
       { "tracks", "points that the camera sees at some frame" } };
-    SafeNames names;
+    const std::shared_ptr<const SafeNames> names = safeNamesOf(dataset);
     for (const std::string& camera : dataset.cameras())
     {
-      const std::string folder = names.of(camera) + '/';
+      const std::string folder = names->known(camera) + '/';
       int number = 0;
       for (const DatasetShot* shot : dataset.shotsOf(camera))
       {
@@ -130,10 +142,60 @@ public:
       plan.items.push_back({ { archive },
         [&dataset, camera, archive](ExportSink& sink) { writeTracks(sink, archive, tracksOf(dataset, camera)); } });
     }
+    if (pickle().of(options) == "on")
+    {
+      plan.items.push_back({ { pickleName }, [&dataset, names, options](ExportSink& sink)
+        {
+          PickleFile file(sink, pickleName);
+          for (const std::string& camera : dataset.cameras())
+          {
+            file.beginDictionary(names->known(camera));
+            addVideo(file, dataset, camera, exported::color().of(options));
+            file.endDictionary();
+          }
+          file.finish();
+        } });
+    }
     return plan;
   }
 
 private:
+  static constexpr const char* pickleName = "tapvid.pkl";
+
+  /// "video" (T, H, W, 3), "points" (N, T, 2), "occluded" (N, T).
+  static void addVideo(
+    PickleFile& file, const DatasetView& dataset, const std::string& camera, const std::string& layer)
+  {
+    const std::vector<const DatasetShot*> shots = dataset.shotsOf(camera);
+    const CameraRecord& first = shots.front()->camera;
+    file.beginArray("video", "u1", { shots.size(), std::uint64_t(first.height), std::uint64_t(first.width), 3 });
+    std::vector<std::uint8_t> row(3 * std::size_t(first.width));
+    for (const DatasetShot* shot : shots)
+    {
+      const std::unique_ptr<RowReader> reader = dataset.open(*shot, layer, { "png" });
+      const bool wide = reader->info().type == PixelType::UInt16;
+      for (int y = 0; y < first.height; ++y)
+      {
+        const Rows rows = reader->read(1);
+        for (std::size_t i = 0; i < row.size(); ++i)
+        {
+          const double value = valueAt(rows, int(i / 3), y, int(i % 3));
+          row[i] = static_cast<std::uint8_t>(wide ? value / 257 + 0.5 : value);
+        }
+        file.add(row.data(), row.size());
+      }
+    }
+    file.endArray();
+    const Tracks tracks = tracksOf(dataset, camera);
+    const std::uint64_t points = tracks.numbers.size();
+    file.beginArray("points", "f4", { points, tracks.frames, 2 });
+    file.add(tracks.places.data(), tracks.places.size() * sizeof(float));
+    file.endArray();
+    file.beginArray("occluded", "b1", { points, tracks.frames });
+    file.add(tracks.occluded.data(), tracks.occluded.size());
+    file.endArray();
+  }
+
   static void writeTracks(ExportSink& sink, const std::string& name, const Tracks& tracks)
   {
     const std::string points = std::to_string(tracks.numbers.size());

@@ -298,7 +298,7 @@ private:
       for (const DatasetShot& shot : dataset.shots())
       {
         const std::string name = safe.of(shot.name()) + '_' + padded(shot.frame(), 6) + '.' + pictureExtension(options);
-        if (split.holds(shot.frame()))
+        if (split.holds(shot))
         {
           names.push_back("images/" + name);
         }

@@ -106,6 +106,8 @@ void writeCodes(ExportSink& sink, const DatasetView& dataset, const DatasetShot&
 class VocExporter : public Exporter
 {
 public:
+  bool joinsScenes() const override { return true; }
+
   ExportNeeds needs(const OptionValues& options) const override
   {
     return { { exported::color().of(options), "objects", "boxes" } };
@@ -139,33 +141,36 @@ public:
     SafeNames names;
     for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
     {
-      std::string list;
       for (const DatasetShot& shot : dataset.shots())
       {
-        if (split.holds(shot.frame()))
+        if (split.holds(shot))
         {
           const std::string stem = names.of(shot.name()) + '_' + padded(shot.frame(), 6);
-          plan.items.push_back(item(dataset, shot, stem, options));
+          plan.items.push_back(item(dataset, shot, stem, split.name, options));
           plan.names.push_back({ shot.name(), shot.frame(), plan.items.back().files[0] });
-          list += stem + '\n';
         }
       }
       for (const char* kind : { "Main/", "Segmentation/" })
       {
         const std::string name = std::string("ImageSets/") + kind + split.name + ".txt";
-        plan.documents.push_back({ { name }, [name, list](ExportSink& sink) { sink.write(name, list); } });
+        plan.documents.push_back({ { name }, [name, part = split.name](ExportSink& sink)
+          {
+            const std::unique_ptr<ExportFile> file = sink.open(name);
+            sink.notes("stems:" + part, [&](const std::string& stem) { file->write(stem + '\n'); });
+            file->finish();
+          } });
       }
     }
     return plan;
   }
 
 private:
-  static ExportItem item(
-    const DatasetView& dataset, const DatasetShot& shot, const std::string& stem, const OptionValues& options)
+  static ExportItem item(const DatasetView& dataset, const DatasetShot& shot, const std::string& stem,
+    const std::string& part, const OptionValues& options)
   {
     const std::vector<std::string> files{ "JPEGImages/" + stem + ".jpg", "Annotations/" + stem + ".xml",
       "SegmentationClass/" + stem + ".png", "SegmentationObject/" + stem + ".png" };
-    return { files, [&dataset, &shot, stem, files, options](ExportSink& sink)
+    return { files, [&dataset, &shot, stem, part, files, options](ExportSink& sink)
       {
         OptionValues jpeg = options; // loaders look for .jpg
         jpeg[exported::imageFormat().name] = "jpg";
@@ -188,6 +193,7 @@ private:
         sink.write(files[1], xmlOf(shot, stem + ".jpg", seen));
         writeCodes(sink, dataset, shot, files[2], classes);
         writeCodes(sink, dataset, shot, files[3], objects);
+        sink.note("stems:" + part, stem);
       } };
   }
 };

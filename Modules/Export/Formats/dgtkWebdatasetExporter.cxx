@@ -115,7 +115,7 @@ public:
     {
       std::vector<Sample> own;
       std::copy_if(all.begin(), all.end(), std::back_inserter(own),
-        [&](const Sample& sample) { return split.holds(sample.shot->frame()); });
+        [&](const Sample& sample) { return split.holds(*sample.shot); });
       addShards(plan, dataset, split.name, own, options);
       parts.push_back({ split.name, split.name + "-*.tar" });
       for (const Sample& sample : own)

@@ -132,6 +132,8 @@ class YoloExporter : public Exporter
 public:
   std::vector<const OptionRow*> options() const override { return { &labels() }; }
 
+  bool joinsScenes() const override { return true; }
+
   ExportNeeds needs(const OptionValues& options) const override
   {
     return { { exported::color().of(options), "objects", "boxes" } };
@@ -160,7 +162,7 @@ public:
     {
       for (const DatasetShot& shot : dataset.shots())
       {
-        if (split.holds(shot.frame()))
+        if (split.holds(shot))
         {
           const std::string stem = split.name + '/' + names.of(shot.name()) + '_' + padded(shot.frame(), 6);
           plan.items.push_back(item(dataset, shot, stem, options));

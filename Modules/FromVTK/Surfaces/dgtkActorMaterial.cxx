@@ -85,19 +85,115 @@ int addTexture(vtkTexture& texture, Model& model, const std::string& what, Unsup
   return int(model.textures.size()) - 1;
 }
 
-void setPhysical(vtkProperty& property, const std::string& name, Material& material, Unsupported& unsupported)
+/// A surface of VTK's physically based kind, as its mapper has it: glTF's textures, where there are coordinates for
+/// them.
+class PhysicalSurface
 {
-  material.physical = Material::Physical{ property.GetMetallic(), property.GetRoughness(), true };
-  material.diffuse = toDisplay(material.diffuse);
-  if (!property.GetAllTextures().empty())
+public:
+  PhysicalSurface(
+    vtkProperty& property, vtkPolyData& data, const std::string& name, Model& model, Unsupported& unsupported)
+    : Property(property)
+    , Data(data)
+    , Name(name)
+    , ToModel(model)
+    , Out(unsupported)
   {
-    unsupported.add(name + ": textures of its physically based property");
   }
-  if (property.GetAnisotropy() != 0 || property.GetCoatStrength() != 0)
+
+  void set(Material& material)
   {
-    unsupported.add(name + ": anisotropy or coat of its physically based property");
+    material.physical = Material::Physical{ this->Property.GetMetallic(), this->Property.GetRoughness(), true };
+    material.diffuse = toDisplay(material.diffuse);
+    this->refuse(this->Property.GetAnisotropy() != 0, "anisotropy");
+    this->refuse(this->Property.GetCoatStrength() != 0, "a coat");
+    this->refuse(this->Property.GetBaseIOR() != usualIndex, "another index of refraction than 1.5");
+    this->refuse(vectorOf(this->Property.GetEdgeTint()) != Eigen::Vector3d::Ones(), "an edge tint");
+    if (this->Data.GetPointData()->GetTCoords() != nullptr)
+    {
+      for (const auto& [kind, texture] : this->Property.GetAllTextures())
+      {
+        this->add(kind, *texture, material);
+      }
+    }
+    this->darken(material);
   }
-}
+
+private:
+  static constexpr double usualIndex = 1.5;
+
+  void refuse(bool there, const std::string& what)
+  {
+    if (there)
+    {
+      this->Out.add(this->Name + ": " + what + " of its physically based property");
+    }
+  }
+
+  void add(const std::string& kind, vtkTexture& texture, Material& material)
+  {
+    const bool known = kind == "albedoTex" || kind == "materialTex" || kind == "emissiveTex";
+    this->refuse(!known, "the texture " + kind); // VTK's normals go along tangents of their own
+    this->refuse(known && texture.GetTransform() != nullptr, "a transform of the texture " + kind);
+    const int index = known ? addTexture(texture, this->ToModel, this->Name, this->Out) : -1;
+    if (index < 0)
+    {
+      return;
+    }
+    if (kind == "albedoTex")
+    {
+      material.texture = index;
+      material.cutOut = this->ToModel.textures[std::size_t(index)].image->hasAlpha;
+      material.opacity = 1; // the picture has its own
+    }
+    else if (kind == "materialTex")
+    {
+      material.metallicRoughnessMap = index;
+      this->refuse(
+        this->Property.GetOcclusionStrength() != 0 && this->darkens(index), "occlusion in the texture materialTex");
+    }
+    else
+    {
+      material.emissionMap = index;
+      material.emission.setOnes();
+      this->refuse(vectorOf(this->Property.GetEmissiveFactor()) != Eigen::Vector3d::Ones(), "an emissive factor");
+    }
+  }
+
+  /// Occlusion of VTK takes of all light, ours of that from everywhere.
+  bool darkens(int index) const
+  {
+    const std::vector<std::uint8_t>& rgba = this->ToModel.textures[std::size_t(index)].image->rgba;
+    for (std::size_t i = 0; i < rgba.size(); i += 4)
+    {
+      if (rgba[i] < 255)
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// VTK has light from everywhere with an environment alone: none of ours is left.
+  void darken(Material& material)
+  {
+    auto black = std::make_shared<Image>();
+    black->width = 1;
+    black->height = 1;
+    black->rgba = { 0, 0, 0, 255 };
+    Texture texture;
+    texture.name = "texture-" + std::to_string(this->ToModel.textures.size() + 1);
+    texture.image = black;
+    texture.filter = TextureFilter::Nearest;
+    this->ToModel.textures.push_back(texture);
+    material.occlusionMap = int(this->ToModel.textures.size()) - 1;
+  }
+
+  vtkProperty& Property;
+  vtkPolyData& Data;
+  const std::string& Name;
+  Model& ToModel;
+  Unsupported& Out;
+};
 
 std::uint8_t byteAt(vtkDataArray& scalars, vtkIdType tuple, int component)
 {
@@ -155,7 +251,7 @@ Material actorMaterial(
     material.shininess = property.GetSpecularPower();
     if (property.GetInterpolation() == VTK_PBR)
     {
-      setPhysical(property, name, material, unsupported);
+      PhysicalSurface(property, *piece.data, name, model, unsupported).set(material);
     }
   }
   else
@@ -163,7 +259,7 @@ Material actorMaterial(
     material.ambient = (ambient + diffuse) / worldAmbient;
     material.diffuse.setZero();
   }
-  if (vtkTexture* const texture = actor.GetTexture())
+  if (vtkTexture* const texture = actor.GetTexture(); texture != nullptr && !material.physical)
   {
     if (material.texture = addTexture(*texture, model, name, unsupported); material.texture >= 0)
     {

@@ -80,11 +80,11 @@ private:
         [&actor](const FrozenActor& one)
         { return one.actor.Get() == actor.actor.Get() && one.occurrence == actor.occurrence; });
       const bool there = same != this->To.actors.end();
-      if (there && same->cells != actor.cells)
+      if (there && same->whole != actor.whole && same->whole->cells != actor.whole->cells)
       {
         throw InputError("VTK scene", 0, actor.name + " has other cells in the second view",
           "the same cells, whose points may move",
-          std::to_string(same->cells.size()) + " triangles, not " + std::to_string(actor.cells.size()));
+          std::to_string(same->whole->cells.size()) + " triangles, not " + std::to_string(actor.whole->cells.size()));
       }
       this->ObjectOf.push_back(there ? std::uint32_t(same - this->To.actors.begin()) + 1 : 0);
     }
@@ -103,7 +103,7 @@ private:
     if (!actor.parents.empty())
     {
       point.triangle = actor.wholeTriangle(hit.triangle);
-      point.place = placeIn(*actor.whole, point.triangle, pointOf(*actor.model, hit.triangle, at.barycentrics));
+      point.place = placeIn(*actor.whole->model, point.triangle, pointOf(*actor.model, hit.triangle, at.barycentrics));
     }
     const FrozenActor& other = this->To.actors[object - 1];
     if (!other.parents.empty() && !findShown(other, point))
@@ -122,7 +122,7 @@ private:
   /// The piece of a triangle of the whole that has its point; false where that is not shown.
   static bool findShown(const FrozenActor& actor, Surface& point)
   {
-    const Eigen::Vector3d wanted = pointOf(*actor.whole, point.triangle, point.place);
+    const Eigen::Vector3d wanted = pointOf(*actor.whole->model, point.triangle, point.place);
     const auto pieces = std::equal_range(actor.parents.begin(), actor.parents.end(), point.triangle);
     double best = -roundingOfPlaces;
     bool found = false;

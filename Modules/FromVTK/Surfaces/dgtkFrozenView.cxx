@@ -119,7 +119,7 @@ public:
     const double* const background = this->Renderer.GetBackground();
     this->Scene.background = Eigen::Vector3d(background[0], background[1], background[2]);
     this->View.stage = Stage::make(std::move(this->Scene), this->Models);
-    this->View.trees = keptTrees(this->View.stage->at(0));
+    this->View.trees = keptTrees(this->View.stage->at(0), this->surfaces());
     this->View.left = this->Out.lines();
     return std::move(this->View);
   }
@@ -135,8 +135,14 @@ private:
     }
     const DrawnSurface drawn = surfacePieces(actor, this->Out);
     const Placement place = placementOf(actor.world_from_object);
-    SurfaceModel surface = surfaceModel(*actor.actor, drawn.pieces, place.bake, this->Lit, this->Out);
-    if (surface.model->triangles.empty())
+    const std::shared_ptr<const SurfaceModel> surface =
+      sharedSurface(surfaceKey(*actor.actor, drawn.pieces, place.bake, this->Lit),
+        [&] { return surfaceModel(*actor.actor, drawn.pieces, place.bake, this->Lit); });
+    for (const std::string& line : surface->left.lines())
+    {
+      this->Out.add(line);
+    }
+    if (surface->model->triangles.empty())
     {
       return;
     }
@@ -144,12 +150,21 @@ private:
     frozen.actor = actor.actor;
     frozen.occurrence = actor.occurrence;
     frozen.name = actor.name;
-    frozen.whole = sharedModel(surface.model);
-    frozen.cells = std::move(surface.cells);
+    frozen.whole = surface;
     frozen.inputCells = drawn.cells;
     frozen.world_from_object = place.world_from_object;
     this->View.actors.push_back(std::move(frozen));
     this->Places.push_back(place);
+  }
+
+  std::vector<std::shared_ptr<const SurfaceModel>> surfaces() const
+  {
+    std::vector<std::shared_ptr<const SurfaceModel>> all;
+    for (const FrozenActor& actor : this->View.actors)
+    {
+      all.push_back(actor.whole);
+    }
+    return all;
   }
 
   /// What is in a picture beside its actors.
@@ -167,31 +182,25 @@ private:
     }
   }
 
-  template <class Body>
-  void forPoints(const Body& body) const
-  {
-    for (const FrozenActor& actor : this->View.actors)
-    {
-      for (const Eigen::Vector3d& point : actor.whole->rest->positions)
-      {
-        body(Eigen::Vector3d(actor.world_from_object * point));
-      }
-    }
-  }
-
+  /// Near and far planes around all points, which only a view that was not drawn has to look at.
   void fitCamera(RendererCamera& camera) const
   {
     double nearest = std::numeric_limits<double>::infinity();
     double farthest = 0;
     const Eigen::Vector3d eye = camera.description.position.at(0);
     const Eigen::Vector3d ahead = camera.description.orientation.at(0).matrix().col(2);
-    this->forPoints(
-      [&](const Eigen::Vector3d& point)
+    for (std::size_t i = 0; !camera.drawn && i < this->View.actors.size(); ++i)
+    {
+      const Affine3& world = this->View.actors[i].world_from_object;
+      const Eigen::Vector3d own = world.linear.transpose() * ahead; // depth is own . point + start
+      const double start = ahead.dot(world.translation - eye);
+      for (const Eigen::Vector3d& point : this->View.actors[i].whole->model->rest->positions)
       {
-        const double depth = ahead.dot(point - eye);
+        const double depth = own.dot(point) + start;
         nearest = std::min(nearest, depth);
         farthest = std::max(farthest, depth);
-      });
+      }
+    }
     setRange(camera, std::isfinite(nearest) ? nearest : 0.0, farthest);
   }
 
@@ -225,8 +234,8 @@ private:
         return towards > 0 ? front : back;
       };
     }
-    ShownModel shown = shownModel(actor.whole, actor.shown);
-    actor.model = sharedModel(shown.model);
+    ShownModel shown = shownModel(actor.whole->model, actor.shown);
+    actor.model = actor.shown.isAll() ? shown.model : sharedModel(shown.model);
     actor.parents = std::move(shown.parents);
   }
 
@@ -251,7 +260,7 @@ private:
     std::size_t all = 0;
     for (const FrozenActor& actor : this->View.actors)
     {
-      for (const Material& material : actor.whole->materials)
+      for (const Material& material : actor.whole->model->materials)
       {
         ++all;
         physical += material.physical ? 1 : 0;

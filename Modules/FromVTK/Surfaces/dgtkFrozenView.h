@@ -6,6 +6,7 @@
 
 #include "dgtkShownModel.h"
 #include "dgtkStage.h"
+#include "dgtkSurfaceModel.h"
 #include "dgtkVisibility.h"
 
 #include <vtkSmartPointer.h>
@@ -26,14 +27,13 @@ namespace dgtk
 struct FrozenActor
 {
   vtkSmartPointer<vtkActor> actor;
-  std::size_t occurrence = 0;         ///< of the same actor, in assemblies that share it
-  std::string name;                   ///< of its object
-  std::shared_ptr<const Model> whole; ///< all triangles ...
-  std::vector<std::int64_t> cells;    ///< ... and the cells of the mapper's input that they are of
-  std::int64_t inputCells = 0;        ///< how many that input has
-  ShownSurface shown;                 ///< what the camera sees of them
-  std::shared_ptr<const Model> model; ///< that, in the stage
-  std::vector<std::uint32_t> parents; ///< triangles of `whole` by triangle of `model`; empty: the same
+  std::size_t occurrence = 0;                ///< of the same actor, in assemblies that share it
+  std::string name;                          ///< of its object
+  std::shared_ptr<const SurfaceModel> whole; ///< all triangles, and the cells of the mapper's input that they are of
+  std::int64_t inputCells = 0;               ///< how many that input has
+  ShownSurface shown;                        ///< what the camera sees of them
+  std::shared_ptr<const Model> model;        ///< that, in the stage
+  std::vector<std::uint32_t> parents;        ///< triangles of `whole` by triangle of `model`; empty: the same
   Affine3 world_from_object;
 
   std::uint32_t wholeTriangle(std::uint32_t triangle) const

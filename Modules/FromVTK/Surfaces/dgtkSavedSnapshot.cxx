@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 namespace dgtk
 {
@@ -145,6 +146,35 @@ private:
   bool MapIsTexture;
 };
 
+/// What OBJ cannot say of the physically based materials of an actor.
+std::vector<MaterialOverride> physicalMaterials(const FrozenActor& actor)
+{
+  std::vector<MaterialOverride> all;
+  const auto picture = [&actor](int texture) -> std::optional<std::string>
+  {
+    return texture >= 0 ? std::optional<std::string>(std::string(modelFolder) + '/' + actor.name + "-texture-" +
+                                                     std::to_string(texture + 1) + ".png")
+                        : std::nullopt;
+  };
+  for (const Material& material : actor.model->materials)
+  {
+    if (!material.physical)
+    {
+      continue;
+    }
+    MaterialOverride to;
+    to.material = material.name;
+    to.metallic = material.physical->metallic;
+    to.roughness = material.physical->roughness;
+    to.emission = material.emission;
+    to.metallicRoughnessMap = picture(material.metallicRoughnessMap);
+    to.emissionMap = picture(material.emissionMap);
+    to.occlusionMap = picture(material.occlusionMap);
+    all.push_back(to);
+  }
+  return all;
+}
+
 /// Files hold ambient colours up to 1: more of them needs more ambient light.
 bool needsAmbientLight(const FrozenView& view)
 {
@@ -184,11 +214,13 @@ void saveSnapshot(const FrozenView& view, const std::string& path)
   const std::string models = (std::filesystem::path(folder) / modelFolder).string();
   makeFolders(models);
   SceneDescription scene = view.stage->description();
+  scene.folder = folder;
   const bool ambient = needsAmbientLight(view);
   for (std::size_t i = 0; i < view.actors.size(); ++i)
   {
     ObjFile(*view.actors[i].model, models, view.actors[i].name).write(ambient ? worldAmbient : 1.0);
-    scene.objects[i].model = (std::filesystem::path(models) / (view.actors[i].name + ".obj")).string();
+    scene.objects[i].model = std::string(modelFolder) + '/' + view.actors[i].name + ".obj";
+    scene.objects[i].materials = physicalMaterials(view.actors[i]);
   }
   if (ambient)
   {

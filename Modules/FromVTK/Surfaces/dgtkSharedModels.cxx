@@ -5,8 +5,11 @@
 #include "dgtkRaySource.h"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <mutex>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace dgtk
@@ -21,7 +24,10 @@ bool equalMaterials(const Material& a, const Material& b)
     return m.physical ? std::make_tuple(true, m.physical->metallic, m.physical->roughness, m.physical->wanted)
                       : std::make_tuple(false, 0.0, 0.0, false);
   };
-  const auto numbers = [](const Material& m) { return std::tie(m.shininess, m.opacity, m.texture, m.cutOut); };
+  const auto numbers = [](const Material& m)
+  {
+    return std::tie(m.shininess, m.opacity, m.texture, m.cutOut, m.metallicRoughnessMap, m.emissionMap, m.occlusionMap);
+  };
   return a.name == b.name && a.ambient == b.ambient && a.diffuse == b.diffuse && a.specular == b.specular &&
          a.emission == b.emission && numbers(a) == numbers(b) && physical(a) == physical(b);
 }
@@ -74,17 +80,43 @@ std::shared_ptr<const Model> sharedModel(std::shared_ptr<const Model> model)
   return model;
 }
 
-std::shared_ptr<const OcclusionQuery> keptTrees(const std::shared_ptr<const SceneState>& state)
+std::shared_ptr<const SurfaceModel> sharedSurface(const SurfaceKey& key, const std::function<SurfaceModel()>& make)
 {
   static std::mutex lock;
-  static std::shared_ptr<const OcclusionQuery> latest;
+  static std::map<SurfaceKey, std::weak_ptr<const SurfaceModel>> known;
+  {
+    const std::lock_guard<std::mutex> guard(lock);
+    for (auto one = known.begin(); one != known.end();)
+    {
+      one = one->second.expired() ? known.erase(one) : std::next(one);
+    }
+    const auto found = known.find(key);
+    if (std::shared_ptr<const SurfaceModel> surface = found != known.end() ? found->second.lock() : nullptr)
+    {
+      return surface;
+    }
+  }
+  auto made = std::make_shared<SurfaceModel>(make());
+  made->model = sharedModel(made->model);
+  const std::lock_guard<std::mutex> guard(lock);
+  known[key] = made;
+  return made;
+}
+
+std::shared_ptr<const OcclusionQuery> keptTrees(
+  const std::shared_ptr<const SceneState>& state, std::vector<std::shared_ptr<const SurfaceModel>> surfaces)
+{
+  static std::mutex lock;
+  static std::pair<std::shared_ptr<const OcclusionQuery>, std::vector<std::shared_ptr<const SurfaceModel>>> latest;
   const std::shared_ptr<OcclusionQuery> made = makeOcclusionQuery();
   {
     const InterpreterPause pause;
     made->setScene(state);
   }
+  std::pair<std::shared_ptr<const OcclusionQuery>, std::vector<std::shared_ptr<const SurfaceModel>>> next(
+    made, std::move(surfaces));
   const std::lock_guard<std::mutex> guard(lock);
-  latest = made;
+  latest.swap(next);
   return made;
 }
 

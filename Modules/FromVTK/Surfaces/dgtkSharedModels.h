@@ -5,9 +5,13 @@
 // Private to FromVTK.
 
 #include "dgtkModel.h"
+#include "dgtkSurfaceKey.h"
+#include "dgtkSurfaceModel.h"
 #include "dgtkVisibility.h"
 
+#include <functional>
 #include <memory>
+#include <vector>
 
 namespace dgtk
 {
@@ -17,9 +21,13 @@ namespace dgtk
 /// telling VTK. Thread-safe.
 std::shared_ptr<const Model> sharedModel(std::shared_ptr<const Model> model);
 
-/// Builds the trees of a state, of which the result is the owner; those of the latest call stay until the next one, so
-/// that they are found by what is taken again. Throws MachineError.
-std::shared_ptr<const OcclusionQuery> keptTrees(const std::shared_ptr<const SceneState>& state);
+/// The surface with this key if it is in use, else what `make` makes; its model is a shared one. Thread-safe.
+std::shared_ptr<const SurfaceModel> sharedSurface(const SurfaceKey& key, const std::function<SurfaceModel()>& make);
+
+/// Builds the trees of a state, of which the result is the owner. Those of the latest call and its surfaces stay until
+/// the next one, so that they are found by what is taken again. Throws MachineError.
+std::shared_ptr<const OcclusionQuery> keptTrees(
+  const std::shared_ptr<const SceneState>& state, std::vector<std::shared_ptr<const SurfaceModel>> surfaces);
 
 } // namespace dgtk
 

@@ -314,7 +314,9 @@ void complete(Model& model, Geometry& geometry)
   {
     model.colors.resize(vertices, { 255, 255, 255, 255 });
   }
-  if (!model.uvs.empty())
+  const bool maps = std::any_of(model.materials.begin(), model.materials.end(),
+    [](const Material& material) { return material.occlusionMap >= 0; });
+  if (!model.uvs.empty() || maps)
   {
     model.uvs.resize(vertices, Eigen::Vector2d(0, 0));
   }
@@ -327,8 +329,7 @@ void complete(Model& model, Geometry& geometry)
 }
 } // namespace
 
-SurfaceModel surfaceModel(
-  vtkActor& actor, const std::vector<SurfacePiece>& pieces, const Affine3& bake, bool lit, Unsupported& unsupported)
+SurfaceModel surfaceModel(vtkActor& actor, const std::vector<SurfacePiece>& pieces, const Affine3& bake, bool lit)
 {
   auto model = std::make_shared<Model>();
   auto geometry = std::make_shared<Geometry>();
@@ -342,7 +343,7 @@ SurfaceModel surfaceModel(
     const auto count = std::uint32_t(model->triangles.size()) - first;
     if (count > 0)
     {
-      model->materials.push_back(actorMaterial(actor, piece, lit, name, *model, unsupported));
+      model->materials.push_back(actorMaterial(actor, piece, lit, name, *model, made.left));
       model->parts.push_back(
         { "part-" + std::to_string(model->parts.size() + 1), int(model->materials.size()) - 1, first, count });
     }

@@ -5,6 +5,7 @@
 // Private to FromVTK.
 
 #include "dgtkSurfacePieces.h"
+#include "dgtkUnsupported.h"
 
 #include "dgtkModel.h"
 
@@ -22,6 +23,7 @@ struct SurfaceModel
 {
   std::shared_ptr<const Model> model;
   std::vector<std::int64_t> cells; ///< of the mapper's input, one a triangle
+  Unsupported left;                ///< what of the actor cannot be honoured
 };
 
 /// The triangles of pieces in their order: polygons before strips, as VTK numbers cells. A polygon is cut as VTK draws
@@ -29,8 +31,7 @@ struct SurfaceModel
 /// of which two corners coincide, as in VTK, or with a coordinate that is no finite number, are left out. `bake` is
 /// applied to the points. Materials are the actor's; `lit` says whether the renderer has lights. Throws InputError for
 /// cells and arrays that do not fit the points.
-SurfaceModel surfaceModel(
-  vtkActor& actor, const std::vector<SurfacePiece>& pieces, const Affine3& bake, bool lit, Unsupported& unsupported);
+SurfaceModel surfaceModel(vtkActor& actor, const std::vector<SurfacePiece>& pieces, const Affine3& bake, bool lit);
 
 } // namespace dgtk
 

@@ -10,27 +10,36 @@
 namespace dgtk
 {
 
-std::vector<Hit> traceView(const Stage& stage, const View& view)
+void traceTiles(const Stage& stage, const View& view, const std::function<void(const VisibilityBuffer&)>& look)
 {
   ThreadPool pool(machineThreads());
   const std::unique_ptr<VisibilitySource> source = makeRaySource(pool);
   source->setScene(stage.at(0), view);
-  const int width = view.model->width();
-  const TileGrid grid(width, view.model->height());
-  std::vector<Hit> all(std::size_t(width) * std::size_t(view.model->height()));
+  const TileGrid grid(view.model->width(), view.model->height());
   VisibilityBuffer tile;
   for (int row = 0; row < grid.rows(); ++row)
   {
     for (int column = 0; column < grid.columns(); ++column)
     {
       source->render(grid.tile(column, row), tile);
+      look(tile);
+    }
+  }
+}
+
+std::vector<Hit> traceView(const Stage& stage, const View& view)
+{
+  const auto width = std::size_t(view.model->width());
+  std::vector<Hit> all(width * std::size_t(view.model->height()));
+  traceTiles(stage, view,
+    [&](const VisibilityBuffer& tile)
+    {
       for (int y = 0; y < tile.rect.height; ++y)
       {
         std::copy_n(&tile.hits[std::size_t(y) * std::size_t(tile.rect.width)], tile.rect.width,
-          &all[std::size_t(tile.rect.y + y) * std::size_t(width) + std::size_t(tile.rect.x)]);
+          &all[std::size_t(tile.rect.y + y) * width + std::size_t(tile.rect.x)]);
       }
-    }
-  }
+    });
   return all;
 }
 

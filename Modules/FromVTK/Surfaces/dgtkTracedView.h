@@ -8,10 +8,14 @@
 #include "dgtkVisibility.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace dgtk
 {
+
+/// Traces a stage's view at frame 0, tile by tile, each of which `look` is shown in this thread.
+void traceTiles(const Stage& stage, const View& view, const std::function<void(const VisibilityBuffer&)>& look);
 
 /// What every pixel of a stage's view sees at frame 0, rows top to bottom.
 std::vector<Hit> traceView(const Stage& stage, const View& view);
@@ -24,7 +28,7 @@ inline std::int64_t cellOf(const FrozenView& view, const Hit& hit)
     return -1;
   }
   const FrozenActor& actor = view.actors[hit.object - 1];
-  return actor.cells[actor.wholeTriangle(hit.triangle)];
+  return actor.whole->cells[actor.wholeTriangle(hit.triangle)];
 }
 
 } // namespace dgtk

@@ -346,7 +346,13 @@ bool Run::keep(const Job& job)
 std::string requestHash(const GeneratorRequest& request)
 {
   const std::shared_ptr<const Stage> scene = Stage::load(sceneOf(request), [](const std::string&) {});
-  return identityOf(makeWorkPlan(request, *scene), *scene, inputsOf(*scene, request.folder));
+  const WorkPlan plan = makeWorkPlan(request, *scene);
+  std::optional<Packing> packing;
+  if (option::pack().of(plan.request.options))
+  {
+    packing = planPacking(*scene, request.folder);
+  }
+  return identityOf(plan, *scene, recordedInputs(*scene, request.folder, packing ? &*packing : nullptr));
 }
 
 GeneratorResult generate(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)

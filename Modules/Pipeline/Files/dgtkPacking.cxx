@@ -232,6 +232,28 @@ Packing planPacking(const Stage& stage, const std::string& folder)
   return Planner(stage, folder).run();
 }
 
+std::vector<InputRecord> recordedInputs(const Stage& stage, const std::string& folder, const Packing* packing)
+{
+  const std::vector<InputRecord> inputs = inputsOf(stage, folder);
+  if (packing == nullptr)
+  {
+    return inputs;
+  }
+  const std::vector<std::string> files = stage.inputFiles();
+  std::map<std::string, InputRecord> copies; // a file may have two spellings
+  for (std::size_t i = 0; i < files.size(); ++i)
+  {
+    const std::string& to = packing->copies.at(files[i]);
+    copies.emplace(to, InputRecord{ to, inputs[i].bytes, inputs[i].sha256 });
+  }
+  std::vector<InputRecord> records;
+  for (const auto& [path, record] : copies)
+  {
+    records.push_back(record);
+  }
+  return records;
+}
+
 void checkPacking(const Packing& packing, const Stage& stage)
 {
   const auto fail = [&](const std::string& file)

@@ -4,10 +4,12 @@
 
 // Private to Pipeline.
 
+#include "dgtkDatasetRecords.h"
 #include "dgtkStage.h"
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace dgtk
 {
@@ -25,6 +27,9 @@ void refuseOwnInputs(const Stage& stage, const std::string& folder);
 
 /// Depends on the scene and on what its models name, not on where they are.
 Packing planPacking(const Stage& stage, const std::string& folder);
+
+/// What a scene was loaded from, as the dataset in `folder` records it: the copies, each once, if there is a packing.
+std::vector<InputRecord> recordedInputs(const Stage& stage, const std::string& folder, const Packing* packing);
 
 /// Loads the packed scene, whose copies are in place. Throws InputError unless it reads the copies and nothing else.
 void checkPacking(const Packing& packing, const Stage& stage);

@@ -41,8 +41,6 @@ RunDocuments::RunDocuments(const Stage& stage, const WorkPlan& plan, const std::
   : Scene(stage)
   , Plan(plan)
   , Root(folder)
-  , Inputs(inputsOf(stage, folder))
-  , RequestHash(identityOf(plan, stage, this->Inputs))
   , Geometry(geometryHashes(stage))
 {
   refuseOwnInputs(stage, folder);
@@ -50,6 +48,8 @@ RunDocuments::RunDocuments(const Stage& stage, const WorkPlan& plan, const std::
   {
     this->Packed = planPacking(stage, folder);
   }
+  this->Inputs = recordedInputs(stage, folder, this->Packed ? &*this->Packed : nullptr);
+  this->RequestHash = identityOf(plan, stage, this->Inputs);
   if (option::models().of(plan.request.options))
   {
     this->Models.emplace(stage, this->Geometry);
@@ -63,26 +63,29 @@ void RunDocuments::pack(RunFiles& run)
     return;
   }
   const std::vector<std::string> files = this->Scene.inputFiles();
-  const std::vector<InputRecord> inputs = std::exchange(this->Inputs, {});
-  std::set<std::string> there; // a file may have two spellings
-  for (std::size_t i = 0; i < files.size(); ++i)
+  std::map<std::string, std::string> hashes;
+  for (const InputRecord& input : this->Inputs)
   {
-    const std::string& to = this->Packed->copies.at(files[i]);
+    hashes[input.path] = input.sha256;
+  }
+  std::set<std::string> there; // a file may have two spellings
+  for (const std::string& file : files)
+  {
+    const std::string& to = this->Packed->copies.at(file);
     if (!there.insert(to).second)
     {
       continue;
     }
-    this->Inputs.push_back({ to, inputs[i].bytes, inputs[i].sha256 });
     if (run.keep({ to }, {}))
     {
       continue;
     }
     Folder(this->Root).makeParents(to);
     run.plan({ to });
-    const DatasetFile copy = writeDocument(this->Root, to, readFile(files[i]));
-    if (copy.sha256 != inputs[i].sha256)
+    const DatasetFile copy = writeDocument(this->Root, to, readFile(file));
+    if (copy.sha256 != hashes.at(to))
     {
-      throw InputError(files[i], 0, "changed while it was copied");
+      throw InputError(file, 0, "changed while it was copied");
     }
     run.add(copy);
   }

@@ -13,8 +13,8 @@ import sys
 from ._build import EXECUTABLE, PYTHON, VERSION
 
 __version__ = VERSION
-__all__ = ["load", "scene", "Scene", "render", "generate", "export", "exporters", "truth", "Truth", "snapshot", "Snapshot", "correspond", "visible_cells",
-           "dgtkScene", "dgtkRenderer", "dgtkDatasetGenerator", "dgtkDatasetExporter", "dgtkSnapshot", "dgtkGroundTruthSource", "dgtkPointCloudSource",
+__all__ = ["load", "scene", "Scene", "sample", "random", "render", "generate", "export", "exporters", "truth", "Truth", "snapshot", "Snapshot", "correspond", "visible_cells",
+           "dgtkScene", "dgtkSceneSampler", "dgtkRenderer", "dgtkDatasetGenerator", "dgtkDatasetExporter", "dgtkSnapshot", "dgtkGroundTruthSource", "dgtkPointCloudSource",
            "dgtkDepthFromZBuffer"]
 
 if sys.version_info[:2] != PYTHON:
@@ -23,10 +23,11 @@ try:
     from ._export import export, exporters
     from ._generate import generate
     from ._render import render
+    from ._sample import random, sample
     from ._scenes import Scene, load, scene
     from ._vtk import Snapshot, Truth, correspond, snapshot, truth, visible_cells
     from .dgtkFromVTK import dgtkDepthFromZBuffer, dgtkGroundTruthSource, dgtkPointCloudSource, dgtkSnapshot
-    from .dgtkPipeline import dgtkDatasetExporter, dgtkDatasetGenerator, dgtkRenderer, dgtkScene
+    from .dgtkPipeline import dgtkDatasetExporter, dgtkDatasetGenerator, dgtkRenderer, dgtkScene, dgtkSceneSampler
 except ImportError as error:
     raise ImportError("dgtk %s needs NumPy and VTK as %s has them (Debian: python3-numpy, python3-vtk9), this is %s: %s"
                       % (VERSION, EXECUTABLE, sys.executable, error)) from None

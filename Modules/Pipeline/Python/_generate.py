@@ -2,6 +2,7 @@
 """Datasets on disk."""
 import json
 import os
+import tempfile
 
 from . import _check
 from ._render import require_scene, with_options
@@ -39,12 +40,28 @@ def wait_for(generator, progress):
         _check.raise_error(generator)
 
 
+def _generate_packed(shot, folder, *arguments, pack=True, **options):
+    """Of a snapshot: of the files that it is saved as, which the dataset has copies of."""
+    if not _check.switch("pack", pack):
+        raise ValueError("pack: a snapshot has no files of its own: its dataset has them (expected True, or nothing)")
+    try:
+        folder_of_files = tempfile.TemporaryDirectory(prefix="dgtk-snapshot-")
+    except OSError as error:
+        raise RuntimeError(f"scene: no folder for the files of the snapshot: {error.strerror}") from None
+    with folder_of_files as saved:
+        file = os.path.join(saved, "scene.json")
+        if not shot.Save(os.fsencode(file)):
+            _check.raise_error(shot)
+        return generate(file, folder, *arguments, pack=True, **options)
+
+
 def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, progress=None, resume=False, replace=False, formats=None, **options):
     """Writes a dataset: what `dgtk render` does, to the byte.
 
-    scene: the path of a .json or .scene file, or a Scene. One of a file is read again with its models, and must not have
-    changed since; one of a description is in the dataset as scene.json, and its model files are read again. folder:
-    where the dataset goes, str or path-like. layers: a name or a list of names, "all", or the usual ones. frames: an
+    scene: the path of a .json or .scene file, a Scene, or a Snapshot of a VTK view. One of a file is read again with its
+    models, and must not have changed since; one of a description is in the dataset as scene.json, and its model files are
+    read again; a Snapshot is in the dataset with its models and textures, as the scene that its save() writes is with
+    pack=True. folder: where the dataset goes, str or path-like. layers: a name or a list of names, "all", or the usual ones. frames: an
     integer, (first, last) or (first, last, step), both ends included; default: all. cameras: a name or a list of names;
     default: all. size: (width, height) in pixels; default: each camera's own, else 640 x 480. progress: called in this
     thread as progress(done, total), pictures (one camera at one frame), at the start, after each and at the end.
@@ -58,13 +75,13 @@ def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, p
     cannot do (no space, no permission), one line each. What `progress` raises, and an interrupt by Ctrl-C, ends the run
     and is raised on; `resume=True` then completes it to the same bytes. Other threads run meanwhile.
     """
+    if isinstance(scene, dgtkSnapshot):
+        return _generate_packed(scene, folder, layers, frames, cameras, size, progress, resume, replace, formats, **options)
     generator = dgtkDatasetGenerator()
     if isinstance(scene, (str, os.PathLike)):
         generator.SetSceneFile(_check.path("scene", scene))
     else:
         require_scene(scene)
-        if isinstance(scene, dgtkSnapshot):
-            raise ValueError("scene: a snapshot has no files to read again: save() it, and give that file")
         generator.SetScene(scene)
     generator.SetFolder(_check.path("folder", folder))
     written = _check.absolute("folder", folder)

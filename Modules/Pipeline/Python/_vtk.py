@@ -136,5 +136,6 @@ def correspond(first, second):
 def visible_cells(view, size=None, unsupported="refuse"):
     """For each prop, in the order of their ids, the number of pixels that see each cell of its mapper's input (uint32)."""
     shot = view if isinstance(view, dgtkSnapshot) else snapshot(view, size, unsupported)
-    _cells(shot)
+    if not shot.CountCells():
+        _check.raise_error(shot)
     return [vtk_to_numpy(shot.CountPixels(i)) for i in range(shot.GetNumberOfProps())]

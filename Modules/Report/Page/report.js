@@ -617,7 +617,7 @@ function checks() {
   if (model.samples) {
     const s = model.samples;
     parts.push(s.reasons.length === 0 ? make('p', {}, `${many(s.samples, 'sample')}; nothing was refused.`)
-      : table(`Refused while sampling: in ${count(s.touched)} of ${many(s.samples, 'sample')}`, ['what', 'why', '#times', 'first in sample'], s.reasons.map((row) => [row.path, row.why, count(row.times), row.example])));
+      : table(`Refused or left out while sampling: in ${count(s.touched)} of ${many(s.samples, 'sample')}`, ['what', 'why', '#times', 'first in sample'], s.reasons.map((row) => [row.path, row.why, count(row.times), row.example])));
   }
   const lines = (title, list, all) => { if (list.length > 0) parts.push(make('div', {}, make('h3', {}, all > list.length ? `${title} (${list.length} of ${count(all)})` : title), make('ul', {}, ...list.map((line) => make('li', {}, line))))); };
   lines('What could not be read', model.notes, model.noteCount);

@@ -6,6 +6,7 @@
 #include "dgtkHash.h"
 #include "dgtkJournal.h"
 #include "dgtkMasks.h"
+#include "dgtkSceneFolders.h"
 #include "dgtkText.h"
 
 #include <algorithm>
@@ -42,18 +43,24 @@ ExportedFrom::ExportedFrom(const std::string& dataset, const std::string& folder
   : DatasetFolder(dataset)
   , Folder(folder)
   , Record(readExportIn(folder))
-  , TheManifest(readManifestIn(dataset))
 {
   const dgtk::Folder place(dataset);
   if (Sha256::ofFile(place.fileAt(manifestName)) != this->Record.manifestHash)
   {
     throw UsageError(folder + ": was made from another dataset, or from an earlier state of " + dataset);
   }
-  for (const CameraRecord& camera : readCameras(place.fileAt("cameras.json")))
+  for (const std::string& scene : sceneFoldersIn(dataset))
   {
-    this->Cameras.emplace(std::make_pair(camera.name, camera.frame), camera);
+    this->Parts.push_back(scene + '/');
   }
-  this->Objects = readObjects(place.fileAt("objects.json"));
+  if (this->Parts.empty())
+  {
+    this->Parts.emplace_back();
+  }
+  for (const std::string& part : this->Parts)
+  {
+    this->addPart(part);
+  }
   for (const ExportedName& name : this->Record.names)
   {
     this->ByPlace[{ name.camera, name.frame }] = &name;
@@ -63,6 +70,36 @@ ExportedFrom::ExportedFrom(const std::string& dataset, const std::string& folder
   {
     this->Files[{ file.camera, file.frame, file.layer }].push_back(file.path);
   }
+}
+
+void ExportedFrom::addPart(const std::string& part)
+{
+  const std::string folder = this->DatasetFolder + '/' + part;
+  const dgtk::Folder place(folder);
+  Manifest manifest = readManifestIn(folder);
+  for (CameraRecord& camera : readCameras(place.fileAt("cameras.json")))
+  {
+    camera.name = part + camera.name;
+    this->Cameras.emplace(std::make_pair(camera.name, camera.frame), camera);
+  }
+  this->Objects[part] = readObjects(place.fileAt("objects.json"));
+  std::vector<DatasetFile> files = std::move(this->TheManifest.files);
+  for (DatasetFile& file : manifest.files)
+  {
+    file.path = part + file.path;
+    file.camera = file.camera.empty() ? file.camera : part + file.camera;
+    files.push_back(std::move(file));
+  }
+  if (part == this->Parts[0])
+  {
+    this->TheManifest = std::move(manifest);
+  }
+  this->TheManifest.files = std::move(files);
+}
+
+std::string ExportedFrom::partOf(const std::string& camera) const
+{
+  return this->Parts[0].empty() ? "" : camera.substr(0, camera.find('/') + 1);
 }
 
 std::string ExportedFrom::convention(const std::string& key) const
@@ -90,11 +127,16 @@ const CameraRecord* ExportedFrom::camera(const std::string& name, int frame) con
   return found == this->Cameras.end() ? nullptr : &found->second;
 }
 
-const ObjectRecord* ExportedFrom::object(std::uint32_t id) const
+const ObjectRecord* ExportedFrom::object(const std::string& camera, std::uint32_t id) const
 {
+  const auto part = this->Objects.find(this->partOf(camera));
+  if (part == this->Objects.end())
+  {
+    return nullptr;
+  }
   const auto found = std::find_if(
-    this->Objects.begin(), this->Objects.end(), [&](const ObjectRecord& object) { return object.id == id; });
-  return found == this->Objects.end() ? nullptr : &*found;
+    part->second.begin(), part->second.end(), [&](const ObjectRecord& object) { return object.id == id; });
+  return found == part->second.end() ? nullptr : &*found;
 }
 
 const std::vector<BoxRecord>& ExportedFrom::boxes(const std::string& camera, int frame) const

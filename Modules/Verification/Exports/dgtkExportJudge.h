@@ -30,6 +30,12 @@ public:
   ExportedFrom(const std::string& dataset, const std::string& folder);
 
   const std::string& dataset() const { return this->DatasetFolder; }
+  /// What stands before the names of cameras and files of each dataset: "" of one alone, "SCENE/" of many.
+  const std::vector<std::string>& parts() const { return this->Parts; }
+  /// Of a camera: which of these.
+  std::string partOf(const std::string& camera) const;
+  /// A document of the first dataset that says what holds for all.
+  std::string document(const std::string& name) const { return this->DatasetFolder + '/' + this->Parts[0] + name; }
   const std::string& folder() const { return this->Folder; }
   const ExportRecord& record() const { return this->Record; }
   const Manifest& manifest() const { return this->TheManifest; }
@@ -41,8 +47,10 @@ public:
   const ExportedName* named(const std::string& name) const;
 
   const CameraRecord* camera(const std::string& name, int frame) const;
-  const std::vector<ObjectRecord>& objects() const { return this->Objects; }
-  const ObjectRecord* object(std::uint32_t id) const;
+  const std::vector<ObjectRecord>& objects() const { return this->Objects.begin()->second; } ///< of the first dataset
+  const ObjectRecord* object(std::uint32_t id) const { return this->object(this->Parts[0], id); }
+  /// Of a camera's dataset.
+  const ObjectRecord* object(const std::string& camera, std::uint32_t id) const;
   /// Records of the layer `boxes` of a picture; empty without the layer. Kept for the last picture only.
   const std::vector<BoxRecord>& boxes(const std::string& camera, int frame) const;
   /// A layer's file of a picture, exact formats first; "" for none.
@@ -53,12 +61,14 @@ public:
     const std::vector<std::string>& extensions = {}) const;
 
 private:
+  void addPart(const std::string& part);
   std::string DatasetFolder;
+  std::vector<std::string> Parts;
   std::string Folder;
   ExportRecord Record;
   Manifest TheManifest;
   std::map<std::pair<std::string, int>, CameraRecord> Cameras;
-  std::vector<ObjectRecord> Objects;
+  std::map<std::string, std::vector<ObjectRecord>> Objects; ///< by part
   std::map<std::pair<std::string, int>, const ExportedName*> ByPlace;
   std::map<std::string, const ExportedName*> ByName;
   std::map<std::tuple<std::string, int, std::string>, std::vector<std::string>> Files;

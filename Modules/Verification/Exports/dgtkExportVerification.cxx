@@ -5,7 +5,9 @@
 #include "dgtkExportJudge.h"
 #include "dgtkExportPixels.h"
 #include "dgtkFile.h"
+#include "dgtkFolder.h"
 #include "dgtkHash.h"
+#include "dgtkSceneFolders.h"
 #include "dgtkText.h"
 
 #include <filesystem>
@@ -154,10 +156,13 @@ ReadExport exportReader(const std::string& exporter)
   return nullptr;
 }
 
-VerificationReport verifyExport(const std::string& dataset, const std::string& folder, int threads)
+namespace
+{
+/// What one export.json speaks of.
+std::vector<Unchecked> judgeExport(
+  const std::string& dataset, const std::string& folder, int threads, Results& results)
 {
   const ExportedFrom source(dataset, folder);
-  Results results;
   results.startCheck(0, "hashes");
   checkFiles(source, results);
   results.startCheck(1, "pixels");
@@ -198,8 +203,29 @@ VerificationReport verifyExport(const std::string& dataset, const std::string& f
         read(judge);
       });
   }
+  return uncheckedOf(source, results);
+}
+} // namespace
+
+VerificationReport verifyExport(const std::string& dataset, const std::string& folder, int threads)
+{
+  std::vector<std::string> scenes = sceneFoldersIn(dataset);
+  if (scenes.empty() || Folder(folder).look(exportName) == EntryKind::File)
+  {
+    scenes = { "" }; // one export of all
+  }
+  Results results;
+  std::vector<Unchecked> unchecked;
+  for (const std::string& scene : scenes)
+  {
+    const std::string below = scene.empty() ? "" : '/' + scene;
+    Results own;
+    const std::vector<Unchecked> left = judgeExport(dataset + below, folder + below, threads, own);
+    results.merge(own);
+    unchecked.insert(unchecked.end(), left.begin(), left.end());
+  }
   VerificationReport report = results.report();
-  report.unchecked = uncheckedOf(source, results);
+  report.unchecked = unchecked;
   return report;
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstring>
 #include <sstream>
+#include <tuple>
 
 // bop_toolkit's docs/bop_datasets_format.md and inout.py.
 
@@ -92,9 +93,12 @@ public:
     : Judge(judge)
     , Unit(1000 * metresOf(judge.source()))
   {
-    for (const PoseRecord& pose : readPoses(judge.source().dataset() + "/" + posesName))
+    for (const std::string& part : judge.source().parts())
     {
-      this->Poses[{ pose.frame, pose.id }] = pose;
+      for (const PoseRecord& pose : readPoses(judge.source().dataset() + "/" + part + posesName))
+      {
+        this->Poses[{ part, pose.frame, pose.id }] = pose;
+      }
     }
     this->Infos = this->document("models/models_info.json");
     for (const auto& [id, info] : this->Infos.items())
@@ -185,18 +189,18 @@ private:
     }
     for (const BoxRecord& box : boxes)
     {
-      const bool wanted = this->isPosed(box.id) && box.pixelsWhole > 0;
+      const bool wanted = this->isPosed(picture.camera, box.id) && box.pixelsWhole > 0;
       this->Judge.holds("instances", file, picture.name, found.count(box.id) > 0 || !wanted, "none", box.name);
     }
   }
 
-  bool isPosed(std::uint32_t id) const
+  bool isPosed(const std::string& camera, std::uint32_t id) const
   {
     for (const auto& [key, text] : this->Judge.source().record().request)
     {
       if (key == "objects" && !text.empty())
       {
-        const ObjectRecord* object = this->Judge.source().object(id);
+        const ObjectRecord* object = this->Judge.source().object(camera, id);
         const std::string list = ',' + text + ',';
         return object && (list.find(',' + object->name + ',') != std::string::npos ||
                            list.find(',' + object->objectClass + ',') != std::string::npos);
@@ -211,15 +215,16 @@ private:
     const Eigen::Matrix3d R = matrixOf(pose.at("cam_R_m2c"));
     const Eigen::Vector3d t = vectorOf(pose.at("cam_t_m2c"));
     const CameraRecord* camera = this->Judge.source().camera(picture.camera, picture.frame);
+    const std::string part = this->Judge.source().partOf(picture.camera);
     for (const BoxRecord& box : boxes)
     {
-      const auto known = this->Poses.find({ picture.frame, box.id });
-      const ObjectRecord* object = this->Judge.source().object(box.id);
+      const auto known = this->Poses.find({ part, picture.frame, box.id });
+      const ObjectRecord* object = this->Judge.source().object(picture.camera, box.id);
       if (known == this->Poses.end() || !object || object->geometryFile.empty())
       {
         continue;
       }
-      const Points& own = this->geometry(object->geometryFile);
+      const Points& own = this->geometry(part + object->geometryFile);
       double apart = own.size() == model.size() ? 0 : infinite;
       for (std::size_t k = 0; k < own.size() && apart < 1e-6; ++k)
       {
@@ -332,7 +337,7 @@ private:
   Json Infos;
   std::map<int, Points> Models;
   std::map<std::string, Points> Geometries;
-  std::map<std::pair<int, std::uint32_t>, PoseRecord> Poses;
+  std::map<std::tuple<std::string, int, std::uint32_t>, PoseRecord> Poses; ///< by part, frame, object
 };
 } // namespace
 

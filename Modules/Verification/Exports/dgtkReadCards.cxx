@@ -158,20 +158,28 @@ SampleDocuments::SampleDocuments(ExportJudge& judge)
   : Judge(judge)
 {
   const std::string folder = judge.source().dataset() + '/';
-  const Json cameras = readJsonFile(folder + "cameras.json");
-  for (const Json& one : cameras.at("cameras"))
+  for (const std::string& part : judge.source().parts())
   {
-    this->Cameras[{ one.at("name"), one.at("frame") }] = one;
-  }
-  for (const DatasetFile& file : judge.source().manifest().files)
-  {
-    if (file.path == posesName)
+    const Json cameras = readJsonFile(folder + part + "cameras.json");
+    for (Json one : cameras.at("cameras"))
     {
-      const Json poses = readJsonFile(folder + posesName);
-      for (const Json& one : poses.at("poses"))
-      {
-        this->Poses.emplace(one.at("frame").get<int>(), Json::array()).first->second.push_back(one);
-      }
+      one["name"] = utf8FromBytes(part) + one.at("name").get<std::string>();
+      this->Cameras[{ one.at("name"), one.at("frame") }] = one;
+    }
+    this->readPoses(part);
+  }
+}
+
+void SampleDocuments::readPoses(const std::string& part)
+{
+  const std::vector<DatasetFile>& files = this->Judge.source().manifest().files;
+  const std::string name = part + posesName;
+  if (std::any_of(files.begin(), files.end(), [&](const DatasetFile& file) { return file.path == name; }))
+  {
+    const Json poses = readJsonFile(this->Judge.source().dataset() + '/' + name);
+    for (const Json& one : poses.at("poses"))
+    {
+      this->Poses.emplace(std::make_pair(part, one.at("frame").get<int>()), Json::array()).first->second.push_back(one);
     }
   }
 }
@@ -193,7 +201,7 @@ void SampleDocuments::judge(
     const Json& found = document.at("camera");
     this->Judge.holds("camera", file, where, found == expected, found.dump(), expected.dump());
   }
-  const auto poses = this->Poses.find(frame);
+  const auto poses = this->Poses.find({ source.partOf(camera), frame });
   const Json none = Json::array();
   const Json& expected = poses == this->Poses.end() ? none : poses->second;
   const Json& found = document.at("poses");

@@ -30,9 +30,10 @@ public:
     const nlohmann::json& document) const;
 
 private:
+  void readPoses(const std::string& part);
   ExportJudge& Judge;
   std::map<std::pair<std::string, int>, nlohmann::json> Cameras;
-  std::map<int, nlohmann::json> Poses;
+  std::map<std::pair<std::string, int>, nlohmann::json> Poses; ///< by part and frame
 };
 
 } // namespace dgtk

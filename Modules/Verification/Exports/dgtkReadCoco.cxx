@@ -102,7 +102,7 @@ void readAnnotation(ExportJudge& judge, const std::string& file, const Json& one
   judge.number("area", "px", file, where, one.at("area"), double(std::count(mask.begin(), mask.end(), char(1))), 0);
   judge.amodalMask(
     file, image.camera, image.frame, object, maskOf(one.at("amodal_segmentation"), image.width, image.height));
-  const ObjectRecord* record = judge.source().object(object);
+  const ObjectRecord* record = judge.source().object(image.camera, object);
   judge.number("category", "id", file, where, one.at("category_id"), record ? record->classId : 0, 0);
   ++image.annotations;
 }
@@ -148,7 +148,7 @@ std::uint64_t pointedObjects(const ExportedFrom& source, const Image& image, con
   return static_cast<std::uint64_t>(std::count_if(boxes.begin(), boxes.end(),
     [&](const BoxRecord& box)
     {
-      const ObjectRecord* object = source.object(box.id);
+      const ObjectRecord* object = source.object(image.camera, box.id);
       return box.visible && object &&
              std::any_of(
                categories.begin(), categories.end(), [&](const Json& one) { return one.at("id") == object->classId; });

@@ -47,7 +47,7 @@ std::map<std::uint32_t, Shown> shownIn(const ExportedFrom& source, const std::st
   return segments;
 }
 
-void readSegments(ExportJudge& judge, const std::string& file, const Json& annotation,
+void readSegments(ExportJudge& judge, const std::string& file, const std::string& camera, const Json& annotation,
   const std::map<std::uint32_t, bool>& things, std::map<std::uint32_t, Shown> shown)
 {
   shown.erase(0);
@@ -71,7 +71,7 @@ void readSegments(ExportJudge& judge, const std::string& file, const Json& annot
     const bool same = std::all_of(own.objects.begin(), own.objects.end(),
       [&](std::uint32_t object)
       {
-        const ObjectRecord* record = judge.source().object(object);
+        const ObjectRecord* record = judge.source().object(camera, object);
         return record && record->classId == category;
       });
     judge.holds("category", file, where, same, std::to_string(category), "that of its objects");
@@ -113,7 +113,7 @@ void readDocument(ExportJudge& judge, const std::string& file)
         if (picture)
         {
           const std::string map = folder + one.at("file_name").get<std::string>();
-          readSegments(judge, file, one, things, shownIn(judge.source(), map, *picture));
+          readSegments(judge, file, picture->camera, one, things, shownIn(judge.source(), map, *picture));
         }
       }
     });

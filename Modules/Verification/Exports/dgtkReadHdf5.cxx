@@ -32,6 +32,7 @@ constexpr Key keys[] = { { "colors", "", Hdf5Dataset::Kind::Whole, notANumber, f
   { "depth", "", Hdf5Dataset::Kind::Real, farAway, true },
   { "distance", "distance", Hdf5Dataset::Kind::Real, farAway, true },
   { "normals", "normal", Hdf5Dataset::Kind::Real, 0.5, false },
+  { "nocs", "objectcoords", Hdf5Dataset::Kind::Real, 0, false },
   { "instance_segmaps", "objects", Hdf5Dataset::Kind::Whole, notANumber, false },
   { "class_segmaps", "classes", Hdf5Dataset::Kind::Whole, notANumber, false },
   { "forward_flow", "flow_forward", Hdf5Dataset::Kind::Real, notANumber, false },
@@ -112,6 +113,10 @@ private:
     {
       return layer.id(x, y);
     }
+    if (name == "nocs" && c == 3)
+    {
+      return std::isfinite(layer.at(x, y, 0)) ? 1 : 0; // alpha
+    }
     const double value = layer.at(x, y, c);
     if (name == "colors")
     {
@@ -125,6 +130,10 @@ private:
     {
       return 0.5 + (c == 0 ? value : -value) / 2; // x right, y up, z back
     }
+    if (name == "nocs")
+    {
+      return 0.5 + value / 2;
+    }
     return key.isLength ? value * metresOf(this->Judge.source()) : value;
   }
 
@@ -133,7 +142,7 @@ private:
     const PicturePointer values = this->Judge.source().picture(picture.camera, picture.frame, layer,
       std::string(key.name) == "colors" ? std::vector<std::string>{ "png" } : std::vector<std::string>());
     const bool ids = layer == "objects" || layer == "classes";
-    const int channels = ids ? 1 : values->channels();
+    const int channels = ids ? 1 : values->channels() + (layer == "objectcoords" ? 1 : 0);
     std::vector<std::uint64_t> shape{ std::uint64_t(values->height()), std::uint64_t(values->width()) };
     if (channels > 1)
     {

@@ -31,7 +31,7 @@ void judgeObjects(
     const auto box = objects.at("bbox").at(i).get<std::vector<double>>();
     judge.box(
       file, picture.camera, picture.frame, id, { box.at(0), box.at(1), box[0] + box.at(2), box[1] + box.at(3) }, 0);
-    const ObjectRecord* object = judge.source().object(id);
+    const ObjectRecord* object = judge.source().object(picture.camera, id);
     const std::string expected = object ? utf8FromBytes(object->objectClass) : "no such object";
     const std::string found = objects.at("category").at(i);
     judge.holds("category", file, where, found == expected, found, expected);

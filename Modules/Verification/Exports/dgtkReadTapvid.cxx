@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPickle.h"
 #include "dgtkReadTexts.h"
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkTrackDocuments.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -188,6 +190,71 @@ void judgeVideo(ExportJudge& judge, const std::string& folder, const std::vector
     }
   }
 }
+
+std::string colorLayer(const ExportedFrom& source)
+{
+  const TextPairs& request = source.record().request;
+  const auto found =
+    std::find_if(request.begin(), request.end(), [](const auto& pair) { return pair.first == "color"; });
+  return found == request.end() ? "color" : found->second;
+}
+
+/// The benchmark's own file: its tracks are those of the archives, its video the dataset's pictures.
+void judgePickle(ExportJudge& judge, const std::map<std::string, std::vector<const ExportedName*>>& videos)
+{
+  const std::string file = "tapvid.pkl";
+  const std::string path = judge.source().path(file);
+  const std::string bytes = readFile(path);
+  const PickledVideos all = readPickledVideos(path, bytes);
+  judge.number("videos", "", file, "", double(all.size()), double(videos.size()), 0);
+  for (const auto& [folder, frames] : videos)
+  {
+    const std::string name = folder.substr(0, folder.size() - 1);
+    if (all.count(name) == 0)
+    {
+      judge.holds("videos", file, name, false, "none", "a video");
+      continue;
+    }
+    const std::map<std::string, PickledArray>& arrays = all.at(name);
+    const std::map<std::string, Array> archive = arraysIn(judge.source().path(folder + "tracks.npz"));
+    for (const auto& [key, member] : { std::pair<const char*, const char*>{ "points", "points.npy" },
+           std::pair<const char*, const char*>{ "occluded", "occluded.npy" } })
+    {
+      const auto one = arrays.find(key);
+      const Array& other = archive.at(member);
+      const bool same = one != arrays.end() && other.type.substr(1) == one->second.type &&
+                        std::vector<std::uint64_t>(other.shape.begin(), other.shape.end()) == one->second.shape &&
+                        bytes.compare(one->second.begin, one->second.bytes, other.bytes) == 0;
+      judge.holds(key, file, name, same, "others", "those of the archive");
+    }
+    const auto video = arrays.find("video");
+    const CameraRecord* camera = judge.source().camera(frames.front()->camera, frames.front()->frame);
+    const std::vector<std::uint64_t> shape{ frames.size(), std::uint64_t(camera ? camera->height : 0),
+      std::uint64_t(camera ? camera->width : 0), 3 };
+    const bool shaped = video != arrays.end() && video->second.type == "u1" && video->second.shape == shape;
+    judge.holds("color", file, name, shaped, "another shape", "T, H, W, 3");
+    for (std::size_t t = 0; shaped && t < frames.size(); ++t)
+    {
+      const PicturePointer own =
+        judge.source().picture(frames[t]->camera, frames[t]->frame, colorLayer(judge.source()), { "png" });
+      std::size_t at = video->second.begin + t * std::size_t(shape[1] * shape[2] * 3);
+      std::size_t wrong = 0;
+      for (int y = 0; y < own->height(); ++y)
+      {
+        for (int x = 0; x < own->width(); ++x)
+        {
+          for (int c = 0; c < 3; ++c, ++at)
+          {
+            const double value = own->at(x, y, c) / (own->type() == PixelType::UInt16 ? 257 : 1);
+            wrong += std::abs(double(static_cast<unsigned char>(bytes[at])) - value) > 0.5;
+          }
+        }
+      }
+      judge.number("color", "values", file, name + " " + std::to_string(t), double(wrong), 0, 0);
+    }
+  }
+}
+
 } // namespace
 
 void readTapvid(ExportJudge& judge)
@@ -200,6 +267,11 @@ void readTapvid(ExportJudge& judge)
   for (const auto& [folder, frames] : videos)
   {
     judgeVideo(judge, folder, frames);
+  }
+  const std::vector<const ExportedFile*> pickles = filesIn(judge.source(), "", "pkl");
+  if (!pickles.empty())
+  {
+    judgePickle(judge, videos);
   }
 }
 

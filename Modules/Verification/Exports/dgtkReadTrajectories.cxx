@@ -128,6 +128,9 @@ void readKittiOdometry(ExportJudge& judge)
 
 namespace
 {
+/// ICL-NUIM's dialect: numbers in place of times, depth before colour, y up in camera and world.
+bool isIcl(const ExportedFrom& source) { return source.convention("dialect") == "icl-nuim"; }
+
 struct TumPicture
 {
   std::string time;
@@ -156,7 +159,9 @@ std::vector<TumPicture> listOf(ExportJudge& judge, const std::string& folder, co
     if (picture)
     {
       const double time = numberIn(path, list.size() + 1, words[0]);
-      judge.number("time", "s", file, words[1], time, timeOf(judge.source(), picture->frame), 5.01e-7);
+      const bool numbered = isIcl(judge.source());
+      const double expected = numbered ? picture->frame : timeOf(judge.source(), picture->frame);
+      judge.number("time", "s", file, words[1], time, expected, numbered ? 0 : 5.01e-7);
     }
     list.push_back({ words[0], words[1], picture });
   }
@@ -186,8 +191,14 @@ void judgeTrajectory(ExportJudge& judge, const std::string& file, const std::vec
     const std::vector<double> n = numbersIn(path, i + 1, lines[i], 8);
     judge.holds(
       "time", file, "line " + std::to_string(i + 1), lines[i][0] == pictures[i].time, lines[i][0], pictures[i].time);
-    const Eigen::Matrix3d R = rotationOf(&n[4]).transpose();
-    const Eigen::Vector3d place = Eigen::Vector3d(n[1], n[2], n[3]) / metresOf(judge.source());
+    Eigen::Matrix3d R = rotationOf(&n[4]).transpose();
+    Eigen::Vector3d place = Eigen::Vector3d(n[1], n[2], n[3]) / metresOf(judge.source());
+    if (isIcl(judge.source()))
+    {
+      place[1] = -place[1];
+      R.row(1) = -R.row(1);
+      R.col(1) = -R.col(1);
+    }
     if (pictures[i].picture)
     {
       judge.pose(file, pictures[i].picture->camera, pictures[i].picture->frame, R, -(R * place), 1e-9);
@@ -200,12 +211,17 @@ void judgeSequence(ExportJudge& judge, const std::string& folder)
   const std::vector<TumPicture> rgb = listOf(judge, folder, "rgb.txt");
   const std::vector<TumPicture> depth = listOf(judge, folder, "depth.txt");
   judgeTrajectory(judge, folder + "groundtruth.txt", rgb);
-  const std::string file = folder + "associations.txt";
+  const bool eth = judge.source().convention("dialect") == "eth3d-slam";
+  const std::string file = folder + (eth ? "associated.txt" : "associations.txt");
   const auto lines = linesOf(judge.source().path(file));
   judge.number("associations", "lines", file, "", double(lines.size()), double(rgb.size()), 0);
   for (std::size_t i = 0; i < std::min({ lines.size(), rgb.size(), depth.size() }); ++i)
   {
-    const std::vector<std::string> expected{ rgb[i].time, rgb[i].file, depth[i].time, depth[i].file };
+    std::vector<std::string> expected{ rgb[i].time, rgb[i].file, depth[i].time, depth[i].file };
+    if (isIcl(judge.source()))
+    {
+      std::rotate(expected.begin(), expected.begin() + 2, expected.end());
+    }
     judge.holds("associations", file, "line " + std::to_string(i + 1),
       lines[i] == expected && rgb[i].picture && rgb[i].picture == depth[i].picture, "others",
       "the picture's own depth map");
@@ -216,7 +232,7 @@ void judgeSequence(ExportJudge& judge, const std::string& folder)
   {
     const std::vector<double> n = numbersIn(judge.source().path(calibration), 1, numbers.at(0), 4);
     Eigen::Matrix3d K;
-    K << n[0], 0, n[2] + 0.5, 0, n[1], n[3] + 0.5, 0, 0, 1;
+    K << n[0], 0, n[2] + 0.5, 0, isIcl(judge.source()) ? -n[1] : n[1], n[3] + 0.5, 0, 0, 1;
     if (one.picture)
     {
       judge.intrinsics(calibration, one.picture->camera, one.picture->frame, K, 1e-9);

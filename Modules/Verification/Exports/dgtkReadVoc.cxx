@@ -43,7 +43,7 @@ void judgePicture(ExportJudge& judge, const std::string& stem, const ExportedNam
     std::remove_if(boxes.begin(), boxes.end(), [](const BoxRecord& box) { return !box.visible; }), boxes.end());
   const std::vector<std::string> objects = between(text, "object");
   judge.number("annotations", "objects", file, picture.name, double(objects.size()), double(boxes.size()), 0);
-  const std::vector<ClassRecord> classes = readClasses(judge.source().dataset() + "/objects.json");
+  const std::vector<ClassRecord> classes = readClasses(judge.source().document("objects.json"));
   std::map<std::uint32_t, std::pair<double, double>> codes; // class, object
   for (std::size_t i = 0; i < std::min(objects.size(), boxes.size()); ++i)
   {
@@ -55,7 +55,7 @@ void judgePicture(ExportJudge& judge, const std::string& stem, const ExportedNam
       "truncated", "", file, box.name, number(objects[i], "truncated"), box.pixelsWhole > box.pixelsAmodal, 0);
     judge.number(
       "occluded", "", file, box.name, number(objects[i], "occluded"), box.pixelsVisible < box.pixelsAmodal, 0);
-    const ObjectRecord* object = judge.source().object(box.id);
+    const ObjectRecord* object = judge.source().object(picture.camera, box.id);
     for (std::size_t k = 0; object && k < classes.size(); ++k)
     {
       if (classes[k].id == object->classId)

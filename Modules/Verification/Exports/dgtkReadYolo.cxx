@@ -59,7 +59,7 @@ struct Names
 Names namesOf(const ExportedFrom& source)
 {
   Names names;
-  names.classes = readClasses(source.dataset() + "/objects.json");
+  names.classes = readClasses(source.document("objects.json"));
   for (const ClassRecord& one : names.classes)
   {
     for (const std::string& name : one.keypoints)
@@ -152,7 +152,7 @@ void judgePicture(ExportJudge& judge, const std::string& file, const ExportedNam
   boxes.erase(std::remove_if(boxes.begin(), boxes.end(),
                 [&](const BoxRecord& box)
                 {
-                  const ObjectRecord* object = judge.source().object(box.id);
+                  const ObjectRecord* object = judge.source().object(picture.camera, box.id);
                   return !box.visible || !object || (kind == "poses" && !hasKeypoints(names, object->classId));
                 }),
     boxes.end());
@@ -160,7 +160,7 @@ void judgePicture(ExportJudge& judge, const std::string& file, const ExportedNam
   judge.number("labels", "objects", file, picture.name, double(labels.size()), double(boxes.size()), 0);
   for (std::size_t i = 0; i < std::min(labels.size(), boxes.size()); ++i)
   {
-    const ObjectRecord* object = judge.source().object(boxes[i].id);
+    const ObjectRecord* object = judge.source().object(picture.camera, boxes[i].id);
     const bool same = labels[i].kind >= 0 && std::size_t(labels[i].kind) < names.classes.size() &&
                       names.classes[std::size_t(labels[i].kind)].id == object->classId;
     judge.holds("category", file, picture.name, same, std::to_string(labels[i].kind), "the class of " + object->name);

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands.h"
+#include "Interrupt.h"
+#include "Progress.h"
+
+#include "dgtkError.h"
+#include "dgtkSampleRun.h"
+#include "dgtkSampler.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace dgtk::app
+{
+
+namespace
+{
+/// "A" or "A:B", both included.
+void parseSamples(const std::string& text, int& first, int& last)
+{
+  const std::size_t colon = text.find(':');
+  first = parseInteger(text.substr(0, colon), "--samples", 0, largestSample);
+  last = colon == std::string::npos ? first : parseInteger(text.substr(colon + 1), "--samples", 0, largestSample);
+  if (first > last)
+  {
+    throw UsageError("--samples: expected A:B with A at most B, found '" + text + "'");
+  }
+}
+
+std::uint64_t parseSeed(const std::string& text)
+{
+  const bool digits = !text.empty() && text.size() < 17 && text.find_first_not_of("0123456789") == std::string::npos;
+  const std::uint64_t seed = digits ? std::stoull(text) : 0;
+  if (!digits || seed >= (std::uint64_t(1) << 53))
+  {
+    throw UsageError("--seed: expected a whole number from 0 to 2^53 - 1, found " + quoted(text));
+  }
+  return seed;
+}
+
+SampleRequest parseRequest(const Arguments& arguments)
+{
+  SampleRequest request;
+  request.scene = arguments.positional()[0];
+  request.folder = arguments.text("--output");
+  if (request.folder.empty() || !arguments.has("--samples"))
+  {
+    throw UsageError("sample needs numbers of samples and a folder for them: --samples A:B -o DIR");
+  }
+  parseSamples(arguments.text("--samples"), request.first, request.last);
+  if (arguments.has("--seed"))
+  {
+    request.seed = parseSeed(arguments.text("--seed"));
+  }
+  request.replace = arguments.has("--replace");
+  const int machine = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  request.threads = arguments.has("--threads") ? arguments.integer("--threads", 1, 1024) : machine;
+  return request;
+}
+
+int run(const Arguments& arguments)
+{
+  const SampleRequest request = parseRequest(arguments);
+  Progress progress(arguments.has("--quiet"));
+  SampleCallbacks callbacks;
+  callbacks.cancel = &catchInterrupts();
+  callbacks.progress = [&](std::size_t done, std::size_t total) { progress.update(done, total); };
+  SampleResult result;
+  try
+  {
+    result = writeSamples(request, callbacks);
+  }
+  catch (const SampleFolderError& error)
+  {
+    throw UsageError(error.what() + std::string(error.mayBeReplaced() ? " (--replace removes them)" : ""));
+  }
+  if (result.interrupted)
+  {
+    throw MachineError("interrupted; the same command with --replace begins anew");
+  }
+  if (result.refused > 0 || result.leftOut > 0)
+  {
+    progress.message("warning: " + std::to_string(result.refused) + " samples refused, " +
+                     std::to_string(result.leftOut) + " objects and cameras left out; samples.json says why");
+  }
+  progress.message(std::to_string(result.written) + " scenes in " + request.folder);
+  return 0;
+}
+} // namespace
+
+Command sampleCommand()
+{
+  return { "sample", "SCENE", 1, 1, "Draws plain scenes from one with random values.",
+    { { "--output", "DIR", "", "folder of the scenes" },
+      { "--samples", "A:B", "", "numbers of the samples, both included" },
+      { "--seed", "N", "", "instead of the scene's seed" },
+      { "--threads", "N", "", "threads that work (default: those of the machine)" },
+      { "--replace", "", "", "remove the samples of another run, or of an interrupted one, that the folder holds" },
+      { "--quiet", "", "", "no progress and no messages" }, noCacheOption },
+    &run };
+}
+
+} // namespace dgtk::app

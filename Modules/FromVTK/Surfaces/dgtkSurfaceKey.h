@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkSurfaceKey_h
+#define dgtkSurfaceKey_h
+
+// Private to FromVTK.
+
+#include "dgtkRigid3.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+class vtkActor;
+
+namespace dgtk
+{
+
+struct SurfacePiece;
+
+/// 128 bits.
+using SurfaceKey = std::pair<std::uint64_t, std::uint64_t>;
+
+/// A fingerprint of all that surfaceModel() makes a model of: points, cells, colours and pictures by their bytes, since
+/// they may be written to without telling VTK, settings by the time of their last change. It takes a small part of the
+/// time that making the model takes.
+SurfaceKey surfaceKey(vtkActor& actor, const std::vector<SurfacePiece>& pieces, const Affine3& bake, bool lit);
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Snapshots of small VTK scenes whose answers are known in closed form.
+#include "dgtkSnapshot.h"
+
+#include "dgtkSceneState.h"
+#include "dgtkStage.h"
+
+#include <gtest/gtest.h>
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkCompositePolyDataMapper2.h>
+#include <vtkDataArray.h>
+#include <vtkGlyph3DMapper.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPlaneSource.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkRenderer.h>
+
+#include <set>
+#include <vector>
+
+namespace
+{
+constexpr int side = 40; ///< pixels
+
+/// The square [x, x + 1] x [y, y + 1] at z = 0, in cells x cells quads.
+vtkSmartPointer<vtkPolyData> square(double x, double y, int cells = 1)
+{
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetOrigin(x, y, 0);
+  plane->SetPoint1(x + 1, y, 0);
+  plane->SetPoint2(x, y + 1, 0);
+  plane->SetResolution(cells, cells);
+  plane->Update();
+  return plane->GetOutput();
+}
+
+/// A view along -z of [-2, 2] x [-2, 2], a tenth of a unit a pixel.
+class Snapshots : public testing::Test
+{
+public:
+  Snapshots()
+  {
+    vtkCamera* const camera = this->Renderer->GetActiveCamera();
+    camera->ParallelProjectionOn();
+    camera->SetParallelScale(2);
+    camera->SetPosition(0, 0, 5);
+    camera->SetFocalPoint(0, 0, 0);
+  }
+
+  vtkSmartPointer<vtkActor> add(vtkMapper* mapper)
+  {
+    const auto actor = vtkSmartPointer<vtkActor>::New();
+    actor->SetMapper(mapper);
+    this->Renderer->AddActor(actor);
+    return actor;
+  }
+
+  vtkSmartPointer<vtkActor> add(vtkPolyData* data)
+  {
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(data);
+    return this->add(mapper.Get());
+  }
+
+  vtkSmartPointer<dgtkSnapshot> take()
+  {
+    const auto shot = vtkSmartPointer<dgtkSnapshot>::New();
+    EXPECT_TRUE(shot->Take(this->Renderer, side, side)) << shot->GetErrorMessage();
+    EXPECT_TRUE(shot->CountCells()) << shot->GetErrorMessage();
+    return shot;
+  }
+
+  static std::vector<double> counts(dgtkSnapshot& shot, int prop)
+  {
+    std::vector<double> all;
+    vtkDataArray* const array = shot.CountPixels(prop);
+    for (vtkIdType i = 0; array != nullptr && i < array->GetNumberOfTuples(); ++i)
+    {
+      all.push_back(array->GetComponent(i, 0));
+    }
+    return all;
+  }
+
+  vtkNew<vtkRenderer> Renderer;
+};
+
+TEST_F(Snapshots, FollowTheMatrixOfAnActor)
+{
+  const vtkSmartPointer<vtkActor> actor = this->add(square(0, 0));
+  actor->SetPosition(-1, 0.5, 0.25);
+  actor->SetScale(2, 0.5, 1);
+  actor->RotateZ(90);
+  const auto shot = this->take();
+  const dgtk::Instance& instance = shot->GetStage()->at(0)->instances.at(0);
+  const Eigen::Vector3d moved = instance.world_from_object * Eigen::Vector3d(1, 1, 0); // scale, turn, move
+  EXPECT_LT((moved - Eigen::Vector3d(-1.5, 2.5, 0.25)).norm(), 1e-12);
+  EXPECT_EQ(counts(*shot, 0), std::vector<double>({ 5 * 15 })); // 0.5 x 1.5 of it are in the picture
+}
+
+TEST_F(Snapshots, NumberTheCellsOfBlocksThroughAll)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, square(-1.5, 0, 2));
+  blocks->SetBlock(2, square(0.5, 0));
+  vtkNew<vtkCompositePolyDataMapper2> mapper;
+  mapper->SetInputDataObject(blocks);
+  this->add(mapper.Get());
+  EXPECT_EQ(counts(*this->take(), 0), std::vector<double>({ 25, 25, 25, 25, 100 }));
+}
+
+TEST_F(Snapshots, GiveAPolygonAndAStripTheirCells)
+{
+  vtkNew<vtkPolyData> data;
+  vtkNew<vtkPoints> points;
+  const double corners[][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 }, { -1, -1 }, { -0.5, -1 }, { -1, -0.5 },
+    { -0.5, -0.5 }, { -1, 0 }, { -0.5, 0 } };
+  for (const auto& corner : corners)
+  {
+    points->InsertNextPoint(corner[0], corner[1], 0);
+  }
+  vtkNew<vtkCellArray> polygons;
+  const vtkIdType polygon[] = { 0, 1, 2, 3 };
+  polygons->InsertNextCell(4, polygon);
+  vtkNew<vtkCellArray> strips;
+  const vtkIdType strip[] = { 4, 5, 6, 7, 8, 9 };
+  strips->InsertNextCell(6, strip);
+  data->SetPoints(points);
+  data->SetPolys(polygons);
+  data->SetStrips(strips);
+  this->add(data.Get());
+  EXPECT_EQ(counts(*this->take(), 0), std::vector<double>({ 100, 50 }));
+}
+
+TEST_F(Snapshots, GiveGlyphsOneIdAndTheCellOfTheirPoint)
+{
+  vtkNew<vtkPolyData> data;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(-1.5, -1, 0);
+  points->InsertNextPoint(0.5, 0.25, 0);
+  data->SetPoints(points);
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetInputData(data);
+  mapper->SetSourceData(square(0, 0, 3));
+  mapper->SetScaleFactor(0.5);
+  this->add(mapper.Get());
+  const auto shot = this->take();
+  EXPECT_EQ(shot->GetNumberOfProps(), 1);
+  EXPECT_EQ(counts(*shot, 0), std::vector<double>({ 25, 25 }));
+}
+
+TEST_F(Snapshots, ShareWhatDidNotChange)
+{
+  const vtkSmartPointer<vtkPolyData> data = square(0, 0);
+  this->add(data.Get());
+  const auto model = [](dgtkSnapshot& shot) { return shot.GetStage()->at(0)->instances.at(0).model; };
+  const auto first = this->take();
+  this->Renderer->GetActiveCamera()->Azimuth(10);
+  const auto second = this->take();
+  EXPECT_EQ(model(*first), model(*second));
+  *static_cast<float*>(data->GetPoints()->GetVoidPointer(0)) = -1; // without telling VTK
+  const auto third = this->take();
+  EXPECT_NE(model(*first), model(*third));
+  EXPECT_EQ(first->GetStage()->at(0)->instances.at(0).geometry->positions[0].x(), 0);
+}
+} // namespace

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPlaceWorld.h"
+
+#include "dgtkObjectPoses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr double pi = 3.14159265358979323846;
+constexpr double touch = 1e-6; ///< of the size: what counts as touching
+
+bool isThere(const SceneDescription& scene, std::size_t object)
+{
+  return isEver(scene.objects[object].visible) && !scene.objects[object].model.empty();
+}
+
+void add(SolidMesh& to, const SolidMesh& from, const Affine3& body_from_object)
+{
+  const std::uint32_t point = std::uint32_t(to.points.size());
+  const std::size_t triangle = to.triangles.size();
+  for (const Eigen::Vector3d& p : from.points)
+  {
+    to.points.push_back(body_from_object * p);
+  }
+  for (const auto& t : from.triangles)
+  {
+    to.triangles.push_back({ t[0] + point, t[1] + point, t[2] + point });
+  }
+  for (const SolidMesh::Part& part : from.parts)
+  {
+    to.parts.push_back({ part.first + triangle, part.count, part.closed });
+  }
+}
+
+void add(std::vector<ConvexHull>& to, const std::vector<ConvexHull>& from, const Affine3& body_from_object)
+{
+  for (const ConvexHull& piece : from)
+  {
+    std::vector<Eigen::Vector3d> points;
+    for (const Eigen::Vector3d& p : piece.points)
+    {
+      points.push_back(body_from_object * p);
+    }
+    to.push_back(convexHull(points));
+  }
+}
+} // namespace
+
+PlaceWorld::PlaceWorld(const SceneDescription& scene, const std::vector<PlaceRule>& rules, SampleModels& models)
+  : BodyOf(scene.objects.size(), 0)
+  , Up(scene.upAxis == UpAxis::Y ? 1 : 2)
+{
+  const double frame = scene.firstFrame();
+  const ObjectPoses poses(scene);
+  const std::vector<Affine3> at = poses.at(frame);
+  std::vector<std::vector<std::size_t>> hanging(scene.objects.size());
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+  {
+    std::size_t root = i;
+    while (poses.parentOf(root) != ObjectPoses::noParent)
+    {
+      root = poses.parentOf(root);
+    }
+    hanging[root].push_back(i);
+  }
+  std::vector<char> falls(scene.objects.size(), 0);
+  std::vector<char> ruled(scene.objects.size(), 0);
+  for (const PlaceRule& rule : rules)
+  {
+    falls[rule.object] = rule.drop.has_value();
+    ruled[rule.object] = 1;
+  }
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+  {
+    if (hanging[i].empty())
+    {
+      continue;
+    }
+    PlaceBody::Parameters made;
+    made.name = scene.objects[i].name;
+    made.world_from_body = { scene.objects[i].orientation.at(frame).matrix(), scene.objects[i].position.at(frame) };
+    const Rigid3 body_from_world = made.world_from_body.inverse();
+    SolidMesh mesh;
+    for (const std::size_t object : hanging[i])
+    {
+      if (!isThere(scene, object))
+      {
+        continue;
+      }
+      const std::string path = scene.resolve(scene.objects[object].model);
+      const Affine3 body_from_object = body_from_world * at[object];
+      add(mesh, *solidOf(models, path), body_from_object);
+      if (falls[i])
+      {
+        add(made.pieces, *piecesOf(models, path), body_from_object);
+      }
+    }
+    made.mesh = std::make_shared<const SolidMesh>(std::move(mesh));
+    this->BodyOf[i] = this->Bodies.size();
+    this->Bodies.emplace_back(std::move(made));
+    this->In.push_back(!ruled[i]);
+  }
+}
+
+std::vector<const PlaceBody*> PlaceWorld::others(const std::vector<std::size_t>& but) const
+{
+  std::vector<char> in = this->In;
+  for (const std::size_t object : but)
+  {
+    in[this->BodyOf[object]] = 0;
+  }
+  std::vector<const PlaceBody*> found;
+  for (std::size_t i = 0; i < this->Bodies.size(); ++i)
+  {
+    if (in[i] && !this->Bodies[i].mesh().triangles.empty())
+    {
+      found.push_back(&this->Bodies[i]);
+    }
+  }
+  return found;
+}
+
+PlaceMeasure measurePlace(
+  const PlaceBody& body, const std::vector<const PlaceBody*>& others, const Eigen::Vector3d& down, double most)
+{
+  PlaceMeasure measure;
+  measure.gap = most;
+  for (const PlaceBody* other : others)
+  {
+    const double depth = penetration(body, *other).depth;
+    measure.penetration = std::max(measure.penetration, depth);
+    measure.gap = std::min(measure.gap, wayDown(body, *other, down, measure.gap, depth + 2 * touch * body.size()));
+  }
+  return measure;
+}
+
+void layDown(PlaceBody& body, const std::vector<const PlaceBody*>& others, const Eigen::Vector3d& down, double most)
+{
+  const double size = body.size();
+  for (int i = 0; i < 40; ++i)
+  {
+    Penetration deepest;
+    for (const PlaceBody* other : others)
+    {
+      const Penetration one = penetration(body, *other);
+      deepest = one.depth > deepest.depth ? one : deepest;
+    }
+    if (deepest.depth <= 0)
+    {
+      break;
+    }
+    body.move(deepest.out * (deepest.depth + touch * size));
+  }
+  double way = most;
+  for (const PlaceBody* other : others)
+  {
+    way = std::min(way, wayDown(body, *other, down, way, 2 * touch * size));
+  }
+  if (way < most)
+  {
+    body.move(down * std::max(0.0, way - touch * size));
+  }
+}
+
+bool stands(const PlaceBody& body, const PlaceBody& support, const Eigen::Vector3d& down, double tolerance)
+{
+  int up = 0;
+  down.cwiseAbs().maxCoeff(&up);
+  const std::array<int, 2> level = { up == 0 ? 1 : 0, up == 2 ? 1 : 2 };
+  // The middle is held exactly when what touches does not lie on one side of a line through it.
+  const Eigen::Vector3d middle = body.middle();
+  std::vector<double> angles;
+  for (const Eigen::Vector3d& x : touches(body, support, down, tolerance))
+  {
+    angles.push_back(std::atan2(x[level[1]] - middle[level[1]], x[level[0]] - middle[level[0]]));
+  }
+  std::sort(angles.begin(), angles.end());
+  for (std::size_t i = 0; i < angles.size(); ++i)
+  {
+    const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2 * pi;
+    if (next - angles[i] > pi * (1 - 1e-6))
+    {
+      return false;
+    }
+  }
+  return !angles.empty();
+}
+
+} // namespace dgtk

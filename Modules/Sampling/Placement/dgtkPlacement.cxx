@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPlacement.h"
+
+#include "dgtkFallen.h"
+#include "dgtkObjectPoses.h"
+#include "dgtkPlaceRule.h"
+#include "dgtkPlaceWorld.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+namespace dgtk
+{
+
+namespace
+{
+/// What becomes of a rule, in the order in which the rules come.
+class Placing
+{
+public:
+  Placing(SceneDescription& scene, const std::vector<SampleRule>& rules, const SampleDraws& draws, SampleModels& models)
+    : Scene(scene)
+    , Draws(draws)
+    , Rules(read(scene, rules))
+    , World(scene, this->Rules, models)
+  {
+    for (const PlaceRule& rule : this->Rules)
+    {
+      PlaceOutcome placed;
+      placed.index = rule.object;
+      placed.note.path = rule.path;
+      placed.note.kept = false;
+      this->Placed.push_back(std::move(placed));
+    }
+  }
+
+  std::vector<PlaceOutcome> run()
+  {
+    for (std::size_t i = 0; i < this->Rules.size(); ++i)
+    {
+      if (!this->Rules[i].drop)
+      {
+        this->put(i);
+        this->judge(i);
+      }
+    }
+    this->drop();
+    return std::move(this->Placed);
+  }
+
+private:
+  static std::vector<PlaceRule> read(const SceneDescription& scene, const std::vector<SampleRule>& rules)
+  {
+    std::vector<PlaceRule> result;
+    std::vector<int> when(scene.objects.size(), -1); // -1: stands, 0: is put, 1: falls
+    for (const SampleRule& rule : rules)
+    {
+      result.push_back(readPlaceRule(rule, scene));
+      when[rule.index] = result.back().drop ? 1 : 0;
+    }
+    std::vector<char> done(scene.objects.size(), 0);
+    for (std::size_t i = 0; i < rules.size(); ++i)
+    {
+      const PlaceRule& rule = result[i];
+      if (rule.support &&
+          (when[*rule.support] == 1 || (when[*rule.support] == 0 && !rule.drop && !done[*rule.support])))
+      {
+        const JsonCursor at(rules[i].rule);
+        at[rule.in ? "in" : "on"].fail(
+          "names an object that is placed later", "one that stands, or is placed before without 'drop'");
+      }
+      done[rule.object] = 1;
+    }
+    return result;
+  }
+
+  bool isIn(std::size_t object) const
+  {
+    return std::all_of(this->Placed.begin(), this->Placed.end(),
+      [object](const PlaceOutcome& placed) { return placed.index != object || placed.note.kept; });
+  }
+
+  void put(std::size_t i);
+  std::string fault(const PlaceRule& rule, PlaceBody& body);
+  void drop();
+  /// Refuses the sample where a rule that could not be kept says so.
+  void judge(std::size_t i) const
+  {
+    const SampleNote& note = this->Placed[i].note;
+    if (!note.kept && this->Rules[i].refuses)
+    {
+      throw SampleRefused(note.path, note.why, note.attempts);
+    }
+  }
+  void write(std::size_t i);
+
+  SceneDescription& Scene;
+  const SampleDraws& Draws;
+  std::vector<PlaceRule> Rules;
+  PlaceWorld World;
+  std::vector<PlaceOutcome> Placed;
+};
+
+/// Why an object cannot be where it is; "": it can.
+std::string Placing::fault(const PlaceRule& rule, PlaceBody& body)
+{
+  const Eigen::Vector3d down = -this->World.up();
+  if (!rule.in)
+  {
+    const PlaceBody& support = this->World.body(*rule.support);
+    const double most =
+      body.box().min()[this->World.upAxis()] - support.box().min()[this->World.upAxis()] + body.size();
+    const double way = wayDown(body, support, down, most, 0);
+    if (way >= most)
+    {
+      return "nothing of " + quoted(support.name()) + " is below it";
+    }
+    body.move(down * (way - 1e-6 * body.size()));
+    if (!stands(body, support, down, this->World.tolerance(rule)))
+    {
+      return "it does not stand on " + quoted(support.name()) + " as it is turned";
+    }
+  }
+  for (const PlaceBody* other : this->World.others({ rule.object }))
+  {
+    const bool support = !rule.in && other == &this->World.body(*rule.support);
+    if (penetration(body, *other).depth > 0 ||
+        (!support && rule.clearance > 0 && distance(body, *other, rule.clearance) < rule.clearance))
+    {
+      return "it is too near to " + quoted(other->name());
+    }
+  }
+  return {};
+}
+
+void Placing::put(std::size_t i)
+{
+  const PlaceRule& rule = this->Rules[i];
+  SampleNote& note = this->Placed[i].note;
+  PlaceBody& body = this->World.body(rule.object);
+  if (rule.support && !this->isIn(*rule.support))
+  {
+    note.why = quoted(this->Scene.objects[*rule.support].name) + " is left out";
+    return;
+  }
+  for (note.attempts = 1; !note.kept; ++note.attempts)
+  {
+    note.why = startPlace(this->World, rule, this->Draws, note.attempts - 1);
+    note.why = note.why.empty() ? this->fault(rule, body) : note.why;
+    note.kept = note.why.empty();
+    if (note.kept || note.attempts == rule.attempts)
+    {
+      break;
+    }
+  }
+  if (note.kept)
+  {
+    this->World.putIn(rule.object);
+    const double most = 2 * body.size();
+    const PlaceMeasure measure = measurePlace(body, this->World.others({ rule.object }), -this->World.up(), most);
+    note.measured = { { "penetration", measure.penetration } };
+    if (!rule.in)
+    {
+      note.measured.emplace_back("gap", measure.gap);
+    }
+    note.measured.emplace_back("tolerance", this->World.tolerance(rule));
+    this->write(i);
+  }
+}
+
+void Placing::drop()
+{
+  std::vector<FallingObject> falling;
+  std::vector<std::size_t> which;
+  for (std::size_t i = 0; i < this->Rules.size(); ++i)
+  {
+    const PlaceRule& rule = this->Rules[i];
+    if (rule.drop && rule.support && !this->isIn(*rule.support))
+    {
+      this->Placed[i].note.why = quoted(this->Scene.objects[*rule.support].name) + " is left out";
+    }
+    else if (rule.drop)
+    {
+      falling.push_back({ &rule, &this->Placed[i].note, {} });
+      which.push_back(i);
+    }
+  }
+  dropObjects(this->World, this->Scene, this->Draws, falling);
+  for (std::size_t k = 0; k < falling.size(); ++k)
+  {
+    const std::size_t i = which[k];
+    this->judge(i);
+    if (this->Placed[i].note.kept)
+    {
+      this->write(i);
+      writeFall(this->Scene.objects[this->Rules[i].object], falling[k]);
+    }
+  }
+  for (std::size_t i = 0; i < this->Rules.size(); ++i)
+  {
+    this->judge(i);
+  }
+}
+
+void Placing::write(std::size_t i)
+{
+  ObjectDescription& object = this->Scene.objects[this->Rules[i].object];
+  const Rigid3& pose = this->World.body(this->Rules[i].object).pose();
+  object.position = Track<Eigen::Vector3d>(pose.translation);
+  if (this->Rules[i].drop)
+  {
+    object.orientation = Track<Quaternion>(quaternionOf(pose.rotation));
+  }
+  else
+  {
+    object.orientation = Track<Quaternion>(object.orientation.at(this->Scene.firstFrame()));
+  }
+}
+} // namespace
+
+std::vector<PlaceOutcome> placeObjects(
+  SceneDescription& scene, const std::vector<SampleRule>& rules, const SampleDraws& draws, SampleModels& models)
+{
+  return rules.empty() ? std::vector<PlaceOutcome>() : Placing(scene, rules, draws, models).run();
+}
+
+DrawnSurfacePoint pointOnSurface(const SceneDescription& scene, std::size_t object, double frame,
+  const std::array<double, 3>& uniforms, SampleModels& models)
+{
+  const ObjectDescription& it = scene.objects[object];
+  const std::shared_ptr<const Model> model = models.model(scene.resolve(it.model));
+  const Affine3 world_from_object = ObjectPoses(scene).of(object, frame);
+  const auto corner = [&](std::size_t t, std::size_t i) -> Eigen::Vector3d
+  { return world_from_object * model->rest->positions[model->triangles[t][i]]; };
+  const auto normal = [&](std::size_t t) -> Eigen::Vector3d
+  { return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0)); };
+  std::vector<double> sums;
+  for (std::size_t t = 0; t < model->triangles.size(); ++t)
+  {
+    sums.push_back((sums.empty() ? 0 : sums.back()) + normal(t).norm());
+  }
+  if (sums.empty() || !(sums.back() > 0))
+  {
+    throw InputError(scene.title(), it.line, "the model of " + quoted(it.name) + " has no surface to draw points on");
+  }
+  const auto chosen = std::upper_bound(sums.begin(), sums.end(), uniforms[0] * sums.back());
+  const std::size_t t = std::size_t(std::min(chosen, sums.end() - 1) - sums.begin());
+  const double root = std::sqrt(uniforms[1]);
+  DrawnSurfacePoint point;
+  point.x_in_world =
+    corner(t, 0) * (1 - root) + corner(t, 1) * (root * (1 - uniforms[2])) + corner(t, 2) * (root * uniforms[2]);
+  const double side = world_from_object.linear.determinant() < 0 ? -1 : 1;
+  point.normal_in_world = side * normal(t).normalized();
+  return point;
+}
+
+} // namespace dgtk

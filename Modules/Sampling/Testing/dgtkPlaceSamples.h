@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkPlaceSamples_h
+#define dgtkPlaceSamples_h
+
+#include "dgtkPlacement.h"
+#include "dgtkTestSupport.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// A random scene in the making: objects, and rules as their JSON texts.
+struct PlaceScene
+{
+  SceneDescription scene;
+  std::vector<SampleRule> rules;
+
+  ObjectDescription& add(const std::string& name, const std::string& model, const std::string& rule = {})
+  {
+    ObjectDescription object;
+    object.name = name;
+    object.model = model.find('/') == std::string::npos ? test::sourceFile("Data/Models/" + model) : model;
+    this->scene.objects.push_back(object);
+    if (!rule.empty())
+    {
+      this->rules.push_back(
+        { this->scene.objects.size() - 1, "objects/" + name + "/place", parseJson("test.json", rule) });
+    }
+    return this->scene.objects.back();
+  }
+  std::vector<PlaceOutcome> place(std::uint64_t sample = 0)
+  {
+    return placeObjects(this->scene, this->rules, SampleDraws(5, sample), this->models());
+  }
+  static SampleModels& models()
+  {
+    static SampleModels all;
+    return all;
+  }
+};
+
+inline double measured(const PlaceOutcome& placed, const std::string& name)
+{
+  for (const auto& one : placed.note.measured)
+  {
+    if (one.first == name)
+    {
+      return one.second;
+    }
+  }
+  return -1;
+}
+
+/// A quaternion uniform over rotations, of three uniforms (Shoemake 1992).
+inline Quaternion anyRotation(double u, double v, double w)
+{
+  constexpr double pi = 3.14159265358979323846;
+  const double a = std::sqrt(1 - u);
+  const double b = std::sqrt(u);
+  return { b * std::cos(2 * pi * w), a * std::sin(2 * pi * v), a * std::cos(2 * pi * v), b * std::sin(2 * pi * w) };
+}
+
+/// Twenty things, turned anyhow: bottles, bowls, bricks, chairs, rings and a crate, each about 0.1 m in size.
+inline PlaceScene twentyThings(const std::string& support, const std::string& rule, std::uint64_t sample)
+{
+  PlaceScene made;
+  made.add("support", support);
+  const struct
+  {
+    const char* model;
+    double scale;
+  } kinds[] = { { "bottle.ac", 0.5 }, { "bowl.ac", 0.8 }, { "brick.ac", 1 }, { "chair.3ds", 0.11 }, { "torus.ac", 1 },
+    { "crate.ac", 0.08 }, { "vase.pov", 0.3 }, { "ball.ac", 0.1 } };
+  for (int i = 0; i < 20; ++i)
+  {
+    const std::string name = "thing#" + std::to_string(i + 1);
+    const auto& kind = kinds[std::size_t(i) % 8];
+    ObjectDescription& object = made.add(name, kind.model, rule);
+    object.scale = Eigen::Vector3d(Eigen::Vector3d::Constant(kind.scale));
+    const SampleDraws draws(11, sample);
+    const auto uv = draws.uniforms(name, 0);
+    object.orientation = anyRotation(uv[0], uv[1], draws.uniform(name, 1));
+  }
+  return made;
+}
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkMeshOverlap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr double pi = 3.14159265358979323846;
+
+double sixVolumes(
+  const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d)
+{
+  return (b - a).dot((c - a).cross(d - a));
+}
+
+/// Whether a segment goes through a triangle: its ends lie on both sides, and it has all edges on one hand.
+bool pierces(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const WorldTriangle& t)
+{
+  if (!(sixVolumes(p, t[0], t[1], t[2]) * sixVolumes(q, t[0], t[1], t[2]) < 0))
+  {
+    return false;
+  }
+  const double u = sixVolumes(p, q, t[0], t[1]);
+  const double v = sixVolumes(p, q, t[1], t[2]);
+  const double w = sixVolumes(p, q, t[2], t[0]);
+  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+}
+
+bool cross(const WorldTriangle& a, const WorldTriangle& b)
+{
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (pierces(a[i], a[(i + 1) % 3], b) || pierces(b[i], b[(i + 1) % 3], a))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+Eigen::AlignedBox3d boxOf(const WorldTriangle& t)
+{
+  Eigen::AlignedBox3d box(t[0]);
+  return box.extend(t[1]).extend(t[2]);
+}
+
+/// Calls visit(triangle of a, of b) for pairs whose boxes meet; it says whether to go on.
+template <typename Visit>
+void pairs(const WorldMesh& a, const WorldMesh& b, const Eigen::Vector3d& shift, const Visit& visit)
+{
+  Eigen::AlignedBox3d whole = a.box;
+  whole.translate(shift);
+  std::vector<WorldTriangle> near;
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const WorldTriangle& t : b.triangles)
+  {
+    const Eigen::AlignedBox3d box = boxOf(t);
+    if (box.intersects(whole))
+    {
+      near.push_back(t);
+      boxes.push_back(box);
+    }
+  }
+  for (const WorldTriangle& t : a.triangles)
+  {
+    const WorldTriangle moved = { t[0] + shift, t[1] + shift, t[2] + shift };
+    const Eigen::AlignedBox3d box = boxOf(moved);
+    if (!box.intersects(b.box))
+    {
+      continue;
+    }
+    for (std::size_t i = 0; i < near.size(); ++i)
+    {
+      if (box.intersects(boxes[i]) && !visit(moved, near[i]))
+      {
+        return;
+      }
+    }
+  }
+}
+
+/// How deep the origin lies in the convex hull of the differences of the corners: by how much the triangles must be
+/// moved to come apart.
+double depthOfPair(const WorldTriangle& a, const WorldTriangle& b)
+{
+  std::array<Eigen::Vector3d, 9> points;
+  for (std::size_t i = 0; i < 9; ++i)
+  {
+    points[i] = a[i / 3] - b[i % 3];
+  }
+  double depth = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < 9; ++i)
+  {
+    for (std::size_t j = i + 1; j < 9; ++j)
+    {
+      for (std::size_t k = j + 1; k < 9; ++k)
+      {
+        const Eigen::Vector3d area = (points[j] - points[i]).cross(points[k] - points[i]);
+        const double size = (points[j] - points[i]).norm() * (points[k] - points[i]).norm();
+        if (area.norm() <= 1e-9 * size)
+        {
+          continue;
+        }
+        const Eigen::Vector3d normal = area.normalized();
+        double least = std::numeric_limits<double>::max();
+        double most = -least;
+        for (const Eigen::Vector3d& p : points)
+        {
+          least = std::min(least, normal.dot(p - points[i]));
+          most = std::max(most, normal.dot(p - points[i]));
+        }
+        const double slack = 1e-9 * std::sqrt(size);
+        if (least >= -slack || most <= slack)
+        {
+          depth = std::min(depth, std::abs(normal.dot(points[i])));
+        }
+      }
+    }
+  }
+  return depth == std::numeric_limits<double>::max() ? 0 : depth;
+}
+
+/// How often the mesh winds around a point, by the solid angles of its triangles (van Oosterom and Strackee 1983).
+double winding(const Eigen::Vector3d& x, const WorldMesh& mesh)
+{
+  double sum = 0;
+  for (const WorldTriangle& t : mesh.triangles)
+  {
+    const Eigen::Vector3d a = t[0] - x;
+    const Eigen::Vector3d b = t[1] - x;
+    const Eigen::Vector3d c = t[2] - x;
+    const double la = a.norm();
+    const double lb = b.norm();
+    const double lc = c.norm();
+    sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return sum / (4 * pi);
+}
+
+double distanceToSegment(const Eigen::Vector3d& x, const Eigen::Vector3d& p, const Eigen::Vector3d& q)
+{
+  const double length = (q - p).squaredNorm();
+  const double t = length > 0 ? std::clamp((x - p).dot(q - p) / length, 0.0, 1.0) : 0;
+  return (x - p - t * (q - p)).norm();
+}
+
+double distanceTo(const Eigen::Vector3d& x, const WorldTriangle& t)
+{
+  const Eigen::Vector3d area = (t[1] - t[0]).cross(t[2] - t[0]);
+  double least =
+    std::min({ distanceToSegment(x, t[0], t[1]), distanceToSegment(x, t[1], t[2]), distanceToSegment(x, t[2], t[0]) });
+  bool within = area.squaredNorm() > 0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    within = within && area.dot((t[(i + 1) % 3] - t[i]).cross(x - t[i])) >= 0;
+  }
+  return within ? std::min(least, std::abs(area.normalized().dot(x - t[0]))) : least;
+}
+
+double deepestWithin(const WorldMesh& a, const WorldMesh& b)
+{
+  double deepest = 0;
+  for (const WorldTriangle& t : a.triangles)
+  {
+    for (const Eigen::Vector3d& x : t)
+    {
+      // Of a sheet the winding is up to a half.
+      if (!b.box.contains(x) || std::abs(winding(x, b)) < 0.75)
+      {
+        continue;
+      }
+      double depth = std::numeric_limits<double>::max();
+      for (const WorldTriangle& other : b.triangles)
+      {
+        depth = std::min(depth, distanceTo(x, other));
+      }
+      deepest = std::max(deepest, depth);
+    }
+  }
+  return deepest;
+}
+} // namespace
+
+void WorldMesh::add(const WorldTriangle& triangle)
+{
+  this->triangles.push_back(triangle);
+  this->box.extend(boxOf(triangle));
+}
+
+bool surfacesCross(const WorldMesh& a, const WorldMesh& b, const Eigen::Vector3d& shift)
+{
+  bool found = false;
+  pairs(a, b, shift,
+    [&](const WorldTriangle& s, const WorldTriangle& t)
+    {
+      found = cross(s, t);
+      return !found;
+    });
+  return found;
+}
+
+double overlapDepth(const WorldMesh& a, const WorldMesh& b)
+{
+  double deepest = 0;
+  pairs(a, b, Eigen::Vector3d::Zero(),
+    [&](const WorldTriangle& s, const WorldTriangle& t)
+    {
+      deepest = cross(s, t) ? std::max(deepest, depthOfPair(s, t)) : deepest;
+      return true;
+    });
+  return std::max({ deepest, deepestWithin(a, b), deepestWithin(b, a) });
+}
+
+} // namespace dgtk

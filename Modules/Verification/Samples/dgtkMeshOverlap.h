@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkMeshOverlap_h
+#define dgtkMeshOverlap_h
+
+// Private to Verification.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <array>
+#include <vector>
+
+namespace dgtk
+{
+
+using WorldTriangle = std::array<Eigen::Vector3d, 3>;
+
+/// Triangles of one body, world frame.
+struct WorldMesh
+{
+  std::vector<WorldTriangle> triangles;
+  Eigen::AlignedBox3d box;
+  void add(const WorldTriangle& triangle);
+};
+
+/// Whether surfaces cross, when `a` is moved by `shift`.
+bool surfacesCross(const WorldMesh& a, const WorldMesh& b, const Eigen::Vector3d& shift);
+
+/// The depth of the deepest pair of triangles that cross, and of the deepest vertex of one body within the other.
+double overlapDepth(const WorldMesh& a, const WorldMesh& b);
+
+} // namespace dgtk
+
+#endif

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSampleVerification.h"
+
+#include "dgtkHash.h"
+#include "dgtkJsonFile.h"
+#include "dgtkMeshOverlap.h"
+#include "dgtkMeter.h"
+#include "dgtkSceneDescription.h"
+#include "dgtkStage.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+namespace dgtk
+{
+
+namespace
+{
+using Json = nlohmann::json;
+
+constexpr char recordName[] = "samples.json";
+
+/// The bodies of a scene at its last frame, by the names of the objects that carry the others.
+std::map<std::string, WorldMesh> bodiesOf(const SceneDescription& scene)
+{
+  std::map<std::string, std::string> parents;
+  for (const ObjectDescription& object : scene.objects)
+  {
+    parents[object.name] = object.parent;
+  }
+  std::map<std::string, WorldMesh> bodies;
+  const std::shared_ptr<const Stage> stage = Stage::load(scene);
+  for (const Instance& instance : stage->at(scene.lastFrame())->instances)
+  {
+    std::string root = instance.name;
+    while (!parents[root].empty())
+    {
+      root = parents[root];
+    }
+    for (const auto& t : instance.model->triangles)
+    {
+      WorldTriangle corners;
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        corners[i] = instance.world_from_object * instance.geometry->positions[t[i]];
+      }
+      bodies[root].add(corners);
+    }
+  }
+  return bodies;
+}
+
+/// Objects that were kept, with their tolerance and whether something must hold them.
+struct Claim
+{
+  std::string object;
+  double tolerance = 0;
+  bool held = false;
+};
+
+std::vector<Claim> claimsOf(const Json& sample)
+{
+  std::vector<Claim> claims;
+  for (const Json& note : sample.value("notes", Json::array()))
+  {
+    const std::string path = note.at("path");
+    const std::string first = "objects/";
+    const std::string last = "/place";
+    const Json measured = note.value("measured", Json::object());
+    if (!note.at("kept") || !measured.contains("tolerance") || path.size() <= first.size() + last.size() ||
+        path.rfind(first, 0) != 0)
+    {
+      continue;
+    }
+    claims.push_back({ path.substr(first.size(), path.size() - first.size() - last.size()), measured.at("tolerance"),
+      measured.contains("gap") });
+  }
+  return claims;
+}
+
+class SampleCheck
+{
+public:
+  explicit SampleCheck(std::string folder)
+    : Folder(std::move(folder))
+  {
+  }
+
+  VerificationReport run()
+  {
+    const std::string path = this->Folder + '/' + recordName;
+    const Json record = readJsonFile(path);
+    useJson(path,
+      [&]
+      {
+        for (const Json& sample : record.at("samples"))
+        {
+          if (sample.contains("file"))
+          {
+            this->check(sample);
+          }
+        }
+        return 0;
+      });
+    Results results;
+    results.startCheck(0, "hashes");
+    results.add({ "", "", {} }, this->Hashes);
+    results.startCheck(1, "penetration");
+    results.add({ "", "tolerances", {} }, this->Depths);
+    results.startCheck(2, "gap");
+    results.add({ "", "tolerances", {} }, this->Gaps);
+    return results.report();
+  }
+
+private:
+  void check(const Json& sample)
+  {
+    const std::string file = sample.at("file");
+    const std::string path = this->Folder + '/' + file;
+    const std::string hash = hashOfFile(path);
+    this->Hashes.equal(hash == sample.at("sha256"),
+      [&] {
+        return Offender{ file, -1, -1, hash, sample.at("sha256") };
+      });
+    const std::vector<Claim> claims = claimsOf(sample);
+    if (claims.empty())
+    {
+      return;
+    }
+    const SceneDescription scene = readScene(path);
+    const std::map<std::string, WorldMesh> bodies = bodiesOf(scene);
+    const Eigen::Vector3d down = -(scene.upAxis == UpAxis::Y ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ());
+    for (const Claim& claim : claims)
+    {
+      const auto body = bodies.find(claim.object);
+      if (body == bodies.end())
+      {
+        this->Depths.equal(false,
+          [&] {
+            return Offender{ file, -1, -1, "no object " + claim.object, "one that was placed" };
+          });
+        continue;
+      }
+      this->measure(file, claim, body->second, bodies, down);
+    }
+  }
+
+  void measure(const std::string& file, const Claim& claim, const WorldMesh& body,
+    const std::map<std::string, WorldMesh>& bodies, const Eigen::Vector3d& down)
+  {
+    // The way down is that by which the body crosses something: to an eighth of the tolerance.
+    constexpr int steps = 8;
+    double depth = 0;
+    int gap = 2 * steps;
+    for (const auto& [name, other] : bodies)
+    {
+      Eigen::AlignedBox3d reach = body.box;
+      reach.extend(Eigen::Vector3d(body.box.min() + 2 * claim.tolerance * down));
+      reach.extend(Eigen::Vector3d(body.box.max() + 2 * claim.tolerance * down));
+      if (name == claim.object || !reach.intersects(other.box))
+      {
+        continue;
+      }
+      depth = std::max(depth, overlapDepth(body, other));
+      for (int step = 0; claim.held && step < gap; ++step)
+      {
+        gap = surfacesCross(body, other, (step + 1) * claim.tolerance / steps * down) ? step : gap;
+      }
+    }
+    const auto where = [&](double found)
+    {
+      return [&file, &claim, found] {
+        return Offender{ file, -1, -1, claim.object + ": " + numberText(found),
+          "at most " + numberText(claim.tolerance) };
+      };
+    };
+    this->Depths.add(depth / claim.tolerance, where(depth));
+    if (claim.held)
+    {
+      this->Gaps.add(double(gap) / steps, where(gap * claim.tolerance / steps));
+    }
+  }
+
+  std::string Folder;
+  Meter Hashes{ 0 };
+  Meter Depths{ 1 };
+  Meter Gaps{ 1 };
+};
+} // namespace
+
+bool isSampleFolder(const std::string& folder)
+{
+  std::error_code code;
+  return std::filesystem::is_regular_file(folder + '/' + recordName, code);
+}
+
+VerificationReport verifySamples(const std::string& folder) { return SampleCheck(folder).run(); }
+
+} // namespace dgtk
