@@ -17,6 +17,7 @@ Command correspondCommand();
 Command exportCommand();
 Command compareCommand();
 Command verifyCommand();
+Command reportCommand();
 Command warpCommand();
 Command listCommand();
 

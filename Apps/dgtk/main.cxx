@@ -77,7 +77,7 @@ int dispatch(const std::vector<std::string>& words)
 std::vector<Command> dgtk::app::commands()
 {
   return { renderCommand(), sampleCommand(), mergeCommand(), exportCommand(), infoCommand(), convertCommand(),
-    verifyCommand(), correspondCommand(), compareCommand(), warpCommand(), listCommand() };
+    verifyCommand(), correspondCommand(), compareCommand(), warpCommand(), reportCommand(), listCommand() };
 }
 
 void dgtk::app::print(const std::string& text)

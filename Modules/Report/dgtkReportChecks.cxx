@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkReportChecks.h"
+
+#include "dgtkError.h"
+#include "dgtkExportDocument.h"
+#include "dgtkFile.h"
+#include "dgtkFolder.h"
+#include "dgtkJson.h"
+#include "dgtkUtf8.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace dgtk
+{
+
+namespace
+{
+constexpr const char* verificationName = "verification.json";
+constexpr const char* samplesName = "samples.json";
+constexpr std::uint64_t largestDocument = std::uint64_t(1) << 28;
+constexpr std::size_t mostReasons = 100;
+
+/// `given`, or the dataset's document of that name; "" where neither is.
+std::string documentAt(const std::string& given, const std::string& dataset, const char* name)
+{
+  if (!given.empty())
+  {
+    return given;
+  }
+  const Folder folder(dataset);
+  return folder.look(name) == EntryKind::File ? folder.fileAt(name) : "";
+}
+
+ReportJson valueOf(const JsonNode& node)
+{
+  switch (node.type)
+  {
+    case JsonNode::Type::Boolean:
+      return node.boolean;
+    case JsonNode::Type::Number:
+      return node.number;
+    case JsonNode::Type::String:
+      return utf8FromBytes(node.text);
+    default:
+      return nullptr;
+  }
+}
+
+/// The members of a row that are no lists and no objects.
+ReportJson rowOf(const JsonNode& node)
+{
+  ReportJson row = ReportJson::object();
+  for (std::size_t i = 0; i + 1 < node.children.size() && node.type == JsonNode::Type::Object; i += 2)
+  {
+    row[utf8FromBytes(node.children[i].text)] = valueOf(node.children[i + 1]);
+  }
+  return row;
+}
+
+ReportJson rowsOf(const JsonCursor& list)
+{
+  ReportJson rows = ReportJson::array();
+  for (const JsonCursor& item : list.items())
+  {
+    rows.push_back(rowOf(item.node()));
+  }
+  return rows;
+}
+
+/// Why something was left out, and in which samples.
+struct Reason
+{
+  std::uint64_t times = 0;
+  std::string example; ///< of a sample
+};
+using Reasons = std::map<std::pair<std::string, std::string>, Reason>; ///< by path and reason
+
+/// Everything that says a reason, wherever it stands in a sample's record; how many there are.
+std::uint64_t addReasons(const JsonNode& node, const std::string& sample, Reasons& reasons)
+{
+  std::uint64_t found = 0;
+  const bool object = node.type == JsonNode::Type::Object;
+  const JsonNode* const why = object ? node.find("why") : nullptr;
+  if (why != nullptr && !why->text.empty())
+  {
+    const JsonNode* const path = node.find("path");
+    Reason& reason = reasons[{ path != nullptr ? path->text : "", why->text }];
+    ++reason.times;
+    ++found;
+    reason.example = reason.example.empty() ? sample : reason.example;
+  }
+  for (std::size_t i = object ? 1 : 0; i < node.children.size(); i += object ? 2 : 1)
+  {
+    found += addReasons(node.children[i], sample, reasons);
+  }
+  return found;
+}
+
+std::string sampleName(const JsonNode& sample, std::size_t index)
+{
+  for (const char* key : { "sample", "number", "scene", "file" })
+  {
+    const JsonNode* const found = sample.type == JsonNode::Type::Object ? sample.find(key) : nullptr;
+    if (found != nullptr && (found->type == JsonNode::Type::Number || found->type == JsonNode::Type::String))
+    {
+      return found->type == JsonNode::Type::String ? found->text : std::to_string(static_cast<long>(found->number));
+    }
+  }
+  return std::to_string(index);
+}
+} // namespace
+
+ReportJson verificationOf(const ReportRequest& request)
+{
+  const std::string path = documentAt(request.verification, request.dataset, verificationName);
+  if (path.empty())
+  {
+    return nullptr;
+  }
+  const JsonDocument document = parseJson(path, readFile(path, largestDocument));
+  const JsonCursor root(document);
+  if (!root.has("format") || root["format"].node().text != "DGTk verification")
+  {
+    root.fail("is not what a verification of a dataset says");
+  }
+  return { { "passed", root["passed"].boolean() }, { "residuals", rowsOf(root["residuals"]) },
+    { "unchecked", root.has("not_checked") ? rowsOf(root["not_checked"]) : ReportJson::array() } };
+}
+
+ReportJson exportsOf(const ReportRequest& request)
+{
+  ReportJson exports = ReportJson::array();
+  for (const std::string& folder : request.exports)
+  {
+    const ExportRecord record = readExport(Folder(folder).fileAt(exportName));
+    ReportJson layers = ReportJson::array();
+    for (const LayerRounding& layer : record.layers)
+    {
+      layers.push_back({ { "layer", utf8FromBytes(layer.layer) }, { "unit", utf8FromBytes(layer.unit) },
+        { "largest", layer.largest }, { "values", layer.values }, { "withoutCode", layer.withoutCode } });
+    }
+    exports.push_back({ { "format", utf8FromBytes(record.exporter) }, { "manifest", record.manifestHash },
+      { "files", record.files.size() }, { "layers", layers } });
+  }
+  return exports;
+}
+
+ReportJson samplesOf(const ReportRequest& request)
+{
+  const std::string path = documentAt(request.samples, request.dataset, samplesName);
+  if (path.empty())
+  {
+    return nullptr;
+  }
+  const JsonDocument document = parseJson(path, readFile(path, largestDocument));
+  const JsonNode* const listed = document.root.find("samples");
+  const JsonNode& list = listed != nullptr ? *listed : document.root;
+  if (list.type != JsonNode::Type::Array)
+  {
+    JsonCursor(document).fail("has no list of samples");
+  }
+  Reasons reasons;
+  std::uint64_t touched = 0;
+  for (std::size_t i = 0; i < list.children.size(); ++i)
+  {
+    touched += addReasons(list.children[i], sampleName(list.children[i], i), reasons) > 0;
+  }
+  std::vector<std::pair<std::pair<std::string, std::string>, Reason>> sorted(reasons.begin(), reasons.end());
+  std::stable_sort(
+    sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second.times > b.second.times; });
+  ReportJson rows = ReportJson::array();
+  for (std::size_t i = 0; i < std::min(sorted.size(), mostReasons); ++i)
+  {
+    rows.push_back({ { "path", utf8FromBytes(sorted[i].first.first) }, { "why", utf8FromBytes(sorted[i].first.second) },
+      { "times", sorted[i].second.times }, { "example", utf8FromBytes(sorted[i].second.example) } });
+  }
+  return { { "samples", list.children.size() }, { "touched", touched }, { "reasonCount", sorted.size() },
+    { "reasons", rows } };
+}
+
+} // namespace dgtk
