@@ -126,7 +126,7 @@ class Pages(Case):
 
     def test_the_overview(self):
         expected = "usage: dgtk COMMAND [arguments] [options]\n\nImages and exact ground truth from described 3D scenes.\n\n"
-        for command in ("render", "sample", "merge", "export", "info", "convert", "verify", "correspond", "compare", "warp", "list"):
+        for command in ("render", "sample", "merge", "export", "info", "convert", "verify", "correspond", "compare", "warp", "report", "list"):
             help_ = HELP[command][1] if command in HELP else LONG[command]
             expected += f"  {command:12}{help_}\n"
         expected += "\ndgtk COMMAND --help tells more; dgtk --version prints the version.\n"
