@@ -2,6 +2,7 @@
 #include "dgtkCheck.h"
 #include "dgtkPair.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -61,7 +62,9 @@ public:
     , Seen(seen)
   {
   }
-  /// Nothing where there are no four such pixels. `rounding` receives the largest of their files' roundings.
+  /// Nothing where there are no four such pixels. `rounding` receives the largest of their files' roundings, and grows
+  /// as many times as the way back stretches: where things have become smaller, their neighbours come from far apart;
+  /// and where the four come from a thin quadrangle, its plane is known as much less well as it is thin.
   std::optional<Eigen::Vector2d> operator()(const Eigen::Vector2d& p, const Hit& hit, double& rounding) const
   {
     const int x = static_cast<int>(std::floor(p.x() - 0.5));
@@ -84,7 +87,10 @@ public:
       corner[i] = centreOf(column, row) + flow;
       rounding = std::max(rounding, this->Back.rounding(flow.cwiseAbs().maxCoeff()));
     }
+    const double stretch = std::max({ (corner[1] - corner[0]).norm(), (corner[3] - corner[2]).norm(),
+      (corner[2] - corner[0]).norm(), (corner[3] - corner[1]).norm() });
     const SquareToQuad map(corner);
+    rounding *= std::max({ 1.0, stretch, stretch * stretch / map.area() });
     return map.area() < leastArea ? std::nullopt : std::optional(map(p.x() - 0.5 - x, p.y() - 0.5 - y));
   }
 
