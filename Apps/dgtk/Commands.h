@@ -9,6 +9,7 @@ namespace dgtk::app
 
 // One file a command; each returns the process's exit status or throws an Error.
 Command renderCommand();
+Command mergeCommand();
 Command sampleCommand();
 Command infoCommand();
 Command convertCommand();

@@ -3,6 +3,7 @@
 #include "Interrupt.h"
 #include "Progress.h"
 
+#include "dgtkAgainError.h"
 #include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkExporterEntry.h"
@@ -86,7 +87,7 @@ int exportRun(const Arguments& arguments)
   const ExportResult result = exported(request, callbacks);
   if (result.interrupted)
   {
-    throw MachineError("interrupted; the same command with --resume completes " + request.folder);
+    throw AgainError("interrupted; the same command with --resume completes " + request.folder);
   }
   for (const LayerRounding& layer : result.layers)
   {

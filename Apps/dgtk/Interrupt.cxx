@@ -29,6 +29,7 @@ const std::atomic<bool>& catchInterrupts()
   action.sa_handler = &onInterrupt;
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
+  ::sigaction(SIGUSR1, &action, nullptr); // schedulers say so that time is nearly over
   return interrupted;
 }
 

@@ -2,7 +2,9 @@
 #include "Commands.h"
 #include "Interrupt.h"
 #include "Progress.h"
+#include "Shard.h"
 
+#include "dgtkAgainError.h"
 #include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkGenerator.h"
@@ -11,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <optional>
 
 #include <sys/resource.h>
 
@@ -115,11 +118,16 @@ void printTimings(double seconds)
     "%-8s %12.3f %7s %12.0f (%.3f s by the clock)\n", "all", sum, "", double(all.back().peakBytes) / mebibyte, seconds);
 }
 
-GeneratorResult generated(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
+GeneratorResult generated(
+  const GeneratorRequest& request, const std::optional<RunShard>& shard, const GeneratorCallbacks& callbacks)
 {
   try
   {
-    return generate(request, callbacks);
+    if (shard)
+    {
+      return generateShard(request, *shard, callbacks);
+    }
+    return namesScenes(request) ? generateScenes(request, callbacks) : generate(request, callbacks);
   }
   catch (const FolderError& error)
   {
@@ -142,10 +150,16 @@ int render(const Arguments& arguments)
   callbacks.cancel = &interrupted;
   callbacks.progress = [&](const GeneratorProgress& state) { progress.update(state.done, state.total); };
   callbacks.message = [&](const std::string& line) { progress.message(line); };
-  const GeneratorResult result = generated(request, callbacks);
+  std::optional<RunShard> shard;
+  if (arguments.has("--shard"))
+  {
+    shard = parseShard(arguments.text("--shard"));
+  }
+  const GeneratorResult result = generated(request, shard, callbacks);
   if (result.interrupted)
   {
-    throw MachineError("interrupted; the same command with --resume completes " + request.folder);
+    throw AgainError(shard ? "interrupted; the same command completes its share of " + request.folder
+                           : "interrupted; the same command with --resume completes " + request.folder);
   }
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.1f s", progress.seconds());
@@ -173,7 +187,8 @@ int run(const Arguments& arguments)
 
 Command renderCommand()
 {
-  Command command{ "render", "SCENE", 1, 1, "Renders images and ground truth of a scene into a folder.", {}, &run };
+  Command command{ "render", "SCENE|FOLDER", 1, 1,
+    "Renders images and ground truth of a scene, or of all scenes of a folder, into a folder.", {}, &run };
   command.options = { { "--output", "DIR", "", "folder of the dataset" },
     { "--layers", "NAMES|all", usualLayers(), "what to write; see dgtk list layers", layerWords(), true },
     { "--for", "EXPORTER,...", "", "what these exports need, beside the layers that are given", exporterNames(), true },
@@ -185,11 +200,13 @@ Command renderCommand()
     command.options.push_back({ optionWord(*row), row->value, row->value.empty() ? "" : row->fallback, row->help,
       row->choices, row->kind == OptionRow::Kind::Names });
   }
-  const std::vector<Option> last = { { "--resume", "", "", "continue an interrupted run of the same request" },
+  const std::vector<Option> last = {
+    { "--shard", "I/N|auto", "", "a share of the run, from 0; dgtk merge ends it when all are there" },
+    { "--resume", "", "", "continue an interrupted run of the same request" },
     { "--replace", "", "", "remove the dataset of another request, or an interrupted run, that the folder holds" },
     noCacheOption, { "--timings", "", "", "print where processor time and memory went, at the end" },
-    { "--quiet", "", "",
-      "no progress and no messages (environment DGTK_PROGRESS: seconds between its lines, else 5)" } };
+    { "--quiet", "", "", "no progress and no messages (environment DGTK_PROGRESS: seconds between its lines, else 5)" }
+  };
   command.options.insert(command.options.end(), last.begin(), last.end());
   return command;
 }

@@ -3,6 +3,7 @@
 #include "Interrupt.h"
 #include "Progress.h"
 
+#include "dgtkAgainError.h"
 #include "dgtkError.h"
 #include "dgtkSampleRun.h"
 #include "dgtkSampler.h"
@@ -76,7 +77,7 @@ int run(const Arguments& arguments)
   }
   if (result.interrupted)
   {
-    throw MachineError("interrupted; the same command with --replace begins anew");
+    throw AgainError("interrupted; the same command with --replace begins anew");
   }
   if (result.refused > 0 || result.leftOut > 0)
   {

@@ -4,7 +4,9 @@
 #include "dgtkError.h"
 #include "dgtkExportVerification.h"
 #include "dgtkFile.h"
+#include "dgtkJson.h"
 #include "dgtkSampleVerification.h"
+#include "dgtkSceneFolders.h"
 #include "dgtkSystem.h"
 #include "dgtkUtf8.h"
 #include "dgtkVerification.h"
@@ -19,6 +21,37 @@ namespace
 {
 constexpr int mostThreads = 1024;
 
+/// Every dataset of a folder of datasets: a line each, and the table of those with a breach.
+int verifyScenes(const std::string& folder, const std::vector<std::string>& scenes, int threads,
+  const std::vector<std::string>& checks, bool json)
+{
+  std::size_t bad = 0;
+  std::string all;
+  for (const std::string& scene : scenes)
+  {
+    const std::string path = folder + '/' + scene;
+    requireDataset(path);
+    const VerificationReport report = verifyDataset(path, threads, checks);
+    if (json)
+    {
+      all += (all.empty() ? "" : ",\n") + jsonString(scene) + ": " + verificationText(report);
+    }
+    else if (!report.passed())
+    {
+      print(path + ":\n" + verificationTable(report));
+    }
+    if (const Residual* breach = report.firstBreach())
+    {
+      std::fprintf(stderr, "dgtk: %s\n", printable(path + '/' + describe(*breach)).c_str());
+    }
+    bad += report.passed() ? 0 : 1;
+  }
+  print(json
+          ? "{\n" + all + "}\n"
+          : folder + ": " + std::to_string(scenes.size()) + " datasets, " + std::to_string(bad) + " with a breach\n");
+  return static_cast<int>(bad == 0 ? ExitCode::Done : ExitCode::Difference);
+}
+
 int run(const Arguments& arguments)
 {
   std::string folder = arguments.positional()[0];
@@ -32,13 +65,22 @@ int run(const Arguments& arguments)
   {
     throw UsageError(folder + " is a folder of samples, which have neither checks to choose nor exports");
   }
-  if (!samples)
+  const std::vector<std::string> scenes = samples ? std::vector<std::string>() : sceneFoldersIn(folder);
+  if (!samples && scenes.empty())
   {
     requireDataset(folder);
   }
   const std::vector<std::string> checks =
     arguments.has("--check") ? arguments.list("--check") : std::vector<std::string>{};
   const std::string exported = arguments.text("--export");
+  if (!scenes.empty() && exported.empty())
+  {
+    if (arguments.has("--write"))
+    {
+      throw UsageError(folder + ": holds many datasets; --write is for one of them");
+    }
+    return verifyScenes(folder, scenes, threads, checks, arguments.has("--json"));
+  }
   const VerificationReport report = samples            ? verifySamples(folder)
                                     : exported.empty() ? verifyDataset(folder, threads, checks)
                                                        : verifyExport(folder, exported, threads);

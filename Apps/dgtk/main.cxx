@@ -76,8 +76,8 @@ int dispatch(const std::vector<std::string>& words)
 
 std::vector<Command> dgtk::app::commands()
 {
-  return { renderCommand(), sampleCommand(), exportCommand(), infoCommand(), convertCommand(), verifyCommand(),
-    correspondCommand(), compareCommand(), warpCommand(), reportCommand(), listCommand() };
+  return { renderCommand(), sampleCommand(), mergeCommand(), exportCommand(), infoCommand(), convertCommand(),
+    verifyCommand(), correspondCommand(), compareCommand(), warpCommand(), reportCommand(), listCommand() };
 }
 
 void dgtk::app::print(const std::string& text)

@@ -69,9 +69,12 @@ void DatasetScenes::requireAlike() const
   for (const DatasetView* other : this->Pointers)
   {
     const std::string both = quoted(one.scene().name) + " and " + quoted(other->scene().name);
-    if (!std::equal(one.classes().begin(), one.classes().end(), other->classes().begin(), other->classes().end(), alike))
+    if (!std::equal(
+          one.classes().begin(), one.classes().end(), other->classes().begin(), other->classes().end(), alike))
     {
-      throw UsageError("the scenes " + both + " have other classes, or other numbers for them; a file of classes that all scenes name fixes them");
+      throw UsageError(
+        "the scenes " + both +
+        " have other classes, or other numbers for them; a file of classes that all scenes name fixes them");
     }
     if (one.knowsMetres() != other->knowsMetres() || (one.knowsMetres() && one.metres() != other->metres()))
     {
@@ -81,8 +84,9 @@ void DatasetScenes::requireAlike() const
     {
       if (SafeNames().of(camera) != safe.of(camera))
       {
-        throw UsageError("the scenes have two cameras whose names differ only in characters that formats cannot have: " +
-                         quoted(camera));
+        throw UsageError(
+          "the scenes have two cameras whose names differ only in characters that formats cannot have: " +
+          quoted(camera));
       }
     }
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRayMesh.h"
 
+#include "dgtkRaySource.h"
+
 #include "dgtkError.h"
 #include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
@@ -242,7 +244,66 @@ std::shared_ptr<const RayMesh> RayDevice::find(const RayMeshKey& key)
 {
   const std::lock_guard<std::mutex> guard(this->Lock);
   const auto known = this->Meshes.find(key);
-  return known == this->Meshes.end() ? nullptr : known->second.lock();
+  std::shared_ptr<const RayMesh> mesh = known == this->Meshes.end() ? nullptr : known->second.lock();
+  if (mesh)
+  {
+    this->use(mesh);
+  }
+  return mesh;
+}
+
+namespace
+{
+/// Roughly what Embree takes, with vertices and edges.
+std::uint64_t bytesOf(const RayMesh& mesh)
+{
+  constexpr std::uint64_t bytesATriangle = 160;
+  return mesh.inverseEdge.size() * bytesATriangle;
+}
+} // namespace
+
+/// Under the lock of `Lock`, which others hold briefly: what goes is not destroyed in it, but for small ones.
+void RayDevice::use(const std::shared_ptr<const RayMesh>& mesh)
+{
+  const auto known = this->KeptAt.find(mesh.get());
+  if (known != this->KeptAt.end())
+  {
+    this->Kept.splice(this->Kept.begin(), this->Kept, known->second);
+    return;
+  }
+  if (bytesOf(*mesh) > this->MostKept)
+  {
+    return;
+  }
+  this->Kept.push_front(mesh);
+  this->KeptAt[mesh.get()] = this->Kept.begin();
+  this->KeptBytes += bytesOf(*mesh);
+  while (this->KeptBytes > this->MostKept)
+  {
+    this->KeptBytes -= bytesOf(*this->Kept.back());
+    this->KeptAt.erase(this->Kept.back().get());
+    this->Kept.pop_back();
+  }
+}
+
+void RayDevice::keepUnused(std::uint64_t bytes)
+{
+  std::list<std::shared_ptr<const RayMesh>> gone; // destroyed after the lock
+  const std::lock_guard<std::mutex> guard(this->Lock);
+  this->MostKept = bytes;
+  if (bytes == 0)
+  {
+    gone.swap(this->Kept);
+    this->KeptAt.clear();
+    this->KeptBytes = 0;
+  }
+}
+
+std::shared_ptr<void> keepRayMeshes(std::uint64_t bytes)
+{
+  const std::shared_ptr<RayDevice> device = RayDevice::shared();
+  device->keepUnused(bytes);
+  return { nullptr, [device](void*) { device->keepUnused(0); } };
 }
 
 std::shared_ptr<const RayMesh> RayDevice::keep(const RayMeshKey& key, std::shared_ptr<const RayMesh> mesh)
@@ -254,6 +315,7 @@ std::shared_ptr<const RayMesh> RayDevice::keep(const RayMeshKey& key, std::share
     return first;
   }
   known = mesh;
+  this->use(mesh);
   if (this->Meshes.size() > this->MostMeshes)
   {
     for (auto it = this->Meshes.begin(); it != this->Meshes.end();)

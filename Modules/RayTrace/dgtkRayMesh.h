@@ -7,6 +7,7 @@
 #include <embree3/rtcore.h>
 
 #include <cstdint>
+#include <list>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -63,6 +64,8 @@ public:
   std::vector<std::shared_ptr<const RayMesh>> meshes(const std::vector<Instance>& instances, bool bare);
   /// Throws MachineError when Embree reported an error.
   void check() const;
+  /// So many bytes of meshes stay when nobody has them any more, the last used ones; 0 lets all go.
+  void keepUnused(std::uint64_t bytes);
 
 private:
   std::shared_ptr<const RayMesh> find(const RayMeshKey& key);
@@ -74,6 +77,12 @@ private:
   std::mutex Lock;
   std::map<RayMeshKey, std::weak_ptr<const RayMesh>> Meshes;
   std::size_t MostMeshes = 16; ///< with more, those that nobody has any more are dropped
+
+  void use(const std::shared_ptr<const RayMesh>& mesh);
+  std::uint64_t MostKept = 0; ///< bytes
+  std::uint64_t KeptBytes = 0;
+  std::list<std::shared_ptr<const RayMesh>> Kept; ///< last used first
+  std::map<const RayMesh*, std::list<std::shared_ptr<const RayMesh>>::iterator> KeptAt;
 };
 
 } // namespace dgtk

@@ -6,6 +6,7 @@
 
 #include "dgtkVisibility.h"
 
+#include <cstdint>
 #include <memory>
 
 namespace dgtk
@@ -28,6 +29,12 @@ DGTKRAYTRACE_EXPORT std::unique_ptr<VisibilitySource> makeBareRaySource(ThreadPo
 /// scene's acceleration structures are shared with every other engine that has the same state.
 /// Throws MachineError when Embree cannot work (no memory).
 DGTKRAYTRACE_EXPORT std::unique_ptr<OcclusionQuery> makeOcclusionQuery();
+
+/// While the result lives, the trees that are built for the geometries of scenes stay for scenes that come later and
+/// have the same models, as far as they are no larger than so many bytes, roughly; those that were not used for longest
+/// go first.
+/// Throws MachineError when Embree cannot work.
+DGTKRAYTRACE_EXPORT std::shared_ptr<void> keepRayMeshes(std::uint64_t bytes);
 
 } // namespace dgtk
 

@@ -148,6 +148,7 @@ struct Stage::Impl
     : Scene(std::move(scene))
   {
     this->take(models);
+    this->Files = models.files();
     for (const ObjectLook& look : this->Looks)
     {
       if (look.model != nullptr &&

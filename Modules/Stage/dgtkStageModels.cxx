@@ -231,23 +231,27 @@ void StageModels::countPictures(const Model& model, std::size_t textures)
   }
 }
 
+void addPictures(const ObjectDescription& object, std::vector<std::string>& listed)
+{
+  for (const MaterialOverride& material : object.materials)
+  {
+    for (const std::optional<std::string>* picture : { &material.texture, &material.normalMap, &material.bump,
+           &material.metallicRoughnessMap, &material.emissionMap, &material.occlusionMap })
+    {
+      const std::string name = picture->value_or("");
+      if (!name.empty() && std::find(listed.begin(), listed.end(), name) == listed.end())
+      {
+        listed.push_back(name);
+      }
+    }
+  }
+}
+
 void StageModels::listPictures()
 {
   for (std::size_t i = 0; i < this->Scene.objects.size(); ++i)
   {
-    std::vector<std::string>& listed = this->Read.models[this->Places[this->Uses[i]]].pictures;
-    for (const MaterialOverride& material : this->Scene.objects[i].materials)
-    {
-      for (const std::optional<std::string>* picture : { &material.texture, &material.normalMap, &material.bump,
-             &material.metallicRoughnessMap, &material.emissionMap, &material.occlusionMap })
-      {
-        const std::string name = picture->value_or("");
-        if (!name.empty() && std::find(listed.begin(), listed.end(), name) == listed.end())
-        {
-          listed.push_back(name);
-        }
-      }
-    }
+    addPictures(this->Scene.objects[i], this->Read.models[this->Places[this->Uses[i]]].pictures);
   }
 }
 
@@ -307,7 +311,17 @@ Texture StageModels::makeTexture(const Model& model, const std::string& written)
   std::string problem = "not found (tried: " + tried + ')';
   if (!texture.path.empty())
   {
-    texture.image = decodeTexture(texture.path, problem, this->Pictures.get());
+    const auto known = this->Known.images.find(texture.path);
+    texture.image = known != this->Known.images.end() ? known->second
+                                                      : decodeTexture(texture.path, problem, this->Pictures.get());
+    if (known != this->Known.images.end() && this->Counted.insert(texture.image.get()).second)
+    {
+      this->Pictures->take(texture.path, texture.image->width, texture.image->height, texture.image->rgba.size());
+    }
+  }
+  if (texture.image)
+  {
+    this->Read.images[texture.path] = texture.image;
   }
   if (!texture.image)
   {

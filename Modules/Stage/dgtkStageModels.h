@@ -31,7 +31,11 @@ struct ReadFiles
   std::string folder;                 ///< where the scene's paths start
   std::string environment;            ///< its picture's path
   std::shared_ptr<const RadianceImage> light;
+  std::map<std::string, std::shared_ptr<const Image>> images; ///< that scenes give to materials, by their paths
 };
+
+/// Adds the pictures that an object gives to materials of its model, as written, unless they are listed.
+void addPictures(const ObjectDescription& object, std::vector<std::string>& listed);
 
 /// Everything that the objects of a scene need from files, each file read once.
 class StageModels : public ModelSource
@@ -50,7 +54,7 @@ public:
   std::shared_ptr<GeometryCache> geometries() const override { return this->Geometries; }
 
   const std::vector<std::shared_ptr<const Model>>& models() const { return this->Models; }
-  const std::vector<std::string>& files() const { return this->Files; }
+  std::vector<std::string> files() const override { return this->Files; }
   const ReadFiles& read() const { return this->Read; }
 
 private:

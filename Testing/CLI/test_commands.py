@@ -7,6 +7,8 @@ import subprocess
 from harness import DGTK, SCENES, SOURCE, Case, main
 
 HELP = {
+    "merge": ("DIR", "Makes one dataset of a run in shards; names what is missing and exits with 1 then.", [
+        ("--json", "print one JSON object")]),
     "sample": ("SCENE", "Draws plain scenes from one with random values.", [
         ("--output DIR", "folder of the scenes"),
         ("--samples A:B", "numbers of the samples, both included"),
@@ -92,7 +94,7 @@ def told(value, indent=""):
     return text
 
 
-LONG = {"render": "Renders images and ground truth of a scene into a folder.",
+LONG = {"render": "Renders images and ground truth of a scene, or of all scenes of a folder, into a folder.",
         "export": "Writes a dataset in the format of other people's tools."}
 
 
@@ -113,17 +115,18 @@ class Pages(Case):
             value, default = row["value"], row["default"]
             options.append(("--" + row["name"].replace("_", "-") + (" " + value if value else ""),
                             row["help"] + (f" [{default}]" if value and default else "")))
-        options += [("--resume", "continue an interrupted run of the same request"),
+        options += [("--shard I/N|auto", "a share of the run, from 0; dgtk merge ends it when all are there"),
+                    ("--resume", "continue an interrupted run of the same request"),
                     ("--replace", "remove the dataset of another request, or an interrupted run, that the folder holds"),
                     ("--no-cache", "read models anew, and keep none of them for other runs"),
                     ("--timings", "print where processor time and memory went, at the end"),
                     ("--quiet", "no progress and no messages (environment DGTK_PROGRESS: seconds between its lines, else 5)")]
         self.assertEqual(self.dgtk("render", "--help").stdout,
-                         page("render", "SCENE", "Renders images and ground truth of a scene into a folder.", options))
+                         page("render", "SCENE|FOLDER", "Renders images and ground truth of a scene, or of all scenes of a folder, into a folder.", options))
 
     def test_the_overview(self):
         expected = "usage: dgtk COMMAND [arguments] [options]\n\nImages and exact ground truth from described 3D scenes.\n\n"
-        for command in ("render", "sample", "export", "info", "convert", "verify", "correspond", "compare", "warp", "list"):
+        for command in ("render", "sample", "merge", "export", "info", "convert", "verify", "correspond", "compare", "warp", "report", "list"):
             help_ = HELP[command][1] if command in HELP else LONG[command]
             expected += f"  {command:12}{help_}\n"
         expected += "\ndgtk COMMAND --help tells more; dgtk --version prints the version.\n"

@@ -199,7 +199,7 @@ class Render(Case):
                     time.sleep(0.002)
                 _, errors = process.communicate(timeout=60)
                 if how == signal.SIGINT:
-                    self.assertEqual(process.returncode, 4, errors)
+                    self.assertEqual(process.returncode, 75, errors)
                     self.assertIn("--resume", errors)
                     self.assertFalse(os.path.exists(os.path.join(folder, ".povray")))
                 deadline = time.monotonic() + 5

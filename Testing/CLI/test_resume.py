@@ -39,12 +39,12 @@ class Resume(Case):
 
     def test_interrupt_and_kill(self):
         self.dgtk("render", SCENE, "-o", self.path("whole"), *OPTIONS)
-        for how in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+        for how in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1, signal.SIGKILL):
             with self.subTest(how):
                 folder = self.path(how.name)
                 status, errors = self.interrupted(folder, how)
                 if how != signal.SIGKILL:
-                    self.assertEqual(status, 4, errors)
+                    self.assertEqual(status, 75, errors)
                     self.assertIn("--resume", errors)
                 self.assertFalse(os.path.exists(os.path.join(folder, "manifest.json")))
                 before = {n: os.stat(os.path.join(folder, n)).st_mtime_ns for n in digests(folder) if n.count("/") == 2
@@ -60,7 +60,7 @@ class Resume(Case):
         options = ("--quiet", "--layers", "color,depth", "--size", "256x12000", "--tile", "256x16", "--frames", "0:0")
         folder = self.path("part")
         status, errors = self.interrupted(folder, signal.SIGINT, options, 1)
-        self.assertEqual(status, 4, errors)
+        self.assertEqual(status, 75, errors)
         self.assertEqual([n for n in digests(folder) if n.endswith((".png", ".npy", ".exr"))], [])
         self.dgtk("render", SCENE, "-o", folder, *options, "--resume")
         self.dgtk("render", SCENE, "-o", self.path("whole"), *options)

@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkExportDocument.h"
 #include "dgtkFile.h"
+#include "dgtkRunParts.h"
 
 #include <algorithm>
 #include <charconv>
@@ -177,6 +178,10 @@ FolderRecords readFolderRecords(const Folder& folder, const std::string& documen
     if (holds(folder, document, records))
     {
       addDocument(folder.pathOf(document), document, records);
+    }
+    if (document == manifestName && folder.look(partsName) != EntryKind::Nothing)
+    {
+      records.foreign = std::string(partsName) + ": parts of a run wait to be merged";
     }
   }
   catch (const InputError& error)

@@ -4,7 +4,7 @@
 #include "dgtkFile.h"
 #include "dgtkFolder.h"
 #include "dgtkJournal.h"
-#include "dgtkJson.h"
+#include "dgtkRunParts.h"
 
 #include <fstream>
 
@@ -13,7 +13,7 @@ namespace dgtk
 
 namespace
 {
-/// Whether a manifest is of many scenes: their list stands at its beginning, a dataset's may be long.
+/// Whether a manifest is of many scenes: its format stands at its beginning; a dataset's may be long.
 bool speaksOfScenes(const std::string& path)
 {
   constexpr std::size_t head = 4096;
@@ -21,7 +21,7 @@ bool speaksOfScenes(const std::string& path)
   std::string begin(head, '\0');
   stream.read(begin.data(), head);
   begin.resize(std::size_t(stream.gcount()));
-  return begin.find("\"scenes\"") != std::string::npos;
+  return begin.find("\"format\": \"DGTk datasets\"") != std::string::npos;
 }
 } // namespace
 
@@ -32,16 +32,10 @@ std::vector<std::string> sceneFoldersIn(const std::string& folder)
   {
     return {};
   }
-  const std::string path = place.fileAt(manifestName);
-  const JsonDocument document = parseJson(path, readFile(path));
   std::vector<std::string> names;
-  const JsonNode* scenes = document.root.find("scenes");
-  if (scenes && scenes->type == JsonNode::Type::Array)
+  for (const DatasetFile& file : readDatasets(folder).datasets)
   {
-    for (const JsonCursor& scene : JsonCursor(document)["scenes"].items())
-    {
-      names.push_back(scene["name"].string(false));
-    }
+    names.push_back(file.path.substr(0, file.path.rfind('/')));
   }
   return names;
 }

@@ -54,7 +54,8 @@ std::uint64_t countIn(const RunLengths& mask, const std::vector<char>& valid)
 }
 
 /// Objects of a picture that are in it or around it, in the order of their instances.
-std::vector<BoxRecord> instancesOf(const DatasetView& dataset, const DatasetShot& shot, const std::map<std::uint32_t, int>& idOf)
+std::vector<BoxRecord> instancesOf(
+  const DatasetView& dataset, const DatasetShot& shot, const std::map<std::uint32_t, int>& idOf)
 {
   std::vector<BoxRecord> instances;
   for (const BoxRecord& box : dataset.boxes(shot))

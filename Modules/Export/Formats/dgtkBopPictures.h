@@ -36,7 +36,7 @@ struct Place
 /// What all pictures of a set have in common.
 struct Setting
 {
-  std::map<std::uint32_t, int> idOf; ///< of an object of its scene: its obj_id
+  std::map<std::uint32_t, int> idOf;      ///< of an object of its scene: its obj_id
   std::map<int, Eigen::Vector3d> origins; ///< of a model, by obj_id
   double depthScale = 0.1;                ///< millimetres of a code
   OptionValues options;

@@ -16,21 +16,20 @@
 namespace dgtk
 {
 
-std::vector<InputRecord> inputsOf(const Stage& stage, const std::string& folder)
+std::vector<InputRecord> inputsOf(const Stage& stage, const std::string& folder, RunSession& session)
 {
   namespace fs = std::filesystem;
   const std::vector<std::string> files = stage.inputFiles();
   std::vector<InputRecord> inputs(files.size());
-  ThreadPool(machineThreads())
+  ThreadPool(files.size() > 1 ? machineThreads() : 1)
     .parallelFor(static_cast<int>(files.size()),
       [&](int i)
       {
         const WorkTime load(WorkStage::Load);
         const std::string& file = files[static_cast<std::size_t>(i)];
         InputRecord& record = inputs[static_cast<std::size_t>(i)];
+        record = session.fileOf(file);
         record.path = fs::relative(fs::absolute(file), fs::absolute(folder)).generic_string();
-        record.bytes = fs::file_size(file);
-        record.sha256 = hashOfFile(file);
       });
   return inputs;
 }

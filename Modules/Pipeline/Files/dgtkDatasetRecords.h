@@ -2,6 +2,7 @@
 #ifndef dgtkDatasetRecords_h
 #define dgtkDatasetRecords_h
 
+#include "dgtkRunSession.h"
 #include "dgtkWorkPlan.h"
 
 #include "dgtkDatasetDocuments.h"
@@ -14,7 +15,7 @@ namespace dgtk
 {
 
 /// Every file that the scene was loaded from, with its hash; paths are relative to `folder`.
-std::vector<InputRecord> inputsOf(const Stage& stage, const std::string& folder);
+std::vector<InputRecord> inputsOf(const Stage& stage, const std::string& folder, RunSession& session);
 
 /// A hash of everything that decides the bytes of a dataset's files: the request, and what the scene was loaded from.
 std::string identityOf(const WorkPlan& plan, const Stage& stage, const std::vector<InputRecord>& inputs);

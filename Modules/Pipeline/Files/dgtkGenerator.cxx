@@ -9,6 +9,7 @@
 #include "dgtkLayers.h"
 #include "dgtkRunDocuments.h"
 #include "dgtkRunFiles.h"
+#include "dgtkRunSession.h"
 #include "dgtkRunNotes.h"
 #include "dgtkSpaceNeeded.h"
 #include "dgtkSystem.h"
@@ -68,6 +69,7 @@ private:
   std::shared_ptr<DrawnBand> counted(std::shared_ptr<DrawnBand> band);
   void completeOldest();
   bool keep(const Job& job);
+  std::vector<Job> jobs() const;
   bool cancelled() const { return this->Callbacks.cancel && *this->Callbacks.cancel; }
   void say(const std::string& line) const
   {
@@ -90,13 +92,15 @@ private:
 
   GeneratorCallbacks Callbacks;
   GeneratorResult Result;
+  std::shared_ptr<RunSession> Session;
   std::shared_ptr<const Stage> Scene;
   GeneratorRequest Request;
+  std::string Root; ///< where files are written
   WorkPlan Plan;
   int Threads;
   std::unique_ptr<RunDocuments> Documents;
   std::unique_ptr<RunFiles> Files;
-  std::unique_ptr<ThreadPool> Pool;
+  ThreadPool* Pool = nullptr; ///< the session's
   std::unique_ptr<FrameSource> Source;
   TracedQueries Queries;
   std::atomic<std::size_t> PendingBytes{ 0 };
@@ -107,8 +111,10 @@ private:
 
 Run::Run(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
   : Callbacks(callbacks)
-  , Scene(Stage::load(sceneOf(request), [this](const std::string& line) { this->warn(line); }))
+  , Session(request.session ? request.session : makeRunSession())
+  , Scene(this->Session->load(sceneOf(request), [this](const std::string& line) { this->warn(line); }))
   , Request(request)
+  , Root(request.block ? request.block->folder : request.folder)
   , Plan(makeWorkPlan(request, *this->Scene))
   , Threads(threadsOf(request))
   , Queries(this->Scene)
@@ -121,14 +127,14 @@ GeneratorResult Run::execute()
   FrameSourceOptions options = sourceOptions(this->Plan);
   if (!drawsItself(request))
   {
-    options.pov = PovColorSettings{ request.options, request.folder, option::samples().of(request.options),
+    options.pov = PovColorSettings{ request.options, this->Root, option::samples().of(request.options),
       this->Callbacks.cancel };
   }
-  this->Pool = std::make_unique<ThreadPool>(this->Threads);
+  this->Pool = &this->Session->pool(this->Threads);
   this->Source = std::make_unique<FrameSource>(options, *this->Pool);
   this->Result.glDescription = this->Source->glDescription();
   this->Result.visibility = this->Plan.raster ? "raster" : "ray";
-  this->Documents = std::make_unique<RunDocuments>(*this->Scene, this->Plan, request.folder);
+  this->Documents = std::make_unique<RunDocuments>(*this->Scene, this->Plan, request.folder, this->Root, *this->Session);
   const SpaceNeeded needed = spaceOf(this->Plan, *this->Scene);
   const std::string tight = checkSpace(request.folder, needed, spaceIn(request.folder, needed.likely));
   if (!tight.empty())
@@ -136,11 +142,11 @@ GeneratorResult Run::execute()
     this->warn(tight);
   }
   this->Files = std::make_unique<RunFiles>(
-    request.folder, this->Documents->requestHash(), startOf(request), this->Documents->allNames());
+    this->Root, this->Documents->requestHash(), startOf(request), this->Documents->allNames());
   for (PlannedLayer& planned : this->Plan.layers)
   {
     planned.shared = planned.layer->makeShared(
-      { [&request] { return request.folder; }, [this](const std::string& name) { this->Files->planLate(name); } });
+      { [this] { return this->Root; }, [this](const std::string& name) { this->Files->planLate(name); } });
   }
 
   if (!this->Result.glDescription.empty())
@@ -172,11 +178,24 @@ GeneratorResult Run::execute()
     this->Result.files = this->Documents->write(*this->Files, this->Result.warnings);
     if (this->Callbacks.progress)
     {
-      this->Callbacks.progress({ this->Done, this->Plan.jobs.size() });
+      this->Callbacks.progress({ this->Done, this->jobs().size() });
     }
   }
   this->Result.files += this->Files->files().size();
   return this->Result;
+}
+
+/// Those of the run, or of its part.
+std::vector<Job> Run::jobs() const
+{
+  const std::vector<Job>& all = this->Plan.jobs;
+  if (!this->Request.block)
+  {
+    return all;
+  }
+  const std::size_t first = std::min(this->Request.block->first, all.size());
+  const std::size_t last = std::min(first + this->Request.block->count, all.size());
+  return { all.begin() + std::ptrdiff_t(first), all.begin() + std::ptrdiff_t(last) };
 }
 
 /// What deserves a word before the first picture.
@@ -197,9 +216,9 @@ void Run::renderAll()
 {
   if (this->Callbacks.progress)
   {
-    this->Callbacks.progress({ this->Done, this->Plan.jobs.size() });
+    this->Callbacks.progress({ this->Done, this->jobs().size() });
   }
-  for (const Job& job : this->Plan.jobs)
+  for (const Job& job : this->jobs())
   {
     if (this->cancelled())
     {
@@ -219,7 +238,7 @@ void Run::renderAll()
     }
     if (this->Callbacks.progress)
     {
-      this->Callbacks.progress({ this->Done, this->Plan.jobs.size() });
+      this->Callbacks.progress({ this->Done, this->jobs().size() });
     }
   }
   this->Source->finish();
@@ -247,7 +266,7 @@ void Run::render(const Job& job)
   this->Files->plan(names);
   for (const std::string& name : names)
   {
-    Folder(request.folder).makeParents(name);
+    Folder(this->Root).makeParents(name);
   }
   int bands = 0;
   if (this->Source->drawsAnything())
@@ -255,7 +274,7 @@ void Run::render(const Job& job)
     this->Source->setScene(state, view);
     bands = this->Source->bands();
   }
-  auto output = std::make_unique<FrameOutput>(this->Request.folder,
+  auto output = std::make_unique<FrameOutput>(this->Root,
     JobContext{ this->Plan, job, this->cameraName(job), state, view, this->Queries, *this->Pool }, bands);
   if (bands > 0)
   {
@@ -333,7 +352,7 @@ bool Run::keep(const Job& job)
     {
       for (const std::string& name : output.files())
       {
-        const std::vector<std::string> needed = planned.layer->sharedFiles(this->Request.folder + '/' + name);
+        const std::vector<std::string> needed = planned.layer->sharedFiles(this->Root + '/' + name);
         shared.insert(shared.end(), needed.begin(), needed.end());
       }
     }
@@ -343,16 +362,19 @@ bool Run::keep(const Job& job)
 
 } // namespace
 
+std::shared_ptr<RunSession> makeRunSession() { return std::make_shared<RunSession>(); }
+
 std::string requestHash(const GeneratorRequest& request)
 {
-  const std::shared_ptr<const Stage> scene = Stage::load(sceneOf(request), [](const std::string&) {});
+  const std::shared_ptr<RunSession> session = request.session ? request.session : makeRunSession();
+  const std::shared_ptr<const Stage> scene = session->load(sceneOf(request), [](const std::string&) {});
   const WorkPlan plan = makeWorkPlan(request, *scene);
   std::optional<Packing> packing;
   if (option::pack().of(plan.request.options))
   {
     packing = planPacking(*scene, request.folder);
   }
-  return identityOf(plan, *scene, recordedInputs(*scene, request.folder, packing ? &*packing : nullptr));
+  return identityOf(plan, *scene, recordedInputs(*scene, request.folder, packing ? &*packing : nullptr, *session));
 }
 
 GeneratorResult generate(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)

@@ -12,12 +12,24 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace dgtk
 {
+
+class RunSession;
+
+/// Consecutive pictures of a run that is made in parts: each part is like a dataset, in a folder of its own, whose
+/// documents are those of the whole.
+struct RunBlock
+{
+  std::string folder;
+  std::size_t first = 0; ///< among the run's pictures
+  std::size_t count = 0;
+};
 
 /// A dataset: what it holds, which is all that decides its bytes, and how the run is made.
 struct GeneratorRequest : LayerRequest
@@ -27,6 +39,8 @@ struct GeneratorRequest : LayerRequest
   std::string folder;                          ///< where the dataset goes
   bool resume = false;                         ///< keep the finished files of an interrupted run of the same request
   bool replace = false; ///< remove what another request, or an interrupted run, has left; not with resume
+  std::shared_ptr<RunSession> session; ///< what it shares with other runs, see makeRunSession(); null: nothing
+  std::optional<RunBlock> block;       ///< only these pictures, as a part of the dataset in `folder`
 };
 
 /// State of a run, reported at its start and after every finished picture (one camera at one frame).
@@ -58,6 +72,9 @@ struct GeneratorCallbacks
 /// of the files that its scene names included, and how its folder stands to them. Loads the scene with its models,
 /// which takes as long as it takes. Throws UsageError and InputError.
 DGTKPIPELINE_EXPORT std::string requestHash(const GeneratorRequest& request);
+
+/// What runs that follow one another may share: models, pictures, trees for rays, threads.
+DGTKPIPELINE_EXPORT std::shared_ptr<RunSession> makeRunSession();
 
 /// Renders the dataset. Throws FolderError, before anything is changed, when the folder holds an interrupted run or the
 /// dataset of another request and neither `resume` nor `replace` applies, and in any case when it holds somebody's

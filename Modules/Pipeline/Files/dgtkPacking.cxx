@@ -232,9 +232,10 @@ Packing planPacking(const Stage& stage, const std::string& folder)
   return Planner(stage, folder).run();
 }
 
-std::vector<InputRecord> recordedInputs(const Stage& stage, const std::string& folder, const Packing* packing)
+std::vector<InputRecord> recordedInputs(
+  const Stage& stage, const std::string& folder, const Packing* packing, RunSession& session)
 {
-  const std::vector<InputRecord> inputs = inputsOf(stage, folder);
+  const std::vector<InputRecord> inputs = inputsOf(stage, folder, session);
   if (packing == nullptr)
   {
     return inputs;

@@ -14,6 +14,8 @@
 namespace dgtk
 {
 
+class RunSession;
+
 /// Copies of all that a scene was loaded from, below `inputs` in a dataset, so placed that each model finds what it
 /// names where it found it: the files of a model keep their places relative to each other.
 struct Packing
@@ -29,7 +31,8 @@ void refuseOwnInputs(const Stage& stage, const std::string& folder);
 Packing planPacking(const Stage& stage, const std::string& folder);
 
 /// What a scene was loaded from, as the dataset in `folder` records it: the copies, each once, if there is a packing.
-std::vector<InputRecord> recordedInputs(const Stage& stage, const std::string& folder, const Packing* packing);
+std::vector<InputRecord> recordedInputs(
+  const Stage& stage, const std::string& folder, const Packing* packing, RunSession& session);
 
 /// Loads the packed scene, whose copies are in place. Throws InputError unless it reads the copies and nothing else.
 void checkPacking(const Packing& packing, const Stage& stage);

@@ -37,18 +37,20 @@ std::vector<std::string> filesOf(const WorkPlan& plan, const Stage& stage, const
   return names;
 }
 
-RunDocuments::RunDocuments(const Stage& stage, const WorkPlan& plan, const std::string& folder)
+RunDocuments::RunDocuments(
+  const Stage& stage, const WorkPlan& plan, const std::string& home, const std::string& folder, RunSession& session)
   : Scene(stage)
   , Plan(plan)
+  , Home(home)
   , Root(folder)
   , Geometry(geometryHashes(stage))
 {
-  refuseOwnInputs(stage, folder);
+  refuseOwnInputs(stage, home);
   if (option::pack().of(plan.request.options))
   {
-    this->Packed = planPacking(stage, folder);
+    this->Packed = planPacking(stage, home);
   }
-  this->Inputs = recordedInputs(stage, folder, this->Packed ? &*this->Packed : nullptr);
+  this->Inputs = recordedInputs(stage, home, this->Packed ? &*this->Packed : nullptr, session);
   this->RequestHash = identityOf(plan, stage, this->Inputs);
   if (option::models().of(plan.request.options))
   {
@@ -105,10 +107,16 @@ std::map<std::string, std::string> RunDocuments::copies() const
   return this->Packed ? this->Packed->copies : std::map<std::string, std::string>();
 }
 
+/// Of a whole dataset: parts have not all pictures.
+bool RunDocuments::wantsSheet() const
+{
+  return this->Home == this->Root && option::contactSheet().of(this->Plan.request.options);
+}
+
 std::vector<std::string> RunDocuments::documentNames() const
 {
   std::vector<std::string> names = { camerasName, objectsName, posesName, sceneName };
-  if (option::contactSheet().of(this->Plan.request.options))
+  if (this->wantsSheet())
   {
     names.emplace_back(sheetName);
   }
@@ -167,9 +175,9 @@ std::size_t RunDocuments::write(RunFiles& files, const std::vector<std::string>&
   manifest.files = files.files();
   const std::size_t pictures = manifest.files.size();
   manifest.files.push_back(writeDocument(
-    this->Root, camerasName, camerasText(cameraRecords(this->Plan, this->Scene, this->Root, this->copies()))));
+    this->Root, camerasName, camerasText(cameraRecords(this->Plan, this->Scene, this->Home, this->copies()))));
   std::vector<ObjectRecord> objects =
-    objectRecords(this->Scene, this->Plan.jobs.front().frame, this->Root, this->copies());
+    objectRecords(this->Scene, this->Plan.jobs.front().frame, this->Home, this->copies());
   for (std::size_t i = 0; i < objects.size(); ++i)
   {
     objects[i].geometry = this->Geometry[i];
@@ -179,8 +187,8 @@ std::size_t RunDocuments::write(RunFiles& files, const std::vector<std::string>&
     writeDocument(this->Root, objectsName, objectsText(std::move(objects), classRecords(this->Scene))));
   manifest.files.push_back(writeDocument(this->Root, posesName, posesText(poseRecords(this->Plan, this->Scene))));
   manifest.files.push_back(writeDocument(
-    this->Root, sceneName, toJson(this->Packed ? this->Packed->scene : this->Scene.description(), this->Root)));
-  if (option::contactSheet().of(this->Plan.request.options))
+    this->Root, sceneName, toJson(this->Packed ? this->Packed->scene : this->Scene.description(), this->Home)));
+  if (this->wantsSheet())
   {
     manifest.files.push_back(writeContactSheet(this->Root, manifest, sheetName));
   }

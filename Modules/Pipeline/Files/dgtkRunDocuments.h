@@ -24,8 +24,10 @@ std::vector<std::string> filesOf(const WorkPlan& plan, const Stage& stage, const
 class RunDocuments
 {
 public:
-  /// Reads the inputs. Throws UsageError where the run would write them.
-  RunDocuments(const Stage& stage, const WorkPlan& plan, const std::string& folder);
+  /// Reads the inputs. `home` is the dataset's folder; a part of a run is written into another one, and the documents of
+  /// the whole say the same in each. Throws UsageError where the run would write its inputs.
+  RunDocuments(const Stage& stage, const WorkPlan& plan, const std::string& home, const std::string& folder,
+    RunSession& session);
 
   const std::string& requestHash() const { return this->RequestHash; }
   /// Every file that the run writes, but those that layers share.
@@ -39,11 +41,13 @@ public:
 
 private:
   std::vector<std::string> documentNames() const;
+  bool wantsSheet() const;
   Manifest manifest(const std::vector<std::string>& warnings) const;
   std::map<std::string, std::string> copies() const;
 
   const Stage& Scene;
   const WorkPlan& Plan;
+  std::string Home;
   std::string Root;
   std::vector<InputRecord> Inputs;
   std::string RequestHash;

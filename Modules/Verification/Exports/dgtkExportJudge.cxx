@@ -134,8 +134,8 @@ const ObjectRecord* ExportedFrom::object(const std::string& camera, std::uint32_
   {
     return nullptr;
   }
-  const auto found = std::find_if(
-    part->second.begin(), part->second.end(), [&](const ObjectRecord& object) { return object.id == id; });
+  const auto found =
+    std::find_if(part->second.begin(), part->second.end(), [&](const ObjectRecord& object) { return object.id == id; });
   return found == part->second.end() ? nullptr : &*found;
 }
 

@@ -159,8 +159,7 @@ ReadExport exportReader(const std::string& exporter)
 namespace
 {
 /// What one export.json speaks of.
-std::vector<Unchecked> judgeExport(
-  const std::string& dataset, const std::string& folder, int threads, Results& results)
+std::vector<Unchecked> judgeExport(const std::string& dataset, const std::string& folder, int threads, Results& results)
 {
   const ExportedFrom source(dataset, folder);
   results.startCheck(0, "hashes");

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands.h"
+
+#include "dgtkError.h"
+#include "dgtkRunParts.h"
+#include "dgtkSystem.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+
+namespace dgtk::app
+{
+
+namespace
+{
+/// What has to be started again, as a scheduler wants it.
+std::string again(const MergeReport& report)
+{
+  std::string text;
+  for (const std::size_t count : report.workers)
+  {
+    text +=
+      (text.empty() ? "" : "; ") + std::string("of ") + std::to_string(count) + ": --array=" + report.processes(count);
+  }
+  return text;
+}
+
+int run(const Arguments& arguments)
+{
+  std::string folder = arguments.positional()[0];
+  while (folder.size() > 1 && folder.back() == '/')
+  {
+    folder.pop_back();
+  }
+  const MergeReport report = mergeParts(folder, machineThreads());
+  if (arguments.has("--json"))
+  {
+    nlohmann::ordered_json json{ { "merged", report.merged }, { "blocks", report.blocks }, { "files", report.files },
+      { "missing", report.missing }, { "problems", report.problems } };
+    for (const std::size_t count : report.workers)
+    {
+      json["array"][std::to_string(count)] = report.processes(count);
+    }
+    print(json.dump(2) + '\n');
+  }
+  else if (report.merged)
+  {
+    print(
+      folder + ": whole, " + std::to_string(report.files) + " files of " + std::to_string(report.blocks) + " blocks\n");
+  }
+  for (const std::string& problem : report.problems)
+  {
+    std::fprintf(stderr, "dgtk: %s\n", problem.c_str());
+  }
+  if (!report.missing.empty())
+  {
+    std::fprintf(stderr, "dgtk: %s: %zu of %zu blocks are missing (%s)\n", folder.c_str(), report.missing.size(),
+      report.blocks, again(report).c_str());
+  }
+  return static_cast<int>(report.merged ? ExitCode::Done : ExitCode::Difference);
+}
+} // namespace
+
+Command mergeCommand()
+{
+  return { "merge", "DIR", 1, 1, "Makes one dataset of a run in shards; names what is missing and exits with 1 then.",
+    { { "--json", "", "", "print one JSON object" } }, &run };
+}
+
+} // namespace dgtk::app

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkRunParts.h"
+
+#include "dgtkContactSheet.h"
+#include "dgtkError.h"
+#include "dgtkFile.h"
+#include "dgtkHash.h"
+#include "dgtkJournal.h"
+#include "dgtkThreadPool.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <sys/stat.h>
+
+namespace dgtk
+{
+
+std::string datasetsManifestText(const DatasetsManifest& manifest);
+std::vector<std::size_t> workersOf(const std::string& folder);
+
+namespace
+{
+constexpr const char* sheetName = "contact.png";
+
+bool isWhole(const Folder& folder, const DatasetFile& file)
+{
+  if (folder.look(file.path) != EntryKind::File)
+  {
+    return false;
+  }
+  const std::string path = folder.pathOf(file.path);
+  struct stat info = {};
+  return ::stat(path.c_str(), &info) == 0 && std::uint64_t(info.st_size) == file.bytes &&
+         Sha256::ofFile(path) == file.sha256;
+}
+
+/// Takes a dataset that is not whole away, so that it can be made again: what its manifest lists, and no other file.
+void removeListed(const Folder& folder, const Manifest& manifest)
+{
+  namespace fs = std::filesystem;
+  std::error_code code;
+  for (const DatasetFile& file : manifest.files)
+  {
+    folder.remove(file.path);
+    for (fs::path above = fs::path(file.path).parent_path(); !above.empty(); above = above.parent_path())
+    {
+      fs::remove(folder.pathOf(above.string()), code); // unless there is something in it
+    }
+  }
+  folder.remove(manifestName);
+  fs::remove(folder.path(), code);
+}
+
+bool hasManifest(const Folder& folder, const std::string& in)
+{
+  return folder.look(in + '/' + manifestName) == EntryKind::File;
+}
+
+/// A merge of pictures: files go from their parts to their places.
+class Merge
+{
+public:
+  Merge(const std::string& folder, int threads)
+    : Home(folder)
+    , Run(readParts(folder))
+    , Pool(threads)
+  {
+    this->Report.blocks = this->Run.blocks();
+    this->Report.workers = workersOf(folder);
+  }
+
+  MergeReport execute()
+  {
+    this->Run.scenes.empty() ? this->readPictures() : this->readScenes();
+    if (this->Report.missing.empty() && this->Report.problems.empty())
+    {
+      this->Run.scenes.empty() ? this->writePictures() : this->writeScenes();
+      std::filesystem::remove_all(this->Home.path() + '/' + partsName);
+      this->Report.merged = true;
+    }
+    return this->Report;
+  }
+
+private:
+  struct Place
+  {
+    DatasetFile file;
+    std::vector<std::size_t> blocks; ///< that have it
+  };
+
+  void problem(const std::string& line) { this->Report.problems.push_back(line); }
+
+  std::optional<Manifest> manifestOf(const std::string& in, const std::string& requestHash)
+  {
+    Manifest manifest = readManifest(this->Home.fileAt(in + '/' + manifestName));
+    if (manifest.version != this->Run.version || (!requestHash.empty() && manifest.requestHash != requestHash))
+    {
+      this->problem(this->Home.pathOf(in) + ": is of another request, or of another version of DGTk");
+      return std::nullopt;
+    }
+    return manifest;
+  }
+
+  void readPictures()
+  {
+    for (std::size_t block = 0; block < this->Report.blocks; ++block)
+    {
+      const std::string in = partName(block);
+      if (!hasManifest(this->Home, in))
+      {
+        this->Report.missing.push_back(block);
+        continue;
+      }
+      const std::optional<Manifest> part = this->manifestOf(in, this->Run.requestHash);
+      if (!part)
+      {
+        continue;
+      }
+      for (const DatasetFile& file : part->files)
+      {
+        this->take(file, block);
+      }
+      if (block == 0)
+      {
+        this->Whole = *part;
+      }
+    }
+    if (this->Report.missing.empty() && this->Report.problems.empty())
+    {
+      this->checkFiles();
+    }
+  }
+
+  void take(const DatasetFile& file, std::size_t block)
+  {
+    Place& place = this->Places[file.path];
+    if (!place.blocks.empty() && place.file.sha256 != file.sha256)
+    {
+      this->problem(this->Home.pathOf(partName(block) + '/' + file.path) + ": differs from that of another part");
+    }
+    place.file = file;
+    place.blocks.push_back(block);
+  }
+
+  /// Each file is whole in one of its parts, or in its place after a merge that was interrupted.
+  void checkFiles()
+  {
+    std::vector<Place*> places;
+    for (auto& [path, place] : this->Places)
+    {
+      places.push_back(&place);
+    }
+    std::vector<std::string> lost(places.size());
+    std::vector<std::set<std::size_t>> again(places.size());
+    this->Pool.parallelFor(int(places.size()),
+      [&](int i)
+      {
+        Place& place = *places[std::size_t(i)];
+        std::vector<std::size_t> whole;
+        for (const std::size_t block : place.blocks)
+        {
+          if (isWhole(Folder(this->Home.pathOf(partName(block))), place.file))
+          {
+            whole.push_back(block);
+            break;
+          }
+        }
+        const bool isThere = whole.empty() && isWhole(this->Home, place.file);
+        if (whole.empty() && !isThere)
+        {
+          again[std::size_t(i)].insert(place.blocks.begin(), place.blocks.end());
+        }
+        const EntryKind kind = isThere ? EntryKind::Nothing : this->Home.look(place.file.path);
+        if (kind != EntryKind::Nothing && !whole.empty() && !isWhole(this->Home, place.file))
+        {
+          lost[std::size_t(i)] = this->Home.pathOf(place.file.path) + ": is in the way, and no run has written it";
+        }
+        place.blocks = whole;
+      });
+    std::set<std::size_t> missing;
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      missing.insert(again[i].begin(), again[i].end());
+      if (!lost[i].empty())
+      {
+        this->problem(lost[i]);
+      }
+    }
+    for (const std::size_t block : missing)
+    {
+      std::filesystem::remove_all(this->Home.pathOf(partName(block))); // it is made again
+      this->Report.missing.push_back(block);
+    }
+  }
+
+  void writePictures()
+  {
+    for (const auto& [path, place] : this->Places)
+    {
+      if (!place.blocks.empty())
+      {
+        this->Home.makeParents(path);
+        std::filesystem::rename(this->Home.pathOf(partName(place.blocks.front()) + '/' + path), this->Home.pathOf(path));
+      }
+    }
+    this->Whole.files.clear();
+    for (const auto& [path, place] : this->Places)
+    {
+      this->Whole.files.push_back(place.file);
+    }
+    if (this->Run.contactSheet)
+    {
+      this->Whole.files.push_back(writeContactSheet(this->Home.path(), this->Whole, sheetName));
+    }
+    this->Report.files = this->Whole.files.size();
+    this->Home.syncAll();
+    writeFileDurably(FilePlace(this->Home.path(), manifestName), manifestText(this->Whole));
+  }
+
+  void readScenes()
+  {
+    const std::size_t size = this->Run.blockSize();
+    std::vector<DatasetFile> found(this->Run.scenes.size());
+    std::vector<std::string> problems(this->Run.scenes.size());
+    this->Pool.parallelFor(int(found.size()),
+      [&](int i)
+      {
+        const std::string& scene = this->Run.scenes[std::size_t(i)];
+        if (!hasManifest(this->Home, scene))
+        {
+          return;
+        }
+        const std::string path = this->Home.fileAt(scene + '/' + manifestName);
+        const Manifest manifest = readManifest(path);
+        if (manifest.version != this->Run.version)
+        {
+          problems[std::size_t(i)] = this->Home.pathOf(scene) + ": is of another version of DGTk";
+        }
+        const Folder own(this->Home.pathOf(scene));
+        const bool whole = std::all_of(manifest.files.begin(), manifest.files.end(),
+          [&](const DatasetFile& file) { return isWhole(own, file); });
+        if (!whole)
+        {
+          removeListed(own, manifest);
+        }
+        else
+        {
+          const std::uint64_t bytes = std::filesystem::file_size(path);
+          found[std::size_t(i)] = { scene + '/' + manifestName, bytes, Sha256::ofFile(path), "", "", -1 };
+        }
+      });
+    std::set<std::size_t> missing;
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      if (!problems[i].empty())
+      {
+        this->problem(problems[i]);
+      }
+      else if (found[i].path.empty())
+      {
+        missing.insert(i / size);
+      }
+      this->Datasets.push_back(found[i]);
+    }
+    this->Report.missing.assign(missing.begin(), missing.end());
+  }
+
+  void writeScenes()
+  {
+    const DatasetsManifest manifest{ this->Run.version, this->Run.requestHash, this->Run.request, this->Run.leftOut,
+      this->Datasets };
+    this->Report.files = this->Datasets.size();
+    writeFileDurably(FilePlace(this->Home.path(), manifestName), datasetsManifestText(manifest));
+  }
+
+  Folder Home;
+  RunParts Run;
+  ThreadPool Pool;
+  MergeReport Report;
+  Manifest Whole; ///< the first part's, which says all but the files
+  std::map<std::string, Place> Places;
+  std::vector<DatasetFile> Datasets;
+};
+} // namespace
+
+void endScenes(const std::string& folder, const RunParts& run)
+{
+  DatasetsManifest manifest{ run.version, run.requestHash, run.request, run.leftOut, {} };
+  const Folder home(folder);
+  for (const std::string& scene : run.scenes)
+  {
+    const std::string name = scene + '/' + manifestName;
+    const std::string path = home.fileAt(name);
+    DatasetFile file;
+    file.path = name;
+    file.bytes = std::filesystem::file_size(path);
+    file.sha256 = Sha256::ofFile(path);
+    manifest.datasets.push_back(file);
+  }
+  writeFileDurably(FilePlace(folder, manifestName), datasetsManifestText(manifest));
+  std::filesystem::remove_all(folder + '/' + partsName);
+}
+
+std::string MergeReport::processes(std::size_t of) const
+{
+  std::set<std::size_t> numbers;
+  for (const std::size_t block : this->missing)
+  {
+    numbers.insert(block % of);
+  }
+  std::string text;
+  for (auto it = numbers.begin(); it != numbers.end();)
+  {
+    const std::size_t first = *it;
+    std::size_t last = first;
+    for (++it; it != numbers.end() && *it == last + 1; ++it)
+    {
+      last = *it;
+    }
+    text += (text.empty() ? "" : ",") + std::to_string(first) + (last > first ? '-' + std::to_string(last) : "");
+  }
+  return text;
+}
+
+MergeReport mergeParts(const std::string& folder, int threads)
+{
+  if (!hasParts(folder))
+  {
+    std::error_code code;
+    const bool whole = std::filesystem::exists(folder + '/' + manifestName, code);
+    throw UsageError(folder + (whole ? ": is whole already" : ": holds no parts of a run"));
+  }
+  return Merge(folder, threads).execute();
+}
+
+} // namespace dgtk

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkRunParts_h
+#define dgtkRunParts_h
+
+#include "dgtkDatasetIOModule.h"
+
+#include "dgtkDatasetDocuments.h"
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dgtk
+{
+
+/// Where the parts of a run wait in its folder until they are merged.
+constexpr const char* partsName = ".dgtk-parts";
+
+/// A run that several processes make together: pictures of a dataset, or datasets of several scenes. It falls into
+/// blocks of consecutive items, which depend on their number alone. Kept in DIR/.dgtk-parts/run.json.
+struct DGTKDATASETIO_EXPORT RunParts
+{
+  std::string version;     ///< of DGTk
+  std::string requestHash; ///< of the whole run
+  std::size_t items = 0;   ///< pictures, or scenes
+  bool contactSheet = false;
+  std::vector<std::string> scenes;                          ///< names of their folders; none: pictures of one dataset
+  std::vector<std::pair<std::string, std::string>> request; ///< of scenes
+  std::vector<std::string> leftOut; ///< files of the scenes' folder that are no scenes
+  /// Items of a block.
+  std::size_t blockSize() const;
+  std::size_t blocks() const;
+};
+
+/// ".dgtk-parts/000012": the folder of a block of pictures, itself like a dataset.
+DGTKDATASETIO_EXPORT std::string partName(std::size_t block);
+
+/// Whether parts wait in a folder.
+DGTKDATASETIO_EXPORT bool hasParts(const std::string& folder);
+/// Throws InputError for what is not written by beginParts().
+DGTKDATASETIO_EXPORT RunParts readParts(const std::string& folder);
+/// Prepares a folder for the parts of a run, of which this is one process of `workers`; any number may do so at the
+/// same time. Throws UsageError when parts of another request are there, MachineError when it cannot be written.
+DGTKDATASETIO_EXPORT void beginParts(const std::string& folder, const RunParts& run, std::size_t workers);
+
+/// Writes the manifest of a folder whose scenes' datasets have just been finished by this process; their files are not
+/// looked at. Its parts' record goes.
+DGTKDATASETIO_EXPORT void endScenes(const std::string& folder, const RunParts& run);
+
+/// What mergeParts() found.
+struct MergeReport
+{
+  std::size_t blocks = 0;
+  std::size_t files = 0;              ///< of the dataset, or datasets
+  std::vector<std::size_t> missing;   ///< blocks that are not finished
+  std::vector<std::string> problems;  ///< lines: parts that do not fit
+  std::vector<std::size_t> workers;   ///< counts of processes that the run was begun with, ascending
+  bool merged = false;                ///< the folder is whole
+  /// The numbers of the processes of so many that have to run again: "3,17,40-42".
+  DGTKDATASETIO_EXPORT std::string processes(std::size_t of) const;
+};
+
+/// Makes of the parts in a folder what one process would have left, when all are there: every file is compared with its
+/// SHA-256 first, and nothing is changed unless all fit. May be called again after it was interrupted. Throws
+/// UsageError where no parts are, and what reading and writing throw.
+DGTKDATASETIO_EXPORT MergeReport mergeParts(const std::string& folder, int threads);
+
+/// The manifest of a folder of datasets.
+struct DatasetsManifest
+{
+  std::string version;
+  std::string requestHash;
+  std::vector<std::pair<std::string, std::string>> request;
+  std::vector<std::string> leftOut;
+  std::vector<DatasetFile> datasets; ///< their manifests, in the order of their names
+};
+/// Whether a folder's manifest is that of datasets. False where there is none.
+DGTKDATASETIO_EXPORT bool holdsDatasets(const std::string& folder);
+/// Throws InputError.
+DGTKDATASETIO_EXPORT DatasetsManifest readDatasets(const std::string& folder);
+/// The folders of the datasets in a folder, which it names: itself where it is one dataset.
+DGTKDATASETIO_EXPORT std::vector<std::string> datasetsIn(const std::string& folder);
+
+} // namespace dgtk
+
+#endif

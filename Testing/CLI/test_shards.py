@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs in shares: however they are made, `dgtk merge` leaves the bytes of one process. Folders of scenes."""
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import time
+
+from harness import DGTK, Case, load_json, main
+
+SOURCE = os.environ["DGTK_SOURCE"]
+DEMO = os.path.join(SOURCE, "Data", "Scenes", "demo.json")
+OPTIONS = ("--layers", "color,depth,objects,boxes,points,tracks,flow_forward,pov", "--size", "64x48", "--contact-sheet", "--models",
+           "--quiet")
+SEED = 20061125
+KILLS = 30
+
+
+def flip(path, bits):
+    """Changes bits of the last byte of a file."""
+    with open(path, "r+b") as file:
+        file.seek(-1, os.SEEK_END)
+        last = file.read(1)[0]
+        file.seek(-1, os.SEEK_END)
+        file.write(bytes([last ^ bits]))
+
+
+class Shards(Case):
+    def scenes(self, count=8):
+        """Plain scenes of a random one, in a folder with a file that is no scene."""
+        os.mkdir(self.path("models"))
+        self.write("models/quad.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n")
+        scene = {"seed": 3, "classes": {"tile": 1},
+                 "objects": [{"name": "tile", "class": "tile", "count": {"integer": [1, 4]}, "model": "models/quad.obj",
+                              "orientation": {"rotation": "any"}, "position": {"inBox": [[-1, -1, -1], [1, 1, 1]]}}],
+                 "cameras": [{"name": "left", "eye": [0, 0, 6], "lookAt": [0, 0, 0]}, {"name": "right", "eye": [1, 0, 6], "lookAt": [1, 0, 0]}]}
+        self.write("random.json", json.dumps(scene))
+        self.dgtk("sample", self.path("random.json"), "-o", self.path("scenes"), "--samples", f"0:{count - 1}", "--quiet")
+        return self.path("scenes")
+
+    def shard(self, scene, folder, index, count, options=OPTIONS, status=0):
+        return self.dgtk("render", scene, "-o", folder, *options, "--shard", f"{index}/{count}", status=status)
+
+    def test_pictures_of_one_scene(self):
+        """In any order, by any number of processes, some twice; a lost part is named, and made again."""
+        whole = self.path("whole")
+        self.dgtk("render", DEMO, "-o", whole, *OPTIONS)
+        order = list(range(8))
+        random.Random(SEED).shuffle(order)
+        for index in order[:-1] + order[:2]:
+            self.shard(DEMO, self.path("parts"), index, 8)
+        self.shard(DEMO, self.path("parts"), order[-1], 8)
+        lost = os.path.join(self.path("parts"), ".dgtk-parts", "000002")
+        shutil.rmtree(lost)
+        report = json.loads(self.dgtk("merge", self.path("parts"), "--json", status=1).stdout)
+        self.assertEqual((report["merged"], report["missing"], report["array"]), (False, [2], {"8": "2"}))
+        self.assertFalse(os.path.exists(self.path("parts", "manifest.json")))
+        self.shard(DEMO, self.path("parts"), 2, 3)
+        self.dgtk("merge", self.path("parts"))
+        self.assert_same_files(whole, self.path("parts"))
+        self.assertEqual(os.path.exists(self.path("parts", ".dgtk-parts")), False)
+
+    def test_a_damaged_part_is_missing(self):
+        options = ("--layers", "depth", "--size", "32x24", "--quiet")
+        self.dgtk("render", DEMO, "-o", self.path("whole"), *options)
+        for index in range(2):
+            self.shard(DEMO, self.path("parts"), index, 2, options)
+        parts = os.path.join(self.path("parts"), ".dgtk-parts")
+        victim = next(os.path.join(folder, name) for folder, _, names in sorted(os.walk(parts)) for name in sorted(names) if name.endswith(".npy"))
+        flip(victim, 1)
+        self.refused("merge", self.path("parts"), status=1, says=("1 of 6 blocks are missing",))
+        for index in range(2):
+            self.shard(DEMO, self.path("parts"), index, 2, options)
+        self.dgtk("merge", self.path("parts"))
+        self.assert_same_files(self.path("whole"), self.path("parts"))
+
+    def test_three_workers_and_thirty_kills(self):
+        """Workers that begin the same blocks at once, killed and started again until all is there."""
+        scenes = self.scenes()
+        options = ("--layers", "color,depth,objects,boxes", "--size", "96x72", "--quiet", "--threads", "1")
+        self.dgtk("render", scenes, "-o", self.path("whole"), *options)
+        chance = random.Random(SEED)
+        parts = self.path("parts")
+        kills = 0
+        while kills < KILLS:
+            running = [subprocess.Popen([DGTK, "render", scenes, "-o", parts, *options, "--shard", f"{index}/{count}"],
+                                        stderr=subprocess.DEVNULL) for index, count in ((0, 2), (1, 2), (0, 2))]
+            for process in running:
+                time.sleep(chance.uniform(0, 0.06))
+                process.send_signal(chance.choice((signal.SIGKILL, signal.SIGTERM, signal.SIGUSR1)))
+                kills += 1
+            for process in running:
+                self.assertIn(process.wait(timeout=60), (0, 75, -9, -15, -10))
+            done = subprocess.run([DGTK, "merge", parts], capture_output=True, text=True)
+            if done.returncode == 0:
+                shutil.rmtree(parts)  # all was there already: begin anew
+        for index in range(3):
+            self.shard(scenes, parts, index, 3, options)
+        self.dgtk("merge", parts)
+        self.assert_same_files(self.path("whole"), parts)
+
+    def test_a_folder_of_scenes(self):
+        scenes = self.scenes(3)
+        options = ("--layers", "depth,objects", "--size", "32x24", "--quiet")
+        self.dgtk("render", scenes, "-o", self.path("all"), *options)
+        manifest = load_json(self.path("all", "manifest.json"))
+        self.assertEqual([one["path"] for one in manifest["datasets"]], [f"{k:06}/manifest.json" for k in range(3)])
+        self.assertEqual(manifest["left_out"], ["samples.json"])
+        for name in ("000000", "000001", "000002"):
+            self.dgtk("render", os.path.join(scenes, name + ".json"), "-o", self.path("alone", name), *options)
+        self.assert_same_files(self.path("all"), self.path("alone"), ignore=("manifest.json",))
+        self.assertIn("3 datasets, 0 with a breach", self.dgtk("verify", self.path("all")).stdout)
+        # The same again, another request, and an unfinished one.
+        self.dgtk("render", scenes, "-o", self.path("all"), *options)
+        self.refused("render", scenes, "-o", self.path("all"), "--layers", "depth", "--quiet", status=2, says=("another request",))
+        self.dgtk("render", scenes, "-o", self.path("all"), "--layers", "depth", "--quiet", "--size", "32x24", "--replace")
+        self.assertFalse(os.path.exists(self.path("all", "000000", "left", "objects")))
+        depth = self.path("all", "000001", "left", "depth", "000000.npy")
+        flip(depth, 64)
+        self.assertIn("1 with a breach", self.dgtk("verify", self.path("all"), status=1).stdout)
+
+    def test_a_damaged_scene_is_missing(self):
+        scenes = self.scenes(3)
+        options = ("--layers", "depth", "--size", "32x24", "--quiet")
+        self.dgtk("render", scenes, "-o", self.path("whole"), *options)
+        for index in range(2):
+            self.shard(scenes, self.path("parts"), index, 2, options)
+        flip(self.path("parts", "000001", "left", "depth", "000000.npy"), 1)
+        self.refused("merge", self.path("parts"), status=1, says=("1 of 3 blocks are missing", "--array=1"))
+        self.shard(scenes, self.path("parts"), 1, 2, options)
+        self.dgtk("merge", self.path("parts"))
+        self.assert_same_files(self.path("whole"), self.path("parts"))
+
+    def test_a_scene_that_cannot_be_rendered_is_named(self):
+        scenes = self.scenes(3)
+        broken = load_json(os.path.join(scenes, "000001.json"))
+        broken["objects"][0]["model"] = "nothing.obj"
+        self.write("scenes/000001.json", json.dumps(broken))
+        options = ("--layers", "depth", "--size", "32x24", "--quiet")
+        self.refused("render", scenes, "-o", self.path("all"), *options, status=3, says=("1 of 3 scenes", "nothing.obj"))
+        self.assertFalse(os.path.exists(self.path("all", "manifest.json")))
+        self.assertTrue(os.path.exists(self.path("all", "000002", "manifest.json")))
+        shutil.copy(self.path("models", "quad.obj"), self.path("scenes", "nothing.obj"))
+        self.dgtk("render", scenes, "-o", self.path("all"), *options, "--resume")
+        self.assertTrue(os.path.exists(self.path("all", "manifest.json")))
+
+    def test_launchers(self):
+        options = ("--layers", "depth", "--size", "16x12", "--quiet", "--shard", "auto")
+        clean = {"SLURM_ARRAY_TASK_ID": "", "SLURM_PROCID": "", "OMPI_COMM_WORLD_RANK": "", "PMI_RANK": ""}
+        rows = [({"SLURM_ARRAY_TASK_ID": "7", "SLURM_ARRAY_TASK_MIN": "5", "SLURM_ARRAY_TASK_MAX": "9", "SLURM_ARRAY_TASK_STEP": "2",
+                  "SLURM_ARRAY_TASK_COUNT": "3", "SLURM_PROCID": "0", "SLURM_NTASKS": "1"}, (1, 4)),
+                ({"SLURM_PROCID": "2", "SLURM_NTASKS": "3"}, (2, 5)), ({"OMPI_COMM_WORLD_RANK": "0", "OMPI_COMM_WORLD_SIZE": "3"}, (0, 3)),
+                ({"PMI_RANK": "5", "PMI_SIZE": "6"}, (5,))]
+        for number, (words, blocks) in enumerate(rows):
+            with self.subTest(words):
+                folder = self.path(f"d{number}")
+                self.dgtk("render", DEMO, "-o", folder, *options, environment={**clean, **words})
+                there = sorted(name for name in os.listdir(os.path.join(folder, ".dgtk-parts")) if name.isdigit())
+                self.assertEqual(there, [f"{block:06}" for block in blocks])
+        for words in ({}, {"SLURM_ARRAY_TASK_ID": "7", "SLURM_ARRAY_TASK_MIN": "5", "SLURM_ARRAY_TASK_MAX": "9", "SLURM_ARRAY_TASK_COUNT": "2"},
+                      {"PMI_RANK": "6", "PMI_SIZE": "6"}, {"SLURM_PROCID": "x", "SLURM_NTASKS": "2"}):
+            done = subprocess.run([DGTK, "render", DEMO, "-o", self.path("no"), *options], capture_output=True, text=True,
+                                  env={**os.environ, **clean, **words})
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+        for bad in ("3/3", "1", "a/b", "-1/2", "0/0"):
+            self.refused("render", DEMO, "-o", self.path("no"), "--layers", "depth", "--shard", bad, status=2, says=("--shard",))
+        self.assertFalse(os.path.exists(self.path("no")))
+
+
+if __name__ == "__main__":
+    main()
