@@ -50,6 +50,16 @@ HELP = {
         ("--to CAMERA", "a camera of the dataset, NAME[@FRAME], or a .json file with K, R, t, width, height"),
         ("--layers N", "use the first N surfaces of each pixel (1: a depth map); 0: all [0]"),
         ("--mask FILE.png", "also write where no sample fell (255)")]),
+    "report": ("DATASET", "One page, for any browser and without a network, that shows what is in a dataset or in a folder of datasets.", [
+        ("--output FILE.html", "the page"),
+        ("--pictures N|all", "pictures that are shown, with all of their layers [48]"),
+        ("--read N|all", "pictures that distributions are made from; those that are shown are among them [240]"),
+        ("--seed N", "of which pictures these are [0]"),
+        ("--verification FILE", "what dgtk verify DATASET --json printed (default: DATASET/verification.json)"),
+        ("--export DIR", "an export of the dataset, whose rounding is shown; may be repeated"),
+        ("--samples FILE", "samples.json of the scenes: what was refused (default: DATASET/samples.json)"),
+        ("--threads N", "threads to work with [all processors]"),
+        ("--quiet", "no progress and no messages")]),
     "list": ("[readers|layers|options|writers|cameras|exporters|gl|commands]", "Lists what this program can read, derive and write.", [
         ("--json", "as JSON, with all that is known of commands, layers and options")]),
 }

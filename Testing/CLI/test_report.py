@@ -136,6 +136,14 @@ class Report(Case):
             centre = -np.array(record["R"]).T @ np.array(record["t"])
             np.testing.assert_allclose(camera["places"][0][1:4], [centre[0], centre[2], centre[1]], atol=1e-5)
 
+    def test_fewer_samples_than_pixels(self):
+        folder = self.path("large")
+        self.dgtk("render", os.path.join(SCENES, "demo.json"), "-o", folder, "--quiet", "--layers", "depth", "--size", "1500x300", "--cameras", "left", "--frames", "0")
+        size, values = block_of(self.report(folder), 0, 0)
+        self.assertEqual((size, values.shape), ((1500, 300), (128, 640, 1)))
+        file = np.load(os.path.join(folder, "left/depth/000000.npy"))
+        np.testing.assert_array_equal(values[..., 0], file[np.ix_(middles(128, 300), middles(640, 1500))].astype(np.float32))
+
     def test_subset_and_same_bytes(self):
         folder = self.render(layers="depth,objects")
         whole = model_of(self.report(folder))
@@ -205,7 +213,7 @@ class Report(Case):
 
 class Page(Report):
     """The same datasets in a browser."""
-    test_numbers = test_subset_and_same_bytes = test_folder_of_scenes = test_documents_beside = test_refusals = None
+    test_numbers = test_fewer_samples_than_pixels = test_subset_and_same_bytes = test_folder_of_scenes = test_documents_beside = test_refusals = None
 
     def setUp(self):
         super().setUp()
