@@ -226,10 +226,13 @@ ReportJson datasetJson(const ReportSource& source, const ReportRequest& request)
     {
       cameras.insert(camera);
     }
-    for (const DatasetFile& file : scene.view->manifest().files)
+    for (const DatasetShot& shot : scene.view->shots())
     {
-      bytes += file.bytes;
-      ++files;
+      for (const DatasetFile& file : scene.view->filesOf(shot))
+      {
+        bytes += file.bytes;
+        ++files;
+      }
     }
     for (const std::string& line : scene.view->manifest().warnings)
     {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkSceneFromText.h"
+#include "dgtkSceneFile.h"
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkJson.h"
+#include "dgtkSceneFromText.h"
 #include "dgtkSceneJson.h"
 #include "dgtkSceneText.h"
 #include "dgtkText.h"
@@ -37,6 +39,19 @@ SceneDescription readScene(const std::string& path)
     return readJsonScene(path, folderOf(path), contents);
   }
   throw InputError(path, 0, "is no scene", "a name in .scene or .json", extension.empty() ? "none" : '.' + extension);
+}
+
+bool looksLikeScene(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  if (extension != "json")
+  {
+    return extension == "scene";
+  }
+  const JsonDocument document = parseJson(path, readFile(path, largestFile));
+  const JsonNode& root = document.root;
+  return root.type == JsonNode::Type::Object &&
+         (root.find("objects") != nullptr || root.find("cameras") != nullptr || root.find("lights") != nullptr);
 }
 
 SceneDescription readSceneText(const std::string& json, const std::string& folder)

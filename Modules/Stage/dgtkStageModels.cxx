@@ -312,8 +312,8 @@ Texture StageModels::makeTexture(const Model& model, const std::string& written)
   if (!texture.path.empty())
   {
     const auto known = this->Known.images.find(texture.path);
-    texture.image = known != this->Known.images.end() ? known->second
-                                                      : decodeTexture(texture.path, problem, this->Pictures.get());
+    texture.image =
+      known != this->Known.images.end() ? known->second : decodeTexture(texture.path, problem, this->Pictures.get());
     if (known != this->Known.images.end() && this->Counted.insert(texture.image.get()).second)
     {
       this->Pictures->take(texture.path, texture.image->width, texture.image->height, texture.image->rgba.size());

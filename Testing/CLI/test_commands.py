@@ -28,7 +28,7 @@ HELP = {
         ("--flat-ids", "for .pov: every object in the colour of its id, without light"),
         ("--shadows", "for .pov: objects cast shadows"),
         ("--no-cache", "read models anew, and keep none of them for other runs")]),
-    "verify": ("DIR", "Derives anew what a dataset claims, prints residuals; exits with 1 on a breach.", [
+    "verify": ("DIR", "Derives anew what a dataset or a folder of samples claims, prints residuals; exits with 1 on a breach.", [
         ("--export DIR", "read an export of the dataset back and compare it, instead of the dataset itself"),
         ("--check NAME,...", "only these checks, by the names of the table [all]"),
         ("--json", "print one JSON object"),

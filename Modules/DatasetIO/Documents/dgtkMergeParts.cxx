@@ -204,7 +204,8 @@ private:
       if (!place.blocks.empty())
       {
         this->Home.makeParents(path);
-        std::filesystem::rename(this->Home.pathOf(partName(place.blocks.front()) + '/' + path), this->Home.pathOf(path));
+        std::filesystem::rename(
+          this->Home.pathOf(partName(place.blocks.front()) + '/' + path), this->Home.pathOf(path));
       }
     }
     this->Whole.files.clear();
@@ -241,8 +242,8 @@ private:
           problems[std::size_t(i)] = this->Home.pathOf(scene) + ": is of another version of DGTk";
         }
         const Folder own(this->Home.pathOf(scene));
-        const bool whole = std::all_of(manifest.files.begin(), manifest.files.end(),
-          [&](const DatasetFile& file) { return isWhole(own, file); });
+        const bool whole = std::all_of(
+          manifest.files.begin(), manifest.files.end(), [&](const DatasetFile& file) { return isWhole(own, file); });
         if (!whole)
         {
           removeListed(own, manifest);

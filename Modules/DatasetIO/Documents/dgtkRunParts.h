@@ -27,7 +27,7 @@ struct DGTKDATASETIO_EXPORT RunParts
   bool contactSheet = false;
   std::vector<std::string> scenes;                          ///< names of their folders; none: pictures of one dataset
   std::vector<std::pair<std::string, std::string>> request; ///< of scenes
-  std::vector<std::string> leftOut; ///< files of the scenes' folder that are no scenes
+  std::vector<std::string> leftOut;                         ///< files of the scenes' folder that are no scenes
   /// Items of a block.
   std::size_t blockSize() const;
   std::size_t blocks() const;
@@ -52,11 +52,11 @@ DGTKDATASETIO_EXPORT void endScenes(const std::string& folder, const RunParts& r
 struct MergeReport
 {
   std::size_t blocks = 0;
-  std::size_t files = 0;              ///< of the dataset, or datasets
-  std::vector<std::size_t> missing;   ///< blocks that are not finished
-  std::vector<std::string> problems;  ///< lines: parts that do not fit
-  std::vector<std::size_t> workers;   ///< counts of processes that the run was begun with, ascending
-  bool merged = false;                ///< the folder is whole
+  std::size_t files = 0;             ///< of the dataset, or datasets
+  std::vector<std::size_t> missing;  ///< blocks that are not finished
+  std::vector<std::string> problems; ///< lines: parts that do not fit
+  std::vector<std::size_t> workers;  ///< counts of processes that the run was begun with, ascending
+  bool merged = false;               ///< the folder is whole
   /// The numbers of the processes of so many that have to run again: "3,17,40-42".
   DGTKDATASETIO_EXPORT std::string processes(std::size_t of) const;
 };

@@ -9,8 +9,8 @@
 #include "dgtkLayers.h"
 #include "dgtkRunDocuments.h"
 #include "dgtkRunFiles.h"
-#include "dgtkRunSession.h"
 #include "dgtkRunNotes.h"
+#include "dgtkRunSession.h"
 #include "dgtkSpaceNeeded.h"
 #include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
@@ -127,14 +127,15 @@ GeneratorResult Run::execute()
   FrameSourceOptions options = sourceOptions(this->Plan);
   if (!drawsItself(request))
   {
-    options.pov = PovColorSettings{ request.options, this->Root, option::samples().of(request.options),
-      this->Callbacks.cancel };
+    options.pov =
+      PovColorSettings{ request.options, this->Root, option::samples().of(request.options), this->Callbacks.cancel };
   }
   this->Pool = &this->Session->pool(this->Threads);
   this->Source = std::make_unique<FrameSource>(options, *this->Pool);
   this->Result.glDescription = this->Source->glDescription();
   this->Result.visibility = this->Plan.raster ? "raster" : "ray";
-  this->Documents = std::make_unique<RunDocuments>(*this->Scene, this->Plan, request.folder, this->Root, *this->Session);
+  this->Documents =
+    std::make_unique<RunDocuments>(*this->Scene, this->Plan, request.folder, this->Root, *this->Session);
   const SpaceNeeded needed = spaceOf(this->Plan, *this->Scene);
   const std::string tight = checkSpace(request.folder, needed, spaceIn(request.folder, needed.likely));
   if (!tight.empty())
@@ -274,8 +275,8 @@ void Run::render(const Job& job)
     this->Source->setScene(state, view);
     bands = this->Source->bands();
   }
-  auto output = std::make_unique<FrameOutput>(this->Root,
-    JobContext{ this->Plan, job, this->cameraName(job), state, view, this->Queries, *this->Pool }, bands);
+  auto output = std::make_unique<FrameOutput>(
+    this->Root, JobContext{ this->Plan, job, this->cameraName(job), state, view, this->Queries, *this->Pool }, bands);
   if (bands > 0)
   {
     if (this->Plan.drawsColor() && drawsItself(request))

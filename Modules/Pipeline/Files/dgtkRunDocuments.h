@@ -24,10 +24,10 @@ std::vector<std::string> filesOf(const WorkPlan& plan, const Stage& stage, const
 class RunDocuments
 {
 public:
-  /// Reads the inputs. `home` is the dataset's folder; a part of a run is written into another one, and the documents of
-  /// the whole say the same in each. Throws UsageError where the run would write its inputs.
-  RunDocuments(const Stage& stage, const WorkPlan& plan, const std::string& home, const std::string& folder,
-    RunSession& session);
+  /// Reads the inputs. `home` is the dataset's folder; a part of a run is written into another one, and the documents
+  /// of the whole say the same in each. Throws UsageError where the run would write its inputs.
+  RunDocuments(
+    const Stage& stage, const WorkPlan& plan, const std::string& home, const std::string& folder, RunSession& session);
 
   const std::string& requestHash() const { return this->RequestHash; }
   /// Every file that the run writes, but those that layers share.

@@ -6,9 +6,9 @@
 #include "dgtkFolder.h"
 #include "dgtkHash.h"
 #include "dgtkJournal.h"
-#include "dgtkJson.h"
 #include "dgtkRunParts.h"
 #include "dgtkRunSession.h"
+#include "dgtkSceneFile.h"
 #include "dgtkText.h"
 #include "dgtkWorkPlan.h"
 
@@ -30,18 +30,6 @@ struct SceneFiles
   std::vector<std::pair<std::string, std::string>> scenes; ///< name, path; in the order of names
   std::vector<std::string> leftOut;                        ///< names of files that are none
 };
-
-bool looksLikeScene(const std::string& path)
-{
-  if (extensionOf(path) == "scene")
-  {
-    return true;
-  }
-  const JsonDocument document = parseJson(path, readFile(path));
-  const JsonNode& root = document.root;
-  return root.type == JsonNode::Type::Object &&
-         (root.find("objects") != nullptr || root.find("cameras") != nullptr || root.find("lights") != nullptr);
-}
 
 SceneFiles scenesIn(const std::string& folder)
 {

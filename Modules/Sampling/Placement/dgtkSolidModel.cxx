@@ -16,7 +16,7 @@ namespace dgtk
 namespace
 {
 constexpr double pieceTolerance = 0.02; ///< of the model's size
-constexpr std::size_t mostPieces = 24;   ///< of a model
+constexpr std::size_t mostPieces = 24;  ///< of a model
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
