@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Datasets of many scenes: one export of all where pictures stand side by side, else one a scene."""
+import json
+import os
+
+import datasets
+from datasets import load_json, main
+
+JOINED = ("coco", "coco-panoptic", "yolo", "voc", "imagefolder", "bop")
+
+
+class Scenes(datasets.ExportCase):
+    def setUp(self):
+        super().setUp()
+        os.makedirs(self.path("scenes"))
+        self.write("scenes/quad.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n")
+        for number, names in enumerate((("a", "b"), ("b", "c", "d"), ("e",))):
+            scene = {"units": "m", "fps": 10, "classes": "../classes.json",
+                     "objects": [{"name": name, "class": "even" if ord(name) % 2 == 0 else "odd", "model": "quad.obj", "scale": 0.5,
+                                  "position": [0.8 * k - 0.8, 0.3 * number, -0.1 * k]} for k, name in enumerate(names)],
+                     "cameras": [{"name": "view", "width": 48, "height": 36, "eye": [0, 0, 5], "lookAt": [0, 0, 0]}]}
+            self.write(f"scenes/s{number}.json", json.dumps(scene))
+        self.write("classes.json", json.dumps({"odd": 1, "even": 2}))
+        self.dgtk("render", self.path("scenes"), "-o", self.path("all"), "--for", ",".join((*JOINED, "hdf5")), "--quiet")
+
+    def export(self, form, *options):
+        folder = self.path("export", form + "-".join(options).replace("=", "_").replace(",", "_").replace(":", "_"))
+        self.dgtk("export", self.path("all"), "--format", form, "-o", folder, "--quiet", *options)
+        self.dgtk("verify", self.path("all"), "--export", folder)
+        return folder
+
+    def test_one_export_of_all(self):
+        for form in JOINED:
+            with self.subTest(form):
+                self.assertTrue(os.path.exists(os.path.join(self.export(form), "export.json")))
+
+    def test_coco_counts_through(self):
+        document = load_json(os.path.join(self.export("coco"), "annotations", "instances_train.json"))
+        self.assertEqual([image["id"] for image in document["images"]], [1, 2, 3])
+        self.assertEqual([image["camera"] for image in document["images"]], ["s0/view", "s1/view", "s2/view"])
+        self.assertEqual(len({one["id"] for one in document["annotations"]}), 6)
+        seen = sorted((one["image_id"], one["object"], one["category_id"]) for one in document["annotations"])
+        self.assertEqual(seen, [(1, "a", 1), (1, "b", 2), (2, "b", 2), (2, "c", 1), (2, "d", 2), (3, "e", 1)])
+
+    def test_splits_count_scenes(self):
+        folder = self.export("coco", "--split", "train=0:1,val=2:2")
+        self.assertEqual(len(load_json(os.path.join(folder, "annotations", "instances_val.json"))["images"]), 1)
+        self.assertEqual(len(load_json(os.path.join(folder, "annotations", "instances_train.json"))["images"]), 2)
+
+    def test_bop_shares_models(self):
+        folder = self.export("bop")
+        self.assertEqual(list(load_json(os.path.join(folder, "models", "models_info.json"))), ["1"])
+        poses = [load_json(os.path.join(folder, "test", f"{scene:06}", "scene_gt.json"))["0"] for scene in (1, 2, 3)]
+        self.assertEqual([len(one) for one in poses], [2, 3, 1])
+
+    def test_others_are_exported_one_by_one(self):
+        self.dgtk("export", self.path("all"), "--format", "hdf5", "-o", self.path("h"), "--quiet")
+        self.assertEqual(sorted(os.listdir(self.path("h"))), ["s0", "s1", "s2"])
+        self.dgtk("verify", self.path("all"), "--export", self.path("h"))
+
+    def test_a_wrong_class_is_found(self):
+        folder = self.export("coco")
+        path = os.path.join(folder, "annotations", "instances_train.json")
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text.replace('"category_id":1', '"category_id":2', 1))
+        self.assertIn("category", self.dgtk("verify", self.path("all"), "--export", folder, status=1).stdout)
+
+    def test_classes_that_differ_are_refused(self):
+        scene = load_json(self.path("scenes", "s2.json"))
+        scene["classes"] = {"odd": 5}
+        self.write("scenes/s2.json", json.dumps(scene))
+        self.dgtk("render", self.path("scenes"), "-o", self.path("other"), "--for", "coco", "--quiet")
+        done = self.refused("export", self.path("other"), "--format", "coco", "-o", self.path("no"), status=2, says=("other classes",))
+        self.assertIn("'s0'", done)
+        self.assertFalse(os.path.exists(self.path("no")))
+
+
+if __name__ == "__main__":
+    main()
