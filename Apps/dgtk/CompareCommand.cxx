@@ -3,6 +3,7 @@
 
 #include "dgtkCompare.h"
 #include "dgtkError.h"
+#include "dgtkSceneFolders.h"
 
 #include <algorithm>
 #include <charconv>
@@ -104,6 +105,32 @@ int compareFolders(const std::string& a, const std::string& b, const Tolerances&
   return result.equal ? 0 : 1;
 }
 
+/// Two datasets, or two folders of datasets: one scene after another, by their names.
+int compareScenes(const std::string& a, const std::string& b, const Tolerances& tolerances, bool json)
+{
+  const std::vector<std::string> scenes = sceneFoldersIn(a);
+  if (scenes.empty() && sceneFoldersIn(b).empty())
+  {
+    return compareFolders(a, b, tolerances, json);
+  }
+  if (scenes != sceneFoldersIn(b))
+  {
+    print(json ? "{ \"equal\": false }\n" : a + " and " + b + ": the scenes differ\n");
+    return 1;
+  }
+  if (json)
+  {
+    throw UsageError("many scenes are compared in words only; compare two of them as JSON");
+  }
+  int differ = 0;
+  for (const std::string& scene : scenes)
+  {
+    print(scene + ":\n");
+    differ |= compareFolders(a + '/' + scene, b + '/' + scene, tolerances, false);
+  }
+  return differ;
+}
+
 int run(const Arguments& arguments)
 {
   const std::string& a = arguments.positional()[0];
@@ -125,7 +152,7 @@ int run(const Arguments& arguments)
   }
   if (folders)
   {
-    return compareFolders(a, b, tolerances, json);
+    return compareScenes(a, b, tolerances, json);
   }
   if (tolerances.size() > tolerances.count(""))
   {

@@ -6,6 +6,8 @@
 #include "dgtkError.h"
 #include "dgtkFolderContents.h"
 #include "dgtkLayerWriter.h"
+#include "dgtkRunParts.h"
+#include "dgtkSceneFolders.h"
 #include "dgtkUtf8.h"
 
 #include <nlohmann/json.hpp>
@@ -31,8 +33,40 @@ void requireDataset(const std::string& folder)
   throw InputError(folder, 0, "is not a dataset", "a folder with manifest.json");
 }
 
+namespace
+{
+/// Of a folder of datasets.
+Json infoOfScenes(const std::string& folder)
+{
+  const DatasetsManifest manifest = readDatasets(folder);
+  Json info;
+  info["datasets"] = folder;
+  info["version"] = manifest.version;
+  info["request"] = Json::object();
+  for (const auto& [key, value] : manifest.request)
+  {
+    info["request"][key] = utf8FromBytes(value);
+  }
+  info["left_out"] = Json::array();
+  for (const std::string& name : manifest.leftOut)
+  {
+    info["left_out"].push_back(utf8FromBytes(name));
+  }
+  info["scenes"] = Json::array();
+  for (const std::string& scene : sceneFoldersIn(folder))
+  {
+    info["scenes"].push_back(utf8FromBytes(scene));
+  }
+  return info;
+}
+} // namespace
+
 Json infoOfDataset(const std::string& folder)
 {
+  if (!sceneFoldersIn(folder).empty())
+  {
+    return infoOfScenes(folder);
+  }
   const Manifest manifest = readManifest(folder + "/manifest.json");
   std::set<std::string> cameras;
   std::set<int> frames;

@@ -51,7 +51,7 @@ class Browser:
     def __exit__(self, *_):
         try:
             self.ask("Browser.close")
-            self.process.wait(timeout=20)
+            self.process.wait(timeout=120)
         except Exception:  # it goes one way or the other
             self.process.kill()
             self.process.wait()

@@ -58,7 +58,7 @@ class Cluster(Case):
         self.dgtk("render", DEMO, "-o", self.whole, *OPTIONS, "--quiet")
 
     def script(self, *command, environment=None):
-        done = subprocess.run(command, capture_output=True, text=True, timeout=120, env={**os.environ, "DGTK": DGTK, **(environment or {})})
+        done = subprocess.run(command, capture_output=True, text=True, timeout=400, env={**os.environ, "DGTK": DGTK, **(environment or {})})
         self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}\n{done.stderr}")
         return done.stdout
 
@@ -145,7 +145,7 @@ class Slurm:
         self.case.assertIsNotNone(path, f"{name} is not installed (Utilities/Setup/packages.txt)")
         self.daemons.append(subprocess.Popen([path, *arguments], stdout=log, stderr=log, env=self.environment, cwd=self.folder))
 
-    def until(self, holds, what, seconds=60):
+    def until(self, holds, what, seconds=200):
         end = time.monotonic() + seconds
         while not holds():
             if time.monotonic() > end:
@@ -157,7 +157,7 @@ class Slurm:
             time.sleep(0.2)
 
     def run(self, *command, check=True):
-        done = subprocess.run(command, capture_output=True, text=True, env=self.environment, cwd=self.folder, timeout=60)
+        done = subprocess.run(command, capture_output=True, text=True, env=self.environment, cwd=self.folder, timeout=200)
         if check:
             self.case.assertEqual(done.returncode, 0, f"{command}\n{done.stderr}")
         return done.stdout
@@ -166,7 +166,7 @@ class Slurm:
         return self.run("sbatch", "--parsable", *words).strip().split(";")[0]
 
     def wait(self, job):
-        self.until(lambda: not self.run("squeue", "-h", "-j", job, "-t", "PD,R,CG,RQ,S", check=False).strip(), f"job {job}", 120)
+        self.until(lambda: not self.run("squeue", "-h", "-j", job, "-t", "PD,R,CG,RQ,S", check=False).strip(), f"job {job}", 300)
 
     def stop(self):
         for daemon in reversed(self.daemons):

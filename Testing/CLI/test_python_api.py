@@ -242,12 +242,12 @@ began = time.monotonic()
 try:
     dgtk.generate(sys.argv[1], sys.argv[2], layers=["depth", "normal", "ldi"], size=(2000, 1500), samples=4)
 except KeyboardInterrupt:
-    print("interrupted", time.monotonic() - began < 30, os.path.exists(sys.argv[2] + "/manifest.json"))
+    print("interrupted", time.monotonic() - began < 90, os.path.exists(sys.argv[2] + "/manifest.json"))
 """
 
     def test_an_interrupt_without_progress(self):
         done = subprocess.run(["/usr/bin/python3", "-c", f"import sys; sys.path.insert(0, {PACKAGES!r})" + self.INTERRUPTED, DEMO, self.path("out")],
-                              capture_output=True, text=True, timeout=120)
+                              capture_output=True, text=True, timeout=300)
         self.assertEqual((done.returncode, done.stdout), (0, "interrupted True False\n"), done.stderr)
 
     def test_refusals(self):

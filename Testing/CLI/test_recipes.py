@@ -20,7 +20,7 @@ class Recipes(Case):
             with self.subTest(name):
                 out = self.path(name)
                 done = subprocess.run([os.path.join(RECIPES, "make"), name, "-o", out, "--samples", "0:1", "--size", "96x72", "--quiet"],
-                                      capture_output=True, text=True, timeout=280, env={**os.environ, "DGTK": DGTK})
+                                      capture_output=True, text=True, timeout=550, env={**os.environ, "DGTK": DGTK})
                 self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr)
                 self.assertEqual(sorted(os.listdir(os.path.join(out, "export"))), EXPORTS[name])
                 samples = load_json(os.path.join(out, "scenes", "samples.json"))["samples"]
