@@ -137,10 +137,10 @@ GeneratorResult generated(
 
 int render(const Arguments& arguments)
 {
+  const std::atomic<bool>& interrupted = catchInterrupts();
   const GeneratorRequest request = parseRequest(arguments);
   prepareGL(option::gl().of(request.options), option::threads().of(request.options));
   allowManyFiles();
-  const std::atomic<bool>& interrupted = catchInterrupts();
   if (arguments.has("--timings"))
   {
     keepWorkTimes();

@@ -50,8 +50,8 @@ bool looksLikeScene(const std::string& path)
   }
   const JsonDocument document = parseJson(path, readFile(path, largestFile));
   const JsonNode& root = document.root;
-  return root.type == JsonNode::Type::Object &&
-         (root.find("objects") != nullptr || root.find("cameras") != nullptr || root.find("lights") != nullptr);
+  return root.type == JsonNode::Type::Object && root.find("cameras") != nullptr &&
+         (root.find("objects") != nullptr || root.find("lights") != nullptr || root.find("environment") != nullptr);
 }
 
 SceneDescription readSceneText(const std::string& json, const std::string& folder)

@@ -9,8 +9,8 @@
 namespace dgtk
 {
 
-/// Whether a file is a scene by its extension and, of .json, by its keys: objects, lights or cameras. Files of classes
-/// and records of samples are not. Throws InputError for a file that cannot be read, and for what is no JSON.
+/// Whether a file is a scene by its extension and, of .json, by its keys: cameras beside objects, lights or an
+/// environment. Files of classes, records of samples and documents of datasets are not. Throws InputError for a file that cannot be read, and for what is no JSON.
 DGTKSCENE_EXPORT bool looksLikeScene(const std::string& path);
 
 } // namespace dgtk

@@ -62,6 +62,14 @@ class Shards(Case):
         self.assert_same_files(whole, self.path("parts"))
         self.assertEqual(os.path.exists(self.path("parts", ".dgtk-parts")), False)
 
+    def test_packed_inputs(self):
+        options = ("--layers", "depth", "--size", "32x24", "--quiet", "--pack")
+        self.dgtk("render", DEMO, "-o", self.path("whole"), *options)
+        for index in range(2):
+            self.shard(DEMO, self.path("parts"), index, 2, options)
+        self.dgtk("merge", self.path("parts"))
+        self.assert_same_files(self.path("whole"), self.path("parts"))
+
     def test_a_damaged_part_is_missing(self):
         options = ("--layers", "depth", "--size", "32x24", "--quiet")
         self.dgtk("render", DEMO, "-o", self.path("whole"), *options)
@@ -148,7 +156,13 @@ class Shards(Case):
         self.assertFalse(os.path.exists(self.path("all", "manifest.json")))
         self.assertTrue(os.path.exists(self.path("all", "000002", "manifest.json")))
         shutil.copy(self.path("models", "quad.obj"), self.path("scenes", "nothing.obj"))
-        self.dgtk("render", scenes, "-o", self.path("all"), *options, "--resume")
+        other = load_json(os.path.join(scenes, "000002.json"))
+        other["cameras"] = other["cameras"][:1]
+        self.write("scenes/000002.json", json.dumps(other))
+        self.refused("render", scenes, "-o", self.path("some"), *options, "--cameras", "right", status=3, says=("1 of 3 scenes", "000002: "))
+        self.refused("render", scenes, "-o", self.path("none"), *options, "--cameras", "nobody", status=2, says=("000000: ",))
+        self.write("scenes/000002.json", json.dumps({**other, "cameras": load_json(os.path.join(scenes, "000001.json"))["cameras"]}))
+        self.dgtk("render", scenes, "-o", self.path("all"), *options, "--replace")
         self.assertTrue(os.path.exists(self.path("all", "manifest.json")))
 
     def test_launchers(self):

@@ -91,7 +91,9 @@ void RunDocuments::pack(RunFiles& run)
     }
     run.add(copy);
   }
-  checkPacking(*this->Packed, this->Scene);
+  Packing there = *this->Packed;
+  there.scene.folder = this->Root; // of a part
+  checkPacking(there, this->Scene);
 }
 
 void RunDocuments::writeModels(RunFiles& files) const

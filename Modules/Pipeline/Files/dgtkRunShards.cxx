@@ -232,6 +232,15 @@ public:
       }
       ++this->Busy;
     }
+    catch (const UsageError& error)
+    {
+      const std::string line = this->Files.scenes[scene].first + ": " + error.what();
+      if (this->Done == 0)
+      {
+        throw UsageError(line); // the request rather than a scene
+      }
+      this->fail(line);
+    }
     this->advance();
     return !this->Result.interrupted;
   }
