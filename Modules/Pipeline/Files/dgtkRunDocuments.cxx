@@ -91,9 +91,9 @@ void RunDocuments::pack(RunFiles& run)
     }
     run.add(copy);
   }
-  Packing there = *this->Packed;
-  there.scene.folder = this->Root; // of a part
-  checkPacking(there, this->Scene);
+  Packing placed = *this->Packed;
+  placed.scene.folder = this->Root; // of a part
+  checkPacking(placed, this->Scene);
 }
 
 void RunDocuments::writeModels(RunFiles& files) const
