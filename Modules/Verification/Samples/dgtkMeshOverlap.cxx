@@ -2,8 +2,12 @@
 #include "dgtkMeshOverlap.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
 
 namespace dgtk
 {
@@ -162,15 +166,65 @@ double distanceTo(const Eigen::Vector3d& x, const WorldTriangle& t)
   return within ? std::min(least, std::abs(area.normalized().dot(x - t[0]))) : least;
 }
 
-double deepestWithin(const WorldMesh& a, const WorldMesh& b)
+using Point = std::array<double, 3>;
+Point keyOf(const Eigen::Vector3d& x) { return { x.x(), x.y(), x.z() }; }
+
+/// The triangles of those connected parts of a mesh that have no border: only they have an inside. Corners are one
+/// where they are at the same place.
+WorldMesh closedParts(const WorldMesh& mesh)
 {
+  std::vector<std::size_t> part(mesh.triangles.size());
+  std::iota(part.begin(), part.end(), std::size_t(0));
+  const auto root = [&](std::size_t i)
+  {
+    while (part[i] != i)
+    {
+      i = part[i] = part[part[i]];
+    }
+    return i;
+  };
+  std::map<std::pair<Point, Point>, std::vector<std::size_t>> edges;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const Point p = keyOf(mesh.triangles[i][k]);
+      const Point q = keyOf(mesh.triangles[i][(k + 1) % 3]);
+      edges[p < q ? std::pair(p, q) : std::pair(q, p)].push_back(i);
+    }
+  }
+  std::vector<bool> open(mesh.triangles.size());
+  for (const auto& [edge, owners] : edges)
+  {
+    for (const std::size_t owner : owners)
+    {
+      part[root(owner)] = root(owners.front());
+    }
+  }
+  for (const auto& [edge, owners] : edges)
+  {
+    open[root(owners.front())] = open[root(owners.front())] || owners.size() % 2 != 0;
+  }
+  WorldMesh closed;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  {
+    if (!open[root(i)])
+    {
+      closed.add(mesh.triangles[i]);
+    }
+  }
+  return closed;
+}
+
+double deepestWithin(const WorldMesh& a, const WorldMesh& whole)
+{
+  const WorldMesh b = closedParts(whole);
   double deepest = 0;
   for (const WorldTriangle& t : a.triangles)
   {
     for (const Eigen::Vector3d& x : t)
     {
-      // Of a sheet the winding is up to a half.
-      if (!b.box.contains(x) || std::abs(winding(x, b)) < 0.75)
+      if (!b.box.contains(x) || std::abs(winding(x, b)) < 0.5)
       {
         continue;
       }
