@@ -6,6 +6,7 @@
 #include "dgtkJournal.h"
 #include "dgtkRunParts.h"
 
+#include <filesystem>
 #include <fstream>
 
 namespace dgtk
@@ -28,7 +29,8 @@ bool speaksOfScenes(const std::string& path)
 std::vector<std::string> sceneFoldersIn(const std::string& folder)
 {
   const Folder place(folder);
-  if (place.look(manifestName) != EntryKind::File || !speaksOfScenes(place.fileAt(manifestName)))
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(folder + '/' + manifestName, code) || !speaksOfScenes(place.fileAt(manifestName)))
   {
     return {};
   }

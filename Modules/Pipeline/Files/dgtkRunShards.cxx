@@ -65,7 +65,7 @@ SceneFiles scenesIn(const std::string& folder)
   std::sort(files.scenes.begin(), files.scenes.end());
   if (files.scenes.empty())
   {
-    throw UsageError(folder + ": holds no scenes (.json or .scene)");
+    throw InputError(folder, 0, "is a directory without scenes", "files in .json or .scene");
   }
   return files;
 }
