@@ -5,7 +5,6 @@
 #include "dgtkError.h"
 #include "dgtkFolderContents.h"
 #include "dgtkJournal.h"
-#include "dgtkSceneFolders.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -180,16 +179,6 @@ void beginParts(const std::string& path, const RunParts& run, std::size_t worker
   }
 }
 
-bool holdsDatasets(const std::string& folder)
-{
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(folder + '/' + manifestName, code))
-  {
-    return false;
-  }
-  return !sceneFoldersIn(folder).empty();
-}
-
 DatasetsManifest readDatasets(const std::string& path)
 {
   const JsonDocument document = readJson(Folder(path).fileAt(manifestName));
@@ -209,20 +198,6 @@ DatasetsManifest readDatasets(const std::string& path)
     manifest.datasets.push_back(fileOf(item));
   }
   return manifest;
-}
-
-std::vector<std::string> datasetsIn(const std::string& folder)
-{
-  if (!holdsDatasets(folder))
-  {
-    return { folder };
-  }
-  std::vector<std::string> folders;
-  for (const DatasetFile& file : readDatasets(folder).datasets)
-  {
-    folders.push_back(folder + '/' + file.path.substr(0, file.path.rfind('/')));
-  }
-  return folders;
 }
 
 std::string datasetsManifestText(const DatasetsManifest& manifest) { return datasetsText(manifest); }

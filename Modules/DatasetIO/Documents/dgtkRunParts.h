@@ -75,12 +75,8 @@ struct DatasetsManifest
   std::vector<std::string> leftOut;
   std::vector<DatasetFile> datasets; ///< their manifests, in the order of their names
 };
-/// Whether a folder's manifest is that of datasets. False where there is none.
-DGTKDATASETIO_EXPORT bool holdsDatasets(const std::string& folder);
 /// Throws InputError.
 DGTKDATASETIO_EXPORT DatasetsManifest readDatasets(const std::string& folder);
-/// The folders of the datasets in a folder, which it names: itself where it is one dataset.
-DGTKDATASETIO_EXPORT std::vector<std::string> datasetsIn(const std::string& folder);
 
 } // namespace dgtk
 

@@ -9,6 +9,7 @@
 #include "dgtkRunParts.h"
 #include "dgtkRunSession.h"
 #include "dgtkSceneFile.h"
+#include "dgtkSceneFolders.h"
 #include "dgtkText.h"
 #include "dgtkWorkPlan.h"
 
@@ -129,7 +130,7 @@ bool isWhole(const std::string& folder, const RunParts& run, bool replace)
     }
     return false;
   }
-  if (finished && !holdsDatasets(folder))
+  if (finished && sceneFoldersIn(folder).empty())
   {
     throw FolderError(folder, FolderContents::FinishedOther);
   }
@@ -148,16 +149,7 @@ std::vector<std::string> heldScenes(const std::string& folder)
   {
     return readParts(folder).scenes;
   }
-  std::vector<std::string> names;
-  std::error_code code;
-  if (fs::is_regular_file(folder + '/' + manifestName, code))
-  {
-    for (const DatasetFile& file : readDatasets(folder).datasets)
-    {
-      names.push_back(file.path.substr(0, file.path.rfind('/')));
-    }
-  }
-  return names;
+  return sceneFoldersIn(folder);
 }
 
 /// Ends what the folder held: its manifest and its parts' record; the datasets are replaced one by one.
