@@ -3,6 +3,7 @@
 
 #include "dgtkFolderRecords.h"
 #include "dgtkJournal.h"
+#include "dgtkRunParts.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -16,6 +17,8 @@ namespace dgtk
 
 namespace fs = std::filesystem;
 
+/// A journal without a record counts as nothing, and so do parts that a process is just about to begin, or was when it
+/// was killed.
 bool holdsNothing(const std::string& folder)
 {
   std::error_code code;
@@ -29,7 +32,11 @@ bool holdsNothing(const std::string& folder)
     throw MachineError(folder + ": the folder cannot be read: " + code.message());
   }
   return std::all_of(begin(entries), end(entries),
-    [](const fs::directory_entry& entry) { return entry.path().filename().string().rfind(journalName, 0) == 0; });
+    [&](const fs::directory_entry& entry)
+    {
+      const std::string name = entry.path().filename().string();
+      return name.rfind(journalName, 0) == 0 || (name == partsName && !hasParts(folder));
+    });
 }
 
 bool isRunning(const Folder& folder)

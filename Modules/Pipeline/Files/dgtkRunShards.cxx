@@ -124,9 +124,10 @@ bool isWhole(const std::string& folder, const RunParts& run, bool replace)
   const bool finished = fs::is_regular_file(folder + '/' + manifestName, code);
   if (!finished && !hasParts(folder))
   {
-    if (fs::exists(folder, code) && !fs::is_empty(folder, code))
+    const FolderContents contents = folderContents(folder, {});
+    if (contents != FolderContents::Nothing && !hasParts(folder)) // another process may have begun it meanwhile
     {
-      throw FolderError(folder, FolderContents::Foreign);
+      throw FolderError(folder, contents);
     }
     return false;
   }
@@ -354,7 +355,7 @@ GeneratorResult shardOfPictures(
     {
       return {};
     }
-    if (contents != FolderContents::Nothing)
+    if (contents != FolderContents::Nothing && !hasParts(request.folder)) // another may have begun it meanwhile
     {
       throw FolderError(request.folder, contents);
     }
