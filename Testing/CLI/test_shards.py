@@ -62,6 +62,13 @@ class Shards(Case):
         self.assert_same_files(whole, self.path("parts"))
         self.assertEqual(os.path.exists(self.path("parts", ".dgtk-parts")), False)
 
+    def test_a_folder_that_another_process_has_just_made(self):
+        """As it is between two steps of another share, or after that one was killed there."""
+        for scene, name in ((DEMO, "one"), (self.scenes(2), "many")):
+            os.makedirs(self.path(name, ".dgtk-parts"))
+            self.shard(scene, self.path(name), 0, 1, ("--layers", "depth", "--size", "32x24", "--quiet"))
+            self.dgtk("merge", self.path(name))
+
     def test_packed_inputs(self):
         options = ("--layers", "depth", "--size", "32x24", "--quiet", "--pack")
         self.dgtk("render", DEMO, "-o", self.path("whole"), *options)

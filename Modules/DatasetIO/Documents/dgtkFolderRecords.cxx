@@ -179,7 +179,7 @@ FolderRecords readFolderRecords(const Folder& folder, const std::string& documen
     {
       addDocument(folder.pathOf(document), document, records);
     }
-    if (document == manifestName && folder.look(partsName) != EntryKind::Nothing)
+    if (document == manifestName && holdsParts(folder.path()))
     {
       records.foreign = std::string(partsName) + ": parts of a run wait to be merged";
     }

@@ -131,6 +131,20 @@ std::string partName(std::size_t block)
 
 bool hasParts(const std::string& folder) { return Folder(folder).look(runFile()) == EntryKind::File; }
 
+bool holdsParts(const std::string& folder)
+{
+  const std::string place = folder + '/' + partsName;
+  std::error_code code;
+  const std::filesystem::directory_iterator entries(place, code);
+  if (code)
+  {
+    return Folder(folder).look(partsName) != EntryKind::Nothing;
+  }
+  const std::string unfinished = std::filesystem::path(runFile()).filename().string() + '.';
+  return std::any_of(begin(entries), end(entries),
+    [&](const auto& entry) { return entry.path().filename().string().rfind(unfinished, 0) != 0; });
+}
+
 RunParts readParts(const std::string& path)
 {
   const JsonDocument document = readJson(Folder(path).fileAt(runFile()));

@@ -38,6 +38,8 @@ DGTKDATASETIO_EXPORT std::string partName(std::size_t block);
 
 /// Whether parts wait in a folder.
 DGTKDATASETIO_EXPORT bool hasParts(const std::string& folder);
+/// Whether anything stands in the place of parts, but for what a process leaves that was ended while it began them.
+DGTKDATASETIO_EXPORT bool holdsParts(const std::string& folder);
 /// Throws InputError for what is not written by beginParts().
 DGTKDATASETIO_EXPORT RunParts readParts(const std::string& folder);
 /// Prepares a folder for the parts of a run, of which this is one process of `workers`; any number may do so at the
