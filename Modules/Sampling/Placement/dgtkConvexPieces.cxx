@@ -64,8 +64,7 @@ double emptyAbove(const Eigen::Vector3d& x, const Eigen::Vector3d& out, const st
   return faces.empty() ? 0 : std::max(way, 0.0);
 }
 
-/// Fills in hull and concavity.
-void measure(Piece& piece)
+void findHull(Piece& piece)
 {
   std::vector<Eigen::Vector3d> points = piece.corners;
   for (const Facet& facet : piece.surface)
@@ -73,6 +72,11 @@ void measure(Piece& piece)
     points.insert(points.end(), facet.corners.begin(), facet.corners.end());
   }
   piece.hull = convexHull(points);
+}
+
+/// Fills in the concavity, and where it is; of a piece that has its hull.
+void measure(Piece& piece)
+{
   piece.concavity = 0;
   const auto look = [&](const Eigen::Vector3d& x, const Eigen::Vector3d& out)
   {
@@ -166,7 +170,7 @@ Piece half(const Piece& piece, const HalfSpace& side, double size, const Inside&
   }
   if (!result.surface.empty())
   {
-    measure(result);
+    findHull(result);
   }
   return result;
 }
@@ -269,6 +273,7 @@ std::vector<Piece> sectorsOf(
       Piece sector = half(half(band, side(i), size, inside), { -end.normal, -end.offset }, size, inside);
       if (!sector.surface.empty())
       {
+        measure(sector);
         fits = fits && sector.concavity <= tolerance;
         pieces.push_back(std::move(sector));
       }
@@ -297,7 +302,8 @@ std::vector<Piece> turnedPieces(
     for (std::size_t i = 0; i <= heights.size() && fits; ++i)
     {
       const bool last = i == heights.size();
-      const Piece band = last ? rest : half(rest, { axis.direction, heights[i] }, size, inside);
+      Piece band = last ? rest : half(rest, { axis.direction, heights[i] }, size, inside);
+      measure(band);
       rest = last ? Piece() : half(rest, { -axis.direction, -heights[i] }, size, inside);
       std::vector<Piece> sectors = sectorsOf(band, axis, size, tolerance, inside);
       fits = !sectors.empty() && pieces.size() + sectors.size() <= most;
@@ -390,6 +396,8 @@ std::vector<Piece> cutPieces(const Piece& whole, double size, double tolerance, 
       uncut[worst] = 1; // as small as pieces get
       continue;
     }
+    measure((*parts)[0]);
+    measure((*parts)[1]);
     pieces[worst] = std::move((*parts)[0]);
     pieces.push_back(std::move((*parts)[1]));
     uncut.push_back(0);
@@ -421,6 +429,7 @@ std::vector<ConvexHull> convexPieces(const std::vector<Eigen::Vector3d>& points,
     const bool below = inside(facet.middle() - 1e-5 * size * out);
     facet.out = above == below ? Eigen::Vector3d::Zero() : Eigen::Vector3d(below ? out : -out);
   }
+  findHull(whole);
   measure(whole);
   std::vector<Piece> pieces = cutPieces(whole, size, tolerance, most, inside);
   if (const std::optional<TurningAxis> turning = pieces.size() > 1 ? turningAxis(whole.surface) : std::nullopt)
