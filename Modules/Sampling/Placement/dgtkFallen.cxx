@@ -13,7 +13,7 @@ namespace dgtk
 namespace
 {
 constexpr int mostStarts = 16; ///< places that are tried for a start low down
-constexpr double reach = 0.1;  ///< of the size: how far down a body may be laid
+constexpr double reach = 0.1;  ///< of the size, or of the mean of all that fall: how far down a body may be laid
 constexpr int mostRounds = 4;  ///< of laying again what is not where it can be
 
 double low(const PlaceBody& body, int up) { return body.box().min()[up]; }
@@ -325,7 +325,7 @@ bool Drop::leaveOutUnfit()
 void Drop::layOne(std::size_t i)
 {
   layDown(this->body(i), this->World.others({ this->Falling[i].rule->object }), this->Settings.down,
-    reach * this->body(i).size());
+    reach * std::max(this->body(i).size(), this->Settings.size));
 }
 
 void Drop::lay()
