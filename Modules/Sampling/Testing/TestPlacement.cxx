@@ -313,7 +313,7 @@ TEST(Placement, WhatFallsKeepsItsClearance)
     {
       made
         .add("brick#" + std::to_string(i), "brick.ac",
-          R"({ "on": "table", "region": [[-0.2, -0.2], [0.2, 0.2]], "drop": {} )" + clearance + "}")
+          R"({ "on": "table", "region": [[-0.12, -0.12], [0.12, 0.12]], "drop": {} )" + clearance + "}")
         .orientation = anyRotation(0.11 * i, 0.3 * i - int(0.3 * i), 0.7 * i - int(0.7 * i));
     }
     std::vector<PlaceBody> bodies;
@@ -332,7 +332,8 @@ TEST(Placement, WhatFallsKeepsItsClearance)
         }
       }
     }
-    EXPECT_GE(bodies.size(), 5u);
+    EXPECT_GE(bodies.size(), 2u);
+    EXPECT_EQ(bodies.size() == 8, clearance.empty()); // there is no room for all
     return least;
   };
   EXPECT_LT(nearest(""), 0.02);
