@@ -16,6 +16,10 @@ namespace
 constexpr double pi = 3.14159265358979323846;
 constexpr double touch = 1e-6; ///< of the size: what counts as touching
 
+/// How far up a meeting may lie that holds a body: what it does not go into holds it from below alone, as a surface
+/// that it touches from below or from the side does not.
+double heldFrom(double depth, const PlaceBody& body) { return depth > 0 ? depth + 2 * touch * body.size() : 0; }
+
 bool isThere(const SceneDescription& scene, std::size_t object)
 {
   return isEver(scene.objects[object].visible) && !scene.objects[object].model.empty();
@@ -137,7 +141,7 @@ PlaceMeasure measurePlace(
   {
     const double depth = penetration(body, *other).depth;
     measure.penetration = std::max(measure.penetration, depth);
-    measure.gap = std::min(measure.gap, wayDown(body, *other, down, measure.gap, depth + 2 * touch * body.size()));
+    measure.gap = std::min(measure.gap, wayDown(body, *other, down, measure.gap, heldFrom(depth, body)));
   }
   return measure;
 }
@@ -180,7 +184,7 @@ void layDown(PlaceBody& body, const std::vector<const PlaceBody*>& others, const
   double way = most;
   for (const PlaceBody* other : others)
   {
-    way = std::min(way, wayDown(body, *other, down, way, 2 * touch * body.size()));
+    way = std::min(way, wayDown(body, *other, down, way, heldFrom(penetration(body, *other).depth, body)));
   }
   if (way < most)
   {

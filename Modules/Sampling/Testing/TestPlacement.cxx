@@ -114,6 +114,12 @@ TEST(PlaceBody, LiesOnWhatHoldsIt)
     EXPECT_EQ(measure.penetration, 0);
     EXPECT_LT(measure.gap, 5e-6);
   }
+  // What it touches from below does not hold it.
+  const PlaceBody ceiling = bodyOf(boxMesh(10, 1, 10), { 0, 1.5203, 0 });
+  PlaceBody under = bodyOf(cube, { 0.3, 0.5203 - 1e-6, 0.2 });
+  EXPECT_GT(measurePlace(under, { &floor, &ceiling }, down, 1).gap, 0.02);
+  layDown(under, { &floor, &ceiling }, down, 0.05);
+  EXPECT_NEAR(under.pose().translation.y(), 0.5, 5e-6);
   EXPECT_TRUE(stands(bodyOf(cube, { 0, 0.5, 0 }), floor, down, 0.005));
   EXPECT_TRUE(stands(bodyOf(cube, { 5.49, 0.5, 0 }, about({ 0, 1, 0 }, 10)), floor, down, 0.005) == false);
   EXPECT_FALSE(stands(bodyOf(cube, { 0, std::sqrt(0.5), 0 }, about({ 0, 0, 1 }, 45)), floor, down, 0.005));
@@ -151,7 +157,8 @@ TEST(ConvexPieces, AreTrueToTheSurface)
       const auto holds = [&p](const ConvexHull& piece)
       {
         return std::all_of(piece.faces.begin(), piece.faces.end(),
-          [&](const HalfSpace& face) { return face.above(p) <= piece.left + 2e-5; }); // Bullet counts in ten thousandths of a hull
+          [&](const HalfSpace& face)
+          { return face.above(p) <= piece.left + 2e-5; }); // Bullet counts in ten thousandths of a hull
       };
       EXPECT_TRUE(std::any_of(pieces->begin(), pieces->end(), holds)) << name << p.transpose();
     }
