@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A processor without AVX and fused operations, emulated, makes the same bytes: of exact layers and of colours."""
+import json
 import os
 import shutil
 import subprocess
@@ -32,13 +33,25 @@ class OlderProcessor(Case):
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assert_same_files(self.path("here"), self.path("there"))
 
-    def test_same_samples(self):
-        scene = os.path.join(os.path.dirname(os.path.abspath(__file__)), "sampled_scene.json")
-        run = ("sample", scene, "--samples", "0:9", "--threads", "1", "--quiet")
+    def same_samples(self, scene, samples):
+        run = ("sample", scene, "--samples", samples, "--threads", "1", "--quiet")
         self.dgtk(*run, "-o", self.path("scenes"))
         done = subprocess.run([*EMULATED, DGTK, *run, "-o", self.path("emulated")], capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assert_same_files(self.path("scenes"), self.path("emulated"))
+
+    def test_same_samples(self):
+        self.same_samples(os.path.join(os.path.dirname(os.path.abspath(__file__)), "sampled_scene.json"), "0:9")
+
+    def test_same_falls(self):
+        def model(name):
+            return os.path.join(os.path.dirname(SCENES), "Models", name)
+
+        place = {"on": "table", "drop": {"height": 0.02}, "region": [[-0.1, -0.1], [0.1, 0.1]], "otherwise": "refuse"}
+        things = [{"name": name, "model": model(f"{name}.ac"), "count": count, "orientation": {"rotation": "any"}, "place": place}
+                  for name, count in (("brick", 3), ("torus", 1))]
+        scene = {"seed": 3, "objects": [{"name": "table", "model": model("table.ac")}, *things]}
+        self.same_samples(self.write("falls.json", json.dumps(scene)), "0:1")
 
 
 if __name__ == "__main__":

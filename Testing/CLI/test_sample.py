@@ -95,6 +95,14 @@ class Sample(Case):
         self.assertEqual((refused["path"], refused["attempts"]), ("cameras/c/require", 3))
         self.assertEqual(os.listdir(self.path("refuse")), ["samples.json"])
 
+    def test_a_proxy_that_is_none_is_refused(self):
+        for proxy, says in (("models/none.obj", "cannot be read"), ("models/far.obj", "is not where the object's is")):
+            self.write("models/far.obj", "v 5 5 0\nv 6 5 0\nv 6 6 0\nf 1 2 3\n")
+            thing = {"name": "thing", "model": "models/two.obj", "place": {"on": "wall", "drop": {}, "proxy": proxy}}
+            scene = self.scene(objects=[SCENE["objects"][0], thing], cameras=[])
+            self.refused("sample", scene, "-o", self.path(os.path.basename(proxy) + ".out"), "--samples", "0", status=3,
+                         says=["scene.json:", "proxy", says])
+
     def test_folders_of_others_are_left_alone(self):
         scene = self.scene()
         os.mkdir(self.path("foreign"))

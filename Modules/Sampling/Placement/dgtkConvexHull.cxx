@@ -111,4 +111,49 @@ ConvexHull convexHull(const std::vector<Eigen::Vector3d>& points, double shrink)
   return result;
 }
 
+ConvexHull simplifiedHull(const ConvexHull& hull, double tolerance)
+{
+  if (hull.faces.empty())
+  {
+    return hull;
+  }
+  // Corners are added to those that are outermost along some directions, the furthest outside first.
+  std::vector<Eigen::Vector3d> left = hull.points;
+  std::vector<Eigen::Vector3d> chosen;
+  const auto choose = [&](const auto& height)
+  {
+    const auto best = std::max_element(left.begin(), left.end(),
+      [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return height(a) < height(b); });
+    chosen.push_back(*best);
+    left.erase(best);
+  };
+  for (const Eigen::Vector3d& direction :
+    { Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(-1, -1, 1), Eigen::Vector3d(-1, 1, -1), Eigen::Vector3d(1, -1, -1) })
+  {
+    choose([&](const Eigen::Vector3d& p) { return direction.dot(p); });
+  }
+  while (!left.empty())
+  {
+    ConvexHull some = convexHull(chosen);
+    const auto outside = [&](const Eigen::Vector3d& p)
+    {
+      double height = some.faces.empty() ? (p - chosen.front()).norm() : 0;
+      for (const HalfSpace& face : some.faces)
+      {
+        height = std::max(height, face.above(p));
+      }
+      return height;
+    };
+    const auto furthest = std::max_element(left.begin(), left.end(),
+      [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return outside(a) < outside(b); });
+    if (!some.faces.empty() && outside(*furthest) <= tolerance)
+    {
+      some.left = outside(*furthest);
+      return some;
+    }
+    choose(outside);
+  }
+  return hull;
+}
+
 } // namespace dgtk

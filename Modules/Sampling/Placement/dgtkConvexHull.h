@@ -26,10 +26,14 @@ struct ConvexHull
   std::vector<Eigen::Vector3d> points; ///< its corners; of a flat one all points
   std::vector<HalfSpace> faces;        ///< which it lies in
   double volume = 0;
+  double left = 0; ///< how far what it stands for may be above its faces: see simplifiedHull()
 };
 
 /// `shrink`: its faces are moved inward by that, at most by a half of what the hull bears.
 ConvexHull convexHull(const std::vector<Eigen::Vector3d>& points, double shrink = 0);
+
+/// The hull of some of its corners, above whose faces the others are by no more than `left`, at most `tolerance`.
+ConvexHull simplifiedHull(const ConvexHull& hull, double tolerance);
 
 /// A surface cut into pieces whose convex hulls are true to it: no point of the surface lies deeper than `tolerance`
 /// below its piece's hull, unless that needed more than `most` pieces. `inside` says which points are within a closed

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkConvexHull.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -15,11 +17,33 @@ namespace
 {
 using Inside = std::function<bool(const Eigen::Vector3d&)>;
 using Polygon = std::vector<Eigen::Vector3d>;
+constexpr double pi = 3.14159265358979323846;
+
+/// A flat bit of a surface.
+struct Facet
+{
+  Polygon corners;
+  Eigen::Vector3d out{ 0, 0, 0 }; ///< unit length, away from the solid; of what bounds none, zero
+
+  Eigen::Vector3d middle() const
+  {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& p : this->corners)
+    {
+      sum += p;
+    }
+    return sum / double(this->corners.size());
+  }
+  Eigen::Vector3d area() const // of a triangle, twice
+  {
+    return (this->corners[1] - this->corners[0]).cross(this->corners[2] - this->corners[0]);
+  }
+};
 
 /// The part of a surface within some cuts.
 struct Piece
 {
-  std::vector<Polygon> surface;
+  std::vector<Facet> surface;
   std::vector<HalfSpace> cuts;
   std::vector<Eigen::Vector3d> corners; ///< where three cuts meet within the solid
   ConvexHull hull;
@@ -27,53 +51,49 @@ struct Piece
   Eigen::Vector3d deepest{ 0, 0, 0 };
 };
 
-bool isCut(const Piece& piece, const HalfSpace& face, double size)
+/// How much of a hull is empty above a point of a surface: along its normal, or across the nearest face of the hull
+/// where the surface bounds no solid.
+double emptyAbove(const Eigen::Vector3d& x, const Eigen::Vector3d& out, const std::vector<HalfSpace>& faces)
 {
-  return std::any_of(piece.cuts.begin(), piece.cuts.end(),
-    [&](const HalfSpace& cut)
-    { return cut.normal.dot(face.normal) > 1 - 1e-3 && std::abs(cut.offset - face.offset) < 1e-3 * size; });
+  double way = std::numeric_limits<double>::max();
+  for (const HalfSpace& face : faces)
+  {
+    const double slope = out.isZero() ? 1 : face.normal.dot(out);
+    way = slope > 1e-6 ? std::min(way, -face.above(x) / slope) : way;
+  }
+  return faces.empty() ? 0 : std::max(way, 0.0);
 }
 
-/// Fills in hull and concavity: how deep below its hull the surface lies, the cuts apart, which are not surface.
-void measure(Piece& piece, double size)
+void findHull(Piece& piece)
 {
   std::vector<Eigen::Vector3d> points = piece.corners;
-  for (const Polygon& polygon : piece.surface)
+  for (const Facet& facet : piece.surface)
   {
-    points.insert(points.end(), polygon.begin(), polygon.end());
+    points.insert(points.end(), facet.corners.begin(), facet.corners.end());
   }
   piece.hull = convexHull(points);
-  std::vector<HalfSpace> faces;
-  for (const HalfSpace& face : piece.hull.faces)
-  {
-    if (!isCut(piece, face, size))
-    {
-      faces.push_back(face);
-    }
-  }
+}
+
+/// Fills in the concavity, and where it is; of a piece that has its hull.
+void measure(Piece& piece)
+{
   piece.concavity = 0;
-  const auto look = [&](const Eigen::Vector3d& x)
+  const auto look = [&](const Eigen::Vector3d& x, const Eigen::Vector3d& out)
   {
-    double depth = std::numeric_limits<double>::max();
-    for (const HalfSpace& face : faces)
-    {
-      depth = std::min(depth, -face.above(x));
-    }
-    if (!faces.empty() && depth > piece.concavity)
+    const double depth = emptyAbove(x, out, piece.hull.faces);
+    if (depth > piece.concavity)
     {
       piece.concavity = depth;
       piece.deepest = x;
     }
   };
-  for (const Polygon& polygon : piece.surface)
+  for (const Facet& facet : piece.surface)
   {
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3d& p : polygon)
+    for (const Eigen::Vector3d& p : facet.corners)
     {
-      look(p);
-      middle += p / double(polygon.size());
+      look(p, facet.out);
     }
-    look(middle);
+    look(facet.middle(), facet.out);
   }
 }
 
@@ -140,19 +160,161 @@ Piece half(const Piece& piece, const HalfSpace& side, double size, const Inside&
   }
   addCorners(result, side, size, inside);
   result.cuts.push_back(side);
-  for (const Polygon& polygon : piece.surface)
+  for (const Facet& facet : piece.surface)
   {
-    Polygon part = clipped(polygon, side);
-    if (part.size() >= 3)
+    Facet part = { clipped(facet.corners, side), facet.out };
+    if (part.corners.size() >= 3)
     {
       result.surface.push_back(std::move(part));
     }
   }
   if (!result.surface.empty())
   {
-    measure(result, size);
+    findHull(result);
   }
   return result;
+}
+
+/// The axis about which a surface looks much the same in all directions.
+struct TurningAxis
+{
+  Eigen::Vector3d origin{ 0, 0, 0 };
+  Eigen::Vector3d direction{ 0, 1, 0 };
+};
+
+/// That of a surface whose area spreads alike along two axes; none.
+std::optional<TurningAxis> turningAxis(const std::vector<Facet>& triangles)
+{
+  double area = 0;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Facet& t : triangles)
+  {
+    const double weight = t.area().norm() / 3;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      // The middles of the sides: exact for what is quadratic.
+      const Eigen::Vector3d p = 0.5 * (t.corners[i] + t.corners[(i + 1) % 3]);
+      area += weight;
+      middle += weight * p;
+      spread += weight * p * p.transpose();
+    }
+  }
+  if (area <= 0)
+  {
+    return {};
+  }
+  middle /= area;
+  spread = spread / area - middle * middle.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  const Eigen::Vector3d& moments = axes.eigenvalues();
+  constexpr double alike = 0.05;
+  for (const int odd : { 0, 2 })
+  {
+    if (std::abs(moments[odd == 0 ? 2 : 0] - moments[1]) < alike * moments[2] &&
+        std::abs(moments[odd] - moments[1]) > alike * moments[2])
+    {
+      return TurningAxis{ middle, axes.eigenvectors().col(odd) };
+    }
+  }
+  return {};
+}
+
+/// Heights along an axis between `rings` bands of a surface whose profiles are about equally long.
+std::vector<double> bandsOf(const std::vector<Facet>& triangles, const TurningAxis& axis, std::size_t rings)
+{
+  std::vector<std::array<double, 2>> parts; // height, and length of profile: area by radius
+  double sum = 0;
+  for (const Facet& t : triangles)
+  {
+    const Eigen::Vector3d p = t.middle() - axis.origin;
+    const double area = t.area().norm();
+    const double radius = axis.direction.cross(p).norm();
+    parts.push_back({ axis.direction.dot(p), radius > 0 ? area / radius : 0 });
+    sum += parts.back()[1];
+  }
+  std::sort(parts.begin(), parts.end());
+  std::vector<double> heights;
+  double below = 0;
+  for (const std::array<double, 2>& part : parts)
+  {
+    below += part[1];
+    if (heights.size() + 1 < rings && below >= sum * double(heights.size() + 1) / double(rings))
+    {
+      heights.push_back(axis.direction.dot(axis.origin) + part[0]);
+    }
+  }
+  return heights;
+}
+
+/// A band of a surface about an axis in sectors, alike in angle: as few as make them true. Nothing where 16 do not.
+std::vector<Piece> sectorsOf(
+  const Piece& band, const TurningAxis& axis, double size, double tolerance, const Inside& inside)
+{
+  if (band.concavity <= tolerance)
+  {
+    return { band };
+  }
+  const Eigen::Vector3d first = axis.direction.unitOrthogonal();
+  const Eigen::Vector3d second = axis.direction.cross(first);
+  for (const int sectors : { 3, 4, 6, 8, 10, 12, 16 })
+  {
+    std::vector<Piece> pieces;
+    const auto side = [&](int i)
+    {
+      const double angle = 2 * pi * i / sectors;
+      const Eigen::Vector3d normal = std::cos(angle) * first + std::sin(angle) * second;
+      return HalfSpace{ normal, normal.dot(axis.origin) };
+    };
+    bool fits = true;
+    for (int i = 0; i < sectors && fits; ++i)
+    {
+      const HalfSpace end = side(i + 1);
+      Piece sector = half(half(band, side(i), size, inside), { -end.normal, -end.offset }, size, inside);
+      if (!sector.surface.empty())
+      {
+        measure(sector);
+        fits = fits && sector.concavity <= tolerance;
+        pieces.push_back(std::move(sector));
+      }
+    }
+    if (fits)
+    {
+      return pieces;
+    }
+  }
+  return {};
+}
+
+/// What turns about an axis, in bands across it, each in sectors: the way with fewest pieces. Nothing where all of
+/// them need more than `most`.
+std::vector<Piece> turnedPieces(
+  const Piece& whole, const TurningAxis& axis, double size, double tolerance, std::size_t most, const Inside& inside)
+{
+  constexpr std::size_t mostBands = 5;
+  std::vector<Piece> best;
+  for (std::size_t bands = 1; bands <= mostBands; ++bands)
+  {
+    std::vector<Piece> pieces;
+    Piece rest = whole;
+    bool fits = true;
+    const std::vector<double> heights = bandsOf(whole.surface, axis, bands);
+    for (std::size_t i = 0; i <= heights.size() && fits; ++i)
+    {
+      const bool last = i == heights.size();
+      Piece band = last ? rest : half(rest, { axis.direction, heights[i] }, size, inside);
+      measure(band);
+      rest = last ? Piece() : half(rest, { -axis.direction, -heights[i] }, size, inside);
+      std::vector<Piece> sectors = sectorsOf(band, axis, size, tolerance, inside);
+      fits = !sectors.empty() && pieces.size() + sectors.size() <= most;
+      std::move(sectors.begin(), sectors.end(), std::back_inserter(pieces));
+    }
+    if (fits && (best.empty() || pieces.size() < best.size()))
+    {
+      best = std::move(pieces);
+    }
+  }
+  return best;
 }
 
 /// Both sides of the cut, across an axis of the model, that leaves the least volume in the hulls; none that cuts
@@ -198,6 +360,50 @@ std::optional<std::array<Piece, 2>> bestCut(const Piece& piece, double size, con
   }
   return best;
 }
+
+double worstOf(const std::vector<Piece>& pieces)
+{
+  double worst = 0;
+  for (const Piece& piece : pieces)
+  {
+    worst = std::max(worst, piece.concavity);
+  }
+  return worst;
+}
+
+/// The worst piece is cut until all are true, or there are `most`, or none can be cut.
+std::vector<Piece> cutPieces(const Piece& whole, double size, double tolerance, std::size_t most, const Inside& inside)
+{
+  std::vector<Piece> pieces{ whole };
+  std::vector<char> uncut(1, 0);
+  while (pieces.size() < most)
+  {
+    std::size_t worst = pieces.size();
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+    {
+      worst = !uncut[i] && pieces[i].concavity > tolerance &&
+                  (worst == pieces.size() || pieces[i].concavity > pieces[worst].concavity)
+                ? i
+                : worst;
+    }
+    if (worst == pieces.size())
+    {
+      break;
+    }
+    std::optional<std::array<Piece, 2>> parts = bestCut(pieces[worst], size, inside);
+    if (!parts)
+    {
+      uncut[worst] = 1; // as small as pieces get
+      continue;
+    }
+    measure((*parts)[0]);
+    measure((*parts)[1]);
+    pieces[worst] = std::move((*parts)[0]);
+    pieces.push_back(std::move((*parts)[1]));
+    uncut.push_back(0);
+  }
+  return pieces;
+}
 } // namespace
 
 std::vector<ConvexHull> convexPieces(const std::vector<Eigen::Vector3d>& points,
@@ -208,7 +414,7 @@ std::vector<ConvexHull> convexPieces(const std::vector<Eigen::Vector3d>& points,
   Eigen::Vector3d high = low;
   for (const auto& triangle : triangles)
   {
-    whole.surface.push_back({ points[triangle[0]], points[triangle[1]], points[triangle[2]] });
+    whole.surface.push_back({ { points[triangle[0]], points[triangle[1]], points[triangle[2]] }, {} });
     for (const std::uint32_t corner : triangle)
     {
       low = low.cwiseMin(points[corner]);
@@ -216,24 +422,29 @@ std::vector<ConvexHull> convexPieces(const std::vector<Eigen::Vector3d>& points,
     }
   }
   const double size = (high - low).maxCoeff();
-  measure(whole, size);
-  std::vector<Piece> pieces{ std::move(whole) };
-  while (pieces.size() < most)
+  for (Facet& facet : whole.surface)
   {
-    const auto worst = std::max_element(
-      pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.concavity < b.concavity; });
-    if (worst->concavity <= tolerance)
+    const Eigen::Vector3d out = facet.area().normalized();
+    const bool above = inside(facet.middle() + 1e-5 * size * out);
+    const bool below = inside(facet.middle() - 1e-5 * size * out);
+    facet.out = above == below ? Eigen::Vector3d::Zero() : Eigen::Vector3d(below ? out : -out);
+  }
+  findHull(whole);
+  measure(whole);
+  std::vector<Piece> pieces = cutPieces(whole, size, tolerance, most, inside);
+  if (const std::optional<TurningAxis> turning = pieces.size() > 1 ? turningAxis(whole.surface) : std::nullopt)
+  {
+    // A bowl needs fewer sectors than boxes.
+    std::vector<Piece> turned;
+    double allowed = tolerance;
+    for (; turned.empty() && allowed < worstOf(pieces); allowed *= 1.25)
     {
-      break;
+      turned = turnedPieces(whole, *turning, size, allowed, most, inside);
     }
-    std::optional<std::array<Piece, 2>> parts = bestCut(*worst, size, inside);
-    if (!parts)
+    if (!turned.empty() && (turned.size() < pieces.size() || worstOf(turned) < worstOf(pieces)))
     {
-      worst->concavity = 0; // as small as pieces get
-      continue;
+      pieces = std::move(turned);
     }
-    *worst = std::move((*parts)[0]);
-    pieces.push_back(std::move((*parts)[1]));
   }
   std::vector<ConvexHull> hulls;
   for (Piece& piece : pieces)

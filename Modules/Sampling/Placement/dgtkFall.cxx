@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dgtk
 {
@@ -16,6 +17,13 @@ namespace
 {
 // Of sizes, which are about 1 in Bullet.
 constexpr double margin = 0.002;
+constexpr int calmLooks = 2;          ///< one after the other, after which a body rests
+constexpr double timeOfLook = 1.5;    ///< between two looks, in square roots of size by gravity
+constexpr double leastWeight = 0.05;  ///< what is much lighter would be pressed into what it lies on
+constexpr double contact = 0.02;      ///< distance at which bodies begin to be kept apart
+constexpr double thin = 0.01;         ///< plates are made this thick to each side
+constexpr double leastOfStep = 0.015; ///< way that even the thinnest may go in a step
+constexpr int mostParts = 8;
 constexpr double stepsOfFall =
   20; ///< a second, times the square root of size by gravity: steps to fall a half of the size
 
@@ -56,10 +64,52 @@ Mass massOf(const std::vector<ConvexHull>& pieces, double size)
   return mass;
 }
 
+/// A mesh whose closed parts are seen from outside only: what slides over the rim of a solid would be stopped by the
+/// back of its side otherwise.
+class StillShape : public btBvhTriangleMeshShape
+{
+public:
+  /// `solid`: of each triangle, whether it is of a closed part.
+  StillShape(btTriangleMesh& triangles, std::vector<char> solid)
+    : btBvhTriangleMeshShape(&triangles, true)
+    , Solid(std::move(solid))
+  {
+  }
+  void processAllTriangles(btTriangleCallback* callback, const btVector3& low, const btVector3& high) const override
+  {
+    Seen seen(*callback, this->Solid, 0.5 * (low + high));
+    const btVector3 near(contact, contact, contact);
+    this->btBvhTriangleMeshShape::processAllTriangles(&seen, low - near, high + near);
+  }
+
+private:
+  struct Seen : btTriangleCallback
+  {
+    btTriangleCallback& next;
+    const std::vector<char>& solid;
+    btVector3 from;
+    Seen(btTriangleCallback& callback, const std::vector<char>& of, const btVector3& eye)
+      : next(callback)
+      , solid(of)
+      , from(eye)
+    {
+    }
+    void processTriangle(btVector3* corners, int part, int triangle) override
+    {
+      const btVector3 out = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+      if (!this->solid[std::size_t(triangle)] || out.dot(this->from - corners[0]) >= -contact * out.length())
+      {
+        this->next.processTriangle(corners, part, triangle);
+      }
+    }
+  };
+  std::vector<char> Solid;
+};
+
 struct StillBody
 {
   btTriangleMesh triangles{ true, false };
-  std::unique_ptr<btBvhTriangleMeshShape> shape;
+  std::unique_ptr<StillShape> shape;
   std::unique_ptr<btRigidBody> body;
 };
 
@@ -70,9 +120,22 @@ struct FallingBody
   std::unique_ptr<btRigidBody> body;
   Rigid3 body_from_bullet; ///< Bullet's frame has the axes of inertia; scene units
   std::vector<Rigid3> poses;
-  double restedFor = 0; ///< seconds
+  btTransform looked;    ///< where it was when it was last looked at
+  int calmLooks = 0;     ///< for how many looks it has hardly moved
+  double mostOfStep = 1; ///< way that it may go in a step
   bool in = true;
 };
+
+/// About how thick it is, if it is a plate.
+double thicknessOf(const ConvexHull& piece)
+{
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : piece.points)
+  {
+    box.extend(p);
+  }
+  return piece.volume / box.sizes().squaredNorm();
+}
 } // namespace
 
 struct Fall::Impl
@@ -86,6 +149,7 @@ struct Fall::Impl
   std::vector<std::unique_ptr<StillBody>> still;
   std::vector<std::unique_ptr<FallingBody>> falling;
   int stepsOfFrame = 1;
+  int stepsOfLook = 1;
   int steps = 0;
   double step = 0;
 
@@ -95,6 +159,7 @@ struct Fall::Impl
     this->step = std::sqrt(s.size / s.gravity) / stepsOfFall;
     this->stepsOfFrame = std::max(1, int(std::ceil(s.frameTime / this->step)));
     this->step = s.frameTime / this->stepsOfFrame;
+    this->stepsOfLook = int(std::ceil(timeOfLook * std::sqrt(s.size / s.gravity) / this->step));
     this->dispatcher.setDispatcherFlags(
       this->dispatcher.getDispatcherFlags() & ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
     this->world.getDispatchInfo().m_deterministicOverlappingPairs = true;
@@ -129,6 +194,9 @@ struct Fall::Impl
   void addFalling(const PlaceBody& it, const FallMatter& matter);
   Rigid3 poseOf(const FallingBody& body) const;
   bool advance(double lowest);
+  double fastest() const;
+  bool look();
+  void thicken();
 };
 
 void Fall::Impl::addStill(const PlaceBody& it)
@@ -143,7 +211,12 @@ void Fall::Impl::addStill(const PlaceBody& it)
   {
     one->triangles.addTriangle(points[t[0]], points[t[1]], points[t[2]]);
   }
-  one->shape = std::make_unique<btBvhTriangleMeshShape>(&one->triangles, true);
+  std::vector<char> solid(it.mesh().triangles.size(), 0);
+  for (const SolidMesh::Part& part : it.mesh().parts)
+  {
+    std::fill_n(solid.begin() + std::ptrdiff_t(part.first), part.count, part.closed);
+  }
+  one->shape = std::make_unique<StillShape>(one->triangles, std::move(solid));
   one->shape->setMargin(0);
   btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, one->shape.get());
   one->body = std::make_unique<btRigidBody>(info);
@@ -169,20 +242,24 @@ void Fall::Impl::addFalling(const PlaceBody& it, const FallMatter& matter)
   one->shape = std::make_unique<btCompoundShape>();
   for (const ConvexHull& piece : it.pieces())
   {
-    // Shrunk by the margin, which stands out around what Bullet is given.
+    // Shrunk by the margin, which stands out around what Bullet is given; less so where the hull is without corners.
     auto hull = std::make_unique<btConvexHullShape>();
-    for (const Eigen::Vector3d& p : convexHull(piece.points, piece.faces.empty() ? 0 : margin * size).points)
+    const double thickness = thicknessOf(piece);
+    const double around = std::max(thickness < thin * size ? thin * size : margin * size, piece.left);
+    const double shrink = std::max(0.0, std::min(around, margin * size) - piece.left);
+    one->mostOfStep = std::clamp(0.5 * thickness / size, leastOfStep, one->mostOfStep);
+    for (const Eigen::Vector3d& p : convexHull(piece.points, piece.faces.empty() ? 0 : shrink).points)
     {
       hull->addPoint(toBullet((bullet_from_body * p) / size), false);
     }
-    hull->setMargin(margin);
+    hull->setMargin(around / size);
     hull->recalcLocalAabb();
     one->shape->addChildShape(btTransform::getIdentity(), hull.get());
     one->hulls.push_back(std::move(hull));
   }
   one->shape->setMargin(margin);
   const Eigen::Vector3d spread = axes.eigenvalues().cwiseMax(1e-6 * it.size() * it.size()) / (size * size);
-  const double weight = std::max(mass.volume / (size * size * size), 1e-3);
+  const double weight = std::max(mass.volume / (size * size * size), leastWeight);
   const btVector3 inertia(
     weight * (spread.y() + spread.z()), weight * (spread.x() + spread.z()), weight * (spread.x() + spread.y()));
   btRigidBody::btRigidBodyConstructionInfo info(weight, nullptr, one->shape.get(), inertia);
@@ -199,6 +276,7 @@ void Fall::Impl::addFalling(const PlaceBody& it, const FallMatter& matter)
   info.m_angularDamping = 0.2;
   one->body = std::make_unique<btRigidBody>(info);
   one->body->setActivationState(DISABLE_DEACTIVATION);
+  one->looked = info.m_startWorldTransform;
   this->world.addRigidBody(one->body.get());
   this->falling.push_back(std::move(one));
   this->falling.back()->poses.push_back(this->poseOf(*this->falling.back()));
@@ -222,19 +300,14 @@ Rigid3 Fall::Impl::poseOf(const FallingBody& body) const
 /// One step; whether everything rests.
 bool Fall::Impl::advance(double lowest)
 {
-  this->world.stepSimulation(this->step, 0);
-  ++this->steps;
-  // Speeds in sizes a second, of what falls a size: sqrt(gravity / size).
-  const double slowly = 0.02 * std::sqrt(this->settings.gravity / this->settings.size);
-  bool rest = true;
-  // What rocks and rolls for long comes to rest as in thick air.
-  if (this->steps == int(15 * stepsOfFall))
+  // What is fast goes in smaller steps: Bullet sees what is nearer than its threshold of contact, beyond which thin
+  // things would go through one another.
+  const int parts = std::clamp(int(std::ceil(this->step * this->fastest())), 1, mostParts);
+  for (int i = 0; i < parts; ++i)
   {
-    for (const auto& body : this->falling)
-    {
-      body->body->setDamping(0.5, 0.95);
-    }
+    this->world.stepSimulation(this->step / parts, 0);
   }
+  ++this->steps;
   for (const auto& body : this->falling)
   {
     if (!body->in)
@@ -245,12 +318,7 @@ bool Fall::Impl::advance(double lowest)
     if (middle.dot(toBullet(this->settings.down)) * this->settings.size > lowest)
     {
       this->take(*body);
-      continue;
     }
-    const bool slow =
-      body->body->getLinearVelocity().length() < slowly && body->body->getAngularVelocity().length() < 2 * slowly;
-    body->restedFor = slow ? body->restedFor + this->step : 0;
-    rest = rest && body->restedFor > 3 * std::sqrt(this->settings.size / this->settings.gravity);
   }
   if (this->steps % this->stepsOfFrame == 0)
   {
@@ -259,7 +327,59 @@ bool Fall::Impl::advance(double lowest)
       body->poses.push_back(this->poseOf(*body));
     }
   }
+  return this->steps % this->stepsOfLook == 0 && this->look();
+}
+
+/// Of all bodies, the most ways a second that may be a step's.
+double Fall::Impl::fastest() const
+{
+  double most = 0;
+  for (const auto& body : this->falling)
+  {
+    if (body->in)
+    {
+      const double speed = body->body->getLinearVelocity().length() + 0.5 * body->body->getAngularVelocity().length();
+      most = std::max(most, speed / body->mostOfStep);
+    }
+  }
+  return most;
+}
+
+/// Whether everything rests: what has moved by less than a fiftieth of a size since the last look. Contacts make what
+/// lies still tremble, which says nothing about where it goes.
+bool Fall::Impl::look()
+{
+  constexpr double hardly = 0.02;
+  bool rest = true;
+  for (const auto& body : this->falling)
+  {
+    const btTransform& now = body->body->getWorldTransform();
+    const double moved = now.getOrigin().distance(body->looked.getOrigin());
+    const double turned = now.getRotation().angleShortestPath(body->looked.getRotation());
+    body->calmLooks = moved < hardly && turned < 2 * hardly ? body->calmLooks + 1 : 0;
+    body->looked = now;
+    rest = rest && (!body->in || body->calmLooks >= calmLooks);
+  }
+  this->thicken();
   return rest;
+}
+
+/// What rocks, rolls and creeps for long comes to rest as in air that becomes thicker.
+void Fall::Impl::thicken()
+{
+  constexpr int free = 10;    ///< looks
+  constexpr int doubling = 2; ///< looks
+  const int late = this->steps / this->stepsOfLook - free;
+  if (late < 0)
+  {
+    return;
+  }
+  const double rate = std::sqrt(this->settings.gravity / this->settings.size) *
+                      std::min(1.0, 0.07 * std::pow(2, late / doubling)); // of the speed, a second
+  for (const auto& body : this->falling)
+  {
+    body->body->setDamping(1 - std::exp(-rate), 1 - std::exp(-4 * rate));
+  }
 }
 
 Fall::Fall(const FallSettings& settings, const std::vector<const PlaceBody*>& still,
@@ -285,7 +405,7 @@ void Fall::run(double until, double lowest)
 {
   for (const auto& body : this->Self->falling)
   {
-    body->restedFor = 0;
+    body->calmLooks = 0;
   }
   while (this->time() < until && !this->Self->advance(lowest))
   {
@@ -296,10 +416,7 @@ void Fall::remove(std::size_t body) { this->Self->take(*this->Self->falling[body
 
 bool Fall::isIn(std::size_t body) const { return this->Self->falling[body]->in; }
 
-bool Fall::rests(std::size_t body) const
-{
-  return this->Self->falling[body]->restedFor > std::sqrt(this->Self->settings.size / this->Self->settings.gravity);
-}
+bool Fall::rests(std::size_t body) const { return this->Self->falling[body]->calmLooks >= calmLooks; }
 
 double Fall::time() const { return this->Self->steps * this->Self->step; }
 

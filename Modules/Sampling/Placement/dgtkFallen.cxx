@@ -13,13 +13,26 @@ namespace dgtk
 namespace
 {
 constexpr int mostStarts = 16; ///< places that are tried for a start low down
-constexpr double reach = 0.05; ///< of the size: how far hulls may be from the true mesh
+constexpr double reach = 0.1;  ///< of the size, or of the mean of all that fall: how far down a body may be laid
+constexpr int mostRounds = 4;  ///< of laying again what is not where it can be
 
 double low(const PlaceBody& body, int up) { return body.box().min()[up]; }
 
+/// A box that is wider by the clearance that its body is to keep when it lies.
+Eigen::AlignedBox3d columnOf(const PlaceBody& body, double clearance, const PlaceWorld& world)
+{
+  Eigen::AlignedBox3d box = body.box();
+  for (const int axis : world.level())
+  {
+    box.min()[axis] -= clearance;
+    box.max()[axis] += clearance;
+  }
+  return box;
+}
+
 /// Above what is in the way: the body's box over those of the bodies that fall before and those that it would be in.
-void raise(PlaceBody& body, const std::vector<const PlaceBody*>& still, const std::vector<const PlaceBody*>& before,
-  const PlaceWorld& world)
+void raise(PlaceBody& body, double clearance, const std::vector<const PlaceBody*>& still,
+  const std::vector<const PlaceBody*>& before, const PlaceWorld& world)
 {
   const int up = world.upAxis();
   const double space = 0.01 * body.size();
@@ -33,7 +46,7 @@ void raise(PlaceBody& body, const std::vector<const PlaceBody*>& still, const st
     };
     for (const PlaceBody* other : before)
     {
-      if (body.box().intersects(other->box()))
+      if (columnOf(body, clearance, world).intersects(other->box()))
       {
         above(*other);
       }
@@ -68,7 +81,7 @@ std::string startFall(PlaceWorld& world, const FallingObject& it, const SampleDr
       continue;
     }
     const double first = low(body, up);
-    raise(body, still, before, world);
+    raise(body, it.rule->clearance, still, before, world);
     const bool free = low(body, up) <= first;
     if (!found || low(body, up) < lowest)
     {
@@ -132,7 +145,11 @@ private:
   }
   bool isIn(std::size_t i) const { return this->Falling[i].note->kept; }
   bool leaveOutUnsettled(Fall& fall, bool last);
+  double fault(std::size_t i);
+  const PlaceBody* tooNear(std::size_t i);
+  bool leaveOutNear();
   bool leaveOutUnfit();
+  void layOne(std::size_t i);
 
   PlaceWorld& World;
   std::vector<FallingObject>& Falling;
@@ -236,38 +253,79 @@ void Drop::fall()
   }
 }
 
+/// What a body is nearer to than its clearance, what it lies on or in apart; none.
+const PlaceBody* Drop::tooNear(std::size_t i)
+{
+  const PlaceRule& rule = *this->Falling[i].rule;
+  if (rule.clearance <= 0)
+  {
+    return nullptr;
+  }
+  for (const PlaceBody* other : this->World.others({ rule.object }))
+  {
+    const bool holds = rule.support ? other == &this->World.body(*rule.support)
+                                    : std::find(this->Still.begin(), this->Still.end(), other) != this->Still.end();
+    if (!holds && distance(this->body(i), *other, rule.clearance) < rule.clearance)
+    {
+      return other;
+    }
+  }
+  return nullptr;
+}
+
+/// Takes out what is too near to another body; whether there was such a body.
+bool Drop::leaveOutNear()
+{
+  for (auto i = this->Order.rbegin(); i != this->Order.rend(); ++i)
+  {
+    const PlaceBody* const other = this->isIn(*i) ? this->tooNear(*i) : nullptr;
+    if (other != nullptr)
+    {
+      this->leaveOut(*i, "it is too near to " + quoted(other->name()));
+      this->Falling[*i].note->measured.clear();
+      return true;
+    }
+  }
+  return false;
+}
+
+/// How many of its tolerances a body is in others, or above what holds it; it is noted.
+double Drop::fault(std::size_t i)
+{
+  const PlaceRule& rule = *this->Falling[i].rule;
+  const double tolerance = this->World.tolerance(rule);
+  const PlaceMeasure measure =
+    measurePlace(this->body(i), this->World.others({ rule.object }), this->Settings.down, 4 * tolerance);
+  this->Falling[i].note->measured = { { "penetration", measure.penetration }, { "gap", measure.gap },
+    { "tolerance", tolerance } };
+  this->Falling[i].note->why = measure.penetration > measure.gap ? "it is in another object" : "it hovers";
+  return std::max(measure.penetration, measure.gap) / tolerance;
+}
+
 /// Takes out the body that is furthest from being where it can be; whether there was one.
 bool Drop::leaveOutUnfit()
 {
   double worst = 1;
   std::size_t unfit = 0;
-  std::string why;
   for (const std::size_t i : this->Order)
   {
-    if (!this->isIn(i))
-    {
-      continue;
-    }
-    const PlaceRule& rule = *this->Falling[i].rule;
-    const double tolerance = this->World.tolerance(rule);
-    const PlaceMeasure measure =
-      measurePlace(this->body(i), this->World.others({ rule.object }), this->Settings.down, 4 * tolerance);
-    this->Falling[i].note->measured = { { "penetration", measure.penetration }, { "gap", measure.gap },
-      { "tolerance", tolerance } };
-    const double fault = std::max(measure.penetration, measure.gap) / tolerance;
-    if (fault > worst)
-    {
-      worst = fault;
-      unfit = i;
-      why = measure.penetration > measure.gap ? "it is in another object" : "it hovers";
-    }
+    const double fault = this->isIn(i) ? this->fault(i) : 0;
+    unfit = fault > worst ? i : unfit;
+    worst = std::max(worst, fault);
   }
   if (worst > 1)
   {
-    this->leaveOut(unfit, why);
+    this->leaveOut(unfit, std::string(this->Falling[unfit].note->why));
     this->Falling[unfit].note->measured.clear();
   }
   return worst > 1;
+}
+
+/// Lays a body on all that is in.
+void Drop::layOne(std::size_t i)
+{
+  layDown(this->body(i), this->World.others({ this->Falling[i].rule->object }), this->Settings.down,
+    reach * std::max(this->body(i).size(), this->Settings.size));
 }
 
 void Drop::lay()
@@ -288,14 +346,29 @@ void Drop::lay()
       [&](std::size_t a, std::size_t b) { return low(this->body(a), up) < low(this->body(b), up); });
     for (const std::size_t i : bottomUp)
     {
-      layDown(this->body(i), this->World.others({}), this->Settings.down, reach * this->body(i).size());
+      this->layOne(i);
       this->World.putIn(this->Falling[i].rule->object);
     }
-  } while (this->leaveOutUnfit());
+    // What leans on something that reaches less far down came too early; what lies on it follows.
+    bool moved = true;
+    for (int round = 0; round < mostRounds && moved; ++round)
+    {
+      moved = false;
+      for (const std::size_t i : bottomUp)
+      {
+        if (this->fault(i) > 1)
+        {
+          this->layOne(i);
+          moved = true;
+        }
+      }
+    }
+  } while (this->leaveOutUnfit() || this->leaveOutNear());
   for (const std::size_t i : this->Order)
   {
     if (this->isIn(i))
     {
+      this->Falling[i].note->why.clear();
       this->Falling[i].poses.push_back(this->body(i).pose());
     }
   }

@@ -98,6 +98,15 @@ Corners cornersOf(const PlaceBody& body, std::size_t triangle)
   return { body.points()[corners[0]], body.points()[corners[1]], body.points()[corners[2]] };
 }
 
+/// Where it is along an axis.
+std::pair<double, double> range(const Corners& corners, const Eigen::Vector3d& axis)
+{
+  const double p = axis.dot(corners[0]);
+  const double q = axis.dot(corners[1]);
+  const double r = axis.dot(corners[2]);
+  return { std::min({ p, q, r }), std::max({ p, q, r }) };
+}
+
 /// The shortest way by which triangle a leaves triangle b: along a normal, or across two edges.
 Penetration apart(const Corners& a, const Corners& b)
 {
@@ -111,15 +120,8 @@ Penetration apart(const Corners& a, const Corners& b)
       return;
     }
     const Eigen::Vector3d axis = direction / length;
-    const auto range = [&axis](const Corners& corners)
-    {
-      const double p = axis.dot(corners[0]);
-      const double q = axis.dot(corners[1]);
-      const double r = axis.dot(corners[2]);
-      return std::pair<double, double>(std::min({ p, q, r }), std::max({ p, q, r }));
-    };
-    const std::pair<double, double> ofA = range(a);
-    const std::pair<double, double> ofB = range(b);
+    const std::pair<double, double> ofA = range(a, axis);
+    const std::pair<double, double> ofB = range(b, axis);
     const double up = ofB.second - ofA.first;
     const double down = ofA.second - ofB.first;
     if (std::min(up, down) < shortest.depth)
@@ -263,6 +265,23 @@ void meetings(const Corners& a, const Corners& b, const Eigen::Vector3d& down, c
   }
 }
 
+/// The triangles of a body, those first that come down furthest: what is near is found early.
+std::vector<std::size_t> lowestFirst(const PlaceBody& body, const Eigen::Vector3d& down)
+{
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t t = 0; t < body.mesh().triangles.size(); ++t)
+  {
+    order.emplace_back(-range(cornersOf(body, t), down).second, t);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> triangles;
+  for (const auto& one : order)
+  {
+    triangles.push_back(one.second);
+  }
+  return triangles;
+}
+
 /// Calls visit(triangle of a, triangle of b, down) in the frame of b for those that meet where `a` moves along `down`
 /// from -`depth` to `reach`(), which may become less on the way.
 template <typename Reach, typename Visit>
@@ -278,7 +297,7 @@ void pairsBelow(const PlaceBody& a, const PlaceBody& b, const Eigen::Vector3d& d
   }
   const Rigid3 b_from_world = b.pose().inverse();
   const Eigen::Vector3d down_in_b = b_from_world.rotation * down;
-  for (std::size_t t = 0; t < a.mesh().triangles.size(); ++t)
+  for (const std::size_t t : lowestFirst(a, down))
   {
     Corners corners = cornersOf(a, t);
     Eigen::AlignedBox3d inWorld;
@@ -296,11 +315,17 @@ void pairsBelow(const PlaceBody& a, const PlaceBody& b, const Eigen::Vector3d& d
       x = b_from_world * x;
       box.extend(Eigen::Vector3d(x - depth * down_in_b)).extend(Eigen::Vector3d(x + reach() * down_in_b));
     }
+    const double lowest = range(corners, down_in_b).second;
     b.impl().tree.within(box,
       [&](std::uint32_t other)
       {
         const auto& of = b.mesh().triangles[other];
-        visit(corners, Corners{ b.mesh().points[of[0]], b.mesh().points[of[1]], b.mesh().points[of[2]] }, down_in_b);
+        const Corners q = { b.mesh().points[of[0]], b.mesh().points[of[1]], b.mesh().points[of[2]] };
+        if (range(q, down_in_b).first - lowest <= reach() &&
+            Eigen::AlignedBox3d(q[0]).extend(q[1]).extend(q[2]).intersects(box))
+        {
+          visit(corners, q, down_in_b);
+        }
       });
   }
 }

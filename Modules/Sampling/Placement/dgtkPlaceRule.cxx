@@ -73,7 +73,7 @@ DropRule readDrop(const JsonCursor& at)
 PlaceRule readPlaceRule(const SampleRule& rule, const SceneDescription& scene)
 {
   const JsonCursor at(rule.rule);
-  checkKeys(at, { "on", "in", "region", "drop", "clearance", "attempts", "otherwise", "tolerance" });
+  checkKeys(at, { "on", "in", "region", "drop", "proxy", "clearance", "attempts", "otherwise", "tolerance" });
   PlaceRule place;
   place.path = rule.path;
   place.object = rule.index;
@@ -106,6 +106,14 @@ PlaceRule readPlaceRule(const SampleRule& rule, const SceneDescription& scene)
   if (at.has("drop"))
   {
     place.drop = readDrop(at["drop"]);
+  }
+  if (at.has("proxy"))
+  {
+    if (!place.drop)
+    {
+      at["proxy"].fail("is of what falls", "'drop' beside it");
+    }
+    place.proxy = scene.resolve(at["proxy"].string(false));
   }
   place.clearance = at.has("clearance") ? at["clearance"].number(atLeastZero) : 0;
   if (at.has("attempts"))

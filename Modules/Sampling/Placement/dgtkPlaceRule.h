@@ -37,6 +37,7 @@ struct PlaceRule
   std::optional<Eigen::AlignedBox2d> region; ///< of its middle, along the two axes that are not up
   std::optional<DropRule> drop;
   double clearance = 0;
+  std::string proxy; ///< path of a model that stands in for the object's own in the fall; "": none
   int attempts = 100;
   bool refuses = false;            ///< the sample is refused, rather than the object left out
   std::optional<double> tolerance; ///< of penetration and gap

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace dgtk
@@ -14,6 +15,10 @@ namespace
 {
 constexpr double pi = 3.14159265358979323846;
 constexpr double touch = 1e-6; ///< of the size: what counts as touching
+
+/// How far up a meeting may lie that holds a body: what it does not go into holds it from below alone, as a surface
+/// that it touches from below or from the side does not.
+double heldFrom(double depth, const PlaceBody& body) { return depth > 0 ? depth + 2 * touch * body.size() : 0; }
 
 bool isThere(const SceneDescription& scene, std::size_t object)
 {
@@ -28,9 +33,10 @@ void add(SolidMesh& to, const SolidMesh& from, const Affine3& body_from_object)
   {
     to.points.push_back(body_from_object * p);
   }
+  const bool mirrored = body_from_object.linear.determinant() < 0;
   for (const auto& t : from.triangles)
   {
-    to.triangles.push_back({ t[0] + point, t[1] + point, t[2] + point });
+    to.triangles.push_back({ t[0] + point, t[mirrored ? 2 : 1] + point, t[mirrored ? 1 : 2] + point });
   }
   for (const SolidMesh::Part& part : from.parts)
   {
@@ -48,6 +54,7 @@ void add(std::vector<ConvexHull>& to, const std::vector<ConvexHull>& from, const
       points.push_back(body_from_object * p);
     }
     to.push_back(convexHull(points));
+    to.back().left = piece.left * body_from_object.linear.colwise().norm().maxCoeff();
   }
 }
 } // namespace
@@ -69,12 +76,10 @@ PlaceWorld::PlaceWorld(const SceneDescription& scene, const std::vector<PlaceRul
     }
     hanging[root].push_back(i);
   }
-  std::vector<char> falls(scene.objects.size(), 0);
-  std::vector<char> ruled(scene.objects.size(), 0);
+  std::vector<const PlaceRule*> ruled(scene.objects.size(), nullptr);
   for (const PlaceRule& rule : rules)
   {
-    falls[rule.object] = rule.drop.has_value();
-    ruled[rule.object] = 1;
+    ruled[rule.object] = &rule;
   }
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
   {
@@ -96,15 +101,16 @@ PlaceWorld::PlaceWorld(const SceneDescription& scene, const std::vector<PlaceRul
       const std::string path = scene.resolve(scene.objects[object].model);
       const Affine3 body_from_object = body_from_world * at[object];
       add(mesh, *solidOf(models, path), body_from_object);
-      if (falls[i])
+      if (ruled[i] != nullptr && ruled[i]->drop)
       {
-        add(made.pieces, *piecesOf(models, path), body_from_object);
+        const bool stoodInFor = object == i && !ruled[i]->proxy.empty();
+        add(made.pieces, *piecesOf(models, stoodInFor ? ruled[i]->proxy : path), body_from_object);
       }
     }
     made.mesh = std::make_shared<const SolidMesh>(std::move(mesh));
     this->BodyOf[i] = this->Bodies.size();
     this->Bodies.emplace_back(std::move(made));
-    this->In.push_back(!ruled[i]);
+    this->In.push_back(ruled[i] == nullptr);
   }
 }
 
@@ -135,36 +141,54 @@ PlaceMeasure measurePlace(
   {
     const double depth = penetration(body, *other).depth;
     measure.penetration = std::max(measure.penetration, depth);
-    measure.gap = std::min(measure.gap, wayDown(body, *other, down, measure.gap, depth + 2 * touch * body.size()));
+    measure.gap = std::min(measure.gap, wayDown(body, *other, down, measure.gap, heldFrom(depth, body)));
   }
   return measure;
 }
 
+namespace
+{
+Penetration deepestOf(const PlaceBody& body, const std::vector<const PlaceBody*>& others)
+{
+  Penetration deepest;
+  for (const PlaceBody* other : others)
+  {
+    const Penetration one = penetration(body, *other);
+    deepest = one.depth > deepest.depth ? one : deepest;
+  }
+  return deepest;
+}
+
+/// Moves a body out of others by the shortest ways; where they lead into one another, as far out as it came.
+void pushOut(PlaceBody& body, const std::vector<const PlaceBody*>& others)
+{
+  Rigid3 best = body.pose();
+  double least = std::numeric_limits<double>::max();
+  for (int i = 0; i < 40 && least > 0; ++i)
+  {
+    const Penetration deepest = deepestOf(body, others);
+    if (deepest.depth < least)
+    {
+      least = deepest.depth;
+      best = body.pose();
+    }
+    body.move(deepest.out * (deepest.depth + touch * body.size()));
+  }
+  body.setPose(best);
+}
+} // namespace
+
 void layDown(PlaceBody& body, const std::vector<const PlaceBody*>& others, const Eigen::Vector3d& down, double most)
 {
-  const double size = body.size();
-  for (int i = 0; i < 40; ++i)
-  {
-    Penetration deepest;
-    for (const PlaceBody* other : others)
-    {
-      const Penetration one = penetration(body, *other);
-      deepest = one.depth > deepest.depth ? one : deepest;
-    }
-    if (deepest.depth <= 0)
-    {
-      break;
-    }
-    body.move(deepest.out * (deepest.depth + touch * size));
-  }
+  pushOut(body, others);
   double way = most;
   for (const PlaceBody* other : others)
   {
-    way = std::min(way, wayDown(body, *other, down, way, 2 * touch * size));
+    way = std::min(way, wayDown(body, *other, down, way, heldFrom(penetration(body, *other).depth, body)));
   }
   if (way < most)
   {
-    body.move(down * std::max(0.0, way - touch * size));
+    body.move(down * std::max(0.0, way - touch * body.size()));
   }
 }
 

@@ -5,6 +5,7 @@
 #include "dgtkObjectPoses.h"
 #include "dgtkPlaceRule.h"
 #include "dgtkPlaceWorld.h"
+#include "dgtkSolidModel.h"
 
 #include <Eigen/Geometry>
 
@@ -15,6 +16,45 @@ namespace dgtk
 
 namespace
 {
+Eigen::AlignedBox3d boxOf(const SolidMesh& mesh)
+{
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : mesh.points)
+  {
+    box.extend(p);
+  }
+  return box;
+}
+
+/// A proxy has a surface, and a box that is about that of the object's model, whose place it takes.
+void checkProxy(const JsonCursor& at, const std::string& proxy, const SceneDescription& scene, std::size_t object,
+  SampleModels& models)
+{
+  constexpr double near = 0.2; // of the size
+  Eigen::AlignedBox3d found;
+  try
+  {
+    found = boxOf(*solidOf(models, proxy));
+  }
+  catch (const InputError& error)
+  {
+    at.fail(std::string("names a model that cannot be read: ") + error.what());
+  }
+  if (found.isEmpty())
+  {
+    at.fail("names a model without a surface");
+  }
+  const std::string model = scene.objects[object].model;
+  const Eigen::AlignedBox3d wanted = model.empty() ? found : boxOf(*solidOf(models, scene.resolve(model)));
+  const double off =
+    std::max((found.min() - wanted.min()).cwiseAbs().maxCoeff(), (found.max() - wanted.max()).cwiseAbs().maxCoeff());
+  if (!(off <= near * wanted.sizes().maxCoeff()))
+  {
+    at.fail("names a model that is not where the object's is",
+      "a box that is that of " + quoted(model) + " to a fifth of its size, in the same axes and units");
+  }
+}
+
 /// What becomes of a rule, in the order in which the rules come.
 class Placing
 {
@@ -22,7 +62,7 @@ public:
   Placing(SceneDescription& scene, const std::vector<SampleRule>& rules, const SampleDraws& draws, SampleModels& models)
     : Scene(scene)
     , Draws(draws)
-    , Rules(read(scene, rules))
+    , Rules(read(scene, rules, models))
     , World(scene, this->Rules, models)
   {
     for (const PlaceRule& rule : this->Rules)
@@ -50,7 +90,8 @@ public:
   }
 
 private:
-  static std::vector<PlaceRule> read(const SceneDescription& scene, const std::vector<SampleRule>& rules)
+  static std::vector<PlaceRule> read(
+    const SceneDescription& scene, const std::vector<SampleRule>& rules, SampleModels& models)
   {
     std::vector<PlaceRule> result;
     std::vector<int> when(scene.objects.size(), -1); // -1: stands, 0: is put, 1: falls
@@ -58,6 +99,10 @@ private:
     {
       result.push_back(readPlaceRule(rule, scene));
       when[rule.index] = result.back().drop ? 1 : 0;
+      if (!result.back().proxy.empty())
+      {
+        checkProxy(JsonCursor(rule.rule)["proxy"], result.back().proxy, scene, rule.index, models);
+      }
     }
     std::vector<char> done(scene.objects.size(), 0);
     for (std::size_t i = 0; i < rules.size(); ++i)

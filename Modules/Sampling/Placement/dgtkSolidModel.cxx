@@ -5,6 +5,7 @@
 #include "dgtkPlaceBody.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -16,7 +17,8 @@ namespace dgtk
 namespace
 {
 constexpr double pieceTolerance = 0.02; ///< of the model's size
-constexpr std::size_t mostPieces = 24;  ///< of a model
+constexpr double cornerTolerance = 0.01;
+constexpr std::size_t mostPieces = 24; ///< of a model
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
@@ -79,6 +81,26 @@ bool isClosed(const SolidMesh& mesh, const SolidMesh::Part& part)
   return std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second == 2; });
 }
 
+/// Turns the triangles of a closed part to the outside.
+void turnOut(SolidMesh& mesh, const SolidMesh::Part& part)
+{
+  const TriangleTree tree(mesh, part.first, part.count);
+  for (std::size_t t = part.first; t < part.first + part.count; ++t)
+  {
+    auto& corners = mesh.triangles[t];
+    const Eigen::Vector3d& a = mesh.points[corners[0]];
+    const Eigen::Vector3d& b = mesh.points[corners[1]];
+    const Eigen::Vector3d& c = mesh.points[corners[2]];
+    const double length = std::sqrt((b - a).squaredNorm() + (c - a).squaredNorm());
+    const Eigen::Vector3d out = 1e-4 * length * (b - a).cross(c - a).normalized();
+    const Eigen::Vector3d middle = (a + b + c) / 3;
+    if (tree.holds(middle + out) && !tree.holds(middle - out))
+    {
+      std::swap(corners[1], corners[2]);
+    }
+  }
+}
+
 double sizeOf(const SolidMesh& mesh)
 {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::max());
@@ -133,6 +155,10 @@ SolidMesh solidMesh(const std::vector<Eigen::Vector3d>& positions, const Triangl
     mesh.parts.push_back({ mesh.triangles.size(), part.size(), false });
     mesh.triangles.insert(mesh.triangles.end(), part.begin(), part.end());
     mesh.parts.back().closed = isClosed(mesh, mesh.parts.back());
+    if (mesh.parts.back().closed)
+    {
+      turnOut(mesh, mesh.parts.back());
+    }
   }
   return mesh;
 }
@@ -168,7 +194,11 @@ std::shared_ptr<const std::vector<ConvexHull>> piecesOf(SampleModels& models, co
         const std::vector<ConvexHull> some =
           convexPieces(mesh->points, Triangles(first, first + std::ptrdiff_t(part.count)), tolerance,
             std::max<std::size_t>(1, mostPieces / parts.size()), inside);
-        pieces->insert(pieces->end(), some.begin(), some.end());
+        for (const ConvexHull& piece : some)
+        {
+          pieces->push_back(
+            simplifiedHull(piece, std::min(cornerTolerance * sizeOf(*mesh), 0.05 * std::cbrt(piece.volume))));
+        }
       }
       return std::shared_ptr<const std::vector<ConvexHull>>(pieces);
     });

@@ -25,7 +25,7 @@ struct SolidMesh
   {
     std::size_t first = 0; ///< triangle
     std::size_t count = 0;
-    bool closed = false; ///< every edge has two triangles: it has an inside
+    bool closed = false; ///< every edge has two triangles: it has an inside, which they have behind them
   };
   std::vector<Part> parts; ///< in the order of their first triangles in the model
 };

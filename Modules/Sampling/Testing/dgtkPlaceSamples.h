@@ -2,11 +2,15 @@
 #ifndef dgtkPlaceSamples_h
 #define dgtkPlaceSamples_h
 
+#include "dgtkModel.h"
 #include "dgtkPlacement.h"
 #include "dgtkTestSupport.h"
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dgtk
@@ -63,23 +67,30 @@ inline Quaternion anyRotation(double u, double v, double w)
   return { b * std::cos(2 * pi * w), a * std::sin(2 * pi * v), a * std::cos(2 * pi * v), b * std::sin(2 * pi * w) };
 }
 
-/// Twenty things, turned anyhow: bottles, bowls, bricks, chairs, rings and a crate, each about 0.1 m in size.
-inline PlaceScene twentyThings(const std::string& support, const std::string& rule, std::uint64_t sample)
+/// Twenty things, turned anyhow: bottles, bowls, bricks, chairs, rings, a crate and `more` models by their paths, each
+/// about 0.1 m in size.
+inline PlaceScene twentyThings(
+  const std::string& support, const std::string& rule, std::uint64_t sample, const std::vector<std::string>& more = {})
 {
   PlaceScene made;
   made.add("support", support);
-  const struct
+  std::vector<std::pair<std::string, double>> kinds = { { "bottle.ac", 0.5 }, { "bowl.ac", 0.8 }, { "brick.ac", 1 },
+    { "chair.3ds", 0.11 }, { "torus.ac", 1 }, { "crate.ac", 0.08 }, { "vase.pov", 0.3 }, { "ball.ac", 0.1 } };
+  for (const std::string& path : more)
   {
-    const char* model;
-    double scale;
-  } kinds[] = { { "bottle.ac", 0.5 }, { "bowl.ac", 0.8 }, { "brick.ac", 1 }, { "chair.3ds", 0.11 }, { "torus.ac", 1 },
-    { "crate.ac", 0.08 }, { "vase.pov", 0.3 }, { "ball.ac", 0.1 } };
-  for (int i = 0; i < 20; ++i)
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& p : PlaceScene::models().model(path)->rest->positions)
+    {
+      box.extend(p);
+    }
+    kinds.emplace_back(path, 0.1 / box.sizes().maxCoeff());
+  }
+  for (std::size_t i = 0; i < 20; ++i)
   {
     const std::string name = "thing#" + std::to_string(i + 1);
-    const auto& kind = kinds[std::size_t(i) % 8];
-    ObjectDescription& object = made.add(name, kind.model, rule);
-    object.scale = Eigen::Vector3d(Eigen::Vector3d::Constant(kind.scale));
+    const auto& kind = kinds[i % kinds.size()];
+    ObjectDescription& object = made.add(name, kind.first, rule);
+    object.scale = Eigen::Vector3d(Eigen::Vector3d::Constant(kind.second));
     const SampleDraws draws(11, sample);
     const auto uv = draws.uniforms(name, 0);
     object.orientation = anyRotation(uv[0], uv[1], draws.uniform(name, 1));
