@@ -145,6 +145,84 @@ def glyph_mapper():
 
 
 @scene
+def hedgehog():
+    """Spikes of one cone by the mapper: turned by vectors, scaled by three numbers each, of which some mirror."""
+    sphere = vtk.vtkSphereSource()
+    sphere.SetThetaResolution(9)
+    sphere.SetPhiResolution(7)
+    sphere.Update()
+    points = vtk.vtkPolyData()
+    points.DeepCopy(sphere.GetOutput())
+    count = numpy.arange(points.GetNumberOfPoints())
+    size = numpy_to_vtk(numpy.stack([0.3 + 0.02 * (count % 5), numpy.where(count % 3, 0.15, -0.2), 0.1 + 0.01 * (count % 7)], -1), deep=1)
+    size.SetName("size")
+    points.GetPointData().AddArray(size)
+    shade = numpy_to_vtk(count.astype(float), deep=1)
+    shade.SetName("shade")
+    points.GetPointData().SetScalars(shade)
+    cone = vtk.vtkConeSource()
+    cone.SetResolution(5)
+    cone.SetCenter(0.5, 0.1, 0)
+    cone.SetDirection(1, 0.2, 0)
+    mapper = vtk.vtkGlyph3DMapper()
+    mapper.SetInputData(points)
+    mapper.SetSourceConnection(cone.GetOutputPort())
+    mapper.SetOrientationArray("Normals")
+    mapper.SetScaleArray("size")
+    mapper.SetScaleModeToScaleByVectorComponents()
+    mapper.SetScalarRange(0, len(count))
+    made = vtk.vtkActor()
+    made.SetMapper(mapper)
+    return renderer(actor(sphere, color=(1, 0.8, 0.6)), made, eye=(1.5, 1, 2))
+
+
+def quarter(radius, height):
+    """Control points of a quarter of a circle, as Newell has it."""
+    return [(radius, 0, height), (radius, 0.56 * radius, height), (0.56 * radius, radius, height), (0, radius, height)]
+
+
+def patch(net, steps):
+    """Points of a bicubic Bezier patch of 4 x 4 control points."""
+    t = numpy.linspace(0, 1, steps + 1)[:, None]
+    basis = numpy.concatenate([(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t ** 2 * (1 - t), t ** 3], 1)
+    return numpy.einsum("ui,vj,ijk->uvk", basis, basis, numpy.array(net, float))
+
+
+def tube(rows):
+    """Patches of one side of handle or spout: rows of x and z of the inner and of the outer edge, and half the width."""
+    return [[(inner[0], 0, inner[1]), (inner[0], width, inner[1]), (outer[0], width, outer[1]), (outer[0], 0, outer[1])]
+            for inner, outer, width in rows]
+
+
+@scene
+def teapot():
+    """Martin Newell's teapot by its Bezier patches: quads of which those at the poles have corners that coincide."""
+    profiles = [[(1.4, 2.4), (1.3375, 2.53125), (1.4375, 2.53125), (1.5, 2.4)], [(1.5, 2.4), (1.75, 1.875), (2, 1.35), (2, 0.9)],
+                [(2, 0.9), (2, 0.45), (1.5, 0.225), (1.5, 0.15)], [(0, 3.15), (0.8, 3.15), (0, 2.85), (0.2, 2.7)],
+                [(0.2, 2.7), (0.4, 2.55), (1.3, 2.55), (1.3, 2.4)], [(0, 0), (1.425, 0), (1.5, 0.075), (1.5, 0.15)]]
+    nets = [numpy.array([quarter(*row) for row in profile]) * (x, y, 1) for profile in profiles for x in (1, -1) for y in (1, -1)]
+    handle = tube([((-1.6, 2.025), (-1.5, 2.25), 0.3), ((-2.3, 2.025), (-2.5, 2.25), 0.3), ((-2.7, 2.025), (-3, 2.25), 0.3), ((-2.7, 1.8), (-3, 1.8), 0.3),
+                   ((-2.7, 1.575), (-3, 1.35), 0.3), ((-2.5, 1.125), (-2.65, 0.9375), 0.3), ((-2, 0.9), (-1.9, 0.6), 0.3)])
+    spout = tube([((1.7, 1.425), (1.7, 0.6), 0.66), ((2.6, 1.425), (3.1, 0.825), 0.66), ((2.3, 2.1), (2.4, 2.025), 0.25), ((2.7, 2.4), (3.3, 2.4), 0.25),
+                  ((2.8, 2.475), (3.525, 2.49375), 0.25), ((2.9, 2.475), (3.45, 2.5125), 0.15), ((2.8, 2.4), (3.2, 2.4), 0.15)])
+    nets += [numpy.array(rows[first:first + 4]) * (1, side, 1) for rows in (handle, spout) for first in (0, 3) for side in (1, -1)]
+    steps = 4
+    points, cells = vtk.vtkPoints(), vtk.vtkCellArray()
+    for net in nets:
+        first = points.GetNumberOfPoints()
+        for point in patch(net, steps).reshape(-1, 3):
+            points.InsertNextPoint(point)
+        for u in range(steps):
+            for v in range(steps):
+                corner = first + u * (steps + 1) + v
+                cells.InsertNextCell(4, (corner, corner + 1, corner + steps + 2, corner + steps + 1))
+    data = vtk.vtkPolyData()
+    data.SetPoints(points)
+    data.SetPolys(cells)
+    return renderer(actor(data, color=(0.8, 0.6, 0.3)), eye=(3, -7, 5), target=(0.3, 0, 1.4), up=(0, 0, 1))
+
+
+@scene
 def earth():
     """A picture on a sphere."""
     sphere = vtk.vtkTexturedSphereSource()

@@ -181,18 +181,22 @@ class Colours(unittest.TestCase):
         self.compare(renderer, unlike=0.01)
 
     def test_translucent_actors(self):
-        renderer = scenes.transforms()
-        for actor in renderer.GetActors():
-            actor.GetProperty().SetOpacity(0.5)
-        renderer.SetUseDepthPeeling(True)
-        renderer.SetMaximumNumberOfPeels(20)
-        renderer.SetOcclusionRatio(0)
-        shown = window(renderer)
-        shown.SetAlphaBitPlanes(1)
-        ours = dgtk.truth(renderer, "color", size=SIZE)["color"].astype(int)
-        renderer.ResetCameraClippingRange()
-        away = numpy.abs(ours - drawn(shown).astype(int))
-        self.assertLess(away.mean(), 0.3)
+        for opacities in ((0.5, 0.5), (0, 1), (0.5, 0), (0, 0)):
+            with self.subTest(opacities=opacities):
+                renderer = scenes.transforms()
+                renderer.SetBackground(0.2, 0.4, 0.6)
+                for actor, opacity in zip(renderer.GetActors(), opacities):
+                    actor.GetProperty().SetOpacity(opacity)
+                renderer.SetUseDepthPeeling(True)
+                renderer.SetMaximumNumberOfPeels(20)
+                renderer.SetOcclusionRatio(0)
+                shown = window(renderer)
+                shown.SetAlphaBitPlanes(1)
+                truth = dgtk.truth(renderer, ["color", "objects"], size=SIZE)
+                renderer.ResetCameraClippingRange()
+                away = numpy.abs(truth["color"].astype(int) - drawn(shown).astype(int))
+                self.assertLess(away.mean(), 0.3)
+                self.assertEqual(set(numpy.unique(truth["objects"])), {0, 1, 2})  # what cannot be seen is a surface
 
     def test_textures_by_their_filter(self):
         for interpolate, mipmap in ((0, 0), (1, 0), (1, 1)):

@@ -7,6 +7,7 @@
 #include "dgtkTriangulate.h"
 
 #include <Eigen/Geometry>
+#include <vtkAOSDataArrayTemplate.h>
 #include <vtkActor.h>
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -37,6 +38,48 @@ enum class Normals
   OfTriangles
 };
 
+/// Tuples of an array as numbers in double precision, out of its memory where it is of one of the usual kinds.
+class Tuples
+{
+public:
+  explicit Tuples(vtkDataArray* array)
+    : Array(array)
+    , Components(array != nullptr ? array->GetNumberOfComponents() : 0)
+  {
+    if (auto* const floats = vtkAOSDataArrayTemplate<float>::FastDownCast(array))
+    {
+      this->Floats = floats->GetPointer(0);
+    }
+    else if (auto* const doubles = vtkAOSDataArrayTemplate<double>::FastDownCast(array))
+    {
+      this->Doubles = doubles->GetPointer(0);
+    }
+  }
+
+  explicit operator bool() const { return this->Array != nullptr; }
+  int components() const { return this->Components; }
+
+  double number(vtkIdType tuple, int component) const
+  {
+    const vtkIdType at = tuple * this->Components + component;
+    return this->Floats != nullptr    ? double(this->Floats[at])
+           : this->Doubles != nullptr ? this->Doubles[at]
+                                      : this->Array->GetComponent(tuple, component);
+  }
+
+  /// Of an array with three components.
+  Eigen::Vector3d vector(vtkIdType tuple) const
+  {
+    return { this->number(tuple, 0), this->number(tuple, 1), this->number(tuple, 2) };
+  }
+
+private:
+  vtkDataArray* Array;
+  int Components;
+  const float* Floats = nullptr;
+  const double* Doubles = nullptr;
+};
+
 /// Appends the triangles of one piece to a model.
 class PieceReader
 {
@@ -48,6 +91,7 @@ public:
     , Piece(piece)
     , Data(*piece.data)
     , PointCount(Data.GetPoints() != nullptr ? Data.GetNumberOfPoints() : 0)
+    , Points(Data.GetPoints() != nullptr ? Data.GetPoints()->GetData() : nullptr)
     , PointNormals(asLong(Data.GetPointData()->GetNormals(), PointCount))
     , CellNormals(asLong(Data.GetCellData()->GetNormals(), Data.GetNumberOfCells()))
     , Uvs(asLong(Data.GetPointData()->GetTCoords(), PointCount))
@@ -59,10 +103,10 @@ public:
       fail("scalars are fewer than what they colour");
     }
     const bool flat = actor.GetProperty()->GetInterpolation() == VTK_FLAT;
-    this->Kind = flat                            ? Normals::OfTriangles
-                 : this->PointNormals != nullptr ? Normals::OfPoints
-                 : this->CellNormals != nullptr  ? Normals::OfCells
-                                                 : Normals::OfTriangles;
+    this->Kind = flat                 ? Normals::OfTriangles
+                 : this->PointNormals ? Normals::OfPoints
+                 : this->CellNormals  ? Normals::OfCells
+                                      : Normals::OfTriangles;
     this->Split = this->Kind != Normals::OfPoints || piece.colorsOfCells;
     if (actor.GetTexture() != nullptr && actor.GetTexture()->GetTransform() != nullptr)
     {
@@ -72,6 +116,7 @@ public:
 
   void readAll(const Affine3& bake)
   {
+    this->reserve();
     if (!this->Piece.isGlyph)
     {
       this->read(bake, nullptr);
@@ -95,10 +140,28 @@ private:
     return array != nullptr && array->GetNumberOfTuples() >= count ? array : nullptr;
   }
 
+  /// For triangles; what other polygons have more grows by itself.
+  void reserve()
+  {
+    const auto drawn = this->Piece.isGlyph ? this->Piece.glyphs.size() : std::size_t(1);
+    const auto triangles = drawn * std::size_t(this->Data.GetNumberOfPolys());
+    const auto vertices = this->Split ? 3 * triangles : drawn * std::size_t(this->PointCount);
+    const auto more = [](auto& list, std::size_t count) { list.reserve(list.size() + count); };
+    more(this->ToModel.triangles, triangles);
+    more(this->To.cells, triangles);
+    more(this->ToGeometry.positions, vertices);
+    more(this->ToGeometry.normals, vertices);
+    more(this->ToModel.sourceVertex, vertices);
+  }
+
   void read(const Affine3& place, const GlyphPlace* glyph)
   {
     this->Place = place;
     this->Turn = normalMatrix(place.linear);
+    if (this->Kind == Normals::OfTriangles && place.linear.determinant() < 0)
+    {
+      this->Turn = -this->Turn; // a triangle's own normal goes by the order of its corners, which a mirror turns
+    }
     this->Glyph = glyph;
     this->VertexOf.assign(this->Split ? 0 : std::size_t(this->PointCount), none);
     vtkIdType cell = this->Data.GetNumberOfVerts() + this->Data.GetNumberOfLines();
@@ -183,7 +246,9 @@ private:
     {
       return;
     }
-    const Eigen::Vector3d flat = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
+    const Eigen::Vector3d flat = this->Kind == Normals::OfTriangles
+                                   ? Eigen::Vector3d((p[1] - p[0]).cross(p[2] - p[0]).normalized())
+                                   : Eigen::Vector3d(0, 0, 0);
     std::array<std::uint32_t, 3> corners{};
     for (std::size_t i = 0; i < 3; ++i)
     {
@@ -200,12 +265,7 @@ private:
                                   : this->Piece.firstCell + this->Cell;
   }
 
-  Eigen::Vector3d point(vtkIdType index) const
-  {
-    double p[3];
-    this->Data.GetPoint(index, p);
-    return { p[0], p[1], p[2] };
-  }
+  Eigen::Vector3d point(vtkIdType index) const { return this->Points.vector(index); }
 
   std::uint32_t vertex(vtkIdType index, const Eigen::Vector3d& position, const Eigen::Vector3d& flat)
   {
@@ -231,7 +291,7 @@ private:
     if (this->Kind != Normals::OfTriangles)
     {
       const bool ofPoint = this->Kind == Normals::OfPoints;
-      (ofPoint ? this->PointNormals : this->CellNormals)->GetTuple(ofPoint ? index : this->Cell, n.data());
+      n = (ofPoint ? this->PointNormals : this->CellNormals).vector(ofPoint ? index : this->Cell);
     }
     n = (this->Turn * n).eval();
     const double size = n.norm();
@@ -240,7 +300,7 @@ private:
 
   void addLooks(vtkIdType index)
   {
-    if (!this->ToModel.uvs.empty() || this->Uvs != nullptr)
+    if (!this->ToModel.uvs.empty() || this->Uvs)
     {
       this->ToModel.uvs.resize(this->ToGeometry.positions.size() - 1, Eigen::Vector2d(0, 0));
       this->ToModel.uvs.push_back(this->uv(index));
@@ -271,12 +331,12 @@ private:
 
   Eigen::Vector2d uv(vtkIdType index) const
   {
-    if (this->Uvs == nullptr)
+    if (!this->Uvs)
     {
       return { 0, 0 };
     }
-    const double v = this->Uvs->GetNumberOfComponents() > 1 ? this->Uvs->GetComponent(index, 1) : 0.0;
-    const double written[4] = { this->Uvs->GetComponent(index, 0), v, 0, 1 };
+    const double v = this->Uvs.components() > 1 ? this->Uvs.number(index, 1) : 0.0;
+    const double written[4] = { this->Uvs.number(index, 0), v, 0, 1 };
     if (this->Transform == nullptr)
     {
       return { written[0], written[1] };
@@ -292,9 +352,10 @@ private:
   const SurfacePiece& Piece;
   vtkPolyData& Data;
   vtkIdType PointCount;
-  vtkDataArray* PointNormals;
-  vtkDataArray* CellNormals;
-  vtkDataArray* Uvs;
+  Tuples Points;
+  Tuples PointNormals;
+  Tuples CellNormals;
+  Tuples Uvs;
   vtkMatrix4x4* Transform = nullptr; ///< of texture coordinates
   Normals Kind = Normals::OfTriangles;
   bool Split = true; ///< every triangle has vertices of its own
