@@ -16,12 +16,22 @@ namespace dgtk
 
 using namespace sampletree;
 
-SampleMaker::SampleMaker(const RandomScene& scene, std::uint64_t seed, std::uint64_t sample, SampleModels& models)
+SampleMaker::SampleMaker(
+  const RandomScene& scene, std::uint64_t seed, std::uint64_t sample, SampleModels& models, const SampleWatch& watch)
   : Scene(scene)
   , Draws(seed, sample)
   , Models(models)
-  , Expansion(scene, this->Draws)
+  , Watch(watch)
+  , Expansion(scene, this->Draws, watch.values)
 {
+}
+
+void SampleMaker::checkWanted() const
+{
+  if (this->Watch.outdated && this->Watch.outdated())
+  {
+    throw SampleStopped();
+  }
 }
 
 void SampleMaker::fail(const JsonNode& node, const std::string& path, const std::string& what,
@@ -260,6 +270,7 @@ void SampleMaker::addCamera(std::size_t index, JsonNode& list)
   SampleNote note;
   for (int attempt = 0; attempt < wanted.attempts; ++attempt)
   {
+    this->checkWanted();
     JsonNode camera;
     note = {};
     try
@@ -298,6 +309,7 @@ SceneSample SampleMaker::make()
 {
   this->Tree = this->Expansion.world(this->Rules);
   this->settleObjects(false);
+  this->checkWanted();
   this->place();
   this->leaveOut();
   for (JsonNode& light : itemsOf(this->Tree, "lights"))

@@ -20,7 +20,8 @@ namespace dgtk
 class SampleMaker
 {
 public:
-  SampleMaker(const RandomScene& scene, std::uint64_t seed, std::uint64_t sample, SampleModels& models);
+  SampleMaker(
+    const RandomScene& scene, std::uint64_t seed, std::uint64_t sample, SampleModels& models, const SampleWatch& watch);
   SceneSample make();
 
 private:
@@ -28,6 +29,7 @@ private:
 
   [[noreturn]] void fail(const JsonNode& node, const std::string& path, const std::string& what,
     const std::string& expected, const std::string& found) const;
+  void checkWanted() const;
   SceneDescription readTree(const JsonNode& tree) const;
   /// Replaces the points below a node whose objects have their places; true when all are.
   bool settle(JsonNode& node, const std::string& shown, const std::set<std::size_t>& waiting);
@@ -43,6 +45,7 @@ private:
   const RandomScene& Scene;
   SampleDraws Draws;
   SampleModels& Models;
+  const SampleWatch& Watch;
   SampleExpansion Expansion;
   JsonNode Tree;
   std::vector<Rule> Rules;            ///< of objects
