@@ -29,7 +29,7 @@ BOXES = [
     ("Pipeline", "bands, threads, files, resume, VTK classes, Python", 0, 10, 7, 8, VIOLET),
     ("Verification", "also on Stage", 10, 11.1, 6, 8, VIOLET),
     ("Report", "one page", 11.1, 12, 6, 8, VIOLET),
-    ("Document", "what the editor edits; on Stage alone", 5, 8.5, 8, 9, VIOLET),
+    ("Document", "what the editor edits", 5, 8.5, 8, 9, VIOLET),
     ("Live", "ground truth while editing", 0, 5, 8, 9, VIOLET),
     ("Controls", "state, small widgets", 5, 8.5, 9, 10, VIOLET),
     ("Views", "3D views, handles", 0, 5, 9, 11, VIOLET),

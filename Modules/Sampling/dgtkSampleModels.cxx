@@ -75,8 +75,18 @@ std::shared_ptr<const Stage> SampleModels::stage(const SceneDescription& scene)
 {
   const SceneDescription bare = geometryOf(scene);
   const std::lock_guard<std::mutex> guard(this->Self->libraryLock);
+  if (this->Self->library.size() > mostLooks)
+  {
+    this->Self->library = ModelLibrary(); // stages that are in use keep what they have
+  }
   this->Self->library.load(bare);
   return Stage::make(bare, this->Self->library);
+}
+
+std::size_t SampleModels::looks() const
+{
+  const std::lock_guard<std::mutex> guard(this->Self->libraryLock);
+  return this->Self->library.size();
 }
 
 std::shared_ptr<const void> SampleModels::keptAny(

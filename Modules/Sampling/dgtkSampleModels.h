@@ -8,6 +8,7 @@
 #include "dgtkSceneDescription.h"
 #include "dgtkStage.h"
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -15,10 +16,13 @@
 namespace dgtk
 {
 
-/// What is read or made of models, once for all samples: it grows with the number of different files only. Thread-safe.
+/// What is read or made of models, once for all samples: of files it grows with the number of different ones only, of
+/// their looks (materials, textures) the last mostLooks or so are kept. Thread-safe.
 class DGTKSAMPLING_EXPORT SampleModels
 {
 public:
+  static constexpr std::size_t mostLooks = 1000;
+
   SampleModels();
   ~SampleModels();
   SampleModels(const SampleModels&) = delete;
@@ -31,6 +35,9 @@ public:
   /// The scene's geometry, with the textures that cut holes into it: without lights, environment and materials'
   /// colours. Objects without triangles are not there. Throws what Stage::load() throws.
   std::shared_ptr<const Stage> stage(const SceneDescription& scene);
+
+  /// Models with their looks that are kept for further samples: at most mostLooks and those of one scene.
+  std::size_t looks() const;
 
   /// What `make` gives for a key ("hulls\n" + path), made once; of one type a key. Others wait while it is made.
   template <typename T>

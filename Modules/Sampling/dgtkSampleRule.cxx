@@ -12,4 +12,9 @@ SampleRefused::SampleRefused(const std::string& path, const std::string& why, in
 {
 }
 
+SampleStopped::SampleStopped()
+  : AgainError("stopped")
+{
+}
+
 } // namespace dgtk

@@ -4,6 +4,7 @@
 
 #include "dgtkSamplingModule.h"
 
+#include "dgtkAgainError.h"
 #include "dgtkError.h"
 #include "dgtkJson.h"
 
@@ -34,6 +35,13 @@ struct SampleNote
   std::vector<std::pair<std::string, double>> measured; ///< name -> value, in the order in which they are written
 };
 
+/// A value that was drawn.
+struct SampleValue
+{
+  std::string path;  ///< of the value, as its draws have it: "parameters/n", "objects/cup#3/scale"
+  std::string value; ///< JSON on one line
+};
+
 /// A rule of a sample cannot be kept and says that the sample is refused then. Its text: PATH: why.
 class DGTKSAMPLING_EXPORT SampleRefused : public Error
 {
@@ -47,6 +55,13 @@ private:
   std::string Path;
   std::string Why;
   int Attempts;
+};
+
+/// Nobody waits for the sample any more.
+class DGTKSAMPLING_EXPORT SampleStopped : public AgainError
+{
+public:
+  SampleStopped();
 };
 
 } // namespace dgtk

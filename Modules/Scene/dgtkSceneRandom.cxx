@@ -113,7 +113,7 @@ const std::vector<std::string>& randomObjectKeys()
 
 const std::vector<std::string>& randomCameraKeys()
 {
-  static const std::vector<std::string> keys{ "path", "require" };
+  static const std::vector<std::string> keys{ "path", "require", "rig" };
   return keys;
 }
 

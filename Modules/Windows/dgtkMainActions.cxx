@@ -44,7 +44,8 @@ Eigen::Vector3d placeOfLight(const WorldBox& box, UpAxis up)
 QAction* MainWindow::addAction(QMenu* menu, const QString& name, const QString& text, const QKeySequence& keys)
 {
   // The tool bar has what is used often.
-  static const QStringList menuOnly{ "saveAs", "exportPov", "exportDataset", "selectAll", "rename", "properties" };
+  static const QStringList menuOnly{ "saveAs", "sampleScene", "exportPov", "exportDataset", "selectAll", "rename",
+    "properties" };
   auto* tools = menuOnly.contains(name) ? nullptr : this->findChild<QToolBar*>("toolBar");
   QAction* const action = addNamedAction(this, menu, tools, name, text, keys);
   connect(action, &QAction::triggered, this->State, &EditorState::finishTyping); // before what the action does
@@ -93,12 +94,14 @@ void MainWindow::makeFileMenu()
     { [this] { return this->cameraOfView(); },
       [this] { return this->Matching == nullptr || this->Matching->mayDiscard(); } });
   SceneFiles* const files = this->Files;
+  connect(this, &MainWindow::closed, files, &SceneFiles::closeSamples);
   connect(files, &SceneFiles::datasetAsked, this, &MainWindow::openDataset);
   const auto add = [&](const char* name, const QString& text, const QKeySequence& keys)
   { return this->addAction(menu, name, text, keys); };
   connect(add("new", tr("&New"), QKeySequence::New), &QAction::triggered, files, &SceneFiles::newScene);
   connect(add("open", tr("&Open ..."), QKeySequence::Open), &QAction::triggered, files, &SceneFiles::askOpen);
   menu->addMenu(this->Recent);
+  connect(add("sampleScene", tr("Sampl&e a random scene ..."), {}), &QAction::triggered, files, &SceneFiles::askSample);
   connect(add("save", tr("&Save"), QKeySequence::Save), &QAction::triggered, files, &SceneFiles::save);
   connect(
     add("saveAs", tr("Save &as ..."), QKeySequence("Ctrl+Shift+S")), &QAction::triggered, files, &SceneFiles::saveAs);

@@ -30,13 +30,21 @@ QString endTitle(RunLog::End end)
   }
 }
 
-bool isExport(const RunLog& log) { return log.request().arguments.value(0) == "export"; }
+/// What a run does: the word after dgtk.
+QString commandOf(const RunLog& log) { return log.request().arguments.value(0); }
+/// Runs of the others cannot go on where they stopped.
+bool isRender(const RunLog& log) { return commandOf(log) == "render"; }
 
 /// Of a run that ended while no window was there.
 QString endText(const RunLog& log)
 {
   const QString name = QDir::toNativeSeparators(log.request().folder);
-  if (isExport(log))
+  if (commandOf(log) == "sample")
+  {
+    return log.end() == RunLog::End::Done ? MainWindow::tr("Sampled meanwhile: %1").arg(log.last())
+                                          : MainWindow::tr("Sampling into %1 has ended: %2").arg(name, log.last());
+  }
+  if (commandOf(log) == "export")
   {
     return log.end() == RunLog::End::Done ? MainWindow::tr("Exported meanwhile: %1").arg(log.last())
                                           : MainWindow::tr("The export into %1 has ended: %2").arg(name, log.last());
@@ -112,11 +120,11 @@ void MainWindow::findRuns()
     RunLog log(folder);
     const bool alive = log.alive(); // before its last words are read
     log.read();
-    if (alive && !isExport(log))
+    if (alive && isRender(log))
     {
       running << folder;
     }
-    else if (!alive && isExport(log))
+    else if (!alive && !isRender(log))
     {
       if (!log.shown())
       {

@@ -10,6 +10,7 @@
 #include "dgtkModelReader.h"
 #include "dgtkNamedAction.h"
 #include "dgtkPovExport.h"
+#include "dgtkSampleDrawer.h"
 #include "dgtkSaveName.h"
 #include "dgtkSceneViews.h"
 #include "dgtkUsualFolder.h"
@@ -123,23 +124,45 @@ bool SceneFiles::openFile(const QString& path)
     return false;
   }
   const std::string before = this->State.document().json();
-  const auto loaded = std::make_shared<std::optional<LoadedScene>>();
+  struct Outcome
+  {
+    std::optional<LoadedScene> scene;
+    bool random = false;
+  };
+  const auto loaded = std::make_shared<Outcome>();
   const std::string file = QFile::encodeName(path).toStdString();
   const bool read = this->work(tr("Reading %1 ...").arg(QFileInfo(path).fileName()),
     [loaded, file](const LoadProgress& progress)
     {
-      *loaded = SceneDocument::read(file, progress);
-      if (*loaded)
+      try
       {
-        environmentLight((*loaded)->models.environment((*loaded)->scene)); // is kept; the views need not wait for it
+        loaded->scene = SceneDocument::read(file, progress);
+      }
+      catch (const InputError&)
+      {
+        loaded->random = isRandomScene(file);
+        if (!loaded->random)
+        {
+          throw;
+        }
+      }
+      if (loaded->scene)
+      {
+        environmentLight(loaded->scene->models.environment(loaded->scene->scene)); // is kept; the views need not wait
       }
     });
+  if (read && loaded->random)
+  {
+    this->Discarded = before;
+    this->offerToSample(path);
+    return false;
+  }
   // What was edited in the meantime is not thrown away unasked.
-  if (!read || !*loaded || (this->State.document().json() != before && !this->mayDiscard()))
+  if (!read || !loaded->scene || (this->State.document().json() != before && !this->mayDiscard()))
   {
     return false;
   }
-  this->State.document().install(std::move(**loaded));
+  this->State.document().install(std::move(*loaded->scene));
   this->State.select({});
   this->State.setFrame(this->State.scene().firstFrame());
   this->Views.showWhole();

@@ -21,6 +21,7 @@ class Autosave;
 class BackgroundWork;
 class EditorLog;
 class EditorState;
+class SampleDialog;
 class SceneViews;
 
 /// What the window knows and its files ask for.
@@ -51,6 +52,10 @@ public:
   bool saveAs();
   void askImport();
   void exportPov();
+  void askSample();
+  /// Shows the dialog that draws samples of a random scene into the window.
+  void sampleFile(const QString& path);
+  void closeSamples();
   /// Until there are none, or nobody looks for them.
   void findMissing();
   /// False when the scene's changes are to be kept.
@@ -61,6 +66,14 @@ signals:
   void datasetAsked(const QString& folder);
 
 private:
+  /// Offers to draw samples of a random scene, which is not opened itself.
+  void offerToSample(const QString& path);
+  SampleDialog& sampling();
+  /// The scene is a sample, perhaps edited, that is in no file.
+  bool isSample() const;
+  /// As mayDiscard(), but a sample as it was drawn may go: it can be drawn again.
+  bool mayReplaceBySample();
+  bool showSample(LoadedScene sample);
   bool addRead(const std::string& file, const ModelLibrary& models);
   /// Lists the models that are not there and offers to look for them. True when some were found.
   bool offerToFind();
@@ -79,6 +92,9 @@ private:
   QMainWindow& Window;
   SceneFilesHooks Hooks;
   Autosave* Copies;
+  SampleDialog* Samples = nullptr;
+  std::size_t SampleOpened = 0; ///< SceneDocument::opened() of the sample that is shown
+  std::string Discarded;        ///< the scene that the user has given up for a sample
 };
 
 } // namespace dgtk

@@ -1341,6 +1341,18 @@
         <source>The export into %1 has ended: %2</source>
         <translation>Der Export nach %1 ist beendet: %2</translation>
     </message>
+    <message>
+        <source>Sampl&amp;e a random scene ...</source>
+        <translation>Zufällige Szene zi&amp;ehen ...</translation>
+    </message>
+    <message>
+        <source>Sampled meanwhile: %1</source>
+        <translation>Inzwischen gezogen: %1</translation>
+    </message>
+    <message>
+        <source>Sampling into %1 has ended: %2</source>
+        <translation>Das Ziehen nach %1 ist zu Ende: %2</translation>
+    </message>
 </context>
 <context>
     <name>dgtk::MatchDialog</name>
@@ -2153,6 +2165,156 @@
     </message>
 </context>
 <context>
+    <name>dgtk::SampleDialog</name>
+    <message>
+        <source>Sample a random scene</source>
+        <translation>Zufällige Szene ziehen</translation>
+    </message>
+    <message>
+        <source>The scene&apos;s own seed, or another one to draw with</source>
+        <translation>Der Startwert der Szene, oder ein anderer, mit dem gezogen wird</translation>
+    </message>
+    <message>
+        <source>&amp;Previous</source>
+        <translation>&amp;Vorige</translation>
+    </message>
+    <message>
+        <source>Ne&amp;xt</source>
+        <translation>&amp;Nächste</translation>
+    </message>
+    <message>
+        <source>Dr&amp;aw</source>
+        <translation>Z&amp;iehen</translation>
+    </message>
+    <message>
+        <source>Draw this sample of the file as it is now</source>
+        <translation>Diese Ziehung aus der Datei, wie sie jetzt ist</translation>
+    </message>
+    <message>
+        <source>Random scene</source>
+        <translation>Zufällige Szene</translation>
+    </message>
+    <message>
+        <source>Sample &amp;number</source>
+        <translation>N&amp;ummer der Ziehung</translation>
+    </message>
+    <message>
+        <source>&amp;Seed</source>
+        <translation>&amp;Startwert</translation>
+    </message>
+    <message>
+        <source>St&amp;op</source>
+        <translation>An&amp;halten</translation>
+    </message>
+    <message>
+        <source>Parameter or random value</source>
+        <translation>Parameter oder zufälliger Wert</translation>
+    </message>
+    <message>
+        <source>Drawn</source>
+        <translation>Gezogen</translation>
+    </message>
+    <message>
+        <source>Ru&amp;les: left out, refused, attempts, measured</source>
+        <translation>Re&amp;geln: ausgelassen, abgelehnt, Versuche, gemessen</translation>
+    </message>
+    <message>
+        <source>&amp;Keep as scene ...</source>
+        <translation>Als S&amp;zene behalten ...</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>Drawing sample %1 ...</source>
+        <translation>Ziehung %1 ...</translation>
+    </message>
+    <message>
+        <source>Stopped. The views show sample %1.</source>
+        <translation>Angehalten. Die Ansichten zeigen Ziehung %1.</translation>
+    </message>
+    <message>
+        <source>Stopped.</source>
+        <translation>Angehalten.</translation>
+    </message>
+    <message>
+        <source>Sample %1 is refused: %2</source>
+        <translation>Ziehung %1 ist abgelehnt: %2</translation>
+    </message>
+    <message>
+        <source>Sample %1: %2 objects, %3 lights, %4 cameras; %5 left out</source>
+        <translation>Ziehung %1: %2 Objekte, %3 Lichter, %4 Kameras; %5 ausgelassen</translation>
+    </message>
+    <message>
+        <source>attempts: %1</source>
+        <translation>Versuche: %1</translation>
+    </message>
+    <message>
+        <source>%1. The views show sample %2.</source>
+        <translation>%1. Die Ansichten zeigen Ziehung %2.</translation>
+    </message>
+</context>
+<context>
+    <name>dgtk::SampleWriter</name>
+    <message>
+        <source>Write samples</source>
+        <translation>Ziehungen schreiben</translation>
+    </message>
+    <message>
+        <source>&amp;From</source>
+        <translation>V&amp;on</translation>
+    </message>
+    <message>
+        <source>&amp;to</source>
+        <translation>&amp;bis</translation>
+    </message>
+    <message>
+        <source>Fol&amp;der</source>
+        <translation>O&amp;rdner</translation>
+    </message>
+    <message>
+        <source>Browse ...</source>
+        <translation>Durchsuchen ...</translation>
+    </message>
+    <message>
+        <source>&amp;Replace other samples in this folder</source>
+        <translation>Andere Ziehungen in diesem Ordner &amp;ersetzen</translation>
+    </message>
+    <message>
+        <source>&amp;Write</source>
+        <translation>S&amp;chreiben</translation>
+    </message>
+    <message>
+        <source>&amp;Cancel</source>
+        <translation>&amp;Abbrechen</translation>
+    </message>
+    <message>
+        <source>Folder of the samples</source>
+        <translation>Ordner der Ziehungen</translation>
+    </message>
+    <message>
+        <source>Name the folder of the samples.</source>
+        <translation>Nennen Sie den Ordner der Ziehungen.</translation>
+    </message>
+    <message>
+        <source>The first number is greater than the last.</source>
+        <translation>Die erste Nummer ist größer als die letzte.</translation>
+    </message>
+    <message>
+        <source>Writing samples ...</source>
+        <translation>Ziehungen werden geschrieben ...</translation>
+    </message>
+    <message>
+        <source>; Replace removes them</source>
+        <translation>; Ersetzen entfernt sie</translation>
+    </message>
+    <message>
+        <source>Stopped.</source>
+        <translation>Angehalten.</translation>
+    </message>
+</context>
+<context>
     <name>dgtk::SceneFiles</name>
     <message>
         <source>DGTk</source>
@@ -2289,6 +2451,26 @@ Graue Kästen stehen an ihrer Stelle. Die Szene kann bearbeitet und gespeichert,
     <message>
         <source>Wrote %1</source>
         <translation>%1 geschrieben</translation>
+    </message>
+    <message>
+        <source>Sample a random scene</source>
+        <translation>Zufällige Szene ziehen</translation>
+    </message>
+    <message>
+        <source>Random scenes (*.json);;All files (*)</source>
+        <translation>Zufällige Szenen (*.json);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>%1 has random values.</source>
+        <translation>%1 hat zufällige Werte.</translation>
+    </message>
+    <message>
+        <source>Samples of it are plain scenes, which the window can show.</source>
+        <translation>Ziehungen daraus sind einfache Szenen, die das Fenster zeigen kann.</translation>
+    </message>
+    <message>
+        <source>&amp;Sample ...</source>
+        <translation>&amp;Ziehen ...</translation>
     </message>
 </context>
 <context>

@@ -2,6 +2,7 @@
 #include "dgtkSampleExpansion.h"
 
 #include "dgtkError.h"
+#include "dgtkSampleTree.h"
 #include "dgtkSceneRandom.h"
 #include "dgtkText.h"
 
@@ -50,9 +51,10 @@ SampleExpansion::At SampleExpansion::At::below(const std::string& key, const std
   return at;
 }
 
-SampleExpansion::SampleExpansion(const RandomScene& scene, const SampleDraws& draws)
+SampleExpansion::SampleExpansion(const RandomScene& scene, const SampleDraws& draws, std::vector<SampleValue>* values)
   : Scene(scene)
   , Draws(draws)
+  , Values(values)
 {
   const JsonNode& root = scene.document().root;
   if (const JsonNode* const parameters = root.find("parameters"))
@@ -103,7 +105,9 @@ JsonNode SampleExpansion::value(const JsonNode& node, const std::string& key, co
   const std::string word = randomWordOf(key, node);
   if (!word.empty())
   {
-    return this->random(word, node, at);
+    JsonNode drawn = this->random(word, node, at);
+    this->tell(at.path, drawn);
+    return drawn;
   }
   if (node.type == JsonNode::Type::Object)
   {
@@ -123,6 +127,29 @@ JsonNode SampleExpansion::value(const JsonNode& node, const std::string& key, co
       this->value(element, {}, at.below(elementName(key, element, i), '[' + std::to_string(i) + ']')));
   }
   return list;
+}
+
+void SampleExpansion::tell(const std::string& path, const JsonNode& drawn)
+{
+  if (this->Values == nullptr || sampletree::hasGeometry(drawn))
+  {
+    return;
+  }
+  const auto [at, isNew] = this->Told.emplace(path, this->Values->size());
+  if (isNew)
+  {
+    this->Values->push_back({ path, {} });
+  }
+  (*this->Values)[at->second].value = sampletree::textOf(drawn);
+}
+
+void SampleExpansion::forget(const std::string& camera)
+{
+  while (this->Values != nullptr && !this->Values->empty() && this->Values->back().path.rfind(camera + '/', 0) == 0)
+  {
+    this->Told.erase(this->Values->back().path);
+    this->Values->pop_back();
+  }
 }
 
 JsonNode SampleExpansion::members(const JsonNode& node, const At& at, const std::vector<std::string>& without)
@@ -180,6 +207,7 @@ JsonNode SampleExpansion::parameter(const JsonNode& node, const At& at)
     value = this->value(*this->Scene.document().root.find("parameters")->find(name), {}, place);
     this->Attempt = attempt;
     drawn = Drawn::Done;
+    this->tell(place.path, value);
   }
   JsonNode copy = value;
   copy.line = node.line;
@@ -580,6 +608,7 @@ JsonNode SampleExpansion::camera(std::size_t index, std::uint32_t attempt, std::
   const std::string name = this->nameOf(item, at);
   const std::string path = "cameras/" + escaped(name);
   const At place{ path, path, at.shown, 0, !name.empty() };
+  this->forget(path);
   JsonNode camera = this->members(item, place, randomCameraKeys());
   for (const std::string& key : randomCameraKeys())
   {

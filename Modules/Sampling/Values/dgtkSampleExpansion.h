@@ -6,6 +6,7 @@
 #include "dgtkJson.h"
 #include "dgtkRandomScene.h"
 #include "dgtkSampleDraws.h"
+#include "dgtkSampleRule.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -30,7 +31,8 @@ public:
     JsonDocument rule;
   };
 
-  SampleExpansion(const RandomScene& scene, const SampleDraws& draws);
+  /// What is drawn goes to `values`, if there are.
+  SampleExpansion(const RandomScene& scene, const SampleDraws& draws, std::vector<SampleValue>* values = nullptr);
 
   /// Everything but the cameras; the rules of the objects go to `rules`.
   JsonNode world(std::vector<Rule>& rules);
@@ -68,6 +70,9 @@ private:
   JsonNode permutation(const JsonNode& node, const At& at);
   JsonNode arguments(const JsonNode& node, const At& at);
   ValueUniforms uniforms(const JsonNode& node, const At& at, bool mayStratify = true);
+  void tell(const std::string& path, const JsonNode& drawn);
+  /// Takes back what was told of a camera: nothing else was since.
+  void forget(const std::string& camera);
   JsonNode members(const JsonNode& node, const At& at, const std::vector<std::string>& without);
   void addItems(const JsonNode& list, const std::string& key, std::vector<Rule>& rules, JsonNode& root);
   void addObjects(const JsonNode& item, const At& at, std::vector<Rule>& rules, JsonNode& list);
@@ -78,6 +83,8 @@ private:
 
   const RandomScene& Scene;
   const SampleDraws& Draws;
+  std::vector<SampleValue>* Values;
+  std::map<std::string, std::size_t> Told; ///< path -> index in `Values`
   std::uint32_t Attempt = 0;
   const JsonNode* CameraList = nullptr;
   std::map<std::string, std::pair<Drawn, JsonNode>> Parameters;

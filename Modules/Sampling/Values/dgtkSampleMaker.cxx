@@ -3,6 +3,7 @@
 
 #include "dgtkCameraPath.h"
 #include "dgtkCameraRequirement.h"
+#include "dgtkCameraRig.h"
 #include "dgtkError.h"
 #include "dgtkPlacement.h"
 #include "dgtkSampleTree.h"
@@ -16,12 +17,22 @@ namespace dgtk
 
 using namespace sampletree;
 
-SampleMaker::SampleMaker(const RandomScene& scene, std::uint64_t seed, std::uint64_t sample, SampleModels& models)
+SampleMaker::SampleMaker(
+  const RandomScene& scene, std::uint64_t seed, std::uint64_t sample, SampleModels& models, const SampleWatch& watch)
   : Scene(scene)
   , Draws(seed, sample)
   , Models(models)
-  , Expansion(scene, this->Draws)
+  , Watch(watch)
+  , Expansion(scene, this->Draws, watch.values)
 {
+}
+
+void SampleMaker::checkWanted() const
+{
+  if (this->Watch.outdated && this->Watch.outdated())
+  {
+    throw SampleStopped();
+  }
 }
 
 void SampleMaker::fail(const JsonNode& node, const std::string& path, const std::string& what,
@@ -192,42 +203,8 @@ SampleWorld& SampleMaker::world()
   return *this->World;
 }
 
-bool SampleMaker::makeCamera(std::size_t index, std::uint32_t attempt, JsonNode& camera, SampleNote& note)
+CameraDescription SampleMaker::cameraAlone(const JsonNode& camera) const
 {
-  const std::string shown = "cameras[" + std::to_string(index) + ']';
-  std::map<std::string, Rule> rules;
-  camera = this->Expansion.camera(index, attempt, rules);
-  aimAtNames(camera, "lookAt");
-  this->settle(camera, shown, {});
-  const auto path = rules.find("path");
-  if (path != rules.end())
-  {
-    for (const char* key : { "eye", "position", "orientation" })
-    {
-      if (const JsonNode* const pose = camera.find(key))
-      {
-        this->fail(*pose, shown + '.' + key, "stands beside a path", "path or a pose of its own", "both");
-      }
-    }
-    this->settle(path->second.rule.root, shown + ".path", {});
-    const bool looks = camera.find("lookAt") != nullptr;
-    const TravelledPath baked = bakedPath({ index, path->second.path, path->second.rule }, this->world(),
-      this->Scene.upAxis(), this->Draws, attempt, looks);
-    setMember(camera, "eye", keysNode(baked.eye));
-    if (!looks)
-    {
-      setMember(camera, "lookAt", keysNode(baked.lookAt));
-    }
-    note.path = path->second.path;
-    note.attempts = baked.attempts;
-  }
-  const auto require = rules.find("require");
-  if (require == rules.end())
-  {
-    return true;
-  }
-  note.path = require->second.path;
-  note.attempts = int(attempt) + 1;
   JsonNode tree(JsonNode::Type::Object);
   if (const JsonNode* const up = this->Tree.find("upAxis"))
   {
@@ -236,7 +213,83 @@ bool SampleMaker::makeCamera(std::size_t index, std::uint32_t attempt, JsonNode&
   JsonNode list(JsonNode::Type::Array);
   list.children.push_back(camera);
   tree.add("cameras", std::move(list));
-  const SceneDescription alone = this->readTree(tree);
+  return this->readTree(tree).cameras.front();
+}
+
+void SampleMaker::refusePose(const JsonNode& camera, const std::vector<const char*>& keys, const std::string& shown,
+  const std::string& beside) const
+{
+  for (const char* key : keys)
+  {
+    if (const JsonNode* const pose = camera.find(key))
+    {
+      this->fail(*pose, shown + '.' + key, "stands beside a " + beside, beside + " or a pose of its own", "both");
+    }
+  }
+}
+
+void SampleMaker::travel(
+  std::size_t index, std::uint32_t attempt, const SampleRule& path, JsonNode& camera, SampleNote& note)
+{
+  const std::string shown = "cameras[" + std::to_string(index) + ']';
+  this->refusePose(camera, { "eye", "position", "orientation" }, shown, "path");
+  SampleRule settled = path;
+  this->settle(settled.rule.root, shown + ".path", {});
+  const bool looks = camera.find("lookAt") != nullptr;
+  const TravelledPath baked = bakedPath(settled, this->world(), this->Scene.upAxis(), this->Draws, attempt, looks);
+  setMember(camera, "eye", keysNode(baked.eye));
+  if (!looks)
+  {
+    setMember(camera, "lookAt", keysNode(baked.lookAt));
+  }
+  note.path = path.path;
+  note.attempts = baked.attempts;
+}
+
+void SampleMaker::mount(std::size_t index, const JsonDocument& rig, JsonNode& camera) const
+{
+  const std::string shown = "cameras[" + std::to_string(index) + ']';
+  this->refusePose(camera, { "eye", "lookAt", "up", "position", "orientation" }, shown, "rig");
+  for (const auto& base : this->Cameras)
+  {
+    if (base.second.find("name") != nullptr && base.second.find("name")->text == rig.root.find("camera")->text)
+    {
+      mountOn(camera, rig, this->cameraAlone(base.second));
+      return;
+    }
+  }
+}
+
+bool SampleMaker::makeCamera(std::size_t index, std::uint32_t attempt, JsonNode& camera, SampleNote& note)
+{
+  const std::string shown = "cameras[" + std::to_string(index) + ']';
+  std::map<std::string, Rule> rules;
+  camera = this->Expansion.camera(index, attempt, rules);
+  aimAtNames(camera, "lookAt");
+  this->settle(camera, shown, {});
+  const auto path = rules.find("path");
+  const auto rig = rules.find("rig");
+  if (rig != rules.end())
+  {
+    if (path != rules.end())
+    {
+      this->fail(path->second.rule.root, shown + ".path", "stands beside a rig", "one of path and rig", "both");
+    }
+    this->mount(index, rig->second.rule, camera);
+  }
+  if (path != rules.end())
+  {
+    this->travel(index, attempt, { index, path->second.path, path->second.rule }, camera, note);
+  }
+  const auto require = rules.find("require");
+  if (require == rules.end())
+  {
+    return true;
+  }
+  note.path = require->second.path;
+  note.attempts = int(attempt) + 1;
+  SceneDescription alone;
+  alone.cameras = { this->cameraAlone(camera) };
   std::vector<int> frames = alone.keyFrames();
   frames.insert(frames.end(), this->KeyFrames.begin(), this->KeyFrames.end());
   std::sort(frames.begin(), frames.end());
@@ -248,56 +301,87 @@ bool SampleMaker::makeCamera(std::size_t index, std::uint32_t attempt, JsonNode&
   return fit.fits;
 }
 
-void SampleMaker::addCamera(std::size_t index, JsonNode& list)
+void SampleMaker::leaveOutRig(const std::vector<std::size_t>& rig, std::size_t because, const SampleNote& note)
 {
-  std::map<std::string, Rule> rules;
-  this->Expansion.camera(index, 0, rules);
-  const bool mayFail = rules.count("require") != 0;
-  const CameraRequirement wanted =
-    mayFail ? CameraRequirement::read(rules.at("require").rule) : CameraRequirement{ {}, 0, false, 1, false, 1 };
-  const bool omitPath = rules.count("path") != 0 && rules.at("path").rule.root.find("otherwise") != nullptr &&
-                        rules.at("path").rule.root.find("otherwise")->text == "omit";
-  SampleNote note;
-  for (int attempt = 0; attempt < wanted.attempts; ++attempt)
+  const JsonNode* const name = this->Scene.document().root.find("cameras")->children[because].find("name");
+  for (const std::size_t index : rig)
   {
-    JsonNode camera;
-    note = {};
-    try
+    this->Cameras.erase(index);
+    this->Out.insert(index);
+    this->CameraNotes[index] = { this->Expansion.pathOfCamera(index) + "/rig", false,
+      (name == nullptr ? std::string() : quoted(name->text)) + " of its rig is left out of the sample", note.attempts,
+      {} };
+  }
+  this->CameraNotes[because] = note;
+  this->CameraNotes[because].kept = false;
+}
+
+void SampleMaker::addRig(const std::vector<std::size_t>& rig)
+{
+  int attempts = 1;
+  std::set<std::size_t> mayGo;     // where a requirement cannot be kept
+  std::set<std::size_t> mayGoLost; // where there is no way
+  for (const std::size_t index : rig)
+  {
+    std::map<std::string, Rule> rules;
+    this->Expansion.camera(index, 0, rules);
+    if (const auto require = rules.find("require"); require != rules.end())
     {
-      if (this->makeCamera(index, std::uint32_t(attempt), camera, note))
+      const CameraRequirement wanted = CameraRequirement::read(require->second.rule);
+      attempts = std::max(attempts, wanted.attempts);
+      mayGo.insert(wanted.omit ? index : this->Expansion.cameras());
+    }
+    const auto path = rules.find("path");
+    const JsonNode* const otherwise = path == rules.end() ? nullptr : path->second.rule.root.find("otherwise");
+    mayGoLost.insert(otherwise != nullptr && otherwise->text == "omit" ? index : this->Expansion.cameras());
+  }
+  std::size_t failing = 0;
+  SampleNote note;
+  for (int attempt = 0; attempt < attempts; ++attempt)
+  {
+    this->checkWanted();
+    bool fits = true;
+    for (std::size_t i = 0; i < rig.size() && fits; ++i)
+    {
+      failing = rig[i];
+      JsonNode camera;
+      note = {};
+      try
       {
-        list.children.push_back(std::move(camera));
-        if (!note.path.empty())
+        fits = this->makeCamera(failing, std::uint32_t(attempt), camera, note);
+      }
+      catch (const SampleRefused& refused)
+      {
+        if (mayGoLost.count(failing) == 0)
         {
-          this->Notes.push_back(note);
+          throw;
         }
+        this->leaveOutRig(rig, failing, { refused.path(), false, refused.why(), refused.attempts(), {} });
         return;
       }
-    }
-    catch (const SampleRefused& refused)
-    {
-      if (!omitPath)
+      this->Cameras[failing] = std::move(camera);
+      if (!note.path.empty())
       {
-        throw;
+        this->CameraNotes[failing] = note;
       }
-      this->Notes.push_back({ refused.path(), false, refused.why(), refused.attempts(), {} });
-      this->Out.insert(index);
+    }
+    if (fits)
+    {
       return;
     }
   }
-  if (!wanted.omit)
+  if (mayGo.count(failing) == 0)
   {
     throw SampleRefused(note.path, note.why, note.attempts);
   }
-  note.kept = false;
-  this->Notes.push_back(note);
-  this->Out.insert(index);
+  this->leaveOutRig(rig, failing, note);
 }
 
 SceneSample SampleMaker::make()
 {
   this->Tree = this->Expansion.world(this->Rules);
   this->settleObjects(false);
+  this->checkWanted();
   this->place();
   this->leaveOut();
   for (JsonNode& light : itemsOf(this->Tree, "lights"))
@@ -314,9 +398,17 @@ SceneSample SampleMaker::make()
   if (this->Expansion.cameras() > 0)
   {
     JsonNode cameras(JsonNode::Type::Array);
-    for (std::size_t i = 0; i < this->Expansion.cameras(); ++i)
+    for (const std::vector<std::size_t>& rig : rigsOf(this->Scene.document()))
     {
-      this->addCamera(i, cameras);
+      this->addRig(rig);
+    }
+    for (auto& camera : this->Cameras)
+    {
+      cameras.children.push_back(std::move(camera.second));
+    }
+    for (auto& note : this->CameraNotes)
+    {
+      this->Notes.push_back(std::move(note.second));
     }
     this->Tree.add("cameras", std::move(cameras));
     removeWords(this->Tree, "camera", this->Out);

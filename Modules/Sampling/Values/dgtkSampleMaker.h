@@ -20,7 +20,8 @@ namespace dgtk
 class SampleMaker
 {
 public:
-  SampleMaker(const RandomScene& scene, std::uint64_t seed, std::uint64_t sample, SampleModels& models);
+  SampleMaker(
+    const RandomScene& scene, std::uint64_t seed, std::uint64_t sample, SampleModels& models, const SampleWatch& watch);
   SceneSample make();
 
 private:
@@ -28,6 +29,7 @@ private:
 
   [[noreturn]] void fail(const JsonNode& node, const std::string& path, const std::string& what,
     const std::string& expected, const std::string& found) const;
+  void checkWanted() const;
   SceneDescription readTree(const JsonNode& tree) const;
   /// Replaces the points below a node whose objects have their places; true when all are.
   bool settle(JsonNode& node, const std::string& shown, const std::set<std::size_t>& waiting);
@@ -35,23 +37,33 @@ private:
   std::set<std::size_t> waitingObjects(bool placed);
   void place();
   void leaveOut();
-  void addCamera(std::size_t index, JsonNode& list);
+  /// Draws cameras that are mounted on each other, the first on none, until what all of them ask for is true.
+  void addRig(const std::vector<std::size_t>& rig);
+  void leaveOutRig(const std::vector<std::size_t>& rig, std::size_t because, const SampleNote& note);
+  CameraDescription cameraAlone(const JsonNode& camera) const;
   /// False: left out, `note` says why.
   bool makeCamera(std::size_t index, std::uint32_t attempt, JsonNode& camera, SampleNote& note);
+  void travel(std::size_t index, std::uint32_t attempt, const SampleRule& path, JsonNode& camera, SampleNote& note);
+  void mount(std::size_t index, const JsonDocument& rig, JsonNode& camera) const;
+  void refusePose(const JsonNode& camera, const std::vector<const char*>& keys, const std::string& shown,
+    const std::string& beside) const;
   SampleWorld& world();
 
   const RandomScene& Scene;
   SampleDraws Draws;
   SampleModels& Models;
+  const SampleWatch& Watch;
   SampleExpansion Expansion;
   JsonNode Tree;
-  std::vector<Rule> Rules;            ///< of objects
-  SceneDescription Objects;           ///< of the tree; as far as their places are known
-  bool Known = false;                 ///< `Objects` is read
-  std::vector<std::string> Gone;      ///< names of objects that are left out
-  std::set<std::size_t> Out;          ///< the same, indices
-  std::unique_ptr<SampleWorld> World; ///< when all objects are where they belong
-  std::vector<int> KeyFrames;         ///< of all but the camera that is made
+  std::vector<Rule> Rules;                       ///< of objects
+  SceneDescription Objects;                      ///< of the tree; as far as their places are known
+  bool Known = false;                            ///< `Objects` is read
+  std::vector<std::string> Gone;                 ///< names of objects that are left out
+  std::set<std::size_t> Out;                     ///< the same, indices
+  std::unique_ptr<SampleWorld> World;            ///< when all objects are where they belong
+  std::vector<int> KeyFrames;                    ///< of all but the camera that is made
+  std::map<std::size_t, JsonNode> Cameras;       ///< that are made, by their index in the file
+  std::map<std::size_t, SampleNote> CameraNotes; ///< of those that have any
   std::vector<SampleNote> Notes;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSampleTree.h"
 
+#include "dgtkText.h"
+
 #include <algorithm>
 
 namespace dgtk::sampletree
@@ -52,6 +54,31 @@ void removeMember(JsonNode& object, const std::string& key)
       return;
     }
   }
+}
+
+std::string textOf(const JsonNode& node)
+{
+  switch (node.type)
+  {
+    case JsonNode::Type::Null:
+      return "null";
+    case JsonNode::Type::Boolean:
+      return node.boolean ? "true" : "false";
+    case JsonNode::Type::Number:
+      return plainNumber(node.number);
+    case JsonNode::Type::String:
+      return jsonString(node.text);
+    default:
+      break;
+  }
+  const bool object = node.type == JsonNode::Type::Object;
+  std::string text;
+  for (std::size_t i = 0; i < node.children.size(); ++i)
+  {
+    const bool isValue = object && i % 2 == 1;
+    text += (isValue ? ": " : i == 0 ? "" : ", ") + textOf(node.children[i]);
+  }
+  return (object ? "{ " : "[") + text + (object ? " }" : "]");
 }
 
 JsonNode keysNode(const std::vector<Key<Eigen::Vector3d>>& keys)

@@ -19,6 +19,8 @@ std::vector<JsonNode>& itemsOf(JsonNode& root, const std::string& list);
 /// Replaces the value of a key, or adds it.
 void setMember(JsonNode& object, const std::string& key, JsonNode value);
 void removeMember(JsonNode& object, const std::string& key);
+/// JSON on one line.
+std::string textOf(const JsonNode& node);
 JsonNode keysNode(const std::vector<Key<Eigen::Vector3d>>& keys);
 
 /// Whether geometry decides a point in it.

@@ -14,9 +14,9 @@ Sampler::Sampler(std::shared_ptr<const RandomScene> scene, std::optional<std::ui
 {
 }
 
-SceneSample Sampler::draw(std::uint64_t sample) const
+SceneSample Sampler::draw(std::uint64_t sample, const SampleWatch& watch) const
 {
-  return SampleMaker(*this->Scene, this->Seed, sample, *this->Models).make();
+  return SampleMaker(*this->Scene, this->Seed, sample, *this->Models, watch).make();
 }
 
 std::uint64_t seedOfSample(std::uint64_t seed, std::uint64_t sample)

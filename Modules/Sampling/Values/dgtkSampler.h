@@ -10,6 +10,7 @@
 #include "dgtkSceneDescription.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -27,6 +28,16 @@ struct SceneSample
   std::vector<SampleNote> notes; ///< objects that were placed, cameras that had a path or a requirement, in their order
 };
 
+/// What somebody who watches a draw wants to know and says; either may be absent.
+struct SampleWatch
+{
+  /// Takes the parameters and the random values in the order in which they are drawn first, of a camera those of its
+  /// last attempt; also of a sample that is refused then. Points that geometry decides are not among them.
+  std::vector<SampleValue>* values = nullptr;
+  /// Asked between steps and attempts; true throws SampleStopped.
+  std::function<bool()> outdated;
+};
+
 /// Makes plain scenes of a random one. Immutable but for the models that it keeps; thread-safe.
 class DGTKSAMPLING_EXPORT Sampler
 {
@@ -39,7 +50,7 @@ public:
 
   /// A function of the scene, its files, the seed and the number alone. Throws InputError with the place of the value
   /// that cannot be used; SampleRefused for a sample whose rules cannot be kept.
-  SceneSample draw(std::uint64_t sample) const;
+  SceneSample draw(std::uint64_t sample, const SampleWatch& watch = {}) const;
 
 private:
   std::shared_ptr<const RandomScene> Scene;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkSampleModels.h"
+
+#include "dgtkTestSupport.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+using namespace dgtk;
+
+/// Each sample may give a model a colour or a picture that none had before.
+TEST(SampleModels, KeepsFewLooks)
+{
+  const test::TemporaryFolder folder;
+  SampleModels models;
+  SceneDescription scene;
+  scene.folder = folder.path();
+  scene.objects.resize(50);
+  std::size_t most = 0;
+  for (int number = 0; number < 24; ++number)
+  {
+    for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    {
+      ObjectDescription& object = scene.objects[i];
+      object.name = "ball" + std::to_string(i);
+      object.model = test::sourceFile("Data/Models/ball.ac");
+      object.materials.resize(1);
+      object.materials[0].material = "*";
+      object.materials[0].texture = "look" + std::to_string(number * 50 + int(i)) + ".ppm";
+      std::ofstream(folder.path(*object.materials[0].texture)) << "P6 1 1 255\nabc";
+    }
+    EXPECT_EQ(models.stage(scene)->at(0)->instances.size(), 50U);
+    most = std::max(most, models.looks());
+  }
+  EXPECT_GT(most, 500U) << "each look is one";
+  EXPECT_LE(most, SampleModels::mostLooks + 50);
+}
