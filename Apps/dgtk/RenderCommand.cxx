@@ -8,6 +8,7 @@
 #include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkGenerator.h"
+#include "dgtkSceneFile.h"
 #include "dgtkWorkTime.h"
 
 #include <algorithm>
@@ -83,6 +84,10 @@ GeneratorRequest parseRequest(const Arguments& arguments)
     {
       request.options[row->name] = row->normal(arguments.text(optionWord(*row)));
     }
+  }
+  if (arguments.has("--classes"))
+  {
+    request.classes = readClassFile(arguments.text("--classes"));
   }
   if (arguments.has("--for"))
   {
@@ -194,6 +199,8 @@ Command renderCommand()
     { "--for", "EXPORTER,...", "", "what these exports need, beside the layers that are given", exporterNames(), true },
     { "--cameras", "NAMES", "", "some of the cameras (default: all)" },
     { "--frames", "A[:B[:STEP]]", "", "some of the frames (default: all)" },
+    { "--classes", "FILE", "",
+      "numbers of the classes of scenes that fix none (default: of all scenes of a folder together)" },
     { "--size", "WxH", "", "size of the images in pixels (default: the camera's own, else 640x480)" } };
   for (const OptionRow* row : allOptions())
   {

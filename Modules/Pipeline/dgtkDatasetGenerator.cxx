@@ -6,7 +6,9 @@
 #include "dgtkFolderWay.h"
 #include "dgtkGLContext.h"
 #include "dgtkGenerator.h"
+#include "dgtkRunShards.h"
 #include "dgtkScene.h"
+#include "dgtkSceneFile.h"
 #include "dgtkStage.h"
 
 #include "vtkObjectFactory.h"
@@ -43,7 +45,8 @@ struct dgtkDatasetGenerator::Internal
   dgtk::GeneratorRequest request;
   std::string layers;
   std::string cameras;
-  std::string formats;                      ///< of exports
+  std::string formats; ///< of exports
+  std::string classFile;
   std::shared_ptr<const dgtk::Stage> stage; ///< null: of a file
   std::string stageFile;                    ///< that the stage was loaded from
 
@@ -65,6 +68,10 @@ dgtk::GeneratorRequest dgtkDatasetGenerator::Internal::wholeRequest() const
   if (!this->formats.empty())
   {
     dgtk::addNeeds(dgtk::splitNames(this->formats, "formats"), whole.layers, whole.options);
+  }
+  if (!this->classFile.empty())
+  {
+    whole.classes = dgtk::readClassFile(this->classFile);
   }
   if (this->stage && !this->stageFile.empty())
   {
@@ -93,7 +100,9 @@ void dgtkDatasetGenerator::Internal::generate(
   dgtk::withWayOut(
     [&]
     {
-      if (dgtk::generate(this->wholeRequest(), callbacks).interrupted)
+      const dgtk::GeneratorRequest whole = this->wholeRequest();
+      const bool many = dgtk::namesScenes(whole);
+      if ((many ? dgtk::generateScenes(whole, callbacks) : dgtk::generate(whole, callbacks)).interrupted)
       {
         throw dgtk::MachineError(this->request.folder + ": interrupted; resume completes it");
       }
@@ -150,6 +159,12 @@ void dgtkDatasetGenerator::SetCameras(const std::string& names)
 void dgtkDatasetGenerator::SetFormats(const std::string& names)
 {
   this->Self->formats = names;
+  this->Modified();
+}
+
+void dgtkDatasetGenerator::SetClassFile(const std::string& path)
+{
+  this->Self->classFile = path;
   this->Modified();
 }
 

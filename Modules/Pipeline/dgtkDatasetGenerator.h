@@ -26,8 +26,9 @@ public:
 
   ///@{
   /**
-   * What is rendered: a .scene or .json file, or a loaded scene. One that was loaded from a file is read again, with
-   * its models, and must not have changed since.
+   * What is rendered: a .scene or .json file, a folder of them, or a loaded scene. One that was loaded from a file is
+   * read again, with its models, and must not have changed since. Of a folder, each scene becomes a dataset in a folder
+   * of its name.
    */
   void SetSceneFile(const std::string& path);
   void SetScene(dgtkScene* scene);
@@ -49,6 +50,10 @@ public:
    * are all there are.
    */
   void SetFormats(const std::string& names);
+  /**
+   * A file of the numbers of the classes, for scenes that fix none.
+   */
+  void SetClassFile(const std::string& path);
   /**
    * Frames first, first + step, ... up to last, included. Default: all.
    */
@@ -90,7 +95,7 @@ public:
   bool Wait(int milliseconds);
   ///@{
   /**
-   * Of the last report: pictures (one camera at one frame) that are done, of how many.
+   * Of the last report: pictures (one camera at one frame), or scenes of a folder, that are done, of how many.
    */
   int GetDone() const;
   int GetTotal() const;

@@ -41,17 +41,49 @@ SceneDescription readScene(const std::string& path)
   throw InputError(path, 0, "is no scene", "a name in .scene or .json", extension.empty() ? "none" : '.' + extension);
 }
 
-bool looksLikeScene(const std::string& path)
+namespace
 {
+/// Of an object that has an id, unless its model has no surfaces.
+void addClassName(const JsonNode& object, std::set<std::string>& names)
+{
+  const JsonNode* const name = object.find("class");
+  const JsonNode* const visible = object.find("visible");
+  const bool never = visible && visible->type == JsonNode::Type::Boolean && !visible->boolean;
+  if (name ? name->type == JsonNode::Type::String : !never)
+  {
+    names.insert(name ? name->text : "");
+  }
+}
+} // namespace
+
+SceneOutline outlineOf(const std::string& path)
+{
+  SceneOutline outline;
   const std::string extension = extensionOf(path);
   if (extension != "json")
   {
-    return extension == "scene";
+    outline.isScene = extension == "scene";
+    outline.classNames.insert("");
+    return outline;
   }
   const JsonDocument document = parseJson(path, readFile(path, largestFile));
   const JsonNode& root = document.root;
-  return root.type == JsonNode::Type::Object && root.find("cameras") != nullptr &&
-         (root.find("objects") != nullptr || root.find("lights") != nullptr || root.find("environment") != nullptr);
+  const JsonNode* const objects = root.find("objects");
+  outline.isScene = root.type == JsonNode::Type::Object && root.find("cameras") != nullptr &&
+                    (objects != nullptr || root.find("lights") != nullptr || root.find("environment") != nullptr);
+  if (!outline.isScene)
+  {
+    return outline;
+  }
+  SceneDescription scene;
+  scene.folder = folderOf(path);
+  readClassesOf(JsonCursor(document), scene);
+  outline.classes = std::move(scene.classes);
+  for (std::size_t i = 0; objects && i < objects->children.size(); ++i)
+  {
+    addClassName(objects->children[i], outline.classNames);
+  }
+  return outline;
 }
 
 SceneDescription readSceneText(const std::string& json, const std::string& folder)

@@ -339,9 +339,10 @@ std::string toJson(const SceneDescription& scene, const std::string& newFolder)
   SceneDescription moved = scene;
   nameAll(moved);
   validate(moved);
+  Relocation place(scene.folder, newFolder);
   for (ObjectDescription& object : moved.objects)
   {
-    object.model = relocate(object.model, scene.folder, newFolder);
+    object.model = place.of(object.model);
     for (MaterialOverride& material : object.materials)
     {
       for (std::optional<std::string>* picture : { &material.texture, &material.normalMap, &material.bump,
@@ -349,7 +350,7 @@ std::string toJson(const SceneDescription& scene, const std::string& newFolder)
       {
         if (*picture)
         {
-          *picture = relocate(**picture, scene.folder, newFolder);
+          *picture = place.of(**picture);
         }
       }
     }
@@ -358,11 +359,11 @@ std::string toJson(const SceneDescription& scene, const std::string& newFolder)
   {
     for (auto& [name, value] : camera.parameters)
     {
-      value.file = relocate(value.file, scene.folder, newFolder);
+      value.file = place.of(value.file);
     }
   }
-  moved.environment.image = relocate(moved.environment.image, scene.folder, newFolder);
-  moved.classFile = relocate(moved.classFile, scene.folder, newFolder);
+  moved.environment.image = place.of(moved.environment.image);
+  moved.classFile = place.of(moved.classFile);
   return printJson(writeFields(moved, sceneFields()));
 }
 

@@ -110,6 +110,8 @@ SceneDescription readJsonScene(const std::string& file, const std::string& folde
 
 /// Reads the file that `classFile` names into `classes`; nothing when it names none.
 void readClassFile(SceneDescription& scene);
+/// "classes" of a whole scene, and their file.
+void readClassesOf(const JsonCursor& at, SceneDescription& scene);
 
 /// The keys that the reader knows, by the name of the definition in the published schema.
 DGTKSCENE_EXPORT std::map<std::string, std::vector<std::string>> jsonSceneKeys();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkSceneFile.h"
 #include "dgtkSceneJsonRows.h"
 
 #include <algorithm>
@@ -131,6 +132,16 @@ void readClasses(const JsonCursor& at, SceneDescription& scene)
   }
 }
 
+JsonNode tableOf(const std::vector<ClassDescription>& classes)
+{
+  JsonNode table(JsonNode::Type::Object);
+  for (const ClassDescription& one : classes)
+  {
+    table.add(one.name, isMoreThanNumber(one) ? writeFields(one, classFields()) : JsonNode::of(double(one.id)));
+  }
+  return table;
+}
+
 void writeClasses(const SceneDescription& scene, const char* key, JsonNode& node)
 {
   if (!scene.classFile.empty())
@@ -138,11 +149,7 @@ void writeClasses(const SceneDescription& scene, const char* key, JsonNode& node
     node.add(key, JsonNode::of(scene.classFile));
     return;
   }
-  JsonNode table(JsonNode::Type::Object);
-  for (const ClassDescription& one : scene.classes)
-  {
-    table.add(one.name, isMoreThanNumber(one) ? writeFields(one, classFields()) : JsonNode::of(double(one.id)));
-  }
+  JsonNode table = tableOf(scene.classes);
   if (!table.children.empty())
   {
     node.add(key, std::move(table));
@@ -166,10 +173,39 @@ void readClassFile(SceneDescription& scene)
 {
   if (!scene.classFile.empty())
   {
-    const std::string path = scene.resolve(scene.classFile);
-    const JsonDocument document = parseJson(path, readFile(path, largestFile));
-    scene.classes = readTable(JsonCursor(document));
+    scene.classes = dgtk::readClassFile(scene.resolve(scene.classFile));
+  }
+}
+
+void readClassesOf(const JsonCursor& at, SceneDescription& scene)
+{
+  if (at.has("classes"))
+  {
+    readClasses(at["classes"], scene);
+    readClassFile(scene);
   }
 }
 
 } // namespace dgtk::scenefile
+
+namespace dgtk
+{
+
+std::vector<ClassDescription> readClassFile(const std::string& path)
+{
+  const JsonDocument document = parseJson(path, readFile(path, scenefile::largestFile));
+  return scenefile::readTable(JsonCursor(document));
+}
+
+std::string classesText(const std::vector<ClassDescription>& classes)
+{
+  std::string text = scenefile::printJson(scenefile::tableOf(classes));
+  for (std::size_t end; (end = text.find('\n')) != std::string::npos;)
+  {
+    const std::size_t next = text.find_first_not_of("\n ", end);
+    text.replace(end, next - end, next == std::string::npos || end == 1 || text[next] == '}' ? "" : " ");
+  }
+  return text;
+}
+
+} // namespace dgtk

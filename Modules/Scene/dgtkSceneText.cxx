@@ -36,31 +36,20 @@ std::string parseNumber(std::string_view text, double& value)
   return {};
 }
 
-namespace
+std::string Relocation::of(const std::string& path)
 {
-fs::path canonicalFolder(const std::string& folder)
-{
-  std::error_code error;
-  const fs::path path = folder.empty() ? fs::path(".") : fs::path(folder);
-  const fs::path canonical = fs::weakly_canonical(fs::absolute(path), error);
-  return error ? path.lexically_normal() : canonical;
-}
-} // namespace
-
-std::string relocate(const std::string& path, const std::string& fromFolder, const std::string& toFolder)
-{
-  if (path.empty() || path[0] == '/' || fromFolder == toFolder)
+  if (path.empty() || path[0] == '/' || this->From == this->To)
   {
     return path;
   }
-  const fs::path from = canonicalFolder(fromFolder);
-  const fs::path to = canonicalFolder(toFolder);
+  const fs::path from = this->Names.of(this->From);
+  const fs::path to = this->Names.of(this->To);
   if (from == to)
   {
     return path;
   }
   const fs::path file = from / path;
-  const fs::path target = canonicalFolder(file.parent_path().string()) / file.filename();
+  const fs::path target = fs::path(this->Names.of(file.parent_path().string())) / file.filename();
   return target.lexically_relative(to).generic_string();
 }
 

@@ -26,7 +26,7 @@ class Writer
 public:
   Writer(const SceneDescription& scene, const std::string& newFolder)
     : Scene(scene)
-    , Folder(newFolder)
+    , Models(scene.folder, newFolder)
     , Frames(scene.keyFrames())
     , Locate(locateByName(scene))
   {
@@ -134,7 +134,7 @@ private:
   {
     const AnimationDescription usual;
     const AnimationDescription& animation = object.animation;
-    const std::string model = relocate(object.model, this->Scene.folder, this->Folder);
+    const std::string model = this->Models.of(object.model);
     this->need(!thesisTag(model).empty(), item, "model " + quoted(model), "a file in .ac, .acc, .pov, .3ds or .md2");
     this->need(model.front() != ' ' && model.back() != ' ' && model.back() != '\t', item, "model " + quoted(model));
     this->need(
@@ -290,7 +290,7 @@ private:
   }
 
   const SceneDescription& Scene;
-  const std::string& Folder;
+  Relocation Models;
   std::vector<int> Frames;
   Locator Locate;
   SceneDescription Usual;

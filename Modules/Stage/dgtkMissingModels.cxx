@@ -2,6 +2,7 @@
 #include "dgtkMissingModels.h"
 
 #include "dgtkError.h"
+#include "dgtkPathNames.h"
 
 #include <filesystem>
 #include <map>
@@ -23,21 +24,15 @@ std::string lineOf(const SceneDescription& scene, const MissingModel& missing)
 }
 } // namespace
 
-std::string canonicalPath(const std::string& path)
-{
-  std::error_code error;
-  const fs::path found = fs::weakly_canonical(fs::absolute(path, error), error);
-  return error ? path : found.string();
-}
-
 std::vector<MissingModel> missingModels(const SceneDescription& scene)
 {
   std::vector<MissingModel> missing;
+  PathNames names;
   std::map<std::string, std::size_t> known; // a file -> its place in the list
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
   {
     const std::string path = scene.resolve(scene.objects[i].model);
-    const auto [entry, isNew] = known.emplace(canonicalPath(path), there);
+    const auto [entry, isNew] = known.emplace(names.of(path), there);
     std::error_code error;
     if (isNew && fs::status(path, error).type() == fs::file_type::not_found)
     {

@@ -28,9 +28,6 @@ DGTKSTAGE_EXPORT std::vector<MissingModel> missingModels(const SceneDescription&
 /// Throws InputError, one line that names all of them, unless there are none.
 DGTKSTAGE_EXPORT void requireModels(const SceneDescription& scene);
 
-/// One name for all spellings of a path: absolute, without links where it exists.
-DGTKSTAGE_EXPORT std::string canonicalPath(const std::string& path);
-
 } // namespace dgtk
 
 #endif

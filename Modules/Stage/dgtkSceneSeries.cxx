@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkLikeScene.h"
 
-#include "dgtkMissingModels.h"
+#include "dgtkPathNames.h"
 #include "dgtkStageModels.h"
 
 #include <algorithm>
@@ -64,7 +64,8 @@ struct SceneSeries::Impl
 ReadFiles SceneSeries::Impl::knownFor(const SceneDescription& scene)
 {
   ReadFiles known;
-  known.folder = canonicalPath(scene.resolve("."));
+  PathNames names;
+  known.folder = names.of(scene.resolve("."));
   known.environment = this->Environment;
   known.light = this->Light;
   struct Wanted
@@ -72,12 +73,12 @@ ReadFiles SceneSeries::Impl::knownFor(const SceneDescription& scene)
     std::string path;
     std::vector<std::string> pictures;
   };
-  std::map<std::string, Wanted> wanted;      ///< by canonicalPath()
+  std::map<std::string, Wanted> wanted;      ///< by PathNames::of()
   std::map<std::string, std::string> places; ///< of models as written
   for (const ObjectDescription& object : scene.objects)
   {
     const auto [place, isNew] = places.try_emplace(object.model);
-    place->second = isNew ? canonicalPath(scene.resolve(object.model)) : place->second;
+    place->second = isNew ? names.of(scene.resolve(object.model)) : place->second;
     Wanted& one = wanted[place->second];
     one.path = one.path.empty() ? scene.resolve(object.model) : one.path; // it is in messages and documents
     addPictures(object, one.pictures);

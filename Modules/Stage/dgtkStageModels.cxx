@@ -103,7 +103,7 @@ void StageModels::readEnvironment()
   std::string problem = "not found";
   std::error_code error;
   auto made = std::make_shared<EnvironmentState>();
-  this->Read.environment = canonicalPath(path);
+  this->Read.environment = this->Names.of(path);
   if (this->Read.environment == this->Known.environment)
   {
     made->image = this->Known.light;
@@ -150,11 +150,11 @@ void StageModels::addFile(const std::string& path)
 }
 
 /// Models that are known may be missing.
-void StageModels::requireUnread() const
+void StageModels::requireUnread()
 {
   SceneDescription unread = this->Scene;
   const auto isKnown = [this](const ObjectDescription& object)
-  { return this->Known.models.count(canonicalPath(this->Scene.resolve(object.model))) != 0; };
+  { return this->Known.models.count(this->Names.of(this->Scene.resolve(object.model))) != 0; };
   unread.objects.erase(std::remove_if(unread.objects.begin(), unread.objects.end(), isKnown), unread.objects.end());
   requireModels(unread);
 }
@@ -167,7 +167,7 @@ void StageModels::readModels()
   std::vector<const ObjectDescription*> first; ///< that wants a model
   for (const ObjectDescription& object : this->Scene.objects)
   {
-    const auto [entry, isNew] = places.emplace(canonicalPath(this->Scene.resolve(object.model)), first.size());
+    const auto [entry, isNew] = places.emplace(this->Names.of(this->Scene.resolve(object.model)), first.size());
     this->Uses.push_back(entry->second);
     if (isNew)
     {
@@ -199,7 +199,9 @@ void StageModels::readModels()
     }
   };
   const int models = static_cast<int>(first.size());
-  ThreadPool(machineThreads(std::max(models, 1))).parallelFor(models, read);
+  const auto unread = std::count_if(this->Places.begin(), this->Places.end(),
+    [this](const std::string& place) { return this->Known.models.count(place) == 0; });
+  ThreadPool(machineThreads(std::max(static_cast<int>(unread), 1))).parallelFor(models, read);
   for (std::size_t i = 0; i < this->Models.size(); ++i)
   {
     const Model& model = *this->Models[i];
@@ -215,7 +217,7 @@ void StageModels::readModels()
     const std::size_t own = known == this->Known.models.end() ? model.textures.size() : known->second.ownTextures;
     this->Read.models[this->Places[i]] = { this->Models[i], own, {} };
   }
-  this->Read.folder = canonicalPath(this->Scene.resolve("."));
+  this->Read.folder = this->Names.of(this->Scene.resolve("."));
 }
 
 /// Those of a model that was read before take as much memory as others.

@@ -7,6 +7,7 @@
 #include "dgtkMaterialNumbers.h"
 #include "dgtkModelReader.h"
 #include "dgtkModelSource.h"
+#include "dgtkPathNames.h"
 #include "dgtkStage.h"
 
 #include <map>
@@ -27,7 +28,7 @@ struct ReadFiles
     std::size_t ownTextures = 0;       ///< the others are the scene's:
     std::vector<std::string> pictures; ///< as written
   };
-  std::map<std::string, File> models; ///< by canonicalPath(), as the other paths
+  std::map<std::string, File> models; ///< by PathNames::of(), as the other paths
   std::string folder;                 ///< where the scene's paths start
   std::string environment;            ///< its picture's path
   std::shared_ptr<const RadianceImage> light;
@@ -59,7 +60,7 @@ public:
 
 private:
   const std::shared_ptr<const Model>& modelOf(std::size_t object) const { return this->Models[this->Uses[object]]; }
-  void requireUnread() const;
+  void requireUnread();
   void readModels();
   void countPictures(const Model& model, std::size_t textures);
   void listPictures();
@@ -80,10 +81,11 @@ private:
   const Stage::WarningSink& Warning;
   const ReadFiles Known;
   ReadFiles Read;
+  PathNames Names;
   std::shared_ptr<TextureStore> Pictures; ///< all of the scene
   std::set<const Image*> Counted;         ///< those of known models
   std::vector<std::shared_ptr<const Model>> Models;
-  std::vector<std::string> Places; ///< of the models: canonicalPath()
+  std::vector<std::string> Places; ///< of the models: PathNames::of()
   std::vector<std::size_t> Uses;   ///< object -> model
   std::vector<MaterialList> Materials;
   std::shared_ptr<const EnvironmentState> Environment;

@@ -120,6 +120,7 @@ class Pages(Case):
         options = [("--output DIR", "folder of the dataset"), ("--layers NAMES|all", f"what to write; see dgtk list layers [{layers}]"),
                    ("--for EXPORTER,...", "what these exports need, beside the layers that are given"),
                    ("--cameras NAMES", "some of the cameras (default: all)"), ("--frames A[:B[:STEP]]", "some of the frames (default: all)"),
+                   ("--classes FILE", "numbers of the classes of scenes that fix none (default: of all scenes of a folder together)"),
                    ("--size WxH", "size of the images in pixels (default: the camera's own, else 640x480)")]
         for row in rows:
             value, default = row["value"], row["default"]

@@ -178,6 +178,38 @@ class Datasets(Case):
         dgtk.generate(os.path.join(SCENES, "demo.json"), self.path("python"), size=(32, 24))
         self.assert_same_files(self.path("command"), self.path("python"))
 
+    def test_a_folder_of_scenes(self):
+        """As the command, to the byte; progress counts scenes, and what it raises ends the run."""
+        os.mkdir(self.path("scenes"))
+        for name, kind in (("a", "pear"), ("b", "apple")):
+            scene = dgtk.load(DEMO).description()
+            scene["objects"] = [{**one, "class": kind, "model": os.path.join(SCENES, one["model"])} for one in scene["objects"]]
+            scene.pop("classes", None)
+            self.write(f"scenes/{name}.json", json.dumps(scene))
+        options = ("--layers", "depth,classes", "--size", "32x24", "--frames", "0", "--quiet")
+        self.dgtk("render", self.path("scenes"), "-o", self.path("command"), *options)
+        wanted = {"layers": ["depth", "classes"], "size": (32, 24), "frames": 0}
+        seen = []
+        manifest = dgtk.generate(self.path("scenes"), self.path("python"), progress=lambda *state: seen.append(state), **wanted)
+        self.assertEqual(digests(self.path("command")), digests(self.path("python")))
+        self.assertEqual([one["path"] for one in manifest["datasets"]], ["a/manifest.json", "b/manifest.json"])
+        self.assertEqual((seen[0], seen[-1]), ((0, 2), (2, 2)))
+
+        def stop(done, total):
+            if done == 1:
+                raise KeyError("enough")
+
+        with self.assertRaises(KeyError):
+            dgtk.generate(self.path("scenes"), self.path("stopped"), progress=stop, **wanted)
+        dgtk.generate(self.path("scenes"), self.path("stopped"), resume=True, replace=False, **wanted)
+        self.assertEqual(digests(self.path("command")), digests(self.path("stopped")))
+        self.write("numbers.json", '{ "pear": 5, "apple": 4 }')
+        dgtk.generate(self.path("scenes"), self.path("numbered"), classes=self.path("numbers.json"), **wanted)
+        with open(self.path("numbered", "a", "objects.json"), encoding="utf-8") as file:
+            self.assertEqual({one["class_id"] for one in json.load(file)["objects"]}, {5})
+        with self.assertRaisesRegex(ValueError, "names no class|none.json"):
+            dgtk.generate(self.path("scenes"), self.path("no"), classes=self.path("none.json"), **wanted)
+
     def test_a_scene_of_a_dict(self):
         loaded = dgtk.load(DEMO)
         description = loaded.description()

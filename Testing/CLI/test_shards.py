@@ -141,6 +141,47 @@ class Shards(Case):
         flip(depth, 64)
         self.assertIn("1 with a breach", self.dgtk("verify", self.path("all"), status=1).stdout)
 
+    def test_one_numbering_of_classes(self):
+        """Of all scenes of the folder, whichever share; as a run of its own with the same numbers; contradictions are named."""
+        scenes = self.scenes(3)
+        for k, names in enumerate((["pear"], ["apple", "pear"], ["fig", "apple"])):
+            scene = load_json(os.path.join(scenes, f"{k:06}.json"))
+            del scene["classes"]
+            first = scene["objects"][0]
+            scene["objects"] = [{**first, "name": name, "class": name, "position": [1.3 * i, 0, 0]} for i, name in enumerate(names)]
+            self.write(f"scenes/{k:06}.json", json.dumps(scene))
+        options = ("--layers", "classes,objects", "--for", "yolo", "--size", "32x24", "--quiet")
+        self.dgtk("render", scenes, "-o", self.path("all"), *options)
+        numbers = {"apple": 1, "fig": 2, "pear": 3}
+        self.write("numbers.json", json.dumps(numbers))
+        for k, names in enumerate((["pear"], ["apple", "pear"], ["fig", "apple"])):
+            document = load_json(self.path("all", f"{k:06}", "objects.json"))
+            self.assertEqual({one["name"]: one["id"] for one in document["classes"]}, numbers)
+            self.assertEqual([one["class_id"] for one in document["objects"]], [numbers[name] for name in names])
+            self.assertEqual(json.loads(load_json(self.path("all", f"{k:06}", "manifest.json"))["request"]["classes"]), numbers)
+            self.dgtk("render", os.path.join(scenes, f"{k:06}.json"), "-o", self.path("alone", f"{k:06}"), *options, "--classes",
+                      self.path("numbers.json"))
+        self.assert_same_files(self.path("all"), self.path("alone"), ignore=("manifest.json",))
+        for k in range(3):
+            self.assertEqual(load_json(self.path("all", f"{k:06}", "manifest.json")), load_json(self.path("alone", f"{k:06}", "manifest.json")))
+        self.assertIn("3 datasets, 0 with a breach", self.dgtk("verify", self.path("all")).stdout)
+        self.dgtk("export", self.path("all"), "--format", "yolo", "-o", self.path("yolo"), "--quiet")
+        for index in (1, 0):
+            self.shard(scenes, self.path("parts"), index, 2, options)
+        self.dgtk("merge", self.path("parts"))
+        self.assert_same_files(self.path("all"), self.path("parts"))
+        # One scene fixes the numbers: of the others, too, or they are named. Two that differ.
+        fixed = load_json(os.path.join(scenes, "000001.json"))
+        self.write("scenes/000001.json", json.dumps({**fixed, "classes": {"pear": 9, "fig": 4, "apple": 7}}))
+        self.dgtk("render", scenes, "-o", self.path("fixed"), *options)
+        self.assertEqual([one["class_id"] for one in load_json(self.path("fixed", "000002", "objects.json"))["objects"]], [4, 7])
+        self.write("scenes/000001.json", json.dumps({**fixed, "classes": {"pear": 9, "apple": 7}}))
+        self.refused("render", scenes, "-o", self.path("less"), *options, status=3, says=("1 of 3 scenes", "000002.json", "'fig'"))
+        other = load_json(os.path.join(scenes, "000000.json"))
+        self.write("scenes/000000.json", json.dumps({**other, "classes": {"pear": 1}}))
+        self.refused("render", scenes, "-o", self.path("no"), *options, status=3, says=("000001.json", "fixes other numbers", "000000.json"))
+        self.assertFalse(os.path.exists(self.path("no")))
+
     def test_a_damaged_scene_is_missing(self):
         scenes = self.scenes(3)
         options = ("--layers", "depth", "--size", "32x24", "--quiet")

@@ -71,8 +71,9 @@ class Scenes(datasets.ExportCase):
         scene = load_json(self.path("scenes", "s2.json"))
         scene["classes"] = {"odd": 5}
         self.write("scenes/s2.json", json.dumps(scene))
-        self.dgtk("render", self.path("scenes"), "-o", self.path("other"), "--for", "coco", "--quiet")
-        done = self.refused("export", self.path("other"), "--format", "coco", "-o", self.path("no"), status=2, says=("other classes",))
+        self.refused("render", self.path("scenes"), "-o", self.path("other"), "--for", "coco", "--quiet", status=3, says=("s2.json", "s0.json"))
+        self.dgtk("render", self.path("scenes", "s2.json"), "-o", self.path("all", "s2"), "--for", "coco", "--replace", "--quiet")
+        done = self.refused("export", self.path("all"), "--format", "coco", "-o", self.path("no"), status=2, says=("other classes",))
         self.assertIn("'s0'", done)
         self.assertFalse(os.path.exists(self.path("no")))
 

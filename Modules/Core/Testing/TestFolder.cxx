@@ -2,6 +2,7 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkFolder.h"
+#include "dgtkPathNames.h"
 #include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
@@ -127,4 +128,23 @@ TEST_F(Hostile, MayBeALinkItself)
 {
   fs::create_symlink("data", this->place.path("named"));
   EXPECT_EQ(Folder(this->place.path("named")).look("in/file"), EntryKind::File);
+}
+
+TEST_F(Hostile, NamesOfPathsAreThoseOfTheSystem)
+{
+  PathNames names;
+  for (int again = 0; again < 2; ++again)
+  {
+    for (const char* name : { "data/in/file", "data/out/file", "data/link", "data/inside/file", "data/dangling",
+           "data/pipe", "data/in/../out/./file", "data//in/", "data/out/..", "data/none/file", "none", "." })
+    {
+      const std::string path = this->place.path(name);
+      EXPECT_EQ(names.of(path), fs::weakly_canonical(path).string()) << name;
+      EXPECT_EQ(names.relative(path, this->place.path("data/inside")),
+        fs::relative(path, this->place.path("data/inside")).generic_string())
+        << name;
+    }
+  }
+  EXPECT_EQ(names.of("/"), "/");
+  EXPECT_EQ(names.of("a/../b"), fs::weakly_canonical(fs::absolute("a/../b")).string());
 }

@@ -4,13 +4,13 @@
 #include "dgtkHash.h"
 #include "dgtkObjectChanges.h"
 #include "dgtkObjectTruth.h"
+#include "dgtkPathNames.h"
 #include "dgtkRepresentation.h"
 #include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWorkTime.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 
 namespace dgtk
@@ -18,26 +18,29 @@ namespace dgtk
 
 std::vector<InputRecord> inputsOf(const Stage& stage, const std::string& folder, RunSession& session)
 {
-  namespace fs = std::filesystem;
   const std::vector<std::string> files = stage.inputFiles();
   std::vector<InputRecord> inputs(files.size());
-  ThreadPool(files.size() > 1 ? machineThreads() : 1)
+  const auto news =
+    std::count_if(files.begin(), files.end(), [&](const std::string& file) { return !session.knows(file); });
+  ThreadPool(news > 1 ? machineThreads() : 1)
     .parallelFor(static_cast<int>(files.size()),
       [&](int i)
       {
         const WorkTime load(WorkStage::Load);
-        const std::string& file = files[static_cast<std::size_t>(i)];
-        InputRecord& record = inputs[static_cast<std::size_t>(i)];
-        record = session.fileOf(file);
-        record.path = fs::relative(fs::absolute(file), fs::absolute(folder)).generic_string();
+        inputs[static_cast<std::size_t>(i)] = session.fileOf(files[static_cast<std::size_t>(i)]);
       });
+  PathNames names;
+  for (InputRecord& record : inputs)
+  {
+    record.path = names.relative(record.path, folder);
+  }
   return inputs;
 }
 
 std::vector<CameraRecord> cameraRecords(
   const WorkPlan& plan, const Stage& stage, const std::string& folder, const std::map<std::string, std::string>& copies)
 {
-  namespace fs = std::filesystem;
+  PathNames names;
   std::vector<Job> jobs = plan.jobs;
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.camera < b.camera; });
   std::vector<CameraRecord> records;
@@ -57,8 +60,7 @@ std::vector<CameraRecord> cameraRecords(
     for (const auto& [name, file] : parameters.files)
     {
       const auto copy = copies.find(file);
-      record.files[name] =
-        copy != copies.end() ? copy->second : fs::relative(fs::absolute(file), fs::absolute(folder)).generic_string();
+      record.files[name] = copy != copies.end() ? copy->second : names.relative(file, folder);
     }
     record.rollingShutter = parameters.rollingShutter;
     record.R = view.camera_from_world.rotation;
@@ -74,7 +76,7 @@ std::vector<CameraRecord> cameraRecords(
 std::vector<ObjectRecord> objectRecords(
   const Stage& stage, int frame, const std::string& folder, const std::map<std::string, std::string>& copies)
 {
-  namespace fs = std::filesystem;
+  PathNames names;
   const std::shared_ptr<const SceneState> state = stage.at(frame);
   const std::vector<std::uint32_t> classes = classIds(*state);
   const std::vector<ObjectChange> changes = ObjectChanges(stage).changes();
@@ -88,9 +90,7 @@ std::vector<ObjectRecord> objectRecords(
     record.objectClass = instance.className;
     record.classId = classes[i];
     const auto copy = copies.find(instance.model->path);
-    record.model = copy != copies.end()
-                     ? copy->second
-                     : fs::relative(fs::absolute(instance.model->path), fs::absolute(folder)).generic_string();
+    record.model = copy != copies.end() ? copy->second : names.relative(instance.model->path, folder);
     record.triangles = instance.model->triangles.size();
     record.isStatic = !changes[i].moves && !changes[i].deforms;
     record.deforming = changes[i].deforms;
@@ -155,9 +155,21 @@ std::string hashOf(const std::vector<std::pair<std::string, std::string>>& pairs
 }
 } // namespace
 
-std::string identityOf(const WorkPlan& plan, const Stage& stage, const std::vector<InputRecord>& inputs)
+std::vector<std::pair<std::string, std::string>> requestOf(
+  const WorkPlan& plan, const Stage& stage, const std::string& classNumbers)
 {
-  std::vector<std::pair<std::string, std::string>> identity = describeRequest(plan, stage);
+  std::vector<std::pair<std::string, std::string>> pairs = describeRequest(plan, stage);
+  if (!classNumbers.empty())
+  {
+    pairs.emplace_back("classes", classNumbers);
+  }
+  return pairs;
+}
+
+std::string identityOf(
+  const WorkPlan& plan, const Stage& stage, const std::string& classNumbers, const std::vector<InputRecord>& inputs)
+{
+  std::vector<std::pair<std::string, std::string>> identity = requestOf(plan, stage, classNumbers);
   const SceneDescription& scene = stage.description();
   if (scene.file.empty())
   {

@@ -9,6 +9,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dgtk
@@ -17,8 +18,13 @@ namespace dgtk
 /// Every file that the scene was loaded from, with its hash; paths are relative to `folder`.
 std::vector<InputRecord> inputsOf(const Stage& stage, const std::string& folder, RunSession& session);
 
+/// What a manifest says of the request; the numbers of classes, as classesText(), are there if the request gives them.
+std::vector<std::pair<std::string, std::string>> requestOf(
+  const WorkPlan& plan, const Stage& stage, const std::string& classNumbers);
+
 /// A hash of everything that decides the bytes of a dataset's files: the request, and what the scene was loaded from.
-std::string identityOf(const WorkPlan& plan, const Stage& stage, const std::vector<InputRecord>& inputs);
+std::string identityOf(
+  const WorkPlan& plan, const Stage& stage, const std::string& classNumbers, const std::vector<InputRecord>& inputs);
 
 /// One record for each camera and frame of the plan, cameras first.
 std::vector<CameraRecord> cameraRecords(const WorkPlan& plan, const Stage& stage, const std::string& folder,

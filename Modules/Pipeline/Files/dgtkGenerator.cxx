@@ -11,6 +11,7 @@
 #include "dgtkRunFiles.h"
 #include "dgtkRunNotes.h"
 #include "dgtkRunSession.h"
+#include "dgtkSceneFile.h"
 #include "dgtkSpaceNeeded.h"
 #include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
@@ -35,10 +36,22 @@ int threadsOf(const GeneratorRequest& request)
   return threads > 0 ? threads : machineThreads();
 }
 
-SceneDescription sceneOf(const GeneratorRequest& request)
+/// The scene of a request, and the numbers of classes that the request gives it: as classesText(), or nothing.
+struct NumberedScene
 {
-  return request.description ? *request.description : readScene(request.scene);
-}
+  explicit NumberedScene(const GeneratorRequest& request)
+    : scene(request.description ? *request.description : readScene(request.scene))
+  {
+    if (scene.classes.empty() && !request.classes.empty())
+    {
+      scene.classes = request.classes;
+      numbers = classesText(request.classes);
+      validate(scene);
+    }
+  }
+  SceneDescription scene;
+  std::string numbers;
+};
 
 JournalStart startOf(const GeneratorRequest& request)
 {
@@ -52,7 +65,7 @@ JournalStart startOf(const GeneratorRequest& request)
 class Run
 {
 public:
-  Run(const GeneratorRequest& request, const GeneratorCallbacks& callbacks);
+  Run(const GeneratorRequest& request, const GeneratorCallbacks& callbacks, NumberedScene scene);
   GeneratorResult execute();
 
 private:
@@ -94,6 +107,7 @@ private:
   GeneratorResult Result;
   std::shared_ptr<RunSession> Session;
   std::shared_ptr<const Stage> Scene;
+  std::string ClassNumbers; ///< that the request gives
   GeneratorRequest Request;
   std::string Root; ///< where files are written
   WorkPlan Plan;
@@ -109,10 +123,11 @@ private:
   std::size_t Done = 0;
 };
 
-Run::Run(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
+Run::Run(const GeneratorRequest& request, const GeneratorCallbacks& callbacks, NumberedScene scene)
   : Callbacks(callbacks)
   , Session(request.session ? request.session : makeRunSession())
-  , Scene(this->Session->load(sceneOf(request), [this](const std::string& line) { this->warn(line); }))
+  , Scene(this->Session->load(std::move(scene.scene), [this](const std::string& line) { this->warn(line); }))
+  , ClassNumbers(std::move(scene.numbers))
   , Request(request)
   , Root(request.block ? request.block->folder : request.folder)
   , Plan(makeWorkPlan(request, *this->Scene))
@@ -134,8 +149,8 @@ GeneratorResult Run::execute()
   this->Source = std::make_unique<FrameSource>(options, *this->Pool);
   this->Result.glDescription = this->Source->glDescription();
   this->Result.visibility = this->Plan.raster ? "raster" : "ray";
-  this->Documents =
-    std::make_unique<RunDocuments>(*this->Scene, this->Plan, request.folder, this->Root, *this->Session);
+  this->Documents = std::make_unique<RunDocuments>(
+    *this->Scene, this->Plan, request.folder, this->Root, *this->Session, this->ClassNumbers);
   const SpaceNeeded needed = spaceOf(this->Plan, *this->Scene);
   const std::string tight = checkSpace(request.folder, needed, spaceIn(request.folder, needed.likely));
   if (!tight.empty())
@@ -367,20 +382,22 @@ std::shared_ptr<RunSession> makeRunSession() { return std::make_shared<RunSessio
 
 std::string requestHash(const GeneratorRequest& request)
 {
+  const NumberedScene numbered(request);
   const std::shared_ptr<RunSession> session = request.session ? request.session : makeRunSession();
-  const std::shared_ptr<const Stage> scene = session->load(sceneOf(request), [](const std::string&) {});
+  const std::shared_ptr<const Stage> scene = session->load(numbered.scene, [](const std::string&) {});
   const WorkPlan plan = makeWorkPlan(request, *scene);
   std::optional<Packing> packing;
   if (option::pack().of(plan.request.options))
   {
     packing = planPacking(*scene, request.folder);
   }
-  return identityOf(plan, *scene, recordedInputs(*scene, request.folder, packing ? &*packing : nullptr, *session));
+  return identityOf(
+    plan, *scene, numbered.numbers, recordedInputs(*scene, request.folder, packing ? &*packing : nullptr, *session));
 }
 
 GeneratorResult generate(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
 {
-  return Run(request, callbacks).execute();
+  return Run(request, callbacks, NumberedScene(request)).execute();
 }
 
 } // namespace dgtk

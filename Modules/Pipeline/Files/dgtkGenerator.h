@@ -36,6 +36,7 @@ struct GeneratorRequest : LayerRequest
 {
   std::string scene;                           ///< path of a .scene or .json file
   std::optional<SceneDescription> description; ///< instead of `scene`; its own `file` is empty
+  std::vector<ClassDescription> classes;       ///< numbers of the classes of a scene that fixes none; empty: its own
   std::string folder;                          ///< where the dataset goes
   bool resume = false;                         ///< keep the finished files of an interrupted run of the same request
   bool replace = false; ///< remove what another request, or an interrupted run, has left; not with resume

@@ -2,7 +2,7 @@
 #include "dgtkPacking.h"
 
 #include "dgtkError.h"
-#include "dgtkMissingModels.h"
+#include "dgtkPathNames.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -67,15 +67,16 @@ public:
     {
       this->place({ from.file });
     }
+    PathNames names;
     std::map<std::string, std::shared_ptr<const Model>> models;
     for (const std::shared_ptr<const Model>& model : this->Source.models())
     {
-      models[canonicalPath(model->path)] = model;
+      models[names.of(model->path)] = model;
       this->addModel(*model);
     }
     for (ObjectDescription& object : scene.objects)
     {
-      const Model& model = *models.at(canonicalPath(from.resolve(object.model)));
+      const Model& model = *models.at(names.of(from.resolve(object.model)));
       object.model = this->Plan.copies.at(model.path);
       this->renamePictures(object);
     }
@@ -128,10 +129,11 @@ private:
   std::size_t addedTextures(const Model& model) const
   {
     std::set<std::string> added;
-    const std::string file = canonicalPath(model.path);
+    PathNames names;
+    const std::string file = names.of(model.path);
     for (ObjectDescription object : this->Source.description().objects)
     {
-      if (canonicalPath(this->Source.description().resolve(object.model)) != file)
+      if (names.of(this->Source.description().resolve(object.model)) != file)
       {
         continue;
       }
@@ -209,10 +211,11 @@ private:
 
 void refuseOwnInputs(const Stage& stage, const std::string& folder)
 {
-  const std::string own = canonicalPath(folder) + '/' + inputsFolder + '/';
+  PathNames names;
+  const std::string own = names.of(folder) + '/' + inputsFolder + '/';
   for (const std::string& file : stage.inputFiles())
   {
-    if (canonicalPath(file).compare(0, own.size(), own) == 0)
+    if (names.of(file).compare(0, own.size(), own) == 0)
     {
       throw UsageError(folder + ": holds what the scene is loaded from; choose another folder");
     }

@@ -37,12 +37,13 @@ std::vector<std::string> filesOf(const WorkPlan& plan, const Stage& stage, const
   return names;
 }
 
-RunDocuments::RunDocuments(
-  const Stage& stage, const WorkPlan& plan, const std::string& home, const std::string& folder, RunSession& session)
+RunDocuments::RunDocuments(const Stage& stage, const WorkPlan& plan, const std::string& home, const std::string& folder,
+  RunSession& session, const std::string& classNumbers)
   : Scene(stage)
   , Plan(plan)
   , Home(home)
   , Root(folder)
+  , ClassNumbers(classNumbers)
   , Geometry(geometryHashes(stage))
 {
   refuseOwnInputs(stage, home);
@@ -51,7 +52,7 @@ RunDocuments::RunDocuments(
     this->Packed = planPacking(stage, home);
   }
   this->Inputs = recordedInputs(stage, home, this->Packed ? &*this->Packed : nullptr, session);
-  this->RequestHash = identityOf(plan, stage, this->Inputs);
+  this->RequestHash = identityOf(plan, stage, classNumbers, this->Inputs);
   if (option::models().of(plan.request.options))
   {
     this->Models.emplace(stage, this->Geometry);
@@ -147,7 +148,7 @@ Manifest RunDocuments::manifest(const std::vector<std::string>& warnings) const
   Manifest manifest;
   manifest.version = DGTK_VERSION;
   manifest.requestHash = this->RequestHash;
-  manifest.request = describeRequest(this->Plan, this->Scene);
+  manifest.request = requestOf(this->Plan, this->Scene, this->ClassNumbers);
   const SceneDescription& scene = this->Scene.description();
   manifest.units = scene.units;
   manifest.metresPerUnit = scene.metres();

@@ -26,8 +26,9 @@ class RunDocuments
 public:
   /// Reads the inputs. `home` is the dataset's folder; a part of a run is written into another one, and the documents
   /// of the whole say the same in each. Throws UsageError where the run would write its inputs.
-  RunDocuments(
-    const Stage& stage, const WorkPlan& plan, const std::string& home, const std::string& folder, RunSession& session);
+  /// `classNumbers` are those that the request gives to the scene, see requestOf().
+  RunDocuments(const Stage& stage, const WorkPlan& plan, const std::string& home, const std::string& folder,
+    RunSession& session, const std::string& classNumbers);
 
   const std::string& requestHash() const { return this->RequestHash; }
   /// Every file that the run writes, but those that layers share.
@@ -49,6 +50,7 @@ private:
   const WorkPlan& Plan;
   std::string Home;
   std::string Root;
+  std::string ClassNumbers;
   std::vector<InputRecord> Inputs;
   std::string RequestHash;
   std::optional<Packing> Packed;

@@ -31,6 +31,12 @@ ThreadPool& RunSession::pool(int threads)
   return *this->Pool;
 }
 
+bool RunSession::knows(const std::string& path)
+{
+  const std::lock_guard<std::mutex> guard(this->Mutex);
+  return this->Files.count(path) != 0;
+}
+
 InputRecord RunSession::fileOf(const std::string& path)
 {
   {

@@ -30,6 +30,8 @@ public:
   }
   /// So many threads, from now on.
   ThreadPool& pool(int threads);
+  /// Whether fileOf() need not read it. Thread-safe.
+  bool knows(const std::string& path);
   /// Bytes and hash of a file as it was when it was asked for first. Thread-safe.
   InputRecord fileOf(const std::string& path);
 

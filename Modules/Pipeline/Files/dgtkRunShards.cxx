@@ -9,13 +9,13 @@
 #include "dgtkRunParts.h"
 #include "dgtkRunSession.h"
 #include "dgtkSceneFile.h"
+#include "dgtkSceneFiles.h"
 #include "dgtkSceneFolders.h"
 #include "dgtkText.h"
 #include "dgtkWorkPlan.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <set>
 
 namespace dgtk
@@ -24,52 +24,6 @@ namespace dgtk
 namespace
 {
 namespace fs = std::filesystem;
-
-/// The scenes of a folder, by the names of their datasets.
-struct SceneFiles
-{
-  std::vector<std::pair<std::string, std::string>> scenes; ///< name, path; in the order of names
-  std::vector<std::string> leftOut;                        ///< names of files that are none
-};
-
-SceneFiles scenesIn(const std::string& folder)
-{
-  std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-  {
-    const std::string name = entry.path().filename().string();
-    const std::string extension = extensionOf(name);
-    if (entry.is_regular_file() && (extension == "json" || extension == "scene"))
-    {
-      names.push_back(name);
-    }
-  }
-  std::sort(names.begin(), names.end());
-  SceneFiles files;
-  std::map<std::string, std::string> byName;
-  for (const std::string& name : names)
-  {
-    const std::string path = folder + '/' + name;
-    if (!looksLikeScene(path))
-    {
-      files.leftOut.push_back(name);
-      continue;
-    }
-    const std::string stem = name.substr(0, name.rfind('.'));
-    if (!byName.emplace(stem, name).second)
-    {
-      throw UsageError(
-        folder + ": " + dgtk::quoted(byName[stem]) + " and " + dgtk::quoted(name) + " would become one dataset");
-    }
-    files.scenes.emplace_back(stem, path);
-  }
-  std::sort(files.scenes.begin(), files.scenes.end());
-  if (files.scenes.empty())
-  {
-    throw InputError(folder, 0, "is a directory without scenes", "files in .json or .scene");
-  }
-  return files;
-}
 
 std::string joinedFrames(const GeneratorRequest& request)
 {
@@ -100,6 +54,10 @@ RunParts partsOf(const GeneratorRequest& request, const SceneFiles& files)
   run.version = DGTK_VERSION;
   run.items = files.scenes.size();
   run.request = described(request);
+  if (!request.classes.empty())
+  {
+    run.request.emplace_back("classes", classesText(request.classes));
+  }
   run.leftOut = files.leftOut;
   std::string text = run.version;
   for (const auto& [key, value] : run.request)
@@ -111,6 +69,7 @@ RunParts partsOf(const GeneratorRequest& request, const SceneFiles& files)
     run.scenes.push_back(name);
     text += '\n' + Sha256::ofFile(path) + ' ' + name;
   }
+  text += files.classes.empty() ? "" : '\n' + classesText(files.classes);
   Sha256 hash;
   hash.update(text.data(), text.size());
   run.requestHash = hash.hex();
@@ -188,6 +147,7 @@ public:
     one.scene = this->Files.scenes[scene].second;
     one.folder += '/' + this->Files.scenes[scene].first;
     one.session = this->Session;
+    one.classes = one.classes.empty() ? this->Files.classes : one.classes;
     if (keep && this->isDone(one))
     {
       this->advance();
@@ -238,7 +198,11 @@ public:
     return !this->Result.interrupted;
   }
 
-  void begin(std::size_t total) { this->Total = total; }
+  void begin(std::size_t total)
+  {
+    this->Total = total;
+    this->report();
+  }
   /// Throws for what has failed.
   void end(const std::string& folder) const
   {
@@ -277,6 +241,10 @@ private:
   void advance()
   {
     ++this->Done;
+    this->report();
+  }
+  void report() const
+  {
     if (this->Callbacks.progress)
     {
       this->Callbacks.progress({ this->Done, this->Total });

@@ -214,6 +214,7 @@ def generate(
     resume: bool = False,
     replace: bool = False,
     formats: Union[None, str, Sequence[str]] = None,
+    classes: Optional[_Path] = None,
     **options: _Option,
 ) -> Dict[str, Any]: ...
 

@@ -55,10 +55,11 @@ def _generate_packed(shot, folder, *arguments, pack=True, **options):
         return generate(file, folder, *arguments, pack=True, **options)
 
 
-def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, progress=None, resume=False, replace=False, formats=None, **options):
+def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, progress=None, resume=False, replace=False, formats=None, classes=None, **options):
     """Writes a dataset: what `dgtk render` does, to the byte.
 
-    scene: the path of a .json or .scene file, a Scene, or a Snapshot of a VTK view. One of a file is read again with its
+    scene: the path of a .json or .scene file, or of a folder of them, a Scene, or a Snapshot of a VTK view. Each scene of
+    a folder becomes a dataset in folder/<its name>, progress counts scenes then, and the manifest names the datasets. One of a file is read again with its
     models, and must not have changed since; one of a description is in the dataset as scene.json, and its model files are
     read again; a Snapshot is in the dataset with its models and textures, as the scene that its save() writes is with
     pack=True. folder: where the dataset goes, str or path-like. layers: a name or a list of names, "all", or the usual ones. frames: an
@@ -67,7 +68,8 @@ def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, p
     thread as progress(done, total), pictures (one camera at one frame), at the start, after each and at the end.
     resume: complete an interrupted run of the same request. replace: remove the dataset of another request, or an
     interrupted run, that the folder holds; not with resume. formats: a name or a list of names of exports, whose layers and
-    options are added; without layers they are all there are. Options, which are listed below, are those of
+    options are added; without layers they are all there are. classes: the path of a file of the numbers of the classes,
+    for scenes that fix none; default: the scene's own, or of all scenes of the folder together. Options, which are listed below, are those of
     `dgtk render`: numbers, names, lists of names or numbers, and True for a switch.
 
     Returns the manifest as a dict; Documentation/Formats/dataset.md says what it holds. Raises ValueError for a wrong
@@ -76,7 +78,7 @@ def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, p
     and is raised on; `resume=True` then completes it to the same bytes. Other threads run meanwhile.
     """
     if isinstance(scene, dgtkSnapshot):
-        return _generate_packed(scene, folder, layers, frames, cameras, size, progress, resume, replace, formats, **options)
+        return _generate_packed(scene, folder, layers, frames, cameras, size, progress, resume, replace, formats, classes, **options)
     generator = dgtkDatasetGenerator()
     if isinstance(scene, (str, os.PathLike)):
         generator.SetSceneFile(_check.path("scene", scene))
@@ -89,6 +91,8 @@ def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, p
         generator.SetLayers(_check.names("layers", layers))
     if formats is not None:
         generator.SetFormats(_check.names("formats", formats))
+    if classes is not None:
+        generator.SetClassFile(_check.path("classes", classes))
     if cameras is not None:
         generator.SetCameras(_check.names("cameras", cameras))
     if frames is not None:
