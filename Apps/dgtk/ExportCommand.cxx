@@ -2,13 +2,16 @@
 #include "Commands.h"
 #include "Interrupt.h"
 #include "Progress.h"
+#include "Shard.h"
 
 #include "dgtkAgainError.h"
 #include "dgtkError.h"
 #include "dgtkExport.h"
+#include "dgtkExportShards.h"
 #include "dgtkExporterEntry.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace dgtk::app
 {
@@ -57,11 +60,12 @@ ExportRequest parseRequest(const Arguments& arguments)
   return request;
 }
 
-ExportResult exported(const ExportRequest& request, const ExportCallbacks& callbacks)
+ExportResult exported(
+  const ExportRequest& request, const std::optional<RunShard>& shard, const ExportCallbacks& callbacks)
 {
   try
   {
-    return exportDataset(request, callbacks);
+    return shard ? exportShard(request, *shard, callbacks) : exportDataset(request, callbacks);
   }
   catch (const FolderError& error)
   {
@@ -84,10 +88,22 @@ int exportRun(const Arguments& arguments)
   callbacks.cancel = &catchInterrupts();
   callbacks.progress = [&](const ExportProgress& state) { progress.update(state.done, state.total); };
   callbacks.message = [&](const std::string& line) { progress.message(line); };
-  const ExportResult result = exported(request, callbacks);
+  std::optional<RunShard> shard;
+  if (arguments.has("--shard"))
+  {
+    shard = parseShard(arguments.text("--shard"));
+  }
+  const ExportResult result = exported(request, shard, callbacks);
   if (result.interrupted)
   {
-    throw AgainError("interrupted; the same command with --resume completes " + request.folder);
+    throw AgainError(shard ? "interrupted; the same command completes its share of " + request.folder
+                           : "interrupted; the same command with --resume completes " + request.folder);
+  }
+  if (shard)
+  {
+    progress.message("share " + std::to_string(shard->index) + " of " + std::to_string(shard->count) + " of " +
+                     request.folder + ", " + numberText(progress.seconds()) + " s");
+    return 0;
   }
   for (const LayerRounding& layer : result.layers)
   {
@@ -133,6 +149,7 @@ Command exportCommand()
   }
   const std::vector<Option> last = { { "--resume", "", "", "continue an interrupted export of the same request" },
     { "--replace", "", "", "remove the export of another request, or an interrupted one, that the folder holds" },
+    { "--shard", "I/N|auto", "", "a share of the export, from 0; dgtk merge ends it when all are there" },
     { "--quiet", "", "", "no progress and no messages" } };
   command.options.insert(command.options.end(), last.begin(), last.end());
   return command;

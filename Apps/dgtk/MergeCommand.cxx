@@ -2,6 +2,7 @@
 #include "Commands.h"
 
 #include "dgtkError.h"
+#include "dgtkExportShards.h"
 #include "dgtkRunParts.h"
 #include "dgtkSystem.h"
 
@@ -33,7 +34,8 @@ int run(const Arguments& arguments)
   {
     folder.pop_back();
   }
-  const MergeReport report = mergeParts(folder, machineThreads());
+  const bool exported = hasParts(folder) && !readParts(folder).exporter.empty();
+  const MergeReport report = exported ? mergeExport(folder) : mergeParts(folder, machineThreads());
   if (arguments.has("--json"))
   {
     nlohmann::ordered_json json{ { "merged", report.merged }, { "blocks", report.blocks }, { "files", report.files },
@@ -64,7 +66,8 @@ int run(const Arguments& arguments)
 
 Command mergeCommand()
 {
-  return { "merge", "DIR", 1, 1, "Makes one dataset of a run in shards; names what is missing and exits with 1 then.",
+  return { "merge", "DIR", 1, 1,
+    "Makes one dataset, or export, of a run in shards; names what is missing and exits with 1 then.",
     { { "--json", "", "", "print one JSON object" } }, &run };
 }
 

@@ -167,9 +167,15 @@ void ExportNotes::takeOver()
   }
 }
 
-void ExportNotes::add(std::size_t item, const ItemRecord& record)
+void ExportNotes::add(std::size_t item, const ItemRecord& record) { this->addBytes(item, packed(record)); }
+
+void ExportNotes::add(std::size_t item, const ExportNotes& part)
 {
-  const std::string bytes = packed(record);
+  this->addBytes(item, part.bytesAt(part.Places[item]->offset, part.Places[item]->bytes));
+}
+
+void ExportNotes::addBytes(std::size_t item, const std::string& bytes)
+{
   const std::uint64_t head[2] = { item, bytes.size() };
   std::string text(reinterpret_cast<const char*>(head), sizeof head);
   text += bytes;

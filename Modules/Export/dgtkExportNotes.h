@@ -38,6 +38,8 @@ public:
   bool has(std::size_t item) const { return this->Places[item].has_value(); }
   /// Throws MachineError.
   void add(std::size_t item, const ItemRecord& record);
+  /// The record of a finished item of another run's part. Throws MachineError.
+  void add(std::size_t item, const ExportNotes& part);
   /// The record of a finished item, without its notes.
   ItemRecord read(std::size_t item) const;
   /// Calls visit(text) for the notes of a finished item in a list.
@@ -55,6 +57,7 @@ private:
   [[noreturn]] void failDamaged() const;
   std::string bytesAt(std::uint64_t offset, std::uint64_t bytes) const;
   void begin(const std::string& requestHash);
+  void addBytes(std::size_t item, const std::string& bytes);
   void takeOver();
   Folder Holder;
   FileDescriptor File;

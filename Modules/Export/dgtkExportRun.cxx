@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkExport.h"
+#include "dgtkExportRun.h"
 
-#include "dgtkDatasetScenes.h"
 #include "dgtkError.h"
-#include "dgtkExportNotes.h"
-#include "dgtkExporterEntry.h"
 #include "dgtkFile.h"
 #include "dgtkHash.h"
 #include "dgtkItemSink.h"
@@ -15,7 +12,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <mutex>
 #include <set>
 #include <stdexcept>
 #include <tuple>
@@ -25,44 +21,6 @@ namespace dgtk
 
 namespace
 {
-class ExportRun
-{
-public:
-  ExportRun(const ExportRequest& request, const ExportCallbacks& callbacks);
-  ExportResult execute();
-
-private:
-  TextPairs described() const;
-  std::string identity() const;
-  std::vector<std::string> allNames() const;
-  bool isKept(std::size_t item) const;
-  void writeItems();
-  void write(std::size_t item);
-  void writeDocuments();
-  void close();
-  void forRecords(const std::function<void(const ItemRecord&)>& visit) const;
-  void forNotes(const std::string& list, const std::function<void(const std::string&)>& visit) const;
-  ExportItem item(std::size_t index) const;
-  std::size_t items() const { return this->Items; } ///< without documents
-  std::size_t all() const { return this->Items + this->Plan.documents.size(); }
-  bool cancelled() const { return this->Callbacks.cancel && *this->Callbacks.cancel; }
-  void advance();
-
-  ExportRequest Request;
-  ExportCallbacks Callbacks;
-  const ExporterRow& Row;
-  std::unique_ptr<Exporter> Format;
-  DatasetScenes Datasets;
-  ExportPlan Plan;
-  std::size_t Items = 0;
-  std::string Hash;
-  std::unique_ptr<Journal> Log;
-  std::unique_ptr<ExportNotes> Notes;
-  std::mutex ProgressMutex;
-  std::size_t Done = 0;
-  ExportResult Result;
-};
-
 /// The options as they stand in export.json.
 ExportRequest checked(ExportRequest request)
 {
@@ -115,6 +73,8 @@ void requireOther(const ExportRequest& request)
   }
 }
 
+} // namespace
+
 ExportRun::ExportRun(const ExportRequest& request, const ExportCallbacks& callbacks)
   : Request(checked(request))
   , Callbacks(callbacks)
@@ -136,6 +96,7 @@ ExportRun::ExportRun(const ExportRequest& request, const ExportCallbacks& callba
   {
     this->Items += series.count;
   }
+  this->Total = this->all();
   this->Hash = this->identity();
 }
 
@@ -226,7 +187,12 @@ ExportResult ExportRun::execute()
                                                      : JournalStart::Fresh;
   this->Log = std::make_unique<Journal>(this->Request.folder, this->Hash, start, this->allNames(), exportName);
   this->Notes = std::make_unique<ExportNotes>(this->Request.folder, this->Hash, this->all(), this->Request.resume);
-  this->writeItems();
+  this->writeItems({ 0, this->items() });
+  return this->end();
+}
+
+ExportResult ExportRun::end()
+{
   if (!this->cancelled())
   {
     this->writeDocuments();
@@ -239,20 +205,25 @@ ExportResult ExportRun::execute()
   return this->Result;
 }
 
-bool ExportRun::isKept(std::size_t item) const
+namespace
 {
-  if (!this->Notes->has(item))
+bool holds(const Journal& journal, const ExportNotes& notes, std::size_t item)
+{
+  if (!notes.has(item))
   {
     return false;
   }
-  const ItemRecord record = this->Notes->read(item);
+  const ItemRecord record = notes.read(item);
   return std::all_of(record.files.begin(), record.files.end(),
     [&](const ExportedFile& one)
     {
-      const DatasetFile* file = this->Log->find(one.file.path);
+      const DatasetFile* file = journal.find(one.file.path);
       return file && file->sha256 == one.file.sha256;
     });
 }
+} // namespace
+
+bool ExportRun::isKept(std::size_t item) const { return holds(*this->Log, *this->Notes, item); }
 
 void ExportRun::advance()
 {
@@ -260,32 +231,33 @@ void ExportRun::advance()
   ++this->Done;
   if (this->Callbacks.progress)
   {
-    this->Callbacks.progress({ this->Done, this->all() });
+    this->Callbacks.progress({ this->Done, this->Total });
   }
 }
 
-void ExportRun::writeItems()
+void ExportRun::writeItems(const ItemRange& range)
 {
   const int threads = exported::threads().of(this->Request.options);
   ThreadPool pool(threads > 0 ? threads : machineThreads());
   std::atomic<bool> failed{ false };
   std::atomic<std::size_t> kept{ 0 };
-  pool.parallelFor(static_cast<int>(this->items()),
+  pool.parallelFor(static_cast<int>(range.end - range.first),
     [&](int i)
     {
+      const std::size_t item = range.first + std::size_t(i);
       if (failed || this->cancelled())
       {
         return;
       }
       try
       {
-        if (this->isKept(std::size_t(i)))
+        if (this->isKept(item))
         {
           ++kept;
         }
         else
         {
-          this->write(std::size_t(i));
+          this->write(item);
         }
       }
       catch (...)
@@ -309,6 +281,92 @@ void ExportRun::write(std::size_t index)
   }
   item.write(sink);
   this->Notes->add(index, sink.record());
+}
+
+ExportResult ExportRun::executeBlock(const std::string& folder, const ItemRange& block)
+{
+  this->Request.folder = folder;
+  this->Result = {};
+  this->Log =
+    std::make_unique<Journal>(folder, this->Hash, JournalStart::Resume, std::vector<std::string>{}, exportName);
+  this->Notes = std::make_unique<ExportNotes>(folder, this->Hash, this->all(), true);
+  this->writeItems(block);
+  this->Result.interrupted = this->cancelled();
+  this->Notes.reset();
+  this->Log.reset();
+  return this->Result;
+}
+
+bool ExportRun::holdsBlock(const std::string& folder, const ItemRange& block) const
+{
+  std::error_code code;
+  if (!std::filesystem::exists(folder, code))
+  {
+    return false;
+  }
+  try
+  {
+    const Journal journal(folder, this->Hash, JournalStart::Resume, std::vector<std::string>{}, exportName);
+    const ExportNotes notes(folder, this->Hash, this->all(), true);
+    for (std::size_t i = block.first; i < block.end; ++i)
+    {
+      if (!holds(journal, notes, i))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+  catch (const FolderError&) // another process is writing it, or it is of another request
+  {
+    return false;
+  }
+}
+
+ExportResult ExportRun::executeFrom(const std::vector<std::pair<std::string, ItemRange>>& blocks)
+{
+  this->Log =
+    std::make_unique<Journal>(this->Request.folder, this->Hash, JournalStart::Resume, this->allNames(), exportName);
+  this->Notes = std::make_unique<ExportNotes>(this->Request.folder, this->Hash, this->all(), true);
+  for (const auto& [folder, block] : blocks)
+  {
+    const ExportNotes part(folder, this->Hash, this->all(), true);
+    for (std::size_t i = block.first; i < block.end && !this->cancelled(); ++i)
+    {
+      if (!this->isKept(i))
+      {
+        this->adopt(i, folder, part);
+      }
+      this->advance();
+    }
+  }
+  return this->end();
+}
+
+/// A finished item of a part: its files under a second name or, where a disk has none, copied.
+void ExportRun::adopt(std::size_t item, const std::string& folder, const ExportNotes& notes)
+{
+  const Folder from(folder);
+  const Folder to(this->Request.folder);
+  const ItemRecord record = notes.read(item);
+  std::vector<std::string> names;
+  for (const ExportedFile& one : record.files)
+  {
+    names.push_back(one.file.path);
+  }
+  this->Log->plan(names);
+  for (const ExportedFile& one : record.files)
+  {
+    to.makeParents(one.file.path);
+    if (!linkFile(from.pathOf(one.file.path), to, one.file.path))
+    {
+      AtomicFile target(FilePlace(to.path(), one.file.path));
+      target.write(readFile(from.pathOf(one.file.path)));
+      target.commit();
+    }
+    this->Log->add(one.file);
+  }
+  this->Notes->add(item, notes);
 }
 
 void ExportRun::writeDocuments()
@@ -391,7 +449,23 @@ void ExportRun::close()
   this->Notes->remove();
   this->Result.layers = record.layers;
 }
-} // namespace
+ExportRequest sceneExport(const ExportRequest& request, const std::string& scene)
+{
+  ExportRequest one = request;
+  one.dataset += '/' + scene;
+  one.folder += '/' + scene;
+  return one;
+}
+
+std::vector<std::string> scenesApart(const ExportRequest& request)
+{
+  std::vector<std::string> scenes = sceneFoldersIn(request.dataset);
+  if (!scenes.empty() && findExporter(request.format).make()->joinsScenes())
+  {
+    scenes.clear();
+  }
+  return scenes;
+}
 
 namespace
 {
@@ -402,9 +476,6 @@ ExportResult exportScenes(
   ExportResult all;
   for (std::size_t i = 0; i < scenes.size() && !all.interrupted; ++i)
   {
-    ExportRequest one = request;
-    one.dataset += '/' + scenes[i];
-    one.folder += '/' + scenes[i];
     ExportCallbacks own = callbacks;
     own.progress = [&](const ExportProgress& state)
     {
@@ -413,7 +484,7 @@ ExportResult exportScenes(
         callbacks.progress({ i * state.total + state.done, scenes.size() * state.total });
       }
     };
-    const ExportResult result = ExportRun(one, own).execute();
+    const ExportResult result = ExportRun(sceneExport(request, scenes[i]), own).execute();
     all.files += result.files;
     all.kept += result.kept;
     all.interrupted = result.interrupted;
@@ -428,12 +499,8 @@ ExportResult exportScenes(
 
 ExportResult exportDataset(const ExportRequest& request, const ExportCallbacks& callbacks)
 {
-  const std::vector<std::string> scenes = sceneFoldersIn(request.dataset);
-  if (scenes.empty() || findExporter(request.format).make()->joinsScenes())
-  {
-    return ExportRun(request, callbacks).execute();
-  }
-  return exportScenes(request, scenes, callbacks);
+  const std::vector<std::string> scenes = scenesApart(request);
+  return scenes.empty() ? ExportRun(request, callbacks).execute() : exportScenes(request, scenes, callbacks);
 }
 
 } // namespace dgtk

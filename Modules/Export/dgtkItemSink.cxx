@@ -96,16 +96,15 @@ void ItemSink::finished(const DatasetFile& file, const PixelEncoding& encoding)
   this->Record.files.push_back({ file, encoding });
 }
 
-bool ItemSink::link(const std::string& name, const std::string& datasetFile) const
+bool linkFile(const std::string& path, const Folder& folder, const std::string& name)
 {
   const std::string partial = partialName(name);
-  this->Holder.remove(partial);
-  if (::linkat(
-        AT_FDCWD, this->Dataset.pathOf(datasetFile).c_str(), AT_FDCWD, this->Holder.pathOf(partial).c_str(), 0) != 0)
+  folder.remove(partial);
+  if (::linkat(AT_FDCWD, path.c_str(), AT_FDCWD, folder.pathOf(partial).c_str(), 0) != 0)
   {
-    return false; // on another disk, or one without links: a copy does
+    return false;
   }
-  this->Holder.rename(partial, name);
+  folder.rename(partial, name);
   return true;
 }
 
@@ -117,7 +116,7 @@ void ItemSink::copy(const std::string& name, const std::string& datasetFile, con
   file.sha256 = known.sha256;
   file.bytes = known.bytes;
   if (this->Links && Sha256::ofFile(Folder(this->Dataset.folder()).fileAt(datasetFile)) == known.sha256 &&
-      this->link(name, datasetFile))
+      linkFile(this->Dataset.pathOf(datasetFile), this->Holder, name))
   {
     this->finished(file, pixels.encoding);
     return;

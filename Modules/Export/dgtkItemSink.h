@@ -36,7 +36,6 @@ private:
   class Piecewise;
   void expect(const std::string& name) const;
   void finished(const DatasetFile& file, const PixelEncoding& encoding);
-  bool link(const std::string& name, const std::string& datasetFile) const;
   const DatasetView& Dataset;
   Folder Holder;
   const ExportItem& Item;
@@ -45,6 +44,10 @@ private:
   Notes Others;
   ItemRecord Record;
 };
+
+/// Gives a file a second name in a folder, under which it takes the place of what is there. False where that cannot be:
+/// on another disk, or one without links.
+bool linkFile(const std::string& path, const Folder& folder, const std::string& name);
 
 /// Adds what one item did to a layer's values to what others did.
 void addRounding(std::vector<LayerRounding>& all, const LayerRounding& one);

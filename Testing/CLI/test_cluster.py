@@ -65,6 +65,12 @@ class Cluster(Case):
     def test_gnu_parallel(self):
         self.script(recipe("parallel.sh"), "4", DEMO, "-o", self.path("run"), *OPTIONS)
         self.assert_same_files(self.whole, self.path("run"))
+        export = ("--format", "imagefolder")
+        dataset = self.path("pictures")
+        self.dgtk("render", DEMO, "-o", dataset, "--for", "imagefolder", "--size", "48x36", "--quiet")
+        self.dgtk("export", dataset, *export, "-o", self.path("exported"), "--quiet")
+        self.script(recipe("parallel.sh"), "2", dataset, *export, "-o", self.path("shared"), environment={"DGTK_COMMAND": "export"})
+        self.assert_same_files(self.path("exported"), self.path("shared"))
 
     def test_open_mpi(self):
         # As root, and on a machine with fewer cores than processes

@@ -33,7 +33,7 @@ class Frame(datasets.ExportCase):
         return done
 
     def test_every_exporter_gives_the_same_bytes_and_is_read_back(self):
-        """Threads, links, resuming and Python change nothing; what comes out passes the referee; or it is refused in words."""
+        """Threads, links and shares change nothing; what comes out passes the referee; or it is refused in words."""
         scenes = [datasets.stereo(self.path("stereo")), datasets.walk(self.path("walk"), empty=False), datasets.street(self.path("street"))]
         never = []
         for form in exporters():
@@ -46,7 +46,10 @@ class Frame(datasets.ExportCase):
                     one, two = self.path(f"{form}-1-{number}"), self.path(f"{form}-2-{number}")
                     done = self.dgtk_any("export", dataset, "--format", form, "-o", one, "--threads", 1, "--quiet")
                     if not done.returncode:
-                        self.dgtk("export", dataset, "--format", form, "-o", two, "--threads", 3, "--link", "--quiet")
+                        options = ("--format", form, "-o", two, "--threads", 3, "--link", "--quiet")
+                        for share in () if exported else ("2/3", "0/3", "1/3"):
+                            self.dgtk("export", dataset, *options, "--shard", share)
+                        self.dgtk(*(("export", dataset, *options) if exported else ("merge", two)))
                         self.assert_same_files(one, two)
                         rows = self.referee(dataset, one)
                         self.assertGreater(len(rows["residuals"]), 1)
@@ -77,6 +80,37 @@ class Frame(datasets.ExportCase):
             subprocess.run([*command, "-o", part, "--resume"], check=True)
             self.assert_same_files(whole, part)
         self.assertGreater(killed, KILLS // 4)
+
+    def test_shares_that_are_killed_lost_or_damaged(self):
+        dataset = self.render(datasets.walk(self.path("scene"), frames=30, empty=False))
+        whole, part = self.path("whole"), self.path("part")
+        command = [DGTK, "export", dataset, "--format", "coco", "--quiet"]
+        subprocess.run([*command, "-o", whole], check=True)
+        for i in range(KILLS // 2):
+            process = subprocess.Popen([*command, "-o", part, "--shard", f"{i % 2}/3"])
+            time.sleep(0.02 + 0.02 * i)
+            process.kill()
+            process.wait()
+        for share in ("1/3", "0/3", "1/3"):
+            subprocess.run([*command, "-o", part, "--shard", share], check=True)
+        self.refused("merge", part, status=1, says=("blocks are missing", "--array=2"))
+        self.assertFalse(os.path.exists(os.path.join(part, "export.json")))
+        subprocess.run([*command, "-o", part, "--shard", "2/3"], check=True)
+        blocks = os.path.join(part, ".dgtk-parts")
+        shutil.rmtree(os.path.join(blocks, "000004"))
+        [picture] = [os.path.join(base, name) for base, _, names in os.walk(os.path.join(blocks, "000006")) for name in names if name.endswith(".png")]
+        with open(picture, "ab") as file:
+            file.write(b"!")
+        report = json.loads(self.dgtk("merge", part, "--json", status=1).stdout)
+        self.assertEqual((report["missing"], report["array"]), ([4, 6], {"3": "0-1"}))
+        done = self.refused("export", dataset, "--format", "yolo", "-o", part, "--shard", "0/3", status=2, says=("another request",))
+        self.assertIn(part, done)
+        for share in ("0/3", "1/3"):
+            subprocess.run([*command, "-o", part, "--shard", share], check=True)
+        self.dgtk("merge", part)
+        self.assert_same_files(whole, part)
+        self.dgtk("export", dataset, "--format", "coco", "-o", part, "--quiet", "--shard", "0/2")  # whole already
+        self.assert_same_files(whole, part)
 
     def test_another_export_is_not_mixed_in(self):
         dataset = self.render(datasets.walk(self.path("scene")))

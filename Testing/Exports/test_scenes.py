@@ -58,6 +58,21 @@ class Scenes(datasets.ExportCase):
         self.assertEqual(sorted(os.listdir(self.path("h"))), ["s0", "s1", "s2"])
         self.dgtk("verify", self.path("all"), "--export", self.path("h"))
 
+    def test_shares(self):
+        """Of scenes, or of what they become together."""
+        for form in ("hdf5", "bop"):
+            whole, shares = self.path(form + "-whole"), self.path(form + "-shares")
+            command = ("export", self.path("all"), "--format", form, "--quiet", "-o")
+            self.dgtk(*command, whole)
+            self.dgtk(*command, shares, "--shard", "1/2")
+            self.refused("merge", shares, status=1, says=("--array=0",))
+            for share in ("0/2", "1/2"):
+                self.dgtk(*command, shares, "--shard", share)
+            self.dgtk("merge", shares)
+            self.assert_same_files(whole, shares)
+            self.dgtk(*command, shares, "--shard", "0/2")
+            self.assert_same_files(whole, shares)
+
     def test_a_wrong_class_is_found(self):
         folder = self.export("coco")
         path = os.path.join(folder, "annotations", "instances_train.json")

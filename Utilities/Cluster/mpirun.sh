@@ -16,5 +16,5 @@ done
 [ -n "$folder" ] || { echo "mpirun.sh: say -o DIR" >&2 && exit 2; }
 threads=$(($(nproc) / processes))
 # shellcheck disable=SC2086  # words, not one word
-mpirun --bind-to none --oversubscribe ${DGTK_MPI:-} -n "$processes" "$dgtk" render "$@" --shard auto --threads "$((threads > 0 ? threads : 1))" --quiet
+mpirun --bind-to none --oversubscribe ${DGTK_MPI:-} -n "$processes" "$dgtk" "${DGTK_COMMAND:-render}" "$@" --shard auto --threads "$((threads > 0 ? threads : 1))" --quiet
 exec "$dgtk" merge "$folder"

@@ -15,5 +15,5 @@ done
 [ -n "$folder" ] || { echo "parallel.sh: say -o DIR" >&2 && exit 2; }
 # shellcheck disable=SC2086  # words, not one word
 seq 0 $((shares - 1)) |
-  parallel --will-cite --retries 3 --halt soon,fail=20% ${DGTK_PARALLEL:-} "$dgtk" render "$(printf '%q ' "$@")" --shard "{}/$shares" --threads 1 --quiet
+  parallel --will-cite --retries 3 --halt soon,fail=20% ${DGTK_PARALLEL:-} "$dgtk" "${DGTK_COMMAND:-render}" "$(printf '%q ' "$@")" --shard "{}/$shares" --threads 1 --quiet
 exec "$dgtk" merge "$folder"

@@ -13,7 +13,7 @@
 #SBATCH --output=dgtk-%A_%a.log
 set -u
 dgtk=${DGTK:-dgtk}
-"$dgtk" render "$@" --shard auto --threads "${SLURM_CPUS_PER_TASK:-1}" --quiet &
+"$dgtk" "${DGTK_COMMAND:-render}" "$@" --shard auto --threads "${SLURM_CPUS_PER_TASK:-1}" --quiet &
 worker=$!
 trap 'kill -USR1 "$worker" 2> /dev/null' USR1 TERM INT
 wait "$worker"

@@ -12,5 +12,5 @@ for ((i = 1; i < $#; ++i)); do
   [ "${!i}" != -o ] || { next=$((i + 1)) && folder=${!next}; }
 done
 [ -n "$folder" ] || { echo "slurm_srun.sh: say -o DIR" >&2 && exit 2; }
-srun --cpus-per-task="${SLURM_CPUS_PER_TASK:-1}" "$dgtk" render "$@" --shard auto --threads "${SLURM_CPUS_PER_TASK:-1}" --quiet
+srun --cpus-per-task="${SLURM_CPUS_PER_TASK:-1}" "$dgtk" "${DGTK_COMMAND:-render}" "$@" --shard auto --threads "${SLURM_CPUS_PER_TASK:-1}" --quiet
 exec "$dgtk" merge "$folder"

@@ -20,7 +20,6 @@ namespace dgtk
 {
 
 std::string datasetsManifestText(const DatasetsManifest& manifest);
-std::vector<std::size_t> workersOf(const std::string& folder);
 
 namespace
 {

@@ -70,18 +70,21 @@ std::vector<std::pair<std::string, std::string>> pairsIn(const JsonCursor& objec
 
 std::string runText(const RunParts& run)
 {
-  return JsonObject(2)
-           .text("format", runFormat)
-           .integer("format_version", 1)
-           .text("version", run.version)
-           .text("request_hash", run.requestHash)
-           .integer("items", std::int64_t(run.items))
-           .boolean("contact_sheet", run.contactSheet)
-           .raw("scenes", textsOf(run.scenes))
-           .raw("request", pairsOf(run.request))
-           .raw("left_out", textsOf(run.leftOut))
-           .block() +
-         '\n';
+  JsonObject object(2);
+  object.text("format", runFormat)
+    .integer("format_version", 1)
+    .text("version", run.version)
+    .text("request_hash", run.requestHash)
+    .integer("items", std::int64_t(run.items))
+    .boolean("contact_sheet", run.contactSheet)
+    .raw("scenes", textsOf(run.scenes))
+    .raw("request", pairsOf(run.request))
+    .raw("left_out", textsOf(run.leftOut));
+  if (!run.exporter.empty())
+  {
+    object.text("exporter", run.exporter).text("dataset", run.dataset);
+  }
+  return object.block() + '\n';
 }
 
 std::string datasetsText(const DatasetsManifest& manifest)
@@ -162,6 +165,11 @@ RunParts readParts(const std::string& path)
   run.scenes = textsIn(root["scenes"]);
   run.request = pairsIn(root["request"]);
   run.leftOut = textsIn(root["left_out"]);
+  if (root.has("exporter"))
+  {
+    run.exporter = root["exporter"].text();
+    run.dataset = root["dataset"].text();
+  }
   for (const std::string& scene : run.scenes)
   {
     if (!Folder::isPlain(scene))

@@ -17,17 +17,26 @@ namespace dgtk
 /// Where the parts of a run wait in its folder until they are merged.
 constexpr const char* partsName = ".dgtk-parts";
 
-/// A run that several processes make together: pictures of a dataset, or datasets of several scenes. It falls into
-/// blocks of consecutive items, which depend on their number alone. Kept in DIR/.dgtk-parts/run.json.
+/// Which share of a run a process makes: of the run's blocks those with the numbers index, index + count, ...
+struct RunShard
+{
+  std::size_t index = 0;
+  std::size_t count = 1;
+};
+
+/// A run that several processes make together: pictures of a dataset, datasets of several scenes, or an export of one
+/// of these. It falls into blocks of consecutive items, which depend on their number alone. Kept in DIR/.dgtk-parts/run.json.
 struct DGTKDATASETIO_EXPORT RunParts
 {
   std::string version;     ///< of DGTk
   std::string requestHash; ///< of the whole run
-  std::size_t items = 0;   ///< pictures, or scenes
+  std::size_t items = 0;   ///< pictures, scenes, or pieces of an export
   bool contactSheet = false;
   std::vector<std::string> scenes;                          ///< names of their folders; none: pictures of one dataset
-  std::vector<std::pair<std::string, std::string>> request; ///< of scenes
+  std::vector<std::pair<std::string, std::string>> request; ///< of scenes, or of an export
   std::vector<std::string> leftOut;                         ///< files of the scenes' folder that are no scenes
+  std::string exporter;             ///< of an export: its format
+  std::string dataset;              ///< of an export: the whole path of the folder that it is made from
   /// Items of a block.
   std::size_t blockSize() const;
   std::size_t blocks() const;
@@ -45,6 +54,9 @@ DGTKDATASETIO_EXPORT RunParts readParts(const std::string& folder);
 /// Prepares a folder for the parts of a run, of which this is one process of `workers`; any number may do so at the
 /// same time. Throws UsageError when parts of another request are there, MachineError when it cannot be written.
 DGTKDATASETIO_EXPORT void beginParts(const std::string& folder, const RunParts& run, std::size_t workers);
+
+/// Counts of processes that the parts in a folder were begun with, ascending.
+DGTKDATASETIO_EXPORT std::vector<std::size_t> workersOf(const std::string& folder);
 
 /// Writes the manifest of a folder whose scenes' datasets have just been finished by this process; their files are not
 /// looked at. Its parts' record goes.

@@ -5,20 +5,13 @@
 #include "dgtkPipelineModule.h"
 
 #include "dgtkGenerator.h"
+#include "dgtkRunParts.h"
 
-#include <cstddef>
 #include <optional>
 #include <string>
 
 namespace dgtk
 {
-
-/// Which share of a run a process makes: of the run's blocks those with the numbers index, index + count, ...
-struct RunShard
-{
-  std::size_t index = 0;
-  std::size_t count = 1;
-};
 
 /// Makes a share of a run into its folder; any number of processes may do so at the same time, also the same share.
 /// Blocks of pictures (of scenes, where `scene` is a folder of them) do not depend on the number of processes. What is

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef dgtkExportRun_h
+#define dgtkExportRun_h
+
+// Private to Export.
+
+#include "dgtkDatasetScenes.h"
+#include "dgtkExport.h"
+#include "dgtkExportNotes.h"
+#include "dgtkExporterEntry.h"
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace dgtk
+{
+
+/// Items of an export one behind the other.
+struct ItemRange
+{
+  std::size_t first = 0;
+  std::size_t end = 0;
+};
+
+/// One export of one format: its items in any order, then its documents, then export.json.
+class ExportRun
+{
+public:
+  ExportRun(const ExportRequest& request, const ExportCallbacks& callbacks);
+  ExportResult execute();
+
+  /// The items of a block alone, into a folder of their own, without documents; what is there of them is kept.
+  ExportResult executeBlock(const std::string& folder, const ItemRange& block);
+  /// Whether a block's folder holds all of its items, every file with its recorded size and SHA-256.
+  bool holdsBlock(const std::string& folder, const ItemRange& block) const;
+  /// The whole export from the folders of its blocks, which stay; into the request's folder.
+  ExportResult executeFrom(const std::vector<std::pair<std::string, ItemRange>>& blocks);
+
+  /// Of format, dataset and all that decides bytes.
+  const std::string& hash() const { return this->Hash; }
+  /// All options and the frames, as in export.json.
+  TextPairs described() const;
+  std::size_t items() const { return this->Items; } ///< without documents
+
+private:
+  std::string identity() const;
+  std::vector<std::string> allNames() const;
+  bool isKept(std::size_t item) const;
+  void writeItems(const ItemRange& range);
+  void write(std::size_t item);
+  void adopt(std::size_t item, const std::string& folder, const ExportNotes& notes);
+  ExportResult end();
+  void writeDocuments();
+  void close();
+  void forRecords(const std::function<void(const ItemRecord&)>& visit) const;
+  void forNotes(const std::string& list, const std::function<void(const std::string&)>& visit) const;
+  ExportItem item(std::size_t index) const;
+  std::size_t all() const { return this->Items + this->Plan.documents.size(); }
+  bool cancelled() const { return this->Callbacks.cancel && *this->Callbacks.cancel; }
+  void advance();
+
+  ExportRequest Request;
+  ExportCallbacks Callbacks;
+  const ExporterRow& Row;
+  std::unique_ptr<Exporter> Format;
+  DatasetScenes Datasets;
+  ExportPlan Plan;
+  std::size_t Items = 0;
+  std::size_t Total = 0; ///< that progress counts
+  std::string Hash;
+  std::unique_ptr<Journal> Log;
+  std::unique_ptr<ExportNotes> Notes;
+  std::mutex ProgressMutex;
+  std::size_t Done = 0;
+  ExportResult Result;
+};
+
+/// Each scene of a folder of datasets as a request of its own.
+ExportRequest sceneExport(const ExportRequest& request, const std::string& scene);
+/// Of a format whose exports of many scenes are one each: the scenes' names; else none.
+std::vector<std::string> scenesApart(const ExportRequest& request);
+
+} // namespace dgtk
+
+#endif
