@@ -7,7 +7,7 @@ import subprocess
 from harness import DGTK, SCENES, SOURCE, Case, main
 
 HELP = {
-    "merge": ("DIR", "Makes one dataset of a run in shards; names what is missing and exits with 1 then.", [
+    "merge": ("DIR", "Makes one dataset, or export, of a run in shards; names what is missing and exits with 1 then.", [
         ("--json", "print one JSON object")]),
     "sample": ("SCENE", "Draws plain scenes from one with random values.", [
         ("--output DIR", "folder of the scenes"),
