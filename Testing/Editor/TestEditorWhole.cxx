@@ -101,7 +101,7 @@ void TestEditorWhole::cancelledRunsResume()
   dialog->findChild<QSpinBox*>("height")->setValue(largeWidth);
   auto* start = dialog->findChild<QPushButton*>("start");
   QTest::mouseClick(start, Qt::LeftButton);
-  QTRY_VERIFY(!contents(this->path("stopped")).isEmpty());
+  QTRY_VERIFY(contents(this->path("stopped")).size() > 2); // a file has its name before its entry
   QTest::mouseClick(dialog->findChild<QPushButton*>("cancel"), Qt::LeftButton);
   QTRY_VERIFY(start->isEnabled());
   QVERIFY(dialog->findChild<QCheckBox*>("resume")->isChecked());
