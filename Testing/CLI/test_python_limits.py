@@ -151,7 +151,7 @@ class Misuse(Case):
     RIGHT = {
         ("render", "camera"): [None], ("render", "frame"): [None, 0], ("render", "size"): [None],
         ("render", "renderer"): [None, "dgtk.dgtkRenderer"], ("render", "keep"): [None, "dgtk.dgtkRenderer"],
-        ("generate", "layers"): [None], ("generate", "frames"): [None, 0, [0, 0], [1], (1, 2, 3)], ("generate", "cameras"): [None], ("generate", "formats"): [None],
+        ("generate", "layers"): [None], ("generate", "classes"): [None], ("generate", "frames"): [None, 0, [0, 0], [1], (1, 2, 3)], ("generate", "cameras"): [None], ("generate", "formats"): [None],
         ("export", "cameras"): [None], ("export", "frames"): [None, 0, [0, 0], [1]], ("export", "progress"): [None, "callable"],
         ("export", "resume"): [True], ("export", "replace"): [True],
         ("generate", "size"): [None], ("generate", "progress"): [None, "callable"], ("generate", "resume"): [True], ("generate", "replace"): [True],

@@ -6,6 +6,7 @@
 #include "dgtkObjectTruth.h"
 #include "dgtkPathNames.h"
 #include "dgtkRepresentation.h"
+#include "dgtkSceneFile.h"
 #include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWorkTime.h"
@@ -161,7 +162,7 @@ std::vector<std::pair<std::string, std::string>> requestOf(
   std::vector<std::pair<std::string, std::string>> pairs = describeRequest(plan, stage);
   if (!classNumbers.empty())
   {
-    pairs.emplace_back("classes", classNumbers);
+    pairs.emplace_back(classesWord, classNumbers);
   }
   return pairs;
 }

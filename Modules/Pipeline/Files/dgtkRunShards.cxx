@@ -4,12 +4,12 @@
 #include "dgtkAgainError.h"
 #include "dgtkFile.h"
 #include "dgtkFolder.h"
+#include "dgtkFolderScenes.h"
 #include "dgtkHash.h"
 #include "dgtkJournal.h"
 #include "dgtkRunParts.h"
 #include "dgtkRunSession.h"
 #include "dgtkSceneFile.h"
-#include "dgtkSceneFiles.h"
 #include "dgtkSceneFolders.h"
 #include "dgtkText.h"
 #include "dgtkWorkPlan.h"
@@ -48,7 +48,7 @@ std::vector<std::pair<std::string, std::string>> described(const GeneratorReques
   return pairs;
 }
 
-RunParts partsOf(const GeneratorRequest& request, const SceneFiles& files)
+RunParts partsOf(const GeneratorRequest& request, const FolderScenes& files)
 {
   RunParts run;
   run.version = DGTK_VERSION;
@@ -56,7 +56,7 @@ RunParts partsOf(const GeneratorRequest& request, const SceneFiles& files)
   run.request = described(request);
   if (!request.classes.empty())
   {
-    run.request.emplace_back("classes", classesText(request.classes));
+    run.request.emplace_back(classesWord, classesText(request.classes));
   }
   run.leftOut = files.leftOut;
   std::string text = run.version;
@@ -132,7 +132,7 @@ void dropRecords(const std::string& folder, const RunParts& run)
 class SceneRuns
 {
 public:
-  SceneRuns(const GeneratorRequest& request, const SceneFiles& files, const GeneratorCallbacks& callbacks)
+  SceneRuns(const GeneratorRequest& request, const FolderScenes& files, const GeneratorCallbacks& callbacks)
     : Request(request)
     , Files(files)
     , Callbacks(callbacks)
@@ -252,7 +252,7 @@ private:
   }
 
   const GeneratorRequest& Request;
-  const SceneFiles& Files;
+  const FolderScenes& Files;
   const GeneratorCallbacks& Callbacks;
   std::shared_ptr<RunSession> Session;
   std::set<std::string> Said;
@@ -280,7 +280,7 @@ GeneratorRequest sceneRequest(const GeneratorRequest& request)
 GeneratorResult shardOfScenes(
   const GeneratorRequest& request, const RunShard& shard, const GeneratorCallbacks& callbacks)
 {
-  const SceneFiles files = scenesIn(request.scene);
+  const FolderScenes files = scenesIn(request.scene);
   const RunParts run = partsOf(request, files);
   if (isWhole(request.folder, run, false))
   {
@@ -414,7 +414,7 @@ GeneratorResult generateShard(
 GeneratorResult generateScenes(const GeneratorRequest& request, const GeneratorCallbacks& callbacks)
 {
   const GeneratorRequest own = sceneRequest(request);
-  const SceneFiles files = scenesIn(own.scene);
+  const FolderScenes files = scenesIn(own.scene);
   const RunParts run = partsOf(own, files);
   const bool whole = isWhole(own.folder, run, own.replace);
   const bool parts = hasParts(own.folder) && !own.replace;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef dgtkSceneFiles_h
-#define dgtkSceneFiles_h
+#ifndef dgtkFolderScenes_h
+#define dgtkFolderScenes_h
 
 // Private to Pipeline.
 
@@ -14,7 +14,7 @@ namespace dgtk
 {
 
 /// The scenes of a folder, by the names of their datasets.
-struct SceneFiles
+struct FolderScenes
 {
   std::vector<std::pair<std::string, std::string>> scenes; ///< name, path; in the order of names
   std::vector<std::string> leftOut;                        ///< names of files that are none
@@ -25,7 +25,7 @@ struct SceneFiles
 
 /// Looks at all files of a folder. Throws InputError where there is no scene, for a file that cannot be read, and where
 /// scenes fix other numbers of classes; UsageError where two scenes would become one dataset.
-SceneFiles scenesIn(const std::string& folder);
+FolderScenes scenesIn(const std::string& folder);
 
 } // namespace dgtk
 

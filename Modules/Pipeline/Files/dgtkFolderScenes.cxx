@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkSceneFiles.h"
+#include "dgtkFolderScenes.h"
 
 #include "dgtkError.h"
 #include "dgtkSceneFile.h"
@@ -67,7 +67,7 @@ private:
 };
 } // namespace
 
-SceneFiles scenesIn(const std::string& folder)
+FolderScenes scenesIn(const std::string& folder)
 {
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
@@ -80,7 +80,7 @@ SceneFiles scenesIn(const std::string& folder)
     }
   }
   std::sort(names.begin(), names.end());
-  SceneFiles files;
+  FolderScenes files;
   ClassNumbers classes;
   std::map<std::string, std::string> byName;
   for (const std::string& name : names)
