@@ -52,6 +52,13 @@ std::string Sha256::hex()
   return text;
 }
 
+std::string Sha256::of(const std::string& bytes)
+{
+  Sha256 hash;
+  hash.update(bytes.data(), bytes.size());
+  return hash.hex();
+}
+
 std::string Sha256::ofFile(const std::string& path)
 {
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);

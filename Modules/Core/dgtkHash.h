@@ -25,6 +25,8 @@ public:
   /// 64 lower-case hexadecimal digits; the object cannot be updated afterwards.
   std::string hex();
 
+  /// Hash of these bytes.
+  static std::string of(const std::string& bytes);
   /// Hash of a whole file. Throws InputError when it cannot be read.
   static std::string ofFile(const std::string& path);
 

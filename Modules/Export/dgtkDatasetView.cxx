@@ -307,9 +307,7 @@ std::string DatasetView::bytesOf(const std::string& file) const
 {
   const std::string source = dgtk::Folder(this->Folder).fileAt(file);
   std::string bytes = readFile(source);
-  Sha256 hash;
-  hash.update(bytes.data(), bytes.size());
-  if (hash.hex() != this->listed(file).sha256)
+  if (Sha256::of(bytes) != this->listed(file).sha256)
   {
     throw InputError(source, 0, "is not the file that the manifest lists: its hash differs");
   }

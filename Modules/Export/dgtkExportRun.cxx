@@ -5,7 +5,6 @@
 #include "dgtkFile.h"
 #include "dgtkHash.h"
 #include "dgtkItemSink.h"
-#include "dgtkSceneFolders.h"
 #include "dgtkSystem.h"
 #include "dgtkText.h"
 #include "dgtkThreadPool.h"
@@ -148,9 +147,7 @@ std::string ExportRun::identity() const
   {
     text += '\n' + name + '=' + value;
   }
-  Sha256 hash;
-  hash.update(text.data(), text.size());
-  return hash.hex();
+  return Sha256::of(text);
 }
 
 /// What may be in the way of files; nothing is in an empty folder, however many they are.
@@ -448,59 +445,6 @@ void ExportRun::close()
     });
   this->Notes->remove();
   this->Result.layers = record.layers;
-}
-ExportRequest sceneExport(const ExportRequest& request, const std::string& scene)
-{
-  ExportRequest one = request;
-  one.dataset += '/' + scene;
-  one.folder += '/' + scene;
-  return one;
-}
-
-std::vector<std::string> scenesApart(const ExportRequest& request)
-{
-  std::vector<std::string> scenes = sceneFoldersIn(request.dataset);
-  if (!scenes.empty() && findExporter(request.format).make()->joinsScenes())
-  {
-    scenes.clear();
-  }
-  return scenes;
-}
-
-namespace
-{
-/// Each scene as an export of its own, in a folder of its name.
-ExportResult exportScenes(
-  const ExportRequest& request, const std::vector<std::string>& scenes, const ExportCallbacks& callbacks)
-{
-  ExportResult all;
-  for (std::size_t i = 0; i < scenes.size() && !all.interrupted; ++i)
-  {
-    ExportCallbacks own = callbacks;
-    own.progress = [&](const ExportProgress& state)
-    {
-      if (callbacks.progress) // of scenes; each counts as many as it has
-      {
-        callbacks.progress({ i * state.total + state.done, scenes.size() * state.total });
-      }
-    };
-    const ExportResult result = ExportRun(sceneExport(request, scenes[i]), own).execute();
-    all.files += result.files;
-    all.kept += result.kept;
-    all.interrupted = result.interrupted;
-    for (const LayerRounding& layer : result.layers)
-    {
-      addRounding(all.layers, layer);
-    }
-  }
-  return all;
-}
-} // namespace
-
-ExportResult exportDataset(const ExportRequest& request, const ExportCallbacks& callbacks)
-{
-  const std::vector<std::string> scenes = scenesApart(request);
-  return scenes.empty() ? ExportRun(request, callbacks).execute() : exportScenes(request, scenes, callbacks);
 }
 
 } // namespace dgtk

@@ -40,11 +40,12 @@ public:
 
   /// Of format, dataset and all that decides bytes.
   const std::string& hash() const { return this->Hash; }
-  /// All options and the frames, as in export.json.
-  TextPairs described() const;
   std::size_t items() const { return this->Items; } ///< without documents
+  /// So many items that blocks have are what progress counts.
+  void count(std::size_t items) { this->Total = items; }
 
 private:
+  TextPairs described() const;
   std::string identity() const;
   std::vector<std::string> allNames() const;
   bool isKept(std::size_t item) const;
@@ -81,6 +82,10 @@ private:
 ExportRequest sceneExport(const ExportRequest& request, const std::string& scene);
 /// Of a format whose exports of many scenes are one each: the scenes' names; else none.
 std::vector<std::string> scenesApart(const ExportRequest& request);
+/// Of one of several scenes, whose progress is that of all.
+ExportCallbacks sceneCallbacks(const ExportCallbacks& callbacks, std::size_t scene, std::size_t scenes);
+/// Adds what one export, or block, came to; `interrupted` is the last one's.
+void addResult(const ExportResult& one, ExportResult& all);
 
 } // namespace dgtk
 

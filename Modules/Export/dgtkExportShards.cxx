@@ -6,11 +6,13 @@
 #include "dgtkExportRun.h"
 #include "dgtkFolderContents.h"
 #include "dgtkHash.h"
+#include "dgtkJournal.h"
 #include "dgtkSceneFolders.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 
 namespace dgtk
 {
@@ -26,13 +28,6 @@ constexpr const char* wholeName = "whole";
 ItemRange blockOf(const RunParts& run, std::size_t block)
 {
   return { block * run.blockSize(), std::min(run.items, (block + 1) * run.blockSize()) };
-}
-
-std::string sha256Of(const std::string& text)
-{
-  Sha256 hash;
-  hash.update(text.data(), text.size());
-  return hash.hex();
 }
 
 /// What mergeExport() repeats the request from: the options that were given but those that decide no bytes.
@@ -93,117 +88,37 @@ RunParts partsOf(const ExportRequest& request, const std::vector<std::string>& s
     {
       text += '\n' + name + '=' + value;
     }
-    run.requestHash = sha256Of(text);
+    run.requestHash = Sha256::of(text);
   }
   return run;
 }
 
-/// Whether the export that a folder holds is the whole of this one. Throws where anything else is in the way of parts.
-bool isWhole(const std::string& folder, const std::string& hash)
+/// Whether a folder holds the whole export with this hash; `intact`: its files are compared with their hashes, too.
+bool holdsExport(const std::string& folder, const std::string& hash, bool intact)
 {
   std::error_code code;
-  if (fs::is_regular_file(folder + '/' + exportName, code) && !hasParts(folder))
+  if (!fs::is_regular_file(folder + '/' + exportName, code))
   {
-    if (readExportIn(folder).requestHash == hash)
-    {
-      return true;
-    }
-    throw FolderError(folder, FolderContents::FinishedOther);
+    return false;
   }
-  if (!hasParts(folder))
-  {
-    const FolderContents contents = folderContents(folder, hash);
-    if (contents != FolderContents::Nothing && !hasParts(folder)) // another process may have begun it meanwhile
-    {
-      throw FolderError(folder, contents);
-    }
-  }
-  return false;
+  const ExportRecord record = readExportIn(folder);
+  const Folder holder(folder);
+  return record.requestHash == hash &&
+         (!intact || std::all_of(record.files.begin(), record.files.end(),
+                       [&](const ExportedFile& one) { return isWhole(holder, one.file); }));
 }
 
-/// Adds what a block left to what others did; false when it was interrupted.
-bool add(const ExportResult& one, ExportResult& all)
+/// Calls work(block) for the blocks of a share, until one is interrupted.
+ExportResult forBlocks(const RunParts& run, const RunShard& shard, const std::string& folder,
+  const std::function<ExportResult(std::size_t block)>& work)
 {
-  all.files += one.files;
-  all.kept += one.kept;
-  all.interrupted = one.interrupted;
-  return !one.interrupted;
-}
-
-[[noreturn]] void failBusy(const std::string& folder, std::size_t blocks)
-{
-  throw AgainError(folder + ": another process is busy with " + std::to_string(blocks) + " of these blocks");
-}
-
-bool isExported(const ExportRequest& request, const ExportRun& run)
-{
-  std::error_code code;
-  return fs::is_regular_file(request.folder + '/' + exportName, code) &&
-         readExportIn(request.folder).requestHash == run.hash();
-}
-
-ExportResult shardOfScenes(const ExportRequest& request, const std::vector<std::string>& scenes, const RunShard& shard,
-  const ExportCallbacks& callbacks)
-{
-  const RunParts run = partsOf(request, scenes);
-  if (hasParts(request.folder) || folderContents(request.folder, {}) == FolderContents::Nothing)
-  {
-    beginParts(request.folder, run, shard.count);
-  } // else they may be the whole already: each scene says what is in its way
   ExportResult all;
   std::size_t busy = 0;
-  for (std::size_t block = shard.index; block < run.blocks(); block += shard.count)
-  {
-    for (std::size_t i = blockOf(run, block).first; i < blockOf(run, block).end; ++i)
-    {
-      ExportRequest one = sceneExport(request, scenes[i]);
-      one.resume = true;
-      try
-      {
-        ExportRun scene(one, callbacks);
-        if (!isExported(one, scene) && !add(scene.execute(), all))
-        {
-          return all;
-        }
-      }
-      catch (const FolderError& error)
-      {
-        if (error.contents() != FolderContents::Running)
-        {
-          throw;
-        }
-        ++busy;
-      }
-    }
-  }
-  if (busy > 0)
-  {
-    failBusy(request.folder, busy);
-  }
-  return all;
-}
-
-ExportResult shardOfItems(const ExportRequest& request, const RunShard& shard, const ExportCallbacks& callbacks)
-{
-  ExportRun whole(request, callbacks);
-  if (isWhole(request.folder, whole.hash()))
-  {
-    return {};
-  }
-  RunParts run = partsOf(request, {});
-  run.requestHash = whole.hash();
-  run.items = whole.items();
-  beginParts(request.folder, run, shard.count);
-  ExportResult all;
-  std::size_t busy = 0;
-  for (std::size_t block = shard.index; block < run.blocks(); block += shard.count)
+  for (std::size_t block = shard.index; block < run.blocks() && !all.interrupted; block += shard.count)
   {
     try
     {
-      if (!add(whole.executeBlock(request.folder + '/' + partName(block), blockOf(run, block)), all))
-      {
-        return all;
-      }
+      addResult(work(block), all);
     }
     catch (const FolderError& error)
     {
@@ -214,11 +129,71 @@ ExportResult shardOfItems(const ExportRequest& request, const RunShard& shard, c
       ++busy;
     }
   }
-  if (busy > 0)
+  if (busy > 0 && !all.interrupted)
   {
-    failBusy(request.folder, busy);
+    throw AgainError(folder + ": another process is busy with " + std::to_string(busy) + " of these blocks");
   }
   return all;
+}
+
+ExportResult shardOfScenes(const ExportRequest& request, const std::vector<std::string>& scenes, const RunShard& shard,
+  const ExportCallbacks& callbacks)
+{
+  const auto isDone = [&](const std::string& name, bool intact)
+  {
+    const ExportRequest one = sceneExport(request, name);
+    return holdsExport(one.folder, ExportRun(one, {}).hash(), intact);
+  };
+  if (!hasParts(request.folder) &&
+      std::all_of(scenes.begin(), scenes.end(), [&](const std::string& name) { return isDone(name, false); }))
+  {
+    return {};
+  }
+  requireRoomForParts(request.folder);
+  const RunParts run = partsOf(request, scenes);
+  beginParts(request.folder, run, shard.count);
+  return forBlocks(run, shard, request.folder,
+    [&](std::size_t block)
+    {
+      ExportResult all;
+      for (std::size_t i = blockOf(run, block).first; i < blockOf(run, block).end && !all.interrupted; ++i)
+      {
+        ExportRequest one = sceneExport(request, scenes[i]);
+        one.resume = true;
+        if (!isDone(scenes[i], true))
+        {
+          addResult(ExportRun(one, sceneCallbacks(callbacks, i, scenes.size())).execute(), all);
+        }
+      }
+      return all;
+    });
+}
+
+ExportResult shardOfItems(const ExportRequest& request, const RunShard& shard, const ExportCallbacks& callbacks)
+{
+  ExportRun whole(request, callbacks);
+  if (!hasParts(request.folder) && holdsExport(request.folder, whole.hash(), false))
+  {
+    return {};
+  }
+  std::error_code code;
+  if (!hasParts(request.folder) && fs::exists(request.folder + '/' + exportName, code))
+  {
+    throw FolderError(request.folder, FolderContents::FinishedOther);
+  }
+  requireRoomForParts(request.folder, whole.hash());
+  RunParts run = partsOf(request, {});
+  run.requestHash = whole.hash();
+  run.items = whole.items();
+  beginParts(request.folder, run, shard.count);
+  std::size_t items = 0;
+  for (std::size_t block = shard.index; block < run.blocks(); block += shard.count)
+  {
+    items += blockOf(run, block).end - blockOf(run, block).first;
+  }
+  whole.count(items);
+  return forBlocks(run, shard, request.folder,
+    [&](std::size_t block) { return whole.executeBlock(request.folder + '/' + partName(block), blockOf(run, block)); });
 }
 
 MergeReport beginReport(const std::string& folder, const RunParts& run)
@@ -237,7 +212,7 @@ MergeReport mergeScenes(const std::string& folder, const RunParts& run)
   {
     const ExportRequest one = sceneExport(request, run.scenes[i]);
     const std::size_t block = i / run.blockSize();
-    if (isExported(one, ExportRun(one, {})))
+    if (holdsExport(one.folder, ExportRun(one, {}).hash(), true))
     {
       report.files += readExportIn(one.folder).files.size();
     }

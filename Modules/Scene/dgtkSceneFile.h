@@ -13,9 +13,6 @@
 namespace dgtk
 {
 
-/// The word of a scene, and of the record of a run, for the numbers of its classes.
-constexpr const char* classesWord = "classes";
-
 /// What scenes that are rendered together have to know of one another.
 struct SceneOutline
 {

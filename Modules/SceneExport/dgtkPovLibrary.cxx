@@ -16,13 +16,6 @@ constexpr std::size_t longestStem = 100;
 /// Forgotten meshes are looked for when so many are known.
 constexpr std::size_t manyEntries = 256;
 
-std::string hashOf(const std::string& contents)
-{
-  Sha256 hash;
-  hash.update(contents.data(), contents.size());
-  return hash.hex();
-}
-
 std::string stemOf(const std::string& path, const char* fallback)
 {
   const std::string stem = povPlainName(std::filesystem::path(path).stem().string());
@@ -84,7 +77,7 @@ PovLibrary::~PovLibrary() = default;
 
 std::string PovLibrary::Impl::add(const std::string& stem, const std::string& extension, const std::string& contents)
 {
-  const std::string hash = hashOf(contents);
+  const std::string hash = Sha256::of(contents);
   std::string name = stem + '_' + hash.substr(0, hashDigits) + '.' + extension;
   const std::lock_guard<std::mutex> lock(this->Mutex);
   if (this->Written.try_emplace(name, PovFile{ name, contents.size(), hash }).second)
@@ -145,7 +138,7 @@ PovIncluded PovLibrary::Impl::write(const Instance& instance, std::uint32_t ownI
   PovImagesIncluded images(*this);
   povWriteMesh(text, instance, povTexturesOf(instance, ownId, options, images));
   PovIncluded included;
-  included.name = "Mesh_" + hashOf(text.text()).substr(0, hashDigits);
+  included.name = "Mesh_" + Sha256::of(text.text()).substr(0, hashDigits);
   included.file =
     this->add(stemOf(instance.model->path, "mesh"), "inc", "#declare " + included.name + " = mesh2 " + text.text());
   included.pictures = images.files();

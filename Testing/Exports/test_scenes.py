@@ -68,6 +68,12 @@ class Scenes(datasets.ExportCase):
             self.refused("merge", shares, status=1, says=("--array=0",))
             for share in ("0/2", "1/2"):
                 self.dgtk(*command, shares, "--shard", share)
+            if form == "hdf5":  # a scene is written where it belongs: what is damaged there is missing
+                [file] = [os.path.join(base, name) for base, _, names in os.walk(os.path.join(shares, "s1")) for name in names if name.endswith(".hdf5")]
+                with open(file, "ab") as damaged:
+                    damaged.write(b"!")
+                self.refused("merge", shares, status=1, says=("1 of 3 blocks", "--array=1"))
+                self.dgtk(*command, shares, "--shard", "1/2")
             self.dgtk("merge", shares)
             self.assert_same_files(whole, shares)
             self.dgtk(*command, shares, "--shard", "0/2")

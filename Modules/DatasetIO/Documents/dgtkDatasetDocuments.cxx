@@ -157,9 +157,7 @@ DatasetFile writeDocument(const std::string& folder, const std::string& name, co
   const std::string& layer, const std::string& camera, int frame)
 {
   writeFile(FilePlace(folder, name), text);
-  Sha256 hash;
-  hash.update(text.data(), text.size());
-  return { name, text.size(), hash.hex(), layer, camera, frame };
+  return { name, text.size(), Sha256::of(text), layer, camera, frame };
 }
 
 } // namespace dgtk

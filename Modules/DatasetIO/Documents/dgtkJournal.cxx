@@ -20,6 +20,18 @@
 namespace dgtk
 {
 
+bool isWhole(const Folder& folder, const DatasetFile& file)
+{
+  if (folder.look(file.path) != EntryKind::File)
+  {
+    return false;
+  }
+  const std::string path = folder.pathOf(file.path);
+  struct stat info = {};
+  return ::stat(path.c_str(), &info) == 0 && std::uint64_t(info.st_size) == file.bytes &&
+         Sha256::ofFile(path) == file.sha256;
+}
+
 namespace
 {
 void refuseIfNeeded(
@@ -176,25 +188,13 @@ struct Journal::Impl
     this->descriptor = std::move(next);
   }
 
-  bool isWhole(const DatasetFile& file) const
-  {
-    if (this->folder.look(file.path) != EntryKind::File)
-    {
-      return false;
-    }
-    const std::string path = this->folder.pathOf(file.path);
-    struct stat info = {};
-    return ::stat(path.c_str(), &info) == 0 && std::uint64_t(info.st_size) == file.bytes &&
-           Sha256::ofFile(path) == file.sha256;
-  }
-
   void takeOver(const FolderRecords& records)
   {
     // A crash of the machine may leave a file with its name and size, and without its contents.
     std::vector<char> whole(records.finished.size(), 0);
     ThreadPool pool(machineThreads());
     pool.parallelFor(static_cast<int>(whole.size()),
-      [&](int i) { whole[std::size_t(i)] = this->isWhole(records.finished[std::size_t(i)]) ? 1 : 0; });
+      [&](int i) { whole[std::size_t(i)] = isWhole(this->folder, records.finished[std::size_t(i)]) ? 1 : 0; });
     for (std::size_t i = 0; i < whole.size(); ++i)
     {
       const DatasetFile& file = records.finished[i];

@@ -22,6 +22,9 @@ using JournalEntry = DatasetFile;
 constexpr const char* manifestName = "manifest.json";
 constexpr const char* journalName = ".dgtk-journal";
 
+/// Whether a file is in its folder with its recorded size and hash.
+DGTKDATASETIO_EXPORT bool isWhole(const Folder& folder, const DatasetFile& file);
+
 /// What becomes of a run that the folder holds.
 enum class JournalStart
 {

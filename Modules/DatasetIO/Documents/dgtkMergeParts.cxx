@@ -25,18 +25,6 @@ namespace
 {
 constexpr const char* sheetName = "contact.png";
 
-bool isWhole(const Folder& folder, const DatasetFile& file)
-{
-  if (folder.look(file.path) != EntryKind::File)
-  {
-    return false;
-  }
-  const std::string path = folder.pathOf(file.path);
-  struct stat info = {};
-  return ::stat(path.c_str(), &info) == 0 && std::uint64_t(info.st_size) == file.bytes &&
-         Sha256::ofFile(path) == file.sha256;
-}
-
 /// Takes a dataset that is not whole away, so that it can be made again: what its manifest lists, and no other file.
 void removeListed(const Folder& folder, const Manifest& manifest)
 {

@@ -180,6 +180,16 @@ RunParts readParts(const std::string& path)
   return run;
 }
 
+void requireRoomForParts(const std::string& folder, const std::string& requestHash)
+{
+  // Looked for before and after: another process may begin them meanwhile.
+  const FolderContents contents = hasParts(folder) ? FolderContents::Nothing : folderContents(folder, requestHash);
+  if (contents != FolderContents::Nothing && !hasParts(folder))
+  {
+    throw FolderError(folder, contents);
+  }
+}
+
 void beginParts(const std::string& path, const RunParts& run, std::size_t workers)
 {
   makeFolders(path);

@@ -25,7 +25,8 @@ struct RunShard
 };
 
 /// A run that several processes make together: pictures of a dataset, datasets of several scenes, or an export of one
-/// of these. It falls into blocks of consecutive items, which depend on their number alone. Kept in DIR/.dgtk-parts/run.json.
+/// of these. It falls into blocks of consecutive items, which depend on their number alone. Kept in
+/// DIR/.dgtk-parts/run.json.
 struct DGTKDATASETIO_EXPORT RunParts
 {
   std::string version;     ///< of DGTk
@@ -35,8 +36,8 @@ struct DGTKDATASETIO_EXPORT RunParts
   std::vector<std::string> scenes;                          ///< names of their folders; none: pictures of one dataset
   std::vector<std::pair<std::string, std::string>> request; ///< of scenes, or of an export
   std::vector<std::string> leftOut;                         ///< files of the scenes' folder that are no scenes
-  std::string exporter;             ///< of an export: its format
-  std::string dataset;              ///< of an export: the whole path of the folder that it is made from
+  std::string exporter;                                     ///< of an export: its format
+  std::string dataset; ///< of an export: the whole path of the folder that it is made from
   /// Items of a block.
   std::size_t blockSize() const;
   std::size_t blocks() const;
@@ -51,6 +52,8 @@ DGTKDATASETIO_EXPORT bool hasParts(const std::string& folder);
 DGTKDATASETIO_EXPORT bool holdsParts(const std::string& folder);
 /// Throws InputError for what is not written by beginParts().
 DGTKDATASETIO_EXPORT RunParts readParts(const std::string& folder);
+/// Throws FolderError where something stands in a folder that has no parts; `requestHash` as for folderContents().
+DGTKDATASETIO_EXPORT void requireRoomForParts(const std::string& folder, const std::string& requestHash = {});
 /// Prepares a folder for the parts of a run, of which this is one process of `workers`; any number may do so at the
 /// same time. Throws UsageError when parts of another request are there, MachineError when it cannot be written.
 DGTKDATASETIO_EXPORT void beginParts(const std::string& folder, const RunParts& run, std::size_t workers);

@@ -6,7 +6,6 @@
 #include "dgtkObjectTruth.h"
 #include "dgtkPathNames.h"
 #include "dgtkRepresentation.h"
-#include "dgtkSceneFile.h"
 #include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWorkTime.h"
@@ -162,7 +161,7 @@ std::vector<std::pair<std::string, std::string>> requestOf(
   std::vector<std::pair<std::string, std::string>> pairs = describeRequest(plan, stage);
   if (!classNumbers.empty())
   {
-    pairs.emplace_back(classesWord, classNumbers);
+    pairs.emplace_back(classesKey, classNumbers);
   }
   return pairs;
 }

@@ -56,7 +56,7 @@ RunParts partsOf(const GeneratorRequest& request, const FolderScenes& files)
   run.request = described(request);
   if (!request.classes.empty())
   {
-    run.request.emplace_back(classesWord, classesText(request.classes));
+    run.request.emplace_back(classesKey, classesText(request.classes));
   }
   run.leftOut = files.leftOut;
   std::string text = run.version;
@@ -70,9 +70,7 @@ RunParts partsOf(const GeneratorRequest& request, const FolderScenes& files)
     text += '\n' + Sha256::ofFile(path) + ' ' + name;
   }
   text += files.classes.empty() ? "" : '\n' + classesText(files.classes);
-  Sha256 hash;
-  hash.update(text.data(), text.size());
-  run.requestHash = hash.hex();
+  run.requestHash = Sha256::of(text);
   return run;
 }
 
@@ -83,11 +81,7 @@ bool isWhole(const std::string& folder, const RunParts& run, bool replace)
   const bool finished = fs::is_regular_file(folder + '/' + manifestName, code);
   if (!finished && !hasParts(folder))
   {
-    const FolderContents contents = folderContents(folder, {});
-    if (contents != FolderContents::Nothing && !hasParts(folder)) // another process may have begun it meanwhile
-    {
-      throw FolderError(folder, contents);
-    }
+    requireRoomForParts(folder);
     return false;
   }
   if (finished && sceneFoldersIn(folder).empty())
@@ -315,19 +309,11 @@ GeneratorResult shardOfPictures(
   GeneratorRequest own = request;
   own.session = makeRunSession();
   const std::string hash = requestHash(own);
-  std::error_code code;
-  if (!hasParts(request.folder) && fs::exists(request.folder, code))
+  if (folderContents(request.folder, hash) == FolderContents::Finished)
   {
-    const FolderContents contents = folderContents(request.folder, hash);
-    if (contents == FolderContents::Finished)
-    {
-      return {};
-    }
-    if (contents != FolderContents::Nothing && !hasParts(request.folder)) // another may have begun it meanwhile
-    {
-      throw FolderError(request.folder, contents);
-    }
+    return {};
   }
+  requireRoomForParts(request.folder, hash);
   const auto quiet = [](const std::string&) {};
   const SceneDescription scene = request.description ? *request.description : readScene(request.scene);
   const WorkPlan plan = makeWorkPlan(request, *own.session->load(scene, quiet));

@@ -168,9 +168,7 @@ RandomScene::RandomScene(const std::string& file, const std::string& folder, con
   {
     forgetLines(this->Document.root);
   }
-  dgtk::Sha256 hash;
-  hash.update(contents.data(), contents.size());
-  this->Sha256 = hash.hex();
+  this->Sha256 = dgtk::Sha256::of(contents);
   const JsonCursor root(this->Document);
   root.memberCount();
   this->Seed = root.has("seed") ? std::uint64_t(root["seed"].wholeNumber(seeds)) : 0;

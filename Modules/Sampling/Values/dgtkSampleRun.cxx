@@ -40,13 +40,6 @@ bool isSampleName(const std::string& name)
          std::all_of(name.begin(), name.begin() + 6, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-std::string sha256Of(const std::string& text)
-{
-  Sha256 hash;
-  hash.update(text.data(), text.size());
-  return hash.hex();
-}
-
 /// Whether the folder has a record of this program's, so that its samples may go.
 bool hasRecord(const Folder& folder)
 {
@@ -128,7 +121,7 @@ Json inputsOf(const RandomScene& scene)
     {
       list += hashOfFile((fs::path(scene.folder()) / file).string()) + "  " + file + '\n';
     }
-    inputs.push_back({ { "files", utf8FromBytes(pattern) }, { "count", files.size() }, { "sha256", sha256Of(list) } });
+    inputs.push_back({ { "files", utf8FromBytes(pattern) }, { "count", files.size() }, { "sha256", Sha256::of(list) } });
   }
   return inputs;
 }
@@ -177,7 +170,7 @@ private:
       const std::string text = toJson(sample.scene, this->Request.folder);
       writeFile(FilePlace(this->Request.folder, fileName(number)), text);
       record["file"] = fileName(number);
-      record["sha256"] = sha256Of(text);
+      record["sha256"] = Sha256::of(text);
       record["seed"] = sample.scene.seed;
       for (const SampleNote& note : sample.notes)
       {

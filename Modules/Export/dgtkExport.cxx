@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkExport.h"
+
+#include "dgtkExportRun.h"
+#include "dgtkItemSink.h"
+#include "dgtkSceneFolders.h"
+
+namespace dgtk
+{
+
+ExportRequest sceneExport(const ExportRequest& request, const std::string& scene)
+{
+  ExportRequest one = request;
+  one.dataset += '/' + scene;
+  one.folder += '/' + scene;
+  return one;
+}
+
+std::vector<std::string> scenesApart(const ExportRequest& request)
+{
+  std::vector<std::string> scenes = sceneFoldersIn(request.dataset);
+  if (!scenes.empty() && findExporter(request.format).make()->joinsScenes())
+  {
+    scenes.clear();
+  }
+  return scenes;
+}
+
+ExportCallbacks sceneCallbacks(const ExportCallbacks& callbacks, std::size_t scene, std::size_t scenes)
+{
+  ExportCallbacks own = callbacks;
+  own.progress = [callbacks, scene, scenes](const ExportProgress& state)
+  {
+    if (callbacks.progress) // of scenes; each counts as many as it has
+    {
+      callbacks.progress({ scene * state.total + state.done, scenes * state.total });
+    }
+  };
+  return own;
+}
+
+void addResult(const ExportResult& one, ExportResult& all)
+{
+  all.files += one.files;
+  all.kept += one.kept;
+  all.interrupted = one.interrupted;
+  for (const LayerRounding& layer : one.layers)
+  {
+    addRounding(all.layers, layer);
+  }
+}
+
+ExportResult exportDataset(const ExportRequest& request, const ExportCallbacks& callbacks)
+{
+  const std::vector<std::string> scenes = scenesApart(request);
+  if (scenes.empty())
+  {
+    return ExportRun(request, callbacks).execute();
+  }
+  ExportResult all;
+  for (std::size_t i = 0; i < scenes.size() && !all.interrupted; ++i)
+  {
+    addResult(ExportRun(sceneExport(request, scenes[i]), sceneCallbacks(callbacks, i, scenes.size())).execute(), all);
+  }
+  return all;
+}
+
+} // namespace dgtk
