@@ -58,11 +58,11 @@ def _generate_packed(shot, folder, *arguments, pack=True, **options):
 def generate(scene, folder, layers=None, frames=None, cameras=None, size=None, progress=None, resume=False, replace=False, formats=None, classes=None, **options):
     """Writes a dataset: what `dgtk render` does, to the byte.
 
-    scene: the path of a .json or .scene file, or of a folder of them, a Scene, or a Snapshot of a VTK view. Each scene of
-    a folder becomes a dataset in folder/<its name>, progress counts scenes then, and the manifest names the datasets. One of a file is read again with its
-    models, and must not have changed since; one of a description is in the dataset as scene.json, and its model files are
-    read again; a Snapshot is in the dataset with its models and textures, as the scene that its save() writes is with
-    pack=True. folder: where the dataset goes, str or path-like. layers: a name or a list of names, "all", or the usual ones. frames: an
+    scene: the path of a .json or .scene file, or of a folder of them, a Scene, or a Snapshot of a VTK view. A Scene of
+    a file is read again with its models, and must not have changed since; one of a description is in the dataset as
+    scene.json, and its model files are read again; a Snapshot is in the dataset with its models and textures, as the scene
+    that its save() writes is with pack=True. Each scene of a folder becomes a dataset in folder/<its name>; progress counts
+    scenes then, and the manifest names the datasets. folder: where the dataset goes, str or path-like. layers: a name or a list of names, "all", or the usual ones. frames: an
     integer, (first, last) or (first, last, step), both ends included; default: all. cameras: a name or a list of names;
     default: all. size: (width, height) in pixels; default: each camera's own, else 640 x 480. progress: called in this
     thread as progress(done, total), pictures (one camera at one frame), at the start, after each and at the end.
