@@ -9,6 +9,7 @@
 #include "dgtkExport.h"
 #include "dgtkGenerator.h"
 #include "dgtkSceneFile.h"
+#include "dgtkWorkPlan.h"
 #include "dgtkWorkTime.h"
 
 #include <algorithm>
@@ -144,7 +145,10 @@ int render(const Arguments& arguments)
 {
   const std::atomic<bool>& interrupted = catchInterrupts();
   const GeneratorRequest request = parseRequest(arguments);
-  prepareGL(option::gl().of(request.options), option::threads().of(request.options));
+  if (dgtk::mayUseOpenGL(request))
+  {
+    prepareGL(option::gl().of(request.options), option::threads().of(request.options));
+  }
   allowManyFiles();
   if (arguments.has("--timings"))
   {

@@ -208,6 +208,11 @@ std::vector<std::string> WorkPlan::formatsOf(const std::string& layer) const
 
 bool drawsItself(const LayerRequest& request) { return option::renderer().of(request.options) != "povray"; }
 
+bool mayUseOpenGL(const LayerRequest& request)
+{
+  return option::renderer().of(request.options) == "vtk" || option::visibility().of(request.options) == "raster";
+}
+
 namespace
 {
 /// The request with its options as they stand in manifests. Throws UsageError for one that is none.

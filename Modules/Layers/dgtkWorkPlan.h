@@ -75,6 +75,9 @@ struct DGTKLAYERS_EXPORT WorkPlan
 /// Whether a built-in renderer makes the colours, if any are made: OpenGL or rays.
 DGTKLAYERS_EXPORT bool drawsItself(const LayerRequest& request);
 
+/// Whether colours or ids may come from OpenGL, whatever the layers are; nothing else starts it.
+DGTKLAYERS_EXPORT bool mayUseOpenGL(const LayerRequest& request);
+
 /// Throws UsageError for a request that does not fit the scene.
 DGTKLAYERS_EXPORT WorkPlan makeWorkPlan(const LayerRequest& request, const Stage& stage);
 

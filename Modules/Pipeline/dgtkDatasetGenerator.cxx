@@ -10,6 +10,7 @@
 #include "dgtkScene.h"
 #include "dgtkSceneFile.h"
 #include "dgtkStage.h"
+#include "dgtkWorkPlan.h"
 
 #include "vtkObjectFactory.h"
 
@@ -30,13 +31,6 @@ void requireSame(const dgtk::SceneDescription& loaded, const std::string& file)
   {
     throw dgtk::InputError(file, 0, "has changed since the scene was loaded");
   }
-}
-
-/// Whether it starts OpenGL, see GLTurn.
-bool usesGL(const dgtk::LayerRequest& request)
-{
-  return dgtk::option::renderer().of(request.options) == "vtk" ||
-         dgtk::option::visibility().of(request.options) == "raster";
 }
 } // namespace
 
@@ -93,7 +87,7 @@ void dgtkDatasetGenerator::Internal::generate(
   callbacks.cancel = &cancel;
   callbacks.progress = [&](const dgtk::GeneratorProgress& one) { report({ one.done, one.total }); };
   std::optional<dgtk::GLTurn> turn;
-  if (usesGL(this->request))
+  if (dgtk::mayUseOpenGL(this->request)) // see GLTurn
   {
     turn.emplace();
   }
