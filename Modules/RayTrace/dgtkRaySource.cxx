@@ -59,6 +59,17 @@ public:
   }
 
 private:
+  /// A pixel more on each side, where the image has one: `rect` itself may lie outside, in the margin of a filter.
+  static PixelRect withNeighbours(const PixelRect& rect, const CameraModel& model)
+  {
+    const int left = std::min(rect.x, std::max(0, rect.x - 1));
+    const int top = std::min(rect.y, std::max(0, rect.y - 1));
+    const int right = rect.x + rect.width;
+    const int bottom = rect.y + rect.height;
+    return { left, top, std::max(right, std::min(model.width(), right + 1)) - left,
+      std::max(bottom, std::min(model.height(), bottom + 1)) - top };
+  }
+
   /// Each part as the camera of its instant sees it, with the neighbours that settling looks at.
   void renderInstants(VisibilityBuffer& hits)
   {
@@ -74,13 +85,9 @@ private:
         for (std::size_t i = job * partsOfJob; i < std::min(parts.size(), (job + 1) * partsOfJob); ++i)
         {
           const PixelRect& rect = parts[i].rect;
-          const int left = std::max(0, rect.x - 1);
-          const int top = std::max(0, rect.y - 1);
           const SeenInstant now = instantOf(this->TheView, parts[i].time);
           source.setScene(now.state, now.view);
-          source.render({ left, top, std::min(model.width(), rect.x + rect.width + 1) - left,
-                          std::min(model.height(), rect.y + rect.height + 1) - top },
-            around);
+          source.render(withNeighbours(rect, model), around);
           for (int y = rect.y; y < rect.y + rect.height; ++y)
           {
             std::copy_n(&around.at(rect.x, y), rect.width, &hits.at(rect.x, y));

@@ -7,6 +7,7 @@
 #include "dgtkInstantSource.h"
 #include "dgtkRaySource.h"
 #include "dgtkResampledCamera.h"
+#include "dgtkSpareVectors.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWorkTime.h"
 
@@ -120,9 +121,11 @@ private:
   void placeRays(const View& view);
   std::shared_ptr<const ShadedScene> shaded();
   void drawSamples(const PixelRect& rect, int samples, ColorBuffer& colors);
+  std::shared_ptr<VisibilityBuffer> spareHits(const PixelRect& rect);
 
   ThreadPool& Pool;
   std::unique_ptr<VisibilitySource> Rays;
+  std::shared_ptr<SpareVectors<Hit>> Spare = std::make_shared<SpareVectors<Hit>>(); ///< of pictures without ids
   PixelFilter Filter = PixelFilter::Box;
   std::shared_ptr<const SceneState> State;
   View TheView;
@@ -172,6 +175,18 @@ std::shared_ptr<const ShadedScene> RayPictures::shaded()
   return this->Shaded;
 }
 
+std::shared_ptr<VisibilityBuffer> RayPictures::spareHits(const PixelRect& rect)
+{
+  const std::shared_ptr<VisibilityBuffer> taken(new VisibilityBuffer,
+    [spare = this->Spare](VisibilityBuffer* gone)
+    {
+      spare->give(std::move(gone->hits));
+      delete gone;
+    });
+  taken->hits = this->Spare->take(std::size_t(rect.width) * std::size_t(rect.height));
+  return taken;
+}
+
 std::function<void()> RayPictures::drawColor(
   const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits)
 {
@@ -190,7 +205,7 @@ std::function<void()> RayPictures::drawColor(
     }
     return [] {};
   }
-  const auto own = hits ? nullptr : std::make_shared<VisibilityBuffer>();
+  const auto own = hits ? nullptr : this->spareHits(rect);
   VisibilityBuffer& seen = hits ? *hits : *own;
   this->render(rect, seen);
   return [scene = this->shaded(), own, &seen, &colors, &pool = this->Pool]

@@ -119,6 +119,24 @@ class RollingShutters(Case):
                 then = read_png(self.path("still", "eye", layer, f"{4 * STEPS + steps[y, 0]:06d}.png"))
                 self.assertTrue((rolling[y] == then[y]).all(), f"{layer} {y}")
 
+    def test_filters_take_samples_beyond_the_border(self):
+        """Of what stands still, a picture is the same with and without a shutter, its border, too."""
+        options = ("--samples", "2", "--filter", "lanczos")
+        for name in ("down", "right"):
+            with self.subTest(name):
+                standing = scene(CAMERAS[name])
+                for item in standing["objects"] + standing["lights"] + standing["cameras"]:
+                    for key, value in item.items():
+                        if isinstance(value, dict) and "keys" in value:
+                            item[key] = value["keys"][0][1]
+                    item.pop("animation", None)
+                self.render("rolling", standing, "color", "0", *options)
+                standing["cameras"][0].pop("rollingShutter")
+                self.render("still", standing, "color", "0", *options)
+                rolling, still = (read_png(self.path(folder, "eye", "color", "000000.png")) for folder in ("rolling", "still"))
+                self.assertTrue((rolling == still).all())
+                self.assertGreater(len(numpy.unique(still.reshape(-1, 3), axis=0)), 50)
+
     def test_moving_points_are_seen_where_a_dense_time_line_sees_them(self):
         """Flow and its classes, against positions of the same points by still cameras at times on either side."""
         fine = 4096

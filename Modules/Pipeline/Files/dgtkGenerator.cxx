@@ -319,7 +319,7 @@ void Run::render(const Job& job)
   this->Opened.push_back({ job, std::move(output) });
   // Others than this thread derive and write, as long as they keep up: it draws.
   while (!this->Opened.empty() &&
-         (this->Opened.front().output->isDone() || this->Opened.size() > 3 * static_cast<std::size_t>(this->Threads)))
+         (this->Opened.front().output->isDone() || this->Opened.size() > 1 + static_cast<std::size_t>(this->Threads)))
   {
     this->completeOldest();
   }

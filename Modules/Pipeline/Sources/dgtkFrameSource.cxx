@@ -151,6 +151,15 @@ bool FrameSource::shadesHits() const
 std::shared_ptr<FrameSource::Tile> FrameSource::drawTile(const PixelRect& rect)
 {
   auto tile = std::make_shared<Tile>();
+  const std::size_t pixels = std::size_t(rect.width) * std::size_t(rect.height);
+  if (this->Options.needs.hits)
+  {
+    tile->hits.hits = this->Buffers->hits.take(pixels);
+  }
+  if (this->ownColor())
+  {
+    tile->colors.rgb = this->Buffers->colors.take(3 * pixels);
+  }
   // Software OpenGL leaves cores idle while it transforms vertices; rays are traced meanwhile.
   std::future<void> traced;
   if (this->Shaded && this->Options.needs.hits && !this->Options.raster && !this->shadesHits())
@@ -222,7 +231,13 @@ void FrameSource::finish()
 
 void FrameSource::draw(int row, const Receiver& receiver)
 {
-  auto drawn = std::make_shared<DrawnBand>();
+  const std::shared_ptr<DrawnBand> drawn(new DrawnBand,
+    [spare = this->Buffers](DrawnBand* gone)
+    {
+      spare->hits.give(std::move(gone->band.hits));
+      spare->colors.give(std::move(gone->band.rgb));
+      delete gone;
+    });
   std::function<void()> read = this->drawBand(row, *drawn);
   if (this->Pov)
   {
@@ -230,10 +245,10 @@ void FrameSource::draw(int row, const Receiver& receiver)
   }
   if (!read)
   {
-    receiver(std::move(drawn));
+    receiver(drawn);
     return;
   }
-  this->Late = { std::move(drawn), std::move(read), receiver };
+  this->Late = { drawn, std::move(read), receiver };
 }
 
 /// What is still to be called before the band's rest, in this thread; nothing where all is read.
@@ -305,10 +320,12 @@ void FrameSource::drawTiles(int row, Band& band)
           if (this->Options.needs.hits)
           {
             place(tile->hits.hits, rect, 1, band.rect, band.hits);
+            this->Buffers->hits.give(std::move(tile->hits.hits));
           }
           if (this->ownColor())
           {
             place(tile->colors.rgb, rect, 3, band.rect, band.rgb);
+            this->Buffers->colors.give(std::move(tile->colors.rgb));
           }
           if (sharp)
           {

@@ -7,6 +7,7 @@
 #include "dgtkMattingSource.h"
 #include "dgtkPovColorSource.h"
 #include "dgtkRasterSource.h"
+#include "dgtkSpareVectors.h"
 #include "dgtkWorkPlan.h"
 
 #include "dgtkVisibility.h"
@@ -62,6 +63,12 @@ public:
 
 private:
   struct Tile;
+  /// Of bands that are gone.
+  struct Spare
+  {
+    SpareVectors<Hit> hits;
+    SpareVectors<float> colors;
+  };
   /// A band whose colours OpenGL has not handed over yet.
   struct LateBand
   {
@@ -89,7 +96,8 @@ private:
   View TheView;
   std::unique_ptr<TileGrid> Grid;
   std::string Description;
-  LateBand Late; ///< the only one: nothing else remembers what is not read
+  std::shared_ptr<Spare> Buffers = std::make_shared<Spare>(); ///< bands may outlive their source
+  LateBand Late;                                              ///< the only one: nothing else remembers what is not read
 };
 
 } // namespace dgtk
