@@ -421,27 +421,33 @@ void ExportRun::close()
   this->Log->close(
     [&](AtomicFile& document)
     {
-      document.write(exportHead(record));
+      Sha256 hash;
+      const auto write = [&](const std::string& text)
+      {
+        hash.update(text.data(), text.size());
+        document.write(text);
+      };
+      write(exportHead(record));
       bool first = record.names.empty();
       this->forRecords(
         [&](const ItemRecord& item)
         {
           for (const ExportedName& name : item.names)
           {
-            document.write(exportNameLine(name, first));
+            write(exportNameLine(name, first));
             first = false;
           }
         });
-      document.write(exportMiddle(first));
+      write(exportMiddle(first));
       this->forRecords(
         [&](const ItemRecord& item)
         {
           for (const ExportedFile& file : item.files)
           {
-            document.write(exportFileLine(file, this->Result.files++ == 0));
+            write(exportFileLine(file, this->Result.files++ == 0));
           }
         });
-      document.write(exportTail());
+      document.write(exportTail(hash.hex()));
     });
   this->Notes->remove();
   this->Result.layers = record.layers;

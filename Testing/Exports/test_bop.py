@@ -101,6 +101,7 @@ class Bop(datasets.ExportCase):
                     rows, columns = np.nonzero(visible)
                     self.assertEqual(row["bbox_visib"], [columns.min(), rows.min(), np.ptp(columns), np.ptp(rows)])
                     one = next(one for one in coco if np.array_equal(decoded(one["segmentation"]), visible > 0))
+                    self.assertEqual(one["ignore"], counts[i]["visib_fract"] < 0.1)
                     self.assertEqual((one["category_id"], one["area"]), (pose["obj_id"], len(rows)))
                     self.assertEqual(row["px_count_all"], boxes[number[0]]["pixels_whole"])
                     cut += row["px_count_all"] > np.count_nonzero(whole)

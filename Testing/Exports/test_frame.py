@@ -2,6 +2,7 @@
 """What holds for every exporter: the same bytes however it ran, refusals in one line, nothing that looks whole and is not."""
 import json
 import os
+import random
 import resource
 import shutil
 import subprocess
@@ -17,6 +18,15 @@ KILLS = 20
 def exporters():
     listed = subprocess.run([DGTK, "list", "exporters", "--json"], check=True, capture_output=True, text=True).stdout
     return [row["format"] for row in json.loads(listed)["exporters"]]
+
+
+def flip_bit(path, seed):
+    with open(path, "rb") as file:
+        data = bytearray(file.read())
+    bit = random.Random(seed).randrange(8 * len(data))
+    data[bit // 8] ^= 1 << bit % 8
+    with open(path, "wb") as file:
+        file.write(data)
 
 
 class Frame(datasets.ExportCase):
@@ -53,12 +63,50 @@ class Frame(datasets.ExportCase):
                         self.assert_same_files(one, two)
                         rows = self.referee(dataset, one)
                         self.assertGreater(len(rows["residuals"]), 1)
+                        if not exported:
+                            self.flip_bits(dataset, one)
                         exported += 1
                     else:
                         self.assertIn(":", done.stderr)
                 if not exported:
                     never.append(form)
         self.assertEqual(never, [], "formats that no scene can be exported to")
+
+    def flip_bits(self, dataset, folder):
+        """A bit of a file of each kind; the referee counts them all, and names one of them."""
+        kinds = {}
+        for base, _, names in os.walk(folder):
+            for name in sorted(names):
+                kinds.setdefault(os.path.splitext(name)[1], []).append(os.path.join(base, name))
+        rest = sorted(set(kinds.pop(".json")) - {os.path.join(folder, "export.json")})
+        damaged = [random.Random(seed).choice(paths) for seed, paths in enumerate([*kinds.values(), rest]) if paths]
+        for seed, path in enumerate(damaged):
+            flip_bit(path, seed)
+        done = self.dgtk("verify", dataset, "--export", folder, "--json", status=1)
+        [row] = [one for one in json.loads(done.stdout)["residuals"] if one["check"] == "hashes"]
+        self.assertEqual(row["bad"], len(damaged))
+        self.assertIn(os.path.join(folder, row["worst"]["file"]), damaged)
+        self.assertIn(row["worst"]["file"], done.stderr)
+
+    def test_each_bit_of_export_json_counts(self):
+        """What no row compares, such as a convention's words, is in the document's hash of itself."""
+        dataset = self.render(datasets.walk(self.path("scene")))
+        folder, _ = self.export(dataset, "coco")
+        path = os.path.join(folder, "export.json")
+        with open(path, "rb") as file:
+            whole = file.read()
+        for seed in range(12):
+            flip_bit(path, seed)
+            done = subprocess.run([DGTK, "verify", dataset, "--export", folder], capture_output=True, text=True)
+            self.assertIn(done.returncode, (1, 2, 3), seed)
+            self.assertEqual(done.returncode == 1 and "export.json" not in done.stderr, False, done.stderr)
+            with open(path, "wb") as file:
+                file.write(whole)
+        for old, new in ((b"(0.5, 0.5)", b"(0.5, 0.0)"), (b'"sha256": "' + whole[-68:-4], b'"sha257": "' + whole[-68:-4])):
+            self.assertEqual(whole.count(old), 1)
+            with open(path, "wb") as file:
+                file.write(whole.replace(old, new))
+            self.assertIn("export.json", self.dgtk("verify", dataset, "--export", folder, status=1).stderr)
 
     def test_killed_twenty_times_and_resumed(self):
         scene = datasets.walk(self.path("scene"), frames=60, empty=False)

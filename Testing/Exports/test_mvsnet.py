@@ -5,6 +5,7 @@ import os
 import numpy as np
 
 import datasets
+import hard_scenes
 from datasets import layer_of, load_json, main
 
 LAYERS = "color,depth,objects,tracks"
@@ -92,6 +93,11 @@ class Mvsnet(datasets.ExportCase):
         folder, _ = self.export(empty, "mvsnet")
         self.assertEqual(read_pairs(os.path.join(folder, "cams", "pair.txt"))[3], (3, [], []))
         self.assertEqual(read_cam(os.path.join(folder, "cams", "00000003_cam.txt"))[2][::3], [0.1, 100])
+        flat = self.render(hard_scenes.flat(self.path("flat")), LAYERS)
+        folder, _ = self.export(flat, "mvsnet")
+        least, step, planes, most = read_cam(os.path.join(folder, "cams", "00000000_cam.txt"))[2]
+        self.assertEqual(len(np.arange(least, step * (planes - 0.5) + least, step)), 192, "as the loaders make their planes")
+        self.assertAlmostEqual(most, 1.01 * least)
         lens = self.render(datasets.lenses(self.path("lenses")), LAYERS)
         self.refused("export", lens, "--format", "mvsnet", "-o", self.path("no"), status=2, says=("mvsnet", "pinhole"))
         self.assertFalse(os.path.exists(self.path("no")))

@@ -4,8 +4,10 @@ import json
 import os
 
 import numpy as np
+import yaml
 
 import datasets
+import hard_scenes
 from datasets import layer_of, load_json, main
 
 LAYERS = "color,objects,boxes"
@@ -47,6 +49,14 @@ class Yolo(datasets.ExportCase):
             stem = os.path.splitext(entry["name"][len("images/"):])[0]
             rows = labels(os.path.join(folder, "labels", stem + ".txt"), ids.shape[1], ids.shape[0], poses)
             yield entry, ids, classes, rows
+
+    def test_names_that_yaml_would_change(self):
+        dataset = self.render(hard_scenes.hostile(self.path("scene"), frames=(7, 7)), LAYERS)
+        folder, _ = self.export(dataset, "yolo")
+        with open(os.path.join(folder, "data.yaml"), encoding="utf-8") as file:
+            read = yaml.safe_load(file)
+        self.assertEqual(list(read["names"].values()), [one["name"] for one in load_json(os.path.join(dataset, "objects.json"))["classes"]])
+        self.assertIn("größe\u2028XL\u0085", read["names"].values())
 
     def test_boxes_and_segments(self):
         dataset = self.render(datasets.stereo(self.path("scene")), LAYERS)

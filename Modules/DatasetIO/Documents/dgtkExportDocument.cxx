@@ -2,7 +2,10 @@
 #include "dgtkExportDocument.h"
 
 #include "dgtkDocumentValues.h"
+#include "dgtkHash.h"
 #include "dgtkJsonText.h"
+
+#include <algorithm>
 
 namespace dgtk
 {
@@ -141,7 +144,20 @@ std::string exportFileLine(const ExportedFile& file, bool isFirst)
   return (isFirst ? "\n    " : ",\n    ") + object.line();
 }
 
-std::string exportTail() { return "\n  ]\n}\n"; }
+namespace
+{
+constexpr const char* tail = "\n  ],\n  \"sha256\": ";
+}
+
+std::string exportTail(const std::string& sha256) { return tail + ('"' + sha256) + "\"\n}\n"; }
+
+std::pair<std::string, std::string> exportOwnHashes(const std::string& path)
+{
+  const std::string text = readFile(path);
+  const std::size_t end = std::min(text.rfind(tail), text.size());
+  const std::string hash = Sha256::of(text.substr(0, end));
+  return { text.substr(end) == exportTail(hash) ? hash : end < text.size() ? "another one" : "none", hash };
+}
 
 ExportRecord readExport(const std::string& path)
 {

@@ -70,14 +70,18 @@ struct ExportRecord
   std::vector<ExportedFile> files;
 };
 
-// The document in the order of its parts: exportHead(), further names, exportMiddle(), files, exportTail().
+// The document in the order of its parts: exportHead(), further names, exportMiddle(), files, exportTail() of the hash
+// of all these.
 
 /// Everything before the files, and the record's names.
 DGTKDATASETIO_EXPORT std::string exportHead(const ExportRecord& record);
 DGTKDATASETIO_EXPORT std::string exportNameLine(const ExportedName& name, bool isFirst);
 DGTKDATASETIO_EXPORT std::string exportMiddle(bool noNames);
 DGTKDATASETIO_EXPORT std::string exportFileLine(const ExportedFile& file, bool isFirst);
-DGTKDATASETIO_EXPORT std::string exportTail();
+DGTKDATASETIO_EXPORT std::string exportTail(const std::string& sha256);
+/// What exportTail() was made of and what it should have been: the hash that the document of a folder says of itself,
+/// and that of its text. Throws InputError when it cannot be read.
+DGTKDATASETIO_EXPORT std::pair<std::string, std::string> exportOwnHashes(const std::string& path);
 
 /// Throws InputError that names the file and the place.
 DGTKDATASETIO_EXPORT ExportRecord readExport(const std::string& path);

@@ -5,6 +5,9 @@
 #include "dgtkExport.h"
 #include "dgtkExportPng.h"
 #include "dgtkText.h"
+#include "dgtkUtf8.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -145,6 +148,20 @@ std::string numbersLine(const std::vector<double>& numbers)
     words.push_back(shortest(number + 0.0)); // no -0
   }
   return joined(words, " ");
+}
+
+std::string quotedText(const std::string& text)
+{
+  std::string out = nlohmann::json(utf8FromBytes(text)).dump();
+  for (const auto& [bytes, escape] : { std::pair<const char*, const char*>{ "\xC2\x85", "\\u0085" },
+         { "\xE2\x80\xA8", "\\u2028" }, { "\xE2\x80\xA9", "\\u2029" }, { "\xEF\xBB\xBF", "\\ufeff" } })
+  {
+    for (std::size_t at = out.find(bytes); at != std::string::npos; at = out.find(bytes, at))
+    {
+      out.replace(at, std::char_traits<char>::length(bytes), escape);
+    }
+  }
+  return out;
 }
 
 std::string padded(int number, int digits)

@@ -169,10 +169,11 @@ private:
       { "px_count_all", box.pixelsWhole }, { "px_count_valid", countIn(all, this->Valid) },
       { "px_count_visib", box.pixelsVisible }, { "visib_fract", fraction } });
     constexpr double least = 0.1; ///< of an object is visible where it is to be found
-    this->Targets[id] += fraction >= least ? 1 : 0;
+    const bool wanted = fraction >= least;
+    this->Targets[id] += wanted ? 1 : 0;
     if (sees)
     {
-      this->Sink.note(this->At.list("coco"), this->annotation(instance, id, own, all).dump());
+      this->Sink.note(this->At.list("coco"), this->annotation(instance, id, own, all, wanted).dump());
     }
   }
 
@@ -181,7 +182,7 @@ private:
     this->Sink.write(this->At.mask(kind, instance), maskPng(mask));
   }
 
-  Json annotation(std::size_t instance, int id, const RunLengths& own, const RunLengths& all) const
+  Json annotation(std::size_t instance, int id, const RunLengths& own, const RunLengths& all, bool wanted) const
   {
     constexpr int most = 100000; ///< instances of a picture
     const auto box = [](const RunLengths& mask)
@@ -192,7 +193,7 @@ private:
     return { { "id", std::int64_t(this->At.image) * most + std::int64_t(instance) + 1 }, { "image_id", this->At.image },
       { "category_id", id }, { "iscrowd", 0 }, { "area", own.area() }, { "bbox", box(all) },
       { "segmentation", { { "size", { own.height, own.width } }, { "counts", own.counts } } }, { "width", own.width },
-      { "height", own.height }, { "ignore", false } };
+      { "height", own.height }, { "ignore", !wanted } };
   }
 
   ExportSink& Sink;

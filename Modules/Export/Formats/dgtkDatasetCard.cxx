@@ -2,6 +2,7 @@
 #include "dgtkDatasetCard.h"
 
 #include "dgtkError.h"
+#include "dgtkExportChecks.h"
 #include "dgtkText.h"
 #include "dgtkUtf8.h"
 
@@ -24,9 +25,6 @@ std::string nameOf(const DatasetView& dataset)
   const std::string name = infoOf(dataset, "name");
   return name.empty() ? "DGTk dataset" : name;
 }
-
-/// A text in double quotes, which YAML reads as JSON does.
-std::string quotedText(const std::string& text) { return Json(text).dump(); }
 
 std::string line(const std::string& key, const std::string& text) { return key + ": " + quotedText(text) + "\n"; }
 

@@ -43,7 +43,8 @@ std::string rowsOf(const Eigen::MatrixXd& matrix)
   return text;
 }
 
-/// The nearest and farthest depth of a picture; near and far of the camera where it shows nothing.
+/// The nearest and farthest depth of a picture, a hundredth farther where a picture has one depth: loaders divide by the step.
+/// Near and far of the camera where it shows nothing.
 std::pair<double, double> rangeOf(const DatasetView& dataset, const DatasetShot& shot, const std::string& layer)
 {
   ClassedRows rows(dataset, shot, layer);
@@ -61,7 +62,9 @@ std::pair<double, double> rangeOf(const DatasetView& dataset, const DatasetShot&
   }
   if (most > 0)
   {
-    return { least, most };
+    constexpr double flat = 1 + 1e-6;
+    constexpr double apart = 1.01;
+    return { least, most > flat * least ? most : apart * least };
   }
   constexpr double far = 1000; ///< times near, where there is no end
   return { shot.camera.near, std::isfinite(shot.camera.far) ? shot.camera.far : far * shot.camera.near };

@@ -5,9 +5,6 @@
 #include "dgtkExportPng.h"
 #include "dgtkRunLengths.h"
 #include "dgtkText.h"
-#include "dgtkUtf8.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -197,8 +194,7 @@ private:
     text += "names:\n";
     for (std::size_t i = 0; i < dataset.classes().size(); ++i)
     {
-      const nlohmann::json name = utf8FromBytes(dataset.classes()[i].name);
-      text += "  " + std::to_string(i) + ": " + name.dump() + '\n';
+      text += "  " + std::to_string(i) + ": " + quotedText(dataset.classes()[i].name) + '\n';
     }
     return text;
   }

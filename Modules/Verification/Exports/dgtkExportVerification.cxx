@@ -94,6 +94,8 @@ void checkFiles(const ExportedFrom& source, Results& results)
     const std::string found = fs::is_regular_file(path, error) ? Sha256::ofFile(path) : "no file";
     meter.equal(found == one.file.sha256, [&] { return Offender{ one.file.path, -1, -1, found, one.file.sha256 }; });
   }
+  const auto [said, right] = exportOwnHashes(source.path(exportName));
+  meter.equal(said == right, [&, &said = said, &right = right] { return Offender{ exportName, -1, -1, said, right }; });
   for (const auto& entry : fs::recursive_directory_iterator(source.folder()))
   {
     const std::string name = entry.path().lexically_relative(source.folder()).generic_string();

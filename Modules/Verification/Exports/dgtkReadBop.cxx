@@ -311,6 +311,10 @@ private:
       {
         this->Judge.number("coco", "", file, picture.name, one.at("category_id"), model, 0);
         this->Judge.number("coco", "", file, picture.name, one.at("area"), double(box.pixelsVisible), 0);
+        const bool ignored = one.at("ignore");
+        this->Judge.holds("coco", file, picture.name,
+          ignored == (double(box.pixelsVisible) < 0.1 * double(box.pixelsWhole)), ignored ? "ignored" : "wanted",
+          "ignored below a tenth");
         std::uint64_t at = 0;
         bool same = true;
         const std::uint64_t height = one.at("segmentation").at("size").at(0);

@@ -64,7 +64,7 @@ void judgeCamera(ExportJudge& judge, const std::string& file, const ExportedName
     file, picture.camera, picture.frame, all.topLeftCorner<3, 3>(), all.topRightCorner<3, 1>().head<3>(), 1e-9);
   judge.intrinsics(file, picture.camera, picture.frame, all.bottomLeftCorner<3, 3>(), 1e-9);
   const std::vector<double> range = numbersIn(path, lines, 11);
-  const bool sound = range.size() == 4 && range[0] > 0 && range[3] >= range[0] &&
+  const bool sound = range.size() == 4 && range[0] > 0 && range[3] > range[0] &&
                      std::abs(range[0] + range[1] * (range[2] - 1) - range[3]) <= 1e-9 * range[3];
   judge.holds("range", file, picture.name, sound, lines[11], "nearest, step, number, farthest");
   const PicturePointer depth = judge.source().picture(picture.camera, picture.frame, "depth");
@@ -82,7 +82,7 @@ void judgeCamera(ExportJudge& judge, const std::string& file, const ExportedName
   if (sound && most > 0 && judge.source().convention("depth_layer").empty())
   {
     judge.number("range", "", file, picture.name, range[0], least, 1e-9 * most);
-    judge.number("range", "", file, picture.name, range[3], most, 1e-9 * most);
+    judge.number("range", "", file, picture.name, range[3], most > (1 + 1e-6) * least ? most : 1.01 * least, 1e-9 * most);
   }
 }
 
