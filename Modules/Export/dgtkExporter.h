@@ -40,6 +40,9 @@ public:
   virtual ~ExportFile() = default;
   virtual void write(const void* data, std::size_t bytes) = 0;
   void write(const std::string& text) { this->write(text.data(), text.size()); }
+  /// Writes over bytes that were written: of a head that says what only the end knows. The file is then read once more
+  /// for its hash.
+  virtual void rewrite(std::uint64_t position, const std::string& text) = 0;
   /// The file gets its name. Without it nothing is left behind. What it turned out to be: path, bytes, hash.
   virtual DatasetFile finish() = 0;
 };

@@ -44,10 +44,16 @@ public:
     this->Hash.update(data, bytes);
     this->Described.bytes += bytes;
   }
+  void rewrite(std::uint64_t position, const std::string& text) override
+  {
+    this->File.writeAt(position, text.data(), text.size());
+    this->Rewritten = true;
+  }
   DatasetFile finish() override
   {
     this->File.commit();
-    this->Described.sha256 = this->Hash.hex();
+    this->Described.sha256 =
+      this->Rewritten ? Sha256::ofFile(this->Owner.Holder.fileAt(this->Described.path)) : this->Hash.hex();
     this->Owner.finished(this->Described, this->Encoding);
     return this->Described;
   }
@@ -56,6 +62,7 @@ private:
   ItemSink& Owner;
   AtomicFile File;
   Sha256 Hash;
+  bool Rewritten = false;
   DatasetFile Described;
   PixelEncoding Encoding;
 };

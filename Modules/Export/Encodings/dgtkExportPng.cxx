@@ -63,11 +63,6 @@ EncodedPicture encodePicture(
   return { dataset.bytesOf(source), roundingOf(shot, layer, 0) };
 }
 
-std::uint64_t pictureBytes(const DatasetView& dataset, const DatasetShot& shot, const std::string& layer)
-{
-  return dataset.listed(pngOf(dataset, shot, layer)).bytes;
-}
-
 void writePicture(ExportSink& sink, const DatasetView& dataset, const DatasetShot& shot, const std::string& layer,
   const std::string& name, const OptionValues& options)
 {

@@ -38,8 +38,6 @@ struct EncodedPicture
 /// For containers of pictures. Throws InputError for a file that is not as the manifest says.
 EncodedPicture encodePicture(
   const DatasetView& dataset, const DatasetShot& shot, const std::string& layer, const OptionValues& options);
-/// Bytes of a shot's PNG, as the manifest says.
-std::uint64_t pictureBytes(const DatasetView& dataset, const DatasetShot& shot, const std::string& layer);
 
 /// Numbers as whole codes: a value v becomes round(v factor / scale + offset) where that lies in [least, most].
 struct LinearCode

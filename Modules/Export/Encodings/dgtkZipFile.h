@@ -19,12 +19,20 @@ class ZipFile
 {
 public:
   ZipFile(ExportSink& sink, const std::string& name);
-  /// Throws UsageError where the archive would have 4 GiB or more.
-  void add(const std::string& name, const std::string& bytes);
+  /// A member whose `bytes` are what put() gets until end(). Throws UsageError where the archive would have 4 GiB or
+  /// more.
+  void begin(const std::string& name, std::uint64_t bytes);
+  void put(const void* data, std::size_t bytes);
+  void end();
   void finish();
 
 private:
+  std::string described() const;
   std::unique_ptr<ExportFile> File;
+  std::string Member; ///< its name
+  std::uint64_t Size = 0;
+  std::uint32_t Sum = 0;
+  std::uint64_t Start = 0; ///< of the member's header
   std::string Directory;
   std::uint64_t At = 0;
   std::uint16_t Members = 0;

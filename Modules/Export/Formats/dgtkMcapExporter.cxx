@@ -170,7 +170,7 @@ private:
   ChunkPlace putChunk(std::size_t shot)
   {
     const DatasetShot& one = *this->Recording.shots()[shot];
-    const std::vector<ros::Message> messages = this->Recording.messages(shot, &this->Sink);
+    const std::vector<ros::Message> messages = this->Recording.messages(shot, this->Sink);
     ChunkPlace place;
     place.time = this->Recording.nanoseconds(one);
     place.position = this->Text.position();
@@ -188,7 +188,7 @@ private:
       heads.push_back(head(Op::Message, content, message.bytes()) + message.head);
       sum = sumOf(sumOf(sum, heads.back()), message.body);
       offsets.push_back(place.bytes);
-      place.bytes += heads.back().size() + message.bodyBytes;
+      place.bytes += heads.back().size() + message.body.size();
     }
     const std::string content = Content()
                                   .number(place.time)

@@ -250,41 +250,25 @@ CameraInfo Recording::infoOf(const DatasetShot& shot) const
 }
 
 Message Recording::picture(
-  const DatasetShot& shot, const Stamp& stamp, const std::string& frame, ExportSink* sink) const
+  const DatasetShot& shot, const Stamp& stamp, const std::string& frame, ExportSink& sink) const
 {
-  const std::string layer = exported::color().of(this->Options);
   const bool png = pictureExtension(this->Options) == "png";
+  EncodedPicture encoded = encodePicture(this->Dataset, shot, exported::color().of(this->Options), this->Options);
   Message message;
   message.topic = this->FirstTopic.at(shot.name()) + Picture;
-  if (png && !sink)
-  {
-    message.bodyBytes = pictureBytes(this->Dataset, shot, layer);
-  }
-  else
-  {
-    EncodedPicture encoded = encodePicture(this->Dataset, shot, layer, this->Options);
-    message.bodyBytes = encoded.bytes.size();
-    message.body = std::move(encoded.bytes);
-    if (sink)
-    {
-      sink->rounding(encoded.rounding);
-    }
-  }
-  message.head = compressedImageHead(stamp, frame, png ? "png" : "jpeg", static_cast<std::uint32_t>(message.bodyBytes));
+  message.body = std::move(encoded.bytes);
+  message.head =
+    compressedImageHead(stamp, frame, png ? "png" : "jpeg", static_cast<std::uint32_t>(message.body.size()));
+  sink.rounding(encoded.rounding);
   return message;
 }
 
-Message Recording::depth(const DatasetShot& shot, const Stamp& stamp, const std::string& frame, ExportSink* sink) const
+Message Recording::depth(const DatasetShot& shot, const Stamp& stamp, const std::string& frame, ExportSink& sink) const
 {
   Message message;
   message.topic = this->FirstTopic.at(shot.name()) + Depth;
   message.head = floatImageHead(stamp, frame, shot.camera.width, shot.camera.height);
-  message.bodyBytes = std::uint64_t(shot.camera.width) * shot.camera.height * sizeof(float);
-  if (!sink)
-  {
-    return message;
-  }
-  message.body.reserve(message.bodyBytes);
+  message.body.reserve(std::size_t(shot.camera.width) * std::size_t(shot.camera.height) * sizeof(float));
   ClassedRows rows(this->Dataset, shot, exported::depth().of(this->Options));
   LayerRounding rounding{ exported::depth().of(this->Options), "m", 0, 0, 0 };
   for (int y = 0; y < rows.info().height; ++y)
@@ -302,7 +286,7 @@ Message Recording::depth(const DatasetShot& shot, const Stamp& stamp, const std:
       putLittle(message.body, code);
     }
   }
-  sink->rounding(rounding);
+  sink.rounding(rounding);
   return message;
 }
 
@@ -327,7 +311,7 @@ std::vector<Transform> Recording::placesOf(std::size_t shot, const std::string& 
   return all;
 }
 
-std::vector<Message> Recording::messages(std::size_t shot, ExportSink* sink) const
+std::vector<Message> Recording::messages(std::size_t shot, ExportSink& sink) const
 {
   const DatasetShot& one = *this->Shots[shot];
   const Stamp stamp{ static_cast<std::uint32_t>(one.frame()), this->nanoseconds(one) };

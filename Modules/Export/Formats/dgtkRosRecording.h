@@ -20,14 +20,13 @@ struct Topic
   const Type* type;
 };
 
-/// A message: its bytes are `head`, then `body`. The body's length is known without it.
+/// A message: its bytes are `head`, then `body`.
 struct Message
 {
   std::size_t topic = 0; ///< index into Recording::topics()
   std::string head = {};
   std::string body = {};
-  std::uint64_t bodyBytes = 0;
-  std::uint64_t bytes() const { return this->head.size() + this->bodyBytes; }
+  std::uint64_t bytes() const { return this->head.size() + this->body.size(); }
 };
 
 /// Names of cameras in topics and frames: letters, digits and '_'; each camera has its own.
@@ -51,14 +50,14 @@ public:
   const std::vector<const DatasetShot*>& shots() const { return this->Shots; }
   /// Times begin at one second: ROS takes 0 for none.
   std::uint64_t nanoseconds(const DatasetShot& shot) const;
-  /// All messages of a shot, each of another topic; with the first one of a frame go the objects. Without pixels the
-  /// pictures have lengths only, and nothing is reported.
-  std::vector<Message> messages(std::size_t shot, ExportSink* sink) const;
+  /// All messages of a shot, each of another topic; with the first one of a frame go the objects. The sink is told what
+  /// coding did to the pixels.
+  std::vector<Message> messages(std::size_t shot, ExportSink& sink) const;
 
 private:
   CameraInfo infoOf(const DatasetShot& shot) const;
-  Message picture(const DatasetShot& shot, const Stamp& stamp, const std::string& frame, ExportSink* sink) const;
-  Message depth(const DatasetShot& shot, const Stamp& stamp, const std::string& frame, ExportSink* sink) const;
+  Message picture(const DatasetShot& shot, const Stamp& stamp, const std::string& frame, ExportSink& sink) const;
+  Message depth(const DatasetShot& shot, const Stamp& stamp, const std::string& frame, ExportSink& sink) const;
   std::vector<Transform> placesOf(std::size_t shot, const std::string& frame) const;
   const DatasetView& Dataset;
   OptionValues Options;

@@ -73,27 +73,23 @@ std::string connectionRecord(const ros::Recording& recording, std::size_t topic)
   return record(Op::Connection, field("conn", connectionOf(topic)) + textField("topic", one.name), data);
 }
 
-/// Where the bag goes; without a file its bytes are only counted.
+/// The bag and its length.
 class BagText
 {
 public:
-  explicit BagText(ExportFile* file)
+  explicit BagText(ExportFile& file)
     : File(file)
   {
   }
-  void put(const std::string& text) { this->put(text, text.size()); }
-  void put(const std::string& text, std::uint64_t bytes)
+  void put(const std::string& text)
   {
-    this->Position += bytes;
-    if (this->File)
-    {
-      this->File->write(text);
-    }
+    this->File.write(text);
+    this->Position += text.size();
   }
   std::uint64_t position() const { return this->Position; }
 
 private:
-  ExportFile* File;
+  ExportFile& File;
   std::uint64_t Position = 0;
 };
 
@@ -106,7 +102,7 @@ struct ChunkPlace
 
 /// A chunk of the messages of a shot, each behind the record of its connection where that is the first one.
 ChunkPlace putChunk(
-  BagText& bag, const ros::Recording& recording, std::size_t shot, std::set<std::size_t>& known, ExportSink* sink)
+  BagText& bag, const ros::Recording& recording, std::size_t shot, std::set<std::size_t>& known, ExportSink& sink)
 {
   const std::uint64_t time = recording.nanoseconds(*recording.shots()[shot]);
   const std::vector<ros::Message> messages = recording.messages(shot, sink);
@@ -127,7 +123,7 @@ ChunkPlace putChunk(
   for (std::size_t i = 0; i < messages.size(); ++i)
   {
     bag.put(heads[i] + messages[i].head);
-    bag.put(messages[i].body, messages[i].bodyBytes);
+    bag.put(messages[i].body);
   }
   for (std::size_t i = 0; i < messages.size(); ++i)
   {
@@ -142,16 +138,20 @@ ChunkPlace putChunk(
   return place;
 }
 
-/// Everything; returns where the index begins, which the bag's first record says.
-std::uint64_t putBag(BagText& bag, const ros::Recording& recording, std::uint64_t index, ExportSink* sink)
+/// The first record, which says where the index begins.
+std::string bagHeader(const ros::Recording& recording, std::uint64_t index)
 {
-  const std::size_t shots = recording.shots().size();
-  bag.put("#ROSBAG V2.0\n");
   const std::string fields = field("index_pos", index) +
                              field("conn_count", static_cast<std::uint32_t>(recording.topics().size())) +
-                             field("chunk_count", static_cast<std::uint32_t>(shots));
+                             field("chunk_count", static_cast<std::uint32_t>(recording.shots().size()));
   const std::size_t used = head(Op::BagHeader, fields, 0).size();
-  bag.put(record(Op::BagHeader, fields, std::string(bagHeaderBytes - used, ' ')));
+  return record(Op::BagHeader, fields, std::string(bagHeaderBytes - used, ' '));
+}
+
+/// Chunks and index behind the first record; returns where the index begins.
+std::uint64_t putBag(BagText& bag, const ros::Recording& recording, ExportSink& sink)
+{
+  const std::size_t shots = recording.shots().size();
   std::set<std::size_t> known;
   std::vector<ChunkPlace> places;
   for (std::size_t shot = 0; shot < shots; ++shot)
@@ -179,14 +179,15 @@ std::uint64_t putBag(BagText& bag, const ros::Recording& recording, std::uint64_
   return position;
 }
 
-/// The first record says where the last ones are, so that the bag is counted before it is written.
+/// The first record says where the last ones are, and is written again when that is known.
 void writeBag(ExportSink& sink, const ros::Recording& recording, const std::string& name)
 {
-  BagText counted(nullptr);
-  const std::uint64_t index = putBag(counted, recording, 0, nullptr);
+  const std::string magic = "#ROSBAG V2.0\n";
   const std::unique_ptr<ExportFile> file = sink.open(name);
-  BagText bag(file.get());
-  putBag(bag, recording, index, &sink);
+  BagText bag(*file);
+  bag.put(magic + bagHeader(recording, 0));
+  const std::uint64_t index = putBag(bag, recording, sink);
+  file->rewrite(magic.size(), bagHeader(recording, index));
   file->finish();
 }
 

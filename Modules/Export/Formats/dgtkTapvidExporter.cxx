@@ -8,7 +8,10 @@
 #include "dgtkText.h"
 #include "dgtkZipFile.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 namespace dgtk
 {
@@ -18,59 +21,140 @@ namespace
 constexpr const char* format = "tapvid";
 constexpr int visible = 1;
 
-/// Tracks of one video: arrays with the points of a track one after another.
-struct Tracks
+/// A place of a track in a picture.
+struct Sight
 {
-  std::size_t frames = 0;
-  std::vector<std::int64_t> numbers;  ///< of the points in tracks/points.json, from 0
-  std::vector<std::int64_t> objects;  ///< their objects' ids
-  std::vector<float> places;          ///< x, y as shares of the image
-  std::vector<std::uint8_t> occluded; ///< 0 or 1
-  std::vector<float> queries;         ///< frame, y, x of where each is seen first; pixels
+  float x = 0; ///< shares of the image; 0, 0 where there is no place
+  float y = 0;
+  std::uint8_t occluded = 1;
 };
 
-/// All points that the camera sees at some frame. Places that there are not are 0, 0.
-Tracks tracksOf(const DatasetView& dataset, const std::string& camera)
+/// The tracks of one video, those of all points that the camera sees at some frame. What it keeps does not grow with
+/// the frames: the places are read when they are asked for.
+class VideoTracks
 {
-  const std::vector<TrackPoint> points = dataset.trackPoints();
-  const std::vector<const DatasetShot*> shots = dataset.shotsOf(camera);
-  std::vector<std::vector<TrackPlace>> places;
-  std::vector<int> first(points.size(), -1);
-  for (const DatasetShot* shot : shots)
+public:
+  VideoTracks(const DatasetView& dataset, const std::string& camera)
+    : Dataset(dataset)
+    , Shots(dataset.shotsOf(camera))
   {
-    places.push_back(readTrackPlaces(dataset.pathOf(dataset.file(*shot, "tracks", { "npy" })), points.size()));
+    const std::vector<TrackPoint> points = dataset.trackPoints();
+    this->Points = points.size();
+    std::vector<std::array<float, 3>> first(points.size(), { -1, 0, 0 });
+    for (std::size_t t = 0; t < this->Shots.size(); ++t)
+    {
+      const std::vector<TrackPlace> places = this->placesAt(t);
+      for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        if (first[i][0] < 0 && places[i].visibility == visible)
+        {
+          first[i] = { float(t), float(places[i].v), float(places[i].u) };
+        }
+      }
+    }
     for (std::size_t i = 0; i < points.size(); ++i)
     {
-      first[i] = first[i] < 0 && places.back()[i].visibility == visible ? int(places.size()) - 1 : first[i];
+      if (first[i][0] >= 0)
+      {
+        this->Numbers.push_back(std::int64_t(i));
+        this->Objects.push_back(points[i].object);
+        this->Queries.push_back(first[i]);
+      }
     }
   }
-  Tracks tracks;
-  tracks.frames = shots.size();
-  for (std::size_t i = 0; i < points.size(); ++i)
+
+  std::size_t frames() const { return this->Shots.size(); }
+  std::size_t count() const { return this->Numbers.size(); }
+  /// Of the points in tracks/points.json, from 0.
+  const std::vector<std::int64_t>& numbers() const { return this->Numbers; }
+  /// Their objects' ids.
+  const std::vector<std::int64_t>& objects() const { return this->Objects; }
+  /// Frame, y, x of where each is seen first; pixels.
+  const std::vector<std::array<float, 3>>& queries() const { return this->Queries; }
+
+  /// Calls visit() with the places of each track, one a frame. Pictures lie frame by frame on the disk, and tracks are
+  /// told one by one: as many as fit are turned at a time.
+  void each(const std::function<void(const std::vector<Sight>&)>& visit) const
   {
-    if (first[i] < 0)
+    constexpr std::size_t most = (std::size_t(16) << 20) / sizeof(Sight);
+    const std::size_t block = std::max<std::size_t>(1, most / std::max<std::size_t>(1, this->frames()));
+    for (std::size_t begin = 0; begin < this->count(); begin += block)
     {
-      continue;
+      std::vector<std::vector<Sight>> tracks(std::min(block, this->count() - begin));
+      for (std::size_t t = 0; t < this->frames(); ++t)
+      {
+        const std::vector<TrackPlace> places = this->placesAt(t);
+        for (std::size_t i = 0; i < tracks.size(); ++i)
+        {
+          tracks[i].resize(this->frames());
+          tracks[i][t] = sightOf(places[std::size_t(this->Numbers[begin + i])], this->Shots[t]->camera);
+        }
+      }
+      for (const std::vector<Sight>& track : tracks)
+      {
+        visit(track);
+      }
     }
-    tracks.numbers.push_back(std::int64_t(i));
-    tracks.objects.push_back(points[i].object);
-    for (std::size_t t = 0; t < shots.size(); ++t)
-    {
-      const TrackPlace& place = places[t][i];
-      const bool there = std::isfinite(place.u) && std::isfinite(place.v);
-      tracks.places.push_back(there ? float(place.u / shots[t]->camera.width) : 0.0F);
-      tracks.places.push_back(there ? float(place.v / shots[t]->camera.height) : 0.0F);
-      tracks.occluded.push_back(place.visibility == visible ? 0 : 1);
-    }
-    const TrackPlace& query = places[std::size_t(first[i])][i];
-    tracks.queries.insert(tracks.queries.end(), { float(first[i]), float(query.v), float(query.u) });
   }
-  return tracks;
+
+private:
+  std::vector<TrackPlace> placesAt(std::size_t t) const
+  {
+    const DatasetShot& shot = *this->Shots[t];
+    return readTrackPlaces(this->Dataset.pathOf(this->Dataset.file(shot, "tracks", { "npy" })), this->Points);
+  }
+
+  static Sight sightOf(const TrackPlace& place, const CameraRecord& camera)
+  {
+    const bool there = std::isfinite(place.u) && std::isfinite(place.v);
+    return { there ? float(place.u / camera.width) : 0.0F, there ? float(place.v / camera.height) : 0.0F,
+      std::uint8_t(place.visibility == visible ? 0 : 1) };
+  }
+
+  const DatasetView& Dataset;
+  std::vector<const DatasetShot*> Shots;
+  std::size_t Points = 0;
+  std::vector<std::int64_t> Numbers;
+  std::vector<std::int64_t> Objects;
+  std::vector<std::array<float, 3>> Queries;
+};
+
+using Put = std::function<void(const void*, std::size_t)>;
+
+/// float32 (N, T, 2).
+void putPlaces(const VideoTracks& tracks, const Put& put)
+{
+  std::vector<float> values;
+  tracks.each(
+    [&](const std::vector<Sight>& track)
+    {
+      values.clear();
+      for (const Sight& sight : track)
+      {
+        values.insert(values.end(), { sight.x, sight.y });
+      }
+      put(values.data(), values.size() * sizeof(float));
+    });
 }
 
-/// The bytes of a .npy; `type` as NumPy writes it.
-template <typename T>
-std::string npyOf(const std::string& type, const std::string& shape, const std::vector<T>& values)
+/// Truth values of a byte (N, T).
+void putOccluded(const VideoTracks& tracks, const Put& put)
+{
+  std::vector<std::uint8_t> values;
+  tracks.each(
+    [&](const std::vector<Sight>& track)
+    {
+      values.clear();
+      for (const Sight& sight : track)
+      {
+        values.push_back(sight.occluded);
+      }
+      put(values.data(), values.size());
+    });
+}
+
+/// What stands before the values of a .npy; `type` as NumPy writes it.
+std::string npyHead(const std::string& type, const std::string& shape)
 {
   constexpr std::size_t block = 64;
   constexpr std::size_t before = 10;
@@ -81,9 +165,24 @@ std::string npyOf(const std::string& type, const std::string& shape, const std::
   bytes += '\x01';
   bytes += '\0';
   putLittle(bytes, std::uint16_t(head.size()));
-  bytes += head;
-  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-  return bytes;
+  return bytes + head;
+}
+
+/// An archive's member of `bytes` behind its head.
+void addArray(ZipFile& file, const std::string& name, const std::string& head, std::uint64_t bytes,
+  const std::function<void(const Put&)>& fill)
+{
+  file.begin(name, head.size() + bytes);
+  file.put(head.data(), head.size());
+  fill([&](const void* data, std::size_t size) { file.put(data, size); });
+  file.end();
+}
+
+template <typename T>
+void addArray(ZipFile& file, const std::string& name, const std::string& head, const std::vector<T>& values)
+{
+  const std::size_t bytes = values.size() * sizeof(T);
+  addArray(file, name, head, bytes, [&](const Put& put) { put(values.data(), bytes); });
 }
 
 /// Whether the videos are also in one file as the benchmark hands them out.
@@ -140,7 +239,7 @@ public:
       }
       const std::string archive = folder + "tracks.npz";
       plan.items.push_back({ { archive },
-        [&dataset, camera, archive](ExportSink& sink) { writeTracks(sink, archive, tracksOf(dataset, camera)); } });
+        [&dataset, camera, archive](ExportSink& sink) { writeTracks(sink, archive, VideoTracks(dataset, camera)); } });
     }
     if (pickle().of(options) == "on")
     {
@@ -186,26 +285,28 @@ private:
       }
     }
     file.endArray();
-    const Tracks tracks = tracksOf(dataset, camera);
-    const std::uint64_t points = tracks.numbers.size();
-    file.beginArray("points", "f4", { points, tracks.frames, 2 });
-    file.add(tracks.places.data(), tracks.places.size() * sizeof(float));
+    const VideoTracks tracks(dataset, camera);
+    const Put put = [&](const void* data, std::size_t bytes) { file.add(data, bytes); };
+    file.beginArray("points", "f4", { tracks.count(), tracks.frames(), 2 });
+    putPlaces(tracks, put);
     file.endArray();
-    file.beginArray("occluded", "b1", { points, tracks.frames });
-    file.add(tracks.occluded.data(), tracks.occluded.size());
+    file.beginArray("occluded", "b1", { tracks.count(), tracks.frames() });
+    putOccluded(tracks, put);
     file.endArray();
   }
 
-  static void writeTracks(ExportSink& sink, const std::string& name, const Tracks& tracks)
+  static void writeTracks(ExportSink& sink, const std::string& name, const VideoTracks& tracks)
   {
-    const std::string points = std::to_string(tracks.numbers.size());
-    const std::string places = points + ", " + std::to_string(tracks.frames);
+    const std::string points = std::to_string(tracks.count());
+    const std::string places = points + ", " + std::to_string(tracks.frames());
+    const std::uint64_t sights = std::uint64_t(tracks.count()) * tracks.frames();
     ZipFile file(sink, name);
-    file.add("points.npy", npyOf("<f4", places + ", 2", tracks.places));
-    file.add("occluded.npy", npyOf("|b1", places, tracks.occluded));
-    file.add("query_points.npy", npyOf("<f4", points + ", 3", tracks.queries));
-    file.add("track.npy", npyOf("<i8", points + ",", tracks.numbers));
-    file.add("object.npy", npyOf("<i8", points + ",", tracks.objects));
+    addArray(file, "points.npy", npyHead("<f4", places + ", 2"), sights * 2 * sizeof(float),
+      [&](const Put& put) { putPlaces(tracks, put); });
+    addArray(file, "occluded.npy", npyHead("|b1", places), sights, [&](const Put& put) { putOccluded(tracks, put); });
+    addArray(file, "query_points.npy", npyHead("<f4", points + ", 3"), tracks.queries());
+    addArray(file, "track.npy", npyHead("<i8", points + ","), tracks.numbers());
+    addArray(file, "object.npy", npyHead("<i8", points + ","), tracks.objects());
     file.finish();
   }
 };
