@@ -4,6 +4,7 @@
 Each function writes a scene into a folder and returns its path; render() makes a dataset of one. Names have spaces, dots and letters
 beyond ASCII; the ring has a hole in its mask; objects are truncated by the border, equal models stand in two sizes.
 """
+import hashlib
 import json
 import math
 import os
@@ -180,7 +181,6 @@ class ExportCase(Case):
 
     def planted(self, dataset, folder, name, change):
         """Changes a file of an export, hash and size in export.json with it; the referee must find it. Its breach in words."""
-        import hashlib
         path = os.path.join(folder, name)
         with open(path, "rb") as file:
             old = file.read()
@@ -194,7 +194,7 @@ class ExportCase(Case):
         self.assertEqual((row["sha256"], row["bytes"]), (hashlib.sha256(old).hexdigest(), len(old)))
         row.update(sha256=hashlib.sha256(new).hexdigest(), bytes=len(new))
         try:
-            for where, text in [(path, new), (record, json.dumps(mended).encode())]:
+            for where, text in [(path, new), (record, sealed(mended))]:
                 os.remove(where)
                 with open(where, "wb") as file:
                     file.write(text)
@@ -204,6 +204,12 @@ class ExportCase(Case):
                 os.remove(where)
                 with open(where, "wb") as file:
                     file.write(text)
+
+
+def sealed(record):
+    """The bytes of export.json with its hash of itself."""
+    head = json.dumps({key: value for key, value in record.items() if key != "sha256"}, indent=2).removesuffix("\n  ]\n}")
+    return (head + '\n  ],\n  "sha256": "' + hashlib.sha256(head.encode()).hexdigest() + '"\n}\n').encode()
 
 
 def cameras_of(dataset):

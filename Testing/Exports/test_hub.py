@@ -197,7 +197,7 @@ class WebDataset(Hub):
             for name, data in (("train-000000.tar", new), ("croissant.json", mended)):
                 if row["path"] == name:
                     row.update(sha256=digest(data).decode(), bytes=len(data))
-        for name, data in (("croissant.json", mended), ("export.json", json.dumps(record).encode())):
+        for name, data in (("croissant.json", mended), ("export.json", datasets.sealed(record))):
             with open(os.path.join(copy, name), "wb") as file:
                 file.write(data)
         return {row["layer"] for row in self.referee(dataset, copy, status=1)["residuals"] if row["breach"]}

@@ -43,8 +43,8 @@ std::string rowsOf(const Eigen::MatrixXd& matrix)
   return text;
 }
 
-/// The nearest and farthest depth of a picture, a hundredth farther where a picture has one depth: loaders divide by the step.
-/// Near and far of the camera where it shows nothing.
+/// The nearest and farthest depth of a picture, a hundredth farther where a picture has one depth: loaders divide by
+/// the step. Near and far of the camera where it shows nothing.
 std::pair<double, double> rangeOf(const DatasetView& dataset, const DatasetShot& shot, const std::string& layer)
 {
   ClassedRows rows(dataset, shot, layer);

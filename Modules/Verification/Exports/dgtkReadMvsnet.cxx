@@ -82,7 +82,8 @@ void judgeCamera(ExportJudge& judge, const std::string& file, const ExportedName
   if (sound && most > 0 && judge.source().convention("depth_layer").empty())
   {
     judge.number("range", "", file, picture.name, range[0], least, 1e-9 * most);
-    judge.number("range", "", file, picture.name, range[3], most > (1 + 1e-6) * least ? most : 1.01 * least, 1e-9 * most);
+    judge.number(
+      "range", "", file, picture.name, range[3], most > (1 + 1e-6) * least ? most : 1.01 * least, 1e-9 * most);
   }
 }
 
