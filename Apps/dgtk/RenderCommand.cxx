@@ -145,7 +145,7 @@ int render(const Arguments& arguments)
 {
   const std::atomic<bool>& interrupted = catchInterrupts();
   const GeneratorRequest request = parseRequest(arguments);
-  if (dgtk::mayUseOpenGL(request))
+  if (mayUseOpenGL(request))
   {
     prepareGL(option::gl().of(request.options), option::threads().of(request.options));
   }

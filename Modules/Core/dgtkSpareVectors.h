@@ -10,8 +10,9 @@
 namespace dgtk
 {
 
-/// Vectors of one size that nobody needs any more, for those who need one: fresh memory is cleared by the system, once
-/// more by the vector, and costs as much as what is then written into it. Thread-safe.
+/// Vectors of the size that was asked for last, which nobody needs any more, for those who need one: fresh memory is
+/// cleared by the system, once more by the vector, and costs as much as what is then written into it. Others are not
+/// kept. Thread-safe.
 template <typename T>
 class SpareVectors
 {
@@ -20,22 +21,23 @@ public:
   std::vector<T> take(std::size_t size)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    while (!this->Spare.empty())
+    if (size != this->Size)
     {
-      std::vector<T> last = std::move(this->Spare.back());
-      this->Spare.pop_back();
-      if (last.size() == size)
-      {
-        return last;
-      }
+      this->Spare.clear();
+      this->Size = size;
     }
-    return {};
+    if (this->Spare.empty())
+    {
+      return {};
+    }
+    std::vector<T> last = std::move(this->Spare.back());
+    this->Spare.pop_back();
+    return last;
   }
-  /// Empty ones are not kept.
   void give(std::vector<T> spare)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    if (!spare.empty())
+    if (!spare.empty() && spare.size() == this->Size)
     {
       this->Spare.push_back(std::move(spare));
     }
@@ -43,6 +45,7 @@ public:
 
 private:
   std::mutex Mutex;
+  std::size_t Size = 0;
   std::vector<std::vector<T>> Spare;
 };
 

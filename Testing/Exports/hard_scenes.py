@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scenes that an adversary would try exports with: names that no text format likes, pictures with nothing in them, objects of a pixel
-or less, frames that start late and leave gaps, cameras of several sizes. Each function writes a scene into a folder and returns its path.
-"""
+"""Scenes that an adversary would try exports with. Each function writes a scene into a folder and returns its path."""
 from datasets import _camera, _objects, _write
 
 DATASET = {"name": "Ä \"set\": of <things> & 'more', #1", "description": "lines: - [a, b] {c} %d \\ | > \u2028 end", "license": "CC-BY-4.0: \"x\"",
@@ -9,8 +7,9 @@ DATASET = {"name": "Ä \"set\": of <things> & 'more', #1", "description": "lines
 CAMERAS = ("Käm 1.left", "b&w 'c\" <d>")
 
 
-def _hostile():
-    """A wall, a ring with a hole and blocks of one model in four sizes, at the border and beyond it, with names and classes to escape."""
+def hostile(folder):
+    """A wall, a ring with a hole and blocks of one model in four sizes, at the border and beyond it; names and words to escape. One frame,
+    number 7, of two cameras."""
     objects = _objects()
     for object_, class_ in zip(objects, ("wall: 'a' # b", "ring \"r\" & <s>\\", "yes", "yes")):
         object_["class"] = class_
@@ -19,21 +18,7 @@ def _hostile():
                 {"name": "beyond", "model": "block.obj", "position": [40, 0, 0], "class": "~"},
                 {"name": "behind wall", "model": "block.obj", "position": [0, 0, -6], "class": "~", "scale": [2, 2, 2]},
                 {"name": "ümlaut.a", "model": "block.obj", "position": [-2.2, -1.5, 0.5], "class": "größe\u2028XL\u0085", "scale": 1.7}]
-    return objects
-
-
-def hostile(folder, frames=(7, 16)):
-    """A moving rig of a rectified pair; at the last frame it looks up, at nothing. Names and words of all kinds."""
-    first, last = frames
-    objects = _hostile()
-    objects[2]["position"] = {"keys": [[first, [0.7, -0.3, 0.8]], [last + 1, [0.5, -0.25, 1.0]]]}
-    cameras = []
-    for name, x in zip(CAMERAS, (-0.06, 0.06)):
-        eyes, looks = [[first, [x, 0.2, 4.5]]], [[first, [x, 0.2, 0]]]
-        if last > first:
-            eyes += [[last - 1, [x + 0.05, 0.2, 4.4]], [last, [x + 0.05, 0.2, 4.4]]]
-            looks += [[last - 1, [x + 0.05, 0.2, 0]], [last, [x + 0.05, 9, 2]]]
-        cameras.append(_camera(name, {"keys": eyes}, {"keys": looks}))
+    cameras = [_camera(name, {"keys": [[7, [x, 0.2, 4.5]]]}, [x, 0.2, 0]) for name, x in zip(CAMERAS, (-0.06, 0.06))]
     return _write(folder, "hostile", {"dataset": DATASET, "objects": objects, "cameras": cameras})
 
 

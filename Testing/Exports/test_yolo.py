@@ -51,7 +51,7 @@ class Yolo(datasets.ExportCase):
             yield entry, ids, classes, rows
 
     def test_names_that_yaml_would_change(self):
-        dataset = self.render(hard_scenes.hostile(self.path("scene"), frames=(7, 7)), LAYERS)
+        dataset = self.render(hard_scenes.hostile(self.path("scene")), LAYERS)
         folder, _ = self.export(dataset, "yolo")
         with open(os.path.join(folder, "data.yaml"), encoding="utf-8") as file:
             read = yaml.safe_load(file)
