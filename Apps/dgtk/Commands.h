@@ -21,8 +21,13 @@ Command reportCommand();
 Command warpCommand();
 Command listCommand();
 
+struct CommandRow
+{
+  const char* name;
+  Command (*make)(); ///< what a command's options can be may cost the loading of libraries
+};
 /// All of them, in the order of the help.
-std::vector<Command> commands();
+const std::vector<CommandRow>& commandRows();
 
 /// Text on standard output; MachineError when it cannot be written (a full disk behind a redirection).
 void print(const std::string& text);

@@ -5,10 +5,10 @@
 #include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkExporterEntry.h"
-#include "dgtkGLContext.h"
 #include "dgtkGenerator.h"
 #include "dgtkLayerWriter.h"
 #include "dgtkModelReader.h"
+#include "dgtkRenderGLCalls.h"
 
 #include <nlohmann/json.hpp>
 
@@ -47,11 +47,12 @@ std::string table(const std::vector<Row>& rows)
   return text;
 }
 
-std::vector<Row> commandRows()
+std::vector<Row> allCommands()
 {
   std::vector<Row> rows;
-  for (const Command& command : commands())
+  for (const CommandRow& row : commandRows())
   {
+    const Command command = row.make();
     rows.push_back({ command.name, command.arguments, command.help });
   }
   return rows;
@@ -120,9 +121,10 @@ std::vector<Row> exporters()
 std::vector<Row> gl()
 {
   std::vector<Row> rows;
-  for (const GLBackendInfo& backend : glBackends())
+  for (const GLBackendInfo& backend : renderGL().glBackends())
   {
-    rows.push_back({ nameOf(backend.backend), backend.available ? "available" : "not available", backend.description });
+    rows.push_back(
+      { renderGL().nameOf(backend.backend), backend.available ? "available" : "not available", backend.description });
   }
   return rows;
 }
@@ -228,11 +230,11 @@ Json describeOption(const Option& option)
 
 void describeCommands(Json& rows)
 {
-  const std::vector<Command> all = commands();
+  const std::vector<CommandRow>& all = commandRows();
   for (std::size_t i = 0; i < all.size(); ++i)
   {
     rows[i]["options"] = Json::array();
-    for (const Option& option : shownOptions(all[i]))
+    for (const Option& option : shownOptions(all[i].make()))
     {
       rows[i]["options"].push_back(describeOption(option));
     }
@@ -275,7 +277,7 @@ const std::vector<Section>& sections()
     { "cameras", &cameras, { "model", "description" }, &describeCameras },
     { "exporters", &exporters, { "format", "layers", "description" }, &describeExporters },
     { "gl", &gl, { "backend", "state", "description" } },
-    { "commands", &commandRows, { "command", "arguments", "help" }, &describeCommands } };
+    { "commands", &allCommands, { "command", "arguments", "help" }, &describeCommands } };
   return all;
 }
 

@@ -2,14 +2,12 @@
 #include "Commands.h"
 
 #include "dgtkError.h"
-#include "dgtkExportVerification.h"
 #include "dgtkFile.h"
 #include "dgtkJson.h"
-#include "dgtkSampleVerification.h"
 #include "dgtkSceneFolders.h"
 #include "dgtkSystem.h"
 #include "dgtkUtf8.h"
-#include "dgtkVerification.h"
+#include "dgtkVerificationCalls.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -31,18 +29,18 @@ int verifyScenes(const std::string& folder, const std::vector<std::string>& scen
   {
     const std::string path = folder + '/' + scene;
     requireDataset(path);
-    const VerificationReport report = verifyDataset(path, threads, checks);
+    const VerificationReport report = verification().verifyDataset(path, threads, checks);
     if (json)
     {
-      all += (all.empty() ? "" : ",\n") + jsonString(scene) + ": " + verificationText(report);
+      all += (all.empty() ? "" : ",\n") + jsonString(scene) + ": " + verification().text(report);
     }
     else if (!report.passed())
     {
-      print(path + ":\n" + verificationTable(report));
+      print(path + ":\n" + verification().table(report));
     }
     if (const Residual* breach = report.firstBreach())
     {
-      std::fprintf(stderr, "dgtk: %s\n", printable(path + '/' + describe(*breach)).c_str());
+      std::fprintf(stderr, "dgtk: %s\n", printable(path + '/' + verification().describe(*breach)).c_str());
     }
     bad += report.passed() ? 0 : 1;
   }
@@ -60,7 +58,7 @@ int run(const Arguments& arguments)
     folder.pop_back();
   }
   const int threads = arguments.has("--threads") ? arguments.integer("--threads", 1, mostThreads) : machineThreads();
-  const bool samples = isSampleFolder(folder);
+  const bool samples = verification().isSampleFolder(folder);
   if (samples && (arguments.has("--check") || arguments.has("--export")))
   {
     throw UsageError(folder + " is a folder of samples, which have neither checks to choose nor exports");
@@ -81,18 +79,18 @@ int run(const Arguments& arguments)
     }
     return verifyScenes(folder, scenes, threads, checks, arguments.has("--json"));
   }
-  const VerificationReport report = samples            ? verifySamples(folder)
-                                    : exported.empty() ? verifyDataset(folder, threads, checks)
-                                                       : verifyExport(folder, exported, threads);
+  const VerificationReport report = samples            ? verification().verifySamples(folder)
+                                    : exported.empty() ? verification().verifyDataset(folder, threads, checks)
+                                                       : verification().verifyExport(folder, exported, threads);
   if (arguments.has("--write") && exported.empty())
   {
-    writeFile(folder + "/verification.json", verificationText(report));
+    writeFile(folder + "/verification.json", verification().text(report));
   }
-  print(arguments.has("--json") ? verificationText(report) : verificationTable(report));
+  print(arguments.has("--json") ? verification().text(report) : verification().table(report));
   if (const Residual* breach = report.firstBreach())
   {
-    std::fprintf(
-      stderr, "dgtk: %s\n", printable((exported.empty() ? folder : exported) + '/' + describe(*breach)).c_str());
+    std::fprintf(stderr, "dgtk: %s\n",
+      printable((exported.empty() ? folder : exported) + '/' + verification().describe(*breach)).c_str());
   }
   return static_cast<int>(report.passed() ? ExitCode::Done : ExitCode::Difference);
 }
@@ -103,7 +101,7 @@ Command verifyCommand()
   return { "verify", "DIR", 1, 1,
     "Derives anew what a dataset or a folder of samples claims, prints residuals; exits with 1 on a breach.",
     { { "--export", "DIR", "", "read an export of the dataset back and compare it, instead of the dataset itself" },
-      { "--check", "NAME,...", "all", "only these checks, by the names of the table", verificationChecks(), true },
+      { "--check", "NAME,...", "all", "only these checks, by the names of the table", verification().checks(), true },
       { "--json", "", "", "print one JSON object" }, { "--write", "", "", "also write DIR/verification.json" },
       { "--threads", "N", "all processors", "threads to work with" } },
     &run };

@@ -2,8 +2,8 @@
 #include "Commands.h"
 
 #include "dgtkError.h"
-#include "dgtkGLContext.h"
 #include "dgtkModelCache.h"
+#include "dgtkRenderGLCalls.h"
 #include "dgtkText.h"
 #include "dgtkUtf8.h"
 
@@ -27,8 +27,9 @@ std::string overview()
 {
   std::string text = "usage: dgtk COMMAND [arguments] [options]\n\n"
                      "Images and exact ground truth from described 3D scenes.\n\n";
-  for (const Command& command : commands())
+  for (const CommandRow& row : commandRows())
   {
+    const Command command = row.make();
     text += "  " + command.name + std::string(12 - command.name.size(), ' ') + command.help + '\n';
   }
   return text + "\ndgtk COMMAND --help tells more; dgtk --version prints the version.\n";
@@ -50,35 +51,39 @@ int dispatch(const std::vector<std::string>& words)
     print("dgtk " DGTK_VERSION "\n");
     return 0;
   }
-  const std::vector<Command> all = commands();
-  const auto command = std::find_if(all.begin(), all.end(), [&](const Command& c) { return c.name == words[0]; });
-  if (command == all.end())
+  const std::vector<CommandRow>& all = commandRows();
+  const auto row = std::find_if(all.begin(), all.end(), [&](const CommandRow& one) { return one.name == words[0]; });
+  if (row == all.end())
   {
     std::vector<std::string> names;
-    std::transform(all.begin(), all.end(), std::back_inserter(names), [](const Command& c) { return c.name; });
+    std::transform(all.begin(), all.end(), std::back_inserter(names), [](const CommandRow& one) { return one.name; });
     const std::string near = dgtk::nearest(words[0], names);
     throw dgtk::UsageError("unknown command " + dgtk::quoted(words[0]) +
                            (near.empty() ? "" : ", did you mean " + near + "?") + " (see dgtk --help)");
   }
-  const Arguments arguments(*command, { words.begin() + 1, words.end() });
+  const Command command = row->make();
+  const Arguments arguments(command, { words.begin() + 1, words.end() });
   if (arguments.has("--help"))
   {
-    print(helpPage(*command));
+    print(helpPage(command));
     return 0;
   }
   const auto isSwitch = [](const Option& option) { return option.name == noCacheOption.name; };
-  if (std::any_of(command->options.begin(), command->options.end(), isSwitch) && !arguments.has(noCacheOption.name))
+  if (std::any_of(command.options.begin(), command.options.end(), isSwitch) && !arguments.has(noCacheOption.name))
   {
     dgtk::ModelCache::use(dgtk::ModelCache::ofUser());
   }
-  return command->run(arguments);
+  return command.run(arguments);
 }
 } // namespace
 
-std::vector<Command> dgtk::app::commands()
+const std::vector<CommandRow>& dgtk::app::commandRows()
 {
-  return { renderCommand(), sampleCommand(), mergeCommand(), exportCommand(), infoCommand(), convertCommand(),
-    verifyCommand(), correspondCommand(), compareCommand(), warpCommand(), reportCommand(), listCommand() };
+  static const std::vector<CommandRow> rows{ { "render", &renderCommand }, { "sample", &sampleCommand },
+    { "merge", &mergeCommand }, { "export", &exportCommand }, { "info", &infoCommand }, { "convert", &convertCommand },
+    { "verify", &verifyCommand }, { "correspond", &correspondCommand }, { "compare", &compareCommand },
+    { "warp", &warpCommand }, { "report", &reportCommand }, { "list", &listCommand } };
+  return rows;
 }
 
 void dgtk::app::print(const std::string& text)
@@ -105,7 +110,7 @@ void keepFreedMemory()
 
 void dgtk::app::prepareGL(const std::string& backend, int threads)
 {
-  prepareProcess(glBackendFromName(backend), processArguments, threads);
+  renderGL().prepareProcess(renderGL().glBackendFromName(backend), processArguments, threads);
 }
 
 int main(int argc, char** argv)

@@ -4,7 +4,7 @@
 #include "dgtkBackgroundRun.h"
 #include "dgtkExport.h"
 #include "dgtkFolderWay.h"
-#include "dgtkGLContext.h"
+#include "dgtkRenderGLCalls.h"
 #include "dgtkGenerator.h"
 #include "dgtkRunShards.h"
 #include "dgtkScene.h"
@@ -16,7 +16,6 @@
 
 #include <atomic>
 #include <functional>
-#include <optional>
 #include <utility>
 
 vtkStandardNewMacro(dgtkDatasetGenerator);
@@ -86,10 +85,10 @@ void dgtkDatasetGenerator::Internal::generate(
   dgtk::GeneratorCallbacks callbacks;
   callbacks.cancel = &cancel;
   callbacks.progress = [&](const dgtk::GeneratorProgress& one) { report({ one.done, one.total }); };
-  std::optional<dgtk::GLTurn> turn;
+  std::shared_ptr<dgtk::GLTurn> turn;
   if (dgtk::mayUseOpenGL(this->request)) // see GLTurn
   {
-    turn.emplace();
+    turn = dgtk::renderGL().takeTurn();
   }
   dgtk::withWayOut(
     [&]

@@ -4,6 +4,7 @@
 
 #include "dgtkVerificationModule.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -35,7 +36,11 @@ struct Residual
   double mostOpen = 0; ///< share of the values that may be left open
   Offender worst;      ///< where `largest` is
   /// More values were left open than sound datasets need; a few always may.
-  bool tooMuchOpen() const;
+  bool tooMuchOpen() const
+  {
+    constexpr double few = 16; // of a small picture
+    return double(this->skipped) > few + this->mostOpen * double(this->count + this->skipped);
+  }
   bool breach() const { return this->bad > 0 || this->tooMuchOpen(); }
 };
 
@@ -52,9 +57,14 @@ struct VerificationReport
   std::vector<Residual> residuals;  ///< in the order of the checks; only of layers that the dataset has
   std::vector<Unchecked> unchecked; ///< sorted; empty where only some checks were asked for
   /// No breach, and something was checked.
-  bool passed() const;
+  bool passed() const { return !this->firstBreach() && !this->residuals.empty(); }
   /// The residual to name first: the first breach, as later checks build upon earlier ones. Null when there is none.
-  const Residual* firstBreach() const;
+  const Residual* firstBreach() const
+  {
+    const auto found = std::find_if(
+      this->residuals.begin(), this->residuals.end(), [](const Residual& residual) { return residual.breach(); });
+    return found == this->residuals.end() ? nullptr : &*found;
+  }
 };
 
 /// Derives everything a dataset claims anew from its files, its scene and models, with Embree, OpenCV and own

@@ -75,21 +75,6 @@ std::string openText(const Residual& residual)
 }
 } // namespace
 
-bool Residual::tooMuchOpen() const
-{
-  constexpr double few = 16; // of a small picture
-  return double(this->skipped) > few + this->mostOpen * double(this->count + this->skipped);
-}
-
-bool VerificationReport::passed() const { return !this->firstBreach() && !this->residuals.empty(); }
-
-const Residual* VerificationReport::firstBreach() const
-{
-  const auto found = std::find_if(
-    this->residuals.begin(), this->residuals.end(), [](const Residual& residual) { return residual.breach(); });
-  return found == this->residuals.end() ? nullptr : &*found;
-}
-
 std::string verificationTable(const VerificationReport& report)
 {
   std::vector<std::vector<std::string>> rows{ { "check", "layer", "values", "open", "largest", "tolerance", "unit",

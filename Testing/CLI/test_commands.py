@@ -144,6 +144,12 @@ class Pages(Case):
         for word in ("--help", "-h", "help"):
             self.assertEqual(self.dgtk(word).stdout, expected)
 
+    def test_a_start_loads_no_library_of_what_few_commands_do(self):
+        loaded = subprocess.run([DGTK], env={**os.environ, "LD_TRACE_LOADED_OBJECTS": "1"}, capture_output=True, text=True, timeout=60).stdout
+        self.assertIn("libdgtkPipeline", loaded)
+        for name in ("vtkRendering", "libGL", "libX11", "opencv", "fcl", "Bullet", "OpenImageIO", "assimp"):
+            self.assertNotIn(name, loaded)
+
     def test_every_table_has_the_rows_of_its_document(self):
         keys = {"readers": ["format", "extensions", "description"], "layers": ["layer", "formats", "description"],
                 "options": ["name", "value", "default", "help"], "writers": ["format", "extension", "description"],

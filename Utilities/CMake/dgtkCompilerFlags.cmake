@@ -1,5 +1,7 @@
 # Warnings are errors in our own code. Floating-point contraction is off: every machine computes the same bits.
 add_compile_options(-Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
+# Only what is used is loaded: some modules are on demand (dgtkOnDemand.h).
+add_link_options(-Wl,--as-needed)
 option(DGTK_WERROR "Treat warnings as errors" ON)
 if(DGTK_WERROR)
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Werror>)

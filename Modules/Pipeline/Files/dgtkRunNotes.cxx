@@ -4,7 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkLayers.h"
 #include "dgtkPovRenderOptions.h"
-#include "dgtkShadowNotes.h"
+#include "dgtkRenderGLCalls.h"
 
 #include <algorithm>
 #include <cmath>
@@ -154,7 +154,7 @@ std::vector<std::string> coarseShadowLines(const WorkPlan& plan, const Stage& st
       state = stage.at(job.frame);
     }
     const View view = stage.view(job.camera, job.frame, plan.request.width, plan.request.height);
-    for (const CoarseShadow& found : coarseShadows(*state, view))
+    for (const CoarseShadow& found : renderGL().coarseShadows(*state, view))
     {
       const LightState& light = state->lights[found.light];
       Worst& worst = coarse[light.name];

@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkRayPictures.h"
 #include "dgtkRaySource.h"
+#include "dgtkRenderGLCalls.h"
 #include "dgtkThreadPool.h"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ FrameSource::FrameSource(const FrameSourceOptions& options, ThreadPool& pool)
   const bool pictures = this->ownColor() || options.needs.peeled || !options.needs.mattes.empty();
   if ((pictures && options.drawn) || (options.needs.hits && options.raster))
   {
-    this->Raster = makeRasterSource(glBackendFromName(options.gl));
+    this->Raster = renderGL().makeRasterSource(renderGL().glBackendFromName(options.gl));
     this->Description = this->Raster->choice().description;
     this->Raster->setHits(
       options.needs.peeled || !options.needs.mattes.empty() || (options.needs.hits && options.raster));

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkKeptSource.h"
 
-#include "dgtkGLContext.h"
+#include "dgtkRenderGLCalls.h"
 #include "dgtkSystem.h"
 
 #include <algorithm>
-#include <optional>
 #include <tuple>
 
 #include <unistd.h>
@@ -40,10 +39,10 @@ void KeptSource::use(const FrameSourceOptions& options, const std::shared_ptr<co
   {
     this->drop();
   }
-  std::optional<GLTurn> turn;
+  std::shared_ptr<GLTurn> turn;
   if (usesGL(options))
   {
-    turn.emplace();
+    turn = renderGL().takeTurn();
   }
   if (!this->Source)
   {
@@ -61,10 +60,10 @@ void KeptSource::use(const FrameSourceOptions& options, const std::shared_ptr<co
 void KeptSource::drop()
 {
   this->leaveInherited();
-  std::optional<GLTurn> turn;
+  std::shared_ptr<GLTurn> turn;
   if (this->Source && usesGL(this->Options))
   {
-    turn.emplace();
+    turn = renderGL().takeTurn();
   }
   this->Source.reset();
 }

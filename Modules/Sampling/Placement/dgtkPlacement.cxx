@@ -267,7 +267,7 @@ void Placing::write(std::size_t i)
 std::vector<PlaceOutcome> placeObjects(
   SceneDescription& scene, const std::vector<SampleRule>& rules, const SampleDraws& draws, SampleModels& models)
 {
-  return rules.empty() ? std::vector<PlaceOutcome>() : Placing(scene, rules, draws, models).run();
+  return Placing(scene, rules, draws, models).run();
 }
 
 DrawnSurfacePoint pointOnSurface(const SceneDescription& scene, std::size_t object, double frame,
@@ -301,3 +301,9 @@ DrawnSurfacePoint pointOnSurface(const SceneDescription& scene, std::size_t obje
 }
 
 } // namespace dgtk
+
+const dgtk::PlacementCalls* dgtkPlacementCalls()
+{
+  static const dgtk::PlacementCalls calls{ &dgtk::placeObjects, &dgtk::pointOnSurface };
+  return &calls;
+}

@@ -2,8 +2,7 @@
 #ifndef dgtkPlacement_h
 #define dgtkPlacement_h
 
-#include "dgtkSamplingModule.h"
-
+#include "dgtkOnDemand.h"
 #include "dgtkSampleDraws.h"
 #include "dgtkSampleModels.h"
 #include "dgtkSampleRule.h"
@@ -30,7 +29,7 @@ struct PlaceOutcome
 /// key frames of a fall. Rules are in that order, too; the result has one entry a rule. A draw has a path that begins
 /// with the rule's. Objects without a rule stand where they are. Throws InputError for a rule that says nothing that
 /// can be done, SampleRefused where a rule that cannot be kept says so.
-DGTKSAMPLING_EXPORT std::vector<PlaceOutcome> placeObjects(
+std::vector<PlaceOutcome> placeObjects(
   SceneDescription& scene, const std::vector<SampleRule>& rules, const SampleDraws& draws, SampleModels& models);
 
 /// A point of an object's surface, world frame.
@@ -43,9 +42,20 @@ struct DrawnSurfacePoint
 /// The point of the surface of an object, as it is at a frame, that three uniforms in [0, 1) stand for: the first
 /// chooses the triangle by its area in the world, the others the point in it, so that uniforms give points uniform over
 /// the area. Throws what SampleModels::model() throws, and InputError, at the object's line, for a model without area.
-DGTKSAMPLING_EXPORT DrawnSurfacePoint pointOnSurface(const SceneDescription& scene, std::size_t object, double frame,
+DrawnSurfacePoint pointOnSurface(const SceneDescription& scene, std::size_t object, double frame,
   const std::array<double, 3>& uniforms, SampleModels& models);
 
+/// This library is loaded when something is placed: see dgtkOnDemand.h.
+struct PlacementCalls
+{
+  decltype(&dgtk::placeObjects) placeObjects;
+  decltype(&dgtk::pointOnSurface) pointOnSurface;
+};
+
+inline const PlacementCalls& placement() { return onDemand<PlacementCalls>("dgtkPlacement"); }
+
 } // namespace dgtk
+
+extern "C" const dgtk::PlacementCalls* dgtkPlacementCalls();
 
 #endif

@@ -68,7 +68,7 @@ Eigen::Vector3d SampleGeometry::at(const GeometryPoint& point, const std::vector
   {
     return this->centreOf(objects) + point.numbers;
   }
-  const DrawnSurfacePoint found = pointOnSurface(this->Scene, objects.front(), this->Scene.firstFrame(),
+  const DrawnSurfacePoint found = placement().pointOnSurface(this->Scene, objects.front(), this->Scene.firstFrame(),
     { point.numbers[0], point.numbers[1], point.numbers[2] }, this->Models);
   return found.x_in_world + point.above * found.normal_in_world;
 }
