@@ -68,7 +68,10 @@ GeneratorRequest parseRequest(const Arguments& arguments)
   {
     throw UsageError("render needs a folder for the dataset: -o DIR");
   }
-  request.layers = arguments.list("--layers");
+  if (arguments.has("--layers")) // otherwise the usual ones, as far as the scene's cameras can have them
+  {
+    request.layers = arguments.list("--layers");
+  }
   request.cameras = arguments.list("--cameras");
   if (arguments.has("--frames"))
   {
@@ -92,7 +95,6 @@ GeneratorRequest parseRequest(const Arguments& arguments)
   }
   if (arguments.has("--for"))
   {
-    request.layers = arguments.has("--layers") ? request.layers : std::vector<std::string>();
     addNeeds(arguments.list("--for"), request.layers, request.options);
   }
   request.resume = arguments.has("--resume");

@@ -250,10 +250,12 @@ void checkPictures(const WorkPlan& plan, const SceneDescription& scene)
   }
 }
 
-/// Drawing, and files that hold matrices of OpenGL, are for linear projections.
-void checkCameras(const WorkPlan& plan, const Stage& stage)
+/// Drawing, and files that hold matrices of OpenGL, are for linear projections. A layer that needs those and was not
+/// asked for by its name is left out of the plan where a camera has another.
+void checkCameras(WorkPlan& plan, const Stage& stage)
 {
   std::set<std::size_t> seen;
+  std::set<std::string> leftOut;
   for (const Job& job : plan.jobs)
   {
     const LayerRequest& request = plan.request;
@@ -271,19 +273,26 @@ void checkCameras(const WorkPlan& plan, const Stage& stage)
       const bool picture = needs.color || needs.sharp;
       const bool drawn = (needs.hits && plan.raster) || (picture && !drawsItself(request)) ||
                          (plan.drawn && (picture || needs.peeled || !needs.mattes.empty()));
-      if (needs.linear || drawn)
+      const std::string name = planned.layer->info().layer;
+      if (drawn || (needs.linear && contains(request.layers, name)))
       {
-        throw UsageError("layer " + planned.layer->info().layer + ": " + who + (drawn ? ", and cannot be drawn" : ""));
+        throw UsageError("layer " + name + ": " + who + (drawn ? ", and cannot be drawn" : ""));
+      }
+      if (needs.linear && leftOut.insert(name).second)
+      {
+        plan.empty.push_back({ name, plan.jobs.size(), plan.jobs.size(), "cameras with linear projections alone" });
       }
       for (const std::string& format : planned.formats)
       {
         if (holdsMatrices(format))
         {
-          throw UsageError("layer " + planned.layer->info().layer + " as " + format + ": " + who);
+          throw UsageError("layer " + name + " as " + format + ": " + who);
         }
       }
     }
   }
+  const auto gone = [&](const PlannedLayer& planned) { return leftOut.count(planned.layer->info().layer) > 0; };
+  plan.layers.erase(std::remove_if(plan.layers.begin(), plan.layers.end(), gone), plan.layers.end());
 }
 
 /// Options of POV-Ray mean nothing where it does not draw and no layer is for it.
@@ -303,9 +312,8 @@ void checkPovOptions(const WorkPlan& plan)
 
 /// The layers of which some pictures of the run have no file, in the order of the plan. Throws UsageError for a layer
 /// that was asked for by its name and has no file at all.
-std::vector<EmptyRecord> emptyLayers(const WorkPlan& plan, const Stage& stage)
+void findEmptyLayers(WorkPlan& plan, const Stage& stage)
 {
-  std::vector<EmptyRecord> empty;
   for (const PlannedLayer& planned : plan.layers)
   {
     const std::string needs = planned.layer->requirement();
@@ -321,13 +329,13 @@ std::vector<EmptyRecord> emptyLayers(const WorkPlan& plan, const Stage& stage)
     }
     const std::string name = planned.layer->info().layer;
     const std::vector<std::string>& asked = plan.request.layers;
-    empty.push_back({ name, std::size_t(without), plan.jobs.size(), needs });
-    if (empty.back().pictures == empty.back().of && std::find(asked.begin(), asked.end(), name) != asked.end())
+    plan.empty.push_back({ name, std::size_t(without), plan.jobs.size(), needs });
+    if (plan.empty.back().pictures == plan.empty.back().of &&
+        std::find(asked.begin(), asked.end(), name) != asked.end())
     {
       throw UsageError("layer " + name + " would have no file in this run: it needs " + needs);
     }
   }
-  return empty;
 }
 } // namespace
 
@@ -369,7 +377,7 @@ WorkPlan makeWorkPlan(const LayerRequest& request, const Stage& stage)
       }
     }
   }
-  plan.empty = emptyLayers(plan, stage);
+  findEmptyLayers(plan, stage);
   return plan;
 }
 

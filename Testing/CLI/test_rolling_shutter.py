@@ -209,6 +209,15 @@ class RollingShutters(Case):
         self.dgtk(*run, "--layers", "ldi", "--quiet")
         self.refused("warp", self.path("out", "eye", "ldi", "000004.ldi"), "--to", "eye", "-o", self.path("warped"),
                      status=2, says="rolling shutter")
+        # Of layers that were not named, those that need one instant are left out, and said.
+        for word, layers in (("usual", []), ("all", ["--layers", "all"])):
+            said = self.dgtk("render", path, "-o", self.path(word), "--frames", "4", "--size", "32x24", *layers).stderr
+            left = {row["layer"]: row for row in load_json(self.path(word, "manifest.json"))["empty"]}
+            self.assertIn("layers without a file: ", said)
+            self.assertEqual(left["calibration"], {"layer": "calibration", "pictures": 1, "of": 1,
+                                                   "needs": "cameras with linear projections alone"})
+            self.assertEqual("pov" in left, word == "all")
+            self.dgtk("verify", self.path(word))
         known = json.loads(self.dgtk("info", path, "--json").stdout)["cameras"][0]
         self.assertEqual(known["rollingShutter"], {"duration": DURATION, "direction": "down"})
         record = load_json(self.path("out", "cameras.json"))["cameras"][0]
