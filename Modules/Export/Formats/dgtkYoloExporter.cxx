@@ -191,7 +191,7 @@ private:
     {
       text += "kpt_shape: [" + std::to_string(keypointNames(dataset).size()) + ", 3]\n";
     }
-    text += "names:\n";
+    text += dataset.classes().empty() ? "names: {}\n" : "names:\n";
     for (std::size_t i = 0; i < dataset.classes().size(); ++i)
     {
       text += "  " + std::to_string(i) + ": " + quotedText(dataset.classes()[i].name) + '\n';
