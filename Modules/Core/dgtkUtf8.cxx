@@ -99,17 +99,27 @@ std::string bytesFromUtf8(const std::string& text)
   return bytes;
 }
 
+namespace
+{
+/// A control character of one or two bytes, or a line or paragraph separator (U+2028, U+2029), begins here.
+bool endsLine(const std::string& text, std::size_t at)
+{
+  const auto c = static_cast<unsigned char>(text[at]);
+  return c < 0x20 || c == 0x7f || (c == 0xc2 && static_cast<unsigned char>(text[at + 1]) < 0xa0) ||
+         text.compare(at, 3, "\xe2\x80\xa8") == 0 || text.compare(at, 3, "\xe2\x80\xa9") == 0;
+}
+} // namespace
+
 std::string printable(const std::string& text)
 {
   std::string out;
   for (std::size_t i = 0; i < text.size();)
   {
     const std::size_t length = sequenceAt(text, i);
-    const auto c = static_cast<unsigned char>(text[i]);
-    if (length == 0 || c < 0x20 || c == 0x7f)
+    if (length == 0 || endsLine(text, i)) // what follows of a character is none by itself
     {
       char code[8];
-      std::snprintf(code, sizeof code, "\\x%02X", c);
+      std::snprintf(code, sizeof code, "\\x%02X", static_cast<unsigned char>(text[i]));
       out += code;
       ++i;
     }

@@ -182,10 +182,35 @@ ExportResult ExportRun::execute()
   const JournalStart start = this->Request.resume    ? JournalStart::Resume
                              : this->Request.replace ? JournalStart::Replace
                                                      : JournalStart::Fresh;
+  std::error_code code;
+  const bool anew = !std::filesystem::exists(this->Request.folder, code);
   this->Log = std::make_unique<Journal>(this->Request.folder, this->Hash, start, this->allNames(), exportName);
   this->Notes = std::make_unique<ExportNotes>(this->Request.folder, this->Hash, this->all(), this->Request.resume);
-  this->writeItems({ 0, this->items() });
-  return this->end();
+  try
+  {
+    this->writeItems({ 0, this->items() });
+    return this->end();
+  }
+  catch (const UsageError&) // values without a code, which are found when they are written
+  {
+    this->discard(anew);
+    throw;
+  }
+}
+
+/// Nothing stays of a run that is refused while it writes.
+void ExportRun::discard(bool withFolder)
+{
+  this->Notes->remove();
+  this->Notes.reset();
+  this->Log.reset();
+  Journal(this->Request.folder, this->Hash, JournalStart::Replace, {}, exportName);
+  Folder(this->Request.folder).remove(journalName);
+  if (withFolder)
+  {
+    std::error_code code;
+    std::filesystem::remove(this->Request.folder, code);
+  }
 }
 
 ExportResult ExportRun::end()

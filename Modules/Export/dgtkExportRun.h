@@ -61,6 +61,7 @@ private:
   std::size_t all() const { return this->Items + this->Plan.documents.size(); }
   bool cancelled() const { return this->Callbacks.cancel && *this->Callbacks.cancel; }
   void advance();
+  void discard(bool withFolder);
 
   ExportRequest Request;
   ExportCallbacks Callbacks;

@@ -26,3 +26,8 @@ def flat(folder):
     """A wall straight ahead: every pixel has one depth."""
     return _write(folder, "flat", {"objects": _objects()[:1], "cameras": [
         _camera("ahead", [0, 0, 2], [0, 0, 0]), _camera("beside", [0.2, 0, 2], [0.2, 0, 0])]})
+
+
+def nothing(folder):
+    """A camera, and no object: no class, no track, no box."""
+    return _write(folder, "nothing", {"objects": [], "cameras": [_camera("alone", [0, 0, 4], [0, 0, 0])]})

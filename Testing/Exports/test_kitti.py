@@ -138,8 +138,12 @@ class Kitti(datasets.ExportCase):
             self.assertEqual(rounding["without_code"] > 0, beyond)
             K = calibration(os.path.join(drive, "calib_cam_to_cam.txt"))["K_02"].reshape(3, 3)
             self.assertTrue(np.allclose(K[:2, 2], datasets.cameras_of(dataset)["Kamera 1", 0]["K"][:2, 2] - 0.5))
-        self.refused("export", dataset, "--format", "kitti-depth", "-o", self.path("no"), "--unit-metres", 40, "--out-of-range", "refuse",
-                     status=2, says="have no code")
+        os.mkdir(self.path("there"))
+        for folder in ("no", "there"):  # what is found while it is written leaves nothing either
+            self.refused("export", dataset, "--format", "kitti-depth", "-o", self.path(folder), "--unit-metres", 40, "--out-of-range", "refuse",
+                         status=2, says="have no code")
+        self.assertFalse(os.path.exists(self.path("no")))
+        self.assertEqual(os.listdir(self.path("there")), [])
 
 
 def pairs(conventions):

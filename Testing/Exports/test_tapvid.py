@@ -6,6 +6,7 @@ import pickle
 import numpy as np
 
 import datasets
+import hard_scenes
 from datasets import load_json, main, read_png
 
 TRACKS = ("--tracks-step", 6, "--tracks-every", 1)
@@ -69,6 +70,9 @@ class Tapvid(datasets.ExportCase):
         self.check(dataset, folder, record)
         with np.load(os.path.join(folder, "Kamera_1", "tracks.npz")) as arrays:
             self.assertTrue(arrays["occluded"][:, 3].all())
+        nothing = self.render(hard_scenes.nothing(self.path("nothing")), "color,tracks")
+        folder, record = self.export(nothing, "tapvid")
+        self.assertEqual(self.check(nothing, folder, record), (0, 0))  # with sums of members that NumPy takes
         lenses = self.render(datasets.lenses(self.path("lenses")), "color,tracks", *TRACKS)
         self.check(lenses, *self.export(lenses, "tapvid"))
         self.refused("export", self.render(self.path("walk", "walk.json"), "color"), "--format", "tapvid", "-o", self.path("no"), status=2, says="lacks layers")

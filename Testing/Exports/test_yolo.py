@@ -58,6 +58,13 @@ class Yolo(datasets.ExportCase):
         self.assertEqual(list(read["names"].values()), [one["name"] for one in load_json(os.path.join(dataset, "objects.json"))["classes"]])
         self.assertIn("größe\u2028XL\u0085", read["names"].values())
 
+        self.refused("export", dataset, "--format", "yolo", "-o", self.path("no"), "--split", "names=7:7", status=2, says=("split", "'names'"))
+        with open(os.path.join(self.export(dataset, "yolo", "--split", "no=7:7")[0], "data.yaml"), encoding="utf-8") as file:
+            self.assertEqual(yaml.safe_load(file)["no"], "images/no")
+        nothing = self.render(hard_scenes.nothing(self.path("nothing")), LAYERS)
+        with open(os.path.join(self.export(nothing, "yolo")[0], "data.yaml"), encoding="utf-8") as file:
+            self.assertEqual(yaml.safe_load(file)["names"], {})  # ultralytics counts them
+
     def test_boxes_and_segments(self):
         dataset = self.render(datasets.stereo(self.path("scene")), LAYERS)
         boxes, record = self.export(dataset, "yolo", "--split", "train=0:1,val=2:2")

@@ -44,6 +44,8 @@ TEST(Utf8, EveryNameRoundTrips)
 TEST(Utf8, ErrorsAreOneLineOfUtf8)
 {
   EXPECT_EQ(printable("\xe4\n\x7f\xc3\xa4"), "\\xE4\\x0A\\x7F\xc3\xa4");
+  EXPECT_EQ(printable("a\xc2\x85\xc2\xa0\xe2\x80\xa8\xe2\x80\xa9\xe2\x80\xaa"),
+    "a\\xC2\\x85\xc2\xa0\\xE2\\x80\\xA8\\xE2\\x80\\xA9\xe2\x80\xaa");
   EXPECT_STREQ(InputError("caf\xe9\n.ac", 3, "is bad").what(), "caf\\xE9\\x0A.ac:3: is bad");
   EXPECT_STREQ(UsageError("x\xff").what(), "x\\xFF");
   EXPECT_EQ(InputError("caf\xe9", 0, "x").file(), "caf\xe9");

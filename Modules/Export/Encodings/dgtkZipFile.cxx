@@ -60,6 +60,10 @@ void ZipFile::begin(const std::string& name, std::uint64_t bytes)
 
 void ZipFile::put(const void* data, std::size_t bytes)
 {
+  if (bytes == 0)
+  {
+    return; // of no data the sum would begin anew
+  }
   this->File->write(data, bytes);
   this->Sum = static_cast<std::uint32_t>(::crc32_z(this->Sum, static_cast<const unsigned char*>(data), bytes));
 }

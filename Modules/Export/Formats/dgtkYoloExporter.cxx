@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace dgtk
@@ -155,6 +156,7 @@ public:
       { "labels", labels().of(options) } };
     SafeNames names;
     const std::vector<DatasetSplit> splits = splitsOf(dataset, options, "train");
+    checkKeys(splits);
     for (const DatasetSplit& split : splits)
     {
       for (const DatasetShot& shot : dataset.shots())
@@ -173,6 +175,19 @@ public:
   }
 
 private:
+  /// Parts are keys of data.yaml beside its own.
+  static void checkKeys(const std::vector<DatasetSplit>& splits)
+  {
+    const std::set<std::string> own = { "path", "names", "nc", "kpt_shape", "flip_idx", "download" };
+    for (const DatasetSplit& split : splits)
+    {
+      if (own.count(split.name) > 0)
+      {
+        throw UsageError("split: data.yaml says something else under the name " + quoted(split.name));
+      }
+    }
+  }
+
   static std::string yamlOf(
     const DatasetView& dataset, const std::vector<DatasetSplit>& splits, const OptionValues& options)
   {
@@ -185,13 +200,14 @@ private:
     }
     for (const DatasetSplit& split : splits)
     {
-      text += split.name == "train" || split.name == "val" ? "" : split.name + ": images/" + split.name + '\n';
+      text +=
+        split.name == "train" || split.name == "val" ? "" : quotedText(split.name) + ": images/" + split.name + '\n';
     }
     if (labels().of(options) == "poses")
     {
       text += "kpt_shape: [" + std::to_string(keypointNames(dataset).size()) + ", 3]\n";
     }
-    text += "names:\n";
+    text += dataset.classes().empty() ? "names: {}\n" : "names:\n";
     for (std::size_t i = 0; i < dataset.classes().size(); ++i)
     {
       text += "  " + std::to_string(i) + ": " + quotedText(dataset.classes()[i].name) + '\n';
