@@ -2,12 +2,14 @@
 #include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
+#include "dgtkExportSeries.h"
 #include "dgtkFile.h"
 #include "dgtkGltf.h"
 #include "dgtkText.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 namespace dgtk
@@ -350,13 +352,14 @@ public:
     addTextures(dataset, plan);
     plan.items.push_back(
       { { sceneName, bufferName }, [&dataset](ExportSink& sink) { GltfWriter(dataset, sink).write(); } });
-    const std::vector<std::string> cameras = dataset.cameras();
-    for (const DatasetShot& shot : dataset.shots())
-    {
-      const auto at = std::lower_bound(cameras.begin(), cameras.end(), shot.name()) - cameras.begin();
-      plan.names.push_back(
-        { shot.name(), shot.frame(), "nodes/" + std::to_string(at + 1) + '@' + std::to_string(shot.frame()) });
-    }
+    std::vector<std::uint32_t> all(dataset.shots().size());
+    std::iota(all.begin(), all.end(), 0);
+    plan.series.push_back(namesOf(dataset, all,
+      [cameras = dataset.cameras()](const DatasetShot& shot)
+      {
+        const auto at = std::lower_bound(cameras.begin(), cameras.end(), shot.name()) - cameras.begin();
+        return "nodes/" + std::to_string(at + 1) + '@' + std::to_string(shot.frame());
+      }));
     return plan;
   }
 
