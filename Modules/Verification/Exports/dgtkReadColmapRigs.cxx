@@ -3,9 +3,9 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkJsonFile.h"
 
 #include <Eigen/Geometry>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -124,14 +124,14 @@ std::map<std::uint32_t, Rig> readRigs(const std::string& path, bool binary)
 void judgeConfiguration(ExportJudge& judge, const std::string& file, const std::map<std::uint32_t, Rig>& rigs)
 {
   constexpr double rounding = 1e-12;
-  const nlohmann::json all = nlohmann::json::parse(readFile(judge.source().path(file)), nullptr, false);
+  const nlohmann::json all = readJsonFile(judge.source().path(file));
   std::size_t several = 0;
   for (const auto& [number, rig] : rigs)
   {
     several += rig.size() > 1 ? 1 : 0;
   }
-  judge.number("rigs", "", file, "rigs", all.is_array() ? double(all.size()) : -1, double(several), 0);
-  for (const nlohmann::json& one : all.is_array() ? all : nlohmann::json::array())
+  judge.number("rigs", "", file, "rigs", double(all.size()), double(several), 0);
+  for (const nlohmann::json& one : all)
   {
     for (const nlohmann::json& camera : one.at("cameras"))
     {
@@ -194,9 +194,14 @@ void judgeColmapRigs(ExportJudge& judge, const std::string& folder, const std::s
   values.end();
   for (const auto& [number, image] : images)
   {
-    judge.number("rigs", "", file, "picture " + std::to_string(number) + " in frames", seen[number], 1, 0);
+    const auto has = [camera = image.camera](const auto& rig) { return rig.second.count(camera) > 0; };
+    const std::string where = "picture " + std::to_string(number);
+    judge.number("rigs", "", file, where + ", frames", seen[number], 1, 0);
+    judge.number("rigs", "", folder + "rigs" + extension, where + ", rigs of its camera",
+      double(std::count_if(rigs.begin(), rigs.end(), has)), 1, 0);
   }
-  judgeConfiguration(judge, folder + "rig_config.json", rigs);
+  const std::string configuration = folder + "rig_config.json";
+  useJson(judge.source().path(configuration), [&] { judgeConfiguration(judge, configuration, rigs); });
 }
 
 } // namespace dgtk
