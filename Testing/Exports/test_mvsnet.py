@@ -84,7 +84,7 @@ class Mvsnet(datasets.ExportCase):
         self.assertIn("layer intrinsics", said)
 
     def test_many_views_are_scored_with_the_best_by_a_sample(self):
-        """Of 120 views on a half circle the ten others are all but the best ten."""
+        """Of 120 views on a circle, some of them behind the wall, the ten others are all but the best ten."""
         count = 120
         dataset = self.render(datasets.many(self.path("scene"), cameras=count), LAYERS, "--size", "48x36", "--tracks-step", 4, "--tracks-every", 1)
         folder, record = self.export(dataset, "mvsnet")
@@ -94,8 +94,8 @@ class Mvsnet(datasets.ExportCase):
         centres = [-E[:3, :3].T @ E[:3, 3] for E in poses]
         for view, others, scores in read_pairs(os.path.join(folder, "cams", "pair.txt"))[::7]:
             expected = {other: score(x[seen[view] & seen[other]], centres[view], centres[other]) for other in set(range(count)) - {view}}
-            best = sorted(expected.values(), reverse=True)[:10]
-            self.assertEqual(len(set(others) - {view}), 10)
+            best = [one for one in sorted(expected.values(), reverse=True)[:10] if one > 0]
+            self.assertEqual(len(set(others) - {view}), len(best))
             self.assertTrue(np.allclose(scores, [expected[i] for i in others], rtol=1e-6))
             self.assertGreater(sum(scores), 0.98 * sum(best))
 
