@@ -12,6 +12,7 @@
 #include "dgtkText.h"
 
 #include <algorithm>
+#include <deque>
 #include <mutex>
 #include <set>
 #include <tuple>
@@ -112,6 +113,7 @@ DatasetView::~DatasetView() = default;
 void DatasetView::readShots(const DatasetSelection& selection)
 {
   std::set<std::string> known;
+  std::deque<CameraRecord> meant;
   std::vector<DatasetShot> all; // for twins, which may be of any name
   readCameras(dgtk::Folder(this->Folder).fileAt("cameras.json"),
     [&](CameraRecord&& camera)
@@ -123,7 +125,7 @@ void DatasetView::readShots(const DatasetSelection& selection)
       }
       if ((selection.cameras.empty() || isOneOf(camera.name, selection.cameras)) && holdsFrame(selection, camera.frame))
       {
-        this->Shots.push_back({ 0, std::move(camera) });
+        meant.push_back(std::move(camera));
       }
     });
   for (const std::string& name : selection.cameras)
@@ -135,16 +137,20 @@ void DatasetView::readShots(const DatasetSelection& selection)
                        (near.empty() ? "" : ", did you mean " + quoted(near) + "?"));
     }
   }
-  if (this->Shots.empty())
+  if (meant.empty())
   {
     throw UsageError("frames: none of the dataset's pictures is meant");
+  }
+  this->Shots.reserve(meant.size());
+  for (; !meant.empty(); meant.pop_front()) // never twice in memory
+  {
+    this->Shots.push_back({ 0, std::move(meant.front()) });
   }
   if (selection.pinholeTwins)
   {
     this->Shots = withTwins(this->Shots, all);
   }
-  this->Shots.shrink_to_fit();
-  std::stable_sort(this->Shots.begin(), this->Shots.end(),
+  std::sort(this->Shots.begin(), this->Shots.end(),
     [](const DatasetShot& a, const DatasetShot& b)
     { return std::tie(a.camera.name, a.camera.frame) < std::tie(b.camera.name, b.camera.frame); });
   const bool many = !this->Scene.name.empty();

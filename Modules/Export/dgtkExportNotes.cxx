@@ -157,7 +157,7 @@ void ExportNotes::takeOver()
     {
       break;
     }
-    this->Places[head[0]] = place;
+    this->Places[head[0]] = this->End;
     this->End = place.offset + place.bytes;
   }
   if (::ftruncate(this->File.number(), static_cast<off_t>(this->End)) != 0 ||
@@ -171,7 +171,8 @@ void ExportNotes::add(std::size_t item, const ItemRecord& record) { this->addByt
 
 void ExportNotes::add(std::size_t item, const ExportNotes& part)
 {
-  this->addBytes(item, part.bytesAt(part.Places[item]->offset, part.Places[item]->bytes));
+  const Place place = part.placeOf(item);
+  this->addBytes(item, part.bytesAt(place.offset, place.bytes));
 }
 
 void ExportNotes::addBytes(std::size_t item, const std::string& bytes)
@@ -184,7 +185,7 @@ void ExportNotes::addBytes(std::size_t item, const std::string& bytes)
   {
     this->fail();
   }
-  this->Places[item] = Place{ this->End + sizeof head, bytes.size() };
+  this->Places[item] = this->End;
   this->End += text.size();
 }
 
@@ -205,6 +206,14 @@ std::string ExportNotes::bytesAt(std::uint64_t offset, std::uint64_t bytes) cons
   return text;
 }
 
+ExportNotes::Place ExportNotes::placeOf(std::size_t item) const
+{
+  std::uint64_t head[2];
+  const std::string bytes = this->bytesAt(this->Places[item], sizeof head);
+  std::memcpy(head, bytes.data(), sizeof head);
+  return { this->Places[item] + sizeof head, head[1] };
+}
+
 void ExportNotes::failDamaged() const
 {
   throw MachineError(this->Holder.pathOf(notesName()) + ": is damaged; start over");
@@ -212,7 +221,7 @@ void ExportNotes::failDamaged() const
 
 ItemRecord ExportNotes::read(std::size_t item) const
 {
-  const Place& place = *this->Places[item];
+  const Place place = this->placeOf(item);
   std::size_t at = 0;
   const std::uint64_t size = takeSize(this->bytesAt(place.offset, std::min<std::uint64_t>(8, place.bytes)), at);
   if (size > place.bytes - std::min<std::uint64_t>(at, place.bytes))
@@ -233,7 +242,7 @@ ItemRecord ExportNotes::read(std::size_t item) const
 void ExportNotes::forNotes(
   std::size_t item, const std::string& list, const std::function<void(const std::string&)>& visit) const
 {
-  const Place& place = *this->Places[item];
+  const Place place = this->placeOf(item);
   const std::string bytes = this->bytesAt(place.offset, place.bytes);
   std::size_t at = 0;
   const std::uint64_t rest = takeSize(bytes, at);

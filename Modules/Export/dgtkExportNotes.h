@@ -7,9 +7,9 @@
 #include "dgtkExporter.h"
 #include "dgtkFolder.h"
 
+#include <cstdint>
 #include <functional>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,7 +35,7 @@ public:
   /// MachineError.
   ExportNotes(const std::string& folder, const std::string& requestHash, std::size_t items, bool resume);
 
-  bool has(std::size_t item) const { return this->Places[item].has_value(); }
+  bool has(std::size_t item) const { return this->Places[item] != 0; }
   /// Throws MachineError.
   void add(std::size_t item, const ItemRecord& record);
   /// The record of a finished item of another run's part. Throws MachineError.
@@ -48,21 +48,23 @@ public:
   void remove();
 
 private:
+  /// Bytes of a record.
   struct Place
   {
     std::uint64_t offset = 0;
-    std::uint64_t bytes = 0; ///< of all
+    std::uint64_t bytes = 0;
   };
   [[noreturn]] void fail() const;
   [[noreturn]] void failDamaged() const;
   std::string bytesAt(std::uint64_t offset, std::uint64_t bytes) const;
+  Place placeOf(std::size_t item) const;
   void begin(const std::string& requestHash);
   void addBytes(std::size_t item, const std::string& bytes);
   void takeOver();
   Folder Holder;
   FileDescriptor File;
   std::uint64_t End = 0;
-  std::vector<std::optional<Place>> Places;
+  std::vector<std::uint64_t> Places; ///< of an item's record, its head first; 0 for none, where the request's hash is
   std::mutex Mutex;
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkFileTable.h"
 
+#include "dgtkExportChecks.h"
+
 #include <algorithm>
-#include <numeric>
-#include <string_view>
 #include <tuple>
 
 namespace dgtk
@@ -11,7 +11,8 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* digits = "0123456789abcdef";
+constexpr const char* hexadecimals = "0123456789abcdef";
+constexpr int frameDigits = 6; ///< of files, at least
 
 std::array<std::uint8_t, 32> packed(const std::string& hexadecimal)
 {
@@ -29,61 +30,104 @@ std::string unpacked(const std::array<std::uint8_t, 32>& bytes)
   std::string text;
   for (const std::uint8_t byte : bytes)
   {
-    text += { digits[byte >> 4], digits[byte & 15] };
+    text += { hexadecimals[byte >> 4], hexadecimals[byte & 15] };
   }
   return text;
 }
+
+/// The place of what is kept once; where it is new, behind the others.
+template <typename Key, typename Value>
+std::uint32_t numberOf(
+  std::map<Key, std::uint32_t>& numbers, std::vector<Value>& values, const Key& key, const Value& value)
+{
+  const auto [found, fresh] = numbers.emplace(key, static_cast<std::uint32_t>(values.size()));
+  if (fresh)
+  {
+    values.push_back(value);
+  }
+  return found->second;
+}
 } // namespace
+
+std::uint32_t FileTable::layerNumber(const std::string& layer)
+{
+  const auto known = std::find(this->Layers.begin(), this->Layers.end(), layer);
+  const auto number = static_cast<std::uint32_t>(known - this->Layers.begin());
+  if (known == this->Layers.end())
+  {
+    this->Layers.push_back(layer);
+    this->OfShots.push_back(false);
+  }
+  return number;
+}
 
 void FileTable::add(const DatasetFile& file, std::uint32_t shot)
 {
-  const auto known = std::find(this->Layers.begin(), this->Layers.end(), file.layer);
-  const auto layer = static_cast<std::uint32_t>(known - this->Layers.begin());
-  if (known == this->Layers.end())
+  Entry entry;
+  entry.bytes = file.bytes;
+  entry.hash = packed(file.sha256);
+  entry.shot = shot;
+  std::string rest = file.path;
+  if (rest.compare(0, file.camera.size(), file.camera) == 0)
   {
-    this->Layers.push_back(file.layer);
-    this->OfShots.push_back(false);
+    rest.erase(0, file.camera.size());
+    entry.camera = numberOf(this->CameraNumbers, this->Cameras, file.camera, file.camera);
   }
+  const std::uint32_t layer = this->layerNumber(file.layer);
   this->OfShots[layer] = this->OfShots[layer] || shot != noShot;
-  this->Entries.push_back(
-    { this->Paths.size(), file.bytes, packed(file.sha256), static_cast<std::uint32_t>(file.path.size()), shot, layer });
-  this->Paths += file.path;
+  const std::string digits = file.frame < 0 ? std::string() : padded(file.frame, frameDigits);
+  const std::size_t name = rest.rfind('/') + 1;
+  Form form{ rest, {}, layer };
+  if (!digits.empty() && rest.compare(name, digits.size(), digits) == 0)
+  {
+    form = { rest.substr(0, name), rest.substr(name + digits.size()), layer };
+    entry.frame = file.frame;
+  }
+  entry.form = numberOf(this->FormNumbers, this->Forms, { form.before, form.after, file.layer }, form);
+  this->Entries.push_back(entry);
+  this->Sorted = this->Sorted && (this->Entries.size() == 1 || this->LastPath < file.path);
+  this->LastPath = file.path;
 }
 
-int FileTable::compare(const Entry& entry, const std::string& path) const
+std::string FileTable::pathOf(const Entry& entry) const
 {
-  return std::string_view(this->Paths).substr(entry.path, entry.length).compare(path);
+  const Form& form = this->Forms[entry.form];
+  return this->Cameras[entry.camera] + form.before + (entry.frame < 0 ? "" : padded(entry.frame, frameDigits)) +
+         form.after;
 }
 
 void FileTable::finish()
 {
-  this->Paths.shrink_to_fit();
-  this->Entries.shrink_to_fit();
-  this->ByPath.resize(this->Entries.size());
-  std::iota(this->ByPath.begin(), this->ByPath.end(), 0);
-  const std::string_view paths = this->Paths;
-  const auto path = [&](std::uint32_t i) { return paths.substr(this->Entries[i].path, this->Entries[i].length); };
-  std::sort(
-    this->ByPath.begin(), this->ByPath.end(), [&](std::uint32_t a, std::uint32_t b) { return path(a) < path(b); });
+  if (!this->Sorted) // manifests are
+  {
+    std::sort(this->Entries.begin(), this->Entries.end(),
+      [this](const Entry& a, const Entry& b) { return this->pathOf(a) < this->pathOf(b); });
+  }
+  this->CameraNumbers.clear();
+  this->FormNumbers.clear();
+  const auto withShot =
+    std::count_if(this->Entries.begin(), this->Entries.end(), [](const Entry& entry) { return entry.shot != noShot; });
   this->ByShot.clear();
-  std::copy_if(this->ByPath.begin(), this->ByPath.end(), std::back_inserter(this->ByShot),
-    [this](std::uint32_t i) { return this->Entries[i].shot != noShot; });
-  this->ByShot.shrink_to_fit();
-  std::stable_sort(this->ByShot.begin(), this->ByShot.end(),
-    [this](std::uint32_t a, std::uint32_t b)
+  this->ByShot.reserve(std::size_t(withShot));
+  for (std::size_t i = 0; i < this->Entries.size(); ++i)
+  {
+    if (this->Entries[i].shot != noShot)
     {
-      const Entry& one = this->Entries[a];
-      const Entry& other = this->Entries[b];
-      return std::tie(one.shot, one.layer) < std::tie(other.shot, other.layer);
-    });
+      this->ByShot.push_back(std::uint32_t(i));
+    }
+  }
+  const auto place = [this](std::uint32_t i)
+  { return std::make_tuple(this->Entries[i].shot, this->layerOf(this->Entries[i]), i); };
+  std::sort(
+    this->ByShot.begin(), this->ByShot.end(), [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
 }
 
 std::optional<std::uint32_t> FileTable::find(const std::string& path) const
 {
-  const auto found = std::lower_bound(this->ByPath.begin(), this->ByPath.end(), path,
-    [this](std::uint32_t i, const std::string& wanted) { return this->compare(this->Entries[i], wanted) < 0; });
-  const bool known = found != this->ByPath.end() && this->compare(this->Entries[*found], path) == 0;
-  return known ? std::optional<std::uint32_t>(*found) : std::nullopt;
+  const auto found = std::lower_bound(this->Entries.begin(), this->Entries.end(), path,
+    [this](const Entry& entry, const std::string& wanted) { return this->pathOf(entry) < wanted; });
+  const bool known = found != this->Entries.end() && this->pathOf(*found) == path;
+  return known ? std::optional<std::uint32_t>(std::uint32_t(found - this->Entries.begin())) : std::nullopt;
 }
 
 std::vector<std::uint32_t> FileTable::ofShot(std::uint32_t shot) const
@@ -103,8 +147,8 @@ std::vector<std::uint32_t> FileTable::ofShot(std::uint32_t shot, const std::stri
   {
     files = this->ofShot(shot);
     const auto number = static_cast<std::uint32_t>(known - this->Layers.begin());
-    files.erase(
-      std::remove_if(files.begin(), files.end(), [&](std::uint32_t i) { return this->Entries[i].layer != number; }),
+    files.erase(std::remove_if(files.begin(), files.end(),
+                  [&](std::uint32_t i) { return this->layerOf(this->Entries[i]) != number; }),
       files.end());
   }
   return files;
@@ -116,11 +160,6 @@ bool FileTable::hasLayer(const std::string& layer) const
   return known != this->Layers.end() && this->OfShots[std::size_t(known - this->Layers.begin())];
 }
 
-std::string FileTable::pathOf(std::uint32_t number) const
-{
-  return this->Paths.substr(this->Entries[number].path, this->Entries[number].length);
-}
-
 DatasetFile FileTable::at(std::uint32_t number) const
 {
   const Entry& entry = this->Entries[number];
@@ -128,7 +167,7 @@ DatasetFile FileTable::at(std::uint32_t number) const
   file.path = this->pathOf(number);
   file.bytes = entry.bytes;
   file.sha256 = unpacked(entry.hash);
-  file.layer = this->Layers[entry.layer];
+  file.layer = this->Layers[this->layerOf(entry)];
   return file;
 }
 

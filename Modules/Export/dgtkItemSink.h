@@ -13,6 +13,9 @@
 namespace dgtk
 {
 
+/// Adds what one item did to a layer's values to what others did.
+void addRounding(std::vector<LayerRounding>& all, const LayerRounding& one);
+
 /// Writes the files of one item into the folder of an export and collects what it leaves.
 class ItemSink : public ExportSink
 {
@@ -28,7 +31,7 @@ public:
   void copy(const std::string& name, const std::string& datasetFile, const ExportedPixels& pixels) override;
   void note(const std::string& list, const std::string& text) override { this->Record.notes.emplace_back(list, text); }
   void notes(const std::string& list, const std::function<void(const std::string&)>& visit) override;
-  void rounding(const LayerRounding& rounding) override { this->Record.rounding.push_back(rounding); }
+  void rounding(const LayerRounding& rounding) override { addRounding(this->Record.rounding, rounding); }
 
   const ItemRecord& record() const { return this->Record; }
 
@@ -48,9 +51,6 @@ private:
 /// Gives a file a second name in a folder, under which it takes the place of what is there. False where that cannot be:
 /// on another disk, or one without links.
 bool linkFile(const std::string& path, const Folder& folder, const std::string& name);
-
-/// Adds what one item did to a layer's values to what others did.
-void addRounding(std::vector<LayerRounding>& all, const LayerRounding& one);
 
 } // namespace dgtk
 

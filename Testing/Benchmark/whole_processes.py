@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Times `dgtk` as users run it: whole processes on scenes of OBJ files, which the first run makes.
 
-usage: whole_processes.py DGTK [--scenes S,M,L] [--rounds 3] [--work FOLDER] [--growth] [--exports]
+usage: whole_processes.py DGTK [--scenes S,M,L] [--rounds 3] [--work FOLDER] [--growth] [--exports] [--export-growth]
 
 S, M, L: 10,000, 200,000 and 2,000,000 triangles in 10, 50 and 200 objects, 20 frames, one of them moving, 640x480.
 Prints medians. start: dgtk --help, info of a model, and one 320x240 frame of depth and ids, beside `true`.
@@ -10,7 +10,9 @@ load: a frame of 16x12 pixels of depth, as a whole process; beside it, sha256sum
 again: the same with models that are kept; all else is measured without.
 frame: (time of N frames - time of 2) / (N - 2), of colour, exact layers, both flows, and of all six, and the most memory.
 --growth: many pictures, cameras and objects of a tiny scene, time and memory for each.
---exports: 200 and 1000 pictures of 640x480 to COCO, COLMAP and BOP, beside rendering them."""
+--exports: 200 and 1000 pictures of 640x480 to COCO, COLMAP and BOP, beside rendering them.
+--export-growth: every format, of 200 and 2000 frames of two 16x12 cameras: memory a frame, and beside the format that takes the least: that is
+the dataset's own tables."""
 import argparse
 import json
 import math
@@ -161,6 +163,30 @@ class Bench:
             shutil.rmtree(data)
 
 
+    def export_growth(self):
+        folder = os.path.join(self.work, "export-growth")
+        os.makedirs(folder, exist_ok=True)
+        corners = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+        with open(folder + "/box.obj", "w", encoding="ascii") as file:
+            file.writelines("v %g %g %g\n" % corner for corner in corners)
+            file.write("f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n")
+        forms = [row["format"] for row in json.loads(subprocess.run([self.dgtk, "list", "exporters", "--json"], check=True, capture_output=True).stdout)["exporters"]]
+        few, many = 200, 2000
+        move = {"keys": [[0, [-1, 0, 0]], [many - 1, [1, 0, 0]]]}
+        cameras = [{"name": name, "fovY": 45, "near": 0.1, "far": 100, "eye": [x, 0, 8], "lookAt": [x, 0, 0]} for name, x in (("left", -0.1), ("right", 0.1))]
+        with open(folder + "/scene.json", "w", encoding="ascii") as file:
+            json.dump({"version": 1, "units": "metre", "fps": 25, "cameras": cameras, "objects": [{"model": "box.obj", "name": "box", "class": "box", "position": move}]}, file)
+        memory = {}
+        for frames in (few, many):
+            data = f"{folder}/data{frames}"
+            timed([self.dgtk, "render", folder + "/scene.json", "-o", data, "--replace", "--quiet", "--size", "16x12", "--frames", f"0:{frames - 1}", "--for", ",".join(forms)])
+            for form in forms:
+                memory[form, frames] = timed([self.dgtk, "export", data, "--format", form, "-o", folder + "/out", "--replace", "--quiet"])[1]
+        growth = {form: 1024 * (memory[form, many] - memory[form, few]) / (many - few) for form in forms}
+        for form, each in growth.items():
+            print(f"export {form:<24} {memory[form, many]:8.1f} MB {each:8.2f} KB a frame {each / min(growth.values()):8.2f} x the least")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("dgtk")
@@ -169,6 +195,7 @@ def main():
     parser.add_argument("--work", default=os.path.join(tempfile.gettempdir(), "dgtk-whole-processes"))
     parser.add_argument("--growth", action="store_true")
     parser.add_argument("--exports", action="store_true")
+    parser.add_argument("--export-growth", action="store_true")
     words = parser.parse_args()
     os.makedirs(words.work, exist_ok=True)
     os.environ.update(XDG_CACHE_HOME=os.path.abspath(words.work), DGTK_CACHE="0")
@@ -179,6 +206,8 @@ def main():
         bench.growth()
     if words.exports:
         bench.exports()
+    if words.export_growth:
+        bench.export_growth()
 
 
 if __name__ == "__main__":

@@ -42,6 +42,13 @@ def read_pfm(path):
     return np.frombuffer(data, "<f4").reshape(height, width)[::-1]
 
 
+def score(x, one, two):
+    """colmap2mvsnet.py: of points that two cameras see."""
+    a, b = one - x, two - x
+    angle = np.degrees(np.arccos((a * b).sum(axis=1) / np.linalg.norm(a, axis=1) / np.linalg.norm(b, axis=1)))
+    return np.exp(-(angle - 5)**2 / (2 * np.where(angle <= 5, 1, 10)**2)).sum()
+
+
 class Mvsnet(datasets.ExportCase):
     def test_views_of_one_frame(self):
         dataset = self.render(datasets.many(self.path("scene"), cameras=12), LAYERS, *TRACKS)
@@ -68,18 +75,29 @@ class Mvsnet(datasets.ExportCase):
             centres.append(-E[:3, :3].T @ E[:3, 3])
         for view, others, scores in pairs:
             self.assertEqual(len(others), 10)
-            expected = {}
-            for other in set(range(12)) - {view}:
-                both = x[seen[view] & seen[other]]
-                a, b = centres[view] - both, centres[other] - both
-                angle = np.degrees(np.arccos((a * b).sum(axis=1) / np.linalg.norm(a, axis=1) / np.linalg.norm(b, axis=1)))
-                expected[other] = np.exp(-(angle - 5)**2 / (2 * np.where(angle <= 5, 1, 10)**2)).sum()
+            expected = {other: score(x[seen[view] & seen[other]], centres[view], centres[other]) for other in set(range(12)) - {view}}
             self.assertEqual(others, sorted(expected, key=lambda i: (-expected[i], i))[:10])
             self.assertTrue(np.allclose(scores, [expected[i] for i in others], rtol=1e-6))
         said = self.planted(dataset, folder, "cams/pair.txt", lambda text: text.replace(b"\n10 ", b"\n10 1", 1))
         self.assertRegex(said, "layer (pairs|scores)")
         said = self.planted(dataset, folder, "cams/00000003_cam.txt", lambda text: text.replace(b"intrinsic\n", b"intrinsic\n1", 1))
         self.assertIn("layer intrinsics", said)
+
+    def test_many_views_are_scored_with_the_best_by_a_sample(self):
+        """Of 120 views on a circle, some of them behind the wall, the ten others are all but the best ten."""
+        count = 120
+        dataset = self.render(datasets.many(self.path("scene"), cameras=count), LAYERS, "--size", "48x36", "--tracks-step", 4, "--tracks-every", 1)
+        folder, record = self.export(dataset, "mvsnet")
+        x = np.array([point["x"] for point in load_json(os.path.join(dataset, "tracks", "points.json"))["points"]])
+        seen = [np.load(os.path.join(dataset, entry["camera"], "tracks", "000000.npy"))[:, 2] == 1 for entry in record["names"]]
+        poses = [read_cam(os.path.join(folder, "cams", f"{number:08d}_cam.txt"))[0] for number in range(count)]
+        centres = [-E[:3, :3].T @ E[:3, 3] for E in poses]
+        for view, others, scores in read_pairs(os.path.join(folder, "cams", "pair.txt"))[::7]:
+            expected = {other: score(x[seen[view] & seen[other]], centres[view], centres[other]) for other in set(range(count)) - {view}}
+            best = [one for one in sorted(expected.values(), reverse=True)[:10] if one > 0]
+            self.assertEqual(len(set(others) - {view}), len(best))
+            self.assertTrue(np.allclose(scores, [expected[i] for i in others], rtol=1e-6))
+            self.assertGreater(sum(scores), 0.98 * sum(best))
 
     def test_moving_cameras_and_refusals(self):
         dataset = self.render(datasets.stereo(self.path("scene")), LAYERS, *TRACKS)

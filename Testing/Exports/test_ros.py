@@ -161,6 +161,24 @@ def transforms_of(messages):
     return found
 
 
+def pixels_of(info, points):
+    """sensor_msgs/distortion_models.h: raw pixels, whole at their centres, of points in the camera's axes, by OpenCV's equations."""
+    K = np.array(info.K).reshape(3, 3)
+    a, b = (points[:, :2] / points[:, 2:]).T
+    square = a * a + b * b
+    if info.distortion_model == "equidistant":
+        k1, k2, k3, k4 = info.D
+        r = np.sqrt(square)
+        angle = np.arctan(r)
+        bent = angle * (1 + k1 * angle**2 + k2 * angle**4 + k3 * angle**6 + k4 * angle**8)
+        a, b = a * bent / r, b * bent / r
+    else:
+        k1, k2, p1, p2, k3, k4, k5, k6 = (*info.D, 0, 0, 0)[:8]
+        radial = (1 + k1 * square + k2 * square**2 + k3 * square**3) / (1 + k4 * square + k5 * square**2 + k6 * square**3)
+        a, b = (a * radial + 2 * p1 * a * b + p2 * (square + 2 * a * a), b * radial + 2 * p2 * a * b + p1 * (square + 2 * b * b))
+    return np.column_stack([K[0, 0] * a + K[0, 2], K[1, 1] * b + K[1, 2]])
+
+
 class Ros(datasets.ExportCase):
     METRES = 0.5
     NAMES = {"left eye": "left_eye", "right.eye": "right_eye"}
@@ -242,9 +260,20 @@ class Ros(datasets.ExportCase):
         self.assertEqual((left.K[2], left.K[5], left.distortion_model, tuple(left.D)), (47.5, 35.5, "plumb_bob", (0,) * 5))
 
     def test_lenses(self):
-        dataset = self.render(datasets.lenses(self.path("lenses")), "color,depth")
-        folder, record = self.export(dataset, "rosbag", "--image-format", "jpg")
-        infos = {topic: message for topic, _, message in messages_of_bag(os.path.join(folder, "dataset.bag"))}
+        """Points of the dataset, by tf and CameraInfo, are in the pixels in which it sees them."""
+        dataset = self.render(datasets.lenses(self.path("lenses")), "color,depth,objects,tracks", "--tracks-step", 6)
+        folder, record = self.export(dataset, "rosbag", "--image-format", "jpg", "--unit-metres", self.METRES)
+        messages = messages_of_bag(os.path.join(folder, "dataset.bag"))
+        infos = {topic: message for topic, _, message in messages}
+        x = np.array([point["x"] for point in load_json(os.path.join(dataset, "tracks", "points.json"))["points"]]) * self.METRES
+        [places] = transforms_of(messages).values()
+        for name in ("plain", "radial", "mild", "fish"):
+            seen = np.load(os.path.join(dataset, name, "tracks", "000000.npy"))
+            use = seen[:, 2] == 1
+            R, t = places[name + "_optical_frame"]
+            pixels = pixels_of(infos[f"/{name}/camera_info"], (x[use] - t) @ R)
+            self.assertGreater(use.sum(), 50)
+            self.assertLess(np.abs(pixels + 0.5 - seen[use, :2]).max(), 1e-4)
         models = {name: (infos[f"/{name}/camera_info"].distortion_model, len(infos[f"/{name}/camera_info"].D)) for name in ("plain", "radial", "mild", "fish")}
         self.assertEqual(models, {"plain": ("plumb_bob", 5), "radial": ("rational_polynomial", 8), "mild": ("plumb_bob", 5), "fish": ("equidistant", 4)})
         self.assertEqual(tuple(infos["/mild/camera_info"].D), (-0.2, 0.05, 0.001, -0.002, 0))

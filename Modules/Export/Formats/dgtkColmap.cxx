@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkColmap.h"
 
+#include "dgtkColmapRigs.h"
 #include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
@@ -89,7 +90,7 @@ const ChoiceOption& pictureNames()
   return row;
 }
 
-std::vector<const OptionRow*> optionRows() { return { &modelFormat(), &moving(), &pictureNames() }; }
+std::vector<const OptionRow*> optionRows() { return { &modelFormat(), &moving(), &pictureNames(), &rigs() }; }
 
 std::vector<std::shared_ptr<const Views>> viewsOf(
   const DatasetView& dataset, const OptionValues& options, PixelCentre centre)

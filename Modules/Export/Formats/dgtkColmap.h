@@ -41,7 +41,7 @@ const ChoiceOption& modelFormat();
 const ChoiceOption& moving();
 /// "folders" or "flat"
 const ChoiceOption& pictureNames();
-/// The three rows.
+/// These rows, and rigs() of dgtkColmapRigs.h.
 std::vector<const OptionRow*> optionRows();
 
 /// Pictures by model: all of them, or those of each frame.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkColmap.h"
+#include "dgtkColmapRigs.h"
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportFloats.h"
@@ -36,6 +37,7 @@ public:
       requireEverywhere(dataset, layer, format);
     }
     requireEverywhere(dataset, "tracks", format, { "npy" });
+    colmap::checkRigs(dataset, options, format);
   }
 
   ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override

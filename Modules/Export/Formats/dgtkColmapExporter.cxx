@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkColmap.h"
+#include "dgtkColmapRigs.h"
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
@@ -32,6 +33,7 @@ public:
     requireEverywhere(dataset, exported::color().of(options), format, { "png" });
     requireEverywhere(dataset, "objects", format);
     requireEverywhere(dataset, "tracks", format, { "npy" });
+    colmap::checkRigs(dataset, options, format);
   }
 
   ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override

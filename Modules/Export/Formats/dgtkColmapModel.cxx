@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkColmap.h"
+#include "dgtkColmapRigs.h"
 
 #include "dgtkExportChecks.h"
 #include "dgtkLayerFile.h"
@@ -155,6 +156,9 @@ public:
     }
   }
 
+  /// COLMAP's number of the camera of each picture; once cameras() are written.
+  const std::vector<std::uint32_t>& cameraIds() const { return this->CameraIds; }
+
 private:
   /// visit(point, number among the places of the picture, place) for the places that the model holds.
   template <typename Visit>
@@ -305,7 +309,9 @@ ExportItem modelItem(const DatasetView& dataset, const std::shared_ptr<const Vie
   const std::string cameras = folder + "cameras" + extension;
   const std::string images = folder + "images" + extension;
   const std::string points = folder + "points3D" + extension;
-  return { { cameras, images, points }, [&dataset, views, cameras, images, points, extension](ExportSink& sink)
+  const std::vector<std::string> more = rigFiles(folder, options);
+  ExportItem item{ { cameras, images, points },
+    [&dataset, views, cameras, images, points, extension, more](ExportSink& sink)
     {
       Writer writer(dataset, *views, extension == ".bin");
       const auto write = [&](const std::string& name, void (Writer::*part)(ExportFile&))
@@ -317,7 +323,10 @@ ExportItem modelItem(const DatasetView& dataset, const std::shared_ptr<const Vie
       write(cameras, &Writer::cameras);
       write(images, &Writer::images);
       write(points, &Writer::points);
+      writeRigs(sink, dataset, *views, writer.cameraIds(), more);
     } };
+  item.files.insert(item.files.end(), more.begin(), more.end());
+  return item;
 }
 
 } // namespace dgtk::colmap

@@ -4,7 +4,9 @@
 #include "dgtkExportChecks.h"
 #include "dgtkExportFloats.h"
 #include "dgtkExportPng.h"
+#include "dgtkExportSeries.h"
 
+#include <algorithm>
 #include <cctype>
 
 namespace dgtk
@@ -185,26 +187,35 @@ private:
   static void addSequence(ExportPlan& plan, const DatasetView& dataset, const CameraEyes& eyes,
     const DatasetSplit& split, const std::string& sequence, const OptionValues& options)
   {
-    std::string text;
-    int number = firstNumber;
-    for (const DatasetShot* left : dataset.shotsOf(eyes.left))
-    {
-      if (!split.holds(*left))
+    std::vector<std::uint32_t> lefts = shotNumbers(dataset, eyes.left);
+    lefts.erase(
+      std::remove_if(lefts.begin(), lefts.end(), [&](std::uint32_t i) { return !split.holds(dataset.shots()[i]); }),
+      lefts.end());
+    plan.series.push_back({ 2 * lefts.size(), [&dataset, lefts, sequence, right = eyes.right, options](std::size_t i)
       {
-        continue;
-      }
-      const DatasetShot* right = dataset.shot(eyes.right, left->frame());
-      const std::string digits = padded(number, 4);
-      addEye(plan, dataset, { left, sequence, "left", digits }, options);
-      addEye(plan, dataset, { right, sequence, "right", digits }, options);
-      text += "Frame " + std::to_string(number++) + '\n' + matrixLine("L ", left->camera) +
-              matrixLine("R ", right->camera) + '\n';
-    }
+        const DatasetShot& left = dataset.shots()[lefts[i / 2]];
+        const bool isLeft = i % 2 == 0;
+        return item(dataset,
+          { isLeft ? &left : dataset.shot(right, left.frame()), sequence, isLeft ? "left" : "right",
+            padded(firstNumber + static_cast<int>(i / 2), 4) },
+          options);
+      } });
     const std::string name = "camera_data/" + sequence + "camera_data.txt";
-    plan.items.push_back({ { name }, [name, text](ExportSink& sink) { sink.write(name, text); } });
+    plan.series.push_back(seriesOf({ { name }, [&dataset, lefts, right = eyes.right, name](ExportSink& sink)
+      {
+        const std::unique_ptr<ExportFile> file = sink.open(name);
+        int number = firstNumber;
+        for (const std::uint32_t i : lefts)
+        {
+          const DatasetShot& left = dataset.shots()[i];
+          file->write("Frame " + std::to_string(number++) + '\n' + matrixLine("L ", left.camera) +
+                      matrixLine("R ", dataset.shot(right, left.frame())->camera) + '\n');
+        }
+        file->finish();
+      } }));
   }
 
-  static void addEye(ExportPlan& plan, const DatasetView& dataset, const Eye& eye, const OptionValues& options)
+  static ExportItem item(const DatasetView& dataset, const Eye& eye, const OptionValues& options)
   {
     ExportItem item;
     item.files = { eye.path("frames_finalpass/", ".png"), eye.path("disparity/", ".pfm"),
@@ -238,8 +249,7 @@ private:
         }
       }
     };
-    plan.names.push_back({ eye.shot->name(), eye.shot->frame(), item.files[0] });
-    plan.items.push_back(item);
+    return named(*eye.shot, item);
   }
 };
 } // namespace

@@ -2,12 +2,15 @@
 #include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
+#include "dgtkExportSeries.h"
 #include "dgtkFile.h"
 #include "dgtkGltf.h"
 #include "dgtkText.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <set>
 
 namespace dgtk
@@ -188,7 +191,7 @@ private:
     }
   }
 
-  std::map<std::uint32_t, ObjectPlaces> placesOfObjects() const
+  std::map<std::uint32_t, ObjectPlaces> placesOf(const std::set<std::uint32_t>& objects) const
   {
     std::map<std::uint32_t, ObjectPlaces> all;
     int last = -1;
@@ -196,6 +199,10 @@ private:
     {
       for (const PoseRecord& pose : this->Dataset.poses(frame))
       {
+        if (objects.count(pose.id) == 0)
+        {
+          continue;
+        }
         ObjectPlaces& one = all[pose.id];
         one.places.push_back(placeOf(pose, this->Dataset.metres()));
         one.mirrored = isMirrored(pose);
@@ -214,20 +221,34 @@ private:
     return all;
   }
 
+  /// By id. The poses of all frames are read for some objects at a time.
   void addObjects()
   {
-    for (const auto& [id, places] : this->placesOfObjects())
+    constexpr std::size_t mostPlaces = std::size_t(1) << 17; // in memory
+    const std::size_t most = std::max<std::size_t>(1, mostPlaces / this->Times.size());
+    std::set<std::uint32_t> objects;
+    for (const ObjectRecord& object : this->Dataset.objects())
     {
-      const ObjectRecord* object = this->Dataset.object(id);
-      if (object)
-      {
-        Json node = gltf::placedNode(places.places.front());
-        node["mesh"] = this->meshOf(*object, places.mirrored);
-        node["extras"] = { { "id", id }, { "class", object->objectClass }, { "visible_frames", places.visible },
-          { "deforming", object->deforming }, { "mirrored", places.mirrored } };
-        gltf::animate(this->Animation, this->Buffer, this->addNode(object->name, node), this->Times, places.places);
-      }
+      objects.insert(object.id);
     }
+    while (!objects.empty())
+    {
+      const auto end = std::next(objects.begin(), std::ptrdiff_t(std::min(most, objects.size())));
+      for (const auto& [id, places] : this->placesOf({ objects.begin(), end }))
+      {
+        this->addObject(*this->Dataset.object(id), places);
+      }
+      objects.erase(objects.begin(), end);
+    }
+  }
+
+  void addObject(const ObjectRecord& object, const ObjectPlaces& places)
+  {
+    Json node = gltf::placedNode(places.places.front());
+    node["mesh"] = this->meshOf(object, places.mirrored);
+    node["extras"] = { { "id", object.id }, { "class", object.objectClass }, { "visible_frames", places.visible },
+      { "deforming", object.deforming }, { "mirrored", places.mirrored } };
+    gltf::animate(this->Animation, this->Buffer, this->addNode(object.name, node), this->Times, places.places);
   }
 
   std::size_t meshOf(const ObjectRecord& object, bool mirrored)
@@ -350,13 +371,14 @@ public:
     addTextures(dataset, plan);
     plan.items.push_back(
       { { sceneName, bufferName }, [&dataset](ExportSink& sink) { GltfWriter(dataset, sink).write(); } });
-    const std::vector<std::string> cameras = dataset.cameras();
-    for (const DatasetShot& shot : dataset.shots())
-    {
-      const auto at = std::lower_bound(cameras.begin(), cameras.end(), shot.name()) - cameras.begin();
-      plan.names.push_back(
-        { shot.name(), shot.frame(), "nodes/" + std::to_string(at + 1) + '@' + std::to_string(shot.frame()) });
-    }
+    std::vector<std::uint32_t> all(dataset.shots().size());
+    std::iota(all.begin(), all.end(), 0);
+    plan.series.push_back(namesOf(dataset, all,
+      [cameras = dataset.cameras()](const DatasetShot& shot)
+      {
+        const auto at = std::lower_bound(cameras.begin(), cameras.end(), shot.name()) - cameras.begin();
+        return "nodes/" + std::to_string(at + 1) + '@' + std::to_string(shot.frame());
+      }));
     return plan;
   }
 

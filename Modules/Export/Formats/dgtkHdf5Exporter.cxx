@@ -3,6 +3,7 @@
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportFloats.h"
+#include "dgtkExportSeries.h"
 #include "dgtkHdf5File.h"
 #include "dgtkText.h"
 #include "dgtkUtf8.h"
@@ -244,31 +245,37 @@ public:
     for (const CameraEyes& eyes : cameras)
     {
       const std::string folder = cameras.size() == 1 ? "" : eyes.name + '/';
-      for (const DatasetShot* left : dataset.shotsOf(eyes.left))
-      {
-        const bool pair = !eyes.right.empty();
-        std::vector<Eye> both{ { left, pair ? "_0" : "" } };
-        if (pair)
-        {
-          both.push_back({ dataset.shot(eyes.right, left->frame()), "_1" });
-        }
-        const std::string name = folder + std::to_string(left->frame()) + ".hdf5";
-        plan.items.push_back({ { name }, [&dataset, both, name, options](ExportSink& sink)
-          {
-            FrameFile file(sink, dataset, options);
-            for (const Eye& eye : both)
-            {
-              file.add(eye);
-            }
-            sink.write(name, file.bytes());
-          } });
-        for (const Eye& eye : both)
-        {
-          plan.names.push_back({ eye.shot->name(), eye.shot->frame(), name + eye.suffix });
-        }
-      }
+      plan.series.push_back(seriesOf(dataset, eyes.left,
+        [&dataset, eyes, folder, options](const DatasetShot& left, std::size_t)
+        { return item(dataset, left, eyes.right, folder, options); }));
     }
     return plan;
+  }
+
+private:
+  static ExportItem item(const DatasetView& dataset, const DatasetShot& left, const std::string& right,
+    const std::string& folder, const OptionValues& options)
+  {
+    std::vector<Eye> eyes{ { &left, right.empty() ? "" : "_0" } };
+    if (!right.empty())
+    {
+      eyes.push_back({ dataset.shot(right, left.frame()), "_1" });
+    }
+    const std::string name = folder + std::to_string(left.frame()) + ".hdf5";
+    ExportItem item{ { name }, [&dataset, eyes, name, options](ExportSink& sink)
+      {
+        FrameFile file(sink, dataset, options);
+        for (const Eye& eye : eyes)
+        {
+          file.add(eye);
+        }
+        sink.write(name, file.bytes());
+      } };
+    for (const Eye& eye : eyes)
+    {
+      item.names.push_back({ eye.shot->name(), eye.shot->frame(), name + eye.suffix });
+    }
+    return item;
   }
 };
 } // namespace

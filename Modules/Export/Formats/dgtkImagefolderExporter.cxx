@@ -3,6 +3,7 @@
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
+#include "dgtkExportSeries.h"
 #include "dgtkPictureSamples.h"
 #include "dgtkUtf8.h"
 
@@ -65,18 +66,13 @@ public:
     ExportPlan plan;
     plan.conventions = { { "metadata", "file_name, camera, poses and boxes as the dataset's documents have them" },
       { "objects", "bbox: [x, y, width, height], pixels from the image's corner" } };
-    SafeNames names;
     std::vector<card::Part> parts;
     for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
     {
-      for (const DatasetShot& shot : dataset.shots())
-      {
-        if (split.holds(shot))
-        {
-          plan.items.push_back(picture(dataset, shot, split.name, samples::keyOf(shot, names), options));
-          plan.names.push_back({ shot.name(), shot.frame(), plan.items.back().files[0] });
-        }
-      }
+      const auto item = [&dataset, names = safeNamesOf(dataset), part = split.name, options](
+                          const DatasetShot& shot, std::size_t)
+      { return named(shot, picture(dataset, shot, part, samples::keyOf(shot, *names), options)); };
+      plan.series.push_back(seriesOf(dataset, shotsIn(dataset, split), item));
       plan.documents.push_back(metadata(split.name));
       parts.push_back({ split.name, split.name + "/**" });
     }

@@ -3,6 +3,7 @@
 #include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
+#include "dgtkExportSeries.h"
 #include "dgtkKitti.h"
 #include "dgtkText.h"
 
@@ -123,22 +124,24 @@ public:
     plan.conventions = kitti::conventions(dataset);
     plan.conventions.push_back({ "noc", "visibility class 1, of disp_noc_1 of the flow, too; occ: classes 1 to 4" });
     const std::vector<Sample> samples = samplesOf(dataset);
-    for (std::size_t i = 0; i < samples.size(); ++i)
-    {
-      const std::string number = padded(static_cast<int>(i), 6);
-      plan.items.push_back(item(dataset, samples[i], number, options));
-      this->addNames(plan, samples, i, number);
-    }
+    plan.series.push_back({ samples.size(), [&dataset, samples, options](std::size_t i)
+      {
+        const std::string number = padded(static_cast<int>(i), 6);
+        ExportItem one = item(dataset, samples[i], number, options);
+        one.names = namesOf(samples, i, number);
+        return one;
+      } });
     return plan;
   }
 
 private:
   /// A picture's name is the one of its sample; the last of a run has none and is the second of the one before.
-  static void addNames(ExportPlan& plan, const std::vector<Sample>& samples, std::size_t i, const std::string& number)
+  static std::vector<ExportedName> namesOf(const std::vector<Sample>& samples, std::size_t i, const std::string& number)
   {
+    std::vector<ExportedName> names;
     const Sample& one = samples[i];
     const auto add = [&](const DatasetShot* shot, const char* folder, const char* time) {
-      plan.names.push_back({ shot->name(), shot->frame(), "training/" + (folder + ('/' + number)) + time });
+      names.push_back({ shot->name(), shot->frame(), "training/" + (folder + ('/' + number)) + time });
     };
     add(one.left, "image_2", "_10.png");
     add(one.right, "image_3", "_10.png");
@@ -147,6 +150,7 @@ private:
       add(one.nextLeft, "image_2", "_11.png");
       add(one.nextRight, "image_3", "_11.png");
     }
+    return names;
   }
 
   static ExportItem item(

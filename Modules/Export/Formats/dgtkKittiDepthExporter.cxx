@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
+#include "dgtkExportSeries.h"
 #include "dgtkKitti.h"
+
+#include <algorithm>
 
 namespace dgtk
 {
@@ -39,22 +42,20 @@ public:
       for (const std::string& camera : dataset.cameras())
       {
         const std::string drive = split.name + '/' + names.of(camera) + '/';
-        const DatasetShot* first = nullptr;
-        for (const DatasetShot* shot : dataset.shotsOf(camera))
+        std::vector<std::uint32_t> shots = shotNumbers(dataset, camera);
+        shots.erase(
+          std::remove_if(shots.begin(), shots.end(), [&](std::uint32_t i) { return !split.holds(dataset.shots()[i]); }),
+          shots.end());
+        if (!shots.empty())
         {
-          if (split.holds(*shot))
-          {
-            plan.items.push_back(item(dataset, *shot, drive, options));
-            plan.names.push_back({ camera, shot->frame(), plan.items.back().files[0] });
-            first = first ? first : shot;
-          }
-        }
-        if (first)
-        {
-          plan.items.push_back({ { drive + "calib_cam_to_cam.txt" },
+          const DatasetShot* const first = &dataset.shots()[shots.front()];
+          plan.series.push_back(seriesOf(dataset, shots,
+            [&dataset, drive, options](const DatasetShot& shot, std::size_t)
+            { return named(shot, item(dataset, shot, drive, options)); }));
+          plan.series.push_back(seriesOf({ { drive + "calib_cam_to_cam.txt" },
             [first, drive](ExportSink& sink) {
               sink.write(drive + "calib_cam_to_cam.txt", kitti::camToCam(first->camera, nullptr, 0), { "", first, {} });
-            } });
+            } }));
         }
       }
     }

@@ -2,6 +2,7 @@
 #include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
+#include "dgtkExportSeries.h"
 #include "dgtkKitti.h"
 #include "dgtkText.h"
 #include "dgtkUprightBox.h"
@@ -127,21 +128,18 @@ public:
     plan.conventions.push_back({ "location", "centre of the bottom face; rotation_y 0 looks along x" });
     plan.conventions.push_back({ "truncated", "share of the pixels that the image's border cuts off" });
     plan.conventions.push_back({ "occluded", "0: at most 0.1 of the pixels in the image are hidden, 1: 0.5, 2: more" });
-    for (const DatasetShot& shot : dataset.shots())
-    {
-      plan.items.push_back(item(dataset, shot, options));
-      plan.names.push_back({ shot.name(), shot.frame(), plan.items.back().files[0] });
-    }
+    plan.series.push_back({ dataset.shots().size(), [&dataset, options](std::size_t i)
+      { return named(dataset.shots()[i], item(dataset, dataset.shots()[i], options)); } });
     for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
     {
       plan.documents.push_back({ { "ImageSets/" + split.name + ".txt" }, [&dataset, split](ExportSink& sink)
         {
-          std::string text;
-          for (const DatasetShot& shot : dataset.shots())
+          const std::unique_ptr<ExportFile> file = sink.open("ImageSets/" + split.name + ".txt");
+          for (const std::uint32_t shot : shotsIn(dataset, split))
           {
-            text += split.holds(shot) ? numberOf(shot) + '\n' : "";
+            file->write(numberOf(dataset.shots()[shot]) + '\n');
           }
-          sink.write("ImageSets/" + split.name + ".txt", text);
+          file->finish();
         } });
     }
     return plan;

@@ -2,6 +2,7 @@
 #include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
+#include "dgtkExportSeries.h"
 #include "dgtkKitti.h"
 
 #include <cmath>
@@ -44,7 +45,7 @@ public:
     {
       const std::string sequence = padded(number++, 2);
       addPictures(plan, dataset, eyes, "sequences/" + sequence + '/', options);
-      plan.items.push_back(documents(dataset, eyes, sequence));
+      plan.series.push_back(seriesOf(documents(dataset, eyes, sequence)));
     }
     return plan;
   }
@@ -75,14 +76,14 @@ private:
   {
     for (const std::string& camera : { eyes.left, eyes.right })
     {
-      int i = 0;
-      for (const DatasetShot* shot : dataset.shotsOf(camera))
+      const std::string pictures = folder + (camera == eyes.left ? "image_2/" : "image_3/");
+      const auto item = [&dataset, pictures, options](const DatasetShot& shot, std::size_t i)
       {
-        const std::string name = folder + (camera == eyes.left ? "image_2/" : "image_3/") + padded(i++, 6) + ".png";
-        plan.items.push_back({ { name }, [&dataset, shot, name, options](ExportSink& sink)
-          { writePicture(sink, dataset, *shot, exported::color().of(options), name, options); } });
-        plan.names.push_back({ camera, shot->frame(), name });
-      }
+        const std::string name = pictures + padded(static_cast<int>(i), 6) + ".png";
+        return named(shot, { { name }, [&dataset, &shot, name, options](ExportSink& sink)
+                             { writePicture(sink, dataset, shot, exported::color().of(options), name, options); } });
+      };
+      plan.series.push_back(seriesOf(dataset, camera, item));
     }
   }
 
@@ -96,15 +97,15 @@ private:
         const std::vector<const DatasetShot*> shots = dataset.shotsOf(eyes.left);
         const DatasetShot& first = *shots.front();
         sink.write(calib, calibration(dataset, first, dataset.shot(eyes.right, first.frame())));
-        std::string timesText;
-        std::string posesText;
+        const std::unique_ptr<ExportFile> timesFile = sink.open(times);
+        const std::unique_ptr<ExportFile> posesFile = sink.open(poses);
         for (const DatasetShot* shot : shots)
         {
-          timesText += scientific(dataset.seconds(shot->frame()) - dataset.seconds(first.frame())) + '\n';
-          posesText += poseLine(first, *shot, dataset.metres()) + '\n';
+          timesFile->write(scientific(dataset.seconds(shot->frame()) - dataset.seconds(first.frame())) + '\n');
+          posesFile->write(poseLine(first, *shot, dataset.metres()) + '\n');
         }
-        sink.write(times, timesText);
-        sink.write(poses, posesText);
+        timesFile->finish();
+        posesFile->finish();
       } };
   }
 

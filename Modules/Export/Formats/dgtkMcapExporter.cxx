@@ -3,7 +3,10 @@
 #include "dgtkLayerFile.h"
 #include "dgtkRosRecording.h"
 
+#include <algorithm>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include <zlib.h>
 
@@ -96,9 +99,9 @@ struct ChunkPlace
 {
   std::uint64_t time = 0;
   std::uint64_t position = 0;
-  std::uint64_t length = 0; ///< of the record
-  std::uint64_t bytes = 0;  ///< of the messages
-  std::map<std::uint16_t, std::uint64_t> indices;
+  std::uint64_t length = 0;                                     ///< of the record
+  std::uint64_t bytes = 0;                                      ///< of the messages
+  std::vector<std::pair<std::uint16_t, std::uint64_t>> indices; ///< by channel
   std::uint64_t indexBytes = 0;
 };
 
@@ -207,11 +210,13 @@ private:
     place.length = this->Text.position() - place.position;
     for (std::size_t i = 0; i < messages.size(); ++i)
     {
-      place.indices[channelOf(messages[i].topic)] = this->Text.position();
+      place.indices.emplace_back(channelOf(messages[i].topic), this->Text.position());
       const std::string entry = Content().number(place.time).number(offsets[i]).get();
       this->Text.put(record(Op::MessageIndex, Content().number(channelOf(messages[i].topic)).text(entry).get()));
       ++this->Counts[channelOf(messages[i].topic)];
     }
+    std::sort(place.indices.begin(), place.indices.end());
+    place.indices.shrink_to_fit();
     place.indexBytes = this->Text.position() - place.position - place.length;
     return place;
   }

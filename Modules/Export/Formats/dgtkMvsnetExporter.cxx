@@ -4,12 +4,14 @@
 #include "dgtkExportChecks.h"
 #include "dgtkExportFloats.h"
 #include "dgtkExportPng.h"
+#include "dgtkExportSeries.h"
 #include "dgtkMovingObjects.h"
+#include "dgtkViewPairs.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
+#include <memory>
 #include <utility>
 
 namespace dgtk
@@ -81,57 +83,16 @@ std::string cameraText(const CameraRecord& camera, const std::pair<double, doubl
          numbersLine({ range.first, step, double(planes), range.second }) + '\n';
 }
 
-/// Which points that stay each view sees, and where they and the cameras are.
-struct Sights
+/// A view of cams/pair.txt, and the others that go with it.
+std::string pairLines(const ViewPairs& pairs, std::size_t view)
 {
-  std::vector<Eigen::Vector3d> points;
-  std::vector<Eigen::Vector3d> centres;         ///< one a view
-  std::vector<std::vector<std::uint32_t>> seen; ///< indices of points, rising
-};
-
-Sights sightsOf(const DatasetView& dataset)
-{
-  Sights sights;
-  const std::vector<TrackPoint> all = dataset.trackPoints();
-  for (const TrackPoint& point : all)
+  const std::vector<std::pair<double, std::size_t>> others = pairs.bestOf(view, mostSources);
+  std::string line = std::to_string(view) + '\n' + std::to_string(others.size());
+  for (const auto& [score, other] : others)
   {
-    sights.points.push_back(point.x);
+    line += ' ' + std::to_string(other) + ' ' + numbersLine({ score });
   }
-  for (const DatasetShot& shot : dataset.shots())
-  {
-    sights.centres.push_back(cameraFromWorld(shot.camera).inverse().translation);
-    std::vector<std::uint32_t>& seen = sights.seen.emplace_back();
-    const std::vector<TrackPlace> places =
-      readTrackPlaces(dataset.pathOf(dataset.file(shot, "tracks", { "npy" })), all.size());
-    for (std::size_t i = 0; i < all.size(); ++i)
-    {
-      if (all[i].isStatic && places[i].visibility == 1)
-      {
-        seen.push_back(std::uint32_t(i));
-      }
-    }
-  }
-  return sights;
-}
-
-/// MVSNet's colmap2mvsnet.py: over the points that both see, by the angle between their rays, best at 5 degrees.
-double scoreOf(const Sights& sights, std::size_t a, std::size_t b)
-{
-  constexpr double best = 5;
-  constexpr double degree = 3.14159265358979323846 / 180;
-  std::vector<std::uint32_t> both;
-  std::set_intersection(sights.seen[a].begin(), sights.seen[a].end(), sights.seen[b].begin(), sights.seen[b].end(),
-    std::back_inserter(both));
-  double score = 0;
-  for (const std::uint32_t i : both)
-  {
-    const Eigen::Vector3d one = sights.centres[a] - sights.points[i];
-    const Eigen::Vector3d two = sights.centres[b] - sights.points[i];
-    const double angle = std::acos(std::min(1.0, std::max(-1.0, one.dot(two) / one.norm() / two.norm()))) / degree;
-    const double width = angle <= best ? 1 : 10;
-    score += std::exp(-(angle - best) * (angle - best) / (2 * width * width));
-  }
-  return score;
+  return line + '\n';
 }
 
 class MvsnetExporter : public Exporter
@@ -166,23 +127,21 @@ public:
     }
     const bool several = dataset.frames().size() > 1;
     const std::vector<std::uint32_t> moving = several ? movingObjects(dataset) : std::vector<std::uint32_t>();
-    for (const DatasetShot& shot : dataset.shots())
-    {
-      plan.items.push_back(item(dataset, shot, moving, options));
-      plan.names.push_back({ shot.name(), shot.frame(), plan.items.back().files[0] });
-    }
-    plan.documents.push_back({ { "cams/pair.txt" }, [&dataset](ExportSink& sink) { writePairs(sink, dataset); } });
+    const auto pairs = std::make_shared<const ViewPairs>(dataset);
+    plan.series.push_back({ dataset.shots().size(), [&dataset, moving, pairs, options](std::size_t i)
+      { return named(dataset.shots()[i], item(dataset, dataset.shots()[i], moving, pairs, options)); } });
+    plan.documents.push_back(pairList(dataset));
     return plan;
   }
 
 private:
   static ExportItem item(const DatasetView& dataset, const DatasetShot& shot, const std::vector<std::uint32_t>& moving,
-    const OptionValues& options)
+    const std::shared_ptr<const ViewPairs>& pairs, const OptionValues& options)
   {
     const std::string picture = "blended_images/" + number(shot) + ".jpg";
     const std::string camera = "cams/" + number(shot) + "_cam.txt";
     const std::string map = "rendered_depth_maps/" + number(shot) + ".pfm";
-    return { { picture, camera, map }, [&dataset, &shot, moving, options, picture, camera, map](ExportSink& sink)
+    return { { picture, camera, map }, [&dataset, &shot, moving, pairs, options, picture, camera, map](ExportSink& sink)
       {
         OptionValues jpeg = options; // loaders look for .jpg
         jpeg[exported::imageFormat().name] = "jpg";
@@ -192,35 +151,20 @@ private:
         writePicture(sink, dataset, shot, exported::color().of(options), picture, jpeg);
         writeFloatLayer(sink, dataset, shot, depth, map, form, moving);
         sink.write(camera, cameraText(shot.camera, rangeOf(dataset, shot, depth), depthPlanes().of(options)));
+        sink.note("pairs", pairLines(*pairs, shot.index));
       } };
   }
 
-  static void writePairs(ExportSink& sink, const DatasetView& dataset)
+  static ExportItem pairList(const DatasetView& dataset)
   {
-    const Sights sights = sightsOf(dataset);
-    const std::unique_ptr<ExportFile> file = sink.open("cams/pair.txt");
-    file->write(std::to_string(sights.centres.size()) + '\n');
-    for (std::size_t a = 0; a < sights.centres.size(); ++a)
-    {
-      std::vector<std::pair<double, std::size_t>> others;
-      for (std::size_t b = 0; b < sights.centres.size(); ++b)
+    const std::string name = "cams/pair.txt";
+    return { { name }, [&dataset, name](ExportSink& sink)
       {
-        const double score = a == b ? 0 : scoreOf(sights, a, b);
-        if (score > 0)
-        {
-          others.emplace_back(-score, b); // the best first, then the first
-        }
-      }
-      std::sort(others.begin(), others.end());
-      others.resize(std::min(others.size(), mostSources));
-      std::string line = std::to_string(a) + '\n' + std::to_string(others.size());
-      for (const auto& [score, b] : others)
-      {
-        line += ' ' + std::to_string(b) + ' ' + numbersLine({ -score });
-      }
-      file->write(line + '\n');
-    }
-    file->finish();
+        const std::unique_ptr<ExportFile> file = sink.open(name);
+        file->write(std::to_string(dataset.shots().size()) + '\n');
+        sink.notes("pairs", [&](const std::string& lines) { file->write(lines); });
+        file->finish();
+      } };
   }
 };
 } // namespace

@@ -3,6 +3,7 @@
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
+#include "dgtkExportSeries.h"
 #include "dgtkText.h"
 
 #include <nlohmann/json.hpp>
@@ -86,24 +87,16 @@ public:
       { "axes", "x right, y up, z back; world from camera" }, { "alpha", "straight" } };
     for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
     {
-      int number = 0;
-      for (const DatasetShot& shot : dataset.shots())
-      {
-        if (!split.holds(shot))
-        {
-          continue;
-        }
-        const std::string stem = split.name + "/r_" + std::to_string(number++);
-        plan.items.push_back(item(dataset, shot, stem, split.name, options));
-        plan.names.push_back({ shot.name(), shot.frame(), stem + ".png" });
-      }
+      const auto item = [&dataset, part = split.name, options](const DatasetShot& shot, std::size_t i)
+      { return named(shot, itemOf(dataset, shot, part + "/r_" + std::to_string(i), part, options)); };
+      plan.series.push_back(seriesOf(dataset, shotsIn(dataset, split), item));
       plan.documents.push_back(document(dataset, split.name));
     }
     return plan;
   }
 
 private:
-  static ExportItem item(const DatasetView& dataset, const DatasetShot& shot, const std::string& stem,
+  static ExportItem itemOf(const DatasetView& dataset, const DatasetShot& shot, const std::string& stem,
     const std::string& split, const OptionValues& options)
   {
     return { { stem + ".png" }, [&dataset, &shot, stem, split, options](ExportSink& sink)

@@ -137,13 +137,15 @@ std::string idPngOf(const ImageData& image)
 }
 } // namespace
 
-std::string keyOf(const DatasetShot& shot, SafeNames& names)
+std::string keyOf(const DatasetShot& shot, const SafeNames& names)
 {
-  return names.of(shot.name()) + '_' + padded(shot.frame(), 6);
+  return names.known(shot.name()) + '_' + padded(shot.frame(), 6);
 }
 
-std::vector<Member> membersOf(
-  const DatasetView& dataset, const DatasetShot& shot, SafeNames& names, const OptionValues& options)
+namespace
+{
+/// By stem the file that stands for what it shows.
+std::map<std::string, DatasetFile> filesByStem(const DatasetView& dataset, const DatasetShot& shot)
 {
   std::map<std::string, DatasetFile> best;
   for (const DatasetFile& file : dataset.filesOf(shot))
@@ -159,10 +161,25 @@ std::vector<Member> membersOf(
       at->second = file;
     }
   }
-  std::vector<Member> members;
-  for (const auto& [stem, file] : best)
+  return best;
+}
+} // namespace
+
+void addStems(const DatasetView& dataset, const DatasetShot& shot, SafeNames& names)
+{
+  for (const auto& [stem, file] : filesByStem(dataset, shot))
   {
-    members.push_back(memberOf(dataset, file, names.of(stem), options));
+    names.of(stem);
+  }
+}
+
+std::vector<Member> membersOf(
+  const DatasetView& dataset, const DatasetShot& shot, const SafeNames& names, const OptionValues& options)
+{
+  std::vector<Member> members;
+  for (const auto& [stem, file] : filesByStem(dataset, shot))
+  {
+    members.push_back(memberOf(dataset, file, names.known(stem), options));
   }
   std::sort(members.begin(), members.end(), [](const Member& a, const Member& b) { return a.name < b.name; });
   return members;

@@ -17,7 +17,7 @@ namespace dgtk::samples
 using Json = nlohmann::ordered_json;
 
 /// Of a picture: the camera's safe name, '_', the frame's six digits.
-std::string keyOf(const DatasetShot& shot, SafeNames& names);
+std::string keyOf(const DatasetShot& shot, const SafeNames& names);
 
 /// A file of the dataset, and what it becomes.
 struct Member
@@ -34,10 +34,12 @@ struct Member
   Form form = Form::Copy;
 };
 
+/// Gives what a picture's members are called their safe names; to be asked of all pictures before membersOf().
+void addStems(const DatasetView& dataset, const DatasetShot& shot, SafeNames& names);
 /// The files of a picture, one of each layer and of each picture that a layer leads to; sorted by name. The layer
 /// `boxes` is in documentOf().
 std::vector<Member> membersOf(
-  const DatasetView& dataset, const DatasetShot& shot, SafeNames& names, const OptionValues& options);
+  const DatasetView& dataset, const DatasetShot& shot, const SafeNames& names, const OptionValues& options);
 /// The contents of a member; tells the sink what they are off.
 std::string bytesOf(ExportSink& sink, const DatasetView& dataset, const Member& member, const OptionValues& options);
 

@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
+#include "dgtkExportSeries.h"
 #include "dgtkLayerFile.h"
 #include "dgtkText.h"
 
@@ -176,14 +177,9 @@ ExportPlan planRecordings(const DatasetView& dataset, const OptionValues& option
   for (const DatasetSplit& split : splitsOf(dataset, options, "dataset"))
   {
     const std::string file = split.name + '.' + extension;
-    for (const DatasetShot& shot : dataset.shots())
-    {
-      if (split.holds(shot))
-      {
-        plan.names.push_back(
-          { shot.name(), shot.frame(), pictureName(file, names.at(shot.name()), timeOf(dataset, shot.frame())) });
-      }
-    }
+    plan.series.push_back(dgtk::namesOf(dataset, shotsIn(dataset, split),
+      [&dataset, names, file](const DatasetShot& shot)
+      { return pictureName(file, names.at(shot.name()), timeOf(dataset, shot.frame())); }));
     plan.items.push_back({ { file }, [&dataset, options, split, file, write](ExportSink& sink)
       { write(sink, Recording(dataset, options, split), file); } });
   }

@@ -97,7 +97,7 @@ struct ChunkPlace
 {
   std::uint64_t position = 0;
   std::uint64_t time = 0;
-  std::vector<std::size_t> topics; ///< of its messages, one of each
+  std::vector<std::uint32_t> connections; ///< of its messages, one of each
 };
 
 /// A chunk of the messages of a shot, each behind the record of its connection where that is the first one.
@@ -117,7 +117,7 @@ ChunkPlace putChunk(
     before += head(Op::Message, field("conn", connectionOf(message.topic)) + timeField("time", time), message.bytes());
     size += before.size() + message.bytes();
     heads.push_back(before);
-    place.topics.push_back(message.topic);
+    place.connections.push_back(connectionOf(message.topic));
   }
   bag.put(head(Op::Chunk, textField("compression", "none") + field("size", static_cast<std::uint32_t>(size)), size));
   for (std::size_t i = 0; i < messages.size(); ++i)
@@ -166,14 +166,14 @@ std::uint64_t putBag(BagText& bag, const ros::Recording& recording, ExportSink& 
   for (const ChunkPlace& place : places)
   {
     std::string counts;
-    for (const std::size_t topic : place.topics)
+    for (const std::uint32_t connection : place.connections)
     {
-      putLittle(counts, connectionOf(topic));
+      putLittle(counts, connection);
       putLittle(counts, std::uint32_t(1));
     }
     bag.put(record(Op::ChunkInfo,
       field("ver", std::uint32_t(1)) + field("chunk_pos", place.position) + timeField("start_time", place.time) +
-        timeField("end_time", place.time) + field("count", static_cast<std::uint32_t>(place.topics.size())),
+        timeField("end_time", place.time) + field("count", static_cast<std::uint32_t>(place.connections.size())),
       counts));
   }
   return position;

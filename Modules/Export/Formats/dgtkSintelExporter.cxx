@@ -3,6 +3,7 @@
 #include "dgtkExportChecks.h"
 #include "dgtkExportFloats.h"
 #include "dgtkExportPng.h"
+#include "dgtkExportSeries.h"
 #include "dgtkSintelFiles.h"
 
 #include <limits>
@@ -21,6 +22,14 @@ const ChoiceOption& occlusions()
     "stereo's");
   return row;
 }
+
+/// The pictures of a camera, and of the right one of its pair.
+struct Scene
+{
+  std::string name;
+  std::string right; ///< "" for none
+  std::vector<std::uint32_t> shots;
+};
 
 /// What a frame of a scene has.
 struct Frame
@@ -48,13 +57,17 @@ public:
     requirePinholes(dataset, format);
     requireConsecutive(dataset, format);
     requireEverywhere(dataset, exported::color().of(options), format, { "png" });
-    for (const Frame& one : framesOf(dataset))
+    for (const Scene& scene : scenesOf(dataset))
     {
-      requireFile(dataset, *one.left, exported::depth().of(options), format);
-      requireFile(dataset, *one.left, "objects", format);
-      if (one.flows)
+      for (const std::uint32_t i : scene.shots)
       {
-        requireFile(dataset, *one.left, "flow_forward", format);
+        const DatasetShot& shot = dataset.shots()[i];
+        requireFile(dataset, shot, exported::depth().of(options), format);
+        requireFile(dataset, shot, "objects", format);
+        if (dataset.shot(shot.name(), shot.frame() + 1))
+        {
+          requireFile(dataset, shot, "flow_forward", format);
+        }
       }
     }
   }
@@ -68,52 +81,43 @@ public:
       { "occlusions",
         "255 where the classes of the flow are 2 to 5; invalid: class 0; outofframe: disparity's class 4" },
       { "of_occlusions", occlusions().of(options) } };
-    for (const Frame& one : framesOf(dataset))
+    for (const Scene& scene : scenesOf(dataset))
     {
-      plan.items.push_back(item(dataset, one, options));
-      plan.names.push_back({ one.left->name(), one.left->frame(), "training/final/" + one.place + ".png" });
-      if (one.right)
-      {
-        plan.names.push_back({ one.right->name(), one.right->frame(), "training/final_right/" + one.place + ".png" });
-      }
+      plan.series.push_back(seriesOf(dataset, scene.shots,
+        [&dataset, scene, options](const DatasetShot& shot, std::size_t i)
+        { return item(dataset, frameOf(dataset, scene, shot, i), options); }));
     }
     return plan;
   }
 
 private:
-  static std::vector<Frame> framesOf(const DatasetView& dataset)
+  /// Without disparities the right camera of a pair is a scene like any other.
+  static std::vector<Scene> scenesOf(const DatasetView& dataset)
   {
-    std::vector<Frame> frames;
+    std::vector<Scene> scenes;
     for (const CameraEyes& eyes : eyesOf(dataset))
     {
-      int number = 1;
-      for (const DatasetShot* left : dataset.shotsOf(eyes.left))
+      scenes.push_back({ eyes.name, eyes.right, shotNumbers(dataset, eyes.left) });
+      Scene lonely{ eyes.name + "_right", "", {} };
+      for (const std::uint32_t number : shotNumbers(dataset, eyes.right))
       {
-        Frame frame;
-        frame.left = left;
-        frame.right = dataset.file(*left, "disparity").empty() ? nullptr : dataset.shot(eyes.right, left->frame());
-        frame.flows = dataset.shot(left->name(), left->frame() + 1) != nullptr;
-        frame.place = eyes.name + "/frame_" + padded(number++, 4);
-        frames.push_back(frame);
+        const DatasetShot* left = dataset.shot(eyes.left, dataset.shots()[number].frame());
+        if (!left || dataset.file(*left, "disparity").empty())
+        {
+          lonely.shots.push_back(number);
+        }
       }
-      addLonelyRight(dataset, eyes, frames);
+      scenes.push_back(lonely);
     }
-    return frames;
+    return scenes;
   }
 
-  /// Without disparities the right camera of a pair is a scene like any other.
-  static void addLonelyRight(const DatasetView& dataset, const CameraEyes& eyes, std::vector<Frame>& frames)
+  static Frame frameOf(const DatasetView& dataset, const Scene& scene, const DatasetShot& left, std::size_t place)
   {
-    int number = 1;
-    for (const DatasetShot* right : dataset.shotsOf(eyes.right))
-    {
-      const DatasetShot* left = dataset.shot(eyes.left, right->frame());
-      if (!left || dataset.file(*left, "disparity").empty())
-      {
-        frames.push_back({ right, nullptr, dataset.shot(right->name(), right->frame() + 1) != nullptr,
-          eyes.name + "_right/frame_" + padded(number++, 4) });
-      }
-    }
+    const bool pair = !scene.right.empty() && !dataset.file(left, "disparity").empty();
+    return { &left, pair ? dataset.shot(scene.right, left.frame()) : nullptr,
+      dataset.shot(left.name(), left.frame() + 1) != nullptr,
+      scene.name + "/frame_" + padded(static_cast<int>(place + 1), 4) };
   }
 
   static std::string path(const char* folder, const Frame& one, const char* extension)
@@ -152,6 +156,11 @@ private:
         writeStereo(sink, dataset, one, options, !ofFlow);
       }
     };
+    item.names.push_back({ one.left->name(), one.left->frame(), path("final", one, ".png") });
+    if (one.right)
+    {
+      item.names.push_back({ one.right->name(), one.right->frame(), path("final_right", one, ".png") });
+    }
     return item;
   }
 

@@ -5,12 +5,14 @@
 #include "dgtkExportChecks.h"
 #include "dgtkExportFloats.h"
 #include "dgtkExportPng.h"
+#include "dgtkExportSeries.h"
 #include "dgtkHdf5File.h"
 #include "dgtkPortableMath.h"
 #include "dgtkText.h"
 
 #include <array>
 #include <limits>
+#include <utility>
 
 namespace dgtk
 {
@@ -33,6 +35,19 @@ constexpr Truth truths[] = { { "disp1", "disparity", "disparity", "dsp5", 0 },
   { "disp2_FW", "disparity_forward", "disparity", "dsp5", 1 },
   { "disp2_BW", "disparity_backward", "disparity", "dsp5", -1 }, { "flow_FW", "flow_forward", "flow", "flo5", 1 },
   { "flow_BW", "flow_backward", "flow", "flo5", -1 } };
+
+/// Where the files of an eye at a frame are.
+struct Place
+{
+  std::string folder; ///< "train/0001/"
+  std::string side;   ///< "left" or "right"
+  std::string number; ///< "0001"
+  std::string path(const std::string& kind, const std::string& extension) const
+  {
+    const std::string stem = kind + '_' + this->side;
+    return this->folder + stem + '/' + stem + '_' + this->number + '.' + extension;
+  }
+};
 
 /// Light of a code of 8 bits.
 double lightOf(double code)
@@ -142,7 +157,7 @@ public:
       const std::string folder = "train/" + padded(++number, 4) + '/';
       addEye(plan, dataset, pair.left, "left", folder, options);
       addEye(plan, dataset, pair.right, "right", folder, options);
-      plan.items.push_back(cameras(dataset, pair.left, folder + "cam_data/"));
+      plan.series.push_back(seriesOf(cameras(dataset, pair.left, folder + "cam_data/")));
     }
     return plan;
   }
@@ -176,29 +191,34 @@ private:
   static void addEye(ExportPlan& plan, const DatasetView& dataset, const std::string& camera, const std::string& side,
     const std::string& folder, const OptionValues& options)
   {
-    const std::vector<const DatasetShot*> shots = dataset.shotsOf(camera);
-    for (const DatasetShot* shot : shots)
+    plan.series.push_back(seriesOf(dataset, camera,
+      [&dataset, side, folder, options](const DatasetShot& shot, std::size_t i) {
+        return item(dataset, shot, { folder, side, padded(static_cast<int>(i + 1), 4) }, options);
+      }));
+  }
+
+  static ExportItem item(
+    const DatasetView& dataset, const DatasetShot& shot, const Place& place, const OptionValues& options)
+  {
+    ExportItem item{ { place.path("frame", "png") }, {} };
+    std::vector<std::pair<const Truth*, std::string>> there;
+    for (const Truth& truth : truths)
     {
-      const auto nameOf = [&](const std::string& kind, const std::string& extension)
+      if (dataset.shot(shot.name(), shot.frame() + truth.step))
       {
-        const std::string stem = kind + '_' + side;
-        const int number = shot->frame() - shots.front()->frame() + 1;
-        return folder + stem + '/' + stem + '_' + padded(number, 4) + '.' + extension;
-      };
-      const std::string picture = nameOf("frame", "png");
-      plan.items.push_back({ { picture }, [&dataset, shot, picture, options](ExportSink& sink)
-        { writeHalfPicture(sink, dataset, *shot, exported::color().of(options), picture); } });
-      plan.names.push_back({ camera, shot->frame(), picture });
-      for (const Truth& truth : truths)
-      {
-        if (dataset.shot(camera, shot->frame() + truth.step))
-        {
-          const std::string name = nameOf(truth.folder, truth.extension);
-          plan.items.push_back({ { name },
-            [&dataset, shot, &truth, name](ExportSink& sink) { writeTruth(sink, dataset, *shot, truth, name); } });
-        }
+        there.emplace_back(&truth, place.path(truth.folder, truth.extension));
+        item.files.push_back(there.back().second);
       }
     }
+    item.write = [&dataset, &shot, picture = item.files[0], there, options](ExportSink& sink)
+    {
+      writeHalfPicture(sink, dataset, shot, exported::color().of(options), picture);
+      for (const auto& [truth, name] : there)
+      {
+        writeTruth(sink, dataset, shot, *truth, name);
+      }
+    };
+    return named(shot, item);
   }
 
   static ExportItem cameras(const DatasetView& dataset, const std::string& camera, const std::string& folder)
@@ -207,12 +227,12 @@ private:
     const std::string second = folder + "extrinsics.txt";
     return { { first, second }, [&dataset, camera, first, second](ExportSink& sink)
       {
-        std::string intrinsics;
-        std::string extrinsics;
+        const std::unique_ptr<ExportFile> intrinsics = sink.open(first);
+        const std::unique_ptr<ExportFile> extrinsics = sink.open(second);
         for (const DatasetShot* shot : dataset.shotsOf(camera))
         {
           const Eigen::Matrix3d K = intrinsicsOf(shot->camera, PixelCentre::Half) / 2;
-          intrinsics += numbersLine({ K(0, 0), K(1, 1), K(0, 2), K(1, 2) }) + '\n';
+          intrinsics->write(numbersLine({ K(0, 0), K(1, 1), K(0, 2), K(1, 2) }) + '\n');
           const Rigid3 view = cameraFromWorld(shot->camera);
           std::vector<double> numbers;
           for (int i = 0; i < 3; ++i)
@@ -221,10 +241,10 @@ private:
                                             view.translation[i] * dataset.metres() });
           }
           numbers.insert(numbers.end(), { 0, 0, 0, 1 });
-          extrinsics += numbersLine(numbers) + '\n';
+          extrinsics->write(numbersLine(numbers) + '\n');
         }
-        sink.write(first, intrinsics);
-        sink.write(second, extrinsics);
+        intrinsics->finish();
+        extrinsics->finish();
       } };
   }
 };

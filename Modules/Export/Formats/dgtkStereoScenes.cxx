@@ -7,6 +7,7 @@
 #include "dgtkExportChecks.h"
 #include "dgtkExportFloats.h"
 #include "dgtkExportPng.h"
+#include "dgtkExportSeries.h"
 #include "dgtkText.h"
 
 #include <algorithm>
@@ -25,17 +26,9 @@ struct StereoScene
   std::string name;
 };
 
-std::vector<StereoScene> scenesOf(const DatasetView& dataset, const std::string& format)
+StereoScene sceneOf(const DatasetView& dataset, const CameraEyes& pair, const DatasetShot& left)
 {
-  std::vector<StereoScene> scenes;
-  for (const CameraEyes& pair : pairsOf(dataset, format))
-  {
-    for (const DatasetShot* left : dataset.shotsOf(pair.left))
-    {
-      scenes.push_back({ left, dataset.shot(pair.right, left->frame()), pair.name + '_' + padded(left->frame(), 6) });
-    }
-  }
-  return scenes;
+  return { &left, dataset.shot(pair.right, left.frame()), pair.name + '_' + padded(left.frame(), 6) };
 }
 
 std::string folderOf(const std::string& pattern, const std::string& scene)
@@ -119,7 +112,23 @@ ExportItem itemOf(
     writeIdPng(sink, dataset, *scene.left, "disparity_class", truth + "mask0nocc.png",
       { { 1, 255 }, { 2, 128 }, { 3, 128 }, { 4, 128 } });
   };
+  item.names = { { scene.left->name(), scene.left->frame(), item.files[0] },
+    { scene.right->name(), scene.right->frame(), item.files[1] } };
   return item;
+}
+
+void checkShot(
+  const DatasetView& dataset, const DatasetShot& shot, const OptionValues& options, const StereoLayout& layout)
+{
+  const Eigen::Matrix3d& K = shot.camera.K;
+  if (std::abs(K(0, 0) - K(1, 1)) > 1e-9 * K(0, 0) || K(0, 1) != 0)
+  {
+    throw UsageError(layout.format + ": camera " + quoted(shot.name()) +
+                     " has no square pixels (expected one focal length and no skew, found " +
+                     numbersLine({ K(0, 0), K(1, 1), K(0, 1) }) + ')');
+  }
+  requireFile(dataset, shot, exported::color().of(options), layout.format, { "png" });
+  requireFile(dataset, shot, "disparity", layout.format);
 }
 } // namespace
 
@@ -130,19 +139,12 @@ void checkStereo(const DatasetView& dataset, const OptionValues& options, const 
   requirePng(options, layout.format);
   requireWhole(options, layout.format);
   dataset.metres();
-  for (const StereoScene& scene : scenesOf(dataset, layout.format))
+  for (const CameraEyes& pair : pairsOf(dataset, layout.format))
   {
-    for (const DatasetShot* shot : { scene.left, scene.right })
+    for (const DatasetShot* left : dataset.shotsOf(pair.left))
     {
-      const Eigen::Matrix3d& K = shot->camera.K;
-      if (std::abs(K(0, 0) - K(1, 1)) > 1e-9 * K(0, 0) || K(0, 1) != 0)
-      {
-        throw UsageError(layout.format + ": camera " + quoted(shot->name()) +
-                         " has no square pixels (expected one focal length and no skew, found " +
-                         numbersLine({ K(0, 0), K(1, 1), K(0, 1) }) + ')');
-      }
-      requireFile(dataset, *shot, exported::color().of(options), layout.format, { "png" });
-      requireFile(dataset, *shot, "disparity", layout.format);
+      checkShot(dataset, *left, options, layout);
+      checkShot(dataset, *dataset.shot(pair.right, left->frame()), options, layout);
     }
   }
 }
@@ -154,11 +156,11 @@ ExportPlan planStereo(const DatasetView& dataset, const OptionValues& options, c
     { "disparity", "x of the left image less x of the right one, +inf for none" }, { "baseline", "millimetres" },
     { "mask0nocc", "255 visible in the other image, 128 not, 0 unknown" },
     { "metres_per_unit", shortest(dataset.metres()) } };
-  for (const StereoScene& scene : scenesOf(dataset, layout.format))
+  for (const CameraEyes& pair : pairsOf(dataset, layout.format))
   {
-    plan.items.push_back(itemOf(dataset, scene, layout, options));
-    plan.names.push_back({ scene.left->name(), scene.left->frame(), plan.items.back().files[0] });
-    plan.names.push_back({ scene.right->name(), scene.right->frame(), plan.items.back().files[1] });
+    plan.series.push_back(seriesOf(dataset, pair.left,
+      [&dataset, pair, layout, options](const DatasetShot& left, std::size_t)
+      { return itemOf(dataset, sceneOf(dataset, pair, left), layout, options); }));
   }
   return plan;
 }

@@ -3,6 +3,7 @@
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
+#include "dgtkExportSeries.h"
 #include "dgtkLayerFile.h"
 #include "dgtkPickleFile.h"
 #include "dgtkText.h"
@@ -229,21 +230,20 @@ public:
     for (const std::string& camera : dataset.cameras())
     {
       const std::string folder = names->known(camera) + '/';
-      int number = 0;
-      for (const DatasetShot* shot : dataset.shotsOf(camera))
+      const auto picture = [&dataset, folder, options](const DatasetShot& shot, std::size_t i)
       {
-        const std::string name = folder + "frames/" + padded(number++, 6) + '.' + pictureExtension(options);
-        plan.items.push_back({ { name }, [&dataset, shot, name, options](ExportSink& sink)
-          { writePicture(sink, dataset, *shot, exported::color().of(options), name, options); } });
-        plan.names.push_back({ camera, shot->frame(), name });
-      }
+        const std::string name = folder + "frames/" + padded(static_cast<int>(i), 6) + '.' + pictureExtension(options);
+        return named(shot, { { name }, [&dataset, &shot, name, options](ExportSink& sink)
+                             { writePicture(sink, dataset, shot, exported::color().of(options), name, options); } });
+      };
+      plan.series.push_back(seriesOf(dataset, camera, picture));
       const std::string archive = folder + "tracks.npz";
-      plan.items.push_back({ { archive },
-        [&dataset, camera, archive](ExportSink& sink) { writeTracks(sink, archive, VideoTracks(dataset, camera)); } });
+      plan.series.push_back(seriesOf({ { archive },
+        [&dataset, camera, archive](ExportSink& sink) { writeTracks(sink, archive, VideoTracks(dataset, camera)); } }));
     }
     if (pickle().of(options) == "on")
     {
-      plan.items.push_back({ { pickleName }, [&dataset, names, options](ExportSink& sink)
+      plan.series.push_back(seriesOf({ { pickleName }, [&dataset, names, options](ExportSink& sink)
         {
           PickleFile file(sink, pickleName);
           for (const std::string& camera : dataset.cameras())
@@ -253,7 +253,7 @@ public:
             file.endDictionary();
           }
           file.finish();
-        } });
+        } }));
     }
     return plan;
   }

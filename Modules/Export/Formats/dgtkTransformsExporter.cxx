@@ -3,6 +3,7 @@
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
+#include "dgtkExportSeries.h"
 #include "dgtkLayerFile.h"
 #include "dgtkMovingObjects.h"
 #include "dgtkText.h"
@@ -144,19 +145,12 @@ public:
     const bool several = dataset.frames().size() > 1;
     const std::vector<std::uint32_t> moving = several ? movingObjects(dataset) : std::vector<std::uint32_t>();
     const bool same = haveOneLens(dataset);
-    SafeNames safe;
-    for (const DatasetShot& shot : dataset.shots())
+    const auto item = [&dataset, safe = safeNamesOf(dataset), moving, same, options](std::size_t i)
     {
-      const std::string stem = safe.of(shot.name()) + '_' + padded(shot.frame(), 6);
-      Names names{ "images/" + stem + '.' + pictureExtension(options), "depth/" + stem + ".png", "", "" };
-      if (!moving.empty())
-      {
-        names.mask = "masks/" + stem + ".png";
-        names.dynamic = "images/dynamic_mask_" + stem + ".png";
-      }
-      plan.items.push_back(item(dataset, shot, names, moving, !same, options));
-      plan.names.push_back({ shot.name(), shot.frame(), names.picture });
-    }
+      const DatasetShot& shot = dataset.shots()[i];
+      return named(shot, itemOf(dataset, shot, namesOf(shot, *safe, !moving.empty(), options), moving, !same, options));
+    };
+    plan.series.push_back({ dataset.shots().size(), item });
     plan.documents.push_back(points(dataset));
     plan.documents.push_back(document(dataset, same, options));
     return plan;
@@ -170,7 +164,29 @@ private:
       [&](const DatasetShot& shot) { return lensOf(shot.camera) == first; });
   }
 
-  static ExportItem item(const DatasetView& dataset, const DatasetShot& shot, const Names& names,
+  static Names namesOf(const DatasetShot& shot, const SafeNames& safe, bool masked, const OptionValues& options)
+  {
+    const std::string stem = stemOf(shot, safe);
+    Names names{ pictureOf(shot, safe, options), "depth/" + stem + ".png", "", "" };
+    if (masked)
+    {
+      names.mask = "masks/" + stem + ".png";
+      names.dynamic = "images/dynamic_mask_" + stem + ".png";
+    }
+    return names;
+  }
+
+  static std::string stemOf(const DatasetShot& shot, const SafeNames& safe)
+  {
+    return safe.known(shot.name()) + '_' + padded(shot.frame(), 6);
+  }
+
+  static std::string pictureOf(const DatasetShot& shot, const SafeNames& safe, const OptionValues& options)
+  {
+    return "images/" + stemOf(shot, safe) + '.' + pictureExtension(options);
+  }
+
+  static ExportItem itemOf(const DatasetView& dataset, const DatasetShot& shot, const Names& names,
     const std::vector<std::uint32_t>& moving, bool ownLens, const OptionValues& options)
   {
     ExportItem item{ { names.picture, names.depth }, {} };
@@ -269,10 +285,11 @@ private:
         {
           head.update(lensOf(first));
         }
-        addSplits(head, dataset, options);
         const std::string text = head.dump(1);
         const std::unique_ptr<ExportFile> file = sink.open("transforms.json");
-        file->write(text.substr(0, text.size() - 2) + ",\n \"frames\": [");
+        file->write(text.substr(0, text.size() - 2));
+        writeSplits(*file, dataset, options);
+        file->write(std::string(",\n \"frames\": ["));
         const char* between = "\n  ";
         sink.notes("frames",
           [&](const std::string& frame)
@@ -285,25 +302,24 @@ private:
       } };
   }
 
-  static void addSplits(Json& head, const DatasetView& dataset, const OptionValues& options)
+  /// The pictures of each part, as further keys.
+  static void writeSplits(ExportFile& file, const DatasetView& dataset, const OptionValues& options)
   {
     if (exported::split().of(options).empty())
     {
       return;
     }
-    SafeNames safe;
+    const auto safe = safeNamesOf(dataset);
     for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
     {
-      Json names = Json::array();
-      for (const DatasetShot& shot : dataset.shots())
+      file.write(",\n \"" + split.name + "_filenames\": [");
+      const char* between = "\n  ";
+      for (const std::uint32_t shot : shotsIn(dataset, split))
       {
-        const std::string name = safe.of(shot.name()) + '_' + padded(shot.frame(), 6) + '.' + pictureExtension(options);
-        if (split.holds(shot))
-        {
-          names.push_back("images/" + name);
-        }
+        file.write(between + quotedText(pictureOf(dataset.shots()[shot], *safe, options)));
+        between = ",\n  ";
       }
-      head[split.name + "_filenames"] = names;
+      file.write(std::string("\n ]"));
     }
   }
 };

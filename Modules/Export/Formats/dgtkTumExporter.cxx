@@ -3,6 +3,7 @@
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
+#include "dgtkExportSeries.h"
 #include "dgtkText.h"
 
 #include <cmath>
@@ -81,12 +82,10 @@ public:
     for (const std::string& camera : cameras)
     {
       const std::string folder = cameras.size() == 1 ? "" : names.of(camera) + '/';
-      for (const DatasetShot* shot : dataset.shotsOf(camera))
-      {
-        plan.items.push_back(item(dataset, *shot, folder, options));
-        plan.names.push_back({ camera, shot->frame(), plan.items.back().files[0] });
-      }
-      plan.items.push_back(documents(dataset, camera, folder, options));
+      plan.series.push_back(seriesOf(dataset, camera,
+        [&dataset, folder, options](const DatasetShot& shot, std::size_t)
+        { return named(shot, item(dataset, shot, folder, options)); }));
+      plan.series.push_back(seriesOf(documents(dataset, camera, folder, options)));
     }
     return plan;
   }

@@ -3,6 +3,7 @@
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
+#include "dgtkExportSeries.h"
 #include "dgtkUtf8.h"
 
 namespace dgtk
@@ -138,18 +139,15 @@ public:
     plan.conventions = { { "boxes", "pixels from 1, the last one included" },
       { "classes", "codes from 1 in the order of objects.json; 0 is the background" },
       { "objects", "codes from 1 in the order of the annotation" } };
-    SafeNames names;
     for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
     {
-      for (const DatasetShot& shot : dataset.shots())
+      const auto item = [&dataset, names = safeNamesOf(dataset), part = split.name, options](
+                          const DatasetShot& shot, std::size_t)
       {
-        if (split.holds(shot))
-        {
-          const std::string stem = names.of(shot.name()) + '_' + padded(shot.frame(), 6);
-          plan.items.push_back(item(dataset, shot, stem, split.name, options));
-          plan.names.push_back({ shot.name(), shot.frame(), plan.items.back().files[0] });
-        }
-      }
+        const std::string stem = names->known(shot.name()) + '_' + padded(shot.frame(), 6);
+        return named(shot, itemOf(dataset, shot, stem, part, options));
+      };
+      plan.series.push_back(seriesOf(dataset, shotsIn(dataset, split), item));
       for (const char* kind : { "Main/", "Segmentation/" })
       {
         const std::string name = std::string("ImageSets/") + kind + split.name + ".txt";
@@ -165,7 +163,7 @@ public:
   }
 
 private:
-  static ExportItem item(const DatasetView& dataset, const DatasetShot& shot, const std::string& stem,
+  static ExportItem itemOf(const DatasetView& dataset, const DatasetShot& shot, const std::string& stem,
     const std::string& part, const OptionValues& options)
   {
     const std::vector<std::string> files{ "JPEGImages/" + stem + ".jpg", "Annotations/" + stem + ".xml",

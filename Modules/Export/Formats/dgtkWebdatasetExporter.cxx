@@ -3,12 +3,14 @@
 #include "dgtkError.h"
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
+#include "dgtkExportSeries.h"
 #include "dgtkPictureSamples.h"
 #include "dgtkTarFile.h"
 #include "dgtkText.h"
 
 #include <algorithm>
 #include <map>
+#include <memory>
 
 namespace dgtk
 {
@@ -31,37 +33,48 @@ const SwitchOption& uniform()
   return row;
 }
 
-struct Sample
+/// What the members of all samples are called. The samples themselves are made when they are written.
+class Samples
 {
-  std::string key;
-  const DatasetShot* shot = nullptr;
-  std::vector<samples::Member> members;
-};
-
-std::vector<Sample> samplesOf(const DatasetView& dataset, const OptionValues& options)
-{
-  SafeNames cameras;
-  SafeNames layers;
-  std::vector<Sample> all;
-  std::map<std::string, std::size_t> counts;
-  for (const DatasetShot& shot : dataset.shots())
+public:
+  Samples(const DatasetView& dataset, const OptionValues& options)
+    : Dataset(dataset)
+    , Options(options)
+    , Cameras(safeNamesOf(dataset))
   {
-    all.push_back({ samples::keyOf(shot, cameras), &shot, samples::membersOf(dataset, shot, layers, options) });
-    for (const samples::Member& member : all.back().members)
+    for (const DatasetShot& shot : dataset.shots())
     {
-      ++counts[member.name];
+      samples::addStems(dataset, shot, this->Stems);
+      for (const samples::Member& member : samples::membersOf(dataset, shot, this->Stems, options))
+      {
+        ++this->Counts[member.name];
+      }
     }
   }
-  for (Sample& sample : all)
+
+  const DatasetView& dataset() const { return this->Dataset; }
+  const OptionValues& options() const { return this->Options; }
+  std::string keyOf(const DatasetShot& shot) const { return samples::keyOf(shot, *this->Cameras); }
+  std::vector<samples::Member> membersOf(const DatasetShot& shot) const
   {
-    std::vector<samples::Member>& own = sample.members;
-    own.erase(
-      std::remove_if(own.begin(), own.end(),
-        [&](const samples::Member& one) { return uniform().of(options) && counts[one.name] < dataset.shots().size(); }),
+    std::vector<samples::Member> own = samples::membersOf(this->Dataset, shot, this->Stems, this->Options);
+    own.erase(std::remove_if(own.begin(), own.end(),
+                [&](const samples::Member& one) { return uniform().of(this->Options) && !this->isEverywhere(one); }),
       own.end());
+    return own;
   }
-  return all;
-}
+
+private:
+  bool isEverywhere(const samples::Member& member) const
+  {
+    return this->Counts.at(member.name) == this->Dataset.shots().size();
+  }
+  const DatasetView& Dataset;
+  OptionValues Options;
+  std::shared_ptr<const SafeNames> Cameras;
+  SafeNames Stems;
+  std::map<std::string, std::size_t> Counts; ///< of a member's name: pictures that have it
+};
 
 std::string layoutText()
 {
@@ -87,16 +100,16 @@ public:
       parts.push_back(split.name);
     }
     card::checkParts(parts, format);
-    for (const Sample& sample : samplesOf(dataset, options))
+    const Samples all(dataset, options);
+    for (const DatasetShot& shot : dataset.shots())
     {
-      for (const samples::Member& member : sample.members)
+      for (const samples::Member& member : all.membersOf(shot))
       {
-        const std::string name = sample.key + '.' + member.name;
+        const std::string name = all.keyOf(shot) + '.' + member.name;
         if (name.size() > TarFile::longestName)
         {
-          throw UsageError(std::string(format) + ": camera " + quoted(sample.shot->name()) + ": the name " +
-                           quoted(name) + " is longer than the " + std::to_string(TarFile::longestName) +
-                           " bytes of a name in a tar");
+          throw UsageError(std::string(format) + ": camera " + quoted(shot.name()) + ": the name " + quoted(name) +
+                           " is longer than the " + std::to_string(TarFile::longestName) + " bytes of a name in a tar");
         }
       }
     }
@@ -108,19 +121,17 @@ public:
     plan.conventions = { { "sample", "files of a tar with one name up to the first dot" },
       { "members", uniform().of(options) ? "those that every picture has" : "all" },
       { "values", "the dataset's; .npy in place of .pfm, .flo, .dgd" } };
-    const std::vector<Sample> all = samplesOf(dataset, options);
+    const auto all = std::make_shared<const Samples>(dataset, options);
     std::vector<card::Part> parts;
     std::vector<std::string> kinds{ "json" };
     for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
     {
-      std::vector<Sample> own;
-      std::copy_if(all.begin(), all.end(), std::back_inserter(own),
-        [&](const Sample& sample) { return split.holds(*sample.shot); });
-      addShards(plan, dataset, split.name, own, options);
+      const std::vector<std::uint32_t> own = shotsIn(dataset, split);
+      addShards(plan, all, split.name, own);
       parts.push_back({ split.name, split.name + "-*.tar" });
-      for (const Sample& sample : own)
+      for (const std::uint32_t shot : own)
       {
-        addKinds(kinds, sample);
+        addKinds(kinds, all->membersOf(dataset.shots()[shot]));
       }
     }
     std::sort(kinds.begin(), kinds.end());
@@ -129,9 +140,9 @@ public:
   }
 
 private:
-  static void addKinds(std::vector<std::string>& kinds, const Sample& sample)
+  static void addKinds(std::vector<std::string>& kinds, const std::vector<samples::Member>& members)
   {
-    for (const samples::Member& member : sample.members)
+    for (const samples::Member& member : members)
     {
       if (std::find(kinds.begin(), kinds.end(), member.name) == kinds.end())
       {
@@ -140,36 +151,34 @@ private:
     }
   }
 
-  static void addShards(ExportPlan& plan, const DatasetView& dataset, const std::string& part,
-    const std::vector<Sample>& all, const OptionValues& options)
+  static void addShards(ExportPlan& plan, const std::shared_ptr<const Samples>& all, const std::string& part,
+    const std::vector<std::uint32_t>& shots)
   {
-    const auto most = static_cast<std::size_t>(samplesPerShard().of(options));
-    for (std::size_t begin = 0; begin < all.size(); begin += most)
-    {
-      const std::size_t end = std::min(all.size(), begin + most);
-      const std::string name = part + '-' + padded(static_cast<int>(begin / most), 6) + ".tar";
-      const std::vector<Sample> own(all.begin() + std::ptrdiff_t(begin), all.begin() + std::ptrdiff_t(end));
-      plan.items.push_back({ { name },
-        [&dataset, name, own, options](ExportSink& sink) { writeShard(sink, dataset, name, own, options); } });
-      for (const Sample& sample : own)
+    const auto most = static_cast<std::size_t>(samplesPerShard().of(all->options()));
+    plan.series.push_back({ (shots.size() + most - 1) / most, [all, part, shots, most](std::size_t i)
       {
-        plan.names.push_back({ sample.shot->name(), sample.shot->frame(), sample.key });
-      }
-    }
+        const std::string name = part + '-' + padded(static_cast<int>(i), 6) + ".tar";
+        const auto begin = shots.begin() + std::ptrdiff_t(i * most);
+        const std::vector<std::uint32_t> own(begin, begin + std::ptrdiff_t(std::min(most, shots.size() - i * most)));
+        return ExportItem{ { name }, [all, name, own](ExportSink& sink) { writeShard(sink, *all, name, own); } };
+      } });
+    plan.series.push_back(namesOf(all->dataset(), shots, [all](const DatasetShot& shot) { return all->keyOf(shot); }));
   }
 
-  static void writeShard(ExportSink& sink, const DatasetView& dataset, const std::string& name,
-    const std::vector<Sample>& own, const OptionValues& options)
+  static void writeShard(
+    ExportSink& sink, const Samples& all, const std::string& name, const std::vector<std::uint32_t>& own)
   {
     TarFile tar(sink, name);
-    for (const Sample& sample : own)
+    for (const std::uint32_t i : own)
     {
-      samples::Json document = samples::documentOf(dataset, *sample.shot);
-      document["members"] = samples::sourcesOf(sample.members);
-      tar.add(sample.key + ".json", document.dump() + "\n");
-      for (const samples::Member& member : sample.members)
+      const DatasetShot& shot = all.dataset().shots()[i];
+      const std::vector<samples::Member> members = all.membersOf(shot);
+      samples::Json document = samples::documentOf(all.dataset(), shot);
+      document["members"] = samples::sourcesOf(members);
+      tar.add(all.keyOf(shot) + ".json", document.dump() + "\n");
+      for (const samples::Member& member : members)
       {
-        tar.add(sample.key + '.' + member.name, samples::bytesOf(sink, dataset, member, options));
+        tar.add(all.keyOf(shot) + '.' + member.name, samples::bytesOf(sink, all.dataset(), member, all.options()));
       }
     }
     sink.note("shards", card::fileObject(tar.finish(), card::mimeOf("tar")).dump());

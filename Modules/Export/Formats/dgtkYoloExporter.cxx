@@ -3,6 +3,7 @@
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
+#include "dgtkExportSeries.h"
 #include "dgtkRunLengths.h"
 #include "dgtkText.h"
 
@@ -154,20 +155,17 @@ public:
     plan.conventions = { { "places", "shares of width and height from the image's corner" },
       { "classes", "from 0, in the order of data.yaml" }, { "lines", "objects with a visible pixel, by id" },
       { "labels", labels().of(options) } };
-    SafeNames names;
     const std::vector<DatasetSplit> splits = splitsOf(dataset, options, "train");
     checkKeys(splits);
     for (const DatasetSplit& split : splits)
     {
-      for (const DatasetShot& shot : dataset.shots())
+      const auto item = [&dataset, names = safeNamesOf(dataset), part = split.name, options](
+                          const DatasetShot& shot, std::size_t)
       {
-        if (split.holds(shot))
-        {
-          const std::string stem = split.name + '/' + names.of(shot.name()) + '_' + padded(shot.frame(), 6);
-          plan.items.push_back(item(dataset, shot, stem, options));
-          plan.names.push_back({ shot.name(), shot.frame(), plan.items.back().files[0] });
-        }
-      }
+        const std::string stem = part + '/' + names->known(shot.name()) + '_' + padded(shot.frame(), 6);
+        return named(shot, itemOf(dataset, shot, stem, options));
+      };
+      plan.series.push_back(seriesOf(dataset, shotsIn(dataset, split), item));
     }
     plan.documents.push_back({ { "data.yaml" },
       [&dataset, splits, options](ExportSink& sink) { sink.write("data.yaml", yamlOf(dataset, splits, options)); } });
@@ -215,7 +213,7 @@ private:
     return text;
   }
 
-  static ExportItem item(
+  static ExportItem itemOf(
     const DatasetView& dataset, const DatasetShot& shot, const std::string& stem, const OptionValues& options)
   {
     const std::string picture = "images/" + stem + '.' + pictureExtension(options);

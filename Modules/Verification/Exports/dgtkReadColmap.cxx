@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkExportPixels.h"
+#include "dgtkReadColmapRigs.h"
 #include "dgtkReadTexts.h"
 
 #include "dgtkError.h"
@@ -312,6 +313,7 @@ public:
       this->judgeImage(id, image);
     }
     this->judgePoints();
+    judgeColmapRigs(this->Judge, this->Folder, this->Extension, this->Rigged);
   }
 
 private:
@@ -323,6 +325,7 @@ private:
     const auto camera = this->Model_.cameras.find(image.camera);
     this->Judge.holds("cameras", this->file("images"), image.name, camera != this->Model_.cameras.end(),
       std::to_string(image.camera), "a camera of the model");
+    this->Rigged[id] = { image.camera, picture };
     if (!picture || camera == this->Model_.cameras.end())
     {
       return;
@@ -410,6 +413,7 @@ private:
   Model Model_;
   std::vector<TrackPoint> Tracks;
   std::map<std::int64_t, int> Seen;
+  std::map<std::uint32_t, RiggedImage> Rigged;
   std::size_t Places = 0;
 };
 
