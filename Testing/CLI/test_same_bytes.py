@@ -10,6 +10,8 @@ from test_tiles import PIXEL_LAYERS, without_tiles
 WIDE_LAYERS = ("edges,correspondence,disparity,disparity_forward,disparity_backward,flow_forward,flow_backward,sceneflow,ldi,alpha,coverage,"
                "boxes,amodal,points,tiles")
 
+os.environ["DGTK_CACHE"] = "0"  # what runs have read of models is compared, too
+
 
 class SameBytes(Case):
     def test_layers_that_need_more_than_their_pixel(self):
