@@ -32,7 +32,7 @@ class SameBytes(Case):
     def test_threads_frames_and_repetition(self):
         scene = os.path.join(SCENES, "demo.json")
         for engine in ("raster", "ray"):
-            common = ("render", scene, "--quiet", "--layers", PIXEL_LAYERS, "--size", "320x240", "--visibility", engine)
+            common = ("render", scene, "--quiet", "--layers", PIXEL_LAYERS, "--size", "160x120", "--visibility", engine)
             self.dgtk(*common, "-o", self.path(engine), "--threads", 1)
             for name, options in (("again", ()), ("two", ("--threads", 2)), ("five", ("--threads", 5))):
                 self.dgtk(*common, "-o", self.path(engine + name), *options)
@@ -47,7 +47,7 @@ class SameBytes(Case):
 
     def test_samples_and_16_bits(self):
         scene = os.path.join(SCENES, "demo.json")
-        common = ("render", scene, "--quiet", "--layers", "color", "--size", "320x240", "--frames", "0", "--samples", 3,
+        common = ("render", scene, "--quiet", "--layers", "color", "--size", "160x120", "--frames", "0", "--samples", 3,
                   "--color-bits", 16, "--color-format", "png,exr")
         self.dgtk(*common, "-o", self.path("one"), "--threads", 1)
         self.dgtk(*common, "-o", self.path("two"), "--threads", 2, "--gl", "osmesa")
