@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the whole-program cases share: running dgtk, temporary folders, comparing datasets byte by byte."""
+import atexit
 import functools
 import hashlib
 import json
@@ -13,6 +14,12 @@ DGTK = os.environ["DGTK"]
 SOURCE = os.environ["DGTK_SOURCE"]
 SCENES = os.path.join(SOURCE, "Data", "Scenes")
 EXTRA = os.environ.get("DGTK_EXTRA_MODELS", os.environ.get("DGTK_EXTRA_MODELS_DEFAULT", ""))
+
+# Models that were read are kept for the runs of this program alone. Where each run has to read them itself, a case
+# says so: DGTK_CACHE=0.
+CACHES = tempfile.mkdtemp(prefix="dgtk-cache-")
+atexit.register(shutil.rmtree, CACHES, ignore_errors=True)
+os.environ["XDG_CACHE_HOME"] = CACHES
 
 
 class Case(unittest.TestCase):

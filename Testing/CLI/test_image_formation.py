@@ -112,10 +112,10 @@ class ImageFormation(harness.Case):
         aperture, focus, distance = 0.4, 4.0, 10.0
         focal = 300.0
         scene = {"objects": [{"model": "square.obj", "materials": GLOWING, "scale": 0.006}],
-                 "cameras": [{**camera(161, 161, 161 * distance / focal, distance),
+                 "cameras": [{**camera(41, 41, 41 * distance / focal, distance),
                               "lens": {"aperture": aperture, "focus": focus, "exposures": 600}}]}
         image = self.picture(scene, "--samples", 4)[..., 0].astype(float)
-        x = np.arange(161) + 0.5 - 80.5
+        x = np.arange(41) + 0.5 - 20.5
         total = image.sum()
         # second moment of a uniform disc of radius r: r^2 / 2
         moment = (image * (x[None, :] ** 2 + x[:, None] ** 2)).sum() / total
@@ -340,22 +340,22 @@ class ImageFormation(harness.Case):
                         "attenuation": [1, 0, 0.5]},
                        {"kind": "spot", "position": [0, 3, 0], "target": [0, 0, 0], "shadows": True, "shadowSize": 256}],
             "environment": self.environment("sky", sky), "fog": {"density": 0.05},
-            "cameras": [{"name": "c", "eye": [1.5, 2, 3], "lookAt": [0, 0.7, 0], "width": 144, "height": 108,
+            "cameras": [{"name": "c", "eye": [1.5, 2, 3], "lookAt": [0, 0.7, 0], "width": 72, "height": 54,
                          "shutter": {"open": 0, "close": 0.5, "exposures": 4}, "lens": {"aperture": 0.05, "focus": 3}}]}
         scene["cameras"][0]["lens"]["exposures"] = 6
         layers = "color,color_sharp,color_noisy,depth_noisy,tiles,depth,objects,alpha"
-        first = self.render(scene, "--tile", "64x48", "--frames", "0:1", "--samples", 2, layers=layers, name="a")
+        first = self.render(scene, "--tile", "32x24", "--frames", "0:1", "--samples", 2, layers=layers, name="a")
         for name, options, threads in [("b", ("--frames", "0:1"), 1), ("c", ("--frames", "0:1", "--gl", "osmesa"), 3)]:
-            second = self.render(scene, "--tile", "64x48", "--samples", 2, *options, layers=layers, name=name,
+            second = self.render(scene, "--tile", "32x24", "--samples", 2, *options, layers=layers, name=name,
                                  threads=threads)
             self.assert_same_files(first, second)
-        third = self.render(scene, "--tile", "37x1000", "--samples", 2, "--frames", "0:1", layers=layers, name="d")
+        third = self.render(scene, "--tile", "19x1000", "--samples", 2, "--frames", "0:1", layers=layers, name="d")
         names = [n for n in harness.digests(third) if "/tiles/" in n] + [
             n for n in harness.digests(first) if "/tiles/" in n] + ["manifest.json"]
         self.assert_same_files(first, third, ignore=names)
         whole = self.read(os.path.join(first, "c", "color", "000000.png"))
         self.assertTrue(np.array_equal(self.read(os.path.join(first, "c", "tiles", "000000_1_1.png")),
-                                       whole[48:96, 64:128]))
+                                       whole[24:48, 32:64]))
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ import subprocess
 
 from harness import DGTK, SCENES, Case, main
 
+os.environ["DGTK_CACHE"] = "0"  # both processors read the models
 EMULATED = ("qemu-x86_64", "-cpu", "Nehalem")
 WORK = {
     "demo.json": "color,depth,objects,triangles,normal,shadingnormal,position,uv,flow_forward,edges,alpha,ldi,boxes",

@@ -10,6 +10,8 @@ from test_tiles import PIXEL_LAYERS, without_tiles
 WIDE_LAYERS = ("edges,correspondence,disparity,disparity_forward,disparity_backward,flow_forward,flow_backward,sceneflow,ldi,alpha,coverage,"
                "boxes,amodal,points,tiles")
 
+os.environ["DGTK_CACHE"] = "0"  # what runs have read of models is compared, too
+
 
 class SameBytes(Case):
     def test_layers_that_need_more_than_their_pixel(self):
@@ -30,7 +32,7 @@ class SameBytes(Case):
     def test_threads_frames_and_repetition(self):
         scene = os.path.join(SCENES, "demo.json")
         for engine in ("raster", "ray"):
-            common = ("render", scene, "--quiet", "--layers", PIXEL_LAYERS, "--size", "320x240", "--visibility", engine)
+            common = ("render", scene, "--quiet", "--layers", PIXEL_LAYERS, "--size", "160x120", "--visibility", engine)
             self.dgtk(*common, "-o", self.path(engine), "--threads", 1)
             for name, options in (("again", ()), ("two", ("--threads", 2)), ("five", ("--threads", 5))):
                 self.dgtk(*common, "-o", self.path(engine + name), *options)
@@ -45,7 +47,7 @@ class SameBytes(Case):
 
     def test_samples_and_16_bits(self):
         scene = os.path.join(SCENES, "demo.json")
-        common = ("render", scene, "--quiet", "--layers", "color", "--size", "320x240", "--frames", "0", "--samples", 3,
+        common = ("render", scene, "--quiet", "--layers", "color", "--size", "160x120", "--frames", "0", "--samples", 3,
                   "--color-bits", 16, "--color-format", "png,exr")
         self.dgtk(*common, "-o", self.path("one"), "--threads", 1)
         self.dgtk(*common, "-o", self.path("two"), "--threads", 2, "--gl", "osmesa")

@@ -22,7 +22,7 @@ def available(backend):
 
 class Tiles(Case):
     def render(self, scene, folder, *options):
-        self.dgtk("render", os.path.join(SCENES, scene), "-o", self.path(folder), "--quiet", "--size", "320x240",
+        self.dgtk("render", os.path.join(SCENES, scene), "-o", self.path(folder), "--quiet", "--size", "160x120",
                   "--frames", "0", *options)
         return self.path(folder)
 
@@ -30,7 +30,7 @@ class Tiles(Case):
         self.assertTrue(available("egl"), "EGL software rendering is expected everywhere")
         self.assertTrue(available("osmesa"), "OSMesa is expected everywhere")
         # What cuts is the same code for both; one size that divides nothing is tried with OSMesa, too.
-        tiles = {"egl": ("160x120", "64x48", "97x61", "1000x1000"), "osmesa": ("97x61",)}
+        tiles = {"egl": ("80x60", "32x24", "49x31", "1000x1000"), "osmesa": ("49x31",)}
         for scene in SCENE_NAMES:
             for gl, sizes in tiles.items():
                 whole = self.render(scene, f"{scene}-{gl}", "--layers", PIXEL_LAYERS, "--gl", gl)
@@ -44,7 +44,7 @@ class Tiles(Case):
                 self.assert_same_files(self.path(f"{scene}-egl"), self.path(f"{scene}-osmesa"))
 
     def test_tiles_put_together_are_the_picture(self):
-        folder = self.render("demo.json", "tiled", "--layers", "color,tiles", "--tile", "97x61")
+        folder = self.render("demo.json", "tiled", "--layers", "color,tiles", "--tile", "49x31")
         self.dgtk("compare", folder, folder)
         import zlib
         camera = sorted(n for n in os.listdir(folder) if os.path.isdir(os.path.join(folder, n)))[0]
@@ -53,8 +53,8 @@ class Tiles(Case):
             for column in range(4):
                 tile = read_png(os.path.join(folder, camera, "tiles", f"000000_{row}_{column}.png"), zlib)
                 for y, line in enumerate(tile):
-                    begin = column * 97 * 3
-                    self.assertEqual(line, whole[row * 61 + y][begin:begin + len(line)])
+                    begin = column * 49 * 3
+                    self.assertEqual(line, whole[row * 31 + y][begin:begin + len(line)])
 
 
 def without_tiles(folder):

@@ -14,6 +14,7 @@ import numpy
 from harness import SCENES, Case, load_json, main
 
 LAYERS = "color,depth,distance,position,normal,uv,objectcoords,objects,parts,triangles,calibration,classes"
+WIDTH, HEIGHT = 80, 60
 PAIRS = ",correspondence,disparity,disparity_forward,disparity_backward,flow_forward,flow_backward,sceneflow"
 
 
@@ -42,7 +43,7 @@ class Spoiled(Case):
         if not cls.scene:
             return
         done = subprocess.run([os.environ["DGTK"], "render", os.path.join(SCENES, cls.scene), "-o", cls.whole, "--quiet",
-                               "--size", "160x120", *cls.options], capture_output=True, text=True)
+                               "--size", f"{WIDTH}x{HEIGHT}", *cls.options], capture_output=True, text=True)
         if done.returncode:
             raise RuntimeError(done.stderr)
 
@@ -119,7 +120,7 @@ class Planted(Spoiled):
         cameras["cameras"][0]["K"][0][2] += 0.5
         self.write(os.path.join("set", "cameras.json"), json.dumps(cameras))
         self.accept("cameras.json")
-        self.found("cameras.json", "cameras", "80.5", "expected 80 ")
+        self.found("cameras.json", "cameras", "40.5", "expected 40 ")
         table = self.dgtk("verify", self.path("set"), status=1).stdout
         row = next(line for line in table.splitlines() if "cv::projectPoints" in line)
         self.assertIn("5.00e-01", row)
@@ -135,16 +136,16 @@ class Planted(Spoiled):
 
     def test_one_id(self):
         def flip(ids):
-            ids[60, 80] ^= 3
+            ids[HEIGHT // 2, WIDTH // 2] ^= 3
             return ids
 
         self.change("right/objects/000000.npy", flip)
-        self.found("right/objects/000000.npy: pixel (80, 60)", "objects")
+        self.found("right/objects/000000.npy: pixel (40, 30)", "objects")
 
     def test_flow_transposed(self):
         name = self.path("set", "left", "flow_forward", "000000.flo")
         data = contents(name)
-        flow = numpy.frombuffer(data, "<f4", offset=12).reshape(120, 160, 2)
+        flow = numpy.frombuffer(data, "<f4", offset=12).reshape(HEIGHT, WIDTH, 2)
         with open(name, "wb") as file:
             file.write(data[:12] + flow[..., ::-1].tobytes())
         self.accept("left/flow_forward/000000.flo")
@@ -213,7 +214,7 @@ class Planted(Spoiled):
 
     def test_class_image(self):
         # Visible where the surface is hidden.
-        png = gray_png(160, 120, 1)
+        png = gray_png(WIDTH, HEIGHT, 1)
         self.write(os.path.join("set", "left", "correspondence_right", "000000.png"), png)
         self.accept("left/correspondence_right/000000.png")
         self.found("left/correspondence_right/000000.png: pixel", "class", "found 1")
@@ -222,7 +223,7 @@ class Planted(Spoiled):
 class PlantedObjects(Spoiled):
     """What belongs to rays and objects rather than to one pixel."""
     scene = "fig_4_7_stereo.json"
-    options = ("--layers", "color,depth,objects,classes,ldi,boxes,amodal,points")
+    options = ("--layers", "color,depth,objects,classes,ldi,boxes,amodal,points", "--points-step", "4")
 
     def test_as_rendered(self):
         report = json.loads(self.dgtk("verify", self.path("set"), "--json").stdout)
@@ -236,7 +237,7 @@ class PlantedObjects(Spoiled):
         """Edits the records of the middle pixel: (count, offset of the first record) of a bytearray."""
         name = self.path("set", "left", "ldi", "000000.ldi")
         data, at = bytearray(contents(name)), 8
-        for _ in range(60 * 160 + 80):
+        for _ in range(HEIGHT // 2 * WIDTH + WIDTH // 2):
             at += 4 + 16 * struct.unpack_from("<I", data, at)[0]
         change(data, struct.unpack_from("<I", data, at)[0], at + 4)
         with open(name, "wb") as file:
@@ -250,21 +251,21 @@ class PlantedObjects(Spoiled):
             del data[at:at + 16]
 
         self.ldi(drop)
-        self.found("left/ldi/000000.ldi: pixel (80, 60)", "ldi")
+        self.found("left/ldi/000000.ldi: pixel (40, 30)", "ldi")
 
     def test_ldi_out_of_order(self):
         def swap(data, _, at):
             data[at:at + 16], data[at + 16:at + 32] = data[at + 16:at + 32], data[at:at + 16]
 
         self.ldi(swap)
-        self.found("left/ldi/000000.ldi: pixel (80, 60)", "ldi")
+        self.found("left/ldi/000000.ldi: pixel (40, 30)", "ldi")
 
     def test_ldi_of_another_color(self):
         def paint(data, _, at):
             data[at] ^= 64
 
         self.ldi(paint)
-        self.found("left/ldi/000000.ldi: pixel (80, 60)", "ldi", "first = color")
+        self.found("left/ldi/000000.ldi: pixel (40, 30)", "ldi", "first = color")
 
     def test_ldi_truncated(self):
         name = self.path("set", "left", "ldi", "000000.ldi")
@@ -275,7 +276,7 @@ class PlantedObjects(Spoiled):
         self.found("left/ldi/000000.ldi", "ldi", "ends at byte")
 
     def test_classes_of_one_value(self):
-        self.write(os.path.join("set", "right", "classes", "000000.png"), gray_png(160, 120, 200))
+        self.write(os.path.join("set", "right", "classes", "000000.png"), gray_png(WIDTH, HEIGHT, 200))
         self.accept("right/classes/000000.png")
         self.found("right/classes/000000.png: pixel (0, 0)", "partition", "found 200")
 

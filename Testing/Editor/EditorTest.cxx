@@ -3,6 +3,7 @@
 #include "TestEditorSupport.h"
 
 #include "dgtkMainWindow.h"
+#include "dgtkModelCache.h"
 #include "dgtkSceneDocument.h"
 
 #include <QAbstractEventDispatcher>
@@ -118,6 +119,8 @@ void EditorTest::initTestCase()
 {
   // Programs that run at the same time do not meet there.
   qputenv("XDG_DATA_HOME", QByteArray::fromStdString(this->Folder.path("data")));
+  qputenv("XDG_CACHE_HOME", QByteArray::fromStdString(this->Folder.path("cache")));
+  dgtk::ModelCache::use(dgtk::ModelCache::ofUser()); // as the program does
   QSettings::setPath(
     QSettings::NativeFormat, QSettings::UserScope, QString::fromStdString(this->Folder.path("settings")));
 }

@@ -19,6 +19,8 @@ private slots:
 private:
   QList<QPointer<QAction>> menuItems() const;
   void prepareFor(const QAction& item) const;
+  /// The demo scene with few of its objects: it is opened for each item.
+  QString fewObjects() const;
 };
 
 #endif

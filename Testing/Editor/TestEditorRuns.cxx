@@ -20,7 +20,7 @@ namespace
 {
 constexpr const char* size[2] = { "96", "64" }; // pixels
 constexpr const char* layer = "depth";
-constexpr int lastFrame = 150; // seconds from the end when the first picture is there
+constexpr int lastFrame = 40; // half a second from the end when the first picture is there
 constexpr const char* firstPicture = "left/depth/000000.npy";
 constexpr int hashDigits = 64;
 constexpr const char* asEditor = "--editor";
@@ -56,14 +56,16 @@ int beEditor(int argc, char** argv, const QString& scene, const QString& folder)
   return QApplication::exec();
 }
 
-/// A dgtk whose run stops itself when its first picture is there and in its journal, if a file "hold" is: the window
-/// may be late.
+/// A dgtk whose run is held when its first picture is there and in its journal, if a file "hold" is, which goes then.
+/// It goes on by moments until there: it does not end before it is looked at, and the window may be late.
 QByteArray stoppingProgram(const QString& folder)
 {
   return QString(
     "#!/bin/sh\ncd '%1' && [ -e hold ] && (\n"
     "  while kill -0 $$; do\n"
-    "    grep -qE '^[0-9a-f]{64}.*%3$' out/.dgtk-journal && [ ! -e out/manifest.json ] && kill -STOP $$ && exit\n"
+    "    kill -STOP $$\n"
+    "    grep -qE '^[0-9a-f]{64}.*%3$' out/.dgtk-journal && [ ! -e out/manifest.json ] && rm hold && exit\n"
+    "    kill -CONT $$\n"
     "    sleep 0.01\n"
     "  done) </dev/null >/dev/null 2>&1 &\n"
     "exec '%2' \"$@\"\n")
@@ -136,8 +138,8 @@ void TestEditorRuns::holdNext() const { QVERIFY(QFile(this->path("hold")).open(Q
 
 void TestEditorRuns::waitUntilHeld() const
 {
-  QTRY_VERIFY(!livingRuns().isEmpty() && isStopped(livingRuns().first()));
-  QVERIFY(QFile::remove(this->path("hold")));
+  QTRY_VERIFY(!QFile::exists(this->path("hold")));
+  QVERIFY(!livingRuns().isEmpty() && isStopped(livingRuns().first()));
   QVERIFY2(!QFile::exists(this->path("out/manifest.json")), "the run was to be held before its end");
 }
 

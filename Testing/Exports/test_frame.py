@@ -16,8 +16,9 @@ KILLS = 20
 
 
 def exporters():
+    """Layers that each format needs."""
     listed = subprocess.run([DGTK, "list", "exporters", "--json"], check=True, capture_output=True, text=True).stdout
-    return [row["format"] for row in json.loads(listed)["exporters"]]
+    return {row["format"]: row["layers"].split(",") for row in json.loads(listed)["exporters"]}
 
 
 def flip_bit(path, seed):
@@ -36,6 +37,13 @@ class Frame(datasets.ExportCase):
         done = self.dgtk_any("render", scene, "-o", folder, "--for", form, "--quiet")
         return folder, done.stderr if done.returncode else ""
 
+    def rendered_for_many(self, forms, scene):
+        """One dataset, which has more than each of the formats needs."""
+        folder = self.path(f"for-many-{os.path.basename(scene)}")
+        if not os.path.exists(folder):
+            self.dgtk("render", scene, "-o", folder, "--for", ",".join(forms), "--quiet")
+        return folder, ""
+
     def dgtk_any(self, *arguments):
         done = subprocess.run([DGTK, *map(str, arguments)], capture_output=True, text=True, timeout=300)
         self.assertIn(done.returncode, (0, 2), done.stderr)
@@ -43,14 +51,21 @@ class Frame(datasets.ExportCase):
         return done
 
     def test_every_exporter_gives_the_same_bytes_and_is_read_back(self):
-        """Threads, links and shares change nothing; what comes out passes the referee; or it is refused in words."""
+        """Threads, links and shares change nothing; what comes out passes the referee; or it is refused in words.
+
+        A format is tried with the first scene rendered for it alone, and with the others rendered for all formats that they are for.
+        """
+        known = exporters()
         scenes = [datasets.stereo(self.path("stereo")), datasets.walk(self.path("walk"), empty=False), datasets.street(self.path("street"))]
         never = []
-        for form in exporters():
+        for form in known:
             with self.subTest(form):
                 exported = 0
                 for number, scene in enumerate(scenes):
-                    dataset, refused = self.rendered_for(form, scene)
+                    pair = len(load_json(scene)["cameras"]) > 1
+                    ready = [one for one in known if pair or "disparity" not in known[one]]
+                    alone = not exported or form not in ready
+                    dataset, refused = self.rendered_for(form, scene) if alone else self.rendered_for_many(ready, scene)
                     if refused:
                         continue
                     one, two = self.path(f"{form}-1-{number}"), self.path(f"{form}-2-{number}")
