@@ -172,7 +172,7 @@ bool dgtkSnapshot::CountCells()
           {
             if (hit.object != 0)
             {
-              ++pixels[hit.object - 1][dgtk::cellOf(view, hit)];
+              ++pixels[view.actorOf(hit)][dgtk::cellOf(view, hit)];
             }
           }
         });
