@@ -217,7 +217,7 @@ class Snapshots(unittest.TestCase):
 class Glyphs(unittest.TestCase):
     """Glyphs share the models of their shapes, but where something cuts single triangles: both are the same object."""
     LAYERS = ("objects", "parts", "triangles", "depth", "normal", "shadingnormal", "objectcoords", "position", "color", "color_rgba", "alpha",
-              "coverage", "edges", "classes", "boxes", "amodal", "ldi", "matting", "barycentrics")
+              "coverage", "edges", "classes", "boxes", "amodal", "ldi", "matting", "barycentrics", "points")
 
     def leaves(self, output, name=""):
         if isinstance(output, (dict, list, tuple)):

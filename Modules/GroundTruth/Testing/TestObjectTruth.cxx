@@ -321,4 +321,10 @@ TEST(Albedo, MultipliesDiffuseWithTheNearestTexel)
   EXPECT_EQ(at(0.9, 0.8), (std::array<std::uint8_t, 3>{ 0, 255, 0 }));
   EXPECT_EQ(at(0.2, 0.1), (std::array<std::uint8_t, 3>{ 0, 0, 51 }));
   EXPECT_EQ(at(0.8, 0.1), (std::array<std::uint8_t, 3>{ 128, 255, 51 }));
+  model->colors.assign(model->rest->positions.size(), { 0, 255, 51, 255 });
+  EXPECT_EQ(at(0.8, 0.1), (std::array<std::uint8_t, 3>{ 0, 255, 10 }));
+  model->colors.clear();
+  model->colorMap = image;
+  model->colorMapAt.assign(model->rest->positions.size(), { 0.2, 0.1 }); // blue
+  EXPECT_EQ(at(0.8, 0.1), (std::array<std::uint8_t, 3>{ 0, 0, 51 }));
 }
