@@ -17,9 +17,28 @@
 #include "vtkUnsignedIntArray.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
+#include <new>
 
 vtkStandardNewMacro(dgtkSnapshot);
+
+namespace
+{
+/// The system has memory that is zero: of that, what nobody writes into takes no time.
+vtkSmartPointer<vtkUnsignedIntArray> zeros(std::int64_t count)
+{
+  auto made = vtkSmartPointer<vtkUnsignedIntArray>::New();
+  auto* const values =
+    static_cast<unsigned int*>(std::calloc(std::size_t(std::max<std::int64_t>(count, 1)), sizeof(unsigned int)));
+  if (values == nullptr)
+  {
+    throw std::bad_alloc();
+  }
+  made->SetArray(values, vtkIdType(count), 0, vtkUnsignedIntArray::VTK_DATA_ARRAY_FREE);
+  return made;
+}
+} // namespace
 
 struct dgtkSnapshot::Internal
 {
@@ -159,9 +178,7 @@ bool dgtkSnapshot::CountCells()
       std::vector<vtkSmartPointer<vtkUnsignedIntArray>> counts;
       for (const dgtk::FrozenActor& actor : view.actors)
       {
-        counts.push_back(vtkSmartPointer<vtkUnsignedIntArray>::New());
-        counts.back()->SetNumberOfValues(vtkIdType(actor.inputCells));
-        counts.back()->Fill(0);
+        counts.push_back(zeros(actor.inputCells));
         pixels.push_back(counts.back()->GetPointer(0));
       }
       const dgtk::InterpreterPause pause;
@@ -172,7 +189,7 @@ bool dgtkSnapshot::CountCells()
           {
             if (hit.object != 0)
             {
-              ++pixels[hit.object - 1][dgtk::cellOf(view, hit)];
+              ++pixels[view.actorOf(hit)][dgtk::cellOf(view, hit)];
             }
           }
         });

@@ -17,11 +17,11 @@ namespace
 constexpr int blockSide = 4; ///< pixels that are asked about at once are neighbours
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
-VisibilityClass classOf(const Hit& hit, const Hit& before)
+VisibilityClass classOf(std::uint32_t object, std::uint32_t before)
 {
-  return before.object == 0            ? VisibilityClass::Visible
-         : before.object == hit.object ? VisibilityClass::OccludedByOwn
-                                       : VisibilityClass::OccludedByOther;
+  return before == 0        ? VisibilityClass::Visible
+         : before == object ? VisibilityClass::OccludedByOwn
+                            : VisibilityClass::OccludedByOther;
 }
 
 /// Follows surface points into another view, any number at a time.
@@ -90,7 +90,8 @@ public:
     this->findOccluders(asked);
     for (std::size_t i = 0; i < asked; ++i)
     {
-      answer(this->Indices[i], this->Pixels[i], classOf(this->Hits[i], this->Before[i]));
+      answer(
+        this->Indices[i], this->Pixels[i], classOf(this->objectOf(this->Hits[i]), this->objectOf(this->Before[i])));
     }
     this->Indices.clear();
     this->Hits.clear();
@@ -109,6 +110,10 @@ private:
     return this->Other.view.instants
              ? this->Seen[i] == 0 || this->Other.view.instants->isVisibleAt(this->Frames[i], object)
              : this->Other.state->instances[object - 1].visible;
+  }
+  std::uint32_t objectOf(const Hit& hit) const
+  {
+    return this->Other.view.instants ? hit.object : this->Other.state->objectOf(hit.object); // no copies roll
   }
   void findOccluders(std::size_t count)
   {

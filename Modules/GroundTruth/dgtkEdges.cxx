@@ -47,7 +47,7 @@ std::vector<PixelPlane> pixelPlanes(const SurfaceRows& row)
       continue;
     }
     const CameraRay ray = row.view->model->rayThrough({ row.rect.x + double(x) + 0.5, row.rect.y + 0.5 });
-    planes[x].object = row.hits[x].object;
+    planes[x].object = row.state->objectOf(row.hits[x].object);
     planes[x].point = ray.origin + row.t[x] * ray.direction;
     planes[x].range = row.t[x];
     planes[x].normal =

@@ -151,60 +151,104 @@ PlacedAxes placedAxes(const Eigen::Matrix3d& linear)
 
 namespace
 {
+struct CopyOrder
+{
+  bool operator()(const Instance& copy, std::uint32_t id) const { return copy.copyOf < id; }
+  bool operator()(std::uint32_t id, const Instance& copy) const { return id < copy.copyOf; }
+};
+
 bool seesInTime(const View& view, const Hit& hit, const Eigen::Vector2d& weights, Eigen::Vector2d& pixel)
 {
   const SeenInTime seen = seenInTime(view, hit, weights);
   pixel = seen.pixel;
   return seen.seen;
 }
+
+/// A box of an object's vertices in its own frame, and of their projections.
+class VertexBox
+{
+public:
+  explicit VertexBox(const View& view)
+    : TheView(view)
+  {
+  }
+
+  /// Those of the triangles of an instance, whose hits have the number.
+  void add(const Instance& instance, std::uint32_t number)
+  {
+    const bool isCopy = instance.copyOf != 0;
+    const Affine3 camera_from_model = this->TheView.camera_from_world * instance.world_from_object;
+    const std::vector<Eigen::Vector3d>& positions = instance.geometry->positions;
+    std::vector<char> used(positions.size(), 0);
+    for (std::size_t t = 0; t < instance.model->triangles.size(); ++t)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        const std::uint32_t corner = instance.model->triangles[t][std::size_t(k)];
+        if (std::exchange(used[corner], 1) != 0)
+        {
+          continue;
+        }
+        const Eigen::Vector3d& x = positions[corner];
+        const Eigen::Vector3d own = isCopy ? instance.object_from_model * x : x;
+        this->Least = this->Least.cwiseMin(own);
+        this->Most = this->Most.cwiseMax(own);
+        Eigen::Vector2d pixel;
+        const Eigen::Vector2d weights(k == 1 ? 1 : 0, k == 2 ? 1 : 0);
+        if (this->TheView.instants ? seesInTime(this->TheView, { number, std::uint32_t(t) }, weights, pixel)
+                                   : this->TheView.model->project(camera_from_model * x, pixel))
+        {
+          this->Projected.head<2>() = this->Projected.head<2>().cwiseMin(pixel);
+          this->Projected.tail<2>() = this->Projected.tail<2>().cwiseMax(pixel);
+        }
+      }
+    }
+  }
+
+  void store(const Affine3& camera_from_object, ObjectPose& pose) const
+  {
+    if (this->Projected[0] <= this->Projected[2])
+    {
+      pose.projected = this->Projected;
+    }
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const Eigen::Vector3d x((corner & 1 ? this->Most : this->Least).x(), (corner & 2 ? this->Most : this->Least).y(),
+        (corner & 4 ? this->Most : this->Least).z());
+      pose.corners.row(corner) = (camera_from_object * x).transpose();
+    }
+  }
+
+private:
+  const View& TheView;
+  Eigen::Vector3d Least = Eigen::Vector3d::Constant(infinite);
+  Eigen::Vector3d Most = Eigen::Vector3d::Constant(-infinite);
+  Eigen::Vector4d Projected{ infinite, infinite, -infinite, -infinite };
+};
 } // namespace
 
-ObjectPose objectPose(const Instance& instance, std::uint32_t id, const View& view)
+ObjectPose objectPose(const SceneState& state, std::uint32_t id, const View& view)
 {
   ObjectPose pose;
-  const Affine3 camera_from_object = view.camera_from_world * instance.world_from_object;
+  const Affine3 camera_from_object = view.camera_from_world * state.instances[id - 1].world_from_object;
   pose.matrix << camera_from_object.linear, camera_from_object.translation;
   pose.translation = camera_from_object.translation;
   const PlacedAxes axes = placedAxes(camera_from_object.linear);
   pose.rigid = axes.rigid;
   pose.rotation = axes.rotation;
   pose.scale = axes.scale;
-  Eigen::Vector3d least = Eigen::Vector3d::Constant(infinite);
-  Eigen::Vector3d most = -least;
-  Eigen::Vector4d projected(infinite, infinite, -infinite, -infinite);
-  const std::vector<Eigen::Vector3d>& positions = instance.geometry->positions;
-  std::vector<char> used(positions.size(), 0);
-  for (std::size_t t = 0; t < instance.model->triangles.size(); ++t)
+  VertexBox box(view);
+  const auto copies =
+    std::equal_range(state.instances.begin() + std::ptrdiff_t(state.objects()), state.instances.end(), id, CopyOrder());
+  if (copies.first == copies.second)
   {
-    for (int k = 0; k < 3; ++k)
-    {
-      const std::uint32_t corner = instance.model->triangles[t][std::size_t(k)];
-      if (std::exchange(used[corner], 1) != 0)
-      {
-        continue;
-      }
-      least = least.cwiseMin(positions[corner]);
-      most = most.cwiseMax(positions[corner]);
-      Eigen::Vector2d pixel;
-      const Eigen::Vector2d weights(k == 1 ? 1 : 0, k == 2 ? 1 : 0);
-      if (view.instants ? seesInTime(view, { id, std::uint32_t(t) }, weights, pixel)
-                        : view.model->project(camera_from_object * positions[corner], pixel))
-      {
-        projected.head<2>() = projected.head<2>().cwiseMin(pixel);
-        projected.tail<2>() = projected.tail<2>().cwiseMax(pixel);
-      }
-    }
+    box.add(state.instances[id - 1], id);
   }
-  if (projected[0] <= projected[2])
+  for (auto copy = copies.first; copy != copies.second; ++copy)
   {
-    pose.projected = projected;
+    box.add(*copy, std::uint32_t(copy - state.instances.begin()) + 1);
   }
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const Eigen::Vector3d x(
-      (corner & 1 ? most : least).x(), (corner & 2 ? most : least).y(), (corner & 4 ? most : least).z());
-    pose.corners.row(corner) = (camera_from_object * x).transpose();
-  }
+  box.store(camera_from_object, pose);
   return pose;
 }
 
@@ -217,7 +261,7 @@ BlockObjects::BlockObjects(const SceneState& state, const View& view)
   {
     if (state.instances[i].visible || view.instants)
     {
-      this->markObject(static_cast<std::uint32_t>(i + 1), state.instances[i], view);
+      this->markObject(state.objectOf(static_cast<std::uint32_t>(i + 1)), state.instances[i], view);
     }
   }
 }
@@ -349,7 +393,7 @@ void BlockObjects::markObject(std::uint32_t object, const Instance& instance, co
 void collectObjects(const SceneState& state, const View& view, const OcclusionQuery& occlusion,
   const BlockObjects& blocks, const PixelRect& rect, const Hit* hits, bool amodalRuns, ObjectRows& rows)
 {
-  const std::size_t objects = state.instances.size();
+  const std::size_t objects = state.objects();
   rows.visible.assign(objects, {});
   rows.amodal.assign(objects, {});
   std::vector<std::vector<Hit>> all(static_cast<std::size_t>(rect.width));
@@ -358,7 +402,8 @@ void collectObjects(const SceneState& state, const View& view, const OcclusionQu
   for (int y = rect.y; y < rect.y + rect.height; ++y)
   {
     const std::size_t row = static_cast<std::size_t>(y - rect.y) * static_cast<std::size_t>(rect.width);
-    const auto objectAt = [&](int x) { return hits[row + static_cast<std::size_t>(x - rect.x)].object; };
+    const auto objectAt = [&](int x)
+    { return state.objectOf(hits[row + static_cast<std::size_t>(x - rect.x)].object); };
     asked.clear();
     for (int x = rect.x; x < rect.x + rect.width; ++x)
     {
@@ -386,10 +431,11 @@ void collectObjects(const SceneState& state, const View& view, const OcclusionQu
       seen[first - 1] = mark;
       for (const Hit& hit : all[answer++])
       {
-        if (seen[hit.object - 1] != mark)
+        const std::size_t object = state.objectOf(hit.object) - 1;
+        if (seen[object] != mark)
         {
-          seen[hit.object - 1] = mark;
-          rows.amodal[hit.object - 1].add(x, y, amodalRuns);
+          seen[object] = mark;
+          rows.amodal[object].add(x, y, amodalRuns);
         }
       }
     }

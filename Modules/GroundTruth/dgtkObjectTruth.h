@@ -85,8 +85,8 @@ struct ObjectPose
   /// the image; nothing when there is none.
   std::optional<Eigen::Vector4d> projected;
 };
-/// `instance`: of the picture's own time, as all but `projected` are; `id` is its number.
-DGTKGROUNDTRUTH_EXPORT ObjectPose objectPose(const Instance& instance, std::uint32_t id, const View& view);
+/// `state`: of the picture's own time, as all but `projected` are.
+DGTKGROUNDTRUTH_EXPORT ObjectPose objectPose(const SceneState& state, std::uint32_t id, const View& view);
 
 /// Which objects may be met by the rays of square blocks of pixels: conservative, from the projected triangles.
 class DGTKGROUNDTRUTH_EXPORT BlockObjects

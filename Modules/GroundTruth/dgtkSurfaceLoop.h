@@ -78,7 +78,7 @@ TriangleCache<Value, Make> cachePerTriangle(const Make& make)
   return TriangleCache<Value, Make>(make);
 }
 
-/// Part of a hit's triangle. Neighbouring pixels mostly meet the same part.
+/// Part of a hit's triangle within its object. Neighbouring pixels mostly meet the same part.
 class PartLookup
 {
 public:
@@ -91,10 +91,11 @@ public:
     this->find(hit);
     return this->Part;
   }
-  std::uint32_t firstTriangle(const Hit& hit)
+  /// The triangle, counted within its part.
+  std::uint32_t triangle(const Hit& hit)
   {
     this->find(hit);
-    return this->First;
+    return hit.triangle - this->First + this->Base;
   }
 
 private:
@@ -104,17 +105,21 @@ private:
     {
       return;
     }
-    const Model& model = *this->State.instances[hit.object - 1].model;
+    const Instance& instance = this->State.instances[hit.object - 1];
+    const Model& model = *instance.model;
+    const std::uint32_t part = model.partOf(hit.triangle);
     this->Object = hit.object;
-    this->Part = model.partOf(hit.triangle);
-    this->First = model.parts[this->Part].firstTriangle;
-    this->Count = model.parts[this->Part].triangles;
+    this->Part = instance.firstPart + part;
+    this->First = model.parts[part].firstTriangle;
+    this->Count = model.parts[part].triangles;
+    this->Base = instance.firstInPart;
   }
   const SceneState& State;
   std::uint32_t Object = 0;
   std::uint32_t Part = 0;
   std::uint32_t First = 0;
   std::uint32_t Count = 0;
+  std::uint32_t Base = 0;
 };
 
 /// Rays through the centres of pixels without a virtual call: of a linear lens, or of rows whose rays are known.

@@ -26,7 +26,7 @@ public:
     , Blocks(*state, this->Canvas)
     , Source(source)
     , Pool(pool)
-    , All(state->instances.size())
+    , All(state->objects())
   {
     source.setScene(state, this->Canvas);
   }

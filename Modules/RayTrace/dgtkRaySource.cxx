@@ -5,10 +5,14 @@
 #include "dgtkRayPacket.h"
 #include "dgtkRayScene.h"
 #include "dgtkRaySettle.h"
+#include "dgtkSpareVectors.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWorkTime.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <utility>
 
 namespace dgtk
 {
@@ -19,6 +23,19 @@ constexpr int bandRows = 8; ///< rows that are traced as one job
 constexpr int side = PacketTracer::side;
 constexpr std::size_t partsOfJob = 16; ///< parts of a picture of many instants
 
+/// What is left of sources that are gone: one is often made for a single picture after another of its size.
+struct SpareMarks
+{
+  SpareVectors<float> nearness;
+  SpareVectors<std::uint8_t> doubtful;
+
+  static std::shared_ptr<SpareMarks> shared()
+  {
+    static const auto all = std::make_shared<SpareMarks>();
+    return all;
+  }
+};
+
 /// Primary rays in packets; `Bare` is the yardstick.
 template <bool Bare>
 class RaySource final : public VisibilitySource
@@ -28,6 +45,11 @@ public:
     : Pool(pool)
     , Scene(RayDevice::shared(), Bare)
   {
+  }
+  ~RaySource() override
+  {
+    this->Spare->nearness.give(std::move(this->Marks.nearness));
+    this->Spare->doubtful.give(std::move(this->Marks.doubtful));
   }
   std::string name() const override { return "ray"; }
 
@@ -52,6 +74,11 @@ public:
     {
       this->trace<TraceMode::Bare>(hits);
       return;
+    }
+    if (this->Marks.nearness.empty())
+    {
+      this->Marks.nearness = this->Spare->nearness.take(hits.hits.size());
+      this->Marks.doubtful = this->Spare->doubtful.take(hits.hits.size());
     }
     this->Marks.resize(rect);
     this->trace<TraceMode::Exact>(hits);
@@ -122,6 +149,7 @@ private:
   RayScene Scene;
   View TheView;
   RayMarks Marks;
+  std::shared_ptr<SpareMarks> Spare = SpareMarks::shared();
 };
 
 } // namespace

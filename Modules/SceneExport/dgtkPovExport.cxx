@@ -37,10 +37,10 @@ void checkName(const std::string& path)
 
 void checkCount(const SceneState& state, const std::string& path)
 {
-  if (state.instances.size() > mostIds)
+  if (state.objects() > mostIds)
   {
-    throw InputError(path, 0, "cannot hold as many objects", "at most " + std::to_string(mostIds),
-      std::to_string(state.instances.size()));
+    throw InputError(
+      path, 0, "cannot hold as many objects", "at most " + std::to_string(mostIds), std::to_string(state.objects()));
   }
 }
 
@@ -177,13 +177,13 @@ void addObjects(const SceneState& state, PovObjects&& objects)
   {
     ++users[{ instance.geometry.get(), &povMaterialsOf(instance) }];
   }
-  std::uint32_t id = 0;
+  std::uint32_t number = 0;
   for (const Instance& instance : state.instances)
   {
-    ++id;
+    ++number;
     if (instance.visible)
     {
-      objects.add(instance, id, users[{ instance.geometry.get(), &povMaterialsOf(instance) }] > 1);
+      objects.add(instance, state.objectOf(number), users[{ instance.geometry.get(), &povMaterialsOf(instance) }] > 1);
     }
   }
 }

@@ -23,7 +23,11 @@ std::shared_ptr<const ShadedMaterials> ShadedMaterialLibrary::of(const Instance&
   {
     return set; // holds what the key points to
   }
-  this->dropUnused();
+  if (this->Sets.size() > 2 * this->Kept) // looking through all of them for each new one takes time with many
+  {
+    this->dropUnused();
+    this->Kept = this->Sets.size();
+  }
   const auto set = std::make_shared<ShadedMaterials>();
   set->model = instance.model;
   set->materials = instance.materials;

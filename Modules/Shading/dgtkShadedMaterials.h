@@ -79,6 +79,7 @@ private:
 
   std::mutex Mutex;
   std::map<Key, std::weak_ptr<const ShadedMaterials>> Sets;
+  std::size_t Kept = 8; ///< of them, when what is unused was dropped last
   std::map<std::pair<const Image*, PictureUse>, KnownTexture> Textures;
 };
 

@@ -16,6 +16,8 @@ namespace dgtk
 
 namespace
 {
+Float4 clamped(Float4 v) { return 1 - atLeast(1 - atLeast(v, 0), 0); }
+
 Float4 tintOf(const std::array<std::uint8_t, 4>& color)
 {
   const Float4 bytes = { float(color[0]), float(color[1]), float(color[2]), float(color[3]) };
@@ -343,12 +345,12 @@ void ShadedView::seeThrough(Worker& worker, int x, int y, const std::vector<Pixe
     for (std::size_t i = 0; i < surfaces.size(); ++i)
     {
       const float opacity = std::min(std::max(colors[4 * i + 3], 0.0F), 1.0F);
-      over += through * opacity * loadFloat4(&colors[4 * i]);
+      over += through * opacity * clamped(loadFloat4(&colors[4 * i])); // as OpenGL blends what it draws
       through *= 1 - opacity;
     }
     if (!closed)
     {
-      over += through * this->skyAt(rays[std::size_t(pixel)]);
+      over += through * clamped(this->skyAt(rays[std::size_t(pixel)]));
     }
     for (std::size_t c = 0; c < 3; ++c)
     {

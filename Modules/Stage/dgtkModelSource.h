@@ -12,12 +12,25 @@
 namespace dgtk
 {
 
+/// A model at a place of an object that is made of many.
+struct ModelCopy
+{
+  std::shared_ptr<const Model> model;
+  std::shared_ptr<const std::vector<Material>> materials;
+  Affine3 object_from_model;
+  std::uint32_t firstPart = 0; ///< as Instance has them
+  std::uint32_t firstTriangle = 0;
+  std::uint32_t firstInPart = 0;
+};
+
 /// What an object looks like: its model with the materials that the scene gives it. Null: nothing is known.
 struct ObjectLook
 {
   std::shared_ptr<const Model> model;
   std::shared_ptr<const std::vector<Material>> materials;
   bool standsIn = false; ///< for a model that is not there: without its animations
+  /// Instead of `model`, which is that of one of them; null: the object is its model. They have no animations.
+  std::shared_ptr<const std::vector<ModelCopy>> copies = nullptr;
 };
 
 /// Where a stage has its models from: files, a library that grows, memory.

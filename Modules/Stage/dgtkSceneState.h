@@ -24,7 +24,8 @@ struct KeypointState
   Eigen::Vector3d x_in_object{ 0, 0, 0 };
 };
 
-/// One object of the scene at one instant. Its object id is its index in SceneState::instances plus 1.
+/// One object of the scene at one instant, or one of many copies of a model that together are an object. An object's id
+/// is its index in SceneState::instances plus 1.
 struct Instance
 {
   std::string name;
@@ -37,6 +38,13 @@ struct Instance
   Affine3 world_from_object; ///< includes scale and parents; may mirror
   bool visible = true;       ///< otherwise nothing of it is there at this instant, but it has its place and its id
   std::vector<KeypointState> keypoints; ///< as the scene lists them
+
+  // Of a copy.
+  std::uint32_t copyOf = 0;        ///< id of its object; 0: it is an object
+  Affine3 object_from_model;       ///< `world_from_object` is the object's times this
+  std::uint32_t firstPart = 0;     ///< what its part 0 is in the object
+  std::uint32_t firstTriangle = 0; ///< what its triangle 0 is in the object ...
+  std::uint32_t firstInPart = 0;   ///< ... and in the object's part
 };
 
 /// A light at one instant, world frame. Attenuation: 1 / (constant + linear d + quadratic d^2).
@@ -79,11 +87,21 @@ struct FogState
 struct SceneState
 {
   double frame = 0;
-  std::vector<Instance> instances;       ///< objects with geometry, in the scene's order; object id = index + 1
-  std::vector<LightState> lights;        ///< enabled ones; a single Head light when the scene has none
-  Eigen::Vector3d background{ 0, 0, 0 }; ///< sRGB in [0, 1]
+  /// Objects with geometry, in the scene's order, object id = index + 1; then `copies` copies, in the order of their
+  /// objects. An object that is made of copies is not visible itself, they are. Hits have index + 1 of either.
+  std::vector<Instance> instances;
+  std::size_t copies = 0;
+  std::vector<LightState> lights;                      ///< enabled ones; a single Head light when the scene has none
+  Eigen::Vector3d background{ 0, 0, 0 };               ///< sRGB in [0, 1]
   std::shared_ptr<const EnvironmentState> environment; ///< null: there is none
   FogState fog;
+
+  std::size_t objects() const { return this->instances.size() - this->copies; }
+  /// The object's id of what a hit has as its object; 0 for 0.
+  std::uint32_t objectOf(std::uint32_t hit) const
+  {
+    return hit <= this->objects() ? hit : this->instances[hit - 1].copyOf;
+  }
 };
 
 } // namespace dgtk

@@ -166,6 +166,7 @@ struct Stage::Impl
   bool isPresent(std::size_t object) const;
   std::shared_ptr<const SceneState> compute(double frame) const;
   Instance instance(std::size_t object, const Affine3& world_from_object, double frame) const;
+  void addCopies(SceneState& state, const std::vector<std::size_t>& objects) const;
 
   SceneDescription Scene;
   std::vector<ObjectLook> Looks; ///< one an object
@@ -241,15 +242,50 @@ std::shared_ptr<const SceneState> Stage::Impl::compute(double frame) const
   const FogDescription& fog = this->Scene.fog;
   state->fog = { boundedAt(fog.color, frame), boundedAt(fog.density, frame), boundedAt(fog.start, frame) };
   state->lights = lightsAt(this->Scene, frame);
+  std::vector<std::size_t> objects;
   for (const SceneItem& item : this->Scene.items())
   {
     if (item.kind != SceneItem::Kind::Object || !this->isPresent(item.index))
     {
       continue;
     }
+    objects.push_back(item.index);
     state->instances.push_back(this->instance(item.index, world[item.index], frame));
   }
+  this->addCopies(*state, objects);
   return state;
+}
+
+/// What objects that are made of copies are made of. `objects`: indices of the instances' descriptions.
+void Stage::Impl::addCopies(SceneState& state, const std::vector<std::size_t>& objects) const
+{
+  for (std::size_t i = 0; i < objects.size(); ++i)
+  {
+    const auto& copies = this->Looks[objects[i]].copies;
+    if (copies == nullptr)
+    {
+      continue;
+    }
+    const bool visible = std::exchange(state.instances[i].visible, false);
+    const Affine3 world_from_object = state.instances[i].world_from_object;
+    for (const ModelCopy& copy : *copies)
+    {
+      Instance instance;
+      instance.name = state.instances[i].name;
+      instance.model = copy.model;
+      instance.geometry = copy.model->rest;
+      instance.materials = copy.materials;
+      instance.world_from_object = world_from_object * copy.object_from_model;
+      instance.visible = visible;
+      instance.copyOf = std::uint32_t(i + 1);
+      instance.object_from_model = copy.object_from_model;
+      instance.firstPart = copy.firstPart;
+      instance.firstTriangle = copy.firstTriangle;
+      instance.firstInPart = copy.firstInPart;
+      state.instances.push_back(std::move(instance));
+    }
+    state.copies += copies->size();
+  }
 }
 
 Instance Stage::Impl::instance(std::size_t index, const Affine3& world_from_object, double frame) const

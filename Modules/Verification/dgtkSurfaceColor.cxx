@@ -18,6 +18,16 @@ void meterColor(const Instance& instance, const Hit& hit, const Eigen::Vector3d&
   const Model& model = *instance.model;
   const Material& material = (*instance.materials)[model.parts[model.partOf(hit.triangle)].material];
   Eigen::Vector3d expected = material.diffuse;
+  if (!model.colors.empty())
+  {
+    Eigen::Vector3d mixed(0, 0, 0);
+    for (int i = 0; i < 3; ++i)
+    {
+      const std::array<std::uint8_t, 4>& corner = model.colors[model.triangles[hit.triangle][i]];
+      mixed += weights[i] / 255 * Eigen::Vector3d(corner[0], corner[1], corner[2]);
+    }
+    expected = expected.cwiseProduct(mixed).eval();
+  }
   if (material.texture >= 0 && !model.uvs.empty() && model.textures[material.texture].image)
   {
     Eigen::Vector2d uv(0, 0);

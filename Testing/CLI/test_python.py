@@ -11,6 +11,7 @@ import numpy
 from harness import SCENES, SOURCE, Case, main
 from pictures import read_exr, read_png
 
+PATIENCE = int(os.environ.get("DGTK_TEST_PATIENCE", 1))  # how much longer everything takes, as under valgrind
 PACKAGES = os.path.join(os.environ["DGTK_BUILD"], "lib", "python3", "dist-packages")
 sys.path.insert(0, PACKAGES)
 DEMO = os.path.join(SCENES, "demo.json")
@@ -21,7 +22,7 @@ class Interpreter(Case):
 
     def python(self, program, *arguments, flags=(), status=0, limit=120):
         done = subprocess.run(["/usr/bin/python3", *flags, "-c", f"import sys; sys.path.insert(0, {PACKAGES!r})\n" + program,
-                               *map(str, arguments)], capture_output=True, text=True, timeout=limit)
+                               *map(str, arguments)], capture_output=True, text=True, timeout=limit * PATIENCE)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done
 
@@ -272,7 +273,7 @@ def forked(job):
     ours, theirs = os.pipe()
     child = os.fork()
     if child == 0:
-        signal.alarm(60)
+        signal.alarm(60 * int(os.environ.get("DGTK_TEST_PATIENCE", 1)))
         try:
             said = str(job())
         except Exception as error:
@@ -331,7 +332,7 @@ def total(frame):
     return int(dgtk.render(scene, "color", frame=frame, size=size).sum())
 expected = [total(frame) for frame in (0, 1, 2)]
 with multiprocessing.get_context("fork").Pool(2) as pool:
-    assert pool.map_async(total, (0, 1, 2)).get(60) == expected
+    assert pool.map_async(total, (0, 1, 2)).get(60 * int(os.environ.get("DGTK_TEST_PATIENCE", 1))) == expected
 """, DEMO)
 
 

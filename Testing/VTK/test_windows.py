@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Colours of dgtk.truth() beside what vtkRenderWindow draws of the same renderer; windows, viewports, sizes and z-buffers."""
+import functools
 import os
 import sys
 import tempfile
@@ -11,7 +12,7 @@ sys.path.insert(0, os.path.join(os.environ["DGTK_BUILD"], "lib", "python3", "dis
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import dgtk
 import vtk
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 import judge
 import scenes
@@ -115,6 +116,23 @@ class Colours(unittest.TestCase):
                 self.assertEqual(truth["color"][truth["objects"] == 1].min(), 0)
                 self.compare(renderer, mean=1.5, unlike=0.4)  # VTK takes the power 2.2 for sRGB
 
+    def test_their_scalars_and_a_light_in_the_eye(self):
+        """Scalars' colours are linear; a head light alone is where the camera is."""
+        for before in (False, True):
+            with self.subTest(interpolated=before):
+                renderer = scenes.contour()
+                made = next(iter(renderer.GetActors()))
+                made.GetProperty().SetInterpolationToPBR()
+                made.GetProperty().SetRoughness(0.4)
+                made.GetMapper().SetInterpolateScalarsBeforeMapping(before)
+                self.compare(renderer, mean=1.7, unlike=0.5)
+                renderer.AddActor(scenes.actor(vtk.vtkCubeSource()))
+                with self.assertRaisesRegex(ValueError, "physically based surfaces beside others"):
+                    dgtk.snapshot(renderer, SIZE)
+        glyphs = scenes.glyph_mapper()
+        next(iter(glyphs.GetActors())).GetProperty().SetInterpolationToPBR()
+        self.compare(glyphs, mean=1.7, unlike=0.5)
+
     def test_their_textures(self):
         def picture(srgb, *channels):
             made = scenes.picture()
@@ -129,13 +147,59 @@ class Colours(unittest.TestCase):
             with self.subTest(texture=name):
                 self.compare(self.physical(change), mean=1.5, unlike=0.3)
 
+    def bumpy(self, scale=1.0, tangents=True, change=lambda tangents, coordinates: None):
+        """A wall with a picture of normals."""
+        renderer = self.physical(lambda of: of.SetRoughness(0.5))
+        made = next(iter(renderer.GetActors()))
+        x = numpy.linspace(0, 6 * numpy.pi, 64)
+        slopes = numpy.stack([numpy.tile(0.3 * numpy.sin(x), (64, 1)), numpy.tile(0.3 * numpy.cos(x)[:, None], (1, 64)), numpy.ones((64, 64))], -1)
+        slopes /= numpy.linalg.norm(slopes, axis=-1, keepdims=True)
+        image = vtk.vtkImageData()
+        image.SetDimensions(64, 64, 1)
+        image.GetPointData().SetScalars(numpy_to_vtk(numpy.round(127.5 + 127.5 * slopes).astype(numpy.uint8).reshape(-1, 3), deep=1))
+        texture = vtk.vtkTexture()
+        texture.SetInputData(image)
+        texture.InterpolateOn()
+        made.GetProperty().SetNormalTexture(texture)
+        made.GetProperty().SetNormalScale(scale)
+        made.RotateX(25)
+        wall = vtk.vtkPlaneSource()
+        wall.SetResolution(6, 5)
+        triangles = vtk.vtkTriangleFilter()
+        triangles.SetInputConnection(wall.GetOutputPort())
+        along = vtk.vtkPolyDataTangents()
+        along.SetInputConnection(triangles.GetOutputPort())
+        along.Update()
+        data = along.GetOutput()
+        change(vtk_to_numpy(data.GetPointData().GetTangents()), vtk_to_numpy(data.GetPointData().GetTCoords()))
+        if not tangents:
+            data.GetPointData().SetTangents(None)
+        made.GetMapper().SetInputDataObject(data)
+        return renderer
+
+    def test_their_normals(self):
+        plain = dgtk.truth(self.bumpy(tangents=False), "color", size=SIZE)["color"].astype(int)  # VTK wants tangents
+        for scale in (1, 0.4):
+            with self.subTest(scale=scale):
+                self.compare(self.bumpy(scale), mean=1.5, unlike=0.5)
+                self.assertGreater(numpy.abs(dgtk.truth(self.bumpy(scale), "color", size=SIZE)["color"] - plain).mean(), 2)
+        self.compare(self.bumpy(tangents=False), mean=1.5, unlike=0.5)
+        def turn(tangents, _):
+            tangents[:] = tangents[:, [1, 0, 2]]
+
+        def mirror(_, coordinates):
+            coordinates[:, 1] *= -1
+        for change in (turn, mirror):
+            with self.assertRaisesRegex(ValueError, "tangents that are not those of its texture coordinates"):
+                dgtk.snapshot(self.bumpy(change=change), SIZE)
+
     def test_what_of_them_cannot_be_honoured(self):
         def picture():
             made = scenes.picture()
             made.SetUseSRGBColorSpace(False)
             return made
         for words, change in (("a coat", lambda of: of.SetCoatStrength(0.5)), ("anisotropy", lambda of: of.SetAnisotropy(0.5)),
-                              ("normalTex", lambda of: of.SetNormalTexture(picture())), ("anisotropyTex", lambda of: of.SetAnisotropyTexture(picture())),
+                              ("anisotropyTex", lambda of: of.SetAnisotropyTexture(picture())),
                               ("occlusion in the texture materialTex", lambda of: of.SetORMTexture(picture())),
                               ("index of refraction", lambda of: of.SetBaseIOR(1.8)), ("an edge tint", lambda of: of.SetEdgeTint(1, 0.5, 0.5))):
             with self.subTest(words), self.assertRaisesRegex(ValueError, words):
@@ -148,13 +212,19 @@ class Colours(unittest.TestCase):
             texture = scenes.picture()
             texture.SetUseSRGBColorSpace(True)
             of.SetBaseColorTexture(texture)
-        shot = dgtk.snapshot(self.physical(change), SIZE)
-        with tempfile.TemporaryDirectory() as folder:
-            shot.save(folder + "/scene.json")
-            again = dgtk.render(dgtk.load(folder + "/scene.json"), "color").astype(int)
-        self.assertLess(numpy.abs(again - dgtk.render(shot, "color")).mean(), 0.2)
+        for name, renderer in (("colours", self.physical(change)), ("normals", self.bumpy(0.4))):
+            shot = dgtk.snapshot(renderer, SIZE)
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                shot.save(folder + "/scene.json")
+                again = dgtk.render(dgtk.load(folder + "/scene.json"), "color").astype(int)
+                self.assertLess(numpy.abs(again - dgtk.render(shot, "color")).mean(), 0.2)
 
     def test_without_lights(self):
+        renderer = scenes.contour()
+        off = vtk.vtkLight()
+        off.SwitchOff()
+        renderer.AddLight(off)
+        self.compare(renderer)  # VTK makes one
         renderer = scenes.contour()
         renderer.AutomaticLightCreationOff()
         self.compare(renderer)
@@ -181,9 +251,11 @@ class Colours(unittest.TestCase):
         self.compare(renderer, unlike=0.01)
 
     def test_translucent_actors(self):
-        for opacities in ((0.5, 0.5), (0, 1), (0.5, 0), (0, 0)):
+        glyphs = scenes.glyph_mapper  # whose opacity VTK takes twice
+        for make, opacities in ((scenes.transforms, (0.5, 0.5)), (scenes.transforms, (0, 1)), (scenes.transforms, (0.5, 0)), (scenes.transforms, (0, 0)),
+                                (glyphs, (0.6,))):
             with self.subTest(opacities=opacities):
-                renderer = scenes.transforms()
+                renderer = make()
                 renderer.SetBackground(0.2, 0.4, 0.6)
                 for actor, opacity in zip(renderer.GetActors(), opacities):
                     actor.GetProperty().SetOpacity(opacity)
@@ -196,7 +268,96 @@ class Colours(unittest.TestCase):
                 renderer.ResetCameraClippingRange()
                 away = numpy.abs(truth["color"].astype(int) - drawn(shown).astype(int))
                 self.assertLess(away.mean(), 0.3)
-                self.assertEqual(set(numpy.unique(truth["objects"])), {0, 1, 2})  # what cannot be seen is a surface
+                self.assertEqual(set(numpy.unique(truth["objects"])), set(range(len(opacities) + 1)))  # what cannot be seen is a surface
+
+    def ball(self, change):
+        sphere = vtk.vtkTexturedSphereSource()
+        sphere.SetThetaResolution(20)
+        sphere.SetPhiResolution(12)
+        made = scenes.actor(sphere, color=(0.8, 0.5, 0.3))
+        change(made)
+        return scenes.renderer(made, eye=(0.6, 0.5, 2.2))
+
+    def test_what_vtk_does_its_own_way(self):
+        """A mirrored actor's normals, both cullings at once, light above 1 behind opacity, a colour of field data, sRGB."""
+        def bright(actor):
+            actor.GetProperty().SetAmbient(0.6)
+            actor.GetProperty().SetOpacity(0.5)
+            actor.GetProperty().BackfaceCullingOn()
+
+        def cull(actor):
+            actor.GetProperty().BackfaceCullingOn()
+            actor.GetProperty().FrontfaceCullingOn()
+
+        def texture(actor):
+            actor.SetTexture(scenes.picture())
+            actor.GetTexture().SetUseSRGBColorSpace(True)
+
+        def field(actor):
+            data = vtk.vtkPolyData()
+            actor.GetMapper().Update()
+            data.ShallowCopy(actor.GetMapper().GetInput())
+            colors = numpy_to_vtk(numpy.array([[255, 0, 0], [40, 200, 90]], numpy.uint8), deep=1)
+            colors.SetName("colors")
+            data.GetFieldData().AddArray(colors)
+            actor.GetMapper().SetInputDataObject(data)
+            actor.GetMapper().SetScalarModeToUseFieldData()
+            actor.GetMapper().SelectColorArray("colors")
+            actor.GetMapper().SetFieldDataTupleId(1)
+        for name, change in (("cull", cull), ("bright", bright), ("sRGB", texture), ("field", field)):
+            with self.subTest(name):
+                self.compare(self.ball(change), mean=0.6, unlike=0.05)
+        for scale in ((-1, 1, 1), (-1, -0.7, -1)):
+            with self.subTest(scale=scale):
+                dark = scenes.ALL["quad_sphere"]()
+                next(iter(dark.GetActors())).SetScale(*scale)
+                dark.AddActor(scenes.actor(vtk.vtkPlaneSource()))
+                self.compare(dark)
+
+    def test_textures_that_cannot_be_honoured(self):
+        def change(actor, **settings):
+            actor.SetTexture(scenes.picture())
+            for name, value in settings.items():
+                getattr(actor.GetTexture(), "Set" + name)(value)
+
+        def scalars(actor):
+            change(actor)
+            elevation = vtk.vtkElevationFilter()
+            elevation.SetInputConnection(actor.GetMapper().GetInputConnection(0, 0))
+            actor.GetMapper().SetInputConnection(elevation.GetOutputPort())
+            actor.GetMapper().InterpolateScalarsBeforeMappingOn()
+
+        def seeThrough(actor):
+            change(actor, PremultipliedAlpha=True)
+            texels = numpy.full((4, 4), 200, numpy.uint8)
+            image = vtk.vtkImageData()
+            image.SetDimensions(2, 2, 1)
+            image.GetPointData().SetScalars(numpy_to_vtk(texels, deep=1))
+            actor.GetTexture().SetInputData(image)
+
+        def forced(actor):
+            actor.GetProperty().SetOpacity(0.5)
+            actor.ForceOpaqueOn()
+        for words, make in (("mirrored", lambda a: change(a, Wrap=vtk.vtkTexture.MirroredRepeat)), ("a border", lambda a: change(a, Wrap=vtk.vtkTexture.ClampToBorder)),
+                            ("multiplied by its alpha", seeThrough), ("interpolated before they are mapped", scalars), ("forced to be opaque", forced),
+                            ("replaced shaders", lambda a: a.GetShaderProperty().AddFragmentShaderReplacement("//VTK::Light::Impl", True, "", False))):
+            with self.subTest(words), self.assertRaisesRegex(ValueError, words):
+                dgtk.snapshot(self.ball(make), SIZE)
+
+    def test_what_changes_beside_the_data_is_seen(self):
+        """What is known of a surface that was looked at does not hide what cannot be honoured since."""
+        def turned(actor):
+            tangents = vtk_to_numpy(actor.GetMapper().GetInput().GetPointData().GetTangents())
+            tangents[:] = tangents[:, [1, 0, 2]]
+        half = functools.partial(self.ball, lambda actor: actor.GetProperty().SetOpacity(0.5))
+        for words, make, change in (("forced to be opaque", half, lambda a: a.ForceOpaqueOn()), ("tangents", self.bumpy, turned),
+                                    ("replaced shaders", half, lambda a: a.GetShaderProperty().AddFragmentShaderReplacement("//VTK::Light::Impl", True, "", False))):
+            renderer = make()
+            before = dgtk.snapshot(renderer, SIZE)
+            change(next(iter(renderer.GetActors())))
+            with self.subTest(words), self.assertRaisesRegex(ValueError, words):
+                dgtk.snapshot(renderer, SIZE)
+            self.assertEqual(before.GetNumberOfProps(), 1)
 
     def test_textures_by_their_filter(self):
         for interpolate, mipmap in ((0, 0), (1, 0), (1, 1)):

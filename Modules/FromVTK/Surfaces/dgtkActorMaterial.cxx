@@ -5,14 +5,20 @@
 #include "dgtkSurfaceMaterial.h"
 #include "dgtkSurfacePieces.h"
 
+#include <Eigen/Geometry>
 #include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkPointData.h>
+#include <vtkPolyData.h>
 #include <vtkProperty.h>
+#include <vtkShaderProperty.h>
 #include <vtkTexture.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace dgtk
 {
@@ -48,6 +54,19 @@ PieceColors colorsOf(vtkProperty& property, const SurfacePiece& piece)
   return { vectorOf(property.GetAmbientColor()), vectorOf(property.GetDiffuseColor()) };
 }
 
+void refuseTexture(vtkTexture& texture, const Image& image, const std::string& what, Unsupported& unsupported)
+{
+  if (texture.GetRepeat() == 0 &&
+      (texture.GetWrap() == vtkTexture::MirroredRepeat || texture.GetWrap() == vtkTexture::ClampToBorder))
+  {
+    unsupported.add(what + ": a texture that is mirrored, or has a border, around itself");
+  }
+  if (image.hasAlpha && texture.GetPremultipliedAlpha())
+  {
+    unsupported.add(what + ": a texture whose colours are multiplied by its alpha");
+  }
+}
+
 int addTexture(vtkTexture& texture, Model& model, const std::string& what, Unsupported& unsupported)
 {
   texture.Update();
@@ -74,6 +93,7 @@ int addTexture(vtkTexture& texture, Model& model, const std::string& what, Unsup
     unsupported.add(what + ": a texture that is no picture of bytes");
     return -1;
   }
+  refuseTexture(texture, *image, what, unsupported);
   Texture made;
   made.name = "texture-" + std::to_string(model.textures.size() + 1);
   made.image = image;
@@ -83,6 +103,78 @@ int addTexture(vtkTexture& texture, Model& model, const std::string& what, Unsup
   made.repeats = texture.GetRepeat() != 0;
   model.textures.push_back(made);
   return int(model.textures.size()) - 1;
+}
+
+/// What a triangle of a polygonal data set has to say of its tangents.
+class TangentTriangle
+{
+public:
+  TangentTriangle(vtkPolyData& data, const vtkIdType* points)
+    : Of(*data.GetPointData())
+    , Points(points)
+  {
+    Eigen::Vector3d x[3];
+    Eigen::Vector2d uv[3];
+    for (int i = 0; i < 3; ++i)
+    {
+      data.GetPoint(points[i], x[i].data());
+      uv[i] = { this->Of.GetTCoords()->GetComponent(points[i], 0), this->Of.GetTCoords()->GetComponent(points[i], 1) };
+    }
+    const Eigen::Vector2d b = uv[1] - uv[0];
+    const Eigen::Vector2d c = uv[2] - uv[0];
+    const double area = b.x() * c.y() - b.y() * c.x();
+    this->Flat = (x[1] - x[0]).cross(x[2] - x[0]);
+    this->AlongU = (c.y() * (x[1] - x[0]) - b.y() * (x[2] - x[0])) / area;
+    this->AlongV = (b.x() * (x[2] - x[0]) - c.x() * (x[1] - x[0])) / area;
+  }
+
+  /// Whether VTK's tangent and bitangent at a corner are where the texture's coordinates grow.
+  bool agrees(int corner) const
+  {
+    constexpr double cosine = 0.999;
+    const Eigen::Vector3d normal = this->vector(this->Of.GetNormals(), corner, this->Flat).normalized();
+    const Eigen::Vector3d tangent = this->vector(this->Of.GetTangents(), corner, Eigen::Vector3d::Zero()).cross(normal);
+    const Eigen::Vector3d expected = this->AlongU.cross(normal);
+    return tangent.dot(expected) > cosine * tangent.norm() * expected.norm() && -tangent.dot(this->AlongV) > 0;
+  }
+
+private:
+  Eigen::Vector3d vector(vtkDataArray* array, int corner, const Eigen::Vector3d& otherwise) const
+  {
+    Eigen::Vector3d v = otherwise;
+    for (int c = 0; array != nullptr && c < 3; ++c)
+    {
+      v[c] = array->GetComponent(this->Points[corner], c);
+    }
+    return v;
+  }
+
+  vtkPointData& Of;
+  const vtkIdType* Points;
+  Eigen::Vector3d Flat;
+  Eigen::Vector3d AlongU;
+  Eigen::Vector3d AlongV;
+};
+
+/// Whether the tangents of nearly all corners are those of the texture's coordinates, as ours always are: VTK has them
+/// from its points.
+bool followTexture(vtkPolyData& data)
+{
+  vtkIdType corners = 0;
+  vtkIdType unlike = 0;
+  const auto at = vtk::TakeSmartPointer(data.GetPolys()->NewIterator());
+  for (at->GoToFirstCell(); !at->IsDoneWithTraversal(); at->GoToNextCell())
+  {
+    vtkIdType count = 0;
+    const vtkIdType* points = nullptr;
+    at->GetCurrentCell(count, points);
+    for (int corner = 0; count >= 3 && corner < 3; ++corner)
+    {
+      ++corners;
+      unlike += TangentTriangle(data, points).agrees(corner) ? 0 : 1;
+    }
+  }
+  return data.GetNumberOfStrips() == 0 && unlike * 20 <= corners;
 }
 
 /// A surface of VTK's physically based kind, as its mapper has it: glTF's textures, where there are coordinates for
@@ -131,8 +223,12 @@ private:
 
   void add(const std::string& kind, vtkTexture& texture, Material& material)
   {
-    const bool known = kind == "albedoTex" || kind == "materialTex" || kind == "emissiveTex";
-    this->refuse(!known, "the texture " + kind); // VTK's normals go along tangents of their own
+    const bool known = kind == "albedoTex" || kind == "materialTex" || kind == "emissiveTex" || kind == "normalTex";
+    if (kind == "normalTex" && this->Data.GetPointData()->GetTangents() == nullptr)
+    {
+      return; // as in VTK
+    }
+    this->refuse(!known, "the texture " + kind);
     this->refuse(known && texture.GetTransform() != nullptr, "a transform of the texture " + kind);
     const int index = known ? addTexture(texture, this->ToModel, this->Name, this->Out) : -1;
     if (index < 0)
@@ -144,6 +240,12 @@ private:
       material.texture = index;
       material.cutOut = this->ToModel.textures[std::size_t(index)].image->hasAlpha;
       material.opacity = 1; // the picture has its own
+    }
+    else if (kind == "normalTex")
+    {
+      material.normalMap = index;
+      material.normalScale = this->Property.GetNormalScale();
+      this->refuse(!followTexture(this->Data), "tangents that are not those of its texture coordinates");
     }
     else if (kind == "materialTex")
     {
@@ -195,11 +297,48 @@ private:
   Unsupported& Out;
 };
 
+/// A picture of sRGB as OpenGL's textures of that kind give it: without its curve.
+std::shared_ptr<const Image> linearised(const Image& image)
+{
+  auto made = std::make_shared<Image>(image);
+  for (std::size_t i = 0; i < made->rgba.size(); ++i)
+  {
+    if (i % 4 != 3)
+    {
+      made->rgba[i] = std::uint8_t(std::lround(255 * portable::linearFromSrgb(made->rgba[i] / 255.0)));
+    }
+  }
+  return made;
+}
+
 std::uint8_t byteAt(vtkDataArray& scalars, vtkIdType tuple, int component)
 {
   return std::uint8_t(std::clamp(scalars.GetComponent(tuple, component), 0.0, 255.0));
 }
 } // namespace
+
+bool isPhysical(vtkActor& actor, bool lit)
+{
+  return lit && actor.GetProperty()->GetLighting() && actor.GetProperty()->GetInterpolation() == VTK_PBR;
+}
+
+void toDisplay(std::array<std::uint8_t, 4>& color)
+{
+  for (std::size_t c = 0; c < 3; ++c)
+  {
+    color[c] = std::uint8_t(std::lround(255 * portable::srgbFromLinear(color[c] / 255.0)));
+  }
+}
+
+void toDisplay(Image& picture)
+{
+  for (std::size_t i = 0; i + 3 < picture.rgba.size(); i += 4)
+  {
+    std::array<std::uint8_t, 4> texel{ picture.rgba[i], picture.rgba[i + 1], picture.rgba[i + 2], 255 };
+    toDisplay(texel);
+    std::copy_n(texel.begin(), 3, picture.rgba.begin() + std::ptrdiff_t(i));
+  }
+}
 
 std::shared_ptr<const Image> imageOf(vtkImageData& data)
 {
@@ -238,6 +377,13 @@ Material actorMaterial(
 {
   vtkProperty& property = *actor.GetProperty();
   const PieceColors colors = colorsOf(property, piece);
+  const auto refuse = [&](bool there, const char* what)
+  {
+    if (there)
+    {
+      unsupported.add(name + ": " + what);
+    }
+  };
   Material material;
   material.name = name;
   material.opacity = piece.blockOpacity.value_or(property.GetOpacity());
@@ -249,7 +395,7 @@ Material actorMaterial(
     material.diffuse = diffuse;
     material.specular = property.GetSpecular() * vectorOf(property.GetSpecularColor());
     material.shininess = property.GetSpecularPower();
-    if (property.GetInterpolation() == VTK_PBR)
+    if (isPhysical(actor, lit))
     {
       PhysicalSurface(property, *piece.data, name, model, unsupported).set(material);
     }
@@ -263,17 +409,16 @@ Material actorMaterial(
   {
     if (material.texture = addTexture(*texture, model, name, unsupported); material.texture >= 0)
     {
-      material.cutOut = model.textures[std::size_t(material.texture)].image->hasAlpha;
+      Texture& made = model.textures[std::size_t(material.texture)];
+      material.cutOut = made.image->hasAlpha;
+      made.image = texture->GetUseSRGBColorSpace() ? linearised(*made.image) : made.image;
     }
+    refuse(piece.colorMapAt != nullptr, "a texture beside scalars that are interpolated before they are mapped");
   }
-  if (property.GetEdgeVisibility() != 0)
-  {
-    unsupported.add(name + ": visible edges");
-  }
-  if (actor.GetBackfaceProperty() != nullptr)
-  {
-    unsupported.add(name + ": a property of its back faces");
-  }
+  refuse(actor.GetForceOpaque() && material.opacity < 1, "an opacity below 1 of what is forced to be opaque");
+  refuse(actor.GetShaderProperty()->GetNumberOfShaderReplacements() > 0, "replaced shaders");
+  refuse(property.GetEdgeVisibility() != 0, "visible edges");
+  refuse(actor.GetBackfaceProperty() != nullptr, "a property of its back faces");
   return material;
 }
 

@@ -10,6 +10,8 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <cstdint>
 #include <memory>
 
 class vtkActor;
@@ -24,6 +26,13 @@ struct SurfacePiece;
 /// a light, for the renderer's worldAmbient; without lights that is all of it.
 Material actorMaterial(vtkActor& actor, const SurfacePiece& piece, bool lit, const std::string& name, Model& model,
   Unsupported& unsupported);
+
+/// Whether a surface is lit as VTK's physically based kind.
+bool isPhysical(vtkActor& actor, bool lit);
+
+/// The colours of scalars on such a surface, which VTK takes as linear, as ours are.
+void toDisplay(std::array<std::uint8_t, 4>& color);
+void toDisplay(Image& picture);
 
 /// The texels of an image of 1 to 4 components, rows top to bottom; null for what is no picture of bytes.
 std::shared_ptr<const Image> imageOf(vtkImageData& data);

@@ -41,6 +41,27 @@ Eigen::Vector3d pointOf(const Model& model, std::uint32_t triangle, const Eigen:
   return first + place.x() * (p[corners[1]] - first) + place.y() * (p[corners[2]] - first);
 }
 
+/// Whether the triangles of two surfaces are of the same cells; glyphs may be copies in one of them.
+bool haveSameCells(const SurfaceModel& one, const SurfaceModel& other)
+{
+  if (!one.copies && !other.copies)
+  {
+    return one.cells == other.cells;
+  }
+  if (one.copies && other.copies)
+  {
+    return one.cells == other.cells &&
+           std::equal(one.copies->begin(), one.copies->end(), other.copies->begin(),
+             [](const ModelCopy& a, const ModelCopy& b) { return a.firstTriangle == b.firstTriangle; });
+  }
+  bool same = one.triangles() == other.triangles();
+  for (std::uint64_t triangle = 0; same && triangle < one.triangles(); ++triangle)
+  {
+    same = one.cellOf(std::uint32_t(triangle)) == other.cellOf(std::uint32_t(triangle));
+  }
+  return same;
+}
+
 class Pair
 {
 public:
@@ -80,11 +101,11 @@ private:
         [&actor](const FrozenActor& one)
         { return one.actor.Get() == actor.actor.Get() && one.occurrence == actor.occurrence; });
       const bool there = same != this->To.actors.end();
-      if (there && same->whole != actor.whole && same->whole->cells != actor.whole->cells)
+      if (there && same->whole != actor.whole && !haveSameCells(*same->whole, *actor.whole))
       {
         throw InputError("VTK scene", 0, actor.name + " has other cells in the second view",
           "the same cells, whose points may move",
-          std::to_string(same->whole->cells.size()) + " triangles, not " + std::to_string(actor.whole->cells.size()));
+          std::to_string(same->whole->triangles()) + " triangles, not " + std::to_string(actor.whole->triangles()));
       }
       this->ObjectOf.push_back(there ? std::uint32_t(same - this->To.actors.begin()) + 1 : 0);
     }
@@ -92,17 +113,16 @@ private:
 
   Correspondence follow(const Eigen::Vector2d& pixel, const Hit& hit) const
   {
-    const std::uint32_t object = hit.object == 0 ? 0 : this->ObjectOf[hit.object - 1];
+    const std::uint32_t object = hit.object == 0 ? 0 : this->ObjectOf[this->From.actorOf(hit)];
     if (object == 0)
     {
       return {};
     }
-    const FrozenActor& actor = this->From.actors[hit.object - 1];
+    const FrozenActor& actor = this->From.actors[this->From.actorOf(hit)];
     const SurfacePoint at = surfacePointAt(*this->FromState, this->FromView, pixel, hit);
-    Surface point{ hit.triangle, at.barycentrics };
+    Surface point{ actor.wholeTriangle(hit), at.barycentrics };
     if (!actor.parents.empty())
     {
-      point.triangle = actor.wholeTriangle(hit.triangle);
       point.place = placeIn(*actor.whole->model, point.triangle, pointOf(*actor.model, hit.triangle, at.barycentrics));
     }
     const FrozenActor& other = this->To.actors[object - 1];
@@ -110,7 +130,14 @@ private:
     {
       return {};
     }
-    return correspond(this->Other, { object, point.triangle }, point.place);
+    Hit there{ object, point.triangle };
+    if (other.whole->copies)
+    {
+      const std::size_t copy = other.whole->copyOf(point.triangle);
+      there.object = other.firstCopy + std::uint32_t(copy);
+      there.triangle -= (*other.whole->copies)[copy].firstTriangle;
+    }
+    return correspond(this->Other, there, point.place);
   }
 
   struct Surface

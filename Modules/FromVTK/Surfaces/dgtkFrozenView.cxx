@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkFrozenView.h"
 
+#include "dgtkGlyphCopies.h"
 #include "dgtkModelSource.h"
 #include "dgtkRendererCamera.h"
 #include "dgtkRendererLights.h"
@@ -36,13 +37,13 @@ class FrozenModels : public ModelSource
 public:
   ObjectLook lookOf(const SceneDescription&, const ObjectDescription& object) const override
   {
-    const std::shared_ptr<const Model>& model = this->Models.at(object.model);
-    return { model, std::shared_ptr<const std::vector<Material>>(model, &model->materials) };
+    const auto& [model, copies] = this->Models.at(object.model);
+    return { model, std::shared_ptr<const std::vector<Material>>(model, &model->materials), false, copies };
   }
   std::shared_ptr<const EnvironmentState> environment(const SceneDescription&) const override { return nullptr; }
   std::shared_ptr<GeometryCache> geometries() const override { return this->Geometries; }
 
-  std::map<std::string, std::shared_ptr<const Model>> Models;
+  std::map<std::string, std::pair<std::shared_ptr<const Model>, std::shared_ptr<const std::vector<ModelCopy>>>> Models;
 
 private:
   std::shared_ptr<GeometryCache> Geometries = std::make_shared<GeometryCache>();
@@ -102,6 +103,7 @@ public:
       this->addActor(actor);
     }
     this->lookAround();
+    this->lookAtPhysical();
     if (!skip)
     {
       this->Out.refuse();
@@ -115,11 +117,13 @@ public:
     }
     this->Scene.cameras.push_back(camera.description);
     this->Scene.lights = rendererLights(this->Renderer, *camera.camera);
-    this->softenForPhysical();
+    this->softenForPhysical(camera);
     const double* const background = this->Renderer.GetBackground();
     this->Scene.background = Eigen::Vector3d(background[0], background[1], background[2]);
     this->View.stage = Stage::make(std::move(this->Scene), this->Models);
-    this->View.trees = keptTrees(this->View.stage->at(0), this->surfaces());
+    this->View.state = this->View.stage->at(0);
+    this->countCopies();
+    this->View.trees = keptTrees(this->View.state, this->surfaces());
     this->View.left = this->Out.lines();
     return std::move(this->View);
   }
@@ -135,9 +139,12 @@ private:
     }
     const DrawnSurface drawn = surfacePieces(actor, this->Out);
     const Placement place = placementOf(actor.world_from_object);
-    const std::shared_ptr<const SurfaceModel> surface =
-      sharedSurface(surfaceKey(*actor.actor, drawn.pieces, place.bake, this->Lit),
-        [&] { return surfaceModel(*actor.actor, drawn.pieces, place.bake, this->Lit); });
+    const bool mirrored = place.scale.prod() < 0;
+    const ActorStyle style{ place.bake, this->Lit, mirrored };
+    const bool copies = canBeCopies(*actor.actor, drawn.pieces, place.bake);
+    const auto make = copies ? glyphCopies : surfaceModel;
+    const std::shared_ptr<const SurfaceModel> surface = sharedSurface(
+      surfaceKey(*actor.actor, drawn.pieces, style, copies), [&] { return make(*actor.actor, drawn.pieces, style); });
     for (const std::string& line : surface->left.lines())
     {
       this->Out.add(line);
@@ -157,6 +164,17 @@ private:
     this->Places.push_back(place);
   }
 
+  /// Copies come after all objects, in their order.
+  void countCopies()
+  {
+    auto next = std::uint32_t(this->View.actors.size()) + 1;
+    for (FrozenActor& actor : this->View.actors)
+    {
+      actor.firstCopy = next;
+      next += actor.whole->copies ? std::uint32_t(actor.whole->copies->size()) : 0;
+    }
+  }
+
   std::vector<std::shared_ptr<const SurfaceModel>> surfaces() const
   {
     std::vector<std::shared_ptr<const SurfaceModel>> all;
@@ -172,7 +190,9 @@ private:
   {
     const std::pair<bool, const char*> parts[] = { { this->Renderer.GetGradientBackground(), "a gradient background" },
       { this->Renderer.GetTexturedBackground(), "a textured background" },
-      { this->Renderer.GetUseImageBasedLighting(), "image based lighting" } };
+      { this->Renderer.GetUseImageBasedLighting(), "image based lighting" },
+      { this->Renderer.GetUseSSAO(), "ambient occlusion of screen space" },
+      { this->Renderer.GetPass() != nullptr, "a render pass" } };
     for (const auto& [there, what] : parts)
     {
       if (there)
@@ -189,16 +209,28 @@ private:
     double farthest = 0;
     const Eigen::Vector3d eye = camera.description.position.at(0);
     const Eigen::Vector3d ahead = camera.description.orientation.at(0).matrix().col(2);
-    for (std::size_t i = 0; !camera.drawn && i < this->View.actors.size(); ++i)
+    const auto look = [&](const Model& model, const Affine3& world)
     {
-      const Affine3& world = this->View.actors[i].world_from_object;
       const Eigen::Vector3d own = world.linear.transpose() * ahead; // depth is own . point + start
       const double start = ahead.dot(world.translation - eye);
-      for (const Eigen::Vector3d& point : this->View.actors[i].whole->model->rest->positions)
+      for (const Eigen::Vector3d& point : model.rest->positions)
       {
         const double depth = own.dot(point) + start;
         nearest = std::min(nearest, depth);
         farthest = std::max(farthest, depth);
+      }
+    };
+    for (std::size_t i = 0; !camera.drawn && i < this->View.actors.size(); ++i)
+    {
+      const FrozenActor& actor = this->View.actors[i];
+      if (!actor.whole->copies)
+      {
+        look(*actor.whole->model, actor.world_from_object);
+        continue;
+      }
+      for (const ModelCopy& copy : *actor.whole->copies)
+      {
+        look(*copy.model, actor.world_from_object * copy.object_from_model);
       }
     }
     setRange(camera, std::isfinite(nearest) ? nearest : 0.0, farthest);
@@ -220,7 +252,7 @@ private:
       }
     }
     const bool back = actor.actor->GetProperty()->GetBackfaceCulling() != 0;
-    const bool front = actor.actor->GetProperty()->GetFrontfaceCulling() != 0;
+    const bool front = !back && actor.actor->GetProperty()->GetFrontfaceCulling() != 0; // as VTK has it
     if (back || front)
     {
       const bool perspective = camera.model == "pinhole";
@@ -249,12 +281,12 @@ private:
     object.orientation =
       Quaternion{ place.orientation.w(), place.orientation.x(), place.orientation.y(), place.orientation.z() };
     object.scale = place.scale;
-    this->Models.Models[object.model] = actor.model;
+    this->Models.Models[object.model] = { actor.model, actor.whole->copies };
     this->Scene.objects.push_back(object);
   }
 
   /// A physically based surface of VTK shows 1 / pi of the light, ours all of it.
-  void softenForPhysical()
+  void lookAtPhysical()
   {
     std::size_t physical = 0;
     std::size_t all = 0;
@@ -266,22 +298,39 @@ private:
         physical += material.physical ? 1 : 0;
       }
     }
-    if (physical > 0 && physical == all)
+    this->Physical = physical > 0 && physical == all;
+    if (physical > 0 && physical < all)
     {
-      if (this->Scene.lights.empty() && this->Lit)
-      {
-        this->Scene.lights.push_back(headLight());
-      }
-      for (LightDescription& light : this->Scene.lights)
-      {
-        light.intensity = light.intensity.at(0) / EIGEN_PI;
-      }
+      this->Out.add("physically based surfaces beside others, of which VTK shows 1 / pi of the light");
+    }
+  }
+
+  void softenForPhysical(const RendererCamera& camera)
+  {
+    std::vector<LightDescription>& lights = this->Scene.lights;
+    if (!this->Physical)
+    {
+      return;
+    }
+    if (lights.empty() && this->Lit)
+    {
+      lights.push_back(headLight());
+    }
+    if (lights.size() == 1 && lights.front().kind == LightKind::Head && camera.description.model == "pinhole")
+    {
+      lights.front().kind = LightKind::Point; // a head light alone is in the eye for them, and far away for others
+      lights.front().position = camera.description.position.at(0);
+    }
+    for (LightDescription& light : lights)
+    {
+      light.intensity = light.intensity.at(0) / EIGEN_PI;
     }
   }
 
   vtkRenderer& Renderer;
   std::pair<int, int> Size;
   bool Lit;
+  bool Physical = false; ///< all surfaces are
   Unsupported Out;
   FrozenView View;
   std::vector<Placement> Places; ///< one an actor

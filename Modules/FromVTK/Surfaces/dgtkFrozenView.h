@@ -34,11 +34,19 @@ struct FrozenActor
   ShownSurface shown;                        ///< what the camera sees of them
   std::shared_ptr<const Model> model;        ///< that, in the stage
   std::vector<std::uint32_t> parents;        ///< triangles of `whole` by triangle of `model`; empty: the same
+  std::uint32_t firstCopy = 0;               ///< what hits of the first copy have as their object
   Affine3 world_from_object;
 
-  std::uint32_t wholeTriangle(std::uint32_t triangle) const
+  /// The triangle of `whole` that a hit of the stage is of.
+  std::uint32_t wholeTriangle(const Hit& hit) const
   {
-    return this->parents.empty() ? triangle : this->parents[triangle];
+    return this->whole->copies     ? (*this->whole->copies)[hit.object - this->firstCopy].firstTriangle + hit.triangle
+           : this->parents.empty() ? hit.triangle
+                                   : this->parents[hit.triangle];
+  }
+  std::int64_t cell(const Hit& hit) const
+  {
+    return this->whole->cells[this->whole->copies ? hit.object - this->firstCopy : this->wholeTriangle(hit)];
   }
 };
 
@@ -46,8 +54,12 @@ struct FrozenActor
 struct FrozenView
 {
   std::shared_ptr<const Stage> stage;
-  std::vector<FrozenActor> actors; ///< by object id - 1
+  std::shared_ptr<const SceneState> state; ///< of the stage
+  std::vector<FrozenActor> actors;         ///< by object id - 1
   std::shared_ptr<const OcclusionQuery> trees;
+  /// Index of the actor of a hit; hit.object != 0.
+  std::size_t actorOf(const Hit& hit) const { return this->state->objectOf(hit.object) - 1; }
+
   std::vector<std::string> left; ///< what is no surface or could not be honoured, and was left out
 };
 

@@ -6,6 +6,7 @@
 #include <vtkBitArray.h>
 #include <vtkDataSet.h>
 #include <vtkGlyph3DMapper.h>
+#include <vtkProperty.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,7 @@ Eigen::Matrix3d alongDirection(const Eigen::Vector3d& v)
 class Glyphs
 {
 public:
-  Glyphs(vtkGlyph3DMapper& mapper, vtkDataSet& points)
+  Glyphs(vtkGlyph3DMapper& mapper, vtkDataSet& points, double opacity)
     : Mapper(mapper)
     , Points(points)
     , Scale((mapper.*GlyphArrays::scale())(&points))
@@ -49,7 +50,7 @@ public:
     , Source((mapper.*GlyphArrays::source())(&points))
     , Mask(vtkArrayDownCast<vtkBitArray>((mapper.*GlyphArrays::mask())(&points)))
   {
-    mapColors(mapper, points, this->Colors);
+    mapColors(mapper, points, this->Colors, opacity); // which VTK has in the colours of glyphs, too
   }
 
   bool isThere(vtkIdType point) const { return this->Mask == nullptr || this->Mask->GetValue(point) != 0; }
@@ -173,7 +174,7 @@ DrawnSurface glyphPieces(const ViewActor& actor, vtkMapper& mapper, Unsupported&
     unsupported.add(actor.name + ": lines, which are vtkGlyph3DMapper's glyph where it has none");
     return {};
   }
-  const Glyphs places(glyphs, *points);
+  const Glyphs places(glyphs, *points, actor.actor->GetProperty()->GetOpacity());
   for (vtkIdType point = 0; point < points->GetNumberOfPoints(); ++point)
   {
     if (places.isThere(point))

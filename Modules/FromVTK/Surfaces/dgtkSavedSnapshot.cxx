@@ -3,6 +3,7 @@
 
 #include "dgtkColorMap.h"
 #include "dgtkFile.h"
+#include "dgtkGlyphCopies.h"
 #include "dgtkLayerWriter.h"
 #include "dgtkRendererLights.h"
 #include "dgtkSurfaceMaterial.h"
@@ -147,16 +148,16 @@ private:
 };
 
 /// What OBJ cannot say of the physically based materials of an actor.
-std::vector<MaterialOverride> physicalMaterials(const FrozenActor& actor)
+std::vector<MaterialOverride> physicalMaterials(const Model& model, const std::string& name)
 {
   std::vector<MaterialOverride> all;
-  const auto picture = [&actor](int texture) -> std::optional<std::string>
+  const auto picture = [&name](int texture) -> std::optional<std::string>
   {
-    return texture >= 0 ? std::optional<std::string>(std::string(modelFolder) + '/' + actor.name + "-texture-" +
-                                                     std::to_string(texture + 1) + ".png")
+    return texture >= 0 ? std::optional<std::string>(
+                            std::string(modelFolder) + '/' + name + "-texture-" + std::to_string(texture + 1) + ".png")
                         : std::nullopt;
   };
-  for (const Material& material : actor.model->materials)
+  for (const Material& material : model.materials)
   {
     if (!material.physical)
     {
@@ -167,12 +168,44 @@ std::vector<MaterialOverride> physicalMaterials(const FrozenActor& actor)
     to.metallic = material.physical->metallic;
     to.roughness = material.physical->roughness;
     to.emission = material.emission;
+    to.normalMap = picture(material.normalMap);
     to.metallicRoughnessMap = picture(material.metallicRoughnessMap);
     to.emissionMap = picture(material.emissionMap);
     to.occlusionMap = picture(material.occlusionMap);
     all.push_back(to);
   }
   return all;
+}
+
+/// Pictures of normals have their scale in them, which scenes do not have beside them.
+Model withScaledNormals(const Model& from)
+{
+  constexpr double byteOfZero = 128; // as glTF's pictures are read
+  constexpr double bytesOfOne = 127;
+  Model model = from;
+  for (Material& material : model.materials)
+  {
+    if (material.normalMap < 0)
+    {
+      continue;
+    }
+    Texture& texture = model.textures[std::size_t(material.normalMap)];
+    auto scaled = std::make_shared<Image>(*texture.image);
+    for (std::size_t i = 0; i < scaled->rgba.size(); i += 4)
+    {
+      std::uint8_t* const texel = &scaled->rgba[i];
+      Eigen::Vector3d normal = (Eigen::Vector3d(texel[0], texel[1], texel[2]).array() - byteOfZero) / bytesOfOne;
+      normal.head<2>() *= material.normalScale;
+      normal.normalize();
+      for (int c = 0; c < 3; ++c)
+      {
+        texel[c] = std::uint8_t(std::lround(byteOfZero + bytesOfOne * normal[c]));
+      }
+    }
+    texture.image = scaled;
+    material.normalScale = 1;
+  }
+  return model;
 }
 
 /// Files hold ambient colours up to 1: more of them needs more ambient light.
@@ -218,9 +251,11 @@ void saveSnapshot(const FrozenView& view, const std::string& path)
   const bool ambient = needsAmbientLight(view);
   for (std::size_t i = 0; i < view.actors.size(); ++i)
   {
-    ObjFile(*view.actors[i].model, models, view.actors[i].name).write(ambient ? worldAmbient : 1.0);
-    scene.objects[i].model = std::string(modelFolder) + '/' + view.actors[i].name + ".obj";
-    scene.objects[i].materials = physicalMaterials(view.actors[i]);
+    const FrozenActor& actor = view.actors[i];
+    const std::shared_ptr<const Model> model = actor.whole->copies ? writtenOut(*actor.whole) : actor.model;
+    ObjFile(withScaledNormals(*model), models, actor.name).write(ambient ? worldAmbient : 1.0);
+    scene.objects[i].model = std::string(modelFolder) + '/' + actor.name + ".obj";
+    scene.objects[i].materials = physicalMaterials(*model, actor.name);
   }
   if (ambient)
   {

@@ -26,7 +26,8 @@ bool equalMaterials(const Material& a, const Material& b)
   };
   const auto numbers = [](const Material& m)
   {
-    return std::tie(m.shininess, m.opacity, m.texture, m.cutOut, m.metallicRoughnessMap, m.emissionMap, m.occlusionMap);
+    return std::tie(m.shininess, m.opacity, m.texture, m.cutOut, m.metallicRoughnessMap, m.emissionMap, m.occlusionMap,
+      m.normalMap, m.normalScale);
   };
   return a.name == b.name && a.ambient == b.ambient && a.diffuse == b.diffuse && a.specular == b.specular &&
          a.emission == b.emission && numbers(a) == numbers(b) && physical(a) == physical(b);
@@ -97,7 +98,7 @@ std::shared_ptr<const SurfaceModel> sharedSurface(const SurfaceKey& key, const s
     }
   }
   auto made = std::make_shared<SurfaceModel>(make());
-  made->model = sharedModel(made->model);
+  made->model = made->copies ? made->model : sharedModel(made->model);
   const std::lock_guard<std::mutex> guard(lock);
   known[key] = made;
   return made;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSurfaceKey.h"
 
+#include "dgtkSurfaceModel.h"
 #include "dgtkSurfacePieces.h"
 
 #include <vtkActor.h>
@@ -12,6 +13,7 @@
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
 #include <vtkScalarsToColors.h>
+#include <vtkShaderProperty.h>
 #include <vtkTexture.h>
 #include <vtkTransform.h>
 
@@ -125,6 +127,7 @@ public:
     this->add(data.GetPointData()->GetNormals());
     this->add(data.GetCellData()->GetNormals());
     this->add(data.GetPointData()->GetTCoords());
+    this->add(data.GetPointData()->GetTangents());
     this->add(piece.cells.Get());
     this->add(piece.firstCell);
     this->add(static_cast<vtkDataArray*>(piece.colors.Get()));
@@ -150,14 +153,18 @@ private:
 };
 } // namespace
 
-SurfaceKey surfaceKey(vtkActor& actor, const std::vector<SurfacePiece>& pieces, const Affine3& bake, bool lit)
+SurfaceKey surfaceKey(vtkActor& actor, const std::vector<SurfacePiece>& pieces, const ActorStyle& style, bool copies)
 {
   KeyMaker maker;
-  maker.add(bake);
-  maker.add(lit);
+  maker.add(style.bake);
+  maker.add(style.lit);
+  maker.add(style.mirrored);
+  maker.add(copies);
   vtkProperty& property = *actor.GetProperty();
   maker.add(property.GetMTime());
   maker.add(actor.GetBackfaceProperty() != nullptr);
+  maker.add(actor.GetForceOpaque());
+  maker.add(actor.GetShaderProperty()->GetNumberOfShaderReplacements());
   maker.add(actor.GetTexture());
   for (const auto& [name, texture] : property.GetAllTextures())
   {

@@ -84,11 +84,14 @@ private:
 class PieceReader
 {
 public:
-  PieceReader(SurfaceModel& to, Model& model, Geometry& geometry, vtkActor& actor, const SurfacePiece& piece)
+  PieceReader(SurfaceModel& to, Model& model, Geometry& geometry, vtkActor& actor, const SurfacePiece& piece,
+    const ActorStyle& style)
     : To(to)
     , ToModel(model)
     , ToGeometry(geometry)
     , Piece(piece)
+    , Mirrored(style.mirrored)
+    , Physical(isPhysical(actor, style.lit))
     , Data(*piece.data)
     , PointCount(Data.GetPoints() != nullptr ? Data.GetNumberOfPoints() : 0)
     , Points(Data.GetPoints() != nullptr ? Data.GetPoints()->GetData() : nullptr)
@@ -158,9 +161,11 @@ private:
   {
     this->Place = place;
     this->Turn = normalMatrix(place.linear);
-    if (this->Kind == Normals::OfTriangles && place.linear.determinant() < 0)
+    // A triangle's own normal goes by the order of its corners, which a mirror turns. VTK turns the others by that
+    // order.
+    if (this->Kind == Normals::OfTriangles ? place.linear.determinant() < 0 : this->Mirrored)
     {
-      this->Turn = -this->Turn; // a triangle's own normal goes by the order of its corners, which a mirror turns
+      this->Turn = -this->Turn;
     }
     this->Glyph = glyph;
     this->VertexOf.assign(this->Split ? 0 : std::size_t(this->PointCount), none);
@@ -317,6 +322,10 @@ private:
       color = *this->Glyph->color;
       colored = true;
     }
+    if (colored && this->Physical)
+    {
+      toDisplay(color);
+    }
     if (colored || !this->ToModel.colors.empty())
     {
       this->ToModel.colors.resize(this->ToGeometry.positions.size() - 1, { 255, 255, 255, 255 });
@@ -350,6 +359,8 @@ private:
   Model& ToModel;
   Geometry& ToGeometry;
   const SurfacePiece& Piece;
+  bool Mirrored;
+  bool Physical;
   vtkPolyData& Data;
   vtkIdType PointCount;
   Tuples Points;
@@ -390,7 +401,7 @@ void complete(Model& model, Geometry& geometry)
 }
 } // namespace
 
-SurfaceModel surfaceModel(vtkActor& actor, const std::vector<SurfacePiece>& pieces, const Affine3& bake, bool lit)
+SurfaceModel surfaceModel(vtkActor& actor, const std::vector<SurfacePiece>& pieces, const ActorStyle& style)
 {
   auto model = std::make_shared<Model>();
   auto geometry = std::make_shared<Geometry>();
@@ -400,17 +411,23 @@ SurfaceModel surfaceModel(vtkActor& actor, const std::vector<SurfacePiece>& piec
   {
     const std::string name = "material-" + std::to_string(model->materials.size() + 1);
     const auto first = std::uint32_t(model->triangles.size());
-    PieceReader(made, *model, *geometry, actor, piece).readAll(bake);
+    PieceReader(made, *model, *geometry, actor, piece, style).readAll(style.bake);
     const auto count = std::uint32_t(model->triangles.size()) - first;
     if (count > 0)
     {
-      model->materials.push_back(actorMaterial(actor, piece, lit, name, *model, made.left));
+      model->materials.push_back(actorMaterial(actor, piece, style.lit, name, *model, made.left));
       model->parts.push_back(
         { "part-" + std::to_string(model->parts.size() + 1), int(model->materials.size()) - 1, first, count });
     }
     if (piece.colorMap && !model->colorMap)
     {
-      model->colorMap = imageOf(*piece.colorMap);
+      const std::shared_ptr<const Image> map = imageOf(*piece.colorMap);
+      const auto shown = map ? std::make_shared<Image>(*map) : nullptr;
+      if (shown && isPhysical(actor, style.lit))
+      {
+        toDisplay(*shown);
+      }
+      model->colorMap = shown;
     }
   }
   complete(*model, *geometry);

@@ -48,6 +48,19 @@ vtkSmartPointer<vtkPolyData> surfaceOf(vtkDataSet& data, vtkSmartPointer<vtkData
   return made;
 }
 
+/// One of some colours, so many times.
+vtkSmartPointer<vtkUnsignedCharArray> oneColor(vtkUnsignedCharArray& colors, vtkIdType which, vtkIdType count)
+{
+  auto made = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  made->SetNumberOfComponents(colors.GetNumberOfComponents());
+  made->SetNumberOfTuples(which < colors.GetNumberOfTuples() ? count : 0);
+  for (vtkIdType i = 0; i < made->GetNumberOfTuples(); ++i)
+  {
+    made->SetTuple(i, which, &colors);
+  }
+  return made;
+}
+
 /// What the blocks of a composite data set inherit from those above.
 struct BlockStyle
 {
@@ -170,7 +183,7 @@ bool drawsSurfaces(vtkMapper& mapper)
 }
 } // namespace
 
-void mapColors(vtkMapper& mapper, vtkDataSet& data, SurfacePiece& piece)
+void mapColors(vtkMapper& mapper, vtkDataSet& data, SurfacePiece& piece, double opacity)
 {
   if (mapper.GetScalarVisibility() == 0)
   {
@@ -179,11 +192,15 @@ void mapColors(vtkMapper& mapper, vtkDataSet& data, SurfacePiece& piece)
   vtkNew<ScalarMapper> colors;
   colors->ShallowCopy(&mapper);
   int ofCells = 0;
-  vtkUnsignedCharArray* const found = colors->MapScalars(&data, 1, ofCells);
+  vtkUnsignedCharArray* const found = colors->MapScalars(&data, opacity, ofCells);
   if (found != nullptr)
   {
     piece.colors = found;
     piece.colorsOfCells = ofCells != 0;
+    if (mapper.GetScalarMode() == VTK_SCALAR_MODE_USE_FIELD_DATA && mapper.GetFieldDataTupleId() >= 0)
+    {
+      piece.colors = oneColor(*found, mapper.GetFieldDataTupleId(), data.GetNumberOfCells());
+    }
   }
   else if (colors->GetColorCoordinates() != nullptr)
   {

@@ -63,8 +63,8 @@ DrawnSurface surfacePieces(const ViewActor& actor, Unsupported& unsupported);
 /// The glyphs of a vtkGlyph3DMapper.
 DrawnSurface glyphPieces(const ViewActor& actor, vtkMapper& mapper, Unsupported& unsupported);
 
-/// The colours that a mapper gives to a data set, which need not be its input.
-void mapColors(vtkMapper& mapper, vtkDataSet& data, SurfacePiece& piece);
+/// The colours that a mapper gives to a data set, which need not be its input, with an opacity in their alpha.
+void mapColors(vtkMapper& mapper, vtkDataSet& data, SurfacePiece& piece, double opacity = 1);
 
 } // namespace dgtk
 

@@ -2,6 +2,7 @@
 #include "dgtkTracedView.h"
 
 #include "dgtkRaySource.h"
+#include "dgtkSpareVectors.h"
 #include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
 
@@ -16,7 +17,10 @@ void traceTiles(const Stage& stage, const View& view, const std::function<void(c
   const std::unique_ptr<VisibilitySource> source = makeRaySource(pool);
   source->setScene(stage.at(0), view);
   const TileGrid grid(view.model->width(), view.model->height());
+  static SpareVectors<Hit> spare; // one view is often traced after another of its size
+  const PixelRect first = grid.tile(0, 0);
   VisibilityBuffer tile;
+  tile.hits = spare.take(std::size_t(first.width) * std::size_t(first.height));
   for (int row = 0; row < grid.rows(); ++row)
   {
     for (int column = 0; column < grid.columns(); ++column)
@@ -25,6 +29,7 @@ void traceTiles(const Stage& stage, const View& view, const std::function<void(c
       look(tile);
     }
   }
+  spare.give(std::move(tile.hits));
 }
 
 std::vector<Hit> traceView(const Stage& stage, const View& view)

@@ -27,8 +27,7 @@ inline std::int64_t cellOf(const FrozenView& view, const Hit& hit)
   {
     return -1;
   }
-  const FrozenActor& actor = view.actors[hit.object - 1];
-  return actor.whole->cells[actor.wholeTriangle(hit.triangle)];
+  return view.actors[view.actorOf(hit)].cell(hit);
 }
 
 } // namespace dgtk

@@ -68,8 +68,7 @@ LightDescription describe(vtkLight& light, vtkCamera& camera, vtkRenderer& rende
 
 bool isLit(vtkRenderer& renderer)
 {
-  const bool makesOne = renderer.GetLights()->GetNumberOfItems() == 0 && renderer.GetAutomaticLightCreation() != 0;
-  return makesOne || !lightsOf(renderer).empty();
+  return renderer.GetAutomaticLightCreation() != 0 || !lightsOf(renderer).empty(); // VTK makes one where none is on
 }
 
 LightDescription headLight()

@@ -15,7 +15,8 @@ namespace dgtk
 {
 
 /// Colour of a surface point without light: the material's diffuse colour times its texture's nearest texel (as
-/// isCutOut() finds it), sRGB, 8 bits. `barycentrics` of the second and third corner. Thread-safe.
+/// isCutOut() finds it) and the colour of its vertices, sRGB, 8 bits. `barycentrics` of the second and third corner.
+/// Thread-safe.
 DGTKGROUNDTRUTH_EXPORT std::array<std::uint8_t, 3> albedoAt(
   const Instance& instance, std::uint32_t triangle, const Eigen::Vector2d& barycentrics);
 

@@ -10,8 +10,9 @@ std::vector<std::uint32_t> classIds(const SceneState& state)
 {
   std::map<std::string, std::uint32_t> known;
   std::vector<std::uint32_t> ids;
-  for (const Instance& instance : state.instances)
+  for (std::size_t i = 0; i < state.objects(); ++i)
   {
+    const Instance& instance = state.instances[i];
     const std::uint32_t next = instance.classId != 0 ? instance.classId : std::uint32_t(known.size() + 1);
     ids.push_back(known.emplace(instance.className, next).first->second);
   }
@@ -38,8 +39,8 @@ public:
   void compute(const SurfaceRows& in, Rows& out) const override
   {
     const std::vector<std::uint32_t> ids = classIds(*in.state);
-    forSurface<std::uint32_t, 1>(
-      in, out, 0u, [&](std::size_t i, int, int, std::uint32_t* value) { *value = ids[in.hits[i].object - 1]; });
+    forSurface<std::uint32_t, 1>(in, out, 0u,
+      [&](std::size_t i, int, int, std::uint32_t* value) { *value = ids[in.state->objectOf(in.hits[i].object) - 1]; });
   }
 };
 } // namespace

@@ -29,6 +29,10 @@ public:
         Eigen::Map<Eigen::Vector3d> point(value);
         point = first + in.barycentrics[2 * i] * (p[corners[1]] - first) +
                 in.barycentrics[2 * i + 1] * (p[corners[2]] - first);
+        if (instance.copyOf != 0)
+        {
+          point = (instance.object_from_model * Eigen::Vector3d(point)).eval();
+        }
       });
   }
 };

@@ -20,7 +20,7 @@ public:
     std::size_t most = 1;
     for (const Instance& instance : state.instances)
     {
-      most = std::max(most, instance.model->parts.size());
+      most = std::max(most, instance.firstPart + instance.model->parts.size());
     }
     return std::uint32_t(most - 1);
   }

@@ -22,7 +22,7 @@ public:
     {
       for (const Part& part : instance.model->parts)
       {
-        most = std::max(most, part.triangles);
+        most = std::max(most, instance.firstInPart + part.triangles);
       }
     }
     return most - 1;
@@ -31,9 +31,8 @@ public:
   void compute(const SurfaceRows& in, Rows& out) const override
   {
     PartLookup parts(*in.state);
-    forSurface<std::uint32_t, 1>(in, out, noId,
-      [&](std::size_t i, int, int, std::uint32_t* value)
-      { *value = in.hits[i].triangle - parts.firstTriangle(in.hits[i]); });
+    forSurface<std::uint32_t, 1>(
+      in, out, noId, [&](std::size_t i, int, int, std::uint32_t* value) { *value = parts.triangle(in.hits[i]); });
   }
 };
 } // namespace

@@ -189,7 +189,7 @@ TEST(ObjectPose, ABoxInItsOwnFrame)
   ViewOptions options;
   options.eye = { 2, 3, 12 };
   const View view = makeView(options);
-  const ObjectPose pose = objectPose(state->instances[0], 1, view);
+  const ObjectPose pose = objectPose(*state, 1, view);
   ASSERT_TRUE(pose.rigid);
   EXPECT_NEAR(pose.rotation.determinant(), 1, 1e-12);
   EXPECT_TRUE(pose.scale.isApprox(Eigen::Vector3d::Constant(1.5), 1e-12));
@@ -221,19 +221,19 @@ TEST(ObjectPose, MirroredAndShearedObjects)
   flat.linear.col(2).setZero();
   const auto state = SceneBuilder().add(makeBox(), mirrored).add(makeBox(), sheared).add(makeBox(), flat).state();
   const View view = makeView();
-  const ObjectPose pose = objectPose(state->instances[0], 1, view);
+  const ObjectPose pose = objectPose(*state, 1, view);
   ASSERT_TRUE(pose.rigid);
   EXPECT_NEAR(pose.rotation.determinant(), 1, 1e-12);
   EXPECT_LT(pose.scale.x(), 0);
   EXPECT_TRUE((pose.rotation * pose.scale.asDiagonal()).isApprox(view.camera_from_world.rotation * mirrored.linear));
-  EXPECT_FALSE(objectPose(state->instances[1], 2, view).rigid);
-  EXPECT_FALSE(objectPose(state->instances[2], 3, view).rigid);
+  EXPECT_FALSE(objectPose(*state, 2, view).rigid);
+  EXPECT_FALSE(objectPose(*state, 3, view).rigid);
 }
 
 TEST(ObjectPose, NothingIsProjectedOfAnObjectBehindTheCamera)
 {
   const auto state = SceneBuilder().add(makeBox(), placement({ 0, 0, 20 })).state();
-  EXPECT_FALSE(objectPose(state->instances[0], 1, makeView()).projected.has_value());
+  EXPECT_FALSE(objectPose(*state, 1, makeView()).projected.has_value());
 }
 
 TEST(CollectObjects, EqualsAllHitsEverywhereAndAsksLittle)
@@ -321,4 +321,10 @@ TEST(Albedo, MultipliesDiffuseWithTheNearestTexel)
   EXPECT_EQ(at(0.9, 0.8), (std::array<std::uint8_t, 3>{ 0, 255, 0 }));
   EXPECT_EQ(at(0.2, 0.1), (std::array<std::uint8_t, 3>{ 0, 0, 51 }));
   EXPECT_EQ(at(0.8, 0.1), (std::array<std::uint8_t, 3>{ 128, 255, 51 }));
+  model->colors.assign(model->rest->positions.size(), { 0, 255, 51, 255 });
+  EXPECT_EQ(at(0.8, 0.1), (std::array<std::uint8_t, 3>{ 0, 255, 10 }));
+  model->colors.clear();
+  model->colorMap = image;
+  model->colorMapAt.assign(model->rest->positions.size(), { 0.2, 0.1 }); // blue
+  EXPECT_EQ(at(0.8, 0.1), (std::array<std::uint8_t, 3>{ 0, 0, 51 }));
 }

@@ -109,19 +109,19 @@ void writeCoverage(const SampledRows& samples, std::size_t output, LayerSink& si
   for (std::size_t i = 0; i < pixels;)
   {
     const std::size_t rowEnd = i - i % rect.width + rect.width;
-    const std::uint32_t id = samples.hits[0].hits[i].object;
+    const std::uint32_t id = samples.idOf(0, i);
     std::size_t end = i + 1;
     if (samples.mixed[i])
     {
       for (int k = 0; k < samples.samples; ++k)
       {
-        ids[k] = samples.hits[k].hits[i].object;
+        ids[k] = samples.idOf(k, i);
       }
       rankCoverages(ids.data(), samples.samples, ranks);
     }
     else
     {
-      while (end < rowEnd && !samples.mixed[end] && samples.hits[0].hits[end].object == id)
+      while (end < rowEnd && !samples.mixed[end] && samples.idOf(0, end) == id)
       {
         ++end;
       }

@@ -27,7 +27,7 @@ void SampledRows::gather(std::size_t pixel, std::uint32_t* ids, double* depths) 
 {
   for (int k = 0; k < this->samples; ++k)
   {
-    ids[k] = this->hits[k].hits[pixel].object;
+    ids[k] = this->idOf(k, pixel);
     depths[k] = this->depth[k][pixel];
   }
 }
@@ -59,6 +59,7 @@ int PixelSampler::stripRows() const
 void PixelSampler::sample(const PixelRect& rect, const Hit* own, SampledRows& rows)
 {
   rows.rect = rect;
+  rows.state = this->State;
   rows.samples = this->Side * this->Side;
   this->trace(rows, own);
   this->findMixed(rows);
@@ -152,7 +153,7 @@ Rows alphaRows(const SampledRows& samples, ThreadPool& pool)
       const std::size_t first = std::size_t(y) * rect.width;
       for (std::size_t i = first; i < first + rect.width; ++i, out += 4)
       {
-        SampleCount found{ samples.hits[0].hits[i].object, std::uint32_t(samples.samples) };
+        SampleCount found{ samples.idOf(0, i), std::uint32_t(samples.samples) };
         if (samples.mixed[i])
         {
           samples.gather(i, ids.data(), depths.data());

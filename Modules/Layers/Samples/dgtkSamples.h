@@ -23,13 +23,19 @@ DGTKLAYERS_EXPORT View sampleView(const View& view, int i, int j, int count);
 struct DGTKLAYERS_EXPORT SampledRows
 {
   PixelRect rect;
-  int samples = 1;                        ///< of a pixel: the square of those of a side
+  int samples = 1; ///< of a pixel: the square of those of a side
+  std::shared_ptr<const SceneState> state;
   std::vector<VisibilityBuffer> hits;     ///< one a sample, row by row of the pixel's grid
   std::vector<std::vector<double>> depth; ///< one a sample; computed where `mixed`; +inf for background
-  std::vector<std::uint8_t> mixed;        ///< whether the pixel's samples meet several objects, one a pixel
+  std::vector<std::uint8_t> mixed; ///< whether the pixel's samples meet several objects, or several copies, one a pixel
   bool anyMixed = false;
 
-  /// The samples' objects of a pixel (index into `mixed`), and their depths.
+  /// Id of the object that a sample of a pixel (index into `mixed`) meets; 0 for none.
+  std::uint32_t idOf(int sample, std::size_t pixel) const
+  {
+    return this->state->objectOf(this->hits[std::size_t(sample)].hits[pixel].object);
+  }
+  /// The samples' objects of a pixel, and their depths.
   void gather(std::size_t pixel, std::uint32_t* ids, double* depths) const;
 };
 

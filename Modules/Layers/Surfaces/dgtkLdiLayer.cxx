@@ -134,10 +134,11 @@ private:
     rows.counts.insert(rows.counts.end(), layered.counts.begin(), layered.counts.end());
     for (const LayeredSurface& surface : layered.surfaces)
     {
-      const Model& model = *state.instances[surface.hit.object - 1].model;
-      const std::uint32_t of = model.partOf(surface.hit.triangle);
-      rows.surfaces.push_back({ surface.rgba, surface.depth, surface.splatIndex, surface.hit.object, of,
-        surface.hit.triangle - model.parts[of].firstTriangle });
+      const Instance& instance = state.instances[surface.hit.object - 1];
+      const std::uint32_t of = instance.model->partOf(surface.hit.triangle);
+      rows.surfaces.push_back(
+        { surface.rgba, surface.depth, surface.splatIndex, state.objectOf(surface.hit.object), instance.firstPart + of,
+          instance.firstInPart + surface.hit.triangle - instance.model->parts[of].firstTriangle });
     }
   }
 

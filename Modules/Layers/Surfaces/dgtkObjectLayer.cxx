@@ -67,8 +67,8 @@ public:
       this->Layers.push_back(static_cast<const ObjectsLayer*>(&layer.layer));
       this->Runs = this->Runs || this->Layers.back()->needsRuns();
     }
-    this->All.visible.resize(context.state->instances.size());
-    this->All.amodal.resize(context.state->instances.size());
+    this->All.visible.resize(context.state->objects());
+    this->All.amodal.resize(context.state->objects());
   }
 
   void band(const Band& band, LayerSink&) override
@@ -148,11 +148,11 @@ std::string boxes(const JobContext& context, const OcclusionQuery& occlusion, co
   const std::unique_ptr<VisibilitySource> source = context.queries.makeSource(context.pool);
   std::vector<ObjectPixels> whole = objectsAround(context.state, context.view, occlusion, *source, context.pool);
   const std::vector<Instance>& instances = context.state->instances;
-  std::vector<BoxRecord> records(instances.size());
-  context.pool.parallelFor(static_cast<int>(instances.size()),
+  std::vector<BoxRecord> records(context.state->objects());
+  context.pool.parallelFor(static_cast<int>(records.size()),
     [&](int i)
     {
-      const ObjectPose pose = objectPose(instances[i], static_cast<std::uint32_t>(i + 1), context.view);
+      const ObjectPose pose = objectPose(*context.state, static_cast<std::uint32_t>(i + 1), context.view);
       BoxRecord& record = records[i];
       record.id = static_cast<std::uint32_t>(i + 1);
       record.name = instances[i].name;

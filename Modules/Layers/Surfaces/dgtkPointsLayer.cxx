@@ -136,8 +136,8 @@ private:
     const SceneState& state = *in.state;
     const Rigid3& camera_from_world = in.view->camera_from_world;
     point.x = carriedPoint(state, hit, barycentrics);
-    point.object = hit.object;
-    point.triangle = hit.triangle;
+    point.object = state.objectOf(hit.object);
+    point.triangle = state.instances[hit.object - 1].firstTriangle + hit.triangle;
     const std::array<std::uint8_t, 3> color = albedoAt(state.instances[hit.object - 1], hit.triangle, barycentrics);
     std::copy(color.begin(), color.end(), point.color);
     Eigen::Vector3d corners[3];

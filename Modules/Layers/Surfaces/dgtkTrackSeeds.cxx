@@ -110,14 +110,14 @@ private:
   TrackPoint describe(const SceneState& state, const std::string& camera, int frame, const FixedPoint& point) const
   {
     TrackPoint track;
-    track.object = point.hit.object;
-    track.triangle = point.hit.triangle;
+    track.object = state.objectOf(point.hit.object);
+    track.triangle = state.instances[point.hit.object - 1].firstTriangle + point.hit.triangle;
     track.barycentric = { 1 - point.barycentrics.sum(), point.barycentrics.x(), point.barycentrics.y() };
     track.x = carriedPoint(*this->First, point.hit, point.barycentrics);
     const std::array<std::uint8_t, 3> color =
       albedoAt(state.instances[point.hit.object - 1], point.hit.triangle, point.barycentrics);
     std::copy(color.begin(), color.end(), track.color);
-    track.isStatic = !this->Moving[point.hit.object - 1];
+    track.isStatic = !this->Moving[track.object - 1];
     track.camera = camera;
     track.frame = frame;
     return track;

@@ -17,7 +17,13 @@ constexpr int mostSide = 2048; // of a picture of samples
 std::shared_ptr<const SceneState> without(const SceneState& all, std::uint32_t object)
 {
   auto state = std::make_shared<SceneState>(all);
-  state->instances[object - 1].visible = false;
+  for (std::size_t i = 0; i < all.instances.size(); ++i)
+  {
+    if (all.objectOf(std::uint32_t(i + 1)) == object)
+    {
+      state->instances[i].visible = false;
+    }
+  }
   return state;
 }
 
@@ -133,7 +139,7 @@ void MattingSource::drawPiece(const PixelRect& piece, const PixelRect& rect, std
         for (int k = 0; k < n * n; ++k)
         {
           const std::size_t sample = (std::size_t(y) * n + k / n) * large.width + std::size_t(x) * n + k % n;
-          if (hits.hits[sample].object == this->Objects[m])
+          if (this->State->objectOf(hits.hits[sample].object) == this->Objects[m])
           {
             ++count;
             for (int c = 0; c < 3; ++c)
