@@ -41,7 +41,7 @@ endmacro()
 
 # For those who pack programs that link the libraries.
 set(_shlibs "")
-foreach(_module IN LISTS dgtk_modules)
+foreach(_module IN LISTS dgtk_modules ITEMS DGTk::Placement) # with the library of Sampling that comes on demand
   string(REPLACE "DGTk::" "libdgtk" _library "${_module}")
   string(APPEND _shlibs "${_library} ${dgtk_soversion} dgtk (>= ${PROJECT_VERSION})\n")
 endforeach()
