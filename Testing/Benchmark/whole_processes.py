@@ -162,7 +162,6 @@ class Bench:
             print(f"export {f'{frames} pictures, all':<24} {total:8.1f} s {total / rendered[0]:8.2f} x rendering")
             shutil.rmtree(data)
 
-
     def export_growth(self):
         folder = os.path.join(self.work, "export-growth")
         os.makedirs(folder, exist_ok=True)
@@ -181,6 +180,7 @@ class Bench:
             data = f"{folder}/data{frames}"
             timed([self.dgtk, "render", folder + "/scene.json", "-o", data, "--replace", "--quiet", "--size", "16x12", "--frames", f"0:{frames - 1}", "--for", ",".join(forms)])
             for form in forms:
+                shutil.rmtree(folder + "/out", ignore_errors=True)  # replacing needs what the other export lists
                 memory[form, frames] = timed([self.dgtk, "export", data, "--format", form, "-o", folder + "/out", "--replace", "--quiet"])[1]
         growth = {form: 1024 * (memory[form, many] - memory[form, few]) / (many - few) for form in forms}
         for form, each in growth.items():
