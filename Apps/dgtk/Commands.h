@@ -25,9 +25,11 @@ struct CommandRow
 {
   const char* name;
   Command (*make)(); ///< what a command's options can be may cost the loading of libraries
+  const char* help;  ///< one line
 };
 /// All of them, in the order of the help.
 const std::vector<CommandRow>& commandRows();
+Command commandOf(const CommandRow& row);
 
 /// Text on standard output; MachineError when it cannot be written (a full disk behind a redirection).
 void print(const std::string& text);

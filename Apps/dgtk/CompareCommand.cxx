@@ -166,7 +166,7 @@ int run(const Arguments& arguments)
 
 Command compareCommand()
 {
-  return { "compare", "A B", 2, 2, "Compares two images or two datasets; exits with 1 if they differ.",
+  return { "A B", 2, 2,
     { { toleranceOption, "LAYER:value=V,pixels=N,share=S", "",
         "pixels of the layer may differ by V, and N of them, or a share S of all, by more; may be repeated" },
       { "--json", "", "", "print one JSON object" } },

@@ -102,8 +102,7 @@ int run(const Arguments& arguments)
 
 Command convertCommand()
 {
-  Command command{ "convert", "IN OUT", 2, 2,
-    "Converts a scene between .scene and .json, and a scene or model to a POV-Ray scene .pov.", {}, &run };
+  Command command{ "IN OUT", 2, 2, {}, &run };
   command.options = { { "--camera", "NAME", "", "for .pov: the camera (default: the scene's first)" },
     { "--frame", "N", "", "for .pov: the frame (default: the scene's first)" },
     { "--flat-ids", "", "", "for .pov: every object in the colour of its id, without light" },

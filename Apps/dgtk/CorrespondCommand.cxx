@@ -107,8 +107,7 @@ int run(const Arguments& arguments)
 
 Command correspondCommand()
 {
-  Command command{ "correspond", "SCENE", 1, 1,
-    "Finds where image points of one view are in another, and whether they are seen there.", {}, &run };
+  Command command{ "SCENE", 1, 1, {}, &run };
   command.options = { { "--from", "CAM[@FRAME]", "", "first view (default frame: the scene's first)" },
     { "--to", "CAM[@FRAME]", "", "second view" },
     { "--points", "FILE|-", "", "image points x y, one a line, in pixels; - reads standard input" },

@@ -138,7 +138,7 @@ int run(const Arguments& arguments)
 
 Command exportCommand()
 {
-  Command command{ "export", "DATASET", 1, 1, "Writes a dataset in the format of other people's tools.", {}, &run };
+  Command command{ "DATASET", 1, 1, {}, &run };
   command.options = { { "--format", "EXPORTER", "", "the format; see dgtk list exporters", exporterNames() },
     { "--output", "DIR", "", "folder of the export" },
     { "--frames", "A[:B[:STEP]]", "", "some of the frames (default: all)" } };

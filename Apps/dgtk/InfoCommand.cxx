@@ -150,7 +150,7 @@ int run(const Arguments& arguments)
 
 Command infoCommand()
 {
-  return { "info", "FILE", 1, 1, "Tells what a scene, a model or a dataset holds.",
+  return { "FILE", 1, 1,
     { { "--json", "", "", "print one JSON object" },
       { "--size", "WxH", "", "of a scene: size of the images (default: the camera's own, else 640x480)" },
       { "--surfaces", "", "", "of a scene: world units per pixel over what each camera sees at its first frame" },

@@ -52,8 +52,7 @@ std::vector<Row> allCommands()
   std::vector<Row> rows;
   for (const CommandRow& row : commandRows())
   {
-    const Command command = row.make();
-    rows.push_back({ command.name, command.arguments, command.help });
+    rows.push_back({ row.name, row.make().arguments, row.help });
   }
   return rows;
 }
@@ -308,8 +307,7 @@ int run(const Arguments& arguments)
 
 Command listCommand()
 {
-  return { "list", "[readers|layers|options|writers|cameras|exporters|gl|commands]", 0, 1,
-    "Lists what this program can read, derive and write.",
+  return { "[readers|layers|options|writers|cameras|exporters|gl|commands]", 0, 1,
     { { "--json", "", "", "as JSON, with all that is known of commands, layers and options" } }, &run };
 }
 

@@ -64,11 +64,6 @@ int run(const Arguments& arguments)
 }
 } // namespace
 
-Command mergeCommand()
-{
-  return { "merge", "DIR", 1, 1,
-    "Makes one dataset, or export, of a run in shards; names what is missing and exits with 1 then.",
-    { { "--json", "", "", "print one JSON object" } }, &run };
-}
+Command mergeCommand() { return { "DIR", 1, 1, { { "--json", "", "", "print one JSON object" } }, &run }; }
 
 } // namespace dgtk::app

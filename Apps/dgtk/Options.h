@@ -26,13 +26,13 @@ extern const Option noCacheOption;
 /// A command: what it is called, what it takes, what it does.
 struct Command
 {
-  std::string name;
   std::string arguments; ///< "SCENE"
   std::size_t least;     ///< number of arguments
   std::size_t most;
-  std::string help; ///< one line
   std::vector<Option> options;
   int (*run)(const class Arguments&);
+  std::string name = {}; ///< of its row, see commandOf()
+  std::string help = {}; ///< one line, of its row
 };
 
 /// The parsed command line of one command.

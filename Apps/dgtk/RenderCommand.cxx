@@ -198,8 +198,7 @@ int run(const Arguments& arguments)
 
 Command renderCommand()
 {
-  Command command{ "render", "SCENE|FOLDER", 1, 1,
-    "Renders images and ground truth of a scene, or of all scenes of a folder, into a folder.", {}, &run };
+  Command command{ "SCENE|FOLDER", 1, 1, {}, &run };
   command.options = { { "--output", "DIR", "", "folder of the dataset" },
     { "--layers", "NAMES|all", usualLayers(), "what to write; see dgtk list layers", layerWords(), true },
     { "--for", "EXPORTER,...", "", "what these exports need, beside the layers that are given", exporterNames(), true },

@@ -57,8 +57,7 @@ int run(const Arguments& arguments)
 
 Command reportCommand()
 {
-  return { "report", "DATASET", 1, 1,
-    "One page, for any browser and without a network, that shows what is in a dataset or in a folder of datasets.",
+  return { "DATASET", 1, 1,
     { { "--output", "FILE.html", "", "the page" },
       { "--pictures", "N|all", "48", "pictures that are shown, with all of their layers" },
       { "--read", "N|all", "240", "pictures that distributions are made from; those that are shown are among them" },

@@ -91,7 +91,7 @@ int run(const Arguments& arguments)
 
 Command sampleCommand()
 {
-  return { "sample", "SCENE", 1, 1, "Draws plain scenes from one with random values.",
+  return { "SCENE", 1, 1,
     { { "--output", "DIR", "", "folder of the scenes" },
       { "--samples", "A:B", "", "numbers of the samples, both included" },
       { "--seed", "N", "", "instead of the scene's seed" },

@@ -98,8 +98,7 @@ int run(const Arguments& arguments)
 
 Command verifyCommand()
 {
-  return { "verify", "DIR", 1, 1,
-    "Derives anew what a dataset or a folder of samples claims, prints residuals; exits with 1 on a breach.",
+  return { "DIR", 1, 1,
     { { "--export", "DIR", "", "read an export of the dataset back and compare it, instead of the dataset itself" },
       { "--check", "NAME,...", "all", "only these checks, by the names of the table", verification().checks(), true },
       { "--json", "", "", "print one JSON object" }, { "--write", "", "", "also write DIR/verification.json" },

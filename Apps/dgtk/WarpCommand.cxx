@@ -244,7 +244,7 @@ int run(const Arguments& arguments)
 
 Command warpCommand()
 {
-  return { "warp", "LDI", 1, 1, "Renders a novel view from a layered depth image of a dataset.",
+  return { "LDI", 1, 1,
     { { "--output", "FILE.png", "", "the picture" },
       { "--to", "CAMERA", "", "a camera of the dataset, NAME[@FRAME], or a .json file with K, R, t, width, height" },
       { "--layers", "N", "0", "use the first N surfaces of each pixel (1: a depth map); 0: all" },

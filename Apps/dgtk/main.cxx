@@ -29,8 +29,8 @@ std::string overview()
                      "Images and exact ground truth from described 3D scenes.\n\n";
   for (const CommandRow& row : commandRows())
   {
-    const Command command = row.make();
-    text += "  " + command.name + std::string(12 - command.name.size(), ' ') + command.help + '\n';
+    const std::string name = row.name;
+    text += "  " + name + std::string(12 - name.size(), ' ') + row.help + '\n';
   }
   return text + "\ndgtk COMMAND --help tells more; dgtk --version prints the version.\n";
 }
@@ -61,7 +61,7 @@ int dispatch(const std::vector<std::string>& words)
     throw dgtk::UsageError("unknown command " + dgtk::quoted(words[0]) +
                            (near.empty() ? "" : ", did you mean " + near + "?") + " (see dgtk --help)");
   }
-  const Command command = row->make();
+  const Command command = commandOf(*row);
   const Arguments arguments(command, { words.begin() + 1, words.end() });
   if (arguments.has("--help"))
   {
@@ -79,11 +79,35 @@ int dispatch(const std::vector<std::string>& words)
 
 const std::vector<CommandRow>& dgtk::app::commandRows()
 {
-  static const std::vector<CommandRow> rows{ { "render", &renderCommand }, { "sample", &sampleCommand },
-    { "merge", &mergeCommand }, { "export", &exportCommand }, { "info", &infoCommand }, { "convert", &convertCommand },
-    { "verify", &verifyCommand }, { "correspond", &correspondCommand }, { "compare", &compareCommand },
-    { "warp", &warpCommand }, { "report", &reportCommand }, { "list", &listCommand } };
+  static const std::vector<CommandRow> rows{
+    { "render", &renderCommand,
+      "Renders images and ground truth of a scene, or of all scenes of a folder, into a folder." },
+    { "sample", &sampleCommand, "Draws plain scenes from one with random values." },
+    { "merge", &mergeCommand,
+      "Makes one dataset, or export, of a run in shards; names what is missing and exits with 1 then." },
+    { "export", &exportCommand, "Writes a dataset in the format of other people's tools." },
+    { "info", &infoCommand, "Tells what a scene, a model or a dataset holds." },
+    { "convert", &convertCommand,
+      "Converts a scene between .scene and .json, and a scene or model to a POV-Ray scene .pov." },
+    { "verify", &verifyCommand,
+      "Derives anew what a dataset or a folder of samples claims, prints residuals; exits with 1 on a breach." },
+    { "correspond", &correspondCommand,
+      "Finds where image points of one view are in another, and whether they are seen there." },
+    { "compare", &compareCommand, "Compares two images or two datasets; exits with 1 if they differ." },
+    { "warp", &warpCommand, "Renders a novel view from a layered depth image of a dataset." },
+    { "report", &reportCommand,
+      "One page, for any browser and without a network, that shows what is in a dataset or in a folder of datasets." },
+    { "list", &listCommand, "Lists what this program can read, derive and write." }
+  };
   return rows;
+}
+
+Command dgtk::app::commandOf(const CommandRow& row)
+{
+  Command command = row.make();
+  command.name = row.name;
+  command.help = row.help;
+  return command;
 }
 
 void dgtk::app::print(const std::string& text)

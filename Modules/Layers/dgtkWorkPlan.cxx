@@ -328,13 +328,11 @@ void findEmptyLayers(WorkPlan& plan, const Stage& stage)
       continue;
     }
     const std::string name = planned.layer->info().layer;
-    const std::vector<std::string>& asked = plan.request.layers;
-    plan.empty.push_back({ name, std::size_t(without), plan.jobs.size(), needs });
-    if (plan.empty.back().pictures == plan.empty.back().of &&
-        std::find(asked.begin(), asked.end(), name) != asked.end())
+    if (std::size_t(without) == plan.jobs.size() && contains(plan.request.layers, name))
     {
       throw UsageError("layer " + name + " would have no file in this run: it needs " + needs);
     }
+    plan.empty.push_back({ name, std::size_t(without), plan.jobs.size(), needs });
   }
 }
 } // namespace

@@ -4,8 +4,8 @@
 #include "dgtkBackgroundRun.h"
 #include "dgtkExport.h"
 #include "dgtkFolderWay.h"
-#include "dgtkRenderGLCalls.h"
 #include "dgtkGenerator.h"
+#include "dgtkRenderGLCalls.h"
 #include "dgtkRunShards.h"
 #include "dgtkScene.h"
 #include "dgtkSceneFile.h"
@@ -16,6 +16,7 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <utility>
 
 vtkStandardNewMacro(dgtkDatasetGenerator);

@@ -72,7 +72,7 @@ class Contents(Case):
     def test_what_belongs_where(self):
         where = library_folder()
         for package, names in {
-                "dgtk": ["bin/dgtk", "libexec/dgtk/dgtk-import", f"{where}/libdgtkCore.so.0.1", f"{where}/libdgtkdeepexr.so",
+                "dgtk": ["bin/dgtk", "libexec/dgtk/dgtk-import", f"{where}/libdgtkCore.so.0.1", f"{where}/libdgtkdeepexr.so.0.1",
                          "share/man/man1/dgtk.1.gz", "share/bash-completion/completions/dgtk"],
                 "dgtk-editor": ["bin/dgtk-editor", f"{where}/dgtk/libdgtkViews.so", "share/applications/dgtk-editor.desktop",
                                 "share/man/man1/dgtk-editor.1.gz", "share/mime/packages/dgtk-editor.xml"],

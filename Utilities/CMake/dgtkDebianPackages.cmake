@@ -41,7 +41,9 @@ endmacro()
 
 # For those who pack programs that link the libraries.
 set(_shlibs "")
-foreach(_module IN LISTS dgtk_modules ITEMS DGTk::Placement) # with the library of Sampling that comes on demand
+get_property(_on_demand GLOBAL PROPERTY dgtk_libraries_on_demand)
+list(TRANSFORM _on_demand REPLACE "^dgtk" "DGTk::")
+foreach(_module IN LISTS dgtk_modules _on_demand)
   string(REPLACE "DGTk::" "libdgtk" _library "${_module}")
   string(APPEND _shlibs "${_library} ${dgtk_soversion} dgtk (>= ${PROJECT_VERSION})\n")
 endforeach()

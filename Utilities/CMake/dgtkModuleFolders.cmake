@@ -10,6 +10,18 @@ function(dgtk_module_folders module)
   target_include_directories("${module}" PUBLIC ${headers})
 endfunction()
 
+# dgtk_library_on_demand(<name> <module> SOURCES <file>... LINK <target>...): a part of a module that is a library of its
+# own, which stands beside the module's and is loaded when it is needed (dgtkOnDemand.h).
+function(dgtk_library_on_demand name module)
+  cmake_parse_arguments(PARSE_ARGV 2 _o "" "" "SOURCES;LINK")
+  add_library(${name} SHARED ${_o_SOURCES})
+  target_link_libraries(${name} PRIVATE ${_o_LINK})
+  target_include_directories(${name} PRIVATE "$<TARGET_PROPERTY:${module},INCLUDE_DIRECTORIES>")
+  set_target_properties(${name} PROPERTIES VERSION "${PROJECT_VERSION}" SOVERSION "${dgtk_soversion}")
+  install(TARGETS ${name} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dgtk NAMELINK_SKIP)
+  set_property(GLOBAL APPEND PROPERTY dgtk_libraries_on_demand ${name})
+endfunction()
+
 # dgtk_find_source(<variable> <file>): where a file of that name stands, in the module's folder or one of its folders.
 function(dgtk_find_source variable file)
   file(GLOB_RECURSE found RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}/${file}")

@@ -86,7 +86,10 @@ private:
 
 } // namespace dgtk
 
-extern "C" DGTK_DEEP_EXR_EXPORT dgtk::DeepExrFile* dgtkNewDeepExrFile(const std::string& path, int width, int height)
+const dgtk::DeepExrCalls* dgtkdeepexrCalls()
 {
-  return new dgtk::OpenImageIOFile(path, width, height);
+  static const dgtk::DeepExrCalls calls{ [](const std::string& path, int width,
+                                           int height) -> std::unique_ptr<dgtk::DeepExrFile>
+    { return std::make_unique<dgtk::OpenImageIOFile>(path, width, height); } };
+  return &calls;
 }

@@ -4,6 +4,7 @@
 
 #include "dgtkLdi.h"
 
+#include <memory>
 #include <string>
 
 namespace dgtk
@@ -22,10 +23,14 @@ public:
   virtual std::string error() const = 0;
 };
 
+/// The library dgtkdeepexr is loaded when a deep file is written: see dgtkOnDemand.h.
+struct DeepExrCalls
+{
+  std::unique_ptr<DeepExrFile> (*make)(const std::string& path, int width, int height); ///< never null
+};
+
 } // namespace dgtk
 
-#define DGTK_DEEP_EXR_EXPORT __attribute__((visibility("default")))
-/// Never null; the caller deletes it.
-extern "C" DGTK_DEEP_EXR_EXPORT dgtk::DeepExrFile* dgtkNewDeepExrFile(const std::string& path, int width, int height);
+extern "C" const dgtk::DeepExrCalls* dgtkdeepexrCalls();
 
 #endif

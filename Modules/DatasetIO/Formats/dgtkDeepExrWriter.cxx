@@ -4,10 +4,10 @@
 
 #include "dgtkError.h"
 #include "dgtkHash.h"
+#include "dgtkOnDemand.h"
 #include "dgtkPortableMath.h"
 
 #include <algorithm>
-#include <dlfcn.h>
 #include <filesystem>
 
 namespace dgtk
@@ -15,36 +15,13 @@ namespace dgtk
 
 namespace
 {
-/// The function of the library dgtkdeepexr, which stands beside this one and is loaded once.
-decltype(&dgtkNewDeepExrFile) deepExrLibrary()
-{
-  static void* const found = []() -> void*
-  {
-    Dl_info self;
-    if (::dladdr(reinterpret_cast<const void*>(&makeDeepExrWriter), &self) == 0)
-    {
-      return nullptr;
-    }
-    const std::string path = std::filesystem::path(self.dli_fname).replace_filename("libdgtkdeepexr.so").string();
-    void* const library = ::dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
-    return library != nullptr ? ::dlsym(library, "dgtkNewDeepExrFile") : nullptr;
-  }();
-  return reinterpret_cast<decltype(&dgtkNewDeepExrFile)>(found);
-}
-
 class DeepExrWriter : public LdiFileWriter
 {
 public:
   DeepExrWriter(const FilePlace& path, int width, int height)
     : LdiFileWriter(path, width, height)
   {
-    const auto make = deepExrLibrary();
-    if (make == nullptr)
-    {
-      throw MachineError(
-        this->Path + ": cannot be written: the library libdgtkdeepexr.so is missing or cannot be loaded");
-    }
-    this->Output.reset(make(this->File.temporaryPath(), width, height));
+    this->Output = onDemand<DeepExrCalls>("dgtkdeepexr").make(this->File.temporaryPath(), width, height);
     this->require(this->Output->opened());
   }
 

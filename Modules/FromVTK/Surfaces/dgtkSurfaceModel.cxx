@@ -421,13 +421,13 @@ SurfaceModel surfaceModel(vtkActor& actor, const std::vector<SurfacePiece>& piec
     }
     if (piece.colorMap && !model->colorMap)
     {
-      const std::shared_ptr<const Image> map = imageOf(*piece.colorMap);
-      const auto shown = map ? std::make_shared<Image>(*map) : nullptr;
-      if (shown && isPhysical(actor, style.lit))
+      model->colorMap = imageOf(*piece.colorMap);
+      if (model->colorMap && isPhysical(actor, style.lit))
       {
+        const auto shown = std::make_shared<Image>(*model->colorMap);
         toDisplay(*shown);
+        model->colorMap = shown;
       }
-      model->colorMap = shown;
     }
   }
   complete(*model, *geometry);
