@@ -131,7 +131,7 @@ int compareScenes(const std::string& a, const std::string& b, const Tolerances& 
   return differ;
 }
 
-int run(const Arguments& arguments)
+int runCompare(const Arguments& arguments)
 {
   const std::string& a = arguments.positional()[0];
   const std::string& b = arguments.positional()[1];
@@ -170,7 +170,7 @@ Command compareCommand()
     { { toleranceOption, "LAYER:value=V,pixels=N,share=S", "",
         "pixels of the layer may differ by V, and N of them, or a share S of all, by more; may be repeated" },
       { "--json", "", "", "print one JSON object" } },
-    &run };
+    &runCompare };
 }
 
 } // namespace dgtk::app

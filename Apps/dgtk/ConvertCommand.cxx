@@ -70,7 +70,7 @@ PovResult modelToPov(const std::string& from, const std::string& to)
   return exportPov(model, to);
 }
 
-int run(const Arguments& arguments)
+int runConvert(const Arguments& arguments)
 {
   const std::string& from = arguments.positional()[0];
   const std::string& to = arguments.positional()[1];
@@ -102,7 +102,7 @@ int run(const Arguments& arguments)
 
 Command convertCommand()
 {
-  Command command{ "IN OUT", 2, 2, {}, &run };
+  Command command{ "IN OUT", 2, 2, {}, &runConvert };
   command.options = { { "--camera", "NAME", "", "for .pov: the camera (default: the scene's first)" },
     { "--frame", "N", "", "for .pov: the frame (default: the scene's first)" },
     { "--flat-ids", "", "", "for .pov: every object in the colour of its id, without light" },

@@ -18,7 +18,7 @@ namespace dgtk::app
 
 namespace
 {
-constexpr int largestImage = 1 << 20;
+constexpr int largestPicture = 1 << 20;
 const char* const classNames[] = { "no surface", "visible", "occluded", "self-occluded", "outside", "behind" };
 
 /// "CAM" or "CAM@FRAME"; a name may hold an @.
@@ -76,7 +76,7 @@ std::string asJson(const std::vector<SparseMatch>& matches, const Stage& stage)
   return nlohmann::ordered_json{ { "matches", list } }.dump(2) + '\n';
 }
 
-int run(const Arguments& arguments)
+int runCorrespond(const Arguments& arguments)
 {
   for (const char* const option : { "--from", "--to", "--points" })
   {
@@ -92,7 +92,7 @@ int run(const Arguments& arguments)
   parseView(arguments.text("--to"), "--to", *stage, request.toCamera, request.toFrame);
   if (arguments.has("--size"))
   {
-    arguments.size("--size", largestImage, request.width, request.height);
+    arguments.size("--size", largestPicture, request.width, request.height);
   }
   const std::string file = arguments.text("--points");
   const std::string text = file == "-"
@@ -107,7 +107,7 @@ int run(const Arguments& arguments)
 
 Command correspondCommand()
 {
-  Command command{ "SCENE", 1, 1, {}, &run };
+  Command command{ "SCENE", 1, 1, {}, &runCorrespond };
   command.options = { { "--from", "CAM[@FRAME]", "", "first view (default frame: the scene's first)" },
     { "--to", "CAM[@FRAME]", "", "second view" },
     { "--points", "FILE|-", "", "image points x y, one a line, in pixels; - reads standard input" },

@@ -122,7 +122,7 @@ int exportRun(const Arguments& arguments)
   return 0;
 }
 
-int run(const Arguments& arguments)
+int runExport(const Arguments& arguments)
 {
   try
   {
@@ -138,7 +138,7 @@ int run(const Arguments& arguments)
 
 Command exportCommand()
 {
-  Command command{ "DATASET", 1, 1, {}, &run };
+  Command command{ "DATASET", 1, 1, {}, &runExport };
   command.options = { { "--format", "EXPORTER", "", "the format; see dgtk list exporters", exporterNames() },
     { "--output", "DIR", "", "folder of the export" },
     { "--frames", "A[:B[:STEP]]", "", "some of the frames (default: all)" } };

@@ -4,6 +4,7 @@
 
 #include "Options.h"
 
+#include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
@@ -12,6 +13,9 @@ namespace dgtk::app
 {
 
 using Json = nlohmann::ordered_json;
+
+/// [x, y, z].
+Json vector(const Eigen::Vector3d& v);
 
 /// What `dgtk info` prints of a scene (options --size and --surfaces) and of a dataset's folder.
 Json infoOfScene(const std::string& path, const Arguments& arguments);

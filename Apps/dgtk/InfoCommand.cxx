@@ -19,8 +19,6 @@ namespace dgtk::app
 
 namespace
 {
-Json vector(const Eigen::Vector3d& v) { return Json::array({ v.x(), v.y(), v.z() }); }
-
 Json infoOfModel(const std::string& path)
 {
   ReadOptions options;
@@ -84,7 +82,7 @@ std::string shown(Json value)
 }
 
 // "key: value" lines; lists of objects become indented blocks.
-void describe(const Json& value, const std::string& indent, std::string& text)
+void appendLines(const Json& value, const std::string& indent, std::string& text)
 {
   for (const auto& [key, item] : value.items())
   {
@@ -97,13 +95,13 @@ void describe(const Json& value, const std::string& indent, std::string& text)
     text += indent + key + ":\n";
     if (item.is_object())
     {
-      describe(item, indent + "  ", text);
+      appendLines(item, indent + "  ", text);
       continue;
     }
     for (const Json& entry : item)
     {
       std::string block;
-      describe(entry, indent + "    ", block);
+      appendLines(entry, indent + "    ", block);
       block.replace(indent.size() + 2, 1, "-");
       text += block;
     }
@@ -130,7 +128,7 @@ Json infoOf(const Arguments& arguments)
   return infoOfModel(path);
 }
 
-int run(const Arguments& arguments)
+int runInfo(const Arguments& arguments)
 {
   Json info = infoOf(arguments);
   std::string text;
@@ -141,7 +139,7 @@ int run(const Arguments& arguments)
   }
   else
   {
-    describe(info, "", text);
+    appendLines(info, "", text);
   }
   print(text);
   return 0;
@@ -155,7 +153,7 @@ Command infoCommand()
       { "--size", "WxH", "", "of a scene: size of the images (default: the camera's own, else 640x480)" },
       { "--surfaces", "", "", "of a scene: world units per pixel over what each camera sees at its first frame" },
       noCacheOption },
-    &run };
+    &runInfo };
 }
 
 } // namespace dgtk::app

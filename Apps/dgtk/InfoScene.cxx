@@ -24,8 +24,6 @@ Json matrix(const Eigen::Matrix3d& m)
   return rows;
 }
 
-Json vector(const Eigen::Vector3d& v) { return Json::array({ v.x(), v.y(), v.z() }); }
-
 Json infoOfCamera(const Stage& stage, std::size_t index, int width, int height, bool surfaces)
 {
   const double frame = stage.description().firstFrame();
@@ -68,6 +66,8 @@ Json infoOfCamera(const Stage& stage, std::size_t index, int width, int height, 
   return camera;
 }
 } // namespace
+
+Json vector(const Eigen::Vector3d& v) { return Json::array({ v.x(), v.y(), v.z() }); }
 
 Json infoOfScene(const std::string& path, const Arguments& arguments)
 {

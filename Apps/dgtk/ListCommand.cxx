@@ -280,7 +280,7 @@ const std::vector<Section>& sections()
   return all;
 }
 
-int run(const Arguments& arguments)
+int runList(const Arguments& arguments)
 {
   const std::string wanted = arguments.positional().empty() ? "" : arguments.positional()[0];
   std::string text;
@@ -308,7 +308,7 @@ int run(const Arguments& arguments)
 Command listCommand()
 {
   return { "[readers|layers|options|writers|cameras|exporters|gl|commands]", 0, 1,
-    { { "--json", "", "", "as JSON, with all that is known of commands, layers and options" } }, &run };
+    { { "--json", "", "", "as JSON, with all that is known of commands, layers and options" } }, &runList };
 }
 
 } // namespace dgtk::app

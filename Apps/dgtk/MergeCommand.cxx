@@ -27,7 +27,7 @@ std::string again(const MergeReport& report)
   return text;
 }
 
-int run(const Arguments& arguments)
+int runMerge(const Arguments& arguments)
 {
   std::string folder = arguments.positional()[0];
   while (folder.size() > 1 && folder.back() == '/')
@@ -64,6 +64,6 @@ int run(const Arguments& arguments)
 }
 } // namespace
 
-Command mergeCommand() { return { "DIR", 1, 1, { { "--json", "", "", "print one JSON object" } }, &run }; }
+Command mergeCommand() { return { "DIR", 1, 1, { { "--json", "", "", "print one JSON object" } }, &runMerge }; }
 
 } // namespace dgtk::app

@@ -183,7 +183,7 @@ int render(const Arguments& arguments)
   return 0;
 }
 
-int run(const Arguments& arguments)
+int runRender(const Arguments& arguments)
 {
   try
   {
@@ -198,7 +198,7 @@ int run(const Arguments& arguments)
 
 Command renderCommand()
 {
-  Command command{ "SCENE|FOLDER", 1, 1, {}, &run };
+  Command command{ "SCENE|FOLDER", 1, 1, {}, &runRender };
   command.options = { { "--output", "DIR", "", "folder of the dataset" },
     { "--layers", "NAMES|all", usualLayers(), "what to write; see dgtk list layers", layerWords(), true },
     { "--for", "EXPORTER,...", "", "what these exports need, beside the layers that are given", exporterNames(), true },

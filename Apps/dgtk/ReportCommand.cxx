@@ -22,7 +22,7 @@ std::size_t countOf(const Arguments& arguments, const std::string& name)
   return arguments.text(name) == "all" ? 0 : std::size_t(arguments.integer(name, 1, mostPictures));
 }
 
-int run(const Arguments& arguments)
+int runReport(const Arguments& arguments)
 {
   ReportRequest request;
   request.dataset = arguments.positional()[0];
@@ -67,7 +67,7 @@ Command reportCommand()
       { "--samples", "FILE", "", "samples.json of the scenes: what was refused (default: DATASET/samples.json)" },
       { "--threads", "N", "all processors", "threads to work with" },
       { "--quiet", "", "", "no progress and no messages" } },
-    &run };
+    &runReport };
 }
 
 } // namespace dgtk::app

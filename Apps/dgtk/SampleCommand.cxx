@@ -59,7 +59,7 @@ SampleRequest parseRequest(const Arguments& arguments)
   return request;
 }
 
-int run(const Arguments& arguments)
+int runSample(const Arguments& arguments)
 {
   const SampleRequest request = parseRequest(arguments);
   Progress progress(arguments.has("--quiet"));
@@ -98,7 +98,7 @@ Command sampleCommand()
       { "--threads", "N", "", "threads that work (default: those of the machine)" },
       { "--replace", "", "", "remove the samples of another run, or of an interrupted one, that the folder holds" },
       { "--quiet", "", "", "no progress and no messages" }, noCacheOption },
-    &run };
+    &runSample };
 }
 
 } // namespace dgtk::app

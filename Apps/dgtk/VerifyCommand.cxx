@@ -17,7 +17,7 @@ namespace dgtk::app
 
 namespace
 {
-constexpr int mostThreads = 1024;
+constexpr int mostVerifyThreads = 1024;
 
 /// Every dataset of a folder of datasets: a line each, and the table of those with a breach.
 int verifyScenes(const std::string& folder, const std::vector<std::string>& scenes, int threads,
@@ -50,14 +50,15 @@ int verifyScenes(const std::string& folder, const std::vector<std::string>& scen
   return static_cast<int>(bad == 0 ? ExitCode::Done : ExitCode::Difference);
 }
 
-int run(const Arguments& arguments)
+int runVerify(const Arguments& arguments)
 {
   std::string folder = arguments.positional()[0];
   while (folder.size() > 1 && folder.back() == '/')
   {
     folder.pop_back();
   }
-  const int threads = arguments.has("--threads") ? arguments.integer("--threads", 1, mostThreads) : machineThreads();
+  const int threads =
+    arguments.has("--threads") ? arguments.integer("--threads", 1, mostVerifyThreads) : machineThreads();
   const bool samples = verification().isSampleFolder(folder);
   if (samples && (arguments.has("--check") || arguments.has("--export")))
   {
@@ -103,7 +104,7 @@ Command verifyCommand()
       { "--check", "NAME,...", "all", "only these checks, by the names of the table", verification().checks(), true },
       { "--json", "", "", "print one JSON object" }, { "--write", "", "", "also write DIR/verification.json" },
       { "--threads", "N", "all processors", "threads to work with" } },
-    &run };
+    &runVerify };
 }
 
 } // namespace dgtk::app

@@ -209,7 +209,7 @@ void save(const std::string& path, const WarpedImage& image, const std::vector<s
   writer->finish();
 }
 
-int run(const Arguments& arguments)
+int runWarp(const Arguments& arguments)
 {
   const std::string output = arguments.text("--output");
   if (output.empty() || !arguments.has("--to"))
@@ -249,7 +249,7 @@ Command warpCommand()
       { "--to", "CAMERA", "", "a camera of the dataset, NAME[@FRAME], or a .json file with K, R, t, width, height" },
       { "--layers", "N", "0", "use the first N surfaces of each pixel (1: a depth map); 0: all" },
       { "--mask", "FILE.png", "", "also write where no sample fell (255)" } },
-    &run };
+    &runWarp };
 }
 
 } // namespace dgtk::app

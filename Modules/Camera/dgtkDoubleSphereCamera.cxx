@@ -52,7 +52,7 @@ private:
   UnifiedPlane Second;
 };
 
-std::shared_ptr<const CameraModel> make(const CameraParameters& of)
+std::shared_ptr<const CameraModel> makeDoubleSphere(const CameraParameters& of)
 {
   const auto radius = [&of](double angle)
   {
@@ -70,6 +70,6 @@ const CameraEntry cameraDoubleSphere = { { fieldOfViewParameter(), aspectParamet
                                            { "xi", "", "distance of the spheres' centres",
                                              { -1, 1, true, true, "a number between -1 and 1" }, { 0 }, { 1 }, true },
                                            alphaParameter() },
-  &make };
+  &makeDoubleSphere };
 
 } // namespace dgtk

@@ -46,10 +46,13 @@ public:
   }
 };
 
-std::shared_ptr<const CameraModel> make(const CameraParameters& of) { return std::make_shared<Equirectangular>(of); }
+std::shared_ptr<const CameraModel> makeEquirectangularModel(const CameraParameters& of)
+{
+  return std::make_shared<Equirectangular>(of);
+}
 } // namespace
 
 extern const CameraEntry cameraEquirectangular;
-const CameraEntry cameraEquirectangular = { {}, &make };
+const CameraEntry cameraEquirectangular = { {}, &makeEquirectangularModel };
 
 } // namespace dgtk

@@ -45,7 +45,7 @@ private:
   UnifiedPlane Quadric;
 };
 
-std::shared_ptr<const CameraModel> make(const CameraParameters& of)
+std::shared_ptr<const CameraModel> makeEucm(const CameraParameters& of)
 {
   const auto radius = [&of](double angle)
   {
@@ -62,6 +62,6 @@ extern const CameraEntry cameraEucm;
 const CameraEntry cameraEucm = { { fieldOfViewParameter(), aspectParameter(), matrixParameter(), alphaParameter(),
                                    { "beta", "", "shape of the quadric, 1: a sphere",
                                      { 0, 1e3, true, false, "a number above 0, up to 1000" }, { 1 }, { 1 }, true } },
-  &make };
+  &makeEucm };
 
 } // namespace dgtk

@@ -90,7 +90,7 @@ private:
   RadialRays Rays;
 };
 
-std::shared_ptr<const CameraModel> make(const CameraParameters& of)
+std::shared_ptr<const CameraModel> makeFisheye(const CameraParameters& of)
 {
   return std::make_shared<Fisheye>(of, lensMatrix(of, [](double angle) { return angle; }));
 }
@@ -99,6 +99,6 @@ std::shared_ptr<const CameraModel> make(const CameraParameters& of)
 extern const CameraEntry cameraFisheye;
 const CameraEntry cameraFisheye = { { fieldOfViewParameter(), aspectParameter(), matrixParameter(),
                                       distortionParameter("OpenCV's fisheye: k1, k2, k3, k4", { 4 }) },
-  &make };
+  &makeFisheye };
 
 } // namespace dgtk

@@ -66,7 +66,7 @@ private:
   Distortion Lens;
 };
 
-std::shared_ptr<const CameraModel> make(const CameraParameters& of)
+std::shared_ptr<const CameraModel> makeOmnidirectional(const CameraParameters& of)
 {
   const auto radius = [xi = of.number("xi")](double angle)
   {
@@ -83,6 +83,6 @@ const CameraEntry cameraOmnidirectional = { { fieldOfViewParameter(), aspectPara
                                                 { 0, 1e3, false, false, "a number from 0 to 1000" }, { 1 }, { 1 },
                                                 true },
                                               distortionParameter("OpenCV's k1, k2, p1, p2", { 4 }) },
-  &make };
+  &makeOmnidirectional };
 
 } // namespace dgtk

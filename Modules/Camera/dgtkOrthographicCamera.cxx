@@ -37,7 +37,7 @@ public:
 };
 
 /// In a dataset K says it all, in pixels a scene unit.
-std::shared_ptr<const CameraModel> make(const CameraParameters& of)
+std::shared_ptr<const CameraModel> makeOrthographicModel(const CameraParameters& of)
 {
   if (of.K)
   {
@@ -58,6 +58,6 @@ std::shared_ptr<const CameraModel> makeOrthographic(int width, int height, doubl
 }
 
 extern const CameraEntry cameraOrthographic;
-const CameraEntry cameraOrthographic = { { viewHeightParameter(), aspectParameter() }, &make };
+const CameraEntry cameraOrthographic = { { viewHeightParameter(), aspectParameter() }, &makeOrthographicModel };
 
 } // namespace dgtk

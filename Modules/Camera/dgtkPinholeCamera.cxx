@@ -73,7 +73,7 @@ private:
   Distortion Lens;
 };
 
-std::shared_ptr<const CameraModel> make(const CameraParameters& of)
+std::shared_ptr<const CameraModel> makePinholeModel(const CameraParameters& of)
 {
   if (!Distortion::isNone(of.numbers.at("distortion")))
   {
@@ -105,6 +105,6 @@ const CameraEntry cameraPinhole = { { fieldOfViewParameter(), aspectParameter(),
                                       distortionParameter("OpenCV's k1, k2, p1, p2, k3, k4, k5, k6, s1, s2, s3, s4, "
                                                           "tx, ty; the image without it where it is zero",
                                         { 4, 5, 8, 12, 14 }) },
-  &make };
+  &makePinholeModel };
 
 } // namespace dgtk

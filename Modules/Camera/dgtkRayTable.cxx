@@ -13,13 +13,13 @@ namespace dgtk
 
 namespace
 {
-constexpr int blockSide = 4;          // cells
-constexpr double widestCone = 1.4;    // radians; cones near a half space bound nothing
-constexpr double coneSlack = 1e-9;    // radians
-constexpr double placeSlack = 1e-9;   // cells: neighbours leave no gap
-constexpr double settled = 1e-14;     // cells
-constexpr double farthestPlace = 8.0; // cells: from there Newton's method does not come back
-constexpr int mostSteps = 20;
+constexpr int blockSide = 4;           // cells
+constexpr double widestCone = 1.4;     // radians; cones near a half space bound nothing
+constexpr double coneSlack = 1e-9;     // radians
+constexpr double placeSlack = 1e-9;    // cells: neighbours leave no gap
+constexpr double settledTable = 1e-14; // cells
+constexpr double farthestPlace = 8.0;  // cells: from there Newton's method does not come back
+constexpr int mostTableSteps = 20;
 
 double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 {
@@ -153,7 +153,7 @@ bool RayTable::Cell::find(const Eigen::Vector3d& x, Eigen::Vector2d& place) cons
   const Eigen::Vector3d e1 = axis.unitOrthogonal();
   const Eigen::Vector3d e2 = axis.cross(e1);
   Eigen::Vector2d found(0.5, 0.5);
-  for (int steps = 0; steps < mostSteps; ++steps)
+  for (int steps = 0; steps < mostTableSteps; ++steps)
   {
     const double a = found.x();
     const double b = found.y();
@@ -180,7 +180,7 @@ bool RayTable::Cell::find(const Eigen::Vector3d& x, Eigen::Vector2d& place) cons
     {
       return false;
     }
-    if (step.cwiseAbs().maxCoeff() <= settled)
+    if (step.cwiseAbs().maxCoeff() <= settledTable)
     {
       place = found.cwiseMax(this->least).cwiseMin(this->most);
       return (place - found).cwiseAbs().maxCoeff() <= placeSlack && way.dot(ray.direction) > 0;

@@ -44,7 +44,10 @@ private:
   Eigen::Vector2d Scale; ///< pixels of the table a pixel
 };
 
-std::shared_ptr<const CameraModel> make(const CameraParameters& of) { return std::make_shared<RayTableCamera>(of); }
+std::shared_ptr<const CameraModel> makeRayTable(const CameraParameters& of)
+{
+  return std::make_shared<RayTableCamera>(of);
+}
 
 CameraParameter raysParameter()
 {
@@ -57,6 +60,6 @@ CameraParameter raysParameter()
 } // namespace
 
 extern const CameraEntry cameraRayTable;
-const CameraEntry cameraRayTable = { { raysParameter() }, &make };
+const CameraEntry cameraRayTable = { { raysParameter() }, &makeRayTable };
 
 } // namespace dgtk

@@ -11,7 +11,7 @@ namespace dgtk
 
 namespace
 {
-const QColor accent(58, 122, 200);
+const QColor viewerAccent(58, 122, 200);
 const QColor pale(150, 185, 225);
 
 void magnifier(QPainter& p, bool more)
@@ -38,7 +38,7 @@ void panes(QPainter& p, int columns, int rows)
 
 void triangle(QPainter& p, double tip, double base)
 {
-  p.setBrush(accent);
+  p.setBrush(viewerAccent);
   p.drawPolygon(QPolygonF(QVector<QPointF>{ { base, 5 }, { tip, 12 }, { base, 19 } }));
 }
 
@@ -53,7 +53,7 @@ void sheets(QPainter& p)
 {
   for (int i = 2; i >= 0; --i)
   {
-    p.setBrush(i == 0 ? accent : pale);
+    p.setBrush(i == 0 ? viewerAccent : pale);
     const double y = 4 + 5.0 * i;
     p.drawPolygon(QPolygonF(QVector<QPointF>{ { 12, y - 1 }, { 21, y + 3 }, { 12, y + 7 }, { 3, y + 3 } }));
   }
@@ -69,7 +69,7 @@ void smallCamera(QPainter& p, double x, double y)
 void cloud(QPainter& p)
 {
   p.drawPolyline(QPolygonF(QVector<QPointF>{ { 10, 5 }, { 3, 12 }, { 10, 19 }, { 10, 5 } }));
-  p.setPen(QPen(accent, 2.6, Qt::SolidLine, Qt::RoundCap));
+  p.setPen(QPen(viewerAccent, 2.6, Qt::SolidLine, Qt::RoundCap));
   for (const QPointF& at : { QPointF(14, 8), QPointF(14.5, 13), QPointF(15, 18), QPointF(18, 6), QPointF(18.5, 11),
          QPointF(19.5, 16), QPointF(21.5, 9) })
   {
@@ -83,7 +83,7 @@ void oneToOne(QPainter& p)
   p.drawLine(QPointF(6, 6), QPointF(3.5, 8.5));
   p.drawLine(QPointF(18, 6), QPointF(18, 18));
   p.drawLine(QPointF(18, 6), QPointF(15.5, 8.5));
-  p.setPen(QPen(accent, 3, Qt::SolidLine, Qt::RoundCap));
+  p.setPen(QPen(viewerAccent, 3, Qt::SolidLine, Qt::RoundCap));
   p.drawPoint(QPointF(12, 10));
   p.drawPoint(QPointF(12, 16));
 }

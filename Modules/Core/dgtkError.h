@@ -69,6 +69,8 @@ private:
 
 /// Quotes and shortens text found in a file for use in a message: escaped as in Error, at most 40 bytes.
 DGTKCORE_EXPORT std::string quoted(const std::string& text);
+/// For texts that may change, which the standard library's template of this name would take.
+inline std::string quoted(std::string& text) { return quoted(static_cast<const std::string&>(text)); }
 
 } // namespace dgtk
 

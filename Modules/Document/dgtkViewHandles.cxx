@@ -23,8 +23,8 @@ constexpr double tipWidth = 5;      // half of it
 constexpr double shortest = 0.2;    // share of its length at which an axis can still be pulled
 constexpr double squareFrom = 0.28; // of the length
 constexpr double squareTo = 0.48;
-constexpr double flattest = 0.2; // cosine at which a plane is still seen openly
-constexpr double facing = 0.99;  // cosine from which a ring is seen whole
+constexpr double flattestPlane = 0.2; // cosine at which a plane is still seen openly
+constexpr double facing = 0.99;       // cosine from which a ring is seen whole
 constexpr double outerRing = 1.22;
 constexpr int ringSteps = 48; // of half a ring
 
@@ -121,7 +121,7 @@ void ViewHandles::addPatch(const Handle& handle, const Eigen::Vector2d& center, 
 
 void ViewHandles::addSquare(int normal)
 {
-  if (std::abs(this->ToEye[normal]) < flattest)
+  if (std::abs(this->ToEye[normal]) < flattestPlane)
   {
     return;
   }

@@ -23,7 +23,7 @@ constexpr double largestZoom = 200;
 constexpr double gridZoom = 14; // pixels are seen as squares
 constexpr double markSize = 9;
 constexpr double fine = 0.1; // of a pixel
-const QColor backdrop(28, 28, 31);
+const QColor paneBackdrop(28, 28, 31);
 } // namespace
 
 MatchPane::MatchPane(QWidget* parent)
@@ -202,7 +202,7 @@ void MatchPane::paintWords(QPainter& painter) const
 void MatchPane::paintEvent(QPaintEvent* /*event*/)
 {
   QPainter painter(this);
-  painter.fillRect(this->rect(), backdrop);
+  painter.fillRect(this->rect(), paneBackdrop);
   this->paintImage(painter);
   if (this->Zoom >= gridZoom)
   {

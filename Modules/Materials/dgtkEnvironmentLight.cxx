@@ -26,11 +26,16 @@ Eigen::Vector3f texelAt(const float* rgb, int width, int height, int x, int y)
   return Eigen::Vector3f(rgb + (std::size_t(y) * width + x) * 3);
 }
 
-/// `d` has unit length.
-Eigen::Vector3f bilinear(const float* rgb, int width, int height, const Eigen::Vector3d& d)
+/// Where a direction of unit length stands in an equirectangular picture, in parts of its width and height.
+Eigen::Vector2d placeOf(const Eigen::Vector3d& d)
 {
-  const double x = (0.5 + std::atan2(d.x(), -d.z()) / (2 * pi)) * width - 0.5;
-  const double y = std::acos(std::clamp(d.y(), -1.0, 1.0)) / pi * height - 0.5;
+  return { 0.5 + std::atan2(d.x(), -d.z()) / (2 * pi), std::acos(std::clamp(d.y(), -1.0, 1.0)) / pi };
+}
+
+Eigen::Vector3f bilinear(const float* rgb, int width, int height, const Eigen::Vector2d& place)
+{
+  const double x = place.x() * width - 0.5;
+  const double y = place.y() * height - 0.5;
   const int column = int(std::floor(x));
   const int row = int(std::floor(y));
   const auto right = float(x - column);
@@ -40,9 +45,9 @@ Eigen::Vector3f bilinear(const float* rgb, int width, int height, const Eigen::V
          (texel(0, 1) * (1 - right) + texel(1, 1) * right) * down;
 }
 
-Eigen::Vector3f bilinear(const RadianceImage& image, const Eigen::Vector3d& d)
+Eigen::Vector3f bilinear(const RadianceImage& image, const Eigen::Vector2d& place)
 {
-  return bilinear(image.rgb.data(), image.width, image.height, d);
+  return bilinear(image.rgb.data(), image.width, image.height, place);
 }
 
 Eigen::Vector3d encoded(const Eigen::Vector3d& linear) { return linear.unaryExpr(&portable::srgbFromLinear); }
@@ -61,17 +66,22 @@ public:
   }
   const RadianceImage& level(std::size_t i) const { return this->Levels[i]; }
 
-  /// Radiance along a direction, as seen with an aperture of `solidAngle`.
-  Eigen::Vector3f at(const Eigen::Vector3d& d, double solidAngle) const
+  /// The level, and a part of the next, whose texels have a solid angle.
+  double levelOf(double solidAngle) const
   {
     const RadianceImage& finest = this->Levels[0];
     const double texel = 4 * pi / (double(finest.width) * finest.height);
-    const double lod =
-      std::clamp(0.5 * std::log2(std::max(solidAngle / texel, 1.0)), 0.0, double(this->Levels.size() - 1));
-    const auto low = std::min(std::size_t(lod), this->Levels.size() - 1);
+    return std::clamp(0.5 * std::log2(std::max(solidAngle / texel, 1.0)), 0.0, double(this->Levels.size() - 1));
+  }
+
+  /// Radiance along a direction of unit length.
+  Eigen::Vector3f at(const Eigen::Vector3d& d, double level) const
+  {
+    const auto low = std::min(std::size_t(level), this->Levels.size() - 1);
     const std::size_t high = std::min(low + 1, this->Levels.size() - 1);
-    const auto part = float(lod - double(low));
-    return bilinear(this->Levels[low], d) * (1 - part) + bilinear(this->Levels[high], d) * part;
+    const auto part = float(level - double(low));
+    const Eigen::Vector2d place = placeOf(d);
+    return bilinear(this->Levels[low], place) * (1 - part) + bilinear(this->Levels[high], place) * part;
   }
 
 private:
@@ -221,9 +231,11 @@ std::vector<float> filtered(const Pyramid& pyramid, int width, double roughness)
 {
   const std::vector<LobeSample> samples = lobe(roughness * roughness);
   double total = 0;
+  std::vector<double> levels;
   for (const LobeSample& sample : samples)
   {
     total += sample.weight;
+    levels.push_back(pyramid.levelOf(sample.solidAngle));
   }
   std::vector<float> result;
   const int height = width / 2;
@@ -237,10 +249,11 @@ std::vector<float> filtered(const Pyramid& pyramid, int width, double roughness)
         (std::abs(n.y()) < 0.9 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX()).cross(n).normalized();
       const Eigen::Vector3d other = n.cross(side);
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (const LobeSample& s : samples)
+      for (std::size_t i = 0; i < samples.size(); ++i)
       {
+        const LobeSample& s = samples[i];
         const Eigen::Vector3d d = side * s.direction.x() + other * s.direction.y() + n * s.direction.z();
-        sum += pyramid.at(d, s.solidAngle).cast<double>() * s.weight;
+        sum += pyramid.at(d, levels[i]).cast<double>() * s.weight;
       }
       const Eigen::Vector3f mean = (sum / total).cast<float>();
       result.insert(result.end(), mean.data(), mean.data() + 3);
@@ -266,14 +279,15 @@ Eigen::Vector3d EnvironmentLight::reflectedFrom(const Eigen::Vector3d& direction
 {
   const double level = std::clamp(roughness, 0.0, 1.0) * (levels - 1);
   const int low = std::min(int(level), levels - 2);
+  const Eigen::Vector2d place = placeOf(direction);
   const auto at = [&](int i) -> Eigen::Vector3d
-  { return bilinear(this->radiance[std::size_t(i)].data(), width >> i, width / 2 >> i, direction).cast<double>(); };
+  { return bilinear(this->radiance[std::size_t(i)].data(), width >> i, width / 2 >> i, place).cast<double>(); };
   return at(low) * (low + 1 - level) + at(low + 1) * (level - low);
 }
 
 Eigen::Vector3d radianceFrom(const RadianceImage& image, const Eigen::Vector3d& direction)
 {
-  return bilinear(image, direction.normalized()).cast<double>();
+  return bilinear(image, placeOf(direction.normalized())).cast<double>();
 }
 
 EnvironmentLight environmentLight(const RadianceImage& image, double intensity)

@@ -3,7 +3,7 @@
 
 #include "dgtkEditorLanguage.h"
 #include "dgtkError.h"
-#include "dgtkNumberRow.h"
+#include "dgtkVectorRows.h"
 
 #include <QComboBox>
 #include <QDialogButtonBox>
@@ -26,9 +26,6 @@ namespace
 constexpr int mostCameras = 10000;
 constexpr int mostInARow = 100;
 constexpr int pathHeight = 96; // pixels
-
-std::vector<double> listOf(const Eigen::Vector3d& v) { return { v.x(), v.y(), v.z() }; }
-Eigen::Vector3d vectorOf(const NumberRow* row) { return { row->values()[0], row->values()[1], row->values()[2] }; }
 
 NumberRow* addNumbers(QFormLayout* form, const QString& label, const QString& name, const std::vector<double>& values)
 {

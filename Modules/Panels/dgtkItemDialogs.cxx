@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkItemDialogs.h"
 
-#include "dgtkNumberRow.h"
 #include "dgtkPortableMath.h"
+#include "dgtkVectorRows.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -31,9 +31,6 @@ NumberRow* addRow(QFormLayout* form, const QString& label, const QString& name, 
   form->addRow(label, row);
   return row;
 }
-
-std::vector<double> listOf(const Eigen::Vector3d& v) { return { v.x(), v.y(), v.z() }; }
-Eigen::Vector3d vectorOf(const NumberRow* row) { return { row->values()[0], row->values()[1], row->values()[2] }; }
 
 QDialogButtonBox* addButtons(QDialog* dialog, QFormLayout* form)
 {

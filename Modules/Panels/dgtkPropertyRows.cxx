@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPropertiesPanel.h"
 
-#include "dgtkNumberRow.h"
+#include "dgtkVectorRows.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -16,9 +16,6 @@ namespace dgtk
 namespace
 {
 constexpr double roundingOfLength = 1e-12; // of four numbers that were rounded to double precision
-
-std::vector<double> listOf(const Eigen::Vector3d& v) { return { v.x(), v.y(), v.z() }; }
-Eigen::Vector3d vectorOf(const std::vector<double>& v) { return { v[0], v[1], v[2] }; }
 
 /// The rotation of four numbers of any length. Those whose length is 1 stay as they are; of length 0 they are refused.
 Quaternion unitOf(const std::vector<double>& v)

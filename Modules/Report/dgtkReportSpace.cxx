@@ -21,7 +21,7 @@ constexpr std::size_t mostFrames = 48;
 constexpr std::size_t mostObjects = 300;
 constexpr std::size_t mostCameras = 100;
 constexpr std::uint64_t largestScene = std::uint64_t(1) << 28;
-constexpr const char* boxesDocument = "boxes";
+constexpr const char* boxesLayer = "boxes";
 
 /// Whether z is up, as scene.json says; y where it does not.
 bool isUpZ(const DatasetView& view)
@@ -110,7 +110,7 @@ std::map<std::uint32_t, Eigen::Matrix<double, 8, 3>> cornersOf(const DatasetView
   {
     for (const DatasetShot* shot : view.shotsAt(frame))
     {
-      if (view.file(*shot, boxesDocument, { "json" }).empty())
+      if (view.file(*shot, boxesLayer, { "json" }).empty())
       {
         continue;
       }

@@ -12,7 +12,7 @@ namespace dgtk::scenefile
 
 namespace
 {
-constexpr std::uint64_t largestFile = std::uint64_t(64) << 20;
+constexpr std::uint64_t largestClasses = std::uint64_t(64) << 20;
 
 void readKeypointNames(const JsonCursor& at, ClassDescription& one)
 {
@@ -193,7 +193,7 @@ namespace dgtk
 
 std::vector<ClassDescription> readClassFile(const std::string& path)
 {
-  const JsonDocument document = parseJson(path, readFile(path, scenefile::largestFile));
+  const JsonDocument document = parseJson(path, readFile(path, largestClasses));
   return scenefile::readTable(JsonCursor(document));
 }
 

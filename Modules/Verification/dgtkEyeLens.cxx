@@ -3,6 +3,7 @@
 
 #include "dgtkCameraEntry.h"
 #include "dgtkError.h"
+#include "dgtkPortableMath.h"
 
 #include <opencv2/calib3d.hpp>
 
@@ -16,8 +17,6 @@ namespace
 {
 using Points = std::vector<Eigen::Vector3d>;
 using Pixels = std::vector<Eigen::Vector2d>;
-
-constexpr double pi = 3.14159265358979323846;
 
 double number(const CameraRecord& record, const char* name) { return record.numbers.at(name).at(0); }
 

@@ -8,7 +8,7 @@ namespace dgtk
 
 namespace
 {
-constexpr int chunkRows = 16;
+constexpr int meterChunk = 16;
 }
 
 std::string numberText(double value)
@@ -109,12 +109,12 @@ VerificationReport Results::report() const
 
 Meter meterRows(ThreadPool& pool, int height, double tolerance, const std::function<void(int, Meter&)>& body)
 {
-  const int chunks = (height + chunkRows - 1) / chunkRows;
+  const int chunks = (height + meterChunk - 1) / meterChunk;
   std::vector<Meter> meters(static_cast<std::size_t>(chunks), Meter(tolerance));
   pool.parallelFor(chunks,
     [&](int chunk)
     {
-      for (int y = chunk * chunkRows; y < std::min(height, (chunk + 1) * chunkRows); ++y)
+      for (int y = chunk * meterChunk; y < std::min(height, (chunk + 1) * meterChunk); ++y)
       {
         body(y, meters[chunk]);
       }

@@ -10,11 +10,6 @@ namespace dgtk
 
 namespace
 {
-/// Directions, and parts of the depth, that a ray may pass by a silhouette.
-constexpr double silhouetteReach = 1e-4;
-/// Pixels: as near to the image's border, inside and outside are a matter of rounding.
-constexpr double borderSlack = 1e-6;
-
 /// By the ray through `pixel`, on which the point has the same depth as on its own.
 int classBeside(const Sight& sight, const SeenPoint& point, const Eigen::Vector2d& pixel, double slack)
 {

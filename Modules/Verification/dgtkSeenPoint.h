@@ -32,6 +32,10 @@ struct SeenPoint
 
 /// Part of the depth within which a surface is the point's own: the rounding of its place.
 constexpr double seenSlack = 1e-9;
+/// Directions, and parts of the depth, that a ray may pass by a silhouette.
+constexpr double silhouetteReach = 1e-4;
+/// Pixels: as near to the image's border, inside and outside are a matter of rounding.
+constexpr double borderSlack = 1e-6;
 
 /// The class by the ray through the point itself.
 int classOf(const Sight& sight, const SeenPoint& point);

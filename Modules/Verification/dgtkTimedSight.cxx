@@ -11,7 +11,7 @@ namespace dgtk
 
 namespace
 {
-constexpr int mostSteps = 200;
+constexpr int mostTimeSteps = 200;
 constexpr double settled = 1e-14; ///< of a frame
 
 double part(double at, int size) { return at <= 0 ? 0 : at >= size ? 1 : at / size; }
@@ -79,7 +79,7 @@ Eigen::Vector3d TimedSight::pointAt(double time, const Hit& hit, const Eigen::Ve
 
 TimedSight::Search TimedSight::findTime(const Hit& hit, const Eigen::Vector3d& weights, double& time) const
 {
-  for (int step = 0; this->rolls() && step < mostSteps; ++step)
+  for (int step = 0; this->rolls() && step < mostTimeSteps; ++step)
   {
     const Eye eye = this->eyeAt(time);
     Eigen::Vector2d pixel;

@@ -20,7 +20,7 @@ struct VerificationCalls
   decltype(&dgtk::verificationChecks) checks;
   decltype(&dgtk::verificationTable) table;
   decltype(&dgtk::verificationText) text;
-  decltype(&dgtk::describe) describe;
+  std::string (*describe)(const Residual&);
 };
 
 inline const VerificationCalls& verification() { return onDemand<VerificationCalls>("dgtkVerification"); }

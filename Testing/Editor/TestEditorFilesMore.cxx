@@ -261,7 +261,7 @@ QDialog* TestEditorFiles::largeRun(const char* folder, int size) const
 void TestEditorFiles::aLargeRunEndsAtOnce()
 {
   QVERIFY(this->Window->openFile(demo()));
-  const QDialog* const dialog = this->largeRun("hours", 20 * largeWidth);
+  const QDialog* const dialog = this->largeRun("hours", 8 * largeWidth);
   auto* start = dialog->findChild<QPushButton*>("start");
   auto* cancel = dialog->findChild<QPushButton*>("cancel");
   const auto* status = dialog->findChild<QLabel*>("status");
@@ -279,7 +279,7 @@ void TestEditorFiles::aLargeRunEndsAtOnce()
 void TestEditorFiles::aRunEndsThatHasJustBegun()
 {
   QVERIFY(this->Window->openFile(demo()));
-  const QDialog* const dialog = this->largeRun("hours", 20 * largeWidth);
+  const QDialog* const dialog = this->largeRun("hours", 8 * largeWidth);
   auto* start = dialog->findChild<QPushButton*>("start");
   const auto before = std::signal(SIGINT, SIG_IGN);
   QTest::mouseClick(start, Qt::LeftButton);
@@ -293,7 +293,7 @@ void TestEditorFiles::aRunEndsThatHasJustBegun()
 void TestEditorFiles::theProgressOfARunMoves()
 {
   QVERIFY(this->Window->openFile(demo()));
-  const QDialog* const dialog = this->largeRun("progress", largeWidth);
+  const QDialog* const dialog = this->largeRun("progress", 4 * largeWidth);
   auto* bar = dialog->findChild<QProgressBar*>("progress");
   auto* start = dialog->findChild<QPushButton*>("start");
   auto* cancel = dialog->findChild<QPushButton*>("cancel");

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Colours of dgtk.truth() beside what vtkRenderWindow draws of the same renderer; windows, viewports, sizes and z-buffers."""
+"""Colours of dgtk.truth() beside what vtkRenderWindow draws of the same renderer; windows, viewports and sizes."""
 import functools
 import os
 import sys
@@ -14,36 +14,8 @@ import dgtk
 import vtk
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
-import judge
 import scenes
-
-SIZE = (300, 225)
-
-
-def window(*renderers, size=SIZE):
-    made = vtk.vtkRenderWindow()
-    made.SetOffScreenRendering(1)
-    made.SetMultiSamples(0)
-    made.SetSize(*size)
-    for renderer in renderers:
-        made.AddRenderer(renderer)
-    return made
-
-
-def grabbed(shown):
-    shown.Render()
-    grab = vtk.vtkWindowToImageFilter()
-    grab.SetInput(shown)
-    grab.ReadFrontBufferOff()
-    return grab
-
-
-def drawn(shown):
-    grab = grabbed(shown)
-    grab.Update()
-    image = grab.GetOutput()
-    width, height, _ = image.GetDimensions()
-    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[::-1, :, :3]
+from window_grabs import SIZE, drawn, window
 
 
 class Colours(unittest.TestCase):
@@ -394,161 +366,6 @@ class Windows(unittest.TestCase):
         ours = dgtk.truth(renderer, ["color", "depth"])
         self.assertLess(numpy.abs(ours["color"].astype(int) - picture).mean(), 0.1)
         self.assertGreaterEqual(ours["depth"].min(), renderer.GetActiveCamera().GetClippingRange()[0])
-
-
-
-class Pipelines(unittest.TestCase):
-    """The sources of VTK pipelines."""
-
-    def test_ground_truth_source(self):
-        renderer = scenes.robot_arm()
-        source = dgtk.dgtkGroundTruthSource()
-        source.SetRenderer(renderer)
-        source.SetLayers("depth,objects,cells,normal,color")
-        source.SetSize(90, 70)
-        flip = vtk.vtkImageFlip()
-        flip.SetInputConnection(source.GetOutputPort())
-        flip.SetFilteredAxis(1)
-        flip.Update()
-        self.assertEqual(flip.GetOutput().GetDimensions(), (90, 70, 1))
-        flipped = vtk_to_numpy(flip.GetOutput().GetPointData().GetScalars()).reshape(70, 90)
-        numpy.testing.assert_array_equal(flipped, dgtk.truth(renderer, "depth", size=(90, 70))["depth"])
-        truth = dgtk.truth(renderer, ["depth", "objects", "cells", "normal", "color"], size=(90, 70))
-        image = source.GetOutput()
-        self.assertEqual(image.GetPointData().GetScalars().GetName(), "depth")
-        source.SetRenderer(renderer)
-        source.SetCamera("of a scene")  # is none of a renderer's
-        source.Update()
-        for name, expected in truth.items():
-            found = vtk_to_numpy(image.GetPointData().GetArray(name))
-            self.assertEqual(found.dtype, expected.dtype)
-            numpy.testing.assert_array_equal(found.reshape(expected.shape)[::-1], expected)
-
-    def test_it_executes_again_when_something_was_modified(self):
-        renderer = scenes.robot_arm()
-        source = dgtk.dgtkGroundTruthSource()
-        source.SetRenderer(renderer)
-        source.SetLayers("depth,color")
-        source.SetSize(60, 40)
-        runs = []
-        source.AddObserver("EndEvent", lambda *_: runs.append(1))
-
-        def executes(change):
-            source.Update()
-            before = len(runs)
-            source.Update()
-            self.assertEqual(len(runs), before, "nothing was modified")
-            change()
-            source.Update()
-            return len(runs) - before
-        actor = next(iter(renderer.GetViewProps()))
-        camera = renderer.GetActiveCamera()
-        light = vtk.vtkLight()
-        renderer.AddLight(light)
-        for change in (lambda: camera.Azimuth(5), lambda: actor.SetPosition(0.1, 0, 0), lambda: actor.GetProperty().SetColor(1, 0, 0),
-                       lambda: actor.GetMapper().GetInputAlgorithm().SetNormal(0, 1, 0.2), lambda: light.SetIntensity(0.4),
-                       lambda: renderer.SetBackground(0, 0, 1), lambda: actor.VisibilityOff(), lambda: source.SetLayers("depth")):
-            self.assertEqual(executes(change), 1)
-
-    def test_of_a_scene(self):
-        scene = dgtk.load(os.path.join(os.environ["DGTK_SOURCE"], "Data", "Scenes", "demo.json"))
-        source = dgtk.dgtkGroundTruthSource()
-        source.SetScene(scene)
-        source.SetCamera("right")
-        source.SetFrame(1)
-        source.SetSize(80, 60)
-        source.SetLayers("flow_forward")
-        source.Update()
-        expected = dgtk.render(scene, "flow_forward", camera="right", frame=1, size=(80, 60))
-        for name, array in expected.items():
-            found = vtk_to_numpy(source.GetOutput().GetPointData().GetArray(name))
-            numpy.testing.assert_array_equal(found.reshape(array.shape)[::-1], array)
-
-    def test_failures_are_errors_of_the_pipeline(self):
-        for source, words in ((dgtk.dgtkGroundTruthSource(), "neither a renderer nor a scene"), (dgtk.dgtkDepthFromZBuffer(), "")):
-            told = []
-            source.AddObserver("ErrorEvent", lambda *_: told.append(1))
-            executive = source.GetExecutive()
-            executive.AddObserver("ErrorEvent", lambda *_: told.append(1))
-            if not words:
-                source.SetInputDataObject(vtk.vtkImageData())
-            source.Update()
-            self.assertTrue(told)
-
-    def test_point_cloud(self):
-        renderer = scenes.cut_open()
-        source = dgtk.dgtkPointCloudSource()
-        source.SetRenderer(renderer)
-        source.SetSize(80, 60)
-        source.Update()
-        cloud = source.GetOutput()
-        truth = dgtk.truth(renderer, ["position", "objects", "cells", "color", "normal"], size=(80, 60))
-        seen = truth["objects"] > 0
-        self.assertEqual(cloud.GetNumberOfPoints(), seen.sum())
-        self.assertEqual(cloud.GetNumberOfVerts(), seen.sum())
-        arrays = {name: vtk_to_numpy(cloud.GetPointData().GetArray(name)) for name in ("objects", "cells", "Colors", "Normals", "pixels")}
-        numpy.testing.assert_array_equal(vtk_to_numpy(cloud.GetPoints().GetData()), truth["position"][seen])
-        for name, layer in (("objects", "objects"), ("cells", "cells"), ("Colors", "color")):
-            numpy.testing.assert_array_equal(arrays[name], truth[layer][seen])
-        numpy.testing.assert_allclose(arrays["Normals"], truth["normal"][seen] @ truth.R, atol=1e-6)
-        in_camera = truth["position"][seen] @ truth.R.T + truth.t
-        pixels = in_camera @ truth.K.T
-        numpy.testing.assert_allclose(arrays["pixels"], pixels[:, :2] / pixels[:, 2:], atol=1e-9)
-
-
-class ZBuffers(unittest.TestCase):
-    SIZE = (48, 36)
-
-    def test_the_exact_depth_lies_within_the_half_width(self):
-        for name, make in scenes.ALL.items():
-            if name != "star":
-                with self.subTest(scene=name):
-                    self.look(make())
-
-    def look(self, renderer):
-        shown = window(renderer, size=self.SIZE)
-        right = judge.Judge(renderer, *self.SIZE)
-        renderer.ResetCameraClippingRange()
-        grab = grabbed(shown)
-        grab.SetInputBufferTypeToZBuffer()
-        depth = dgtk.dgtkDepthFromZBuffer()
-        depth.SetInputConnection(grab.GetOutputPort())
-        depth.SetCamera(renderer.GetActiveCamera())
-        depth.Update()
-        arrays = depth.GetOutput().GetPointData()
-        found, half = (vtk_to_numpy(arrays.GetArray(name)).reshape(self.SIZE[::-1])[::-1] for name in ("depth", "half_width"))
-        exact = dgtk.truth(renderer, "depth")["depth"]
-        sure = ~right.near_edge.reshape(exact.shape)
-        numpy.testing.assert_array_equal(numpy.isinf(found[sure]), numpy.isinf(exact[sure]))
-        seen = sure & numpy.isfinite(exact)
-        self.assertGreater(seen.sum(), 100)
-        away = numpy.abs(found[seen] - exact[seen])
-        self.assertLessEqual((away / half[seen]).max(), 1)
-        self.assertLess(numpy.median(half[seen] / exact[seen]), 1e-2)
-        self.assertGreater((away / half[seen]).max(), 1e-3, "the half-width is not far too large")
-
-    def test_closed_forms(self):
-        image = vtk.vtkImageData()
-        image.SetDimensions(3, 1, 1)
-        image.AllocateScalars(vtk.VTK_DOUBLE, 1)
-        for x, z in enumerate((0.0, 0.5, 1.0)):
-            image.SetScalarComponentFromDouble(x, 0, 0, 0, z)
-        camera = vtk.vtkCamera()
-        camera.SetClippingRange(2, 10)
-        for parallel, expected, slope in ((False, (2, 1 / (0.5 / 2 + 0.5 / 10), numpy.inf), (2 * 2 * 8 / 20.0, (10 / 3) ** 2 * 8 / 20, numpy.inf)),
-                                          (True, (2, 6, numpy.inf), (8, 8, numpy.inf))):
-            camera.SetParallelProjection(parallel)
-            source = dgtk.dgtkDepthFromZBuffer()
-            source.SetInputData(image)
-            source.SetCamera(camera)
-            source.SetSubpixelBits(16)
-            source.SetRoundingSteps(0)
-            source.SetDepthBits(8)
-            source.Update()
-            arrays = source.GetOutput().GetPointData()
-            depth, half = (vtk_to_numpy(arrays.GetArray(name)) for name in ("depth", "half_width"))
-            numpy.testing.assert_allclose(depth, expected, rtol=1e-12)
-            numpy.testing.assert_allclose(half, numpy.array(slope) * 2 ** -9, rtol=5e-3)
 
 
 if __name__ == "__main__":

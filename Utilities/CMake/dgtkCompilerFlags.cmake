@@ -1,5 +1,9 @@
 # Warnings are errors in our own code. Floating-point contraction is off: every machine computes the same bits.
 add_compile_options(-Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
+# Sources of a unity build are files that are included, and see the names of one another.
+if(CMAKE_UNITY_BUILD)
+  add_compile_options(-Wno-subobject-linkage -Wno-shadow)
+endif()
 # Only what is used is loaded: some modules are on demand (dgtkOnDemand.h).
 add_link_options(-Wl,--as-needed)
 option(DGTK_WERROR "Treat warnings as errors" ON)

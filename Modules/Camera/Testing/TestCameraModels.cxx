@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCameraEntry.h"
 #include "dgtkError.h"
+#include "dgtkPortableMath.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
+using dgtk::pi;
 constexpr double roundTrip = 1e-12; // of the image's size: a dozen roundings
 constexpr double glPixels = 1e-9;   // pixels: agreement of two different chains of matrices
 

@@ -2,6 +2,7 @@
 // Where the pictures of lenses end, and closed forms of their rays.
 #include "dgtkCameraEntry.h"
 #include "dgtkError.h"
+#include "dgtkPortableMath.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +14,6 @@ using testing::HasSubstr;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 using Numbers = std::map<std::string, std::vector<double>>;
 
 /// 200 x 100 pixels, one unit of the plane is 50 pixels, the middle is (100, 50).

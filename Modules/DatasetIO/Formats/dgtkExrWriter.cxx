@@ -16,7 +16,7 @@ namespace
 constexpr int compressionLevel = 1; // libdeflate
 constexpr int chunkRows = 16;       // of ZIP compression
 
-std::vector<std::string> channelNames(const LayerSpec& spec)
+std::vector<std::string> exrChannelNames(const LayerSpec& spec)
 {
   switch (spec.channels)
   {
@@ -66,7 +66,7 @@ public:
       throw MachineError(path.path() + ": out of memory");
     }
     this->hashAtEnd();
-    const std::vector<std::string> names = context.channels.empty() ? channelNames(spec) : context.channels;
+    const std::vector<std::string> names = context.channels.empty() ? exrChannelNames(spec) : context.channels;
     if (names.size() != this->Order.size())
     {
       throw UsageError(path.path() + ": " + std::to_string(names.size()) + " channel names for " +

@@ -15,7 +15,7 @@ namespace
 constexpr std::uint64_t headerBytes = 8;
 constexpr std::uint64_t countBytes = 4;
 constexpr std::uint64_t recordBytes = 16;
-constexpr std::size_t blockBytes = 1 << 20;
+constexpr std::size_t ldiBlockBytes = 1 << 20;
 } // namespace
 
 struct LdiReader::Impl
@@ -46,7 +46,7 @@ struct LdiReader::Impl
     {
       this->BlockStart = this->At;
       this->Block.resize(std::size_t(std::min<std::uint64_t>(
-        std::max<std::uint64_t>(blockBytes, bytes), this->File.size() - std::min(this->At, this->File.size()))));
+        std::max<std::uint64_t>(ldiBlockBytes, bytes), this->File.size() - std::min(this->At, this->File.size()))));
       if (this->Block.size() < bytes)
       {
         this->File.fail(this->At, "is cut off", std::to_string(bytes) + " bytes", std::to_string(this->Block.size()));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPortableMath.h"
 #include "dgtkViewHandles.h"
 
 #include <Eigen/Geometry>
@@ -10,7 +11,6 @@ namespace
 {
 using namespace dgtk;
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double width = 640;
 constexpr double height = 480;
 constexpr double tolerance = 1e-9; // world units, of a scene of a few units

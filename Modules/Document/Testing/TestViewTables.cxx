@@ -5,6 +5,7 @@
 #include "dgtkViewLines.h"
 
 #include "dgtkCameraModel.h"
+#include "dgtkPortableMath.h"
 #include "dgtkSyntheticScene.h"
 
 #include <Eigen/Geometry>
@@ -18,7 +19,6 @@ namespace
 {
 using namespace dgtk;
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double width = 640;
 constexpr double height = 480;
 constexpr double tolerance = 1e-9; // pixels, world units

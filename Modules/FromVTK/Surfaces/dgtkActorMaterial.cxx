@@ -28,7 +28,7 @@ namespace
 Eigen::Vector3d vectorOf(const double* from) { return { from[0], from[1], from[2] }; }
 
 /// Light that a surface of VTK's physically based kind has is linear; ours is display-referred.
-Eigen::Vector3d toDisplay(const Eigen::Vector3d& linear)
+Eigen::Vector3d displayed(const Eigen::Vector3d& linear)
 {
   return linear.unaryExpr([](double v) { return portable::srgbFromLinear(v); });
 }
@@ -195,7 +195,7 @@ public:
   void set(Material& material)
   {
     material.physical = Material::Physical{ this->Property.GetMetallic(), this->Property.GetRoughness(), true };
-    material.diffuse = toDisplay(material.diffuse);
+    material.diffuse = displayed(material.diffuse);
     this->refuse(this->Property.GetAnisotropy() != 0, "anisotropy");
     this->refuse(this->Property.GetCoatStrength() != 0, "a coat");
     this->refuse(this->Property.GetBaseIOR() != usualIndex, "another index of refraction than 1.5");

@@ -11,7 +11,7 @@ namespace dgtk
 namespace
 {
 // Pixels that are one job of the pool.
-constexpr int stripPixels = 1 << 14;
+constexpr int pairStrip = 1 << 14;
 
 class PairPass : public LayerPass
 {
@@ -47,7 +47,7 @@ public:
   void band(const Band& band, LayerSink& sink) override
   {
     forStrips(
-      band, stripPixels, 4 * this->Context.pool.threads(), this->Context.pool,
+      band, pairStrip, 4 * this->Context.pool.threads(), this->Context.pool,
       [this](const PixelRect& rect, const Hit* hits) { return this->derive(rect, hits); },
       [this, &sink](const std::vector<Values>& strip) { this->append(strip, sink); });
   }

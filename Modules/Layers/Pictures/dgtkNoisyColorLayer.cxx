@@ -14,7 +14,7 @@ namespace dgtk
 
 namespace
 {
-constexpr int blockPixels = 1 << 18; // given to the sensor at once
+constexpr int sensorBlock = 1 << 18; // given to the sensor at once
 
 LayerSpec noisySpec(const LayerRequest& request, const std::string& format)
 {
@@ -58,7 +58,7 @@ public:
   void band(const Band& band, LayerSink& sink) override
   {
     this->Sink = &sink;
-    const int rows = std::max(1, blockPixels / this->Width);
+    const int rows = std::max(1, sensorBlock / this->Width);
     for (int y = 0; y < band.rect.height; y += rows)
     {
       this->Sensor->write(std::min(rows, band.rect.height - y), band.rgb.data() + std::size_t(y) * this->Width * 3);

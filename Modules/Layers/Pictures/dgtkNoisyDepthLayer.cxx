@@ -18,9 +18,9 @@ namespace dgtk
 
 namespace
 {
-constexpr int stripPixels = 1 << 16; // whose surfaces are computed at once
+constexpr int noisyStrip = 1 << 16; // whose surfaces are computed at once
 
-LayerSpec noisySpec()
+LayerSpec noisyDepthSpec()
 {
   return { "depth_noisy", PixelType::Float64, 1, "scene units", "camera", "+inf",
     "z in the camera frame as the camera's depth sensor measures it, positive forward", Meaning::Depth };
@@ -57,7 +57,7 @@ public:
   {
     this->Sink = &sink;
     forStrips(
-      band, stripPixels, this->Context.pool.threads(), this->Context.pool,
+      band, noisyStrip, this->Context.pool.threads(), this->Context.pool,
       [this](const PixelRect& rect, const Hit* hits) { return this->derive(rect, hits); },
       [this](const Strip& strip)
       { this->Sensor->write(strip.depth.height(), strip.depth.row<double>(strip.depth.y()), strip.cosines.data()); });
@@ -139,7 +139,7 @@ public:
   }
   std::vector<LayerRecord> records(const WorkPlan&, const std::string& format) const override
   {
-    return { { noisySpec(), format } };
+    return { { noisyDepthSpec(), format } };
   }
   std::vector<std::pair<std::string, std::string>> noise(const WorkPlan& plan, const Stage& stage) const override
   {
@@ -149,7 +149,7 @@ public:
   std::vector<LayerOutput> outputs(
     const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {
-    return { imageOutput(plan, stage, job, noisySpec(), planned.formats) };
+    return { imageOutput(plan, stage, job, noisyDepthSpec(), planned.formats) };
   }
   std::unique_ptr<LayerPass> makePass(const JobContext& context, const std::vector<PassLayer>&) const override
   {

@@ -8,12 +8,12 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* layerName = "color_sharp";
+constexpr const char* sharpName = "color_sharp";
 
 LayerSpec sharpSpec(const LayerRequest& request, const std::string& format)
 {
   LayerSpec spec = colorSpec(request, format);
-  spec.name = layerName;
+  spec.name = sharpName;
   spec.description = "The picture at the frame's own instant and through the centre of the lens; red, green, blue.";
   return spec;
 }
@@ -27,7 +27,7 @@ class SharpColorLayer final : public Layer
 public:
   LayerInfo info() const override
   {
-    return { layerName, { "png", "exr" },
+    return { sharpName, { "png", "exr" },
       "the picture without motion blur and depth of field, of cameras that have them", false, {}, &hasBlur };
   }
   LayerNeeds needs(const LayerRequest&, const Stage&) const override

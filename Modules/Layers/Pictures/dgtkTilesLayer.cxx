@@ -10,12 +10,12 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* layerName = "tiles";
+constexpr const char* tilesName = "tiles";
 constexpr int largestTile = 1 << 20;
 const SizeOption tileOption("tile", 640, 480, largestTile,
   "size of the images of the tiles layer, pixels; may exceed the picture and need not divide it");
 // Rows that are cut at once.
-constexpr int blockPixels = 1 << 18;
+constexpr int tilesBlock = 1 << 18;
 
 /// Tiles from left to right, row by row.
 class TilesPass : public LayerPass
@@ -36,7 +36,7 @@ public:
     for (int y = band.rect.y; y < end;)
     {
       const int row = y / this->TileHeight;
-      const int stop = std::min({ end, (row + 1) * this->TileHeight, y + std::max(1, blockPixels / this->Width) });
+      const int stop = std::min({ end, (row + 1) * this->TileHeight, y + std::max(1, tilesBlock / this->Width) });
       this->cut(quantise(band, this->Spec, y, stop - y, &Band::rgb, this->Curve), row, sink);
       y = stop;
     }
@@ -73,7 +73,7 @@ class TilesLayer final : public Layer
 public:
   LayerInfo info() const override
   {
-    return { layerName, { "png" }, "the picture cut into tiles", false, "it is color cut into files" };
+    return { tilesName, { "png" }, "the picture cut into tiles", false, "it is color cut into files" };
   }
   LayerNeeds needs(const LayerRequest&, const Stage&) const override { return LayerNeeds::ofColor(); }
   /// The manifest knows them by the picture.
@@ -83,7 +83,7 @@ public:
     const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {
     const LayerOutput whole = imageOutput(plan, stage, job, colorSpec(plan.request, "png"), planned.formats);
-    const std::string stem = WorkPlan::stem(stage.description().cameras[job.camera].name, layerName, job.frame);
+    const std::string stem = WorkPlan::stem(stage.description().cameras[job.camera].name, tilesName, job.frame);
     const int tileWidth = tileOption.width(plan.request.options);
     const int tileHeight = tileOption.height(plan.request.options);
     std::vector<LayerOutput> tiles;
@@ -92,8 +92,8 @@ public:
       for (int x = 0; x < whole.width; x += tileWidth)
       {
         LayerOutput tile = whole;
-        tile.layer = layerName;
-        tile.name = layerName;
+        tile.layer = tilesName;
+        tile.name = tilesName;
         tile.isOneOfMany = true;
         tile.path = stem + '_' + std::to_string(y / tileHeight) + '_' + std::to_string(x / tileWidth);
         tile.width = std::min(tileWidth, whole.width - x);

@@ -11,11 +11,11 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* layerName = "color_rgba";
+constexpr const char* rgbaName = "color_rgba";
 
 LayerSpec rgbaSpec()
 {
-  return { layerName, PixelType::UInt8, 4, "sRGB", "image", "none",
+  return { rgbaName, PixelType::UInt8, 4, "sRGB", "image", "none",
     "R, G, B: the picture's colour without the background's share, not multiplied by A; A: 255 times the share of the "
     "pixel's N x N samples that meet an object, rounded; R, G, B of A = 0 are 0",
     Meaning::Picture };
@@ -99,7 +99,7 @@ class RgbaLayer final : public Layer
 public:
   LayerInfo info() const override
   {
-    return { layerName, { "png" }, "the picture with a transparent background, by N x N samples", false, {},
+    return { rgbaName, { "png" }, "the picture with a transparent background, by N x N samples", false, {},
       &hasPlainBackground };
   }
   std::string requirement() const override

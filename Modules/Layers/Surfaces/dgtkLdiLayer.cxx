@@ -13,7 +13,7 @@ namespace dgtk
 namespace
 {
 // Pixels that are one job of the pool; the records of a batch of jobs are held at once.
-constexpr int stripPixels = 1 << 14;
+constexpr int ldiStrip = 1 << 14;
 
 /// Full-width rows of the surfaces of a band by their rank: all that are nearest, all that stand behind one, and so on.
 class Ranks
@@ -86,7 +86,7 @@ public:
   void band(const Band& band, LayerSink& sink) override
   {
     forStrips(
-      band, stripPixels, 2 * this->Context.pool.threads(), this->Context.pool,
+      band, ldiStrip, 2 * this->Context.pool.threads(), this->Context.pool,
       [&](const PixelRect& rect, const Hit* hits) { return this->derive(band, rect, hits); },
       [&sink](const LdiRows& rows) { sink.surfaces(0, rows); });
   }

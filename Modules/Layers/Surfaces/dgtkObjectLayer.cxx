@@ -15,7 +15,7 @@ namespace dgtk
 namespace
 {
 // Pixels that are one job of the pool.
-constexpr int stripPixels = 1 << 12;
+constexpr int objectStrip = 1 << 12;
 
 LayerSpec boxesSpec()
 {
@@ -77,7 +77,7 @@ public:
     {
       this->Blocks.emplace(*this->Context.state, this->Context.view);
     }
-    const int stripRows = std::max(1, stripPixels / band.rect.width);
+    const int stripRows = std::max(1, objectStrip / band.rect.width);
     std::vector<ObjectRows> strips((band.rect.height + stripRows - 1) / stripRows);
     this->Context.pool.parallelFor(static_cast<int>(strips.size()),
       [&](int i)

@@ -19,7 +19,7 @@ constexpr int mostPixels = 1 << 20;
 constexpr int mostFrames = 1 << 30;
 constexpr int blockPoints = 512; ///< that one thread follows at once
 
-const IntegerOption stepOption("tracks_step", 16, 1, mostPixels, "pixels between the samples of the tracks layer");
+const IntegerOption seedStep("tracks_step", 16, 1, mostPixels, "pixels between the samples of the tracks layer");
 const IntegerOption everyOption(
   "tracks_every", 10, 1, mostFrames, "the tracks layer samples new points in the first of so many frames of the run");
 
@@ -31,7 +31,7 @@ public:
     : Context(context)
     , Seeds(seeds)
     , Described(described)
-    , Step(stepOption.of(context.plan.request.options))
+    , Step(seedStep.of(context.plan.request.options))
     , First(context.queries.stage().at(context.plan.jobs.front().frame))
     , Moving(context.queries.stage().movingObjects())
   {
@@ -158,7 +158,7 @@ std::vector<Job> sampledJobs(const WorkPlan& plan)
 }
 } // namespace
 
-const IntegerOption& tracksStep() { return stepOption; }
+const IntegerOption& tracksStep() { return seedStep; }
 
 const IntegerOption& tracksEvery() { return everyOption; }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPortableMath.h"
 #include "dgtkRaySource.h"
 #include "dgtkSamples.h"
 #include "dgtkSyntheticScene.h"
@@ -12,7 +13,6 @@ using namespace dgtk::test;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 
 /// Area of the part of the unit square around `centre` where normal . (p - point) < 0, by clipping its outline.
 double areaBeside(const Eigen::Vector2d& centre, const Eigen::Vector2d& point, const Eigen::Vector2d& normal)

@@ -12,7 +12,7 @@ namespace dgtk
 
 namespace
 {
-constexpr std::size_t deepest = 1000;
+constexpr std::size_t deepestObject = 1000;
 
 /// An OBJECT whose kids are being read.
 struct Level
@@ -203,9 +203,9 @@ private:
     this->finishObject();
     if (number > 0)
     {
-      if (this->Levels.size() >= deepest)
+      if (this->Levels.size() >= deepestObject)
       {
-        this->Lines.fail("objects are nested too deeply", "at most " + std::to_string(deepest) + " levels");
+        this->Lines.fail("objects are nested too deeply", "at most " + std::to_string(deepestObject) + " levels");
       }
       this->Levels.push_back(std::move(level));
     }

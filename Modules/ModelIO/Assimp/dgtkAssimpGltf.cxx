@@ -17,7 +17,7 @@ namespace
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::size_t mostNodes = 1'000'000;
+constexpr std::size_t mostGltfNodes = 1'000'000;
 
 [[noreturn]] void fail(const char* what) { throw std::runtime_error(what); }
 
@@ -194,7 +194,7 @@ private:
   void match(std::size_t node, std::size_t index)
   {
     const Json& from = this->File.item("nodes", node);
-    if (this->Index.size() > mostNodes || !this->Index.emplace(node, static_cast<std::int32_t>(index)).second)
+    if (this->Index.size() > mostGltfNodes || !this->Index.emplace(node, static_cast<std::int32_t>(index)).second)
     {
       fail("a node has two parents");
     }

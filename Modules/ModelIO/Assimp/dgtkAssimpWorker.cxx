@@ -40,8 +40,8 @@ using dgtk::import::Question;
 using dgtk::import::Scene;
 
 constexpr int channel = 0;
-constexpr std::uint64_t memoryBase = std::uint64_t(512) << 20;
-constexpr std::uint64_t memoryPerByte = 10;
+constexpr std::uint64_t workerBase = std::uint64_t(512) << 20;
+constexpr std::uint64_t workerPerByte = 10;
 constexpr std::uint64_t seconds = 60;
 /// Digits of the longest number: an importer's time grows with their square.
 constexpr std::uint64_t mostDigits = 1000;
@@ -135,7 +135,7 @@ public:
       this->Bytes += file->FileSize();
       if (!dgtk::helper::isSanitized)
       {
-        limitTo(RLIMIT_AS, memoryBase + memoryPerByte * this->Bytes);
+        limitTo(RLIMIT_AS, workerBase + workerPerByte * this->Bytes);
       }
     }
     return file.release();
@@ -265,7 +265,7 @@ int importOne(const ModelRequest& request)
   limitTo(RLIMIT_CPU, seconds);
   if (!dgtk::helper::isSanitized)
   {
-    limitTo(RLIMIT_AS, memoryBase);
+    limitTo(RLIMIT_AS, workerBase);
   }
   dgtk::helper::lockDown(dgtk::helper::Opening::Nothing);
   Scene scene;

@@ -22,7 +22,7 @@ namespace
 {
 namespace fs = std::filesystem;
 constexpr int layout = 1; ///< of the files
-constexpr std::uint64_t largestModel = std::uint64_t(1) << 32;
+constexpr std::uint64_t largestKept = std::uint64_t(1) << 32;
 
 /// A file of the machine, by its size and times, without reading it.
 std::string stampOf(const std::string& path)
@@ -66,7 +66,7 @@ KeptModel::KeptModel(std::shared_ptr<ModelCache> cache, const std::string& path,
   this->Absolute = fs::absolute(path, code).string();
   const FileAge age(path);
   this->Bytes = age.bytes();
-  if (!this->Cache || code || !age.isFile() || this->Bytes > largestModel || ownStamp().empty())
+  if (!this->Cache || code || !age.isFile() || this->Bytes > largestKept || ownStamp().empty())
   {
     return;
   }

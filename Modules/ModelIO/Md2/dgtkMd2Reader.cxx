@@ -16,7 +16,7 @@ namespace dgtk
 
 namespace
 {
-constexpr std::size_t headerBytes = 68;
+constexpr std::size_t md2Header = 68;
 constexpr std::size_t skinBytes = 64;
 constexpr std::size_t stBytes = 4;
 constexpr std::size_t triangleBytes = 12;
@@ -88,7 +88,7 @@ void checkBlock(const ByteReader& in, std::int32_t offset, std::int32_t count, s
   }
   if (count > 0)
   {
-    if (offset < static_cast<std::int32_t>(headerBytes))
+    if (offset < static_cast<std::int32_t>(md2Header))
     {
       in.fail(0, std::string("bad offset of ") + what + " in the header", "68 or more", std::to_string(offset));
     }
@@ -107,7 +107,7 @@ Header readHeader(const ByteReader& in, const std::string& path)
   {
     throw InputError(path, 0, "is an MD2 file of another version", "8", std::to_string(in.i32(4)));
   }
-  in.need(0, headerBytes, "the header");
+  in.need(0, md2Header, "the header");
   const auto field = [&in](std::size_t i) { return in.i32(8 + 4 * i); };
   const Header h = { field(0), field(1), field(2), field(3), field(4), field(5), field(6), field(7), field(8), field(9),
     field(10), field(11), field(12), field(13), field(14) };

@@ -12,7 +12,7 @@ namespace dgtk
 
 namespace
 {
-constexpr std::uint32_t none = 0xffffffffu;
+constexpr std::uint32_t noVertex = 0xffffffffu;
 
 /// The vertex of each corner, from `base`; `cornerOf` gets the first corner of each vertex.
 std::vector<std::uint32_t> splitCorners(const std::vector<Corner>& corners, const std::vector<Eigen::Vector3f>& normals,
@@ -62,7 +62,7 @@ std::vector<std::uint32_t> ModelBuilder::addSplitVertices(const std::vector<Eige
   const std::size_t base = this->Rest->positions.size();
   std::vector<std::uint32_t> cornerOf;
   std::vector<std::uint32_t> splitOf = splitCorners(object.corners, normals, base, cornerOf);
-  if (base + cornerOf.size() >= none || model.triangles.size() + object.triangles.size() >= none)
+  if (base + cornerOf.size() >= noVertex || model.triangles.size() + object.triangles.size() >= noVertex)
   {
     throw InputError(model.path, 0, "has too many triangles", "fewer than 4294967295 vertices");
   }

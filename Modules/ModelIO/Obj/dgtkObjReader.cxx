@@ -15,7 +15,7 @@ namespace dgtk
 
 namespace
 {
-constexpr std::uint32_t none = 0xffffffffu;
+constexpr std::uint32_t noIndex = 0xffffffffu;
 // What a face takes at most while its object is built, bytes.
 constexpr std::uint64_t bytesOfCorner = 50;
 constexpr std::uint64_t bytesOfTriangle = 30;
@@ -78,7 +78,8 @@ ObjValues readValues(const std::string& path, const std::string& text)
 std::uint32_t placeOf(long long index, std::size_t before, std::size_t total)
 {
   const long long place = index > 0 ? index - 1 : static_cast<long long>(before) + index;
-  return index == 0 || place < 0 || place >= static_cast<long long>(total) ? none : static_cast<std::uint32_t>(place);
+  return index == 0 || place < 0 || place >= static_cast<long long>(total) ? noIndex
+                                                                           : static_cast<std::uint32_t>(place);
 }
 
 class ObjAssembly
@@ -90,7 +91,7 @@ public:
     , Values(readValues(path, text))
     , SamePlace(firstOfEqualPoints(this->Values.positions.size(),
         [this](std::size_t i) -> const Eigen::Vector3d& { return this->Values.positions[i]; }))
-    , VertexOf(this->Values.positions.size(), none)
+    , VertexOf(this->Values.positions.size(), noIndex)
     , NormalOf(this->Values.normals.size())
     , MostBytes((std::uint64_t(64) << 20) + 10 * std::uint64_t(text.size()))
     , Builder(path, "obj", text.size(), options)
@@ -196,13 +197,13 @@ private:
   /// Vertex of the current object at the place of a vertex of the file: those at the same place are one.
   std::uint32_t vertexAt(std::uint32_t place)
   {
-    if (place == none)
+    if (place == noIndex)
     {
-      return none;
+      return noIndex;
     }
     const std::uint32_t first = this->SamePlace[place];
     std::uint32_t& vertex = this->VertexOf[first];
-    if (vertex == none || vertex < this->FirstVertex)
+    if (vertex == noIndex || vertex < this->FirstVertex)
     {
       vertex = this->Builder.addVertex(this->Values.positions[first]);
       ++this->Vertices;
@@ -231,13 +232,13 @@ private:
     corner.vertex = this->vertexAt(placeOf(indices[0], this->Before.vertices, this->Values.positions.size()));
     const std::uint32_t uv = placeOf(indices[1], this->Before.uvs, this->Values.uvs.size());
     const std::uint32_t normal = placeOf(indices[2], this->Before.normals, this->Values.normals.size());
-    if (uv != none)
+    if (uv != noIndex)
     {
       corner.u = this->Values.uvs[uv][0];
       corner.v = this->Values.uvs[uv][1];
       this->HasUvs = true;
     }
-    if (normal != none)
+    if (normal != noIndex)
     {
       corner.normal = this->normalAt(normal);
     }
@@ -246,7 +247,7 @@ private:
     {
       corner.color = this->Values.colors[place];
     }
-    this->Lost += (indices[1] != 0 && uv == none ? 1 : 0) + (indices[2] != 0 && normal == none ? 1 : 0);
+    this->Lost += (indices[1] != 0 && uv == noIndex ? 1 : 0) + (indices[2] != 0 && normal == noIndex ? 1 : 0);
     return true;
   }
 

@@ -12,7 +12,7 @@ namespace dgtk
 
 namespace
 {
-constexpr std::uint64_t mostCorners = 300'000;
+constexpr std::uint64_t mostPovCorners = 300'000;
 
 class PovAssembly
 {
@@ -66,7 +66,7 @@ private:
   void checkSize()
   {
     std::uint64_t corners = 0;
-    const std::uint64_t most = mostCorners + this->Scene.bytesRead / 2;
+    const std::uint64_t most = mostPovCorners + this->Scene.bytesRead / 2;
     for (const PovInstance& instance : this->Scene.shape)
     {
       corners += 3 * instance.mesh->faces.size() + instance.mesh->vertices.size() + 1;

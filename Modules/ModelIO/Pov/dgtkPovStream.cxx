@@ -8,7 +8,7 @@ namespace dgtk
 
 namespace
 {
-constexpr int deepest = 150;
+constexpr int deepestInclude = 150;
 }
 
 PovToken PovStream::raw()
@@ -146,11 +146,11 @@ void PovStream::skipLine(const PovPlace& place)
 PovStream::Level::Level(PovStream& stream)
   : Stream(stream)
 {
-  if (++stream.Depth > deepest)
+  if (++stream.Depth > deepestInclude)
   {
     --stream.Depth;
     stream.fail(stream.HasLook ? stream.Look.place : PovPlace{ 0, 1 }, "nests too deeply",
-      "at most " + std::to_string(deepest) + " levels");
+      "at most " + std::to_string(deepestInclude) + " levels");
   }
 }
 

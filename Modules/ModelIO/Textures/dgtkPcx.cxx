@@ -9,7 +9,7 @@ namespace dgtk
 
 namespace
 {
-constexpr std::size_t headerBytes = 128;
+constexpr std::size_t pcxHeader = 128;
 constexpr std::size_t paletteBytes = 768;
 
 /// Bytes of the picture's rows, all planes of a row one after another. What is missing stays 0.
@@ -17,7 +17,7 @@ std::vector<std::uint8_t> unpack(const std::uint8_t* data, std::size_t size, std
 {
   std::vector<std::uint8_t> out;
   out.reserve(bytes);
-  for (std::size_t at = headerBytes; at < size && out.size() < bytes; ++at)
+  for (std::size_t at = pcxHeader; at < size && out.size() < bytes; ++at)
   {
     std::uint8_t value = data[at];
     std::size_t run = 1;
@@ -37,7 +37,7 @@ PcxPicture::PcxPicture(const std::uint8_t* data, std::size_t bytes, int largestS
   : Data(data)
   , Bytes(bytes)
 {
-  if (bytes < headerBytes || data[0] != 10 || data[2] != 1 || data[3] != 8)
+  if (bytes < pcxHeader || data[0] != 10 || data[2] != 1 || data[3] != 8)
   {
     this->Problem = "is not an 8-bit run-length coded PCX picture";
     return;
@@ -54,12 +54,12 @@ PcxPicture::PcxPicture(const std::uint8_t* data, std::size_t bytes, int largestS
     this->Problem = "is a PCX picture of " + std::to_string(this->Width) + " x " + std::to_string(this->Height) +
                     " pixels in " + std::to_string(this->Planes) + " planes, which cannot be read";
   }
-  else if (this->Planes == 1 && (bytes < headerBytes + paletteBytes + 1 || data[bytes - paletteBytes - 1] != 12))
+  else if (this->Planes == 1 && (bytes < pcxHeader + paletteBytes + 1 || data[bytes - paletteBytes - 1] != 12))
   {
     this->Problem = "is a PCX picture without its palette";
   }
   // a run of 63 takes two bytes: a file cannot hold more pixels than this
-  else if (this->LineBytes * this->Planes * this->Height > (bytes - headerBytes) * 32)
+  else if (this->LineBytes * this->Planes * this->Height > (bytes - pcxHeader) * 32)
   {
     this->Problem = "is a PCX picture cut short";
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkTestScene.h"
+#include "dgtkPortableMath.h"
 
 #include "dgtkRayPictures.h"
 #include "dgtkThreadPool.h"
@@ -20,7 +21,6 @@ namespace dgtk::test
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 
 double distanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkConvexHull.h"
+#include "dgtkPortableMath.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -17,7 +18,6 @@ namespace
 {
 using Inside = std::function<bool(const Eigen::Vector3d&)>;
 using Polygon = std::vector<Eigen::Vector3d>;
-constexpr double pi = 3.14159265358979323846;
 
 /// A flat bit of a surface.
 struct Facet

@@ -2,6 +2,7 @@
 #include "dgtkPlaceWorld.h"
 
 #include "dgtkObjectPoses.h"
+#include "dgtkPortableMath.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double touch = 1e-6; ///< of the size: what counts as touching
 
 /// How far up a meeting may lie that holds a body: what it does not go into holds it from below alone, as a surface

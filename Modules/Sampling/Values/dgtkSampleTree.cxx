@@ -25,6 +25,21 @@ JsonNode vectorNode(const Eigen::Vector3d& v, int line)
 JsonNode* memberOf(JsonNode& object, const std::string& key) { return const_cast<JsonNode*>(object.find(key)); }
 } // namespace
 
+bool isAmong(const std::string& word, const std::vector<std::string>& words)
+{
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+std::string escaped(const std::string& name)
+{
+  std::string out;
+  for (const char c : name)
+  {
+    out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  }
+  return out;
+}
+
 std::vector<JsonNode>& itemsOf(JsonNode& root, const std::string& list)
 {
   static thread_local std::vector<JsonNode> none;

@@ -23,6 +23,10 @@ void removeMember(JsonNode& object, const std::string& key);
 std::string textOf(const JsonNode& node);
 JsonNode keysNode(const std::vector<Key<Eigen::Vector3d>>& keys);
 
+bool isAmong(const std::string& word, const std::vector<std::string>& words);
+/// A name as part of a path, as JSON pointers have it.
+std::string escaped(const std::string& name);
+
 /// Whether geometry decides a point in it.
 bool hasGeometry(const JsonNode& node);
 /// Calls `visit` for each point that geometry decides, with its key path below the node ("position"); what it returns

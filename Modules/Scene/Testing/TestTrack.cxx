@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPortableMath.h"
 #include "dgtkTrack.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,6 @@ using Vector = Eigen::Vector3d;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double rounding = 4e-15; // a dozen operations on numbers of size 1
 
 Quaternion aboutZ(double angle) { return { std::cos(angle / 2), 0, 0, std::sin(angle / 2) }; }

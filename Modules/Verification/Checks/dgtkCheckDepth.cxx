@@ -9,9 +9,9 @@ namespace dgtk
 namespace
 {
 /// Part of a matrix's largest entry: the file holds the doubles that the projection is computed in.
-constexpr double matrixTolerance = 1e-12;
+constexpr double depthMatrixTolerance = 1e-12;
 
-double relative(double found, double expected)
+double relativeDepth(double found, double expected)
 {
   return found == expected ? 0 : std::abs(found - expected) / std::min(std::abs(expected), std::abs(found));
 }
@@ -30,7 +30,7 @@ void checkFile(Picture& picture, const std::string& suffix, Results& results)
         const std::size_t i = surfaces.index(x, y);
         const double found = depth->at(x, y);
         const double expected = picture.sight(x, y).depthOf(surfaces.hits[i], centreOf(x, y));
-        const double error = relative(found, expected) / (found == expected ? 1 : picture.eye().farness(expected));
+        const double error = relativeDepth(found, expected) / (found == expected ? 1 : picture.eye().farness(expected));
         if (surfaces.marks[i] == Mark::Edge && error <= tolerance)
         {
           row.skip();
@@ -48,7 +48,7 @@ void checkMatrices(Picture& picture, Results& results)
 {
   const PicturePointer depth = picture.image("depth", { ".dgd" });
   const OpenGLMatrices expected = openGLMatrices(picture.eye().view());
-  Meter meter(matrixTolerance);
+  Meter meter(depthMatrixTolerance);
   const auto compare = [&](const char* name, const Eigen::Matrix4d& found, const Eigen::Matrix4d& right)
   {
     int i = 0;

@@ -2,6 +2,7 @@
 #include "dgtkCheck.h"
 #include "dgtkObjectDocuments.h"
 #include "dgtkPortableMath.h"
+#include "dgtkSeenPoint.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,12 +16,9 @@ namespace
 constexpr double placeTolerance = 1e-9;
 /// Part of the diagonal of the object's box in front of a point in which nothing hides it, as the format has it.
 constexpr double hiddenDepth = 0.01;
-/// Directions, and parts of the depth, that a ray may pass by a silhouette.
-constexpr double silhouetteReach = 1e-4;
 /// Part of the range of a point within which the limits of what is seen and hidden are a matter of rounding.
 constexpr double limitSlack = 1e-6;
-constexpr double borderSlack = 1e-6; ///< pixels
-constexpr int mostSteps = 200;
+constexpr int mostKeypointSteps = 200;
 constexpr double settledTime = 1e-14; ///< of a frame
 
 enum Class
@@ -119,7 +117,7 @@ private:
   {
     const TimedSight& sight = this->Owner.time();
     Place place;
-    for (int step = 0; step < mostSteps; ++step)
+    for (int step = 0; step < mostKeypointSteps; ++step)
     {
       const Eye eye = sight.eyeAt(place.time);
       place.x = eye.toCamera(inWorld(point, sight.instanceAt(place.time, this->Record->id)));

@@ -10,7 +10,7 @@ namespace dgtk
 
 namespace
 {
-constexpr std::uint64_t full = 65535;
+constexpr std::uint64_t fullMatting = 65535;
 constexpr int trimapObject = 255;
 constexpr int trimapUnknown = 128;
 /// Pixels around which the trimap is unknown.
@@ -42,9 +42,9 @@ void checkComposite(const MattingSet& set, int x, int y, Meter& meter)
   const std::uint64_t alpha = number(set.alpha, 0);
   for (int c = 0; c < 3; ++c)
   {
-    const std::uint64_t sum = alpha * number(set.foreground, c) + (full - alpha) * number(set.background, c);
+    const std::uint64_t sum = alpha * number(set.foreground, c) + (fullMatting - alpha) * number(set.background, c);
     const double found = set.composite->at(x, y, c);
-    const auto expected = double((sum + full / 2) / full);
+    const auto expected = double((sum + fullMatting / 2) / fullMatting);
     meter.add(found - expected, [&] { return set.composite->offender(x, y, numberText(found), numberText(expected)); });
   }
 }
@@ -52,17 +52,17 @@ void checkComposite(const MattingSet& set, int x, int y, Meter& meter)
 /// The share of the object's samples, counted anew: all divided pixels, and some of the others.
 void checkAlpha(const MattingSet& set, const Samples& samples, int x, int y, Meter& meter)
 {
-  const double alpha = set.alpha->at(x, y) / double(full);
+  const double alpha = set.alpha->at(x, y) / double(fullMatting);
   if ((alpha == 0 || alpha == 1) && !Samples::isChosen(x, y))
   {
     return;
   }
-  constexpr double rounding = 0.5 / double(full);
+  constexpr double rounding = 0.5 / double(fullMatting);
   samples.compare(x, y, set.id, alpha, rounding, meter,
     [&](double expected) { return set.alpha->offender(x, y, numberText(alpha), numberText(expected)); });
 }
 
-int trimapOf(double alpha) { return alpha == double(full) ? trimapObject : alpha == 0 ? 0 : trimapUnknown; }
+int trimapOf(double alpha) { return alpha == double(fullMatting) ? trimapObject : alpha == 0 ? 0 : trimapUnknown; }
 
 /// Unknown unless alpha says the same, wholly, of all pixels around.
 void checkTrimap(const MattingSet& set, int x, int y, Meter& meter)

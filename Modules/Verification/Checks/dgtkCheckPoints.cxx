@@ -3,6 +3,7 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkObjectDocuments.h"
+#include "dgtkSeenPoint.h"
 #include "dgtkSurfaceColor.h"
 
 #include <Eigen/Geometry>
@@ -22,13 +23,11 @@ namespace
 constexpr double trackTolerance = 1e-8;
 /// Part of the depth.
 constexpr double surfaceTolerance = 1e-9;
-/// Part of the depth, and directions, within which a silhouette leaves visibility open.
-constexpr double silhouetteReach = 1e-4;
 constexpr std::size_t plyVertexBytes = 47;
 /// One rounding of float32.
 constexpr double normalTolerance = 1e-7;
 
-struct TrackPoint
+struct SeenTrack
 {
   std::size_t camera = 0;
   Eigen::Vector2d pixel{ 0, 0 };
@@ -37,7 +36,7 @@ struct CloudPoint
 {
   Eigen::Vector3d x{ 0, 0, 0 };
   Hit hit;
-  std::vector<TrackPoint> track;
+  std::vector<SeenTrack> track;
 };
 
 std::vector<CloudPoint> cloudOf(const TrackedPoints& file)
@@ -87,7 +86,7 @@ public:
       return false;
     }
     return std::all_of(
-      point.track.begin(), point.track.end(), [&](const TrackPoint& t) { return t.camera < this->Sights.size(); });
+      point.track.begin(), point.track.end(), [&](const SeenTrack& t) { return t.camera < this->Sights.size(); });
   }
 
   /// The point projects where the track says; the first place is a pixel's centre on the point's triangle.
@@ -99,7 +98,7 @@ public:
       meter.equal(false, [&] { return this->offender(index, "an unknown object, triangle or camera", "known ones"); });
       return;
     }
-    for (const TrackPoint& track : point.track)
+    for (const SeenTrack& track : point.track)
     {
       const Look look = this->lookOf(point, track);
       const Eye& eye = look.sight->eye();
@@ -135,7 +134,7 @@ public:
   void visible(std::size_t index, Meter& meter) const
   {
     const CloudPoint& point = this->Points[index];
-    for (const TrackPoint& track : this->isSound(point) ? point.track : std::vector<TrackPoint>{})
+    for (const SeenTrack& track : this->isSound(point) ? point.track : std::vector<SeenTrack>{})
     {
       const Look look = this->lookOf(point, track);
       const bool seen = isSeen(look, point.hit, track.pixel, surfaceTolerance);
@@ -235,13 +234,13 @@ private:
     Eigen::Vector3d x_in_world{ 0, 0, 0 };
   };
 
-  Look lookOf(const CloudPoint& point, const TrackPoint& track) const
+  Look lookOf(const CloudPoint& point, const SeenTrack& track) const
   {
     if (!this->Rolls)
     {
       return { this->Sights[track.camera]->middle(), point.x };
     }
-    const auto sightOf = [this](const TrackPoint& of)
+    const auto sightOf = [this](const SeenTrack& of)
     {
       const TimedSight& timed = *this->Sights[of.camera];
       return timed.at(timed.timeAt(of.pixel));

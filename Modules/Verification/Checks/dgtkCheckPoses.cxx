@@ -13,7 +13,7 @@ namespace dgtk
 namespace
 {
 /// Part of the largest number of a matrix: products of two placements.
-constexpr double poseTolerance = 1e-12;
+constexpr double motionTolerance = 1e-12;
 /// Cosine between axes from which an object is sheared for certain, or up to which it is not.
 constexpr double sheared = 2e-9;
 constexpr double upright = 5e-10;
@@ -111,7 +111,7 @@ void checkPoses(Dataset& dataset, Results& results)
   {
     frames.insert(camera.frame);
   }
-  Meter meter(poseTolerance);
+  Meter meter(motionTolerance);
   auto next = poses.begin();
   for (const int frame : frames)
   {

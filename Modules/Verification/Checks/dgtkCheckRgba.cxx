@@ -10,15 +10,15 @@ namespace dgtk
 
 namespace
 {
-constexpr double full = 255;
-constexpr double shareRounding = 0.5 / full;
+constexpr double fullRgba = 255;
+constexpr double shareRounding = 0.5 / fullRgba;
 /// Levels: what rounding of both files and of the share can make.
 constexpr double levels = 2;
 
 /// The share of the samples that meet nothing: all divided pixels, and some of the others.
 void checkShare(const PictureFile& file, const Samples& samples, int x, int y, Meter& meter)
 {
-  const double share = 1 - file.at(x, y, 3) / full;
+  const double share = 1 - file.at(x, y, 3) / fullRgba;
   if ((share == 0 || share == 1) && !Samples::isChosen(x, y))
   {
     return;
@@ -75,7 +75,7 @@ void checkRgba(Picture& picture, Results& results)
   measure({ "color_rgba", "levels", { file->file() }, mostOpenSamples }, levels,
     [&](int x, int y, Meter& meter)
     {
-      const double alpha = file->at(x, y, 3) / full;
+      const double alpha = file->at(x, y, 3) / fullRgba;
       const bool whole = alpha == 0 || alpha == 1;
       for (int c = 0; c < 3; ++c)
       {

@@ -16,7 +16,7 @@ namespace dgtk
 namespace
 {
 /// Pixels; a ground plane of 1e5 needs 1e-9.
-constexpr double placeTolerance = 1e-8;
+constexpr double seenTolerance = 1e-8;
 /// Part of a point's distance from the world's origin, and of 1 of its weights.
 constexpr double pointTolerance = 1e-9;
 
@@ -144,7 +144,7 @@ public:
       return meterRows(this->Owner.pool(), this->count(), tolerance,
         [&](int i, Meter& meter) { (this->*body)(view, static_cast<std::size_t>(i), meter); });
     };
-    results.add({ "places", "pixel", { view.file } }, measure(placeTolerance, &TracksCheck::place));
+    results.add({ "places", "pixel", { view.file } }, measure(seenTolerance, &TracksCheck::place));
     results.add({ "classes", "", { view.file } }, measure(0, &TracksCheck::visibility));
     results.add({ "colors", "1/255", { this->File }, mostOpenTexels }, measure(colorTolerance, &TracksCheck::color));
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkMeshOverlap.h"
+#include "dgtkPortableMath.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +15,6 @@ namespace dgtk
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 
 double sixVolumes(
   const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d)

@@ -29,7 +29,7 @@ std::string rounded(double value, int digits)
 }
 
 /// Words of this file, in the language of the window.
-struct Words
+struct PixelWords
 {
   Q_DECLARE_TR_FUNCTIONS(PixelText)
 };
@@ -51,7 +51,7 @@ std::string unitOf(const LayerSpec& spec)
   return spec.unit.empty() || spec.unit == "1" ? "" : " " + unitText(spec.unit).toStdString();
 }
 
-std::string nothingText() { return Words::tr("nothing").toStdString(); }
+std::string nothingText() { return PixelWords::tr("nothing").toStdString(); }
 
 std::string objectText(const DatasetPictures& dataset, std::uint32_t id)
 {
@@ -69,7 +69,7 @@ std::string ldiText(const PictureValues& picture, std::size_t pixel)
   const LdiPixels& ldi = *picture.ldi;
   const std::uint64_t count = ldi.first[pixel + 1] - ldi.first[pixel];
   std::string text =
-    (count == 1 ? Words::tr("1 surface") : Words::tr("%1 surfaces").arg(qulonglong(count))).toStdString();
+    (count == 1 ? PixelWords::tr("1 surface") : PixelWords::tr("%1 surfaces").arg(qulonglong(count))).toStdString();
   for (std::uint64_t i = ldi.first[pixel]; i < ldi.first[pixel + 1]; ++i)
   {
     const LdiRecord& record = ldi.records[i];
@@ -110,7 +110,7 @@ std::string idText(const DatasetPictures& dataset, const PictureValues& picture,
     return objectText(dataset, id);
   }
   const QString covered =
-    Words::tr("coverage %1 / 255").arg(QString::fromStdString(numberText(values[3], PixelType::UInt8)));
+    PixelWords::tr("coverage %1 / 255").arg(QString::fromStdString(numberText(values[3], PixelType::UInt8)));
   return objectText(dataset, id) + ", " + covered.toStdString();
 }
 
@@ -186,7 +186,7 @@ std::string valueText(const DatasetPictures& dataset, const PictureValues& pictu
   if (spec.meaning == Meaning::Displacement && values.size() == 2)
   {
     const std::string length = rounded(std::hypot(values[0], values[1]), lengthDigits);
-    text += ", " + Words::tr("%1 long").arg(QString::fromStdString(length)).toStdString();
+    text += ", " + PixelWords::tr("%1 long").arg(QString::fromStdString(length)).toStdString();
   }
   return text;
 }

@@ -18,7 +18,7 @@ namespace dgtk
 namespace
 {
 using Json = nlohmann::ordered_json;
-constexpr const char* format = "bop";
+constexpr const char* bopName = "bop";
 
 const NumbersOption& depthScale()
 {
@@ -78,13 +78,13 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requirePinholes(dataset, format);
+    requirePinholes(dataset, bopName);
     dataset.metres();
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
-    requireEverywhere(dataset, exported::depth().of(options), format);
+    requireEverywhere(dataset, exported::color().of(options), bopName, { "png" });
+    requireEverywhere(dataset, exported::depth().of(options), bopName);
     for (const char* layer : { "objects", "boxes", "amodal" })
     {
-      requireEverywhere(dataset, layer, format);
+      requireEverywhere(dataset, layer, bopName);
     }
   }
 

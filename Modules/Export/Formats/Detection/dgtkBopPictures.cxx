@@ -16,7 +16,7 @@ namespace dgtk::bop
 namespace
 {
 using Json = nlohmann::ordered_json;
-constexpr double millimetres = 1000; ///< of a metre
+constexpr double pictureMillimetres = 1000; ///< of a metre
 
 Json listOf(const Eigen::Matrix3d& matrix)
 {
@@ -80,7 +80,7 @@ public:
     , At(place)
     , Set(setting)
     , Instances(instances)
-    , Factor(millimetres * dataset.metres())
+    , Factor(pictureMillimetres * dataset.metres())
   {
   }
 

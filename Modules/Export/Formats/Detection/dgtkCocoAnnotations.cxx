@@ -81,7 +81,7 @@ void writeList(ExportFile& file, ExportSink& sink, const char* key, const std::s
 namespace
 {
 /// What the dataset says of itself, in COCO's words.
-Json infoOf(const DatasetView& dataset)
+Json cocoInfo(const DatasetView& dataset)
 {
   Json info = Json::object();
   const std::map<std::string, std::string>& known = dataset.manifest().info;
@@ -121,7 +121,7 @@ ExportItem document(const DatasetView& dataset, const std::string& name, const s
     {
       const std::unique_ptr<ExportFile> file = sink.open(name);
       file->write(
-        "{\n  \"info\": " + textOf(infoOf(dataset)) + ",\n  \"licenses\": " + textOf(licensesOf(dataset)) + ",\n");
+        "{\n  \"info\": " + textOf(cocoInfo(dataset)) + ",\n  \"licenses\": " + textOf(licensesOf(dataset)) + ",\n");
       writeList(*file, sink, "images", "images:" + split);
       writeList(*file, sink, "annotations", annotations + ':' + split);
       file->write("  \"categories\": " + textOf(categories) + "\n}\n");

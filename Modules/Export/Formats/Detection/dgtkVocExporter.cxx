@@ -11,7 +11,7 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "voc";
+constexpr const char* vocName = "voc";
 constexpr std::size_t mostCodes = 254; ///< 255 is void
 
 /// VOC's colours (VOCcode, VOClabelcolormap.m): the bits of a code go to R, G, B in turn, high ones first.
@@ -118,16 +118,16 @@ public:
   {
     if (dataset.classes().size() > mostCodes)
     {
-      throw UsageError(std::string(format) + ": more than 254 classes, which its pictures cannot number");
+      throw UsageError(std::string(vocName) + ": more than 254 classes, which its pictures cannot number");
     }
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
-    requireEverywhere(dataset, "objects", format);
-    requireEverywhere(dataset, "boxes", format);
+    requireEverywhere(dataset, exported::color().of(options), vocName, { "png" });
+    requireEverywhere(dataset, "objects", vocName);
+    requireEverywhere(dataset, "boxes", vocName);
     for (const DatasetShot& shot : dataset.shots())
     {
       if (dataset.objects().size() > mostCodes && seenIn(dataset, shot).size() > mostCodes)
       {
-        throw UsageError(std::string(format) + ": camera " + shot.name() + " sees more than 254 objects at frame " +
+        throw UsageError(std::string(vocName) + ": camera " + shot.name() + " sees more than 254 objects at frame " +
                          std::to_string(shot.frame()) + ", which its pictures cannot number");
       }
     }

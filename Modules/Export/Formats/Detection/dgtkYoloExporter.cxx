@@ -17,7 +17,7 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "yolo";
+constexpr const char* yoloName = "yolo";
 
 const ChoiceOption& labels()
 {
@@ -144,9 +144,9 @@ public:
     {
       throw UsageError("labels: no class of the dataset names keypoints, which poses are");
     }
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
-    requireEverywhere(dataset, "objects", format);
-    requireEverywhere(dataset, "boxes", format);
+    requireEverywhere(dataset, exported::color().of(options), yoloName, { "png" });
+    requireEverywhere(dataset, "objects", yoloName);
+    requireEverywhere(dataset, "boxes", yoloName);
   }
 
   ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override

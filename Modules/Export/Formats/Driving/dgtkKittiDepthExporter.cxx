@@ -11,7 +11,7 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "kitti-depth";
+constexpr const char* kittiDepthName = "kitti-depth";
 
 class KittiDepthExporter : public Exporter
 {
@@ -23,12 +23,12 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requirePng(options, format);
-    requirePinholes(dataset, format);
-    requireFixedIntrinsics(dataset, format);
+    requirePng(options, kittiDepthName);
+    requirePinholes(dataset, kittiDepthName);
+    requireFixedIntrinsics(dataset, kittiDepthName);
     dataset.metres();
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
-    requireEverywhere(dataset, exported::depth().of(options), format);
+    requireEverywhere(dataset, exported::color().of(options), kittiDepthName, { "png" });
+    requireEverywhere(dataset, exported::depth().of(options), kittiDepthName);
   }
 
   ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override

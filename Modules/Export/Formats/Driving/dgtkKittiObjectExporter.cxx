@@ -4,6 +4,7 @@
 #include "dgtkExportChecks.h"
 #include "dgtkExportSeries.h"
 #include "dgtkKitti.h"
+#include "dgtkPortableMath.h"
 #include "dgtkText.h"
 #include "dgtkUprightBox.h"
 
@@ -15,8 +16,7 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "kitti-object";
-constexpr double pi = 3.14159265358979323846;
+constexpr const char* kittiObjectName = "kitti-object";
 constexpr double upright = 1e-6; ///< radians that rounding may tilt a box
 constexpr double degree = pi / 180;
 
@@ -68,11 +68,12 @@ UprightBox boxOf(const DatasetShot& shot, const BoxRecord& box, const OptionValu
   const std::optional<UprightBox> found = uprightBox(box, front().of(options));
   if (!found)
   {
-    throw UsageError(std::string(format) + ": " + placeOf(shot, box) + " is sheared, or a line: it has no box");
+    throw UsageError(
+      std::string(kittiObjectName) + ": " + placeOf(shot, box) + " is sheared, or a line: it has no box");
   }
   if (found->tilt > upright && tilt().of(options) == "refuse")
   {
-    throw UsageError("tilt: boxes of " + std::string(format) + " turn about the camera's y alone, " +
+    throw UsageError("tilt: boxes of " + std::string(kittiObjectName) + " turn about the camera's y alone, " +
                      placeOf(shot, box) + " is " + shortest(std::round(found->tilt / degree * 100) / 100) +
                      " degrees off (expected an upright one, or fit)");
   }
@@ -103,11 +104,11 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requirePng(options, format);
-    requirePinholes(dataset, format);
+    requirePng(options, kittiObjectName);
+    requirePinholes(dataset, kittiObjectName);
     dataset.metres();
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
-    requireEverywhere(dataset, "boxes", format, { "json" });
+    requireEverywhere(dataset, exported::color().of(options), kittiObjectName, { "png" });
+    requireEverywhere(dataset, "boxes", kittiObjectName, { "json" });
     for (const DatasetShot& shot : dataset.shots())
     {
       for (const BoxRecord& box : dataset.boxes(shot))

@@ -12,7 +12,7 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "kitti-odometry";
+constexpr const char* kittiOdometryName = "kitti-odometry";
 
 class KittiOdometryExporter : public Exporter
 {
@@ -21,13 +21,13 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requirePng(options, format);
-    requireWhole(options, format);
-    requirePinholes(dataset, format);
-    requireFixedIntrinsics(dataset, format);
+    requirePng(options, kittiOdometryName);
+    requireWhole(options, kittiOdometryName);
+    requirePinholes(dataset, kittiOdometryName);
+    requireFixedIntrinsics(dataset, kittiOdometryName);
     dataset.metres();
     dataset.seconds(0);
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
+    requireEverywhere(dataset, exported::color().of(options), kittiOdometryName, { "png" });
     for (const CameraEyes& eyes : eyesOf(dataset))
     {
       requireRig(dataset, eyes);
@@ -65,8 +65,8 @@ private:
     {
       if (std::abs(baseline(left) - first) > 1e-9 * first)
       {
-        throw UsageError(std::string(format) + ": cameras " + quoted(eyes.left) + " and " + quoted(eyes.right) +
-                         " are not equally far apart at all frames, which the format cannot say");
+        throw UsageError(std::string(kittiOdometryName) + ": cameras " + quoted(eyes.left) + " and " +
+                         quoted(eyes.right) + " are not equally far apart at all frames, which the format cannot say");
       }
     }
   }

@@ -11,7 +11,7 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "colmap-dense";
+constexpr const char* colmapDenseName = "colmap-dense";
 
 class ColmapDenseExporter : public Exporter
 {
@@ -25,19 +25,19 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requireWhole(options, format);
-    requirePinholes(dataset, format);
+    requireWhole(options, colmapDenseName);
+    requirePinholes(dataset, colmapDenseName);
     for (const DatasetShot& shot : dataset.shots())
     {
-      colmap::modelOf(shot.camera, PixelCentre::Integer, format);
+      colmap::modelOf(shot.camera, PixelCentre::Integer, colmapDenseName);
     }
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
+    requireEverywhere(dataset, exported::color().of(options), colmapDenseName, { "png" });
     for (const std::string& layer : { exported::depth().of(options), std::string("normal"), std::string("objects") })
     {
-      requireEverywhere(dataset, layer, format);
+      requireEverywhere(dataset, layer, colmapDenseName);
     }
-    requireEverywhere(dataset, "tracks", format, { "npy" });
-    colmap::checkRigs(dataset, options, format);
+    requireEverywhere(dataset, "tracks", colmapDenseName, { "npy" });
+    colmap::checkRigs(dataset, options, colmapDenseName);
   }
 
   ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override

@@ -11,7 +11,7 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "colmap";
+constexpr const char* colmapName = "colmap";
 
 class ColmapExporter : public Exporter
 {
@@ -25,15 +25,15 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requireWhole(options, format);
+    requireWhole(options, colmapName);
     for (const DatasetShot& shot : dataset.shots())
     {
-      colmap::modelOf(shot.camera, PixelCentre::Half, format);
+      colmap::modelOf(shot.camera, PixelCentre::Half, colmapName);
     }
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
-    requireEverywhere(dataset, "objects", format);
-    requireEverywhere(dataset, "tracks", format, { "npy" });
-    colmap::checkRigs(dataset, options, format);
+    requireEverywhere(dataset, exported::color().of(options), colmapName, { "png" });
+    requireEverywhere(dataset, "objects", colmapName);
+    requireEverywhere(dataset, "tracks", colmapName, { "npy" });
+    colmap::checkRigs(dataset, options, colmapName);
   }
 
   ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override

@@ -19,7 +19,7 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "mvsnet";
+constexpr const char* mvsnetName = "mvsnet";
 constexpr std::size_t mostSources = 10; ///< of a view
 
 const IntegerOption& depthPlanes()
@@ -107,12 +107,12 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requireWhole(options, format);
-    requirePinholes(dataset, format);
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
-    requireEverywhere(dataset, exported::depth().of(options), format);
-    requireEverywhere(dataset, "objects", format);
-    requireEverywhere(dataset, "tracks", format, { "npy" });
+    requireWhole(options, mvsnetName);
+    requirePinholes(dataset, mvsnetName);
+    requireEverywhere(dataset, exported::color().of(options), mvsnetName, { "png" });
+    requireEverywhere(dataset, exported::depth().of(options), mvsnetName);
+    requireEverywhere(dataset, "objects", mvsnetName);
+    requireEverywhere(dataset, "tracks", mvsnetName, { "npy" });
   }
 
   ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override

@@ -16,12 +16,12 @@ namespace dgtk
 namespace
 {
 using Json = nlohmann::ordered_json;
-constexpr const char* format = "nerf-synthetic";
+constexpr const char* nerfSyntheticName = "nerf-synthetic";
 constexpr const char* layer = "color_rgba";
 
-[[noreturn]] void refuse(const CameraRecord& camera, const std::string& what)
+[[noreturn]] void refuseCamera(const CameraRecord& camera, const std::string& what)
 {
-  throw UsageError(std::string(format) + ": camera " + quoted(camera.name) + ' ' + what +
+  throw UsageError(std::string(nerfSyntheticName) + ": camera " + quoted(camera.name) + ' ' + what +
                    ", and the format has one angle of view around the middle of square pixels");
 }
 
@@ -31,21 +31,21 @@ void requireSayable(const CameraRecord& camera, const CameraRecord& first)
   const Eigen::Matrix3d& K = camera.K;
   if (std::abs(K(0, 0) - K(1, 1)) > pixels * K(0, 0) || K(0, 1) != 0)
   {
-    refuse(camera, "has pixels that are not square");
+    refuseCamera(camera, "has pixels that are not square");
   }
   if (std::abs(2 * K(0, 2) - camera.width) > pixels * camera.width ||
       std::abs(2 * K(1, 2) - camera.height) > pixels * camera.height)
   {
-    refuse(camera, "has its principal point beside the middle");
+    refuseCamera(camera, "has its principal point beside the middle");
   }
   if (std::abs(K(0, 0) - first.K(0, 0)) > pixels * K(0, 0) || camera.width != first.width ||
       camera.height != first.height)
   {
-    refuse(camera, "has another size or angle of view than " + quoted(first.name));
+    refuseCamera(camera, "has another size or angle of view than " + quoted(first.name));
   }
 }
 
-Json matrixOf(const CameraRecord& camera)
+Json nerfMatrix(const CameraRecord& camera)
 {
   const Rigid3 pose = worldFromCameraGL(camera);
   Json rows = Json::array();
@@ -64,8 +64,8 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requirePng(options, format);
-    requirePinholes(dataset, format);
+    requirePng(options, nerfSyntheticName);
+    requirePinholes(dataset, nerfSyntheticName);
     for (const DatasetShot& shot : dataset.shots())
     {
       requireSayable(shot.camera, dataset.shots().front().camera);
@@ -74,10 +74,11 @@ public:
     {
       if (split.name != "train" && split.name != "val" && split.name != "test")
       {
-        throw UsageError("split: parts of " + std::string(format) + " are train, val and test, found " + split.name);
+        throw UsageError(
+          "split: parts of " + std::string(nerfSyntheticName) + " are train, val and test, found " + split.name);
       }
     }
-    requireEverywhere(dataset, layer, format, { "png" });
+    requireEverywhere(dataset, layer, nerfSyntheticName, { "png" });
   }
 
   ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override
@@ -103,7 +104,7 @@ private:
       {
         writePicture(sink, dataset, shot, layer, stem + ".png", options);
         const Json frame{ { "file_path", "./" + stem }, { "rotation", 0.0 },
-          { "transform_matrix", matrixOf(shot.camera) } };
+          { "transform_matrix", nerfMatrix(shot.camera) } };
         sink.note("frames:" + split, frame.dump());
       } };
   }

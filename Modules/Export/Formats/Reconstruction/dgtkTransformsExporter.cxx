@@ -19,7 +19,7 @@ namespace dgtk
 namespace
 {
 using Json = nlohmann::ordered_json;
-constexpr const char* format = "transforms";
+constexpr const char* transformsName = "transforms";
 
 const NumbersOption& depthStep()
 {
@@ -36,7 +36,7 @@ double stepOf(const OptionValues& options)
 
 [[noreturn]] void refuse(const CameraRecord& camera, const std::string& what)
 {
-  throw UsageError(std::string(format) + ": camera " + quoted(camera.name) + " has " + what +
+  throw UsageError(std::string(transformsName) + ": camera " + quoted(camera.name) + " has " + what +
                    ", which the format cannot say; render a twin of it");
 }
 
@@ -118,8 +118,8 @@ public:
       requireSayable(shot.camera);
       if (shot.camera.model != first.model)
       {
-        throw UsageError(std::string(format) + ": cameras " + quoted(first.name) + " and " + quoted(shot.name()) +
-                         " have models of their own (" + first.model + ", " + shot.camera.model +
+        throw UsageError(std::string(transformsName) + ": cameras " + quoted(first.name) + " and " +
+                         quoted(shot.name()) + " have models of their own (" + first.model + ", " + shot.camera.model +
                          "), and a document has one; name some with cameras");
       }
     }
@@ -127,13 +127,14 @@ public:
     {
       if (split.name != "train" && split.name != "val" && split.name != "test")
       {
-        throw UsageError("split: parts of " + std::string(format) + " are train, val and test, found " + split.name);
+        throw UsageError(
+          "split: parts of " + std::string(transformsName) + " are train, val and test, found " + split.name);
       }
     }
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
-    requireEverywhere(dataset, exported::depth().of(options), format);
-    requireEverywhere(dataset, "objects", format);
-    requireEverywhere(dataset, "tracks", format, { "npy" });
+    requireEverywhere(dataset, exported::color().of(options), transformsName, { "png" });
+    requireEverywhere(dataset, exported::depth().of(options), transformsName);
+    requireEverywhere(dataset, "objects", transformsName);
+    requireEverywhere(dataset, "tracks", transformsName, { "npy" });
   }
 
   ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override

@@ -17,7 +17,7 @@ namespace dgtk
 
 namespace
 {
-const std::string magic("\x89MCAP0\r\n", 8);
+const std::string mcapMagic("\x89MCAP0\r\n", 8);
 
 enum class Op : std::uint8_t
 {
@@ -122,7 +122,7 @@ public:
 
   void write()
   {
-    this->Text.put(magic);
+    this->Text.put(mcapMagic);
     this->Text.put(record(Op::Header, Content().text("ros1").text("DGTk").get()));
     this->Text.put(this->schemas());
     this->Text.put(this->channels());
@@ -133,7 +133,7 @@ public:
     }
     this->Text.put(record(Op::DataEnd, Content().number(this->Text.sum()).get()));
     this->putSummary(chunks);
-    this->Text.put(magic);
+    this->Text.put(mcapMagic);
   }
 
 private:

@@ -19,7 +19,7 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "tapvid";
+constexpr const char* tapvidName = "tapvid";
 constexpr int visible = 1;
 
 /// A place of a track in a picture.
@@ -206,18 +206,19 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requireWhole(options, format);
+    requireWhole(options, tapvidName);
     std::map<std::string, const DatasetShot*> firsts;
     for (const DatasetShot& shot : dataset.shots())
     {
       const CameraRecord& first = firsts.emplace(shot.name(), &shot).first->second->camera;
       if (shot.camera.width != first.width || shot.camera.height != first.height)
       {
-        throw UsageError(std::string(format) + ": camera " + quoted(shot.name()) + " has pictures of several sizes");
+        throw UsageError(
+          std::string(tapvidName) + ": camera " + quoted(shot.name()) + " has pictures of several sizes");
       }
     }
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
-    requireEverywhere(dataset, "tracks", format, { "npy" });
+    requireEverywhere(dataset, exported::color().of(options), tapvidName, { "png" });
+    requireEverywhere(dataset, "tracks", tapvidName, { "npy" });
   }
 
   ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override

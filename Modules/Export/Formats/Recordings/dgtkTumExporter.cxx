@@ -13,10 +13,10 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "tum";
+constexpr const char* tumName = "tum";
 
 /// The time of a frame, the same text everywhere: seconds with six decimals.
-std::string timeOf(const DatasetView& dataset, const DatasetShot& shot)
+std::string tumTime(const DatasetView& dataset, const DatasetShot& shot)
 {
   constexpr long long million = 1000000;
   const long long micros = std::llround(dataset.seconds(shot.frame()) * double(million));
@@ -36,7 +36,7 @@ bool isIcl(const OptionValues& options) { return dialect().of(options) == "icl-n
 /// How a dialect calls a picture: its time, or its number among the camera's pictures.
 std::string stampOf(const DatasetView& dataset, const DatasetShot& shot, const OptionValues& options)
 {
-  return isIcl(options) ? std::to_string(shot.frame()) : timeOf(dataset, shot);
+  return isIcl(options) ? std::to_string(shot.frame()) : tumTime(dataset, shot);
 }
 
 class TumExporter : public Exporter
@@ -51,9 +51,9 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requireWhole(options, format);
-    requirePinholes(dataset, format);
-    requireFixedIntrinsics(dataset, format);
+    requireWhole(options, tumName);
+    requirePinholes(dataset, tumName);
+    requireFixedIntrinsics(dataset, tumName);
     dataset.metres();
     if (isIcl(options) && dataset.frames().front() < 0)
     {
@@ -64,8 +64,8 @@ public:
     {
       dataset.seconds(0);
     }
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
-    requireEverywhere(dataset, exported::depth().of(options), format);
+    requireEverywhere(dataset, exported::color().of(options), tumName, { "png" });
+    requireEverywhere(dataset, exported::depth().of(options), tumName);
   }
 
   ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override

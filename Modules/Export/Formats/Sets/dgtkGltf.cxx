@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkGltf.h"
+#include "dgtkPortableMath.h"
 
 #include <Eigen/Geometry>
 
@@ -15,7 +16,6 @@ namespace
 {
 constexpr int floatType = 5126;
 constexpr int uintType = 5125;
-constexpr double pi = 3.14159265358979323846;
 
 std::size_t componentsOf(const std::string& type)
 {

@@ -21,7 +21,7 @@ namespace
 using gltf::Json;
 using gltf::Place;
 
-constexpr const char* format = "gltf";
+constexpr const char* gltfName = "gltf";
 constexpr const char* sceneName = "scene.gltf";
 constexpr const char* bufferName = "scene.bin";
 
@@ -334,9 +334,9 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requireWhole(options, format);
-    requirePinholes(dataset, format);
-    requireFixedIntrinsics(dataset, format);
+    requireWhole(options, gltfName);
+    requirePinholes(dataset, gltfName);
+    requireFixedIntrinsics(dataset, gltfName);
     dataset.metres();
     dataset.seconds(0);
     for (const DatasetShot& shot : dataset.shots())

@@ -18,8 +18,8 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "hdf5";
-constexpr int gzipLevel = 4; ///< h5py's own
+constexpr const char* hdf5Name = "hdf5";
+constexpr int hdf5GzipLevel = 4; ///< h5py's own
 constexpr float nothingSeen = 1e10F;
 using Json = nlohmann::ordered_json;
 
@@ -48,7 +48,7 @@ public:
     : Sink(sink)
     , Dataset(dataset)
     , Options(options)
-    , File(gzipLevel)
+    , File(hdf5GzipLevel)
   {
   }
 
@@ -223,14 +223,14 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requireWhole(options, format);
-    requirePng(options, format);
-    requirePinholes(dataset, format);
+    requireWhole(options, hdf5Name);
+    requirePng(options, hdf5Name);
+    requirePinholes(dataset, hdf5Name);
     dataset.metres();
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
+    requireEverywhere(dataset, exported::color().of(options), hdf5Name, { "png" });
     for (const std::string& layer : { exported::depth().of(options), std::string("objects"), std::string("classes") })
     {
-      requireEverywhere(dataset, layer, format);
+      requireEverywhere(dataset, layer, hdf5Name);
     }
   }
 

@@ -12,7 +12,7 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "imagefolder";
+constexpr const char* imagefolderName = "imagefolder";
 using card::Json;
 
 /// What is seen, as the hub's detection sets have it: lists of one length, boxes [x, y, width, height] in pixels.
@@ -52,13 +52,13 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
+    requireEverywhere(dataset, exported::color().of(options), imagefolderName, { "png" });
     std::vector<std::string> parts;
     for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
     {
       parts.push_back(split.name);
     }
-    card::checkParts(parts, format);
+    card::checkParts(parts, imagefolderName);
   }
 
   ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override

@@ -17,7 +17,7 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "webdataset";
+constexpr const char* webdatasetName = "webdataset";
 using card::Json;
 
 const IntegerOption& samplesPerShard()
@@ -93,13 +93,13 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
+    requireEverywhere(dataset, exported::color().of(options), webdatasetName, { "png" });
     std::vector<std::string> parts;
     for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
     {
       parts.push_back(split.name);
     }
-    card::checkParts(parts, format);
+    card::checkParts(parts, webdatasetName);
     const Samples all(dataset, options);
     for (const DatasetShot& shot : dataset.shots())
     {
@@ -108,8 +108,9 @@ public:
         const std::string name = all.keyOf(shot) + '.' + member.name;
         if (name.size() > TarFile::longestName)
         {
-          throw UsageError(std::string(format) + ": camera " + quoted(shot.name()) + ": the name " + quoted(name) +
-                           " is longer than the " + std::to_string(TarFile::longestName) + " bytes of a name in a tar");
+          throw UsageError(std::string(webdatasetName) + ": camera " + quoted(shot.name()) + ": the name " +
+                           quoted(name) + " is longer than the " + std::to_string(TarFile::longestName) +
+                           " bytes of a name in a tar");
         }
       }
     }

@@ -14,7 +14,7 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "flyingthings";
+constexpr const char* flyingthingsName = "flyingthings";
 constexpr float nothing = 1e10F; ///< finite, so that a masked loss stays a number
 constexpr int firstNumber = 6;   ///< of a sequence's pictures
 
@@ -150,17 +150,17 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requirePng(options, format);
-    requireConsecutive(dataset, format);
-    for (const CameraEyes& eyes : pairsOf(dataset, format))
+    requirePng(options, flyingthingsName);
+    requireConsecutive(dataset, flyingthingsName);
+    for (const CameraEyes& eyes : pairsOf(dataset, flyingthingsName))
     {
       for (const std::string& camera : { eyes.left, eyes.right })
       {
         for (const DatasetShot* shot : dataset.shotsOf(camera))
         {
-          requireFile(dataset, *shot, exported::color().of(options), format, { "png" });
-          requireFile(dataset, *shot, "disparity", format);
-          requireFile(dataset, *shot, "objects", format);
+          requireFile(dataset, *shot, exported::color().of(options), flyingthingsName, { "png" });
+          requireFile(dataset, *shot, "disparity", flyingthingsName);
+          requireFile(dataset, *shot, "objects", flyingthingsName);
         }
       }
     }
@@ -175,7 +175,7 @@ public:
     for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
     {
       int number = 0;
-      for (const CameraEyes& eyes : pairsOf(dataset, format))
+      for (const CameraEyes& eyes : pairsOf(dataset, flyingthingsName))
       {
         addSequence(plan, dataset, eyes, split, upper(split.name) + "/A/" + padded(number++, 4) + '/', options);
       }

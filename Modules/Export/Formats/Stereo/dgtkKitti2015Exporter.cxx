@@ -14,7 +14,7 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "kitti2015";
+constexpr const char* kitti2015Name = "kitti2015";
 constexpr const char* later = "disparity_forward"; ///< at the next frame, in the pixels of this one
 
 const NamesOption& foreground()
@@ -35,7 +35,7 @@ struct Sample
 
 CameraEyes thePair(const DatasetView& dataset)
 {
-  const std::vector<CameraEyes> pairs = pairsOf(dataset, format);
+  const std::vector<CameraEyes> pairs = pairsOf(dataset, kitti2015Name);
   if (pairs.size() > 1)
   {
     std::vector<std::string> words;
@@ -43,7 +43,7 @@ CameraEyes thePair(const DatasetView& dataset)
     {
       words.push_back(quoted(one.left) + " and " + quoted(one.right));
     }
-    throw UsageError("cameras: " + std::string(format) + " shows one rectified pair; the dataset has several: " +
+    throw UsageError("cameras: " + std::string(kitti2015Name) + " shows one rectified pair; the dataset has several: " +
                      joined(words, "; ") + " (name two cameras)");
   }
   return pairs.front();
@@ -64,7 +64,7 @@ std::vector<Sample> samplesOf(const DatasetView& dataset)
   }
   if (samples.empty())
   {
-    throw UsageError("frames: " + std::string(format) + " needs two frames that follow each other");
+    throw UsageError("frames: " + std::string(kitti2015Name) + " needs two frames that follow each other");
   }
   return samples;
 }
@@ -83,7 +83,7 @@ std::map<std::uint32_t, std::uint32_t> objectCodes(const DatasetView& dataset, c
   }
   if (codes.size() > 255)
   {
-    throw UsageError("foreground: " + std::string(format) + " has codes for 255 objects (found " +
+    throw UsageError("foreground: " + std::string(kitti2015Name) + " has codes for 255 objects (found " +
                      std::to_string(codes.size()) + "); name classes");
   }
   return codes;
@@ -101,19 +101,19 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requirePng(options, format);
-    requireWhole(options, format);
+    requirePng(options, kitti2015Name);
+    requireWhole(options, kitti2015Name);
     dataset.metres();
     objectCodes(dataset, options);
     for (const Sample& one : samplesOf(dataset))
     {
       for (const DatasetShot* shot : { one.left, one.right, one.nextLeft, one.nextRight })
       {
-        requireFile(dataset, *shot, exported::color().of(options), format, { "png" });
+        requireFile(dataset, *shot, exported::color().of(options), kitti2015Name, { "png" });
       }
       for (const char* layer : { "disparity", later, "flow_forward", "objects" })
       {
-        requireFile(dataset, *one.left, layer, format);
+        requireFile(dataset, *one.left, layer, kitti2015Name);
       }
     }
   }

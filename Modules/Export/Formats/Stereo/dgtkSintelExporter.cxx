@@ -13,7 +13,7 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "sintel";
+constexpr const char* sintelName = "sintel";
 
 const ChoiceOption& occlusions()
 {
@@ -52,21 +52,21 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requirePng(options, format);
-    requireWhole(options, format);
-    requirePinholes(dataset, format);
-    requireConsecutive(dataset, format);
-    requireEverywhere(dataset, exported::color().of(options), format, { "png" });
+    requirePng(options, sintelName);
+    requireWhole(options, sintelName);
+    requirePinholes(dataset, sintelName);
+    requireConsecutive(dataset, sintelName);
+    requireEverywhere(dataset, exported::color().of(options), sintelName, { "png" });
     for (const Scene& scene : scenesOf(dataset))
     {
       for (const std::uint32_t i : scene.shots)
       {
         const DatasetShot& shot = dataset.shots()[i];
-        requireFile(dataset, shot, exported::depth().of(options), format);
-        requireFile(dataset, shot, "objects", format);
+        requireFile(dataset, shot, exported::depth().of(options), sintelName);
+        requireFile(dataset, shot, "objects", sintelName);
         if (dataset.shot(shot.name(), shot.frame() + 1))
         {
-          requireFile(dataset, shot, "flow_forward", format);
+          requireFile(dataset, shot, "flow_forward", sintelName);
         }
       }
     }

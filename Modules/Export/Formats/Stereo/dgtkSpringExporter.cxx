@@ -19,7 +19,7 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* format = "spring";
+constexpr const char* springName = "spring";
 constexpr int gzipLevel = 5;
 
 /// A kind of truth: "flow_FW" in frame_left's sequence is layer flow_forward.
@@ -37,7 +37,7 @@ constexpr Truth truths[] = { { "disp1", "disparity", "disparity", "dsp5", 0 },
   { "flow_BW", "flow_backward", "flow", "flo5", -1 } };
 
 /// Where the files of an eye at a frame are.
-struct Place
+struct EyePlace
 {
   std::string folder; ///< "train/0001/"
   std::string side;   ///< "left" or "right"
@@ -127,11 +127,11 @@ public:
 
   void check(const DatasetView& dataset, const OptionValues& options) const override
   {
-    requireWhole(options, format);
-    requirePng(options, format);
-    requireConsecutive(dataset, format);
+    requireWhole(options, springName);
+    requirePng(options, springName);
+    requireConsecutive(dataset, springName);
     dataset.metres();
-    for (const CameraEyes& pair : pairsOf(dataset, format))
+    for (const CameraEyes& pair : pairsOf(dataset, springName))
     {
       for (const std::string& camera : { pair.left, pair.right })
       {
@@ -152,7 +152,7 @@ public:
       { "axes", "x right, y down, z forward; poses are the left camera's axes from the world's" },
       { "metres_per_unit", shortest(dataset.metres()) } };
     int number = 0;
-    for (const CameraEyes& pair : pairsOf(dataset, format))
+    for (const CameraEyes& pair : pairsOf(dataset, springName))
     {
       const std::string folder = "train/" + padded(++number, 4) + '/';
       addEye(plan, dataset, pair.left, "left", folder, options);
@@ -166,25 +166,26 @@ private:
   static void checkShot(const DatasetView& dataset, const DatasetShot& shot, const OptionValues& options)
   {
     const std::string color = exported::color().of(options);
-    requireFile(dataset, shot, color, format, { "png" });
+    requireFile(dataset, shot, color, springName, { "png" });
     for (const Truth& truth : truths)
     {
       if (dataset.shot(shot.name(), shot.frame() + truth.step))
       {
-        requireFile(dataset, shot, truth.layer, format);
+        requireFile(dataset, shot, truth.layer, springName);
       }
     }
     const std::string place = "camera " + quoted(shot.name()) + " at frame " + std::to_string(shot.frame());
     if (shot.camera.width % 2 != 0 || shot.camera.height % 2 != 0)
     {
-      throw UsageError(std::string(format) + ": " + place +
+      throw UsageError(std::string(springName) + ": " + place +
                        " has an odd width or height; the dataset must be rendered " +
                        "twice as wide and high as the pictures will be");
     }
     const ImageInfo info = dataset.open(shot, color, { "png" })->info();
     if (info.type != PixelType::UInt8 || info.channels < 3)
     {
-      throw UsageError(std::string(format) + ": the picture of " + place + " does not have three colours of 8 bits");
+      throw UsageError(
+        std::string(springName) + ": the picture of " + place + " does not have three colours of 8 bits");
     }
   }
 
@@ -198,7 +199,7 @@ private:
   }
 
   static ExportItem item(
-    const DatasetView& dataset, const DatasetShot& shot, const Place& place, const OptionValues& options)
+    const DatasetView& dataset, const DatasetShot& shot, const EyePlace& place, const OptionValues& options)
   {
     ExportItem item{ { place.path("frame", "png") }, {} };
     std::vector<std::pair<const Truth*, std::string>> there;

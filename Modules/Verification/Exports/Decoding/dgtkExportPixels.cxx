@@ -14,7 +14,7 @@ namespace dgtk
 
 namespace
 {
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double noNumber = std::numeric_limits<double>::quiet_NaN();
 
 DecodedPixels allOf(const std::string& path)
 {
@@ -42,9 +42,9 @@ DecodedPixels decodeLinear(const std::string& path, const PixelEncoding& encodin
   DecodedPixels pixels = allOf(path);
   const double scale = numberOf(encoding, "scale", 1);
   const double offset = numberOf(encoding, "offset", 0);
-  const double none = numberOf(encoding, "nothing", nothing);
+  const double none = numberOf(encoding, "nothing", noNumber);
   std::transform(pixels.values.begin(), pixels.values.end(), pixels.values.begin(),
-    [&](double code) { return code == none ? nothing : (code - offset) * scale; });
+    [&](double code) { return code == none ? noNumber : (code - offset) * scale; });
   return pixels;
 }
 
@@ -52,9 +52,9 @@ DecodedPixels decodeLinear(const std::string& path, const PixelEncoding& encodin
 DecodedPixels decodeFloat(const std::string& path, const PixelEncoding& encoding)
 {
   DecodedPixels pixels = allOf(path);
-  const double none = numberOf(encoding, "nothing", nothing);
+  const double none = numberOf(encoding, "nothing", noNumber);
   std::transform(pixels.values.begin(), pixels.values.end(), pixels.values.begin(),
-    [&](double value) { return std::isfinite(value) && value != none ? value : nothing; });
+    [&](double value) { return std::isfinite(value) && value != none ? value : noNumber; });
   return pixels;
 }
 
@@ -256,16 +256,16 @@ public:
     {
       if (std::find(wanted.begin(), wanted.end(), picture->at(x, y)) == wanted.end())
       {
-        return nothing;
+        return noNumber;
       }
     }
     if (this->Objects &&
         std::find(this->LeftOut.begin(), this->LeftOut.end(), double(this->Objects->id(x, y))) != this->LeftOut.end())
     {
-      return nothing;
+      return noNumber;
     }
     const double value = this->Layer->at(x, y, c);
-    return std::isfinite(value) ? value * this->Factors[std::size_t(c) % this->Factors.size()] : nothing;
+    return std::isfinite(value) ? value * this->Factors[std::size_t(c) % this->Factors.size()] : noNumber;
   }
   int channels() const { return this->Layer->channels(); }
   double rounding(int x, int y, int c) const { return this->Layer->rounding(this->Layer->at(x, y, c)); }

@@ -18,10 +18,10 @@ namespace dgtk
 namespace
 {
 /// Bytes of the file, looked at with care.
-class Bytes
+class Hdf5Bytes
 {
 public:
-  Bytes(const std::string& path, std::string data)
+  Hdf5Bytes(const std::string& path, std::string data)
     : Path(path)
     , Data(std::move(data))
   {
@@ -64,8 +64,8 @@ private:
 };
 
 /// Calls visit(type, offset, size) for the messages of a header of version 1 in one piece.
-void forMessages(
-  const Bytes& file, std::uint64_t at, const std::function<void(std::uint64_t, std::uint64_t, std::uint64_t)>& visit)
+void forMessages(const Hdf5Bytes& file, std::uint64_t at,
+  const std::function<void(std::uint64_t, std::uint64_t, std::uint64_t)>& visit)
 {
   if (file.number(at, 1) != 1)
   {
@@ -334,7 +334,7 @@ private:
     }
   }
 
-  Bytes File;
+  Hdf5Bytes File;
   std::uint64_t Names = 0;
   std::string Last;
   mutable bool Signed = false; ///< of the type read last

@@ -18,7 +18,7 @@ namespace dgtk
 namespace
 {
 using Json = nlohmann::json;
-using Points = std::vector<Eigen::Vector3d>;
+using BopPoints = std::vector<Eigen::Vector3d>;
 
 std::string digits(const std::string& number)
 {
@@ -41,7 +41,7 @@ Eigen::Vector3d vectorOf(const Json& list)
 }
 
 /// Vertices of a .ply, as text or as doubles that begin each row.
-Points verticesOf(const std::string& path)
+BopPoints verticesOf(const std::string& path)
 {
   const std::string bytes = readFile(path);
   std::istringstream stream(bytes);
@@ -63,7 +63,7 @@ Points verticesOf(const std::string& path)
     }
     rowBytes += first == "property" && vertices ? (second == "double" ? 8 : second == "float" ? 4 : 1) : 0;
   }
-  Points points;
+  BopPoints points;
   const auto start = std::size_t(std::max<std::streamoff>(0, stream.tellg()));
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -134,7 +134,7 @@ public:
 private:
   Json document(const std::string& name) const { return readJsonFile(this->Judge.source().path(name)); }
 
-  void judgeInfo(const std::string& file, const Json& info, const Points& points)
+  void judgeInfo(const std::string& file, const Json& info, const BopPoints& points)
   {
     Eigen::Vector3d least = points.at(0);
     Eigen::Vector3d most = least;
@@ -211,7 +211,7 @@ private:
 
   const BoxRecord* boxOf(const Json& pose, const ExportedName& picture, const std::vector<BoxRecord>& boxes)
   {
-    const Points& model = this->Models.at(pose.at("obj_id"));
+    const BopPoints& model = this->Models.at(pose.at("obj_id"));
     const Eigen::Matrix3d R = matrixOf(pose.at("cam_R_m2c"));
     const Eigen::Vector3d t = vectorOf(pose.at("cam_t_m2c"));
     const CameraRecord* camera = this->Judge.source().camera(picture.camera, picture.frame);
@@ -224,7 +224,7 @@ private:
       {
         continue;
       }
-      const Points& own = this->geometry(part + object->geometryFile);
+      const BopPoints& own = this->geometry(part + object->geometryFile);
       double apart = own.size() == model.size() ? 0 : infinite;
       for (std::size_t k = 0; k < own.size() && apart < 1e-6; ++k)
       {
@@ -241,7 +241,7 @@ private:
     return nullptr;
   }
 
-  const Points& geometry(const std::string& file)
+  const BopPoints& geometry(const std::string& file)
   {
     auto known = this->Geometries.find(file);
     if (known == this->Geometries.end())
@@ -339,8 +339,8 @@ private:
   ExportJudge& Judge;
   double Unit;
   Json Infos;
-  std::map<int, Points> Models;
-  std::map<std::string, Points> Geometries;
+  std::map<int, BopPoints> Models;
+  std::map<std::string, BopPoints> Geometries;
   std::map<std::tuple<std::string, int, std::uint32_t>, PoseRecord> Poses; ///< by part, frame, object
 };
 } // namespace

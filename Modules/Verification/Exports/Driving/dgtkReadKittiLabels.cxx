@@ -2,6 +2,7 @@
 #include "dgtkReadTexts.h"
 
 #include "dgtkError.h"
+#include "dgtkPortableMath.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,18 +14,17 @@ namespace dgtk
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 using Corners = Eigen::Matrix<double, 8, 3>;
 
-struct Label
+struct KittiLabel
 {
   std::string type;
   std::vector<double> numbers; ///< truncated, occluded, alpha, left top right bottom, h w l, x y z, ry
 };
 
-std::vector<Label> labelsOf(const std::string& path)
+std::vector<KittiLabel> labelsOf(const std::string& path)
 {
-  std::vector<Label> labels;
+  std::vector<KittiLabel> labels;
   std::size_t line = 0;
   for (const std::vector<std::string>& words : linesOf(path))
   {
@@ -33,7 +33,7 @@ std::vector<Label> labelsOf(const std::string& path)
     {
       throw InputError(path, line, "expected 15 columns, found " + std::to_string(words.size()));
     }
-    Label label{ words[0], {} };
+    KittiLabel label{ words[0], {} };
     for (std::size_t i = 1; i < words.size(); ++i)
     {
       label.numbers.push_back(numberIn(path, line, words[i]));
@@ -44,7 +44,7 @@ std::vector<Label> labelsOf(const std::string& path)
 }
 
 /// As the kit draws them: x by length, y from the bottom up, z by width, turned by ry about y.
-Corners cornersOf(const Label& label)
+Corners cornersOf(const KittiLabel& label)
 {
   const std::vector<double>& n = label.numbers;
   const double c = std::cos(n[13]);
@@ -108,7 +108,7 @@ struct Place
   std::string words; ///< which object
 };
 
-void judgeLabel(ExportJudge& judge, const Place& place, const Label& label, const BoxRecord& box)
+void judgeLabel(ExportJudge& judge, const Place& place, const KittiLabel& label, const BoxRecord& box)
 {
   const std::vector<double>& n = label.numbers;
   const auto number = [&](const char* what, const char* unit, double found, double expected, double tolerance)
@@ -137,7 +137,7 @@ void judgeLabel(ExportJudge& judge, const Place& place, const Label& label, cons
 }
 
 /// The side that an object shows ahead: the length is along the axis that the export was asked for.
-void judgeFront(ExportJudge& judge, const Place& place, const Label& label, const BoxRecord& box)
+void judgeFront(ExportJudge& judge, const Place& place, const KittiLabel& label, const BoxRecord& box)
 {
   const std::string front = option(judge.source(), "front");
   const int axis = front.empty() ? 0 : front.back() - 'x';
@@ -177,7 +177,7 @@ void judgeLabels(ExportJudge& judge, const std::string& file, const ExportedName
   std::vector<BoxRecord> boxes = judge.source().boxes(picture.camera, picture.frame);
   boxes.erase(
     std::remove_if(boxes.begin(), boxes.end(), [](const BoxRecord& box) { return !box.visible; }), boxes.end());
-  const std::vector<Label> labels = labelsOf(judge.source().path(file));
+  const std::vector<KittiLabel> labels = labelsOf(judge.source().path(file));
   const std::string where = picture.camera + " at frame " + std::to_string(picture.frame);
   judge.number("labels", "objects", file, where, double(labels.size()), double(boxes.size()), 0);
   for (std::size_t i = 0; i < std::min(labels.size(), boxes.size()); ++i)

@@ -49,7 +49,7 @@ struct Channel
   std::string type;
 };
 /// A message's channel, time and place in its chunk.
-using Place = std::tuple<std::uint16_t, std::uint64_t, std::uint64_t>;
+using McapPlace = std::tuple<std::uint16_t, std::uint64_t, std::uint64_t>;
 
 struct Chunk
 {
@@ -58,8 +58,8 @@ struct Chunk
   std::uint64_t position = 0;
   std::uint64_t length = 0;
   std::uint64_t bytes = 0;
-  std::vector<Place> messages;
-  std::vector<Place> indexed;
+  std::vector<McapPlace> messages;
+  std::vector<McapPlace> indexed;
   std::map<std::uint16_t, std::uint64_t> indices;
   std::uint64_t indexBytes = 0;
 };

@@ -66,13 +66,13 @@ Record recordAt(RosFile& bag, std::uint64_t position)
 }
 
 /// A message's connection, time and place in its chunk.
-using Place = std::tuple<std::uint32_t, std::uint64_t, std::uint32_t>;
+using BagPlace = std::tuple<std::uint32_t, std::uint64_t, std::uint32_t>;
 
-struct Chunk
+struct BagChunk
 {
   std::uint64_t position = 0;
-  std::vector<Place> messages;
-  std::vector<Place> indexed;
+  std::vector<BagPlace> messages;
+  std::vector<BagPlace> indexed;
 };
 
 class Bag
@@ -107,7 +107,7 @@ public:
     this->count("chunks", numberOf<std::uint32_t>(this->Path, head.fields, "chunk_count"), this->Chunks.size());
     this->count("chunks in the index", this->Infos, this->Chunks.size());
     this->Referee.holds("connections", this->Listed == this->Connections, "others", "those of the chunks");
-    for (const Chunk& chunk : this->Chunks)
+    for (const BagChunk& chunk : this->Chunks)
     {
       this->Referee.holds("index", chunk.messages == chunk.indexed, "others", "the chunk's messages");
     }
@@ -157,7 +157,7 @@ private:
     const auto size = numberOf<std::uint32_t>(this->Path, record.fields, "size");
     const bool plain = record.fields.at("compression") == "none" && size == record.data.size();
     this->Referee.holds("chunk", plain, "packed, or of another size", "as it is");
-    Chunk chunk{ position, {}, {} };
+    BagChunk chunk{ position, {}, {} };
     RosBytes bytes(this->Path, record.data);
     while (bytes.more())
     {
@@ -202,7 +202,7 @@ private:
     {
       return;
     }
-    const Chunk& chunk = this->Chunks[number];
+    const BagChunk& chunk = this->Chunks[number];
     this->count("chunk", numberOf<std::uint64_t>(this->Path, record.fields, "chunk_pos"), chunk.position);
     std::map<std::uint32_t, std::uint32_t> counts;
     std::set<std::uint64_t> times;
@@ -227,7 +227,7 @@ private:
   RosReferee Referee;
   std::map<std::uint32_t, Fields> Connections; ///< in chunks
   std::map<std::uint32_t, Fields> Listed;      ///< in the index
-  std::vector<Chunk> Chunks;
+  std::vector<BagChunk> Chunks;
   std::size_t Infos = 0;
 };
 } // namespace

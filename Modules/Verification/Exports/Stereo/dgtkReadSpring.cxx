@@ -50,7 +50,7 @@ std::string fourDigits(std::size_t number)
   return std::string(4 - std::min<std::size_t>(4, text.size()), '0') + text;
 }
 
-void judgeSequence(ExportJudge& judge, const std::string& folder)
+void judgeSpringSequence(ExportJudge& judge, const std::string& folder)
 {
   const ExportedFrom& source = judge.source();
   const std::string intrinsics = folder + "cam_data/intrinsics.txt";
@@ -92,7 +92,7 @@ void readSpring(ExportJudge& judge)
     const std::string& file = one->file.path;
     if (stemOf(file) == "intrinsics")
     {
-      judgeSequence(judge, file.substr(0, file.find("cam_data/")));
+      judgeSpringSequence(judge, file.substr(0, file.find("cam_data/")));
     }
   }
 }
