@@ -14,8 +14,8 @@ build = os.path.abspath(sys.argv[1])
 environment = dict(os.environ, DGTK_EDITOR_PICTURES=os.path.dirname(os.path.abspath(__file__)),
                    DGTK=os.path.join(build, "bin", "dgtk"), LIBGL_ALWAYS_SOFTWARE="1")
 status = 0
-for program in ("TestEditorWhole", "TestEditorExport", "TestEditorFiles", "TestEditorHandles", "TestEditorLook", "TestEditorSamples", "TestEditorTimeLine",
-                "TestEditorTruth", "TestEditorViewer"):
+for test in ("TestEditorWhole", "TestEditorExport", "TestEditorFiles", "TestEditorHandles", "TestEditorLook", "TestEditorSamples", "TestEditorTimeLine",
+             "TestEditorTruth", "TestEditorViewer"):
     status |= subprocess.call(["xvfb-run", "-a", "-s", "-screen 0 1400x1000x24",
-                               os.path.join(build, "bin", program), "pictures"], env=environment)
+                               os.path.join(build, "bin", "TestEditor"), test, "pictures"], env=environment)
 sys.exit(status)

@@ -29,7 +29,10 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
+#include <map>
 #include <random>
+#include <string>
 #include <vector>
 
 #include <sys/file.h>
@@ -306,4 +309,29 @@ void EditorTest::renderAndCompare(const QString& scene, const QStringList& layer
   {
     QVERIFY2(window[name] == line[name], qPrintable(name));
   }
+}
+
+static std::map<std::string, int (*)(int, char**)>& rows()
+{
+  static std::map<std::string, int (*)(int, char**)> all;
+  return all;
+}
+
+EditorTestRow::EditorTestRow(const char* word, int (*run)(int, char**)) { rows()[word] = run; }
+
+int main(int argc, char** argv)
+{
+  const auto row = argc > 1 ? rows().find(argv[1]) : rows().end();
+  if (row == rows().end())
+  {
+    std::fputs("The first argument is one of:", stderr);
+    for (const auto& [word, run] : rows())
+    {
+      std::fprintf(stderr, " %s", word.c_str());
+    }
+    std::fputs("\n", stderr);
+    return 2;
+  }
+  argv[1] = argv[0];
+  return row->second(argc - 1, argv + 1);
 }

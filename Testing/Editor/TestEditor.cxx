@@ -322,4 +322,4 @@ void TestEditor::theViewsLookAsTheyWereLeft()
   QTRY_VERIFY(picture("view.0") == front);
 }
 
-int main(int argc, char** argv) { return runEditorTest<TestEditor>(argc, argv); }
+DGTK_EDITOR_TEST(TestEditor);

@@ -97,4 +97,4 @@ void TestEditorBeside::theWindowAnswersWhileItRenders()
   QTRY_VERIFY(start->isEnabled());
 }
 
-int main(int argc, char** argv) { return runEditorTest<TestEditorBeside>(argc, argv); }
+DGTK_EDITOR_TEST(TestEditorBeside);

@@ -8,13 +8,7 @@
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
-#include <QProcess>
 #include <QPushButton>
-
-namespace
-{
-int run(const QStringList& words) { return QProcess::execute(QString::fromLocal8Bit(qgetenv("DGTK")), words); }
-} // namespace
 
 QString TestEditorExport::dataset() const
 {
@@ -94,4 +88,4 @@ void TestEditorExport::pictures()
   QVERIFY(shown->grab().save(folder + "/editor_export.png"));
 }
 
-int main(int argc, char** argv) { return runEditorTest<TestEditorExport>(argc, argv); }
+DGTK_EDITOR_TEST(TestEditorExport);

@@ -390,4 +390,4 @@ void TestEditorFiles::pictures()
   this->letImporterGo();
 }
 
-int main(int argc, char** argv) { return runEditorTest<TestEditorFiles>(argc, argv); }
+DGTK_EDITOR_TEST(TestEditorFiles);

@@ -27,15 +27,13 @@ constexpr int forestLimit = 5000;  // milliseconds from the file to the drawn vi
 constexpr double eventLimit = 200; // milliseconds
 constexpr int tries = 3;
 constexpr int smallerSide = 19; // trees of 584 triangles: 210,000 in all
-constexpr int turns = 10;
+constexpr int forestTurns = 10;
 constexpr int crownSide = 100;
 constexpr double copyLimit = 20;            // KiB that another copy takes in four views; the crown itself: 11 MiB
 constexpr double turnLimit = 100;           // milliseconds: ten pictures a second
 constexpr int sameColor = 24;               // of 255
 constexpr double mostDifferent = 0.002;     // of the pixels: edges, by rounding
 constexpr double mostDifferentWires = 0.01; // there are more edges
-constexpr int front = 0;
-constexpr int perspective = 3;
 
 std::string tree() { return dgtk::test::sourceFile("Data/Models/tree.ac"); }
 
@@ -315,13 +313,13 @@ void TestEditorForest::twoHundredThousandTrianglesTurn()
   QElapsedTimer clock;
   clock.start();
   const std::clock_t began = std::clock();
-  for (int step = 1; step <= turns; ++step)
+  for (int step = 1; step <= forestTurns; ++step)
   {
     this->moveTo(perspective, QPoint(25 + 5 * step, 5));
   }
   const double spent =
-    std::min(clock.nsecsElapsed() * 1e-6, 1000.0 * double(std::clock() - began) / CLOCKS_PER_SEC) / turns;
-  QTest::mouseRelease(this->view(perspective), Qt::LeftButton, {}, QPoint(25 + 5 * turns, 5));
+    std::min(clock.nsecsElapsed() * 1e-6, 1000.0 * double(std::clock() - began) / CLOCKS_PER_SEC) / forestTurns;
+  QTest::mouseRelease(this->view(perspective), Qt::LeftButton, {}, QPoint(25 + 5 * forestTurns, 5));
   qInfo("%.0f ms for a step of turning the perspective", spent);
   QVERIFY(spent < patience() * turnLimit);
 }
@@ -343,4 +341,4 @@ void TestEditorForest::copiesShareTheirGeometry()
   QVERIFY(copy < copyLimit);
 }
 
-int main(int argc, char** argv) { return runEditorTest<TestEditorForest>(argc, argv); }
+DGTK_EDITOR_TEST(TestEditorForest);

@@ -24,14 +24,9 @@ using dgtk::test::sourceFile;
 
 namespace
 {
-constexpr int front = 0;
-constexpr int perspective = 3;
-constexpr double tolerance = 1e-9; // world units, of motions of a few units
 constexpr double pi = 3.14159265358979323846;
 
 const double arrow = dgtk::ViewHandles::length();
-
-bool near(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm() < tolerance; }
 } // namespace
 
 dgtk::SceneDocument& TestEditorHandles::document() const { return this->Window->document(); }
@@ -148,7 +143,7 @@ void TestEditorHandles::squaresAndKeysKeepToPlanes()
   QTest::keyClick(this->view(front), Qt::Key_Y);
   QVERIFY(near(this->object().position.value, { 0, 30 * u, 0 }));
   QTest::keyClick(this->view(front), Qt::Key_X, Qt::ShiftModifier);
-  QVERIFY(std::abs(this->object().position.value.x()) < tolerance);
+  QVERIFY(std::abs(this->object().position.value.x()) < handleTolerance);
   QTest::keyClick(this->view(front), Qt::Key_Y);
   QTest::keyClick(this->view(front), Qt::Key_Y);
   QVERIFY(near(this->object().position.value, { 40 * u, 30 * u, 0 }));
@@ -174,7 +169,7 @@ void TestEditorHandles::ringsRotate()
   const double expected = angleOf(onRing(70)) - angleOf(onRing(20));
   this->drag(front, onRing(20), onRing(70));
   const dgtk::Quaternion q = this->object().orientation.value;
-  QVERIFY(std::abs(2 * std::atan2(q.z, q.w) - expected) < tolerance);
+  QVERIFY(std::abs(2 * std::atan2(q.z, q.w) - expected) < handleTolerance);
   QCOMPARE(q.x, 0.0);
   QCOMPARE(q.y, 0.0);
   QCOMPARE(this->object().position.value, Eigen::Vector3d(0, 0, 0));
@@ -199,7 +194,7 @@ void TestEditorHandles::ringsRotate()
   this->move(front, center + QPoint(70, 0));
   this->release(front, center + QPoint(70, 0));
   const dgtk::Quaternion wheel = this->object().orientation.value;
-  QVERIFY(std::abs(2 * std::atan2(wheel.y, wheel.w) - 40 / arrow) < tolerance);
+  QVERIFY(std::abs(2 * std::atan2(wheel.y, wheel.w) - 40 / arrow) < handleTolerance);
 }
 
 void TestEditorHandles::boxesScale()
@@ -253,10 +248,10 @@ void TestEditorHandles::modelsFarFromTheirOriginTurnInPlace()
   const double angle = angleOf(onRing(70)) - angleOf(onRing(20));
   this->drag(front, onRing(20), onRing(70));
   const dgtk::Quaternion q = this->object().orientation.value;
-  QVERIFY(std::abs(2 * std::atan2(q.z, q.w) - angle) < tolerance);
+  QVERIFY(std::abs(2 * std::atan2(q.z, q.w) - angle) < handleTolerance);
   const Eigen::Vector3d turned(std::cos(angle) * middle.x() - std::sin(angle) * middle.y(),
     std::sin(angle) * middle.x() + std::cos(angle) * middle.y(), middle.z());
-  QVERIFY((this->object().position.value - (middle - turned)).norm() < 1000 * tolerance);
+  QVERIFY((this->object().position.value - (middle - turned)).norm() < 1000 * handleTolerance);
   this->action("undo")->trigger();
   QCOMPARE(this->document().json(), first);
 
@@ -267,7 +262,8 @@ void TestEditorHandles::modelsFarFromTheirOriginTurnInPlace()
   const double factor = (to.x() - exact.x()) / (from.x() - exact.x());
   this->drag(front, from, to);
   QVERIFY(near(this->object().scale.value, { factor, 1, 1 }));
-  QVERIFY((this->object().position.value - Eigen::Vector3d((1 - factor) * middle.x(), 0, 0)).norm() < 1000 * tolerance);
+  QVERIFY(
+    (this->object().position.value - Eigen::Vector3d((1 - factor) * middle.x(), 0, 0)).norm() < 1000 * handleTolerance);
   this->action("undo")->trigger();
   QCOMPARE(this->document().json(), first);
 
@@ -396,4 +392,4 @@ void TestEditorHandles::pictures()
   }
 }
 
-int main(int argc, char** argv) { return runEditorTest<TestEditorHandles>(argc, argv); }
+DGTK_EDITOR_TEST(TestEditorHandles);

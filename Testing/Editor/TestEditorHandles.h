@@ -66,4 +66,8 @@ private:
   dgtk::SceneDocument& document() const;
 };
 
+/// Whether two places are the same.
+constexpr double handleTolerance = 1e-9; // world units, of motions of a few units
+inline bool near(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm() < handleTolerance; }
+
 #endif

@@ -26,16 +26,6 @@
 
 using dgtk::test::sourceFile;
 
-namespace
-{
-constexpr int front = 0;
-constexpr int top = 1;
-constexpr int perspective = 3;
-constexpr double tolerance = 1e-9; // world units, of motions of a few units
-
-bool near(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm() < tolerance; }
-} // namespace
-
 void TestEditorHandles::keysAtTheCurrentFrame()
 {
   this->openCrate();
@@ -132,7 +122,7 @@ void TestEditorHandles::everyViewMovesTheSame()
       const Eigen::Vector3d position = this->object().position.value;
       QVERIFY2(std::abs(position[axis] - 0.7 * size) < 0.03 * size, // pixels are whole
         qPrintable(QString("view %1, axis %2: %3").arg(kind).arg(axis).arg(position[axis] / size)));
-      QVERIFY((position - position[axis] * along).norm() < tolerance);
+      QVERIFY((position - position[axis] * along).norm() < handleTolerance);
       this->action("undo")->trigger();
     }
   }
@@ -228,7 +218,7 @@ void TestEditorHandles::aCameraByItsMatrix()
       dialog.findChild<QComboBox*>("lens")->setCurrentIndex(1);
       QVERIFY(!number("fovY.0")->isEnabled());
       // It begins as what the field of view says.
-      QVERIFY(std::abs(number("K.0")->text().toDouble() - 240) < tolerance);
+      QVERIFY(std::abs(number("K.0")->text().toDouble() - 240) < handleTolerance);
       QCOMPARE(number("K.2")->text(), QString("320"));
       QCOMPARE(number("size.1")->text(), QString("480"));
       number("K.2")->setFocus();
@@ -241,7 +231,7 @@ void TestEditorHandles::aCameraByItsMatrix()
   const dgtk::CameraDescription& added = this->document().scene().cameras[0];
   QVERIFY(added.K.has_value());
   QCOMPARE((*added.K)(0, 2), 300.5);
-  QVERIFY(std::abs((*added.K)(1, 1) - 240) < tolerance);
+  QVERIFY(std::abs((*added.K)(1, 1) - 240) < handleTolerance);
   QCOMPARE(added.width, 640);
 }
 

@@ -407,4 +407,4 @@ void TestEditorLook::pictures()
   QVERIFY(this->Window->findChild<QWidget*>("propertiesPanel")->grab().save(folder + "/editor_german.png"));
 }
 
-int main(int argc, char** argv) { return runEditorTest<TestEditorLook>(argc, argv); }
+DGTK_EDITOR_TEST(TestEditorLook);

@@ -179,4 +179,4 @@ void TestEditorMenus::everyMenuItemWorks()
   QVERIFY(!this->Window->isVisible());
 }
 
-int main(int argc, char** argv) { return runEditorTest<TestEditorMenus>(argc, argv); }
+DGTK_EDITOR_TEST(TestEditorMenus);

@@ -336,4 +336,4 @@ void TestEditorMonkey::randomEventsDoNoHarm()
   QVERIFY2(late < 1.2 * early + memorySlack, qPrintable(QString("%1 MiB became %2 MiB").arg(early).arg(late)));
 }
 
-int main(int argc, char** argv) { return runEditorTest<TestEditorMonkey>(argc, argv); }
+DGTK_EDITOR_TEST(TestEditorMonkey);

@@ -14,7 +14,6 @@
 #include <QSpinBox>
 
 #include <csignal>
-#include <cstring>
 
 namespace
 {
@@ -40,9 +39,11 @@ void fillIn(const QDialog& dialog, const QString& folder)
   dialog.findChild<QLineEdit*>("folder")->setText(folder);
 }
 
-/// Renders a scene into a folder as a user does, until it is ended from outside.
-int beEditor(int argc, char** argv, const QString& scene, const QString& folder)
+/// Renders a scene into a folder (the words after the program's name) as a user does, until it is ended from outside.
+int beEditor(int argc, char** argv)
 {
+  const QString scene = QString::fromLocal8Bit(argv[1]);
+  const QString folder = QString::fromLocal8Bit(argv[2]);
   dgtk::MainWindow::prepareApplication();
   QApplication application(argc, argv);
   dgtk::MainWindow::setupApplication();
@@ -444,9 +445,5 @@ void TestEditorRuns::aRefusalIsShownOnce()
   QVERIFY(!this->Window->findChild<QWidget*>("renderStatus")->isVisible());
 }
 
-int main(int argc, char** argv)
-{
-  return argc == 4 && std::strcmp(argv[1], asEditor) == 0
-           ? beEditor(argc, argv, QString::fromLocal8Bit(argv[2]), QString::fromLocal8Bit(argv[3]))
-           : runEditorTest<TestEditorRuns>(argc, argv);
-}
+DGTK_EDITOR_TEST(TestEditorRuns);
+static const EditorTestRow rowOfEditor(asEditor, beEditor);

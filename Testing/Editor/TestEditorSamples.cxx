@@ -11,7 +11,6 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPlainTextEdit>
-#include <QProcess>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QTreeWidget>
@@ -20,8 +19,6 @@ using dgtk::test::sourceFile;
 
 namespace
 {
-int run(const QStringList& words) { return QProcess::execute(QString::fromLocal8Bit(qgetenv("DGTK")), words); }
-
 QByteArray model(const char* name)
 {
   return QByteArray::fromStdString("\"model\": \"" + sourceFile(std::string("Data/Models/") + name) + '"');
@@ -300,4 +297,4 @@ void TestEditorSamples::pictures()
   QVERIFY(dialog->grab().save(folder + "/editor_samples.png"));
 }
 
-int main(int argc, char** argv) { return runEditorTest<TestEditorSamples>(argc, argv); }
+DGTK_EDITOR_TEST(TestEditorSamples);

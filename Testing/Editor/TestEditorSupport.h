@@ -19,6 +19,7 @@
 #include <QMenu>
 #include <QMessageBox>
 #include <QPointer>
+#include <QProcess>
 #include <QString>
 #include <QTest>
 #include <QTimer>
@@ -45,6 +46,11 @@ constexpr int longestCase = 86400000; // in place of Qt's five minutes: CTest kn
 #define QTRY_COMPARE(actual, expected) QTRY_COMPARE_WITH_TIMEOUT(actual, expected, longestRun)
 constexpr int settle = 150; // milliseconds in which something could happen that must not, or threads go on
 
+// The four views of the window, by their place.
+constexpr int front = 0;
+constexpr int top = 1;
+constexpr int perspective = 3;
+
 inline QString demo() { return QString::fromStdString(dgtk::test::sourceFile("Data/Scenes/demo.json")); }
 
 /// Times are measured and printed; a test fails only when one is beyond this many times its aim. Others may be at work
@@ -57,6 +63,9 @@ void activate(QWidget& window);
 
 /// Until the window has laid itself out and drawn: nothing waits to be done in it. Work beside the window may go on.
 void untilQuiet();
+
+/// The program with these words; its exit code.
+inline int run(const QStringList& words) { return QProcess::execute(QString::fromLocal8Bit(qgetenv("DGTK")), words); }
 
 /// When the next dialog of that name is shown and has the focus, does something with it. It ends with a failure.
 template <typename Dialog>
@@ -199,7 +208,7 @@ private:
   QString What;
 };
 
-/// The main function of a test program of the editor.
+/// Runs the cases of a class in an application of their own.
 template <typename Test>
 int runEditorTest(int argc, char** argv)
 {
@@ -210,5 +219,14 @@ int runEditorTest(int argc, char** argv)
   Test test;
   return QTest::qExec(&test, argc, argv);
 }
+
+/// What the program does when `word` is its first argument; the function gets the others.
+struct EditorTestRow
+{
+  EditorTestRow(const char* word, int (*run)(int, char**));
+};
+
+/// Adds a class of cases, by its name.
+#define DGTK_EDITOR_TEST(Class) static const EditorTestRow rowOf##Class(#Class, runEditorTest<Class>)
 
 #endif

@@ -370,4 +370,4 @@ void TestEditorTimeLine::pictures()
   QVERIFY(line->grab().save(folder + "/editor_timeline.png"));
 }
 
-int main(int argc, char** argv) { return runEditorTest<TestEditorTimeLine>(argc, argv); }
+DGTK_EDITOR_TEST(TestEditorTimeLine);

@@ -26,7 +26,7 @@
 
 namespace
 {
-constexpr int eventLimit = 200; // milliseconds, the mean of an event while pictures are made
+constexpr int truthEventLimit = 200; // milliseconds, the mean of an event while pictures are made
 constexpr int turns = 20;
 
 } // namespace
@@ -289,7 +289,7 @@ void TestEditorTruth::nothingWaitsForPictures()
   const qint64 mean = clock.elapsed() / turns;
   QTest::mouseRelease(view, Qt::LeftButton, {}, QPoint(30, 5));
   qInfo("%lld ms for a step of turning the view", static_cast<long long>(mean));
-  QVERIFY(mean < patience() * eventLimit);
+  QVERIFY(mean < patience() * truthEventLimit);
 }
 
 void TestEditorTruth::theSceneMayChangeMeanwhile()
@@ -364,4 +364,4 @@ void TestEditorTruth::pictures()
   grab(dialog, "editor_correspondence.png");
 }
 
-int main(int argc, char** argv) { return runEditorTest<TestEditorTruth>(argc, argv); }
+DGTK_EDITOR_TEST(TestEditorTruth);

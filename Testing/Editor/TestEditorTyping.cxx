@@ -393,4 +393,4 @@ void TestEditorTyping::rowsEndQuietly()
   QVERIFY(this->Window->document().scene().cameras.empty());
 }
 
-int main(int argc, char** argv) { return runEditorTest<TestEditorTyping>(argc, argv); }
+DGTK_EDITOR_TEST(TestEditorTyping);

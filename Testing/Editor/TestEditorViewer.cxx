@@ -353,4 +353,4 @@ void TestEditorViewer::theRenderDialogOpensItsResult()
   QCOMPARE(paneCount(this->viewer()), 4);
 }
 
-int main(int argc, char** argv) { return runEditorTest<TestEditorViewer>(argc, argv); }
+DGTK_EDITOR_TEST(TestEditorViewer);

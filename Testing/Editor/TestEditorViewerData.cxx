@@ -51,7 +51,7 @@ bool hasColorNear(const QImage& image, const QPointF& at, const dgtk::Rgb& color
   return false;
 }
 
-QPointF widgetPoint(QWidget* picture, const QPointF& image)
+QPointF picturePoint(QWidget* picture, const QPointF& image)
 {
   QPointF point;
   QMetaObject::invokeMethod(picture, "widgetPoint", Q_RETURN_ARG(QPointF, point), Q_ARG(QPointF, image));
@@ -218,7 +218,7 @@ void TestEditorViewer::boxesAndPointsLieOverPictures()
             for (const QPointF& at :
               { QPointF(x, edge[1]), QPointF(x, edge[3]), QPointF(edge[0], y), QPointF(edge[2], y) })
             {
-              met += hasColorNear(boxed, widgetPoint(picture, at), dgtk::idColor(box.id));
+              met += hasColorNear(boxed, picturePoint(picture, at), dgtk::idColor(box.id));
             }
           }
           QVERIFY2(met >= 10, qPrintable(QString("%1 of 28").arg(met)));
@@ -235,7 +235,7 @@ void TestEditorViewer::boxesAndPointsLieOverPictures()
           if (points.cameras[sight.camera] == camera.toStdString())
           {
             ++seen;
-            const QPointF at = widgetPoint(picture, { sight.u, sight.v });
+            const QPointF at = picturePoint(picture, { sight.u, sight.v });
             drawn += hasColorNear(dotted, at, dgtk::idColor(point.object)) &&
                      !hasColorNear(bare, at, dgtk::idColor(point.object));
           }
@@ -262,7 +262,7 @@ void TestEditorViewer::boxesAndPointsLieOverPictures()
       changed += small.pixel(x, y) != dotted.pixel(x, y);
     }
   }
-  const QPointF extent = widgetPoint(picture, { width, height }) - widgetPoint(picture, { 0, 0 });
+  const QPointF extent = picturePoint(picture, { width, height }) - picturePoint(picture, { 0, 0 });
   QVERIFY2(changed > 50 && changed < extent.x() * extent.y() / 2, qPrintable(QString::number(changed)));
 
   // a damaged file is told, and pictures stay

@@ -23,7 +23,6 @@
 
 namespace
 {
-constexpr int front = 0;
 constexpr int namesWidth = 130; // of the time line, pixels
 constexpr int cellWidth = 12;
 
@@ -287,4 +286,4 @@ void TestEditorWalk::aCameraOfTheThesis()
   QCOMPARE(lens->currentIndex(), 0);
 }
 
-int main(int argc, char** argv) { return runEditorTest<TestEditorWalk>(argc, argv); }
+DGTK_EDITOR_TEST(TestEditorWalk);

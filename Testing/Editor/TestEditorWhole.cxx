@@ -359,4 +359,4 @@ void TestEditorWhole::pictures()
   this->action("light")->trigger();
 }
 
-int main(int argc, char** argv) { return runEditorTest<TestEditorWhole>(argc, argv); }
+DGTK_EDITOR_TEST(TestEditorWhole);

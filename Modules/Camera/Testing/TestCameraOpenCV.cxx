@@ -13,7 +13,7 @@ using namespace dgtk;
 namespace
 {
 constexpr double tolerance = 1e-6; // pixels
-constexpr int cameras = 40;
+constexpr int randomCameras = 40;
 
 using Project = std::function<cv::Point2d(const CameraParameters&, const Eigen::Vector3d&)>;
 
@@ -59,7 +59,7 @@ void judge(const std::string& model, std::size_t numbers, const Project& project
 {
   test::RandomCameras random(23);
   int rays = 0;
-  for (int i = 0; i < cameras; ++i)
+  for (int i = 0; i < randomCameras; ++i)
   {
     const auto camera = random.make(rowOf(model), numbers);
     ASSERT_TRUE(camera);
@@ -79,7 +79,7 @@ void judge(const std::string& model, std::size_t numbers, const Project& project
       }
     }
   }
-  EXPECT_GT(rays, cameras * 30);
+  EXPECT_GT(rays, randomCameras * 30);
 }
 } // namespace
 

@@ -17,7 +17,7 @@ namespace
 {
 using namespace dgtk;
 
-constexpr double tolerance = 1e-12;
+constexpr double tableTolerance = 1e-12;
 
 const SceneItem anObject{ SceneItem::Kind::Object, 0 };
 const SceneItem anotherObject{ SceneItem::Kind::Object, 1 };
@@ -389,8 +389,8 @@ TEST(MotionTables, TurnsAndProducts)
   EXPECT_TRUE(product(a, b) == (Quaternion{ -60, 12, 30, 24 }));
   EXPECT_TRUE(product(b, a) == (Quaternion{ -60, 20, 14, 32 }));
   const Quaternion third = turn(Eigen::Vector3d(0, 1, 0), 60);
-  EXPECT_NEAR(third.w, std::sqrt(0.75), tolerance);
-  EXPECT_NEAR(third.y, 0.5, tolerance);
+  EXPECT_NEAR(third.w, std::sqrt(0.75), tableTolerance);
+  EXPECT_NEAR(third.y, 0.5, tableTolerance);
   EXPECT_EQ(third.x, 0);
   EXPECT_EQ(third.z, 0);
 }
@@ -445,7 +445,7 @@ TEST(MotionTables, EveryModeOfEveryKind)
   EXPECT_FALSE(ItemMotion(before, places, {}, 0).can(HandleMode::Move));
   // (4, 0, 0), (0, 2, 0), (0, 0, 6), (0, 0, 10), (2, 0, 2)
   EXPECT_EQ(all.pivot(), Eigen::Vector3d(2, 1, 5)) << "of the common box";
-  EXPECT_LT((all.pivot(HandlePivot::Origin) - Eigen::Vector3d(6, 2, 18) / 5).norm(), tolerance) << "the mean";
+  EXPECT_LT((all.pivot(HandlePivot::Origin) - Eigen::Vector3d(6, 2, 18) / 5).norm(), tableTolerance) << "the mean";
   const auto expectScene = [&](HandleMode mode, const std::vector<Eigen::Vector3d>& expected)
   {
     SceneDescription scene = before;
@@ -459,7 +459,8 @@ TEST(MotionTables, EveryModeOfEveryKind)
       scene.cameras[1].lookAt.value };
     for (std::size_t i = 0; i < expected.size(); ++i)
     {
-      EXPECT_LT((found[i] - expected[i]).norm(), tolerance) << int(mode) << ' ' << i << ": " << found[i].transpose();
+      EXPECT_LT((found[i] - expected[i]).norm(), tableTolerance)
+        << int(mode) << ' ' << i << ": " << found[i].transpose();
     }
     EXPECT_EQ(scene.objects[1].position.value, before.objects[1].position.value);
     return scene;
@@ -476,7 +477,7 @@ TEST(MotionTables, EveryModeOfEveryKind)
   const Quaternion quarter{ std::sqrt(0.5), 0, std::sqrt(0.5), 0 };
   for (const Quaternion& q : { scene.objects[0].orientation.value, scene.cameras[1].orientation.value })
   {
-    EXPECT_LT((q - quarter).norm(), tolerance);
+    EXPECT_LT((q - quarter).norm(), tableTolerance);
   }
   EXPECT_TRUE(scene.objects[1].orientation.value == Quaternion());
   scene = expectScene(HandleMode::Scale, { V(8, 0, 0), V(4, 6, 8), V(0, 6, 0), V(6, 6, 0), V(0, 0, 24), V(0, 0, 0),
@@ -502,9 +503,9 @@ TEST(MotionTables, SeveralGrowAsFarAsTheirAxesStretch)
   motion.mode = HandleMode::Scale;
   motion.factors = Eigen::Vector3d(3, 4, 5);
   items.apply(scene, motion);
-  EXPECT_LT((scene.objects[0].scale.value - Eigen::Vector3d(8, 6, 10)).norm(), tolerance);
+  EXPECT_LT((scene.objects[0].scale.value - Eigen::Vector3d(8, 6, 10)).norm(), tableTolerance);
   const double slanted = std::sqrt((9 + 16) / 2.0);
-  EXPECT_LT((scene.objects[1].scale.value - Eigen::Vector3d(slanted, slanted, 5)).norm(), tolerance);
-  EXPECT_LT((scene.objects[1].position.value - Eigen::Vector3d(0, 0, 10)).norm(), tolerance);
+  EXPECT_LT((scene.objects[1].scale.value - Eigen::Vector3d(slanted, slanted, 5)).norm(), tableTolerance);
+  EXPECT_LT((scene.objects[1].position.value - Eigen::Vector3d(0, 0, 10)).norm(), tableTolerance);
 }
 } // namespace

@@ -13,10 +13,10 @@ namespace
 {
 using namespace dgtk;
 
-constexpr double tolerance = 1e-12; // scene units and entries of matrices
+constexpr double motionTolerance = 1e-12; // scene units and entries of matrices
 
-const SceneItem first{ SceneItem::Kind::Object, 0 };
-const SceneItem second{ SceneItem::Kind::Object, 1 };
+const SceneItem firstMoved{ SceneItem::Kind::Object, 0 };
+const SceneItem secondMoved{ SceneItem::Kind::Object, 1 };
 const SceneItem camera{ SceneItem::Kind::Camera, 0 };
 const SceneItem light{ SceneItem::Kind::Light, 0 };
 
@@ -70,15 +70,15 @@ TEST(ItemMotion, ChildrenGoAndTurnInTheWorld)
   WorldMotion move;
   move.mode = HandleMode::Move;
   move.translation = Eigen::Vector3d(0.25, -3, 1);
-  ItemMotion(scene, placesOf(scene), { second }, 0).apply(scene, move);
-  EXPECT_LT((worldOf(scene, 1).translation - before.translation - move.translation).norm(), tolerance);
+  ItemMotion(scene, placesOf(scene), { secondMoved }, 0).apply(scene, move);
+  EXPECT_LT((worldOf(scene, 1).translation - before.translation - move.translation).norm(), motionTolerance);
   EXPECT_EQ(worldOf(scene, 1).linear, before.linear);
 
   scene = family();
-  const ItemMotion items(scene, placesOf(scene), { second }, 0);
+  const ItemMotion items(scene, placesOf(scene), { secondMoved }, 0);
   const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -2) / 3;
   items.apply(scene, rotation(items, axis, 50));
-  EXPECT_LT((worldOf(scene, 1).linear - turn(axis, 50).matrix() * before.linear).norm(), tolerance);
+  EXPECT_LT((worldOf(scene, 1).linear - turn(axis, 50).matrix() * before.linear).norm(), motionTolerance);
   EXPECT_EQ(scene.objects[1].position.value, family().objects[1].position.value);
 }
 
@@ -86,10 +86,10 @@ TEST(ItemMotion, SeveralTurnAboutTheirCentreAndChildrenOnce)
 {
   SceneDescription scene = family();
   const Affine3 before[2] = { worldOf(scene, 0), worldOf(scene, 1) };
-  const ItemMotion items(scene, placesOf(scene), { first, second, light }, 0);
+  const ItemMotion items(scene, placesOf(scene), { firstMoved, secondMoved, light }, 0);
   ASSERT_EQ(items.items().size(), 2u); // the child hangs on its parent
   const Eigen::Vector3d center = (Eigen::Vector3d(1, 2, 3) + Eigen::Vector3d(0, 4, 0)) / 2;
-  EXPECT_LT((items.pivot() - center).norm(), tolerance);
+  EXPECT_LT((items.pivot() - center).norm(), motionTolerance);
   const Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
   items.apply(scene, rotation(items, axis, 90));
   const Eigen::Matrix3d R = turn(axis, 90).matrix();
@@ -99,21 +99,22 @@ TEST(ItemMotion, SeveralTurnAboutTheirCentreAndChildrenOnce)
     EXPECT_LT((now.linear - R * before[i].linear).norm(), 1e-11);
     EXPECT_LT((now.translation - center - R * (before[i].translation - center)).norm(), 1e-11);
   }
-  EXPECT_LT((scene.lights[0].position.value - center - R * (Eigen::Vector3d(0, 4, 0) - center)).norm(), tolerance);
-  EXPECT_LT((scene.lights[0].target.value - center - R * (Eigen::Vector3d(1, 0, 0) - center)).norm(), tolerance);
+  EXPECT_LT(
+    (scene.lights[0].position.value - center - R * (Eigen::Vector3d(0, 4, 0) - center)).norm(), motionTolerance);
+  EXPECT_LT((scene.lights[0].target.value - center - R * (Eigen::Vector3d(1, 0, 0) - center)).norm(), motionTolerance);
 }
 
 TEST(ItemMotion, ScalesAnObjectAlongItsOwnAxes)
 {
   SceneDescription scene = family();
   const Affine3 before = worldOf(scene, 1);
-  const ItemMotion items(scene, placesOf(scene), { second }, 0);
+  const ItemMotion items(scene, placesOf(scene), { secondMoved }, 0);
   WorldMotion motion;
   motion.mode = HandleMode::Scale;
   motion.pivot = items.pivot();
   motion.axes = items.axes(HandleMode::Scale);
   motion.factors = Eigen::Vector3d(1.5, 1, 0.5);
-  EXPECT_LT((motion.axes.transpose() * motion.axes - Eigen::Matrix3d::Identity()).norm(), tolerance);
+  EXPECT_LT((motion.axes.transpose() * motion.axes - Eigen::Matrix3d::Identity()).norm(), motionTolerance);
   items.apply(scene, motion);
   EXPECT_EQ(scene.objects[1].scale.value, Eigen::Vector3d(1.5, 2, 1.5));
   const Eigen::Matrix3d D = motion.axes * motion.factors.asDiagonal() * motion.axes.transpose();
@@ -132,7 +133,7 @@ TEST(ItemMotion, ACamerasPoseTurnsExactlyAndItsUpOnlyWhereItMust)
     items.apply(scene, rotation(items, axis, 33));
     const CameraDescription& now = scene.cameras[0];
     const Rigid3 turned = lookAtPose(now.eye.value, now.lookAt.value, now.up.value).inverse();
-    EXPECT_LT((turned.rotation - turn(axis, 33).matrix() * old.rotation).norm(), tolerance);
+    EXPECT_LT((turned.rotation - turn(axis, 33).matrix() * old.rotation).norm(), motionTolerance);
     EXPECT_EQ(now.eye.value, before.eye.value);
     EXPECT_EQ(now.up.value == before.up.value, !roll);
   }
@@ -144,7 +145,7 @@ TEST(ItemMotion, OnlyWhatChangesGetsKeys)
   ObjectDescription& object = scene.objects[0];
   object.position.keys = { { 0, Eigen::Vector3d(0, 0, 0) }, { 10, Eigen::Vector3d(10, 0, 0) } };
   object.orientation.keys = { { 0, Quaternion() }, { 10, Quaternion() } };
-  const ItemMotion items(scene, placesOf(scene, 4), { first }, 4);
+  const ItemMotion items(scene, placesOf(scene, 4), { firstMoved }, 4);
   items.apply(scene, rotation(items, Eigen::Vector3d::UnitZ(), 90));
   ASSERT_EQ(object.orientation.keys.size(), 3u);
   EXPECT_EQ(object.orientation.keys[1].frame, 4);
@@ -167,7 +168,7 @@ TEST(ItemMotion, ThePivotStaysWhereItIs)
     ScenePlaces places = placesOf(scene);
     const Eigen::Vector3d pivot = worldOf(scene, 1) * middle;
     places.objects[1].center = pivot;
-    const ItemMotion items(scene, places, { second }, 0);
+    const ItemMotion items(scene, places, { secondMoved }, 0);
     EXPECT_EQ(items.pivot(), pivot);
     EXPECT_EQ(items.pivot(HandlePivot::Origin), places.objects[1].instance.world_from_object.translation);
     items.apply(scene, rotation(items, Eigen::Vector3d(1, 2, -2) / 3, 50));
@@ -199,10 +200,10 @@ TEST(ItemMotion, PosesAtOtherKeysStay)
   object.orientation.keys = { { 0, Quaternion() }, { 10, Quaternion() } };
   ScenePlaces places = placesOf(scene, 10);
   places.objects[0].center = object.position.value + Eigen::Vector3d(5, 0, 0);
-  const ItemMotion items(scene, places, { first }, 10);
+  const ItemMotion items(scene, places, { firstMoved }, 10);
   items.apply(scene, rotation(items, Eigen::Vector3d::UnitZ(), 180));
   EXPECT_EQ(object.position.at(0), Eigen::Vector3d(1, 2, 3));
-  EXPECT_LT((object.position.at(10) - Eigen::Vector3d(11, 2, 3)).norm(), tolerance);
+  EXPECT_LT((object.position.at(10) - Eigen::Vector3d(11, 2, 3)).norm(), motionTolerance);
   EXPECT_FALSE(object.scale.animated());
 }
 
@@ -222,7 +223,7 @@ TEST(ItemMotion, AMovingObjectTurnsInPlaceAtAllFrames)
     { return placesOf(of, frame).objects[1].instance.world_from_object * middle; };
     ScenePlaces places = placesOf(scene, 14);
     places.objects[1].center = middleAt(scene, 14);
-    const ItemMotion items(scene, places, { second }, 14);
+    const ItemMotion items(scene, places, { secondMoved }, 14);
     WorldMotion motion = rotation(items, Eigen::Vector3d(2, 1, 2) / 3, 70);
     motion.mode = mode;
     motion.axes = items.axes(mode);
@@ -254,7 +255,7 @@ TEST(ItemMotion, NoMotionChangesNothing)
   {
     SceneDescription scene = family();
     scene.objects[0].orientation = Quaternion{ 0.981, 0.1, 0.02, 0.3 }; // as somebody typed it
-    const ItemMotion items(scene, placesOf(scene), { first, camera, light }, 0);
+    const ItemMotion items(scene, placesOf(scene), { firstMoved, camera, light }, 0);
     WorldMotion motion = rotation(items, Eigen::Vector3d::UnitX(), 0);
     motion.mode = mode;
     items.apply(scene, motion);

@@ -21,15 +21,16 @@ namespace
 using namespace dgtk;
 
 using V = Eigen::Vector3d;
-constexpr double tolerance = 1e-12; // world units
+constexpr double placeTolerance = 1e-12; // world units
 
 void expectLines(const LineList& lines, const LineList& expected)
 {
   ASSERT_EQ(lines.size(), expected.size());
   for (std::size_t i = 0; i < lines.size(); ++i)
   {
-    EXPECT_LT((lines[i].first - expected[i].first).norm(), tolerance) << i << ": " << lines[i].first.transpose();
-    EXPECT_LT((lines[i].second - expected[i].second).norm(), tolerance) << i << ": " << lines[i].second.transpose();
+    EXPECT_LT((lines[i].first - expected[i].first).norm(), placeTolerance) << i << ": " << lines[i].first.transpose();
+    EXPECT_LT((lines[i].second - expected[i].second).norm(), placeTolerance)
+      << i << ": " << lines[i].second.transpose();
   }
 }
 
@@ -125,7 +126,7 @@ TEST(ViewLines, AFisheyeIsItsBorder)
   const double last = std::sqrt(10.0 / 3); // where angle - angle^3 / 10 turns
   for (const auto& [from, to] : lines)
   {
-    EXPECT_TRUE(from.isZero(0) || std::abs(from.norm() - 3) < tolerance);
+    EXPECT_TRUE(from.isZero(0) || std::abs(from.norm() - 3) < placeTolerance);
     EXPECT_NEAR(to.z(), 3 * std::cos(last), 0.02); // where rays turn fastest
   }
 }
@@ -137,22 +138,22 @@ TEST(ViewLines, SizesGoWithTheScene)
   EXPECT_EQ(places.box.min, V(0, 0, 0));
   EXPECT_EQ(places.box.max, V(30, 40, 10));
   const double length = 0.04 * std::sqrt(900 + 1600 + 100.0);
-  EXPECT_NEAR(frustumLength(places), length, tolerance);
-  EXPECT_NEAR(lightRadius(places), 0.3 * length, tolerance);
-  EXPECT_NEAR(frustumLength(ScenePlaces()), 0.04, tolerance);
-  EXPECT_NEAR(lightRadius(ScenePlaces()), 0.012, tolerance);
+  EXPECT_NEAR(frustumLength(places), length, placeTolerance);
+  EXPECT_NEAR(lightRadius(places), 0.3 * length, placeTolerance);
+  EXPECT_NEAR(frustumLength(ScenePlaces()), 0.04, placeTolerance);
+  EXPECT_NEAR(lightRadius(ScenePlaces()), 0.012, placeTolerance);
 
   const SceneItem light{ SceneItem::Kind::Light, 0 };
   const SceneItem eye{ SceneItem::Kind::Camera, 0 };
   const SceneItem lost{ SceneItem::Kind::Camera, 2 };
   WorldBox drawn = drawnBox(places, light);
-  EXPECT_LT((drawn.min - V(30 - length, 40 - length, 10 - length)).norm(), tolerance);
-  EXPECT_LT((drawn.max - V(30 + length, 40 + length, 10 + length)).norm(), tolerance);
+  EXPECT_LT((drawn.min - V(30 - length, 40 - length, 10 - length)).norm(), placeTolerance);
+  EXPECT_LT((drawn.max - V(30 + length, 40 + length, 10 + length)).norm(), placeTolerance);
   drawn = drawnBox(places, eye);
-  EXPECT_LT((drawn.min - length / 3 * V(-2, -1, -3) - V(0, 0, 10)).norm(), tolerance) << drawn.min.transpose();
-  EXPECT_LT((drawn.max - length / 3 * V(2, 1.5, 0) - V(0, 0, 10)).norm(), tolerance) << drawn.max.transpose();
+  EXPECT_LT((drawn.min - length / 3 * V(-2, -1, -3) - V(0, 0, 10)).norm(), placeTolerance) << drawn.min.transpose();
+  EXPECT_LT((drawn.max - length / 3 * V(2, 1.5, 0) - V(0, 0, 10)).norm(), placeTolerance) << drawn.max.transpose();
   drawn = drawnBox(places, lost);
-  EXPECT_LT((drawn.min - V(-length, 5 - length, -length)).norm(), tolerance);
+  EXPECT_LT((drawn.min - V(-length, 5 - length, -length)).norm(), placeTolerance);
   EXPECT_TRUE(drawnBox(places, { SceneItem::Kind::Object, 0 }).empty());
   EXPECT_TRUE(drawnBox(places, { SceneItem::Kind::Light, 2 }).empty());
 
@@ -238,7 +239,7 @@ TEST(ScenePlaces, BoxesOfItemsAndFieldsOfView)
   camera.width = 640;
   camera.height = 400;
   camera.K = Eigen::Matrix3d(V(300, 200, 1).asDiagonal());
-  EXPECT_NEAR(fieldOfViewOf(camera), 90, tolerance);
+  EXPECT_NEAR(fieldOfViewOf(camera), 90, placeTolerance);
 }
 
 TEST(ScenePlaces, SurroundingsAreThoseOfTheStage)

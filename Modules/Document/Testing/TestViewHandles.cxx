@@ -11,9 +11,9 @@ namespace
 {
 using namespace dgtk;
 
-constexpr double width = 640;
-constexpr double height = 480;
-constexpr double tolerance = 1e-9; // world units, of a scene of a few units
+constexpr double handleWidth = 640;
+constexpr double handleHeight = 480;
+constexpr double handleTolerance = 1e-9; // world units, of a scene of a few units
 
 const Eigen::Vector3d pivot(1, 2, -0.5);
 
@@ -23,7 +23,7 @@ ViewCamera cameraOf(ViewKind kind)
   WorldBox box;
   box.add(Eigen::Vector3d(-3, -1, -2));
   box.add(Eigen::Vector3d(4, 5, 3));
-  camera.frame(box, width / height);
+  camera.frame(box, handleWidth / handleHeight);
   return camera;
 }
 
@@ -37,12 +37,12 @@ HandlePlace placeOf(HandleMode mode)
 
 Eigen::Vector2d pixel(const ViewCamera& camera, const Eigen::Vector3d& point)
 {
-  return camera.pixel(point, width, height).value();
+  return camera.pixel(point, handleWidth, handleHeight).value();
 }
 
 HandleDrag dragOf(HandleMode mode, const Handle& handle, const ViewCamera& camera, const Eigen::Vector3d& grasped)
 {
-  return HandleDrag(placeOf(mode), handle, pivot, camera, width, height, pixel(camera, grasped));
+  return HandleDrag(placeOf(mode), handle, pivot, camera, handleWidth, handleHeight, pixel(camera, grasped));
 }
 
 TEST(ViewCamera, PixelsAreThoseOfRays)
@@ -50,7 +50,7 @@ TEST(ViewCamera, PixelsAreThoseOfRays)
   for (const ViewKind kind : { ViewKind::Front, ViewKind::Top, ViewKind::Side, ViewKind::Perspective })
   {
     const ViewCamera camera = cameraOf(kind);
-    const WorldRay ray = camera.ray(123.25, 301.5, width, height);
+    const WorldRay ray = camera.ray(123.25, 301.5, handleWidth, handleHeight);
     EXPECT_LT((pixel(camera, ray.origin + 3.5 * ray.direction) - Eigen::Vector2d(123.25, 301.5)).norm(), 1e-9);
   }
 }
@@ -58,8 +58,8 @@ TEST(ViewCamera, PixelsAreThoseOfRays)
 TEST(ViewHandles, ArrowsAreHitWhereTheyAreDrawn)
 {
   const ViewCamera camera = cameraOf(ViewKind::Perspective);
-  const ViewHandles handles(placeOf(HandleMode::Move), camera, width, height);
-  const double size = ViewHandles::length() * camera.unit(pivot, height);
+  const ViewHandles handles(placeOf(HandleMode::Move), camera, handleWidth, handleHeight);
+  const double size = ViewHandles::length() * camera.unit(pivot, handleHeight);
   for (int axis = 0; axis < 3; ++axis)
   {
     const std::optional<Handle> hit = handles.hit(pixel(camera, pivot + 0.7 * size * Eigen::Vector3d::Unit(axis)));
@@ -73,7 +73,7 @@ TEST(ViewHandles, ArrowsAreHitWhereTheyAreDrawn)
 
 TEST(ViewHandles, AnAxisTowardsTheEyeIsNotShown)
 {
-  const ViewHandles handles(placeOf(HandleMode::Move), cameraOf(ViewKind::Front), width, height);
+  const ViewHandles handles(placeOf(HandleMode::Move), cameraOf(ViewKind::Front), handleWidth, handleHeight);
   for (const HandleShape& shape : handles.shapes())
   {
     EXPECT_FALSE(shape.handle == (Handle{ Handle::Kind::Axis, 2 }));
@@ -86,7 +86,7 @@ TEST(ViewHandles, NothingBehindTheEye)
   HandlePlace place = placeOf(HandleMode::Rotate);
   const ViewCamera camera = cameraOf(ViewKind::Perspective);
   place.pivot = camera.eye() + 3 * (camera.eye() - camera.focus());
-  EXPECT_TRUE(ViewHandles(place, camera, width, height).shapes().empty());
+  EXPECT_TRUE(ViewHandles(place, camera, handleWidth, handleHeight).shapes().empty());
 }
 
 TEST(HandleDrag, TheGraspedPointOfAnArrowStaysUnderTheMouse)
@@ -97,7 +97,7 @@ TEST(HandleDrag, TheGraspedPointOfAnArrowStaysUnderTheMouse)
     const Eigen::Vector3d along = Eigen::Vector3d::Unit(axis);
     HandleDrag drag = dragOf(HandleMode::Move, { Handle::Kind::Axis, axis }, camera, pivot + 0.6 * along);
     const WorldMotion& motion = drag.motion(pixel(camera, pivot + 1.85 * along), 0);
-    EXPECT_LT((motion.translation - 1.25 * along).norm(), tolerance) << axis;
+    EXPECT_LT((motion.translation - 1.25 * along).norm(), handleTolerance) << axis;
   }
 }
 
@@ -110,7 +110,7 @@ TEST(HandleDrag, SquaresMoveInTheirPlane)
     const Eigen::Vector3d v = Eigen::Vector3d::Unit((normal + 2) % 3);
     HandleDrag drag = dragOf(HandleMode::Move, { Handle::Kind::Plane, normal }, camera, pivot + 0.3 * u + 0.3 * v);
     const WorldMotion& motion = drag.motion(pixel(camera, pivot + 0.8 * u - 0.1 * v), 0);
-    EXPECT_LT((motion.translation - (0.5 * u - 0.4 * v)).norm(), tolerance) << normal;
+    EXPECT_LT((motion.translation - (0.5 * u - 0.4 * v)).norm(), handleTolerance) << normal;
   }
 }
 
@@ -134,7 +134,8 @@ TEST(HandleDrag, RingsTurnByTheAngleAboutThePivot)
       const double angle = degrees * pi / 180;
       return pixel(camera, pivot + 0.8 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0));
     };
-    HandleDrag drag(placeOf(HandleMode::Rotate), { Handle::Kind::Axis, 2 }, pivot, camera, width, height, onRing(30));
+    HandleDrag drag(
+      placeOf(HandleMode::Rotate), { Handle::Kind::Axis, 2 }, pivot, camera, handleWidth, handleHeight, onRing(30));
     EXPECT_NEAR(drag.motion(onRing(75), 0).degrees, 45, 1e-9);
     // Half a turn is not the end.
     for (int degrees = 75; degrees <= 430; degrees += 60)
@@ -151,7 +152,8 @@ TEST(HandleDrag, ARingSeenFromItsEdgeTurnsLikeAWheel)
 {
   const ViewCamera camera = cameraOf(ViewKind::Front);
   const Eigen::Vector2d start = pixel(camera, pivot);
-  HandleDrag drag(placeOf(HandleMode::Rotate), { Handle::Kind::Axis, 1 }, pivot, camera, width, height, start);
+  HandleDrag drag(
+    placeOf(HandleMode::Rotate), { Handle::Kind::Axis, 1 }, pivot, camera, handleWidth, handleHeight, start);
   // The way along the rim is the angle times the radius; the front goes to the right about +y.
   EXPECT_NEAR(drag.motion(start + Eigen::Vector2d(ViewHandles::length(), 13), 0).degrees, 180 / pi, 1e-9);
 }
@@ -161,15 +163,16 @@ TEST(HandleDrag, ScalesByTheShareOfTheDistance)
   const ViewCamera camera = cameraOf(ViewKind::Perspective);
   const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
   HandleDrag drag = dragOf(HandleMode::Scale, { Handle::Kind::Axis, 1 }, camera, pivot + 0.8 * y);
-  EXPECT_LT((drag.motion(pixel(camera, pivot + 1.4 * y), 0).factors - Eigen::Vector3d(1, 1.75, 1)).norm(), tolerance);
+  EXPECT_LT(
+    (drag.motion(pixel(camera, pivot + 1.4 * y), 0).factors - Eigen::Vector3d(1, 1.75, 1)).norm(), handleTolerance);
   EXPECT_EQ(drag.motion(pixel(camera, pivot + 1.42 * y), 1).factors, Eigen::Vector3d(1, 1.8, 1));
   // Never through 0.
   EXPECT_GT(drag.motion(pixel(camera, pivot - 2 * y), 0).factors.y(), 0);
   drag.constrain({});
   const Eigen::Vector2d start = pixel(camera, pivot + 0.8 * y);
   const double half = ViewHandles::length() / 2 / std::sqrt(2.0);
-  EXPECT_LT(
-    (drag.motion(start + Eigen::Vector2d(half, -half), 0).factors - Eigen::Vector3d::Constant(1.5)).norm(), tolerance);
+  EXPECT_LT((drag.motion(start + Eigen::Vector2d(half, -half), 0).factors - Eigen::Vector3d::Constant(1.5)).norm(),
+    handleTolerance);
 }
 
 TEST(HandleDrag, AKeyKeepsAFreeMotionToAnAxis)
@@ -177,9 +180,9 @@ TEST(HandleDrag, AKeyKeepsAFreeMotionToAnAxis)
   const ViewCamera camera = cameraOf(ViewKind::Top);
   HandleDrag drag = dragOf(HandleMode::Move, {}, camera, pivot);
   const Eigen::Vector2d to = pixel(camera, pivot + Eigen::Vector3d(1.5, 0, 0.75));
-  EXPECT_LT((drag.motion(to, 0).translation - Eigen::Vector3d(1.5, 0, 0.75)).norm(), tolerance);
+  EXPECT_LT((drag.motion(to, 0).translation - Eigen::Vector3d(1.5, 0, 0.75)).norm(), handleTolerance);
   drag.constrain({ Handle::Kind::Axis, 0 });
-  EXPECT_LT((drag.motion(to, 0).translation - Eigen::Vector3d(1.5, 0, 0)).norm(), tolerance);
+  EXPECT_LT((drag.motion(to, 0).translation - Eigen::Vector3d(1.5, 0, 0)).norm(), handleTolerance);
   drag.constrain({ Handle::Kind::Axis, 1 }); // towards the eye: no motion belongs to the mouse
   EXPECT_EQ(drag.motion(to, 0).translation, Eigen::Vector3d(0, 0, 0));
   drag.constrain({ Handle::Kind::Plane, 0 }); // seen from its edge

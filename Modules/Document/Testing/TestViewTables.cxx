@@ -19,9 +19,9 @@ namespace
 {
 using namespace dgtk;
 
-constexpr double width = 640;
-constexpr double height = 480;
-constexpr double tolerance = 1e-9; // pixels, world units
+constexpr double viewWidth = 640;
+constexpr double viewHeight = 480;
+constexpr double viewTolerance = 1e-9; // pixels, world units
 
 /// What is drawn in a view, and of which handle.
 struct Drawn
@@ -48,7 +48,7 @@ void expectShapes(const std::vector<HandleShape>& shapes, const std::vector<Draw
     ASSERT_EQ(shapes[i].points.size(), expected[i].points.size()) << i;
     for (std::size_t k = 0; k < expected[i].points.size(); ++k)
     {
-      EXPECT_LT((shapes[i].points[k] - expected[i].points[k]).norm(), tolerance) << i << ' ' << k;
+      EXPECT_LT((shapes[i].points[k] - expected[i].points[k]).norm(), viewTolerance) << i << ' ' << k;
     }
   }
 }
@@ -60,7 +60,7 @@ ViewHandles frontHandles(
   HandlePlace place;
   place.mode = mode;
   place.axes = axes;
-  return { place, front, width, height };
+  return { place, front, viewWidth, viewHeight };
 }
 
 /// Axes of which the third has this cosine with the direction to the eye of the front view, the second still up.
@@ -153,8 +153,8 @@ TEST(ViewHandles, HalfARingIsTheOneTowardsTheEye)
   place.mode = HandleMode::Rotate;
   place.pivot = Eigen::Vector3d(0.5, -0.25, 1);
   place.axes = turn(Eigen::Vector3d(2, 1, 2) / 3, 40).matrix();
-  const ViewHandles handles(place, camera, width, height);
-  const double radius = 80 * camera.unit(place.pivot, height);
+  const ViewHandles handles(place, camera, viewWidth, viewHeight);
+  const double radius = 80 * camera.unit(place.pivot, viewHeight);
   const Eigen::Vector3d toEye = (camera.eye() - place.pivot).normalized();
   ASSERT_EQ(handles.shapes().size(), 4u);
   for (int axis = 0; axis < 3; ++axis)
@@ -163,10 +163,10 @@ TEST(ViewHandles, HalfARingIsTheOneTowardsTheEye)
     const Eigen::Vector3d near = (toEye - toEye.dot(normal) * normal).normalized();
     const std::vector<Eigen::Vector2d>& points = handles.shapes()[std::size_t(axis) + 1].points;
     ASSERT_EQ(points.size(), 49u);
-    EXPECT_LT((points[24] - *camera.pixel(place.pivot + radius * near, width, height)).norm(), tolerance);
+    EXPECT_LT((points[24] - *camera.pixel(place.pivot + radius * near, viewWidth, viewHeight)).norm(), viewTolerance);
     const Eigen::Vector3d side = radius * normal.cross(near);
-    EXPECT_LT((points[0] - *camera.pixel(place.pivot - side, width, height)).norm(), tolerance);
-    EXPECT_LT((points[48] - *camera.pixel(place.pivot + side, width, height)).norm(), tolerance);
+    EXPECT_LT((points[0] - *camera.pixel(place.pivot - side, viewWidth, viewHeight)).norm(), viewTolerance);
+    EXPECT_LT((points[48] - *camera.pixel(place.pivot + side, viewWidth, viewHeight)).norm(), viewTolerance);
   }
 }
 
@@ -221,15 +221,15 @@ TEST(ViewHandles, AreHitWithinSevenPixels)
 TEST(HandleDrag, EveryModeOfTheFrontView)
 {
   const ViewCamera front(ViewKind::Front);
-  const double size = 80 * front.unit(Eigen::Vector3d(0, 0, 0), height);
+  const double size = 80 * front.unit(Eigen::Vector3d(0, 0, 0), viewHeight);
   const auto drag = [&](HandleMode mode, const Handle& handle)
   {
     HandlePlace place;
     place.mode = mode;
-    return HandleDrag(place, handle, Eigen::Vector3d(0, 0, 0), front, width, height, { 360, 240 });
+    return HandleDrag(place, handle, Eigen::Vector3d(0, 0, 0), front, viewWidth, viewHeight, { 360, 240 });
   };
   const auto expectVector = [](const Eigen::Vector3d& found, double x, double y, double z)
-  { EXPECT_LT((found - Eigen::Vector3d(x, y, z)).norm(), tolerance) << found.transpose(); };
+  { EXPECT_LT((found - Eigen::Vector3d(x, y, z)).norm(), viewTolerance) << found.transpose(); };
   expectVector(drag(HandleMode::Move, freely).motion({ 400, 220 }, 0).translation, size / 2, size / 4, 0);
   expectVector(drag(HandleMode::Move, alongX).motion({ 400, 220 }, 0).translation, size / 2, 0, 0);
   expectVector(drag(HandleMode::Move, alongY).motion({ 400, 220 }, 0).translation, 0, size / 4, 0);
@@ -253,29 +253,29 @@ TEST(HandleDrag, EveryModeOfTheFrontView)
   // From below the pivot it is by the way, too: there is no share of a negative distance.
   HandlePlace place;
   place.mode = HandleMode::Scale;
-  HandleDrag below(place, alongX, Eigen::Vector3d(0, 0, 0), front, width, height, { 300, 240 });
+  HandleDrag below(place, alongX, Eigen::Vector3d(0, 0, 0), front, viewWidth, viewHeight, { 300, 240 });
   expectVector(below.motion({ 340, 240 }, 0).factors, 1.5, 1, 1);
   // Rotations: about the direction to the eye, about an axis towards it, about one across.
-  EXPECT_NEAR(drag(HandleMode::Rotate, freely).motion({ 320, 200 }, 0).degrees, 90, tolerance);
+  EXPECT_NEAR(drag(HandleMode::Rotate, freely).motion({ 320, 200 }, 0).degrees, 90, viewTolerance);
   EXPECT_EQ(drag(HandleMode::Rotate, freely).motion({ 320, 200 }, 0).axis, Eigen::Vector3d(0, 0, 1));
-  EXPECT_NEAR(drag(HandleMode::Rotate, alongZ).motion({ 320, 280 }, 0).degrees, -90, tolerance);
-  EXPECT_NEAR(drag(HandleMode::Rotate, alongX).motion({ 400, 280 }, 0).degrees, 90 / pi, tolerance);
+  EXPECT_NEAR(drag(HandleMode::Rotate, alongZ).motion({ 320, 280 }, 0).degrees, -90, viewTolerance);
+  EXPECT_NEAR(drag(HandleMode::Rotate, alongX).motion({ 400, 280 }, 0).degrees, 90 / pi, viewTolerance);
   EXPECT_EQ(drag(HandleMode::Rotate, alongX).motion({ 400, 280 }, 0).axis, Eigen::Vector3d(1, 0, 0));
-  EXPECT_NEAR(drag(HandleMode::Rotate, alongY).motion({ 400, 280 }, 0).degrees, 90 / pi, tolerance);
+  EXPECT_NEAR(drag(HandleMode::Rotate, alongY).motion({ 400, 280 }, 0).degrees, 90 / pi, viewTolerance);
   EXPECT_EQ(drag(HandleMode::Rotate, alongX).motion({ 400, 280 }, 1).degrees, 30);
   for (const HandleMode mode : { HandleMode::Move, HandleMode::Rotate, HandleMode::Scale })
   {
     place.mode = mode;
     place.pivot = Eigen::Vector3d(1, 2, 3);
     place.axes = tilted(0.5);
-    HandleDrag begun(place, alongX, place.pivot, front, width, height, { 360, 200 });
+    HandleDrag begun(place, alongX, place.pivot, front, viewWidth, viewHeight, { 360, 200 });
     const WorldMotion& motion = begun.motion({ 360, 200 }, 0);
     EXPECT_EQ(motion.mode, mode);
     EXPECT_EQ(motion.pivot, place.pivot);
     EXPECT_EQ(motion.axes, place.axes);
     EXPECT_EQ(motion.axis, place.axes.col(0));
-    EXPECT_LT(motion.translation.norm() + std::abs(motion.degrees), tolerance);
-    EXPECT_LT((motion.factors - Eigen::Vector3d(1, 1, 1)).norm(), tolerance);
+    EXPECT_LT(motion.translation.norm() + std::abs(motion.degrees), viewTolerance);
+    EXPECT_LT((motion.factors - Eigen::Vector3d(1, 1, 1)).norm(), viewTolerance);
   }
 }
 
@@ -284,7 +284,7 @@ TEST(HandleDrag, ThingsFollowAtTheirOwnDepth)
 {
   const ViewCamera camera(ViewKind::Perspective);
   const Eigen::Vector3d grasped(1, 0.5, 4);
-  const auto at = [&](const Eigen::Vector3d& point) { return *camera.pixel(point, width, height); };
+  const auto at = [&](const Eigen::Vector3d& point) { return *camera.pixel(point, viewWidth, viewHeight); };
   HandlePlace place;
   place.mode = HandleMode::Move;
   place.pivot = Eigen::Vector3d(-1, 0, -3);
@@ -297,17 +297,17 @@ TEST(HandleDrag, ThingsFollowAtTheirOwnDepth)
       way = Eigen::Vector3d(0.7, -0.4, 0.5) -
             Eigen::Vector3d(0.7, -0.4, 0.5).cwiseProduct(Eigen::Vector3d::Unit(handle.axis));
     }
-    HandleDrag byHandle(place, handle, grasped, camera, width, height, at(place.pivot));
-    EXPECT_LT((byHandle.motion(at(place.pivot + way), 0).translation - way).norm(), tolerance) << handle.axis;
-    HandleDrag byThing(place, freely, grasped, camera, width, height, at(grasped));
+    HandleDrag byHandle(place, handle, grasped, camera, viewWidth, viewHeight, at(place.pivot));
+    EXPECT_LT((byHandle.motion(at(place.pivot + way), 0).translation - way).norm(), viewTolerance) << handle.axis;
+    HandleDrag byThing(place, freely, grasped, camera, viewWidth, viewHeight, at(grasped));
     byThing.constrain(handle);
-    EXPECT_LT((byThing.motion(at(grasped + way), 0).translation - way).norm(), tolerance) << handle.axis;
+    EXPECT_LT((byThing.motion(at(grasped + way), 0).translation - way).norm(), viewTolerance) << handle.axis;
   }
-  HandleDrag free(place, freely, grasped, camera, width, height, at(grasped));
+  HandleDrag free(place, freely, grasped, camera, viewWidth, viewHeight, at(grasped));
   const Eigen::Vector2d to = at(grasped) + Eigen::Vector2d(30, -12);
   const Eigen::Vector3d translation = free.motion(to, 0).translation;
-  EXPECT_LT((at(grasped + translation) - to).norm(), tolerance);
-  EXPECT_NEAR(translation.dot(camera.forward()), 0, tolerance);
+  EXPECT_LT((at(grasped + translation) - to).norm(), viewTolerance);
+  EXPECT_NEAR(translation.dot(camera.forward()), 0, viewTolerance);
 }
 
 TEST(HandleDrag, StepsAreDecimalNumbers)
@@ -315,8 +315,8 @@ TEST(HandleDrag, StepsAreDecimalNumbers)
   const ViewCamera front(ViewKind::Front);
   HandlePlace place;
   place.mode = HandleMode::Move;
-  HandleDrag drag(place, freely, Eigen::Vector3d(0, 0, 0), front, width, height, { 320, 240 });
-  const double unit = front.unit(Eigen::Vector3d(0, 0, 0), height);
+  HandleDrag drag(place, freely, Eigen::Vector3d(0, 0, 0), front, viewWidth, viewHeight, { 320, 240 });
+  const double unit = front.unit(Eigen::Vector3d(0, 0, 0), viewHeight);
   for (const auto& [step, world, expected] : { std::tuple(0.1, 0.69, 0.7), std::tuple(0.1, 0.26, 0.3),
          std::tuple(0.5, 0.74, 0.5), std::tuple(0.5, 0.76, 1.0), std::tuple(2.0, 2.9, 2.0), std::tuple(2.0, 3.1, 4.0),
          std::tuple(0.3, 1.0, 0.3 * 3), std::tuple(1.0, -1.4, -1.0), std::tuple(0.02, 0.0691, 0.06) })
@@ -347,13 +347,13 @@ TEST(ViewCamera, BeginsWhereItsKindSays)
        })
   {
     const ViewCamera camera(row.kind, row.axis);
-    EXPECT_LT((camera.eye() - row.eye).norm(), tolerance) << int(row.kind);
+    EXPECT_LT((camera.eye() - row.eye).norm(), viewTolerance) << int(row.kind);
     EXPECT_EQ(camera.up(), row.up) << int(row.kind);
     EXPECT_EQ(camera.focus(), Eigen::Vector3d(0, 0, 0));
     EXPECT_EQ(camera.kind(), row.kind);
     EXPECT_EQ(camera.parallel(), row.kind != ViewKind::Perspective);
-    EXPECT_NEAR(camera.height(), 20 * std::tan(15 * pi / 180), tolerance);
-    EXPECT_LT((camera.forward() + row.eye / 10).norm(), tolerance);
+    EXPECT_NEAR(camera.height(), 20 * std::tan(15 * pi / 180), viewTolerance);
+    EXPECT_LT((camera.forward() + row.eye / 10).norm(), viewTolerance);
   }
   EXPECT_EQ(ViewCamera::angle(), 30);
 }
@@ -370,15 +370,15 @@ TEST(ViewCamera, FramesWithAMarginOfEightHundredths)
     EXPECT_EQ(camera.focus(), shown.empty() ? Eigen::Vector3d(0, 0, 0) : shown.center());
     return camera.height();
   };
-  EXPECT_NEAR(heightOf(ViewKind::Front, box, 4), 1.08 * 2, tolerance);
-  EXPECT_NEAR(heightOf(ViewKind::Front, box, 0.5), 1.08 * 8, tolerance);
-  EXPECT_NEAR(heightOf(ViewKind::Top, box, 4), 1.08 * 6, tolerance);
-  EXPECT_NEAR(heightOf(ViewKind::Side, box, 1), 1.08 * 6, tolerance);
+  EXPECT_NEAR(heightOf(ViewKind::Front, box, 4), 1.08 * 2, viewTolerance);
+  EXPECT_NEAR(heightOf(ViewKind::Front, box, 0.5), 1.08 * 8, viewTolerance);
+  EXPECT_NEAR(heightOf(ViewKind::Top, box, 4), 1.08 * 6, viewTolerance);
+  EXPECT_NEAR(heightOf(ViewKind::Side, box, 1), 1.08 * 6, viewTolerance);
   const double sphere = 1.08 * std::sqrt(16 + 4 + 36.0) / std::cos(15 * pi / 180);
-  EXPECT_NEAR(heightOf(ViewKind::Perspective, box, 2), sphere, tolerance);
-  EXPECT_NEAR(heightOf(ViewKind::Perspective, box, 0.5), 2 * sphere, tolerance);
-  EXPECT_NEAR(heightOf(ViewKind::Perspective, {}, 1), 10.8 / std::cos(15 * pi / 180), tolerance);
-  EXPECT_NEAR(heightOf(ViewKind::Front, {}, 1), 10.8 / std::cos(15 * pi / 180), tolerance);
+  EXPECT_NEAR(heightOf(ViewKind::Perspective, box, 2), sphere, viewTolerance);
+  EXPECT_NEAR(heightOf(ViewKind::Perspective, box, 0.5), 2 * sphere, viewTolerance);
+  EXPECT_NEAR(heightOf(ViewKind::Perspective, {}, 1), 10.8 / std::cos(15 * pi / 180), viewTolerance);
+  EXPECT_NEAR(heightOf(ViewKind::Front, {}, 1), 10.8 / std::cos(15 * pi / 180), viewTolerance);
   WorldBox point;
   point.add(Eigen::Vector3d(1, 1, 1));
   EXPECT_NEAR(heightOf(ViewKind::Front, point, 1), 1.08e-3, 1e-12);
@@ -390,35 +390,36 @@ TEST(ViewCamera, MotionsByNumbers)
   ViewCamera camera(ViewKind::Perspective);
   ASSERT_TRUE(camera.look({ 0, 0, 8 }, { 0, 0, 0 }));
   camera.zoom(2);
-  EXPECT_LT((camera.eye() - Eigen::Vector3d(0, 0, 4)).norm(), tolerance);
+  EXPECT_LT((camera.eye() - Eigen::Vector3d(0, 0, 4)).norm(), viewTolerance);
   camera.zoom(1e9);
-  EXPECT_LT((camera.eye() - Eigen::Vector3d(0, 0, 4)).norm(), tolerance) << "nothing is nearer than a millionth";
+  EXPECT_LT((camera.eye() - Eigen::Vector3d(0, 0, 4)).norm(), viewTolerance) << "nothing is nearer than a millionth";
   camera.zoom(2e6);
   EXPECT_LT((camera.eye() - Eigen::Vector3d(0, 0, 2e-6)).norm(), 1e-15);
   camera.look({ 0, 0, 4 }, { 0, 0, 0 });
   camera.orbit(90, 0);
-  EXPECT_LT((camera.eye() - Eigen::Vector3d(-4, 0, 0)).norm(), tolerance) << "the scene turns to the right";
+  EXPECT_LT((camera.eye() - Eigen::Vector3d(-4, 0, 0)).norm(), viewTolerance) << "the scene turns to the right";
   camera.orbit(0, 30);
-  EXPECT_LT((camera.eye() - Eigen::Vector3d(-4 * std::cos(pi / 6), 2, 0)).norm(), tolerance);
+  EXPECT_LT((camera.eye() - Eigen::Vector3d(-4 * std::cos(pi / 6), 2, 0)).norm(), viewTolerance);
   camera.orbit(0, 300);
-  EXPECT_NEAR(camera.eye().y(), 4 * std::sin(89 * pi / 180), tolerance);
+  EXPECT_NEAR(camera.eye().y(), 4 * std::sin(89 * pi / 180), viewTolerance);
   camera.orbit(0, -300);
-  EXPECT_NEAR(camera.eye().y(), -4 * std::sin(89 * pi / 180), tolerance);
+  EXPECT_NEAR(camera.eye().y(), -4 * std::sin(89 * pi / 180), viewTolerance);
   camera.look({ 0, 0, 4 }, { 0, 0, 0 });
-  const double unit = 8 * std::tan(15 * pi / 180) / height;
-  camera.pan(10, 5, height);
-  EXPECT_LT((camera.focus() - Eigen::Vector3d(-10 * unit, 5 * unit, 0)).norm(), tolerance);
-  EXPECT_LT((camera.eye() - Eigen::Vector3d(-10 * unit, 5 * unit, 4)).norm(), tolerance);
+  const double unit = 8 * std::tan(15 * pi / 180) / viewHeight;
+  camera.pan(10, 5, viewHeight);
+  EXPECT_LT((camera.focus() - Eigen::Vector3d(-10 * unit, 5 * unit, 0)).norm(), viewTolerance);
+  EXPECT_LT((camera.eye() - Eigen::Vector3d(-10 * unit, 5 * unit, 4)).norm(), viewTolerance);
   camera.look({ 0, 0, 4 }, { 0, 0, 0 });
-  EXPECT_NEAR(camera.unit({ 1, 2, 2 }, height), unit / 2, tolerance);
-  EXPECT_LT((camera.motion({ 1, 2, 2 }, 6, 4, height) - Eigen::Vector3d(3 * unit, -2 * unit, 0)).norm(), tolerance);
-  EXPECT_EQ(camera.reach(8, height).constant, 0);
-  EXPECT_NEAR(camera.reach(8, height).slope, 8 * unit / 4, tolerance);
-  EXPECT_NEAR(ViewCamera(ViewKind::Front).reach(8, height).constant, 20 * unit, tolerance);
-  EXPECT_EQ(ViewCamera(ViewKind::Front).reach(8, height).slope, 0);
-  EXPECT_LT((camera.towardsEye({ 3, 0, 0 }) - Eigen::Vector3d(-0.6, 0, 0.8)).norm(), tolerance);
-  EXPECT_LT((ViewCamera(ViewKind::Front).towardsEye({ 3, 0, 0 }) - Eigen::Vector3d(0, 0, 1)).norm(), tolerance);
-  EXPECT_FALSE(camera.pixel({ 0, 0, 4 }, width, height).has_value());
+  EXPECT_NEAR(camera.unit({ 1, 2, 2 }, viewHeight), unit / 2, viewTolerance);
+  EXPECT_LT(
+    (camera.motion({ 1, 2, 2 }, 6, 4, viewHeight) - Eigen::Vector3d(3 * unit, -2 * unit, 0)).norm(), viewTolerance);
+  EXPECT_EQ(camera.reach(8, viewHeight).constant, 0);
+  EXPECT_NEAR(camera.reach(8, viewHeight).slope, 8 * unit / 4, viewTolerance);
+  EXPECT_NEAR(ViewCamera(ViewKind::Front).reach(8, viewHeight).constant, 20 * unit, viewTolerance);
+  EXPECT_EQ(ViewCamera(ViewKind::Front).reach(8, viewHeight).slope, 0);
+  EXPECT_LT((camera.towardsEye({ 3, 0, 0 }) - Eigen::Vector3d(-0.6, 0, 0.8)).norm(), viewTolerance);
+  EXPECT_LT((ViewCamera(ViewKind::Front).towardsEye({ 3, 0, 0 }) - Eigen::Vector3d(0, 0, 1)).norm(), viewTolerance);
+  EXPECT_FALSE(camera.pixel({ 0, 0, 4 }, viewWidth, viewHeight).has_value());
   EXPECT_FALSE(ViewCamera(ViewKind::Front).look({ 0, 0, 3 }, { 0, 0, 0 }));
   EXPECT_FALSE(camera.look({ 0, 0, 1e-6 }, { 0, 0, 0 }));
   EXPECT_TRUE(camera.look({ 0, 0, 1.1e-6 }, { 0, 0, 0 }));
@@ -434,20 +435,20 @@ TEST(ViewCamera, SegmentsAreCutBeforeTheEye)
   const auto expectSegment = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& first,
                                const Eigen::Vector3d& last)
   {
-    const auto segment = camera.segment(from, to, width, height);
+    const auto segment = camera.segment(from, to, viewWidth, viewHeight);
     ASSERT_TRUE(segment.has_value());
-    EXPECT_LT((segment->first - *camera.pixel(first, width, height)).norm(), 1e-6);
-    EXPECT_LT((segment->second - *camera.pixel(last, width, height)).norm(), 1e-6);
+    EXPECT_LT((segment->first - *camera.pixel(first, viewWidth, viewHeight)).norm(), 1e-6);
+    EXPECT_LT((segment->second - *camera.pixel(last, viewWidth, viewHeight)).norm(), 1e-6);
   };
   expectSegment(before, behind, before, cut);
   expectSegment(behind, before, cut, before);
   expectSegment(before, { 0, 1, 0 }, before, { 0, 1, 0 });
   expectSegment(before, { 0, 1, 9.89 }, before, { 0, 1, 9.89 });
   expectSegment(before, { 1, 0, 9.95 }, before, { 1, 0, 9.9 });
-  EXPECT_FALSE(camera.segment(behind, { 0, 0, 9.91 }, width, height).has_value());
+  EXPECT_FALSE(camera.segment(behind, { 0, 0, 9.91 }, viewWidth, viewHeight).has_value());
   const ViewCamera front(ViewKind::Front);
-  const auto all = front.segment(before, behind, width, height);
+  const auto all = front.segment(before, behind, viewWidth, viewHeight);
   ASSERT_TRUE(all.has_value());
-  EXPECT_EQ(all->second, *front.pixel(behind, width, height));
+  EXPECT_EQ(all->second, *front.pixel(behind, viewWidth, viewHeight));
 }
 } // namespace

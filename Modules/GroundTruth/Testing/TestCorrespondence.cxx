@@ -15,19 +15,19 @@ namespace
 using namespace dgtk;
 using namespace dgtk::test;
 
-constexpr int width = 64;
-constexpr int height = 48;
-constexpr double focal = 32;
+constexpr int pairWidth = 64;
+constexpr int pairHeight = 48;
+constexpr double pairFocal = 32;
 
 /// Looks along the world's +z from `centre`, x right, y down; the principal point is the image's middle.
-View viewAt(const Eigen::Vector3d& centre, double near = 0.5, double far = 100)
+View pairViewAt(const Eigen::Vector3d& centre, double near = 0.5, double far = 100)
 {
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
-  K(0, 0) = K(1, 1) = focal;
-  K(0, 2) = width / 2.0;
-  K(1, 2) = height / 2.0;
+  K(0, 0) = K(1, 1) = pairFocal;
+  K(0, 2) = pairWidth / 2.0;
+  K(1, 2) = pairHeight / 2.0;
   View view;
-  view.model = makePinhole(width, height, K);
+  view.model = makePinhole(pairWidth, pairHeight, K);
   view.camera_from_world.translation = -centre;
   view.near = near;
   view.far = far;
@@ -94,18 +94,18 @@ private:
 
 TEST(Correspond, APointOfAWallIsWhereTheOtherCameraProjectsIt)
 {
-  const Other other(viewAt({ 1, -0.5, 0 }));
+  const Other other(pairViewAt({ 1, -0.5, 0 }));
   const Correspondence found = other.of({ 3, 2 });
   EXPECT_EQ(found.visibility, VisibilityClass::Visible);
-  EXPECT_NEAR(found.pixel.x(), focal * (3 - 1) / 8 + 32, 1e-12);
-  EXPECT_NEAR(found.pixel.y(), focal * (2 + 0.5) / 8 + 24, 1e-12);
+  EXPECT_NEAR(found.pixel.x(), pairFocal * (3 - 1) / 8 + 32, 1e-12);
+  EXPECT_NEAR(found.pixel.y(), pairFocal * (2 + 0.5) / 8 + 24, 1e-12);
 }
 
 TEST(Correspond, WhatStandsBeforeThePointNamesTheClass)
 {
   // A pane at z = 4 of another object hides; of the own object it is the own one that hides.
   const auto pane = makeQuad({ { -1, -1, 4 }, { 2, 0, 0 }, { 0, 2, 0 }, 1, 1 });
-  const Other another(viewAt({ 0, 0, 0 }), [&](SceneBuilder& scene) { scene.add(pane); });
+  const Other another(pairViewAt({ 0, 0, 0 }), [&](SceneBuilder& scene) { scene.add(pane); });
   EXPECT_EQ(another.of({ 0, 0 }).visibility, VisibilityClass::OccludedByOther);
   EXPECT_EQ(another.of({ 0, 0 }).pixel, Eigen::Vector2d(32, 24)) << "hidden points are somewhere, too";
   EXPECT_EQ(another.of({ 3, 0 }).visibility, VisibilityClass::Visible);
@@ -121,11 +121,11 @@ TEST(Correspond, WhatStandsBeforeThePointNamesTheClass)
   folded->rest = rest;
   folded->triangles.push_back({ 4, 5, 6 });
   folded->parts[0].triangles = 3;
-  const Other own(viewAt({ 0, 0, 0 }), [&](SceneBuilder& scene) { scene.add(folded, placement({ 0, 0, 0.5 })); });
+  const Other own(pairViewAt({ 0, 0, 0 }), [&](SceneBuilder& scene) { scene.add(folded, placement({ 0, 0, 0.5 })); });
   EXPECT_EQ(own.of({ 0, 0 }, 2).visibility, VisibilityClass::OccludedByOwn) << "the fold stands before the wall at 8";
   EXPECT_EQ(own.of({ 4, 0 }, 2).visibility, VisibilityClass::OccludedByOther) << "by the wall at 8";
   EXPECT_EQ(own.of({ 0, 0 }, 1).visibility, VisibilityClass::OccludedByOther) << "by the fold at 4.5";
-  const Other alone(viewAt({ 0, 0, 0 }), [&](SceneBuilder& scene) { scene.add(folded, placement({ 0, 0, -1 })); });
+  const Other alone(pairViewAt({ 0, 0, 0 }), [&](SceneBuilder& scene) { scene.add(folded, placement({ 0, 0, -1 })); });
   EXPECT_EQ(alone.of({ 0, 0 }, 2).visibility, VisibilityClass::OccludedByOwn);
   EXPECT_EQ(alone.of({ 4, 0 }, 2).visibility, VisibilityClass::Visible);
 }
@@ -133,7 +133,7 @@ TEST(Correspond, WhatStandsBeforeThePointNamesTheClass)
 TEST(Correspond, TheBordersOfTheImageBelongToIt)
 {
   // x = 8 is at column 64 of 64, y = 6 at row 48 of 48, exactly.
-  const Other other(viewAt({ 0, 0, 0 }));
+  const Other other(pairViewAt({ 0, 0, 0 }));
   for (const Eigen::Vector2d& at : { Eigen::Vector2d(8, 0), { -8, 0 }, { 0, 6 }, { 0, -6 } })
   {
     EXPECT_EQ(other.of(at).visibility, VisibilityClass::Visible) << at.transpose();
@@ -145,10 +145,10 @@ TEST(Correspond, TheBordersOfTheImageBelongToIt)
 
 TEST(Correspond, NearerThanNearAndFartherThanFarAreOutside)
 {
-  EXPECT_EQ(Other(viewAt({ 0, 0, 0 }, 0.5, 8)).of({ 0, 0 }).visibility, VisibilityClass::Visible) << "at far";
-  EXPECT_EQ(Other(viewAt({ 0, 0, 0 }, 8, 9)).of({ 0, 0 }).visibility, VisibilityClass::Visible) << "at near";
-  EXPECT_EQ(Other(viewAt({ 0, 0, 0 }, 0.5, 7.999)).of({ 0, 0 }).visibility, VisibilityClass::Outside);
-  EXPECT_EQ(Other(viewAt({ 0, 0, 0 }, 8.001, 9)).of({ 0, 0 }).visibility, VisibilityClass::Outside);
+  EXPECT_EQ(Other(pairViewAt({ 0, 0, 0 }, 0.5, 8)).of({ 0, 0 }).visibility, VisibilityClass::Visible) << "at far";
+  EXPECT_EQ(Other(pairViewAt({ 0, 0, 0 }, 8, 9)).of({ 0, 0 }).visibility, VisibilityClass::Visible) << "at near";
+  EXPECT_EQ(Other(pairViewAt({ 0, 0, 0 }, 0.5, 7.999)).of({ 0, 0 }).visibility, VisibilityClass::Outside);
+  EXPECT_EQ(Other(pairViewAt({ 0, 0, 0 }, 8.001, 9)).of({ 0, 0 }).visibility, VisibilityClass::Outside);
 }
 
 // A fisheye sees sideways and back: near and far are distances.
@@ -156,8 +156,8 @@ TEST(Correspond, NearAndFarOfALensAreDistances)
 {
   const auto lens = [](double z, double near, double far)
   {
-    View view = viewAt({ 0, 0, z }, near, far);
-    view.model = makeEquidistant(width, height, 10); // 3.2 radians to the sides
+    View view = pairViewAt({ 0, 0, z }, near, far);
+    view.model = makeEquidistant(pairWidth, pairHeight, 10); // 3.2 radians to the sides
     return view;
   };
   const double distance = std::sqrt(16 * 16 + 0.25 * 0.25);
@@ -172,7 +172,7 @@ TEST(Correspond, NearAndFarOfALensAreDistances)
 
 TEST(Correspond, BehindTheCameraIsNowhere)
 {
-  const Correspondence found = Other(viewAt({ 0, 0, 9 })).of({ 0, 0 });
+  const Correspondence found = Other(pairViewAt({ 0, 0, 9 })).of({ 0, 0 });
   EXPECT_EQ(found.visibility, VisibilityClass::Behind);
   EXPECT_TRUE(found.pixel.array().isNaN().all());
 }
@@ -191,19 +191,19 @@ SurfaceRows surfaceOf(const SceneState& state, const View& view, const Visibilit
 TEST(CorrespondRows, AStepToTheRightMovesTheWallToTheLeft)
 {
   const auto state = SceneBuilder().add(makeQuad({ { -4, -40, 8 }, { 80, 0, 0 }, { 0, 80, 0 }, 1, 1 })).state();
-  const View own = viewAt({ 0, 0, 0 });
+  const View own = pairViewAt({ 0, 0, 0 });
   const VisibilityBuffer buffer = bruteForce(*state, own);
   const SurfaceRows rows = surfaceOf(*state, own, buffer);
   const std::unique_ptr<OcclusionQuery> query = makeOcclusionQuery();
   query->setScene(state);
   std::vector<double> pixels(buffer.hits.size() * 2);
   std::vector<std::uint8_t> classes(buffer.hits.size());
-  correspondRows(rows, { state.get(), viewAt({ 1, 0, 0 }), query.get() }, pixels.data(), classes.data());
-  for (int y = 0; y < height; ++y)
+  correspondRows(rows, { state.get(), pairViewAt({ 1, 0, 0 }), query.get() }, pixels.data(), classes.data());
+  for (int y = 0; y < pairHeight; ++y)
   {
-    for (int x = 0; x < width; ++x)
+    for (int x = 0; x < pairWidth; ++x)
     {
-      const std::size_t i = std::size_t(y) * width + x;
+      const std::size_t i = std::size_t(y) * pairWidth + x;
       if (x + 0.5 < 16) // left of the wall's edge
       {
         ASSERT_EQ(classes[i], 0) << x << ' ' << y;
@@ -211,7 +211,7 @@ TEST(CorrespondRows, AStepToTheRightMovesTheWallToTheLeft)
         continue;
       }
       ASSERT_EQ(classes[i], 1) << x << ' ' << y;
-      ASSERT_NEAR(pixels[2 * i], x + 0.5 - focal / 8, 1e-12);
+      ASSERT_NEAR(pixels[2 * i], x + 0.5 - pairFocal / 8, 1e-12);
       ASSERT_NEAR(pixels[2 * i + 1], y + 0.5, 1e-12);
     }
   }
@@ -224,7 +224,7 @@ TEST(CorrespondPoints, ManyAtOnceAreWhatEachIs)
   const auto state = SceneBuilder().add(wallAt(8)).add(pane).state();
   const std::unique_ptr<OcclusionQuery> query = makeOcclusionQuery();
   query->setScene(state);
-  const OtherView other{ state.get(), viewAt({ 0, 0, 0 }), query.get() };
+  const OtherView other{ state.get(), pairViewAt({ 0, 0, 0 }), query.get() };
   std::vector<FixedPoint> points;
   for (int i = -40; i <= 40; ++i)
   {
@@ -237,8 +237,8 @@ TEST(CorrespondPoints, ManyAtOnceAreWhatEachIs)
   {
     const Correspondence& one = found[std::size_t(i + 40)];
     const double x = i / 4.0 + 0.125;
-    EXPECT_NEAR(one.pixel.x(), 32 + focal * x / 8, 1e-12);
-    EXPECT_NEAR(one.pixel.y(), 24 + focal * 0.25 / 8, 1e-12);
+    EXPECT_NEAR(one.pixel.x(), 32 + pairFocal * x / 8, 1e-12);
+    EXPECT_NEAR(one.pixel.y(), 24 + pairFocal * 0.25 / 8, 1e-12);
     EXPECT_EQ(one.visibility, std::abs(x) > 8    ? VisibilityClass::Outside
                               : std::abs(x) <= 2 ? VisibilityClass::OccludedByOther
                                                  : VisibilityClass::Visible)
@@ -252,7 +252,7 @@ TEST(SceneFlowRows, IsTheMotionInTheAxesOfTheCamera)
   // A wall that moves by (0.5, -0.25, 1) in the world, seen by a camera turned by a quarter about z.
   const auto state = SceneBuilder().add(wallAt(8)).state();
   const auto next = SceneBuilder().add(wallAt(8), placement({ 0.5, -0.25, 1 })).state();
-  View view = viewAt({ 0, 0, 0 });
+  View view = pairViewAt({ 0, 0, 0 });
   view.camera_from_world.rotation << 0, 1, 0, -1, 0, 0, 0, 0, 1;
   VisibilityBuffer buffer = bruteForce(*state, view);
   buffer.hits[0] = {};
@@ -271,15 +271,15 @@ namespace
 std::vector<double> pairOf(PairValue value, const Eigen::Vector3d& place, std::vector<std::uint8_t>& classes)
 {
   const auto state = SceneBuilder().add(wallAt(8)).state();
-  const View own = viewAt({ 0, 0, 0 });
+  const View own = pairViewAt({ 0, 0, 0 });
   const VisibilityBuffer buffer = bruteForce(*state, own);
   SurfaceRows rows;
-  computeSurfaceRows(*state, own, { 0, 1, width, 2 }, buffer.hits.data() + width, true, rows);
+  computeSurfaceRows(*state, own, { 0, 1, pairWidth, 2 }, buffer.hits.data() + pairWidth, true, rows);
   const std::unique_ptr<OcclusionQuery> query = makeOcclusionQuery();
   query->setScene(state);
   std::vector<double> values(rows.t.size() * std::size_t(channelsOf(value)));
   classes.assign(rows.t.size(), 99);
-  const OtherView other{ state.get(), viewAt(place), query.get() };
+  const OtherView other{ state.get(), pairViewAt(place), query.get() };
   if (value == PairValue::Motion)
   {
     sceneFlowRows(rows, other, values.data());
@@ -295,20 +295,20 @@ std::vector<double> pairOf(PairValue value, const Eigen::Vector3d& place, std::v
 TEST(PairRows, ValuesAreRelatedToThePixelsCentre)
 {
   // The other camera stands 0.5 to the right and 0.25 below (y down): everything moves to the left and up.
-  constexpr double left = 0.5 * focal / 8;
-  constexpr double up = 0.25 * focal / 8;
+  constexpr double left = 0.5 * pairFocal / 8;
+  constexpr double up = 0.25 * pairFocal / 8;
   std::vector<std::uint8_t> classes;
   const Eigen::Vector3d place(0.5, 0.25, 0);
   const std::vector<double> position = pairOf(PairValue::Position, place, classes);
   const std::vector<double> displacement = pairOf(PairValue::Displacement, place, classes);
   const std::vector<double> fromLeft = pairOf(PairValue::FromLeft, place, classes);
   const std::vector<double> fromRight = pairOf(PairValue::FromRight, place, classes);
-  ASSERT_EQ(position.size(), 4u * width);
-  ASSERT_EQ(fromLeft.size(), 2u * width);
-  for (int i = 0; i < 2 * width; ++i)
+  ASSERT_EQ(position.size(), 4u * pairWidth);
+  ASSERT_EQ(fromLeft.size(), 2u * pairWidth);
+  for (int i = 0; i < 2 * pairWidth; ++i)
   {
-    const double x = i % width + 0.5;
-    const double y = 1 + i / width + 0.5;
+    const double x = i % pairWidth + 0.5;
+    const double y = 1 + i / pairWidth + 0.5;
     ASSERT_NE(classes[std::size_t(i)], 99);
     ASSERT_NEAR(position[std::size_t(2 * i)], x - left, 1e-11);
     ASSERT_NEAR(position[std::size_t(2 * i + 1)], y - up, 1e-11);
@@ -323,19 +323,19 @@ TEST(PairRows, MotionHasNoClasses)
 {
   std::vector<std::uint8_t> classes;
   const std::vector<double> motion = pairOf(PairValue::Motion, { 0.5, 0.25, 0 }, classes);
-  EXPECT_EQ(motion, std::vector<double>(6 * width, 0.0));
-  EXPECT_EQ(classes, std::vector<std::uint8_t>(2 * width, 99));
+  EXPECT_EQ(motion, std::vector<double>(6 * pairWidth, 0.0));
+  EXPECT_EQ(classes, std::vector<std::uint8_t>(2 * pairWidth, 99));
 }
 
 TEST(RectifiedBaseline, IsThatOfCamerasSideBySideOnly)
 {
-  const View own = viewAt({ 0, 0, 0 });
-  EXPECT_NEAR(rectifiedBaseline(own, viewAt({ 0.5, 0, 0 })), 0.5, 1e-15);
-  EXPECT_NEAR(rectifiedBaseline(own, viewAt({ -2, 0, 0 })), -2, 1e-15);
+  const View own = pairViewAt({ 0, 0, 0 });
+  EXPECT_NEAR(rectifiedBaseline(own, pairViewAt({ 0.5, 0, 0 })), 0.5, 1e-15);
+  EXPECT_NEAR(rectifiedBaseline(own, pairViewAt({ -2, 0, 0 })), -2, 1e-15);
   EXPECT_EQ(rectifiedBaseline(own, own), 0);
-  EXPECT_EQ(rectifiedBaseline(own, viewAt({ 0.5, 1e-6, 0 })), 0);
-  EXPECT_EQ(rectifiedBaseline(own, viewAt({ 0.5, 0, 1e-6 })), 0);
-  View turned = viewAt({ 0.5, 0, 0 });
+  EXPECT_EQ(rectifiedBaseline(own, pairViewAt({ 0.5, 1e-6, 0 })), 0);
+  EXPECT_EQ(rectifiedBaseline(own, pairViewAt({ 0.5, 0, 1e-6 })), 0);
+  View turned = pairViewAt({ 0.5, 0, 0 });
   turned.camera_from_world.rotation = Eigen::AngleAxisd(1e-6, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   EXPECT_EQ(rectifiedBaseline(own, turned), 0);
 }

@@ -14,7 +14,7 @@ namespace
 using Marks = std::vector<std::vector<int>>;
 
 /// A plane that faces the camera at a depth; object 0 is none.
-PixelPlane facing(std::uint32_t object, double x, double y, double depth)
+PixelPlane facingPlane(std::uint32_t object, double x, double y, double depth)
 {
   return { object, { x, y, depth }, { 0, 0, -1 }, depth };
 }
@@ -47,7 +47,7 @@ std::vector<std::vector<PixelPlane>> picture(const Marks& objects, double depthO
     {
       const int object = objects[y][x];
       rows.back().push_back(
-        facing(static_cast<std::uint32_t>(object % 3), double(x), double(y), object >= 3 ? depthOfThree : 10.0));
+        facingPlane(static_cast<std::uint32_t>(object % 3), double(x), double(y), object >= 3 ? depthOfThree : 10.0));
     }
   }
   return rows;
@@ -84,7 +84,7 @@ TEST(Edges, OfDepthBeginBeyondOneHundredthOfTheSmallerOne)
 TEST(Edges, NeedBothPointsOffTheOthersPlane)
 {
   // A corner of a room: the second pixel's plane is the other wall, which holds the first point.
-  const PixelPlane wall = facing(1, 0, 0, 10);
+  const PixelPlane wall = facingPlane(1, 0, 0, 10);
   PixelPlane other{ 1, { 0, 0, 5 }, { 1, 0, 0 }, 5 };
   EXPECT_EQ(edgeBetween(wall, other), noEdge);
   EXPECT_EQ(edgeBetween(other, wall), noEdge);

@@ -23,10 +23,10 @@ namespace
 using namespace dgtk;
 using test::sourceFile;
 
-constexpr int width = 96;
-constexpr int height = 72;
+constexpr int truthWidth = 96;
+constexpr int truthHeight = 72;
 
-LiveQuestion questionOf(const std::string& file, std::size_t camera, int frame, int w = width, int h = height)
+LiveQuestion questionOf(const std::string& file, std::size_t camera, int frame, int w = truthWidth, int h = truthHeight)
 {
   const SceneDescription scene = readScene(sourceFile(file));
   ModelLibrary models;
@@ -55,8 +55,8 @@ void render(const std::string& file, const std::string& folder)
     }
   }
   request.frames = FrameRange{ 1, 1, 1 };
-  request.width = width;
-  request.height = height;
+  request.width = truthWidth;
+  request.height = truthHeight;
   request.options["samples"] = "4";
   request.options["threads"] = "1";
   generate(request);
@@ -87,7 +87,7 @@ TEST(LiveTruth, EveryLayerIsTheDatasetBitForBit)
   ThreadPool pool(1);
   LiveEye eye(question, 1, pool);
   VisibilityBuffer hits;
-  ASSERT_TRUE(eye.trace(0, height, hits));
+  ASSERT_TRUE(eye.trace(0, truthHeight, hits));
   std::set<std::string> shown;
   for (const LiveLayer& layer : liveLayers())
   {
@@ -153,8 +153,8 @@ TEST(LiveTruth, LensesAreTheDatasetBitForBit)
   request.options = { { "objects_format", "npy" }, { "triangles_format", "npy" }, { "flow_forward_format", "npy" },
     { "edges_format", "npy" }, { "threads", "1" }, { "visibility", "ray" } };
   request.frames = FrameRange{ 1, 1, 1 };
-  request.width = width;
-  request.height = height;
+  request.width = truthWidth;
+  request.height = truthHeight;
   generate(request);
   ThreadPool pool(1);
   for (const std::size_t camera : { 0, 1, 2 })
@@ -167,7 +167,7 @@ TEST(LiveTruth, LensesAreTheDatasetBitForBit)
     question.camera = scene.cameras[camera];
     LiveEye eye(question, 1, pool);
     VisibilityBuffer hits;
-    ASSERT_TRUE(eye.trace(0, height, hits));
+    ASSERT_TRUE(eye.trace(0, truthHeight, hits));
     std::size_t compared = 0;
     for (const auto& [layer, file] : filesOf(request.folder, question.camera.name))
     {
@@ -188,14 +188,14 @@ TEST(LiveTruth, APixelIsThePictures)
   ThreadPool pool(1);
   LiveEye eye(question, 1, pool);
   VisibilityBuffer hits;
-  eye.trace(0, height, hits);
+  eye.trace(0, truthHeight, hits);
   const Rows depth = eye.values("depth", hits);
   const Rows flow = eye.values("flow_forward", hits);
   const Rows edges = eye.values("edges", hits);
   int surfaces = 0;
-  for (int row = 5; row < height; row += 16)
+  for (int row = 5; row < truthHeight; row += 16)
   {
-    for (int column = 3; column < width; column += 16)
+    for (int column = 3; column < truthWidth; column += 16)
     {
       const PixelTruth truth = pixelTruth(question, column, row, pool);
       const auto value = [&](const char* layer)
@@ -233,7 +233,7 @@ TEST(LiveTruth, APixelIsThePictures)
     }
   }
   EXPECT_GT(surfaces, 10);
-  EXPECT_THROW(pixelTruth(question, width, 0, pool), std::exception);
+  EXPECT_THROW(pixelTruth(question, truthWidth, 0, pool), std::exception);
 }
 
 TEST(LiveTruth, FlowNeedsAFrameBeside)

@@ -15,12 +15,12 @@ using testing::HasSubstr;
 
 namespace
 {
-std::string text(const std::string& value) { return value + std::string(1, '\0'); }
+std::string text3ds(const std::string& value) { return value + std::string(1, '\0'); }
 
 /// A file of one object with these chunks in its mesh.
 std::string meshFile(const std::string& chunks, const std::string& materials = {})
 {
-  return chunk3ds(0x4d4d, chunk3ds(0x3d3d, materials + chunk3ds(0x4000, text("thing") + chunk3ds(0x4100, chunks))));
+  return chunk3ds(0x4d4d, chunk3ds(0x3d3d, materials + chunk3ds(0x4000, text3ds("thing") + chunk3ds(0x4100, chunks))));
 }
 
 std::string vertices(const std::vector<float>& values)
@@ -33,7 +33,7 @@ std::string vertices(const std::vector<float>& values)
   return chunk3ds(0x4110, out);
 }
 
-std::string faces(const std::vector<unsigned>& indices, const std::string& more = {})
+std::string faces3ds(const std::vector<unsigned>& indices, const std::string& more = {})
 {
   std::string out = u16(static_cast<unsigned>(indices.size() / 3));
   for (std::size_t i = 0; i < indices.size(); ++i)
@@ -80,7 +80,7 @@ TEST(Studio3ds, VerticesAreDrawnAsTheyAre)
   {
     matrix += f32(i == 0 ? -3.0f : static_cast<float>(i));
   }
-  const auto model = readBytes("3ds", meshFile(vertices(roof) + chunk3ds(0x4160, matrix) + faces(roofFaces)));
+  const auto model = readBytes("3ds", meshFile(vertices(roof) + chunk3ds(0x4160, matrix) + faces3ds(roofFaces)));
   EXPECT_EQ(model->boundsMin, Eigen::Vector3d(0, 0, -1));
   EXPECT_EQ(model->boundsMax, Eigen::Vector3d(1, 1, 0));
   const auto& p = model->rest->positions;
@@ -97,7 +97,7 @@ TEST(Studio3ds, SmoothingGroups)
     {
       chunk += u32(g);
     }
-    return readBytes("3ds", meshFile(vertices(roof) + faces(roofFaces, chunk3ds(0x4150, chunk))))->rest->normals;
+    return readBytes("3ds", meshFile(vertices(roof) + faces3ds(roofFaces, chunk3ds(0x4150, chunk))))->rest->normals;
   };
   EXPECT_EQ(normals({ 1, 1, 1, 1 }).size(), 6u);
   EXPECT_EQ(normals({ 1, 1, 2, 2 }).size(), 8u);
@@ -114,7 +114,7 @@ TEST(Studio3ds, LargeFacesOfASmoothingGroupCountMore)
 {
   // an upright and a flat triangle along the x axis, of areas 1 and 3
   const auto model = readBytes("3ds", meshFile(vertices({ 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0, -1 }) +
-                                               faces({ 0, 1, 2, 1, 0, 3 }, chunk3ds(0x4150, u32(1) + u32(1)))));
+                                               faces3ds({ 0, 1, 2, 1, 0, 3 }, chunk3ds(0x4150, u32(1) + u32(1)))));
   EXPECT_LT((model->rest->normals[0] - Eigen::Vector3f(0, -1, 3).normalized()).norm(), 1e-6f);
 }
 
@@ -125,7 +125,7 @@ TEST(Studio3ds, SmoothingJoinsVerticesAtOnePlace)
   split.insert(split.end(), { 1, 0, 0, 1, 1, 0 });
   const std::string groups = chunk3ds(0x4150, u32(1) + u32(1) + u32(1) + u32(1));
   const auto model =
-    readBytes("3ds", meshFile(vertices(split) + faces({ 0, 1, 2, 0, 2, 3, 6, 4, 5, 6, 5, 7 }, groups)));
+    readBytes("3ds", meshFile(vertices(split) + faces3ds({ 0, 1, 2, 0, 2, 3, 6, 4, 5, 6, 5, 7 }, groups)));
   ASSERT_EQ(model->rest->normals.size(), 8u);
   for (std::size_t a = 0; a < 8; ++a)
   {
@@ -139,13 +139,13 @@ TEST(Studio3ds, SmoothingJoinsVerticesAtOnePlace)
 
 TEST(Studio3ds, TexturesAreScaledAndMoved)
 {
-  const std::string map = chunk3ds(0xa300, text("T.PNG")) + chunk3ds(0xa356, f32(2)) + chunk3ds(0xa354, f32(3)) +
+  const std::string map = chunk3ds(0xa300, text3ds("T.PNG")) + chunk3ds(0xa356, f32(2)) + chunk3ds(0xa354, f32(3)) +
                           chunk3ds(0xa358, f32(0.5f)) + chunk3ds(0xa35a, f32(0.25f));
-  const std::string material = chunk3ds(0xafff, chunk3ds(0xa000, text("m")) + chunk3ds(0xa200, map));
+  const std::string material = chunk3ds(0xafff, chunk3ds(0xa000, text3ds("m")) + chunk3ds(0xa200, map));
   const std::string uvs = chunk3ds(0x4140, u16(3) + f32(0) + f32(0) + f32(1) + f32(0) + f32(1) + f32(1));
-  const std::string use = chunk3ds(0x4130, text("m") + u16(1) + u16(0));
+  const std::string use = chunk3ds(0x4130, text3ds("m") + u16(1) + u16(0));
   const auto model =
-    readBytes("3ds", meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }) + uvs + faces({ 0, 1, 2 }, use), material));
+    readBytes("3ds", meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }) + uvs + faces3ds({ 0, 1, 2 }, use), material));
   EXPECT_EQ(model->uvs[0], Eigen::Vector2d(0.5, 0.25));
   EXPECT_EQ(model->uvs[2], Eigen::Vector2d(2.5, 3.25));
 }
@@ -156,11 +156,11 @@ TEST(Studio3ds, TheFirstColourAndTheFirstMaterialOfANameAreMeant)
   {
     const std::string colors = chunk3ds(0x0010, f32(red) + f32(green) + f32(0)) + // and the same, linear
                                chunk3ds(0x0013, f32(0.25f) + f32(0.25f) + f32(0.25f));
-    return chunk3ds(0xafff, chunk3ds(0xa000, text("m")) + chunk3ds(0xa020, colors));
+    return chunk3ds(0xafff, chunk3ds(0xa000, text3ds("m")) + chunk3ds(0xa020, colors));
   };
-  const std::string use = chunk3ds(0x4130, text("m") + u16(1) + u16(0));
+  const std::string use = chunk3ds(0x4130, text3ds("m") + u16(1) + u16(0));
   const auto model = readBytes("3ds",
-    meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }) + faces({ 0, 1, 2 }, use), material(1, 0) + material(0, 1)));
+    meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }) + faces3ds({ 0, 1, 2 }, use), material(1, 0) + material(0, 1)));
   ASSERT_EQ(model->parts.size(), 1u);
   EXPECT_EQ(model->materials[static_cast<std::size_t>(model->parts[0].material)].diffuse, Eigen::Vector3d(1, 0, 0));
 }
@@ -171,9 +171,10 @@ TEST(Studio3ds, PercentagesAreSharesOrOfAHundred)
   {
     const std::string glow = chunk3ds(0xa084, chunk3ds(0x0031, f32(written)));
     const std::string diffuse = chunk3ds(0xa020, chunk3ds(0x0010, f32(1) + f32(0.5f) + f32(0)));
-    const auto model = readBytes("3ds", meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }) +
-                                                   faces({ 0, 1, 2 }, chunk3ds(0x4130, text("m") + u16(1) + u16(0))),
-                                          chunk3ds(0xafff, chunk3ds(0xa000, text("m")) + diffuse + glow)));
+    const auto model =
+      readBytes("3ds", meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }) +
+                                  faces3ds({ 0, 1, 2 }, chunk3ds(0x4130, text3ds("m") + u16(1) + u16(0))),
+                         chunk3ds(0xafff, chunk3ds(0xa000, text3ds("m")) + diffuse + glow)));
     EXPECT_EQ(
       model->materials[static_cast<std::size_t>(model->parts[0].material)].emission, share * Eigen::Vector3d(1, 0.5, 0))
       << written;
@@ -184,9 +185,10 @@ TEST(Studio3ds, ChunksOfMaterials)
 {
   const auto of = [](const std::string& chunks)
   {
-    const auto model = readBytes("3ds", meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }) +
-                                                   faces({ 0, 1, 2 }, chunk3ds(0x4130, text("m") + u16(1) + u16(0))),
-                                          chunk3ds(0xafff, chunk3ds(0xa000, text("m")) + chunks)));
+    const auto model =
+      readBytes("3ds", meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }) +
+                                  faces3ds({ 0, 1, 2 }, chunk3ds(0x4130, text3ds("m") + u16(1) + u16(0))),
+                         chunk3ds(0xafff, chunk3ds(0xa000, text3ds("m")) + chunks)));
     return model->materials.at(static_cast<std::size_t>(model->parts.at(0).material));
   };
   const std::string real = f32(0.25f) + f32(0.5f) + f32(1);
@@ -215,13 +217,13 @@ TEST(Studio3ds, ChunksOfMaterials)
 
 TEST(Studio3ds, DamageThatRealFilesHave)
 {
-  const auto badIndex = readBytes("3ds", meshFile(vertices(roof) + faces({ 0, 1, 2, 0, 1, 99 })));
+  const auto badIndex = readBytes("3ds", meshFile(vertices(roof) + faces3ds({ 0, 1, 2, 0, 1, 99 })));
   EXPECT_EQ(badIndex->triangles.size(), 1u);
   EXPECT_THAT(badIndex->warnings, Contains(HasSubstr("1 surface left out: a vertex that does not exist")));
 
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const auto notFinite =
-    readBytes("3ds", meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0, nan, 0, 0 }) + faces({ 0, 1, 2, 0, 1, 3 })));
+    readBytes("3ds", meshFile(vertices({ 0, 0, 0, 1, 0, 0, 0, 1, 0, nan, 0, 0 }) + faces3ds({ 0, 1, 2, 0, 1, 3 })));
   EXPECT_EQ(notFinite->triangles.size(), 1u);
   EXPECT_THAT(notFinite->warnings, Contains(HasSubstr("not a finite number")));
 
@@ -233,9 +235,9 @@ TEST(Studio3ds, DamageThatRealFilesHave)
 
   EXPECT_EQ(readBytes("3ds", seed3ds() + "trailing")->triangles.size(), 6u);
   EXPECT_EQ(readBytes("3ds", chunk3ds(0x4d4d, chunk3ds(0x3d3d, "")))->triangles.size(), 0u);
-  EXPECT_THAT(
-    readBytes("3ds", meshFile(vertices(roof) + faces({ 0, 1, 2 }, chunk3ds(0x4130, text("no") + u16(1) + u16(0)))))
-      ->warnings,
+  EXPECT_THAT(readBytes("3ds",
+                meshFile(vertices(roof) + faces3ds({ 0, 1, 2 }, chunk3ds(0x4130, text3ds("no") + u16(1) + u16(0)))))
+                ->warnings,
     Contains(HasSubstr("name a material that does not exist")));
 }
 

@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 namespace
 {
 /// Numbers of the file are 32-bit floats.
-constexpr double floatTolerance = 1e-6;
+constexpr double tableTolerance = 1e-6;
 
 /// One triangle (1, 0, 0), (0, 1, 0), (0, 0, 1) in node 0.
 GltfMaker triangle()
@@ -82,16 +82,16 @@ TEST(GltfTables, MetalAndRoughnessAsHighlights)
                                   { "roughnessFactor", row.rough } } } } };
     maker.json["meshes"][0]["primitives"][0]["material"] = 0;
     const dgtk::Material m = readBytes("gltf", maker.gltf())->materials.at(0);
-    EXPECT_NEAR(m.specular[0], displayed(row.red), floatTolerance) << row.metal << ' ' << row.rough;
-    EXPECT_NEAR(m.specular[1], displayed(row.green), floatTolerance) << row.metal << ' ' << row.rough;
+    EXPECT_NEAR(m.specular[0], displayed(row.red), tableTolerance) << row.metal << ' ' << row.rough;
+    EXPECT_NEAR(m.specular[1], displayed(row.green), tableTolerance) << row.metal << ' ' << row.rough;
     EXPECT_NEAR(m.shininess, row.shininess, 1e-4) << row.rough;
-    EXPECT_NEAR(m.diffuse[0], displayed(0.5), floatTolerance);
-    EXPECT_NEAR(m.diffuse[1], displayed(0.25), floatTolerance);
-    EXPECT_NEAR(m.ambient[0], 0.2 * displayed(0.5), floatTolerance);
-    EXPECT_NEAR(m.emission[0], displayed(0.5), floatTolerance);
+    EXPECT_NEAR(m.diffuse[0], displayed(0.5), tableTolerance);
+    EXPECT_NEAR(m.diffuse[1], displayed(0.25), tableTolerance);
+    EXPECT_NEAR(m.ambient[0], 0.2 * displayed(0.5), tableTolerance);
+    EXPECT_NEAR(m.emission[0], displayed(0.5), tableTolerance);
     EXPECT_EQ(m.emission[2], 1);
-    EXPECT_NEAR(m.physical->metallic, row.metal, floatTolerance);
-    EXPECT_NEAR(m.physical->roughness, row.rough, floatTolerance);
+    EXPECT_NEAR(m.physical->metallic, row.metal, tableTolerance);
+    EXPECT_NEAR(m.physical->roughness, row.rough, tableTolerance);
     EXPECT_EQ(m.opacity, 1);
   }
 }
@@ -110,8 +110,8 @@ TEST(GltfTables, ScalesOfMapsAreKeptWithinTheirLimits)
       { "occlusionTexture", { { "index", 0 }, { "strength", strength } } } } };
     maker.json["meshes"][0]["primitives"][0]["material"] = 0;
     const dgtk::Material m = readBytes("gltf", maker.gltf())->materials.at(0);
-    EXPECT_NEAR(m.normalScale, expectedScale, floatTolerance);
-    EXPECT_NEAR(m.occlusionStrength, expectedStrength, floatTolerance);
+    EXPECT_NEAR(m.normalScale, expectedScale, tableTolerance);
+    EXPECT_NEAR(m.occlusionStrength, expectedStrength, tableTolerance);
   }
 }
 
@@ -169,7 +169,7 @@ TEST(GltfTables, WhatIsNotAnimatedStaysAsTheNodeHasIt)
     return cornerAt(maker, 0);
   };
   const auto near = [](const Eigen::Vector3d& found, const Eigen::Vector3d& expected)
-  { EXPECT_LE((found - expected).norm(), 5 * floatTolerance) << found.transpose(); };
+  { EXPECT_LE((found - expected).norm(), 5 * tableTolerance) << found.transpose(); };
   near(of("translation", "VEC3", { 7, 8, 9 }), { 7, 8 + 4, 9 });
   near(of("scale", "VEC3", { 7, 8, 9 }), { 1, 2 + 7, 3 });
   near(of("rotation", "VEC4", { 0, 0, 0, 1 }), { 1 + 4, 2, 3 });
@@ -189,8 +189,8 @@ TEST(GltfTables, InterpolationsBetweenKeys)
   for (const auto& [frame, linear, step] :
     { std::tuple(0.0, 0.0, 0.0), { 15.0, 2.0, 0.0 }, { 45.0, 6.0, 0.0 }, { 60.0, 8.0, 8.0 } }) // 30 frames a second
   {
-    EXPECT_NEAR(at("LINEAR", rows, frame), linear, floatTolerance) << frame;
-    EXPECT_NEAR(at("STEP", rows, frame), step, floatTolerance) << frame;
+    EXPECT_NEAR(at("LINEAR", rows, frame), linear, tableTolerance) << frame;
+    EXPECT_NEAR(at("STEP", rows, frame), step, tableTolerance) << frame;
   }
   // In-tangent, value, out-tangent of each key: Hermite's form with tangents times the two seconds between.
   const std::vector<float> spline{ 9, 0, 0, 0, 0, 0, 1, 0, 0, 3, 0, 0, 8, 0, 0, 9, 0, 0 };
@@ -198,6 +198,6 @@ TEST(GltfTables, InterpolationsBetweenKeys)
   {
     const double expected =
       (s * s * s - 2 * s * s + s) * 2 * 1 + (3 * s * s - 2 * s * s * s) * 8 + (s * s * s - s * s) * 2 * 3;
-    EXPECT_NEAR(at("CUBICSPLINE", spline, 60 * s), expected, 4 * floatTolerance) << s;
+    EXPECT_NEAR(at("CUBICSPLINE", spline, 60 * s), expected, 4 * tableTolerance) << s;
   }
 }

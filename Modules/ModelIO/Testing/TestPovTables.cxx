@@ -15,13 +15,13 @@ using testing::IsEmpty;
 
 namespace
 {
-const std::string rightHanded = "camera { right -x }\n";
+const std::string rightHandedCamera = "camera { right -x }\n";
 
 /// The first corner of the first triangle, in the scene's axes.
 Eigen::Vector3d corner(const std::string& begin, const std::string& first, const std::string& end = "")
 {
   const auto model =
-    readBytes("pov", rightHanded + begin + "mesh { triangle { " + first + ", <9,0,0>, <0,9,0> } " + end + " }");
+    readBytes("pov", rightHandedCamera + begin + "mesh { triangle { " + first + ", <9,0,0>, <0,9,0> } " + end + " }");
   return model->rest->positions[model->triangles.at(0)[0]];
 }
 
@@ -38,8 +38,8 @@ struct Drawn
 /// A mesh of one triangle <0,0,0>, <4,0,0>, <0,4,0> and what stands behind it; `before` may declare something.
 Drawn drawn(const std::string& modifiers, const std::string& before = "", const std::string& ofTriangle = "")
 {
-  const auto model =
-    readBytes("pov", rightHanded + before + "\nmesh { triangle { 0, 4*x, 4*y " + ofTriangle + " } " + modifiers + " }");
+  const auto model = readBytes(
+    "pov", rightHandedCamera + before + "\nmesh { triangle { 0, 4*x, 4*y " + ofTriangle + " } " + modifiers + " }");
   Drawn found;
   found.material = model->materials.at(static_cast<std::size_t>(model->parts.at(0).material));
   found.texture =

@@ -17,8 +17,8 @@ using namespace dgtk;
 
 namespace
 {
-constexpr int width = 32;
-constexpr int height = 24;
+constexpr int halvesWidth = 32;
+constexpr int halvesHeight = 24;
 
 class Halves : public testing::Test
 {
@@ -67,7 +67,7 @@ std::vector<double> colors(dgtkRenderer& renderer, const std::vector<std::pair<s
 TEST_F(Halves, WorldUnitsOfAPixel)
 {
   const SurfaceResolution pinhole = surfaceResolution(*this->stage(), 0, 0);
-  EXPECT_EQ(pinhole.pixels, std::size_t(width * height));
+  EXPECT_EQ(pinhole.pixels, std::size_t(halvesWidth * halvesHeight));
   EXPECT_DOUBLE_EQ(pinhole.smallest, 5 / 40.0);
   EXPECT_DOUBLE_EQ(pinhole.median, 5 / 40.0); // of the two in the middle the lower one
   EXPECT_DOUBLE_EQ(pinhole.largest, 8 / 40.0);
@@ -75,8 +75,8 @@ TEST_F(Halves, WorldUnitsOfAPixel)
   EXPECT_DOUBLE_EQ(parallel.smallest, 1 / 40.0);
   EXPECT_DOUBLE_EQ(parallel.median, 1 / 40.0);
   EXPECT_DOUBLE_EQ(parallel.largest, 1 / 40.0);
-  const SurfaceResolution twice = surfaceResolution(*this->stage(), 0, 0, 2 * width, 2 * height);
-  EXPECT_EQ(twice.pixels, std::size_t(4 * width * height));
+  const SurfaceResolution twice = surfaceResolution(*this->stage(), 0, 0, 2 * halvesWidth, 2 * halvesHeight);
+  EXPECT_EQ(twice.pixels, std::size_t(4 * halvesWidth * halvesHeight));
   EXPECT_DOUBLE_EQ(twice.smallest, 5 / 80.0);
 }
 
@@ -88,7 +88,7 @@ TEST_F(Halves, WorldUnitsOfALensesPixel)
   text.insert(text.find(mark), R"("distortion": [1e-12, 0, 0, 0], )");
   writeFile(this->path("lens.json"), text);
   const SurfaceResolution lens = surfaceResolution(*Stage::load(readScene(this->path("lens.json"))), 0, 0);
-  EXPECT_EQ(lens.pixels, std::size_t(width * height));
+  EXPECT_EQ(lens.pixels, std::size_t(halvesWidth * halvesHeight));
   EXPECT_NEAR(lens.smallest, 5 / 40.0 / std::sqrt(Eigen::Vector3d(15.5 / 40, 11.5 / 40, 1).norm()), 1e-4);
   EXPECT_NEAR(lens.largest, 8 / 40.0 / std::sqrt(Eigen::Vector3d(0.5 / 40, 0.5 / 40, 1).norm()), 1e-4);
 }

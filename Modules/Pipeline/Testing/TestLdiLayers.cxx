@@ -21,12 +21,12 @@ using namespace dgtk::test;
 
 namespace
 {
-constexpr int width = 200;
-constexpr int height = 150;
+constexpr int ldiWidth = 200;
+constexpr int ldiHeight = 150;
 /// Pixels: how near to an edge the two engines may differ.
 constexpr double edge = 1.0 / 128;
 /// Relative: depths that drawing cannot tell apart.
-constexpr double coincident = 2e-6;
+constexpr double ldiCoincident = 2e-6;
 
 struct SceneCase
 {
@@ -46,7 +46,7 @@ public:
     , Query(makeOcclusionQuery())
   {
     this->Query->setScene(this->State);
-    this->TheView = this->Scene->view(0, frame, width, height);
+    this->TheView = this->Scene->view(0, frame, ldiWidth, ldiHeight);
   }
 
   std::string camera() const { return this->Scene->cameraNames()[0]; }
@@ -94,8 +94,8 @@ private:
 
 bool hasCoincident(const std::vector<double>& depths)
 {
-  return std::adjacent_find(depths.begin(), depths.end(), [](double a, double b) { return b - a <= coincident * b; }) !=
-         depths.end();
+  return std::adjacent_find(
+           depths.begin(), depths.end(), [](double a, double b) { return b - a <= ldiCoincident * b; }) != depths.end();
 }
 
 class LdiScenes : public testing::TestWithParam<SceneCase>
@@ -113,8 +113,8 @@ TEST_P(LdiScenes, HaveTheSurfacesThatEmbreeMeets)
   request.layers = { "ldi" };
   request.cameras = { expected.camera() };
   request.frames = FrameRange{ GetParam().frame, GetParam().frame, 1 };
-  request.width = width;
-  request.height = height;
+  request.width = ldiWidth;
+  request.height = ldiHeight;
   generate(request);
   char name[32];
   std::snprintf(name, sizeof name, "/ldi/%06d.ldi", GetParam().frame);
@@ -125,7 +125,7 @@ TEST_P(LdiScenes, HaveTheSurfacesThatEmbreeMeets)
   for (int y = 0; reader.read(row); ++y)
   {
     const LdiRecord* record = row.records.data();
-    for (int x = 0; x < width; ++x)
+    for (int x = 0; x < ldiWidth; ++x)
     {
       const std::vector<double> depths = expected.depths(x + 0.5, y + 0.5);
       const std::uint32_t count = row.counts[x];
@@ -134,7 +134,7 @@ TEST_P(LdiScenes, HaveTheSurfacesThatEmbreeMeets)
       bool same = count == depths.size();
       for (std::size_t i = 0; same && i < count; ++i)
       {
-        same = std::abs(record[i].depth - depths[i]) <= coincident * depths[i];
+        same = std::abs(record[i].depth - depths[i]) <= ldiCoincident * depths[i];
       }
       if (!same)
       {
@@ -153,11 +153,11 @@ TEST_P(LdiScenes, HaveTheSurfacesThatEmbreeMeets)
   }
   std::printf(
     "%s, frame %d: %d pixels, %ld surfaces, at most %ld in a pixel; unlike Embree's at %ld pixels on an edge, "
-    "%ld with coincident surfaces, %ld others\n",
-    GetParam().scene, GetParam().frame, width * height, layers, deepest, onEdge, onCoincident, wrong);
+    "%ld with ldiCoincident surfaces, %ld others\n",
+    GetParam().scene, GetParam().frame, ldiWidth * ldiHeight, layers, deepest, onEdge, onCoincident, wrong);
   EXPECT_EQ(wrong, 0);
-  EXPECT_GT(layers, width * height / 2);
-  EXPECT_LT(onEdge + onCoincident, width * height / 100);
+  EXPECT_GT(layers, ldiWidth * ldiHeight / 2);
+  EXPECT_LT(onEdge + onCoincident, ldiWidth * ldiHeight / 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LdiScenes,

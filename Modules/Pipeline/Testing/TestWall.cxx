@@ -23,8 +23,8 @@ using namespace dgtk;
 
 namespace
 {
-constexpr int width = 32;
-constexpr int height = 24;
+constexpr int wallWidth = 32;
+constexpr int wallHeight = 24;
 constexpr double focal = 40;
 constexpr double depth = 5;
 
@@ -84,12 +84,12 @@ template <typename Expected>
 void expectPixels(vtkDataArray* array, int c, const Expected& expected)
 {
   ASSERT_TRUE(array);
-  ASSERT_EQ(array->GetNumberOfTuples(), width * height);
-  for (int y = 0; y < height; ++y)
+  ASSERT_EQ(array->GetNumberOfTuples(), wallWidth * wallHeight);
+  for (int y = 0; y < wallHeight; ++y)
   {
-    for (int x = 0; x < width; ++x)
+    for (int x = 0; x < wallWidth; ++x)
     {
-      const double found = array->GetComponent(y * width + x, c);
+      const double found = array->GetComponent(y * wallWidth + x, c);
       const double right = expected(x + 0.5, y + 0.5);
       ASSERT_TRUE(std::isnan(right) ? std::isnan(found) : std::abs(found - right) <= 1e-12 * (1 + std::abs(right)))
         << array->GetName() << ' ' << x << ' ' << y << ": " << found << ", not " << right;
@@ -124,7 +124,7 @@ TEST_F(Wall, DisparitiesOfTheNextFrame)
       [&](double x, double y)
       {
         const double down = 12 - focal * ((12 - y) / focal * depth + 0.25) / (depth + 1);
-        return place(x) >= 0 && place(x) <= width && down >= 0 && down <= height ? 1 : 4;
+        return place(x) >= 0 && place(x) <= wallWidth && down >= 0 && down <= wallHeight ? 1 : 4;
       });
   }
 }
@@ -223,9 +223,9 @@ TEST_F(Wall, PointsAreSeenOnce)
   std::vector<std::vector<double>> expected; // x, y, then camera and column of each sight
   for (int own = 0; own < 3; ++own)
   {
-    for (double v = 4.5; v < height; v += 8)
+    for (double v = 4.5; v < wallHeight; v += 8)
     {
-      for (double u = 4.5; u < width; u += 8)
+      for (double u = 4.5; u < wallWidth; u += 8)
       {
         const double x = (u - 16) / focal * depth + places[own];
         std::vector<double> point{ x, (12 - v) / focal * depth, double(own), u };
@@ -233,7 +233,7 @@ TEST_F(Wall, PointsAreSeenOnce)
         for (int other = 0; other < 3; ++other)
         {
           const double column = 16 + focal * (x - places[other]) / depth;
-          const bool seen = other != own && column > 0 && column < width;
+          const bool seen = other != own && column > 0 && column < wallWidth;
           earlier = earlier || (seen && other < own);
           if (seen)
           {

@@ -15,9 +15,9 @@ using namespace dgtk;
 using namespace dgtk::test;
 
 /// Pixels: a ray this close to an edge may fall on either side in double precision.
-constexpr double onEdge = 1e-6;
+constexpr double edgeReach = 1e-6;
 
-VisibilityBuffer trace(VisibilitySource& source, std::shared_ptr<const SceneState> state, const View& view)
+VisibilityBuffer traceSource(VisibilitySource& source, std::shared_ptr<const SceneState> state, const View& view)
 {
   source.setScene(std::move(state), view);
   VisibilityBuffer buffer;
@@ -46,9 +46,9 @@ int compare(const RayCase& c, const VisibilityBuffer& rays, const VisibilityBuff
           distance = std::min(distance, edgeDistance(*c.state, c.linearView, hit, { x + 0.5, y + 0.5 }));
         }
       }
-      EXPECT_LE(distance, onEdge) << c.name << " at " << x << ", " << y << ": rays " << rays.at(x, y).object << ":"
-                                  << rays.at(x, y).triangle << ", reference " << reference.at(x, y).object << ":"
-                                  << reference.at(x, y).triangle;
+      EXPECT_LE(distance, edgeReach) << c.name << " at " << x << ", " << y << ": rays " << rays.at(x, y).object << ":"
+                                     << rays.at(x, y).triangle << ", reference " << reference.at(x, y).object << ":"
+                                     << reference.at(x, y).triangle;
     }
   }
   return differing;
@@ -70,7 +70,7 @@ TEST(RaySource, SeesWhatTryingEveryTriangleSees)
   {
     const VisibilityBuffer reference = bruteForce(*c.state, c.view);
     ASSERT_GT(surfaces(reference), reference.hits.size() / 20) << c.name;
-    const int differing = compare(c, trace(*source, c.state, c.view), reference);
+    const int differing = compare(c, traceSource(*source, c.state, c.view), reference);
     std::printf("%s: %d of %zu pixels differ, all on edges\n", c.name.c_str(), differing, reference.hits.size());
     EXPECT_LE(differing, int(reference.hits.size() / 50)) << c.name;
   }
@@ -83,22 +83,22 @@ TEST(RaySource, CutOutsAndClippingChangeThePicture)
   const View view = makeView();
   const auto leaf = makeQuad();
   const auto solid = SceneBuilder().add(leaf).state();
-  const std::size_t whole = surfaces(trace(*source, solid, view));
+  const std::size_t whole = surfaces(traceSource(*source, solid, view));
   const auto holes = makeQuad();
   addCutOut(*holes, 16, 7);
-  const std::size_t some = surfaces(trace(*source, SceneBuilder().add(holes).state(), view));
+  const std::size_t some = surfaces(traceSource(*source, SceneBuilder().add(holes).state(), view));
   EXPECT_GT(some, whole / 4);
   EXPECT_LT(some, whole * 3 / 4);
   // The scene's own materials decide: without the cut-out everything is there.
   auto overridden = SceneBuilder().add(holes).state();
   overridden->instances[0].materials = std::make_shared<std::vector<Material>>(leaf->materials);
-  EXPECT_EQ(surfaces(trace(*source, overridden, view)), whole);
+  EXPECT_EQ(surfaces(traceSource(*source, overridden, view)), whole);
   View behind = view;
   behind.near = 5.001; // the quad is at depth 5
-  EXPECT_EQ(surfaces(trace(*source, solid, behind)), 0U);
+  EXPECT_EQ(surfaces(traceSource(*source, solid, behind)), 0U);
   View before = view;
   before.far = 4.999;
-  EXPECT_EQ(surfaces(trace(*source, solid, before)), 0U);
+  EXPECT_EQ(surfaces(traceSource(*source, solid, before)), 0U);
 }
 
 TEST(RaySource, EmptySceneAndEmptyModelsShowNothing)
@@ -106,17 +106,17 @@ TEST(RaySource, EmptySceneAndEmptyModelsShowNothing)
   ThreadPool pool(1);
   const auto source = makeRaySource(pool);
   const View view = makeView();
-  EXPECT_EQ(surfaces(trace(*source, std::make_shared<SceneState>(), view)), 0U);
+  EXPECT_EQ(surfaces(traceSource(*source, std::make_shared<SceneState>(), view)), 0U);
   auto nothing = std::make_shared<Model>();
   nothing->rest = std::make_shared<Geometry>();
-  EXPECT_EQ(surfaces(trace(*source, SceneBuilder().add(nothing).state(), view)), 0U);
+  EXPECT_EQ(surfaces(traceSource(*source, SceneBuilder().add(nothing).state(), view)), 0U);
   const auto both = SceneBuilder().add(nothing).add(makeQuad()).state();
-  const VisibilityBuffer buffer = trace(*source, both, view);
+  const VisibilityBuffer buffer = traceSource(*source, both, view);
   EXPECT_GT(surfaces(buffer), 0U);
   EXPECT_EQ(buffer.at(32, 24).object, 2U);
   auto lost = SceneBuilder().add(makeQuad()).state();
   lost->instances[0].world_from_object.translation.x() = NAN;
-  EXPECT_EQ(surfaces(trace(*source, lost, view)), 0U);
+  EXPECT_EQ(surfaces(traceSource(*source, lost, view)), 0U);
 }
 
 TEST(RaySource, TrianglesWithoutAreaAreNeverHit)
@@ -129,7 +129,7 @@ TEST(RaySource, TrianglesWithoutAreaAreNeverHit)
   model->rest = geometry;
   model->triangles = { { 0, 1, 2 }, { 0, 0, 1 }, { 3, 3, 3 } };
   model->parts[0].triangles = 3;
-  EXPECT_EQ(surfaces(trace(*source, SceneBuilder().add(model).state(), makeView())), 0U);
+  EXPECT_EQ(surfaces(traceSource(*source, SceneBuilder().add(model).state(), makeView())), 0U);
 }
 
 TEST(RaySource, OfCoincidentSurfacesTheLowestIdIsSeen)
@@ -160,7 +160,7 @@ TEST(RaySource, OfCoincidentSurfacesTheLowestIdIsSeen)
     { "triangles from both sides", SceneBuilder().add(doubled).state(), view, view } };
   for (const RayCase& c : cases)
   {
-    const VisibilityBuffer buffer = trace(*source, c.state, c.view);
+    const VisibilityBuffer buffer = traceSource(*source, c.state, c.view);
     EXPECT_GT(surfaces(buffer), 500U) << c.name;
     int other = 0;
     for (const Hit& hit : buffer.hits)
@@ -186,9 +186,9 @@ TEST(RaySource, OfAFewCoincidentPixelsTheLowestIdIsSeen)
     const Affine3 large = placement(at, 0.8, { 1, 1, 0 }, 0.7);
     const Affine3 small = placement(at, 0.03, { 1, 1, 0 }, 0.7);
     const auto state = SceneBuilder().add(quad, small).add(quad, large).state();
-    compare({ "small, large", state, view, view }, trace(*source, state, view), bruteForce(*state, view));
+    compare({ "small, large", state, view, view }, traceSource(*source, state, view), bruteForce(*state, view));
     const auto other = SceneBuilder().add(quad, large).add(quad, small).state();
-    const VisibilityBuffer buffer = trace(*source, other, view);
+    const VisibilityBuffer buffer = traceSource(*source, other, view);
     EXPECT_EQ(std::count_if(buffer.hits.begin(), buffer.hits.end(), [](const Hit& hit) { return hit.object == 2; }), 0);
   }
 }
@@ -207,7 +207,7 @@ TEST(RaySource, ThousandInstances)
   const RayCase c{ "instances", scene.state(), view, view };
   const VisibilityBuffer reference = bruteForce(*c.state, view);
   EXPECT_GT(surfaces(reference), 300U);
-  compare(c, trace(*source, c.state, view), reference);
+  compare(c, traceSource(*source, c.state, view), reference);
 }
 
 TEST(RaySource, BareRaysDifferOnEdgesOnly)
@@ -217,7 +217,7 @@ TEST(RaySource, BareRaysDifferOnEdgesOnly)
   const auto source = makeBareRaySource(pool);
   const RayCase c = rayCases().front();
   const VisibilityBuffer reference = bruteForce(*c.state, c.view);
-  const VisibilityBuffer rays = trace(*source, c.state, c.view);
+  const VisibilityBuffer rays = traceSource(*source, c.state, c.view);
   for (int y = 0; y < 48; ++y)
   {
     for (int x = 0; x < 64; ++x)
@@ -249,7 +249,7 @@ TEST(RaySource, SurfacesAtNearAndAtFarAreSeen)
       view.near = atFar ? 0.1 : 5 + shift;
       view.far = atFar ? 5 + shift : 100;
       const bool seen = atFar ? shift >= 0 : shift <= 0;
-      EXPECT_EQ(trace(*source, state, view).at(30, 25).object, seen ? 1u : 0u) << shift << ' ' << atFar;
+      EXPECT_EQ(traceSource(*source, state, view).at(30, 25).object, seen ? 1u : 0u) << shift << ' ' << atFar;
     }
   }
 }

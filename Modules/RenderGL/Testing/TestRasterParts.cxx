@@ -34,7 +34,7 @@ std::vector<std::array<float, 4>> keysOf(const std::vector<Fragment>& fragments)
   return keys;
 }
 
-View viewOf(const std::shared_ptr<const CameraModel>& model)
+View viewThrough(const std::shared_ptr<const CameraModel>& model)
 {
   View view;
   view.model = model;
@@ -114,7 +114,7 @@ TEST(RasterCamera, ProjectsLikeItsModel)
   K << 90, 7, 40, 0, 80, 20, 0, 0, 1;
   for (const auto& model : { makePinhole(96, 72, K), makeOrthographic(96, 72, 9, 1.5) })
   {
-    const View view = viewOf(model);
+    const View view = viewThrough(model);
     for (const int samples : { 1, 3 })
     {
       for (const bool zeroToOne : { true, false })

@@ -87,7 +87,7 @@ double chiSquare(const std::vector<double>& values, const std::map<double, doubl
   return counts.empty() ? sum : 1e9;
 }
 
-std::string sampled(const std::string& json, int number = 0, const std::string& folder = ".")
+std::string sampledOf(const std::string& json, int number = 0, const std::string& folder = ".")
 {
   const Sampler sampler(RandomScene::ofText(json, folder));
   return toJson(sampler.draw(std::uint64_t(number)).scene, folder);
@@ -97,7 +97,7 @@ void expectRefused(const std::string& json, const std::string& path, const std::
 {
   try
   {
-    sampled(json);
+    sampledOf(json);
     ADD_FAILURE() << "accepted: " << json;
   }
   catch (const Error& error)
@@ -356,7 +356,7 @@ TEST(SampleValues, StandWhereValuesStand)
       "shutter":{"close":1},"sensor":{"color":{"readNoise":3,"psf":{"gaussian":1}}}},
       {"name":"d","width":64,"height":48,"K":[[50,0,32],[0,50,24],[0,0,1]],"position":[1,2,3],
       "orientation":[0,1,0,0]}],"order":["object","light","object","camera","camera"]})";
-  const std::string wanted = sampled(plain);
+  const std::string wanted = sampledOf(plain);
   JsonDocument document = parseJson("test", plain);
   int places = 0;
   const std::function<std::string(const JsonNode&, const JsonNode*, bool)> text =
@@ -393,7 +393,7 @@ TEST(SampleValues, StandWhereValuesStand)
     static const std::vector<std::string> named{ "materials", "classes", "keypoints", "environment", "name" };
     if (depth > 0 && !item && std::count(named.begin(), named.end(), key) == 0)
     {
-      EXPECT_EQ(sampled(text(document.root, &node, false)), wanted) << text(document.root, &node, false);
+      EXPECT_EQ(sampledOf(text(document.root, &node, false)), wanted) << text(document.root, &node, false);
       ++places;
     }
     const bool object = node.type == JsonNode::Type::Object;

@@ -57,7 +57,7 @@ protected:
 };
 
 /// The number after a word.
-double after(const std::string& text, const std::string& word)
+double lookAfter(const std::string& text, const std::string& word)
 {
   const std::size_t at = text.find(word);
   return at == std::string::npos ? NAN : std::stod(text.substr(at + word.size()));
@@ -91,7 +91,7 @@ TEST_F(PovLook, LensIsAsLargeAsTheScene)
   PovOptions options;
   options.lens = PovLens{ 0.25, 7 };
   const std::string text = this->write(options);
-  EXPECT_EQ(after(text, "aperture "), 0.25 * this->Result.scale);
+  EXPECT_EQ(lookAfter(text, "aperture "), 0.25 * this->Result.scale);
   EXPECT_THAT(text, HasSubstr("focal_point <0, 0, 7>"));
 }
 
@@ -129,8 +129,9 @@ TEST_F(PovLook, AttenuationThatIsMatchedOrBounded)
     this->State.lights[0].attenuation = attenuation;
     std::string text = this->write();
     text = text.substr(text.find("light_source"));
-    const double fade = std::pow(d * this->Result.scale / after(text, "fade_distance "), after(text, "fade_power "));
-    return after(text, "rgb <") * 2 / (1 + fade);
+    const double fade =
+      std::pow(d * this->Result.scale / lookAfter(text, "fade_distance "), lookAfter(text, "fade_power "));
+    return lookAfter(text, "rgb <") * 2 / (1 + fade);
   };
   // Linear and quadratic together: at the middle of the scene, 5 away.
   EXPECT_NEAR(at({ 1, 0.5, 0.25 }, 5), 1 / (1 + 2.5 + 6.25), rounding);
@@ -166,14 +167,14 @@ TEST_F(PovLook, LightsStandWhereTheyShould)
     return text.substr(text.find("light_source"));
   };
   const double radius = std::sqrt(3.0);
-  EXPECT_NEAR(after(written(), "area_light "), 0.1 * radius, rounding);
+  EXPECT_NEAR(lookAfter(written(), "area_light "), 0.1 * radius, rounding);
   light.kind = LightKind::Directional;
-  EXPECT_NEAR(after(written(), "light_source { <0, "), 4 * radius, rounding);
+  EXPECT_NEAR(lookAfter(written(), "light_source { <0, "), 4 * radius, rounding);
   light.kind = LightKind::Spot;
   light.coneAngle = 89;
   light.exponent = 8;
-  EXPECT_EQ(after(written(), "spotlight point_at <0, 0, 0> radius "), 89);
-  EXPECT_EQ(after(written(), "tightness "), 8);
+  EXPECT_EQ(lookAfter(written(), "spotlight point_at <0, 0, 0> radius "), 89);
+  EXPECT_EQ(lookAfter(written(), "tightness "), 8);
   light.coneAngle = 90; // a half space
   EXPECT_THAT(written(), Not(HasSubstr("spotlight")));
 }
@@ -196,7 +197,7 @@ TEST_F(PovLook, ColoursOfPartsThatThePigmentLacks)
     });
   const std::string text = this->write();
   const Eigen::Vector3d pigment = colorAfter(text, "pigment {");
-  EXPECT_EQ(after(text, " diffuse "), 0.5);
+  EXPECT_EQ(lookAfter(text, " diffuse "), 0.5);
   EXPECT_LE((0.5 * pigment - Eigen::Vector3d(0.5, 0.25, 0)).norm(), 1e-3);
   EXPECT_LE(
     (colorAfter(text, "finish { ambient").cwiseProduct(pigment) - Eigen::Vector3d(0.1, 0.2, 0.3)).norm(), rounding);
@@ -232,7 +233,7 @@ TEST_F(PovLook, MirrorsAndVeils)
   PovOptions options;
   options.reflections = true;
   const std::string text = this->write(options);
-  EXPECT_EQ(after(text, "reflection { "), 0.5 * 32 / 128);
+  EXPECT_EQ(lookAfter(text, "reflection { "), 0.5 * 32 / 128);
   EXPECT_THAT(text, HasSubstr("pigment { rgbt <1, 1, 1, 0.25> }"));
 }
 
@@ -318,7 +319,7 @@ TEST_F(PovLook, PicturesAreTintedInTheirTexels)
   quad->materials[0].diffuse = { 0.8, 0.4, 0.2 };
   exportPov(quad, this->path("q.pov"));
   const std::string text = readFile(this->path("q.pov"));
-  EXPECT_EQ(after(text, " diffuse "), 0.8);
+  EXPECT_EQ(lookAfter(text, " diffuse "), 0.8);
   EXPECT_THAT(text, Not(HasSubstr("transmit")));
   // Rounded: 1.5, 0.75; 0.5, 0.5; 127, 63.25; 2.5, 2.25
   EXPECT_EQ(readFile(this->path("q_0.ppm")), std::string("P6\n2 2\n255\n\3\2\1\0\1\1\xff\x7f\x3f\7\3\2", 23));

@@ -20,7 +20,7 @@ namespace
 /// Numbers of nine digits times lengths of 10, a few of them.
 constexpr double tolerance = 1e-6;
 
-using Corners = std::array<Eigen::Vector3d, 3>;
+using TurnedCorners = std::array<Eigen::Vector3d, 3>;
 
 /// The value of a sum of (c + a * x + b * y + d * z) * (w), w: x - e or a number.
 double valueAt(const std::string& text, const Eigen::Vector3d& p)
@@ -45,8 +45,8 @@ double valueAt(const std::string& text, const Eigen::Vector3d& p)
 class PovTurnedFunction : public testing::Test
 {
 protected:
-  Corners Points{ Eigen::Vector3d(-0.4, -0.3, 1), Eigen::Vector3d(-4, 3, 10), Eigen::Vector3d(3, -3, 10) };
-  Corners Normals;
+  TurnedCorners Points{ Eigen::Vector3d(-0.4, -0.3, 1), Eigen::Vector3d(-4, 3, 10), Eigen::Vector3d(3, -3, 10) };
+  TurnedCorners Normals;
   Instance Object;
   View V;
 

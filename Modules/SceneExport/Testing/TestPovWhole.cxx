@@ -361,7 +361,7 @@ TEST_F(PovWhole, MeshesOfALibraryThatAreGoneAreForgotten)
 }
 
 /// Number after a word.
-double after(const std::string& text, const std::string& word)
+double wholeAfter(const std::string& text, const std::string& word)
 {
   const std::size_t at = text.find(word);
   return at == std::string::npos ? NAN : std::stod(text.substr(at + word.size()));
@@ -379,7 +379,7 @@ TEST_F(PovWhole, BumpsFollowTheTexelsOnTheSurface)
     uv = { 3 * uv.x() - uv.y(), uv.x() + 2 * uv.y() }; // 7 times the picture on a square of side 2
   }
   const std::string text = this->write(*test::SceneBuilder().add(square).state(), {});
-  EXPECT_NEAR(after(text, "bump_size "), 0.5 / std::sqrt(4 / (7.0 * 2 * 2)), 1e-14);
+  EXPECT_NEAR(wholeAfter(text, "bump_size "), 0.5 / std::sqrt(4 / (7.0 * 2 * 2)), 1e-14);
   EXPECT_THAT(text, testing::HasSubstr("normal { uv_mapping bump_map { png \"t.png\" interpolate 2 bump_size "));
   EXPECT_THAT(text, testing::HasSubstr(" } scale <1, 1, -1> } finish {"));
 }

@@ -12,15 +12,15 @@ namespace
 {
 // A million pixels of three channels: a variance has a relative standard error of 0.08 %, a rate p of
 // 0.1 % sqrt((1 - p) / p), a correlation of 0.0006.
-constexpr int side = 1000;
-constexpr double onePercent = 0.01;
+constexpr int sensorSide = 1000;
+constexpr double sensorPercent = 0.01;
 
 ImageSensorSetup setupOf(const ColorSensorParameters& parameters, int frame = 0)
 {
   ImageSensorSetup setup;
   setup.parameters = parameters;
-  setup.width = side;
-  setup.height = side;
+  setup.width = sensorSide;
+  setup.height = sensorSide;
   setup.key = { 11, 0, frame };
   return setup;
 }
@@ -36,16 +36,16 @@ double correlation(const std::vector<float>& image, int dx, int dy)
   double mean = 0;
   for (std::size_t i = 1; i < image.size(); i += 3)
   {
-    mean += image[i] / (double(side) * side);
+    mean += image[i] / (double(sensorSide) * sensorSide);
   }
   double own = 0;
   double product = 0;
-  for (int y = 0; y + dy < side; ++y)
+  for (int y = 0; y + dy < sensorSide; ++y)
   {
-    for (int x = 0; x + dx < side; ++x)
+    for (int x = 0; x + dx < sensorSide; ++x)
     {
-      const double a = image[(std::size_t(y) * side + x) * 3 + 1] - mean;
-      const double b = image[(std::size_t(y + dy) * side + x + dx) * 3 + 1] - mean;
+      const double a = image[(std::size_t(y) * sensorSide + x) * 3 + 1] - mean;
+      const double b = image[(std::size_t(y + dy) * sensorSide + x + dx) * 3 + 1] - mean;
       own += a * a;
       product += a * b;
     }
@@ -83,15 +83,16 @@ TEST(ImageSensor, VarianceAgainstMeanIsTheLineOfThePhotonTransferMethod)
   {
     const Statistics s = statisticsOf(expose(setupOf(p), grey(level)));
     const double electrons = level * p.fullWell + p.darkSignal;
-    EXPECT_NEAR((s.mean - p.blackLevel) / (electrons * perElectron), 1, onePercent) << level;
-    EXPECT_NEAR(s.variance / ((electrons + p.readNoise * p.readNoise) * perElectron * perElectron), 1, onePercent)
+    EXPECT_NEAR((s.mean - p.blackLevel) / (electrons * perElectron), 1, sensorPercent) << level;
+    EXPECT_NEAR(s.variance / ((electrons + p.readNoise * p.readNoise) * perElectron * perElectron), 1, sensorPercent)
       << level;
     const double x = s.mean - p.blackLevel;
     sumXX += x * x, sumXY += x * s.variance, sumX += x, sumY += s.variance, n += 1;
   }
   const double slope = (n * sumXY - sumX * sumY) / (n * sumXX - sumX * sumX);
-  EXPECT_NEAR(slope / perElectron, 1, onePercent);
-  EXPECT_NEAR((sumY - slope * sumX) / n / (p.readNoise * p.readNoise * perElectron * perElectron), 1, 5 * onePercent);
+  EXPECT_NEAR(slope / perElectron, 1, sensorPercent);
+  EXPECT_NEAR(
+    (sumY - slope * sumX) / n / (p.readNoise * p.readNoise * perElectron * perElectron), 1, 5 * sensorPercent);
 }
 
 TEST(ImageSensor, ShotNoiseIsWhite)
@@ -108,7 +109,7 @@ TEST(ImageSensor, ShotNoiseIsWhite)
   const Statistics s = statisticsOf(image);
   for (std::size_t i = 0; i < image.size(); i += 3)
   {
-    between += (image[i] - s.mean) * (image[i + 1] - s.mean) / (double(side) * side);
+    between += (image[i] - s.mean) * (image[i + 1] - s.mean) / (double(sensorSide) * sensorSide);
   }
   EXPECT_NEAR(between / s.variance, 0, 0.004);
   const std::vector<float> next = expose(setupOf(p, 1), grey(0.5));
@@ -146,10 +147,10 @@ TEST(ImageSensor, BlurredLightHasTheAutocorrelationOfThePointSpread)
       }
       return r;
     };
-    EXPECT_NEAR(statisticsOf(image).variance / (own(0) * own(0) / 12), 1, onePercent);
+    EXPECT_NEAR(statisticsOf(image).variance / (own(0) * own(0) / 12), 1, sensorPercent);
     for (const auto& [dx, dy] : { std::pair(1, 0), { 0, 1 }, { 1, 1 }, { 2, 1 } })
     {
-      EXPECT_NEAR(correlation(image, dx, dy), own(dx) * own(dy) / own(0) / own(0), onePercent) << dx << ' ' << dy;
+      EXPECT_NEAR(correlation(image, dx, dy), own(dx) * own(dy) / own(0) / own(0), sensorPercent) << dx << ' ' << dy;
     }
   }
 }
@@ -201,13 +202,13 @@ TEST(ImageSensor, TheFullWellHoldsNoMoreElectrons)
   p.readNoise = 40;
   const Statistics full = statisticsOf(expose(setupOf(p), grey(1)));
   EXPECT_NEAR(full.mean / 0.5, 1, 1e-4);
-  EXPECT_NEAR(std::sqrt(full.variance) / (p.readNoise * p.gain / p.fullWell), 1, onePercent);
+  EXPECT_NEAR(std::sqrt(full.variance) / (p.readNoise * p.gain / p.fullWell), 1, sensorPercent);
   // So does what the reading adds: offsets of pixels, rows and columns.
   p.readNoise = 0;
   p.dsnu = 40;
   const Statistics offsets = statisticsOf(expose(setupOf(p), grey(1)));
   EXPECT_NEAR(offsets.mean / 0.5, 1, 1e-4);
-  EXPECT_NEAR(std::sqrt(offsets.variance) / (p.dsnu * p.gain / p.fullWell), 1, onePercent);
+  EXPECT_NEAR(std::sqrt(offsets.variance) / (p.dsnu * p.gain / p.fullWell), 1, sensorPercent);
   p.dsnu = 0;
   // At a mean of just the full well the upper half is cut: that leaves sqrt(F / 2 pi) less, and 1/2 - 1 / 2 pi of the
   // variance.
@@ -215,8 +216,8 @@ TEST(ImageSensor, TheFullWellHoldsNoMoreElectrons)
   p.readNoise = 0;
   const Statistics half = statisticsOf(expose(setupOf(p), grey(1)));
   const double pi = 3.14159265358979323846;
-  EXPECT_NEAR((p.fullWell - half.mean / p.gain * p.fullWell) / std::sqrt(p.fullWell / (2 * pi)), 1, onePercent);
-  EXPECT_NEAR(half.variance / (p.gain * p.gain / p.fullWell * (0.5 - 0.5 / pi)), 1, 2 * onePercent);
+  EXPECT_NEAR((p.fullWell - half.mean / p.gain * p.fullWell) / std::sqrt(p.fullWell / (2 * pi)), 1, sensorPercent);
+  EXPECT_NEAR(half.variance / (p.gain * p.gain / p.fullWell * (0.5 - 0.5 / pi)), 1, 2 * sensorPercent);
 }
 
 TEST(ImageSensor, FixedPatternIsThatOfEveryFrameAndHasItsSpread)
@@ -225,13 +226,13 @@ TEST(ImageSensor, FixedPatternIsThatOfEveryFrameAndHasItsSpread)
   p.prnu = 0.03;
   const std::vector<float> image = expose(setupOf(p, 0), grey(0.5));
   EXPECT_EQ(image, expose(setupOf(p, 7), grey(0.5)));
-  EXPECT_NEAR(std::sqrt(statisticsOf(image).variance) / (0.03 * 0.5), 1, onePercent);
+  EXPECT_NEAR(std::sqrt(statisticsOf(image).variance) / (0.03 * 0.5), 1, sensorPercent);
   p = idealLinear();
   p.dsnu = 50;
   p.blackLevel = 0.2;
   const std::vector<float> dark = expose(setupOf(p, 0), grey(0));
   EXPECT_EQ(dark, expose(setupOf(p, 7), grey(0)));
-  EXPECT_NEAR(std::sqrt(statisticsOf(dark).variance) / (50 / p.fullWell), 1, onePercent);
+  EXPECT_NEAR(std::sqrt(statisticsOf(dark).variance) / (50 / p.fullWell), 1, sensorPercent);
   ImageSensorSetup other = setupOf(p, 0);
   other.key.camera = 1;
   EXPECT_NE(dark, expose(other, grey(0)));
@@ -248,7 +249,7 @@ TEST(ImageSensor, RowAndColumnPatternsAreConstantAlongThem)
     setup.width = rows ? 2 : 100000;
     setup.height = rows ? 100000 : 2;
     const std::vector<float> image = expose(setup, grey(0.5), 5000);
-    EXPECT_NEAR(std::sqrt(statisticsOf(image).variance) / (100 / p.fullWell), 1, onePercent) << rows;
+    EXPECT_NEAR(std::sqrt(statisticsOf(image).variance) / (100 / p.fullWell), 1, sensorPercent) << rows;
     const std::size_t step = rows ? 3 : std::size_t(setup.width) * 3;
     for (std::size_t i = 0; i < 600; ++i)
     {
@@ -261,17 +262,17 @@ TEST(ImageSensor, QuantisationErrorIsUniform)
 {
   ColorSensorParameters p = idealLinear();
   p.bits = 6;
-  const auto ramp = [](int x, int y, int) { return (x + y * double(side)) / (double(side) * side); };
+  const auto ramp = [](int x, int y, int) { return (x + y * double(sensorSide)) / (double(sensorSide) * sensorSide); };
   const std::vector<float> image = expose(setupOf(p), ramp);
   std::vector<double> errors;
   for (std::size_t i = 0; i < image.size(); ++i)
   {
     EXPECT_NEAR(image[i] * 63, std::round(image[i] * 63), 1e-5);
-    errors.push_back((image[i] - double(i / 3) / (double(side) * side)) * 63);
+    errors.push_back((image[i] - double(i / 3) / (double(sensorSide) * sensorSide)) * 63);
   }
   const Statistics s = statisticsOf(errors);
   EXPECT_NEAR(s.mean, 0, 0.003);
-  EXPECT_NEAR(s.variance * 12, 1, onePercent);
+  EXPECT_NEAR(s.variance * 12, 1, sensorPercent);
 }
 
 TEST(ImageSensor, SaltAndPepperComeAtTheirRates)
@@ -287,8 +288,8 @@ TEST(ImageSensor, SaltAndPepperComeAtTheirRates)
     salt += image[i] == 1 ? 1e-6 : 0;
     pepper += image[i] == 0 ? 1e-6 : 0;
   }
-  EXPECT_NEAR(salt / 0.25, 1, onePercent);
-  EXPECT_NEAR(pepper / 0.15, 1, onePercent);
+  EXPECT_NEAR(salt / 0.25, 1, sensorPercent);
+  EXPECT_NEAR(pepper / 0.15, 1, sensorPercent);
 }
 
 TEST(ImageSensor, VignettingFollowsItsFormulas)
@@ -346,22 +347,22 @@ TEST(ImageSensor, DemosaickedShotNoiseHasTheVarianceOfItsMeans)
   const auto variance = [&](int x0, int y0, int c)
   {
     std::vector<double> values;
-    for (int y = y0 + 2; y < side - 2; y += 2)
+    for (int y = y0 + 2; y < sensorSide - 2; y += 2)
     {
-      for (int x = x0 + 2; x < side - 2; x += 2)
+      for (int x = x0 + 2; x < sensorSide - 2; x += 2)
       {
-        values.push_back(image[(std::size_t(y) * side + x) * 3 + c]);
+        values.push_back(image[(std::size_t(y) * sensorSide + x) * 3 + c]);
       }
     }
     return statisticsOf(values).variance / one; // of 250,000 pixels: standard error 0.28 %
   };
-  EXPECT_NEAR(variance(0, 0, 1), 1, onePercent);
-  EXPECT_NEAR(variance(0, 0, 0) * 2, 1, onePercent);
-  EXPECT_NEAR(variance(0, 0, 2) * 2, 1, onePercent);
-  EXPECT_NEAR(variance(1, 0, 0), 1, onePercent);
-  EXPECT_NEAR(variance(1, 0, 1) * 4, 1, onePercent);
-  EXPECT_NEAR(variance(1, 0, 2) * 4, 1, onePercent);
-  EXPECT_NEAR(variance(0, 1, 2), 1, onePercent);
+  EXPECT_NEAR(variance(0, 0, 1), 1, sensorPercent);
+  EXPECT_NEAR(variance(0, 0, 0) * 2, 1, sensorPercent);
+  EXPECT_NEAR(variance(0, 0, 2) * 2, 1, sensorPercent);
+  EXPECT_NEAR(variance(1, 0, 0), 1, sensorPercent);
+  EXPECT_NEAR(variance(1, 0, 1) * 4, 1, sensorPercent);
+  EXPECT_NEAR(variance(1, 0, 2) * 4, 1, sensorPercent);
+  EXPECT_NEAR(variance(0, 1, 2), 1, sensorPercent);
 }
 
 TEST(ImageSensor, BayerCellsHaveTheirColoursInPlace)

@@ -24,7 +24,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double tolerance = 1e-12; // scene units, of points some units away
 
-const LayerSpec depth{ "depth", PixelType::Float64, 1, "scene units", "camera", "+inf", "", Meaning::Depth };
+const LayerSpec depthSpec{ "depth", PixelType::Float64, 1, "scene units", "camera", "+inf", "", Meaning::Depth };
 
 std::uint32_t wordOf(Rgb c) { return 0xff000000u | std::uint32_t(c[0]) << 16 | std::uint32_t(c[1]) << 8 | c[2]; }
 
@@ -51,7 +51,7 @@ struct OneLayer
 
 TEST(PictureColors, DepthIsARampFromNearToFar)
 {
-  const OneLayer layer(depth, "npy", [](int x, int y, int) { return y > 0 ? inf : std::pow(2.0, x); });
+  const OneLayer layer(depthSpec, "npy", [](int x, int y, int) { return y > 0 ? inf : std::pow(2.0, x); });
   const PictureColors own = layer.colors();
   EXPECT_EQ(own.legend.kind, PictureLegend::Kind::Ramp);
   EXPECT_EQ(own.legend.range, (PictureRange{ 1, 2048 }));
@@ -141,7 +141,7 @@ TEST(PixelText, NumbersAreTheShortestThatReadBack)
   EXPECT_EQ(numberText(double(0.1f), PixelType::Float64), "0.10000000149011612");
   EXPECT_EQ(numberText(4294967295.0, PixelType::UInt32), "4294967295");
   EXPECT_EQ(numberText(-inf, PixelType::Float32), "-inf");
-  const OneLayer layer(depth, "npy", [](int x, int, int) { return x == 0 ? inf : 1.0 / 3; });
+  const OneLayer layer(depthSpec, "npy", [](int x, int, int) { return x == 0 ? inf : 1.0 / 3; });
   EXPECT_EQ(layer.text(0, 0), "inf");
   EXPECT_EQ(layer.text(1, 0), "0.3333333333333333 metre");
 }
@@ -167,7 +167,7 @@ TEST(DatasetPoints, PixelsGoWhereTheCalibrationSays)
       const Eigen::Vector3d point = expected(camera, x, y, z);
       const double distance = (camera.R * point + camera.t).norm();
       const double inverse = 1 / z;
-      EXPECT_LT((*pointOf(depth, view, x, y, &z) - point).norm(), tolerance);
+      EXPECT_LT((*pointOf(depthSpec, view, x, y, &z) - point).norm(), tolerance);
       EXPECT_LT(
         (*pointOf({ "distance", {}, 1, "", "", "", "", Meaning::Distance }, view, x, y, &distance) - point).norm(),
         tolerance);
@@ -177,7 +177,7 @@ TEST(DatasetPoints, PixelsGoWhereTheCalibrationSays)
         tolerance);
       EXPECT_EQ(*pointOf({ "position", {}, 3, "", "world", "", "", Meaning::Point }, view, x, y, point.data()), point);
     }
-    EXPECT_FALSE(pointOf(depth, view, 0, 0, &inf));
+    EXPECT_FALSE(pointOf(depthSpec, view, 0, 0, &inf));
     const double none = 0;
     EXPECT_FALSE(pointOf({ "inversedepth", {}, 1, "", "", "", "", Meaning::InverseDepth }, view, 0, 0, &none));
     EXPECT_FALSE(pointOf({ "uv", {}, 2, "", "", "", "", Meaning::TextureCoordinates }, view, 0, 0, &none));
@@ -187,7 +187,7 @@ TEST(DatasetPoints, PixelsGoWhereTheCalibrationSays)
 TEST(DatasetPoints, ACameraThatCannotBeIsRefusedWherePointsAreMade)
 {
   SmallDataset files;
-  files.add("left", "depth", 0, "", "npy", depth, [](int, int, int) { return 2.0; });
+  files.add("left", "depth", 0, "", "npy", depthSpec, [](int, int, int) { return 2.0; });
   files.finish();
   CameraRecord wrong = SmallDataset::left(0);
   wrong.K.setZero();
@@ -201,7 +201,7 @@ TEST(DatasetPoints, ACameraThatCannotBeIsRefusedWherePointsAreMade)
 TEST(DatasetPoints, CloudsHoldEverySurfaceWithItsColour)
 {
   SmallDataset files;
-  files.add("left", "depth", 0, "", "npy", depth, [](int x, int y, int) { return x == 3 ? inf : 2.0 + y; });
+  files.add("left", "depth", 0, "", "npy", depthSpec, [](int x, int y, int) { return x == 3 ? inf : 2.0 + y; });
   files.add("left", "color", 0, "", "png", { "color", PixelType::UInt8, 3, "sRGB", "", "", "" },
     [](int x, int y, int c) { return 10 * x + y + 100 * (c == 2); });
   files.finish();
@@ -255,7 +255,7 @@ TEST(DatasetPoints, PositionsNeedNoLens)
   {
     camera.model = "of a program";
   }
-  files.add("left", "depth", 0, "", "npy", depth, [](int, int, int) { return 2.0; });
+  files.add("left", "depth", 0, "", "npy", depthSpec, [](int, int, int) { return 2.0; });
   files.add("left", "position", 0, "", "npy", { "position", PixelType::Float64, 3, "scene units", "world", "nan", "" },
     [](int x, int y, int c) {
       return x == 0 ? nan : c == 0 ? x : c == 1 ? y : 5.0;

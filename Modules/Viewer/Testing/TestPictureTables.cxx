@@ -16,8 +16,8 @@ namespace
 using namespace dgtk;
 using test::SmallDataset;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 using Pixel = std::vector<double>;
 
@@ -80,10 +80,10 @@ std::string told(
 TEST(PictureTables, Depth)
 {
   EXPECT_EQ(told({ "depth", PixelType::Float64, 1, "scene units", "camera", "+inf", "", Meaning::Depth }, "npy", { 2 },
-              { inf }, { 4 }),
+              { infinite }, { 4 }),
     R"(
 2 metre #faf5aa #bf4555
-inf #28282c #28282c
+infinite #28282c #28282c
 4 metre #4e1d66 #4e1d66
 ramp 2 to 4 of 2 to 4 logarithmic [metre])");
 }
@@ -91,10 +91,10 @@ ramp 2 to 4 of 2 to 4 logarithmic [metre])");
 TEST(PictureTables, Distance)
 {
   EXPECT_EQ(told({ "distance", PixelType::Float64, 1, "scene units", "", "+inf", "", Meaning::Distance }, "pfm", { 2 },
-              { inf }, { 0.1 }),
+              { infinite }, { 0.1 }),
     R"(
 2 metre #4e1d66 #bf4555
-inf #28282c #28282c
+infinite #28282c #28282c
 0.1 metre #faf5aa #faf5aa
 ramp 0.10000000149011612 to 2 of 0.10000000149011612 to 2 logarithmic [metre])");
 }
@@ -113,10 +113,10 @@ ramp 0.25 to 0.5 of 0.25 to 0.5 [1 / metre])");
 TEST(PictureTables, Normals)
 {
   EXPECT_EQ(told({ "normal", PixelType::Float32, 3, "1", "camera", "nan", "", Meaning::Direction }, "npy", { 0, 0, -1 },
-              { nan, nan, nan }, { 1, -0.5, 0.25 }),
+              { notANumber, notANumber, notANumber }, { 1, -0.5, 0.25 }),
     R"(
 (0, 0, -1) #8080ff #8080ff
-(nan, nan, nan) #28282c #28282c
+(notANumber, notANumber, notANumber) #28282c #28282c
 (1, -0.5, 0.25) #ffbf60 #ffbf60
 axes: red right, green up, blue towards the camera)");
 }
@@ -124,10 +124,10 @@ axes: red right, green up, blue towards the camera)");
 TEST(PictureTables, TextureCoordinates)
 {
   EXPECT_EQ(told({ "uv", PixelType::Float64, 2, "1", "", "nan", "", Meaning::TextureCoordinates }, "npy",
-              { 1.25, -0.25 }, { nan, nan }, { 0.5, 0.75 }),
+              { 1.25, -0.25 }, { notANumber, notANumber }, { 0.5, 0.75 }),
     R"(
 (1.25, -0.25) #40bf40 #40bf40
-(nan, nan) #28282c #28282c
+(notANumber, notANumber) #28282c #28282c
 (0.5, 0.75) #80bf40 #80bf40
 axes: red u, green v, without whole numbers)");
 }
@@ -135,10 +135,10 @@ axes: red u, green v, without whole numbers)");
 TEST(PictureTables, Positions)
 {
   EXPECT_EQ(told({ "position", PixelType::Float64, 3, "scene units", "world", "nan", "", Meaning::Point }, "npy",
-              { 1, 2, 3 }, { nan, nan, nan }, { 5, 4, 3.5 }),
+              { 1, 2, 3 }, { notANumber, notANumber, notANumber }, { 5, 4, 3.5 }),
     R"(
 (1, 2, 3) metre #000000 #000000
-(nan, nan, nan) #28282c #28282c
+(notANumber, notANumber, notANumber) #28282c #28282c
 (5, 4, 3.5) metre #ffffff #ffffff
 axes [metre]: red x, green y, blue z, over the range of each)");
 }
@@ -157,10 +157,10 @@ axes: red x, green y, blue z, over the range of each)");
 TEST(PictureTables, Flow)
 {
   EXPECT_EQ(told({ "flow_forward", PixelType::Float32, 2, "pixels", "image", "nan", "", Meaning::Displacement }, "npy",
-              { 3, 4 }, { nan, nan }, { 0, -2.5 }),
+              { 3, 4 }, { notANumber, notANumber }, { 0, -2.5 }),
     R"(
 (3, 4) pixels, 5 long #ffe200 #ffe200
-(nan, nan) #28282c #28282c
+(notANumber, notANumber) #28282c #28282c
 (0, -2.5) pixels, 2.5 long #bf80ff #952aff
 wheel 0 to 5 of 0 to 5 [pixels])");
 }
@@ -180,10 +180,10 @@ TEST(PictureTables, Correspondence)
 {
   EXPECT_EQ(
     told({ "correspondence", PixelType::Float64, 2, "pixels", "image of the other camera", "nan", "", Meaning::Point },
-      "npy", { 3.5, 4.25 }, { nan, nan }, { 1, 8 }),
+      "npy", { 3.5, 4.25 }, { notANumber, notANumber }, { 1, 8 }),
     R"(
 (3.5, 4.25) pixels #ff0040 #ff0040
-(nan, nan) #28282c #28282c
+(notANumber, notANumber) #28282c #28282c
 (1, 8) pixels #00ff40 #00ff40
 axes [pixels]: red x, green y, over the range of each)");
 }
@@ -191,10 +191,10 @@ axes [pixels]: red x, green y, over the range of each)");
 TEST(PictureTables, Disparity)
 {
   EXPECT_EQ(told({ "disparity", PixelType::Float64, 1, "pixels", "image", "nan", "", Meaning::Displacement }, "pfm",
-              { -3 }, { nan }, { 2 }),
+              { -3 }, { notANumber }, { 2 }),
     R"(
 -3 pixels #4e1d66 #180f3d
-nan #28282c #28282c
+notANumber #28282c #28282c
 2 pixels #faf5aa #dc6042
 ramp -3 to 2 of -3 to 2 [pixels])");
 }

@@ -8,7 +8,7 @@ namespace
 using dgtk::PictureZoom;
 using Eigen::Vector2d;
 
-constexpr double tolerance = 1e-9; // pixels
+constexpr double zoomTolerance = 1e-9; // pixels
 const Vector2d image(640, 480);
 const Vector2d widget(500, 300);
 
@@ -17,9 +17,9 @@ TEST(PictureZoom, FitsTheWholeImage)
   PictureZoom zoom;
   zoom.fit(image, widget);
   EXPECT_DOUBLE_EQ(zoom.scale(), 300.0 / 480);
-  EXPECT_LT((zoom.toWidget(image / 2, widget) - widget / 2).norm(), tolerance);
-  EXPECT_NEAR(zoom.toWidget({ 0, 0 }, widget).y(), 0, tolerance);
-  EXPECT_NEAR(zoom.toWidget(image, widget).y(), 300, tolerance);
+  EXPECT_LT((zoom.toWidget(image / 2, widget) - widget / 2).norm(), zoomTolerance);
+  EXPECT_NEAR(zoom.toWidget({ 0, 0 }, widget).y(), 0, zoomTolerance);
+  EXPECT_NEAR(zoom.toWidget(image, widget).y(), 300, zoomTolerance);
 }
 
 TEST(PictureZoom, TheImagePointUnderTheMouseStays)
@@ -31,7 +31,7 @@ TEST(PictureZoom, TheImagePointUnderTheMouseStays)
   for (const double factor : { 1.3, 5.0, 0.9, 4.0 })
   {
     zoom.zoomBy(factor, mouse, widget);
-    EXPECT_LT((zoom.toImage(mouse, widget) - point).norm(), tolerance);
+    EXPECT_LT((zoom.toImage(mouse, widget) - point).norm(), zoomTolerance);
     EXPECT_LT((zoom.toWidget(point, widget) - mouse).norm(), 1e-6);
   }
   zoom.zoomTo(1e9, mouse, widget);
@@ -47,7 +47,7 @@ TEST(PictureZoom, PanningFollowsTheMouseUpToTheBorder)
   zoom.zoomTo(2, widget / 2, widget);
   const Vector2d point = zoom.toImage({ 100, 100 }, widget);
   zoom.pan({ 30, -20 });
-  EXPECT_LT((zoom.toWidget(point, widget) - Vector2d(130, 80)).norm(), tolerance);
+  EXPECT_LT((zoom.toWidget(point, widget) - Vector2d(130, 80)).norm(), zoomTolerance);
   zoom.pan({ 1e6, 1e6 });
   EXPECT_EQ(zoom.center(), Vector2d(0, 0));
 }
