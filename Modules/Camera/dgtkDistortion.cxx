@@ -38,8 +38,10 @@ constexpr double firstStep = 1.0 / 256;
 constexpr double stepRatio = 1.02;
 constexpr int mostSteps = 50;
 constexpr int mostHalves = 12;
-constexpr double settled = 1e-15; // a step of Newton's method on the plane, as part of its distance, or of 1
-constexpr double solved = 1e-13;  // what may be left, alike
+// A step of Newton's method on the plane, as part of its distance, or of 1, that is the last: the next one would be of
+// its square, times what the slope changes by, which the domain bounds.
+constexpr double lastStep = 1e-9;
+constexpr double solved = 1e-13; // what may be left where no step is, alike
 
 std::vector<Eigen::Vector2d> allAround()
 {
@@ -216,9 +218,11 @@ bool Distortion::descend(const Eigen::Vector2d& wanted, Eigen::Vector2d& point) 
     Eigen::Vector2d step(
       slope(1, 1) * left.x() - slope(0, 1) * left.y(), slope(0, 0) * left.y() - slope(1, 0) * left.x());
     step /= determinant;
-    if (step.squaredNorm() <= settled * settled * (1 + point.squaredNorm()))
+    if (step.squaredNorm() <= lastStep * lastStep * (1 + point.squaredNorm()) &&
+        (point + step).squaredNorm() <= last * last)
     {
-      break;
+      point += step;
+      return true;
     }
     bool better = false;
     for (int halves = 0; halves < mostHalves && !better; ++halves, step *= 0.5)
