@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""BOP sets, read as bop_toolkit's inout.py and misc.py do: models projected by their poses, masks, counts, errors of the truth."""
+"""BOP sets, read as bop_toolkit's inout.py and misc.py do: models projected by their poses, masks, counts, and ADD and MSPD of the poses."""
 import json
 import os
 import re
@@ -41,7 +41,32 @@ def decoded(segmentation):
     return np.repeat(np.arange(len(counts)) % 2, counts).reshape(width, height).T.astype(bool)
 
 
+def add(vertices, found, truth):
+    """Average distance of distinguishable points (Hinterstoisser et al. 2012), in the model's unit; poses are (R, t)."""
+    (R, t), (Q, s) = found, truth
+    return np.linalg.norm(vertices @ R.T + t - vertices @ Q.T - s, axis=1).mean()
+
+
+def mspd(vertices, found, truth, K):
+    """Maximum projection distance (BOP 2019) in pixels; these models have no symmetries."""
+    pixels = [(vertices @ R.T + t) @ K.T for R, t in (found, truth)]
+    return np.linalg.norm(pixels[0][:, :2] / pixels[0][:, 2:] - pixels[1][:, :2] / pixels[1][:, 2:], axis=1).max()
+
+
 class Bop(datasets.ExportCase):
+    def errors(self, vertices, pose, truth, K):
+        """The exported pose has no error against the dataset's, and errors in closed form where it is moved or turned."""
+        self.assertLess(add(vertices, pose, truth), 1e-9 * np.linalg.norm(truth[1]))
+        (R, t), (_, s) = pose, truth
+        self.assertAlmostEqual(add(vertices, (R, t + [3, 0, 4]), truth), 5, places=8)
+        half = np.diag([-1., -1, 1])  # a half turn about the model's z: each point moves by twice its distance from the axis
+        self.assertAlmostEqual(add(vertices, (R @ half, t), truth), 2 * np.hypot(vertices[:, 0], vertices[:, 1]).mean(), places=8)
+        depth = (vertices @ R.T + t)[:, 2].min()
+        if depth > 0:
+            self.assertLess(mspd(vertices, pose, truth, K), 1e-9)
+            self.assertAlmostEqual(mspd(vertices, (R, t + [2, 0, 0]), truth, K), K[0, 0] * 2 / depth, places=8)
+            self.assertAlmostEqual(mspd(vertices, (R, t + [0, 2, 0]), truth, K), K[1, 1] * 2 / depth, places=8)
+
     def check(self, dataset, folder, record, metres=1.0, step=0.1):
         """All images of a set against the dataset; how many instances, and how many of them are cut off by the border."""
         names = {entry["name"]: (entry["camera"], entry["frame"]) for entry in record["names"]}
@@ -98,6 +123,8 @@ class Bop(datasets.ExportCase):
                     matrix = np.array(poses[frame, number[0]]["matrix"]).reshape(3, 4)
                     middle = own["R"] @ (matrix[:, 3]) + own["t"]
                     self.assertLess(np.linalg.norm(t / 1000 / metres - middle), 1e-9, "the test's models are around their origins")
+                    turn = matrix[:, :3] / np.linalg.norm(matrix[:, :3], axis=0)
+                    self.errors(vertices, (R, t), (own["R"] @ turn, middle * 1000 * metres), K)
                     rows, columns = np.nonzero(visible)
                     self.assertEqual(row["bbox_visib"], [columns.min(), rows.min(), np.ptp(columns), np.ptp(rows)])
                     one = next(one for one in coco if np.array_equal(decoded(one["segmentation"]), visible > 0))

@@ -60,6 +60,30 @@ def average_precision(truth, found):
     return sum(good) / max(len(good), len(truth))
 
 
+def panoptic_quality(truth, found, categories):
+    """PQ of Kirillov et al. 2019, mean over the categories that are there. Both are lists of pictures: (codes, {code: category}), 0 is VOID.
+
+    Segments of one category match above an IoU of 0.5, the truth's VOID left out of the union; what is found mostly there counts for nothing."""
+    qualities = []
+    for category in categories:
+        overlap, matches, missed, wrong = 0.0, 0, 0, 0
+        for (codes, segments), (other, guesses) in zip(truth, found):
+            left = {number for number, kind in guesses.items() if kind == category}
+            for number in (number for number, kind in segments.items() if kind == category):
+                mine = codes == number
+                ratio = {guess: (mine & (other == guess)).sum() / (mine | (other == guess) & (codes != 0)).sum() for guess in left}
+                best = max(ratio, key=ratio.get, default=None)
+                if best is not None and ratio[best] > 0.5:
+                    overlap, matches = overlap + ratio[best], matches + 1
+                    left.remove(best)
+                else:
+                    missed += 1
+            wrong += sum((codes[other == guess] == 0).mean() <= 0.5 for guess in left)
+        if matches + missed + wrong:
+            qualities.append(overlap / (matches + missed / 2 + wrong / 2))
+    return np.mean(qualities)
+
+
 class Coco(datasets.ExportCase):
     def setUp(self):
         super().setUp()
@@ -200,12 +224,41 @@ class Panoptic(datasets.ExportCase):
                 self.assertEqual(segment["area"], len(rows))
                 self.assertEqual(segment["bbox"], [columns.min(), rows.min(), np.ptp(columns) + 1, np.ptp(rows) + 1])
                 self.assertEqual({classes[i] for i in np.unique(ids[codes == number])}, {segment["category_id"]})
+        self.quality(folder, document)
         said = self.planted(dataset, folder, "annotations/panoptic_train.json", lambda text: text.replace(b'"area":', b'"area":1', 1))
         self.assertIn("layer area", said)
         other = os.path.join(folder, "annotations", "panoptic_train", "right_eye_000002.png")
         with open(other, "rb") as file:
             said = self.planted(dataset, folder, "annotations/panoptic_train/left_eye_000000.png", lambda old, new=file.read(): new)
         self.assertIn("layer objects", said)
+
+    def quality(self, folder, document):
+        """1 against itself; of damaged sets what the ring's pixels, the one category that is damaged, come to."""
+        pictures = []
+        for one in document["annotations"]:
+            colors = datasets.read_png(os.path.join(folder, "annotations", "panoptic_train", one["file_name"])).astype(int)
+            pictures.append((colors @ [1, 256, 65536], {segment["id"]: segment["category_id"] for segment in one["segments_info"]}))
+        categories = {c["name"]: c["id"] for c in document["categories"]}
+        self.assertEqual(panoptic_quality(pictures, pictures, categories.values()), 1)
+
+        def kept(share):
+            """Of each ring the first pixels only."""
+            damaged, left = [], []
+            for codes, segments in pictures:
+                [ring] = [number for number, kind in segments.items() if kind == categories["ring"]]
+                codes, places = codes.copy(), np.flatnonzero(codes == ring)
+                left.append(int(share * len(places)) / len(places))
+                codes.flat[places[int(share * len(places)):]] = 0
+                damaged.append((codes, segments))
+            return panoptic_quality(pictures, damaged, categories.values()), np.mean(left)
+
+        for share in (0.9, 0.6):
+            found, ring = kept(share)
+            self.assertAlmostEqual(found, (1 + 1 + ring) / 3, places=12)
+        self.assertAlmostEqual(kept(0.4)[0], 2 / 3, places=12)  # matched no more
+        renamed = [(codes, {n: categories["block"] if kind == categories["ring"] else kind for n, kind in segments.items()}) for codes, segments in pictures]
+        # of the block 6 are matched and 6 too many; of the ring 6 are missed
+        self.assertAlmostEqual(panoptic_quality(pictures, renamed, categories.values()), (1 + 0 + 6 / (6 + 6 / 2)) / 3, places=12)
 
     def test_things_of_the_dataset_and_refusals(self):
         scene = load_json(datasets.walk(self.path("scene")))  # its last frame is empty

@@ -15,6 +15,7 @@ from datasets import layer_of, main, read_png
 
 MODELS = {1: ("PINHOLE", 4), 4: ("OPENCV", 8), 5: ("OPENCV_FISHEYE", 8), 6: ("FULL_OPENCV", 12)}
 TRACKS = ("--tracks-step", 6, "--tracks-every", 1)
+ROUNDING = 1e-12  # of float64 in pixels of such pictures: one unit is 1.4e-14
 
 
 class Reader:
@@ -158,7 +159,7 @@ class Sparse(datasets.ExportCase):
         folder, _ = self.export(dataset, "colmap")
         model = os.path.join(folder, "sparse", "0")
         largest, count = self.reprojection(model)
-        self.assertLess(largest, 1e-9)
+        self.assertLess(largest, ROUNDING)
         self.assertGreater(count, 500)
         said = colmap("model_analyzer", "--path", model)
         self.assertRegex(said, r"Mean reprojection error: 0\.000000px")
@@ -186,14 +187,15 @@ class Sparse(datasets.ExportCase):
         tracks, taken = ({frozenset(map(tuple, track)) for _, _, track in model.values()} for model in (points, found))
         self.assertGreater(sum(len(track) == 2 for track in tracks), 10)
         self.assertEqual(tracks, taken)
-        self.assertLess(np.median(apart), 1e-5 * 5)
-        self.assertLess(apart.max(), 0.01)
+        # 2e-5 px at 4.5 units, f 87 px and 0.24 to 1.2 units between two views are 4e-6 to 2e-5 units, more where a track is of the nearest two
+        self.assertLess(np.median(apart), 1.2e-5)
+        self.assertLess(apart.max(), 2e-4)
 
         adjusted = self.path("adjusted")
         os.mkdir(adjusted)
         colmap("bundle_adjuster", "--input_path", model, "--output_path", adjusted)
         for one, two in zip(read_model(model)[0].values(), read_model(adjusted)[0].values()):
-            self.assertLess(np.abs(one[3] - two[3]).max(), 1e-6)
+            self.assertLess(np.abs(one[3] - two[3]).max(), ROUNDING)
 
     def test_lenses_project_as_ours(self):
         dataset = self.render(datasets.lenses(self.path("scene")), "color,objects,tracks", *TRACKS)
@@ -202,8 +204,8 @@ class Sparse(datasets.ExportCase):
         self.assertEqual(sorted(kind for kind, *_ in cameras.values()), ["FULL_OPENCV", "OPENCV", "OPENCV_FISHEYE", "PINHOLE"])
         largest, count = self.reprojection(os.path.join(folder, "sparse", "0"))
         self.assertGreater(count, 500)
-        self.assertLess(largest, 1e-6)
-        self.assertRegex(colmap("model_analyzer", "--path", os.path.join(folder, "sparse", "0")), r"reprojection error: 0\.00000\dpx")
+        self.assertLess(largest, ROUNDING)
+        self.assertRegex(colmap("model_analyzer", "--path", os.path.join(folder, "sparse", "0")), r"reprojection error: 0\.000000px")
 
     def test_what_moves_is_masked_or_has_a_model_a_frame(self):
         dataset = self.render(datasets.stereo(self.path("scene")), "color,objects,tracks", *TRACKS)
@@ -213,7 +215,7 @@ class Sparse(datasets.ExportCase):
             ids = layer_of(dataset, "objects", entry["camera"], entry["frame"])
             self.assertTrue(np.array_equal(mask == 0, np.isin(ids, [3, 4])))
         largest, count = self.reprojection(os.path.join(folder, "sparse", "0"))
-        self.assertLess(largest, 1e-9)
+        self.assertLess(largest, ROUNDING)
         self.assertGreater(count, 300)
         each, _ = self.export(dataset, "colmap", "--moving", "frame", "--picture-names", "flat")
         self.assertEqual(sorted(os.listdir(each)), ["export.json", "images", "sparse"])
@@ -223,7 +225,7 @@ class Sparse(datasets.ExportCase):
                    enumerate(datasets.load_json(os.path.join(dataset, "tracks", "points.json"))["points"])}
         for frame in ("000000", "000002"):
             largest, _ = self.reprojection(os.path.join(each, "sparse", frame))
-            self.assertLess(largest, 1e-9)
+            self.assertLess(largest, ROUNDING)
             held = {objects[point] for point in read_model(os.path.join(each, "sparse", frame))[2]}
             self.assertTrue({3, 4} & held, "points of what moves")
 
@@ -311,17 +313,17 @@ class Rigs(datasets.ExportCase):
                 own_q, own_t, own_camera = by_number[image]
                 self.assertEqual(camera, own_camera)
                 turn, place = rigs[rig][camera]
-                self.assertLess(np.abs(rotation(turn) @ rotation(q) - rotation(own_q)).max(), 1e-9)
-                self.assertLess(np.abs(rotation(turn) @ t + place - own_t).max(), 1e-9)
+                self.assertLess(np.abs(rotation(turn) @ rotation(q) - rotation(own_q)).max(), 1e-14)
+                self.assertLess(np.abs(rotation(turn) @ t + place - own_t).max(), 1e-14)
 
         adjusted = self.path("adjusted")
         os.mkdir(adjusted)
         said = colmap("rig_bundle_adjuster", "--input_path", model, "--output_path", adjusted, "--rig_config_path",
                       os.path.join(model, "rig_config.json"), "--estimate_rig_relative_poses", 0)
         self.assertRegex(said, r"Cameras: 2\s+Snapshots: 3")
-        self.assertLess(float(re.search(r"Initial cost : (\S+)", said).group(1)), 1e-9)
+        self.assertLess(float(re.search(r"Initial cost : (\S+)", said).group(1)), 1e-12)
         for name, (_, q, t, *_) in read_model(adjusted)[1].items():
-            self.assertLess(max(np.abs(q - images[name][1]).max(), np.abs(t - images[name][2]).max()), 1e-6)
+            self.assertLess(max(np.abs(q - images[name][1]).max(), np.abs(t - images[name][2]).max()), 1e-14)
         [rig] = datasets.load_json(os.path.join(model, "rig_config.json"))  # rig_configurator's keys say the same
         self.assertEqual([camera.get("ref_sensor") for camera in rig["cameras"]], [True, None])
         self.assertEqual(rig["cameras"][1]["cam_from_rig_translation"], rig["cameras"][1]["rel_tvec"])
@@ -369,7 +371,7 @@ class Dense(datasets.ExportCase):
         near = wall[(wall < 0.05) & (points["n"][:, 2] > 0.999)]
         print(f"{len(points)} points fused, {len(near)} on the wall, {near.mean():.1e} off")
         self.assertGreater(len(near), 3000)
-        self.assertLess(near.mean(), 1e-3)
+        self.assertLess(near.mean(), 1e-6)  # float32 of 7.4 units is rounded by 2.4e-7 at most
 
         # the same with the sparse model's matrix, half a pixel away
         sparse, _ = self.export(dataset, "colmap")
@@ -381,7 +383,9 @@ class Dense(datasets.ExportCase):
                "--output_path", fused, "--StereoFusion.min_num_pixels", 2, "--StereoFusion.max_reproj_error", 0.5)
         points = read_fused(fused)
         off = np.abs(points["x"][:, 2] + 2.9)
-        self.assertGreater(off[(off < 0.05) & (points["n"][:, 2] > 0.999)].mean(), 3 * near.mean())
+        wall = off[(off < 0.05) & (points["n"][:, 2] > 0.999)]
+        print(f"half a pixel away {wall.mean():.1e} off")
+        self.assertGreater(wall.mean(), 5e-3)
 
     def test_what_moves_has_no_depth(self):
         dataset = self.render(datasets.stereo(self.path("scene")), "color,depth,normal,objects,tracks", *TRACKS)

@@ -10,6 +10,7 @@ import numpy as np
 import datasets
 from datasets import layer_of, load_json, main
 from harness import SOURCE
+from judges import by_blender, by_node
 
 COMPONENTS = {5121: "<u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
@@ -81,6 +82,35 @@ class Asset:
 def volume(triangles):
     """Positive where triangles are counter-clockwise from outside."""
     return np.sum(np.cross(triangles[:, 0], triangles[:, 1]) * triangles[:, 2]) / 6
+
+
+VALIDATE = """
+const fs = require("fs"), path = require("path"), file = process.argv[1];
+require("gltf-validator").validateBytes(new Uint8Array(fs.readFileSync(file)), {
+  externalResourceFunction: (name) => fs.promises.readFile(path.join(path.dirname(file), decodeURIComponent(name))).then((data) => new Uint8Array(data)),
+}).then((report) => console.log(JSON.stringify(report)));
+"""
+
+BLENDER = """
+import bpy, json, numpy, sys
+if not hasattr(numpy, "bool"):
+    numpy.bool = bool  # Debian 12's NumPy has dropped a name that the importer of its Blender uses
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.context.scene.render.fps = 25
+bpy.ops.import_scene.gltf(filepath=sys.argv[-1])
+found = {}
+for frame in range(3):
+    bpy.context.scene.frame_set(frame)
+    for one in bpy.context.scene.objects:
+        matrix = one.matrix_world
+        entry = found.setdefault(one.name, {"type": one.type, "matrices": [], "corners": []})
+        entry["matrices"].append([list(row) for row in matrix])
+        if one.type == "MESH":
+            entry["corners"].append([list(matrix @ vertex.co) for vertex in one.data.vertices])
+        elif one.type == "CAMERA":
+            entry["angle"] = one.data.angle_y
+print("RESULT " + json.dumps(found))
+"""
 
 
 class Gltf(datasets.ExportCase):
@@ -165,6 +195,40 @@ class Gltf(datasets.ExportCase):
             self.assertGreater(np.count_nonzero(same), 0.99 * np.count_nonzero(np.isfinite(a)))
             apart = np.abs(a - b)[same]
             self.assertLess(np.quantile(apart, 0.995), 1e-5)
+
+    def test_the_validator_of_khronos(self):
+        """No error and no warning; and an error where the file is damaged."""
+        _, folder, asset, _ = self.exported(datasets.stereo(self.path("scene")))
+        report = by_node(self, ["gltf-validator"], VALIDATE, os.path.join(folder, "scene.gltf"))
+        self.assertEqual((report["issues"]["numErrors"], report["issues"]["numWarnings"]), (0, 0), report["issues"]["messages"])
+        self.assertEqual(report["info"]["animationCount"], 1)
+        self.assertEqual(report["info"]["totalTriangleCount"],
+                         sum(len(asset.accessor(one["indices"])) // 3 for mesh in asset.json["meshes"] for one in mesh["primitives"]))
+        asset.json["nodes"][asset.nodes("mesh")["block"]]["rotation"] = [0, 0, 0, 0.5]
+        with open(os.path.join(folder, "damaged.gltf"), "w", encoding="utf-8") as file:
+            json.dump(asset.json, file)
+        issues = by_node(self, ["gltf-validator"], VALIDATE, os.path.join(folder, "damaged.gltf"))["issues"]
+        self.assertEqual([one["code"] for one in issues["messages"] if one["severity"] == 0], ["ROTATION_NON_UNIT"])
+
+    def test_blender_has_the_same_scene(self):
+        """Blender's importer turns y up into z up; corners of the objects, places and views of the cameras are the file's at every frame."""
+        _, folder, asset, _ = self.exported(datasets.stereo(self.path("scene")))
+        found = by_blender(self, BLENDER, os.path.join(folder, "scene.gltf"))
+        turned = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])
+        for name, index in asset.nodes("mesh").items():
+            self.assertEqual(found[name]["type"], "MESH")
+            for frame in range(3):
+                expected = asset.triangles(index, frame / 25).reshape(-1, 3) @ turned.T
+                apart = np.linalg.norm(np.array(found[name]["corners"][frame])[:, None] - expected, axis=2)
+                self.assertLess(max(apart.min(axis=1).max(), apart.min(axis=0).max()), 1e-5, name)
+        for name, index in asset.nodes("camera").items():
+            views = [one for one in found.values() if one["type"] == "CAMERA"]
+            for frame in range(3):
+                expected = asset.matrix(index, frame / 25)
+                apart = [np.abs(np.array(one["matrices"][frame])[:3] - np.column_stack([turned @ expected[:3, :3], turned @ expected[:3, 3]])).max() for one in views]
+                self.assertLess(min(apart), 1e-5, name)
+            yfov = asset.json["cameras"][asset.json["nodes"][index]["camera"]]["perspective"]["yfov"]
+            self.assertAlmostEqual(views[int(np.argmin(apart))]["angle"], yfov, places=5)
 
     def test_mirrored_hidden_and_z_up(self):
         def change(scene):

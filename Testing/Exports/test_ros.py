@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bags read by ROS's own rosbag and its message classes; MCAP by a reader written from the specification."""
 import hashlib
+import io
 import json
 import os
 import re
@@ -14,6 +15,7 @@ import tf2_msgs.msg
 
 import datasets
 from datasets import cameras_of, layer_of, load_json, main
+from judges import by_node
 
 TYPES = {cls._type: cls for cls in (sensor_msgs.msg.Image, sensor_msgs.msg.CompressedImage, sensor_msgs.msg.CameraInfo,
                                     tf2_msgs.msg.TFMessage)}
@@ -179,6 +181,32 @@ def pixels_of(info, points):
     return np.column_stack([K[0, 0] * a + K[0, 2], K[1, 1] * b + K[1, 2]])
 
 
+READ_MCAP = """
+const fs = require("fs"), crypto = require("crypto"), { McapIndexedReader, McapStreamReader } = require("@mcap/core");
+const data = fs.readFileSync(process.argv[1]);
+function row(schemas, channels, message) {
+  const channel = channels.get(message.channelId);
+  return [channel.topic, schemas.get(channel.schemaId).name, String(message.logTime), crypto.createHash("sha256").update(message.data).digest("hex")];
+}
+async function main() {
+  const bytes = (from, count) => new Uint8Array(data.subarray(Number(from), Number(from + count)));
+  const file = await McapIndexedReader.Initialize({ readable: { size: async () => BigInt(data.length), read: async (from, count) => bytes(from, count) } });
+  const indexed = [], streamed = [], schemas = new Map(), channels = new Map();
+  for await (const message of file.readMessages()) indexed.push(row(file.schemasById, file.channelsById, message));
+  const stream = new McapStreamReader({ validateCrcs: true });
+  stream.append(new Uint8Array(data));
+  for (let record; (record = stream.nextRecord()); ) {
+    if (record.type === "Schema") schemas.set(record.id, record);
+    if (record.type === "Channel") channels.set(record.id, record);
+    if (record.type === "Message") streamed.push(row(schemas, channels, record));
+  }
+  if (!stream.done()) throw new Error("the file ends early");
+  return { indexed, streamed };
+}
+main().then((found) => console.log(JSON.stringify(found)));
+"""
+
+
 class Ros(datasets.ExportCase):
     METRES = 0.5
     NAMES = {"left eye": "left_eye", "right.eye": "right_eye"}
@@ -201,6 +229,23 @@ class Ros(datasets.ExportCase):
             for connection in bag._get_connections():
                 self.assertEqual(md5_of(connection.msg_def), connection.md5sum)
             self.assertEqual(bag.get_message_count(), 30)
+
+    def test_the_reader_of_foxglove(self):
+        """Through the index, and from beginning to end with every sum checked: the messages of the bag, byte for byte."""
+        path = os.path.join(self.folders["mcap"], "dataset.mcap")
+        expected = []
+        for topic, time, message in self.messages:
+            data = io.BytesIO()
+            message.serialize(data)
+            expected.append([topic, message._type, str(time), hashlib.sha256(data.getvalue()).hexdigest()])
+        for one in by_node(self, ["@mcap/core"], READ_MCAP, path).values():
+            self.assertEqual(sorted(one), sorted(expected))
+        with open(path, "rb") as file:
+            data = bytearray(file.read())
+        data[len(data) // 2] ^= 1
+        damaged = self.write("damaged.mcap", bytes(data))
+        said = by_node(self, ["@mcap/core"], READ_MCAP.replace("\nmain()", "\nmain().catch((error) => ({ refused: error.message }))"), damaged)
+        self.assertRegex(said["refused"], "(?i)crc")
 
     def test_pictures(self):
         for camera, name in self.NAMES.items():

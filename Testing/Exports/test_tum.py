@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""TUM RGB-D, read as the benchmark's tools do: associate.py, evaluate_ate.py, generate_pointcloud.py."""
+"""TUM RGB-D, read as the benchmark's tools do: associate.py, evaluate_ate.py, evaluate_rpe.py, generate_pointcloud.py."""
 import os
 
 import numpy as np
@@ -47,6 +47,14 @@ def transform44(row):
                      [q[0, 2] - q[1, 3], q[1, 2] + q[0, 3], 1 - q[0, 0] - q[1, 1], t[2]], [0, 0, 0, 1]])
 
 
+def relative_errors(truth, found):
+    """evaluate_rpe.py with a step of one pose (Sturm et al. 2012): translations and angles, each (n - 1)."""
+    steps = [[np.linalg.inv(a) @ b for a, b in zip(poses, poses[1:])] for poses in (truth, found)]
+    errors = [np.linalg.inv(a) @ b for a, b in zip(*steps)]
+    angles = [np.arctan2(np.linalg.norm([e[2, 1] - e[1, 2], e[0, 2] - e[2, 0], e[1, 0] - e[0, 1]]), np.trace(e[:3, :3]) - 1) for e in errors]
+    return np.array([np.linalg.norm(e[:3, 3]) for e in errors]), np.array(angles)
+
+
 def cloud(sequence, stamp, depth_name, pose):
     """generate_pointcloud.py with the intrinsics of calibration.txt: world points of the pixels that have a depth."""
     with open(os.path.join(sequence, "calibration.txt")) as file:
@@ -89,6 +97,30 @@ class Tum(datasets.ExportCase):
         expected = np.array([-cameras["Kamera 1", f]["R"].T @ cameras["Kamera 1", f]["t"] for f in range(4)]).T * self.METRES
         self.assertLess(align(found, expected).max(), 1e-12)
         self.assertLess(np.abs(found - expected).max(), 1e-12)
+
+    def test_relative_errors(self):
+        """0 against the dataset's cameras; where one pose is moved or turned, or all are, what that comes to."""
+        _, _, truth = self.lists()
+        found = [transform44(truth[stamp]) for stamp in sorted(truth)]
+        cameras = datasets.cameras_of(self.dataset)
+        expected = []
+        for frame in range(4):
+            own = cameras["Kamera 1", frame]
+            expected.append(np.vstack([np.column_stack([own["R"].T, -own["R"].T @ own["t"] * self.METRES]), [0, 0, 0, 1]]))
+        moves, turns = relative_errors(expected, found)
+        self.assertLess(max(moves.max(), turns.max()), 1e-12)
+        step = np.eye(4)
+        step[:3, 3] = [0.03, 0, 0.04]
+        angle = 0.1
+        turn = np.eye(4)
+        turn[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+        moves, turns = relative_errors(expected, [found[0], found[1] @ step, *found[2:]])
+        np.testing.assert_allclose(moves, [0.05, 0.05, 0], atol=1e-12)
+        self.assertLess(turns.max(), 1e-12)
+        _, turns = relative_errors(expected, [found[0], found[1] @ turn, *found[2:]])
+        np.testing.assert_allclose(turns, [angle, angle, 0], atol=1e-12)
+        moves, turns = relative_errors(expected, [step @ turn @ pose for pose in found])  # of another world
+        self.assertLess(max(moves.max(), turns.max()), 1e-12)
 
     def test_clouds_coincide(self):
         """Points of every frame lie where the scene's surface is, within the rounding of depth: K, poses and quaternions agree."""
