@@ -71,6 +71,7 @@ void Results::add(const std::pair<int, std::string>& key, const Residual& found)
   residual.count += found.count;
   residual.skipped += found.skipped;
   residual.bad += found.bad;
+  residual.tolerance = std::max(residual.tolerance, found.tolerance);
   if (found.largest > residual.largest)
   {
     residual.largest = found.largest;

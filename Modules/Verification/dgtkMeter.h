@@ -85,7 +85,7 @@ class Results
 {
 public:
   void startCheck(int index, const std::string& name);
-  /// Adds what was measured by the current check.
+  /// Adds what was measured by the current check; a row shows the largest of its tolerances.
   void add(const Row& row, const Meter& meter);
   /// A file that cannot be used at all.
   void unusable(const std::string& layer, const std::string& file, const std::string& what);

@@ -275,7 +275,7 @@ private:
 
   void matrix(const char* key, const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected)
   {
-    const double scale = std::max(expected.cwiseAbs().maxCoeff(), 1e-300);
+    const double scale = expected.cwiseAbs().maxCoeff();
     if (found.rows() != expected.rows() || found.cols() != expected.cols())
     {
       throw InputError(this->Owner.dataset().absolute(this->File), 0, std::string(key) + " has another size");

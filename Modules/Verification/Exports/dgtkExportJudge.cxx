@@ -187,8 +187,9 @@ PicturePointer ExportedFrom::picture(
 
 ExportJudge::~ExportJudge()
 {
-  for (const auto& [what, line] : this->Lines)
+  for (auto& [what, line] : this->Lines)
   {
+    line.meter.Tolerance = line.tolerance;
     this->TheResults.add({ what, line.unit, { line.files.begin(), line.files.end() } }, line.meter);
   }
 }
@@ -198,6 +199,7 @@ Meter& ExportJudge::meter(const std::string& what, const std::string& unit, doub
   Line& line = this->Lines[what];
   line.unit = unit;
   line.meter.Tolerance = tolerance;
+  line.tolerance = std::max(line.tolerance, tolerance);
   line.files.insert(file);
   return line.meter;
 }

@@ -89,7 +89,8 @@ public:
   ~ExportJudge();
   const ExportedFrom& source() const { return this->Source; }
 
-  /// `file`: the document that says it, relative to the export. Tolerances are absolute but for K, whose is in pixels.
+  /// `file`: the document that says it, relative to the export. Tolerances are absolute but for K, whose is in pixels;
+  /// each value has its own, and the row shows the largest of them.
   /// K with pixel centres at + 0.5.
   void intrinsics(
     const std::string& file, const std::string& camera, int frame, const Eigen::Matrix3d& K, double tolerance);
@@ -120,6 +121,7 @@ private:
   {
     std::string unit;
     Meter meter{ 0 };
+    double tolerance = 0; ///< the largest
     std::set<std::string> files;
   };
   const ExportedFrom& Source;

@@ -184,6 +184,7 @@ private:
       if (box)
       {
         this->judgeNumbers(folder, where, infos[i], *box);
+        this->judgeValid(folder, image, i, infos[i], where);
         this->judgeMasks(folder, image, i, *box, picture, coco, poses[i].at("obj_id"));
       }
     }
@@ -260,9 +261,6 @@ private:
     number("px_count_visib", double(box.pixelsVisible));
     this->Judge.number("visib_fract", "1", file, where, info.at("visib_fract"),
       double(box.pixelsVisible) / double(box.pixelsWhole), 1e-12);
-    const double valid = info.at("px_count_valid");
-    this->Judge.holds("px_count_valid", file, where, valid <= double(box.pixelsAmodal), std::to_string(valid),
-      "at most those in the image");
     for (const char* key : { "bbox_obj", "bbox_visib" })
     {
       const auto& borders = std::string(key) == "bbox_obj" ? box.whole : box.visible;
@@ -277,10 +275,31 @@ private:
     }
   }
 
+  static std::string maskOf(const std::string& image, std::size_t instance)
+  {
+    return digits(image) + '_' + digits(std::to_string(instance)) + ".png";
+  }
+
+  /// Pixels of the amodal mask that have a depth in the export.
+  void judgeValid(const std::string& folder, const std::string& image, std::size_t instance, const Json& info,
+    const std::string& where)
+  {
+    const ExportedFrom& source = this->Judge.source();
+    const std::vector<double> mask = decodePng(source.path(folder + "mask/" + maskOf(image, instance)), {}).values;
+    const std::vector<double> depth = decodePng(source.path(folder + "depth/" + digits(image) + ".png"), {}).values;
+    std::size_t valid = 0;
+    for (std::size_t i = 0; i < std::min(mask.size(), depth.size()); ++i)
+    {
+      valid += mask[i] != 0 && depth[i] != 0;
+    }
+    this->Judge.number(
+      "px_count_valid", "px", folder + "scene_gt_info.json", where, info.at("px_count_valid"), double(valid), 0);
+  }
+
   void judgeMasks(const std::string& folder, const std::string& image, std::size_t instance, const BoxRecord& box,
     const ExportedName& picture, const Json& coco, int model)
   {
-    const std::string name = digits(image) + '_' + digits(std::to_string(instance)) + ".png";
+    const std::string name = maskOf(image, instance);
     const auto inside = [&](const std::string& file)
     {
       const DecodedPixels pixels = decodePng(this->Judge.source().path(file), {});

@@ -169,7 +169,9 @@ void readInstances(ExportJudge& judge, const std::string& file, const std::strin
       for (const Json& one : document.at("images"))
       {
         const ExportedName* name = judge.source().named(split + "/" + one.at("file_name").get<std::string>());
-        judge.holds("names", file, one.at("file_name"), name != nullptr, "a picture", "one of export.json");
+        const bool same =
+          name && one.value("camera", name->camera) == name->camera && one.value("frame", name->frame) == name->frame;
+        judge.holds("names", file, one.at("file_name"), same, "a picture", "one of export.json");
         const Image image{ name ? name->camera : "", name ? name->frame : 0, one.at("width"), one.at("height") };
         judge.size(file, image.camera, image.frame, image.width, image.height);
         judge.holds("ids", file, "image", images.emplace(one.at("id"), image).second, "an id twice", "each once");

@@ -38,6 +38,9 @@ void judgeCamera(ExportJudge& judge, const std::string& file, const Numbers& all
   const std::vector<double>& size = numbersOf(all, path, "S_rect_" + number, 2);
   const std::vector<double>& T = numbersOf(all, path, "T_" + number, 3);
   judge.size(file, picture.camera, picture.frame, int(size[0]), int(size[1]));
+  judge.holds("size", file, "S_" + number, numbersOf(all, path, "S_" + number, 2) == size, "another", "S_rect's");
+  judge.holds("distortion", file, "D_" + number, numbersOf(all, path, "D_" + number, 5) == std::vector<double>(5, 0.0),
+    "another", "none");
   judge.intrinsics(file, picture.camera, picture.frame, matrixOf(P, 4), 1e-9);
   judge.intrinsics(file, picture.camera, picture.frame, matrixOf(numbersOf(all, path, "K_" + number, 9), 3), 1e-9);
   const std::string where = "camera " + number;

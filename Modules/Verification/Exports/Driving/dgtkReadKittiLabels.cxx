@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 // KITTI's object development kit, readme.txt: labels of 15 columns, calib/*.txt.
 
@@ -108,6 +109,19 @@ struct Place
   std::string words; ///< which object
 };
 
+/// The class as a word: other bytes than letters, digits and '-' are '_', and "_N" follows where two classes are one
+/// word.
+bool isTypeOf(const std::string& type, const std::string& objectClass)
+{
+  std::string expected = objectClass.empty() ? "Misc" : objectClass;
+  const auto isPlain = [](char c)
+  { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-'; };
+  std::replace_if(expected.begin(), expected.end(), std::not_fn(isPlain), '_');
+  const std::string more = type.rfind(expected, 0) == 0 ? type.substr(expected.size()) : "another";
+  return more.empty() ||
+         (more[0] == '_' && more.size() > 1 && more.find_first_not_of("0123456789", 1) == std::string::npos);
+}
+
 void judgeLabel(ExportJudge& judge, const Place& place, const KittiLabel& label, const BoxRecord& box)
 {
   const std::vector<double>& n = label.numbers;
@@ -129,11 +143,7 @@ void judgeLabel(ExportJudge& judge, const Place& place, const KittiLabel& label,
   const double slack = slackOf(expected, statedTilt(judge.source()) + 1e-4);
   number("box 3d", "m", std::max(0.0, off - slack), 0, 1e-9);
   number("box 3d centre", "m", (found.colwise().mean() - expected.colwise().mean()).norm(), 0, 1e-9);
-  judge.holds("type", place.file, place.words,
-    label.type.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_") ==
-        std::string::npos &&
-      label.type.size() >= (box.objectClass.empty() ? 4 : box.objectClass.size()),
-    label.type, box.objectClass);
+  judge.holds("type", place.file, place.words, isTypeOf(label.type, box.objectClass), label.type, box.objectClass);
 }
 
 /// The side that an object shows ahead: the length is along the axis that the export was asked for.

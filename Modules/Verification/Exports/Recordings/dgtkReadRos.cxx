@@ -415,7 +415,8 @@ void RosReferee::baseline(const ExportedName& name, double metres)
       this->Partners[name.camera] = other->name;
     }
   }
-  this->Judge.number("baseline", "m", this->File, name.camera, metres, nearest, 1e-9 * std::max(1.0, nearest));
+  const double size = std::isfinite(nearest) ? std::max(1.0, nearest) : 1; // what leads to no camera is no rounding
+  this->Judge.number("baseline", "m", this->File, name.camera, metres, nearest, 1e-9 * size);
 }
 
 /// A camera that could be the right one of a pair, and is not, belongs to another pair, or the left one does.

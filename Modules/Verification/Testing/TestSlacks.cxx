@@ -1,0 +1,457 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the checks leave open: a disagreement within a tenth of each slack, and one of ten times, which must be named.
+#include "dgtkHandMade.h"
+
+#include "dgtkCheck.h"
+#include "dgtkObjectDocuments.h"
+#include "dgtkSeenPoint.h"
+#include "dgtkSurfaceColor.h"
+#include "dgtkTrackSamples.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+using namespace dgtk;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using test::HandMade;
+using test::triangleModel;
+using test::wallModel;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Bad values of a layer of one camera whose pixel (4, 2) alone shows the model, and that says `said` there.
+std::uint64_t badOf(const std::string& model, const std::string& layer, const Vector3d& said)
+{
+  HandMade made({ model });
+  made.image("a/" + layer + "/000000.npy", 3, [&](int x, int y, int c) { return x == 4 && y == 2 ? said[c] : nan; });
+  const Residual residual = made.verify("geometry", layer);
+  EXPECT_EQ(residual.count + residual.skipped, 48u);
+  return residual.bad;
+}
+
+/// The side that is seen.
+const Vector3d toCamera(0, 0, -1);
+
+TEST(Slacks, NormalsOfSlivers)
+{
+  const auto sliver = [](double sine)
+  {
+    const double w = 0.004; // a pixel is 0.02
+    const double h = sine * 2 * w;
+    return triangleModel({ -w, -h / 2, 2 }, { w, -h / 2, 2 }, { 0, h / 2, 2 });
+  };
+  EXPECT_EQ(badOf(sliver(1e-5), "normal", toCamera), 0u);
+  EXPECT_EQ(badOf(sliver(1e-5), "normal", Vector3d(1, 0, 0)), 1u);
+  EXPECT_EQ(badOf(sliver(1e-7), "normal", Vector3d(1, 0, 0)), 0u);
+}
+
+TEST(Slacks, NormalsOfTrianglesSeenFromTheirEdge)
+{
+  const auto grazed = [](double cosine) {
+    return triangleModel({ -0.003, -cosine, 1 }, { 0.003, -cosine, 1 }, { 0, cosine, 3 });
+  };
+  const auto badSides = [&](const std::string& layer, double cosine)
+  {
+    const Vector3d side = Vector3d(0, 1, -cosine).normalized();
+    return badOf(grazed(cosine), layer, side) + badOf(grazed(cosine), layer, -side);
+  };
+  for (const char* const layer : { "normal", "shadingnormal" })
+  {
+    EXPECT_EQ(badSides(layer, 1e-8), 1u) << layer;
+    EXPECT_EQ(badSides(layer, 1e-10), 0u) << layer;
+  }
+}
+
+TEST(Slacks, ShadingNormalsThatCancelEachOther)
+{
+  const auto cancelling = [](double weight)
+  {
+    const double h = 0.008;
+    return "vn 1 0 0\nvn -1 0 0\nvn 0 0 1\n" + triangleModel({ -0.004, -weight * h, 2 }, { 0.004, -weight * h, 2 },
+                                                 { 0, (1 - weight) * h, 2 }, "f 1//1 2//2 3//3");
+  };
+  EXPECT_EQ(badOf(cancelling(1e-2), "shadingnormal", toCamera), 0u);
+  EXPECT_EQ(badOf(cancelling(1e-2), "shadingnormal", Vector3d(0, 1, 0)), 1u);
+  EXPECT_EQ(badOf(cancelling(1e-4), "shadingnormal", Vector3d(0, 1, 0)), 0u);
+}
+
+/// Two walls of one object side by side, a step of 0.01 of the depth, more or less.
+TEST(Slacks, StepsOfDepth)
+{
+  const auto badAt = [](double more, double said)
+  {
+    const double far = 2.02 + 2 * more;
+    HandMade made({ triangleModel({ 0.01, -90, 2 }, { 0.01, 90, 2 }, { -90, 0, 2 }) + "v 0.01 -90 " + numberText(far) +
+                    "\nv 90 0 " + numberText(far) + "\nv 0.01 90 " + numberText(far) + "\nf 4 5 6\n" });
+    made.image("a/edges/000000.npy", 1, [&](int x, int, int) { return x == 4 || x == 5 ? said : 0; });
+    return made.verify("edges", "edges").bad;
+  };
+  EXPECT_EQ(badAt(1e-8, 128), 0u);
+  EXPECT_EQ(badAt(1e-8, 0), 12u);
+  EXPECT_EQ(badAt(-1e-8, 0), 0u);
+  EXPECT_EQ(badAt(-1e-8, 128), 12u);
+  for (const double more : { 1e-10, -1e-10 })
+  {
+    EXPECT_EQ(badAt(more, 0), 0u);
+    EXPECT_EQ(badAt(more, 128), 0u);
+  }
+}
+
+/// What another camera has in its own plane projects by rounding alone.
+TEST(Slacks, PointsInTheOtherCamerasPlane)
+{
+  const auto made = [](double behind)
+  {
+    auto pair = std::make_unique<HandMade>(
+      std::vector<std::string>{ wallModel(2) }, std::vector<std::string>{}, std::vector<std::string>{ "a", "b" });
+    pair->camera(1).t.z() = -2 - 2 * behind;
+    pair->image("a/correspondence_b/000000.npy", 2, [](int, int, int) { return 3; });
+    return pair;
+  };
+  EXPECT_EQ(made(1e-8)->verify("motion", "correspondence_b").bad, 48u);
+  EXPECT_EQ(made(1e-10)->verify("motion", "correspondence_b").bad, 0u);
+}
+
+/// A pair is rectified up to rounding: otherwise there is no disparity.
+TEST(Slacks, RectifiedPairs)
+{
+  using Change = void (*)(CameraRecord&, double);
+  const Change changes[] = {
+    [](CameraRecord& b, double by) { b.K(0, 0) += 100 * by; },
+    [](CameraRecord& b, double by) { b.K(1, 2) += 100 * by; },
+    [](CameraRecord& b, double by) { b.R(0, 1) += by; },
+    [](CameraRecord& b, double by) { b.t.y() += 0.1 * by; },
+    [](CameraRecord& b, double by) { b.t.z() += 0.1 * by; },
+  };
+  for (const Change change : changes)
+  {
+    for (const double by : { 1e-8, 1e-10 })
+    {
+      HandMade made({ wallModel(2) }, {}, { "a", "b" });
+      made.camera(1).t.x() = -0.1;
+      change(made.camera(1), by);
+      made.image("a/disparity/000000.npy", 1, [](int, int, int) { return 5; });
+      EXPECT_EQ(made.verify("epipolar", "").bad, by > 1e-9 ? 1u : 0u) << &change - changes;
+    }
+  }
+}
+
+/// Rays that are all but parallel say nothing of the depth.
+TEST(Slacks, AnglesOfTriangulation)
+{
+  const auto rowAt = [](double angle)
+  {
+    HandMade made({ wallModel(2) }, {}, { "a", "b" });
+    made.camera(1).t.x() = -2 * angle;
+    made.image("a/correspondence_b/000000.npy", 2,
+      [&](int x, int y, int c) { return c == 0 ? x + 0.5 - 100 * angle + 1e-3 : y + 0.5; });
+    return made.verify("triangulation", "correspondence_b");
+  };
+  EXPECT_EQ(rowAt(1e-2).bad, 48u);
+  EXPECT_EQ(rowAt(1e-4).bad, 0u);
+  EXPECT_EQ(rowAt(1e-4).skipped, 48u);
+}
+
+/// A wall that the camera nears, so that four pixels of the later picture come from a small area.
+TEST(Slacks, SmallAreasOnTheWayBack)
+{
+  const auto badAt = [](double area)
+  {
+    const double larger = 1 / std::sqrt(area);
+    HandMade made({ wallModel(2) });
+    made.later().t.z() = -2 + 2 / larger;
+    const auto flow = [](double factor)
+    { return [factor](int x, int y, int c) { return (factor - 1) * (c == 0 ? x - 4 : y - 2); }; };
+    made.image("a/flow_forward/000000.npy", 2,
+      [&](int x, int y, int c) { return flow(larger)(x, y, c) + (x == 4 && y == 2 ? 1e-3 : 0); });
+    made.image("a/flow_backward/000001.npy", 2, flow(1 / larger));
+    return made.verify("forward-backward", "flow").bad;
+  };
+  EXPECT_EQ(badAt(0.2), 1u);
+  EXPECT_EQ(badAt(0.002), 0u);
+}
+
+/// The roundings of float32 flows; that of 3.25 pixels is 2^-23.
+TEST(Slacks, RoundingsOfTheLoop)
+{
+  const auto badAt = [](double roundings)
+  {
+    HandMade made({ wallModel(2) });
+    made.later().t.x() = -0.065;
+    const double off = roundings * std::pow(2.0, -23);
+    made.image(
+      "a/flow_forward/000000.npy", 2,
+      [&](int x, int y, int c) { return c == 1 ? 0 : -3.25 + (x == 5 && y == 2 ? off : 0); }, true);
+    made.image(
+      "a/flow_backward/000001.npy", 2, [](int, int, int c) { return c == 1 ? 0 : 3.25; }, true);
+    return made.verify("forward-backward", "flow").bad;
+  };
+  EXPECT_EQ(badAt(80), 1u);
+  EXPECT_EQ(badAt(2), 0u);
+}
+
+/// A point of an object at depth 2 that something else may hide, and that may be at the limits of what is seen.
+TEST(Slacks, LimitsOfKeypoints)
+{
+  struct Case
+  {
+    double before; ///< where the other object is
+    double near;
+    double x;
+    int said;
+    bool bad;
+  };
+  // The format: what is less than a hundredth of the box's diagonal, here 1, before a point does not hide it.
+  const Case cases[] = {
+    { 0.0099, 0.1, 0.001, 1, false },
+    { 0.0099, 0.1, 0.001, 2, true },
+    { 0.0101, 0.1, 0.001, 1, true },
+    { 0.0101, 0.1, 0.001, 2, false },
+    { 0.01 + 2e-7, 0.1, 0.001, 1, false },
+    { 0.01 + 2e-5, 0.1, 0.001, 1, true },
+    { -1, 2 * (1 - 1e-7), 0.001, 4, false },
+    { -1, 2 * (1 - 1e-5), 0.001, 4, true },
+    { -1, 0.1, 0.02 * (-4.5 + 1e-7), 4, false },
+    { -1, 0.1, 0.02 * (-4.5 + 1e-5), 4, true },
+    { -1, 0.1, 0.02 * (3.5 - 1e-7), 4, false },
+    { -1, 0.1, 0.02 * (3.5 - 1e-5), 4, true },
+  };
+  for (const Case& one : cases)
+  {
+    HandMade made(
+      { wallModel(2), wallModel(2 - one.before) }, { R"(, "keypoints": {"p": [)" + numberText(one.x) + ", 0, 2]}" });
+    made.camera().near = one.near;
+    BoxRecord box;
+    box.id = 1;
+    box.corners.row(7) = Vector3d(0, 0, 1).transpose();
+    KeypointRecord point;
+    point.name = "p";
+    point.x = Vector3d(one.x, 0, 2);
+    point.pixel = Vector2d(50 * one.x + 4.5, 2.5);
+    point.visibility = one.said;
+    box.keypoints = { point };
+    made.file("a/boxes/000000.json", boxesText("a", 0, { box }));
+    EXPECT_EQ(made.verify("keypoints", "visible").bad, one.bad ? 1u : 0u) << &one - cases;
+  }
+}
+
+/// What poses.json says of objects whose axes are all but perpendicular, or have no length.
+std::uint64_t badPoses(const std::vector<std::string>& places, const std::vector<Vector3d>& scales)
+{
+  HandMade made({ wallModel(2), wallModel(3) }, places);
+  std::vector<PoseRecord> poses(2);
+  for (std::uint32_t id = 1; id <= 2; ++id)
+  {
+    PoseRecord& pose = poses[id - 1];
+    const Affine3 world = made.dataset()->state(0)->instances[id - 1].world_from_object;
+    pose.id = id;
+    pose.matrix << world.linear, world.translation;
+    pose.t = world.translation;
+    pose.rigid = id <= scales.size();
+    pose.scale = pose.rigid ? scales[id - 1] : pose.scale;
+  }
+  made.file("poses.json", posesText(poses));
+  return made.verify("poses", "poses").bad;
+}
+
+TEST(Slacks, ShearedObjects)
+{
+  // A child of a parent that stretches.
+  const auto badAt = [](double cosine)
+  {
+    return badPoses({ R"(, "scale": [1, )" + numberText(1 + cosine) + ", 1]",
+                      R"(, "parent": "o1", "orientation": [0.92387953251128674, 0, 0, 0.38268343236508977])" },
+      { Vector3d(1, 1 + cosine, 1) });
+  };
+  EXPECT_EQ(badAt(5e-11), 1u) << "not known, though it could be";
+  EXPECT_EQ(badAt(5e-9), 0u);
+  const std::string flat = R"(, "scale": [1, 1, 0])";
+  EXPECT_EQ(badPoses({ flat, flat }, { Vector3d(1, 1, 0) }), 1u) << "one of the two";
+}
+
+/// A point of a wall at depth 2, with a second wall at another depth that covers the image from x on.
+struct Walls
+{
+  Walls(double depth, double from)
+  {
+    this->Made = std::make_unique<HandMade>(std::vector<std::string>{
+      wallModel(2), triangleModel({ from, -90, depth }, { 90, 0, depth }, { from, 90, depth }) });
+  }
+  /// The class of a point that is seen at a pixel, and whether another may be as right.
+  std::pair<int, bool> seen(const Vector2d& pixel, int said) const
+  {
+    const std::unique_ptr<Dataset> dataset = this->Made->dataset();
+    const std::shared_ptr<const Sight> sight = dataset->sight(Eye(this->Made->camera(), nullptr), 0);
+    SeenPoint point;
+    point.hit = { 1, 0 };
+    point.projects = true;
+    point.pixel = pixel;
+    point.x_in_camera = sight->eye().at(pixel, 2);
+    return { classOf(*sight, point), isOpenClass(*sight, point, said) };
+  }
+  std::unique_ptr<HandMade> Made;
+};
+
+TEST(Slacks, WhatHidesAPoint)
+{
+  const Vector2d centre(4.5, 2.5);
+  using Found = std::pair<int, bool>;
+  EXPECT_EQ(Walls(2 * (1 - 1e-8), -90).seen(centre, OutsideSeen).first, OtherObjectSeen);
+  EXPECT_EQ(Walls(2 * (1 - 1e-10), -90).seen(centre, OutsideSeen).first, VisibleSeen);
+  // Parts of the depth, and of the direction: of 100 pixels.
+  EXPECT_EQ(Walls(2 * (1 - 1e-5), -90).seen(centre, VisibleSeen), Found(OtherObjectSeen, true));
+  EXPECT_EQ(Walls(2 * (1 - 1e-3), -90).seen(centre, VisibleSeen), Found(OtherObjectSeen, false));
+  EXPECT_EQ(Walls(1, -1e-5).seen(centre, VisibleSeen), Found(OtherObjectSeen, true));
+  EXPECT_EQ(Walls(1, -1e-3).seen(centre, VisibleSeen), Found(OtherObjectSeen, false));
+  EXPECT_EQ(Walls(1, 1e-5).seen(centre, OtherObjectSeen), Found(VisibleSeen, true));
+  EXPECT_EQ(Walls(1, 1e-3).seen(centre, OtherObjectSeen), Found(VisibleSeen, false));
+  EXPECT_EQ(Walls(1, -90).seen(centre, OutsideSeen), Found(OtherObjectSeen, false)) << "well inside";
+}
+
+TEST(Slacks, BordersOfWhatIsSeen)
+{
+  Walls walls(9, -90);
+  for (const Vector2d& at : { Vector2d(0, 3), Vector2d(8, 3), Vector2d(3, 0), Vector2d(3, 6) })
+  {
+    const Vector2d inwards = (Vector2d(4, 3) - at).normalized();
+    EXPECT_TRUE(walls.seen(at + 1e-7 * inwards, OutsideSeen).second) << at.transpose();
+    EXPECT_FALSE(walls.seen(at + 1e-5 * inwards, OutsideSeen).second) << at.transpose();
+    EXPECT_EQ(walls.seen(at - 1e-7 * inwards, VisibleSeen).first, OutsideSeen) << at.transpose();
+  }
+  for (double CameraRecord::*limit : { &CameraRecord::near, &CameraRecord::far })
+  {
+    Walls limited(9, -90);
+    limited.Made->camera().*limit = 2 * (1 + 1e-10);
+    EXPECT_TRUE(limited.seen({ 4.5, 2.5 }, OutsideSeen).second);
+    limited.Made->camera().*limit = 2 * (1 + 1e-8);
+    EXPECT_FALSE(limited.seen({ 4.5, 2.5 }, OutsideSeen).second);
+  }
+}
+
+TEST(Slacks, PointsOfTheGrid)
+{
+  struct Case
+  {
+    double own;     ///< off the centre of pixel (4, 3), where a new point is; nan: none is
+    double earlier; ///< from that centre to the point of an earlier view; nan: none
+    double hidden;  ///< part of the depth by which the other surface is nearer
+    std::uint64_t bad;
+    std::uint64_t open;
+  };
+  // A grid of steps of 6: one pixel, in whose middle is (3.5, 3.5).
+  const Case cases[] = {
+    { 0, nan, -1, 0, 0 },
+    { 1e-9, nan, -1, 0, 0 },
+    { 1e-7, nan, -1, 2, 0 },
+    { nan, nan, -1, 1, 0 },
+    { 0, 2.5, -1, 1, 0 },
+    { nan, 2.5, -1, 0, 0 },
+    { nan, 3 + 1e-7, -1, 0, 1 },
+    { 0, 3 - 1e-7, -1, 0, 1 },
+    { nan, 3 + 1e-5, -1, 1, 0 },
+    { 0, 3 - 1e-5, -1, 1, 0 },
+    { 0, 3 + 1e-5, -1, 0, 0 },
+    { 0, nan, 1e-10, 0, 0 },
+    { 0, nan, 1e-8, 1, 0 },
+  };
+  for (const Case& one : cases)
+  {
+    HandMade made({ wallModel(2), wallModel(2 * (1 - one.hidden)) });
+    const std::unique_ptr<Dataset> dataset = made.dataset();
+    TrackView view;
+    view.index = 1;
+    view.sampled = true;
+    view.file = "f";
+    view.sight = dataset->timedSight(Eye(made.camera(), nullptr), 0);
+    std::vector<TrackOrigin> points;
+    if (!std::isnan(one.earlier))
+    {
+      points.push_back({ { 1, 0 }, 0 });
+      view.places.push_back({ 3.5, 3.5 - one.earlier, trackVisible });
+    }
+    if (!std::isnan(one.own))
+    {
+      points.push_back({ { 1, 0 }, 1 });
+      view.places.push_back({ 3.5 + one.own, 3.5, trackVisible });
+    }
+    const Meter meter = meterTrackSamples(*dataset, view, points, 6);
+    EXPECT_EQ(meter.Bad, one.bad) << &one - cases;
+    EXPECT_EQ(meter.Skipped, one.open) << &one - cases;
+  }
+}
+
+TEST(Slacks, BordersOfTexels)
+{
+  auto model = std::make_shared<Model>();
+  model->triangles = { { 0, 1, 2 } };
+  model->uvs = { { 0, 0 }, { 1, 0 }, { 0, 1 } };
+  model->parts = { { "p", 0, 0, 1 } };
+  auto image = std::make_shared<Image>();
+  image->width = image->height = 2;
+  image->rgba = { 0, 0, 0, 255, 0, 0, 0, 255, 200, 0, 0, 255, 0, 0, 0, 255 }; // red at the lower left
+  model->textures.resize(1);
+  model->textures[0].image = image;
+  Instance instance;
+  instance.model = model;
+  Material material;
+  material.diffuse = Vector3d(1, 1, 1);
+  material.texture = 0;
+  instance.materials = std::make_shared<std::vector<Material>>(1, material);
+  const auto measured = [&](double u, double v, std::uint8_t red)
+  {
+    Meter meter(colorTolerance);
+    const std::uint8_t color[3] = { red, 0, 0 };
+    meterColor(
+      instance, { 1, 0 }, Vector3d(1 - u - v, u, v), color,
+      [](const std::string&, const std::string&) { return Offender{}; }, meter);
+    return meter;
+  };
+  for (const double sign : { 1.0, -1.0 })
+  {
+    EXPECT_EQ(measured(0.5 + sign * 0.5e-7, 0.2, 200).Skipped, 1u);
+    EXPECT_EQ(measured(0.2, 0.5 + sign * 0.5e-7, 200).Skipped, 1u);
+    EXPECT_EQ(measured(0.5 + sign * 0.5e-5, 0.2, 200).Bad, sign > 0 ? 1u : 0u);
+    EXPECT_EQ(measured(0.2, 0.5 + sign * 0.5e-5, 200).Bad, sign > 0 ? 1u : 0u);
+  }
+  EXPECT_EQ(measured(0.2, 0.2, 201).Bad, 1u);
+}
+
+/// Numbers of the world lose digits where the camera is far from its origin.
+TEST(Slacks, FarCameras)
+{
+  CameraRecord record;
+  record.width = record.height = 4;
+  record.t = Vector3d(0, 3e4, 4e4);
+  const Eye eye(record, nullptr);
+  EXPECT_EQ(eye.farness(50), 1);
+  EXPECT_EQ(eye.farness(5), 10);
+  EXPECT_EQ(eye.farness(-5), 10);
+}
+
+/// Either side of the seam of a picture of all directions is one place.
+TEST(Slacks, SeamsOfLenses)
+{
+  CameraRecord record;
+  record.model = "equirectangular";
+  record.hasK = false;
+  record.width = 8;
+  record.height = 4;
+  const auto lens = EyeLens::of(record);
+  ASSERT_TRUE(lens);
+  for (const auto& [off, seam] : { std::pair(1e-10, 8.0), { 1e-8, 0.0 } })
+  {
+    EXPECT_EQ(lens->seam({ off, 1 }), seam);
+    EXPECT_EQ(lens->seam({ 8 - off, 1 }), seam);
+  }
+  record.model = "pinhole";
+  record.hasK = true;
+  record.numbers["distortion"] = { 0.1, 0, 0, 0 };
+  const auto plain = EyeLens::of(record);
+  ASSERT_TRUE(plain);
+  EXPECT_EQ(plain->seam({ 0, 1 }), 0);
+}
+} // namespace

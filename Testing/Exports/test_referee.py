@@ -1,0 +1,312 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The referee of exports is refereed: of every format, wrong values of its documents and pixels are planted, and `dgtk verify --export`
+must name the row and the file of each, and no other row.
+
+One small dataset serves all formats. Errors of one format are planted together, each of another row, so that one run judges them."""
+import concurrent.futures
+import hashlib
+import io
+import json
+import os
+import re
+import struct
+import subprocess
+from typing import Callable, NamedTuple
+
+import numpy as np
+
+import datasets
+from datasets import load_json, main, sealed
+from harness import DGTK
+from pictures import read_png, write_png
+
+SMALL = {"width": 48, "height": 36}
+
+
+def number(pattern, step, nth=0):
+    """Adds to the number behind the nth place that matches: `pattern` is what stands before it."""
+    place = re.compile("(?:" + pattern + r")(-?[0-9.]+(?:e-?[0-9]+)?)")
+
+    def edit(data):
+        found = list(place.finditer(data.decode()))[nth]
+        value = float(found.group(1)) + step
+        text = repr(int(value)) if isinstance(step, int) and re.fullmatch("-?[0-9]+", found.group(1)) else repr(value)
+        return (data.decode()[:found.start(1)] + text + data.decode()[found.end(1):]).encode()
+
+    return edit
+
+
+def word(old, new):
+    return lambda data: data.replace(old.encode(), new.encode(), 1)
+
+
+def packed(kind, at, step):
+    """Adds to a number of a binary file."""
+    def edit(data):
+        value = struct.unpack_from(kind, data, at)[0]
+        return data[:at] + struct.pack(kind, value + step) + data[at + struct.calcsize(kind):]
+
+    return edit
+
+
+def double(value, step, nth=0):
+    """Adds to the nth double of this value."""
+    def edit(data):
+        at = -1
+        for _ in range(nth + 1):
+            at = data.index(struct.pack("<d", value), at + 1)
+        return packed("<d", at, step)(data)
+
+    return edit
+
+
+def pixel(x, y, step=1):
+    """A code of a PNG file."""
+    def edit(path):
+        image = read_png(path).copy()
+        image[y, x] = image[y, x] + (step if np.max(image[y, x]) < 200 else -step)
+        write_png(path, image)
+
+    edit.of_path = True
+    return edit
+
+
+def last_bytes(step=1):
+    """The last number of a file of pixels, of float32."""
+    return lambda data: packed("<f", len(data) - 4 * 500, step)(data)
+
+
+def archive(member, change):
+    """An array of a .npz file."""
+    def edit(data):
+        arrays = dict(np.load(io.BytesIO(data)))
+        arrays[member] = change(arrays[member])
+        file = io.BytesIO()
+        np.savez(file, **arrays)
+        return file.getvalue()
+
+    return edit
+
+
+def shifted(values):
+    values = values.copy()
+    values.flat[0] += 0.01
+    return values
+
+
+def several(*edits):
+    def edit(data):
+        for one in edits:
+            data = one(data)
+        return data
+
+    return edit
+
+
+F = 43.45584412271571
+GT = "test/000001/scene_gt_info.json"
+LABEL = "training/label_2/000000.txt"
+BOX, COLMAP = "annotations/instances_train.json", "sparse/0/"
+PANOPTIC = "annotations/panoptic_train.json"
+XML = "Annotations/cam_L_000000.xml"
+# A calibration of KITTI's has the focal length and the centre twice, which must agree.
+KITTI = several(number("K_02: ", 1e-6), number("P_rect_02: ", 1e-6))
+
+
+def stereo(folder, disparity):
+    calib = folder + "calib.txt"
+    return [("doffs", calib, number("doffs=", 1e-6)), ("baseline", calib, number("baseline=", 1e-6)),
+            ("intrinsics", calib, number(r"cam0=\[", 1e-6)), ("size", calib, number("width=", 1)),
+            ("range", calib, number("vmax=", -2)), ("disparity", disparity, last_bytes())]
+
+
+def colmap(folder, depth):
+    plants = [("intrinsics", folder + "cameras.bin", packed("<d", 32, 1e-6)), ("size", folder + "cameras.bin", packed("<Q", 16, 1)),
+              ("pose", folder + "images.bin", packed("<d", 44, 1e-6)), ("colors", folder + "points3D.bin", packed("<B", 40, -3)),
+              ("reprojection", folder + "points3D.bin", packed("<d", 16, 1e-3))]
+    return plants + [("depth", depth, last_bytes())] if depth else plants
+
+
+def recording(file, left, *also):
+    """K of a camera, with P that must be the same; where an object is; and a baseline, of the right camera, or of the left one, which leads
+    to no camera."""
+    def intrinsics(data):
+        at = data.index(struct.pack("<9d", F, 0, 23.5, 0, F, 17.5, 0, 0, 1))
+        return several(packed("<d", at, 1e-6), packed("<d", at + 144, 1e-6))(data)
+
+    def baseline(data):
+        at = data.index(struct.pack("<6d", F, 0, 23.5, 0 if left else -0.2 * F, 0, F))
+        return packed("<d", at + 24, 1e-3)(data)
+
+    return [("intrinsics", file, intrinsics, also), ("baseline", file, baseline),
+            ("pose of objects", file, double(-1.9, 1e-6))]
+
+
+class Plant(NamedTuple):
+    row: str  # that must name the error
+    file: str
+    edit: Callable
+    also: tuple = ()  # rows that see it by their nature, such as sums of a file
+    named: str = None  # the file that is named, where it is another
+
+
+PLANTS = {form: [Plant(*one) for one in rows] for form, rows in {
+    "bop": [
+        ("intrinsics", "test/000001/scene_camera.json", number(r'"cam_K":\[', 1e-6)),
+        ("pose", "test/000001/scene_camera.json", number(r'"cam_t_w2c":\[', 1e-3)),
+        ("poses", "test/000001/scene_gt.json", number(r'"cam_t_m2c":\[', 1.0, 4), ("instances",)),
+        ("vertices", "test/000001/scene_gt.json", number(r'"cam_t_m2c":\[', 1e-3, 3), (), "models/models_info.json"),
+        ("bbox_obj", GT, number(r'"bbox_obj":\[', 1)), ("bbox_visib", GT, number(r'"bbox_visib":\[', 1)),
+        ("px_count_all", GT, number('"px_count_all":', 1, 1)), ("px_count_visib", GT, number('"px_count_visib":', 1, 2)),
+        ("px_count_valid", GT, number('"px_count_valid":', 1)), ("visib_fract", GT, number('"visib_fract":', 1e-11)),
+        ("models_info", "models/models_info.json", number('"min_x":', 1e-6), (), "models/obj_000001.ply"),
+        ("models", "models_eval/obj_000004.ply", number("end_header\n", 1.0)),
+        ("coco", "test/000001/scene_gt_coco.json", number('"area":', 1)),
+        ("mask", "test/000001/mask_visib/000000_000000.png", pixel(20, 20, 255)),
+        ("amodal mask", "test/000001/mask/000000_000000.png", pixel(20, 20, 255)),
+        ("depth", "test/000001/depth/000000.png", pixel(20, 20)), ("color", "test/000001/rgb/000000.png", pixel(20, 20))],
+    "coco": [
+        ("area", BOX, number('"area":', 1)), ("box", BOX, number(r'"bbox":\[', 1)), ("category", BOX, number('"category_id":', 1)),
+        ("size", BOX, number('"width":', 1)), ("ids", BOX, number('"id":', 7, 5)), ("names", BOX, word('"frame":1', '"frame":0')),
+        ("color", "train/cam_L_000000.png", pixel(20, 20))],
+    "coco-panoptic": [
+        ("area", PANOPTIC, number('"area":', 1)), ("box", PANOPTIC, number(r'"bbox":\[', 1)),
+        ("category", PANOPTIC, number('"category_id":', 1)), ("size", PANOPTIC, number('"width":', 1)),
+        ("objects", "annotations/panoptic_train/cam_R_000000.png", pixel(20, 20), ("segments",)), ("color", "train/cam_L_000000.png", pixel(20, 20))],
+    "colmap": [*colmap(COLMAP, None), ("objects", "masks/cam_L/000000.png.png", pixel(20, 20, 255)),
+               ("color", "images/cam_L/000000.png", pixel(20, 20))],
+    "colmap-dense": [*colmap("sparse/", "stereo/depth_maps/cam_L/000000.png.geometric.bin"),
+                     ("normal", "stereo/normal_maps/cam_R/000000.png.geometric.bin", last_bytes())],
+    "eth3d": stereo("two_view_training/cam_L_000000/", "two_view_training_gt/cam_L_000001/disp0GT.pfm"),
+    "middlebury": stereo("cam_L_000000/", "cam_L_000001/disp0GT.pfm"),
+    "flyingthings": [("pose", "camera_data/TRAIN/A/0000/camera_data.txt", number("R 1 0 0 ", 1e-6)),
+                     ("disparity", "disparity/TRAIN/A/0000/left/0006.pfm", last_bytes()),
+                     ("disparity_forward", "disparity_change/TRAIN/A/0000/into_future/left/0006.pfm", last_bytes()),
+                     ("flow_backward", "optical_flow/TRAIN/A/0000/into_past/right/OpticalFlowIntoPast_0007_R.pfm", last_bytes()),
+                     ("objects", "object_index/TRAIN/A/0000/left/0007.pfm", last_bytes())],
+    "gltf": [("intrinsics", "scene.gltf", number(r'"K":\s*\[\s*\[\s*', 1e-6)), ("field of view", "scene.gltf", number('"yfov": ?', 1e-6)),
+             ("size", "scene.gltf", number('"width": ?', 1))],
+    "hdf5": [("intrinsics", "0.hdf5", word("43.4558", "43.4559"))],
+    "imagefolder": [
+        ("camera", "train/metadata.jsonl", number(r'"K":\[\[', 1e-6), ("croissant",)), ("time", "train/metadata.jsonl", number('"seconds":', 1e-6)),
+        ("poses", "train/metadata.jsonl", number(r'"scale":\[', 1e-6)), ("unit", "train/metadata.jsonl", number('"metres_per_unit":', 1e-3)),
+        ("box", "train/metadata.jsonl", number(r'"bbox":\[\[', 1)), ("color", "train/cam_L_000000.png", pixel(20, 20))],
+    "kitti2015": [("intrinsics", "training/calib_cam_to_cam/000000.txt", KITTI),
+                  ("rotation", "training/calib_cam_to_cam/000000.txt", number("R_02: ", 1e-6)),
+                  ("baseline", "training/calib_cam_to_cam/000000.txt", number("T_03: ", 1e-6)),
+                  ("disparity", "training/disp_occ_0/000000_10.png", pixel(20, 20)),
+                  ("objects", "training/obj_map/000000_10.png", pixel(20, 20)),
+                  ("color", "training/image_3/000000_11.png", pixel(20, 20))],
+    "kitti-depth": [("intrinsics", "train/cam_L/calib_cam_to_cam.txt", KITTI), ("size", "train/cam_R/calib_cam_to_cam.txt", number("S_02: ", 1)),
+                    ("distortion", "train/cam_R/calib_cam_to_cam.txt", number("D_02: ", 1e-6)),
+                    ("rotation", "train/cam_R/calib_cam_to_cam.txt", number("R_rect_02: ", 1e-6)),
+                    ("baseline", "train/cam_R/calib_cam_to_cam.txt", number("T_02: ", 1e-6)),
+                    ("depth", "train/cam_L/proj_depth/groundtruth/image_02/0000000000.png", pixel(20, 20))],
+    "kitti-object": [("alpha", LABEL, number("Car 0 0 ", 1e-9)), ("truncated", LABEL, number("wall ", 1e-9)),
+                     ("occluded", LABEL, number("van [0-9.]+ ", 1)), ("box", LABEL, number("Car 0 2 [-0-9.]+ ", 1)),
+                     ("type", LABEL, word("Misc", "Tram")), ("box 3d centre", LABEL, number("18 33 26 [0-9.]+ [0-9.]+ [0-9.]+ ", 1e-6)),
+                     ("intrinsics", "training/calib/000001.txt", number("P2: ", 1e-6)),
+                     ("rotation", "training/calib/000001.txt", number("R0_rect: ", 1e-6)),
+                     ("baseline", "training/calib/000001.txt", number("P2: [0-9.]+ 0 [0-9.]+ ", 1e-6)),
+                     ("scanner", "training/calib/000001.txt", number("Tr_velo_to_cam: ", 1e-6))],
+    "kitti-odometry": [("pose", "poses/00.txt", number("1 0 0 0 0 1 0 0 0 0 1 ", 1e-6, 1)),
+                       ("first pose", "poses/00.txt", number("^1 ", 1e-6)), ("time", "sequences/00/times.txt", word("4.000000000000e-02", "4.000100000000e-02")),
+                       ("intrinsics", "sequences/00/calib.txt", number("P2: ", 1e-6)),
+                       ("baseline", "sequences/00/calib.txt", number("P3: [0-9.]+ 0 [0-9.]+ ", 1e-6)),
+                       ("scanner", "sequences/00/calib.txt", number("Tr: ", 1e-6))],
+    "rosbag": recording("dataset.bag", True), "mcap": recording("dataset.mcap", False, "recording"),
+    "mvsnet": [("pose", "cams/00000000_cam.txt", number("1 0 0 ", 1e-6)), ("intrinsics", "cams/00000000_cam.txt", number("intrinsic\n", 1e-6)),
+               ("range", "cams/00000000_cam.txt", number("192 ", 1e-3)), ("scores", "cams/pair.txt", number("\n3 3 ", 1e-3)),
+               ("depth", "rendered_depth_maps/00000001.pfm", last_bytes())],
+    "nerf-synthetic": [("intrinsics", "transforms_train.json", number('"camera_angle_x": ', 1e-6)),
+                       ("pose", "transforms_train.json", number(r'"transform_matrix":\[\[1.0,-0.0,-0.0,', 1e-6)),
+                       ("color_rgba", "train/r_0.png", pixel(20, 20))],
+    "sintel": [("intrinsics", "training/camdata_left/cam_L/frame_0001.cam", packed("<d", 4, 1e-6)),
+               ("pose", "training/camdata_left/cam_L/frame_0001.cam", packed("<d", 4 + 72 + 24, 1e-6)),
+               ("tag", "training/camdata_left/cam_L/frame_0002.cam", packed("<f", 0, 1)),
+               ("depth", "training/depth/cam_L/frame_0001.dpt", last_bytes()),
+               ("flow_forward", "training/flow/cam_L/frame_0001.flo", last_bytes())],
+    "spring": [("intrinsics", "train/0001/cam_data/intrinsics.txt", number("^", 1e-6)),
+               ("pose", "train/0001/cam_data/extrinsics.txt", number("1 0 0 ", 1e-6))],
+    "tapvid": [("points", "cam_L/tracks.npz", archive("points", shifted), (), "tapvid.pkl"), ("queries", "cam_L/tracks.npz", archive("query_points", shifted)),
+               ("occluded", "cam_R/tracks.npz", archive("occluded", np.logical_not))],
+    "transforms": [("intrinsics", "transforms.json", number('"fl_x": ', 1e-6)), ("angle", "transforms.json", number('"camera_angle_x": ', 1e-9)),
+                   ("pose", "transforms.json", number(r'"transform_matrix":\[\[1.0,-0.0,-0.0,', 1e-6)),
+                   ("size", "transforms.json", number('"w": ', 1)), ("distortion", "transforms.json", number('"k1": ', 1e-6)),
+                   ("depth", "depth/cam_L_000000.png", pixel(20, 20)), ("objects", "masks/cam_L_000000.png", pixel(20, 20, 255))],
+    "tum": [("pose", "cam_L/groundtruth.txt", number("\n0.040000 ", 1e-6)), ("intrinsics", "cam_L/calibration.txt", number("^", 1e-6)),
+            ("time", "cam_L/rgb.txt", number("\n(?=0.04)", 1e-3), ("associations",), "cam_L/groundtruth.txt"), ("depth", "cam_L/depth/0.040000.png", pixel(20, 20))],
+    "voc": [("box", XML, number("<xmin>", 1)), ("category", XML, word("<name>wall", "<name>Car")),
+            ("size", XML, number("<width>", 1)), ("truncated", XML, word("<truncated>1", "<truncated>0")),
+            ("occluded", XML, word("<occluded>0", "<occluded>1"))],
+    "webdataset": [("camera", "train-000000.tar", word("43.4558", "43.4559"), ("croissant",)), ("time", "train-000000.tar", word('"seconds":0.04', '"seconds":0.05')),
+                   ("poses", "train-000000.tar", word('"scale":[1.0', '"scale":[1.1')), ("unit", "train-000000.tar", word('per_unit":1.0', 'per_unit":1.1'))],
+    "yolo": [("box", "labels/train/cam_L_000000.txt", number("^0 ", 1e-6)), ("category", "labels/train/cam_L_000001.txt", number("^", 1))],
+}.items()}
+
+
+class Referee(datasets.ExportCase):
+    def setUp(self):
+        super().setUp()
+        scene = datasets.street(self.path("scene"))
+        document = load_json(scene)
+        for camera in document["cameras"]:
+            camera.update(SMALL)
+        with open(scene, "w", encoding="utf-8") as file:
+            json.dump(document, file)
+        self.dataset = self.render(scene, "boxes,amodal,objects,classes", "--for", ",".join(PLANTS))
+
+    def rows(self, folder, status):
+        done = self.dgtk("verify", self.dataset, "--export", folder, "--json", status=status)
+        return {row["layer"]: row for row in json.loads(done.stdout)["residuals"]}
+
+    def plant(self, folder, name, edit):
+        path = os.path.join(folder, name)
+        with open(path, "rb") as file:
+            old = file.read()
+        os.remove(path)  # it may be a link to the dataset's
+        if hasattr(edit, "of_path"):
+            with open(path, "wb") as file:
+                file.write(old)
+            edit(path)
+        else:
+            with open(path, "wb") as file:
+                file.write(edit(old))
+
+    def accept(self, folder):
+        path = os.path.join(folder, "export.json")
+        record = load_json(path)
+        for row in record["files"]:
+            with open(os.path.join(folder, row["path"]), "rb") as file:
+                data = file.read()
+            row.update(sha256=hashlib.sha256(data).hexdigest(), bytes=len(data))
+        with open(path, "wb") as file:
+            file.write(sealed(record))
+
+    def judge(self, form):
+        """(rows of a sound export, rows where errors were planted)."""
+        folder = self.path(form)
+        subprocess.run([DGTK, "export", self.dataset, "--format", form, "-o", folder, "--quiet"], check=True)
+        sound = self.rows(folder, 0)
+        for plant in PLANTS[form]:
+            self.plant(folder, plant.file, plant.edit)
+        self.accept(folder)
+        return sound, self.rows(folder, 1 if PLANTS[form] else 0)
+
+    def test_planted_errors(self):
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            judged = dict(zip(PLANTS, pool.map(self.judge, PLANTS)))
+        for form, (sound, rows) in judged.items():
+            with self.subTest(form=form):
+                seen = set().union(*({plant.row, *plant.also} for plant in PLANTS[form]))
+                self.assertEqual({layer for layer, row in rows.items() if row["breach"]}, seen)
+            for plant in PLANTS[form]:
+                with self.subTest(form=form, row=plant.row):
+                    self.assertEqual(rows[plant.row]["worst"]["file"], plant.named or plant.file)
+                    self.assertAlmostEqual(rows[plant.row]["tolerance"], sound[plant.row]["tolerance"], delta=1e-12)
+        # Of values with different tolerances a row shows the largest.
+        self.assertEqual(judged["kitti2015"][0]["baseline"]["tolerance"], 1e-9)
+
+
+if __name__ == "__main__":
+    main()
