@@ -100,7 +100,12 @@ std::unique_ptr<Dataset> HandMade::dataset()
   }
   writeFile(this->Folder.path("cameras.json"), camerasText(this->Cameras));
   writeFile(this->Folder.path("manifest.json"), manifestText(this->TheManifest));
-  return std::make_unique<Dataset>(this->Folder.path(), 1);
+  auto dataset = std::make_unique<Dataset>(this->Folder.path(), 1);
+  for (const Dataset::Problem& problem : dataset->problems())
+  {
+    throw std::runtime_error(problem.file + ": " + problem.what);
+  }
+  return dataset;
 }
 
 Residual HandMade::verify(const std::string& check, const std::string& layer)
