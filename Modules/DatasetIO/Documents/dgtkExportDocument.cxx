@@ -2,6 +2,7 @@
 #include "dgtkExportDocument.h"
 
 #include "dgtkDocumentValues.h"
+#include "dgtkError.h"
 #include "dgtkHash.h"
 #include "dgtkJsonPieces.h"
 #include "dgtkJsonText.h"
