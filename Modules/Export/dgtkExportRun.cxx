@@ -11,7 +11,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
+#include <optional>
 #include <stdexcept>
 #include <tuple>
 
@@ -61,6 +61,8 @@ void requireLayers(const DatasetView& dataset, const ExportNeeds& needs, const s
                      joined(needs.layers) + ")");
   }
 }
+
+void noNames(const std::function<void(const std::string&)>&) {}
 
 /// The export is a folder of its own.
 void requireOther(const ExportRequest& request)
@@ -150,27 +152,51 @@ std::string ExportRun::identity() const
   return Sha256::of(text);
 }
 
-/// What may be in the way of files; nothing is in an empty folder, however many they are.
-std::vector<std::string> ExportRun::allNames() const
+void ExportRun::forNames(const std::function<void(const std::string&)>& visit) const
 {
-  std::vector<std::string> names;
-  std::set<std::string> seen;
-  std::error_code code;
-  const bool anew =
-    !std::filesystem::exists(this->Request.folder, code) || std::filesystem::is_empty(this->Request.folder, code);
-  const std::size_t announced = anew ? 0 : this->all();
-  for (std::size_t i = 0; i < announced; ++i)
+  for (std::size_t i = 0; i < this->all(); ++i)
   {
     for (const std::string& name : this->item(i).files)
     {
-      if (!seen.insert(name).second)
+      visit(name);
+    }
+  }
+}
+
+/// What may be in the way of files; nothing is in an empty folder, however many they are.
+ForNames ExportRun::announced() const
+{
+  std::error_code code;
+  if (!std::filesystem::exists(this->Request.folder, code) || std::filesystem::is_empty(this->Request.folder, code))
+  {
+    return noNames;
+  }
+  NameTable names;
+  std::size_t count = 0;
+  this->forNames(
+    [&](const std::string& name)
+    {
+      names.add(name);
+      ++count;
+    });
+  names.finish();
+  if (names.size() != count)
+  {
+    this->failTwice(names);
+  }
+  return [this](const auto& visit) { this->forNames(visit); };
+}
+
+void ExportRun::failTwice(NameTable& names) const
+{
+  this->forNames(
+    [&](const std::string& name)
+    {
+      if ((*names.numberOf(name))++ != 0)
       {
         throw std::logic_error("an exporter announces a file twice: " + name);
       }
-      names.push_back(name);
-    }
-  }
-  return names;
+    });
 }
 
 ExportResult ExportRun::execute()
@@ -184,7 +210,7 @@ ExportResult ExportRun::execute()
                                                      : JournalStart::Fresh;
   std::error_code code;
   const bool anew = !std::filesystem::exists(this->Request.folder, code);
-  this->Log = std::make_unique<Journal>(this->Request.folder, this->Hash, start, this->allNames(), exportName);
+  this->Log = std::make_unique<Journal>(this->Request.folder, this->Hash, start, this->announced(), exportName);
   this->Notes = std::make_unique<ExportNotes>(this->Request.folder, this->Hash, this->all(), this->Request.resume);
   try
   {
@@ -204,7 +230,7 @@ void ExportRun::discard(bool withFolder)
   this->Notes->remove();
   this->Notes.reset();
   this->Log.reset();
-  Journal(this->Request.folder, this->Hash, JournalStart::Replace, {}, exportName);
+  Journal(this->Request.folder, this->Hash, JournalStart::Replace, noNames, exportName);
   Folder(this->Request.folder).remove(journalName);
   if (withFolder)
   {
@@ -239,7 +265,7 @@ bool holds(const Journal& journal, const ExportNotes& notes, std::size_t item)
   return std::all_of(record.files.begin(), record.files.end(),
     [&](const ExportedFile& one)
     {
-      const DatasetFile* file = journal.find(one.file.path);
+      const std::optional<DatasetFile> file = journal.find(one.file.path);
       return file && file->sha256 == one.file.sha256;
     });
 }
@@ -309,8 +335,7 @@ ExportResult ExportRun::executeBlock(const std::string& folder, const ItemRange&
 {
   this->Request.folder = folder;
   this->Result = {};
-  this->Log =
-    std::make_unique<Journal>(folder, this->Hash, JournalStart::Resume, std::vector<std::string>{}, exportName);
+  this->Log = std::make_unique<Journal>(folder, this->Hash, JournalStart::Resume, noNames, exportName);
   this->Notes = std::make_unique<ExportNotes>(folder, this->Hash, this->all(), true);
   this->writeItems(block);
   this->Result.interrupted = this->cancelled();
@@ -328,7 +353,7 @@ bool ExportRun::holdsBlock(const std::string& folder, const ItemRange& block) co
   }
   try
   {
-    const Journal journal(folder, this->Hash, JournalStart::Resume, std::vector<std::string>{}, exportName);
+    const Journal journal(folder, this->Hash, JournalStart::Resume, noNames, exportName);
     const ExportNotes notes(folder, this->Hash, this->all(), true);
     for (std::size_t i = block.first; i < block.end; ++i)
     {
@@ -348,7 +373,7 @@ bool ExportRun::holdsBlock(const std::string& folder, const ItemRange& block) co
 ExportResult ExportRun::executeFrom(const std::vector<std::pair<std::string, ItemRange>>& blocks)
 {
   this->Log =
-    std::make_unique<Journal>(this->Request.folder, this->Hash, JournalStart::Resume, this->allNames(), exportName);
+    std::make_unique<Journal>(this->Request.folder, this->Hash, JournalStart::Resume, this->announced(), exportName);
   this->Notes = std::make_unique<ExportNotes>(this->Request.folder, this->Hash, this->all(), true);
   for (const auto& [folder, block] : blocks)
   {

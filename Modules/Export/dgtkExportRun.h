@@ -47,7 +47,9 @@ public:
 private:
   TextPairs described() const;
   std::string identity() const;
-  std::vector<std::string> allNames() const;
+  void forNames(const std::function<void(const std::string&)>& visit) const;
+  ForNames announced() const;
+  void failTwice(NameTable& names) const;
   bool isKept(std::size_t item) const;
   void writeItems(const ItemRange& range);
   void write(std::size_t item);

@@ -7,6 +7,7 @@
 #include "dgtkFolderContents.h"
 #include "dgtkHash.h"
 #include "dgtkJournal.h"
+#include "dgtkLongDocuments.h"
 #include "dgtkSceneFolders.h"
 
 #include <algorithm>
@@ -101,11 +102,20 @@ bool holdsExport(const std::string& folder, const std::string& hash, bool intact
   {
     return false;
   }
-  const ExportRecord record = readExportIn(folder);
   const Folder holder(folder);
-  return record.requestHash == hash &&
-         (!intact || std::all_of(record.files.begin(), record.files.end(),
-                       [&](const ExportedFile& one) { return isWhole(holder, one.file); }));
+  bool whole = true;
+  const ExportRecord record = readExportIn(
+    folder, [](ExportedName&&) {},
+    [&](ExportedFile&& one) { whole = whole && (!intact || isWhole(holder, one.file)); });
+  return whole && record.requestHash == hash;
+}
+
+std::size_t filesIn(const std::string& folder)
+{
+  std::size_t files = 0;
+  readExportIn(
+    folder, [](ExportedName&&) {}, [&](ExportedFile&&) { ++files; });
+  return files;
 }
 
 /// Calls work(block) for the blocks of a share, until one is interrupted.
@@ -214,7 +224,7 @@ MergeReport mergeScenes(const std::string& folder, const RunParts& run)
     const std::size_t block = i / run.blockSize();
     if (holdsExport(one.folder, ExportRun(one, {}).hash(), true))
     {
-      report.files += readExportIn(one.folder).files.size();
+      report.files += filesIn(one.folder);
     }
     else if (report.missing.empty() || report.missing.back() != block)
     {
@@ -289,7 +299,7 @@ MergeReport mergeItems(const std::string& folder, const RunParts& run)
     moveUp(whole, folder);
   }
   fs::remove_all(folder + '/' + partsName);
-  report.files = readExportIn(folder).files.size();
+  report.files = filesIn(folder);
   report.merged = true;
   return report;
 }

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Times `dgtk` as users run it: whole processes on scenes of OBJ files, which the first run makes.
 
-usage: whole_processes.py DGTK [--scenes S,M,L] [--rounds 3] [--work FOLDER] [--growth] [--exports] [--export-growth]
+usage: whole_processes.py DGTK [--scenes S,M,L] [--rounds 3] [--work FOLDER] [--growth] [--exports] [--export-growth [--formats A,B]]
 
 S, M, L: 10,000, 200,000 and 2,000,000 triangles in 10, 50 and 200 objects, 20 frames, one of them moving, 640x480.
 Prints medians. start: dgtk --help, info of a model, and one 320x240 frame of depth and ids, beside `true`.
@@ -11,8 +11,9 @@ again: the same with models that are kept; all else is measured without.
 frame: (time of N frames - time of 2) / (N - 2), of colour, exact layers, both flows, and of all six, and the most memory.
 --growth: many pictures, cameras and objects of a tiny scene, time and memory for each.
 --exports: 200 and 1000 pictures of 640x480 to COCO, COLMAP and BOP, beside rendering them.
---export-growth: every format, of 200 and 2000 frames of two 16x12 cameras: memory a frame, and beside the format that takes the least: that is
-the dataset's own tables."""
+--export-growth: every format, or these, of 200 and 2000 frames of two 16x12 cameras: memory a frame of an export into a new folder (the least is
+the dataset's own tables), over a finished one with --replace, of one that was killed half way with --resume, of a share that does it all, of merging, and
+of dgtk verify --export."""
 import argparse
 import json
 import math
@@ -162,14 +163,15 @@ class Bench:
             print(f"export {f'{frames} pictures, all':<24} {total:8.1f} s {total / rendered[0]:8.2f} x rendering")
             shutil.rmtree(data)
 
-    def export_growth(self):
+    def export_growth(self, chosen):
         folder = os.path.join(self.work, "export-growth")
         os.makedirs(folder, exist_ok=True)
         corners = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
         with open(folder + "/box.obj", "w", encoding="ascii") as file:
             file.writelines("v %g %g %g\n" % corner for corner in corners)
             file.write("f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n")
-        forms = [row["format"] for row in json.loads(subprocess.run([self.dgtk, "list", "exporters", "--json"], check=True, capture_output=True).stdout)["exporters"]]
+        rows = json.loads(subprocess.run([self.dgtk, "list", "exporters", "--json"], check=True, capture_output=True).stdout)["exporters"]
+        forms = chosen.split(",") if chosen else [row["format"] for row in rows]
         few, many = 200, 2000
         move = {"keys": [[0, [-1, 0, 0]], [many - 1, [1, 0, 0]]]}
         cameras = [{"name": name, "fovY": 45, "near": 0.1, "far": 100, "eye": [x, 0, 8], "lookAt": [x, 0, 0]} for name, x in (("left", -0.1), ("right", 0.1))]
@@ -180,11 +182,28 @@ class Bench:
             data = f"{folder}/data{frames}"
             timed([self.dgtk, "render", folder + "/scene.json", "-o", data, "--replace", "--quiet", "--size", "16x12", "--frames", f"0:{frames - 1}", "--for", ",".join(forms)])
             for form in forms:
-                shutil.rmtree(folder + "/out", ignore_errors=True)  # replacing needs what the other export lists
-                memory[form, frames] = timed([self.dgtk, "export", data, "--format", form, "-o", folder + "/out", "--replace", "--quiet"])[1]
-        growth = {form: 1024 * (memory[form, many] - memory[form, few]) / (many - few) for form in forms}
-        for form, each in growth.items():
-            print(f"export {form:<24} {memory[form, many]:8.1f} MB {each:8.2f} KB a frame {each / min(growth.values()):8.2f} x the least")
+                memory[form, frames] = self.export_kinds(data, form, folder + "/out")
+        kinds = list(memory[forms[0], few])
+        print(f"{'KB a frame':<20}" + "".join(f"{kind:>9}" for kind in kinds) + "   MB at most")
+        for form in forms:
+            growth = [1024 * (memory[form, many][kind] - memory[form, few][kind]) / (many - few) for kind in kinds]
+            print(f"export {form:<13}" + "".join(f"{each:9.2f}" for each in growth) + f"{max(memory[form, many].values()):13.1f}", flush=True)
+
+    def export_kinds(self, data, form, out):
+        """The most memory of each way to make an export, and of the referee."""
+        command = [self.dgtk, "export", data, "--format", form, "-o", out, "--quiet"]
+        shutil.rmtree(out, ignore_errors=True)
+        seconds, fresh = timed(command)
+        found = {"new": fresh, "replace": timed(command + ["--replace"])[1], "verify": timed([self.dgtk, "verify", data, "--export", out])[1]}
+        shutil.rmtree(out)
+        with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as killed:
+            time.sleep(seconds / 2)
+            killed.kill()
+        found["resume"] = timed(command + ["--resume"])[1]
+        shutil.rmtree(out)
+        found["share"] = timed(command + ["--shard", "0/1"])[1]
+        found["merge"] = timed([self.dgtk, "merge", out])[1]
+        return found
 
 
 def main():
@@ -196,6 +215,7 @@ def main():
     parser.add_argument("--growth", action="store_true")
     parser.add_argument("--exports", action="store_true")
     parser.add_argument("--export-growth", action="store_true")
+    parser.add_argument("--formats", help="of --export-growth, else all")
     words = parser.parse_args()
     os.makedirs(words.work, exist_ok=True)
     os.environ.update(XDG_CACHE_HOME=os.path.abspath(words.work), DGTK_CACHE="0")
@@ -207,7 +227,7 @@ def main():
     if words.exports:
         bench.exports()
     if words.export_growth:
-        bench.export_growth()
+        bench.export_growth(words.formats)
 
 
 if __name__ == "__main__":

@@ -195,35 +195,40 @@ Manifest readManifest(const std::string& path)
   return manifest;
 }
 
-void refuseLinks(const Folder& folder, const std::set<std::string>& names)
+void LinkCheck::add(const std::string& name)
 {
-  folder.look(names,
-    [&](const std::string& name, EntryKind kind)
+  constexpr std::size_t together = 4096;
+  this->Names.insert(name);
+  if (this->Names.size() == together)
+  {
+    this->finish();
+  }
+}
+
+void LinkCheck::finish()
+{
+  this->Where.look(this->Names,
+    [this](const std::string& name, EntryKind kind)
     {
       if (kind != EntryKind::Nothing && kind != EntryKind::File)
       {
-        folder.fileAt(name);
+        this->Where.fileAt(name);
       }
     });
+  this->Names.clear();
 }
 
 Manifest readManifestIn(const std::string& path, const std::function<void(DatasetFile&&)>& visit)
 {
-  constexpr std::size_t together = 4096; ///< names that are looked up at a time
   const Folder folder(path);
-  std::set<std::string> names;
+  LinkCheck links(folder);
   Manifest manifest = readManifest(folder.fileAt(manifestName),
     [&](DatasetFile&& file)
     {
-      names.insert(file.path);
-      if (names.size() == together)
-      {
-        refuseLinks(folder, names);
-        names.clear();
-      }
+      links.add(file.path);
       visit(std::move(file));
     });
-  refuseLinks(folder, names);
+  links.finish();
   return manifest;
 }
 

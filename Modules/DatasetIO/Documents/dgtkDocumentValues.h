@@ -50,8 +50,22 @@ inline std::string hashOf(const JsonCursor& at)
 DatasetFile fileOf(const JsonCursor& value);
 JsonObject fileObject(const DatasetFile& file);
 
-/// Throws InputError where a link stands in place of one of these files, or of a folder that leads there.
-void refuseLinks(const Folder& folder, const std::set<std::string>& names);
+/// Throws InputError where a link stands in place of one of the names that it is given, or of a folder that leads
+/// there; looks at many names together.
+class LinkCheck
+{
+public:
+  explicit LinkCheck(const Folder& folder)
+    : Where(folder)
+  {
+  }
+  void add(const std::string& name);
+  void finish(); ///< behind the last one
+
+private:
+  const Folder& Where;
+  std::set<std::string> Names;
+};
 
 } // namespace dgtk
 

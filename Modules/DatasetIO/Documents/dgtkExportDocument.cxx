@@ -2,10 +2,14 @@
 #include "dgtkExportDocument.h"
 
 #include "dgtkDocumentValues.h"
+#include "dgtkError.h"
 #include "dgtkHash.h"
+#include "dgtkJsonPieces.h"
 #include "dgtkJsonText.h"
+#include "dgtkLongDocuments.h"
 
 #include <algorithm>
+#include <fstream>
 
 namespace dgtk
 {
@@ -153,15 +157,41 @@ std::string exportTail(const std::string& sha256) { return tail + ('"' + sha256)
 
 std::pair<std::string, std::string> exportOwnHashes(const std::string& path)
 {
-  const std::string text = readFile(path);
-  const std::size_t end = std::min(text.rfind(tail), text.size());
-  const std::string hash = Sha256::of(text.substr(0, end));
-  return { text.substr(end) == exportTail(hash) ? hash : end < text.size() ? "another one" : "none", hash };
+  const std::uint64_t tailBytes = exportTail(std::string(64, '0')).size();
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(file.tellg(), 0));
+  std::uint64_t left = size - std::min(size, tailBytes);
+  file.seekg(0);
+  Sha256 hash;
+  std::string block(std::size_t(1) << 16, '\0');
+  while (left > 0 && file.read(block.data(), std::streamsize(std::min<std::uint64_t>(left, block.size()))))
+  {
+    hash.update(block.data(), std::size_t(file.gcount()));
+    left -= std::uint64_t(file.gcount());
+  }
+  std::string end(std::min(size, tailBytes), '\0');
+  if (!file.read(end.data(), std::streamsize(end.size())))
+  {
+    throw InputError(path, 0, "cannot be read");
+  }
+  const std::string right = hash.hex();
+  return { end == exportTail(right) ? right : end.rfind(tail, 0) == 0 ? "another one" : "none", right };
 }
 
-ExportRecord readExport(const std::string& path)
+ExportRecord readExport(const std::string& path, const std::function<void(ExportedName&&)>& visitName,
+  const std::function<void(ExportedFile&&)>& visitFile)
 {
-  const JsonDocument document = readJson(path);
+  const auto readName = [&](const JsonPiece& piece)
+  {
+    const JsonCursor& item = piece.value;
+    visitName({ item["camera"].text(), integerOf(item["frame"], anyFrame), item["name"].text() });
+  };
+  const auto readFile = [&](const JsonPiece& piece)
+  {
+    const JsonCursor& item = piece.value;
+    visitFile({ fileOf(item), item.has("encoding") ? encodingOf(item["encoding"]) : PixelEncoding() });
+  };
+  const JsonDocument document = readJsonPieces(path, { { "names", readName }, { "files", readFile } });
   const JsonCursor root(document);
   if (!root.has("format") || root["format"].node().text != formatWord)
   {
@@ -179,28 +209,52 @@ ExportRecord readExport(const std::string& path)
   {
     record.layers.push_back(roundingOf(item));
   }
-  for (const JsonCursor& item : root["names"].items())
-  {
-    record.names.push_back({ item["camera"].text(), integerOf(item["frame"], anyFrame), item["name"].text() });
-  }
-  for (const JsonCursor& item : root["files"].items())
-  {
-    record.files.push_back({ fileOf(item), item.has("encoding") ? encodingOf(item["encoding"]) : PixelEncoding() });
-  }
+  root["names"].listSize();
+  root["files"].listSize();
+  return record;
+}
+
+namespace
+{
+/// By one of the readers that hand on names and files.
+template <typename Read>
+ExportRecord wholeBy(const Read& read, const std::string& path)
+{
+  std::vector<ExportedName> names;
+  std::vector<ExportedFile> files;
+  ExportRecord record = read(
+    path, [&](ExportedName&& name) { names.push_back(std::move(name)); },
+    [&](ExportedFile&& file) { files.push_back(std::move(file)); });
+  record.names = std::move(names);
+  record.files = std::move(files);
+  return record;
+}
+} // namespace
+
+ExportRecord readExport(const std::string& path)
+{
+  return wholeBy([](const std::string& file, const auto&... visits) { return readExport(file, visits...); }, path);
+}
+
+ExportRecord readExportIn(const std::string& path, const std::function<void(ExportedName&&)>& visitName,
+  const std::function<void(ExportedFile&&)>& visitFile)
+{
+  const Folder folder(path);
+  LinkCheck links(folder);
+  ExportRecord record = readExport(folder.fileAt(exportName), visitName,
+    [&](ExportedFile&& file)
+    {
+      links.add(file.file.path);
+      visitFile(std::move(file));
+    });
+  links.finish();
   return record;
 }
 
 ExportRecord readExportIn(const std::string& path)
 {
-  const Folder folder(path);
-  ExportRecord record = readExport(folder.fileAt(exportName));
-  std::set<std::string> names;
-  for (const ExportedFile& file : record.files)
-  {
-    names.insert(file.file.path);
-  }
-  refuseLinks(folder, names);
-  return record;
+  return wholeBy(
+    [](const std::string& folder, const auto&... visits) { return readExportIn(folder, visits...); }, path);
 }
 
 } // namespace dgtk

@@ -60,7 +60,7 @@ FolderContents contentsOf(const Folder& folder, const FolderRecords& records, co
   {
     return holdsNothing(folder.path()) ? FolderContents::Nothing : FolderContents::Foreign;
   }
-  if (records.names.empty())
+  if (!records.names)
   {
     return FolderContents::Nothing; // it ended before its first picture
   }

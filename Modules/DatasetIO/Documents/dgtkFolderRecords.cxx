@@ -3,13 +3,14 @@
 
 #include "dgtkError.h"
 #include "dgtkExportDocument.h"
-#include "dgtkFile.h"
+#include "dgtkLongDocuments.h"
 #include "dgtkRunParts.h"
 
-#include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <iterator>
+#include <fstream>
+#include <vector>
 
 namespace dgtk
 {
@@ -76,82 +77,67 @@ bool parseFile(const std::vector<std::string>& fields, DatasetFile& file)
   return number(fields[1], file.bytes) && number(fields[2], file.frame);
 }
 
-/// One line but the first; false for a torn one.
-bool readLine(const std::string& line, FolderRecords& records)
+/// The text up to the next line feed; false where there is none.
+bool nextLine(std::istream& text, std::string& line) { return bool(std::getline(text, line)) && !text.eof(); }
+
+void list(DatasetFile&& file, ListedIn where, FolderRecords& records, const ForListed& visit)
 {
-  const std::vector<std::string> fields = fieldsOf(line);
-  DatasetFile file;
-  if (fields.size() == 2 && fields[0] == planned)
+  records.names = true;
+  if (visit)
   {
-    file.path = unescaped(fields[1]);
+    visit(std::move(file), where);
   }
-  else if (!parseFile(fields, file))
-  {
-    return false;
-  }
-  if (!Folder::isPlain(file.path))
-  {
-    records.foreign = std::string(journalName) + ": " + quoted(file.path) + " leads out of the dataset";
-    return false;
-  }
-  records.names.insert(file.path);
-  if (!file.sha256.empty())
-  {
-    records.finished.push_back(file);
-  }
-  return true;
 }
 
-void readJournal(const std::string& text, FolderRecords& records)
+void readJournal(const std::string& path, FolderRecords& records, const ForListed& visit)
 {
-  if (text.empty())
+  std::ifstream text(path, std::ios::binary);
+  if (!text)
+  {
+    throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
+  }
+  if (text.peek() == std::ifstream::traits_type::eof())
   {
     return; // of a run that was killed at its very beginning
   }
-  std::size_t start = text.find('\n');
-  if (text.rfind(firstLine, 0) != 0 || start == std::string::npos)
+  std::string line;
+  if (!nextLine(text, line) || line.rfind(firstLine, 0) != 0)
   {
     records.foreign = std::string(journalName) + ": is not a journal of DGTk";
     return;
   }
   records.journal = true;
-  records.requestHash = text.substr(std::strlen(firstLine), start - std::strlen(firstLine));
-  for (std::size_t end; (end = text.find('\n', ++start)) != std::string::npos; start = end)
+  records.requestHash = line.substr(std::strlen(firstLine));
+  while (nextLine(text, line))
   {
-    if (!readLine(text.substr(start, end - start), records))
+    std::optional<DatasetFile> file = readJournalLine(line);
+    if (!file)
     {
       break;
     }
+    if (!Folder::isPlain(file->path))
+    {
+      records.foreign = std::string(journalName) + ": " + quoted(file->path) + " leads out of the dataset";
+      break;
+    }
+    list(std::move(*file), ListedIn::Journal, records, visit);
   }
 }
 
-void addWhole(const std::vector<DatasetFile>& files, const std::string& requestHash, FolderRecords& records)
+void readDocument(const std::string& path, const std::string& document, FolderRecords& records, const ForListed& visit)
 {
-  for (const DatasetFile& file : files)
-  {
-    records.names.insert(file.path);
-  }
+  const auto visitFile = [&](DatasetFile&& file) { list(std::move(file), ListedIn::Document, records, visit); };
+  const std::string requestHash =
+    document == manifestName
+      ? readManifest(path, visitFile).requestHash
+      : readExport(
+          path, [](ExportedName&&) {}, [&](ExportedFile&& file) { visitFile(std::move(file.file)); })
+          .requestHash;
   if (!records.journal || records.requestHash == requestHash)
   {
     records.whole = true;
     records.requestHash = requestHash;
-    records.finished = files;
   }
-}
-
-void addDocument(const std::string& path, const std::string& document, FolderRecords& records)
-{
-  if (document == manifestName)
-  {
-    const Manifest manifest = readManifest(path);
-    addWhole(manifest.files, manifest.requestHash, records);
-    return;
-  }
-  const ExportRecord whole = readExport(path);
-  std::vector<DatasetFile> files;
-  std::transform(whole.files.begin(), whole.files.end(), std::back_inserter(files),
-    [](const ExportedFile& exported) { return exported.file; });
-  addWhole(files, whole.requestHash, records);
 }
 
 /// Whether a document is there; what is no file cannot be ours.
@@ -166,18 +152,30 @@ bool holds(const Folder& folder, const std::string& name, FolderRecords& records
 }
 } // namespace
 
-FolderRecords readFolderRecords(const Folder& folder, const std::string& document)
+std::optional<DatasetFile> readJournalLine(const std::string& line)
+{
+  const std::vector<std::string> fields = fieldsOf(line);
+  DatasetFile file;
+  if (fields.size() == 2 && fields[0] == planned)
+  {
+    file.path = unescaped(fields[1]);
+    return file;
+  }
+  return parseFile(fields, file) ? std::optional<DatasetFile>(std::move(file)) : std::nullopt;
+}
+
+FolderRecords readFolderRecords(const Folder& folder, const std::string& document, const ForListed& visit)
 {
   FolderRecords records;
   try
   {
     if (holds(folder, journalName, records))
     {
-      readJournal(readFile(folder.pathOf(journalName)), records);
+      readJournal(folder.pathOf(journalName), records, visit);
     }
     if (holds(folder, document, records))
     {
-      addDocument(folder.pathOf(document), document, records);
+      readDocument(folder.pathOf(document), document, records, visit);
     }
     if (document == manifestName && holdsParts(folder.path()))
     {

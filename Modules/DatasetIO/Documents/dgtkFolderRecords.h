@@ -9,9 +9,9 @@
 #include "dgtkFolderContents.h"
 #include "dgtkJournal.h"
 
-#include <set>
+#include <functional>
+#include <optional>
 #include <string>
-#include <vector>
 
 namespace dgtk
 {
@@ -19,16 +19,28 @@ namespace dgtk
 /// What a folder's manifest and journal say.
 struct FolderRecords
 {
-  bool journal = false;              ///< an interrupted run's
-  bool whole = false;                ///< a manifest is there, and no journal of another request
-  std::string requestHash;           ///< of the journal, else of the manifest; empty without either
-  std::vector<DatasetFile> finished; ///< whole files of the request, in the order in which they were recorded
-  std::set<std::string> names;       ///< every file that they list, whole or only planned
-  std::string foreign;               ///< not empty: why manifest or journal are not DGTk's
+  bool journal = false;    ///< an interrupted run's
+  bool whole = false;      ///< a manifest is there, and no journal of another request
+  bool names = false;      ///< they list files
+  std::string requestHash; ///< of the journal, else of the manifest; empty without either
+  std::string foreign;     ///< not empty: why manifest or journal are not DGTk's
 };
 
-/// `document`: manifestName or exportName. Throws MachineError when the folder cannot be read.
-FolderRecords readFolderRecords(const Folder& folder, const std::string& document = manifestName);
+/// Where a file is listed.
+enum class ListedIn
+{
+  Journal,
+  Document
+};
+
+/// Is handed every file that they list, those of the journal first: as recorded, or, with no hash, as planned only.
+/// Files of the document count as finished where the records are `whole`.
+using ForListed = std::function<void(DatasetFile&& file, ListedIn where)>;
+
+/// `document`: manifestName or exportName. Memory does not grow with the files. Throws MachineError when the folder
+/// cannot be read; what is found foreign may have handed on files before.
+FolderRecords readFolderRecords(
+  const Folder& folder, const std::string& document = manifestName, const ForListed& visit = {});
 
 /// Whether nothing stands there but what is left of a run that was killed at its very beginning.
 bool holdsNothing(const std::string& folder);
@@ -43,6 +55,8 @@ FolderContents contentsOf(const Folder& folder, const FolderRecords& records, co
 std::string journalFirstLine(const std::string& requestHash);
 std::string journalLine(const DatasetFile& file); ///< of a file that is whole
 std::string journalPlan(const std::string& name); ///< of one that is going to be written
+/// What one of them says, without its line feed and not the first one; none for a torn line.
+std::optional<DatasetFile> readJournalLine(const std::string& line);
 
 } // namespace dgtk
 

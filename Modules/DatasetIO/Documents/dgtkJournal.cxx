@@ -7,15 +7,17 @@
 #include "dgtkHash.h"
 #include "dgtkSystem.h"
 #include "dgtkThreadPool.h"
+#include "dgtkWayCheck.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <map>
 #include <mutex>
 
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 namespace dgtk
 {
@@ -64,50 +66,17 @@ void refuseIfNeeded(
   }
 }
 
-[[noreturn]] void inTheWay(const Folder& folder, const std::string& name, const char* what)
-{
-  throw UsageError(folder.pathOf(name) + ": " + what + "; name another folder, or take it away");
-}
-
-/// A file of a run or of its predecessor is reached without links, and not a folder.
-void checkFile(const Folder& folder, const std::string& name, EntryKind kind)
-{
-  if (kind == EntryKind::Blocked)
-  {
-    inTheWay(folder, name, "a link or a file stands where a folder of the dataset has to be");
-  }
-  if (kind == EntryKind::Folder)
-  {
-    inTheWay(folder, name, "a folder stands where a file of the dataset has to be");
-  }
-}
-
-constexpr const char* nobodys = "is in the way, and no run has written it";
-
 /// Before anything is changed.
-void checkNames(const Folder& folder, const FolderRecords& before, const std::vector<std::string>& names)
+void checkNames(const Folder& folder, const std::string& document, const NameTable& listed, const ForNames& names)
 {
   if (holdsNothing(folder.path()))
   {
     return;
   }
-  std::set<std::string> all = before.names;
-  all.insert(names.begin(), names.end());
-  std::set<std::string> partial;
-  for (const std::string& name : all)
-  {
-    partial.insert(partialName(name));
-  }
-  folder.look(all,
-    [&](const std::string& name, EntryKind kind)
-    {
-      checkFile(folder, name, kind);
-      if (kind != EntryKind::Nothing && before.names.count(name) == 0)
-      {
-        inTheWay(folder, name, nobodys);
-      }
-    });
-  folder.look(partial, [&](const std::string& name, EntryKind kind) { checkFile(folder, name, kind); });
+  WayCheck check(folder, listed);
+  readFolderRecords(folder, document, [&](DatasetFile&& file, ListedIn) { check.add(file.path); });
+  names([&](const std::string& name) { check.add(name); });
+  check.finish();
 }
 
 bool isSameFile(const FileDescriptor& a, const FileDescriptor& b)
@@ -119,15 +88,64 @@ bool isSameFile(const FileDescriptor& a, const FileDescriptor& b)
 }
 } // namespace
 
+namespace
+{
+/// A journal while it is written anew.
+class JournalText
+{
+public:
+  explicit JournalText(const FileDescriptor& file)
+    : File(file)
+  {
+  }
+  std::uint64_t size() const { return this->Size; }
+  void add(const std::string& line)
+  {
+    this->Waiting += line;
+    this->Size += line.size();
+    if (this->Waiting.size() > blockBytes)
+    {
+      this->flush();
+    }
+  }
+  /// False, with errno, when the system refused any of it.
+  bool flush()
+  {
+    if (this->Reason == 0 && !writeAll(this->File.number(), this->Waiting.data(), this->Waiting.size()))
+    {
+      this->Reason = errno;
+    }
+    this->Waiting.clear();
+    errno = this->Reason;
+    return this->Reason == 0;
+  }
+
+private:
+  static constexpr std::size_t blockBytes = std::size_t(1) << 16;
+  const FileDescriptor& File;
+  std::string Waiting;
+  std::uint64_t Size = 0;
+  int Reason = 0; ///< errno of the first refusal
+};
+
+/// What the numbers of a table of names say: where the file's line is in the journal, and whether it is finished.
+struct LinePlace
+{
+  std::uint64_t offset = 0; ///< never 0: the first line is the request's
+  bool finished = false;
+  static LinePlace of(std::uint64_t number) { return { number >> 1, (number & 1) != 0 }; }
+  std::uint64_t number() const { return this->offset << 1 | (this->finished ? 1 : 0); }
+};
+} // namespace
+
 struct Journal::Impl
 {
   Folder folder;
   std::string document;
   FileDescriptor descriptor;
   std::mutex mutex;
-  std::vector<DatasetFile> finished;
-  std::map<std::string, std::size_t> byPath;
-  std::set<std::string> before; ///< names that a run that is resumed has announced
+  NameTable listed; ///< files of a run that is resumed, finished ones and such as it has announced; LinePlaces
+  std::size_t finished = 0;
 
   Impl(const std::string& path, const std::string& last)
     : folder(path)
@@ -138,6 +156,11 @@ struct Journal::Impl
   [[noreturn]] void fail() const
   {
     throw MachineError(this->folder.pathOf(journalName) + ": cannot be written: " + std::strerror(errno));
+  }
+
+  [[noreturn]] void failChanged() const
+  {
+    throw MachineError(this->folder.path() + ": somebody has changed what it lists while it was read");
   }
 
   void append(const std::string& text)
@@ -174,13 +197,29 @@ struct Journal::Impl
     } while (!same || !isSameFile(this->descriptor, same));
   }
 
+  /// What manifest and journal say, and the table of the files that they list.
+  FolderRecords read()
+  {
+    this->listed = NameTable();
+    FolderRecords records = readFolderRecords(
+      this->folder, this->document, [&](DatasetFile&& file, ListedIn) { this->listed.add(file.path); });
+    this->listed.finish();
+    return records;
+  }
+
   /// A new journal in place of the old one, at once and under the lock.
-  void rewrite(const std::string& text)
+  void rewrite(const std::function<void(JournalText& text)>& write)
   {
     const std::string partial = partialName(journalName);
     this->folder.remove(partial);
     FileDescriptor next = this->folder.open(partial, O_RDWR | O_CREAT | O_EXCL | O_APPEND);
-    if (!next || this->isLocked(next) || !writeAll(next.number(), text.data(), text.size()))
+    if (!next || this->isLocked(next))
+    {
+      this->fail();
+    }
+    JournalText text(next);
+    write(text);
+    if (!text.flush())
     {
       this->fail();
     }
@@ -188,54 +227,103 @@ struct Journal::Impl
     this->descriptor = std::move(next);
   }
 
-  void takeOver(const FolderRecords& records)
+  void record(const DatasetFile& file, bool whole, JournalText& text)
   {
-    // A crash of the machine may leave a file with its name and size, and without its contents.
-    std::vector<char> whole(records.finished.size(), 0);
-    ThreadPool pool(machineThreads());
-    pool.parallelFor(static_cast<int>(whole.size()),
-      [&](int i) { whole[std::size_t(i)] = isWhole(this->folder, records.finished[std::size_t(i)]) ? 1 : 0; });
-    for (std::size_t i = 0; i < whole.size(); ++i)
+    std::uint64_t* number = this->listed.numberOf(file.path);
+    if (!number)
     {
-      const DatasetFile& file = records.finished[i];
-      if (whole[i] && this->byPath.emplace(file.path, this->finished.size()).second)
-      {
-        this->finished.push_back(file);
-      }
+      this->failChanged();
     }
-    for (const std::string& name : records.names)
+    if (*number == 0 || (whole && !LinePlace::of(*number).finished))
     {
-      this->folder.remove(partialName(name));
+      *number = LinePlace{ text.size(), whole }.number();
+      this->finished += whole ? 1 : 0;
+      text.add(whole ? journalLine(file) : journalPlan(file.path));
     }
-    this->before = records.names;
   }
 
-  void removeFiles(const std::set<std::string>& names)
+  /// A crash of the machine may leave a file with its name and size, and without its contents.
+  void recordWhole(std::vector<DatasetFile>& files, JournalText& text)
   {
-    for (const std::string& name : names)
+    std::vector<char> whole(files.size(), 0);
+    ThreadPool pool(machineThreads());
+    pool.parallelFor(static_cast<int>(files.size()),
+      [&](int i) { whole[std::size_t(i)] = isWhole(this->folder, files[std::size_t(i)]) ? 1 : 0; });
+    for (std::size_t i = 0; i < files.size(); ++i)
     {
-      this->folder.remove(name);
-      this->folder.remove(partialName(name));
-      this->folder.removeEmptyParents(name);
+      this->record(files[i], whole[i] != 0, text);
     }
+    files.clear();
+  }
+
+  /// The journal of this request with all files that are listed; finished ones stay so if they are `kept`.
+  void begin(const std::string& requestHash, const FolderRecords& records, bool kept)
+  {
+    constexpr std::size_t together = 4096;
+    this->rewrite(
+      [&](JournalText& text)
+      {
+        text.add(journalFirstLine(requestHash));
+        std::vector<DatasetFile> waiting;
+        const FolderRecords again = readFolderRecords(this->folder, this->document,
+          [&](DatasetFile&& file, ListedIn where)
+          {
+            if (kept)
+            {
+              this->folder.remove(partialName(file.path));
+            }
+            if (!kept || file.sha256.empty() || (where == ListedIn::Document && !records.whole))
+            {
+              this->record(file, false, text);
+              return;
+            }
+            waiting.push_back(std::move(file));
+            if (waiting.size() == together)
+            {
+              this->recordWhole(waiting, text);
+            }
+          });
+        this->recordWhole(waiting, text);
+        if (!again.foreign.empty() || again.requestHash != records.requestHash)
+        {
+          this->failChanged();
+        }
+      });
+  }
+
+  /// What the journal lists.
+  void removeFiles()
+  {
+    readFolderRecords(this->folder, this->document,
+      [this](DatasetFile&& file, ListedIn)
+      {
+        this->folder.remove(file.path);
+        this->folder.remove(partialName(file.path));
+        this->folder.removeEmptyParents(file.path);
+      });
+  }
+
+  /// The line that begins there.
+  std::string lineAt(std::uint64_t offset) const
+  {
+    std::string line;
+    char block[512];
+    for (ssize_t got;
+         (got = ::pread(this->descriptor.number(), block, sizeof block, static_cast<off_t>(offset + line.size()))) > 0;)
+    {
+      const char* end = std::find(block, block + got, '\n');
+      line.append(block, std::size_t(end - block));
+      if (end != block + got)
+      {
+        return line;
+      }
+    }
+    throw MachineError(this->folder.pathOf(journalName) + ": cannot be read back");
   }
 };
 
-namespace
-{
-std::string planOf(const std::set<std::string>& names)
-{
-  std::string text;
-  for (const std::string& name : names)
-  {
-    text += journalPlan(name);
-  }
-  return text;
-}
-} // namespace
-
-Journal::Journal(const std::string& path, const std::string& requestHash, JournalStart start,
-  const std::vector<std::string>& names, const std::string& document)
+Journal::Journal(const std::string& path, const std::string& requestHash, JournalStart start, const ForNames& names,
+  const std::string& document)
   : Self(new Impl(path, document))
 {
   makeFolders(path);
@@ -245,41 +333,46 @@ Journal::Journal(const std::string& path, const std::string& requestHash, Journa
     throw FolderError(path, FolderContents::Running);
   }
   // once without the lock, so that a refusal leaves no trace, and once with it
-  FolderRecords before = readFolderRecords(folder, document);
+  FolderRecords before = this->Self->read();
   refuseIfNeeded(path, before, contentsOf(folder, before, requestHash), start);
-  checkNames(folder, before, names);
+  checkNames(folder, document, this->Self->listed, names);
   this->Self->lock();
-  before = readFolderRecords(folder, document);
+  before = this->Self->read();
   const FolderContents contents = contentsOf(folder, before, requestHash);
   refuseIfNeeded(path, before, contents, start);
   const bool resumes = start == JournalStart::Resume && contents != FolderContents::Nothing;
-  if (resumes)
-  {
-    this->Self->takeOver(before);
-  }
-  std::string text = journalFirstLine(requestHash) + planOf(before.names);
-  for (const DatasetFile& file : this->Self->finished)
-  {
-    text += journalLine(file);
-  }
-  this->Self->rewrite(text);
+  this->Self->begin(requestHash, before, resumes);
   folder.remove(document);
-  if (!resumes && !before.names.empty())
+  if (!resumes && before.names)
   {
     // killed in between, everything is in the journal still
-    this->Self->removeFiles(before.names);
-    this->Self->rewrite(journalFirstLine(requestHash));
+    this->Self->removeFiles();
+    this->Self->listed = NameTable();
+    this->Self->rewrite([&](JournalText& text) { text.add(journalFirstLine(requestHash)); });
   }
+}
+
+Journal::Journal(
+  const std::string& path, const std::string& requestHash, JournalStart start, const std::vector<std::string>& names)
+  : Journal(path, requestHash, start,
+      [&](const std::function<void(const std::string&)>& visit) { std::for_each(names.begin(), names.end(), visit); })
+{
 }
 
 Journal::~Journal() = default;
 
-const std::vector<DatasetFile>& Journal::finished() const { return this->Self->finished; }
+std::size_t Journal::finished() const { return this->Self->finished; }
 
-const DatasetFile* Journal::find(const std::string& path) const
+std::optional<DatasetFile> Journal::find(const std::string& path) const
 {
-  const auto found = this->Self->byPath.find(path);
-  return found == this->Self->byPath.end() ? nullptr : &this->Self->finished[found->second];
+  const NameTable& listed = this->Self->listed;
+  const std::uint64_t* number = listed.numberOf(path);
+  if (!number || !LinePlace::of(*number).finished)
+  {
+    return std::nullopt;
+  }
+  std::optional<DatasetFile> file = readJournalLine(this->Self->lineAt(LinePlace::of(*number).offset));
+  return file && file->path == path ? file : std::nullopt;
 }
 
 void Journal::plan(const std::vector<std::string>& names)
@@ -295,12 +388,9 @@ void Journal::plan(const std::vector<std::string>& names)
 
 void Journal::planLate(const std::string& name)
 {
-  const EntryKind kind = this->Self->folder.look(name);
-  checkFile(this->Self->folder, name, kind);
-  if (kind != EntryKind::Nothing && this->Self->before.count(name) == 0)
-  {
-    inTheWay(this->Self->folder, name, nobodys);
-  }
+  WayCheck check(this->Self->folder, this->Self->listed);
+  check.add(name);
+  check.finish();
   this->plan({ name });
 }
 

@@ -7,9 +7,11 @@
 #include "dgtkDatasetDocuments.h"
 #include "dgtkFile.h"
 #include "dgtkFolderContents.h"
+#include "dgtkNameTable.h"
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,16 +60,20 @@ public:
   /// that neither manifest nor journal lists, or a link in place of a folder, is a UsageError before anything is
   /// changed. Throws MachineError when the folder cannot be made or written.
   /// `document`: the name of the one that a whole run ends with, manifestName or exportName.
+  /// Memory: 24 bytes a file that is listed.
+  Journal(const std::string& folder, const std::string& requestHash, JournalStart start, const ForNames& names,
+    const std::string& document = manifestName);
   Journal(const std::string& folder, const std::string& requestHash, JournalStart start,
-    const std::vector<std::string>& names = {}, const std::string& document = manifestName);
+    const std::vector<std::string>& names = {});
   ~Journal(); ///< keeps the journal for a later resume
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// Files taken over from the interrupted run, in the order in which they were finished.
-  const std::vector<DatasetFile>& finished() const;
-  /// The file taken over from the interrupted run, or null. `path` is relative to the folder.
-  const DatasetFile* find(const std::string& path) const;
+  /// How many files are taken over from the interrupted run.
+  std::size_t finished() const;
+  /// A file taken over from the interrupted run; none for another one. `path` is relative to the folder. May be called
+  /// from any thread. Throws MachineError.
+  std::optional<DatasetFile> find(const std::string& path) const;
 
   /// Records files that are going to be written; to be called before they are. May be called from any thread. Throws
   /// MachineError.

@@ -5,6 +5,7 @@
 #include "dgtkDatasetIOModule.h"
 
 #include "dgtkDatasetDocuments.h"
+#include "dgtkExportDocument.h"
 
 #include <cstdint>
 #include <functional>
@@ -25,6 +26,13 @@ DGTKDATASETIO_EXPORT Manifest readManifestIn(
 DGTKDATASETIO_EXPORT Manifest readManifest(const std::string& path, const std::function<void(DatasetFile&&)>& visit);
 DGTKDATASETIO_EXPORT void readCameras(const std::string& path, const std::function<void(CameraRecord&&)>& visit);
 DGTKDATASETIO_EXPORT void readPoses(const std::string& path, const std::function<void(PoseRecord&&)>& visit);
+
+/// export.json; what is returned has neither names nor files. An error may come behind files that were handed on.
+DGTKDATASETIO_EXPORT ExportRecord readExport(const std::string& path,
+  const std::function<void(ExportedName&&)>& visitName, const std::function<void(ExportedFile&&)>& visitFile);
+/// The record in a folder, as readExportIn() reads it.
+DGTKDATASETIO_EXPORT ExportRecord readExportIn(const std::string& folder,
+  const std::function<void(ExportedName&&)>& visitName, const std::function<void(ExportedFile&&)>& visitFile);
 
 /// Finds the poses of a frame in poses.json, which stays on the disk. Every function may be called from any thread.
 class DGTKDATASETIO_EXPORT PoseIndex

@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
+#include "dgtkHash.h"
 #include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
@@ -62,7 +63,7 @@ TEST(Journal, ResumesWhatWasFinished)
   const std::string dir = folder.path("new/data");
   {
     Journal journal(dir, "one", fresh);
-    EXPECT_TRUE(journal.finished().empty());
+    EXPECT_EQ(journal.finished(), 0u);
     addFile(journal, dir, "a/depth/000000.npy", "first");
     addFile(journal, dir, "a/depth/000001.npy", "second");
     addFile(journal, dir, "a/depth/000002.npy", "third");
@@ -72,8 +73,8 @@ TEST(Journal, ResumesWhatWasFinished)
   writeFile(dir + "/a/depth/000001.npy", "other size");
   std::ofstream(dir + "/" + journalName, std::ios::app) << "deadbeef\t5\t3\tdep"; // a torn line
   Journal journal(dir, "one", resume);
-  ASSERT_EQ(journal.finished().size(), 2u);
-  const DatasetFile* file = journal.find("a/depth/000002.npy");
+  ASSERT_EQ(journal.finished(), 2u);
+  const std::optional<DatasetFile> file = journal.find("a/depth/000002.npy");
   ASSERT_TRUE(file);
   EXPECT_EQ(file->bytes, 5u);
   EXPECT_EQ(file->layer, "depth");
@@ -94,7 +95,106 @@ TEST(Journal, ResumesTwice)
     Journal journal(folder.path(), "one", resume);
     addFile(journal, folder.path(), "b", "22");
   }
-  EXPECT_EQ(Journal(folder.path(), "one", resume).finished().size(), 2u);
+  EXPECT_EQ(Journal(folder.path(), "one", resume).finished(), 2u);
+}
+
+TEST(Journal, ResumedAgainAndAgainListsTheSame)
+{
+  const TemporaryFolder folder;
+  const std::string odd = "tab\tand\nline\\feed";
+  {
+    Journal journal(folder.path(), "one", fresh);
+    journal.plan({ odd, "planned", "b" });
+    addFile(journal, folder.path(), odd, "1");
+    addFile(journal, folder.path(), "b", "22");
+  }
+  Journal(folder.path(), "one", resume);
+  const std::string once = contentsOf(folder.path(journalName));
+  const Journal journal(folder.path(), "one", resume);
+  EXPECT_EQ(contentsOf(folder.path(journalName)), once);
+  EXPECT_EQ(journal.finished(), 2u);
+  EXPECT_EQ(journal.find(odd).value().sha256, Sha256::of("1"));
+  EXPECT_EQ(journal.find("b").value().bytes, 2u);
+  EXPECT_FALSE(journal.find("planned"));
+  EXPECT_FALSE(journal.find("nowhere"));
+}
+
+TEST(Journal, AManifestOfAnotherRequestFinishesNothing)
+{
+  const TemporaryFolder folder;
+  finishRun(folder.path(), "a"); // of request "one", as if it had come back beside a journal of "two"
+  const std::string manifest = contentsOf(folder.path(manifestName));
+  {
+    Journal journal(folder.path(), "two", replace);
+    addFile(journal, folder.path(), "b", "2");
+  }
+  writeFile(folder.path(manifestName), manifest);
+  writeFile(folder.path("a"), "1");
+  {
+    const Journal journal(folder.path(), "two", resume);
+    EXPECT_EQ(journal.finished(), 1u);
+    EXPECT_TRUE(journal.find("b"));
+    EXPECT_FALSE(journal.find("a"));
+  }
+  const Journal journal(folder.path(), "three", replace); // both list what goes
+  EXPECT_FALSE(fs::exists(folder.path("a")));
+  EXPECT_FALSE(fs::exists(folder.path("b")));
+}
+
+TEST(Journal, ManyFilesAreKeptOrRemoved)
+{
+  const TemporaryFolder folder;
+  constexpr int files = 9000; // more than are looked at together
+  const auto name = [](int i) { return "f/" + std::to_string(i); };
+  std::string lines = "DGTk journal 1 one\n";
+  makeFolders(folder.path("f"));
+  for (int i = 0; i < files; ++i)
+  {
+    writeFile(folder.path(name(i)), std::to_string(i));
+    lines += "planned\t" + name(i) + '\n';
+    lines +=
+      Sha256::of(std::to_string(i)) + '\t' + std::to_string(std::to_string(i).size()) + "\t-1\t\t\t" + name(i) + '\n';
+  }
+  writeFile(folder.path(journalName), lines);
+  writeFile(folder.path(name(7777)), "oops"); // as many bytes
+  writeFile(folder.path(name(files)), "mine");
+  {
+    const Journal journal(folder.path(), "one", resume);
+    EXPECT_EQ(journal.finished(), std::size_t(files - 1));
+    for (int i = 0; i < files; ++i)
+    {
+      const std::optional<DatasetFile> file = journal.find(name(i));
+      ASSERT_EQ(bool(file), i != 7777) << i;
+      ASSERT_EQ(file ? file->sha256 : Sha256::of(std::to_string(i)), Sha256::of(std::to_string(i)));
+    }
+  }
+  const Journal journal(folder.path(), "two", replace);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path("f")), fs::directory_iterator()), 1);
+  EXPECT_EQ(contentsOf(folder.path(name(files))), "mine");
+}
+
+TEST(NameTable, KnowsEachNameOnce)
+{
+  NameTable table;
+  for (const int step : { 1, 3 })
+  {
+    for (int i = 0; i < 30000; i += step)
+    {
+      table.add("camera/depth/" + std::to_string(i) + ".npy");
+    }
+  }
+  table.finish();
+  EXPECT_EQ(table.size(), 30000u);
+  for (int i = 0; i < 30000; ++i)
+  {
+    std::uint64_t* number = table.numberOf("camera/depth/" + std::to_string(i) + ".npy");
+    ASSERT_TRUE(number);
+    ASSERT_EQ(*number, 0u);
+    *number = std::uint64_t(i) + 1;
+  }
+  EXPECT_FALSE(table.has("camera/depth/30000.npy"));
+  EXPECT_FALSE(table.has(""));
+  EXPECT_TRUE(NameTable().empty());
 }
 
 TEST(Journal, ClosedIsAManifestAndNoJournal)
@@ -123,7 +223,7 @@ TEST(Journal, ReplacingRemovesWhatTheOldRunListed)
   writeFile(folder.path("notes.txt.partial"), "mine");
   {
     Journal journal(folder.path(), "two", replace);
-    EXPECT_TRUE(journal.finished().empty());
+    EXPECT_EQ(journal.finished(), 0u);
     EXPECT_FALSE(fs::exists(folder.path("a")));
     journal.plan({ "b/depth/000000.npy", "b/depth/000001.npy", "b/depth/000002.npy" });
     addFile(journal, folder.path(), "b/depth/000000.npy", "1");
@@ -141,7 +241,7 @@ TEST(Journal, TheSameRequestIsMadeAnew)
   const TemporaryFolder folder;
   finishRun(folder.path(), "a");
   const Journal journal(folder.path(), "one", fresh);
-  EXPECT_TRUE(journal.finished().empty());
+  EXPECT_EQ(journal.finished(), 0u);
   EXPECT_FALSE(fs::exists(folder.path("a")));
 }
 

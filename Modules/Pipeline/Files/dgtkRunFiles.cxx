@@ -45,7 +45,7 @@ void RunFiles::add(const std::vector<FinishedFile>& files, const std::string& ca
 bool RunFiles::has(const std::vector<std::string>& names) const
 {
   return std::all_of(
-    names.begin(), names.end(), [this](const std::string& name) { return this->Log.find(name) != nullptr; });
+    names.begin(), names.end(), [this](const std::string& name) { return this->Log.find(name).has_value(); });
 }
 
 bool RunFiles::keep(const std::vector<std::string>& own, const std::vector<std::string>& shared)
