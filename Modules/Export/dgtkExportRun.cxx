@@ -182,21 +182,9 @@ ForNames ExportRun::announced() const
   names.finish();
   if (names.size() != count)
   {
-    this->failTwice(names);
+    throw std::logic_error("an exporter announces a file twice: " + this->Row.info.name);
   }
   return [this](const auto& visit) { this->forNames(visit); };
-}
-
-void ExportRun::failTwice(NameTable& names) const
-{
-  this->forNames(
-    [&](const std::string& name)
-    {
-      if ((*names.numberOf(name))++ != 0)
-      {
-        throw std::logic_error("an exporter announces a file twice: " + name);
-      }
-    });
 }
 
 ExportResult ExportRun::execute()

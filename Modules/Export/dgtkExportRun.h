@@ -49,7 +49,6 @@ private:
   std::string identity() const;
   void forNames(const std::function<void(const std::string&)>& visit) const;
   ForNames announced() const;
-  void failTwice(NameTable& names) const;
   bool isKept(std::size_t item) const;
   void writeItems(const ItemRange& range);
   void write(std::size_t item);

@@ -236,6 +236,24 @@ class Frame(datasets.ExportCase):
         ours = os.stat(os.path.join(dataset, "Kamera 1", "color", "000000.png"))
         self.assertEqual(os.stat(os.path.join(folder, "train", name)).st_ino, ours.st_ino)
 
+    def test_what_an_old_export_lists_and_no_more(self):
+        """Replaced are its files alone; nothing is read, changed or removed through a link that has taken a folder's place."""
+        dataset = self.render(datasets.walk(self.path("scene")))
+        folder, record = self.export(dataset, "coco")
+        again = ("export", dataset, "--format", "coco", "-o", folder, "--quiet", "--replace")
+        self.write(os.path.join(folder, "train", "mine.txt"), "mine")
+        self.dgtk(*again, "--image-format", "jpg")
+        names = sorted(os.listdir(os.path.join(folder, "train")))
+        self.assertEqual([os.path.splitext(name)[1] for name in names], [".jpg"] * 4 + [".txt"])
+        outside = self.path("outside")
+        os.rename(os.path.join(folder, "train"), outside)
+        os.symlink(outside, os.path.join(folder, "train"))
+        for form in ((), ("--image-format", "jpg")):
+            self.refused(*again, *form, status=2, says=("train/", "a link"))
+        self.refused("verify", dataset, "--export", folder, status=3, says=("train/", "link"))
+        self.assertEqual(sorted(os.listdir(outside)), names)
+        self.assertTrue(os.path.exists(os.path.join(folder, "export.json")))
+
     def test_a_changed_dataset_is_not_exported(self):
         dataset = self.render(datasets.walk(self.path("scene")))
         picture = os.path.join(dataset, "Kamera 1", "color", "000001.png")

@@ -110,6 +110,7 @@ TEST(Journal, ResumedAgainAndAgainListsTheSame)
   }
   Journal(folder.path(), "one", resume);
   const std::string once = contentsOf(folder.path(journalName));
+  Journal(folder.path(), "one", resume).plan({ "planned", odd });
   const Journal journal(folder.path(), "one", resume);
   EXPECT_EQ(contentsOf(folder.path(journalName)), once);
   EXPECT_EQ(journal.finished(), 2u);
