@@ -104,6 +104,7 @@ class Stereo(datasets.ExportCase):
     def test_refusals(self):
         walk = self.render(datasets.walk(self.path("walk"), empty=False), "color")
         self.refused("export", walk, "--format", "middlebury", "-o", self.path("no"), status=2, says="lacks layers")
+        self.refused("export", self.dataset, "--format", "middlebury", "-o", self.path("no"), "--image-format", "jpg", status=2, says="PNG")
         self.refused("export", self.dataset, "--format", "eth3d", "-o", self.path("no"), "--cameras", RIGHT, status=2, says="no two cameras")
         self.assertFalse(os.path.exists(self.path("no")))
 
@@ -170,6 +171,8 @@ class Sintel(datasets.ExportCase):
         self.assertEqual(sorted(os.listdir(os.path.join(folder, "training"))),
                          ["camdata_left", "depth", "final", "flow", "invalid", "occlusions", "segmentation"])
         self.refused("export", walk, "--format", "sintel", "-o", self.path("no"), "--frames", "0:2:2", status=2, says="not consecutive")
+        lens = self.render(datasets.twins(self.path("twins")), "color,depth,flow_forward,objects")
+        self.refused("export", lens, "--format", "sintel", "-o", self.path("no"), "--cameras", "fish.auge", status=2, says="not a plain pinhole")
 
 
 class FlyingThings(datasets.ExportCase):

@@ -191,6 +191,10 @@ TEST(DepthSensor, DropOutAtEdgesStaysWithinTheirRadius)
   EXPECT_NEAR(dropped / beside / 0.4, 1, onePercent); // of 800,000 pixels: standard error 0.14 %
   p.dropout.edgeJump = 0.3;
   EXPECT_EQ(validPart(measure(setupOf(p), steps)), 1);
+  const auto far = [&](int x, int y) { return 10 * steps(x, y); };
+  EXPECT_EQ(validPart(measure(setupOf(p), far)), 1) << "a jump is a part of the depth";
+  p.dropout.edgeJump = 0.1;
+  EXPECT_LT(validPart(measure(setupOf(p), far)), 1);
 }
 
 TEST(DepthSensor, WhatTheSecondViewpointCannotSeeDropsOut)

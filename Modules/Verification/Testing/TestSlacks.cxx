@@ -432,6 +432,26 @@ TEST(Slacks, FarCameras)
   EXPECT_EQ(eye.farness(-5), 10);
 }
 
+/// Pixels that a small angle is worth: of a parallel projection, that a part of the depth is.
+TEST(Slacks, ReachesOfCameras)
+{
+  CameraRecord record;
+  record.width = 64;
+  record.height = 48;
+  record.K << 80, 0, 30, 0, 40, 25, 0, 0, 1;
+  record.near = 1;
+  record.far = 9;
+  const Vector3d x(0, 0, 5);
+  const auto reach = [&](const char* model)
+  {
+    record.model = model;
+    return Eye(record, nullptr).reach(0.5, x);
+  };
+  EXPECT_EQ(reach("pinhole"), Vector2d(40, 20));
+  EXPECT_EQ(reach("orthographic"), Vector2d(200, 100));
+  EXPECT_EQ(reach("fisheye"), Vector2d(40, 24)) << "at least that of the picture's size";
+}
+
 /// Either side of the seam of a picture of all directions is one place.
 TEST(Slacks, SeamsOfLenses)
 {
