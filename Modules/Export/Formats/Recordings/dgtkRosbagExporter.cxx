@@ -39,7 +39,7 @@ std::string timeField(const std::string& name, std::uint64_t nanoseconds)
   return all;
 }
 
-enum class Op : std::uint8_t
+enum class BagOp : std::uint8_t
 {
   Message = 2,
   BagHeader = 3,
@@ -50,7 +50,7 @@ enum class Op : std::uint8_t
 };
 
 /// A record up to its data.
-std::string head(Op op, const std::string& fields, std::uint64_t dataBytes)
+std::string bagHead(BagOp op, const std::string& fields, std::uint64_t dataBytes)
 {
   std::string all;
   ros::putText(all, field("op", static_cast<std::uint8_t>(op)) + fields);
@@ -58,9 +58,9 @@ std::string head(Op op, const std::string& fields, std::uint64_t dataBytes)
   return all;
 }
 
-std::string record(Op op, const std::string& fields, const std::string& data)
+std::string record(BagOp op, const std::string& fields, const std::string& data)
 {
-  return head(op, fields, data.size()) + data;
+  return bagHead(op, fields, data.size()) + data;
 }
 
 std::uint32_t connectionOf(std::size_t topic) { return static_cast<std::uint32_t>(topic); }
@@ -70,7 +70,7 @@ std::string connectionRecord(const ros::Recording& recording, std::size_t topic)
   const ros::Topic& one = recording.topics()[topic];
   const std::string data = textField("topic", one.name) + textField("type", one.type->name) +
                            textField("md5sum", one.type->md5) + textField("message_definition", one.type->definition);
-  return record(Op::Connection, field("conn", connectionOf(topic)) + textField("topic", one.name), data);
+  return record(BagOp::Connection, field("conn", connectionOf(topic)) + textField("topic", one.name), data);
 }
 
 /// The bag and its length.
@@ -114,12 +114,14 @@ ChunkPlace putChunk(
   {
     std::string before = known.insert(message.topic).second ? connectionRecord(recording, message.topic) : "";
     offsets.push_back(static_cast<std::uint32_t>(size + before.size()));
-    before += head(Op::Message, field("conn", connectionOf(message.topic)) + timeField("time", time), message.bytes());
+    before +=
+      bagHead(BagOp::Message, field("conn", connectionOf(message.topic)) + timeField("time", time), message.bytes());
     size += before.size() + message.bytes();
     heads.push_back(before);
     place.connections.push_back(connectionOf(message.topic));
   }
-  bag.put(head(Op::Chunk, textField("compression", "none") + field("size", static_cast<std::uint32_t>(size)), size));
+  bag.put(
+    bagHead(BagOp::Chunk, textField("compression", "none") + field("size", static_cast<std::uint32_t>(size)), size));
   for (std::size_t i = 0; i < messages.size(); ++i)
   {
     bag.put(heads[i] + messages[i].head);
@@ -130,7 +132,7 @@ ChunkPlace putChunk(
     std::string entry;
     ros::putTime(entry, time);
     putLittle(entry, offsets[i]);
-    bag.put(record(Op::Index,
+    bag.put(record(BagOp::Index,
       field("ver", std::uint32_t(1)) + field("conn", connectionOf(messages[i].topic)) +
         field("count", std::uint32_t(1)),
       entry));
@@ -144,8 +146,8 @@ std::string bagHeader(const ros::Recording& recording, std::uint64_t index)
   const std::string fields = field("index_pos", index) +
                              field("conn_count", static_cast<std::uint32_t>(recording.topics().size())) +
                              field("chunk_count", static_cast<std::uint32_t>(recording.shots().size()));
-  const std::size_t used = head(Op::BagHeader, fields, 0).size();
-  return record(Op::BagHeader, fields, std::string(bagHeaderBytes - used, ' '));
+  const std::size_t used = bagHead(BagOp::BagHeader, fields, 0).size();
+  return record(BagOp::BagHeader, fields, std::string(bagHeaderBytes - used, ' '));
 }
 
 /// Chunks and index behind the first record; returns where the index begins.
@@ -171,7 +173,7 @@ std::uint64_t putBag(BagText& bag, const ros::Recording& recording, ExportSink& 
       putLittle(counts, connection);
       putLittle(counts, std::uint32_t(1));
     }
-    bag.put(record(Op::ChunkInfo,
+    bag.put(record(BagOp::ChunkInfo,
       field("ver", std::uint32_t(1)) + field("chunk_pos", place.position) + timeField("start_time", place.time) +
         timeField("end_time", place.time) + field("count", static_cast<std::uint32_t>(place.connections.size())),
       counts));
