@@ -153,7 +153,7 @@ TEST_P(LdiScenes, HaveTheSurfacesThatEmbreeMeets)
   }
   std::printf(
     "%s, frame %d: %d pixels, %ld surfaces, at most %ld in a pixel; unlike Embree's at %ld pixels on an edge, "
-    "%ld with ldiCoincident surfaces, %ld others\n",
+    "%ld with coincident surfaces, %ld others\n",
     GetParam().scene, GetParam().frame, ldiWidth * ldiHeight, layers, deepest, onEdge, onCoincident, wrong);
   EXPECT_EQ(wrong, 0);
   EXPECT_GT(layers, ldiWidth * ldiHeight / 2);

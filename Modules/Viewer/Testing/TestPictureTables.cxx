@@ -83,7 +83,7 @@ TEST(PictureTables, Depth)
               { infinite }, { 4 }),
     R"(
 2 metre #faf5aa #bf4555
-infinite #28282c #28282c
+inf #28282c #28282c
 4 metre #4e1d66 #4e1d66
 ramp 2 to 4 of 2 to 4 logarithmic [metre])");
 }
@@ -94,7 +94,7 @@ TEST(PictureTables, Distance)
               { infinite }, { 0.1 }),
     R"(
 2 metre #4e1d66 #bf4555
-infinite #28282c #28282c
+inf #28282c #28282c
 0.1 metre #faf5aa #faf5aa
 ramp 0.10000000149011612 to 2 of 0.10000000149011612 to 2 logarithmic [metre])");
 }
@@ -116,7 +116,7 @@ TEST(PictureTables, Normals)
               { notANumber, notANumber, notANumber }, { 1, -0.5, 0.25 }),
     R"(
 (0, 0, -1) #8080ff #8080ff
-(notANumber, notANumber, notANumber) #28282c #28282c
+(nan, nan, nan) #28282c #28282c
 (1, -0.5, 0.25) #ffbf60 #ffbf60
 axes: red right, green up, blue towards the camera)");
 }
@@ -127,7 +127,7 @@ TEST(PictureTables, TextureCoordinates)
               { 1.25, -0.25 }, { notANumber, notANumber }, { 0.5, 0.75 }),
     R"(
 (1.25, -0.25) #40bf40 #40bf40
-(notANumber, notANumber) #28282c #28282c
+(nan, nan) #28282c #28282c
 (0.5, 0.75) #80bf40 #80bf40
 axes: red u, green v, without whole numbers)");
 }
@@ -138,7 +138,7 @@ TEST(PictureTables, Positions)
               { 1, 2, 3 }, { notANumber, notANumber, notANumber }, { 5, 4, 3.5 }),
     R"(
 (1, 2, 3) metre #000000 #000000
-(notANumber, notANumber, notANumber) #28282c #28282c
+(nan, nan, nan) #28282c #28282c
 (5, 4, 3.5) metre #ffffff #ffffff
 axes [metre]: red x, green y, blue z, over the range of each)");
 }
@@ -160,7 +160,7 @@ TEST(PictureTables, Flow)
               { 3, 4 }, { notANumber, notANumber }, { 0, -2.5 }),
     R"(
 (3, 4) pixels, 5 long #ffe200 #ffe200
-(notANumber, notANumber) #28282c #28282c
+(nan, nan) #28282c #28282c
 (0, -2.5) pixels, 2.5 long #bf80ff #952aff
 wheel 0 to 5 of 0 to 5 [pixels])");
 }
@@ -183,7 +183,7 @@ TEST(PictureTables, Correspondence)
       "npy", { 3.5, 4.25 }, { notANumber, notANumber }, { 1, 8 }),
     R"(
 (3.5, 4.25) pixels #ff0040 #ff0040
-(notANumber, notANumber) #28282c #28282c
+(nan, nan) #28282c #28282c
 (1, 8) pixels #00ff40 #00ff40
 axes [pixels]: red x, green y, over the range of each)");
 }
@@ -194,7 +194,7 @@ TEST(PictureTables, Disparity)
               { -3 }, { notANumber }, { 2 }),
     R"(
 -3 pixels #4e1d66 #180f3d
-notANumber #28282c #28282c
+nan #28282c #28282c
 2 pixels #faf5aa #dc6042
 ramp -3 to 2 of -3 to 2 [pixels])");
 }
