@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkOption.h"
+#include "dgtkSystem.h"
 #include "dgtkText.h"
 
 #include <algorithm>
@@ -127,6 +128,12 @@ int parseInteger(const std::string& text, const std::string& what, int least, in
 int Arguments::integer(const std::string& name, int least, int most) const
 {
   return parseInteger(this->text(name), name, least, most);
+}
+
+int Arguments::threads() const
+{
+  constexpr int most = 1024;
+  return this->has("--threads") ? this->integer("--threads", 1, most) : machineThreads();
 }
 
 void Arguments::size(const std::string& name, int most, int& width, int& height) const

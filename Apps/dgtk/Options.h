@@ -51,6 +51,7 @@ public:
   std::vector<std::string> all(const std::string& name) const;
   /// An integer in [least, most]; UsageError otherwise.
   int integer(const std::string& name, int least, int most) const;
+  int threads() const; ///< of --threads, else as many as the machine has cores
   /// "WxH", each in [1, most].
   void size(const std::string& name, int most, int& width, int& height) const;
   /// Names, see splitNames().

@@ -4,7 +4,6 @@
 
 #include "dgtkError.h"
 #include "dgtkReport.h"
-#include "dgtkSystem.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -14,7 +13,6 @@ namespace dgtk::app
 
 namespace
 {
-constexpr int mostThreads = 1024;
 constexpr int mostPictures = 1 << 30;
 
 std::size_t countOf(const Arguments& arguments, const std::string& name)
@@ -35,7 +33,7 @@ int runReport(const Arguments& arguments)
   request.read = countOf(arguments, "--read");
   request.read = request.read == 0 ? 0 : std::max(request.read, request.shown);
   request.seed = std::uint64_t(arguments.integer("--seed", 0, mostPictures));
-  request.threads = arguments.has("--threads") ? arguments.integer("--threads", 1, mostThreads) : machineThreads();
+  request.threads = arguments.threads();
   request.verification = arguments.text("--verification");
   request.exports = arguments.all("--export");
   request.samples = arguments.text("--samples");

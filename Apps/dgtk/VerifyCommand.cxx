@@ -5,7 +5,6 @@
 #include "dgtkFile.h"
 #include "dgtkJson.h"
 #include "dgtkSceneFolders.h"
-#include "dgtkSystem.h"
 #include "dgtkUtf8.h"
 #include "dgtkVerificationCalls.h"
 
@@ -17,8 +16,6 @@ namespace dgtk::app
 
 namespace
 {
-constexpr int mostVerifyThreads = 1024;
-
 /// Every dataset of a folder of datasets: a line each, and the table of those with a breach.
 int verifyScenes(const std::string& folder, const std::vector<std::string>& scenes, int threads,
   const std::vector<std::string>& checks, bool json)
@@ -57,8 +54,7 @@ int runVerify(const Arguments& arguments)
   {
     folder.pop_back();
   }
-  const int threads =
-    arguments.has("--threads") ? arguments.integer("--threads", 1, mostVerifyThreads) : machineThreads();
+  const int threads = arguments.threads();
   const bool samples = verification().isSampleFolder(folder);
   if (samples && (arguments.has("--check") || arguments.has("--export")))
   {

@@ -86,10 +86,7 @@ bool isSameFile(const FileDescriptor& a, const FileDescriptor& b)
   return ::fstat(a.number(), &one) == 0 && ::fstat(b.number(), &two) == 0 && one.st_dev == two.st_dev &&
          one.st_ino == two.st_ino;
 }
-} // namespace
 
-namespace
-{
 /// A journal while it is written anew.
 class JournalText
 {

@@ -25,7 +25,6 @@ public:
   /// Behind the last add(); what follows may be called from any thread but for the numbers.
   void finish();
 
-  bool empty() const { return this->Entries.empty(); }
   std::size_t size() const { return this->Entries.size(); } ///< of names that differ
   bool has(const std::string& name) const { return this->numberOf(name) != nullptr; }
   /// Null for a name that was not added.
