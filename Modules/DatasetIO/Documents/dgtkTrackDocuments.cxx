@@ -16,7 +16,7 @@ namespace
 constexpr Range aByte{ 0, 255, false, false, "a whole number from 0 to 255" };
 constexpr int numbersOfPlace = 3;
 
-TrackPoint pointOf(const JsonCursor& value)
+TrackPoint trackPointOf(const JsonCursor& value)
 {
   TrackPoint point;
   point.object = idOf(value["object"]);
@@ -61,7 +61,7 @@ std::vector<TrackPoint> readTrackPoints(const std::string& path)
 {
   std::vector<TrackPoint> points;
   const JsonDocument document =
-    readJsonPieces(path, { { "points", [&](const JsonPiece& piece) { points.push_back(pointOf(piece.value)); } } });
+    readJsonPieces(path, { { "points", [&](const JsonPiece& piece) { points.push_back(trackPointOf(piece.value)); } } });
   JsonCursor(document)["points"].listSize();
   return points;
 }

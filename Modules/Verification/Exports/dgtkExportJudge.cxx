@@ -5,18 +5,51 @@
 #include "dgtkFolder.h"
 #include "dgtkHash.h"
 #include "dgtkJournal.h"
+#include "dgtkLongDocuments.h"
 #include "dgtkMasks.h"
 #include "dgtkSceneFolders.h"
 #include "dgtkText.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <tuple>
 
 namespace dgtk
 {
 
 namespace
 {
+/// Pointers to a list's entries in the order of their keys.
+template <typename Entry, typename Key>
+std::vector<const Entry*> sortedBy(const std::vector<Entry>& entries, const Key& key)
+{
+  std::vector<const Entry*> sorted;
+  sorted.reserve(entries.size());
+  for (const Entry& one : entries)
+  {
+    sorted.push_back(&one);
+  }
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const Entry* a, const Entry* b) { return key(*a) < key(*b); });
+  return sorted;
+}
+
+/// The last entry of that key; null for none.
+template <typename Entry, typename Key, typename Wanted>
+const Entry* foundBy(const std::vector<const Entry*>& sorted, const Key& key, const Wanted& wanted)
+{
+  const auto after = std::upper_bound(
+    sorted.begin(), sorted.end(), wanted, [&](const Wanted& value, const Entry* one) { return value < key(*one); });
+  const bool there = after != sorted.begin() && !(key(**std::prev(after)) < wanted);
+  return there ? *std::prev(after) : nullptr;
+}
+
+using Place = std::tuple<const std::string&, const int&>;
+Place placeOf(const ExportedName& name) { return { name.camera, name.frame }; }
+Place placeOf(const CameraRecord& camera) { return { camera.name, camera.frame }; }
+const std::string& nameIn(const ExportedName& name) { return name.name; }
+const std::string& pathIn(const ExportedFile& file) { return file.file.path; }
+
 std::string placeText(const std::string& camera, int frame) { return camera + " at frame " + std::to_string(frame); }
 
 std::string objectText(const std::string& camera, int frame, std::uint32_t object)
@@ -59,42 +92,83 @@ ExportedFrom::ExportedFrom(const std::string& dataset, const std::string& folder
   }
   for (const std::string& part : this->Parts)
   {
+    this->addCameras(part);
+  }
+  std::stable_sort(this->Cameras.begin(), this->Cameras.end(),
+    [](const CameraRecord& a, const CameraRecord& b) { return placeOf(a) < placeOf(b); });
+  for (const std::string& part : this->Parts)
+  {
     this->addPart(part);
   }
-  for (const ExportedName& name : this->Record.names)
-  {
-    this->ByPlace[{ name.camera, name.frame }] = &name;
-    this->ByName[name.name] = &name;
-  }
-  for (const DatasetFile& file : this->TheManifest.files)
-  {
-    this->Files[{ file.camera, file.frame, file.layer }].push_back(file.path);
-  }
+  this->Files.finish();
+  this->ByPlace = sortedBy(this->Record.names, [](const ExportedName& name) { return placeOf(name); });
+  this->ByName = sortedBy(this->Record.names, &nameIn);
+  this->ByPath = sortedBy(this->Record.files, &pathIn);
+}
+
+void ExportedFrom::addCameras(const std::string& part)
+{
+  readCameras(dgtk::Folder(this->DatasetFolder + '/' + part).fileAt("cameras.json"),
+    [&](CameraRecord&& camera)
+    {
+      camera.name = part + camera.name;
+      this->Cameras.push_back(std::move(camera));
+    });
 }
 
 void ExportedFrom::addPart(const std::string& part)
 {
   const std::string folder = this->DatasetFolder + '/' + part;
-  const dgtk::Folder place(folder);
-  Manifest manifest = readManifestIn(folder);
-  for (CameraRecord& camera : readCameras(place.fileAt("cameras.json")))
-  {
-    camera.name = part + camera.name;
-    this->Cameras.emplace(std::make_pair(camera.name, camera.frame), camera);
-  }
-  this->Objects[part] = readObjects(place.fileAt("objects.json"));
-  std::vector<DatasetFile> files = std::move(this->TheManifest.files);
-  for (DatasetFile& file : manifest.files)
-  {
-    file.path = part + file.path;
-    file.camera = file.camera.empty() ? file.camera : part + file.camera;
-    files.push_back(std::move(file));
-  }
+  this->Objects[part] = readObjects(dgtk::Folder(folder).fileAt("objects.json"));
+  Manifest manifest = readManifestIn(folder,
+    [&](DatasetFile&& file)
+    {
+      file.path = part + file.path;
+      file.camera = file.camera.empty() ? file.camera : part + file.camera;
+      this->Files.add(file, this->shotOf(file.camera, file.frame));
+    });
   if (part == this->Parts[0])
   {
     this->TheManifest = std::move(manifest);
   }
-  this->TheManifest.files = std::move(files);
+}
+
+std::uint32_t ExportedFrom::shotOf(const std::string& camera, int frame) const
+{
+  const CameraRecord* const record = this->camera(camera, frame);
+  return record ? std::uint32_t(record - this->Cameras.data()) : FileTable::noShot;
+}
+
+std::optional<DatasetFile> ExportedFrom::listed(const std::string& path) const
+{
+  const std::optional<std::uint32_t> number = this->Files.find(path);
+  return number ? std::optional<DatasetFile>(this->fileAt(*number)) : std::nullopt;
+}
+
+DatasetFile ExportedFrom::fileAt(std::uint32_t number) const
+{
+  DatasetFile file = this->Files.at(number);
+  if (const std::uint32_t shot = this->Files.shotOf(number); shot != FileTable::noShot)
+  {
+    file.camera = this->Cameras[shot].name;
+    file.frame = this->Cameras[shot].frame;
+  }
+  return file;
+}
+
+std::vector<DatasetFile> ExportedFrom::filesOf(const std::string& camera, int frame) const
+{
+  std::vector<DatasetFile> files;
+  for (const std::uint32_t number : this->Files.ofShot(this->shotOf(camera, frame)))
+  {
+    files.push_back(this->fileAt(number));
+  }
+  return files;
+}
+
+const ExportedFile* ExportedFrom::exported(const std::string& name) const
+{
+  return foundBy(this->ByPath, &pathIn, name);
 }
 
 std::string ExportedFrom::partOf(const std::string& camera) const
@@ -111,20 +185,18 @@ std::string ExportedFrom::convention(const std::string& key) const
 
 const ExportedName* ExportedFrom::nameOf(const std::string& camera, int frame) const
 {
-  const auto found = this->ByPlace.find({ camera, frame });
-  return found == this->ByPlace.end() ? nullptr : found->second;
+  return foundBy(
+    this->ByPlace, [](const ExportedName& name) { return placeOf(name); }, Place(camera, frame));
 }
 
-const ExportedName* ExportedFrom::named(const std::string& name) const
-{
-  const auto found = this->ByName.find(name);
-  return found == this->ByName.end() ? nullptr : found->second;
-}
+const ExportedName* ExportedFrom::named(const std::string& name) const { return foundBy(this->ByName, &nameIn, name); }
 
 const CameraRecord* ExportedFrom::camera(const std::string& name, int frame) const
 {
-  const auto found = this->Cameras.find({ name, frame });
-  return found == this->Cameras.end() ? nullptr : &found->second;
+  const Place wanted(name, frame);
+  const auto found = std::lower_bound(this->Cameras.begin(), this->Cameras.end(), wanted,
+    [](const CameraRecord& one, const Place& place) { return placeOf(one) < place; });
+  return found == this->Cameras.end() || wanted < placeOf(*found) ? nullptr : &*found;
 }
 
 const ObjectRecord* ExportedFrom::object(const std::string& camera, std::uint32_t id) const
@@ -155,16 +227,12 @@ std::string ExportedFrom::file(
   const std::string& camera, int frame, const std::string& layer, const std::vector<std::string>& extensions) const
 {
   static const std::vector<std::string> usual{ "npy", "dgd", "exr", "pfm", "flo", "png", "ppm", "json" };
-  const auto found = this->Files.find({ camera, frame, layer });
-  if (found == this->Files.end())
-  {
-    return {};
-  }
+  const std::vector<std::uint32_t> files = this->Files.ofShot(this->shotOf(camera, frame), layer);
   for (const std::string& extension : extensions.empty() ? usual : extensions)
   {
-    for (const std::string& path : found->second)
+    for (const std::uint32_t number : files)
     {
-      if (extensionOf(path) == extension)
+      if (std::string path = this->Files.pathOf(number); extensionOf(path) == extension)
       {
         return path;
       }

@@ -8,8 +8,10 @@
 #include "dgtkMeter.h"
 
 #include "dgtkExportDocument.h"
+#include "dgtkFileTable.h"
 #include "dgtkObjectDocuments.h"
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -38,7 +40,14 @@ public:
   std::string document(const std::string& name) const { return this->DatasetFolder + '/' + this->Parts[0] + name; }
   const std::string& folder() const { return this->Folder; }
   const ExportRecord& record() const { return this->Record; }
+  /// Of the first dataset, without its files.
   const Manifest& manifest() const { return this->TheManifest; }
+  /// A file of the dataset; none that its manifest does not list.
+  std::optional<DatasetFile> listed(const std::string& path) const;
+  /// Those of a picture.
+  std::vector<DatasetFile> filesOf(const std::string& camera, int frame) const;
+  /// A file of the export, or null.
+  const ExportedFile* exported(const std::string& name) const;
   std::string path(const std::string& name) const { return this->Folder + '/' + name; } ///< of a file of the export
   /// The text of a convention that the export states; "" for one that it does not.
   std::string convention(const std::string& key) const;
@@ -61,17 +70,22 @@ public:
     const std::vector<std::string>& extensions = {}) const;
 
 private:
+  void addCameras(const std::string& part);
   void addPart(const std::string& part);
+  std::uint32_t shotOf(const std::string& camera, int frame) const;
+  DatasetFile fileAt(std::uint32_t number) const;
+
   std::string DatasetFolder;
   std::vector<std::string> Parts;
   std::string Folder;
   ExportRecord Record;
   Manifest TheManifest;
-  std::map<std::pair<std::string, int>, CameraRecord> Cameras;
+  std::vector<CameraRecord> Cameras; ///< by name and frame; a picture's place is its shot in the table of files
+  FileTable Files;
   std::map<std::string, std::vector<ObjectRecord>> Objects; ///< by part
-  std::map<std::pair<std::string, int>, const ExportedName*> ByPlace;
-  std::map<std::string, const ExportedName*> ByName;
-  std::map<std::tuple<std::string, int, std::string>, std::vector<std::string>> Files;
+  std::vector<const ExportedName*> ByPlace;                 ///< sorted by camera and frame
+  std::vector<const ExportedName*> ByName;                  ///< sorted by name
+  std::vector<const ExportedFile*> ByPath;                  ///< sorted by path
   mutable std::mutex Mutex;
   mutable std::pair<std::string, int> BoxesOf;
   mutable std::vector<BoxRecord> Boxes;

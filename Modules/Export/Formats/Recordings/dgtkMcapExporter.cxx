@@ -95,7 +95,7 @@ private:
   std::uint32_t Sum = 0;
 };
 
-struct ChunkPlace
+struct McapChunk
 {
   std::uint64_t time = 0;
   std::uint64_t position = 0;
@@ -126,7 +126,7 @@ public:
     this->Text.put(record(Op::Header, Content().text("ros1").text("DGTk").get()));
     this->Text.put(this->schemas());
     this->Text.put(this->channels());
-    std::vector<ChunkPlace> chunks;
+    std::vector<McapChunk> chunks;
     for (std::size_t shot = 0; shot < this->Recording.shots().size(); ++shot)
     {
       chunks.push_back(this->putChunk(shot));
@@ -170,11 +170,11 @@ private:
     return all;
   }
 
-  ChunkPlace putChunk(std::size_t shot)
+  McapChunk putChunk(std::size_t shot)
   {
     const DatasetShot& one = *this->Recording.shots()[shot];
     const std::vector<ros::Message> messages = this->Recording.messages(shot, this->Sink);
-    ChunkPlace place;
+    McapChunk place;
     place.time = this->Recording.nanoseconds(one);
     place.position = this->Text.position();
     std::uint32_t sum = 0;
@@ -221,7 +221,7 @@ private:
     return place;
   }
 
-  static std::string chunkIndex(const ChunkPlace& place)
+  static std::string chunkIndex(const McapChunk& place)
   {
     Content indices;
     for (const auto& [channel, position] : place.indices)
@@ -241,7 +241,7 @@ private:
                                     .get());
   }
 
-  std::string statistics(const std::vector<ChunkPlace>& chunks) const
+  std::string statistics(const std::vector<McapChunk>& chunks) const
   {
     std::uint64_t messages = 0;
     Content counts;
@@ -263,7 +263,7 @@ private:
                                     .get());
   }
 
-  void putSummary(const std::vector<ChunkPlace>& chunks)
+  void putSummary(const std::vector<McapChunk>& chunks)
   {
     this->Text.reset();
     const std::uint64_t start = this->Text.position();
@@ -281,7 +281,7 @@ private:
     group(Op::ChunkIndex,
       [&]
       {
-        for (const ChunkPlace& place : chunks)
+        for (const McapChunk& place : chunks)
         {
           this->Text.put(chunkIndex(place));
         }

@@ -122,13 +122,9 @@ void forPixels(int width, int height, const std::function<void(int x, int y)>& v
 /// The file is one of the dataset's, byte for byte.
 void judgeCopy(const Comparison& one, Meter& meter)
 {
-  const std::vector<DatasetFile>& all = one.source.manifest().files;
+  const std::vector<DatasetFile> all = one.source.filesOf(one.file().camera, one.file().frame);
   const bool same = std::any_of(all.begin(), all.end(),
-    [&](const DatasetFile& file)
-    {
-      return file.layer == one.file().layer && file.camera == one.file().camera && file.frame == one.file().frame &&
-             file.sha256 == one.file().sha256;
-    });
+    [&](const DatasetFile& file) { return file.layer == one.file().layer && file.sha256 == one.file().sha256; });
   meter.equal(same, [&] { return Offender{ one.file().path, -1, -1, "other bytes", "the dataset's file" }; });
 }
 

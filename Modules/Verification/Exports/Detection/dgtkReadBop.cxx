@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkExportPixels.h"
 #include "dgtkJsonFile.h"
+#include "dgtkLongDocuments.h"
 #include "dgtkReadTexts.h"
 
 #include <Eigen/Geometry>
@@ -8,7 +9,7 @@
 #include <algorithm>
 #include <cstring>
 #include <sstream>
-#include <tuple>
+#include <utility>
 
 // bop_toolkit's docs/bop_datasets_format.md and inout.py.
 
@@ -95,10 +96,7 @@ public:
   {
     for (const std::string& part : judge.source().parts())
     {
-      for (const PoseRecord& pose : readPoses(judge.source().dataset() + "/" + part + posesName))
-      {
-        this->Poses[{ part, pose.frame, pose.id }] = pose;
-      }
+      this->Poses.emplace(part, judge.source().dataset() + "/" + part + posesName);
     }
     this->Infos = this->document("models/models_info.json");
     for (const auto& [id, info] : this->Infos.items())
@@ -118,6 +116,12 @@ public:
     const Json poses = this->document(folder + "scene_gt.json");
     const Json infos = this->document(folder + "scene_gt_info.json");
     const Json coco = this->document(folder + "scene_gt_coco.json");
+    this->Annotations.clear();
+    for (const Json& one : coco.at("annotations"))
+    {
+      this->Annotations.emplace(
+        std::make_pair(one.at("image_id").get<std::int64_t>(), one.at("id").get<std::int64_t>() % 100000), &one);
+    }
     for (const auto& [image, camera] : cameras.items())
     {
       const std::string stem = folder + "rgb/" + digits(image);
@@ -126,7 +130,7 @@ public:
       if (picture)
       {
         this->judgeCamera(folder + "scene_camera.json", camera, *picture);
-        this->judgeInstances(folder, image, poses.at(image), infos.at(image), *picture, coco);
+        this->judgeInstances(folder, image, poses.at(image), infos.at(image), *picture);
       }
     }
   }
@@ -170,22 +174,23 @@ private:
 
   /// The objects of a picture, found by where their models' vertices are.
   void judgeInstances(const std::string& folder, const std::string& image, const Json& poses, const Json& infos,
-    const ExportedName& picture, const Json& coco)
+    const ExportedName& picture)
   {
     const std::string file = folder + "scene_gt.json";
     const std::vector<BoxRecord>& boxes = this->Judge.source().boxes(picture.camera, picture.frame);
     this->Judge.number("instances", "", file, picture.name, double(poses.size()), double(infos.size()), 0);
+    const std::vector<PoseRecord> posed = this->Poses.at(this->Judge.source().partOf(picture.camera)).at(picture.frame);
     std::set<std::uint32_t> found;
     for (std::size_t i = 0; i < poses.size() && i < infos.size(); ++i)
     {
       const std::string where = picture.name + ", instance " + std::to_string(i);
-      const BoxRecord* box = this->boxOf(poses[i], picture, boxes);
+      const BoxRecord* box = this->boxOf(poses[i], picture, boxes, posed);
       this->Judge.holds("poses", file, where, box && found.insert(box->id).second, "a pose", "that of an object, once");
       if (box)
       {
         this->judgeNumbers(folder, where, infos[i], *box);
         this->judgeValid(folder, image, i, infos[i], where);
-        this->judgeMasks(folder, image, i, *box, picture, coco, poses[i].at("obj_id"));
+        this->judgeMasks(folder, image, i, *box, picture, poses[i].at("obj_id"));
       }
     }
     for (const BoxRecord& box : boxes)
@@ -210,7 +215,9 @@ private:
     return true;
   }
 
-  const BoxRecord* boxOf(const Json& pose, const ExportedName& picture, const std::vector<BoxRecord>& boxes)
+  /// `posed`: poses of the picture's frame.
+  const BoxRecord* boxOf(const Json& pose, const ExportedName& picture, const std::vector<BoxRecord>& boxes,
+    const std::vector<PoseRecord>& posed)
   {
     const BopPoints& model = this->Models.at(pose.at("obj_id"));
     const Eigen::Matrix3d R = matrixOf(pose.at("cam_R_m2c"));
@@ -219,9 +226,10 @@ private:
     const std::string part = this->Judge.source().partOf(picture.camera);
     for (const BoxRecord& box : boxes)
     {
-      const auto known = this->Poses.find({ part, picture.frame, box.id });
+      const auto known =
+        std::find_if(posed.begin(), posed.end(), [&](const PoseRecord& one) { return one.id == box.id; });
       const ObjectRecord* object = this->Judge.source().object(picture.camera, box.id);
-      if (known == this->Poses.end() || !object || object->geometryFile.empty())
+      if (known == posed.end() || !object || object->geometryFile.empty())
       {
         continue;
       }
@@ -229,7 +237,7 @@ private:
       double apart = own.size() == model.size() ? 0 : infinite;
       for (std::size_t k = 0; k < own.size() && apart < 1e-6; ++k)
       {
-        const Eigen::Vector3d world = known->second.matrix * own[k].homogeneous();
+        const Eigen::Vector3d world = known->matrix * own[k].homogeneous();
         const Eigen::Vector3d there = (camera->R * world + camera->t) * this->Unit;
         apart = std::max(apart, (R * model[k] + t - there).norm() / std::max(1.0, there.norm()));
       }
@@ -297,7 +305,7 @@ private:
   }
 
   void judgeMasks(const std::string& folder, const std::string& image, std::size_t instance, const BoxRecord& box,
-    const ExportedName& picture, const Json& coco, int model)
+    const ExportedName& picture, int model)
   {
     const std::string name = maskOf(image, instance);
     const auto inside = [&](const std::string& file)
@@ -323,36 +331,34 @@ private:
       return;
     }
     const std::string file = folder + "scene_gt_coco.json";
-    for (const Json& one : coco.at("annotations"))
+    const auto annotation = this->Annotations.find({ std::stoll(image), std::int64_t(instance) + 1 });
+    this->Judge.holds("coco", file, picture.name, annotation != this->Annotations.end(), "no annotation",
+      "one of instance " + std::to_string(instance));
+    if (annotation == this->Annotations.end())
     {
-      const std::int64_t id = one.at("id");
-      if (one.at("image_id") == std::stoll(image) && id % 100000 == std::int64_t(instance) + 1)
-      {
-        this->Judge.number("coco", "", file, picture.name, one.at("category_id"), model, 0);
-        this->Judge.number("coco", "", file, picture.name, one.at("area"), double(box.pixelsVisible), 0);
-        const bool ignored = one.at("ignore");
-        this->Judge.holds("coco", file, picture.name,
-          ignored == (double(box.pixelsVisible) < 0.1 * double(box.pixelsWhole)), ignored ? "ignored" : "wanted",
-          "ignored below a tenth");
-        std::uint64_t at = 0;
-        bool same = true;
-        const std::uint64_t height = one.at("segmentation").at("size").at(0);
-        const std::uint64_t width = one.at("segmentation").at("size").at(1);
-        bool in = false;
-        for (const std::uint64_t count : one.at("segmentation").at("counts"))
-        {
-          for (std::uint64_t end = std::min(at + count, std::uint64_t(own.size())); at < end; ++at)
-          {
-            same = same && (own[at % height * width + at / height] != 0) == in;
-          }
-          in = !in;
-        }
-        this->Judge.holds("coco", file, picture.name, same && at == own.size(), "another mask", "mask_visib");
-        return;
-      }
+      return;
     }
-    this->Judge.holds(
-      "coco", file, picture.name, false, "no annotation", "one of instance " + std::to_string(instance));
+    const Json& one = *annotation->second;
+    this->Judge.number("coco", "", file, picture.name, one.at("category_id"), model, 0);
+    this->Judge.number("coco", "", file, picture.name, one.at("area"), double(box.pixelsVisible), 0);
+    const bool ignored = one.at("ignore");
+    this->Judge.holds("coco", file, picture.name,
+      ignored == (double(box.pixelsVisible) < 0.1 * double(box.pixelsWhole)), ignored ? "ignored" : "wanted",
+      "ignored below a tenth");
+    std::uint64_t at = 0;
+    bool same = true;
+    const std::uint64_t height = one.at("segmentation").at("size").at(0);
+    const std::uint64_t width = one.at("segmentation").at("size").at(1);
+    bool in = false;
+    for (const std::uint64_t count : one.at("segmentation").at("counts"))
+    {
+      for (std::uint64_t end = std::min(at + count, std::uint64_t(own.size())); at < end; ++at)
+      {
+        same = same && (own[at % height * width + at / height] != 0) == in;
+      }
+      in = !in;
+    }
+    this->Judge.holds("coco", file, picture.name, same && at == own.size(), "another mask", "mask_visib");
   }
 
   ExportJudge& Judge;
@@ -360,7 +366,8 @@ private:
   Json Infos;
   std::map<int, BopPoints> Models;
   std::map<std::string, BopPoints> Geometries;
-  std::map<std::tuple<std::string, int, std::uint32_t>, PoseRecord> Poses; ///< by part, frame, object
+  std::map<std::string, PoseIndex> Poses;                                   ///< by part
+  std::map<std::pair<std::int64_t, std::int64_t>, const Json*> Annotations; ///< by image and instance, from 1
 };
 } // namespace
 

@@ -160,8 +160,7 @@ void judgeColmapRigs(ExportJudge& judge, const std::string& folder, const std::s
   const std::map<std::uint32_t, RiggedImage>& images)
 {
   const std::string file = folder + "frames" + extension;
-  const std::vector<ExportedFile>& files = judge.source().record().files;
-  if (std::none_of(files.begin(), files.end(), [&](const ExportedFile& one) { return one.file.path == file; }))
+  if (!judge.source().exported(file))
   {
     return;
   }

@@ -85,10 +85,8 @@ void judgeFrame(ExportJudge& judge, const std::string& file, const Json& documen
     if (frame.contains(key))
     {
       const std::string name = frame.at(key);
-      const auto& files = judge.source().record().files;
-      const bool own = std::any_of(files.begin(), files.end(),
-        [&](const ExportedFile& one)
-        { return one.file.path == name && one.file.camera == picture->camera && one.file.frame == picture->frame; });
+      const ExportedFile* one = judge.source().exported(name);
+      const bool own = one && one->file.camera == picture->camera && one->file.frame == picture->frame;
       judge.holds("names", file, key, own, name, "a file of the picture");
     }
   }
@@ -152,9 +150,7 @@ void readNerfSynthetic(ExportJudge& judge)
   for (const char* split : { "train", "val", "test" })
   {
     const std::string file = std::string("transforms_") + split + ".json";
-    const auto& files = judge.source().record().files;
-    const auto listed = [&](const ExportedFile& one) { return one.file.path == file; };
-    if (std::none_of(files.begin(), files.end(), listed))
+    if (!judge.source().exported(file))
     {
       continue;
     }

@@ -291,10 +291,8 @@ void RosReferee::picture(RosBytes& bytes, const ExportedName& name)
   {
     Sha256 hash;
     hash.update(data.data(), data.size());
-    const std::string expected = source.file(name.camera, name.frame, this->Color, { "png" });
-    const std::vector<DatasetFile>& all = source.manifest().files;
-    const bool same = std::any_of(
-      all.begin(), all.end(), [&](const DatasetFile& one) { return one.path == expected && one.sha256 == hash.hex(); });
+    const std::optional<DatasetFile> own = source.listed(source.file(name.camera, name.frame, this->Color, { "png" }));
+    const bool same = own && own->sha256 == hash.hex();
     this->Judge.holds(this->Color, this->File, where, same, "other bytes", "the dataset's file");
     return;
   }

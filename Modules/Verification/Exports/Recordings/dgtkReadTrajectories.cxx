@@ -150,12 +150,9 @@ std::vector<TumPicture> listOf(ExportJudge& judge, const std::string& folder, co
     {
       throw InputError(path, list.size() + 1, "expected a time and a file");
     }
-    const std::vector<ExportedFile>& files = judge.source().record().files;
-    const auto found = std::find_if(
-      files.begin(), files.end(), [&](const ExportedFile& one) { return one.file.path == folder + words[1]; });
-    judge.holds("names", file, words[1], found != files.end(), "a file", "one of the export");
-    const ExportedName* picture =
-      found == files.end() ? nullptr : judge.source().nameOf(found->file.camera, found->file.frame);
+    const ExportedFile* found = judge.source().exported(folder + words[1]);
+    judge.holds("names", file, words[1], found != nullptr, "a file", "one of the export");
+    const ExportedName* picture = found ? judge.source().nameOf(found->file.camera, found->file.frame) : nullptr;
     if (picture)
     {
       const double time = numberIn(path, list.size() + 1, words[0]);

@@ -172,9 +172,8 @@ SampleDocuments::SampleDocuments(ExportJudge& judge)
 
 void SampleDocuments::readPoses(const std::string& part)
 {
-  const std::vector<DatasetFile>& files = this->Judge.source().manifest().files;
   const std::string name = part + posesName;
-  if (std::any_of(files.begin(), files.end(), [&](const DatasetFile& file) { return file.path == name; }))
+  if (this->Judge.source().listed(name))
   {
     const Json poses = readJsonFile(this->Judge.source().dataset() + '/' + name);
     for (const Json& one : poses.at("poses"))

@@ -450,10 +450,9 @@ private:
     {
       if (one.file.path.rfind("textures/", 0) == 0)
       {
-        const std::vector<DatasetFile>& all = this->Judge.source().manifest().files;
         const std::string expected = "models/" + one.file.path.substr(std::string("textures/").size());
-        const bool same = std::any_of(all.begin(), all.end(),
-          [&](const DatasetFile& file) { return file.path == expected && file.sha256 == one.file.sha256; });
+        const std::optional<DatasetFile> own = this->Judge.source().listed(expected);
+        const bool same = own && own->sha256 == one.file.sha256;
         this->Judge.holds("textures", one.file.path, expected, same, "other bytes", "the dataset's file");
       }
     }

@@ -38,14 +38,6 @@ public:
     : Judge(judge)
     , Documents(documents)
   {
-    for (const DatasetFile& file : judge.source().manifest().files)
-    {
-      this->Listed[file.path] = &file;
-      if (file.frame >= 0 && file.layer != "boxes" && file.layer != "pov")
-      {
-        this->Pictures[{ file.camera, file.frame }].push_back(&file);
-      }
-    }
   }
 
   void read(const std::string& file)
@@ -89,13 +81,13 @@ private:
         });
       return;
     }
-    const auto source = this->Listed.find(bytesFromUtf8(this->Now.members.value(name, "")));
-    const bool own = source != this->Listed.end() && source->second->camera == this->Now.picture->camera &&
-                     source->second->frame == this->Now.picture->frame;
+    const std::optional<DatasetFile> source =
+      this->Judge.source().listed(bytesFromUtf8(this->Now.members.value(name, "")));
+    const bool own = source && source->camera == this->Now.picture->camera && source->frame == this->Now.picture->frame;
     this->Judge.holds("members", this->File, where, own, "a file", "one of the picture's, named in its .json");
     if (own)
     {
-      this->compare(where, bytes, *source->second);
+      this->compare(where, bytes, *source);
     }
   }
 
@@ -174,15 +166,16 @@ private:
       {
         this->Judge.holds("members", this->File, this->Now.key + '.' + name, this->Now.found.count(name) > 0, "none",
           "what the .json names");
-        const auto listed = this->Listed.find(bytesFromUtf8(path.get<std::string>()));
-        trunks.insert(listed == this->Listed.end() ? "" : listed->second->layer + '\n' + trunkOf(listed->first));
+        const std::optional<DatasetFile> listed = this->Judge.source().listed(bytesFromUtf8(path.get<std::string>()));
+        trunks.insert(listed ? listed->layer + '\n' + trunkOf(listed->path) : "");
       }
       this->Judge.holds("members", this->File, this->Now.key, this->Now.found.count("json") > 0, "no .json", "one");
       const bool all = this->Judge.source().convention("members") == "all";
-      for (const DatasetFile* file : this->Pictures[{ this->Now.picture->camera, this->Now.picture->frame }])
+      for (const DatasetFile& file : this->Judge.source().filesOf(this->Now.picture->camera, this->Now.picture->frame))
       {
-        const bool there = trunks.count(file->layer + '\n' + trunkOf(file->path)) > 0;
-        this->Judge.holds("members", this->File, this->Now.key, there || !all, "no " + file->path, "all files");
+        const bool there =
+          file.layer == "boxes" || file.layer == "pov" || trunks.count(file.layer + '\n' + trunkOf(file.path)) > 0;
+        this->Judge.holds("members", this->File, this->Now.key, there || !all, "no " + file.path, "all files");
       }
     }
     this->Now = {};
@@ -190,8 +183,6 @@ private:
 
   ExportJudge& Judge;
   const SampleDocuments& Documents;
-  std::map<std::string, const DatasetFile*> Listed;
-  std::map<std::pair<std::string, int>, std::vector<const DatasetFile*>> Pictures;
   std::set<std::string> Keys;
   std::string File;
   Sample Now;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkFileTable.h"
 
-#include "dgtkExportChecks.h"
-
 #include <algorithm>
+#include <cstdio>
 #include <tuple>
 
 namespace dgtk
@@ -12,7 +11,6 @@ namespace dgtk
 namespace
 {
 constexpr const char* hexadecimals = "0123456789abcdef";
-constexpr int frameDigits = 6; ///< of files, at least
 
 std::array<std::uint8_t, 32> packed(const std::string& hexadecimal)
 {
@@ -33,6 +31,14 @@ std::string unpacked(const std::array<std::uint8_t, 32>& bytes)
     text += { hexadecimals[byte >> 4], hexadecimals[byte & 15] };
   }
   return text;
+}
+
+/// As files have a frame.
+std::string digitsOf(int frame)
+{
+  char digits[16];
+  std::snprintf(digits, sizeof digits, "%06d", frame);
+  return digits;
 }
 
 /// The place of what is kept once; where it is new, behind the others.
@@ -75,7 +81,7 @@ void FileTable::add(const DatasetFile& file, std::uint32_t shot)
   }
   const std::uint32_t layer = this->layerNumber(file.layer);
   this->OfShots[layer] = this->OfShots[layer] || shot != noShot;
-  const std::string digits = file.frame < 0 ? std::string() : padded(file.frame, frameDigits);
+  const std::string digits = file.frame < 0 ? std::string() : digitsOf(file.frame);
   const std::size_t name = rest.rfind('/') + 1;
   Form form{ rest, {}, layer };
   if (!digits.empty() && rest.compare(name, digits.size(), digits) == 0)
@@ -92,8 +98,7 @@ void FileTable::add(const DatasetFile& file, std::uint32_t shot)
 std::string FileTable::pathOf(const Entry& entry) const
 {
   const Form& form = this->Forms[entry.form];
-  return this->Cameras[entry.camera] + form.before + (entry.frame < 0 ? "" : padded(entry.frame, frameDigits)) +
-         form.after;
+  return this->Cameras[entry.camera] + form.before + (entry.frame < 0 ? "" : digitsOf(entry.frame)) + form.after;
 }
 
 void FileTable::finish()

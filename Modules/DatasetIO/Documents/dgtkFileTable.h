@@ -2,11 +2,12 @@
 #ifndef dgtkFileTable_h
 #define dgtkFileTable_h
 
-// Private to Export.
+#include "dgtkDatasetIOModule.h"
 
 #include "dgtkDatasetDocuments.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -19,7 +20,7 @@ namespace dgtk
 
 /// The files of a dataset in some 60 bytes each: a dataset of many pictures has many times as many files. A path is
 /// its camera's name, what all files of a layer have around the frame's digits, and the frame.
-class FileTable
+class DGTKDATASETIO_EXPORT FileTable
 {
 public:
   static constexpr std::uint32_t noShot = 0xffffffff;
@@ -29,6 +30,7 @@ public:
   /// Behind the last one.
   void finish();
 
+  std::size_t size() const { return this->Entries.size(); }
   /// The file's number; none for one that is not listed.
   std::optional<std::uint32_t> find(const std::string& path) const;
   /// Numbers of a shot's files, sorted by layer (in the order in which the layers came) and path.
