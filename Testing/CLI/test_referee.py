@@ -571,7 +571,7 @@ def boxes():
 
     def pose(factor):
         """The floor's axes are the camera's, but for a turn about x: its first number is alone in its row and column, and
-        is seen in R R^T and in R diag(scale)."""
+        is seen in R^T R and in R diag(scale)."""
         def edit(document):
             objects, step = document["objects"], 1e-12 * factor
             objects[0]["R"][0][0] += step
@@ -652,7 +652,7 @@ def metadata():
 
 def poses():
     def edit(factor):
-        """The floor is where the world is: its first number of R is seen in R R^T and in R diag(scale)."""
+        """The floor is where the world is: its first number of R is seen in R^T R and in R diag(scale)."""
         def change(document):
             floor, crate, creature = document["poses"][:3]
             step = 1e-12 * factor
@@ -934,7 +934,7 @@ def cameras():
         document["objects"][3]["id"] = 9
         document["objects"][4]["class_id"] = document["objects"][0]["class_id"]
 
-    # The stretched axis of R is seen by comparison, and by R R^T.
+    # The stretched axis of R is seen by comparison, and by R^T R.
     yield Plant("cameras", "cameras", 1e-12, lambda data, factor: records(factor)(data), bad=9)
     yield Plant("cameras", "objects", 0, lambda data, _: data.document("objects.json", objects), bad=6, small=False)
 

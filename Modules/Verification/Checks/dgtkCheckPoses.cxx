@@ -14,8 +14,9 @@ namespace
 {
 /// Part of the largest number of a matrix: products of two placements.
 constexpr double motionTolerance = 1e-12;
-/// Cosine between axes up to which an object is not sheared for certain; that of a rotation is seen in R R^T.
+/// Cosines between axes: up to the first an object is not sheared for certain, from the second on it is.
 constexpr double upright = 5e-10;
+constexpr double leaning = 2e-9;
 
 class PoseCheck
 {
@@ -37,12 +38,14 @@ public:
     this->TheMeter.equal(this->Record.visible == this->Visible, [&]
       { return this->offender("visible", this->Record.visible ? "true" : "false", this->Visible ? "true" : "false"); });
     const double cosine = this->largestCosine();
-    this->TheMeter.equal(this->Record.rigid ? !std::isnan(cosine) : !(cosine < upright),
+    this->TheMeter.equal(this->Record.rigid ? cosine < leaning : !(cosine < upright),
       [&] { return this->offender("R", this->Record.rigid ? "a rotation" : "null", "the other"); });
-    if (this->Record.rigid)
+    if (this->Record.rigid && cosine < leaning)
     {
-      const Eigen::Matrix3d square = this->Record.R * this->Record.R.transpose();
-      this->matrix<Eigen::Matrix3d>("R R^T", square, Eigen::Matrix3d::Identity());
+      Eigen::Matrix3d axes = this->World.linear.colwise().normalized();
+      axes.col(0) *= this->World.linear.determinant() < 0 ? -1 : 1;
+      const Eigen::Matrix3d square = this->Record.R.transpose() * this->Record.R;
+      this->matrix<Eigen::Matrix3d>("R^T R", square, axes.transpose() * axes);
       this->TheMeter.equal(
         this->Record.R.determinant() > 0, [&] { return this->offender("R", "a mirroring", "a rotation"); });
       const Eigen::Matrix3d linear = this->Record.R * this->Record.scale.asDiagonal();

@@ -253,6 +253,10 @@ std::uint64_t badPoses(const std::vector<std::string>& places, const std::vector
     pose.t = world.translation;
     pose.rigid = id <= scales.size();
     pose.scale = pose.rigid ? scales[id - 1] : pose.scale;
+    for (int i = 0; i < 3; ++i)
+    {
+      pose.R.col(i) = world.linear.col(i).stableNormalized();
+    }
   }
   made.file("poses.json", posesText(poses));
   return made.verify("poses", "poses").bad;
@@ -261,14 +265,18 @@ std::uint64_t badPoses(const std::vector<std::string>& places, const std::vector
 TEST(Slacks, ShearedObjects)
 {
   // A child of a parent that stretches.
-  const auto badAt = [](double cosine)
+  const auto badAt = [](double cosine, bool rigid)
   {
+    const double size = std::sqrt((1 + std::pow(1 + cosine, 2)) / 2); // of axes at 45 degrees
     return badPoses({ R"(, "scale": [1, )" + numberText(1 + cosine) + ", 1]",
                       R"(, "parent": "o1", "orientation": [0.92387953251128674, 0, 0, 0.38268343236508977])" },
-      { Vector3d(1, 1 + cosine, 1) });
+      rigid ? std::vector<Vector3d>{ { 1, 1 + cosine, 1 }, { size, size, 1 } }
+            : std::vector<Vector3d>{ { 1, 1 + cosine, 1 } });
   };
-  EXPECT_EQ(badAt(5e-11), 1u) << "not known, though it could be";
-  EXPECT_EQ(badAt(5e-9), 0u);
+  EXPECT_EQ(badAt(5e-11, false), 1u) << "not known, though it could be";
+  EXPECT_EQ(badAt(5e-11, true), 0u);
+  EXPECT_EQ(badAt(5e-9, false), 0u);
+  EXPECT_EQ(badAt(5e-9, true), 1u) << "sheared";
   const std::string flat = R"(, "scale": [1, 1, 1e-200])";
   EXPECT_EQ(badPoses({ flat, flat }, { Vector3d(1, 1, 1e-200) }), 1u) << "one of the two";
 }
