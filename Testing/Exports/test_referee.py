@@ -348,5 +348,18 @@ class Referee(datasets.ExportCase):
         self.assertEqual(judged["kitti2015"][0]["baseline"]["tolerance"], 1e-9)
 
 
+    def test_damaged_structures(self):
+        """What a reader cannot follow is one line, with the file's name."""
+        def longer_header(data):
+            header = struct.unpack_from("<Q", data, 64)[0]  # of the root group: its address stands in the superblock
+            return packed("<I", header + 8, 8)(data)
+
+        folder = self.path("hdf5")
+        subprocess.run([DGTK, "export", self.dataset, "--format", "hdf5", "-o", folder, "--quiet"], check=True)
+        self.plant(os.path.join(folder, "0.hdf5"), longer_header)
+        self.accept(folder)
+        self.refused("verify", self.dataset, "--export", folder, status=1, says=("0.hdf5", "not as long as it says"))
+
+
 if __name__ == "__main__":
     main()
