@@ -116,11 +116,11 @@ Float4 ShadedView::tintOf(const Triangle& triangle, double second, double third)
 
 void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoint& point) const
 {
-  const Eigen::Vector3d& d = ray.ray.direction;
+  const Eigen::Vector3d& d = ray.own->direction;
   const double along = triangle.normal.dot(d);
   const double perAlong = along != 0 ? 1 / along : 0.0;
-  const double t = triangle.normal.dot(triangle.corner - ray.ray.origin) * perAlong;
-  const Eigen::Vector3d position = ray.ray.origin + t * d;
+  const double t = triangle.normal.dot(triangle.corner - ray.own->origin) * perAlong;
+  const Eigen::Vector3d position = ray.own->origin + t * d;
   const Eigen::Vector3d inside = position - triangle.corner;
   const double second = triangle.second.dot(inside);
   const double third = triangle.third.dot(inside);
@@ -236,7 +236,7 @@ void ShadedView::shade(
       this->place(rays[std::size_t(surface.pixel)], worker.triangle(*this, surface.hit), points[i]);
       for (std::size_t light = 0; light < lights; ++light)
       {
-        lit[i * lights + light] = this->Light.of(light, points[i]);
+        this->Light.of(light, points[i], lit[i * lights + light]);
       }
     }
     if (this->Shadows)
@@ -258,7 +258,7 @@ Float4 ShadedView::skyAt(const PixelRay& ray) const
   {
     return this->Light.background();
   }
-  const Eigen::Vector3d& d = ray.ray.direction;
+  const Eigen::Vector3d& d = ray.own->direction;
   const double square = d.squaredNorm();
   const double angle = std::sqrt(d.cross(ray.right->direction).norm() * d.cross(ray.down->direction).norm()) / square;
   return this->Light.sky(toFloat4(d / std::sqrt(square)), float(angle));
@@ -275,14 +275,15 @@ void ShadedView::row(Worker& worker, int x, int y, int count, const Hit* hits, f
     to[2] = color[2];
   };
   std::vector<Surface>& surfaces = worker.Surfaces;
-  surfaces.clear();
+  surfaces.resize(std::size_t(count));
+  std::size_t seen = 0;
   worker.Translucent.clear();
   for (int i = 0; i < count; ++i)
   {
     if (hits[i].object == 0)
     {
       const PixelRay& ray = rays[std::size_t(i)];
-      put(i, ray.ray.exists() ? this->skyAt(ray) : float4(0)); // no light comes to where the lens does not reach
+      put(i, ray.own->exists() ? this->skyAt(ray) : float4(0)); // no light comes to where the lens does not reach
     }
     else if (this->Translucent && !this->isOpaque(hits[i]))
     {
@@ -290,9 +291,11 @@ void ShadedView::row(Worker& worker, int x, int y, int count, const Hit* hits, f
     }
     else
     {
-      surfaces.push_back({ i, hits[i] });
+      surfaces[seen].pixel = i; // member by member: what is read is what was written
+      surfaces[seen++].hit = hits[i];
     }
   }
+  surfaces.resize(seen);
   worker.Colors.resize(4 * surfaces.size());
   this->shade(worker, rays, surfaces, worker.Colors.data());
   for (std::size_t i = 0; i < surfaces.size(); ++i)
