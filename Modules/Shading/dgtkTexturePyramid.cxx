@@ -209,7 +209,8 @@ Float4 TexturePyramid::at(const Footprint& f) const
     return this->enlarged(f);
   }
   const float ratio = longest / std::max(std::min(across, along), 1e-30F);
-  const int probes = 1 + int(ratio >= 1.5F * 1.5F) + int(ratio >= 2.5F * 2.5F) + int(ratio >= 3.5F * 3.5F); // mostProbes
+  const int probes =
+    1 + int(ratio >= 1.5F * 1.5F) + int(ratio >= 2.5F * 2.5F) + int(ratio >= 3.5F * 3.5F); // mostProbes
   const float detail = 0.5F * portable::log2(std::min(longest, 1e30F)) - logOfProbes[std::size_t(probes)];
   const float level = std::min(std::max(detail, 0.0F), lastOf(this->Levels));
   const auto low = std::size_t(level);

@@ -39,8 +39,8 @@ struct PictureUse
   }
 };
 
-/// Of four coordinates: the texels between which they are, of which the one on the far side of the end is the first, and
-/// how far towards the second.
+/// Of four coordinates: the texels between which they are, of which the one on the far side of the end is the first,
+/// and how far towards the second.
 struct Neighbours
 {
   Int4 low;
