@@ -308,7 +308,7 @@ void ShadedView::row(Worker& worker, int x, int y, int count, const Hit* hits, f
   }
 }
 
-void ShadedView::allHits(int x, int y, int count, std::vector<Hit>* hits) const
+void ShadedView::allHits(const std::vector<Eigen::Vector2d>& pixels, std::vector<Hit>* hits) const
 {
   std::call_once(this->QueryMade,
     [this]
@@ -316,30 +316,31 @@ void ShadedView::allHits(int x, int y, int count, std::vector<Hit>* hits) const
       this->Query = makeOcclusionQuery();
       this->Query->setScene(this->State);
     });
-  std::vector<Eigen::Vector2d> pixels;
-  pixels.reserve(std::size_t(count));
-  for (int i = 0; i < count; ++i)
-  {
-    pixels.emplace_back(x + i + 0.5, y + 0.5);
-  }
   this->Query->allHits(this->TheView, pixels.data(), pixels.size(), hits);
 }
 
 /// Surfaces in order, nearest first, until one is opaque.
 void ShadedView::seeThrough(Worker& worker, int x, int y, const std::vector<PixelRay>& rays, float* rgb) const
 {
-  std::vector<std::vector<Hit>> hits(1);
   std::vector<Surface>& surfaces = worker.Behind;
   std::vector<float>& colors = worker.Colors;
+  worker.SeenThrough.clear();
   for (const int pixel : worker.Translucent)
   {
-    this->allHits(x + pixel, y, 1, hits.data());
+    worker.SeenThrough.emplace_back(x + pixel + 0.5, y + 0.5);
+  }
+  worker.Hits.resize(std::max(worker.Hits.size(), worker.SeenThrough.size()));
+  this->allHits(worker.SeenThrough, worker.Hits.data());
+  for (std::size_t k = 0; k < worker.Translucent.size(); ++k)
+  {
+    const int pixel = worker.Translucent[k];
+    const std::vector<Hit>& hits = worker.Hits[k];
     surfaces.clear();
     bool closed = false;
-    for (std::size_t i = 0; i < hits[0].size() && !closed; ++i)
+    for (std::size_t i = 0; i < hits.size() && !closed; ++i)
     {
-      surfaces.push_back({ pixel, hits[0][i] });
-      closed = this->isOpaque(hits[0][i]);
+      surfaces.push_back({ pixel, hits[i] });
+      closed = this->isOpaque(hits[i]);
     }
     Float4 over = float4(0);
     float through = 1;

@@ -41,8 +41,9 @@ public:
 
   /// Colour, cut off at black, and opacity of surfaces of pixels [x, x + count) of row y, four values each.
   void shadeRow(Worker& worker, int x, int y, int count, const std::vector<Surface>& surfaces, float* rgba) const;
-  /// All surfaces along the rays of a row, near to far.
-  void allHits(int x, int y, int count, std::vector<Hit>* hits) const;
+  /// All surfaces along the rays through pixels, near to far; quicker where those that follow each other are
+  /// neighbours.
+  void allHits(const std::vector<Eigen::Vector2d>& pixels, std::vector<Hit>* hits) const;
 
   const View& view() const { return this->TheView; }
 
@@ -137,6 +138,8 @@ private:
   std::vector<Surface> Surfaces;
   std::vector<Surface> Behind;
   std::vector<int> Translucent;
+  std::vector<Eigen::Vector2d> SeenThrough; ///< pixels
+  std::vector<std::vector<Hit>> Hits;
   std::vector<float> Colors;
 };
 
