@@ -82,6 +82,16 @@ void ShadedView::prepare(const Hit& hit, Triangle& triangle) const
     triangle.toV = toSecond.y() * triangle.second + toThird.y() * triangle.third;
   }
   prepareTint(model, corners, triangle);
+  if (this->Shadows)
+  {
+    const Float4 more[3] = { float4(0), triangle.shadingSecond, triangle.shadingThird };
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      triangle.corners[i] = placed.camera_from_object * geometry.positions[corners[i]];
+      triangle.tangents[i] = toVector3d(normalized(triangle.shading + more[i]));
+    }
+    triangle.outward = triangle.normal.normalized();
+  }
 }
 
 void ShadedView::prepareTint(const Model& model, const std::array<std::uint32_t, 3>& corners, Triangle& triangle)
@@ -143,7 +153,7 @@ void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoin
   if (this->Shadows)
   {
     const double parts[3] = { 1 - second - third, second, third };
-    this->lift(triangle, position, parts, front, point);
+    lift(triangle, position, parts, front, point);
   }
   if (material.mapped)
   {
@@ -165,20 +175,16 @@ void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoin
 
 /// Off the flat triangle to where the corners' tangent planes are: shadows end where smooth shading does (Hanika 2021,
 /// Hacking the Shadow Terminator).
-void ShadedView::lift(const Triangle& triangle, const Eigen::Vector3d& position, const double parts[3], bool front,
-  ShadedPoint& point) const
+void ShadedView::lift(
+  const Triangle& triangle, const Eigen::Vector3d& position, const double parts[3], bool front, ShadedPoint& point)
 {
   const double towards = front == (triangle.side > 0) ? 1 : -1; // of the flat normal, to the side that is seen
-  point.outward = triangle.normal.normalized() * towards;
+  point.outward = triangle.outward * towards;
   point.lifted = position;
-  const Affine3& placed = this->Objects[triangle.hit.object - 1].camera_from_object;
-  const Instance& instance = this->State->instances[triangle.hit.object - 1];
-  const auto& corners = instance.model->triangles[triangle.hit.triangle];
-  const Float4 more[3] = { float4(0), triangle.shadingSecond, triangle.shadingThird };
   for (std::size_t i = 0; i < 3; ++i)
   {
-    const Eigen::Vector3d tangent = toVector3d(normalized(triangle.shading + more[i])) * (front ? 1.0 : -1.0);
-    const Eigen::Vector3d above = position - placed * instance.geometry->positions[corners[i]];
+    const Eigen::Vector3d tangent = triangle.tangents[i] * (front ? 1.0 : -1.0);
+    const Eigen::Vector3d above = position - triangle.corners[i];
     point.lifted -= parts[i] * std::min(0.0, above.dot(tangent)) * tangent;
   }
 }

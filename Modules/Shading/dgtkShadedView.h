@@ -76,6 +76,11 @@ private:
     Float4 tint; ///< colours of vertices, in the same way; ones where there are none
     Float4 tintSecond;
     Float4 tintThird;
+    // Of lights that cast shadows: the corners, the tangent planes' normals there, and the triangle's own, all of its
+    // own side.
+    std::array<Eigen::Vector3d, 3> corners;
+    std::array<Eigen::Vector3d, 3> tangents;
+    Eigen::Vector3d outward;
     const Model* map = nullptr; ///< whose colorMap has them
     Eigen::Vector2d mapAt;
     Eigen::Vector2d mapSecond;
@@ -85,8 +90,8 @@ private:
   static void prepareTint(const Model& model, const std::array<std::uint32_t, 3>& corners, Triangle& triangle);
   static Float4 tintOf(const Triangle& triangle, double second, double third);
   void place(const PixelRay& ray, const Triangle& triangle, ShadedPoint& point) const;
-  void lift(const Triangle& triangle, const Eigen::Vector3d& position, const double parts[3], bool front,
-    ShadedPoint& point) const;
+  static void lift(
+    const Triangle& triangle, const Eigen::Vector3d& position, const double parts[3], bool front, ShadedPoint& point);
   void shade(
     Worker& worker, const std::vector<PixelRay>& rays, const std::vector<Surface>& surfaces, float* rgba) const;
   void findShadows(const ShadedPoint* points, std::size_t count, PointLight* lit) const;
