@@ -29,10 +29,12 @@ bool isCoarse(const RayScene& scene, const View& view) { return scene.errorInPix
 Hit nearestOnRay(const RayScene& scene, const ExactRay& ray, const Hit& target, bool coarse)
 {
   RayContext context;
+  SeenTriangles triangles(scene);
   rtcInitIntersectContext(&context.context);
   context.context.filter = rayFilter;
   context.scene = &scene;
   context.mode = RayContext::Mode::Checked;
+  context.triangles = &triangles;
   context.rays = &ray;
   context.skip = &target;
   context.t[0] = INFINITY;
@@ -47,6 +49,7 @@ OccluderTracer::OccluderTracer(std::shared_ptr<const RayScene> scene, const View
   : Scene(std::move(scene))
   , TheView(view)
   , Coarse(isCoarse(*this->Scene, view))
+  , Triangles(*this->Scene)
 {
   rtcInitIntersectContext(&this->Context.context);
   this->Context.context.flags =
@@ -55,6 +58,7 @@ OccluderTracer::OccluderTracer(std::shared_ptr<const RayScene> scene, const View
   this->Context.scene = this->Scene.get();
   this->Context.mode = RayContext::Mode::Checked;
   this->Context.rays = this->Rays;
+  this->Context.triangles = &this->Triangles;
 }
 
 unsigned int OccluderTracer::aim(const Eigen::Vector3d* x_in_world, std::size_t count, const Rigid3* poses)
