@@ -49,6 +49,7 @@ OccluderTracer::OccluderTracer(std::shared_ptr<const RayScene> scene, const View
   : Scene(std::move(scene))
   , TheView(view)
   , Coarse(isCoarse(*this->Scene, view))
+  , Central(view.model->isCentral())
   , Triangles(*this->Scene)
 {
   rtcInitIntersectContext(&this->Context.context);
@@ -72,14 +73,18 @@ unsigned int OccluderTracer::aim(const Eigen::Vector3d* x_in_world, std::size_t 
     pixels[i].setZero();
   }
   this->TheView.model->projectAll(x, count, pixels, this->Seen);
-  this->TheView.model->raysThrough(pixels, count, rays);
+  if (!this->Central)
+  {
+    this->TheView.model->raysThrough(pixels, count, rays);
+  }
   unsigned int active = 0;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const Eigen::Vector3d way = x[i] - rays[i].origin;
-    const double t = way.dot(rays[i].direction) / rays[i].direction.squaredNorm();
+    const Eigen::Vector3d origin = this->Central ? Eigen::Vector3d::Zero() : rays[i].origin;
+    const Eigen::Vector3d way = x[i] - origin;
+    const double t = this->Central ? way.norm() : way.dot(rays[i].direction) / rays[i].direction.squaredNorm();
     const double most = t * (1 - pointSlack);
-    this->Rays[i] = { rays[i].origin, way / t, this->TheView.near, most }; // whatever the projection's rounding
+    this->Rays[i] = { origin, way / t, this->TheView.near, most }; // whatever the projection's rounding
     if (poses)
     {
       const Rigid3 scene_from_camera = this->Scene->pose() * poses[i].inverse();

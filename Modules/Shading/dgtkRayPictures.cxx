@@ -116,6 +116,8 @@ public:
   }
   std::function<void()> drawColor(
     const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits) override;
+  void renderWanted(const PixelRect& rect, ColorBuffer& colors, VisibilityBuffer& hits,
+    const std::function<bool(const Hit&)>& wanted) override;
   std::function<void()> peel(const PixelRect& rect, SurfaceLists& lists) override;
 
 private:
@@ -211,6 +213,17 @@ std::function<void()> RayPictures::drawColor(
   this->render(rect, seen);
   return [scene = this->shaded(), own, &seen, &colors, &pool = this->Pool]
   { shadeHits(*scene, seen, pool, colors.rgb.data()); };
+}
+
+void RayPictures::renderWanted(
+  const PixelRect& rect, ColorBuffer& colors, VisibilityBuffer& hits, const std::function<bool(const Hit&)>& wanted)
+{
+  this->render(rect, hits);
+  VisibilityBuffer shown = hits;
+  std::replace_if(
+    shown.hits.begin(), shown.hits.end(), [&wanted](const Hit& hit) { return !wanted(hit); }, Hit());
+  colors.resize(rect);
+  shadeHits(*this->shaded(), shown, this->Pool, colors.rgb.data());
 }
 
 /// The samples are the pixels of a picture `samples` times as large.
