@@ -10,6 +10,8 @@
 
 #include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -67,7 +69,7 @@ private:
   template <class Undo>
   void compute(Eigen::Vector2d* row, int y, const Undo& undo) const
   {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
+    const std::lock_guard<std::mutex> lock(this->Mutexes[std::size_t(y) % std::size(this->Mutexes)]);
     for (int x = 0; x < this->Width && !this->Known[std::size_t(y)]; ++x)
     {
       if (!undo(Eigen::Vector2d(x + 0.5, y + 0.5), row[x]))
@@ -81,7 +83,7 @@ private:
   int Width;
   int Height;
   std::unique_ptr<Eigen::Vector2d[]> Points;
-  mutable std::mutex Mutex;
+  mutable std::mutex Mutexes[16];               ///< of rows, so that threads compute different ones
   mutable std::vector<std::atomic<bool>> Known; ///< rows
 };
 
