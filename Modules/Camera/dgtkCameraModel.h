@@ -104,6 +104,9 @@ public:
   /// Whether timeAt() is not 0 throughout.
   bool rolls() const { return this->times().first != 0 || this->times().last != 0; }
 
+  /// Whether all rays start at the camera's centre, the origin of its frame.
+  virtual bool isCentral() const { return false; }
+
   /// The projection's matrix where it is linear, nothing otherwise. With a rolling shutter it is that of each instant.
   virtual std::optional<LinearProjection> linear() const { return std::nullopt; }
 

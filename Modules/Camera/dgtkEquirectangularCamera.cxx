@@ -19,6 +19,7 @@ public:
   {
   }
   std::string name() const override { return "equirectangular"; }
+  bool isCentral() const override { return true; }
   CameraRay rayThrough(const Eigen::Vector2d& pixel) const override
   {
     const double right = pixel.x() / this->width();

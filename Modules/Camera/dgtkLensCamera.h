@@ -30,6 +30,7 @@ class LensCamera : public CameraModel
 public:
   /// `K` is what `of` has, or what it gives by its field of view; of the numbers those are kept that K does not say.
   LensCamera(const CameraParameters& of, const Eigen::Matrix3d& K);
+  bool isCentral() const override { return true; }
 
 protected:
   const ImagePlane& plane() const { return this->Plane; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // OpenCV's omnidirectional camera: C. Mei, P. Rives, "Single view point omnidirectional camera calibration from planar
 // grids", ICRA 2007, section II: the unit sphere, seen from xi behind its centre, and the distortion of what is seen.
+#include "dgtkCentrePoints.h"
 #include "dgtkDistortion.h"
 #include "dgtkLensCamera.h"
 #include "dgtkPortableMath.h"
@@ -22,13 +23,16 @@ public:
     : RowsOf(of, K)
     , Xi(of.number("xi"))
     , Lens(of.numbers.at("distortion"), this->imageRadius())
+    , Centres(CentrePoints::of(of, K))
   {
   }
   std::string name() const override { return "omnidirectional"; }
   CameraRay rayThrough(const Eigen::Vector2d& pixel) const override
   {
     Eigen::Vector2d p;
-    if (!this->Lens.undo(this->plane().onPlane(pixel), p))
+    const auto undo = [this](const Eigen::Vector2d& at, Eigen::Vector2d& found)
+    { return this->Lens.undo(this->plane().onPlane(at), found); };
+    if (!this->Centres->point(pixel, undo, p))
     {
       return noRay();
     }
@@ -64,6 +68,7 @@ private:
 
   double Xi;
   Distortion Lens;
+  std::shared_ptr<const CentrePoints> Centres;
 };
 
 std::shared_ptr<const CameraModel> makeOmnidirectional(const CameraParameters& of)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Perspective: rays through a point, and OpenCV's distortion of their image.
+#include "dgtkCentrePoints.h"
 #include "dgtkDistortion.h"
 #include "dgtkLensCamera.h"
 #include "dgtkLinearCamera.h"
@@ -45,13 +46,16 @@ public:
   DistortedPinhole(const CameraParameters& of, const Eigen::Matrix3d& K)
     : RowsOf(of, K)
     , Lens(of.numbers.at("distortion"), this->imageRadius())
+    , Centres(CentrePoints::of(of, K))
   {
   }
   std::string name() const override { return "pinhole"; }
   CameraRay rayThrough(const Eigen::Vector2d& pixel) const override
   {
     Eigen::Vector2d p;
-    if (!this->Lens.undo(this->plane().onPlane(pixel), p))
+    const auto undo = [this](const Eigen::Vector2d& at, Eigen::Vector2d& found)
+    { return this->Lens.undo(this->plane().onPlane(at), found); };
+    if (!this->Centres->point(pixel, undo, p))
     {
       return noRay();
     }
@@ -71,6 +75,7 @@ public:
 
 private:
   Distortion Lens;
+  std::shared_ptr<const CentrePoints> Centres;
 };
 
 std::shared_ptr<const CameraModel> makePinholeModel(const CameraParameters& of)

@@ -45,6 +45,7 @@ public:
     const TimeSpan own = this->Camera->times();
     return { own.first - this->Shutter.duration / 2, own.last + this->Shutter.duration / 2 };
   }
+  bool isCentral() const override { return this->Camera->isCentral(); }
   std::optional<LinearProjection> linear() const override { return this->Camera->linear(); }
 
 private:

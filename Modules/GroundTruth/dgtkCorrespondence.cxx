@@ -2,6 +2,7 @@
 #include "dgtkCorrespondence.h"
 
 #include "dgtkInView.h"
+#include "dgtkPixelBlocks.h"
 #include "dgtkSeenInTime.h"
 
 #include <algorithm>
@@ -14,7 +15,6 @@ namespace dgtk
 
 namespace
 {
-constexpr int blockSide = 4; ///< pixels that are asked about at once are neighbours
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 VisibilityClass classOf(std::uint32_t object, std::uint32_t before)
@@ -216,20 +216,9 @@ void correspondRows(const SurfaceRows& in, const OtherView& other, double* pixel
     pixels[2 * i] = pixels[2 * i + 1] = nowhere;
     classes[i] = static_cast<std::uint8_t>(VisibilityClass::NoSurface);
   };
-  const int last = in.rect.y + in.rect.height;
-  for (int top = in.rect.y; top < last;)
+  for (int top = 0; top < in.rect.height; top += rowsOfBlocks(in.rect.y + top, in.rect.height - top))
   {
-    const int bottom = std::min(last, (top / blockSide + 1) * blockSide); // of the image's blocks, not of the strip's
-    for (int left = 0; left < width; left += blockSide)
-    {
-      for (int y = top; y < bottom; ++y)
-      {
-        for (int x = left; x < std::min(width, left + blockSide); ++x)
-        {
-          add(x, y);
-        }
-      }
-    }
+    forPixelBlocks({ 0, in.rect.y + top, width, rowsOfBlocks(in.rect.y + top, in.rect.height - top) }, add);
     follower.follow(
       [&](std::size_t i, const Eigen::Vector2d& pixel, VisibilityClass visibility)
       {
@@ -237,7 +226,6 @@ void correspondRows(const SurfaceRows& in, const OtherView& other, double* pixel
         pixels[2 * i + 1] = pixel.y();
         classes[i] = static_cast<std::uint8_t>(visibility);
       });
-    top = bottom;
   }
 }
 

@@ -56,6 +56,18 @@ TriangleFacts factsOf(const SceneState& state, const View& view, const Hit& hit)
   return facts;
 }
 
+std::uint32_t quantised(double unit, std::uint32_t steps)
+{
+  return static_cast<std::uint32_t>(std::clamp(std::floor(unit * steps), 0.0, double(steps - 1)));
+}
+
+/// A splat index; `part`: of the way from near to far, of logarithms.
+std::uint32_t packed(double part, const Eigen::Vector3d& normal)
+{
+  return (quantised(part, distanceSteps) << 6) | (quantised((normal.x() + 1) / 2, normalSteps) << 3) |
+         quantised((normal.y() + 1) / 2, normalSteps);
+}
+
 bool before(const LayeredSurface& a, const LayeredSurface& b)
 {
   return std::tie(a.depth, a.hit.object, a.hit.triangle) < std::tie(b.depth, b.hit.object, b.hit.triangle);
@@ -71,13 +83,10 @@ public:
     , Out(out)
     , Rays(*view.model)
     , Facts([&state, &view](const Hit& hit) { return factsOf(state, view, hit); })
+    , LogOfRange(std::log(view.far / view.near))
   {
     computeSurfaceRows(state, view, in.rect, in.first, false, this->First);
-    this->Ranks.resize(in.ranks.size());
-    for (std::size_t r = 0; r < in.ranks.size(); ++r)
-    {
-      computeSurfaceRows(state, view, in.rect, in.ranks[r].hits, false, this->Ranks[r]);
-    }
+    computeSurfaceLists(state, view, in.rect, in.begins, in.hits, this->Distances);
   }
 
   void run()
@@ -107,33 +116,25 @@ private:
     LayeredSurface surface;
     surface.hit = hit;
     surface.depth = t;
-    surface.splatIndex = splatIndex(point.norm(), normal.dot(direction) > 0 ? Eigen::Vector3d(-normal) : normal,
-      this->TheView.near, this->TheView.far);
+    surface.splatIndex = packed(std::log(point.norm() / this->TheView.near) / this->LogOfRange,
+      normal.dot(direction) > 0 ? Eigen::Vector3d(-normal) : normal);
     return surface;
   }
 
-  void colour(std::size_t i, const LayeredInput& in, LayeredSurface& first) const
+  /// `begin`, `end`: what was peeled of the pixel.
+  void colour(std::size_t i, std::size_t begin, std::size_t end, LayeredSurface& first) const
   {
+    const Hit* const found = std::find(this->In.hits + begin, this->In.hits + end, first.hit);
     const float* shaded = nullptr;
-    for (const PeeledRows& rank : in.ranks)
+    if (begin < end)
     {
-      if (rank.hits[i] == first.hit)
-      {
-        shaded = rank.rgba + 4 * i;
-        break;
-      }
-    }
-    if (!shaded && !in.ranks.empty() && in.ranks[0].hits[i].object != 0)
-    {
-      shaded = in.ranks[0].rgba + 4 * i; // the pixel was settled after it was drawn
-    }
-    if (shaded)
-    {
+      const auto at = std::size_t(found - this->In.hits);
+      shaded = this->In.rgba + 4 * (at < end ? at : begin); // else the pixel was settled after it was drawn
       std::copy_n(shaded, 4, first.rgba.begin());
     }
-    if (in.rgb && (!shaded || shaded[3] >= 1))
+    if (this->In.rgb && (!shaded || shaded[3] >= 1))
     {
-      std::copy_n(in.rgb + 3 * i, 3, first.rgba.begin());
+      std::copy_n(this->In.rgb + 3 * i, 3, first.rgba.begin());
       first.rgba[3] = 1;
     }
   }
@@ -145,15 +146,17 @@ private:
     {
       return;
     }
-    this->colour(i, this->In, first);
+    const std::size_t begin = this->In.begins[i] - this->In.begins[0];
+    const std::size_t end = this->In.begins[i + 1] - this->In.begins[0];
+    this->colour(i, begin, end, first);
     this->Pixel.push_back(first);
-    for (std::size_t r = 0; r < this->Ranks.size(); ++r)
+    for (std::size_t k = begin; k < end; ++k)
     {
-      const Hit& hit = this->In.ranks[r].hits[i];
-      if (hit.object != 0 && std::isfinite(this->Ranks[r].t[i]) && !this->has(hit))
+      const Hit& hit = this->In.hits[k];
+      if (std::isfinite(this->Distances[k]) && !this->has(hit))
       {
-        LayeredSurface surface = this->make(hit, this->Ranks[r].t[i], x, y);
-        std::copy_n(this->In.ranks[r].rgba + 4 * i, 4, surface.rgba.begin());
+        LayeredSurface surface = this->make(hit, this->Distances[k], x, y);
+        std::copy_n(this->In.rgba + 4 * k, 4, surface.rgba.begin());
         this->add(surface);
       }
     }
@@ -184,15 +187,11 @@ private:
   LayeredRows& Out;
   PixelRays Rays;
   TriangleCache<TriangleFacts, std::function<TriangleFacts(const Hit&)>> Facts;
+  double LogOfRange;
   SurfaceRows First;
-  std::vector<SurfaceRows> Ranks;
+  std::vector<double> Distances; ///< of what was peeled
   std::vector<LayeredSurface> Pixel;
 };
-
-std::uint32_t quantised(double unit, std::uint32_t steps)
-{
-  return static_cast<std::uint32_t>(std::clamp(std::floor(unit * steps), 0.0, double(steps - 1)));
-}
 } // namespace
 
 void layeredDepthRows(const SceneState& state, const View& view, const LayeredInput& in, LayeredRows& out)
@@ -204,8 +203,7 @@ void layeredDepthRows(const SceneState& state, const View& view, const LayeredIn
 
 std::uint32_t splatIndex(double distance, const Eigen::Vector3d& normal, double near, double far)
 {
-  const std::uint32_t d = quantised(std::log(distance / near) / std::log(far / near), distanceSteps);
-  return (d << 6) | (quantised((normal.x() + 1) / 2, normalSteps) << 3) | quantised((normal.y() + 1) / 2, normalSteps);
+  return packed(std::log(distance / near) / std::log(far / near), normal);
 }
 
 double splatDistance(std::uint32_t index, double near, double far)

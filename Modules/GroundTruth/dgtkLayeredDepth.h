@@ -24,20 +24,17 @@ struct LayeredSurface
   Hit hit;
 };
 
-/// Surfaces of one rank, of the pixels of the input's rectangle.
-struct PeeledRows
-{
-  const Hit* hits = nullptr;   ///< 1 per pixel; object 0: no surface of this rank
-  const float* rgba = nullptr; ///< 4 per pixel
-};
-
 /// What layered depth rows are made of.
 struct LayeredInput
 {
   PixelRect rect;             ///< full-width rows, or a part of one row
   const Hit* first = nullptr; ///< the visibility buffer: what every other layer takes for the first surface
   const float* rgb = nullptr; ///< the picture, 3 per pixel, where it has one sample a pixel; else null
-  std::vector<PeeledRows> ranks;
+  // What was peeled, in any order: of pixel i, rows top to bottom, the surfaces begins[i] up to begins[i + 1], counted
+  // from begins[0].
+  const std::uint32_t* begins = nullptr;
+  const Hit* hits = nullptr;
+  const float* rgba = nullptr; ///< 4 a surface
 };
 
 /// Layered depth pixels of the input's rectangle.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkObjectTruth.h"
 
+#include "dgtkPixelBlocks.h"
 #include "dgtkSeenInTime.h"
 
 #include <array>
@@ -396,45 +397,52 @@ void collectObjects(const SceneState& state, const View& view, const OcclusionQu
   const std::size_t objects = state.objects();
   rows.visible.assign(objects, {});
   rows.amodal.assign(objects, {});
-  std::vector<std::vector<Hit>> all(static_cast<std::size_t>(rect.width));
   std::vector<Eigen::Vector2d> asked;
+  std::vector<std::vector<Hit>> all;
+  std::vector<std::size_t> answers;          // of pixels: 1 + the place in `all`, 0: not asked
   std::vector<std::size_t> seen(objects, 0); // 1 + the pixel at which an object was met last
-  for (int y = rect.y; y < rect.y + rect.height; ++y)
+  const auto width = static_cast<std::size_t>(rect.width);
+  const auto indexOf = [&](int x, int y)
+  { return static_cast<std::size_t>(y - rect.y) * width + static_cast<std::size_t>(x - rect.x); };
+  for (int top = 0; top < rect.height; top += rowsOfBlocks(rect.y + top, rect.height - top))
   {
-    const std::size_t row = static_cast<std::size_t>(y - rect.y) * static_cast<std::size_t>(rect.width);
-    const auto objectAt = [&](int x)
-    { return state.objectOf(hits[row + static_cast<std::size_t>(x - rect.x)].object); };
+    const PixelRect part{ rect.x, rect.y + top, rect.width, rowsOfBlocks(rect.y + top, rect.height - top) };
+    const std::size_t start = indexOf(part.x, part.y);
     asked.clear();
-    for (int x = rect.x; x < rect.x + rect.width; ++x)
-    {
-      if (objectAt(x) != 0 && blocks.mayHideOthers(x, y, objectAt(x)))
+    answers.assign(width * static_cast<std::size_t>(part.height), 0);
+    forPixelBlocks(part,
+      [&](int x, int y)
       {
-        asked.emplace_back(x + 0.5, y + 0.5);
-      }
-    }
+        const std::uint32_t object = state.objectOf(hits[indexOf(x, y)].object);
+        if (object != 0 && blocks.mayHideOthers(x, y, object))
+        {
+          asked.emplace_back(x + 0.5, y + 0.5);
+          answers[indexOf(x, y) - start] = asked.size();
+        }
+      });
+    all.resize(std::max(all.size(), asked.size()));
     occlusion.allHits(view, asked.data(), asked.size(), all.data());
-    std::size_t answer = 0;
-    for (int x = rect.x; x < rect.x + rect.width; ++x)
+    for (std::size_t i = 0; i < answers.size(); ++i)
     {
-      const std::uint32_t first = objectAt(x);
+      const std::uint32_t first = state.objectOf(hits[start + i].object);
       if (first == 0)
       {
         continue; // the ray meets nothing
       }
+      const int x = rect.x + static_cast<int>(i % width);
+      const int y = part.y + static_cast<int>(i / width);
       rows.visible[first - 1].add(x, y, false);
       rows.amodal[first - 1].add(x, y, amodalRuns);
-      if (answer == asked.size() || asked[answer].x() != x + 0.5)
+      if (answers[i] == 0)
       {
         continue;
       }
-      const std::size_t mark = row + static_cast<std::size_t>(x - rect.x) + 1;
-      seen[first - 1] = mark;
-      for (const Hit& hit : all[answer++])
+      seen[first - 1] = start + i + 1;
+      for (const Hit& hit : all[answers[i] - 1])
       {
         const std::size_t object = state.objectOf(hit.object) - 1;
-        if (seen[object] != mark)
+        if (std::exchange(seen[object], start + i + 1) != start + i + 1)
         {
-          seen[object] = mark;
           rows.amodal[object].add(x, y, amodalRuns);
         }
       }

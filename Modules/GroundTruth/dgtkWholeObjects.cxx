@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkWholeObjects.h"
 
+#include "dgtkPixelBlocks.h"
 #include "dgtkResampledCamera.h"
 #include "dgtkThreadPool.h"
 
@@ -75,7 +76,7 @@ private:
   void trace(const PixelRect& strip)
   {
     this->Source.render(strip, this->Hits);
-    const int rows = std::max(1, jobPixels / strip.width);
+    const int rows = std::max(pixelBlock, jobPixels / strip.width / pixelBlock * pixelBlock);
     std::vector<ObjectRows> parts(static_cast<std::size_t>((strip.height + rows - 1) / rows));
     this->Pool.parallelFor(static_cast<int>(parts.size()),
       [&](int i)

@@ -5,6 +5,7 @@
 // Private to Layers.
 
 #include "dgtkBand.h"
+#include "dgtkPixelBlocks.h"
 #include "dgtkThreadPool.h"
 #include "dgtkWorkTime.h"
 
@@ -15,18 +16,15 @@
 namespace dgtk
 {
 
-/// Strips end where blocks of neighbouring pixels do that are best looked at together.
-constexpr int blockRows = 4;
-
-/// Cuts the rows of a band into strips of some `pixels`. `derive(rect, hits)` is called for `batch` of them side by
-/// side, with the strip's rectangle and the hits of its pixels; `give` gets what it returns, strip by strip from the
-/// top.
+/// Cuts the rows of a band into strips of some `pixels`, which end where blocks of pixels do. `derive(rect, hits)` is
+/// called for `batch` of them side by side, with the strip's rectangle and the hits of its pixels; `give` gets what it
+/// returns, strip by strip from the top.
 template <typename Derive, typename Give>
 void forStrips(const Band& band, int pixels, int batch, ThreadPool& pool, const Derive& derive, const Give& give)
 {
   const PixelRect& whole = band.rect;
   const int most = std::max(1, pixels / whole.width);
-  const int rows = most < blockRows ? most : most / blockRows * blockRows;
+  const int rows = most < pixelBlock ? most : most / pixelBlock * pixelBlock;
   const int strips = (whole.height + rows - 1) / rows;
   batch = std::max(1, batch);
   for (int first = 0; first < strips; first += batch)

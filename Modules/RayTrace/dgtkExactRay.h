@@ -53,22 +53,39 @@ inline int side(double value, const Eigen::Vector3d& line)
 
 } // namespace exact
 
-/// A triangle as seen from the origin of a ray.
-struct SeenTriangle
+/// A triangle as seen from a point: what rays from there have in common.
+struct TriangleFrom
 {
-  SeenTriangle(const ExactRay& ray, const Eigen::Vector3d corners[3])
-    : x{ corners[0] - ray.origin, corners[1] - ray.origin, corners[2] - ray.origin }
+  TriangleFrom() = default;
+  TriangleFrom(const Eigen::Vector3d& origin, const Eigen::Vector3d corners[3])
+    : x{ corners[0] - origin, corners[1] - origin, corners[2] - origin }
   {
     for (int i = 0; i < 3; ++i)
     {
-      const Eigen::Vector3d line = exact::cross(x[(i + 1) % 3], x[(i + 2) % 3]);
-      this->volume[i] = line.dot(ray.direction);
-      this->sides += exact::side(this->volume[i], line);
+      this->line[i] = exact::cross(this->x[(i + 1) % 3], this->x[(i + 2) % 3]);
+      this->edge[i] = (this->x[(i + 1) % 3] - this->x[i]).squaredNorm();
     }
   }
-  Eigen::Vector3d x[3]; ///< corners
-  double volume[3];     ///< six times that of the ray's direction and the edge opposite of a corner
-  int sides = 0;        ///< of the edges on which the ray passes, summed: 3 or -3 inside
+  Eigen::Vector3d x[3];    ///< corners
+  Eigen::Vector3d line[3]; ///< normals of the planes through the point and the edges opposite of the corners
+  double edge[3];          ///< squares of the lengths from each corner to the next
+};
+
+/// A triangle as a ray meets it.
+struct SeenTriangle
+{
+  SeenTriangle(const ExactRay& ray, const TriangleFrom& origin)
+    : from(origin)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      this->volume[i] = origin.line[i].dot(ray.direction);
+      this->sides += exact::side(this->volume[i], origin.line[i]);
+    }
+  }
+  const TriangleFrom& from;
+  double volume[3]; ///< six times that of the ray's direction and the edge opposite of a corner
+  int sides = 0;    ///< of the edges on which the ray passes, summed: 3 or -3 inside
 };
 
 inline ExactHit intersectExactly(const ExactRay& ray, const SeenTriangle& seen)
@@ -76,7 +93,8 @@ inline ExactHit intersectExactly(const ExactRay& ray, const SeenTriangle& seen)
   ExactHit hit;
   const double sum = seen.volume[0] + seen.volume[1] + seen.volume[2];
   hit.inside = (seen.sides == 3 || seen.sides == -3) && sum != 0;
-  const Eigen::Vector3d point = seen.volume[0] * seen.x[0] + seen.volume[1] * seen.x[1] + seen.volume[2] * seen.x[2];
+  const Eigen::Vector3d* const x = seen.from.x;
+  const Eigen::Vector3d point = seen.volume[0] * x[0] + seen.volume[1] * x[1] + seen.volume[2] * x[2];
   hit.t = point.dot(ray.direction) / (sum * ray.direction.squaredNorm());
   hit.barycentrics = { seen.volume[1] / sum, seen.volume[2] / sum };
   return hit;
@@ -89,7 +107,7 @@ inline bool isMarginal(const ExactRay& ray, const SeenTriangle& seen, double sla
   for (int i = 0; i < 3; ++i)
   {
     const double volume = seen.volume[(i + 2) % 3];
-    if (!(volume * volume > limit * (seen.x[(i + 1) % 3] - seen.x[i]).squaredNorm()))
+    if (!(volume * volume > limit * seen.from.edge[i]))
     {
       return true;
     }

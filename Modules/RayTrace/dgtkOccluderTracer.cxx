@@ -29,10 +29,12 @@ bool isCoarse(const RayScene& scene, const View& view) { return scene.errorInPix
 Hit nearestOnRay(const RayScene& scene, const ExactRay& ray, const Hit& target, bool coarse)
 {
   RayContext context;
+  SeenTriangles triangles(scene);
   rtcInitIntersectContext(&context.context);
   context.context.filter = rayFilter;
   context.scene = &scene;
   context.mode = RayContext::Mode::Checked;
+  context.triangles = &triangles;
   context.rays = &ray;
   context.skip = &target;
   context.t[0] = INFINITY;
@@ -47,6 +49,8 @@ OccluderTracer::OccluderTracer(std::shared_ptr<const RayScene> scene, const View
   : Scene(std::move(scene))
   , TheView(view)
   , Coarse(isCoarse(*this->Scene, view))
+  , Central(view.model->isCentral())
+  , Triangles(*this->Scene)
 {
   rtcInitIntersectContext(&this->Context.context);
   this->Context.context.flags =
@@ -55,6 +59,7 @@ OccluderTracer::OccluderTracer(std::shared_ptr<const RayScene> scene, const View
   this->Context.scene = this->Scene.get();
   this->Context.mode = RayContext::Mode::Checked;
   this->Context.rays = this->Rays;
+  this->Context.triangles = &this->Triangles;
 }
 
 unsigned int OccluderTracer::aim(const Eigen::Vector3d* x_in_world, std::size_t count, const Rigid3* poses)
@@ -68,14 +73,18 @@ unsigned int OccluderTracer::aim(const Eigen::Vector3d* x_in_world, std::size_t 
     pixels[i].setZero();
   }
   this->TheView.model->projectAll(x, count, pixels, this->Seen);
-  this->TheView.model->raysThrough(pixels, count, rays);
+  if (!this->Central)
+  {
+    this->TheView.model->raysThrough(pixels, count, rays);
+  }
   unsigned int active = 0;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const Eigen::Vector3d way = x[i] - rays[i].origin;
-    const double t = way.dot(rays[i].direction) / rays[i].direction.squaredNorm();
+    const Eigen::Vector3d origin = this->Central ? Eigen::Vector3d::Zero() : rays[i].origin;
+    const Eigen::Vector3d way = x[i] - origin;
+    const double t = this->Central ? way.norm() : way.dot(rays[i].direction) / rays[i].direction.squaredNorm();
     const double most = t * (1 - pointSlack);
-    this->Rays[i] = { rays[i].origin, way / t, this->TheView.near, most }; // whatever the projection's rounding
+    this->Rays[i] = { origin, way / t, this->TheView.near, most }; // whatever the projection's rounding
     if (poses)
     {
       const Rigid3 scene_from_camera = this->Scene->pose() * poses[i].inverse();

@@ -38,6 +38,8 @@ private:
   std::shared_ptr<const RayScene> Scene;
   const View& TheView;
   bool Coarse;
+  bool Central;
+  SeenTriangles Triangles;
   RayContext Context;
   unsigned int Active = 0; ///< bits of the lanes that have a ray
   ExactRay Rays[lanes];

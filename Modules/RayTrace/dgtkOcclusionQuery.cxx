@@ -93,6 +93,7 @@ public:
     ExactRay rays[lanes];
     std::vector<Hit> candidates[lanes];
     std::vector<RayHit> found;
+    SeenTriangles triangles(scene);
     for (std::size_t first = 0; first < count; first += lanes)
     {
       const std::size_t many = std::min(count - first, lanes);
@@ -104,7 +105,7 @@ public:
       collectCandidates(scene, rays, many, isCoherent(view), candidates);
       for (std::size_t i = 0; i < many; ++i)
       {
-        settleHits(scene, rays[i], coarse, candidates[i], found);
+        settleHits(scene, rays[i], coarse, triangles, candidates[i], found);
         hits[first + i].clear();
         for (const RayHit& hit : found)
         {

@@ -125,22 +125,20 @@ void RayScene::placeInstance(std::size_t index)
   placed.reach = translation.norm() + linear.norm() * placed.mesh->radius;
 }
 
-void RayScene::corners(const Hit& hit, Eigen::Vector3d out[3]) const
+TriangleFrom RayScene::triangleFrom(const Eigen::Vector3d& origin, const Hit& hit) const
 {
   const Placed& placed = this->Instances[hit.object - 1];
   const Eigen::Vector3d* positions = placed.mesh->geometry->positions.data();
   const auto& triangle = placed.mesh->model->triangles[hit.triangle];
-  for (int i = 0; i < 3; ++i)
-  {
-    out[i] = placed.camera_from_object * positions[triangle[i]];
-  }
+  const Eigen::Vector3d corners[3] = { placed.camera_from_object * positions[triangle[0]],
+    placed.camera_from_object * positions[triangle[1]], placed.camera_from_object * positions[triangle[2]] };
+  return { origin, corners };
 }
 
 ExactHit RayScene::intersectTriangle(const ExactRay& ray, const Hit& hit) const
 {
-  Eigen::Vector3d x[3];
-  this->corners(hit, x);
-  return intersectExactly(ray, SeenTriangle(ray, x));
+  const TriangleFrom triangle = this->triangleFrom(ray.origin, hit);
+  return intersectExactly(ray, SeenTriangle(ray, triangle));
 }
 
 bool RayScene::isThere(const ExactRay& ray, const Hit& hit, const ExactHit& exact) const
@@ -157,11 +155,9 @@ ExactHit RayScene::intersect(const ExactRay& ray, const Hit& hit) const
   return exact;
 }
 
-ExactHit RayScene::intersect(const ExactRay& ray, const Hit& hit, bool& uncertain) const
+ExactHit RayScene::intersect(const ExactRay& ray, const Hit& hit, bool& uncertain, SeenTriangles& triangles) const
 {
-  Eigen::Vector3d x[3];
-  this->corners(hit, x);
-  const SeenTriangle seen(ray, x);
+  const SeenTriangle seen(ray, triangles.from(ray.origin, hit));
   ExactHit exact = intersectExactly(ray, seen);
   const double reach = this->Instances[hit.object - 1].reach;
   uncertain = isMarginal(ray, seen, rayPrecision * (std::abs(exact.t) * ray.direction.norm() + reach));
@@ -274,17 +270,18 @@ void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::v
   thread_local std::vector<Hit> found;
   found.clear();
   trace(scene, ray, found);
-  settleHits(scene, ray, nearby, found, hits);
+  SeenTriangles triangles(scene);
+  settleHits(scene, ray, nearby, triangles, found, hits);
 }
 
-void settleHits(
-  const RayScene& scene, const ExactRay& ray, bool nearby, std::vector<Hit>& found, std::vector<RayHit>& hits)
+void settleHits(const RayScene& scene, const ExactRay& ray, bool nearby, SeenTriangles& triangles,
+  std::vector<Hit>& found, std::vector<RayHit>& hits)
 {
   hits.clear();
   for (const Hit& hit : found)
   {
     bool uncertain = false;
-    const ExactHit exactly = scene.intersect(ray, hit, uncertain);
+    const ExactHit exactly = scene.intersect(ray, hit, uncertain, triangles);
     nearby = nearby || uncertain;
     if (exactly.inside)
     {

@@ -12,6 +12,8 @@
 namespace dgtk
 {
 
+class SeenTriangles;
+
 /// A scene state in the frame of one camera: instances are placed relative to the camera in double precision before
 /// they are rounded, so that scenes far from the origin lose nothing.
 class RayScene
@@ -52,14 +54,15 @@ public:
     return { instance + 1, this->Instances[instance].mesh->firstTriangle[geometry] + primitive };
   }
   /// Exact intersection with a triangle; inside is false outside the ray's range and at missing texels. `uncertain`:
-  /// whether single precision cannot tell on which side of an edge the ray passes.
-  ExactHit intersect(const ExactRay& ray, const Hit& hit, bool& uncertain) const;
+  /// whether single precision cannot tell on which side of an edge the ray passes. `triangles`: of this scene.
+  ExactHit intersect(const ExactRay& ray, const Hit& hit, bool& uncertain, SeenTriangles& triangles) const;
   ExactHit intersect(const ExactRay& ray, const Hit& hit) const;
   /// The same without the range and the texels.
   ExactHit intersectTriangle(const ExactRay& ray, const Hit& hit) const;
 
+  TriangleFrom triangleFrom(const Eigen::Vector3d& origin, const Hit& hit) const;
+
 private:
-  void corners(const Hit& hit, Eigen::Vector3d out[3]) const;
   bool isThere(const ExactRay& ray, const Hit& hit, const ExactHit& exact) const;
   void setMesh(std::size_t index, const std::shared_ptr<const RayMesh>& mesh);
   void placeInstance(std::size_t index);
@@ -71,6 +74,38 @@ private:
   Rigid3 Pose;
   std::vector<Placed> Instances;
   double Reach = 0;
+};
+
+/// Triangles of a scene as seen from the points where rays start, those met last: mostly rays side by side start at one
+/// point and meet the same ones. One thread.
+class SeenTriangles
+{
+public:
+  explicit SeenTriangles(const RayScene& scene)
+    : Scene(scene)
+    , Entries(entryCount)
+  {
+  }
+  const TriangleFrom& from(const Eigen::Vector3d& origin, const Hit& hit)
+  {
+    Entry& entry = this->Entries[(hit.triangle * 0x9E3779B1U ^ hit.object * 0x85EBCA77U) >> 25U];
+    if (entry.hit != hit || entry.origin != origin)
+    {
+      entry = { hit, origin, this->Scene.triangleFrom(origin, hit) };
+    }
+    return entry.triangle;
+  }
+
+private:
+  static constexpr std::size_t entryCount = 128;
+  struct Entry
+  {
+    Hit hit;
+    Eigen::Vector3d origin;
+    TriangleFrom triangle;
+  };
+  const RayScene& Scene;
+  std::vector<Entry> Entries;
 };
 
 /// The ray through an image point with the view's near and far; with an empty range where none is.
@@ -91,8 +126,8 @@ struct RayHit
 /// misses by a rounding; otherwise only when some surface is marginal.
 void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::vector<RayHit>& hits);
 /// The same where all candidates along the ray itself are in `found`, which gets those beside it.
-void settleHits(
-  const RayScene& scene, const ExactRay& ray, bool nearby, std::vector<Hit>& found, std::vector<RayHit>& hits);
+void settleHits(const RayScene& scene, const ExactRay& ray, bool nearby, SeenTriangles& triangles,
+  std::vector<Hit>& found, std::vector<RayHit>& hits);
 
 /// Whether Embree's bounds of coherent packets may be used for rays of a view: they lose surfaces when the rays start
 /// at different points and run along an axis but for a rounding, as those of parallel projections do.
@@ -122,9 +157,10 @@ struct RayContext
   int y = 0;
   float t[16];
   Hit best[16];
-  const Hit* skip = nullptr;         ///< Checked: a triangle that is not there, a lane
-  unsigned int marginal = 0;         ///< Checked: bits of lanes in which single precision may have missed something
-  std::vector<Hit>* found = nullptr; ///< Collect: a list a lane
+  const Hit* skip = nullptr;          ///< Checked: a triangle that is not there, a lane
+  SeenTriangles* triangles = nullptr; ///< Checked
+  unsigned int marginal = 0;          ///< Checked: bits of lanes in which single precision may have missed something
+  std::vector<Hit>* found = nullptr;  ///< Collect: a list a lane
 };
 
 /// Traces those of up to 16 rays whose bits are set in `active`: one alone, several as a packet.

@@ -11,12 +11,14 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <emmintrin.h>
 
 namespace dgtk
 {
 
 /// Red, green, blue, or x, y, z; the fourth is free. Operators work on each.
 using Float4 = float __attribute__((vector_size(16)));
+using Int4 = std::int32_t __attribute__((vector_size(16)));
 
 inline Float4 float4(float x, float y, float z, float w = 0) { return Float4{ x, y, z, w }; }
 inline Float4 float4(float all) { return Float4{ all, all, all, all }; }
@@ -149,16 +151,17 @@ inline Float4 toDisplay(Float4 c)
   return float4(displayOf(c[0]), displayOf(c[1]), displayOf(c[2]));
 }
 
-/// Of a coordinate in which pictures repeat: its place in [0, 1); 0 for what is no number.
-inline float repeated(double v)
+/// Of coordinates in which pictures repeat: their places u, v, u, v in [0, 1); 0 for what is no number.
+inline Float4 repeated(double u, double v)
 {
-  if (!(std::abs(v) < 1e9))
-  {
-    return 0;
-  }
-  const double whole = double(std::int32_t(v));
-  const auto part = float(v - (v < whole ? whole - 1 : whole));
-  return part < 1 ? part : 0.0F;
+  const __m128d at = _mm_set_pd(v, u);
+  const __m128d whole = _mm_cvtepi32_pd(_mm_cvttpd_epi32(at));
+  const __m128d below = _mm_sub_pd(whole, _mm_and_pd(_mm_cmplt_pd(at, whole), _mm_set1_pd(1)));
+  const __m128 parts = _mm_cvtpd_ps(_mm_sub_pd(at, below));
+  const __m128 both = _mm_movelh_ps(parts, parts);
+  const __m128 known = _mm_castpd_ps(_mm_cmplt_pd(_mm_andnot_pd(_mm_set1_pd(-0.0), at), _mm_set1_pd(1e9)));
+  return _mm_and_ps(
+    both, _mm_and_ps(_mm_cmplt_ps(both, _mm_set1_ps(1)), _mm_shuffle_ps(known, known, _MM_SHUFFLE(2, 0, 2, 0))));
 }
 
 } // namespace dgtk

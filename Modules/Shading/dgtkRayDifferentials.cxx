@@ -41,7 +41,7 @@ void RayDifferentials::linearRow(int y, int first, int count)
   this->Model.raysThrough(this->Pixels.data(), std::size_t(count), this->Own.data());
   for (std::size_t i = 0; i < std::size_t(count); ++i)
   {
-    this->Row[i] = { this->Own[i], &this->Right, &this->Down };
+    this->Row[i] = { &this->Own[i], &this->Right, &this->Down };
   }
 }
 
@@ -86,7 +86,7 @@ void RayDifferentials::generalRow(int y, int first, int count)
     CameraRay* const own = &this->Differences[2 * std::size_t(i)];
     own[0] = difference(this->Own[after], this->Own[before], 1 / steps);
     own[1] = difference(isRay(this->Below[at]) ? this->Below[at] : this->Own[at], this->Own[at], last ? -1 : 1);
-    this->Row[std::size_t(i)] = { this->Own[at], own, own + 1 };
+    this->Row[std::size_t(i)] = { &this->Own[at], own, own + 1 };
   }
 }
 

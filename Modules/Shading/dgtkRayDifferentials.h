@@ -14,7 +14,7 @@ namespace dgtk
 /// A ray through a pixel's centre and how it changes to its neighbours (Igehy 1999, Tracing Ray Differentials).
 struct PixelRay
 {
-  CameraRay ray;
+  const CameraRay* own;
   const CameraRay* right; ///< differences
   const CameraRay* down;
 };
@@ -24,7 +24,7 @@ class RayDifferentials
 {
 public:
   explicit RayDifferentials(const CameraModel& model);
-  /// Of columns [first, first + count) of row y.
+  /// Of columns [first, first + count) of row y, until the next row.
   const std::vector<PixelRay>& row(int y, int first, int count);
 
 private:

@@ -5,6 +5,7 @@
 
 #include "dgtkError.h"
 #include "dgtkInstantSource.h"
+#include "dgtkPixelBlocks.h"
 #include "dgtkRaySource.h"
 #include "dgtkResampledCamera.h"
 #include "dgtkSpareVectors.h"
@@ -115,6 +116,8 @@ public:
   }
   std::function<void()> drawColor(
     const PixelRect& rect, int samples, ColorBuffer& colors, VisibilityBuffer* hits) override;
+  void renderWanted(const PixelRect& rect, ColorBuffer& colors, VisibilityBuffer& hits,
+    const std::function<bool(const Hit&)>& wanted) override;
   std::function<void()> peel(const PixelRect& rect, SurfaceLists& lists) override;
 
 private:
@@ -212,6 +215,17 @@ std::function<void()> RayPictures::drawColor(
   { shadeHits(*scene, seen, pool, colors.rgb.data()); };
 }
 
+void RayPictures::renderWanted(
+  const PixelRect& rect, ColorBuffer& colors, VisibilityBuffer& hits, const std::function<bool(const Hit&)>& wanted)
+{
+  this->render(rect, hits);
+  VisibilityBuffer shown = hits;
+  std::replace_if(
+    shown.hits.begin(), shown.hits.end(), [&wanted](const Hit& hit) { return !wanted(hit); }, Hit());
+  colors.resize(rect);
+  shadeHits(*this->shaded(), shown, this->Pool, colors.rgb.data());
+}
+
 /// The samples are the pixels of a picture `samples` times as large.
 void RayPictures::drawSamples(const PixelRect& rect, int samples, ColorBuffer& colors)
 {
@@ -246,27 +260,49 @@ void RayPictures::drawSamples(const PixelRect& rect, int samples, ColorBuffer& c
   }
 }
 
-/// All surfaces along the rays of a row of pixels.
-void peelRow(
-  const ShadedView& view, ShadedView::Worker& worker, std::vector<std::vector<Hit>>& space, SurfaceLists& row)
+/// What peelRows() needs, kept from one call to the next.
+struct PeelSpace
 {
-  const PixelRect& rect = row.rect;
-  space.resize(std::size_t(rect.width));
-  view.allHits(rect.x, rect.y, rect.width, space.data());
+  std::vector<Eigen::Vector2d> pixels;
+  std::vector<std::uint32_t> places; ///< in `pixels` and `hits`, of the pixels row by row
+  std::vector<std::vector<Hit>> hits;
   std::vector<ShadedView::Surface> surfaces;
-  for (int x = 0; x < rect.width; ++x)
-  {
-    row.first.push_back(std::uint32_t(surfaces.size()));
-    for (const Hit& hit : space[std::size_t(x)])
+};
+
+/// All surfaces along the rays of some rows of pixels.
+void peelRows(const ShadedView& view, ShadedView::Worker& worker, PeelSpace& space, SurfaceLists& rows)
+{
+  const PixelRect& rect = rows.rect;
+  space.pixels.clear();
+  space.places.resize(std::size_t(rect.width) * std::size_t(rect.height));
+  forPixelBlocks(rect,
+    [&](int x, int y)
     {
-      surfaces.push_back({ x, hit });
-      row.hits.push_back(hit);
+      space.places[std::size_t(y - rect.y) * std::size_t(rect.width) + std::size_t(x - rect.x)] =
+        std::uint32_t(space.pixels.size());
+      space.pixels.emplace_back(x + 0.5, y + 0.5);
+    });
+  space.hits.resize(std::max(space.hits.size(), space.pixels.size()));
+  view.allHits(space.pixels, space.hits.data());
+  const std::uint32_t* place = space.places.data();
+  for (int y = 0; y < rect.height; ++y)
+  {
+    space.surfaces.clear();
+    for (int x = 0; x < rect.width; ++x)
+    {
+      rows.first.push_back(std::uint32_t(rows.hits.size()));
+      for (const Hit& hit : space.hits[*place++])
+      {
+        space.surfaces.push_back({ x, hit });
+        rows.hits.push_back(hit);
+      }
     }
+    const std::size_t before = rows.rgba.size();
+    rows.rgba.resize(4 * rows.hits.size());
+    view.shadeRow(worker, rect.x, rect.y + y, rect.width, space.surfaces, rows.rgba.data() + before);
   }
-  row.rgba.resize(4 * surfaces.size());
-  view.shadeRow(worker, rect.x, rect.y, rect.width, surfaces, row.rgba.data());
   std::transform(
-    row.rgba.begin(), row.rgba.end(), row.rgba.begin(), [](float v) { return std::min(std::max(v, 0.0F), 1.0F); });
+    rows.rgba.begin(), rows.rgba.end(), rows.rgba.begin(), [](float v) { return std::min(std::max(v, 0.0F), 1.0F); });
 }
 
 std::function<void()> RayPictures::peel(const PixelRect& rect, SurfaceLists& lists)
@@ -274,26 +310,22 @@ std::function<void()> RayPictures::peel(const PixelRect& rect, SurfaceLists& lis
   return [scene = this->shaded(), rect, &lists, &pool = this->Pool]
   {
     std::vector<TimedRect> runs;
-    for (int y = 0; scene->isWhole() && y < rect.height; ++y)
+    for (int y = 0; scene->isWhole() && y < rect.height; y += rowsOfBlocks(rect.y + y, rect.height - y))
     {
-      runs.push_back({ { rect.x, rect.y + y, rect.width, 1 }, 0 });
+      runs.push_back({ { rect.x, rect.y + y, rect.width, rowsOfBlocks(rect.y + y, rect.height - y) }, 0 });
     }
     runs = scene->isWhole() ? std::move(runs) : timedRuns(*scene->view().model, rect);
-    const int count = static_cast<int>(runs.size());
     std::vector<SurfaceLists> rows(runs.size());
-    pool.parallelFor((count + jobRows - 1) / jobRows,
-      [&](int job)
+    pool.parallelFor(static_cast<int>(runs.size()),
+      [&](int i)
       {
         const WorkTime time(WorkStage::Draw);
-        std::vector<std::vector<Hit>> space;
-        for (int i = job * jobRows; i < std::min(count, (job + 1) * jobRows); ++i)
-        {
-          const TimedRect& run = runs[std::size_t(i)];
-          const std::shared_ptr<const ShadedView> view = scene->at(run.time);
-          ShadedView::Worker worker(*view);
-          rows[std::size_t(i)].rect = run.rect;
-          peelRow(*view, worker, space, rows[std::size_t(i)]);
-        }
+        thread_local PeelSpace space;
+        const TimedRect& run = runs[std::size_t(i)];
+        const std::shared_ptr<const ShadedView> view = scene->at(run.time);
+        ShadedView::Worker worker(*view);
+        rows[std::size_t(i)].rect = run.rect;
+        peelRows(*view, worker, space, rows[std::size_t(i)]);
       });
     lists = { rect, {}, {}, {} };
     for (const SurfaceLists& row : rows)

@@ -185,10 +185,10 @@ ShadedLight::ShadedLight(const SceneState& state, const View& view)
   }
 }
 
-PointLight ShadedLight::of(std::size_t light, const ShadedPoint& point) const
+void ShadedLight::of(std::size_t light, const ShadedPoint& point, PointLight& to) const
 {
   const Light& from = this->Lights[light];
-  PointLight to;
+  to.lit = 1;
   if (from.atViewer)
   {
     to.toLight = point.viewer;
@@ -201,7 +201,6 @@ PointLight ShadedLight::of(std::size_t light, const ShadedPoint& point) const
     to.strength = float(ray.strength);
   }
   to.cosine = dot(point.normal, to.toLight);
-  return to;
 }
 
 double ShadedLight::distanceTo(std::size_t light, const Eigen::Vector3d& position) const

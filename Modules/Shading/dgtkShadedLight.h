@@ -56,7 +56,7 @@ public:
   std::size_t lights() const { return this->Lights.size(); }
   bool castsShadows(std::size_t light) const { return this->Lights[light].shadows; }
   bool castsShadows() const { return this->Shadows; }
-  PointLight of(std::size_t light, const ShadedPoint& point) const;
+  void of(std::size_t light, const ShadedPoint& point, PointLight& to) const;
   /// Along the way of a path: how far a light is; infinite for parallel light.
   double distanceTo(std::size_t light, const Eigen::Vector3d& position) const;
 

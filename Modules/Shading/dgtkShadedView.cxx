@@ -82,6 +82,16 @@ void ShadedView::prepare(const Hit& hit, Triangle& triangle) const
     triangle.toV = toSecond.y() * triangle.second + toThird.y() * triangle.third;
   }
   prepareTint(model, corners, triangle);
+  if (this->Shadows)
+  {
+    const Float4 more[3] = { float4(0), triangle.shadingSecond, triangle.shadingThird };
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      triangle.corners[i] = placed.camera_from_object * geometry.positions[corners[i]];
+      triangle.tangents[i] = toVector3d(normalized(triangle.shading + more[i]));
+    }
+    triangle.outward = triangle.normal.normalized();
+  }
 }
 
 void ShadedView::prepareTint(const Model& model, const std::array<std::uint32_t, 3>& corners, Triangle& triangle)
@@ -116,11 +126,11 @@ Float4 ShadedView::tintOf(const Triangle& triangle, double second, double third)
 
 void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoint& point) const
 {
-  const Eigen::Vector3d& d = ray.ray.direction;
+  const Eigen::Vector3d& d = ray.own->direction;
   const double along = triangle.normal.dot(d);
   const double perAlong = along != 0 ? 1 / along : 0.0;
-  const double t = triangle.normal.dot(triangle.corner - ray.ray.origin) * perAlong;
-  const Eigen::Vector3d position = ray.ray.origin + t * d;
+  const double t = triangle.normal.dot(triangle.corner - ray.own->origin) * perAlong;
+  const Eigen::Vector3d position = ray.own->origin + t * d;
   const Eigen::Vector3d inside = position - triangle.corner;
   const double second = triangle.second.dot(inside);
   const double third = triangle.third.dot(inside);
@@ -143,7 +153,7 @@ void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoin
   if (this->Shadows)
   {
     const double parts[3] = { 1 - second - third, second, third };
-    this->lift(triangle, position, parts, front, point);
+    lift(triangle, position, parts, front, point);
   }
   if (material.mapped)
   {
@@ -165,20 +175,16 @@ void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoin
 
 /// Off the flat triangle to where the corners' tangent planes are: shadows end where smooth shading does (Hanika 2021,
 /// Hacking the Shadow Terminator).
-void ShadedView::lift(const Triangle& triangle, const Eigen::Vector3d& position, const double parts[3], bool front,
-  ShadedPoint& point) const
+void ShadedView::lift(
+  const Triangle& triangle, const Eigen::Vector3d& position, const double parts[3], bool front, ShadedPoint& point)
 {
   const double towards = front == (triangle.side > 0) ? 1 : -1; // of the flat normal, to the side that is seen
-  point.outward = triangle.normal.normalized() * towards;
+  point.outward = triangle.outward * towards;
   point.lifted = position;
-  const Affine3& placed = this->Objects[triangle.hit.object - 1].camera_from_object;
-  const Instance& instance = this->State->instances[triangle.hit.object - 1];
-  const auto& corners = instance.model->triangles[triangle.hit.triangle];
-  const Float4 more[3] = { float4(0), triangle.shadingSecond, triangle.shadingThird };
   for (std::size_t i = 0; i < 3; ++i)
   {
-    const Eigen::Vector3d tangent = toVector3d(normalized(triangle.shading + more[i])) * (front ? 1.0 : -1.0);
-    const Eigen::Vector3d above = position - placed * instance.geometry->positions[corners[i]];
+    const Eigen::Vector3d tangent = triangle.tangents[i] * (front ? 1.0 : -1.0);
+    const Eigen::Vector3d above = position - triangle.corners[i];
     point.lifted -= parts[i] * std::min(0.0, above.dot(tangent)) * tangent;
   }
 }
@@ -236,7 +242,7 @@ void ShadedView::shade(
       this->place(rays[std::size_t(surface.pixel)], worker.triangle(*this, surface.hit), points[i]);
       for (std::size_t light = 0; light < lights; ++light)
       {
-        lit[i * lights + light] = this->Light.of(light, points[i]);
+        this->Light.of(light, points[i], lit[i * lights + light]);
       }
     }
     if (this->Shadows)
@@ -258,7 +264,7 @@ Float4 ShadedView::skyAt(const PixelRay& ray) const
   {
     return this->Light.background();
   }
-  const Eigen::Vector3d& d = ray.ray.direction;
+  const Eigen::Vector3d& d = ray.own->direction;
   const double square = d.squaredNorm();
   const double angle = std::sqrt(d.cross(ray.right->direction).norm() * d.cross(ray.down->direction).norm()) / square;
   return this->Light.sky(toFloat4(d / std::sqrt(square)), float(angle));
@@ -275,14 +281,15 @@ void ShadedView::row(Worker& worker, int x, int y, int count, const Hit* hits, f
     to[2] = color[2];
   };
   std::vector<Surface>& surfaces = worker.Surfaces;
-  surfaces.clear();
+  surfaces.resize(std::size_t(count));
+  std::size_t seen = 0;
   worker.Translucent.clear();
   for (int i = 0; i < count; ++i)
   {
     if (hits[i].object == 0)
     {
       const PixelRay& ray = rays[std::size_t(i)];
-      put(i, ray.ray.exists() ? this->skyAt(ray) : float4(0)); // no light comes to where the lens does not reach
+      put(i, ray.own->exists() ? this->skyAt(ray) : float4(0)); // no light comes to where the lens does not reach
     }
     else if (this->Translucent && !this->isOpaque(hits[i]))
     {
@@ -290,9 +297,11 @@ void ShadedView::row(Worker& worker, int x, int y, int count, const Hit* hits, f
     }
     else
     {
-      surfaces.push_back({ i, hits[i] });
+      surfaces[seen].pixel = i; // member by member: what is read is what was written
+      surfaces[seen++].hit = hits[i];
     }
   }
+  surfaces.resize(seen);
   worker.Colors.resize(4 * surfaces.size());
   this->shade(worker, rays, surfaces, worker.Colors.data());
   for (std::size_t i = 0; i < surfaces.size(); ++i)
@@ -305,7 +314,7 @@ void ShadedView::row(Worker& worker, int x, int y, int count, const Hit* hits, f
   }
 }
 
-void ShadedView::allHits(int x, int y, int count, std::vector<Hit>* hits) const
+void ShadedView::allHits(const std::vector<Eigen::Vector2d>& pixels, std::vector<Hit>* hits) const
 {
   std::call_once(this->QueryMade,
     [this]
@@ -313,30 +322,31 @@ void ShadedView::allHits(int x, int y, int count, std::vector<Hit>* hits) const
       this->Query = makeOcclusionQuery();
       this->Query->setScene(this->State);
     });
-  std::vector<Eigen::Vector2d> pixels;
-  pixels.reserve(std::size_t(count));
-  for (int i = 0; i < count; ++i)
-  {
-    pixels.emplace_back(x + i + 0.5, y + 0.5);
-  }
   this->Query->allHits(this->TheView, pixels.data(), pixels.size(), hits);
 }
 
 /// Surfaces in order, nearest first, until one is opaque.
 void ShadedView::seeThrough(Worker& worker, int x, int y, const std::vector<PixelRay>& rays, float* rgb) const
 {
-  std::vector<std::vector<Hit>> hits(1);
   std::vector<Surface>& surfaces = worker.Behind;
   std::vector<float>& colors = worker.Colors;
+  worker.SeenThrough.clear();
   for (const int pixel : worker.Translucent)
   {
-    this->allHits(x + pixel, y, 1, hits.data());
+    worker.SeenThrough.emplace_back(x + pixel + 0.5, y + 0.5);
+  }
+  worker.Hits.resize(std::max(worker.Hits.size(), worker.SeenThrough.size()));
+  this->allHits(worker.SeenThrough, worker.Hits.data());
+  for (std::size_t k = 0; k < worker.Translucent.size(); ++k)
+  {
+    const int pixel = worker.Translucent[k];
+    const std::vector<Hit>& hits = worker.Hits[k];
     surfaces.clear();
     bool closed = false;
-    for (std::size_t i = 0; i < hits[0].size() && !closed; ++i)
+    for (std::size_t i = 0; i < hits.size() && !closed; ++i)
     {
-      surfaces.push_back({ pixel, hits[0][i] });
-      closed = this->isOpaque(hits[0][i]);
+      surfaces.push_back({ pixel, hits[i] });
+      closed = this->isOpaque(hits[i]);
     }
     Float4 over = float4(0);
     float through = 1;

@@ -41,8 +41,9 @@ public:
 
   /// Colour, cut off at black, and opacity of surfaces of pixels [x, x + count) of row y, four values each.
   void shadeRow(Worker& worker, int x, int y, int count, const std::vector<Surface>& surfaces, float* rgba) const;
-  /// All surfaces along the rays of a row, near to far.
-  void allHits(int x, int y, int count, std::vector<Hit>* hits) const;
+  /// All surfaces along the rays through pixels, near to far; quicker where those that follow each other are
+  /// neighbours.
+  void allHits(const std::vector<Eigen::Vector2d>& pixels, std::vector<Hit>* hits) const;
 
   const View& view() const { return this->TheView; }
 
@@ -75,6 +76,11 @@ private:
     Float4 tint; ///< colours of vertices, in the same way; ones where there are none
     Float4 tintSecond;
     Float4 tintThird;
+    // Of lights that cast shadows: the corners, the tangent planes' normals there, and the triangle's own, all of its
+    // own side.
+    std::array<Eigen::Vector3d, 3> corners;
+    std::array<Eigen::Vector3d, 3> tangents;
+    Eigen::Vector3d outward;
     const Model* map = nullptr; ///< whose colorMap has them
     Eigen::Vector2d mapAt;
     Eigen::Vector2d mapSecond;
@@ -84,8 +90,8 @@ private:
   static void prepareTint(const Model& model, const std::array<std::uint32_t, 3>& corners, Triangle& triangle);
   static Float4 tintOf(const Triangle& triangle, double second, double third);
   void place(const PixelRay& ray, const Triangle& triangle, ShadedPoint& point) const;
-  void lift(const Triangle& triangle, const Eigen::Vector3d& position, const double parts[3], bool front,
-    ShadedPoint& point) const;
+  static void lift(
+    const Triangle& triangle, const Eigen::Vector3d& position, const double parts[3], bool front, ShadedPoint& point);
   void shade(
     Worker& worker, const std::vector<PixelRay>& rays, const std::vector<Surface>& surfaces, float* rgba) const;
   void findShadows(const ShadedPoint* points, std::size_t count, PointLight* lit) const;
@@ -137,6 +143,8 @@ private:
   std::vector<Surface> Surfaces;
   std::vector<Surface> Behind;
   std::vector<int> Translucent;
+  std::vector<Eigen::Vector2d> SeenThrough; ///< pixels
+  std::vector<std::vector<Hit>> Hits;
   std::vector<float> Colors;
 };
 

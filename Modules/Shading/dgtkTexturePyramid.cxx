@@ -13,8 +13,6 @@ namespace dgtk
 
 namespace
 {
-constexpr float mostProbes = 4;
-
 /// What of a row of `from` texels each of `to` is made of: the first one, and the parts of it and of up to two more.
 struct Halving
 {
@@ -41,30 +39,32 @@ struct Halving
   }
 };
 
-/// Between neighbours, of which the one on the far side of the end is the first.
-struct Neighbours
-{
-  int low;
-  int high;
-  float part;
-  Neighbours(float at, int size)
-  {
-    const float place = at * float(size) - 0.5F;
-    const int whole = place < 0 ? -1 : int(place);
-    this->part = place - float(whole);
-    this->low = whole < 0 ? size - 1 : whole;
-    this->high = whole + 1 < size ? whole + 1 : 0;
-  }
-};
-
-Float4 texel(const std::uint8_t* rgba)
+__m128i word(const std::uint8_t* rgba)
 {
   std::int32_t bytes = 0;
   std::memcpy(&bytes, rgba, sizeof bytes);
-  const __m128i zero = _mm_setzero_si128();
-  const __m128i shorts = _mm_unpacklo_epi8(_mm_cvtsi32_si128(bytes), zero);
-  return _mm_cvtepi32_ps(_mm_unpacklo_epi16(shorts, zero));
+  return _mm_cvtsi32_si128(bytes);
 }
+
+/// Two texels of a row, which mostly are beside one another.
+struct Texels
+{
+  Float4 left;
+  Float4 right;
+  Texels(const std::uint8_t* row, int low, int high)
+  {
+    const __m128i both = high == low + 1 ? _mm_loadl_epi64(reinterpret_cast<const __m128i*>(row + 4 * low))
+                                         : _mm_unpacklo_epi32(word(row + 4 * low), word(row + 4 * high));
+    const __m128i zero = _mm_setzero_si128();
+    const __m128i shorts = _mm_unpacklo_epi8(both, zero);
+    this->left = _mm_cvtepi32_ps(_mm_unpacklo_epi16(shorts, zero));
+    this->right = _mm_cvtepi32_ps(_mm_unpackhi_epi16(shorts, zero));
+  }
+  Float4 mixed(float part) const { return this->left + (this->right - this->left) * part; }
+};
+
+/// As portable::log2() has them, of the numbers of probes.
+constexpr std::array<float, 5> logOfProbes{ 0, 0, 1, 0x1.95c01ap+0F, 2 };
 
 template <typename Level>
 float lastOf(const std::vector<Level>& levels)
@@ -151,81 +151,87 @@ TexturePyramid::Level TexturePyramid::half(const Level& from)
   return to;
 }
 
-Float4 TexturePyramid::bilinear(const Level& level, float u, float v)
+/// `axis`: of the coordinate u of its level, before that of v.
+Float4 TexturePyramid::bilinear(const Level& level, const Neighbours& at, int axis)
 {
-  const Neighbours x(u, level.width);
-  const Neighbours y(v, level.height);
-  const std::uint8_t* low = level.rgba.data() + std::size_t(y.low) * std::size_t(level.width) * 4;
-  const std::uint8_t* high = level.rgba.data() + std::size_t(y.high) * std::size_t(level.width) * 4;
-  const Float4 a = texel(low + 4 * x.low);
-  const Float4 b = texel(low + 4 * x.high);
-  const Float4 c = texel(high + 4 * x.low);
-  const Float4 d = texel(high + 4 * x.high);
-  const Float4 below = a + (b - a) * x.part;
-  const Float4 above = c + (d - c) * x.part;
-  return below + (above - below) * y.part;
+  const std::size_t row = std::size_t(level.width) * 4;
+  const std::uint8_t* const texels = level.rgba.data();
+  const Texels low(texels + std::size_t(at.low[axis + 1]) * row, at.low[axis], at.high[axis]);
+  const Texels high(texels + std::size_t(at.high[axis + 1]) * row, at.low[axis], at.high[axis]);
+  const Float4 below = low.mixed(at.part[axis]);
+  return below + (high.mixed(at.part[axis]) - below) * at.part[axis + 1];
 }
 
 Float4 TexturePyramid::nearest(const Level& level, float u, float v)
 {
   const int x = std::min(int(u * float(level.width)), level.width - 1);
   const int y = std::min(int(v * float(level.height)), level.height - 1);
-  return texel(&level.rgba[(std::size_t(y) * std::size_t(level.width) + std::size_t(x)) * 4]);
+  return Texels(level.rgba.data() + std::size_t(y) * std::size_t(level.width) * 4, x, x).left;
 }
 
-float TexturePyramid::within(double coordinate, int size) const
+Float4 TexturePyramid::within(double u, double v, const Level& one, const Level& other) const
 {
   if (this->Use.repeats)
   {
-    return repeated(coordinate);
+    return repeated(u, v);
   }
-  const double half = 0.5 / size;
-  return float(coordinate > half ? std::min(coordinate, 1 - half) : half);
+  const auto inside = [](double coordinate, int size)
+  {
+    const double half = 0.5 / size;
+    return float(coordinate > half ? std::min(coordinate, 1 - half) : half);
+  };
+  return float4(inside(u, one.width), inside(v, one.height), inside(u, other.width), inside(v, other.height));
+}
+
+/// Between the picture's own texels.
+Float4 TexturePyramid::enlarged(const Footprint& f) const
+{
+  const Level& own = this->Levels.front();
+  const Float4 at = this->within(f.u, f.v, own, own);
+  return bilinear(own, Neighbours(at, Int4{ own.width, own.height, own.width, own.height }), 0) * (1 / 255.0F);
 }
 
 Float4 TexturePyramid::at(const Footprint& f) const
 {
-  const auto w = float(this->width());
-  const auto h = float(this->height());
-  if (this->Use.filter != TextureFilter::Smooth)
+  const Level& own = this->Levels.front();
+  if (this->Use.filter == TextureFilter::Nearest)
   {
-    const float u = this->within(f.u, this->width());
-    const float v = this->within(f.v, this->height());
-    const bool linear = this->Use.filter == TextureFilter::Linear;
-    return (linear ? bilinear(this->Levels.front(), u, v) : nearest(this->Levels.front(), u, v)) * (1 / 255.0F);
+    const Float4 at = this->within(f.u, f.v, own, own);
+    return nearest(own, at[0], at[1]) * (1 / 255.0F);
   }
+  const auto w = float(own.width);
+  const auto h = float(own.height);
   const float across = f.rightU * w * (f.rightU * w) + f.rightV * h * (f.rightV * h);
   const float along = f.downU * w * (f.downU * w) + f.downV * h * (f.downV * h);
   const float longest = std::max(across, along);
-  if (!(longest > 1)) // enlarged, or not a number
+  if (this->Use.filter == TextureFilter::Linear || !(longest > 1)) // or not a number
   {
-    return bilinear(this->Levels.front(), this->within(f.u, this->width()), this->within(f.v, this->height())) *
-           (1 / 255.0F);
+    return this->enlarged(f);
   }
   const float ratio = longest / std::max(std::min(across, along), 1e-30F);
-  float probes = 1;
-  for (; probes < mostProbes && (probes + 0.5F) * (probes + 0.5F) <= ratio; probes += 1)
-  {
-  }
-  const float detail = 0.5F * portable::log2(std::min(longest, 1e30F)) - (probes > 1 ? portable::log2(probes) : 0.0F);
+  const int probes =
+    1 + int(ratio >= 1.5F * 1.5F) + int(ratio >= 2.5F * 2.5F) + int(ratio >= 3.5F * 3.5F); // mostProbes
+  const float detail = 0.5F * portable::log2(std::min(longest, 1e30F)) - logOfProbes[std::size_t(probes)];
   const float level = std::min(std::max(detail, 0.0F), lastOf(this->Levels));
   const auto low = std::size_t(level);
   const float part = level - float(low);
+  const Level& fine = this->Levels[low];
+  const Level& coarse = this->Levels[part > 0 ? low + 1 : low];
+  const Int4 sizes = { fine.width, fine.height, coarse.width, coarse.height };
   const double axisU = double(across > along ? f.rightU : f.downU);
   const double axisV = double(across > along ? f.rightV : f.downV);
   Float4 sum = float4(0);
-  for (int i = 0; i < int(probes); ++i)
+  for (int i = 0; i < probes; ++i)
   {
-    const double place = double((float(i) + 0.5F) / probes - 0.5F);
-    const float u = this->within(f.u + axisU * place, this->Levels[low].width);
-    const float v = this->within(f.v + axisV * place, this->Levels[low].height);
-    sum += bilinear(this->Levels[low], u, v) * (1 - part);
+    const double place = double((float(i) + 0.5F) / float(probes) - 0.5F);
+    const Neighbours at(this->within(f.u + axisU * place, f.v + axisV * place, fine, coarse), sizes);
+    sum += bilinear(fine, at, 0) * (1 - part);
     if (part > 0)
     {
-      sum += bilinear(this->Levels[low + 1], u, v) * part;
+      sum += bilinear(coarse, at, 2) * part;
     }
   }
-  return sum * (1 / (255 * probes));
+  return sum * (1 / (255 * float(probes)));
 }
 
 RadiancePyramid::RadiancePyramid(const RadianceImage& image)
@@ -282,7 +288,7 @@ RadiancePyramid::RadiancePyramid(const std::vector<float>* levels, int count, in
 
 Float4 RadiancePyramid::bilinear(const Level& level, float u, float v)
 {
-  const Neighbours x(u, level.width);
+  const Neighbours x(float4(u), Int4{ level.width, level.width, level.width, level.width });
   const float place = std::max(v * float(level.height) - 0.5F, 0.0F);
   const int low = std::min(int(place), level.height - 1);
   const int high = std::min(low + 1, level.height - 1);
@@ -290,8 +296,8 @@ Float4 RadiancePyramid::bilinear(const Level& level, float u, float v)
   const auto mixed = [&](int row)
   {
     const std::size_t first = std::size_t(row) * std::size_t(level.width);
-    const Float4 left = level.texel(first + std::size_t(x.low));
-    return left + (level.texel(first + std::size_t(x.high)) - left) * x.part;
+    const Float4 left = level.texel(first + std::size_t(x.low[0]));
+    return left + (level.texel(first + std::size_t(x.high[0])) - left) * x.part[0];
   };
   const Float4 above = mixed(low);
   const Float4 below = mixed(high);

@@ -39,6 +39,25 @@ struct PictureUse
   }
 };
 
+/// Of four coordinates: the texels between which they are, of which the one on the far side of the end is the first,
+/// and how far towards the second.
+struct Neighbours
+{
+  Int4 low;
+  Int4 high;
+  Float4 part;
+  Neighbours(Float4 at, Int4 sizes)
+  {
+    const Float4 place = at * __builtin_convertvector(sizes, Float4) - 0.5F;
+    const Int4 before = place < 0;
+    const Int4 whole = __builtin_convertvector(place, Int4) | before;
+    const Int4 next = whole + 1;
+    this->part = place - __builtin_convertvector(whole, Float4);
+    this->low = whole + (before & sizes);
+    this->high = next & (next < sizes);
+  }
+};
+
 /// A picture at all resolutions, each half as wide and high as the one before; at its own only where it is not smooth.
 class TexturePyramid
 {
@@ -60,10 +79,11 @@ private:
     std::vector<std::uint8_t> rgba; ///< rows from bottom to top
   };
   static Level half(const Level& from);
-  static Float4 bilinear(const Level& level, float u, float v);
+  static Float4 bilinear(const Level& level, const Neighbours& at, int axis);
   static Float4 nearest(const Level& level, float u, float v);
-  /// A coordinate in [0, 1) on a side of so many texels.
-  float within(double coordinate, int size) const;
+  Float4 enlarged(const Footprint& f) const;
+  /// Coordinates u, v, u, v in [0, 1) of two levels.
+  Float4 within(double u, double v, const Level& one, const Level& other) const;
 
   PictureUse Use;
   std::vector<Level> Levels;

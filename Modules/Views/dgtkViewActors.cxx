@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 
 #include <vtkActor.h>
-#include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -96,14 +95,11 @@ ViewActors::Surface& ViewActors::surface(const Instance& instance, std::size_t p
     surface.property = vtkSmartPointer<vtkProperty>::New();
     this->Lighting.fill(material, *surface.property);
     const auto texture = std::size_t(material.texture);
-    vtkImageData* const picture =
-      material.texture < 0 ? nullptr : meshes.picture(instance.model->textures[texture].image, material.cutOut);
-    if (picture != nullptr && data->GetPointData()->GetTCoords() != nullptr)
+    const bool isSeen = material.texture >= 0 && data->GetPointData()->GetTCoords() != nullptr;
+    surface.texture = isSeen ? meshes.texture(instance.model->textures[texture].image, material.cutOut) : nullptr;
+    if (surface.texture != nullptr)
     {
-      surface.texture = vtkSmartPointer<vtkTexture>::New();
-      surface.texture->SetInputData(picture);
       surface.texture->InterpolateOn();
-      surface.texture->MipmapOn();
       surface.texture->SetMaximumAnisotropicFiltering(1); // more is forty times slower without a graphics card
       surface.texture->RepeatOn();
     }

@@ -2,6 +2,7 @@
 #include "dgtkViewMeshes.h"
 
 #include "dgtkMeshClusters.h"
+#include "dgtkMippedTexture.h"
 #include "dgtkRasterTexture.h"
 
 #include <vtkCellArray.h>
@@ -52,6 +53,7 @@ struct ViewMeshes::Picture
 {
   std::shared_ptr<const Image> image;
   vtkSmartPointer<vtkImageData> data;
+  std::shared_ptr<const SmallerPictures> smaller;
 };
 
 namespace
@@ -206,6 +208,23 @@ vtkImageData* ViewMeshes::picture(const std::shared_ptr<const Image>& image, boo
     picture->data = makePicture(*image, cutOut);
   }
   return picture->data;
+}
+
+vtkSmartPointer<vtkTexture> ViewMeshes::texture(const std::shared_ptr<const Image>& image, bool cutOut)
+{
+  vtkImageData* const data = this->picture(image, cutOut);
+  if (data == nullptr)
+  {
+    return nullptr;
+  }
+  std::shared_ptr<const SmallerPictures>& smaller = this->Pictures.at({ image.get(), cutOut })->smaller;
+  if (smaller == nullptr)
+  {
+    smaller = std::make_shared<const SmallerPictures>(smallerPictures(*data));
+  }
+  const auto texture = vtkSmartPointer<MippedTexture>::New();
+  texture->setPicture(data, smaller);
+  return texture;
 }
 
 void ViewMeshes::forgetUnused()

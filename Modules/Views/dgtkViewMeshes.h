@@ -13,6 +13,7 @@
 
 class vtkImageData;
 class vtkPolyData;
+class vtkTexture;
 
 namespace dgtk
 {
@@ -35,6 +36,8 @@ public:
   vtkPolyData* part(const Instance& instance, std::size_t part);
   /// RGBA for cut-outs, RGB for others; null without a picture.
   vtkImageData* picture(const std::shared_ptr<const Image>& image, bool cutOut);
+  /// It for one view, with mip-maps that are made once for all; null without a picture.
+  vtkSmartPointer<vtkTexture> texture(const std::shared_ptr<const Image>& image, bool cutOut);
   /// Forgets poses that nobody shows, and all of models and pictures that nobody else holds.
   void forgetUnused();
 

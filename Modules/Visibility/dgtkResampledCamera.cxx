@@ -42,6 +42,7 @@ public:
     return this->Model->timeAt({ std::floor(point.x()) + 0.5, std::floor(point.y()) + 0.5 });
   }
   TimeSpan times() const override { return this->Model->times(); }
+  bool isCentral() const override { return this->Model->isCentral(); }
   std::optional<LinearProjection> linear() const override
   {
     std::optional<LinearProjection> projection = this->Model->linear();

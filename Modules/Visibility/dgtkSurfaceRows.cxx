@@ -12,37 +12,75 @@ namespace dgtk
 namespace
 {
 
-/// A row of a linear lens: affine directions, no virtual call.
+/// The pixels of a row of a linear lens: affine directions, no virtual call.
+template <LensKind Kind, bool WithBarycentrics>
+class LinearRow
+{
+public:
+  LinearRow(TriangleSolver& solver, int row)
+    : Solver(solver)
+    , V(row + 0.5)
+    , Dy(solver.lens().directionY(V))
+    , Skew(solver.lens().Skew * Dy)
+    , SkewX(std::abs(Skew * solver.lens().InverseFx))
+  {
+  }
+  PlanePoint point(int column, const Hit& hit)
+  {
+    PlanePoint point;
+    if (!this->Last || this->Last->hit != hit)
+    {
+      this->Last = &this->Solver.plane(hit);
+    }
+    const double u = column + 0.5;
+    if (this->Last->state != Plane::State::None &&
+        !evaluate<Kind, WithBarycentrics>(
+          *this->Last, this->Solver.lens().directionX(u, this->Skew), this->Dy, this->SkewX, point))
+    {
+      point = this->Solver.exactPoint(hit, u, this->V);
+    }
+    return point;
+  }
+
+private:
+  TriangleSolver& Solver;
+  double V;
+  double Dy;
+  double Skew;
+  double SkewX;
+  const Plane* Last = nullptr;
+};
+
 template <LensKind Kind, bool WithBarycentrics>
 void linearRow(TriangleSolver& solver, const PixelRect& rect, int row, const Hit* hits, double* t, double* barycentrics)
 {
-  const Lens& lens = solver.lens();
-  const double v = row + 0.5;
-  const double dy = lens.directionY(v);
-  const double skew = lens.Skew * dy;
-  const double skewX = std::abs(skew * lens.InverseFx);
-  const Plane* plane = nullptr;
+  LinearRow<Kind, WithBarycentrics> pixels(solver, row);
   for (int i = 0; i < rect.width; ++i)
   {
-    PlanePoint point;
-    if (hits[i].object != 0)
-    {
-      if (!plane || plane->hit != hits[i])
-      {
-        plane = &solver.plane(hits[i]);
-      }
-      const double u = rect.x + i + 0.5;
-      if (plane->state != Plane::State::None &&
-          !evaluate<Kind, WithBarycentrics>(*plane, lens.directionX(u, skew), dy, skewX, point))
-      {
-        point = solver.exactPoint(hits[i], u, v);
-      }
-    }
+    const PlanePoint point = hits[i].object != 0 ? pixels.point(rect.x + i, hits[i]) : PlanePoint();
     t[i] = point.t;
     if (WithBarycentrics)
     {
       barycentrics[2 * i] = point.second;
       barycentrics[2 * i + 1] = point.third;
+    }
+  }
+}
+
+template <LensKind Kind>
+void linearLists(TriangleSolver& solver, const PixelRect& rect, const std::uint32_t* first, const Hit* hits, double* t)
+{
+  const std::uint32_t start = *first;
+  std::uint32_t i = 0;
+  for (int y = rect.y; y < rect.y + rect.height; ++y)
+  {
+    LinearRow<Kind, false> pixels(solver, y);
+    for (int x = rect.x; x < rect.x + rect.width; ++x)
+    {
+      for (const std::uint32_t end = *++first - start; i < end; ++i)
+      {
+        t[i] = pixels.point(x, hits[i]).t;
+      }
     }
   }
 }
@@ -122,6 +160,30 @@ void computeSurfaceRows(const SceneState& state, const View& view, const PixelRe
     const std::size_t first = std::size_t(y) * rect.width;
     body(
       solver, rect, rect.y + y, hits + first, rows.t.data() + first, coordinates ? coordinates + 2 * first : nullptr);
+  }
+}
+
+void computeSurfaceLists(const SceneState& state, const View& view, const PixelRect& rect, const std::uint32_t* first,
+  const Hit* hits, std::vector<double>& t)
+{
+  const std::size_t pixels = std::size_t(rect.width) * std::size_t(rect.height);
+  t.resize(first[pixels] - first[0]);
+  TriangleSolver solver(state, view);
+  const LensKind kind = solver.lens().Kind;
+  if (kind != LensKind::General)
+  {
+    (kind == LensKind::Perspective ? linearLists<LensKind::Perspective> : linearLists<LensKind::Parallel>)(solver, rect,
+      first, hits, t.data());
+    return;
+  }
+  std::vector<CameraRay> rays;
+  raysOf(*view.model, rect, rays);
+  for (std::size_t i = 0; i < pixels; ++i)
+  {
+    for (std::uint32_t k = first[i] - first[0]; k < first[i + 1] - first[0]; ++k)
+    {
+      t[k] = solver.pointOnRay(hits[k], rays[i], false).t;
+    }
   }
 }
 

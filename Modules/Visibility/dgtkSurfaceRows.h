@@ -41,6 +41,11 @@ DGTKVISIBILITY_EXPORT void computeSurfaceRows(const SceneState& state, const Vie
 DGTKVISIBILITY_EXPORT void forSurfaceRows(const SceneState& state, const View& view, const PixelRect& rect,
   const Hit* hits, bool barycentrics, const std::function<void(const SurfaceRows&)>& body);
 
+/// SurfaceRows::t of any number of surfaces along the ray of each pixel of `rect`: those of pixel i, rows top to
+/// bottom, are hits[first[i] - first[0]] up to hits[first[i + 1] - first[0]]. A view without `instants`. Thread-safe.
+DGTKVISIBILITY_EXPORT void computeSurfaceLists(const SceneState& state, const View& view, const PixelRect& rect,
+  const std::uint32_t* first, const Hit* hits, std::vector<double>& t);
+
 /// Where the ray through an image point meets the plane of a triangle.
 struct SurfacePoint
 {

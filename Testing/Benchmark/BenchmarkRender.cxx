@@ -42,6 +42,8 @@ struct Settings
   int rounds = 3;
   std::string folder;
   std::string scenePath;
+  std::string shadowPath; ///< the same scene with shadows
+  std::string lensPath;   ///< and with a distorting lens
 };
 
 // Calls frame(0) as warm-up, then the others; milliseconds a frame.
@@ -103,10 +105,10 @@ double stockColor(const Settings& s, bool everything)
 
 // `render` of the product, everything on disk. The first frame's time is measured by a run of its own.
 double product(const Settings& s, const std::vector<std::string>& layers, const std::string& engine,
-  const std::string& renderer = "ray")
+  const std::string& renderer = "ray", const std::string& scene = "")
 {
   GeneratorRequest request;
-  request.scene = s.scenePath;
+  request.scene = scene.empty() ? s.scenePath : scene;
   request.width = s.width;
   request.height = s.height;
   request.layers = layers;
@@ -174,6 +176,10 @@ const std::vector<Row>& rows()
       [](const Settings& s) { return product(s, truth, "ray"); } },
     { "I  dgtk, rays and colour by OpenGL: as C and D",
       [](const Settings& s) { return product(s, base, "ray", "vtk"); } },
+    { "J  as E, with shadows of the light",
+      [](const Settings& s) { return product(s, { "color" }, "ray", "ray", s.shadowPath); } },
+    { "K  as E, through a lens with radial and tangential distortion",
+      [](const Settings& s) { return product(s, { "color" }, "ray", "ray", s.lensPath); } },
   };
   return all;
 }
@@ -217,6 +223,11 @@ int main(int argc, char** argv)
   settings.folder =
     (std::filesystem::temp_directory_path() / ("dgtk-benchmark-" + std::to_string(::getpid()))).string();
   settings.scenePath = bench::writeBenchmarkScene(settings.folder, settings.scene);
+  settings.scene.shadows = true;
+  settings.shadowPath = bench::writeBenchmarkScene(settings.folder + "/shadows", settings.scene);
+  settings.scene.shadows = false;
+  settings.scene.distorted = true;
+  settings.lensPath = bench::writeBenchmarkScene(settings.folder + "/lens", settings.scene);
   std::printf("%d triangles in %d objects, %d x %d, %d frames, %d threads, %d rounds\n", settings.scene.triangles,
     settings.scene.objects, settings.width, settings.height, settings.scene.frames, settings.threads, settings.rounds);
   std::fflush(stdout);
@@ -245,6 +256,8 @@ int main(int argc, char** argv)
     "  rays against bare colour        D/A %5.2f  (aim at 10,000, 200,000, 2,000,000: 1.2, 0.5, 0.3)\n", ratio(3, 0));
   std::printf("  stock VTK's way against raster  B/C %5.2f  (aim: at least 3)\n", ratio(1, 2));
   std::printf("  all but colour against bare rays H/F %4.2f  (aim: at most 3)\n", ratio(7, 5));
+  std::printf("  shadows against primary rays (J-E)/G %4.2f  (aim: at most 2)\n", (median[9] - median[4]) / median[6]);
+  std::printf("  a distorting lens against none   K/E %4.2f  (aim: at most 1.3)\n", ratio(10, 4));
   std::filesystem::remove_all(settings.folder);
   return 0;
 }

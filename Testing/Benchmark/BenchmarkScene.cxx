@@ -78,7 +78,7 @@ void writeTexture(const std::string& path)
 }
 
 // Keys of a camera that turns around the objects, `right` units along its own x axis.
-std::string camera(const char* name, int frames, double right)
+std::string camera(const char* name, int frames, double right, bool distorted)
 {
   std::string eye;
   std::string lookAt;
@@ -90,8 +90,9 @@ std::string camera(const char* name, int frames, double right)
     eye += key + line("%.17g, %.17g, %.17g]]", 17 * c + right * s, 7, 17 * s - right * c);
     lookAt += key + line("%.17g, %.17g, %.17g]]", right * s, 0.5, -right * c);
   }
-  return std::string("{\"name\": \"") + name +
-         "\", \"fovY\": 50, \"near\": 0.5, \"far\": 100, \"up\": [0, 1, 0], \"eye\": {\"keys\": [" + eye +
+  return std::string("{\"name\": \"") + name + "\", " +
+         (distorted ? "\"distortion\": [-0.2, 0.05, 0.002, -0.001], " : "") +
+         "\"fovY\": 50, \"near\": 0.5, \"far\": 100, \"up\": [0, 1, 0], \"eye\": {\"keys\": [" + eye +
          "]}, \"lookAt\": {\"keys\": [" + lookAt + "]}}";
 }
 } // namespace
@@ -116,8 +117,10 @@ std::string writeBenchmarkScene(const std::string& folder, const SceneOptions& o
              std::to_string(i % shapes) + ".obj\", \"position\": [" +
              line("%.4f, %.4f, %.4f", radius * std::cos(angle), 0.3 * (i % 7), radius * std::sin(angle)) + "]}";
   }
-  scene += "\n],\n\"lights\": [{\"kind\": \"point\", \"position\": [20, 30, 20]}],\n\"cameras\": [";
-  scene += camera("c", options.frames, 0) + (options.stereo ? ",\n" + camera("r", options.frames, 0.3) : "");
+  scene += "\n],\n\"lights\": [{\"kind\": \"point\", \"position\": [20, 30, 20]" +
+           std::string(options.shadows ? ", \"shadows\": true" : "") + "}],\n\"cameras\": [";
+  scene += camera("c", options.frames, 0, options.distorted) +
+           (options.stereo ? ",\n" + camera("r", options.frames, 0.3, options.distorted) : "");
   writeFile(folder + "/scene.json", scene + "]\n}\n");
   return folder + "/scene.json";
 }

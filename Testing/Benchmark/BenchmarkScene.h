@@ -13,6 +13,8 @@ struct SceneOptions
   int objects = 50;       ///< instances of five textured bumpy spheres
   int frames = 20;        ///< camera "c" turns around the objects
   bool stereo = false;    ///< with a camera "r", at the right of "c" and rectified with it
+  bool shadows = false;   ///< of the light
+  bool distorted = false; ///< the cameras have radial and tangential distortion
 };
 
 /// Writes models, a texture and the scene into `folder`; returns the scene's path.

@@ -21,6 +21,8 @@ CACHES = tempfile.mkdtemp(prefix="dgtk-cache-")
 atexit.register(shutil.rmtree, CACHES, ignore_errors=True)
 os.environ["XDG_CACHE_HOME"] = CACHES
 
+measures = unittest.skipIf(os.environ.get("DGTK_TEST_SANITIZED"), "measures time or memory, which sanitizers change")
+
 
 class Case(unittest.TestCase):
     """A test case with a folder of its own, removed afterwards."""

@@ -11,7 +11,7 @@ import numpy
 from harness import SCENES, SOURCE, Case, main
 from pictures import read_exr, read_png
 
-PATIENCE = int(os.environ.get("DGTK_TEST_PATIENCE", 1))  # how much longer everything takes, as under valgrind
+PATIENCE = int(os.environ.get("DGTK_TEST_PATIENCE", 1))  # how much longer everything takes, as with sanitizers
 PACKAGES = os.path.join(os.environ["DGTK_BUILD"], "lib", "python3", "dist-packages")
 sys.path.insert(0, PACKAGES)
 DEMO = os.path.join(SCENES, "demo.json")

@@ -10,7 +10,7 @@ import shutil
 import subprocess
 
 import numpy
-from harness import SCENES, SOURCE, Case, digests, main
+from harness import SCENES, SOURCE, Case, digests, main, measures
 from python_package import DEMO, OF_VTK, PACKAGES, SIZE, dgtk, square
 
 
@@ -277,6 +277,7 @@ except KeyboardInterrupt:
     print("interrupted", time.monotonic() - began < 90, os.path.exists(sys.argv[2] + "/manifest.json"))
 """
 
+    @measures
     def test_an_interrupt_without_progress(self):
         done = subprocess.run(["/usr/bin/python3", "-c", f"import sys; sys.path.insert(0, {PACKAGES!r})" + self.INTERRUPTED, DEMO, self.path("out")],
                               capture_output=True, text=True, timeout=300)

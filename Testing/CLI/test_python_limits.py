@@ -10,11 +10,12 @@ import threading
 import time
 
 import numpy
-from harness import Case, main
+from harness import Case, main, measures
 from python_package import DEMO, OF_VTK, SIZE, dgtk, square
 
 
 class Threads(Case):
+    @measures
     def test_other_threads_run_while_one_renders(self):
         """With the interpreter's lock held, one gap would be all of the time."""
         scene, size = dgtk.load(DEMO), (1200, 900)
@@ -90,11 +91,13 @@ class Memory(Case):
             draw()
         self.assertLess(resident() - before, self.MOST)
 
+    @measures
     def test_many_small_renders(self):
         scene, kept = dgtk.scene(square()), dgtk.dgtkRenderer()
         self.flat(lambda: dgtk.render(scene, "depth", size=(32, 24), keep=kept))
         self.flat(lambda: dgtk.render(scene, "depth", size=(32, 24)), 300)
 
+    @measures
     def test_many_scenes_and_refusals(self):
         first, place = dgtk.scene(square()), [0.0]
 

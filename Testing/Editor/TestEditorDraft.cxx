@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 using dgtk::test::sourceFile;
 
@@ -113,6 +114,43 @@ void TestEditorTruth::viewsHaveTheRenderersColours()
   untilQuiet();
   const double worst = worstSquare(view->grabFramebuffer(), rendered);
   QVERIFY2(worst < tolerance, QByteArray::number(worst));
+}
+
+/// Some twenty texels a pixel, black and white by turns, are grey.
+void TestEditorTruth::texturesAreSmoothFromAfar()
+{
+  constexpr int texels = 256; // a side, of a picture that is repeated four times
+  constexpr int middle = 64;  // pixels
+  constexpr int even = 8;     // of 255
+  QImage board(texels, texels, QImage::Format_RGB32);
+  for (int i = 0; i < texels * texels; ++i)
+  {
+    board.setPixel(i % texels, i / texels, (i % texels + i / texels) % 2 == 0 ? 0xffffffff : 0xff000000);
+  }
+  QVERIFY(board.save(this->path("board.png")));
+  std::ofstream(this->Folder.path("board.mtl")) << "newmtl board\nKd 1 1 1\nmap_Kd board.png\n";
+  std::ofstream(this->Folder.path("board.obj"))
+    << "mtllib board.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 4 0\nvt 4 4\nvt 0 4\n"
+       "usemtl board\nf 1/1 2/2 3/3 4/4\n";
+  std::ofstream(this->Folder.path("board.json"))
+    << R"({ "version": 1, "objects": [{ "name": "board", "model": "board.obj" }] })";
+  QVERIFY(this->Window->openFile(this->path("board.json")));
+  this->action("grid")->setChecked(false);
+  untilQuiet();
+  for (const int place : { front, perspective })
+  {
+    auto* view = this->Window->findChild<QOpenGLWidget*>("view." + QString::number(place));
+    const QImage whole = view->grabFramebuffer();
+    const QImage seen = whole.copy((whole.width() - middle) / 2, (whole.height() - middle) / 2, middle, middle);
+    int least = 255;
+    int most = 0;
+    for (int i = 0; i < middle * middle; ++i)
+    {
+      least = std::min(least, qGreen(seen.pixel(i % middle, i / middle)));
+      most = std::max(most, qGreen(seen.pixel(i % middle, i / middle)));
+    }
+    QVERIFY2(most - least <= even && least > 80 && most < 180, qPrintable(QString("%1 to %2").arg(least).arg(most)));
+  }
 }
 
 void TestEditorTruth::whatIsNotTheRenderersSaysDraft()

@@ -21,6 +21,7 @@ private slots:
   void previewIsTheCamerasPicture();
   void viewsHaveTheRenderersColours_data();
   void viewsHaveTheRenderersColours();
+  void texturesAreSmoothFromAfar();
   void whatIsNotTheRenderersSaysDraft();
   void clicksGoThroughThePicture();
   void nothingWaitsForPictures();

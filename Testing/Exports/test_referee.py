@@ -9,6 +9,7 @@ import io
 import json
 import os
 import re
+import shutil
 import struct
 import subprocess
 from typing import Callable, NamedTuple
@@ -23,17 +24,23 @@ from pictures import read_png, write_png
 SMALL = {"width": 48, "height": 36}
 
 
+def stepped(edit, step):
+    """Takes a share of its step, too, where that is no whole number."""
+    edit.scales = isinstance(step, float)
+    return edit
+
+
 def number(pattern, step, nth=0):
     """Adds to the number behind the nth place that matches: `pattern` is what stands before it."""
     place = re.compile("(?:" + pattern + r")(-?[0-9.]+(?:e-?[0-9]+)?)")
 
-    def edit(data):
+    def edit(data, share=1):
         found = list(place.finditer(data.decode()))[nth]
-        value = float(found.group(1)) + step
+        value = float(found.group(1)) + step * share
         text = repr(int(value)) if isinstance(step, int) and re.fullmatch("-?[0-9]+", found.group(1)) else repr(value)
         return (data.decode()[:found.start(1)] + text + data.decode()[found.end(1):]).encode()
 
-    return edit
+    return stepped(edit, step)
 
 
 def word(old, new):
@@ -42,22 +49,22 @@ def word(old, new):
 
 def packed(kind, at, step):
     """Adds to a number of a binary file."""
-    def edit(data):
+    def edit(data, share=1):
         value = struct.unpack_from(kind, data, at)[0]
-        return data[:at] + struct.pack(kind, value + step) + data[at + struct.calcsize(kind):]
+        return data[:at] + struct.pack(kind, value + step * share) + data[at + struct.calcsize(kind):]
 
-    return edit
+    return stepped(edit, step)
 
 
 def double(value, step, nth=0):
     """Adds to the nth double of this value."""
-    def edit(data):
+    def edit(data, share=1):
         at = -1
         for _ in range(nth + 1):
             at = data.index(struct.pack("<d", value), at + 1)
-        return packed("<d", at, step)(data)
+        return packed("<d", at, step)(data, share)
 
-    return edit
+    return stepped(edit, step)
 
 
 def pixel(x, y, step=1):
@@ -95,12 +102,12 @@ def shifted(values):
 
 
 def several(*edits):
-    def edit(data):
+    def edit(data, share=1):
         for one in edits:
-            data = one(data)
+            data = one(data, share)
         return data
 
-    return edit
+    return stepped(edit, 1.0)
 
 
 F = 43.45584412271571
@@ -110,36 +117,36 @@ BOX, COLMAP = "annotations/instances_train.json", "sparse/0/"
 PANOPTIC = "annotations/panoptic_train.json"
 XML = "Annotations/cam_L_000000.xml"
 # A calibration of KITTI's has the focal length and the centre twice, which must agree.
-KITTI = several(number("K_02: ", 1e-6), number("P_rect_02: ", 1e-6))
+KITTI = several(number("K_02: ", 5e-8), number("P_rect_02: ", 5e-8))
 
 
 def stereo(folder, disparity):
     calib = folder + "calib.txt"
-    return [("doffs", calib, number("doffs=", 1e-6)), ("baseline", calib, number("baseline=", 1e-6)),
-            ("intrinsics", calib, number(r"cam0=\[", 1e-6)), ("size", calib, number("width=", 1)),
+    return [("doffs", calib, number("doffs=", 5e-8)), ("baseline", calib, number("baseline=", 5e-8)),
+            ("intrinsics", calib, number(r"cam0=\[", 5e-8)), ("size", calib, number("width=", 1)),
             ("range", calib, number("vmax=", -2)), ("disparity", disparity, last_bytes())]
 
 
 def colmap(folder, depth):
-    plants = [("intrinsics", folder + "cameras.bin", packed("<d", 32, 1e-6)), ("size", folder + "cameras.bin", packed("<Q", 16, 1)),
-              ("pose", folder + "images.bin", packed("<d", 44, 1e-6)), ("colors", folder + "points3D.bin", packed("<B", 40, -3)),
-              ("reprojection", folder + "points3D.bin", packed("<d", 16, 1e-3))]
+    plants = [("intrinsics", folder + "cameras.bin", packed("<d", 32, 5e-8)), ("size", folder + "cameras.bin", packed("<Q", 16, 1)),
+              ("pose", folder + "images.bin", packed("<d", 44, 5e-8)), ("colors", folder + "points3D.bin", packed("<B", 40, -3)),
+              ("reprojection", folder + "points3D.bin", packed("<d", 16, 3e-5))]
     return plants + [("depth", depth, last_bytes())] if depth else plants
 
 
 def recording(file, left, *also):
     """K of a camera, with P that must be the same; where an object is; and a baseline, of the right camera, or of the left one, which leads
     to no camera."""
-    def intrinsics(data):
+    def intrinsics(data, share=1):
         at = data.index(struct.pack("<9d", F, 0, 23.5, 0, F, 17.5, 0, 0, 1))
-        return several(packed("<d", at, 1e-6), packed("<d", at + 144, 1e-6))(data)
+        return several(packed("<d", at, 5e-8), packed("<d", at + 144, 5e-8))(data, share)
 
-    def baseline(data):
+    def baseline(data, share=1):
         at = data.index(struct.pack("<6d", F, 0, 23.5, 0 if left else -0.2 * F, 0, F))
-        return packed("<d", at + 24, 1e-3)(data)
+        return packed("<d", at + 24, 1e-5)(data, share)
 
-    return [("intrinsics", file, intrinsics, also), ("baseline", file, baseline),
-            ("pose of objects", file, double(-1.9, 1e-6))]
+    return [("intrinsics", file, stepped(intrinsics, 1.0), also), ("baseline", file, stepped(baseline, 1.0)),
+            ("pose of objects", file, double(-1.9, 5e-8))]
 
 
 class Plant(NamedTuple):
@@ -148,18 +155,19 @@ class Plant(NamedTuple):
     edit: Callable
     also: tuple = ()  # rows that see it by their nature, such as sums of a file
     named: str = None  # the file that is named, where it is another
+    alone: bool = False  # another plant changes what its row compares with
 
 
 PLANTS = {form: [Plant(*one) for one in rows] for form, rows in {
     "bop": [
-        ("intrinsics", "test/000001/scene_camera.json", number(r'"cam_K":\[', 1e-6)),
+        ("intrinsics", "test/000001/scene_camera.json", number(r'"cam_K":\[', 5e-8)),
         ("pose", "test/000001/scene_camera.json", number(r'"cam_t_w2c":\[', 1e-3)),
         ("poses", "test/000001/scene_gt.json", number(r'"cam_t_m2c":\[', 1.0, 4), ("instances",)),
         ("vertices", "test/000001/scene_gt.json", number(r'"cam_t_m2c":\[', 1e-3, 3), (), "models/models_info.json"),
         ("bbox_obj", GT, number(r'"bbox_obj":\[', 1)), ("bbox_visib", GT, number(r'"bbox_visib":\[', 1)),
         ("px_count_all", GT, number('"px_count_all":', 1, 1)), ("px_count_visib", GT, number('"px_count_visib":', 1, 2)),
         ("px_count_valid", GT, number('"px_count_valid":', 1)), ("visib_fract", GT, number('"visib_fract":', 1e-11)),
-        ("models_info", "models/models_info.json", number('"min_x":', 1e-6), (), "models/obj_000001.ply"),
+        ("models_info", "models/models_info.json", number('"min_x":', 5e-8), (), "models/obj_000001.ply"),
         ("models", "models_eval/obj_000004.ply", number("end_header\n", 1.0)),
         ("coco", "test/000001/scene_gt_coco.json", number('"area":', 1)),
         ("mask", "test/000001/mask_visib/000000_000000.png", pixel(20, 20, 255)),
@@ -179,69 +187,69 @@ PLANTS = {form: [Plant(*one) for one in rows] for form, rows in {
                      ("normal", "stereo/normal_maps/cam_R/000000.png.geometric.bin", last_bytes())],
     "eth3d": stereo("two_view_training/cam_L_000000/", "two_view_training_gt/cam_L_000001/disp0GT.pfm"),
     "middlebury": stereo("cam_L_000000/", "cam_L_000001/disp0GT.pfm"),
-    "flyingthings": [("pose", "camera_data/TRAIN/A/0000/camera_data.txt", number("R 1 0 0 ", 1e-6)),
+    "flyingthings": [("pose", "camera_data/TRAIN/A/0000/camera_data.txt", number("R 1 0 0 ", 5e-8)),
                      ("disparity", "disparity/TRAIN/A/0000/left/0006.pfm", last_bytes()),
                      ("disparity_forward", "disparity_change/TRAIN/A/0000/into_future/left/0006.pfm", last_bytes()),
                      ("flow_backward", "optical_flow/TRAIN/A/0000/into_past/right/OpticalFlowIntoPast_0007_R.pfm", last_bytes()),
                      ("objects", "object_index/TRAIN/A/0000/left/0007.pfm", last_bytes())],
-    "gltf": [("intrinsics", "scene.gltf", number(r'"K":\s*\[\s*\[\s*', 1e-6)), ("field of view", "scene.gltf", number('"yfov": ?', 1e-6)),
+    "gltf": [("intrinsics", "scene.gltf", number(r'"K":\s*\[\s*\[\s*', 5e-8)), ("field of view", "scene.gltf", number('"yfov": ?', 5e-8), (), None, True),
              ("size", "scene.gltf", number('"width": ?', 1))],
     "hdf5": [("intrinsics", "0.hdf5", word("43.4558", "43.4559"))],
     "imagefolder": [
-        ("camera", "train/metadata.jsonl", number(r'"K":\[\[', 1e-6), ("croissant",)), ("time", "train/metadata.jsonl", number('"seconds":', 1e-6)),
-        ("poses", "train/metadata.jsonl", number(r'"scale":\[', 1e-6)), ("unit", "train/metadata.jsonl", number('"metres_per_unit":', 1e-3)),
+        ("camera", "train/metadata.jsonl", number(r'"K":\[\[', 5e-8), ("croissant",)), ("time", "train/metadata.jsonl", number('"seconds":', 1e-10)),
+        ("poses", "train/metadata.jsonl", number(r'"scale":\[', 5e-8)), ("unit", "train/metadata.jsonl", number('"metres_per_unit":', 1e-3)),
         ("box", "train/metadata.jsonl", number(r'"bbox":\[\[', 1)), ("color", "train/cam_L_000000.png", pixel(20, 20))],
     "kitti2015": [("intrinsics", "training/calib_cam_to_cam/000000.txt", KITTI),
-                  ("rotation", "training/calib_cam_to_cam/000000.txt", number("R_02: ", 1e-6)),
-                  ("baseline", "training/calib_cam_to_cam/000000.txt", number("T_03: ", 1e-6)),
+                  ("rotation", "training/calib_cam_to_cam/000000.txt", number("R_02: ", 5e-8)),
+                  ("baseline", "training/calib_cam_to_cam/000000.txt", number("T_03: ", 5e-8)),
                   ("disparity", "training/disp_occ_0/000000_10.png", pixel(20, 20)),
                   ("objects", "training/obj_map/000000_10.png", pixel(20, 20)),
                   ("color", "training/image_3/000000_11.png", pixel(20, 20))],
     "kitti-depth": [("intrinsics", "train/cam_L/calib_cam_to_cam.txt", KITTI), ("size", "train/cam_R/calib_cam_to_cam.txt", number("S_02: ", 1)),
-                    ("distortion", "train/cam_R/calib_cam_to_cam.txt", number("D_02: ", 1e-6)),
-                    ("rotation", "train/cam_R/calib_cam_to_cam.txt", number("R_rect_02: ", 1e-6)),
-                    ("baseline", "train/cam_R/calib_cam_to_cam.txt", number("T_02: ", 1e-6)),
+                    ("distortion", "train/cam_R/calib_cam_to_cam.txt", number("D_02: ", 5e-8)),
+                    ("rotation", "train/cam_R/calib_cam_to_cam.txt", number("R_rect_02: ", 5e-8)),
+                    ("baseline", "train/cam_R/calib_cam_to_cam.txt", number("T_02: ", 5e-8)),
                     ("depth", "train/cam_L/proj_depth/groundtruth/image_02/0000000000.png", pixel(20, 20))],
-    "kitti-object": [("alpha", LABEL, number("Car 0 0 ", 1e-9)), ("truncated", LABEL, number("wall ", 1e-9)),
+    "kitti-object": [("alpha", LABEL, number("Car 0 0 ", 1e-10), (), None, True), ("truncated", LABEL, number("wall ", 1e-10)),
                      ("occluded", LABEL, number("van [0-9.]+ ", 1)), ("box", LABEL, number("Car 0 2 [-0-9.]+ ", 1)),
-                     ("type", LABEL, word("Misc", "Tram")), ("box 3d centre", LABEL, number("18 33 26 [0-9.]+ [0-9.]+ [0-9.]+ ", 1e-6)),
-                     ("intrinsics", "training/calib/000001.txt", number("P2: ", 1e-6)),
-                     ("rotation", "training/calib/000001.txt", number("R0_rect: ", 1e-6)),
-                     ("baseline", "training/calib/000001.txt", number("P2: [0-9.]+ 0 [0-9.]+ ", 1e-6)),
-                     ("scanner", "training/calib/000001.txt", number("Tr_velo_to_cam: ", 1e-6))],
+                     ("type", LABEL, word("Misc", "Tram")), ("box 3d centre", LABEL, number("18 33 26 [0-9.]+ [0-9.]+ [0-9.]+ ", 5e-8)),
+                     ("intrinsics", "training/calib/000001.txt", number("P2: ", 5e-8)),
+                     ("rotation", "training/calib/000001.txt", number("R0_rect: ", 5e-8)),
+                     ("baseline", "training/calib/000001.txt", number("P2: [0-9.]+ 0 [0-9.]+ ", 5e-8)),
+                     ("scanner", "training/calib/000001.txt", number("Tr_velo_to_cam: ", 5e-8))],
     "kitti-odometry": [("pose", "poses/00.txt", number("1 0 0 0 0 1 0 0 0 0 1 ", 1e-6, 1)),
-                       ("first pose", "poses/00.txt", number("^1 ", 1e-6)), ("time", "sequences/00/times.txt", word("4.000000000000e-02", "4.000100000000e-02")),
-                       ("intrinsics", "sequences/00/calib.txt", number("P2: ", 1e-6)),
-                       ("baseline", "sequences/00/calib.txt", number("P3: [0-9.]+ 0 [0-9.]+ ", 1e-6)),
-                       ("scanner", "sequences/00/calib.txt", number("Tr: ", 1e-6))],
+                       ("first pose", "poses/00.txt", number("^1 ", 5e-8)), ("time", "sequences/00/times.txt", word("4.000000000000e-02", "4.000100000000e-02")),
+                       ("intrinsics", "sequences/00/calib.txt", number("P2: ", 5e-8)),
+                       ("baseline", "sequences/00/calib.txt", number("P3: [0-9.]+ 0 [0-9.]+ ", 5e-8)),
+                       ("scanner", "sequences/00/calib.txt", number("Tr: ", 5e-8))],
     "rosbag": recording("dataset.bag", True), "mcap": recording("dataset.mcap", False, "recording"),
-    "mvsnet": [("pose", "cams/00000000_cam.txt", number("1 0 0 ", 1e-6)), ("intrinsics", "cams/00000000_cam.txt", number("intrinsic\n", 1e-6)),
+    "mvsnet": [("pose", "cams/00000000_cam.txt", number("1 0 0 ", 5e-8)), ("intrinsics", "cams/00000000_cam.txt", number("intrinsic\n", 5e-8)),
                ("range", "cams/00000000_cam.txt", number("192 ", 1e-3)), ("scores", "cams/pair.txt", number("\n3 3 ", 1e-3)),
                ("depth", "rendered_depth_maps/00000001.pfm", last_bytes())],
-    "nerf-synthetic": [("intrinsics", "transforms_train.json", number('"camera_angle_x": ', 1e-6)),
-                       ("pose", "transforms_train.json", number(r'"transform_matrix":\[\[1.0,-0.0,-0.0,', 1e-6)),
+    "nerf-synthetic": [("intrinsics", "transforms_train.json", number('"camera_angle_x": ', 5e-8)),
+                       ("pose", "transforms_train.json", number(r'"transform_matrix":\[\[1.0,-0.0,-0.0,', 5e-8)),
                        ("color_rgba", "train/r_0.png", pixel(20, 20))],
-    "sintel": [("intrinsics", "training/camdata_left/cam_L/frame_0001.cam", packed("<d", 4, 1e-6)),
-               ("pose", "training/camdata_left/cam_L/frame_0001.cam", packed("<d", 4 + 72 + 24, 1e-6)),
+    "sintel": [("intrinsics", "training/camdata_left/cam_L/frame_0001.cam", packed("<d", 4, 5e-8)),
+               ("pose", "training/camdata_left/cam_L/frame_0001.cam", packed("<d", 4 + 72 + 24, 5e-8)),
                ("tag", "training/camdata_left/cam_L/frame_0002.cam", packed("<f", 0, 1)),
                ("depth", "training/depth/cam_L/frame_0001.dpt", last_bytes()),
                ("flow_forward", "training/flow/cam_L/frame_0001.flo", last_bytes())],
-    "spring": [("intrinsics", "train/0001/cam_data/intrinsics.txt", number("^", 1e-6)),
-               ("pose", "train/0001/cam_data/extrinsics.txt", number("1 0 0 ", 1e-6))],
+    "spring": [("intrinsics", "train/0001/cam_data/intrinsics.txt", number("^", 5e-8)),
+               ("pose", "train/0001/cam_data/extrinsics.txt", number("1 0 0 ", 5e-8))],
     "tapvid": [("points", "cam_L/tracks.npz", archive("points", shifted), (), "tapvid.pkl"), ("queries", "cam_L/tracks.npz", archive("query_points", shifted)),
                ("occluded", "cam_R/tracks.npz", archive("occluded", np.logical_not))],
-    "transforms": [("intrinsics", "transforms.json", number('"fl_x": ', 1e-6)), ("angle", "transforms.json", number('"camera_angle_x": ', 1e-9)),
-                   ("pose", "transforms.json", number(r'"transform_matrix":\[\[1.0,-0.0,-0.0,', 1e-6)),
-                   ("size", "transforms.json", number('"w": ', 1)), ("distortion", "transforms.json", number('"k1": ', 1e-6)),
+    "transforms": [("intrinsics", "transforms.json", number('"fl_x": ', 5e-8)), ("angle", "transforms.json", number('"camera_angle_x": ', 1e-10), (), None, True),
+                   ("pose", "transforms.json", number(r'"transform_matrix":\[\[1.0,-0.0,-0.0,', 5e-8)),
+                   ("size", "transforms.json", number('"w": ', 1)), ("distortion", "transforms.json", number('"k1": ', 5e-8)),
                    ("depth", "depth/cam_L_000000.png", pixel(20, 20)), ("objects", "masks/cam_L_000000.png", pixel(20, 20, 255))],
-    "tum": [("pose", "cam_L/groundtruth.txt", number("\n0.040000 ", 1e-6)), ("intrinsics", "cam_L/calibration.txt", number("^", 1e-6)),
+    "tum": [("pose", "cam_L/groundtruth.txt", number("\n0.040000 ", 5e-8)), ("intrinsics", "cam_L/calibration.txt", number("^", 5e-8)),
             ("time", "cam_L/rgb.txt", number("\n(?=0.04)", 1e-3), ("associations",), "cam_L/groundtruth.txt"), ("depth", "cam_L/depth/0.040000.png", pixel(20, 20))],
     "voc": [("box", XML, number("<xmin>", 1)), ("category", XML, word("<name>wall", "<name>Car")),
             ("size", XML, number("<width>", 1)), ("truncated", XML, word("<truncated>1", "<truncated>0")),
             ("occluded", XML, word("<occluded>0", "<occluded>1"))],
     "webdataset": [("camera", "train-000000.tar", word("43.4558", "43.4559"), ("croissant",)), ("time", "train-000000.tar", word('"seconds":0.04', '"seconds":0.05')),
                    ("poses", "train-000000.tar", word('"scale":[1.0', '"scale":[1.1')), ("unit", "train-000000.tar", word('per_unit":1.0', 'per_unit":1.1'))],
-    "yolo": [("box", "labels/train/cam_L_000000.txt", number("^0 ", 1e-6)), ("category", "labels/train/cam_L_000001.txt", number("^", 1))],
+    "yolo": [("box", "labels/train/cam_L_000000.txt", number("^0 ", 5e-8)), ("category", "labels/train/cam_L_000001.txt", number("^", 1))],
 }.items()}
 
 
@@ -256,12 +264,7 @@ class Referee(datasets.ExportCase):
             json.dump(document, file)
         self.dataset = self.render(scene, "boxes,amodal,objects,classes", "--for", ",".join(PLANTS))
 
-    def rows(self, folder, status):
-        done = self.dgtk("verify", self.dataset, "--export", folder, "--json", status=status)
-        return {row["layer"]: row for row in json.loads(done.stdout)["residuals"]}
-
-    def plant(self, folder, name, edit):
-        path = os.path.join(folder, name)
+    def plant(self, path, edit, *share):
         with open(path, "rb") as file:
             old = file.read()
         os.remove(path)  # it may be a link to the dataset's
@@ -271,7 +274,7 @@ class Referee(datasets.ExportCase):
             edit(path)
         else:
             with open(path, "wb") as file:
-                file.write(edit(old))
+                file.write(edit(old, *share))
 
     def accept(self, folder):
         path = os.path.join(folder, "export.json")
@@ -284,28 +287,78 @@ class Referee(datasets.ExportCase):
             file.write(sealed(record))
 
     def judge(self, form):
-        """(rows of a sound export, rows where errors were planted)."""
+        """(rows of a sound export, rows where errors were planted, (of these, those of numbers, rows of a tenth of their tolerances, of ten
+        times))."""
         folder = self.path(form)
         subprocess.run([DGTK, "export", self.dataset, "--format", form, "-o", folder, "--quiet"], check=True)
-        sound = self.rows(folder, 0)
-        for plant in PLANTS[form]:
-            self.plant(folder, plant.file, plant.edit)
+        sound = self.rows(folder)
+        copy = self.path(form + "-copy")
+        shutil.copytree(folder, copy)
+        planted = self.planted(folder, PLANTS[form])
+        one, small, large = {}, {}, {}
+        for alone in (True, False):
+            plants = [plant for plant in PLANTS[form] if plant.alone == alone and getattr(plant.edit, "scales", False)]
+            found = self.planted(copy, plants) if alone and plants else planted
+            one.update({plant.row: found[plant.row] for plant in plants})
+            shares = {plant: found[plant.row]["tolerance"] / found[plant.row]["largest"] for plant in plants}
+            shares = {plant: share for plant, share in shares.items() if share > 0}
+            for rows, times in ((small, 0.1), (large, 10)):
+                judged = self.planted(copy, shares, times, shares) if shares else {}
+                rows.update((layer, row) for layer, row in judged.items() if alone or layer not in {plant.row for plant in PLANTS[form] if plant.alone})
+        return sound, planted, (one, small, large)
+
+    def rows(self, folder):
+        done = subprocess.run([DGTK, "verify", self.dataset, "--export", folder, "--json"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
+        return {row["layer"]: dict(row, largest=float(row["largest"])) for row in json.loads(done.stdout)["residuals"]}
+
+    def planted(self, folder, plants, times=1, shares=None):
+        """The rows with these errors, which are taken back where they are shares."""
+        before = {}
+        for plant in plants:
+            path = os.path.join(folder, plant.file)
+            with open(path, "rb") as file:
+                before.setdefault(path, file.read())
+            self.plant(path, plant.edit, *([times * shares[plant]] if shares else []))
         self.accept(folder)
-        return sound, self.rows(folder, 1 if PLANTS[form] else 0)
+        rows = self.rows(folder)
+        if folder.endswith("-copy"):
+            for path, data in before.items():
+                self.plant(path, lambda _, whole=data: whole)
+        return rows
 
     def test_planted_errors(self):
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             judged = dict(zip(PLANTS, pool.map(self.judge, PLANTS)))
-        for form, (sound, rows) in judged.items():
+        for form, (sound, rows, shared) in judged.items():
             with self.subTest(form=form):
-                seen = set().union(*({plant.row, *plant.also} for plant in PLANTS[form]))
-                self.assertEqual({layer for layer, row in rows.items() if row["breach"]}, seen)
+                breaches = [{layer for layer, row in each.items() if row["breach"]} for each in (sound, rows, shared[1])]
+                also = set().union(*(plant.also for plant in PLANTS[form]))
+                self.assertEqual(breaches[:2], [set(), also.union(plant.row for plant in PLANTS[form])])
+                self.assertLessEqual(breaches[2], also, "of a tenth")
             for plant in PLANTS[form]:
                 with self.subTest(form=form, row=plant.row):
-                    self.assertEqual(rows[plant.row]["worst"]["file"], plant.named or plant.file)
-                    self.assertAlmostEqual(rows[plant.row]["tolerance"], sound[plant.row]["tolerance"], delta=1e-12)
+                    row, tolerance = rows[plant.row], sound[plant.row]["tolerance"]
+                    self.assertEqual(row["worst"]["file"], plant.named or plant.file)
+                    self.assertAlmostEqual(row["tolerance"], tolerance, delta=1e-12)
+                    if plant.row in shared[2] and shared[0].get(plant.row, row)["largest"] < np.inf and getattr(plant.edit, "scales", False) and tolerance > 0:
+                        as_planted, small, large = (each[plant.row]["largest"] / tolerance for each in shared)
+                        self.assertTrue(0.01 < small < 1 < large < 20, (small, large))
+                        self.assertLess(as_planted, 500, "a looser tolerance would be seen")
         # Of values with different tolerances a row shows the largest.
         self.assertEqual(judged["kitti2015"][0]["baseline"]["tolerance"], 1e-9)
+
+
+    def test_damaged_structures(self):
+        """What a reader cannot follow is one line, with the file's name."""
+        def longer_header(data):
+            header = struct.unpack_from("<Q", data, 64)[0]  # of the root group: its address stands in the superblock
+            return packed("<I", header + 8, 8)(data)
+
+        folder = self.path("hdf5")
+        subprocess.run([DGTK, "export", self.dataset, "--format", "hdf5", "-o", folder, "--quiet"], check=True)
+        self.plant(os.path.join(folder, "0.hdf5"), longer_header)
+        self.accept(folder)
+        self.refused("verify", self.dataset, "--export", folder, status=1, says=("0.hdf5", "not as long as it says"))
 
 
 if __name__ == "__main__":

@@ -10,6 +10,18 @@ function(dgtk_limit_tests seconds)
   endif()
 endfunction()
 
+# The interpreter of tests of Python. It is not instrumented: what our modules in it need comes before all else.
+set(dgtk_test_python /usr/bin/python3)
+if(DGTK_SANITIZE MATCHES "address")
+  set(_preload "")
+  foreach(library IN ITEMS asan ubsan stdc++)
+    execute_process(COMMAND "${CMAKE_CXX_COMPILER}" -print-file-name=lib${library}.so
+      OUTPUT_VARIABLE file OUTPUT_STRIP_TRAILING_WHITESPACE)
+    string(APPEND _preload "${file}:")
+  endforeach()
+  list(PREPEND dgtk_test_python env "LD_PRELOAD=${_preload}" DGTK_TEST_PATIENCE=20 DGTK_TEST_SANITIZED=1)
+endif()
+
 option(DGTK_TEST_EACH_CASE "Each GoogleTest case is a test of CTest: slower, for finding one" OFF)
 function(dgtk_add_tests module)
   cmake_parse_arguments(PARSE_ARGV 1 _t "" "TIMEOUT;SHARDS" "LINK")

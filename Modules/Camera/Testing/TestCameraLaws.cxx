@@ -78,6 +78,16 @@ void forCameras(int least, const Body& body)
 }
 } // namespace
 
+TEST(CameraLaws, RaysOfCentralModelsStartAtTheCentre)
+{
+  forCameras(0,
+    [](test::RandomCameras&, const CameraModel& camera, int&)
+    {
+      EXPECT_TRUE(!camera.isCentral() || throughOnePoint(camera));
+      EXPECT_TRUE(camera.isCentral() || camera.linear() || camera.name() == "raytable");
+    });
+}
+
 TEST(CameraLaws, APixelsRayIsProjectedToThePixel)
 {
   forCameras(10,

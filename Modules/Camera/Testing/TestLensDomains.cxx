@@ -166,6 +166,29 @@ TEST(Equirectangular, HasLongitudesAndLatitudes)
   }
 }
 
+TEST(Lens, RaysThroughCentresAreThoseBesideThem)
+{
+  std::vector<std::shared_ptr<const CameraModel>> lenses; // more than those whose centres are kept
+  for (int i = 0; i < 6; ++i)
+  {
+    const std::vector<double> distortion{ -0.05 * i, 0.01, 0.002 * i, -0.001 };
+    lenses.push_back(lens("pinhole", { { "distortion", distortion } }));
+    lenses.push_back(lens("omnidirectional", { { "xi", { 0.4 } }, { "distortion", distortion } }));
+  }
+  for (int pixel = 0; pixel < 200 * 100; ++pixel)
+  {
+    const Eigen::Vector2d centre(pixel % 200 + 0.5, pixel / 200 + 0.5);
+    for (const auto& camera : lenses)
+    {
+      const Eigen::Vector2d beside = centre + 1e-9 * (Eigen::Vector2d(100, 50) - centre); // further in
+      const CameraRay ray = camera->rayThrough(centre);
+      ASSERT_EQ(ray.exists(), camera->rayThrough(beside).exists());
+      ASSERT_NEAR((ray.direction - camera->rayThrough(beside).direction).norm(), 0, 1e-6);
+      ASSERT_EQ(ray.direction, camera->rayThrough(centre).direction);
+    }
+  }
+}
+
 TEST(Lens, FieldOfViewIsThatWithoutTheDistortion)
 {
   const auto topAngle = [](const CameraModel& camera) {

@@ -108,7 +108,6 @@ double CounterRandom::poisson(double mean, std::uint32_t x, std::uint32_t y, std
     return poissonByInversion(mean, this->uniform(x, y, draw));
   }
   mean = std::min(mean, 1e12);
-  const double logMean = portable::log(mean);
   const double b = 0.931 + 2.53 * std::sqrt(mean);
   const double a = -0.059 + 0.02483 * b;
   const double inverseAlpha = 1.1239 + 1.1328 / (b - 3.4);
@@ -128,7 +127,8 @@ double CounterRandom::poisson(double mean, std::uint32_t x, std::uint32_t y, std
     {
       continue;
     }
-    if (portable::log(v * inverseAlpha / (a / (us * us) + b)) <= k * logMean - mean - portable::logFactorial(k))
+    if (portable::log(v * inverseAlpha / (a / (us * us) + b)) <=
+        k * portable::log(mean) - mean - portable::logFactorial(k))
     {
       return k;
     }

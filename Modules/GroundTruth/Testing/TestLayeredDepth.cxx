@@ -50,10 +50,24 @@ struct Squares
     in.rect = { 0, 0, 4, 1 };
     in.first = this->First.data();
     in.rgb = rgb;
-    for (std::size_t r = 0; r < this->Hits.size(); ++r)
+    std::vector<std::uint32_t> begins{ 0 };
+    std::vector<Hit> hits;
+    std::vector<float> rgba;
+    for (std::size_t i = 0; i < 4; ++i)
     {
-      in.ranks.push_back({ this->Hits[r].data(), this->Colors[r].data() });
+      for (std::size_t r = 0; r < this->Hits.size(); ++r)
+      {
+        if (this->Hits[r][i].object != 0)
+        {
+          hits.push_back(this->Hits[r][i]);
+          rgba.insert(rgba.end(), &this->Colors[r][4 * i], &this->Colors[r][4 * i] + 4);
+        }
+      }
+      begins.push_back(static_cast<std::uint32_t>(hits.size()));
     }
+    in.begins = begins.data();
+    in.hits = hits.data();
+    in.rgba = rgba.data();
     LayeredRows out;
     layeredDepthRows(*this->Builder.state(), this->Seen, in, out);
     return out;

@@ -15,60 +15,66 @@ namespace
 // Pixels that are one job of the pool; the records of a batch of jobs are held at once.
 constexpr int ldiStrip = 1 << 14;
 
-/// Full-width rows of the surfaces of a band by their rank: all that are nearest, all that stand behind one, and so on.
-class Ranks
+/// What was peeled of pixels of a band, full-width rows or a part of one row.
+class Peeled
 {
 public:
-  Ranks(const Band& band, const PixelRect& rows)
-    : Pixels(std::size_t(rows.width) * rows.height)
+  Peeled(const Band& band, const PixelRect& rows)
   {
-    for (const SurfaceLists& tile : band.peeled)
+    if (band.peeled.size() == 1)
     {
-      for (int y = 0; y < rows.height; ++y)
+      const SurfaceLists& all = band.peeled.front();
+      this->Begins =
+        all.first.data() + std::size_t(rows.y - all.rect.y) * std::size_t(all.rect.width) + (rows.x - all.rect.x);
+      this->point(all.hits.data() + *this->Begins, all.rgba.data() + 4 * std::size_t(*this->Begins));
+      return;
+    }
+    this->Own.first.push_back(0);
+    for (int y = rows.y; y < rows.y + rows.height; ++y)
+    {
+      for (const SurfaceLists& tile : band.peeled)
       {
         this->add(tile, rows, y);
       }
     }
-    for (const Rank& rank : this->All)
-    {
-      this->Rows.push_back({ rank.hits.data(), rank.rgba.data() });
-    }
+    this->Begins = this->Own.first.data();
+    this->point(this->Own.hits.data(), this->Own.rgba.data());
   }
 
-  const std::vector<PeeledRows>& rows() const { return this->Rows; }
+  void giveTo(LayeredInput& in) const
+  {
+    in.begins = this->Begins;
+    in.hits = this->Hits;
+    in.rgba = this->Rgba;
+  }
 
 private:
-  struct Rank
+  void point(const Hit* hits, const float* rgba)
   {
-    std::vector<Hit> hits;
-    std::vector<float> rgba;
-  };
+    this->Hits = hits;
+    this->Rgba = rgba;
+  }
 
   /// What a tile has of row `y` of `rows`.
   void add(const SurfaceLists& tile, const PixelRect& rows, int y)
   {
-    const std::uint32_t* const first = tile.first.data() + std::size_t(rows.y + y - tile.rect.y) * tile.rect.width;
     const int begin = std::max(tile.rect.x, rows.x);
     const int end = std::min(tile.rect.x + tile.rect.width, rows.x + rows.width);
+    const std::size_t row = std::size_t(y - tile.rect.y) * std::size_t(tile.rect.width);
     for (int x = begin; x < end; ++x)
     {
-      const std::size_t to = std::size_t(y) * rows.width + std::size_t(x - rows.x);
-      for (std::uint32_t i = first[x - tile.rect.x]; i < first[x - tile.rect.x + 1]; ++i)
-      {
-        const std::size_t rank = i - first[x - tile.rect.x];
-        if (rank == this->All.size())
-        {
-          this->All.push_back({ std::vector<Hit>(this->Pixels), std::vector<float>(4 * this->Pixels) });
-        }
-        this->All[rank].hits[to] = tile.hits[i];
-        std::copy_n(tile.rgba.data() + 4 * std::size_t(i), 4, this->All[rank].rgba.data() + 4 * to);
-      }
+      const std::uint32_t* const first = tile.first.data() + row + std::size_t(x - tile.rect.x);
+      this->Own.hits.insert(this->Own.hits.end(), tile.hits.begin() + first[0], tile.hits.begin() + first[1]);
+      this->Own.rgba.insert(this->Own.rgba.end(), tile.rgba.begin() + 4 * std::ptrdiff_t(first[0]),
+        tile.rgba.begin() + 4 * std::ptrdiff_t(first[1]));
+      this->Own.first.push_back(std::uint32_t(this->Own.hits.size()));
     }
   }
 
-  std::size_t Pixels;
-  std::vector<Rank> All;
-  std::vector<PeeledRows> Rows;
+  SurfaceLists Own; ///< of several tiles
+  const std::uint32_t* Begins = nullptr;
+  const Hit* Hits = nullptr;
+  const float* Rgba = nullptr;
 };
 
 class LdiPass : public LayerPass
@@ -127,8 +133,8 @@ private:
     in.first = part.hits;
     in.rgb = this->OwnColor && !part.band.rgb.empty() ? part.band.rgb.data() + 3 * (part.hits - part.band.hits.data())
                                                       : nullptr;
-    const Ranks ranks(part.band, in.rect);
-    in.ranks = ranks.rows();
+    const Peeled peeled(part.band, in.rect);
+    peeled.giveTo(in);
     LayeredRows layered;
     layeredDepthRows(state, view, in, layered);
     rows.counts.insert(rows.counts.end(), layered.counts.begin(), layered.counts.end());

@@ -4,6 +4,7 @@
 #include "dgtkLayers.h"
 #include "dgtkObjectDocuments.h"
 #include "dgtkObjectTruth.h"
+#include "dgtkPixelBlocks.h"
 #include "dgtkWholeObjects.h"
 
 #include <algorithm>
@@ -77,7 +78,7 @@ public:
     {
       this->Blocks.emplace(*this->Context.state, this->Context.view);
     }
-    const int stripRows = std::max(1, objectStrip / band.rect.width);
+    const int stripRows = std::max(pixelBlock, objectStrip / band.rect.width / pixelBlock * pixelBlock);
     std::vector<ObjectRows> strips((band.rect.height + stripRows - 1) / stripRows);
     this->Context.pool.parallelFor(static_cast<int>(strips.size()),
       [&](int i)

@@ -127,7 +127,12 @@ void MattingSource::drawPiece(const PixelRect& piece, const PixelRect& rect, std
   VisibilityBuffer hits;
   const int n = this->Samples;
   const PixelRect large{ (rect.x + piece.x) * n, (rect.y + piece.y) * n, piece.width * n, piece.height * n };
-  this->Pictures.renderColor(large, 1, colors, &hits);
+  this->Pictures.renderWanted(large, colors, hits,
+    [this](const Hit& hit)
+    {
+      const std::uint32_t object = this->State->objectOf(hit.object);
+      return std::find(this->Objects.begin(), this->Objects.end(), object) != this->Objects.end();
+    });
   for (std::size_t m = 0; m < mattes.size(); ++m)
   {
     for (int y = 0; y < piece.height; ++y)

@@ -74,12 +74,12 @@ TEST(ShadingMath, ElementaryFunctionsAreRightToSinglePrecision)
 
 TEST(ShadingMath, PicturesRepeat)
 {
-  EXPECT_EQ(repeated(0), 0.0F);
-  EXPECT_FLOAT_EQ(repeated(-0.25), 0.75F);
-  EXPECT_FLOAT_EQ(repeated(1e6 + 0.5), 0.5F);
-  EXPECT_EQ(repeated(-1e-20), 0.0F); // not 1
-  EXPECT_EQ(repeated(std::nan("")), 0.0F);
-  EXPECT_EQ(repeated(1e300), 0.0F);
+  EXPECT_EQ(repeated(0, 0.25)[0], 0.0F);
+  EXPECT_FLOAT_EQ(repeated(0, -0.25)[1], 0.75F);
+  EXPECT_FLOAT_EQ(repeated(1e6 + 0.5, 0)[2], 0.5F);
+  EXPECT_EQ(repeated(-1e-20, 0)[0], 0.0F); // not 1
+  EXPECT_EQ(repeated(std::nan(""), 0.25)[0], 0.0F);
+  EXPECT_EQ(repeated(0, 1e300)[3], 0.0F);
 }
 
 // Every level has the mean of the picture, whatever its size.

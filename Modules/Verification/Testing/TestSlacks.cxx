@@ -101,6 +101,25 @@ TEST(Slacks, StepsOfDepth)
   }
 }
 
+/// A pixel whose centre is beside an edge may show either side, up to 1/64 pixel.
+TEST(Slacks, EdgesOfWhatIsSeen)
+{
+  const auto depths = [](double off, int from)
+  {
+    const double x = off / 100;
+    HandMade made({ wallModel(2), triangleModel({ x, -90, 1 }, { 90, 0, 1 }, { x, 90, 1 }) });
+    made.image("a/depth/000000.npy", 1, [&](int column, int, int) { return column >= from ? 1 : 2; });
+    const Residual residual = made.verify("depth", "depth");
+    EXPECT_EQ(residual.count + residual.skipped, 48u);
+    return std::pair(residual.bad, residual.skipped);
+  };
+  using Found = std::pair<std::uint64_t, std::uint64_t>;
+  EXPECT_EQ(depths(0.0015, 4), Found(0, 6));
+  EXPECT_EQ(depths(0.15, 4), Found(6, 0));
+  EXPECT_EQ(depths(-0.0015, 5), Found(0, 6));
+  EXPECT_EQ(depths(-0.15, 5), Found(6, 0));
+}
+
 /// What another camera has in its own plane projects by rounding alone.
 TEST(Slacks, PointsInTheOtherCamerasPlane)
 {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The meshes and pictures that all views share, as VTK has them.
 #include "dgtkMeshClusters.h"
+#include "dgtkMippedTexture.h"
 #include "dgtkSyntheticScene.h"
 #include "dgtkViewChecks.h"
 #include "dgtkViewMeshes.h"
 
 #include <vtkCellArray.h>
 #include <vtkImageData.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
@@ -91,5 +93,56 @@ TEST(ViewMeshes, PicturesAreFromBelow)
   ASSERT_EQ(cut->GetNumberOfScalarComponents(), 4);
   const auto* rgb = static_cast<const unsigned char*>(plain->GetScalarPointer());
   EXPECT_EQ(std::vector<int>(rgb, rgb + 12), (std::vector<int>{ 7, 8, 9, 10, 11, 12, 1, 2, 3, 4, 5, 6 }));
+}
+
+/// Half as many texels along an even side are means of two; along an odd one each lies between two, by its place.
+TEST(ViewMeshes, SmallerPicturesAreLinear)
+{
+  vtkNew<vtkImageData> picture;
+  picture->SetDimensions(5, 4, 1);
+  picture->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  auto* texels = static_cast<unsigned char*>(picture->GetScalarPointer());
+  for (int i = 0; i < 5 * 4 * 3; ++i)
+  {
+    texels[i] = static_cast<unsigned char>(i * 37 % 251);
+  }
+  const auto at = [&](int column, int row, int c) { return double(texels[(row * 5 + column) * 3 + c]); };
+  const SmallerPictures smaller = smallerPictures(*picture);
+  ASSERT_EQ(smaller.size(), 2u);
+  ASSERT_EQ(smaller[0].size(), 2u * 2 * 3);
+  ASSERT_EQ(smaller[1].size(), 3u);
+  for (int c = 0; c < 3; ++c)
+  {
+    double sum = 0;
+    for (int row = 0; row < 2; ++row)
+    {
+      for (int column = 0; column < 2; ++column)
+      {
+        const int first = 3 * column; // at 0.75 and 3.25 of the five
+        const double weight = column == 0 ? 0.75 : 0.25;
+        const auto along = [&](int y) { return (1 - weight) * at(first, y, c) + weight * at(first + 1, y, c); };
+        const double expected = (along(2 * row) + along(2 * row + 1)) / 2;
+        const int found = smaller[0][std::size_t((row * 2 + column) * 3 + c)];
+        EXPECT_NEAR(found, expected, 0.5 + viewTolerance);
+        sum += found;
+      }
+    }
+    EXPECT_NEAR(smaller[1][std::size_t(c)], sum / 4, 0.5 + viewTolerance);
+  }
+}
+
+TEST(ViewMeshes, TexturesShareAPictureWithItsMipMaps)
+{
+  ViewMeshes meshes;
+  auto image = std::make_shared<Image>();
+  EXPECT_EQ(meshes.texture(image, false), nullptr);
+  image->width = image->height = 4;
+  image->rgba.assign(64, 200);
+  const vtkSmartPointer<vtkTexture> one = meshes.texture(image, true);
+  const vtkSmartPointer<vtkTexture> other = meshes.texture(image, true);
+  EXPECT_NE(one, other) << "a view has its own";
+  EXPECT_EQ(one->GetInput(), meshes.picture(image, true));
+  EXPECT_EQ(other->GetInput(), meshes.picture(image, true));
+  EXPECT_NE(MippedTexture::SafeDownCast(one), nullptr);
 }
 } // namespace
