@@ -10,6 +10,8 @@
 #include <vtkCamera.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
+#include <vtkOpenGLFramebufferObject.h>
+#include <vtkOpenGLState.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
 
@@ -52,12 +54,43 @@ void ViewWidget::drawSoon()
   if (!this->DrawWanted)
   {
     this->DrawWanted = true;
-    QTimer::singleShot(0, this,
-      [this]
-      {
-        this->DrawWanted = false;
-        this->draw();
-      });
+    QTimer::singleShot(0, this, &ViewWidget::drawWanted);
+  }
+}
+
+void ViewWidget::drawWanted()
+{
+  if (this->DrawWanted)
+  {
+    this->DrawWanted = false;
+    this->draw();
+  }
+}
+
+/// VTK's way draws once more after each change of the size, and copies with a filter, for which software OpenGL
+/// compiles programs in each view.
+void ViewWidget::paintGL()
+{
+  if (this->Resizing)
+  {
+    return;
+  }
+  auto* const window = vtkOpenGLRenderWindow::SafeDownCast(this->renderWindow());
+  const auto isDrawn = [window]
+  {
+    vtkOpenGLFramebufferObject& drawn = *window->GetDisplayFramebuffer();
+    return drawn.GetFBOIndex() != 0 && std::equal(drawn.GetLastSize(), drawn.GetLastSize() + 2, window->GetSize());
+  };
+  this->DrawWanted = this->DrawWanted || !isDrawn();
+  this->drawWanted();
+  this->makeCurrent();
+  if (isDrawn())
+  {
+    window->GetState()->Reset(); // Qt has its own
+    window->GetState()->Push();
+    const int* const size = window->GetSize();
+    window->BlitDisplayFramebuffer(0, 0, 0, size[0], size[1], 0, 0, size[0], size[1], GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    window->GetState()->Pop();
   }
 }
 
@@ -148,7 +181,9 @@ void ViewWidget::wheelEvent(QWheelEvent* event)
 
 void ViewWidget::resizeEvent(QResizeEvent* event)
 {
+  this->Resizing = true; // Qt paints at once, and again when all have their sizes
   QVTKOpenGLNativeWidget::resizeEvent(event);
+  this->Resizing = false;
   this->drawSoon();
 }
 

@@ -52,6 +52,7 @@ protected:
   void keyPressEvent(QKeyEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  void paintGL() override;
 
   ViewCamera Camera;
   vtkSmartPointer<vtkRenderer> Renderer;
@@ -61,7 +62,10 @@ protected:
   bool Moved = false; ///< since the button was pressed
 
 private:
+  void drawWanted();
+
   bool DrawWanted = false;
+  bool Resizing = false;
 };
 
 } // namespace dgtk

@@ -18,7 +18,13 @@
 #include <QProcess>
 #include <QTest>
 #include <QTranslator>
+#include <QVTKOpenGLNativeWidget.h>
 #include <QXmlStreamReader>
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
 
 #include <algorithm>
 #include <cmath>
@@ -163,6 +169,28 @@ void TestEditorLook::viewsHaveAllPixelsOfTheDisplay()
     }
   }
   QVERIFY2(different > shown.width(), qPrintable(QString::number(different)));
+}
+
+void TestEditorLook::aViewIsDrawnOnceForASize()
+{
+  int drawn = 0;
+  vtkNew<vtkCallbackCommand> counter;
+  counter->SetClientData(&drawn);
+  counter->SetCallback([](vtkObject*, unsigned long, void* number, void*) { ++*static_cast<int*>(number); });
+  QVERIFY(this->Window->openFile(demo()));
+  for (int place = 0; place < 4; ++place)
+  {
+    auto* view = this->Window->findChild<QVTKOpenGLNativeWidget*>("view." + QString::number(place));
+    untilQuiet();
+    drawn = 0;
+    const QSize before = view->size();
+    view->renderWindow()->AddObserver(vtkCommand::EndEvent, counter);
+    this->Window->resize(this->Window->size() - QSize(40, 40));
+    QTRY_VERIFY(view->size() != before);
+    untilQuiet();
+    view->renderWindow()->RemoveObserver(counter);
+    QCOMPARE(drawn, 1);
+  }
 }
 
 void TestEditorLook::clicksMeetWhatIsSeen()

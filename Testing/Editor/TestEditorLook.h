@@ -11,6 +11,7 @@ class TestEditorLook : public EditorTest
 
 private slots:
   void viewsHaveAllPixelsOfTheDisplay();
+  void aViewIsDrawnOnceForASize();
   void clicksMeetWhatIsSeen();
   void camerasAndLightsAreFramedAsTheyAreDrawn();
   void theUpAxisTurnsTheViews();
