@@ -158,7 +158,7 @@ TEST(SceneCameras, ParametersAreThoseOfTheFrameAndTheSize)
   camera.model = "pinhole";
   camera.width = 200;
   camera.height = 100;
-  camera.K = Eigen::Matrix3d();
+  camera.K = Eigen::Matrix3d::Zero();
   *camera.K << 80, 0.5, 90, 0, 70, 40, 0, 0, 1;
   made = cameraParameters(camera, 5, 600, 150);
   ASSERT_TRUE(made.K);
