@@ -252,7 +252,7 @@ void TestEditorFiles::readingDoesNotHoldTheWindow()
       longest = reading ? std::max(longest, now - last) : longest;
       last = now;
     });
-  heart.start(5);
+  heart.start(1);
   QVERIFY(this->Window->importFile(file));
   QVERIFY2(beats > 20, qPrintable(QString::number(beats)));
   qInfo("%d beats while %d triangles were read; the longest event took %.0f ms", beats, 2 * (side - 1) * (side - 1),

@@ -206,6 +206,9 @@ class Panoptic(datasets.ExportCase):
         document = load_json(os.path.join(folder, "annotations", "panoptic_train.json"))
         things = {c["id"]: c["isthing"] for c in document["categories"]}
         self.assertEqual([(c["name"], c["isthing"]) for c in document["categories"]], [("wall", 0), ("ring", 1), ("block", 0)])
+        colors = {tuple(c["color"]) for c in document["categories"]}  # panopticapi's converters want one of each
+        self.assertEqual((len(colors), {len(color) for color in colors}), (3, {3}))
+        self.assertTrue(all(0 <= value < 256 for color in colors for value in color))
         names = {entry["name"]: (entry["camera"], entry["frame"]) for entry in record["names"]}
         images = {image["id"]: names["train/" + image["file_name"]] for image in document["images"]}
         classes = {o["id"]: o["class_id"] for o in load_json(os.path.join(dataset, "objects.json"))["objects"]}

@@ -153,6 +153,8 @@ class WebDataset(Hub):
             self.assertEqual(document[key], INFO[value])
         self.assertEqual(len(sets["json-files"]), 6)
         self.assertEqual(len(sets["flow_forward.npy-files"]), 4)
+        kinds = {one["@id"]: one["encodingFormat"] for one in document["distribution"]}
+        self.assertEqual((kinds["json-files"], kinds["color.png-files"]), ("application/json", "image/png"))
 
     def test_parts_and_pictures_that_lack_layers(self):
         dataset = self.render(datasets.stereo(self.path("scene")), "color,flow_forward,objects")

@@ -77,6 +77,16 @@ class Voc(datasets.ExportCase):
             said = self.planted(dataset, folder, "SegmentationClass/left_eye_000000.png", lambda old, new=file.read(): new)
         self.assertIn("layer codes", said)
 
+    def test_an_object_without_a_class(self):
+        """A reader that finds no text has no name at all."""
+        dataset = self.render(datasets.street(self.path("scene")), LAYERS)
+        folder, record = self.export(dataset, "voc")
+        names = set()
+        for entry in record["names"]:
+            stem = os.path.splitext(os.path.basename(entry["name"]))[0]
+            names.update(one.findtext("name") for one in ElementTree.parse(os.path.join(folder, "Annotations", stem + ".xml")).getroot().findall("object"))
+        self.assertEqual(names, {"wall", "Car", "delivery van", "object"})
+
     def test_an_empty_picture(self):
         dataset = self.render(datasets.walk(self.path("scene")), LAYERS)
         folder, _ = self.export(dataset, "voc")

@@ -70,7 +70,7 @@ class Yolo(datasets.ExportCase):
         boxes, record = self.export(dataset, "yolo", "--split", "train=0:1,val=2:2")
         self.assertEqual(sorted(os.listdir(boxes)), ["data.yaml", "export.json", "images", "labels"])
         with open(os.path.join(boxes, "data.yaml")) as file:
-            self.assertEqual(file.read(), 'path: .\ntrain: images/train\nval: images/val\nnames:\n  0: "wall"\n  1: "ring"\n  2: "block"\n')
+            self.assertEqual(file.read(), 'train: images/train\nval: images/val\nnames:\n  0: "wall"\n  1: "ring"\n  2: "block"\n')
         for _, ids, classes, rows in self.pictures(dataset, boxes, record):
             seen = [i for i in np.unique(ids) if i]
             self.assertEqual([kind for kind, _ in rows], [classes[i] for i in seen])

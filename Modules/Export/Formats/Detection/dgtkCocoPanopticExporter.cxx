@@ -4,9 +4,11 @@
 #include "dgtkExport.h"
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
+#include "dgtkLayerColors.h"
 #include "dgtkText.h"
 
 #include <algorithm>
+#include <array>
 
 namespace dgtk
 {
@@ -93,10 +95,8 @@ private:
         if (one.id == category["id"])
         {
           category["isthing"] = isStuff(one, options) ? 0 : 1;
-          if (one.color)
-          {
-            category["color"] = *one.color;
-          }
+          const Rgb usual = idColor(one.id); // its tools want one of each
+          category["color"] = one.color.value_or(std::array<int, 3>{ usual[0], usual[1], usual[2] });
         }
       }
     }

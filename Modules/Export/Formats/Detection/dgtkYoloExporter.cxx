@@ -189,7 +189,7 @@ private:
   static std::string yamlOf(
     const DatasetView& dataset, const std::vector<DatasetSplit>& splits, const OptionValues& options)
   {
-    std::string text = "path: .\n";
+    std::string text; // without a path folders are beside the file
     const auto named = [&](const std::string& name)
     { return std::any_of(splits.begin(), splits.end(), [&](const DatasetSplit& one) { return one.name == name; }); };
     for (const char* name : { "train", "val" }) // both have to be there

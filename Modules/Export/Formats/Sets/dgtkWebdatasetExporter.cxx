@@ -205,7 +205,7 @@ private:
         Json records = Json::array();
         for (const std::string& kind : kinds)
         {
-          const std::string mime = card::mimeOf(extensionOf('.' + kind));
+          const std::string mime = card::mimeOf(kind.substr(kind.rfind('.') + 1));
           const std::string names = kind == "json" ? "*[0-9][0-9][0-9][0-9][0-9][0-9].json" : "*." + kind; // of keys
           distribution.push_back(card::fileSet(kind + "-files", mime, names, containers));
           records.push_back(card::recordsOf(kind, kind + "-files", mime, "^(?:.*/)?([^./]+)\\."));

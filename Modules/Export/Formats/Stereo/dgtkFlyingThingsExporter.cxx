@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 
 namespace dgtk
 {
@@ -94,6 +95,17 @@ void writeChange(ExportSink& sink, const DatasetView& dataset, const Eye& eye, c
         row[x] = there.at(x) - here.at(x);
       }
     });
+}
+
+/// Readers of the set pair the files of a folder by their order, so that none may be missing: where a frame has no
+/// layer, there is nothing at all its pixels.
+void writeNothing(
+  ExportSink& sink, const Eye& eye, const std::string& layer, const std::string& name, int channels, int filled)
+{
+  const CameraRecord& camera = eye.shot->camera;
+  writeFloats(sink, name, { layer, eye.shot, { "nothing", { { "nothing", { double(nothing) } } } } },
+    pfm(channels, "px"), camera.width, camera.height, filled,
+    [&](int, double* row) { std::fill_n(row, filled * camera.width, std::numeric_limits<double>::quiet_NaN()); });
 }
 
 void writeObjects(ExportSink& sink, const DatasetView& dataset, const Eye& eye)
@@ -222,11 +234,11 @@ private:
       eye.path("object_index/", ".pfm") };
     for (const Direction& way : directions)
     {
-      if (!dataset.file(*eye.shot, way.flow).empty())
+      if (dataset.has(way.flow))
       {
         item.files.push_back(flowPath(eye, way));
       }
-      if (!dataset.file(*eye.shot, way.disparity).empty())
+      if (dataset.has(way.disparity))
       {
         item.files.push_back(changePath(eye, way));
       }
@@ -243,9 +255,17 @@ private:
         {
           writeFlow(sink, dataset, eye, way);
         }
+        else if (dataset.has(way.flow))
+        {
+          writeNothing(sink, eye, way.flow, flowPath(eye, way), 3, 2);
+        }
         if (!dataset.file(*eye.shot, way.disparity).empty())
         {
           writeChange(sink, dataset, eye, way);
+        }
+        else if (dataset.has(way.disparity))
+        {
+          writeNothing(sink, eye, way.disparity, changePath(eye, way), 1, 1);
         }
       }
     };

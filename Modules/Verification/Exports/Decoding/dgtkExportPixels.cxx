@@ -335,6 +335,23 @@ void judgeChange(const Comparison& one, Meter& meter)
     });
 }
 
+/// The dataset has no such layer of the picture.
+void judgeNothing(const Comparison& one, Meter& meter)
+{
+  const DecodedPixels found = allOf(one.path());
+  one.requireSize(found.width, found.height);
+  const double none = numberOf(one.encoding(), "nothing", noNumber);
+  const bool right = one.source.file(one.file().camera, one.file().frame, one.file().layer).empty();
+  forPixels(found.width, found.height,
+    [&](int x, int y)
+    {
+      for (int c = 0; c < std::min(found.channels, 2); ++c)
+      {
+        meter.equal(right && found.at(x, y, c) == none, [&] { return offenderAt(one, x, y, found.at(x, y, c), none); });
+      }
+    });
+}
+
 struct Judge
 {
   const char* kind;
@@ -348,6 +365,7 @@ constexpr Judge judges[] = {
   { "mask", &judgeMask, "" },
   { "ids", &judgeIds, "" },
   { "disparity-change", &judgeChange, "px" },
+  { "nothing", &judgeNothing, "" },
 };
 } // namespace
 

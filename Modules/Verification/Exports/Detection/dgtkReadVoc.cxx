@@ -70,7 +70,8 @@ void judgePicture(ExportJudge& judge, const std::string& stem, const ExportedNam
             name.replace(at, std::string(code).size(), sign);
           }
         }
-        judge.holds("category", file, box.name, name == classes[k].name, name, classes[k].name);
+        const std::string expected = classes[k].name.empty() ? "object" : classes[k].name;
+        judge.holds("category", file, box.name, name == expected, name, expected);
       }
     }
   }
