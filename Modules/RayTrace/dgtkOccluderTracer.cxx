@@ -29,12 +29,10 @@ bool isCoarse(const RayScene& scene, const View& view) { return scene.errorInPix
 Hit nearestOnRay(const RayScene& scene, const ExactRay& ray, const Hit& target, bool coarse)
 {
   RayContext context;
-  SeenTriangles triangles(scene);
   rtcInitIntersectContext(&context.context);
   context.context.filter = rayFilter;
   context.scene = &scene;
   context.mode = RayContext::Mode::Checked;
-  context.triangles = &triangles;
   context.rays = &ray;
   context.skip = &target;
   context.t[0] = INFINITY;

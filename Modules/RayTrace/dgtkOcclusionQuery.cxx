@@ -105,7 +105,7 @@ public:
       collectCandidates(scene, rays, many, isCoherent(view), candidates);
       for (std::size_t i = 0; i < many; ++i)
       {
-        settleHits(scene, rays[i], coarse, triangles, candidates[i], found);
+        settleHits(scene, rays[i], coarse, &triangles, candidates[i], found);
         hits[first + i].clear();
         for (const RayHit& hit : found)
         {

@@ -68,7 +68,7 @@ bool accept(RayContext& context, const RayMesh& mesh, unsigned int geometry, uns
     case RayContext::Mode::Checked:
     {
       bool uncertain = false;
-      const bool inside = context.scene->intersect(context.rays[lane], hit, uncertain, *context.triangles).inside;
+      const bool inside = context.scene->intersect(context.rays[lane], hit, uncertain, context.triangles).inside;
       context.marginal |= unsigned(uncertain) << lane;
       if (hit == context.skip[lane] || !inside)
       {

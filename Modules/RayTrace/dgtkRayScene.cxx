@@ -155,9 +155,11 @@ ExactHit RayScene::intersect(const ExactRay& ray, const Hit& hit) const
   return exact;
 }
 
-ExactHit RayScene::intersect(const ExactRay& ray, const Hit& hit, bool& uncertain, SeenTriangles& triangles) const
+ExactHit RayScene::intersect(const ExactRay& ray, const Hit& hit, bool& uncertain, SeenTriangles* triangles) const
 {
-  const SeenTriangle seen(ray, triangles.from(ray.origin, hit));
+  TriangleFrom own;
+  const TriangleFrom& from = triangles ? triangles->from(ray.origin, hit) : (own = this->triangleFrom(ray.origin, hit));
+  const SeenTriangle seen(ray, from);
   ExactHit exact = intersectExactly(ray, seen);
   const double reach = this->Instances[hit.object - 1].reach;
   uncertain = isMarginal(ray, seen, rayPrecision * (std::abs(exact.t) * ray.direction.norm() + reach));
@@ -270,11 +272,10 @@ void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::v
   thread_local std::vector<Hit> found;
   found.clear();
   trace(scene, ray, found);
-  SeenTriangles triangles(scene);
-  settleHits(scene, ray, nearby, triangles, found, hits);
+  settleHits(scene, ray, nearby, nullptr, found, hits);
 }
 
-void settleHits(const RayScene& scene, const ExactRay& ray, bool nearby, SeenTriangles& triangles,
+void settleHits(const RayScene& scene, const ExactRay& ray, bool nearby, SeenTriangles* triangles,
   std::vector<Hit>& found, std::vector<RayHit>& hits)
 {
   hits.clear();

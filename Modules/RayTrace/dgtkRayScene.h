@@ -54,8 +54,9 @@ public:
     return { instance + 1, this->Instances[instance].mesh->firstTriangle[geometry] + primitive };
   }
   /// Exact intersection with a triangle; inside is false outside the ray's range and at missing texels. `uncertain`:
-  /// whether single precision cannot tell on which side of an edge the ray passes. `triangles`: of this scene.
-  ExactHit intersect(const ExactRay& ray, const Hit& hit, bool& uncertain, SeenTriangles& triangles) const;
+  /// whether single precision cannot tell on which side of an edge the ray passes. `triangles`: of this
+  /// scene, for many rays; null for one.
+  ExactHit intersect(const ExactRay& ray, const Hit& hit, bool& uncertain, SeenTriangles* triangles) const;
   ExactHit intersect(const ExactRay& ray, const Hit& hit) const;
   /// The same without the range and the texels.
   ExactHit intersectTriangle(const ExactRay& ray, const Hit& hit) const;
@@ -126,7 +127,7 @@ struct RayHit
 /// misses by a rounding; otherwise only when some surface is marginal.
 void collectHits(const RayScene& scene, const ExactRay& ray, bool nearby, std::vector<RayHit>& hits);
 /// The same where all candidates along the ray itself are in `found`, which gets those beside it.
-void settleHits(const RayScene& scene, const ExactRay& ray, bool nearby, SeenTriangles& triangles,
+void settleHits(const RayScene& scene, const ExactRay& ray, bool nearby, SeenTriangles* triangles,
   std::vector<Hit>& found, std::vector<RayHit>& hits);
 
 /// Whether Embree's bounds of coherent packets may be used for rays of a view: they lose surfaces when the rays start
@@ -158,7 +159,7 @@ struct RayContext
   float t[16];
   Hit best[16];
   const Hit* skip = nullptr;          ///< Checked: a triangle that is not there, a lane
-  SeenTriangles* triangles = nullptr; ///< Checked
+  SeenTriangles* triangles = nullptr; ///< Checked: of several rays, or null
   unsigned int marginal = 0;          ///< Checked: bits of lanes in which single precision may have missed something
   std::vector<Hit>* found = nullptr;  ///< Collect: a list a lane
 };
