@@ -146,6 +146,10 @@ void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoin
     point.viewer = toFloat4(d * (-1 / length));
     point.distance = float(t * length);
   }
+  else
+  {
+    point.viewer = float4(0);
+  }
   const Float4 normal =
     normalized(triangle.shading + triangle.shadingSecond * float(second) + triangle.shadingThird * float(third));
   point.normal = front ? normal : -normal;
@@ -189,7 +193,7 @@ void ShadedView::lift(
   }
 }
 
-void ShadedView::findShadows(const ShadedPoint* points, std::size_t count, PointLight* lit) const
+void ShadedView::findShadows(const ShadedPoint* points, std::size_t count, LightLanes* lit) const
 {
   const std::size_t lights = this->Light.lights();
   for (std::size_t light = 0; light < lights; ++light)
@@ -198,16 +202,16 @@ void ShadedView::findShadows(const ShadedPoint* points, std::size_t count, Point
     {
       continue;
     }
+    LightLanes& own = lit[light];
     LightPath paths[lanes];
     std::size_t ofPath[lanes];
     std::size_t asked = 0;
     for (std::size_t i = 0; i < count; ++i)
     {
-      const PointLight& own = lit[i * lights + light];
-      if (own.cosine > 0 && own.strength > 0)
+      if (of(own.cosine, i) > 0 && of(own.strength, i) > 0)
       {
         const ShadedPoint& p = points[i];
-        const Eigen::Vector3d toLight = toVector3d(own.toLight);
+        const Eigen::Vector3d toLight = toVector3d(own.toLightOf(i));
         const double off = this->Shadows->precision(p.object, double(p.distance));
         paths[asked] = { p.lifted + off * p.outward, toLight, this->Light.distanceTo(light, p.lifted) - off };
         ofPath[asked++] = i;
@@ -216,7 +220,7 @@ void ShadedView::findShadows(const ShadedPoint* points, std::size_t count, Point
     const unsigned int blocked = asked > 0 ? this->Shadows->blocked(paths, asked) : 0;
     for (std::size_t k = 0; k < asked; ++k)
     {
-      lit[ofPath[k] * lights + light].lit = (blocked >> k & 1U) != 0 ? 0.0F : 1.0F;
+      own.lit[ofPath[k] / 4][ofPath[k] % 4] = (blocked >> k & 1U) != 0 ? 0.0F : 1.0F;
     }
   }
 }
@@ -232,7 +236,7 @@ void ShadedView::shade(
 {
   const std::size_t lights = this->Light.lights();
   ShadedPoint points[lanes];
-  PointLight* const lit = worker.Lit.data();
+  LightLanes* const lit = worker.Lit.data();
   for (std::size_t first = 0; first < surfaces.size(); first += lanes)
   {
     const std::size_t many = std::min(surfaces.size() - first, lanes);
@@ -240,10 +244,11 @@ void ShadedView::shade(
     {
       const Surface& surface = surfaces[first + i];
       this->place(rays[std::size_t(surface.pixel)], worker.triangle(*this, surface.hit), points[i]);
-      for (std::size_t light = 0; light < lights; ++light)
-      {
-        this->Light.of(light, points[i], lit[i * lights + light]);
-      }
+    }
+    const PointLanes together(points, many);
+    for (std::size_t light = 0; light < lights; ++light)
+    {
+      this->Light.light(light, together, lit[light]);
     }
     if (this->Shadows)
     {
@@ -251,7 +256,7 @@ void ShadedView::shade(
     }
     for (std::size_t i = 0; i < many; ++i)
     {
-      Float4 color = atLeast(this->Light.shade(points[i], lit + i * lights), 0);
+      Float4 color = atLeast(this->Light.shade(points[i], lit, i), 0);
       color[3] = points[i].material->opacity * points[i].tint[3];
       std::memcpy(rgba + 4 * (first + i), &color, sizeof color);
     }

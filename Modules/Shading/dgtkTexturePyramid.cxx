@@ -152,7 +152,7 @@ TexturePyramid::Level TexturePyramid::half(const Level& from)
 }
 
 /// `axis`: of the coordinate u of its level, before that of v.
-Float4 TexturePyramid::bilinear(const Level& level, const Neighbours& at, int axis)
+inline Float4 TexturePyramid::bilinear(const Level& level, const Neighbours& at, int axis)
 {
   const std::size_t row = std::size_t(level.width) * 4;
   const std::uint8_t* const texels = level.rgba.data();
@@ -169,7 +169,7 @@ Float4 TexturePyramid::nearest(const Level& level, float u, float v)
   return Texels(level.rgba.data() + std::size_t(y) * std::size_t(level.width) * 4, x, x).left;
 }
 
-Float4 TexturePyramid::within(double u, double v, const Level& one, const Level& other) const
+inline Float4 TexturePyramid::within(double u, double v, const Level& one, const Level& other) const
 {
   if (this->Use.repeats)
   {
