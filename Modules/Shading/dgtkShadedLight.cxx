@@ -142,6 +142,39 @@ void turnNormal(ShadedPoint& point)
   }
 }
 
+void lookUp(ShadedPoint* points, std::size_t count)
+{
+  for (std::size_t first = 0; first < count; first += 4)
+  {
+    std::array<const Footprint*, 4> footprints{};
+    Float4 widths = float4(1);
+    Float4 heights = float4(1);
+    bool any = false;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const ShadedPoint& p = points[std::min(first + i, count - 1)];
+      footprints[i] = &p.footprint;
+      if (const TexturePyramid* texture = p.material->texture)
+      {
+        widths[i] = float(texture->width());
+        heights[i] = float(texture->height());
+        any = true;
+      }
+    }
+    if (any)
+    {
+      const Extents extents(footprints, widths, heights);
+      for (std::size_t i = first; i < std::min(first + 4, count); ++i)
+      {
+        if (const TexturePyramid* texture = points[i].material->texture)
+        {
+          points[i].texture = texture->at(points[i].footprint, extents, i - first);
+        }
+      }
+    }
+  }
+}
+
 ShadedLight::ShadedLight(const SceneState& state, const View& view)
   : HeadOnly(state.lights.size() == 1 && state.lights[0].kind == LightKind::Head)
   , Background(toFloat4(state.background))
@@ -274,7 +307,7 @@ Float4 ShadedLight::phong(const ShadedPoint& p, const LightLanes* lit, std::size
   }
   if (m.texture != nullptr)
   {
-    color *= m.texture->at(p.footprint);
+    color *= p.texture;
   }
   if (m.emissionMap != nullptr)
   {
@@ -297,7 +330,7 @@ Float4 ShadedLight::physical(const ShadedPoint& p, const LightLanes* lit, std::s
   const ShadedMaterial& m = *p.material;
   const Footprint& f = p.footprint;
   const Float4 tinted = m.diffuse * p.tint;
-  const Float4 base = toLinear(m.texture != nullptr ? tinted * m.texture->at(f) : tinted);
+  const Float4 base = toLinear(m.texture != nullptr ? tinted * p.texture : tinted);
   float metallic = m.metallic;
   float rough = m.roughness;
   if (m.metallicRoughnessMap != nullptr)

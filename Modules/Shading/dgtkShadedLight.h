@@ -25,6 +25,7 @@ struct ShadedPoint
   Float4 right;  ///< how the position changes to the pixel on the right, on the triangle's plane ...
   Float4 down;   ///< ... and to that below
   Footprint footprint;
+  Float4 texture; ///< of the material's picture, where it has one
   Float4 tint; ///< of the vertices: times ambient and diffuse colour, and opacity
   const ShadedMaterial* material = nullptr;
   float distance = 0; ///< from the eye
@@ -36,6 +37,9 @@ struct ShadedPoint
 
 /// Turns the normal as the material's pictures say.
 void turnNormal(ShadedPoint& point);
+
+/// What the pictures of points show, before they are shaded.
+void lookUp(ShadedPoint* points, std::size_t count);
 
 /// A number of each of the points that are shaded together.
 using Lanes = std::array<Float4, LightPoints::count / 4>;

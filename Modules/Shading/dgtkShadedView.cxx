@@ -245,6 +245,7 @@ void ShadedView::shade(
       const Surface& surface = surfaces[first + i];
       this->place(rays[std::size_t(surface.pixel)], worker.triangle(*this, surface.hit), points[i]);
     }
+    lookUp(points, many);
     const PointLanes together(points, many);
     for (std::size_t light = 0; light < lights; ++light)
     {
