@@ -63,6 +63,27 @@ struct Texels
   Float4 mixed(float part) const { return this->left + (this->right - this->left) * part; }
 };
 
+constexpr int mostProbes = 4;
+
+/// Where probes are along the longer axis, in footprints from its middle, and what they are weighed with.
+struct Probes
+{
+  std::array<std::array<double, mostProbes>, mostProbes + 1> places{};
+  std::array<float, mostProbes + 1> weights{};
+  constexpr Probes()
+  {
+    for (std::size_t many = 1; many <= mostProbes; ++many)
+    {
+      for (std::size_t i = 0; i < many; ++i)
+      {
+        this->places[many][i] = double((float(i) + 0.5F) / float(many) - 0.5F);
+      }
+      this->weights[many] = 1 / (255 * float(many));
+    }
+  }
+};
+constexpr Probes allProbes;
+
 template <typename Level>
 float lastOf(const std::vector<Level>& levels)
 {
@@ -211,7 +232,7 @@ Extents::Extents(const std::array<const Footprint*, 4>& footprints, Float4 width
   const Float4 logOfProbes = four ? float4(2) : three ? float4(0x1.95c01ap+0F) : two ? float4(1) : float4(0);
   this->reduced = longest > 1; // not where there is no number
   this->wider = across > along;
-  this->probes = 1 - two - three - four; // mostProbes
+  this->probes = 1 - two - three - four;
   this->details = 0.5F * portable::log2(longest > largest ? largest : longest) - logOfProbes;
 }
 
@@ -233,7 +254,8 @@ Float4 TexturePyramid::at(const Footprint& f, const Extents& extents, std::size_
   {
     return this->enlarged(f);
   }
-  const int probes = extents.probes[which];
+  const auto probes = std::size_t(extents.probes[which]);
+  const std::array<double, mostProbes>& places = allProbes.places[probes];
   const float level = std::min(std::max(extents.details[which], 0.0F), lastOf(this->Levels));
   const auto low = std::size_t(level);
   const float part = level - float(low);
@@ -244,17 +266,16 @@ Float4 TexturePyramid::at(const Footprint& f, const Extents& extents, std::size_
   const double axisU = double(wider ? f.rightU : f.downU);
   const double axisV = double(wider ? f.rightV : f.downV);
   Float4 sum = float4(0);
-  for (int i = 0; i < probes; ++i)
+  for (std::size_t i = 0; i < probes; ++i)
   {
-    const double place = double((float(i) + 0.5F) / float(probes) - 0.5F);
-    const Neighbours at(this->within(f.u + axisU * place, f.v + axisV * place, fine, coarse), sizes);
+    const Neighbours at(this->within(f.u + axisU * places[i], f.v + axisV * places[i], fine, coarse), sizes);
     sum += bilinear(fine, at, 0) * (1 - part);
     if (part > 0)
     {
       sum += bilinear(coarse, at, 2) * part;
     }
   }
-  return sum * (1 / (255 * float(probes)));
+  return sum * allProbes.weights[probes];
 }
 
 RadiancePyramid::RadiancePyramid(const RadianceImage& image)
