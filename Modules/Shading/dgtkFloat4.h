@@ -79,7 +79,8 @@ inline Float4 log2(Float4 x)
   const Float4 s = (m - 1) / (m + 1);
   const Float4 ss = s * s;
   // 2 artanh(s) / ln 2
-  const Float4 series = 2.885390082F + ss * (0.961796694F + ss * (0.577078016F + ss * (0.412198583F + ss * 0.3205988F)));
+  const Float4 series =
+    2.885390082F + ss * (0.961796694F + ss * (0.577078016F + ss * (0.412198583F + ss * 0.3205988F)));
   return exponent + s * series;
 }
 

@@ -259,7 +259,8 @@ void ShadedLight::light(std::size_t light, const PointLanes& p, LightLanes& to) 
   to.lit.fill(float4(1));
   for (std::size_t k = 0; k < to.cosine.size(); ++k)
   {
-    const Float4 cosine = p.normal[0][k] * to.toLight[0][k] + p.normal[1][k] * to.toLight[1][k] + p.normal[2][k] * to.toLight[2][k];
+    const Float4 cosine =
+      p.normal[0][k] * to.toLight[0][k] + p.normal[1][k] * to.toLight[1][k] + p.normal[2][k] * to.toLight[2][k];
     to.cosine[k] = cosine;
     if (p.shines)
     {

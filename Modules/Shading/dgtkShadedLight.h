@@ -26,7 +26,7 @@ struct ShadedPoint
   Float4 down;   ///< ... and to that below
   Footprint footprint;
   Float4 texture; ///< of the material's picture, where it has one
-  Float4 tint; ///< of the vertices: times ambient and diffuse colour, and opacity
+  Float4 tint;    ///< of the vertices: times ambient and diffuse colour, and opacity
   const ShadedMaterial* material = nullptr;
   float distance = 0; ///< from the eye
   // Of the paths to lights that cast shadows.

@@ -93,8 +93,10 @@ private:
   void place(const PixelRay& ray, const Triangle& triangle, ShadedPoint& point) const;
   static void lift(
     const Triangle& triangle, const Eigen::Vector3d& position, const double parts[3], bool front, ShadedPoint& point);
-  void shade(
-    Worker& worker, const std::vector<PixelRay>& rays, const std::vector<Surface>& surfaces, float* rgba) const;
+  /// `sink` takes the place of each surface and its colour and opacity, in their order.
+  template <typename Sink>
+  void shade(Worker& worker, const std::vector<PixelRay>& rays, const Surface* surfaces, std::size_t count,
+    const Sink& sink) const;
   void findShadows(const ShadedPoint* points, std::size_t count, LightLanes* lit) const;
   void seeThrough(Worker& worker, int x, int y, const std::vector<PixelRay>& rays, float* rgb) const;
   Float4 skyAt(const PixelRay& ray) const;
@@ -146,7 +148,6 @@ private:
   std::vector<int> Translucent;
   std::vector<Eigen::Vector2d> SeenThrough; ///< pixels
   std::vector<std::vector<Hit>> Hits;
-  std::vector<float> Colors;
 };
 
 } // namespace dgtk

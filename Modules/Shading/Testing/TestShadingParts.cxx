@@ -47,10 +47,10 @@ TEST(ShadingMath, ElementaryFunctionsAreRightToSinglePrecision)
     worstRelative(
       1e-30, 1e30, [](float x) { return portable::log2(x) + 200; }, [](double x) { return std::log2(x) + 200; }),
     2e-7);
-  EXPECT_LT(worstRelative(
-              1e-3, 100,
-              [](float x) { return (portable::exp2(amongOthers(x)) * portable::exp2(-0.5F * amongOthers(x)))[1]; },
-              [](double x) { return std::exp2(0.5 * x); }),
+  EXPECT_LT(
+    worstRelative(
+      1e-3, 100, [](float x) { return (portable::exp2(amongOthers(x)) * portable::exp2(-0.5F * amongOthers(x)))[1]; },
+      [](double x) { return std::exp2(0.5 * x); }),
     2e-6);
   EXPECT_LT(worstRelative(
               1e-6, 50, [](float x) { return portable::exp(-x); }, [](double x) { return std::exp(-x); }),
