@@ -2,6 +2,7 @@
 #include "dgtkCameraModel.h"
 
 #include "dgtkError.h"
+#include "dgtkPortableMath.h"
 
 #include <Eigen/Geometry>
 
@@ -31,8 +32,9 @@ void checkView(const View& view)
 /// 2 tan(angle / 2) of the angle between two directions; infinite for opposite ones.
 double extentBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 {
-  const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
-  return a.dot(b) < 0 && a.cross(b).norm() == 0 ? std::numeric_limits<double>::infinity() : 2 * std::tan(angle / 2);
+  const double angle = portable::atan2(a.cross(b).norm(), a.dot(b));
+  return a.dot(b) < 0 && a.cross(b).norm() == 0 ? std::numeric_limits<double>::infinity()
+                                                : 2 * portable::tan(angle / 2);
 }
 
 } // namespace

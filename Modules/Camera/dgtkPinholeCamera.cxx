@@ -82,7 +82,7 @@ std::shared_ptr<const CameraModel> makePinholeModel(const CameraParameters& of)
 {
   if (!Distortion::isNone(of.numbers.at("distortion")))
   {
-    return std::make_shared<DistortedPinhole>(of, lensMatrix(of, [](double angle) { return std::tan(angle); }));
+    return std::make_shared<DistortedPinhole>(of, lensMatrix(of, [](double angle) { return portable::tan(angle); }));
   }
   return of.K ? makePinhole(of.width, of.height, *of.K)
               : makePinholeFromFov(of.width, of.height, of.number("fovY"), of.number("aspect"));
@@ -102,7 +102,7 @@ std::shared_ptr<const CameraModel> makePinholeFromFov(int width, int height, dou
     throw UsageError("field of view out of range (expected more than 0 and less than 180 degrees, found " +
                      shortest(fovYDegrees) + ")");
   }
-  return makePinhole(width, height, centredK(width, height, 2 * std::tan(fovYDegrees * (pi / 360)), aspect));
+  return makePinhole(width, height, centredK(width, height, 2 * portable::tan(fovYDegrees * (pi / 360)), aspect));
 }
 
 extern const CameraEntry cameraPinhole;

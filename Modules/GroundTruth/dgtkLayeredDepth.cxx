@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkLayeredDepth.h"
 
+#include "dgtkPortableMath.h"
 #include "dgtkSurfaceLoop.h"
 
 #include <Eigen/Geometry>
@@ -83,7 +84,7 @@ public:
     , Out(out)
     , Rays(*view.model)
     , Facts([&state, &view](const Hit& hit) { return factsOf(state, view, hit); })
-    , LogOfRange(std::log(view.far / view.near))
+    , LogOfRange(portable::log(view.far / view.near))
   {
     computeSurfaceRows(state, view, in.rect, in.first, false, this->First);
     computeSurfaceLists(state, view, in.rect, in.begins, in.hits, this->Distances);
@@ -116,7 +117,7 @@ private:
     LayeredSurface surface;
     surface.hit = hit;
     surface.depth = t;
-    surface.splatIndex = packed(std::log(point.norm() / this->TheView.near) / this->LogOfRange,
+    surface.splatIndex = packed(portable::log(point.norm() / this->TheView.near) / this->LogOfRange,
       normal.dot(direction) > 0 ? Eigen::Vector3d(-normal) : normal);
     return surface;
   }
@@ -203,12 +204,12 @@ void layeredDepthRows(const SceneState& state, const View& view, const LayeredIn
 
 std::uint32_t splatIndex(double distance, const Eigen::Vector3d& normal, double near, double far)
 {
-  return packed(std::log(distance / near) / std::log(far / near), normal);
+  return packed(portable::log(distance / near) / portable::log(far / near), normal);
 }
 
 double splatDistance(std::uint32_t index, double near, double far)
 {
-  return near * std::pow(far / near, ((index >> 6 & (distanceSteps - 1)) + 0.5) / distanceSteps);
+  return near * portable::pow(far / near, ((index >> 6 & (distanceSteps - 1)) + 0.5) / distanceSteps);
 }
 
 Eigen::Vector3d splatNormal(std::uint32_t index)

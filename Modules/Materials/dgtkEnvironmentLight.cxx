@@ -18,6 +18,7 @@ namespace
 {
 
 constexpr int samplesOfLobe = 128;
+constexpr double ln2 = 0.693147180559945309417;
 
 Eigen::Vector3f texelAt(const float* rgb, int width, int height, int x, int y)
 {
@@ -29,7 +30,7 @@ Eigen::Vector3f texelAt(const float* rgb, int width, int height, int x, int y)
 /// Where a direction of unit length stands in an equirectangular picture, in parts of its width and height.
 Eigen::Vector2d placeOf(const Eigen::Vector3d& d)
 {
-  return { 0.5 + std::atan2(d.x(), -d.z()) / (2 * pi), std::acos(std::clamp(d.y(), -1.0, 1.0)) / pi };
+  return { 0.5 + portable::atan2(d.x(), -d.z()) / (2 * pi), portable::atan2(std::hypot(d.x(), d.z()), d.y()) / pi };
 }
 
 Eigen::Vector3f bilinear(const float* rgb, int width, int height, const Eigen::Vector2d& place)
@@ -71,7 +72,8 @@ public:
   {
     const RadianceImage& finest = this->Levels[0];
     const double texel = 4 * pi / (double(finest.width) * finest.height);
-    return std::clamp(0.5 * std::log2(std::max(solidAngle / texel, 1.0)), 0.0, double(this->Levels.size() - 1));
+    return std::clamp(
+      0.5 / ln2 * portable::log(std::max(solidAngle / texel, 1.0)), 0.0, double(this->Levels.size() - 1));
   }
 
   /// Radiance along a direction of unit length.
@@ -143,7 +145,9 @@ Eigen::Vector3d directionOf(double x, double y)
 {
   const double around = (x - 0.5) * 2 * pi;
   const double down = y * pi;
-  return { std::sin(down) * std::sin(around), std::cos(down), -std::sin(down) * std::cos(around) };
+  const portable::SineCosine above = portable::sinCos(down);
+  const portable::SineCosine turned = portable::sinCos(around);
+  return { above.sine * turned.sine, above.cosine, -above.sine * turned.cosine };
 }
 
 /// The terms of EnvironmentLight::irradiance.
@@ -163,7 +167,7 @@ std::array<Eigen::Vector3d, 9> irradianceOf(const RadianceImage& image)
   for (int row = 0; row < image.height; ++row)
   {
     const double solidAngle =
-      (std::cos(row * pi / image.height) - std::cos((row + 1) * pi / image.height)) * 2 * pi / image.width;
+      (portable::cos(row * pi / image.height) - portable::cos((row + 1) * pi / image.height)) * 2 * pi / image.width;
     for (int column = 0; column < image.width; ++column)
     {
       const Eigen::Vector3d d = directionOf((column + 0.5) / image.width, (row + 0.5) / image.height);
@@ -196,8 +200,8 @@ Eigen::Vector3d halfVector(const Eigen::Vector2d& u, double alpha)
 {
   const double cos2 = (1 - u.x()) / (1 + (alpha * alpha - 1) * u.x());
   const double sine = std::sqrt(std::max(0.0, 1 - cos2));
-  const double around = 2 * pi * u.y();
-  return { sine * std::cos(around), sine * std::sin(around), std::sqrt(cos2) };
+  const portable::SineCosine around = portable::sinCos(2 * pi * u.y());
+  return { sine * around.cosine, sine * around.sine, std::sqrt(cos2) };
 }
 
 /// A light direction about +z seen from +z, its weight, and the solid angle that it stands for.
@@ -332,7 +336,7 @@ std::vector<float> reflectanceTable()
         const double masking =
           2 * nl * nv / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
         const double weight = masking * vh / (h.z() * nv);
-        const double fresnel = std::pow(1 - vh, 5);
+        const double fresnel = (1 - vh) * (1 - vh) * ((1 - vh) * (1 - vh)) * (1 - vh);
         scale += weight * (1 - fresnel);
         bias += weight * fresnel;
       }

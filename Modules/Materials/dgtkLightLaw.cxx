@@ -99,7 +99,7 @@ LightShape lightShape(const LightState& light, const Eigen::Matrix3d& rotation, 
   shape.position = placed ? Eigen::Vector3d(rotation * light.position + translation) : shape.position;
   shape.axis = placed ? Eigen::Vector3d((rotation * (light.target - light.position)).normalized()) : ahead;
   shape.attenuation = light.attenuation;
-  shape.coneCosine = std::cos(light.coneAngle * pi / 180);
+  shape.coneCosine = portable::cos(light.coneAngle * pi / 180);
   shape.exponent = light.exponent;
   return shape;
 }

@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkJson.h"
+#include "dgtkPortableMath.h"
 #include "dgtkUtf8.h"
 
 #include <Eigen/Geometry>
@@ -94,7 +95,7 @@ ReportJson camerasOf(const DatasetView& view, const std::vector<int>& frames, bo
       camera["model"] = utf8FromBytes(record.model);
       if (isPinhole(record))
       {
-        camera["half"] = rounded(std::atan(record.width / 2.0 / record.K(0, 0)));
+        camera["half"] = rounded(portable::atan(record.width / 2.0 / record.K(0, 0)));
       }
     }
     cameras.push_back(camera);
@@ -204,7 +205,6 @@ ReportJson viewpointsOf(const ReportSource& source, const std::map<std::size_t, 
 {
   constexpr int columns = 24; // of azimuth
   constexpr int rows = 12;    // of the sine of elevation: equal areas
-  constexpr double pi = 3.14159265358979323846;
   std::vector<std::uint64_t> bins(std::size_t(columns) * rows, 0);
   std::uint64_t views = 0;
   std::map<std::size_t, bool> upAxes;
@@ -229,7 +229,7 @@ ReportJson viewpointsOf(const ReportSource& source, const std::map<std::size_t, 
       {
         continue;
       }
-      const double azimuth = std::atan2(-towards.y(), towards.x()) / (2 * pi) + 0.5;
+      const double azimuth = portable::atan2(-towards.y(), towards.x()) / (2 * pi) + 0.5;
       const double height = (towards.z() / distance + 1) / 2;
       const int column = std::min(columns - 1, std::max(0, static_cast<int>(azimuth * columns)));
       const int row = std::min(rows - 1, std::max(0, static_cast<int>(height * rows)));

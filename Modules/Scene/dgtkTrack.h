@@ -2,6 +2,8 @@
 #ifndef dgtkTrack_h
 #define dgtkTrack_h
 
+#include "dgtkPortableMath.h"
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -64,10 +66,11 @@ inline Quaternion slerp(Quaternion a, Quaternion b, double u)
   }
   // The half angle from the chord: exact also where the cosine is nearly 1.
   const double chord = (b - a).norm();
-  const double angle = 2 * std::asin(std::min(1.0, chord / 2));
-  const double sine = std::sin(angle);
-  const Quaternion q = sine < 1e-9 ? a.scaled(1 - u) + b.scaled(u)
-                                   : a.scaled(std::sin((1 - u) * angle) / sine) + b.scaled(std::sin(u * angle) / sine);
+  const double angle = 2 * portable::asin(std::min(1.0, chord / 2));
+  const double sine = portable::sin(angle);
+  const Quaternion q = sine < 1e-9
+                         ? a.scaled(1 - u) + b.scaled(u)
+                         : a.scaled(portable::sin((1 - u) * angle) / sine) + b.scaled(portable::sin(u * angle) / sine);
   return q.scaled(1 / q.norm());
 }
 

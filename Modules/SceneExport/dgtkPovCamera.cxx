@@ -20,7 +20,7 @@ constexpr int blurSamples = 128;
 double povSceneScale(const View& view, const PovBall& ball)
 {
   const double reach = (view.camera_from_world * ball.centre).norm() + ball.radius;
-  return std::exp2(std::clamp(std::floor(std::log2(mostDistance / reach)), -1000.0, 1000.0));
+  return std::ldexp(1.0, std::clamp(std::ilogb(mostDistance / reach), -1000, 1000));
 }
 
 /// A ray is location + direction + a right + b up; a from -1/2 at the image's left side to 1/2 at its right, b upwards.

@@ -51,8 +51,9 @@ Fade fadeOf(const LightState& light, const View& view, const PovBall& ball, std:
   }
   const int power = linear > 0 ? 1 : 2;
   const double factor = linear > 0 ? linear : quadratic;
-  constant = std::max(constant, factor * std::pow(ball.radius * nearestFade, power));
-  return { 0.5 / constant, std::pow(constant / factor, 1.0 / power), power };
+  const double nearest = ball.radius * nearestFade;
+  constant = std::max(constant, factor * (power == 1 ? nearest : nearest * nearest));
+  return { 0.5 / constant, power == 1 ? constant / factor : std::sqrt(constant / factor), power };
 }
 
 std::string parallel(const Eigen::Vector3d& direction, const PovBall& ball)

@@ -122,7 +122,7 @@ void StageModels::readEnvironment()
   made->background = from.background;
   const double angle = from.rotation * pi / 180;
   Eigen::Matrix3d unturn;
-  unturn << std::cos(angle), 0, -std::sin(angle), 0, 1, 0, std::sin(angle), 0, std::cos(angle);
+  unturn << portable::cos(angle), 0, -portable::sin(angle), 0, 1, 0, portable::sin(angle), 0, portable::cos(angle);
   Eigen::Matrix3d upright = Eigen::Matrix3d::Identity();
   if (this->Scene.upAxis == UpAxis::Z)
   {

@@ -2,6 +2,7 @@
 #include "dgtkStageViews.h"
 
 #include "dgtkCameraEntry.h"
+#include "dgtkPortableMath.h"
 #include "dgtkSceneTracks.h"
 #include "dgtkStage.h"
 
@@ -75,7 +76,7 @@ std::vector<Eigen::Vector2d> lensPoints(int count)
     if (place < std::uint32_t(count))
     {
       const double radius = std::sqrt((place + 0.5) / count);
-      points.emplace_back(radius * std::cos(place * goldenAngle), radius * std::sin(place * goldenAngle));
+      points.emplace_back(radius * portable::cos(place * goldenAngle), radius * portable::sin(place * goldenAngle));
     }
   }
   return points;

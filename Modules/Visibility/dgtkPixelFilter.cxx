@@ -24,7 +24,7 @@ double gaussian(double x)
 {
   constexpr double variance = 0.25;
   constexpr double radius = 1.5;
-  return std::exp(-x * x / (2 * variance)) - std::exp(-radius * radius / (2 * variance));
+  return portable::exp(-x * x / (2 * variance)) - portable::exp(-radius * radius / (2 * variance));
 }
 
 double mitchell(double x)
@@ -36,7 +36,7 @@ double mitchell(double x)
                : ((-b - 6 * c) * x * x * x + (6 * b + 30 * c) * x * x + (-12 * b - 48 * c) * x + 8 * b + 24 * c) / 6;
 }
 
-double sinc(double x) { return x == 0 ? 1 : std::sin(pi * x) / (pi * x); }
+double sinc(double x) { return x == 0 ? 1 : portable::sin(pi * x) / (pi * x); }
 
 /// In the order of PixelFilter.
 constexpr FilterShape shapes[] = {

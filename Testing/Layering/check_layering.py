@@ -10,6 +10,7 @@ usage: check_layering.py SOURCE_FOLDER
 * no text in a module names an option of the command line (but for the files that start programs);
 * what drives, writes, reads or shows layers names none of them: their names stand in their own files, in Verification, and
   as keys of documents and words of other files' formats;
+* where files are made, sines, powers and logarithms are those of dgtkPortableMath.h: the C library chooses its own by the processor;
 * a class of a namespace is defined in one place: to the linker two of one name are one, also when
   their modules do not see each other.
 """
@@ -91,6 +92,19 @@ def named_in_texts(modules):
     return problems
 
 
+# What shows or judges what was made, and the one place that calls the C library.
+MAKE_NO_FILES = {"Controls", "Document", "Live", "Matches", "Panels", "RenderGL", "Report", "Runs", "Verification", "Viewer", "Views", "Windows"}
+BY_PROCESSOR = re.compile(r"\bstd::(a?(sin|cos|tan)h?|atan2|exp2?|expm1|log(2|10|1p)?|pow)\(|\bAngleAxis|\.slerp\(")
+
+
+def by_processor(modules):
+    for module in sorted(set(os.listdir(modules)) - MAKE_NO_FILES):
+        for name, code in sources(modules, module):
+            for found in BY_PROCESSOR.finditer(code):
+                if os.path.basename(name) != "dgtkPortableMath.cxx":
+                    yield f"Modules/{module}/{name}: {found.group()} has not the same bits on every processor"
+
+
 COMMENT_OR_TEXT = re.compile(r"""//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])'|^\s*\#(?:\\\n|[^\n])*""", re.S | re.M)
 NAMESPACE = re.compile(r"\bnamespace\s*([\w:]*)\s*$")
 CLASS = re.compile(r"^(?:.*[;>\s])?(?<!enum )(?:class|struct)\s+(?:[A-Z0-9]+_EXPORT\s+)?(\w+)\s*(?:final\s*)?(?::[^:].*)?$", re.S)
@@ -138,7 +152,7 @@ def check(source):
     ALLOWED.update(table(source))
     places = {}
     modules = os.path.join(source, "Modules")
-    problems = named_in_texts(modules)
+    problems = named_in_texts(modules) + list(by_processor(modules))
     owners = {os.path.basename(name): module for module in ALLOWED for name in files(modules, module)}
     for module in sorted(os.listdir(modules)):
         declaration = os.path.join(modules, module, "vtk.module")

@@ -153,6 +153,21 @@ double acos(double c)
   return c <= 0.5 ? halfPi - asinSmall(c) : 2 * asinSmall(std::sqrt((1 - std::min(c, 1.0)) / 2));
 }
 
+// The C library has these in one variant for all processors of a kind, by + - * / and square roots.
+double sin(double x) { return static_cast<double>(std::sin(static_cast<long double>(x))); }
+double cos(double x) { return static_cast<double>(std::cos(static_cast<long double>(x))); }
+double tan(double x) { return static_cast<double>(std::tan(static_cast<long double>(x))); }
+double asin(double x) { return static_cast<double>(std::asin(static_cast<long double>(x))); }
+
+double atan(double x)
+{
+  constexpr long double quarter = 1.57079632679489661923132169163975144L;
+  const auto slope = static_cast<long double>(std::abs(x));
+  const long double angle = slope <= 1 ? std::asin(slope / std::sqrt(1 + slope * slope))
+                                       : quarter - std::asin(1 / std::sqrt(1 + slope * slope));
+  return std::copysign(static_cast<double>(angle), x);
+}
+
 SineCosine sinCos(double x)
 {
   constexpr double halfPiHigh = 1.5707963267341256; // 33 bits: times a small integer it is exact

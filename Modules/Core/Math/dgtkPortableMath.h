@@ -22,6 +22,14 @@ DGTKCORE_EXPORT double log(double x);
 DGTKCORE_EXPORT double exp(double x);
 /// x^y; 0 for x <= 0.
 DGTKCORE_EXPORT double pow(double x, double y);
+/// Sine, cosine and tangent of x radians, arc sine and arc tangent in radians: the double that is nearest, but where
+/// the value is within a thousandth of a step of the middle between two. For what is asked for once: computed in
+/// extended precision, an order of magnitude slower than what follows.
+DGTKCORE_EXPORT double sin(double x);
+DGTKCORE_EXPORT double cos(double x);
+DGTKCORE_EXPORT double tan(double x);
+DGTKCORE_EXPORT double asin(double x);
+DGTKCORE_EXPORT double atan(double x);
 /// Arc cosine, radians, of c in [0, 1].
 DGTKCORE_EXPORT double acos(double c);
 /// Sine and cosine of x radians, |x| <= 1e5; absolute error below 1e-15.

@@ -208,6 +208,31 @@ TEST(PortableMath, AnglesAgreeWithTheLibrary)
   EXPECT_EQ(portable::sinCos(0).sine, 0);
 }
 
+TEST(PortableMath, WhatIsAskedForOnceIsTheNearestDouble)
+{
+  EXPECT_EQ(portable::sin(1), 0.8414709848078965);     // 0.841470984807896506652502...
+  EXPECT_EQ(portable::cos(1), 0.5403023058681398);     // 0.540302305868139717400936...
+  EXPECT_EQ(portable::tan(1), 1.5574077246549023);     // 1.557407724654902230506974...
+  EXPECT_EQ(portable::asin(0.5), 0.52359877559829887); // pi / 6 = 0.523598775598298873077107...
+  EXPECT_EQ(portable::asin(-1), -dgtk::pi / 2);
+  EXPECT_EQ(portable::atan(1), dgtk::pi / 4);
+  EXPECT_EQ(portable::atan(-HUGE_VAL), -dgtk::pi / 2);
+  EXPECT_TRUE(std::signbit(portable::atan(-0.0)));
+  int other = 0;
+  for (int i = -20000; i <= 20000; ++i)
+  {
+    const double x = i * 1.37e-3;
+    const double arc = portable::atan(x);
+    const auto expected = static_cast<double>(std::atan(static_cast<long double>(x)));
+    ASSERT_LE(std::abs(arc - expected), std::nextafter(std::abs(expected), 2) - std::abs(expected)) << x;
+    other += arc != expected ? 1 : 0;
+    ASSERT_NEAR(portable::tan(arc), x, 4e-16 * (1 + x * x)) << x;
+    ASSERT_NEAR(portable::asin(portable::sin(arc)), arc, 4e-16 * std::sqrt(1 + x * x)) << x;
+    ASSERT_NEAR(portable::cos(arc), 1 / std::sqrt(1 + x * x), 3e-16) << x;
+  }
+  EXPECT_LE(other, 60); // of 40,001: the middle between two doubles is a matter of luck
+}
+
 TEST(PortableMath, SrgbIsThatOfTheStandard)
 {
   EXPECT_EQ(portable::linearFromSrgb(0), 0);

@@ -63,7 +63,7 @@ Rgb idColor(std::uint32_t id)
 
 Rgb wheelColor(double dx, double dy)
 {
-  const double turn = std::atan2(dy, dx) / (2 * pi);
+  const double turn = portable::atan2(dy, dx) / (2 * pi);
   return hueColor(turn < 0 ? turn + 1 : turn, std::min(std::hypot(dx, dy), 1.0), 1);
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkPortableMath.h"
 #include "dgtkSurfacePieces.h"
 
 #include <Eigen/Geometry>
@@ -32,8 +33,7 @@ Eigen::Matrix3d alongDirection(const Eigen::Vector3d& v)
 {
   if (v.y() == 0 && v.z() == 0)
   {
-    return v.x() < 0 ? Eigen::Matrix3d(Eigen::AngleAxisd(EIGEN_PI, Eigen::Vector3d::UnitY())) // its x alone is turned
-                     : Eigen::Matrix3d::Identity();
+    return Eigen::Vector3d(v.x() < 0 ? -1 : 1, 1, v.x() < 0 ? -1 : 1).asDiagonal(); // about y: x alone is turned
   }
   const Eigen::Vector3d axis = (v + v.norm() * Eigen::Vector3d::UnitX()).normalized();
   return 2 * axis * axis.transpose() - Eigen::Matrix3d::Identity();
@@ -134,7 +134,15 @@ private:
       return alongDirection({ o[0], o[1], o[2] });
     }
     const auto about = [&o](int axis)
-    { return Eigen::AngleAxisd(o[axis] * EIGEN_PI / 180, Eigen::Vector3d::Unit(axis)).toRotationMatrix(); };
+    {
+      const int y = (axis + 1) % 3;
+      const int z = (axis + 2) % 3;
+      Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+      turn(y, y) = turn(z, z) = portable::cos(o[axis] * pi / 180);
+      turn(z, y) = portable::sin(o[axis] * pi / 180);
+      turn(y, z) = -turn(z, y);
+      return turn;
+    };
     return about(2) * about(0) * about(1);
   }
 

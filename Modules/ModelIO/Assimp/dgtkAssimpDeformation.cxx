@@ -2,6 +2,7 @@
 #include "dgtkAssimpDeformation.h"
 
 #include "dgtkAssimpCheck.h"
+#include "dgtkPortableMath.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,6 +97,17 @@ Eigen::Quaterniond quaternion(const Eigen::Vector4d& q)
                     : Eigen::Quaterniond::Identity();
 }
 
+/// Along the shorter arc (Shoemake 1985).
+Eigen::Quaterniond between(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b, double u)
+{
+  const double cosine = a.dot(b);
+  const double angle = 2 * portable::asin(std::sqrt(std::max(0.0, (1 - std::abs(cosine)) / 2)));
+  const double sine = portable::sin(angle);
+  const double first = sine < 1e-9 ? 1 - u : portable::sin((1 - u) * angle) / sine;
+  const double second = sine < 1e-9 ? u : portable::sin(u * angle) / sine;
+  return Eigen::Quaterniond(first * a.coeffs() + (cosine < 0 ? -second : second) * b.coeffs());
+}
+
 Eigen::Quaterniond rotationAt(const import::Keys<4>& keys, double time)
 {
   const Between at = find(keys.times, time, keys.interpolation);
@@ -104,7 +116,7 @@ Eigen::Quaterniond rotationAt(const import::Keys<4>& keys, double time)
     return quaternion(blend(keys, at));
   }
   const auto key = [&keys](std::size_t i) { return quaternion(Eigen::Vector4d(keys.values[i].data())); };
-  return key(at.key).slerp(at.fraction, key(at.key + 1));
+  return between(key(at.key), key(at.key + 1), at.fraction);
 }
 
 /// The node's own transform where an animation gives some of translation, rotation, scale: what it does not give is

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkAssimpConvert.h"
+#include "dgtkPortableMath.h"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
@@ -17,13 +18,6 @@ namespace
 constexpr unsigned largestSide = 16384;
 
 const aiTextureType pictureTypes[] = { aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE };
-
-/// IEC 61966-2-1
-double displayed(double linear)
-{
-  const double x = std::clamp(linear, 0.0, 1.0);
-  return x >= 1 ? 1 : x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-}
 
 std::array<double, 3> rgb(const aiColor4D& color) { return { color.r, color.g, color.b }; }
 
@@ -71,10 +65,10 @@ void fromMetalRoughness(const aiMaterial& from, Material& to)
   const double light[3] = { emission.r, emission.g, emission.b };
   for (std::size_t i = 0; i < 3; ++i)
   {
-    to.diffuse[i] = displayed(color[i]);
+    to.diffuse[i] = portable::srgbFromLinear(color[i]);
     to.ambient[i] = 0.2 * to.diffuse[i];
-    to.specular[i] = displayed((0.04 + (color[i] - 0.04) * metal) * (1 - rough));
-    to.emission[i] = displayed(light[i]);
+    to.specular[i] = portable::srgbFromLinear((0.04 + (color[i] - 0.04) * metal) * (1 - rough));
+    to.emission[i] = portable::srgbFromLinear(light[i]);
   }
   const double alpha = std::max(rough * rough, 0.1);
   to.shininess = std::clamp(2 / (alpha * alpha) - 2, 0.0, 128.0);

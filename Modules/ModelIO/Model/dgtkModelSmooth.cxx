@@ -127,7 +127,7 @@ std::vector<Eigen::Vector3f> ModelBuilder::smooth()
   const std::uint64_t splits = this->Rest->positions.size() + object.corners.size();
   const std::uint64_t triangles = this->model().triangles.size() + object.triangles.size();
   const bool neverFlat = 110 * splits + 20 * triangles + 64 * object.corners.size() > this->MemoryLimit;
-  const double cosine = std::cos(object.crease * pi / 180) - 1e-9;
+  const double cosine = portable::cos(object.crease * pi / 180) - 1e-9;
   std::vector<Eigen::Vector3d> areas; ///< of each vertex, for Shading::Area
   std::vector<Eigen::Vector3f> normals;
   normals.reserve(object.corners.size());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkModelBuilder.h"
+#include "dgtkPortableMath.h"
 
 #include <Eigen/Geometry>
 
@@ -49,7 +50,7 @@ bool isConvex(const Points2& p)
     {
       return false;
     }
-    around += std::atan2(cross, in.dot(out));
+    around += portable::atan2(cross, in.dot(out));
   }
   return around < 9.0; // 2 pi for one round, 4 pi for two
 }

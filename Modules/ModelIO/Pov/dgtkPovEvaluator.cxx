@@ -77,8 +77,8 @@ PovNumber combine(const PovNumber& a, const PovNumber& b, const std::string& ope
 Eigen::Matrix3d rotation(double degrees, int axis)
 {
   const double turns = std::remainder(degrees, 360.0) / 90;
-  double c = std::cos(turns * (pi / 2));
-  double s = std::sin(turns * (pi / 2));
+  double c = portable::cos(turns * (pi / 2));
+  double s = portable::sin(turns * (pi / 2));
   if (turns == std::nearbyint(turns))
   {
     c = std::nearbyint(c);

@@ -263,7 +263,7 @@ std::vector<Piece> sectorsOf(
     const auto side = [&](int i)
     {
       const double angle = 2 * pi * i / sectors;
-      const Eigen::Vector3d normal = std::cos(angle) * first + std::sin(angle) * second;
+      const Eigen::Vector3d normal = portable::cos(angle) * first + portable::sin(angle) * second;
       return HalfSpace{ normal, normal.dot(axis.origin) };
     };
     bool fits = true;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkFall.h"
 
+#include "dgtkPortableMath.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
@@ -375,10 +377,10 @@ void Fall::Impl::thicken()
     return;
   }
   const double rate = std::sqrt(this->settings.gravity / this->settings.size) *
-                      std::min(1.0, 0.07 * std::pow(2, late / doubling)); // of the speed, a second
+                      std::min(1.0, std::ldexp(0.07, late / doubling)); // of the speed, a second
   for (const auto& body : this->falling)
   {
-    body->body->setDamping(1 - std::exp(-rate), 1 - std::exp(-4 * rate));
+    body->body->setDamping(1 - portable::exp(-rate), 1 - portable::exp(-4 * rate));
   }
 }
 

@@ -202,7 +202,7 @@ bool stands(const PlaceBody& body, const PlaceBody& support, const Eigen::Vector
   std::vector<double> angles;
   for (const Eigen::Vector3d& x : touches(body, support, down, tolerance))
   {
-    angles.push_back(std::atan2(x[level[1]] - middle[level[1]], x[level[0]] - middle[level[0]]));
+    angles.push_back(portable::atan2(x[level[1]] - middle[level[1]], x[level[0]] - middle[level[0]]));
   }
   std::sort(angles.begin(), angles.end());
   for (std::size_t i = 0; i < angles.size(); ++i)

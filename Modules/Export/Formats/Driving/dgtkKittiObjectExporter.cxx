@@ -184,7 +184,7 @@ private:
     const double metres = dataset.metres();
     const Eigen::Vector3d place = solid.bottom * metres;
     return numbersLine(
-      { truncationOf(box), double(occlusionOf(box)), turned(solid.yaw - std::atan2(place.x(), place.z())), flat[0],
+      { truncationOf(box), double(occlusionOf(box)), turned(solid.yaw - portable::atan2(place.x(), place.z())), flat[0],
         flat[1], flat[2] - 1, flat[3] - 1, solid.height * metres, solid.width * metres, solid.length * metres,
         place.x(), place.y(), place.z(), turned(solid.yaw) });
   }

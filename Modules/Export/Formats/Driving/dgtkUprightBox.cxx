@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkUprightBox.h"
 
+#include "dgtkPortableMath.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -43,7 +45,7 @@ std::optional<Eigen::Matrix3d> axesOf(const Eigen::Matrix3d& edges)
 }
 
 /// The rotation about y that is nearest to x, y, z axes given as columns.
-double nearestYaw(const Eigen::Matrix3d& box) { return std::atan2(box(0, 2) - box(2, 0), box(0, 0) + box(2, 2)); }
+double nearestYaw(const Eigen::Matrix3d& box) { return portable::atan2(box(0, 2) - box(2, 0), box(0, 0) + box(2, 2)); }
 } // namespace
 
 std::optional<UprightBox> uprightBox(const BoxRecord& box, const std::string& front)
@@ -75,8 +77,11 @@ std::optional<UprightBox> uprightBox(const BoxRecord& box, const std::string& fr
   upright.width = edges.col(side).norm();
   upright.yaw = nearestYaw(turned);
   upright.bottom = box.corners.colwise().mean().transpose() + Eigen::Vector3d(0, upright.height / 2, 0);
-  const Eigen::Matrix3d yawed = Eigen::AngleAxisd(upright.yaw, Eigen::Vector3d::UnitY()).toRotationMatrix();
-  upright.tilt = 2 * std::asin(std::min(1.0, (yawed - turned).norm() / std::sqrt(8.0)));
+  const double cosine = portable::cos(upright.yaw);
+  const double sine = portable::sin(upright.yaw);
+  Eigen::Matrix3d yawed;
+  yawed << cosine, 0, sine, 0, 1, 0, -sine, 0, cosine;
+  upright.tilt = 2 * portable::asin(std::min(1.0, (yawed - turned).norm() / std::sqrt(8.0)));
   return upright;
 }
 

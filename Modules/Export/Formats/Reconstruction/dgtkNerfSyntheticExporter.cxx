@@ -4,6 +4,7 @@
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
 #include "dgtkExportSeries.h"
+#include "dgtkPortableMath.h"
 #include "dgtkText.h"
 
 #include <nlohmann/json.hpp>
@@ -115,7 +116,7 @@ private:
     return { { name }, [&dataset, name, split](ExportSink& sink)
       {
         const CameraRecord& first = dataset.shots().front().camera;
-        const Json angle = 2 * std::atan(first.width / (2 * first.K(0, 0)));
+        const Json angle = 2 * portable::atan(first.width / (2 * first.K(0, 0)));
         const std::unique_ptr<ExportFile> file = sink.open(name);
         file->write("{\n \"camera_angle_x\": " + angle.dump() + ",\n \"frames\": [");
         const char* between = "\n  ";

@@ -6,6 +6,7 @@
 #include "dgtkExportSeries.h"
 #include "dgtkLayerFile.h"
 #include "dgtkMovingObjects.h"
+#include "dgtkPortableMath.h"
 #include "dgtkText.h"
 
 #include <nlohmann/json.hpp>
@@ -67,8 +68,8 @@ Json lensOf(const CameraRecord& camera)
 {
   const Eigen::Matrix3d K = intrinsicsOf(camera, PixelCentre::Half);
   Json lens{ { "w", camera.width }, { "h", camera.height }, { "fl_x", K(0, 0) }, { "fl_y", K(1, 1) }, { "cx", K(0, 2) },
-    { "cy", K(1, 2) }, { "camera_angle_x", 2 * std::atan(camera.width / (2 * K(0, 0))) },
-    { "camera_angle_y", 2 * std::atan(camera.height / (2 * K(1, 1))) } };
+    { "cy", K(1, 2) }, { "camera_angle_x", 2 * portable::atan(camera.width / (2 * K(0, 0))) },
+    { "camera_angle_y", 2 * portable::atan(camera.height / (2 * K(1, 1))) } };
   std::vector<double> k = distortionOf(camera);
   k.resize(4);
   const bool fisheye = camera.model == "fisheye";

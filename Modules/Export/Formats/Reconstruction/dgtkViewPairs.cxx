@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkViewPairs.h"
 
+#include "dgtkPortableMath.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -64,12 +66,11 @@ std::vector<std::uint32_t> ViewPairs::seenBy(std::size_t view) const
 double ViewPairs::weight(std::size_t a, std::size_t b, std::uint32_t point) const
 {
   constexpr double best = 5;
-  constexpr double degree = 3.14159265358979323846 / 180;
   const Eigen::Vector3d one = this->Centres[a] - this->Points[point];
   const Eigen::Vector3d two = this->Centres[b] - this->Points[point];
-  const double angle = std::acos(std::min(1.0, std::max(-1.0, one.dot(two) / one.norm() / two.norm()))) / degree;
+  const double angle = portable::atan2(one.cross(two).norm(), one.dot(two)) * 180 / pi;
   const double width = angle <= best ? 1 : 10;
-  return std::exp(-(angle - best) * (angle - best) / (2 * width * width));
+  return portable::exp(-(angle - best) * (angle - best) / (2 * width * width));
 }
 
 double ViewPairs::score(std::size_t a, std::size_t b, const std::vector<std::uint32_t>& seenByFirst) const

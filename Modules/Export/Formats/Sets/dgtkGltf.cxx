@@ -127,11 +127,7 @@ void animate(
   }
 }
 
-double linear(std::uint8_t level)
-{
-  const double v = level / 255.0;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
+double linear(std::uint8_t level) { return portable::linearFromSrgb(level / 255.0); }
 
 namespace
 {

@@ -5,6 +5,7 @@
 #include "dgtkExportSeries.h"
 #include "dgtkFile.h"
 #include "dgtkGltf.h"
+#include "dgtkPortableMath.h"
 #include "dgtkText.h"
 
 #include <algorithm>
@@ -167,7 +168,7 @@ private:
       const CameraRecord& camera = shots.front()->camera;
       const auto [near, far] = this->rangeOf(name);
       const Eigen::Matrix3d& K = camera.K;
-      Json perspective{ { "yfov", 2 * std::atan(camera.height / (2 * K(1, 1))) },
+      Json perspective{ { "yfov", 2 * portable::atan(camera.height / (2 * K(1, 1))) },
         { "aspectRatio", camera.width * K(1, 1) / (camera.height * K(0, 0)) }, { "znear", near } };
       if (std::isfinite(far) && far > near)
       {
