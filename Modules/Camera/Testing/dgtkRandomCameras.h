@@ -86,7 +86,7 @@ public:
         numbers.push_back(2.5 * v);
       }
     }
-    const std::string path = this->Folder.path(std::to_string(++this->Files) + ".npy");
+    std::string path = this->Folder.path(std::to_string(++this->Files) + ".npy");
     writeNpy(path, rows, columns, fromOnePoint ? 3 : 6, numbers);
     return path;
   }
