@@ -70,7 +70,7 @@ public:
   const char& now() const { return this->Block[this->At]; }
   void next()
   {
-    this->Line_ += this->AfterLine;
+    this->Line += this->AfterLine;
     this->AfterLine = this->now() == '\n';
     if (++this->At == this->Filled)
     {
@@ -78,7 +78,7 @@ public:
     }
   }
   std::uint64_t offset() const { return this->Before + this->At; } ///< of the next character
-  const int& line() const { return this->Line_; }                  ///< of the last one
+  const int& line() const { return this->Line; }                  ///< of the last one
 
 private:
   void fill()
@@ -94,7 +94,7 @@ private:
   std::size_t At = 0;
   std::size_t Filled = 0;
   std::uint64_t Before = 0;
-  int Line_ = 1;
+  int Line = 1;
   bool AfterLine = false;
 };
 

@@ -136,10 +136,10 @@ private:
   bool open(JsonNode::Type type)
   {
     this->began();
-    if (this->Open.size() >= LargestDepth)
+    if (this->Open.size() >= largestDepth)
     {
       throw InputError(
-        this->File, this->Line, "is nested too deeply", "at most " + std::to_string(LargestDepth) + " levels");
+        this->File, this->Line, "is nested too deeply", "at most " + std::to_string(largestDepth) + " levels");
     }
     // Pointers into vectors stay valid: only the innermost open node grows.
     this->Open.push_back(this->put(JsonNode(type)));
@@ -147,7 +147,7 @@ private:
     return true;
   }
 
-  static constexpr std::size_t LargestDepth = 32;
+  static constexpr std::size_t largestDepth = 32;
   const std::string& File;
   const int& Line;
   const std::size_t Most;

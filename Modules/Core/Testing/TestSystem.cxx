@@ -27,7 +27,8 @@ TEST(System, ProgramsOnThePath)
     fs::create_directories(folder.path(name));
   }
   writeFile(folder.path("a/tool"), "not to be executed");
-  const std::string before = std::getenv("PATH");
+  const char* const path = std::getenv("PATH");
+  const std::string before = path != nullptr ? path : "";
   ::setenv("PATH", (folder.path("nowhere") + ':' + folder.path("a") + ':' + folder.path("b")).c_str(), 1);
   EXPECT_EQ(programOnPath("tool"), "");
   EXPECT_FALSE(isProgram(folder.path("b/tool"))) << "a folder";

@@ -3,6 +3,8 @@
 
 #include "dgtkPortableMath.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 
