@@ -4,7 +4,6 @@
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
 #include "dgtkExportSeries.h"
-#include "dgtkText.h"
 
 #include <nlohmann/json.hpp>
 
@@ -43,18 +42,6 @@ void requireSayable(const CameraRecord& camera, const CameraRecord& first)
   {
     refuseCamera(camera, "has another size or angle of view than " + quoted(first.name));
   }
-}
-
-Json nerfMatrix(const CameraRecord& camera)
-{
-  const Rigid3 pose = worldFromCameraGL(camera);
-  Json rows = Json::array();
-  for (int i = 0; i < 3; ++i)
-  {
-    rows.push_back({ pose.rotation(i, 0), pose.rotation(i, 1), pose.rotation(i, 2), pose.translation[i] });
-  }
-  rows.push_back({ 0.0, 0.0, 0.0, 1.0 });
-  return rows;
 }
 
 class NerfSyntheticExporter : public Exporter
@@ -104,7 +91,7 @@ private:
       {
         writePicture(sink, dataset, shot, layer, stem + ".png", options);
         const Json frame{ { "file_path", "./" + stem }, { "rotation", 0.0 },
-          { "transform_matrix", nerfMatrix(shot.camera) } };
+          { "transform_matrix", matrixRows(worldFromCameraGL(shot.camera)) } };
         sink.note("frames:" + split, frame.dump());
       } };
   }

@@ -6,7 +6,6 @@
 #include "dgtkExportSeries.h"
 #include "dgtkLayerFile.h"
 #include "dgtkMovingObjects.h"
-#include "dgtkText.h"
 
 #include <nlohmann/json.hpp>
 
@@ -77,18 +76,6 @@ Json lensOf(const CameraRecord& camera)
   lens[fisheye ? "k3" : "p1"] = k[2];
   lens[fisheye ? "k4" : "p2"] = k[3];
   return lens;
-}
-
-Json matrixOf(const CameraRecord& camera)
-{
-  const Rigid3 pose = worldFromCameraGL(camera);
-  Json rows = Json::array();
-  for (int i = 0; i < 3; ++i)
-  {
-    rows.push_back({ pose.rotation(i, 0), pose.rotation(i, 1), pose.rotation(i, 2), pose.translation[i] });
-  }
-  rows.push_back({ 0.0, 0.0, 0.0, 1.0 });
-  return rows;
 }
 
 /// Names of the files of a picture.
@@ -213,7 +200,7 @@ private:
       {
         frame.update(lensOf(shot.camera));
       }
-      frame["transform_matrix"] = matrixOf(shot.camera);
+      frame["transform_matrix"] = matrixRows(worldFromCameraGL(shot.camera));
       sink.note("frames", frame.dump());
     };
     return item;
