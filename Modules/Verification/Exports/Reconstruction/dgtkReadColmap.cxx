@@ -7,6 +7,7 @@
 #include "dgtkFile.h"
 #include "dgtkTrackDocuments.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -34,11 +35,13 @@ struct Place
 };
 struct Image
 {
-  Eigen::Vector4d q{ 1, 0, 0, 0 }; ///< w x y z
+  Eigen::Vector4d q{ 0, 0, 0, 1 }; ///< x y z w
   Eigen::Vector3d t{ 0, 0, 0 };
   std::uint32_t camera = 0;
   std::string name;
   std::vector<Place> places;
+  /// QW, QX, QY, QZ, TX, TY, TZ.
+  std::array<double*, 7> numbers() { return { &q[3], &q[0], &q[1], &q[2], &t[0], &t[1], &t[2] }; }
 };
 struct Point
 {
@@ -140,13 +143,9 @@ void readBinary(const std::string& folder, Model& model)
   for (auto n = images.next<std::uint64_t>(); n > 0; --n)
   {
     Image& image = model.images[images.next<std::uint32_t>()];
-    for (int i = 0; i < 4; ++i)
+    for (double* number : image.numbers())
     {
-      image.q[i] = images.next<double>();
-    }
-    for (int i = 0; i < 3; ++i)
-    {
-      image.t[i] = images.next<double>();
+      *number = images.next<double>();
     }
     image.camera = images.next<std::uint32_t>();
     image.name = images.text();
@@ -205,9 +204,9 @@ void readTextImages(const std::string& path, Model& model)
     std::uint32_t id = 0;
     lines[i] >> id;
     Image& image = model.images[id];
-    for (double* q : { &image.q[0], &image.q[1], &image.q[2], &image.q[3], &image.t[0], &image.t[1], &image.t[2] })
+    for (double* number : image.numbers())
     {
-      lines[i] >> *q;
+      lines[i] >> *number;
     }
     lines[i] >> image.camera >> image.name;
     for (Place place; lines[i + 1] >> place.u >> place.v >> place.point;)
@@ -252,13 +251,6 @@ void readText(const std::string& folder, Model& model)
       point.track.push_back(one);
     }
   }
-}
-
-Eigen::Matrix3d rotationOf(const Eigen::Vector4d& q)
-{
-  Eigen::Matrix3d cross;
-  cross << 0, -q[3], q[2], q[3], 0, -q[1], -q[2], q[1], 0;
-  return Eigen::Matrix3d::Identity() + 2 * q[0] * cross + 2 * cross * cross;
 }
 
 /// Pixels of a point in camera axes.
