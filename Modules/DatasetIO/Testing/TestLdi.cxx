@@ -59,20 +59,15 @@ FileRecord write(const std::string& path, const std::string& format, int block)
 /// Reads all rows; "" or the message of the InputError.
 std::string complaint(const std::string& path)
 {
-  try
-  {
-    LdiReader reader(path);
-    LdiRow row;
-    while (reader.read(row))
+  return thrownBy<InputError>(
+    [&]
     {
-      EXPECT_LT(row.records.capacity(), 2 * std::filesystem::file_size(path) / 16 + 64);
-    }
-    return {};
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
+      LdiReader reader(path);
+      for (LdiRow row; reader.read(row);)
+      {
+        EXPECT_LT(row.records.capacity(), 2 * std::filesystem::file_size(path) / 16 + 64);
+      }
+    });
 }
 
 template <typename T>

@@ -3,11 +3,11 @@
 
 #include "dgtkCameraModel.h"
 #include "dgtkError.h"
+#include "dgtkTestSupport.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -30,15 +30,7 @@ CameraArrayOptions optionsOf(CameraArrayKind kind)
 
 std::string refusalOf(const CameraArrayOptions& options)
 {
-  try
-  {
-    cameraArray(options);
-  }
-  catch (const UsageError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return test::thrownBy<UsageError>([&] { cameraArray(options); });
 }
 
 void expectSound(const std::vector<CameraDescription>& cameras)

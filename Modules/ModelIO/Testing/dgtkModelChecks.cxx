@@ -147,16 +147,8 @@ std::shared_ptr<const Model> readBytes(const std::string& extension, const std::
 
 std::string refusal(const std::string& extension, const std::string& bytes)
 {
-  try
-  {
-    readBytes(extension, bytes);
-  }
-  catch (const InputError& error)
-  {
-    const std::string text = error.what();
-    return text.substr(text.rfind("/model." + extension) + 1);
-  }
-  return {};
+  const std::string text = thrownBy<InputError>([&] { readBytes(extension, bytes); });
+  return text.substr(text.rfind("/model." + extension) + 1);
 }
 
 const char* const withoutExtraModels =
