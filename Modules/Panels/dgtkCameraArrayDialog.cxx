@@ -16,7 +16,6 @@
 
 #include <exception>
 #include <optional>
-#include <string>
 
 namespace dgtk
 {

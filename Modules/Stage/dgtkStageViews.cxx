@@ -2,7 +2,6 @@
 #include "dgtkStageViews.h"
 
 #include "dgtkCameraEntry.h"
-#include "dgtkSceneTracks.h"
 #include "dgtkStage.h"
 
 #include <cmath>

@@ -3,7 +3,6 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
-#include "dgtkText.h"
 
 #include <algorithm>
 #include <chrono>

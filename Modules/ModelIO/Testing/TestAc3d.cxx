@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
 
 using dgtk::Model;
 using dgtk::test::ac3dSeed;

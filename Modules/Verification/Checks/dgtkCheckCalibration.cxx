@@ -6,8 +6,6 @@
 #include <Eigen/Geometry>
 #include <opencv2/calib3d.hpp>
 
-#include <cmath>
-
 namespace dgtk
 {
 

@@ -3,7 +3,6 @@
 #include "dgtkSampledPixels.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace dgtk
 {

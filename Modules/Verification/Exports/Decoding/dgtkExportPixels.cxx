@@ -2,7 +2,6 @@
 #include "dgtkExportPixels.h"
 
 #include "dgtkError.h"
-#include "dgtkText.h"
 
 #include <algorithm>
 #include <cmath>

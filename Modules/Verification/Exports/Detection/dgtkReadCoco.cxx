@@ -3,7 +3,6 @@
 #include "dgtkJsonFile.h"
 
 #include <algorithm>
-#include <cmath>
 
 // COCO's data format (cocodataset.org/#format-data) and cocoapi's maskApi.c.
 
