@@ -44,11 +44,6 @@ Eigen::Vector3d corner(const dgtk::Model& model, std::size_t triangle, std::size
   return model.rest->positions[model.triangles[triangle][i]];
 }
 
-void expectNear(const Eigen::Vector3d& expected, const Eigen::Vector3d& found)
-{
-  EXPECT_LT((expected - found).norm(), 1e-12) << found.transpose();
-}
-
 std::string writeFiles(const TemporaryFolder& folder, const std::map<std::string, std::string>& files)
 {
   for (const auto& [name, text] : files)

@@ -5,6 +5,8 @@
 #include "dgtkFile.h"
 #include "dgtkTestSupport.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -133,6 +135,11 @@ std::string brokenPromise(const Model& model)
     }
   }
   return {};
+}
+
+void expectNear(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+  EXPECT_LT((a - b).norm(), 1e-12) << a.transpose() << " against " << b.transpose();
 }
 
 std::shared_ptr<const Model> readBytes(const std::string& extension, const std::string& bytes)

@@ -57,14 +57,7 @@ public:
     {
       requireSayable(shot.camera, dataset.shots().front().camera);
     }
-    for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
-    {
-      if (split.name != "train" && split.name != "val" && split.name != "test")
-      {
-        throw UsageError(
-          "split: parts of " + std::string(nerfSyntheticName) + " are train, val and test, found " + split.name);
-      }
-    }
+    requireUsualSplits(dataset, options, nerfSyntheticName);
     requireEverywhere(dataset, layer, nerfSyntheticName, { "png" });
   }
 
@@ -105,13 +98,7 @@ private:
         const Json angle = 2 * std::atan(first.width / (2 * first.K(0, 0)));
         const std::unique_ptr<ExportFile> file = sink.open(name);
         file->write("{\n \"camera_angle_x\": " + angle.dump() + ",\n \"frames\": [");
-        const char* between = "\n  ";
-        sink.notes("frames:" + split,
-          [&](const std::string& frame)
-          {
-            file->write(between + frame);
-            between = ",\n  ";
-          });
+        writeNotes(sink, *file, "frames:" + split);
         file->write(std::string("\n ]\n}\n"));
         file->finish();
       } };

@@ -110,14 +110,7 @@ public:
                          "), and a document has one; name some with cameras");
       }
     }
-    for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
-    {
-      if (split.name != "train" && split.name != "val" && split.name != "test")
-      {
-        throw UsageError(
-          "split: parts of " + std::string(transformsName) + " are train, val and test, found " + split.name);
-      }
-    }
+    requireUsualSplits(dataset, options, transformsName);
     requireEverywhere(dataset, exported::color().of(options), transformsName, { "png" });
     requireEverywhere(dataset, exported::depth().of(options), transformsName);
     requireEverywhere(dataset, "objects", transformsName);
@@ -278,13 +271,7 @@ private:
         file->write(text.substr(0, text.size() - 2));
         writeSplits(*file, dataset, options);
         file->write(std::string(",\n \"frames\": ["));
-        const char* between = "\n  ";
-        sink.notes("frames",
-          [&](const std::string& frame)
-          {
-            file->write(between + frame);
-            between = ",\n  ";
-          });
+        writeNotes(sink, *file, "frames");
         file->write(std::string("\n ]\n}\n"));
         file->finish();
       } };
