@@ -376,12 +376,6 @@ double numberOf(const PixelEncoding& encoding, const std::string& key, double us
 
 DecodedPixels decodePng(const std::string& path, const PixelEncoding&) { return allOf(path); }
 
-bool knowsPixels(const std::string& kind)
-{
-  return findDecoder(kind) != nullptr ||
-         std::any_of(std::begin(judges), std::end(judges), [&](const Judge& one) { return kind == one.kind; });
-}
-
 void judgePixels(const ExportedFrom& source, const ExportedFile& file, Results& results)
 {
   const Comparison one{ source, file };
