@@ -23,10 +23,10 @@ struct RowPoints
   std::vector<cv::Point3d> points;
 };
 
-class Points
+class CalibrationPoints
 {
 public:
-  explicit Points(Picture& picture)
+  explicit CalibrationPoints(Picture& picture)
     : Owner(picture)
     , Position(picture.quietly([&] { return picture.values("position"); }))
     , Depth(picture.quietly([&] { return picture.values("depth"); }))
@@ -68,7 +68,7 @@ private:
 using Project = std::function<std::vector<cv::Point2d>(const std::vector<cv::Point3d>&)>;
 
 /// The points of each pixel, projected, must give its centre.
-Meter checkPoints(Picture& picture, const Points& points, const std::string& file, const Project& project)
+Meter checkPoints(Picture& picture, const CalibrationPoints& points, const std::string& file, const Project& project)
 {
   return meterRows(picture.pool(), picture.height(), calibrationTolerance,
     [&](int y, Meter& meter)
@@ -93,7 +93,7 @@ Meter checkPoints(Picture& picture, const Points& points, const std::string& fil
     });
 }
 
-void checkOpenCV(Picture& picture, const Points& points, Results& results)
+void checkOpenCV(Picture& picture, const CalibrationPoints& points, Results& results)
 {
   const CameraRecord& camera = picture.eye().record();
   cv::Matx33d K;
@@ -124,7 +124,7 @@ void checkOpenCV(Picture& picture, const Points& points, Results& results)
 }
 
 /// Of a lens, whose rays are its model's: so that these are checked.
-void checkLens(Picture& picture, const Points& points, Results& results)
+void checkLens(Picture& picture, const CalibrationPoints& points, Results& results)
 {
   const EyeLens& lens = *picture.eye().lens();
   results.add({ lens.name(), "pixel", { points.file()->file() } },
@@ -145,7 +145,7 @@ void checkLens(Picture& picture, const Points& points, Results& results)
       }));
 }
 
-void checkThesis(Picture& picture, const Points& points, const std::string& file, Results& results)
+void checkThesis(Picture& picture, const CalibrationPoints& points, const std::string& file, Results& results)
 {
   const Calibration calibration = readCalibration(picture.dataset().absolute(file));
   const Eigen::Matrix<double, 3, 4> matrix = calibration.cameraMatrix();
@@ -188,7 +188,7 @@ void checkEntries(Picture& picture, const std::string& file, Results& results)
 
 void checkCalibration(Picture& picture, Results& results)
 {
-  const Points points(picture);
+  const CalibrationPoints points(picture);
   const std::string text = picture.dataset().find(picture.camera(), "calibration", picture.frame(), { ".txt" });
   if (points.file() && picture.eye().pinhole())
   {

@@ -75,7 +75,7 @@ void judgeMatrix(ExportJudge& judge, const std::string& file, std::size_t line, 
   }
 }
 
-void judgeSequence(ExportJudge& judge, const std::string& file)
+void judgeSintelSequence(ExportJudge& judge, const std::string& file)
 {
   const std::string path = judge.source().path(file);
   const std::string begin = "camera_data/";
@@ -102,7 +102,7 @@ void readFlyingThings(ExportJudge& judge)
 {
   for (const ExportedFile* one : filesIn(judge.source(), "camera_data/", "txt"))
   {
-    judgeSequence(judge, one->file.path);
+    judgeSintelSequence(judge, one->file.path);
   }
 }
 
