@@ -56,19 +56,19 @@ struct ColmapModel
   std::map<std::int64_t, ColmapPoint> points;
 };
 
-struct ColmapKind
+struct LensKind
 {
   int id;
   const char* name;
   std::size_t numbers;
 };
-constexpr ColmapKind kinds[] = { { 1, "PINHOLE", 4 }, { 4, "OPENCV", 8 }, { 5, "OPENCV_FISHEYE", 8 },
+constexpr LensKind kinds[] = { { 1, "PINHOLE", 4 }, { 4, "OPENCV", 8 }, { 5, "OPENCV_FISHEYE", 8 },
   { 6, "FULL_OPENCV", 12 } };
 
 template <typename Same>
-const ColmapKind& kindOf(const std::string& path, const Same& same)
+const LensKind& kindOf(const std::string& path, const Same& same)
 {
-  for (const ColmapKind& kind : kinds)
+  for (const LensKind& kind : kinds)
   {
     if (same(kind))
     {
@@ -129,7 +129,7 @@ void readBinary(const std::string& folder, ColmapModel& model)
   {
     ColmapCamera& camera = model.cameras[cameras.next<std::uint32_t>()];
     const int id = cameras.next<std::int32_t>();
-    const ColmapKind& kind = kindOf(folder + "cameras.bin", [id](const ColmapKind& one) { return one.id == id; });
+    const LensKind& kind = kindOf(folder + "cameras.bin", [id](const LensKind& one) { return one.id == id; });
     camera.model = kind.name;
     camera.width = int(cameras.next<std::uint64_t>());
     camera.height = int(cameras.next<std::uint64_t>());
@@ -232,8 +232,8 @@ void readText(const std::string& folder, ColmapModel& model)
     {
       camera.numbers.push_back(number);
     }
-    const ColmapKind& kind =
-      kindOf(folder + "cameras.txt", [&](const ColmapKind& one) { return one.name == camera.model; });
+    const LensKind& kind =
+      kindOf(folder + "cameras.txt", [&](const LensKind& one) { return one.name == camera.model; });
     if (camera.numbers.size() != kind.numbers)
     {
       throw InputError(folder + "cameras.txt", 0, "a camera has not the numbers of its model");
