@@ -68,7 +68,8 @@ private:
 using Project = std::function<std::vector<cv::Point2d>(const std::vector<cv::Point3d>&)>;
 
 /// The points of each pixel, projected, must give its centre.
-Meter checkPoints(Picture& picture, const CalibrationPoints& points, const std::string& file, const Project& project)
+Meter projectedPoints(
+  Picture& picture, const CalibrationPoints& points, const std::string& file, const Project& project)
 {
   return meterRows(picture.pool(), picture.height(), calibrationTolerance,
     [&](int y, Meter& meter)
@@ -114,7 +115,7 @@ void checkOpenCV(Picture& picture, const CalibrationPoints& points, Results& res
   const cv::Vec3d rotation(vector.x(), vector.y(), vector.z());
   const cv::Vec3d translation(camera.t.x(), camera.t.y(), camera.t.z());
   results.add({ "cv::projectPoints", "pixel", { points.file()->file() } },
-    checkPoints(picture, points, points.file()->file(),
+    projectedPoints(picture, points, points.file()->file(),
       [&](const std::vector<cv::Point3d>& world)
       {
         std::vector<cv::Point2d> projected;
@@ -128,7 +129,7 @@ void checkLens(Picture& picture, const CalibrationPoints& points, Results& resul
 {
   const EyeLens& lens = *picture.eye().lens();
   results.add({ lens.name(), "pixel", { points.file()->file() } },
-    checkPoints(picture, points, points.file()->file(),
+    projectedPoints(picture, points, points.file()->file(),
       [&](const std::vector<cv::Point3d>& world)
       {
         std::vector<Eigen::Vector3d> x_in_camera;
@@ -150,7 +151,7 @@ void checkThesis(Picture& picture, const CalibrationPoints& points, const std::s
   const Calibration calibration = readCalibration(picture.dataset().absolute(file));
   const Eigen::Matrix<double, 3, 4> matrix = calibration.cameraMatrix();
   results.add(
-    { "thesis", "pixel", { file } }, checkPoints(picture, points, file,
+    { "thesis", "pixel", { file } }, projectedPoints(picture, points, file,
                                        [&](const std::vector<cv::Point3d>& world)
                                        {
                                          std::vector<cv::Point2d> projected;

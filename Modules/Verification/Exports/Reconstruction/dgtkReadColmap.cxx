@@ -56,19 +56,19 @@ struct ColmapModel
   std::map<std::int64_t, ColmapPoint> points;
 };
 
-struct LensKind
+struct Lens
 {
   int id;
   const char* name;
   std::size_t numbers;
 };
-constexpr LensKind kinds[] = { { 1, "PINHOLE", 4 }, { 4, "OPENCV", 8 }, { 5, "OPENCV_FISHEYE", 8 },
+constexpr Lens kinds[] = { { 1, "PINHOLE", 4 }, { 4, "OPENCV", 8 }, { 5, "OPENCV_FISHEYE", 8 },
   { 6, "FULL_OPENCV", 12 } };
 
 template <typename Same>
-const LensKind& kindOf(const std::string& path, const Same& same)
+const Lens& kindOf(const std::string& path, const Same& same)
 {
-  for (const LensKind& kind : kinds)
+  for (const Lens& kind : kinds)
   {
     if (same(kind))
     {
@@ -129,7 +129,7 @@ void readBinary(const std::string& folder, ColmapModel& model)
   {
     ColmapCamera& camera = model.cameras[cameras.next<std::uint32_t>()];
     const int id = cameras.next<std::int32_t>();
-    const LensKind& kind = kindOf(folder + "cameras.bin", [id](const LensKind& one) { return one.id == id; });
+    const Lens& kind = kindOf(folder + "cameras.bin", [id](const Lens& one) { return one.id == id; });
     camera.model = kind.name;
     camera.width = int(cameras.next<std::uint64_t>());
     camera.height = int(cameras.next<std::uint64_t>());
@@ -232,8 +232,7 @@ void readText(const std::string& folder, ColmapModel& model)
     {
       camera.numbers.push_back(number);
     }
-    const LensKind& kind =
-      kindOf(folder + "cameras.txt", [&](const LensKind& one) { return one.name == camera.model; });
+    const Lens& kind = kindOf(folder + "cameras.txt", [&](const Lens& one) { return one.name == camera.model; });
     if (camera.numbers.size() != kind.numbers)
     {
       throw InputError(folder + "cameras.txt", 0, "a camera has not the numbers of its model");
