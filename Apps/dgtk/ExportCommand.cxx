@@ -28,7 +28,7 @@ std::vector<std::string> exporterNames()
 
 namespace
 {
-ExportRequest parseRequest(const Arguments& arguments)
+ExportRequest parseExportRequest(const Arguments& arguments)
 {
   ExportRequest request;
   request.dataset = arguments.positional()[0];
@@ -82,7 +82,7 @@ std::string numberText(double value)
 
 int exportRun(const Arguments& arguments)
 {
-  const ExportRequest request = parseRequest(arguments);
+  const ExportRequest request = parseExportRequest(arguments);
   Progress progress(arguments.has("--quiet"));
   ExportCallbacks callbacks;
   callbacks.cancel = &catchInterrupts();

@@ -59,7 +59,7 @@ std::vector<std::string> layerWords()
   return words;
 }
 
-GeneratorRequest parseRequest(const Arguments& arguments)
+GeneratorRequest parseRenderRequest(const Arguments& arguments)
 {
   GeneratorRequest request;
   request.scene = arguments.positional()[0];
@@ -146,7 +146,7 @@ GeneratorResult generated(
 int render(const Arguments& arguments)
 {
   const std::atomic<bool>& interrupted = catchInterrupts();
-  const GeneratorRequest request = parseRequest(arguments);
+  const GeneratorRequest request = parseRenderRequest(arguments);
   if (mayUseOpenGL(request))
   {
     prepareGL(option::gl().of(request.options), option::threads().of(request.options));

@@ -39,7 +39,7 @@ std::uint64_t parseSeed(const std::string& text)
   return seed;
 }
 
-SampleRequest parseRequest(const Arguments& arguments)
+SampleRequest parseSampleRequest(const Arguments& arguments)
 {
   SampleRequest request;
   request.scene = arguments.positional()[0];
@@ -61,7 +61,7 @@ SampleRequest parseRequest(const Arguments& arguments)
 
 int runSample(const Arguments& arguments)
 {
-  const SampleRequest request = parseRequest(arguments);
+  const SampleRequest request = parseSampleRequest(arguments);
   Progress progress(arguments.has("--quiet"));
   SampleCallbacks callbacks;
   callbacks.cancel = &catchInterrupts();

@@ -8,7 +8,6 @@
 #include "dgtkUtf8.h"
 #include "dgtkVerificationCalls.h"
 
-#include <algorithm>
 #include <cstdio>
 
 namespace dgtk::app

@@ -5,7 +5,7 @@ import math
 
 import pov
 import tds
-from geometry import Mesh, box, lathe, number, times, tube, turned
+from geometry import Mesh, box, lathe, number, tube, turned
 from models_still import column
 from pictures import Canvas, mix, scale, smoothstep
 from random_numbers import fractal_noise

@@ -3,7 +3,7 @@
 
 import math
 
-from scene_text import product, quaternion, standing
+from scene_text import product, quaternion
 from scenes import SUN, base, camera, model, upright
 
 APPENDIX_B3 = """3

@@ -59,7 +59,6 @@ private:
   Mapped map(const Eigen::Vector2d& point) const; ///< without the tilt
   double leastStretchAt(double radius) const;
   double domainRadius() const;
-  bool undoTilt(const Eigen::Vector2d& distorted, Eigen::Vector2d& point) const;
   bool descend(const Eigen::Vector2d& wanted, Eigen::Vector2d& point) const;
 
   std::array<double, 14> K{};

@@ -10,7 +10,6 @@
 #include <QVector>
 
 #include <cmath>
-#include <functional>
 #include <initializer_list>
 #include <map>
 

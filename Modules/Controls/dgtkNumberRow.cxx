@@ -15,7 +15,6 @@
 #include <charconv>
 #include <cmath>
 #include <string>
-#include <utility>
 
 namespace dgtk
 {

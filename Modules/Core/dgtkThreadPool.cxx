@@ -2,7 +2,6 @@
 #include "dgtkThreadPool.h"
 
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <exception>

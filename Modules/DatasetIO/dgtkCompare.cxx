@@ -9,6 +9,7 @@
 #include "dgtkJsonText.h"
 #include "dgtkLayerReader.h"
 #include "dgtkLdi.h"
+#include "dgtkPixelValues.h"
 #include "dgtkText.h"
 #include "dgtkUtf8.h"
 
@@ -96,43 +97,14 @@ void compareValues(const Rows& a, const Rows& b, CompareResult& result)
   }
 }
 
-template <typename A>
-void compareTo(const Rows& a, const Rows& b, CompareResult& result)
-{
-  switch (b.type())
-  {
-    case PixelType::UInt8:
-      return compareValues<A, std::uint8_t>(a, b, result);
-    case PixelType::UInt16:
-      return compareValues<A, std::uint16_t>(a, b, result);
-    case PixelType::UInt32:
-      return compareValues<A, std::uint32_t>(a, b, result);
-    case PixelType::Float32:
-      return compareValues<A, float>(a, b, result);
-    case PixelType::Float64:
-      return compareValues<A, double>(a, b, result);
-  }
-}
-
 void compareRows(const Rows& a, const Rows& b, CompareResult& result)
 {
   if (a.type() == b.type() && std::memcmp(a.data(), b.data(), a.bytes()) == 0)
   {
     return;
   }
-  switch (a.type())
-  {
-    case PixelType::UInt8:
-      return compareTo<std::uint8_t>(a, b, result);
-    case PixelType::UInt16:
-      return compareTo<std::uint16_t>(a, b, result);
-    case PixelType::UInt32:
-      return compareTo<std::uint32_t>(a, b, result);
-    case PixelType::Float32:
-      return compareTo<float>(a, b, result);
-    case PixelType::Float64:
-      return compareTo<double>(a, b, result);
-  }
+  withPixelType(a.type(), [&](auto one)
+    { withPixelType(b.type(), [&](auto other) { compareValues<decltype(one), decltype(other)>(a, b, result); }); });
 }
 
 std::string shapeOf(const ImageInfo& info)

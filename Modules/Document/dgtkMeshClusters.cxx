@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkMeshClusters.h"
+#include "dgtkDisjointSets.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cstddef>
 #include <map>
-#include <numeric>
 #include <set>
 #include <unordered_map>
 
@@ -48,36 +48,11 @@ std::vector<std::uint32_t> firstOfCells(const Geometry& geometry, double cells)
   return to;
 }
 
-/// Sets of vertices that hang together.
-class Islands
-{
-public:
-  explicit Islands(std::size_t vertices)
-    : Above(vertices)
-  {
-    std::iota(this->Above.begin(), this->Above.end(), 0u);
-  }
-
-  std::uint32_t of(std::uint32_t vertex)
-  {
-    while (this->Above[vertex] != vertex)
-    {
-      vertex = this->Above[vertex] = this->Above[this->Above[vertex]];
-    }
-    return vertex;
-  }
-
-  void join(std::uint32_t a, std::uint32_t b) { this->Above[this->of(a)] = this->of(b); }
-
-private:
-  std::vector<std::uint32_t> Above;
-};
-
 /// Those of the vertices of each cell that are joined by edges within it, or differ in nothing but their normals.
-Islands islandsOf(
+DisjointSets islandsOf(
   const Geometry& geometry, const Model& model, const Part& part, const std::vector<std::uint32_t>& cell)
 {
-  Islands islands(cell.size());
+  DisjointSets islands(cell.size());
   std::map<std::array<double, 5>, std::uint32_t> same;
   for (std::uint32_t t = part.firstTriangle; t < part.firstTriangle + part.triangles; ++t)
   {
@@ -130,13 +105,13 @@ std::optional<ClusteredPart> clusterPart(const Geometry& geometry, const Model& 
   }
 
   // A corner has normal and UV of the vertex of its island that is nearest to the place that all of the cell get.
-  Islands islands = islandsOf(geometry, model, part, cell);
+  DisjointSets islands = islandsOf(geometry, model, part, cell);
   std::unordered_map<std::uint32_t, std::uint32_t> nearest;
   for (std::uint32_t t = part.firstTriangle; t < part.firstTriangle + part.triangles; ++t)
   {
     for (const std::uint32_t vertex : model.triangles[t])
     {
-      std::uint32_t& best = nearest.try_emplace(islands.of(vertex), vertex).first->second;
+      std::uint32_t& best = nearest.try_emplace(islands.find(vertex), vertex).first->second;
       const Eigen::Vector3d& place = p[cell[vertex]];
       best = (p[vertex] - place).squaredNorm() < (p[best] - place).squaredNorm() ? vertex : best;
     }
@@ -148,7 +123,7 @@ std::optional<ClusteredPart> clusterPart(const Geometry& geometry, const Model& 
     Corners corners{};
     for (std::size_t i = 0; i < 3; ++i)
     {
-      const std::uint32_t island = islands.of(own[i]);
+      const std::uint32_t island = islands.find(own[i]);
       const auto [at, isNew] = numbers.try_emplace(island, static_cast<std::uint32_t>(result.positions.size()));
       if (isNew)
       {

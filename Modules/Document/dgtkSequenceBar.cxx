@@ -3,7 +3,6 @@
 
 #include "dgtkModelClock.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace dgtk

@@ -10,25 +10,6 @@
 namespace dgtk
 {
 
-double valueAt(const Rows& rows, int x, int y, int channel)
-{
-  const std::size_t i = std::size_t(x) * rows.channels() + channel;
-  switch (rows.type())
-  {
-    case PixelType::UInt8:
-      return rows.row<std::uint8_t>(y)[i];
-    case PixelType::UInt16:
-      return rows.row<std::uint16_t>(y)[i];
-    case PixelType::UInt32:
-      return rows.row<std::uint32_t>(y)[i];
-    case PixelType::Float32:
-      return double(rows.row<float>(y)[i]);
-    case PixelType::Float64:
-      return rows.row<double>(y)[i];
-  }
-  return 0;
-}
-
 std::uint32_t idAt(const Rows& rows, int x, int y)
 {
   if (rows.type() == PixelType::UInt8 && rows.channels() == 3) // what they usually are
@@ -63,6 +44,17 @@ Rigid3 worldFromCameraGL(const CameraRecord& camera)
   const Rigid3 pose = cameraFromWorld(camera).inverse();
   const Eigen::DiagonalMatrix<double, 3> flip(1, -1, -1);
   return { pose.rotation * flip, pose.translation };
+}
+
+std::array<std::vector<double>, 4> matrixRows(const Rigid3& pose)
+{
+  std::array<std::vector<double>, 4> rows;
+  for (int i = 0; i < 3; ++i)
+  {
+    rows[std::size_t(i)] = { pose.rotation(i, 0), pose.rotation(i, 1), pose.rotation(i, 2), pose.translation[i] };
+  }
+  rows[3] = { 0, 0, 0, 1 };
+  return rows;
 }
 
 Eigen::Vector4d quaternionOf(const Eigen::Matrix3d& rotation)

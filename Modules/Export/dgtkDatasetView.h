@@ -7,11 +7,13 @@
 #include "dgtkDatasetDocuments.h"
 #include "dgtkLayerReader.h"
 #include "dgtkObjectDocuments.h"
+#include "dgtkPixelValues.h"
 #include "dgtkRigid3.h"
 #include "dgtkTrackDocuments.h"
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -163,8 +165,6 @@ private:
 /// An object id per pixel of rows of the layer `objects`, whatever its file; 24 bits of R, G, B where it has three
 /// channels.
 DGTKEXPORT_EXPORT std::uint32_t idAt(const Rows& rows, int x, int y);
-/// A channel of a pixel as a double, whatever the type.
-DGTKEXPORT_EXPORT double valueAt(const Rows& rows, int x, int y, int channel = 0);
 
 /// The camera's matrix in a format's pixels. Throws UsageError for a model without one.
 DGTKEXPORT_EXPORT Eigen::Matrix3d intrinsicsOf(const CameraRecord& camera, PixelCentre centre);
@@ -172,6 +172,8 @@ DGTKEXPORT_EXPORT Eigen::Matrix3d intrinsicsOf(const CameraRecord& camera, Pixel
 DGTKEXPORT_EXPORT Rigid3 cameraFromWorld(const CameraRecord& camera);
 /// x_world from x_camera with OpenGL's axes: x right, y up, z back.
 DGTKEXPORT_EXPORT Rigid3 worldFromCameraGL(const CameraRecord& camera);
+/// The rows of a pose's 4 x 4 matrix.
+DGTKEXPORT_EXPORT std::array<std::vector<double>, 4> matrixRows(const Rigid3& pose);
 /// Unit quaternion (w, x, y, z), w >= 0, of a rotation matrix.
 DGTKEXPORT_EXPORT Eigen::Vector4d quaternionOf(const Eigen::Matrix3d& rotation);
 /// Whether K alone says how the camera projects.

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 
 #include <fcntl.h>
@@ -22,7 +21,7 @@ namespace dgtk
 
 namespace
 {
-using Json = nlohmann::json;
+using NoteJson = nlohmann::json;
 
 /// Begins like the journal: a folder that holds nothing else holds nothing.
 const std::string& notesName()
@@ -31,16 +30,16 @@ const std::string& notesName()
   return name;
 }
 
-Json jsonOf(const ItemRecord& record)
+NoteJson jsonOf(const ItemRecord& record)
 {
-  Json json{ { "files", Json::array() }, { "rounding", Json::array() } };
+  NoteJson json{ { "files", NoteJson::array() }, { "rounding", NoteJson::array() } };
   for (const ExportedFile& one : record.files)
   {
     const DatasetFile& file = one.file;
     json["files"].push_back({ file.path, file.bytes, file.sha256, file.layer, file.camera, file.frame,
       one.encoding.kind, one.encoding.numbers });
   }
-  json["names"] = Json::array();
+  json["names"] = NoteJson::array();
   for (const ExportedName& one : record.names)
   {
     json["names"].push_back({ one.camera, one.frame, one.name });
@@ -52,19 +51,19 @@ Json jsonOf(const ItemRecord& record)
   return json;
 }
 
-ItemRecord recordOf(const Json& json)
+ItemRecord recordOf(const NoteJson& json)
 {
   ItemRecord record;
-  for (const Json& one : json.at("files"))
+  for (const NoteJson& one : json.at("files"))
   {
     record.files.push_back({ { one.at(0), one.at(1), one.at(2), one.at(3), one.at(4), one.at(5) },
       { one.at(6), one.at(7).get<std::map<std::string, std::vector<double>>>() } });
   }
-  for (const Json& one : json.at("rounding"))
+  for (const NoteJson& one : json.at("rounding"))
   {
     record.rounding.push_back({ one.at(0), one.at(1), one.at(2), one.at(3), one.at(4) });
   }
-  for (const Json& one : json.at("names"))
+  for (const NoteJson& one : json.at("names"))
   {
     record.names.push_back({ one.at(0), one.at(1), one.at(2) });
   }
@@ -89,7 +88,7 @@ std::uint64_t takeSize(const std::string& from, std::size_t& at)
 /// text.
 std::string packed(const ItemRecord& record)
 {
-  const std::vector<std::uint8_t> bytes = Json::to_cbor(jsonOf(record));
+  const std::vector<std::uint8_t> bytes = NoteJson::to_cbor(jsonOf(record));
   std::string text;
   putSize(text, bytes.size());
   text.append(bytes.begin(), bytes.end());
@@ -231,9 +230,9 @@ ItemRecord ExportNotes::read(std::size_t item) const
   const std::string bytes = this->bytesAt(place.offset + at, size);
   try
   {
-    return recordOf(Json::from_cbor(bytes.begin(), bytes.end()));
+    return recordOf(NoteJson::from_cbor(bytes.begin(), bytes.end()));
   }
-  catch (const Json::exception&)
+  catch (const NoteJson::exception&)
   {
     this->failDamaged();
   }

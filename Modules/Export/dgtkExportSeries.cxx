@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkExportSeries.h"
 
+#include "dgtkError.h"
+#include "dgtkExport.h"
+#include "dgtkExportChecks.h"
+
 namespace dgtk
 {
 
@@ -41,6 +45,28 @@ ExportSeries namesOf(const DatasetView& dataset, const std::vector<std::uint32_t
   return seriesOf(dataset, shots,
     [name](const DatasetShot& shot, std::size_t) {
       return ExportItem{ {}, [](ExportSink&) {}, { { shot.name(), shot.frame(), name(shot) } } };
+    });
+}
+
+void requireUsualSplits(const DatasetView& dataset, const OptionValues& options, const std::string& format)
+{
+  for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
+  {
+    if (split.name != "train" && split.name != "val" && split.name != "test")
+    {
+      throw UsageError("split: parts of " + format + " are train, val and test, found " + split.name);
+    }
+  }
+}
+
+void writeNotes(ExportSink& sink, ExportFile& file, const std::string& key)
+{
+  const char* between = "\n  ";
+  sink.notes(key,
+    [&](const std::string& note)
+    {
+      file.write(between + note);
+      between = ",\n  ";
     });
 }
 

@@ -33,6 +33,11 @@ ExportItem named(const DatasetShot& shot, ExportItem item);
 ExportSeries namesOf(const DatasetView& dataset, const std::vector<std::uint32_t>& shots,
   const std::function<std::string(const DatasetShot&)>& name);
 
+/// Throws UsageError for another part than train, val and test.
+void requireUsualSplits(const DatasetView& dataset, const OptionValues& options, const std::string& format);
+/// The notes of a key, elements of a list in JSON, a line each.
+void writeNotes(ExportSink& sink, ExportFile& file, const std::string& key);
+
 } // namespace dgtk
 
 #endif

@@ -8,7 +8,6 @@
 #include "dgtkHash.h"
 #include "dgtkJournal.h"
 #include "dgtkLongDocuments.h"
-#include "dgtkSceneFolders.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -9,7 +9,6 @@
 #include "dgtkSurfaceRows.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <set>
 #include <utility>

@@ -3,6 +3,7 @@
 
 #include "dgtkAlbedo.h"
 #include "dgtkError.h"
+#include "dgtkPixelValues.h"
 #include "dgtkSurfaceRows.h"
 
 #include <algorithm>
@@ -23,34 +24,10 @@ constexpr int leastFine = 1 << 14; ///< pixels of a picture that is not worth a 
 /// One thread is left to the window.
 int pictureThreads() { return std::clamp(static_cast<int>(std::thread::hardware_concurrency()) - 1, 1, 8); }
 
-template <typename T>
-void append(const Rows& rows, int column, int row, std::vector<double>& values)
-{
-  const T* const value = rows.row<T>(row) + std::ptrdiff_t(column) * rows.channels();
-  values.insert(values.end(), value, value + rows.channels());
-}
-
 std::vector<double> numbers(const Rows& rows, int column, int row)
 {
-  std::vector<double> values;
-  switch (rows.type())
-  {
-    case PixelType::UInt8:
-      append<std::uint8_t>(rows, column, row, values);
-      break;
-    case PixelType::UInt16:
-      append<std::uint16_t>(rows, column, row, values);
-      break;
-    case PixelType::UInt32:
-      append<std::uint32_t>(rows, column, row, values);
-      break;
-    case PixelType::Float32:
-      append<float>(rows, column, row, values);
-      break;
-    case PixelType::Float64:
-      append<double>(rows, column, row, values);
-      break;
-  }
+  std::vector<double> values(std::size_t(rows.channels()));
+  copyValues(rows, column, row, values.size(), values.data());
   return values;
 }
 

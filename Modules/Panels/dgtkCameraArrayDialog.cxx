@@ -16,7 +16,6 @@
 
 #include <exception>
 #include <optional>
-#include <string>
 
 namespace dgtk
 {
@@ -26,14 +25,6 @@ namespace
 constexpr int mostCameras = 10000;
 constexpr int mostInARow = 100;
 constexpr int pathHeight = 96; // pixels
-
-NumberRow* addNumbers(QFormLayout* form, const QString& label, const QString& name, const std::vector<double>& values)
-{
-  auto* row = new NumberRow(name, static_cast<int>(values.size()), nullptr);
-  row->setValues(values);
-  form->addRow(label, row);
-  return row;
-}
 
 QString textOf(const CameraPath& path)
 {
@@ -112,13 +103,13 @@ CameraArrayDialog::CameraArrayDialog(const CameraDescription& first, const Camer
   this->Kind->addItems({ tr("Ring"), tr("Hemisphere"), tr("Grid"), tr("Stereo pair"), tr("Along a path") });
   form->addRow(tr("&Kind"), this->Kind);
   const CameraArrayOptions usual;
-  this->Eye = addNumbers(form, tr("&Eye"), "eye", listOf(first.eye.value));
-  this->LookAt = addNumbers(form, tr("&Look at"), "lookAt", listOf(first.lookAt.value));
-  this->Fov = addNumbers(form, tr("&Field of view, \u00b0 (vertical)"), "fovY", { first.fovY.value });
+  this->Eye = addVectorRow(form, tr("&Eye"), "eye", listOf(first.eye.value));
+  this->LookAt = addVectorRow(form, tr("&Look at"), "lookAt", listOf(first.lookAt.value));
+  this->Fov = addVectorRow(form, tr("&Field of view, \u00b0 (vertical)"), "fovY", { first.fovY.value });
   this->Count = addCount(form, tr("&Cameras"), "count", mostCameras, usual.count);
   this->Columns = addCount(form, tr("C&olumns"), "columns", mostInARow, usual.columns);
   this->Rows = addCount(form, tr("&Rows"), "rows", mostInARow, usual.rows);
-  this->Spacing = addNumbers(form, tr("&Spacing, baseline"), "spacing", { usual.spacing });
+  this->Spacing = addVectorRow(form, tr("&Spacing, baseline"), "spacing", { usual.spacing });
   this->Path = new QPlainTextEdit(textOf(path));
   this->Path->setObjectName("path");
   this->Path->setPlaceholderText(tr("A point a line: x y z, and where it looks: x y z"));

@@ -24,14 +24,6 @@ constexpr int byMatrix = 1; // of the lens's words
 constexpr double usualWidth = 640;
 constexpr double usualHeight = 480;
 
-NumberRow* addRow(QFormLayout* form, const QString& label, const QString& name, const std::vector<double>& values)
-{
-  auto* row = new NumberRow(name, static_cast<int>(values.size()), nullptr);
-  row->setValues(values);
-  form->addRow(label, row);
-  return row;
-}
-
 QDialogButtonBox* addButtons(QDialog* dialog, QFormLayout* form)
 {
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
@@ -68,21 +60,21 @@ CameraDialog::CameraDialog(const CameraDescription& camera, QWidget* parent)
   this->Name = new QLineEdit(toText(camera.name));
   this->Name->setObjectName("name");
   form->addRow(tr("&Name"), this->Name);
-  this->Eye = addRow(form, tr("&Eye"), "eye", listOf(camera.eye.value));
-  this->LookAt = addRow(form, tr("&Look at"), "lookAt", listOf(camera.lookAt.value));
-  this->Up = addRow(form, tr("&Up"), "up", listOf(camera.up.value));
+  this->Eye = addVectorRow(form, tr("&Eye"), "eye", listOf(camera.eye.value));
+  this->LookAt = addVectorRow(form, tr("&Look at"), "lookAt", listOf(camera.lookAt.value));
+  this->Up = addVectorRow(form, tr("&Up"), "up", listOf(camera.up.value));
   this->Lens = new QComboBox;
   this->Lens->setObjectName("lens");
   this->Lens->addItems({ tr("by its field of view"), tr("by its matrix K") });
   form->addRow(tr("Len&s"), this->Lens);
-  this->Fov = addRow(form, tr("&Field of view, \u00b0 (vertical)"), "fovY", { camera.fovY.value });
-  this->Aspect = addRow(form, tr("Aspec&t (0: square pixels)"), "aspect", { camera.aspect });
-  this->K = addRow(form, tr("f&x, fy, cx, cy, pixels"), "K", { 0, 0, 0, 0 });
+  this->Fov = addVectorRow(form, tr("&Field of view, \u00b0 (vertical)"), "fovY", { camera.fovY.value });
+  this->Aspect = addVectorRow(form, tr("Aspec&t (0: square pixels)"), "aspect", { camera.aspect });
+  this->K = addVectorRow(form, tr("f&x, fy, cx, cy, pixels"), "K", { 0, 0, 0, 0 });
   this->Size =
-    addRow(form, tr("Si&ze, pixels (0: as asked for)"), "size", { double(camera.width), double(camera.height) });
+    addVectorRow(form, tr("Si&ze, pixels (0: as asked for)"), "size", { double(camera.width), double(camera.height) });
   connect(this->Lens, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &CameraDialog::showLens);
   this->showLens();
-  this->Range = addRow(form, tr("Near, fa&r"), "range", { camera.near, camera.far });
+  this->Range = addVectorRow(form, tr("Near, fa&r"), "range", { camera.near, camera.far });
   QDialogButtonBox* const buttons = addButtons(this, form);
   QPushButton* const preview = buttons->addButton(tr("&Preview"), QDialogButtonBox::ActionRole);
   preview->setAutoDefault(false);
@@ -157,16 +149,16 @@ LightDialog::LightDialog(const LightDescription& light, QWidget* parent)
   this->Kind->addItems(lightKindNames());
   this->Kind->setCurrentIndex(lightKindPlace(light.kind));
   form->addRow(tr("&Kind"), this->Kind);
-  this->Position = addRow(form, tr("&Position"), "position", listOf(light.position.value));
-  this->Target = addRow(form, tr("&Target (directional, spot)"), "target", listOf(light.target.value));
-  this->Diffuse = addRow(form, tr("&Diffuse"), "diffuse", listOf(light.diffuse.value));
-  this->Specular = addRow(form, tr("&Specular"), "specular", listOf(light.specular.value));
-  this->Ambient = addRow(form, tr("A&mbient"), "ambient", listOf(light.ambient.value));
-  this->Intensity = addRow(form, tr("&Intensity"), "intensity", { light.intensity.value });
+  this->Position = addVectorRow(form, tr("&Position"), "position", listOf(light.position.value));
+  this->Target = addVectorRow(form, tr("&Target (directional, spot)"), "target", listOf(light.target.value));
+  this->Diffuse = addVectorRow(form, tr("&Diffuse"), "diffuse", listOf(light.diffuse.value));
+  this->Specular = addVectorRow(form, tr("&Specular"), "specular", listOf(light.specular.value));
+  this->Ambient = addVectorRow(form, tr("A&mbient"), "ambient", listOf(light.ambient.value));
+  this->Intensity = addVectorRow(form, tr("&Intensity"), "intensity", { light.intensity.value });
   this->Attenuation =
-    addRow(form, tr("Atten&uation (constant, linear, quadratic)"), "attenuation", listOf(light.attenuation));
-  this->Cone = addRow(form, tr("&Cone of a spot, \u00b0"), "coneAngle", { light.coneAngle.value });
-  this->Exponent = addRow(form, tr("E&xponent of a spot"), "exponent", { light.exponent.value });
+    addVectorRow(form, tr("Atten&uation (constant, linear, quadratic)"), "attenuation", listOf(light.attenuation));
+  this->Cone = addVectorRow(form, tr("&Cone of a spot, \u00b0"), "coneAngle", { light.coneAngle.value });
+  this->Exponent = addVectorRow(form, tr("E&xponent of a spot"), "exponent", { light.exponent.value });
   connect(this->Kind, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &LightDialog::refreshKind);
   this->refreshKind();
   this->Enabled = new QCheckBox(tr("&Enabled"));

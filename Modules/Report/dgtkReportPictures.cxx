@@ -4,6 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkFolder.h"
 #include "dgtkLayerColors.h"
+#include "dgtkPixelValues.h"
 #include "dgtkReportPainting.h"
 
 #include <algorithm>
@@ -21,30 +22,6 @@ int firstOf(int i, int samples, int pixels) { return static_cast<int>(std::int64
 int endOf(int i, int samples, int pixels)
 {
   return std::max(firstOf(i, samples, pixels) + 1, firstOf(i + 1, samples, pixels));
-}
-
-template <typename T>
-void convertRow(const Rows& rows, int y, std::vector<double>& line)
-{
-  const T* const from = rows.row<T>(y);
-  std::copy(from, from + line.size(), line.begin());
-}
-
-void toDoubles(const Rows& rows, int y, std::vector<double>& line)
-{
-  switch (rows.type())
-  {
-    case PixelType::UInt8:
-      return convertRow<std::uint8_t>(rows, y, line);
-    case PixelType::UInt16:
-      return convertRow<std::uint16_t>(rows, y, line);
-    case PixelType::UInt32:
-      return convertRow<std::uint32_t>(rows, y, line);
-    case PixelType::Float32:
-      return convertRow<float>(rows, y, line);
-    case PixelType::Float64:
-      return convertRow<double>(rows, y, line);
-  }
 }
 
 /// Takes the rows of one picture.
@@ -210,7 +187,7 @@ ReadPicture readPicture(const ReportSource& source, const ReportLayer& layer, st
     {
       for (int y = rows.y(); y < rows.y() + rows.height(); ++y)
       {
-        toDoubles(rows, y, line);
+        copyValues(rows, 0, y, line.size(), line.data());
         reading.row(y, line);
       }
     }

@@ -26,7 +26,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 
 namespace dgtk
 {

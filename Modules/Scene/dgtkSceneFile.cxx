@@ -6,7 +6,6 @@
 #include "dgtkJson.h"
 #include "dgtkSceneFromText.h"
 #include "dgtkSceneJson.h"
-#include "dgtkSceneText.h"
 #include "dgtkText.h"
 #include "dgtkThesisScene.h"
 #include "dgtkWorkTime.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSceneText.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>

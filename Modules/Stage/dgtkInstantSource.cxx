@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkInstantSource.h"
 
-#include <algorithm>
-
 namespace dgtk
 {
 

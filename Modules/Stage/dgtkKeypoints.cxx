@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkKeypoints.h"
 
-#include "dgtkError.h"
 #include "dgtkStageModels.h"
 
 #include <algorithm>

@@ -6,8 +6,6 @@
 #include "dgtkModelClock.h"
 #include "dgtkSceneTracks.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>

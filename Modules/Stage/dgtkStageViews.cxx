@@ -3,7 +3,6 @@
 
 #include "dgtkCameraEntry.h"
 #include "dgtkPortableMath.h"
-#include "dgtkSceneTracks.h"
 #include "dgtkStage.h"
 
 #include <cmath>

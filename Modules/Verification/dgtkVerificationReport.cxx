@@ -12,9 +12,12 @@ namespace dgtk
 
 namespace
 {
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json numberJson(double value) { return std::isfinite(value) ? Json(value) : Json(numberText(value)); }
+OrderedJson numberJson(double value)
+{
+  return std::isfinite(value) ? OrderedJson(value) : OrderedJson(numberText(value));
+}
 
 /// Three digits, for people.
 std::string brief(double value)
@@ -28,9 +31,9 @@ std::string brief(double value)
   return text;
 }
 
-Json residualJson(const Residual& residual)
+OrderedJson residualJson(const Residual& residual)
 {
-  Json json;
+  OrderedJson json;
   json["check"] = residual.check;
   json["layer"] = utf8FromBytes(residual.layer);
   json["count"] = residual.count;
@@ -43,9 +46,10 @@ Json residualJson(const Residual& residual)
   json["breach"] = residual.breach();
   if (!residual.worst.file.empty())
   {
-    Json& worst = json["worst"];
+    OrderedJson& worst = json["worst"];
     worst["file"] = utf8FromBytes(residual.worst.file);
-    worst["pixel"] = residual.worst.x < 0 ? Json(nullptr) : Json::array({ residual.worst.x, residual.worst.y });
+    worst["pixel"] =
+      residual.worst.x < 0 ? OrderedJson(nullptr) : OrderedJson::array({ residual.worst.x, residual.worst.y });
     worst["value"] = utf8FromBytes(residual.worst.value);
     worst["expected"] = utf8FromBytes(residual.worst.expected);
   }
@@ -113,16 +117,16 @@ std::string verificationTable(const VerificationReport& report)
 
 std::string verificationText(const VerificationReport& report)
 {
-  Json json;
+  OrderedJson json;
   json["format"] = "DGTk verification";
   json["format_version"] = 1;
   json["passed"] = report.passed();
-  json["residuals"] = Json::array();
+  json["residuals"] = OrderedJson::array();
   for (const Residual& residual : report.residuals)
   {
     json["residuals"].push_back(residualJson(residual));
   }
-  json["not_checked"] = Json::array();
+  json["not_checked"] = OrderedJson::array();
   for (const Unchecked& kind : report.unchecked)
   {
     json["not_checked"].push_back(

@@ -94,7 +94,6 @@ private:
   Eigen::Vector2d corner() const { return { double(this->width()), double(this->height()) }; }
   void point(const QPoint& at);
   void moveCursor(int dx, int dy);
-  void zoomAtCursor(double factor);
   void askForDetail();
   void drawPicture(QPainter& painter, const ShownPicture& shown) const;
   void drawGrid(QPainter& painter) const;

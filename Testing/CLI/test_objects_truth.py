@@ -3,7 +3,6 @@
 import json
 import os
 import struct
-import zlib
 
 import numpy as np
 

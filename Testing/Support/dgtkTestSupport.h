@@ -32,6 +32,21 @@ std::string extraModels();
 /// Whole contents of a file; fails the running program when it cannot be read.
 std::string contentsOf(const std::string& path);
 
+/// What the Refusal says that `act` throws, or "" where it throws nothing; anything else that it throws passes.
+template <typename Refusal, typename Act>
+std::string thrownBy(const Act& act)
+{
+  try
+  {
+    act();
+  }
+  catch (const Refusal& refusal)
+  {
+    return refusal.what();
+  }
+  return {};
+}
+
 } // namespace dgtk::test
 
 #endif

@@ -2,14 +2,13 @@
 #include "dgtkCameraEntry.h"
 #include "dgtkError.h"
 #include "dgtkPortableMath.h"
+#include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <random>
 
 namespace
@@ -90,18 +89,7 @@ dgtk::View viewOf(const std::shared_ptr<const dgtk::CameraModel>& model)
   return view;
 }
 
-std::string messageOf(const std::function<void()>& body)
-{
-  try
-  {
-    body();
-  }
-  catch (const dgtk::UsageError& error)
-  {
-    return error.what();
-  }
-  return "no UsageError";
-}
+const auto messageOf = [](const auto& body) { return dgtk::test::thrownBy<dgtk::UsageError>(body); };
 
 /// A lens whose rays are a pinhole's but that does not say so.
 class Unsaid final : public dgtk::CameraModel

@@ -2,11 +2,11 @@
 #include "dgtkCameraEntry.h"
 #include "dgtkError.h"
 #include "dgtkStrangeCamera.h"
+#include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 
 using namespace dgtk;
@@ -47,15 +47,7 @@ const bool added = addCamera({ "strange", "for a test", &strange });
 
 std::string refusalOf(const std::string& model, const CameraParameters& of)
 {
-  try
-  {
-    makeCamera(model, of);
-  }
-  catch (const UsageError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return test::thrownBy<UsageError>([&] { makeCamera(model, of); });
 }
 
 CameraParameters whole() { return { 4, 3, std::nullopt, { { "xi", { 2 } } }, { { "rays", "a.npy" } } }; }

@@ -3,6 +3,7 @@
 #include "dgtkCameraEntry.h"
 #include "dgtkError.h"
 #include "dgtkPortableMath.h"
+#include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -58,15 +59,7 @@ void expectEnd(const CameraModel& camera, double angle, double radius)
 
 std::string refusalOf(const std::string& model, const Numbers& numbers)
 {
-  try
-  {
-    byFieldOfView(model, numbers, 170);
-  }
-  catch (const UsageError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return test::thrownBy<UsageError>([&] { byFieldOfView(model, numbers, 170); });
 }
 } // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkRandomCameras.h"
+#include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,15 +37,7 @@ protected:
   }
   std::string refusal() const
   {
-    try
-    {
-      this->camera(4, 3);
-    }
-    catch (const InputError& error)
-    {
-      return error.what();
-    }
-    return "";
+    return test::thrownBy<InputError>([&] { this->camera(4, 3); });
   }
 
   test::TemporaryFolder Folder;

@@ -59,15 +59,8 @@ TEST(AtomicFile, WritesAtOffsets)
 
 TEST(AtomicFile, FailureNamesTheFile)
 {
-  try
-  {
-    dgtk::writeFile("/proc/nowhere/x", "");
-    FAIL();
-  }
-  catch (const dgtk::MachineError& error)
-  {
-    EXPECT_THAT(error.what(), testing::HasSubstr("/proc/nowhere/x: cannot be written"));
-  }
+  EXPECT_THAT(dgtk::test::thrownBy<dgtk::MachineError>([&] { dgtk::writeFile("/proc/nowhere/x", ""); }),
+    testing::HasSubstr("/proc/nowhere/x: cannot be written"));
 }
 
 TEST(AtomicFile, ReplacesLinksAndWritesThroughNone)

@@ -2,7 +2,7 @@
 #include "dgtkPortableMath.h"
 #include "dgtkRandom.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>

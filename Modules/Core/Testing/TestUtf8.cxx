@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkError.h"
+#include "dgtkTestSupport.h"
 #include "dgtkThreadPool.h"
 #include "dgtkUtf8.h"
 
@@ -76,24 +77,16 @@ TEST(Quoted, LongTextsAreCutBetweenCharactersAndNoFurtherBack)
 
 TEST(ThreadPool, OfSeveralFailuresTheFirstIndexIsReported)
 {
+  const auto failFrom7 = [](int i)
+  {
+    if (i >= 7)
+    {
+      throw UsageError(std::to_string(i));
+    }
+  };
   for (const int threads : { 1, 4 })
   {
     ThreadPool pool(threads);
-    try
-    {
-      pool.parallelFor(100,
-        [](int i)
-        {
-          if (i >= 7)
-          {
-            throw UsageError(std::to_string(i));
-          }
-        });
-      ADD_FAILURE();
-    }
-    catch (const UsageError& error)
-    {
-      EXPECT_STREQ(error.what(), "7");
-    }
+    EXPECT_EQ(test::thrownBy<UsageError>([&] { pool.parallelFor(100, failFrom7); }), "7");
   }
 }

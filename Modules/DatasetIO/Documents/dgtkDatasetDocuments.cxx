@@ -32,12 +32,7 @@ std::string cameraText(const CameraRecord& camera)
   }
   for (const auto& [name, numbers] : camera.numbers)
   {
-    std::string list;
-    for (const double number : numbers)
-    {
-      list += (list.empty() ? "" : ", ") + jsonNumber(number);
-    }
-    object.raw(name, numbers.size() == 1 ? list : "[" + list + "]");
+    object.raw(name, numbersText(numbers));
   }
   for (const auto& [name, file] : camera.files)
   {
@@ -107,11 +102,6 @@ std::string manifestText(Manifest manifest)
     [](const DatasetFile& a, const DatasetFile& b) { return a.path < b.path; });
   std::sort(manifest.inputs.begin(), manifest.inputs.end(),
     [](const InputRecord& a, const InputRecord& b) { return a.path < b.path; });
-  JsonObject request(4);
-  for (const auto& [key, value] : manifest.request)
-  {
-    request.text(key, value);
-  }
   const auto input = [](const InputRecord& file)
   {
     return JsonObject(6)
@@ -120,11 +110,6 @@ std::string manifestText(Manifest manifest)
       .text("sha256", file.sha256)
       .line();
   };
-  JsonObject info(4);
-  for (const auto& [key, value] : manifest.info)
-  {
-    info.text(key, value);
-  }
   const auto empty = [](const EmptyRecord& one)
   {
     return JsonObject(6)
@@ -139,11 +124,11 @@ std::string manifestText(Manifest manifest)
            .integer("format_version", 1)
            .text("version", manifest.version)
            .text("request_hash", manifest.requestHash)
-           .raw("request", manifest.request.empty() ? "{}" : request.block())
+           .raw("request", pairsText(manifest.request))
            .text("units", manifest.units)
            .raw("metres_per_unit", manifest.metresPerUnit > 0 ? jsonNumber(manifest.metresPerUnit) : "null")
            .raw("fps", manifest.fps > 0 ? jsonNumber(manifest.fps) : "null")
-           .raw("info", manifest.info.empty() ? "{}" : info.block())
+           .raw("info", pairsText(manifest.info))
            .raw("inputs", arrayText(manifest.inputs, input))
            .raw("layers", arrayText(manifest.layers, layerText))
            .raw("empty", arrayText(manifest.empty, empty))

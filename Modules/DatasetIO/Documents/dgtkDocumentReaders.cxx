@@ -146,19 +146,18 @@ Manifest readManifest(const std::string& path, const std::function<void(DatasetF
   Manifest manifest;
   manifest.version = root["version"].text();
   manifest.requestHash = root["request_hash"].text();
-  const JsonCursor request = root["request"];
-  for (std::size_t i = 0, n = request.memberCount(); i < n; ++i)
-  {
-    manifest.request.emplace_back(request.key(i), request.member(i).text());
-  }
+  manifest.request = pairsIn(root["request"]);
   manifest.units = root["units"].text();
   const auto numberOrNone = [&root](const char* key) // not in the first datasets, nor is info
   { return root.has(key) && !root[key].isNull() ? root[key].number(aboveZero) : 0; };
   manifest.metresPerUnit = numberOrNone("metres_per_unit");
   manifest.fps = numberOrNone("fps");
-  for (std::size_t i = 0, n = root.has("info") ? root["info"].memberCount() : 0; i < n; ++i)
+  if (root.has("info"))
   {
-    manifest.info[root["info"].key(i)] = root["info"].member(i).text();
+    for (const auto& [key, value] : pairsIn(root["info"]))
+    {
+      manifest.info[key] = value;
+    }
   }
   for (const JsonCursor& item : root["inputs"].items())
   {
@@ -178,10 +177,7 @@ Manifest readManifest(const std::string& path, const std::function<void(DatasetF
   }
   if (root.has("warnings"))
   {
-    for (const JsonCursor& item : root["warnings"].items())
-    {
-      manifest.warnings.push_back(item.text());
-    }
+    manifest.warnings = textsIn(root["warnings"]);
   }
   root["files"].listSize();
   return manifest;

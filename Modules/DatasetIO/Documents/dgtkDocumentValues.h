@@ -46,6 +46,36 @@ inline std::string hashOf(const JsonCursor& at)
   return value;
 }
 
+/// A member a line, of keys and texts.
+template <typename Pairs>
+std::string pairsText(const Pairs& pairs)
+{
+  JsonObject object(4);
+  for (const auto& [key, value] : pairs)
+  {
+    object.text(key, value);
+  }
+  return pairs.empty() ? "{}" : object.block();
+}
+inline std::vector<std::pair<std::string, std::string>> pairsIn(const JsonCursor& object)
+{
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (std::size_t i = 0, n = object.memberCount(); i < n; ++i)
+  {
+    pairs.emplace_back(object.key(i), object.member(i).text());
+  }
+  return pairs;
+}
+inline std::vector<std::string> textsIn(const JsonCursor& list)
+{
+  std::vector<std::string> texts;
+  for (const JsonCursor& item : list.items())
+  {
+    texts.push_back(item.text());
+  }
+  return texts;
+}
+
 /// A file of a manifest.
 DatasetFile fileOf(const JsonCursor& value);
 JsonObject fileObject(const DatasetFile& file);

@@ -18,16 +18,6 @@ namespace
 {
 constexpr const char* formatWord = "DGTk export";
 
-std::string pairsText(const TextPairs& pairs)
-{
-  JsonObject object(4);
-  for (const auto& [key, value] : pairs)
-  {
-    object.text(key, value);
-  }
-  return pairs.empty() ? "{}" : object.block();
-}
-
 std::string layersText(const std::vector<LayerRounding>& layers)
 {
   JsonArray array(4);
@@ -42,26 +32,6 @@ std::string layersText(const std::vector<LayerRounding>& layers)
                 .line());
   }
   return array.block();
-}
-
-std::string listText(const std::vector<double>& numbers)
-{
-  std::string text;
-  for (const double number : numbers)
-  {
-    text += (text.empty() ? "" : ", ") + jsonNumber(number);
-  }
-  return numbers.size() == 1 ? text : "[" + text + "]";
-}
-
-TextPairs pairsOf(const JsonCursor& object)
-{
-  TextPairs pairs;
-  for (std::size_t i = 0, n = object.memberCount(); i < n; ++i)
-  {
-    pairs.emplace_back(object.key(i), object.member(i).text());
-  }
-  return pairs;
 }
 
 PixelEncoding encodingOf(const JsonCursor& object)
@@ -102,7 +72,7 @@ std::string encodingText(const PixelEncoding& encoding)
   object.text("kind", encoding.kind);
   for (const auto& [key, numbers] : encoding.numbers)
   {
-    object.raw(key, listText(numbers));
+    object.raw(key, numbersText(numbers));
   }
   return object.line();
 }
@@ -203,8 +173,8 @@ ExportRecord readExport(const std::string& path, const std::function<void(Export
   record.exporter = root["exporter"].text();
   record.requestHash = root["request_hash"].text();
   record.manifestHash = hashOf(root["dataset_manifest"]);
-  record.request = pairsOf(root["request"]);
-  record.conventions = pairsOf(root["conventions"]);
+  record.request = pairsIn(root["request"]);
+  record.conventions = pairsIn(root["conventions"]);
   for (const JsonCursor& item : root["layers"].items())
   {
     record.layers.push_back(roundingOf(item));

@@ -21,6 +21,23 @@ std::string jsonNumber(double value);
 /// Rows in brackets; a vector (one column) in one pair of brackets.
 std::string jsonMatrix(const Eigen::Ref<const Eigen::MatrixXd>& matrix);
 
+/// A list on one line, of texts of its items.
+template <typename List, typename Text>
+std::string listText(const List& items, const Text& text)
+{
+  std::string list;
+  for (const auto& item : items)
+  {
+    list += (list.empty() ? "" : ", ") + text(item);
+  }
+  return '[' + list + ']';
+}
+/// One number as it is, others as a list.
+inline std::string numbersText(const std::vector<double>& numbers)
+{
+  return numbers.size() == 1 ? jsonNumber(numbers[0]) : listText(numbers, jsonNumber);
+}
+
 /// Joins `"key": value` members of one object over lines indented by `indent` spaces.
 class JsonObject
 {

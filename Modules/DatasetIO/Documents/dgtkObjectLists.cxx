@@ -15,18 +15,6 @@ namespace dgtk
 
 namespace
 {
-/// On one line, of texts of values.
-template <typename T, typename F>
-std::string listText(const std::vector<T>& items, F text)
-{
-  std::string list;
-  for (const T& item : items)
-  {
-    list += (list.empty() ? "" : ", ") + text(item);
-  }
-  return '[' + list + ']';
-}
-
 std::string wholeNumbers(const int* numbers, std::size_t count)
 {
   return listText(std::vector<int>(numbers, numbers + count), [](int number) { return std::to_string(number); });
@@ -146,10 +134,7 @@ ClassRecord classOf(const JsonCursor& item)
   }
   if (item.has("keypoints"))
   {
-    for (const JsonCursor& name : item["keypoints"].items())
-    {
-      one.keypoints.push_back(name.text());
-    }
+    one.keypoints = textsIn(item["keypoints"]);
   }
   if (item.has("skeleton"))
   {

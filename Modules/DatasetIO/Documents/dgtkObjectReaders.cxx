@@ -126,10 +126,7 @@ TrackedPoints readPoints(const std::string& path)
   const JsonCursor root(document);
   TrackedPoints points;
   points.frame = integerOf(root["frame"], anyFrame);
-  for (const JsonCursor& item : root["cameras"].items())
-  {
-    points.cameras.push_back(item.text());
-  }
+  points.cameras = textsIn(root["cameras"]);
   for (const JsonCursor& item : root["points"].items())
   {
     points.points.push_back(pointOf(item));

@@ -12,7 +12,6 @@ namespace dgtk
 
 namespace
 {
-constexpr std::uint64_t largestRatio = 1032; // of deflate
 constexpr std::uint64_t largestHeader = 1 << 20;
 
 struct Channel
@@ -177,7 +176,7 @@ private:
   {
     this->RowBytes = std::size_t(this->Info.width) * static_cast<std::size_t>(this->Info.channels) * 4;
     const std::uint64_t chunks = std::uint64_t((this->Info.height - 1) / this->ChunkRows) + 1;
-    const std::uint64_t ratio = this->Compressed ? largestRatio : 1;
+    const std::uint64_t ratio = this->Compressed ? deflateRatio : 1;
     if (this->TableStart + chunks * 16 > this->File.size() || this->Info.pixelBytes() / ratio > this->File.size())
     {
       this->File.fail(this->TableStart, "more pixels than a file of this size can hold", {},

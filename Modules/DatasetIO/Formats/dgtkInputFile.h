@@ -12,6 +12,9 @@
 namespace dgtk
 {
 
+/// As many bytes a byte of a deflated stream can hold.
+inline constexpr std::uint64_t deflateRatio = 1032;
+
 /// A regular file that is read at offsets. Every failure is an InputError that names the file and the offset.
 class InputFile
 {

@@ -13,7 +13,6 @@ namespace dgtk
 
 namespace
 {
-constexpr std::uint64_t largestRatio = 1032; // of deflate
 constexpr std::size_t windowBytes = std::size_t(1) << 18;
 
 /// libpng's.
@@ -139,7 +138,7 @@ private:
     this->Info.channels = png_get_channels(this->Decoder.png, this->Decoder.head);
     this->Info.width = static_cast<int>(width);
     this->Info.height = static_cast<int>(height);
-    if (this->Info.pixelBytes() / largestRatio > this->File.size())
+    if (this->Info.pixelBytes() / deflateRatio > this->File.size())
     {
       this->File.fail(16, "more pixels than a file of this size can hold", {},
         std::to_string(width) + " x " + std::to_string(height));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkDepthPicture.h"
-#include "dgtkError.h"
 #include "dgtkLayerFile.h"
 #include "dgtkPngEncoder.h"
 #include "dgtkWriterEntry.h"

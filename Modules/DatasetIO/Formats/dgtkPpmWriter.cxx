@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkError.h"
 #include "dgtkLayerFile.h"
 #include "dgtkWriterEntry.h"
 

@@ -4,7 +4,6 @@
 #include "dgtkLayerWriter.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 namespace dgtk

@@ -2,7 +2,6 @@
 #include "dgtkDepthPicture.h"
 
 #include "dgtkError.h"
-#include "dgtkJsonText.h"
 #include "dgtkPortableMath.h"
 #include "dgtkText.h"
 

@@ -2,10 +2,10 @@
 #include "dgtkCanvas.h"
 #include "dgtkLayerPicture.h"
 #include "dgtkLayerReader.h"
+#include "dgtkPixelValues.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace dgtk
 {
@@ -25,30 +25,6 @@ struct Samples
                          static_cast<std::size_t>(this->channels)];
   }
 };
-
-template <typename T>
-void convertRow(const Rows& row, std::vector<double>& out)
-{
-  const T* from = row.row<T>(row.y());
-  std::copy(from, from + out.size(), out.begin());
-}
-
-void toDoubles(const Rows& row, std::vector<double>& out)
-{
-  switch (row.type())
-  {
-    case PixelType::UInt8:
-      return convertRow<std::uint8_t>(row, out);
-    case PixelType::UInt16:
-      return convertRow<std::uint16_t>(row, out);
-    case PixelType::UInt32:
-      return convertRow<std::uint32_t>(row, out);
-    case PixelType::Float32:
-      return convertRow<float>(row, out);
-    case PixelType::Float64:
-      return convertRow<double>(row, out);
-  }
-}
 
 /// First source index of target index i.
 int firstOf(int i, int target, int source) { return static_cast<int>(std::int64_t(i) * source / target); }
@@ -74,7 +50,7 @@ Samples sample(RowReader& reader, int width, int height, bool average)
       const int middle = (first + end - 1) / 2;
       if (average || y == middle)
       {
-        toDoubles(row, line);
+        copyValues(row, 0, row.y(), line.size(), line.data());
         for (int i = 0; i < width; ++i)
         {
           const int left = firstOf(i, width, info.width);
@@ -160,7 +136,7 @@ Samples samplesOf(const Rows& rows)
 {
   Samples out{ rows.width(), rows.height(), rows.channels(), {} };
   out.values.resize(std::size_t(rows.width()) * std::size_t(rows.height()) * std::size_t(rows.channels()));
-  toDoubles(rows, out.values);
+  copyValues(rows, 0, rows.y(), out.values.size(), out.values.data());
   return out;
 }
 } // namespace

@@ -18,8 +18,6 @@
 namespace dgtk
 {
 
-using JournalEntry = DatasetFile;
-
 /// Names in a dataset's folder.
 constexpr const char* manifestName = "manifest.json";
 constexpr const char* journalName = ".dgtk-journal";

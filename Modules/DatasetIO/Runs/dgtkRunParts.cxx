@@ -27,47 +27,6 @@ constexpr Range anyCount{ 0, 9007199254740991.0, false, false, "a whole number f
 
 std::string runFile() { return std::string(partsName) + "/run.json"; }
 
-template <typename List>
-std::string textsOf(const List& list)
-{
-  std::string text;
-  for (const std::string& one : list)
-  {
-    text += (text.empty() ? "" : ", ") + jsonString(one);
-  }
-  return '[' + text + ']';
-}
-
-std::string pairsOf(const std::vector<std::pair<std::string, std::string>>& pairs)
-{
-  JsonObject object(4);
-  for (const auto& [key, value] : pairs)
-  {
-    object.text(key, value);
-  }
-  return object.block();
-}
-
-std::vector<std::string> textsIn(const JsonCursor& list)
-{
-  std::vector<std::string> texts;
-  for (const JsonCursor& item : list.items())
-  {
-    texts.push_back(item.text());
-  }
-  return texts;
-}
-
-std::vector<std::pair<std::string, std::string>> pairsIn(const JsonCursor& object)
-{
-  std::vector<std::pair<std::string, std::string>> pairs;
-  for (std::size_t i = 0, n = object.memberCount(); i < n; ++i)
-  {
-    pairs.emplace_back(object.key(i), object.member(i).text());
-  }
-  return pairs;
-}
-
 std::string runText(const RunParts& run)
 {
   JsonObject object(2);
@@ -77,9 +36,9 @@ std::string runText(const RunParts& run)
     .text("request_hash", run.requestHash)
     .integer("items", std::int64_t(run.items))
     .boolean("contact_sheet", run.contactSheet)
-    .raw("scenes", textsOf(run.scenes))
-    .raw("request", pairsOf(run.request))
-    .raw("left_out", textsOf(run.leftOut));
+    .raw("scenes", listText(run.scenes, jsonString))
+    .raw("request", pairsText(run.request))
+    .raw("left_out", listText(run.leftOut, jsonString));
   if (!run.exporter.empty())
   {
     object.text("exporter", run.exporter).text("dataset", run.dataset);
@@ -95,8 +54,8 @@ std::string datasetsText(const DatasetsManifest& manifest)
            .integer("format_version", 1)
            .text("version", manifest.version)
            .text("request_hash", manifest.requestHash)
-           .raw("request", pairsOf(manifest.request))
-           .raw("left_out", textsOf(manifest.leftOut))
+           .raw("request", pairsText(manifest.request))
+           .raw("left_out", listText(manifest.leftOut, jsonString))
            .raw("datasets", arrayText(manifest.datasets, text))
            .block() +
          '\n';

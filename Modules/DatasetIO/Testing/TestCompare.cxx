@@ -191,17 +191,8 @@ TEST(Compare, TolerancesAreOfLayersThatTheDatasetHas)
   writeValues(folder.path("a.npy"), { 1, 2 }, 2);
   writeValues(folder.path("b.npy"), { 1, 2 }, 2);
   writeFile(folder.path("c.txt"), "text");
-  const auto refusal = [&](const std::string& layer, const CompareTolerance& tolerance) -> std::string
-  {
-    try
-    {
-      compareDatasets(folder.path(), folder.path(), { { layer, tolerance } });
-    }
-    catch (const UsageError& error)
-    {
-      return error.what();
-    }
-    return {};
+  const auto refusal = [&](const std::string& layer, const CompareTolerance& tolerance) -> std::string {
+    return thrownBy<UsageError>([&] { compareDatasets(folder.path(), folder.path(), { { layer, tolerance } }); });
   };
   EXPECT_EQ(refusal("depth", { 1, {}, {} }), "");
   EXPECT_THAT(refusal("colour", { 1, {}, {} }), HasSubstr("has no such layer (it has depth, objects)"));

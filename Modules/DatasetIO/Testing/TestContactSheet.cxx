@@ -9,7 +9,6 @@
 #include "dgtkTestImages.h"
 #include "dgtkTestSupport.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>

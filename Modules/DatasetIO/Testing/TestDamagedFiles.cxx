@@ -60,19 +60,15 @@ void writeQuickly(const std::string& path, const std::string& bytes)
 /// Reads a file in blocks; "" or the message of the InputError.
 std::string readAll(const std::string& path)
 {
-  try
-  {
-    const auto reader = openLayerFile(path);
-    EXPECT_LE(std::uint64_t(reader->info().width), std::uint64_t(1) << 24);
-    while (reader->read(8).height() > 0)
+  return thrownBy<InputError>(
+    [&]
     {
-    }
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return {};
+      const auto reader = openLayerFile(path);
+      EXPECT_LE(std::uint64_t(reader->info().width), std::uint64_t(1) << 24);
+      while (reader->read(8).height() > 0)
+      {
+      }
+    });
 }
 
 std::string messageOf(const std::string& name, const std::string& bytes)

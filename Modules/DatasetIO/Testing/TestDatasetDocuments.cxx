@@ -34,19 +34,6 @@ Eigen::Matrix4d perspective(double f, double aspect, double near, double far)
   return p;
 }
 
-template <typename F>
-std::string messageOf(F f)
-{
-  try
-  {
-    f();
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return {};
-}
 } // namespace
 
 // Section 4.3: viewport matrix * K * [R|t] takes world points to pixels with y up.
@@ -117,7 +104,7 @@ TEST(Calibration, RefusalsNameTheLine)
   const auto message = [&](const std::string& text)
   {
     writeFile(path, text);
-    return messageOf([&] { readCalibration(path); });
+    return thrownBy<InputError>([&] { readCalibration(path); });
   };
   EXPECT_EQ(message("K\n1 2 3\n4 x 6\n"), path + ":3: is not a calibration (expected a number, found 'x')");
   EXPECT_EQ(message("K\n1 2 3\n4 nan 6\n"), path + ":3: is not a calibration (expected a number, found 'nan')");
@@ -182,7 +169,7 @@ TEST(Cameras, AModelWithoutMatrixHasItsOwnKeys)
   std::string wrong = text;
   wrong.replace(wrong.find("[1.0, 2.0]"), 10, "true");
   writeFile(folder.path("cameras.json"), wrong);
-  EXPECT_THAT(messageOf([&] { readCameras(folder.path("cameras.json")); }), HasSubstr("cameras[0].shift"));
+  EXPECT_THAT(thrownBy<InputError>([&] { readCameras(folder.path("cameras.json")); }), HasSubstr("cameras[0].shift"));
 }
 
 TEST(Objects, RoundTrip)
@@ -266,7 +253,7 @@ TEST(Documents, RefusalsNameThePlace)
   const auto cameras = [&](const std::string& text)
   {
     writeFile(path, text);
-    return messageOf([&] { readCameras(path); });
+    return thrownBy<InputError>([&] { readCameras(path); });
   };
   EXPECT_THAT(cameras("{\n\n["), HasSubstr(path + ":3: is not valid JSON"));
   EXPECT_EQ(cameras("{}"), path + ":1: cameras is missing");
@@ -276,8 +263,8 @@ TEST(Documents, RefusalsNameThePlace)
   EXPECT_THAT(cameras("{\"cameras\": [{\"name\": \"a\", \"frame\": 99999999999}]}"),
     HasSubstr("cameras[0].frame is out of range (expected a whole number from -2147483648 to 2147483647"));
   writeFile(path, "{}");
-  EXPECT_EQ(messageOf([&] { readManifest(path); }), path + ":1: is not the manifest of a DGTk dataset");
-  EXPECT_THAT(messageOf([&] { readObjects("/no/such"); }), HasSubstr("/no/such: cannot be read"));
+  EXPECT_EQ(thrownBy<InputError>([&] { readManifest(path); }), path + ":1: is not the manifest of a DGTk dataset");
+  EXPECT_THAT(thrownBy<InputError>([&] { readObjects("/no/such"); }), HasSubstr("/no/such: cannot be read"));
 }
 
 TEST(Documents, WritingDescribesTheFile)
@@ -383,7 +370,7 @@ TEST(ObjectDocuments, RefusalsNameThePlace)
   const auto amodal = [&](const std::string& counts)
   {
     writeFile(path, "{\"width\": 4, \"height\": 2, \"masks\": [{\"id\": 1, \"counts\": " + counts + "}]}");
-    return messageOf([&] { readAmodal(path); });
+    return thrownBy<InputError>([&] { readAmodal(path); });
   };
   EXPECT_EQ(amodal("[0, 8]"), "");
   EXPECT_EQ(amodal("[0, 9]"), path + ":1: masks[0] is longer than the image");
@@ -396,12 +383,12 @@ TEST(ObjectDocuments, RefusalsNameThePlace)
       std::pair(R"("width": 2147483648, "height": 2)", "width"), std::pair(R"("width": 4)", "height") })
   {
     writeFile(path, "{" + std::string(size) + ", \"masks\": []}");
-    EXPECT_THAT(messageOf([&] { readAmodal(path); }), HasSubstr(path + ":1: " + place)) << size;
+    EXPECT_THAT(thrownBy<InputError>([&] { readAmodal(path); }), HasSubstr(path + ":1: " + place)) << size;
   }
   writeFile(path, "{\"frame\": 0, \"cameras\": [], \"points\": [{\"x\": [1, 2]}]}");
-  EXPECT_THAT(messageOf([&] { readPoints(path); }), HasSubstr("points[0].x has the wrong type"));
+  EXPECT_THAT(thrownBy<InputError>([&] { readPoints(path); }), HasSubstr("points[0].x has the wrong type"));
   writeFile(path, "{\"objects\": [{\"id\": 0}]}");
-  EXPECT_THAT(messageOf([&] { readBoxes(path); }), HasSubstr("objects[0].id is out of range"));
+  EXPECT_THAT(thrownBy<InputError>([&] { readBoxes(path); }), HasSubstr("objects[0].id is out of range"));
 }
 
 TEST(DatasetDocuments, ClassesObjectsAndPosesReadBack)

@@ -8,12 +8,10 @@
 
 #include <OpenImageIO/imageio.h>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 
 using namespace dgtk;
 using namespace dgtk::test;

@@ -45,15 +45,7 @@ void finishRun(const std::string& folder, const std::string& name)
 std::string refusal(
   const std::string& folder, const std::string& hash, JournalStart start, const std::vector<std::string>& names = {})
 {
-  try
-  {
-    const Journal journal(folder, hash, start, names);
-  }
-  catch (const UsageError& error)
-  {
-    return error.what();
-  }
-  return {};
+  return thrownBy<UsageError>([&] { const Journal journal(folder, hash, start, names); });
 }
 } // namespace
 

@@ -212,15 +212,8 @@ TEST(LayerWriters, FullDiskIsOneLineAndHarmsNothing)
       rlimit low = old;
       low.rlim_cur = 2000;
       ::setrlimit(RLIMIT_FSIZE, &low);
-      std::string message;
-      try
-      {
-        writeImage(info.format, path, spec, image, 8, testContext());
-      }
-      catch (const MachineError& error)
-      {
-        message = error.what();
-      }
+      const std::string message =
+        thrownBy<MachineError>([&] { writeImage(info.format, path, spec, image, 8, testContext()); });
       ::setrlimit(RLIMIT_FSIZE, &old);
       EXPECT_THAT(message, HasSubstr(path + ": cannot be written: File too large"));
       EXPECT_EQ(message.find('\n'), std::string::npos);
@@ -231,27 +224,16 @@ TEST(LayerWriters, FullDiskIsOneLineAndHarmsNothing)
 
 TEST(LayerWriters, RefusalsSayWhatIsWrong)
 {
-  const auto messageOf = [](auto f)
-  {
-    try
-    {
-      f();
-    }
-    catch (const UsageError& error)
-    {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
   const TemporaryFolder folder;
   const LayerSpec depth = specOf(PixelType::Float64, 1);
-  EXPECT_THAT(messageOf([&] { makeLayerWriter("gif", folder.path("x"), depth, 1, 1); }),
+  EXPECT_THAT(thrownBy<UsageError>([&] { makeLayerWriter("gif", folder.path("x"), depth, 1, 1); }),
     HasSubstr("no such format: 'gif' (there are npy, ppm, png, exr, pfm, dgd, flo)"));
-  EXPECT_THAT(messageOf([&] { makeLayerWriter("ppm", folder.path("x"), depth, 1, 1); }),
+  EXPECT_THAT(thrownBy<UsageError>([&] { makeLayerWriter("ppm", folder.path("x"), depth, 1, 1); }),
     HasSubstr("layer 'depth' (1 x float64) cannot be written as ppm"));
-  EXPECT_THAT(messageOf([&] { makeLayerWriter("npy", folder.path("x"), depth, 0, 1); }),
+  EXPECT_THAT(thrownBy<UsageError>([&] { makeLayerWriter("npy", folder.path("x"), depth, 0, 1); }),
     HasSubstr("an image of 0 x 1 pixels cannot be written"));
-  EXPECT_THAT(messageOf([&] { makeLayerWriter("png", folder.path("x"), depth, 1, 1); }), HasSubstr("near < far"));
+  EXPECT_THAT(
+    thrownBy<UsageError>([&] { makeLayerWriter("png", folder.path("x"), depth, 1, 1); }), HasSubstr("near < far"));
   const LayerSpec ids = specOf(PixelType::UInt32, 1, "objects");
   const auto writeId = [&](const char* format, std::uint32_t id)
   {
@@ -259,11 +241,12 @@ TEST(LayerWriters, RefusalsSayWhatIsWrong)
     *one.row<std::uint32_t>(0) = id;
     writeImage(format, folder.path(std::string("x.") + format), ids, one, 1, {});
   };
-  EXPECT_EQ(messageOf([&] { writeId("ppm", 0xffffff); }), "");
+  EXPECT_EQ(thrownBy<UsageError>([&] { writeId("ppm", 0xffffff); }), "");
+  EXPECT_THAT(thrownBy<UsageError>([&] { writeId("ppm", 0x1000000); }),
+    HasSubstr("'objects': 16777216 does not fit a 24-bit .ppm"));
+  EXPECT_EQ(thrownBy<UsageError>([&] { writeId("png", 65535); }), "");
   EXPECT_THAT(
-    messageOf([&] { writeId("ppm", 0x1000000); }), HasSubstr("'objects': 16777216 does not fit a 24-bit .ppm"));
-  EXPECT_EQ(messageOf([&] { writeId("png", 65535); }), "");
-  EXPECT_THAT(messageOf([&] { writeId("png", 65536); }), HasSubstr("'objects': 65536 does not fit a 16-bit .png"));
+    thrownBy<UsageError>([&] { writeId("png", 65536); }), HasSubstr("'objects': 65536 does not fit a 16-bit .png"));
   EXPECT_THROW(makeLayerWriter("npy", "/proc/nowhere/x.npy", depth, 1, 1), MachineError);
 }
 

@@ -23,8 +23,8 @@ using testing::HasSubstr;
 
 namespace
 {
-constexpr int width = 7;
-constexpr int height = 5;
+constexpr int ldiWidth = 7;
+constexpr int ldiHeight = 5;
 
 /// Pixel i holds i % 4 surfaces.
 LdiRows rowsOf(int first, int count)
@@ -32,7 +32,7 @@ LdiRows rowsOf(int first, int count)
   LdiRows rows;
   rows.y = first;
   rows.height = count;
-  for (int i = first * width; i < (first + count) * width; ++i)
+  for (int i = first * ldiWidth; i < (first + count) * ldiWidth; ++i)
   {
     rows.counts.push_back(static_cast<std::uint32_t>(i % 4));
     for (int s = 0; s < i % 4; ++s)
@@ -48,10 +48,10 @@ LdiRows rowsOf(int first, int count)
 
 FileRecord write(const std::string& path, const std::string& format, int block)
 {
-  const auto writer = makeLdiWriter(format, path, width, height);
-  for (int y = 0; y < height; y += block)
+  const auto writer = makeLdiWriter(format, path, ldiWidth, ldiHeight);
+  for (int y = 0; y < ldiHeight; y += block)
   {
-    writer->write(rowsOf(y, std::min(block, height - y)));
+    writer->write(rowsOf(y, std::min(block, ldiHeight - y)));
   }
   return writer->finish();
 }
@@ -59,20 +59,15 @@ FileRecord write(const std::string& path, const std::string& format, int block)
 /// Reads all rows; "" or the message of the InputError.
 std::string complaint(const std::string& path)
 {
-  try
-  {
-    LdiReader reader(path);
-    LdiRow row;
-    while (reader.read(row))
+  return thrownBy<InputError>(
+    [&]
     {
-      EXPECT_LT(row.records.capacity(), 2 * std::filesystem::file_size(path) / 16 + 64);
-    }
-    return {};
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
+      LdiReader reader(path);
+      for (LdiRow row; reader.read(row);)
+      {
+        EXPECT_LT(row.records.capacity(), 2 * std::filesystem::file_size(path) / 16 + 64);
+      }
+    });
 }
 
 template <typename T>
@@ -87,12 +82,12 @@ TEST(Ldi, IsTheThesisFileByteForByte)
 {
   const TemporaryFolder folder;
   const std::string path = folder.path("a.ldi");
-  const FileRecord record = write(path, "ldi", height);
+  const FileRecord record = write(path, "ldi", ldiHeight);
   std::string expected;
   const auto put = [&](auto value) { expected.append(reinterpret_cast<const char*>(&value), sizeof value); };
-  put(std::int32_t(width));
-  put(std::int32_t(height));
-  for (std::uint32_t i = 0; i < width * height; ++i)
+  put(std::int32_t(ldiWidth));
+  put(std::int32_t(ldiHeight));
+  for (std::uint32_t i = 0; i < ldiWidth * ldiHeight; ++i)
   {
     put(std::uint32_t(i % 4));
     for (std::uint32_t s = 0; s < i % 4; ++s)
@@ -116,12 +111,12 @@ TEST(Ldi, ReadsWhatItWrote)
   const std::string path = folder.path("a.ldi");
   write(path, "ldi", 2);
   LdiReader reader(path);
-  EXPECT_EQ(reader.width(), width);
-  EXPECT_EQ(reader.height(), height);
+  EXPECT_EQ(reader.width(), ldiWidth);
+  EXPECT_EQ(reader.height(), ldiHeight);
   for (int pass = 0; pass < 2; ++pass, reader.rewind())
   {
     LdiRow row;
-    for (int y = 0; y < height; ++y)
+    for (int y = 0; y < ldiHeight; ++y)
     {
       const LdiRows expected = rowsOf(y, 1);
       ASSERT_TRUE(reader.read(row));
@@ -221,9 +216,9 @@ TEST(Ldi, DeepExrIsReadByOpenImageIO)
   OIIO::DeepData deep;
   ASSERT_TRUE(input->read_native_deep_image(0, 0, deep)) << input->geterror();
   const auto channel = [&](const char* name) { return input->spec().channelindex(name); };
-  const LdiRows all = rowsOf(0, height);
+  const LdiRows all = rowsOf(0, ldiHeight);
   const LdiSurface* surface = all.surfaces.data();
-  for (int i = 0; i < width * height; ++i)
+  for (int i = 0; i < ldiWidth * ldiHeight; ++i)
   {
     ASSERT_EQ(deep.samples(i), i % 4);
     for (int s = 0; s < i % 4; ++s, ++surface)
@@ -257,7 +252,7 @@ TEST(Ldi, NothingIsLeftOfAFileThatIsNotFinished)
   const TemporaryFolder folder;
   for (const std::string format : { "ldi", "exr" })
   {
-    makeLdiWriter(format, folder.path("a." + format), width, height)->write(rowsOf(0, 2));
+    makeLdiWriter(format, folder.path("a." + format), ldiWidth, ldiHeight)->write(rowsOf(0, 2));
   }
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
@@ -267,7 +262,7 @@ TEST(Ldi, WrongRowsAreRefused)
   const TemporaryFolder folder;
   EXPECT_THROW(makeLdiWriter("png", folder.path("a"), 1, 1), UsageError);
   EXPECT_THROW(makeLdiWriter("ldi", folder.path("no/such/folder.ldi"), 1, 1), MachineError);
-  const auto writer = makeLdiWriter("ldi", folder.path("a"), width, height);
+  const auto writer = makeLdiWriter("ldi", folder.path("a"), ldiWidth, ldiHeight);
   EXPECT_THROW(writer->write(rowsOf(1, 1)), UsageError);
   EXPECT_THROW(writer->finish(), UsageError);
   LdiRows missing = rowsOf(0, 1);
@@ -279,7 +274,7 @@ TEST(Ldi, DamagedFilesAreRefusedByName)
 {
   const TemporaryFolder folder;
   const std::string path = folder.path("a.ldi");
-  write(path, "ldi", height);
+  write(path, "ldi", ldiHeight);
   const std::string good = contentsOf(path);
   ASSERT_EQ(complaint(path), "");
   const auto says = [&](const std::string& bytes)

@@ -15,24 +15,6 @@ using namespace dgtk;
 using namespace dgtk::test;
 using testing::HasSubstr;
 
-namespace
-{
-template <typename F>
-std::string messageOf(F f)
-{
-  try
-  {
-    f();
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return {};
-}
-} // namespace
-
-// Section 4.3: viewport matrix * K * [R|t] takes world points to pixels with y up.
 TEST(TrackDocuments, PointsAndPlacesAreReadAsWritten)
 {
   const TemporaryFolder folder;
@@ -73,7 +55,8 @@ TEST(TrackDocuments, PointsAndPlacesAreReadAsWritten)
   EXPECT_EQ(image.info.width, 3);
   EXPECT_EQ(image.info.height, 2);
   EXPECT_EQ(image.pixels.row<double>(0)[1], -2.25);
-  EXPECT_THAT(messageOf([&] { readTrackPlaces(file, 3); }), HasSubstr("expected 3 x 3 float64, found 2 x 3 float64"));
+  EXPECT_THAT(
+    thrownBy<InputError>([&] { readTrackPlaces(file, 3); }), HasSubstr("expected 3 x 3 float64, found 2 x 3 float64"));
   EXPECT_TRUE(readTrackPlaces(file, 0).empty());
 }
 
@@ -89,7 +72,7 @@ TEST(TrackDocuments, RefusalsNameThePlace)
     std::string changed = text;
     changed.replace(changed.find(from), from.size(), to);
     writeFile(path, changed);
-    return messageOf([&] { readTrackPoints(path); });
+    return thrownBy<InputError>([&] { readTrackPoints(path); });
   };
   EXPECT_EQ(with("[0, 0, 0]", "[0, 255, 0]"), "");
   EXPECT_THAT(with("[0, 0, 0]", "[0, 256, 0]"), HasSubstr(path + ":3: points[0].color[1] is out of range"));

@@ -3,11 +3,11 @@
 
 #include "dgtkCameraModel.h"
 #include "dgtkError.h"
+#include "dgtkTestSupport.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +16,7 @@ namespace
 using namespace dgtk;
 
 using V = Eigen::Vector3d;
-constexpr double tolerance = 1e-12; // scene units
+constexpr double arrayTolerance = 1e-12; // scene units
 
 CameraArrayOptions optionsOf(CameraArrayKind kind)
 {
@@ -30,15 +30,7 @@ CameraArrayOptions optionsOf(CameraArrayKind kind)
 
 std::string refusalOf(const CameraArrayOptions& options)
 {
-  try
-  {
-    cameraArray(options);
-  }
-  catch (const UsageError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return test::thrownBy<UsageError>([&] { cameraArray(options); });
 }
 
 void expectSound(const std::vector<CameraDescription>& cameras)
@@ -53,9 +45,9 @@ TEST(CameraArray, RingKeepsDistanceAndHeight)
   const auto cameras = cameraArray(optionsOf(CameraArrayKind::Ring));
   ASSERT_EQ(cameras.size(), 8u);
   expectSound(cameras);
-  EXPECT_TRUE(cameras[0].eye.value.isApprox(Eigen::Vector3d(1, 3, 8), tolerance));
-  EXPECT_TRUE(cameras[2].eye.value.isApprox(Eigen::Vector3d(9, 3, 0), tolerance)) << "a quarter turn";
-  EXPECT_TRUE(cameras[4].eye.value.isApprox(Eigen::Vector3d(1, 3, -8), tolerance));
+  EXPECT_TRUE(cameras[0].eye.value.isApprox(Eigen::Vector3d(1, 3, 8), arrayTolerance));
+  EXPECT_TRUE(cameras[2].eye.value.isApprox(Eigen::Vector3d(9, 3, 0), arrayTolerance)) << "a quarter turn";
+  EXPECT_TRUE(cameras[4].eye.value.isApprox(Eigen::Vector3d(1, 3, -8), arrayTolerance));
 }
 
 TEST(CameraArray, HemisphereCoversEqualAreas)
@@ -69,7 +61,7 @@ TEST(CameraArray, HemisphereCoversEqualAreas)
   for (const CameraDescription& camera : cameras)
   {
     const Eigen::Vector3d direction = (camera.eye.value - camera.lookAt.value) / radius;
-    EXPECT_NEAR(direction.norm(), 1, tolerance);
+    EXPECT_NEAR(direction.norm(), 1, arrayTolerance);
     EXPECT_GT(direction.y(), 0);
     mean += direction / 400;
   }
@@ -87,8 +79,8 @@ TEST(CameraArray, StereoPairsAreRectified)
   EXPECT_EQ(cameras[0].name, "c-left");
   const Rigid3 left = lookAtPose(cameras[0].eye.value, cameras[0].lookAt.value, cameras[0].up.value);
   const Rigid3 right = lookAtPose(cameras[1].eye.value, cameras[1].lookAt.value, cameras[1].up.value);
-  EXPECT_TRUE(left.rotation.isApprox(right.rotation, tolerance));
-  EXPECT_TRUE((left * cameras[1].eye.value - Eigen::Vector3d(0.25, 0, 0)).norm() < tolerance);
+  EXPECT_TRUE(left.rotation.isApprox(right.rotation, arrayTolerance));
+  EXPECT_TRUE((left * cameras[1].eye.value - Eigen::Vector3d(0.25, 0, 0)).norm() < arrayTolerance);
 }
 
 TEST(CameraArray, GridsAreRowsFromTheTopLeft)
@@ -101,8 +93,8 @@ TEST(CameraArray, GridsAreRowsFromTheTopLeft)
   ASSERT_EQ(cameras.size(), 6u);
   expectSound(cameras);
   const Rigid3 middle = lookAtPose({ 1, 3, 8 }, { 1, 1, 0 }, { 0, 1, 0 });
-  EXPECT_TRUE((middle * cameras[0].eye.value - Eigen::Vector3d(-2, -1, 0)).norm() < tolerance);
-  EXPECT_TRUE((middle * cameras[5].eye.value - Eigen::Vector3d(2, 1, 0)).norm() < tolerance);
+  EXPECT_TRUE((middle * cameras[0].eye.value - Eigen::Vector3d(-2, -1, 0)).norm() < arrayTolerance);
+  EXPECT_TRUE((middle * cameras[5].eye.value - Eigen::Vector3d(2, 1, 0)).norm() < arrayTolerance);
 }
 
 TEST(CameraArray, EveryRefusalAndEveryLimit)
@@ -184,8 +176,8 @@ TEST(CameraArray, EveryKindByNumbers)
     for (std::size_t i = 0; i < cameras.size(); ++i)
     {
       EXPECT_EQ(cameras[i].name, names[i]);
-      EXPECT_LT((cameras[i].eye.value - eyes[i]).norm(), tolerance) << i;
-      EXPECT_LT((cameras[i].lookAt.value - targets[i]).norm(), tolerance) << i;
+      EXPECT_LT((cameras[i].eye.value - eyes[i]).norm(), arrayTolerance) << i;
+      EXPECT_LT((cameras[i].lookAt.value - targets[i]).norm(), arrayTolerance) << i;
       EXPECT_EQ(cameras[i].up.value, V(0, 2, 0));
       EXPECT_EQ(cameras[i].near, 0.5);
       EXPECT_EQ(cameras[i].far, 70);
@@ -247,8 +239,8 @@ TEST(CameraArray, PathIsWalkedEvenly)
   const Eigen::Vector3d expected[5] = { { 0, 0, 9 }, { 1, 0, 9 }, { 2, 0, 9 }, { 3, 0, 9 }, { 3, 1, 9 } };
   for (std::size_t i = 0; i < 5; ++i)
   {
-    EXPECT_TRUE(cameras[i].eye.value.isApprox(expected[i], tolerance)) << i;
-    EXPECT_NEAR(cameras[i].lookAt.value.x(), expected[i].x(), tolerance) << i;
+    EXPECT_TRUE(cameras[i].eye.value.isApprox(expected[i], arrayTolerance)) << i;
+    EXPECT_NEAR(cameras[i].lookAt.value.x(), expected[i].x(), arrayTolerance) << i;
   }
   options.path.eyes = { { 1, 1, 1 }, { 1, 1, 1 } };
   options.path.targets.resize(2);

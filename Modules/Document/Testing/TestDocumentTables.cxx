@@ -16,6 +16,8 @@
 namespace
 {
 using namespace dgtk;
+using Strings = std::vector<std::string>;
+using V = Eigen::Vector3d;
 
 constexpr double tableTolerance = 1e-12;
 
@@ -30,7 +32,7 @@ std::string text(double value)
   out << value;
   return out.str();
 }
-std::string text(const Eigen::Vector3d& v) { return text(v.x()) + "," + text(v.y()) + "," + text(v.z()); }
+std::string text(const V& v) { return text(v.x()) + "," + text(v.y()) + "," + text(v.z()); }
 std::string text(const Quaternion& q) { return text(q.w) + "," + text(q.x) + "," + text(q.y) + "," + text(q.z); }
 
 const char* letterOf(Interpolation way)
@@ -51,9 +53,9 @@ std::string text(const Track<T>& track)
 }
 
 /// Every track of the scene in the order of its items that is not as in a new item, and key frames of no track.
-std::vector<std::string> tracksOf(const SceneDescription& scene)
+Strings tracksOf(const SceneDescription& scene)
 {
-  std::vector<std::string> all;
+  Strings all;
   for (const SceneItem& item : scene.items())
   {
     int number = 0;
@@ -82,20 +84,18 @@ std::vector<std::string> tracksOf(const SceneDescription& scene)
 SceneDescription keyed()
 {
   SceneDescription scene;
-  scene.objects.resize(2);
-  scene.objects[0].name = "a";
-  scene.objects[1].name = "b";
-  scene.objects[0].model = scene.objects[1].model = test::sourceFile("Data/Models/crate.ac");
-  scene.lights.resize(1);
-  scene.lights[0].name = "l";
+  for (const char* name : { "a", "b" })
+  {
+    scene.objects.emplace_back().name = name;
+    scene.objects.back().model = test::sourceFile("Data/Models/crate.ac");
+  }
+  scene.lights.emplace_back().name = "l";
   scene.lights[0].kind = LightKind::Spot;
-  scene.cameras.resize(1);
-  scene.cameras[0].name = "c";
-  scene.objects[0].position.keys = { { 0, Eigen::Vector3d(0, 0, 0) },
-    { 10, Eigen::Vector3d(1, 2, 3), Interpolation::Step }, { 20, Eigen::Vector3d(5, 6, 7) } };
+  scene.cameras.emplace_back().name = "c";
+  scene.objects[0].position.keys = { { 0, V(0, 0, 0) }, { 10, V(1, 2, 3), Interpolation::Step }, { 20, V(5, 6, 7) } };
   scene.objects[0].position.interpolation = Interpolation::Smooth;
-  scene.objects[0].scale.keys = { { 10, Eigen::Vector3d(2, 2, 2) } };
-  scene.lights[0].target.keys = { { 10, Eigen::Vector3d(0, 8, 0) } };
+  scene.objects[0].scale.keys = { { 10, V(2, 2, 2) } };
+  scene.lights[0].target.keys = { { 10, V(0, 8, 0) } };
   scene.cameras[0].fovY.keys = { { 0, 40 }, { 20, 60 } };
   scene.extraKeyFrames = { 5, 15 };
   return scene;
@@ -103,7 +103,6 @@ SceneDescription keyed()
 
 TEST(KeyFrameTables, EveryEditOfKeys)
 {
-  using Strings = std::vector<std::string>;
   struct Row
   {
     const char* name;
@@ -194,7 +193,7 @@ TEST(KeyFrameTables, EveryEditOfKeys)
 TEST(KeyFrameTables, TracksOfEveryKindGoAlong)
 {
   SceneDescription scene = keyed();
-  scene.background.keys = { { 10, Eigen::Vector3d(1, 0, 0) } };
+  scene.background.keys = { { 10, V(1, 0, 0) } };
   scene.fog.density.keys = { { 0, 1 }, { 10, 2 } };
   scene.objects[1].visible.keys = { { 0, true }, { 10, false } };
   scene.objects[1].materials.resize(1);
@@ -204,10 +203,9 @@ TEST(KeyFrameTables, TracksOfEveryKindGoAlong)
   scene.lights[0].enabled.keys = { { 10, false } };
   const auto texts = [&scene]
   {
-    return std::vector<std::string>{ text(scene.background), text(scene.fog.density), text(scene.objects[1].visible),
+    return Strings{ text(scene.background), text(scene.fog.density), text(scene.objects[1].visible),
       text(*scene.objects[1].materials[0].opacity), text(scene.lights[0].enabled) };
   };
-  using Strings = std::vector<std::string>;
   EXPECT_EQ(keyFramesOf(scene, anotherObject), (std::vector<int>{ 0, 10 }));
   EXPECT_EQ(keyInterpolationOf(scene, aLight, 10)->kind, Interpolation::Linear) << "of the target, the first";
   EXPECT_EQ(keyInterpolationOf(scene, anotherObject, 10)->kind, Interpolation::Step);
@@ -231,13 +229,13 @@ TEST(KeyFrameTables, WhatTheLastKeySaidStays)
 {
   SceneDescription scene = keyed();
   removeKeyFrame(scene, 10);
-  EXPECT_EQ(scene.objects[0].scale.value, Eigen::Vector3d(2, 2, 2));
-  EXPECT_EQ(scene.lights[0].target.value, Eigen::Vector3d(0, 8, 0));
-  EXPECT_EQ(scene.objects[0].position.value, Eigen::Vector3d(0, 0, 0)) << "it has further keys";
+  EXPECT_EQ(scene.objects[0].scale.value, V(2, 2, 2));
+  EXPECT_EQ(scene.lights[0].target.value, V(0, 8, 0));
+  EXPECT_EQ(scene.objects[0].position.value, V(0, 0, 0)) << "it has further keys";
   removeKeyFrame(scene, 0);
   EXPECT_EQ(scene.cameras[0].fovY.value, 60) << "the usual one";
   removeKeyFrame(scene, 20);
-  EXPECT_EQ(scene.objects[0].position.value, Eigen::Vector3d(5, 6, 7));
+  EXPECT_EQ(scene.objects[0].position.value, V(5, 6, 7));
 }
 
 TEST(KeyFrameTables, Questions)
@@ -248,15 +246,14 @@ TEST(KeyFrameTables, Questions)
   EXPECT_EQ(keyFramesOf(scene, aCamera), (std::vector<int>{ 0, 20 }));
   EXPECT_EQ(interpolationOf(scene, anObject), Interpolation::Smooth) << "that of the first track";
   EXPECT_EQ(interpolationOf(scene, anotherObject), Interpolation::Linear);
-  const auto at10 = keyInterpolationOf(scene, anObject, 10);
-  ASSERT_TRUE(at10.has_value());
-  EXPECT_EQ(at10->kind, Interpolation::Step);
-  EXPECT_TRUE(at10->own);
-  const auto at0 = keyInterpolationOf(scene, anObject, 0);
-  ASSERT_TRUE(at0.has_value());
-  EXPECT_EQ(at0->kind, Interpolation::Smooth);
-  EXPECT_FALSE(at0->own);
-  EXPECT_FALSE(keyInterpolationOf(scene, anotherObject, 0).has_value());
+  const auto keyAt = [&scene](const SceneItem& item, int frame)
+  {
+    const auto found = keyInterpolationOf(scene, item, frame);
+    return found ? letterOf(found->kind) + std::string(found->own ? " own" : "") : "none";
+  };
+  EXPECT_EQ(keyAt(anObject, 10), "s own");
+  EXPECT_EQ(keyAt(anObject, 0), "c");
+  EXPECT_EQ(keyAt(anotherObject, 0), "none");
 }
 
 /// Objects, lights and cameras in an order of their own, with all that names or places of others depend on.
@@ -264,11 +261,9 @@ SceneDescription listed()
 {
   SceneDescription scene = keyed();
   scene.folder = "/scenes/one";
-  scene.objects.resize(3);
-  scene.objects[2].name = "d-4";
+  scene.objects.emplace_back().name = "d-4";
   scene.objects[2].parent = "a";
-  scene.lights.resize(2);
-  scene.lights[1].name = "Light1";
+  scene.lights.emplace_back().name = "Light1";
   for (ObjectDescription& object : scene.objects)
   {
     object.model = "models/m.ac";
@@ -336,24 +331,22 @@ TEST(SceneEditTables, PathsMoveBetweenFolders)
     appendItems(scene, part);
     const ObjectDescription& object = scene.objects[0];
     const MaterialOverride& material = object.materials[0];
-    return std::vector<std::string>{ object.model, *material.texture, *material.normalMap, *material.bump,
+    return Strings{ object.model, *material.texture, *material.normalMap, *material.bump,
       *material.metallicRoughnessMap, *material.emissionMap, *material.occlusionMap };
   };
-  EXPECT_EQ(pathsIn("/scenes/one"),
-    (std::vector<std::string>{ "models/m.ac", "t.png", "/n.png", "", "../m.png", "e.png", "o.png" }));
-  EXPECT_EQ(pathsIn("/scenes/two"), (std::vector<std::string>{ "../one/models/m.ac", "../one/t.png", "/n.png", "",
-                                      "../one/../m.png", "../one/e.png", "../one/o.png" }));
+  EXPECT_EQ(pathsIn("/scenes/one"), (Strings{ "models/m.ac", "t.png", "/n.png", "", "../m.png", "e.png", "o.png" }));
+  EXPECT_EQ(pathsIn("/scenes/two"),
+    (Strings{ "../one/models/m.ac", "../one/t.png", "/n.png", "", "../one/../m.png", "../one/e.png", "../one/o.png" }));
 }
 
 TEST(SceneEditTables, NamesAndPlacesOfEveryKind)
 {
   SceneDescription scene = listed();
-  scene.cameras.resize(2);
-  scene.cameras[1].name = "posed";
+  scene.cameras.emplace_back().name = "posed";
   scene.cameras[1].posed = true;
   scene.order.clear();
   const std::vector<SceneItem> items = scene.items();
-  const std::vector<std::string> names{ "a", "b", "d-4", "l", "Light1", "c", "posed" };
+  const Strings names{ "a", "b", "d-4", "l", "Light1", "c", "posed" };
   ASSERT_EQ(items.size(), names.size());
   for (std::size_t i = 0; i < items.size(); ++i)
   {
@@ -369,16 +362,15 @@ TEST(SceneEditTables, NamesAndPlacesOfEveryKind)
     setItemPosition(moved, items[i], 12, { 1, 20, 300 });
     for (std::size_t k = 0; k < items.size(); ++k)
     {
-      EXPECT_EQ(
-        itemPosition(moved, items[k], 12), k == i ? Eigen::Vector3d(1, 20, 300) : itemPosition(scene, items[k], 12));
+      EXPECT_EQ(itemPosition(moved, items[k], 12), k == i ? V(1, 20, 300) : itemPosition(scene, items[k], 12));
     }
     EXPECT_EQ(moved.objects[0].position.keys.size(), i == 0 ? 4u : 3u);
-    EXPECT_EQ(moved.lights[0].target.at(12), i == 3 ? Eigen::Vector3d(1, 28, 300) : Eigen::Vector3d(0, 8, 0));
+    EXPECT_EQ(moved.lights[0].target.at(12), i == 3 ? V(1, 28, 300) : V(0, 8, 0));
     EXPECT_EQ(moved.lights[0].target.keys.size(), i == 3 ? 2u : 1u);
-    EXPECT_EQ(moved.lights[1].target.value, Eigen::Vector3d(0, 0, 0)) << "a point light aims at nothing";
-    EXPECT_EQ(moved.cameras[0].lookAt.value, i == 5 ? Eigen::Vector3d(1, 20, 290) : Eigen::Vector3d(0, 0, 0));
-    EXPECT_EQ(moved.cameras[1].lookAt.value, Eigen::Vector3d(0, 0, 0));
-    EXPECT_EQ(moved.cameras[1].eye.value, Eigen::Vector3d(0, 0, 10));
+    EXPECT_EQ(moved.lights[1].target.value, V(0, 0, 0)) << "a point light aims at nothing";
+    EXPECT_EQ(moved.cameras[0].lookAt.value, i == 5 ? V(1, 20, 290) : V(0, 0, 0));
+    EXPECT_EQ(moved.cameras[1].lookAt.value, V(0, 0, 0));
+    EXPECT_EQ(moved.cameras[1].eye.value, V(0, 0, 10));
   }
 }
 
@@ -388,7 +380,7 @@ TEST(MotionTables, TurnsAndProducts)
   const Quaternion b{ 5, 6, 7, 8 };
   EXPECT_TRUE(product(a, b) == (Quaternion{ -60, 12, 30, 24 }));
   EXPECT_TRUE(product(b, a) == (Quaternion{ -60, 20, 14, 32 }));
-  const Quaternion third = turn(Eigen::Vector3d(0, 1, 0), 60);
+  const Quaternion third = turn(V(0, 1, 0), 60);
   EXPECT_NEAR(third.w, std::sqrt(0.75), tableTolerance);
   EXPECT_NEAR(third.y, 0.5, tableTolerance);
   EXPECT_EQ(third.x, 0);
@@ -400,20 +392,18 @@ SceneDescription crowd()
 {
   SceneDescription scene = keyed();
   scene.objects[0].position.keys.clear();
-  scene.objects[0].scale = Eigen::Vector3d(2, 2, 2);
-  scene.objects[0].position.value = Eigen::Vector3d(4, 0, 0);
+  scene.objects[0].scale = V(2, 2, 2);
+  scene.objects[0].position.value = V(4, 0, 0);
   scene.objects[0].scale.keys.clear();
   scene.lights[0].target.keys.clear();
-  scene.lights[0].position.value = Eigen::Vector3d(0, 2, 0);
-  scene.lights[0].target.value = Eigen::Vector3d(3, 2, 0);
-  scene.lights.resize(2);
-  scene.lights[1].name = "point";
-  scene.lights[1].position.value = Eigen::Vector3d(0, 0, 6);
+  scene.lights[0].position.value = V(0, 2, 0);
+  scene.lights[0].target.value = V(3, 2, 0);
+  scene.lights.emplace_back().name = "point";
+  scene.lights[1].position.value = V(0, 0, 6);
   scene.cameras[0].fovY.keys.clear();
-  scene.cameras.resize(2);
-  scene.cameras[1].name = "posed";
+  scene.cameras.emplace_back().name = "posed";
   scene.cameras[1].posed = true;
-  scene.cameras[1].position.value = Eigen::Vector3d(2, 0, 2);
+  scene.cameras[1].position.value = V(2, 0, 2);
   return scene;
 }
 
@@ -425,10 +415,10 @@ TEST(MotionTables, EveryModeOfEveryKind)
     { SceneItem::Kind::Camera, 1 } };
   const bool rotates[] = { true, true, false, true, true };
   WorldMotion motion;
-  motion.translation = Eigen::Vector3d(1, 2, 3);
-  motion.axis = Eigen::Vector3d(0, 1, 0);
+  motion.translation = V(1, 2, 3);
+  motion.axis = V(0, 1, 0);
   motion.degrees = 90; // (x, y, z) -> (z, y, -x)
-  motion.factors = Eigen::Vector3d(2, 3, 4);
+  motion.factors = V(2, 3, 4);
   for (std::size_t i = 0; i < 5; ++i)
   {
     const ItemMotion items(before, places, { kinds[i] }, 0);
@@ -444,15 +434,15 @@ TEST(MotionTables, EveryModeOfEveryKind)
   EXPECT_FALSE(all.can(HandleMode::None));
   EXPECT_FALSE(ItemMotion(before, places, {}, 0).can(HandleMode::Move));
   // (4, 0, 0), (0, 2, 0), (0, 0, 6), (0, 0, 10), (2, 0, 2)
-  EXPECT_EQ(all.pivot(), Eigen::Vector3d(2, 1, 5)) << "of the common box";
-  EXPECT_LT((all.pivot(HandlePivot::Origin) - Eigen::Vector3d(6, 2, 18) / 5).norm(), tableTolerance) << "the mean";
-  const auto expectScene = [&](HandleMode mode, const std::vector<Eigen::Vector3d>& expected)
+  EXPECT_EQ(all.pivot(), V(2, 1, 5)) << "of the common box";
+  EXPECT_LT((all.pivot(HandlePivot::Origin) - V(6, 2, 18) / 5).norm(), tableTolerance) << "the mean";
+  const auto expectScene = [&](HandleMode mode, const std::vector<V>& expected)
   {
     SceneDescription scene = before;
     motion.mode = mode;
-    motion.pivot = Eigen::Vector3d(0, 0, 0);
+    motion.pivot = V(0, 0, 0);
     all.apply(scene, motion);
-    const std::vector<Eigen::Vector3d> found{ scene.objects[0].position.value, scene.objects[0].scale.value,
+    const std::vector<V> found{ scene.objects[0].position.value, scene.objects[0].scale.value,
       scene.lights[0].position.value, scene.lights[0].target.value, scene.lights[1].position.value,
       scene.lights[1].target.value, scene.cameras[0].eye.value, scene.cameras[0].lookAt.value,
       scene.cameras[0].up.value, scene.cameras[1].position.value, scene.cameras[1].eye.value,
@@ -465,7 +455,6 @@ TEST(MotionTables, EveryModeOfEveryKind)
     EXPECT_EQ(scene.objects[1].position.value, before.objects[1].position.value);
     return scene;
   };
-  using V = Eigen::Vector3d;
   SceneDescription scene =
     expectScene(HandleMode::Move, { V(5, 2, 3), V(2, 2, 2), V(1, 4, 3), V(4, 4, 3), V(1, 2, 9), V(0, 0, 0), V(1, 2, 13),
                                     V(1, 2, 3), V(0, 1, 0), V(3, 2, 5), V(0, 0, 10), V(0, 0, 0) });
@@ -494,18 +483,18 @@ TEST(MotionTables, EveryModeOfEveryKind)
 TEST(MotionTables, SeveralGrowAsFarAsTheirAxesStretch)
 {
   SceneDescription scene = crowd();
-  scene.objects[0].orientation.value = turn(Eigen::Vector3d(0, 0, 1), 90); // its x axis is the world's y
+  scene.objects[0].orientation.value = turn(V(0, 0, 1), 90); // its x axis is the world's y
   scene.objects[1].parent = "";
-  scene.objects[1].position.value = Eigen::Vector3d(0, 0, 2);
-  scene.objects[1].orientation.value = turn(Eigen::Vector3d(0, 0, 1), 45);
+  scene.objects[1].position.value = V(0, 0, 2);
+  scene.objects[1].orientation.value = turn(V(0, 0, 1), 45);
   const ItemMotion items(scene, placeScene(scene, ModelLibrary(), 0), { anObject, anotherObject }, 0);
   WorldMotion motion;
   motion.mode = HandleMode::Scale;
-  motion.factors = Eigen::Vector3d(3, 4, 5);
+  motion.factors = V(3, 4, 5);
   items.apply(scene, motion);
-  EXPECT_LT((scene.objects[0].scale.value - Eigen::Vector3d(8, 6, 10)).norm(), tableTolerance);
+  EXPECT_LT((scene.objects[0].scale.value - V(8, 6, 10)).norm(), tableTolerance);
   const double slanted = std::sqrt((9 + 16) / 2.0);
-  EXPECT_LT((scene.objects[1].scale.value - Eigen::Vector3d(slanted, slanted, 5)).norm(), tableTolerance);
-  EXPECT_LT((scene.objects[1].position.value - Eigen::Vector3d(0, 0, 10)).norm(), tableTolerance);
+  EXPECT_LT((scene.objects[1].scale.value - V(slanted, slanted, 5)).norm(), tableTolerance);
+  EXPECT_LT((scene.objects[1].position.value - V(0, 0, 10)).norm(), tableTolerance);
 }
 } // namespace

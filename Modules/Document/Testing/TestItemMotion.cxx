@@ -7,8 +7,6 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 namespace
 {
 using namespace dgtk;

@@ -212,15 +212,9 @@ TEST(SceneDocument, ThesisScenesSayWhatTheyCannotHold)
   document.addLight({});
   const std::string path = folder.path("old.scene");
   std::ofstream(path) << "what was there";
-  try
-  {
-    document.saveAs(path);
-    FAIL() << "a scene with classes became a .scene";
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_THAT(error.what(), testing::HasSubstr("cannot be said in .scene"));
-  }
+  EXPECT_THAT(
+    test::thrownBy<InputError>([&] { document.saveAs(path); }), testing::HasSubstr("cannot be said in .scene"))
+    << "a scene with classes became a .scene";
   EXPECT_EQ(contentsOf(path), "what was there");
   EXPECT_TRUE(document.modified());
   EXPECT_EQ(document.path(), sourceFile("Data/Scenes/demo.json"));

@@ -15,7 +15,7 @@ namespace
 using namespace dgtk;
 using test::sourceFile;
 
-constexpr double placeTolerance = 1e-12; // relative: the same products in the same order, up to their contraction
+constexpr double scenePlaceTolerance = 1e-12; // relative: the same products in the same order, up to their contraction
 
 TEST(ScenePlaces, AreThoseOfTheStage)
 {
@@ -39,9 +39,9 @@ TEST(ScenePlaces, AreThoseOfTheStage)
         const Instance& expected = state->instances.at(next++);
         EXPECT_EQ(place.instance.name, expected.name);
         EXPECT_TRUE(
-          place.instance.world_from_object.linear.isApprox(expected.world_from_object.linear, placeTolerance));
+          place.instance.world_from_object.linear.isApprox(expected.world_from_object.linear, scenePlaceTolerance));
         EXPECT_TRUE((place.instance.world_from_object.translation - expected.world_from_object.translation).norm() <
-                    placeTolerance);
+                    scenePlaceTolerance);
         EXPECT_EQ(place.instance.geometry->positions, expected.geometry->positions) << place.instance.name;
         EXPECT_EQ(place.instance.materials->size(), expected.materials->size());
         for (std::size_t m = 0; m < expected.materials->size(); ++m)

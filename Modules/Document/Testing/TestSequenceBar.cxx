@@ -95,15 +95,9 @@ TEST(SequenceBar, UnknownSequencesAreRefusedAndNothingIsReadAgain)
   SceneDocument document;
   document.addModel(sourceFile("Data/Models/creature.md2"));
   const std::string before = document.json();
-  try
-  {
-    change(document, [](ObjectDescription& object) { object.animation.sequence = "fly"; });
-    ADD_FAILURE();
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("one of stand, walk, jump"), std::string::npos) << error.what();
-  }
+  const std::string refusal = test::thrownBy<InputError>(
+    [&] { change(document, [](ObjectDescription& object) { object.animation.sequence = "fly"; }); });
+  EXPECT_NE(refusal.find("one of stand, walk, jump"), std::string::npos) << refusal;
   EXPECT_EQ(document.json(), before);
   change(document, [](ObjectDescription& object) { object.animation.sequence = "jump"; });
   EXPECT_EQ(document.models().size(), 1u);

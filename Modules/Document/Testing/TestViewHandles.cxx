@@ -2,7 +2,6 @@
 #include "dgtkPortableMath.h"
 #include "dgtkViewHandles.h"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkItemMotion.h"
-#include "dgtkMeshClusters.h"
 #include "dgtkViewHandles.h"
-#include "dgtkViewLines.h"
 
 #include "dgtkCameraModel.h"
 #include "dgtkPortableMath.h"
@@ -13,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace
 {

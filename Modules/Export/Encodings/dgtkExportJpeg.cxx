@@ -5,7 +5,6 @@
 #include "dgtkError.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <vector>

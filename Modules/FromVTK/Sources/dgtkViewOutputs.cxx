@@ -3,7 +3,6 @@
 
 #include "dgtkError.h"
 #include "dgtkOption.h"
-#include "dgtkText.h"
 
 #include "vtkCamera.h"
 #include "vtkLight.h"

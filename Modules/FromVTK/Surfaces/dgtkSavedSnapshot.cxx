@@ -11,7 +11,6 @@
 
 #include <cstring>
 #include <filesystem>
-#include <map>
 #include <optional>
 
 namespace dgtk

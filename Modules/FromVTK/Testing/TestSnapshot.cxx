@@ -19,7 +19,6 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkRenderer.h>
 
-#include <set>
 #include <vector>
 
 namespace

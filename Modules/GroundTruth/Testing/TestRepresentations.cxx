@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkComputeLayer.h"
 #include "dgtkError.h"
+#include "dgtkTestSupport.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -95,17 +95,9 @@ TEST(Registry, NamesAreUniqueAndComplete)
 
 TEST(Registry, RefusesUnknownLayers)
 {
-  try
-  {
-    dgtk::makeRepresentation("depht");
-    FAIL();
-  }
-  catch (const dgtk::UsageError& error)
-  {
-    EXPECT_STREQ(error.what(),
-      "no such layer (expected one of depth, distance, inversedepth, objects, classes, parts, triangles, normal, "
-      "shadingnormal, position, objectcoords, uv, barycentrics, found 'depht')");
-  }
+  EXPECT_EQ(thrownBy<dgtk::UsageError>([&] { dgtk::makeRepresentation("depht"); }),
+    "no such layer (expected one of depth, distance, inversedepth, objects, classes, parts, triangles, normal, "
+    "shadingnormal, position, objectcoords, uv, barycentrics, found 'depht')");
 }
 
 TEST(EveryRepresentation, StripsOfAnyHeightGiveTheSameBytes)

@@ -8,8 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <string>
 

@@ -226,11 +226,7 @@ Answer askUntilAnswered(const std::string& path, const std::string& absolute, co
 
 [[noreturn]] void reportDeath(const std::string& path, int status)
 {
-  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  if (helper::isInterruption(signal))
-  {
-    throw MachineError(path + ": reading was interrupted");
-  }
+  const int signal = helper::signalOf(status, path);
   if (signal == SIGXCPU || signal == SIGKILL)
   {
     throw InputError(path, 0, "is damaged, or too large: reading it took more processor time or memory than allowed");

@@ -85,11 +85,7 @@ void runBlender(const std::string& path, const std::string& blender, ScratchFold
       "--python-exit-code", "9", "--python-expr", script, "--", file, own.path("model.glb"), own.path("files") },
     -1);
   const int status = process.wait();
-  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  if (helper::isInterruption(signal))
-  {
-    throw MachineError(path + ": reading was interrupted");
-  }
+  const int signal = helper::signalOf(status, path);
   if (signal != 0 || WEXITSTATUS(status) != 0 || !fs::is_regular_file(own.path("model.glb"), code) ||
       !fs::is_regular_file(own.path("files"), code))
   {

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <vector>
 
 #include <dlfcn.h>
 #include <sys/stat.h>

@@ -3,7 +3,6 @@
 
 #include "dgtkError.h"
 #include "dgtkFile.h"
-#include "dgtkText.h"
 
 #include <algorithm>
 #include <chrono>
@@ -21,7 +20,7 @@ namespace
 {
 namespace fs = std::filesystem;
 const char* const sizeVariable = "DGTK_CACHE";
-constexpr std::uint64_t mebibyte = std::uint64_t(1) << 20;
+constexpr std::uint64_t cacheMebibyte = std::uint64_t(1) << 20;
 constexpr std::uint64_t usualMebibytes = 2048;
 constexpr std::uint64_t notCounted = ~std::uint64_t(0);
 
@@ -97,7 +96,7 @@ ModelCache::ModelCache(const std::string& folder, std::uint64_t bytes)
 
 std::shared_ptr<ModelCache> ModelCache::ofUser()
 {
-  const std::uint64_t limit = mebibytesOfEnvironment() * mebibyte;
+  const std::uint64_t limit = mebibytesOfEnvironment() * cacheMebibyte;
   const std::string folder = folderOfUser();
   return limit == 0 || folder.empty() ? nullptr : std::make_shared<ModelCache>(folder, limit);
 }

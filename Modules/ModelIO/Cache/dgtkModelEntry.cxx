@@ -6,7 +6,6 @@
 #include "dgtkStream.h"
 
 #include <algorithm>
-#include <new>
 
 #include <fcntl.h>
 #include <sys/stat.h>

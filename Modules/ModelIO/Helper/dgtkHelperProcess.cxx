@@ -160,6 +160,16 @@ int Process::wait()
 
 bool isInterruption(int signal) { return signal == SIGINT || signal == SIGTERM || signal == SIGHUP; }
 
+int signalOf(int status, const std::string& path)
+{
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (isInterruption(signal))
+  {
+    throw MachineError(path + ": reading was interrupted");
+  }
+  return signal;
+}
+
 std::string signalText(int signal) { return "signal " + std::to_string(signal) + ", " + ::strsignal(signal); }
 
 } // namespace dgtk::helper

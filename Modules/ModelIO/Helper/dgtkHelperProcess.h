@@ -46,6 +46,9 @@ private:
 /// Whether an end by this signal was meant for the program as a whole: interrupted from the terminal, or told to end.
 bool isInterruption(int signal);
 
+/// The signal that a status of waitpid tells of, 0 for none. Throws MachineError for an interruption: `path` was not
+/// read to its end.
+int signalOf(int status, const std::string& path);
 /// "signal 6, Aborted"
 std::string signalText(int signal);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkHelperWall.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <cstdio>

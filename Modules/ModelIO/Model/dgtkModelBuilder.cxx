@@ -4,7 +4,6 @@
 #include "dgtkError.h"
 #include "dgtkModelObject.h"
 #include "dgtkPictureProcess.h"
-#include "dgtkText.h"
 #include "dgtkTextLines.h"
 
 #include <algorithm>

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <new>
-#include <stdexcept>
 
 namespace dgtk
 {

@@ -2,8 +2,6 @@
 #include "dgtkModelObject.h"
 #include "dgtkPortableMath.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -5,7 +5,6 @@
 #include "dgtkFile.h"
 #include "dgtkModelFolder.h"
 #include "dgtkObjStatements.h"
-#include "dgtkText.h"
 #include "dgtkTextLines.h"
 
 #include <filesystem>

@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
 
 using dgtk::Model;
 using dgtk::test::ac3dSeed;
+using dgtk::test::expectNear;
 using dgtk::test::readBytes;
 using dgtk::test::refusal;
 using testing::ElementsAre;
@@ -59,11 +59,6 @@ double summedArea(const Model& model)
     sum += areaVector(model, t).norm();
   }
   return sum;
-}
-
-void expectNear(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-{
-  EXPECT_LT((a - b).norm(), 1e-12) << a << "\n" << b;
 }
 } // namespace
 

@@ -12,7 +12,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -138,17 +137,9 @@ TEST(Assimp, AnImporterThatDiesIsAnInputError)
   const auto expectMessage = [](const std::string& script, const std::string& message)
   {
     const OtherImporter other(script);
-    try
-    {
-      readBytes("off", quadOff);
-      FAIL() << script;
-    }
-    catch (const dgtk::InputError& error)
-    {
-      EXPECT_THAT(error.what(), HasSubstr(message)) << script;
-      EXPECT_EQ(error.code(), dgtk::ExitCode::Input);
-    }
+    EXPECT_THAT(thrownBy<dgtk::InputError>([&] { readBytes("off", quadOff); }), HasSubstr(message)) << script;
   };
+  EXPECT_EQ(dgtk::InputError("", 0, "").code(), dgtk::ExitCode::Input);
   expectMessage("kill -ABRT $$", "model.off: is damaged: its importer ended abnormally (signal 6, Aborted)");
   expectMessage("kill -SEGV $$", "(signal 11");
   expectMessage("kill -XCPU $$", "took more processor time or memory than allowed");
@@ -247,15 +238,7 @@ TEST(Assimp, FilesOutsideOfTheModelsFolderAreRefused)
   const auto refusalOf = [&folder](const std::string& name, const std::string& text) -> std::string
   {
     dgtk::writeFile(folder.path("model/" + name), text);
-    try
-    {
-      dgtk::readModel(folder.path("model/" + name));
-    }
-    catch (const dgtk::InputError& error)
-    {
-      return error.what();
-    }
-    return {};
+    return thrownBy<dgtk::InputError>([&] { dgtk::readModel(folder.path("model/" + name)); });
   };
   const auto gltf = [](const std::string& uri)
   {
@@ -312,15 +295,7 @@ TEST(Assimp, BuffersBesideTheModel)
     }
     std::filesystem::remove(folder.path(file));
   }
-  try
-  {
-    read("b.bin");
-    ADD_FAILURE();
-  }
-  catch (const dgtk::InputError& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("b.bin"));
-  }
+  EXPECT_THAT(thrownBy<dgtk::InputError>([&] { read("b.bin"); }), HasSubstr("b.bin"));
 }
 
 TEST(Assimp, ANumberOfTooManyDigitsIsRefusedAtOnce)

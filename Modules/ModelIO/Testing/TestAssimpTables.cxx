@@ -4,7 +4,6 @@
 #include "dgtkModelChecks.h"
 #include "dgtkTestSupport.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

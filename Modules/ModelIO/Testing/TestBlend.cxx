@@ -45,15 +45,8 @@ public:
   }
   std::string refusal() const
   {
-    try
-    {
-      dgtk::readModel(this->path("scene/a.blend"));
-    }
-    catch (const dgtk::InputError& error)
-    {
-      return std::string(error.what()).substr(this->path("scene/").size());
-    }
-    return {};
+    const std::string text = thrownBy<dgtk::InputError>([&] { dgtk::readModel(this->path("scene/a.blend")); });
+    return text.empty() ? text : text.substr(this->path("scene/").size());
   }
 
 private:

@@ -72,7 +72,7 @@ std::vector<Eigen::Vector3d> at(const dgtk::Model& model, double frame)
   return positions;
 }
 
-void expectNear(const Eigen::Vector3d& expected, const Eigen::Vector3d& found)
+void expectFloats(const Eigen::Vector3d& expected, const Eigen::Vector3d& found)
 {
   EXPECT_LT((expected - found).norm(), floatTolerance) << expected.transpose() << " against " << found.transpose();
 }
@@ -122,9 +122,9 @@ TEST(Gltf, NodesMorphTargetsAndSkinsMoveExactly)
       ASSERT_EQ(p.size(), 6u);
       const Eigen::Vector3d move(time < 1 ? 2 * time : 2, time < 1 ? 0 : 4 * (time - 1), 0);
       const double shape = time < 1 ? time : 1 - 0.5 * (time - 1);
-      expectNear(move + Eigen::Vector3d(0, 0, shape), p[0]);
-      expectNear(move + Eigen::Vector3d(1, 0, 2 * shape), p[1]);
-      expectNear(move + Eigen::Vector3d(0, 1, 3 * shape), p[2]);
+      expectFloats(move + Eigen::Vector3d(0, 0, shape), p[0]);
+      expectFloats(move + Eigen::Vector3d(1, 0, 2 * shape), p[1]);
+      expectFloats(move + Eigen::Vector3d(0, 1, 3 * shape), p[2]);
       // the tip turns about (0, 1, 0), a quarter turn a second
       const double angle = time * 1.57079632679489661923;
       const auto bent = [angle](double x, double y)
@@ -132,9 +132,9 @@ TEST(Gltf, NodesMorphTargetsAndSkinsMoveExactly)
         return Eigen::Vector3d(
           x * std::cos(angle) - (y - 1) * std::sin(angle), 1 + x * std::sin(angle) + (y - 1) * std::cos(angle), 0);
       };
-      expectNear({ 0, 0, 0 }, p[3]);
-      expectNear(0.5 * Eigen::Vector3d(1, 0, 0) + 0.5 * bent(1, 0), p[4]);
-      expectNear(bent(0, 2), p[5]);
+      expectFloats({ 0, 0, 0 }, p[3]);
+      expectFloats(0.5 * Eigen::Vector3d(1, 0, 0) + 0.5 * bent(1, 0), p[4]);
+      expectFloats(bent(0, 2), p[5]);
     }
   }
 }
@@ -144,7 +144,7 @@ TEST(Gltf, HalfAQuarterTurnIsAnEighth)
   const auto model = readBytes("gltf", animated().gltf());
   // slerp, not a normalised blend: a third of the way is 30 degrees
   const std::vector<Eigen::Vector3d> p = at(*model, 10);
-  expectNear({ -0.5, 1 + std::sqrt(3) / 2, 0 }, p[5]);
+  expectFloats({ -0.5, 1 + std::sqrt(3) / 2, 0 }, p[5]);
 }
 
 TEST(Gltf, AMeshMovesWithTheNodesAboveIt)
@@ -157,7 +157,7 @@ TEST(Gltf, AMeshMovesWithTheNodesAboveIt)
     { "samplers", { sampler(times, moves) } } } };
   const auto model = readBytes("gltf", maker.gltf());
   ASSERT_TRUE(model->deformation);
-  expectNear({ 1, 0, 3 }, at(*model, 15)[0]);
+  expectFloats({ 1, 0, 3 }, at(*model, 15)[0]);
 }
 
 TEST(Gltf, WhatAnAnimationDoesNotGiveStaysAsAtRest)
@@ -176,17 +176,17 @@ TEST(Gltf, WhatAnAnimationDoesNotGiveStaysAsAtRest)
   std::vector<Eigen::Vector3d> positions;
   deformation.positionsAt(0, 0, positions);
   ASSERT_EQ(positions.size(), 2u);
-  expectNear({ 0, 2, 7 }, positions[0]);
-  expectNear({ -3, 0, 7 }, positions[1]);
+  expectFloats({ 0, 2, 7 }, positions[0]);
+  expectFloats({ -3, 0, 7 }, positions[1]);
 
   // The animation is over after a second, whatever its keys.
   scene->animations[0].channels[0].translation = { { 0, 2 }, { { 0, 0, 0 }, { 8, 0, 0 } }, {}, {}, {} };
   positions.clear();
   deformation.positionsAt(0, 1000, positions);
-  expectNear({ 4, 2, 0 }, positions[0]);
+  expectFloats({ 4, 2, 0 }, positions[0]);
   positions.clear();
   deformation.positionsAt(0, std::nan(""), positions);
-  expectNear({ 0, 2, 0 }, positions[0]);
+  expectFloats({ 0, 2, 0 }, positions[0]);
 }
 
 TEST(Gltf, EachKeyHasAWeightForEachTarget)
@@ -211,7 +211,7 @@ TEST(Gltf, EachKeyHasAWeightForEachTarget)
   {
     std::vector<Eigen::Vector3d> positions;
     deformation.positionsAt(0, frame, positions);
-    expectNear(place, positions.at(0));
+    expectFloats(place, positions.at(0));
   }
 }
 
@@ -228,7 +228,7 @@ TEST(Gltf, WeightsOfJointsAreSharesOfTheirSum)
   std::vector<Eigen::Vector3d> positions;
   deformation.positionsAt(-1, 0, positions);
   ASSERT_EQ(positions.size(), 1u);
-  expectNear({ 4, 2, 3 }, positions[0]);
+  expectFloats({ 4, 2, 3 }, positions[0]);
 }
 
 TEST(Gltf, StepsSplinesAndNegativeWeights)
@@ -255,13 +255,13 @@ TEST(Gltf, StepsSplinesAndNegativeWeights)
   const Eigen::Vector3d move =
     (1 - h00) * Eigen::Vector3d(4, 0, 0) + 2 * (s * s * s - 2 * s * s + s) * out + 2 * (s * s * s - s * s) * in;
   std::vector<Eigen::Vector3d> p = at(*model, 15);
-  expectNear(move + Eigen::Vector3d(0, 0, -0.5), p[0]);
-  expectNear({ 0, 2, 0 }, p[5]);
+  expectFloats(move + Eigen::Vector3d(0, 0, -0.5), p[0]);
+  expectFloats({ 0, 2, 0 }, p[5]);
   p = at(*model, 59.9);
-  expectNear({ 0, 2, 0 }, p[5]); // still the first key's rotation
+  expectFloats({ 0, 2, 0 }, p[5]); // still the first key's rotation
   p = at(*model, 60);
-  expectNear({ 4, 0, 1 }, p[0]);
-  expectNear({ -1, 1, 0 }, p[5]);
+  expectFloats({ 4, 0, 1 }, p[0]);
+  expectFloats({ -1, 1, 0 }, p[5]);
 }
 
 TEST(Gltf, NodeTransformsAndMirrorsTurnTheWinding)

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 using namespace dgtk::test;
 using testing::Contains;
@@ -15,7 +14,7 @@ using testing::HasSubstr;
 
 namespace
 {
-std::string object(const std::string& statements)
+std::string polyWith(const std::string& statements)
 {
   return "AC3Db\nMATERIAL \"\" rgb 1 1 1\nOBJECT poly\n" + statements + "kids 0\n";
 }
@@ -41,7 +40,7 @@ TEST(ModelLimits, AnEndlessSpiral)
     vertices += number(radius * std::cos(turns * 6.283)) + ' ' + number(radius * std::sin(turns * 6.283)) + " 0\n";
     refs += std::to_string(i) + " 0 0\n";
   }
-  const auto model = readWithinLimits("ac", object(vertices + refs));
+  const auto model = readWithinLimits("ac", polyWith(vertices + refs));
   ASSERT_TRUE(model);
   EXPECT_EQ(model->triangles.size(), static_cast<std::size_t>(n - 2));
 }
@@ -54,7 +53,7 @@ TEST(ModelLimits, AVertexOfAllSurfaces)
   {
     text += "SURF 16\nmat 0\nrefs 3\n0 " + number(i) + " 0\n1 0 0\n2 0 0\n";
   }
-  const auto model = readWithinLimits("ac", object(text));
+  const auto model = readWithinLimits("ac", polyWith(text));
   ASSERT_TRUE(model);
   EXPECT_EQ(model->triangles.size(), static_cast<std::size_t>(n));
 }
@@ -72,7 +71,7 @@ TEST(ModelLimits, AFanOfOneCornerALine)
   {
     vertices += std::to_string(i) + ' ' + std::to_string(i * i % 7) + " 0\n";
   }
-  readWithinLimits("ac", object(vertices + refs));
+  readWithinLimits("ac", polyWith(vertices + refs));
 }
 
 TEST(ModelLimits, ManySmallThings)
@@ -97,11 +96,11 @@ TEST(ModelLimits, ManySmallThings)
   EXPECT_THAT(textured->warnings, Contains(HasSubstr("more warnings")));
   readWithinLimits("ac", "AC3Db\n" + materials);
   EXPECT_FALSE(readWithinLimits("ac", "AC3Db\n" + materials + materials)) << "more than 65536";
-  readWithinLimits("ac", object(vertices));
-  readWithinLimits("ac", object("name \"" + std::string(8000000, 'x') + "\"\n"));
+  readWithinLimits("ac", polyWith(vertices));
+  readWithinLimits("ac", polyWith("name \"" + std::string(8000000, 'x') + "\"\n"));
   readWithinLimits("ac", "AC3Db\n" + std::string(8000000, '\n'));
   readWithinLimits("ac", "\xff\xfe" + std::string(8000000, '\n'));
-  readWithinLimits("ac", object("data 999999999999\n" + std::string(4000000, 'k')));
+  readWithinLimits("ac", polyWith("data 999999999999\n" + std::string(4000000, 'k')));
 }
 
 TEST(ModelLimits, FlatMeshesOfFewVertices)

@@ -20,15 +20,7 @@ namespace
 {
 std::string message(const std::string& path)
 {
-  try
-  {
-    readModel(path);
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return {};
+  return dgtk::test::thrownBy<InputError>([&] { readModel(path); });
 }
 } // namespace
 

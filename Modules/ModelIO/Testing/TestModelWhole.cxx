@@ -62,7 +62,7 @@ std::string textOf(const dgtk::Material& m)
 /// Position, normal, texture coordinate, vertex of the file and smoothing group of a split vertex.
 std::string textOf(const dgtk::Model& model, std::uint32_t v)
 {
-  std::string all = "  " + text(model.rest->positions[v]) + " | " + text(model.rest->normals[v]);
+  std::string all = std::to_string(v) + ": " + text(model.rest->positions[v]) + " | " + text(model.rest->normals[v]);
   all += model.uvs.empty() ? "" : " | " + text(model.uvs[v]);
   all += " | " + std::to_string(model.sourceVertex[v]);
   return all + (model.normalGroup.empty() ? "" : " | " + std::to_string(model.normalGroup[v]));
@@ -85,18 +85,20 @@ std::string textOf(const dgtk::Model& model)
   {
     out << "texture " << texture.name << '\n';
   }
+  for (std::uint32_t v = 0; v < model.rest->positions.size(); ++v)
+  {
+    out << textOf(model, v) << '\n';
+  }
   for (const dgtk::Part& part : model.parts)
   {
     out << "part '" << part.name << "' material " << part.material << ", " << part.triangles << " from "
-        << part.firstTriangle << '\n';
+        << part.firstTriangle << ':';
     for (std::uint32_t t = part.firstTriangle; t < part.firstTriangle + part.triangles; ++t)
     {
-      out << " triangle " << t << '\n';
-      for (const std::uint32_t v : model.triangles[t])
-      {
-        out << textOf(model, v) << '\n';
-      }
+      const auto& [a, b, c] = model.triangles[t];
+      out << ' ' << a << '-' << b << '-' << c;
     }
+    out << '\n';
   }
   for (const dgtk::Animation& a : model.animations)
   {
@@ -126,29 +128,20 @@ material '' ambient 0 0 0 diffuse 0 0 1 specular 0 0 0 emission 0 0 0 shininess 
 material 'red paint' ambient 0.2 0.2 0.2 diffuse 1 0.25 0 specular 0.5 0.5 0.5 emission 0 0.1 0 shininess 64 opacity 0.75 two-sided texture 0
 material '' ambient 0 0 0 diffuse 0 0 1 specular 0 0 0 emission 0 0 0 shininess 0 opacity 1 texture 0
 texture tiles.png
-part 'roof' material 2, 2 from 0
- triangle 0
-  1 0 0 | 0 0 1 | 0.5 0 | 0
-  2 0 0 | 0 0 1 | 2.5 0 | 1
-  2 1 0 | 0 0 1 | 2.5 3 | 2
- triangle 1
-  1 0 0 | 0 0 1 | 0.5 0 | 0
-  2 1 0 | 0 0 1 | 2.5 3 | 2
-  1 1 0 | 0 0 1 | 0.5 3 | 3
-part 'roof' material 3, 1 from 2
- triangle 2
-  1 0 0 | 0 -0.8944 -0.4472 | 0.5 0 | 0
-  1.5 0.5 -1 | 0 -0.8944 -0.4472 | 1.5 1.5 | 4
-  2 0 0 | 0 -0.8944 -0.4472 | 2.5 0 | 1
-part '' material 1, 2 from 3
- triangle 3
-  1 0 1 | 0 0 1 | 0 0 | 5
-  2 0 1 | 0 0 1 | 1 0 | 6
-  1 1 1 | 0 0 1 | 0 1 | 7
- triangle 4
-  1 1 1 | 0 0 1 | 0 1 | 7
-  2 0 1 | 0 0 1 | 1 0 | 6
-  2 1 1 | 0 0 1 | 1 1 | 8
+0: 1 0 0 | 0 0 1 | 0.5 0 | 0
+1: 2 0 0 | 0 0 1 | 2.5 0 | 1
+2: 2 1 0 | 0 0 1 | 2.5 3 | 2
+3: 1 1 0 | 0 0 1 | 0.5 3 | 3
+4: 1 0 0 | 0 -0.8944 -0.4472 | 0.5 0 | 0
+5: 1.5 0.5 -1 | 0 -0.8944 -0.4472 | 1.5 1.5 | 4
+6: 2 0 0 | 0 -0.8944 -0.4472 | 2.5 0 | 1
+7: 1 0 1 | 0 0 1 | 0 0 | 5
+8: 2 0 1 | 0 0 1 | 1 0 | 6
+9: 1 1 1 | 0 0 1 | 0 1 | 7
+10: 2 1 1 | 0 0 1 | 1 1 | 8
+part 'roof' material 2, 2 from 0: 0-1-2 0-2-3
+part 'roof' material 3, 1 from 2: 4-5-6
+part '' material 1, 2 from 3: 7-8-9 9-8-10
 warning texture 'tiles.png' not found (tried as written, 'tiles.png' beside the model, in any case, with other image extensions, as an 8.3 name, and in ../textures)
 )");
 }
@@ -195,20 +188,15 @@ material 'block' ambient 0.1 0.2 0.3 diffuse 0.5 0.25 0.125 specular 0.7 0.8 0.9
 material '' ambient 0.2 0.2 0.2 diffuse 0.8 0.8 0.8 specular 0 0 0 emission 0 0 0 shininess 0 opacity 1
 material '' ambient 0.2 0.2 0.2 diffuse 0.8 0.8 0.8 specular 0 0 0 emission 0 0 0 shininess 0 opacity 1 texture 0
 texture of-kids.png
-part 'turned' material 1, 2 from 0
- triangle 0
-  12 19 33 | 0 0 1 | 0.5 0.25 | 0
-  12 17 33 | 0 0 1 | 1.5 0.25 | 1
-  15 17 33 | 0 0 1 | 1.5 1.25 | 2
- triangle 1
-  15 19 33 | 0.8 0 0.6 | 0.5 1.25 | 3
-  12 19 37 | 0.5547 -0.8321 0 | 1 0.5 | 4
-  15 17 33 | 0.8 0 0.6 | 0.5 0.25 | 2
-part 'turned' material 3, 1 from 2
- triangle 2
-  12 19 33 | 0 0 1 | 0.5 0.25 | 0
-  12 17 33 | 0 0 1 | 1.5 0.25 | 1
-  15 17 33 | 0 0 1 | 0.5 0.25 | 2
+0: 12 19 33 | 0 0 1 | 0.5 0.25 | 0
+1: 12 17 33 | 0 0 1 | 1.5 0.25 | 1
+2: 15 17 33 | 0 0 1 | 1.5 1.25 | 2
+3: 15 19 33 | 0.8 0 0.6 | 0.5 1.25 | 3
+4: 12 19 37 | 0.5547 -0.8321 0 | 1 0.5 | 4
+5: 15 17 33 | 0.8 0 0.6 | 0.5 0.25 | 2
+6: 15 17 33 | 0 0 1 | 0.5 0.25 | 2
+part 'turned' material 1, 2 from 0: 0-1-2 3-4-5
+part 'turned' material 3, 1 from 2: 0-1-6
 warning texture 'of-kids.png' not found (tried as written, 'of-kids.png' beside the model, in any case, with other image extensions, as an 8.3 name, and in ../textures)
 warning 2 surface(s) name a material that does not exist; a grey one is used
 warning 1 surface left out: a vertex that does not exist
@@ -224,33 +212,22 @@ material 'wall' ambient 0.03922 0.07843 0.1176 diffuse 1 0.502 0 specular 0.4 0.
 material 'plain' ambient 0.2 0.2 0.2 diffuse 0 1 0 specular 0 0 0 emission 0 0 0 shininess 0 opacity 1
 material '' ambient 0.2 0.2 0.2 diffuse 0.8 0.8 0.8 specular 0 0 0 emission 0 0 0 shininess 0 opacity 1
 texture WALL.TGA
-part 'quad' material 0, 2 from 0
- triangle 0
-  0 0 0 | 0 0 1 | 0 0 | 0
-  2 0 0 | 0 0 1 | 1 0 | 1
-  2 1 0 | 0 0 1 | 1 1 | 2
- triangle 1
-  0 0 0 | 0 0 1 | 0 0 | 0
-  2 1 0 | 0 0 1 | 1 1 | 2
-  0 1 0 | 0 0 1 | 0 1 | 3
-part 'solid' material 2, 3 from 2
- triangle 2
-  0 0 5 | 0 -0.7071 -0.7071 | 0 0 | 5
-  0 1 5 | 0.7071 0.7071 0 | 0 0 | 7
-  1 0 5 | 1 0 0 | 0 0 | 6
- triangle 3
-  0 0 5 | 0 -0.7071 -0.7071 | 0 0 | 5
-  1 0 5 | 1 0 0 | 0 0 | 6
-  0 0 6 | 0.7071 0 0.7071 | 0 0 | 8
- triangle 4
-  0 0 5 | -1 0 0 | 0 0 | 5
-  0 0 6 | 0 0.7071 0.7071 | 0 0 | 8
-  0 1 5 | 0 0.7071 0.7071 | 0 0 | 7
-part 'solid' material 1, 1 from 5
- triangle 5
-  1 0 5 | 1 0 0 | 0 0 | 6
-  0 1 5 | 0 1 0 | 0 0 | 7
-  0 0 6 | 0 0 1 | 0 0 | 8
+0: 0 0 0 | 0 0 1 | 0 0 | 0
+1: 2 0 0 | 0 0 1 | 1 0 | 1
+2: 2 1 0 | 0 0 1 | 1 1 | 2
+3: 0 1 0 | 0 0 1 | 0 1 | 3
+4: 0 0 5 | 0 -0.7071 -0.7071 | 0 0 | 5
+5: 0 1 5 | 0.7071 0.7071 0 | 0 0 | 7
+6: 1 0 5 | 1 0 0 | 0 0 | 6
+7: 0 0 6 | 0.7071 0 0.7071 | 0 0 | 8
+8: 0 0 5 | -1 0 0 | 0 0 | 5
+9: 0 0 6 | 0 0.7071 0.7071 | 0 0 | 8
+10: 0 1 5 | 0 0.7071 0.7071 | 0 0 | 7
+11: 0 1 5 | 0 1 0 | 0 0 | 7
+12: 0 0 6 | 0 0 1 | 0 0 | 8
+part 'quad' material 0, 2 from 0: 0-1-2 0-2-3
+part 'solid' material 2, 3 from 2: 4-5-6 4-6-7 8-9-10
+part 'solid' material 1, 1 from 5: 6-11-12
 warning texture 'WALL.TGA' not found (tried as written, 'WALL.TGA' beside the model, in any case, with other image extensions, as an 8.3 name, and in ../textures)
 )");
 }
@@ -263,23 +240,11 @@ bounds 0 0 0 to 10 10 10
 material 'skin' ambient 1 1 1 diffuse 1 1 1 specular 0 0 0 emission 0 0 0 shininess 0 opacity 1 texture 0
 texture models/thing/skin.pcx
 texture .other
-part '' material 0, 4 from 0
- triangle 0
-  0 10 0 | 0 1 0 | 0 0 | 2 | 2
-  10 0 0 | 1 0 0 | 1 1 | 1 | 1
-  0 0 0 | -0.5774 -0.5774 -0.5774 | 0 1 | 0 | 0
- triangle 1
-  10 0 0 | 1 0 0 | 1 1 | 1 | 1
-  0 0 10 | 0 0 1 | -0.25 -0.5 | 3 | 3
-  0 0 0 | -0.5774 -0.5774 -0.5774 | 0 1 | 0 | 0
- triangle 2
-  0 0 10 | 0 0 1 | -0.25 -0.5 | 3 | 3
-  0 10 0 | 0 1 0 | 0 0 | 2 | 2
-  0 0 0 | -0.5774 -0.5774 -0.5774 | 0 1 | 0 | 0
- triangle 3
-  0 10 0 | 0 1 0 | 0 0 | 2 | 2
-  0 0 10 | 0 0 1 | -0.25 -0.5 | 3 | 3
-  10 0 0 | 1 0 0 | 1 1 | 1 | 1
+0: 0 10 0 | 0 1 0 | 0 0 | 2 | 2
+1: 10 0 0 | 1 0 0 | 1 1 | 1 | 1
+2: 0 0 0 | -0.5774 -0.5774 -0.5774 | 0 1 | 0 | 0
+3: 0 0 10 | 0 0 1 | -0.25 -0.5 | 3 | 3
+part '' material 0, 4 from 0: 0-1-2 1-3-2 3-0-2 0-3-1
 animation stand 0 to 1 at 10
 animation pain1 2 to 3 at 10
 warning texture 'models/thing/skin.pcx' not found (tried as written, 'skin.pcx' beside the model, in any case, with other image extensions, as an 8.3 name, and in ../textures, and 'model')
@@ -308,27 +273,15 @@ bounds 0 0 0 to 1 1 5
 material 'ply' ambient 0.04 0.08 0.16 diffuse 0.2 0.4 0.8 specular 0 0 0 emission 0 0 0 shininess 0 opacity 1
 material 'ply' ambient 0.04 0.08 0.16 diffuse 0.2 0.4 0.8 specular 0 0 0 emission 0 0 0 shininess 0 opacity 1 texture 0
 texture grass.png
-part 'mesh' material 1, 5 from 0
- triangle 0
-  0 0 0 | 0 0 1 | 0 0 | 0
-  1 0 0 | 0 0.6 0.8 | 1 0 | 1
-  1 1 0 | 0 0 1 | 1 1 | 2
- triangle 1
-  0 0 0 | 0 0 1 | 0 0 | 0
-  1 1 0 | 0 0 1 | 1 1 | 2
-  0 1 0 | 0 0 1 | 0 2 | 3
- triangle 2
-  0 0 0 | 0 0 1 | 0.25 0.5 | 0
-  0 0 5 | 1 0 0 | 0 0 | 4
-  1 0 0 | 0 0.6 0.8 | 0.75 0.5 | 1
- triangle 3
-  0 0 0 | 0 0 1 | 0.25 0.5 | 0
-  1 0 0 | 0 0.6 0.8 | 0.75 0.5 | 1
-  1 1 0 | 0 0 1 | 1 1 | 2
- triangle 4
-  1 1 0 | 0 0 1 | 1 1 | 2
-  1 0 0 | 0 0.6 0.8 | 0.75 0.5 | 1
-  0 1 0 | 0 0 1 | 0 1 | 3
+0: 0 0 0 | 0 0 1 | 0 0 | 0
+1: 1 0 0 | 0 0.6 0.8 | 1 0 | 1
+2: 1 1 0 | 0 0 1 | 1 1 | 2
+3: 0 1 0 | 0 0 1 | 0 2 | 3
+4: 0 0 0 | 0 0 1 | 0.25 0.5 | 0
+5: 0 0 5 | 1 0 0 | 0 0 | 4
+6: 1 0 0 | 0 0.6 0.8 | 0.75 0.5 | 1
+7: 0 1 0 | 0 0 1 | 0 1 | 3
+part 'mesh' material 1, 5 from 0: 0-1-2 0-2-3 4-5-6 4-6-2 2-6-7
 warning texture 'grass.png' not found (tried as written, 'grass.png' beside the model, in any case, with other image extensions, as an 8.3 name, and in ../textures)
 warning 1 surface left out: a vertex that does not exist
 )");
@@ -357,26 +310,22 @@ material 'Picture' ambient 0.2 0.2 0.2 diffuse 1 1 1 specular 0 0 0 emission 0 0
 material 'Picture' ambient 0.2 0.2 0.2 diffuse 1 1 1 specular 0 0 0 emission 0 0 0 shininess 0 opacity 1 two-sided
 material 'Picture' ambient 0.2 0.2 0.2 diffuse 1 1 1 specular 0 0 0 emission 0 0 0 shininess 0 opacity 1 two-sided texture 0
 texture wood.png
-part 'mesh0' material 0, 1 from 0
- triangle 0
-  10 20 30 | 0 0 1 | 0 0 | 0
-  12 20 30 | 0 0 1 | 0 0 | 1
-  10 23 30 | 0 0 1 | 0 0 | 2
-part 'mesh0' material 2, 1 from 1
- triangle 1
-  10 20 34 | 0 0 1 | -0.5 0 | 3
-  12 20 34 | 0 0.8 0.6 | 0 0 | 4
-  10 23 34 | 1 0 0 | -0.5 0.5 | 5
-part 'mesh1' material 0, 1 from 2
- triangle 2
-  0 0 0 | 0 0 1 | 0 0 | 6
-  0 1 0 | 0 0 1 | 1 0 | 7
-  -1 1 0 | 0 0 1 | 1 1 | 8
-part 'mesh1' material 4, 1 from 3
- triangle 3
-  0 0 0 | 0 0 1 | -0.5 0 | 6
-  -1 1 0 | 0 0 1 | 0 0.5 | 8
-  -1 0 0 | 0 0 1 | -0.5 0.5 | 9
+0: 10 20 30 | 0 0 1 | 0 0 | 0
+1: 12 20 30 | 0 0 1 | 0 0 | 1
+2: 10 23 30 | 0 0 1 | 0 0 | 2
+3: 10 20 34 | 0 0 1 | -0.5 0 | 3
+4: 12 20 34 | 0 0.8 0.6 | 0 0 | 4
+5: 10 23 34 | 1 0 0 | -0.5 0.5 | 5
+6: 0 0 0 | 0 0 1 | 0 0 | 6
+7: 0 1 0 | 0 0 1 | 1 0 | 7
+8: -1 1 0 | 0 0 1 | 1 1 | 8
+9: 0 0 0 | 0 0 1 | -0.5 0 | 6
+10: -1 1 0 | 0 0 1 | 0 0.5 | 8
+11: -1 0 0 | 0 0 1 | -0.5 0.5 | 9
+part 'mesh0' material 0, 1 from 0: 0-1-2
+part 'mesh0' material 2, 1 from 1: 3-4-5
+part 'mesh1' material 0, 1 from 2: 6-7-8
+part 'mesh1' material 4, 1 from 3: 9-10-11
 warning no part of the model, left out: camera
 warning texture 'wood.png' not found (tried as written, 'wood.png' beside the model, in any case, with other image extensions, as an 8.3 name, and in ../textures)
 )");
@@ -398,20 +347,15 @@ bounds 0 0 0 to 2 2 0.5
 material 'wall' ambient 0.1 0.2 0.3 diffuse 0.4 0.5 0.6 specular 0.7 0.8 0.9 emission 0.05 0.1 0.15 shininess 20 opacity 0.5 texture 0
 material 'roof' ambient 0 0 0 diffuse 0 1 0 specular 0 0 0 emission 0 0 0 shininess 0 opacity 1
 texture wall.png
-part 'house' material 0, 2 from 0
- triangle 0
-  0 0 0 | 0 0 1 | 0 0 | 0
-  2 0 0 | 0 0 1 | 1 0 | 1
-  2 1 0 | 0 0 1 | 1 1 | 2
- triangle 1
-  0 0 0 | 0 0 1 | 0 0 | 0
-  2 1 0 | 0 0 1 | 1 1 | 2
-  0 1 0 | 0 0 1 | 0 1 | 3
-part 'top' material 1, 1 from 2
- triangle 2
-  0 1 0 | 0 1 0 | 0 0 | 4
-  2 1 0 | 0 1 0 | 0 0 | 5
-  1 2 0.5 | 0 1 0 | 0 0 | 6
+0: 0 0 0 | 0 0 1 | 0 0 | 0
+1: 2 0 0 | 0 0 1 | 1 0 | 1
+2: 2 1 0 | 0 0 1 | 1 1 | 2
+3: 0 1 0 | 0 0 1 | 0 1 | 3
+4: 0 1 0 | 0 1 0 | 0 0 | 4
+5: 2 1 0 | 0 1 0 | 0 0 | 5
+6: 1 2 0.5 | 0 1 0 | 0 0 | 6
+part 'house' material 0, 2 from 0: 0-1-2 0-2-3
+part 'top' material 1, 1 from 2: 4-5-6
 warning texture 'wall.png' not found (tried as written, 'wall.png' beside the model, in any case, with other image extensions, as an 8.3 name, and in ../textures)
 )");
 }
@@ -451,24 +395,16 @@ texture normals.png
 texture metal.png
 texture glow.png
 texture dirt.png
-part 'first' material 0, 2 from 0
- triangle 0
-  10 40 30 | 0 0 1 | 0 1 | 0
-  11 40 30 | 0 0 1 | 1 1 | 1
-  10 42 30 | 0 0 1 | 0 0 | 2
- triangle 1
-  10 42 30 | 0 0 1 | 0 0 | 2
-  11 40 30 | 0 0 1 | 1 1 | 1
-  11 42 30 | 0 0.3511 0.9363 | 1 0.25 | 3
-part 'second' material 0, 2 from 2
- triangle 2
-  0 0 0 | 0 0 1 | 0 1 | 4
-  0 2 0 | 0 0 1 | 1 1 | 5
-  -1 0 0 | 0 0 1 | 0 0 | 6
- triangle 3
-  -1 0 0 | 0 0 1 | 0 0 | 6
-  0 2 0 | 0 0 1 | 1 1 | 5
-  -1 2 0 | -0.6 0 0.8 | 1 0.25 | 7
+0: 10 40 30 | 0 0 1 | 0 1 | 0
+1: 11 40 30 | 0 0 1 | 1 1 | 1
+2: 10 42 30 | 0 0 1 | 0 0 | 2
+3: 11 42 30 | 0 0.3511 0.9363 | 1 0.25 | 3
+4: 0 0 0 | 0 0 1 | 0 1 | 4
+5: 0 2 0 | 0 0 1 | 1 1 | 5
+6: -1 0 0 | 0 0 1 | 0 0 | 6
+7: -1 2 0 | -0.6 0 0.8 | 1 0.25 | 7
+part 'first' material 0, 2 from 0: 0-1-2 2-1-3
+part 'second' material 0, 2 from 2: 4-5-6 6-5-7
 warning texture 'base.png' not found (tried as written, 'base.png' beside the model, in any case, with other image extensions, as an 8.3 name, and in ../textures)
 warning texture 'normals.png' not found (tried as written, 'normals.png' beside the model, in any case, with other image extensions, as an 8.3 name, and in ../textures)
 warning texture 'metal.png' not found (tried as written, 'metal.png' beside the model, in any case, with other image extensions, as an 8.3 name, and in ../textures)
@@ -484,23 +420,17 @@ TEST(ModelWhole, Off)
 off: 5 vertices, 10 split, 4 triangles, declared 0, two-sided 0 of 0, lines 0, materials 0, frames 1
 bounds 0 0 0 to 2 1 4
 material '' ambient 0.2 0.2 0.2 diffuse 0.8 0.8 0.8 specular 0 0 0 emission 0 0 0 shininess 0 opacity 1
-part '' material 0, 4 from 0
- triangle 0
-  0 0 0 | 0 0 1 | 0
-  2 0 0 | 0 0 1 | 1
-  2 1 0 | 0 0 1 | 2
- triangle 1
-  0 0 0 | 0 0 1 | 0
-  2 1 0 | 0 0 1 | 2
-  0 1 0 | 0 0 1 | 3
- triangle 2
-  0 0 0 | 0 1 0 | 0
-  1 0 4 | 0 1 0 | 4
-  2 0 0 | 0 1 0 | 1
- triangle 3
-  2 1 0 | 0 -0.9701 -0.2425 | 2
-  1 0 4 | 0 -0.9701 -0.2425 | 4
-  0 1 0 | 0 -0.9701 -0.2425 | 3
+0: 0 0 0 | 0 0 1 | 0
+1: 2 0 0 | 0 0 1 | 1
+2: 2 1 0 | 0 0 1 | 2
+3: 0 1 0 | 0 0 1 | 3
+4: 0 0 0 | 0 1 0 | 0
+5: 1 0 4 | 0 1 0 | 4
+6: 2 0 0 | 0 1 0 | 1
+7: 2 1 0 | 0 -0.9701 -0.2425 | 2
+8: 1 0 4 | 0 -0.9701 -0.2425 | 4
+9: 0 1 0 | 0 -0.9701 -0.2425 | 3
+part '' material 0, 4 from 0: 0-1-2 0-2-3 4-5-6 7-8-9
 )");
 }
 
@@ -534,14 +464,10 @@ TEST(ModelWhole, Collada)
 collada: 4 vertices, 4 split, 2 triangles, declared 0, two-sided 0 of 0, lines 0, materials 1, frames 1
 bounds 10 20 30 to 12 23 30
 material 'paint' ambient 0.4 0.5 0.6 diffuse 0.7 0.8 0.9 specular 0.25 0.5 0.75 emission 0.1 0.2 0.3 shininess 12 opacity 1
-part 'place' material 0, 2 from 0
- triangle 0
-  10 20 30 | 0 0 1 | 0 0 | 0
-  12 20 30 | 0 0 1 | 1 0 | 1
-  12 23 30 | 0 0 1 | 1 1 | 2
- triangle 1
-  10 20 30 | 0 0 1 | 0 0 | 0
-  12 23 30 | 0 0 1 | 1 1 | 2
-  10 23 30 | 0 0 1 | 0 0.5 | 3
+0: 10 20 30 | 0 0 1 | 0 0 | 0
+1: 12 20 30 | 0 0 1 | 1 0 | 1
+2: 12 23 30 | 0 0 1 | 1 1 | 2
+3: 10 23 30 | 0 0 1 | 0 0.5 | 3
+part 'place' material 0, 2 from 0: 0-1-2 0-2-3
 )");
 }

@@ -7,7 +7,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 
 using namespace dgtk::test;
@@ -340,15 +339,7 @@ TEST(Obj, LibrariesOutsideOfTheModelsFolderAreRefused)
   const auto refusalOf = [&folder](const std::string& library) -> std::string
   {
     folder.write("model/b.obj", "mtllib " + library + '\n' + triangle + "usemtl red\nf 1 2 3\n");
-    try
-    {
-      dgtk::readModel(folder.path("model/b.obj"));
-    }
-    catch (const dgtk::InputError& error)
-    {
-      return error.what();
-    }
-    return {};
+    return thrownBy<dgtk::InputError>([&] { dgtk::readModel(folder.path("model/b.obj")); });
   };
   EXPECT_EQ(refusalOf(folder.path("quad.mtl")), "") << "it is taken as relative";
   EXPECT_THAT(dgtk::readModel(folder.path("model/b.obj"))->warnings, Contains(HasSubstr("quad.mtl not found")));
@@ -376,15 +367,8 @@ TEST(Obj, Refusals)
   EXPECT_EQ(refusal("obj", "\n# empty\n"), refusal("obj", ""));
   ObjFolder folder;
   folder.write("a.mtl", "newmtl m\nKd 1 green 0\n");
-  try
-  {
-    folder.read("mtllib a.mtl\n" + triangle);
-    FAIL();
-  }
-  catch (const dgtk::InputError& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("a.mtl:2: Kd: is no number (expected a number, found 'green')"));
-  }
+  EXPECT_THAT(thrownBy<dgtk::InputError>([&] { folder.read("mtllib a.mtl\n" + triangle); }),
+    HasSubstr("a.mtl:2: Kd: is no number (expected a number, found 'green')"));
 }
 
 TEST(Obj, TextsOfOtherSystems)

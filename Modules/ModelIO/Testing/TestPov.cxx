@@ -44,11 +44,6 @@ Eigen::Vector3d corner(const dgtk::Model& model, std::size_t triangle, std::size
   return model.rest->positions[model.triangles[triangle][i]];
 }
 
-void expectNear(const Eigen::Vector3d& expected, const Eigen::Vector3d& found)
-{
-  EXPECT_LT((expected - found).norm(), 1e-12) << found.transpose();
-}
-
 std::string writeFiles(const TemporaryFolder& folder, const std::map<std::string, std::string>& files)
 {
   for (const auto& [name, text] : files)
@@ -289,16 +284,9 @@ TEST(Pov, IncludesElsewhereAreRefusedAndNothingOfThemIsSaid)
   {
     writeFiles(folder,
       { { "scenes/scene.pov", "#include \"" + name + "\"\n" + oneTriangle }, { "scenes/own.inc", oneTriangle } });
-    try
-    {
-      dgtk::readModel(folder.path("scenes/scene.pov"));
-    }
-    catch (const dgtk::InputError& error)
-    {
-      EXPECT_THAT(error.what(), testing::Not(HasSubstr("password")));
-      return error.what();
-    }
-    return {};
+    std::string text = thrownBy<dgtk::InputError>([&] { dgtk::readModel(folder.path("scenes/scene.pov")); });
+    EXPECT_THAT(text, testing::Not(HasSubstr("password")));
+    return text;
   };
   EXPECT_THAT(refusalOf("../secret.txt"), HasSubstr("scene.pov:1: #include '../secret.txt' lies outside"));
   EXPECT_THAT(refusalOf(folder.path("secret.txt")), HasSubstr("lies outside of the scene's folder and POVINC"));
@@ -404,15 +392,8 @@ TEST(Pov, RepetitionIsBounded)
   EXPECT_THAT(refusal("pov", copies), HasSubstr("has too many objects"));
   const TemporaryFolder folder;
   const std::string scene = writeFiles(folder, { { "scene.pov", "#include \"scene.pov\"\n" } });
-  try
-  {
-    dgtk::readModel(scene);
-    FAIL();
-  }
-  catch (const dgtk::InputError& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("scene.pov:1: #include nests too deeply"));
-  }
+  EXPECT_THAT(
+    thrownBy<dgtk::InputError>([&] { dgtk::readModel(scene); }), HasSubstr("scene.pov:1: #include nests too deeply"));
 }
 
 TEST(Pov, ImageMapsGiveTextureCoordinates)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkError.h"
 #include "dgtkFile.h"
-#include "dgtkModelChecks.h"
 #include "dgtkPovEvaluator.h"
 #include "dgtkTestSupport.h"
 
@@ -104,15 +103,9 @@ TEST(PovEvaluator, WhatIsNotKnownSaysWhyAndIsReadToItsEnd)
 
 TEST(PovEvaluator, WhatHasToBeKnownIsRefusedWhereItStands)
 {
-  try
-  {
-    Reading("\n1 + Lost").evaluator.scalar();
-    ADD_FAILURE() << "not refused";
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("values.pov:7: #while is not evaluated, and a mesh depends on it (line 2)"));
-  }
+  EXPECT_THAT(test::thrownBy<InputError>([&] { Reading("\n1 + Lost").evaluator.scalar(); }),
+    HasSubstr("values.pov:7: #while is not evaluated, and a mesh depends on it (line 2)"))
+    << "not refused";
   EXPECT_THROW(Reading("}").evaluator.vector("a triangle"), InputError);
   EXPECT_THROW(logical(""), InputError);
   EXPECT_THROW(logical(std::string(200, '(') + "1" + std::string(200, ')')), InputError);

@@ -5,6 +5,8 @@
 #include "dgtkFile.h"
 #include "dgtkTestSupport.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -135,6 +137,11 @@ std::string brokenPromise(const Model& model)
   return {};
 }
 
+void expectNear(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+  EXPECT_LT((a - b).norm(), 1e-12) << a.transpose() << " against " << b.transpose();
+}
+
 std::shared_ptr<const Model> readBytes(const std::string& extension, const std::string& bytes)
 {
   const TemporaryFolder folder;
@@ -147,16 +154,8 @@ std::shared_ptr<const Model> readBytes(const std::string& extension, const std::
 
 std::string refusal(const std::string& extension, const std::string& bytes)
 {
-  try
-  {
-    readBytes(extension, bytes);
-  }
-  catch (const InputError& error)
-  {
-    const std::string text = error.what();
-    return text.substr(text.rfind("/model." + extension) + 1);
-  }
-  return {};
+  const std::string text = thrownBy<InputError>([&] { readBytes(extension, bytes); });
+  return text.substr(text.rfind("/model." + extension) + 1);
 }
 
 const char* const withoutExtraModels =

@@ -16,6 +16,9 @@ namespace dgtk::test
 /// Empty when the model keeps every promise of dgtkModel.h; otherwise the first that it breaks.
 std::string brokenPromise(const Model& model);
 
+/// Within 1e-12.
+void expectNear(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
 /// Writes `bytes` to a file with that extension in a fresh folder and reads it without decoding textures.
 std::shared_ptr<const Model> readBytes(const std::string& extension, const std::string& bytes);
 

@@ -181,11 +181,7 @@ private:
   {
     const int status = this->Running->wait();
     this->Running.reset();
-    const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    if (helper::isInterruption(signal))
-    {
-      throw MachineError(path + ": reading was interrupted");
-    }
+    const int signal = helper::signalOf(status, path);
     if (signal == SIGKILL)
     {
       failMachine(path, std::string(this->Program) + " was killed: not enough memory?");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkPieceDraw.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cstring>
 #include <numeric>

@@ -3,7 +3,6 @@
 
 #include "dgtkSurfaceMaterial.h"
 
-#include <algorithm>
 #include <cstring>
 #include <vector>
 #include <vtk_glew.h>

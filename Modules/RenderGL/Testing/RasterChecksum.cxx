@@ -6,7 +6,6 @@
 #include "dgtkHash.h"
 
 #include <cstdio>
-#include <string>
 
 using namespace dgtk;
 using namespace dgtk::test;

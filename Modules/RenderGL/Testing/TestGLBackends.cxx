@@ -2,6 +2,7 @@
 #include "dgtkTestScene.h"
 
 #include "dgtkError.h"
+#include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -118,15 +119,8 @@ TEST(GLBackends, NamesAndTheirRefusal)
   {
     EXPECT_EQ(glBackendFromName(nameOf(backend)), backend);
   }
-  try
-  {
-    glBackendFromName("vulkan");
-    FAIL();
-  }
-  catch (const UsageError& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("expected auto, egl, osmesa or glx"));
-  }
+  EXPECT_THAT(
+    thrownBy<UsageError>([&] { glBackendFromName("vulkan"); }), HasSubstr("expected auto, egl, osmesa or glx"));
 }
 
 TEST(GLBackends, EveryOneIsListedWithAReason)

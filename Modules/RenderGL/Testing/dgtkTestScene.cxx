@@ -209,6 +209,21 @@ RayCaster::RayCaster(const SceneState& state, const View& view)
   }
 }
 
+View frontView(int width, int height)
+{
+  return viewOf(makeOrthographic(width, height, 2, 0), { 0, 0, 10 }, { 0, 0, 0 }, 0.1, 100);
+}
+
+std::shared_ptr<SceneState> stateOf(std::vector<std::shared_ptr<const Model>> models)
+{
+  auto state = std::make_shared<SceneState>();
+  for (auto& model : models)
+  {
+    state->instances.push_back(instanceOf(std::move(model)));
+  }
+  return state;
+}
+
 namespace
 {
 /// Distance of a pixel from the triangle's outline, where that is in front of the camera.

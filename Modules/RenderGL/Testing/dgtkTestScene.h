@@ -42,6 +42,9 @@ Material matte(const Eigen::Vector3d& color);
 View viewOf(std::shared_ptr<const CameraModel> model, const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
   double near = 0.1, double far = 1000);
 PixelRect whole(const View& view);
+/// Sees [-4/3, 4/3] x [-1, 1] of z = 0 at 64 x 48.
+View frontView(int width = 64, int height = 48);
+std::shared_ptr<SceneState> stateOf(std::vector<std::shared_ptr<const Model>> models);
 
 /// First hit of the ray through the pixel's centre by brute force in double precision; `margin` is the distance of the
 /// centre from the nearest edge (pixels) among the triangles that the ray meets or nearly meets.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSolidModel.h"
 
+#include "dgtkDisjointSets.h"
 #include "dgtkModel.h"
 #include "dgtkPlaceBody.h"
 
@@ -45,28 +46,6 @@ std::vector<std::uint32_t> welded(const std::vector<Eigen::Vector3d>& positions,
   }
   return number;
 }
-
-class Sets
-{
-public:
-  explicit Sets(std::size_t n)
-    : Parent(n)
-  {
-    std::iota(this->Parent.begin(), this->Parent.end(), 0u);
-  }
-  std::uint32_t find(std::uint32_t i)
-  {
-    while (this->Parent[i] != i)
-    {
-      i = this->Parent[i] = this->Parent[this->Parent[i]];
-    }
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { this->Parent[this->find(a)] = this->find(b); }
-
-private:
-  std::vector<std::uint32_t> Parent;
-};
 
 bool isClosed(const SolidMesh& mesh, const SolidMesh::Part& part)
 {
@@ -128,7 +107,7 @@ SolidMesh solidMesh(const std::vector<Eigen::Vector3d>& positions, const Triangl
   }
   used = welded(corners, mesh.points);
   Triangles kept;
-  Sets sets(mesh.points.size());
+  DisjointSets sets(mesh.points.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
   {
     const std::array<std::uint32_t, 3> triangle = { used[3 * t], used[3 * t + 1], used[3 * t + 2] };

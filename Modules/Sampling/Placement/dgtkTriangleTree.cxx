@@ -2,7 +2,6 @@
 #include "dgtkPlaceBody.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 

@@ -37,15 +37,7 @@ double offBy(const SceneDescription& scene, const Rigid3& base_from_mounted, dou
 
 std::string refusal(const std::string& cameras)
 {
-  try
-  {
-    sampled(cameras);
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "accepted";
+  return test::thrownBy<Error>([&] { sampled(cameras); });
 }
 
 const std::string left = R"({ "name": "left", "eye": { "inBox": [[3, 1, 3], [6, 5, 6]] }, "lookAt": "ball" })";

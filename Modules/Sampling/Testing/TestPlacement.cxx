@@ -3,6 +3,7 @@
 
 #include "dgtkPlaceBody.h"
 #include "dgtkPlaceWorld.h"
+#include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
 
@@ -52,15 +53,7 @@ Eigen::Matrix3d about(const Eigen::Vector3d& axis, double degrees)
 
 std::string failure(PlaceScene made)
 {
-  try
-  {
-    made.place();
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return {};
+  return test::thrownBy<Error>([&] { made.place(); });
 }
 } // namespace
 

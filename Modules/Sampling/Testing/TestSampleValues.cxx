@@ -6,6 +6,7 @@
 #include "dgtkSceneRandom.h"
 
 #include "dgtkError.h"
+#include "dgtkTestSupport.h"
 
 #include <gtest/gtest.h>
 
@@ -95,17 +96,10 @@ std::string sampledOf(const std::string& json, int number = 0, const std::string
 
 void expectRefused(const std::string& json, const std::string& path, const std::string& says)
 {
-  try
-  {
-    sampledOf(json);
-    ADD_FAILURE() << "accepted: " << json;
-  }
-  catch (const Error& error)
-  {
-    const std::string line = error.what();
-    EXPECT_NE(line.find(path), std::string::npos) << line;
-    EXPECT_NE(line.find(says), std::string::npos) << line;
-  }
+  const std::string line = test::thrownBy<Error>([&] { sampledOf(json); });
+  EXPECT_NE(line, "") << "accepted: " << json;
+  EXPECT_NE(line.find(path), std::string::npos) << line;
+  EXPECT_NE(line.find(says), std::string::npos) << line;
 }
 
 std::string light(const std::string& members) { return R"({"lights":[{"name":"l",)" + members + "}]}"; }

@@ -4,7 +4,6 @@
 #include "dgtkFile.h"
 #include "dgtkHash.h"
 #include "dgtkSampler.h"
-#include "dgtkText.h"
 #include "dgtkThreadPool.h"
 #include "dgtkUtf8.h"
 
@@ -14,7 +13,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <mutex>
-#include <system_error>
 #include <vector>
 
 namespace dgtk

@@ -4,8 +4,8 @@
 
 #include "dgtkCameraEntry.h"
 #include "dgtkError.h"
-#include "dgtkSceneTracks.h"
 #include "dgtkStrangeCamera.h"
+#include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -120,16 +120,12 @@ TEST(SceneCameras, WhatDoesNotGoTogetherIsRefusedWithTheScene)
   EXPECT_THROW(validate(scene), InputError) << "it has no file";
   const auto message = [&]
   {
-    try
-    {
-      nameAll(scene);
-      validate(scene);
-    }
-    catch (const InputError& error)
-    {
-      return std::string(error.what());
-    }
-    return std::string();
+    return thrownBy<InputError>(
+      [&]
+      {
+        nameAll(scene);
+        validate(scene);
+      });
   };
   EXPECT_THAT(
     message(), HasSubstr("camera 'Camera0': model cannot be: a camera of the model 'strange' needs 'oddFile'"));

@@ -223,17 +223,7 @@ TEST(SceneJson, ATextThatIsInNoFile)
   EXPECT_EQ(scene.objects.at(0).line, 0);
   EXPECT_EQ(toJson(scene, folder.path()), toJson(readText(folder, "rich.json", richJson), folder.path()));
   const auto refusal = [&folder](const std::string& text)
-  {
-    try
-    {
-      readSceneText(text, folder.path());
-    }
-    catch (const InputError& error)
-    {
-      return std::string(error.what());
-    }
-    return std::string("is read");
-  };
+  { return thrownBy<InputError>([&] { readSceneText(text, folder.path()); }); };
   EXPECT_EQ(refusal("{\"objects\": [\n{\"model\": \"a.ac\", \"position\": [0, \"far\", 0]}]}"),
     "scene: objects[0].position[1] has the wrong type (expected a number from -1e15 to 1e15, found 'far')");
   EXPECT_EQ(refusal("{\"cameras\": [{\"near\": 2, \"far\": 1}]}").rfind("scene: cameras[0] has no pose ", 0), 0u);

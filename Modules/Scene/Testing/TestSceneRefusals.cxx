@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSceneSamples.h"
+#include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <ctime>
 #include <functional>
 #include <limits>
@@ -266,17 +266,7 @@ TEST(SceneRefusals, Files)
   const TemporaryFolder folder;
   makeFolders(folder.path("a.scene"));
   const auto message = [](const std::string& path) -> std::string
-  {
-    try
-    {
-      readScene(path);
-    }
-    catch (const InputError& error)
-    {
-      return error.what();
-    }
-    return {};
-  };
+  { return thrownBy<InputError>([&] { readScene(path); }); };
   EXPECT_THAT(message(folder.path("a.scene")), HasSubstr("cannot be read (expected a file, found a directory)"));
   EXPECT_THAT(message(folder.path("none.json")), HasSubstr("cannot be read: No such file or directory"));
   writeFile(folder.path("a.txt"), "{}");
@@ -384,15 +374,7 @@ TEST(SceneRefusals, WhatThesisScenesCannotSay)
     nameAll(scene);
     EXPECT_NO_THROW(toThesisScene(scene, ""));
     change.make(scene);
-    try
-    {
-      toThesisScene(scene, "");
-      ADD_FAILURE() << change.message;
-    }
-    catch (const InputError& error)
-    {
-      EXPECT_THAT(error.what(), HasSubstr(change.message));
-    }
+    EXPECT_THAT(thrownBy<InputError>([&] { toThesisScene(scene, ""); }), HasSubstr(change.message)) << change.message;
   }
 }
 
@@ -403,15 +385,7 @@ TEST(SceneRefusals, ScenesMadeByProgramObeyTheSameRules)
   scene.objects[0].model = "a.ac";
   scene.objects[0].name = "ball";
   scene.objects[0].position.value[1] = std::numeric_limits<double>::quiet_NaN();
-  try
-  {
-    validate(scene);
-    FAIL();
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("object 'ball': position[1] is out of range"));
-  }
+  EXPECT_THAT(thrownBy<InputError>([&] { validate(scene); }), HasSubstr("object 'ball': position[1] is out of range"));
   scene.objects[0].position.value[1] = 0;
   EXPECT_NO_THROW(validate(scene));
   scene.order = { { SceneItem::Kind::Object, 0 }, { SceneItem::Kind::Object, 0 } };
@@ -440,15 +414,7 @@ TEST(SceneRefusals, PropertiesOfAProgramsSceneObeyTheSameRules)
     SceneDescription scene;
     EXPECT_NO_THROW(validate(scene));
     change(scene);
-    try
-    {
-      validate(scene);
-      ADD_FAILURE() << what;
-    }
-    catch (const InputError& error)
-    {
-      EXPECT_THAT(error.what(), HasSubstr(std::string("scene: ") + what + ' '));
-    }
+    EXPECT_THAT(thrownBy<InputError>([&] { validate(scene); }), HasSubstr(std::string("scene: ") + what + ' ')) << what;
   }
 }
 
@@ -458,16 +424,8 @@ TEST(SceneRefusals, ScenesWithoutAFileAreCalledScene)
   scene.objects.resize(1);
   scene.objects[0].model = "a.ac";
   scene.objects[0].parent = "b";
-  try
-  {
-    toJson(scene, "");
-    FAIL();
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_STREQ(error.what(),
-      "scene: object 'a-1': parent is no object of the scene (expected the name of an object, found 'b')");
-  }
+  EXPECT_EQ(thrownBy<InputError>([&] { toJson(scene, ""); }),
+    "scene: object 'a-1': parent is no object of the scene (expected the name of an object, found 'b')");
 }
 
 TEST(SceneRefusals, Classes)
@@ -517,15 +475,7 @@ TEST(SceneRefusals, AFileOfClasses)
   const auto of = [&](const std::string& classes)
   {
     writeFile(folder.path("c.json"), classes);
-    try
-    {
-      readText(folder, "a.json", R"({"classes": "c.json", "objects": [{"model": "a.ac", "class": "tree"}]})");
-    }
-    catch (const InputError& error)
-    {
-      return std::string(error.what()).substr(folder.path().size() + 1);
-    }
-    return std::string();
+    return refusalIn(folder, "a.json", R"({"classes": "c.json", "objects": [{"model": "a.ac", "class": "tree"}]})");
   };
   EXPECT_EQ(of("{\"tree\": 3 /* and no other */}"), "");
   EXPECT_EQ(

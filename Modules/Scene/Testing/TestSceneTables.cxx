@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkSceneSamples.h"
+#include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -423,15 +424,9 @@ TEST(SceneTables, WhatSceneFilesHaveNoWordsFor)
     for (const std::vector<int>& frames : { std::vector<int>(), std::vector<int>{ 3, 7 } })
     {
       scene.extraKeyFrames = frames;
-      try
-      {
-        toThesisScene(scene, "");
-        ADD_FAILURE() << what;
-      }
-      catch (const InputError& error)
-      {
-        EXPECT_THAT(error.what(), HasSubstr(std::string("scene: ") + what + " cannot be said in .scene"));
-      }
+      EXPECT_THAT(thrownBy<InputError>([&] { toThesisScene(scene, ""); }),
+        HasSubstr(std::string("scene: ") + what + " cannot be said in .scene"))
+        << what;
     }
   }
 }

@@ -3,7 +3,7 @@
 #include "dgtkSceneJson.h"
 #include "dgtkTestSupport.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <fstream>
 
@@ -149,16 +149,9 @@ TEST(SensorJson, LimitsAreWithin)
     {
       std::string key = row.key;
       key.replace(key.find('#'), 1, value);
-      try
-      {
-        read(folder, std::string(R"({ "cameras": [ { "eye": [0, 0, 1], "lookAt": [0, 0, 0], "sensor": { ")") +
-                       row.part + "\": {" + key + "} } } ] }");
-      }
-      catch (const InputError&)
-      {
-        return false;
-      }
-      return true;
+      const std::string json = std::string(R"({ "cameras": [ { "eye": [0, 0, 1], "lookAt": [0, 0, 0], "sensor": { ")") +
+                               row.part + "\": {" + key + "} } } ] }";
+      return test::thrownBy<InputError>([&] { read(folder, json); }).empty();
     };
     for (const char* value : row.good)
     {

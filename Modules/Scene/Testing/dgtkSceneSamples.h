@@ -131,20 +131,12 @@ inline SceneDescription readText(const TemporaryFolder& folder, const std::strin
 }
 
 /// The message of the InputError that reading the text raises, with the folder cut off; "" when there is none.
-inline std::string refusalOf(const std::string& name, const std::string& text)
+inline std::string refusalIn(const TemporaryFolder& folder, const std::string& name, const std::string& text)
 {
-  const TemporaryFolder folder;
-  try
-  {
-    readText(folder, name, text);
-  }
-  catch (const InputError& error)
-  {
-    const std::string message = error.what();
-    return message.rfind(folder.path() + '/', 0) == 0 ? message.substr(folder.path().size() + 1) : message;
-  }
-  return {};
+  const std::string message = thrownBy<InputError>([&] { readText(folder, name, text); });
+  return message.rfind(folder.path() + '/', 0) == 0 ? message.substr(folder.path().size() + 1) : message;
 }
+inline std::string refusalOf(const std::string& name, const std::string& text) { return refusalIn({}, name, text); }
 
 } // namespace dgtk::test
 

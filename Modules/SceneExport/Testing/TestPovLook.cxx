@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dgtkError.h"
 #include "dgtkFile.h"
 #include "dgtkPovExport.h"
 #include "dgtkSyntheticScene.h"
@@ -260,27 +259,21 @@ TEST_F(PovLook, TexelsAreThereFromTheMiddleOn)
   EXPECT_EQ(readFile(this->path("q_0_mask.pgm")), std::string("P5\n2 2\n255\n\0\0\xff\xff", 15));
 }
 
-TEST_F(PovLook, NormalsOfTheOtherSideAreWritten)
+TEST_F(PovLook, NormalsOfTheOtherSideAndThoseALittleTiltedAreWritten)
 {
-  const auto quad = test::makeQuad();
-  auto geometry = std::make_shared<Geometry>(*quad->rest);
-  for (Eigen::Vector3f& normal : geometry->normals)
+  for (const bool tilted : { false, true })
   {
-    normal = -normal;
+    const auto quad = test::makeQuad();
+    auto geometry = std::make_shared<Geometry>(*quad->rest);
+    for (Eigen::Vector3f& normal : geometry->normals)
+    {
+      normal = tilted ? normal : -normal;
+    }
+    geometry->normals[0] = tilted ? Eigen::Vector3f(0.001f, 0, 1).normalized() : geometry->normals[0];
+    quad->rest = geometry;
+    exportPov(quad, this->path("q.pov"));
+    EXPECT_THAT(readFile(this->path("q.pov")), HasSubstr("normal_vectors")) << tilted;
   }
-  quad->rest = geometry;
-  exportPov(quad, this->path("q.pov"));
-  EXPECT_THAT(readFile(this->path("q.pov")), HasSubstr("normal_vectors"));
-}
-
-TEST_F(PovLook, NormalsThatAreALittleTiltedAreWritten)
-{
-  const auto quad = test::makeQuad();
-  auto geometry = std::make_shared<Geometry>(*quad->rest);
-  geometry->normals[0] = Eigen::Vector3f(0.001f, 0, 1).normalized();
-  quad->rest = geometry;
-  exportPov(quad, this->path("q.pov"));
-  EXPECT_THAT(readFile(this->path("q.pov")), HasSubstr("normal_vectors"));
 }
 
 /// A quad with an opaque texture of one file, of which only the header counts.
@@ -440,13 +433,12 @@ TEST_F(PovLook, WhatLightDoesNotReachNeedsNoTextureOfTheView)
   EXPECT_THAT(this->write(), Not(HasSubstr("texture_map")));
 }
 
-/// A triangle from depth 1 to 10 whose normals, but for that of the first corner, are its own.
-std::shared_ptr<Model> turnedAtItsFirstCorner()
+/// A triangle whose normals, but for that of the first corner, are its own.
+std::shared_ptr<Model> turnedAtItsFirstCorner(const std::vector<Eigen::Vector3d>& p)
 {
   const auto model = test::makeSoup({ 1, 1, 1, 1 });
   auto geometry = std::make_shared<Geometry>(*model->rest);
-  geometry->positions = { { -0.4, -0.3, 1 }, { -4, 3, 10 }, { 3, -3, 10 } };
-  const auto& p = geometry->positions;
+  geometry->positions = p;
   const Eigen::Vector3f normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized().cast<float>();
   geometry->normals = { -normal, normal, normal };
   model->rest = geometry;
@@ -473,11 +465,7 @@ TEST_F(PovLook, NormalsFaceAwayFromTheRaysOfParallelCameras)
 
 TEST_F(PovLook, ModelsAreNotMadeForAView)
 {
-  const auto model = test::makeSoup({ 1, 1, 1, 1 });
-  auto geometry = std::make_shared<Geometry>(*model->rest);
-  geometry->positions = { { -1, -1, 0 }, { 1, -1, 0 }, { 0, 1, 0 } };
-  geometry->normals = { { 0, 0, -1 }, { 0, 0, 1 }, { 0, 0, 1 } };
-  model->rest = geometry;
+  const auto model = turnedAtItsFirstCorner({ { -1, -1, 0 }, { 1, -1, 0 }, { 0, 1, 0 } });
   this->State = *test::SceneBuilder().add(model).state();
   EXPECT_THAT(this->write(), HasSubstr("texture_map"));
   exportPov(model, this->path("m.pov"));
@@ -489,13 +477,7 @@ TEST_F(PovLook, ModelsAreNotMadeForAView)
 TEST_F(PovLook, TrianglesThatCrossTheNearPlaneAreLookedAtFromThereOn)
 {
   this->V.camera_from_world = Rigid3();
-  const auto model = turnedAtItsFirstCorner();
-  auto geometry = std::make_shared<Geometry>(*model->rest);
-  geometry->positions = { { 0.3, 0, 1 }, { -3, 3, 10 }, { -3, -3, 10 } };
-  const auto& p = geometry->positions;
-  const Eigen::Vector3f normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized().cast<float>();
-  geometry->normals = { -normal, normal, normal };
-  model->rest = geometry;
+  const auto model = turnedAtItsFirstCorner({ { 0.3, 0, 1 }, { -3, 3, 10 }, { -3, -3, 10 } });
   this->State = *test::SceneBuilder().add(model).state();
   this->V.near = 2;
   EXPECT_THAT(this->write(), HasSubstr("texture_map"));
@@ -505,7 +487,8 @@ TEST_F(PovLook, TrianglesThatCrossTheNearPlaneAreLookedAtFromThereOn)
 TEST_F(PovLook, WhatIsNearerThanTheNearPlaneNeedsNoTextureOfTheView)
 {
   this->V.camera_from_world = Rigid3();
-  this->State = *test::SceneBuilder().add(turnedAtItsFirstCorner()).state();
+  const auto model = turnedAtItsFirstCorner({ { -0.4, -0.3, 1 }, { -4, 3, 10 }, { 3, -3, 10 } });
+  this->State = *test::SceneBuilder().add(model).state();
   this->V.near = 0.1;
   EXPECT_THAT(this->write(), HasSubstr("texture_map"));
   this->V.near = 6;

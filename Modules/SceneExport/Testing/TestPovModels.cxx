@@ -4,7 +4,7 @@
 #include "dgtkPovExport.h"
 #include "dgtkTestSupport.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include "dgtkError.h"
 #include "dgtkThreadPool.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <limits>
 #include <set>

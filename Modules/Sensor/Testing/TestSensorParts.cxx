@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkGradientNoise.h"
 #include "dgtkJpegArtefacts.h"
-#include "dgtkSensorRuns.h"
 #include "dgtkTestSupport.h"
 
+#include <gtest/gtest.h>
+
 #include <OpenImageIO/imageio.h>
-#include <gmock/gmock.h>
 
 namespace dgtk::test
 {

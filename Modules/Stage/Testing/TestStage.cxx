@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkStageSamples.h"
+#include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -330,22 +331,12 @@ TEST(Stage, UndefinedMomentsAreRefused)
     {"name": "flat", "model": "models/square.ac", "scale": {"keys": [[0, [1, -1, 2]], [3, [1, 1, 2]]]}}],
     "cameras": [{"eye": {"keys": [[0, [0, 0, 5]], [3, [0, 0, -5]]]}, "lookAt": [0, 0, 0]}]})");
   EXPECT_NO_THROW(stage->at(0));
-  try
-  {
-    stage->at(1.5); // frames of the scene are refused when it is read
-    FAIL();
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("scene.json:2: object 'flat': scale passes through 0"));
-  }
-  try
-  {
-    stage->view(0, 1.5);
-    FAIL();
-  }
-  catch (const InputError& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("scene.json:3: camera 'Camera0' at frame 1.5: eye and look-at"));
-  }
+  EXPECT_THAT(thrownBy<InputError>(
+                [&]
+                {
+                  stage->at(1.5); // frames of the scene are refused when it is read
+                }),
+    HasSubstr("scene.json:2: object 'flat': scale passes through 0"));
+  EXPECT_THAT(thrownBy<InputError>([&] { stage->view(0, 1.5); }),
+    HasSubstr("scene.json:3: camera 'Camera0' at frame 1.5: eye and look-at"));
 }

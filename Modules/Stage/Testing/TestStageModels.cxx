@@ -4,6 +4,7 @@
 #include "dgtkModelClock.h"
 #include "dgtkSceneFromText.h"
 #include "dgtkStageSamples.h"
+#include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -135,171 +136,6 @@ TEST(StageModels, IdsFollowTheOrderOfTheScene)
   EXPECT_EQ(stage->objectNames(), (std::vector<std::string>{ "a", "b" }));
 }
 
-TEST(StageModels, MaterialsAreReplaced)
-{
-  const ModelFolder folder;
-  const auto stage = folder.load(R"({"objects": [
-    {"model": "models/square.ac"},
-    {"model": "models/square.ac", "materials": {"*": {"diffuse": [0, 0, 1], "opacity": 0.5}, "red": {"shininess": 3, "bumpScale": 0.25,
-      "ambient": [0.1, 0, 0], "specular": [0, 0.1, 0], "emission": [0, 0, 0.1]}}},
-    {"model": "models/square.ac", "materials": {"red": {"texture": ""}}},
-    {"model": "models/square.ac", "materials": {"*": {"texture": "models/other.ppm"}}}]})");
-  const auto state = stage->at(0);
-  ASSERT_EQ(state->instances.size(), 4u);
-  const auto material = [&](std::size_t i) { return state->instances[i].materials->at(0); };
-  EXPECT_EQ(material(0).diffuse, Vector(1, 0, 0));
-  EXPECT_EQ(material(1).diffuse, Vector(0, 0, 1));
-  EXPECT_EQ(material(1).opacity, 0.5);
-  EXPECT_EQ(material(1).shininess, 3);
-  EXPECT_EQ(material(1).bumpScale, 0.25);
-  EXPECT_EQ(material(1).ambient, Vector(0.1, 0, 0));
-  EXPECT_EQ(material(1).specular, Vector(0, 0.1, 0));
-  EXPECT_EQ(material(1).emission, Vector(0, 0, 0.1));
-  EXPECT_EQ(material(2).ambient, material(0).ambient);
-  EXPECT_EQ(material(2).specular, material(0).specular);
-  EXPECT_EQ(material(2).texture, -1);
-  const Model& model = *state->instances[3].model;
-  EXPECT_EQ(model.textures.at(std::size_t(material(3).texture)).path, folder.path("models/other.ppm"));
-  EXPECT_NE(model.textures.at(std::size_t(material(3).texture)).image, nullptr);
-  EXPECT_EQ(state->instances[3].model, state->instances[0].model);
-}
-
-TEST(StageModels, MaterialsHaveTheNumbersOfTheirTracks)
-{
-  const ModelFolder folder;
-  const auto stage = folder.load(R"({"objects": [
-    {"name": "plain", "model": "models/square.ac", "materials": {"red": {"diffuse": [0, 1, 0]}}},
-    {"name": "all", "model": "models/square.ac", "materials": {
-      "*": {"diffuse": {"keys": [[0, [0, 0, 0]], [4, [1, 1, 1]]]}, "opacity": {"keys": [[0, 1], [4, 0]]}},
-      "red": {"opacity": 0.75, "ambient": {"keys": [[0, [0, 0, 0]], [4, [0, 1, 0]]]},
-        "specular": {"keys": [[0, [0, 0, 0]], [4, [0, 0, 1]]]}, "emission": {"keys": [[0, [0, 0, 0]], [4, [1, 0, 0]]]},
-        "shininess": {"keys": [[0, 0], [4, 100]]}, "metallic": {"keys": [[0, 0], [4, 1]]}, "roughness": 0.5,
-        "bumpScale": {"keys": [[0, -4], [4, 4]]}, "texture": ""}}},
-    {"name": "steps", "model": "models/square.ac",
-      "materials": {"*": {"opacity": {"keys": [[0, 1], [2, 0.5]], "interpolation": "step"}}}}]})");
-  const auto state = stage->at(1);
-  const auto material = [](const std::shared_ptr<const SceneState>& of, std::size_t i)
-  { return of->instances[i].materials->at(0); };
-  const Material all = material(state, 1);
-  EXPECT_EQ(all.diffuse, Vector(0.25, 0.25, 0.25));
-  EXPECT_EQ(all.opacity, 0.75) << "the last override that has it counts, moving or not";
-  EXPECT_EQ(all.ambient, Vector(0, 0.25, 0));
-  EXPECT_EQ(all.specular, Vector(0, 0, 0.25));
-  EXPECT_EQ(all.emission, Vector(0.25, 0, 0));
-  EXPECT_EQ(all.shininess, 25);
-  EXPECT_EQ(all.physical->metallic, 0.25);
-  EXPECT_EQ(all.physical->roughness, 0.5);
-  EXPECT_EQ(all.bumpScale, -2);
-  EXPECT_EQ(all.texture, -1);
-  EXPECT_EQ(material(stage->at(4), 1).diffuse, Vector(1, 1, 1));
-  EXPECT_EQ(material(state, 0).diffuse, Vector(0, 1, 0));
-  // What has no tracks is the same at all frames; equal numbers share a list.
-  EXPECT_EQ(stage->at(3)->instances[0].materials, state->instances[0].materials);
-  EXPECT_NE(stage->at(3)->instances[1].materials, state->instances[1].materials);
-  EXPECT_EQ(stage->at(5)->instances[2].materials, stage->at(3)->instances[2].materials);
-  EXPECT_EQ(material(state, 2).opacity, 1);
-  EXPECT_EQ(material(stage->at(3), 2).opacity, 0.5);
-}
-
-TEST(StageModels, MissingTexelsAreThoseOfTheTextureThatIsUsed)
-{
-  const ModelFolder folder;
-  // Two texels of 32 bits, the second one transparent.
-  writeFile(folder.path("models/holes.tga"),
-    std::string("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\1\0\x20\x28", 18) + "\1\2\3\xff\4\5\6" + '\0');
-  const auto stage = folder.load(R"({"objects": [
-    {"model": "models/square.ac"}, {"model": "models/square.ac", "materials": {"*": {"texture": "models/holes.tga"}}},
-    {"model": "models/square.ac", "materials": {"*": {"texture": "models/holes.tga"}, "red": {"texture": ""}}},
-    {"model": "models/square.ac", "materials": {"*": {"texture": "models/holes.tga"},
-      "red": {"texture": "models/other.ppm"}}}]})");
-  const auto state = stage->at(0);
-  for (const auto& [object, cutOut] :
-    { std::pair(0, false), std::pair(1, true), std::pair(2, false), std::pair(3, false) })
-  {
-    EXPECT_EQ(state->instances[std::size_t(object)].materials->at(0).cutOut, cutOut) << object;
-  }
-}
-
-TEST(StageModels, MetalAndRoughnessAreAskedFor)
-{
-  const ModelFolder folder;
-  const auto stage = folder.load(R"({"objects": [{"model": "models/square.ac"},
-    {"model": "models/square.ac", "materials": {"*": {"metallic": 0.75}}},
-    {"model": "models/square.ac", "materials": {"*": {"roughness": 0.25}}},
-    {"model": "models/square.ac", "materials": {"*": {"metallic": 0.75}, "red": {"roughness": 0.25}}}]})");
-  const auto physical = [&](std::size_t i) { return stage->at(0)->instances[i].materials->at(0).physical; };
-  EXPECT_FALSE(physical(0));
-  for (const std::size_t i : { 1u, 2u, 3u })
-  {
-    ASSERT_TRUE(physical(i));
-    EXPECT_TRUE(physical(i)->wanted);
-    EXPECT_EQ(physical(i)->metallic, i != 2 ? 0.75 : 0);
-    EXPECT_EQ(physical(i)->roughness, i != 1 ? 0.25 : 1);
-  }
-}
-
-TEST(StageModels, AllMaterialsOfNone)
-{
-  const ModelFolder folder;
-  writeFile(folder.path("models/bare.ac"), "AC3Db\nOBJECT world\nkids 0\n");
-  EXPECT_EQ(
-    folder.refusalOf(R"({"objects": [{"model": "models/bare.ac", "materials": {"*": {"opacity": 0.5}}}]})"), "");
-}
-
-TEST(StageModels, AMissingTextureIsAWarning)
-{
-  const ModelFolder folder;
-  std::vector<std::string> warnings;
-  folder.load(R"({"objects": [{"model": "models/square.ac", "materials": {"*": {"texture": "no.png"}}}]})",
-    [&](const std::string& line) { warnings.push_back(line); });
-  EXPECT_THAT(warnings, testing::Contains(HasSubstr("texture 'no.png': not found")));
-}
-
-TEST(StageModels, TexturesOfAbsoluteNamesAreNotLookedForElsewhere)
-{
-  const ModelFolder folder;
-  writeFile(folder.path("beside.ppm"), redPpm);
-  for (const auto& [name, found] : { std::pair("nowhere/beside.ppm", true), std::pair("/nowhere/beside.ppm", false) })
-  {
-    std::vector<std::string> warnings;
-    folder.load(
-      std::string(R"({"objects": [{"model": "models/square.ac", "materials": {"*": {"texture": ")") + name + "\"}}}]}",
-      [&](const std::string& line) { warnings.push_back(line); });
-    EXPECT_EQ(warnings.empty(), found) << name;
-  }
-}
-
-TEST(StageModels, ATextureWithoutCoordinatesIsAWarning)
-{
-  const ModelFolder folder;
-  std::string bare = squareAc;
-  for (const char* refs : { "1 1 0\n", "2 1 1\n", "3 0 1\n" })
-  {
-    bare.replace(bare.rfind(refs), 6, std::string(1, refs[0]) + " 0 0\n");
-  }
-  writeFile(folder.path("models/bare.ac"), bare);
-  std::vector<std::string> warnings;
-  folder.load(R"({"objects": [{"model": "models/bare.ac", "materials": {"*": {"texture": "models/one.ppm"}}}]})",
-    [&](const std::string& line) { warnings.push_back(line); });
-  EXPECT_THAT(warnings, testing::ElementsAre(HasSubstr("bare.ac has no texture coordinates")));
-}
-
-TEST(StageModels, MapsAreThoseThatTheSceneNames)
-{
-  const ModelFolder folder;
-  const auto stage = folder.load(R"({"objects": [{"model": "models/square.ac", "materials": {"*": {
-    "emissionMap": "models/one.ppm", "occlusionMap": "models/two.ppm", "metallicRoughnessMap": "models/other.ppm",
-    "normalMap": "models/red.ppm"}}}]})");
-  const Instance& instance = stage->at(0)->instances[0];
-  const Material& material = instance.materials->at(0);
-  const auto file = [&](int map)
-  { return std::filesystem::path(instance.model->textures.at(std::size_t(map)).path).filename().string(); };
-  EXPECT_EQ(file(material.emissionMap), "one.ppm");
-  EXPECT_EQ(file(material.occlusionMap), "two.ppm");
-  EXPECT_EQ(file(material.metallicRoughnessMap), "other.ppm");
-  EXPECT_EQ(file(material.normalMap), "red.ppm");
-}
-
 TEST(StageModels, WarningsOfAModelNameItsFile)
 {
   const ModelFolder folder;
@@ -330,15 +166,9 @@ TEST(StageModels, AllPicturesOfASceneAreInOneStore)
   for (const std::string more : { R"(], "environment": {"image": "models/red.ppm"}})",
          R"(, {"model": "models/square.ac", "materials": {"*": {"texture": "models/blue.ppm"}}}]})" })
   {
-    try
-    {
-      load(more);
-      ADD_FAILURE() << more;
-    }
-    catch (const MachineError& error)
-    {
-      EXPECT_THAT(error.what(), HasSubstr(".ppm: a texture of 512 x 512 pixels; with it, all textures take "));
-    }
+    EXPECT_THAT(thrownBy<MachineError>([&] { load(more); }),
+      HasSubstr(".ppm: a texture of 512 x 512 pixels; with it, all textures take "))
+      << more;
   }
   ::unsetenv("DGTK_TEXTURE_MEMORY");
 }
@@ -368,41 +198,6 @@ TEST(StageModels, ManyModelsAreToldOfInTheScenesOrder)
   writeFile(folder.path("models/38.ac"), "no model");
   writeFile(folder.path("models/11.ac"), "no model");
   EXPECT_THAT(folder.refusalOf("{\"objects\": [" + objects + "]}"), HasSubstr("scene.json:12: object '11-1': model: "));
-}
-
-TEST(StageModels, SkinsAreTexturesOfTheModel)
-{
-  const ModelFolder folder;
-  for (const char* skin : { "two.ppm", "two", "1" })
-  {
-    const auto stage =
-      folder.load(std::string(R"({"objects": [{"model": "models/runner.md2", "skin": ")") + skin + "\"}]}");
-    const Instance& instance = stage->at(0)->instances[0];
-    const int texture = instance.materials->at(0).texture;
-    ASSERT_GE(texture, 0);
-    EXPECT_EQ(instance.model->textures[std::size_t(texture)].name, "two.ppm") << skin;
-  }
-  EXPECT_THAT(folder.refusalOf("{\"objects\": [\n{\"model\": \"models/runner.md2\", \"skin\": \"three\"}]}"),
-    HasSubstr("scene.json:2: object 'runner-1': skin is no texture of models/runner.md2 (expected one of one.ppm, "
-              "two.ppm, found 'three')"));
-}
-
-TEST(StageModels, SkinsReplaceTexturesOnly)
-{
-  const ModelFolder folder;
-  std::string two = squareAc;
-  two.replace(two.find("kids 1"), 6, "kids 2");
-  std::string plain = squareAc.substr(squareAc.find("OBJECT poly"));
-  plain.replace(plain.find("texture \"red.ppm\"\n"), 18, "");
-  writeFile(folder.path("models/two.ac"), two + plain);
-  const auto stage = folder.load(R"({"objects": [{"model": "models/two.ac", "skin": "red"}]})");
-  const Instance& instance = stage->at(0)->instances[0];
-  std::vector<int> textures;
-  for (const Part& part : instance.model->parts)
-  {
-    textures.push_back(instance.materials->at(std::size_t(part.material)).texture);
-  }
-  EXPECT_THAT(textures, testing::ElementsAre(0, -1));
 }
 
 // MD2 plays 10 frames a second: at 20 scene frames a second, half a model frame each.

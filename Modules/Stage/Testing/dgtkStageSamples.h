@@ -112,18 +112,10 @@ public:
   /// The message of the InputError that loading raises, without the folder; "" when there is none.
   std::string refusalOf(const std::string& json) const
   {
-    std::string message;
-    try
+    std::string message = thrownBy<InputError>([&] { this->load(json)->at(0); });
+    for (std::size_t at; (at = message.find(this->path() + '/')) != std::string::npos;)
     {
-      this->load(json)->at(0);
-    }
-    catch (const InputError& error)
-    {
-      message = error.what();
-      for (std::size_t at; (at = message.find(this->path() + '/')) != std::string::npos;)
-      {
-        message.erase(at, this->path().size() + 1);
-      }
+      message.erase(at, this->path().size() + 1);
     }
     return message;
   }

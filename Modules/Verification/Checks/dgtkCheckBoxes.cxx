@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <set>
 
 namespace dgtk
 {
@@ -37,7 +36,7 @@ Extent extentOf(const Picture& picture, const Inside& inside)
   return extent;
 }
 
-Eigen::MatrixXd matrixOf(const Json& json)
+Eigen::MatrixXd jsonMatrix(const Json& json)
 {
   Eigen::MatrixXd matrix(json.size(), json.at(0).size());
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
@@ -50,7 +49,7 @@ Eigen::MatrixXd matrixOf(const Json& json)
   return matrix;
 }
 
-Eigen::Vector3d vectorOf(const Json& json)
+Eigen::Vector3d jsonVector(const Json& json)
 {
   return { json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>() };
 }
@@ -291,14 +290,14 @@ private:
     const Affine3& camera_from_object = this->Owner.sight().cameraFromObject(this->Id);
     Eigen::MatrixXd expected(3, 4);
     expected << camera_from_object.linear, camera_from_object.translation;
-    this->matrix("matrix", matrixOf(object.at("matrix")), expected);
+    this->matrix("matrix", jsonMatrix(object.at("matrix")), expected);
     if (!object.at("R").is_null())
     {
-      const Eigen::Matrix3d R = matrixOf(object.at("R"));
-      const Eigen::Vector3d scale = vectorOf(object.at("scale"));
+      const Eigen::Matrix3d R = jsonMatrix(object.at("R"));
+      const Eigen::Vector3d scale = jsonVector(object.at("scale"));
       this->matrix("R", R * R.transpose(), Eigen::Matrix3d::Identity());
       this->matrix("R diag(scale)", R * scale.asDiagonal(), camera_from_object.linear);
-      this->matrix("t", vectorOf(object.at("t")), camera_from_object.translation);
+      this->matrix("t", jsonVector(object.at("t")), camera_from_object.translation);
     }
     Eigen::Vector3d least(infinite, infinite, infinite);
     Eigen::Vector3d most = -least;
@@ -315,7 +314,7 @@ private:
         (i & 1) != 0 ? most.x() : least.x(), (i & 2) != 0 ? most.y() : least.y(), (i & 4) != 0 ? most.z() : least.z());
       corners.row(i) = camera_from_object * corner;
     }
-    this->matrix("box3d", matrixOf(object.at("box3d")), corners);
+    this->matrix("box3d", jsonMatrix(object.at("box3d")), corners);
   }
 
   Picture& Owner;

@@ -6,8 +6,6 @@
 #include <Eigen/Geometry>
 #include <opencv2/calib3d.hpp>
 
-#include <cmath>
-
 namespace dgtk
 {
 
@@ -25,10 +23,10 @@ struct RowPoints
   std::vector<cv::Point3d> points;
 };
 
-class Points
+class CalibrationPoints
 {
 public:
-  explicit Points(Picture& picture)
+  explicit CalibrationPoints(Picture& picture)
     : Owner(picture)
     , Position(picture.quietly([&] { return picture.values("position"); }))
     , Depth(picture.quietly([&] { return picture.values("depth"); }))
@@ -70,7 +68,8 @@ private:
 using Project = std::function<std::vector<cv::Point2d>(const std::vector<cv::Point3d>&)>;
 
 /// The points of each pixel, projected, must give its centre.
-Meter checkPoints(Picture& picture, const Points& points, const std::string& file, const Project& project)
+Meter projectedPoints(
+  Picture& picture, const CalibrationPoints& points, const std::string& file, const Project& project)
 {
   return meterRows(picture.pool(), picture.height(), calibrationTolerance,
     [&](int y, Meter& meter)
@@ -95,7 +94,7 @@ Meter checkPoints(Picture& picture, const Points& points, const std::string& fil
     });
 }
 
-void checkOpenCV(Picture& picture, const Points& points, Results& results)
+void checkOpenCV(Picture& picture, const CalibrationPoints& points, Results& results)
 {
   const CameraRecord& camera = picture.eye().record();
   cv::Matx33d K;
@@ -116,7 +115,7 @@ void checkOpenCV(Picture& picture, const Points& points, Results& results)
   const cv::Vec3d rotation(vector.x(), vector.y(), vector.z());
   const cv::Vec3d translation(camera.t.x(), camera.t.y(), camera.t.z());
   results.add({ "cv::projectPoints", "pixel", { points.file()->file() } },
-    checkPoints(picture, points, points.file()->file(),
+    projectedPoints(picture, points, points.file()->file(),
       [&](const std::vector<cv::Point3d>& world)
       {
         std::vector<cv::Point2d> projected;
@@ -126,11 +125,11 @@ void checkOpenCV(Picture& picture, const Points& points, Results& results)
 }
 
 /// Of a lens, whose rays are its model's: so that these are checked.
-void checkLens(Picture& picture, const Points& points, Results& results)
+void checkLens(Picture& picture, const CalibrationPoints& points, Results& results)
 {
   const EyeLens& lens = *picture.eye().lens();
   results.add({ lens.name(), "pixel", { points.file()->file() } },
-    checkPoints(picture, points, points.file()->file(),
+    projectedPoints(picture, points, points.file()->file(),
       [&](const std::vector<cv::Point3d>& world)
       {
         std::vector<Eigen::Vector3d> x_in_camera;
@@ -147,12 +146,12 @@ void checkLens(Picture& picture, const Points& points, Results& results)
       }));
 }
 
-void checkThesis(Picture& picture, const Points& points, const std::string& file, Results& results)
+void checkThesis(Picture& picture, const CalibrationPoints& points, const std::string& file, Results& results)
 {
   const Calibration calibration = readCalibration(picture.dataset().absolute(file));
   const Eigen::Matrix<double, 3, 4> matrix = calibration.cameraMatrix();
   results.add(
-    { "thesis", "pixel", { file } }, checkPoints(picture, points, file,
+    { "thesis", "pixel", { file } }, projectedPoints(picture, points, file,
                                        [&](const std::vector<cv::Point3d>& world)
                                        {
                                          std::vector<cv::Point2d> projected;
@@ -190,7 +189,7 @@ void checkEntries(Picture& picture, const std::string& file, Results& results)
 
 void checkCalibration(Picture& picture, Results& results)
 {
-  const Points points(picture);
+  const CalibrationPoints points(picture);
   const std::string text = picture.dataset().find(picture.camera(), "calibration", picture.frame(), { ".txt" });
   if (points.file() && picture.eye().pinhole())
   {

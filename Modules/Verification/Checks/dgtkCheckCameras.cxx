@@ -129,7 +129,7 @@ void checkClassIds(const std::vector<ObjectRecord>& objects, Meter& meter)
   }
 }
 
-void checkObjects(Dataset& dataset, Meter& meter)
+void compareObjects(Dataset& dataset, Meter& meter)
 {
   const int frame = dataset.cameras().empty() ? 0 : dataset.cameras().front().frame;
   const std::vector<Instance>& instances = dataset.state(frame)->instances;
@@ -170,7 +170,7 @@ void checkCameras(Dataset& dataset, Results& results)
   }
   results.add({ "cameras", "relative", { "cameras.json" } }, cameras);
   Meter objects(0);
-  checkObjects(dataset, objects);
+  compareObjects(dataset, objects);
   results.add({ "objects", "", { "objects.json" } }, objects);
 }
 

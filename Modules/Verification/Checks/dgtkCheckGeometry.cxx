@@ -14,7 +14,7 @@ namespace
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A seen surface point.
-struct Point
+struct GeometryPoint
 {
   const Sight& sight;
   Hit hit;
@@ -23,7 +23,7 @@ struct Point
 };
 
 /// Writes the expected channels and returns the residual of the found ones; negative: left open.
-using Measure = double (*)(const Point& point, const double* found, double* expected);
+using Measure = double (*)(const GeometryPoint& point, const double* found, double* expected);
 
 struct GeometryLayer
 {
@@ -49,19 +49,19 @@ double largest(const double* found, const double* expected, int count)
 
 void put(const Eigen::Vector3d& value, double* to) { Eigen::Map<Eigen::Vector3d>(to, 3) = value; }
 
-double distanceOf(const Point& p, const double* found, double* expected)
+double distanceOf(const GeometryPoint& p, const double* found, double* expected)
 {
   *expected = p.x_in_camera.norm();
   return std::abs((*found - *expected) / *expected);
 }
 
-double inverseDepthOf(const Point& p, const double* found, double* expected)
+double inverseDepthOf(const GeometryPoint& p, const double* found, double* expected)
 {
   *expected = 1 / p.x_in_camera.z();
   return std::abs((*found - *expected) / *expected);
 }
 
-double positionOf(const Point& p, const double* found, double* expected)
+double positionOf(const GeometryPoint& p, const double* found, double* expected)
 {
   const Eigen::Vector3d world = p.sight.eye().toWorld(p.x_in_camera);
   put(world, expected);
@@ -69,7 +69,7 @@ double positionOf(const Point& p, const double* found, double* expected)
          std::max({ world.norm(), p.x_in_camera.norm(), p.sight.eye().record().t.norm() });
 }
 
-double objectCoordinatesOf(const Point& p, const double* found, double* expected)
+double objectCoordinatesOf(const GeometryPoint& p, const double* found, double* expected)
 {
   const Affine3& camera_from_object = p.sight.cameraFromObject(p.hit.object);
   const Eigen::Matrix3d inverse = camera_from_object.linear.inverse();
@@ -91,7 +91,7 @@ constexpr double leastCosine = 1e-9;
 /// Length of the sum of the corners' normals below which it has no direction to compare.
 constexpr double leastNormal = 1e-3;
 
-double normalOf(const Point& p, const double* found, double* expected)
+double normalOf(const GeometryPoint& p, const double* found, double* expected)
 {
   Eigen::Vector3d corner[3];
   p.sight.corners(p.hit, corner);
@@ -109,7 +109,7 @@ double normalOf(const Point& p, const double* found, double* expected)
   return largest(found, expected, 3);
 }
 
-double shadingNormalOf(const Point& p, const double* found, double* expected)
+double shadingNormalOf(const GeometryPoint& p, const double* found, double* expected)
 {
   const Instance& instance = p.sight.instance(p.hit.object);
   const auto& triangle = instance.model->triangles[p.hit.triangle];
@@ -134,7 +134,7 @@ double shadingNormalOf(const Point& p, const double* found, double* expected)
   return largest(found, expected, 3);
 }
 
-double uvOf(const Point& p, const double* found, double* expected)
+double uvOf(const GeometryPoint& p, const double* found, double* expected)
 {
   const Model& model = *p.sight.instance(p.hit.object).model;
   if (model.uvs.empty())
@@ -156,7 +156,7 @@ double uvOf(const Point& p, const double* found, double* expected)
   return largest(found, expected, 2) / size;
 }
 
-double barycentricsOf(const Point& p, const double* found, double* expected)
+double barycentricsOf(const GeometryPoint& p, const double* found, double* expected)
 {
   put(p.sight.weights(p.hit, p.x_in_camera), expected);
   Eigen::Vector3d corner[3];

@@ -32,7 +32,7 @@ enum Class
 };
 
 /// Where a keypoint is seen.
-struct Place
+struct KeypointPlace
 {
   bool known = true; ///< otherwise plain iteration of time and place does not settle
   bool projects = false;
@@ -113,10 +113,10 @@ private:
     return instance.world_from_object * instance.geometry->positions[std::size_t(split - source.begin())];
   }
 
-  Place placeOf(const KeypointDescription& point) const
+  KeypointPlace placeOf(const KeypointDescription& point) const
   {
     const TimedSight& sight = this->Owner.time();
-    Place place;
+    KeypointPlace place;
     for (int step = 0; step < mostKeypointSteps; ++step)
     {
       const Eye eye = sight.eyeAt(place.time);
@@ -134,7 +134,7 @@ private:
     return place;
   }
 
-  void point(const KeypointRecord& found, const Place& expected)
+  void point(const KeypointRecord& found, const KeypointPlace& expected)
   {
     if (!expected.known)
     {
@@ -163,7 +163,7 @@ private:
     this->visibility(found, expected);
   }
 
-  void visibility(const KeypointRecord& found, const Place& place)
+  void visibility(const KeypointRecord& found, const KeypointPlace& place)
   {
     const std::shared_ptr<const Sight> rolled =
       this->Owner.time().rolls() ? this->Owner.time().at(place.time) : nullptr;
@@ -182,7 +182,7 @@ private:
 
   /// By the ray through `pixel`, with what is nearer than the point by `slack`, parts of its range, more than the
   /// format allows.
-  int classOf(const Sight& sight, const Place& place, const Eigen::Vector2d& pixel, double slack) const
+  int classOf(const Sight& sight, const KeypointPlace& place, const Eigen::Vector2d& pixel, double slack) const
   {
     if (!sight.instance(this->Record->id).visible)
     {
@@ -213,7 +213,7 @@ private:
   }
 
   /// Whether another class is as right: beside a silhouette, the border, or the limits of depth.
-  bool isOpen(const Sight& sight, const Place& place, int found) const
+  bool isOpen(const Sight& sight, const KeypointPlace& place, int found) const
   {
     const Eye& eye = sight.eye();
     if (place.projects)

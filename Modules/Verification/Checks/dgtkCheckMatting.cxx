@@ -3,7 +3,6 @@
 #include "dgtkSampledPixels.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace dgtk
 {
@@ -50,7 +49,7 @@ void checkComposite(const MattingSet& set, int x, int y, Meter& meter)
 }
 
 /// The share of the object's samples, counted anew: all divided pixels, and some of the others.
-void checkAlpha(const MattingSet& set, const Samples& samples, int x, int y, Meter& meter)
+void checkMattingAlpha(const MattingSet& set, const Samples& samples, int x, int y, Meter& meter)
 {
   const double alpha = set.alpha->at(x, y) / double(fullMatting);
   if ((alpha == 0 || alpha == 1) && !Samples::isChosen(x, y))
@@ -112,7 +111,7 @@ void checkMatting(Picture& picture, Results& results)
     {
       const Samples samples(picture);
       measure({ layer + " alpha", "coverage", { set.alpha->file() }, mostOpenSamples }, coverageTolerance,
-        [&](int x, int y, Meter& meter) { checkAlpha(set, samples, x, y, meter); });
+        [&](int x, int y, Meter& meter) { checkMattingAlpha(set, samples, x, y, meter); });
     }
     if (set.alpha && set.trimap)
     {

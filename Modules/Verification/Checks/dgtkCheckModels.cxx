@@ -5,10 +5,7 @@
 #include "dgtkHash.h"
 #include "dgtkPlyFile.h"
 
-#include <array>
-#include <cstring>
 #include <set>
-#include <sstream>
 
 namespace dgtk
 {

@@ -6,8 +6,6 @@
 #include "dgtkSeenPoint.h"
 #include "dgtkSurfaceColor.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>

@@ -13,7 +13,7 @@ namespace dgtk
 namespace
 {
 /// Part of the largest number of a matrix: products of two placements.
-constexpr double motionTolerance = 1e-12;
+constexpr double posesTolerance = 1e-12;
 /// Cosines between axes: up to the first an object is not sheared for certain, from the second on it is.
 constexpr double upright = 5e-10;
 constexpr double leaning = 2e-9;
@@ -113,7 +113,7 @@ void checkPoses(Dataset& dataset, Results& results)
   {
     frames.insert(camera.frame);
   }
-  Meter meter(motionTolerance);
+  Meter meter(posesTolerance);
   auto next = poses.begin();
   for (const int frame : frames)
   {

@@ -11,7 +11,6 @@
 #include "dgtkText.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <tuple>
 

@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkFolder.h"
+#include "dgtkPixelValues.h"
 #include "dgtkRaySource.h"
 #include "dgtkTimedSight.h"
 
@@ -34,25 +35,7 @@ PictureFile::PictureFile(const std::string& folder, const std::string& file, int
   }
 }
 
-double PictureFile::at(int x, int y, int channel) const
-{
-  const std::size_t i = std::size_t(x) * this->channels() + channel;
-  const Rows& rows = this->Data.pixels;
-  switch (this->type())
-  {
-    case PixelType::UInt8:
-      return rows.row<std::uint8_t>(y)[i];
-    case PixelType::UInt16:
-      return rows.row<std::uint16_t>(y)[i];
-    case PixelType::UInt32:
-      return rows.row<std::uint32_t>(y)[i];
-    case PixelType::Float32:
-      return double(rows.row<float>(y)[i]);
-    case PixelType::Float64:
-      return rows.row<double>(y)[i];
-  }
-  return 0;
-}
+double PictureFile::at(int x, int y, int channel) const { return valueAt(this->Data.pixels, x, y, channel); }
 
 std::uint32_t PictureFile::id(int x, int y) const
 {

@@ -3,7 +3,6 @@
 
 #include "dgtkRaySource.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace dgtk

@@ -20,10 +20,10 @@ constexpr double reachSlack = 1e-6;
 constexpr double coincident = 1e-9;
 constexpr int directions = 16;
 
-class SampleCheck
+class TrackSampleCheck
 {
 public:
-  SampleCheck(const TrackView& view, const std::vector<TrackOrigin>& points, int step)
+  TrackSampleCheck(const TrackView& view, const std::vector<TrackOrigin>& points, int step)
     : TheView(view)
     , Points(points)
     , Step(step)
@@ -206,7 +206,7 @@ private:
 
 Meter meterTrackSamples(Dataset& dataset, const TrackView& view, const std::vector<TrackOrigin>& points, int step)
 {
-  SampleCheck check(view, points, step);
+  TrackSampleCheck check(view, points, step);
   Meter meter(0);
   check.place(meter);
   if (view.sampled)

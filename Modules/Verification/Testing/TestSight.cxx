@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkEyeLens.h"
 #include "dgtkRaySource.h"
 #include "dgtkSight.h"
 #include "dgtkTimedSight.h"
@@ -10,6 +11,8 @@
 namespace
 {
 using namespace dgtk;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
 
 CameraRecord makeRecord(const char* model)
 {
@@ -33,15 +36,15 @@ TEST(Eye, UnprojectsWhatItProjects)
     const Eye eye(makeRecord(model), nullptr);
     for (const double depth : { 0.5, 7.0 })
     {
-      const Eigen::Vector2d pixel(11.25, 40.5);
-      const Eigen::Vector3d x = eye.at(pixel, depth);
+      const Vector2d pixel(11.25, 40.5);
+      const Vector3d x = eye.at(pixel, depth);
       EXPECT_EQ(x.z(), depth);
-      Eigen::Vector2d back;
+      Vector2d back;
       ASSERT_TRUE(eye.project(x, back));
       EXPECT_LT((back - pixel).norm(), 1e-12) << model;
       EXPECT_LT((eye.toCamera(eye.toWorld(x)) - x).norm(), 1e-14);
     }
-    Eigen::Vector2d none(-1, -1);
+    Vector2d none(-1, -1);
     EXPECT_FALSE(eye.project({ 0, 0, -1 }, none));
     EXPECT_EQ(none.x(), -1);
   }
@@ -52,7 +55,7 @@ TEST(Eye, SkewAndOffsetByHand)
   CameraRecord record = makeRecord("pinhole");
   record.K(0, 1) = 4;
   const Eye eye(record, nullptr);
-  Eigen::Vector2d pixel;
+  Vector2d pixel;
   ASSERT_TRUE(eye.project({ 1, -2, 4 }, pixel));
   EXPECT_DOUBLE_EQ(pixel.x(), 80 * 0.25 + 4 * -0.5 + 30);
   EXPECT_DOUBLE_EQ(pixel.y(), 70 * -0.5 + 25);
@@ -104,7 +107,7 @@ TEST(Sight, DepthsOfAllSurfaces)
   EXPECT_DOUBLE_EQ(depths[0], 2);
   EXPECT_DOUBLE_EQ(depths[1], 4);
   EXPECT_TRUE(std::isinf(sight.depthOf({}, { 30, 25 })));
-  EXPECT_LT((sight.weights({ 1, 0 }, { 0, 0, 2 }) - Eigen::Vector3d(1, 1, 1) / 3).norm(), 1e-15);
+  EXPECT_LT((sight.weights({ 1, 0 }, { 0, 0, 2 }) - Vector3d(1, 1, 1) / 3).norm(), 1e-15);
 }
 
 // The plane of a triangle, z = 2 + 3 x, is met behind the camera by rays that turn away from it.
@@ -112,7 +115,7 @@ TEST(Sight, DepthsBehindTheCameraAreNone)
 {
   const auto state = makeState(false);
   auto geometry = std::make_shared<Geometry>(*state->instances[0].geometry);
-  for (Eigen::Vector3d& position : geometry->positions)
+  for (Vector3d& position : geometry->positions)
   {
     position.z() += 3 * position.x();
   }
@@ -122,30 +125,30 @@ TEST(Sight, DepthsBehindTheCameraAreNone)
   EXPECT_NEAR(sight.depthOf({ 1, 0 }, { 30 + 80 * 0.25, 25 }), 2 / 0.25, 1e-13);
   EXPECT_NEAR(sight.depthOf({ 1, 0 }, { 30 - 80, 25 }), 0.5, 1e-15);
   EXPECT_TRUE(std::isinf(sight.depthOf({ 1, 0 }, { 30 + 80 * 0.5, 25 })));
-  const Eigen::Vector3d expected = Eigen::Vector3d(3, 0, -1).normalized();
+  const Vector3d expected = Vector3d(3, 0, -1).normalized();
   EXPECT_NEAR(std::abs(sight.normal({ 1, 1 }).normalized().dot(expected)), 1, 1e-15);
-  EXPECT_LT((sight.weights({ 1, 0 }, { 0.5, 0.5, 3.5 }) - Eigen::Vector3d(0, 0.5, 0.5)).norm(), 1e-15);
+  EXPECT_LT((sight.weights({ 1, 0 }, { 0.5, 0.5, 3.5 }) - Vector3d(0, 0.5, 0.5)).norm(), 1e-15);
 }
 
 TEST(Carried, FollowsPlacementAndDeformation)
 {
   const auto before = makeState(false);
   const Sight sight = makeSight(before);
-  const Eigen::Vector3d point(0.25, 0.5, 2);
+  const Vector3d point(0.25, 0.5, 2);
 
   auto moved = std::make_shared<SceneState>(*before); // the same geometry, placed elsewhere
-  moved->instances[0].world_from_object.linear = Eigen::Vector3d(2, 3, -1).asDiagonal();
+  moved->instances[0].world_from_object.linear = Vector3d(2, 3, -1).asDiagonal();
   moved->instances[0].world_from_object.translation = { 0, 0, 5 };
   const Carried rigid = carried(sight, moved->instances[0], { 1, 0 }, point);
   ASSERT_TRUE(rigid.ok);
-  EXPECT_LT((rigid.x_in_world - Eigen::Vector3d(0.5, 1.5, 3)).norm(), 1e-14);
+  EXPECT_LT((rigid.x_in_world - Vector3d(0.5, 1.5, 3)).norm(), 1e-14);
 
   auto bent = makeState(true);
   bent->instances[0].model = before->instances[0].model;
   const Carried deformed = carried(sight, bent->instances[0], { 1, 0 }, point);
   ASSERT_TRUE(deformed.ok);
   // The top corner has weight 1/2 there and rises by 2.
-  EXPECT_LT((deformed.x_in_world - Eigen::Vector3d(0.25, 1.5, 2)).norm(), 1e-14);
+  EXPECT_LT((deformed.x_in_world - Vector3d(0.25, 1.5, 2)).norm(), 1e-14);
 }
 
 TEST(Carried, EachObjectHasItsOwnWay)
@@ -163,8 +166,8 @@ TEST(Carried, EachObjectHasItsOwnWay)
   const Carried first = carried(sight, after->instances[0], { 1, 0 }, { 0.25, 0.5, 2 });
   const Carried second = carried(sight, after->instances[1], { 2, 1 }, { 0.25, 0.5, 2 });
   ASSERT_TRUE(first.ok && second.ok);
-  EXPECT_LT((first.x_in_world - Eigen::Vector3d(0.25, 0.5, 7)).norm(), 1e-14);
-  EXPECT_LT((second.x_in_world - Eigen::Vector3d(0.25, 3.5, 2)).norm(), 1e-14);
+  EXPECT_LT((first.x_in_world - Vector3d(0.25, 0.5, 7)).norm(), 1e-14);
+  EXPECT_LT((second.x_in_world - Vector3d(0.25, 3.5, 2)).norm(), 1e-14);
   EXPECT_FALSE(carried(sight, after->instances[2], { 3, 0 }, { 0.25, 0.5, 0 }).ok) << "it was flat";
 }
 
@@ -190,7 +193,7 @@ TEST(TimedSight, HasTheTimesOfItsRecord)
       bool isVisibleAt(double, std::uint32_t) const override { return true; }
       Rigid3 poseAt(double) const override { return {}; }
       Affine3 placeAt(double, std::uint32_t) const override { return {}; }
-      Point pointAt(double, std::uint32_t, std::uint32_t, const Eigen::Vector2d&) const override { return {}; }
+      Point pointAt(double, std::uint32_t, std::uint32_t, const Vector2d&) const override { return {}; }
       std::vector<Motion> None;
     };
     return TimedSight(std::make_shared<Sight>(Eye(record, nullptr), state, nullptr), std::make_shared<Still>(), nullptr)
@@ -202,5 +205,60 @@ TEST(TimedSight, HasTheTimesOfItsRecord)
   EXPECT_DOUBLE_EQ(timeAt(Direction::Left, 10, 2), 0.125);
   EXPECT_DOUBLE_EQ(timeAt(Direction::Down, 3, -5), -0.25) << "beside the image as its border";
   EXPECT_DOUBLE_EQ(timeAt(Direction::Left, 50, 5), -0.25);
+}
+
+/// Numbers of the world lose digits where the camera is far from its origin.
+TEST(Eye, FarCameras)
+{
+  CameraRecord record;
+  record.width = record.height = 4;
+  record.t = Vector3d(0, 3e4, 4e4);
+  const Eye eye(record, nullptr);
+  EXPECT_EQ(eye.farness(50), 1);
+  EXPECT_EQ(eye.farness(5), 10);
+  EXPECT_EQ(eye.farness(-5), 10);
+}
+
+/// Pixels that a small angle is worth: of a parallel projection, that a part of the depth is.
+TEST(Eye, ReachesOfCameras)
+{
+  CameraRecord record;
+  record.width = 64;
+  record.height = 48;
+  record.K << 80, 0, 30, 0, 40, 25, 0, 0, 1;
+  record.near = 1;
+  record.far = 9;
+  const Vector3d x(0, 0, 5);
+  const auto reach = [&](const char* model)
+  {
+    record.model = model;
+    return Eye(record, nullptr).reach(0.5, x);
+  };
+  EXPECT_EQ(reach("pinhole"), Vector2d(40, 20));
+  EXPECT_EQ(reach("orthographic"), Vector2d(200, 100));
+  EXPECT_EQ(reach("fisheye"), Vector2d(40, 24)) << "at least that of the picture's size";
+}
+
+/// Either side of the seam of a picture of all directions is one place.
+TEST(Eye, SeamsOfLenses)
+{
+  CameraRecord record;
+  record.model = "equirectangular";
+  record.hasK = false;
+  record.width = 8;
+  record.height = 4;
+  const auto lens = EyeLens::of(record);
+  ASSERT_TRUE(lens);
+  for (const auto& [off, seam] : { std::pair(1e-10, 8.0), { 1e-8, 0.0 } })
+  {
+    EXPECT_EQ(lens->seam({ off, 1 }), seam);
+    EXPECT_EQ(lens->seam({ 8 - off, 1 }), seam);
+  }
+  record.model = "pinhole";
+  record.hasK = true;
+  record.numbers["distortion"] = { 0.1, 0, 0, 0 };
+  const auto plain = EyeLens::of(record);
+  ASSERT_TRUE(plain);
+  EXPECT_EQ(plain->seam({ 0, 1 }), 0);
 }
 } // namespace

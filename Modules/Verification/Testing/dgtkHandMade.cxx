@@ -5,7 +5,6 @@
 #include "dgtkMeter.h"
 #include "dgtkVerification.h"
 
-#include <algorithm>
 #include <filesystem>
 
 namespace dgtk::test

@@ -22,7 +22,10 @@ struct Words
 };
 
 /// Without the sign of a zero.
-QString text(double value) { return QString::fromStdString(numberText(value == 0 ? 0.0 : value, PixelType::Float64)); }
+QString signless(double value)
+{
+  return QString::fromStdString(numberText(value == 0 ? 0.0 : value, PixelType::Float64));
+}
 
 /// Rows with their columns below each other.
 QString rows(const QString& name, const Eigen::MatrixXd& matrix)
@@ -31,14 +34,14 @@ QString rows(const QString& name, const Eigen::MatrixXd& matrix)
   for (Eigen::Index i = 0; i < matrix.size(); ++i)
   {
     int& width = widths[std::size_t(i / matrix.rows())]; // column by column
-    width = std::max(width, int(text(matrix.data()[i]).size()));
+    width = std::max(width, int(signless(matrix.data()[i]).size()));
   }
   QString lines = name + '\n';
   for (Eigen::Index row = 0; row < matrix.rows(); ++row)
   {
     for (Eigen::Index column = 0; column < matrix.cols(); ++column)
     {
-      lines += "  " + text(matrix(row, column)).rightJustified(widths[std::size_t(column)]);
+      lines += "  " + signless(matrix(row, column)).rightJustified(widths[std::size_t(column)]);
     }
     lines += '\n';
   }
@@ -53,14 +56,14 @@ QString recordText(const CameraRecord& record)
     QStringList list;
     for (const double number : numbers)
     {
-      list << text(number);
+      list << signless(number);
     }
     parameters += QString::fromStdString(name) + ": " + list.join(", ") + '\n';
   }
   return Words::tr("Size: %1 x %2 pixels").arg(record.width).arg(record.height) + '\n' +
          Words::tr("Lens: %1").arg(QString::fromStdString(record.model)) + '\n' +
          (parameters.isEmpty() ? Words::tr("Distortion: %1").arg(Words::tr("none")) + '\n' : parameters) +
-         Words::tr("Near, far: %1, %2").arg(text(record.near), text(record.far)) + "\n\n" +
+         Words::tr("Near, far: %1, %2").arg(signless(record.near), signless(record.far)) + "\n\n" +
          (record.hasK ? rows(Words::tr("K (pixels from camera axes)"), record.K) + '\n' : QString()) +
          rows(Words::tr("R (x_camera = R x_world + t)"), record.R) + '\n' + rows("t", record.t);
 }

@@ -2,6 +2,7 @@
 #include "dgtkPictureValues.h"
 
 #include "dgtkObjectDocuments.h"
+#include "dgtkPixelValues.h"
 
 #include <algorithm>
 #include <cstring>
@@ -42,17 +43,6 @@ PixelRect partOf(const PixelRect& wanted, int width, int height)
   part.width = std::clamp(wanted.x + wanted.width - part.x, 1, width - part.x);
   part.height = std::clamp(wanted.y + wanted.height - part.y, 1, height - part.y);
   return part;
-}
-
-template <typename T>
-void toDoubles(const std::byte* from, int count, double* out)
-{
-  for (int i = 0; i < count; ++i)
-  {
-    T value;
-    std::memcpy(&value, from + std::size_t(i) * sizeof(T), sizeof(T));
-    out[i] = static_cast<double>(value);
-  }
 }
 
 /// Copies the kept pixels of a row.
@@ -261,22 +251,7 @@ bool PictureValues::exact(int x, int y) const
 
 void PictureValues::get(int column, int row, double* channels) const
 {
-  const int count = this->values.channels();
-  const std::byte* const at = this->values.data() + std::size_t(row) * this->values.rowBytes() +
-                              std::size_t(column) * bytesOf(this->values.type()) * static_cast<std::size_t>(count);
-  switch (this->values.type())
-  {
-    case PixelType::UInt8:
-      return toDoubles<std::uint8_t>(at, count, channels);
-    case PixelType::UInt16:
-      return toDoubles<std::uint16_t>(at, count, channels);
-    case PixelType::UInt32:
-      return toDoubles<std::uint32_t>(at, count, channels);
-    case PixelType::Float32:
-      return toDoubles<float>(at, count, channels);
-    case PixelType::Float64:
-      return toDoubles<double>(at, count, channels);
-  }
+  copyValues(this->values, column, row, std::size_t(this->values.channels()), channels);
 }
 
 bool isObjectMask(const PictureLayer& layer) { return layer.format == "json"; }

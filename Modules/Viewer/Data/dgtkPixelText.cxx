@@ -10,7 +10,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <vector>
 
 namespace dgtk

@@ -6,6 +6,7 @@
 #include "dgtkPictureOverlay.h"
 #include "dgtkPictureValues.h"
 #include "dgtkTestDataset.h"
+#include "dgtkTestSupport.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,15 +33,7 @@ double small(int x, int y, int channel) { return x + 10 * y + channel; }
 /// What opening says of a folder.
 std::string refusal(const std::string& folder)
 {
-  try
-  {
-    const DatasetPictures dataset(folder);
-  }
-  catch (const InputError& error)
-  {
-    return error.what();
-  }
-  return "opened";
+  return test::thrownBy<InputError>([&] { const DatasetPictures dataset(folder); });
 }
 
 PictureLayer layerOf(const LayerSpec& spec, const std::string& format) { return { spec.name, spec, format }; }
@@ -117,15 +110,9 @@ TEST(DatasetPictures, ListsThatLeadOutsideAreRefused)
   files.add("left", "depth", 0, "", "npy", depth, ramp);
   files.add("../left", "depth", 0, "", "npy", depth, ramp);
   files.finish();
-  try
-  {
-    const DatasetPictures dataset(files.path());
-    FAIL() << "a file outside was taken into the dataset";
-  }
-  catch (const Error& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("leads out of the dataset"));
-  }
+  EXPECT_THAT(
+    test::thrownBy<Error>([&] { const DatasetPictures dataset(files.path()); }), HasSubstr("leads out of the dataset"))
+    << "a file outside was taken into the dataset";
 }
 
 TEST(PictureValues, AreThoseOfTheFile)

@@ -9,7 +9,6 @@
 #include "dgtkTestDataset.h"
 
 #include <Eigen/LU>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

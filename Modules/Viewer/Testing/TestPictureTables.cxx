@@ -77,263 +77,162 @@ std::string told(
   return all + textOf(colors.legend, picture);
 }
 
-TEST(PictureTables, Depth)
+struct LayerRow
 {
-  EXPECT_EQ(told({ "depth", PixelType::Float64, 1, "scene units", "camera", "+inf", "", Meaning::Depth }, "npy", { 2 },
-              { infinite }, { 4 }),
-    R"(
+  LayerSpec spec;
+  const char* format;
+  Pixel first, second, rest;
+  const char* told;
+};
+const LayerRow layerTable[] = {
+  { { "depth", PixelType::Float64, 1, "scene units", "camera", "+inf", "", Meaning::Depth }, "npy", { 2 }, { infinite },
+    { 4 }, R"(
 2 metre #faf5aa #bf4555
 inf #28282c #28282c
 4 metre #4e1d66 #4e1d66
-ramp 2 to 4 of 2 to 4 logarithmic [metre])");
-}
-
-TEST(PictureTables, Distance)
-{
-  EXPECT_EQ(told({ "distance", PixelType::Float64, 1, "scene units", "", "+inf", "", Meaning::Distance }, "pfm", { 2 },
-              { infinite }, { 0.1 }),
-    R"(
+ramp 2 to 4 of 2 to 4 logarithmic [metre])" },
+  { { "distance", PixelType::Float64, 1, "scene units", "", "+inf", "", Meaning::Distance }, "pfm", { 2 }, { infinite },
+    { 0.1 }, R"(
 2 metre #4e1d66 #bf4555
 inf #28282c #28282c
 0.1 metre #faf5aa #faf5aa
-ramp 0.10000000149011612 to 2 of 0.10000000149011612 to 2 logarithmic [metre])");
-}
-
-TEST(PictureTables, InverseDepth)
-{
-  EXPECT_EQ(told({ "inversedepth", PixelType::Float64, 1, "1 / scene units", "camera", "0", "", Meaning::InverseDepth },
-              "npy", { 0.5 }, { 0 }, { 0.25 }),
-    R"(
+ramp 0.10000000149011612 to 2 of 0.10000000149011612 to 2 logarithmic [metre])" },
+  { { "inversedepth", PixelType::Float64, 1, "1 / scene units", "camera", "0", "", Meaning::InverseDepth }, "npy",
+    { 0.5 }, { 0 }, { 0.25 }, R"(
 0.5 1 / metre #faf5aa #180f3d
 0 1 / metre #28282c #28282c
 0.25 1 / metre #4e1d66 #180f3d
-ramp 0.25 to 0.5 of 0.25 to 0.5 [1 / metre])");
-}
-
-TEST(PictureTables, Normals)
-{
-  EXPECT_EQ(told({ "normal", PixelType::Float32, 3, "1", "camera", "nan", "", Meaning::Direction }, "npy", { 0, 0, -1 },
-              { notANumber, notANumber, notANumber }, { 1, -0.5, 0.25 }),
-    R"(
+ramp 0.25 to 0.5 of 0.25 to 0.5 [1 / metre])" },
+  { { "normal", PixelType::Float32, 3, "1", "camera", "nan", "", Meaning::Direction }, "npy", { 0, 0, -1 },
+    { notANumber, notANumber, notANumber }, { 1, -0.5, 0.25 }, R"(
 (0, 0, -1) #8080ff #8080ff
 (nan, nan, nan) #28282c #28282c
 (1, -0.5, 0.25) #ffbf60 #ffbf60
-axes: red right, green up, blue towards the camera)");
-}
-
-TEST(PictureTables, TextureCoordinates)
-{
-  EXPECT_EQ(told({ "uv", PixelType::Float64, 2, "1", "", "nan", "", Meaning::TextureCoordinates }, "npy",
-              { 1.25, -0.25 }, { notANumber, notANumber }, { 0.5, 0.75 }),
-    R"(
+axes: red right, green up, blue towards the camera)" },
+  { { "uv", PixelType::Float64, 2, "1", "", "nan", "", Meaning::TextureCoordinates }, "npy", { 1.25, -0.25 },
+    { notANumber, notANumber }, { 0.5, 0.75 }, R"(
 (1.25, -0.25) #40bf40 #40bf40
 (nan, nan) #28282c #28282c
 (0.5, 0.75) #80bf40 #80bf40
-axes: red u, green v, without whole numbers)");
-}
-
-TEST(PictureTables, Positions)
-{
-  EXPECT_EQ(told({ "position", PixelType::Float64, 3, "scene units", "world", "nan", "", Meaning::Point }, "npy",
-              { 1, 2, 3 }, { notANumber, notANumber, notANumber }, { 5, 4, 3.5 }),
-    R"(
+axes: red u, green v, without whole numbers)" },
+  { { "position", PixelType::Float64, 3, "scene units", "world", "nan", "", Meaning::Point }, "npy", { 1, 2, 3 },
+    { notANumber, notANumber, notANumber }, { 5, 4, 3.5 }, R"(
 (1, 2, 3) metre #000000 #000000
 (nan, nan, nan) #28282c #28282c
 (5, 4, 3.5) metre #ffffff #ffffff
-axes [metre]: red x, green y, blue z, over the range of each)");
-}
-
-TEST(PictureTables, Weights)
-{
-  EXPECT_EQ(told({ "barycentrics", PixelType::Float64, 3, "1", "", "nan", "", Meaning::Weights }, "npy",
-              { 0.25, 0.5, 0.25 }, { 1, 0, 0 }, { 0.5, 0.25, 0.25 }),
-    R"(
+axes [metre]: red x, green y, blue z, over the range of each)" },
+  { { "barycentrics", PixelType::Float64, 3, "1", "", "nan", "", Meaning::Weights }, "npy", { 0.25, 0.5, 0.25 },
+    { 1, 0, 0 }, { 0.5, 0.25, 0.25 }, R"(
 (0.25, 0.5, 0.25) #00ffff #00ffff
 (1, 0, 0) #ff0000 #ff0000
 (0.5, 0.25, 0.25) #5580ff #5580ff
-axes: red x, green y, blue z, over the range of each)");
-}
-
-TEST(PictureTables, Flow)
-{
-  EXPECT_EQ(told({ "flow_forward", PixelType::Float32, 2, "pixels", "image", "nan", "", Meaning::Displacement }, "npy",
-              { 3, 4 }, { notANumber, notANumber }, { 0, -2.5 }),
-    R"(
+axes: red x, green y, blue z, over the range of each)" },
+  { { "flow_forward", PixelType::Float32, 2, "pixels", "image", "nan", "", Meaning::Displacement }, "npy", { 3, 4 },
+    { notANumber, notANumber }, { 0, -2.5 }, R"(
 (3, 4) pixels, 5 long #ffe200 #ffe200
 (nan, nan) #28282c #28282c
 (0, -2.5) pixels, 2.5 long #bf80ff #952aff
-wheel 0 to 5 of 0 to 5 [pixels])");
-}
-
-TEST(PictureTables, SceneFlow)
-{
-  EXPECT_EQ(told({ "sceneflow", PixelType::Float64, 3, "scene units", "camera", "nan", "", Meaning::Displacement },
-              "npy", { 3, 4, 0 }, { 0, 0, 0 }, { 1, 1, 1 }),
-    R"(
+wheel 0 to 5 of 0 to 5 [pixels])" },
+  { { "sceneflow", PixelType::Float64, 3, "scene units", "camera", "nan", "", Meaning::Displacement }, "npy",
+    { 3, 4, 0 }, { 0, 0, 0 }, { 1, 1, 1 }, R"(
 (3, 4, 0) metre #ffff00 #ffff00
 (0, 0, 0) metre #000000 #000000
 (1, 1, 1) metre #5540ff #5540ff
-axes [metre]: red x, green y, blue z, over the range of each)");
-}
-
-TEST(PictureTables, Correspondence)
-{
-  EXPECT_EQ(
-    told({ "correspondence", PixelType::Float64, 2, "pixels", "image of the other camera", "nan", "", Meaning::Point },
-      "npy", { 3.5, 4.25 }, { notANumber, notANumber }, { 1, 8 }),
-    R"(
+axes [metre]: red x, green y, blue z, over the range of each)" },
+  { { "correspondence", PixelType::Float64, 2, "pixels", "image of the other camera", "nan", "", Meaning::Point },
+    "npy", { 3.5, 4.25 }, { notANumber, notANumber }, { 1, 8 }, R"(
 (3.5, 4.25) pixels #ff0040 #ff0040
 (nan, nan) #28282c #28282c
 (1, 8) pixels #00ff40 #00ff40
-axes [pixels]: red x, green y, over the range of each)");
-}
-
-TEST(PictureTables, Disparity)
-{
-  EXPECT_EQ(told({ "disparity", PixelType::Float64, 1, "pixels", "image", "nan", "", Meaning::Displacement }, "pfm",
-              { -3 }, { notANumber }, { 2 }),
-    R"(
+axes [pixels]: red x, green y, over the range of each)" },
+  { { "disparity", PixelType::Float64, 1, "pixels", "image", "nan", "", Meaning::Displacement }, "pfm", { -3 },
+    { notANumber }, { 2 }, R"(
 -3 pixels #4e1d66 #180f3d
 nan #28282c #28282c
 2 pixels #faf5aa #dc6042
-ramp -3 to 2 of -3 to 2 [pixels])");
-}
-
-TEST(PictureTables, Objects)
-{
-  EXPECT_EQ(
-    told({ "objects", PixelType::UInt32, 1, "id", "", "0", "", Meaning::Id }, "npy", { 2 }, { 0 }, { 70000 }), R"(
+ramp -3 to 2 of -3 to 2 [pixels])" },
+  { { "objects", PixelType::UInt32, 1, "id", "", "0", "", Meaning::Id }, "npy", { 2 }, { 0 }, { 70000 }, R"(
 2 mill (building) #8dd626 #8dd626
 0 background #28282c #28282c
 70000 #42bb63 #42bb63
-swatches [id]; 70000; 0 background; 2 mill)");
-}
-
-TEST(PictureTables, ObjectsOfPictures)
-{
-  EXPECT_EQ(told({ "objects", PixelType::UInt32, 1, "id", "", "0", "", Meaning::Id }, "png", { 3 }, { 0 }, { 1 }), R"(
+swatches [id]; 70000; 0 background; 2 mill)" },
+  { { "objects", PixelType::UInt32, 1, "id", "", "0", "", Meaning::Id }, "png", { 3 }, { 0 }, { 1 }, R"(
 3 tree (plant) #f158de #f158de
 0 background #28282c #28282c
 1 floor (ground) #1547be #1547be
-swatches [id]; 1 floor; 0 background; 3 tree)");
-}
-
-TEST(PictureTables, Classes)
-{
-  EXPECT_EQ(
-    told({ "classes", PixelType::UInt32, 1, "id", "", "0", "", Meaning::Class }, "png", { 2 }, { 0 }, { 9 }), R"(
+swatches [id]; 1 floor; 0 background; 3 tree)" },
+  { { "classes", PixelType::UInt32, 1, "id", "", "0", "", Meaning::Class }, "png", { 2 }, { 0 }, { 9 }, R"(
 2 building #8dd626 #8dd626
 0 background #28282c #28282c
 9 #1683c5 #1683c5
-swatches [id]; 9; 0 background; 2 building)");
-}
-
-TEST(PictureTables, Parts)
-{
-  EXPECT_EQ(
-    told({ "parts", PixelType::UInt32, 1, "id", "", "65535", "", Meaning::Index }, "png", { 2 }, { 65535 }, { 0 }), R"(
+swatches [id]; 9; 0 background; 2 building)" },
+  { { "parts", PixelType::UInt32, 1, "id", "", "65535", "", Meaning::Index }, "png", { 2 }, { 65535 }, { 0 }, R"(
 2 #f158de #f158de
 nothing #28282c #28282c
 0 #1547be #1547be
-swatches [id]; 0; 2)");
-}
-
-TEST(PictureTables, Triangles)
-{
-  EXPECT_EQ(told({ "triangles", PixelType::UInt32, 1, "id", "", "4294967295", "", Meaning::Index }, "npy", { 2 },
-              { 4294967295.0 }, { 0 }),
-    R"(
+swatches [id]; 0; 2)" },
+  { { "triangles", PixelType::UInt32, 1, "id", "", "4294967295", "", Meaning::Index }, "npy", { 2 }, { 4294967295.0 },
+    { 0 }, R"(
 2 #f158de #f158de
 nothing #28282c #28282c
 0 #1547be #1547be
-swatches [id]; 0; 2)");
-}
-
-TEST(PictureTables, Edges)
-{
-  EXPECT_EQ(
-    told({ "edges", PixelType::UInt8, 1, "1", "image", "0", "", Meaning::Mask }, "png", { 255 }, { 0 }, { 128 }), R"(
+swatches [id]; 0; 2)" },
+  { { "edges", PixelType::UInt8, 1, "1", "image", "0", "", Meaning::Mask }, "png", { 255 }, { 0 }, { 128 }, R"(
 255 #ffffff #ffffff
 0 #000000 #000000
 128 #808080 #808080
-none)");
-}
-
-TEST(PictureTables, Alpha)
-{
-  EXPECT_EQ(told({ "alpha", PixelType::UInt8, 4, "id", "image", "0", "", Meaning::Id }, "png", { 0, 0, 2, 128 },
-              { 0, 0, 0, 255 }, { 1, 1, 1, 255 }),
-    R"(
+none)" },
+  { { "alpha", PixelType::UInt8, 4, "id", "image", "0", "", Meaning::Id }, "png", { 0, 0, 2, 128 }, { 0, 0, 0, 255 },
+    { 1, 1, 1, 255 }, R"(
 2 mill (building), coverage 128 / 255 #466b13 #466b13
 0 background, coverage 255 / 255 #28282c #28282c
 65793, coverage 255 / 255 #5fe549 #5fe549
-swatches [id]; 65793; 0 background; 2 mill)");
-}
-
-TEST(PictureTables, Visibilities)
-{
-  EXPECT_EQ(told({ "flow_forward_class", PixelType::UInt8, 1, "class", "image", "0", "", Meaning::Visibility }, "png",
-              { 2 }, { 0 }, { 4 }),
-    R"(
+swatches [id]; 65793; 0 background; 2 mill)" },
+  { { "flow_forward_class", PixelType::UInt8, 1, "class", "image", "0", "", Meaning::Visibility }, "png", { 2 }, { 0 },
+    { 4 }, R"(
 2 occluded by another object #8dd626 #8dd626
 0 no surface #28282c #28282c
 4 outside the image #34ae99 #34ae99
-swatches [class]; 4 outside the image; 0 no surface; 2 occluded by another object)");
-}
-
-TEST(PictureTables, MattingAlpha)
-{
-  EXPECT_EQ(told({ "matting_alpha", PixelType::UInt16, 1, "1/65535", "image", "none", "", Meaning::Coverage }, "png",
-              { 65535 }, { 0 }, { 32768 }),
-    R"(
+swatches [class]; 4 outside the image; 0 no surface; 2 occluded by another object)" },
+  { { "matting_alpha", PixelType::UInt16, 1, "1/65535", "image", "none", "", Meaning::Coverage }, "png", { 65535 },
+    { 0 }, { 32768 }, R"(
 65535 1/65535 #ffffff #ffffff
 0 1/65535 #000000 #000000
 32768 1/65535 #808080 #808080
-none [1/65535])");
-}
-
-TEST(PictureTables, Trimaps)
-{
-  EXPECT_EQ(told({ "matting_trimap", PixelType::UInt8, 1, "class", "image", "none", "", Meaning::Mask }, "png", { 255 },
-              { 0 }, { 128 }),
-    R"(
+none [1/65535])" },
+  { { "matting_trimap", PixelType::UInt8, 1, "class", "image", "none", "", Meaning::Mask }, "png", { 255 }, { 0 },
+    { 128 }, R"(
 255 #ffffff #ffffff
 0 #000000 #000000
 128 #808080 #808080
-none [class])");
-}
-
-TEST(PictureTables, Colours)
-{
-  EXPECT_EQ(told({ "color", PixelType::UInt8, 3, "sRGB", "image", "none", "", Meaning::Picture }, "png", { 1, 2, 3 },
-              { 255, 0, 128 }, { 0, 0, 0 }),
-    R"(
+none [class])" },
+  { { "color", PixelType::UInt8, 3, "sRGB", "image", "none", "", Meaning::Picture }, "png", { 1, 2, 3 },
+    { 255, 0, 128 }, { 0, 0, 0 }, R"(
 (1, 2, 3) #010203 #010203
 (255, 0, 128) #ff0080 #ff0080
 (0, 0, 0) #000000 #000000
-none [sRGB])");
-}
-
-TEST(PictureTables, LinearColours)
-{
-  EXPECT_EQ(told({ "color", PixelType::Float32, 3, "linear sRGB", "image", "none", "", Meaning::Picture }, "exr",
-              { 0.5, 1, 2 }, { 0, 0.25, -1 }, { 0, 0, 0 }),
-    R"(
+none [sRGB])" },
+  { { "color", PixelType::Float32, 3, "linear sRGB", "image", "none", "", Meaning::Picture }, "exr", { 0.5, 1, 2 },
+    { 0, 0.25, -1 }, { 0, 0, 0 }, R"(
 (0.5, 1, 2) #bcffff #bcffff
 (0, 0.25, -1) #008900 #008900
 (0, 0, 0) #000000 #000000
-none [linear sRGB])");
-}
-
-TEST(PictureTables, DeepColours)
-{
-  EXPECT_EQ(told({ "matting_foreground", PixelType::UInt16, 3, "sRGB", "image", "0", "", Meaning::Picture }, "png",
-              { 65535, 257, 0 }, { 32768, 0, 514 }, { 0, 0, 0 }),
-    R"(
+none [linear sRGB])" },
+  { { "matting_foreground", PixelType::UInt16, 3, "sRGB", "image", "0", "", Meaning::Picture }, "png",
+    { 65535, 257, 0 }, { 32768, 0, 514 }, { 0, 0, 0 }, R"(
 (65535, 257, 0) #ff0100 #ff0100
 (32768, 0, 514) #800002 #800002
 (0, 0, 0) #000000 #000000
-none [sRGB])");
+none [sRGB])" },
+};
+
+TEST(PictureTables, OfEveryKindOfLayer)
+{
+  for (const LayerRow& row : layerTable)
+  {
+    EXPECT_EQ(told(row.spec, row.format, row.first, row.second, row.rest), row.told)
+      << row.spec.name << ' ' << row.format;
+  }
 }
 
 } // namespace

@@ -3,7 +3,6 @@
 #include "dgtkLegendBar.h"
 #include "dgtkPictureView.h"
 
-#include "dgtkDepthPicture.h"
 #include "dgtkTestWidgets.h"
 
 #include <QApplication>
@@ -21,7 +20,6 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace

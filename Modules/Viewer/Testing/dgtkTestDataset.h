@@ -5,6 +5,7 @@
 #include "dgtkDatasetDocuments.h"
 #include "dgtkFile.h"
 #include "dgtkLayerWriter.h"
+#include "dgtkPixelValues.h"
 #include "dgtkTestSupport.h"
 
 #include <Eigen/Geometry>
@@ -117,24 +118,7 @@ public:
 private:
   static void put(Rows& rows, int y, int i, double value)
   {
-    switch (rows.type())
-    {
-      case PixelType::UInt8:
-        rows.row<std::uint8_t>(y)[i] = static_cast<std::uint8_t>(value);
-        break;
-      case PixelType::UInt16:
-        rows.row<std::uint16_t>(y)[i] = static_cast<std::uint16_t>(value);
-        break;
-      case PixelType::UInt32:
-        rows.row<std::uint32_t>(y)[i] = static_cast<std::uint32_t>(value);
-        break;
-      case PixelType::Float32:
-        rows.row<float>(y)[i] = static_cast<float>(value);
-        break;
-      case PixelType::Float64:
-        rows.row<double>(y)[i] = value;
-        break;
-    }
+    withPixelType(rows.type(), [&](auto type) { rows.row<decltype(type)>(y)[i] = static_cast<decltype(type)>(value); });
   }
 
   TemporaryFolder Folder;

@@ -3,7 +3,6 @@
 #include "dgtkLineActor.h"
 #include "dgtkMeshClusters.h"
 #include "dgtkSyntheticScene.h"
-#include "dgtkTestSupport.h"
 #include "dgtkViewActors.h"
 #include "dgtkViewChecks.h"
 #include "dgtkViewLines.h"

@@ -5,7 +5,6 @@
 #include "dgtkExportPng.h"
 #include "dgtkExportSeries.h"
 #include "dgtkRunLengths.h"
-#include "dgtkText.h"
 
 #include <algorithm>
 #include <limits>

@@ -7,7 +7,6 @@
 #include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
 #include "dgtkMovingObjects.h"
-#include "dgtkText.h"
 
 #include <algorithm>
 

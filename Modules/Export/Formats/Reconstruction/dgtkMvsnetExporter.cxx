@@ -8,7 +8,6 @@
 #include "dgtkMovingObjects.h"
 #include "dgtkViewPairs.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>

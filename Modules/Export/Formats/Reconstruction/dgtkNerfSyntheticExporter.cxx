@@ -5,7 +5,6 @@
 #include "dgtkExportPng.h"
 #include "dgtkExportSeries.h"
 #include "dgtkPortableMath.h"
-#include "dgtkText.h"
 
 #include <nlohmann/json.hpp>
 
@@ -46,18 +45,6 @@ void requireSayable(const CameraRecord& camera, const CameraRecord& first)
   }
 }
 
-Json nerfMatrix(const CameraRecord& camera)
-{
-  const Rigid3 pose = worldFromCameraGL(camera);
-  Json rows = Json::array();
-  for (int i = 0; i < 3; ++i)
-  {
-    rows.push_back({ pose.rotation(i, 0), pose.rotation(i, 1), pose.rotation(i, 2), pose.translation[i] });
-  }
-  rows.push_back({ 0.0, 0.0, 0.0, 1.0 });
-  return rows;
-}
-
 class NerfSyntheticExporter : public Exporter
 {
 public:
@@ -71,14 +58,7 @@ public:
     {
       requireSayable(shot.camera, dataset.shots().front().camera);
     }
-    for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
-    {
-      if (split.name != "train" && split.name != "val" && split.name != "test")
-      {
-        throw UsageError(
-          "split: parts of " + std::string(nerfSyntheticName) + " are train, val and test, found " + split.name);
-      }
-    }
+    requireUsualSplits(dataset, options, nerfSyntheticName);
     requireEverywhere(dataset, layer, nerfSyntheticName, { "png" });
   }
 
@@ -105,7 +85,7 @@ private:
       {
         writePicture(sink, dataset, shot, layer, stem + ".png", options);
         const Json frame{ { "file_path", "./" + stem }, { "rotation", 0.0 },
-          { "transform_matrix", nerfMatrix(shot.camera) } };
+          { "transform_matrix", matrixRows(worldFromCameraGL(shot.camera)) } };
         sink.note("frames:" + split, frame.dump());
       } };
   }
@@ -119,13 +99,7 @@ private:
         const Json angle = 2 * portable::atan(first.width / (2 * first.K(0, 0)));
         const std::unique_ptr<ExportFile> file = sink.open(name);
         file->write("{\n \"camera_angle_x\": " + angle.dump() + ",\n \"frames\": [");
-        const char* between = "\n  ";
-        sink.notes("frames:" + split,
-          [&](const std::string& frame)
-          {
-            file->write(between + frame);
-            between = ",\n  ";
-          });
+        writeNotes(sink, *file, "frames:" + split);
         file->write(std::string("\n ]\n}\n"));
         file->finish();
       } };

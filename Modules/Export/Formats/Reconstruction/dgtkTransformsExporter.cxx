@@ -7,7 +7,6 @@
 #include "dgtkLayerFile.h"
 #include "dgtkMovingObjects.h"
 #include "dgtkPortableMath.h"
-#include "dgtkText.h"
 
 #include <nlohmann/json.hpp>
 
@@ -80,18 +79,6 @@ Json lensOf(const CameraRecord& camera)
   return lens;
 }
 
-Json matrixOf(const CameraRecord& camera)
-{
-  const Rigid3 pose = worldFromCameraGL(camera);
-  Json rows = Json::array();
-  for (int i = 0; i < 3; ++i)
-  {
-    rows.push_back({ pose.rotation(i, 0), pose.rotation(i, 1), pose.rotation(i, 2), pose.translation[i] });
-  }
-  rows.push_back({ 0.0, 0.0, 0.0, 1.0 });
-  return rows;
-}
-
 /// Names of the files of a picture.
 struct Names
 {
@@ -124,14 +111,7 @@ public:
                          "), and a document has one; name some with cameras");
       }
     }
-    for (const DatasetSplit& split : splitsOf(dataset, options, "train"))
-    {
-      if (split.name != "train" && split.name != "val" && split.name != "test")
-      {
-        throw UsageError(
-          "split: parts of " + std::string(transformsName) + " are train, val and test, found " + split.name);
-      }
-    }
+    requireUsualSplits(dataset, options, transformsName);
     requireEverywhere(dataset, exported::color().of(options), transformsName, { "png" });
     requireEverywhere(dataset, exported::depth().of(options), transformsName);
     requireEverywhere(dataset, "objects", transformsName);
@@ -214,7 +194,7 @@ private:
       {
         frame.update(lensOf(shot.camera));
       }
-      frame["transform_matrix"] = matrixOf(shot.camera);
+      frame["transform_matrix"] = matrixRows(worldFromCameraGL(shot.camera));
       sink.note("frames", frame.dump());
     };
     return item;
@@ -292,13 +272,7 @@ private:
         file->write(text.substr(0, text.size() - 2));
         writeSplits(*file, dataset, options);
         file->write(std::string(",\n \"frames\": ["));
-        const char* between = "\n  ";
-        sink.notes("frames",
-          [&](const std::string& frame)
-          {
-            file->write(between + frame);
-            between = ",\n  ";
-          });
+        writeNotes(sink, *file, "frames");
         file->write(std::string("\n ]\n}\n"));
         file->finish();
       } };

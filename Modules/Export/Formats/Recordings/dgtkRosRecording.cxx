@@ -53,7 +53,7 @@ struct Lens
   std::size_t coefficients = 0;
 };
 
-Lens lensOf(const CameraRecord& camera)
+Lens rosLensOf(const CameraRecord& camera)
 {
   const std::size_t count = coefficientsOf(camera).size();
   if (camera.rollingShutter.duration != 0 || !camera.hasK || camera.K(0, 1) != 0)
@@ -73,7 +73,7 @@ Lens lensOf(const CameraRecord& camera)
 
 void requireLens(const CameraRecord& camera, const std::string& format)
 {
-  if (lensOf(camera).name.empty())
+  if (rosLensOf(camera).name.empty())
   {
     const char* what = camera.rollingShutter.duration != 0        ? " with a rolling shutter"
                        : camera.hasK && camera.K(0, 1) != 0       ? " with skew"
@@ -229,7 +229,7 @@ std::uint64_t Recording::nanoseconds(const DatasetShot& shot) const { return tim
 
 CameraInfo Recording::infoOf(const DatasetShot& shot) const
 {
-  const Lens lens = lensOf(shot.camera);
+  const Lens lens = rosLensOf(shot.camera);
   CameraInfo info;
   info.width = shot.camera.width;
   info.height = shot.camera.height;

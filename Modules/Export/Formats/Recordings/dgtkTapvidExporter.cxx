@@ -6,7 +6,6 @@
 #include "dgtkExportSeries.h"
 #include "dgtkLayerFile.h"
 #include "dgtkPickleFile.h"
-#include "dgtkText.h"
 #include "dgtkZipFile.h"
 
 #include <algorithm>

@@ -35,7 +35,7 @@ constexpr RealKey realKeys[] = { { "depth", "", true }, { "distance", "distance"
   { "disparity", "disparity", false } };
 
 /// A camera of a file, and what follows its keys.
-struct Eye
+struct Hdf5Eye
 {
   const DatasetShot* shot = nullptr;
   std::string suffix;
@@ -52,7 +52,7 @@ public:
   {
   }
 
-  void add(const Eye& eye)
+  void add(const Hdf5Eye& eye)
   {
     this->addColors(eye);
     for (const RealKey& key : realKeys)
@@ -81,7 +81,7 @@ public:
 private:
   using Type = Hdf5File::Type;
 
-  void addColors(const Eye& eye)
+  void addColors(const Hdf5Eye& eye)
   {
     const std::string layer = exported::color().of(this->Options);
     const std::unique_ptr<RowReader> reader = this->Dataset.open(*eye.shot, layer, { "png" });
@@ -100,7 +100,7 @@ private:
     this->Sink.rounding({ layer, "levels", wide ? 0.5 : 0, std::uint64_t(info.width) * unsigned(info.height), 0 });
   }
 
-  void addReals(const Eye& eye, const std::string& key, const std::string& layer, bool isLength)
+  void addReals(const Hdf5Eye& eye, const std::string& key, const std::string& layer, bool isLength)
   {
     ClassedRows rows(this->Dataset, *eye.shot, layer);
     const ImageInfo& info = rows.info();
@@ -120,7 +120,7 @@ private:
   }
 
   /// Half of the normal in axes that look along -z, and a half.
-  void addNormals(const Eye& eye)
+  void addNormals(const Hdf5Eye& eye)
   {
     ClassedRows rows(this->Dataset, *eye.shot, "normal");
     const ImageInfo& info = rows.info();
@@ -139,7 +139,7 @@ private:
   }
 
   /// Half of the point in its object's frame, and a half; then 1 where there is one. Zeros for none.
-  void addObjectCoordinates(const Eye& eye)
+  void addObjectCoordinates(const Hdf5Eye& eye)
   {
     ClassedRows rows(this->Dataset, *eye.shot, "objectcoords");
     const ImageInfo& info = rows.info();
@@ -162,7 +162,7 @@ private:
   }
 
   /// The ids that are seen.
-  std::set<std::uint32_t> addIds(const Eye& eye, const std::string& layer, const std::string& key)
+  std::set<std::uint32_t> addIds(const Hdf5Eye& eye, const std::string& layer, const std::string& key)
   {
     const std::unique_ptr<RowReader> reader = this->Dataset.open(*eye.shot, layer);
     const ImageInfo& info = reader->info();
@@ -256,7 +256,7 @@ private:
   static ExportItem item(const DatasetView& dataset, const DatasetShot& left, const std::string& right,
     const std::string& folder, const OptionValues& options)
   {
-    std::vector<Eye> eyes{ { &left, right.empty() ? "" : "_0" } };
+    std::vector<Hdf5Eye> eyes{ { &left, right.empty() ? "" : "_0" } };
     if (!right.empty())
     {
       eyes.push_back({ dataset.shot(right, left.frame()), "_1" });
@@ -265,13 +265,13 @@ private:
     ExportItem item{ { name }, [&dataset, eyes, name, options](ExportSink& sink)
       {
         FrameFile file(sink, dataset, options);
-        for (const Eye& eye : eyes)
+        for (const Hdf5Eye& eye : eyes)
         {
           file.add(eye);
         }
         sink.write(name, file.bytes());
       } };
-    for (const Eye& eye : eyes)
+    for (const Hdf5Eye& eye : eyes)
     {
       item.names.push_back({ eye.shot->name(), eye.shot->frame(), name + eye.suffix });
     }

@@ -6,7 +6,6 @@
 #include "dgtkExportSeries.h"
 #include "dgtkPictureSamples.h"
 #include "dgtkTarFile.h"
-#include "dgtkText.h"
 
 #include <algorithm>
 #include <map>

@@ -131,15 +131,12 @@ void writeObjects(ExportSink& sink, const DatasetView& dataset, const Eye& eye)
 
 std::string matrixLine(const char* name, const CameraRecord& camera)
 {
-  const Rigid3 pose = worldFromCameraGL(camera);
-  std::vector<double> numbers;
-  for (int i = 0; i < 3; ++i)
+  std::string line = name;
+  for (const std::vector<double>& row : matrixRows(worldFromCameraGL(camera)))
   {
-    numbers.insert(
-      numbers.end(), { pose.rotation(i, 0), pose.rotation(i, 1), pose.rotation(i, 2), pose.translation[i] });
+    line += (line == name ? "" : " ") + numbersLine(row);
   }
-  numbers.insert(numbers.end(), { 0, 0, 0, 1 });
-  return name + numbersLine(numbers) + '\n';
+  return line + '\n';
 }
 
 std::string upper(std::string text)

@@ -234,15 +234,14 @@ private:
         {
           const Eigen::Matrix3d K = intrinsicsOf(shot->camera, PixelCentre::Half) / 2;
           intrinsics->write(numbersLine({ K(0, 0), K(1, 1), K(0, 2), K(1, 2) }) + '\n');
-          const Rigid3 view = cameraFromWorld(shot->camera);
-          std::vector<double> numbers;
-          for (int i = 0; i < 3; ++i)
+          Rigid3 view = cameraFromWorld(shot->camera);
+          view.translation *= dataset.metres();
+          std::string line;
+          for (const std::vector<double>& row : matrixRows(view))
           {
-            numbers.insert(numbers.end(), { view.rotation(i, 0), view.rotation(i, 1), view.rotation(i, 2),
-                                            view.translation[i] * dataset.metres() });
+            line += (line.empty() ? "" : " ") + numbersLine(row);
           }
-          numbers.insert(numbers.end(), { 0, 0, 0, 1 });
-          extrinsics->write(numbersLine(numbers) + '\n');
+          extrinsics->write(line + '\n');
         }
         intrinsics->finish();
         extrinsics->finish();

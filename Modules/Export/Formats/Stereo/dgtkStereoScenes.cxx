@@ -130,39 +130,59 @@ void checkShot(
   requireFile(dataset, shot, exported::color().of(options), layout.format, { "png" });
   requireFile(dataset, shot, "disparity", layout.format);
 }
-} // namespace
 
-ExportNeeds stereoNeeds(const OptionValues& options) { return { { exported::color().of(options), "disparity" } }; }
-
-void checkStereo(const DatasetView& dataset, const OptionValues& options, const StereoLayout& layout)
+class StereoExporter : public Exporter
 {
-  requirePng(options, layout.format);
-  requireWhole(options, layout.format);
-  dataset.metres();
-  for (const CameraEyes& pair : pairsOf(dataset, layout.format))
+public:
+  explicit StereoExporter(const StereoLayout& layout)
+    : Layout(layout)
   {
-    for (const DatasetShot* left : dataset.shotsOf(pair.left))
+  }
+
+  ExportNeeds needs(const OptionValues& options) const override
+  {
+    return { { exported::color().of(options), "disparity" } };
+  }
+
+  void check(const DatasetView& dataset, const OptionValues& options) const override
+  {
+    requirePng(options, this->Layout.format);
+    requireWhole(options, this->Layout.format);
+    dataset.metres();
+    for (const CameraEyes& pair : pairsOf(dataset, this->Layout.format))
     {
-      checkShot(dataset, *left, options, layout);
-      checkShot(dataset, *dataset.shot(pair.right, left->frame()), options, layout);
+      for (const DatasetShot* left : dataset.shotsOf(pair.left))
+      {
+        checkShot(dataset, *left, options, this->Layout);
+        checkShot(dataset, *dataset.shot(pair.right, left->frame()), options, this->Layout);
+      }
     }
   }
-}
 
-ExportPlan planStereo(const DatasetView& dataset, const OptionValues& options, const StereoLayout& layout)
-{
-  ExportPlan plan;
-  plan.conventions = { { "pixel_centre", "integer: cx and cy are 0.5 less" },
-    { "disparity", "x of the left image less x of the right one, +inf for none" }, { "baseline", "millimetres" },
-    { "mask0nocc", "255 visible in the other image, 128 not, 0 unknown" },
-    { "metres_per_unit", shortest(dataset.metres()) } };
-  for (const CameraEyes& pair : pairsOf(dataset, layout.format))
+  ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override
   {
-    plan.series.push_back(seriesOf(dataset, pair.left,
-      [&dataset, pair, layout, options](const DatasetShot& left, std::size_t)
-      { return itemOf(dataset, sceneOf(dataset, pair, left), layout, options); }));
+    ExportPlan plan;
+    plan.conventions = { { "pixel_centre", "integer: cx and cy are 0.5 less" },
+      { "disparity", "x of the left image less x of the right one, +inf for none" }, { "baseline", "millimetres" },
+      { "mask0nocc", "255 visible in the other image, 128 not, 0 unknown" },
+      { "metres_per_unit", shortest(dataset.metres()) } };
+    for (const CameraEyes& pair : pairsOf(dataset, this->Layout.format))
+    {
+      plan.series.push_back(seriesOf(dataset, pair.left,
+        [&dataset, pair, layout = this->Layout, options](const DatasetShot& left, std::size_t)
+        { return itemOf(dataset, sceneOf(dataset, pair, left), layout, options); }));
+    }
+    return plan;
   }
-  return plan;
+
+private:
+  const StereoLayout Layout;
+};
+} // namespace
+
+std::unique_ptr<Exporter> makeStereoExporter(const StereoLayout& layout)
+{
+  return std::make_unique<StereoExporter>(layout);
 }
 
 } // namespace dgtk

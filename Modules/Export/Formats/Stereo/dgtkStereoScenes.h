@@ -6,6 +6,7 @@
 
 #include "dgtkExporter.h"
 
+#include <memory>
 #include <string>
 
 namespace dgtk
@@ -21,9 +22,7 @@ struct StereoLayout
   std::string rightMap;              ///< of the right one's; "" for none
 };
 
-ExportNeeds stereoNeeds(const OptionValues& options);
-void checkStereo(const DatasetView& dataset, const OptionValues& options, const StereoLayout& layout);
-ExportPlan planStereo(const DatasetView& dataset, const OptionValues& options, const StereoLayout& layout);
+std::unique_ptr<Exporter> makeStereoExporter(const StereoLayout& layout);
 
 } // namespace dgtk
 

@@ -5,8 +5,6 @@
 #include "dgtkFile.h"
 #include "dgtkText.h"
 
-#include <cstdio>
-
 #include <jpeglib.h>
 
 namespace dgtk

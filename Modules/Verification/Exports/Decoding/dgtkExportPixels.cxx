@@ -2,7 +2,6 @@
 #include "dgtkExportPixels.h"
 
 #include "dgtkError.h"
-#include "dgtkText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -376,12 +375,6 @@ double numberOf(const PixelEncoding& encoding, const std::string& key, double us
 }
 
 DecodedPixels decodePng(const std::string& path, const PixelEncoding&) { return allOf(path); }
-
-bool knowsPixels(const std::string& kind)
-{
-  return findDecoder(kind) != nullptr ||
-         std::any_of(std::begin(judges), std::end(judges), [&](const Judge& one) { return kind == one.kind; });
-}
 
 void judgePixels(const ExportedFrom& source, const ExportedFile& file, Results& results)
 {

@@ -31,9 +31,6 @@ double numberOf(const PixelEncoding& encoding, const std::string& key, double us
 /// Compares the pixels of a file with the dataset's, as its encoding says.
 void judgePixels(const ExportedFrom& source, const ExportedFile& file, Results& results);
 
-/// Whether there is a decoder or comparison of that name.
-bool knowsPixels(const std::string& kind);
-
 /// Decoders of single formats; others stand in the file of the format's reader.
 DecodedPixels decodePng(const std::string& path, const PixelEncoding& encoding);
 DecodedPixels decodeKittiFlow(const std::string& path, const PixelEncoding& encoding);

@@ -93,10 +93,10 @@ struct Layout
   std::vector<std::uint64_t> chunk; ///< and the element's bytes
 };
 
-class Reader
+class Hdf5Reader
 {
 public:
-  explicit Reader(const std::string& path)
+  explicit Hdf5Reader(const std::string& path)
     : File(path, readFile(path))
   {
   }
@@ -342,6 +342,6 @@ private:
 };
 } // namespace
 
-std::map<std::string, Hdf5Dataset> readHdf5(const std::string& path) { return Reader(path).members(); }
+std::map<std::string, Hdf5Dataset> readHdf5(const std::string& path) { return Hdf5Reader(path).members(); }
 
 } // namespace dgtk

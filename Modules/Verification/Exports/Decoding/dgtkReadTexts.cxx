@@ -5,6 +5,7 @@
 #include "dgtkFile.h"
 #include "dgtkText.h"
 
+#include <algorithm>
 #include <charconv>
 #include <sstream>
 
@@ -77,6 +78,52 @@ const std::vector<double>& numbersOf(
     throw InputError(path, 0, "expected " + std::to_string(count) + " numbers of " + key);
   }
   return found->second;
+}
+
+std::vector<double> numbersIn(
+  const std::string& path, std::size_t line, const std::vector<std::string>& words, std::size_t count)
+{
+  if (words.size() != count)
+  {
+    throw InputError(path, line,
+      "expected " + std::to_string(count) + " fields, one space between them, found " + std::to_string(words.size()));
+  }
+  std::vector<double> numbers;
+  numbers.reserve(count);
+  for (const std::string& word : words)
+  {
+    numbers.push_back(numberIn(path, line, word));
+  }
+  return numbers;
+}
+
+std::string digitsOf(const std::string& number, std::size_t digits)
+{
+  return std::string(digits - std::min(digits, number.size()), '0') + number;
+}
+
+Eigen::Matrix3d fromWholeCentres(Eigen::Matrix3d K)
+{
+  K(0, 2) += 0.5;
+  K(1, 2) += 0.5;
+  return K;
+}
+
+Eigen::Matrix3d matrixOf(const std::vector<double>& numbers, std::size_t step)
+{
+  Eigen::Matrix3d matrix;
+  for (std::size_t i = 0; i < 9; ++i)
+  {
+    matrix(Eigen::Index(i / 3), Eigen::Index(i % 3)) = numbers.at(i / 3 * step + i % 3);
+  }
+  return matrix;
+}
+
+Eigen::Matrix3d rotationOf(const Eigen::Vector4d& q)
+{
+  Eigen::Matrix3d cross;
+  cross << 0, -q.z(), q.y(), q.z(), 0, -q.x(), -q.y(), q.x(), 0;
+  return Eigen::Matrix3d::Identity() + 2 * q.w() * cross + 2 * cross * cross;
 }
 
 double metresOf(const ExportedFrom& source)

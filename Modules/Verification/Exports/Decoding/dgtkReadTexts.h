@@ -24,6 +24,19 @@ std::map<std::string, std::vector<double>> keyedNumbers(const std::string& path)
 const std::vector<double>& numbersOf(
   const std::map<std::string, std::vector<double>>& all, const std::string& path, const std::string& key, int count);
 
+/// The numbers of all words of a line, that many; throws InputError.
+std::vector<double> numbersIn(
+  const std::string& path, std::size_t line, const std::vector<std::string>& words, std::size_t count);
+/// A number with zeros before it.
+std::string digitsOf(const std::string& number, std::size_t digits);
+inline std::string digitsOf(std::size_t number, std::size_t digits) { return digitsOf(std::to_string(number), digits); }
+/// Nine numbers row by row; rows lie `step` numbers apart.
+Eigen::Matrix3d matrixOf(const std::vector<double>& numbers, std::size_t step = 3);
+/// K of pixels whose centres are whole numbers as the judge wants it.
+Eigen::Matrix3d fromWholeCentres(Eigen::Matrix3d K);
+/// Of Hamilton's quaternion x, y, z, w.
+Eigen::Matrix3d rotationOf(const Eigen::Vector4d& q);
+
 /// Metres of a scene unit: as the export was asked for, or as the dataset says. Throws InputError for none.
 double metresOf(const ExportedFrom& source);
 /// Files of an export below a folder with an extension.

@@ -21,20 +21,6 @@ namespace
 using Json = nlohmann::json;
 using BopPoints = std::vector<Eigen::Vector3d>;
 
-std::string digits(const std::string& number)
-{
-  return std::string(6 - std::min<std::size_t>(6, number.size()), '0') + number;
-}
-
-Eigen::Matrix3d matrixOf(const Json& list)
-{
-  Eigen::Matrix3d matrix;
-  for (int i = 0; i < 9; ++i)
-  {
-    matrix(i / 3, i % 3) = list.at(std::size_t(i));
-  }
-  return matrix;
-}
 Eigen::Vector3d vectorOf(const Json& list)
 {
   const std::vector<double> numbers = list;
@@ -101,7 +87,7 @@ public:
     this->Infos = this->document("models/models_info.json");
     for (const auto& [id, info] : this->Infos.items())
     {
-      const std::string file = "models/obj_" + digits(id) + ".ply";
+      const std::string file = "models/obj_" + digitsOf(id, 6) + ".ply";
       this->Models[std::stoi(id)] = verticesOf(judge.source().path(file));
       this->judgeInfo(file, info, this->Models[std::stoi(id)]);
       const bool same =
@@ -124,7 +110,7 @@ public:
     }
     for (const auto& [image, camera] : cameras.items())
     {
-      const std::string stem = folder + "rgb/" + digits(image);
+      const std::string stem = folder + "rgb/" + digitsOf(image, 6);
       const ExportedName* picture = this->Judge.source().named(stem + ".png");
       picture = picture ? picture : pictureOf(this->Judge, folder + "scene_camera.json", stem + ".jpg");
       if (picture)
@@ -164,10 +150,7 @@ private:
 
   void judgeCamera(const std::string& file, const Json& camera, const ExportedName& picture)
   {
-    Eigen::Matrix3d K = matrixOf(camera.at("cam_K"));
-    K(0, 2) += 0.5;
-    K(1, 2) += 0.5;
-    this->Judge.intrinsics(file, picture.camera, picture.frame, K, 1e-9);
+    this->Judge.intrinsics(file, picture.camera, picture.frame, fromWholeCentres(matrixOf(camera.at("cam_K"))), 1e-9);
     this->Judge.pose(file, picture.camera, picture.frame, matrixOf(camera.at("cam_R_w2c")),
       vectorOf(camera.at("cam_t_w2c")) / this->Unit, 1e-9);
   }
@@ -285,7 +268,7 @@ private:
 
   static std::string maskOf(const std::string& image, std::size_t instance)
   {
-    return digits(image) + '_' + digits(std::to_string(instance)) + ".png";
+    return digitsOf(image, 6) + '_' + digitsOf(instance, 6) + ".png";
   }
 
   /// Pixels of the amodal mask that have a depth in the export.
@@ -294,7 +277,8 @@ private:
   {
     const ExportedFrom& source = this->Judge.source();
     const std::vector<double> mask = decodePng(source.path(folder + "mask/" + maskOf(image, instance)), {}).values;
-    const std::vector<double> depth = decodePng(source.path(folder + "depth/" + digits(image) + ".png"), {}).values;
+    const std::vector<double> depth =
+      decodePng(source.path(folder + "depth/" + digitsOf(image, 6) + ".png"), {}).values;
     std::size_t valid = 0;
     for (std::size_t i = 0; i < std::min(mask.size(), depth.size()); ++i)
     {

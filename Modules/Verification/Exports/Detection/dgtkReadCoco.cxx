@@ -3,7 +3,6 @@
 #include "dgtkJsonFile.h"
 
 #include <algorithm>
-#include <cmath>
 
 // COCO's data format (cocodataset.org/#format-data) and cocoapi's maskApi.c.
 
@@ -76,7 +75,7 @@ Eigen::Vector4d cornersOf(const Json& box)
   return { x, y, x + box.at(2).get<double>(), y + box.at(3).get<double>() };
 }
 
-struct Image
+struct CocoImage
 {
   std::string camera;
   int frame = 0;
@@ -85,14 +84,14 @@ struct Image
   std::uint64_t annotations = 0;
 };
 
-std::uint64_t visibleObjects(const ExportedFrom& source, const Image& image)
+std::uint64_t visibleObjects(const ExportedFrom& source, const CocoImage& image)
 {
   const std::vector<BoxRecord>& boxes = source.boxes(image.camera, image.frame);
   return static_cast<std::uint64_t>(
     std::count_if(boxes.begin(), boxes.end(), [](const BoxRecord& box) { return box.visible.has_value(); }));
 }
 
-void readAnnotation(ExportJudge& judge, const std::string& file, const Json& one, Image& image)
+void readAnnotation(ExportJudge& judge, const std::string& file, const Json& one, CocoImage& image)
 {
   const auto object = one.at("object_id").get<std::uint32_t>();
   const std::string where = "annotation " + one.at("id").dump();
@@ -109,7 +108,7 @@ void readAnnotation(ExportJudge& judge, const std::string& file, const Json& one
 
 /// x, y, v of the keypoints that a category names; pixels' centres are whole numbers.
 void readKeypoints(
-  ExportJudge& judge, const std::string& file, const Json& categories, const Json& one, const Image& image)
+  ExportJudge& judge, const std::string& file, const Json& categories, const Json& one, const CocoImage& image)
 {
   const auto object = one.at("object_id").get<std::uint32_t>();
   const std::vector<BoxRecord>& boxes = judge.source().boxes(image.camera, image.frame);
@@ -142,7 +141,7 @@ void readKeypoints(
   judge.number("keypoints", "px", file, where, one.at("num_keypoints"), labelled, 0);
 }
 
-std::uint64_t pointedObjects(const ExportedFrom& source, const Image& image, const Json& categories)
+std::uint64_t pointedObjects(const ExportedFrom& source, const CocoImage& image, const Json& categories)
 {
   const std::vector<BoxRecord>& boxes = source.boxes(image.camera, image.frame);
   return static_cast<std::uint64_t>(std::count_if(boxes.begin(), boxes.end(),
@@ -165,14 +164,14 @@ void readInstances(ExportJudge& judge, const std::string& file, const std::strin
   useJson(path,
     [&]
     {
-      std::map<std::int64_t, Image> images;
+      std::map<std::int64_t, CocoImage> images;
       for (const Json& one : document.at("images"))
       {
         const ExportedName* name = judge.source().named(split + "/" + one.at("file_name").get<std::string>());
         const bool same =
           name && one.value("camera", name->camera) == name->camera && one.value("frame", name->frame) == name->frame;
         judge.holds("names", file, one.at("file_name"), same, "a picture", "one of export.json");
-        const Image image{ name ? name->camera : "", name ? name->frame : 0, one.at("width"), one.at("height") };
+        const CocoImage image{ name ? name->camera : "", name ? name->frame : 0, one.at("width"), one.at("height") };
         judge.size(file, image.camera, image.frame, image.width, image.height);
         judge.holds("ids", file, "image", images.emplace(one.at("id"), image).second, "an id twice", "each once");
       }
@@ -182,7 +181,7 @@ void readInstances(ExportJudge& judge, const std::string& file, const std::strin
         const auto id = one.at("id").get<std::int64_t>();
         judge.holds(
           "ids", file, "annotation", id > 0 && ids.insert(id).second, one.at("id").dump(), "each once, from 1");
-        Image& image = images.at(one.at("image_id"));
+        CocoImage& image = images.at(one.at("image_id"));
         readAnnotation(judge, file, one, image);
         if (pointed)
         {

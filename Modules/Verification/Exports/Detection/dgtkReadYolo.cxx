@@ -6,7 +6,6 @@
 #include "dgtkFile.h"
 
 #include <algorithm>
-#include <cmath>
 
 // Ultralytics' dataset formats (detect, segment, pose, obb): places are shares of the image, classes from 0.
 

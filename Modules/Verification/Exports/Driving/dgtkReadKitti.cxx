@@ -10,18 +10,6 @@ namespace
 {
 using Numbers = std::map<std::string, std::vector<double>>;
 
-Eigen::Matrix3d matrixOf(const std::vector<double>& numbers, int columns)
-{
-  Eigen::Matrix3d K;
-  for (int i = 0; i < 9; ++i)
-  {
-    K(i / 3, i % 3) = numbers[std::size_t(i / 3 * columns + i % 3)];
-  }
-  K(0, 2) += 0.5; // KITTI's pixels have integer centres
-  K(1, 2) += 0.5;
-  return K;
-}
-
 double expectedBaseline(const ExportedFrom& source, const ExportedName& left, const ExportedName& right)
 {
   const CameraRecord* a = source.camera(left.camera, left.frame);
@@ -41,8 +29,9 @@ void judgeCamera(ExportJudge& judge, const std::string& file, const Numbers& all
   judge.holds("size", file, "S_" + number, numbersOf(all, path, "S_" + number, 2) == size, "another", "S_rect's");
   judge.holds("distortion", file, "D_" + number, numbersOf(all, path, "D_" + number, 5) == std::vector<double>(5, 0.0),
     "another", "none");
-  judge.intrinsics(file, picture.camera, picture.frame, matrixOf(P, 4), 1e-9);
-  judge.intrinsics(file, picture.camera, picture.frame, matrixOf(numbersOf(all, path, "K_" + number, 9), 3), 1e-9);
+  judge.intrinsics(file, picture.camera, picture.frame, fromWholeCentres(matrixOf(P, 4)), 1e-9);
+  judge.intrinsics(
+    file, picture.camera, picture.frame, fromWholeCentres(matrixOf(numbersOf(all, path, "K_" + number, 9))), 1e-9);
   const std::string where = "camera " + number;
   judge.number("baseline", "m", file, where, P[3] / P[0], offset, 1e-9);
   judge.number("baseline", "m", file, where, T[0], offset, 1e-9);

@@ -103,7 +103,7 @@ std::string option(const ExportedFrom& source, const std::string& name)
   return "";
 }
 
-struct Place
+struct LabelPlace
 {
   std::string file;
   std::string words; ///< which object
@@ -122,7 +122,7 @@ bool isTypeOf(const std::string& type, const std::string& objectClass)
          (more[0] == '_' && more.size() > 1 && more.find_first_not_of("0123456789", 1) == std::string::npos);
 }
 
-void judgeLabel(ExportJudge& judge, const Place& place, const KittiLabel& label, const BoxRecord& box)
+void judgeLabel(ExportJudge& judge, const LabelPlace& place, const KittiLabel& label, const BoxRecord& box)
 {
   const std::vector<double>& n = label.numbers;
   const auto number = [&](const char* what, const char* unit, double found, double expected, double tolerance)
@@ -147,7 +147,7 @@ void judgeLabel(ExportJudge& judge, const Place& place, const KittiLabel& label,
 }
 
 /// The side that an object shows ahead: the length is along the axis that the export was asked for.
-void judgeFront(ExportJudge& judge, const Place& place, const KittiLabel& label, const BoxRecord& box)
+void judgeFront(ExportJudge& judge, const LabelPlace& place, const KittiLabel& label, const BoxRecord& box)
 {
   const std::string front = option(judge.source(), "front");
   const int axis = front.empty() ? 0 : front.back() - 'x';
@@ -192,7 +192,7 @@ void judgeLabels(ExportJudge& judge, const std::string& file, const ExportedName
   judge.number("labels", "objects", file, where, double(labels.size()), double(boxes.size()), 0);
   for (std::size_t i = 0; i < std::min(labels.size(), boxes.size()); ++i)
   {
-    const Place place{ file, "line " + std::to_string(i + 1) };
+    const LabelPlace place{ file, "line " + std::to_string(i + 1) };
     judgeLabel(judge, place, labels[i], boxes[i]);
     judgeFront(judge, place, labels[i], boxes[i]);
   }

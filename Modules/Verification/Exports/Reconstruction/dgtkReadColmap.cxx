@@ -7,6 +7,7 @@
 #include "dgtkFile.h"
 #include "dgtkTrackDocuments.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -19,53 +20,55 @@ namespace dgtk
 
 namespace
 {
-struct Camera
+struct ColmapCamera
 {
   std::string model;
   int width = 0;
   int height = 0;
   std::vector<double> numbers;
 };
-struct Place
+struct ColmapPlace
 {
   double u = 0;
   double v = 0;
   std::int64_t point = -1;
 };
-struct Image
+struct ColmapImage
 {
-  Eigen::Vector4d q{ 1, 0, 0, 0 }; ///< w x y z
+  Eigen::Vector4d q{ 0, 0, 0, 1 }; ///< x y z w
   Eigen::Vector3d t{ 0, 0, 0 };
   std::uint32_t camera = 0;
   std::string name;
-  std::vector<Place> places;
+  std::vector<ColmapPlace> places;
+  /// QW, QX, QY, QZ, TX, TY, TZ.
+  std::array<double*, 7> numbers() { return { &q[3], &q[0], &q[1], &q[2], &t[0], &t[1], &t[2] }; }
 };
-struct Point
+struct ColmapPoint
 {
   Eigen::Vector3d x{ 0, 0, 0 };
   int color[3] = { 0, 0, 0 };
   std::vector<std::pair<std::uint32_t, std::uint32_t>> track;
 };
-struct Model
+struct ColmapModel
 {
-  std::map<std::uint32_t, Camera> cameras;
-  std::map<std::uint32_t, Image> images;
-  std::map<std::int64_t, Point> points;
+  std::map<std::uint32_t, ColmapCamera> cameras;
+  std::map<std::uint32_t, ColmapImage> images;
+  std::map<std::int64_t, ColmapPoint> points;
 };
 
-struct Kind
+struct Lens
 {
   int id;
   const char* name;
   std::size_t numbers;
 };
-constexpr Kind kinds[] = { { 1, "PINHOLE", 4 }, { 4, "OPENCV", 8 }, { 5, "OPENCV_FISHEYE", 8 },
+constexpr Lens kinds[] = { { 1, "PINHOLE", 4 }, { 4, "OPENCV", 8 }, { 5, "OPENCV_FISHEYE", 8 },
   { 6, "FULL_OPENCV", 12 } };
 
 template <typename Same>
-const Kind& kindOf(const std::string& path, const Same& same)
+const Lens& kindOf(const std::string& path, const Same& same)
 {
-  for (const Kind& kind : kinds)
+  for (const Lens& kind : kinds)
   {
     if (same(kind))
     {
@@ -76,10 +79,10 @@ const Kind& kindOf(const std::string& path, const Same& same)
 }
 
 /// Little-endian numbers one after another.
-class Bytes
+class ColmapBytes
 {
 public:
-  explicit Bytes(const std::string& path)
+  explicit ColmapBytes(const std::string& path)
     : Path(path)
     , All(readFile(path))
   {
@@ -119,14 +122,14 @@ private:
   std::size_t At = 0;
 };
 
-void readBinary(const std::string& folder, Model& model)
+void readBinary(const std::string& folder, ColmapModel& model)
 {
-  Bytes cameras(folder + "cameras.bin");
+  ColmapBytes cameras(folder + "cameras.bin");
   for (auto n = cameras.next<std::uint64_t>(); n > 0; --n)
   {
-    Camera& camera = model.cameras[cameras.next<std::uint32_t>()];
+    ColmapCamera& camera = model.cameras[cameras.next<std::uint32_t>()];
     const int id = cameras.next<std::int32_t>();
-    const Kind& kind = kindOf(folder + "cameras.bin", [id](const Kind& one) { return one.id == id; });
+    const Lens& kind = kindOf(folder + "cameras.bin", [id](const Lens& one) { return one.id == id; });
     camera.model = kind.name;
     camera.width = int(cameras.next<std::uint64_t>());
     camera.height = int(cameras.next<std::uint64_t>());
@@ -136,23 +139,19 @@ void readBinary(const std::string& folder, Model& model)
     }
   }
   cameras.end();
-  Bytes images(folder + "images.bin");
+  ColmapBytes images(folder + "images.bin");
   for (auto n = images.next<std::uint64_t>(); n > 0; --n)
   {
-    Image& image = model.images[images.next<std::uint32_t>()];
-    for (int i = 0; i < 4; ++i)
+    ColmapImage& image = model.images[images.next<std::uint32_t>()];
+    for (double* number : image.numbers())
     {
-      image.q[i] = images.next<double>();
-    }
-    for (int i = 0; i < 3; ++i)
-    {
-      image.t[i] = images.next<double>();
+      *number = images.next<double>();
     }
     image.camera = images.next<std::uint32_t>();
     image.name = images.text();
     for (auto places = images.next<std::uint64_t>(); places > 0; --places)
     {
-      Place place;
+      ColmapPlace place;
       place.u = images.next<double>();
       place.v = images.next<double>();
       place.point = static_cast<std::int64_t>(images.next<std::uint64_t>());
@@ -160,10 +159,10 @@ void readBinary(const std::string& folder, Model& model)
     }
   }
   images.end();
-  Bytes points(folder + "points3D.bin");
+  ColmapBytes points(folder + "points3D.bin");
   for (auto n = points.next<std::uint64_t>(); n > 0; --n)
   {
-    Point& point = model.points[static_cast<std::int64_t>(points.next<std::uint64_t>())];
+    ColmapPoint& point = model.points[static_cast<std::int64_t>(points.next<std::uint64_t>())];
     for (int i = 0; i < 3; ++i)
     {
       point.x[i] = points.next<double>();
@@ -197,20 +196,20 @@ std::vector<std::istringstream> textLines(const std::string& path)
   return lines;
 }
 
-void readTextImages(const std::string& path, Model& model)
+void readTextImages(const std::string& path, ColmapModel& model)
 {
   std::vector<std::istringstream> lines = textLines(path);
   for (std::size_t i = 0; i + 1 < lines.size(); i += 2)
   {
     std::uint32_t id = 0;
     lines[i] >> id;
-    Image& image = model.images[id];
-    for (double* q : { &image.q[0], &image.q[1], &image.q[2], &image.q[3], &image.t[0], &image.t[1], &image.t[2] })
+    ColmapImage& image = model.images[id];
+    for (double* number : image.numbers())
     {
-      lines[i] >> *q;
+      lines[i] >> *number;
     }
     lines[i] >> image.camera >> image.name;
-    for (Place place; lines[i + 1] >> place.u >> place.v >> place.point;)
+    for (ColmapPlace place; lines[i + 1] >> place.u >> place.v >> place.point;)
     {
       image.places.push_back(place);
     }
@@ -221,19 +220,19 @@ void readTextImages(const std::string& path, Model& model)
   }
 }
 
-void readText(const std::string& folder, Model& model)
+void readText(const std::string& folder, ColmapModel& model)
 {
   for (std::istringstream& line : textLines(folder + "cameras.txt"))
   {
     std::uint32_t id = 0;
     line >> id;
-    Camera& camera = model.cameras[id];
+    ColmapCamera& camera = model.cameras[id];
     line >> camera.model >> camera.width >> camera.height;
     for (double number = 0; line >> number;)
     {
       camera.numbers.push_back(number);
     }
-    const Kind& kind = kindOf(folder + "cameras.txt", [&](const Kind& one) { return one.name == camera.model; });
+    const Lens& kind = kindOf(folder + "cameras.txt", [&](const Lens& one) { return one.name == camera.model; });
     if (camera.numbers.size() != kind.numbers)
     {
       throw InputError(folder + "cameras.txt", 0, "a camera has not the numbers of its model");
@@ -245,7 +244,7 @@ void readText(const std::string& folder, Model& model)
     std::int64_t id = 0;
     double error = 0;
     line >> id;
-    Point& point = model.points[id];
+    ColmapPoint& point = model.points[id];
     line >> point.x[0] >> point.x[1] >> point.x[2] >> point.color[0] >> point.color[1] >> point.color[2] >> error;
     for (std::pair<std::uint32_t, std::uint32_t> one; line >> one.first >> one.second;)
     {
@@ -254,15 +253,8 @@ void readText(const std::string& folder, Model& model)
   }
 }
 
-Eigen::Matrix3d rotationOf(const Eigen::Vector4d& q)
-{
-  Eigen::Matrix3d cross;
-  cross << 0, -q[3], q[2], q[3], 0, -q[1], -q[2], q[1], 0;
-  return Eigen::Matrix3d::Identity() + 2 * q[0] * cross + 2 * cross * cross;
-}
-
 /// Pixels of a point in camera axes.
-Eigen::Vector2d project(const Camera& camera, const Eigen::Vector3d& x)
+Eigen::Vector2d project(const ColmapCamera& camera, const Eigen::Vector3d& x)
 {
   const std::vector<double>& n = camera.numbers;
   double a = x[0] / x[2];
@@ -319,7 +311,7 @@ public:
 private:
   std::string file(const char* name) const { return this->Folder + name + this->Extension; }
 
-  void judgeImage(std::uint32_t id, const Image& image)
+  void judgeImage(std::uint32_t id, const ColmapImage& image)
   {
     const ExportedName* picture = pictureOf(this->Judge, this->file("images"), this->Pictures + image.name);
     const auto camera = this->Model_.cameras.find(image.camera);
@@ -341,7 +333,7 @@ private:
     this->judgePlaces(id, image, camera->second, *picture);
   }
 
-  void judgePlaces(std::uint32_t id, const Image& image, const Camera& camera, const ExportedName& picture)
+  void judgePlaces(std::uint32_t id, const ColmapImage& image, const ColmapCamera& camera, const ExportedName& picture)
   {
     const ExportedFrom& source = this->Judge.source();
     const std::string layer = source.dataset() + '/' + source.file(picture.camera, picture.frame, "tracks", { "npy" });
@@ -350,7 +342,7 @@ private:
     std::set<std::int64_t> seen;
     for (std::size_t i = 0; i < image.places.size(); ++i)
     {
-      const Place& place = image.places[i];
+      const ColmapPlace& place = image.places[i];
       const std::string where = image.name + ", point " + std::to_string(place.point);
       const auto point = this->Model_.points.find(place.point);
       const bool known = point != this->Model_.points.end() && place.point >= 1 &&
@@ -410,7 +402,7 @@ private:
   std::string Pictures;
   std::string Extension;
   double Half;
-  Model Model_;
+  ColmapModel Model_;
   std::vector<TrackPoint> Tracks;
   std::map<std::int64_t, int> Seen;
   std::map<std::uint32_t, RiggedImage> Rigged;

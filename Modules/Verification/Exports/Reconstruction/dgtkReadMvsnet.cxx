@@ -18,7 +18,7 @@ namespace dgtk
 
 namespace
 {
-std::vector<std::string> textLines(const std::string& path)
+std::vector<std::string> allLines(const std::string& path)
 {
   std::vector<std::string> lines;
   std::istringstream stream(readFile(path));
@@ -40,10 +40,10 @@ std::vector<double> numbersIn(const std::string& path, const std::vector<std::st
   return numbers;
 }
 
-void judgeCamera(ExportJudge& judge, const std::string& file, const ExportedName& picture)
+void judgeMvsnetCamera(ExportJudge& judge, const std::string& file, const ExportedName& picture)
 {
   const std::string path = judge.source().path(file);
-  const std::vector<std::string> lines = textLines(path);
+  const std::vector<std::string> lines = allLines(path);
   const bool whole =
     lines.size() == 12 && lines[0] == "extrinsic" && lines[5].empty() && lines[6] == "intrinsic" && lines[10].empty();
   judge.holds("camera", file, picture.name, whole, "other lines", "extrinsic, intrinsic and a range");
@@ -121,7 +121,7 @@ double scoreOf(
 void judgePairs(ExportJudge& judge, const std::string& file)
 {
   const std::string path = judge.source().path(file);
-  const std::vector<std::string> lines = textLines(path);
+  const std::vector<std::string> lines = allLines(path);
   const std::vector<ExportedName>& names = judge.source().record().names;
   const std::vector<TrackPoint> points = readTrackPoints(judge.source().dataset() + '/' + trackPointsFile);
   judge.number("pairs", "", file, "lines", double(lines.size()), double(2 * names.size() + 1), 0);
@@ -150,7 +150,7 @@ void readMvsnet(ExportJudge& judge)
 {
   for (const ExportedName& name : judge.source().record().names)
   {
-    judgeCamera(judge, "cams/" + stemOf(name.name) + "_cam.txt", name);
+    judgeMvsnetCamera(judge, "cams/" + stemOf(name.name) + "_cam.txt", name);
   }
   judgePairs(judge, "cams/pair.txt");
 }

@@ -43,7 +43,7 @@ struct Schema
   std::string name;
   std::string definition;
 };
-struct Channel
+struct McapChannel
 {
   std::string topic;
   std::string type;
@@ -199,7 +199,7 @@ private:
     }
     this->holds("channel", metadata["topic"] == topic);
     this->Referee.topic(topic, schema->second.name, metadata["md5sum"], schema->second.definition);
-    const auto known = this->Channels.emplace(id, Channel{ topic, schema->second.name }).first;
+    const auto known = this->Channels.emplace(id, McapChannel{ topic, schema->second.name }).first;
     this->holds("channel", known->second.topic == topic && known->second.type == schema->second.name);
   }
 
@@ -325,7 +325,7 @@ private:
   std::size_t ChunkIndices = 0;
   std::map<int, std::pair<std::uint64_t, std::uint64_t>> Groups; ///< of the summary: begin and end
   std::map<std::uint16_t, Schema> Schemas;
-  std::map<std::uint16_t, Channel> Channels;
+  std::map<std::uint16_t, McapChannel> Channels;
   std::map<std::uint16_t, std::uint64_t> Messages;
   std::vector<Chunk> Chunks;
 };

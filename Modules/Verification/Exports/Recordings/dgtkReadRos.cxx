@@ -94,23 +94,11 @@ std::string flattened(
   return all;
 }
 
-/// Hamilton's, w last.
-Eigen::Matrix3d turned(const Eigen::Vector4d& q)
+std::vector<double> takeNumbers(RosBytes& bytes, std::size_t count)
 {
-  const Eigen::Vector3d v = q.head<3>();
-  Eigen::Matrix3d cross;
-  cross << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return Eigen::Matrix3d::Identity() + 2 * q[3] * cross + 2 * cross * cross;
-}
-
-Eigen::Matrix3d matrixIn(RosBytes& bytes)
-{
-  Eigen::Matrix3d M;
-  for (int i = 0; i < 9; ++i)
-  {
-    M(i / 3, i % 3) = bytes.take<double>();
-  }
-  return M;
+  std::vector<double> numbers(count);
+  std::generate(numbers.begin(), numbers.end(), [&] { return bytes.take<double>(); });
+  return numbers;
 }
 
 /// Metres that b lies to the right of a, of parallel pinholes with rows in common; 0 for others.
@@ -360,24 +348,17 @@ void RosReferee::info(RosBytes& bytes, const ExportedName& name)
   const auto width = bytes.take<std::uint32_t>();
   this->Judge.size(this->File, name.camera, name.frame, int(width), int(height));
   const std::string model = bytes.text();
-  std::vector<double> D(bytes.take<std::uint32_t>());
-  std::generate(D.begin(), D.end(), [&] { return bytes.take<double>(); });
-  Eigen::Matrix3d K = matrixIn(bytes);
-  const Eigen::Matrix3d R = matrixIn(bytes);
-  Eigen::Matrix<double, 3, 4> P;
-  for (int i = 0; i < 12; ++i)
-  {
-    P(i / 4, i % 4) = bytes.take<double>();
-  }
+  std::vector<double> D = takeNumbers(bytes, bytes.take<std::uint32_t>());
+  const Eigen::Matrix3d K = matrixOf(takeNumbers(bytes, 9));
+  const Eigen::Matrix3d R = matrixOf(takeNumbers(bytes, 9));
+  const std::vector<double> P = takeNumbers(bytes, 12);
   const std::string rest = bytes.rest();
   bytes.skip(rest.size());
   this->holds(where, rest == std::string(25, '\0'), "binning or a region", "the whole picture");
-  this->holds(where, R == Eigen::Matrix3d::Identity() && P.leftCols<3>() == K, "another R or P", "no rectification");
-  K(0, 2) += 0.5;
-  K(1, 2) += 0.5;
-  this->Judge.intrinsics(this->File, name.camera, name.frame, K, 1e-9);
-  this->baseline(name, -P(0, 3) / P(0, 0));
-  this->Judge.number("baseline", "m", this->File, where, std::abs(P(1, 3)) + std::abs(P(2, 3)), 0, 0);
+  this->holds(where, R == Eigen::Matrix3d::Identity() && matrixOf(P, 4) == K, "another R or P", "no rectification");
+  this->Judge.intrinsics(this->File, name.camera, name.frame, fromWholeCentres(K), 1e-9);
+  this->baseline(name, -P[3] / P[0]);
+  this->Judge.number("baseline", "m", this->File, where, std::abs(P[7]) + std::abs(P[11]), 0, 0);
   const CameraRecord* camera = this->Judge.source().camera(name.camera, name.frame);
   const auto numbers =
     camera ? camera->numbers.find("distortion") : std::map<std::string, std::vector<double>>::iterator();
@@ -453,12 +434,11 @@ void RosReferee::transforms(RosBytes& bytes, std::uint64_t time)
   {
     this->header(bytes, "/tf", time, "world");
     const std::string child = bytes.text();
-    Eigen::Vector3d t;
-    Eigen::Vector4d q;
-    std::generate(t.data(), t.data() + 3, [&] { return bytes.take<double>(); });
-    std::generate(q.data(), q.data() + 4, [&] { return bytes.take<double>(); });
+    const std::vector<double> n = takeNumbers(bytes, 7);
+    const Eigen::Vector3d t(n[0], n[1], n[2]);
+    const Eigen::Vector4d q(n[3], n[4], n[5], n[6]);
     this->Judge.number("quaternion", "1", this->File, child, q.norm(), 1, 1e-12);
-    const Eigen::Matrix3d R = turned(q);
+    const Eigen::Matrix3d R = rotationOf(q);
     const std::size_t at = child.rfind(ending);
     const ExportedName* name = at == std::string::npos ? nullptr : this->nameOf(child.substr(0, at), time);
     if (name)

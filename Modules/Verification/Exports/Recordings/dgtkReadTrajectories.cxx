@@ -16,36 +16,13 @@ namespace
 /// Seconds of a frame; what cannot be is no number.
 double timeOf(const ExportedFrom& source, int frame) { return frame / source.manifest().fps; }
 
-std::vector<double> numbersIn(
-  const std::string& path, std::size_t line, const std::vector<std::string>& words, std::size_t count)
-{
-  if (words.size() != count)
-  {
-    throw InputError(path, line,
-      "expected " + std::to_string(count) + " fields, one space between them, found " + std::to_string(words.size()));
-  }
-  std::vector<double> numbers;
-  numbers.reserve(count);
-  for (const std::string& word : words)
-  {
-    numbers.push_back(numberIn(path, line, word));
-  }
-  return numbers;
-}
-
-std::string digits(std::size_t number)
-{
-  const std::string text = std::to_string(number);
-  return std::string(6 - std::min<std::size_t>(6, text.size()), '0') + text;
-}
-
 /// The pictures of a folder of a sequence, in their order.
 std::vector<const ExportedName*> picturesIn(ExportJudge& judge, const std::string& file, const std::string& folder)
 {
   std::vector<const ExportedName*> pictures;
-  while (judge.source().named(folder + digits(pictures.size()) + ".png"))
+  while (judge.source().named(folder + digitsOf(pictures.size(), 6) + ".png"))
   {
-    pictures.push_back(pictureOf(judge, file, folder + digits(pictures.size()) + ".png"));
+    pictures.push_back(pictureOf(judge, file, folder + digitsOf(pictures.size(), 6) + ".png"));
   }
   return pictures;
 }
@@ -73,8 +50,7 @@ void judgePoses(ExportJudge& judge, const std::string& file, const std::vector<c
   for (std::size_t i = 0; first && i < std::min(lines.size(), pictures.size()); ++i)
   {
     const std::vector<double> n = numbersIn(path, i + 1, lines[i], 12);
-    Eigen::Matrix3d turn;
-    turn << n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10];
+    const Eigen::Matrix3d turn = matrixOf(n, 4);
     const Eigen::Vector3d shift = Eigen::Vector3d(n[3], n[7], n[11]) / metresOf(judge.source());
     const Eigen::Matrix3d R = turn.transpose() * first->R;
     judge.pose(file, pictures[i]->camera, pictures[i]->frame, R, turn.transpose() * (first->t - shift), 1e-9);
@@ -165,19 +141,6 @@ std::vector<TumPicture> listOf(ExportJudge& judge, const std::string& folder, co
   return list;
 }
 
-/// Hamilton's, w last.
-Eigen::Matrix3d rotationOf(const double* q)
-{
-  const double x = q[0];
-  const double y = q[1];
-  const double z = q[2];
-  const double w = q[3];
-  Eigen::Matrix3d R;
-  R << 1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), 2 * (x * y + w * z), 1 - 2 * (x * x + z * z),
-    2 * (y * z - w * x), 2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y);
-  return R;
-}
-
 void judgeTrajectory(ExportJudge& judge, const std::string& file, const std::vector<TumPicture>& pictures)
 {
   const std::string path = judge.source().path(file);
@@ -188,7 +151,7 @@ void judgeTrajectory(ExportJudge& judge, const std::string& file, const std::vec
     const std::vector<double> n = numbersIn(path, i + 1, lines[i], 8);
     judge.holds(
       "time", file, "line " + std::to_string(i + 1), lines[i][0] == pictures[i].time, lines[i][0], pictures[i].time);
-    Eigen::Matrix3d R = rotationOf(&n[4]).transpose();
+    Eigen::Matrix3d R = rotationOf({ n[4], n[5], n[6], n[7] }).transpose();
     Eigen::Vector3d place = Eigen::Vector3d(n[1], n[2], n[3]) / metresOf(judge.source());
     if (isIcl(judge.source()))
     {

@@ -73,7 +73,7 @@ private:
 };
 
 /// What moves a node.
-struct Channel
+struct GltfChannel
 {
   Eigen::VectorXd times;
   Eigen::MatrixXd values;
@@ -174,7 +174,7 @@ private:
       {
         const Json& sampler = animation.at("samplers").at(channel.at("sampler").get<std::size_t>());
         const Json& target = channel.at("target");
-        Channel one;
+        GltfChannel one;
         one.times = this->Numbers.read(sampler.at("input")).col(0);
         one.values = this->Numbers.read(sampler.at("output"));
         const bool rising = std::is_sorted(one.times.data(), one.times.data() + one.times.size());
@@ -188,8 +188,8 @@ private:
   Eigen::VectorXd valueOf(std::size_t node, const std::string& path, const Eigen::VectorXd& usual, int frame) const
   {
     const auto channels = this->Channels.find(node);
-    const auto channel =
-      channels == this->Channels.end() ? std::map<std::string, Channel>::const_iterator() : channels->second.find(path);
+    const auto channel = channels == this->Channels.end() ? std::map<std::string, GltfChannel>::const_iterator()
+                                                          : channels->second.find(path);
     if (channels != this->Channels.end() && channel != channels->second.end())
     {
       return channel->second.at(this->timeOf(frame));
@@ -467,7 +467,7 @@ private:
   Eigen::Matrix3d Up;
   Json Lights;
   std::map<std::pair<int, std::uint32_t>, PoseRecord> Poses;
-  std::map<std::size_t, std::map<std::string, Channel>> Channels;
+  std::map<std::size_t, std::map<std::string, GltfChannel>> Channels;
   std::set<int> Frames;
   std::set<std::uint32_t> Ids;
   std::size_t Pictures = 0;

@@ -5,7 +5,6 @@
 #include "dgtkUtf8.h"
 
 #include <cmath>
-#include <functional>
 #include <set>
 
 // BlenderProc's container: blenderproc/python/writer/WriterUtility.py and renderer/RendererUtility.py.
@@ -215,17 +214,8 @@ private:
       [&]
       {
         const Json document = Json::parse(text->text);
-        const auto matrix = [&](const char* key)
-        {
-          const auto n = document.at(key).get<std::vector<double>>();
-          Eigen::Matrix3d m;
-          m << n.at(0), n.at(1), n.at(2), n.at(3), n.at(4), n.at(5), n.at(6), n.at(7), n.at(8);
-          return m;
-        };
-        Eigen::Matrix3d K = matrix("cam_K");
-        K(0, 2) += 0.5;
-        K(1, 2) += 0.5;
-        this->Judge.intrinsics(this->File, picture.camera, picture.frame, K, 1e-9);
+        const auto matrix = [&](const char* key) { return matrixOf(document.at(key)); };
+        this->Judge.intrinsics(this->File, picture.camera, picture.frame, fromWholeCentres(matrix("cam_K")), 1e-9);
         const auto t = document.at("cam_t_w2c").get<std::vector<double>>();
         this->Judge.pose(this->File, picture.camera, picture.frame, matrix("cam_R_w2c"),
           Eigen::Vector3d(t.at(0), t.at(1), t.at(2)) / metresOf(this->Judge.source()), 1e-9);

@@ -27,17 +27,10 @@ void judgeCamera(ExportJudge& judge, const std::string& file, const ExportedName
   std::memcpy(&tag, bytes.data(), sizeof tag);
   std::memcpy(numbers, bytes.data() + sizeof tag, sizeof numbers);
   judge.holds("tag", file, "", tag == 202021.25F, "another", "202021.25");
-  Eigen::Matrix3d K;
-  Eigen::Matrix3d R;
-  for (int i = 0; i < 9; ++i)
-  {
-    K(i / 3, i % 3) = numbers[i];
-    R(i / 3, i % 3) = numbers[9 + i / 3 * 4 + i % 3];
-  }
-  K(0, 2) += 0.5;
-  K(1, 2) += 0.5;
-  judge.intrinsics(file, picture.camera, picture.frame, K, 1e-9);
-  judge.pose(file, picture.camera, picture.frame, R, { numbers[12], numbers[16], numbers[20] }, 0);
+  const std::vector<double> pose(std::begin(numbers) + 9, std::end(numbers));
+  judge.intrinsics(file, picture.camera, picture.frame,
+    fromWholeCentres(matrixOf({ std::begin(numbers), std::begin(numbers) + 9 })), 1e-9);
+  judge.pose(file, picture.camera, picture.frame, matrixOf(pose, 4), { numbers[12], numbers[16], numbers[20] }, 0);
 }
 } // namespace
 
@@ -82,7 +75,7 @@ void judgeMatrix(ExportJudge& judge, const std::string& file, std::size_t line, 
   }
 }
 
-void judgeSequence(ExportJudge& judge, const std::string& file)
+void judgeSintelSequence(ExportJudge& judge, const std::string& file)
 {
   const std::string path = judge.source().path(file);
   const std::string begin = "camera_data/";
@@ -95,7 +88,7 @@ void judgeSequence(ExportJudge& judge, const std::string& file)
     {
       throw InputError(path, i + 1, "expected Frame, L, R and an empty line");
     }
-    const std::string digits = std::string(4 - std::min<std::size_t>(4, lines[i][1].size()), '0') + lines[i][1];
+    const std::string digits = digitsOf(lines[i][1], 4);
     const std::string folder = "frames_finalpass/" + sequence;
     judgeMatrix(judge, file, i + 2, lines[i + 1], "L", folder + "left/" + digits + ".png");
     judgeMatrix(judge, file, i + 3, lines[i + 2], "R", folder + "right/" + digits + ".png");
@@ -109,7 +102,7 @@ void readFlyingThings(ExportJudge& judge)
 {
   for (const ExportedFile* one : filesIn(judge.source(), "camera_data/", "txt"))
   {
-    judgeSequence(judge, one->file.path);
+    judgeSintelSequence(judge, one->file.path);
   }
 }
 

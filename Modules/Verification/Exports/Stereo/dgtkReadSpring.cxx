@@ -29,27 +29,6 @@ DecodedPixels decodeHdf5(const std::string& path, const PixelEncoding&)
 
 namespace
 {
-std::vector<double> numbersOfLine(
-  const std::string& path, std::size_t line, const std::vector<std::string>& words, std::size_t count)
-{
-  if (words.size() != count)
-  {
-    throw InputError(path, line, "expected " + std::to_string(count) + " numbers");
-  }
-  std::vector<double> numbers;
-  for (const std::string& word : words)
-  {
-    numbers.push_back(numberIn(path, line, word));
-  }
-  return numbers;
-}
-
-std::string fourDigits(std::size_t number)
-{
-  const std::string text = std::to_string(number);
-  return std::string(4 - std::min<std::size_t>(4, text.size()), '0') + text;
-}
-
 void judgeSpringSequence(ExportJudge& judge, const std::string& folder)
 {
   const ExportedFrom& source = judge.source();
@@ -58,7 +37,7 @@ void judgeSpringSequence(ExportJudge& judge, const std::string& folder)
   const auto lines = linesOf(source.path(intrinsics));
   const auto poses = linesOf(source.path(extrinsics));
   std::size_t pictures = 0;
-  while (source.named(folder + "frame_left/frame_left_" + fourDigits(pictures + 1) + ".png"))
+  while (source.named(folder + "frame_left/frame_left_" + digitsOf(pictures + 1, 4) + ".png"))
   {
     ++pictures;
   }
@@ -66,19 +45,17 @@ void judgeSpringSequence(ExportJudge& judge, const std::string& folder)
   judge.number("pose", "lines", extrinsics, "lines", double(poses.size()), double(pictures), 0);
   for (std::size_t i = 0; i < std::min({ lines.size(), poses.size(), pictures }); ++i)
   {
-    const ExportedName& left = *source.named(folder + "frame_left/frame_left_" + fourDigits(i + 1) + ".png");
-    const ExportedName* right = source.named(folder + "frame_right/frame_right_" + fourDigits(i + 1) + ".png");
+    const ExportedName& left = *source.named(folder + "frame_left/frame_left_" + digitsOf(i + 1, 4) + ".png");
+    const ExportedName* right = source.named(folder + "frame_right/frame_right_" + digitsOf(i + 1, 4) + ".png");
     judge.holds(
       "pairs", intrinsics, left.name, right && right->frame == left.frame, "no right picture", "one of the same frame");
-    const std::vector<double> k = numbersOfLine(source.path(intrinsics), i + 1, lines[i], 4);
+    const std::vector<double> k = numbersIn(source.path(intrinsics), i + 1, lines[i], 4);
     Eigen::Matrix3d K;
     K << 2 * k[0], 0, 2 * k[2], 0, 2 * k[1], 2 * k[3], 0, 0, 1;
     judge.intrinsics(intrinsics, left.camera, left.frame, K, 1e-9);
-    const std::vector<double> n = numbersOfLine(source.path(extrinsics), i + 1, poses[i], 16);
-    Eigen::Matrix3d R;
-    R << n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10];
+    const std::vector<double> n = numbersIn(source.path(extrinsics), i + 1, poses[i], 16);
     const Eigen::Vector3d t = Eigen::Vector3d(n[3], n[7], n[11]) / metresOf(source);
-    judge.pose(extrinsics, left.camera, left.frame, R, t, 1e-9);
+    judge.pose(extrinsics, left.camera, left.frame, matrixOf(n, 4), t, 1e-9);
     judge.holds("last row", extrinsics, std::to_string(i + 1), n[12] == 0 && n[13] == 0 && n[14] == 0 && n[15] == 1,
       "another", "0 0 0 1");
   }

@@ -38,13 +38,6 @@ std::map<std::string, std::vector<double>> calibrationOf(const std::string& path
   return found;
 }
 
-Eigen::Matrix3d matrixOf(const std::vector<double>& n)
-{
-  Eigen::Matrix3d K;
-  K << n[0], n[1], n[2] + 0.5, n[3], n[4], n[5] + 0.5, n[6], n[7], n[8];
-  return K;
-}
-
 double largestDisparity(const ExportedFrom& source, const ExportedName& picture, double sign)
 {
   const PicturePointer layer = source.picture(picture.camera, picture.frame, "disparity");
@@ -65,8 +58,8 @@ void judgeCalibration(ExportJudge& judge, const std::string& file, const Exporte
   const auto one = [&](const char* key) { return numbersOf(all, path, key, 1)[0]; };
   judge.size(file, left.camera, left.frame, int(one("width")), int(one("height")));
   judge.size(file, right.camera, right.frame, int(one("width")), int(one("height")));
-  judge.intrinsics(file, left.camera, left.frame, matrixOf(numbersOf(all, path, "cam0", 9)), 1e-9);
-  judge.intrinsics(file, right.camera, right.frame, matrixOf(numbersOf(all, path, "cam1", 9)), 1e-9);
+  judge.intrinsics(file, left.camera, left.frame, fromWholeCentres(matrixOf(numbersOf(all, path, "cam0", 9))), 1e-9);
+  judge.intrinsics(file, right.camera, right.frame, fromWholeCentres(matrixOf(numbersOf(all, path, "cam1", 9))), 1e-9);
   const CameraRecord* a = source.camera(left.camera, left.frame);
   const CameraRecord* b = source.camera(right.camera, right.frame);
   if (a && b)

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dgtkTestScene.h"
+
+#include <gtest/gtest.h>
+
+using namespace dgtk;
+using namespace dgtk::test;
+
+namespace
+{
+std::shared_ptr<const Model> ball(const Eigen::Vector3d& diffuse)
+{
+  ModelBuilder model;
+  model.part(matte(diffuse));
+  model.sphere(24);
+  return model.finish();
+}
+
+/// Colours of the last of states, drawn one after another without hits.
+ColorBuffer drawnAlone(const std::vector<std::shared_ptr<SceneState>>& states, const View& view)
+{
+  const auto source = makeRasterSource();
+  source->setHits(false);
+  ColorBuffer colors;
+  for (const auto& state : states)
+  {
+    source->setScene(state, view);
+    source->renderColor(whole(view), 1, colors, nullptr);
+  }
+  return colors;
+}
+} // namespace
+
+TEST(RasterSource, PicturesReadLaterAreTheSame)
+{
+  const auto model = ball({ 0.9, 0.4, 0.2 });
+  const auto early = makeRasterSource();
+  const auto late = makeRasterSource();
+  const View view = frontView(96, 72);
+  std::vector<std::shared_ptr<SceneState>> states;
+  std::vector<ColorBuffer> colors(3);
+  std::vector<UnreadColor> unread;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    states.push_back(std::make_shared<SceneState>());
+    states[i]->instances.push_back(instanceOf(model, { 0.3 * double(i), 0, 0 }));
+    states[i]->lights.emplace_back();
+    states[i]->background = { 0.1, 0.2, 0.1 * double(i) };
+    late->setScene(states[i], view);
+    unread.push_back(late->startColor(whole(view), 1, colors[i]));
+  }
+  for (const UnreadColor& picture : unread)
+  {
+    picture.read();
+    picture.rest();
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    ColorBuffer expected;
+    early->setScene(states[i], view);
+    early->renderColor(whole(view), 1, expected, nullptr);
+    EXPECT_EQ(colors[i].rgb, expected.rgb) << i;
+  }
+}
+
+TEST(RasterSource, ColoursAloneAreTheSameAsWithHits)
+{
+  const auto state = stateOf({ ball({ 0.2, 0.4, 0.9 }) });
+  state->lights.emplace_back();
+  const View view = frontView(96, 72);
+  const auto both = makeRasterSource();
+  both->setScene(state, view);
+  ColorBuffer expected;
+  VisibilityBuffer hits;
+  both->renderColor(whole(view), 1, expected, &hits);
+  EXPECT_EQ(drawnAlone({ state }, view).rgb, expected.rgb);
+}
+
+// Of two translucent surfaces at one place, the one that the model lists first is drawn first, by its number; numbers
+// are made when they are needed.
+TEST(RasterSource, SurfacesThatBecomeTranslucentAreSortedAsThoseThatAlwaysWere)
+{
+  ModelBuilder twice;
+  twice.part(matte({ 1, 1, 1 }));
+  twice.quad({ -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 });
+  twice.quad({ -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 });
+  const auto model = std::make_shared<Model>(*twice.finish());
+  std::swap(model->triangles[0], model->triangles[2]); // the later vertices are those of the earlier triangles
+  std::swap(model->triangles[1], model->triangles[3]);
+  const auto tilted = std::make_shared<Geometry>(*model->rest);
+  std::fill(tilted->normals.begin() + 4, tilted->normals.end(), Eigen::Vector3f(0.8f, 0, 0.6f));
+  model->rest = tilted;
+  const auto withOpacity = [&model](double opacity)
+  {
+    auto state = stateOf({ model });
+    auto materials = std::make_shared<std::vector<Material>>(model->materials);
+    (*materials)[0].opacity = opacity;
+    state->instances[0].materials = materials;
+    state->lights.emplace_back().kind = LightKind::Head;
+    return state;
+  };
+  const auto opaque = withOpacity(1);
+  const auto half = withOpacity(0.5);
+  const View view = frontView();
+  EXPECT_EQ(drawnAlone({ opaque, half }, view).rgb, drawnAlone({ half }, view).rgb);
+}
