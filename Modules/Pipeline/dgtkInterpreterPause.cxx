@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkInterpreterPause.h"
 
-// Of Python's stable interface: there where the process is an interpreter, null in all other programs.
+// Of Python's interface: all there where the process is an interpreter, all null in other programs.
 extern "C"
 {
   [[gnu::weak]] int Py_IsInitialized();
@@ -16,8 +16,7 @@ namespace dgtk
 InterpreterPause::InterpreterPause()
   : Thread(nullptr)
 {
-  if (Py_IsInitialized && PyGILState_Check && PyEval_SaveThread && PyEval_RestoreThread && Py_IsInitialized() != 0 &&
-      PyGILState_Check() != 0)
+  if (Py_IsInitialized && Py_IsInitialized() != 0 && PyGILState_Check() != 0)
   {
     this->Thread = PyEval_SaveThread();
   }

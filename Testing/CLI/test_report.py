@@ -135,6 +135,10 @@ class Report(Case):
             record = next(one for one in load_json(os.path.join(folder, "cameras.json"))["cameras"] if (one["name"], one["frame"]) == (camera["name"], camera["places"][0][0]))
             centre = -np.array(record["R"]).T @ np.array(record["t"])
             np.testing.assert_allclose(camera["places"][0][1:4], [centre[0], centre[2], centre[1]], atol=1e-5)
+            forward = np.array(record["R"])[2]
+            np.testing.assert_allclose(camera["places"][0][4:], [forward[0], forward[2]], atol=1e-5)
+            self.assertEqual(camera["model"], record["model"])
+            self.assertAlmostEqual(camera["half"], np.arctan(record["width"] / 2 / record["K"][0][0]), places=5)
 
     def test_fewer_samples_than_pixels(self):
         folder = self.path("large")

@@ -229,6 +229,19 @@ class Frame(datasets.ExportCase):
         self.dgtk("export", dataset, "--format", "coco", "-o", folder, "--quiet", "--resume")
         self.referee(dataset, folder)
 
+    def test_a_full_disk_before_the_notes_of_all_pictures(self):
+        """Of small pictures the notes for the documents are the largest file."""
+        dataset = self.render(datasets.walk(self.path("scene"), frames=12), datasets.LAYERS, "--size", "16x12")
+        folder = self.path("full")
+        for limit in (2000, 5000):
+            done = subprocess.run([DGTK, "export", dataset, "--format", "coco", "-o", folder, "--quiet", "--resume"], capture_output=True, text=True,
+                                  preexec_fn=lambda most=limit: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)))
+            self.assertEqual((done.returncode, len(done.stderr.splitlines())), (4, 1), done.stderr)
+            self.assertIn("/.dgtk-journal-notes: cannot be written: File too large", done.stderr)
+            self.assertFalse(os.path.exists(os.path.join(folder, "export.json")))
+        self.dgtk("export", dataset, "--format", "coco", "-o", folder, "--quiet", "--resume")
+        self.referee(dataset, folder)
+
     def test_links_share_what_is_equal(self):
         dataset = self.render(datasets.walk(self.path("scene")))
         folder, _ = self.export(dataset, "coco", "--link")

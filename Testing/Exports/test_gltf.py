@@ -265,6 +265,36 @@ class Gltf(datasets.ExportCase):
         used = {one["pbrMetallicRoughness"].get("baseColorTexture", {}).get("index") for one in asset.json["materials"]}
         self.assertLessEqual(set(range(len(asset.json["textures"]))), used)
 
+    def test_lights(self):
+        """Intensities at a metre, and what the record says of lights that the format has not, or not quite."""
+        def light(name, kind, **more):
+            return {"name": name, "kind": kind, "position": [0, 2, 4], **({"target": [0, 0, 0]} if kind in ("spot", "directional") else {}), **more}
+
+        square, two = {"attenuation": [0, 0, 1]}, {"keys": [[0, [0, 2, 4]], [1, [0, 2, 5]]]}
+        lights = [light("sun", "directional", diffuse=[0.5, 0.4, 0.3], intensity=2),
+                  light("lamp", "point", **square), light("dull", "point", attenuation=[1, 0.5, 0.25]), light("linear", "point", attenuation=[0, 0.5, 1]),
+                  light("cone", "spot", coneAngle=25, exponent=0, **square), light("soft", "spot", coneAngle=90, exponent=3, **square),
+                  light("one key", "point", **{**square, "position": {"keys": [[1, [0, 2, 4]]]}}),
+                  light("walker", "point", **{**square, "position": two}), light("off", "point", enabled=False), light("mine", "head"),
+                  light("blinker", "point", enabled={"keys": [[0, True], [1, False]]}, **square)]
+        _, _, asset, record = self.exported(self.changed("lights", lambda scene: scene.update(lights=lights)))
+        found = {one["name"]: one for one in asset.json["extensions"]["KHR_lights_punctual"]["lights"]}
+        self.assertEqual(list(found), [one["name"] for one in lights if one["name"] not in ("off", "mine")])
+        intensities = {"sun": 1, "lamp": 1 / 4, "dull": 1 / 3, "linear": 1 / 5, "cone": 1 / 4, "soft": 1 / 4, "one key": 1 / 4, "walker": 1 / 4, "blinker": 1 / 4}
+        for name, share in intensities.items():
+            self.assertAlmostEqual(found[name]["intensity"], share * math.pi, msg=name)
+            self.assertEqual(found[name]["type"], "directional" if name == "sun" else "spot" if name in ("cone", "soft") else "point")
+            self.assertEqual(found[name]["color"], [1, 0.8, 0.6] if name == "sun" else [1, 1, 1])
+            self.assertEqual("spot" in found[name], name in ("cone", "soft"))
+        self.assertEqual(found["cone"]["spot"]["innerConeAngle"], 0)
+        self.assertAlmostEqual(found["cone"]["spot"]["outerConeAngle"], math.radians(25))
+        self.assertAlmostEqual(found["soft"]["spot"]["outerConeAngle"], math.pi / 2)
+        self.assertEqual((record["conventions"]["approximate_lights"], record["conventions"]["lights_left_out"]),
+                         ("dull, linear, soft, walker, blinker", "off, mine"))
+        exact = self.exported(self.changed("exact", lambda scene: scene.update(lights=lights[:2])))[3]
+        for key in ("approximate_lights", "lights_left_out", "textures_left_out"):
+            self.assertNotIn(key, exact["conventions"])
+
     def test_refusals(self):
         target = self.path("none")
 

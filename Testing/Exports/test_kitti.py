@@ -138,6 +138,9 @@ class Kitti(datasets.ExportCase):
             self.assertEqual(rounding["without_code"] > 0, beyond)
             K = calibration(os.path.join(drive, "calib_cam_to_cam.txt"))["K_02"].reshape(3, 3)
             self.assertTrue(np.allclose(K[:2, 2], datasets.cameras_of(dataset)["Kamera 1", 0]["K"][:2, 2] - 0.5))
+            said = self.dgtk("export", dataset, "--format", "kitti-depth", "-o", self.path(f"said{metres}"), "--unit-metres", metres).stderr
+            self.assertIn(f"depth: rounded by at most {rounding['largest_rounding']:.3g} ", said)
+            self.assertEqual(f"warning: {rounding['without_code']} of {rounding['values']} values of depth have no code in the format" in said, beyond)
         os.mkdir(self.path("there"))
         for folder in ("no", "there"):  # what is found while it is written leaves nothing either
             self.refused("export", dataset, "--format", "kitti-depth", "-o", self.path(folder), "--unit-metres", 40, "--out-of-range", "refuse",

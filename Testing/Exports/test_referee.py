@@ -12,6 +12,7 @@ import re
 import shutil
 import struct
 import subprocess
+import tarfile
 from typing import Callable, NamedTuple
 
 import numpy as np
@@ -93,6 +94,30 @@ def archive(member, change):
         return file.getvalue()
 
     return edit
+
+
+def member(suffix, change):
+    """A file of a tar: its bytes, which may be more or fewer."""
+    def edit(data):
+        out = io.BytesIO()
+        with tarfile.open(fileobj=io.BytesIO(data)) as old, tarfile.open(fileobj=out, mode="w", format=tarfile.USTAR_FORMAT) as new:
+            changed = False
+            for one in old:
+                content = old.extractfile(one).read()
+                if one.name.endswith(suffix) and not changed:
+                    content, changed = change(content), True
+                    one.size = len(content)
+                new.addfile(one, io.BytesIO(content))
+        return out.getvalue()
+
+    return edit
+
+
+def narrower(data):
+    """An array of a picture without its last column."""
+    out = io.BytesIO()
+    np.save(out, np.load(io.BytesIO(data))[:, :-1])
+    return out.getvalue()
 
 
 def shifted(values):
@@ -248,9 +273,19 @@ PLANTS = {form: [Plant(*one) for one in rows] for form, rows in {
             ("size", XML, number("<width>", 1)), ("truncated", XML, word("<truncated>1", "<truncated>0")),
             ("occluded", XML, word("<occluded>0", "<occluded>1"))],
     "webdataset": [("camera", "train-000000.tar", word("43.4558", "43.4559"), ("croissant",)), ("time", "train-000000.tar", word('"seconds":0.04', '"seconds":0.05')),
-                   ("poses", "train-000000.tar", word('"scale":[1.0', '"scale":[1.1')), ("unit", "train-000000.tar", word('per_unit":1.0', 'per_unit":1.1'))],
+                   ("size", "train-000000.tar", member(".disparity.npy", narrower)), ("poses", "train-000000.tar", word('"scale":[1.0', '"scale":[1.1')), ("unit", "train-000000.tar", word('per_unit":1.0', 'per_unit":1.1'))],
     "yolo": [("box", "labels/train/cam_L_000000.txt", number("^0 ", 5e-8)), ("category", "labels/train/cam_L_000001.txt", number("^", 1))],
 }.items()}
+
+# What each format needs of every picture, in the order in which it is missed.
+NEEDS = {form: layers.split() for form, layers in {
+    "bop": "color depth objects boxes amodal", "coco": "color objects boxes amodal", "coco-panoptic": "color objects", "colmap": "color objects tracks",
+    "colmap-dense": "color depth normal objects tracks", "eth3d": "color disparity", "middlebury": "color disparity",
+    "flyingthings": "color disparity objects", "gltf": "", "hdf5": "color depth objects classes", "imagefolder": "color", "kitti2015": "color",
+    "kitti-depth": "color depth", "kitti-object": "color boxes", "kitti-odometry": "color", "rosbag": "color depth", "mcap": "color depth",
+    "mvsnet": "color depth objects tracks", "nerf-synthetic": "color_rgba", "sintel": "color",
+    "spring": "color disparity disparity_backward flow_backward", "tapvid": "color tracks", "transforms": "color depth objects tracks",
+    "tum": "color depth", "voc": "color objects boxes", "webdataset": "color", "yolo": "color objects boxes"}.items()}
 
 
 class Referee(datasets.ExportCase):
@@ -325,6 +360,28 @@ class Referee(datasets.ExportCase):
             for path, data in before.items():
                 self.plant(path, lambda _, whole=data: whole)
         return rows
+
+    def test_a_picture_that_lacks_is_named(self):
+        """The last of one camera has no files; they come back as they are asked for. No export begins before all is there."""
+        self.assertEqual(set(NEEDS), set(PLANTS))
+        manifest = load_json(os.path.join(self.dataset, "manifest.json"))
+        for form, layers in NEEDS.items():
+            copy, target = self.path(form + "-lacking"), self.path(form + "-none")
+            shutil.copytree(self.dataset, copy, copy_function=os.link)
+            for known in range(len(layers) + 1):
+                files = [file for file in manifest["files"] if (file.get("camera"), file.get("frame")) != ("cam R", 1) or
+                         file["layer"] in layers[:known]]
+                os.remove(os.path.join(copy, "manifest.json"))
+                with open(os.path.join(copy, "manifest.json"), "w", encoding="utf-8") as file:
+                    json.dump({**manifest, "files": files}, file)
+                done = subprocess.run([DGTK, "export", copy, "--format", form, "-o", target, "--quiet"], capture_output=True, text=True)
+                with self.subTest(form=form, known=known):
+                    if known == len(layers):
+                        self.assertEqual(done.returncode, 0, done.stderr)
+                    else:
+                        self.assertEqual(done.returncode, 2, done.stderr)
+                        self.assertRegex(done.stderr, f"'cam R' has no file of layer {layers[known]} .*at frame 1")
+                        self.assertFalse(os.path.exists(target))
 
     def test_planted_errors(self):
         with concurrent.futures.ThreadPoolExecutor(2) as pool:

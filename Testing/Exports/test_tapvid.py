@@ -27,6 +27,7 @@ class Tapvid(datasets.ExportCase):
                 self.assertEqual(sorted(arrays.files), ["object", "occluded", "points", "query_points", "track"])
                 found = {name: arrays[name] for name in arrays.files}
             self.assertEqual((found["points"].dtype, found["occluded"].dtype), (np.float32, bool))
+            self.assertLessEqual(set(np.unique(found["occluded"].view(np.uint8))), {0, 1})
             frames = pickled[video]["video"]
             self.assertEqual((frames.dtype, frames.shape), (np.uint8, (len(entries), 72, 96, 3)))
             for t, entry in enumerate(entries):

@@ -122,6 +122,61 @@ TEST(EveryRepresentation, StripsOfAnyHeightGiveTheSameBytes)
   }
 }
 
+/// Formats refuse by it before anything is written.
+TEST(EveryRepresentation, NoIdIsLargerThanTheLargest)
+{
+  auto parts = makeBox();
+  parts->parts = { parts->parts[0], parts->parts[0], parts->parts[0] };
+  parts->parts[0].triangles = 2;
+  parts->parts[1].firstTriangle = 2;
+  parts->parts[1].triangles = 7;
+  parts->parts[2].firstTriangle = 9;
+  parts->parts[2].triangles = 3;
+  const auto nothing = SceneBuilder().state();
+  const auto one = SceneBuilder().add(makeSoup({ 1, 0.1, 0.1, 1 })).state();
+  const auto boxes = SceneBuilder().add(parts).add(makeSoup({ 3, 0.1, 0.1, 1 })).state();
+  const auto numbered = SceneBuilder().add(parts).add(makeBox()).add(makeBox()).state();
+  numbered->instances[0].className = "a";
+  numbered->instances[1].className = "b";
+  numbered->instances[1].classId = 900;
+  numbered->instances[2].className = "c";
+  // The last is a copy that goes on where its object's model, elsewhere in the file, ended.
+  const auto copies = SceneBuilder().add(parts).add(makeBox()).add(parts).state();
+  copies->copies = 1;
+  copies->instances[2].copyOf = 1;
+  copies->instances[2].firstPart = 2;
+  copies->instances[2].firstInPart = 30;
+  for (const auto& state : { someScene(), nothing, one, boxes, numbered, copies })
+  {
+    std::vector<dgtk::Hit> all;
+    for (std::size_t i = 0; i < state->instances.size(); ++i)
+    {
+      for (std::size_t k = 0; k < state->instances[i].model->triangles.size(); ++k)
+      {
+        all.push_back({ std::uint32_t(i + 1), std::uint32_t(k) });
+      }
+    }
+    // Each triangle at several pixels: the rays of some run away from its plane.
+    dgtk::VisibilityBuffer buffer;
+    buffer.resize({ 0, 0, 64, 48 });
+    for (std::size_t i = 0; i < buffer.hits.size() && !all.empty(); ++i)
+    {
+      buffer.hits[i] = all[i % all.size()];
+    }
+    for (const char* layer : { "objects", "classes", "parts", "triangles" })
+    {
+      const dgtk::Rows rows = computeLayer(layer, *state, makeView(), buffer);
+      std::uint32_t largest = 0;
+      for (std::size_t i = 0; i < buffer.hits.size(); ++i)
+      {
+        const std::uint32_t id = rows.row<std::uint32_t>(0)[i];
+        largest = id == 0xffffffff ? largest : std::max(largest, id);
+      }
+      EXPECT_EQ(dgtk::makeRepresentation(layer)->largest(*state), largest) << layer << ' ' << all.size();
+    }
+  }
+}
+
 TEST(EveryRepresentation, BackgroundIsTheDeclaredInvalidValue)
 {
   const auto state = someScene();

@@ -3,6 +3,9 @@
 
 #include "dgtkResampledCamera.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace dgtk
 {
 
@@ -21,6 +24,23 @@ PixelGrid::PixelGrid(const CameraModel& model, int step)
   , Columns(countOf(model.width(), step))
   , RowCount(countOf(model.height(), step))
 {
+}
+
+void PixelGrid::forNear(const Eigen::Vector2d& pixel, const std::function<void(int column, int row)>& body) const
+{
+  const Eigen::Vector2d at = (pixel - this->centre(0, 0)) / this->Step;
+  const int column = static_cast<int>(std::floor(at.x()));
+  const int row = static_cast<int>(std::floor(at.y()));
+  for (int y = std::max(0, row); y < std::min(row + 2, this->RowCount); ++y)
+  {
+    for (int x = std::max(0, column); x < std::min(column + 2, this->Columns); ++x)
+    {
+      if ((this->centre(x, y) - pixel).norm() <= 0.5 * this->Step)
+      {
+        body(x, y);
+      }
+    }
+  }
 }
 
 void PixelGrid::forSurfaces(const std::shared_ptr<const SceneState>& state, const View& view,

@@ -27,6 +27,9 @@ public:
     return { this->First + double(column) * this->Step, this->First + double(row) * this->Step };
   }
 
+  /// Calls body(column, row) for the pixels of the grid whose centres are within half a step of a point of the picture.
+  void forNear(const Eigen::Vector2d& pixel, const std::function<void(int column, int row)>& body) const;
+
   /// Gives the surfaces at the grid's pixels, with barycentrics, to body(row, surface): rows by several threads, the
   /// parts of a row from left to right. Columns of `surface` are those of the grid.
   void forSurfaces(const std::shared_ptr<const SceneState>& state, const View& view, const SceneQueries& queries,

@@ -91,17 +91,8 @@ private:
       {
         continue;
       }
-      const Eigen::Vector2d at = (place.pixel - grid.centre(0, 0)) / this->Step;
-      const int column = static_cast<int>(std::floor(at.x()));
-      const int row = static_cast<int>(std::floor(at.y()));
-      for (int y = std::max(0, row); y < std::min(row + 2, grid.rows()); ++y)
-      {
-        for (int x = std::max(0, column); x < std::min(column + 2, grid.columns()); ++x)
-        {
-          char& one = taken[std::size_t(y) * std::size_t(grid.columns()) + std::size_t(x)];
-          one = one || (grid.centre(x, y) - place.pixel).norm() <= 0.5 * this->Step;
-        }
-      }
+      grid.forNear(place.pixel,
+        [&](int column, int row) { taken[std::size_t(row) * std::size_t(grid.columns()) + std::size_t(column)] = 1; });
     }
     return taken;
   }

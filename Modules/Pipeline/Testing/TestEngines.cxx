@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The engines against one another and against bare Embree, on every sample model and scene.
+#include "dgtkMattingSource.h"
 #include "dgtkRasterSource.h"
 #include "dgtkRayPictures.h"
 #include "dgtkRaySource.h"
@@ -391,6 +392,38 @@ void comparePictures(const std::vector<Case>& cases)
 TEST(Engines, PicturesByRasterAndRayAgreeOnEverySampleModel) { comparePictures(sampleModels()); }
 
 TEST(Engines, PicturesByRasterAndRayAgreeOnEveryScene) { comparePictures(sampleScenes()); }
+
+/// A picture of several tiles goes on with the whole scene, whatever mattes took out of it.
+TEST(Engines, MattesLeaveTheSceneAsItWas)
+{
+  ThreadPool pool(2);
+  ViewOptions options;
+  options.width = 24;
+  options.height = 16;
+  const View view = makeView(options);
+  const auto state =
+    SceneBuilder().add(makeSphere({ { 0, 0, 0 }, 1.1, 12, 20 })).add(makeBox(), placement({ 0.8, 0, 1 })).state();
+  const PixelRect whole{ 0, 0, options.width, options.height };
+  const auto drawn = makeRasterSource();
+  drawn->setHits(true);
+  const auto shaded = makeRayPictures(pool);
+  for (PictureSource* pictures : { static_cast<PictureSource*>(drawn.get()), shaded.get() })
+  {
+    ColorBuffer colors[2];
+    VisibilityBuffer hits[2];
+    pictures->setScene(state, view);
+    pictures->renderColor(whole, 1, colors[0], nullptr);
+    pictures->render(whole, hits[0]);
+    MattingSource mattes(*pictures, { 1, 2 }, 2);
+    mattes.setScene(state, view);
+    EXPECT_EQ(mattes.draw(whole).size(), 2u);
+    pictures->renderColor(whole, 1, colors[1], nullptr);
+    pictures->render(whole, hits[1]);
+    EXPECT_EQ(colors[0].rgb, colors[1].rgb);
+    EXPECT_EQ(hits[0].hits, hits[1].hits);
+    EXPECT_TRUE(std::any_of(hits[0].hits.begin(), hits[0].hits.end(), [](const Hit& hit) { return hit.object == 2; }));
+  }
+}
 
 TEST(Engines, RasterAndRayAgreeOnEverySampleModel) { compareAll(sampleModels(), 1, 0); }
 

@@ -207,6 +207,9 @@ TEST(SceneRefusals, JsonValues)
     { withObject("\"materials\": {\"*\": {\"opacity\": 1.5}}"),
       "a.json:4: objects[0].materials.*.opacity is out of range" },
     { withObject("\"name\": \"a\\u0000b\""), "objects[0].name cannot be used" },
+    { withObject("\"materials\": {\"\": {\"opacity\": 1}}"), "a.json:4: objects[0].materials. cannot be used" },
+    { withObject("\"keypoints\": {\"\": [0, 0, 0]}"),
+      "a.json:4: objects[0].keypoints. has a name that cannot be used" },
     { withLight("\"kind\": \"area\""),
       "lights[0].kind is not known (expected one of point, head, directional, spot, found "
       "'area')" },

@@ -120,6 +120,53 @@ TEST(Slacks, EdgesOfWhatIsSeen)
   EXPECT_EQ(depths(-0.15, 5), Found(6, 0));
 }
 
+/// Values that are right to the last digit are compared, not left open.
+TEST(Slacks, DistancesAreCompared)
+{
+  const auto found = [](double factor)
+  {
+    HandMade made({ wallModel(2) });
+    made.image("a/distance/000000.npy", 1,
+      [&](int x, int y, int) { return 2 * Vector3d((x - 4) / 100.0, (y - 2) / 100.0, 1).norm() * factor; });
+    return made.verify("geometry", "distance");
+  };
+  for (const auto& [factor, bad] : { std::pair(1.0, 0u), std::pair(1 + 1e-8, 48u), std::pair(1 - 1e-8, 48u) })
+  {
+    const Residual residual = found(factor);
+    EXPECT_EQ(residual.count, 48u) << factor;
+    EXPECT_EQ(residual.skipped, 0u) << factor;
+    EXPECT_EQ(residual.bad, bad) << factor;
+  }
+}
+
+/// Beside an edge of an object its other side may be shown; what is named as expected is the pixel's own, whatever was
+/// tried.
+TEST(Slacks, NormalsBesideAnEdgeOfOneObject)
+{
+  const double x = 0.01 / 100;
+  const double slope = 0.1;
+  const std::string both =
+    wallModel(2) + triangleModel({ x, -90, 1 }, { 90, 0, 1 + (90 - x) * slope }, { x, 90, 1 }, "f 4 5 6");
+  const Vector3d turned = Vector3d(slope, 0, -1).normalized();
+  const auto found = [&](const Vector3d& atCentre)
+  {
+    HandMade made({ both });
+    made.image("a/normal/000000.npy", 3,
+      [&](int column, int row, int c) {
+        return column == 4 && row == 2 ? atCentre[c] : column > 4 ? turned[c] : toCamera[c];
+      });
+    return made.verify("geometry", "normal");
+  };
+  EXPECT_EQ(found(toCamera).skipped, 0u);
+  EXPECT_EQ(found(toCamera).bad, 0u);
+  EXPECT_EQ(found(turned).skipped, 1u);
+  EXPECT_EQ(found(turned).bad, 0u);
+  const Residual wrong = found(Vector3d(0, 1, 0));
+  EXPECT_EQ(wrong.skipped, 0u);
+  EXPECT_EQ(wrong.bad, 1u);
+  EXPECT_EQ(wrong.worst.expected, "(-0, -0, -1)");
+}
+
 /// What another camera has in its own plane projects by rounding alone.
 TEST(Slacks, PointsInTheOtherCamerasPlane)
 {

@@ -7,12 +7,14 @@
 
 #include <QApplication>
 #include <QFontMetrics>
+#include <QHelpEvent>
 #include <QImage>
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QLocale>
 #include <QMouseEvent>
 #include <QToolButton>
+#include <QToolTip>
 #include <QWheelEvent>
 
 #include <gtest/gtest.h>
@@ -477,5 +479,43 @@ TEST_F(LegendTable, NumbersHaveAPointInEveryLanguage)
     EXPECT_FALSE(field->toolTip().isEmpty());
     EXPECT_EQ(field->accessibleName(), field->toolTip());
   }
+}
+
+TEST_F(LegendTable, TheRangeOfEachPictureHasAButton)
+{
+  const LegendBar bar(nullptr);
+  const auto* const own = bar.findChild<QToolButton*>("auto");
+  ASSERT_TRUE(own);
+  EXPECT_EQ(own->text(), "Auto");
+  EXPECT_FALSE(own->toolTip().isEmpty());
+  EXPECT_TRUE(own->isCheckable());
+}
+
+/// The whole legend is the strip's tip: its text, known or not, then all names with their colours.
+TEST_F(LegendTable, TheTipSaysAll)
+{
+  const auto tipOf = [](const std::shared_ptr<ShownPicture>& shown)
+  {
+    QToolTip::hideText();
+    LegendStrip strip(nullptr);
+    strip.resize(100, 20);
+    strip.setPicture(shown);
+    strip.show();
+    QHelpEvent help(QEvent::ToolTip, QPoint(5, 5), strip.mapToGlobal(QPoint(5, 5)));
+    EXPECT_TRUE(QApplication::sendEvent(&strip, &help));
+    return QToolTip::text();
+  };
+  auto named = this->names({ { { 1, 2, 3 }, "a < b" }, { { 255, 0, 16 }, "c" } });
+  named->colors.legend.text = "each id has a colour of its own";
+  EXPECT_EQ(tipOf(named), "each id has a colour of its own<span style='color:#010203'>&#9632;</span> a &lt; b<br>"
+                          "<span style='color:#ff0010'>&#9632;</span> c<br>");
+  named->colors.legend.text = "more & <less>";
+  named->colors.legend.swatches.clear();
+  EXPECT_EQ(tipOf(named), "more &amp; &lt;less&gt;");
+  named->colors.legend.hidden = 3;
+  EXPECT_EQ(tipOf(named), "more &amp; &lt;less&gt;and 3 more");
+  named->colors.legend.hidden = 1;
+  EXPECT_EQ(tipOf(named), "more &amp; &lt;less&gt;and 1 more");
+  EXPECT_EQ(tipOf(nullptr), "");
 }
 } // namespace

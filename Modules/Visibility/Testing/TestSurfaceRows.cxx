@@ -423,16 +423,19 @@ TEST(SurfaceRows, TrianglesWithoutAreaAreNotThere)
 
 TEST(SurfaceRows, TrianglesAreThereFromASineOf1e15On)
 {
-  for (const auto& [width, there] : { std::pair(1e-16, false), std::pair(1e-14, true) })
+  for (const double size : { 1e-6, 1.0, 1e6 })
   {
-    auto model = makeSoup({ 1, 0.1, 0.1, 1 });
-    auto geometry = std::make_shared<dgtk::Geometry>(*model->rest);
-    geometry->positions = { { -1, 0, 0 }, { 1, 0, 0 }, { 1, width, 0 } };
-    model->rest = geometry;
-    const auto state = SceneBuilder().add(model).state();
-    const dgtk::View view = makeView();
-    const dgtk::SurfaceRows rows = surface(*state, view, everywhere(view, { 1, 0 }), false);
-    EXPECT_EQ(std::isfinite(rows.t[1000]), there) << width;
+    for (const auto& [width, there] : { std::pair(1e-16, false), std::pair(1e-14, true) })
+    {
+      auto model = makeSoup({ 1, 0.1, 0.1, 1 });
+      auto geometry = std::make_shared<dgtk::Geometry>(*model->rest);
+      geometry->positions = { { -size, 0, 0 }, { size, 0, 0 }, { size, size * width, 0 } };
+      model->rest = geometry;
+      const auto state = SceneBuilder().add(model).state();
+      const dgtk::View view = makeView();
+      const dgtk::SurfaceRows rows = surface(*state, view, everywhere(view, { 1, 0 }), false);
+      EXPECT_EQ(std::isfinite(rows.t[1000]), there) << size << ' ' << width;
+    }
   }
 }
 

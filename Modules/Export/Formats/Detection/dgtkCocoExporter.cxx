@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkCocoAnnotations.h"
 #include "dgtkExport.h"
+#include "dgtkExportChecks.h"
 #include "dgtkExportPng.h"
 #include "dgtkRunLengths.h"
 
@@ -82,6 +83,15 @@ public:
   ExportNeeds needs(const OptionValues& options) const override
   {
     return { { exported::color().of(options), "objects", "boxes", "amodal" } };
+  }
+
+  void check(const DatasetView& dataset, const OptionValues& options) const override
+  {
+    requireEverywhere(dataset, exported::color().of(options), "coco", { "png" });
+    for (const char* layer : { "objects", "boxes", "amodal" })
+    {
+      requireEverywhere(dataset, layer, "coco");
+    }
   }
 
   ExportPlan plan(const DatasetView& dataset, const OptionValues& options) const override

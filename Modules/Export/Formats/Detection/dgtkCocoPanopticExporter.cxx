@@ -58,6 +58,7 @@ public:
         throw UsageError("coco-panoptic: object " + std::to_string(id) + " has no number of 24 bits");
       }
     }
+    requireEverywhere(dataset, exported::color().of(options), "coco-panoptic", { "png" });
     requireEverywhere(dataset, "objects", "coco-panoptic");
   }
 

@@ -235,7 +235,7 @@ nlohmann::json valueOf(const nlohmann::json& light, const char* key, const nlohm
   {
     return usual;
   }
-  if (!found->is_object() || found->find("keys") == found->end())
+  if (!found->contains("keys"))
   {
     return *found;
   }
