@@ -126,7 +126,6 @@ void TestEditorMenus::prepareFor(const QAction& item) const
 void TestEditorMenus::everyMenuItemWorks()
 {
   this->Window->statusBar()->hide(); // its messages come and go
-  this->Window->resize(1000, 720);   // its pixels take most of the time
   QVERIFY(this->Window->openFile(this->fewObjects()));
   QStringList asked;
   QTimer closer;

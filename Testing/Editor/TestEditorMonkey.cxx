@@ -284,10 +284,7 @@ void TestEditorMonkey::randomEventsDoNoHarm()
   qputenv("HOME", this->path("").toLocal8Bit());
   this->writeFiles();
   this->openAgain();
-  this->Window->resize(900, 640); // half of the processor time was for pixels
-  QCoreApplication::processEvents();
   this->Size = this->Window->size();
-  qInfo("%d x %d", this->Size.width(), this->Size.height());
   this->watchDialogs();
   dgtk::SceneDocument& document = this->Window->document();
   const std::string first = document.json();
