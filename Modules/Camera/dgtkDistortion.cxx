@@ -15,23 +15,21 @@ namespace dgtk
 
 namespace
 {
-enum Coefficient : std::size_t
-{
-  k1,
-  k2,
-  p1,
-  p2,
-  k3,
-  k4,
-  k5,
-  k6,
-  s1,
-  s2,
-  s3,
-  s4,
-  tiltX,
-  tiltY
-};
+// Places of the numbers.
+constexpr std::size_t k1 = 0;
+constexpr std::size_t k2 = 1;
+constexpr std::size_t p1 = 2;
+constexpr std::size_t p2 = 3;
+constexpr std::size_t k3 = 4;
+constexpr std::size_t k4 = 5;
+constexpr std::size_t k5 = 6;
+constexpr std::size_t k6 = 7;
+constexpr std::size_t s1 = 8;
+constexpr std::size_t s2 = 9;
+constexpr std::size_t s3 = 10;
+constexpr std::size_t s4 = 11;
+constexpr std::size_t tiltX = 12;
+constexpr std::size_t tiltY = 13;
 
 constexpr int directions = 48; // in which the domain of a distortion that is not radial is looked for
 constexpr double firstStep = 1.0 / 256;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <emmintrin.h>
 
 namespace dgtk
 {
@@ -14,22 +15,49 @@ namespace
 {
 constexpr double noCone = 90; // degrees
 
-LightRay parallelRay(const LightShape& light, const Eigen::Vector3d& /*point*/) { return { -light.axis, 1 }; }
-
-LightRay pointRay(const LightShape& light, const Eigen::Vector3d& point)
+void parallelRays(const LightShape& light, const LightPoints& /*points*/, LightRays& rays)
 {
-  const Eigen::Vector3d away = light.position - point;
-  const double distance = away.norm();
-  const Eigen::Vector3d& k = light.attenuation;
-  return { away / std::max(distance, 1e-30), 1 / (k.x() + k.y() * distance + k.z() * distance * distance) };
+  rays.x.fill(-light.axis.x());
+  rays.y.fill(-light.axis.y());
+  rays.z.fill(-light.axis.z());
+  rays.strength.fill(1);
 }
 
-LightRay coneRay(const LightShape& light, const Eigen::Vector3d& point)
+void pointRays(const LightShape& light, const LightPoints& points, LightRays& rays)
 {
-  LightRay ray = pointRay(light, point);
-  const double inside = -ray.toLight.dot(light.axis);
-  ray.strength *= inside >= light.coneCosine ? portable::pow(inside, light.exponent) : 0.0;
-  return ray;
+  const double at[3] = { light.position.x(), light.position.y(), light.position.z() };
+  const double k[3] = { light.attenuation.x(), light.attenuation.y(), light.attenuation.z() };
+  // Loops without branches or calls: the compiler works on several points at a time. (It takes std::sqrt() for a call.)
+  alignas(64) double distances[LightPoints::count];
+  for (std::size_t i = 0; i < LightPoints::count; ++i)
+  {
+    rays.x[i] = at[0] - points.x[i];
+    rays.y[i] = at[1] - points.y[i];
+    rays.z[i] = at[2] - points.z[i];
+    distances[i] = rays.x[i] * rays.x[i] + rays.y[i] * rays.y[i] + rays.z[i] * rays.z[i];
+  }
+  for (std::size_t i = 0; i < LightPoints::count; i += 2)
+  {
+    _mm_store_pd(distances + i, _mm_sqrt_pd(_mm_load_pd(distances + i)));
+  }
+  for (std::size_t i = 0; i < LightPoints::count; ++i)
+  {
+    const double length = distances[i] > 1e-30 ? distances[i] : 1e-30;
+    rays.x[i] /= length;
+    rays.y[i] /= length;
+    rays.z[i] /= length;
+    rays.strength[i] = 1 / (k[0] + k[1] * distances[i] + k[2] * distances[i] * distances[i]);
+  }
+}
+
+void coneRays(const LightShape& light, const LightPoints& points, LightRays& rays)
+{
+  pointRays(light, points, rays);
+  for (std::size_t i = 0; i < LightPoints::count; ++i)
+  {
+    const double inside = -(rays.x[i] * light.axis.x() + rays.y[i] * light.axis.y() + rays.z[i] * light.axis.z());
+    rays.strength[i] *= inside >= light.coneCosine ? portable::pow(inside, light.exponent) : 0.0;
+  }
 }
 
 constexpr const char* parallelCode = "    vec3 L = -AXIS.xyz;\n"
@@ -50,9 +78,9 @@ const LightLawRow& lightLaw(LightLaw law)
 {
   // In the order of LightLaw.
   static const std::array<LightLawRow, lightLawCount> laws{ {
-    { parallelRay, parallelCode },
-    { pointRay, pointCode },
-    { coneRay, pointCode + coneCode },
+    { parallelRays, parallelCode },
+    { pointRays, pointCode },
+    { coneRays, pointCode + coneCode },
   } };
   return laws.at(std::size_t(law));
 }

@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <cstddef>
 #include <string>
 
 namespace dgtk
@@ -23,17 +25,28 @@ struct LightShape
   double exponent = 1;
 };
 
-/// What a light does to a point.
-struct LightRay
+/// Points that are lit at once, in the frame of their lights.
+struct LightPoints
 {
-  Eigen::Vector3d toLight; ///< unit vector
-  double strength = 1;     ///< factor of the light's colours
+  static constexpr std::size_t count = 16;
+  alignas(64) std::array<double, count> x;
+  alignas(64) std::array<double, count> y;
+  alignas(64) std::array<double, count> z;
+};
+
+/// What a light does to each of them.
+struct LightRays
+{
+  alignas(64) std::array<double, LightPoints::count> x; ///< of the unit vector towards the light
+  alignas(64) std::array<double, LightPoints::count> y;
+  alignas(64) std::array<double, LightPoints::count> z;
+  alignas(64) std::array<double, LightPoints::count> strength; ///< factor of the light's colours
 };
 
 /// A law of light, for the processor and for OpenGL.
 struct LightLawRow
 {
-  LightRay (*ray)(const LightShape& light, const Eigen::Vector3d& point);
+  void (*rays)(const LightShape& light, const LightPoints& points, LightRays& rays);
   /// GLSL that makes `vec3 L` and `float s`, toLight and strength at vertexVC. POSITION, AXIS and FADING stand for the
   /// light's vec4: position and cosine of the cone, axis and exponent, attenuation and a number for others.
   std::string code;

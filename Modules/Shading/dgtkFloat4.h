@@ -19,6 +19,7 @@ namespace dgtk
 /// Red, green, blue, or x, y, z; the fourth is free. Operators work on each.
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = std::int32_t __attribute__((vector_size(16)));
+using UInt4 = std::uint32_t __attribute__((vector_size(16)));
 
 inline Float4 float4(float x, float y, float z, float w = 0) { return Float4{ x, y, z, w }; }
 inline Float4 float4(float all) { return Float4{ all, all, all, all }; }
@@ -68,51 +69,45 @@ struct Matrix3
 namespace portable
 {
 
-/// Logarithm to base 2 of a positive normal number; absolute error below 2e-7 beside that of rounding the result.
-inline float log2(float x)
+/// Logarithm to base 2 of positive normal numbers; absolute error below 2e-7 beside that of rounding the result.
+inline Float4 log2(Float4 x)
 {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &x, sizeof bits);
   // to [sqrt(1/2), sqrt(2)): 0x3F3504F3 are the bits of the lower end
-  const std::uint32_t shifted = bits - 0x3F3504F3U;
-  const auto exponent = float(std::int32_t(shifted) >> 23);
-  const std::uint32_t mantissa = (shifted & 0x007FFFFFU) + 0x3F3504F3U;
-  float m = 0;
-  std::memcpy(&m, &mantissa, sizeof m);
-  const float s = (m - 1) / (m + 1);
-  const float ss = s * s;
+  const UInt4 shifted = reinterpret_cast<UInt4>(x) - 0x3F3504F3U;
+  const Float4 exponent = __builtin_convertvector(reinterpret_cast<Int4>(shifted) >> 23, Float4);
+  const Float4 m = reinterpret_cast<Float4>((shifted & 0x007FFFFFU) + 0x3F3504F3U);
+  const Float4 s = (m - 1) / (m + 1);
+  const Float4 ss = s * s;
   // 2 artanh(s) / ln 2
-  const float series = 2.885390082F + ss * (0.961796694F + ss * (0.577078016F + ss * (0.412198583F + ss * 0.3205988F)));
+  const Float4 series =
+    2.885390082F + ss * (0.961796694F + ss * (0.577078016F + ss * (0.412198583F + ss * 0.3205988F)));
   return exponent + s * series;
 }
 
 /// 2^x, relative error below 3e-7; 0 below -126, and infinitely large from 128 on.
-inline float exp2(float x)
+inline Float4 exp2(Float4 x)
 {
-  if (!(x >= -126))
-  {
-    return 0;
-  }
-  if (x >= 128)
-  {
-    return INFINITY;
-  }
-  const auto whole = std::int32_t(x + (x < 0 ? -0.5F : 0.5F));
-  const float f = (x - float(whole)) * 0.693147181F;
-  const float e =
+  const Int4 known = (x >= -126) & (x < 128);
+  const Float4 within = known ? x : float4(0);
+  const Int4 whole = __builtin_convertvector(within + (within < 0 ? float4(-0.5F) : float4(0.5F)), Int4);
+  const Float4 f = (within - __builtin_convertvector(whole, Float4)) * 0.693147181F;
+  const Float4 e =
     1 + f * (1 + f * (0.5F + f * (0.166666667F + f * (0.0416666667F + f * (0.00833333333F + f * 0.00138888889F)))));
-  const std::uint32_t bits = std::uint32_t(whole + 126) << 23;
-  float half = 0;
-  std::memcpy(&half, &bits, sizeof half);
-  return e * half * 2;
+  const Float4 half = reinterpret_cast<Float4>((whole + 126) << 23);
+  return known ? e * half * 2 : x >= 128 ? float4(INFINITY) : float4(0);
 }
 
 /// x^y for x >= 0; 0^0 is 1.
-inline float pow(float x, float y) { return x > 1e-37F ? exp2(y * log2(x)) : (y == 0 ? 1.0F : 0.0F); }
-/// e^x
-inline float exp(float x) { return exp2(x * 1.442695041F); }
+inline Float4 pow(Float4 x, Float4 y)
+{
+  const Float4 power = exp2(y * log2(x));
+  return x > 1e-37F ? power : y == 0 ? float4(1) : float4(0);
+}
 
-/// Angle of the point (x, y) in (-pi, pi], absolute error below 3e-7.
+inline float log2(float x) { return log2(float4(x))[0]; }
+/// e^x
+inline float exp(float x) { return exp2(float4(x * 1.442695041F))[0]; }
+
 inline float atan2(float y, float x)
 {
   constexpr float half = 1.57079633F;
@@ -136,19 +131,15 @@ inline float atan2(float y, float x)
 } // namespace portable
 
 /// IEC 61966-2-1, of each of three channels, >= 0; both go on above 1.
-inline float linearOf(float v)
+/// IEC 61966-2-1, of each of three channels, >= 0; both go on above 1.
+inline Float4 toLinear(Float4 c)
 {
-  return v < 0.04045F ? v * (1 / 12.92F) : portable::exp2(2.4F * portable::log2((v + 0.055F) * (1 / 1.055F)));
+  return c < 0.04045F ? c * (1 / 12.92F) : portable::exp2(2.4F * portable::log2((c + 0.055F) * (1 / 1.055F)));
 }
-inline float displayOf(float v)
-{
-  return v < 0.0031308F ? v * 12.92F : 1.055F * portable::exp2(portable::log2(v) * (1 / 2.4F)) - 0.055F;
-}
-inline Float4 toLinear(Float4 c) { return float4(linearOf(c[0]), linearOf(c[1]), linearOf(c[2])); }
 inline Float4 toDisplay(Float4 c)
 {
   c = atLeast(c, 0);
-  return float4(displayOf(c[0]), displayOf(c[1]), displayOf(c[2]));
+  return c < 0.0031308F ? c * 12.92F : 1.055F * portable::exp2(portable::log2(c) * (1 / 2.4F)) - 0.055F;
 }
 
 /// Of coordinates in which pictures repeat: their places u, v, u, v in [0, 1); 0 for what is no number.

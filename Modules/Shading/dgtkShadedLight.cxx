@@ -142,6 +142,39 @@ void turnNormal(ShadedPoint& point)
   }
 }
 
+void lookUp(ShadedPoint* points, std::size_t count)
+{
+  for (std::size_t first = 0; first < count; first += 4)
+  {
+    std::array<const Footprint*, 4> footprints{};
+    Float4 widths = float4(1);
+    Float4 heights = float4(1);
+    bool any = false;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const ShadedPoint& p = points[std::min(first + i, count - 1)];
+      footprints[i] = &p.footprint;
+      if (const TexturePyramid* texture = p.material->texture)
+      {
+        widths[i] = float(texture->width());
+        heights[i] = float(texture->height());
+        any = true;
+      }
+    }
+    if (any)
+    {
+      const Extents extents(footprints, widths, heights);
+      for (std::size_t i = first; i < std::min(first + 4, count); ++i)
+      {
+        if (const TexturePyramid* texture = points[i].material->texture)
+        {
+          points[i].texture = texture->at(points[i].footprint, extents, i - first);
+        }
+      }
+    }
+  }
+}
+
 ShadedLight::ShadedLight(const SceneState& state, const View& view)
   : HeadOnly(state.lights.size() == 1 && state.lights[0].kind == LightKind::Head)
   , Background(toFloat4(state.background))
@@ -154,7 +187,7 @@ ShadedLight::ShadedLight(const SceneState& state, const View& view)
   {
     const LightTraits& traits = traitsOf(from.kind);
     Light light;
-    light.ray = lightLaw(lightLawOf(from)).ray;
+    light.rays = lightLaw(lightLawOf(from)).rays;
     light.shape = lightShape(from, pose.rotation, pose.translation, Eigen::Vector3d(0, 0, 1));
     light.ambient = toFloat4(from.ambient * from.intensity);
     light.diffuse = toFloat4(from.diffuse * from.intensity);
@@ -185,22 +218,59 @@ ShadedLight::ShadedLight(const SceneState& state, const View& view)
   }
 }
 
-void ShadedLight::of(std::size_t light, const ShadedPoint& point, PointLight& to) const
+PointLanes::PointLanes(const ShadedPoint* points, std::size_t many)
+{
+  for (std::size_t i = 0; i < LightPoints::count; ++i)
+  {
+    const ShadedPoint& p = points[std::min(i, many - 1)];
+    this->places.x[i] = double(p.position[0]);
+    this->places.y[i] = double(p.position[1]);
+    this->places.z[i] = double(p.position[2]);
+    this->shininess[i / 4][i % 4] = p.material->shines ? p.material->shininess : 0;
+    this->shines = this->shines || p.material->shines;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      this->normal[axis][i / 4][i % 4] = p.normal[axis];
+      this->viewer[axis][i / 4][i % 4] = p.viewer[axis];
+    }
+  }
+}
+
+void ShadedLight::light(std::size_t light, const PointLanes& p, LightLanes& to) const
 {
   const Light& from = this->Lights[light];
-  to.lit = 1;
   if (from.atViewer)
   {
-    to.toLight = point.viewer;
-    to.strength = 1;
+    to.toLight = p.viewer;
+    to.strength.fill(float4(1));
   }
   else
   {
-    const LightRay ray = from.ray(from.shape, toVector3d(point.position));
-    to.toLight = toFloat4(ray.toLight);
-    to.strength = float(ray.strength);
+    LightRays rays;
+    from.rays(from.shape, p.places, rays);
+    for (std::size_t i = 0; i < LightPoints::count; ++i)
+    {
+      to.toLight[0][i / 4][i % 4] = float(rays.x[i]);
+      to.toLight[1][i / 4][i % 4] = float(rays.y[i]);
+      to.toLight[2][i / 4][i % 4] = float(rays.z[i]);
+      to.strength[i / 4][i % 4] = float(rays.strength[i]);
+    }
   }
-  to.cosine = dot(point.normal, to.toLight);
+  to.lit.fill(float4(1));
+  for (std::size_t k = 0; k < to.cosine.size(); ++k)
+  {
+    const Float4 cosine =
+      p.normal[0][k] * to.toLight[0][k] + p.normal[1][k] * to.toLight[1][k] + p.normal[2][k] * to.toLight[2][k];
+    to.cosine[k] = cosine;
+    if (p.shines)
+    {
+      // A head light alone takes the viewer to be where it is.
+      const auto mirrored = [&](std::size_t axis)
+      { return (p.normal[axis][k] * (2 * cosine) - to.toLight[axis][k]) * p.viewer[axis][k]; };
+      const Float4 toViewer = this->HeadOnly ? cosine : mirrored(0) + mirrored(1) + mirrored(2);
+      to.shine[k] = portable::pow(atLeast(toViewer, 0), p.shininess[k]);
+    }
+  }
 }
 
 double ShadedLight::distanceTo(std::size_t light, const Eigen::Vector3d& position) const
@@ -209,7 +279,7 @@ double ShadedLight::distanceTo(std::size_t light, const Eigen::Vector3d& positio
   return from.near ? (from.shape.position - position).norm() : std::numeric_limits<double>::infinity();
 }
 
-Float4 ShadedLight::phong(const ShadedPoint& p, const PointLight* lit) const
+Float4 ShadedLight::phong(const ShadedPoint& p, const LightLanes* lit, std::size_t lane) const
 {
   const ShadedMaterial& m = *p.material;
   Float4 ambient = float4(float(worldAmbient));
@@ -218,17 +288,16 @@ Float4 ShadedLight::phong(const ShadedPoint& p, const PointLight* lit) const
   for (std::size_t i = 0; i < this->Lights.size(); ++i)
   {
     const Light& light = this->Lights[i];
-    const float cosine = lit[i].cosine;
-    ambient += light.ambient * lit[i].strength;
-    const float strength = lit[i].strength * lit[i].lit;
+    const float cosine = of(lit[i].cosine, lane);
+    const float unhidden = of(lit[i].strength, lane);
+    const float strength = unhidden * of(lit[i].lit, lane);
+    ambient += light.ambient * unhidden;
     if (cosine > 0)
     {
       diffuse += light.diffuse * (cosine * strength);
       if (m.shines && strength > 0)
       {
-        // A head light alone takes the viewer to be where it is.
-        const float toViewer = this->HeadOnly ? cosine : dot(p.normal * (2 * cosine) - lit[i].toLight, p.viewer);
-        specular += light.specular * (strength * portable::pow(std::max(toViewer, 0.0F), m.shininess));
+        specular += light.specular * (strength * of(lit[i].shine, lane));
       }
     }
   }
@@ -239,7 +308,7 @@ Float4 ShadedLight::phong(const ShadedPoint& p, const PointLight* lit) const
   }
   if (m.texture != nullptr)
   {
-    color *= m.texture->at(p.footprint);
+    color *= p.texture;
   }
   if (m.emissionMap != nullptr)
   {
@@ -257,12 +326,12 @@ Float4 ShadedLight::fogged(Float4 color, float distance) const
 /// Cook-Torrance with the GGX distribution and Smith's joint masking (Walter et al. 2007; Heitz 2014), Schlick's
 /// Fresnel term, Lambert's diffuse part for what is not reflected. Times pi: a light of strength 1 shows a white
 /// diffuse surface white.
-Float4 ShadedLight::physical(const ShadedPoint& p, const PointLight* lit) const
+Float4 ShadedLight::physical(const ShadedPoint& p, const LightLanes* lit, std::size_t lane) const
 {
   const ShadedMaterial& m = *p.material;
   const Footprint& f = p.footprint;
   const Float4 tinted = m.diffuse * p.tint;
-  const Float4 base = toLinear(m.texture != nullptr ? tinted * m.texture->at(f) : tinted);
+  const Float4 base = toLinear(m.texture != nullptr ? tinted * p.texture : tinted);
   float metallic = m.metallic;
   float rough = m.roughness;
   if (m.metallicRoughnessMap != nullptr)
@@ -281,12 +350,13 @@ Float4 ShadedLight::physical(const ShadedPoint& p, const PointLight* lit) const
   for (std::size_t i = 0; i < this->Lights.size(); ++i)
   {
     const Light& light = this->Lights[i];
-    const float nl = lit[i].cosine;
-    ambient += light.ambient * lit[i].strength;
-    const float strength = lit[i].strength * lit[i].lit * nl;
+    const float nl = of(lit[i].cosine, lane);
+    const float unhidden = of(lit[i].strength, lane);
+    const float strength = unhidden * of(lit[i].lit, lane) * nl;
+    ambient += light.ambient * unhidden;
     if (strength > 0 && nl > 0)
     {
-      const Float4 h = normalized(lit[i].toLight + p.viewer);
+      const Float4 h = normalized(lit[i].toLightOf(lane) + p.viewer);
       const float nh = std::max(dot(p.normal, h), 0.0F);
       const float vh = std::max(dot(p.viewer, h), 0.0F);
       const float d = nh * nh * (a2 - 1) + 1;
@@ -334,9 +404,9 @@ Float4 ShadedLight::surroundings(const ShadedPoint& p, Float4 albedo, Float4 f0,
   return albedo * (1 - mirrored) * irradiance + mirrored * seen;
 }
 
-Float4 ShadedLight::shade(const ShadedPoint& point, const PointLight* lit) const
+Float4 ShadedLight::shade(const ShadedPoint& point, const LightLanes* lit, std::size_t lane) const
 {
-  return point.material->physical || this->Reflected ? this->physical(point, lit) : this->phong(point, lit);
+  return point.material->physical || this->Reflected ? this->physical(point, lit, lane) : this->phong(point, lit, lane);
 }
 
 Float4 ShadedLight::sky(Float4 direction, float angle) const

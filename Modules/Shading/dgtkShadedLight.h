@@ -25,7 +25,8 @@ struct ShadedPoint
   Float4 right;  ///< how the position changes to the pixel on the right, on the triangle's plane ...
   Float4 down;   ///< ... and to that below
   Footprint footprint;
-  Float4 tint; ///< of the vertices: times ambient and diffuse colour, and opacity
+  Float4 texture; ///< of the material's picture, where it has one
+  Float4 tint;    ///< of the vertices: times ambient and diffuse colour, and opacity
   const ShadedMaterial* material = nullptr;
   float distance = 0; ///< from the eye
   // Of the paths to lights that cast shadows.
@@ -37,13 +38,37 @@ struct ShadedPoint
 /// Turns the normal as the material's pictures say.
 void turnNormal(ShadedPoint& point);
 
-/// What a light does to a point.
-struct PointLight
+/// What the pictures of points show, before they are shaded.
+void lookUp(ShadedPoint* points, std::size_t count);
+
+/// A number of each of the points that are shaded together.
+using Lanes = std::array<Float4, LightPoints::count / 4>;
+inline float of(const Lanes& lanes, std::size_t i) { return lanes[i / 4][i % 4]; }
+
+/// What lights ask of the points that are shaded together: 1 to LightPoints::count.
+struct PointLanes
 {
-  Float4 toLight; ///< unit
-  float cosine = 0;
-  float strength = 0;
-  float lit = 1; ///< 0 in its shadow
+  PointLanes(const ShadedPoint* points, std::size_t many);
+  LightPoints places;
+  std::array<Lanes, 3> normal;
+  std::array<Lanes, 3> viewer;
+  Lanes shininess;
+  bool shines = false; ///< some do
+};
+
+/// What a light does to points that are shaded together.
+struct LightLanes
+{
+  std::array<Lanes, 3> toLight; ///< unit
+  Lanes cosine;
+  Lanes strength;
+  Lanes shine; ///< of Phong's highlight, where the material has one
+  Lanes lit;   ///< 0 in its shadow, else 1
+
+  Float4 toLightOf(std::size_t i) const
+  {
+    return float4(of(this->toLight[0], i), of(this->toLight[1], i), of(this->toLight[2], i));
+  }
 };
 
 /// The light of a scene at one instant in the frame of a camera, and what surfaces make of it. VTK's renderer computes
@@ -56,12 +81,12 @@ public:
   std::size_t lights() const { return this->Lights.size(); }
   bool castsShadows(std::size_t light) const { return this->Lights[light].shadows; }
   bool castsShadows() const { return this->Shadows; }
-  void of(std::size_t light, const ShadedPoint& point, PointLight& to) const;
+  void light(std::size_t light, const PointLanes& points, LightLanes& to) const;
   /// Along the way of a path: how far a light is; infinite for parallel light.
   double distanceTo(std::size_t light, const Eigen::Vector3d& position) const;
 
-  /// The display-referred colour of a point that is lit so by lights(); not cut off at white.
-  Float4 shade(const ShadedPoint& point, const PointLight* lit) const;
+  /// The display-referred colour of a point that is lit so by lights(), in its lane; not cut off at white.
+  Float4 shade(const ShadedPoint& point, const LightLanes* lit, std::size_t lane) const;
   /// Whether the viewer and the distance of a point are asked for.
   bool needsViewer(const ShadedMaterial& material) const
   {
@@ -75,7 +100,7 @@ public:
 private:
   struct Light
   {
-    LightRay (*ray)(const LightShape& light, const Eigen::Vector3d& point);
+    void (*rays)(const LightShape& light, const LightPoints& points, LightRays& rays);
     LightShape shape;
     Float4 ambient;
     Float4 diffuse;
@@ -84,8 +109,8 @@ private:
     bool near;     ///< at its place
     bool atViewer; ///< head light of a camera whose view has no one direction
   };
-  Float4 phong(const ShadedPoint& point, const PointLight* lit) const;
-  Float4 physical(const ShadedPoint& point, const PointLight* lit) const;
+  Float4 phong(const ShadedPoint& point, const LightLanes* lit, std::size_t lane) const;
+  Float4 physical(const ShadedPoint& point, const LightLanes* lit, std::size_t lane) const;
   Float4 surroundings(const ShadedPoint& point, Float4 albedo, Float4 f0, float nv, float rough) const;
   Float4 fogged(Float4 color, float distance) const;
 

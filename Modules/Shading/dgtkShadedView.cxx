@@ -140,6 +140,7 @@ void ShadedView::place(const PixelRay& ray, const Triangle& triangle, ShadedPoin
   point.object = triangle.hit.object;
   point.material = &material;
   point.position = toFloat4(position);
+  point.viewer = float4(0);
   if (this->Light.needsViewer(material))
   {
     const double length = d.norm();
@@ -189,7 +190,7 @@ void ShadedView::lift(
   }
 }
 
-void ShadedView::findShadows(const ShadedPoint* points, std::size_t count, PointLight* lit) const
+void ShadedView::findShadows(const ShadedPoint* points, std::size_t count, LightLanes* lit) const
 {
   const std::size_t lights = this->Light.lights();
   for (std::size_t light = 0; light < lights; ++light)
@@ -198,16 +199,16 @@ void ShadedView::findShadows(const ShadedPoint* points, std::size_t count, Point
     {
       continue;
     }
+    LightLanes& own = lit[light];
     LightPath paths[lanes];
     std::size_t ofPath[lanes];
     std::size_t asked = 0;
     for (std::size_t i = 0; i < count; ++i)
     {
-      const PointLight& own = lit[i * lights + light];
-      if (own.cosine > 0 && own.strength > 0)
+      if (of(own.cosine, i) > 0 && of(own.strength, i) > 0)
       {
         const ShadedPoint& p = points[i];
-        const Eigen::Vector3d toLight = toVector3d(own.toLight);
+        const Eigen::Vector3d toLight = toVector3d(own.toLightOf(i));
         const double off = this->Shadows->precision(p.object, double(p.distance));
         paths[asked] = { p.lifted + off * p.outward, toLight, this->Light.distanceTo(light, p.lifted) - off };
         ofPath[asked++] = i;
@@ -216,7 +217,7 @@ void ShadedView::findShadows(const ShadedPoint* points, std::size_t count, Point
     const unsigned int blocked = asked > 0 ? this->Shadows->blocked(paths, asked) : 0;
     for (std::size_t k = 0; k < asked; ++k)
     {
-      lit[ofPath[k] * lights + light].lit = (blocked >> k & 1U) != 0 ? 0.0F : 1.0F;
+      own.lit[ofPath[k] / 4][ofPath[k] % 4] = (blocked >> k & 1U) != 0 ? 0.0F : 1.0F;
     }
   }
 }
@@ -224,26 +225,30 @@ void ShadedView::findShadows(const ShadedPoint* points, std::size_t count, Point
 void ShadedView::shadeRow(
   Worker& worker, int x, int y, int count, const std::vector<Surface>& surfaces, float* rgba) const
 {
-  this->shade(worker, worker.Rays.row(y, x, count), surfaces, rgba);
+  this->shade(worker, worker.Rays.row(y, x, count), surfaces.data(), surfaces.size(),
+    [rgba](std::size_t i, Float4 color) { std::memcpy(rgba + 4 * i, &color, sizeof color); });
 }
 
+template <typename Sink>
 void ShadedView::shade(
-  Worker& worker, const std::vector<PixelRay>& rays, const std::vector<Surface>& surfaces, float* rgba) const
+  Worker& worker, const std::vector<PixelRay>& rays, const Surface* surfaces, std::size_t count, const Sink& sink) const
 {
   const std::size_t lights = this->Light.lights();
   ShadedPoint points[lanes];
-  PointLight* const lit = worker.Lit.data();
-  for (std::size_t first = 0; first < surfaces.size(); first += lanes)
+  LightLanes* const lit = worker.Lit.data();
+  for (std::size_t first = 0; first < count; first += lanes)
   {
-    const std::size_t many = std::min(surfaces.size() - first, lanes);
+    const std::size_t many = std::min(count - first, lanes);
     for (std::size_t i = 0; i < many; ++i)
     {
       const Surface& surface = surfaces[first + i];
       this->place(rays[std::size_t(surface.pixel)], worker.triangle(*this, surface.hit), points[i]);
-      for (std::size_t light = 0; light < lights; ++light)
-      {
-        this->Light.of(light, points[i], lit[i * lights + light]);
-      }
+    }
+    lookUp(points, many);
+    const PointLanes together(points, many);
+    for (std::size_t light = 0; light < lights; ++light)
+    {
+      this->Light.light(light, together, lit[light]);
     }
     if (this->Shadows)
     {
@@ -251,9 +256,9 @@ void ShadedView::shade(
     }
     for (std::size_t i = 0; i < many; ++i)
     {
-      Float4 color = atLeast(this->Light.shade(points[i], lit + i * lights), 0);
+      Float4 color = atLeast(this->Light.shade(points[i], lit, i), 0);
       color[3] = points[i].material->opacity * points[i].tint[3];
-      std::memcpy(rgba + 4 * (first + i), &color, sizeof color);
+      sink(first + i, color);
     }
   }
 }
@@ -281,7 +286,7 @@ void ShadedView::row(Worker& worker, int x, int y, int count, const Hit* hits, f
     to[2] = color[2];
   };
   std::vector<Surface>& surfaces = worker.Surfaces;
-  surfaces.resize(std::size_t(count));
+  surfaces.resize(std::max(surfaces.size(), std::size_t(count)));
   std::size_t seen = 0;
   worker.Translucent.clear();
   for (int i = 0; i < count; ++i)
@@ -301,13 +306,7 @@ void ShadedView::row(Worker& worker, int x, int y, int count, const Hit* hits, f
       surfaces[seen++].hit = hits[i];
     }
   }
-  surfaces.resize(seen);
-  worker.Colors.resize(4 * surfaces.size());
-  this->shade(worker, rays, surfaces, worker.Colors.data());
-  for (std::size_t i = 0; i < surfaces.size(); ++i)
-  {
-    put(surfaces[i].pixel, loadFloat4(&worker.Colors[4 * i]));
-  }
+  this->shade(worker, rays, surfaces.data(), seen, [&](std::size_t i, Float4 color) { put(surfaces[i].pixel, color); });
   if (!worker.Translucent.empty())
   {
     this->seeThrough(worker, x, y, rays, rgb);
@@ -329,7 +328,6 @@ void ShadedView::allHits(const std::vector<Eigen::Vector2d>& pixels, std::vector
 void ShadedView::seeThrough(Worker& worker, int x, int y, const std::vector<PixelRay>& rays, float* rgb) const
 {
   std::vector<Surface>& surfaces = worker.Behind;
-  std::vector<float>& colors = worker.Colors;
   worker.SeenThrough.clear();
   for (const int pixel : worker.Translucent)
   {
@@ -350,14 +348,13 @@ void ShadedView::seeThrough(Worker& worker, int x, int y, const std::vector<Pixe
     }
     Float4 over = float4(0);
     float through = 1;
-    colors.resize(4 * surfaces.size());
-    this->shade(worker, rays, surfaces, colors.data());
-    for (std::size_t i = 0; i < surfaces.size(); ++i)
-    {
-      const float opacity = std::min(std::max(colors[4 * i + 3], 0.0F), 1.0F);
-      over += through * opacity * clamped(loadFloat4(&colors[4 * i])); // as OpenGL blends what it draws
-      through *= 1 - opacity;
-    }
+    this->shade(worker, rays, surfaces.data(), surfaces.size(),
+      [&](std::size_t, Float4 color)
+      {
+        const float opacity = std::min(std::max(color[3], 0.0F), 1.0F);
+        over += through * opacity * clamped(color); // as OpenGL blends what it draws
+        through *= 1 - opacity;
+      });
     if (!closed)
     {
       over += through * clamped(this->skyAt(rays[std::size_t(pixel)]));

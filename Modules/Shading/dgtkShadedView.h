@@ -56,7 +56,8 @@ private:
     Matrix3 normals; ///< camera_from_object, of normals
     double side = 1; ///< -1: mirrored
   };
-  static constexpr std::size_t lanes = ShadowQuery::mostPaths;
+  static constexpr std::size_t lanes = LightPoints::count;
+  static_assert(lanes <= ShadowQuery::mostPaths);
   /// A triangle in the frame of the camera: what does not depend on the pixel.
   struct Triangle
   {
@@ -92,9 +93,11 @@ private:
   void place(const PixelRay& ray, const Triangle& triangle, ShadedPoint& point) const;
   static void lift(
     const Triangle& triangle, const Eigen::Vector3d& position, const double parts[3], bool front, ShadedPoint& point);
-  void shade(
-    Worker& worker, const std::vector<PixelRay>& rays, const std::vector<Surface>& surfaces, float* rgba) const;
-  void findShadows(const ShadedPoint* points, std::size_t count, PointLight* lit) const;
+  /// `sink` takes the place of each surface and its colour and opacity, in their order.
+  template <typename Sink>
+  void shade(Worker& worker, const std::vector<PixelRay>& rays, const Surface* surfaces, std::size_t count,
+    const Sink& sink) const;
+  void findShadows(const ShadedPoint* points, std::size_t count, LightLanes* lit) const;
   void seeThrough(Worker& worker, int x, int y, const std::vector<PixelRay>& rays, float* rgb) const;
   Float4 skyAt(const PixelRay& ray) const;
   bool isOpaque(const Hit& hit) const
@@ -119,7 +122,7 @@ public:
   explicit Worker(const ShadedView& view)
     : Rays(*view.TheView.model)
     , Triangles(triangles)
-    , Lit(lanes * view.Light.lights() + 1)
+    , Lit(view.Light.lights())
   {
   }
 
@@ -139,13 +142,12 @@ private:
 
   RayDifferentials Rays;
   std::vector<Triangle> Triangles; ///< those met last
-  std::vector<PointLight> Lit;
+  std::vector<LightLanes> Lit;
   std::vector<Surface> Surfaces;
   std::vector<Surface> Behind;
   std::vector<int> Translucent;
   std::vector<Eigen::Vector2d> SeenThrough; ///< pixels
   std::vector<std::vector<Hit>> Hits;
-  std::vector<float> Colors;
 };
 
 } // namespace dgtk

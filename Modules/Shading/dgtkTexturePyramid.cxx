@@ -63,8 +63,26 @@ struct Texels
   Float4 mixed(float part) const { return this->left + (this->right - this->left) * part; }
 };
 
-/// As portable::log2() has them, of the numbers of probes.
-constexpr std::array<float, 5> logOfProbes{ 0, 0, 1, 0x1.95c01ap+0F, 2 };
+constexpr int mostProbes = 4;
+
+/// Where probes are along the longer axis, in footprints from its middle, and what they are weighed with.
+struct Probes
+{
+  std::array<std::array<double, mostProbes>, mostProbes + 1> places{};
+  std::array<float, mostProbes + 1> weights{};
+  constexpr Probes()
+  {
+    for (std::size_t many = 1; many <= mostProbes; ++many)
+    {
+      for (std::size_t i = 0; i < many; ++i)
+      {
+        this->places[many][i] = double((float(i) + 0.5F) / float(many) - 0.5F);
+      }
+      this->weights[many] = 1 / (255 * float(many));
+    }
+  }
+};
+constexpr Probes allProbes;
 
 template <typename Level>
 float lastOf(const std::vector<Level>& levels)
@@ -152,7 +170,7 @@ TexturePyramid::Level TexturePyramid::half(const Level& from)
 }
 
 /// `axis`: of the coordinate u of its level, before that of v.
-Float4 TexturePyramid::bilinear(const Level& level, const Neighbours& at, int axis)
+inline Float4 TexturePyramid::bilinear(const Level& level, const Neighbours& at, int axis)
 {
   const std::size_t row = std::size_t(level.width) * 4;
   const std::uint8_t* const texels = level.rgba.data();
@@ -169,7 +187,7 @@ Float4 TexturePyramid::nearest(const Level& level, float u, float v)
   return Texels(level.rgba.data() + std::size_t(y) * std::size_t(level.width) * 4, x, x).left;
 }
 
-Float4 TexturePyramid::within(double u, double v, const Level& one, const Level& other) const
+inline Float4 TexturePyramid::within(double u, double v, const Level& one, const Level& other) const
 {
   if (this->Use.repeats)
   {
@@ -191,7 +209,40 @@ Float4 TexturePyramid::enlarged(const Footprint& f) const
   return bilinear(own, Neighbours(at, Int4{ own.width, own.height, own.width, own.height }), 0) * (1 / 255.0F);
 }
 
+Extents::Extents(const std::array<const Footprint*, 4>& footprints, Float4 widths, Float4 heights)
+{
+  std::array<Float4, 4> rows; // of a footprint, then of its numbers
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    rows[i] = loadFloat4(&footprints[i]->rightU);
+  }
+  _MM_TRANSPOSE4_PS(rows[0], rows[1], rows[2], rows[3]);
+  const Float4 rightU = rows[0] * widths;
+  const Float4 rightV = rows[1] * heights;
+  const Float4 downU = rows[2] * widths;
+  const Float4 downV = rows[3] * heights;
+  const Float4 across = rightU * rightU + rightV * rightV;
+  const Float4 along = downU * downU + downV * downV;
+  const Float4 longest = across < along ? along : across;
+  const Float4 ratio = longest / atLeast(along < across ? along : across, 1e-30F);
+  const Int4 two = ratio >= 1.5F * 1.5F;
+  const Int4 three = ratio >= 2.5F * 2.5F;
+  const Int4 four = ratio >= 3.5F * 3.5F;
+  const Float4 largest = float4(1e30F);
+  const Float4 logOfProbes = four ? float4(2) : three ? float4(0x1.95c01ap+0F) : two ? float4(1) : float4(0);
+  this->reduced = longest > 1; // not where there is no number
+  this->wider = across > along;
+  this->probes = 1 - two - three - four;
+  this->details = 0.5F * portable::log2(longest > largest ? largest : longest) - logOfProbes;
+}
+
 Float4 TexturePyramid::at(const Footprint& f) const
+{
+  const Level& own = this->Levels.front();
+  return this->at(f, Extents({ &f, &f, &f, &f }, float4(float(own.width)), float4(float(own.height))), 0);
+}
+
+Float4 TexturePyramid::at(const Footprint& f, const Extents& extents, std::size_t which) const
 {
   const Level& own = this->Levels.front();
   if (this->Use.filter == TextureFilter::Nearest)
@@ -199,39 +250,32 @@ Float4 TexturePyramid::at(const Footprint& f) const
     const Float4 at = this->within(f.u, f.v, own, own);
     return nearest(own, at[0], at[1]) * (1 / 255.0F);
   }
-  const auto w = float(own.width);
-  const auto h = float(own.height);
-  const float across = f.rightU * w * (f.rightU * w) + f.rightV * h * (f.rightV * h);
-  const float along = f.downU * w * (f.downU * w) + f.downV * h * (f.downV * h);
-  const float longest = std::max(across, along);
-  if (this->Use.filter == TextureFilter::Linear || !(longest > 1)) // or not a number
+  if (this->Use.filter == TextureFilter::Linear || extents.reduced[which] == 0)
   {
     return this->enlarged(f);
   }
-  const float ratio = longest / std::max(std::min(across, along), 1e-30F);
-  const int probes =
-    1 + int(ratio >= 1.5F * 1.5F) + int(ratio >= 2.5F * 2.5F) + int(ratio >= 3.5F * 3.5F); // mostProbes
-  const float detail = 0.5F * portable::log2(std::min(longest, 1e30F)) - logOfProbes[std::size_t(probes)];
-  const float level = std::min(std::max(detail, 0.0F), lastOf(this->Levels));
+  const auto probes = std::size_t(extents.probes[which]);
+  const std::array<double, mostProbes>& places = allProbes.places[probes];
+  const float level = std::min(std::max(extents.details[which], 0.0F), lastOf(this->Levels));
   const auto low = std::size_t(level);
   const float part = level - float(low);
   const Level& fine = this->Levels[low];
   const Level& coarse = this->Levels[part > 0 ? low + 1 : low];
   const Int4 sizes = { fine.width, fine.height, coarse.width, coarse.height };
-  const double axisU = double(across > along ? f.rightU : f.downU);
-  const double axisV = double(across > along ? f.rightV : f.downV);
+  const bool wider = extents.wider[which] != 0;
+  const double axisU = double(wider ? f.rightU : f.downU);
+  const double axisV = double(wider ? f.rightV : f.downV);
   Float4 sum = float4(0);
-  for (int i = 0; i < probes; ++i)
+  for (std::size_t i = 0; i < probes; ++i)
   {
-    const double place = double((float(i) + 0.5F) / float(probes) - 0.5F);
-    const Neighbours at(this->within(f.u + axisU * place, f.v + axisV * place, fine, coarse), sizes);
+    const Neighbours at(this->within(f.u + axisU * places[i], f.v + axisV * places[i], fine, coarse), sizes);
     sum += bilinear(fine, at, 0) * (1 - part);
     if (part > 0)
     {
       sum += bilinear(coarse, at, 2) * part;
     }
   }
-  return sum * (1 / (255 * float(probes)));
+  return sum * allProbes.weights[probes];
 }
 
 RadiancePyramid::RadiancePyramid(const RadianceImage& image)

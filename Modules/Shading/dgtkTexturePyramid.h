@@ -8,6 +8,8 @@
 
 #include "dgtkModel.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <tuple>
 #include <vector>
@@ -24,6 +26,16 @@ struct Footprint
   float rightV = 0;
   float downU = 0; ///< towards the pixel below
   float downV = 0;
+};
+
+/// How four footprints lie in pictures of some widths and heights.
+struct Extents
+{
+  Extents(const std::array<const Footprint*, 4>& footprints, Float4 widths, Float4 heights);
+  Int4 reduced;   ///< texels are smaller than pixels
+  Int4 wider;     ///< the axis to the right is the longer one
+  Int4 probes;    ///< along the longer axis
+  Float4 details; ///< level of a probe, before it is cut off
 };
 
 /// How a picture is looked at.
@@ -70,6 +82,8 @@ public:
   /// What a pixel sees of the picture, RGB in [0, 1]: one to four trilinear probes along the longer axis of its
   /// footprint, as EXT_texture_filter_anisotropic defines it. Of a picture that is not smooth what is at its middle.
   Float4 at(const Footprint& f) const;
+  /// The same where it is known how the footprint lies in a picture of this size.
+  Float4 at(const Footprint& f, const Extents& extents, std::size_t which) const;
 
 private:
   struct Level
