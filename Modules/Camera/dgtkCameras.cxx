@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkError.h"
+#include "dgtkFinerCamera.h"
+#include "dgtkLensCamera.h"
 #include "dgtkLinearCamera.h"
 #include "dgtkRollingCamera.h"
 #include "dgtkText.h"
@@ -189,6 +191,23 @@ std::shared_ptr<const CameraModel> makeCamera(const std::string& model, const Ca
   }
   static MadeCameras made;
   return made.make(*entry, whole);
+}
+
+/// Multiplied by a power of 2, all numbers are rounded as they were.
+std::shared_ptr<const CameraModel> finerCamera(const CameraModel& model, int times)
+{
+  const bool isLens = dynamic_cast<const LensCamera*>(&model) != nullptr;
+  if (!isLens || times < 1 || (times & (times - 1)) != 0 ||
+      std::max(model.width(), model.height()) > largestSide / times)
+  {
+    return nullptr;
+  }
+  CameraParameters finer = model.parameters();
+  finer.rollingShutter = {};
+  finer.width *= times;
+  finer.height *= times;
+  finer.K->topRows<2>() *= times;
+  return makeCamera(model.name(), finer);
 }
 
 } // namespace dgtk

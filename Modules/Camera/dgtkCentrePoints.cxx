@@ -8,8 +8,9 @@ namespace dgtk
 
 namespace
 {
-constexpr std::size_t mostPixels = std::size_t(1) << 21;
-constexpr std::size_t mostCameras = 4; // of a rig, frame by frame
+constexpr std::size_t mostPixels = std::size_t(1) << 22;
+constexpr std::size_t mostTogether = 2 * mostPixels; // of a rig, frame by frame
+constexpr std::size_t mostCameras = 64;
 
 struct KnownLens
 {
@@ -22,6 +23,8 @@ struct KnownLens
            this->camera.numbers.at("distortion") == other.numbers.at("distortion");
   }
 };
+
+std::size_t pixelsOf(const CameraParameters& camera) { return std::size_t(camera.width) * std::size_t(camera.height); }
 } // namespace
 
 CentrePoints::CentrePoints(int width, int height)
@@ -36,7 +39,7 @@ std::shared_ptr<const CentrePoints> CentrePoints::of(const CameraParameters& cam
 {
   static std::mutex mutex;
   static std::vector<KnownLens> lenses; // the one asked for last is the last
-  if (std::size_t(camera.width) * std::size_t(camera.height) > mostPixels)
+  if (pixelsOf(camera) > mostPixels)
   {
     return std::make_shared<const CentrePoints>(0, 0);
   }
@@ -48,10 +51,11 @@ std::shared_ptr<const CentrePoints> CentrePoints::of(const CameraParameters& cam
     std::rotate(known, known + 1, lenses.end());
     return lenses.back().points;
   }
-  if (lenses.size() == mostCameras)
-  {
-    lenses.erase(lenses.begin());
-  }
+  std::size_t cameras = 1;
+  std::size_t pixels = pixelsOf(camera);
+  const auto fits = [&](const KnownLens& lens)
+  { return ++cameras <= mostCameras && (pixels += pixelsOf(lens.camera)) <= mostTogether; };
+  lenses.erase(lenses.begin(), std::find_if_not(lenses.rbegin(), lenses.rend(), fits).base());
   lenses.push_back({ camera, K, std::make_shared<const CentrePoints>(camera.width, camera.height) });
   return lenses.back().points;
 }

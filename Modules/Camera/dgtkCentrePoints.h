@@ -27,7 +27,7 @@ class CentrePoints
 {
 public:
   /// Those of a camera by its size, K and distortion; of one that was asked for lately they are there already. None of
-  /// images so large that they would take more than 32 MiB.
+  /// images so large that they would take more than 64 MiB, and no more than 128 MiB together.
   static std::shared_ptr<const CentrePoints> of(const CameraParameters& camera, const Eigen::Matrix3d& K);
   CentrePoints(int width, int height);
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <shared_mutex>
 
 namespace dgtk
@@ -93,7 +94,11 @@ public:
     ExactRay rays[lanes];
     std::vector<Hit> candidates[lanes];
     std::vector<RayHit> found;
-    SeenTriangles triangles(scene);
+    std::optional<SeenTriangles> triangles;
+    if (count > 1)
+    {
+      triangles.emplace(scene);
+    }
     for (std::size_t first = 0; first < count; first += lanes)
     {
       const std::size_t many = std::min(count - first, lanes);
@@ -105,7 +110,7 @@ public:
       collectCandidates(scene, rays, many, isCoherent(view), candidates);
       for (std::size_t i = 0; i < many; ++i)
       {
-        settleHits(scene, rays[i], coarse, &triangles, candidates[i], found);
+        settleHits(scene, rays[i], coarse, triangles ? &*triangles : nullptr, candidates[i], found);
         hits[first + i].clear();
         for (const RayHit& hit : found)
         {

@@ -42,6 +42,16 @@ float radiusOf(const Search& search, const Eigen::Vector3d& x_in_mesh)
   return radius < 1e30 ? float(radius) : std::numeric_limits<float>::infinity();
 }
 
+/// That no point of the triangle is nearer than `best`, from one corner and the longest side there: of most triangles.
+bool isFarther(const Eigen::Vector3d& x, const std::array<Eigen::Vector3d, 3>& corners, double best)
+{
+  constexpr double slack = 1 + 1e-9;
+  const double side =
+    std::sqrt(std::max((corners[1] - corners[0]).squaredNorm(), (corners[2] - corners[0]).squaredNorm()));
+  const double reach = (best + side) * slack;
+  return (x - corners[0]).squaredNorm() > reach * reach;
+}
+
 bool visit(RTCPointQueryFunctionArguments* arguments)
 {
   Search& search = *static_cast<Search*>(arguments->userPtr);
@@ -51,6 +61,10 @@ bool visit(RTCPointQueryFunctionArguments* arguments)
   {
     corners[i] = search.instance->world_from_object *
                  search.instance->geometry->positions[search.instance->model->triangles[triangle][i]];
+  }
+  if (isFarther(search.x_in_world, corners, search.best))
+  {
+    return false;
   }
   const double distance = distanceToTriangle(search.x_in_world, corners);
   if (!(distance < search.best))

@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkStageModels.h"
+#include "dgtkVertexDeformation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -139,11 +140,18 @@ std::array<Eigen::Vector3d, 3> cornersAt(const SceneDescription& scene, const Ob
     return { p[vertices[0]], p[vertices[1]], p[vertices[2]] };
   }
   const ModelMoment moment = momentAt(object.animation, model, animation, frame, scene.fps);
+  const auto sourceOf = [&](int i) { return model.sourceVertex[vertices[std::size_t(i)]]; };
+  const auto* const single = dynamic_cast<const VertexDeformation*>(model.deformation.get());
   thread_local std::vector<Eigen::Vector3d> source;
   const auto cornersOf = [&](double at)
   {
+    if (single != nullptr)
+    {
+      const auto corner = [&](int i) { return single->positionAt(animation, at, sourceOf(i)); };
+      return std::array<Eigen::Vector3d, 3>{ corner(0), corner(1), corner(2) };
+    }
     model.deformation->positionsAt(animation, at, source);
-    const auto corner = [&](int i) { return source[model.sourceVertex[vertices[std::size_t(i)]]]; };
+    const auto corner = [&](int i) { return source[sourceOf(i)]; };
     return std::array<Eigen::Vector3d, 3>{ corner(0), corner(1), corner(2) };
   };
   std::array<Eigen::Vector3d, 3> corners = cornersOf(moment.frame);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkResampledCamera.h"
 
+#include "dgtkFinerCamera.h"
+
 #include <cmath>
 #include <utility>
 
@@ -64,6 +66,14 @@ private:
 std::shared_ptr<const CameraModel> resampledCamera(
   std::shared_ptr<const CameraModel> model, int width, int height, double scale, const Eigen::Vector2d& offset)
 {
+  const int times = width / model->width();
+  if (offset.isZero(0) && scale * times == 1 && times * model->width() == width && times * model->height() == height)
+  {
+    if (auto finer = finerCamera(*model, times))
+    {
+      return finer;
+    }
+  }
   return std::make_shared<ResampledCamera>(std::move(model), width, height, scale, offset);
 }
 

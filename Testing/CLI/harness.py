@@ -16,7 +16,8 @@ SCENES = os.path.join(SOURCE, "Data", "Scenes")
 EXTRA = os.environ.get("DGTK_EXTRA_MODELS", os.environ.get("DGTK_EXTRA_MODELS_DEFAULT", ""))
 
 # Models that were read are kept for the runs of this program alone. Where each run has to read them itself, a case
-# says so: DGTK_CACHE=0.
+# says so: DGTK_CACHE=0. Shaders that Mesa compiled stay where they are for all programs.
+os.environ.setdefault("MESA_SHADER_CACHE_DIR", os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))
 CACHES = tempfile.mkdtemp(prefix="dgtk-cache-")
 atexit.register(shutil.rmtree, CACHES, ignore_errors=True)
 os.environ["XDG_CACHE_HOME"] = CACHES

@@ -120,7 +120,13 @@ QList<pid_t> livingRuns()
 
 void EditorTest::initTestCase()
 {
-  // Programs that run at the same time do not meet there.
+  // Shaders that Mesa compiled stay where they are for all programs; other than that, programs that run at the same
+  // time do not meet there.
+  const QString caches = QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation);
+  if (!qEnvironmentVariableIsSet("MESA_SHADER_CACHE_DIR"))
+  {
+    qputenv("MESA_SHADER_CACHE_DIR", caches.toLocal8Bit());
+  }
   qputenv("XDG_DATA_HOME", QByteArray::fromStdString(this->Folder.path("data")));
   qputenv("XDG_CACHE_HOME", QByteArray::fromStdString(this->Folder.path("cache")));
   dgtk::ModelCache::use(dgtk::ModelCache::ofUser()); // as the program does
@@ -132,6 +138,10 @@ void EditorTest::init()
 {
   QSettings().clear();
   this->Window = std::make_unique<dgtk::MainWindow>();
+  if (const QSize size = this->windowSize(); size.isValid())
+  {
+    this->Window->resize(size);
+  }
   this->Window->show();
   activate(*this->Window);
   untilQuiet();

@@ -5,6 +5,7 @@
 #include "dgtkTestSupport.h"
 
 #include <QObject>
+#include <QSize>
 
 #include <functional>
 #include <memory>
@@ -35,6 +36,8 @@ private slots:
   void cleanup();
 
 protected:
+  /// Of the window of each case, where it may be smaller than the editor opens it: half of the time is for pixels.
+  virtual QSize windowSize() const { return {}; }
   QAction* action(const char* name) const;
   QLineEdit* field(const char* name) const;
   void type(const char* name, const QString& text) const;

@@ -16,6 +16,9 @@ class TestEditorFiles : public EditorTest
 {
   Q_OBJECT
 
+protected:
+  QSize windowSize() const override { return { 1000, 720 }; }
+
 private slots:
   void samplesAreImportedOrRefused();
   void damagedFilesAreRefused();

@@ -19,6 +19,9 @@ class TestEditorMonkey : public EditorTest
 private slots:
   void randomEventsDoNoHarm();
 
+protected:
+  QSize windowSize() const override { return { 900, 640 }; }
+
 private:
   int below(int end) { return int(this->Random() % unsigned(end > 1 ? end : 1)); }
   /// To what is in front: a dialog, a menu, or the window with its panels and tool windows.

@@ -25,6 +25,9 @@ class TestEditorViewer : public EditorTest
 {
   Q_OBJECT
 
+protected:
+  QSize windowSize() const override { return { 1000, 720 }; }
+
 private slots:
   void opensByFolderManifestAndDrop();
   void framesStepAndPlay();

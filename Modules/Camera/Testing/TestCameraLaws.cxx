@@ -2,6 +2,8 @@
 // What holds for every model of the registry, whatever its parameters.
 #include "dgtkRandomCameras.h"
 
+#include "dgtkFinerCamera.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -180,6 +182,33 @@ TEST(CameraLaws, ManyAtOnceAreEachAlone)
         ASSERT_EQ(found[i], pixel);
       }
     });
+}
+
+/// Each of its pixels, whose rays may be kept, and any other point.
+TEST(CameraLaws, FinerImagesHaveTheSameRaysToTheBit)
+{
+  int finer = 0;
+  forCameras(0,
+    [&finer](test::RandomCameras& random, const CameraModel& camera, int&)
+    {
+      EXPECT_EQ(finerCamera(camera, 3), nullptr);
+      EXPECT_EQ(finerCamera(camera, 1 << 20), nullptr);
+      const auto fine = finerCamera(camera, 4);
+      finer += fine ? 1 : 0;
+      for (int i = 0; i < 20 && fine; ++i)
+      {
+        ASSERT_EQ(fine->width(), 4 * camera.width());
+        Eigen::Vector2d pixel = anyPixel(random, *fine, 0.2);
+        pixel = i % 2 == 0 ? Eigen::Vector2d(pixel.array().floor() + 0.5) : pixel;
+        ASSERT_EQ(fine->rayThrough(pixel).direction, camera.rayThrough(pixel / 4).direction);
+        const Eigen::Vector3d x = anyPoint(random);
+        Eigen::Vector2d found(-8, -8);
+        Eigen::Vector2d coarse(-2, -2);
+        ASSERT_EQ(fine->project(x, found), camera.project(x, coarse));
+        ASSERT_EQ(found, 4 * coarse);
+      }
+    });
+  EXPECT_GT(finer, 3 * cameras);
 }
 
 TEST(CameraLaws, CamerasAreMadeAgainOfTheirParameters)

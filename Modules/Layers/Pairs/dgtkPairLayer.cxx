@@ -182,8 +182,10 @@ bool parsePair(const std::string& text, const std::vector<std::string>& names, P
   return false;
 }
 
-/// The pairs of a request, without repetition, in its order.
-std::vector<Pair> pairsOf(const WorkPlan& plan, const Stage& stage)
+/// The pairs of a request, without repetition, in its order. Of those that are named, with `own`, only such as may
+/// begin at that camera: thousands, for each of thousands of pictures, would take minutes.
+std::vector<Pair> pairsOf(
+  const WorkPlan& plan, const Stage& stage, const std::optional<std::size_t>& own = std::nullopt)
 {
   const std::vector<std::string> names = stage.cameraNames();
   std::vector<Pair> pairs;
@@ -207,8 +209,13 @@ std::vector<Pair> pairsOf(const WorkPlan& plan, const Stage& stage)
     }
     return pairs;
   }
+  const std::string start = own ? names[*own] + ':' : std::string();
   for (const std::string& text : texts)
   {
+    if (text.compare(0, start.size(), start) != 0)
+    {
+      continue;
+    }
     Pair pair;
     if (!parsePair(text, names, pair))
     {
@@ -261,7 +268,7 @@ protected:
   {
     const std::vector<std::string> names = stage.cameraNames();
     std::vector<PairTarget> all;
-    for (const Pair& pair : pairsOf(plan, stage))
+    for (const Pair& pair : pairsOf(plan, stage, job.camera))
     {
       const int frame = job.frame + pair.offset;
       if (pair.from != job.camera || !isFrame(stage, frame))

@@ -6,6 +6,7 @@
 #include "dgtkModelBuilder.h"
 #include "dgtkTextLines.h"
 #include "dgtkTextureFile.h"
+#include "dgtkVertexDeformation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +32,7 @@ struct Header
 };
 
 /// Positions as in the file: a byte a coordinate, scaled and moved frame by frame.
-class Md2Frames : public Deformation
+class Md2Frames : public VertexDeformation
 {
 public:
   struct Frame
@@ -54,6 +55,28 @@ public:
 
   void positionsAt(int animation, double frame, std::vector<Eigen::Vector3d>& out) const override
   {
+    const Moment moment = this->momentOf(animation, frame);
+    out.resize(this->Vertices);
+    for (std::size_t v = 0; v < this->Vertices; ++v)
+    {
+      out[v] = this->blended(moment, v);
+    }
+  }
+  Eigen::Vector3d positionAt(int animation, double frame, std::uint32_t vertex) const override
+  {
+    return this->blended(this->momentOf(animation, frame), vertex);
+  }
+
+private:
+  /// Between a frame and the next.
+  struct Moment
+  {
+    std::size_t frame;
+    double weight;
+  };
+
+  Moment momentOf(int animation, double frame) const
+  {
     double first = 0;
     double last = static_cast<double>(this->Frames.size()) - 1;
     if (animation >= 0 && static_cast<std::size_t>(animation) < this->Animations.size())
@@ -63,17 +86,17 @@ public:
     }
     const double at = std::isnan(frame) ? first : std::min(std::max(frame, first), last);
     const double lower = std::floor(at);
-    const double weight = at - lower;
-    const auto a = static_cast<std::size_t>(lower);
-    out.resize(this->Vertices);
-    for (std::size_t v = 0; v < this->Vertices; ++v)
+    return { static_cast<std::size_t>(lower), at - lower };
+  }
+
+  Eigen::Vector3d blended(const Moment& moment, std::size_t vertex) const
+  {
+    Eigen::Vector3d x = this->position(moment.frame, vertex);
+    if (moment.weight > 0)
     {
-      out[v] = this->position(a, v);
-      if (weight > 0)
-      {
-        out[v] = (1 - weight) * out[v] + weight * this->position(a + 1, v);
-      }
+      x = (1 - moment.weight) * x + moment.weight * this->position(moment.frame + 1, vertex);
     }
+    return x;
   }
 };
 

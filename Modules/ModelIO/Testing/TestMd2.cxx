@@ -5,6 +5,7 @@
 #include "dgtkModelChecks.h"
 #include "dgtkModelSeeds.h"
 #include "dgtkTestSupport.h"
+#include "dgtkVertexDeformation.h"
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
@@ -76,11 +77,16 @@ TEST(Md2, PositionsAreInterpolatedWithinTheSequence)
   EXPECT_EQ(model->frames, 4);
   ASSERT_THAT(described(model->animations), ElementsAre("stand 0-1", "pain1 2-3"));
   EXPECT_EQ(model->animations[0].fps, 10);
-  ASSERT_TRUE(model->deformation);
+  const auto* const single = dynamic_cast<const dgtk::VertexDeformation*>(model->deformation.get());
+  ASSERT_NE(single, nullptr);
   std::vector<Eigen::Vector3d> p;
   const auto height = [&](int animation, double frame)
   {
     model->deformation->positionsAt(animation, frame, p);
+    for (std::uint32_t v = 0; v < p.size(); ++v)
+    {
+      EXPECT_EQ(single->positionAt(animation, frame, v), p[v]);
+    }
     return p[0].z();
   };
   EXPECT_EQ(height(0, 0), 0);
