@@ -2,8 +2,6 @@
 #ifndef dgtkCentrePoints_h
 #define dgtkCentrePoints_h
 
-// Private to Camera.
-
 #include "dgtkCameraModel.h"
 
 #include <Eigen/Core>

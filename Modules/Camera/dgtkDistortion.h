@@ -2,8 +2,6 @@
 #ifndef dgtkDistortion_h
 #define dgtkDistortion_h
 
-// Private to Camera.
-
 #include "dgtkGrowing.h"
 
 #include <Eigen/Core>

@@ -2,8 +2,6 @@
 #ifndef dgtkGrowing_h
 #define dgtkGrowing_h
 
-// Private to Camera.
-
 #include <algorithm>
 #include <cmath>
 #include <utility>

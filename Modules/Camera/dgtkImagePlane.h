@@ -2,8 +2,6 @@
 #ifndef dgtkImagePlane_h
 #define dgtkImagePlane_h
 
-// Private to Camera.
-
 #include <Eigen/Core>
 
 namespace dgtk

@@ -2,8 +2,6 @@
 #ifndef dgtkRadialRays_h
 #define dgtkRadialRays_h
 
-// Private to Camera.
-
 #include <algorithm>
 #include <array>
 #include <cmath>

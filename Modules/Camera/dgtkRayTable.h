@@ -2,8 +2,6 @@
 #ifndef dgtkRayTable_h
 #define dgtkRayTable_h
 
-// Private to Camera.
-
 #include "dgtkCameraModel.h"
 
 #include <memory>

@@ -2,8 +2,6 @@
 #ifndef dgtkRollingCamera_h
 #define dgtkRollingCamera_h
 
-// Private to Camera.
-
 #include "dgtkCameraModel.h"
 
 #include <memory>

@@ -2,8 +2,6 @@
 #ifndef dgtkUnifiedPlane_h
 #define dgtkUnifiedPlane_h
 
-// Private to Camera.
-
 #include "dgtkLensCamera.h"
 
 #include <cmath>

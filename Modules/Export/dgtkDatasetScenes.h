@@ -2,8 +2,6 @@
 #ifndef dgtkDatasetScenes_h
 #define dgtkDatasetScenes_h
 
-// Private to Export.
-
 #include "dgtkDatasetView.h"
 
 #include <memory>

@@ -2,8 +2,6 @@
 #ifndef dgtkExportNotes_h
 #define dgtkExportNotes_h
 
-// Private to Export.
-
 #include "dgtkExporter.h"
 #include "dgtkFolder.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkExportRun_h
 #define dgtkExportRun_h
 
-// Private to Export.
-
 #include "dgtkDatasetScenes.h"
 #include "dgtkExport.h"
 #include "dgtkExportNotes.h"

@@ -2,8 +2,6 @@
 #ifndef dgtkItemSink_h
 #define dgtkItemSink_h
 
-// Private to Export.
-
 #include "dgtkExportNotes.h"
 #include "dgtkExporter.h"
 #include "dgtkJournal.h"

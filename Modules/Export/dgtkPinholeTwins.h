@@ -2,8 +2,6 @@
 #ifndef dgtkPinholeTwins_h
 #define dgtkPinholeTwins_h
 
-// Private to Export.
-
 #include "dgtkDatasetView.h"
 
 #include <vector>

@@ -2,8 +2,6 @@
 #ifndef dgtkInView_h
 #define dgtkInView_h
 
-// Private to GroundTruth.
-
 #include "dgtkCameraModel.h"
 
 namespace dgtk

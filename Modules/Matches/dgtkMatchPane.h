@@ -2,8 +2,6 @@
 #ifndef dgtkMatchPane_h
 #define dgtkMatchPane_h
 
-// Private to Matches.
-
 #include "dgtkEpipolarLine.h"
 #include "dgtkLiveTruth.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkTruthPicture_h
 #define dgtkTruthPicture_h
 
-// Private to Matches.
-
 #include "dgtkLiveTruth.h"
 
 #include <QImage>

@@ -2,8 +2,6 @@
 #ifndef dgtkTimeLineEdits_h
 #define dgtkTimeLineEdits_h
 
-// Private to Panels.
-
 #include "dgtkEditorState.h"
 #include "dgtkTimeLineRows.h"
 

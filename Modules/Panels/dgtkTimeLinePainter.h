@@ -2,8 +2,6 @@
 #ifndef dgtkTimeLinePainter_h
 #define dgtkTimeLinePainter_h
 
-// Private to Panels.
-
 #include "dgtkTimeLineRows.h"
 
 class QColor;

@@ -2,8 +2,6 @@
 #ifndef dgtkTimeLineRows_h
 #define dgtkTimeLineRows_h
 
-// Private to Panels.
-
 #include "dgtkSceneEdits.h"
 #include "dgtkSequenceBar.h"
 

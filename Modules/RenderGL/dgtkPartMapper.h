@@ -2,8 +2,6 @@
 #ifndef dgtkPartMapper_h
 #define dgtkPartMapper_h
 
-// Private to RenderGL.
-
 #include "dgtkMaterialMaps.h"
 #include "dgtkRasterLights.h"
 #include "dgtkRasterShaders.h"

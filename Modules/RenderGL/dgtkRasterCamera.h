@@ -2,8 +2,6 @@
 #ifndef dgtkRasterCamera_h
 #define dgtkRasterCamera_h
 
-// Private to RenderGL.
-
 #include "dgtkCameraModel.h"
 #include "dgtkLayer.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkRasterLighting_h
 #define dgtkRasterLighting_h
 
-// Private to RenderGL.
-
 #include "dgtkEnvironmentMap.h"
 #include "dgtkPartMapper.h"
 #include "dgtkRasterCamera.h"

@@ -2,8 +2,6 @@
 #ifndef dgtkRasterLights_h
 #define dgtkRasterLights_h
 
-// Private to RenderGL.
-
 #include "dgtkSceneState.h"
 
 #include <array>

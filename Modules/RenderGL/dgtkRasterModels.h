@@ -2,8 +2,6 @@
 #ifndef dgtkRasterModels_h
 #define dgtkRasterModels_h
 
-// Private to RenderGL.
-
 #include "dgtkMaterialMaps.h"
 #include "dgtkPartMapper.h"
 #include "dgtkSceneState.h"

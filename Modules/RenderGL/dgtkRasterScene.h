@@ -2,8 +2,6 @@
 #ifndef dgtkRasterScene_h
 #define dgtkRasterScene_h
 
-// Private to RenderGL.
-
 #include "dgtkIdPrograms.h"
 #include "dgtkPieceDraw.h"
 #include "dgtkRasterCamera.h"

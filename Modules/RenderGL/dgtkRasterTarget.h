@@ -2,8 +2,6 @@
 #ifndef dgtkRasterTarget_h
 #define dgtkRasterTarget_h
 
-// Private to RenderGL.
-
 #include <array>
 #include <vector>
 

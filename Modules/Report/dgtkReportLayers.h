@@ -2,8 +2,6 @@
 #ifndef dgtkReportLayers_h
 #define dgtkReportLayers_h
 
-// Private to Report.
-
 #include "dgtkReportSource.h"
 
 #include <map>

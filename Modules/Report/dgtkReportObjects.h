@@ -2,8 +2,6 @@
 #ifndef dgtkReportObjects_h
 #define dgtkReportObjects_h
 
-// Private to Report.
-
 #include "dgtkReportPictures.h"
 
 namespace dgtk

@@ -2,8 +2,6 @@
 #ifndef dgtkReportPainting_h
 #define dgtkReportPainting_h
 
-// Private to Report.
-
 #include "dgtkLayerColors.h"
 #include "dgtkReportPictures.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkReportSource_h
 #define dgtkReportSource_h
 
-// Private to Report.
-
 #include "dgtkDatasetView.h"
 #include "dgtkReport.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkOptionFields_h
 #define dgtkOptionFields_h
 
-// Private to Runs.
-
 #include "dgtkOption.h"
 
 #include <QString>

@@ -2,8 +2,6 @@
 #ifndef dgtkRenderCameras_h
 #define dgtkRenderCameras_h
 
-// Private to Runs.
-
 #include "dgtkEditorState.h"
 #include "dgtkScenePlaces.h"
 

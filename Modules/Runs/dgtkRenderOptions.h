@@ -2,8 +2,6 @@
 #ifndef dgtkRenderOptions_h
 #define dgtkRenderOptions_h
 
-// Private to Runs.
-
 #include "dgtkOptionFields.h"
 
 namespace dgtk

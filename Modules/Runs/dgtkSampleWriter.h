@@ -2,8 +2,6 @@
 #ifndef dgtkSampleWriter_h
 #define dgtkSampleWriter_h
 
-// Private to Runs.
-
 #include "dgtkRenderProcess.h"
 
 #include <QGroupBox>

@@ -2,8 +2,6 @@
 #ifndef dgtkSceneText_h
 #define dgtkSceneText_h
 
-// Private to Scene.
-
 #include "dgtkPathNames.h"
 
 #include <string>

@@ -2,8 +2,6 @@
 #ifndef dgtkPovCamera_h
 #define dgtkPovCamera_h
 
-// Private to SceneExport.
-
 #include "dgtkPovExport.h"
 #include "dgtkPovLights.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkPovImages_h
 #define dgtkPovImages_h
 
-// Private to SceneExport.
-
 #include "dgtkModel.h"
 
 #include <array>

@@ -2,8 +2,6 @@
 #ifndef dgtkPovLibrary_h
 #define dgtkPovLibrary_h
 
-// Private to SceneExport.
-
 #include "dgtkPovExport.h"
 #include "dgtkPovMeshes.h"
 

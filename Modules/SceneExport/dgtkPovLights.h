@@ -2,8 +2,6 @@
 #ifndef dgtkPovLights_h
 #define dgtkPovLights_h
 
-// Private to SceneExport.
-
 #include "dgtkPovExport.h"
 
 #include <string>

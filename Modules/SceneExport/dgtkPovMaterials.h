@@ -2,8 +2,6 @@
 #ifndef dgtkPovMaterials_h
 #define dgtkPovMaterials_h
 
-// Private to SceneExport.
-
 #include "dgtkPovExport.h"
 #include "dgtkPovImages.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkPovMeshes_h
 #define dgtkPovMeshes_h
 
-// Private to SceneExport.
-
 #include "dgtkPovExport.h"
 #include "dgtkPovImages.h"
 #include "dgtkPovMaterials.h"

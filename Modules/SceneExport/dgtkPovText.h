@@ -2,8 +2,6 @@
 #ifndef dgtkPovText_h
 #define dgtkPovText_h
 
-// Private to SceneExport.
-
 #include "dgtkFile.h"
 #include "dgtkRigid3.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkPovTurned_h
 #define dgtkPovTurned_h
 
-// Private to SceneExport.
-
 #include "dgtkPovText.h"
 
 #include "dgtkSceneState.h"

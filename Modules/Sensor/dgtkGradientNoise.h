@@ -2,8 +2,6 @@
 #ifndef dgtkGradientNoise_h
 #define dgtkGradientNoise_h
 
-// Private to Sensor (and its tests).
-
 #include "dgtkRandom.h"
 #include "dgtkSensorModule.h"
 #include "dgtkSensorParameters.h"

@@ -2,8 +2,6 @@
 #ifndef dgtkJpegArtefacts_h
 #define dgtkJpegArtefacts_h
 
-// Private to Sensor (and its tests).
-
 #include "dgtkSensorModule.h"
 
 #include <array>

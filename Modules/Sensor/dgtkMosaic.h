@@ -2,8 +2,6 @@
 #ifndef dgtkMosaic_h
 #define dgtkMosaic_h
 
-// Private to Sensor (and its tests).
-
 #include "dgtkRowWindow.h"
 #include "dgtkSensorParameters.h"
 

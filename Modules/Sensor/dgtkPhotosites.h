@@ -2,8 +2,6 @@
 #ifndef dgtkPhotosites_h
 #define dgtkPhotosites_h
 
-// Private to Sensor.
-
 #include "dgtkGradientNoise.h"
 #include "dgtkImageSensor.h"
 

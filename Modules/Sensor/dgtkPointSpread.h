@@ -2,8 +2,6 @@
 #ifndef dgtkPointSpread_h
 #define dgtkPointSpread_h
 
-// Private to Sensor.
-
 #include "dgtkRowWindow.h"
 #include "dgtkSensorParameters.h"
 

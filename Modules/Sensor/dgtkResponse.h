@@ -2,8 +2,6 @@
 #ifndef dgtkResponse_h
 #define dgtkResponse_h
 
-// Private to Sensor.
-
 #include "dgtkNoiseKey.h"
 #include "dgtkSensorParameters.h"
 

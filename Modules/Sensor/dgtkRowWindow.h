@@ -2,8 +2,6 @@
 #ifndef dgtkRowWindow_h
 #define dgtkRowWindow_h
 
-// Private to Sensor.
-
 #include "dgtkThreadPool.h"
 
 #include <algorithm>

@@ -2,8 +2,6 @@
 #ifndef dgtkKeypoints_h
 #define dgtkKeypoints_h
 
-// Private to Stage.
-
 #include "dgtkSceneDescription.h"
 #include "dgtkSceneState.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkMaterialNumbers_h
 #define dgtkMaterialNumbers_h
 
-// Private to Stage.
-
 #include "dgtkSceneDescription.h"
 #include "dgtkSceneState.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkStageModels_h
 #define dgtkStageModels_h
 
-// Private to Stage.
-
 #include "dgtkMaterialNumbers.h"
 #include "dgtkModelReader.h"
 #include "dgtkModelSource.h"

@@ -2,8 +2,6 @@
 #ifndef dgtkStageViews_h
 #define dgtkStageViews_h
 
-// Private to Stage.
-
 #include "dgtkSceneDescription.h"
 #include "dgtkSceneState.h"
 

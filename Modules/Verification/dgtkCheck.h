@@ -2,8 +2,6 @@
 #ifndef dgtkCheck_h
 #define dgtkCheck_h
 
-// Private to Verification.
-
 #include "dgtkMeter.h"
 #include "dgtkPicture.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkMeter_h
 #define dgtkMeter_h
 
-// Private to Verification.
-
 #include "dgtkThreadPool.h"
 #include "dgtkVerification.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkPair_h
 #define dgtkPair_h
 
-// Private to Verification.
-
 #include "dgtkPicture.h"
 
 #include <memory>

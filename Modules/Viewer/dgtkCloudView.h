@@ -2,8 +2,6 @@
 #ifndef dgtkCloudView_h
 #define dgtkCloudView_h
 
-// Private to Viewer.
-
 #include "dgtkDatasetPoints.h"
 #include "dgtkLineActor.h"
 #include "dgtkViewWidget.h"

@@ -2,8 +2,6 @@
 #ifndef dgtkFrameRow_h
 #define dgtkFrameRow_h
 
-// Private to Viewer.
-
 #include <QTimer>
 #include <QWidget>
 

@@ -2,8 +2,6 @@
 #ifndef dgtkLegendBar_h
 #define dgtkLegendBar_h
 
-// Private to Viewer.
-
 #include "dgtkPictureLoader.h"
 
 #include <QWidget>

@@ -2,8 +2,6 @@
 #ifndef dgtkOverlayPainter_h
 #define dgtkOverlayPainter_h
 
-// Private to Viewer.
-
 #include "dgtkPictureOverlay.h"
 
 #include <QPointF>

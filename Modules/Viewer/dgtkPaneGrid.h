@@ -2,8 +2,6 @@
 #ifndef dgtkPaneGrid_h
 #define dgtkPaneGrid_h
 
-// Private to Viewer.
-
 #include "dgtkPicturePane.h"
 
 #include <QScrollArea>

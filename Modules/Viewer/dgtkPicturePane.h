@@ -2,8 +2,6 @@
 #ifndef dgtkPicturePane_h
 #define dgtkPicturePane_h
 
-// Private to Viewer.
-
 #include "dgtkPictureView.h"
 
 #include <QFrame>

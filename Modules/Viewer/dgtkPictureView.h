@@ -2,8 +2,6 @@
 #ifndef dgtkPictureView_h
 #define dgtkPictureView_h
 
-// Private to Viewer.
-
 #include "dgtkPictureLoader.h"
 #include "dgtkPictureZoom.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkReadOut_h
 #define dgtkReadOut_h
 
-// Private to Viewer.
-
 #include <QWidget>
 
 #include <array>

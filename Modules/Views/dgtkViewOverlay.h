@@ -2,8 +2,6 @@
 #ifndef dgtkViewOverlay_h
 #define dgtkViewOverlay_h
 
-// Private to Views.
-
 #include "dgtkViewHandles.h"
 
 #include <QLineF>

@@ -2,8 +2,6 @@
 #ifndef dgtkAutosave_h
 #define dgtkAutosave_h
 
-// Private to Windows.
-
 #include "dgtkEditorState.h"
 
 #include <QStringList>

@@ -2,8 +2,6 @@
 #ifndef dgtkEditorLog_h
 #define dgtkEditorLog_h
 
-// Private to Windows.
-
 #include <QPlainTextEdit>
 
 #include <cstddef>

@@ -2,8 +2,6 @@
 #ifndef dgtkSceneFiles_h
 #define dgtkSceneFiles_h
 
-// Private to Windows.
-
 #include "dgtkSceneDocument.h"
 
 #include <QObject>

@@ -2,8 +2,6 @@
 #ifndef dgtkFolderRecords_h
 #define dgtkFolderRecords_h
 
-// Private to DatasetIO.
-
 #include "dgtkDatasetDocuments.h"
 #include "dgtkFolder.h"
 #include "dgtkFolderContents.h"

@@ -2,8 +2,6 @@
 #ifndef dgtkWayCheck_h
 #define dgtkWayCheck_h
 
-// Private to DatasetIO.
-
 #include "dgtkFolder.h"
 #include "dgtkNameTable.h"
 

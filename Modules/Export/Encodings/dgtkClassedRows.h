@@ -2,8 +2,6 @@
 #ifndef dgtkClassedRows_h
 #define dgtkClassedRows_h
 
-// Private to Export.
-
 #include "dgtkDatasetView.h"
 
 #include "dgtkExportDocument.h"

@@ -2,8 +2,6 @@
 #ifndef dgtkExportJpeg_h
 #define dgtkExportJpeg_h
 
-// Private to Export.
-
 #include "dgtkLayerReader.h"
 
 #include <string>

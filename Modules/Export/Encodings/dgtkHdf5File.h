@@ -2,8 +2,6 @@
 #ifndef dgtkHdf5File_h
 #define dgtkHdf5File_h
 
-// Private to Export.
-
 #include "dgtkExporter.h"
 
 #include <cstdint>

@@ -2,8 +2,6 @@
 #ifndef dgtkMaskPng_h
 #define dgtkMaskPng_h
 
-// Private to Export.
-
 #include "dgtkExporter.h"
 #include "dgtkRunLengths.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkModelPly_h
 #define dgtkModelPly_h
 
-// Private to Export.
-
 #include <array>
 #include <cstdint>
 #include <string>

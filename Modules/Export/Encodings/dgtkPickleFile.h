@@ -2,8 +2,6 @@
 #ifndef dgtkPickleFile_h
 #define dgtkPickleFile_h
 
-// Private to Export.
-
 #include "dgtkExporter.h"
 
 #include <cstdint>

@@ -2,8 +2,6 @@
 #ifndef dgtkTarFile_h
 #define dgtkTarFile_h
 
-// Private to Export.
-
 #include "dgtkExporter.h"
 
 #include <memory>

@@ -2,8 +2,6 @@
 #ifndef dgtkZipFile_h
 #define dgtkZipFile_h
 
-// Private to Export.
-
 #include "dgtkExporter.h"
 
 #include <cstdint>

@@ -2,8 +2,6 @@
 #ifndef dgtkViewOutputs_h
 #define dgtkViewOutputs_h
 
-// Private to FromVTK.
-
 #include "dgtkRenderer.h"
 #include "dgtkScene.h"
 #include "dgtkSnapshot.h"

@@ -2,8 +2,6 @@
 #ifndef dgtkActorMaterial_h
 #define dgtkActorMaterial_h
 
-// Private to FromVTK.
-
 #include "dgtkUnsupported.h"
 
 #include "dgtkModel.h"

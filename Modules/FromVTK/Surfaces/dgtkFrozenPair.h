@@ -2,8 +2,6 @@
 #ifndef dgtkFrozenPair_h
 #define dgtkFrozenPair_h
 
-// Private to FromVTK.
-
 #include "dgtkFrozenView.h"
 
 #include <cstdint>

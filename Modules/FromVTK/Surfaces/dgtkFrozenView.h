@@ -2,8 +2,6 @@
 #ifndef dgtkFrozenView_h
 #define dgtkFrozenView_h
 
-// Private to FromVTK.
-
 #include "dgtkShownModel.h"
 #include "dgtkStage.h"
 #include "dgtkSurfaceModel.h"

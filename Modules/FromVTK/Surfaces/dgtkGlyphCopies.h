@@ -2,8 +2,6 @@
 #ifndef dgtkGlyphCopies_h
 #define dgtkGlyphCopies_h
 
-// Private to FromVTK.
-
 #include "dgtkSurfaceModel.h"
 
 #include <memory>

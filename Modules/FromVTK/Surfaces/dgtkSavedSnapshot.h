@@ -2,8 +2,6 @@
 #ifndef dgtkSavedSnapshot_h
 #define dgtkSavedSnapshot_h
 
-// Private to FromVTK.
-
 #include "dgtkFrozenView.h"
 
 #include <string>

@@ -2,8 +2,6 @@
 #ifndef dgtkSharedModels_h
 #define dgtkSharedModels_h
 
-// Private to FromVTK.
-
 #include "dgtkModel.h"
 #include "dgtkSurfaceKey.h"
 #include "dgtkSurfaceModel.h"

@@ -2,8 +2,6 @@
 #ifndef dgtkShownModel_h
 #define dgtkShownModel_h
 
-// Private to FromVTK.
-
 #include "dgtkModel.h"
 
 #include <Eigen/Core>

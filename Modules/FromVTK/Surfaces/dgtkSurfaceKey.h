@@ -2,8 +2,6 @@
 #ifndef dgtkSurfaceKey_h
 #define dgtkSurfaceKey_h
 
-// Private to FromVTK.
-
 #include "dgtkRigid3.h"
 
 #include <cstdint>

@@ -2,8 +2,6 @@
 #ifndef dgtkSurfaceModel_h
 #define dgtkSurfaceModel_h
 
-// Private to FromVTK.
-
 #include "dgtkSurfacePieces.h"
 #include "dgtkUnsupported.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkSurfacePieces_h
 #define dgtkSurfacePieces_h
 
-// Private to FromVTK.
-
 #include "dgtkRendererProps.h"
 #include "dgtkUnsupported.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkTracedView_h
 #define dgtkTracedView_h
 
-// Private to FromVTK.
-
 #include "dgtkFrozenView.h"
 #include "dgtkVisibility.h"
 

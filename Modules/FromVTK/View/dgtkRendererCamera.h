@@ -2,8 +2,6 @@
 #ifndef dgtkRendererCamera_h
 #define dgtkRendererCamera_h
 
-// Private to FromVTK.
-
 #include "dgtkSceneDescription.h"
 
 #include <vtkSmartPointer.h>

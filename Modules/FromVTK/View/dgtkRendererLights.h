@@ -2,8 +2,6 @@
 #ifndef dgtkRendererLights_h
 #define dgtkRendererLights_h
 
-// Private to FromVTK.
-
 #include "dgtkSceneDescription.h"
 
 #include <vector>

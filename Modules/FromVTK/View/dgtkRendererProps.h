@@ -2,8 +2,6 @@
 #ifndef dgtkRendererProps_h
 #define dgtkRendererProps_h
 
-// Private to FromVTK.
-
 #include "dgtkUnsupported.h"
 
 #include "dgtkRigid3.h"

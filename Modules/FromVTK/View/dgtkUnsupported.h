@@ -2,8 +2,6 @@
 #ifndef dgtkUnsupported_h
 #define dgtkUnsupported_h
 
-// Private to FromVTK.
-
 #include "dgtkError.h"
 #include "dgtkText.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkGLWindow_h
 #define dgtkGLWindow_h
 
-// Private to RenderGL.
-
 #include "dgtkGLContext.h"
 
 #include <memory>

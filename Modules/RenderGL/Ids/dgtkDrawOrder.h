@@ -2,8 +2,6 @@
 #ifndef dgtkDrawOrder_h
 #define dgtkDrawOrder_h
 
-// Private to RenderGL.
-
 #include <Eigen/Core>
 
 #include <cstddef>

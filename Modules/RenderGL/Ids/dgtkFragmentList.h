@@ -2,8 +2,6 @@
 #ifndef dgtkFragmentList_h
 #define dgtkFragmentList_h
 
-// Private to RenderGL.
-
 #include <array>
 #include <cstddef>
 #include <vector>

@@ -2,8 +2,6 @@
 #ifndef dgtkIdPrograms_h
 #define dgtkIdPrograms_h
 
-// Private to RenderGL.
-
 #include "dgtkRasterShaders.h"
 
 #include <array>

@@ -2,8 +2,6 @@
 #ifndef dgtkPieceDraw_h
 #define dgtkPieceDraw_h
 
-// Private to RenderGL.
-
 #include "dgtkPieces.h"
 #include "dgtkRasterModels.h"
 

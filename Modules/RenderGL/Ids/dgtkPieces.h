@@ -2,8 +2,6 @@
 #ifndef dgtkPieces_h
 #define dgtkPieces_h
 
-// Private to RenderGL.
-
 #include "dgtkModel.h"
 #include "dgtkRasterCamera.h"
 

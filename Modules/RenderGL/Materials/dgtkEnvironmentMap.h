@@ -2,8 +2,6 @@
 #ifndef dgtkEnvironmentMap_h
 #define dgtkEnvironmentMap_h
 
-// Private to RenderGL.
-
 #include "dgtkEnvironmentLight.h"
 #include "dgtkRasterCamera.h"
 #include "dgtkSceneState.h"

@@ -2,8 +2,6 @@
 #ifndef dgtkMaterialMaps_h
 #define dgtkMaterialMaps_h
 
-// Private to RenderGL.
-
 #include "dgtkModel.h"
 
 #include <array>

@@ -2,8 +2,6 @@
 #ifndef dgtkRasterShaders_h
 #define dgtkRasterShaders_h
 
-// Private to RenderGL.
-
 #include "dgtkRasterLights.h"
 
 #include <array>

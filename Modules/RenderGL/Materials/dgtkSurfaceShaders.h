@@ -2,8 +2,6 @@
 #ifndef dgtkSurfaceShaders_h
 #define dgtkSurfaceShaders_h
 
-// Private to RenderGL.
-
 #include "dgtkRasterShaders.h"
 
 #include <string>

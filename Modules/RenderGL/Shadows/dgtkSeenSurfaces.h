@@ -2,8 +2,6 @@
 #ifndef dgtkSeenSurfaces_h
 #define dgtkSeenSurfaces_h
 
-// Private to RenderGL.
-
 #include "dgtkSceneState.h"
 
 #include <Eigen/Geometry>

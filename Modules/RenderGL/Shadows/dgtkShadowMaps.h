@@ -2,8 +2,6 @@
 #ifndef dgtkShadowMaps_h
 #define dgtkShadowMaps_h
 
-// Private to RenderGL.
-
 #include "dgtkShadowViews.h"
 
 #include <functional>

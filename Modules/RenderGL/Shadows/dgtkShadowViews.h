@@ -2,8 +2,6 @@
 #ifndef dgtkShadowViews_h
 #define dgtkShadowViews_h
 
-// Private to RenderGL.
-
 #include "dgtkRasterCamera.h"
 #include "dgtkSceneState.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkSceneJson_h
 #define dgtkSceneJson_h
 
-// Private to Scene (and its tests).
-
 #include "dgtkSceneDescription.h"
 #include "dgtkSceneRules.h"
 

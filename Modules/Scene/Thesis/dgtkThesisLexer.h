@@ -2,8 +2,6 @@
 #ifndef dgtkThesisLexer_h
 #define dgtkThesisLexer_h
 
-// Private to Scene.
-
 #include "dgtkSceneRules.h"
 
 #include <string>

@@ -2,8 +2,6 @@
 #ifndef dgtkThesisScene_h
 #define dgtkThesisScene_h
 
-// Private to Scene.
-
 #include "dgtkSceneDescription.h"
 
 #include <string>

@@ -2,8 +2,6 @@
 #ifndef dgtkExportJudge_h
 #define dgtkExportJudge_h
 
-// Private to Verification.
-
 #include "dgtkDataset.h"
 #include "dgtkMeter.h"
 

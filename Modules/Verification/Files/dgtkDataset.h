@@ -2,8 +2,6 @@
 #ifndef dgtkDataset_h
 #define dgtkDataset_h
 
-// Private to Verification.
-
 #include "dgtkDatasetDocuments.h"
 #include "dgtkLayerReader.h"
 #include "dgtkSight.h"

@@ -2,8 +2,6 @@
 #ifndef dgtkMasks_h
 #define dgtkMasks_h
 
-// Private to Verification.
-
 #include <cstdint>
 #include <map>
 #include <string>

@@ -2,8 +2,6 @@
 #ifndef dgtkPicture_h
 #define dgtkPicture_h
 
-// Private to Verification.
-
 #include "dgtkDataset.h"
 #include "dgtkMeter.h"
 #include "dgtkTimedSight.h"

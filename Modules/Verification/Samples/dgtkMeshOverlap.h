@@ -2,8 +2,6 @@
 #ifndef dgtkMeshOverlap_h
 #define dgtkMeshOverlap_h
 
-// Private to Verification.
-
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 

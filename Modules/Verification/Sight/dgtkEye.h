@@ -2,8 +2,6 @@
 #ifndef dgtkEye_h
 #define dgtkEye_h
 
-// Private to Verification.
-
 #include "dgtkCameraModel.h"
 #include "dgtkDatasetDocuments.h"
 #include "dgtkEyeLens.h"

@@ -2,8 +2,6 @@
 #ifndef dgtkEyeLens_h
 #define dgtkEyeLens_h
 
-// Private to Verification.
-
 #include "dgtkDatasetDocuments.h"
 
 #include <Eigen/Core>

@@ -2,8 +2,6 @@
 #ifndef dgtkSampledPixels_h
 #define dgtkSampledPixels_h
 
-// Private to Verification.
-
 #include "dgtkPicture.h"
 
 #include <cstdint>

@@ -2,8 +2,6 @@
 #ifndef dgtkSeenPoint_h
 #define dgtkSeenPoint_h
 
-// Private to Verification.
-
 #include "dgtkSight.h"
 
 namespace dgtk

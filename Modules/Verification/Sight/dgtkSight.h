@@ -2,8 +2,6 @@
 #ifndef dgtkSight_h
 #define dgtkSight_h
 
-// Private to Verification.
-
 #include "dgtkEye.h"
 #include "dgtkVisibility.h"
 

@@ -2,8 +2,6 @@
 #ifndef dgtkSurfaceColor_h
 #define dgtkSurfaceColor_h
 
-// Private to Verification.
-
 #include "dgtkMeter.h"
 #include "dgtkVisibility.h"
 

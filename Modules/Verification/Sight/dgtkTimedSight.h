@@ -2,8 +2,6 @@
 #ifndef dgtkTimedSight_h
 #define dgtkTimedSight_h
 
-// Private to Verification.
-
 #include "dgtkSight.h"
 
 #include "dgtkInstantSource.h"

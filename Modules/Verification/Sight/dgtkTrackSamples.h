@@ -2,8 +2,6 @@
 #ifndef dgtkTrackSamples_h
 #define dgtkTrackSamples_h
 
-// Private to Verification.
-
 #include "dgtkDataset.h"
 #include "dgtkMeter.h"
 #include "dgtkTimedSight.h"

@@ -2,8 +2,6 @@
 #ifndef dgtkWideCanvas_h
 #define dgtkWideCanvas_h
 
-// Private to Verification.
-
 #include "dgtkPicture.h"
 
 #include <array>

@@ -2,8 +2,6 @@
 #ifndef dgtkCameraText_h
 #define dgtkCameraText_h
 
-// Private to Viewer.
-
 #include "dgtkDatasetPictures.h"
 
 #include <QString>

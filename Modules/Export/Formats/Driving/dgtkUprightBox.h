@@ -2,8 +2,6 @@
 #ifndef dgtkUprightBox_h
 #define dgtkUprightBox_h
 
-// Private to Export.
-
 #include "dgtkObjectDocuments.h"
 
 #include <Eigen/Core>

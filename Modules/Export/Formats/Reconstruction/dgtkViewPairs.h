@@ -2,8 +2,6 @@
 #ifndef dgtkViewPairs_h
 #define dgtkViewPairs_h
 
-// Private to Export.
-
 #include "dgtkDatasetView.h"
 
 #include <cstddef>

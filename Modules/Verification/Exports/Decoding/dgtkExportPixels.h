@@ -2,8 +2,6 @@
 #ifndef dgtkExportPixels_h
 #define dgtkExportPixels_h
 
-// Private to Verification.
-
 #include "dgtkExportJudge.h"
 
 namespace dgtk

@@ -2,8 +2,6 @@
 #ifndef dgtkHdf5Contents_h
 #define dgtkHdf5Contents_h
 
-// Private to Verification.
-
 #include <cstdint>
 #include <map>
 #include <string>

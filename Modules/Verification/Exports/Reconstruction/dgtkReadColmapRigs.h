@@ -2,8 +2,6 @@
 #ifndef dgtkReadColmapRigs_h
 #define dgtkReadColmapRigs_h
 
-// Private to Verification.
-
 #include "dgtkExportJudge.h"
 
 #include <cstdint>
