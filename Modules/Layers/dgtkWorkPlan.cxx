@@ -242,7 +242,7 @@ void checkPictures(const WorkPlan& plan, const SceneDescription& scene)
   for (const Job& job : plan.jobs)
   {
     const CameraDescription& camera = scene.cameras[job.camera];
-    if (plan.drawsColor() && !drawsItself(request) && (camera.shutter.blurs() || camera.lens.blurs()))
+    if (plan.drawsColor() && !drawsItself(request) && camera.blurs())
     {
       throw UsageError("camera " + quoted(camera.name) + " has a " + (camera.lens.blurs() ? "lens" : "shutter") +
                        ": only the built-in renderer averages exposures (POV-Ray has a focal blur of its own)");

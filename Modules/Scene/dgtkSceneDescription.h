@@ -189,6 +189,7 @@ struct CameraDescription
   UnusedKeys unusedEye;
   UnusedKeys unusedLookAt;
   long line = 0;
+  bool blurs() const { return this->shutter.blurs() || this->lens.blurs(); }
 };
 
 /// One entry of the list of things in the order of the file.

@@ -2,6 +2,7 @@
 #include "dgtkColorRows.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace dgtk
 {
@@ -18,9 +19,10 @@ LayerSpec sharpSpec(const LayerRequest& request, const std::string& format)
   return spec;
 }
 
-bool blurs(const CameraDescription& camera) { return camera.shutter.blurs() || camera.lens.blurs(); }
-
-bool hasBlur(const SceneDescription& scene) { return std::any_of(scene.cameras.begin(), scene.cameras.end(), &blurs); }
+bool hasBlur(const SceneDescription& scene)
+{
+  return std::any_of(scene.cameras.begin(), scene.cameras.end(), std::mem_fn(&CameraDescription::blurs));
+}
 
 class SharpColorLayer final : public Layer
 {
@@ -48,7 +50,7 @@ public:
     const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {
     const CameraDescription& camera = stage.description().cameras[job.camera];
-    if (!drawsItself(plan.request) || !blurs(camera))
+    if (!drawsItself(plan.request) || !camera.blurs())
     {
       return {};
     }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace dgtk
 {
@@ -85,13 +86,11 @@ private:
   SampledRows Samples;
 };
 
-bool blurs(const CameraDescription& camera) { return camera.shutter.blurs() || camera.lens.blurs(); }
-
 /// The background is one colour, and mixes with the rest by samples.
 bool hasPlainBackground(const SceneDescription& scene)
 {
   const bool seen = !scene.environment.image.empty() && scene.environment.background;
-  return !seen && !std::all_of(scene.cameras.begin(), scene.cameras.end(), &blurs);
+  return !seen && !std::all_of(scene.cameras.begin(), scene.cameras.end(), std::mem_fn(&CameraDescription::blurs));
 }
 
 class RgbaLayer final : public Layer
@@ -121,7 +120,7 @@ public:
     const WorkPlan& plan, const Stage& stage, const Job& job, const PlannedLayer& planned) const override
   {
     const SceneDescription& scene = stage.description();
-    if (!drawsItself(plan.request) || blurs(scene.cameras[job.camera]) || !hasPlainBackground(scene))
+    if (!drawsItself(plan.request) || scene.cameras[job.camera].blurs() || !hasPlainBackground(scene))
     {
       return {};
     }

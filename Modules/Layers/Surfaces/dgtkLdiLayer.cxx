@@ -85,8 +85,7 @@ public:
   {
     const CameraDescription& camera = context.queries.stage().description().cameras[context.job.camera];
     const LayerRequest& request = context.plan.request;
-    this->OwnColor = option::samples().of(request.options) == 1 && drawsItself(request) && !camera.shutter.blurs() &&
-                     !camera.lens.blurs();
+    this->OwnColor = option::samples().of(request.options) == 1 && drawsItself(request) && !camera.blurs();
   }
 
   void band(const Band& band, LayerSink& sink) override

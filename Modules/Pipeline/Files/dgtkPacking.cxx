@@ -21,15 +21,15 @@ namespace fs = std::filesystem;
 
 const std::string inputsFolder = "inputs";
 
-fs::path absolutePath(const std::string& path) { return fs::absolute(path).lexically_normal(); }
+fs::path wholePath(const std::string& path) { return fs::absolute(path).lexically_normal(); }
 
 /// The deepest folder that all files are below.
 fs::path commonFolder(const std::vector<std::string>& files)
 {
-  fs::path common = absolutePath(files.front()).parent_path();
+  fs::path common = wholePath(files.front()).parent_path();
   for (const std::string& file : files)
   {
-    const fs::path other = absolutePath(file).parent_path();
+    const fs::path other = wholePath(file).parent_path();
     fs::path shared;
     for (auto a = common.begin(), b = other.begin(); a != common.end() && b != other.end() && *a == *b; ++a, ++b)
     {
@@ -52,7 +52,7 @@ class Planner
 public:
   Planner(const Stage& stage, const std::string& folder)
     : Source(stage)
-    , Home(absolutePath((fs::path(stage.description().folder) / "scene").string()).parent_path())
+    , Home(wholePath((fs::path(stage.description().folder) / "scene").string()).parent_path())
   {
     this->Plan.scene = stage.description();
     this->Plan.scene.folder = folder;
@@ -101,7 +101,7 @@ private:
     for (const std::string& file : files)
     {
       this->Plan.copies.emplace(
-        file, inputsFolder + '/' + name + '/' + absolutePath(file).lexically_relative(root).generic_string());
+        file, inputsFolder + '/' + name + '/' + wholePath(file).lexically_relative(root).generic_string());
     }
   }
 
@@ -277,11 +277,11 @@ void checkPacking(const Packing& packing, const Stage& stage)
   std::set<std::string> expected;
   for (const std::string& file : stage.inputFiles())
   {
-    expected.insert(absolutePath(packing.scene.resolve(packing.copies.at(file))).string());
+    expected.insert(wholePath(packing.scene.resolve(packing.copies.at(file))).string());
   }
   for (const std::string& file : packed->inputFiles())
   {
-    if (file != packing.scene.file && expected.count(absolutePath(file).string()) == 0)
+    if (file != packing.scene.file && expected.count(wholePath(file).string()) == 0)
     {
       fail(file);
     }
@@ -294,9 +294,9 @@ void checkPacking(const Packing& packing, const Stage& stage)
     {
       const std::string& file = from.textures[k].path;
       const bool same =
-        k < to.textures.size() && (file.empty() ? to.textures[k].path.empty()
-                                                : absolutePath(to.textures[k].path) ==
-                                                    absolutePath(packing.scene.resolve(packing.copies.at(file))));
+        k < to.textures.size() &&
+        (file.empty() ? to.textures[k].path.empty()
+                      : wholePath(to.textures[k].path) == wholePath(packing.scene.resolve(packing.copies.at(file))));
       if (!same)
       {
         fail(from.path + ": " + from.textures[k].name);

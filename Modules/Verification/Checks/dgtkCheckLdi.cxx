@@ -244,8 +244,7 @@ bool showsFirstSurface(const Picture& picture)
     });
   const std::vector<CameraDescription>& cameras = picture.dataset().stage().description().cameras;
   return asked && std::none_of(cameras.begin(), cameras.end(),
-                    [&](const CameraDescription& camera)
-                    { return camera.name == picture.camera() && (camera.shutter.blurs() || camera.lens.blurs()); });
+                    [&](const CameraDescription& camera) { return camera.name == picture.camera() && camera.blurs(); });
 }
 } // namespace
 
