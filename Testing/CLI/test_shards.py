@@ -135,6 +135,13 @@ class Shards(Case):
         # The same again, another request, and an unfinished one.
         self.dgtk("render", scenes, "-o", self.path("all"), *options)
         self.refused("render", scenes, "-o", self.path("all"), "--layers", "depth", "--quiet", status=2, says=("another request",))
+        self.write("numbers.json", '{"tile": 5}')
+        for more in (("--cameras", "left"), ("--frames", "0"), ("--contact-sheet",), ("--classes", self.path("numbers.json")), ("--samples", "2")):
+            with self.subTest(more=more):
+                self.refused("render", scenes, "-o", self.path("all"), *options, *more, status=2, says=("another request",))
+        for sizes in ((), ("--size", "24x32")):
+            self.refused("render", scenes, "-o", self.path("all"), "--layers", "depth,objects", "--quiet", *sizes, status=2, says=("another request",))
+        self.dgtk("render", scenes, "-o", self.path("all"), *options, "--threads", "1")
         self.dgtk("render", scenes, "-o", self.path("all"), "--layers", "depth", "--quiet", "--size", "32x24", "--replace")
         self.assertFalse(os.path.exists(self.path("all", "000000", "left", "objects")))
         depth = self.path("all", "000001", "left", "depth", "000000.npy")

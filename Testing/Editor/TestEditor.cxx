@@ -130,11 +130,17 @@ void TestEditor::copiesCutsAndPastes()
   this->action("selectAll")->trigger();
   this->action("delete")->trigger();
   QVERIFY(document.scene().items().empty());
+  const auto offered = [this](const char* name)
+  { return std::pair(this->action(name)->isEnabled(), this->action(name)->text().size() > 5); };
+  QCOMPARE(offered("undo"), std::pair(true, true));
+  QCOMPARE(offered("redo"), std::pair(false, false));
   while (document.canUndo())
   {
     this->action("undo")->trigger();
   }
   QCOMPARE(document.json(), first);
+  QCOMPARE(offered("undo"), std::pair(false, false));
+  QCOMPARE(offered("redo"), std::pair(true, true));
 }
 
 void TestEditor::aFamilyIsCutAndPasted()

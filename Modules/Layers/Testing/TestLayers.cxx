@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 #include <string>
 
@@ -32,4 +33,46 @@ TEST(Layers, MeanWhatTheirUnitsAndFramesImply)
     }
   }
   EXPECT_EQ(seen.size(), std::size_t(Meaning::Record)) << "every meaning but Unknown has a layer";
+}
+
+/// Layers that some pictures do not have, and how many; of the others nothing is said.
+TEST(Layers, WhatPicturesLackIsCounted)
+{
+  const auto stage = Stage::load(readScene(test::sourceFile("Data/Scenes/demo.json")));
+  for (const bool single : { false, true })
+  {
+    LayerRequest request;
+    request.layers = { "all" };
+    request.options["matte"] = "house";
+    if (single)
+    {
+      request.cameras = { stage->description().cameras.front().name };
+      request.frames = FrameRange{ 0, 0, 1 };
+    }
+    const WorkPlan plan = makeWorkPlan(request, *stage);
+    std::map<std::string, std::size_t> expected;
+    for (const PlannedLayer& planned : plan.layers)
+    {
+      for (const Job& job : plan.jobs)
+      {
+        // Others, such as one cloud of all cameras of a frame, are not of each picture.
+        if (!planned.layer->requirement().empty() && planned.layer->outputs(plan, *stage, job, planned).empty())
+        {
+          ++expected[planned.layer->info().layer];
+        }
+      }
+    }
+    std::map<std::string, std::size_t> found;
+    for (const EmptyRecord& one : plan.empty)
+    {
+      EXPECT_TRUE(found.emplace(one.layer, one.pictures).second) << one.layer;
+      EXPECT_EQ(one.of, plan.jobs.size());
+      EXPECT_FALSE(one.needs.empty()) << one.layer;
+    }
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(expected.count("correspondence"), single ? 1u : 0u);
+    EXPECT_EQ(expected.count("flow_forward"), single ? 0u : 1u) << "of the last frame";
+    EXPECT_EQ(expected.count("flow_backward"), 1u) << "of the first frame";
+    EXPECT_EQ(expected.count("depth"), 0u);
+  }
 }

@@ -150,4 +150,34 @@ TEST(Picture, WhatReachesBehindTheCameraHasNoEdges)
   const Seen seen({ triangleModel({ x, -1, 2 }, { 50, 0, -1 }, { x, 1, 2 }) });
   EXPECT_FALSE(seen.ends(2 - 3 * -x / (50 - x)));
 }
+
+/// At a frame that has no picture it is the scene's, in the size of its other pictures.
+TEST(Dataset, CamerasOfOtherFramesAreTheScenes)
+{
+  HandMade made({ wallModel(2) });
+  made.camera().width = 16;
+  made.camera().height = 12;
+  made.camera().near = 0.5;
+  const std::unique_ptr<Dataset> dataset = made.dataset();
+  const std::optional<Eye> own = dataset->eye("a", 0, {});
+  ASSERT_TRUE(own);
+  EXPECT_EQ(own->record().near, 0.5) << "as cameras.json has it";
+  const std::optional<Eye> other = dataset->eye("a", 7, {});
+  ASSERT_TRUE(other);
+  const CameraRecord& record = other->record();
+  EXPECT_EQ(record.name, "a");
+  EXPECT_EQ(record.frame, 7);
+  EXPECT_EQ(record.model, "pinhole");
+  EXPECT_EQ(record.width, 16);
+  EXPECT_EQ(record.height, 12);
+  EXPECT_EQ(record.near, 0.1);
+  EXPECT_EQ(record.far, 100);
+  EXPECT_TRUE(record.hasK);
+  EXPECT_DOUBLE_EQ(record.K(0, 2), 8);
+  EXPECT_DOUBLE_EQ(record.K(1, 2), 6);
+  EXPECT_LT((record.R * Vector3d(0, 0, 1) - Vector3d(0, 0, 1)).norm(), 1e-15);
+  EXPECT_LT((record.R * Vector3d(0, 1, 0) - Vector3d(0, -1, 0)).norm(), 1e-15);
+  EXPECT_EQ(record.t, Vector3d(0, 0, 0));
+  EXPECT_FALSE(dataset->eye("b", 0, {}));
+}
 } // namespace
