@@ -247,7 +247,7 @@ double linearFromSrgb(double v)
     [](double e) { return pow((e + 0.055) / 1.055, 2.4); },
     [](double e) { return 2.4 / 1.055 * pow((e + 0.055) / 1.055, 1.4); });
   v = std::min(std::max(v, 0.0), 1.0);
-  return v <= 0.04045 ? v / 12.92 : table(v);
+  return v >= 1 ? 1 : v <= 0.04045 ? v / 12.92 : table(v);
 }
 
 double srgbFromLinear(double v)
@@ -257,7 +257,7 @@ double srgbFromLinear(double v)
     std::sqrt(0.0031308), 1.0, [](double root) { return 1.055 * pow(root, 2 / 2.4) - 0.055; },
     [](double root) { return 1.055 * (2 / 2.4) * pow(root, 2 / 2.4 - 1); });
   v = std::min(std::max(v, 0.0), 1.0);
-  return v <= 0.0031308 ? v * 12.92 : table(std::sqrt(v));
+  return v >= 1 ? 1 : v <= 0.0031308 ? v * 12.92 : table(std::sqrt(v));
 }
 
 float linearFromEncoded(float v)

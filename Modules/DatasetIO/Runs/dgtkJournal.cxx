@@ -397,6 +397,21 @@ void Journal::add(const DatasetFile& file)
   this->Self->append(journalLine(file));
 }
 
+bool isFinished(const std::string& path, const std::string& requestHash)
+{
+  if (folderContents(path, requestHash) != FolderContents::Finished)
+  {
+    return false;
+  }
+  const Folder folder(path);
+  const FileDescriptor left = folder.open(journalName, O_RDWR | O_NONBLOCK);
+  if (left && ::flock(left.number(), LOCK_EX | LOCK_NB) == 0 && folder.look(manifestName) == EntryKind::File)
+  {
+    folder.remove(journalName);
+  }
+  return true;
+}
+
 void Journal::close(const Manifest& manifest)
 {
   this->close([&](AtomicFile& document) { document.write(manifestText(manifest)); });

@@ -25,6 +25,10 @@ constexpr const char* journalName = ".dgtk-journal";
 /// Whether a file is in its folder with its recorded size and hash.
 DGTKDATASETIO_EXPORT bool isWhole(const Folder& folder, const DatasetFile& file);
 
+/// Whether the folder holds the whole dataset of the request with this hash. A journal that stands beside it, of a run
+/// that was killed between its last two steps, is removed.
+DGTKDATASETIO_EXPORT bool isFinished(const std::string& folder, const std::string& requestHash);
+
 /// What becomes of a run that the folder holds.
 enum class JournalStart
 {

@@ -12,6 +12,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include <fcntl.h>
+#include <sys/file.h>
+
 using namespace dgtk;
 using namespace dgtk::test;
 using testing::HasSubstr;
@@ -206,6 +209,35 @@ TEST(Journal, ClosedIsAManifestAndNoJournal)
   Journal again(folder.path(), "one", resume);
   EXPECT_TRUE(again.find("a"));
   EXPECT_FALSE(fs::exists(folder.path(manifestName)));
+}
+
+TEST(Journal, OneThatAKilledRunLeftBesideItsManifestGoes)
+{
+  const TemporaryFolder folder;
+  const std::string journal = folder.path(journalName);
+  std::string killed;
+  {
+    Journal run(folder.path(), "one", fresh);
+    Manifest manifest;
+    manifest.requestHash = "one";
+    manifest.files.push_back(addFile(run, folder.path(), "a.npy", "1"));
+    EXPECT_FALSE(isFinished(folder.path(), "one"));
+    killed = readFile(journal);
+    run.close(manifest);
+  }
+  writeFile(journal, killed);
+  EXPECT_FALSE(isFinished(folder.path(), "other"));
+  EXPECT_TRUE(fs::exists(journal));
+  {
+    const FileDescriptor running(::open(journal.c_str(), O_RDWR | O_CLOEXEC));
+    ASSERT_EQ(::flock(running.number(), LOCK_EX | LOCK_NB), 0);
+    EXPECT_TRUE(isFinished(folder.path(), "one"));
+    EXPECT_TRUE(fs::exists(journal)) << "it is another process's";
+  }
+  EXPECT_TRUE(isFinished(folder.path(), "one"));
+  EXPECT_FALSE(fs::exists(journal));
+  EXPECT_TRUE(isFinished(folder.path(), "one"));
+  EXPECT_EQ(readFile(folder.path("a.npy")), "1");
 }
 
 TEST(Journal, ReplacingRemovesWhatTheOldRunListed)

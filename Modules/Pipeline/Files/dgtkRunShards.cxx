@@ -220,8 +220,7 @@ private:
   bool isDone(const GeneratorRequest& one) const
   {
     std::error_code code;
-    return fs::is_regular_file(one.folder + '/' + manifestName, code) &&
-           folderContents(one.folder, requestHash(one)) == FolderContents::Finished;
+    return fs::is_regular_file(one.folder + '/' + manifestName, code) && isFinished(one.folder, requestHash(one));
   }
   void fail(const std::string& line)
   {
@@ -309,7 +308,7 @@ GeneratorResult shardOfPictures(
   GeneratorRequest own = request;
   own.session = makeRunSession();
   const std::string hash = requestHash(own);
-  if (folderContents(request.folder, hash) == FolderContents::Finished)
+  if (isFinished(request.folder, hash))
   {
     return {};
   }
@@ -342,7 +341,7 @@ GeneratorResult shardOfPictures(
         callbacks.progress({ before + state.done, total });
       }
     };
-    if (folderContents(own.block->folder, hash) == FolderContents::Finished)
+    if (isFinished(own.block->folder, hash))
     {
       all.pictures += std::min(run.blockSize(), run.items - own.block->first);
       continue;
