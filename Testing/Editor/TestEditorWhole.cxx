@@ -28,7 +28,7 @@
 namespace
 {
 constexpr int largeWidth = 800;     // pixels
-constexpr int endlessWidth = 20000; // pixels of a picture that nothing here lives to see
+constexpr int endlessWidth = 12000; // pixels of a picture that nothing here lives to see
 
 /// Made in that folder.
 QString smallDataset(const QString& folder)

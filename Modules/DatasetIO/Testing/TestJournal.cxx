@@ -231,8 +231,8 @@ TEST(Journal, OneThatAKilledRunLeftBesideItsManifestGoes)
   {
     const FileDescriptor running(::open(journal.c_str(), O_RDWR | O_CLOEXEC));
     ASSERT_EQ(::flock(running.number(), LOCK_EX | LOCK_NB), 0);
-    EXPECT_TRUE(isFinished(folder.path(), "one"));
-    EXPECT_TRUE(fs::exists(journal)) << "it is another process's";
+    EXPECT_FALSE(isFinished(folder.path(), "one")) << "a process is at it";
+    EXPECT_TRUE(fs::exists(journal));
   }
   EXPECT_TRUE(isFinished(folder.path(), "one"));
   EXPECT_FALSE(fs::exists(journal));

@@ -29,6 +29,7 @@ public:
   {
     this->Parts.units = "metre";
     this->Parts.version = "test";
+    makeFolders(this->path());
     for (const int frame : { 0, 1 })
     {
       this->Cameras.push_back(left(frame));
@@ -61,7 +62,7 @@ public:
     return camera;
   }
 
-  std::string path(const std::string& name = {}) const { return this->Folder.path(name); }
+  std::string path(const std::string& name = {}) const { return this->Folder.path(name.empty() ? "set" : "set/" + name); }
 
   /// Writes <camera>/<folder>/<frame><suffix>.<format>; `value` of column, row and channel.
   void add(const std::string& camera, const std::string& folder, int frame, const std::string& suffix,
