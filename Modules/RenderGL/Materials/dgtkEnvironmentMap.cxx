@@ -3,6 +3,7 @@
 
 #include "dgtkError.h"
 #include "dgtkPortableMath.h"
+#include "dgtkSurfaceMaterial.h"
 
 #include <Eigen/LU>
 
@@ -23,7 +24,8 @@ void main()
 }
 )";
 
-constexpr const char* BackgroundFragment = R"(#version 150
+/// After the functions of transferShader().
+constexpr const char* BackgroundFragment = R"(
 uniform sampler2D dgtkPicture;
 uniform mat3 dgtkRay; // direction in the picture's axes of window coordinates (x, y, 1)
 uniform float dgtkLevel;
@@ -35,7 +37,7 @@ void main()
   vec3 d = normalize(dgtkRay * vec3(gl_FragCoord.xy, 1.0));
   vec2 uv = vec2(0.5 + atan(d.x, -d.z) * 0.15915494309189535, acos(clamp(d.y, -1.0, 1.0)) * 0.3183098861837907);
   vec3 c = textureLod(dgtkPicture, uv, dgtkLevel).rgb * dgtkIntensity;
-  dgtkColor = vec4(mix(c * 12.92, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(vec3(0.0031308), c)), 1.0);
+  dgtkColor = vec4(dgtkToDisplay(c), 1.0);
   dgtkId = vec4(0.0);
 }
 )";
@@ -146,7 +148,8 @@ void EnvironmentMap::makePicture()
 void EnvironmentMap::makeProgram()
 {
   const unsigned int vertex = compiled(GL_VERTEX_SHADER, BackgroundVertex);
-  const unsigned int fragment = compiled(GL_FRAGMENT_SHADER, BackgroundFragment);
+  const unsigned int fragment =
+    compiled(GL_FRAGMENT_SHADER, (std::string("#version 150\n") + transferShader() + BackgroundFragment).c_str());
   this->Program = glCreateProgram();
   glAttachShader(this->Program, vertex);
   glAttachShader(this->Program, fragment);
