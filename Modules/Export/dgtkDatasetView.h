@@ -39,10 +39,10 @@ struct DatasetSelection
 /// A dataset as one scene of a folder of datasets, when all of them are looked at together.
 struct SceneOfMany
 {
-  std::string name = {};             ///< its folder; cameras are then called NAME/CAMERA. "": there are no others
-  int place = 0;                     ///< among the scenes, from 0
-  std::size_t shotsBefore = 0;       ///< shots of the scenes before
-  std::uint32_t largestObject = 0;   ///< the largest object id of all scenes
+  std::string name = {};           ///< its folder; cameras are then called NAME/CAMERA. "": there are no others
+  int place = 0;                   ///< among the scenes, from 0
+  std::size_t shotsBefore = 0;     ///< shots of the scenes before
+  std::uint32_t largestObject = 0; ///< the largest object id of all scenes
 };
 
 /// A picture's place in a dataset: a camera at a frame.

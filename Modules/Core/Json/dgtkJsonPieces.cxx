@@ -78,7 +78,7 @@ public:
     }
   }
   std::uint64_t offset() const { return this->Before + this->At; } ///< of the next character
-  const int& line() const { return this->Line; }                  ///< of the last one
+  const int& line() const { return this->Line; }                   ///< of the last one
 
 private:
   void fill()

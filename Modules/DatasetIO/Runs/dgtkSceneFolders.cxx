@@ -30,7 +30,8 @@ std::vector<std::string> sceneFoldersIn(const std::string& folder)
 {
   const Folder place(folder);
   std::error_code code;
-  if (!std::filesystem::is_regular_file(folder + '/' + manifestName, code) || !speaksOfScenes(place.fileAt(manifestName)))
+  if (!std::filesystem::is_regular_file(folder + '/' + manifestName, code) ||
+      !speaksOfScenes(place.fileAt(manifestName)))
   {
     return {};
   }

@@ -149,6 +149,16 @@ std::string numbersLine(const std::vector<double>& numbers)
   return joined(words, " ");
 }
 
+std::string matrixLine(const Rigid3& pose)
+{
+  std::vector<double> numbers;
+  for (const std::vector<double>& row : matrixRows(pose))
+  {
+    numbers.insert(numbers.end(), row.begin(), row.end());
+  }
+  return numbersLine(numbers);
+}
+
 std::string quotedText(const std::string& text)
 {
   std::string out = nlohmann::json(utf8FromBytes(text)).dump();

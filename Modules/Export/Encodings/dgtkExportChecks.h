@@ -43,6 +43,8 @@ std::vector<CameraEyes> pairsOf(const DatasetView& dataset, const std::string& f
 double baselineMetres(const DatasetView& dataset, const DatasetShot& left, const DatasetShot& right);
 /// Numbers as their shortest texts, one space between.
 std::string numbersLine(const std::vector<double>& numbers);
+/// The same of all numbers of matrixRows().
+std::string matrixLine(const Rigid3& pose);
 /// A text in double quotes, as JSON and YAML read it: line breaks of Unicode, which YAML folds, as \uXXXX.
 std::string quotedText(const std::string& text);
 /// A number with leading zeros.

@@ -119,7 +119,8 @@ Json inputsOf(const RandomScene& scene)
     {
       list += hashOfFile((fs::path(scene.folder()) / file).string()) + "  " + file + '\n';
     }
-    inputs.push_back({ { "files", utf8FromBytes(pattern) }, { "count", files.size() }, { "sha256", Sha256::of(list) } });
+    inputs.push_back(
+      { { "files", utf8FromBytes(pattern) }, { "count", files.size() }, { "sha256", Sha256::of(list) } });
   }
   return inputs;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkGradientNoise.h"
 #include "dgtkJpegArtefacts.h"
+#include "dgtkSensorRuns.h"
 #include "dgtkTestSupport.h"
 
 #include <gtest/gtest.h>
@@ -221,6 +222,41 @@ TEST(GradientNoise, OctavesAddUp)
   EXPECT_EQ(sensor::GradientNoise(p, random).at(13, 21), first);
   p.persistence = 0.5;
   EXPECT_NE(sensor::GradientNoise(p, random).at(13, 21), first);
+}
+
+/// What leaves the sensor is what leaves it without a code, coded.
+TEST(ImageSensor, ThePictureIsCodedLast)
+{
+  const CounterRandom random(5, 99, 0, 0);
+  const auto noise = [&](int x, int y, int c) { return random.uniform(x, y, c); };
+  for (const bool full : { false, true })
+  {
+    ImageSensorSetup setup;
+    setup.parameters = defaultColorSensor();
+    setup.width = 37;
+    setup.height = 43;
+    const std::vector<float> plain = expose(setup, noise, 10);
+    setup.parameters.jpegQuality = 60;
+    setup.parameters.jpegFullChroma = full;
+    const sensor::JpegArtefacts jpeg(60, !full);
+    std::vector<float> coded;
+    const auto values = std::ptrdiff_t(3) * setup.width;
+    for (int y = 0; y < setup.height; y += jpeg.blockRows())
+    {
+      std::vector<std::vector<float>> strip;
+      for (int row = y; row < std::min(setup.height, y + jpeg.blockRows()); ++row)
+      {
+        strip.emplace_back(plain.begin() + row * values, plain.begin() + (row + 1) * values);
+      }
+      jpeg.apply(strip);
+      for (const std::vector<float>& row : strip)
+      {
+        coded.insert(coded.end(), row.begin(), row.end());
+      }
+    }
+    EXPECT_NE(coded, plain);
+    EXPECT_EQ(expose(setup, noise, 10), coded) << full;
+  }
 }
 
 } // namespace dgtk::test

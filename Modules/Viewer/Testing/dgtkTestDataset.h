@@ -62,7 +62,10 @@ public:
     return camera;
   }
 
-  std::string path(const std::string& name = {}) const { return this->Folder.path(name.empty() ? "set" : "set/" + name); }
+  std::string path(const std::string& name = {}) const
+  {
+    return this->Folder.path(name.empty() ? "set" : "set/" + name);
+  }
 
   /// Writes <camera>/<folder>/<frame><suffix>.<format>; `value` of column, row and channel.
   void add(const std::string& camera, const std::string& folder, int frame, const std::string& suffix,

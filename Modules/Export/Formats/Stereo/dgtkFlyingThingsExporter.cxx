@@ -129,16 +129,6 @@ void writeObjects(ExportSink& sink, const DatasetView& dataset, const Eye& eye)
     });
 }
 
-std::string matrixLine(const char* name, const CameraRecord& camera)
-{
-  std::string line = name;
-  for (const std::vector<double>& row : matrixRows(worldFromCameraGL(camera)))
-  {
-    line += (line == name ? "" : " ") + numbersLine(row);
-  }
-  return line + '\n';
-}
-
 std::string upper(std::string text)
 {
   for (char& c : text)
@@ -217,8 +207,8 @@ private:
         for (const std::uint32_t i : lefts)
         {
           const DatasetShot& left = dataset.shots()[i];
-          file->write("Frame " + std::to_string(number++) + '\n' + matrixLine("L ", left.camera) +
-                      matrixLine("R ", dataset.shot(right, left.frame())->camera) + '\n');
+          file->write("Frame " + std::to_string(number++) + '\n' + "L " + matrixLine(worldFromCameraGL(left.camera)) +
+                      "\nR " + matrixLine(worldFromCameraGL(dataset.shot(right, left.frame())->camera)) + "\n\n");
         }
         file->finish();
       } }));

@@ -236,12 +236,7 @@ private:
           intrinsics->write(numbersLine({ K(0, 0), K(1, 1), K(0, 2), K(1, 2) }) + '\n');
           Rigid3 view = cameraFromWorld(shot->camera);
           view.translation *= dataset.metres();
-          std::string line;
-          for (const std::vector<double>& row : matrixRows(view))
-          {
-            line += (line.empty() ? "" : " ") + numbersLine(row);
-          }
-          extrinsics->write(line + '\n');
+          extrinsics->write(matrixLine(view) + '\n');
         }
         intrinsics->finish();
         extrinsics->finish();
