@@ -103,7 +103,7 @@ TEST(Journal, ResumedAgainAndAgainListsTheSame)
     addFile(journal, folder.path(), odd, "1");
     addFile(journal, folder.path(), "b", "22");
   }
-  Journal(folder.path(), "one", resume);
+  EXPECT_EQ(Journal(folder.path(), "one", resume).finished(), 2u);
   const std::string once = contentsOf(folder.path(journalName));
   Journal(folder.path(), "one", resume).plan({ "planned", odd });
   const Journal journal(folder.path(), "one", resume);

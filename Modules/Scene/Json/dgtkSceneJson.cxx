@@ -117,7 +117,7 @@ void readSceneCamera(const JsonCursor& at, const Scene& scene, CameraDescription
   readCamera(at, scene.upAxis, camera);
 }
 
-template <auto Member, auto readItem>
+template <auto Member, auto ReadItem>
 void readItems(const JsonCursor& at, Scene& scene)
 {
   auto& items = scene.*Member;
@@ -126,7 +126,7 @@ void readItems(const JsonCursor& at, Scene& scene)
   for (std::size_t i = 0; i < n; ++i)
   {
     const JsonCursor element = at.element(i);
-    readItem(element, scene, items[i]);
+    ReadItem(element, scene, items[i]);
     items[i].line = element.node().line;
   }
 }

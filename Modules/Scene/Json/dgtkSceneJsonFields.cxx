@@ -13,13 +13,13 @@ using Light = LightDescription;
 using Camera = CameraDescription;
 
 /// The row of one half of a camera's pose; it is written when the camera is posed that way, default or not.
-template <auto Member, const Range& range, bool posed>
+template <auto Member, const Range& Allowed, bool Posed>
 auto poseRow(const char* key)
 {
-  return JsonField<Camera>{ key, [](const JsonCursor& at, Camera& into) { readInto(at, range, into.*Member); },
+  return JsonField<Camera>{ key, [](const JsonCursor& at, Camera& into) { readInto(at, Allowed, into.*Member); },
     [](const Camera& from, const char* name, JsonNode& object)
     {
-      if (from.posed == posed)
+      if (from.posed == Posed)
       {
         object.add(name, writeTrack(from.*Member));
       }

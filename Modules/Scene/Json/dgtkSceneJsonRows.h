@@ -117,11 +117,11 @@ template <typename C, typename M>
 C classOf(M C::*);
 
 /// The row of a plain member; its default is that of the struct.
-template <auto Member, const Range& range = rules::none>
+template <auto Member, const Range& Allowed = rules::none>
 auto row(const char* key)
 {
   using T = decltype(classOf(Member));
-  return JsonField<T>{ key, [](const JsonCursor& at, T& into) { readInto(at, range, into.*Member); },
+  return JsonField<T>{ key, [](const JsonCursor& at, T& into) { readInto(at, Allowed, into.*Member); },
     [](const T& from, const char* name, JsonNode& object)
     {
       static const T usual;
@@ -139,32 +139,32 @@ auto textRow(const char* key)
 }
 
 /// The row of one of several words; the first is the default.
-template <auto Member, const std::vector<std::string>& (*words)()>
+template <auto Member, const std::vector<std::string>& (*Words)()>
 auto wordRow(const char* key)
 {
   using T = decltype(classOf(Member));
   return JsonField<T>{ key,
     [](const JsonCursor& at, T& into)
-    { into.*Member = static_cast<std::decay_t<decltype(into.*Member)>>(at.oneOf(words())); },
+    { into.*Member = static_cast<std::decay_t<decltype(into.*Member)>>(at.oneOf(Words())); },
     [](const T& from, const char* name, JsonNode& object)
     {
       const auto index = static_cast<std::size_t>(from.*Member);
       if (index != 0)
       {
-        object.add(name, JsonNode::of(words()[index]));
+        object.add(name, JsonNode::of(Words()[index]));
       }
     } };
 }
 
 /// The row of a struct that has a table of its own.
-template <auto Member, auto fields>
+template <auto Member, auto Fields>
 auto structRow(const char* key)
 {
   using T = decltype(classOf(Member));
-  return JsonField<T>{ key, [](const JsonCursor& at, T& into) { readFields(at, fields(), into.*Member); },
+  return JsonField<T>{ key, [](const JsonCursor& at, T& into) { readFields(at, Fields(), into.*Member); },
     [](const T& from, const char* name, JsonNode& object)
     {
-      JsonNode child = writeFields(from.*Member, fields());
+      JsonNode child = writeFields(from.*Member, Fields());
       if (!child.children.empty())
       {
         object.add(name, std::move(child));

@@ -156,14 +156,14 @@ const std::vector<JsonField<Depth>>& depthFields()
 }
 
 /// A part that may be missing; one with nothing but defaults is written as {}.
-template <auto Member, auto fields>
+template <auto Member, auto Fields>
 JsonField<Sensor> partRow(const char* key)
 {
   return { key,
     [](const JsonCursor& at, Sensor& into)
     {
       auto& part = (into.*Member).emplace();
-      readFields(at, fields(), part);
+      readFields(at, Fields(), part);
       const std::string fault = faultOf(part);
       if (!fault.empty())
       {
@@ -174,7 +174,7 @@ JsonField<Sensor> partRow(const char* key)
     {
       if (from.*Member)
       {
-        object.add(name, writeFields(*(from.*Member), fields()));
+        object.add(name, writeFields(*(from.*Member), Fields()));
       }
     } };
 }
