@@ -11,7 +11,7 @@ namespace dgtk
 template <typename Act>
 auto withPixelType(PixelType type, const Act& act)
 {
-  switch (type)
+  switch (type) // NOLINT(bugprone-branch-clone): the branches differ in what they call
   {
     case PixelType::UInt8:
       return act(std::uint8_t());

@@ -105,6 +105,7 @@ std::vector<DatasetShot> withTwins(const std::vector<DatasetShot>& wanted, const
     }
   }
   std::vector<DatasetShot> shots;
+  shots.reserve(taken.size());
   for (const auto& [place, shot] : taken)
   {
     shots.push_back(*shot);

@@ -180,7 +180,7 @@ std::shared_ptr<const ShadedScene> RayPictures::shaded()
 
 std::shared_ptr<VisibilityBuffer> RayPictures::spareHits(const PixelRect& rect)
 {
-  const std::shared_ptr<VisibilityBuffer> taken(new VisibilityBuffer,
+  std::shared_ptr<VisibilityBuffer> taken(new VisibilityBuffer,
     [spare = this->Spare](VisibilityBuffer* gone)
     {
       spare->give(std::move(gone->hits));

@@ -12,7 +12,7 @@
 
 QString TestEditorExport::dataset() const
 {
-  const QString folder = this->path("dataset");
+  QString folder = this->path("dataset");
   if (!QDir(folder).exists())
   {
     run({ "render", demo(), "-o", folder, "--for", "coco", "--size", "96x64", "--frames", "0:1", "--quiet" });

@@ -73,7 +73,7 @@ void TestEditorFiles::missingModelsAreFound()
       QFile::copy(QString::fromStdString(sourceFile(std::string("Data/Models/") + name)), library + "/deep/" + name));
   }
   answer<QMessageBox>("missingBox",
-    [this, library](QMessageBox& box)
+    [library](QMessageBox& box)
     {
       answer<QFileDialog>({},
         [library](QFileDialog& dialog)

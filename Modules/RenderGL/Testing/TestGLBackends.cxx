@@ -65,7 +65,7 @@ bool available(GLBackend backend)
   return false;
 }
 
-constexpr const char* NoEgl = "__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent";
+constexpr const char* noEgl = "__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent";
 
 /// An X server of our own on a display number that it chooses.
 class XServer
@@ -163,7 +163,7 @@ TEST(GLBackends, OneThreadAndTwoDrawTheSamePixels)
 TEST(GLBackends, AutoFallsBackToOsmesaAndSaysWhy)
 {
   ASSERT_TRUE(available(GLBackend::Osmesa)); // packages.txt installs it
-  const Answer answer = run("auto", NoEgl);
+  const Answer answer = run("auto", noEgl);
   EXPECT_EQ(answer.status, 0);
   EXPECT_THAT(answer.first, StartsWith("OSMesa, "));
   EXPECT_THAT(answer.first, HasSubstr("EGL: "));
@@ -180,7 +180,7 @@ TEST(GLBackends, OsmesaWithoutPreparationSaysHow)
 
 TEST(GLBackends, NothingWorks)
 {
-  const Answer answer = run("auto unprepared", NoEgl);
+  const Answer answer = run("auto unprepared", noEgl);
   EXPECT_EQ(answer.status, int(ExitCode::Machine));
   EXPECT_THAT(answer.first, StartsWith("no OpenGL: EGL: "));
   EXPECT_THAT(answer.first, HasSubstr("; OSMesa: "));
@@ -212,7 +212,7 @@ TEST(GLBackends, GlxDrawsUnderXvfb)
   {
     EXPECT_EQ(glx.second, egl.second); // the first picture of the process, too
   }
-  const Answer fallback = run("auto unprepared", NoEgl + (" " + display));
+  const Answer fallback = run("auto unprepared", noEgl + (" " + display));
   EXPECT_THAT(fallback.first, StartsWith("GLX, "));
   EXPECT_THAT(fallback.first, HasSubstr("OSMesa: "));
   EXPECT_EQ(fallback.second, glx.second);

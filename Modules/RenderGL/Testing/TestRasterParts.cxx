@@ -27,6 +27,7 @@ Fragment fragment(float pixel, float depth, float number, float triangle, float 
 std::vector<std::array<float, 4>> keysOf(const std::vector<Fragment>& fragments)
 {
   std::vector<std::array<float, 4>> keys;
+  keys.reserve(fragments.size());
   for (const Fragment& f : fragments)
   {
     keys.push_back({ f.pixel, f.depth, f.number, f.triangle });

@@ -23,7 +23,7 @@ struct Block
   Eigen::Vector3d low;
   Eigen::Vector3d high;
 };
-const Block Head{ { -1, 0, -1 }, { 1, 2, 1 } };
+const Block head{ { -1, 0, -1 }, { 1, 2, 1 } };
 
 std::shared_ptr<const Model> modelOf(const Block& block)
 {
@@ -148,7 +148,7 @@ Count compare(const SceneState& state, const View& view, const std::vector<Block
 }
 
 Count countWrong(
-  std::shared_ptr<const SceneState> state, const View& view, const std::vector<Block>& blocks, int rim = 2)
+  const std::shared_ptr<const SceneState>& state, const View& view, const std::vector<Block>& blocks, int rim = 2)
 {
   VisibilityBuffer hits;
   const ColorBuffer colors = renderColor(state, view, 1, &hits);
@@ -161,7 +161,7 @@ Count countWrong(
 TEST(Shadows, OfAHeadOnAKilometreOfGround)
 {
   const View view = camera({ 4, 1.7, 5 }, { 0.5, 1, 0 });
-  const Count count = countWrong(onGround(500, sun(), { Head }), view, { Head });
+  const Count count = countWrong(onGround(500, sun(), { head }), view, { head });
   EXPECT_GT(count.dark, 1000);
   EXPECT_GT(count.light, 20000);
   EXPECT_EQ(count.wrong, 0);
@@ -207,10 +207,10 @@ TEST(Shadows, RemainWhenSomethingIsParkedFarAway)
   {
     for (const double away : { 1e3, 1e6 })
     {
-      const auto state = onGround(20, light, { Head });
-      state->instances.push_back(instanceOf(modelOf(Head), { 0, 0, away }));
+      const auto state = onGround(20, light, { head });
+      state->instances.push_back(instanceOf(modelOf(head), { 0, 0, away }));
       // a map from a place has larger texels far from it, and shadows that begin a few of them too late
-      const Count count = countWrong(state, view, { Head }, light.kind == Kind::Directional ? 2 : 6);
+      const Count count = countWrong(state, view, { head }, light.kind == Kind::Directional ? 2 : 6);
       EXPECT_GT(count.dark, 1000) << int(light.kind) << ' ' << away;
       EXPECT_GT(count.light, 10000) << int(light.kind) << ' ' << away;
       EXPECT_EQ(count.wrong, 0) << int(light.kind) << ' ' << away;
@@ -231,7 +231,7 @@ TEST(Shadows, OfWhatTheCameraDoesNotSee)
 TEST(Shadows, UnderAParallelProjection)
 {
   const View view = viewOf(makeOrthographic(320, 240, 8, 0), { 40, 30, 50 }, { 1, 0, 0 }, 0.1, 2000);
-  const Count count = countWrong(onGround(500, sun(), { Head }), view, { Head });
+  const Count count = countWrong(onGround(500, sun(), { head }), view, { head });
   EXPECT_GT(count.dark, 1000);
   EXPECT_GT(count.light, 20000);
   EXPECT_EQ(count.wrong, 0);
@@ -239,7 +239,7 @@ TEST(Shadows, UnderAParallelProjection)
 
 TEST(Shadows, AreTheSameInEveryPartOfThePicture)
 {
-  const auto state = onGround(500, sun(), { Head });
+  const auto state = onGround(500, sun(), { head });
   const View view = camera({ 4, 1.7, 5 }, { 0.5, 1, 0 });
   const ColorBuffer all = renderColor(state, view);
   View other = view;
@@ -281,9 +281,9 @@ TEST(Shadows, MapsThatAreTooCoarseAreNamed)
 {
   const View view = camera({ 4, 1.7, 5 }, { 0.5, 1, 0 });
   using Kind = LightKind;
-  for (LightState light : { sun(), lamp(Kind::Spot, { -3, 5, 1 }), lamp(Kind::Point, { -3, 5, 1 }) })
+  for (const LightState& light : { sun(), lamp(Kind::Spot, { -3, 5, 1 }), lamp(Kind::Point, { -3, 5, 1 }) })
   {
-    const auto state = onGround(500, light, { Head });
+    const auto state = onGround(500, light, { head });
     EXPECT_TRUE(coarseShadows(*state, view).empty()) << int(light.kind);
     state->lights[0].shadowSize = 64;
     const std::vector<CoarseShadow> coarse = coarseShadows(*state, view);
@@ -301,14 +301,14 @@ TEST(Shadows, MapsAreCoarseWhereLightIsSeen)
   const View low = camera({ 4, 0.5, 5 }, { 0.5, 1, 0 });
   LightState narrow = lamp(LightKind::Spot, { -3, 5, 1 });
   narrow.shadowSize = 16;
-  EXPECT_EQ(coarseShadows(*onGround(500, narrow, { Head }), low).size(), 1u);
+  EXPECT_EQ(coarseShadows(*onGround(500, narrow, { head }), low).size(), 1u);
   narrow.coneAngle = 5; // a spot of a metre, far from the camera
-  EXPECT_TRUE(coarseShadows(*onGround(500, narrow, { Head }), low).empty());
+  EXPECT_TRUE(coarseShadows(*onGround(500, narrow, { head }), low).empty());
   LightState weak = lamp(LightKind::Point, { -3, 5, 1 });
   weak.shadowSize = 16;
-  EXPECT_EQ(coarseShadows(*onGround(500, weak, { Head }), low).size(), 1u);
+  EXPECT_EQ(coarseShadows(*onGround(500, weak, { head }), low).size(), 1u);
   weak.attenuation = { 1, 0, 100 };
-  EXPECT_TRUE(coarseShadows(*onGround(500, weak, { Head }), low).empty());
+  EXPECT_TRUE(coarseShadows(*onGround(500, weak, { head }), low).empty());
 }
 
 TEST(Shadows, MapsAreCoarseForWhatIsNearAndFar)
@@ -319,11 +319,11 @@ TEST(Shadows, MapsAreCoarseForWhatIsNearAndFar)
   const auto pixels = [&view, &light](double ground, const std::vector<Block>& blocks)
   { return coarseShadows(*onGround(ground, light, blocks), view).at(0).pixels; };
   // what is nearer than the near plane or beyond the far plane is not seen
-  const std::vector<Block> unseen{ Head, { { -1, 2, 8 }, { 1, 5, 12 } }, { { -20, -20, -90 }, { 20, 20, -50 } } };
-  EXPECT_DOUBLE_EQ(pixels(0.01, unseen), pixels(0.01, { Head }));
+  const std::vector<Block> unseen{ head, { { -1, 2, 8 }, { 1, 5, 12 } }, { { -20, -20, -90 }, { 20, 20, -50 } } };
+  EXPECT_DOUBLE_EQ(pixels(0.01, unseen), pixels(0.01, { head }));
   // a speck close to the camera takes a map, the first, which is less coarse than the others
-  const std::vector<Block> speck{ Head, { { 0, 4, 6.4 }, { 0.02, 4.02, 6.42 } } };
-  EXPECT_GE(pixels(500, speck), pixels(500, { Head }));
+  const std::vector<Block> speck{ head, { { 0, 4, 6.4 }, { 0.02, 4.02, 6.42 } } };
+  EXPECT_GE(pixels(500, speck), pixels(500, { head }));
 }
 
 TEST(Shadows, MapsAreAsLargeAsWhatIsSeen)

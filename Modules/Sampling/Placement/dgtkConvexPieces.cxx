@@ -447,6 +447,7 @@ std::vector<ConvexHull> convexPieces(const std::vector<Eigen::Vector3d>& points,
     }
   }
   std::vector<ConvexHull> hulls;
+  hulls.reserve(pieces.size());
   for (Piece& piece : pieces)
   {
     hulls.push_back(std::move(piece.hull));

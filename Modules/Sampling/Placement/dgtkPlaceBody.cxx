@@ -275,6 +275,7 @@ std::vector<std::size_t> lowestFirst(const PlaceBody& body, const Eigen::Vector3
   }
   std::sort(order.begin(), order.end());
   std::vector<std::size_t> triangles;
+  triangles.reserve(order.size());
   for (const auto& one : order)
   {
     triangles.push_back(one.second);

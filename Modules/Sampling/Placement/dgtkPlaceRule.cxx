@@ -29,7 +29,7 @@ void checkKeys(const JsonCursor& at, const std::vector<std::string>& known)
 
 std::size_t objectOf(const JsonCursor& at, const SceneDescription& scene, std::size_t self)
 {
-  const std::string name = at.string(false);
+  const std::string& name = at.string(false);
   const auto found = std::find_if(scene.objects.begin(), scene.objects.end(),
     [&name](const ObjectDescription& object) { return object.name == name; });
   if (found == scene.objects.end() || std::size_t(found - scene.objects.begin()) == self)

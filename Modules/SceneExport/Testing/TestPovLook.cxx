@@ -247,7 +247,7 @@ TEST_F(PovLook, PlacesHaveColoursThatAreAveraged)
 
 TEST_F(PovLook, TexelsAreThereFromTheMiddleOn)
 {
-  const auto quad = test::makeQuad();
+  auto quad = test::makeQuad();
   test::addCutOut(*quad, 2, 1);
   auto image = std::make_shared<Image>(*quad->textures[0].image);
   for (std::size_t i = 0; i < 4; ++i)
@@ -280,7 +280,7 @@ TEST_F(PovLook, NormalsOfTheOtherSideAndThoseALittleTiltedAreWritten)
 std::shared_ptr<Model> textured(const std::string& path, char kind, bool hasAlpha)
 {
   writeFile(path, "\x89PNG\r\n\x1a\n" + std::string(17, '\1') + kind);
-  const auto quad = test::makeQuad();
+  auto quad = test::makeQuad();
   test::addCutOut(*quad, 2, 1);
   auto image = std::make_shared<Image>(*quad->textures[0].image);
   image->rgba = { 3, 3, 3, 255, 0, 1, 2, 255, 255, 254, 253, 255, 7, 5, 9, 255 };
@@ -436,7 +436,7 @@ TEST_F(PovLook, WhatLightDoesNotReachNeedsNoTextureOfTheView)
 /// A triangle whose normals, but for that of the first corner, are its own.
 std::shared_ptr<Model> turnedAtItsFirstCorner(const std::vector<Eigen::Vector3d>& p)
 {
-  const auto model = test::makeSoup({ 1, 1, 1, 1 });
+  auto model = test::makeSoup({ 1, 1, 1, 1 });
   auto geometry = std::make_shared<Geometry>(*model->rest);
   geometry->positions = p;
   const Eigen::Vector3f normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized().cast<float>();

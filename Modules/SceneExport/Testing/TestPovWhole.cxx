@@ -32,7 +32,7 @@ View straightView()
 /// The unit square in the plane z = 0, cut from (0, 0) to (1, 1), that faces -z; a texture of its own.
 std::shared_ptr<Model> makeSquare()
 {
-  const auto square = test::makeQuad({ { 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 } });
+  auto square = test::makeQuad({ { 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 } });
   auto geometry = std::make_shared<Geometry>(*square->rest);
   geometry->normals.assign(4, Eigen::Vector3f(0, 0, -1));
   square->rest = geometry;
@@ -106,7 +106,7 @@ protected:
 /// Two materials, of which the first half of the square has the second, and a third that nothing has.
 std::shared_ptr<Model> makeColored()
 {
-  const auto square = makeSquare();
+  auto square = makeSquare();
   square->materials.resize(3);
   square->materials[0].diffuse = { 0.5, 0.25, 0 };
   square->materials[0].ambient = { 0.5, 0.25, 0 };
@@ -291,7 +291,7 @@ TEST_F(PovWhole, ColoursOfManyObjects)
 /// A square with a picture of 2 x 2 texels, 10 apart, of a file that may serve as it is.
 std::shared_ptr<Model> makePictured(const std::string& path)
 {
-  const auto square = test::makeQuad();
+  auto square = test::makeQuad();
   test::addCutOut(*square, 2, 1);
   auto image = std::make_shared<Image>(*square->textures[0].image);
   for (std::size_t i = 0; i < image->rgba.size(); ++i)

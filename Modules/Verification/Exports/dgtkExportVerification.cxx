@@ -138,6 +138,7 @@ std::vector<Unchecked> uncheckedOf(const ExportedFrom& source, const Results& re
     }
   }
   std::vector<Unchecked> unchecked;
+  unchecked.reserve(kinds.size());
   for (const auto& [kind, files] : kinds)
   {
     unchecked.push_back({ kind.first, kind.second, files });
@@ -217,6 +218,7 @@ VerificationReport verifyExport(const std::string& dataset, const std::string& f
   }
   Results results;
   std::vector<Unchecked> unchecked;
+  unchecked.reserve(kinds.size());
   for (const std::string& scene : scenes)
   {
     const std::string below = scene.empty() ? "" : '/' + scene;

@@ -109,6 +109,7 @@ std::vector<std::shared_ptr<const Views>> viewsOf(
     views->shots.push_back(&shot);
   }
   std::vector<std::shared_ptr<const Views>> all;
+  all.reserve(byFrame.size());
   for (const auto& [frame, views] : byFrame)
   {
     all.push_back(views);

@@ -79,7 +79,7 @@ public:
     , Shown(views)
     , Binary(binary)
     , Points(dataset.trackPoints())
-    , Positions_(positionsOf(dataset, views, this->Points))
+    , PointsInWorld(positionsOf(dataset, views, this->Points))
     , Seen(this->Points.size(), 0)
   {
     for (std::size_t i = 0; i < this->Shown.shots.size(); ++i)
@@ -90,7 +90,7 @@ public:
     {
       if (this->Seen[i] < 2)
       {
-        this->Positions_[i].reset();
+        this->PointsInWorld[i].reset();
       }
     }
   }
@@ -141,7 +141,7 @@ public:
     if (this->Binary)
     {
       head.clear();
-      putLittle(head, std::uint64_t(std::count_if(this->Positions_.begin(), this->Positions_.end(), held)));
+      putLittle(head, std::uint64_t(std::count_if(this->PointsInWorld.begin(), this->PointsInWorld.end(), held)));
     }
     file.write(head);
     for (std::size_t begin = 0; begin < this->Points.size();)
@@ -149,7 +149,7 @@ public:
       std::size_t end = begin;
       for (std::size_t places = 0; end < this->Points.size() && (end == begin || places < mostPlaces); ++end)
       {
-        places += this->Positions_[end] ? this->Seen[end] : 0;
+        places += this->PointsInWorld[end] ? this->Seen[end] : 0;
       }
       this->pointRows(file, begin, end);
       begin = end;
@@ -170,7 +170,7 @@ private:
     std::size_t number = 0;
     for (std::size_t i = 0; i < places.size(); ++i)
     {
-      if (this->Positions_[i] && places[i].visibility == 1)
+      if (this->PointsInWorld[i] && places[i].visibility == 1)
       {
         visit(i, number++, places[i]);
       }
@@ -248,7 +248,7 @@ private:
     }
     for (std::size_t i = begin; i < end; ++i)
     {
-      if (this->Positions_[i])
+      if (this->PointsInWorld[i])
       {
         file.write(this->pointRow(i, tracks[i - begin]));
       }
@@ -258,7 +258,7 @@ private:
   template <typename Track>
   std::string pointRow(std::size_t point, const Track& track) const
   {
-    const Eigen::Vector3d& x = *this->Positions_[point];
+    const Eigen::Vector3d& x = *this->PointsInWorld[point];
     const std::uint8_t* color = this->Points[point].color;
     std::string row;
     if (!this->Binary)
@@ -296,7 +296,7 @@ private:
   const Views& Shown;
   bool Binary;
   std::vector<TrackPoint> Points;
-  Positions Positions_;
+  Positions PointsInWorld;
   std::vector<std::uint32_t> Seen; ///< pictures that see a point
   std::vector<std::uint32_t> CameraIds;
 };

@@ -293,14 +293,14 @@ public:
     , Half(half)
   {
     const bool binary = !filesIn(judge.source(), folder, "bin").empty();
-    (binary ? readBinary : readText)(judge.source().path(folder), this->Model_);
+    (binary ? readBinary : readText)(judge.source().path(folder), this->Own);
     this->Extension = binary ? ".bin" : ".txt";
     this->Tracks = readTrackPoints(judge.source().dataset() + '/' + trackPointsFile);
   }
 
   void judgeAll()
   {
-    for (const auto& [id, image] : this->Model_.images)
+    for (const auto& [id, image] : this->Own.images)
     {
       this->judgeImage(id, image);
     }
@@ -314,11 +314,11 @@ private:
   void judgeImage(std::uint32_t id, const ColmapImage& image)
   {
     const ExportedName* picture = pictureOf(this->Judge, this->file("images"), this->Pictures + image.name);
-    const auto camera = this->Model_.cameras.find(image.camera);
-    this->Judge.holds("cameras", this->file("images"), image.name, camera != this->Model_.cameras.end(),
+    const auto camera = this->Own.cameras.find(image.camera);
+    this->Judge.holds("cameras", this->file("images"), image.name, camera != this->Own.cameras.end(),
       std::to_string(image.camera), "a camera of the model");
     this->Rigged[id] = { image.camera, picture };
-    if (!picture || camera == this->Model_.cameras.end())
+    if (!picture || camera == this->Own.cameras.end())
     {
       return;
     }
@@ -344,8 +344,8 @@ private:
     {
       const ColmapPlace& place = image.places[i];
       const std::string where = image.name + ", point " + std::to_string(place.point);
-      const auto point = this->Model_.points.find(place.point);
-      const bool known = point != this->Model_.points.end() && place.point >= 1 &&
+      const auto point = this->Own.points.find(place.point);
+      const bool known = point != this->Own.points.end() && place.point >= 1 &&
                          std::size_t(place.point) <= places.size() && seen.insert(place.point).second;
       this->Judge.holds("tracks", this->file("images"), where, known, "a point", "one of the model, once");
       if (!known)
@@ -380,7 +380,7 @@ private:
   {
     const std::string file = this->file("points3D");
     std::size_t elements = 0;
-    for (const auto& [id, point] : this->Model_.points)
+    for (const auto& [id, point] : this->Own.points)
     {
       elements += point.track.size();
       const TrackPoint& own = this->Tracks.at(std::size_t(id) - 1);
@@ -392,7 +392,7 @@ private:
     {
       const auto seen = this->Seen.find(std::int64_t(i) + 1);
       const bool wanted = this->Tracks[i].isStatic && seen != this->Seen.end() && seen->second > 1;
-      const bool there = this->Model_.points.count(std::int64_t(i) + 1) > 0;
+      const bool there = this->Own.points.count(std::int64_t(i) + 1) > 0;
       this->Judge.holds("points", file, "point " + std::to_string(i + 1), there || !wanted, "none", "a point");
     }
   }
@@ -402,7 +402,7 @@ private:
   std::string Pictures;
   std::string Extension;
   double Half;
-  ColmapModel Model_;
+  ColmapModel Own;
   std::vector<TrackPoint> Tracks;
   std::map<std::int64_t, int> Seen;
   std::map<std::uint32_t, RiggedImage> Rigged;
