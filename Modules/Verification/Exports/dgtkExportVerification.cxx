@@ -218,7 +218,6 @@ VerificationReport verifyExport(const std::string& dataset, const std::string& f
   }
   Results results;
   std::vector<Unchecked> unchecked;
-  unchecked.reserve(kinds.size());
   for (const std::string& scene : scenes)
   {
     const std::string below = scene.empty() ? "" : '/' + scene;
