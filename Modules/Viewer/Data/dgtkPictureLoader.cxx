@@ -135,7 +135,7 @@ ShownPointer PictureLoader::load(
   const DatasetPointer& dataset, const PictureAsk& ask, std::uint64_t budget, const BackgroundQueue::GoOn& goOn)
 {
   std::shared_ptr<const PictureValues> values;
-  if (const ShownPointer known = this->find(dataset, ask, values))
+  if (ShownPointer known = this->find(dataset, ask, values))
   {
     return known;
   }
