@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkViewLights.h"
 
-#include "dgtkPortableMath.h"
-#include "dgtkPhongProperty.h"
-#include "dgtkSurfaceMaterial.h"
 #include "dgtkEnvironmentLight.h"
+#include "dgtkPhongProperty.h"
+#include "dgtkPortableMath.h"
+#include "dgtkSurfaceMaterial.h"
 
 #include <vtkImageData.h>
 #include <vtkLight.h>
@@ -257,12 +257,10 @@ vtkSmartPointer<vtkShaderProperty> ViewLights::makeShading(bool glows)
     shading->AddFragmentShaderReplacement(
       declarations, true, declarations + transferShader() + irradianceShader(), false);
     float irradiance[9][3];
+    Eigen::Map<Eigen::Matrix<float, 3, 9>> columns(irradiance[0]);
     for (int i = 0; i < 9; ++i)
     {
-      for (int c = 0; c < 3; ++c)
-      {
-        irradiance[i][c] = static_cast<float>(this->Now.environment->irradiance[std::size_t(i)][c]);
-      }
+      columns.col(i) = this->Now.environment->irradiance[std::size_t(i)].cast<float>();
     }
     shading->GetFragmentCustomUniforms()->SetUniform3fv("dgtkIrradiance", 9, irradiance);
     this->Shadings.insert(shading);

@@ -37,6 +37,7 @@ private slots:
   void rangesAreChosen();
   void keysReachEverything();
   void camerasAndPointsInTheWorld();
+  void theMouseMovesTheWorld();
   void layeredImagesHaveSurfaces();
   void brokenDatasetsAreRefused();
   void theRenderDialogOpensItsResult();

@@ -4,6 +4,7 @@
 
 #include "dgtkDatasetDocuments.h"
 #include "dgtkLdi.h"
+#include "dgtkViewWidget.h"
 
 #include <QAction>
 #include <QComboBox>
@@ -21,6 +22,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 
 namespace
@@ -181,6 +183,80 @@ void TestEditorViewer::camerasAndPointsInTheWorld()
   QTRY_VERIFY(cloud->grabFramebuffer() != through);
   QTest::keyClick(viewer, Qt::Key_V);
   QVERIFY(!cloud->isVisible());
+}
+
+/// Left turns about the focus, middle or Shift and left pans, right and the wheel zoom; a click chooses a camera.
+void TestEditorViewer::theMouseMovesTheWorld()
+{
+  QMainWindow* const viewer = this->open(this->dataset());
+  QVERIFY(viewer != nullptr);
+  auto* const cloud = dynamic_cast<dgtk::ViewWidget*>(viewer->findChild<QOpenGLWidget*>("cloudView"));
+  QVERIFY(cloud != nullptr);
+  const auto middle = cloud->rect().center();
+  enum Way
+  {
+    Turns,
+    Pans,
+    Zooms
+  };
+  struct Row
+  {
+    Qt::MouseButton button;
+    Qt::KeyboardModifiers keys;
+    Way way;
+  };
+  const Row rows[] = { { Qt::LeftButton, Qt::NoModifier, Turns }, { Qt::LeftButton, Qt::ControlModifier, Turns },
+    { Qt::LeftButton, Qt::ShiftModifier, Pans }, { Qt::MiddleButton, Qt::NoModifier, Pans },
+    { Qt::MiddleButton, Qt::ShiftModifier, Pans }, { Qt::RightButton, Qt::NoModifier, Zooms },
+    { Qt::RightButton, Qt::ShiftModifier, Zooms } };
+  const auto* const camera = viewer->findChild<QWidget*>("pane.0")->findChild<QComboBox*>("camera");
+  std::map<std::string, Eigen::Vector2d> places;
+  for (const dgtk::CameraRecord& record : dgtk::readCameras((this->dataset() + "/cameras.json").toStdString()))
+  {
+    const Eigen::Vector3d center = -record.R.transpose() * record.t;
+    places[record.name] = cloud->camera().pixel(center, cloud->width(), cloud->height()).value();
+  }
+  QCOMPARE(places.size(), std::size_t(2));
+  const Eigen::Vector2d apart = (places["right"] - places["left"]).normalized();
+  QVERIFY((places["right"] - places["left"]).norm() > 3);
+  const auto click = [&](const std::string& name, double beside, Qt::MouseButton button)
+  {
+    const Eigen::Vector2d at = places[name] + beside * apart;
+    QTest::mouseClick(cloud, button, {}, QPoint(int(at.x()), int(at.y())));
+    this->waitForPictures(viewer);
+    return camera->currentText();
+  };
+  QCOMPARE(camera->currentText(), QString("left"));
+  QCOMPARE(click("right", 10, Qt::RightButton), QString("left"));
+  QCOMPARE(click("right", 15, Qt::LeftButton), QString("left")); // beside it
+  QCOMPARE(click("right", 10, Qt::LeftButton), QString("right"));
+  QCOMPARE(click("left", -15, Qt::LeftButton), QString("right"));
+  QCOMPARE(click("left", -10, Qt::LeftButton), QString("left"));
+  const auto distance = [](const dgtk::ViewCamera& camera) { return (camera.eye() - camera.focus()).norm(); };
+  for (const Row& row : rows)
+  {
+    const dgtk::ViewCamera before = cloud->camera();
+    QTest::mousePress(cloud, row.button, row.keys, middle);
+    moveMouse(cloud, middle + QPoint(1, 1), row.button);
+    QCOMPARE((cloud->camera().eye() - before.eye()).norm(), 0.0); // a hand shakes
+    moveMouse(cloud, middle + QPoint(30, 20), row.button);
+    QTest::mouseRelease(cloud, row.button, row.keys, middle + QPoint(30, 20));
+    const dgtk::ViewCamera after = cloud->camera();
+    moveMouse(cloud, middle);
+    QCOMPARE((cloud->camera().eye() - after.eye()).norm(), 0.0); // no button is held
+    const double far = distance(before);
+    QCOMPARE((after.forward() - before.forward()).norm() > 1e-3, row.way == Turns);
+    QCOMPARE((after.focus() - before.focus()).norm() > 1e-3 * far, row.way == Pans);
+    QCOMPARE(std::abs(distance(after) - far) > 1e-3 * far, row.way == Zooms);
+    if (row.way == Pans) // what was under the mouse still is
+    {
+      const std::optional<Eigen::Vector2d> at = after.pixel(before.focus(), cloud->width(), cloud->height());
+      const Eigen::Vector2d expected(0.5 * cloud->width() + 30, 0.5 * cloud->height() + 20);
+      QVERIFY(at && (*at - expected).norm() < 1e-6);
+    }
+  }
+  QCOMPARE(camera->currentText(), QString("left")); // motions choose nothing
+  this->waitForPictures(viewer);
 }
 
 void TestEditorViewer::layeredImagesHaveSurfaces()

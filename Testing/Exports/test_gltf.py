@@ -308,6 +308,14 @@ class Gltf(datasets.ExportCase):
             self.refused("export", dataset, "--format", "gltf", "-o", target, *options, status=2, says=says)
         dataset = self.render(datasets.walk(self.path("walk")), "depth")
         self.refused("export", dataset, "--format", "gltf", "-o", target, status=2, says=("with models", "back wall"))
+        dataset = self.render(self.changed("timeless", lambda scene: None), "depth", "--models")
+        path = os.path.join(dataset, "manifest.json")
+        whole = load_json(path)
+        for key, says in (("fps", "how many frames a second"), ("metres_per_unit", "how long its unit is")):
+            os.remove(path)
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump({name: value for name, value in whole.items() if name != key}, file)
+            self.refused("export", dataset, "--format", "gltf", "-o", target, status=2, says=says)
         self.assertFalse(os.path.exists(target))
 
     def test_the_referee_finds(self):

@@ -113,6 +113,22 @@ def member(suffix, change):
     return edit
 
 
+def joined(name, content):
+    """One more file in a tar, behind the first one's."""
+    def edit(data):
+        out = io.BytesIO()
+        with tarfile.open(fileobj=io.BytesIO(data)) as old, tarfile.open(fileobj=out, mode="w", format=tarfile.USTAR_FORMAT) as new:
+            for number, one in enumerate(old):
+                new.addfile(one, old.extractfile(one))
+                if number == 0:
+                    more = tarfile.TarInfo(one.name.split(".")[0] + name)
+                    more.size = len(content)
+                    new.addfile(more, io.BytesIO(content))
+        return out.getvalue()
+
+    return edit
+
+
 def narrower(data):
     """An array of a picture without its last column."""
     out = io.BytesIO()
@@ -153,7 +169,11 @@ def stereo(folder, disparity):
 
 
 def colmap(folder, depth):
-    plants = [("intrinsics", folder + "cameras.bin", packed("<d", 32, 5e-8)), ("size", folder + "cameras.bin", packed("<Q", 16, 1)),
+    def places(data, share=1):
+        name = 8 + 4 + 7 * 8 + 4  # the first picture's, then how many places, then their u, v and point
+        return packed("<d", data.index(b"\0", name) + 1 + 8, 5e-8)(data, share)
+
+    plants = [("places", folder + "images.bin", stepped(places, 1.0)), ("intrinsics", folder + "cameras.bin", packed("<d", 32, 5e-8)), ("size", folder + "cameras.bin", packed("<Q", 16, 1)),
               ("pose", folder + "images.bin", packed("<d", 44, 5e-8)), ("colors", folder + "points3D.bin", packed("<B", 40, -3)),
               ("reprojection", folder + "points3D.bin", packed("<d", 16, 3e-5))]
     return plants + [("depth", depth, last_bytes())] if depth else plants
@@ -272,7 +292,7 @@ PLANTS = {form: [Plant(*one) for one in rows] for form, rows in {
     "voc": [("box", XML, number("<xmin>", 1)), ("category", XML, word("<name>wall", "<name>Car")),
             ("size", XML, number("<width>", 1)), ("truncated", XML, word("<truncated>1", "<truncated>0")),
             ("occluded", XML, word("<occluded>0", "<occluded>1"))],
-    "webdataset": [("camera", "train-000000.tar", word("43.4558", "43.4559"), ("croissant",)), ("time", "train-000000.tar", word('"seconds":0.04', '"seconds":0.05')),
+    "webdataset": [("members", "train-000000.tar", joined(".notes.txt", b"of nobody")), ("camera", "train-000000.tar", word("43.4558", "43.4559"), ("croissant",)), ("time", "train-000000.tar", word('"seconds":0.04', '"seconds":0.05')),
                    ("size", "train-000000.tar", member(".disparity.npy", narrower)), ("poses", "train-000000.tar", word('"scale":[1.0', '"scale":[1.1')), ("unit", "train-000000.tar", word('per_unit":1.0', 'per_unit":1.1'))],
     "yolo": [("box", "labels/train/cam_L_000000.txt", number("^0 ", 5e-8)), ("category", "labels/train/cam_L_000001.txt", number("^", 1))],
 }.items()}

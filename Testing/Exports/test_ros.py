@@ -127,6 +127,21 @@ def messages_of_mcap(path):
     return found
 
 
+def with_sums(data):
+    """The same with the sums of what it now holds."""
+    data = bytearray(data)
+    for op, at, reader, after in list(records(data, 8, len(data) - 8)):
+        if op == 6:
+            reader.at = 28
+            reader.text()
+            struct.pack_into("<I", data, at + 9 + 24, zlib.crc32(reader.data[reader.at + 8:]))
+        elif op == 15:
+            struct.pack_into("<I", data, at + 9, zlib.crc32(data[:at]))
+            summary = after
+    struct.pack_into("<I", data, len(data) - 12, zlib.crc32(data[summary:len(data) - 12]))
+    return bytes(data)
+
+
 def md5_of(definition):
     """ROS's sum: constants first, then fields, the types of others by their own sums."""
     first, *others = re.split("=+\nMSG: ", definition)
@@ -304,6 +319,32 @@ class Ros(datasets.ExportCase):
         self.assertAlmostEqual(-right.P[3] / right.P[0], 0.12 * self.METRES, places=12)
         self.assertEqual((left.K[2], left.K[5], left.distortion_model, tuple(left.D)), (47.5, 35.5, "plumb_bob", (0,) * 5))
 
+    def test_what_is_a_pair(self):
+        """Rows in common, to rounding, of plain pinholes that look the same way: each pair at a height of its own, its right camera with
+        one thing changed. The referee has the same opinion."""
+        K = [[80, 0, 47.5], [0, 80, 35.5], [0, 0, 1]]
+        other = lambda row, column, value: {"K": [[value if (i, k) == (row, column) else K[i][k] for k in range(3)] for i in range(3)]}  # noqa: E731
+        rows = [({}, True), (other(0, 2, 30.5), True), (other(1, 2, 35.5 + 1e-9), True), ({"distortion": [0, 0, 0, 0]}, True),
+                ({"near": 0.2}, True), (other(1, 2, 35.5 + 1e-6), False), (other(0, 0, 80.001), False), (other(1, 1, 80.001), False),
+                ({"height": 70}, False), ({"width": 95}, False), ({"distortion": [0, 0, 0, 1e-4]}, False), ({"at": 1e-3}, False),
+                ({"up": 1e-3}, False), ({"ahead": 1e-3}, False), ({"right": -0.1}, False)]
+        cameras = []
+        for number, (change, _) in enumerate(rows):
+            height = 0.01 * number
+            x, at, ahead, up = (change.get(key, usual) for key, usual in (("right", 0.1), ("at", 0), ("ahead", 0), ("up", 0)))
+            lens = {key: value for key, value in change.items() if key not in ("right", "at", "ahead", "up")}
+            cameras.append(datasets._camera(f"left {number}", [-0.1, height, 4.5], [-0.1, height, 0], K=K))
+            cameras.append(datasets._camera(f"right {number}", [x, height + up, 4.5 + ahead], [x + at, height + up, 0], **{"K": K, **lens}))
+        os.mkdir(self.path("pairs"))
+        scene = datasets._write(self.path("pairs"), "pairs", {"objects": datasets._objects(), "cameras": cameras})
+        folder, _ = self.export(self.render(scene, "color,depth"), "rosbag", "--unit-metres", self.METRES)
+        infos = {topic: message for topic, _, message in messages_of_bag(os.path.join(folder, "dataset.bag")) if topic.endswith("/camera_info")}
+        for number, (change, pair) in enumerate(rows):
+            with self.subTest(change=change):
+                left, right = (infos[f"/{side}_{number}/camera_info"] for side in ("left", "right"))
+                self.assertEqual(left.P[3], 0)
+                self.assertAlmostEqual(-right.P[3] / right.P[0], 0.2 * self.METRES if pair else 0, places=12)
+
     def test_lenses(self):
         """Points of the dataset, by tf and CameraInfo, are in the pixels in which it sees them."""
         dataset = self.render(datasets.lenses(self.path("lenses")), "color,depth,objects,tracks", "--tracks-step", 6)
@@ -345,6 +386,40 @@ class Ros(datasets.ExportCase):
         for form in ("rosbag", "mcap"):
             self.refused("export", dataset, "--format", form, "-o", self.path("none"), status=2, says=("a_b", "eucm", "plumb_bob"))
         self.assertFalse(os.path.exists(self.path("none")))
+
+    def test_the_referee_reads_every_number_of_a_recording(self):
+        """One number of each kind is another, and all sums are those of the changed file: its own row, or the reader's word for it."""
+        path = os.path.join(self.folders["mcap"], "dataset.mcap")
+        with open(path, "rb") as file:
+            data = file.read()
+        summary = next(at for op, at, _, after in records(data, 8, len(data) - 8) if op == 15) + 13
+        places = {(op, at < summary): at + 9 for op, at, _, _ in reversed(list(records(data, 8, len(data) - 8)))}
+        texts = lambda at, count: at if count == 0 else texts(at + 4 + struct.unpack_from("<I", data, at)[0], count - 1)  # noqa: E731
+        chunk, message = places[6, True], texts(places[6, True] + 28, 1) + 8
+        index = places[8, False]
+        statistics = places[11, False]
+        footer = len(data) - 8 - 20
+        rows = [("profile", places[1, True] + 4, "B"), ("/tf", places[3, True] + 6, "B"), ("schema", texts(places[3, True] + 2, 1) + 4, "B"),
+                ("channel", texts(places[4, True] + 4, 1) + 4, "B"), ("/tf", data.index(b"md5sum", places[4, True]) + 10, "B"),
+                ("first time of a chunk", chunk, "Q"), ("last time of a chunk", chunk + 8, "Q"), ("chunk", chunk + 16, "Q"),
+                ("chunk", texts(chunk + 28, 1), "Q"), ("publish time", message + 9 + 2 + 4 + 8, "Q"), 
+                ("message index", places[7, True] + 2 + 4, "Q"), ("message index", places[7, True] + 2 + 4 + 8, "Q"),
+                *(("chunk index", index + at, "Q") for at in (0, 8, 16, 24)), ("chunk index", index + 32 + 4, "H"), ("chunk index", index + 32 + 4 + 2, "Q"),
+                *(("chunk index", texts(index + 32, 1) + at, "Q") for at in (0, 12, 20)),
+                ("messages", statistics, "Q"), ("schemas", statistics + 8, "H"), ("channels", statistics + 10, "I"), ("attachments", statistics + 14, "I"),
+                ("metadata", statistics + 18, "I"), ("chunks", statistics + 22, "I"), ("first time", statistics + 26, "Q"),
+                ("last time", statistics + 34, "Q"), ("messages of channels", statistics + 42 + 4 + 2, "Q"),
+                ("summary offset", places[14, False] + 1, "Q"), ("summary offset", places[14, False] + 9, "Q"),
+                ("summary", footer, "Q"), ("summary offsets", footer + 8, "Q")]
+        for name, at, kind in rows:
+            with self.subTest(name=name, at=at):
+                changed = lambda old: with_sums(old[:at] + struct.pack("<" + kind, struct.unpack_from("<" + kind, old, at)[0] ^ 1) +  # noqa: E731
+                                                old[at + struct.calcsize(kind):])
+                self.assertRegex(self.planted(self.dataset, self.folders["mcap"], "dataset.mcap", changed), f"\\({name}\\)")
+        for name, at in (("sum of a chunk", chunk + 24), ("sum of the data", summary - 4), ("sum of the summary", footer + 16)):
+            with self.subTest(name=name):
+                self.assertRegex(self.planted(self.dataset, self.folders["mcap"], "dataset.mcap", lambda old: old[:at] + bytes([old[at] ^ 1]) + old[at + 1:]),
+                                 f"\\({name}\\)")
 
     def test_the_referee_finds(self):
         bag = lambda change: self.planted(self.dataset, self.folders["rosbag"], "dataset.bag", change)  # noqa: E731

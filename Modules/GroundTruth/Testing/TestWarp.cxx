@@ -165,6 +165,27 @@ TEST(Warp, OrderOfTheSamplesDoesNotDecideWhatIsInFront)
     warpLayeredDepth(both(patch(1), wall(5)), from, to).rgb, warpLayeredDepth(both(wall(5), patch(1)), from, to).rgb);
 }
 
+// A pixel of the wall is 0.1 wide and high; a twentieth of both is what a depth may be off, of either sample.
+TEST(Warp, SamplesThatMayBeOneSurfaceAreMixed)
+{
+  const View view = viewAt({ 0, 0, 0 });
+  const auto sample = [](std::uint8_t red, double depth) -> WarpSource
+  {
+    return [=](const std::function<void(int, int, const WarpSample&)>& visit) {
+      visit(20, 15, { { red, 0, 0, 255 }, depth, facing });
+    };
+  };
+  const std::pair<double, int> rows[] = { { 5.001, 150 }, { 5.015, 150 }, { 5.025, 100 }, { 5.1, 100 } };
+  for (const auto& [depth, red] : rows)
+  {
+    for (const WarpSource& samples :
+      { both(sample(100, 5), sample(200, depth)), both(sample(200, depth), sample(100, 5)) })
+    {
+      EXPECT_NEAR(warpLayeredDepth(samples, view, view).rgb[(15 * width + 20) * 3], red, 1) << depth;
+    }
+  }
+}
+
 TEST(Warp, SplatsGrowWithThePixel)
 {
   // twice as near: each pixel becomes 2 x 2, nothing stays open

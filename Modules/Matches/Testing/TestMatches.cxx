@@ -303,4 +303,30 @@ TEST_F(MatchPaneTable, MarksAndLinesArePainted)
   this->Pane->setMarks({ { QPointF(20, 20), QColor(255, 0, 0), "7", false } });
   EXPECT_GT(reds({ 86, 110, 20, 20 }), 0) << "its number";
 }
+
+TEST_F(MatchPaneTable, ThePictureEndsAtItsFrameAndMarksDoNot)
+{
+  LivePicture live;
+  live.step = 3; // 34 x 17 of it are 102 x 51 of the view
+  live.picture.width = 34;
+  live.picture.height = 17;
+  live.picture.pixels.assign(34 * 17, { 255, 255, 255 });
+  this->Pane->setPicture(live);
+  this->Pane->setMarks({ { QPointF(50, 0), QColor(255, 0, 0), {}, false } }); // at (200, 50)
+  const QImage image = this->Pane->grab().toImage();
+  const QColor empty(28, 28, 31);
+  EXPECT_EQ(image.pixelColor(100, 48), empty);
+  EXPECT_EQ(image.pixelColor(100, 52), QColor(255, 255, 255));
+  EXPECT_EQ(image.pixelColor(100, 248), QColor(255, 255, 255));
+  EXPECT_EQ(image.pixelColor(100, 252), empty) << "the picture's last row is half outside";
+  const QColor below = image.pixelColor(100, 250);
+  EXPECT_NE(below, empty) << "the frame";
+  EXPECT_NE(below, QColor(255, 255, 255));
+  int red = 0;
+  for (int y = 38; y < 49; ++y)
+  {
+    red += image.pixelColor(200, y).red() > 120 && image.pixelColor(200, y).green() < 80 ? 1 : 0;
+  }
+  EXPECT_GT(red, 0) << "of the mark, above the frame";
+}
 } // namespace

@@ -215,6 +215,37 @@ TEST(Gltf, EachKeyHasAWeightForEachTarget)
   }
 }
 
+TEST(Gltf, WhatMovesIsSeen)
+{
+  using dgtk::import::noIndex;
+  const dgtk::import::Matrix still = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
+  const auto moves = [&](int channelNode, int morphNode)
+  {
+    auto scene = std::make_shared<dgtk::import::Scene>();
+    scene->nodes = { { "root", noIndex, still, {} }, { "above", 0, still, {} }, { "drawn", 1, still, { 0 } },
+      { "below", 2, still, {} }, { "lamp", 0, still, {} }, { "joint's parent", 0, still, {} },
+      { "joint", 5, still, {} } };
+    scene->meshes.resize(1);
+    scene->meshes[0].positions = { { 0, 0, 0 } };
+    scene->meshes[0].bones = { { 6, still, { 0 }, { 1.0f } } };
+    scene->animations.resize(2);
+    scene->animations[1].channels.resize(1);
+    scene->animations[1].channels[0].node = channelNode;
+    scene->animations[1].morphs.resize(1);
+    scene->animations[1].morphs[0].node = morphNode;
+    return dgtk::AssimpDeformation(scene, { { 2, 0, { 0 } } }).moves();
+  };
+  const std::pair<int, bool> rows[] = { { noIndex, false }, { 0, true }, { 1, true }, { 2, true }, { 3, false },
+    { 4, false }, { 5, true }, { 6, true } };
+  for (const auto& [node, seen] : rows)
+  {
+    EXPECT_EQ(moves(node, noIndex), seen) << node;
+    EXPECT_EQ(moves(noIndex, node), seen) << node;
+    EXPECT_EQ(moves(node, 3), seen) << node;
+    EXPECT_EQ(moves(4, node), seen) << node;
+  }
+}
+
 TEST(Gltf, WeightsOfJointsAreSharesOfTheirSum)
 {
   const dgtk::import::Matrix still = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };

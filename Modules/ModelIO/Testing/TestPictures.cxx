@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -338,6 +339,33 @@ TEST(Pictures, TheTextOfTheirLibrariesIsNotForUsers)
   EXPECT_NE(problem, "");
 }
 
+namespace
+{
+/// Bytes of a number, the first one highest.
+std::string big(std::uint32_t value, int bytes)
+{
+  std::string text;
+  for (int i = bytes - 1; i >= 0; --i)
+  {
+    text += char(value >> (8 * i));
+  }
+  return text;
+}
+
+/// Of a written PNG the same with another size in its header.
+std::string pngOf(std::string png, std::uint32_t wide, std::uint32_t high)
+{
+  png.replace(16, 8, big(wide, 4) + big(high, 4));
+  const auto* const chunk = reinterpret_cast<const Bytef*>(png.data()) + 12;
+  return png.replace(29, 4, big(std::uint32_t(crc32(0, chunk, 17)), 4));
+}
+
+std::string jpegOf(std::string jpeg, std::uint32_t wide, std::uint32_t high)
+{
+  return jpeg.replace(jpeg.find("\xff\xc0") + 5, 4, big(high, 2) + big(wide, 2));
+}
+} // namespace
+
 TEST(Pictures, AHeaderThatPromisesTooMuchIsRefusedBeforeAnythingIsMade)
 {
   const TemporaryFolder folder;
@@ -348,4 +376,25 @@ TEST(Pictures, AHeaderThatPromisesTooMuchIsRefusedBeforeAnythingIsMade)
   EXPECT_EQ(problem, "is cut short: 253 bytes cannot hold 16384 x 16384 pixels");
   EXPECT_FALSE(dgtk::decodeTexture(folder.path("sky.hdr"), problem));
   EXPECT_THAT(problem, HasSubstr("is cut short"));
+  // The largest side is 16384; a byte of a PNG is a thousand at most.
+  const std::string png = written(folder.path("a.png"));
+  const std::string jpeg = written(folder.path("a.jpg"));
+  struct Row
+  {
+    const char* name;
+    std::string bytes;
+    std::string says;
+  };
+  const std::string pngBytes = std::to_string(png.size());
+  const Row rows[] = { { "a.png", pngOf(png, 16385, 36), "is 16385 x 36 pixels, at most 16384 a side" },
+    { "a.png", pngOf(png, 64, 20000), "is 64 x 20000 pixels, at most 16384 a side" },
+    { "a.png", pngOf(png, 16384, 16384), "is cut short: " + pngBytes + " bytes cannot hold 16384 x 16384 pixels" },
+    { "a.jpg", jpegOf(jpeg, 16385, 36), "is 16385 x 36 pixels, at most 16384 a side" },
+    { "a.jpg", jpegOf(jpeg, 64, 65000), "is 64 x 65000 pixels, at most 16384 a side" } };
+  for (const Row& row : rows)
+  {
+    dgtk::writeFile(folder.path(row.name), row.bytes);
+    EXPECT_FALSE(dgtk::decodeTexture(folder.path(row.name), problem));
+    EXPECT_EQ(problem, row.says);
+  }
 }

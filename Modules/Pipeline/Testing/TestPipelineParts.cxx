@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dgtkError.h"
+#include "dgtkFile.h"
 #include "dgtkGenerator.h"
+#include "dgtkRunShards.h"
 #include "dgtkSerialQueue.h"
 #include "dgtkTestSupport.h"
 
@@ -25,6 +27,47 @@ TEST(Generator, RefusesFramesThatAreNone)
     EXPECT_THROW(requestHash(request), UsageError);
   }
   EXPECT_FALSE(std::filesystem::exists(request.folder));
+}
+
+TEST(Generator, WhoeverCancelsAFolderOfScenesStopsTheSceneThatIsRendered)
+{
+  const test::TemporaryFolder folder;
+  writeFile(folder.path("quad.obj"), "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+  std::filesystem::create_directory(folder.path("scenes"));
+  for (const char* const name : { "scenes/a.json", "scenes/b.json" })
+  {
+    writeFile(folder.path(name), R"({ "version": 1, "objects": [{ "name": "quad", "model": "../quad.obj" }],
+      "cameras": [{ "name": "c", "eye": [0, 0, 5], "lookAt": [0, 0, 0] }] })");
+  }
+  std::atomic<bool> cancel{ true };
+  GeneratorCallbacks callbacks;
+  callbacks.cancel = &cancel;
+  GeneratorRequest request;
+  request.scene = folder.path("scenes");
+  request.layers = { "depth" };
+  request.width = 16;
+  request.height = 12;
+  const auto made = [&](const char* name) { return std::filesystem::exists(request.folder + "/" + name); };
+  for (const bool share : { false, true })
+  {
+    request.folder = folder.path(share ? "share" : "all");
+    const auto run = [&] {
+      return share ? generateShard(request, { 0, 1 }, callbacks) : generateScenes(request, callbacks);
+    };
+    cancel = true;
+    const GeneratorResult stopped = run();
+    EXPECT_TRUE(stopped.interrupted);
+    EXPECT_EQ(stopped.pictures, 0u);
+    EXPECT_FALSE(made("a/manifest.json") || made("b/manifest.json") || made("manifest.json"));
+    cancel = false;
+    request.resume = !share;
+    const GeneratorResult done = run();
+    EXPECT_FALSE(done.interrupted);
+    EXPECT_EQ(done.pictures, 2u);
+    EXPECT_TRUE(made("a/manifest.json") && made("b/manifest.json"));
+    EXPECT_EQ(made("manifest.json"), !share) << "shares are merged by whoever made them";
+    request.resume = false;
+  }
 }
 
 TEST(SerialQueue, KeepsTheOrderOfEachQueueOnAnyNumberOfThreads)

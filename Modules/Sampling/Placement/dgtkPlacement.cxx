@@ -170,8 +170,7 @@ std::string Placing::fault(const PlaceRule& rule, PlaceBody& body)
   for (const PlaceBody* other : this->World.others({ rule.object }))
   {
     const bool support = !rule.in && other == &this->World.body(*rule.support);
-    if (penetration(body, *other).depth > 0 ||
-        (!support && rule.clearance > 0 && distance(body, *other, rule.clearance) < rule.clearance))
+    if (penetration(body, *other).depth > 0 || (!support && distance(body, *other, rule.clearance) < rule.clearance))
     {
       return "it is too near to " + quoted(other->name());
     }

@@ -8,6 +8,7 @@
 #include "dgtkMovingObjects.h"
 #include "dgtkViewPairs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -57,8 +58,8 @@ std::pair<double, double> rangeOf(const DatasetView& dataset, const DatasetShot&
     for (int x = 0; x < rows.info().width; ++x)
     {
       const double depth = rows.at(x);
-      least = depth < least ? depth : least;
-      most = depth > most ? depth : most;
+      least = std::min(least, depth); // which keep their first where the other is no number
+      most = std::max(most, depth);
     }
   }
   if (most > 0)

@@ -3,7 +3,9 @@
 #include "dgtkReadRos.h"
 #include "dgtkReadTexts.h"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <tuple>
 
 // mcap.dev/spec.
@@ -217,6 +219,8 @@ private:
     const std::string records = bytes.rest();
     this->count("chunk", records.size(), chunk.bytes);
     this->count("sum of a chunk", sum, sumOf(0, records));
+    std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t last = 0;
     RosBytes inner(this->Path, records);
     while (inner.more())
     {
@@ -232,13 +236,17 @@ private:
       }
       message.take<std::uint32_t>();
       const auto time = message.take<std::uint64_t>();
-      this->holds("publish time", message.take<std::uint64_t>() == time && time >= chunk.start && time <= chunk.end);
+      this->count("publish time", message.take<std::uint64_t>(), time);
+      first = std::min(first, time);
+      last = std::max(last, time);
       const std::size_t left = message.size() - message.at();
       this->Referee.message(
         channel->second.topic, channel->second.type, time, { this->Path, message.skip(left), left });
       chunk.messages.emplace_back(id, time, place);
       ++this->Messages[id];
     }
+    this->count("first time of a chunk", chunk.start, first);
+    this->count("last time of a chunk", chunk.end, last);
     this->Chunks.push_back(chunk);
   }
 

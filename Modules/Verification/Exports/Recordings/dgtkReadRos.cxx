@@ -113,10 +113,11 @@ double rightwards(const CameraRecord& a, const CameraRecord& b, double metres)
   };
   const Eigen::Vector3d apart = a.t - b.t;
   const double slack = 1e-9 * std::max({ 1e-300, a.t.norm(), b.t.norm() });
+  Eigen::Matrix3d lenses = a.K - b.K;
+  lenses(0, 2) = 0; // the columns of their centres are no concern of rows
   const bool parallel = plain(a) && plain(b) && a.width == b.width && a.height == b.height &&
                         (a.R - b.R).cwiseAbs().maxCoeff() <= 1e-9 &&
-                        (a.K.leftCols(2) - b.K.leftCols(2)).cwiseAbs().maxCoeff() <= 1e-9 * std::max(1.0, a.K(0, 0)) &&
-                        std::abs(a.K(1, 2) - b.K(1, 2)) <= 1e-9 * a.K(1, 1);
+                        lenses.cwiseAbs().maxCoeff() <= 1e-9 * std::max(1.0, a.K(0, 0));
   return parallel && apart.x() > slack && std::hypot(apart.y(), apart.z()) <= 2 * slack ? apart.x() * metres : 0;
 }
 } // namespace
