@@ -173,7 +173,7 @@ DatasetSplit splitOf(const std::string& part)
   {
     refuseSplit("NAME=A:B", part);
   }
-  const DatasetSplit split{ part.substr(0, equals), numberIn(part.substr(equals + 1, colon - equals - 1), part),
+  DatasetSplit split{ part.substr(0, equals), numberIn(part.substr(equals + 1, colon - equals - 1), part),
     numberIn(part.substr(colon + 1), part) };
   SafeNames names;
   if (names.of(split.name) != split.name || split.last < split.first)

@@ -20,7 +20,7 @@ namespace
 {
 constexpr std::size_t mostIds = (1 << 24) - 1;
 /// POV-Ray's largest: surfaces that may lie behind one another where texels are missing.
-constexpr const char* TraceLevel = "256";
+constexpr const char* traceLevel = "256";
 /// Begins a line that names a file of the library.
 const std::string usesLine = "// uses ";
 
@@ -73,7 +73,7 @@ PovBall ballOf(const SceneState& state)
 std::string settings(const SceneState& state, const PovOptions& options)
 {
   // Colours are computed with as they are shown: nothing is converted on the way in or out.
-  return "#version 3.7;\nglobal_settings {\n  assumed_gamma srgb\n  max_trace_level " + std::string(TraceLevel) +
+  return "#version 3.7;\nglobal_settings {\n  assumed_gamma srgb\n  max_trace_level " + std::string(traceLevel) +
          "\n  ambient_light " + povColor(options.radiosity ? Eigen::Vector3d(0, 0, 0) : povAmbient(state)) +
          (options.radiosity ? "\n  radiosity { count 150 nearest_count 10 error_bound 0.5 recursion_limit 2 }" : "") +
          "\n}\n";

@@ -18,7 +18,7 @@ namespace
 /// A finish's ambient and emission are multiplied with the pigment: no component of it may vanish.
 constexpr double smallestTint = 1.0 / 1024;
 
-constexpr const char* FlatFinish = " finish { ambient 0 diffuse 0 emission 1 }";
+constexpr const char* flatFinish = " finish { ambient 0 diffuse 0 emission 1 }";
 
 const Image* imageOf(const Model& model, const Material& material)
 {
@@ -127,8 +127,8 @@ PovSurfaceOptions povSurfaceOptions(const SceneState& state, const PovOptions& o
   PovSurfaceOptions surface;
   static_cast<PovOptions&>(surface) = options;
   surface.cast = povShadows(state, options);
-  surface.headLit = std::all_of(state.lights.begin(), state.lights.end(),
-    [](const LightState& light) { return light.kind == LightKind::Head; });
+  surface.headLit = std::all_of(
+    state.lights.begin(), state.lights.end(), [](const LightState& light) { return light.kind == LightKind::Head; });
   return surface;
 }
 
@@ -170,12 +170,12 @@ std::string idColor(std::uint32_t id)
 }
 } // namespace
 
-std::string povFlatTexture(std::uint32_t id) { return "texture { pigment { " + idColor(id) + " }" + FlatFinish + " }"; }
+std::string povFlatTexture(std::uint32_t id) { return "texture { pigment { " + idColor(id) + " }" + flatFinish + " }"; }
 
 std::string povFlatMaterial(const Model& model, const Material& material, std::uint32_t id, PovImages& images)
 {
   return povCutOut(model, material)
-           ? "texture { pigment { " + masked(model, material, images, idColor(id)) + " }" + FlatFinish + " }"
+           ? "texture { pigment { " + masked(model, material, images, idColor(id)) + " }" + flatFinish + " }"
            : povFlatTexture(id);
 }
 
@@ -189,7 +189,7 @@ std::string povPositionTexture(const PovBox& box)
                 povColor(3 * Eigen::Vector3d::Unit(axis)) + "] } scale " + povNumber(box.high[axis] - box.low[axis]) +
                 " translate " + povNumber(box.low[axis]) + " * " + "xyz"[axis] + ']';
   }
-  return "texture { pigment { average pigment_map {" + pigments + " } }" + FlatFinish + " }";
+  return "texture { pigment { average pigment_map {" + pigments + " } }" + flatFinish + " }";
 }
 
 } // namespace dgtk

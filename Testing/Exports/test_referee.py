@@ -437,6 +437,18 @@ class Referee(datasets.ExportCase):
         self.accept(folder)
         self.refused("verify", self.dataset, "--export", folder, status=1, says=("0.hdf5", "not as long as it says"))
 
+    def test_what_names_nothing(self):
+        """A point and a picture that nothing has are errors of their rows, not of the program."""
+        strangers = [("colmap", COLMAP + "points3D.bin", packed("<Q", 8, 1000), {"points", "tracks"}),
+                     ("coco-panoptic", PANOPTIC, word('"image_id":2', '"image_id":99'), {"ids"})]
+        for form, file, edit, breaches in strangers:
+            with self.subTest(form):
+                folder = self.path(form + "-stranger")
+                subprocess.run([DGTK, "export", self.dataset, "--format", form, "-o", folder, "--quiet"], check=True)
+                self.plant(os.path.join(folder, file), edit)
+                self.accept(folder)
+                self.assertEqual({layer for layer, row in self.rows(folder).items() if row["breach"]}, breaches)
+
 
 if __name__ == "__main__":
     main()

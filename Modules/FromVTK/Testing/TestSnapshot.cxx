@@ -52,7 +52,7 @@ public:
 
   vtkSmartPointer<vtkActor> add(vtkMapper* mapper)
   {
-    const auto actor = vtkSmartPointer<vtkActor>::New();
+    auto actor = vtkSmartPointer<vtkActor>::New();
     actor->SetMapper(mapper);
     this->Renderer->AddActor(actor);
     return actor;
@@ -67,7 +67,7 @@ public:
 
   vtkSmartPointer<dgtkSnapshot> take()
   {
-    const auto shot = vtkSmartPointer<dgtkSnapshot>::New();
+    auto shot = vtkSmartPointer<dgtkSnapshot>::New();
     EXPECT_TRUE(shot->Take(this->Renderer, side, side)) << shot->GetErrorMessage();
     EXPECT_TRUE(shot->CountCells()) << shot->GetErrorMessage();
     return shot;

@@ -10,7 +10,7 @@ namespace dgtk
 
 namespace
 {
-constexpr const char* LibraryFolder = "pov";
+constexpr const char* libraryFolder = "pov";
 
 LayerSpec povSpec()
 {
@@ -37,7 +37,7 @@ public:
         *this->Library, {}, this->Name.substr(this->Name.rfind('/') + 1));
     for (const PovFile& file : scene.uses)
     {
-      sink.shared("pov", { std::string(LibraryFolder) + '/' + file.name, file.bytes, file.sha256 });
+      sink.shared("pov", { std::string(libraryFolder) + '/' + file.name, file.bytes, file.sha256 });
     }
     sink.document(0, scene.text);
   }
@@ -73,16 +73,16 @@ public:
   std::shared_ptr<void> makeShared(const SharedPlace& place) const override
   {
     const std::string folder = place.folder();
-    Folder(folder).makeParents(std::string(LibraryFolder) + "/library");
-    return std::make_shared<PovLibrary>(folder + '/' + LibraryFolder, std::string("../../") + LibraryFolder + '/',
-      [announce = place.announce](const std::string& name) { announce(std::string(LibraryFolder) + '/' + name); });
+    Folder(folder).makeParents(std::string(libraryFolder) + "/library");
+    return std::make_shared<PovLibrary>(folder + '/' + libraryFolder, std::string("../../") + libraryFolder + '/',
+      [announce = place.announce](const std::string& name) { announce(std::string(libraryFolder) + '/' + name); });
   }
   std::vector<std::string> sharedFiles(const std::string& path) const override
   {
     std::vector<std::string> names;
     for (const std::string& name : povSceneUses(path))
     {
-      names.push_back(std::string(LibraryFolder) + '/' + name);
+      names.push_back(std::string(libraryFolder) + '/' + name);
     }
     return names;
   }

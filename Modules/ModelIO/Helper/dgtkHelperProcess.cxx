@@ -97,7 +97,7 @@ std::string findProgram(const char* name, const char* variable)
   {
     for (const char* below : { "libexec/dgtk", "bin" })
     {
-      const std::string program = (folder / below / name).string();
+      std::string program = (folder / below / name).string();
       if (isProgram(program))
       {
         return program;

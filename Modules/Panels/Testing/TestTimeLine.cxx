@@ -192,7 +192,7 @@ protected:
   /// What the latest edit was, taken back.
   std::string undone()
   {
-    const std::string text = this->State->document().undoText();
+    std::string text = this->State->document().undoText();
     this->State->document().undo();
     return text;
   }

@@ -238,7 +238,7 @@ Packing planPacking(const Stage& stage, const std::string& folder)
 std::vector<InputRecord> recordedInputs(
   const Stage& stage, const std::string& folder, const Packing* packing, RunSession& session)
 {
-  const std::vector<InputRecord> inputs = inputsOf(stage, folder, session);
+  std::vector<InputRecord> inputs = inputsOf(stage, folder, session);
   if (packing == nullptr)
   {
     return inputs;

@@ -47,7 +47,7 @@ InputRecord RunSession::fileOf(const std::string& path)
       return known->second;
     }
   }
-  const InputRecord record{ path, std::filesystem::file_size(path), hashOfFile(path) };
+  InputRecord record{ path, std::filesystem::file_size(path), hashOfFile(path) };
   const std::lock_guard<std::mutex> guard(this->Mutex);
   if (this->Files.size() >= mostFiles)
   {

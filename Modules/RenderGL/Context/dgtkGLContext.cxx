@@ -15,7 +15,7 @@ namespace
 
 constexpr GLBackend all[] = { GLBackend::Egl, GLBackend::Osmesa, GLBackend::Glx };
 
-constexpr unsigned int ChildSeconds = 30;
+constexpr unsigned int childSeconds = 30;
 
 /// What the backend's context says, without GLEW, which would need the process prepared for OSMesa.
 std::string tryBackend(GLBackend backend)
@@ -46,7 +46,7 @@ GLBackendInfo inChild(GLBackend backend)
   const pid_t child = ::fork();
   if (child == 0)
   {
-    ::alarm(ChildSeconds);
+    ::alarm(childSeconds);
     std::string line;
     try
     {

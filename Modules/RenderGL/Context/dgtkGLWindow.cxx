@@ -86,7 +86,7 @@ CollectingOutput* output()
   return instance;
 }
 
-constexpr unsigned int GlewNoGlxDisplay = 4; // GLEW_ERROR_NO_GLX_DISPLAY; everything else is initialised then
+constexpr unsigned int glewNoGlxDisplay = 4; // GLEW_ERROR_NO_GLX_DISPLAY; everything else is initialised then
 
 /// A render window on a context that was made elsewhere. It never has a framebuffer of its own.
 class SurfacelessWindow : public vtkGenericOpenGLRenderWindow
@@ -131,7 +131,7 @@ public:
       return;
     }
     const unsigned int result = glewInit();
-    this->GlewInitValid = (result == GLEW_OK || result == GlewNoGlxDisplay) && GLEW_VERSION_3_2;
+    this->GlewInitValid = (result == GLEW_OK || result == glewNoGlxDisplay) && GLEW_VERSION_3_2;
     this->Initialized = this->GlewInitValid;
     this->MaximumHardwareLineWidth = 1.0;
   }

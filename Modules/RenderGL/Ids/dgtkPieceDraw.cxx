@@ -19,7 +19,7 @@ namespace dgtk
 namespace
 {
 
-constexpr const char* TriangleArray = "dgtkTriangle";
+constexpr const char* triangleArray = "dgtkTriangle";
 
 void copy(const std::vector<float>& values, vtkDataArray* array)
 {
@@ -80,7 +80,7 @@ PieceDraw::PieceDraw(vtkOpenGLRenderWindow* window, RasterFrame& frame, vtkOpenG
     this->Data->GetPointData()->SetTCoords(arrayOf(2));
   }
   const auto triangles = arrayOf(1);
-  triangles->SetName(TriangleArray);
+  triangles->SetName(triangleArray);
   this->Data->GetPointData()->AddArray(triangles);
   this->Mapper = vtkSmartPointer<PartMapper>::New();
   ShaderVariant variant = chunk.mapper->material();
@@ -88,7 +88,7 @@ PieceDraw::PieceDraw(vtkOpenGLRenderWindow* window, RasterFrame& frame, vtkOpenG
   this->Mapper->configure(&frame, variant, 0, {});
   this->Mapper->SetInputData(this->Data);
   this->Mapper->MapDataArrayToVertexAttribute(
-    TriangleArray, TriangleArray, vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
+    triangleArray, triangleArray, vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
   this->Actor = vtkSmartPointer<PartActor>::New();
   this->Actor->SetShaderProperty(shaders);
   this->Actor->ForceOpaqueOn();
@@ -106,7 +106,7 @@ void PieceDraw::fill(const Pieces& pieces, const RasterCamera& camera, PartActor
   {
     copy(pieces.uvs, this->Data->GetPointData()->GetTCoords());
   }
-  copy(pieces.triangles, this->Data->GetPointData()->GetArray(TriangleArray));
+  copy(pieces.triangles, this->Data->GetPointData()->GetArray(triangleArray));
   this->Data->Modified();
   std::vector<unsigned int> indices(pieces.triangles.size());
   std::iota(indices.begin(), indices.end(), 0u);

@@ -17,7 +17,7 @@ namespace dgtk
 namespace
 {
 
-constexpr const char* BackgroundVertex = R"(#version 150
+constexpr const char* backgroundVertex = R"(#version 150
 void main()
 {
   gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.5, 1.0);
@@ -25,7 +25,7 @@ void main()
 )";
 
 /// After the functions of transferShader().
-constexpr const char* BackgroundFragment = R"(
+constexpr const char* backgroundFragment = R"(
 uniform sampler2D dgtkPicture;
 uniform mat3 dgtkRay; // direction in the picture's axes of window coordinates (x, y, 1)
 uniform float dgtkLevel;
@@ -147,9 +147,9 @@ void EnvironmentMap::makePicture()
 
 void EnvironmentMap::makeProgram()
 {
-  const unsigned int vertex = compiled(GL_VERTEX_SHADER, BackgroundVertex);
+  const unsigned int vertex = compiled(GL_VERTEX_SHADER, backgroundVertex);
   const unsigned int fragment =
-    compiled(GL_FRAGMENT_SHADER, (std::string("#version 150\n") + transferShader() + BackgroundFragment).c_str());
+    compiled(GL_FRAGMENT_SHADER, (std::string("#version 150\n") + transferShader() + backgroundFragment).c_str());
   this->Program = glCreateProgram();
   glAttachShader(this->Program, vertex);
   glAttachShader(this->Program, fragment);

@@ -263,7 +263,7 @@ TEST_F(PovLook, NormalsOfTheOtherSideAndThoseALittleTiltedAreWritten)
 {
   for (const bool tilted : { false, true })
   {
-    const auto quad = test::makeQuad();
+    auto quad = test::makeQuad();
     auto geometry = std::make_shared<Geometry>(*quad->rest);
     for (Eigen::Vector3f& normal : geometry->normals)
     {

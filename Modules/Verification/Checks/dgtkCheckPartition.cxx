@@ -9,7 +9,7 @@ namespace dgtk
 
 namespace
 {
-const std::vector<std::string> IdSuffixes{ ".npy", ".png", ".ppm" };
+const std::vector<std::string> idSuffixes{ ".npy", ".png", ".ppm" };
 
 using PixelCheck = std::function<void(int, int, Meter&)>;
 
@@ -117,7 +117,7 @@ void checkPartition(Picture& picture, Results& results)
             [&] { return objects->offender(x, y, std::to_string(id), "an id of objects.json"); });
         }));
   }
-  for (const std::string& suffix : IdSuffixes)
+  for (const std::string& suffix : idSuffixes)
   {
     const PicturePointer classes = objects ? picture.image("classes", { suffix }) : nullptr;
     if (classes)

@@ -109,8 +109,10 @@ void readDocument(ExportJudge& judge, const std::string& file)
       judge.number("annotations", "", file, "", double(document.at("annotations").size()), double(images.size()), 0);
       for (const Json& one : document.at("annotations"))
       {
-        const ExportedName* picture = images.at(one.at("image_id"));
-        if (picture)
+        const auto image = images.find(one.at("image_id").get<std::int64_t>());
+        judge.holds(
+          "ids", file, one.at("file_name"), image != images.end(), "an image that is not there", "one of them");
+        if (const ExportedName* picture = image == images.end() ? nullptr : image->second)
         {
           const std::string map = folder + one.at("file_name").get<std::string>();
           readSegments(judge, file, picture->camera, one, things, shownIn(judge.source(), map, *picture));

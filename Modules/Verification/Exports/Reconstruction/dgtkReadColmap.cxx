@@ -358,11 +358,9 @@ private:
       const Eigen::Vector2d pixel = project(camera, R * point->second.x + image.t);
       this->Judge.number("reprojection", "px", this->file("points3D"), where,
         (pixel - Eigen::Vector2d(place.u, place.v)).norm(), 0, 1e-6);
-      bool back = false;
-      for (const auto& [other, index] : point->second.track)
-      {
-        back = back || (other == id && index == i);
-      }
+      const auto& track = point->second.track;
+      const bool back =
+        std::any_of(track.begin(), track.end(), [&](const auto& one) { return one.first == id && one.second == i; });
       this->Judge.holds("tracks", this->file("points3D"), where, back, "a track", "one that names the place");
       ++this->Places;
     }
@@ -383,8 +381,9 @@ private:
     for (const auto& [id, point] : this->Own.points)
     {
       elements += point.track.size();
-      const TrackPoint& own = this->Tracks.at(std::size_t(id) - 1);
-      const bool same = std::equal(point.color, point.color + 3, own.color);
+      const bool known = id >= 1 && std::size_t(id) <= this->Tracks.size();
+      this->Judge.holds("points", file, "point " + std::to_string(id), known, "a point", "one of tracks/points.json");
+      const bool same = !known || std::equal(point.color, point.color + 3, this->Tracks[std::size_t(id) - 1].color);
       this->Judge.holds("colors", file, "point " + std::to_string(id), same, "another", "that of tracks/points.json");
     }
     this->Judge.number("tracks", "", file, "elements", double(elements), double(this->Places), 0);
