@@ -11,9 +11,9 @@ namespace dgtk
 template <typename Act>
 auto withPixelType(PixelType type, const Act& act)
 {
-  switch (type) // NOLINT(bugprone-branch-clone): the branches differ in what they call
+  switch (type)
   {
-    case PixelType::UInt8:
+    case PixelType::UInt8: // NOLINT(bugprone-branch-clone): the branches differ in what they call
       return act(std::uint8_t());
     case PixelType::UInt16:
       return act(std::uint16_t());

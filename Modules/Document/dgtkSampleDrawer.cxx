@@ -28,7 +28,7 @@ bool isRandomScene(const std::string& path)
   }
 }
 
-SampleDrawer::SampleDrawer(std::string path)
+SampleDrawer::SampleDrawer(const std::string& path)
   : Path(std::filesystem::absolute(path).lexically_normal().string())
 {
 }

@@ -37,7 +37,7 @@ DGTKDOCUMENT_EXPORT bool isRandomScene(const std::string& path);
 class DGTKDOCUMENT_EXPORT SampleDrawer
 {
 public:
-  explicit SampleDrawer(std::string path);
+  explicit SampleDrawer(const std::string& path);
 
   /// The sample that `dgtk sample` writes of the file as it is now. `seed`: instead of the scene's. None when
   /// `outdated` said so in between.

@@ -218,7 +218,7 @@ void ExportRun::discard(bool withFolder)
   this->Notes->remove();
   this->Notes.reset();
   this->Log.reset();
-  Journal(this->Request.folder, this->Hash, JournalStart::Replace, noNames, exportName);
+  static_cast<void>(Journal(this->Request.folder, this->Hash, JournalStart::Replace, noNames, exportName));
   Folder(this->Request.folder).remove(journalName);
   if (withFolder)
   {

@@ -19,9 +19,9 @@ dgtkBackgroundRun::~dgtkBackgroundRun()
 {
   if (this->Process != ::getpid() && this->Thread.joinable())
   {
-    // in a process that was forked while it ran: the thread is not there
-    static_cast<void>(new std::thread(std::move(this->Thread)));
-    static_cast<void>(new std::shared_ptr<State>(this->Self));
+    // in a process that was forked while it ran: the thread is not there; without memory the process ends
+    static_cast<void>(new std::thread(std::move(this->Thread))); // NOLINT(bugprone-unhandled-exception-at-new)
+    static_cast<void>(new std::shared_ptr<State>(this->Self));   // NOLINT(bugprone-unhandled-exception-at-new)
     return;
   }
   this->end();

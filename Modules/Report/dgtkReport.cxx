@@ -190,6 +190,7 @@ ReportJson firstOnes(const ReportSource& source, const FrameFacts& facts, std::v
 std::vector<std::size_t> keysOf(const std::map<std::size_t, double>& values)
 {
   std::vector<std::size_t> keys;
+  keys.reserve(values.size());
   for (const auto& [key, value] : values)
   {
     keys.push_back(key);

@@ -98,6 +98,7 @@ std::vector<ReportLayer> reportLayers(const ReportSource& source)
     }
   }
   std::vector<std::pair<std::size_t, ReportLayer>> sorted;
+  sorted.reserve(found.size());
   for (auto& [label, layer] : found)
   {
     sorted.push_back(std::move(layer));

@@ -173,7 +173,7 @@ QWidget* SampleDialog::makeButtons()
   return panel;
 }
 
-void SampleDialog::open(const QString& path)
+void SampleDialog::openScene(const QString& path)
 {
   this->Path = QDir::cleanPath(QFileInfo(path).absoluteFilePath());
   this->File->setText(QFileInfo(path).fileName());

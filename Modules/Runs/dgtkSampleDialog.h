@@ -49,7 +49,7 @@ public:
   ~SampleDialog() override;
 
   /// Begins with a random scene: its sample 0.
-  void open(const QString& path);
+  void openScene(const QString& path);
   /// Whether the window has the sample, so that it can be kept.
   void allowKeeping(bool on);
 

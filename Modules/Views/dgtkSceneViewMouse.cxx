@@ -153,7 +153,7 @@ void SceneView::keyPressEvent(QKeyEvent* event)
   }
   if (!isDragKey(event->key()))
   {
-    QWidget::keyPressEvent(event);
+    QWidget::keyPressEvent(event); // NOLINT(bugprone-parent-virtual-call): the view's own keys wait for the drag's end
     return;
   }
   if (event->key() == Qt::Key_Escape)

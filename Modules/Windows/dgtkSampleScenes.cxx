@@ -67,7 +67,7 @@ void SceneFiles::sampleFile(const QString& path)
   dialog.show();
   dialog.raise();
   dialog.activateWindow();
-  dialog.open(path);
+  dialog.openScene(path);
   this->addRecent(path);
 }
 

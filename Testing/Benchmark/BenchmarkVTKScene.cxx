@@ -56,6 +56,7 @@ double processorTime(const std::function<void()>& work)
 double medianOf(int rounds, const std::function<double()>& once)
 {
   std::vector<double> all;
+  all.reserve(std::size_t(rounds));
   for (int i = 0; i < rounds; ++i)
   {
     all.push_back(once());

@@ -90,6 +90,7 @@ void checkOpenCV(
   cv::Mat rotation;
   cv::Rodrigues(R, rotation);
   std::vector<cv::Point3d> points;
+  points.reserve(samples.size());
   for (const Sample& sample : samples)
   {
     points.push_back(sample.world);

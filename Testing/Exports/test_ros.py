@@ -402,7 +402,7 @@ class Ros(datasets.ExportCase):
         rows = [("profile", places[1, True] + 4, "B"), ("/tf", places[3, True] + 6, "B"), ("schema", texts(places[3, True] + 2, 1) + 4, "B"),
                 ("channel", texts(places[4, True] + 4, 1) + 4, "B"), ("/tf", data.index(b"md5sum", places[4, True]) + 10, "B"),
                 ("first time of a chunk", chunk, "Q"), ("last time of a chunk", chunk + 8, "Q"), ("chunk", chunk + 16, "Q"),
-                ("chunk", texts(chunk + 28, 1), "Q"), ("publish time", message + 9 + 2 + 4 + 8, "Q"), 
+                ("chunk", texts(chunk + 28, 1), "Q"), ("publish time", message + 9 + 2 + 4 + 8, "Q"),
                 ("message index", places[7, True] + 2 + 4, "Q"), ("message index", places[7, True] + 2 + 4 + 8, "Q"),
                 *(("chunk index", index + at, "Q") for at in (0, 8, 16, 24)), ("chunk index", index + 32 + 4, "H"), ("chunk index", index + 32 + 4 + 2, "Q"),
                 *(("chunk index", texts(index + 32, 1) + at, "Q") for at in (0, 12, 20)),

@@ -13,7 +13,6 @@
 
 namespace
 {
-using dgtk::pi;
 constexpr double roundTrip = 1e-12; // of the image's size: a dozen roundings
 constexpr double glPixels = 1e-9;   // pixels: agreement of two different chains of matrices
 
@@ -241,12 +240,12 @@ TEST(CameraFamily, OpenGLDepthRunsFromNearToFar)
 
 TEST(Pinhole, FieldOfViewIsK)
 {
-  const double f = 240 / std::tan(20 * pi / 180);
+  const double f = 240 / std::tan(20 * dgtk::pi / 180);
   const Eigen::Matrix3d square = dgtk::makePinholeFromFov(640, 480, 40, 0)->linear()->K;
   EXPECT_LE((square - matrixK(f, f, 320, 240, 0)).norm(), 1e-10);
   EXPECT_EQ(square(0, 0), square(1, 1));
   const Eigen::Matrix3d wide = dgtk::makePinholeFromFov(640, 480, 40, 2)->linear()->K;
-  EXPECT_LE((wide - matrixK(320 / (2 * std::tan(20 * pi / 180)), f, 320, 240, 0)).norm(), 1e-10);
+  EXPECT_LE((wide - matrixK(320 / (2 * std::tan(20 * dgtk::pi / 180)), f, 320, 240, 0)).norm(), 1e-10);
   const auto fromK = dgtk::makePinhole(640, 480, wide);
   EXPECT_EQ(fromK->rayThrough({ 12, 34 }).direction,
     dgtk::makePinholeFromFov(640, 480, 40, 2)->rayThrough({ 12, 34 }).direction);

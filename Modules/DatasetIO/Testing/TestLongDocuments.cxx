@@ -99,6 +99,7 @@ TEST(FileTable, FindsFilesByPathAndByShot)
   const auto paths = [&](const std::vector<std::uint32_t>& numbers)
   {
     std::vector<std::string> all;
+    all.reserve(numbers.size());
     for (const std::uint32_t number : numbers)
     {
       all.push_back(table.pathOf(number));

@@ -251,6 +251,7 @@ std::vector<InputRecord> recordedInputs(
     copies.emplace(to, InputRecord{ to, inputs[i].bytes, inputs[i].sha256 });
   }
   std::vector<InputRecord> records;
+  records.reserve(copies.size());
   for (const auto& [path, record] : copies)
   {
     records.push_back(record);

@@ -27,8 +27,8 @@ namespace
 {
 constexpr std::chrono::milliseconds lookEvery{ 5 };
 /// Settings of the user or the machine are not read: this file is empty.
-constexpr const char* Settings = "povray.ini";
-constexpr const char* SettingsVariable = "POVINI=";
+constexpr const char* settingsFile = "povray.ini";
+constexpr const char* settingsVariable = "POVINI=";
 
 /// The text between two marks, from `begin` on; `begin` moves behind it. False when there is none.
 bool between(const std::string& line, const char* left, const char* right, std::size_t& begin, std::string& text)
@@ -95,7 +95,7 @@ PovComplaint povComplaint(const std::string& printed)
 
 std::string findPovRay()
 {
-  const std::string program = programOnPath("povray");
+  std::string program = programOnPath("povray");
   if (program.empty())
   {
     throw MachineError("the renderer povray needs POV-Ray 3.7, which is not on PATH: install the package povray");
@@ -108,7 +108,7 @@ PovRunner::PovRunner(std::string program, std::string folder, const std::atomic<
   , Folder(std::move(folder))
   , Cancel(cancel)
 {
-  writeFile(this->Folder + '/' + Settings, "");
+  writeFile(this->Folder + '/' + settingsFile, "");
 }
 
 /// Between fork() and execve() only what is safe after fork in a program of several threads.
@@ -120,11 +120,11 @@ int PovRunner::start(const std::vector<std::string>& arguments, const std::strin
     words.push_back(const_cast<char*>(argument.c_str()));
   }
   words.push_back(nullptr);
-  const std::string settings = std::string(SettingsVariable) + Settings;
+  const std::string settings = std::string(settingsVariable) + settingsFile;
   std::vector<char*> variables{ const_cast<char*>(settings.c_str()) };
   for (char** variable = environ; *variable; ++variable)
   {
-    if (std::strncmp(*variable, SettingsVariable, std::strlen(SettingsVariable)) != 0)
+    if (std::strncmp(*variable, settingsVariable, std::strlen(settingsVariable)) != 0)
     {
       variables.push_back(*variable);
     }

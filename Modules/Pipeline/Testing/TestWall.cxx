@@ -324,7 +324,7 @@ TEST_F(Wall, ADatasetIsNotPackedIntoTheFolderThatItIsLoadedFrom)
     writeFile(this->path(std::string(home) + '/' + model), wall);
     writeFile(this->path(std::string(home) + "/s.json"), "{\"objects\": [{\"model\": \"" + model + "\"}]}");
     const auto stage = Stage::load(readScene(this->path(std::string(home) + "/s.json")));
-    const auto pack = [&] { refuseOwnInputs(*stage, this->path(home)); };
+    const auto pack = [&, folder = this->path(home)] { refuseOwnInputs(*stage, folder); };
     if (refused)
     {
       EXPECT_THROW(pack(), UsageError);

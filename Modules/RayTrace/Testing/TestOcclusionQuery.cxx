@@ -404,6 +404,7 @@ TEST(OcclusionQuery, AllHitsOfManyPixelsAreThoseOfEach)
   {
     query->setScene(c.state);
     std::vector<Eigen::Vector2d> pixels;
+    pixels.reserve(500);
     for (int i = 0; i < 500; ++i)
     {
       pixels.emplace_back(0.5 + 0.37 * (i % 100), 0.5 + 7.3 * (i / 100));

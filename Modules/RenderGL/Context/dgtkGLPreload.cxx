@@ -11,8 +11,8 @@ namespace dgtk
 namespace
 {
 
-constexpr const char* OriginalPreload = "DGTK_ORIGINAL_LD_PRELOAD"; // its presence tells that we started ourselves anew
-constexpr const char* Reason = "DGTK_GL_REASON";
+constexpr const char* originalPreload = "DGTK_ORIGINAL_LD_PRELOAD"; // its presence tells that we started ourselves anew
+constexpr const char* reasonVariable = "DGTK_GL_REASON";
 
 std::string& reason()
 {
@@ -23,7 +23,7 @@ std::string& reason()
 /// The started program gives its own children the environment that it was given itself.
 bool restoreEnvironment()
 {
-  const char* original = std::getenv(OriginalPreload);
+  const char* original = std::getenv(originalPreload);
   if (!original)
   {
     return false;
@@ -36,10 +36,10 @@ bool restoreEnvironment()
   {
     ::unsetenv("LD_PRELOAD");
   }
-  const char* passed = std::getenv(Reason);
+  const char* passed = std::getenv(reasonVariable);
   reason() = passed ? passed : "";
-  ::unsetenv(OriginalPreload);
-  ::unsetenv(Reason);
+  ::unsetenv(originalPreload);
+  ::unsetenv(reasonVariable);
   return true;
 }
 
@@ -52,8 +52,8 @@ void startAnew(char** argv, const std::string& why)
   }
   const char* present = std::getenv("LD_PRELOAD");
   const std::string before = present ? present : "";
-  ::setenv(OriginalPreload, before.c_str(), 1);
-  ::setenv(Reason, why.c_str(), 1);
+  ::setenv(originalPreload, before.c_str(), 1);
+  ::setenv(reasonVariable, why.c_str(), 1);
   ::setenv("LD_PRELOAD", (library + ":libOSMesa.so.8" + (before.empty() ? "" : ":" + before)).c_str(), 1);
   ::execv("/proc/self/exe", argv);
   restoreEnvironment(); // execv failed: go on without

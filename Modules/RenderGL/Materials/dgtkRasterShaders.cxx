@@ -21,7 +21,7 @@ void put(std::string& source, const char* tag, const std::string& text)
 }
 
 /// The texel whose alpha decides: repeated, at full resolution, (0, 0) the lower left one.
-constexpr const char* Gone = R"(
+constexpr const char* goneTexel = R"(
 bool dgtkGone(sampler2D picture, vec2 uv)
 {
   ivec2 size = textureSize(picture, 0);
@@ -35,7 +35,7 @@ bool dgtkGone(sampler2D picture, vec2 uv)
 /// EXT_texture_filter_anisotropic defines it. By single texels, because software OpenGL either filters in 8 bits or
 /// weighs every texel of an ellipse, for which it takes as long as for all the rest of a frame. Loops in place of
 /// conditions: only they end early there.
-constexpr const char* Texel = R"(
+constexpr const char* filteredTexel = R"(
 vec3 dgtkBilinear(sampler2D picture, vec2 uv, int level, vec2 size)
 {
   vec2 at = fract(uv) * size - 0.5;
@@ -75,7 +75,7 @@ vec3 dgtkTexel(sampler2D picture, vec2 uv)
 }
 )";
 
-constexpr const char* Peel = R"(
+constexpr const char* peeling = R"(
 uniform sampler2D dgtkLayer; // draw, triangle and depth of the layer before; depth 2 before the first
 bool dgtkPeeled(vec2 id)
 {
@@ -86,7 +86,7 @@ bool dgtkPeeled(vec2 id)
 )";
 
 /// See FragmentList.
-constexpr const char* Collect = R"(
+constexpr const char* collecting = R"(
 layout(std430) buffer dgtkFragments
 {
   uint dgtkCount;
@@ -108,7 +108,7 @@ void dgtkAppend(vec2 id, vec4 color)
 )";
 
 /// Flat: of the triangle's last vertex. gl_PrimitiveID would cost Mesa's slow path for every triangle.
-constexpr const char* TriangleIn = "flat in float dgtkTriangleVSOutput;\n";
+constexpr const char* triangleIn = "flat in float dgtkTriangleVSOutput;\n";
 
 std::string triangleOut(const ShaderVariant& variant)
 {
@@ -122,7 +122,7 @@ std::string triangleCode(const ShaderVariant& variant)
          (variant.pieces ? "dgtkTriangle;\n" : "float(gl_VertexID - dgtkFirstTriangle);\n");
 }
 
-constexpr const char* Identity = "  vec2 dgtkId = vec2(dgtkDraw.x, dgtkTriangleVSOutput);\n";
+constexpr const char* identity = "  vec2 dgtkId = vec2(dgtkDraw.x, dgtkTriangleVSOutput);\n";
 
 std::string lightValue(const ShaderVariant& variant, int slot)
 {
@@ -230,13 +230,13 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
                       ? std::string("uniform samplerBuffer dgtkLights;\n")
                       : "uniform vec4 dgtkLights[" + std::to_string(lights * RasterLights::stride) + "];\n";
   }
-  declarations += TriangleIn;
+  declarations += triangleIn;
   put(vertex, "//VTK::ValuePass::Dec", triangleOut(variant));
   put(vertex, "//VTK::ValuePass::Impl", triangleCode(variant));
-  declarations += variant.samples() ? Texel : "";
-  declarations += variant.cutOut ? Gone : "";
-  declarations += variant.peel ? Peel : "";
-  declarations += variant.collect ? Collect : "";
+  declarations += variant.samples() ? filteredTexel : "";
+  declarations += variant.cutOut ? goneTexel : "";
+  declarations += variant.peel ? peeling : "";
+  declarations += variant.collect ? collecting : "";
   if (variant.collect)
   {
     put(
@@ -263,7 +263,7 @@ void substituteColor(const ShaderVariant& variant, std::string& vertex, std::str
     variant.textured && !variant.physical ? "  dgtkColor *= dgtkTexel(actortexture, tcoordVCVSOutput);\n" : "";
   finish += ownEmission ? "  dgtkColor += dgtkEmission * dgtkTexel(dgtkEmissionMap, tcoordVCVSOutput).rgb;\n" : "";
   finish += fogCode(variant);
-  finish += Identity;
+  finish += identity;
   if (variant.cutOut)
   {
     finish += "  if (dgtkGone(actortexture, tcoordVCVSOutput)) { discard; }\n";
@@ -299,11 +299,11 @@ std::string idFragmentShader(const ShaderVariant& variant)
                      "uniform vec2 dgtkDraw;\n"
                      "out vec4 dgtkOutput;\n";
   text += variant.cutOut ? "uniform sampler2D actortexture;\nin vec2 tcoordVCVSOutput;\n" : "";
-  text += TriangleIn;
-  text += variant.cutOut ? Gone : "";
-  text += variant.peel ? Peel : "";
+  text += triangleIn;
+  text += variant.cutOut ? goneTexel : "";
+  text += variant.peel ? peeling : "";
   text += "void main()\n{\n";
-  text += Identity;
+  text += identity;
   text += variant.cutOut ? "  if (dgtkGone(actortexture, tcoordVCVSOutput)) { discard; }\n" : "";
   text += variant.peel ? "  if (dgtkPeeled(dgtkId)) { discard; }\n" : "";
   return text + "  dgtkOutput = vec4(dgtkId, gl_FragCoord.z, 1.0);\n}\n";

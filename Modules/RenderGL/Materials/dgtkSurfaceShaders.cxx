@@ -11,7 +11,7 @@ namespace
 {
 
 /// The frame of the texture coordinates follows from how position and coordinates change between pixels.
-constexpr const char* Frame = R"(
+constexpr const char* tangentFrame = R"(
 mat3 dgtkTextureFrame(vec3 p, vec3 n, vec2 uv)
 {
   vec3 right = dFdx(p);
@@ -30,7 +30,7 @@ mat3 dgtkTextureFrame(vec3 p, vec3 n, vec2 uv)
 )";
 
 /// Blinn 1978; central differences of the height over a texel, or over a pixel where that is larger.
-constexpr const char* Bump = R"(
+constexpr const char* bumpedNormal = R"(
 vec3 dgtkBumped(vec3 p, vec3 n, sampler2D heights, vec2 uv, float scale)
 {
   vec3 right = dFdx(p);
@@ -109,7 +109,7 @@ std::string shadowFunction()
          "}\n";
 }
 
-constexpr const char* Environment = R"(
+constexpr const char* environmentTerms = R"(
 uniform vec3 dgtkIrradiance[9];
 uniform mat3 dgtkImageFromView;
 uniform sampler2D dgtkEnvironment;
@@ -117,7 +117,7 @@ uniform sampler2D dgtkReflectance;
 )";
 
 /// Where a direction of the image's axes lies in an equirectangular picture whose rows go down.
-constexpr const char* Equirectangular = R"(
+constexpr const char* equirectangular = R"(
 vec2 dgtkEquirectangular(vec3 d)
 {
   return vec2(0.5 + atan(d.x, -d.z) * 0.15915494309189535, acos(clamp(d.y, -1.0, 1.0)) * 0.3183098861837907);
@@ -127,7 +127,7 @@ vec2 dgtkEquirectangular(vec3 d)
 /// Cook-Torrance with the GGX distribution and Smith's joint masking (Walter et al. 2007; Heitz 2014), Schlick's
 /// Fresnel term, Lambert's diffuse part for what is not reflected. Times pi: a light of strength 1 shows a white
 /// diffuse surface white.
-constexpr const char* Microfacets = R"(
+constexpr const char* microfacets = R"(
 vec3 dgtkReflected(vec3 f0, float a2, float nl, float nv, float nh, float vh, out vec3 fresnel)
 {
   float d = nh * nh * (a2 - 1.0) + 1.0;
@@ -150,25 +150,26 @@ std::string surfaceDeclarations(const ShaderVariant& variant)
   {
     text += "uniform mat3 dgtkWorldFromView;\n";
   }
-  text += variant.normalMap ? std::string("uniform sampler2D dgtkNormalMap;\nuniform float dgtkNormalScale;\n") + Frame
-                            : std::string();
-  text += variant.bumpMap ? std::string("uniform sampler2D dgtkBumpMap;\nuniform float dgtkBumpScale;\n") + Bump
+  text += variant.normalMap
+            ? std::string("uniform sampler2D dgtkNormalMap;\nuniform float dgtkNormalScale;\n") + tangentFrame
+            : std::string();
+  text += variant.bumpMap ? std::string("uniform sampler2D dgtkBumpMap;\nuniform float dgtkBumpScale;\n") + bumpedNormal
                           : std::string();
   text += variant.shadows ? shadowFunction() : std::string();
   text += variant.fog ? "uniform vec3 dgtkFog;\nuniform vec2 dgtkFogDensity;\n" : "";
   if (variant.physical)
   {
     text += "uniform vec2 dgtkMetalRough;\nuniform vec3 dgtkF0;\n";
-    text += Microfacets;
+    text += microfacets;
     text += variant.metallicRoughnessMap ? "uniform sampler2D dgtkMetalRoughMap;\n" : "";
     text += variant.occlusionMap ? "uniform sampler2D dgtkOcclusionMap;\nuniform float dgtkOcclusionStrength;\n" : "";
   }
   text += variant.emissionMap ? "uniform sampler2D dgtkEmissionMap;\n" : "";
   if (variant.environment)
   {
-    text += Environment;
+    text += environmentTerms;
     text += irradianceShader();
-    text += Equirectangular;
+    text += equirectangular;
   }
   return text;
 }

@@ -20,6 +20,7 @@ using testing::HasSubstr;
 SolidMesh boxMesh(double x, double y, double z)
 {
   std::vector<Eigen::Vector3d> points;
+  points.reserve(8);
   for (int i = 0; i < 8; ++i)
   {
     points.emplace_back((i & 1 ? 0.5 : -0.5) * x, (i & 2 ? 0.5 : -0.5) * y, (i & 4 ? 0.5 : -0.5) * z);

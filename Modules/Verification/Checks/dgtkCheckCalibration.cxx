@@ -133,6 +133,7 @@ void checkLens(Picture& picture, const CalibrationPoints& points, Results& resul
       [&](const std::vector<cv::Point3d>& world)
       {
         std::vector<Eigen::Vector3d> x_in_camera;
+        x_in_camera.reserve(world.size());
         for (const cv::Point3d& X : world)
         {
           x_in_camera.push_back(picture.eye().toCamera({ X.x, X.y, X.z }));

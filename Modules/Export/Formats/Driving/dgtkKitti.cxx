@@ -99,11 +99,8 @@ std::string projectionLine(const CameraRecord& camera, double offset)
   Eigen::Matrix<double, 3, 4> P;
   P.leftCols<3>() = intrinsicsOf(camera, PixelCentre::Integer);
   P.col(3) = P.col(0) * offset;
-  std::vector<double> numbers;
-  for (int i = 0; i < 12; ++i)
-  {
-    numbers.push_back(P(i / 4, i % 4));
-  }
+  std::vector<double> numbers(12);
+  Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(numbers.data()) = P;
   return numbersLine(numbers);
 }
 

@@ -39,6 +39,7 @@ CameraEyes thePair(const DatasetView& dataset)
   if (pairs.size() > 1)
   {
     std::vector<std::string> words;
+    words.reserve(pairs.size());
     for (const CameraEyes& one : pairs)
     {
       words.push_back(quoted(one.left) + " and " + quoted(one.right));
